@@ -1,0 +1,31 @@
+# Compiler settings shared by every target of the project, and the function that makes one of its rooms.
+
+add_library(celltrace_options INTERFACE)
+target_compile_features(celltrace_options INTERFACE cxx_std_20)
+# The kernels give the same bits on every backend only if no compiler fuses multiply and add on its own.
+target_compile_options(celltrace_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -ffp-contract=off)
+if(CELLTRACE_WERROR)
+  target_compile_options(celltrace_options INTERFACE -Werror)
+endif()
+if(CELLTRACE_SANITIZE)
+  target_compile_options(celltrace_options INTERFACE
+    -fsanitize=${CELLTRACE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(celltrace_options INTERFACE -fsanitize=${CELLTRACE_SANITIZE})
+endif()
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+# A room of the house: a static library celltrace_NAME whose headers are found from the root of src/, backends/ and
+# include/.
+function(celltrace_room name)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;LINK" ${ARGN})
+  add_library(celltrace_${name} STATIC ${ROOM_SOURCES})
+  target_include_directories(celltrace_${name} PUBLIC
+    ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
+  target_link_libraries(celltrace_${name} PUBLIC celltrace_options ${ROOM_LINK})
+endfunction()

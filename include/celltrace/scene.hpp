@@ -1,0 +1,167 @@
+// Scene: what to render, as people build it or as the POV-Ray parser delivers it.
+//
+// Units are the scene's own; angles are in degrees unless said otherwise; the axes are POV-Ray's (left-handed, y up).
+// Colours are linear in the scene's working space (see GammaMode). A Scene is a plain value: copyable, without
+// threads of its own; reading one from several threads is safe while nobody changes it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+namespace celltrace {
+
+using Vec3 = glm::dvec3;
+using Vec3f = glm::vec3;
+
+/// An affine transformation as POV-Ray writes it: row vectors, p' = p * rows[0..2] + rows[3].
+struct Transform {
+  Vec3 rows[4] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}};
+
+  static Transform translate(const Vec3& offset);
+  /// About x, then y, then z, in degrees, left-handed.
+  static Transform rotate(const Vec3& degrees);
+  /// A factor of 0 counts as 1, as in POV-Ray.
+  static Transform scale(const Vec3& factors);
+  static Transform matrix(const double (&values)[12]);
+
+  Vec3 point(const Vec3& p) const { return p.x * rows[0] + p.y * rows[1] + p.z * rows[2] + rows[3]; }
+  Vec3 direction(const Vec3& d) const { return d.x * rows[0] + d.y * rows[1] + d.z * rows[2]; }
+  /// A normal transforms by the inverse transpose; not normalised.
+  Vec3 normal(const Vec3& n) const;
+  double determinant() const;
+  /// Throws InputError if the transformation is singular.
+  Transform inverse() const;
+  /// First this, then `next`.
+  Transform then(const Transform& next) const;
+  bool is_identity() const;
+};
+
+struct Camera {
+  enum class Kind { perspective, orthographic };
+  Kind kind = Kind::perspective;
+  // The finished camera, after angle, sky, look_at and transformations (POV.md 3.3). The ray through pixel
+  // (x, y) of a W x H picture goes along direction + right*((x+.5)/W-.5) + up*(.5-(y+.5)/H); orthographic cameras
+  // offset the location by the same right and up terms instead.
+  Vec3 location{0, 0, 0};
+  Vec3 direction{0, 0, 1};
+  Vec3 right{1.33, 0, 0};
+  Vec3 up{0, 1, 0};
+};
+
+/// What colour values mean and how they become 8 bits.
+enum class GammaMode {
+  none,   ///< legacy: pixel values are written as they are
+  srgb,   ///< working space is already encoded: written as they are (`assumed_gamma srgb`)
+  assumed ///< working space has exponent Scene::assumed_gamma: sRGB-encoded on output
+};
+
+/// Colour with POV-Ray's two transparency channels; neither is limited to 0..1.
+struct Pigment {
+  Vec3 rgb{0, 0, 0};
+  double filter = 0;
+  double transmit = 0;
+};
+
+/// POV-Ray's finish with POV-Ray's defaults.
+struct Finish {
+  Vec3 ambient{0.1, 0.1, 0.1};
+  Vec3 emission{0, 0, 0};
+  double diffuse = 0.6;
+  double brilliance = 1;
+  double phong = 0;
+  double phong_size = 40;
+  double specular = 0;
+  double roughness = 0.05;
+  double metallic = 0; ///< of the highlights
+  Vec3 reflection_min{0, 0, 0};
+  Vec3 reflection_max{0, 0, 0};
+  double reflection_falloff = 1;
+  double reflection_exponent = 1;
+  double reflection_metallic = 0;
+  bool reflection_fresnel = false;
+  bool conserve_energy = false;
+};
+
+struct Material {
+  Pigment pigment;
+  Finish finish;
+};
+
+/// The inside of an object. Every object owns one; the children of a union share the union's if they have none.
+struct Interior {
+  double ior = 1;
+};
+
+/// Index into Scene::materials or Scene::interiors.
+using Index = std::uint32_t;
+inline constexpr Index kNoIndex = 0xFFFFFFFFu;
+
+struct Light {
+  Vec3 location{0, 0, 0};
+  Vec3 colour{1, 1, 1};
+  bool shadowless = false; ///< casts no shadows and makes no highlights
+};
+
+/// Triangles with shared vertices; vertices and normals are single precision, as in POV-Ray.
+struct Mesh {
+  struct Triangle {
+    Index vertex[3];
+    /// kNoIndex in all three: flat.
+    Index normal[3] = {kNoIndex, kNoIndex, kNoIndex};
+    /// Index into Scene::materials; kNoIndex: the instance's material. Three different ones are blended over the face
+    /// by its barycentric coordinates.
+    Index material[3] = {kNoIndex, kNoIndex, kNoIndex};
+  };
+  std::vector<Vec3f> vertices;
+  std::vector<Vec3f> normals;
+  std::vector<Triangle> triangles;
+};
+
+struct Sphere {
+  Vec3 centre{0, 0, 0};
+  double radius = 1;
+};
+
+/// One thing to hit: a shape, placed. Unions are already taken apart.
+struct Object {
+  std::variant<Sphere, std::shared_ptr<const Mesh>> shape;
+  Transform transform;
+  Index material = 0;
+  Index interior = 0;
+  bool no_shadow = false;
+};
+
+struct Scene {
+  std::string name; ///< for messages: the file it came from
+  Camera camera;
+  Vec3 background{0, 0, 0};
+  Vec3 ambient_light{1, 1, 1};
+  std::vector<Light> lights;
+  std::vector<Material> materials; ///< objects refer to these by index
+  std::vector<Interior> interiors; ///< one per object (or union); its identity matters, not only its values
+  std::vector<Object> objects;
+
+  GammaMode gamma_mode = GammaMode::assumed;
+  double assumed_gamma = 1;
+  /// Effective language version (3.62 for a scene without #version): below 3.7 the opacity of a surface is
+  /// 1 - (filter*max(r,g,b) + transmit), from 3.7 on 1 - filter - transmit.
+  double version = 3.7;
+  int max_trace_level = 5;
+  double adc_bailout = 1.0 / 255;
+
+  /// Appends and returns the index.
+  Index add(const Material& material);
+  Index add(const Interior& interior);
+};
+
+/// Throws InputError, naming the first fault, if an index is out of range, a number is not finite, or there are more
+/// triangles or vertices than 32-bit offsets can address.
+void validate(const Scene& scene);
+
+} // namespace celltrace

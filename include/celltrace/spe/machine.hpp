@@ -1,0 +1,98 @@
+// The PPE side of the runtime: a machine with n SPEs that run kernels.
+#pragma once
+
+#include "celltrace/error.hpp"
+#include "celltrace/spe/program.hpp"
+#include "celltrace/spe/types.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace celltrace {
+
+/// How to build a machine. Values out of range make make_machine() throw InputError.
+struct MachineConfig {
+  /// One of machine_backends().
+  std::string backend = "native";
+  /// Number of SPEs, 1..256; 0: one per hardware thread on `native`, 8 on `cell_emu`.
+  unsigned spes = 0;
+  /// SIMD of `native`: "auto" (the widest that CPU and program have), "sse2", "avx2", "avx512".
+  std::string simd = "auto";
+  /// How the two signal notification registers of every SPE take a second write.
+  SignalMode signal_mode[2] = {SignalMode::overwrite, SignalMode::overwrite};
+  /// `cell_emu`: local store that the program's code and data take, and that is kept for its stack; bytes. The rest
+  /// of the 256 KB is the kernel's arena.
+  unsigned code_bytes = 96 * 1024;
+  unsigned stack_bytes = 16 * 1024;
+};
+
+/// What one SPE did since the machine was made. Counts.
+struct SpeStatistics {
+  std::uint64_t dma_commands = 0;
+  std::uint64_t dma_list_elements = 0;
+  std::uint64_t dma_bytes_read = 0;    ///< main storage -> local store
+  std::uint64_t dma_bytes_written = 0; ///< local store -> main storage
+  std::uint64_t signals_sent = 0;
+  std::uint64_t mailbox_words_sent = 0; ///< to other SPEs and to the PPE
+  std::uint64_t local_store_peak = 0;   ///< bytes of the arena in use at most
+};
+
+/// A machine with n SPEs. Thread safety: one PPE thread at a time calls its members; interrupt() may be called from
+/// any thread and from a signal handler's thread. Errors: std::out_of_range for an SPE that does not exist.
+class Machine {
+public:
+  Machine() = default;
+  Machine(const Machine&) = delete;
+  Machine& operator=(const Machine&) = delete;
+  /// Interrupts kernels that still run and joins them.
+  virtual ~Machine() = default;
+
+  virtual std::string_view backend() const noexcept = 0;
+  virtual unsigned spe_count() const noexcept = 0;
+  /// The SPU type in use, for reports: "native.avx512", "cell_emu".
+  virtual std::string_view spu_key() const noexcept = 0;
+
+  /// Starts a program on an idle SPE. Throws SpeError if the program was not compiled for this machine or the SPE is
+  /// running. `argument` is handed to the kernel: the ea of its control block, 16-byte aligned by convention.
+  virtual void start(unsigned spe, const SpeProgram& program, ea_t argument) = 0;
+  /// Blocks until the kernel has returned. Throws SpeError with the SPE's error if it stopped for one. When one SPE
+  /// stops with an error the others are interrupted, so that nobody waits for it for ever.
+  virtual void wait(unsigned spe) = 0;
+  virtual bool running(unsigned spe) const = 0;
+  /// Makes every kernel that stalls on a channel, now or later, stop; wait() then throws SpeError. For shutdown.
+  virtual void interrupt() noexcept = 0;
+
+  /// Writes a word to the inbound mailbox; blocks while it is full (libspe2's SPE_MBOX_ALL_BLOCKING). Throws
+  /// SpeError if the SPE has stopped with the mailbox full.
+  virtual void write_in_mailbox(unsigned spe, std::uint32_t value) = 0;
+  /// Free entries of the inbound mailbox, 0..4.
+  virtual unsigned in_mailbox_space(unsigned spe) const = 0;
+  /// The word in the outbound mailbox, if there is one. Never blocks.
+  virtual std::optional<std::uint32_t> read_out_mailbox(unsigned spe) = 0;
+  virtual std::optional<std::uint32_t> read_out_interrupt_mailbox(unsigned spe) = 0;
+  /// Writes a signal notification register.
+  virtual void write_signal(unsigned spe, Signal which, std::uint32_t value) = 0;
+  /// Sleeps until an SPE has a word in an outbound mailbox or has stopped since the last call, or until the timeout.
+  /// False on timeout.
+  virtual bool wait_for_mail(std::chrono::milliseconds timeout) = 0;
+
+  /// Where an SPE's local store and registers are mapped.
+  virtual SpeAddresses addresses(unsigned spe) const = 0;
+  virtual SpeStatistics statistics(unsigned spe) const = 0;
+};
+
+/// Names of the backends of this build: "native", "cell_emu".
+std::vector<std::string> machine_backends();
+
+/// A machine by its configuration. Throws InputError for an unknown backend or a value out of range.
+std::unique_ptr<Machine> make_machine(const MachineConfig& config);
+
+/// The effective address of an object in main memory.
+inline ea_t to_ea(const void* object) { return reinterpret_cast<std::uintptr_t>(object); }
+
+} // namespace celltrace

@@ -1,0 +1,47 @@
+// An SPE program as the PPE handles it: a name and its entry points, one per kind of SPU it was compiled for.
+#pragma once
+
+#include "celltrace/spe/types.hpp"
+
+#include <map>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+namespace celltrace {
+
+/// A kernel compiled for one or more backends. `Spu::kKey` names the SPU type ("cell_emu", "native.avx2", ...); the
+/// machine picks the entry whose key fits it best. Copyable; immutable while a machine runs it.
+class SpeProgram {
+public:
+  /// `spu` is the address of the backend's Spu object.
+  using Entry = void (*)(void* spu, ea_t argument);
+
+  explicit SpeProgram(std::string name) : name_(std::move(name)) {}
+
+  /// Adds the kernel as compiled for `Spu`. `kernel` is a captureless callable `void(Spu&, ea_t)`.
+  template <class Spu, class Kernel>
+  SpeProgram& add(Kernel) {
+    static_assert(std::is_empty_v<Kernel>, "a kernel has no state of its own: pass it an argument ea");
+    entries_[Spu::kKey] = [](void* spu, ea_t argument) { Kernel{}(*static_cast<Spu*>(spu), argument); };
+    return *this;
+  }
+  /// Adds an entry point that was compiled elsewhere.
+  SpeProgram& add(std::string key, Entry entry) {
+    entries_[std::move(key)] = entry;
+    return *this;
+  }
+
+  const std::string& name() const noexcept { return name_; }
+  /// The entry for an SPU type, or null if the program was not compiled for it.
+  Entry entry(const std::string& key) const noexcept {
+    const auto found = entries_.find(key);
+    return found == entries_.end() ? nullptr : found->second;
+  }
+
+private:
+  std::string name_;
+  std::map<std::string, Entry> entries_;
+};
+
+} // namespace celltrace
