@@ -1,0 +1,73 @@
+// Chooses the format and names the file in errors.
+#include "image/file.hpp"
+#include "image/formats.hpp"
+#include "image/limits.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <system_error>
+
+namespace celltrace {
+namespace fs = std::filesystem;
+
+namespace {
+
+using Writer = void (*)(std::FILE*, const Image&);
+
+Writer writer_for(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension == ".png") return image::write_png;
+  if (extension == ".ppm") return image::write_ppm;
+  throw InputError("the picture formats that can be written are .png and .ppm");
+}
+
+Image load(std::FILE* file, std::uintmax_t file_bytes) {
+  unsigned char magic[8] = {};
+  const std::size_t have = std::fread(magic, 1, sizeof magic, file);
+  std::rewind(file);
+  if (have == 8 && std::memcmp(magic, "\x89PNG\r\n\x1a\n", 8) == 0) return image::read_png(file, file_bytes);
+  if (have >= 2 && std::memcmp(magic, "P6", 2) == 0) return image::read_ppm(file, file_bytes);
+  throw InputError(have == 0 ? "is empty" : "is neither a PNG nor a binary PPM (P6)");
+}
+
+template <class Work> auto naming_the_file(const fs::path& path, Work work) {
+  try {
+    return work();
+  } catch (const InputError& error) {
+    throw InputError(path.string() + ": " + error.what());
+  }
+}
+
+} // namespace
+
+void save_image(const fs::path& path, const Image& image) {
+  naming_the_file(path, [&] {
+    const Writer write = writer_for(path);
+    image::check_image(image);
+    image::OutputFile file(path);
+    write(file.get(), image);
+    file.commit();
+  });
+}
+
+void check_image_path(const fs::path& path) {
+  naming_the_file(path, [&] {
+    writer_for(path);
+    std::error_code error;
+    if (fs::is_directory(path, error)) throw InputError("is a folder");
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    if (!fs::is_directory(folder, error)) throw InputError("there is no folder " + folder.string());
+  });
+}
+
+Image load_image(const fs::path& path) {
+  return naming_the_file(path, [&] {
+    const image::File file = image::open_for_reading(path);
+    return load(file.get(), fs::file_size(path));
+  });
+}
+
+} // namespace celltrace

@@ -1,0 +1,138 @@
+// PNG by libpng. libpng leaves by longjmp when it fails; every function here that calls setjmp therefore
+// keeps nothing with a destructor, and owners live in its caller.
+#include "image/formats.hpp"
+#include "image/limits.hpp"
+
+#include <csetjmp>
+#include <cstring>
+
+#include <png.h>
+
+namespace celltrace::image {
+
+namespace {
+
+/// Bytes of pixel data a byte of a deflate stream can stand for at most.
+constexpr std::uintmax_t kMaxDeflateRatio = 1032;
+
+struct Message {
+  char text[160] = "";
+};
+
+void keep_message(png_structp png, png_const_charp text) {
+  auto* message = static_cast<Message*>(png_get_error_ptr(png));
+  std::strncpy(message->text, text, sizeof message->text - 1);
+  png_longjmp(png, 1);
+}
+
+void ignore_warning(png_structp, png_const_charp) {
+}
+
+struct Reader {
+  Message message;
+  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &message, keep_message, ignore_warning);
+  png_infop info = png ? png_create_info_struct(png) : nullptr;
+
+  Reader() = default;
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+  ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
+};
+
+struct Writer {
+  Message message;
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &message, keep_message, ignore_warning);
+  png_infop info = png ? png_create_info_struct(png) : nullptr;
+
+  Writer() = default;
+  Writer(const Writer&) = delete;
+  Writer& operator=(const Writer&) = delete;
+  ~Writer() { png_destroy_write_struct(&png, &info); }
+};
+
+[[noreturn]] void fail(const Message& message) {
+  throw InputError(std::string("is damaged: ") + (message.text[0] ? message.text : "unknown error"));
+}
+
+/// Reads up to the pixels and asks for 8-bit RGBA.
+bool read_header(png_structp png, png_infop info, std::FILE* file) {
+  if (setjmp(png_jmpbuf(png))) return false;
+  // The limits of check_size() give the message for sizes; libpng's own would say less.
+  png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+  png_set_chunk_malloc_max(png, 8u << 20);
+  png_set_chunk_cache_max(png, 64);
+  png_init_io(png, file);
+  png_read_info(png, info);
+  png_set_expand(png);
+  png_set_scale_16(png);
+  png_set_gray_to_rgb(png);
+  png_set_add_alpha(png, 0xFF, PNG_FILLER_AFTER);
+  return true;
+}
+
+bool read_pixels(png_structp png, png_infop info, png_bytepp rows) {
+  if (setjmp(png_jmpbuf(png))) return false;
+  png_set_interlace_handling(png);
+  png_read_update_info(png, info);
+  png_read_image(png, rows);
+  png_read_end(png, nullptr);
+  return true;
+}
+
+bool write_rows(png_structp png, png_infop info, std::FILE* file, const Image& image, bool opaque) {
+  if (setjmp(png_jmpbuf(png))) return false;
+  png_init_io(png, file);
+  png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+  png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
+               opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGBA, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_write_info(png, info);
+  if (opaque) png_set_filler(png, 0, PNG_FILLER_AFTER);
+  for (int y = 0; y < image.height; ++y)
+    png_write_row(png, image.pixel(0, y));
+  png_write_end(png, nullptr);
+  return true;
+}
+
+/// A small file cannot hold a large picture: seen before memory is taken for it.
+void check_plausible(png_structp png, png_infop info, std::uintmax_t file_bytes) {
+  const std::uintmax_t bits_per_pixel =
+      std::uintmax_t{png_get_bit_depth(png, info)} * png_get_channels(png, info);
+  const std::uintmax_t row_bytes = (png_get_image_width(png, info) * bits_per_pixel + 7) / 8;
+  if (row_bytes * png_get_image_height(png, info) / kMaxDeflateRatio > file_bytes)
+    throw InputError("is too short for the size it declares");
+}
+
+bool is_opaque(const Image& image) {
+  for (std::size_t alpha = 3; alpha < image.rgba.size(); alpha += 4)
+    if (image.rgba[alpha] != 255) return false;
+  return true;
+}
+
+} // namespace
+
+Image read_png(std::FILE* file, std::uintmax_t file_bytes) {
+  Reader reader;
+  if (!reader.info) throw std::bad_alloc();
+  if (!read_header(reader.png, reader.info, file)) fail(reader.message);
+  const png_uint_32 width = png_get_image_width(reader.png, reader.info);
+  const png_uint_32 height = png_get_image_height(reader.png, reader.info);
+  check_size(width, height);
+  check_plausible(reader.png, reader.info, file_bytes);
+
+  Image image(static_cast<int>(width), static_cast<int>(height));
+  std::vector<png_bytep> rows(height);
+  for (int y = 0; y < image.height; ++y)
+    rows[static_cast<std::size_t>(y)] = image.pixel(0, y);
+  if (!read_pixels(reader.png, reader.info, rows.data())) fail(reader.message);
+  return image;
+}
+
+void write_png(std::FILE* file, const Image& image) {
+  Writer writer;
+  if (!writer.info) throw std::bad_alloc();
+  if (!write_rows(writer.png, writer.info, file, image, is_opaque(image)))
+    throw InputError(std::string("cannot be written: ") + writer.message.text);
+}
+
+} // namespace celltrace::image
