@@ -27,8 +27,8 @@ public:
     return *this;
   }
   /// Adds an entry point that was compiled elsewhere.
-  SpeProgram& add(std::string key, Entry entry) {
-    entries_[std::move(key)] = entry;
+  SpeProgram& add(std::string key, Entry kernel) {
+    entries_[std::move(key)] = kernel;
     return *this;
   }
 

@@ -1,0 +1,129 @@
+// Mailboxes, signal notification, events and decrementer of one SPE: everything that other processors can
+// touch.
+#pragma once
+
+#include "backends/native/decrementer.hpp"
+#include "backends/native/doorbell.hpp"
+#include "celltrace/spe/types.hpp"
+
+#include <array>
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+
+namespace celltrace::native {
+
+/// Unwinds a kernel whose stalled channel was interrupted.
+struct Interrupted {};
+
+/// The two outbound mailboxes of an SPE.
+enum class OutMailbox : std::uint32_t { plain, interrupting };
+
+/// Channels of one SPE with the semantics of the Cell Broadband Engine Architecture (event facility: the
+/// count of the status channel is 0 or 1, rises when an enabled event occurs and when a write of the mask or
+/// of the acknowledge leaves enabled events pending, and falls only when the status is read).
+///
+/// Thread safety: the first group of members belongs to the SPE's thread, the second to any thread. Counts
+/// are one atomic load, so that kernels can poll them in their loops.
+class Channels {
+public:
+  /// `ppe` is rung when an outbound mailbox fills.
+  Channels(const SignalMode (&modes)[2], Doorbell& ppe);
+  Channels(const Channels&) = delete;
+  Channels& operator=(const Channels&) = delete;
+
+  // --- the SPE's thread; what stalls throws Interrupted once interrupt() was called ---
+
+  std::uint32_t read_in_mailbox();
+  std::uint32_t in_mailbox_count() const noexcept { return in_count_.load(std::memory_order_acquire); }
+  void write_out_mailbox(OutMailbox which, std::uint32_t value);
+  /// Free entries, 1 or 0.
+  std::uint32_t out_mailbox_count(OutMailbox which) const noexcept { return has_mail(which) ? 0 : 1; }
+
+  std::uint32_t read_signal(Signal which);
+  std::uint32_t signal_count(Signal which) const noexcept {
+    return signals_[index(which)].count.load(std::memory_order_acquire);
+  }
+
+  void write_event_mask(std::uint32_t mask);
+  std::uint32_t read_event_mask() const noexcept { return mask_; }
+  std::uint32_t read_event_status();
+  std::uint32_t event_count() {
+    if (decrementer_.counts()) collect_expiry();
+    return event_count_.load(std::memory_order_acquire);
+  }
+  void acknowledge_events(std::uint32_t mask);
+  /// Raises an event that the SPE's own commands cause. Cheap while it is pending and not enabled.
+  void raise_own(std::uint32_t event) {
+    if ((pending_.load(std::memory_order_relaxed) & ~mask_ & event) != event) raise(event);
+  }
+
+  void write_decrementer(std::uint32_t value);
+  std::uint32_t read_decrementer() const { return decrementer_.read(); }
+
+  /// For a channel that nothing can fill any more: sleeps until interrupted.
+  [[noreturn]] void stall_for_ever();
+
+  // --- any thread ---
+
+  /// Register write without flow control: a full mailbox loses its newest word.
+  void put_in_mailbox(std::uint32_t value);
+  /// Waits for space first; false if the mailbox is full and nobody runs who would empty it.
+  bool write_in_mailbox(std::uint32_t value);
+  void write_signal(Signal which, std::uint32_t value);
+  bool has_mail(OutMailbox which) const noexcept {
+    return out_[index(which)].full.load(std::memory_order_acquire);
+  }
+  std::optional<std::uint32_t> take_mail(OutMailbox which);
+  void raise(std::uint32_t events);
+
+  /// A kernel begins: its event mask and decrementer are fresh, mailboxes and signals are as others left
+  /// them.
+  void begin();
+  /// A kernel has ended.
+  void end();
+  /// Makes what stalls now or later throw Interrupted, until resume().
+  void interrupt() noexcept;
+  void resume();
+
+private:
+  struct SignalRegister {
+    SignalMode mode = SignalMode::overwrite;
+    std::uint32_t value = 0;
+    std::atomic<std::uint32_t> count{0};
+  };
+  struct OutRegister {
+    std::uint32_t value = 0;
+    std::atomic<bool> full{false};
+  };
+
+  static constexpr std::size_t index(Signal which) { return which == Signal::one ? 0 : 1; }
+  static constexpr std::size_t index(OutMailbox which) { return which == OutMailbox::plain ? 0 : 1; }
+
+  template <class Ready> void stall_until(std::unique_lock<std::mutex>& lock, Ready ready);
+  void push_in(std::uint32_t value);
+  void raise_locked(std::uint32_t events);
+  void recount();
+  void collect_expiry();
+
+  Doorbell& ppe_;
+  std::mutex mutex_;
+  std::condition_variable spu_wakes_;  ///< the SPE's thread sleeps here
+  std::condition_variable space_made_; ///< the PPE sleeps here for space in the inbound mailbox
+  bool runs_ = false;
+  bool interrupted_ = false;
+
+  std::array<std::uint32_t, kInboundMailboxEntries> in_words_{}; ///< oldest first
+  std::atomic<std::uint32_t> in_count_{0};
+  OutRegister out_[2];
+  SignalRegister signals_[2];
+
+  std::atomic<std::uint32_t> pending_{0};
+  std::uint32_t mask_ = 0; ///< written by the SPE's thread only
+  std::atomic<std::uint32_t> event_count_{0};
+  Decrementer decrementer_;
+};
+
+} // namespace celltrace::native

@@ -1,0 +1,36 @@
+// The decrementer of one SPE, on the host's steady clock.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+namespace celltrace::native {
+
+/// Counts down at the timebase of a PlayStation 3, 79.8 MHz, and wraps at zero. Stopped until the first
+/// write. Thread safety: none; it belongs to the SPE's thread.
+class Decrementer {
+public:
+  using Clock = std::chrono::steady_clock;
+
+  /// Loads a value and starts to count.
+  void write(std::uint32_t value);
+  std::uint32_t read() const;
+  /// Freezes the value until the next write.
+  void stop();
+
+  bool counts() const noexcept { return counts_; }
+  /// True if the value fell below zero since the last call (the decrementer event).
+  bool take_expiry();
+  /// When it will next fall below zero after the expiries that were taken.
+  Clock::time_point next_expiry() const;
+
+private:
+  std::uint64_t elapsed_ticks() const;
+
+  Clock::time_point start_{};
+  std::uint32_t value_ = 0;
+  std::uint64_t expiries_taken_ = 0;
+  bool counts_ = false;
+};
+
+} // namespace celltrace::native

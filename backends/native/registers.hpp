@@ -1,0 +1,43 @@
+// The problem-state registers of all SPEs as places in main storage, so that DMA reaches them by address.
+#pragma once
+
+#include "backends/native/channels.hpp"
+#include "celltrace/spe/types.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace celltrace::native {
+
+/// Reserves an address range and tells which register of which SPE lies where in it. Nothing is ever stored
+/// there: a write goes to the channels of the SPE, a DMA read of a register gives zeros.
+///
+/// Thread safety: const members may be called from any thread.
+class RegisterMap {
+public:
+  enum class Register : std::uint32_t { signal_1, signal_2, in_mailbox };
+
+  /// `spes[i]` are the channels of SPE i, which outlive the map.
+  explicit RegisterMap(std::vector<Channels*> spes);
+
+  /// The address of a register of an SPE that exists; its low four bits are 0xC.
+  ea_t address(unsigned spe, Register which) const;
+  /// True if a transfer to `ea` would write registers. One compare.
+  bool contains(ea_t ea) const noexcept { return ea - begin_ < bytes_; }
+  /// Delivers a word and returns the register's kind. Throws SpeError if no register lies at `ea`.
+  Register write(ea_t ea, std::uint32_t value) const;
+
+private:
+  struct alignas(kLineBytes) Page {
+    std::uint32_t words[kLineBytes / sizeof(std::uint32_t)] = {};
+  };
+
+  std::vector<Channels*> spes_;
+  std::unique_ptr<Page[]> pages_; ///< one per SPE
+  ea_t begin_;
+  std::size_t bytes_;
+};
+
+} // namespace celltrace::native

@@ -1,0 +1,46 @@
+// One SPE of the native machine: what its Spu object, whatever the SIMD, operates on.
+#pragma once
+
+#include "backends/native/channels.hpp"
+#include "backends/native/counters.hpp"
+#include "backends/native/mfc.hpp"
+#include "celltrace/spe/spu.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace celltrace::native {
+
+/// Bytes of an SPE's arena, which is all of its local store. Far more than a Cell's, because what a kernel
+/// keeps in local store there (code, stack) does not lie in it here.
+constexpr std::uint32_t kArenaBytes = 1024 * 1024;
+
+struct Spe {
+  Spe(unsigned id, const SignalMode (&modes)[2], Doorbell& ppe);
+  Spe(const Spe&) = delete;
+  Spe& operator=(const Spe&) = delete;
+  ~Spe();
+
+  /// Empties the arena and resets the MFC and the SPU's own channels.
+  void begin();
+  /// Ends the kernel towards the PPE.
+  void end();
+
+  /// The arena, for the SPE's thread. Every change of its fill is preceded by a call, which keeps the peak.
+  ArenaState& tracked_arena() {
+    counters.local_store_peak.raise_to(static_cast<std::uint64_t>(arena.next - arena.begin));
+    return arena;
+  }
+  /// Ends the kernel with an SpeError.
+  [[noreturn]] void halt(HaltCode code) const;
+
+  const unsigned id;
+  Counters counters;
+  Channels channels;
+  std::unique_ptr<Mfc> mfc;                       ///< set once the machine's registers are mapped
+  const std::vector<SpeAddresses>* all = nullptr; ///< addresses of all SPEs of the machine
+  ArenaState arena{};
+};
+
+} // namespace celltrace::native
