@@ -1,0 +1,183 @@
+#include "cli/command_line.hpp"
+
+#include "celltrace/error.hpp"
+#include "celltrace/image.hpp"
+#include "cli/version.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <sstream>
+
+#include <CLI/CLI.hpp>
+
+namespace celltrace::cli {
+
+namespace {
+
+unsigned parse_unsigned(const std::string& text, const std::string& whole) {
+  unsigned value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size())
+    throw InputError("--cache: '" + whole + "' is neither WAYSxSETS[:random|fifo|lru] nor off");
+  return value;
+}
+
+/// Options whose value is a word from a list, some of which the program does not have yet.
+struct Choice {
+  std::vector<std::string> known;
+  std::vector<std::string> not_yet;
+};
+
+void set_choice(CLI::App& command, const std::string& name, std::string& target, const Choice& choice,
+                const std::string& help) {
+  const auto check = [name, choice](const std::string& value) -> std::string {
+    const auto has = [&](const std::vector<std::string>& list) {
+      return std::find(list.begin(), list.end(), value) != list.end();
+    };
+    if (has(choice.known)) return "";
+    if (has(choice.not_yet)) return "'" + value + "' is not supported yet";
+    return "'" + value + "' is none of " + CLI::detail::join(choice.known, ", ");
+  };
+  command.add_option(name, target, help)->check(CLI::Validator(check, CLI::detail::join(choice.known, "|")));
+}
+
+std::pair<std::string, std::string> parse_declare(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == 0 || equals == std::string::npos)
+    throw InputError("--declare: '" + text + "' is not NAME=VALUE");
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+/// What CLI11 fills in besides the request.
+struct RenderTexts {
+  std::string cache = "4x128:random";
+  std::string schedule = "free";
+  std::string model = "shared";
+  std::string trace;
+  std::vector<std::string> declares;
+};
+
+void add_picture_options(CLI::App& command, RenderRequest& request, RenderTexts& texts) {
+  command.add_option("scene", request.scene, "The scene, a POV-Ray file")->required()->type_name("SCENE.pov");
+  command.add_option("-o,--output", request.output, "The picture; default: the scene's name, here")
+      ->type_name("OUT.png|OUT.ppm");
+  const CLI::Range side(1, kMaxImageSide);
+  command.add_option("-W,--width", request.width, "Pixels a row")->check(side)->capture_default_str();
+  command.add_option("-H,--height", request.height, "Rows")->check(side)->capture_default_str();
+  command
+      .add_option("-L,--library", request.library_paths,
+                  "Search this folder for included files; may be repeated")
+      ->type_name("DIR")
+      ->allow_extra_args(false);
+  command.add_option("--declare", texts.declares, "Declare a number or string before the scene begins")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
+  command
+      .add_option("--max-level", request.max_level,
+                  "Depth of the ray tree; default: the scene's max_trace_level")
+      ->check(CLI::Range(1, 256));
+  command
+      .add_option("--adc", request.adc,
+                  "Contribution below which a ray is cut; default: the scene's adc_bailout")
+      ->check(CLI::Range(0.0, 1.0));
+}
+
+void add_machine_options(CLI::App& command, RenderRequest& request, RenderTexts& texts) {
+  set_choice(command, "--backend", request.backend, {{"native", "cell_emu"}, {"spu"}}, "The machine");
+  command.add_option("--spes", request.spes, "SPEs; default: one a hardware thread on native, 8 on cell_emu")
+      ->check(CLI::Range(1u, 256u));
+  set_choice(command, "--simd", request.simd, {{"auto", "sse2", "avx2", "avx512"}, {}},
+             "Instruction set of native");
+  set_choice(command, "--schedule", texts.schedule, {{"free"}, {"lockstep"}}, "How cell_emu takes turns");
+  command.add_option("--seed", request.seed, "Seed of everything that is random")
+      ->check(CLI::NonNegativeNumber);
+  command.add_option("--cache", texts.cache, "Software cache: WAYSxSETS[:random|fifo|lru], or off")
+      ->type_name("CACHE")
+      ->capture_default_str();
+  set_choice(command, "--balance", request.balance, {{"gde", "static"}, {"diffusion", "scatter"}},
+             "Load balancing");
+  set_choice(command, "--model", texts.model, {{"shared"}, {"pipeline", "offload"}}, "Programming model");
+}
+
+void add_report_options(CLI::App& command, RenderRequest& request, RenderTexts& texts) {
+  command.add_option("--stats", request.stats, "Write statistics as JSON; - is stdout")->type_name("FILE|-");
+  command.add_option("--trace", texts.trace, "Write a trace of cell_emu (not supported yet)")
+      ->type_name("FILE");
+  command.add_flag("--quiet", request.quiet, "No progress, notes or summary");
+}
+
+void add_compare_options(CLI::App& command, CompareRequest& request) {
+  command.add_option("a", request.a, "A picture")->required()->type_name("A.png");
+  command.add_option("b", request.b, "The picture to compare it with")->required()->type_name("B.png");
+  command.add_option("--min-psnr", request.min_psnr, "Exit 1 if the PSNR is below this")->type_name("DB");
+  command.add_option("--min-ssim", request.min_ssim, "Exit 1 if the worst 8x8 SSIM is below this")
+      ->check(CLI::Range(-1.0, 1.0));
+  command.add_option("--diff", request.difference, "Write the difference, 8 times as bright")
+      ->type_name("OUT.png");
+  command.add_flag("--json", request.json, "Print JSON");
+}
+
+void finish(RenderRequest& request, const RenderTexts& texts) {
+  if (!texts.trace.empty()) throw InputError("--trace is not supported yet");
+  if (request.scene.extension() == ".ini")
+    throw InputError(request.scene.string() + ": INI files are not supported");
+  request.cache = parse_cache(texts.cache);
+  for (const std::string& text : texts.declares)
+    request.declares.push_back(parse_declare(text));
+  if (request.output.empty()) request.output = request.scene.stem().string() + ".png";
+}
+
+} // namespace
+
+CacheSetting parse_cache(const std::string& text) {
+  CacheSetting cache;
+  if (text == "off") {
+    cache.enabled = false;
+    return cache;
+  }
+  const std::string sizes = text.substr(0, text.find(':'));
+  if (sizes.size() < text.size()) cache.replacement = text.substr(sizes.size() + 1);
+  const std::size_t x = std::min(sizes.find('x'), sizes.size());
+  cache.ways = parse_unsigned(sizes.substr(0, x), text);
+  cache.sets = parse_unsigned(sizes.substr(std::min(x + 1, sizes.size())), text);
+  if (cache.replacement != "random" && cache.replacement != "fifo" && cache.replacement != "lru")
+    throw InputError("--cache: '" + cache.replacement + "' is none of random, fifo, lru");
+  return cache;
+}
+
+Request parse_command_line(std::vector<std::string> arguments) {
+  CLI::App app("Ray-traces POV-Ray scenes with a program written for the Cell's SPEs, on any machine.",
+               "celltrace");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", version_text());
+  app.footer(
+      "`celltrace SCENE.pov` means render. POV-Ray's switches (+W640 +H480 +Iscene.pov ...) are understood.\n"
+      "Exit codes: 0 done, 1 error or past a bar, 2 interrupted.");
+
+  RenderRequest render;
+  RenderTexts texts;
+  CLI::App& render_command = *app.add_subcommand("render", "Render a scene into a picture");
+  add_picture_options(render_command, render, texts);
+  add_machine_options(render_command, render, texts);
+  add_report_options(render_command, render, texts);
+
+  CompareRequest compare;
+  CLI::App& compare_command = *app.add_subcommand("compare", "Say how far two pictures are apart");
+  add_compare_options(compare_command, compare);
+
+  try {
+    std::reverse(arguments.begin(), arguments.end()); // as CLI11 wants them
+    app.parse(std::move(arguments));
+  } catch (const CLI::Success& information) {
+    std::ostringstream out, err;
+    app.exit(information, out, err);
+    return InformationRequest{out.str()};
+  } catch (const CLI::ParseError& error) {
+    throw InputError(std::string(error.what()) + " (celltrace --help says more)");
+  }
+  if (compare_command.parsed()) return compare;
+  finish(render, texts);
+  return render;
+}
+
+} // namespace celltrace::cli

@@ -1,0 +1,67 @@
+// What the user asked for: the command line as values.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace celltrace::cli {
+
+/// `--cache off`, `--cache WAYSxSETS` or `--cache WAYSxSETS:POLICY`.
+struct CacheSetting {
+  bool enabled = true;
+  unsigned ways = 4;
+  unsigned sets = 128;
+  std::string replacement = "random"; ///< random, fifo or lru
+
+  bool operator==(const CacheSetting&) const = default;
+};
+
+/// Throws InputError if the text has none of the three forms. Which sizes a cache can have is not checked
+/// here.
+CacheSetting parse_cache(const std::string& text);
+
+struct RenderRequest {
+  std::filesystem::path scene;
+  std::filesystem::path output; ///< by default the scene's name with .png, in the current folder
+  int width = 640;
+  int height = 480;
+  std::string backend = "native";
+  unsigned spes = 0; ///< 0: the backend's default
+  std::string simd = "auto";
+  std::optional<std::uint64_t> seed;
+  CacheSetting cache;
+  std::string balance = "gde"; ///< gde or static
+  std::optional<int> max_level;
+  std::optional<double> adc;
+  std::vector<std::filesystem::path> library_paths;
+  std::vector<std::pair<std::string, std::string>> declares; ///< name and value
+  std::string stats;                                         ///< file, "-" for stdout, empty for none
+  bool quiet = false;
+};
+
+struct CompareRequest {
+  std::filesystem::path a;
+  std::filesystem::path b;
+  std::optional<double> min_psnr; ///< dB
+  std::optional<double> min_ssim;
+  std::filesystem::path difference; ///< empty: none
+  bool json = false;
+};
+
+/// A text for stdout: --help or --version.
+struct InformationRequest {
+  std::string text;
+};
+
+using Request = std::variant<RenderRequest, CompareRequest, InformationRequest>;
+
+/// Reads a command line (without the program's name) after translate_pov_switches(). Throws InputError for
+/// whatever does not fit, and for what the program is to have and has not yet.
+Request parse_command_line(std::vector<std::string> arguments);
+
+} // namespace celltrace::cli

@@ -1,0 +1,37 @@
+// How far a render is, in one line of a terminal.
+#pragma once
+
+#include <chrono>
+#include <iosfwd>
+#include <string>
+
+namespace celltrace::cli {
+
+/// The line's text: percent, time gone, and time to go once a guess makes sense. `fraction` is 0..1.
+std::string progress_text(double fraction, std::chrono::duration<double> elapsed);
+
+/// Rewrites its line at most ten times a second and wipes it at the end. Writes nothing at all if not
+/// `visible`.
+class ProgressLine {
+public:
+  ProgressLine(std::ostream& out, bool visible);
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+  ~ProgressLine();
+
+  void update(double fraction);
+
+private:
+  using Clock = std::chrono::steady_clock;
+
+  std::ostream& out_;
+  bool visible_;
+  bool drawn_ = false;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point next_ = start_;
+};
+
+/// Whether stderr is a terminal.
+bool stderr_is_terminal();
+
+} // namespace celltrace::cli

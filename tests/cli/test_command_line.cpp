@@ -1,0 +1,137 @@
+#include "cli/command_line.hpp"
+
+#include "celltrace/error.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace celltrace;
+using namespace celltrace::cli;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+
+namespace {
+
+RenderRequest render_request(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "render");
+  return std::get<RenderRequest>(parse_command_line(arguments));
+}
+
+std::string error_of(std::vector<std::string> arguments) {
+  try {
+    parse_command_line(std::move(arguments));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string render_error(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), {"render", "a.pov"});
+  return error_of(std::move(arguments));
+}
+
+} // namespace
+
+TEST_CASE("render has the documented defaults") {
+  const RenderRequest r = render_request({"scenes/bunny.pov"});
+  CHECK(r.scene == "scenes/bunny.pov");
+  CHECK(r.output == "bunny.png");
+  CHECK(r.width == 640);
+  CHECK(r.height == 480);
+  CHECK(r.backend == "native");
+  CHECK(r.spes == 0);
+  CHECK(r.simd == "auto");
+  CHECK(r.cache == CacheSetting{});
+  CHECK(r.balance == "gde");
+  CHECK_FALSE(r.seed);
+  CHECK_FALSE(r.max_level);
+  CHECK_FALSE(r.adc);
+  CHECK(r.stats.empty());
+  CHECK_FALSE(r.quiet);
+}
+
+TEST_CASE("every option of render arrives") {
+  const RenderRequest r = render_request(
+      {"-o",        "out.ppm", "-W",      "32",     "-H",         "16",   "--backend",   "cell_emu",
+       "--spes",    "6",       "--simd",  "avx2",   "--seed",     "7",    "--cache",     "2x64:lru",
+       "--balance", "static",  "--model", "shared", "--schedule", "free", "--max-level", "9",
+       "--adc",     "0.01",    "-L",      "one",    "-L",         "two",  "--declare",   "x=1",
+       "--declare", "s=a=b",   "--stats", "-",      "--quiet",    "a.pov"});
+  CHECK(r.scene == "a.pov");
+  CHECK(r.output == "out.ppm");
+  CHECK(r.width == 32);
+  CHECK(r.height == 16);
+  CHECK(r.backend == "cell_emu");
+  CHECK(r.spes == 6);
+  CHECK(r.simd == "avx2");
+  CHECK(r.seed == 7u);
+  CHECK(r.cache == CacheSetting{true, 2, 64, "lru"});
+  CHECK(r.balance == "static");
+  CHECK(r.max_level == 9);
+  CHECK(r.adc == 0.01);
+  CHECK(r.library_paths == std::vector<std::filesystem::path>{"one", "two"});
+  CHECK(r.declares == std::vector<std::pair<std::string, std::string>>{{"x", "1"}, {"s", "a=b"}});
+  CHECK(r.stats == "-");
+  CHECK(r.quiet);
+}
+
+TEST_CASE("cache settings") {
+  CHECK(parse_cache("off").enabled == false);
+  CHECK(parse_cache("4x128") == CacheSetting{true, 4, 128, "random"});
+  CHECK(parse_cache("64x1:fifo") == CacheSetting{true, 64, 1, "fifo"});
+  for (const std::string bad : {"", "4", "4x", "x4", "4x4x4", "-4x4", "4x4 ", "4x99999999999", "on"}) {
+    CAPTURE(bad);
+    CHECK_THROWS_WITH(parse_cache(bad), Contains("neither WAYSxSETS"));
+  }
+  CHECK_THROWS_WITH(parse_cache("4x4:plru"), Contains("none of random, fifo, lru"));
+  CHECK_THROWS_AS(parse_cache("4x4:"), InputError);
+}
+
+TEST_CASE("what is to come is refused as such") {
+  CHECK_THAT(render_error({"--schedule", "lockstep"}),
+             Contains("--schedule: 'lockstep' is not supported yet"));
+  CHECK_THAT(render_error({"--balance", "diffusion"}), Contains("'diffusion' is not supported yet"));
+  CHECK_THAT(render_error({"--balance", "scatter"}), Contains("'scatter' is not supported yet"));
+  CHECK_THAT(render_error({"--model", "pipeline"}), Contains("'pipeline' is not supported yet"));
+  CHECK_THAT(render_error({"--model", "offload"}), Contains("'offload' is not supported yet"));
+  CHECK_THAT(render_error({"--trace", "t.json"}), Contains("--trace is not supported yet"));
+}
+
+TEST_CASE("errors of the command line are one line that names the option") {
+  const std::vector<std::vector<std::string>> wrong = {
+      {"--width", "0"},     {"--width", "70000"},  {"--height", "x"},  {"--spes", "0"},
+      {"--spes", "257"},    {"--backend", "cuda"}, {"--simd", "mmx"},  {"--adc", "2"},
+      {"--max-level", "0"}, {"--max-level", "x"},  {"--cache", "big"}, {"--declare", "x"},
+      {"--declare", "=1"},  {"--seed", "-1"}};
+  for (const auto& arguments : wrong) {
+    const std::string error = render_error(arguments);
+    CAPTURE(error);
+    CHECK_THAT(error, Contains(arguments[0]));
+    CHECK(error.find('\n') == std::string::npos);
+  }
+  CHECK_THAT(render_error({"--nonsense"}), Contains("--nonsense"));
+  CHECK_THAT(render_error({"second.pov"}), Contains("second.pov"));
+  CHECK_THAT(error_of({"render"}), Contains("scene"));
+  CHECK_THAT(error_of({"render", "a.ini"}), Contains("INI files are not supported"));
+  CHECK_FALSE(error_of({}).empty());
+  CHECK_FALSE(error_of({"compare", "a.png"}).empty());
+}
+
+TEST_CASE("compare") {
+  const auto c = std::get<CompareRequest>(parse_command_line(
+      {"compare", "a.png", "b.png", "--min-psnr", "40", "--min-ssim", "0.9", "--diff", "d.png", "--json"}));
+  CHECK(c.a == "a.png");
+  CHECK(c.b == "b.png");
+  CHECK(c.min_psnr == 40.0);
+  CHECK(c.min_ssim == 0.9);
+  CHECK(c.difference == "d.png");
+  CHECK(c.json);
+}
+
+TEST_CASE("help and version are information") {
+  CHECK_THAT(std::get<InformationRequest>(parse_command_line({"--version"})).text, StartsWith("celltrace "));
+  const std::string help = std::get<InformationRequest>(parse_command_line({"--help"})).text;
+  CHECK_THAT(help, Contains("render") && Contains("compare"));
+  const std::string render_help = std::get<InformationRequest>(parse_command_line({"render", "--help"})).text;
+  CHECK_THAT(render_help, Contains("--backend") && Contains("WAYSxSETS"));
+}
