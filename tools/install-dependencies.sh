@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# Installs the Debian packages that celltrace needs and that are missing; as root, or through sudo.
+#
+#   tools/install-dependencies.sh GROUP...
+#
+#   build    to build the library and the program
+#   tests    to build and run the tests and benchmarks
+#   extras   POV-Ray, for the tests that compare with it, and ccache
+set -euo pipefail
+
+declare -A packages=(
+  [build]="g++ cmake ninja-build flex bison libcli11-dev libglm-dev libpng-dev libxsimd-dev nlohmann-json3-dev"
+  [tests]="catch2 libbenchmark-dev xz-utils"
+  [extras]="ccache povray povray-includes"
+)
+
+is_installed() {
+  [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
+}
+
+missing=()
+for group in "$@"; do
+  [ -n "${packages[$group]:-}" ] || { echo "$0: unknown group '$group'" >&2; exit 1; }
+  if ! command -v dpkg-query >/dev/null; then
+    echo "Not a Debian system; please see to these packages yourself: ${packages[$group]}" >&2
+    continue
+  fi
+  for package in ${packages[$group]}; do
+    is_installed "$package" || missing+=("$package")
+  done
+done
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null || { echo "Missing packages, and neither root nor sudo: ${missing[*]}" >&2; exit 1; }
+  as_root=(sudo)
+fi
+echo "Installing ${missing[*]}"
+"${as_root[@]}" apt-get update -qq
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"

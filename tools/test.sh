@@ -1,0 +1,9 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds everything with warnings as errors and runs all tests; CTest's summary comes last.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+tools/install-dependencies.sh build tests
+tools/configure.sh ci
+cmake --build --preset ci
+ctest --preset ci -j "$(nproc)"
