@@ -31,13 +31,19 @@
 //
 // Transport. Words go from node to node in order (Cell: inbound mailbox) and wear the frame's epoch, so that
 // words that outlived their frame are dropped, and words of a neighbour that is a frame ahead are kept until
-// begin_frame(). Doorbells are bits that merge (Cell: signal notification 2 in logical-OR mode). If a
-// doorbell is delivered before any later word of the same node, and doorbells that have been delivered are
-// handed in before each word, a node that reads nothing has at most 2 words under way from each neighbour
-// during a frame, and 1 once the frame is complete: with the two questions of the next frame, or with the
-// PPE's word that ends this one, the four entries of a mailbox suffice. This holds if the PPE starts a frame
-// only after every node has left the one before; a frame that is broken off early also needs every mailbox
-// drained before the next one starts.
+// begin_frame(). Doorbells are bits that merge (Cell: signal notification 2 in logical-OR mode). No row
+// depends on when they come, but the size of the mailbox does. Its four entries suffice if
+// - a doorbell is delivered before any later word of the same node, and whoever reads a word hands in the
+// doorbells
+//   that have been delivered by then before the word: read the mailbox, read signal 2 if it counts,
+//   on_doorbell(), on_word();
+// - the mailbox is read empty when a frame starts, before the first next_action();
+// - the PPE starts a frame after every node has left the one before. Before it starts one after a frame that
+// it broke
+//   off, every node must have read its mailbox empty.
+// Then at most 2 words from each neighbour are under way to a node during a frame, and at most 1 from the
+// moment that the frame is complete: with it comes the PPE's word that ends the frame, or the first question
+// of the next.
 #pragma once
 
 #include <stdint.h>
