@@ -1,0 +1,57 @@
+#include "backends/cell_emu/address_map.hpp"
+
+#include <cstring>
+
+namespace celltrace::cell_emu {
+namespace {
+
+// Offsets in an SPE's problem state (Linux asm/spu.h, struct spu_problem).
+constexpr ea_t kInMailbox = 0x0400C;
+constexpr ea_t kSignal1 = 0x1400C;
+constexpr ea_t kSignal2 = 0x1C00C;
+
+ea_t address_of(const void* block) {
+  return reinterpret_cast<std::uintptr_t>(block);
+}
+
+} // namespace
+
+AddressMap::Block AddressMap::allocate(std::size_t bytes, std::size_t alignment) {
+  const auto align = std::align_val_t{alignment};
+  return Block(new (align) std::uint8_t[bytes], Free{align});
+}
+
+AddressMap::AddressMap(unsigned spes)
+    : spes_(spes), local_stores_(allocate(spes * std::size_t{kLocalStoreBytes}, kLocalStoreBytes)),
+      problem_states_(allocate(spes * std::size_t{kProblemStateBytes}, kProblemStateBytes)),
+      local_store_base_(address_of(local_stores_.get())),
+      problem_state_base_(address_of(problem_states_.get())) {
+  std::memset(local_stores_.get(), 0, spes * std::size_t{kLocalStoreBytes});
+}
+
+SpeAddresses AddressMap::addresses(unsigned spe) const {
+  const ea_t registers = problem_state_base_ + spe * kProblemStateBytes;
+  return {address_of(local_store(spe)), registers + kSignal1, registers + kSignal2, registers + kInMailbox};
+}
+
+AddressMap::Place AddressMap::locate_local_store(ea_t offset, std::uint32_t size) const {
+  const auto spe = static_cast<unsigned>(offset / kLocalStoreBytes);
+  const bool fits = offset % kLocalStoreBytes + size <= kLocalStoreBytes;
+  return {fits ? EaKind::local_store : EaKind::unmapped, spe};
+}
+
+AddressMap::Place AddressMap::locate_register(ea_t offset) const {
+  const auto spe = static_cast<unsigned>(offset / kProblemStateBytes);
+  switch (offset % kProblemStateBytes) {
+  case kInMailbox:
+    return {EaKind::in_mailbox, spe};
+  case kSignal1:
+    return {EaKind::signal_1, spe};
+  case kSignal2:
+    return {EaKind::signal_2, spe};
+  default:
+    return {EaKind::no_register, spe};
+  }
+}
+
+} // namespace celltrace::cell_emu

@@ -1,0 +1,68 @@
+// The main storage domain: where local stores and problem-state registers are mapped among the host's memory.
+//
+// Main memory is the host's, an effective address a host address. Local stores lie side by side in one block,
+// each aligned to its 256 KB. Behind every problem-state address lies reserved memory, so that no object of
+// the host can have the same address; the registers have their architected offsets.
+#pragma once
+
+#include "backends/cell_emu/mfc_rules.hpp"
+#include "celltrace/spe/types.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <new>
+
+namespace celltrace::cell_emu {
+
+/// Thread safety: immutable after construction.
+class AddressMap {
+public:
+  struct Place {
+    EaKind kind;
+    unsigned spe; ///< owner of the local store or the register; else 0
+  };
+
+  explicit AddressMap(unsigned spes);
+
+  unsigned spes() const { return spes_; }
+  std::uint8_t* local_store(unsigned spe) const {
+    return local_stores_.get() + spe * std::size_t{kLocalStoreBytes};
+  }
+  SpeAddresses addresses(unsigned spe) const;
+
+  /// What lies at [ea, ea + size).
+  Place locate(ea_t ea, std::uint32_t size) const {
+    const ea_t in_local_stores = ea - local_store_base_;
+    if (in_local_stores < spes_ * ea_t{kLocalStoreBytes}) return locate_local_store(in_local_stores, size);
+    const ea_t in_problem_state = ea - problem_state_base_;
+    if (in_problem_state < spes_ * kProblemStateBytes) return locate_register(in_problem_state);
+    return {is_host_memory(ea, size) ? EaKind::main_memory : EaKind::unmapped, 0};
+  }
+
+private:
+  static constexpr ea_t kProblemStateBytes = 0x20000;
+  /// No system maps its lowest pages: such an address is a null pointer or an offset taken for an address.
+  static constexpr ea_t kFirstMapped = 0x10000;
+
+  struct Free {
+    std::align_val_t alignment;
+    void operator()(std::uint8_t* block) const { ::operator delete[](block, alignment); }
+  };
+  using Block = std::unique_ptr<std::uint8_t[], Free>;
+  static Block allocate(std::size_t bytes, std::size_t alignment);
+
+  Place locate_local_store(ea_t offset, std::uint32_t size) const;
+  Place locate_register(ea_t offset) const;
+  bool is_host_memory(ea_t ea, std::uint32_t size) const {
+    return ea >= kFirstMapped && ea + size >= ea && local_store_base_ - ea >= size &&
+           problem_state_base_ - ea >= size;
+  }
+
+  unsigned spes_;
+  Block local_stores_;
+  Block problem_states_;
+  ea_t local_store_base_;
+  ea_t problem_state_base_;
+};
+
+} // namespace celltrace::cell_emu

@@ -1,0 +1,67 @@
+// The element interconnect bus: moves bytes between local stores, main memory and registers, keeps lines
+// atomic, and watches the reservations of the lock-line commands.
+//
+// Every move takes the lock of the local store that issued it, that of the target local store if there is
+// one, and line by line the stripe of the effective address. So DMA is ordered against DMA; what an SPE's
+// program or the PPE does to memory directly is not, and neither loses a reservation.
+#pragma once
+
+#include "backends/cell_emu/address_map.hpp"
+#include "backends/cell_emu/line_locks.hpp"
+#include "backends/cell_emu/problem_state.hpp"
+
+#include <atomic>
+#include <memory>
+#include <vector>
+
+namespace celltrace::cell_emu {
+
+/// Thread safety: all members from any thread. Commands must have passed the rules of mfc_rules.hpp.
+class Bus {
+public:
+  using ProblemStates = std::vector<std::unique_ptr<ProblemState>>;
+
+  Bus(const AddressMap& map, const ProblemStates& problem_states);
+
+  const AddressMap& map() const { return map_; }
+
+  /// Storage -> local store address `lsa` of SPE `spe`.
+  void get(unsigned spe, std::uint32_t lsa, ea_t ea, std::uint32_t size);
+  /// Local store -> storage; loses the reservations on the lines it touches, the SPE's own included.
+  void put(unsigned spe, std::uint32_t lsa, ea_t ea, std::uint32_t size);
+
+  std::uint32_t read_register(AddressMap::Place place) const;
+  void write_register(AddressMap::Place place, std::uint32_t value);
+
+  // One line each. An SPE has one reservation; getllar replaces it.
+  void get_line_and_reserve(unsigned spe, std::uint32_t lsa, ea_t ea);
+  /// Writes only under the reservation, which is gone afterwards in any case.
+  bool put_line_conditional(unsigned spe, std::uint32_t lsa, ea_t ea);
+  void put_line(unsigned spe, std::uint32_t lsa, ea_t ea);
+  void drop_reservation(unsigned spe);
+
+private:
+  /// What one SPE has on the bus.
+  struct alignas(64) Unit {
+    SpinLock local_store_lock;
+    /// The reserved line, or kNoLine. Changes only under the stripe of that line.
+    std::atomic<ea_t> reserved{kNoLine};
+  };
+  /// No line has an address that is not a multiple of 128.
+  static constexpr ea_t kNoLine = 1;
+
+  /// Holds the locks of the local stores that a transfer touches.
+  class LocalStoreLocks;
+  enum class OwnLoss { event, silent };
+
+  template <class Move> void for_each_span(ea_t ea, std::uint32_t size, Move move);
+  void lose_reservations(unsigned writer, OwnLoss own, Stripe& stripe, ea_t ea, std::uint32_t size);
+  bool release_reservation(unsigned spe, Stripe& stripe, ea_t line);
+
+  const AddressMap& map_;
+  const ProblemStates& problem_states_;
+  std::unique_ptr<Unit[]> units_;
+  std::unique_ptr<LineLocks> locks_;
+};
+
+} // namespace celltrace::cell_emu

@@ -1,0 +1,45 @@
+// The decrementer: counts down with the SPE's virtual cycles, never with host time.
+#pragma once
+
+#include <cstdint>
+
+namespace celltrace::cell_emu {
+
+class Decrementer {
+public:
+  /// 3.2 GHz over a timebase of 80 MHz.
+  static constexpr std::uint64_t kCyclesPerTick = 40;
+
+  /// Starts it from `value` at virtual time `cycles`.
+  void write(std::uint32_t value, std::uint64_t cycles) {
+    value_ = value;
+    since_ = cycles;
+    running_ = true;
+  }
+  /// Keeps the present value until the next write.
+  void freeze(std::uint64_t cycles) {
+    advance(cycles);
+    running_ = false;
+  }
+  bool running() const { return running_; }
+  std::uint32_t value() const { return value_; }
+
+  /// Counts up to `cycles`. True if the top bit went from 0 to 1: that is the decrementer event.
+  bool advance(std::uint64_t cycles) {
+    if (!running_) return false;
+    const std::uint64_t ticks = (cycles - since_) / kCyclesPerTick;
+    const bool expired = ticks > value_;
+    value_ -= static_cast<std::uint32_t>(ticks);
+    since_ += ticks * kCyclesPerTick;
+    return expired;
+  }
+  /// The virtual time of the next event, if it keeps running.
+  std::uint64_t expiry() const { return since_ + (std::uint64_t{value_} + 1) * kCyclesPerTick; }
+
+private:
+  std::uint32_t value_ = 0;
+  std::uint64_t since_ = 0;
+  bool running_ = false;
+};
+
+} // namespace celltrace::cell_emu

@@ -1,0 +1,51 @@
+// Locks that make the lines of the main storage domain atomic to DMA: striped by address, so that SPEs that
+// work on different data do not meet.
+#pragma once
+
+#include "celltrace/spe/types.hpp"
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <thread>
+
+namespace celltrace::cell_emu {
+
+/// For critical sections of some hundred nanoseconds.
+class SpinLock {
+public:
+  void lock() {
+    for (unsigned tries = 0; locked_.exchange(true, std::memory_order_acquire); ++tries)
+      wait(tries);
+  }
+  void unlock() { locked_.store(false, std::memory_order_release); }
+
+private:
+  void wait(unsigned& tries) {
+    // With more SPEs than processors the holder may well be asleep.
+    while (locked_.load(std::memory_order_relaxed))
+      if (++tries % 64 == 0) std::this_thread::yield();
+  }
+
+  std::atomic<bool> locked_{false};
+};
+
+/// One stripe: the lock of all lines that fall on it, and how many reservations SPEs hold on those.
+struct alignas(64) Stripe {
+  SpinLock lock;
+  std::uint32_t reservations = 0; ///< guarded by lock
+};
+
+class LineLocks {
+public:
+  /// Consecutive bytes under one lock: several lines, so that a long transfer takes few locks.
+  static constexpr std::uint32_t kSpan = 8 * kLineBytes;
+
+  Stripe& of(ea_t ea) { return stripes_[(ea / kSpan) % kStripes]; }
+
+private:
+  static constexpr std::size_t kStripes = 1024;
+  std::array<Stripe, kStripes> stripes_;
+};
+
+} // namespace celltrace::cell_emu

@@ -1,0 +1,130 @@
+// An MFC command as the SPU hands it over, and what its opcode says.
+#pragma once
+
+#include "celltrace/spe/types.hpp"
+
+#include <cstdint>
+
+namespace celltrace::cell_emu {
+
+/// The local-store address of a pointer that does not point into the SPE's local store.
+constexpr std::uint32_t kOutsideLocalStore = 0xFFFFFFFFu;
+
+/// The parameters of channels 16..21. For a list command `size` is the length of the list in bytes, the high
+/// half of `ea` that of all its elements, and the low half the local-store address of the list.
+struct MfcCommand {
+  MfcOpcode opcode;
+  std::uint32_t tag;
+  std::uint32_t lsa;
+  std::uint32_t size;
+  ea_t ea;
+};
+
+enum class CommandKind { get, put, send_signal, lock_line, barrier, unknown };
+
+constexpr CommandKind kind_of(MfcOpcode opcode) {
+  switch (opcode) {
+  case MfcOpcode::get:
+  case MfcOpcode::getb:
+  case MfcOpcode::getf:
+  case MfcOpcode::getl:
+  case MfcOpcode::getlb:
+  case MfcOpcode::getlf:
+    return CommandKind::get;
+  case MfcOpcode::put:
+  case MfcOpcode::putb:
+  case MfcOpcode::putf:
+  case MfcOpcode::putl:
+  case MfcOpcode::putlb:
+  case MfcOpcode::putlf:
+    return CommandKind::put;
+  case MfcOpcode::sndsig:
+  case MfcOpcode::sndsigb:
+  case MfcOpcode::sndsigf:
+    return CommandKind::send_signal;
+  case MfcOpcode::getllar:
+  case MfcOpcode::putllc:
+  case MfcOpcode::putlluc:
+  case MfcOpcode::putqlluc:
+    return CommandKind::lock_line;
+  case MfcOpcode::barrier:
+  case MfcOpcode::mfceieio:
+  case MfcOpcode::mfcsync:
+    return CommandKind::barrier;
+  }
+  return CommandKind::unknown;
+}
+
+/// The suffix bits mean something for transfers and signals only.
+constexpr bool has_suffix(MfcOpcode opcode, std::uint32_t bit) {
+  const CommandKind kind = kind_of(opcode);
+  return (kind == CommandKind::get || kind == CommandKind::put || kind == CommandKind::send_signal) &&
+         (static_cast<std::uint32_t>(opcode) & bit) != 0;
+}
+/// Ordered after all earlier commands of its tag, and before all later ones.
+constexpr bool has_barrier(MfcOpcode opcode) {
+  return has_suffix(opcode, 1);
+}
+/// Ordered after all earlier commands of its tag.
+constexpr bool has_fence(MfcOpcode opcode) {
+  return has_suffix(opcode, 2);
+}
+constexpr bool is_list(MfcOpcode opcode) {
+  return has_suffix(opcode, 4);
+}
+/// Executed at once, outside the queue and the tag groups.
+constexpr bool is_immediate(MfcOpcode opcode) {
+  return kind_of(opcode) == CommandKind::lock_line && opcode != MfcOpcode::putqlluc;
+}
+
+constexpr const char* name_of(MfcOpcode opcode) {
+  switch (opcode) {
+  case MfcOpcode::put:
+    return "put";
+  case MfcOpcode::putb:
+    return "putb";
+  case MfcOpcode::putf:
+    return "putf";
+  case MfcOpcode::putl:
+    return "putl";
+  case MfcOpcode::putlb:
+    return "putlb";
+  case MfcOpcode::putlf:
+    return "putlf";
+  case MfcOpcode::get:
+    return "get";
+  case MfcOpcode::getb:
+    return "getb";
+  case MfcOpcode::getf:
+    return "getf";
+  case MfcOpcode::getl:
+    return "getl";
+  case MfcOpcode::getlb:
+    return "getlb";
+  case MfcOpcode::getlf:
+    return "getlf";
+  case MfcOpcode::sndsig:
+    return "sndsig";
+  case MfcOpcode::sndsigb:
+    return "sndsigb";
+  case MfcOpcode::sndsigf:
+    return "sndsigf";
+  case MfcOpcode::putlluc:
+    return "putlluc";
+  case MfcOpcode::putllc:
+    return "putllc";
+  case MfcOpcode::putqlluc:
+    return "putqlluc";
+  case MfcOpcode::barrier:
+    return "barrier";
+  case MfcOpcode::mfceieio:
+    return "mfceieio";
+  case MfcOpcode::mfcsync:
+    return "mfcsync";
+  case MfcOpcode::getllar:
+    return "getllar";
+  }
+  return "command";
+}
+
+} // namespace celltrace::cell_emu

@@ -1,0 +1,50 @@
+// Tag-group status: channels 12 and 22 to 24.
+//
+// A request (channel 23) is answered at once if its condition holds; else it waits, and is judged again when
+// a command completes or the mask changes. An answer stays until it is read; a later request replaces it only
+// when its own condition holds.
+#pragma once
+
+#include "celltrace/spe/types.hpp"
+
+#include <cstdint>
+#include <optional>
+
+namespace celltrace::cell_emu {
+
+class TagGroups {
+public:
+  std::uint32_t mask() const { return mask_; }
+  void write_mask(std::uint32_t mask) { mask_ = mask; }
+  void request(TagUpdate update) { request_ = update; }
+
+  /// Judges the request that waits; `outstanding` are the tags with commands in the queue. True if a request
+  /// for any or all became true: that is the tag status event.
+  bool judge(std::uint32_t outstanding) {
+    if (!request_) return false;
+    const std::uint32_t completed = mask_ & ~outstanding;
+    const TagUpdate update = *request_;
+    if (update == TagUpdate::any && completed == 0) return false;
+    if (update == TagUpdate::all && completed != mask_) return false;
+    request_.reset();
+    status_ = completed;
+    return update != TagUpdate::immediate;
+  }
+
+  bool waiting() const { return request_.has_value(); }
+  /// The count of channel 24.
+  bool available() const { return status_.has_value(); }
+  /// The answer. Only when there is one.
+  std::uint32_t take() {
+    const std::uint32_t status = *status_;
+    status_.reset();
+    return status;
+  }
+
+private:
+  std::uint32_t mask_ = 0;
+  std::optional<TagUpdate> request_;
+  std::optional<std::uint32_t> status_;
+};
+
+} // namespace celltrace::cell_emu
