@@ -1,0 +1,50 @@
+#if __has_include("backends/cell_emu/machine.hpp")
+#include "backends/cell_emu/machine.hpp"
+#endif
+#include "backends/native/machine.hpp"
+#include "celltrace/spe/machine.hpp"
+
+namespace celltrace {
+
+namespace {
+
+constexpr unsigned kMaxSpes = 256;
+
+struct Backend {
+  const char* name;
+  std::unique_ptr<Machine> (*make)(const MachineConfig& config);
+};
+
+constexpr Backend kBackends[] = {
+    {"native", native::make_machine},
+#if __has_include("backends/cell_emu/machine.hpp")
+    {"cell_emu", cell_emu::make_machine},
+#endif
+};
+
+std::string names() {
+  std::string list;
+  for (const Backend& backend : kBackends)
+    list += (list.empty() ? "" : ", ") + std::string(backend.name);
+  return list;
+}
+
+} // namespace
+
+std::vector<std::string> machine_backends() {
+  std::vector<std::string> backends;
+  for (const Backend& backend : kBackends)
+    backends.emplace_back(backend.name);
+  return backends;
+}
+
+std::unique_ptr<Machine> make_machine(const MachineConfig& config) {
+  if (config.spes > kMaxSpes)
+    throw InputError("a machine has at most " + std::to_string(kMaxSpes) + " SPEs, not " +
+                     std::to_string(config.spes));
+  for (const Backend& backend : kBackends)
+    if (config.backend == backend.name) return backend.make(config);
+  throw InputError("unknown backend \"" + config.backend + "\"; this build has " + names());
+}
+
+} // namespace celltrace

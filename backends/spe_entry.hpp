@@ -1,0 +1,19 @@
+// What the source of an SPE program consists of besides its kernel: the entry point for one SPU type. See
+// cmake/celltrace_spe_program.cmake, which defines the CELLTRACE_SPU_... macros.
+#pragma once
+
+#include CELLTRACE_SPU_HEADER
+
+#include "celltrace/spe/types.hpp"
+
+#define CELLTRACE_SPE_ENTRY_NAME_2(program, spu) program##_##spu
+#define CELLTRACE_SPE_ENTRY_NAME(program, spu) CELLTRACE_SPE_ENTRY_NAME_2(program, spu)
+
+/// Defines celltrace::PROGRAM_SPU, which runs `kernel`, a function template over the Spu type.
+#define CELLTRACE_SPE_ENTRY(program, kernel)                                                                 \
+  namespace celltrace {                                                                                      \
+  void CELLTRACE_SPE_ENTRY_NAME(program, CELLTRACE_SPU_NAME)(void* spu, ea_t argument);                      \
+  void CELLTRACE_SPE_ENTRY_NAME(program, CELLTRACE_SPU_NAME)(void* spu, ea_t argument) {                     \
+    kernel(*static_cast<CELLTRACE_SPU_TYPE*>(spu), argument);                                                \
+  }                                                                                                          \
+  }

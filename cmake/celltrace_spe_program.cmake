@@ -1,0 +1,87 @@
+# Compiles SPE programs for every SPU type of the build.
+#
+#   celltrace_spe_program(NAME SOURCE entry.cpp [LINK targets...])
+#
+# makes the static library celltrace_NAME_program. The source says which kernel it is:
+#
+#   #include "kernel/tracer.hpp"
+#   #include "backends/spe_entry.hpp"
+#   CELLTRACE_SPE_ENTRY(NAME, celltrace::kernel::tracer)
+#
+# and is compiled once per SPU type, each time with the flags of its CPU and with
+#
+#   CELLTRACE_SPU_HEADER   header of the SPU type, for #include
+#   CELLTRACE_SPU_TYPE     the type, qualified
+#   CELLTRACE_SPU_NAME     an identifier for it, as in the lists below
+#
+# The library defines `celltrace::SpeProgram celltrace::NAME_program()` with all entries; its user declares it.
+
+# Per SPU type: its header, type, key and flags.
+set(CELLTRACE_SPUS "" CACHE INTERNAL "SPU types of this build")
+function(celltrace_spu_type name)
+  cmake_parse_arguments(SPU "" "HEADER;TYPE;KEY" "FLAGS" ${ARGN})
+  set(CELLTRACE_SPUS ${CELLTRACE_SPUS} ${name} CACHE INTERNAL "SPU types of this build")
+  foreach(property HEADER TYPE KEY FLAGS)
+    set(CELLTRACE_SPU_${name}_${property} "${SPU_${property}}" CACHE INTERNAL "")
+  endforeach()
+endfunction()
+
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  set(avx512_flags -mavx512f -mavx512cd -mavx512dq -mavx512bw -mavx512vl -mprefer-vector-width=512)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # GCC 12 reports the undefined operands of its own AVX-512 headers.
+    list(APPEND avx512_flags -Wno-uninitialized -Wno-maybe-uninitialized)
+  endif()
+  celltrace_spu_type(native_sse2 HEADER backends/native/spu.hpp KEY native.sse2
+    TYPE "celltrace::native::Spu<xsimd::sse2>")
+  celltrace_spu_type(native_avx2 HEADER backends/native/spu.hpp KEY native.avx2
+    TYPE "celltrace::native::Spu<xsimd::avx2>" FLAGS -mavx2)
+  celltrace_spu_type(native_avx512 HEADER backends/native/spu.hpp KEY native.avx512
+    TYPE "celltrace::native::Spu<xsimd::avx512dq>" FLAGS ${avx512_flags})
+elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
+  celltrace_spu_type(native_neon64 HEADER backends/native/spu.hpp KEY native.neon64
+    TYPE "celltrace::native::Spu<xsimd::neon64>")
+endif()
+if(EXISTS ${PROJECT_SOURCE_DIR}/backends/cell_emu/spu.hpp)
+  celltrace_spu_type(cell_emu HEADER backends/cell_emu/spu.hpp KEY cell_emu TYPE "celltrace::cell_emu::Spu")
+endif()
+
+function(celltrace_spe_program name)
+  cmake_parse_arguments(PROGRAM "" "SOURCE" "LINK" ${ARGN})
+  set(library celltrace_${name}_program)
+  set(declarations "")
+  set(entries "")
+  set(objects "")
+  foreach(spu ${CELLTRACE_SPUS})
+    set(object ${library}_${spu})
+    add_library(${object} OBJECT ${PROGRAM_SOURCE})
+    target_link_libraries(${object} PUBLIC celltrace_options celltrace_native $<TARGET_NAME_IF_EXISTS:celltrace_cell_emu>
+      ${PROGRAM_LINK})
+    target_compile_options(${object} PRIVATE ${CELLTRACE_SPU_${spu}_FLAGS})
+    target_compile_definitions(${object} PRIVATE
+      "CELLTRACE_SPU_HEADER=\"${CELLTRACE_SPU_${spu}_HEADER}\""
+      "CELLTRACE_SPU_TYPE=${CELLTRACE_SPU_${spu}_TYPE}"
+      CELLTRACE_SPU_NAME=${spu})
+    string(APPEND declarations "void ${name}_${spu}(void* spu, ea_t argument);\n")
+    string(APPEND entries "  program.add(\"${CELLTRACE_SPU_${spu}_KEY}\", ${name}_${spu});\n")
+    list(APPEND objects $<TARGET_OBJECTS:${object}>)
+  endforeach()
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/${name}_program.cpp)
+  file(CONFIGURE OUTPUT ${source} @ONLY CONTENT [=[
+#include "celltrace/spe/program.hpp"
+
+namespace celltrace {
+
+@declarations@
+SpeProgram @name@_program();
+SpeProgram @name@_program() {
+  SpeProgram program("@name@");
+@entries@  return program;
+}
+
+} // namespace celltrace
+]=])
+  add_library(${library} STATIC ${source} ${objects})
+  target_link_libraries(${library} PUBLIC celltrace_options celltrace_native $<TARGET_NAME_IF_EXISTS:celltrace_cell_emu>
+    ${PROGRAM_LINK})
+endfunction()

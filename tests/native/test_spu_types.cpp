@@ -1,0 +1,81 @@
+#include "lane_sum.hpp"
+
+#include "backends/native/spu_types.hpp"
+#include "celltrace/spe/machine.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <numeric>
+
+namespace celltrace {
+SpeProgram lane_sum_program();
+} // namespace celltrace
+
+using namespace celltrace;
+
+namespace {
+
+void check_lane_sum(Machine& machine) {
+  alignas(128) test::LaneSumBlock block{};
+  std::iota(std::begin(block.a), std::end(block.a), 0.0f);
+  machine.start(0, lane_sum_program(), to_ea(&block));
+  machine.wait(0);
+  CHECK(block.sum == 136.0f);
+}
+
+} // namespace
+
+TEST_CASE("every SPU type that the CPU supports runs a program compiled for it") {
+  unsigned entered = 0;
+  for (const native::SpuType& type : native::spu_types()) {
+    CAPTURE(type.simd);
+    MachineConfig config;
+    config.spes = 1;
+    config.simd = type.simd;
+    if (!type.supported()) {
+      CHECK_THROWS_AS(make_machine(config), InputError);
+      continue;
+    }
+    const auto machine = make_machine(config);
+    check_lane_sum(*machine);
+    CHECK(machine->spu_key() == type.key);
+    ++entered;
+  }
+  CHECK(entered > 0);
+}
+
+TEST_CASE("auto takes the widest SPU type that both CPU and program have") {
+  const auto usable = native::usable_spu_types("auto");
+  MachineConfig config;
+  config.spes = 1;
+  const auto machine = make_machine(config);
+  CHECK(machine->spu_key() == usable.front()->key);
+  check_lane_sum(*machine);
+  CHECK(machine->spu_key() == usable.front()->key);
+
+  SpeProgram narrow("narrow");
+  narrow.add(usable.back()->key, [](void*, ea_t) {});
+  machine->start(0, narrow, 0);
+  machine->wait(0);
+  CHECK(machine->spu_key() == usable.back()->key);
+}
+
+TEST_CASE("a program without an entry for the machine is refused") {
+  const auto machine = make_machine(MachineConfig{});
+  CHECK_THROWS_AS(machine->start(0, SpeProgram("nothing"), 0), SpeError);
+  CHECK_FALSE(machine->running(0));
+}
+
+TEST_CASE("machines are made by name and within limits") {
+  MachineConfig config;
+  config.backend = "cray";
+  CHECK_THROWS_WITH(make_machine(config),
+                    Catch::Contains("unknown backend \"cray\"") && Catch::Contains("native"));
+  config = MachineConfig{};
+  config.spes = 257;
+  CHECK_THROWS_AS(make_machine(config), InputError);
+  config = MachineConfig{};
+  config.simd = "mmx";
+  CHECK_THROWS_WITH(make_machine(config), Catch::Contains("unknown SIMD \"mmx\""));
+  CHECK(machine_backends().front() == "native");
+}
