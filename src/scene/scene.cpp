@@ -1,0 +1,132 @@
+#include "celltrace/scene.hpp"
+
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <unordered_set>
+
+#include "celltrace/error.hpp"
+
+namespace celltrace {
+
+namespace {
+
+constexpr std::size_t kMostEntries = std::numeric_limits<Index>::max() - 1;
+
+bool is_finite(const Vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+bool is_finite(const Vec3f& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+template <class Number> void check_finite(std::initializer_list<Number> values, const std::string& what) {
+  for (const Number& value : values)
+    if (!std::isfinite(value)) throw InputError(what + " has a number that is not finite");
+}
+
+template <class Vector> void check_vectors(std::initializer_list<Vector> values, const std::string& what) {
+  for (const Vector& value : values)
+    if (!is_finite(value)) throw InputError(what + " has a number that is not finite");
+}
+
+std::string nth(const char* what, std::size_t index) {
+  return std::string(what) + ' ' + std::to_string(index);
+}
+
+void check(const Material& material, const std::string& what) {
+  const Finish& f = material.finish;
+  check_vectors({material.pigment.rgb, f.ambient, f.emission, f.reflection_min, f.reflection_max}, what);
+  check_finite({material.pigment.filter, material.pigment.transmit, f.diffuse, f.brilliance, f.phong,
+                f.phong_size, f.specular, f.roughness, f.metallic, f.reflection_falloff,
+                f.reflection_exponent, f.reflection_metallic},
+               what);
+}
+
+void check_index(Index index, std::size_t count, const std::string& what) {
+  if (index >= count)
+    throw InputError(what + ": index " + std::to_string(index) + " is out of range, there are " +
+                     std::to_string(count));
+}
+
+bool is_sound(const Mesh& mesh, const Mesh::Triangle& triangle, std::size_t materials) {
+  const auto optional = [](Index index, std::size_t count) { return index == kNoIndex || index < count; };
+  for (int corner = 0; corner < 3; ++corner)
+    if (triangle.vertex[corner] >= mesh.vertices.size() ||
+        !optional(triangle.normal[corner], mesh.normals.size()) ||
+        !optional(triangle.material[corner], materials))
+      return false;
+  return true;
+}
+
+void check_mesh(const Mesh& mesh, std::size_t materials, const std::string& what) {
+  if (mesh.vertices.size() > kMostEntries || mesh.normals.size() > kMostEntries ||
+      mesh.triangles.size() > kMostEntries)
+    throw InputError(what + " has more entries than 32 bits can count");
+  for (const Vec3f& vertex : mesh.vertices)
+    check_vectors({vertex}, what);
+  for (const Vec3f& normal : mesh.normals)
+    check_vectors({normal}, what);
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    if (!is_sound(mesh, mesh.triangles[i], materials))
+      throw InputError(what + nth(", triangle", i) + " has an index that is out of range");
+}
+
+void check_object(const Scene& scene, std::size_t index) {
+  const Object& object = scene.objects[index];
+  const std::string what = nth("object", index);
+  check_index(object.material, scene.materials.size(), what + ", material");
+  check_index(object.interior, scene.interiors.size(), what + ", interior");
+  const Vec3(&rows)[4] = object.transform.rows;
+  check_vectors({rows[0], rows[1], rows[2], rows[3]}, what);
+  if (const Sphere* sphere = std::get_if<Sphere>(&object.shape)) {
+    check_vectors({sphere->centre}, what);
+    check_finite({sphere->radius}, what);
+  } else if (!std::get<1>(object.shape)) {
+    throw InputError(what + " has no mesh");
+  }
+}
+
+/// Instances share their mesh: each mesh is looked at once.
+void check_meshes(const Scene& scene) {
+  std::unordered_set<const Mesh*> seen;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&scene.objects[i].shape);
+    if (mesh && seen.insert(mesh->get()).second) check_mesh(**mesh, scene.materials.size(), nth("object", i));
+  }
+}
+
+} // namespace
+
+Index Scene::add(const Material& material) {
+  materials.push_back(material);
+  return static_cast<Index>(materials.size() - 1);
+}
+
+Index Scene::add(const Interior& interior) {
+  interiors.push_back(interior);
+  return static_cast<Index>(interiors.size() - 1);
+}
+
+void validate(const Scene& scene) {
+  const Camera& camera = scene.camera;
+  check_vectors({camera.location, camera.direction, camera.right, camera.up}, "the camera");
+  check_vectors({scene.background}, "the background");
+  check_vectors({scene.ambient_light}, "the ambient light");
+  check_finite({scene.assumed_gamma, scene.version, scene.adc_bailout}, "the scene");
+  if (scene.objects.size() > kMostEntries || scene.materials.size() > kMostEntries ||
+      scene.interiors.size() > kMostEntries)
+    throw InputError("the scene has more entries than 32 bits can count");
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+    check_vectors({scene.lights[i].location, scene.lights[i].colour}, nth("light", i));
+  for (std::size_t i = 0; i < scene.materials.size(); ++i)
+    check(scene.materials[i], nth("material", i));
+  for (std::size_t i = 0; i < scene.interiors.size(); ++i)
+    check_finite({scene.interiors[i].ior}, nth("interior", i));
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    check_object(scene, i);
+  check_meshes(scene);
+}
+
+} // namespace celltrace

@@ -1,0 +1,64 @@
+// SceneImage: a Scene in the flat binary form that the SPEs read.
+//
+// One contiguous, 128-byte aligned block: header, lights, materials, blends, interiors, normals, objects (the static
+// part, written here), then the voxels and object lists of the grid (written by PREPARE FRAME). All positions are
+// 32-bit offsets from its base, so that the static part can be saved, mapped elsewhere and sent to another process of
+// the same byte order; it carries a version and a checksum.
+#pragma once
+
+#include "celltrace/scene.hpp"
+#include "kernel/records.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <span>
+
+namespace celltrace {
+
+/// Memory that starts on a 128-byte boundary and is zero at first.
+class AlignedBlock {
+public:
+  AlignedBlock() = default;
+  /// Throws std::bad_alloc.
+  explicit AlignedBlock(std::size_t bytes);
+
+  std::byte* data() const noexcept { return bytes_.get(); }
+  std::size_t size() const noexcept { return size_; }
+
+private:
+  struct Free {
+    void operator()(std::byte* bytes) const noexcept;
+  };
+  std::unique_ptr<std::byte, Free> bytes_;
+  std::size_t size_ = 0;
+};
+
+/// Thread safety: as a standard container.
+class SceneImage {
+public:
+  /// Builds the static part. Throws InputError as validate() does, and if the image would pass 4 GB.
+  explicit SceneImage(const Scene& scene);
+  /// Takes over a static part as static_part() gave it. Throws InputError unless version, checksum, sizes and every
+  /// offset in it are right.
+  static SceneImage from_bytes(std::span<const std::byte> bytes);
+
+  /// Makes room for a grid of `cells` voxels with lists of `list_words` words in all; where the static part moves,
+  /// the old address becomes invalid.
+  void reserve_grid(std::uint32_t cells, std::uint32_t list_words);
+
+  const kernel::ImageHeader& header() const noexcept;
+  std::span<const std::byte> static_part() const noexcept;
+  const std::byte* base() const noexcept { return block_.data(); }
+  /// Offsets of the two grid tables; valid after reserve_grid().
+  std::uint32_t cell_offset() const noexcept { return cell_offset_; }
+  std::uint32_t list_offset() const noexcept { return list_offset_; }
+
+private:
+  SceneImage() = default;
+
+  AlignedBlock block_;
+  std::uint32_t cell_offset_ = 0;
+  std::uint32_t list_offset_ = 0;
+};
+
+} // namespace celltrace
