@@ -14,12 +14,26 @@ namespace celltrace::cli {
 
 namespace {
 
-unsigned parse_unsigned(const std::string& text, const std::string& whole) {
-  unsigned value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size())
-    throw InputError("--cache: '" + whole + "' is neither WAYSxSETS[:random|fifo|lru] nor off");
+/// What is before and after the first `separator`; all and nothing if there is none.
+std::pair<std::string, std::string> split(const std::string& text, char separator) {
+  const std::size_t at = std::min(text.find(separator), text.size());
+  return {text.substr(0, at), text.substr(std::min(at + 1, text.size()))};
+}
+
+std::uint32_t parse_size(const std::string& digits, const std::string& text) {
+  std::uint32_t value = 0;
+  const char* const last = digits.data() + digits.size();
+  const auto [end, error] = std::from_chars(digits.data(), last, value);
+  if (error != std::errc() || end != last)
+    throw InputError("--cache: '" + text + "' is neither WAYSxSETS[:random|fifo|lru] nor off");
   return value;
+}
+
+CacheReplacement parse_replacement(const std::string& policy) {
+  if (policy == "random") return CacheReplacement::random;
+  if (policy == "fifo") return CacheReplacement::fifo;
+  if (policy == "lru") return CacheReplacement::lru;
+  throw InputError("--cache: '" + policy + "' is none of random, fifo, lru");
 }
 
 /// Options whose value is a word from a list, some of which the program does not have yet.
@@ -42,10 +56,10 @@ void set_choice(CLI::App& command, const std::string& name, std::string& target,
 }
 
 std::pair<std::string, std::string> parse_declare(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  if (equals == 0 || equals == std::string::npos)
+  auto declare = split(text, '=');
+  if (declare.first.empty() || declare.first.size() == text.size())
     throw InputError("--declare: '" + text + "' is not NAME=VALUE");
-  return {text.substr(0, equals), text.substr(equals + 1)};
+  return declare;
 }
 
 /// What CLI11 fills in besides the request.
@@ -129,19 +143,22 @@ void finish(RenderRequest& request, const RenderTexts& texts) {
 
 } // namespace
 
-CacheSetting parse_cache(const std::string& text) {
-  CacheSetting cache;
+CacheConfig parse_cache(const std::string& text) {
+  CacheConfig cache;
   if (text == "off") {
     cache.enabled = false;
     return cache;
   }
-  const std::string sizes = text.substr(0, text.find(':'));
-  if (sizes.size() < text.size()) cache.replacement = text.substr(sizes.size() + 1);
-  const std::size_t x = std::min(sizes.find('x'), sizes.size());
-  cache.ways = parse_unsigned(sizes.substr(0, x), text);
-  cache.sets = parse_unsigned(sizes.substr(std::min(x + 1, sizes.size())), text);
-  if (cache.replacement != "random" && cache.replacement != "fifo" && cache.replacement != "lru")
-    throw InputError("--cache: '" + cache.replacement + "' is none of random, fifo, lru");
+  const auto [sizes, policy] = split(text, ':');
+  const auto [ways, sets] = split(sizes, 'x');
+  cache.ways = parse_size(ways, text);
+  cache.sets = parse_size(sets, text);
+  if (sizes.size() < text.size()) cache.replacement = parse_replacement(policy);
+  if (!cache.valid())
+    throw InputError("--cache: '" + text +
+                     "' is no cache: 1, 2 or 4 ways and a power of two of sets, or one set and a "
+                     "power of two of ways; at most " +
+                     std::to_string(CacheConfig::kMaxLines) + " lines");
   return cache;
 }
 

@@ -1,6 +1,8 @@
 // What the user asked for: the command line as values.
 #pragma once
 
+#include "celltrace/cache.hpp"
+
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -11,19 +13,9 @@
 
 namespace celltrace::cli {
 
-/// `--cache off`, `--cache WAYSxSETS` or `--cache WAYSxSETS:POLICY`.
-struct CacheSetting {
-  bool enabled = true;
-  unsigned ways = 4;
-  unsigned sets = 128;
-  std::string replacement = "random"; ///< random, fifo or lru
-
-  bool operator==(const CacheSetting&) const = default;
-};
-
-/// Throws InputError if the text has none of the three forms. Which sizes a cache can have is not checked
-/// here.
-CacheSetting parse_cache(const std::string& text);
+/// `off`, `WAYSxSETS` or `WAYSxSETS:random|fifo|lru`. Throws InputError for any other text and for sizes that
+/// a cache cannot have.
+CacheConfig parse_cache(const std::string& text);
 
 struct RenderRequest {
   std::filesystem::path scene;
@@ -34,7 +26,7 @@ struct RenderRequest {
   unsigned spes = 0; ///< 0: the backend's default
   std::string simd = "auto";
   std::optional<std::uint64_t> seed;
-  CacheSetting cache;
+  CacheConfig cache;
   std::string balance = "gde"; ///< gde or static
   std::optional<int> max_level;
   std::optional<double> adc;

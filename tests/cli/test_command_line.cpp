@@ -16,6 +16,11 @@ RenderRequest render_request(std::vector<std::string> arguments) {
   return std::get<RenderRequest>(parse_command_line(arguments));
 }
 
+std::string shape(const CacheConfig& cache) {
+  return std::to_string(cache.ways) + "x" + std::to_string(cache.sets) + ":" +
+         std::to_string(static_cast<unsigned>(cache.replacement));
+}
+
 std::string error_of(std::vector<std::string> arguments) {
   try {
     parse_command_line(std::move(arguments));
@@ -41,7 +46,8 @@ TEST_CASE("render has the documented defaults") {
   CHECK(r.backend == "native");
   CHECK(r.spes == 0);
   CHECK(r.simd == "auto");
-  CHECK(r.cache == CacheSetting{});
+  CHECK(r.cache.enabled);
+  CHECK(shape(r.cache) == "4x128:0");
   CHECK(r.balance == "gde");
   CHECK_FALSE(r.seed);
   CHECK_FALSE(r.max_level);
@@ -65,7 +71,7 @@ TEST_CASE("every option of render arrives") {
   CHECK(r.spes == 6);
   CHECK(r.simd == "avx2");
   CHECK(r.seed == 7u);
-  CHECK(r.cache == CacheSetting{true, 2, 64, "lru"});
+  CHECK(shape(r.cache) == "2x64:2");
   CHECK(r.balance == "static");
   CHECK(r.max_level == 9);
   CHECK(r.adc == 0.01);
@@ -77,14 +83,17 @@ TEST_CASE("every option of render arrives") {
 
 TEST_CASE("cache settings") {
   CHECK(parse_cache("off").enabled == false);
-  CHECK(parse_cache("4x128") == CacheSetting{true, 4, 128, "random"});
-  CHECK(parse_cache("64x1:fifo") == CacheSetting{true, 64, 1, "fifo"});
+  CHECK(shape(parse_cache("4x128")) == "4x128:0");
+  CHECK(shape(parse_cache("64x1:fifo")) == "64x1:1");
+  CHECK(shape(parse_cache("1x512:random")) == "1x512:0");
   for (const std::string bad : {"", "4", "4x", "x4", "4x4x4", "-4x4", "4x4 ", "4x99999999999", "on"}) {
     CAPTURE(bad);
     CHECK_THROWS_WITH(parse_cache(bad), Contains("neither WAYSxSETS"));
   }
   CHECK_THROWS_WITH(parse_cache("4x4:plru"), Contains("none of random, fifo, lru"));
   CHECK_THROWS_AS(parse_cache("4x4:"), InputError);
+  for (const std::string impossible : {"0x0", "3x4", "4x3", "8x2", "4x65536"})
+    CHECK_THROWS_WITH(parse_cache(impossible), Contains("'" + impossible + "' is no cache"));
 }
 
 TEST_CASE("what is to come is refused as such") {

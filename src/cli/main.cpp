@@ -1,0 +1,46 @@
+#include "celltrace/error.hpp"
+#include "cli/command_line.hpp"
+#include "cli/compare_command.hpp"
+#include "cli/pov_switches.hpp"
+#include "cli/render_command.hpp"
+
+#include <exception>
+#include <iostream>
+#include <new>
+
+namespace {
+
+using namespace celltrace::cli;
+
+void print_notes(const Translation& translation) {
+  for (const std::string& note : translation.notes)
+    std::cerr << "note: " << note << '\n';
+}
+
+int run(const std::vector<std::string>& arguments) {
+  const Translation translation = translate_pov_switches(arguments);
+  const Request request = parse_command_line(translation.arguments);
+  if (const auto* information = std::get_if<InformationRequest>(&request)) {
+    std::cout << information->text << std::flush;
+    return 0;
+  }
+  if (const auto* compare = std::get_if<CompareRequest>(&request)) return run_compare(*compare);
+  const auto& render = std::get<RenderRequest>(request);
+  if (!render.quiet) print_notes(translation);
+  return run_render(render);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run({argv + 1, argv + argc});
+  } catch (const celltrace::SceneError& error) {
+    std::cerr << error.what() << '\n'; // says where, and "error:", itself
+  } catch (const std::bad_alloc&) {
+    std::cerr << "celltrace: error: out of memory\n";
+  } catch (const std::exception& error) {
+    std::cerr << "celltrace: error: " << error.what() << '\n';
+  }
+  return 1;
+}
