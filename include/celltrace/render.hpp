@@ -1,0 +1,123 @@
+// Rendering: a Scene in, a picture out, every ray traced by the SPE program.
+#pragma once
+
+#include "celltrace/cache.hpp"
+#include "celltrace/image.hpp"
+#include "celltrace/scene.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace celltrace {
+
+/// How the rows of a frame are shared between the SPEs.
+enum class Balance {
+  gde,  ///< strips that generalized dimension exchange adjusts while the frame is rendered
+  fixed ///< strips of equal height that stay as they are
+};
+
+struct RenderOptions {
+  int width = 640;  ///< pixels, 1..65520
+  int height = 480; ///< pixels, 1..65520
+  /// "native" or "cell_emu"; see machine_backends().
+  std::string backend = "native";
+  /// Number of SPEs, up to 256; 0: one per hardware thread on native, 8 on cell_emu.
+  unsigned spes = 0;
+  /// SIMD of native: "auto", "sse2", "avx2", "avx512".
+  std::string simd = "auto";
+  /// The software cache of each SPE (native reads memory directly and has none).
+  CacheConfig cache;
+  Balance balance = Balance::gde;
+  /// In place of the scene's own settings.
+  std::optional<int> max_trace_level;
+  std::optional<double> adc_bailout;
+};
+
+/// What a frame cost. Sums over all SPEs unless said otherwise.
+struct RenderStatistics {
+  struct Cache {
+    std::uint64_t hits = 0, misses = 0;
+    /// Hits per read, 0..1; 0 if nothing was read.
+    double hit_rate() const;
+  };
+  struct Spe {
+    std::uint64_t rays = 0;
+    std::uint32_t rows = 0; ///< rows of 4x4 packets
+    std::uint32_t exchanges = 0;
+    std::uint64_t local_store_peak = 0; ///< bytes of the arena
+  };
+
+  std::string backend;
+  std::string spu; ///< SPU type, e.g. "native.avx512"
+  int width = 0, height = 0;
+  std::uint64_t objects = 0; ///< after unions and instances are taken apart
+
+  std::uint64_t primary_rays = 0, shadow_rays = 0, reflection_rays = 0, refraction_rays = 0;
+  std::uint64_t dropped_rays = 0; ///< cut off by the limits of the SPE program; 0 in any but extreme scenes
+  std::uint64_t sphere_tests = 0, ellipsoid_tests = 0, triangle_tests = 0; ///< packet of 16 rays against object
+  std::uint64_t voxels_visited = 0;
+
+  std::uint32_t grid_cells[3] = {0, 0, 0};
+  std::uint64_t grid_list_entries = 0;
+
+  Cache list_cache, object_cache, material_cache, light_cache; ///< all 0 where memory is direct
+  std::uint64_t dma_commands = 0, dma_list_elements = 0, dma_bytes_read = 0, dma_bytes_written = 0;
+  std::uint64_t signals = 0, mailbox_words = 0;
+
+  std::uint64_t balance_exchanges = 0; ///< that moved rows
+  std::uint64_t balance_rows_moved = 0;
+  /// Greatest over mean number of rays per SPE, minus 1.
+  double imbalance = 0;
+
+  double build_seconds = 0;   ///< scene image, on the host
+  double prepare_seconds = 0; ///< grid, by an SPE
+  double render_seconds = 0;
+
+  std::vector<Spe> spes;
+
+  std::uint64_t total_rays() const { return primary_rays + shadow_rays + reflection_rays + refraction_rays; }
+};
+
+/// The statistics as JSON text; docs/statistics.md describes the keys.
+std::string to_json(const RenderStatistics& statistics);
+
+/// Called now and then by the thread that renders, with the finished fraction of the frame: starts at 0, never falls,
+/// ends at 1 if the frame is completed. Return false to cancel.
+using Progress = std::function<bool(double fraction)>;
+
+struct RenderResult {
+  Image image;
+  RenderStatistics statistics;
+  bool complete = true; ///< false: cancelled; pixels that were not reached are transparent black
+};
+
+/// A render context: a machine whose SPEs run the tracer, kept from frame to frame. After a cancelled frame it renders
+/// the next one as usual. Thread safety: one thread at a time; different renderers are independent.
+class Renderer {
+public:
+  /// Throws InputError for options out of range.
+  explicit Renderer(const RenderOptions& options = {});
+  ~Renderer();
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+
+  /// Renders a frame; the strips that the frame before ended with start this one. Throws InputError if the scene
+  /// is not valid, SpeError if a kernel failed; exceptions of `progress` pass through. After SpeError the renderer
+  /// throws again at every call.
+  RenderResult render(const Scene& scene, const Progress& progress = {});
+  /// As above, with another camera and nothing else changed since the last render(): the grid is kept.
+  RenderResult render(const Camera& camera, const Progress& progress = {});
+
+private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// One frame on a machine of its own.
+RenderResult render(const Scene& scene, const RenderOptions& options = {}, const Progress& progress = {});
+
+} // namespace celltrace

@@ -1,0 +1,106 @@
+// Shade pixel: the light that a surface sends toward the viewer by itself. The terms are those of Hall's model that
+// POV-Ray uses: ambient, diffuse with brilliance, Phong and Blinn highlights. Kernel dialect.
+#pragma once
+
+#include "kernel/hit_points.hpp"
+#include "kernel/material_lanes.hpp"
+#include "kernel/traversal.hpp"
+
+namespace celltrace::kernel {
+
+/// A surface as seen by sixteen rays.
+template <class S>
+struct Surfaces {
+  V3<S> point, normal; ///< normal flipped toward the viewer
+  V3<S> direction;     ///< of the rays that arrive
+  const WordLanes* objects; ///< what the points lie on
+};
+
+namespace detail {
+
+/// A light as it arrives at a surface.
+template <class S>
+struct Arrival {
+  V3<S> direction; ///< toward the light, of unit length
+  V3<S> colour;    ///< after what lies between
+  typename S::F cosine; ///< to the normal
+};
+
+template <class S>
+typename S::F phong_term(const Surfaces<S>& s, const MaterialLanes<S>& m, const Arrival<S>& light) {
+  using F = typename S::F;
+  const V3<S> mirrored = s.direction - s.normal * (F(2.0f) * dot<S>(s.direction, s.normal));
+  const F cosine = dot<S>(mirrored, light.direction);
+  // POV-Ray cuts wide angles off where the exponent makes them invisible.
+  const auto seen = (cosine > F(0.0f)) & ((m.phong_size < F(60.0f)) | (cosine > F(0.0008f)));
+  return S::select(seen, m.phong * pow<S>(S::max(cosine, F(0.0f)), m.phong_size), F(0.0f));
+}
+
+template <class S>
+typename S::F specular_term(const Surfaces<S>& s, const MaterialLanes<S>& m, const Arrival<S>& light) {
+  using F = typename S::F;
+  const V3<S> half = normalise<S>(light.direction - s.direction);
+  const F cosine = dot<S>(half, s.normal);
+  return S::select(cosine > F(0.0f), m.specular * pow<S>(S::max(cosine, F(0.0f)), m.inverse_roughness), F(0.0f));
+}
+
+template <class S>
+V3<S> reflected_light(const Surfaces<S>& s, const MaterialLanes<S>& m, const Arrival<S>& light, bool highlights) {
+  using F = typename S::F;
+  const F bent = m.bends_diffuse ? pow<S>(light.cosine, m.brilliance) : light.cosine;
+  V3<S> sum = m.pigment * light.colour * (m.diffuse * m.opacity * bent);
+  if (!highlights || !(m.has_phong || m.has_specular)) return sum;
+  F strength(0.0f);
+  if (m.has_phong) strength = strength + phong_term<S>(s, m, light);
+  if (m.has_specular) strength = strength + specular_term<S>(s, m, light);
+  V3<S> highlight = light.colour * strength;
+  if (m.has_metallic) highlight = highlight * metallic_tint<S>(m.metallic, light.cosine, m.pigment);
+  return sum + highlight;
+}
+
+} // namespace detail
+
+/// Ambient light, and what all lights contribute, at the surfaces of `lanes`. Counts a shadow ray per light and lane
+/// that faces it.
+template <class Spu>
+V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, Traversal<Spu>& traversal, const FrameBlock& frame,
+                                   const Surfaces<typename Spu::simd>& s,
+                                   const MaterialLanes<typename Spu::simd>& m, uint32_t lanes,
+                                   uint64_t& shadow_rays) {
+  using S = typename Spu::simd;
+  using F = typename S::F;
+  V3<S> sum = m.pigment * m.ambient * m.opacity;
+  for (uint32_t i = 0; i < frame.light_count; ++i) {
+    const LightRecord light = *scene.light(frame.light_offset + i * static_cast<uint32_t>(sizeof(LightRecord)));
+    const V3<S> to_light = splat3<S>(light.location) - s.point;
+    const F distance = S::sqrt(dot<S>(to_light, to_light));
+    detail::Arrival<S> arrival;
+    arrival.direction = to_light * (F(1.0f) / S::max(distance, F(1e-30f)));
+    arrival.cosine = dot<S>(arrival.direction, s.normal);
+    const auto faces = arrival.cosine >= F(1e-10f);
+    const uint32_t facing = faces.bits() & lanes;
+    if (facing == 0) continue;
+    arrival.cosine = S::max(arrival.cosine, F(0.0f));
+    arrival.colour = splat3<S>(light.colour);
+
+    const bool shadowless = (light.flags & light_flag::shadowless) != 0;
+    if (!shadowless) {
+      RayPacket rays;
+      rays.origin.template store<S>(s.point);
+      rays.direction.template store<S>(arrival.direction);
+      rays.start_object = *s.objects;
+      FloatLanes distances;
+      distance.store(distances.lane);
+      VectorLanes colour;
+      colour.template store<S>(arrival.colour);
+      traversal.attenuate(rays, facing, distances, colour);
+      arrival.colour = colour.template load<S>();
+      shadow_rays += static_cast<uint32_t>(__builtin_popcount(facing));
+    }
+    const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
+    sum = sum + select<S>(S::M::from_bits(facing), detail::reflected_light<S>(s, m, arrival, !shadowless), dark);
+  }
+  return sum;
+}
+
+} // namespace celltrace::kernel

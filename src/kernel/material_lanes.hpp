@@ -1,0 +1,83 @@
+// The materials of sixteen hits side by side. Kernel dialect.
+#pragma once
+
+#include "kernel/scene_access.hpp"
+
+namespace celltrace::kernel {
+
+/// MaterialRecord in structure-of-arrays form.
+template <class S>
+struct MaterialLanes {
+  using F = typename S::F;
+  V3<S> pigment, ambient, reflection_min, reflection_max;
+  F filter, transmit, opacity, diffuse, brilliance, phong, phong_size, specular, inverse_roughness, metallic;
+  F reflection_falloff, reflection_metallic;
+  uint32_t fresnel = 0, conserve_energy = 0; ///< lanes
+  bool bends_diffuse = false;                ///< some brilliance is not 1
+  bool has_phong = false, has_specular = false, has_metallic = false, has_reflection = false;
+  bool has_falloff = false;
+  bool has_transmission = false;
+};
+
+/// The materials at `offsets` of the lanes in `lanes`; other lanes get that of one of them.
+template <class Spu>
+MaterialLanes<typename Spu::simd> gather_materials(SceneAccess<Spu>& scene, const WordLanes& offsets,
+                                                   uint32_t lanes) {
+  using S = typename Spu::simd;
+  using F = typename S::F;
+  MaterialLanes<S> m;
+  bool first = true;
+  for_each_value(offsets, lanes, [&](uint32_t offset, uint32_t same) {
+    const MaterialRecord& r = *scene.material(offset);
+    const auto take = S::M::from_bits(same);
+    const auto put = [&](F& field, float value) { field = first ? F(value) : S::select(take, F(value), field); };
+    const auto put3 = [&](V3<S>& field, const float (&value)[3]) {
+      put(field.x, value[0]);
+      put(field.y, value[1]);
+      put(field.z, value[2]);
+    };
+    put3(m.pigment, r.pigment);
+    put3(m.ambient, r.ambient);
+    put3(m.reflection_min, r.reflection_min);
+    put3(m.reflection_max, r.reflection_max);
+    put(m.filter, r.filter);
+    put(m.transmit, r.transmit);
+    put(m.opacity, r.opacity);
+    put(m.diffuse, r.diffuse);
+    put(m.brilliance, r.brilliance);
+    put(m.phong, r.phong);
+    put(m.phong_size, r.phong_size);
+    put(m.specular, r.specular);
+    put(m.inverse_roughness, r.inverse_roughness);
+    put(m.metallic, r.metallic);
+    put(m.reflection_falloff, r.reflection_falloff);
+    put(m.reflection_metallic, r.reflection_metallic);
+    if ((r.flags & material_flag::fresnel) != 0) m.fresnel |= same;
+    if ((r.flags & material_flag::conserve_energy) != 0) m.conserve_energy |= same;
+    const auto any = [](const float (&v)[3]) { return v[0] != 0.0f || v[1] != 0.0f || v[2] != 0.0f; };
+    m.bends_diffuse |= r.brilliance != 1.0f;
+    m.has_phong |= r.phong > 0.0f;
+    m.has_specular |= r.specular > 0.0f;
+    m.has_metallic |= r.metallic != 0.0f;
+    m.has_reflection |= any(r.reflection_min) || any(r.reflection_max);
+    m.has_falloff |= r.reflection_falloff != 1.0f;
+    m.has_transmission |= r.filter != 0.0f || r.transmit != 0.0f;
+    first = false;
+  });
+  return m;
+}
+
+/// POV-Ray's tint of metallic highlights and reflections: 1 + m (1 - F(x)) (pigment - 1), where x is the angle over a
+/// right angle.
+template <class S>
+V3<S> metallic_tint(const typename S::F& metallic, const typename S::F& cosine, const V3<S>& pigment) {
+  using F = typename S::F;
+  const F x = acos_unit<S>(S::min(S::max(cosine, F(0.0f)), F(1.0f))) * F(0.63661977f);
+  const F away = x - F(1.12f);
+  const F fresnel = S::min(S::max(F(0.014567225f) / (away * away) - F(0.011612903f), F(0.0f)), F(1.0f));
+  const F tint = metallic * (F(1.0f) - fresnel);
+  const V3<S> one = {F(1.0f), F(1.0f), F(1.0f)};
+  return one + (pigment - one) * tint;
+}
+
+} // namespace celltrace::kernel

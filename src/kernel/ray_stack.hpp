@@ -1,0 +1,78 @@
+// The ray tree without recursion: a stack of ray packets that are still to be traced. Kernel dialect.
+#pragma once
+
+#include "kernel/packet.hpp"
+
+namespace celltrace::kernel {
+
+/// A packet of rays with what each contributes and where it stands. `interiors[d]` are, per lane, the offsets of the
+/// interiors that the ray is inside of, outermost first, `interior_depth` of them.
+struct alignas(128) RayNode {
+  RayPacket rays;
+  VectorLanes throughput;   ///< what the ray's colour is multiplied by on its way into the pixel
+  FloatLanes weight;        ///< POV-Ray's weight of the ray, which adaptive depth control compares
+  WordLanes level;          ///< trace level, 0 for primary rays
+  WordLanes interior_depth;
+  WordLanes interiors[kMaxInteriorDepth];
+  uint32_t lanes; ///< bit l: lane l is a ray
+};
+
+constexpr uint32_t kRayNodeBytes = sizeof(RayNode);
+static_assert(kRayNodeBytes % 128 == 0 && kRayNodeBytes <= kMaxDmaBytes, "spilled by one DMA command");
+
+/// A stack whose first `kResident` nodes are in local store; deeper ones are spilled to main memory, at most
+/// `spill_nodes` of them. Depth-first order makes a tree of level n need n + 1 nodes at most.
+template <class Spu>
+class RayStack {
+public:
+  static constexpr uint32_t kResident = 12;
+
+  RayStack(Spu& spu, ea_t spill, uint32_t spill_nodes)
+      : spu_(spu), resident_(spu.template allocate<RayNode>(kResident)), spill_(spill),
+        capacity_(kResident + spill_nodes) {}
+
+  bool empty() const { return size_ == 0; }
+
+  /// False if the stack is full.
+  bool push(const RayNode& node) {
+    if (size_ == capacity_) return false;
+    if (size_ < kResident) {
+      resident_[size_] = node;
+    } else {
+      spu_.put(&node, place(size_), kRayNodeBytes, kTag);
+      spu_.wait_all(1u << kTag);
+      ++spilled_;
+    }
+    ++size_;
+    return true;
+  }
+
+  /// `node` lies in local store.
+  void pop(RayNode& node) {
+    --size_;
+    if (size_ < kResident) {
+      node = resident_[size_];
+      return;
+    }
+    spu_.get(&node, place(size_), kRayNodeBytes, kTag);
+    spu_.wait_all(1u << kTag);
+  }
+
+  void reset_counters() { spilled_ = 0; }
+  /// Nodes that went to main memory since the counters were reset.
+  uint32_t spilled() const { return spilled_; }
+
+private:
+  static constexpr uint32_t kTag = 6;
+
+  ea_t place(uint32_t index) const { return spill_ + (index - kResident) * kRayNodeBytes; }
+
+  Spu& spu_;
+  RayNode* resident_;
+  ea_t spill_;
+  uint32_t capacity_;
+  uint32_t size_ = 0;
+  uint32_t spilled_ = 0;
+};
+
+} // namespace celltrace::kernel

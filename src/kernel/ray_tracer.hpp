@@ -1,0 +1,209 @@
+// Raytrace: what a packet of primary rays sees. The ray tree is walked with an explicit stack and cut by level and by
+// contribution (adaptive depth control, Hall and Greenberg 1983). Kernel dialect.
+#pragma once
+
+#include "kernel/lighting.hpp"
+#include "kernel/secondary_rays.hpp"
+
+namespace celltrace::kernel {
+
+struct RayCounters {
+  uint64_t primary = 0, shadow = 0, reflection = 0, refraction = 0;
+  uint64_t dropped = 0; ///< beyond what the stacks hold
+};
+
+template <class Spu>
+class RayTracer {
+public:
+  using S = typename Spu::simd;
+  using F = typename S::F;
+  using I = typename S::I;
+  using M = typename S::M;
+
+  RayTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, ea_t spill)
+      : frame_(frame), scene_(scene), traversal_(*place_traversal(spu, frame, scene)),
+        stack_(spu, spill, frame.ray_stack_nodes), node_(*spu.template allocate<RayNode>()),
+        child_(*spu.template allocate<RayNode>()) {}
+
+  /// The colours of primary rays; `rays` are of unit direction and leave the camera.
+  V3<S> trace(const RayPacket& rays, uint32_t lanes) {
+    colour_ = {F(0.0f), F(0.0f), F(0.0f)};
+    push_primary(rays, lanes);
+    while (!stack_.empty()) {
+      stack_.pop(node_);
+      trace_node();
+    }
+    return colour_;
+  }
+
+  void reset_counters() {
+    counters_ = RayCounters();
+    traversal_.reset_counters();
+    stack_.reset_counters();
+  }
+  const RayCounters& counters() const { return counters_; }
+  const TraversalCounters& traversal_counters() const { return traversal_.counters(); }
+  uint32_t spilled_nodes() const { return stack_.spilled(); }
+
+private:
+  static Traversal<Spu>* place_traversal(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene) {
+    struct Storage {
+      alignas(16) uint8_t bytes[sizeof(Traversal<Spu>)];
+    };
+    return new (static_cast<void*>(spu.template allocate<Storage>())) Traversal<Spu>(scene, frame.grid);
+  }
+
+  static uint32_t count(uint32_t lanes) { return static_cast<uint32_t>(__builtin_popcount(lanes)); }
+
+  void push_primary(const RayPacket& rays, uint32_t lanes) {
+    child_.rays = rays;
+    child_.throughput.template store<S>({F(1.0f), F(1.0f), F(1.0f)});
+    F(1.0f).store(child_.weight.lane);
+    for (uint32_t lane = 0; lane < kSimdLanes; ++lane) {
+      child_.level.lane[lane] = 0;
+      child_.interior_depth.lane[lane] = frame_.camera_interior_count;
+      for (uint32_t d = 0; d < frame_.camera_interior_count; ++d)
+        child_.interiors[d].lane[lane] = frame_.camera_interiors[d];
+    }
+    child_.lanes = lanes;
+    counters_.primary += count(lanes);
+    push();
+  }
+
+  void push() {
+    if (!stack_.push(child_)) counters_.dropped += count(child_.lanes);
+  }
+
+  void add(uint32_t lanes, const V3<S>& light) {
+    const V3<S> weighted = light * node_.throughput.template load<S>();
+    colour_ = select<S>(M::from_bits(lanes), colour_ + weighted, colour_);
+  }
+
+  void trace_node() {
+    traversal_.find_closest(node_.rays, node_.lanes, hits_);
+    uint32_t hit = 0;
+    for_each_lane(node_.lanes,
+                  [&](uint32_t lane) { hit |= static_cast<uint32_t>(hits_.object.lane[lane] != kNoOffset) << lane; });
+    const uint32_t missed = node_.lanes & ~hit;
+    if (missed != 0) add(missed, splat3<S>(frame_.background));
+    if (hit == 0) return;
+
+    const HitPoints<S> points = find_hit_points(scene_, node_.rays, hits_, hit);
+    const Surfaces<S> surfaces = {points.point, points.normal, node_.rays.direction.template load<S>(), &hits_.object};
+    if (const uint32_t plain = hit & ~points.blended; plain != 0)
+      shade(surfaces, points.interior, points.material, plain, V3<S>{F(1.0f), F(1.0f), F(1.0f)});
+    if (points.blended != 0) shade_blended(surfaces, points);
+  }
+
+  /// Faces with three materials: each is shaded whole, and the results are blended by the vertices' weights.
+  void shade_blended(const Surfaces<S>& surfaces, const HitPoints<S>& points) {
+    const F u = F::load(hits_.u.lane);
+    const F v = F::load(hits_.v.lane);
+    const F weights[3] = {F(1.0f) - u - v, u, v};
+    for (uint32_t corner = 0; corner < 3; ++corner) {
+      WordLanes materials = points.material;
+      for_each_lane(points.blended, [&](uint32_t lane) {
+        materials.lane[lane] = scene_.blend(points.material.lane[lane])->material[corner];
+      });
+      const F w = weights[corner];
+      shade(surfaces, points.interior, materials, points.blended, V3<S>{w, w, w});
+    }
+  }
+
+  /// Adds the surface's own light, times `share`, and pushes the rays that go on.
+  void shade(const Surfaces<S>& surfaces, const WordLanes& interior, const WordLanes& materials, uint32_t lanes,
+             const V3<S>& share) {
+    const MaterialLanes<S> m = gather_materials(scene_, materials, lanes);
+    add(lanes, local_light(scene_, traversal_, frame_, surfaces, m, lanes, counters_.shadow) * share);
+    if (!m.has_reflection && !m.has_transmission) return;
+
+    const F cosine = -dot<S>(surfaces.direction, surfaces.normal);
+    F fresnel_ratio(1.0f);
+    if (m.fresnel != 0) {
+      child_ = node_;
+      fresnel_ratio = F::load(cross_surfaces(scene_, interior, lanes & m.fresnel, child_, counters_.dropped).ratio.lane);
+    }
+    const V3<S> mirrored = reflectivity<S>(m, cosine, fresnel_ratio);
+    uint32_t total = 0;
+    if (m.has_transmission) total = transmit(surfaces, interior, m, lanes, share, cosine, mirrored);
+    if (m.has_reflection) reflect(surfaces, lanes & ~total, share, cosine, mirrored);
+  }
+
+  /// Fills child_ with rays from the surfaces whose weight and level allow them; false if there are none.
+  bool prepare_child(const Surfaces<S>& surfaces, const V3<S>& direction, const V3<S>& throughput, const F& weight,
+                     uint32_t one_level_deeper, uint32_t lanes) {
+    uint32_t go = 0;
+    const M heavy = weight >= F(frame_.adc_bailout);
+    for_each_lane(lanes & heavy.bits(), [&](uint32_t lane) {
+      const uint32_t level = node_.level.lane[lane] + ((one_level_deeper >> lane) & 1);
+      child_.level.lane[lane] = level;
+      go |= static_cast<uint32_t>(level < frame_.max_trace_level) << lane;
+    });
+    if (go == 0) return false;
+    child_.rays.origin.template store<S>(surfaces.point);
+    child_.rays.direction.template store<S>(direction);
+    child_.rays.start_object = *surfaces.objects;
+    child_.throughput.template store<S>(node_.throughput.template load<S>() * throughput);
+    weight.store(child_.weight.lane);
+    child_.lanes = go;
+    return true;
+  }
+
+  void reflect(const Surfaces<S>& surfaces, uint32_t lanes, const V3<S>& share,
+               const F& cosine, const V3<S>& mirrored) {
+    const F strength = max_component<S>(mirrored);
+    const uint32_t mirrors = (strength > F(0.0f)).bits() & lanes;
+    child_.interior_depth = node_.interior_depth;
+    for (uint32_t d = 0; d < kMaxInteriorDepth; ++d) child_.interiors[d] = node_.interiors[d];
+    if (!prepare_child(surfaces, mirror<S>(surfaces.direction, surfaces.normal, cosine), mirrored * share,
+                       F::load(node_.weight.lane) * strength, mirrors, mirrors))
+      return;
+    counters_.reflection += count(child_.lanes);
+    push();
+  }
+
+  /// Pushes the transmitted rays; returns the lanes that were totally reflected.
+  uint32_t transmit(const Surfaces<S>& surfaces, const WordLanes& interior, const MaterialLanes<S>& m, uint32_t lanes,
+                    const V3<S>& share, const F& cosine, const V3<S>& mirrored) {
+    const V3<S> one = {F(1.0f), F(1.0f), F(1.0f)};
+    V3<S> filter = m.pigment * m.filter + V3<S>{m.transmit, m.transmit, m.transmit};
+    filter = select<S>(M::from_bits(m.conserve_energy), filter * (one - mirrored), filter);
+    const uint32_t clear = (grey<S>(filter) > F(frame_.adc_bailout)).bits() & lanes;
+    if (clear == 0) return 0;
+
+    child_.interior_depth = node_.interior_depth;
+    for (uint32_t d = 0; d < kMaxInteriorDepth; ++d) child_.interiors[d] = node_.interiors[d];
+    const Refraction refraction = cross_surfaces(scene_, interior, clear, child_, counters_.dropped);
+    M beyond = M::none();
+    const V3<S> bent =
+        refract<S>(surfaces.direction, surfaces.normal, cosine, F::load(refraction.ratio.lane), beyond);
+    const uint32_t total = beyond.bits() & clear & ~refraction.straight;
+    const M total_mask = M::from_bits(total);
+    V3<S> direction = select<S>(M::from_bits(refraction.straight), surfaces.direction, bent);
+    direction = select<S>(total_mask, mirror<S>(surfaces.direction, surfaces.normal, cosine), direction);
+    // A totally reflected ray stays inside, unfiltered.
+    for_each_lane(total, [&](uint32_t lane) {
+      child_.interior_depth.lane[lane] = node_.interior_depth.lane[lane];
+      for (uint32_t d = 0; d < kMaxInteriorDepth; ++d) child_.interiors[d].lane[lane] = node_.interiors[d].lane[lane];
+    });
+    const V3<S> throughput = select<S>(total_mask, one, filter) * share;
+    const F weight = F::load(node_.weight.lane) * max_component<S>(select<S>(total_mask, one, filter));
+    if (prepare_child(surfaces, direction, throughput, weight, clear & ~refraction.straight, clear)) {
+      counters_.refraction += count(child_.lanes);
+      push();
+    }
+    return total;
+  }
+
+  const FrameBlock& frame_;
+  SceneAccess<Spu>& scene_;
+  Traversal<Spu>& traversal_;
+  RayStack<Spu> stack_;
+  RayNode& node_;  ///< being traced
+  RayNode& child_; ///< being made
+  HitPacket hits_;
+  V3<S> colour_;
+  RayCounters counters_;
+};
+
+} // namespace celltrace::kernel

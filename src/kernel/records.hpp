@@ -1,0 +1,247 @@
+// The records that cross DMA between the PPE and the SPE program: the tables of the scene image, the frame, and
+// what an SPE reports. Fixed-width types, 16-byte aligned, sizes asserted; offsets are bytes from the base of the
+// scene image. Kernel dialect.
+#pragma once
+
+#include "celltrace/spe/types.hpp"
+
+#include <stdint.h>
+
+namespace celltrace::kernel {
+
+constexpr uint32_t kNoOffset = 0xFFFFFFFFu;
+
+// --- scene image ---------------------------------------------------------------------------------------------------
+
+/// What an object record describes; low byte of ObjectRecord::kind_and_flags.
+enum class ObjectKind : uint32_t { sphere = 0, ellipsoid = 1, triangle = 2 };
+
+namespace object_flag {
+constexpr uint32_t kind_mask = 0xFF;
+constexpr uint32_t smooth = 0x100;    ///< triangle with vertex normals
+constexpr uint32_t no_shadow = 0x200; ///< shadow rays pass
+constexpr uint32_t opaque = 0x400;    ///< shadow rays stop
+constexpr uint32_t blended = 0x800;   ///< `material` is the offset of a BlendRecord
+} // namespace object_flag
+
+/// Geometry by kind: sphere: centre (0..2), radius (3), 1/radius (4). Ellipsoid: the affine map from the world to
+/// the unit sphere, three rows of four (xyz | offset). Triangle: its vertices (0..2, 3..5, 6..8).
+struct alignas(64) ObjectRecord {
+  uint32_t kind_and_flags;
+  uint32_t material; ///< offset of a MaterialRecord, or of a BlendRecord if `blended`
+  uint32_t interior; ///< offset of an InteriorRecord; also identifies the inside
+  uint32_t normals;  ///< offset of a NormalsRecord if `smooth`
+  float geometry[12];
+};
+static_assert(sizeof(ObjectRecord) == 64, "two objects a line");
+
+/// Unit normals at the three vertices: xyz each.
+struct alignas(64) NormalsRecord {
+  float normal[9];
+  float unused[7];
+};
+static_assert(sizeof(NormalsRecord) == 64, "two records a line");
+
+/// A face whose vertices have different materials, blended by barycentric coordinates.
+struct alignas(16) BlendRecord {
+  uint32_t material[3];
+  uint32_t unused;
+};
+static_assert(sizeof(BlendRecord) == 16, "crosses DMA");
+
+namespace material_flag {
+constexpr uint32_t fresnel = 0x1;
+constexpr uint32_t conserve_energy = 0x2;
+} // namespace material_flag
+
+/// Pigment and finish, with what is constant per frame computed beforehand.
+struct alignas(128) MaterialRecord {
+  float pigment[3];
+  float filter;
+  float transmit;
+  float opacity;
+  float ambient[3]; ///< finish ambient times the scene's ambient light, plus emission
+  float diffuse;
+  float brilliance;
+  float phong;
+  float phong_size;
+  float specular;
+  float inverse_roughness;
+  float metallic;
+  float reflection_min[3];
+  float reflection_max[3];
+  float reflection_falloff;
+  float reflection_metallic;
+  uint32_t flags;
+  uint32_t unused[7];
+};
+static_assert(sizeof(MaterialRecord) == 128, "one material a line");
+
+struct alignas(16) InteriorRecord {
+  float ior;
+  uint32_t unused[3];
+};
+static_assert(sizeof(InteriorRecord) == 16, "crosses DMA");
+
+namespace light_flag {
+constexpr uint32_t shadowless = 0x1;
+}
+
+struct alignas(32) LightRecord {
+  float location[3];
+  uint32_t flags;
+  float colour[3];
+  uint32_t unused;
+};
+static_assert(sizeof(LightRecord) == 32, "four lights a line");
+
+/// A voxel: where its list of object offsets starts, and how many there are.
+struct alignas(8) CellRecord {
+  uint32_t list; ///< offset of the first of `count` words
+  uint32_t count;
+};
+static_assert(sizeof(CellRecord) == 8, "sixteen voxels a line");
+
+/// Head of a scene image.
+struct alignas(128) ImageHeader {
+  uint32_t magic;
+  uint32_t version;
+  uint64_t bytes;    ///< of the static part, this header included
+  uint64_t checksum; ///< of the static part with this field 0
+  uint32_t object_offset, object_count;
+  uint32_t material_offset, material_count;
+  uint32_t interior_offset, interior_count;
+  uint32_t light_offset, light_count;
+  uint32_t normals_offset, normals_count;
+  uint32_t blend_offset, blend_count;
+  float bounds_min[3];
+  float bounds_max[3];
+  uint32_t unused[8];
+};
+static_assert(sizeof(ImageHeader) == 128, "one line");
+
+// --- frame ---------------------------------------------------------------------------------------------------------
+
+/// Rays: through pixel (x, y) goes base + x*dx + y*dy, as a direction from `origin` (perspective, not normalised) or
+/// as an origin with direction `origin` (orthographic).
+struct alignas(16) CameraRecord {
+  float origin[4];
+  float base[4];
+  float dx[4];
+  float dy[4];
+};
+static_assert(sizeof(CameraRecord) == 64, "crosses DMA");
+
+/// The uniform grid. Voxel (x, y, z) has index x + y*cells[0] + z*cells[0]*cells[1].
+struct alignas(16) GridRecord {
+  float min[3];
+  uint32_t cell_offset;
+  float max[3];
+  uint32_t list_offset;
+  float cell_size[3];
+  uint32_t list_capacity; ///< words
+  float inverse_cell_size[3];
+  uint32_t list_count; ///< words in use, set by PREPARE FRAME
+  uint32_t cells[3];
+  uint32_t row_of_cells; ///< cells[0] * cells[1]
+};
+static_assert(sizeof(GridRecord) == 80, "crosses DMA");
+
+enum class GammaEncoding : uint32_t { none = 0, assumed = 1 };
+enum class BalanceMode : uint32_t { fixed = 0, gde = 1 };
+
+constexpr uint32_t kMaxInteriorDepth = 8;
+constexpr uint32_t kPacketEdge = 4; ///< a packet is 4x4 rays
+
+/// Everything an SPE needs for a frame. Lies in main memory at a place that does not change while the SPEs run.
+struct alignas(128) FrameBlock {
+  CameraRecord camera;
+  GridRecord grid;
+
+  ea_t image;          ///< base of the scene image
+  ea_t surface;        ///< RGBA8, rows of `surface_pitch` bytes, both multiples of 16 bytes
+  ea_t strips;         ///< StripRecord per SPE: the rows it starts the frame with
+  ea_t reports;        ///< ReportRecord per SPE
+  ea_t ray_stack;      ///< spill area: ray_stack_nodes nodes of kRayNodeBytes per SPE
+  ea_t sort_buffer[2]; ///< PREPARE FRAME's (cell, object) pairs, 8 bytes each; `sort_capacity` pairs
+  ea_t unused_ea;
+
+  uint32_t width, height; ///< pixels
+  uint32_t packet_columns, packet_rows;
+  uint32_t surface_pitch;
+  uint32_t sort_capacity;
+  uint32_t ray_stack_nodes;
+  uint32_t orthographic; ///< 0 or 1
+
+  uint32_t object_offset, object_count;
+  uint32_t light_offset, light_count;
+  uint32_t max_trace_level;
+  float adc_bailout;
+  uint32_t gamma_encoding; ///< GammaEncoding
+  float assumed_gamma;
+
+  float background[3];
+  uint32_t epoch; ///< counts frames
+
+  uint32_t cache_ways, cache_sets, cache_replacement, cache_enabled;
+
+  uint32_t balance; ///< BalanceMode
+  uint32_t exchange_parameter; ///< lambda, 16-bit fixed point
+  uint32_t camera_interior_count;
+  uint32_t unused_word;
+  uint32_t camera_interiors[kMaxInteriorDepth]; ///< offsets, outermost first
+};
+static_assert(sizeof(FrameBlock) % 128 == 0 && sizeof(FrameBlock) <= 512, "fetched by one DMA command");
+
+/// Packet rows [begin, end) that an SPE starts a frame with.
+struct alignas(16) StripRecord {
+  uint32_t begin, end;
+  uint32_t unused[2];
+};
+static_assert(sizeof(StripRecord) == 16, "crosses DMA");
+
+/// What an SPE did in a frame.
+struct alignas(128) ReportRecord {
+  uint64_t primary_rays, shadow_rays, reflection_rays, refraction_rays;
+  uint64_t sphere_tests, ellipsoid_tests, triangle_tests; ///< packet against object
+  uint64_t voxels_visited;
+  uint64_t cache_hits[4], cache_misses[4]; ///< by DataKind
+  uint64_t dropped_rays; ///< rays beyond the depth of the interior stack
+  uint32_t rows;         ///< packet rows rendered
+  uint32_t exchanges;    ///< balance exchanges completed
+  uint32_t rows_received;
+  uint32_t spilled_nodes;
+  uint32_t list_entries; ///< PREPARE FRAME
+  uint32_t unused[9];
+};
+static_assert(sizeof(ReportRecord) == 256, "two lines");
+
+/// Kinds of data that the cache counts separately.
+enum class DataKind : uint32_t { list = 0, object = 1, material = 2, light = 3 };
+constexpr uint32_t kDataKinds = 4;
+
+// --- words between PPE and SPE ----------------------------------------------------------------------------------------
+
+/// Bits of signal 1, PPE to SPE. The register is in logical-OR mode.
+namespace command {
+constexpr uint32_t prepare_frame = 0x1;
+constexpr uint32_t render_frame = 0x2;
+constexpr uint32_t synchronize = 0x4;
+constexpr uint32_t camera_moved = 0x8;
+constexpr uint32_t quit = 0x10;
+} // namespace command
+
+/// Outbound mailbox, SPE to PPE: kind in the top four bits, a count below.
+enum class ReportKind : uint32_t {
+  prepared = 1,     ///< count: 0
+  needs_memory = 2, ///< PREPARE FRAME ran out of room for pairs; the report's list_entries says how many there are
+  progress = 3,     ///< count: packet rows rendered in this frame so far
+  idle = 4,         ///< as progress, and nothing left to do
+  finished = 5,     ///< left the frame; the report record is written
+  synchronised = 6,
+};
+constexpr uint32_t make_report(ReportKind kind, uint32_t count) { return (static_cast<uint32_t>(kind) << 28) | count; }
+constexpr ReportKind report_kind(uint32_t word) { return static_cast<ReportKind>(word >> 28); }
+constexpr uint32_t report_count(uint32_t word) { return word & 0x0FFFFFFFu; }
+
+} // namespace celltrace::kernel

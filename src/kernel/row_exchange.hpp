@@ -1,0 +1,114 @@
+// The balancer's transport on an SPE: words by mailbox, doorbells by signal 2, inside the frame's event domain.
+// Kernel dialect.
+#pragma once
+
+#include "celltrace/balance/strip.hpp"
+#include "kernel/records.hpp"
+
+namespace celltrace::kernel {
+
+/// Connects a StripNode to the SPE's mailbox and signal 2, and to the PPE.
+template <class Spu>
+class RowExchange {
+public:
+  explicit RowExchange(Spu& spu) : spu_(spu), node_(spu.id(), spu.count()) {}
+
+  /// Enters the frame's event domain: only signal 2 and the mailbox.
+  void begin_frame(const FrameBlock& frame, RowRange rows) {
+    over_ = false;
+    epoch_ = frame.epoch & (strip_word::kEpochs - 1);
+    exchanges_ = 0;
+    received_ = 0;
+    const uint32_t lambda =
+        static_cast<BalanceMode>(frame.balance) == BalanceMode::gde ? frame.exchange_parameter : 0;
+    node_.begin_frame(frame.epoch, rows, lambda);
+    spu_.write_event_mask(kDomain);
+    act();
+  }
+  void end_frame() { node_.end_frame(); }
+
+  bool take_row(uint32_t& row) { return node_.take_row(row); }
+  void complete_row() {
+    node_.complete_row();
+    if (spu_.out_mailbox_count() != 0)
+      spu_.write_out_mailbox(make_report(ReportKind::progress, node_.completed()));
+  }
+
+  /// Handles what has arrived, without stalling. Cheap when nothing has.
+  void poll() {
+    if (spu_.event_count() != 0) handle();
+  }
+  /// Does what a dry node has to do, then stalls until something arrives.
+  void wait() {
+    act();
+    if (node_.remaining().empty() && !over_) handle();
+  }
+  /// The PPE has declared the frame finished.
+  bool over() const { return over_; }
+
+  /// Words that brought this node rows, or took some, in this frame.
+  uint32_t exchanges() const { return exchanges_; }
+  uint32_t rows_received() const { return received_; }
+
+private:
+  static constexpr uint32_t kDomain = event::signal_2 | event::in_mailbox;
+
+  /// The safe order of an event handler: mask, read, acknowledge, drain, unmask. A phantom event finds nothing to
+  /// drain.
+  void handle() {
+    const uint32_t events = spu_.read_event_status();
+    spu_.write_event_mask(0);
+    spu_.acknowledge_events(events);
+    drain_doorbell();
+    while (spu_.in_mailbox_count() != 0) {
+      on_word(spu_.read_in_mailbox());
+      drain_doorbell();
+    }
+    spu_.write_event_mask(kDomain);
+    act();
+  }
+  /// A doorbell that came before a word has to be seen before it.
+  void drain_doorbell() {
+    if (spu_.signal_2_count() != 0) node_.on_doorbell(spu_.read_signal_2());
+  }
+  void on_word(uint32_t word) {
+    if (strip_word::from_ppe(word)) {
+      over_ = over_ || strip_word::epoch(word) == epoch_;
+      return;
+    }
+    const uint32_t before = node_.remaining().count;
+    node_.on_word(word);
+    const uint32_t after = node_.remaining().count;
+    if (before != after) ++exchanges_;
+    if (after > before) received_ += after - before;
+  }
+
+  void act() {
+    for (;;) {
+      const StripAction action = node_.next_action();
+      switch (action.kind) {
+      case StripAction::Kind::none:
+        return;
+      case StripAction::Kind::send_word:
+        if (action.doorbell != 0) spu_.send_signal(action.neighbour, Signal::two, action.doorbell);
+        spu_.send_mailbox(action.neighbour, action.word);
+        break;
+      case StripAction::Kind::ring:
+        spu_.send_signal(action.neighbour, Signal::two, action.doorbell);
+        break;
+      case StripAction::Kind::report_idle:
+        spu_.write_out_mailbox(make_report(ReportKind::idle, action.rows));
+        break;
+      }
+    }
+  }
+
+  Spu& spu_;
+  StripNode node_;
+  uint32_t epoch_ = 0;
+  bool over_ = true;
+  uint32_t exchanges_ = 0;
+  uint32_t received_ = 0;
+};
+
+} // namespace celltrace::kernel

@@ -1,0 +1,38 @@
+// Every read of the scene by the tracer goes through here, and so through the software cache. Kernel dialect.
+#pragma once
+
+#include "celltrace/cache.hpp"
+#include "kernel/records.hpp"
+
+namespace celltrace::kernel {
+
+/// Typed reads of the scene image by offset. A returned pointer is valid until the next read of any kind.
+template <class Spu>
+class SceneAccess {
+public:
+  SceneAccess(Spu& spu, const CacheConfig& config, ea_t image) : cache_(spu, config, image) {}
+
+  const ObjectRecord* object(uint32_t offset) { return read<ObjectRecord>(offset, DataKind::object); }
+  const NormalsRecord* normals(uint32_t offset) { return read<NormalsRecord>(offset, DataKind::object); }
+  const MaterialRecord* material(uint32_t offset) { return read<MaterialRecord>(offset, DataKind::material); }
+  const BlendRecord* blend(uint32_t offset) { return read<BlendRecord>(offset, DataKind::material); }
+  const InteriorRecord* interior(uint32_t offset) { return read<InteriorRecord>(offset, DataKind::material); }
+  const LightRecord* light(uint32_t offset) { return read<LightRecord>(offset, DataKind::light); }
+  /// By value: a voxel's list is read while its record would have to stay.
+  CellRecord cell(const GridRecord& grid, uint32_t index) {
+    return *read<CellRecord>(grid.cell_offset + index * static_cast<uint32_t>(sizeof(CellRecord)), DataKind::list);
+  }
+  uint32_t list_word(uint32_t offset) { return *read<uint32_t>(offset, DataKind::list); }
+
+  SoftwareCache<Spu, DataKind>& cache() { return cache_; }
+
+private:
+  template <class T>
+  const T* read(uint32_t offset, DataKind kind) {
+    return cache_.template get<T>(offset, kind);
+  }
+
+  SoftwareCache<Spu, DataKind> cache_;
+};
+
+} // namespace celltrace::kernel

@@ -1,0 +1,110 @@
+// Where light goes on from a surface: mirror reflection, transmission with refraction, total internal reflection.
+// Kernel dialect.
+#pragma once
+
+#include "kernel/hit_points.hpp"
+#include "kernel/material_lanes.hpp"
+#include "kernel/ray_stack.hpp"
+
+namespace celltrace::kernel {
+
+/// Relative index of refraction (from over to) at each lane's surface. `straight`: lanes whose ray goes on as it came.
+struct Refraction {
+  FloatLanes ratio;
+  uint32_t straight = 0;
+};
+
+/// Crosses the surface into or out of `interior` in each of `lanes`: updates the interiors that `child` is inside of
+/// and says how the ray bends. Leaving an interior that is not the innermost does not bend. Counts rays that are
+/// inside more interiors than a node holds; these lose the outermost.
+template <class Spu>
+Refraction cross_surfaces(SceneAccess<Spu>& scene, const WordLanes& interior, uint32_t lanes, RayNode& child,
+                          uint64_t& overflows) {
+  const auto ior_of = [&](uint32_t offset) { return scene.interior(offset)->ior; };
+  Refraction result;
+  for (uint32_t lane = 0; lane < kSimdLanes; ++lane) result.ratio.lane[lane] = 1.0f;
+  for_each_lane(lanes, [&](uint32_t lane) {
+    uint32_t& depth = child.interior_depth.lane[lane];
+    const auto at = [&](uint32_t d) -> uint32_t& { return child.interiors[d].lane[lane]; };
+    const uint32_t self = interior.lane[lane];
+    uint32_t found = depth;
+    for (uint32_t d = 0; d < depth; ++d)
+      if (at(d) == self) found = d;
+
+    float from = 1.0f;
+    float to = 1.0f;
+    if (found < depth) {
+      if (found + 1 == depth) {
+        from = ior_of(self);
+        to = depth > 1 ? ior_of(at(depth - 2)) : 1.0f;
+      }
+      for (uint32_t d = found; d + 1 < depth; ++d) at(d) = at(d + 1);
+      --depth;
+    } else {
+      from = depth > 0 ? ior_of(at(depth - 1)) : 1.0f;
+      to = ior_of(self);
+      if (depth == kMaxInteriorDepth) {
+        for (uint32_t d = 0; d + 1 < depth; ++d) at(d) = at(d + 1);
+        --depth;
+        ++overflows;
+      }
+      at(depth++) = self;
+    }
+    const float ratio = from / to;
+    result.ratio.lane[lane] = ratio;
+    if (ratio > 1.0f - 1e-6f && ratio < 1.0f + 1e-6f) result.straight |= 1u << lane;
+  });
+  return result;
+}
+
+/// Snell's law in vector form. `cosine` = -direction.normal >= 0. Lanes beyond the critical angle go to `total`.
+template <class S>
+V3<S> refract(const V3<S>& direction, const V3<S>& normal, const typename S::F& cosine, const typename S::F& ratio,
+              typename S::M& total) {
+  using F = typename S::F;
+  const F square = F(1.0f) + ratio * ratio * (cosine * cosine - F(1.0f));
+  total = square < F(0.0f);
+  const F along_normal = ratio * cosine - S::sqrt(S::max(square, F(0.0f)));
+  return normalise<S>(direction * ratio + normal * along_normal);
+}
+
+template <class S>
+V3<S> mirror(const V3<S>& direction, const V3<S>& normal, const typename S::F& cosine) {
+  return normalise<S>(direction + normal * (cosine + cosine));
+}
+
+/// Fresnel reflectance of unpolarised light, going from index `from` to `to` at `cosine` to the normal; 1 beyond the
+/// critical angle.
+template <class S>
+typename S::F fresnel_reflectance(const typename S::F& ratio, const typename S::F& cosine) {
+  using F = typename S::F;
+  // With n = to/from: g^2 = n^2 + c^2 - 1.
+  const F n = F(1.0f) / ratio;
+  const F square = n * n + cosine * cosine - F(1.0f);
+  const F g = S::sqrt(S::max(square, F(0.0f)));
+  const F sum = g + cosine;
+  const F a = (g - cosine) / S::max(sum, F(1e-20f));
+  const F b = (cosine * sum - F(1.0f)) / S::max(cosine * (g - cosine) + F(1.0f), F(1e-20f));
+  const F reflectance = F(0.5f) * a * a * (F(1.0f) + b * b);
+  return S::select(square > F(0.0f), S::min(reflectance, F(1.0f)), F(1.0f));
+}
+
+/// The fraction of each colour that a surface mirrors. `fresnel_ratio` is read in lanes of the material's fresnel.
+template <class S>
+V3<S> reflectivity(const MaterialLanes<S>& m, const typename S::F& cosine, const typename S::F& fresnel_ratio) {
+  using F = typename S::F;
+  V3<S> result = m.reflection_min;
+  const F grazing = S::max(F(1.0f) - cosine, F(0.0f));
+  const F share = m.has_falloff ? pow<S>(grazing, m.reflection_falloff) : grazing;
+  result = result + (m.reflection_max - m.reflection_min) * share;
+  if (m.fresnel != 0) {
+    const F f = fresnel_reflectance<S>(fresnel_ratio, cosine);
+    const V3<S> curved = m.reflection_max * f + m.reflection_min * (F(1.0f) - f);
+    result = select<S>(S::M::from_bits(m.fresnel), curved, result);
+  }
+  if (m.has_metallic || m.has_reflection)
+    result = result * metallic_tint<S>(m.reflection_metallic, cosine, m.pigment);
+  return result;
+}
+
+} // namespace celltrace::kernel

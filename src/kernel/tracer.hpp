@@ -1,0 +1,190 @@
+// The SPE program: an autonomous ray tracer. Kernel dialect.
+//
+// Between frames only signal 1 (the PPE's commands) and the mailbox are enabled; inside a frame only signal 2 and the
+// mailbox (the neighbours' balancing, and the PPE's word that ends the frame).
+#pragma once
+
+#include "kernel/prepare_frame.hpp"
+#include "kernel/primary_rays.hpp"
+#include "kernel/ray_tracer.hpp"
+#include "kernel/row_exchange.hpp"
+#include "kernel/surface.hpp"
+
+namespace celltrace::kernel {
+
+template <class Spu>
+class Tracer {
+public:
+  /// `frame_block`: ea of the FrameBlock, which stays there as long as the program runs.
+  Tracer(Spu& spu, ea_t frame_block)
+      : spu_(spu), frame_block_(frame_block), frame_(*spu.template allocate<FrameBlock>()),
+        report_(*spu.template allocate<ReportRecord>()), strip_(*spu.template allocate<StripRecord>()), exchange_(spu),
+        free_(spu.mark()) {}
+
+  void run() {
+    spu_.write_event_mask(kDomain);
+    for (;;) {
+      const uint32_t events = spu_.read_event_status();
+      spu_.write_event_mask(0);
+      spu_.acknowledge_events(events);
+      if (spu_.signal_1_count() != 0) {
+        const uint32_t commands = spu_.read_signal_1();
+        if ((commands & command::quit) != 0) return;
+        obey(commands);
+      }
+      spu_.write_event_mask(kDomain);
+    }
+  }
+
+private:
+  static constexpr uint32_t kDomain = event::signal_1;
+  static constexpr uint32_t kTag = 0;
+
+  /// What rendering needs in local store; kept from frame to frame, so that the cache stays warm.
+  struct Phase {
+    Phase(Spu& spu, const FrameBlock& frame, const CacheConfig& config)
+        : image(frame.image), scene(spu, config, frame.image),
+          tracer(spu, frame, scene,
+                 frame.ray_stack + static_cast<ea_t>(spu.id() * frame.ray_stack_nodes) * kRayNodeBytes),
+          pixels(spu, frame) {}
+
+    ea_t image;
+    SceneAccess<Spu> scene;
+    RayTracer<Spu> tracer;
+    PixelWriter<Spu> pixels;
+  };
+
+  void obey(uint32_t commands) {
+    fetch(&frame_, frame_block_, sizeof(FrameBlock));
+    if ((commands & command::prepare_frame) != 0) prepare();
+    if ((commands & command::synchronize) != 0) synchronize();
+    if ((commands & command::render_frame) != 0) render();
+  }
+
+  void fetch(void* ls, ea_t ea, uint32_t bytes) {
+    spu_.get(ls, ea, bytes, kTag);
+    spu_.wait_all(1u << kTag);
+  }
+
+  void prepare() {
+    drop_phase();
+    const PrepareResult result = prepare_frame(spu_, frame_);
+    report_ = ReportRecord();
+    report_.list_entries = result.pairs;
+    send_report();
+    spu_.write_out_mailbox(make_report(result.built ? ReportKind::prepared : ReportKind::needs_memory, 0));
+  }
+
+  /// Data has changed in main memory, or a frame was broken off: nothing cached and no word of it is valid any more.
+  void synchronize() {
+    while (spu_.in_mailbox_count() != 0) spu_.read_in_mailbox();
+    if (phase_ != nullptr && phase_->image == frame_.image)
+      phase_->scene.cache().synchronize_all();
+    else
+      drop_phase();
+    spu_.write_out_mailbox(make_report(ReportKind::synchronised, 0));
+  }
+
+  void render() {
+    if (phase_ == nullptr) start_phase();
+    phase_->scene.cache().reset_counters();
+    phase_->tracer.reset_counters();
+    fetch(&strip_, frame_.strips + spu_.id() * sizeof(StripRecord), sizeof(StripRecord));
+    exchange_.begin_frame(frame_, RowRange{strip_.begin, strip_.end - strip_.begin});
+
+    uint32_t rows = 0;
+    while (!exchange_.over()) {
+      uint32_t row = 0;
+      if (!exchange_.take_row(row)) {
+        exchange_.wait();
+        continue;
+      }
+      if (!render_row(row)) break;
+      phase_->pixels.flush();
+      ++rows;
+      exchange_.complete_row();
+    }
+    phase_->pixels.flush();
+    exchange_.end_frame();
+    report(rows);
+    spu_.write_out_mailbox(make_report(ReportKind::finished, rows));
+  }
+
+  void start_phase() {
+    struct alignas(128) Storage {
+      uint8_t bytes[sizeof(Phase)];
+    };
+    phase_ = new (static_cast<void*>(spu_.template allocate<Storage>())) Phase(spu_, frame_, cache_config());
+  }
+  void drop_phase() {
+    phase_ = nullptr;
+    spu_.release(free_);
+  }
+
+  /// False if the frame was declared over on the way.
+  bool render_row(uint32_t row) {
+    RayPacket rays;
+    for (uint32_t column = 0; column < frame_.packet_columns; ++column) {
+      make_primary_rays<typename Spu::simd>(frame_, column, row, rays);
+      phase_->pixels.put(column, row, phase_->tracer.trace(rays, lanes_in_picture(frame_, column, row)));
+      exchange_.poll();
+      if (exchange_.over()) return false;
+    }
+    return true;
+  }
+
+  CacheConfig cache_config() const {
+    CacheConfig config;
+    config.ways = frame_.cache_ways;
+    config.sets = frame_.cache_sets;
+    config.replacement = static_cast<CacheReplacement>(frame_.cache_replacement);
+    config.enabled = frame_.cache_enabled != 0;
+    return config;
+  }
+
+  void report(uint32_t rows) {
+    report_ = ReportRecord();
+    const RayCounters& rays = phase_->tracer.counters();
+    report_.primary_rays = rays.primary;
+    report_.shadow_rays = rays.shadow;
+    report_.reflection_rays = rays.reflection;
+    report_.refraction_rays = rays.refraction;
+    report_.dropped_rays = rays.dropped;
+    const TraversalCounters& walked = phase_->tracer.traversal_counters();
+    report_.sphere_tests = walked.tests[0];
+    report_.ellipsoid_tests = walked.tests[1];
+    report_.triangle_tests = walked.tests[2];
+    report_.voxels_visited = walked.voxels;
+    for (uint32_t kind = 0; kind < kDataKinds; ++kind) {
+      report_.cache_hits[kind] = phase_->scene.cache().hits(static_cast<DataKind>(kind));
+      report_.cache_misses[kind] = phase_->scene.cache().misses(static_cast<DataKind>(kind));
+    }
+    report_.rows = rows;
+    report_.exchanges = exchange_.exchanges();
+    report_.rows_received = exchange_.rows_received();
+    report_.spilled_nodes = phase_->tracer.spilled_nodes();
+    send_report();
+  }
+
+  void send_report() {
+    spu_.put(&report_, frame_.reports + spu_.id() * sizeof(ReportRecord), sizeof(ReportRecord), kTag);
+    spu_.wait_all(1u << kTag);
+  }
+
+  Spu& spu_;
+  ea_t frame_block_;
+  FrameBlock& frame_;
+  ReportRecord& report_;
+  StripRecord& strip_;
+  RowExchange<Spu> exchange_;
+  Phase* phase_ = nullptr;
+  uint8_t* free_; ///< local store from here on belongs to PREPARE FRAME or to the rendering phase
+};
+
+/// The program as the PPE starts it; `argument` is the ea of the FrameBlock.
+template <class Spu>
+void tracer(Spu& spu, ea_t argument) {
+  Tracer<Spu>(spu, argument).run();
+}
+
+} // namespace celltrace::kernel

@@ -1,0 +1,134 @@
+#include "render/frame_setup.hpp"
+
+#include "celltrace/error.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace celltrace {
+
+using namespace kernel;
+
+namespace {
+
+constexpr int kMaxEdge = 65520; // rows of packets fit the balancer's words
+
+void store(const Vec3& v, float* to) {
+  for (int i = 0; i < 3; ++i) to[i] = static_cast<float>(v[i]);
+}
+
+/// The exchange parameter that makes a chain of n nodes converge fastest (Xu and Lau), in 16-bit fixed point.
+std::uint32_t chain_exchange_parameter(unsigned n) {
+  const double lambda = 1 / (1 + std::sin(std::numbers::pi / n));
+  return n < 2 ? 0 : static_cast<std::uint32_t>(std::min(65535.0, lambda * 65536));
+}
+
+bool inside(const Sphere& sphere, const Transform& transform, const Vec3& point) {
+  const Vec3 local = transform.inverse().point(point) - sphere.centre;
+  return local.x * local.x + local.y * local.y + local.z * local.z < sphere.radius * sphere.radius;
+}
+
+} // namespace
+
+void check(const RenderOptions& options) {
+  if (options.width < 1 || options.width > kMaxEdge || options.height < 1 || options.height > kMaxEdge)
+    throw InputError("the picture's width and height have to be 1 to " + std::to_string(kMaxEdge) + " pixels");
+  if (!options.cache.valid())
+    throw InputError("the cache has to have 1, 2 or 4 ways and a power of two of sets, or one set of any power of two "
+                     "of ways, and at most " + std::to_string(CacheConfig::kMaxLines) + " lines");
+  if (options.max_trace_level && (*options.max_trace_level < 1 || *options.max_trace_level > 256))
+    throw InputError("the maximum trace level has to be 1 to 256");
+  if (options.adc_bailout && !(*options.adc_bailout >= 0))
+    throw InputError("the adaptive depth control's bailout must not be negative");
+}
+
+void set_options(FrameBlock& frame, const RenderOptions& options, unsigned spes) {
+  frame.width = static_cast<std::uint32_t>(options.width);
+  frame.height = static_cast<std::uint32_t>(options.height);
+  frame.packet_columns = (frame.width + kPacketEdge - 1) / kPacketEdge;
+  frame.packet_rows = (frame.height + kPacketEdge - 1) / kPacketEdge;
+  frame.surface_pitch = frame.packet_columns * kPacketEdge * 4;
+  frame.cache_ways = options.cache.ways;
+  frame.cache_sets = options.cache.sets;
+  frame.cache_replacement = static_cast<std::uint32_t>(options.cache.replacement);
+  frame.cache_enabled = options.cache.enabled ? 1 : 0;
+  frame.balance = static_cast<std::uint32_t>(options.balance == Balance::gde ? BalanceMode::gde : BalanceMode::fixed);
+  frame.exchange_parameter = chain_exchange_parameter(spes);
+}
+
+void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& options, const SceneImage& image) {
+  const ImageHeader& header = image.header();
+  frame.image = reinterpret_cast<std::uintptr_t>(image.base());
+  frame.object_offset = header.object_offset;
+  frame.object_count = header.object_count;
+  frame.light_offset = header.light_offset;
+  frame.light_count = header.light_count;
+  frame.max_trace_level = static_cast<std::uint32_t>(
+      std::clamp(options.max_trace_level.value_or(scene.max_trace_level), 1, 256));
+  frame.adc_bailout = static_cast<float>(options.adc_bailout.value_or(scene.adc_bailout));
+  frame.gamma_encoding = static_cast<std::uint32_t>(
+      scene.gamma_mode == GammaMode::assumed ? GammaEncoding::assumed : GammaEncoding::none);
+  frame.assumed_gamma = static_cast<float>(scene.assumed_gamma);
+  store(scene.background, frame.background);
+}
+
+void set_camera(FrameBlock& frame, const Camera& camera, const Scene& scene, const SceneImage& image) {
+  const double w = frame.width;
+  const double h = frame.height;
+  const bool orthographic = camera.kind == Camera::Kind::orthographic;
+  const Vec3 corner = camera.right * (0.5 / w - 0.5) + camera.up * (0.5 - 0.5 / h);
+  frame.orthographic = orthographic ? 1 : 0;
+  store(orthographic ? camera.direction : camera.location, frame.camera.origin);
+  store((orthographic ? camera.location : camera.direction) + corner, frame.camera.base);
+  store(camera.right / w, frame.camera.dx);
+  store(-camera.up / h, frame.camera.dy);
+
+  std::vector<std::pair<double, std::uint32_t>> around;
+  for (const Object& object : scene.objects) {
+    const auto* sphere = std::get_if<Sphere>(&object.shape);
+    if (sphere == nullptr || sphere->radius == 0 || !inside(*sphere, object.transform, camera.location)) continue;
+    const double volume = std::abs(object.transform.determinant()) * std::pow(std::abs(sphere->radius), 3);
+    around.emplace_back(volume, image.header().interior_offset +
+                                    object.interior * static_cast<std::uint32_t>(sizeof(InteriorRecord)));
+  }
+  std::sort(around.begin(), around.end(), std::greater<>());
+  const std::size_t kept = std::min<std::size_t>(around.size(), kMaxInteriorDepth);
+  frame.camera_interior_count = static_cast<std::uint32_t>(kept);
+  for (std::size_t i = 0; i < kept; ++i) frame.camera_interiors[i] = around[around.size() - kept + i].second;
+}
+
+GridRecord choose_grid(const ImageHeader& header) {
+  // About four voxels an object; more cost memory and steps, fewer cost intersection tests.
+  constexpr double kVoxelsPerObject = 4;
+  constexpr double kMaxCellsPerAxis = 512;
+  constexpr double kMaxCells = 1 << 24;
+  std::array<double, 3> extent;
+  double volume = 1;
+  double longest = 0;
+  for (int i = 0; i < 3; ++i) {
+    extent[i] = double{header.bounds_max[i]} - double{header.bounds_min[i]};
+    longest = std::max(longest, extent[i]);
+  }
+  for (double& e : extent) {
+    e = std::max(e, longest * 1e-4); // flat scenes
+    volume *= e;
+  }
+  const double wanted = std::clamp(kVoxelsPerObject * header.object_count, 1.0, kMaxCells);
+  const double per_unit = std::cbrt(wanted / volume);
+  GridRecord grid{};
+  for (int i = 0; i < 3; ++i) {
+    const double cells = std::clamp(std::round(extent[i] * per_unit), 1.0, kMaxCellsPerAxis);
+    const double middle = 0.5 * (double{header.bounds_min[i]} + double{header.bounds_max[i]});
+    grid.cells[i] = static_cast<std::uint32_t>(cells);
+    grid.min[i] = static_cast<float>(middle - 0.5 * extent[i]);
+    grid.max[i] = static_cast<float>(middle + 0.5 * extent[i]);
+    grid.cell_size[i] = static_cast<float>(extent[i] / cells);
+    grid.inverse_cell_size[i] = static_cast<float>(cells / extent[i]);
+  }
+  grid.row_of_cells = grid.cells[0] * grid.cells[1];
+  return grid;
+}
+
+} // namespace celltrace
