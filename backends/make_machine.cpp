@@ -1,6 +1,4 @@
-#if __has_include("backends/cell_emu/machine.hpp")
 #include "backends/cell_emu/machine.hpp"
-#endif
 #include "backends/native/machine.hpp"
 #include "celltrace/spe/machine.hpp"
 
@@ -17,9 +15,7 @@ struct Backend {
 
 constexpr Backend kBackends[] = {
     {"native", native::make_machine},
-#if __has_include("backends/cell_emu/machine.hpp")
     {"cell_emu", cell_emu::make_machine},
-#endif
 };
 
 std::string names() {

@@ -42,9 +42,7 @@ elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
   celltrace_spu_type(native_neon64 HEADER backends/native/spu.hpp KEY native.neon64
     TYPE "celltrace::native::Spu<xsimd::neon64>")
 endif()
-if(EXISTS ${PROJECT_SOURCE_DIR}/backends/cell_emu/spu.hpp)
-  celltrace_spu_type(cell_emu HEADER backends/cell_emu/spu.hpp KEY cell_emu TYPE "celltrace::cell_emu::Spu")
-endif()
+celltrace_spu_type(cell_emu HEADER backends/cell_emu/spu.hpp KEY cell_emu TYPE "celltrace::cell_emu::Spu")
 
 function(celltrace_spe_program name)
   cmake_parse_arguments(PROGRAM "" "SOURCE" "LINK" ${ARGN})
@@ -55,8 +53,7 @@ function(celltrace_spe_program name)
   foreach(spu ${CELLTRACE_SPUS})
     set(object ${library}_${spu})
     add_library(${object} OBJECT ${PROGRAM_SOURCE})
-    target_link_libraries(${object} PUBLIC celltrace_options celltrace_native $<TARGET_NAME_IF_EXISTS:celltrace_cell_emu>
-      ${PROGRAM_LINK})
+    target_link_libraries(${object} PUBLIC celltrace_options celltrace_native celltrace_cell_emu ${PROGRAM_LINK})
     target_compile_options(${object} PRIVATE ${CELLTRACE_SPU_${spu}_FLAGS})
     target_compile_definitions(${object} PRIVATE
       "CELLTRACE_SPU_HEADER=\"${CELLTRACE_SPU_${spu}_HEADER}\""
@@ -82,6 +79,5 @@ SpeProgram @name@_program() {
 } // namespace celltrace
 ]=])
   add_library(${library} STATIC ${source} ${objects})
-  target_link_libraries(${library} PUBLIC celltrace_options celltrace_native $<TARGET_NAME_IF_EXISTS:celltrace_cell_emu>
-    ${PROGRAM_LINK})
+  target_link_libraries(${library} PUBLIC celltrace_options celltrace_native celltrace_cell_emu ${PROGRAM_LINK})
 endfunction()

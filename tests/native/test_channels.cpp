@@ -34,10 +34,12 @@ TEST_CASE("a PPE write to a full inbound mailbox waits for space, or fails if no
   OneSpe spe;
   for (std::uint32_t word = 1; word <= 4; ++word)
     REQUIRE(spe.channels.write_in_mailbox(word));
-  std::thread ppe([&] { CHECK(spe.channels.write_in_mailbox(5)); });
+  bool sent = false;
+  std::thread ppe([&] { sent = spe.channels.write_in_mailbox(5); });
   for (std::uint32_t word = 1; word <= 5; ++word)
     CHECK(spe.channels.read_in_mailbox() == word);
   ppe.join();
+  CHECK(sent);
 
   for (std::uint32_t word = 1; word <= 4; ++word)
     REQUIRE(spe.channels.write_in_mailbox(word));
