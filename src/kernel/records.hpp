@@ -208,7 +208,7 @@ struct alignas(128) ReportRecord {
   uint64_t cache_hits[4], cache_misses[4]; ///< by DataKind
   uint64_t dropped_rays; ///< rays beyond the depth of the interior stack
   uint32_t rows;         ///< packet rows rendered
-  uint32_t exchanges;    ///< balance exchanges completed
+  uint32_t exchanges;    ///< balance exchanges that brought this SPE rows
   uint32_t rows_received;
   uint32_t spilled_nodes;
   uint32_t list_entries; ///< PREPARE FRAME

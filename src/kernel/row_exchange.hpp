@@ -46,7 +46,7 @@ public:
   /// The PPE has declared the frame finished.
   bool over() const { return over_; }
 
-  /// Words that brought this node rows, or took some, in this frame.
+  /// Exchanges that brought this node rows in this frame, and how many.
   uint32_t exchanges() const { return exchanges_; }
   uint32_t rows_received() const { return received_; }
 
@@ -79,8 +79,9 @@ private:
     const uint32_t before = node_.remaining().count;
     node_.on_word(word);
     const uint32_t after = node_.remaining().count;
-    if (before != after) ++exchanges_;
-    if (after > before) received_ += after - before;
+    if (after <= before) return;
+    ++exchanges_;
+    received_ += after - before;
   }
 
   void act() {

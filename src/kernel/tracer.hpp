@@ -156,8 +156,9 @@ private:
     report_.triangle_tests = walked.tests[2];
     report_.voxels_visited = walked.voxels;
     for (uint32_t kind = 0; kind < kDataKinds; ++kind) {
-      report_.cache_hits[kind] = phase_->scene.cache().hits(static_cast<DataKind>(kind));
-      report_.cache_misses[kind] = phase_->scene.cache().misses(static_cast<DataKind>(kind));
+      const CacheCounters counters = phase_->scene.cache().counters(static_cast<DataKind>(kind));
+      report_.cache_hits[kind] = counters.hits;
+      report_.cache_misses[kind] = counters.misses;
     }
     report_.rows = rows;
     report_.exchanges = exchange_.exchanges();

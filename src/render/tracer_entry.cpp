@@ -1,13 +1,6 @@
-// The tracer compiled for one SPU type. The build compiles this file once per type, with the type's header, name and
-// compiler flags.
-#include CELLTRACE_SPU_HEADER
-
+// The tracer, compiled once per SPU type.
 #include "kernel/tracer.hpp"
 
-namespace celltrace {
+#include "backends/spe_entry.hpp"
 
-void CELLTRACE_ENTRY(tracer_entry_, CELLTRACE_SPU_NAME)(void* spu, ea_t argument) {
-  kernel::tracer(*static_cast<CELLTRACE_SPU_TYPE*>(spu), argument);
-}
-
-} // namespace celltrace
+CELLTRACE_SPE_ENTRY(tracer, celltrace::kernel::tracer)

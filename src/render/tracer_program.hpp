@@ -5,6 +5,7 @@
 
 namespace celltrace {
 
-const SpeProgram& tracer_program();
+/// Defined by the build (cmake/celltrace_spe_program.cmake).
+SpeProgram tracer_program();
 
 } // namespace celltrace

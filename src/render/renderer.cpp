@@ -1,0 +1,196 @@
+#include "celltrace/render.hpp"
+
+#include "celltrace/error.hpp"
+#include "kernel/ray_stack.hpp"
+#include "render/frame_setup.hpp"
+#include "render/spe_team.hpp"
+#include "render/statistics.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+
+namespace celltrace {
+
+using namespace kernel;
+
+namespace {
+
+class Stopwatch {
+public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+MachineConfig machine_config(const RenderOptions& options) {
+  check(options);
+  MachineConfig config;
+  config.backend = options.backend;
+  config.spes = options.spes;
+  config.simd = options.simd;
+  // Commands and doorbells that come before the last ones are read must not replace them.
+  config.signal_mode[0] = SignalMode::logical_or;
+  config.signal_mode[1] = SignalMode::logical_or;
+  return config;
+}
+
+/// A block that a DMA list can address: all of it in one region of 4 GB.
+AlignedBlock make_list_target(std::size_t bytes) {
+  AlignedBlock block(bytes);
+  const auto region = [](const std::byte* at) { return reinterpret_cast<std::uintptr_t>(at) >> 31 >> 1; };
+  // The block that straddles a border is kept while another one is made, which therefore lies elsewhere.
+  if (region(block.data()) != region(block.data() + bytes - 1)) return make_list_target(bytes);
+  return block;
+}
+
+} // namespace
+
+class Renderer::Impl {
+public:
+  explicit Impl(const RenderOptions& options)
+      : options_(options), frame_block_(sizeof(FrameBlock)), frame_(*new (frame_block_.data()) FrameBlock()),
+        machine_(make_machine(machine_config(options))) {
+    const unsigned spes = machine_->spe_count();
+    set_options(frame_, options_, spes);
+    surface_ = make_list_target(std::size_t{frame_.surface_pitch} * frame_.packet_rows * kPacketEdge);
+    strips_ = AlignedBlock(spes * sizeof(StripRecord));
+    reports_ = AlignedBlock(spes * sizeof(ReportRecord));
+    frame_.surface = to_ea(surface_.data());
+    frame_.strips = to_ea(strips_.data());
+    frame_.reports = to_ea(reports_.data());
+    divide_rows_equally();
+    team_ = std::make_unique<SpeTeam>(*machine_, frame_);
+  }
+
+  RenderResult render(const Scene& scene, const Progress& progress) {
+    RenderStatistics statistics;
+    const Stopwatch build;
+    image_ = std::make_unique<SceneImage>(scene);
+    scene_ = scene;
+    statistics.build_seconds = build.seconds();
+    const Stopwatch prepare;
+    build_grid();
+    statistics.prepare_seconds = prepare.seconds();
+    return render_frame(scene.camera, statistics, progress);
+  }
+
+  RenderResult render(const Camera& camera, const Progress& progress) {
+    if (!image_) throw InputError("a camera alone cannot be rendered: there is no scene yet");
+    RenderStatistics statistics;
+    return render_frame(camera, statistics, progress);
+  }
+
+private:
+  void divide_rows_equally() {
+    const std::uint64_t spes = machine_->spe_count();
+    for (std::uint64_t spe = 0; spe < spes; ++spe) {
+      strip(spe).begin = static_cast<std::uint32_t>(frame_.packet_rows * spe / spes);
+      strip(spe).end = static_cast<std::uint32_t>(frame_.packet_rows * (spe + 1) / spes);
+    }
+  }
+  /// The strips a frame ended with: each SPE gets as many rows as it rendered, in the order of the chain.
+  void keep_strips() {
+    std::uint32_t begin = 0;
+    for (unsigned spe = 0; spe < machine_->spe_count(); ++spe) {
+      strip(spe).begin = begin;
+      begin += report(spe).rows;
+      strip(spe).end = begin;
+    }
+  }
+  StripRecord& strip(std::size_t spe) { return reinterpret_cast<StripRecord*>(strips_.data())[spe]; }
+  const ReportRecord& report(std::size_t spe) const {
+    return reinterpret_cast<const ReportRecord*>(reports_.data())[spe];
+  }
+
+  void build_grid() {
+    const GridRecord grid = choose_grid(image_->header());
+    const std::uint32_t cells = grid.row_of_cells * grid.cells[2];
+    std::uint64_t pairs = std::max<std::uint64_t>(std::uint64_t{image_->header().object_count} * 4, 1024);
+    for (;;) {
+      if (pairs > 0x3FFFFFFF) throw InputError("the scene is too large: its object lists would pass 4 GB");
+      reserve(grid, cells, static_cast<std::uint32_t>(pairs));
+      if (team_->prepare_frame()) break;
+      pairs = report(0).list_entries;
+    }
+    frame_.grid.list_count = report(0).list_entries;
+    sort_buffers_[0] = AlignedBlock();
+    sort_buffers_[1] = AlignedBlock();
+    team_->synchronize();
+  }
+  void reserve(const GridRecord& grid, std::uint32_t cells, std::uint32_t pairs) {
+    image_->reserve_grid(cells, pairs);
+    frame_.grid = grid;
+    frame_.grid.cell_offset = image_->cell_offset();
+    frame_.grid.list_offset = image_->list_offset();
+    frame_.grid.list_capacity = pairs;
+    frame_.sort_capacity = pairs;
+    for (int i = 0; i < 2; ++i) {
+      sort_buffers_[i] = AlignedBlock(std::size_t{pairs} * 8);
+      frame_.sort_buffer[i] = to_ea(sort_buffers_[i].data());
+    }
+    set_scene(frame_, scene_, options_, *image_);
+    // A tree of n levels needs n + 1 nodes; straight transmission may add some that cost no level.
+    const std::uint32_t nodes = frame_.max_trace_level + 32;
+    if (nodes != frame_.ray_stack_nodes) {
+      frame_.ray_stack_nodes = nodes;
+      ray_stack_ = AlignedBlock(std::size_t{machine_->spe_count()} * nodes * kRayNodeBytes);
+      frame_.ray_stack = to_ea(ray_stack_.data());
+    }
+  }
+
+  RenderResult render_frame(const Camera& camera, RenderStatistics& statistics, const Progress& progress) {
+    set_camera(frame_, camera, scene_, *image_);
+    ++frame_.epoch;
+    std::memset(surface_.data(), 0, surface_.size());
+    std::memset(reports_.data(), 0, reports_.size());
+    const Stopwatch render;
+    RenderResult result;
+    result.complete = team_->render_frame(progress);
+    statistics.render_seconds = render.seconds();
+    if (result.complete)
+      keep_strips();
+    else
+      team_->synchronize();
+    collect(statistics, *machine_, frame_, {reinterpret_cast<const ReportRecord*>(reports_.data()), strip_count()});
+    result.statistics = statistics;
+    result.image = copy_picture();
+    return result;
+  }
+  std::size_t strip_count() const { return machine_->spe_count(); }
+
+  Image copy_picture() const {
+    Image image(options_.width, options_.height);
+    for (int y = 0; y < options_.height; ++y)
+      std::memcpy(image.pixel(0, y), surface_.data() + std::size_t{frame_.surface_pitch} * static_cast<std::size_t>(y),
+                  static_cast<std::size_t>(options_.width) * 4);
+    return image;
+  }
+
+  RenderOptions options_;
+  Scene scene_;
+  std::unique_ptr<SceneImage> image_;
+  // Everything from here to the machine is read and written by the SPEs.
+  AlignedBlock surface_, strips_, reports_, ray_stack_, sort_buffers_[2];
+  AlignedBlock frame_block_;
+  FrameBlock& frame_;
+  std::unique_ptr<Machine> machine_;
+  std::unique_ptr<SpeTeam> team_;
+};
+
+Renderer::Renderer(const RenderOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+RenderResult Renderer::render(const Scene& scene, const Progress& progress) { return impl_->render(scene, progress); }
+RenderResult Renderer::render(const Camera& camera, const Progress& progress) {
+  return impl_->render(camera, progress);
+}
+
+RenderResult render(const Scene& scene, const RenderOptions& options, const Progress& progress) {
+  return Renderer(options).render(scene, progress);
+}
+
+} // namespace celltrace

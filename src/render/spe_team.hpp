@@ -1,0 +1,51 @@
+// The SPEs of a machine at work on frames: what the PPE says to them and hears from them.
+#pragma once
+
+#include "celltrace/render.hpp"
+#include "celltrace/spe/machine.hpp"
+#include "kernel/records.hpp"
+
+#include <span>
+#include <vector>
+
+namespace celltrace {
+
+/// Runs the tracer on every SPE of a machine. Throws SpeError as soon as one of them fails.
+class SpeTeam {
+public:
+  /// `frame` stays in place as long as the team lives.
+  SpeTeam(Machine& machine, const kernel::FrameBlock& frame);
+  /// Lets the SPEs leave their program; none may be inside a frame, unless it has failed.
+  ~SpeTeam();
+  SpeTeam(const SpeTeam&) = delete;
+  SpeTeam& operator=(const SpeTeam&) = delete;
+
+  /// One SPE builds the grid. False if it needs more room than the frame block offers.
+  bool prepare_frame();
+  /// Every SPE forgets what it has cached and what is in its mailbox.
+  void synchronize();
+  /// All SPEs render. False if `progress` broke the frame off.
+  bool render_frame(const Progress& progress);
+
+private:
+  struct Member {
+    std::uint32_t rows = 0;
+    bool idle = false;
+    bool answered = false; ///< the report that a command ends with has come
+  };
+
+  void signal_all(std::uint32_t commands);
+  /// Reads all mail; sleeps a little if there is none. Calls `handle(member, kind, count)`.
+  template <class Handle>
+  void receive(Handle handle);
+  /// Waits until every SPE has answered with `kind`.
+  void await(kernel::ReportKind kind);
+  void declare_over();
+  void throw_if_stopped();
+
+  Machine& machine_;
+  const kernel::FrameBlock& frame_;
+  std::vector<Member> members_;
+};
+
+} // namespace celltrace
