@@ -1,0 +1,9 @@
+// Load balancing by generalized dimension exchange and diffusion, usable without the tracer. Nothing here has
+// a clock, a thread or a transport. Host side (C++20), but for balance/strip.hpp, which kernels include on
+// its own.
+#pragma once
+
+#include "celltrace/balance/dimension_exchange.hpp" // synchronous sweeps and their optimal parameters
+#include "celltrace/balance/strip.hpp"        // the asynchronous exchange of rows on a chain: one node of it
+#include "celltrace/balance/strip_tally.hpp"  // the PPE's side of that
+#include "celltrace/balance/system_graph.hpp" // chains, rings, meshes, tori, hypercubes, any graph

@@ -1,0 +1,135 @@
+// Synchronous load balancing on a system graph: generalized dimension exchange (GDE) and first-order
+// diffusion.
+//
+// Sources: C.-Z. Xu and F. C. M. Lau, "Analysis of the generalized dimension exchange method for dynamic load
+// balancing", J. Parallel and Distributed Computing 16 (1992), and "The generalized dimension exchange method
+// for load balancing in k-ary n-cubes and variants", same journal 24 (1995); G. Cybenko, "Dynamic load
+// balancing for distributed memory multiprocessors", same journal 7 (1989).
+//
+// Loads are one number per node. Pure functions: they touch nothing but the loads they are given.
+#pragma once
+
+#include "celltrace/balance/system_graph.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <numeric>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+namespace celltrace {
+
+namespace detail {
+
+inline void require_loads(const SystemGraph& graph, std::size_t loads) {
+  if (loads != graph.nodes)
+    throw std::invalid_argument("as many loads as the system graph has nodes are needed");
+}
+inline void require_parameter(double parameter, double largest) {
+  if (!(parameter >= 0 && parameter <= largest))
+    throw std::invalid_argument("exchange parameter out of range");
+}
+
+/// What flows from a load `from` to a load `to`, positive or negative.
+inline double flow(double from, double to, double parameter) {
+  return parameter * (from - to);
+}
+/// In whole units the larger load gives what the parameter allows, rounded down: nothing oscillates by
+/// rounding.
+inline std::int64_t flow(std::int64_t from, std::int64_t to, double parameter) {
+  return static_cast<std::int64_t>(parameter * static_cast<double>(from - to));
+}
+
+template <class Load> void gde_sweep(const SystemGraph& graph, std::span<Load> loads, double lambda) {
+  require_loads(graph, loads.size());
+  require_parameter(lambda, 1);
+  for (std::uint32_t colour = 0; colour < graph.colours; ++colour) {
+    for (const SystemGraph::Edge& edge : graph.edges) {
+      if (edge.colour != colour) continue;
+      const Load moved = flow(loads[edge.a], loads[edge.b], lambda);
+      loads[edge.a] -= moved;
+      loads[edge.b] += moved;
+    }
+  }
+}
+
+template <class Load> void diffusion_step(const SystemGraph& graph, std::span<Load> loads, double alpha) {
+  require_loads(graph, loads.size());
+  require_parameter(alpha, 1.0 / std::max(graph.degree(), 1u));
+  const std::vector<Load> before(loads.begin(), loads.end());
+  for (const SystemGraph::Edge& edge : graph.edges) {
+    const Load moved = flow(before[edge.a], before[edge.b], alpha);
+    loads[edge.a] -= moved;
+    loads[edge.b] += moved;
+  }
+}
+
+} // namespace detail
+
+/// One sweep of GDE: colour by colour, the neighbours on each edge of that colour exchange the part `lambda`
+/// (0..1) of their loads, w_i = (1 - lambda) w_i + lambda w_j. The sum stays, loads >= 0 stay >= 0. Whole
+/// loads (up to 2^53) move in whole units, rounded towards moving less. Throws std::invalid_argument for a
+/// lambda out of range or another number of loads than of nodes.
+inline void gde_sweep(const SystemGraph& graph, std::span<double> loads, double lambda) {
+  detail::gde_sweep(graph, loads, lambda);
+}
+inline void gde_sweep(const SystemGraph& graph, std::span<std::int64_t> loads, double lambda) {
+  detail::gde_sweep(graph, loads, lambda);
+}
+
+/// One step of first-order diffusion: all neighbours at once, w_i += alpha * sum over neighbours (w_j - w_i),
+/// with alpha in 0 .. 1/degree. Otherwise as gde_sweep().
+inline void diffusion_step(const SystemGraph& graph, std::span<double> loads, double alpha) {
+  detail::diffusion_step(graph, loads, alpha);
+}
+inline void diffusion_step(const SystemGraph& graph, std::span<std::int64_t> loads, double alpha) {
+  detail::diffusion_step(graph, loads, alpha);
+}
+/// The usual alpha, 1 / (degree + 1), with which diffusion converges on every connected graph.
+inline double diffusion_parameter(const SystemGraph& graph) {
+  return 1.0 / (graph.degree() + 1.0);
+}
+
+/// The lambda with which GDE converges fastest on a chain of n >= 1 nodes: 1 / (1 + sin(pi / n)).
+inline double optimal_chain_parameter(std::uint32_t nodes) {
+  if (nodes == 0) throw std::invalid_argument("a chain without nodes");
+  return nodes == 1 ? 0.5 : 1 / (1 + std::sin(std::numbers::pi / nodes));
+}
+/// On a ring of an even number of nodes: 1 / (1 + sin(2 pi / n)). There is no closed form for odd rings:
+/// std::invalid_argument. 2 nodes are a chain.
+inline double optimal_ring_parameter(std::uint32_t nodes) {
+  if (nodes == 0 || nodes % 2 == 1) throw std::invalid_argument("the optimal parameter needs an even ring");
+  return nodes == 2 ? 0.5 : 1 / (1 + std::sin(2 * std::numbers::pi / nodes));
+}
+/// On a mesh or torus the longest side decides. `sides` is not empty; those of a torus are even.
+inline double optimal_mesh_parameter(std::span<const std::uint32_t> sides) {
+  return optimal_chain_parameter(*std::max_element(sides.begin(), sides.end()));
+}
+inline double optimal_torus_parameter(std::span<const std::uint32_t> sides) {
+  for (const std::uint32_t side : sides)
+    (void)optimal_ring_parameter(side);
+  return optimal_ring_parameter(*std::max_element(sides.begin(), sides.end()));
+}
+/// On a hypercube one sweep with 1/2 balances exactly.
+inline double optimal_hypercube_parameter() {
+  return 0.5;
+}
+
+/// An exchange parameter in units of 2^-16 as StripNode takes it: 0..1 becomes 0..65535.
+inline std::uint32_t fixed_point_parameter(double lambda) {
+  return static_cast<std::uint32_t>(std::clamp(std::lround(lambda * 65536), 0L, 65535L));
+}
+
+/// max / mean - 1: 0 is perfect balance. 0 for no loads or loads that are all 0.
+template <class Load> double imbalance(std::span<const Load> loads) {
+  const double sum = std::accumulate(loads.begin(), loads.end(), 0.0);
+  if (sum == 0) return 0;
+  return static_cast<double>(*std::max_element(loads.begin(), loads.end())) *
+             static_cast<double>(loads.size()) / sum -
+         1;
+}
+
+} // namespace celltrace
