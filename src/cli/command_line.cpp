@@ -65,8 +65,10 @@ std::pair<std::string, std::string> parse_declare(const std::string& text) {
 /// What CLI11 fills in besides the request.
 struct RenderTexts {
   std::string cache = "4x128:random";
+  std::string balance = "gde";
   std::string schedule = "free";
   std::string model = "shared";
+  std::string seed;
   std::string trace;
   std::vector<std::string> declares;
 };
@@ -75,9 +77,10 @@ void add_picture_options(CLI::App& command, RenderRequest& request, RenderTexts&
   command.add_option("scene", request.scene, "The scene, a POV-Ray file")->required()->type_name("SCENE.pov");
   command.add_option("-o,--output", request.output, "The picture; default: the scene's name, here")
       ->type_name("OUT.png|OUT.ppm");
+  RenderOptions& options = request.options;
   const CLI::Range side(1, kMaxImageSide);
-  command.add_option("-W,--width", request.width, "Pixels a row")->check(side)->capture_default_str();
-  command.add_option("-H,--height", request.height, "Rows")->check(side)->capture_default_str();
+  command.add_option("-W,--width", options.width, "Pixels a row")->check(side)->capture_default_str();
+  command.add_option("-H,--height", options.height, "Rows")->check(side)->capture_default_str();
   command
       .add_option("-L,--library", request.library_paths,
                   "Search this folder for included files; may be repeated")
@@ -87,34 +90,33 @@ void add_picture_options(CLI::App& command, RenderRequest& request, RenderTexts&
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
   command
-      .add_option("--max-level", request.max_level,
+      .add_option("--max-level", options.max_trace_level,
                   "Depth of the ray tree; default: the scene's max_trace_level")
       ->check(CLI::Range(1, 256));
   command
-      .add_option("--adc", request.adc,
+      .add_option("--adc", options.adc_bailout,
                   "Contribution below which a ray is cut; default: the scene's adc_bailout")
       ->check(CLI::Range(0.0, 1.0));
 }
 
-void add_machine_options(CLI::App& command, RenderRequest& request, RenderTexts& texts) {
-  set_choice(command, "--backend", request.backend, {{"native", "cell_emu"}, {"spu"}}, "The machine");
-  command.add_option("--spes", request.spes, "SPEs; default: one a hardware thread on native, 8 on cell_emu")
+void add_machine_options(CLI::App& command, RenderOptions& options, RenderTexts& texts) {
+  set_choice(command, "--backend", options.backend, {{"native", "cell_emu"}, {"spu"}}, "The machine");
+  command.add_option("--spes", options.spes, "SPEs; default: one a hardware thread on native, 8 on cell_emu")
       ->check(CLI::Range(1u, 256u));
-  set_choice(command, "--simd", request.simd, {{"auto", "sse2", "avx2", "avx512"}, {}},
+  set_choice(command, "--simd", options.simd, {{"auto", "sse2", "avx2", "avx512"}, {}},
              "Instruction set of native");
   set_choice(command, "--schedule", texts.schedule, {{"free"}, {"lockstep"}}, "How cell_emu takes turns");
-  command.add_option("--seed", request.seed, "Seed of everything that is random")
-      ->check(CLI::NonNegativeNumber);
   command.add_option("--cache", texts.cache, "Software cache: WAYSxSETS[:random|fifo|lru], or off")
       ->type_name("CACHE")
       ->capture_default_str();
-  set_choice(command, "--balance", request.balance, {{"gde", "static"}, {"diffusion", "scatter"}},
+  set_choice(command, "--balance", texts.balance, {{"gde", "static"}, {"diffusion", "scatter"}},
              "Load balancing");
   set_choice(command, "--model", texts.model, {{"shared"}, {"pipeline", "offload"}}, "Programming model");
 }
 
 void add_report_options(CLI::App& command, RenderRequest& request, RenderTexts& texts) {
   command.add_option("--stats", request.stats, "Write statistics as JSON; - is stdout")->type_name("FILE|-");
+  command.add_option("--seed", texts.seed, "Seed of cell_emu (not supported yet)")->type_name("N");
   command.add_option("--trace", texts.trace, "Write a trace of cell_emu (not supported yet)")
       ->type_name("FILE");
   command.add_flag("--quiet", request.quiet, "No progress, notes or summary");
@@ -132,10 +134,12 @@ void add_compare_options(CLI::App& command, CompareRequest& request) {
 }
 
 void finish(RenderRequest& request, const RenderTexts& texts) {
+  if (!texts.seed.empty()) throw InputError("--seed is not supported yet");
   if (!texts.trace.empty()) throw InputError("--trace is not supported yet");
   if (request.scene.extension() == ".ini")
     throw InputError(request.scene.string() + ": INI files are not supported");
-  request.cache = parse_cache(texts.cache);
+  request.options.cache = parse_cache(texts.cache);
+  request.options.balance = texts.balance == "gde" ? Balance::gde : Balance::fixed;
   for (const std::string& text : texts.declares)
     request.declares.push_back(parse_declare(text));
   if (request.output.empty()) request.output = request.scene.stem().string() + ".png";
@@ -175,7 +179,7 @@ Request parse_command_line(std::vector<std::string> arguments) {
   RenderTexts texts;
   CLI::App& render_command = *app.add_subcommand("render", "Render a scene into a picture");
   add_picture_options(render_command, render, texts);
-  add_machine_options(render_command, render, texts);
+  add_machine_options(render_command, render.options, texts);
   add_report_options(render_command, render, texts);
 
   CompareRequest compare;

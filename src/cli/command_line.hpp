@@ -1,9 +1,8 @@
 // What the user asked for: the command line as values.
 #pragma once
 
-#include "celltrace/cache.hpp"
+#include "celltrace/render.hpp"
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -20,16 +19,7 @@ CacheConfig parse_cache(const std::string& text);
 struct RenderRequest {
   std::filesystem::path scene;
   std::filesystem::path output; ///< by default the scene's name with .png, in the current folder
-  int width = 640;
-  int height = 480;
-  std::string backend = "native";
-  unsigned spes = 0; ///< 0: the backend's default
-  std::string simd = "auto";
-  std::optional<std::uint64_t> seed;
-  CacheConfig cache;
-  std::string balance = "gde"; ///< gde or static
-  std::optional<int> max_level;
-  std::optional<double> adc;
+  RenderOptions options;
   std::vector<std::filesystem::path> library_paths;
   std::vector<std::pair<std::string, std::string>> declares; ///< name and value
   std::string stats;                                         ///< file, "-" for stdout, empty for none
