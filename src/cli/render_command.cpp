@@ -12,6 +12,8 @@
 #include <fstream>
 #include <iostream>
 
+#include <nlohmann/json.hpp>
+
 namespace celltrace::cli {
 
 namespace {
@@ -32,7 +34,9 @@ ParseOptions parse_options(const RenderRequest& request) {
     else
       options.declares.emplace_back(name, text);
   }
-  if (request.quiet) options.message = [](std::string_view) {};
+  options.message = [quiet = request.quiet](std::string_view text) {
+    if (!quiet) std::cerr << text;
+  };
   return options;
 }
 
@@ -44,8 +48,10 @@ RenderResult render_with_progress(const Scene& scene, const RenderRequest& reque
   });
 }
 
-void write_statistics(const std::string& where, const RenderStatistics& statistics) {
-  const std::string text = to_json(statistics) + "\n";
+void write_statistics(const std::string& where, const RenderStatistics& statistics, double parse_seconds) {
+  auto json = nlohmann::ordered_json::parse(to_json(statistics));
+  json["seconds"]["parse"] = parse_seconds;
+  const std::string text = json.dump(2) + "\n";
   if (where == "-") {
     std::cout << text << std::flush;
     return;
@@ -79,7 +85,7 @@ int run_render(const RenderRequest& request) {
   }
   const RenderResult result = render_with_progress(scene, request);
   save_image(request.output, result.image);
-  if (!request.stats.empty()) write_statistics(request.stats, result.statistics);
+  if (!request.stats.empty()) write_statistics(request.stats, result.statistics, parsing.count());
   if (!request.quiet) print_summary(request, result, parsing.count());
   return result.complete ? 0 : 2;
 }
