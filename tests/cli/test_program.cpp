@@ -1,0 +1,188 @@
+// The program itself, run as its users run it.
+#include "image/picture_files.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <thread>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+using namespace celltrace;
+using namespace celltrace::test;
+using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
+
+namespace {
+
+const std::string kScene = CELLTRACE_SOURCE_DIR "/examples/scenes/first.pov";
+
+struct Outcome {
+  int exit_code = -1;
+  std::string out;
+  std::string err;
+};
+
+/// One run of celltrace in a folder of its own, with its output in files there.
+class Run {
+public:
+  Run(const TemporaryFolder& folder, std::vector<std::string> arguments) : folder_(folder) {
+    arguments.insert(arguments.begin(), "celltrace");
+    std::vector<char*> argv;
+    for (std::string& argument : arguments)
+      argv.push_back(argument.data());
+    argv.push_back(nullptr);
+    // posix_spawn() returns after the exec, so that no handler of the test program is taken for celltrace's.
+    constexpr int kFlags = O_CREAT | O_TRUNC | O_WRONLY;
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addchdir_np(&actions, folder.path().c_str());
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "stdout.txt", kFlags, 0600);
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "stderr.txt", kFlags, 0600);
+    const int error = posix_spawn(&pid_, CELLTRACE_PROGRAM, &actions, nullptr, argv.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    REQUIRE(error == 0);
+  }
+
+  /// Waits until the program catches SIGINT, then sends it.
+  void interrupt() {
+    while (!catches_interrupts())
+      std::this_thread::yield();
+    kill(pid_, SIGINT);
+  }
+
+  Outcome finish() {
+    int status = 0;
+    waitpid(pid_, &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
+            read_bytes(folder_ / "stdout.txt"), read_bytes(folder_ / "stderr.txt")};
+  }
+
+private:
+  bool catches_interrupts() const {
+    std::ifstream file("/proc/" + std::to_string(pid_) + "/status");
+    for (std::string line; std::getline(file, line);)
+      if (line.rfind("SigCgt:", 0) == 0) return std::stoull(line.substr(7), nullptr, 16) & 1u << (SIGINT - 1);
+    return true; // gone
+  }
+
+  const TemporaryFolder& folder_;
+  pid_t pid_ = -1;
+};
+
+Outcome celltrace_run(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
+  return Run(folder, arguments).finish();
+}
+
+long lines(const std::string& text) {
+  return std::count(text.begin(), text.end(), '\n');
+}
+
+} // namespace
+
+TEST_CASE("the program explains itself") {
+  const TemporaryFolder folder;
+  const Outcome version = celltrace_run(folder, {"--version"});
+  CHECK(version.exit_code == 0);
+  CHECK_THAT(version.out, StartsWith("celltrace 0."));
+  CHECK(celltrace_run(folder, {"--help"}).exit_code == 0);
+  const Outcome nothing = celltrace_run(folder, {});
+  CHECK(nothing.exit_code == 1);
+  CHECK(lines(nothing.err) == 1);
+}
+
+TEST_CASE("a scene alone is rendered beside the caller") {
+  const TemporaryFolder folder;
+  const Outcome outcome = celltrace_run(folder, {kScene, "-W", "32", "-H", "18"});
+  CAPTURE(outcome.err);
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.out.empty());
+  CHECK_THAT(outcome.err, StartsWith("first.png: 32x18, native."));
+  CHECK(lines(outcome.err) == 1);
+  const Image picture = load_image(folder / "first.png");
+  CHECK(picture.width == 32);
+  CHECK(picture.height == 18);
+}
+
+TEST_CASE("POV-Ray's switches render the same picture, and every backend does") {
+  const TemporaryFolder folder;
+  REQUIRE(celltrace_run(folder, {kScene, "-W", "32", "-H", "18", "-o", "a.png"}).exit_code == 0);
+  const Outcome pov = celltrace_run(folder, {"+I" + kScene, "+W32", "+H18", "+Ob", "-D", "-A", "+WT3"});
+  CAPTURE(pov.err);
+  CHECK(pov.exit_code == 0);
+  CHECK_THAT(pov.err, StartsWith("note: '-D'") && Contains("3 SPEs"));
+  CHECK(load_image(folder / "a.png") == load_image(folder / "b.png"));
+
+  const Outcome emulated = celltrace_run(folder, {"render", kScene, "-W", "32", "-H", "18", "-o", "c.ppm",
+                                                  "--backend", "cell_emu", "--spes", "2"});
+  CAPTURE(emulated.err);
+  CHECK(emulated.exit_code == 0);
+  CHECK_THAT(emulated.err, Contains("cell_emu, 2 SPEs"));
+  CHECK(load_image(folder / "a.png") == load_image(folder / "c.ppm"));
+}
+
+TEST_CASE("statistics go where they are asked for, and quiet is quiet") {
+  const TemporaryFolder folder;
+  const Outcome to_stdout = celltrace_run(folder, {kScene, "-W", "8", "-H", "8", "--stats", "-", "--quiet"});
+  CHECK(to_stdout.err.empty());
+  CHECK(nlohmann::json::parse(to_stdout.out)["backend"] == "native");
+  CHECK(celltrace_run(folder, {kScene, "-W", "8", "-H", "8", "--stats", "s.json"}).out.empty());
+  CHECK(nlohmann::json::parse(read_bytes(folder / "s.json"))["width"] == 8);
+}
+
+TEST_CASE("every key of the statistics is documented") {
+  const TemporaryFolder folder;
+  const std::string document = read_bytes(CELLTRACE_SOURCE_DIR "/docs/statistics.md");
+  const Outcome outcome = celltrace_run(folder, {kScene, "-W", "8", "-H", "8", "--stats", "-"});
+  const auto statistics = nlohmann::json::parse(outcome.out);
+  for (const auto& [pointer, value] : statistics.flatten().items()) {
+    const nlohmann::json::json_pointer path(pointer);
+    const std::string key = path.back(),
+                      group = path.parent_pointer().empty() ? "" : path.parent_pointer().back();
+    CAPTURE(pointer);
+    if (key.find_first_not_of("0123456789") == std::string::npos) continue; // an element of an array
+    const bool documented = document.find("`" + group + "." + key + "`") != std::string::npos ||
+                            document.find("`" + key + "`") != std::string::npos;
+    CHECK(documented);
+  }
+}
+
+TEST_CASE("errors are one line and exit code 1") {
+  const TemporaryFolder folder;
+  write_bytes(folder / "bad.pov", "sphere { <0, 0, 0>, 1 }\ncylinder_ { }\n");
+  const std::vector<std::vector<std::string>> wrong = {{"missing.pov"},
+                                                       {"bad.pov"},
+                                                       {kScene, "-o", "a.gif"},
+                                                       {kScene, "-o", "no/a.png"},
+                                                       {kScene, "+A0.3"},
+                                                       {"+Z", kScene},
+                                                       {kScene, "--cache", "3x3"},
+                                                       {"compare", "a.png", "b.png"},
+                                                       {kScene, "--schedule", "lockstep"}};
+  for (const auto& arguments : wrong) {
+    const Outcome outcome = celltrace_run(folder, arguments);
+    CAPTURE(arguments, outcome.err);
+    CHECK(outcome.exit_code == 1);
+    CHECK(outcome.out.empty());
+    CHECK(lines(outcome.err) == 1);
+    CHECK_THAT(outcome.err, Contains("error: "));
+  }
+  CHECK_THAT(celltrace_run(folder, {"bad.pov"}).err, StartsWith("bad.pov:2:1: error: "));
+}
+
+TEST_CASE("an interrupted render keeps what it has and exits with 2") {
+  const TemporaryFolder folder;
+  Run run(folder, {kScene, "-W", "4000", "-H", "3000", "--spes", "1", "-o", "partial.ppm"});
+  run.interrupt();
+  const Outcome outcome = run.finish();
+  CAPTURE(outcome.err);
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.err, Contains("interrupted"));
+  if (outcome.err.find("partial.ppm") == 0) CHECK(load_image(folder / "partial.ppm").width == 4000);
+}
