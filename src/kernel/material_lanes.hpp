@@ -11,11 +11,12 @@ struct MaterialLanes {
   using F = typename S::F;
   V3<S> pigment, ambient, reflection_min, reflection_max;
   F filter, transmit, opacity, diffuse, brilliance, phong, phong_size, specular, inverse_roughness, metallic;
-  F reflection_falloff, reflection_metallic;
+  F reflection_falloff, reflection_metallic, inverse_reflection_exponent;
   uint32_t fresnel = 0, conserve_energy = 0; ///< lanes
   bool bends_diffuse = false;                ///< some brilliance is not 1
   bool has_phong = false, has_specular = false, has_metallic = false, has_reflection = false;
   bool has_falloff = false;
+  bool bends_reflection = false; ///< some reflection exponent is not 1
   bool has_transmission = false;
 };
 
@@ -52,6 +53,7 @@ MaterialLanes<typename Spu::simd> gather_materials(SceneAccess<Spu>& scene, cons
     put(m.metallic, r.metallic);
     put(m.reflection_falloff, r.reflection_falloff);
     put(m.reflection_metallic, r.reflection_metallic);
+    put(m.inverse_reflection_exponent, r.inverse_reflection_exponent);
     if ((r.flags & material_flag::fresnel) != 0) m.fresnel |= same;
     if ((r.flags & material_flag::conserve_energy) != 0) m.conserve_energy |= same;
     const auto any = [](const float (&v)[3]) { return v[0] != 0.0f || v[1] != 0.0f || v[2] != 0.0f; };
@@ -61,6 +63,7 @@ MaterialLanes<typename Spu::simd> gather_materials(SceneAccess<Spu>& scene, cons
     m.has_metallic |= r.metallic != 0.0f;
     m.has_reflection |= any(r.reflection_min) || any(r.reflection_max);
     m.has_falloff |= r.reflection_falloff != 1.0f;
+    m.bends_reflection |= r.inverse_reflection_exponent != 1.0f;
     m.has_transmission |= r.filter != 0.0f || r.transmit != 0.0f;
     first = false;
   });

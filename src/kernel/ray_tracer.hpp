@@ -27,13 +27,17 @@ public:
 
   /// The colours of primary rays; `rays` are of unit direction and leave the camera.
   V3<S> trace(const RayPacket& rays, uint32_t lanes) {
-    colour_ = {F(0.0f), F(0.0f), F(0.0f)};
+    clear(0);
+    accumulators_in_use_ = 1;
     push_primary(rays, lanes);
     while (!stack_.empty()) {
       stack_.pop(node_);
-      trace_node();
+      if (node_.gathers != 0)
+        gather();
+      else
+        trace_node();
     }
-    return colour_;
+    return light_[0].template load<S>();
   }
 
   void reset_counters() {
@@ -66,17 +70,33 @@ private:
         child_.interiors[d].lane[lane] = frame_.camera_interiors[d];
     }
     child_.lanes = lanes;
+    child_.target = 0;
+    child_.gathers = 0;
     counters_.primary += count(lanes);
     push();
   }
 
-  void push() {
-    if (!stack_.push(child_)) counters_.dropped += count(child_.lanes);
+  bool push() {
+    const bool room = stack_.push(child_);
+    if (!room) counters_.dropped += count(child_.lanes);
+    return room;
   }
 
+  void clear(uint32_t accumulator) { light_[accumulator].template store<S>({F(0.0f), F(0.0f), F(0.0f)}); }
+
   void add(uint32_t lanes, const V3<S>& light) {
+    VectorLanes& target = light_[node_.target];
+    const V3<S> sum = target.template load<S>();
     const V3<S> weighted = light * node_.throughput.template load<S>();
-    colour_ = select<S>(M::from_bits(lanes), colour_ + weighted, colour_);
+    target.template store<S>(select<S>(M::from_bits(lanes), sum + weighted, sum));
+  }
+
+  /// The light of a reflection is complete.
+  void gather() {
+    const V3<S> sum = light_[node_.gathers].template load<S>();
+    const F power = F::load(node_.power.lane);
+    --accumulators_in_use_;
+    add(node_.lanes, {pow<S>(sum.x, power), pow<S>(sum.y, power), pow<S>(sum.z, power)});
   }
 
   void trace_node() {
@@ -126,7 +146,7 @@ private:
     const V3<S> mirrored = reflectivity<S>(m, cosine, fresnel_ratio);
     uint32_t total = 0;
     if (m.has_transmission) total = transmit(surfaces, interior, m, lanes, share, cosine, mirrored);
-    if (m.has_reflection) reflect(surfaces, lanes & ~total, share, cosine, mirrored);
+    if (m.has_reflection) reflect(surfaces, m, lanes & ~total, share, cosine, mirrored);
   }
 
   /// Fills child_ with rays from the surfaces whose weight and level allow them; false if there are none.
@@ -146,10 +166,12 @@ private:
     child_.throughput.template store<S>(node_.throughput.template load<S>() * throughput);
     weight.store(child_.weight.lane);
     child_.lanes = go;
+    child_.target = node_.target;
+    child_.gathers = 0;
     return true;
   }
 
-  void reflect(const Surfaces<S>& surfaces, uint32_t lanes, const V3<S>& share,
+  void reflect(const Surfaces<S>& surfaces, const MaterialLanes<S>& m, uint32_t lanes, const V3<S>& share,
                const F& cosine, const V3<S>& mirrored) {
     const F strength = max_component<S>(mirrored);
     const uint32_t mirrors = (strength > F(0.0f)).bits() & lanes;
@@ -159,7 +181,19 @@ private:
                        F::load(node_.weight.lane) * strength, mirrors, mirrors))
       return;
     counters_.reflection += count(child_.lanes);
+    if (m.bends_reflection && accumulators_in_use_ < kAccumulators) redirect(m.inverse_reflection_exponent);
     push();
+  }
+
+  /// Sends the light of child_ to an accumulator of its own, from which a node pushed below it gathers it.
+  void redirect(const F& power) {
+    child_.gathers = accumulators_in_use_;
+    power.store(child_.power.lane);
+    if (!push()) return;
+    child_.target = accumulators_in_use_++;
+    child_.gathers = 0;
+    child_.throughput.template store<S>({F(1.0f), F(1.0f), F(1.0f)});
+    clear(child_.target);
   }
 
   /// Pushes the transmitted rays; returns the lanes that were totally reflected.
@@ -202,7 +236,10 @@ private:
   RayNode& node_;  ///< being traced
   RayNode& child_; ///< being made
   HitPacket hits_;
-  V3<S> colour_;
+  /// Deeper nesting of bent reflections than this leaves the innermost ones unbent.
+  static constexpr uint32_t kAccumulators = 8;
+  VectorLanes light_[kAccumulators];
+  uint32_t accumulators_in_use_ = 1;
   RayCounters counters_;
 };
 

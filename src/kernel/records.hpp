@@ -72,8 +72,9 @@ struct alignas(128) MaterialRecord {
   float reflection_max[3];
   float reflection_falloff;
   float reflection_metallic;
+  float inverse_reflection_exponent;
   uint32_t flags;
-  uint32_t unused[7];
+  uint32_t unused[6];
 };
 static_assert(sizeof(MaterialRecord) == 128, "one material a line");
 

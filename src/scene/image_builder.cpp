@@ -50,6 +50,7 @@ MaterialRecord make_record(const Material& material, const Scene& scene) {
   copy(f.reflection_max, r.reflection_max);
   r.reflection_falloff = static_cast<float>(f.reflection_falloff);
   r.reflection_metallic = static_cast<float>(f.reflection_metallic);
+  r.inverse_reflection_exponent = static_cast<float>(f.reflection_exponent != 0 ? 1 / f.reflection_exponent : 1);
   r.flags = (f.reflection_fresnel ? material_flag::fresnel : 0) |
             (f.conserve_energy ? material_flag::conserve_energy : 0);
   return r;
