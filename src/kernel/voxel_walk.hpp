@@ -44,9 +44,10 @@ void walk_voxels(const GridRecord& grid, const float (&origin)[3], const float (
   float next[3]; // distance at which the ray leaves the voxel on this axis
   for (int axis = 0; axis < 3; ++axis) {
     const float offset = origin[axis] + direction[axis] * enter - grid.min[axis];
-    const int32_t last = static_cast<int32_t>(grid.cells[axis]) - 1;
-    const int32_t at = static_cast<int32_t>(offset * grid.inverse_cell_size[axis]);
-    position[axis] = at < 0 ? 0 : at > last ? last : at;
+    // Clamped as a number, so that whatever it is converts.
+    const float last = static_cast<float>(grid.cells[axis] - 1);
+    const float at = offset * grid.inverse_cell_size[axis];
+    position[axis] = static_cast<int32_t>(at > 0.0f ? (at < last ? at : last) : 0.0f);
     cell += static_cast<uint32_t>(position[axis]) * strides[axis];
     step[axis] = direction[axis] < 0.0f ? -1 : 1;
   }

@@ -149,10 +149,7 @@ private:
     RenderResult result;
     result.complete = team_->render_frame(progress);
     statistics.render_seconds = render.seconds();
-    if (result.complete)
-      keep_strips();
-    else
-      team_->synchronize();
+    if (result.complete) keep_strips();
     collect(statistics, *machine_, frame_, {reinterpret_cast<const ReportRecord*>(reports_.data()), strip_count()});
     result.statistics = statistics;
     result.image = copy_picture();

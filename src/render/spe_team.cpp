@@ -47,8 +47,17 @@ void SpeTeam::synchronize() {
 bool SpeTeam::render_frame(const Progress& progress) {
   std::fill(members_.begin(), members_.end(), Member());
   signal_all(command::render_frame);
+  std::exception_ptr failure;
+  const auto ask = [&](double fraction) {
+    try {
+      return !progress || progress(fraction);
+    } catch (...) {
+      failure = std::current_exception();
+      return false;
+    }
+  };
   double reported = 0;
-  bool go_on = !progress || progress(0);
+  bool go_on = ask(0);
   while (go_on) {
     std::uint32_t rows = 0;
     bool idle = true;
@@ -60,7 +69,8 @@ bool SpeTeam::render_frame(const Progress& progress) {
     // 1 is kept for the finished frame.
     const double fraction = std::min(static_cast<double>(rows) / frame_.packet_rows, 0.999);
     reported = std::max(reported, fraction);
-    go_on = !progress || progress(reported);
+    go_on = ask(reported);
+    if (!go_on) break;
     receive([](Member& member, ReportKind kind, std::uint32_t count) {
       if (kind != ReportKind::progress && kind != ReportKind::idle) return;
       member.rows = count;
@@ -69,7 +79,10 @@ bool SpeTeam::render_frame(const Progress& progress) {
   }
   declare_over();
   await(ReportKind::finished);
-  if (go_on && progress) progress(1);
+  // Words of a frame that was broken off are still in the mailboxes.
+  if (!go_on) synchronize();
+  if (go_on) ask(1);
+  if (failure) std::rethrow_exception(failure);
   return go_on;
 }
 

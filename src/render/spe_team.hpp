@@ -24,7 +24,8 @@ public:
   bool prepare_frame();
   /// Every SPE forgets what it has cached and what is in its mailbox.
   void synchronize();
-  /// All SPEs render. False if `progress` broke the frame off.
+  /// All SPEs render. False if `progress` broke the frame off; what it throws passes through, the SPEs being ready for
+  /// the next frame all the same.
   bool render_frame(const Progress& progress);
 
 private:

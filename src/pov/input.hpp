@@ -1,0 +1,63 @@
+// The stack of things being read: files, macro bodies and loop bodies.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pov/quantity.hpp"
+#include "pov/scanner.hpp"
+#include "pov/token.hpp"
+#include "pov/value.hpp"
+
+namespace celltrace::pov {
+
+/// An #if or #switch whose #end is still to come.
+struct Conditional {
+  bool is_switch = false;
+  Location where;
+};
+
+/// What a #for counts with; a #while has none.
+struct Counter {
+  NameId name = 0;
+  std::shared_ptr<Slot> slot;
+  double last = 0;
+  double step = 1;
+};
+
+/// One thing being read: the scanner of a file, or a recorded range.
+struct Frame {
+  enum class Kind { file, macro, loop };
+  Kind kind = Kind::file;
+  Location opened_at; ///< the #include, call or loop
+  std::unique_ptr<Scanner> scanner;
+  std::filesystem::path folder; ///< of the file
+  TokenRange range;
+  std::size_t position = 0;
+  NameId macro_name = 0;
+  std::optional<Counter> counter;
+  std::vector<Conditional> conditionals;
+};
+
+/// The frames and the tokens put back in front of them. Knows nothing of what the tokens mean.
+class Input {
+public:
+  void push(Frame frame) { frames_.push_back(std::move(frame)); }
+  void pop() { frames_.pop_back(); }
+  Frame& top() { return frames_.back(); }
+  const std::vector<Frame>& frames() const { return frames_; }
+  std::size_t depth() const { return frames_.size(); }
+
+  /// Kind::end, and no further, at the end of the top frame.
+  Token read();
+  void unread(const Token& token) { put_back_.push_back(token); }
+
+private:
+  std::vector<Frame> frames_;
+  std::vector<Token> put_back_;
+};
+
+} // namespace celltrace::pov

@@ -1,0 +1,145 @@
+#include "pov/mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <glm/geometric.hpp>
+
+#include "celltrace/error.hpp"
+
+namespace celltrace::pov {
+
+namespace {
+
+/// A face of mesh2 in numbers: its vertices and the textures behind it, 0, 1 or 3 of them.
+struct Face {
+  Index vertex[3];
+  Index texture[3];
+  int texture_count = 0;
+};
+
+Vec3f to_single(const Vec3& v) {
+  const Vec3f single(v);
+  if (!std::isfinite(single.x) || !std::isfinite(single.y) || !std::isfinite(single.z))
+    throw InputError("a mesh has a coordinate that is too large");
+  return single;
+}
+
+bool is_degenerate(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 normal = glm::cross(b - a, c - a);
+  return normal.x == 0 && normal.y == 0 && normal.z == 0;
+}
+
+/// POV-Ray brings vertex normals to length one before it interpolates; zero stays zero.
+Vec3 unit(const Vec3& normal) {
+  const double length = glm::length(normal);
+  return length > 0 ? normal / length : normal;
+}
+
+/// Whether three unit normals bend a surface: none is zero and not all are equal.
+bool are_smooth(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const auto is_zero = [](const Vec3& n) { return n.x == 0 && n.y == 0 && n.z == 0; };
+  return !is_zero(a) && !is_zero(b) && !is_zero(c) && !(a == b && b == c);
+}
+
+Index to_index(double value, std::size_t count, const char* what) {
+  const double whole = std::trunc(value);
+  if (!(whole >= 0 && whole < static_cast<double>(count)))
+    throw InputError(std::string("mesh2 has no ") + what + ' ' + std::to_string(static_cast<long long>(whole)) +
+                     ", there are " + std::to_string(count));
+  return static_cast<Index>(whole);
+}
+
+std::vector<Face> to_faces(const Mesh2Definition& definition) {
+  std::vector<Face> faces;
+  for (const Quantity& entry : definition.face_indices) {
+    if (!entry.is_finite()) throw InputError("mesh2 has an index that is not finite");
+    if (!entry.is_float()) {
+      Face& face = faces.emplace_back();
+      for (std::size_t i = 0; i < 3; ++i)
+        face.vertex[i] = to_index(entry.v[i], definition.vertex_vectors.size(), "vertex");
+      continue;
+    }
+    if (faces.empty() || faces.back().texture_count == 3)
+      throw InputError("mesh2 has a texture index without a face");
+    Face& face = faces.back();
+    face.texture[face.texture_count++] = to_index(entry.v[0], definition.textures.size(), "texture");
+  }
+  return faces;
+}
+
+/// The normals of face number `face`: those of its indices or, without any, those with its vertices' numbers.
+bool find_normals(const Mesh2Definition& definition, std::size_t face, const Face& of, Index (&normal)[3]) {
+  if (definition.normal_vectors.empty()) return false;
+  if (definition.normal_indices.empty()) {
+    if (definition.normal_vectors.size() != definition.vertex_vectors.size()) return false;
+    std::copy(of.vertex, of.vertex + 3, normal);
+  } else {
+    if (face >= definition.normal_indices.size()) return false;
+    const Quantity& indices = definition.normal_indices[face];
+    if (!indices.is_finite()) throw InputError("mesh2 has an index that is not finite");
+    for (std::size_t i = 0; i < 3; ++i)
+      normal[i] = to_index(indices.v[i], definition.normal_vectors.size(), "normal");
+  }
+  return are_smooth(definition.normal_vectors[normal[0]], definition.normal_vectors[normal[1]],
+                    definition.normal_vectors[normal[2]]);
+}
+
+} // namespace
+
+void MeshBuilder::add(const TriangleDefinition& triangle) {
+  const Corners& corners = triangle.vertices;
+  if (is_degenerate(corners[0], corners[1], corners[2])) return;
+  const Corners normals{unit(triangle.normals[0]), unit(triangle.normals[1]), unit(triangle.normals[2])};
+  const bool is_smooth = triangle.is_smooth && are_smooth(normals[0], normals[1], normals[2]);
+  Mesh& mesh = mesh_->mesh;
+  Mesh::Triangle result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    result.vertex[i] = static_cast<Index>(mesh.vertices.size());
+    mesh.vertices.push_back(to_single(corners[i]));
+    if (is_smooth) {
+      result.normal[i] = static_cast<Index>(mesh.normals.size());
+      mesh.normals.push_back(to_single(normals[i]));
+    }
+    if (triangle.texture) result.material[i] = texture_index(triangle.texture);
+  }
+  mesh.triangles.push_back(result);
+}
+
+Index MeshBuilder::texture_index(const TexturePtr& texture) {
+  const auto [entry, is_new] =
+      texture_indices_.try_emplace(texture.get(), static_cast<Index>(mesh_->textures.size()));
+  if (is_new) mesh_->textures.push_back(texture);
+  return entry->second;
+}
+
+std::shared_ptr<MeshDefinition> make_mesh(Mesh2Definition definition) {
+  for (Vec3& normal : definition.normal_vectors) normal = unit(normal);
+  auto result = std::make_shared<MeshDefinition>();
+  Mesh& mesh = result->mesh;
+  const std::vector<Face> faces = to_faces(definition);
+  mesh.triangles.reserve(faces.size());
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const Face& face = faces[i];
+    if (face.texture_count == 2) throw InputError("mesh2 has a face with two texture indices: one or three can be given");
+    if (is_degenerate(definition.vertex_vectors[face.vertex[0]], definition.vertex_vectors[face.vertex[1]],
+                      definition.vertex_vectors[face.vertex[2]]))
+      continue;
+    Mesh::Triangle triangle;
+    std::copy(face.vertex, face.vertex + 3, triangle.vertex);
+    Index normal[3];
+    if (find_normals(definition, i, face, normal)) std::copy(normal, normal + 3, triangle.normal);
+    for (int corner = 0; corner < 3 && face.texture_count > 0; ++corner)
+      triangle.material[corner] = face.texture[face.texture_count == 3 ? corner : 0];
+    mesh.triangles.push_back(triangle);
+  }
+  mesh.vertices.reserve(definition.vertex_vectors.size());
+  for (const Vec3& vertex : definition.vertex_vectors) mesh.vertices.push_back(to_single(vertex));
+  mesh.normals.reserve(definition.normal_vectors.size());
+  for (const Vec3& normal : definition.normal_vectors) mesh.normals.push_back(to_single(normal));
+  result->textures = std::move(definition.textures);
+  return result;
+}
+
+} // namespace celltrace::pov

@@ -1,0 +1,49 @@
+// From triangles and mesh2's lists to a Mesh.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "pov/object.hpp"
+#include "pov/quantity.hpp"
+
+namespace celltrace::pov {
+
+using Corners = std::array<Vec3, 3>;
+
+/// One triangle as written in a mesh or alone. Without normals it is flat.
+struct TriangleDefinition {
+  Corners vertices;
+  Corners normals{};
+  bool is_smooth = false;
+  TexturePtr texture; ///< null: the mesh's
+};
+
+/// Takes triangles one by one. Degenerate ones are dropped; normals that are equal or zero count for nothing.
+class MeshBuilder {
+public:
+  void add(const TriangleDefinition& triangle);
+  std::shared_ptr<MeshDefinition> finish() { return std::move(mesh_); }
+
+private:
+  Index texture_index(const TexturePtr& texture);
+
+  std::shared_ptr<MeshDefinition> mesh_ = std::make_shared<MeshDefinition>();
+  std::unordered_map<const TextureDefinition*, Index> texture_indices_;
+};
+
+/// The lists of a mesh2, each as written behind its count.
+struct Mesh2Definition {
+  std::vector<Vec3> vertex_vectors;
+  std::vector<Vec3> normal_vectors;
+  std::vector<TexturePtr> textures;
+  std::vector<Quantity> face_indices; ///< a vector for a face, floats for its textures behind it
+  std::vector<Quantity> normal_indices;
+};
+
+/// Throws InputError, without a position, for indices that are out of range or do not belong to a face.
+std::shared_ptr<MeshDefinition> make_mesh(Mesh2Definition definition);
+
+} // namespace celltrace::pov

@@ -1,0 +1,66 @@
+// The words of a scene, numbered, with what the language means by them.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "pov/token.hpp"
+
+namespace celltrace::pov {
+
+/// The preprocessor's words, those after a #.
+enum class Directive : std::uint8_t {
+  none,
+  break_,
+  case_,
+  debug,
+  declare,
+  default_,
+  else_,
+  elseif,
+  end,
+  error,
+  for_,
+  if_,
+  ifdef,
+  ifndef,
+  include,
+  local,
+  macro,
+  range,
+  render,
+  statistics,
+  switch_,
+  undef,
+  version,
+  warning,
+  while_,
+  unsupported, ///< known to POV-Ray only
+};
+
+class Names {
+public:
+  struct Entry {
+    std::string text;
+    int token = 0; ///< the grammar's token for a reserved word, 0 for a free one
+    int detail = 0; ///< what the token says apart from its kind: which function, constant or colour model
+    Directive directive = Directive::none;
+  };
+
+  /// Knows the reserved words.
+  Names();
+
+  NameId intern(std::string_view text);
+  const Entry& operator[](NameId name) const { return entries_[name]; }
+  const std::string& text(NameId name) const { return entries_[name].text; }
+  std::size_t size() const { return entries_.size(); }
+
+private:
+  std::deque<Entry> entries_; // a deque, so that the views in numbers_ stay valid
+  std::unordered_map<std::string_view, NameId> numbers_;
+};
+
+} // namespace celltrace::pov

@@ -1,0 +1,58 @@
+// Cuts the text of one file into tokens. Reentrant: one scanner per file being read.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "pov/names.hpp"
+#include "pov/token.hpp"
+
+namespace celltrace::pov {
+
+class Scanner {
+public:
+  /// Reports a fault of the text; must throw.
+  using Fail = std::function<void(const Location&, const std::string&)>;
+
+  Scanner(std::string text, std::uint32_t file, Names& names, Fail fail);
+  Scanner(const Scanner&) = delete;
+  Scanner& operator=(const Scanner&) = delete;
+  ~Scanner();
+
+  /// The next token; Token::Kind::end again and again at the end. Comments may nest; line ends are CR, LF or CR LF.
+  Token next();
+
+  // What the generated code calls.
+  void start_lexeme(std::size_t length);
+  void start_line() { line_start_ = offset_, ++line_; }
+  /// Counts the line ends inside a lexeme that may span lines.
+  void count_lines(std::string_view lexeme);
+  void open_comment();
+  /// True when this closed the outermost comment.
+  bool close_comment() { return --comment_depth_ == 0; }
+  [[noreturn]] void unterminated_comment();
+  [[noreturn]] void unterminated_string();
+  Token punctuation(unsigned symbol) const;
+  Token bad_character(unsigned char character) const;
+  Token number(std::string_view lexeme) const;
+  Token vector(std::string_view lexeme) const;
+  Token named(Token::Kind kind, std::string_view text);
+  Token end() const;
+
+private:
+  [[noreturn]] void fail(const Location& where, const std::string& what) const;
+
+  std::string text_; // two NULs longer than the file: flex scans it in place
+  Names& names_;
+  Fail fail_;
+  void* flex_ = nullptr;
+  std::size_t offset_ = 0;
+  std::size_t line_start_ = 0;
+  std::uint32_t line_ = 1;
+  Location where_;
+  Location comment_start_;
+  int comment_depth_ = 0;
+};
+
+} // namespace celltrace::pov

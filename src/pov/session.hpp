@@ -1,0 +1,45 @@
+// Everything one parse consists of.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "celltrace/pov.hpp"
+#include "pov/diagnostics.hpp"
+#include "pov/input.hpp"
+#include "pov/names.hpp"
+#include "pov/scene_builder.hpp"
+#include "pov/sources.hpp"
+#include "pov/symbols.hpp"
+#include "pov/token_stream.hpp"
+
+namespace celltrace::pov {
+
+struct Session {
+  explicit Session(const ParseOptions& parse_options)
+      : options(parse_options), sources(parse_options.library_paths), diagnostics(sources, names, input),
+        tokens(*this), builder(parse_options.limits, diagnostics) {}
+
+  const ParseOptions& options;
+  Names names;
+  Sources sources;
+  Input input;
+  Diagnostics diagnostics;
+  Symbols symbols;
+  TokenStream tokens;
+  SceneBuilder builder;
+  std::vector<std::uint32_t> random_streams; ///< what seed() handed out
+
+  [[noreturn]] void fail(const Location& where, const std::string& what) const { diagnostics.fail(where, what); }
+
+  // What a number must be where it is used: finite, and a float, a small whole one or a vector.
+  double number(const Quantity& quantity, const Location& where) const;
+  std::int64_t whole(const Quantity& quantity, const Location& where) const;
+  Vec3 vector(const Quantity& quantity, const Location& where) const;
+  Pigment colour(const Quantity& quantity, const Location& where) const;
+};
+
+/// Runs the grammar from `start` on session.tokens.
+void run_grammar(Session& session, Start start);
+
+} // namespace celltrace::pov

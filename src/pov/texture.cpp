@@ -1,0 +1,33 @@
+#include "pov/texture.hpp"
+
+namespace celltrace::pov {
+
+const UnsupportedPtr& TextureDefinition::first_unsupported() const {
+  if (unsupported) return unsupported;
+  return pigment.unsupported ? pigment.unsupported : finish.unsupported;
+}
+
+TexturePtr with_pigment(const TexturePtr& texture, PigmentDefinition pigment) {
+  auto changed = std::make_shared<TextureDefinition>(*texture);
+  changed->pigment = std::move(pigment);
+  return changed;
+}
+
+TexturePtr with_finish(const TexturePtr& texture, FinishDefinition finish) {
+  auto changed = std::make_shared<TextureDefinition>(*texture);
+  changed->finish = std::move(finish);
+  return changed;
+}
+
+TexturePtr with_unsupported(const TexturePtr& texture, const UnsupportedPtr& unsupported) {
+  auto changed = std::make_shared<TextureDefinition>(*texture);
+  mark(changed->unsupported, unsupported);
+  return changed;
+}
+
+TexturePtr layered(const TexturePtr& below, const TexturePtr& top, const Location& where) {
+  if (!below || (top->is_opaque() && !top->first_unsupported())) return top;
+  return with_unsupported(top, std::make_shared<Unsupported>(Unsupported{"a layered texture", where}));
+}
+
+} // namespace celltrace::pov

@@ -1,0 +1,133 @@
+// What the grammar reads: tokens after directives have been obeyed, macros and loops replayed and names looked up.
+//
+// Directives need values, so the stream re-enters the grammar (evaluate). A value may end in the middle of what
+// follows: the grammar then hands back the token it looked at last.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "pov/input.hpp"
+#include "pov/value.hpp"
+
+namespace celltrace::pov {
+
+struct Session;
+
+/// What the grammar can be entered for.
+enum class Start {
+  scene,      ///< the whole scene
+  condition,  ///< ( value )
+  list,       ///< value, value ... )
+  expression, ///< a number
+  text,       ///< a string
+  value,      ///< anything that can be declared or passed to a macro
+  defaults,   ///< { texture ... }
+};
+
+/// A token of the grammar.
+struct Terminal {
+  int token = 0;  ///< the grammar's number, 0 at the end
+  int detail = 0; ///< Names::Entry::detail of a reserved word
+  Location where;
+  Value value;
+};
+
+class TokenStream {
+public:
+  explicit TokenStream(Session& session) : session_(session) {}
+
+  void open(std::string text, const std::string& name, std::filesystem::path folder);
+
+  Terminal next();
+
+  /// For the grammar: the value is complete; `has_lookahead` if next() was called once too often.
+  void finish(Value value, bool has_lookahead);
+
+  /// Enters the grammar and returns what it finished with.
+  Value evaluate(Start start);
+
+  /// For the grammar, inside { }: passes over everything up to, not including, the closing brace.
+  void skip_to_close();
+  /// For the grammar, after a keyword: passes over ( ) if there, and { }.
+  void skip_group();
+
+  /// How a message names what next() returned last.
+  std::string describe_last() const;
+  const Location& last_place() const { return levels_.back().last_token.where; }
+  /// Whether any token was found at all.
+  bool is_empty() const { return tokens_read_ == 0; }
+
+private:
+  /// One entry of the grammar.
+  struct Level {
+    Start start = Start::scene;
+    std::size_t base_depth = 0;       ///< frames below this depth are not this level's to leave
+    bool start_pending = true;
+    bool any_delivered = false;
+    bool at_end = false;              ///< end was delivered: nothing to hand back
+    unsigned nesting = 0;             ///< open brackets, and < and ? which may or may not be brackets
+    std::vector<unsigned> enclosing;  ///< nesting outside each open bracket
+    Token last_token;
+    bool after_operand = false;       ///< the last terminal can end a value
+    Value result;
+    bool hands_back = false;
+  };
+
+  // token_stream.cpp: from tokens to terminals
+  bool is_inside_value() const;
+  Token read();
+  Terminal deliver(const Token& token, Terminal terminal);
+  void count_brackets(const Token& token);
+  Terminal end_at(const Token& token);
+  bool look_up(const Token& token, Terminal& terminal);
+  Terminal terminal_of(const Token& token, Value value);
+  void skip_to_depth(std::size_t depth);
+  bool leave_frame_at_end();
+
+  // directives.cpp
+  void obey(const Token& directive);
+  void declare(bool is_local);
+  void undefine();
+  void set_version(const Token& directive);
+  void include(const Token& directive);
+  void show(const Token& directive, Directive kind);
+  void skip_semicolon();
+  Token expect_name(const char* purpose);
+  void expect(char punctuation, const char* purpose);
+  bool is_defined();
+  std::vector<std::size_t> read_subscripts();
+  Value& element(Value& array, const std::vector<std::size_t>& subscripts, const Location& where);
+
+  // conditionals.cpp
+  bool condition();
+  Token skip_branch(unsigned depth);
+  void obey_if(const Token& directive, bool holds);
+  void choose_else();
+  void obey_switch(const Token& directive);
+  void obey_else(const Token& directive, Directive kind);
+  void obey_case(Directive kind);
+  void obey_end(const Token& directive);
+  void obey_break(const Token& directive);
+  bool case_holds(Directive kind, double value);
+
+  // replay.cpp: macros and loops
+  TokenRange take_block(const Token& opening);
+  void define_macro(const Token& directive);
+  void call(const Token& name, const std::shared_ptr<const Macro>& macro);
+  std::shared_ptr<Slot> read_argument(const Macro& macro);
+  void start_while(const Token& directive);
+  void start_for(const Token& directive);
+  void start_iteration(bool is_first);
+  void leave_frame();
+
+  Session& session_;
+  std::vector<Level> levels_;
+  std::uint64_t tokens_read_ = 0;
+  std::uint64_t tokens_recorded_ = 0;
+  std::uint64_t iterations_ = 0;
+  unsigned macro_calls_ = 0;
+};
+
+} // namespace celltrace::pov

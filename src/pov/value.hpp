@@ -1,0 +1,44 @@
+// What a name of the scene language can stand for.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "pov/camera.hpp"
+#include "pov/object.hpp"
+#include "pov/quantity.hpp"
+#include "pov/texture.hpp"
+#include "pov/token.hpp"
+
+namespace celltrace::pov {
+
+struct Array;
+
+struct Macro {
+  NameId name = 0;
+  Location where;
+  std::vector<NameId> parameters;
+  TokenRange body;
+};
+
+using Value = std::variant<std::monostate, Quantity, std::string, PigmentDefinition, FinishDefinition, TexturePtr,
+                           InteriorPtr, std::shared_ptr<const MaterialDefinition>,
+                           std::shared_ptr<const CameraDefinition>, ObjectPtr, Transform, std::shared_ptr<Array>,
+                           std::shared_ptr<const Macro>, UnsupportedPtr>;
+
+/// Elements without a value hold std::monostate. Assigning an array copies it.
+struct Array {
+  std::vector<Value> elements;
+};
+
+/// What a name is bound to; macro parameters may share the caller's.
+struct Slot {
+  Value value;
+};
+
+/// For messages: "a float", "a texture".
+const char* kind_name(const Value& value);
+
+} // namespace celltrace::pov
