@@ -1,0 +1,33 @@
+# Prints what a program takes of an SPE's local store, and fails if that is more than there is.
+#
+#   cmake -DELF=... -DSTACK=... -DARENA=bytes -DSIZE_TOOL=spu-elf-size -P check_budget.cmake
+#
+# STACK is what the linker printed with --stack-analysis: the worst call chain from the entry, crt0 included.
+
+set(local_store 262144)
+
+execute_process(COMMAND ${SIZE_TOOL} ${ELF} OUTPUT_VARIABLE sizes RESULT_VARIABLE failed)
+if(failed OR NOT sizes MATCHES "\n *([0-9]+)[ \t]+([0-9]+)[ \t]+([0-9]+)")
+  message(FATAL_ERROR "${SIZE_TOOL} cannot read ${ELF}")
+endif()
+set(code ${CMAKE_MATCH_1})
+math(EXPR data "${CMAKE_MATCH_2} + ${CMAKE_MATCH_3} - ${ARENA}")
+
+file(READ ${STACK} analysis)
+if(NOT analysis MATCHES "Maximum stack required is (0x[0-9a-f]+)")
+  message(FATAL_ERROR "${STACK} holds no stack analysis")
+endif()
+math(EXPR stack "${CMAKE_MATCH_1}")
+
+math(EXPR total "${code} + ${data} + ${ARENA} + ${stack}")
+math(EXPR free "${local_store} - ${total}")
+get_filename_component(name ${ELF} NAME)
+message("local store of ${name}, bytes:\n"
+  "  code and constants  ${code}\n"
+  "  data                ${data}\n"
+  "  arena               ${ARENA}\n"
+  "  stack               ${stack}\n"
+  "  free                ${free}")
+if(free LESS 0)
+  message(FATAL_ERROR "${name} takes ${total} of ${local_store} bytes")
+endif()

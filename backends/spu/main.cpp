@@ -1,0 +1,21 @@
+// A kernel as a program for a real SPE. The build defines
+//
+//   CELLTRACE_SPU_KERNEL_HEADER   header of the kernel, for #include
+//   CELLTRACE_SPU_KERNEL          the kernel, a function template over the Spu type, qualified
+//   CELLTRACE_SPU_ARENA_BYTES     local store for the kernel's arena
+#include CELLTRACE_SPU_KERNEL_HEADER
+
+#include "backends/spu/spu.hpp"
+
+namespace {
+
+alignas(celltrace::kLineBytes) uint8_t arena[CELLTRACE_SPU_ARENA_BYTES];
+
+} // namespace
+
+/// As crt0 calls it: the id that the PPE's library gave the SPE, and two arguments of spe_context_run().
+int main(unsigned long long, unsigned long long control_block, unsigned long long) {
+  celltrace::spu::Spu spu(control_block, arena, sizeof arena);
+  CELLTRACE_SPU_KERNEL(spu, spu.argument());
+  return 0;
+}

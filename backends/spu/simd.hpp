@@ -1,0 +1,244 @@
+// The SIMD facade of celltrace/spe/simd.hpp on an SPU: 16 lanes are four quadwords, lane l is word l % 4 of
+// quad l / 4. Intrinsics: C/C++ Language Extensions for Cell Broadband Engine Architecture.
+#pragma once
+
+#include "celltrace/spe/simd.hpp"
+
+#include <spu_intrinsics.h>
+#include <stdint.h>
+
+namespace celltrace::spu {
+
+struct Simd {
+  static constexpr int kQuads = 4;
+
+  /// Lane l of a quad holds 1 << (4 * quad + l).
+  static vec_uint4 lane_bits(int quad) {
+    const vec_uint4 first = {1, 2, 4, 8};
+    return spu_sl(first, static_cast<unsigned>(4 * quad));
+  }
+  /// 1/x to within one unit in the last place: the estimate and one Newton-Raphson step.
+  static vec_float4 reciprocal(vec_float4 x) {
+    const vec_float4 estimate = spu_re(x);
+    return spu_madd(estimate, spu_nmsub(x, estimate, spu_splats(1.0f)), estimate);
+  }
+  /// The quotient is corrected by its remainder, because SPU arithmetic truncates.
+  static vec_float4 divide(vec_float4 a, vec_float4 b) {
+    const vec_float4 inverse = reciprocal(b);
+    const vec_float4 quotient = spu_mul(a, inverse);
+    return spu_madd(spu_nmsub(quotient, b, a), inverse, quotient);
+  }
+  /// Goldschmidt's iteration from the estimate of 1/sqrt(x), then a correction by the remainder. 0 gives 0,
+  /// because the estimate of 1/sqrt(0) is finite.
+  static vec_float4 square_root(vec_float4 x) {
+    const vec_float4 half = spu_splats(0.5f);
+    const vec_float4 estimate = spu_rsqrte(x);
+    vec_float4 root = spu_mul(x, estimate);
+    vec_float4 half_inverse = spu_mul(estimate, half);
+    const vec_float4 error = spu_nmsub(root, half_inverse, half);
+    root = spu_madd(root, error, root);
+    half_inverse = spu_madd(half_inverse, error, half_inverse);
+    return spu_madd(spu_nmsub(root, root, x), half_inverse, root);
+  }
+
+  struct M {
+    vec_uint4 quad[kQuads]; ///< all ones or all zeros a lane
+
+    static M from_bits(uint32_t bits) {
+      const vec_uint4 all = spu_splats(static_cast<unsigned>(bits));
+      M r;
+      r.quad[0] = spu_cmpeq(spu_and(all, lane_bits(0)), lane_bits(0));
+      r.quad[1] = spu_cmpeq(spu_and(all, lane_bits(1)), lane_bits(1));
+      r.quad[2] = spu_cmpeq(spu_and(all, lane_bits(2)), lane_bits(2));
+      r.quad[3] = spu_cmpeq(spu_and(all, lane_bits(3)), lane_bits(3));
+      return r;
+    }
+    static M none() { return splat(0); }
+    static M all() { return splat(~0u); }
+    uint32_t bits() const {
+      const vec_uint4 low = spu_or(spu_and(quad[0], lane_bits(0)), spu_and(quad[1], lane_bits(1)));
+      const vec_uint4 high = spu_or(spu_and(quad[2], lane_bits(2)), spu_and(quad[3], lane_bits(3)));
+      return spu_extract(spu_orx(spu_or(low, high)), 0);
+    }
+    friend M operator&(const M& a, const M& b) {
+      return zip(a, b, [](vec_uint4 x, vec_uint4 y) { return spu_and(x, y); });
+    }
+    friend M operator|(const M& a, const M& b) {
+      return zip(a, b, [](vec_uint4 x, vec_uint4 y) { return spu_or(x, y); });
+    }
+    friend M operator!(const M& a) {
+      return zip(a, a, [](vec_uint4 x, vec_uint4 y) { return spu_nor(x, y); });
+    }
+
+  private:
+    static M splat(unsigned word) {
+      const vec_uint4 q = spu_splats(word);
+      return {{q, q, q, q}};
+    }
+    template <class Operation> static M zip(const M& a, const M& b, Operation operation) {
+      return {{operation(a.quad[0], b.quad[0]), operation(a.quad[1], b.quad[1]),
+               operation(a.quad[2], b.quad[2]), operation(a.quad[3], b.quad[3])}};
+    }
+  };
+
+  struct F {
+    vec_float4 quad[kQuads];
+
+    F() = default;
+    F(float value) : F(spu_splats(value), spu_splats(value), spu_splats(value), spu_splats(value)) {}
+    F(vec_float4 q0, vec_float4 q1, vec_float4 q2, vec_float4 q3) : quad{q0, q1, q2, q3} {}
+
+    static F load(const float* lanes) {
+      const vec_float4* quads = reinterpret_cast<const vec_float4*>(lanes);
+      return {quads[0], quads[1], quads[2], quads[3]};
+    }
+    void store(float* lanes) const {
+      vec_float4* quads = reinterpret_cast<vec_float4*>(lanes);
+      quads[0] = quad[0];
+      quads[1] = quad[1];
+      quads[2] = quad[2];
+      quads[3] = quad[3];
+    }
+    template <class Operation> static F map(const F& a, Operation operation) {
+      return {operation(a.quad[0]), operation(a.quad[1]), operation(a.quad[2]), operation(a.quad[3])};
+    }
+    template <class Operation> static F zip(const F& a, const F& b, Operation operation) {
+      return {operation(a.quad[0], b.quad[0]), operation(a.quad[1], b.quad[1]),
+              operation(a.quad[2], b.quad[2]), operation(a.quad[3], b.quad[3])};
+    }
+    template <class Operation> static M test(const F& a, const F& b, Operation operation) {
+      return {{operation(a.quad[0], b.quad[0]), operation(a.quad[1], b.quad[1]),
+               operation(a.quad[2], b.quad[2]), operation(a.quad[3], b.quad[3])}};
+    }
+    friend F operator+(const F& a, const F& b) {
+      return zip(a, b, [](vec_float4 x, vec_float4 y) { return spu_add(x, y); });
+    }
+    friend F operator-(const F& a, const F& b) {
+      return zip(a, b, [](vec_float4 x, vec_float4 y) { return spu_sub(x, y); });
+    }
+    friend F operator*(const F& a, const F& b) {
+      return zip(a, b, [](vec_float4 x, vec_float4 y) { return spu_mul(x, y); });
+    }
+    friend F operator/(const F& a, const F& b) {
+      return zip(a, b, [](vec_float4 x, vec_float4 y) { return divide(x, y); });
+    }
+    friend F operator-(const F& a) {
+      return map(a, [](vec_float4 x) { return (vec_float4)spu_xor((vec_uint4)x, spu_splats(0x80000000u)); });
+    }
+    friend M operator<(const F& a, const F& b) { return b > a; }
+    friend M operator>(const F& a, const F& b) {
+      return test(a, b, [](vec_float4 x, vec_float4 y) { return spu_cmpgt(x, y); });
+    }
+    // There are no NaNs: not greater is less or equal.
+    friend M operator<=(const F& a, const F& b) { return !(a > b); }
+    friend M operator>=(const F& a, const F& b) { return !(b > a); }
+    friend M operator==(const F& a, const F& b) {
+      return test(a, b, [](vec_float4 x, vec_float4 y) { return spu_cmpeq(x, y); });
+    }
+  };
+
+  struct I {
+    vec_int4 quad[kQuads];
+
+    static I splat(int32_t value) {
+      const vec_int4 q = spu_splats(static_cast<int>(value));
+      return {{q, q, q, q}};
+    }
+    static I load(const int32_t* lanes) {
+      const vec_int4* quads = reinterpret_cast<const vec_int4*>(lanes);
+      return {{quads[0], quads[1], quads[2], quads[3]}};
+    }
+    void store(int32_t* lanes) const {
+      vec_int4* quads = reinterpret_cast<vec_int4*>(lanes);
+      quads[0] = quad[0];
+      quads[1] = quad[1];
+      quads[2] = quad[2];
+      quads[3] = quad[3];
+    }
+    template <class Operation> static I map(const I& a, Operation operation) {
+      return {{operation(a.quad[0]), operation(a.quad[1]), operation(a.quad[2]), operation(a.quad[3])}};
+    }
+    template <class Operation> static I zip(const I& a, const I& b, Operation operation) {
+      return {{operation(a.quad[0], b.quad[0]), operation(a.quad[1], b.quad[1]),
+               operation(a.quad[2], b.quad[2]), operation(a.quad[3], b.quad[3])}};
+    }
+    template <class Operation> static M test(const I& a, const I& b, Operation operation) {
+      return {{operation(a.quad[0], b.quad[0]), operation(a.quad[1], b.quad[1]),
+               operation(a.quad[2], b.quad[2]), operation(a.quad[3], b.quad[3])}};
+    }
+    friend I operator+(const I& a, const I& b) {
+      return zip(a, b, [](vec_int4 x, vec_int4 y) { return spu_add(x, y); });
+    }
+    friend I operator-(const I& a, const I& b) {
+      return zip(a, b, [](vec_int4 x, vec_int4 y) { return spu_sub(x, y); });
+    }
+    friend I operator&(const I& a, const I& b) {
+      return zip(a, b, [](vec_int4 x, vec_int4 y) { return spu_and(x, y); });
+    }
+    friend I operator|(const I& a, const I& b) {
+      return zip(a, b, [](vec_int4 x, vec_int4 y) { return spu_or(x, y); });
+    }
+    friend M operator==(const I& a, const I& b) {
+      return test(a, b, [](vec_int4 x, vec_int4 y) { return spu_cmpeq(x, y); });
+    }
+    friend M operator<(const I& a, const I& b) {
+      return test(a, b, [](vec_int4 x, vec_int4 y) { return spu_cmpgt(y, x); });
+    }
+  };
+
+  static F min(const F& a, const F& b) {
+    return F::zip(a, b, [](vec_float4 x, vec_float4 y) { return spu_sel(x, y, spu_cmpgt(x, y)); });
+  }
+  static F max(const F& a, const F& b) {
+    return F::zip(a, b, [](vec_float4 x, vec_float4 y) { return spu_sel(y, x, spu_cmpgt(x, y)); });
+  }
+  static F abs(const F& a) {
+    return F::map(a, [](vec_float4 x) { return (vec_float4)spu_and((vec_uint4)x, spu_splats(0x7FFFFFFFu)); });
+  }
+  static F sqrt(const F& a) {
+    return F::map(a, [](vec_float4 x) { return square_root(x); });
+  }
+  static F select(const M& m, const F& a, const F& b) {
+    return {spu_sel(b.quad[0], a.quad[0], m.quad[0]), spu_sel(b.quad[1], a.quad[1], m.quad[1]),
+            spu_sel(b.quad[2], a.quad[2], m.quad[2]), spu_sel(b.quad[3], a.quad[3], m.quad[3])};
+  }
+  static I select(const M& m, const I& a, const I& b) {
+    return {{spu_sel(b.quad[0], a.quad[0], m.quad[0]), spu_sel(b.quad[1], a.quad[1], m.quad[1]),
+             spu_sel(b.quad[2], a.quad[2], m.quad[2]), spu_sel(b.quad[3], a.quad[3], m.quad[3])}};
+  }
+  static I to_int(const F& a) {
+    return {{spu_convts(a.quad[0], 0), spu_convts(a.quad[1], 0), spu_convts(a.quad[2], 0),
+             spu_convts(a.quad[3], 0)}};
+  }
+  static F to_float(const I& a) {
+    return {spu_convtf(a.quad[0], 0), spu_convtf(a.quad[1], 0), spu_convtf(a.quad[2], 0),
+            spu_convtf(a.quad[3], 0)};
+  }
+  static I bits_of(const F& a) {
+    return {{(vec_int4)a.quad[0], (vec_int4)a.quad[1], (vec_int4)a.quad[2], (vec_int4)a.quad[3]}};
+  }
+  static F float_of(const I& a) {
+    return {(vec_float4)a.quad[0], (vec_float4)a.quad[1], (vec_float4)a.quad[2], (vec_float4)a.quad[3]};
+  }
+  template <int bits> static I shift_left(const I& a) {
+    return I::map(a, [](vec_int4 x) { return spu_sl(x, static_cast<unsigned>(bits)); });
+  }
+  template <int bits> static I shift_right(const I& a) {
+    return I::map(a, [](vec_int4 x) { return spu_rlmaska(x, -bits); });
+  }
+
+  struct U4 {
+    vec_uint4 lanes;
+
+    static U4 splat(uint32_t value) { return {spu_splats(static_cast<unsigned>(value))}; }
+    static U4 load(const uint32_t* words) { return {*reinterpret_cast<const vec_uint4*>(words)}; }
+    void store(uint32_t* words) const { *reinterpret_cast<vec_uint4*>(words) = lanes; }
+    friend U4 operator&(const U4& a, const U4& b) { return {spu_and(a.lanes, b.lanes)}; }
+    friend U4 operator|(const U4& a, const U4& b) { return {spu_or(a.lanes, b.lanes)}; }
+    friend uint32_t equal_bits(const U4& a, const U4& b) {
+      return spu_extract(spu_orx(spu_and(spu_cmpeq(a.lanes, b.lanes), lane_bits(0))), 0);
+    }
+  };
+};
+
+} // namespace celltrace::spu

@@ -1,0 +1,62 @@
+# Compiles kernels for the real SPU with CELLTRACE_SPU_GXX.
+#
+#   celltrace_spu_elf(NAME HEADER kernel.hpp KERNEL qualified::function [ARENA bytes] [INCLUDES directories...])
+#
+# makes the target celltrace_spu_NAME, part of `all`: NAME.elf, NAME.map (the linker's map, with the stack that every
+# function needs) and NAME.stack.txt in the current binary directory.
+#
+#   celltrace_spu_budget_test("test name" NAME)
+#
+# checks in CTest that code, data, arena and stack of NAME fit the local store together. Without a compiler both do
+# nothing but to register a test that is skipped.
+
+# What stays of the 256 KB for code, data and stack is 112 KB.
+set(CELLTRACE_SPU_ARENA_BYTES 147456 CACHE STRING "Local store for the kernel's arena in programs for the real SPU")
+
+function(celltrace_spu_elf name)
+  cmake_parse_arguments(ELF "" "HEADER;KERNEL;ARENA" "INCLUDES" ${ARGN})
+  if(NOT CELLTRACE_SPU_GXX)
+    return()
+  endif()
+  if(NOT ELF_ARENA)
+    set(ELF_ARENA ${CELLTRACE_SPU_ARENA_BYTES})
+  endif()
+  set(includes "")
+  foreach(directory ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR} ${ELF_INCLUDES})
+    list(APPEND includes -I${directory})
+  endforeach()
+  set(main ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../backends/spu/main.cpp)
+  set(base ${CMAKE_CURRENT_BINARY_DIR}/${name})
+  add_custom_command(
+    OUTPUT ${base}.o
+    COMMAND ${CELLTRACE_SPU_GXX} -std=c++17 -O2 -Wall -Wextra -Werror -fno-exceptions -fno-rtti
+      -fno-threadsafe-statics -ffunction-sections -fdata-sections ${includes}
+      "-DCELLTRACE_SPU_KERNEL_HEADER=\"${ELF_HEADER}\"" -DCELLTRACE_SPU_KERNEL=${ELF_KERNEL}
+      -DCELLTRACE_SPU_ARENA_BYTES=${ELF_ARENA} -MD -MF ${base}.d -MT ${base}.o
+      -c ${main} -o ${base}.o
+    DEPENDS ${main} DEPFILE ${base}.d
+    COMMENT "Compiling ${name} for the SPU" VERBATIM)
+  add_custom_command(
+    OUTPUT ${base}.elf
+    BYPRODUCTS ${base}.map ${base}.stack.txt
+    COMMAND ${CELLTRACE_SPU_GXX} -Wl,--gc-sections -Wl,--stack-analysis -Wl,-Map,${base}.map
+      ${base}.o -o ${base}.elf > ${base}.stack.txt
+    DEPENDS ${base}.o
+    COMMENT "Linking ${name} for the SPU" VERBATIM)
+  add_custom_target(celltrace_spu_${name} ALL DEPENDS ${base}.elf)
+  set_target_properties(celltrace_spu_${name} PROPERTIES CELLTRACE_BASE ${base} CELLTRACE_ARENA ${ELF_ARENA})
+endfunction()
+
+function(celltrace_spu_budget_test test name)
+  if(NOT CELLTRACE_SPU_GXX)
+    add_test(NAME ${test} COMMAND ${CMAKE_COMMAND} -E echo "skipped: set CELLTRACE_SPU_GXX to spu-elf-g++")
+    set_tests_properties(${test} PROPERTIES SKIP_REGULAR_EXPRESSION "skipped:")
+    return()
+  endif()
+  get_target_property(base celltrace_spu_${name} CELLTRACE_BASE)
+  get_target_property(arena celltrace_spu_${name} CELLTRACE_ARENA)
+  set(check ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../backends/spu/check_budget.cmake)
+  string(REGEX REPLACE "g\\+\\+$" "size" size_tool ${CELLTRACE_SPU_GXX})
+  add_test(NAME ${test} COMMAND ${CMAKE_COMMAND}
+    -DELF=${base}.elf -DSTACK=${base}.stack.txt -DARENA=${arena} -DSIZE_TOOL=${size_tool} -P ${check})
+endfunction()
