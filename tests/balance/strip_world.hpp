@@ -76,7 +76,10 @@ public:
   }
 
   bool done() const { return frame_ == config_.frames; }
+  /// The most words that a mailbox held at once, ever and while a frame that was complete was not over
+  /// everywhere.
   unsigned fullest_mailbox() const { return fullest_mailbox_; }
+  unsigned fullest_mailbox_at_end() const { return fullest_mailbox_at_end_; }
   const std::vector<RowRange>& strips() const { return strips_; }
 
   /// Equal for worlds that behave alike from now on.
@@ -201,6 +204,7 @@ private:
   void measure_mailbox(const Seat& seat) {
     const auto words = static_cast<unsigned>(seat.words[0].size() + seat.words[1].size() + seat.finish);
     fullest_mailbox_ = std::max(fullest_mailbox_, words);
+    if (finishing_) fullest_mailbox_at_end_ = std::max(fullest_mailbox_at_end_, words);
   }
 
   void start_frame() {
@@ -246,6 +250,7 @@ private:
   std::vector<char> taken_;
   std::vector<int> reported_;
   unsigned fullest_mailbox_ = 0;
+  unsigned fullest_mailbox_at_end_ = 0;
 };
 
 } // namespace celltrace::test

@@ -1,4 +1,5 @@
 #include "fake_spu.hpp"
+#include "memory.hpp"
 #include "model.hpp"
 
 #include "celltrace/cache.hpp"
@@ -9,33 +10,12 @@
 #include <random>
 
 using namespace celltrace;
-using celltrace::test::CacheModel;
-using celltrace::test::FakeSpu;
+using namespace celltrace::test;
 
 namespace {
 
 enum class Kind { list, object };
 using Cache = SoftwareCache<FakeSpu, Kind>;
-
-/// A region of main memory whose words can be told apart.
-class Memory {
-public:
-  explicit Memory(std::uint32_t lines) : lines_(lines) {
-    for (std::uint32_t offset = 0; offset < bytes(); offset += 4)
-      word(offset) = offset * 2654435761u + 1;
-  }
-  ea_t base() const { return reinterpret_cast<std::uintptr_t>(lines_.data()); }
-  std::uint32_t bytes() const { return static_cast<std::uint32_t>(lines_.size() * kLineBytes); }
-  std::uint32_t& word(std::uint32_t offset) {
-    return lines_[offset / kLineBytes].words[offset % kLineBytes / 4];
-  }
-
-private:
-  struct alignas(kLineBytes) Line {
-    std::uint32_t words[kLineBytes / 4];
-  };
-  std::vector<Line> lines_;
-};
 
 struct Shape {
   std::uint32_t ways;
@@ -48,12 +28,6 @@ CacheConfig configuration(Shape shape, CacheReplacement replacement) {
   config.sets = shape.sets;
   config.replacement = replacement;
   return config;
-}
-
-/// Offsets near each other with jumps in between, as rays read a scene.
-std::uint32_t wander(std::uint32_t from, std::uint32_t bytes, std::mt19937& random) {
-  const std::uint32_t step = random() % 8 == 0 ? random() : random() % 1024;
-  return (from + step) % bytes & ~3u;
 }
 
 HaltCode halt_code(const CacheConfig& config, ea_t base = 0) {
