@@ -6,8 +6,6 @@ namespace celltrace {
 
 namespace {
 
-constexpr unsigned kMaxSpes = 256;
-
 struct Backend {
   const char* name;
   std::unique_ptr<Machine> (*make)(const MachineConfig& config);
@@ -35,9 +33,6 @@ std::vector<std::string> machine_backends() {
 }
 
 std::unique_ptr<Machine> make_machine(const MachineConfig& config) {
-  if (config.spes > kMaxSpes)
-    throw InputError("a machine has at most " + std::to_string(kMaxSpes) + " SPEs, not " +
-                     std::to_string(config.spes));
   for (const Backend& backend : kBackends)
     if (config.backend == backend.name) return backend.make(config);
   throw InputError("unknown backend \"" + config.backend + "\"; this build has " + names());

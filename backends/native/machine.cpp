@@ -16,11 +16,14 @@ namespace celltrace::native {
 
 namespace {
 
-constexpr unsigned kMaxDefaultSpes = 256;
+constexpr unsigned kMaxSpes = 256;
 
 unsigned spe_count_of(const MachineConfig& config) {
+  if (config.spes > kMaxSpes)
+    throw InputError("a machine has at most " + std::to_string(kMaxSpes) + " SPEs, not " +
+                     std::to_string(config.spes));
   if (config.spes != 0) return config.spes;
-  return std::clamp(std::thread::hardware_concurrency(), 1u, kMaxDefaultSpes);
+  return std::clamp(std::thread::hardware_concurrency(), 1u, kMaxSpes);
 }
 
 std::string name_of(unsigned spe) {
