@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <deque>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -106,7 +105,7 @@ public:
 private:
   /// What lies in front of a node. Words and bells by the side they come from: 0 lower, 1 upper neighbour.
   struct Seat {
-    std::array<std::deque<std::uint32_t>, 2> words;
+    std::array<std::vector<std::uint32_t>, 2> words;
     std::array<bool, 2> bell{};
     bool finish = false; ///< the PPE's word in the mailbox
     bool start = false;
@@ -152,7 +151,7 @@ private:
         deliver_bell(node, each);
     }
     const std::uint32_t word = seat.words[side].front();
-    seat.words[side].pop_front();
+    seat.words[side].erase(seat.words[side].begin());
     nodes_[node].on_word(word);
   }
   void deliver_bell(unsigned node, unsigned side) {
