@@ -25,11 +25,12 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 
 # A room of the house: a static library celltrace_NAME whose headers are found from the root of src/, backends/ and
-# include/.
+# include/. The project's own warnings do not reach whoever links it.
 function(celltrace_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;LINK" ${ARGN})
   add_library(celltrace_${name} STATIC ${ROOM_SOURCES})
   target_include_directories(celltrace_${name} PUBLIC
     ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
-  target_link_libraries(celltrace_${name} PUBLIC celltrace_options ${ROOM_LINK})
+  target_compile_features(celltrace_${name} PUBLIC cxx_std_20)
+  target_link_libraries(celltrace_${name} PRIVATE celltrace_options PUBLIC ${ROOM_LINK})
 endfunction()

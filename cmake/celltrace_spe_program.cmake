@@ -79,5 +79,6 @@ SpeProgram @name@_program() {
 } // namespace celltrace
 ]=])
   add_library(${library} STATIC ${source} ${objects})
-  target_link_libraries(${library} PUBLIC celltrace_options celltrace_native celltrace_cell_emu ${PROGRAM_LINK})
+  target_link_libraries(${library}
+    PRIVATE celltrace_options PUBLIC celltrace_native celltrace_cell_emu ${PROGRAM_LINK})
 endfunction()
