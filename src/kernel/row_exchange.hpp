@@ -21,6 +21,8 @@ public:
     received_ = 0;
     const uint32_t lambda =
         static_cast<BalanceMode>(frame.balance) == BalanceMode::gde ? frame.exchange_parameter : 0;
+    // Words that outlived their frame make room; those of a neighbour that is a frame ahead are kept.
+    drain_mailbox();
     node_.begin_frame(frame.epoch, rows, lambda);
     spu_.write_event_mask(kDomain);
     act();
@@ -59,15 +61,19 @@ private:
     const uint32_t events = spu_.read_event_status();
     spu_.write_event_mask(0);
     spu_.acknowledge_events(events);
+    drain_mailbox();
     drain_doorbell();
-    while (spu_.in_mailbox_count() != 0) {
-      on_word(spu_.read_in_mailbox());
-      drain_doorbell();
-    }
     spu_.write_event_mask(kDomain);
     act();
   }
-  /// A doorbell that came before a word has to be seen before it.
+  void drain_mailbox() {
+    while (spu_.in_mailbox_count() != 0) {
+      const uint32_t word = spu_.read_in_mailbox();
+      // A doorbell that was delivered before the word has to be seen before it.
+      drain_doorbell();
+      on_word(word);
+    }
+  }
   void drain_doorbell() {
     if (spu_.signal_2_count() != 0) node_.on_doorbell(spu_.read_signal_2());
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <numeric>
 
 namespace celltrace {
 
@@ -41,12 +42,10 @@ bool SpeTeam::prepare_frame() {
 void SpeTeam::synchronize() {
   for (Member& member : members_) member.answered = false;
   signal_all(command::synchronize);
-  await(ReportKind::synchronised);
+  while (!all_answered()) receive_answers(ReportKind::synchronised);
 }
 
 bool SpeTeam::render_frame(const Progress& progress) {
-  std::fill(members_.begin(), members_.end(), Member());
-  signal_all(command::render_frame);
   std::exception_ptr failure;
   const auto ask = [&](double fraction) {
     try {
@@ -56,31 +55,21 @@ bool SpeTeam::render_frame(const Progress& progress) {
       return false;
     }
   };
-  double reported = 0;
+  std::fill(members_.begin(), members_.end(), Member());
+  signal_all(command::render_frame);
   bool go_on = ask(0);
-  while (go_on) {
-    std::uint32_t rows = 0;
-    bool idle = true;
-    for (const Member& member : members_) {
-      rows += member.rows;
-      idle = idle && member.idle;
-    }
-    if (idle && rows == frame_.packet_rows) break;
-    // 1 is kept for the finished frame.
-    const double fraction = std::min(static_cast<double>(rows) / frame_.packet_rows, 0.999);
-    reported = std::max(reported, fraction);
-    go_on = ask(reported);
-    if (!go_on) break;
+  while (go_on && !frame_is_complete()) {
     receive([](Member& member, ReportKind kind, std::uint32_t count) {
       if (kind != ReportKind::progress && kind != ReportKind::idle) return;
       member.rows = count;
-      member.idle = member.idle || kind == ReportKind::idle;
+      if (kind == ReportKind::progress) return;
+      member.idle = true;
+      member.rows_when_idle = count;
     });
+    // 1 is kept for the finished frame.
+    go_on = ask(std::min(static_cast<double>(rows_completed()) / frame_.packet_rows, 0.999));
   }
-  declare_over();
-  await(ReportKind::finished);
-  // Words of a frame that was broken off are still in the mailboxes.
-  if (!go_on) synchronize();
+  end_frame(go_on);
   if (go_on) ask(1);
   if (failure) std::rethrow_exception(failure);
   return go_on;
@@ -91,7 +80,7 @@ void SpeTeam::signal_all(std::uint32_t commands) {
 }
 
 template <class Handle>
-void SpeTeam::receive(Handle handle) {
+bool SpeTeam::receive(Handle handle) {
   bool any = false;
   for (unsigned spe = 0; spe < members_.size(); ++spe) {
     if (const auto word = machine_.read_out_mailbox(spe)) {
@@ -99,20 +88,47 @@ void SpeTeam::receive(Handle handle) {
       any = true;
     }
   }
-  if (any) return;
+  if (any) return true;
   throw_if_stopped();
   machine_.wait_for_mail(std::chrono::milliseconds(50));
+  return false;
 }
 
-void SpeTeam::await(ReportKind kind) {
-  const auto answered = [](const Member& member) { return member.answered; };
-  while (!std::all_of(members_.begin(), members_.end(), answered))
-    receive([&](Member& member, ReportKind report, std::uint32_t) { member.answered |= report == kind; });
+bool SpeTeam::receive_answers(ReportKind kind) {
+  return receive([&](Member& member, ReportKind report, std::uint32_t) { member.answered |= report == kind; });
 }
 
-void SpeTeam::declare_over() {
-  const std::uint32_t word = strip_word::kFromPpe | strip_word::make(frame_.epoch, false, {0, 0});
-  for (unsigned spe = 0; spe < members_.size(); ++spe) machine_.write_in_mailbox(spe, word);
+bool SpeTeam::all_answered() const {
+  return std::all_of(members_.begin(), members_.end(), [](const Member& member) { return member.answered; });
+}
+
+bool SpeTeam::frame_is_complete() const {
+  std::uint32_t rows = 0;
+  for (const Member& member : members_) {
+    if (!member.idle) return false;
+    // Not the rows heard of last: an SPE that is not idle may still have a question under way.
+    rows += member.rows_when_idle;
+  }
+  return rows == frame_.packet_rows;
+}
+
+std::uint32_t SpeTeam::rows_completed() const {
+  return std::accumulate(members_.begin(), members_.end(), std::uint32_t{0},
+                         [](std::uint32_t sum, const Member& member) { return sum + member.rows; });
+}
+
+void SpeTeam::end_frame(bool complete) {
+  const std::uint32_t over = strip_word::kFromPpe | strip_word::make(frame_.epoch, false, {0, 0});
+  const auto tell = [&] {
+    for (unsigned spe = 0; spe < members_.size(); ++spe)
+      if (!members_[spe].answered && machine_.in_mailbox_space(spe) != 0) machine_.write_in_mailbox(spe, over);
+  };
+  tell();
+  while (!all_answered()) {
+    // In the middle of a frame a mailbox may be full of neighbours' words, or lose ours to one: say it again.
+    if (!receive_answers(ReportKind::finished) && !complete) tell();
+  }
+  if (!complete) synchronize();
 }
 
 void SpeTeam::throw_if_stopped() {

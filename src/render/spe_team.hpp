@@ -30,18 +30,23 @@ public:
 
 private:
   struct Member {
-    std::uint32_t rows = 0;
+    std::uint32_t rows = 0;           ///< completed, as last heard
+    std::uint32_t rows_when_idle = 0; ///< completed, as it said when it was idle last
     bool idle = false;
     bool answered = false; ///< the report that a command ends with has come
   };
 
   void signal_all(std::uint32_t commands);
-  /// Reads all mail; sleeps a little if there is none. Calls `handle(member, kind, count)`.
+  /// Reads all mail; calls `handle(member, kind, count)`. Sleeps a little and returns false if there is none.
   template <class Handle>
-  void receive(Handle handle);
-  /// Waits until every SPE has answered with `kind`.
-  void await(kernel::ReportKind kind);
-  void declare_over();
+  bool receive(Handle handle);
+  /// As receive(), marking the members that report `kind`.
+  bool receive_answers(kernel::ReportKind kind);
+  bool all_answered() const;
+  /// Every SPE has run out of work, and together they have completed all rows.
+  bool frame_is_complete() const;
+  std::uint32_t rows_completed() const;
+  void end_frame(bool complete);
   void throw_if_stopped();
 
   Machine& machine_;
