@@ -1,0 +1,51 @@
+// How fast scenes are read: a mesh2 of numbers, and language that loops.
+#include "celltrace/pov.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <sstream>
+
+namespace {
+
+/// A square grid of side * side vertices as a mesh2.
+std::string mesh_scene(int side) {
+  std::ostringstream text;
+  text << "#version 3.7;\nmesh2 {\nvertex_vectors { " << side * side;
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x)
+      text << ",\n<" << 0.125 * x << ", " << 0.001 * (x * y % 97) << ", " << 0.125 * y << ">";
+  text << "}\nface_indices { " << 2 * (side - 1) * (side - 1);
+  for (int y = 0; y + 1 < side; ++y)
+    for (int x = 0; x + 1 < side; ++x) {
+      const int corner = y * side + x;
+      text << ",\n<" << corner << ", " << corner + 1 << ", " << corner + side << ">,\n<" << corner + 1 << ", "
+           << corner + side + 1 << ", " << corner + side << ">";
+    }
+  text << "}\n}\n";
+  return text.str();
+}
+
+std::string loop_scene(int spheres) {
+  return "#version 3.7;\n#for (I, 1, " + std::to_string(spheres) +
+         ")\n  sphere { <cos(I), sin(I), 0.01*I>*2, 0.1 pigment { color rgb <mod(I, 7)/7, 0.5, 1> } "
+         "}\n#end\n";
+}
+
+void parse(benchmark::State& state, const std::string& text) {
+  for (auto _ : state)
+    benchmark::DoNotOptimize(celltrace::parse_string(text));
+  state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(text.size()));
+}
+
+void parse_mesh2(benchmark::State& state) {
+  parse(state, mesh_scene(static_cast<int>(state.range(0))));
+}
+BENCHMARK(parse_mesh2)->Arg(16)->Arg(256)->Unit(benchmark::kMillisecond);
+
+void parse_loop(benchmark::State& state) {
+  parse(state, loop_scene(static_cast<int>(state.range(0))));
+  state.SetItemsProcessed(state.iterations() * state.range(0));
+}
+BENCHMARK(parse_loop)->Arg(100)->Arg(10000)->Unit(benchmark::kMillisecond);
+
+} // namespace
