@@ -39,7 +39,7 @@ struct Session {
   Pigment colour(const Quantity& quantity, const Location& where) const;
 };
 
-/// Runs the grammar from `start` on session.tokens.
-void run_grammar(Session& session, Start start);
+/// Runs the grammar on session.tokens, from where the innermost entry starts.
+void run_grammar(Session& session);
 
 } // namespace celltrace::pov

@@ -5,6 +5,8 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,6 +42,8 @@ public:
 
   void open(std::string text, const std::string& name, std::filesystem::path folder);
 
+  /// What the grammar is entered for, once per entry.
+  std::optional<Start> take_start();
   Terminal next();
 
   /// For the grammar: the value is complete; `has_lookahead` if next() was called once too often.

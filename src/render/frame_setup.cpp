@@ -1,11 +1,11 @@
 #include "render/frame_setup.hpp"
 
+#include "celltrace/balance.hpp"
 #include "celltrace/error.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 namespace celltrace {
 
@@ -19,12 +19,6 @@ void store(const Vec3& v, float* to) {
   for (int i = 0; i < 3; ++i) to[i] = static_cast<float>(v[i]);
 }
 
-/// The exchange parameter that makes a chain of n nodes converge fastest (Xu and Lau), in 16-bit fixed point.
-std::uint32_t chain_exchange_parameter(unsigned n) {
-  const double lambda = 1 / (1 + std::sin(std::numbers::pi / n));
-  return n < 2 ? 0 : static_cast<std::uint32_t>(std::min(65535.0, lambda * 65536));
-}
-
 bool inside(const Sphere& sphere, const Transform& transform, const Vec3& point) {
   const Vec3 local = transform.inverse().point(point) - sphere.centre;
   return local.x * local.x + local.y * local.y + local.z * local.z < sphere.radius * sphere.radius;
@@ -35,6 +29,8 @@ bool inside(const Sphere& sphere, const Transform& transform, const Vec3& point)
 void check(const RenderOptions& options) {
   if (options.width < 1 || options.width > kMaxEdge || options.height < 1 || options.height > kMaxEdge)
     throw InputError("the picture's width and height have to be 1 to " + std::to_string(kMaxEdge) + " pixels");
+  if (std::int64_t{options.width} * options.height > kMaxImagePixels)
+    throw InputError("the picture has to have at most " + std::to_string(kMaxImagePixels) + " pixels");
   if (!options.cache.valid())
     throw InputError("the cache has to have 1, 2 or 4 ways and a power of two of sets, or one set of any power of two "
                      "of ways, and at most " + std::to_string(CacheConfig::kMaxLines) + " lines");
@@ -55,7 +51,7 @@ void set_options(FrameBlock& frame, const RenderOptions& options, unsigned spes)
   frame.cache_replacement = static_cast<std::uint32_t>(options.cache.replacement);
   frame.cache_enabled = options.cache.enabled ? 1 : 0;
   frame.balance = static_cast<std::uint32_t>(options.balance == Balance::gde ? BalanceMode::gde : BalanceMode::fixed);
-  frame.exchange_parameter = chain_exchange_parameter(spes);
+  frame.exchange_parameter = fixed_point_parameter(optimal_chain_parameter(spes));
 }
 
 void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& options, const SceneImage& image) {

@@ -60,7 +60,7 @@ public:
     frame_.surface = to_ea(surface_.data());
     frame_.strips = to_ea(strips_.data());
     frame_.reports = to_ea(reports_.data());
-    divide_rows_equally();
+    hand_out(even_strips(frame_.packet_rows, spes));
     team_ = std::make_unique<SpeTeam>(*machine_, frame_);
   }
 
@@ -78,26 +78,15 @@ public:
 
   RenderResult render(const Camera& camera, const Progress& progress) {
     if (!image_) throw InputError("a camera alone cannot be rendered: there is no scene yet");
+    validate(camera);
     RenderStatistics statistics;
     return render_frame(camera, statistics, progress);
   }
 
 private:
-  void divide_rows_equally() {
-    const std::uint64_t spes = machine_->spe_count();
-    for (std::uint64_t spe = 0; spe < spes; ++spe) {
-      strip(spe).begin = static_cast<std::uint32_t>(frame_.packet_rows * spe / spes);
-      strip(spe).end = static_cast<std::uint32_t>(frame_.packet_rows * (spe + 1) / spes);
-    }
-  }
-  /// The strips a frame ended with: each SPE gets as many rows as it rendered, in the order of the chain.
-  void keep_strips() {
-    std::uint32_t begin = 0;
-    for (unsigned spe = 0; spe < machine_->spe_count(); ++spe) {
-      strip(spe).begin = begin;
-      begin += report(spe).rows;
-      strip(spe).end = begin;
-    }
+  void hand_out(const std::vector<RowRange>& strips) {
+    for (std::size_t spe = 0; spe < strips.size(); ++spe)
+      strip(spe) = {strips[spe].first, strips[spe].first + strips[spe].count, {0, 0}};
   }
   StripRecord& strip(std::size_t spe) { return reinterpret_cast<StripRecord*>(strips_.data())[spe]; }
   const ReportRecord& report(std::size_t spe) const {
@@ -147,9 +136,10 @@ private:
     std::memset(reports_.data(), 0, reports_.size());
     const Stopwatch render;
     RenderResult result;
-    result.complete = team_->render_frame(progress);
+    StripTally tally(machine_->spe_count(), frame_.packet_rows);
+    result.complete = team_->render_frame(tally, progress);
     statistics.render_seconds = render.seconds();
-    if (result.complete) keep_strips();
+    if (result.complete) hand_out(tally.next_strips());
     collect(statistics, *machine_, frame_, {reinterpret_cast<const ReportRecord*>(reports_.data()), strip_count()});
     result.statistics = statistics;
     result.image = copy_picture();

@@ -1,6 +1,5 @@
 #include "render/spe_team.hpp"
 
-#include "celltrace/balance/strip.hpp"
 #include "render/tracer_program.hpp"
 
 #include <algorithm>
@@ -13,6 +12,7 @@ using namespace kernel;
 
 SpeTeam::SpeTeam(Machine& machine, const FrameBlock& frame)
     : machine_(machine), frame_(frame), members_(machine.spe_count()) {
+  for (unsigned spe = 0; spe < members_.size(); ++spe) members_[spe].spe = spe;
   const SpeProgram program = tracer_program();
   for (unsigned spe = 0; spe < members_.size(); ++spe) machine_.start(spe, program, to_ea(&frame_));
 }
@@ -45,7 +45,7 @@ void SpeTeam::synchronize() {
   while (!all_answered()) receive_answers(ReportKind::synchronised);
 }
 
-bool SpeTeam::render_frame(const Progress& progress) {
+bool SpeTeam::render_frame(StripTally& tally, const Progress& progress) {
   std::exception_ptr failure;
   const auto ask = [&](double fraction) {
     try {
@@ -55,16 +55,15 @@ bool SpeTeam::render_frame(const Progress& progress) {
       return false;
     }
   };
-  std::fill(members_.begin(), members_.end(), Member());
+  for (unsigned spe = 0; spe < members_.size(); ++spe) members_[spe] = Member{spe, 0, false};
   signal_all(command::render_frame);
   bool go_on = ask(0);
-  while (go_on && !frame_is_complete()) {
-    receive([](Member& member, ReportKind kind, std::uint32_t count) {
+  while (go_on && !tally.frame_complete()) {
+    receive([&](Member& member, ReportKind kind, std::uint32_t count) {
       if (kind != ReportKind::progress && kind != ReportKind::idle) return;
       member.rows = count;
-      if (kind == ReportKind::progress) return;
-      member.idle = true;
-      member.rows_when_idle = count;
+      // Only an idle SPE has no question under way.
+      if (kind == ReportKind::idle) tally.report(member.spe, count);
     });
     // 1 is kept for the finished frame.
     go_on = ask(std::min(static_cast<double>(rows_completed()) / frame_.packet_rows, 0.999));
@@ -100,16 +99,6 @@ bool SpeTeam::receive_answers(ReportKind kind) {
 
 bool SpeTeam::all_answered() const {
   return std::all_of(members_.begin(), members_.end(), [](const Member& member) { return member.answered; });
-}
-
-bool SpeTeam::frame_is_complete() const {
-  std::uint32_t rows = 0;
-  for (const Member& member : members_) {
-    if (!member.idle) return false;
-    // Not the rows heard of last: an SPE that is not idle may still have a question under way.
-    rows += member.rows_when_idle;
-  }
-  return rows == frame_.packet_rows;
 }
 
 std::uint32_t SpeTeam::rows_completed() const {

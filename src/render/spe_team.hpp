@@ -1,11 +1,11 @@
 // The SPEs of a machine at work on frames: what the PPE says to them and hears from them.
 #pragma once
 
+#include "celltrace/balance/strip_tally.hpp"
 #include "celltrace/render.hpp"
 #include "celltrace/spe/machine.hpp"
 #include "kernel/records.hpp"
 
-#include <span>
 #include <vector>
 
 namespace celltrace {
@@ -24,16 +24,15 @@ public:
   bool prepare_frame();
   /// Every SPE forgets what it has cached and what is in its mailbox.
   void synchronize();
-  /// All SPEs render. False if `progress` broke the frame off; what it throws passes through, the SPEs being ready for
+  /// All SPEs render; what each completed is in `tally`. False if `progress` broke the frame off; what it throws passes through, the SPEs being ready for
   /// the next frame all the same.
-  bool render_frame(const Progress& progress);
+  bool render_frame(StripTally& tally, const Progress& progress);
 
 private:
   struct Member {
-    std::uint32_t rows = 0;           ///< completed, as last heard
-    std::uint32_t rows_when_idle = 0; ///< completed, as it said when it was idle last
-    bool idle = false;
-    bool answered = false; ///< the report that a command ends with has come
+    unsigned spe = 0;
+    std::uint32_t rows = 0; ///< completed, as last heard
+    bool answered = false;  ///< the report that a command ends with has come
   };
 
   void signal_all(std::uint32_t commands);
@@ -43,8 +42,6 @@ private:
   /// As receive(), marking the members that report `kind`.
   bool receive_answers(kernel::ReportKind kind);
   bool all_answered() const;
-  /// Every SPE has run out of work, and together they have completed all rows.
-  bool frame_is_complete() const;
   std::uint32_t rows_completed() const;
   void end_frame(bool complete);
   void throw_if_stopped();

@@ -1,5 +1,7 @@
 #include "render/statistics.hpp"
 
+#include "celltrace/balance.hpp"
+
 #include <algorithm>
 
 #include <nlohmann/json.hpp>
@@ -15,14 +17,10 @@ void add_cache(RenderStatistics::Cache& cache, const ReportRecord& report, DataK
   cache.misses += report.cache_misses[static_cast<int>(kind)];
 }
 
-double imbalance(const std::vector<RenderStatistics::Spe>& spes) {
-  std::uint64_t sum = 0;
-  std::uint64_t most = 0;
-  for (const auto& spe : spes) {
-    sum += spe.rays;
-    most = std::max(most, spe.rays);
-  }
-  return sum == 0 ? 0 : static_cast<double>(most) * static_cast<double>(spes.size()) / static_cast<double>(sum) - 1;
+double imbalance_of_rays(const std::vector<RenderStatistics::Spe>& spes) {
+  std::vector<std::uint64_t> rays;
+  for (const auto& spe : spes) rays.push_back(spe.rays);
+  return imbalance<std::uint64_t>(rays);
 }
 
 nlohmann::ordered_json cache_json(const RenderStatistics::Cache& cache) {
@@ -72,7 +70,7 @@ void collect(RenderStatistics& s, const Machine& machine, const FrameBlock& fram
     s.spes.push_back({r.primary_rays + r.shadow_rays + r.reflection_rays + r.refraction_rays, r.rows, r.exchanges,
                       spe.local_store_peak});
   }
-  s.imbalance = imbalance(s.spes);
+  s.imbalance = imbalance_of_rays(s.spes);
 }
 
 std::string to_json(const RenderStatistics& s) {

@@ -52,8 +52,9 @@ void check_index(Index index, std::size_t count, const std::string& what) {
 
 bool is_sound(const Mesh& mesh, const Mesh::Triangle& triangle, std::size_t materials) {
   const auto optional = [](Index index, std::size_t count) { return index == kNoIndex || index < count; };
+  const bool smooth = triangle.normal[0] != kNoIndex;
   for (int corner = 0; corner < 3; ++corner)
-    if (triangle.vertex[corner] >= mesh.vertices.size() ||
+    if (triangle.vertex[corner] >= mesh.vertices.size() || (triangle.normal[corner] != kNoIndex) != smooth ||
         !optional(triangle.normal[corner], mesh.normals.size()) ||
         !optional(triangle.material[corner], materials))
       return false;
@@ -109,9 +110,12 @@ Index Scene::add(const Interior& interior) {
   return static_cast<Index>(interiors.size() - 1);
 }
 
-void validate(const Scene& scene) {
-  const Camera& camera = scene.camera;
+void validate(const Camera& camera) {
   check_vectors({camera.location, camera.direction, camera.right, camera.up}, "the camera");
+}
+
+void validate(const Scene& scene) {
+  validate(scene.camera);
   check_vectors({scene.background}, "the background");
   check_vectors({scene.ambient_light}, "the ambient light");
   check_finite({scene.assumed_gamma, scene.version, scene.adc_bailout}, "the scene");
