@@ -112,7 +112,7 @@ struct Light {
 struct Mesh {
   struct Triangle {
     Index vertex[3];
-    /// kNoIndex in all three: flat.
+    /// kNoIndex in all three, never in one or two: flat.
     Index normal[3] = {kNoIndex, kNoIndex, kNoIndex};
     /// Index into Scene::materials; kNoIndex: the instance's material. Three different ones are blended over the face
     /// by its barycentric coordinates.
@@ -160,6 +160,8 @@ struct Scene {
   Index add(const Interior& interior);
 };
 
+/// Throws InputError if a number is not finite.
+void validate(const Camera& camera);
 /// Throws InputError, naming the first fault, if an index is out of range, a number is not finite, or there are more
 /// triangles or vertices than 32-bit offsets can address.
 void validate(const Scene& scene);

@@ -175,10 +175,13 @@ private:
                const F& cosine, const V3<S>& mirrored) {
     const F strength = max_component<S>(mirrored);
     const uint32_t mirrors = (strength > F(0.0f)).bits() & lanes;
+    // POV-Ray weighs a reflection that is not Fresnel's by the most that it may be.
+    const F most = S::max(max_component<S>(m.reflection_min), max_component<S>(m.reflection_max));
+    const F weight = F::load(node_.weight.lane) * S::select(M::from_bits(m.fresnel), strength, most);
     child_.interior_depth = node_.interior_depth;
     for (uint32_t d = 0; d < kMaxInteriorDepth; ++d) child_.interiors[d] = node_.interiors[d];
-    if (!prepare_child(surfaces, mirror<S>(surfaces.direction, surfaces.normal, cosine), mirrored * share,
-                       F::load(node_.weight.lane) * strength, mirrors, mirrors))
+    if (!prepare_child(surfaces, mirror<S>(surfaces.direction, surfaces.normal, cosine), mirrored * share, weight,
+                       mirrors, mirrors))
       return;
     counters_.reflection += count(child_.lanes);
     if (m.bends_reflection && accumulators_in_use_ < kAccumulators) redirect(m.inverse_reflection_exponent);
