@@ -1,0 +1,57 @@
+// Shapes in double precision, to compare with: where rays cross them, and their normals there.
+#pragma once
+
+#include "celltrace/scene.hpp"
+
+#include <vector>
+
+namespace celltrace::reference {
+
+struct Ray {
+  Vec3 origin;
+  Vec3 direction; ///< of unit length
+};
+
+/// A point of a ray on a surface, before or behind the ray's origin.
+struct Crossing {
+  double distance;
+  double u = 0, v = 0; ///< barycentric weights of a triangle's second and third vertex
+};
+
+/// At most two, nearest first.
+struct Crossings {
+  int count = 0;
+  Crossing at[2];
+
+  const Crossing* begin() const { return at; }
+  const Crossing* end() const { return at + count; }
+};
+
+/// A sphere under an affine transformation, or a triangle; an object of a scene or a part of one.
+struct Shape {
+  const Object* object = nullptr;
+  bool triangle = false;
+  /// Sphere: the sphere, and the way to the space where it is one.
+  Sphere sphere;
+  Transform to_sphere;
+  /// Triangle: in the world; normals only if it is smooth.
+  Vec3 vertex[3];
+  Vec3 normal[3];
+  bool smooth = false;
+  /// One material, or one for each vertex.
+  Index material[3] = {0, 0, 0};
+  bool blended = false;
+};
+
+/// All objects of the scene, meshes taken apart. The scene must outlive the shapes.
+std::vector<Shape> shapes_of(const Scene& scene);
+
+Crossings cross(const Shape& shape, const Ray& ray);
+
+/// Unit normal, with the direction that the geometry gives it.
+Vec3 normal_at(const Shape& shape, const Vec3& point, const Crossing& crossing);
+
+/// True inside a sphere; triangles have no inside.
+bool contains(const Shape& shape, const Vec3& point);
+
+} // namespace celltrace::reference

@@ -1,0 +1,96 @@
+#include "reference/shading.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace celltrace::reference {
+
+double grey(const Vec3& colour) { return 0.297 * colour.r + 0.589 * colour.g + 0.114 * colour.b; }
+
+double opacity(const Pigment& p, double version) {
+  const double brightest = version < 3.7 ? std::max({p.rgb.r, p.rgb.g, p.rgb.b}) : 1;
+  return 1 - (p.filter * brightest + p.transmit);
+}
+
+Vec3 filter_colour(const Pigment& p) { return p.rgb * p.filter + p.transmit; }
+
+Vec3 metallic_tint(double metallic, double cosine, const Vec3& pigment) {
+  const double x = std::acos(std::clamp(cosine, 0.0, 1.0)) / (std::numbers::pi / 2);
+  const double f = std::clamp(0.014567225 / ((x - 1.12) * (x - 1.12)) - 0.011612903, 0.0, 1.0);
+  return 1.0 + metallic * (1 - f) * (pigment - 1.0);
+}
+
+Vec3 lit(const Material& material, double version, const Vec3& colour, const Vec3& to_light, const Vec3& direction,
+         const Vec3& normal, bool highlights) {
+  const Finish& f = material.finish;
+  const Vec3& pigment = material.pigment.rgb;
+  const double cosine = glm::dot(normal, to_light);
+  if (cosine < 1e-10) return Vec3(0);
+  Vec3 sum = pigment * colour * f.diffuse * opacity(material.pigment, version) * std::pow(cosine, f.brilliance);
+  if (!highlights) return sum;
+
+  double strength = 0;
+  const double mirrored = glm::dot(mirror(direction, normal), to_light);
+  if (f.phong > 0 && mirrored > 0 && (f.phong_size < 60 || mirrored > 0.0008))
+    strength += f.phong * std::pow(mirrored, f.phong_size);
+  const double half = glm::dot(glm::normalize(to_light - direction), normal);
+  if (f.specular > 0 && half > 0) strength += f.specular * std::pow(half, 1 / f.roughness);
+  return sum + colour * strength * metallic_tint(f.metallic, cosine, pigment);
+}
+
+double fresnel_reflectance(double ratio, double cosine) {
+  const double sine = ratio * std::sqrt(1 - cosine * cosine);
+  if (sine >= 1) return 1;
+  const double other = std::sqrt(1 - sine * sine);
+  const double across = (ratio * cosine - other) / (ratio * cosine + other);
+  const double along = (cosine - ratio * other) / (cosine + ratio * other);
+  return 0.5 * (across * across + along * along);
+}
+
+Vec3 reflectivity(const Material& material, double cosine, double ratio) {
+  const Finish& f = material.finish;
+  const double share =
+      f.reflection_fresnel ? fresnel_reflectance(ratio, cosine) : std::pow(1 - cosine, f.reflection_falloff);
+  const Vec3 plain = f.reflection_min + (f.reflection_max - f.reflection_min) * share;
+  return plain * metallic_tint(f.reflection_metallic, cosine, material.pigment.rgb);
+}
+
+Vec3 mirror(const Vec3& direction, const Vec3& normal) {
+  return glm::normalize(direction - 2 * glm::dot(direction, normal) * normal);
+}
+
+std::optional<Vec3> refract(const Vec3& direction, const Vec3& normal, double ratio) {
+  const double cosine = -glm::dot(direction, normal);
+  const Vec3 tangent = (direction + normal * cosine) * ratio;
+  const double square = 1 - glm::dot(tangent, tangent);
+  if (square < 0) return std::nullopt;
+  return glm::normalize(tangent - normal * std::sqrt(square));
+}
+
+double cross_surface(InteriorStack& stack, Index interior, const std::vector<Interior>& interiors) {
+  const auto innermost = [&] { return stack.empty() ? 1.0 : interiors[stack.back()].ior; };
+  const auto found = std::find(stack.begin(), stack.end(), interior);
+  const double from = innermost();
+  if (found == stack.end()) {
+    stack.push_back(interior);
+    return from / innermost();
+  }
+  const bool was_innermost = found + 1 == stack.end();
+  stack.erase(found);
+  return was_innermost ? from / innermost() : 1;
+}
+
+std::uint8_t encode(double value, GammaMode mode, double assumed_gamma) {
+  double c = std::clamp(value, 0.0, 1.0);
+  if (mode == GammaMode::assumed) {
+    c = std::pow(c, assumed_gamma);
+    c = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
+  }
+  return static_cast<std::uint8_t>(std::floor(c * 255 + 0.5));
+}
+
+} // namespace celltrace::reference

@@ -1,0 +1,151 @@
+#include "reference/tracer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/exponential.hpp>
+#include <glm/geometric.hpp>
+
+namespace celltrace::reference {
+
+namespace {
+
+constexpr double kMinHitDistance = 1e-4;
+constexpr double kMaxHitDistance = 1e7;
+constexpr double kShadowTolerance = 1e-3;
+
+double max_component(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
+
+Ray camera_ray(const Camera& camera, double x, double y) {
+  const Vec3 offset = camera.right * (x - 0.5) + camera.up * (0.5 - y);
+  if (camera.kind == Camera::Kind::orthographic)
+    return {camera.location + offset, glm::normalize(camera.direction)};
+  return {camera.location, glm::normalize(camera.direction + offset)};
+}
+
+/// What adaptive depth control takes for the strength of a reflection.
+double reflected_weight(const Finish& finish, const Vec3& mirrored) {
+  if (finish.reflection_fresnel) return max_component(mirrored);
+  return std::max(max_component(finish.reflection_min), max_component(finish.reflection_max));
+}
+
+/// The interiors around the camera, the largest first.
+InteriorStack interiors_around(const std::vector<Shape>& shapes, const Vec3& point) {
+  std::vector<const Shape*> around;
+  for (const Shape& shape : shapes)
+    if (contains(shape, point)) around.push_back(&shape);
+  const auto volume = [](const Shape* shape) {
+    return std::abs(shape->object->transform.determinant()) * std::pow(shape->sphere.radius, 3);
+  };
+  std::sort(around.begin(), around.end(),
+            [&](const Shape* a, const Shape* b) { return volume(a) > volume(b); });
+  InteriorStack stack;
+  for (const Shape* shape : around) stack.push_back(shape->object->interior);
+  return stack;
+}
+
+} // namespace
+
+Tracer::Tracer(const Scene& scene)
+    : scene_(scene), shapes_(shapes_of(scene)), camera_inside_(interiors_around(shapes_, scene.camera.location)) {}
+
+Image Tracer::render(int width, int height) const {
+  Image image(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const Vec3 colour = see(camera_ray(scene_.camera, (x + 0.5) / width, (y + 0.5) / height));
+      for (int i = 0; i < 3; ++i) image.pixel(x, y)[i] = encode(colour[i], scene_.gamma_mode, scene_.assumed_gamma);
+    }
+  return image;
+}
+
+Vec3 Tracer::see(const Ray& ray) const { return trace({ray, 0, 1, camera_inside_}); }
+
+Tracer::Hit Tracer::closest(const Ray& ray) const {
+  Hit hit;
+  hit.crossing.distance = kMaxHitDistance;
+  for (const Shape& shape : shapes_)
+    for (const Crossing& crossing : cross(shape, ray))
+      if (crossing.distance > kMinHitDistance && crossing.distance < hit.crossing.distance) hit = {&shape, crossing};
+  return hit;
+}
+
+Vec3 Tracer::attenuation(const Ray& ray, double distance) const {
+  Vec3 passed(1);
+  for (const Shape& shape : shapes_) {
+    if (shape.object->no_shadow) continue;
+    for (const Crossing& c : cross(shape, ray)) {
+      if (c.distance <= kShadowTolerance || c.distance >= distance - kShadowTolerance) continue;
+      const double weights[3] = {1 - c.u - c.v, c.u, c.v};
+      Vec3 filter(0);
+      for (int i = 0; i < 3; ++i) filter += weights[i] * filter_colour(scene_.materials[shape.material[i]].pigment);
+      passed *= filter;
+    }
+  }
+  return passed;
+}
+
+Vec3 Tracer::trace(const Branch& branch) const {
+  if (branch.level >= scene_.max_trace_level || branch.weight < scene_.adc_bailout) return Vec3(0);
+  const Hit hit = closest(branch.ray);
+  if (hit.shape == nullptr) return scene_.background;
+  Point point;
+  point.shape = hit.shape;
+  point.position = branch.ray.origin + branch.ray.direction * hit.crossing.distance;
+  point.normal = normal_at(*hit.shape, point.position, hit.crossing);
+  if (glm::dot(point.normal, branch.ray.direction) > 0) point.normal = -point.normal;
+  if (!hit.shape->blended) return shade(branch, point, scene_.materials[hit.shape->material[0]]);
+
+  const double weights[3] = {1 - hit.crossing.u - hit.crossing.v, hit.crossing.u, hit.crossing.v};
+  Vec3 sum(0);
+  for (int i = 0; i < 3; ++i)
+    sum += weights[i] * shade(branch, point, scene_.materials[hit.shape->material[i]]);
+  return sum;
+}
+
+Vec3 Tracer::own_light(const Ray& ray, const Point& point, const Material& material) const {
+  const Finish& f = material.finish;
+  Vec3 sum = material.pigment.rgb * (f.ambient * scene_.ambient_light + f.emission) *
+             opacity(material.pigment, scene_.version);
+  for (const Light& light : scene_.lights) {
+    const Vec3 way = light.location - point.position;
+    const double distance = glm::length(way);
+    const Vec3 to_light = way / distance;
+    if (glm::dot(point.normal, to_light) < 1e-10) continue;
+    const Vec3 colour =
+        light.shadowless ? light.colour : light.colour * attenuation({point.position, to_light}, distance);
+    sum += lit(material, scene_.version, colour, to_light, ray.direction, point.normal, !light.shadowless);
+  }
+  return sum;
+}
+
+Vec3 Tracer::shade(const Branch& branch, const Point& point, const Material& material) const {
+  const Vec3& direction = branch.ray.direction;
+  Vec3 sum = own_light(branch.ray, point, material);
+
+  InteriorStack inside = branch.inside;
+  const double ratio = cross_surface(inside, point.shape->object->interior, scene_.interiors);
+  const double cosine = -glm::dot(direction, point.normal);
+  const Vec3 mirrored = reflectivity(material, cosine, ratio);
+  Vec3 filter = filter_colour(material.pigment);
+  if (material.finish.conserve_energy) filter *= 1.0 - mirrored;
+
+  if (grey(filter) > scene_.adc_bailout) {
+    const double weight = branch.weight * max_component(filter);
+    if (std::abs(ratio - 1) < 1e-6) {
+      sum += filter * trace({{point.position, direction}, branch.level, weight, inside});
+    } else if (const auto bent = refract(direction, point.normal, ratio)) {
+      sum += filter * trace({{point.position, *bent}, branch.level + 1, weight, inside});
+    } else {
+      const Ray back{point.position, mirror(direction, point.normal)};
+      return sum + trace({back, branch.level + 1, branch.weight, branch.inside});
+    }
+  }
+  const double strength = reflected_weight(material.finish, mirrored);
+  if (strength <= 0) return sum;
+  const Vec3 seen = trace({{point.position, mirror(direction, point.normal)}, branch.level + 1,
+                           branch.weight * strength, branch.inside});
+  return sum + mirrored * glm::pow(seen, Vec3(1 / material.finish.reflection_exponent));
+}
+
+} // namespace celltrace::reference

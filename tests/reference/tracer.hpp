@@ -1,0 +1,49 @@
+// A ray tracer to compare with: Whitted's, in double precision and by brute force, with POV-Ray 3.7's formulas. Slow.
+#pragma once
+
+#include "celltrace/image.hpp"
+#include "reference/geometry.hpp"
+#include "reference/shading.hpp"
+
+namespace celltrace::reference {
+
+class Tracer {
+public:
+  /// The scene must outlive the tracer.
+  explicit Tracer(const Scene& scene);
+
+  Image render(int width, int height) const;
+  /// What a ray from the camera sees.
+  Vec3 see(const Ray& ray) const;
+  /// Multiplier of a light's colour at the end of `distance` along a shadow ray.
+  Vec3 attenuation(const Ray& ray, double distance) const;
+
+  struct Hit {
+    const Shape* shape = nullptr; ///< none: the background
+    Crossing crossing{};
+  };
+  Hit closest(const Ray& ray) const;
+
+private:
+  /// A ray on its way down the tree.
+  struct Branch {
+    Ray ray;
+    int level;
+    double weight;
+    InteriorStack inside;
+  };
+  struct Point {
+    Vec3 position, normal;
+    const Shape* shape;
+  };
+
+  Vec3 trace(const Branch& branch) const;
+  Vec3 shade(const Branch& branch, const Point& point, const Material& material) const;
+  Vec3 own_light(const Ray& ray, const Point& point, const Material& material) const;
+
+  const Scene& scene_;
+  std::vector<Shape> shapes_;
+  InteriorStack camera_inside_;
+};
+
+} // namespace celltrace::reference

@@ -1,0 +1,40 @@
+// The SPU types that this host can run, as render options.
+#pragma once
+
+#include "celltrace/render.hpp"
+
+#include <string>
+#include <vector>
+
+namespace celltrace::test {
+
+struct Backend {
+  std::string backend, simd;
+
+  std::string spu() const { return backend == "native" ? backend + "." + simd : backend; }
+  RenderOptions options(int width, int height, unsigned spes) const {
+    RenderOptions options;
+    options.width = width;
+    options.height = height;
+    options.backend = backend;
+    options.simd = simd;
+    options.spes = spes;
+    return options;
+  }
+};
+
+inline std::vector<Backend> backends() {
+  std::vector<Backend> usable;
+  for (const Backend& backend : {Backend{"native", "sse2"}, Backend{"native", "avx2"}, Backend{"native", "avx512"},
+                                 Backend{"native", "neon64"}, Backend{"cell_emu", "auto"}}) {
+    try {
+      Renderer renderer(backend.options(4, 4, 1));
+      usable.push_back(backend);
+    } catch (const InputError&) {
+      // Not for this CPU.
+    }
+  }
+  return usable;
+}
+
+} // namespace celltrace::test

@@ -1,0 +1,216 @@
+#include "render/scenes.hpp"
+
+#include <stdexcept>
+
+namespace celltrace::test {
+
+namespace {
+
+Index new_interior(Scene& scene, double ior = 1) { return scene.add(Interior{ior}); }
+
+void add_sphere(Scene& scene, const Vec3& centre, double radius, const Material& material, double ior = 1) {
+  scene.objects.push_back(sphere_at(centre, radius, scene.add(material), new_interior(scene, ior)));
+}
+
+void add_floor(Scene& scene, float height, const Vec3& near_colour, const Vec3& far_colour) {
+  Mesh mesh = floor_mesh(height, 8);
+  for (Index& material : mesh.triangles[1].material) material = static_cast<Index>(scene.materials.size());
+  scene.add(matte(far_colour));
+  scene.objects.push_back(mesh_object(mesh, scene.add(matte(near_colour)), new_interior(scene)));
+}
+
+Scene with_camera(const Camera& camera) {
+  Scene scene;
+  scene.camera = camera;
+  scene.background = {0.15, 0.25, 0.4};
+  scene.lights = {{{4, 6, -5}, {0.9, 0.9, 0.8}, false}, {{-5, 3, -4}, {0.2, 0.25, 0.35}, true}};
+  return scene;
+}
+
+/// Every highlight there is, most of the picture empty at the left.
+Scene highlights() {
+  Scene scene = with_camera(camera_at({0, 1.5, -7}, {0, 0.3, 0}));
+  add_floor(scene, -1, {0.6, 0.5, 0.3}, {0.3, 0.5, 0.35});
+  for (int i = 0; i < 12; ++i) {
+    Material m = matte({0.2 + 0.06 * i, 0.9 - 0.05 * i, 0.3 + 0.04 * (i % 5)});
+    m.finish.phong = i % 3 == 0 ? 0.8 : 0;
+    m.finish.phong_size = i % 2 == 0 ? 20 : 90;
+    m.finish.specular = i % 3 == 1 ? 0.7 : 0;
+    m.finish.roughness = 0.01 + 0.01 * i;
+    m.finish.metallic = i % 4 == 3 ? 1 : 0;
+    m.finish.brilliance = i % 5 == 0 ? 3 : 1;
+    m.finish.emission = i == 7 ? Vec3(0.3, 0, 0) : Vec3(0);
+    add_sphere(scene, {0.3 + 0.8 * (i % 4), -0.6 + 0.8 * (i / 4), 0.3 * i - 1}, 0.42, m);
+  }
+  return scene;
+}
+
+Scene glass_and_mirrors() {
+  Scene scene = with_camera(camera_at({0.5, 1.2, -6}, {0, 0, 0}));
+  scene.max_trace_level = 9;
+  add_floor(scene, -1, {0.9, 0.8, 0.7}, {0.3, 0.3, 0.8});
+  add_sphere(scene, {-1.2, 0, 0}, 1, glass({0.95, 1, 0.95}), 1.5);
+  add_sphere(scene, {-1.2, 0, 0}, 0.5, glass({1, 0.8, 0.6}), 1.1);
+  Material steel = matte({0.6, 0.6, 0.7});
+  steel.finish.diffuse = 0.2;
+  steel.finish.reflection_min = {0.4, 0.4, 0.4};
+  steel.finish.reflection_max = {0.9, 0.9, 0.9};
+  steel.finish.reflection_falloff = 3;
+  steel.finish.reflection_metallic = 0.5;
+  add_sphere(scene, {1.3, 0, 0.7}, 1, steel);
+  Material bronze = matte({0.8, 0.5, 0.2});
+  bronze.finish.reflection_min = bronze.finish.reflection_max = Vec3(0.6);
+  bronze.finish.reflection_exponent = 1.8;
+  add_sphere(scene, {-2.4, -0.5, -1.4}, 0.5, bronze);
+  Material water = glass({0.8, 0.9, 1});
+  water.pigment.transmit = 0.1;
+  water.finish.reflection_max = Vec3(1);
+  water.finish.reflection_min = Vec3(0);
+  water.finish.reflection_fresnel = true;
+  water.finish.conserve_energy = true;
+  add_sphere(scene, {0.5, -0.5, -1.6}, 0.5, water, 1.33);
+  add_sphere(scene, {2.2, 1.2, -1}, 0.3, matte({1, 0.2, 0.2}));
+  scene.objects.back().no_shadow = true;
+  return scene;
+}
+
+Scene ellipsoids() {
+  Scene scene = with_camera(camera_at({0, 0.5, -6}, {0, 0, 0}));
+  add_floor(scene, -2, {0.5, 0.5, 0.5}, {0.7, 0.7, 0.2});
+  for (int i = 0; i < 9; ++i) {
+    Material m = i % 3 == 2 ? glass({0.9, 0.7, 0.9}) : matte({0.3 + 0.07 * i, 0.5, 0.9 - 0.08 * i});
+    m.finish.phong = 0.5;
+    add_sphere(scene, {0.1, 0, 0}, 0.7, m, i % 3 == 2 ? 1.3 : 1);
+    scene.objects.back().transform = Transform::scale({1, 0.25 + 0.1 * i, 0.6})
+                                         .then(Transform::rotate({20.0 * i, 35.0 * i, 10.0 * i}))
+                                         .then(Transform::translate({1.5 * (i % 3) - 1.5, 1.2 * (i / 3) - 1.0, 0.2 * i}));
+  }
+  return scene;
+}
+
+/// Smooth and flat meshes, instances, faces of one material and faces that blend three.
+Scene meshes() {
+  Scene scene = with_camera(camera_at({0, 1, -6}, {0, 0, 0}));
+  add_floor(scene, -1.2f, {0.5, 0.6, 0.5}, {0.8, 0.8, 0.8});
+  const Index colours[3] = {scene.add(matte({1, 0.1, 0.1})), scene.add(matte({0.1, 1, 0.1})),
+                            scene.add(matte({0.1, 0.2, 1}))};
+  Material pane = matte({0.9, 0.9, 0.2});
+  pane.pigment.filter = 0.7;
+  const Index clear = scene.add(pane);
+  Mesh ball = ball_mesh(5);
+  const Object smooth = mesh_object(ball, colours[0], new_interior(scene));
+  for (std::size_t t = 0; t < ball.triangles.size(); ++t) {
+    for (Index& normal : ball.triangles[t].normal) normal = kNoIndex;
+    for (int i = 0; i < 3; ++i) ball.triangles[t].material[i] = colours[(t / 2 + (t % 3 == 0 ? i : 0)) % 3];
+    if (t % 4 == 1) ball.triangles[t].material[1] = clear;
+  }
+  scene.objects.push_back(smooth);
+  scene.objects.back().transform = Transform::translate({-1.6, 0, 0});
+  scene.objects.push_back(smooth);
+  scene.objects.back().transform = Transform::scale({0.5, 1, -0.5}).then(Transform::translate({0.1, 0, 2}));
+  scene.objects.push_back(mesh_object(ball, colours[2], new_interior(scene)));
+  scene.objects.back().transform = Transform::rotate({10, 20, 30}).then(Transform::translate({1.5, 0, 0}));
+  return scene;
+}
+
+/// The pigments' opacity and the picture's encoding as they were before version 3.7.
+Scene legacy_orthographic() {
+  Scene scene = with_camera(orthographic_camera({3, 3, -6}, {0, 0, 0}, 6));
+  scene.version = 3.62;
+  scene.gamma_mode = GammaMode::none;
+  scene.ambient_light = {1.5, 1, 0.5};
+  for (int i = 0; i < 10; ++i) {
+    Material m = matte({0.8, 0.4, 0.1 * i});
+    m.pigment.filter = i % 2 == 0 ? 0.5 : 0;
+    m.pigment.transmit = i % 3 == 0 ? 0.25 : 0;
+    add_sphere(scene, {1.1 * (i % 4) - 1.6, 0.9 * (i / 4) - 1, 0.5 * (i % 3)}, 0.6, m);
+  }
+  return scene;
+}
+
+/// Between two half mirrors: nearly every bounce leaves a ray behind for later.
+Scene half_mirrors() {
+  Scene scene = with_camera(camera_at({0, 0.3, 0.2}, {0.2, 0, 3}));
+  scene.max_trace_level = 30;
+  Material m = matte({0.5, 0.7, 0.9});
+  m.pigment.transmit = 0.5;
+  m.finish.diffuse = 0.05;
+  m.finish.reflection_min = m.finish.reflection_max = Vec3(0.95);
+  Mesh wall;
+  wall.vertices = {{-9, -9, 0}, {9, -9, 0}, {0, 12, 0}};
+  wall.triangles = {{{0, 1, 2}, {kNoIndex, kNoIndex, kNoIndex}, {kNoIndex, kNoIndex, kNoIndex}}};
+  const Index material = scene.add(m);
+  for (double z : {-1.0, 2.0}) {
+    scene.objects.push_back(mesh_object(wall, material, new_interior(scene)));
+    scene.objects.back().transform = Transform::rotate({0, z, 0}).then(Transform::translate({0, 0, z}));
+  }
+  add_sphere(scene, {0.4, -0.3, 1}, 0.2, matte({1, 0.3, 0.1}));
+  return scene;
+}
+
+Scene inside_glass() {
+  Scene scene = with_camera(camera_at({0, 0, -1}, {0.3, 0, 2}));
+  scene.max_trace_level = 7;
+  add_floor(scene, -3, {0.9, 0.4, 0.4}, {0.2, 0.7, 0.3});
+  Material m = glass({0.95, 0.95, 1});
+  m.finish.reflection_min = m.finish.reflection_max = Vec3(0);
+  add_sphere(scene, {0, 0, 0}, 2, m, 1.4);
+  add_sphere(scene, {0, 0, 0}, 3, m, 1.2);
+  add_sphere(scene, {0.6, 0.3, 1.9}, 0.7, m, 1.6); // overlaps the inner one: left in another order than entered
+  add_sphere(scene, {0.3, -0.4, 0.8}, 0.2, matte({0.9, 0.9, 0.1}));
+  add_sphere(scene, {1.5, 0.5, 6}, 1, matte({0.2, 0.4, 1}));
+  return scene;
+}
+
+Scene empty() { return with_camera(camera_at({0, 0, -5}, {0, 0, 0})); }
+
+Scene dark() {
+  Scene scene = highlights();
+  scene.lights.clear();
+  scene.gamma_mode = GammaMode::srgb;
+  return scene;
+}
+
+/// All in one plane, in a working space of gamma 2.2, lit from in front and seen at a slant.
+Scene flat_gamma() {
+  Scene scene = with_camera(camera_at({2, 1, -5}, {0, 0, 0}));
+  scene.assumed_gamma = 2.2;
+  Mesh mesh;
+  for (int i = 0; i < 40; ++i) {
+    const float x = static_cast<float>(i % 8) - 4;
+    const float y = static_cast<float>(i / 8) - 2.5f;
+    const Index first = static_cast<Index>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), {{x, y, 0}, {x + 0.9f, y + 0.1f, 0}, {x + 0.3f, y + 0.8f, 0}});
+    mesh.triangles.push_back({{first, first + 1, first + 2}, {kNoIndex, kNoIndex, kNoIndex}, {}});
+    for (Index& material : mesh.triangles.back().material) material = static_cast<Index>(i % 3);
+  }
+  scene.add(matte({0.9, 0.3, 0.2}));
+  scene.add(matte({0.3, 0.9, 0.2}));
+  scene.add(matte({0.2, 0.3, 0.9}));
+  scene.objects.push_back(mesh_object(mesh, 0, new_interior(scene)));
+  return scene;
+}
+
+} // namespace
+
+const std::vector<NamedScene>& scenes() {
+  static const std::vector<NamedScene> all = {{"highlights", highlights},
+                                              {"glass and mirrors", glass_and_mirrors},
+                                              {"ellipsoids", ellipsoids},
+                                              {"meshes", meshes},
+                                              {"legacy orthographic", legacy_orthographic},
+                                              {"half mirrors", half_mirrors},
+                                              {"inside glass", inside_glass},
+                                              {"empty", empty},
+                                              {"dark", dark},
+                                              {"flat, gamma 2.2", flat_gamma}};
+  return all;
+}
+
+Scene scene_named(const std::string& name) {
+  for (const NamedScene& scene : scenes())
+    if (scene.name == name) return scene.make();
+  throw std::out_of_range("no scene is named " + name);
+}
+
+} // namespace celltrace::test

@@ -1,0 +1,40 @@
+// Small scenes that together use everything a Scene can say, and helpers to build others.
+#pragma once
+
+#include "celltrace/scene.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace celltrace::test {
+
+struct NamedScene {
+  std::string name;
+  std::function<Scene()> make;
+};
+
+/// Every scene of the folder.
+const std::vector<NamedScene>& scenes();
+Scene scene_named(const std::string& name);
+
+// --- parts -----------------------------------------------------------------------------------------------------------
+
+/// Opaque, with POV-Ray's default finish.
+Material matte(const Vec3& rgb);
+/// Clear, filtering by `rgb`, and mirroring a little.
+Material glass(const Vec3& rgb);
+
+Object sphere_at(const Vec3& centre, double radius, Index material, Index interior);
+/// Two triangles in the plane y = `height`, from -`half` to `half`.
+Mesh floor_mesh(float height, float half);
+/// A unit sphere of `rings` x 2 `rings` quadrangles with the sphere's own normals.
+Mesh ball_mesh(int rings);
+Object mesh_object(Mesh mesh, Index material, Index interior);
+
+/// Looks from `from` to `to` with a horizontal angle of 60 degrees and the aspect 4:3.
+Camera camera_at(const Vec3& from, const Vec3& to);
+/// Parallel rays from `from` to `to`, `width` units wide, 4:3.
+Camera orthographic_camera(const Vec3& from, const Vec3& to, double width);
+
+} // namespace celltrace::test

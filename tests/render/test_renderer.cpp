@@ -1,0 +1,356 @@
+// Renderer from frame to frame: progress, cancelling, reuse, statistics, options.
+#include "celltrace/error.hpp"
+#include "render/backends.hpp"
+#include "render/scenes.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <stdexcept>
+
+using namespace celltrace;
+using namespace celltrace::test;
+
+namespace {
+
+constexpr int kWidth = 80;
+constexpr int kHeight = 60;
+
+/// Narrow and fast backends: what is tested here has nothing to do with SIMD.
+std::vector<Backend> one_of_each() { return {backends().front(), backends().back()}; }
+
+Image picture(const Scene& scene, int width = kWidth, int height = kHeight) {
+  return render(scene, backends().front().options(width, height, 1)).image;
+}
+
+/// All the work lies in the lower right half: strips of equal height are far from balanced.
+Scene uneven() {
+  Scene scene = scene_named("glass and mirrors");
+  scene.camera = camera_at({0, 3.5, -6}, {0, 3.2, 0});
+  scene.max_trace_level = 20;
+  return scene;
+}
+
+void check_complete(const RenderResult& result, const Backend& backend, const Image& expected) {
+  REQUIRE(result.complete);
+  REQUIRE(result.statistics.spu == backend.spu());
+  CHECK(result.image == expected);
+}
+
+} // namespace
+
+TEST_CASE("Progress starts at 0, never falls and ends at 1") {
+  const Scene scene = scene_named("glass and mirrors");
+  for (const Backend& backend : one_of_each()) {
+    for (unsigned spes : {1u, 5u}) {
+      INFO(backend.spu() << " with " << spes);
+      Renderer renderer(backend.options(kWidth, kHeight, spes));
+      for (int frame = 0; frame < 3; ++frame) {
+        std::vector<double> fractions;
+        const RenderResult result = renderer.render(scene, [&](double fraction) {
+          fractions.push_back(fraction);
+          return true;
+        });
+        REQUIRE(result.complete);
+        REQUIRE(fractions.size() >= 2);
+        CHECK(fractions.front() == 0);
+        CHECK(fractions.back() == 1);
+        CHECK(std::is_sorted(fractions.begin(), fractions.end()));
+      }
+    }
+  }
+}
+
+TEST_CASE("Statistics agree with each other") {
+  const Scene scene = scene_named("glass and mirrors");
+  const RenderStatistics expected = render(scene, backends().front().options(kWidth, kHeight, 1)).statistics;
+  for (const Backend& backend : backends()) {
+    INFO(backend.spu());
+    Renderer renderer(backend.options(kWidth, kHeight, 3));
+    for (int frame = 0; frame < 2; ++frame) {
+      const RenderStatistics s = renderer.render(scene).statistics;
+      CHECK(s.backend == backend.backend);
+      CHECK(s.spu == backend.spu());
+      CHECK(s.width == kWidth);
+      CHECK(s.height == kHeight);
+      CHECK(s.objects == 8); // six spheres, two triangles
+      CHECK(s.primary_rays == kWidth * kHeight);
+      CHECK(s.shadow_rays == expected.shadow_rays);
+      CHECK(s.reflection_rays == expected.reflection_rays);
+      CHECK(s.refraction_rays == expected.refraction_rays);
+      CHECK(s.dropped_rays == 0);
+      CHECK(s.sphere_tests == expected.sphere_tests);
+      CHECK(s.triangle_tests == expected.triangle_tests);
+      CHECK(s.ellipsoid_tests == 0);
+      CHECK(s.voxels_visited == expected.voxels_visited);
+      CHECK(s.grid_list_entries >= s.objects);
+
+      std::uint64_t rays = 0;
+      std::uint64_t rows = 0;
+      std::uint64_t exchanges = 0;
+      std::uint64_t most = 0;
+      for (const RenderStatistics::Spe& spe : s.spes) {
+        rays += spe.rays;
+        rows += spe.rows;
+        exchanges += spe.exchanges;
+        most = std::max(most, spe.rays);
+        CHECK(spe.local_store_peak <= 256 * 1024);
+        CHECK(spe.local_store_peak > 0);
+      }
+      CHECK(rays == s.total_rays());
+      CHECK(rows == kHeight / 4);
+      CHECK(exchanges == s.balance_exchanges);
+      CHECK(s.balance_rows_moved >= s.balance_exchanges);
+      CHECK(s.imbalance == Approx(static_cast<double>(most) * 3 / static_cast<double>(rays) - 1));
+
+      const bool cached = backend.backend == "cell_emu";
+      for (const auto& cache : {s.list_cache, s.object_cache, s.material_cache, s.light_cache}) {
+        CHECK((cache.hits + cache.misses != 0) == cached);
+        CHECK(cache.hit_rate() <= 1);
+      }
+      if (cached) {
+        CHECK(s.object_cache.hit_rate() > 0.9);
+        CHECK(s.dma_bytes_read > 0);
+        CHECK(s.dma_bytes_written >= kWidth * kHeight * 4);
+      }
+    }
+  }
+}
+
+TEST_CASE("The cache's shape changes the misses, not the picture") {
+  const Scene scene = scene_named("meshes");
+  const Image expected = picture(scene);
+  CacheConfig off;
+  off.enabled = false;
+  CacheConfig tiny;
+  tiny.ways = 1;
+  tiny.sets = 2;
+  CacheConfig full;
+  full.ways = 64;
+  full.sets = 1;
+  full.replacement = CacheReplacement::lru;
+  CacheConfig fifo;
+  fifo.ways = 2;
+  fifo.sets = 16;
+  fifo.replacement = CacheReplacement::fifo;
+  for (const CacheConfig& cache : {off, tiny, full, fifo}) {
+    RenderOptions options = Backend{"cell_emu", "auto"}.options(kWidth, kHeight, 2);
+    options.cache = cache;
+    const RenderResult result = render(scene, options);
+    CHECK(result.statistics.spu == "cell_emu");
+    CHECK(result.image == expected);
+    CHECK((result.statistics.object_cache.hits == 0) == !cache.enabled);
+  }
+}
+
+TEST_CASE("Deep trees spill to main memory") {
+  const Scene scene = scene_named("half mirrors");
+  const RenderResult deep = render(scene, Backend{"cell_emu", "auto"}.options(kWidth, kHeight, 2));
+  CHECK(deep.statistics.dma_bytes_written > 500'000);
+  CHECK(deep.statistics.dropped_rays == 0);
+  RenderOptions options = Backend{"cell_emu", "auto"}.options(kWidth, kHeight, 2);
+  options.max_trace_level = 3;
+  const RenderResult shallow = render(scene, options);
+  CHECK(shallow.statistics.dma_bytes_written < 100'000);
+  CHECK(shallow.statistics.total_rays() < deep.statistics.total_rays());
+}
+
+TEST_CASE("The options' limits replace the scene's") {
+  Scene scene = scene_named("glass and mirrors");
+  RenderOptions options = backends().front().options(kWidth, kHeight, 2);
+  options.max_trace_level = 2;
+  options.adc_bailout = 0.05;
+  const Image by_options = render(scene, options).image;
+  scene.max_trace_level = 2;
+  scene.adc_bailout = 0.05;
+  CHECK(by_options == picture(scene));
+  CHECK(by_options != picture(scene_named("glass and mirrors")));
+}
+
+TEST_CASE("Rows move to SPEs that have run dry") {
+  const Scene scene = uneven();
+  const Image expected = picture(scene, 120, 90);
+  for (const Backend& backend : one_of_each()) {
+    std::uint64_t exchanges = 0;
+    for (int attempt = 0; attempt < 10 && exchanges == 0; ++attempt) {
+      const RenderResult result = render(scene, backend.options(120, 90, 8));
+      check_complete(result, backend, expected);
+      exchanges = result.statistics.balance_exchanges;
+    }
+    INFO(backend.spu());
+    CHECK(exchanges > 0);
+    RenderOptions options = backend.options(120, 90, 8);
+    options.balance = Balance::fixed;
+    const RenderResult fixed = render(scene, options);
+    check_complete(fixed, backend, expected);
+    CHECK(fixed.statistics.balance_exchanges == 0);
+  }
+}
+
+TEST_CASE("Pictures of any size, also with more SPEs than rows") {
+  const Scene scene = scene_named("highlights");
+  for (const auto& [width, height] : {std::pair{1, 1}, {3, 2}, {5, 7}, {4, 64}, {66, 3}, {31, 33}}) {
+    const Image expected = picture(scene, width, height);
+    for (const Backend& backend : one_of_each())
+      for (unsigned spes : {2u, 16u}) {
+        INFO(backend.spu() << " with " << spes << ": " << width << "x" << height);
+        Renderer renderer(backend.options(width, height, spes));
+        for (int frame = 0; frame < 20; ++frame) check_complete(renderer.render(scene), backend, expected);
+      }
+  }
+}
+
+TEST_CASE("One Renderer's later frames are as those of a fresh one") {
+  for (const Backend& backend : one_of_each()) {
+    INFO(backend.spu());
+    Renderer renderer(backend.options(kWidth, kHeight, 4));
+    for (int round = 0; round < 2; ++round)
+      for (const NamedScene& named : scenes()) {
+        INFO(named.name);
+        Scene scene = named.make();
+        check_complete(renderer.render(scene), backend, picture(scene));
+        scene.camera = camera_at({0.5, 0.7, -4.5 - round}, {0.1, 0.2, 0});
+        check_complete(renderer.render(scene.camera), backend, picture(scene));
+        scene.camera = orthographic_camera({1, 2, -9}, {0, 0, 0}, 7);
+        check_complete(renderer.render(scene.camera), backend, picture(scene));
+      }
+  }
+}
+
+TEST_CASE("A later scene may need deeper trees") {
+  Scene scene = scene_named("half mirrors");
+  for (const Backend& backend : one_of_each()) {
+    Renderer renderer(backend.options(kWidth, kHeight, 4));
+    for (int level : {5, 30, 100, 2, 60}) {
+      INFO(backend.spu() << ", level " << level);
+      scene.max_trace_level = level;
+      check_complete(renderer.render(scene), backend, picture(scene));
+    }
+  }
+}
+
+TEST_CASE("A cancelled frame is broken off, and the next one is as usual") {
+  const Scene scene = uneven();
+  const Image expected = picture(scene);
+  for (const Backend& backend : one_of_each()) {
+    for (unsigned spes : {1u, 8u}) {
+      INFO(backend.spu() << " with " << spes);
+      Renderer renderer(backend.options(kWidth, kHeight, spes));
+      for (double limit : {0.0, 0.2, 0.6, 0.9}) {
+        double last = -1;
+        const RenderResult result = renderer.render(scene, [&](double fraction) {
+          last = fraction;
+          return fraction < limit;
+        });
+        CHECK_FALSE(result.complete);
+        CHECK(last >= limit);
+        CHECK(last < 1);
+        CHECK(result.image.width == kWidth);
+        check_complete(renderer.render(scene), backend, expected);
+        // Only the camera's frame is broken off.
+        CHECK_FALSE(renderer.render(scene.camera, [](double) { return false; }).complete);
+        check_complete(renderer.render(scene.camera), backend, expected);
+      }
+    }
+  }
+}
+
+TEST_CASE("Pixels of a cancelled frame are finished or transparent black") {
+  const Scene scene = scene_named("glass and mirrors");
+  const Image expected = picture(scene);
+  Renderer renderer(backends().back().options(kWidth, kHeight, 2));
+  const RenderResult result = renderer.render(scene, [](double fraction) { return fraction < 0.4; });
+  int finished = 0;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      const std::uint8_t* p = result.image.pixel(x, y);
+      const bool untouched = p[0] == 0 && p[1] == 0 && p[2] == 0 && p[3] == 0;
+      if (untouched) continue;
+      ++finished;
+      REQUIRE(std::equal(p, p + 4, expected.pixel(x, y)));
+    }
+  CHECK(finished >= kWidth * kHeight * 4 / 10);
+}
+
+TEST_CASE("What the progress function throws passes through, and the next frame is as usual") {
+  const Scene scene = scene_named("glass and mirrors");
+  const Image expected = picture(scene);
+  for (const Backend& backend : one_of_each()) {
+    for (double limit : {0.0, 0.3, 1.0}) {
+      INFO(backend.spu() << " at " << limit);
+      Renderer renderer(backend.options(kWidth, kHeight, 4));
+      const auto fail = [&](double fraction) -> bool {
+        if (fraction >= limit) throw std::domain_error("enough");
+        return true;
+      };
+      CHECK_THROWS_AS(renderer.render(scene, fail), std::domain_error);
+      check_complete(renderer.render(scene), backend, expected);
+      CHECK_THROWS_AS(renderer.render(scene, fail), std::domain_error);
+    }
+  }
+}
+
+TEST_CASE("A Renderer can be moved") {
+  const Scene scene = scene_named("highlights");
+  Renderer first(backends().front().options(kWidth, kHeight, 2));
+  first.render(scene);
+  Renderer second = std::move(first);
+  CHECK(second.render(scene.camera).image == picture(scene));
+}
+
+TEST_CASE("Options out of range are refused") {
+  const auto refuses = [](auto change) {
+    RenderOptions options = backends().front().options(16, 16, 1);
+    change(options);
+    CHECK_THROWS_AS(Renderer(options), InputError);
+  };
+  refuses([](RenderOptions& o) { o.width = 0; });
+  refuses([](RenderOptions& o) { o.width = -4; });
+  refuses([](RenderOptions& o) { o.height = 0; });
+  refuses([](RenderOptions& o) { o.width = 65521; });
+  refuses([](RenderOptions& o) { o.height = 65521; });
+  refuses([](RenderOptions& o) { o.width = o.height = 65520; }); // more pixels than an Image has
+  refuses([](RenderOptions& o) { o.backend = "ps3"; });
+  refuses([](RenderOptions& o) { o.simd = "mmx"; });
+  refuses([](RenderOptions& o) { o.spes = 257; });
+  refuses([](RenderOptions& o) { o.cache.ways = 3; });
+  refuses([](RenderOptions& o) { o.cache.sets = 100; });
+  refuses([](RenderOptions& o) { o.max_trace_level = 0; });
+  refuses([](RenderOptions& o) { o.max_trace_level = 257; });
+  refuses([](RenderOptions& o) { o.adc_bailout = -0.1; });
+  refuses([](RenderOptions& o) { o.adc_bailout = std::numeric_limits<double>::quiet_NaN(); });
+}
+
+TEST_CASE("Scenes and cameras that cannot be rendered are refused, and the Renderer goes on") {
+  const Scene good = scene_named("highlights");
+  const Image expected = picture(good);
+  for (const Backend& backend : one_of_each()) {
+    Renderer renderer(backend.options(kWidth, kHeight, 2));
+    CHECK_THROWS_AS(renderer.render(good.camera), InputError); // no scene yet
+    const auto refuses = [&](auto change) {
+      Scene scene = good;
+      change(scene);
+      CHECK_THROWS_AS(renderer.render(scene), InputError);
+    };
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    refuses([](Scene& s) { s.objects[1].material = 1000; });
+    refuses([](Scene& s) { s.objects[1].interior = kNoIndex; });
+    refuses([&](Scene& s) { s.camera.location.x = nan; });
+    refuses([](Scene& s) { s.objects[1].transform = Transform::matrix({1, 2, 3, 2, 4, 6, 0, 0, 1, 0, 0, 0}); });
+    refuses([](Scene& s) { s.objects[1].shape = std::shared_ptr<const Mesh>(); });
+    check_complete(renderer.render(good), backend, expected);
+    Camera camera = good.camera;
+    camera.direction.y = nan;
+    CHECK_THROWS_AS(renderer.render(camera), InputError);
+    check_complete(renderer.render(good.camera), backend, expected);
+  }
+}
+
+TEST_CASE("A refused scene leaves the one before in place") {
+  const Scene good = scene_named("highlights");
+  Renderer renderer(backends().front().options(kWidth, kHeight, 2));
+  renderer.render(good);
+  Scene bad = good;
+  bad.objects[1].material = 1000;
+  CHECK_THROWS_AS(renderer.render(bad), InputError);
+  CHECK(renderer.render(good.camera).image == picture(good));
+}
