@@ -84,7 +84,7 @@ void Spu::command_word(std::uint32_t word) {
 // --- events and decrementer
 // --------------------------------------------------------------------------------------
 
-std::uint32_t Spu::read_event_status() {
+std::uint32_t Spu::event_status_channel() {
   update_decrementer();
   // Nothing but the decrementer counts while the SPU stalls: let its time pass.
   const bool expects_expiry =
@@ -100,17 +100,17 @@ void Spu::update_decrementer() {
   if (decrementer_.advance(cycles())) problem_state_.raise_own(event::decrementer);
 }
 
-std::uint32_t Spu::read_decrementer() {
+std::uint32_t Spu::decrementer() {
   update_decrementer();
   return decrementer_.value();
 }
 
-void Spu::write_decrementer(std::uint32_t value) {
+void Spu::start_decrementer(std::uint32_t value) {
   update_decrementer();
   decrementer_.write(value, cycles());
 }
 
-void Spu::acknowledge_events(std::uint32_t events) {
+void Spu::event_ack_channel(std::uint32_t events) {
   update_decrementer();
   problem_state_.acknowledge_events(events);
   // Masked off and acknowledged is how the decrementer is stopped.

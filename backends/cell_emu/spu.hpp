@@ -54,10 +54,10 @@ private:
   void command(const MfcCommand& command);
   void command_word(std::uint32_t word);
 
-  std::uint32_t read_event_status();
-  std::uint32_t read_decrementer();
-  void write_decrementer(std::uint32_t value);
-  void acknowledge_events(std::uint32_t events);
+  std::uint32_t event_status_channel();
+  std::uint32_t decrementer();
+  void start_decrementer(std::uint32_t value);
+  void event_ack_channel(std::uint32_t events);
   void update_decrementer();
   /// The virtual clock since the kernel started: a fixed cost for channel accesses and for bytes moved.
   std::uint64_t cycles() const { return cycles_ + (mfc_.bytes_moved() - bytes_before_) / kBytesPerCycle; }
@@ -91,10 +91,10 @@ template <Channel c> std::uint32_t Spu::read_channel() {
   static_assert(is_readable(c), "no such channel, or it cannot be read");
   cycles_ += kCyclesPerChannel;
   if constexpr (may_stall(c)) prepare<c>();
-  if constexpr (c == Channel::rd_event_stat) return read_event_status();
+  if constexpr (c == Channel::rd_event_stat) return event_status_channel();
   if constexpr (c == Channel::rd_sig_notify_1) return problem_state_.read_signal(Signal::one);
   if constexpr (c == Channel::rd_sig_notify_2) return problem_state_.read_signal(Signal::two);
-  if constexpr (c == Channel::rd_dec) return read_decrementer();
+  if constexpr (c == Channel::rd_dec) return decrementer();
   if constexpr (c == Channel::rd_event_mask) return problem_state_.event_mask();
   if constexpr (c == Channel::rd_tag_mask) return mfc_.tag_mask();
   if constexpr (c == Channel::rd_mach_stat) return 0; // not isolated, interrupts disabled
@@ -110,8 +110,8 @@ template <Channel c> void Spu::write_channel(std::uint32_t value) {
   cycles_ += kCyclesPerChannel;
   if constexpr (may_stall(c) && c != Channel::mfc_cmd) prepare<c>();
   if constexpr (c == Channel::wr_event_mask) problem_state_.write_event_mask(value);
-  if constexpr (c == Channel::wr_event_ack) acknowledge_events(value);
-  if constexpr (c == Channel::wr_dec) write_decrementer(value);
+  if constexpr (c == Channel::wr_event_ack) event_ack_channel(value);
+  if constexpr (c == Channel::wr_dec) start_decrementer(value);
   // What other SPEs have queued has not started, so nothing is on its way to this SPE.
   if constexpr (c == Channel::wr_ms_sync_req) problem_state_.raise_own(event::multi_source_sync);
   if constexpr (c == Channel::wr_srr0) srr0_ = value;

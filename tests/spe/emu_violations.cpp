@@ -1,0 +1,141 @@
+// Kernels that break a rule end with an error that names the SPE, the command and the rule.
+#include "spe/run_on.hpp"
+
+namespace celltrace::test {
+namespace {
+
+using Catch::Contains;
+
+template <class Kernel> std::string violation(Kernel kernel) {
+  alignas(128) static std::uint32_t memory[4096];
+  MachineConfig config;
+  config.code_bytes = 0x18000;
+  try {
+    run_on("cell_emu", *machine_of("cell_emu", 1, config), kernel, to_ea(memory), [](Machine&) {});
+  } catch (const SpeError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST_CASE("a bad size is reported with SPE, addresses, tag and rule") {
+  CHECK_THAT(
+      violation([](auto& spu, ea_t ea) { spu.get(spu.template allocate<std::uint8_t>(32), ea, 20, 5); }),
+      Catch::StartsWith("SPE 0: get 20 bytes, LS 0x18080 <- EA 0x") &&
+          Catch::EndsWith(", tag 5: size must be 1, 2, 4, 8 or a multiple of 16 up to 16384"));
+}
+
+TEST_CASE("bad operands are reported when the command is issued") {
+  CHECK_THAT(
+      violation([](auto& spu, ea_t ea) { spu.get(spu.template allocate<std::uint8_t>(32), ea, 16, 32); }),
+      Contains("tag must be 0..31"));
+  CHECK_THAT(
+      violation([](auto& spu, ea_t ea) { spu.get(spu.template allocate<std::uint8_t>(32), ea + 4, 4, 1); }),
+      Contains("low 4 bits"));
+  CHECK_THAT(violation([](auto& spu, ea_t ea) {
+               alignas(128) std::uint8_t on_stack[16];
+               spu.get(on_stack, ea, 16, 1);
+             }),
+             Contains("LS outside") && Contains("this SPE's local store"));
+  CHECK_THAT(violation([](auto& spu, ea_t) { spu.get(spu.template allocate<std::uint8_t>(32), 0, 16, 1); }),
+             Contains("EA must be mapped"));
+  CHECK_THAT(violation([](auto& spu, ea_t) {
+               const ea_t end = spu.addresses(0).local_store + kLocalStoreBytes;
+               spu.put(spu.template allocate<std::uint8_t>(32), end - 16, 32, 1);
+             }),
+             Contains("stay in the storage"));
+  CHECK_THAT(
+      violation([](auto& spu, ea_t ea) { spu.getllar(spu.template allocate<std::uint8_t>(128), ea + 64); }),
+      Contains("getllar") && Contains("128-byte aligned"));
+}
+
+TEST_CASE("registers take one word from the last word of a quadword") {
+  CHECK_THAT(violation([](auto& spu, ea_t) {
+               auto* word = spu.template allocate<std::uint32_t>(4);
+               spu.put(word, spu.addresses(0).in_mailbox, 4, 1);
+             }),
+             Contains("LS & 15 = 0xC"));
+  CHECK_THAT(violation([](auto& spu, ea_t) {
+               auto* word = spu.template allocate<std::uint32_t>(4);
+               spu.put(word + 3, spu.addresses(0).in_mailbox + 16, 4, 1);
+             }),
+             Contains("must be a problem-state register"));
+  CHECK_THAT(violation([](auto& spu, ea_t ea) {
+               auto* word = spu.template allocate<std::uint32_t>(4);
+               spu.template mfc_command<MfcOpcode::sndsig>(word + 3, ea + 12, 4, 1);
+             }),
+             Contains("sndsig must go to a signal"));
+}
+
+TEST_CASE("a bad list element is reported with its number") {
+  CHECK_THAT(violation([](auto& spu, ea_t ea) {
+               auto* buffer = spu.template allocate<std::uint8_t>(256);
+               auto* list = spu.template allocate<ListElement>(3);
+               list[0] = ListElement::make(16, ea);
+               list[1] = ListElement::make(16, ea);
+               list[2] = ListElement::make(24, ea);
+               spu.getl(buffer, ea, list, 3, 9);
+               spu.wait_all(1u << 9);
+             }),
+             Contains("SPE 0: element 2 of getl of 24 bytes of list at LS 0x18180") &&
+                 Contains("get 24 bytes, LS 0x180a0 <- EA 0x") && Contains("size must be"));
+  CHECK_THAT(violation([](auto& spu, ea_t ea) {
+               auto* buffer = spu.template allocate<std::uint8_t>(256);
+               auto* list = spu.template allocate<ListElement>(3);
+               spu.getl(buffer, ea, reinterpret_cast<ListElement*>(buffer + 4), 1, 9);
+               spu.wait_all(1u << 9);
+               (void)list;
+             }),
+             Contains("8-byte aligned"));
+}
+
+TEST_CASE("reading an MFC status that can never come is an error") {
+  CHECK_THAT(violation([](auto& spu, ea_t) { spu.template read_channel<Channel::rd_tag_stat>(); }),
+             Contains("MFC_RdTagStat would stall for ever: no tag status update"));
+  CHECK_THAT(violation([](auto& spu, ea_t) { spu.wait_any(0); }), Contains("no tag group is enabled"));
+  CHECK_THAT(violation([](auto& spu, ea_t) { spu.read_list_stall_status(); }),
+             Contains("MFC_RdListStallStat would stall for ever"));
+  CHECK_THAT(violation([](auto& spu, ea_t) { spu.template read_channel<Channel::rd_atomic_stat>(); }),
+             Contains("MFC_RdAtomicStat would stall for ever"));
+  CHECK_THAT(violation([](auto& spu, ea_t) { spu.template write_channel<Channel::wr_tag_update>(3); }),
+             Contains("MFC_WrTagUpdate 3"));
+  CHECK_THAT(violation([](auto& spu, ea_t) { spu.acknowledge_list_stall(32); }),
+             Contains("MFC_WrListStallAck 32"));
+}
+
+TEST_CASE("an address of an SPE that does not exist is an error") {
+  CHECK_THAT(violation([](auto& spu, ea_t) { spu.send_signal(1, Signal::one, 0); }),
+             Contains("there is no SPE 1"));
+}
+
+TEST_CASE("an error of a queued command is reported at the end of the kernel at the latest") {
+  CHECK_THAT(violation([](auto& spu, ea_t ea) {
+               auto* list = spu.template allocate<ListElement>(1);
+               *list = ListElement::make(17, ea);
+               spu.getl(spu.template allocate<std::uint8_t>(32), ea, list, 1, 2);
+             }),
+             Contains("element 0"));
+}
+
+TEST_CASE("a kernel's own exception ends it like any error") {
+  CHECK(violation([](auto&, ea_t) { throw std::runtime_error("out of luck"); }) == "SPE 0: out of luck");
+  CHECK_THAT(violation([](auto&, ea_t) { throw 5; }), Contains("unknown exception"));
+}
+
+TEST_CASE("a configuration that does not fit is refused") {
+  MachineConfig config;
+  config.code_bytes = kLocalStoreBytes - 1024;
+  config.stack_bytes = 4096;
+  CHECK_THROWS_WITH(cell_emu::make_machine(config), Contains("leave no arena"));
+  config = {};
+  config.signal_mode[1] = static_cast<SignalMode>(7);
+  CHECK_THROWS_AS(cell_emu::make_machine(config), InputError);
+  config = {};
+  config.spes = 257;
+  CHECK_THROWS_AS(cell_emu::make_machine(config), InputError);
+  config = {};
+  CHECK(cell_emu::make_machine(config)->spe_count() == 8);
+}
+
+} // namespace
+} // namespace celltrace::test
