@@ -23,7 +23,8 @@ void set_angle(Camera& camera, double degrees) {
   camera.direction *= width / (2 * std::tan(degrees * kRadiansPerDegree / 2)) / length;
 }
 
-/// Turns the camera towards a point; the sky says which way is up, and lengths and handedness stay as they were.
+/// Turns the camera towards a point; the sky says which way is up, and lengths and handedness stay as they
+/// were.
 void turn(Camera& camera, const Vec3& look_at, const Vec3& sky) {
   const Vec3 line_of_sight = look_at - camera.location;
   const double distance = glm::length(line_of_sight);
@@ -42,7 +43,8 @@ void turn(Camera& camera, const Vec3& look_at, const Vec3& sky) {
   camera.right = sideways * (sign * width);
 }
 
-/// An orthographic camera whose picture has no size of its own takes that of a perspective one at the looked-at point.
+/// An orthographic camera whose picture has no size of its own takes that of a perspective one at the
+/// looked-at point.
 void scale_orthographic(Camera& camera, double distance) {
   const double depth = glm::length(camera.direction);
   if (depth == 0) throw InputError("the camera has no direction");

@@ -23,7 +23,8 @@ struct CameraDefinition {
   UnsupportedPtr unsupported;
   Location where;
 
-  /// Throws InputError, without a position, if the camera has no view: an angle of 180 degrees or more, no direction.
+  /// Throws InputError, without a position, if the camera has no view: an angle of 180 degrees or more, no
+  /// direction.
   Camera finish() const;
 };
 

@@ -38,8 +38,7 @@ std::string Diagnostics::stack() const {
       lines += "\n    in macro '" + names_.text(frame.macro_name) + "' called from ";
     lines += sources_.name(frame.opened_at.file) + ':' + std::to_string(frame.opened_at.line);
   }
-  if (count > kMostStackLines)
-    lines += "\n    and " + std::to_string(count - kMostStackLines) + " more";
+  if (count > kMostStackLines) lines += "\n    and " + std::to_string(count - kMostStackLines) + " more";
   return lines;
 }
 

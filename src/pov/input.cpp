@@ -16,4 +16,9 @@ Token Input::read() {
   return end;
 }
 
+bool Input::is_exhausted() const {
+  const Frame& frame = frames_.back();
+  return put_back_.empty() && frame.kind == Frame::Kind::macro && frame.position == frame.range.end;
+}
+
 } // namespace celltrace::pov

@@ -46,8 +46,8 @@ bool are_smooth(const Vec3& a, const Vec3& b, const Vec3& c) {
 Index to_index(double value, std::size_t count, const char* what) {
   const double whole = std::trunc(value);
   if (!(whole >= 0 && whole < static_cast<double>(count)))
-    throw InputError(std::string("mesh2 has no ") + what + ' ' + std::to_string(static_cast<long long>(whole)) +
-                     ", there are " + std::to_string(count));
+    throw InputError(std::string("mesh2 has no ") + what + ' ' +
+                     std::to_string(static_cast<long long>(whole)) + ", there are " + std::to_string(count));
   return static_cast<Index>(whole);
 }
 
@@ -115,14 +115,16 @@ Index MeshBuilder::texture_index(const TexturePtr& texture) {
 }
 
 std::shared_ptr<MeshDefinition> make_mesh(Mesh2Definition definition) {
-  for (Vec3& normal : definition.normal_vectors) normal = unit(normal);
+  for (Vec3& normal : definition.normal_vectors)
+    normal = unit(normal);
   auto result = std::make_shared<MeshDefinition>();
   Mesh& mesh = result->mesh;
   const std::vector<Face> faces = to_faces(definition);
   mesh.triangles.reserve(faces.size());
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const Face& face = faces[i];
-    if (face.texture_count == 2) throw InputError("mesh2 has a face with two texture indices: one or three can be given");
+    if (face.texture_count == 2)
+      throw InputError("mesh2 has a face with two texture indices: one or three can be given");
     if (is_degenerate(definition.vertex_vectors[face.vertex[0]], definition.vertex_vectors[face.vertex[1]],
                       definition.vertex_vectors[face.vertex[2]]))
       continue;
@@ -135,9 +137,11 @@ std::shared_ptr<MeshDefinition> make_mesh(Mesh2Definition definition) {
     mesh.triangles.push_back(triangle);
   }
   mesh.vertices.reserve(definition.vertex_vectors.size());
-  for (const Vec3& vertex : definition.vertex_vectors) mesh.vertices.push_back(to_single(vertex));
+  for (const Vec3& vertex : definition.vertex_vectors)
+    mesh.vertices.push_back(to_single(vertex));
   mesh.normals.reserve(definition.normal_vectors.size());
-  for (const Vec3& normal : definition.normal_vectors) mesh.normals.push_back(to_single(normal));
+  for (const Vec3& normal : definition.normal_vectors)
+    mesh.normals.push_back(to_single(normal));
   result->textures = std::move(definition.textures);
   return result;
 }

@@ -41,12 +41,17 @@ enum class Directive : std::uint8_t {
   unsupported, ///< known to POV-Ray only
 };
 
+/// Whether a directive needs an #end.
+bool opens_block(Directive directive);
+
 class Names {
 public:
   struct Entry {
     std::string text;
-    int token = 0; ///< the grammar's token for a reserved word, 0 for a free one
-    int detail = 0; ///< what the token says apart from its kind: which function, constant or colour model
+    int token = 0;      ///< the grammar's token for a reserved word, 0 for a free one
+    int detail = 0;     ///< what the token says apart from its kind: which function, constant or colour model
+    int component = -1; ///< what it means behind a dot: 0 to 4, 5 for grey, -1 nothing
+    bool is_unsupported = false; ///< reserved for what this program lacks
     Directive directive = Directive::none;
   };
 

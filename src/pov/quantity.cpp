@@ -14,7 +14,8 @@ Quantity component_wise(const Quantity& a, const Quantity& b, Operation operatio
   Quantity result;
   result.count = count;
   result.is_colour = a.is_colour || b.is_colour;
-  for (int i = 0; i < count; ++i) result.v[i] = operation(left.v[i], right.v[i]);
+  for (int i = 0; i < count; ++i)
+    result.v[i] = operation(left.v[i], right.v[i]);
   return result;
 }
 
@@ -85,7 +86,8 @@ Quantity make_colour(ColourModel model, const Quantity& value) {
   case ColourModel::rgbf:
     return Quantity::colour(rgb, component(3), is_float ? 0 : value.v[4]);
   case ColourModel::rgbt:
-    return value.count == 5 ? Quantity::colour(rgb, value.v[3], value.v[4]) : Quantity::colour(rgb, 0, component(3));
+    return value.count == 5 ? Quantity::colour(rgb, value.v[3], value.v[4])
+                            : Quantity::colour(rgb, 0, component(3));
   case ColourModel::rgbft:
     return Quantity::colour(rgb, component(3), component(4));
   }
@@ -112,9 +114,8 @@ Quantity operator*(const Quantity& a, const Quantity& b) {
 }
 
 Quantity operator/(const Quantity& a, const Quantity& b) {
-  return component_wise(a, b, [](double x, double y) {
-    return y == 0 ? std::numeric_limits<double>::infinity() : x / y;
-  });
+  return component_wise(
+      a, b, [](double x, double y) { return y == 0 ? std::numeric_limits<double>::infinity() : x / y; });
 }
 
 Quantity compare(Relation relation, const Quantity& a, const Quantity& b) {

@@ -20,7 +20,8 @@ public:
   Scanner& operator=(const Scanner&) = delete;
   ~Scanner();
 
-  /// The next token; Token::Kind::end again and again at the end. Comments may nest; line ends are CR, LF or CR LF.
+  /// The next token; Token::Kind::end again and again at the end. Comments may nest; line ends are CR, LF or
+  /// CR LF.
   Token next();
 
   // What the generated code calls.

@@ -30,7 +30,9 @@ struct Session {
   SceneBuilder builder;
   std::vector<std::uint32_t> random_streams; ///< what seed() handed out
 
-  [[noreturn]] void fail(const Location& where, const std::string& what) const { diagnostics.fail(where, what); }
+  [[noreturn]] void fail(const Location& where, const std::string& what) const {
+    diagnostics.fail(where, what);
+  }
 
   // What a number must be where it is used: finite, and a float, a small whole one or a vector.
   double number(const Quantity& quantity, const Location& where) const;

@@ -12,8 +12,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const char* const kInstalledIncludes[] = {"/usr/share/povray-3.7/include", "/usr/local/share/povray-3.7/include",
-                                          "/usr/share/povray/include"};
+const char* const kInstalledIncludes[] = {"/usr/share/povray-3.7/include",
+                                          "/usr/local/share/povray-3.7/include", "/usr/share/povray/include"};
 
 bool is_file(const fs::path& path) {
   std::error_code ignored;
@@ -21,13 +21,12 @@ bool is_file(const fs::path& path) {
 }
 
 bool same_but_for_case(const std::string& a, const std::string& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) {
-    return std::tolower(x) == std::tolower(y);
-  });
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
 }
 
-/// `folder/name`, each part matched without regard to case. The first match in alphabetical order, so that the answer
-/// does not depend on the file system.
+/// `folder/name`, each part matched without regard to case. The first match in alphabetical order, so that
+/// the answer does not depend on the file system.
 std::optional<fs::path> find_without_case(const fs::path& folder, const fs::path& name) {
   fs::path found = folder.empty() ? fs::path(".") : folder;
   for (const fs::path& part : name) {

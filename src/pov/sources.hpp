@@ -13,8 +13,8 @@ namespace celltrace::pov {
 
 class Sources {
 public:
-  /// Include files are looked for in the folder of the including file, in the scene's, in `library_paths` and in
-  /// POV-Ray's installed include folder, in this order; a name that differs in case only is taken last.
+  /// Include files are looked for in the folder of the including file, in the scene's, in `library_paths` and
+  /// in POV-Ray's installed include folder, in this order; a name that differs in case only is taken last.
   explicit Sources(std::vector<std::filesystem::path> library_paths);
 
   /// The number of a name; the same name gives the same number.
@@ -34,8 +34,8 @@ private:
   std::unordered_map<std::string, std::uint32_t> numbers_;
 };
 
-/// The text of a file, at most `limit` bytes. Throws InputError, without a position, if it is missing, is not a
-/// regular file, is longer or cannot be read.
+/// The text of a file, at most `limit` bytes. Throws InputError, without a position, if it is missing, is not
+/// a regular file, is longer or cannot be read.
 std::string read_text(const std::filesystem::path& path, std::uint64_t limit);
 
 } // namespace celltrace::pov

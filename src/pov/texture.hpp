@@ -1,6 +1,8 @@
-// What a scene says about surfaces and insides, as declared: pigments, finishes, textures, interiors, materials.
+// What a scene says about surfaces and insides, as declared: pigments, finishes, textures, interiors,
+// materials.
 //
-// What POV-Ray has and this program lacks is kept, marked as unsupported, and only an error where an object uses it.
+// What POV-Ray has and this program lacks is kept, marked as unsupported, and only an error where an object
+// uses it.
 #pragma once
 
 #include <memory>

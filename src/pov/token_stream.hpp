@@ -1,7 +1,8 @@
-// What the grammar reads: tokens after directives have been obeyed, macros and loops replayed and names looked up.
+// What the grammar reads: tokens after directives have been obeyed, macros and loops replayed and names
+// looked up.
 //
-// Directives need values, so the stream re-enters the grammar (evaluate). A value may end in the middle of what
-// follows: the grammar then hands back the token it looked at last.
+// Directives need values, so the stream re-enters the grammar (evaluate). A value may end in the middle of
+// what follows: the grammar then hands back the token it looked at last.
 #pragma once
 
 #include <cstdint>
@@ -60,41 +61,43 @@ public:
   /// How a message names what next() returned last.
   std::string describe_last() const;
   const Location& last_place() const { return levels_.back().last_token.where; }
+  /// The folder of the file being read.
+  const std::filesystem::path& current_folder() const;
   /// Whether any token was found at all.
-  bool is_empty() const { return tokens_read_ == 0; }
+  bool is_empty() const { return tokens_read_ <= 1; }
 
 private:
   /// One entry of the grammar.
   struct Level {
     Start start = Start::scene;
-    std::size_t base_depth = 0;       ///< frames below this depth are not this level's to leave
+    std::size_t base_depth = 0; ///< frames below this depth are not this level's to leave
     bool start_pending = true;
     bool any_delivered = false;
-    bool at_end = false;              ///< end was delivered: nothing to hand back
-    unsigned nesting = 0;             ///< open brackets, and < and ? which may or may not be brackets
-    std::vector<unsigned> enclosing;  ///< nesting outside each open bracket
+    bool at_end = false;             ///< end was delivered: nothing to hand back
+    unsigned nesting = 0;            ///< open brackets, and < and ? which may or may not be brackets
+    std::vector<unsigned> enclosing; ///< nesting outside each open bracket
     Token last_token;
-    bool after_operand = false;       ///< the last terminal can end a value
+    bool after_operand = false; ///< the last terminal can end a value
     Value result;
     bool hands_back = false;
   };
 
   // token_stream.cpp: from tokens to terminals
+  void leave_finished_macros();
   bool is_inside_value() const;
   Token read();
   Terminal deliver(const Token& token, Terminal terminal);
   void count_brackets(const Token& token);
   Terminal end_at(const Token& token);
   bool look_up(const Token& token, Terminal& terminal);
-  Terminal terminal_of(const Token& token, Value value);
+  Terminal terminal_of(const Token& token) const;
   void skip_to_depth(std::size_t depth);
-  bool leave_frame_at_end();
 
   // directives.cpp
   void obey(const Token& directive);
   void declare(bool is_local);
   void undefine();
-  void set_version(const Token& directive);
+  void set_version();
   void include(const Token& directive);
   void show(const Token& directive, Directive kind);
   void skip_semicolon();
@@ -105,13 +108,14 @@ private:
   Value& element(Value& array, const std::vector<std::size_t>& subscripts, const Location& where);
 
   // conditionals.cpp
+  double condition_value();
   bool condition();
   Token skip_branch(unsigned depth);
   void obey_if(const Token& directive, bool holds);
   void choose_else();
   void obey_switch(const Token& directive);
   void obey_else(const Token& directive, Directive kind);
-  void obey_case(Directive kind);
+  void obey_case(const Token& directive, Directive kind);
   void obey_end(const Token& directive);
   void obey_break(const Token& directive);
   bool case_holds(Directive kind, double value);
@@ -120,11 +124,13 @@ private:
   TokenRange take_block(const Token& opening);
   void define_macro(const Token& directive);
   void call(const Token& name, const std::shared_ptr<const Macro>& macro);
-  std::shared_ptr<Slot> read_argument(const Macro& macro);
+  std::shared_ptr<Slot> read_argument(const std::string& call);
   void start_while(const Token& directive);
   void start_for(const Token& directive);
   void start_iteration(bool is_first);
   void leave_frame();
+  bool leave_frame_at_end();
+  std::vector<double> read_numbers(const Location& where);
 
   Session& session_;
   std::vector<Level> levels_;

@@ -1,0 +1,63 @@
+// Reads scenes in the POV-Ray scene language (POV-Ray 3.7's) into a Scene.
+//
+// Supported: the language itself (directives, macros, loops, strings, arrays, expressions), perspective and
+// orthographic cameras, point lights, spheres, triangles, meshes, unions, and solid-colour textures with
+// every finish that Finish has. Whatever else POV-Ray knows may be declared; it is an error, "'cylinder' is
+// not supported yet", where an object of the scene uses it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "celltrace/error.hpp"
+#include "celltrace/scene.hpp"
+
+namespace celltrace {
+
+/// Bounds on what a scene may cost; passing one is a SceneError.
+struct ParseLimits {
+  std::uint64_t file_bytes = 1u << 30;        ///< of one file, at most 2^31 - 16
+  unsigned include_depth = 64;                ///< files open at once
+  unsigned macro_depth = 1000;                ///< macro calls open at once
+  unsigned nesting = 256;                     ///< brackets open at once
+  std::uint64_t loop_iterations = 10'000'000; ///< of all #while and #for loops together
+  std::uint64_t recorded_tokens = 4'000'000;  ///< in macro and loop bodies, 48 bytes each
+  std::uint64_t tokens = 2'000'000'000;       ///< read in all, replays included
+  std::uint64_t array_elements = 4'000'000;   ///< of one array
+  std::uint64_t list_entries = 32'000'000;    ///< of one list, such as a mesh's vertices
+  std::uint64_t string_bytes = 1u << 20;      ///< of one string
+  std::uint64_t objects = 4'000'000;          ///< placed in the scene
+  std::uint64_t triangles = 32'000'000;       ///< of all meshes, an instance not counted again
+};
+
+struct ParseOptions {
+  /// Searched for include files after the including file's folder and the scene's; POV-Ray's installed
+  /// include folder comes last by itself.
+  std::vector<std::filesystem::path> library_paths;
+  int width = 640;  ///< image_width
+  int height = 480; ///< image_height
+  double clock = 0;
+  /// Identifiers declared before the scene starts, as POV-Ray's Declare=name=value does.
+  std::vector<std::pair<std::string, std::variant<double, std::string>>> declares;
+  /// Receives the text of #debug, #render and #statistics as it is, and "file:line:column: warning: text\n"
+  /// for #warning. Called by the parsing thread. If empty, warnings go to stderr and the rest nowhere.
+  std::function<void(std::string_view)> message;
+  ParseLimits limits;
+};
+
+/// Throws SceneError for a fault of the scene: "file:line:column: error: text", followed by a line for every
+/// file and macro the place was reached through. InputError if an option is unusable. Safe to call from
+/// several threads.
+Scene parse_file(const std::filesystem::path& path, const ParseOptions& options = {});
+
+/// The same for a scene in memory. `name` stands in messages; includes are looked for from the current
+/// folder.
+Scene parse_string(std::string_view text, const ParseOptions& options = {}, std::string name = "<string>");
+
+} // namespace celltrace

@@ -1,0 +1,240 @@
+#include "pov/actions.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "celltrace/error.hpp"
+
+namespace celltrace::pov {
+
+namespace {
+
+constexpr int kDeepestUnion = 200;
+
+/// What `.grey` counts as, past the components.
+constexpr int kGrey = 5;
+
+double positive(Session& session, double value, const char* what, const Location& where) {
+  if (!(value > 0)) session.fail(where, std::string(what) + " must be greater than 0");
+  return value;
+}
+
+std::shared_ptr<ObjectDefinition> make_object(std::shared_ptr<MeshDefinition> mesh) {
+  auto object = std::make_shared<ObjectDefinition>();
+  object->shape = std::move(mesh);
+  return object;
+}
+
+} // namespace
+
+double component(Session& session, const Quantity& quantity, int which, const Location& where) {
+  if (which == kGrey) {
+    if (quantity.count < 3) session.fail(where, "only a colour has a grey value");
+    return quantity.grey();
+  }
+  if (which >= quantity.count)
+    session.fail(where, std::string(kind_name(quantity)) + " of " + std::to_string(quantity.count) +
+                            " components has no such component");
+  return quantity.v[static_cast<std::size_t>(which)];
+}
+
+void append_component(Session& session, Quantity& vector, double component, const Location& where) {
+  if (vector.count == 5) session.fail(where, "a vector has at most five components");
+  vector.v[static_cast<std::size_t>(vector.count++)] = component;
+}
+
+Transform matrix(Session& session, const std::vector<Quantity>& numbers, const Location& where) {
+  if (numbers.size() != 12)
+    session.fail(where, "a matrix has 12 numbers, not " + std::to_string(numbers.size()));
+  double values[12];
+  for (std::size_t i = 0; i < 12; ++i)
+    values[i] = session.number(numbers[i], where);
+  return Transform::matrix(values);
+}
+
+Transform inverse(Session& session, const Transform& transform, const Location& where) {
+  try {
+    return transform.inverse();
+  } catch (const InputError&) {
+    session.fail(where, "this transformation is singular: it has no inverse");
+  }
+}
+
+void set_assumed_gamma(Session& session, double gamma, const Location& where) {
+  session.builder.set_assumed_gamma(positive(session, gamma, "assumed_gamma", where));
+}
+
+void set_max_trace_level(Session& session, double level, const Location& where) {
+  if (!(level >= 1 && level <= 256)) session.fail(where, "max_trace_level must lie between 1 and 256");
+  session.builder.set_max_trace_level(static_cast<int>(level));
+}
+
+void ReflectionDefinition::set(const Vec3& only) {
+  max = only;
+}
+
+void ReflectionDefinition::set(const Vec3& first, const Vec3& second) {
+  min = first;
+  max = second;
+  has_min = true;
+}
+
+void ReflectionDefinition::apply(Finish& finish) const {
+  // A single colour is the whole range, except that Fresnel's law needs one.
+  finish.reflection_min = has_min || is_fresnel ? min : max;
+  finish.reflection_max = max;
+  finish.reflection_falloff = falloff;
+  finish.reflection_exponent = exponent;
+  finish.reflection_metallic = metallic;
+  finish.reflection_fresnel = is_fresnel;
+}
+
+void set_reflection(Finish& finish, const Vec3& colour) {
+  finish.reflection_min = colour;
+  finish.reflection_max = colour;
+}
+
+double roughness(Session& session, double value, const Location& where) {
+  return positive(session, value, "roughness", where);
+}
+
+double exponent(Session& session, double value, const Location& where) {
+  return positive(session, value, "the reflection's exponent", where);
+}
+
+double ior(Session& session, double value, const Location& where) {
+  return positive(session, value, "ior", where);
+}
+
+const TexturePtr& texture_of(Session& session, const ObjectDefinition& object) {
+  return object.texture ? object.texture : session.builder.default_texture;
+}
+
+std::shared_ptr<ObjectDefinition> sphere(const Vec3& centre, double radius) {
+  auto object = std::make_shared<ObjectDefinition>();
+  object->shape = Sphere{centre, radius};
+  return object;
+}
+
+std::shared_ptr<ObjectDefinition> light(const Vec3& location, const Pigment& colour) {
+  auto object = std::make_shared<ObjectDefinition>();
+  object->shape = Light{location, colour.rgb, false};
+  return object;
+}
+
+void set_shadowless(Session& session, ObjectDefinition& object, const Location& where) {
+  Light* light = std::get_if<Light>(&object.shape);
+  if (!light) session.fail(where, "this is not a light source");
+  light->shadowless = true;
+}
+
+std::shared_ptr<ObjectDefinition> make_union(Session& session, std::vector<ObjectPtr> parts,
+                                             const Location& where) {
+  auto object = std::make_shared<ObjectDefinition>();
+  for (const ObjectPtr& part : parts)
+    object->depth = std::max(object->depth, part->depth + 1);
+  if (object->depth > kDeepestUnion) session.fail(where, "unions are nested too deeply");
+  object->shape = std::make_shared<const std::vector<ObjectPtr>>(std::move(parts));
+  return object;
+}
+
+void apply(const std::shared_ptr<const MaterialDefinition>& material, ObjectDefinition& object,
+           const Location& where) {
+  mark(object.unsupported, material->unsupported);
+  if (material->texture) object.texture = layered(object.texture, material->texture, where);
+  if (material->interior) object.interior = material->interior;
+}
+
+std::shared_ptr<ObjectDefinition> lone_triangle(Session& session, const TriangleDefinition& triangle,
+                                                const Location& where) {
+  MeshBuilder builder;
+  add_triangle(session, builder, triangle, where);
+  return make_object(builder.finish());
+}
+
+void add_triangle(Session& session, MeshBuilder& builder, const TriangleDefinition& triangle,
+                  const Location& where) {
+  session.builder.count_triangles(1, where);
+  try {
+    builder.add(triangle);
+  } catch (const InputError& error) {
+    session.fail(where, error.what());
+  }
+}
+
+std::shared_ptr<ObjectDefinition> mesh(Session& session, MeshBuilder& builder, const Location& where) {
+  auto definition = builder.finish();
+  if (definition->mesh.triangles.empty()) session.fail(where, "this mesh has no triangles");
+  return make_object(std::move(definition));
+}
+
+std::shared_ptr<ObjectDefinition> mesh2(Session& session, Mesh2Definition& definition,
+                                        const Location& where) {
+  std::shared_ptr<MeshDefinition> mesh;
+  try {
+    mesh = make_mesh(std::move(definition));
+  } catch (const InputError& error) {
+    session.fail(where, error.what());
+  }
+  if (mesh->mesh.triangles.empty()) session.fail(where, "this mesh has no triangles");
+  session.builder.count_triangles(mesh->mesh.triangles.size(), where);
+  return make_object(std::move(mesh));
+}
+
+void check_count(Session& session, double announced, std::size_t found, const Location& where) {
+  if (std::floor(announced) != static_cast<double>(found))
+    session.fail(where, "this list announces " +
+                            std::to_string(static_cast<long long>(std::clamp(announced, -1e15, 1e15))) +
+                            " entries, but has " + std::to_string(found));
+}
+
+std::vector<Quantity> counted(Session& session, const std::vector<Quantity>& list, const Location& where) {
+  check_count(session, session.number(list.front(), where), list.size() - 1, where);
+  return {list.begin() + 1, list.end()};
+}
+
+void set_faces(Session& session, Mesh2Definition& mesh, const std::vector<Quantity>& list,
+               const Location& where) {
+  const auto is_face = [](const Quantity& entry) { return !entry.is_float(); };
+  const auto faces = static_cast<std::size_t>(std::count_if(list.begin(), list.end(), is_face));
+  check_count(session, session.number(list.front(), where), faces, where);
+  mesh.face_indices.assign(list.begin() + 1, list.end());
+}
+
+std::vector<Vec3> vectors(Session& session, const std::vector<Quantity>& list, const Location& where) {
+  check_count(session, session.number(list.front(), where), list.size() - 1, where);
+  std::vector<Vec3> result;
+  result.reserve(list.size() - 1);
+  for (std::size_t i = 1; i < list.size(); ++i)
+    result.push_back(session.vector(list[i], where));
+  return result;
+}
+
+std::string quoted(Session& session, NameId name) {
+  return '\'' + session.names.text(name) + '\'';
+}
+
+UnsupportedPtr make_unsupported(const std::string& what, const Location& where) {
+  return std::make_shared<Unsupported>(Unsupported{what, where});
+}
+
+UnsupportedPtr unsupported_rest(Session& session, const std::string& what, const Location& where) {
+  session.tokens.skip_to_close();
+  return make_unsupported(what, where);
+}
+
+UnsupportedPtr unless_zero(const std::string& what, double value, const Location& where) {
+  return value == 0 ? nullptr : make_unsupported(what, where);
+}
+
+ObjectPtr unsupported_object(const std::string& what, const Location& where) {
+  auto object = std::make_shared<ObjectDefinition>();
+  object->unsupported = make_unsupported(what, where);
+  return object;
+}
+
+void refuse(Session& session, const std::string& what, const Location& where) {
+  session.fail(where, what + " is not supported yet");
+}
+
+} // namespace celltrace::pov

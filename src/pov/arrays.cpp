@@ -1,0 +1,92 @@
+#include "pov/actions.hpp"
+
+namespace celltrace::pov {
+
+namespace {
+
+constexpr std::size_t kMostDimensions = 5;
+
+const Array* as_array(const Value& value) {
+  const auto* array = std::get_if<std::shared_ptr<Array>>(&value);
+  return array ? array->get() : nullptr;
+}
+
+} // namespace
+
+std::shared_ptr<Array> copy(const Array& array) {
+  auto result = std::make_shared<Array>(array);
+  for (Value& element : result->elements)
+    if (const Array* inner = as_array(element)) element = copy(*inner);
+  return result;
+}
+
+Array to_array(const std::vector<Quantity>& numbers) {
+  return Array{{numbers.begin(), numbers.end()}};
+}
+
+std::size_t array_size(Session& session, double size, const Location& where) {
+  if (!(size >= 1)) session.fail(where, "an array has at least one element");
+  if (size > static_cast<double>(session.options.limits.array_elements))
+    session.fail(where, "an array has at most " + std::to_string(session.options.limits.array_elements) +
+                            " elements");
+  return static_cast<std::size_t>(size);
+}
+
+std::shared_ptr<Array> make_array(Session& session, const std::vector<std::size_t>& dimensions,
+                                  std::size_t level, const Location& where) {
+  if (level == 0) {
+    if (dimensions.size() > kMostDimensions) session.fail(where, "an array has at most 5 dimensions");
+    double total = 1;
+    for (const std::size_t size : dimensions)
+      total *= static_cast<double>(size);
+    array_size(session, total, where);
+  }
+  auto array = std::make_shared<Array>();
+  array->elements.resize(dimensions[level]);
+  if (level + 1 < dimensions.size())
+    for (Value& element : array->elements)
+      element = make_array(session, dimensions, level + 1, where);
+  return array;
+}
+
+namespace {
+
+void fill(Session& session, Array& target, const Array& source, const Location& where) {
+  if (source.elements.size() > target.elements.size())
+    session.fail(where, "this array has " + std::to_string(target.elements.size()) + " elements, but " +
+                            std::to_string(source.elements.size()) + " are given");
+  for (std::size_t i = 0; i < source.elements.size(); ++i) {
+    const Array* inner = as_array(source.elements[i]);
+    const auto* target_inner = std::get_if<std::shared_ptr<Array>>(&target.elements[i]);
+    if ((inner != nullptr) != (target_inner != nullptr))
+      session.fail(where, "the elements given do not have the array's dimensions");
+    if (inner)
+      fill(session, **target_inner, *inner, where);
+    else
+      target.elements[i] = source.elements[i];
+  }
+}
+
+} // namespace
+
+std::shared_ptr<Array> filled_array(Session& session, const std::vector<std::size_t>& dimensions,
+                                    const std::shared_ptr<Array>& elements, const Location& where) {
+  auto array = make_array(session, dimensions, 0, where);
+  fill(session, *array, *elements, where);
+  return array;
+}
+
+int dimensions(const Array& array) {
+  const Array* inner = as_array(array.elements.front());
+  return 1 + (inner ? dimensions(*inner) : 0);
+}
+
+double dimension_size(Session& session, const Array& array, double dimension, const Location& where) {
+  const Array* level = &array;
+  for (double i = 1; level && i < dimension; ++i)
+    level = as_array(level->elements.front());
+  if (!level || dimension < 1) session.fail(where, "the array has no such dimension");
+  return static_cast<double>(level->elements.size());
+}
+
+} // namespace celltrace::pov

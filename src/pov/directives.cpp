@@ -1,0 +1,196 @@
+// TokenStream: the directives that define, include and say something.
+#include <cmath>
+#include <iostream>
+
+#include "celltrace/error.hpp"
+#include "pov/actions.hpp"
+#include "pov/session.hpp"
+#include "pov/token_stream.hpp"
+
+namespace celltrace::pov {
+
+void TokenStream::obey(const Token& directive) {
+  const Directive kind = session_.names[directive.name].directive;
+  switch (kind) {
+  case Directive::declare:
+  case Directive::local:
+    return declare(kind == Directive::local);
+  case Directive::undef:
+    return undefine();
+  case Directive::version:
+    return set_version();
+  case Directive::include:
+    return include(directive);
+  case Directive::default_:
+    evaluate(Start::defaults);
+    return;
+  case Directive::debug:
+  case Directive::render:
+  case Directive::statistics:
+  case Directive::warning:
+  case Directive::error:
+    return show(directive, kind);
+  case Directive::if_:
+    return obey_if(directive, condition());
+  case Directive::ifdef:
+    return obey_if(directive, is_defined());
+  case Directive::ifndef:
+    return obey_if(directive, !is_defined());
+  case Directive::switch_:
+    return obey_switch(directive);
+  case Directive::else_:
+  case Directive::elseif:
+    return obey_else(directive, kind);
+  case Directive::case_:
+  case Directive::range:
+    return obey_case(directive, kind);
+  case Directive::end:
+    return obey_end(directive);
+  case Directive::break_:
+    return obey_break(directive);
+  case Directive::macro:
+    return define_macro(directive);
+  case Directive::while_:
+    return start_while(directive);
+  case Directive::for_:
+    return start_for(directive);
+  case Directive::unsupported:
+    session_.fail(directive.where, "'#" + session_.names.text(directive.name) + "' is not supported yet");
+  case Directive::none:
+    session_.fail(directive.where, "there is no directive '#" + session_.names.text(directive.name) + "'");
+  }
+}
+
+Token TokenStream::expect_name(const char* purpose) {
+  const Token token = read();
+  if (token.kind != Token::Kind::word) session_.fail(token.where, std::string("expected a name ") + purpose);
+  if (session_.names[token.name].token != 0)
+    session_.fail(token.where,
+                  "'" + session_.names.text(token.name) + "' is a reserved word, not a name " + purpose);
+  return token;
+}
+
+void TokenStream::expect(char punctuation, const char* purpose) {
+  const Token token = read();
+  if (!token.is(punctuation))
+    session_.fail(token.where, std::string("expected '") + punctuation + "' " + purpose);
+}
+
+void TokenStream::skip_semicolon() {
+  const Token token = read();
+  if (!token.is(';') && token.kind != Token::Kind::end) session_.input.unread(token);
+}
+
+std::vector<std::size_t> TokenStream::read_subscripts() {
+  std::vector<std::size_t> subscripts;
+  for (;;) {
+    const Token token = read();
+    if (!token.is('[')) {
+      if (token.kind != Token::Kind::end) session_.input.unread(token);
+      return subscripts;
+    }
+    const double subscript = session_.number(std::get<Quantity>(evaluate(Start::expression)), token.where);
+    if (!(subscript > -1 && subscript < 1e15)) session_.fail(token.where, "this subscript is out of range");
+    subscripts.push_back(static_cast<std::size_t>(subscript));
+    expect(']', "after a subscript");
+  }
+}
+
+Value& TokenStream::element(Value& array, const std::vector<std::size_t>& subscripts, const Location& where) {
+  Value* found = &array;
+  for (const std::size_t subscript : subscripts) {
+    auto* level = std::get_if<std::shared_ptr<Array>>(found);
+    if (!level) session_.fail(where, "this is not an array with so many dimensions");
+    if (subscript >= (*level)->elements.size())
+      session_.fail(where, "subscript " + std::to_string(subscript) + " is out of range, the array has " +
+                               std::to_string((*level)->elements.size()) + " elements");
+    found = &(*level)->elements[subscript];
+  }
+  return *found;
+}
+
+void TokenStream::declare(bool is_local) {
+  const Token name = expect_name("to declare");
+  const std::vector<std::size_t> subscripts = read_subscripts();
+  expect('=', "after the name to declare");
+  Value value = evaluate(Start::value);
+  skip_semicolon();
+  if (!subscripts.empty()) {
+    const std::shared_ptr<Slot> slot = session_.symbols.find(name.name);
+    if (!slot) session_.fail(name.where, "'" + session_.names.text(name.name) + "' is not declared");
+    element(slot->value, subscripts, name.where) = std::move(value);
+  } else if (is_local) {
+    session_.symbols.declare_local(name.name, std::move(value));
+  } else {
+    session_.symbols.declare(name.name, std::move(value));
+  }
+}
+
+void TokenStream::undefine() {
+  session_.symbols.undefine(expect_name("to forget").name);
+}
+
+/// Reads ( name ) with subscripts, for #ifdef and defined().
+bool TokenStream::is_defined() {
+  expect('(', "before a name");
+  const Token name = read();
+  if (name.kind != Token::Kind::word) session_.fail(name.where, "expected a name");
+  const std::vector<std::size_t> subscripts = read_subscripts();
+  expect(')', "after a name");
+  if (session_.names[name.name].token != 0) return true;
+  const std::shared_ptr<Slot> slot = session_.symbols.find(name.name);
+  return slot && !std::holds_alternative<std::monostate>(element(slot->value, subscripts, name.where));
+}
+
+void TokenStream::set_version() {
+  const Location where = last_place();
+  const double version = session_.number(std::get<Quantity>(evaluate(Start::expression)), where);
+  skip_semicolon();
+  session_.builder.set_version(version);
+}
+
+void TokenStream::include(const Token& directive) {
+  Token name = read();
+  std::string wanted;
+  if (name.kind == Token::Kind::string) {
+    wanted = session_.names.text(name.name); // backslashes of Windows paths are no escapes
+  } else {
+    session_.input.unread(name);
+    wanted = std::get<std::string>(evaluate(Start::text));
+  }
+  const auto& frames = session_.input.frames();
+  const auto open_files =
+      std::count_if(frames.begin(), frames.end(), [](const Frame& f) { return f.scanner != nullptr; });
+  if (open_files >= session_.options.limits.include_depth)
+    session_.fail(name.where, "files are included more than " +
+                                  std::to_string(session_.options.limits.include_depth) + " deep: does '" +
+                                  wanted + "' include itself?");
+  const auto path = session_.sources.find_include(wanted, current_folder());
+  if (!path) session_.fail(name.where, "cannot find the include file '" + wanted + "'");
+  std::string text;
+  try {
+    text = read_text(*path, session_.options.limits.file_bytes);
+  } catch (const InputError& error) {
+    session_.fail(name.where, "include file '" + wanted + "' " + error.what());
+  }
+  session_.symbols.enter_scope();
+  open(std::move(text), path->lexically_normal().string(), path->parent_path());
+  session_.input.top().opened_at = directive.where;
+}
+
+void TokenStream::show(const Token& directive, Directive kind) {
+  const std::string text = std::get<std::string>(evaluate(Start::text));
+  if (kind == Directive::error) session_.fail(directive.where, text);
+  const auto& message = session_.options.message;
+  if (kind != Directive::warning) {
+    if (message) message(text);
+    return;
+  }
+  const std::string warning = session_.diagnostics.place(directive.where) + ": warning: " + text + '\n';
+  if (message)
+    message(warning);
+  else
+    std::cerr << warning;
+}
+
+} // namespace celltrace::pov

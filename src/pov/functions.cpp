@@ -1,0 +1,296 @@
+#include "pov/functions.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <iterator>
+
+#include <glm/geometric.hpp>
+
+namespace celltrace::pov {
+
+namespace {
+
+constexpr double kDegreesPerRadian = 180 / 3.14159265358979323846;
+constexpr int kMostDigits = 300;
+
+/// The arguments of one call, already of the types the function's signature asks for.
+class Call {
+public:
+  Call(Session& session, const std::vector<Value>& arguments, const Location& where)
+      : session_(session), arguments_(arguments), where_(where) {}
+
+  std::size_t count() const { return arguments_.size(); }
+  const Quantity& quantity(std::size_t i) const { return std::get<Quantity>(arguments_[i]); }
+  double number(std::size_t i) const { return quantity(i).v[0]; }
+  Vec3 vector(std::size_t i) const { return quantity(i).vec3(); }
+  const std::string& text(std::size_t i) const { return std::get<std::string>(arguments_[i]); }
+  int whole(std::size_t i, double least, double most) const {
+    const double value = number(i);
+    require(value >= least && value <= most, "an argument is out of range");
+    return static_cast<int>(value);
+  }
+  void require(bool condition, const char* what) const {
+    if (!condition) session_.fail(where_, what);
+  }
+  Session& session() const { return session_; }
+
+private:
+  Session& session_;
+  const std::vector<Value>& arguments_;
+  const Location& where_;
+};
+
+Quantity select(const Call& call) {
+  const double chooser = call.number(0);
+  if (chooser < 0) return call.number(1);
+  return call.count() == 4 && chooser > 0 ? call.number(3) : call.number(2);
+}
+
+template <class Better> Quantity best(const Call& call, Better better) {
+  double result = call.number(0);
+  for (std::size_t i = 1; i < call.count(); ++i)
+    if (better(call.number(i), result)) result = call.number(i);
+  return result;
+}
+
+Quantity divide_whole(const Call& call) {
+  call.require(call.number(1) != 0, "division by zero");
+  return std::trunc(call.number(0) / call.number(1));
+}
+
+Quantity seed(const Call& call) {
+  auto& streams = call.session().random_streams;
+  call.require(streams.size() < call.session().options.limits.list_entries, "too many random streams");
+  streams.push_back(
+      static_cast<std::uint32_t>(static_cast<std::int64_t>(call.whole(0, -2147483648.0, 2147483647.0))));
+  return static_cast<double>(streams.size() - 1);
+}
+
+Quantity random(const Call& call) {
+  auto& streams = call.session().random_streams;
+  const double stream = call.number(0);
+  call.require(stream >= 0 && stream < static_cast<double>(streams.size()),
+               "rand() needs what seed() has given");
+  std::uint32_t& state = streams[static_cast<std::size_t>(stream)];
+  state = state * 1812433253u + 12345u;
+  return state / 4294967295.0;
+}
+
+Quantity value_of(const Call& call) {
+  const std::string& text = call.text(0);
+  const std::size_t start = std::min(text.find_first_not_of(" \t+"), text.size());
+  double value = 0;
+  std::from_chars(text.data() + start, text.data() + text.size(), value);
+  return value;
+}
+
+/// v turned about an axis by an angle in degrees: Rodrigues' formula.
+Quantity rotate_about(const Call& call) {
+  const Vec3 v = call.vector(0);
+  const double length = glm::length(call.vector(1));
+  call.require(length > 0, "the axis has no direction");
+  const Vec3 axis = call.vector(1) / length;
+  const double angle = call.number(2) / kDegreesPerRadian;
+  return Quantity::vector(v * std::cos(angle) + glm::cross(axis, v) * std::sin(angle) +
+                          axis * (glm::dot(axis, v) * (1 - std::cos(angle))));
+}
+
+Quantity normalize(const Call& call) {
+  const Vec3 v = call.vector(0);
+  const double length = glm::length(v);
+  return Quantity::vector(length > 0 ? v / length : Vec3(0, 0, 0));
+}
+
+/// As printf's f: a negative width pads with zeros, a negative precision stands for 6 digits.
+std::string format(double value, int width, int digits) {
+  char buffer[1024];
+  const int precision = digits < 0 ? 6 : digits;
+  const int length = width < 0 ? std::snprintf(buffer, sizeof buffer, "%0*.*f", -width, precision, value)
+                               : std::snprintf(buffer, sizeof buffer, "%*.*f", width, precision, value);
+  return {buffer, static_cast<std::size_t>(std::min<int>(length, sizeof buffer - 1))};
+}
+
+std::string number_text(const Call& call) {
+  return format(call.number(0), call.whole(1, -kMostDigits, kMostDigits), call.whole(2, -1, kMostDigits));
+}
+
+std::string vector_text(const Call& call) {
+  const int count = call.whole(0, 2, 5);
+  const Quantity vector = call.quantity(1).promoted(count);
+  const int width = call.whole(3, -kMostDigits, kMostDigits);
+  const int digits = call.whole(4, -1, kMostDigits);
+  std::string result;
+  for (int i = 0; i < count; ++i)
+    result +=
+        (i > 0 ? call.text(2) : std::string()) + format(vector.v[static_cast<std::size_t>(i)], width, digits);
+  return result;
+}
+
+std::string concatenate(const Call& call) {
+  std::string result;
+  for (std::size_t i = 0; i < call.count(); ++i) {
+    call.require(result.size() + call.text(i).size() <= call.session().options.limits.string_bytes,
+                 "this string is too long");
+    result += call.text(i);
+  }
+  return result;
+}
+
+std::string substring(const Call& call) {
+  const std::string& text = call.text(0);
+  const double size = static_cast<double>(text.size());
+  const double first = call.number(1);
+  const double length = call.number(2);
+  call.require(first >= 1 && length >= 0 && first + length - 1 <= size,
+               "substr() reaches outside its string");
+  return text.substr(static_cast<std::size_t>(first) - 1, static_cast<std::size_t>(length));
+}
+
+std::string in_case(std::string text, bool upper) {
+  for (char& c : text) {
+    if (upper && c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+    if (!upper && c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return text;
+}
+
+bool file_exists(const Call& call) {
+  return call.session()
+      .sources.find_include(call.text(0), call.session().tokens.current_folder())
+      .has_value();
+}
+
+double logarithm(const Call& call, double (*function)(double)) {
+  call.require(call.number(0) > 0, "the logarithm of a number that is not positive");
+  return function(call.number(0));
+}
+
+double square_root(const Call& call) {
+  call.require(call.number(0) >= 0, "the square root of a negative number");
+  return std::sqrt(call.number(0));
+}
+
+/// The signature: n a float, v a vector, s a string; a trailing + repeats the last one, a trailing ? makes it
+/// optional.
+struct Function {
+  const char* name;
+  const char* signature;
+  Value (*evaluate)(const Call&);
+};
+
+#define CELLTRACE_NUMERIC(expression) [](const Call& c) -> Value { return Quantity(expression); }
+#define CELLTRACE_TEXT(...) [](const Call& c) -> Value { return std::string(__VA_ARGS__); }
+
+const Function kFunctions[] = {
+    {"abs", "n", CELLTRACE_NUMERIC(std::fabs(c.number(0)))},
+    {"acos", "n", CELLTRACE_NUMERIC(std::acos(std::clamp(c.number(0), -1.0, 1.0)))},
+    {"acosh", "n", CELLTRACE_NUMERIC(std::acosh(c.number(0)))},
+    {"asc", "s", CELLTRACE_NUMERIC(c.text(0).empty() ? 0 : static_cast<unsigned char>(c.text(0)[0]))},
+    {"asin", "n", CELLTRACE_NUMERIC(std::asin(std::clamp(c.number(0), -1.0, 1.0)))},
+    {"asinh", "n", CELLTRACE_NUMERIC(std::asinh(c.number(0)))},
+    {"atan", "n", CELLTRACE_NUMERIC(std::atan(c.number(0)))},
+    {"atan2", "nn", CELLTRACE_NUMERIC(std::atan2(c.number(0), c.number(1)))},
+    {"atanh", "n", CELLTRACE_NUMERIC(std::atanh(c.number(0)))},
+    {"ceil", "n", CELLTRACE_NUMERIC(std::ceil(c.number(0)))},
+    {"cos", "n", CELLTRACE_NUMERIC(std::cos(c.number(0)))},
+    {"cosh", "n", CELLTRACE_NUMERIC(std::cosh(c.number(0)))},
+    {"degrees", "n", CELLTRACE_NUMERIC(c.number(0) * kDegreesPerRadian)},
+    {"div", "nn", CELLTRACE_NUMERIC(divide_whole(c))},
+    {"exp", "n", CELLTRACE_NUMERIC(std::exp(c.number(0)))},
+    {"file_exists", "s", CELLTRACE_NUMERIC(file_exists(c) ? 1 : 0)},
+    {"floor", "n", CELLTRACE_NUMERIC(std::floor(c.number(0)))},
+    {"int", "n", CELLTRACE_NUMERIC(std::trunc(c.number(0)))},
+    {"ln", "n", CELLTRACE_NUMERIC(logarithm(c, std::log))},
+    {"log", "n", CELLTRACE_NUMERIC(logarithm(c, std::log10))},
+    {"max", "n+", CELLTRACE_NUMERIC(best(c, std::greater<>()))},
+    {"min", "n+", CELLTRACE_NUMERIC(best(c, std::less<>()))},
+    {"mod", "nn", CELLTRACE_NUMERIC(std::fmod(c.number(0), c.number(1)))},
+    {"pow", "nn", CELLTRACE_NUMERIC(std::pow(c.number(0), c.number(1)))},
+    {"radians", "n", CELLTRACE_NUMERIC(c.number(0) / kDegreesPerRadian)},
+    {"rand", "n", CELLTRACE_NUMERIC(random(c))},
+    {"seed", "n", CELLTRACE_NUMERIC(seed(c))},
+    {"select", "nnnn?", CELLTRACE_NUMERIC(select(c))},
+    {"sin", "n", CELLTRACE_NUMERIC(std::sin(c.number(0)))},
+    {"sinh", "n", CELLTRACE_NUMERIC(std::sinh(c.number(0)))},
+    {"sqrt", "n", CELLTRACE_NUMERIC(square_root(c))},
+    {"strcmp", "ss", CELLTRACE_NUMERIC(std::clamp(c.text(0).compare(c.text(1)), -1, 1))},
+    {"strlen", "s", CELLTRACE_NUMERIC(static_cast<double>(c.text(0).size()))},
+    {"tan", "n", CELLTRACE_NUMERIC(std::tan(c.number(0)))},
+    {"tanh", "n", CELLTRACE_NUMERIC(std::tanh(c.number(0)))},
+    {"val", "s", CELLTRACE_NUMERIC(value_of(c))},
+    {"vaxis_rotate", "vvn", CELLTRACE_NUMERIC(rotate_about(c))},
+    {"vcross", "vv", CELLTRACE_NUMERIC(Quantity::vector(glm::cross(c.vector(0), c.vector(1))))},
+    {"vdot", "vv", CELLTRACE_NUMERIC(glm::dot(c.vector(0), c.vector(1)))},
+    {"vlength", "v", CELLTRACE_NUMERIC(glm::length(c.vector(0)))},
+    {"vnormalize", "v", CELLTRACE_NUMERIC(normalize(c))},
+    {"vrotate", "vv",
+     CELLTRACE_NUMERIC(Quantity::vector(Transform::rotate(c.vector(1)).direction(c.vector(0))))},
+    {"chr", "n", CELLTRACE_TEXT(1, static_cast<char>(c.whole(0, 0, 255)))},
+    {"concat", "s+", CELLTRACE_TEXT(concatenate(c))},
+    {"str", "nnn", CELLTRACE_TEXT(number_text(c))},
+    {"strlwr", "s", CELLTRACE_TEXT(in_case(c.text(0), false))},
+    {"strupr", "s", CELLTRACE_TEXT(in_case(c.text(0), true))},
+    {"substr", "snn", CELLTRACE_TEXT(substring(c))},
+    {"vstr", "nvsnn", CELLTRACE_TEXT(vector_text(c))},
+};
+
+#undef CELLTRACE_NUMERIC
+#undef CELLTRACE_TEXT
+
+constexpr const char* kFirstTextFunction = "chr";
+
+bool fits(const Value& argument, char type) {
+  if (type == 's') return std::holds_alternative<std::string>(argument);
+  const auto* quantity = std::get_if<Quantity>(&argument);
+  return quantity && (type == 'v' || quantity->is_float());
+}
+
+const char* type_name(char type) {
+  return type == 's' ? "a string" : type == 'v' ? "a vector" : "a float";
+}
+
+Value evaluate(Session& session, int number, const std::vector<Value>& arguments, const Location& where) {
+  const Function& function = kFunctions[number];
+  std::string types = function.signature;
+  const bool repeats = types.back() == '+';
+  const bool is_optional = types.back() == '?';
+  if (repeats || is_optional) types.pop_back();
+  if (is_optional && arguments.size() + 1 == types.size()) types.pop_back();
+  if (repeats && arguments.size() > types.size()) types.resize(arguments.size(), types.back());
+  if (arguments.size() != types.size())
+    session.fail(where, std::string(function.name) + "() takes " + std::to_string(types.size()) +
+                            (types.size() == 1 ? " argument" : " arguments") + ", not " +
+                            std::to_string(arguments.size()));
+  for (std::size_t i = 0; i < types.size(); ++i)
+    if (!fits(arguments[i], types[i]))
+      session.fail(where, "argument " + std::to_string(i + 1) + " of " + function.name + "() must be " +
+                              type_name(types[i]) + ", not " + kind_name(arguments[i]));
+  return function.evaluate(Call(session, arguments, where));
+}
+
+} // namespace
+
+std::vector<FunctionName> function_names() {
+  std::vector<FunctionName> names;
+  bool gives_text = false;
+  for (const Function& function : kFunctions) {
+    gives_text = gives_text || std::strcmp(function.name, kFirstTextFunction) == 0;
+    names.push_back({function.name, gives_text});
+  }
+  return names;
+}
+
+Quantity call_numeric(Session& session, int function, const std::vector<Value>& arguments,
+                      const Location& where) {
+  return std::get<Quantity>(evaluate(session, function, arguments, where));
+}
+
+std::string call_text(Session& session, int function, const std::vector<Value>& arguments,
+                      const Location& where) {
+  return std::get<std::string>(evaluate(session, function, arguments, where));
+}
+
+} // namespace celltrace::pov

@@ -1,0 +1,25 @@
+// The built-in functions of the scene language.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pov/session.hpp"
+#include "pov/value.hpp"
+
+namespace celltrace::pov {
+
+/// A function's name and whether it gives a text; its number is its place in the list.
+struct FunctionName {
+  const char* name;
+  bool gives_text;
+};
+std::vector<FunctionName> function_names();
+
+/// Checks the arguments and calls function number `function`.
+Quantity call_numeric(Session& session, int function, const std::vector<Value>& arguments,
+                      const Location& where);
+std::string call_text(Session& session, int function, const std::vector<Value>& arguments,
+                      const Location& where);
+
+} // namespace celltrace::pov

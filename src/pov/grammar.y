@@ -1,0 +1,723 @@
+// The grammar of the POV-Ray scene language. Values are computed while they are read; TokenStream has already obeyed the
+// directives. It can be entered for a whole scene or for one value (see Start): entered for a value it finishes as soon
+// as the value is complete, whatever follows, because every state that could end a value reduces by default.
+
+%require "3.8"
+%language "c++"
+%skeleton "lalr1.cc"
+%define api.namespace {celltrace::pov}
+%define api.parser.class {Parser}
+%define api.value.type variant
+%define api.token.prefix {T_}
+%define api.location.type {celltrace::pov::Location}
+%define parse.error custom
+%locations
+%param { celltrace::pov::Session& session }
+// After a value both an operator and, since commas are optional, a sign or a colour's channel can follow: the longer
+// value is meant.
+%expect 46
+
+%code requires {
+#include "pov/actions.hpp"
+#include "pov/functions.hpp"
+#include "pov/session.hpp"
+}
+
+%code {
+#include <algorithm>
+
+#define YYLLOC_DEFAULT(Current, Rhs, N) ((Current) = (N) ? YYRHSLOC(Rhs, 1) : YYRHSLOC(Rhs, 0))
+
+// Ends an entry for a value.
+#define FINISH(...) \
+  do { \
+    session.tokens.finish(__VA_ARGS__, !yyla.empty()); \
+    YYACCEPT; \
+  } while (false)
+
+namespace celltrace::pov {
+static int yylex(Parser::semantic_type* value, Location* where, Session& session);
+}
+}
+
+// One for each Start.
+%token START_SCENE START_CONDITION START_LIST START_EXPRESSION START_TEXT START_VALUE START_DEFAULTS
+
+%token <Quantity> QUANTITY
+%token <std::string> TEXT
+%token <PigmentDefinition> PIGMENT_ID
+%token <FinishDefinition> FINISH_ID
+%token <TexturePtr> TEXTURE_ID
+%token <InteriorPtr> INTERIOR_ID
+%token <std::shared_ptr<const MaterialDefinition>> MATERIAL_ID
+%token <std::shared_ptr<const CameraDefinition>> CAMERA_ID
+%token <ObjectPtr> OBJECT_ID
+%token <Transform> TRANSFORM_ID
+%token <std::shared_ptr<Array>> ARRAY_ID
+%token <UnsupportedPtr> UNSUPPORTED_ID
+%token UNDECLARED_ID
+
+%token <int> FUNCTION TEXT_FUNCTION COMPONENT COLOUR_MODEL CHANNEL
+%token <NameId> UNSUPPORTED UNSUPPORTED_OBJECT UNSUPPORTED_BLOCK
+%token BAD_CHARACTER DEFINED CONSTANT
+%token LESS_EQUAL GREATER_EQUAL NOT_EQUAL
+
+%token ADC_BAILOUT AMBIENT AMBIENT_LIGHT ANGLE APERTURE ARRAY ASSUMED_GAMMA BACKGROUND BOUNDED_BY BRILLIANCE CAMERA
+%token CAUSTICS COLOUR CONSERVE_ENERGY CRAND DIFFUSE DIMENSIONS DIMENSION_SIZE DIRECTION DISPERSION EMISSION EXPONENT
+%token FACE_INDICES FADE_DISTANCE FADE_POWER FALLOFF FINISH FRESNEL GLOBAL_SETTINGS HOLLOW IGNORED_FLAG IGNORED_NUMBER
+%token INSIDE_VECTOR INTERIOR INVERSE IOR IRID LIGHT_SOURCE LOCATION LOOK_AT MATERIAL MATRIX MAX_TRACE_LEVEL MESH MESH2
+%token METALLIC NORMAL_INDICES NORMAL_VECTORS NO_SHADOW OBJECT ORTHOGRAPHIC PERSPECTIVE PHONG PHONG_SIZE PHOTONS PIGMENT
+%token QUICK_COLOUR REFLECTION REFLECTION_EXPONENT REFRACTION RIGHT ROTATE ROUGHNESS SCALE SHADOWLESS SKY
+%token SMOOTH_TRIANGLE SPECULAR SPHERE SRGB TEXTURE TEXTURE_LIST TRANSFORM TRANSLATE TRIANGLE UNION UP UV_INDICES
+%token UV_MAPPING UV_VECTORS VERTEX_VECTORS CHARSET
+
+%nterm <Quantity> quantity product factor primary vector vector_items comparison logic value_in_brackets colour
+%nterm <Quantity> colour_value colour_base
+%nterm <Signs> signs
+%nterm <std::string> text
+%nterm <std::vector<Value>> arguments
+%nterm <Value> argument declarable element
+%nterm <std::vector<Quantity>> counted_list list_items numbers
+%nterm <std::vector<std::size_t>> dimensions
+%nterm <std::shared_ptr<Array>> elements
+%nterm <Transform> transformation transform_items
+%nterm <PigmentDefinition> pigment pigment_body
+%nterm <FinishDefinition> finish finish_body
+%nterm <ReflectionDefinition> reflection_body
+%nterm <TexturePtr> texture texture_body layers
+%nterm <InteriorDefinition> interior_body
+%nterm <InteriorPtr> interior
+%nterm <MaterialDefinition> material_body
+%nterm <std::shared_ptr<const MaterialDefinition>> material
+%nterm <std::shared_ptr<CameraDefinition>> camera camera_body
+%nterm <ObjectPtr> object
+%nterm <std::shared_ptr<ObjectDefinition>> object_head object_body light_body
+%nterm <std::vector<ObjectPtr>> union_head
+%nterm <std::shared_ptr<MeshBuilder>> mesh_head
+%nterm <std::shared_ptr<Mesh2Definition>> mesh2_head
+%nterm <std::vector<TexturePtr>> texture_list
+%nterm <TriangleDefinition> triangle triangle_vertices
+%nterm <double> number optional_number flag
+%nterm <UnsupportedPtr> unsupported unsupported_modifier
+
+%start start
+
+%%
+
+start
+  : START_SCENE scene
+  | START_CONDITION '(' value_in_brackets ')' { FINISH($3); }
+  | START_LIST numbers ')'                    { FINISH(std::make_shared<Array>(to_array($2))); }
+  | START_EXPRESSION quantity                 { FINISH($2); }
+  | START_TEXT text                           { FINISH($2); }
+  | START_VALUE declarable                    { FINISH($2); }
+  | START_DEFAULTS '{' defaults '}'           { FINISH(Value()); }
+  ;
+
+numbers
+  : value_in_brackets             { $$.push_back($1); }
+  | numbers ',' value_in_brackets { $$ = std::move($1); append(session, $$, $3, @3); }
+  ;
+
+// ---- The scene ----
+
+scene
+  : %empty
+  | scene object                    { session.builder.place($2, @2); }
+  | scene camera                    { session.builder.set_camera($2); }
+  | scene BACKGROUND '{' colour_value '}' { session.builder.set_background(session.colour($4, @4).rgb); }
+  | scene GLOBAL_SETTINGS '{' settings '}'
+  | scene UNSUPPORTED_BLOCK         { refuse(session, quoted(session, $2), @2); }
+  ;
+
+settings
+  : %empty
+  | settings ASSUMED_GAMMA number   { set_assumed_gamma(session, $3, @3); }
+  | settings ASSUMED_GAMMA SRGB     { session.builder.set_assumed_gamma(std::nullopt); }
+  | settings MAX_TRACE_LEVEL number { set_max_trace_level(session, $3, @3); }
+  | settings ADC_BAILOUT number     { session.builder.set_adc_bailout($3); }
+  | settings AMBIENT_LIGHT colour_value { session.builder.set_ambient_light(session.colour($3, @3).rgb); }
+  | settings IGNORED_NUMBER colour_value
+  | settings IGNORED_FLAG flag
+  | settings CHARSET UNSUPPORTED
+  | settings CHARSET UNDECLARED_ID
+  | settings PHOTONS                { refuse(session, "'photons'", @2); }
+  | settings unsupported            { session.diagnostics.require_supported($2, @2); }
+  ;
+
+defaults
+  : %empty
+  | defaults texture  { session.builder.default_texture = $2; }
+  | defaults pigment  { session.builder.default_texture = with_pigment(session.builder.default_texture, $2); }
+  | defaults finish   { session.builder.default_texture = with_finish(session.builder.default_texture, $2); }
+  | defaults camera   { session.builder.default_camera = *$2; }
+  | defaults UNSUPPORTED_BLOCK {
+      session.builder.default_texture =
+          with_unsupported(session.builder.default_texture, make_unsupported(quoted(session, $2), @2));
+      session.tokens.skip_group();
+    }
+  ;
+
+// ---- Numbers ----
+
+quantity
+  : product
+  | quantity '+' product { $$ = $1 + $3; }
+  | quantity '-' product { $$ = $1 - $3; }
+  ;
+
+product
+  : factor
+  | product '*' factor   { $$ = $1 * $3; }
+  | product '/' factor   { $$ = $1 / $3; }
+  ;
+
+factor
+  : primary
+  | signs primary        { $$ = $1.apply($2); }
+  ;
+
+signs
+  : '-'                  { $$.add('-'); }
+  | '+'                  { $$.add('+'); }
+  | '!'                  { $$.add('!'); }
+  | signs '-'            { $$ = $1; $$.add('-'); }
+  | signs '+'            { $$ = $1; }
+  | signs '!'            { $$ = $1; $$.add('!'); }
+  ;
+
+primary
+  : QUANTITY
+  | vector
+  | '(' value_in_brackets ')'      { $$ = $2; }
+  | primary COMPONENT              { $$ = component(session, $1, $2, @2); }
+  | FUNCTION '(' arguments ')'     { $$ = call_numeric(session, $1, $3, @1); }
+  | DIMENSIONS '(' ARRAY_ID ')'    { $$ = double(dimensions(*$3)); }
+  | DIMENSION_SIZE '(' ARRAY_ID ',' number ')' { $$ = dimension_size(session, *$3, $5, @5); }
+  ;
+
+vector
+  : '<' vector_items '>'           { if ($2.is_float()) session.fail(@1, "a vector has at least two components"); $$ = $2; }
+  ;
+
+vector_items
+  : number                         { $$ = $1; }
+  | vector_items ',' number        { $$ = $1; append_component(session, $$, $3, @3); }
+  | vector_items number            { $$ = $1; append_component(session, $$, $2, @2); }
+  ;
+
+// Comparisons and the like exist inside parentheses only: elsewhere < and > enclose vectors.
+value_in_brackets
+  : logic
+  | logic '?' value_in_brackets ':' value_in_brackets { $$ = is_true(session.number($1, @1)) ? $3 : $5; }
+  | colour
+  ;
+
+logic
+  : comparison
+  | logic '&' comparison           { $$ = double(is_true(session.number($1, @1)) && is_true(session.number($3, @3))); }
+  | logic '|' comparison           { $$ = double(is_true(session.number($1, @1)) || is_true(session.number($3, @3))); }
+  ;
+
+comparison
+  : quantity
+  | comparison '<' quantity           { $$ = compare(Relation::less, $1, $3); }
+  | comparison LESS_EQUAL quantity    { $$ = compare(Relation::less_equal, $1, $3); }
+  | comparison '=' quantity           { $$ = compare(Relation::equal, $1, $3); }
+  | comparison NOT_EQUAL quantity     { $$ = compare(Relation::not_equal, $1, $3); }
+  | comparison GREATER_EQUAL quantity { $$ = compare(Relation::greater_equal, $1, $3); }
+  | comparison '>' quantity           { $$ = compare(Relation::greater, $1, $3); }
+  ;
+
+arguments
+  : %empty                 { }
+  | argument               { $$.push_back($1); }
+  | arguments ',' argument { $$ = std::move($1); append(session, $$, $3, @3); }
+  ;
+
+argument
+  : value_in_brackets      { $$ = $1; }
+  | text                   { $$ = $1; }
+  ;
+
+number
+  : quantity               { $$ = session.number($1, @1); }
+  ;
+
+optional_number // 1 if not there
+  : %empty                 { $$ = 1; }
+  | number
+  ;
+
+flag // on if not there
+  : optional_number        { $$ = is_true($1) ? 1 : 0; }
+  ;
+
+optional_comma
+  : %empty
+  | ','
+  ;
+
+// ---- Texts ----
+
+text
+  : TEXT
+  | TEXT_FUNCTION '(' arguments ')' { $$ = call_text(session, $1, $3, @1); }
+  ;
+
+// ---- Colours ----
+
+colour // with a keyword: distinct from a mere number
+  : COLOUR quantity              { $$ = $2.promoted(5); $$.is_colour = true; }
+  | COLOUR COLOUR_MODEL quantity { $$ = make_colour(ColourModel($2), $3); }
+  | COLOUR_MODEL quantity        { $$ = make_colour(ColourModel($1), $2); }
+  | COLOUR CHANNEL number        { $$ = with_channel(Quantity::colour({0, 0, 0}), Channel($2), $3); }
+  | CHANNEL number               { $$ = with_channel(Quantity::colour({0, 0, 0}), Channel($1), $2); }
+  | colour CHANNEL number        { $$ = with_channel($1, Channel($2), $3); }
+  ;
+
+colour_base
+  : quantity
+  | colour_base CHANNEL number   { $$ = with_channel($1, Channel($2), $3); }
+  ;
+
+colour_value
+  : colour_base
+  | colour
+  ;
+
+// ---- Transformations ----
+
+transformation
+  : TRANSLATE quantity        { $$ = Transform::translate(session.vector($2, @2)); }
+  | ROTATE quantity           { $$ = Transform::rotate(session.vector($2, @2)); }
+  | SCALE quantity            { $$ = Transform::scale(session.vector($2, @2)); }
+  | MATRIX '<' list_items '>' { $$ = matrix(session, $3, @1); }
+  | TRANSFORM TRANSFORM_ID    { $$ = $2; }
+  | TRANSFORM '{' transform_items '}' { $$ = $3; }
+  ;
+
+transform_items
+  : %empty                         { }
+  | transform_items transformation { $$ = $1.then($2); }
+  | transform_items TRANSFORM_ID   { $$ = $1.then($2); }
+  | transform_items INVERSE        { $$ = inverse(session, $1, @2); }
+  ;
+
+list_items
+  : quantity                { $$.push_back($1); }
+  | list_items quantity     { $$ = std::move($1); append(session, $$, $2, @2); }
+  | list_items ',' quantity { $$ = std::move($1); append(session, $$, $3, @3); }
+  ;
+
+// ---- Textures ----
+
+pigment
+  : PIGMENT '{' pigment_body '}' { $$ = $3; }
+  ;
+
+pigment_body
+  : %empty                           { $$ = session.builder.default_texture->pigment; }
+  | pigment_body PIGMENT_ID          { $$ = $2; }
+  | pigment_body colour_value        { $$ = $1; $$.value = session.colour($2, @2); $$.unsupported = nullptr; }
+  | pigment_body QUICK_COLOUR colour_value { $$ = $1; }
+  | pigment_body transformation      { $$ = $1; }
+  | pigment_body UV_MAPPING          { $$ = $1; }
+  | pigment_body unsupported         { $$ = $1; mark($$.unsupported, $2); }
+  ;
+
+finish
+  : FINISH '{' finish_body '}' { $$ = $3; }
+  ;
+
+finish_body
+  : %empty                                 { $$ = session.builder.default_texture->finish; }
+  | finish_body FINISH_ID                  { $$ = $2; }
+  | finish_body AMBIENT colour_value       { $$ = $1; $$.value.ambient = session.colour($3, @3).rgb; }
+  | finish_body EMISSION colour_value      { $$ = $1; $$.value.emission = session.colour($3, @3).rgb; }
+  | finish_body DIFFUSE number             { $$ = $1; $$.value.diffuse = $3; }
+  | finish_body DIFFUSE number ',' number  { $$ = $1; $$.value.diffuse = $3; mark($$.unsupported, unless_zero("light from behind", $5, @5)); }
+  | finish_body BRILLIANCE number          { $$ = $1; $$.value.brilliance = $3; }
+  | finish_body PHONG number               { $$ = $1; $$.value.phong = $3; }
+  | finish_body PHONG_SIZE number          { $$ = $1; $$.value.phong_size = $3; }
+  | finish_body SPECULAR number            { $$ = $1; $$.value.specular = $3; }
+  | finish_body ROUGHNESS number           { $$ = $1; $$.value.roughness = roughness(session, $3, @3); }
+  | finish_body METALLIC optional_number   { $$ = $1; $$.value.metallic = $3; }
+  | finish_body CONSERVE_ENERGY flag       { $$ = $1; $$.value.conserve_energy = $3 != 0; }
+  | finish_body REFLECTION colour_value    { $$ = $1; set_reflection($$.value, session.colour($3, @3).rgb); }
+  | finish_body REFLECTION '{' reflection_body '}' { $$ = $1; $4.apply($$.value); }
+  | finish_body REFLECTION_EXPONENT number { $$ = $1; $$.value.reflection_exponent = exponent(session, $3, @3); }
+  | finish_body IOR number                 { $$ = $1; $$.ior = ior(session, $3, @3); }
+  | finish_body REFRACTION number          { $$ = $1; }
+  | finish_body CRAND number               { $$ = $1; mark($$.unsupported, unless_zero("'crand'", $3, @2)); }
+  | finish_body CAUSTICS number            { $$ = $1; mark($$.unsupported, unless_zero("'caustics'", $3, @2)); }
+  | finish_body FADE_DISTANCE number       { $$ = $1; mark($$.unsupported, unless_zero("'fade_distance'", $3, @2)); }
+  | finish_body FADE_POWER number          { $$ = $1; }
+  | finish_body IRID '{' number irid_items '}' { $$ = $1; mark($$.unsupported, unless_zero("'irid'", $4, @2)); }
+  | finish_body unsupported                { $$ = $1; mark($$.unsupported, $2); }
+  ;
+
+irid_items
+  : %empty
+  | irid_items UNSUPPORTED number
+  ;
+
+reflection_body
+  : colour_value                             { $$.set(session.colour($1, @1).rgb); }
+  | colour_value optional_comma colour_value { $$.set(session.colour($1, @1).rgb, session.colour($3, @3).rgb); }
+  | reflection_body FALLOFF number           { $$ = $1; $$.falloff = $3; }
+  | reflection_body EXPONENT number          { $$ = $1; $$.exponent = exponent(session, $3, @3); }
+  | reflection_body FRESNEL flag             { $$ = $1; $$.is_fresnel = $3 != 0; }
+  | reflection_body METALLIC optional_number { $$ = $1; $$.metallic = $3; }
+  ;
+
+texture
+  : TEXTURE '{' texture_body '}' { $$ = $3; }
+  ;
+
+texture_body
+  : %empty                      { $$ = session.builder.default_texture; }
+  | texture_body TEXTURE_ID     { $$ = $2; }
+  | texture_body pigment        { $$ = with_pigment($1, $2); }
+  | texture_body finish         { $$ = with_finish($1, $2); }
+  | texture_body PIGMENT_ID     { $$ = with_pigment($1, $2); }
+  | texture_body FINISH_ID      { $$ = with_finish($1, $2); }
+  | texture_body transformation { $$ = $1; }
+  | texture_body UV_MAPPING     { $$ = $1; }
+  | texture_body unsupported    { $$ = with_unsupported($1, $2); }
+  ;
+
+layers
+  : texture
+  | layers texture { $$ = layered($1, $2, @2); }
+  ;
+
+interior
+  : INTERIOR '{' interior_body '}' { $$ = std::make_shared<InteriorDefinition>($3); }
+  ;
+
+interior_body
+  : %empty                           { }
+  | interior_body INTERIOR_ID        { $$ = *$2; }
+  | interior_body IOR number         { $$ = $1; $$.ior = ior(session, $3, @3); }
+  | interior_body CAUSTICS number    { $$ = $1; mark($$.unsupported, unless_zero("'caustics'", $3, @2)); }
+  | interior_body FADE_DISTANCE number { $$ = $1; $$.fade_distance = $3; }
+  | interior_body FADE_POWER number  { $$ = $1; $$.fade_power = $3; }
+  | interior_body DISPERSION number  { $$ = $1; mark($$.unsupported, unless_zero("'dispersion'", $3 - 1, @2)); }
+  | interior_body IGNORED_NUMBER colour_value { $$ = $1; }
+  | interior_body unsupported        { $$ = $1; mark($$.unsupported, $2); }
+  ;
+
+material
+  : MATERIAL '{' material_body '}' { $$ = std::make_shared<MaterialDefinition>($3); }
+  ;
+
+material_body
+  : %empty                       { }
+  | material_body MATERIAL_ID    { $$ = *$2; }
+  | material_body texture        { $$ = $1; $$.texture = layered($$.texture, $2, @2); }
+  | material_body interior       { $$ = $1; $$.interior = $2; }
+  | material_body transformation { $$ = $1; }
+  | material_body unsupported    { $$ = $1; mark($$.unsupported, $2); }
+  ;
+
+// ---- Camera ----
+
+camera
+  : CAMERA '{' camera_body '}' { $$ = $3; $$->where = @1; }
+  ;
+
+camera_body
+  : %empty                         { $$ = std::make_shared<CameraDefinition>(session.builder.default_camera); }
+  | camera_body CAMERA_ID          { $$ = std::make_shared<CameraDefinition>(*$2); }
+  | camera_body PERSPECTIVE        { $$ = $1; $$->kind = Camera::Kind::perspective; }
+  | camera_body ORTHOGRAPHIC       { $$ = $1; $$->kind = Camera::Kind::orthographic; }
+  | camera_body LOCATION quantity  { $$ = $1; $$->location = session.vector($3, @3); }
+  | camera_body DIRECTION quantity { $$ = $1; $$->direction = session.vector($3, @3); }
+  | camera_body RIGHT quantity     { $$ = $1; $$->right = session.vector($3, @3); }
+  | camera_body UP quantity        { $$ = $1; $$->up = session.vector($3, @3); }
+  | camera_body SKY quantity       { $$ = $1; $$->sky = session.vector($3, @3); }
+  | camera_body LOOK_AT quantity   { $$ = $1; $$->look_at = session.vector($3, @3); }
+  | camera_body ANGLE number       { $$ = $1; $$->angle = $3; }
+  | camera_body APERTURE number    { $$ = $1; mark($$->unsupported, unless_zero("'aperture'", $3, @2)); }
+  | camera_body IGNORED_NUMBER quantity { $$ = $1; }
+  | camera_body transformation     { $$ = $1; $$->transform = $$->transform.then($2); }
+  | camera_body unsupported        { $$ = $1; mark($$->unsupported, $2); }
+  ;
+
+// ---- Objects ----
+
+object
+  : object_body '}'          { $$ = $1; }
+  | light_body '}'           { $$ = $1; }
+  | OBJECT_ID
+  | UNSUPPORTED_OBJECT       { $$ = unsupported_object(quoted(session, $1), @1); session.tokens.skip_group(); }
+  ;
+
+object_head
+  : OBJECT '{' object        { $$ = std::make_shared<ObjectDefinition>(*$3); }
+  | SPHERE '{' quantity optional_comma number { $$ = sphere(session.vector($3, @3), $5); }
+  | SPHERE '{' OBJECT_ID     { $$ = std::make_shared<ObjectDefinition>(*$3); }
+  | MESH '{' OBJECT_ID       { $$ = std::make_shared<ObjectDefinition>(*$3); }
+  | MESH2 '{' OBJECT_ID      { $$ = std::make_shared<ObjectDefinition>(*$3); }
+  | triangle_vertices        { $$ = lone_triangle(session, $1, @1); }
+  | union_head               { $$ = make_union(session, std::move($1), @1); }
+  | mesh_head                { $$ = mesh(session, *$1, @1); }
+  | mesh2_head               { $$ = mesh2(session, *$1, @1); }
+  ;
+
+object_body
+  : object_head
+  | object_body transformation         { $$ = $1; $$->apply($2); }
+  | object_body texture                { $$ = $1; $$->texture = layered($$->texture, $2, @2); }
+  | object_body pigment                { $$ = $1; $$->texture = with_pigment(texture_of(session, *$$), $2); }
+  | object_body finish                 { $$ = $1; $$->texture = with_finish(texture_of(session, *$$), $2); }
+  | object_body interior               { $$ = $1; $$->interior = $2; }
+  | object_body material               { $$ = $1; apply($2, *$$, @2); }
+  | object_body NO_SHADOW flag         { $$ = $1; $$->no_shadow = $3 != 0; }
+  | object_body HOLLOW flag            { $$ = $1; }
+  | object_body INVERSE                { $$ = $1; }
+  | object_body IGNORED_FLAG flag      { $$ = $1; }
+  | object_body UV_MAPPING             { $$ = $1; }
+  | object_body BOUNDED_BY             { $$ = $1; session.tokens.skip_group(); }
+  | object_body PHOTONS                { $$ = $1; session.tokens.skip_group(); }
+  | object_body unsupported_modifier   { $$ = $1; mark($$->unsupported, $2); }
+  ;
+
+union_head
+  : UNION '{'         { }
+  | union_head object { $$ = std::move($1); append(session, $$, $2, @2); }
+  ;
+
+light_body
+  : LIGHT_SOURCE '{' OBJECT_ID                            { $$ = std::make_shared<ObjectDefinition>(*$3); }
+  | LIGHT_SOURCE '{' quantity optional_comma colour_value { $$ = light(session.vector($3, @3), session.colour($5, @5)); }
+  | light_body SHADOWLESS                                 { $$ = $1; set_shadowless(session, *$$, @2); }
+  | light_body transformation                             { $$ = $1; $$->apply($2); }
+  | light_body IGNORED_FLAG flag                          { $$ = $1; }
+  | light_body unsupported                                { $$ = $1; mark($$->unsupported, $2); }
+  | light_body PHOTONS                                    { $$ = $1; session.tokens.skip_group(); }
+  | light_body FADE_DISTANCE                              { $$ = $1; mark($$->unsupported, unsupported_rest(session, "'fade_distance'", @2)); }
+  ;
+
+// ---- Meshes ----
+
+triangle
+  : triangle_vertices '}'         { $$ = $1; }
+  | triangle_vertices texture '}' { $$ = $1; $$.texture = $2; }
+  | triangle_vertices UV_VECTORS quantity optional_comma quantity optional_comma quantity '}' { $$ = $1; }
+  | triangle_vertices UV_VECTORS quantity optional_comma quantity optional_comma quantity texture '}' {
+      $$ = $1;
+      $$.texture = $8;
+    }
+  ;
+
+triangle_vertices
+  : TRIANGLE '{' quantity optional_comma quantity optional_comma quantity {
+      $$.vertices = {session.vector($3, @3), session.vector($5, @5), session.vector($7, @7)};
+    }
+  | SMOOTH_TRIANGLE '{' quantity optional_comma quantity optional_comma quantity optional_comma
+                        quantity optional_comma quantity optional_comma quantity {
+      $$.vertices = {session.vector($3, @3), session.vector($7, @7), session.vector($11, @11)};
+      $$.normals = {session.vector($5, @5), session.vector($9, @9), session.vector($13, @13)};
+      $$.is_smooth = true;
+    }
+  ;
+
+mesh_head
+  : MESH '{'           { $$ = std::make_shared<MeshBuilder>(); }
+  | mesh_head triangle { $$ = $1; add_triangle(session, *$$, $2, @2); }
+  | mesh_head INSIDE_VECTOR quantity { $$ = $1; }
+  ;
+
+mesh2_head
+  : MESH2 '{'                                { $$ = std::make_shared<Mesh2Definition>(); }
+  | mesh2_head VERTEX_VECTORS counted_list   { $$ = $1; $$->vertex_vectors = vectors(session, $3, @3); }
+  | mesh2_head NORMAL_VECTORS counted_list   { $$ = $1; $$->normal_vectors = vectors(session, $3, @3); }
+  | mesh2_head UV_VECTORS counted_list       { $$ = $1; counted(session, $3, @3); }
+  | mesh2_head TEXTURE_LIST '{' number texture_list '}' {
+      $$ = $1;
+      check_count(session, $4, $5.size(), @2);
+      $$->textures = $5;
+    }
+  | mesh2_head FACE_INDICES counted_list     { $$ = $1; set_faces(session, *$$, $3, @3); }
+  | mesh2_head NORMAL_INDICES counted_list   { $$ = $1; $$->normal_indices = counted(session, $3, @3); }
+  | mesh2_head UV_INDICES counted_list       { $$ = $1; counted(session, $3, @3); }
+  | mesh2_head INSIDE_VECTOR quantity        { $$ = $1; }
+  ;
+
+texture_list
+  : %empty                   { }
+  | texture_list ','         { $$ = std::move($1); }
+  | texture_list texture     { $$ = std::move($1); append(session, $$, $2, @2); }
+  | texture_list TEXTURE_ID  { $$ = std::move($1); append(session, $$, $2, @2); }
+  ;
+
+counted_list // the count comes first
+  : '{' list_items '}'     { $$ = std::move($2); }
+  | '{' list_items ',' '}' { $$ = std::move($2); }
+  ;
+
+// ---- What names can stand for ----
+
+declarable
+  : quantity          { $$ = $1; }
+  | colour            { $$ = $1; }
+  | text              { $$ = $1; }
+  | pigment           { $$ = $1; }
+  | finish            { $$ = $1; }
+  | layers            { $$ = $1; }
+  | TEXTURE_ID        { $$ = $1; }
+  | PIGMENT_ID        { $$ = $1; }
+  | FINISH_ID         { $$ = $1; }
+  | INTERIOR_ID       { $$ = $1; }
+  | MATERIAL_ID       { $$ = $1; }
+  | CAMERA_ID         { $$ = $1; }
+  | TRANSFORM_ID      { $$ = $1; }
+  | UNSUPPORTED_ID    { $$ = $1; }
+  | ARRAY_ID          { $$ = copy(*$1); }
+  | interior          { $$ = $1; }
+  | material          { $$ = $1; }
+  | camera            { $$ = std::shared_ptr<const CameraDefinition>($1); }
+  | object            { $$ = $1; }
+  | TRANSFORM '{' transform_items '}' { $$ = $3; }
+  | UNSUPPORTED_BLOCK { $$ = make_unsupported(quoted(session, $1), @1); session.tokens.skip_group(); }
+  | ARRAY dimensions  { $$ = make_array(session, $2, 0, @1); }
+  | ARRAY dimensions '{' elements '}' { $$ = filled_array(session, $2, $4, @3); }
+  | ARRAY dimensions '{' elements ',' '}' { $$ = filled_array(session, $2, $4, @3); }
+  ;
+
+dimensions
+  : '[' number ']'            { $$.push_back(array_size(session, $2, @2)); }
+  | dimensions '[' number ']' { $$ = std::move($1); $$.push_back(array_size(session, $3, @3)); }
+  ;
+
+elements
+  : element                   { $$ = std::make_shared<Array>(); $$->elements.push_back($1); }
+  | elements ',' element      { $$ = $1; append(session, $$->elements, $3, @3); }
+  ;
+
+element
+  : declarable
+  | '{' elements '}'          { $$ = $2; }
+  ;
+
+// ---- What is not supported: the rest of the block is passed over ----
+
+unsupported
+  : unsupported_modifier
+  | UNSUPPORTED_OBJECT { $$ = unsupported_rest(session, quoted(session, $1), @1); }
+  | OBJECT             { $$ = unsupported_rest(session, "an object pattern", @1); }
+  ;
+
+unsupported_modifier // an object's: in a union an unsupported object is one of its parts
+  : UNSUPPORTED        { $$ = unsupported_rest(session, quoted(session, $1), @1); }
+  | UNSUPPORTED_BLOCK  { $$ = unsupported_rest(session, quoted(session, $1), @1); }
+  ;
+
+%%
+
+namespace celltrace::pov {
+
+namespace {
+
+int start_token(Start start) {
+  using token = Parser::token;
+  switch (start) {
+  case Start::scene:
+    return token::T_START_SCENE;
+  case Start::condition:
+    return token::T_START_CONDITION;
+  case Start::list:
+    return token::T_START_LIST;
+  case Start::expression:
+    return token::T_START_EXPRESSION;
+  case Start::text:
+    return token::T_START_TEXT;
+  case Start::value:
+    return token::T_START_VALUE;
+  case Start::defaults:
+    return token::T_START_DEFAULTS;
+  }
+  return token::T_START_SCENE;
+}
+
+/// Moves a terminal's value, of whatever type its token has, to the parser.
+struct Deliver {
+  Parser::semantic_type& target;
+  const Terminal& terminal;
+
+  void operator()(std::monostate) const {
+    using token = Parser::token;
+    switch (terminal.token) {
+    case token::T_FUNCTION:
+    case token::T_TEXT_FUNCTION:
+    case token::T_COMPONENT:
+    case token::T_COLOUR_MODEL:
+    case token::T_CHANNEL:
+      target.emplace<int>(terminal.detail);
+      break;
+    case token::T_UNSUPPORTED:
+    case token::T_UNSUPPORTED_OBJECT:
+    case token::T_UNSUPPORTED_BLOCK:
+      target.emplace<NameId>(static_cast<NameId>(terminal.detail));
+      break;
+    default:
+      break;
+    }
+  }
+  void operator()(std::shared_ptr<const Macro>&) const {}
+  template <class T>
+  void operator()(T& value) const {
+    target.emplace<T>(std::move(value));
+  }
+};
+
+bool expects(const Parser::symbol_kind_type* expected, int count, Parser::symbol_kind_type kind) {
+  return std::find(expected, expected + count, kind) != expected + count;
+}
+
+} // namespace
+
+static int yylex(Parser::semantic_type* value, Location* where, Session& session) {
+  if (const auto start = session.tokens.take_start()) return start_token(*start);
+  Terminal terminal = session.tokens.next();
+  *where = terminal.where;
+  std::visit(Deliver{*value, terminal}, terminal.value);
+  return terminal.token;
+}
+
+void Parser::error(const Location& where, const std::string& message) { session.fail(where, message); }
+
+void Parser::report_syntax_error(const context& ctx) const {
+  const Location& where = ctx.location();
+  const std::string found = session.tokens.describe_last();
+  switch (ctx.token()) {
+  case symbol_kind::S_UNSUPPORTED:
+  case symbol_kind::S_UNSUPPORTED_OBJECT:
+  case symbol_kind::S_UNSUPPORTED_BLOCK:
+    session.fail(where, found + " is not supported yet");
+  case symbol_kind::S_UNSUPPORTED_ID:
+    session.diagnostics.require_supported(ctx.lookahead().value.as<UnsupportedPtr>(), where);
+    break;
+  case symbol_kind::S_UNDECLARED_ID:
+    session.fail(where, found + " is not declared");
+  default:
+    break;
+  }
+  constexpr int kMost = 128;
+  symbol_kind_type expected[kMost];
+  const int count = ctx.expected_tokens(expected, kMost);
+  std::string hint;
+  if (expects(expected, count, symbol_kind::S_QUANTITY))
+    hint = ", expected a number";
+  else if (expects(expected, count, symbol_kind::S_TEXT))
+    hint = ", expected a string";
+  else if (count == 1)
+    hint = std::string(", expected ") + symbol_name(expected[0]);
+  session.fail(where, "unexpected " + found + hint);
+}
+
+void run_grammar(Session& session) { Parser(session).parse(); }
+
+} // namespace celltrace::pov

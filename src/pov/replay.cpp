@@ -1,0 +1,190 @@
+// TokenStream: macros and loops, which are recorded once and read as often as needed.
+#include "pov/session.hpp"
+#include "pov/token_stream.hpp"
+
+namespace celltrace::pov {
+
+/// Everything up to the #end that closes `opening`, without it. What is being replayed is not recorded again.
+TokenRange TokenStream::take_block(const Token& opening) {
+  Frame& frame = session_.input.top();
+  const bool is_replay = frame.scanner == nullptr;
+  auto recorded = std::make_shared<std::vector<Token>>();
+  const std::size_t begin = frame.position;
+  for (unsigned depth = 1;;) {
+    const Token token = read();
+    if (token.kind == Token::Kind::end) session_.fail(opening.where, "#end is missing for what starts here");
+    if (token.kind == Token::Kind::directive) {
+      const Directive kind = session_.names[token.name].directive;
+      if (opens_block(kind)) ++depth;
+      if (kind == Directive::end && --depth == 0) break;
+    }
+    if (is_replay) continue;
+    if (++tokens_recorded_ > session_.options.limits.recorded_tokens)
+      session_.fail(opening.where, "the macros and loops of the scene are too long");
+    recorded->push_back(token);
+  }
+  if (is_replay) return {frame.range.tokens, begin, frame.position - 1};
+  const std::size_t count = recorded->size();
+  return {std::move(recorded), 0, count};
+}
+
+void TokenStream::leave_frame() {
+  const Frame& frame = session_.input.top();
+  if (frame.kind != Frame::Kind::loop) session_.symbols.leave_scope();
+  if (frame.kind == Frame::Kind::macro) --macro_calls_;
+  session_.input.pop();
+}
+
+/// False if the innermost entry of the grammar has no more to read.
+bool TokenStream::leave_frame_at_end() {
+  const Frame& frame = session_.input.top();
+  const bool is_last = session_.input.depth() <= levels_.back().base_depth;
+  if (is_last && levels_.back().start != Start::scene) return false;
+  if (!frame.conditionals.empty())
+    session_.fail(frame.conditionals.back().where, "#end is missing for what starts here");
+  if (is_last) return false;
+  if (frame.kind == Frame::Kind::loop)
+    start_iteration(false);
+  else
+    leave_frame();
+  return true;
+}
+
+// ---- Macros ----
+
+void TokenStream::define_macro(const Token& directive) {
+  auto macro = std::make_shared<Macro>();
+  const Token name = expect_name("for a macro");
+  macro->name = name.name;
+  macro->where = name.where;
+  expect('(', "after a macro's name");
+  Token token = read();
+  while (!token.is(')')) {
+    if (token.kind != Token::Kind::word || session_.names[token.name].token != 0)
+      session_.fail(token.where, "expected the name of a macro parameter");
+    macro->parameters.push_back(token.name);
+    token = read();
+    if (token.is(',')) token = read();
+  }
+  macro->body = take_block(directive);
+  session_.symbols.declare(name.name, std::shared_ptr<const Macro>(std::move(macro)));
+}
+
+void TokenStream::call(const Token& name, const std::shared_ptr<const Macro>& macro) {
+  const std::string call = "macro '" + session_.names.text(name.name) + "'";
+  const Token parenthesis = read();
+  if (!parenthesis.is('(')) session_.fail(name.where, "expected '(' after " + call);
+  std::vector<std::shared_ptr<Slot>> arguments;
+  Token token = read();
+  while (!token.is(')')) {
+    if (arguments.size() == macro->parameters.size())
+      session_.fail(name.where,
+                    call + " takes only " + std::to_string(macro->parameters.size()) + " arguments");
+    session_.input.unread(token);
+    arguments.push_back(read_argument(call));
+    token = read();
+    if (token.is(',')) token = read();
+  }
+  if (arguments.size() != macro->parameters.size())
+    session_.fail(name.where, call + " takes " + std::to_string(macro->parameters.size()) +
+                                  " arguments, not " + std::to_string(arguments.size()));
+  if (++macro_calls_ > session_.options.limits.macro_depth)
+    session_.fail(name.where, "macros call one another more than " +
+                                  std::to_string(session_.options.limits.macro_depth) + " deep");
+
+  session_.symbols.enter_scope();
+  for (std::size_t i = 0; i < arguments.size(); ++i)
+    session_.symbols.bind(macro->parameters[i], std::move(arguments[i]));
+  Frame frame;
+  frame.kind = Frame::Kind::macro;
+  frame.opened_at = name.where;
+  frame.macro_name = macro->name;
+  frame.range = macro->body;
+  frame.position = macro->body.begin;
+  session_.input.push(std::move(frame));
+}
+
+/// A lone identifier is passed by reference; anything else is evaluated once.
+std::shared_ptr<Slot> TokenStream::read_argument(const std::string& call) {
+  const Token first = read();
+  if (first.kind == Token::Kind::word && session_.names[first.name].token == 0) {
+    const Token second = read();
+    if (second.kind != Token::Kind::end) session_.input.unread(second);
+    const std::shared_ptr<Slot> slot = session_.symbols.find(first.name);
+    if ((second.is(',') || second.is(')')) && !slot)
+      session_.fail(first.where,
+                    "'" + session_.names.text(first.name) + "' is not declared, " + call + " cannot take it");
+    if (second.is(',') || second.is(')')) return slot;
+  }
+  if (first.kind == Token::Kind::end)
+    session_.fail(first.where, "the arguments of " + call + " are never closed");
+  session_.input.unread(first);
+  return std::make_shared<Slot>(Slot{evaluate(Start::value)});
+}
+
+// ---- Loops ----
+
+void TokenStream::start_while(const Token& directive) {
+  Frame frame;
+  frame.kind = Frame::Kind::loop;
+  frame.opened_at = directive.where;
+  frame.range = take_block(directive);
+  session_.input.push(std::move(frame));
+  start_iteration(true);
+}
+
+void TokenStream::start_for(const Token& directive) {
+  expect('(', "after #for");
+  const Token name = expect_name("to count with");
+  expect(',', "after the name to count with");
+  const std::vector<double> numbers = read_numbers(directive.where);
+  if (numbers.size() != 2 && numbers.size() != 3)
+    session_.fail(directive.where, "#for takes a start, an end and a step");
+  Counter counter;
+  counter.last = numbers[1];
+  counter.step = numbers.size() == 3 ? numbers[2] : 1;
+  if (counter.step == 0) session_.fail(directive.where, "the step of a #for must not be 0");
+
+  Frame frame;
+  frame.kind = Frame::Kind::loop;
+  frame.opened_at = directive.where;
+  frame.range = take_block(directive);
+  session_.symbols.declare_local(name.name, Quantity(numbers[0]));
+  counter.slot = session_.symbols.find(name.name);
+  frame.counter = counter;
+  session_.input.push(std::move(frame));
+  start_iteration(true);
+}
+
+namespace {
+
+/// Whether a #for goes on; counts unless this is the first time.
+bool advance(Counter& counter, bool is_first) {
+  auto* value = std::get_if<Quantity>(&counter.slot->value);
+  if (!value || !value->is_float()) return false;
+  if (!is_first) *value = *value + counter.step;
+  const double rest = (counter.last - value->v[0]) * (counter.step > 0 ? 1 : -1);
+  return rest > -kComparisonTolerance;
+}
+
+} // namespace
+
+void TokenStream::start_iteration(bool is_first) {
+  Frame& frame = session_.input.top();
+  if (++iterations_ > session_.options.limits.loop_iterations)
+    session_.fail(frame.opened_at, "the loops of the scene run more than " +
+                                       std::to_string(session_.options.limits.loop_iterations) + " times");
+  frame.position = frame.range.begin;
+  const bool goes_on = frame.counter ? advance(*frame.counter, is_first) : condition();
+  if (!goes_on) leave_frame();
+}
+
+std::vector<double> TokenStream::read_numbers(const Location& where) {
+  const Value list = evaluate(Start::list);
+  std::vector<double> numbers;
+  for (const Value& element : std::get<std::shared_ptr<Array>>(list)->elements)
+    numbers.push_back(session_.number(std::get<Quantity>(element), where));
+  return numbers;
+}
+
+} // namespace celltrace::pov

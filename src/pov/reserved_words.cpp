@@ -1,0 +1,496 @@
+#include "pov/reserved_words.hpp"
+
+#include "pov/constants.hpp"
+#include "pov/functions.hpp"
+#include "pov/grammar.hpp"
+
+namespace celltrace::pov {
+
+namespace {
+
+using tokens = Parser::token;
+
+struct Word {
+  const char* text;
+  int token;
+};
+
+struct DetailedWord {
+  const char* text;
+  int token;
+  int detail;
+};
+
+const Word kWords[] = {
+    {"adc_bailout", tokens::T_ADC_BAILOUT},
+    {"ambient", tokens::T_AMBIENT},
+    {"ambient_light", tokens::T_AMBIENT_LIGHT},
+    {"angle", tokens::T_ANGLE},
+    {"aperture", tokens::T_APERTURE},
+    {"array", tokens::T_ARRAY},
+    {"assumed_gamma", tokens::T_ASSUMED_GAMMA},
+    {"background", tokens::T_BACKGROUND},
+    {"bounded_by", tokens::T_BOUNDED_BY},
+    {"brilliance", tokens::T_BRILLIANCE},
+    {"camera", tokens::T_CAMERA},
+    {"caustics", tokens::T_CAUSTICS},
+    {"charset", tokens::T_CHARSET},
+    {"color", tokens::T_COLOUR},
+    {"colour", tokens::T_COLOUR},
+    {"confidence", tokens::T_IGNORED_NUMBER},
+    {"conserve_energy", tokens::T_CONSERVE_ENERGY},
+    {"crand", tokens::T_CRAND},
+    {"cutaway_textures", tokens::T_IGNORED_FLAG},
+    {"defined", tokens::T_DEFINED},
+    {"diffuse", tokens::T_DIFFUSE},
+    {"dimension_size", tokens::T_DIMENSION_SIZE},
+    {"dimensions", tokens::T_DIMENSIONS},
+    {"direction", tokens::T_DIRECTION},
+    {"dispersion", tokens::T_DISPERSION},
+    {"dispersion_samples", tokens::T_IGNORED_NUMBER},
+    {"emission", tokens::T_EMISSION},
+    {"exponent", tokens::T_EXPONENT},
+    {"face_indices", tokens::T_FACE_INDICES},
+    {"fade_distance", tokens::T_FADE_DISTANCE},
+    {"fade_power", tokens::T_FADE_POWER},
+    {"falloff", tokens::T_FALLOFF},
+    {"finish", tokens::T_FINISH},
+    {"focal_point", tokens::T_IGNORED_NUMBER},
+    {"fresnel", tokens::T_FRESNEL},
+    {"global_settings", tokens::T_GLOBAL_SETTINGS},
+    {"hf_gray_16", tokens::T_IGNORED_FLAG},
+    {"hierarchy", tokens::T_IGNORED_FLAG},
+    {"hollow", tokens::T_HOLLOW},
+    {"inside_vector", tokens::T_INSIDE_VECTOR},
+    {"interior", tokens::T_INTERIOR},
+    {"inverse", tokens::T_INVERSE},
+    {"ior", tokens::T_IOR},
+    {"irid", tokens::T_IRID},
+    {"irid_wavelength", tokens::T_IGNORED_NUMBER},
+    {"light_source", tokens::T_LIGHT_SOURCE},
+    {"location", tokens::T_LOCATION},
+    {"look_at", tokens::T_LOOK_AT},
+    {"material", tokens::T_MATERIAL},
+    {"matrix", tokens::T_MATRIX},
+    {"max_intersections", tokens::T_IGNORED_NUMBER},
+    {"max_trace_level", tokens::T_MAX_TRACE_LEVEL},
+    {"media_attenuation", tokens::T_IGNORED_FLAG},
+    {"media_interaction", tokens::T_IGNORED_FLAG},
+    {"mesh", tokens::T_MESH},
+    {"mesh2", tokens::T_MESH2},
+    {"metallic", tokens::T_METALLIC},
+    {"mm_per_unit", tokens::T_IGNORED_NUMBER},
+    {"no_radiosity", tokens::T_IGNORED_FLAG},
+    {"no_shadow", tokens::T_NO_SHADOW},
+    {"noise_generator", tokens::T_IGNORED_NUMBER},
+    {"normal_indices", tokens::T_NORMAL_INDICES},
+    {"normal_vectors", tokens::T_NORMAL_VECTORS},
+    {"number_of_waves", tokens::T_IGNORED_NUMBER},
+    {"object", tokens::T_OBJECT},
+    {"orthographic", tokens::T_ORTHOGRAPHIC},
+    {"perspective", tokens::T_PERSPECTIVE},
+    {"phong", tokens::T_PHONG},
+    {"phong_size", tokens::T_PHONG_SIZE},
+    {"photons", tokens::T_PHOTONS},
+    {"pigment", tokens::T_PIGMENT},
+    {"quick_color", tokens::T_QUICK_COLOUR},
+    {"quick_colour", tokens::T_QUICK_COLOUR},
+    {"reflection", tokens::T_REFLECTION},
+    {"reflection_exponent", tokens::T_REFLECTION_EXPONENT},
+    {"refraction", tokens::T_REFRACTION},
+    {"right", tokens::T_RIGHT},
+    {"rotate", tokens::T_ROTATE},
+    {"roughness", tokens::T_ROUGHNESS},
+    {"scale", tokens::T_SCALE},
+    {"shadowless", tokens::T_SHADOWLESS},
+    {"sky", tokens::T_SKY},
+    {"smooth_triangle", tokens::T_SMOOTH_TRIANGLE},
+    {"specular", tokens::T_SPECULAR},
+    {"sphere", tokens::T_SPHERE},
+    {"split_union", tokens::T_IGNORED_FLAG},
+    {"srgb", tokens::T_SRGB},
+    {"sturm", tokens::T_IGNORED_FLAG},
+    {"texture", tokens::T_TEXTURE},
+    {"texture_list", tokens::T_TEXTURE_LIST},
+    {"transform", tokens::T_TRANSFORM},
+    {"translate", tokens::T_TRANSLATE},
+    {"triangle", tokens::T_TRIANGLE},
+    {"union", tokens::T_UNION},
+    {"up", tokens::T_UP},
+    {"uv_indices", tokens::T_UV_INDICES},
+    {"uv_mapping", tokens::T_UV_MAPPING},
+    {"uv_vectors", tokens::T_UV_VECTORS},
+    {"variance", tokens::T_IGNORED_NUMBER},
+    {"vertex_vectors", tokens::T_VERTEX_VECTORS},
+};
+
+constexpr int detail(Constant constant) {
+  return static_cast<int>(constant);
+}
+constexpr int detail(ColourModel model) {
+  return static_cast<int>(model);
+}
+constexpr int detail(Channel channel) {
+  return static_cast<int>(channel);
+}
+
+const DetailedWord kDetailedWords[] = {
+    {"x", tokens::T_CONSTANT, detail(Constant::x)},
+    {"y", tokens::T_CONSTANT, detail(Constant::y)},
+    {"z", tokens::T_CONSTANT, detail(Constant::z)},
+    {"u", tokens::T_CONSTANT, detail(Constant::u)},
+    {"v", tokens::T_CONSTANT, detail(Constant::v)},
+    {"t", tokens::T_CONSTANT, detail(Constant::t)},
+    {"pi", tokens::T_CONSTANT, detail(Constant::pi)},
+    {"on", tokens::T_CONSTANT, detail(Constant::on)},
+    {"yes", tokens::T_CONSTANT, detail(Constant::on)},
+    {"true", tokens::T_CONSTANT, detail(Constant::on)},
+    {"off", tokens::T_CONSTANT, detail(Constant::off)},
+    {"no", tokens::T_CONSTANT, detail(Constant::off)},
+    {"false", tokens::T_CONSTANT, detail(Constant::off)},
+    {"clock", tokens::T_CONSTANT, detail(Constant::clock)},
+    {"clock_delta", tokens::T_CONSTANT, detail(Constant::clock_delta)},
+    {"version", tokens::T_CONSTANT, detail(Constant::version)},
+    {"rgb", tokens::T_COLOUR_MODEL, detail(ColourModel::rgb)},
+    {"rgbf", tokens::T_COLOUR_MODEL, detail(ColourModel::rgbf)},
+    {"rgbt", tokens::T_COLOUR_MODEL, detail(ColourModel::rgbt)},
+    {"rgbft", tokens::T_COLOUR_MODEL, detail(ColourModel::rgbft)},
+    {"red", tokens::T_CHANNEL, detail(Channel::red)},
+    {"green", tokens::T_CHANNEL, detail(Channel::green)},
+    {"blue", tokens::T_CHANNEL, detail(Channel::blue)},
+    {"filter", tokens::T_CHANNEL, detail(Channel::filter)},
+    {"alpha", tokens::T_CHANNEL, detail(Channel::filter)}, // its name before version 3
+    {"transmit", tokens::T_CHANNEL, detail(Channel::transmit)},
+};
+
+struct ComponentWord {
+  const char* text;
+  int component;
+};
+
+const ComponentWord kComponents[] = {
+    {"x", 0},     {"y", 1},    {"z", 2},      {"t", 3},     {"u", 0},        {"v", 1},    {"red", 0},
+    {"green", 1}, {"blue", 2}, {"filter", 3}, {"alpha", 3}, {"transmit", 4}, {"gray", 5},
+};
+
+struct DirectiveWord {
+  const char* text;
+  Directive directive;
+};
+
+const DirectiveWord kDirectives[] = {
+    {"break", Directive::break_},
+    {"case", Directive::case_},
+    {"debug", Directive::debug},
+    {"declare", Directive::declare},
+    {"default", Directive::default_},
+    {"else", Directive::else_},
+    {"elseif", Directive::elseif},
+    {"end", Directive::end},
+    {"error", Directive::error},
+    {"for", Directive::for_},
+    {"if", Directive::if_},
+    {"ifdef", Directive::ifdef},
+    {"ifndef", Directive::ifndef},
+    {"include", Directive::include},
+    {"local", Directive::local},
+    {"macro", Directive::macro},
+    {"range", Directive::range},
+    {"render", Directive::render},
+    {"statistics", Directive::statistics},
+    {"switch", Directive::switch_},
+    {"undef", Directive::undef},
+    {"version", Directive::version},
+    {"warning", Directive::warning},
+    {"while", Directive::while_},
+    {"fopen", Directive::unsupported},
+    {"fclose", Directive::unsupported},
+    {"read", Directive::unsupported},
+    {"write", Directive::unsupported},
+};
+
+// What POV-Ray 3.7 reserves for features that are not supported: things that are objects, things that have a
+// block in braces of their own, and the rest.
+const char* const kUnsupportedObjects[] = {
+    "bicubic_patch", "blob",           "box",          "cone",         "cubic",      "cylinder",
+    "difference",    "disc",           "height_field", "intersection", "isosurface", "julia_fractal",
+    "lathe",         "light_group",    "merge",        "ovus",         "parametric", "plane",
+    "poly",          "polygon",        "prism",        "quadric",      "quartic",    "sor",
+    "sphere_sweep",  "superellipsoid", "text",         "torus",
+};
+
+const char* const kUnsupportedBlocks[] = {
+    "bump_map",
+    "clipped_by",
+    "color_map",
+    "colour_map",
+    "contained_by",
+    "density",
+    "density_map",
+    "fog",
+    "function",
+    "image_map",
+    "image_pattern",
+    "interior_texture",
+    "looks_like",
+    "material_map",
+    "media",
+    "mesh_camera",
+    "normal",
+    "normal_map",
+    "pigment_map",
+    "pigment_pattern",
+    "projected_through",
+    "radiosity",
+    "rainbow",
+    "sky_sphere",
+    "slope_map",
+    "spline",
+    "subsurface",
+    "texture_map",
+    "tiles",
+    "warp",
+};
+
+const char* const kUnsupportedWords[] = {
+    "aa_level",
+    "aa_threshold",
+    "absorption",
+    "accuracy",
+    "adaptive",
+    "agate",
+    "agate_turb",
+    "albedo",
+    "all",
+    "all_intersections",
+    "altitude",
+    "always_sample",
+    "append",
+    "arc_angle",
+    "area_illumination",
+    "area_light",
+    "ascii",
+    "autostop",
+    "average",
+    "b_spline",
+    "bezier_spline",
+    "bitwise_and",
+    "bitwise_or",
+    "bitwise_xor",
+    "black_hole",
+    "blur_samples",
+    "boxed",
+    "bozo",
+    "brick",
+    "brick_size",
+    "brightness",
+    "bump_size",
+    "bumps",
+    "cells",
+    "checker",
+    "circular",
+    "collect",
+    "component",
+    "composite",
+    "conic_sweep",
+    "control0",
+    "control1",
+    "coords",
+    "count",
+    "crackle",
+    "cube",
+    "cubic_spline",
+    "cubic_wave",
+    "cylindrical",
+    "datetime",
+    "density_file",
+    "dents",
+    "df3",
+    "dist_exp",
+    "distance",
+    "double_illuminate",
+    "eccentricity",
+    "error_bound",
+    "evaluate",
+    "expand_thresholds",
+    "exterior",
+    "extinction",
+    "facets",
+    "fade_color",
+    "fade_colour",
+    "fisheye",
+    "flatness",
+    "flip",
+    "fog_alt",
+    "fog_offset",
+    "fog_type",
+    "form",
+    "frequency",
+    "gather",
+    "gif",
+    "global_lights",
+    "gradient",
+    "granite",
+    "gray_threshold",
+    "hexagon",
+    "hypercomplex",
+    "iff",
+    "importance",
+    "inside",
+    "interpolate",
+    "intervals",
+    "jitter",
+    "jpeg",
+    "julia",
+    "lambda",
+    "leopard",
+    "linear_spline",
+    "linear_sweep",
+    "load_file",
+    "low_error_factor",
+    "magnet",
+    "major_radius",
+    "mandel",
+    "map_type",
+    "marble",
+    "max_extent",
+    "max_gradient",
+    "max_iteration",
+    "max_sample",
+    "max_trace",
+    "metric",
+    "min_extent",
+    "minimum_reuse",
+    "mortar",
+    "natural_spline",
+    "nearest_count",
+    "no_bump_scale",
+    "no_image",
+    "no_reflection",
+    "now",
+    "octaves",
+    "offset",
+    "omega",
+    "omnimax",
+    "once",
+    "onion",
+    "open",
+    "orient",
+    "orientation",
+    "panoramic",
+    "parallel",
+    "pass_through",
+    "pattern",
+    "pgm",
+    "phase",
+    "planar",
+    "png",
+    "point_at",
+    "poly_wave",
+    "pot",
+    "ppm",
+    "precision",
+    "precompute",
+    "pretrace_end",
+    "pretrace_start",
+    "prod",
+    "pwr",
+    "quadratic_spline",
+    "quaternion",
+    "quilted",
+    "radial",
+    "radius",
+    "ramp_wave",
+    "ratio",
+    "recursion_limit",
+    "repeat",
+    "ripples",
+    "samples",
+    "save_file",
+    "scallop_wave",
+    "scattering",
+    "sine_wave",
+    "size",
+    "slice",
+    "slope",
+    "smooth",
+    "solid",
+    "spacing",
+    "spherical",
+    "spiral1",
+    "spiral2",
+    "spotlight",
+    "spotted",
+    "square",
+    "srgbf",
+    "srgbft",
+    "srgbt",
+    "sum",
+    "sys",
+    "target",
+    "tga",
+    "thickness",
+    "threshold",
+    "tiff",
+    "tightness",
+    "tile2",
+    "tiling",
+    "tolerance",
+    "toroidal",
+    "trace",
+    "translucency",
+    "triangle_wave",
+    "ttf",
+    "turb_depth",
+    "turbulence",
+    "type",
+    "u_steps",
+    "ultra_wide_angle",
+    "use_alpha",
+    "use_color",
+    "use_colour",
+    "use_index",
+    "utf8",
+    "v_steps",
+    "vturbulence",
+    "water_level",
+    "waves",
+    "width",
+    "wood",
+    "wrinkles",
+};
+
+} // namespace
+
+std::vector<ReservedWord> reserved_words() {
+  std::vector<ReservedWord> words;
+  for (const Word& word : kWords)
+    words.push_back({word.text, word.token, 0, false});
+  for (const DetailedWord& word : kDetailedWords)
+    words.push_back({word.text, word.token, word.detail, false});
+  for (const char* text : kUnsupportedObjects)
+    words.push_back({text, tokens::T_UNSUPPORTED_OBJECT, 0, true});
+  for (const char* text : kUnsupportedBlocks)
+    words.push_back({text, tokens::T_UNSUPPORTED_BLOCK, 0, true});
+  for (const char* text : kUnsupportedWords)
+    words.push_back({text, tokens::T_UNSUPPORTED, 0, true});
+  int number = 0;
+  for (const FunctionName& function : function_names())
+    words.push_back(
+        {function.name, function.gives_text ? tokens::T_TEXT_FUNCTION : tokens::T_FUNCTION, number++, false});
+  return words;
+}
+
+int component_of(std::string_view word) {
+  for (const ComponentWord& component : kComponents)
+    if (word == component.text) return component.component;
+  return -1;
+}
+
+Directive directive_of(std::string_view word) {
+  for (const DirectiveWord& directive : kDirectives)
+    if (word == directive.text) return directive.directive;
+  return Directive::none;
+}
+
+} // namespace celltrace::pov

@@ -1,0 +1,24 @@
+// What the language means by its words.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "pov/names.hpp"
+
+namespace celltrace::pov {
+
+struct ReservedWord {
+  const char* text;
+  int token; ///< the grammar's
+  int detail;
+  bool is_unsupported;
+};
+std::vector<ReservedWord> reserved_words();
+
+/// What a word means behind a dot: 0 to 4 a component, 5 the grey value, -1 nothing.
+int component_of(std::string_view word);
+/// What a word means behind a #.
+Directive directive_of(std::string_view word);
+
+} // namespace celltrace::pov

@@ -1,0 +1,78 @@
+// Collects what a scene places and sets, and makes the Scene of it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "celltrace/pov.hpp"
+#include "pov/camera.hpp"
+#include "pov/diagnostics.hpp"
+#include "pov/object.hpp"
+
+namespace celltrace::pov {
+
+class SceneBuilder {
+public:
+  SceneBuilder(const ParseLimits& limits, const Diagnostics& diagnostics)
+      : limits_(limits), diagnostics_(diagnostics) {}
+
+  /// What textures start from and objects without one get: black, with the default finish, until #default
+  /// changes it.
+  TexturePtr default_texture = std::make_shared<TextureDefinition>();
+  CameraDefinition default_camera;
+
+  /// Puts an object into the scene: unions are taken apart, meshes shared between their instances. A light
+  /// source in a union shines on everything. Fails if any part of it is not supported.
+  void place(const ObjectPtr& object, const Location& where);
+
+  /// The last camera is the scene's.
+  void set_camera(std::shared_ptr<const CameraDefinition> camera) { camera_ = std::move(camera); }
+  void set_background(const Vec3& rgb) { scene_.background = rgb; }
+  void set_ambient_light(const Vec3& rgb) { scene_.ambient_light = rgb; }
+  void set_max_trace_level(int level) { scene_.max_trace_level = level; }
+  void set_adc_bailout(double weight) { scene_.adc_bailout = weight; }
+  /// Without a value: `assumed_gamma srgb`.
+  void set_assumed_gamma(std::optional<double> gamma);
+  void set_version(double version) { version_ = version; }
+  /// What `version` says: 3.7 until #version changes it.
+  double version() const { return version_.value_or(3.7); }
+
+  /// Counts towards the limit on triangles.
+  void count_triangles(std::size_t count, const Location& where);
+
+  /// The finished scene; call once.
+  Scene finish(const std::string& name);
+
+private:
+  /// What a part of a union takes from the unions around it.
+  struct Inherited {
+    Transform transform;
+    TexturePtr texture;
+    Index interior = kNoIndex;
+    bool no_shadow = false;
+  };
+  void place(const ObjectDefinition& object, const Inherited& inherited, const Location& where);
+  void place_light(Light light, const Transform& transform, const Location& where);
+  void place_shape(const ObjectDefinition& object, const Inherited& own, const Location& where);
+  Index interior_index(const ObjectDefinition& object, const Inherited& inherited,
+                       const TextureDefinition& texture, const Location& where);
+  Index material_index(const TexturePtr& texture, const Location& where);
+  std::shared_ptr<const Mesh> placed_mesh(const std::shared_ptr<MeshDefinition>& definition,
+                                          const Location& where);
+  void settle_gamma();
+
+  const ParseLimits& limits_;
+  const Diagnostics& diagnostics_;
+  Scene scene_;
+  std::shared_ptr<const CameraDefinition> camera_;
+  std::optional<double> version_;
+  bool gamma_given_ = false;
+  std::uint64_t parts_placed_ = 0;
+  std::uint64_t triangles_ = 0;
+  std::unordered_map<TexturePtr, Index> material_indices_;
+  std::unordered_map<std::shared_ptr<MeshDefinition>, std::shared_ptr<const Mesh>> meshes_;
+};
+
+} // namespace celltrace::pov

@@ -1,0 +1,366 @@
+#include "pov/token_stream.hpp"
+
+#include <algorithm>
+
+#include "pov/constants.hpp"
+#include "pov/grammar.hpp"
+#include "pov/session.hpp"
+
+namespace celltrace::pov {
+
+namespace {
+
+using tokens = Parser::token;
+
+/// How deep directives may enter the grammar from within one another: each entry takes a part of the thread's
+/// stack.
+constexpr std::size_t kMostLevels = 200;
+
+int number_of(const Token& punctuation) {
+  switch (punctuation.symbol) {
+  case Token::kLessEqual:
+    return tokens::T_LESS_EQUAL;
+  case Token::kGreaterEqual:
+    return tokens::T_GREATER_EQUAL;
+  case Token::kNotEqual:
+    return tokens::T_NOT_EQUAL;
+  default:
+    return punctuation.symbol;
+  }
+}
+
+/// Whether a value can be complete after a terminal, so that a name next to it starts something new.
+bool ends_operand(int terminal) {
+  switch (terminal) {
+  case tokens::T_QUANTITY:
+  case tokens::T_TEXT:
+  case tokens::T_PIGMENT_ID:
+  case tokens::T_FINISH_ID:
+  case tokens::T_TEXTURE_ID:
+  case tokens::T_OBJECT_ID:
+  case tokens::T_TRANSFORM_ID:
+  case tokens::T_ARRAY_ID:
+  case tokens::T_COMPONENT:
+  case ')':
+  case ']':
+  case '>':
+  case '}':
+    return true;
+  default:
+    return false;
+  }
+}
+
+std::string describe_character(unsigned code) {
+  static constexpr char kDigits[] = "0123456789ABCDEF";
+  if (code > 32 && code < 127) return std::string("character '") + static_cast<char>(code) + "'";
+  return std::string("character 0x") + kDigits[code / 16 % 16] + kDigits[code % 16];
+}
+
+bool opens(const Token& token) {
+  return token.is('(') || token.is('{') || token.is('[');
+}
+bool closes(const Token& token) {
+  return token.is(')') || token.is('}') || token.is(']');
+}
+
+std::string without_escapes(const std::string& quoted) {
+  std::string text;
+  for (std::size_t i = 0; i < quoted.size(); ++i) {
+    if (quoted[i] != '\\' || i + 1 == quoted.size()) {
+      text += quoted[i];
+      continue;
+    }
+    const char escaped = quoted[++i];
+    static constexpr char kLetters[] = "abfnrtv";
+    static constexpr char kMeanings[] = "\a\b\f\n\r\t\v";
+    const char* letter = std::find(kLetters, kLetters + 7, escaped);
+    text += letter != kLetters + 7 ? kMeanings[letter - kLetters] : escaped;
+  }
+  return text;
+}
+
+struct TokenOf {
+  int operator()(std::monostate) const { return tokens::T_UNDECLARED_ID; }
+  int operator()(const Quantity&) const { return tokens::T_QUANTITY; }
+  int operator()(const std::string&) const { return tokens::T_TEXT; }
+  int operator()(const PigmentDefinition&) const { return tokens::T_PIGMENT_ID; }
+  int operator()(const FinishDefinition&) const { return tokens::T_FINISH_ID; }
+  int operator()(const TexturePtr&) const { return tokens::T_TEXTURE_ID; }
+  int operator()(const InteriorPtr&) const { return tokens::T_INTERIOR_ID; }
+  int operator()(const std::shared_ptr<const MaterialDefinition>&) const { return tokens::T_MATERIAL_ID; }
+  int operator()(const std::shared_ptr<const CameraDefinition>&) const { return tokens::T_CAMERA_ID; }
+  int operator()(const ObjectPtr&) const { return tokens::T_OBJECT_ID; }
+  int operator()(const Transform&) const { return tokens::T_TRANSFORM_ID; }
+  int operator()(const std::shared_ptr<Array>&) const { return tokens::T_ARRAY_ID; }
+  int operator()(const std::shared_ptr<const Macro>&) const { return tokens::T_UNDECLARED_ID; }
+  int operator()(const UnsupportedPtr&) const { return tokens::T_UNSUPPORTED_ID; }
+};
+
+} // namespace
+
+void TokenStream::open(std::string text, const std::string& name, std::filesystem::path folder) {
+  const std::uint32_t file = session_.sources.number_of(name);
+  Frame frame;
+  frame.opened_at.file = file;
+  frame.folder = std::move(folder);
+  frame.scanner = std::make_unique<Scanner>(
+      std::move(text), file, session_.names,
+      [this](const Location& where, const std::string& what) { session_.fail(where, what); });
+  session_.input.push(std::move(frame));
+}
+
+const std::filesystem::path& TokenStream::current_folder() const {
+  const auto& frames = session_.input.frames();
+  const auto file =
+      std::find_if(frames.rbegin(), frames.rend(), [](const Frame& f) { return f.scanner != nullptr; });
+  return file->folder;
+}
+
+Value TokenStream::evaluate(Start start) {
+  if (levels_.size() >= kMostLevels)
+    session_.fail(last_place(), "macros and directives are nested too deeply");
+  Level& level = levels_.emplace_back();
+  level.start = start;
+  level.base_depth = session_.input.depth();
+  run_grammar(session_);
+  leave_finished_macros();
+  Level finished = std::move(levels_.back());
+  levels_.pop_back();
+  if (finished.hands_back && !finished.at_end) session_.input.unread(finished.last_token);
+  return std::move(finished.result);
+}
+
+/// After a value that needed no look ahead: what follows it is read from where the value began.
+void TokenStream::leave_finished_macros() {
+  const Level& level = levels_.back();
+  while (!level.hands_back && session_.input.depth() > level.base_depth && session_.input.is_exhausted())
+    leave_frame();
+}
+
+void TokenStream::finish(Value value, bool has_lookahead) {
+  levels_.back().result = std::move(value);
+  levels_.back().hands_back = has_lookahead;
+}
+
+std::optional<Start> TokenStream::take_start() {
+  Level& level = levels_.back();
+  if (!level.start_pending) return std::nullopt;
+  level.start_pending = false;
+  return level.start;
+}
+
+bool TokenStream::is_inside_value() const {
+  const Level& level = levels_.back();
+  return level.start != Start::scene && level.any_delivered && level.enclosing.empty();
+}
+
+Token TokenStream::read() {
+  if (++tokens_read_ > session_.options.limits.tokens) session_.fail(last_place(), "the scene is too long");
+  return session_.input.read();
+}
+
+Terminal TokenStream::next() {
+  for (;;) {
+    const Token token = read();
+    switch (token.kind) {
+    case Token::Kind::end:
+      if (!leave_frame_at_end()) return end_at(token);
+      continue;
+    case Token::Kind::directive:
+      // In the middle of a value a directive ends it, as in POV-Ray.
+      if (is_inside_value()) {
+        session_.input.unread(token);
+        return end_at(token);
+      }
+      obey(token);
+      continue;
+    case Token::Kind::word: {
+      if (is_inside_value() && levels_.back().after_operand && session_.names[token.name].token == 0) {
+        session_.input.unread(token);
+        return end_at(token);
+      }
+      Terminal terminal;
+      if (look_up(token, terminal)) return deliver(token, std::move(terminal));
+      continue;
+    }
+    default:
+      return deliver(token, terminal_of(token));
+    }
+  }
+}
+
+Terminal TokenStream::end_at(const Token& token) {
+  levels_.back().at_end = true;
+  levels_.back().last_token = token;
+  return {0, 0, token.where, {}};
+}
+
+Terminal TokenStream::deliver(const Token& token, Terminal terminal) {
+  count_brackets(token);
+  Level& level = levels_.back();
+  level.any_delivered = true;
+  level.after_operand = ends_operand(terminal.token);
+  level.last_token = token;
+  terminal.where = token.where;
+  return terminal;
+}
+
+/// < and ? count until the bracket around them closes, because they may or may not have a partner.
+void TokenStream::count_brackets(const Token& token) {
+  if (token.kind != Token::Kind::punctuation) return;
+  Level& level = levels_.back();
+  if (opens(token)) {
+    level.enclosing.push_back(level.nesting);
+    ++level.nesting;
+  } else if (token.is('<') || token.is('?')) {
+    ++level.nesting;
+  } else if (token.is('>')) {
+    const unsigned least = level.enclosing.empty() ? 0 : level.enclosing.back() + 1;
+    if (level.nesting > least) --level.nesting;
+  } else if (closes(token) && !level.enclosing.empty()) {
+    level.nesting = level.enclosing.back();
+    level.enclosing.pop_back();
+  }
+  if (level.nesting > session_.options.limits.nesting)
+    session_.fail(token.where, "brackets are nested more than " +
+                                   std::to_string(session_.options.limits.nesting) + " deep");
+}
+
+/// What a token means that needs no table.
+Terminal TokenStream::terminal_of(const Token& token) const {
+  Terminal terminal;
+  switch (token.kind) {
+  case Token::Kind::number:
+    terminal.token = tokens::T_QUANTITY;
+    terminal.value = Quantity(token.number[0]);
+    break;
+  case Token::Kind::vector:
+    terminal.token = tokens::T_QUANTITY;
+    terminal.value = Quantity::vector({token.number[0], token.number[1], token.number[2]});
+    break;
+  case Token::Kind::string:
+    terminal.token = tokens::T_TEXT;
+    terminal.value = without_escapes(session_.names.text(token.name));
+    break;
+  case Token::Kind::punctuation:
+    terminal.token = number_of(token);
+    break;
+  case Token::Kind::component: {
+    const Names::Entry& name = session_.names[token.name];
+    if (name.component < 0)
+      session_.fail(token.where, "'." + name.text + "' is no component of a vector or colour");
+    terminal.token = tokens::T_COMPONENT;
+    terminal.detail = name.component;
+    break;
+  }
+  default:
+    terminal.token = tokens::T_BAD_CHARACTER;
+    break;
+  }
+  return terminal;
+}
+
+/// False if the word was a macro or a directive without its #: it has been dealt with.
+bool TokenStream::look_up(const Token& word, Terminal& terminal) {
+  const Names::Entry& name = session_.names[word.name];
+  if (name.token != 0) {
+    terminal.token = name.token;
+    terminal.detail = name.detail;
+    if (name.token == tokens::T_CONSTANT) {
+      terminal.value = value_of(static_cast<Constant>(name.detail), session_);
+      terminal.token = std::visit(TokenOf{}, terminal.value);
+    } else if (name.token == tokens::T_DEFINED) {
+      terminal.value = Quantity(is_defined() ? 1 : 0);
+      terminal.token = tokens::T_QUANTITY;
+    } else if (name.is_unsupported) {
+      terminal.detail = static_cast<int>(word.name);
+    }
+    return true;
+  }
+  const std::shared_ptr<Slot> slot = session_.symbols.find(word.name);
+  if (!slot && (name.directive == Directive::declare || name.directive == Directive::include ||
+                name.directive == Directive::default_)) {
+    obey(word);
+    return false;
+  }
+  if (slot && std::holds_alternative<std::shared_ptr<const Macro>>(slot->value)) {
+    call(word, std::get<std::shared_ptr<const Macro>>(slot->value));
+    return false;
+  }
+  if (slot) terminal.value = slot->value;
+  if (std::holds_alternative<std::shared_ptr<Array>>(terminal.value)) {
+    const std::vector<std::size_t> subscripts = read_subscripts();
+    if (!subscripts.empty()) {
+      const Value found = element(terminal.value, subscripts, word.where);
+      if (std::holds_alternative<std::monostate>(found))
+        session_.fail(word.where, "this element of '" + name.text + "' has no value yet");
+      terminal.value = found;
+    }
+  }
+  terminal.token = std::visit(TokenOf{}, terminal.value);
+  return true;
+}
+
+void TokenStream::skip_to_depth(std::size_t depth) {
+  const Location opened = last_place();
+  while (levels_.back().enclosing.size() > depth)
+    if (next().token == 0) session_.fail(opened, "the block that starts here is never closed");
+}
+
+void TokenStream::skip_to_close() {
+  const std::size_t depth = levels_.back().enclosing.size() - 1;
+  const unsigned nesting = levels_.back().enclosing.back();
+  skip_to_depth(depth);
+  // The closing brace is the grammar's: as if it had not been read.
+  session_.input.unread(levels_.back().last_token);
+  levels_.back().enclosing.push_back(nesting);
+  levels_.back().nesting = nesting + 1;
+}
+
+void TokenStream::skip_group() {
+  const std::size_t depth = levels_.back().enclosing.size();
+  const std::string keyword = describe_last();
+  Terminal terminal = next();
+  if (terminal.token == '(') {
+    skip_to_depth(depth);
+    terminal = next();
+  }
+  if (terminal.token != '{') session_.fail(terminal.where, "expected '{' after " + keyword);
+  skip_to_depth(depth);
+}
+
+std::string TokenStream::describe_last() const {
+  const Token& token = levels_.back().last_token;
+  switch (token.kind) {
+  case Token::Kind::end:
+    return levels_.back().start == Start::scene ? "end of the scene" : "end of the text";
+  case Token::Kind::directive:
+    return "'#" + session_.names.text(token.name) + "'";
+  case Token::Kind::word:
+  case Token::Kind::component:
+    return "'" + session_.names.text(token.name) + "'";
+  case Token::Kind::string:
+    return "string";
+  case Token::Kind::number:
+    return "number";
+  case Token::Kind::vector:
+    return "vector";
+  case Token::Kind::bad_character:
+    return describe_character(token.symbol);
+  case Token::Kind::punctuation:
+    break;
+  }
+  switch (token.symbol) {
+  case Token::kLessEqual:
+    return "'<='";
+  case Token::kGreaterEqual:
+    return "'>='";
+  case Token::kNotEqual:
+    return "'!='";
+  default:
+    return std::string("'") + static_cast<char>(token.symbol) + "'";
+  }
+}
+
+} // namespace celltrace::pov
