@@ -1,5 +1,7 @@
 #include "scene/image_builder.hpp"
 
+#include "celltrace/error.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -171,11 +173,20 @@ private:
   ImageTables& tables_;
 };
 
+/// Single precision has to hold the squares of coordinates.
+void check_size(const Box& box) {
+  constexpr float kMost = 1e18f;
+  for (int i = 0; i < 3; ++i)
+    if (!(box.min[i] > -kMost && box.max[i] < kMost))
+      throw InputError("the scene has an object that is too large, too thin or too far away for single precision");
+}
+
 Box bounds_of(const std::vector<ObjectRecord>& objects) {
   if (objects.empty()) return {{0, 0, 0}, {1, 1, 1}};
   Box all = bounding_box(objects.front());
   for (const ObjectRecord& object : objects) {
     const Box box = bounding_box(object);
+    check_size(box);
     for (int i = 0; i < 3; ++i) {
       all.min[i] = std::min(all.min[i], box.min[i]);
       all.max[i] = std::max(all.max[i], box.max[i]);

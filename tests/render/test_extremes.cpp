@@ -1,0 +1,119 @@
+// Scenes at the limits: of size, of distance, of transparency.
+#include "celltrace/error.hpp"
+#include "celltrace/image.hpp"
+#include "reference/tracer.hpp"
+#include "render/backends.hpp"
+#include "render/scenes.hpp"
+
+#include <catch2/catch.hpp>
+
+using namespace celltrace;
+using namespace celltrace::test;
+
+namespace {
+
+Comparison against_reference(const Scene& scene) {
+  const Image expected = reference::Tracer(scene).render(80, 60);
+  return compare_images(expected, render(scene, backends().front().options(80, 60, 2)).image);
+}
+
+Scene moved(const std::string& name, const Transform& by) {
+  Scene scene = scene_named(name);
+  for (Object& object : scene.objects) object.transform = object.transform.then(by);
+  scene.camera.location = by.point(scene.camera.location);
+  scene.camera.direction = by.direction(scene.camera.direction);
+  scene.camera.right = by.direction(scene.camera.right);
+  scene.camera.up = by.direction(scene.camera.up);
+  for (Light& light : scene.lights) light.location = by.point(light.location);
+  return scene;
+}
+
+} // namespace
+
+TEST_CASE("Scenes far from the origin, large and small") {
+  for (const char* name : {"glass and mirrors", "ellipsoids", "meshes"}) {
+    for (const Transform& by : {Transform::translate({1000, -500, 700}), Transform::scale({1000, 1000, 1000}),
+                                Transform::scale({0.05, 0.05, 0.05}), Transform::rotate({30, 40, 50})}) {
+      const Comparison c = against_reference(moved(name, by));
+      INFO(name << ", moved by " << by.rows[3].x << ", scaled by " << by.rows[0].x << ": " << to_text(c));
+      CHECK(c.psnr >= 45);
+    }
+  }
+}
+
+TEST_CASE("A small scene in a large one") {
+  Scene scene = scene_named("glass and mirrors");
+  const Index sky = scene.add(matte({0.4, 0.6, 0.9}));
+  scene.materials[sky].finish.ambient = Vec3(1);
+  scene.materials[sky].finish.diffuse = 0;
+  scene.objects.push_back(sphere_at({0, 0, 0}, 1e5, sky, scene.add(Interior{})));
+  scene.objects.back().no_shadow = true;
+  const Index ground = scene.add(matte({0.4, 0.8, 0.3}));
+  scene.objects.push_back(sphere_at({0, -1001.5, 0}, 1000, ground, scene.add(Interior{})));
+  const Comparison c = against_reference(scene);
+  INFO(to_text(c));
+  CHECK(c.psnr >= 45);
+}
+
+TEST_CASE("A distant camera with a long lens") {
+  Scene scene = scene_named("highlights");
+  scene.camera.location = {0, 1500, -7000};
+  scene.camera = camera_at(scene.camera.location, {0.5, 0, 0});
+  scene.camera.direction *= 1000;
+  const Comparison c = against_reference(scene);
+  INFO(to_text(c));
+  CHECK(c.psnr >= 45);
+}
+
+TEST_CASE("Blended transparent faces in a row lose no ray") {
+  Scene scene;
+  scene.camera = camera_at({0, 0, -4}, {0, 0, 0});
+  scene.background = {0.9, 0.8, 0.7};
+  scene.max_trace_level = 6;
+  for (int i = 0; i < 3; ++i) {
+    Material m = matte({0.9 - 0.2 * i, 0.5, 0.5 + 0.2 * i});
+    m.pigment.transmit = 0.7 + 0.1 * i;
+    m.finish.reflection_min = m.finish.reflection_max = Vec3(0.1);
+    scene.add(m);
+  }
+  Mesh mesh;
+  mesh.vertices = {{-9, -9, 0}, {9, -9, 0}, {0, 12, 0}};
+  mesh.triangles = {{{0, 1, 2}, {kNoIndex, kNoIndex, kNoIndex}, {0, 1, 2}}};
+  for (int layer = 0; layer < 3; ++layer) {
+    scene.objects.push_back(mesh_object(mesh, 0, scene.add(Interior{})));
+    scene.objects.back().transform = Transform::translate({0, 0, 0.3 * layer});
+  }
+  const RenderResult result = render(scene, backends().front().options(40, 30, 2));
+  CHECK(result.statistics.dropped_rays == 0);
+  CHECK(compare_images(reference::Tracer(scene).render(40, 30), result.image).psnr >= 45);
+}
+
+TEST_CASE("Sixteen spheres in each other, more than a ray remembers") {
+  Scene scene;
+  scene.camera = camera_at({0, 0.1, -30}, {0, 0, 0});
+  scene.background = {0.5, 0.6, 0.9};
+  scene.max_trace_level = 40;
+  Material m = matte({0.9, 0.9, 1});
+  m.pigment.transmit = 0.97;
+  const Index material = scene.add(m);
+  for (int i = 0; i < 7; ++i) scene.objects.push_back(sphere_at({0, 0, 0}, 16 - i, material, scene.add(Interior{1.02})));
+  const RenderResult seven = render(scene, backends().front().options(40, 30, 2));
+  CHECK(seven.statistics.dropped_rays == 0);
+  CHECK(compare_images(reference::Tracer(scene).render(40, 30), seven.image).psnr >= 45);
+  for (int i = 7; i < 15; ++i)
+    scene.objects.push_back(sphere_at({0, 0, 0}, 16 - i, material, scene.add(Interior{1.02})));
+  const RenderResult fifteen = render(scene, backends().front().options(40, 30, 2));
+  CHECK(fifteen.complete);
+  CHECK(fifteen.statistics.dropped_rays > 0); // and says so
+}
+
+TEST_CASE("Numbers beyond single precision are refused") {
+  const auto refused = [](auto change) {
+    Scene scene = scene_named("highlights");
+    change(scene);
+    CHECK_THROWS_AS(render(scene, backends().front().options(16, 12, 1)), InputError);
+  };
+  refused([](Scene& s) { s.objects[1].shape = Sphere{{0, 0, 0}, 1e300}; });
+  refused([](Scene& s) { s.objects[1].shape = Sphere{{0, 1e39, 0}, 1}; });
+  refused([](Scene& s) { s.objects[0].transform = Transform::scale({1e39, 1, 1}); });
+}

@@ -1,0 +1,208 @@
+// SceneImage: what its tables hold, and that nothing else than its own bytes is taken for one.
+#include "celltrace/error.hpp"
+#include "render/scenes.hpp"
+#include "scene/scene_image.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cstring>
+#include <functional>
+
+using namespace celltrace;
+using namespace celltrace::kernel;
+using namespace celltrace::test;
+
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+Bytes bytes_of(const SceneImage& image) {
+  const auto part = image.static_part();
+  return {part.begin(), part.end()};
+}
+
+ImageHeader& header_of(Bytes& bytes) { return *reinterpret_cast<ImageHeader*>(bytes.data()); }
+
+/// Makes the checksum right again after a change: FNV-1a over 64-bit words, its own field as 0.
+void seal(Bytes& bytes) {
+  header_of(bytes).checksum = 0;
+  std::uint64_t sum = 0xCBF29CE484222325u;
+  for (std::size_t at = 0; at < bytes.size(); at += 8) {
+    std::uint64_t word;
+    std::memcpy(&word, bytes.data() + at, 8);
+    sum = (sum ^ word) * 0x100000001B3u;
+  }
+  header_of(bytes).checksum = sum;
+}
+
+template <class Record>
+Record* table(Bytes& bytes, std::uint32_t offset) {
+  return reinterpret_cast<Record*>(bytes.data() + offset);
+}
+template <class Record>
+const Record* table(const SceneImage& image, std::uint32_t offset) {
+  return reinterpret_cast<const Record*>(image.base() + offset);
+}
+
+} // namespace
+
+TEST_CASE("A scene image survives as bytes") {
+  for (const NamedScene& named : scenes()) {
+    INFO(named.name);
+    const SceneImage image(named.make());
+    const Bytes bytes = bytes_of(image);
+    CHECK(bytes.size() % 128 == 0);
+    CHECK(reinterpret_cast<std::uintptr_t>(image.base()) % 128 == 0);
+    const SceneImage again = SceneImage::from_bytes(bytes);
+    CHECK(bytes_of(again) == bytes);
+    CHECK(reinterpret_cast<std::uintptr_t>(again.base()) % 128 == 0);
+  }
+}
+
+TEST_CASE("The same scene makes the same bytes") {
+  CHECK(bytes_of(SceneImage(scene_named("meshes"))) == bytes_of(SceneImage(scene_named("meshes"))));
+}
+
+TEST_CASE("Making room for a grid keeps the static part") {
+  SceneImage image(scene_named("meshes"));
+  const Bytes bytes = bytes_of(image);
+  for (std::uint32_t cells : {1u, 1000u, 50u}) {
+    image.reserve_grid(cells, 3 * cells);
+    CHECK(bytes_of(image) == bytes);
+    CHECK(image.cell_offset() == bytes.size());
+    CHECK(image.cell_offset() % 128 == 0);
+    CHECK(image.list_offset() % 128 == 0);
+    CHECK(image.list_offset() >= image.cell_offset() + cells * sizeof(CellRecord));
+  }
+  CHECK_THROWS_AS(image.reserve_grid(0x20000000, 1), InputError);
+}
+
+TEST_CASE("Any flipped bit of a scene image is noticed") {
+  const Bytes bytes = bytes_of(SceneImage(scene_named("glass and mirrors")));
+  for (std::size_t at = 0; at < bytes.size(); ++at) {
+    Bytes damaged = bytes;
+    damaged[at] ^= std::byte{static_cast<unsigned char>(1u << at % 8)};
+    REQUIRE_THROWS_AS(SceneImage::from_bytes(damaged), InputError);
+  }
+}
+
+TEST_CASE("A scene image of the wrong length is refused") {
+  Bytes bytes = bytes_of(SceneImage(scene_named("meshes")));
+  for (std::size_t length : {std::size_t{0}, std::size_t{127}, std::size_t{128}, bytes.size() / 2, bytes.size() - 1,
+                             bytes.size() - 128})
+    CHECK_THROWS_AS(SceneImage::from_bytes(std::span(bytes).first(length)), InputError);
+  bytes.resize(bytes.size() + 128);
+  CHECK_THROWS_AS(SceneImage::from_bytes(bytes), InputError);
+}
+
+TEST_CASE("A sealed scene image with a fault in it is refused") {
+  const Bytes good = bytes_of(SceneImage(scene_named("meshes")));
+  const auto refused = [&](const std::function<void(Bytes&)>& change, const std::string& word) {
+    Bytes bytes = good;
+    change(bytes);
+    seal(bytes);
+    CHECK_THROWS_WITH(SceneImage::from_bytes(bytes), Catch::Contains(word));
+  };
+  const auto objects = [](Bytes& b) { return table<ObjectRecord>(b, header_of(b).object_offset); };
+  Bytes sealed = good;
+  seal(sealed);
+  REQUIRE(sealed == good);
+
+  refused([](Bytes& b) { header_of(b).magic ^= 1; }, "not a scene image");
+  refused([](Bytes& b) { header_of(b).version = 77; }, "version 77");
+  refused([](Bytes& b) { header_of(b).bytes += 128; }, "size");
+  refused([](Bytes& b) { header_of(b).object_offset += 64; }, "offset");
+  refused([](Bytes& b) { header_of(b).object_offset = 0; }, "offset");
+  refused([](Bytes& b) { header_of(b).object_offset = 0xFFFFFF80; }, "offset");
+  refused([](Bytes& b) { header_of(b).object_count = 0xFFFFFFFF; }, "offset");
+  refused([](Bytes& b) { header_of(b).material_count = 0x10000000; }, "offset");
+  refused([](Bytes& b) { header_of(b).light_count = 0x10000000; }, "offset");
+  refused([](Bytes& b) { header_of(b).interior_offset = 0x7FFFFF80; }, "offset");
+  refused([](Bytes& b) { header_of(b).normals_count = 0; }, "offset");
+  refused([](Bytes& b) { header_of(b).blend_count = 0; }, "offset");
+  refused([&](Bytes& b) { objects(b)->kind_and_flags = 3; }, "offset");
+  refused([&](Bytes& b) { objects(b)->material += 16; }, "offset");
+  refused([&](Bytes& b) { objects(b)->material = 0; }, "offset");
+  refused([&](Bytes& b) { objects(b)->interior = kNoOffset; }, "offset");
+  refused([&](Bytes& b) { objects(b)->kind_and_flags |= object_flag::blended; }, "offset");
+  refused([&](Bytes& b) { objects(b)->kind_and_flags |= object_flag::smooth; }, "offset");
+  refused([](Bytes& b) { table<BlendRecord>(b, header_of(b).blend_offset)->material[2] = 5; }, "offset");
+}
+
+TEST_CASE("Spheres that a transformation leaves round stay spheres") {
+  Scene scene;
+  scene.add(matte({1, 1, 1}));
+  scene.add(Interior{});
+  const auto kind_of = [&](const Transform& transform, ObjectRecord* record = nullptr) {
+    scene.objects = {sphere_at({1, 2, 3}, -0.5, 0, 0)};
+    scene.objects[0].transform = transform;
+    const SceneImage image(scene);
+    REQUIRE(image.header().object_count == 1);
+    const auto* object = table<ObjectRecord>(image, image.header().object_offset);
+    if (record != nullptr) *record = *object;
+    return static_cast<ObjectKind>(object->kind_and_flags & object_flag::kind_mask);
+  };
+  ObjectRecord r;
+  const Transform turned = Transform::scale({2, 2, 2}).then(Transform::rotate({10, 20, 90}));
+  CHECK(kind_of(turned, &r) == ObjectKind::sphere);
+  CHECK(r.geometry[3] == Approx(1));
+  CHECK(r.geometry[0] == Approx(turned.point({1, 2, 3}).x));
+  CHECK((r.kind_and_flags & object_flag::opaque) != 0);
+  CHECK(kind_of(Transform::scale({2, -2, 2}), &r) == ObjectKind::sphere);
+  CHECK(r.geometry[1] == -4);
+  CHECK(kind_of(Transform::scale({2, 2.001, 2})) == ObjectKind::ellipsoid);
+  CHECK(kind_of(Transform::matrix({1, 0, 0, 0.1, 1, 0, 0, 0, 1, 0, 0, 0})) == ObjectKind::ellipsoid);
+}
+
+TEST_CASE("What cannot be hit is left out") {
+  Scene scene;
+  scene.add(matte({1, 1, 1}));
+  scene.add(Interior{});
+  Mesh mesh = floor_mesh(0, 1);
+  mesh.triangles.push_back({{1, 1, 2}, {kNoIndex, kNoIndex, kNoIndex}, {kNoIndex, kNoIndex, kNoIndex}});
+  mesh.vertices.push_back({0, 0, 0});
+  mesh.triangles.push_back({{0, 2, 4}, {kNoIndex, kNoIndex, kNoIndex}, {kNoIndex, kNoIndex, kNoIndex}}); // a line
+  scene.objects = {sphere_at({0, 0, 0}, 0, 0, 0), mesh_object(mesh, 0, 0), mesh_object(Mesh{}, 0, 0)};
+  CHECK(SceneImage(scene).header().object_count == 2);
+}
+
+TEST_CASE("A triangle with some normals only is refused") {
+  Scene scene;
+  scene.add(matte({1, 1, 1}));
+  scene.add(Interior{});
+  for (int missing = 0; missing < 3; ++missing) {
+    Mesh mesh = floor_mesh(0, 1);
+    mesh.normals = {{0, 1, 0}, {0, 1, 0.1f}};
+    const Index normals[3] = {0, 1, 1};
+    for (int i = 0; i < 3; ++i) mesh.triangles[0].normal[i] = i == missing ? kNoIndex : normals[i];
+    scene.objects = {mesh_object(mesh, 0, 0)};
+    CHECK_THROWS_AS(SceneImage(scene), InputError);
+  }
+}
+
+TEST_CASE("Faces and materials are flagged for what the kernel may skip") {
+  Scene scene;
+  Material clear = matte({1, 1, 1});
+  clear.pigment.transmit = 0.5;
+  scene.materials = {matte({1, 0, 0}), matte({0, 1, 0}), clear};
+  scene.add(Interior{});
+  Mesh mesh = floor_mesh(0, 1);
+  const Index same[3] = {1, 1, 1};
+  const Index mixed[3] = {0, kNoIndex, 2};
+  std::copy(same, same + 3, mesh.triangles[0].material);
+  std::copy(mixed, mixed + 3, mesh.triangles[1].material);
+  scene.objects = {mesh_object(mesh, 1, 0)};
+  scene.objects[0].no_shadow = true;
+  const SceneImage image(scene);
+  const ImageHeader& h = image.header();
+  const auto* objects = table<ObjectRecord>(image, h.object_offset);
+  const auto material = [&](std::uint32_t index) { return h.material_offset + index * 128; };
+  CHECK(objects[0].kind_and_flags == (2u | object_flag::opaque | object_flag::no_shadow));
+  CHECK(objects[0].material == material(1));
+  CHECK(objects[1].kind_and_flags == (2u | object_flag::blended | object_flag::no_shadow));
+  const auto* blend = table<BlendRecord>(image, objects[1].material);
+  CHECK(blend->material[0] == material(0));
+  CHECK(blend->material[1] == material(1));
+  CHECK(blend->material[2] == material(2));
+}
