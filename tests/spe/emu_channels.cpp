@@ -120,9 +120,9 @@ TEST_CASE("the PPE's reads of the outbound mailboxes are events") {
   };
   run_on(kEmulator, *machine, talk, to_ea(&seen), [](Machine& ppe) {
     while (!ppe.read_out_mailbox(0))
-      REQUIRE(ppe.wait_for_mail(std::chrono::seconds(60)));
+      if (!ppe.wait_for_mail(std::chrono::seconds(60))) FAIL("no mail");
     while (!ppe.read_out_interrupt_mailbox(0))
-      REQUIRE(ppe.wait_for_mail(std::chrono::seconds(60)));
+      if (!ppe.wait_for_mail(std::chrono::seconds(60))) FAIL("no mail");
   });
   CHECK(seen.word[0] == event::out_mailbox);
   CHECK(seen.word[1] == event::out_intr_mailbox);

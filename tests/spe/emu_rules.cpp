@@ -83,7 +83,8 @@ TEST_CASE("fenced and barriered forms obey the same rules") {
   for (Case c : kTransfers) {
     CAPTURE(c.what);
     for (const std::uint32_t suffix : {1u, 2u}) {
-      c.command.opcode = static_cast<MfcOpcode>(static_cast<std::uint32_t>(c.command.opcode) & ~3u | suffix);
+      c.command.opcode =
+          static_cast<MfcOpcode>((static_cast<std::uint32_t>(c.command.opcode) & ~3u) | suffix);
       CHECK(broken_transfer_rule(c.command, c.target) == c.rule);
     }
   }
