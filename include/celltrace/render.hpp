@@ -58,7 +58,8 @@ struct RenderStatistics {
 
   std::uint64_t primary_rays = 0, shadow_rays = 0, reflection_rays = 0, refraction_rays = 0;
   std::uint64_t dropped_rays = 0; ///< cut off by the limits of the SPE program; 0 in any but extreme scenes
-  std::uint64_t sphere_tests = 0, ellipsoid_tests = 0, triangle_tests = 0; ///< packet of 16 rays against object
+  std::uint64_t sphere_tests = 0, ellipsoid_tests = 0,
+                triangle_tests = 0; ///< packet of 16 rays against object
   std::uint64_t voxels_visited = 0;
 
   std::uint32_t grid_cells[3] = {0, 0, 0};
@@ -85,8 +86,8 @@ struct RenderStatistics {
 /// The statistics as JSON text; docs/statistics.md describes the keys.
 std::string to_json(const RenderStatistics& statistics);
 
-/// Called now and then by the thread that renders, with the finished fraction of the frame: starts at 0, never falls,
-/// ends at 1 if the frame is completed. Return false to cancel.
+/// Called now and then by the thread that renders, with the finished fraction of the frame: starts at 0,
+/// never falls, ends at 1 if the frame is completed. Return false to cancel.
 using Progress = std::function<bool(double fraction)>;
 
 struct RenderResult {
@@ -95,8 +96,9 @@ struct RenderResult {
   bool complete = true; ///< false: cancelled; pixels that were not reached are transparent black
 };
 
-/// A render context: a machine whose SPEs run the tracer, kept from frame to frame. After a cancelled frame it renders
-/// the next one as usual. Thread safety: one thread at a time; different renderers are independent.
+/// A render context: a machine whose SPEs run the tracer, kept from frame to frame. After a cancelled frame
+/// it renders the next one as usual. Thread safety: one thread at a time; different renderers are
+/// independent.
 class Renderer {
 public:
   /// Throws InputError for options out of range.
@@ -105,9 +107,9 @@ public:
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
 
-  /// Renders a frame; the strips that the frame before ended with start this one. Throws InputError if the scene
-  /// is not valid, SpeError if a kernel failed; exceptions of `progress` pass through. After SpeError the renderer
-  /// throws again at every call.
+  /// Renders a frame; the strips that the frame before ended with start this one. Throws InputError if the
+  /// scene is not valid, SpeError if a kernel failed; exceptions of `progress` pass through. After SpeError
+  /// the renderer throws again at every call.
   RenderResult render(const Scene& scene, const Progress& progress = {});
   /// As above, with another camera and nothing else changed since the last render(): the grid is kept.
   RenderResult render(const Camera& camera, const Progress& progress = {});

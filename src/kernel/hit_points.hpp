@@ -1,14 +1,13 @@
 // Where rays hit, and the surface there. Kernel dialect.
 #pragma once
 
-#include "kernel/scene_access.hpp"
 #include "kernel/intersect.hpp"
+#include "kernel/scene_access.hpp"
 
 namespace celltrace::kernel {
 
 /// Points, unit normals flipped toward the viewer, and the records' words of sixteen hits.
-template <class S>
-struct HitPoints {
+template <class S> struct HitPoints {
   V3<S> point, normal;
   WordLanes material; ///< offset of a MaterialRecord, or of a BlendRecord in lanes of `blended`
   WordLanes interior;
@@ -17,15 +16,15 @@ struct HitPoints {
 
 namespace detail {
 
-/// The surface of one object under all lanes. Points are computed from the object, not along the ray: they lie on the
-/// surface to its own precision, however far away the ray began.
+/// The surface of one object under all lanes. Points are computed from the object, not along the ray: they
+/// lie on the surface to its own precision, however far away the ray began.
 template <class Spu>
-void surface_of(SceneAccess<Spu>& scene, const ObjectRecord& object, const RayPacket& rays, const HitPacket& hits,
-                V3<typename Spu::simd>& point, V3<typename Spu::simd>& normal) {
+void surface_of(SceneAccess<Spu>& scene, const ObjectRecord& object, const RayPacket& rays,
+                const HitPacket& hits, V3<typename Spu::simd>& point, V3<typename Spu::simd>& normal) {
   using S = typename Spu::simd;
   using F = typename S::F;
-  const V3<S> along_ray = rays.origin.template load<S>() +
-                          rays.direction.template load<S>() * F::load(hits.distance.lane);
+  const V3<S> along_ray =
+      rays.origin.template load<S>() + rays.direction.template load<S>() * F::load(hits.distance.lane);
   switch (static_cast<ObjectKind>(object.kind_and_flags & object_flag::kind_mask)) {
   case ObjectKind::sphere: {
     const V3<S> centre = splat3<S>(object.geometry);
@@ -66,8 +65,8 @@ void surface_of(SceneAccess<Spu>& scene, const ObjectRecord& object, const RayPa
 
 /// The hits of `lanes`, all of which hit something.
 template <class Spu>
-HitPoints<typename Spu::simd> find_hit_points(SceneAccess<Spu>& scene, const RayPacket& rays, const HitPacket& hits,
-                                              uint32_t lanes) {
+HitPoints<typename Spu::simd> find_hit_points(SceneAccess<Spu>& scene, const RayPacket& rays,
+                                              const HitPacket& hits, uint32_t lanes) {
   using S = typename Spu::simd;
   using F = typename S::F;
   HitPoints<S> result;

@@ -1,6 +1,6 @@
-// A ray packet against one object: the geometric sphere test (Haines, in Glassner, An Introduction to Ray Tracing),
-// the same on the unit sphere for ellipsoids, and the minimum-storage triangle test (Moeller and Trumbore 1997).
-// Kernel dialect.
+// A ray packet against one object: the geometric sphere test (Haines, in Glassner, An Introduction to Ray
+// Tracing), the same on the unit sphere for ellipsoids, and the minimum-storage triangle test (Moeller and
+// Trumbore 1997). Kernel dialect.
 #pragma once
 
 #include "kernel/math.hpp"
@@ -9,10 +9,9 @@
 
 namespace celltrace::kernel {
 
-/// Where a packet crosses a surface: two crossings of a (closed) sphere, at most one of a triangle. Distances of lanes
-/// outside their mask are meaningless.
-template <class S>
-struct Crossings {
+/// Where a packet crosses a surface: two crossings of a (closed) sphere, at most one of a triangle. Distances
+/// of lanes outside their mask are meaningless.
+template <class S> struct Crossings {
   typename S::F near, far;
   typename S::M near_hit, far_hit;
   typename S::F u, v; ///< barycentric weights of the second and third vertex
@@ -24,10 +23,12 @@ constexpr float kMaxHitDistance = 1e7f;
 
 namespace detail {
 
-/// The crossings with a sphere around the point that is `half_chord_centre` along the ray, `square` = (half chord)^2.
-/// A ray that starts on the sphere leaves it at twice that distance, exactly, whatever rounding says of the start.
+/// The crossings with a sphere around the point that is `half_chord_centre` along the ray, `square` = (half
+/// chord)^2. A ray that starts on the sphere leaves it at twice that distance, exactly, whatever rounding
+/// says of the start.
 template <class S>
-Crossings<S> chord(const typename S::F& half_chord_centre, const typename S::F& square, const typename S::M& starts_here) {
+Crossings<S> chord(const typename S::F& half_chord_centre, const typename S::F& square,
+                   const typename S::M& starts_here) {
   using F = typename S::F;
   const auto meets = square >= F(0.0f);
   const F half = S::sqrt(S::max(square, F(0.0f)));
@@ -49,16 +50,15 @@ Crossings<S> intersect_sphere(const V3<S>& origin, const V3<S>& direction, const
   using F = typename S::F;
   const V3<S> to_centre = splat3<S>(object.geometry) - origin;
   const F along = dot<S>(to_centre, direction);
-  // The perpendicular itself, not |to_centre|^2 - along^2: the difference of two large squares loses small spheres
-  // that are far away.
+  // The perpendicular itself, not |to_centre|^2 - along^2: the difference of two large squares loses small
+  // spheres that are far away.
   const V3<S> perpendicular = to_centre - direction * along;
   const F radius(object.geometry[3]);
   return detail::chord<S>(along, radius * radius - dot<S>(perpendicular, perpendicular), starts_here);
 }
 
 /// A point or direction in the space in which the ellipsoid is the unit sphere.
-template <class S>
-V3<S> to_unit_sphere(const ObjectRecord& object, const V3<S>& v, float w) {
+template <class S> V3<S> to_unit_sphere(const ObjectRecord& object, const V3<S>& v, float w) {
   using F = typename S::F;
   const float* m = object.geometry;
   return {F(m[0]) * v.x + F(m[1]) * v.y + F(m[2]) * v.z + F(m[3] * w),
@@ -67,8 +67,8 @@ V3<S> to_unit_sphere(const ObjectRecord& object, const V3<S>& v, float w) {
 }
 
 template <class S>
-Crossings<S> intersect_ellipsoid(const V3<S>& origin, const V3<S>& direction, const typename S::M& starts_here,
-                                 const ObjectRecord& object) {
+Crossings<S> intersect_ellipsoid(const V3<S>& origin, const V3<S>& direction,
+                                 const typename S::M& starts_here, const ObjectRecord& object) {
   using F = typename S::F;
   const V3<S> o = to_unit_sphere<S>(object, origin, 1.0f);
   const V3<S> d = to_unit_sphere<S>(object, direction, 0.0f);
@@ -105,13 +105,12 @@ Crossings<S> intersect_triangle(const V3<S>& origin, const V3<S>& direction, con
 }
 
 /// `self` is the object's offset in the scene image, against which the packet's start objects are compared.
-template <class S>
-Crossings<S> intersect(const RayPacket& rays, const ObjectRecord& object, uint32_t self) {
+template <class S> Crossings<S> intersect(const RayPacket& rays, const ObjectRecord& object, uint32_t self) {
   using I = typename S::I;
   const V3<S> origin = rays.origin.template load<S>();
   const V3<S> direction = rays.direction.template load<S>();
-  const auto starts_here =
-      I::load(reinterpret_cast<const int32_t*>(rays.start_object.lane)) == I::splat(static_cast<int32_t>(self));
+  const auto starts_here = I::load(reinterpret_cast<const int32_t*>(rays.start_object.lane)) ==
+                           I::splat(static_cast<int32_t>(self));
   switch (static_cast<ObjectKind>(object.kind_and_flags & object_flag::kind_mask)) {
   case ObjectKind::sphere:
     return intersect_sphere<S>(origin, direction, starts_here, object);

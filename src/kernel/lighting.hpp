@@ -1,5 +1,5 @@
-// Shade pixel: the light that a surface sends toward the viewer by itself. The terms are those of Hall's model that
-// POV-Ray uses: ambient, diffuse with brilliance, Phong and Blinn highlights. Kernel dialect.
+// Shade pixel: the light that a surface sends toward the viewer by itself. The terms are those of Hall's
+// model that POV-Ray uses: ambient, diffuse with brilliance, Phong and Blinn highlights. Kernel dialect.
 #pragma once
 
 #include "kernel/hit_points.hpp"
@@ -9,20 +9,18 @@
 namespace celltrace::kernel {
 
 /// A surface as seen by sixteen rays.
-template <class S>
-struct Surfaces {
-  V3<S> point, normal; ///< normal flipped toward the viewer
-  V3<S> direction;     ///< of the rays that arrive
+template <class S> struct Surfaces {
+  V3<S> point, normal;      ///< normal flipped toward the viewer
+  V3<S> direction;          ///< of the rays that arrive
   const WordLanes* objects; ///< what the points lie on
 };
 
 namespace detail {
 
 /// A light as it arrives at a surface.
-template <class S>
-struct Arrival {
-  V3<S> direction; ///< toward the light, of unit length
-  V3<S> colour;    ///< after what lies between
+template <class S> struct Arrival {
+  V3<S> direction;      ///< toward the light, of unit length
+  V3<S> colour;         ///< after what lies between
   typename S::F cosine; ///< to the normal
 };
 
@@ -41,11 +39,13 @@ typename S::F specular_term(const Surfaces<S>& s, const MaterialLanes<S>& m, con
   using F = typename S::F;
   const V3<S> half = normalise<S>(light.direction - s.direction);
   const F cosine = dot<S>(half, s.normal);
-  return S::select(cosine > F(0.0f), m.specular * pow<S>(S::max(cosine, F(0.0f)), m.inverse_roughness), F(0.0f));
+  return S::select(cosine > F(0.0f), m.specular * pow<S>(S::max(cosine, F(0.0f)), m.inverse_roughness),
+                   F(0.0f));
 }
 
 template <class S>
-V3<S> reflected_light(const Surfaces<S>& s, const MaterialLanes<S>& m, const Arrival<S>& light, bool highlights) {
+V3<S> reflected_light(const Surfaces<S>& s, const MaterialLanes<S>& m, const Arrival<S>& light,
+                      bool highlights) {
   using F = typename S::F;
   const F bent = m.bends_diffuse ? pow<S>(light.cosine, m.brilliance) : light.cosine;
   V3<S> sum = m.pigment * light.colour * (m.diffuse * m.opacity * bent);
@@ -60,18 +60,19 @@ V3<S> reflected_light(const Surfaces<S>& s, const MaterialLanes<S>& m, const Arr
 
 } // namespace detail
 
-/// Ambient light, and what all lights contribute, at the surfaces of `lanes`. Counts a shadow ray per light and lane
-/// that faces it.
+/// Ambient light, and what all lights contribute, at the surfaces of `lanes`. Counts a shadow ray per light
+/// and lane that faces it.
 template <class Spu>
-V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, Traversal<Spu>& traversal, const FrameBlock& frame,
-                                   const Surfaces<typename Spu::simd>& s,
+V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, Traversal<Spu>& traversal,
+                                   const FrameBlock& frame, const Surfaces<typename Spu::simd>& s,
                                    const MaterialLanes<typename Spu::simd>& m, uint32_t lanes,
                                    uint64_t& shadow_rays) {
   using S = typename Spu::simd;
   using F = typename S::F;
   V3<S> sum = m.pigment * m.ambient * m.opacity;
   for (uint32_t i = 0; i < frame.light_count; ++i) {
-    const LightRecord light = *scene.light(frame.light_offset + i * static_cast<uint32_t>(sizeof(LightRecord)));
+    const LightRecord light =
+        *scene.light(frame.light_offset + i * static_cast<uint32_t>(sizeof(LightRecord)));
     const V3<S> to_light = splat3<S>(light.location) - s.point;
     const F distance = S::sqrt(dot<S>(to_light, to_light));
     detail::Arrival<S> arrival;
@@ -98,7 +99,8 @@ V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, Traversal<Spu>& trav
       shadow_rays += static_cast<uint32_t>(__builtin_popcount(facing));
     }
     const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
-    sum = sum + select<S>(S::M::from_bits(facing), detail::reflected_light<S>(s, m, arrival, !shadowless), dark);
+    sum = sum +
+          select<S>(S::M::from_bits(facing), detail::reflected_light<S>(s, m, arrival, !shadowless), dark);
   }
   return sum;
 }

@@ -6,8 +6,7 @@
 namespace celltrace::kernel {
 
 /// MaterialRecord in structure-of-arrays form.
-template <class S>
-struct MaterialLanes {
+template <class S> struct MaterialLanes {
   using F = typename S::F;
   V3<S> pigment, ambient, reflection_min, reflection_max;
   F filter, transmit, opacity, diffuse, brilliance, phong, phong_size, specular, inverse_roughness, metallic;
@@ -31,8 +30,10 @@ MaterialLanes<typename Spu::simd> gather_materials(SceneAccess<Spu>& scene, cons
   for_each_value(offsets, lanes, [&](uint32_t offset, uint32_t same) {
     const MaterialRecord& r = *scene.material(offset);
     const auto take = S::M::from_bits(same);
-    const auto put = [&](F& field, float value) { field = first ? F(value) : S::select(take, F(value), field); };
-    const auto put3 = [&](V3<S>& field, const float (&value)[3]) {
+    const auto put = [&](F& field, float value) {
+      field = first ? F(value) : S::select(take, F(value), field);
+    };
+    const auto put3 = [&](V3<S>& field, const float(&value)[3]) {
       put(field.x, value[0]);
       put(field.y, value[1]);
       put(field.z, value[2]);
@@ -56,7 +57,7 @@ MaterialLanes<typename Spu::simd> gather_materials(SceneAccess<Spu>& scene, cons
     put(m.inverse_reflection_exponent, r.inverse_reflection_exponent);
     if ((r.flags & material_flag::fresnel) != 0) m.fresnel |= same;
     if ((r.flags & material_flag::conserve_energy) != 0) m.conserve_energy |= same;
-    const auto any = [](const float (&v)[3]) { return v[0] != 0.0f || v[1] != 0.0f || v[2] != 0.0f; };
+    const auto any = [](const float(&v)[3]) { return v[0] != 0.0f || v[1] != 0.0f || v[2] != 0.0f; };
     m.bends_diffuse |= r.brilliance != 1.0f;
     m.has_phong |= r.phong > 0.0f;
     m.has_specular |= r.specular > 0.0f;
@@ -70,8 +71,8 @@ MaterialLanes<typename Spu::simd> gather_materials(SceneAccess<Spu>& scene, cons
   return m;
 }
 
-/// POV-Ray's tint of metallic highlights and reflections: 1 + m (1 - F(x)) (pigment - 1), where x is the angle over a
-/// right angle.
+/// POV-Ray's tint of metallic highlights and reflections: 1 + m (1 - F(x)) (pigment - 1), where x is the
+/// angle over a right angle.
 template <class S>
 V3<S> metallic_tint(const typename S::F& metallic, const typename S::F& cosine, const V3<S>& pigment) {
   using F = typename S::F;

@@ -1,13 +1,12 @@
-// Elementary functions of 16 lanes, written over the SIMD facade so that every backend computes the same bits.
-// Kernel dialect. Accuracy figures are for the host's single precision.
+// Elementary functions of 16 lanes, written over the SIMD facade so that every backend computes the same
+// bits. Kernel dialect. Accuracy figures are for the host's single precision.
 #pragma once
 
 #include <stdint.h>
 
 namespace celltrace::kernel {
 
-template <class S>
-struct V3 {
+template <class S> struct V3 {
   typename S::F x, y, z;
 
   friend V3 operator+(const V3& a, const V3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
@@ -16,43 +15,35 @@ struct V3 {
   friend V3 operator*(const V3& a, const typename S::F& s) { return {a.x * s, a.y * s, a.z * s}; }
 };
 
-template <class S>
-V3<S> splat3(const float* v) {
+template <class S> V3<S> splat3(const float* v) {
   return {typename S::F(v[0]), typename S::F(v[1]), typename S::F(v[2])};
 }
-template <class S>
-typename S::F dot(const V3<S>& a, const V3<S>& b) {
+template <class S> typename S::F dot(const V3<S>& a, const V3<S>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
-template <class S>
-V3<S> cross(const V3<S>& a, const V3<S>& b) {
+template <class S> V3<S> cross(const V3<S>& a, const V3<S>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-template <class S>
-V3<S> select(const typename S::M& m, const V3<S>& a, const V3<S>& b) {
+template <class S> V3<S> select(const typename S::M& m, const V3<S>& a, const V3<S>& b) {
   return {S::select(m, a.x, b.x), S::select(m, a.y, b.y), S::select(m, a.z, b.z)};
 }
 /// A vector of length 0 stays 0.
-template <class S>
-V3<S> normalise(const V3<S>& v) {
+template <class S> V3<S> normalise(const V3<S>& v) {
   const typename S::F length = S::sqrt(dot<S>(v, v));
   return v * (typename S::F(1.0f) / S::max(length, typename S::F(1e-30f)));
 }
 /// The greatest of the three components.
-template <class S>
-typename S::F max_component(const V3<S>& v) {
+template <class S> typename S::F max_component(const V3<S>& v) {
   return S::max(v.x, S::max(v.y, v.z));
 }
 /// Luminance with POV-Ray's weights.
-template <class S>
-typename S::F grey(const V3<S>& v) {
+template <class S> typename S::F grey(const V3<S>& v) {
   return v.x * typename S::F(0.297f) + v.y * typename S::F(0.589f) + v.z * typename S::F(0.114f);
 }
 
 /// Binary logarithm of x > 0 (normal numbers); absolute error below 2e-7 near 1, relative elsewhere.
 /// log(m) = 2 artanh((m-1)/(m+1)) with m in [sqrt(1/2), sqrt(2)), so that nothing cancels near 1.
-template <class S>
-typename S::F log2(const typename S::F& x) {
+template <class S> typename S::F log2(const typename S::F& x) {
   using F = typename S::F;
   using I = typename S::I;
   const I bits = S::bits_of(x);
@@ -68,8 +59,7 @@ typename S::F log2(const typename S::F& x) {
 }
 
 /// 2 to the power x; x is clamped to [-126, 126]; relative error below 3e-7.
-template <class S>
-typename S::F exp2(const typename S::F& x) {
+template <class S> typename S::F exp2(const typename S::F& x) {
   using F = typename S::F;
   using I = typename S::I;
   const F clamped = S::min(S::max(x, F(-126.0f)), F(126.0f));
@@ -79,28 +69,27 @@ typename S::F exp2(const typename S::F& x) {
       F(1.0f) +
       r * (F(1.0f) +
            r * (F(1.0f / 2) +
-                r * (F(1.0f / 6) + r * (F(1.0f / 24) + r * (F(1.0f / 120) + r * (F(1.0f / 720) + r * F(1.0f / 5040)))))));
+                r * (F(1.0f / 6) +
+                     r * (F(1.0f / 24) + r * (F(1.0f / 120) + r * (F(1.0f / 720) + r * F(1.0f / 5040)))))));
   return power * S::float_of(S::template shift_left<23>(whole + I::splat(127)));
 }
 
 /// x to the power y for x >= 0; 0 to any power is 0.
-template <class S>
-typename S::F pow(const typename S::F& x, const typename S::F& y) {
+template <class S> typename S::F pow(const typename S::F& x, const typename S::F& y) {
   using F = typename S::F;
   const F positive = S::max(x, F(1e-37f));
   return S::select(x > F(1e-37f), exp2<S>(y * log2<S>(positive)), F(0.0f));
 }
 
 /// Arc cosine of x in [0, 1]; absolute error below 7e-8 (Abramowitz and Stegun 4.4.46).
-template <class S>
-typename S::F acos_unit(const typename S::F& x) {
+template <class S> typename S::F acos_unit(const typename S::F& x) {
   using F = typename S::F;
   const F p = F(1.5707963050f) +
               x * (F(-0.2145988016f) +
                    x * (F(0.0889789874f) +
                         x * (F(-0.0501743046f) +
-                             x * (F(0.0308918810f) +
-                                  x * (F(-0.0170881256f) + x * (F(0.0066700901f) + x * F(-0.0012624911f)))))));
+                             x * (F(0.0308918810f) + x * (F(-0.0170881256f) +
+                                                          x * (F(0.0066700901f) + x * F(-0.0012624911f)))))));
   return S::sqrt(S::max(F(1.0f) - x, F(0.0f))) * p;
 }
 

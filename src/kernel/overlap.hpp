@@ -10,11 +10,18 @@ struct Box {
   float max[3];
 };
 
-inline float smaller(float a, float b) { return a < b ? a : b; }
-inline float larger(float a, float b) { return a > b ? a : b; }
-inline float magnitude(float a) { return a < 0.0f ? -a : a; }
+inline float smaller(float a, float b) {
+  return a < b ? a : b;
+}
+inline float larger(float a, float b) {
+  return a > b ? a : b;
+}
+inline float magnitude(float a) {
+  return a < 0.0f ? -a : a;
+}
 
-/// Square root by Newton's iteration from above; setup code, where a library call would cost more than it saves.
+/// Square root by Newton's iteration from above; setup code, where a library call would cost more than it
+/// saves.
 inline float square_root(float x) {
   if (x <= 0.0f) return 0.0f;
   float guess = x > 1.0f ? x : 1.0f;
@@ -26,8 +33,8 @@ inline float square_root(float x) {
   return guess;
 }
 
-/// The object's axis-aligned bounding box. An ellipsoid's half extent along an axis is the length of that row of the
-/// map from the unit sphere to the world, whose inverse the record holds.
+/// The object's axis-aligned bounding box. An ellipsoid's half extent along an axis is the length of that row
+/// of the map from the unit sphere to the world, whose inverse the record holds.
 inline Box bounding_box(const ObjectRecord& object) {
   const float* g = object.geometry;
   Box box;
@@ -67,7 +74,8 @@ inline Box bounding_box(const ObjectRecord& object) {
   }
 }
 
-/// The surface of a sphere touches a box if the box's nearest point is inside and its farthest one is outside.
+/// The surface of a sphere touches a box if the box's nearest point is inside and its farthest one is
+/// outside.
 inline bool sphere_overlaps(const ObjectRecord& object, const Box& box) {
   const float* g = object.geometry;
   float nearest = 0.0f;
@@ -102,15 +110,16 @@ inline bool ellipsoid_overlaps(const ObjectRecord& object, const Box& box) {
   return square_root(distance) <= 1.0f + square_root(reach) * 1.0001f;
 }
 
-/// Separating axes of a triangle and a box (Akenine-Moeller 2001): the box's axes are those of the candidate voxels
-/// already; left are the triangle's normal and the nine cross products of edges.
+/// Separating axes of a triangle and a box (Akenine-Moeller 2001): the box's axes are those of the candidate
+/// voxels already; left are the triangle's normal and the nine cross products of edges.
 inline bool triangle_overlaps(const ObjectRecord& object, const Box& box) {
   float vertex[3][3];
   float half[3];
   for (int i = 0; i < 3; ++i) {
     const float centre = 0.5f * (box.min[i] + box.max[i]);
     half[i] = 0.5f * (box.max[i] - box.min[i]);
-    for (int v = 0; v < 3; ++v) vertex[v][i] = object.geometry[v * 3 + i] - centre;
+    for (int v = 0; v < 3; ++v)
+      vertex[v][i] = object.geometry[v * 3 + i] - centre;
   }
   const auto separates = [&](float x, float y, float z) {
     const float reach = half[0] * magnitude(x) + half[1] * magnitude(y) + half[2] * magnitude(z);
@@ -126,13 +135,16 @@ inline bool triangle_overlaps(const ObjectRecord& object, const Box& box) {
   };
   float edge[3][3];
   for (int e = 0; e < 3; ++e)
-    for (int i = 0; i < 3; ++i) edge[e][i] = vertex[(e + 1) % 3][i] - vertex[e][i];
-  if (separates(edge[0][1] * edge[1][2] - edge[0][2] * edge[1][1], edge[0][2] * edge[1][0] - edge[0][0] * edge[1][2],
+    for (int i = 0; i < 3; ++i)
+      edge[e][i] = vertex[(e + 1) % 3][i] - vertex[e][i];
+  if (separates(edge[0][1] * edge[1][2] - edge[0][2] * edge[1][1],
+                edge[0][2] * edge[1][0] - edge[0][0] * edge[1][2],
                 edge[0][0] * edge[1][1] - edge[0][1] * edge[1][0]))
     return false;
   for (int e = 0; e < 3; ++e) {
     const float* d = edge[e];
-    if (separates(0.0f, d[2], -d[1]) || separates(-d[2], 0.0f, d[0]) || separates(d[1], -d[0], 0.0f)) return false;
+    if (separates(0.0f, d[2], -d[1]) || separates(-d[2], 0.0f, d[0]) || separates(d[1], -d[0], 0.0f))
+      return false;
   }
   return true;
 }
@@ -148,10 +160,9 @@ inline bool overlaps(const ObjectRecord& object, const Box& box) {
   }
 }
 
-/// Calls `visit(cell)` for each voxel that the object touches. Voxels count as a little larger than they are, by more
-/// than what the rounding of rays and points amounts to.
-template <class Visit>
-void for_each_voxel(const GridRecord& grid, const ObjectRecord& object, Visit visit) {
+/// Calls `visit(cell)` for each voxel that the object touches. Voxels count as a little larger than they are,
+/// by more than what the rounding of rays and points amounts to.
+template <class Visit> void for_each_voxel(const GridRecord& grid, const ObjectRecord& object, Visit visit) {
   const Box bounds = bounding_box(object);
   int32_t low[3];
   int32_t high[3];
@@ -165,7 +176,8 @@ void for_each_voxel(const GridRecord& grid, const ObjectRecord& object, Visit vi
     high[i] = static_cast<int32_t>(smaller(larger(to, 0.0f), last));
   }
   const bool single = low[0] == high[0] && low[1] == high[1] && low[2] == high[2];
-  uint32_t slice = static_cast<uint32_t>(low[2]) * grid.row_of_cells + static_cast<uint32_t>(low[1]) * grid.cells[0];
+  uint32_t slice =
+      static_cast<uint32_t>(low[2]) * grid.row_of_cells + static_cast<uint32_t>(low[1]) * grid.cells[0];
   for (int32_t z = low[2]; z <= high[2]; ++z, slice += grid.row_of_cells) {
     uint32_t row = slice;
     for (int32_t y = low[1]; y <= high[1]; ++y, row += grid.cells[0]) {

@@ -20,28 +20,27 @@ struct alignas(64) WordLanes {
 struct VectorLanes {
   FloatLanes x, y, z;
 
-  template <class S>
-  V3<S> load() const {
+  template <class S> V3<S> load() const {
     using F = typename S::F;
     return {F::load(x.lane), F::load(y.lane), F::load(z.lane)};
   }
-  template <class S>
-  void store(const V3<S>& v) {
+  template <class S> void store(const V3<S>& v) {
     v.x.store(x.lane);
     v.y.store(y.lane);
     v.z.store(z.lane);
   }
 };
 
-/// Rays of unit direction. `start_object` is the offset of the object a ray starts on, or kNoOffset: a ray does not
-/// hit a triangle that it starts on, and a sphere it starts on only at the other end of the chord.
+/// Rays of unit direction. `start_object` is the offset of the object a ray starts on, or kNoOffset: a ray
+/// does not hit a triangle that it starts on, and a sphere it starts on only at the other end of the chord.
 struct RayPacket {
   VectorLanes origin;
   VectorLanes direction;
   WordLanes start_object;
 };
 
-/// The closest hit of each ray: distance, object offset (kNoOffset: none), barycentric coordinates of triangles.
+/// The closest hit of each ray: distance, object offset (kNoOffset: none), barycentric coordinates of
+/// triangles.
 struct HitPacket {
   FloatLanes distance;
   WordLanes object;
@@ -49,8 +48,7 @@ struct HitPacket {
 };
 
 /// Calls `visit(lane)` for each set bit, lowest first.
-template <class Visit>
-inline void for_each_lane(uint32_t lanes, Visit visit) {
+template <class Visit> inline void for_each_lane(uint32_t lanes, Visit visit) {
   while (lanes != 0) {
     const uint32_t lane = static_cast<uint32_t>(__builtin_ctz(lanes));
     lanes &= lanes - 1;
@@ -59,12 +57,12 @@ inline void for_each_lane(uint32_t lanes, Visit visit) {
 }
 
 /// Splits `lanes` by the value they have in `words`: calls `visit(value, lanes that have it)` once per value.
-template <class Visit>
-inline void for_each_value(const WordLanes& words, uint32_t lanes, Visit visit) {
+template <class Visit> inline void for_each_value(const WordLanes& words, uint32_t lanes, Visit visit) {
   while (lanes != 0) {
     const uint32_t value = words.lane[__builtin_ctz(lanes)];
     uint32_t same = 0;
-    for (uint32_t l = 0; l < kSimdLanes; ++l) same |= static_cast<uint32_t>(words.lane[l] == value) << l;
+    for (uint32_t l = 0; l < kSimdLanes; ++l)
+      same |= static_cast<uint32_t>(words.lane[l] == value) << l;
     same &= lanes;
     lanes &= ~same;
     visit(value, same);

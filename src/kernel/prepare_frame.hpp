@@ -1,5 +1,5 @@
-// Prepare frame: builds the uniform grid. Objects stream through local store; each emits a (voxel, object) pair per
-// voxel it touches; the pairs are sorted by voxel and become the lists. Kernel dialect.
+// Prepare frame: builds the uniform grid. Objects stream through local store; each emits a (voxel, object)
+// pair per voxel it touches; the pairs are sorted by voxel and become the lists. Kernel dialect.
 #pragma once
 
 #include "kernel/overlap.hpp"
@@ -17,18 +17,17 @@ struct PrepareResult {
 namespace detail {
 
 /// Writes the pairs of all objects to the sort buffer; counts on without writing once that is full.
-template <class Spu>
-uint32_t emit_pairs(Spu& spu, const FrameBlock& frame) {
+template <class Spu> uint32_t emit_pairs(Spu& spu, const FrameBlock& frame) {
   StreamReader<Spu, ObjectRecord> objects(spu, 0);
   StreamWriter<Spu, SortPair> pairs(spu, 2, frame.sort_buffer[0]);
   uint32_t count = 0;
-  objects.for_each(frame.image + frame.object_offset, frame.object_count,
-                   [&](const ObjectRecord& object, uint32_t index) {
-                     const uint32_t offset = frame.object_offset + index * static_cast<uint32_t>(sizeof(ObjectRecord));
-                     for_each_voxel(frame.grid, object, [&](uint32_t cell) {
-                       if (count++ < frame.sort_capacity) pairs.write({cell, offset});
-                     });
-                   });
+  objects.for_each(
+      frame.image + frame.object_offset, frame.object_count, [&](const ObjectRecord& object, uint32_t index) {
+        const uint32_t offset = frame.object_offset + index * static_cast<uint32_t>(sizeof(ObjectRecord));
+        for_each_voxel(frame.grid, object, [&](uint32_t cell) {
+          if (count++ < frame.sort_capacity) pairs.write({cell, offset});
+        });
+      });
   pairs.flush();
   return count;
 }
@@ -59,8 +58,7 @@ void write_lists(Spu& spu, const FrameBlock& frame, ea_t sorted, uint32_t count,
 } // namespace detail
 
 /// Builds the grid that `frame.grid` describes. Needs about 110 KB of local store for the time being.
-template <class Spu>
-PrepareResult prepare_frame(Spu& spu, const FrameBlock& frame) {
+template <class Spu> PrepareResult prepare_frame(Spu& spu, const FrameBlock& frame) {
   uint8_t* const marked = spu.mark();
   const uint32_t count = detail::emit_pairs(spu, frame);
   spu.release(marked);
@@ -68,7 +66,8 @@ PrepareResult prepare_frame(Spu& spu, const FrameBlock& frame) {
 
   const uint32_t cell_count = frame.grid.row_of_cells * frame.grid.cells[2];
   uint32_t bits = 0;
-  while (bits < 32 && (cell_count - 1) >> bits != 0) ++bits;
+  while (bits < 32 && (cell_count - 1) >> bits != 0)
+    ++bits;
   uint32_t result = 0;
   {
     StreamReader<Spu, SortPair> reader(spu, 0);

@@ -21,7 +21,8 @@ void make_primary_rays(const FrameBlock& frame, uint32_t column, uint32_t row, R
   const V3<S> fixed = splat3<S>(camera.origin);
   rays.origin.template store<S>(frame.orthographic != 0 ? through : fixed);
   rays.direction.template store<S>(normalise<S>(frame.orthographic != 0 ? fixed : through));
-  for (uint32_t lane = 0; lane < kSimdLanes; ++lane) rays.start_object.lane[lane] = kNoOffset;
+  for (uint32_t lane = 0; lane < kSimdLanes; ++lane)
+    rays.start_object.lane[lane] = kNoOffset;
 }
 
 /// Lanes of the packet that lie in the picture.
@@ -30,7 +31,8 @@ inline uint32_t lanes_in_picture(const FrameBlock& frame, uint32_t column, uint3
   const uint32_t rows = frame.height - row * kPacketEdge;
   const uint32_t in_row = columns >= kPacketEdge ? 0xFu : (1u << columns) - 1;
   uint32_t lanes = 0;
-  for (uint32_t y = 0; y < kPacketEdge && y < rows; ++y) lanes |= in_row << (y * kPacketEdge);
+  for (uint32_t y = 0; y < kPacketEdge && y < rows; ++y)
+    lanes |= in_row << (y * kPacketEdge);
   return lanes;
 }
 

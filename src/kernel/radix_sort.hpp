@@ -1,5 +1,5 @@
-// A least-significant-digit radix sort of pairs in main memory that needs only a few kilobytes of local store: input
-// streams through, and each bucket collects a line before it is put. Kernel dialect.
+// A least-significant-digit radix sort of pairs in main memory that needs only a few kilobytes of local
+// store: input streams through, and each bucket collects a line before it is put. Kernel dialect.
 #pragma once
 
 #include "kernel/stream.hpp"
@@ -12,8 +12,7 @@ struct alignas(8) SortPair {
 };
 static_assert(sizeof(SortPair) == 8, "sixteen pairs a line");
 
-template <class Spu>
-class RadixSort {
+template <class Spu> class RadixSort {
 public:
   /// Allocates its buffers in local store. Uses tags 8..15 and `reader`'s.
   RadixSort(Spu& spu, StreamReader<Spu, SortPair>& reader)
@@ -25,11 +24,12 @@ public:
     }
   }
 
-  /// Sorts `count` pairs that lie at buffers[0] by the low `bits` of their keys, stably; buffers are 128-byte aligned
-  /// and of equal size. Returns which of them holds the result.
+  /// Sorts `count` pairs that lie at buffers[0] by the low `bits` of their keys, stably; buffers are 128-byte
+  /// aligned and of equal size. Returns which of them holds the result.
   uint32_t sort(const ea_t (&buffers)[2], uint32_t count, uint32_t bits) {
     uint32_t from = 0;
-    for (uint32_t shift = 0; shift < bits; shift += kDigitBits, from ^= 1) pass(buffers[from], buffers[from ^ 1], count, shift);
+    for (uint32_t shift = 0; shift < bits; shift += kDigitBits, from ^= 1)
+      pass(buffers[from], buffers[from ^ 1], count, shift);
     return from;
   }
 
@@ -45,7 +45,8 @@ private:
   };
 
   void pass(ea_t source, ea_t target, uint32_t count, uint32_t shift) {
-    for (uint32_t b = 0; b < kBuckets; ++b) next_[b] = 0;
+    for (uint32_t b = 0; b < kBuckets; ++b)
+      next_[b] = 0;
     reader_.for_each(source, count, [&](const SortPair& pair, uint32_t) { ++next_[digit(pair, shift)]; });
     uint32_t sum = 0;
     for (uint32_t b = 0; b < kBuckets; ++b) {
@@ -54,7 +55,8 @@ private:
       next_[b] = sum;
       sum += size;
     }
-    reader_.for_each(source, count, [&](const SortPair& pair, uint32_t) { append(target, digit(pair, shift), pair); });
+    reader_.for_each(source, count,
+                     [&](const SortPair& pair, uint32_t) { append(target, digit(pair, shift), pair); });
     if constexpr (!Spu::direct_memory) {
       for (uint32_t b = 0; b < kBuckets; ++b)
         if ((next_[b] & (kPairsPerLine - 1)) != 0 && next_[b] != begin_[b]) send(target, b);
@@ -74,8 +76,8 @@ private:
     }
   }
 
-  /// Puts the bucket's last line, as far as it belongs to the bucket: whole, or pair by pair where it shares the line
-  /// with its neighbours.
+  /// Puts the bucket's last line, as far as it belongs to the bucket: whole, or pair by pair where it shares
+  /// the line with its neighbours.
   void send(ea_t target, uint32_t bucket) {
     const uint32_t end = next_[bucket];
     const uint32_t line = (end - 1) & ~(kPairsPerLine - 1);
@@ -87,7 +89,8 @@ private:
       spu_.put(&staged_[slot_], target + static_cast<ea_t>(line) * sizeof(SortPair), kLineBytes, tag);
     } else {
       for (uint32_t i = first; i < end; ++i)
-        spu_.put(&staged_[slot_].pairs[i - line], target + static_cast<ea_t>(i) * sizeof(SortPair), sizeof(SortPair), tag);
+        spu_.put(&staged_[slot_].pairs[i - line], target + static_cast<ea_t>(i) * sizeof(SortPair),
+                 sizeof(SortPair), tag);
     }
     slot_ = (slot_ + 1) % kStaged;
   }

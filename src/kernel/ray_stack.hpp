@@ -5,23 +5,23 @@
 
 namespace celltrace::kernel {
 
-/// A packet of rays with what each contributes and where it stands. `interiors[d]` are, per lane, the offsets of the
-/// interiors that the ray is inside of, outermost first, `interior_depth` of them.
+/// A packet of rays with what each contributes and where it stands. `interiors[d]` are, per lane, the offsets
+/// of the interiors that the ray is inside of, outermost first, `interior_depth` of them.
 ///
-/// Light is added up in accumulators; number 0 is the pixel's. A reflection whose light is raised to a power (POV-Ray's
-/// reflection exponent) gets one of its own, and a node below it on the stack that gathers it.
+/// Light is added up in accumulators; number 0 is the pixel's. A reflection whose light is raised to a power
+/// (POV-Ray's reflection exponent) gets one of its own, and a node below it on the stack that gathers it.
 struct alignas(128) RayNode {
   RayPacket rays;
-  VectorLanes throughput;   ///< what the ray's colour is multiplied by on its way into the pixel
-  FloatLanes weight;        ///< POV-Ray's weight of the ray, which adaptive depth control compares
-  WordLanes level;          ///< trace level, 0 for primary rays
+  VectorLanes throughput; ///< what the ray's colour is multiplied by on its way into the pixel
+  FloatLanes weight;      ///< POV-Ray's weight of the ray, which adaptive depth control compares
+  WordLanes level;        ///< trace level, 0 for primary rays
   WordLanes interior_depth;
   WordLanes interiors[kMaxInteriorDepth];
   FloatLanes power; ///< of a node that gathers
   uint32_t lanes;   ///< bit l: lane l is a ray
   uint32_t target;  ///< number of the accumulator that the rays' light goes to
-  uint32_t gathers; ///< 0: rays to trace. Otherwise the number of an accumulator whose light, raised to `power`, is
-                    ///< complete when this node comes up, and goes to `target`
+  uint32_t gathers; ///< 0: rays to trace. Otherwise the number of an accumulator whose light, raised to
+                    ///< `power`, is complete when this node comes up, and goes to `target`
 };
 
 constexpr uint32_t kRayNodeBytes = sizeof(RayNode);
@@ -29,8 +29,7 @@ static_assert(kRayNodeBytes % 128 == 0 && kRayNodeBytes <= kMaxDmaBytes, "spille
 
 /// A stack whose first `kResident` nodes are in local store; deeper ones are spilled to main memory, at most
 /// `spill_nodes` of them. Depth-first order makes a tree of level n need n + 1 nodes at most.
-template <class Spu>
-class RayStack {
+template <class Spu> class RayStack {
 public:
   static constexpr uint32_t kResident = 12;
 

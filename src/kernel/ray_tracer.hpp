@@ -1,5 +1,5 @@
-// Raytrace: what a packet of primary rays sees. The ray tree is walked with an explicit stack and cut by level and by
-// contribution (adaptive depth control, Hall and Greenberg 1983). Kernel dialect.
+// Raytrace: what a packet of primary rays sees. The ray tree is walked with an explicit stack and cut by
+// level and by contribution (adaptive depth control, Hall and Greenberg 1983). Kernel dialect.
 #pragma once
 
 #include "kernel/lighting.hpp"
@@ -12,8 +12,7 @@ struct RayCounters {
   uint64_t dropped = 0; ///< beyond what the stacks hold
 };
 
-template <class Spu>
-class RayTracer {
+template <class Spu> class RayTracer {
 public:
   using S = typename Spu::simd;
   using F = typename S::F;
@@ -102,14 +101,16 @@ private:
   void trace_node() {
     traversal_.find_closest(node_.rays, node_.lanes, hits_);
     uint32_t hit = 0;
-    for_each_lane(node_.lanes,
-                  [&](uint32_t lane) { hit |= static_cast<uint32_t>(hits_.object.lane[lane] != kNoOffset) << lane; });
+    for_each_lane(node_.lanes, [&](uint32_t lane) {
+      hit |= static_cast<uint32_t>(hits_.object.lane[lane] != kNoOffset) << lane;
+    });
     const uint32_t missed = node_.lanes & ~hit;
     if (missed != 0) add(missed, splat3<S>(frame_.background));
     if (hit == 0) return;
 
     const HitPoints<S> points = find_hit_points(scene_, node_.rays, hits_, hit);
-    const Surfaces<S> surfaces = {points.point, points.normal, node_.rays.direction.template load<S>(), &hits_.object};
+    const Surfaces<S> surfaces = {points.point, points.normal, node_.rays.direction.template load<S>(),
+                                  &hits_.object};
     if (const uint32_t plain = hit & ~points.blended; plain != 0)
       shade(surfaces, points.interior, points.material, plain, V3<S>{F(1.0f), F(1.0f), F(1.0f)});
     if (points.blended != 0) shade_blended(surfaces, points);
@@ -131,8 +132,8 @@ private:
   }
 
   /// Adds the surface's own light, times `share`, and pushes the rays that go on.
-  void shade(const Surfaces<S>& surfaces, const WordLanes& interior, const WordLanes& materials, uint32_t lanes,
-             const V3<S>& share) {
+  void shade(const Surfaces<S>& surfaces, const WordLanes& interior, const WordLanes& materials,
+             uint32_t lanes, const V3<S>& share) {
     const MaterialLanes<S> m = gather_materials(scene_, materials, lanes);
     add(lanes, local_light(scene_, traversal_, frame_, surfaces, m, lanes, counters_.shadow) * share);
     if (!m.has_reflection && !m.has_transmission) return;
@@ -141,7 +142,8 @@ private:
     F fresnel_ratio(1.0f);
     if (m.fresnel != 0) {
       child_ = node_;
-      fresnel_ratio = F::load(cross_surfaces(scene_, interior, lanes & m.fresnel, child_, counters_.dropped).ratio.lane);
+      fresnel_ratio =
+          F::load(cross_surfaces(scene_, interior, lanes & m.fresnel, child_, counters_.dropped).ratio.lane);
     }
     const V3<S> mirrored = reflectivity<S>(m, cosine, fresnel_ratio);
     uint32_t total = 0;
@@ -150,8 +152,8 @@ private:
   }
 
   /// Fills child_ with rays from the surfaces whose weight and level allow them; false if there are none.
-  bool prepare_child(const Surfaces<S>& surfaces, const V3<S>& direction, const V3<S>& throughput, const F& weight,
-                     uint32_t one_level_deeper, uint32_t lanes) {
+  bool prepare_child(const Surfaces<S>& surfaces, const V3<S>& direction, const V3<S>& throughput,
+                     const F& weight, uint32_t one_level_deeper, uint32_t lanes) {
     uint32_t go = 0;
     const M heavy = weight >= F(frame_.adc_bailout);
     for_each_lane(lanes & heavy.bits(), [&](uint32_t lane) {
@@ -179,9 +181,10 @@ private:
     const F most = S::max(max_component<S>(m.reflection_min), max_component<S>(m.reflection_max));
     const F weight = F::load(node_.weight.lane) * S::select(M::from_bits(m.fresnel), strength, most);
     child_.interior_depth = node_.interior_depth;
-    for (uint32_t d = 0; d < kMaxInteriorDepth; ++d) child_.interiors[d] = node_.interiors[d];
-    if (!prepare_child(surfaces, mirror<S>(surfaces.direction, surfaces.normal, cosine), mirrored * share, weight,
-                       mirrors, mirrors))
+    for (uint32_t d = 0; d < kMaxInteriorDepth; ++d)
+      child_.interiors[d] = node_.interiors[d];
+    if (!prepare_child(surfaces, mirror<S>(surfaces.direction, surfaces.normal, cosine), mirrored * share,
+                       weight, mirrors, mirrors))
       return;
     counters_.reflection += count(child_.lanes);
     if (m.bends_reflection && accumulators_in_use_ < kAccumulators) redirect(m.inverse_reflection_exponent);
@@ -200,8 +203,8 @@ private:
   }
 
   /// Pushes the transmitted rays; returns the lanes that were totally reflected.
-  uint32_t transmit(const Surfaces<S>& surfaces, const WordLanes& interior, const MaterialLanes<S>& m, uint32_t lanes,
-                    const V3<S>& share, const F& cosine, const V3<S>& mirrored) {
+  uint32_t transmit(const Surfaces<S>& surfaces, const WordLanes& interior, const MaterialLanes<S>& m,
+                    uint32_t lanes, const V3<S>& share, const F& cosine, const V3<S>& mirrored) {
     const V3<S> one = {F(1.0f), F(1.0f), F(1.0f)};
     V3<S> filter = m.pigment * m.filter + V3<S>{m.transmit, m.transmit, m.transmit};
     filter = select<S>(M::from_bits(m.conserve_energy), filter * (one - mirrored), filter);
@@ -209,7 +212,8 @@ private:
     if (clear == 0) return 0;
 
     child_.interior_depth = node_.interior_depth;
-    for (uint32_t d = 0; d < kMaxInteriorDepth; ++d) child_.interiors[d] = node_.interiors[d];
+    for (uint32_t d = 0; d < kMaxInteriorDepth; ++d)
+      child_.interiors[d] = node_.interiors[d];
     const Refraction refraction = cross_surfaces(scene_, interior, clear, child_, counters_.dropped);
     M beyond = M::none();
     const V3<S> bent =
@@ -221,7 +225,8 @@ private:
     // A totally reflected ray stays inside, unfiltered.
     for_each_lane(total, [&](uint32_t lane) {
       child_.interior_depth.lane[lane] = node_.interior_depth.lane[lane];
-      for (uint32_t d = 0; d < kMaxInteriorDepth; ++d) child_.interiors[d].lane[lane] = node_.interiors[d].lane[lane];
+      for (uint32_t d = 0; d < kMaxInteriorDepth; ++d)
+        child_.interiors[d].lane[lane] = node_.interiors[d].lane[lane];
     });
     const V3<S> throughput = select<S>(total_mask, one, filter) * share;
     const F weight = F::load(node_.weight.lane) * max_component<S>(select<S>(total_mask, one, filter));

@@ -1,6 +1,6 @@
-// The records that cross DMA between the PPE and the SPE program: the tables of the scene image, the frame, and
-// what an SPE reports. Fixed-width types, 16-byte aligned, sizes asserted; offsets are bytes from the base of the
-// scene image. Kernel dialect.
+// The records that cross DMA between the PPE and the SPE program: the tables of the scene image, the frame,
+// and what an SPE reports. Fixed-width types, 16-byte aligned, sizes asserted; offsets are bytes from the
+// base of the scene image. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/types.hpp"
@@ -11,7 +11,8 @@ namespace celltrace::kernel {
 
 constexpr uint32_t kNoOffset = 0xFFFFFFFFu;
 
-// --- scene image ---------------------------------------------------------------------------------------------------
+// --- scene image
+// ---------------------------------------------------------------------------------------------------
 
 /// What an object record describes; low byte of ObjectRecord::kind_and_flags.
 enum class ObjectKind : uint32_t { sphere = 0, ellipsoid = 1, triangle = 2 };
@@ -24,8 +25,8 @@ constexpr uint32_t opaque = 0x400;    ///< shadow rays stop
 constexpr uint32_t blended = 0x800;   ///< `material` is the offset of a BlendRecord
 } // namespace object_flag
 
-/// Geometry by kind: sphere: centre (0..2), radius (3), 1/radius (4). Ellipsoid: the affine map from the world to
-/// the unit sphere, three rows of four (xyz | offset). Triangle: its vertices (0..2, 3..5, 6..8).
+/// Geometry by kind: sphere: centre (0..2), radius (3), 1/radius (4). Ellipsoid: the affine map from the
+/// world to the unit sphere, three rows of four (xyz | offset). Triangle: its vertices (0..2, 3..5, 6..8).
 struct alignas(64) ObjectRecord {
   uint32_t kind_and_flags;
   uint32_t material; ///< offset of a MaterialRecord, or of a BlendRecord if `blended`
@@ -121,10 +122,11 @@ struct alignas(128) ImageHeader {
 };
 static_assert(sizeof(ImageHeader) == 128, "one line");
 
-// --- frame ---------------------------------------------------------------------------------------------------------
+// --- frame
+// ---------------------------------------------------------------------------------------------------------
 
-/// Rays: through pixel (x, y) goes base + x*dx + y*dy, as a direction from `origin` (perspective, not normalised) or
-/// as an origin with direction `origin` (orthographic).
+/// Rays: through pixel (x, y) goes base + x*dx + y*dy, as a direction from `origin` (perspective, not
+/// normalised) or as an origin with direction `origin` (orthographic).
 struct alignas(16) CameraRecord {
   float origin[4];
   float base[4];
@@ -154,7 +156,8 @@ enum class BalanceMode : uint32_t { fixed = 0, gde = 1 };
 constexpr uint32_t kMaxInteriorDepth = 8;
 constexpr uint32_t kPacketEdge = 4; ///< a packet is 4x4 rays
 
-/// Everything an SPE needs for a frame. Lies in main memory at a place that does not change while the SPEs run.
+/// Everything an SPE needs for a frame. Lies in main memory at a place that does not change while the SPEs
+/// run.
 struct alignas(128) FrameBlock {
   CameraRecord camera;
   GridRecord grid;
@@ -186,7 +189,7 @@ struct alignas(128) FrameBlock {
 
   uint32_t cache_ways, cache_sets, cache_replacement, cache_enabled;
 
-  uint32_t balance; ///< BalanceMode
+  uint32_t balance;            ///< BalanceMode
   uint32_t exchange_parameter; ///< lambda, 16-bit fixed point
   uint32_t camera_interior_count;
   uint32_t unused_word;
@@ -207,9 +210,9 @@ struct alignas(128) ReportRecord {
   uint64_t sphere_tests, ellipsoid_tests, triangle_tests; ///< packet against object
   uint64_t voxels_visited;
   uint64_t cache_hits[4], cache_misses[4]; ///< by DataKind
-  uint64_t dropped_rays; ///< rays beyond the depth of the interior stack
-  uint32_t rows;         ///< packet rows rendered
-  uint32_t exchanges;    ///< balance exchanges that brought this SPE rows
+  uint64_t dropped_rays;                   ///< rays beyond the depth of the interior stack
+  uint32_t rows;                           ///< packet rows rendered
+  uint32_t exchanges;                      ///< balance exchanges that brought this SPE rows
   uint32_t rows_received;
   uint32_t spilled_nodes;
   uint32_t list_entries; ///< PREPARE FRAME
@@ -221,7 +224,8 @@ static_assert(sizeof(ReportRecord) == 256, "two lines");
 enum class DataKind : uint32_t { list = 0, object = 1, material = 2, light = 3 };
 constexpr uint32_t kDataKinds = 4;
 
-// --- words between PPE and SPE ----------------------------------------------------------------------------------------
+// --- words between PPE and SPE
+// ----------------------------------------------------------------------------------------
 
 /// Bits of signal 1, PPE to SPE. The register is in logical-OR mode.
 namespace command {
@@ -234,15 +238,22 @@ constexpr uint32_t quit = 0x10;
 
 /// Outbound mailbox, SPE to PPE: kind in the top four bits, a count below.
 enum class ReportKind : uint32_t {
-  prepared = 1,     ///< count: 0
-  needs_memory = 2, ///< PREPARE FRAME ran out of room for pairs; the report's list_entries says how many there are
-  progress = 3,     ///< count: packet rows rendered in this frame so far
-  idle = 4,         ///< as progress, and nothing left to do
-  finished = 5,     ///< left the frame; the report record is written
+  prepared = 1, ///< count: 0
+  needs_memory =
+      2, ///< PREPARE FRAME ran out of room for pairs; the report's list_entries says how many there are
+  progress = 3, ///< count: packet rows rendered in this frame so far
+  idle = 4,     ///< as progress, and nothing left to do
+  finished = 5, ///< left the frame; the report record is written
   synchronised = 6,
 };
-constexpr uint32_t make_report(ReportKind kind, uint32_t count) { return (static_cast<uint32_t>(kind) << 28) | count; }
-constexpr ReportKind report_kind(uint32_t word) { return static_cast<ReportKind>(word >> 28); }
-constexpr uint32_t report_count(uint32_t word) { return word & 0x0FFFFFFFu; }
+constexpr uint32_t make_report(ReportKind kind, uint32_t count) {
+  return (static_cast<uint32_t>(kind) << 28) | count;
+}
+constexpr ReportKind report_kind(uint32_t word) {
+  return static_cast<ReportKind>(word >> 28);
+}
+constexpr uint32_t report_count(uint32_t word) {
+  return word & 0x0FFFFFFFu;
+}
 
 } // namespace celltrace::kernel

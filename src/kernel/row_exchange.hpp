@@ -1,5 +1,5 @@
-// The balancer's transport on an SPE: words by mailbox, doorbells by signal 2, inside the frame's event domain.
-// Kernel dialect.
+// The balancer's transport on an SPE: words by mailbox, doorbells by signal 2, inside the frame's event
+// domain. Kernel dialect.
 #pragma once
 
 #include "celltrace/balance/strip.hpp"
@@ -8,8 +8,7 @@
 namespace celltrace::kernel {
 
 /// Connects a StripNode to the SPE's mailbox and signal 2, and to the PPE.
-template <class Spu>
-class RowExchange {
+template <class Spu> class RowExchange {
 public:
   explicit RowExchange(Spu& spu) : spu_(spu), node_(spu.id(), spu.count()) {}
 
@@ -55,8 +54,8 @@ public:
 private:
   static constexpr uint32_t kDomain = event::signal_2 | event::in_mailbox;
 
-  /// The safe order of an event handler: mask, read, acknowledge, drain, unmask. A phantom event finds nothing to
-  /// drain.
+  /// The safe order of an event handler: mask, read, acknowledge, drain, unmask. A phantom event finds
+  /// nothing to drain.
   void handle() {
     const uint32_t events = spu_.read_event_status();
     spu_.write_event_mask(0);

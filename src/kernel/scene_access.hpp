@@ -7,8 +7,7 @@
 namespace celltrace::kernel {
 
 /// Typed reads of the scene image by offset. A returned pointer is valid until the next read of any kind.
-template <class Spu>
-class SceneAccess {
+template <class Spu> class SceneAccess {
 public:
   SceneAccess(Spu& spu, const CacheConfig& config, ea_t image) : cache_(spu, config, image) {}
 
@@ -20,15 +19,15 @@ public:
   const LightRecord* light(uint32_t offset) { return read<LightRecord>(offset, DataKind::light); }
   /// By value: a voxel's list is read while its record would have to stay.
   CellRecord cell(const GridRecord& grid, uint32_t index) {
-    return *read<CellRecord>(grid.cell_offset + index * static_cast<uint32_t>(sizeof(CellRecord)), DataKind::list);
+    return *read<CellRecord>(grid.cell_offset + index * static_cast<uint32_t>(sizeof(CellRecord)),
+                             DataKind::list);
   }
   uint32_t list_word(uint32_t offset) { return *read<uint32_t>(offset, DataKind::list); }
 
   SoftwareCache<Spu, DataKind>& cache() { return cache_; }
 
 private:
-  template <class T>
-  const T* read(uint32_t offset, DataKind kind) {
+  template <class T> const T* read(uint32_t offset, DataKind kind) {
     return cache_.template get<T>(offset, kind);
   }
 

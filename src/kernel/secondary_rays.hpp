@@ -1,5 +1,5 @@
-// Where light goes on from a surface: mirror reflection, transmission with refraction, total internal reflection.
-// Kernel dialect.
+// Where light goes on from a surface: mirror reflection, transmission with refraction, total internal
+// reflection. Kernel dialect.
 #pragma once
 
 #include "kernel/hit_points.hpp"
@@ -8,21 +8,23 @@
 
 namespace celltrace::kernel {
 
-/// Relative index of refraction (from over to) at each lane's surface. `straight`: lanes whose ray goes on as it came.
+/// Relative index of refraction (from over to) at each lane's surface. `straight`: lanes whose ray goes on as
+/// it came.
 struct Refraction {
   FloatLanes ratio;
   uint32_t straight = 0;
 };
 
-/// Crosses the surface into or out of `interior` in each of `lanes`: updates the interiors that `child` is inside of
-/// and says how the ray bends. Leaving an interior that is not the innermost does not bend. Counts rays that are
-/// inside more interiors than a node holds; these lose the outermost.
+/// Crosses the surface into or out of `interior` in each of `lanes`: updates the interiors that `child` is
+/// inside of and says how the ray bends. Leaving an interior that is not the innermost does not bend. Counts
+/// rays that are inside more interiors than a node holds; these lose the outermost.
 template <class Spu>
 Refraction cross_surfaces(SceneAccess<Spu>& scene, const WordLanes& interior, uint32_t lanes, RayNode& child,
                           uint64_t& overflows) {
   const auto ior_of = [&](uint32_t offset) { return scene.interior(offset)->ior; };
   Refraction result;
-  for (uint32_t lane = 0; lane < kSimdLanes; ++lane) result.ratio.lane[lane] = 1.0f;
+  for (uint32_t lane = 0; lane < kSimdLanes; ++lane)
+    result.ratio.lane[lane] = 1.0f;
   for_each_lane(lanes, [&](uint32_t lane) {
     uint32_t& depth = child.interior_depth.lane[lane];
     const auto at = [&](uint32_t d) -> uint32_t& { return child.interiors[d].lane[lane]; };
@@ -38,13 +40,15 @@ Refraction cross_surfaces(SceneAccess<Spu>& scene, const WordLanes& interior, ui
         from = ior_of(self);
         to = depth > 1 ? ior_of(at(depth - 2)) : 1.0f;
       }
-      for (uint32_t d = found; d + 1 < depth; ++d) at(d) = at(d + 1);
+      for (uint32_t d = found; d + 1 < depth; ++d)
+        at(d) = at(d + 1);
       --depth;
     } else {
       from = depth > 0 ? ior_of(at(depth - 1)) : 1.0f;
       to = ior_of(self);
       if (depth == kMaxInteriorDepth) {
-        for (uint32_t d = 0; d + 1 < depth; ++d) at(d) = at(d + 1);
+        for (uint32_t d = 0; d + 1 < depth; ++d)
+          at(d) = at(d + 1);
         --depth;
         ++overflows;
       }
@@ -57,10 +61,11 @@ Refraction cross_surfaces(SceneAccess<Spu>& scene, const WordLanes& interior, ui
   return result;
 }
 
-/// Snell's law in vector form. `cosine` = -direction.normal >= 0. Lanes beyond the critical angle go to `total`.
+/// Snell's law in vector form. `cosine` = -direction.normal >= 0. Lanes beyond the critical angle go to
+/// `total`.
 template <class S>
-V3<S> refract(const V3<S>& direction, const V3<S>& normal, const typename S::F& cosine, const typename S::F& ratio,
-              typename S::M& total) {
+V3<S> refract(const V3<S>& direction, const V3<S>& normal, const typename S::F& cosine,
+              const typename S::F& ratio, typename S::M& total) {
   using F = typename S::F;
   const F square = F(1.0f) + ratio * ratio * (cosine * cosine - F(1.0f));
   total = square < F(0.0f);
@@ -68,13 +73,12 @@ V3<S> refract(const V3<S>& direction, const V3<S>& normal, const typename S::F& 
   return normalise<S>(direction * ratio + normal * along_normal);
 }
 
-template <class S>
-V3<S> mirror(const V3<S>& direction, const V3<S>& normal, const typename S::F& cosine) {
+template <class S> V3<S> mirror(const V3<S>& direction, const V3<S>& normal, const typename S::F& cosine) {
   return normalise<S>(direction + normal * (cosine + cosine));
 }
 
-/// Fresnel reflectance of unpolarised light, going from index `from` to `to` at `cosine` to the normal; 1 beyond the
-/// critical angle.
+/// Fresnel reflectance of unpolarised light, going from index `from` to `to` at `cosine` to the normal; 1
+/// beyond the critical angle.
 template <class S>
 typename S::F fresnel_reflectance(const typename S::F& ratio, const typename S::F& cosine) {
   using F = typename S::F;
@@ -89,9 +93,11 @@ typename S::F fresnel_reflectance(const typename S::F& ratio, const typename S::
   return S::select(square > F(0.0f), S::min(reflectance, F(1.0f)), F(1.0f));
 }
 
-/// The fraction of each colour that a surface mirrors. `fresnel_ratio` is read in lanes of the material's fresnel.
+/// The fraction of each colour that a surface mirrors. `fresnel_ratio` is read in lanes of the material's
+/// fresnel.
 template <class S>
-V3<S> reflectivity(const MaterialLanes<S>& m, const typename S::F& cosine, const typename S::F& fresnel_ratio) {
+V3<S> reflectivity(const MaterialLanes<S>& m, const typename S::F& cosine,
+                   const typename S::F& fresnel_ratio) {
   using F = typename S::F;
   V3<S> result = m.reflection_min;
   const F grazing = S::max(F(1.0f) - cosine, F(0.0f));

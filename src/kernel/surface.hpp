@@ -9,15 +9,13 @@
 namespace celltrace::kernel {
 
 /// sRGB encoding (IEC 61966-2-1) of linear values in [0, 1].
-template <class S>
-typename S::F encode_srgb(const typename S::F& linear) {
+template <class S> typename S::F encode_srgb(const typename S::F& linear) {
   using F = typename S::F;
   const F power = F(1.055f) * pow<S>(linear, F(1.0f / 2.4f)) - F(0.055f);
   return S::select(linear <= F(0.0031308f), linear * F(12.92f), power);
 }
 
-template <class Spu>
-class PixelWriter {
+template <class Spu> class PixelWriter {
 public:
   using S = typename Spu::simd;
   using F = typename S::F;
@@ -31,7 +29,8 @@ public:
     Block& block = blocks_[current_];
     const uint32_t tag = kFirstTag + current_;
     spu_.wait_all(1u << tag);
-    pack(quantise(colour.x), quantise(colour.y), quantise(colour.z)).store(reinterpret_cast<int32_t*>(block.pixels.lane));
+    pack(quantise(colour.x), quantise(colour.y), quantise(colour.z))
+        .store(reinterpret_cast<int32_t*>(block.pixels.lane));
     const ea_t corner = frame_.surface + row * kPacketEdge * frame_.surface_pitch + column * kRowBytes;
     for (uint32_t y = 0; y < kPacketEdge; ++y)
       block.list[y] = ListElement::make(kRowBytes, corner + y * frame_.surface_pitch);
@@ -64,9 +63,11 @@ private:
   static I pack(const I& r, const I& g, const I& b) {
     const I opaque = I::splat(0xFF);
     if constexpr (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__)
-      return S::template shift_left<24>(r) | S::template shift_left<16>(g) | S::template shift_left<8>(b) | opaque;
+      return S::template shift_left<24>(r) | S::template shift_left<16>(g) | S::template shift_left<8>(b) |
+             opaque;
     else
-      return r | S::template shift_left<8>(g) | S::template shift_left<16>(b) | S::template shift_left<24>(opaque);
+      return r | S::template shift_left<8>(g) | S::template shift_left<16>(b) |
+             S::template shift_left<24>(opaque);
   }
 
   Spu& spu_;

@@ -1,7 +1,7 @@
 // The SPE program: an autonomous ray tracer. Kernel dialect.
 //
-// Between frames only signal 1 (the PPE's commands) and the mailbox are enabled; inside a frame only signal 2 and the
-// mailbox (the neighbours' balancing, and the PPE's word that ends the frame).
+// Between frames only signal 1 (the PPE's commands) and the mailbox are enabled; inside a frame only signal 2
+// and the mailbox (the neighbours' balancing, and the PPE's word that ends the frame).
 #pragma once
 
 #include "kernel/prepare_frame.hpp"
@@ -12,14 +12,13 @@
 
 namespace celltrace::kernel {
 
-template <class Spu>
-class Tracer {
+template <class Spu> class Tracer {
 public:
   /// `frame_block`: ea of the FrameBlock, which stays there as long as the program runs.
   Tracer(Spu& spu, ea_t frame_block)
       : spu_(spu), frame_block_(frame_block), frame_(*spu.template allocate<FrameBlock>()),
-        report_(*spu.template allocate<ReportRecord>()), strip_(*spu.template allocate<StripRecord>()), exchange_(spu),
-        free_(spu.mark()) {}
+        report_(*spu.template allocate<ReportRecord>()), strip_(*spu.template allocate<StripRecord>()),
+        exchange_(spu), free_(spu.mark()) {}
 
   void run() {
     spu_.write_event_mask(kDomain);
@@ -75,9 +74,11 @@ private:
     spu_.write_out_mailbox(make_report(result.built ? ReportKind::prepared : ReportKind::needs_memory, 0));
   }
 
-  /// Data has changed in main memory, or a frame was broken off: nothing cached and no word of it is valid any more.
+  /// Data has changed in main memory, or a frame was broken off: nothing cached and no word of it is valid
+  /// any more.
   void synchronize() {
-    while (spu_.in_mailbox_count() != 0) spu_.read_in_mailbox();
+    while (spu_.in_mailbox_count() != 0)
+      spu_.read_in_mailbox();
     if (phase_ != nullptr && phase_->image == frame_.image)
       phase_->scene.cache().synchronize_all();
     else
@@ -183,8 +184,7 @@ private:
 };
 
 /// The program as the PPE starts it; `argument` is the ea of the FrameBlock.
-template <class Spu>
-void tracer(Spu& spu, ea_t argument) {
+template <class Spu> void tracer(Spu& spu, ea_t argument) {
   Tracer<Spu>(spu, argument).run();
 }
 

@@ -1,8 +1,9 @@
 // Find closest intersection, and what reaches a light: packets through the grid. Kernel dialect.
 //
-// The rays of a packet walk the grid one by one, as voxels differ from ray to ray; an object met by one of them is
-// tested against the whole packet, and a mailbox per packet (Amanatides and Woo) keeps the next ray from testing it
-// again. Each lane keeps the nearest of all tested hits and stops once that lies in the voxel it is in.
+// The rays of a packet walk the grid one by one, as voxels differ from ray to ray; an object met by one of
+// them is tested against the whole packet, and a mailbox per packet (Amanatides and Woo) keeps the next ray
+// from testing it again. Each lane keeps the nearest of all tested hits and stops once that lies in the voxel
+// it is in.
 #pragma once
 
 #include "kernel/intersect.hpp"
@@ -17,7 +18,8 @@ struct TraversalCounters {
   uint64_t voxels = 0;
 };
 
-/// Remembers which objects were tested against the current packet. Direct mapped: a collision costs a second test.
+/// Remembers which objects were tested against the current packet. Direct mapped: a collision costs a second
+/// test.
 class PacketMailbox {
 public:
   void begin_packet() { ++packet_; }
@@ -39,8 +41,7 @@ private:
   uint32_t packet_ = 0;
 };
 
-template <class Spu>
-class Traversal {
+template <class Spu> class Traversal {
 public:
   using S = typename Spu::simd;
   using F = typename S::F;
@@ -65,8 +66,8 @@ public:
     });
   }
 
-  /// Multiplies `light` of each ray in `lanes` by what lies between its origin and `distance` along it: 0 behind an
-  /// opaque object, the filtering of each surface crossed otherwise.
+  /// Multiplies `light` of each ray in `lanes` by what lies between its origin and `distance` along it: 0
+  /// behind an opaque object, the filtering of each surface crossed otherwise.
   void attenuate(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance, VectorLanes& light) {
     mailbox_.begin_packet();
     uint32_t lit = lanes;
@@ -91,8 +92,7 @@ private:
   /// POV-Ray's tolerance at both ends of a shadow ray.
   static constexpr float kShadowTolerance = 1e-3f;
 
-  template <class Visit>
-  void walk(const RayPacket& rays, uint32_t lane, Visit visit) {
+  template <class Visit> void walk(const RayPacket& rays, uint32_t lane, Visit visit) {
     const float origin[3] = {rays.origin.x.lane[lane], rays.origin.y.lane[lane], rays.origin.z.lane[lane]};
     const float direction[3] = {rays.direction.x.lane[lane], rays.direction.y.lane[lane],
                                 rays.direction.z.lane[lane]};
@@ -105,8 +105,7 @@ private:
   }
 
   /// Calls `visit(object offset)` for the objects of a voxel until it returns true.
-  template <class Visit>
-  void for_each_object(uint32_t cell, Visit visit) {
+  template <class Visit> void for_each_object(uint32_t cell, Visit visit) {
     const CellRecord list = scene_.cell(grid_, cell);
     for (uint32_t i = 0; i < list.count; ++i)
       if (visit(scene_.list_word(list.list + i * 4))) return;
@@ -133,8 +132,8 @@ private:
   }
 
   /// Lanes that the object shuts off from the light. An opaque object shuts off whatever lanes it covers; a
-  /// translucent one dims the ray that is walking, at those crossings that lie in the voxel it is in, so that each
-  /// crossing counts once although the object is in the lists of several voxels.
+  /// translucent one dims the ray that is walking, at those crossings that lie in the voxel it is in, so that
+  /// each crossing counts once although the object is in the lists of several voxels.
   uint32_t shadowed(const RayPacket& rays, uint32_t self, uint32_t lane, float enter, float leave,
                     const FloatLanes& distance, VectorLanes& light) {
     const ObjectRecord& object = *scene_.object(self);
@@ -145,7 +144,8 @@ private:
       const Crossings<S> c = test(rays, object, self);
       const F low(kShadowTolerance);
       const F high = F::load(distance.lane) - low;
-      return ((c.near_hit & (c.near > low) & (c.near < high)) | (c.far_hit & (c.far > low) & (c.far < high))).bits();
+      return ((c.near_hit & (c.near > low) & (c.near < high)) | (c.far_hit & (c.far > low) & (c.far < high)))
+          .bits();
     }
     const Crossings<S> c = test(rays, object, self);
     const uint32_t bit = 1u << lane;
@@ -181,15 +181,18 @@ private:
     const bool blended = (flags & object_flag::blended) != 0;
     if (blended) {
       const BlendRecord blend = *scene_.blend(material);
-      for (int i = 0; i < 3; ++i) corners[i] = blend.material[i];
+      for (int i = 0; i < 3; ++i)
+        corners[i] = blend.material[i];
       weights[0] = 1.0f - u - v;
       weights[1] = u;
       weights[2] = v;
     }
-    for (int i = 0; i < 3; ++i) through[i] = 0.0f;
+    for (int i = 0; i < 3; ++i)
+      through[i] = 0.0f;
     for (int corner = 0; corner < (blended ? 3 : 1); ++corner) {
       const MaterialRecord& m = *scene_.material(corners[corner]);
-      for (int i = 0; i < 3; ++i) through[i] += weights[corner] * (m.pigment[i] * m.filter + m.transmit);
+      for (int i = 0; i < 3; ++i)
+        through[i] += weights[corner] * (m.pigment[i] * m.filter + m.transmit);
     }
   }
 

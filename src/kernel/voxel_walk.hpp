@@ -1,5 +1,5 @@
-// The way of one ray through the uniform grid (Amanatides and Woo, A Fast Voxel Traversal Algorithm, 1987). How to
-// walk, not what to do in a voxel. Kernel dialect.
+// The way of one ray through the uniform grid (Amanatides and Woo, A Fast Voxel Traversal Algorithm, 1987).
+// How to walk, not what to do in a voxel. Kernel dialect.
 #pragma once
 
 #include "kernel/records.hpp"
@@ -11,9 +11,9 @@ namespace celltrace::kernel {
 /// Larger than any distance along a ray.
 constexpr float kFarAway = 1e30f;
 
-/// Visits the voxels that a ray from `origin` along `direction` passes, in order: `visit(cell, enter, leave)` with the
-/// voxel's index and the ray's distances there returns true to stop. The first voxel is entered at -kFarAway and the
-/// last one left at kFarAway, so that rounding at the grid's border loses nothing.
+/// Visits the voxels that a ray from `origin` along `direction` passes, in order: `visit(cell, enter, leave)`
+/// with the voxel's index and the ray's distances there returns true to stop. The first voxel is entered at
+/// -kFarAway and the last one left at kFarAway, so that rounding at the grid's border loses nothing.
 template <class Visit>
 void walk_voxels(const GridRecord& grid, const float (&origin)[3], const float (&direction)[3], Visit visit) {
   float inverse[3];
@@ -54,9 +54,11 @@ void walk_voxels(const GridRecord& grid, const float (&origin)[3], const float (
   const auto border = [&](int axis) {
     // From the voxel's number, not by adding up steps: no drift over hundreds of voxels.
     const int32_t far_side = position[axis] + (step[axis] > 0 ? 1 : 0);
-    return (grid.min[axis] + static_cast<float>(far_side) * grid.cell_size[axis] - origin[axis]) * inverse[axis];
+    return (grid.min[axis] + static_cast<float>(far_side) * grid.cell_size[axis] - origin[axis]) *
+           inverse[axis];
   };
-  for (int axis = 0; axis < 3; ++axis) next[axis] = parallel[axis] ? kFarAway : border(axis);
+  for (int axis = 0; axis < 3; ++axis)
+    next[axis] = parallel[axis] ? kFarAway : border(axis);
 
   float entered = -kFarAway;
   for (;;) {

@@ -16,7 +16,8 @@ namespace {
 constexpr int kMaxEdge = 65520; // rows of packets fit the balancer's words
 
 void store(const Vec3& v, float* to) {
-  for (int i = 0; i < 3; ++i) to[i] = static_cast<float>(v[i]);
+  for (int i = 0; i < 3; ++i)
+    to[i] = static_cast<float>(v[i]);
 }
 
 bool inside(const Sphere& sphere, const Transform& transform, const Vec3& point) {
@@ -28,12 +29,15 @@ bool inside(const Sphere& sphere, const Transform& transform, const Vec3& point)
 
 void check(const RenderOptions& options) {
   if (options.width < 1 || options.width > kMaxEdge || options.height < 1 || options.height > kMaxEdge)
-    throw InputError("the picture's width and height have to be 1 to " + std::to_string(kMaxEdge) + " pixels");
+    throw InputError("the picture's width and height have to be 1 to " + std::to_string(kMaxEdge) +
+                     " pixels");
   if (std::int64_t{options.width} * options.height > kMaxImagePixels)
     throw InputError("the picture has to have at most " + std::to_string(kMaxImagePixels) + " pixels");
   if (!options.cache.valid())
-    throw InputError("the cache has to have 1, 2 or 4 ways and a power of two of sets, or one set of any power of two "
-                     "of ways, and at most " + std::to_string(CacheConfig::kMaxLines) + " lines");
+    throw InputError(
+        "the cache has to have 1, 2 or 4 ways and a power of two of sets, or one set of any power of two "
+        "of ways, and at most " +
+        std::to_string(CacheConfig::kMaxLines) + " lines");
   if (options.max_trace_level && (*options.max_trace_level < 1 || *options.max_trace_level > 256))
     throw InputError("the maximum trace level has to be 1 to 256");
   if (options.adc_bailout && !(*options.adc_bailout >= 0))
@@ -50,7 +54,8 @@ void set_options(FrameBlock& frame, const RenderOptions& options, unsigned spes)
   frame.cache_sets = options.cache.sets;
   frame.cache_replacement = static_cast<std::uint32_t>(options.cache.replacement);
   frame.cache_enabled = options.cache.enabled ? 1 : 0;
-  frame.balance = static_cast<std::uint32_t>(options.balance == Balance::gde ? BalanceMode::gde : BalanceMode::fixed);
+  frame.balance =
+      static_cast<std::uint32_t>(options.balance == Balance::gde ? BalanceMode::gde : BalanceMode::fixed);
   frame.exchange_parameter = fixed_point_parameter(optimal_chain_parameter(spes));
 }
 
@@ -61,8 +66,8 @@ void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& optio
   frame.object_count = header.object_count;
   frame.light_offset = header.light_offset;
   frame.light_count = header.light_count;
-  frame.max_trace_level = static_cast<std::uint32_t>(
-      std::clamp(options.max_trace_level.value_or(scene.max_trace_level), 1, 256));
+  frame.max_trace_level =
+      static_cast<std::uint32_t>(std::clamp(options.max_trace_level.value_or(scene.max_trace_level), 1, 256));
   frame.adc_bailout = static_cast<float>(options.adc_bailout.value_or(scene.adc_bailout));
   frame.gamma_encoding = static_cast<std::uint32_t>(
       scene.gamma_mode == GammaMode::assumed ? GammaEncoding::assumed : GammaEncoding::none);
@@ -84,7 +89,8 @@ void set_camera(FrameBlock& frame, const Camera& camera, const Scene& scene, con
   std::vector<std::pair<double, std::uint32_t>> around;
   for (const Object& object : scene.objects) {
     const auto* sphere = std::get_if<Sphere>(&object.shape);
-    if (sphere == nullptr || sphere->radius == 0 || !inside(*sphere, object.transform, camera.location)) continue;
+    if (sphere == nullptr || sphere->radius == 0 || !inside(*sphere, object.transform, camera.location))
+      continue;
     const double volume = std::abs(object.transform.determinant()) * std::pow(std::abs(sphere->radius), 3);
     around.emplace_back(volume, image.header().interior_offset +
                                     object.interior * static_cast<std::uint32_t>(sizeof(InteriorRecord)));
@@ -92,7 +98,8 @@ void set_camera(FrameBlock& frame, const Camera& camera, const Scene& scene, con
   std::sort(around.begin(), around.end(), std::greater<>());
   const std::size_t kept = std::min<std::size_t>(around.size(), kMaxInteriorDepth);
   frame.camera_interior_count = static_cast<std::uint32_t>(kept);
-  for (std::size_t i = 0; i < kept; ++i) frame.camera_interiors[i] = around[around.size() - kept + i].second;
+  for (std::size_t i = 0; i < kept; ++i)
+    frame.camera_interiors[i] = around[around.size() - kept + i].second;
 }
 
 GridRecord choose_grid(const ImageHeader& header) {

@@ -13,7 +13,8 @@ void check(const RenderOptions& options);
 /// Fills what depends on the picture's size and the options.
 void set_options(kernel::FrameBlock& frame, const RenderOptions& options, unsigned spes);
 /// Fills what depends on the scene but not on its camera.
-void set_scene(kernel::FrameBlock& frame, const Scene& scene, const RenderOptions& options, const SceneImage& image);
+void set_scene(kernel::FrameBlock& frame, const Scene& scene, const RenderOptions& options,
+               const SceneImage& image);
 /// Fills the camera, and the interiors of `scene` that it is inside of.
 void set_camera(kernel::FrameBlock& frame, const Camera& camera, const Scene& scene, const SceneImage& image);
 /// Chooses the grid's resolution for a number of objects in a box; offsets and counts stay 0.

@@ -18,7 +18,9 @@ namespace {
 
 class Stopwatch {
 public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
 
 private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
@@ -140,7 +142,8 @@ private:
     result.complete = team_->render_frame(tally, progress);
     statistics.render_seconds = render.seconds();
     if (result.complete) hand_out(tally.next_strips());
-    collect(statistics, *machine_, frame_, {reinterpret_cast<const ReportRecord*>(reports_.data()), strip_count()});
+    collect(statistics, *machine_, frame_,
+            {reinterpret_cast<const ReportRecord*>(reports_.data()), strip_count()});
     result.statistics = statistics;
     result.image = copy_picture();
     return result;
@@ -150,7 +153,8 @@ private:
   Image copy_picture() const {
     Image image(options_.width, options_.height);
     for (int y = 0; y < options_.height; ++y)
-      std::memcpy(image.pixel(0, y), surface_.data() + std::size_t{frame_.surface_pitch} * static_cast<std::size_t>(y),
+      std::memcpy(image.pixel(0, y),
+                  surface_.data() + std::size_t{frame_.surface_pitch} * static_cast<std::size_t>(y),
                   static_cast<std::size_t>(options_.width) * 4);
     return image;
   }
@@ -166,12 +170,15 @@ private:
   std::unique_ptr<SpeTeam> team_;
 };
 
-Renderer::Renderer(const RenderOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+Renderer::Renderer(const RenderOptions& options) : impl_(std::make_unique<Impl>(options)) {
+}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
-RenderResult Renderer::render(const Scene& scene, const Progress& progress) { return impl_->render(scene, progress); }
+RenderResult Renderer::render(const Scene& scene, const Progress& progress) {
+  return impl_->render(scene, progress);
+}
 RenderResult Renderer::render(const Camera& camera, const Progress& progress) {
   return impl_->render(camera, progress);
 }

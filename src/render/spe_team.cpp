@@ -12,15 +12,18 @@ using namespace kernel;
 
 SpeTeam::SpeTeam(Machine& machine, const FrameBlock& frame)
     : machine_(machine), frame_(frame), members_(machine.spe_count()) {
-  for (unsigned spe = 0; spe < members_.size(); ++spe) members_[spe].spe = spe;
+  for (unsigned spe = 0; spe < members_.size(); ++spe)
+    members_[spe].spe = spe;
   const SpeProgram program = tracer_program();
-  for (unsigned spe = 0; spe < members_.size(); ++spe) machine_.start(spe, program, to_ea(&frame_));
+  for (unsigned spe = 0; spe < members_.size(); ++spe)
+    machine_.start(spe, program, to_ea(&frame_));
 }
 
 SpeTeam::~SpeTeam() {
   try {
     signal_all(command::quit);
-    for (unsigned spe = 0; spe < members_.size(); ++spe) machine_.wait(spe);
+    for (unsigned spe = 0; spe < members_.size(); ++spe)
+      machine_.wait(spe);
   } catch (const std::exception&) {
     // An SPE that failed has been reported by the call that met it; here it only has to be gone.
     machine_.interrupt();
@@ -40,9 +43,11 @@ bool SpeTeam::prepare_frame() {
 }
 
 void SpeTeam::synchronize() {
-  for (Member& member : members_) member.answered = false;
+  for (Member& member : members_)
+    member.answered = false;
   signal_all(command::synchronize);
-  while (!all_answered()) receive_answers(ReportKind::synchronised);
+  while (!all_answered())
+    receive_answers(ReportKind::synchronised);
 }
 
 bool SpeTeam::render_frame(StripTally& tally, const Progress& progress) {
@@ -55,7 +60,8 @@ bool SpeTeam::render_frame(StripTally& tally, const Progress& progress) {
       return false;
     }
   };
-  for (unsigned spe = 0; spe < members_.size(); ++spe) members_[spe] = Member{spe, 0, false};
+  for (unsigned spe = 0; spe < members_.size(); ++spe)
+    members_[spe] = Member{spe, 0, false};
   signal_all(command::render_frame);
   bool go_on = ask(0);
   while (go_on && !tally.frame_complete()) {
@@ -75,11 +81,11 @@ bool SpeTeam::render_frame(StripTally& tally, const Progress& progress) {
 }
 
 void SpeTeam::signal_all(std::uint32_t commands) {
-  for (unsigned spe = 0; spe < members_.size(); ++spe) machine_.write_signal(spe, Signal::one, commands);
+  for (unsigned spe = 0; spe < members_.size(); ++spe)
+    machine_.write_signal(spe, Signal::one, commands);
 }
 
-template <class Handle>
-bool SpeTeam::receive(Handle handle) {
+template <class Handle> bool SpeTeam::receive(Handle handle) {
   bool any = false;
   for (unsigned spe = 0; spe < members_.size(); ++spe) {
     if (const auto word = machine_.read_out_mailbox(spe)) {
@@ -94,7 +100,8 @@ bool SpeTeam::receive(Handle handle) {
 }
 
 bool SpeTeam::receive_answers(ReportKind kind) {
-  return receive([&](Member& member, ReportKind report, std::uint32_t) { member.answered |= report == kind; });
+  return receive(
+      [&](Member& member, ReportKind report, std::uint32_t) { member.answered |= report == kind; });
 }
 
 bool SpeTeam::all_answered() const {
@@ -110,7 +117,8 @@ void SpeTeam::end_frame(bool complete) {
   const std::uint32_t over = strip_word::kFromPpe | strip_word::make(frame_.epoch, false, {0, 0});
   const auto tell = [&] {
     for (unsigned spe = 0; spe < members_.size(); ++spe)
-      if (!members_[spe].answered && machine_.in_mailbox_space(spe) != 0) machine_.write_in_mailbox(spe, over);
+      if (!members_[spe].answered && machine_.in_mailbox_space(spe) != 0)
+        machine_.write_in_mailbox(spe, over);
   };
   tell();
   while (!all_answered()) {

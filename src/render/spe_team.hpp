@@ -24,8 +24,8 @@ public:
   bool prepare_frame();
   /// Every SPE forgets what it has cached and what is in its mailbox.
   void synchronize();
-  /// All SPEs render; what each completed is in `tally`. False if `progress` broke the frame off; what it throws passes through, the SPEs being ready for
-  /// the next frame all the same.
+  /// All SPEs render; what each completed is in `tally`. False if `progress` broke the frame off; what it
+  /// throws passes through, the SPEs being ready for the next frame all the same.
   bool render_frame(StripTally& tally, const Progress& progress);
 
 private:
@@ -37,8 +37,7 @@ private:
 
   void signal_all(std::uint32_t commands);
   /// Reads all mail; calls `handle(member, kind, count)`. Sleeps a little and returns false if there is none.
-  template <class Handle>
-  bool receive(Handle handle);
+  template <class Handle> bool receive(Handle handle);
   /// As receive(), marking the members that report `kind`.
   bool receive_answers(kernel::ReportKind kind);
   bool all_answered() const;

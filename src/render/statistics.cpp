@@ -19,7 +19,8 @@ void add_cache(RenderStatistics::Cache& cache, const ReportRecord& report, DataK
 
 double imbalance_of_rays(const std::vector<RenderStatistics::Spe>& spes) {
   std::vector<std::uint64_t> rays;
-  for (const auto& spe : spes) rays.push_back(spe.rays);
+  for (const auto& spe : spes)
+    rays.push_back(spe.rays);
   return imbalance<std::uint64_t>(rays);
 }
 
@@ -67,8 +68,8 @@ void collect(RenderStatistics& s, const Machine& machine, const FrameBlock& fram
     s.dma_bytes_written += spe.dma_bytes_written;
     s.signals += spe.signals_sent;
     s.mailbox_words += spe.mailbox_words_sent;
-    s.spes.push_back({r.primary_rays + r.shadow_rays + r.reflection_rays + r.refraction_rays, r.rows, r.exchanges,
-                      spe.local_store_peak});
+    s.spes.push_back({r.primary_rays + r.shadow_rays + r.reflection_rays + r.refraction_rays, r.rows,
+                      r.exchanges, spe.local_store_peak});
   }
   s.imbalance = imbalance_of_rays(s.spes);
 }
@@ -94,7 +95,8 @@ std::string to_json(const RenderStatistics& s) {
         {"refraction", s.refraction_rays},
         {"total", s.total_rays()},
         {"dropped", s.dropped_rays}}},
-      {"packet_tests", {{"sphere", s.sphere_tests}, {"ellipsoid", s.ellipsoid_tests}, {"triangle", s.triangle_tests}}},
+      {"packet_tests",
+       {{"sphere", s.sphere_tests}, {"ellipsoid", s.ellipsoid_tests}, {"triangle", s.triangle_tests}}},
       {"grid",
        {{"cells", {s.grid_cells[0], s.grid_cells[1], s.grid_cells[2]}},
         {"list_entries", s.grid_list_entries},
@@ -111,7 +113,9 @@ std::string to_json(const RenderStatistics& s) {
         {"bytes_written", s.dma_bytes_written}}},
       {"communication", {{"signals", s.signals}, {"mailbox_words", s.mailbox_words}}},
       {"balance",
-       {{"exchanges", s.balance_exchanges}, {"rows_moved", s.balance_rows_moved}, {"imbalance", s.imbalance}}},
+       {{"exchanges", s.balance_exchanges},
+        {"rows_moved", s.balance_rows_moved},
+        {"imbalance", s.imbalance}}},
       {"spes", spes}};
   return json.dump(2);
 }

@@ -15,7 +15,8 @@ using namespace kernel;
 namespace {
 
 void copy(const Vec3& from, float* to) {
-  for (int i = 0; i < 3; ++i) to[i] = static_cast<float>(from[i]);
+  for (int i = 0; i < 3; ++i)
+    to[i] = static_cast<float>(from[i]);
 }
 
 LightRecord make_record(const Light& light) {
@@ -52,13 +53,16 @@ MaterialRecord make_record(const Material& material, const Scene& scene) {
   copy(f.reflection_max, r.reflection_max);
   r.reflection_falloff = static_cast<float>(f.reflection_falloff);
   r.reflection_metallic = static_cast<float>(f.reflection_metallic);
-  r.inverse_reflection_exponent = static_cast<float>(f.reflection_exponent != 0 ? 1 / f.reflection_exponent : 1);
+  r.inverse_reflection_exponent =
+      static_cast<float>(f.reflection_exponent != 0 ? 1 / f.reflection_exponent : 1);
   r.flags = (f.reflection_fresnel ? material_flag::fresnel : 0) |
             (f.conserve_energy ? material_flag::conserve_energy : 0);
   return r;
 }
 
-bool is_opaque(const Material& material) { return material.pigment.filter == 0 && material.pigment.transmit == 0; }
+bool is_opaque(const Material& material) {
+  return material.pigment.filter == 0 && material.pigment.transmit == 0;
+}
 
 /// The factor by which a transformation scales everything, or 0 if it does not scale all directions alike.
 double uniform_scale(const Transform& t) {
@@ -129,7 +133,8 @@ private:
       const double length = glm::length(turned);
       normals[i] = Vec3f(length > 0 ? turned / length : Vec3(0, 0, 1));
     }
-    for (const Mesh::Triangle& triangle : mesh.triangles) add_triangle(object, triangle, vertices, normals);
+    for (const Mesh::Triangle& triangle : mesh.triangles)
+      add_triangle(object, triangle, vertices, normals);
   }
 
   void add_triangle(const Object& object, const Mesh::Triangle& triangle, const std::vector<Vec3f>& vertices,
@@ -141,13 +146,15 @@ private:
     ObjectRecord r = make_object(object, ObjectKind::triangle);
     set_material(r, object, triangle);
     for (int v = 0; v < 3; ++v)
-      for (int i = 0; i < 3; ++i) r.geometry[v * 3 + i] = corners[v][i];
+      for (int i = 0; i < 3; ++i)
+        r.geometry[v * 3 + i] = corners[v][i];
     if (triangle.normal[0] != kNoIndex && !same(triangle.normal)) {
       r.kind_and_flags |= object_flag::smooth;
       r.normals = static_cast<std::uint32_t>(tables_.normals.size());
       NormalsRecord record{};
       for (int v = 0; v < 3; ++v)
-        for (int i = 0; i < 3; ++i) record.normal[v * 3 + i] = normals[triangle.normal[v]][i];
+        for (int i = 0; i < 3; ++i)
+          record.normal[v * 3 + i] = normals[triangle.normal[v]][i];
       tables_.normals.push_back(record);
     }
     tables_.objects.push_back(r);
@@ -178,7 +185,8 @@ void check_size(const Box& box) {
   constexpr float kMost = 1e18f;
   for (int i = 0; i < 3; ++i)
     if (!(box.min[i] > -kMost && box.max[i] < kMost))
-      throw InputError("the scene has an object that is too large, too thin or too far away for single precision");
+      throw InputError(
+          "the scene has an object that is too large, too thin or too far away for single precision");
 }
 
 Box bounds_of(const std::vector<ObjectRecord>& objects) {
@@ -206,12 +214,15 @@ Box bounds_of(const std::vector<ObjectRecord>& objects) {
 
 ImageTables build_tables(const Scene& scene) {
   ImageTables tables;
-  for (const Light& light : scene.lights) tables.lights.push_back(make_record(light));
-  for (const Material& material : scene.materials) tables.materials.push_back(make_record(material, scene));
+  for (const Light& light : scene.lights)
+    tables.lights.push_back(make_record(light));
+  for (const Material& material : scene.materials)
+    tables.materials.push_back(make_record(material, scene));
   for (const Interior& interior : scene.interiors)
     tables.interiors.push_back({static_cast<float>(interior.ior), {0, 0, 0}});
   Builder builder(scene, tables);
-  for (const Object& object : scene.objects) builder.add(object);
+  for (const Object& object : scene.objects)
+    builder.add(object);
   tables.bounds = bounds_of(tables.objects);
   return tables;
 }
@@ -221,14 +232,18 @@ void make_offsets(ImageTables& tables, const ImageHeader& header) {
     return header.material_offset + index * static_cast<std::uint32_t>(sizeof(MaterialRecord));
   };
   for (BlendRecord& blend : tables.blends)
-    for (std::uint32_t& index : blend.material) index = material(index);
+    for (std::uint32_t& index : blend.material)
+      index = material(index);
   for (ObjectRecord& object : tables.objects) {
-    object.material = (object.kind_and_flags & object_flag::blended) != 0
-                          ? header.blend_offset + object.material * static_cast<std::uint32_t>(sizeof(BlendRecord))
-                          : material(object.material);
-    object.interior = header.interior_offset + object.interior * static_cast<std::uint32_t>(sizeof(InteriorRecord));
+    object.material =
+        (object.kind_and_flags & object_flag::blended) != 0
+            ? header.blend_offset + object.material * static_cast<std::uint32_t>(sizeof(BlendRecord))
+            : material(object.material);
+    object.interior =
+        header.interior_offset + object.interior * static_cast<std::uint32_t>(sizeof(InteriorRecord));
     if ((object.kind_and_flags & object_flag::smooth) != 0)
-      object.normals = header.normals_offset + object.normals * static_cast<std::uint32_t>(sizeof(NormalsRecord));
+      object.normals =
+          header.normals_offset + object.normals * static_cast<std::uint32_t>(sizeof(NormalsRecord));
   }
 }
 

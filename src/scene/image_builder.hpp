@@ -20,9 +20,9 @@ struct ImageTables {
   kernel::Box bounds; ///< of all objects, a little larger than they are
 };
 
-/// Objects are transformed to the world, in single precision; spheres that a transformation leaves round stay spheres.
-/// Spheres without a radius and triangles without an area are left out. Throws InputError if an object's
-/// coordinates leave what single precision can hold.
+/// Objects are transformed to the world, in single precision; spheres that a transformation leaves round stay
+/// spheres. Spheres without a radius and triangles without an area are left out. Throws InputError if an
+/// object's coordinates leave what single precision can hold.
 ImageTables build_tables(const Scene& scene);
 
 /// Turns indices into offsets from the image's base.

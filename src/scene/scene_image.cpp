@@ -17,7 +17,9 @@ namespace {
 constexpr std::uint32_t kMagic = 0x43545349; // "CTSI"
 constexpr std::uint32_t kVersion = 1;
 
-std::size_t round_up(std::size_t bytes) { return (bytes + kLineBytes - 1) / kLineBytes * kLineBytes; }
+std::size_t round_up(std::size_t bytes) {
+  return (bytes + kLineBytes - 1) / kLineBytes * kLineBytes;
+}
 
 /// FNV-1a over 64-bit words; the block is a multiple of a line long.
 std::uint64_t checksum(std::span<const std::byte> bytes) {
@@ -34,8 +36,7 @@ std::uint64_t checksum(std::span<const std::byte> bytes) {
 class Layout {
 public:
   explicit Layout(std::size_t begin) : end_(begin) {}
-  template <class Record>
-  std::uint32_t place(const std::vector<Record>& table) {
+  template <class Record> std::uint32_t place(const std::vector<Record>& table) {
     const std::size_t offset = end_;
     end_ = round_up(end_ + table.size() * sizeof(Record));
     if (end_ > std::numeric_limits<std::uint32_t>::max())
@@ -80,7 +81,8 @@ bool references_are_valid(const std::byte* base, const ImageHeader& h) {
     if (blended ? !refers_to(object.material, h.blend_offset, h.blend_count, sizeof(BlendRecord))
                 : !is_material(object.material))
       return false;
-    if (!refers_to(object.interior, h.interior_offset, h.interior_count, sizeof(InteriorRecord))) return false;
+    if (!refers_to(object.interior, h.interior_offset, h.interior_count, sizeof(InteriorRecord)))
+      return false;
     if ((flags & object_flag::smooth) != 0 &&
         !refers_to(object.normals, h.normals_offset, h.normals_count, sizeof(NormalsRecord)))
       return false;
@@ -91,12 +93,15 @@ bool references_are_valid(const std::byte* base, const ImageHeader& h) {
 } // namespace
 
 AlignedBlock::AlignedBlock(std::size_t bytes)
-    : bytes_(static_cast<std::byte*>(std::aligned_alloc(kLineBytes, round_up(bytes == 0 ? 1 : bytes)))), size_(bytes) {
+    : bytes_(static_cast<std::byte*>(std::aligned_alloc(kLineBytes, round_up(bytes == 0 ? 1 : bytes)))),
+      size_(bytes) {
   if (!bytes_) throw std::bad_alloc();
   std::memset(bytes_.get(), 0, round_up(bytes == 0 ? 1 : bytes));
 }
 
-void AlignedBlock::Free::operator()(std::byte* bytes) const noexcept { std::free(bytes); }
+void AlignedBlock::Free::operator()(std::byte* bytes) const noexcept {
+  std::free(bytes);
+}
 
 SceneImage::SceneImage(const Scene& scene) {
   validate(scene);
@@ -148,7 +153,8 @@ SceneImage SceneImage::from_bytes(std::span<const std::byte> bytes) {
   if (h.version != kVersion)
     throw InputError("scene image of version " + std::to_string(h.version) + "; this library reads version " +
                      std::to_string(kVersion));
-  if (h.bytes != bytes.size() || h.bytes % kLineBytes != 0) throw InputError("scene image: its size is wrong");
+  if (h.bytes != bytes.size() || h.bytes % kLineBytes != 0)
+    throw InputError("scene image: its size is wrong");
   if (h.checksum != checksum(bytes)) throw InputError("scene image: its checksum is wrong");
   if (!table_fits(h.light_offset, h.light_count, sizeof(LightRecord), bytes.size()) ||
       !table_fits(h.material_offset, h.material_count, sizeof(MaterialRecord), bytes.size()) ||
@@ -176,7 +182,9 @@ void SceneImage::reserve_grid(std::uint32_t cells, std::uint32_t list_words) {
   list_offset_ = static_cast<std::uint32_t>(lists);
 }
 
-const ImageHeader& SceneImage::header() const noexcept { return *reinterpret_cast<const ImageHeader*>(block_.data()); }
+const ImageHeader& SceneImage::header() const noexcept {
+  return *reinterpret_cast<const ImageHeader*>(block_.data());
+}
 
 std::span<const std::byte> SceneImage::static_part() const noexcept {
   return {block_.data(), static_cast<std::size_t>(header().bytes)};

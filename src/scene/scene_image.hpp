@@ -1,9 +1,9 @@
 // SceneImage: a Scene in the flat binary form that the SPEs read.
 //
-// One contiguous, 128-byte aligned block: header, lights, materials, blends, interiors, normals, objects (the static
-// part, written here), then the voxels and object lists of the grid (written by PREPARE FRAME). All positions are
-// 32-bit offsets from its base, so that the static part can be saved, mapped elsewhere and sent to another process of
-// the same byte order; it carries a version and a checksum.
+// One contiguous, 128-byte aligned block: header, lights, materials, blends, interiors, normals, objects (the
+// static part, written here), then the voxels and object lists of the grid (written by PREPARE FRAME). All
+// positions are 32-bit offsets from its base, so that the static part can be saved, mapped elsewhere and sent
+// to another process of the same byte order; it carries a version and a checksum.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -38,12 +38,12 @@ class SceneImage {
 public:
   /// Builds the static part. Throws InputError as validate() does, and if the image would pass 4 GB.
   explicit SceneImage(const Scene& scene);
-  /// Takes over a static part as static_part() gave it. Throws InputError unless version, checksum, sizes and every
-  /// offset in it are right.
+  /// Takes over a static part as static_part() gave it. Throws InputError unless version, checksum, sizes and
+  /// every offset in it are right.
   static SceneImage from_bytes(std::span<const std::byte> bytes);
 
-  /// Makes room for a grid of `cells` voxels with lists of `list_words` words in all; where the static part moves,
-  /// the old address becomes invalid.
+  /// Makes room for a grid of `cells` voxels with lists of `list_words` words in all; where the static part
+  /// moves, the old address becomes invalid.
   void reserve_grid(std::uint32_t cells, std::uint32_t list_words);
 
   const kernel::ImageHeader& header() const noexcept;

@@ -25,8 +25,8 @@ struct MachineConfig {
   std::string simd = "auto";
   /// How the two signal notification registers of every SPE take a second write.
   SignalMode signal_mode[2] = {SignalMode::overwrite, SignalMode::overwrite};
-  /// `cell_emu`: local store that the program's code and data take, and that is kept for its stack; bytes. The rest
-  /// of the 256 KB is the kernel's arena.
+  /// `cell_emu`: local store that the program's code and data take, and that is kept for its stack; bytes.
+  /// The rest of the 256 KB is the kernel's arena.
   unsigned code_bytes = 92 * 1024;
   unsigned stack_bytes = 20 * 1024;
 };
@@ -42,8 +42,9 @@ struct SpeStatistics {
   std::uint64_t local_store_peak = 0;   ///< bytes of the arena in use at most
 };
 
-/// A machine with n SPEs. Thread safety: one PPE thread at a time calls its members; interrupt() may be called from
-/// any thread and from a signal handler's thread. Errors: std::out_of_range for an SPE that does not exist.
+/// A machine with n SPEs. Thread safety: one PPE thread at a time calls its members; interrupt() may be
+/// called from any thread and from a signal handler's thread. Errors: std::out_of_range for an SPE that does
+/// not exist.
 class Machine {
 public:
   Machine() = default;
@@ -57,14 +58,16 @@ public:
   /// The SPU type in use, for reports: "native.avx512", "cell_emu".
   virtual std::string_view spu_key() const noexcept = 0;
 
-  /// Starts a program on an idle SPE. Throws SpeError if the program was not compiled for this machine or the SPE is
-  /// running. `argument` is handed to the kernel: the ea of its control block, 16-byte aligned by convention.
+  /// Starts a program on an idle SPE. Throws SpeError if the program was not compiled for this machine or the
+  /// SPE is running. `argument` is handed to the kernel: the ea of its control block, 16-byte aligned by
+  /// convention.
   virtual void start(unsigned spe, const SpeProgram& program, ea_t argument) = 0;
-  /// Blocks until the kernel has returned. Throws SpeError with the SPE's error if it stopped for one. When one SPE
-  /// stops with an error the others are interrupted, so that nobody waits for it for ever.
+  /// Blocks until the kernel has returned. Throws SpeError with the SPE's error if it stopped for one. When
+  /// one SPE stops with an error the others are interrupted, so that nobody waits for it for ever.
   virtual void wait(unsigned spe) = 0;
   virtual bool running(unsigned spe) const = 0;
-  /// Makes every kernel that stalls on a channel, now or later, stop; wait() then throws SpeError. For shutdown.
+  /// Makes every kernel that stalls on a channel, now or later, stop; wait() then throws SpeError. For
+  /// shutdown.
   virtual void interrupt() noexcept = 0;
 
   /// Writes a word to the inbound mailbox; blocks while it is full (libspe2's SPE_MBOX_ALL_BLOCKING). Throws
@@ -77,8 +80,8 @@ public:
   virtual std::optional<std::uint32_t> read_out_interrupt_mailbox(unsigned spe) = 0;
   /// Writes a signal notification register.
   virtual void write_signal(unsigned spe, Signal which, std::uint32_t value) = 0;
-  /// Sleeps until an SPE has a word in an outbound mailbox or has stopped since the last call, or until the timeout.
-  /// False on timeout.
+  /// Sleeps until an SPE has a word in an outbound mailbox or has stopped since the last call, or until the
+  /// timeout. False on timeout.
   virtual bool wait_for_mail(std::chrono::milliseconds timeout) = 0;
 
   /// Where an SPE's local store and registers are mapped.
@@ -93,6 +96,8 @@ std::vector<std::string> machine_backends();
 std::unique_ptr<Machine> make_machine(const MachineConfig& config);
 
 /// The effective address of an object in main memory.
-inline ea_t to_ea(const void* object) { return reinterpret_cast<std::uintptr_t>(object); }
+inline ea_t to_ea(const void* object) {
+  return reinterpret_cast<std::uintptr_t>(object);
+}
 
 } // namespace celltrace

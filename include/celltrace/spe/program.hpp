@@ -10,8 +10,8 @@
 
 namespace celltrace {
 
-/// A kernel compiled for one or more backends. `Spu::kKey` names the SPU type ("cell_emu", "native.avx2", ...); the
-/// machine picks the entry whose key fits it best. Copyable; immutable while a machine runs it.
+/// A kernel compiled for one or more backends. `Spu::kKey` names the SPU type ("cell_emu", "native.avx2",
+/// ...); the machine picks the entry whose key fits it best. Copyable; immutable while a machine runs it.
 class SpeProgram {
 public:
   /// `spu` is the address of the backend's Spu object.
@@ -20,8 +20,7 @@ public:
   explicit SpeProgram(std::string name) : name_(std::move(name)) {}
 
   /// Adds the kernel as compiled for `Spu`. `kernel` is a captureless callable `void(Spu&, ea_t)`.
-  template <class Spu, class Kernel>
-  SpeProgram& add(Kernel) {
+  template <class Spu, class Kernel> SpeProgram& add(Kernel) {
     static_assert(std::is_empty_v<Kernel>, "a kernel has no state of its own: pass it an argument ea");
     entries_[Spu::kKey] = [](void* spu, ea_t argument) { Kernel{}(*static_cast<Spu*>(spu), argument); };
     return *this;

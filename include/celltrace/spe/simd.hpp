@@ -1,23 +1,26 @@
-// The SIMD facade: what `Spu::simd` offers to kernels. This header documents it and holds what all implementations
-// share; simd_host.hpp implements it over xsimd, the spu backend over the SPU's intrinsics.
+// The SIMD facade: what `Spu::simd` offers to kernels. This header documents it and holds what all
+// implementations share; simd_host.hpp implements it over xsimd, the spu backend over the SPU's intrinsics.
 //
-// A ray packet is 4x4 rays, 16 lanes in structure-of-arrays form: four 128-bit vectors on an SPU, one 512-bit vector
-// on AVX-512. Lane l is ray (l % 4, l / 4). Types, all plain values without alignment demands on the caller:
+// A ray packet is 4x4 rays, 16 lanes in structure-of-arrays form: four 128-bit vectors on an SPU, one 512-bit
+// vector on AVX-512. Lane l is ray (l % 4, l / 4). Types, all plain values without alignment demands on the
+// caller:
 //
 //   F    16 floats, implicitly from one float (splat); default construction leaves it indeterminate
 //        F::load(const float*) / store(float*), 64-byte aligned; + - * / and unary -; < <= > >= == give M
 //   I    16 int32: I::splat, load, store; + - & |; == < give M
 //   M    16 truth values: M::none(), all(), from_bits(uint32), bits() (lane l in bit l); & | !
-//   U4   4 uint32, one SPU quadword: splat, load, store (16-byte aligned); & |; equal_bits(a, b) -> 4 bits, lane 0 in
+//   U4   4 uint32, one SPU quadword: splat, load, store (16-byte aligned); & |; equal_bits(a, b) -> 4 bits,
+//   lane 0 in
 //        bit 0
 //
 //   min max (of ordinary numbers), abs, sqrt (of x >= 0), select(M, a, b) = m ? a : b for F and I,
 //   to_int (truncates; |x| < 2^31), to_float, bits_of / float_of (reinterpret),
 //   shift_left<n>, shift_right<n> (arithmetic)
 //
-// On the host every float operation is IEEE single precision, never fused, so that all widths and backends give the
-// same bits. On the SPU division and sqrt are estimates refined to within 2 units in the last place, rounding is
-// toward zero, and there are no infinities, NaNs and denormals: kernels may not depend on any of these.
+// On the host every float operation is IEEE single precision, never fused, so that all widths and backends
+// give the same bits. On the SPU division and sqrt are estimates refined to within 2 units in the last place,
+// rounding is toward zero, and there are no infinities, NaNs and denormals: kernels may not depend on any of
+// these.
 #pragma once
 
 #include <stdint.h>
@@ -27,7 +30,7 @@ namespace celltrace {
 constexpr uint32_t kSimdLanes = 16;
 
 /// Lane l holds 1 << l.
-alignas(64) constexpr int32_t simd_lane_bits[kSimdLanes] = {1,    2,    4,    8,    16,   32,   64,   128,
-                                                           256,  512,  1024, 2048, 4096, 8192, 16384, 32768};
+alignas(64) constexpr int32_t simd_lane_bits[kSimdLanes] = {1,   2,   4,    8,    16,   32,   64,    128,
+                                                            256, 512, 1024, 2048, 4096, 8192, 16384, 32768};
 
 } // namespace celltrace

@@ -1,7 +1,8 @@
-// The SIMD facade of simd.hpp on a host CPU, over xsimd: 16 lanes are sixteen/size batches of the architecture.
+// The SIMD facade of simd.hpp on a host CPU, over xsimd: 16 lanes are sixteen/size batches of the
+// architecture.
 //
-// `Arch` is an xsimd architecture ("xsimd::sse2", "xsimd::avx2", "xsimd::avx512dq"); it is part of every type's name,
-// so that translation units compiled for different CPUs share no inline function.
+// `Arch` is an xsimd architecture ("xsimd::sse2", "xsimd::avx2", "xsimd::avx512dq"); it is part of every
+// type's name, so that translation units compiled for different CPUs share no inline function.
 #pragma once
 
 #include "celltrace/spe/simd.hpp"
@@ -31,14 +32,14 @@ uint32_t lane_bits(const xsimd::batch_bool<typename Batch::value_type, typename 
   bool lanes[Batch::size];
   mask.store_unaligned(lanes);
   uint32_t bits = 0;
-  for (uint32_t i = 0; i < Batch::size; ++i) bits |= static_cast<uint32_t>(lanes[i]) << i;
+  for (uint32_t i = 0; i < Batch::size; ++i)
+    bits |= static_cast<uint32_t>(lanes[i]) << i;
   return bits;
 }
 
 } // namespace simd_host
 
-template <class Arch>
-struct HostSimd {
+template <class Arch> struct HostSimd {
   using FloatBatch = xsimd::batch<float, Arch>;
   using IntBatch = xsimd::batch<int32_t, Arch>;
   using FloatMask = xsimd::batch_bool<float, Arch>;
@@ -68,17 +69,20 @@ struct HostSimd {
     }
     friend M operator&(const M& a, const M& b) {
       M r;
-      for (uint32_t i = 0; i < kParts; ++i) r.part[i] = a.part[i] & b.part[i];
+      for (uint32_t i = 0; i < kParts; ++i)
+        r.part[i] = a.part[i] & b.part[i];
       return r;
     }
     friend M operator|(const M& a, const M& b) {
       M r;
-      for (uint32_t i = 0; i < kParts; ++i) r.part[i] = a.part[i] | b.part[i];
+      for (uint32_t i = 0; i < kParts; ++i)
+        r.part[i] = a.part[i] | b.part[i];
       return r;
     }
     friend M operator!(const M& a) {
       M r;
-      for (uint32_t i = 0; i < kParts; ++i) r.part[i] = !a.part[i];
+      for (uint32_t i = 0; i < kParts; ++i)
+        r.part[i] = !a.part[i];
       return r;
     }
   };
@@ -88,32 +92,35 @@ struct HostSimd {
 
     F() = default;
     F(float value) {
-      for (uint32_t i = 0; i < kParts; ++i) part[i] = FloatBatch(value);
+      for (uint32_t i = 0; i < kParts; ++i)
+        part[i] = FloatBatch(value);
     }
     static F load(const float* lanes) {
       F r;
-      for (uint32_t i = 0; i < kParts; ++i) r.part[i] = FloatBatch::load_aligned(lanes + i * kWidth);
+      for (uint32_t i = 0; i < kParts; ++i)
+        r.part[i] = FloatBatch::load_aligned(lanes + i * kWidth);
       return r;
     }
     void store(float* lanes) const {
-      for (uint32_t i = 0; i < kParts; ++i) part[i].store_aligned(lanes + i * kWidth);
+      for (uint32_t i = 0; i < kParts; ++i)
+        part[i].store_aligned(lanes + i * kWidth);
     }
-    template <class Operation>
-    static F zip(const F& a, const F& b, Operation operation) {
+    template <class Operation> static F zip(const F& a, const F& b, Operation operation) {
       F r;
-      for (uint32_t i = 0; i < kParts; ++i) r.part[i] = operation(a.part[i], b.part[i]);
+      for (uint32_t i = 0; i < kParts; ++i)
+        r.part[i] = operation(a.part[i], b.part[i]);
       return r;
     }
-    template <class Operation>
-    static F map(const F& a, Operation operation) {
+    template <class Operation> static F map(const F& a, Operation operation) {
       F r;
-      for (uint32_t i = 0; i < kParts; ++i) r.part[i] = operation(a.part[i]);
+      for (uint32_t i = 0; i < kParts; ++i)
+        r.part[i] = operation(a.part[i]);
       return r;
     }
-    template <class Operation>
-    static M test(const F& a, const F& b, Operation operation) {
+    template <class Operation> static M test(const F& a, const F& b, Operation operation) {
       M r;
-      for (uint32_t i = 0; i < kParts; ++i) r.part[i] = operation(a.part[i], b.part[i]);
+      for (uint32_t i = 0; i < kParts; ++i)
+        r.part[i] = operation(a.part[i], b.part[i]);
       return r;
     }
     friend F operator+(const F& a, const F& b) {
@@ -149,21 +156,24 @@ struct HostSimd {
 
     static I splat(int32_t value) {
       I r;
-      for (uint32_t i = 0; i < kParts; ++i) r.part[i] = IntBatch(value);
+      for (uint32_t i = 0; i < kParts; ++i)
+        r.part[i] = IntBatch(value);
       return r;
     }
     static I load(const int32_t* lanes) {
       I r;
-      for (uint32_t i = 0; i < kParts; ++i) r.part[i] = IntBatch::load_aligned(lanes + i * kWidth);
+      for (uint32_t i = 0; i < kParts; ++i)
+        r.part[i] = IntBatch::load_aligned(lanes + i * kWidth);
       return r;
     }
     void store(int32_t* lanes) const {
-      for (uint32_t i = 0; i < kParts; ++i) part[i].store_aligned(lanes + i * kWidth);
+      for (uint32_t i = 0; i < kParts; ++i)
+        part[i].store_aligned(lanes + i * kWidth);
     }
-    template <class Operation>
-    static I zip(const I& a, const I& b, Operation operation) {
+    template <class Operation> static I zip(const I& a, const I& b, Operation operation) {
       I r;
-      for (uint32_t i = 0; i < kParts; ++i) r.part[i] = operation(a.part[i], b.part[i]);
+      for (uint32_t i = 0; i < kParts; ++i)
+        r.part[i] = operation(a.part[i], b.part[i]);
       return r;
     }
     friend I operator+(const I& a, const I& b) {
@@ -180,12 +190,14 @@ struct HostSimd {
     }
     friend M operator==(const I& a, const I& b) {
       M r;
-      for (uint32_t i = 0; i < kParts; ++i) r.part[i] = xsimd::bool_cast(a.part[i] == b.part[i]);
+      for (uint32_t i = 0; i < kParts; ++i)
+        r.part[i] = xsimd::bool_cast(a.part[i] == b.part[i]);
       return r;
     }
     friend M operator<(const I& a, const I& b) {
       M r;
-      for (uint32_t i = 0; i < kParts; ++i) r.part[i] = xsimd::bool_cast(a.part[i] < b.part[i]);
+      for (uint32_t i = 0; i < kParts; ++i)
+        r.part[i] = xsimd::bool_cast(a.part[i] < b.part[i]);
       return r;
     }
   };
@@ -204,7 +216,8 @@ struct HostSimd {
   }
   static F select(const M& m, const F& a, const F& b) {
     F r;
-    for (uint32_t i = 0; i < kParts; ++i) r.part[i] = xsimd::select(m.part[i], a.part[i], b.part[i]);
+    for (uint32_t i = 0; i < kParts; ++i)
+      r.part[i] = xsimd::select(m.part[i], a.part[i], b.part[i]);
     return r;
   }
   static I select(const M& m, const I& a, const I& b) {
@@ -215,34 +228,38 @@ struct HostSimd {
   }
   static I to_int(const F& a) {
     I r;
-    for (uint32_t i = 0; i < kParts; ++i) r.part[i] = xsimd::to_int(a.part[i]);
+    for (uint32_t i = 0; i < kParts; ++i)
+      r.part[i] = xsimd::to_int(a.part[i]);
     return r;
   }
   static F to_float(const I& a) {
     F r;
-    for (uint32_t i = 0; i < kParts; ++i) r.part[i] = xsimd::to_float(a.part[i]);
+    for (uint32_t i = 0; i < kParts; ++i)
+      r.part[i] = xsimd::to_float(a.part[i]);
     return r;
   }
   static I bits_of(const F& a) {
     I r;
-    for (uint32_t i = 0; i < kParts; ++i) r.part[i] = xsimd::bitwise_cast<IntBatch>(a.part[i]);
+    for (uint32_t i = 0; i < kParts; ++i)
+      r.part[i] = xsimd::bitwise_cast<IntBatch>(a.part[i]);
     return r;
   }
   static F float_of(const I& a) {
     F r;
-    for (uint32_t i = 0; i < kParts; ++i) r.part[i] = xsimd::bitwise_cast<FloatBatch>(a.part[i]);
+    for (uint32_t i = 0; i < kParts; ++i)
+      r.part[i] = xsimd::bitwise_cast<FloatBatch>(a.part[i]);
     return r;
   }
-  template <int bits>
-  static I shift_left(const I& a) {
+  template <int bits> static I shift_left(const I& a) {
     I r;
-    for (uint32_t i = 0; i < kParts; ++i) r.part[i] = a.part[i] << bits;
+    for (uint32_t i = 0; i < kParts; ++i)
+      r.part[i] = a.part[i] << bits;
     return r;
   }
-  template <int bits>
-  static I shift_right(const I& a) {
+  template <int bits> static I shift_right(const I& a) {
     I r;
-    for (uint32_t i = 0; i < kParts; ++i) r.part[i] = a.part[i] >> bits;
+    for (uint32_t i = 0; i < kParts; ++i)
+      r.part[i] = a.part[i] >> bits;
     return r;
   }
 
@@ -255,7 +272,9 @@ struct HostSimd {
     void store(uint32_t* words) const { lanes.store_aligned(words); }
     friend U4 operator&(const U4& a, const U4& b) { return {a.lanes & b.lanes}; }
     friend U4 operator|(const U4& a, const U4& b) { return {a.lanes | b.lanes}; }
-    friend uint32_t equal_bits(const U4& a, const U4& b) { return simd_host::lane_bits<Batch>(a.lanes == b.lanes); }
+    friend uint32_t equal_bits(const U4& a, const U4& b) {
+      return simd_host::lane_bits<Batch>(a.lanes == b.lanes);
+    }
   };
 };
 

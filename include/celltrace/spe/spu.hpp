@@ -1,30 +1,32 @@
 // The SPE side of the runtime: what a kernel may ask of the SPU it runs on.
 //
-// A kernel is `template <class Spu> void kernel(Spu& spu, ea_t argument)`. It is compiled once per backend; `Spu` is
-// that backend's type and derives from `SpuBase<Spu>` below, which spells every operation in terms of the Cell's
-// channels and MFC commands. A backend provides, besides the constructor that its machine calls:
+// A kernel is `template <class Spu> void kernel(Spu& spu, ea_t argument)`. It is compiled once per backend;
+// `Spu` is that backend's type and derives from `SpuBase<Spu>` below, which spells every operation in terms
+// of the Cell's channels and MFC commands. A backend provides, besides the constructor that its machine
+// calls:
 //
-//   static constexpr bool direct_memory   an ea can be dereferenced: reads need no DMA (see cache.hpp, stream.hpp)
-//   using simd                            the SIMD facade (simd.hpp)
-//   uint32_t id() const, count() const    this SPE and the number of SPEs of the machine; ids are 0 .. count()-1
-//   SpeAddresses addresses(spe) const     where another SPE's local store and registers are mapped
-//   template <Channel c> uint32_t read_channel()           stalls while the channel's count is 0, if it may stall
-//   template <Channel c> void     write_channel(uint32_t)  likewise
-//   template <Channel c> uint32_t channel_count()          never stalls
-//   template <MfcOpcode op> void mfc_command(void* ls, ea_t ea, uint32_t size, uint32_t tag)
-//   template <MfcOpcode op> void mfc_list_command(void* ls, ea_t ea, const ListElement* list, uint32_t bytes, tag)
+//   static constexpr bool direct_memory   an ea can be dereferenced: reads need no DMA (see cache.hpp,
+//   stream.hpp) using simd                            the SIMD facade (simd.hpp) uint32_t id() const, count()
+//   const    this SPE and the number of SPEs of the machine; ids are 0 .. count()-1 SpeAddresses
+//   addresses(spe) const     where another SPE's local store and registers are mapped template <Channel c>
+//   uint32_t read_channel()           stalls while the channel's count is 0, if it may stall template
+//   <Channel c> void     write_channel(uint32_t)  likewise template <Channel c> uint32_t channel_count()
+//   never stalls template <MfcOpcode op> void mfc_command(void* ls, ea_t ea, uint32_t size, uint32_t tag)
+//   template <MfcOpcode op> void mfc_list_command(void* ls, ea_t ea, const ListElement* list, uint32_t bytes,
+//   tag)
 //   [[noreturn]] void halt(HaltCode)      stops this SPE with an error that Machine::wait() reports
 //   ArenaState& arena()                   the part of local store that is free for the kernel
 //
-// Threads: a Spu belongs to the thread that runs its kernel; no operation may be called from another one. What other
-// SPEs and the PPE may touch are the mapped registers and local stores, through DMA and through Machine.
+// Threads: a Spu belongs to the thread that runs its kernel; no operation may be called from another one.
+// What other SPEs and the PPE may touch are the mapped registers and local stores, through DMA and through
+// Machine.
 //
-// Errors: an operation that breaks a rule of the architecture (size, alignment, tag, local-store address, unmapped
-// register) ends the kernel with an error that names the rule, the SPE and the addresses on `cell_emu`; it is not
-// checked on `native`, and does what the hardware does on `spu`.
+// Errors: an operation that breaks a rule of the architecture (size, alignment, tag, local-store address,
+// unmapped register) ends the kernel with an error that names the rule, the SPE and the addresses on
+// `cell_emu`; it is not checked on `native`, and does what the hardware does on `spu`.
 //
-// Local store: every `ls` pointer below points into local store, that is into memory that allocate() returned.
-// Kernel variables on the stack are not DMA targets.
+// Local store: every `ls` pointer below points into local store, that is into memory that allocate()
+// returned. Kernel variables on the stack are not DMA targets.
 #pragma once
 
 #include "celltrace/spe/types.hpp"
@@ -40,15 +42,14 @@ struct ArenaState {
   uint8_t* next;
 };
 
-template <class Derived>
-class SpuBase {
+template <class Derived> class SpuBase {
 public:
-  // --- local store ---------------------------------------------------------------------------------------------
+  // --- local store
+  // ---------------------------------------------------------------------------------------------
 
   /// `count` value-initialised objects in local store, aligned to `alignment` (a power of two, at least 16).
   /// Halts the SPE with local_store_exhausted if they do not fit. There is no free; see mark() and release().
-  template <class T>
-  T* allocate(uint32_t count = 1, uint32_t alignment = kLineBytes) {
+  template <class T> T* allocate(uint32_t count = 1, uint32_t alignment = kLineBytes) {
     ArenaState& arena = self().arena();
     const uintptr_t mask = static_cast<uintptr_t>(alignment) - 1;
     uint8_t* start = arena.next + ((~reinterpret_cast<uintptr_t>(arena.next) + 1) & mask);
@@ -56,7 +57,8 @@ public:
     if (count > available / sizeof(T)) self().halt(HaltCode::local_store_exhausted);
     arena.next = start + count * sizeof(T);
     T* objects = reinterpret_cast<T*>(start);
-    for (uint32_t i = 0; i < count; ++i) new (static_cast<void*>(objects + i)) T();
+    for (uint32_t i = 0; i < count; ++i)
+      new (static_cast<void*>(objects + i)) T();
     return objects;
   }
   /// The present fill of the arena; release() gives back what was allocated since.
@@ -65,22 +67,29 @@ public:
   /// Bytes that are still free.
   uint32_t available() { return static_cast<uint32_t>(self().arena().end - self().arena().next); }
 
-  // --- DMA -----------------------------------------------------------------------------------------------------
-  // `size` is 1, 2, 4, 8 or a multiple of 16 up to 16 KB; ls and ea agree in their low four bits and are naturally
-  // aligned (16 bytes from size 16 on). `tag` is 0..31 (31 is the runtime's own, see kRuntimeTag). The call
-  // stalls while the queue of 16 is full; the data may move at any time until a wait has observed the tag's
-  // completion. f: after all earlier commands of the tag; b: also before all later ones.
+  // --- DMA
+  // -----------------------------------------------------------------------------------------------------
+  // `size` is 1, 2, 4, 8 or a multiple of 16 up to 16 KB; ls and ea agree in their low four bits and are
+  // naturally aligned (16 bytes from size 16 on). `tag` is 0..31 (31 is the runtime's own, see kRuntimeTag).
+  // The call stalls while the queue of 16 is full; the data may move at any time until a wait has observed
+  // the tag's completion. f: after all earlier commands of the tag; b: also before all later ones.
 
   void get(void* ls, ea_t ea, uint32_t size, uint32_t tag) { command<MfcOpcode::get>(ls, ea, size, tag); }
   void getf(void* ls, ea_t ea, uint32_t size, uint32_t tag) { command<MfcOpcode::getf>(ls, ea, size, tag); }
   void getb(void* ls, ea_t ea, uint32_t size, uint32_t tag) { command<MfcOpcode::getb>(ls, ea, size, tag); }
-  void put(const void* ls, ea_t ea, uint32_t size, uint32_t tag) { command<MfcOpcode::put>(ls, ea, size, tag); }
-  void putf(const void* ls, ea_t ea, uint32_t size, uint32_t tag) { command<MfcOpcode::putf>(ls, ea, size, tag); }
-  void putb(const void* ls, ea_t ea, uint32_t size, uint32_t tag) { command<MfcOpcode::putb>(ls, ea, size, tag); }
+  void put(const void* ls, ea_t ea, uint32_t size, uint32_t tag) {
+    command<MfcOpcode::put>(ls, ea, size, tag);
+  }
+  void putf(const void* ls, ea_t ea, uint32_t size, uint32_t tag) {
+    command<MfcOpcode::putf>(ls, ea, size, tag);
+  }
+  void putb(const void* ls, ea_t ea, uint32_t size, uint32_t tag) {
+    command<MfcOpcode::putb>(ls, ea, size, tag);
+  }
 
-  // Lists: `list` are `elements` (at most 2048) ListElements in local store, 8-byte aligned; `ls` is where the data
-  // lies (each element starts at the next 16-byte boundary); `ea` supplies the high half of all addresses. The list
-  // itself must stay untouched until the tag is complete.
+  // Lists: `list` are `elements` (at most 2048) ListElements in local store, 8-byte aligned; `ls` is where
+  // the data lies (each element starts at the next 16-byte boundary); `ea` supplies the high half of all
+  // addresses. The list itself must stay untouched until the tag is complete.
 
   void getl(void* ls, ea_t ea, const ListElement* list, uint32_t elements, uint32_t tag) {
     list_command<MfcOpcode::getl>(ls, ea, list, elements, tag);
@@ -115,13 +124,17 @@ public:
   /// Writes the line unconditionally.
   uint32_t putlluc(const void* ls, ea_t ea) { return atomic_command<MfcOpcode::putlluc>(ls, ea); }
   /// As putlluc, queued under a tag.
-  void putqlluc(const void* ls, ea_t ea, uint32_t tag) { command<MfcOpcode::putqlluc>(ls, ea, kLineBytes, tag); }
+  void putqlluc(const void* ls, ea_t ea, uint32_t tag) {
+    command<MfcOpcode::putqlluc>(ls, ea, kLineBytes, tag);
+  }
 
-  // --- tag groups ----------------------------------------------------------------------------------------------
+  // --- tag groups
+  // ----------------------------------------------------------------------------------------------
 
   /// Stalls until all commands of all tag groups in `mask` are complete; returns the completed groups & mask.
   uint32_t wait_all(uint32_t mask) { return tag_status(mask, TagUpdate::all); }
-  /// Stalls until one tag group in `mask` is complete (for ever if mask is 0); returns the completed groups & mask.
+  /// Stalls until one tag group in `mask` is complete (for ever if mask is 0); returns the completed groups &
+  /// mask.
   uint32_t wait_any(uint32_t mask) { return tag_status(mask, TagUpdate::any); }
   /// The completed tag groups & mask, without stalling.
   uint32_t completed(uint32_t mask) { return tag_status(mask, TagUpdate::immediate); }
@@ -131,7 +144,8 @@ public:
   /// Resumes the stopped lists of one tag.
   void acknowledge_list_stall(uint32_t tag) { write<Channel::wr_list_stall_ack>(tag); }
 
-  // --- mailboxes -----------------------------------------------------------------------------------------------
+  // --- mailboxes
+  // -----------------------------------------------------------------------------------------------
 
   /// The oldest word of the 4-entry inbound mailbox; stalls while it is empty.
   uint32_t read_in_mailbox() { return read<Channel::rd_in_mbox>(); }
@@ -144,7 +158,8 @@ public:
   void write_out_interrupt_mailbox(uint32_t value) { write<Channel::wr_out_intr_mbox>(value); }
   uint32_t out_interrupt_mailbox_count() { return count_of<Channel::wr_out_intr_mbox>(); }
 
-  // --- signal notification -------------------------------------------------------------------------------------
+  // --- signal notification
+  // -------------------------------------------------------------------------------------
 
   /// Reads and clears the register; stalls while nothing was signalled.
   uint32_t read_signal_1() { return read<Channel::rd_sig_notify_1>(); }
@@ -152,7 +167,8 @@ public:
   uint32_t signal_1_count() { return count_of<Channel::rd_sig_notify_1>(); }
   uint32_t signal_2_count() { return count_of<Channel::rd_sig_notify_2>(); }
 
-  // --- to other SPEs -------------------------------------------------------------------------------------------
+  // --- to other SPEs
+  // -------------------------------------------------------------------------------------------
 
   /// Raises a signal of SPE `spe`. Returns when the word has been delivered.
   void send_signal(uint32_t spe, Signal which, uint32_t value) {
@@ -161,18 +177,20 @@ public:
     command<MfcOpcode::sndsig>(word, which == Signal::one ? to.signal_1 : to.signal_2, 4, kRuntimeTag);
     wait_all(1u << kRuntimeTag);
   }
-  /// Writes a word to the inbound mailbox of SPE `spe`. A full mailbox loses its newest word: the protocol between
-  /// the SPEs has to bound what is under way. Returns when the word has been delivered.
+  /// Writes a word to the inbound mailbox of SPE `spe`. A full mailbox loses its newest word: the protocol
+  /// between the SPEs has to bound what is under way. Returns when the word has been delivered.
   void send_mailbox(uint32_t spe, uint32_t value) {
     uint32_t* word = outgoing_word(value);
     command<MfcOpcode::put>(word, self().addresses(spe).in_mailbox, 4, kRuntimeTag);
     wait_all(1u << kRuntimeTag);
   }
 
-  // --- events --------------------------------------------------------------------------------------------------
-  // Pending bits accumulate whatever the mask. The count of the status becomes 1 when an enabled event occurs, or
-  // when a write of the mask or an acknowledge leaves enabled events pending; only a read clears it. A status of 0
-  // (phantom event: masked or acknowledged after the count rose) is normal and must be tolerated.
+  // --- events
+  // --------------------------------------------------------------------------------------------------
+  // Pending bits accumulate whatever the mask. The count of the status becomes 1 when an enabled event
+  // occurs, or when a write of the mask or an acknowledge leaves enabled events pending; only a read clears
+  // it. A status of 0 (phantom event: masked or acknowledged after the count rose) is normal and must be
+  // tolerated.
 
   void write_event_mask(uint32_t mask) { write<Channel::wr_event_mask>(mask); }
   uint32_t read_event_mask() { return read<Channel::rd_event_mask>(); }
@@ -181,7 +199,8 @@ public:
   uint32_t event_count() { return count_of<Channel::rd_event_stat>(); }
   void acknowledge_events(uint32_t mask) { write<Channel::wr_event_ack>(mask); }
 
-  // --- decrementer ---------------------------------------------------------------------------------------------
+  // --- decrementer
+  // ---------------------------------------------------------------------------------------------
 
   void write_decrementer(uint32_t value) { write<Channel::wr_dec>(value); }
   /// Counts down at the timebase (79.8 MHz on a PlayStation 3).
@@ -191,26 +210,17 @@ public:
   static constexpr uint32_t kRuntimeTag = 31;
 
 protected:
-  /// Call once the arena exists, before the kernel runs: reserves the quadword that outgoing words leave from.
+  /// Call once the arena exists, before the kernel runs: reserves the quadword that outgoing words leave
+  /// from.
   void initialise_base() { outgoing_ = self().template allocate<uint32_t>(4, 16); }
 
 private:
   Derived& self() { return static_cast<Derived&>(*this); }
 
-  template <Channel c>
-  uint32_t read() {
-    return self().template read_channel<c>();
-  }
-  template <Channel c>
-  void write(uint32_t value) {
-    self().template write_channel<c>(value);
-  }
-  template <Channel c>
-  uint32_t count_of() {
-    return self().template channel_count<c>();
-  }
-  template <MfcOpcode op>
-  void command(const void* ls, ea_t ea, uint32_t size, uint32_t tag) {
+  template <Channel c> uint32_t read() { return self().template read_channel<c>(); }
+  template <Channel c> void write(uint32_t value) { self().template write_channel<c>(value); }
+  template <Channel c> uint32_t count_of() { return self().template channel_count<c>(); }
+  template <MfcOpcode op> void command(const void* ls, ea_t ea, uint32_t size, uint32_t tag) {
     self().template mfc_command<op>(const_cast<void*>(ls), ea, size, tag);
   }
   /// A list command carries its list's local-store address in the low half of the effective address.
@@ -219,8 +229,7 @@ private:
     self().template mfc_list_command<op>(const_cast<void*>(ls), ea, list,
                                          elements * static_cast<uint32_t>(sizeof(ListElement)), tag);
   }
-  template <MfcOpcode op>
-  uint32_t atomic_command(const void* ls, ea_t ea) {
+  template <MfcOpcode op> uint32_t atomic_command(const void* ls, ea_t ea) {
     command<op>(ls, ea, kLineBytes, 0);
     return read<Channel::rd_atomic_stat>();
   }

@@ -6,8 +6,9 @@
 
 namespace celltrace {
 
-/// An effective address: a place in the main storage domain (main memory, or the local store or problem state of an
-/// SPE where those are mapped). Never dereferenced by a kernel unless `Spu::direct_memory` says that it may be.
+/// An effective address: a place in the main storage domain (main memory, or the local store or problem state
+/// of an SPE where those are mapped). Never dereferenced by a kernel unless `Spu::direct_memory` says that it
+/// may be.
 using ea_t = uint64_t;
 
 constexpr uint32_t kLocalStoreBytes = 256 * 1024;
@@ -129,9 +130,9 @@ enum class HaltCode : uint32_t {
   internal_error = 3,
 };
 
-/// Where the problem-state registers and the local store of an SPE lie in the main storage domain. The signal and
-/// mailbox addresses are those of the 32-bit registers themselves: their low four bits are 0xC, so that the word
-/// that is sent to them lies in the last word of a quadword.
+/// Where the problem-state registers and the local store of an SPE lie in the main storage domain. The signal
+/// and mailbox addresses are those of the 32-bit registers themselves: their low four bits are 0xC, so that
+/// the word that is sent to them lies in the last word of a quadword.
 struct alignas(16) SpeAddresses {
   ea_t local_store;
   ea_t signal_1;
