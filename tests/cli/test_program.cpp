@@ -140,8 +140,8 @@ TEST_CASE("every key of the statistics is documented") {
   const TemporaryFolder folder;
   const std::string document = read_bytes(CELLTRACE_SOURCE_DIR "/docs/statistics.md");
   const Outcome outcome = celltrace_run(folder, {kScene, "-W", "8", "-H", "8", "--stats", "-"});
-  const auto statistics = nlohmann::json::parse(outcome.out);
-  for (const auto& [pointer, value] : statistics.flatten().items()) {
+  const auto statistics = nlohmann::json::parse(outcome.out).flatten();
+  for (const auto& [pointer, value] : statistics.items()) {
     const nlohmann::json::json_pointer path(pointer);
     const std::string key = path.back(),
                       group = path.parent_pointer().empty() ? "" : path.parent_pointer().back();
