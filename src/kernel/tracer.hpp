@@ -42,12 +42,12 @@ private:
   /// What rendering needs in local store; kept from frame to frame, so that the cache stays warm.
   struct Phase {
     Phase(Spu& spu, const FrameBlock& frame, const CacheConfig& config)
-        : image(frame.image), scene(spu, config, frame.image),
+        : image(frame.image), ray_stack(frame.ray_stack), scene(spu, config, frame.image),
           tracer(spu, frame, scene,
                  frame.ray_stack + static_cast<ea_t>(spu.id() * frame.ray_stack_nodes) * kRayNodeBytes),
           pixels(spu, frame) {}
 
-    ea_t image;
+    ea_t image, ray_stack;
     SceneAccess<Spu> scene;
     RayTracer<Spu> tracer;
     PixelWriter<Spu> pixels;
@@ -79,7 +79,7 @@ private:
   void synchronize() {
     while (spu_.in_mailbox_count() != 0)
       spu_.read_in_mailbox();
-    if (phase_ != nullptr && phase_->image == frame_.image)
+    if (phase_ != nullptr && phase_->image == frame_.image && phase_->ray_stack == frame_.ray_stack)
       phase_->scene.cache().synchronize_all();
     else
       drop_phase();

@@ -136,7 +136,8 @@ template <class Arch> struct HostSimd {
       return zip(a, b, [](auto x, auto y) { return x / y; });
     }
     friend F operator-(const F& a) {
-      return map(a, [](auto x) { return -x; });
+      // Not 0 - x, which is what some architectures make of -x: that of a zero would have another sign.
+      return map(a, [](auto x) { return x ^ FloatBatch(-0.0f); });
     }
     friend M operator<(const F& a, const F& b) {
       return test(a, b, [](auto x, auto y) { return x < y; });
