@@ -14,7 +14,8 @@ Shape sphere_shape(const Object& object, const Sphere& sphere) {
   shape.object = &object;
   shape.sphere = sphere;
   shape.to_sphere = object.transform.inverse();
-  for (Index& material : shape.material) material = object.material;
+  for (Index& material : shape.material)
+    material = object.material;
   return shape;
 }
 

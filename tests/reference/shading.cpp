@@ -9,14 +9,18 @@
 
 namespace celltrace::reference {
 
-double grey(const Vec3& colour) { return 0.297 * colour.r + 0.589 * colour.g + 0.114 * colour.b; }
+double grey(const Vec3& colour) {
+  return 0.297 * colour.r + 0.589 * colour.g + 0.114 * colour.b;
+}
 
 double opacity(const Pigment& p, double version) {
   const double brightest = version < 3.7 ? std::max({p.rgb.r, p.rgb.g, p.rgb.b}) : 1;
   return 1 - (p.filter * brightest + p.transmit);
 }
 
-Vec3 filter_colour(const Pigment& p) { return p.rgb * p.filter + p.transmit; }
+Vec3 filter_colour(const Pigment& p) {
+  return p.rgb * p.filter + p.transmit;
+}
 
 Vec3 metallic_tint(double metallic, double cosine, const Vec3& pigment) {
   const double x = std::acos(std::clamp(cosine, 0.0, 1.0)) / (std::numbers::pi / 2);
@@ -24,13 +28,14 @@ Vec3 metallic_tint(double metallic, double cosine, const Vec3& pigment) {
   return 1.0 + metallic * (1 - f) * (pigment - 1.0);
 }
 
-Vec3 lit(const Material& material, double version, const Vec3& colour, const Vec3& to_light, const Vec3& direction,
-         const Vec3& normal, bool highlights) {
+Vec3 lit(const Material& material, double version, const Vec3& colour, const Vec3& to_light,
+         const Vec3& direction, const Vec3& normal, bool highlights) {
   const Finish& f = material.finish;
   const Vec3& pigment = material.pigment.rgb;
   const double cosine = glm::dot(normal, to_light);
   if (cosine < 1e-10) return Vec3(0);
-  Vec3 sum = pigment * colour * f.diffuse * opacity(material.pigment, version) * std::pow(cosine, f.brilliance);
+  Vec3 sum =
+      pigment * colour * f.diffuse * opacity(material.pigment, version) * std::pow(cosine, f.brilliance);
   if (!highlights) return sum;
 
   double strength = 0;

@@ -1,5 +1,5 @@
-// POV-Ray 3.7's shading of one hit in double precision, to compare with. Directions are of unit length; `normal` is
-// flipped toward the viewer; cosines are to the normal.
+// POV-Ray 3.7's shading of one hit in double precision, to compare with. Directions are of unit length;
+// `normal` is flipped toward the viewer; cosines are to the normal.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -21,11 +21,11 @@ Vec3 filter_colour(const Pigment& pigment);
 Vec3 metallic_tint(double metallic, double cosine, const Vec3& pigment);
 
 /// What a light of `colour` in direction `to_light` adds to what is seen along `direction`.
-Vec3 lit(const Material& material, double version, const Vec3& colour, const Vec3& to_light, const Vec3& direction,
-         const Vec3& normal, bool highlights);
+Vec3 lit(const Material& material, double version, const Vec3& colour, const Vec3& to_light,
+         const Vec3& direction, const Vec3& normal, bool highlights);
 
-/// The reflectance of unpolarised light by Fresnel's equations; `ratio` is the index on this side over that on the
-/// other; 1 beyond the critical angle.
+/// The reflectance of unpolarised light by Fresnel's equations; `ratio` is the index on this side over that
+/// on the other; 1 beyond the critical angle.
 double fresnel_reflectance(double ratio, double cosine);
 
 /// Share of each colour that is mirrored; `ratio` matters to Fresnel's kind only.

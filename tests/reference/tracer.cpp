@@ -14,7 +14,9 @@ constexpr double kMinHitDistance = 1e-4;
 constexpr double kMaxHitDistance = 1e7;
 constexpr double kShadowTolerance = 1e-3;
 
-double max_component(const Vec3& v) { return std::max({v.x, v.y, v.z}); }
+double max_component(const Vec3& v) {
+  return std::max({v.x, v.y, v.z});
+}
 
 Ray camera_ray(const Camera& camera, double x, double y) {
   const Vec3 offset = camera.right * (x - 0.5) + camera.up * (0.5 - y);
@@ -40,33 +42,40 @@ InteriorStack interiors_around(const std::vector<Shape>& shapes, const Vec3& poi
   std::sort(around.begin(), around.end(),
             [&](const Shape* a, const Shape* b) { return volume(a) > volume(b); });
   InteriorStack stack;
-  for (const Shape* shape : around) stack.push_back(shape->object->interior);
+  for (const Shape* shape : around)
+    stack.push_back(shape->object->interior);
   return stack;
 }
 
 } // namespace
 
 Tracer::Tracer(const Scene& scene)
-    : scene_(scene), shapes_(shapes_of(scene)), camera_inside_(interiors_around(shapes_, scene.camera.location)) {}
+    : scene_(scene), shapes_(shapes_of(scene)),
+      camera_inside_(interiors_around(shapes_, scene.camera.location)) {
+}
 
 Image Tracer::render(int width, int height) const {
   Image image(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const Vec3 colour = see(camera_ray(scene_.camera, (x + 0.5) / width, (y + 0.5) / height));
-      for (int i = 0; i < 3; ++i) image.pixel(x, y)[i] = encode(colour[i], scene_.gamma_mode, scene_.assumed_gamma);
+      for (int i = 0; i < 3; ++i)
+        image.pixel(x, y)[i] = encode(colour[i], scene_.gamma_mode, scene_.assumed_gamma);
     }
   return image;
 }
 
-Vec3 Tracer::see(const Ray& ray) const { return trace({ray, 0, 1, camera_inside_}); }
+Vec3 Tracer::see(const Ray& ray) const {
+  return trace({ray, 0, 1, camera_inside_});
+}
 
 Tracer::Hit Tracer::closest(const Ray& ray) const {
   Hit hit;
   hit.crossing.distance = kMaxHitDistance;
   for (const Shape& shape : shapes_)
     for (const Crossing& crossing : cross(shape, ray))
-      if (crossing.distance > kMinHitDistance && crossing.distance < hit.crossing.distance) hit = {&shape, crossing};
+      if (crossing.distance > kMinHitDistance && crossing.distance < hit.crossing.distance)
+        hit = {&shape, crossing};
   return hit;
 }
 
@@ -78,7 +87,8 @@ Vec3 Tracer::attenuation(const Ray& ray, double distance) const {
       if (c.distance <= kShadowTolerance || c.distance >= distance - kShadowTolerance) continue;
       const double weights[3] = {1 - c.u - c.v, c.u, c.v};
       Vec3 filter(0);
-      for (int i = 0; i < 3; ++i) filter += weights[i] * filter_colour(scene_.materials[shape.material[i]].pigment);
+      for (int i = 0; i < 3; ++i)
+        filter += weights[i] * filter_colour(scene_.materials[shape.material[i]].pigment);
       passed *= filter;
     }
   }
@@ -143,8 +153,10 @@ Vec3 Tracer::shade(const Branch& branch, const Point& point, const Material& mat
   }
   const double strength = reflected_weight(material.finish, mirrored);
   if (strength <= 0) return sum;
-  const Vec3 seen = trace({{point.position, mirror(direction, point.normal)}, branch.level + 1,
-                           branch.weight * strength, branch.inside});
+  const Vec3 seen = trace({{point.position, mirror(direction, point.normal)},
+                           branch.level + 1,
+                           branch.weight * strength,
+                           branch.inside});
   return sum + mirrored * glm::pow(seen, Vec3(1 / material.finish.reflection_exponent));
 }
 

@@ -1,4 +1,5 @@
-// A ray tracer to compare with: Whitted's, in double precision and by brute force, with POV-Ray 3.7's formulas. Slow.
+// A ray tracer to compare with: Whitted's, in double precision and by brute force, with POV-Ray 3.7's
+// formulas. Slow.
 #pragma once
 
 #include "celltrace/image.hpp"

@@ -34,11 +34,13 @@ Object sphere_at(const Vec3& centre, double radius, Index material, Index interi
 
 Mesh floor_mesh(float height, float half) {
   Mesh mesh;
-  mesh.vertices = {{-half, height, -half}, {half, height, -half}, {half, height, half}, {-half, height, half}};
+  mesh.vertices = {
+      {-half, height, -half}, {half, height, -half}, {half, height, half}, {-half, height, half}};
   mesh.triangles.resize(2);
   const Index corners[2][3] = {{0, 1, 2}, {0, 2, 3}};
   for (int t = 0; t < 2; ++t)
-    for (int i = 0; i < 3; ++i) mesh.triangles[t].vertex[i] = corners[t][i];
+    for (int i = 0; i < 3; ++i)
+      mesh.triangles[t].vertex[i] = corners[t][i];
   return mesh;
 }
 
@@ -53,14 +55,17 @@ Mesh ball_mesh(int rings) {
                                  std::sin(polar) * std::sin(azimuth));
     }
   mesh.normals = mesh.vertices;
-  const auto vertex = [&](int ring, int column) { return static_cast<Index>(ring * columns + column % columns); };
+  const auto vertex = [&](int ring, int column) {
+    return static_cast<Index>(ring * columns + column % columns);
+  };
   const auto add = [&](Index a, Index b, Index c) {
     mesh.triangles.push_back({{a, b, c}, {a, b, c}, {kNoIndex, kNoIndex, kNoIndex}});
   };
   for (int ring = 0; ring < rings; ++ring)
     for (int column = 0; column < columns; ++column) {
       if (ring > 0) add(vertex(ring, column), vertex(ring, column + 1), vertex(ring + 1, column));
-      if (ring + 1 < rings) add(vertex(ring, column + 1), vertex(ring + 1, column + 1), vertex(ring + 1, column));
+      if (ring + 1 < rings)
+        add(vertex(ring, column + 1), vertex(ring + 1, column + 1), vertex(ring + 1, column));
     }
   return mesh;
 }

@@ -6,7 +6,9 @@ namespace celltrace::test {
 
 namespace {
 
-Index new_interior(Scene& scene, double ior = 1) { return scene.add(Interior{ior}); }
+Index new_interior(Scene& scene, double ior = 1) {
+  return scene.add(Interior{ior});
+}
 
 void add_sphere(Scene& scene, const Vec3& centre, double radius, const Material& material, double ior = 1) {
   scene.objects.push_back(sphere_at(centre, radius, scene.add(material), new_interior(scene, ior)));
@@ -14,7 +16,8 @@ void add_sphere(Scene& scene, const Vec3& centre, double radius, const Material&
 
 void add_floor(Scene& scene, float height, const Vec3& near_colour, const Vec3& far_colour) {
   Mesh mesh = floor_mesh(height, 8);
-  for (Index& material : mesh.triangles[1].material) material = static_cast<Index>(scene.materials.size());
+  for (Index& material : mesh.triangles[1].material)
+    material = static_cast<Index>(scene.materials.size());
   scene.add(matte(far_colour));
   scene.objects.push_back(mesh_object(mesh, scene.add(matte(near_colour)), new_interior(scene)));
 }
@@ -81,9 +84,10 @@ Scene ellipsoids() {
     Material m = i % 3 == 2 ? glass({0.9, 0.7, 0.9}) : matte({0.3 + 0.07 * i, 0.5, 0.9 - 0.08 * i});
     m.finish.phong = 0.5;
     add_sphere(scene, {0.1, 0, 0}, 0.7, m, i % 3 == 2 ? 1.3 : 1);
-    scene.objects.back().transform = Transform::scale({1, 0.25 + 0.1 * i, 0.6})
-                                         .then(Transform::rotate({20.0 * i, 35.0 * i, 10.0 * i}))
-                                         .then(Transform::translate({1.5 * (i % 3) - 1.5, 1.2 * (i / 3) - 1.0, 0.2 * i}));
+    scene.objects.back().transform =
+        Transform::scale({1, 0.25 + 0.1 * i, 0.6})
+            .then(Transform::rotate({20.0 * i, 35.0 * i, 10.0 * i}))
+            .then(Transform::translate({1.5 * (i % 3) - 1.5, 1.2 * (i / 3) - 1.0, 0.2 * i}));
   }
   return scene;
 }
@@ -100,8 +104,10 @@ Scene meshes() {
   Mesh ball = ball_mesh(5);
   const Object smooth = mesh_object(ball, colours[0], new_interior(scene));
   for (std::size_t t = 0; t < ball.triangles.size(); ++t) {
-    for (Index& normal : ball.triangles[t].normal) normal = kNoIndex;
-    for (int i = 0; i < 3; ++i) ball.triangles[t].material[i] = colours[(t / 2 + (t % 3 == 0 ? i : 0)) % 3];
+    for (Index& normal : ball.triangles[t].normal)
+      normal = kNoIndex;
+    for (int i = 0; i < 3; ++i)
+      ball.triangles[t].material[i] = colours[(t / 2 + (t % 3 == 0 ? i : 0)) % 3];
     if (t % 4 == 1) ball.triangles[t].material[1] = clear;
   }
   scene.objects.push_back(smooth);
@@ -156,13 +162,16 @@ Scene inside_glass() {
   m.finish.reflection_min = m.finish.reflection_max = Vec3(0);
   add_sphere(scene, {0, 0, 0}, 2, m, 1.4);
   add_sphere(scene, {0, 0, 0}, 3, m, 1.2);
-  add_sphere(scene, {0.6, 0.3, 1.9}, 0.7, m, 1.6); // overlaps the inner one: left in another order than entered
+  add_sphere(scene, {0.6, 0.3, 1.9}, 0.7, m,
+             1.6); // overlaps the inner one: left in another order than entered
   add_sphere(scene, {0.3, -0.4, 0.8}, 0.2, matte({0.9, 0.9, 0.1}));
   add_sphere(scene, {1.5, 0.5, 6}, 1, matte({0.2, 0.4, 1}));
   return scene;
 }
 
-Scene empty() { return with_camera(camera_at({0, 0, -5}, {0, 0, 0})); }
+Scene empty() {
+  return with_camera(camera_at({0, 0, -5}, {0, 0, 0}));
+}
 
 Scene dark() {
   Scene scene = highlights();
@@ -182,7 +191,8 @@ Scene flat_gamma() {
     const Index first = static_cast<Index>(mesh.vertices.size());
     mesh.vertices.insert(mesh.vertices.end(), {{x, y, 0}, {x + 0.9f, y + 0.1f, 0}, {x + 0.3f, y + 0.8f, 0}});
     mesh.triangles.push_back({{first, first + 1, first + 2}, {kNoIndex, kNoIndex, kNoIndex}, {}});
-    for (Index& material : mesh.triangles.back().material) material = static_cast<Index>(i % 3);
+    for (Index& material : mesh.triangles.back().material)
+      material = static_cast<Index>(i % 3);
   }
   scene.add(matte({0.9, 0.3, 0.2}));
   scene.add(matte({0.3, 0.9, 0.2}));

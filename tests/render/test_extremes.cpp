@@ -19,12 +19,14 @@ Comparison against_reference(const Scene& scene) {
 
 Scene moved(const std::string& name, const Transform& by) {
   Scene scene = scene_named(name);
-  for (Object& object : scene.objects) object.transform = object.transform.then(by);
+  for (Object& object : scene.objects)
+    object.transform = object.transform.then(by);
   scene.camera.location = by.point(scene.camera.location);
   scene.camera.direction = by.direction(scene.camera.direction);
   scene.camera.right = by.direction(scene.camera.right);
   scene.camera.up = by.direction(scene.camera.up);
-  for (Light& light : scene.lights) light.location = by.point(light.location);
+  for (Light& light : scene.lights)
+    light.location = by.point(light.location);
   return scene;
 }
 
@@ -96,7 +98,8 @@ TEST_CASE("Sixteen spheres in each other, more than a ray remembers") {
   Material m = matte({0.9, 0.9, 1});
   m.pigment.transmit = 0.97;
   const Index material = scene.add(m);
-  for (int i = 0; i < 7; ++i) scene.objects.push_back(sphere_at({0, 0, 0}, 16 - i, material, scene.add(Interior{1.02})));
+  for (int i = 0; i < 7; ++i)
+    scene.objects.push_back(sphere_at({0, 0, 0}, 16 - i, material, scene.add(Interior{1.02})));
   const RenderResult seven = render(scene, backends().front().options(40, 30, 2));
   CHECK(seven.statistics.dropped_rays == 0);
   CHECK(compare_images(reference::Tracer(scene).render(40, 30), seven.image).psnr >= 45);

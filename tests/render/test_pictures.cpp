@@ -1,4 +1,5 @@
-// The pictures: the same from every backend with any number of SPEs, and close to those of the reference tracer.
+// The pictures: the same from every backend with any number of SPEs, and close to those of the reference
+// tracer.
 #include "celltrace/image.hpp"
 #include "reference/tracer.hpp"
 #include "render/backends.hpp"

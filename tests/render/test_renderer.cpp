@@ -16,7 +16,9 @@ constexpr int kWidth = 80;
 constexpr int kHeight = 60;
 
 /// Narrow and fast backends: what is tested here has nothing to do with SIMD.
-std::vector<Backend> one_of_each() { return {backends().front(), backends().back()}; }
+std::vector<Backend> one_of_each() {
+  return {backends().front(), backends().back()};
+}
 
 Image picture(const Scene& scene, int width = kWidth, int height = kHeight) {
   return render(scene, backends().front().options(width, height, 1)).image;
@@ -194,7 +196,8 @@ TEST_CASE("Pictures of any size, also with more SPEs than rows") {
       for (unsigned spes : {2u, 16u}) {
         INFO(backend.spu() << " with " << spes << ": " << width << "x" << height);
         Renderer renderer(backend.options(width, height, spes));
-        for (int frame = 0; frame < 20; ++frame) check_complete(renderer.render(scene), backend, expected);
+        for (int frame = 0; frame < 20; ++frame)
+          check_complete(renderer.render(scene), backend, expected);
       }
   }
 }
@@ -335,7 +338,9 @@ TEST_CASE("Scenes and cameras that cannot be rendered are refused, and the Rende
     refuses([](Scene& s) { s.objects[1].material = 1000; });
     refuses([](Scene& s) { s.objects[1].interior = kNoIndex; });
     refuses([&](Scene& s) { s.camera.location.x = nan; });
-    refuses([](Scene& s) { s.objects[1].transform = Transform::matrix({1, 2, 3, 2, 4, 6, 0, 0, 1, 0, 0, 0}); });
+    refuses([](Scene& s) {
+      s.objects[1].transform = Transform::matrix({1, 2, 3, 2, 4, 6, 0, 0, 1, 0, 0, 0});
+    });
     refuses([](Scene& s) { s.objects[1].shape = std::shared_ptr<const Mesh>(); });
     check_complete(renderer.render(good), backend, expected);
     Camera camera = good.camera;

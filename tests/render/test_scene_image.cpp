@@ -22,7 +22,9 @@ Bytes bytes_of(const SceneImage& image) {
   return {part.begin(), part.end()};
 }
 
-ImageHeader& header_of(Bytes& bytes) { return *reinterpret_cast<ImageHeader*>(bytes.data()); }
+ImageHeader& header_of(Bytes& bytes) {
+  return *reinterpret_cast<ImageHeader*>(bytes.data());
+}
 
 /// Makes the checksum right again after a change: FNV-1a over 64-bit words, its own field as 0.
 void seal(Bytes& bytes) {
@@ -36,12 +38,10 @@ void seal(Bytes& bytes) {
   header_of(bytes).checksum = sum;
 }
 
-template <class Record>
-Record* table(Bytes& bytes, std::uint32_t offset) {
+template <class Record> Record* table(Bytes& bytes, std::uint32_t offset) {
   return reinterpret_cast<Record*>(bytes.data() + offset);
 }
-template <class Record>
-const Record* table(const SceneImage& image, std::uint32_t offset) {
+template <class Record> const Record* table(const SceneImage& image, std::uint32_t offset) {
   return reinterpret_cast<const Record*>(image.base() + offset);
 }
 
@@ -89,8 +89,8 @@ TEST_CASE("Any flipped bit of a scene image is noticed") {
 
 TEST_CASE("A scene image of the wrong length is refused") {
   Bytes bytes = bytes_of(SceneImage(scene_named("meshes")));
-  for (std::size_t length : {std::size_t{0}, std::size_t{127}, std::size_t{128}, bytes.size() / 2, bytes.size() - 1,
-                             bytes.size() - 128})
+  for (std::size_t length : {std::size_t{0}, std::size_t{127}, std::size_t{128}, bytes.size() / 2,
+                             bytes.size() - 1, bytes.size() - 128})
     CHECK_THROWS_AS(SceneImage::from_bytes(std::span(bytes).first(length)), InputError);
   bytes.resize(bytes.size() + 128);
   CHECK_THROWS_AS(SceneImage::from_bytes(bytes), InputError);
@@ -162,7 +162,8 @@ TEST_CASE("What cannot be hit is left out") {
   Mesh mesh = floor_mesh(0, 1);
   mesh.triangles.push_back({{1, 1, 2}, {kNoIndex, kNoIndex, kNoIndex}, {kNoIndex, kNoIndex, kNoIndex}});
   mesh.vertices.push_back({0, 0, 0});
-  mesh.triangles.push_back({{0, 2, 4}, {kNoIndex, kNoIndex, kNoIndex}, {kNoIndex, kNoIndex, kNoIndex}}); // a line
+  mesh.triangles.push_back(
+      {{0, 2, 4}, {kNoIndex, kNoIndex, kNoIndex}, {kNoIndex, kNoIndex, kNoIndex}}); // a line
   scene.objects = {sphere_at({0, 0, 0}, 0, 0, 0), mesh_object(mesh, 0, 0), mesh_object(Mesh{}, 0, 0)};
   CHECK(SceneImage(scene).header().object_count == 2);
 }
@@ -175,7 +176,8 @@ TEST_CASE("A triangle with some normals only is refused") {
     Mesh mesh = floor_mesh(0, 1);
     mesh.normals = {{0, 1, 0}, {0, 1, 0.1f}};
     const Index normals[3] = {0, 1, 1};
-    for (int i = 0; i < 3; ++i) mesh.triangles[0].normal[i] = i == missing ? kNoIndex : normals[i];
+    for (int i = 0; i < 3; ++i)
+      mesh.triangles[0].normal[i] = i == missing ? kNoIndex : normals[i];
     scene.objects = {mesh_object(mesh, 0, 0)};
     CHECK_THROWS_AS(SceneImage(scene), InputError);
   }

@@ -1,0 +1,114 @@
+// A kernel that applies every operation of the SIMD facade to blocks of operands.
+#pragma once
+
+#include "celltrace/spe/simd.hpp"
+#include "celltrace/spe/types.hpp"
+
+namespace celltrace::test {
+
+struct alignas(128) FacadeBlock {
+  // operands
+  float a[16], b[16];
+  int32_t i[16], j[16];
+  uint32_t m, n; ///< masks
+  uint32_t pad[14];
+  uint32_t p[4], q[4];
+  uint32_t pad_words[8];
+  // results
+  float sum[16], difference[16], product[16], quotient[16], negative[16];
+  float least[16], most[16], magnitude[16], root[16], chosen[16];
+  float splat[16], from_int[16], reinterpreted[16];
+  int32_t int_sum[16], int_difference[16], int_and[16], int_or[16], int_chosen[16];
+  int32_t to_int[16], bits[16], left_1[16], left_23[16], right_1[16], right_23[16], int_splat[16];
+  uint32_t u4_and[4], u4_or[4], u4_splat[4];
+  uint32_t u4_equal, u4_equal_self;
+  uint32_t less, less_equal, greater, greater_equal, equal;
+  uint32_t int_equal, int_less;
+  uint32_t mask_and, mask_or, mask_not, mask_none, mask_all, mask_same;
+  uint32_t pad_end[9];
+};
+static_assert(sizeof(FacadeBlock) % 128 == 0, "crosses DMA");
+
+struct alignas(16) FacadeTask {
+  ea_t blocks;
+  uint32_t count;
+  uint32_t pad;
+};
+
+template <class S> void apply_facade(FacadeBlock& x) {
+  using F = typename S::F;
+  using I = typename S::I;
+  using M = typename S::M;
+  using U4 = typename S::U4;
+  const F a = F::load(x.a);
+  const F b = F::load(x.b);
+  (a + b).store(x.sum);
+  (a - b).store(x.difference);
+  (a * b).store(x.product);
+  (a / b).store(x.quotient);
+  (-a).store(x.negative);
+  S::min(a, b).store(x.least);
+  S::max(a, b).store(x.most);
+  S::abs(a).store(x.magnitude);
+  S::sqrt(S::abs(a)).store(x.root);
+  F(x.a[3]).store(x.splat);
+  x.less = (a < b).bits();
+  x.less_equal = (a <= b).bits();
+  x.greater = (a > b).bits();
+  x.greater_equal = (a >= b).bits();
+  x.equal = (a == b).bits();
+  S::to_int(a).store(x.to_int);
+  S::bits_of(a).store(x.bits);
+
+  const I i = I::load(x.i);
+  const I j = I::load(x.j);
+  (i + j).store(x.int_sum);
+  (i - j).store(x.int_difference);
+  (i & j).store(x.int_and);
+  (i | j).store(x.int_or);
+  I::splat(x.i[5]).store(x.int_splat);
+  x.int_equal = (i == j).bits();
+  x.int_less = (i < j).bits();
+  S::to_float(i).store(x.from_int);
+  S::float_of(S::bits_of(b)).store(x.reinterpreted);
+  S::template shift_left<1>(i).store(x.left_1);
+  S::template shift_left<23>(i).store(x.left_23);
+  S::template shift_right<1>(i).store(x.right_1);
+  S::template shift_right<23>(i).store(x.right_23);
+
+  const M m = M::from_bits(x.m);
+  const M n = M::from_bits(x.n);
+  x.mask_same = m.bits();
+  x.mask_and = (m & n).bits();
+  x.mask_or = (m | n).bits();
+  x.mask_not = (!m).bits();
+  x.mask_none = M::none().bits();
+  x.mask_all = M::all().bits();
+  S::select(m, a, b).store(x.chosen);
+  S::select(n, i, j).store(x.int_chosen);
+
+  const U4 p = U4::load(x.p);
+  const U4 q = U4::load(x.q);
+  (p & q).store(x.u4_and);
+  (p | q).store(x.u4_or);
+  U4::splat(x.p[2]).store(x.u4_splat);
+  x.u4_equal = equal_bits(p, q);
+  x.u4_equal_self = equal_bits(p, p);
+}
+
+template <class Spu> void facade(Spu& spu, ea_t argument) {
+  FacadeTask* task = spu.template allocate<FacadeTask>();
+  FacadeBlock* block = spu.template allocate<FacadeBlock>();
+  spu.get(task, argument, sizeof *task, 0);
+  spu.wait_all(1);
+  for (uint32_t k = 0; k < task->count; ++k) {
+    const ea_t at = task->blocks + k * sizeof(FacadeBlock);
+    spu.get(block, at, sizeof *block, 0);
+    spu.wait_all(1);
+    apply_facade<typename Spu::simd>(*block);
+    spu.put(block, at, sizeof *block, 0);
+    spu.wait_all(1);
+  }
+}
+
+} // namespace celltrace::test
