@@ -32,6 +32,7 @@ struct ParseLimits {
   std::uint64_t array_elements = 4'000'000;   ///< of one array
   std::uint64_t list_entries = 32'000'000;    ///< of one list, such as a mesh's vertices
   std::uint64_t string_bytes = 1u << 20;      ///< of one string
+  std::uint64_t text_bytes = 256u << 20;      ///< of all strings made or declared
   std::uint64_t objects = 4'000'000;          ///< placed in the scene
   std::uint64_t triangles = 32'000'000;       ///< of all meshes, an instance not counted again
 };

@@ -29,7 +29,8 @@ Transform inverse(Session& session, const Transform& transform, const Location& 
 
 // ---- Arrays (arrays.cpp) ----
 
-std::shared_ptr<Array> copy(const Array& array);
+/// A deep copy: arrays are values.
+std::shared_ptr<Array> copy(Session& session, const Array& array, const Location& where);
 Array to_array(const std::vector<Quantity>& numbers);
 std::size_t array_size(Session& session, double size, const Location& where);
 /// An array of the given dimensions from `level` on, without values.

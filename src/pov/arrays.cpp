@@ -5,19 +5,35 @@ namespace celltrace::pov {
 namespace {
 
 constexpr std::size_t kMostDimensions = 5;
+constexpr int kDeepestArray = 300; // more than brackets can be nested
 
 const Array* as_array(const Value& value) {
   const auto* array = std::get_if<std::shared_ptr<Array>>(&value);
   return array ? array->get() : nullptr;
 }
 
-} // namespace
+/// What a copy may still cost: arrays inside arrays could grow without end.
+struct Budget {
+  int depth;
+  std::uint64_t elements;
+};
 
-std::shared_ptr<Array> copy(const Array& array) {
+std::shared_ptr<Array> copy(Session& session, const Array& array, const Location& where, Budget& budget) {
+  if (--budget.depth < 0 || array.elements.size() > budget.elements)
+    session.fail(where, "this array is too large to be copied");
+  budget.elements -= array.elements.size();
   auto result = std::make_shared<Array>(array);
   for (Value& element : result->elements)
-    if (const Array* inner = as_array(element)) element = copy(*inner);
+    if (const Array* inner = as_array(element)) element = copy(session, *inner, where, budget);
+  ++budget.depth;
   return result;
+}
+
+} // namespace
+
+std::shared_ptr<Array> copy(Session& session, const Array& array, const Location& where) {
+  Budget budget{kDeepestArray, session.options.limits.array_elements};
+  return copy(session, array, where, budget);
 }
 
 Array to_array(const std::vector<Quantity>& numbers) {
@@ -58,9 +74,8 @@ void fill(Session& session, Array& target, const Array& source, const Location& 
   for (std::size_t i = 0; i < source.elements.size(); ++i) {
     const Array* inner = as_array(source.elements[i]);
     const auto* target_inner = std::get_if<std::shared_ptr<Array>>(&target.elements[i]);
-    if ((inner != nullptr) != (target_inner != nullptr))
-      session.fail(where, "the elements given do not have the array's dimensions");
-    if (inner)
+    if (target_inner && !inner) session.fail(where, "the elements given do not have the array's dimensions");
+    if (target_inner)
       fill(session, **target_inner, *inner, where);
     else
       target.elements[i] = source.elements[i];

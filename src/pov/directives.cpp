@@ -109,12 +109,28 @@ Value& TokenStream::element(Value& array, const std::vector<std::size_t>& subscr
   return *found;
 }
 
+/// `deprecated once "message"` in front of a name.
+void TokenStream::skip_deprecation() {
+  const auto is_word = [this](const Token& token, const char* text) {
+    return token.kind == Token::Kind::word && session_.names.text(token.name) == text;
+  };
+  Token token = read();
+  if (is_word(token, "deprecated")) {
+    token = read();
+    if (is_word(token, "once")) token = read();
+    if (token.kind == Token::Kind::string) token = read();
+  }
+  session_.input.unread(token);
+}
+
 void TokenStream::declare(bool is_local) {
+  skip_deprecation();
   const Token name = expect_name("to declare");
   const std::vector<std::size_t> subscripts = read_subscripts();
   expect('=', "after the name to declare");
   Value value = evaluate(Start::value);
   skip_semicolon();
+  if (const auto* text = std::get_if<std::string>(&value)) session_.count_text(text->size(), name.where);
   if (!subscripts.empty()) {
     const std::shared_ptr<Slot> slot = session_.symbols.find(name.name);
     if (!slot) session_.fail(name.where, "'" + session_.names.text(name.name) + "' is not declared");
@@ -171,7 +187,7 @@ void TokenStream::include(const Token& directive) {
   try {
     text = read_text(*path, session_.options.limits.file_bytes);
   } catch (const InputError& error) {
-    session_.fail(name.where, "include file '" + wanted + "' " + error.what());
+    session_.fail(name.where, "include file '" + wanted + "': " + error.what());
   }
   session_.symbols.enter_scope();
   open(std::move(text), path->lexically_normal().string(), path->parent_path());

@@ -290,7 +290,9 @@ Quantity call_numeric(Session& session, int function, const std::vector<Value>& 
 
 std::string call_text(Session& session, int function, const std::vector<Value>& arguments,
                       const Location& where) {
-  return std::get<std::string>(evaluate(session, function, arguments, where));
+  std::string text = std::get<std::string>(evaluate(session, function, arguments, where));
+  session.count_text(text.size(), where);
+  return text;
 }
 
 } // namespace celltrace::pov

@@ -15,7 +15,7 @@
 %param { celltrace::pov::Session& session }
 // After a value both an operator and, since commas are optional, a sign or a colour's channel can follow: the longer
 // value is meant.
-%expect 46
+%expect 51
 
 %code requires {
 #include "pov/actions.hpp"
@@ -46,7 +46,7 @@ static int yylex(Parser::semantic_type* value, Location* where, Session& session
 %token <Quantity> QUANTITY
 %token <std::string> TEXT
 %token <PigmentDefinition> PIGMENT_ID
-%token <FinishDefinition> FINISH_ID
+%token <FinishPtr> FINISH_ID
 %token <TexturePtr> TEXTURE_ID
 %token <InteriorPtr> INTERIOR_ID
 %token <std::shared_ptr<const MaterialDefinition>> MATERIAL_ID
@@ -82,7 +82,7 @@ static int yylex(Parser::semantic_type* value, Location* where, Session& session
 %nterm <std::shared_ptr<Array>> elements
 %nterm <Transform> transformation transform_items
 %nterm <PigmentDefinition> pigment pigment_body
-%nterm <FinishDefinition> finish finish_body
+%nterm <std::shared_ptr<FinishDefinition>> finish finish_body
 %nterm <ReflectionDefinition> reflection_body
 %nterm <TexturePtr> texture texture_body layers
 %nterm <InteriorDefinition> interior_body
@@ -96,7 +96,7 @@ static int yylex(Parser::semantic_type* value, Location* where, Session& session
 %nterm <std::shared_ptr<MeshBuilder>> mesh_head
 %nterm <std::shared_ptr<Mesh2Definition>> mesh2_head
 %nterm <std::vector<TexturePtr>> texture_list
-%nterm <TriangleDefinition> triangle triangle_vertices
+%nterm <std::shared_ptr<TriangleDefinition>> triangle triangle_vertices
 %nterm <double> number optional_number flag
 %nterm <UnsupportedPtr> unsupported unsupported_modifier
 
@@ -149,7 +149,7 @@ defaults
   : %empty
   | defaults texture  { session.builder.default_texture = $2; }
   | defaults pigment  { session.builder.default_texture = with_pigment(session.builder.default_texture, $2); }
-  | defaults finish   { session.builder.default_texture = with_finish(session.builder.default_texture, $2); }
+  | defaults finish   { session.builder.default_texture = with_finish(session.builder.default_texture, *$2); }
   | defaults camera   { session.builder.default_camera = *$2; }
   | defaults UNSUPPORTED_BLOCK {
       session.builder.default_texture =
@@ -227,6 +227,8 @@ comparison
   | comparison NOT_EQUAL quantity     { $$ = compare(Relation::not_equal, $1, $3); }
   | comparison GREATER_EQUAL quantity { $$ = compare(Relation::greater_equal, $1, $3); }
   | comparison '>' quantity           { $$ = compare(Relation::greater, $1, $3); }
+  | text '=' text                     { $$ = double($1 == $3); }
+  | text NOT_EQUAL text               { $$ = double($1 != $3); }
   ;
 
 arguments
@@ -331,30 +333,30 @@ finish
   ;
 
 finish_body
-  : %empty                                 { $$ = session.builder.default_texture->finish; }
-  | finish_body FINISH_ID                  { $$ = $2; }
-  | finish_body AMBIENT colour_value       { $$ = $1; $$.value.ambient = session.colour($3, @3).rgb; }
-  | finish_body EMISSION colour_value      { $$ = $1; $$.value.emission = session.colour($3, @3).rgb; }
-  | finish_body DIFFUSE number             { $$ = $1; $$.value.diffuse = $3; }
-  | finish_body DIFFUSE number ',' number  { $$ = $1; $$.value.diffuse = $3; mark($$.unsupported, unless_zero("light from behind", $5, @5)); }
-  | finish_body BRILLIANCE number          { $$ = $1; $$.value.brilliance = $3; }
-  | finish_body PHONG number               { $$ = $1; $$.value.phong = $3; }
-  | finish_body PHONG_SIZE number          { $$ = $1; $$.value.phong_size = $3; }
-  | finish_body SPECULAR number            { $$ = $1; $$.value.specular = $3; }
-  | finish_body ROUGHNESS number           { $$ = $1; $$.value.roughness = roughness(session, $3, @3); }
-  | finish_body METALLIC optional_number   { $$ = $1; $$.value.metallic = $3; }
-  | finish_body CONSERVE_ENERGY flag       { $$ = $1; $$.value.conserve_energy = $3 != 0; }
-  | finish_body REFLECTION colour_value    { $$ = $1; set_reflection($$.value, session.colour($3, @3).rgb); }
-  | finish_body REFLECTION '{' reflection_body '}' { $$ = $1; $4.apply($$.value); }
-  | finish_body REFLECTION_EXPONENT number { $$ = $1; $$.value.reflection_exponent = exponent(session, $3, @3); }
-  | finish_body IOR number                 { $$ = $1; $$.ior = ior(session, $3, @3); }
+  : %empty                                 { $$ = std::make_shared<FinishDefinition>(session.builder.default_texture->finish); }
+  | finish_body FINISH_ID                  { $$ = std::make_shared<FinishDefinition>(*$2); }
+  | finish_body AMBIENT colour_value       { $$ = $1; $$->value.ambient = session.colour($3, @3).rgb; }
+  | finish_body EMISSION colour_value      { $$ = $1; $$->value.emission = session.colour($3, @3).rgb; }
+  | finish_body DIFFUSE number             { $$ = $1; $$->value.diffuse = $3; }
+  | finish_body DIFFUSE number ',' number  { $$ = $1; $$->value.diffuse = $3; mark($$->unsupported, unless_zero("light from behind", $5, @5)); }
+  | finish_body BRILLIANCE number          { $$ = $1; $$->value.brilliance = $3; }
+  | finish_body PHONG number               { $$ = $1; $$->value.phong = $3; }
+  | finish_body PHONG_SIZE number          { $$ = $1; $$->value.phong_size = $3; }
+  | finish_body SPECULAR number            { $$ = $1; $$->value.specular = $3; }
+  | finish_body ROUGHNESS number           { $$ = $1; $$->value.roughness = roughness(session, $3, @3); }
+  | finish_body METALLIC optional_number   { $$ = $1; $$->value.metallic = $3; }
+  | finish_body CONSERVE_ENERGY flag       { $$ = $1; $$->value.conserve_energy = $3 != 0; }
+  | finish_body REFLECTION colour_value    { $$ = $1; set_reflection($$->value, session.colour($3, @3).rgb); }
+  | finish_body REFLECTION '{' reflection_body '}' { $$ = $1; $4.apply($$->value); }
+  | finish_body REFLECTION_EXPONENT number { $$ = $1; $$->value.reflection_exponent = exponent(session, $3, @3); }
+  | finish_body IOR number                 { $$ = $1; $$->ior = ior(session, $3, @3); }
   | finish_body REFRACTION number          { $$ = $1; }
-  | finish_body CRAND number               { $$ = $1; mark($$.unsupported, unless_zero("'crand'", $3, @2)); }
-  | finish_body CAUSTICS number            { $$ = $1; mark($$.unsupported, unless_zero("'caustics'", $3, @2)); }
-  | finish_body FADE_DISTANCE number       { $$ = $1; mark($$.unsupported, unless_zero("'fade_distance'", $3, @2)); }
+  | finish_body CRAND number               { $$ = $1; mark($$->unsupported, unless_zero("'crand'", $3, @2)); }
+  | finish_body CAUSTICS number            { $$ = $1; mark($$->unsupported, unless_zero("'caustics'", $3, @2)); }
+  | finish_body FADE_DISTANCE number       { $$ = $1; mark($$->unsupported, unless_zero("'fade_distance'", $3, @2)); }
   | finish_body FADE_POWER number          { $$ = $1; }
-  | finish_body IRID '{' number irid_items '}' { $$ = $1; mark($$.unsupported, unless_zero("'irid'", $4, @2)); }
-  | finish_body unsupported                { $$ = $1; mark($$.unsupported, $2); }
+  | finish_body IRID '{' number irid_items '}' { $$ = $1; mark($$->unsupported, unless_zero("'irid'", $4, @2)); }
+  | finish_body unsupported                { $$ = $1; mark($$->unsupported, $2); }
   ;
 
 irid_items
@@ -379,9 +381,9 @@ texture_body
   : %empty                      { $$ = session.builder.default_texture; }
   | texture_body TEXTURE_ID     { $$ = $2; }
   | texture_body pigment        { $$ = with_pigment($1, $2); }
-  | texture_body finish         { $$ = with_finish($1, $2); }
+  | texture_body finish         { $$ = with_finish($1, *$2); }
   | texture_body PIGMENT_ID     { $$ = with_pigment($1, $2); }
-  | texture_body FINISH_ID      { $$ = with_finish($1, $2); }
+  | texture_body FINISH_ID      { $$ = with_finish($1, *$2); }
   | texture_body transformation { $$ = $1; }
   | texture_body UV_MAPPING     { $$ = $1; }
   | texture_body unsupported    { $$ = with_unsupported($1, $2); }
@@ -460,7 +462,7 @@ object_head
   | SPHERE '{' OBJECT_ID     { $$ = std::make_shared<ObjectDefinition>(*$3); }
   | MESH '{' OBJECT_ID       { $$ = std::make_shared<ObjectDefinition>(*$3); }
   | MESH2 '{' OBJECT_ID      { $$ = std::make_shared<ObjectDefinition>(*$3); }
-  | triangle_vertices        { $$ = lone_triangle(session, $1, @1); }
+  | triangle_vertices        { $$ = lone_triangle(session, *$1, @1); }
   | union_head               { $$ = make_union(session, std::move($1), @1); }
   | mesh_head                { $$ = mesh(session, *$1, @1); }
   | mesh2_head               { $$ = mesh2(session, *$1, @1); }
@@ -471,7 +473,7 @@ object_body
   | object_body transformation         { $$ = $1; $$->apply($2); }
   | object_body texture                { $$ = $1; $$->texture = layered($$->texture, $2, @2); }
   | object_body pigment                { $$ = $1; $$->texture = with_pigment(texture_of(session, *$$), $2); }
-  | object_body finish                 { $$ = $1; $$->texture = with_finish(texture_of(session, *$$), $2); }
+  | object_body finish                 { $$ = $1; $$->texture = with_finish(texture_of(session, *$$), *$2); }
   | object_body interior               { $$ = $1; $$->interior = $2; }
   | object_body material               { $$ = $1; apply($2, *$$, @2); }
   | object_body NO_SHADOW flag         { $$ = $1; $$->no_shadow = $3 != 0; }
@@ -504,29 +506,31 @@ light_body
 
 triangle
   : triangle_vertices '}'         { $$ = $1; }
-  | triangle_vertices texture '}' { $$ = $1; $$.texture = $2; }
+  | triangle_vertices texture '}' { $$ = $1; $$->texture = $2; }
   | triangle_vertices UV_VECTORS quantity optional_comma quantity optional_comma quantity '}' { $$ = $1; }
   | triangle_vertices UV_VECTORS quantity optional_comma quantity optional_comma quantity texture '}' {
       $$ = $1;
-      $$.texture = $8;
+      $$->texture = $8;
     }
   ;
 
 triangle_vertices
   : TRIANGLE '{' quantity optional_comma quantity optional_comma quantity {
-      $$.vertices = {session.vector($3, @3), session.vector($5, @5), session.vector($7, @7)};
+      $$ = std::make_shared<TriangleDefinition>();
+      $$->vertices = {session.vector($3, @3), session.vector($5, @5), session.vector($7, @7)};
     }
   | SMOOTH_TRIANGLE '{' quantity optional_comma quantity optional_comma quantity optional_comma
                         quantity optional_comma quantity optional_comma quantity {
-      $$.vertices = {session.vector($3, @3), session.vector($7, @7), session.vector($11, @11)};
-      $$.normals = {session.vector($5, @5), session.vector($9, @9), session.vector($13, @13)};
-      $$.is_smooth = true;
+      $$ = std::make_shared<TriangleDefinition>();
+      $$->vertices = {session.vector($3, @3), session.vector($7, @7), session.vector($11, @11)};
+      $$->normals = {session.vector($5, @5), session.vector($9, @9), session.vector($13, @13)};
+      $$->is_smooth = true;
     }
   ;
 
 mesh_head
   : MESH '{'           { $$ = std::make_shared<MeshBuilder>(); }
-  | mesh_head triangle { $$ = $1; add_triangle(session, *$$, $2, @2); }
+  | mesh_head triangle { $$ = $1; add_triangle(session, *$$, *$2, @2); }
   | mesh_head INSIDE_VECTOR quantity { $$ = $1; }
   ;
 
@@ -565,7 +569,7 @@ declarable
   | colour            { $$ = $1; }
   | text              { $$ = $1; }
   | pigment           { $$ = $1; }
-  | finish            { $$ = $1; }
+  | finish            { $$ = FinishPtr($1); }
   | layers            { $$ = $1; }
   | TEXTURE_ID        { $$ = $1; }
   | PIGMENT_ID        { $$ = $1; }
@@ -575,7 +579,7 @@ declarable
   | CAMERA_ID         { $$ = $1; }
   | TRANSFORM_ID      { $$ = $1; }
   | UNSUPPORTED_ID    { $$ = $1; }
-  | ARRAY_ID          { $$ = copy(*$1); }
+  | ARRAY_ID          { $$ = copy(session, *$1, @1); }
   | interior          { $$ = $1; }
   | material          { $$ = $1; }
   | camera            { $$ = std::shared_ptr<const CameraDefinition>($1); }
@@ -594,6 +598,7 @@ dimensions
 
 elements
   : element                   { $$ = std::make_shared<Array>(); $$->elements.push_back($1); }
+  | elements element          { $$ = $1; append(session, $$->elements, $2, @2); }
   | elements ',' element      { $$ = $1; append(session, $$->elements, $3, @3); }
   ;
 
@@ -713,11 +718,19 @@ void Parser::report_syntax_error(const context& ctx) const {
     hint = ", expected a number";
   else if (expects(expected, count, symbol_kind::S_TEXT))
     hint = ", expected a string";
+  else if (expects(expected, count, symbol_kind::S_YYEOF))
+    hint = ", expected an object, the camera or a directive";
   else if (count == 1)
     hint = std::string(", expected ") + symbol_name(expected[0]);
   session.fail(where, "unexpected " + found + hint);
 }
 
-void run_grammar(Session& session) { Parser(session).parse(); }
+void run_grammar(Session& session, std::size_t depth) {
+  // A parser's stack is costly to make and can be used again.
+  if (depth >= session.parsers.size()) session.parsers.resize(depth + 1);
+  std::shared_ptr<Parser>& parser = session.parsers[depth];
+  if (!parser) parser = std::make_shared<Parser>(session);
+  std::shared_ptr<Parser>(parser)->parse();
+}
 
 } // namespace celltrace::pov

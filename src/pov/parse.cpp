@@ -26,7 +26,7 @@ Scene parse_file(const std::filesystem::path& path, const ParseOptions& options)
   try {
     text = pov::read_text(path, options.limits.file_bytes);
   } catch (const InputError& error) {
-    throw SceneError(path.string() + ":1:1: error: the scene " + error.what());
+    throw SceneError(path.string() + ":1:1: error: " + error.what());
   }
   return parse(std::move(text), options, path.string(), path.parent_path());
 }

@@ -34,4 +34,9 @@ Pigment Session::colour(const Quantity& quantity, const Location& where) const {
   return quantity.pigment();
 }
 
+void Session::count_text(std::size_t bytes, const Location& where) {
+  text_bytes += bytes;
+  if (text_bytes > options.limits.text_bytes) fail(where, "the scene makes too much text");
+}
+
 } // namespace celltrace::pov

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "celltrace/pov.hpp"
@@ -14,6 +15,8 @@
 #include "pov/token_stream.hpp"
 
 namespace celltrace::pov {
+
+class Parser;
 
 struct Session {
   explicit Session(const ParseOptions& parse_options)
@@ -29,6 +32,8 @@ struct Session {
   TokenStream tokens;
   SceneBuilder builder;
   std::vector<std::uint32_t> random_streams; ///< what seed() handed out
+  std::uint64_t text_bytes = 0;
+  std::vector<std::shared_ptr<Parser>> parsers; ///< one for each entry of the grammar, made when first needed
 
   [[noreturn]] void fail(const Location& where, const std::string& what) const {
     diagnostics.fail(where, what);
@@ -39,9 +44,13 @@ struct Session {
   std::int64_t whole(const Quantity& quantity, const Location& where) const;
   Vec3 vector(const Quantity& quantity, const Location& where) const;
   Pigment colour(const Quantity& quantity, const Location& where) const;
+
+  /// Counts towards the limit on text that is made or kept.
+  void count_text(std::size_t bytes, const Location& where);
 };
 
-/// Runs the grammar on session.tokens, from where the innermost entry starts.
-void run_grammar(Session& session);
+/// Runs the grammar on session.tokens, from where the innermost entry starts, as entry number `depth` from
+/// outside.
+void run_grammar(Session& session, std::size_t depth);
 
 } // namespace celltrace::pov

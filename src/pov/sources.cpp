@@ -81,16 +81,18 @@ std::optional<fs::path> Sources::find_include(std::string_view name, const fs::p
 std::string read_text(const fs::path& path, std::uint64_t limit) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) throw InputError("no such file");
-  if (fs::is_directory(status)) throw InputError("is a directory, not a scene");
-  if (!fs::is_regular_file(status)) throw InputError("is not a regular file");
+  if (!fs::exists(status)) throw InputError("there is no such file");
+  if (fs::is_directory(status)) throw InputError("this is a directory, not a file");
+  if (!fs::is_regular_file(status)) throw InputError("this is not a regular file");
   const std::uint64_t size = fs::file_size(path, error);
-  if (error) throw InputError("cannot be read: " + error.message());
-  if (size > limit) throw InputError("is larger than " + std::to_string(limit) + " bytes");
+  if (error) throw InputError("this file cannot be read: " + error.message());
+  if (size > limit) throw InputError("this file is larger than " + std::to_string(limit) + " bytes");
 
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError("cannot be opened");
-  std::string text(size, '\0');
+  if (!file) throw InputError("this file cannot be opened");
+  std::string text;
+  text.reserve(size + 2); // the scanner adds two NULs
+  text.resize(size);
   file.read(text.data(), static_cast<std::streamsize>(size));
   text.resize(static_cast<std::size_t>(file.gcount()));
   return text;

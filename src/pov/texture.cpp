@@ -7,15 +7,15 @@ const UnsupportedPtr& TextureDefinition::first_unsupported() const {
   return pigment.unsupported ? pigment.unsupported : finish.unsupported;
 }
 
-TexturePtr with_pigment(const TexturePtr& texture, PigmentDefinition pigment) {
+TexturePtr with_pigment(const TexturePtr& texture, const PigmentDefinition& pigment) {
   auto changed = std::make_shared<TextureDefinition>(*texture);
-  changed->pigment = std::move(pigment);
+  changed->pigment = pigment;
   return changed;
 }
 
-TexturePtr with_finish(const TexturePtr& texture, FinishDefinition finish) {
+TexturePtr with_finish(const TexturePtr& texture, const FinishDefinition& finish) {
   auto changed = std::make_shared<TextureDefinition>(*texture);
-  changed->finish = std::move(finish);
+  changed->finish = finish;
   return changed;
 }
 

@@ -37,6 +37,8 @@ struct FinishDefinition {
   UnsupportedPtr unsupported;
 };
 
+using FinishPtr = std::shared_ptr<const FinishDefinition>;
+
 struct TextureDefinition {
   PigmentDefinition pigment;
   FinishDefinition finish;
@@ -50,8 +52,8 @@ struct TextureDefinition {
 /// Equal pointers make equal materials: a texture that is only referred to is not copied.
 using TexturePtr = std::shared_ptr<const TextureDefinition>;
 
-TexturePtr with_pigment(const TexturePtr& texture, PigmentDefinition pigment);
-TexturePtr with_finish(const TexturePtr& texture, FinishDefinition finish);
+TexturePtr with_pigment(const TexturePtr& texture, const PigmentDefinition& pigment);
+TexturePtr with_finish(const TexturePtr& texture, const FinishDefinition& finish);
 TexturePtr with_unsupported(const TexturePtr& texture, const UnsupportedPtr& unsupported);
 /// `top` on `below`: the top alone if it is opaque, otherwise marked unsupported at `where`.
 TexturePtr layered(const TexturePtr& below, const TexturePtr& top, const Location& where);

@@ -85,7 +85,7 @@ struct TokenOf {
   int operator()(const Quantity&) const { return tokens::T_QUANTITY; }
   int operator()(const std::string&) const { return tokens::T_TEXT; }
   int operator()(const PigmentDefinition&) const { return tokens::T_PIGMENT_ID; }
-  int operator()(const FinishDefinition&) const { return tokens::T_FINISH_ID; }
+  int operator()(const FinishPtr&) const { return tokens::T_FINISH_ID; }
   int operator()(const TexturePtr&) const { return tokens::T_TEXTURE_ID; }
   int operator()(const InteriorPtr&) const { return tokens::T_INTERIOR_ID; }
   int operator()(const std::shared_ptr<const MaterialDefinition>&) const { return tokens::T_MATERIAL_ID; }
@@ -123,7 +123,7 @@ Value TokenStream::evaluate(Start start) {
   Level& level = levels_.emplace_back();
   level.start = start;
   level.base_depth = session_.input.depth();
-  run_grammar(session_);
+  run_grammar(session_, levels_.size() - 1);
   leave_finished_macros();
   Level finished = std::move(levels_.back());
   levels_.pop_back();

@@ -96,6 +96,7 @@ private:
   // directives.cpp
   void obey(const Token& directive);
   void declare(bool is_local);
+  void skip_deprecation();
   void undefine();
   void set_version();
   void include(const Token& directive);

@@ -23,10 +23,10 @@ struct Macro {
   TokenRange body;
 };
 
-using Value = std::variant<std::monostate, Quantity, std::string, PigmentDefinition, FinishDefinition,
-                           TexturePtr, InteriorPtr, std::shared_ptr<const MaterialDefinition>,
-                           std::shared_ptr<const CameraDefinition>, ObjectPtr, Transform,
-                           std::shared_ptr<Array>, std::shared_ptr<const Macro>, UnsupportedPtr>;
+using Value =
+    std::variant<std::monostate, Quantity, std::string, PigmentDefinition, FinishPtr, TexturePtr, InteriorPtr,
+                 std::shared_ptr<const MaterialDefinition>, std::shared_ptr<const CameraDefinition>,
+                 ObjectPtr, Transform, std::shared_ptr<Array>, std::shared_ptr<const Macro>, UnsupportedPtr>;
 
 /// Elements without a value hold std::monostate. Assigning an array copies it.
 struct Array {
