@@ -81,7 +81,7 @@ template <class S> typename S::F pow(const typename S::F& x, const typename S::F
   return S::select(x > F(1e-37f), exp2<S>(y * log2<S>(positive)), F(0.0f));
 }
 
-/// Arc cosine of x in [0, 1]; absolute error below 7e-8 (Abramowitz and Stegun 4.4.46).
+/// Arc cosine of x in [0, 1]; absolute error below 3e-7 (Abramowitz and Stegun 4.4.46).
 template <class S> typename S::F acos_unit(const typename S::F& x) {
   using F = typename S::F;
   const F p = F(1.5707963050f) +

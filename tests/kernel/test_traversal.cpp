@@ -1,0 +1,216 @@
+// Packets through the grid, as every SPU type builds and walks it, against brute force over all objects with the
+// same intersection tests: closest hits have to be equal to the last bit.
+#include "celltrace/spe/program.hpp"
+#include "machines.hpp"
+#include "prepared_scene.hpp"
+#include "soups.hpp"
+#include "traversal_probe.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+namespace celltrace {
+SpeProgram traversal_program(); // made by the build
+}
+
+using namespace celltrace;
+using namespace celltrace::kernel;
+using namespace celltrace::test;
+
+namespace {
+
+std::vector<TraversalQuery> queries_for(const PreparedScene& scene, unsigned seed, unsigned packets) {
+  Random random(seed);
+  const GridRecord& grid = scene.frame().grid;
+  Vec3 middle, half;
+  for (int i = 0; i < 3; ++i) {
+    middle[i] = 0.5 * (double{grid.min[i]} + double{grid.max[i]});
+    half[i] = 0.5 * (double{grid.max[i]} - double{grid.min[i]});
+  }
+  std::vector<TraversalQuery> queries(packets);
+  for (TraversalQuery& q : queries) {
+    const unsigned kind = random.below(6);
+    const Vec3 common = random.direction();
+    for (unsigned l = 0; l < kSimdLanes; ++l) {
+      Vec3 aim = middle + half * random.point(1.1);
+      Vec3 direction = kind == 0 ? glm::normalize(common + random.point(0.05)) : random.direction();
+      if (kind >= 4) { // along an axis; 5: on the border of voxels
+        const int axis = static_cast<int>(random.below(3));
+        direction = Vec3(0);
+        direction[axis] = random.below(2) == 0 ? 1 : -1;
+        for (int i = 0; i < 3 && kind == 5; ++i)
+          aim[i] = grid.min[i] + grid.cell_size[i] * static_cast<float>(random.below(grid.cells[i] + 1));
+      }
+      if (kind == 3) direction = glm::normalize(direction * Vec3(1, 1, 1e-5)); // nearly parallel to voxels
+      const double back = kind == 1 ? 0 : glm::length(half) * random.uniform(0, kind == 2 ? 20 : 3);
+      set(q.rays.origin, l, aim - direction * back);
+      set(q.rays.direction, l, direction);
+      q.rays.start_object.lane[l] = kNoOffset;
+      q.distance.lane[l] = static_cast<float>(glm::length(half) * random.uniform(0, 4));
+      set(q.light, l, {1, 0.5, 2});
+    }
+    q.lanes = random.below(3) == 0 ? random.word() & 0xFFFF : 0xFFFF;
+  }
+  return queries;
+}
+
+/// Makes of each ray that hit something one that starts there, or a shadow ray that ends a little before or behind.
+void continue_from_hits(std::vector<TraversalQuery>& queries, const std::vector<TraversalQuery>& hits) {
+  Random random(100);
+  for (std::size_t i = 0; i < queries.size(); ++i)
+    for_each_lane(queries[i].lanes, [&](unsigned l) {
+      TraversalQuery& q = queries[i];
+      const float distance = hits[i].hits.distance.lane[l];
+      if (hits[i].hits.object.lane[l] == kNoOffset) return;
+      if (l % 2 == 0) {
+        q.distance.lane[l] = distance + (l % 4 == 0 ? 0.0005f : 0.0015f);
+        return;
+      }
+      set(q.rays.origin, l, at(q.rays.origin, l) + at(q.rays.direction, l) * double{distance});
+      set(q.rays.direction, l, random.direction());
+      q.rays.start_object.lane[l] = hits[i].hits.object.lane[l];
+    });
+}
+
+void brute_closest(const PreparedScene& scene, TraversalQuery& q) {
+  for (unsigned l = 0; l < kSimdLanes; ++l) {
+    q.hits.distance.lane[l] = kMaxHitDistance;
+    q.hits.object.lane[l] = kNoOffset;
+  }
+  for (std::uint32_t i = 0; i < scene.object_count(); ++i) {
+    const Crossings<Simd> c = intersect<Simd>(q.rays, scene.object(i), scene.object_offset(i));
+    const FloatLanes near = lanes_of(c.near), far = lanes_of(c.far);
+    for_each_lane(q.lanes, [&](unsigned l) {
+      const auto meet = [&](std::uint32_t hit, float t) {
+        if ((hit >> l & 1) == 0 || !(t > kMinHitDistance) || !(t < q.hits.distance.lane[l])) return;
+        q.hits.distance.lane[l] = t;
+        q.hits.object.lane[l] = scene.object_offset(i);
+      };
+      meet(c.near_hit.bits(), near.lane[l]);
+      meet(c.far_hit.bits(), far.lane[l]);
+    });
+  }
+}
+
+Vec3 filter_of(const PreparedScene& scene, const ObjectRecord& object, double u, double v) {
+  const auto filter = [&](std::uint32_t offset) {
+    const auto& m = scene.record<MaterialRecord>(offset);
+    return Vec3(m.pigment[0], m.pigment[1], m.pigment[2]) * double{m.filter} + double{m.transmit};
+  };
+  if ((object.kind_and_flags & object_flag::blended) == 0) return filter(object.material);
+  const auto& blend = scene.record<BlendRecord>(object.material);
+  return filter(blend.material[0]) * (1 - u - v) + filter(blend.material[1]) * u + filter(blend.material[2]) * v;
+}
+
+/// What is left of the light of lane `l`, with every crossing of every object once.
+Vec3 brute_light(const PreparedScene& scene, const TraversalQuery& q, unsigned l) {
+  Vec3 light = {1, 0.5, 2};
+  for (std::uint32_t i = 0; i < scene.object_count(); ++i) {
+    const ObjectRecord& object = scene.object(i);
+    if ((object.kind_and_flags & object_flag::no_shadow) != 0) continue;
+    const Crossings<Simd> c = intersect<Simd>(q.rays, object, scene.object_offset(i));
+    const Vec3 filter = filter_of(scene, object, lanes_of(c.u).lane[l], lanes_of(c.v).lane[l]);
+    const auto cross = [&](const M& hit, const F& t) {
+      const float at = lanes_of(t).lane[l];
+      if ((hit.bits() >> l & 1) != 0 && at > 1e-3f && at < q.distance.lane[l] - 1e-3f) light *= filter;
+    };
+    cross(c.near_hit, c.near);
+    cross(c.far_hit, c.far);
+  }
+  return light;
+}
+
+void check(const PreparedScene& scene, const TraversalQuery& asked, const TraversalQuery& answer) {
+  TraversalQuery expected = asked;
+  brute_closest(scene, expected);
+  for_each_lane(asked.lanes, [&](unsigned l) {
+    INFO("lane " << l << " from " << asked.rays.origin.x.lane[l] << ' ' << asked.rays.origin.y.lane[l] << ' '
+                 << asked.rays.origin.z.lane[l] << " along " << asked.rays.direction.x.lane[l] << ' '
+                 << asked.rays.direction.y.lane[l] << ' ' << asked.rays.direction.z.lane[l]);
+    REQUIRE(answer.hits.distance.lane[l] == expected.hits.distance.lane[l]);
+    REQUIRE((answer.hits.object.lane[l] == kNoOffset) == (expected.hits.object.lane[l] == kNoOffset));
+    const Vec3 light = brute_light(scene, asked, l);
+    INFO("light " << light.x << " of 1, distance " << asked.distance.lane[l]);
+    for (int i = 0; i < 3; ++i) REQUIRE(at(answer.light, l)[i] == Approx(light[i]).epsilon(1e-5).margin(1e-9));
+  });
+  for (unsigned l = 0; l < kSimdLanes; ++l) REQUIRE(at(answer.light, l).y <= 0.5); // nothing else was touched
+}
+
+void check_scene(const Scene& scene, unsigned packets = 150) {
+  PreparedScene prepared(scene);
+  const std::vector<TraversalQuery> first = queries_for(prepared, 99, packets);
+  for (const auto& machine : machines()) {
+    INFO(machine->spu_key());
+    std::vector<TraversalQuery> asked = first;
+    for (int round = 0; round < 2; ++round) {
+      std::vector<TraversalQuery> answers = asked;
+      TraversalTask task = {to_ea(&prepared.frame()), to_ea(answers.data()), packets, 0, 0, 0};
+      machine->start(0, traversal_program(), to_ea(&task));
+      machine->wait(0);
+      REQUIRE(task.built == 1);
+      for (unsigned i = 0; i < packets; ++i) check(prepared, asked[i], answers[i]);
+      continue_from_hits(asked, answers);
+    }
+  }
+}
+
+} // namespace
+
+TEST_CASE("Through soups of spheres, ellipsoids, triangles and all of them") {
+  check_scene(soup(1, {300, 0, 0}, 10, 1));
+  check_scene(soup(2, {0, 300, 0}, 10, 1));
+  check_scene(soup(3, {0, 0, 300}, 10, 2));
+  check_scene(soup(4, {100, 100, 100}, 10, 3)); // much overlap
+  check_scene(soup(5, {100, 100, 100}, 10, 0.1));
+}
+
+TEST_CASE("Through large and small scenes, and far from the origin") {
+  check_scene(soup(6, {50, 50, 50}, 1000, 100));
+  check_scene(soup(7, {50, 50, 50}, 0.1, 0.02));
+  Scene scene = soup(8, {50, 50, 50}, 10, 1);
+  for (Object& object : scene.objects) object.transform = object.transform.then(Transform::translate({300, -200, 500}));
+  check_scene(scene);
+}
+
+TEST_CASE("Through a grid without objects, and with one") {
+  check_scene(soup(10, {0, 0, 0}, 1, 1), 20);
+  check_scene(soup(11, {1, 0, 0}, 1, 1), 60);
+  check_scene(soup(12, {0, 1, 0}, 1, 1), 60);
+  check_scene(soup(13, {0, 0, 1}, 1, 1), 60);
+}
+
+TEST_CASE("Through objects in one another") {
+  Scene scene = soup(14, {100, 0, 100}, 5, 0.5);
+  scene.objects.push_back(scene.objects.front());
+  scene.objects.back().shape = Sphere{{0, 0, 0}, 30}; // fills everything
+  check_scene(scene);
+  check_scene(soup(15, {30, 30, 0}, 0.1, 5)); // all around the same point
+}
+
+TEST_CASE("Through a cluster in one voxel and a far outlier") {
+  Scene scene = soup(16, {40, 40, 40}, 0.05, 0.02);
+  scene.objects.push_back(scene.objects.front());
+  scene.objects.back().shape = Sphere{{200, 100, -50}, 1};
+  check_scene(scene);
+}
+
+TEST_CASE("Through flat scenes") {
+  Random random(17);
+  for (int axis = 0; axis < 3; ++axis) {
+    Scene scene = soup(18, {0, 0, 200}, 10, 1);
+    Mesh mesh = *std::get<std::shared_ptr<const Mesh>>(scene.objects[0].shape);
+    for (Vec3f& vertex : mesh.vertices) vertex[axis] = 3;
+    scene.objects[0].shape = std::make_shared<const Mesh>(mesh);
+    check_scene(scene);
+  }
+}
+
+TEST_CASE("Through slivers as long as the scene") {
+  Scene scene = soup(19, {20, 0, 100}, 10, 0.05);
+  const auto& object = scene.objects.back();
+  Mesh mesh = *std::get<std::shared_ptr<const Mesh>>(object.shape);
+  for (std::size_t i = 0; i < mesh.vertices.size(); i += 3) mesh.vertices[i] = -mesh.vertices[i];
+  scene.objects.back().shape = std::make_shared<const Mesh>(mesh);
+  check_scene(scene);
+}
