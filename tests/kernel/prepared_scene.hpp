@@ -44,8 +44,7 @@ public:
   kernel::FrameBlock& frame() { return frame_; }
   const kernel::FrameBlock& frame() const { return frame_; }
   const kernel::ImageHeader& header() const { return image_.header(); }
-  template <class Record>
-  const Record& record(std::uint32_t offset) const {
+  template <class Record> const Record& record(std::uint32_t offset) const {
     return *reinterpret_cast<const Record*>(image_.base() + offset);
   }
   std::uint32_t object_count() const { return header().object_count; }
@@ -67,7 +66,8 @@ private:
 };
 
 /// A grid of given resolution over a box.
-inline kernel::GridRecord grid_of(const Vec3& min, const Vec3& max, std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+inline kernel::GridRecord grid_of(const Vec3& min, const Vec3& max, std::uint32_t x, std::uint32_t y,
+                                  std::uint32_t z) {
   kernel::GridRecord grid{};
   const std::uint32_t cells[3] = {x, y, z};
   for (int i = 0; i < 3; ++i) {

@@ -1,4 +1,5 @@
-// PREPARE FRAME: the lists are complete, without duplicates and not much longer than need be, on every SPU type.
+// PREPARE FRAME: the lists are complete, without duplicates and not much longer than need be, on every SPU
+// type.
 #include "prepared_scene.hpp"
 #include "reference/geometry.hpp"
 #include "soups.hpp"
@@ -66,7 +67,8 @@ struct Box3 {
 };
 
 Box3 voxel_box(const GridRecord& grid, std::uint32_t cell, double margin) {
-  const std::uint32_t at[3] = {cell % grid.cells[0], cell / grid.cells[0] % grid.cells[1], cell / grid.row_of_cells};
+  const std::uint32_t at[3] = {cell % grid.cells[0], cell / grid.cells[0] % grid.cells[1],
+                               cell / grid.row_of_cells};
   Box3 box;
   for (int i = 0; i < 3; ++i) {
     const double size = grid.cell_size[i];
@@ -91,7 +93,9 @@ bool triangle_touches(const ObjectRecord& object, const Box3& box) {
     polygon.emplace_back(object.geometry[v * 3], object.geometry[v * 3 + 1], object.geometry[v * 3 + 2]);
   for (int plane = 0; plane < 6 && !polygon.empty(); ++plane) {
     const int axis = plane / 2;
-    const auto depth = [&](const Vec3& p) { return plane % 2 == 0 ? p[axis] - box.min[axis] : box.max[axis] - p[axis]; };
+    const auto depth = [&](const Vec3& p) {
+      return plane % 2 == 0 ? p[axis] - box.min[axis] : box.max[axis] - p[axis];
+    };
     std::vector<Vec3> left;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       const Vec3& a = polygon[i];
@@ -191,14 +195,20 @@ TEST_CASE("Without objects all lists are empty") {
     PreparedScene scene(soup(38, {0, 0, 0}, 1, 1));
     const PrepareResult result = prepare_on(key, scene.frame());
     CHECK(result.pairs == 0);
-    for (const auto& list : lists_of(scene, result)) CHECK(list.empty());
+    for (const auto& list : lists_of(scene, result))
+      CHECK(list.empty());
   }
 }
 
 TEST_CASE("Grids of any number of voxels, with one to three digits to sort by") {
   const Scene scene = soup(39, {20, 20, 20}, 9, 2);
-  for (const auto& [x, y, z] : {std::array{1u, 1u, 1u}, {2u, 1u, 1u}, {16u, 16u, 1u}, {1u, 257u, 1u}, {4u, 8u, 8u},
-                                {65u, 33u, 31u}, {64u, 64u, 33u}}) {
+  for (const auto& [x, y, z] : {std::array{1u, 1u, 1u},
+                                {2u, 1u, 1u},
+                                {16u, 16u, 1u},
+                                {1u, 257u, 1u},
+                                {4u, 8u, 8u},
+                                {65u, 33u, 31u},
+                                {64u, 64u, 33u}}) {
     INFO(x << " x " << y << " x " << z);
     check_scene(scene, grid_of({-12, -12, -12}, {12, 12, 12}, x, y, z));
   }
@@ -207,7 +217,8 @@ TEST_CASE("Grids of any number of voxels, with one to three digits to sort by") 
 TEST_CASE("Long thin shapes are in all the voxels on their way") {
   Scene scene = soup(40, {0, 30, 30}, 8, 1);
   for (Object& object : scene.objects)
-    object.transform = object.transform.then(Transform::scale({1, 0.02, 1})).then(Transform::rotate({20, 30, 40}));
+    object.transform =
+        object.transform.then(Transform::scale({1, 0.02, 1})).then(Transform::rotate({20, 30, 40}));
   check_scene(scene, grid_of({-15, -15, -15}, {15, 15, 15}, 24, 24, 24));
 }
 
@@ -242,7 +253,8 @@ TEST_CASE("A chosen grid covers the scene and has about four voxels an object") 
       CHECK(grid.min[i] <= scene.header().bounds_min[i]);
       CHECK(grid.max[i] >= scene.header().bounds_max[i]);
       CHECK(grid.cell_size[i] * grid.inverse_cell_size[i] == Approx(1));
-      CHECK(grid.min[i] + grid.cell_size[i] * static_cast<float>(grid.cells[i]) == Approx(grid.max[i]).margin(1e-4));
+      CHECK(grid.min[i] + grid.cell_size[i] * static_cast<float>(grid.cells[i]) ==
+            Approx(grid.max[i]).margin(1e-4));
     }
   }
 }

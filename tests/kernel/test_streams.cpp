@@ -17,8 +17,7 @@ using namespace celltrace::test;
 namespace {
 
 /// Main memory for `count` records, and a guard behind it.
-template <class T>
-class Array {
+template <class T> class Array {
 public:
   static constexpr std::size_t kGuard = 256;
 
@@ -49,13 +48,13 @@ struct Task {
   std::uint32_t answer;
 };
 
-const std::vector<std::uint32_t> kCounts = {0,    1,    2,    3,    4,    5,    15,   16,   17,    31,    127,   128,   129,
-                                            255,  256,  257,  511,  512,  513,  1023, 1024, 1025,  2047,  2048,  2049,  4095,
-                                            4096, 4097, 6144, 8191, 8192, 8193, 16384, 16385, 40000};
+const std::vector<std::uint32_t> kCounts = {0,    1,    2,    3,    4,    5,     15,    16,   17,
+                                            31,   127,  128,  129,  255,  256,   257,   511,  512,
+                                            513,  1023, 1024, 1025, 2047, 2048,  2049,  4095, 4096,
+                                            4097, 6144, 8191, 8192, 8193, 16384, 16385, 40000};
 
 /// Reads all records and adds up a hash of their places and first words.
-template <class T>
-void check_reader() {
+template <class T> void check_reader() {
   for (const std::string& key : spu_keys())
     for (std::uint32_t count : kCounts) {
       INFO(key << ", " << count);
@@ -84,8 +83,7 @@ void check_reader() {
     }
 }
 
-template <class T>
-void check_writer() {
+template <class T> void check_writer() {
   for (const std::string& key : spu_keys())
     for (std::uint32_t count : kCounts) {
       INFO(key << ", " << count);
@@ -123,7 +121,8 @@ void check_sort(const std::string& key, std::uint32_t count, std::uint32_t bits,
     a[i] = {key_of(i) & static_cast<std::uint32_t>((std::uint64_t{1} << bits) - 1), i};
     expected.push_back(a[i]);
   }
-  std::stable_sort(expected.begin(), expected.end(), [](const auto& x, const auto& y) { return x.key < y.key; });
+  std::stable_sort(expected.begin(), expected.end(),
+                   [](const auto& x, const auto& y) { return x.key < y.key; });
   Task task{a.ea(), b.ea(), count, bits, 0};
   run_on(
       key, 1,
@@ -175,5 +174,6 @@ TEST_CASE("Pairs are sorted stably by any number of digits") {
 }
 
 TEST_CASE("Nothing to sort by leaves pairs where they are") {
-  for (const std::string& key : spu_keys()) check_sort(key, 100, 0, [](std::uint32_t i) { return i; });
+  for (const std::string& key : spu_keys())
+    check_sort(key, 100, 0, [](std::uint32_t i) { return i; });
 }

@@ -1,5 +1,5 @@
-// Packets through the grid, as every SPU type builds and walks it, against brute force over all objects with the
-// same intersection tests: closest hits have to be equal to the last bit.
+// Packets through the grid, as every SPU type builds and walks it, against brute force over all objects with
+// the same intersection tests: closest hits have to be equal to the last bit.
 #include "celltrace/spe/program.hpp"
 #include "machines.hpp"
 #include "prepared_scene.hpp"
@@ -55,7 +55,8 @@ std::vector<TraversalQuery> queries_for(const PreparedScene& scene, unsigned see
   return queries;
 }
 
-/// Makes of each ray that hit something one that starts there, or a shadow ray that ends a little before or behind.
+/// Makes of each ray that hit something one that starts there, or a shadow ray that ends a little before or
+/// behind.
 void continue_from_hits(std::vector<TraversalQuery>& queries, const std::vector<TraversalQuery>& hits) {
   Random random(100);
   for (std::size_t i = 0; i < queries.size(); ++i)
@@ -100,7 +101,8 @@ Vec3 filter_of(const PreparedScene& scene, const ObjectRecord& object, double u,
   };
   if ((object.kind_and_flags & object_flag::blended) == 0) return filter(object.material);
   const auto& blend = scene.record<BlendRecord>(object.material);
-  return filter(blend.material[0]) * (1 - u - v) + filter(blend.material[1]) * u + filter(blend.material[2]) * v;
+  return filter(blend.material[0]) * (1 - u - v) + filter(blend.material[1]) * u +
+         filter(blend.material[2]) * v;
 }
 
 /// What is left of the light of lane `l`, with every crossing of every object once.
@@ -132,9 +134,11 @@ void check(const PreparedScene& scene, const TraversalQuery& asked, const Traver
     REQUIRE((answer.hits.object.lane[l] == kNoOffset) == (expected.hits.object.lane[l] == kNoOffset));
     const Vec3 light = brute_light(scene, asked, l);
     INFO("light " << light.x << " of 1, distance " << asked.distance.lane[l]);
-    for (int i = 0; i < 3; ++i) REQUIRE(at(answer.light, l)[i] == Approx(light[i]).epsilon(1e-5).margin(1e-9));
+    for (int i = 0; i < 3; ++i)
+      REQUIRE(at(answer.light, l)[i] == Approx(light[i]).epsilon(1e-5).margin(1e-9));
   });
-  for (unsigned l = 0; l < kSimdLanes; ++l) REQUIRE(at(answer.light, l).y <= 0.5); // nothing else was touched
+  for (unsigned l = 0; l < kSimdLanes; ++l)
+    REQUIRE(at(answer.light, l).y <= 0.5); // nothing else was touched
 }
 
 void check_scene(const Scene& scene, unsigned packets = 150) {
@@ -149,7 +153,8 @@ void check_scene(const Scene& scene, unsigned packets = 150) {
       machine->start(0, traversal_program(), to_ea(&task));
       machine->wait(0);
       REQUIRE(task.built == 1);
-      for (unsigned i = 0; i < packets; ++i) check(prepared, asked[i], answers[i]);
+      for (unsigned i = 0; i < packets; ++i)
+        check(prepared, asked[i], answers[i]);
       continue_from_hits(asked, answers);
     }
   }
@@ -169,7 +174,8 @@ TEST_CASE("Through large and small scenes, and far from the origin") {
   check_scene(soup(6, {50, 50, 50}, 1000, 100));
   check_scene(soup(7, {50, 50, 50}, 0.1, 0.02));
   Scene scene = soup(8, {50, 50, 50}, 10, 1);
-  for (Object& object : scene.objects) object.transform = object.transform.then(Transform::translate({300, -200, 500}));
+  for (Object& object : scene.objects)
+    object.transform = object.transform.then(Transform::translate({300, -200, 500}));
   check_scene(scene);
 }
 
@@ -200,7 +206,8 @@ TEST_CASE("Through flat scenes") {
   for (int axis = 0; axis < 3; ++axis) {
     Scene scene = soup(18, {0, 0, 200}, 10, 1);
     Mesh mesh = *std::get<std::shared_ptr<const Mesh>>(scene.objects[0].shape);
-    for (Vec3f& vertex : mesh.vertices) vertex[axis] = 3;
+    for (Vec3f& vertex : mesh.vertices)
+      vertex[axis] = 3;
     scene.objects[0].shape = std::make_shared<const Mesh>(mesh);
     check_scene(scene);
   }
@@ -210,7 +217,8 @@ TEST_CASE("Through slivers as long as the scene") {
   Scene scene = soup(19, {20, 0, 100}, 10, 0.05);
   const auto& object = scene.objects.back();
   Mesh mesh = *std::get<std::shared_ptr<const Mesh>>(object.shape);
-  for (std::size_t i = 0; i < mesh.vertices.size(); i += 3) mesh.vertices[i] = -mesh.vertices[i];
+  for (std::size_t i = 0; i < mesh.vertices.size(); i += 3)
+    mesh.vertices[i] = -mesh.vertices[i];
   scene.objects.back().shape = std::make_shared<const Mesh>(mesh);
   check_scene(scene);
 }

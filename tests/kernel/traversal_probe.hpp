@@ -24,8 +24,7 @@ struct alignas(16) TraversalTask {
   uint32_t pad;
 };
 
-template <class Spu>
-void traversal(Spu& spu, ea_t argument) {
+template <class Spu> void traversal(Spu& spu, ea_t argument) {
   using namespace kernel;
   TraversalTask* task = spu.template allocate<TraversalTask>();
   FrameBlock* frame = spu.template allocate<FrameBlock>();
