@@ -38,6 +38,15 @@ inline void set(kernel::VectorLanes& v, unsigned lane, const Vec3& value) {
   v.z.lane[lane] = static_cast<float>(value.z);
 }
 
+/// A number of repetitions, fewer where sanitizers make each of them slow.
+constexpr int times(int repetitions) {
+#ifdef CELLTRACE_SLOW_BUILD
+  return repetitions / 16;
+#else
+  return repetitions;
+#endif
+}
+
 /// Reproducible random numbers.
 class Random {
 public:

@@ -18,7 +18,7 @@ using namespace celltrace::test;
 namespace {
 
 constexpr double kUnit = 1.0 / (1 << 20); // sixteen times the rounding of a float
-constexpr int kPackets = 8000;            // 128,000 rays a kind
+const int kPackets = times(8000);         // of sixteen rays, for each kind of object
 
 struct Subject {
   ObjectRecord record;

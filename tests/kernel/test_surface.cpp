@@ -48,7 +48,7 @@ void check_encoding(GammaEncoding gamma, GammaMode mode, double assumed) {
   const Surface surface(4, 4, gamma, static_cast<float>(assumed));
   DirectSpu spu;
   PixelWriter<DirectSpu> writer(spu, surface.frame());
-  constexpr int kPackets = 20000;
+  const int kPackets = times(20000);
   long off = 0;
   int most = 0;
   for (int k = 0; k < kPackets; ++k) {

@@ -141,7 +141,7 @@ void check(const PreparedScene& scene, const TraversalQuery& asked, const Traver
     REQUIRE(at(answer.light, l).y <= 0.5); // nothing else was touched
 }
 
-void check_scene(const Scene& scene, unsigned packets = 150) {
+void check_scene(const Scene& scene, unsigned packets = times(160)) {
   PreparedScene prepared(scene);
   const std::vector<TraversalQuery> first = queries_for(prepared, 99, packets);
   for (const auto& machine : machines()) {

@@ -12,8 +12,8 @@ using namespace celltrace::test;
 
 namespace {
 
-constexpr int kWidth = 160;
-constexpr int kHeight = 120;
+constexpr int kWidth = pixels(160);
+constexpr int kHeight = pixels(120);
 
 Image render_on(const Backend& backend, unsigned spes, const Scene& scene) {
   const RenderResult result = render(scene, backend.options(kWidth, kHeight, spes));

@@ -12,8 +12,8 @@ using namespace celltrace::test;
 
 namespace {
 
-constexpr int kWidth = 80;
-constexpr int kHeight = 60;
+constexpr int kWidth = 64;
+constexpr int kHeight = 48;
 
 /// Narrow and fast backends: what is tested here has nothing to do with SIMD.
 std::vector<Backend> one_of_each() {
@@ -147,12 +147,12 @@ TEST_CASE("The cache's shape changes the misses, not the picture") {
 TEST_CASE("Deep trees spill to main memory") {
   const Scene scene = scene_named("half mirrors");
   const RenderResult deep = render(scene, Backend{"cell_emu", "auto"}.options(kWidth, kHeight, 2));
-  CHECK(deep.statistics.dma_bytes_written > 500'000);
+  CHECK(deep.statistics.dma_bytes_written > 250'000);
   CHECK(deep.statistics.dropped_rays == 0);
   RenderOptions options = Backend{"cell_emu", "auto"}.options(kWidth, kHeight, 2);
   options.max_trace_level = 3;
   const RenderResult shallow = render(scene, options);
-  CHECK(shallow.statistics.dma_bytes_written < 100'000);
+  CHECK(shallow.statistics.dma_bytes_written < 50'000);
   CHECK(shallow.statistics.total_rays() < deep.statistics.total_rays());
 }
 
@@ -206,16 +206,15 @@ TEST_CASE("One Renderer's later frames are as those of a fresh one") {
   for (const Backend& backend : one_of_each()) {
     INFO(backend.spu());
     Renderer renderer(backend.options(kWidth, kHeight, 4));
-    for (int round = 0; round < 2; ++round)
-      for (const NamedScene& named : scenes()) {
-        INFO(named.name);
-        Scene scene = named.make();
-        check_complete(renderer.render(scene), backend, picture(scene));
-        scene.camera = camera_at({0.5, 0.7, -4.5 - round}, {0.1, 0.2, 0});
-        check_complete(renderer.render(scene.camera), backend, picture(scene));
-        scene.camera = orthographic_camera({1, 2, -9}, {0, 0, 0}, 7);
-        check_complete(renderer.render(scene.camera), backend, picture(scene));
-      }
+    for (const NamedScene& named : scenes()) {
+      INFO(named.name);
+      Scene scene = named.make();
+      check_complete(renderer.render(scene), backend, picture(scene));
+      scene.camera = camera_at({0.5, 0.7, -4.5}, {0.1, 0.2, 0});
+      check_complete(renderer.render(scene.camera), backend, picture(scene));
+      scene.camera = orthographic_camera({1, 2, -9}, {0, 0, 0}, 7);
+      check_complete(renderer.render(scene.camera), backend, picture(scene));
+    }
   }
 }
 
