@@ -140,11 +140,8 @@ private:
 
     const F cosine = -dot<S>(surfaces.direction, surfaces.normal);
     F fresnel_ratio(1.0f);
-    if (m.fresnel != 0) {
-      child_ = node_;
-      fresnel_ratio =
-          F::load(cross_surfaces(scene_, interior, lanes & m.fresnel, child_, counters_.dropped).ratio.lane);
-    }
+    if (m.fresnel != 0)
+      fresnel_ratio = F::load(fresnel_ratios(scene_, interior, lanes & m.fresnel, node_).lane);
     const V3<S> mirrored = reflectivity<S>(m, cosine, fresnel_ratio);
     uint32_t total = 0;
     if (m.has_transmission) total = transmit(surfaces, interior, m, lanes, share, cosine, mirrored);

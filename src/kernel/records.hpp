@@ -36,7 +36,7 @@ struct alignas(64) ObjectRecord {
 };
 static_assert(sizeof(ObjectRecord) == 64, "two objects a line");
 
-/// Unit normals at the three vertices: xyz each.
+/// Normals at the three vertices, xyz each, which interpolate linearly; their common scale does not matter.
 struct alignas(64) NormalsRecord {
   float normal[9];
   float unused[7];

@@ -8,6 +8,31 @@
 
 namespace celltrace::kernel {
 
+/// The media on both sides of a surface that a ray crosses. `position` is where the surface's interior stands
+/// among those the ray is inside of, or their number if it enters.
+struct MediumChange {
+  uint32_t position;
+  bool leaves;
+  bool leaves_into_object; ///< out of the innermost interior, and into the one around it
+  float from, to;          ///< indices of refraction; equal where the ray does not bend
+};
+
+/// What the ray of `lane` does at a surface of `interior`. Leaving an interior that is not the innermost one
+/// does not bend.
+template <class Spu>
+MediumChange medium_change(SceneAccess<Spu>& scene, const RayNode& ray, uint32_t lane, uint32_t interior) {
+  const auto ior_of = [&](uint32_t offset) { return scene.interior(offset)->ior; };
+  const uint32_t depth = ray.interior_depth.lane[lane];
+  const auto at = [&](uint32_t d) { return ray.interiors[d].lane[lane]; };
+  uint32_t position = depth;
+  for (uint32_t d = 0; d < depth; ++d)
+    if (at(d) == interior) position = d;
+  if (position == depth)
+    return {position, false, false, depth > 0 ? ior_of(at(depth - 1)) : 1.0f, ior_of(interior)};
+  if (position + 1 < depth) return {position, true, false, 1.0f, 1.0f};
+  return {position, true, depth > 1, ior_of(interior), depth > 1 ? ior_of(at(depth - 2)) : 1.0f};
+}
+
 /// Relative index of refraction (from over to) at each lane's surface. `straight`: lanes whose ray goes on as
 /// it came.
 struct Refraction {
@@ -15,50 +40,54 @@ struct Refraction {
   uint32_t straight = 0;
 };
 
-/// Crosses the surface into or out of `interior` in each of `lanes`: updates the interiors that `child` is
-/// inside of and says how the ray bends. Leaving an interior that is not the innermost does not bend. Counts
-/// rays that are inside more interiors than a node holds; these lose the outermost.
+/// Crosses the surface into or out of `interior` in each of `lanes`: updates the interiors that `ray` is
+/// inside of and says how it bends. Counts rays that are inside more interiors than a node holds; these lose
+/// the outermost.
 template <class Spu>
-Refraction cross_surfaces(SceneAccess<Spu>& scene, const WordLanes& interior, uint32_t lanes, RayNode& child,
+Refraction cross_surfaces(SceneAccess<Spu>& scene, const WordLanes& interior, uint32_t lanes, RayNode& ray,
                           uint64_t& overflows) {
-  const auto ior_of = [&](uint32_t offset) { return scene.interior(offset)->ior; };
   Refraction result;
   for (uint32_t lane = 0; lane < kSimdLanes; ++lane)
     result.ratio.lane[lane] = 1.0f;
   for_each_lane(lanes, [&](uint32_t lane) {
-    uint32_t& depth = child.interior_depth.lane[lane];
-    const auto at = [&](uint32_t d) -> uint32_t& { return child.interiors[d].lane[lane]; };
-    const uint32_t self = interior.lane[lane];
-    uint32_t found = depth;
-    for (uint32_t d = 0; d < depth; ++d)
-      if (at(d) == self) found = d;
-
-    float from = 1.0f;
-    float to = 1.0f;
-    if (found < depth) {
-      if (found + 1 == depth) {
-        from = ior_of(self);
-        to = depth > 1 ? ior_of(at(depth - 2)) : 1.0f;
-      }
-      for (uint32_t d = found; d + 1 < depth; ++d)
-        at(d) = at(d + 1);
-      --depth;
-    } else {
-      from = depth > 0 ? ior_of(at(depth - 1)) : 1.0f;
-      to = ior_of(self);
-      if (depth == kMaxInteriorDepth) {
-        for (uint32_t d = 0; d + 1 < depth; ++d)
-          at(d) = at(d + 1);
-        --depth;
-        ++overflows;
-      }
-      at(depth++) = self;
-    }
-    const float ratio = from / to;
+    const MediumChange change = medium_change(scene, ray, lane, interior.lane[lane]);
+    const float ratio = change.from / change.to;
     result.ratio.lane[lane] = ratio;
     if (ratio > 1.0f - 1e-6f && ratio < 1.0f + 1e-6f) result.straight |= 1u << lane;
+
+    uint32_t& depth = ray.interior_depth.lane[lane];
+    const auto at = [&](uint32_t d) -> uint32_t& { return ray.interiors[d].lane[lane]; };
+    const auto remove = [&](uint32_t position) {
+      for (uint32_t d = position; d + 1 < depth; ++d)
+        at(d) = at(d + 1);
+      --depth;
+    };
+    if (change.leaves) {
+      remove(change.position);
+      return;
+    }
+    if (depth == kMaxInteriorDepth) {
+      remove(0);
+      ++overflows;
+    }
+    at(depth++) = interior.lane[lane];
   });
   return result;
+}
+
+/// The ratio that POV-Ray's Fresnel mirrors take at each lane's surface: as for refraction, except that a ray
+/// that leaves an object into the one around it counts as entering.
+template <class Spu>
+FloatLanes fresnel_ratios(SceneAccess<Spu>& scene, const WordLanes& interior, uint32_t lanes,
+                          const RayNode& ray) {
+  FloatLanes ratios;
+  for (uint32_t lane = 0; lane < kSimdLanes; ++lane)
+    ratios.lane[lane] = 1.0f;
+  for_each_lane(lanes, [&](uint32_t lane) {
+    const MediumChange change = medium_change(scene, ray, lane, interior.lane[lane]);
+    ratios.lane[lane] = change.leaves_into_object ? change.to / change.from : change.from / change.to;
+  });
+  return ratios;
 }
 
 /// Snell's law in vector form. `cosine` = -direction.normal >= 0. Lanes beyond the critical angle go to

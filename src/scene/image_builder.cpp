@@ -124,14 +124,17 @@ private:
     for (std::size_t i = 0; i < vertices.size(); ++i)
       vertices[i] = Vec3f(object.transform.point(Vec3(mesh.vertices[i])));
     std::vector<Vec3f> normals(mesh.normals.size());
-    // The inverse transpose, once for the mesh, not once a normal.
+    // The inverse transpose, once for the mesh, not once a normal. Normals are of unit length before, not
+    // after it: the blend of a triangle's normals is that of the mesh's own space.
     const Vec3 columns[3] = {object.transform.normal({1, 0, 0}), object.transform.normal({0, 1, 0}),
                              object.transform.normal({0, 0, 1})};
+    const double scale =
+        1 / std::max({glm::length(columns[0]), glm::length(columns[1]), glm::length(columns[2])});
     for (std::size_t i = 0; i < normals.size(); ++i) {
       const Vec3 n(mesh.normals[i]);
-      const Vec3 turned = n.x * columns[0] + n.y * columns[1] + n.z * columns[2];
-      const double length = glm::length(turned);
-      normals[i] = Vec3f(length > 0 ? turned / length : Vec3(0, 0, 1));
+      const double length = glm::length(n);
+      const Vec3 unit = length > 0 ? n / length : Vec3(0, 0, 1);
+      normals[i] = Vec3f(scale * (unit.x * columns[0] + unit.y * columns[1] + unit.z * columns[2]));
     }
     for (const Mesh::Triangle& triangle : mesh.triangles)
       add_triangle(object, triangle, vertices, normals);
