@@ -29,7 +29,7 @@ void turn(Camera& camera, const Vec3& look_at, const Vec3& sky) {
   const Vec3 line_of_sight = look_at - camera.location;
   const double distance = glm::length(line_of_sight);
   if (distance < kTiny) return;
-  const double sign = glm::dot(glm::cross(camera.up, camera.direction), camera.right) < 0 ? -1 : 1;
+  const double sign = glm::dot(glm::cross(camera.up, camera.direction), camera.right) > 0 ? 1 : -1;
   const double depth = glm::length(camera.direction);
   const double height = glm::length(camera.up);
   const double width = glm::length(camera.right);

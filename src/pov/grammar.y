@@ -15,7 +15,7 @@
 %param { celltrace::pov::Session& session }
 // After a value both an operator and, since commas are optional, a sign or a colour's channel can follow: the longer
 // value is meant.
-%expect 51
+%expect 52
 
 %code requires {
 #include "pov/actions.hpp"
@@ -579,6 +579,7 @@ declarable
   | CAMERA_ID         { $$ = $1; }
   | TRANSFORM_ID      { $$ = $1; }
   | UNSUPPORTED_ID    { $$ = $1; }
+  | UNSUPPORTED_ID '(' { session.diagnostics.require_supported($1, @1); }
   | ARRAY_ID          { $$ = copy(session, *$1, @1); }
   | interior          { $$ = $1; }
   | material          { $$ = $1; }

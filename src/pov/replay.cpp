@@ -77,6 +77,8 @@ void TokenStream::call(const Token& name, const std::shared_ptr<const Macro>& ma
   std::vector<std::shared_ptr<Slot>> arguments;
   Token token = read();
   while (!token.is(')')) {
+    if (token.kind == Token::Kind::end)
+      session_.fail(name.where, "the arguments of " + call + " are never closed");
     if (arguments.size() == macro->parameters.size())
       session_.fail(name.where,
                     call + " takes only " + std::to_string(macro->parameters.size()) + " arguments");
@@ -116,8 +118,6 @@ std::shared_ptr<Slot> TokenStream::read_argument(const std::string& call) {
                     "'" + session_.names.text(first.name) + "' is not declared, " + call + " cannot take it");
     if (second.is(',') || second.is(')')) return slot;
   }
-  if (first.kind == Token::Kind::end)
-    session_.fail(first.where, "the arguments of " + call + " are never closed");
   session_.input.unread(first);
   return std::make_shared<Slot>(Slot{evaluate(Start::value)});
 }

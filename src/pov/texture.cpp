@@ -3,8 +3,8 @@
 namespace celltrace::pov {
 
 const UnsupportedPtr& TextureDefinition::first_unsupported() const {
-  if (unsupported) return unsupported;
-  return pigment.unsupported ? pigment.unsupported : finish.unsupported;
+  if (pigment.unsupported) return pigment.unsupported;
+  return finish.unsupported ? finish.unsupported : unsupported;
 }
 
 TexturePtr with_pigment(const TexturePtr& texture, const PigmentDefinition& pigment) {

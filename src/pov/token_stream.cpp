@@ -40,6 +40,7 @@ bool ends_operand(int terminal) {
   case tokens::T_OBJECT_ID:
   case tokens::T_TRANSFORM_ID:
   case tokens::T_ARRAY_ID:
+  case tokens::T_UNSUPPORTED_ID:
   case tokens::T_COMPONENT:
   case ')':
   case ']':

@@ -1,0 +1,69 @@
+// Errors of the text, with their places.
+#include <catch2/catch.hpp>
+
+#include "pov/parsing.hpp"
+
+using celltrace::test::error;
+using celltrace::test::error_line;
+
+TEST_CASE("text that makes no sense") {
+  CHECK(error_line("") == "scene.pov:1:1: error: the scene is empty");
+  CHECK(error_line("  // nothing\n") == "scene.pov:1:1: error: the scene is empty");
+  CHECK(error_line("foo") == "scene.pov:1:1: error: 'foo' is not declared");
+  CHECK(error_line("\n  sphere { 0, 1 pigment { Redd } }") ==
+        "scene.pov:2:27: error: 'Redd' is not declared");
+  CHECK(error_line("sphere { 0, 1 } ;") ==
+        "scene.pov:1:17: error: unexpected ';', expected an object, the camera or a directive");
+  CHECK(error_line("sphere { }") == "scene.pov:1:10: error: unexpected '}', expected a number");
+  CHECK(error_line("sphere { 0, 1") == "scene.pov:1:14: error: unexpected end of the scene");
+  CHECK(error_line("sphere { 0, 1 radius }") == "scene.pov:1:15: error: 'radius' is not supported yet");
+  CHECK(error_line("#debug 3") == "scene.pov:1:8: error: unexpected number, expected a string");
+  CHECK(error_line("#declare A = x.w;") ==
+        "scene.pov:1:15: error: '.w' is no component of a vector or colour");
+  CHECK(error_line("sphere { 0 @ }") == "scene.pov:1:12: error: unexpected character '@', expected a number");
+  CHECK(error_line(std::string("sphere \0 { }", 12)) ==
+        "scene.pov:1:8: error: unexpected character 0x00, expected '{'");
+  CHECK(error_line("sphere { 0, \xC3\xA9 }") ==
+        "scene.pov:1:13: error: unexpected character 0xC3, expected a number");
+}
+
+TEST_CASE("things that never end") {
+  CHECK(error_line("sphere { /* 0, 1 }") == "scene.pov:1:10: error: this comment is never closed");
+  CHECK(error_line("#debug \"abc\n\n") == "scene.pov:1:8: error: this string is never closed");
+  CHECK(error_line("#if (1)\n#debug \"a\"") == "scene.pov:1:1: error: #end is missing for what starts here");
+  CHECK(error_line("\n#if (0)\n#debug \"a\"") ==
+        "scene.pov:2:1: error: #end is missing for what starts here");
+  CHECK(error_line("#while (1) sphere { 0, 1 }") ==
+        "scene.pov:1:1: error: #end is missing for what starts here");
+  CHECK(error_line("#macro M() sphere { 0, 1 }") ==
+        "scene.pov:1:1: error: #end is missing for what starts here");
+  CHECK(error_line("cylinder { 0, x { ") ==
+        "scene.pov:1:10: error: the block that starts here is never closed");
+  CHECK(error_line("#macro M(A) #end M(1") ==
+        "scene.pov:1:18: error: the arguments of macro 'M' are never closed");
+}
+
+TEST_CASE("directives in the wrong place") {
+  CHECK(error_line("#end") == "scene.pov:1:1: error: #end without anything to end");
+  CHECK(error_line("#else") == "scene.pov:1:1: error: #else without #if");
+  CHECK(error_line("#case (1)") == "scene.pov:1:1: error: #case and #range belong into a #switch");
+  CHECK(error_line("#break") == "scene.pov:1:1: error: #break outside of a loop, #switch or macro");
+  CHECK(error_line("#nonsense") == "scene.pov:1:1: error: there is no directive '#nonsense'");
+  CHECK(error_line("#if 1 = 1 #end") == "scene.pov:1:5: error: unexpected number, expected '('");
+  CHECK(error_line("#declare A") == "scene.pov:1:11: error: expected '=' after the name to declare");
+  CHECK(error_line("#declare = 1") == "scene.pov:1:10: error: expected a name to declare");
+}
+
+TEST_CASE("places inside macros and loops show how they were reached") {
+  CHECK(error("#macro M()\n sphere { 0, oops }\n#end\n#macro N() M() #end\n\nN()") ==
+        "scene.pov:2:14: error: 'oops' is not declared\n"
+        "    in macro 'M' called from scene.pov:4\n"
+        "    in macro 'N' called from scene.pov:6");
+  CHECK(error("#for (I, 1, 2)\n oops\n#end") == "scene.pov:2:2: error: 'oops' is not declared");
+}
+
+TEST_CASE("columns count from 1 in every line, whatever ends it") {
+  CHECK(error_line("\r\n\r  oops") == "scene.pov:3:3: error: 'oops' is not declared");
+  CHECK(error_line("/* \n \n */ oops") == "scene.pov:3:5: error: 'oops' is not declared");
+  CHECK(error_line("#debug \"a\nb\" oops") == "scene.pov:2:4: error: 'oops' is not declared");
+}

@@ -1,0 +1,87 @@
+// Scenes made to exhaust the parser.
+#include <catch2/catch.hpp>
+
+#include "pov/parsing.hpp"
+
+using celltrace::ParseOptions;
+using celltrace::test::error_line;
+
+namespace {
+
+std::string repeated(const std::string& text, int times) {
+  std::string result;
+  for (int i = 0; i < times; ++i)
+    result += text;
+  return result;
+}
+
+bool contains(const std::string& text, const char* part) {
+  return text.find(part) != std::string::npos;
+}
+
+} // namespace
+
+TEST_CASE("loops and macros end") {
+  ParseOptions options;
+  options.limits.loop_iterations = 1000;
+  CHECK(error_line("#while (1) #end", options) ==
+        "scene.pov:1:1: error: the loops of the scene run more than 1000 times");
+  CHECK(error_line("#for (I, 1, 10, 1e-9) #end", options) ==
+        "scene.pov:1:1: error: the loops of the scene run more than 1000 times");
+  CHECK(error_line("#macro M() M() #end M()") ==
+        "scene.pov:1:12: error: macros call one another more than 1000 deep");
+  CHECK(contains(error_line("#macro M() #declare A = M(); #end M()"), "nested too deeply"));
+  CHECK(contains(error_line("#macro M(A) M(M(A)) #end M(1)"), "nested too deeply"));
+  options.limits.tokens = 100;
+  CHECK(contains(error_line(repeated("sphere { 0, 1 }", 50), options), "the scene is too long"));
+}
+
+TEST_CASE("nesting has an end") {
+  CHECK(contains(error_line("#declare A = " + repeated("(", 100000)), "nested more than 256 deep"));
+  CHECK(contains(error_line("#declare A = " + repeated("<", 100000)), "nested more than 256 deep"));
+  CHECK(contains(error_line("#declare A = (" + repeated("1?1:", 100000)), "nested more than 256 deep"));
+  CHECK(contains(error_line(repeated("union { ", 100000)), "nested more than 256 deep"));
+  CHECK(contains(error_line("box " + repeated("{", 100000)), "nested more than 256 deep"));
+  CHECK(error_line("#declare A = " + repeated("-", 100000) + "1;").empty());
+  CHECK(error_line("#declare A = 1" + repeated("+1", 100000) + ";").empty());
+  CHECK(contains(
+      error_line("#declare U = sphere { 0, 1 } #for (I, 1, 1000) #declare U = union { object { U } } #end U"),
+      "unions are nested too deeply"));
+  CHECK(contains(error_line("#declare A = array[1] {1} #for (I, 1, 1000) #declare A = array[1] {A} #end"),
+                 "too large to be copied"));
+}
+
+TEST_CASE("what a scene makes is bounded") {
+  ParseOptions options;
+  options.limits.objects = 10;
+  CHECK(contains(error_line("#for (I, 1, 11) sphere { 0, 1 } #end", options), "more than 10 objects"));
+  CHECK(contains(error_line("#declare U = union { sphere { 0, 1 } sphere { 0, 1 } } "
+                            "#for (I, 1, 30) #declare U = union { object { U } object { U } } #end U"),
+                 "objects"));
+  options.limits.triangles = 10;
+  CHECK(contains(error_line("mesh { #for (I, 1, 11) triangle { 0, x, y } #end }", options),
+                 "more than 10 triangles"));
+  options.limits.list_entries = 100;
+  CHECK(contains(error_line("mesh2 { vertex_vectors { 1 #for (I, 1, 200) x #end } }", options),
+                 "this list is too long"));
+  options.limits.recorded_tokens = 50;
+  CHECK(contains(error_line("#macro M() " + repeated("x ", 100) + "#end", options), "too long"));
+  options.limits.array_elements = 100;
+  CHECK(contains(error_line("#declare A = array[20][20];", options), "an array has at most 100 elements"));
+  CHECK(contains(error_line("#declare A = array[1e30];"), "an array has at most"));
+  CHECK(contains(error_line("#declare A = array[2] {1, 1} #for (I, 1, 40) #declare A = array[2] {A, A} #end"),
+                 "too large to be copied"));
+  CHECK(contains(error_line("#declare S = \"abc\"; #for (I, 1, 40) #declare S = concat(S, S); #end"),
+                 "this string is too long"));
+  options.limits.text_bytes = 1000;
+  CHECK(contains(error_line("#for (I, 1, 400) #declare S = str(I, 5, 0); #end", options), "too much text"));
+}
+
+TEST_CASE("lexemes are bounded") {
+  CHECK(error_line(repeated("a", 100000)) == "scene.pov:1:1: error: this name is too long");
+  CHECK(error_line("#declare A = " + repeated("1", 100000)) ==
+        "scene.pov:1:14: error: this number is too long");
+  CHECK(error_line("#debug \"" + repeated("abcdefghij", 200000) + "\"") ==
+        "scene.pov:1:8: error: this string is too long");
+  CHECK(error_line("sphere { " + repeated(" ", 1000000) + "0, 1 }").empty());
+}

@@ -1,0 +1,117 @@
+// Spheres, unions, lights, placement.
+#include <catch2/catch.hpp>
+
+#include "pov/parsing.hpp"
+
+using namespace celltrace;
+using test::error_line;
+using test::parse;
+
+TEST_CASE("spheres") {
+  const Scene scene = parse("sphere { <1, 2, 3>, 4 } sphere { <1 2 3> 4 scale <2, 1, 1> }");
+  REQUIRE(scene.objects.size() == 2);
+  const auto& sphere = std::get<Sphere>(scene.objects[0].shape);
+  CHECK(sphere.centre == Vec3(1, 2, 3));
+  CHECK(sphere.radius == 4);
+  CHECK(scene.objects[0].transform.is_identity());
+  CHECK(scene.objects[1].transform.point({1, 2, 3}) == Vec3(2, 2, 3));
+  CHECK(parse("sphere { 0, 0 }").objects.empty());
+}
+
+TEST_CASE("declared objects are placed as often as they are named") {
+  const Scene scene =
+      parse("#declare S = sphere { 0, 1 translate x } object { S translate y } sphere { S scale 2 } S");
+  REQUIRE(scene.objects.size() == 3);
+  CHECK(scene.objects[0].transform.point({0, 0, 0}) == Vec3(1, 1, 0));
+  CHECK(scene.objects[1].transform.point({0, 0, 0}) == Vec3(2, 0, 0));
+  CHECK(scene.objects[2].transform.point({0, 0, 0}) == Vec3(1, 0, 0));
+  CHECK(parse("#declare S = sphere { 0, 1 }").objects.empty());
+}
+
+TEST_CASE("unions come apart, inside out") {
+  const Scene scene =
+      parse("union { sphere { 0, 1 translate x } union { sphere { 0, 2 } rotate 90*y } translate y }");
+  REQUIRE(scene.objects.size() == 2);
+  CHECK(scene.objects[0].transform.point({0, 0, 0}) == Vec3(1, 1, 0));
+  CHECK(scene.objects[1].transform.point({1, 0, 0}) == Vec3(0, 1, -1));
+}
+
+TEST_CASE("parts inherit what they do not have") {
+  const Scene scene = parse("union { sphere { 0, 1 } sphere { 0, 2 pigment { rgb 1 } no_shadow } "
+                            "  pigment { rgb 0.5 } interior { ior 1.5 } }"
+                            "union { sphere { 0, 3 } sphere { 0, 4 interior { ior 2 } } no_shadow }");
+  REQUIRE(scene.objects.size() == 4);
+  const auto red = [&](std::size_t i) { return scene.materials[scene.objects[i].material].pigment.rgb.x; };
+  const auto ior = [&](std::size_t i) { return scene.interiors[scene.objects[i].interior].ior; };
+  CHECK(red(0) == 0.5);
+  CHECK(red(1) == 1);
+  CHECK(red(2) == 0);
+  CHECK(scene.objects[0].interior == scene.objects[1].interior);
+  CHECK(ior(0) == 1.5);
+  CHECK(scene.objects[2].interior != scene.objects[3].interior);
+  CHECK(ior(3) == 2);
+  CHECK_FALSE(scene.objects[0].no_shadow);
+  CHECK(scene.objects[1].no_shadow);
+  CHECK(scene.objects[2].no_shadow);
+}
+
+TEST_CASE("every object has its own interior") {
+  const Scene scene =
+      parse("sphere { 0, 1 } sphere { 0, 2 } #declare S = sphere { 0, 1 interior { ior 1.3 } } S S");
+  CHECK(scene.interiors.size() == 4);
+  CHECK(scene.objects[2].interior != scene.objects[3].interior);
+  CHECK(scene.interiors[scene.objects[3].interior].ior == 1.3);
+}
+
+TEST_CASE("equal textures make one material") {
+  const Scene scene = parse(
+      "#declare T = texture { pigment { rgb 1 } } #for (I, 1, 10) sphere { 0, I texture { T scale I } } "
+      "#end sphere { 0, 1 } sphere { 0, 2 }");
+  CHECK(scene.materials.size() == 2);
+}
+
+TEST_CASE("light sources") {
+  const Scene scene = parse(
+      "light_source { <1, 2, 3> color rgb 2 } light_source { 0, 1 translate 3 shadowless }"
+      "#declare L = light_source { x rgb <1, 0, 0> } union { sphere { 0, 1 } light_source { L } rotate 90*y }"
+      "light_source { 0 rgb 1 media_interaction off photons { reflection on } }");
+  REQUIRE(scene.lights.size() == 4);
+  CHECK(scene.lights[0].location == Vec3(1, 2, 3));
+  CHECK(scene.lights[0].colour == Vec3(2, 2, 2));
+  CHECK_FALSE(scene.lights[0].shadowless);
+  CHECK(scene.lights[1].location == Vec3(3, 3, 3));
+  CHECK(scene.lights[1].shadowless);
+  CHECK(scene.lights[2].location == Vec3(0, 0, -1));
+  CHECK(scene.lights[2].colour == Vec3(1, 0, 0));
+  CHECK(error_line("light_source { 0 rgb 1 spotlight radius 10 }") ==
+        "scene.pov:1:24: error: 'spotlight' is not supported yet");
+  CHECK(error_line("light_source { 0 rgb 1 fade_distance 10 fade_power 2 }") ==
+        "scene.pov:1:24: error: 'fade_distance' is not supported yet");
+}
+
+TEST_CASE("hints and flags that change no picture are accepted") {
+  const Scene scene = parse("sphere { 0, 1 hollow inverse sturm hierarchy off bounded_by { sphere { 0, 2 } } "
+                            "photons { target reflection on } no_radiosity uv_mapping pigment { rgb 1 } }");
+  CHECK(scene.objects.size() == 1);
+}
+
+TEST_CASE("the environment") {
+  const Scene scene =
+      parse("background { rgb <.1, .2, .3> } global_settings { max_trace_level 9 adc_bailout 0.01 "
+            "ambient_light rgb <1, 2, 3> number_of_waves 3 noise_generator 2 charset utf8 hf_gray_16 on "
+            "mm_per_unit 10 max_intersections 64 irid_wavelength rgb 1 }");
+  CHECK(scene.background == Vec3(.1, .2, .3));
+  CHECK(scene.max_trace_level == 9);
+  CHECK(scene.adc_bailout == 0.01);
+  CHECK(scene.ambient_light == Vec3(1, 2, 3));
+  CHECK(scene.name == "scene.pov");
+  CHECK(error_line("global_settings { radiosity { count 10 } }") ==
+        "scene.pov:1:19: error: 'radiosity' is not supported yet");
+  CHECK(error_line("global_settings { photons { count 10 } }") ==
+        "scene.pov:1:19: error: 'photons' is not supported yet");
+  CHECK(error_line("global_settings { max_trace_level 0 }") ==
+        "scene.pov:1:35: error: max_trace_level must lie between 1 and 256");
+  CHECK(error_line("fog { distance 10 }") == "scene.pov:1:1: error: 'fog' is not supported yet");
+  CHECK(error_line("sky_sphere { pigment { rgb 1 } }") ==
+        "scene.pov:1:1: error: 'sky_sphere' is not supported yet");
+}

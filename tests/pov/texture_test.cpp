@@ -1,0 +1,162 @@
+// Pigments, finishes, textures, interiors, materials.
+#include <catch2/catch.hpp>
+
+#include "pov/parsing.hpp"
+
+using namespace celltrace;
+using test::error_line;
+using test::parse;
+
+namespace {
+
+Material material(const std::string& modifiers) {
+  const Scene scene = parse("sphere { 0, 1 " + modifiers + " }");
+  return scene.materials.at(scene.objects.at(0).material);
+}
+
+Finish finish(const std::string& items) {
+  return material("finish { " + items + " }").finish;
+}
+
+double ior(const std::string& modifiers) {
+  const Scene scene = parse("sphere { 0, 1 " + modifiers + " }");
+  return scene.interiors.at(scene.objects.at(0).interior).ior;
+}
+
+} // namespace
+
+TEST_CASE("an object without a texture is black with the default finish") {
+  const Material m = material("");
+  CHECK(m.pigment.rgb == Vec3(0, 0, 0));
+  CHECK(m.finish.ambient == Vec3(0.1, 0.1, 0.1));
+  CHECK(m.finish.diffuse == 0.6);
+}
+
+TEST_CASE("pigments") {
+  const Pigment p = material("pigment { color rgbft <1, 2, 3, 0.4, 0.5> quick_color rgb 1 scale 2 }").pigment;
+  CHECK(p.rgb == Vec3(1, 2, 3));
+  CHECK(p.filter == 0.4);
+  CHECK(p.transmit == 0.5);
+  const Pigment q = material("pigment { rgb <1, 0, 0> filter 0.25 transmit 0.5 }").pigment;
+  CHECK(q.rgb == Vec3(1, 0, 0));
+  CHECK(q.filter == 0.25);
+  CHECK(q.transmit == 0.5);
+  const Scene named =
+      parse("#declare Red = rgb <1, 0, 0>; #declare P = pigment { Red } sphere { 0, 1 pigment { P } }"
+            "sphere { 0, 1 pigment { color Red filter 0.5 } }");
+  CHECK(named.materials.at(0).pigment.rgb == Vec3(1, 0, 0));
+  CHECK(named.materials.at(1).pigment.filter == 0.5);
+}
+
+TEST_CASE("every item of a finish") {
+  const Finish f = finish(
+      "ambient rgb <.1, .2, .3> emission 0.5 diffuse 0.7 brilliance 2 phong 0.8 phong_size 60 "
+      "specular 0.4 roughness 0.01 metallic conserve_energy crand 0 irid { 0 thickness 1 turbulence 1 }");
+  CHECK(f.ambient == Vec3(.1, .2, .3));
+  CHECK(f.emission == Vec3(.5, .5, .5));
+  CHECK(f.diffuse == 0.7);
+  CHECK(f.brilliance == 2);
+  CHECK(f.phong == 0.8);
+  CHECK(f.phong_size == 60);
+  CHECK(f.specular == 0.4);
+  CHECK(f.roughness == 0.01);
+  CHECK(f.metallic == 1);
+  CHECK(f.conserve_energy);
+  CHECK(finish("metallic 0.3").metallic == 0.3);
+  CHECK_FALSE(finish("conserve_energy off").conserve_energy);
+  CHECK(error_line("sphere { 0, 1 finish { roughness 0 } }") ==
+        "scene.pov:1:34: error: roughness must be greater than 0");
+}
+
+TEST_CASE("reflection, old and new form") {
+  Finish f = finish("reflection 0.3 reflection_exponent 2");
+  CHECK(f.reflection_min == Vec3(.3, .3, .3));
+  CHECK(f.reflection_max == Vec3(.3, .3, .3));
+  CHECK(f.reflection_exponent == 2);
+  f = finish("reflection { rgb 0.1, rgb <1, .5, 0> falloff 3 exponent 0.5 metallic }");
+  CHECK(f.reflection_min == Vec3(.1, .1, .1));
+  CHECK(f.reflection_max == Vec3(1, .5, 0));
+  CHECK(f.reflection_falloff == 3);
+  CHECK(f.reflection_exponent == 0.5);
+  CHECK(f.reflection_metallic == 1);
+  CHECK(f.metallic == 0);
+  f = finish("reflection { 0.4 }");
+  CHECK(f.reflection_min == Vec3(.4, .4, .4));
+  f = finish("reflection { 0.9 fresnel on }");
+  CHECK(f.reflection_min == Vec3(0, 0, 0));
+  CHECK(f.reflection_max == Vec3(.9, .9, .9));
+  CHECK(f.reflection_fresnel);
+}
+
+TEST_CASE("textures build on one another") {
+  const Scene scene =
+      parse("#declare F = finish { phong 1 } #declare T = texture { pigment { rgb 0.5 } finish { F } }"
+            "#declare U = texture { T finish { F ambient 0 } } sphere { 0, 1 texture { T } }"
+            "sphere { 0, 1 texture { U } } object { sphere { 0, 1 texture { U } } pigment { rgb 1 } }");
+  REQUIRE(scene.materials.size() == 3);
+  CHECK(scene.materials[0].finish.phong == 1);
+  CHECK(scene.materials[0].finish.ambient.x == 0.1);
+  CHECK(scene.materials[1].finish.ambient.x == 0);
+  CHECK(scene.materials[1].pigment.rgb.x == 0.5);
+  CHECK(scene.materials[2].pigment.rgb.x == 1);
+  CHECK(scene.materials[2].finish.phong == 1);
+}
+
+TEST_CASE("an opaque layer hides those below, others are not supported") {
+  CHECK(material("texture { pigment { rgb 1 } } texture { pigment { rgb 0.5 } }").pigment.rgb.x == 0.5);
+  CHECK(error_line("sphere { 0, 1 texture { pigment { rgb 1 } } texture { pigment { rgbt 0.5 } } }") ==
+        "scene.pov:1:45: error: a layered texture is not supported yet");
+}
+
+TEST_CASE("interiors and materials") {
+  CHECK(ior("") == 1);
+  CHECK(ior("interior { ior 1.5 caustics 0 }") == 1.5);
+  CHECK(ior("material { texture { pigment { rgbt 1 } } interior { ior 1.3 } }") == 1.3);
+  CHECK(ior("finish { refraction 1 ior 1.7 }") == 1.7);
+  CHECK(ior("interior { fade_distance 0 fade_power 2 dispersion 1 ior 1.2 }") == 1.2);
+  const Scene named = parse("#declare I = interior { ior 2 } #declare M = material { interior { I } } "
+                            "sphere { 0, 1 material { M } }");
+  CHECK(named.interiors.at(0).ior == 2);
+  CHECK(error_line("sphere { 0, 1 interior { fade_distance 1 fade_power 2 } }") ==
+        "scene.pov:1:1: error: 'fade_distance' of an interior is not supported yet");
+  CHECK(error_line("sphere { 0, 1 interior { ior 1.5 media { scattering { 1, 1 } } } }") ==
+        "scene.pov:1:34: error: 'media' is not supported yet");
+  CHECK(error_line("sphere { 0, 1 interior { dispersion 1.02 } }") ==
+        "scene.pov:1:26: error: 'dispersion' is not supported yet");
+}
+
+TEST_CASE("what is not supported is an error where it is used") {
+  const std::string declarations =
+      "#declare T = texture { pigment { marble color_map { [0 rgb 1] [1 rgb 0] } turbulence 1 } normal { "
+      "bumps 1 } }\n"
+      "#declare N = normal { bumps 0.3 } #declare M = color_map { [0 rgb 1][1 rgb 0] }\n"
+      "#declare F = function (x, y) { x + y } #declare B = box { 0, 1 } #declare D = difference { object { B "
+      "} sphere { 0, 1 } }\n"
+      "#declare S = sphere { 0, 1 pigment { checker rgb 1, rgb 0 } }\n"
+      "#declare I = finish { irid { 0.3 thickness 1 } } #declare C = finish { crand 0.2 }\n";
+  CHECK(error_line(declarations).empty());
+  CHECK(error_line(declarations + "sphere { 0, 1 texture { T } }") ==
+        "scene.pov:1:34: error: 'marble' is not supported yet");
+  CHECK(error_line(declarations + "object { D }") ==
+        "scene.pov:3:79: error: 'difference' is not supported yet");
+  CHECK(error_line(declarations + "union { sphere { 0, 1 } object { B } }") ==
+        "scene.pov:3:53: error: 'box' is not supported yet");
+  CHECK(error_line(declarations + "object { S pigment { rgb 1 } }").empty());
+  CHECK(error_line(declarations + "S") == "scene.pov:4:38: error: 'checker' is not supported yet");
+  CHECK(error_line(declarations + "sphere { 0, 1 finish { I } }") ==
+        "scene.pov:5:23: error: 'irid' is not supported yet");
+  CHECK(error_line(declarations + "sphere { 0, 1 finish { C } }") ==
+        "scene.pov:5:72: error: 'crand' is not supported yet");
+  CHECK(error_line(declarations + "#declare Q = F(1, 2);") ==
+        "scene.pov:3:14: error: 'function' is not supported yet");
+  CHECK(test::error(declarations + "S") ==
+        "scene.pov:4:38: error: 'checker' is not supported yet\n    used at scene.pov:6:1");
+  CHECK(error_line("cylinder { 0, x, 1 }") == "scene.pov:1:1: error: 'cylinder' is not supported yet");
+  CHECK(error_line("sphere { 0, 1 clipped_by { box { 0, 1 } } }") ==
+        "scene.pov:1:15: error: 'clipped_by' is not supported yet");
+  CHECK(error_line("sphere { 0, 1 double_illuminate }") ==
+        "scene.pov:1:15: error: 'double_illuminate' is not supported yet");
+  CHECK(error_line("#declare A = min_extent(B);") ==
+        "scene.pov:1:14: error: 'min_extent' is not supported yet");
+  CHECK(error_line("#fopen F \"x\" read") == "scene.pov:1:1: error: '#fopen' is not supported yet");
+}
