@@ -103,8 +103,8 @@ void set_camera(FrameBlock& frame, const Camera& camera, const Scene& scene, con
 }
 
 GridRecord choose_grid(const ImageHeader& header) {
-  // About four voxels an object; more cost memory and steps, fewer cost intersection tests.
-  constexpr double kVoxelsPerObject = 4;
+  // About eight voxels an object; more cost memory and steps, fewer cost intersection tests.
+  constexpr double kVoxelsPerObject = 8;
   constexpr double kMaxCellsPerAxis = 512;
   constexpr double kMaxCells = 1 << 24;
   std::array<double, 3> extent;

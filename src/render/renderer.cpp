@@ -98,7 +98,7 @@ private:
   void build_grid() {
     const GridRecord grid = choose_grid(image_->header());
     const std::uint32_t cells = grid.row_of_cells * grid.cells[2];
-    std::uint64_t pairs = std::max<std::uint64_t>(std::uint64_t{image_->header().object_count} * 4, 1024);
+    std::uint64_t pairs = std::max<std::uint64_t>(std::uint64_t{image_->header().object_count} * 6, 1024);
     for (;;) {
       if (pairs > 0x3FFFFFFF) throw InputError("the scene is too large: its object lists would pass 4 GB");
       reserve(grid, cells, static_cast<std::uint32_t>(pairs));
