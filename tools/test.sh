@@ -6,4 +6,4 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 tools/install-dependencies.sh build tests
 tools/configure.sh ci
 cmake --build --preset ci
-ctest --preset ci -j "$(nproc)"
+ctest --preset ci --no-tests=error -j "$(nproc)"
