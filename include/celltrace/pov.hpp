@@ -29,7 +29,7 @@ struct ParseLimits {
   std::uint64_t loop_iterations = 10'000'000; ///< of all #while and #for loops together
   std::uint64_t recorded_tokens = 4'000'000;  ///< in macro and loop bodies, 48 bytes each
   std::uint64_t tokens = 2'000'000'000;       ///< read in all, replays included
-  std::uint64_t array_elements = 4'000'000;   ///< of one array
+  std::uint64_t array_elements = 1'000'000;   ///< of one array
   std::uint64_t list_entries = 32'000'000;    ///< of one list, such as a mesh's vertices
   std::uint64_t string_bytes = 1u << 20;      ///< of one string
   std::uint64_t text_bytes = 256u << 20;      ///< of all strings made or declared

@@ -23,8 +23,12 @@ std::shared_ptr<Array> copy(Session& session, const Array& array, const Location
     session.fail(where, "this array is too large to be copied");
   budget.elements -= array.elements.size();
   auto result = std::make_shared<Array>(array);
-  for (Value& element : result->elements)
-    if (const Array* inner = as_array(element)) element = copy(session, *inner, where, budget);
+  for (Value& element : result->elements) {
+    if (const Array* inner = as_array(element))
+      element = copy(session, *inner, where, budget);
+    else if (const auto* text = std::get_if<std::string>(&element))
+      session.count_text(text->size(), where);
+  }
   ++budget.depth;
   return result;
 }

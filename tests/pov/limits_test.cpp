@@ -69,8 +69,9 @@ TEST_CASE("what a scene makes is bounded") {
   options.limits.array_elements = 100;
   CHECK(contains(error_line("#declare A = array[20][20];", options), "an array has at most 100 elements"));
   CHECK(contains(error_line("#declare A = array[1e30];"), "an array has at most"));
-  CHECK(contains(error_line("#declare A = array[2] {1, 1} #for (I, 1, 40) #declare A = array[2] {A, A} #end"),
-                 "too large to be copied"));
+  CHECK(contains(
+      error_line("#declare A = array[2] {1, 1} #for (I, 1, 40) #declare A = array[2] {A, A} #end", options),
+      "too large to be copied"));
   CHECK(contains(error_line("#declare S = \"abc\"; #for (I, 1, 40) #declare S = concat(S, S); #end"),
                  "this string is too long"));
   options.limits.text_bytes = 1000;
