@@ -242,7 +242,7 @@ TEST_CASE("Too little room is answered with how much it takes, and nothing is wr
   }
 }
 
-TEST_CASE("A chosen grid covers the scene and has about four voxels an object") {
+TEST_CASE("A chosen grid covers the scene and has some voxels an object") {
   for (unsigned count : {1u, 10u, 1000u, 20000u}) {
     const PreparedScene scene(soup(42, {count, 0, 0}, 10, 0.1));
     const GridRecord& grid = scene.frame().grid;

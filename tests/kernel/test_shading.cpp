@@ -270,6 +270,11 @@ TEST_CASE("The interiors that a ray is inside of") {
         interior.lane[l] = offset(chosen[l]);
       }
       std::uint64_t overflows = 0;
+      const FloatLanes mirrors = fresnel_ratios(access, interior, lanes, node);
+      for_each_lane(lanes, [&](unsigned l) {
+        REQUIRE(mirrors.lane[l] ==
+                Approx(reference::fresnel_ratio(stacks[l], chosen[l], source.interiors)).epsilon(1e-6));
+      });
       const Refraction r = cross_surfaces(access, interior, lanes, node, overflows);
       REQUIRE(overflows == 0);
       for (unsigned l = 0; l < kSimdLanes; ++l) {

@@ -27,7 +27,7 @@ Shape triangle_shape(const Object& object, const Mesh& mesh, const Mesh::Triangl
   shape.smooth = n[0] != kNoIndex && !(n[0] == n[1] && n[0] == n[2]);
   for (int i = 0; i < 3; ++i) {
     shape.vertex[i] = object.transform.point(Vec3(mesh.vertices[triangle.vertex[i]]));
-    if (shape.smooth) shape.normal[i] = glm::normalize(object.transform.normal(Vec3(mesh.normals[n[i]])));
+    if (shape.smooth) shape.normal[i] = object.transform.normal(glm::normalize(Vec3(mesh.normals[n[i]])));
     shape.material[i] = triangle.material[i] == kNoIndex ? object.material : triangle.material[i];
   }
   shape.blended = shape.material[0] != shape.material[1] || shape.material[0] != shape.material[2];

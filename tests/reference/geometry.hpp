@@ -34,7 +34,7 @@ struct Shape {
   /// Sphere: the sphere, and the way to the space where it is one.
   Sphere sphere;
   Transform to_sphere;
-  /// Triangle: in the world; normals only if it is smooth.
+  /// Triangle: in the world; normals only if it is smooth. They are of unit length in the mesh's own space.
   Vec3 vertex[3];
   Vec3 normal[3];
   bool smooth = false;

@@ -89,6 +89,13 @@ double cross_surface(InteriorStack& stack, Index interior, const std::vector<Int
   return was_innermost ? from / innermost() : 1;
 }
 
+double fresnel_ratio(const InteriorStack& stack, Index interior, const std::vector<Interior>& interiors) {
+  InteriorStack after = stack;
+  const double ratio = cross_surface(after, interior, interiors);
+  const bool leaves_into_object = after.size() < stack.size() && !after.empty();
+  return leaves_into_object ? 1 / ratio : ratio;
+}
+
 std::uint8_t encode(double value, GammaMode mode, double assumed_gamma) {
   double c = std::clamp(value, 0.0, 1.0);
   if (mode == GammaMode::assumed) {

@@ -136,7 +136,8 @@ Vec3 Tracer::shade(const Branch& branch, const Point& point, const Material& mat
   InteriorStack inside = branch.inside;
   const double ratio = cross_surface(inside, point.shape->object->interior, scene_.interiors);
   const double cosine = -glm::dot(direction, point.normal);
-  const Vec3 mirrored = reflectivity(material, cosine, ratio);
+  const Vec3 mirrored = reflectivity(
+      material, cosine, fresnel_ratio(branch.inside, point.shape->object->interior, scene_.interiors));
   Vec3 filter = filter_colour(material.pigment);
   if (material.finish.conserve_energy) filter *= 1.0 - mirrored;
 

@@ -53,7 +53,11 @@ Scene glass_and_mirrors() {
   scene.max_trace_level = 9;
   add_floor(scene, -1, {0.9, 0.8, 0.7}, {0.3, 0.3, 0.8});
   add_sphere(scene, {-1.2, 0, 0}, 1, glass({0.95, 1, 0.95}), 1.5);
-  add_sphere(scene, {-1.2, 0, 0}, 0.5, glass({1, 0.8, 0.6}), 1.1);
+  Material core = glass({1, 0.8, 0.6});
+  core.finish.reflection_min = Vec3(0);
+  core.finish.reflection_max = Vec3(1);
+  core.finish.reflection_fresnel = true;
+  add_sphere(scene, {-1.2, 0, 0}, 0.5, core, 1.1);
   Material steel = matte({0.6, 0.6, 0.7});
   steel.finish.diffuse = 0.2;
   steel.finish.reflection_min = {0.4, 0.4, 0.4};

@@ -85,9 +85,9 @@ TEST_CASE("Blended transparent faces in a row lose no ray") {
     scene.objects.push_back(mesh_object(mesh, 0, scene.add(Interior{})));
     scene.objects.back().transform = Transform::translate({0, 0, 0.3 * layer});
   }
-  const RenderResult result = render(scene, backends().front().options(40, 30, 2));
+  const RenderResult result = render(scene, backends().front().options(20, 15, 2));
   CHECK(result.statistics.dropped_rays == 0);
-  CHECK(compare_images(reference::Tracer(scene).render(40, 30), result.image).psnr >= 45);
+  CHECK(compare_images(reference::Tracer(scene).render(20, 15), result.image).psnr >= 45);
 }
 
 TEST_CASE("Sixteen spheres in each other, more than a ray remembers") {

@@ -35,7 +35,7 @@ TEST_CASE("Pictures come close to the reference tracer's") {
     const Image picture = render_on(backend, 2, scene);
     const Comparison comparison = compare_images(expected, picture);
     INFO(to_text(comparison));
-    CHECK(comparison.psnr >= 45);
+    CHECK(comparison.psnr >= 60);
   }
 }
 
