@@ -6,21 +6,6 @@
 #include <string>
 
 namespace celltrace::cell_emu {
-namespace {
-
-const char* text_of(HaltCode code) {
-  switch (code) {
-  case HaltCode::local_store_exhausted:
-    return "local store exhausted";
-  case HaltCode::bad_argument:
-    return "bad argument";
-  case HaltCode::internal_error:
-    return "internal error";
-  }
-  return "unknown halt code";
-}
-
-} // namespace
 
 Spu::Spu(unsigned id, Bus& bus, ProblemState& problem_state, Counters& counters, const ArenaState& arena)
     : id_(id), bus_(bus), problem_state_(problem_state), counters_(counters),
@@ -47,7 +32,7 @@ ArenaState& Spu::arena() {
 }
 
 void Spu::halt(HaltCode code) {
-  std::string text = "SPE " + std::to_string(id_) + ": halted: " + text_of(code);
+  std::string text = "SPE " + std::to_string(id_) + ": halted: " + to_text(code);
   if (code == HaltCode::local_store_exhausted)
     text += ", " + std::to_string(available()) + " of " + std::to_string(arena_.end - arena_.begin) +
             " bytes of the arena are free";

@@ -11,18 +11,6 @@ namespace {
 
 constexpr std::align_val_t kArenaAlignment{kLineBytes};
 
-const char* reason(HaltCode code) {
-  switch (code) {
-  case HaltCode::local_store_exhausted:
-    return "local store is exhausted";
-  case HaltCode::bad_argument:
-    return "bad argument";
-  case HaltCode::internal_error:
-    return "internal error";
-  }
-  return "unknown halt code";
-}
-
 } // namespace
 
 Spe::Spe(unsigned spe, const SignalMode (&modes)[2], Doorbell& ppe) : id(spe), channels(modes, ppe) {
@@ -48,7 +36,7 @@ void Spe::end() {
 }
 
 void Spe::halt(HaltCode code) const {
-  throw SpeError("halted: " + std::string(reason(code)) + " (code " +
+  throw SpeError("halted: " + std::string(to_text(code)) + " (code " +
                  std::to_string(static_cast<std::uint32_t>(code)) + ")");
 }
 

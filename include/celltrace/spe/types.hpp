@@ -130,6 +130,19 @@ enum class HaltCode : uint32_t {
   internal_error = 3,
 };
 
+/// For messages.
+constexpr const char* to_text(HaltCode code) {
+  switch (code) {
+  case HaltCode::local_store_exhausted:
+    return "local store exhausted";
+  case HaltCode::bad_argument:
+    return "bad argument";
+  case HaltCode::internal_error:
+    return "internal error";
+  }
+  return "unknown halt code";
+}
+
 /// Where the problem-state registers and the local store of an SPE lie in the main storage domain. The signal
 /// and mailbox addresses are those of the 32-bit registers themselves: their low four bits are 0xC, so that
 /// the word that is sent to them lies in the last word of a quadword.
