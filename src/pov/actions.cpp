@@ -145,11 +145,12 @@ void apply(const std::shared_ptr<const MaterialDefinition>& material, ObjectDefi
   if (material->interior) object.interior = material->interior;
 }
 
-std::shared_ptr<ObjectDefinition> lone_triangle(Session& session, const TriangleDefinition& triangle,
-                                                const Location& where) {
-  MeshBuilder builder;
-  add_triangle(session, builder, triangle, where);
-  return make_object(builder.finish());
+std::shared_ptr<ObjectDefinition>
+lone_triangle(Session& session, std::shared_ptr<TriangleDefinition> triangle, const Location& where) {
+  session.builder.count_triangles(1, where);
+  auto object = std::make_shared<ObjectDefinition>();
+  object->shape = std::move(triangle);
+  return object;
 }
 
 void add_triangle(Session& session, MeshBuilder& builder, const TriangleDefinition& triangle,

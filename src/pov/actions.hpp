@@ -84,8 +84,8 @@ void apply(const std::shared_ptr<const MaterialDefinition>& material, ObjectDefi
 
 // ---- Meshes ----
 
-std::shared_ptr<ObjectDefinition> lone_triangle(Session& session, const TriangleDefinition& triangle,
-                                                const Location& where);
+std::shared_ptr<ObjectDefinition>
+lone_triangle(Session& session, std::shared_ptr<TriangleDefinition> triangle, const Location& where);
 void add_triangle(Session& session, MeshBuilder& builder, const TriangleDefinition& triangle,
                   const Location& where);
 std::shared_ptr<ObjectDefinition> mesh(Session& session, MeshBuilder& builder, const Location& where);

@@ -81,8 +81,8 @@ static int yylex(Parser::semantic_type* value, Location* where, Session& session
 %nterm <std::vector<std::size_t>> dimensions
 %nterm <std::shared_ptr<Array>> elements
 %nterm <Transform> transformation transform_items
-%nterm <PigmentDefinition> pigment pigment_body
-%nterm <std::shared_ptr<FinishDefinition>> finish finish_body
+%nterm <PigmentDefinition> pigment_body
+%nterm <std::shared_ptr<FinishDefinition>> finish_body
 %nterm <ReflectionDefinition> reflection_body
 %nterm <TexturePtr> texture texture_body layers
 %nterm <InteriorDefinition> interior_body
@@ -148,8 +148,12 @@ settings
 defaults
   : %empty
   | defaults texture  { session.builder.default_texture = $2; }
-  | defaults pigment  { session.builder.default_texture = with_pigment(session.builder.default_texture, $2); }
-  | defaults finish   { session.builder.default_texture = with_finish(session.builder.default_texture, *$2); }
+  | defaults PIGMENT '{' from_default pigment_body '}' {
+      session.builder.default_texture = with_pigment(session.builder.default_texture, $5);
+    }
+  | defaults FINISH '{' from_default finish_body '}' {
+      session.builder.default_texture = with_finish(session.builder.default_texture, *$5);
+    }
   | defaults camera   { session.builder.default_camera = *$2; }
   | defaults UNSUPPORTED_BLOCK {
       session.builder.default_texture =
@@ -314,12 +318,12 @@ list_items
 
 // ---- Textures ----
 
-pigment
-  : PIGMENT '{' pigment_body '}' { $$ = $3; }
+from_default // a pigment or finish of its own starts from the default texture's, any other from what it changes
+  : %empty { session.base_texture = session.builder.default_texture; }
   ;
 
 pigment_body
-  : %empty                           { $$ = session.builder.default_texture->pigment; }
+  : %empty                           { $$ = session.base_texture->pigment; }
   | pigment_body PIGMENT_ID          { $$ = $2; }
   | pigment_body colour_value        { $$ = $1; $$.value = session.colour($2, @2); $$.unsupported = nullptr; }
   | pigment_body QUICK_COLOUR colour_value { $$ = $1; }
@@ -328,12 +332,8 @@ pigment_body
   | pigment_body unsupported         { $$ = $1; mark($$.unsupported, $2); }
   ;
 
-finish
-  : FINISH '{' finish_body '}' { $$ = $3; }
-  ;
-
 finish_body
-  : %empty                                 { $$ = std::make_shared<FinishDefinition>(session.builder.default_texture->finish); }
+  : %empty                                 { $$ = std::make_shared<FinishDefinition>(session.base_texture->finish); }
   | finish_body FINISH_ID                  { $$ = std::make_shared<FinishDefinition>(*$2); }
   | finish_body AMBIENT colour_value       { $$ = $1; $$->value.ambient = session.colour($3, @3).rgb; }
   | finish_body EMISSION colour_value      { $$ = $1; $$->value.emission = session.colour($3, @3).rgb; }
@@ -380,8 +380,8 @@ texture
 texture_body
   : %empty                      { $$ = session.builder.default_texture; }
   | texture_body TEXTURE_ID     { $$ = $2; }
-  | texture_body pigment        { $$ = with_pigment($1, $2); }
-  | texture_body finish         { $$ = with_finish($1, *$2); }
+  | texture_body PIGMENT '{' { session.base_texture = $1; } pigment_body '}' { $$ = with_pigment($1, $5); }
+  | texture_body FINISH '{' { session.base_texture = $1; } finish_body '}'   { $$ = with_finish($1, *$5); }
   | texture_body PIGMENT_ID     { $$ = with_pigment($1, $2); }
   | texture_body FINISH_ID      { $$ = with_finish($1, *$2); }
   | texture_body transformation { $$ = $1; }
@@ -462,7 +462,7 @@ object_head
   | SPHERE '{' OBJECT_ID     { $$ = std::make_shared<ObjectDefinition>(*$3); }
   | MESH '{' OBJECT_ID       { $$ = std::make_shared<ObjectDefinition>(*$3); }
   | MESH2 '{' OBJECT_ID      { $$ = std::make_shared<ObjectDefinition>(*$3); }
-  | triangle_vertices        { $$ = lone_triangle(session, *$1, @1); }
+  | triangle_vertices        { $$ = lone_triangle(session, $1, @1); }
   | union_head               { $$ = make_union(session, std::move($1), @1); }
   | mesh_head                { $$ = mesh(session, *$1, @1); }
   | mesh2_head               { $$ = mesh2(session, *$1, @1); }
@@ -472,11 +472,17 @@ object_body
   : object_head
   | object_body transformation         { $$ = $1; $$->apply($2); }
   | object_body texture                { $$ = $1; $$->texture = layered($$->texture, $2, @2); }
-  | object_body pigment                { $$ = $1; $$->texture = with_pigment(texture_of(session, *$$), $2); }
-  | object_body finish                 { $$ = $1; $$->texture = with_finish(texture_of(session, *$$), *$2); }
+  | object_body PIGMENT '{' { session.base_texture = texture_of(session, *$1); } pigment_body '}' {
+      $$ = $1;
+      $$->texture = with_pigment(texture_of(session, *$$), $5);
+    }
+  | object_body FINISH '{' { session.base_texture = texture_of(session, *$1); } finish_body '}' {
+      $$ = $1;
+      $$->texture = with_finish(texture_of(session, *$$), *$5);
+    }
   | object_body interior               { $$ = $1; $$->interior = $2; }
   | object_body material               { $$ = $1; apply($2, *$$, @2); }
-  | object_body NO_SHADOW flag         { $$ = $1; $$->no_shadow = $3 != 0; }
+  | object_body NO_SHADOW              { $$ = $1; $$->no_shadow = true; }
   | object_body HOLLOW flag            { $$ = $1; }
   | object_body INVERSE                { $$ = $1; }
   | object_body IGNORED_FLAG flag      { $$ = $1; }
@@ -568,8 +574,8 @@ declarable
   : quantity          { $$ = $1; }
   | colour            { $$ = $1; }
   | text              { $$ = $1; }
-  | pigment           { $$ = $1; }
-  | finish            { $$ = FinishPtr($1); }
+  | PIGMENT '{' from_default pigment_body '}' { $$ = $4; }
+  | FINISH '{' from_default finish_body '}'   { $$ = FinishPtr($4); }
   | layers            { $$ = $1; }
   | TEXTURE_ID        { $$ = $1; }
   | PIGMENT_ID        { $$ = $1; }

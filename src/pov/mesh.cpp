@@ -88,10 +88,20 @@ bool find_normals(const Mesh2Definition& definition, std::size_t face, const Fac
 
 } // namespace
 
+TriangleDefinition TriangleDefinition::transformed(const Transform& transform) const {
+  TriangleDefinition result = *this;
+  for (Vec3& vertex : result.vertices)
+    vertex = transform.point(vertex);
+  for (Vec3& normal : result.normals)
+    normal = transform.normal(normal);
+  return result;
+}
+
 void MeshBuilder::add(const TriangleDefinition& triangle) {
-  const Corners& corners = triangle.vertices;
+  const auto& corners = triangle.vertices;
   if (is_degenerate(corners[0], corners[1], corners[2])) return;
-  const Corners normals{unit(triangle.normals[0]), unit(triangle.normals[1]), unit(triangle.normals[2])};
+  const std::array<Vec3, 3> normals{unit(triangle.normals[0]), unit(triangle.normals[1]),
+                                    unit(triangle.normals[2])};
   const bool is_smooth = triangle.is_smooth && are_smooth(normals[0], normals[1], normals[2]);
   Mesh& mesh = mesh_->mesh;
   Mesh::Triangle result;

@@ -1,7 +1,6 @@
 // From triangles and mesh2's lists to a Mesh.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <unordered_map>
 #include <vector>
@@ -10,16 +9,6 @@
 #include "pov/quantity.hpp"
 
 namespace celltrace::pov {
-
-using Corners = std::array<Vec3, 3>;
-
-/// One triangle as written in a mesh or alone. Without normals it is flat.
-struct TriangleDefinition {
-  Corners vertices;
-  Corners normals{};
-  bool is_smooth = false;
-  TexturePtr texture; ///< null: the mesh's
-};
 
 /// Takes triangles one by one. Degenerate ones are dropped; normals that are equal or zero count for nothing.
 class MeshBuilder {

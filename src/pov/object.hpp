@@ -1,6 +1,7 @@
 // Objects as declared: shapes, unions and light sources with their modifiers.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <variant>
 #include <vector>
@@ -21,8 +22,20 @@ struct MeshDefinition {
   std::vector<TexturePtr> textures;
 };
 
+/// One triangle as written in a mesh or alone. Without normals it is flat.
+struct TriangleDefinition {
+  std::array<Vec3, 3> vertices{};
+  std::array<Vec3, 3> normals{};
+  bool is_smooth = false;
+  TexturePtr texture; ///< null: the mesh's
+
+  /// As POV-Ray moves a triangle that stands alone: its normals, too, corner by corner.
+  TriangleDefinition transformed(const Transform& transform) const;
+};
+
 struct ObjectDefinition {
-  std::variant<Sphere, std::shared_ptr<MeshDefinition>, Children, Light> shape;
+  std::variant<Sphere, std::shared_ptr<MeshDefinition>, std::shared_ptr<TriangleDefinition>, Children, Light>
+      shape;
   Transform transform;
   TexturePtr texture; ///< null: the parent's, then the default
   InteriorPtr interior;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "celltrace/error.hpp"
+#include "pov/mesh.hpp"
 
 namespace celltrace::pov {
 
@@ -39,13 +40,15 @@ void SceneBuilder::place(const ObjectDefinition& object, const Inherited& inheri
   own.transform = object.transform.then(inherited.transform);
   own.no_shadow = object.no_shadow || inherited.no_shadow;
   if (object.texture) own.texture = object.texture;
+  if (!own.texture) own.texture = default_texture;
   if (const Light* light = std::get_if<Light>(&object.shape)) {
     place_light(*light, own.transform, where);
   } else if (const Children* children = std::get_if<Children>(&object.shape)) {
-    if (object.interior) own.interior = interior_index(object, inherited, *default_texture, where);
+    own.interior = interior_index(object, inherited.interior, *own.texture, where);
     for (const ObjectPtr& child : **children)
       place(*child, own, where);
   } else {
+    own.interior = interior_index(object, inherited.interior, *own.texture, where);
     place_shape(object, own, where);
   }
 }
@@ -60,34 +63,56 @@ void SceneBuilder::place_light(Light light, const Transform& transform, const Lo
 void SceneBuilder::place_shape(const ObjectDefinition& object, const Inherited& own, const Location& where) {
   if (is_singular(own.transform))
     diagnostics_.fail(where, "this object's transformation is singular: it has no inverse");
-  const TexturePtr& texture = own.texture ? own.texture : default_texture;
   Object placed;
   placed.transform = own.transform;
   placed.no_shadow = own.no_shadow;
-  placed.material = material_index(texture, where);
+  placed.material = material_index(own.texture, where);
   if (const Sphere* sphere = std::get_if<Sphere>(&object.shape)) {
-    if (sphere->radius == 0) return;
+    if (sphere->radius <= 0) return; // POV-Ray's bounding box of it is empty
     placed.shape = *sphere;
   } else {
-    auto mesh = placed_mesh(std::get<std::shared_ptr<MeshDefinition>>(object.shape), where);
+    std::shared_ptr<const Mesh> mesh;
+    if (const auto* triangle = std::get_if<std::shared_ptr<TriangleDefinition>>(&object.shape)) {
+      mesh = placed_triangle(**triangle, own.transform, where);
+      placed.transform = Transform();
+    } else {
+      mesh = placed_mesh(std::get<std::shared_ptr<MeshDefinition>>(object.shape), where);
+    }
     if (mesh->triangles.empty()) return;
     placed.shape = std::move(mesh);
   }
-  placed.interior = interior_index(object, own, *texture, where);
+  placed.interior = own.interior != kNoIndex ? own.interior : scene_.add(Interior{});
   scene_.objects.push_back(std::move(placed));
 }
 
-Index SceneBuilder::interior_index(const ObjectDefinition& object, const Inherited& inherited,
-                                   const TextureDefinition& texture, const Location& where) {
-  if (!object.interior) {
-    if (inherited.interior != kNoIndex) return inherited.interior;
-    return scene_.add(Interior{texture.finish.ior.value_or(1)});
+std::shared_ptr<const Mesh> SceneBuilder::placed_triangle(const TriangleDefinition& triangle,
+                                                          const Transform& transform, const Location& where) {
+  MeshBuilder builder;
+  try {
+    builder.add(triangle.transformed(transform));
+  } catch (const InputError& error) {
+    diagnostics_.fail(where, error.what());
   }
-  const InteriorDefinition& interior = *object.interior;
-  diagnostics_.require_supported(interior.unsupported, where);
-  if (interior.fade_distance != 0 && interior.fade_power != 0)
-    diagnostics_.fail(where, "'fade_distance' of an interior is not supported yet");
-  return scene_.add(Interior{interior.ior});
+  return std::make_shared<const Mesh>(std::move(builder.finish()->mesh));
+}
+
+/// The object's own interior, else the inherited one. POV-Ray 3.1's ior of a finish makes one where there is
+/// none and changes the one there is, even if it is inherited.
+Index SceneBuilder::interior_index(const ObjectDefinition& object, Index inherited,
+                                   const TextureDefinition& texture, const Location& where) {
+  const std::optional<double>& ior = texture.finish.ior;
+  Index index = inherited;
+  if (object.interior) {
+    const InteriorDefinition& interior = *object.interior;
+    diagnostics_.require_supported(interior.unsupported, where);
+    if (interior.fade_distance != 0 && interior.fade_power != 0)
+      diagnostics_.fail(where, "'fade_distance' of an interior is not supported yet");
+    index = scene_.add(Interior{interior.ior});
+  } else if (index == kNoIndex && ior) {
+    index = scene_.add(Interior{});
+  }
+  if (ior) scene_.interiors[index].ior = *ior;
+  return index;
 }
 
 Index SceneBuilder::material_index(const TexturePtr& texture, const Location& where) {

@@ -56,9 +56,11 @@ private:
   void place(const ObjectDefinition& object, const Inherited& inherited, const Location& where);
   void place_light(Light light, const Transform& transform, const Location& where);
   void place_shape(const ObjectDefinition& object, const Inherited& own, const Location& where);
-  Index interior_index(const ObjectDefinition& object, const Inherited& inherited,
-                       const TextureDefinition& texture, const Location& where);
+  Index interior_index(const ObjectDefinition& object, Index inherited, const TextureDefinition& texture,
+                       const Location& where);
   Index material_index(const TexturePtr& texture, const Location& where);
+  std::shared_ptr<const Mesh> placed_triangle(const TriangleDefinition& triangle, const Transform& transform,
+                                              const Location& where);
   std::shared_ptr<const Mesh> placed_mesh(const std::shared_ptr<MeshDefinition>& definition,
                                           const Location& where);
   void settle_gamma();

@@ -15,7 +15,7 @@ TEST_CASE("spheres") {
   CHECK(sphere.radius == 4);
   CHECK(scene.objects[0].transform.is_identity());
   CHECK(scene.objects[1].transform.point({1, 2, 3}) == Vec3(2, 2, 3));
-  CHECK(parse("sphere { 0, 0 }").objects.empty());
+  CHECK(parse("sphere { 0, 0 } sphere { 0, -1 }").objects.empty());
 }
 
 TEST_CASE("declared objects are placed as often as they are named") {

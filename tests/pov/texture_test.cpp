@@ -102,6 +102,29 @@ TEST_CASE("textures build on one another") {
   CHECK(scene.materials[2].finish.phong == 1);
 }
 
+TEST_CASE("a pigment or finish changes what the object already has") {
+  const Material m =
+      material("finish { phong 1 } pigment { rgb 0.5 } finish { ambient 1 } pigment { quick_color rgb 1 }");
+  CHECK(m.finish.phong == 1);
+  CHECK(m.finish.ambient.x == 1);
+  CHECK(m.pigment.rgb.x == 0.5);
+  const Scene scene = parse("#declare T = texture { pigment { rgb 0.5 } finish { phong 1 } } "
+                            "sphere { 0, 1 texture { T finish { ambient 1 } } }");
+  CHECK(scene.materials.at(0).finish.phong == 1);
+  CHECK(scene.materials.at(0).finish.ambient.x == 1);
+}
+
+TEST_CASE("ior in a finish changes the interior, as in POV-Ray 3.1") {
+  CHECK(ior("interior { ior 1.1 } finish { ior 1.5 }") == 1.5);
+  const Scene scene =
+      parse("union { sphere { 0, 1 } sphere { 0, 2 interior { ior 1.1 } } sphere { 0, 3 finish { ior 1.2 } } "
+            "finish { ior 1.5 } }");
+  REQUIRE(scene.objects.size() == 3);
+  CHECK(scene.objects[0].interior == scene.objects[2].interior);
+  CHECK(scene.interiors[scene.objects[0].interior].ior == 1.2);
+  CHECK(scene.interiors[scene.objects[1].interior].ior == 1.5);
+}
+
 TEST_CASE("an opaque layer hides those below, others are not supported") {
   CHECK(material("texture { pigment { rgb 1 } } texture { pigment { rgb 0.5 } }").pigment.rgb.x == 0.5);
   CHECK(error_line("sphere { 0, 1 texture { pigment { rgb 1 } } texture { pigment { rgbt 0.5 } } }") ==
