@@ -1,6 +1,8 @@
-// The grammar of the POV-Ray scene language. Values are computed while they are read; TokenStream has already obeyed the
-// directives. It can be entered for a whole scene or for one value (see Start): entered for a value it finishes as soon
-// as the value is complete, whatever follows, because every state that could end a value reduces by default.
+// The grammar of the POV-Ray scene language. Values are computed while they are read; TokenStream has
+// already obeyed the directives. It can be entered for a whole scene or for one value (see Start):
+// entered for a value it finishes as soon as the value is complete, whatever follows, because every state
+// that could end a value reduces by default. Actions that move on in the token stream themselves
+// (skip_group, skip_to_close) belong to rules that are reduced without looking ahead.
 
 %require "3.8"
 %language "c++"
@@ -13,8 +15,8 @@
 %define parse.error custom
 %locations
 %param { celltrace::pov::Session& session }
-// After a value both an operator and, since commas are optional, a sign or a colour's channel can follow: the longer
-// value is meant.
+// After a value both an operator and, since commas are optional, a sign or a colour's channel can follow: the
+// longer value is meant.
 %expect 52
 
 %code requires {
@@ -24,8 +26,6 @@
 }
 
 %code {
-#include <algorithm>
-
 #define YYLLOC_DEFAULT(Current, Rhs, N) ((Current) = (N) ? YYRHSLOC(Rhs, 1) : YYRHSLOC(Rhs, 0))
 
 // Ends an entry for a value.
@@ -36,7 +36,7 @@
   } while (false)
 
 namespace celltrace::pov {
-static int yylex(Parser::semantic_type* value, Location* where, Session& session);
+int yylex(Parser::semantic_type* value, Location* where, Session& session);
 }
 }
 
@@ -62,17 +62,18 @@ static int yylex(Parser::semantic_type* value, Location* where, Session& session
 %token BAD_CHARACTER DEFINED CONSTANT
 %token LESS_EQUAL GREATER_EQUAL NOT_EQUAL
 
-%token ADC_BAILOUT AMBIENT AMBIENT_LIGHT ANGLE APERTURE ARRAY ASSUMED_GAMMA BACKGROUND BOUNDED_BY BRILLIANCE CAMERA
-%token CAUSTICS COLOUR CONSERVE_ENERGY CRAND DIFFUSE DIMENSIONS DIMENSION_SIZE DIRECTION DISPERSION EMISSION EXPONENT
-%token FACE_INDICES FADE_DISTANCE FADE_POWER FALLOFF FINISH FRESNEL GLOBAL_SETTINGS HOLLOW IGNORED_FLAG IGNORED_NUMBER
-%token INSIDE_VECTOR INTERIOR INVERSE IOR IRID LIGHT_SOURCE LOCATION LOOK_AT MATERIAL MATRIX MAX_TRACE_LEVEL MESH MESH2
-%token METALLIC NORMAL_INDICES NORMAL_VECTORS NO_SHADOW OBJECT ORTHOGRAPHIC PERSPECTIVE PHONG PHONG_SIZE PHOTONS PIGMENT
+%token ADC_BAILOUT AMBIENT AMBIENT_LIGHT ANGLE APERTURE ARRAY ASSUMED_GAMMA BACKGROUND BOUNDED_BY
+%token BRILLIANCE CAMERA CAUSTICS CHARSET COLOUR CONSERVE_ENERGY CRAND DIFFUSE DIMENSIONS DIMENSION_SIZE
+%token DIRECTION DISPERSION EMISSION EXPONENT FACE_INDICES FADE_DISTANCE FADE_POWER FALLOFF FINISH
+%token FRESNEL GLOBAL_SETTINGS HOLLOW IGNORED_FLAG IGNORED_NUMBER INSIDE_VECTOR INTERIOR INVERSE IOR IRID
+%token LIGHT_SOURCE LOCATION LOOK_AT MATERIAL MATRIX MAX_TRACE_LEVEL MESH MESH2 METALLIC NORMAL_INDICES
+%token NORMAL_VECTORS NO_SHADOW OBJECT ORTHOGRAPHIC PERSPECTIVE PHONG PHONG_SIZE PHOTONS PIGMENT
 %token QUICK_COLOUR REFLECTION REFLECTION_EXPONENT REFRACTION RIGHT ROTATE ROUGHNESS SCALE SHADOWLESS SKY
-%token SMOOTH_TRIANGLE SPECULAR SPHERE SRGB TEXTURE TEXTURE_LIST TRANSFORM TRANSLATE TRIANGLE UNION UP UV_INDICES
-%token UV_MAPPING UV_VECTORS VERTEX_VECTORS CHARSET
+%token SMOOTH_TRIANGLE SPECULAR SPHERE SRGB TEXTURE TEXTURE_LIST TRANSFORM TRANSLATE TRIANGLE UNION UP
+%token UV_INDICES UV_MAPPING UV_VECTORS VERTEX_VECTORS
 
-%nterm <Quantity> quantity product factor primary vector vector_items comparison logic value_in_brackets colour
-%nterm <Quantity> colour_value colour_base
+%nterm <Quantity> quantity product factor primary vector vector_items comparison logic value_in_brackets
+%nterm <Quantity> colour colour_value colour_base
 %nterm <Signs> signs
 %nterm <std::string> text
 %nterm <std::vector<Value>> arguments
@@ -201,7 +202,10 @@ primary
   ;
 
 vector
-  : '<' vector_items '>'           { if ($2.is_float()) session.fail(@1, "a vector has at least two components"); $$ = $2; }
+  : '<' vector_items '>' {
+      if ($2.is_float()) session.fail(@1, "a vector has at least two components");
+      $$ = $2;
+    }
   ;
 
 vector_items
@@ -219,8 +223,12 @@ value_in_brackets
 
 logic
   : comparison
-  | logic '&' comparison           { $$ = double(is_true(session.number($1, @1)) && is_true(session.number($3, @3))); }
-  | logic '|' comparison           { $$ = double(is_true(session.number($1, @1)) || is_true(session.number($3, @3))); }
+  | logic '&' comparison {
+      $$ = double(is_true(session.number($1, @1)) && is_true(session.number($3, @3)));
+    }
+  | logic '|' comparison {
+      $$ = double(is_true(session.number($1, @1)) || is_true(session.number($3, @3)));
+    }
   ;
 
 comparison
@@ -318,7 +326,7 @@ list_items
 
 // ---- Textures ----
 
-from_default // a pigment or finish of its own starts from the default texture's, any other from what it changes
+from_default // where a pigment or finish of its own starts; any other starts from what it changes
   : %empty { session.base_texture = session.builder.default_texture; }
   ;
 
@@ -333,12 +341,18 @@ pigment_body
   ;
 
 finish_body
-  : %empty                                 { $$ = std::make_shared<FinishDefinition>(session.base_texture->finish); }
+  : %empty {
+      $$ = std::make_shared<FinishDefinition>(session.base_texture->finish);
+    }
   | finish_body FINISH_ID                  { $$ = std::make_shared<FinishDefinition>(*$2); }
   | finish_body AMBIENT colour_value       { $$ = $1; $$->value.ambient = session.colour($3, @3).rgb; }
   | finish_body EMISSION colour_value      { $$ = $1; $$->value.emission = session.colour($3, @3).rgb; }
   | finish_body DIFFUSE number             { $$ = $1; $$->value.diffuse = $3; }
-  | finish_body DIFFUSE number ',' number  { $$ = $1; $$->value.diffuse = $3; mark($$->unsupported, unless_zero("light from behind", $5, @5)); }
+  | finish_body DIFFUSE number ',' number {
+      $$ = $1;
+      $$->value.diffuse = $3;
+      mark($$->unsupported, unless_zero("light from behind", $5, @5));
+    }
   | finish_body BRILLIANCE number          { $$ = $1; $$->value.brilliance = $3; }
   | finish_body PHONG number               { $$ = $1; $$->value.phong = $3; }
   | finish_body PHONG_SIZE number          { $$ = $1; $$->value.phong_size = $3; }
@@ -348,14 +362,26 @@ finish_body
   | finish_body CONSERVE_ENERGY flag       { $$ = $1; $$->value.conserve_energy = $3 != 0; }
   | finish_body REFLECTION colour_value    { $$ = $1; set_reflection($$->value, session.colour($3, @3).rgb); }
   | finish_body REFLECTION '{' reflection_body '}' { $$ = $1; $4.apply($$->value); }
-  | finish_body REFLECTION_EXPONENT number { $$ = $1; $$->value.reflection_exponent = exponent(session, $3, @3); }
+  | finish_body REFLECTION_EXPONENT number {
+      $$ = $1;
+      $$->value.reflection_exponent = exponent(session, $3, @3);
+    }
   | finish_body IOR number                 { $$ = $1; $$->ior = ior(session, $3, @3); }
   | finish_body REFRACTION number          { $$ = $1; }
   | finish_body CRAND number               { $$ = $1; mark($$->unsupported, unless_zero("'crand'", $3, @2)); }
-  | finish_body CAUSTICS number            { $$ = $1; mark($$->unsupported, unless_zero("'caustics'", $3, @2)); }
-  | finish_body FADE_DISTANCE number       { $$ = $1; mark($$->unsupported, unless_zero("'fade_distance'", $3, @2)); }
+  | finish_body CAUSTICS number {
+      $$ = $1;
+      mark($$->unsupported, unless_zero("'caustics'", $3, @2));
+    }
+  | finish_body FADE_DISTANCE number {
+      $$ = $1;
+      mark($$->unsupported, unless_zero("'fade_distance'", $3, @2));
+    }
   | finish_body FADE_POWER number          { $$ = $1; }
-  | finish_body IRID '{' number irid_items '}' { $$ = $1; mark($$->unsupported, unless_zero("'irid'", $4, @2)); }
+  | finish_body IRID '{' number irid_items '}' {
+      $$ = $1;
+      mark($$->unsupported, unless_zero("'irid'", $4, @2));
+    }
   | finish_body unsupported                { $$ = $1; mark($$->unsupported, $2); }
   ;
 
@@ -366,7 +392,9 @@ irid_items
 
 reflection_body
   : colour_value                             { $$.set(session.colour($1, @1).rgb); }
-  | colour_value optional_comma colour_value { $$.set(session.colour($1, @1).rgb, session.colour($3, @3).rgb); }
+  | colour_value optional_comma colour_value {
+      $$.set(session.colour($1, @1).rgb, session.colour($3, @3).rgb);
+    }
   | reflection_body FALLOFF number           { $$ = $1; $$.falloff = $3; }
   | reflection_body EXPONENT number          { $$ = $1; $$.exponent = exponent(session, $3, @3); }
   | reflection_body FRESNEL flag             { $$ = $1; $$.is_fresnel = $3 != 0; }
@@ -405,7 +433,10 @@ interior_body
   | interior_body CAUSTICS number    { $$ = $1; mark($$.unsupported, unless_zero("'caustics'", $3, @2)); }
   | interior_body FADE_DISTANCE number { $$ = $1; $$.fade_distance = $3; }
   | interior_body FADE_POWER number  { $$ = $1; $$.fade_power = $3; }
-  | interior_body DISPERSION number  { $$ = $1; mark($$.unsupported, unless_zero("'dispersion'", $3 - 1, @2)); }
+  | interior_body DISPERSION number {
+      $$ = $1;
+      mark($$.unsupported, unless_zero("'dispersion'", $3 - 1, @2));
+    }
   | interior_body IGNORED_NUMBER colour_value { $$ = $1; }
   | interior_body unsupported        { $$ = $1; mark($$.unsupported, $2); }
   ;
@@ -430,7 +461,9 @@ camera
   ;
 
 camera_body
-  : %empty                         { $$ = std::make_shared<CameraDefinition>(session.builder.default_camera); }
+  : %empty {
+      $$ = std::make_shared<CameraDefinition>(session.builder.default_camera);
+    }
   | camera_body CAMERA_ID          { $$ = std::make_shared<CameraDefinition>(*$2); }
   | camera_body PERSPECTIVE        { $$ = $1; $$->kind = Camera::Kind::perspective; }
   | camera_body ORTHOGRAPHIC       { $$ = $1; $$->kind = Camera::Kind::orthographic; }
@@ -453,7 +486,10 @@ object
   : object_body '}'          { $$ = $1; }
   | light_body '}'           { $$ = $1; }
   | OBJECT_ID
-  | UNSUPPORTED_OBJECT       { $$ = unsupported_object(quoted(session, $1), @1); session.tokens.skip_group(); }
+  | UNSUPPORTED_OBJECT {
+      $$ = unsupported_object(quoted(session, $1), @1);
+      session.tokens.skip_group();
+    }
   ;
 
 object_head
@@ -499,13 +535,18 @@ union_head
 
 light_body
   : LIGHT_SOURCE '{' OBJECT_ID                            { $$ = std::make_shared<ObjectDefinition>(*$3); }
-  | LIGHT_SOURCE '{' quantity optional_comma colour_value { $$ = light(session.vector($3, @3), session.colour($5, @5)); }
+  | LIGHT_SOURCE '{' quantity optional_comma colour_value {
+      $$ = light(session.vector($3, @3), session.colour($5, @5));
+    }
   | light_body SHADOWLESS                                 { $$ = $1; set_shadowless(session, *$$, @2); }
   | light_body transformation                             { $$ = $1; $$->apply($2); }
   | light_body IGNORED_FLAG flag                          { $$ = $1; }
   | light_body unsupported                                { $$ = $1; mark($$->unsupported, $2); }
   | light_body PHOTONS                                    { $$ = $1; session.tokens.skip_group(); }
-  | light_body FADE_DISTANCE                              { $$ = $1; mark($$->unsupported, unsupported_rest(session, "'fade_distance'", @2)); }
+  | light_body FADE_DISTANCE {
+      $$ = $1;
+      mark($$->unsupported, unsupported_rest(session, "'fade_distance'", @2));
+    }
   ;
 
 // ---- Meshes ----
@@ -626,118 +667,3 @@ unsupported_modifier // an object's: in a union an unsupported object is one of 
   : UNSUPPORTED        { $$ = unsupported_rest(session, quoted(session, $1), @1); }
   | UNSUPPORTED_BLOCK  { $$ = unsupported_rest(session, quoted(session, $1), @1); }
   ;
-
-%%
-
-namespace celltrace::pov {
-
-namespace {
-
-int start_token(Start start) {
-  using token = Parser::token;
-  switch (start) {
-  case Start::scene:
-    return token::T_START_SCENE;
-  case Start::condition:
-    return token::T_START_CONDITION;
-  case Start::list:
-    return token::T_START_LIST;
-  case Start::expression:
-    return token::T_START_EXPRESSION;
-  case Start::text:
-    return token::T_START_TEXT;
-  case Start::value:
-    return token::T_START_VALUE;
-  case Start::defaults:
-    return token::T_START_DEFAULTS;
-  }
-  return token::T_START_SCENE;
-}
-
-/// Moves a terminal's value, of whatever type its token has, to the parser.
-struct Deliver {
-  Parser::semantic_type& target;
-  const Terminal& terminal;
-
-  void operator()(std::monostate) const {
-    using token = Parser::token;
-    switch (terminal.token) {
-    case token::T_FUNCTION:
-    case token::T_TEXT_FUNCTION:
-    case token::T_COMPONENT:
-    case token::T_COLOUR_MODEL:
-    case token::T_CHANNEL:
-      target.emplace<int>(terminal.detail);
-      break;
-    case token::T_UNSUPPORTED:
-    case token::T_UNSUPPORTED_OBJECT:
-    case token::T_UNSUPPORTED_BLOCK:
-      target.emplace<NameId>(static_cast<NameId>(terminal.detail));
-      break;
-    default:
-      break;
-    }
-  }
-  void operator()(std::shared_ptr<const Macro>&) const {}
-  template <class T>
-  void operator()(T& value) const {
-    target.emplace<T>(std::move(value));
-  }
-};
-
-bool expects(const Parser::symbol_kind_type* expected, int count, Parser::symbol_kind_type kind) {
-  return std::find(expected, expected + count, kind) != expected + count;
-}
-
-} // namespace
-
-static int yylex(Parser::semantic_type* value, Location* where, Session& session) {
-  if (const auto start = session.tokens.take_start()) return start_token(*start);
-  Terminal terminal = session.tokens.next();
-  *where = terminal.where;
-  std::visit(Deliver{*value, terminal}, terminal.value);
-  return terminal.token;
-}
-
-void Parser::error(const Location& where, const std::string& message) { session.fail(where, message); }
-
-void Parser::report_syntax_error(const context& ctx) const {
-  const Location& where = ctx.location();
-  const std::string found = session.tokens.describe_last();
-  switch (ctx.token()) {
-  case symbol_kind::S_UNSUPPORTED:
-  case symbol_kind::S_UNSUPPORTED_OBJECT:
-  case symbol_kind::S_UNSUPPORTED_BLOCK:
-    session.fail(where, found + " is not supported yet");
-  case symbol_kind::S_UNSUPPORTED_ID:
-    session.diagnostics.require_supported(ctx.lookahead().value.as<UnsupportedPtr>(), where);
-    break;
-  case symbol_kind::S_UNDECLARED_ID:
-    session.fail(where, found + " is not declared");
-  default:
-    break;
-  }
-  constexpr int kMost = 128;
-  symbol_kind_type expected[kMost];
-  const int count = ctx.expected_tokens(expected, kMost);
-  std::string hint;
-  if (expects(expected, count, symbol_kind::S_QUANTITY))
-    hint = ", expected a number";
-  else if (expects(expected, count, symbol_kind::S_TEXT))
-    hint = ", expected a string";
-  else if (expects(expected, count, symbol_kind::S_YYEOF))
-    hint = ", expected an object, the camera or a directive";
-  else if (count == 1)
-    hint = std::string(", expected ") + symbol_name(expected[0]);
-  session.fail(where, "unexpected " + found + hint);
-}
-
-void run_grammar(Session& session, std::size_t depth) {
-  // A parser's stack is costly to make and can be used again.
-  if (depth >= session.parsers.size()) session.parsers.resize(depth + 1);
-  std::shared_ptr<Parser>& parser = session.parsers[depth];
-  if (!parser) parser = std::make_shared<Parser>(session);
-  std::shared_ptr<Parser>(parser)->parse();
-}
-
-} // namespace celltrace::pov

@@ -1,0 +1,116 @@
+// What connects the generated parser with the token stream and the diagnostics.
+#include <algorithm>
+
+#include "pov/grammar.hpp"
+
+namespace celltrace::pov {
+
+namespace {
+
+int start_token(Start start) {
+  using token = Parser::token;
+  switch (start) {
+  case Start::scene:
+    return token::T_START_SCENE;
+  case Start::condition:
+    return token::T_START_CONDITION;
+  case Start::list:
+    return token::T_START_LIST;
+  case Start::expression:
+    return token::T_START_EXPRESSION;
+  case Start::text:
+    return token::T_START_TEXT;
+  case Start::value:
+    return token::T_START_VALUE;
+  case Start::defaults:
+    return token::T_START_DEFAULTS;
+  }
+  return token::T_START_SCENE;
+}
+
+/// Moves a terminal's value, of whatever type its token has, to the parser.
+struct Deliver {
+  Parser::semantic_type& target;
+  const Terminal& terminal;
+
+  void operator()(std::monostate) const {
+    using token = Parser::token;
+    switch (terminal.token) {
+    case token::T_FUNCTION:
+    case token::T_TEXT_FUNCTION:
+    case token::T_COMPONENT:
+    case token::T_COLOUR_MODEL:
+    case token::T_CHANNEL:
+      target.emplace<int>(terminal.detail);
+      break;
+    case token::T_UNSUPPORTED:
+    case token::T_UNSUPPORTED_OBJECT:
+    case token::T_UNSUPPORTED_BLOCK:
+      target.emplace<NameId>(static_cast<NameId>(terminal.detail));
+      break;
+    default:
+      break;
+    }
+  }
+  void operator()(std::shared_ptr<const Macro>&) const {}
+  template <class T> void operator()(T& value) const { target.emplace<T>(std::move(value)); }
+};
+
+bool expects(const Parser::symbol_kind_type* expected, int count, Parser::symbol_kind_type kind) {
+  return std::find(expected, expected + count, kind) != expected + count;
+}
+
+} // namespace
+
+int yylex(Parser::semantic_type* value, Location* where, Session& session) {
+  if (const auto start = session.tokens.take_start()) return start_token(*start);
+  Terminal terminal = session.tokens.next();
+  *where = terminal.where;
+  std::visit(Deliver{*value, terminal}, terminal.value);
+  return terminal.token;
+}
+
+void Parser::error(const Location& where, const std::string& message) {
+  session.fail(where, message);
+}
+
+void Parser::report_syntax_error(const context& ctx) const {
+  const Location& where = ctx.location();
+  const std::string found = session.tokens.describe_last();
+  switch (ctx.token()) {
+  case symbol_kind::S_UNSUPPORTED:
+  case symbol_kind::S_UNSUPPORTED_OBJECT:
+  case symbol_kind::S_UNSUPPORTED_BLOCK:
+    session.fail(where, found + " is not supported yet");
+  case symbol_kind::S_UNSUPPORTED_ID:
+    session.diagnostics.require_supported(ctx.lookahead().value.as<UnsupportedPtr>(), where);
+    break;
+  case symbol_kind::S_UNDECLARED_ID:
+    session.fail(where, found + " is not declared");
+  default:
+    break;
+  }
+  constexpr int kMost = 128;
+  symbol_kind_type expected[kMost];
+  const int count = ctx.expected_tokens(expected, kMost);
+  std::string hint;
+  if (expects(expected, count, symbol_kind::S_QUANTITY))
+    hint = ", expected a number";
+  else if (expects(expected, count, symbol_kind::S_TEXT))
+    hint = ", expected a string";
+  else if (expects(expected, count, symbol_kind::S_YYEOF))
+    hint = ", expected an object, the camera or a directive";
+  else if (count == 1)
+    hint = std::string(", expected ") + symbol_name(expected[0]);
+  session.fail(where, "unexpected " + found + hint);
+}
+
+void run_grammar(Session& session, std::size_t depth) {
+  // A parser's stack is costly to make and can be used again.
+  if (depth >= session.parsers.size()) session.parsers.resize(depth + 1);
+  std::shared_ptr<Parser>& parser = session.parsers[depth];
+  if (!parser) parser = std::make_shared<Parser>(session);
+  std::shared_ptr<Parser>(parser)->parse();
+}
+
+} // namespace celltrace::pov
