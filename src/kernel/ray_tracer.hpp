@@ -154,9 +154,10 @@ private:
     uint32_t go = 0;
     const M heavy = weight >= F(frame_.adc_bailout);
     for_each_lane(lanes & heavy.bits(), [&](uint32_t lane) {
-      const uint32_t level = node_.level.lane[lane] + ((one_level_deeper >> lane) & 1);
-      child_.level.lane[lane] = level;
-      go |= static_cast<uint32_t>(level < frame_.max_trace_level) << lane;
+      // A ray that goes straight on takes no level, but as in POV-Ray there has to be one left.
+      const uint32_t level = node_.level.lane[lane];
+      child_.level.lane[lane] = level + ((one_level_deeper >> lane) & 1);
+      go |= static_cast<uint32_t>(level + 1 < frame_.max_trace_level) << lane;
     });
     if (go == 0) return false;
     child_.rays.origin.template store<S>(surfaces.point);
@@ -226,7 +227,8 @@ private:
         child_.interiors[d].lane[lane] = node_.interiors[d].lane[lane];
     });
     const V3<S> throughput = select<S>(total_mask, one, filter) * share;
-    const F weight = F::load(node_.weight.lane) * max_component<S>(select<S>(total_mask, one, filter));
+    // POV-Ray's weight is that of a transmitted ray even where all light is reflected.
+    const F weight = F::load(node_.weight.lane) * max_component<S>(filter);
     if (prepare_child(surfaces, direction, throughput, weight, clear & ~refraction.straight, clear)) {
       counters_.refraction += count(child_.lanes);
       push();

@@ -13,8 +13,7 @@ namespace celltrace::kernel {
 struct MediumChange {
   uint32_t position;
   bool leaves;
-  bool leaves_into_object; ///< out of the innermost interior, and into the one around it
-  float from, to;          ///< indices of refraction; equal where the ray does not bend
+  float from, to; ///< indices of refraction; equal where the ray does not bend
 };
 
 /// What the ray of `lane` does at a surface of `interior`. Leaving an interior that is not the innermost one
@@ -27,10 +26,9 @@ MediumChange medium_change(SceneAccess<Spu>& scene, const RayNode& ray, uint32_t
   uint32_t position = depth;
   for (uint32_t d = 0; d < depth; ++d)
     if (at(d) == interior) position = d;
-  if (position == depth)
-    return {position, false, false, depth > 0 ? ior_of(at(depth - 1)) : 1.0f, ior_of(interior)};
-  if (position + 1 < depth) return {position, true, false, 1.0f, 1.0f};
-  return {position, true, depth > 1, ior_of(interior), depth > 1 ? ior_of(at(depth - 2)) : 1.0f};
+  if (position == depth) return {position, false, depth > 0 ? ior_of(at(depth - 1)) : 1.0f, ior_of(interior)};
+  if (position + 1 < depth) return {position, true, 1.0f, 1.0f};
+  return {position, true, ior_of(interior), depth > 1 ? ior_of(at(depth - 2)) : 1.0f};
 }
 
 /// Relative index of refraction (from over to) at each lane's surface. `straight`: lanes whose ray goes on as
@@ -75,8 +73,18 @@ Refraction cross_surfaces(SceneAccess<Spu>& scene, const WordLanes& interior, ui
   return result;
 }
 
-/// The ratio that POV-Ray's Fresnel mirrors take at each lane's surface: as for refraction, except that a ray
-/// that leaves an object into the one around it counts as entering.
+/// The ratio that POV-Ray's Fresnel mirrors take where `interior` begins or ends, as measured from its
+/// pictures: that of refraction where a ray enters an object or leaves the only one it is in; otherwise that
+/// of entering the innermost object from this one, hence 1, and no mirror at all, out of the innermost one.
+template <class Spu>
+float fresnel_ratio(SceneAccess<Spu>& scene, const RayNode& ray, uint32_t lane, uint32_t interior) {
+  const MediumChange change = medium_change(scene, ray, lane, interior);
+  const uint32_t depth = ray.interior_depth.lane[lane];
+  if (!change.leaves || depth == 1) return change.from / change.to;
+  const float own = scene.interior(interior)->ior;
+  return own / scene.interior(ray.interiors[depth - 1].lane[lane])->ior;
+}
+
 template <class Spu>
 FloatLanes fresnel_ratios(SceneAccess<Spu>& scene, const WordLanes& interior, uint32_t lanes,
                           const RayNode& ray) {
@@ -84,8 +92,7 @@ FloatLanes fresnel_ratios(SceneAccess<Spu>& scene, const WordLanes& interior, ui
   for (uint32_t lane = 0; lane < kSimdLanes; ++lane)
     ratios.lane[lane] = 1.0f;
   for_each_lane(lanes, [&](uint32_t lane) {
-    const MediumChange change = medium_change(scene, ray, lane, interior.lane[lane]);
-    ratios.lane[lane] = change.leaves_into_object ? change.to / change.from : change.from / change.to;
+    ratios.lane[lane] = fresnel_ratio(scene, ray, lane, interior.lane[lane]);
   });
   return ratios;
 }

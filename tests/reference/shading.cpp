@@ -90,10 +90,10 @@ double cross_surface(InteriorStack& stack, Index interior, const std::vector<Int
 }
 
 double fresnel_ratio(const InteriorStack& stack, Index interior, const std::vector<Interior>& interiors) {
+  const bool leaves = std::find(stack.begin(), stack.end(), interior) != stack.end();
+  if (leaves && stack.size() > 1) return interiors[interior].ior / interiors[stack.back()].ior;
   InteriorStack after = stack;
-  const double ratio = cross_surface(after, interior, interiors);
-  const bool leaves_into_object = after.size() < stack.size() && !after.empty();
-  return leaves_into_object ? 1 / ratio : ratio;
+  return cross_surface(after, interior, interiors);
 }
 
 std::uint8_t encode(double value, GammaMode mode, double assumed_gamma) {

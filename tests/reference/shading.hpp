@@ -41,8 +41,8 @@ using InteriorStack = std::vector<Index>;
 /// Goes through the surface of `interior`; returns the index on this side over that on the other.
 double cross_surface(InteriorStack& stack, Index interior, const std::vector<Interior>& interiors);
 
-/// The ratio that a Fresnel mirror takes at the surface of `interior`: as cross_surface(), except that
-/// leaving an object into the one around it counts as entering.
+/// The ratio that a Fresnel mirror takes at the surface of `interior`: as cross_surface() on
+/// entering and on leaving the only object; leaving one of several, as if entering the innermost from it.
 double fresnel_ratio(const InteriorStack& stack, Index interior, const std::vector<Interior>& interiors);
 
 /// One colour channel as the picture has it.

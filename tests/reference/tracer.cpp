@@ -144,12 +144,14 @@ Vec3 Tracer::shade(const Branch& branch, const Point& point, const Material& mat
   if (grey(filter) > scene_.adc_bailout) {
     const double weight = branch.weight * max_component(filter);
     if (std::abs(ratio - 1) < 1e-6) {
-      sum += filter * trace({{point.position, direction}, branch.level, weight, inside});
+      // Goes on at the same level, although only if there is one more.
+      if (branch.level + 1 < scene_.max_trace_level)
+        sum += filter * trace({{point.position, direction}, branch.level, weight, inside});
     } else if (const auto bent = refract(direction, point.normal, ratio)) {
       sum += filter * trace({{point.position, *bent}, branch.level + 1, weight, inside});
     } else {
       const Ray back{point.position, mirror(direction, point.normal)};
-      return sum + trace({back, branch.level + 1, branch.weight, branch.inside});
+      return sum + trace({back, branch.level + 1, weight, branch.inside});
     }
   }
   const double strength = reflected_weight(material.finish, mirrored);
