@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <iterator>
 
@@ -104,13 +104,18 @@ Quantity normalize(const Call& call) {
   return Quantity::vector(length > 0 ? v / length : Vec3(0, 0, 0));
 }
 
-/// As printf's f: a negative width pads with zeros, a negative precision stands for 6 digits.
+/// As printf's f in the C locale, whatever the application's: a negative width pads with zeros, a negative
+/// precision stands for 6 digits.
 std::string format(double value, int width, int digits) {
-  char buffer[1024];
-  const int precision = digits < 0 ? 6 : digits;
-  const int length = width < 0 ? std::snprintf(buffer, sizeof buffer, "%0*.*f", -width, precision, value)
-                               : std::snprintf(buffer, sizeof buffer, "%*.*f", width, precision, value);
-  return {buffer, static_cast<std::size_t>(std::min<int>(length, sizeof buffer - 1))};
+  char buffer[1024]; // 309 digits, the point and kMostDigits more
+  const auto result =
+      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, digits < 0 ? 6 : digits);
+  std::string text(buffer, result.ptr);
+  const auto wanted = static_cast<std::size_t>(std::abs(width));
+  if (text.size() >= wanted) return text;
+  const bool has_sign = width < 0 && text[0] == '-';
+  text.insert(has_sign ? 1 : 0, wanted - text.size(), width < 0 ? '0' : ' ');
+  return text;
 }
 
 std::string number_text(const Call& call) {

@@ -1,7 +1,7 @@
 #include "pov/scanner.hpp"
 
 #include <charconv>
-#include <cstdlib>
+#include <limits>
 #include <stdexcept>
 
 namespace celltrace::pov {
@@ -12,13 +12,20 @@ constexpr std::size_t kLongestWord = 255;
 constexpr std::size_t kLongestString = 1u << 20;
 constexpr std::size_t kLongestNumber = 4096;
 
+/// What a number beyond the range of double comes to: zero or infinity.
+double out_of_range(std::string_view text) {
+  long double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc()) return static_cast<double>(value);
+  return text.find('-', 1) != text.npos ? 0 : std::numeric_limits<double>::infinity();
+}
+
 /// Reads the number at the front of `text`, which the lexer has found well formed, and removes it.
 double take_number(std::string_view& text) {
   if (text.front() == '+') text.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error == std::errc::result_out_of_range) // strtod tells the too large from the too small
-    value = std::strtod(std::string(text.data(), end).c_str(), nullptr);
+  if (error == std::errc::result_out_of_range) value = out_of_range({text.data(), end});
   text.remove_prefix(static_cast<std::size_t>(end - text.data()));
   return value;
 }

@@ -13,6 +13,8 @@ TEST_CASE("numbers are written in all of C's decimal ways") {
   CHECK(value("1e3") == "1000.000");
   CHECK(value("2.5E-1") == "0.250");
   CHECK(value("1e-999") == "0.000");
+  CHECK(value("1e-99999") == "0.000");
+  CHECK(error_line("sphere { 0, 1e99999 }") == "scene.pov:1:13: error: this number is not finite");
 }
 
 TEST_CASE("operators bind as in POV-Ray") {
@@ -113,6 +115,8 @@ TEST_CASE("strings") {
   CHECK(output("#debug str(3, 5, -1)") == "3.000000");
   CHECK(output("#debug str(3.14159, -8, 2)") == "00003.14");
   CHECK(output("#debug str(1.5, 6, 1)") == "   1.5");
+  CHECK(output("#debug str(-1.5, -6, 1)") == "-001.5");
+  CHECK(output("#debug str(2.5, 0, 0)") == "2");
   CHECK(output("#debug \"quote \\\" and backslash \\\\\\n\"") == "quote \" and backslash \\\n");
   CHECK(value("strlen(\"abc\") + asc(\"A\") + val(\" 2.5\") + strcmp(\"b\", \"a\")") == "71.500");
   CHECK(value("val(\"abc\") + asc(\"\")") == "0.000");
