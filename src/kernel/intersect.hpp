@@ -1,11 +1,12 @@
 // A ray packet against one object: the geometric sphere test (Haines, in Glassner, An Introduction to Ray
-// Tracing), the same on the unit sphere for ellipsoids, and a triangle test by Pluecker coordinates, which
-// leaves no gaps between neighbours. Kernel dialect.
+// Tracing), the same on the unit sphere for ellipsoids, and the minimum-storage triangle test (Moeller and
+// Trumbore 1997). Kernel dialect.
 #pragma once
 
 #include "kernel/math.hpp"
 #include "kernel/packet.hpp"
 #include "kernel/records.hpp"
+#include "kernel/scalar.hpp"
 
 namespace celltrace::kernel {
 
@@ -78,40 +79,34 @@ Crossings<S> intersect_ellipsoid(const V3<S>& origin, const V3<S>& direction,
   return detail::chord<S>(along, (F(1.0f) - dot<S>(nearest, nearest)) * inverse_square, starts_here);
 }
 
-/// Compares the signed volumes that the ray spans with the triangle's edges (Pluecker coordinates). An edge
-/// that two triangles share gives the same volume in both, to the last bit, with opposite signs: no ray slips
-/// between them.
+/// Neighbours overlap by what the rounding of the barycentric coordinates may amount to, so that no ray slips
+/// between them: that grows with the distance over the triangle's size, and as the ray gets parallel to it.
 template <class S>
 Crossings<S> intersect_triangle(const V3<S>& origin, const V3<S>& direction, const typename S::M& starts_here,
                                 const ObjectRecord& object) {
   using F = typename S::F;
+  constexpr float kRounding = 6e-8f; // a unit in the last place
+  constexpr float kMaxOverlap = 1e-3f;
   const float* g = object.geometry;
-  const float edge0[3] = {g[3] - g[0], g[4] - g[1], g[5] - g[2]};
-  const float edge1[3] = {g[6] - g[3], g[7] - g[4], g[8] - g[5]};
-  const float edge2[3] = {g[0] - g[6], g[1] - g[7], g[2] - g[8]};
-  const float plane[3] = {edge0[1] * edge1[2] - edge0[2] * edge1[1],
-                          edge0[2] * edge1[0] - edge0[0] * edge1[2],
-                          edge0[0] * edge1[1] - edge0[1] * edge1[0]};
-  const V3<S> v0 = splat3<S>(g) - origin;
-  const V3<S> v1 = splat3<S>(g + 3) - origin;
-  const V3<S> v2 = splat3<S>(g + 6) - origin;
-  // Twice an edge's middle, crossed with the edge: its two ends, nearly parallel from afar, would cancel out.
-  const F weight0 = dot<S>(direction, cross<S>(v1 + v2, splat3<S>(edge1)));
-  const F weight1 = dot<S>(direction, cross<S>(v2 + v0, splat3<S>(edge2)));
-  const F weight2 = dot<S>(direction, cross<S>(v0 + v1, splat3<S>(edge0)));
-  const F volume = weight0 + weight1 + weight2; // 2 direction . plane
-  const F zero(0.0f);
-  const auto within = (S::min(weight0, S::min(weight1, weight2)) >= zero) |
-                      (S::max(weight0, S::max(weight1, weight2)) <= zero);
-  const auto crosses = S::abs(volume) > F(1e-30f);
-  const F inverse = F(1.0f) / S::select(crosses, volume, F(1.0f));
-  const F height = dot<S>(v0, splat3<S>(plane));
+  const float side1[3] = {g[3] - g[0], g[4] - g[1], g[5] - g[2]};
+  const float side2[3] = {g[6] - g[0], g[7] - g[1], g[8] - g[2]};
+  const float size = larger(absolute_sum(side1), absolute_sum(side2));
+  const V3<S> edge1 = splat3<S>(side1);
+  const V3<S> edge2 = splat3<S>(side2);
+  const V3<S> p = cross<S>(direction, edge2);
+  const F determinant = dot<S>(edge1, p);
+  const auto crosses = S::abs(determinant) > F(1e-30f);
+  const F inverse = F(1.0f) / S::select(crosses, determinant, F(1.0f));
+  const V3<S> from_v0 = origin - splat3<S>(g);
+  const V3<S> q = cross<S>(from_v0, edge1);
+  const F reach = S::abs(from_v0.x) + S::abs(from_v0.y) + S::abs(from_v0.z);
+  const F overlap = S::min(reach * F(kRounding * size) * S::abs(inverse), F(kMaxOverlap));
   Crossings<S> c;
-  c.u = weight1 * inverse;
-  c.v = weight2 * inverse;
-  c.near = (height + height) * inverse;
+  c.u = dot<S>(from_v0, p) * inverse;
+  c.v = dot<S>(direction, q) * inverse;
+  c.near = dot<S>(edge2, q) * inverse;
   c.far = c.near;
-  c.near_hit = crosses & within & !starts_here;
+  c.near_hit = crosses & (S::min(c.u, c.v) >= -overlap) & (c.u + c.v <= F(1.0f) + overlap) & !starts_here;
   c.far_hit = S::M::none();
   return c;
 }

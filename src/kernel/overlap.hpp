@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernel/records.hpp"
+#include "kernel/scalar.hpp"
 
 namespace celltrace::kernel {
 
@@ -9,29 +10,6 @@ struct Box {
   float min[3];
   float max[3];
 };
-
-inline float smaller(float a, float b) {
-  return a < b ? a : b;
-}
-inline float larger(float a, float b) {
-  return a > b ? a : b;
-}
-inline float magnitude(float a) {
-  return a < 0.0f ? -a : a;
-}
-
-/// Square root by Newton's iteration from above; setup code, where a library call would cost more than it
-/// saves.
-inline float square_root(float x) {
-  if (x <= 0.0f) return 0.0f;
-  float guess = x > 1.0f ? x : 1.0f;
-  for (int i = 0; i < 64; ++i) {
-    const float next = 0.5f * (guess + x / guess);
-    if (next >= guess) return guess;
-    guess = next;
-  }
-  return guess;
-}
 
 /// The object's axis-aligned bounding box. An ellipsoid's half extent along an axis is the length of that row
 /// of the map from the unit sphere to the world, whose inverse the record holds.
