@@ -239,7 +239,7 @@ TEST_CASE("Neighbouring triangles leave no gap") {
     for (unsigned l = 0; l < kSimdLanes; ++l) {
       const Vec3 aim = glm::mix(centre, rim[l % 8], l < 8 ? 0.0 : random.uniform(0, 0.9));
       const Vec3 direction = glm::normalize(glm::cross(x, y) * (l % 2 == 0 ? 1.0 : -1.0) + random.point(0.5));
-      set(rays.origin, l, aim - direction * random.uniform(1, 20));
+      set(rays.origin, l, aim - direction * std::pow(10.0, random.uniform(0, 3)));
       set(rays.direction, l, glm::normalize(aim - at(rays.origin, l)));
       rays.start_object.lane[l] = kNoOffset;
     }
