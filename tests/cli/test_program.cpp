@@ -50,9 +50,9 @@ public:
     REQUIRE(error == 0);
   }
 
-  /// Waits until the program catches SIGINT, then sends it.
-  void interrupt() {
-    while (!catches_interrupts())
+  /// Waits until the program catches SIGINT and its SPEs run, then sends it.
+  void interrupt_the_render() {
+    while (!renders())
       std::this_thread::yield();
     kill(pid_, SIGINT);
   }
@@ -65,11 +65,15 @@ public:
   }
 
 private:
-  bool catches_interrupts() const {
+  bool renders() const {
     std::ifstream file("/proc/" + std::to_string(pid_) + "/status");
-    for (std::string line; std::getline(file, line);)
-      if (line.rfind("SigCgt:", 0) == 0) return std::stoull(line.substr(7), nullptr, 16) & 1u << (SIGINT - 1);
-    return true; // gone
+    unsigned long threads = 0, caught = 0;
+    for (std::string line; std::getline(file, line);) {
+      if (line.rfind("Threads:", 0) == 0) threads = std::stoul(line.substr(8));
+      if (line.rfind("SigCgt:", 0) == 0) caught = std::stoul(line.substr(7), nullptr, 16);
+      if (line.rfind("State:\tZ", 0) == 0) return true; // over already, as finish() will show
+    }
+    return threads > 1 && (caught >> (SIGINT - 1) & 1) != 0;
   }
 
   const TemporaryFolder& folder_;
@@ -178,11 +182,13 @@ TEST_CASE("errors are one line and exit code 1") {
 
 TEST_CASE("an interrupted render keeps what it has and exits with 2") {
   const TemporaryFolder folder;
-  Run run(folder, {kScene, "-W", "4000", "-H", "3000", "--spes", "1", "-o", "partial.ppm"});
-  run.interrupt();
+  Run run(folder, {kScene, "-W", "3000", "-H", "2000", "--spes", "1", "-o", "partial.png"});
+  run.interrupt_the_render();
   const Outcome outcome = run.finish();
   CAPTURE(outcome.err);
   CHECK(outcome.exit_code == 2);
-  CHECK_THAT(outcome.err, Contains("interrupted"));
-  if (outcome.err.find("partial.ppm") == 0) CHECK(load_image(folder / "partial.ppm").width == 4000);
+  CHECK_THAT(outcome.err, StartsWith("partial.png: interrupted, partial, 3000x2000"));
+  const Image picture = load_image(folder / "partial.png");
+  CHECK(picture.width == 3000);
+  CHECK(picture.pixel(2999, 1999)[3] == 0); // not reached
 }
