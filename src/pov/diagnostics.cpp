@@ -2,11 +2,15 @@
 
 #include "celltrace/error.hpp"
 
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace celltrace::pov {
 
 namespace {
 
-constexpr int kMostStackLines = 8;
+constexpr std::size_t kMostStackLines = 8;
 
 }
 
@@ -26,19 +30,32 @@ void Diagnostics::require_supported(const UnsupportedPtr& unsupported, const Loc
 }
 
 std::string Diagnostics::stack() const {
-  std::string lines;
-  int count = 0;
+  // A file that includes itself, or a macro that calls itself, is one line.
+  struct Entry {
+    std::string text;
+    int times;
+  };
+  std::vector<Entry> entries;
   const auto& frames = input_.frames();
   for (std::size_t i = frames.size(); i-- > 1;) {
     const Frame& frame = frames[i];
-    if (frame.kind == Frame::Kind::loop || ++count > kMostStackLines) continue;
-    if (frame.kind == Frame::Kind::file)
-      lines += "\n    included from ";
+    if (frame.kind == Frame::Kind::loop) continue;
+    std::string text = frame.kind == Frame::Kind::file
+                           ? "included from "
+                           : "in macro '" + names_.text(frame.macro_name) + "' called from ";
+    text += sources_.name(frame.opened_at.file) + ':' + std::to_string(frame.opened_at.line);
+    if (!entries.empty() && entries.back().text == text)
+      ++entries.back().times;
     else
-      lines += "\n    in macro '" + names_.text(frame.macro_name) + "' called from ";
-    lines += sources_.name(frame.opened_at.file) + ':' + std::to_string(frame.opened_at.line);
+      entries.push_back({std::move(text), 1});
   }
-  if (count > kMostStackLines) lines += "\n    and " + std::to_string(count - kMostStackLines) + " more";
+  std::string lines;
+  for (std::size_t i = 0; i < entries.size() && i < kMostStackLines; ++i) {
+    lines += "\n    " + entries[i].text;
+    if (entries[i].times > 1) lines += " (" + std::to_string(entries[i].times) + " times)";
+  }
+  if (entries.size() > kMostStackLines)
+    lines += "\n    and " + std::to_string(entries.size() - kMostStackLines) + " more";
   return lines;
 }
 
