@@ -126,7 +126,7 @@ scene
   : %empty
   | scene object                    { session.builder.place($2, @2); }
   | scene camera                    { session.builder.set_camera($2); }
-  | scene BACKGROUND '{' colour_value '}' { session.builder.set_background(session.colour($4, @4).rgb); }
+  | scene BACKGROUND '{' colour_value '}' { session.builder.set_background(session.colour($4, @4)); }
   | scene GLOBAL_SETTINGS '{' settings '}'
   | scene UNSUPPORTED_BLOCK         { refuse(session, quoted(session, $2), @2); }
   ;

@@ -11,7 +11,7 @@ namespace {
 
 /// What a scene without any #version counts as (3.2 of POV-Ray's gamma rules).
 constexpr double kVersionIfNoneGiven = 3.62;
-constexpr double kVersionOfGamma = 3.7;
+constexpr double kVersionOfGamma = 3.7; // and of transparent backgrounds
 
 /// Writes scene-wide indices over a mesh's own.
 void replace_materials(Mesh& mesh, const std::vector<Index>& materials) {
@@ -142,6 +142,11 @@ void SceneBuilder::count_triangles(std::size_t count, const Location& where) {
   triangles_ += count;
   if (triangles_ > limits_.triangles)
     diagnostics_.fail(where, "the scene has more than " + std::to_string(limits_.triangles) + " triangles");
+}
+
+void SceneBuilder::set_background(const Pigment& colour) {
+  const bool has_alpha = version_.value_or(kVersionIfNoneGiven) >= kVersionOfGamma;
+  scene_.background = has_alpha ? colour.rgb * (1 - colour.transmit) : colour.rgb;
 }
 
 void SceneBuilder::set_assumed_gamma(std::optional<double> gamma) {

@@ -29,7 +29,8 @@ public:
 
   /// The last camera is the scene's.
   void set_camera(std::shared_ptr<const CameraDefinition> camera) { camera_ = std::move(camera); }
-  void set_background(const Vec3& rgb) { scene_.background = rgb; }
+  /// As if over black, for what it transmits, from version 3.7 on; before, without regard to that.
+  void set_background(const Pigment& colour);
   void set_ambient_light(const Vec3& rgb) { scene_.ambient_light = rgb; }
   void set_max_trace_level(int level) { scene_.max_trace_level = level; }
   void set_adc_bailout(double weight) { scene_.adc_bailout = weight; }

@@ -115,3 +115,10 @@ TEST_CASE("the environment") {
   CHECK(error_line("sky_sphere { pigment { rgb 1 } }") ==
         "scene.pov:1:1: error: 'sky_sphere' is not supported yet");
 }
+
+TEST_CASE("a transparent background is one over black, from version 3.7 on") {
+  const char* const background = "background { rgbft <.2, .4, .6, .3, .5> }";
+  CHECK(parse(background).background == Vec3(.2, .4, .6));
+  CHECK(parse(std::string("#version 3.6; ") + background).background == Vec3(.2, .4, .6));
+  CHECK(parse(std::string("#version 3.7; ") + background).background == Vec3(.1, .2, .3));
+}
