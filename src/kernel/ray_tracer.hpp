@@ -112,40 +112,52 @@ private:
     const Surfaces<S> surfaces = {points.point, points.normal, node_.rays.direction.template load<S>(),
                                   &hits_.object};
     if (const uint32_t plain = hit & ~points.blended; plain != 0)
-      shade(surfaces, points.interior, points.material, plain, V3<S>{F(1.0f), F(1.0f), F(1.0f)});
+      send_on(surfaces, points.interior, shade(surfaces, points.interior, points.material, plain, F(1.0f)));
     if (points.blended != 0) shade_blended(surfaces, points);
   }
 
   /// Faces with three materials: each is shaded whole, and the results are blended by the vertices' weights.
+  /// What goes on goes the same ways for all three, as one ray each, or every such face would multiply the
+  /// rays behind it.
   void shade_blended(const Surfaces<S>& surfaces, const HitPoints<S>& points) {
     const F u = F::load(hits_.u.lane);
     const F v = F::load(hits_.v.lane);
     const F weights[3] = {F(1.0f) - u - v, u, v};
+    Onward<S> all = Onward<S>::nothing();
     for (uint32_t corner = 0; corner < 3; ++corner) {
       WordLanes materials = points.material;
       for_each_lane(points.blended, [&](uint32_t lane) {
         materials.lane[lane] = scene_.blend(points.material.lane[lane])->material[corner];
       });
-      const F w = weights[corner];
-      shade(surfaces, points.interior, materials, points.blended, V3<S>{w, w, w});
+      const Onward<S> one = shade(surfaces, points.interior, materials, points.blended, weights[corner]);
+      if (one.bends_reflection)
+        send_on(surfaces, points.interior, one);
+      else
+        all.add(one);
     }
+    send_on(surfaces, points.interior, all);
   }
 
-  /// Adds the surface's own light, times `share`, and pushes the rays that go on.
-  void shade(const Surfaces<S>& surfaces, const WordLanes& interior, const WordLanes& materials,
-             uint32_t lanes, const V3<S>& share) {
+  /// Adds the surface's own light, times `share`; returns what goes on.
+  Onward<S> shade(const Surfaces<S>& surfaces, const WordLanes& interior, const WordLanes& materials,
+                  uint32_t lanes, const F& share) {
     const MaterialLanes<S> m = gather_materials(scene_, materials, lanes);
     add(lanes, local_light(scene_, traversal_, frame_, surfaces, m, lanes, counters_.shadow) * share);
-    if (!m.has_reflection && !m.has_transmission) return;
-
-    const F cosine = -dot<S>(surfaces.direction, surfaces.normal);
+    if (!m.has_reflection && !m.has_transmission) return Onward<S>::nothing();
     F fresnel_ratio(1.0f);
     if (m.fresnel != 0)
       fresnel_ratio = F::load(fresnel_ratios(scene_, interior, lanes & m.fresnel, node_).lane);
-    const V3<S> mirrored = reflectivity<S>(m, cosine, fresnel_ratio);
-    uint32_t total = 0;
-    if (m.has_transmission) total = transmit(surfaces, interior, m, lanes, share, cosine, mirrored);
-    if (m.has_reflection) reflect(surfaces, m, lanes & ~total, share, cosine, mirrored);
+    return pass_on<S>(m, -dot<S>(surfaces.direction, surfaces.normal), fresnel_ratio, frame_.adc_bailout,
+                      lanes, share);
+  }
+
+  /// Pushes the rays that go on.
+  void send_on(const Surfaces<S>& surfaces, const WordLanes& interior, const Onward<S>& onward) {
+    if ((onward.mirrors | onward.clear) == 0) return;
+    const F cosine = -dot<S>(surfaces.direction, surfaces.normal);
+    const V3<S> mirrored = mirror<S>(surfaces.direction, surfaces.normal, cosine);
+    const uint32_t total = onward.clear != 0 ? transmit(surfaces, interior, onward, cosine, mirrored) : 0;
+    reflect(surfaces, onward, onward.mirrors & ~total, mirrored);
   }
 
   /// Fills child_ with rays from the surfaces whose weight and level allow them; false if there are none.
@@ -171,22 +183,21 @@ private:
     return true;
   }
 
-  void reflect(const Surfaces<S>& surfaces, const MaterialLanes<S>& m, uint32_t lanes, const V3<S>& share,
-               const F& cosine, const V3<S>& mirrored) {
-    const F strength = max_component<S>(mirrored);
-    const uint32_t mirrors = (strength > F(0.0f)).bits() & lanes;
-    // POV-Ray weighs a reflection that is not Fresnel's by the most that it may be.
-    const F most = S::max(max_component<S>(m.reflection_min), max_component<S>(m.reflection_max));
-    const F weight = F::load(node_.weight.lane) * S::select(M::from_bits(m.fresnel), strength, most);
+  void reflect(const Surfaces<S>& surfaces, const Onward<S>& onward, uint32_t lanes, const V3<S>& mirrored) {
+    if (lanes == 0) return;
+    inherit_interiors();
+    if (!prepare_child(surfaces, mirrored, onward.mirror, F::load(node_.weight.lane) * onward.mirror_weight,
+                       lanes, lanes))
+      return;
+    counters_.reflection += count(child_.lanes);
+    if (onward.bends_reflection && accumulators_in_use_ < kAccumulators) redirect(onward.reflection_power);
+    push();
+  }
+
+  void inherit_interiors() {
     child_.interior_depth = node_.interior_depth;
     for (uint32_t d = 0; d < kMaxInteriorDepth; ++d)
       child_.interiors[d] = node_.interiors[d];
-    if (!prepare_child(surfaces, mirror<S>(surfaces.direction, surfaces.normal, cosine), mirrored * share,
-                       weight, mirrors, mirrors))
-      return;
-    counters_.reflection += count(child_.lanes);
-    if (m.bends_reflection && accumulators_in_use_ < kAccumulators) redirect(m.inverse_reflection_exponent);
-    push();
   }
 
   /// Sends the light of child_ to an accumulator of its own, from which a node pushed below it gathers it.
@@ -201,35 +212,28 @@ private:
   }
 
   /// Pushes the transmitted rays; returns the lanes that were totally reflected.
-  uint32_t transmit(const Surfaces<S>& surfaces, const WordLanes& interior, const MaterialLanes<S>& m,
-                    uint32_t lanes, const V3<S>& share, const F& cosine, const V3<S>& mirrored) {
-    const V3<S> one = {F(1.0f), F(1.0f), F(1.0f)};
-    V3<S> filter = m.pigment * m.filter + V3<S>{m.transmit, m.transmit, m.transmit};
-    filter = select<S>(M::from_bits(m.conserve_energy), filter * (one - mirrored), filter);
-    const uint32_t clear = (grey<S>(filter) > F(frame_.adc_bailout)).bits() & lanes;
-    if (clear == 0) return 0;
-
-    child_.interior_depth = node_.interior_depth;
-    for (uint32_t d = 0; d < kMaxInteriorDepth; ++d)
-      child_.interiors[d] = node_.interiors[d];
-    const Refraction refraction = cross_surfaces(scene_, interior, clear, child_, counters_.dropped);
+  uint32_t transmit(const Surfaces<S>& surfaces, const WordLanes& interior, const Onward<S>& onward,
+                    const F& cosine, const V3<S>& mirrored) {
+    inherit_interiors();
+    const Refraction refraction = cross_surfaces(scene_, interior, onward.clear, child_, counters_.dropped);
     M beyond = M::none();
     const V3<S> bent =
         refract<S>(surfaces.direction, surfaces.normal, cosine, F::load(refraction.ratio.lane), beyond);
-    const uint32_t total = beyond.bits() & clear & ~refraction.straight;
+    const uint32_t total = beyond.bits() & onward.clear & ~refraction.straight;
     const M total_mask = M::from_bits(total);
     V3<S> direction = select<S>(M::from_bits(refraction.straight), surfaces.direction, bent);
-    direction = select<S>(total_mask, mirror<S>(surfaces.direction, surfaces.normal, cosine), direction);
+    direction = select<S>(total_mask, mirrored, direction);
     // A totally reflected ray stays inside, unfiltered.
     for_each_lane(total, [&](uint32_t lane) {
       child_.interior_depth.lane[lane] = node_.interior_depth.lane[lane];
       for (uint32_t d = 0; d < kMaxInteriorDepth; ++d)
         child_.interiors[d].lane[lane] = node_.interiors[d].lane[lane];
     });
-    const V3<S> throughput = select<S>(total_mask, one, filter) * share;
+    const V3<S> unfiltered = {onward.clear_share, onward.clear_share, onward.clear_share};
     // POV-Ray's weight is that of a transmitted ray even where all light is reflected.
-    const F weight = F::load(node_.weight.lane) * max_component<S>(filter);
-    if (prepare_child(surfaces, direction, throughput, weight, clear & ~refraction.straight, clear)) {
+    if (prepare_child(surfaces, direction, select<S>(total_mask, unfiltered, onward.through),
+                      F::load(node_.weight.lane) * onward.through_weight, onward.clear & ~refraction.straight,
+                      onward.clear)) {
       counters_.refraction += count(child_.lanes);
       push();
     }

@@ -149,4 +149,63 @@ V3<S> reflectivity(const MaterialLanes<S>& m, const typename S::F& cosine,
   return result;
 }
 
+/// What surfaces pass on of the light that comes from beyond them: factors of mirrored and of transmitted
+/// light, with the weights that adaptive depth control gives those rays.
+template <class S> struct Onward {
+  using F = typename S::F;
+  V3<S> mirror, through;
+  F mirror_weight, through_weight;
+  F clear_share;                   ///< what a totally reflected ray counts in lanes of `clear`
+  F reflection_power;              ///< that mirrored light is raised to, if bends_reflection
+  uint32_t mirrors = 0, clear = 0; ///< lanes with any mirrored, any transmitted light
+  bool bends_reflection = false;
+
+  static Onward nothing() {
+    const F zero(0.0f);
+    Onward o;
+    o.mirror = o.through = {zero, zero, zero};
+    o.mirror_weight = o.through_weight = o.clear_share = zero;
+    o.reflection_power = F(1.0f);
+    return o;
+  }
+  /// Light of the same directions from another material of the same surfaces; neither bends reflections.
+  void add(const Onward& other) {
+    mirror = mirror + other.mirror;
+    through = through + other.through;
+    mirror_weight = S::max(mirror_weight, other.mirror_weight);
+    through_weight = S::max(through_weight, other.through_weight);
+    clear_share = clear_share + other.clear_share;
+    mirrors |= other.mirrors;
+    clear |= other.clear;
+  }
+};
+
+/// For surfaces of the materials `m` in `lanes`, `share` of which counts.
+template <class S>
+Onward<S> pass_on(const MaterialLanes<S>& m, const typename S::F& cosine, const typename S::F& fresnel_ratio,
+                  float adc_bailout, uint32_t lanes, const typename S::F& share) {
+  using F = typename S::F;
+  const V3<S> mirrored = reflectivity<S>(m, cosine, fresnel_ratio);
+  const F strength = max_component<S>(mirrored);
+  // POV-Ray weighs a reflection that is not Fresnel's by the most that it may be.
+  const F most = S::max(max_component<S>(m.reflection_min), max_component<S>(m.reflection_max));
+  Onward<S> onward = Onward<S>::nothing();
+  onward.mirrors = m.has_reflection ? (strength > F(0.0f)).bits() & lanes : 0;
+  onward.mirror = mirrored * share;
+  onward.mirror_weight = S::select(S::M::from_bits(m.fresnel), strength, most);
+  onward.bends_reflection = m.bends_reflection;
+  onward.reflection_power = m.inverse_reflection_exponent;
+  if (!m.has_transmission) return onward;
+
+  const V3<S> one = {F(1.0f), F(1.0f), F(1.0f)};
+  V3<S> filter = m.pigment * m.filter + V3<S>{m.transmit, m.transmit, m.transmit};
+  filter = select<S>(S::M::from_bits(m.conserve_energy), filter * (one - mirrored), filter);
+  onward.clear = (grey<S>(filter) > F(adc_bailout)).bits() & lanes;
+  const F counted = S::select(S::M::from_bits(onward.clear), share, F(0.0f));
+  onward.through = filter * counted;
+  onward.through_weight = max_component<S>(filter);
+  onward.clear_share = counted;
+  return onward;
+}
+
 } // namespace celltrace::kernel

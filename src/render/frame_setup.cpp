@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 namespace celltrace {
 
@@ -13,11 +14,29 @@ using namespace kernel;
 
 namespace {
 
+/// Of the 144 KB that a program of this size leaves of a local store, 32 KB are the ray stack's and the
+/// packets'.
+constexpr std::uint32_t kMaxCacheBytes = 112 * 1024;
 constexpr int kMaxEdge = 65520; // rows of packets fit the balancer's words
 
 void store(const Vec3& v, float* to) {
   for (int i = 0; i < 3; ++i)
     to[i] = static_cast<float>(v[i]);
+}
+
+/// Voxels per unit of length so that a box holds `wanted` cubes. An axis that is too short for more than one
+/// layer does not count: the others share what it leaves.
+double voxels_per_unit(std::array<double, 3> extent, double wanted) {
+  std::sort(extent.begin(), extent.end(), std::greater<>());
+  double per_unit = 0;
+  double size = 1;
+  for (int axes = 1; axes <= 3; ++axes) {
+    size *= extent[axes - 1];
+    const double density = std::pow(wanted / size, 1.0 / axes);
+    if (axes > 1 && extent[axes - 1] * density < 1) break;
+    per_unit = density;
+  }
+  return per_unit;
 }
 
 bool inside(const Sphere& sphere, const Transform& transform, const Vec3& point) {
@@ -38,6 +57,10 @@ void check(const RenderOptions& options) {
         "the cache has to have 1, 2 or 4 ways and a power of two of sets, or one set of any power of two "
         "of ways, and at most " +
         std::to_string(CacheConfig::kMaxLines) + " lines");
+  if (options.backend != "native" && options.cache.local_store_bytes() > kMaxCacheBytes)
+    throw InputError("the cache takes " + std::to_string(options.cache.local_store_bytes()) +
+                     " bytes of local store; beside the program there is room for " +
+                     std::to_string(kMaxCacheBytes));
   if (options.max_trace_level && (*options.max_trace_level < 1 || *options.max_trace_level > 256))
     throw InputError("the maximum trace level has to be 1 to 256");
   if (options.adc_bailout && !(*options.adc_bailout >= 0))
@@ -108,18 +131,15 @@ GridRecord choose_grid(const ImageHeader& header) {
   constexpr double kMaxCellsPerAxis = 512;
   constexpr double kMaxCells = 1 << 24;
   std::array<double, 3> extent;
-  double volume = 1;
   double longest = 0;
   for (int i = 0; i < 3; ++i) {
     extent[i] = double{header.bounds_max[i]} - double{header.bounds_min[i]};
     longest = std::max(longest, extent[i]);
   }
-  for (double& e : extent) {
+  for (double& e : extent)
     e = std::max(e, longest * 1e-4); // flat scenes
-    volume *= e;
-  }
   const double wanted = std::clamp(kVoxelsPerObject * header.object_count, 1.0, kMaxCells);
-  const double per_unit = std::cbrt(wanted / volume);
+  const double per_unit = voxels_per_unit(extent, wanted);
   GridRecord grid{};
   for (int i = 0; i < 3; ++i) {
     const double cells = std::clamp(std::round(extent[i] * per_unit), 1.0, kMaxCellsPerAxis);
