@@ -81,12 +81,12 @@ void ReflectionDefinition::set(const Vec3& first, const Vec3& second) {
 
 void ReflectionDefinition::apply(Finish& finish) const {
   // A single colour is the whole range, except that Fresnel's law needs one.
-  finish.reflection_min = has_min || is_fresnel ? min : max;
+  finish.reflection_min = has_min || is_fresnel.value_or(false) ? min : max;
   finish.reflection_max = max;
-  finish.reflection_falloff = falloff;
-  finish.reflection_exponent = exponent;
-  finish.reflection_metallic = metallic;
-  finish.reflection_fresnel = is_fresnel;
+  finish.reflection_falloff = falloff.value_or(finish.reflection_falloff);
+  finish.reflection_exponent = exponent.value_or(finish.reflection_exponent);
+  finish.reflection_metallic = metallic.value_or(finish.reflection_metallic);
+  finish.reflection_fresnel = is_fresnel.value_or(finish.reflection_fresnel);
 }
 
 void set_reflection(Finish& finish, const Vec3& colour) {

@@ -1,6 +1,7 @@
 // What the grammar's rules do, where it takes more than a line.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,15 +50,13 @@ void set_max_trace_level(Session& session, double level, const Location& where);
 
 // ---- Textures ----
 
-/// The inside of reflection { }.
+/// The inside of reflection { }. What it does not say stays as the finish has it.
 struct ReflectionDefinition {
   Vec3 min{0, 0, 0};
   Vec3 max{0, 0, 0};
   bool has_min = false;
-  double falloff = 1;
-  double exponent = 1;
-  double metallic = 0;
-  bool is_fresnel = false;
+  std::optional<double> falloff, exponent, metallic;
+  std::optional<bool> is_fresnel;
 
   void set(const Vec3& only);
   void set(const Vec3& first, const Vec3& second);

@@ -88,6 +88,25 @@ TEST_CASE("reflection, old and new form") {
   CHECK(f.reflection_fresnel);
 }
 
+TEST_CASE("a reflection keeps what it does not say") {
+  const std::string before =
+      "#default { finish { reflection { 0, 1 falloff 3 exponent 0.5 metallic fresnel } } } ";
+  const auto finish_of = [&](const std::string& reflection) {
+    return parse(before + "sphere { 0, 1 finish { reflection { " + reflection + " } } }").materials[0].finish;
+  };
+  const Finish kept = finish_of("0.2, 0.5");
+  CHECK(kept.reflection_min == Vec3(0.2));
+  CHECK(kept.reflection_falloff == 3);
+  CHECK(kept.reflection_exponent == 0.5);
+  CHECK(kept.reflection_metallic == 1);
+  CHECK(kept.reflection_fresnel);
+  CHECK(finish_of("0.5").reflection_min == Vec3(0.5));
+  const Finish replaced = finish_of("0.5 falloff 1 metallic 0 fresnel off");
+  CHECK(replaced.reflection_falloff == 1);
+  CHECK(replaced.reflection_metallic == 0);
+  CHECK_FALSE(replaced.reflection_fresnel);
+}
+
 TEST_CASE("textures build on one another") {
   const Scene scene =
       parse("#declare F = finish { phong 1 } #declare T = texture { pigment { rgb 0.5 } finish { F } }"
