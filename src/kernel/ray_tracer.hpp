@@ -117,19 +117,22 @@ private:
   }
 
   /// Faces with three materials: each is shaded whole, and the results are blended by the vertices' weights.
-  /// What goes on goes the same ways for all three, as one ray each, or every such face would multiply the
-  /// rays behind it.
+  /// Adaptive depth control drops a material by its weight alone, as POV-Ray does. What goes on goes the same
+  /// ways for all three, as one ray each, or every such face would multiply the rays behind it.
   void shade_blended(const Surfaces<S>& surfaces, const HitPoints<S>& points) {
     const F u = F::load(hits_.u.lane);
     const F v = F::load(hits_.v.lane);
     const F weights[3] = {F(1.0f) - u - v, u, v};
     Onward<S> all = Onward<S>::nothing();
     for (uint32_t corner = 0; corner < 3; ++corner) {
+      const F w = weights[corner];
+      const uint32_t lanes = points.blended & (w >= F(frame_.adc_bailout)).bits();
+      if (lanes == 0) continue;
       WordLanes materials = points.material;
-      for_each_lane(points.blended, [&](uint32_t lane) {
+      for_each_lane(lanes, [&](uint32_t lane) {
         materials.lane[lane] = scene_.blend(points.material.lane[lane])->material[corner];
       });
-      const Onward<S> one = shade(surfaces, points.interior, materials, points.blended, weights[corner]);
+      const Onward<S> one = shade(surfaces, points.interior, materials, lanes, w);
       if (one.bends_reflection)
         send_on(surfaces, points.interior, one);
       else

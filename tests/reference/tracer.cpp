@@ -109,7 +109,8 @@ Vec3 Tracer::trace(const Branch& branch) const {
   const double weights[3] = {1 - hit.crossing.u - hit.crossing.v, hit.crossing.u, hit.crossing.v};
   Vec3 sum(0);
   for (int i = 0; i < 3; ++i)
-    sum += weights[i] * shade(branch, point, scene_.materials[hit.shape->material[i]]);
+    if (weights[i] >= scene_.adc_bailout)
+      sum += weights[i] * shade(branch, point, scene_.materials[hit.shape->material[i]]);
   return sum;
 }
 
