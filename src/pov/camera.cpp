@@ -43,6 +43,8 @@ void turn(Camera& camera, const Vec3& look_at, const Vec3& sky) {
   camera.right = sideways * (sign * width);
 }
 
+constexpr double kVersionOfOrthographicScale = 3.5; // before, right and up are its picture's size
+
 /// An orthographic camera whose picture has no size of its own takes that of a perspective one at the
 /// looked-at point.
 void scale_orthographic(Camera& camera, double distance) {
@@ -58,7 +60,7 @@ bool is_finite(const Vec3& v) {
 
 } // namespace
 
-Camera CameraDefinition::finish() const {
+Camera CameraDefinition::finish(double version) const {
   Camera camera;
   camera.kind = kind;
   camera.right = right.value_or(kDefaultRight);
@@ -71,7 +73,8 @@ Camera CameraDefinition::finish() const {
   camera.up = up.value_or(kDefaultUp);
   camera.location = location;
   if (look_at) turn(camera, *look_at, sky);
-  if (kind == Camera::Kind::orthographic && ((!right && !up) || angle))
+  if (kind == Camera::Kind::orthographic && version >= kVersionOfOrthographicScale &&
+      ((!right && !up) || angle))
     scale_orthographic(camera, glm::length(look_at.value_or(kDefaultLookAt) - location));
 
   camera.location = transform.point(camera.location);

@@ -9,7 +9,7 @@
 
 namespace celltrace::pov {
 
-/// Fields in any order; finish() applies them in POV-Ray's fixed one.
+/// Fields in any order; finish() applies them in the fixed one of that version of POV-Ray's language.
 struct CameraDefinition {
   Camera::Kind kind = Camera::Kind::perspective;
   Vec3 location{0, 0, 0};
@@ -25,7 +25,7 @@ struct CameraDefinition {
 
   /// Throws InputError, without a position, if the camera has no view: an angle of 180 degrees or more, no
   /// direction.
-  Camera finish() const;
+  Camera finish(double version) const;
 };
 
 } // namespace celltrace::pov

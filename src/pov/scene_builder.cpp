@@ -167,7 +167,7 @@ Scene SceneBuilder::finish(const std::string& name) {
   const CameraDefinition& camera = camera_ ? *camera_ : default_camera;
   diagnostics_.require_supported(camera.unsupported, camera.where);
   try {
-    scene_.camera = camera.finish();
+    scene_.camera = camera.finish(scene_.version);
   } catch (const InputError& error) {
     diagnostics_.fail(camera.where, error.what());
   }

@@ -96,3 +96,9 @@ TEST_CASE("cameras that cannot be") {
   CHECK(error_line("camera { aperture 0.4 blur_samples 10 }") ==
         "scene.pov:1:10: error: 'aperture' is not supported yet");
 }
+
+TEST_CASE("an orthographic camera has the size of right and up before version 3.5") {
+  const std::string scene = "camera { orthographic location -5 * z look_at 0 angle 30 }";
+  CHECK(parse("#version 3.1; " + scene).camera.right.x == Approx(1.33));
+  CHECK(parse("#version 3.5; " + scene).camera.right.x > 2);
+}
