@@ -10,8 +10,8 @@
 # checks in CTest that code, data, arena and stack of NAME fit the local store together. Without a compiler both do
 # nothing but to register a test that is skipped.
 
-# What stays of the 256 KB for code, data and stack is 112 KB.
-set(CELLTRACE_SPU_ARENA_BYTES 147456 CACHE STRING "Local store for the kernel's arena in programs for the real SPU")
+# What stays of the 256 KB for code, data and stack is 128 KB.
+set(CELLTRACE_SPU_ARENA_BYTES 131072 CACHE STRING "Local store for the kernel's arena in programs for the real SPU")
 
 function(celltrace_spu_elf name)
   cmake_parse_arguments(ELF "" "HEADER;KERNEL;ARENA" "INCLUDES" ${ARGN})

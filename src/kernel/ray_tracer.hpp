@@ -141,9 +141,10 @@ private:
     send_on(surfaces, points.interior, all);
   }
 
-  /// Adds the surface's own light, times `share`; returns what goes on.
-  Onward<S> shade(const Surfaces<S>& surfaces, const WordLanes& interior, const WordLanes& materials,
-                  uint32_t lanes, const F& share) {
+  /// Adds the surface's own light, times `share`; returns what goes on. Not inlined, as send_on() is not:
+  /// local store has no room for a copy at each call.
+  [[gnu::noinline]] Onward<S> shade(const Surfaces<S>& surfaces, const WordLanes& interior,
+                                    const WordLanes& materials, uint32_t lanes, const F& share) {
     const MaterialLanes<S> m = gather_materials(scene_, materials, lanes);
     add(lanes, local_light(scene_, traversal_, frame_, surfaces, m, lanes, counters_.shadow) * share);
     if (!m.has_reflection && !m.has_transmission) return Onward<S>::nothing();
@@ -155,7 +156,8 @@ private:
   }
 
   /// Pushes the rays that go on.
-  void send_on(const Surfaces<S>& surfaces, const WordLanes& interior, const Onward<S>& onward) {
+  [[gnu::noinline]] void send_on(const Surfaces<S>& surfaces, const WordLanes& interior,
+                                 const Onward<S>& onward) {
     if ((onward.mirrors | onward.clear) == 0) return;
     const F cosine = -dot<S>(surfaces.direction, surfaces.normal);
     const V3<S> mirrored = mirror<S>(surfaces.direction, surfaces.normal, cosine);

@@ -27,8 +27,8 @@ struct MachineConfig {
   SignalMode signal_mode[2] = {SignalMode::overwrite, SignalMode::overwrite};
   /// `cell_emu`: local store that the program's code and data take, and that is kept for its stack; bytes.
   /// The rest of the 256 KB is the kernel's arena.
-  unsigned code_bytes = 92 * 1024;
-  unsigned stack_bytes = 20 * 1024;
+  unsigned code_bytes = 104 * 1024;
+  unsigned stack_bytes = 24 * 1024;
 };
 
 /// What one SPE did since the machine was made. Counts.
