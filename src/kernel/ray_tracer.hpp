@@ -118,7 +118,8 @@ private:
 
   /// Faces with three materials: each is shaded whole, and the results are blended by the vertices' weights.
   /// Adaptive depth control drops a material by its weight alone, as POV-Ray does. What goes on goes the same
-  /// ways for all three, as one ray each, or every such face would multiply the rays behind it.
+  /// ways for all three: as one ray each where it weighs the same, or every such face would multiply the rays
+  /// behind it.
   void shade_blended(const Surfaces<S>& surfaces, const HitPoints<S>& points) {
     const F u = F::load(hits_.u.lane);
     const F v = F::load(hits_.v.lane);
@@ -133,10 +134,12 @@ private:
         materials.lane[lane] = scene_.blend(points.material.lane[lane])->material[corner];
       });
       const Onward<S> one = shade(surfaces, points.interior, materials, lanes, w);
-      if (one.bends_reflection)
-        send_on(surfaces, points.interior, one);
-      else
+      if (all.is_nothing())
+        all = one;
+      else if (all.weighs_like(one))
         all.add(one);
+      else
+        send_on(surfaces, points.interior, one);
     }
     send_on(surfaces, points.interior, all);
   }

@@ -168,7 +168,14 @@ template <class S> struct Onward {
     o.reflection_power = F(1.0f);
     return o;
   }
-  /// Light of the same directions from another material of the same surfaces; neither bends reflections.
+  bool is_nothing() const { return (mirrors | clear) == 0; }
+  /// True if adaptive depth control would treat the rays of both alike, and neither bends reflections.
+  bool weighs_like(const Onward& other) const {
+    const auto alike = [](const F& a, const F& b) { return (S::abs(a - b) > F(1e-6f)).bits() == 0; };
+    return mirrors == other.mirrors && clear == other.clear && alike(mirror_weight, other.mirror_weight) &&
+           alike(through_weight, other.through_weight) && !bends_reflection && !other.bends_reflection;
+  }
+  /// Light of the same directions from another material of the same surfaces that weighs the same.
   void add(const Onward& other) {
     mirror = mirror + other.mirror;
     through = through + other.through;
@@ -191,8 +198,10 @@ Onward<S> pass_on(const MaterialLanes<S>& m, const typename S::F& cosine, const 
   const F most = S::max(max_component<S>(m.reflection_min), max_component<S>(m.reflection_max));
   Onward<S> onward = Onward<S>::nothing();
   onward.mirrors = m.has_reflection ? (strength > F(0.0f)).bits() & lanes : 0;
-  onward.mirror = mirrored * share;
-  onward.mirror_weight = S::select(S::M::from_bits(m.fresnel), strength, most);
+  const auto mirrors = S::M::from_bits(onward.mirrors);
+  const F zero(0.0f);
+  onward.mirror = mirrored * S::select(mirrors, share, zero);
+  onward.mirror_weight = S::select(mirrors, S::select(S::M::from_bits(m.fresnel), strength, most), zero);
   onward.bends_reflection = m.bends_reflection;
   onward.reflection_power = m.inverse_reflection_exponent;
   if (!m.has_transmission) return onward;
@@ -201,9 +210,10 @@ Onward<S> pass_on(const MaterialLanes<S>& m, const typename S::F& cosine, const 
   V3<S> filter = m.pigment * m.filter + V3<S>{m.transmit, m.transmit, m.transmit};
   filter = select<S>(S::M::from_bits(m.conserve_energy), filter * (one - mirrored), filter);
   onward.clear = (grey<S>(filter) > F(adc_bailout)).bits() & lanes;
-  const F counted = S::select(S::M::from_bits(onward.clear), share, F(0.0f));
+  const auto clear = S::M::from_bits(onward.clear);
+  const F counted = S::select(clear, share, zero);
   onward.through = filter * counted;
-  onward.through_weight = max_component<S>(filter);
+  onward.through_weight = S::select(clear, max_component<S>(filter), zero);
   onward.clear_share = counted;
   return onward;
 }
