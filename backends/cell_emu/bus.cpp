@@ -83,8 +83,7 @@ void Bus::write_register(AddressMap::Place place, std::uint32_t value) {
     target.write_signal(place.kind == EaKind::signal_1 ? Signal::one : Signal::two, value);
 }
 
-// --- reservations
-// ------------------------------------------------------------------------------------------------
+// --- reservations ---
 
 bool Bus::release_reservation(unsigned spe, Stripe& stripe, ea_t line) {
   std::atomic<ea_t>& reserved = units_[spe].reserved;

@@ -104,8 +104,7 @@ EmulatedCell::~EmulatedCell() {
     if (spe->thread.joinable()) spe->thread.join();
 }
 
-// --- run control
-// -------------------------------------------------------------------------------------------------
+// --- run control ---
 
 ArenaState EmulatedCell::arena(unsigned spe) const {
   std::uint8_t* const base = map_.local_store(spe);

@@ -31,8 +31,7 @@ void Mfc::fail(const std::string& what) const {
   throw SpeError("SPE " + std::to_string(spe_) + ": " + what);
 }
 
-// --- issue
-// ---------------------------------------------------------------------------------------------------------
+// --- issue ---
 
 void Mfc::check(const MfcCommand& command) const {
   MfcRule rule = broken_common_rule(command);
@@ -80,8 +79,7 @@ void Mfc::enqueue(const MfcCommand& command) {
   queue_[queued_++] = {command, timing_.mark(), 0, command.lsa & ~15u, false};
 }
 
-// --- order
-// ---------------------------------------------------------------------------------------------------------
+// --- order ---
 
 unsigned Mfc::first_before(unsigned index) const {
   for (unsigned earlier = 0; earlier < index; ++earlier)
@@ -125,8 +123,7 @@ void Mfc::remove(unsigned index) {
   judge_tag_groups();
 }
 
-// --- execution
-// -------------------------------------------------------------------------------------------------------
+// --- execution ---
 
 bool Mfc::execute(Entry& entry) {
   const MfcCommand& command = entry.command;
@@ -207,8 +204,7 @@ void Mfc::transfer_block(const MfcCommand& command) {
   }
 }
 
-// --- tag groups
-// --------------------------------------------------------------------------------------------------------
+// --- tag groups ---
 
 std::uint32_t Mfc::outstanding_tags() const {
   std::uint32_t tags = 0;
@@ -250,8 +246,7 @@ std::uint32_t Mfc::read_tag_status() {
   return tag_groups_.take();
 }
 
-// --- lists and atomics
-// ---------------------------------------------------------------------------------------------------
+// --- lists and atomics ---
 
 std::uint32_t Mfc::read_list_stall_status() {
   while (stalled_tags_ == 0)

@@ -24,8 +24,7 @@ void ProblemState::publish() {
   changed_.notify_all();
 }
 
-// --- registers
-// ---------------------------------------------------------------------------------------------------
+// --- registers ---
 
 void ProblemState::deliver_mail(std::uint32_t value) {
   const bool was_empty = in_mailbox_.empty();
@@ -83,8 +82,7 @@ void ProblemState::raise(std::uint32_t events) {
   publish();
 }
 
-// --- channels
-// ----------------------------------------------------------------------------------------------------
+// --- channels ---
 
 void ProblemState::stop_at(Channel channel) const {
   std::string text = "SPE " + std::to_string(spe_) + ": interrupted at channel " +
@@ -155,8 +153,7 @@ void ProblemState::acknowledge_events(std::uint32_t events) {
   publish();
 }
 
-// --- run control
-// -------------------------------------------------------------------------------------------------
+// --- run control ---
 
 void ProblemState::start() {
   const std::lock_guard lock(mutex_);

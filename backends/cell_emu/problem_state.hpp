@@ -23,8 +23,7 @@ class ProblemState {
 public:
   ProblemState(unsigned spe, const SignalMode (&modes)[2], PpeBell& bell);
 
-  // --- registers, for other SPEs and the PPE
-  // ---------------------------------------------------------------------
+  // --- registers, for other SPEs and the PPE ---
 
   /// A write to the mapped register: a full inbound mailbox loses its newest word.
   void write_in_mailbox(std::uint32_t value);
@@ -37,8 +36,7 @@ public:
   /// An event of this SPE has occurred.
   void raise(std::uint32_t events);
 
-  // --- counts: one atomic load each
-  // ------------------------------------------------------------------------------
+  // --- counts: one atomic load each ---
 
   unsigned event_count() const { return status() & kEvent ? 1 : 0; }
   unsigned signal_count(Signal which) const { return status() & signal_bit(which) ? 1 : 0; }
@@ -69,8 +67,7 @@ public:
   /// Throws the SpeError of an SPE that was interrupted at a channel.
   [[noreturn]] void stop_at(Channel channel) const;
 
-  // --- run control
-  // -------------------------------------------------------------------------------------------------
+  // --- run control ---
 
   /// The SPE starts: the event facility is as after a reset, except that full mailboxes and signals are
   /// pending.

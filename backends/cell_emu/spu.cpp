@@ -39,8 +39,7 @@ void Spu::halt(HaltCode code) {
   throw SpeError(text);
 }
 
-// --- MFC commands
-// ------------------------------------------------------------------------------------------------
+// --- MFC commands ---
 
 std::uint32_t Spu::local_address(const void* pointer) const {
   const std::uintptr_t base = reinterpret_cast<std::uintptr_t>(bus_.map().local_store(id_));
@@ -66,8 +65,7 @@ void Spu::command_word(std::uint32_t word) {
   command(issued);
 }
 
-// --- events and decrementer
-// --------------------------------------------------------------------------------------
+// --- events and decrementer ---
 
 std::uint32_t Spu::event_status_channel() {
   update_decrementer();

@@ -161,8 +161,7 @@ private:
   static constexpr uint32_t kNoWay = 0xFFFFFFFFu;
   static constexpr uint32_t kNotFound = 0xFFFFFFFFu;
 
-  // --- the way of a hit
-  // ----------------------------------------------------------------------------------------
+  // --- the way of a hit ---
 
   const uint8_t* find(uint32_t offset, uint32_t size, Kind kind) {
     const uint32_t line = offset & ~kLineMask;
@@ -182,8 +181,7 @@ private:
   static uint32_t lane_of(uint32_t bit) { return (bit >> 1) - (bit >> 3); }
   static uint32_t lowest_bit(uint32_t bits) { return bits & (~bits + 1); }
 
-  // --- misses, and lines with further flags
-  // --------------------------------------------------------------------
+  // --- misses, and lines with further flags ---
 
   __attribute__((noinline)) const uint8_t* find_slowly(uint32_t offset, uint32_t size, Kind kind) {
     CacheCounters& counters = counters_[static_cast<uint32_t>(kind)];
@@ -254,8 +252,7 @@ private:
   }
   uint32_t dma_tag(uint32_t slot) const { return config_.first_tag + (slot & (config_.tag_count - 1)); }
 
-  // --- replacement
-  // ---------------------------------------------------------------------------------------------
+  // --- replacement ---
 
   uint32_t victim(uint32_t set) {
     return config_.replacement == CacheReplacement::random ? random_.next_below_power_of_two(config_.ways)
@@ -271,8 +268,7 @@ private:
   }
   void stamp(uint32_t slot) { stamps_[slot] = ++clock_; }
 
-  // --- without a cache
-  // -----------------------------------------------------------------------------------------
+  // --- without a cache ---
 
   /// Fetches the quadwords that the object touches. Returns the line it would lie in.
   const uint8_t* read_through(uint32_t offset, uint32_t size) {
@@ -283,8 +279,7 @@ private:
     return lines_;
   }
 
-  // --- state
-  // ---------------------------------------------------------------------------------------------------
+  // --- state ---
 
   /// A disabled cache is one bounce line behind a set without ways, so that no lookup succeeds.
   void set_up() {

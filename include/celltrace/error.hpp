@@ -18,8 +18,8 @@ public:
   using Error::Error;
 };
 
-/// The text of a scene is wrong or uses what is not supported. what() starts with "file:line:column: error:" and may
-/// continue with the include stack on further lines.
+/// The text of a scene is wrong or uses what is not supported. what() starts with "file:line:column: error:"
+/// and may continue with the include stack on further lines.
 class SceneError : public InputError {
 public:
   using InputError::InputError;

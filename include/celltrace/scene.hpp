@@ -1,8 +1,9 @@
 // Scene: what to render, as people build it or as the POV-Ray parser delivers it.
 //
-// Units are the scene's own; angles are in degrees unless said otherwise; the axes are POV-Ray's (left-handed, y up).
-// Colours are linear in the scene's working space (see GammaMode). A Scene is a plain value: copyable, without
-// threads of its own; reading one from several threads is safe while nobody changes it.
+// Units are the scene's own; angles are in degrees unless said otherwise; the axes are POV-Ray's
+// (left-handed, y up). Colours are linear in the scene's working space (see GammaMode). A Scene is a plain
+// value: copyable, without threads of its own; reading one from several threads is safe while nobody changes
+// it.
 #pragma once
 
 #include <cstdint>
@@ -46,8 +47,8 @@ struct Camera {
   enum class Kind { perspective, orthographic };
   Kind kind = Kind::perspective;
   // The finished camera, after angle, sky, look_at and transformations (POV.md 3.3). The ray through pixel
-  // (x, y) of a W x H picture goes along direction + right*((x+.5)/W-.5) + up*(.5-(y+.5)/H); orthographic cameras
-  // offset the location by the same right and up terms instead.
+  // (x, y) of a W x H picture goes along direction + right*((x+.5)/W-.5) + up*(.5-(y+.5)/H); orthographic
+  // cameras offset the location by the same right and up terms instead.
   Vec3 location{0, 0, 0};
   Vec3 direction{0, 0, 1};
   Vec3 right{1.33, 0, 0};
@@ -93,7 +94,8 @@ struct Material {
   Finish finish;
 };
 
-/// The inside of an object. Every object owns one; the children of a union share the union's if they have none.
+/// The inside of an object. Every object owns one; the children of a union share the union's if they have
+/// none.
 struct Interior {
   double ior = 1;
 };
@@ -114,8 +116,8 @@ struct Mesh {
     Index vertex[3];
     /// kNoIndex in all three, never in one or two: flat.
     Index normal[3] = {kNoIndex, kNoIndex, kNoIndex};
-    /// Index into Scene::materials; kNoIndex: the instance's material. Three different ones are blended over the face
-    /// by its barycentric coordinates.
+    /// Index into Scene::materials; kNoIndex: the instance's material. Three different ones are blended over
+    /// the face by its barycentric coordinates.
     Index material[3] = {kNoIndex, kNoIndex, kNoIndex};
   };
   std::vector<Vec3f> vertices;
@@ -162,8 +164,8 @@ struct Scene {
 
 /// Throws InputError if a number is not finite.
 void validate(const Camera& camera);
-/// Throws InputError, naming the first fault, if an index is out of range, a number is not finite, or there are more
-/// triangles or vertices than 32-bit offsets can address.
+/// Throws InputError, naming the first fault, if an index is out of range, a number is not finite, or there
+/// are more triangles or vertices than 32-bit offsets can address.
 void validate(const Scene& scene);
 
 } // namespace celltrace

@@ -11,8 +11,7 @@ namespace celltrace::kernel {
 
 constexpr uint32_t kNoOffset = 0xFFFFFFFFu;
 
-// --- scene image
-// ---------------------------------------------------------------------------------------------------
+// --- scene image ---
 
 /// What an object record describes; low byte of ObjectRecord::kind_and_flags.
 enum class ObjectKind : uint32_t { sphere = 0, ellipsoid = 1, triangle = 2 };
@@ -25,7 +24,7 @@ constexpr uint32_t opaque = 0x400;    ///< shadow rays stop
 constexpr uint32_t blended = 0x800;   ///< `material` is the offset of a BlendRecord
 } // namespace object_flag
 
-/// Geometry by kind: sphere: centre (0..2), radius (3), 1/radius (4). Ellipsoid: the affine map from the
+/// Geometry by kind: sphere: centre (0..2), radius (3). Ellipsoid: the affine map from the
 /// world to the unit sphere, three rows of four (xyz | offset). Triangle: its vertices (0..2, 3..5, 6..8).
 struct alignas(64) ObjectRecord {
   uint32_t kind_and_flags;
@@ -122,8 +121,7 @@ struct alignas(128) ImageHeader {
 };
 static_assert(sizeof(ImageHeader) == 128, "one line");
 
-// --- frame
-// ---------------------------------------------------------------------------------------------------------
+// --- frame ---
 
 /// Rays: through pixel (x, y) goes base + x*dx + y*dy, as a direction from `origin` (perspective, not
 /// normalised) or as an origin with direction `origin` (orthographic).
@@ -224,16 +222,15 @@ static_assert(sizeof(ReportRecord) == 256, "two lines");
 enum class DataKind : uint32_t { list = 0, object = 1, material = 2, light = 3 };
 constexpr uint32_t kDataKinds = 4;
 
-// --- words between PPE and SPE
-// ----------------------------------------------------------------------------------------
+// --- words between PPE and SPE ---
 
-/// Bits of signal 1, PPE to SPE. The register is in logical-OR mode.
+/// Bits of signal 1, PPE to SPE. The register is in logical-OR mode. Each but quit fetches the frame block
+/// anew, so that a camera that moved needs no command of its own.
 namespace command {
 constexpr uint32_t prepare_frame = 0x1;
 constexpr uint32_t render_frame = 0x2;
 constexpr uint32_t synchronize = 0x4;
-constexpr uint32_t camera_moved = 0x8;
-constexpr uint32_t quit = 0x10;
+constexpr uint32_t quit = 0x8;
 } // namespace command
 
 /// Outbound mailbox, SPE to PPE: kind in the top four bits, a count below.

@@ -285,6 +285,8 @@ colour // with a keyword: distinct from a mere number
   : COLOUR quantity              { $$ = $2.promoted(5); $$.is_colour = true; }
   | COLOUR COLOUR_MODEL quantity { $$ = make_colour(ColourModel($2), $3); }
   | COLOUR_MODEL quantity        { $$ = make_colour(ColourModel($1), $2); }
+  | COLOUR SRGB                  { refuse(session, "'srgb'", @2); }
+  | SRGB                         { refuse(session, "'srgb'", @1); }
   | COLOUR CHANNEL number        { $$ = with_channel(Quantity::colour({0, 0, 0}), Channel($2), $3); }
   | CHANNEL number               { $$ = with_channel(Quantity::colour({0, 0, 0}), Channel($1), $2); }
   | colour CHANNEL number        { $$ = with_channel($1, Channel($2), $3); }

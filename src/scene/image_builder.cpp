@@ -107,7 +107,6 @@ private:
     if (scale > 0) {
       copy(object.transform.point(sphere.centre), r.geometry);
       r.geometry[3] = static_cast<float>(radius * scale);
-      r.geometry[4] = static_cast<float>(1 / (radius * scale));
     } else {
       const Transform inverse = object.transform.inverse();
       for (int row = 0; row < 3; ++row)

@@ -150,8 +150,7 @@ TEST_CASE("an SPE that fails names its error and interrupts the others") {
   machine->start(0, stall, 0);
   machine->start(1, program([](auto& spu, ea_t) { spu.template allocate<uint8_t>(2 * 1024 * 1024); }), 0);
   machine->start(2, program([](auto& spu, ea_t) { spu.wait_any(0); }), 0);
-  CHECK_THROWS_WITH(machine->wait(0),
-                    "SPE 0: interrupted (SPE 1: halted: local store exhausted (code 1))");
+  CHECK_THROWS_WITH(machine->wait(0), "SPE 0: interrupted (SPE 1: halted: local store exhausted (code 1))");
   CHECK_THROWS_WITH(machine->wait(1), "SPE 1: halted: local store exhausted (code 1)");
   CHECK_THROWS_AS(machine->wait(2), SpeError);
 

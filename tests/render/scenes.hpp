@@ -18,8 +18,7 @@ struct NamedScene {
 const std::vector<NamedScene>& scenes();
 Scene scene_named(const std::string& name);
 
-// --- parts
-// -----------------------------------------------------------------------------------------------------------
+// --- parts ---
 
 /// Opaque, with POV-Ray's default finish.
 Material matte(const Vec3& rgb);

@@ -12,38 +12,29 @@
 // that no row is lost or given twice however they are delayed.
 //
 // - A node asks when it is dry: one edge at a time, edges of colour 0 (those above an even node) first. It
-// rings the
-//   neighbour's doorbell, sends its word and waits for the neighbour's. It stays dry until that word has
-//   come, so what it said remains true. A word from a neighbour that asked at the same moment is as good as
-//   an answer.
+//   rings the neighbour's doorbell, sends its word and waits for the neighbour's. It stays dry until that
+//   word has come, so what it said remains true. A word from a neighbour that asked at the same moment is
+//   as good as an answer.
 // - A node that is asked answers at once; the exchange is complete on its side.
 // - A node that saw its neighbour go away empty-handed rings the neighbour's doorbell as soon as it has rows
-// to
-//   give. A doorbell invites a dry node that was refused to ask on that edge again; at any other time it
-//   means nothing, so that late, merged and superfluous doorbells do no harm. An invited question is not rung
-//   for, or two dry nodes could keep each other busy.
+//   to give. A doorbell invites a dry node that was refused to ask on that edge again; at any other time it
+//   means nothing, so that late, merged and superfluous doorbells do no harm. An invited question is not
+//   rung for, or two dry nodes could keep each other busy.
 // - A dry node that was refused on every edge is idle and reports the rows it has completed. Rows may still
-// come by
-//   an invitation; then it reports again. The frame is complete when every node has reported and the reports
-//   add up.
+//   come by an invitation; then it reports again. The frame is complete when every node has reported and
+//   the reports add up.
 //
 // A node gives away at most all but one of its rows, and takes that one before it asks: frames end.
 //
 // Transport. Words go from node to node in order (Cell: inbound mailbox) and wear the frame's epoch, so that
 // words that outlived their frame are dropped, and words of a neighbour that is a frame ahead are kept until
-// begin_frame(). Doorbells are bits that merge (Cell: signal notification 2 in logical-OR mode). No row
-// depends on when they come, but the size of the mailbox does. Its four entries suffice if
-// - a doorbell is delivered before any later word of the same node, and whoever reads a word hands in the
-// doorbells
-//   that have been delivered by then before the word: read the mailbox, read signal 2 if it counts,
-//   on_doorbell(), on_word();
-// - the mailbox is read empty when a frame starts, before the first next_action();
-// - the PPE starts a frame after every node has left the one before. Before it starts one after a frame that
-// it broke
-//   off, every node must have read its mailbox empty.
-// Then at most 2 words from each neighbour are under way to a node during a frame, and at most 1 from the
-// moment that the frame is complete: with it comes the PPE's word that ends the frame, or the first question
-// of the next.
+// begin_frame(). Doorbells are bits that merge (Cell: signal notification 2 in logical-OR mode). If a
+// doorbell is delivered before any later word of the same node, and doorbells that have been delivered are
+// handed in before each word, a node that reads nothing has at most 2 words under way from each neighbour
+// during a frame, and 1 once the frame is complete: with the two questions of the next frame, or with the
+// PPE's word that ends this one, the four entries of a mailbox suffice. This holds if the PPE starts a frame
+// only after every node has left the one before; a frame that is broken off early also needs every mailbox
+// drained before the next one starts.
 #pragma once
 
 #include <stdint.h>
@@ -60,8 +51,7 @@ struct RowRange {
 
 /// The 32-bit words of the mailboxes: the word of an exchange, and words of the PPE, which are told apart by
 /// bit 31.
-///   31 from the PPE | 30..29 epoch | 28 sender is the upper neighbour | 27..14 remaining rows | 13..0 first
-///   row
+///   31 from the PPE | 30..29 epoch | 28 sender is the upper neighbour | 27..14 remaining | 13..0 first row
 namespace strip_word {
 
 /// Rows are numbered 0 .. kMaxRows - 1.

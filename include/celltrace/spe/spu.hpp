@@ -44,8 +44,7 @@ struct ArenaState {
 
 template <class Derived> class SpuBase {
 public:
-  // --- local store
-  // ---------------------------------------------------------------------------------------------
+  // --- local store ---
 
   /// `count` value-initialised objects in local store, aligned to `alignment` (a power of two, at least 16).
   /// Halts the SPE with local_store_exhausted if they do not fit. There is no free; see mark() and release().
@@ -67,8 +66,7 @@ public:
   /// Bytes that are still free.
   uint32_t available() { return static_cast<uint32_t>(self().arena().end - self().arena().next); }
 
-  // --- DMA
-  // -----------------------------------------------------------------------------------------------------
+  // --- DMA ---
   // `size` is 1, 2, 4, 8 or a multiple of 16 up to 16 KB; ls and ea agree in their low four bits and are
   // naturally aligned (16 bytes from size 16 on). `tag` is 0..31 (31 is the runtime's own, see kRuntimeTag).
   // The call stalls while the queue of 16 is full; the data may move at any time until a wait has observed
@@ -128,8 +126,7 @@ public:
     command<MfcOpcode::putqlluc>(ls, ea, kLineBytes, tag);
   }
 
-  // --- tag groups
-  // ----------------------------------------------------------------------------------------------
+  // --- tag groups ---
 
   /// Stalls until all commands of all tag groups in `mask` are complete; returns the completed groups & mask.
   uint32_t wait_all(uint32_t mask) { return tag_status(mask, TagUpdate::all); }
@@ -144,8 +141,7 @@ public:
   /// Resumes the stopped lists of one tag.
   void acknowledge_list_stall(uint32_t tag) { write<Channel::wr_list_stall_ack>(tag); }
 
-  // --- mailboxes
-  // -----------------------------------------------------------------------------------------------
+  // --- mailboxes ---
 
   /// The oldest word of the 4-entry inbound mailbox; stalls while it is empty.
   uint32_t read_in_mailbox() { return read<Channel::rd_in_mbox>(); }
@@ -158,8 +154,7 @@ public:
   void write_out_interrupt_mailbox(uint32_t value) { write<Channel::wr_out_intr_mbox>(value); }
   uint32_t out_interrupt_mailbox_count() { return count_of<Channel::wr_out_intr_mbox>(); }
 
-  // --- signal notification
-  // -------------------------------------------------------------------------------------
+  // --- signal notification ---
 
   /// Reads and clears the register; stalls while nothing was signalled.
   uint32_t read_signal_1() { return read<Channel::rd_sig_notify_1>(); }
@@ -167,8 +162,7 @@ public:
   uint32_t signal_1_count() { return count_of<Channel::rd_sig_notify_1>(); }
   uint32_t signal_2_count() { return count_of<Channel::rd_sig_notify_2>(); }
 
-  // --- to other SPEs
-  // -------------------------------------------------------------------------------------------
+  // --- to other SPEs ---
 
   /// Raises a signal of SPE `spe`. Returns when the word has been delivered.
   void send_signal(uint32_t spe, Signal which, uint32_t value) {
@@ -185,8 +179,7 @@ public:
     wait_all(1u << kRuntimeTag);
   }
 
-  // --- events
-  // --------------------------------------------------------------------------------------------------
+  // --- events ---
   // Pending bits accumulate whatever the mask. The count of the status becomes 1 when an enabled event
   // occurs, or when a write of the mask or an acknowledge leaves enabled events pending; only a read clears
   // it. A status of 0 (phantom event: masked or acknowledged after the count rose) is normal and must be
@@ -199,8 +192,7 @@ public:
   uint32_t event_count() { return count_of<Channel::rd_event_stat>(); }
   void acknowledge_events(uint32_t mask) { write<Channel::wr_event_ack>(mask); }
 
-  // --- decrementer
-  // ---------------------------------------------------------------------------------------------
+  // --- decrementer ---
 
   void write_decrementer(uint32_t value) { write<Channel::wr_dec>(value); }
   /// Counts down at the timebase (79.8 MHz on a PlayStation 3).
