@@ -58,6 +58,7 @@ struct RenderStatistics {
 
   std::uint64_t primary_rays = 0, shadow_rays = 0, reflection_rays = 0, refraction_rays = 0;
   std::uint64_t dropped_rays = 0; ///< cut off by the limits of the SPE program; 0 in any but extreme scenes
+  std::uint64_t spilled_packets = 0; ///< that the ray stacks put to main memory for want of local store
   std::uint64_t sphere_tests = 0, ellipsoid_tests = 0,
                 triangle_tests = 0; ///< packet of 16 rays against object
   std::uint64_t voxels_visited = 0;

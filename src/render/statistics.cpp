@@ -50,6 +50,7 @@ void collect(RenderStatistics& s, const Machine& machine, const FrameBlock& fram
     s.reflection_rays += r.reflection_rays;
     s.refraction_rays += r.refraction_rays;
     s.dropped_rays += r.dropped_rays;
+    s.spilled_packets += r.spilled_nodes;
     s.sphere_tests += r.sphere_tests;
     s.ellipsoid_tests += r.ellipsoid_tests;
     s.triangle_tests += r.triangle_tests;
@@ -94,7 +95,8 @@ std::string to_json(const RenderStatistics& s) {
         {"reflection", s.reflection_rays},
         {"refraction", s.refraction_rays},
         {"total", s.total_rays()},
-        {"dropped", s.dropped_rays}}},
+        {"dropped", s.dropped_rays},
+        {"spilled_packets", s.spilled_packets}}},
       {"packet_tests",
        {{"sphere", s.sphere_tests}, {"ellipsoid", s.ellipsoid_tests}, {"triangle", s.triangle_tests}}},
       {"grid",

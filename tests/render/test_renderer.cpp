@@ -147,11 +147,13 @@ TEST_CASE("The cache's shape changes the misses, not the picture") {
 TEST_CASE("Deep trees spill to main memory") {
   const Scene scene = scene_named("half mirrors");
   const RenderResult deep = render(scene, Backend{"cell_emu", "auto"}.options(kWidth, kHeight, 2));
+  CHECK(deep.statistics.spilled_packets > 0);
   CHECK(deep.statistics.dma_bytes_written > 250'000);
   CHECK(deep.statistics.dropped_rays == 0);
   RenderOptions options = Backend{"cell_emu", "auto"}.options(kWidth, kHeight, 2);
   options.max_trace_level = 3;
   const RenderResult shallow = render(scene, options);
+  CHECK(shallow.statistics.spilled_packets == 0);
   CHECK(shallow.statistics.dma_bytes_written < 50'000);
   CHECK(shallow.statistics.total_rays() < deep.statistics.total_rays());
 }
