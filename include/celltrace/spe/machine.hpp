@@ -2,6 +2,7 @@
 #pragma once
 
 #include "celltrace/error.hpp"
+#include "celltrace/spe/emulation.hpp"
 #include "celltrace/spe/program.hpp"
 #include "celltrace/spe/types.hpp"
 
@@ -19,7 +20,7 @@ namespace celltrace {
 struct MachineConfig {
   /// One of machine_backends().
   std::string backend = "native";
-  /// Number of SPEs, 1..256; 0: one per hardware thread on `native`, 8 on `cell_emu`.
+  /// Number of SPEs, 1..256; 0: one per hardware thread on `native`, `emulation.timing.spes` on `cell_emu`.
   unsigned spes = 0;
   /// SIMD of `native`: "auto" (the widest that CPU and program have), "sse2", "avx2", "avx512".
   std::string simd = "auto";
@@ -29,6 +30,19 @@ struct MachineConfig {
   /// The rest of the 256 KB is the kernel's arena.
   unsigned code_bytes = 104 * 1024;
   unsigned stack_bytes = 24 * 1024;
+  /// `cell_emu` only.
+  EmulationConfig emulation;
+};
+
+/// How an SPE's program stopped.
+struct SpeStop {
+  enum class Reason : unsigned char {
+    exit,            ///< it returned, or stopped with one of the codes 0x2000..0x20FF
+    stop_and_signal, ///< it waits for Machine::resume()
+  };
+  Reason reason = Reason::exit;
+  /// The low byte of the code for exit (0 if the kernel returned), all 14 bits for stop_and_signal.
+  std::uint32_t code = 0;
 };
 
 /// What one SPE did since the machine was made. Counts.
@@ -40,6 +54,7 @@ struct SpeStatistics {
   std::uint64_t signals_sent = 0;
   std::uint64_t mailbox_words_sent = 0; ///< to other SPEs and to the PPE
   std::uint64_t local_store_peak = 0;   ///< bytes of the arena in use at most
+  SpuCycles cycles;                     ///< virtual time; all 0 on `native`
 };
 
 /// A machine with n SPEs. Thread safety: one PPE thread at a time calls its members; interrupt() may be
@@ -62,9 +77,11 @@ public:
   /// SPE is running. `argument` is handed to the kernel: the ea of its control block, 16-byte aligned by
   /// convention.
   virtual void start(unsigned spe, const SpeProgram& program, ea_t argument) = 0;
-  /// Blocks until the kernel has returned. Throws SpeError with the SPE's error if it stopped for one. When
+  /// Blocks until the kernel has stopped. Throws SpeError with the SPE's error if it stopped for one. When
   /// one SPE stops with an error the others are interrupted, so that nobody waits for it for ever.
-  virtual void wait(unsigned spe) = 0;
+  virtual SpeStop wait(unsigned spe) = 0;
+  /// Lets a kernel that stopped with a signal go on behind its stop. Throws SpeError if it did not.
+  virtual void resume(unsigned spe) = 0;
   virtual bool running(unsigned spe) const = 0;
   /// Makes every kernel that stalls on a channel, now or later, stop; wait() then throws SpeError. For
   /// shutdown.
@@ -83,6 +100,21 @@ public:
   /// Sleeps until an SPE has a word in an outbound mailbox or has stopped since the last call, or until the
   /// timeout. False on timeout.
   virtual bool wait_for_mail(std::chrono::milliseconds timeout) = 0;
+
+  // Proxy commands: DMA between main storage and the local store of an SPE on behalf of the PPE. `op` is a
+  // get or put, with or without fence or barrier, but no list; `lsa` is the offset in local store, `tag`
+  // 0..15.
+
+  /// Queues the command (8 entries; blocks while they are taken).
+  virtual void proxy_command(unsigned spe, MfcOpcode op, std::uint32_t lsa, ea_t ea, std::uint32_t size,
+                             std::uint32_t tag) = 0;
+  /// Those of the tag groups in `mask` whose proxy commands are complete; blocks for `any` and `all` until
+  /// there are such.
+  virtual std::uint32_t proxy_tag_status(unsigned spe, std::uint32_t mask, TagUpdate request) = 0;
+
+  /// The rules that were broken since the machine was made, in the order of their discovery; at most some
+  /// thousand. Empty on `native`, which does not check.
+  virtual std::vector<Diagnostic> diagnostics() const { return {}; }
 
   /// Where an SPE's local store and registers are mapped.
   virtual SpeAddresses addresses(unsigned spe) const = 0;

@@ -3,6 +3,7 @@
 
 #include "celltrace/spe/types.hpp"
 
+#include <functional>
 #include <map>
 #include <string>
 #include <type_traits>
@@ -15,7 +16,7 @@ namespace celltrace {
 class SpeProgram {
 public:
   /// `spu` is the address of the backend's Spu object.
-  using Entry = void (*)(void* spu, ea_t argument);
+  using Entry = std::function<void(void* spu, ea_t argument)>;
 
   explicit SpeProgram(std::string name) : name_(std::move(name)) {}
 
@@ -32,7 +33,7 @@ public:
   }
 
   const std::string& name() const noexcept { return name_; }
-  /// The entry for an SPU type, or null if the program was not compiled for it.
+  /// The entry for an SPU type, or an empty one if the program was not compiled for it.
   Entry entry(const std::string& key) const noexcept {
     const auto found = entries_.find(key);
     return found == entries_.end() ? nullptr : found->second;

@@ -5,17 +5,22 @@
 // of the Cell's channels and MFC commands. A backend provides, besides the constructor that its machine
 // calls:
 //
-//   static constexpr bool direct_memory   an ea can be dereferenced: reads need no DMA (see cache.hpp,
-//   stream.hpp) using simd                            the SIMD facade (simd.hpp) uint32_t id() const, count()
-//   const    this SPE and the number of SPEs of the machine; ids are 0 .. count()-1 SpeAddresses
-//   addresses(spe) const     where another SPE's local store and registers are mapped template <Channel c>
-//   uint32_t read_channel()           stalls while the channel's count is 0, if it may stall template
-//   <Channel c> void     write_channel(uint32_t)  likewise template <Channel c> uint32_t channel_count()
-//   never stalls template <MfcOpcode op> void mfc_command(void* ls, ea_t ea, uint32_t size, uint32_t tag)
-//   template <MfcOpcode op> void mfc_list_command(void* ls, ea_t ea, const ListElement* list, uint32_t bytes,
-//   tag)
-//   [[noreturn]] void halt(HaltCode)      stops this SPE with an error that Machine::wait() reports
-//   ArenaState& arena()                   the part of local store that is free for the kernel
+// clang-format off
+//   static constexpr bool direct_memory      an ea can be dereferenced: reads need no DMA (see cache.hpp, stream.hpp)
+//   using simd                               the SIMD facade (simd.hpp)
+//   uint32_t id() const, count() const       this SPE and the number of SPEs of the machine; ids are 0 .. count()-1
+//   SpeAddresses addresses(spe) const        where another SPE's local store and registers are mapped
+//   template <Channel c> uint32_t read_channel()         stalls while the channel's count is 0, if it may stall
+//   template <Channel c> void write_channel(uint32_t)    likewise
+//   template <Channel c> uint32_t channel_count()        never stalls
+//   template <MfcOpcode op> void mfc_command(void* ls, ea_t ea, uint32_t size, uint32_t tag)
+//   template <MfcOpcode op> void mfc_list_command(void* ls, ea_t ea, const ListElement* list, uint32_t bytes, uint32_t tag)
+//   template <uint32_t code> void stop()     stop-and-signal
+//   [[noreturn]] void halt(HaltCode)         stops this SPE with an error that Machine::wait() reports
+//   ArenaState& arena()                      the part of local store that is free for the kernel
+//
+// A backend that measures or checks also hides the members of SpuBase that do nothing: compute(), note(), at().
+// clang-format on
 //
 // Threads: a Spu belongs to the thread that runs its kernel; no operation may be called from another one.
 // What other SPEs and the PPE may touch are the mapped registers and local stores, through DMA and through
@@ -29,6 +34,7 @@
 // returned. Kernel variables on the stack are not DMA targets.
 #pragma once
 
+#include "celltrace/spe/call_site.hpp"
 #include "celltrace/spe/types.hpp"
 
 #include <new>
@@ -40,6 +46,16 @@ struct ArenaState {
   uint8_t* begin;
   uint8_t* end;
   uint8_t* next;
+};
+
+/// Scalar work of a stretch of kernel, in instructions; for SpuBase::compute().
+struct ScalarWork {
+  uint32_t fixed = 0;    ///< integer and logical operations, compares, selects
+  uint32_t floating = 0; ///< single precision operations
+  uint32_t memory = 0;   ///< loads and stores of local store
+  uint32_t shuffle =
+      0; ///< of these, one comes with every scalar load or store that is not in the preferred slot
+  uint32_t branches = 0; ///< conditional branches
 };
 
 template <class Derived> class SpuBase {
@@ -72,111 +88,151 @@ public:
   // The call stalls while the queue of 16 is full; the data may move at any time until a wait has observed
   // the tag's completion. f: after all earlier commands of the tag; b: also before all later ones.
 
-  void get(void* ls, ea_t ea, uint32_t size, uint32_t tag) { command<MfcOpcode::get>(ls, ea, size, tag); }
-  void getf(void* ls, ea_t ea, uint32_t size, uint32_t tag) { command<MfcOpcode::getf>(ls, ea, size, tag); }
-  void getb(void* ls, ea_t ea, uint32_t size, uint32_t tag) { command<MfcOpcode::getb>(ls, ea, size, tag); }
-  void put(const void* ls, ea_t ea, uint32_t size, uint32_t tag) {
-    command<MfcOpcode::put>(ls, ea, size, tag);
+  void get(void* ls, ea_t ea, uint32_t size, uint32_t tag, CallSite site = CallSite::here()) {
+    command<MfcOpcode::get>(ls, ea, size, tag, site);
   }
-  void putf(const void* ls, ea_t ea, uint32_t size, uint32_t tag) {
-    command<MfcOpcode::putf>(ls, ea, size, tag);
+  void getf(void* ls, ea_t ea, uint32_t size, uint32_t tag, CallSite site = CallSite::here()) {
+    command<MfcOpcode::getf>(ls, ea, size, tag, site);
   }
-  void putb(const void* ls, ea_t ea, uint32_t size, uint32_t tag) {
-    command<MfcOpcode::putb>(ls, ea, size, tag);
+  void getb(void* ls, ea_t ea, uint32_t size, uint32_t tag, CallSite site = CallSite::here()) {
+    command<MfcOpcode::getb>(ls, ea, size, tag, site);
+  }
+  void put(const void* ls, ea_t ea, uint32_t size, uint32_t tag, CallSite site = CallSite::here()) {
+    command<MfcOpcode::put>(ls, ea, size, tag, site);
+  }
+  void putf(const void* ls, ea_t ea, uint32_t size, uint32_t tag, CallSite site = CallSite::here()) {
+    command<MfcOpcode::putf>(ls, ea, size, tag, site);
+  }
+  void putb(const void* ls, ea_t ea, uint32_t size, uint32_t tag, CallSite site = CallSite::here()) {
+    command<MfcOpcode::putb>(ls, ea, size, tag, site);
   }
 
   // Lists: `list` are `elements` (at most 2048) ListElements in local store, 8-byte aligned; `ls` is where
   // the data lies (each element starts at the next 16-byte boundary); `ea` supplies the high half of all
   // addresses. The list itself must stay untouched until the tag is complete.
 
-  void getl(void* ls, ea_t ea, const ListElement* list, uint32_t elements, uint32_t tag) {
-    list_command<MfcOpcode::getl>(ls, ea, list, elements, tag);
+  void getl(void* ls, ea_t ea, const ListElement* list, uint32_t elements, uint32_t tag,
+            CallSite site = CallSite::here()) {
+    list_command<MfcOpcode::getl>(ls, ea, list, elements, tag, site);
   }
-  void getlf(void* ls, ea_t ea, const ListElement* list, uint32_t elements, uint32_t tag) {
-    list_command<MfcOpcode::getlf>(ls, ea, list, elements, tag);
+  void getlf(void* ls, ea_t ea, const ListElement* list, uint32_t elements, uint32_t tag,
+             CallSite site = CallSite::here()) {
+    list_command<MfcOpcode::getlf>(ls, ea, list, elements, tag, site);
   }
-  void getlb(void* ls, ea_t ea, const ListElement* list, uint32_t elements, uint32_t tag) {
-    list_command<MfcOpcode::getlb>(ls, ea, list, elements, tag);
+  void getlb(void* ls, ea_t ea, const ListElement* list, uint32_t elements, uint32_t tag,
+             CallSite site = CallSite::here()) {
+    list_command<MfcOpcode::getlb>(ls, ea, list, elements, tag, site);
   }
-  void putl(const void* ls, ea_t ea, const ListElement* list, uint32_t elements, uint32_t tag) {
-    list_command<MfcOpcode::putl>(ls, ea, list, elements, tag);
+  void putl(const void* ls, ea_t ea, const ListElement* list, uint32_t elements, uint32_t tag,
+            CallSite site = CallSite::here()) {
+    list_command<MfcOpcode::putl>(ls, ea, list, elements, tag, site);
   }
-  void putlf(const void* ls, ea_t ea, const ListElement* list, uint32_t elements, uint32_t tag) {
-    list_command<MfcOpcode::putlf>(ls, ea, list, elements, tag);
+  void putlf(const void* ls, ea_t ea, const ListElement* list, uint32_t elements, uint32_t tag,
+             CallSite site = CallSite::here()) {
+    list_command<MfcOpcode::putlf>(ls, ea, list, elements, tag, site);
   }
-  void putlb(const void* ls, ea_t ea, const ListElement* list, uint32_t elements, uint32_t tag) {
-    list_command<MfcOpcode::putlb>(ls, ea, list, elements, tag);
+  void putlb(const void* ls, ea_t ea, const ListElement* list, uint32_t elements, uint32_t tag,
+             CallSite site = CallSite::here()) {
+    list_command<MfcOpcode::putlb>(ls, ea, list, elements, tag, site);
   }
 
   /// Orders all earlier commands of the queue, whatever their tag, before all later ones.
-  void mfc_barrier(uint32_t tag) { command<MfcOpcode::barrier>(nullptr, 0, 0, tag); }
+  void mfc_barrier(uint32_t tag, CallSite site = CallSite::here()) {
+    command<MfcOpcode::barrier>(nullptr, 0, 0, tag, site);
+  }
 
   // Lock-line commands: one 128-byte line, both addresses 128-byte aligned; not tagged, except putqlluc.
 
   /// Reads the line and reserves it. Returns the atomic status.
-  uint32_t getllar(void* ls, ea_t ea) { return atomic_command<MfcOpcode::getllar>(ls, ea); }
+  uint32_t getllar(void* ls, ea_t ea, CallSite site = CallSite::here()) {
+    return atomic_command<MfcOpcode::getllar>(ls, ea, site);
+  }
   /// Writes the line if the reservation still holds; true if it did.
-  bool putllc(const void* ls, ea_t ea) {
-    return (atomic_command<MfcOpcode::putllc>(ls, ea) & atomic_status::putllc_failed) == 0;
+  bool putllc(const void* ls, ea_t ea, CallSite site = CallSite::here()) {
+    return (atomic_command<MfcOpcode::putllc>(ls, ea, site) & atomic_status::putllc_failed) == 0;
   }
   /// Writes the line unconditionally.
-  uint32_t putlluc(const void* ls, ea_t ea) { return atomic_command<MfcOpcode::putlluc>(ls, ea); }
+  uint32_t putlluc(const void* ls, ea_t ea, CallSite site = CallSite::here()) {
+    return atomic_command<MfcOpcode::putlluc>(ls, ea, site);
+  }
   /// As putlluc, queued under a tag.
-  void putqlluc(const void* ls, ea_t ea, uint32_t tag) {
-    command<MfcOpcode::putqlluc>(ls, ea, kLineBytes, tag);
+  void putqlluc(const void* ls, ea_t ea, uint32_t tag, CallSite site = CallSite::here()) {
+    command<MfcOpcode::putqlluc>(ls, ea, kLineBytes, tag, site);
   }
 
   // --- tag groups ---
 
   /// Stalls until all commands of all tag groups in `mask` are complete; returns the completed groups & mask.
-  uint32_t wait_all(uint32_t mask) { return tag_status(mask, TagUpdate::all); }
+  uint32_t wait_all(uint32_t mask, CallSite site = CallSite::here()) {
+    return tag_status(mask, TagUpdate::all, site);
+  }
   /// Stalls until one tag group in `mask` is complete (for ever if mask is 0); returns the completed groups &
   /// mask.
-  uint32_t wait_any(uint32_t mask) { return tag_status(mask, TagUpdate::any); }
+  uint32_t wait_any(uint32_t mask, CallSite site = CallSite::here()) {
+    return tag_status(mask, TagUpdate::any, site);
+  }
   /// The completed tag groups & mask, without stalling.
-  uint32_t completed(uint32_t mask) { return tag_status(mask, TagUpdate::immediate); }
+  uint32_t completed(uint32_t mask, CallSite site = CallSite::here()) {
+    return tag_status(mask, TagUpdate::immediate, site);
+  }
 
   /// Tag groups whose lists stopped at a notify element; stalls until there is one.
-  uint32_t read_list_stall_status() { return read<Channel::rd_list_stall_stat>(); }
+  uint32_t read_list_stall_status(CallSite site = CallSite::here()) {
+    return read<Channel::rd_list_stall_stat>(site);
+  }
   /// Resumes the stopped lists of one tag.
-  void acknowledge_list_stall(uint32_t tag) { write<Channel::wr_list_stall_ack>(tag); }
+  void acknowledge_list_stall(uint32_t tag, CallSite site = CallSite::here()) {
+    write<Channel::wr_list_stall_ack>(tag, site);
+  }
 
   // --- mailboxes ---
 
   /// The oldest word of the 4-entry inbound mailbox; stalls while it is empty.
-  uint32_t read_in_mailbox() { return read<Channel::rd_in_mbox>(); }
-  uint32_t in_mailbox_count() { return count_of<Channel::rd_in_mbox>(); }
+  uint32_t read_in_mailbox(CallSite site = CallSite::here()) { return read<Channel::rd_in_mbox>(site); }
+  uint32_t in_mailbox_count(CallSite site = CallSite::here()) { return count_of<Channel::rd_in_mbox>(site); }
   /// To the PPE; stalls while the previous word is unread.
-  void write_out_mailbox(uint32_t value) { write<Channel::wr_out_mbox>(value); }
+  void write_out_mailbox(uint32_t value, CallSite site = CallSite::here()) {
+    write<Channel::wr_out_mbox>(value, site);
+  }
   /// Free entries of the outbound mailbox: 1 or 0.
-  uint32_t out_mailbox_count() { return count_of<Channel::wr_out_mbox>(); }
+  uint32_t out_mailbox_count(CallSite site = CallSite::here()) {
+    return count_of<Channel::wr_out_mbox>(site);
+  }
   /// As the outbound mailbox, and interrupts the PPE.
-  void write_out_interrupt_mailbox(uint32_t value) { write<Channel::wr_out_intr_mbox>(value); }
-  uint32_t out_interrupt_mailbox_count() { return count_of<Channel::wr_out_intr_mbox>(); }
+  void write_out_interrupt_mailbox(uint32_t value, CallSite site = CallSite::here()) {
+    write<Channel::wr_out_intr_mbox>(value, site);
+  }
+  uint32_t out_interrupt_mailbox_count(CallSite site = CallSite::here()) {
+    return count_of<Channel::wr_out_intr_mbox>(site);
+  }
 
   // --- signal notification ---
 
   /// Reads and clears the register; stalls while nothing was signalled.
-  uint32_t read_signal_1() { return read<Channel::rd_sig_notify_1>(); }
-  uint32_t read_signal_2() { return read<Channel::rd_sig_notify_2>(); }
-  uint32_t signal_1_count() { return count_of<Channel::rd_sig_notify_1>(); }
-  uint32_t signal_2_count() { return count_of<Channel::rd_sig_notify_2>(); }
+  uint32_t read_signal_1(CallSite site = CallSite::here()) { return read<Channel::rd_sig_notify_1>(site); }
+  uint32_t read_signal_2(CallSite site = CallSite::here()) { return read<Channel::rd_sig_notify_2>(site); }
+  uint32_t signal_1_count(CallSite site = CallSite::here()) {
+    return count_of<Channel::rd_sig_notify_1>(site);
+  }
+  uint32_t signal_2_count(CallSite site = CallSite::here()) {
+    return count_of<Channel::rd_sig_notify_2>(site);
+  }
 
   // --- to other SPEs ---
 
   /// Raises a signal of SPE `spe`. Returns when the word has been delivered.
-  void send_signal(uint32_t spe, Signal which, uint32_t value) {
+  void send_signal(uint32_t spe, Signal which, uint32_t value, CallSite site = CallSite::here()) {
     const SpeAddresses to = self().addresses(spe);
     uint32_t* word = outgoing_word(value);
-    command<MfcOpcode::sndsig>(word, which == Signal::one ? to.signal_1 : to.signal_2, 4, kRuntimeTag);
-    wait_all(1u << kRuntimeTag);
+    command<MfcOpcode::sndsig>(word, which == Signal::one ? to.signal_1 : to.signal_2, 4, kRuntimeTag, site);
+    wait_all(1u << kRuntimeTag, site);
   }
   /// Writes a word to the inbound mailbox of SPE `spe`. A full mailbox loses its newest word: the protocol
   /// between the SPEs has to bound what is under way. Returns when the word has been delivered.
-  void send_mailbox(uint32_t spe, uint32_t value) {
+  void send_mailbox(uint32_t spe, uint32_t value, CallSite site = CallSite::here()) {
     uint32_t* word = outgoing_word(value);
-    command<MfcOpcode::put>(word, self().addresses(spe).in_mailbox, 4, kRuntimeTag);
-    wait_all(1u << kRuntimeTag);
+    command<MfcOpcode::put>(word, self().addresses(spe).in_mailbox, 4, kRuntimeTag, site);
+    wait_all(1u << kRuntimeTag, site);
   }
 
   // --- events ---
@@ -185,18 +241,43 @@ public:
   // it. A status of 0 (phantom event: masked or acknowledged after the count rose) is normal and must be
   // tolerated.
 
-  void write_event_mask(uint32_t mask) { write<Channel::wr_event_mask>(mask); }
-  uint32_t read_event_mask() { return read<Channel::rd_event_mask>(); }
+  void write_event_mask(uint32_t mask, CallSite site = CallSite::here()) {
+    write<Channel::wr_event_mask>(mask, site);
+  }
+  uint32_t read_event_mask(CallSite site = CallSite::here()) { return read<Channel::rd_event_mask>(site); }
   /// Pending & mask; stalls until the count is 1. Clears no pending bit.
-  uint32_t read_event_status() { return read<Channel::rd_event_stat>(); }
-  uint32_t event_count() { return count_of<Channel::rd_event_stat>(); }
-  void acknowledge_events(uint32_t mask) { write<Channel::wr_event_ack>(mask); }
+  uint32_t read_event_status(CallSite site = CallSite::here()) { return read<Channel::rd_event_stat>(site); }
+  uint32_t event_count(CallSite site = CallSite::here()) { return count_of<Channel::rd_event_stat>(site); }
+  void acknowledge_events(uint32_t mask, CallSite site = CallSite::here()) {
+    write<Channel::wr_event_ack>(mask, site);
+  }
 
   // --- decrementer ---
 
-  void write_decrementer(uint32_t value) { write<Channel::wr_dec>(value); }
+  void write_decrementer(uint32_t value, CallSite site = CallSite::here()) {
+    write<Channel::wr_dec>(value, site);
+  }
   /// Counts down at the timebase (79.8 MHz on a PlayStation 3).
-  uint32_t read_decrementer() { return read<Channel::rd_dec>(); }
+  uint32_t read_decrementer(CallSite site = CallSite::here()) { return read<Channel::rd_dec>(site); }
+
+  // --- run control ---
+
+  /// Stops with a 14-bit code. 0x2000..0x20FF end the program as if it returned; with any other the SPE waits
+  /// for Machine::resume(). The real SPU takes the code as part of the instruction.
+  template <uint32_t code> void stop_and_signal(CallSite site = CallSite::here()) {
+    static_assert(code < 0x4000, "a stop code has 14 bits");
+    self().at(site);
+    self().template stop<code>();
+  }
+
+  // --- for a machine that measures: nothing happens elsewhere ---
+
+  /// Declares scalar work that the SIMD facade does not see.
+  void compute(const ScalarWork&) {}
+  /// Marks a moment in the trace. `what` is a string literal.
+  void note(const char*, uint32_t) {}
+  /// Where in the kernel the operation that follows stands.
+  void at(CallSite) {}
 
   /// The tag of send_signal() and send_mailbox().
   static constexpr uint32_t kRuntimeTag = 31;
@@ -209,26 +290,38 @@ protected:
 private:
   Derived& self() { return static_cast<Derived&>(*this); }
 
-  template <Channel c> uint32_t read() { return self().template read_channel<c>(); }
-  template <Channel c> void write(uint32_t value) { self().template write_channel<c>(value); }
-  template <Channel c> uint32_t count_of() { return self().template channel_count<c>(); }
-  template <MfcOpcode op> void command(const void* ls, ea_t ea, uint32_t size, uint32_t tag) {
+  template <Channel c> uint32_t read(CallSite site) {
+    self().at(site);
+    return self().template read_channel<c>();
+  }
+  template <Channel c> void write(uint32_t value, CallSite site) {
+    self().at(site);
+    self().template write_channel<c>(value);
+  }
+  template <Channel c> uint32_t count_of(CallSite site) {
+    self().at(site);
+    return self().template channel_count<c>();
+  }
+  template <MfcOpcode op> void command(const void* ls, ea_t ea, uint32_t size, uint32_t tag, CallSite site) {
+    self().at(site);
     self().template mfc_command<op>(const_cast<void*>(ls), ea, size, tag);
   }
   /// A list command carries its list's local-store address in the low half of the effective address.
   template <MfcOpcode op>
-  void list_command(const void* ls, ea_t ea, const ListElement* list, uint32_t elements, uint32_t tag) {
+  void list_command(const void* ls, ea_t ea, const ListElement* list, uint32_t elements, uint32_t tag,
+                    CallSite site) {
+    self().at(site);
     self().template mfc_list_command<op>(const_cast<void*>(ls), ea, list,
                                          elements * static_cast<uint32_t>(sizeof(ListElement)), tag);
   }
-  template <MfcOpcode op> uint32_t atomic_command(const void* ls, ea_t ea) {
-    command<op>(ls, ea, kLineBytes, 0);
-    return read<Channel::rd_atomic_stat>();
+  template <MfcOpcode op> uint32_t atomic_command(const void* ls, ea_t ea, CallSite site) {
+    command<op>(ls, ea, kLineBytes, 0, site);
+    return read<Channel::rd_atomic_stat>(site);
   }
-  uint32_t tag_status(uint32_t mask, TagUpdate request) {
-    write<Channel::wr_tag_mask>(mask);
-    write<Channel::wr_tag_update>(static_cast<uint32_t>(request));
-    return read<Channel::rd_tag_stat>();
+  uint32_t tag_status(uint32_t mask, TagUpdate request, CallSite site) {
+    write<Channel::wr_tag_mask>(mask, site);
+    write<Channel::wr_tag_update>(static_cast<uint32_t>(request), site);
+    return read<Channel::rd_tag_stat>(site);
   }
   /// The registers of other SPEs lie at 0xC of a quadword, so the word to send lies in word 3 of one.
   uint32_t* outgoing_word(uint32_t value) {

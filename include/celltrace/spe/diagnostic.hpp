@@ -1,0 +1,124 @@
+// What an emulated machine has to say about a program: which rule was broken, by whom and where.
+#pragma once
+
+#include "celltrace/spe/call_site.hpp"
+#include "celltrace/spe/types.hpp"
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace celltrace {
+
+/// The rules that `cell_emu` checks. text_of() says what each demands.
+enum class Rule : unsigned char {
+  none, ///< nothing is broken
+
+  // an MFC command, when it is issued or its list is walked
+  known_command,
+  tag_range,
+  transfer_size,
+  zero_size,
+  in_local_store,
+  local_store_end,
+  same_low_bits,
+  natural_alignment,
+  quadword_alignment,
+  mapped_address,
+  register_exists,
+  register_size,
+  register_word,
+  register_readable,
+  signal_size,
+  signal_target,
+  line_alignment,
+  line_in_memory,
+  list_in_local_store,
+  list_alignment,
+  list_length,
+  list_end,
+  element_region,
+  parameters_kept,
+  proxy_command,
+  proxy_tag_range,
+  proxy_queue_full,
+
+  // commands in flight: from their issue until the SPU has observed their completion
+  local_store_race,
+  main_storage_race,
+  get_target_touched,
+  put_source_changed,
+  list_changed,
+  in_flight_at_exit,
+
+  // tag groups and statuses
+  tag_reused,
+  wait_without_command,
+  tag_update_request,
+  tag_status_unread,
+  atomic_status_unread,
+  list_stall_tag,
+
+  // reservations
+  reservation_lost_to_own_put,
+  conditional_without_reservation,
+
+  // mailboxes and signals
+  mailbox_overwritten,
+  mailbox_unread,
+  signal_overwritten,
+  signal_unread,
+
+  // local store
+  local_store_exhausted,
+  program_overwritten,
+
+  // run control
+  invalid_channel,
+  stalls_for_ever,
+  phantom_event,
+  deadlock,
+  halted,
+  kernel_exception,
+};
+constexpr unsigned kRules = static_cast<unsigned>(Rule::kernel_exception) + 1;
+
+/// "transfer-size".
+std::string_view name_of(Rule rule);
+/// What must hold: "size must be 1, 2, 4, 8 or a multiple of 16 up to 16384".
+std::string_view text_of(Rule rule);
+
+/// What happens when a rule is broken: nothing, a diagnostic, or a diagnostic and the end of the SPE's
+/// program.
+enum class Action : unsigned char { ignore, warn, stop };
+/// What happens if the machine's configuration says nothing else.
+Action default_action(Rule rule);
+
+/// One broken rule. The address fields are those of the command, where there is one.
+struct Diagnostic {
+  static constexpr unsigned kPpe = 0xFFFFFFFFu;
+
+  Rule rule = Rule::none;
+  Action action = Action::stop;
+  unsigned spe = 0; ///< whose program broke it; kPpe: the PPE
+  /// The SPE's MFC commands are numbered from 1 in the order of issue; 0: no command is involved.
+  std::uint64_t command = 0;
+  std::uint32_t opcode = 0; ///< see MfcOpcode
+  std::uint32_t tag = 0;
+  std::uint32_t lsa = 0;
+  std::uint32_t size = 0; ///< bytes
+  ea_t ea = 0;
+  CallSite site; ///< of the operation; line 0: unknown
+  // The other side of a race.
+  unsigned other_spe = 0;
+  std::uint64_t other_command = 0; ///< 0: none
+  CallSite other_site;
+  std::uint64_t cycle = 0; ///< the SPE's virtual time
+  /// One line that says all this: "SPE 0: get 20 bytes, LS 0x18080 <- EA 0x..., tag 5: size must be ...
+  /// [transfer-size, command 1, at kernel.hpp:12]".
+  std::string text;
+};
+
+} // namespace celltrace
