@@ -58,7 +58,7 @@ void Channels::put_in_mailbox(std::uint32_t value) {
 bool Channels::write_in_mailbox(std::uint32_t value) {
   Lock lock(mutex_);
   const auto has_space = [&] { return in_mailbox_count() < kInboundMailboxEntries; };
-  space_made_.wait(lock, [&] { return has_space() || !runs_ || interrupted_; });
+  space_made_.wait(lock, [&] { return has_space() || !running() || interrupted_; });
   if (!has_space()) return false;
   push_in(value);
   return true;
@@ -169,31 +169,68 @@ void Channels::write_decrementer(std::uint32_t value) {
   decrementer_.write(value);
 }
 
-// --- life of a kernel ---
+// --- run control ---
 
 void Channels::begin() {
   const Lock lock(mutex_);
-  runs_ = true;
+  state_.store(State::running, std::memory_order_release);
+  stop_ = {};
   mask_ = 0;
   pending_.store(pending_.load(std::memory_order_relaxed) & ~kOwnEvents, std::memory_order_relaxed);
   event_count_.store(0, std::memory_order_relaxed);
   decrementer_ = Decrementer{};
 }
 
-void Channels::end() {
-  const Lock lock(mutex_);
-  runs_ = false;
+void Channels::end(std::uint32_t exit_code) {
+  {
+    const Lock lock(mutex_);
+    leave_running(State::idle, {SpeStop::Reason::exit, exit_code});
+  }
+  ppe_.ring_for_stop();
+}
+
+void Channels::stop_and_signal(std::uint32_t code) {
+  Lock lock(mutex_);
+  if (interrupted_) throw Interrupted{};
+  leave_running(State::stopped, {SpeStop::Reason::stop_and_signal, code});
+  lock.unlock();
+  ppe_.ring_for_stop();
+  lock.lock();
+  spu_wakes_.wait(lock, [&] { return running(); });
+  if (interrupted_) throw Interrupted{};
+}
+
+void Channels::leave_running(State state, SpeStop stop) {
+  state_.store(state, std::memory_order_release);
+  stop_ = stop;
+  state_changed_.notify_all();
   space_made_.notify_all();
+}
+
+SpeStop Channels::wait_while_running() {
+  Lock lock(mutex_);
+  state_changed_.wait(lock, [&] { return !running(); });
+  return stop_;
+}
+
+bool Channels::resume() {
+  const Lock lock(mutex_);
+  if (!stopped_with_signal()) return false;
+  state_.store(State::running, std::memory_order_release);
+  spu_wakes_.notify_one();
+  return true;
 }
 
 void Channels::interrupt() noexcept {
   const Lock lock(mutex_);
   interrupted_ = true;
+  // The PPE is to find the kernel's end, not the stop before it.
+  if (stopped_with_signal()) state_.store(State::running, std::memory_order_release);
   spu_wakes_.notify_all();
   space_made_.notify_all();
 }
 
-void Channels::resume() {
+void Channels::withdraw_interrupt() {
   const Lock lock(mutex_);
   interrupted_ = false;
 }

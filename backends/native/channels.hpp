@@ -1,9 +1,10 @@
-// Mailboxes, signal notification, events and decrementer of one SPE: everything that other processors can
-// touch.
+// Mailboxes, signal notification, events, decrementer and run control of one SPE: everything that other
+// processors can touch.
 #pragma once
 
 #include "backends/native/decrementer.hpp"
 #include "backends/native/doorbell.hpp"
+#include "celltrace/spe/machine.hpp"
 #include "celltrace/spe/types.hpp"
 
 #include <array>
@@ -65,12 +66,14 @@ public:
 
   /// For a channel that nothing can fill any more: sleeps until interrupted.
   [[noreturn]] void stall_for_ever();
+  /// Sleeps, stopped with a signal, until the PPE calls resume().
+  void stop_and_signal(std::uint32_t code);
 
   // --- any thread ---
 
   /// Register write without flow control: a full mailbox loses its newest word.
   void put_in_mailbox(std::uint32_t value);
-  /// Waits for space first; false if the mailbox is full and nobody runs who would empty it.
+  /// Waits for space first; false if the mailbox is full and no kernel runs that would empty it.
   bool write_in_mailbox(std::uint32_t value);
   void write_signal(Signal which, std::uint32_t value);
   bool has_mail(OutMailbox which) const noexcept {
@@ -83,12 +86,23 @@ public:
   /// them.
   void begin();
   /// A kernel has ended.
-  void end();
-  /// Makes what stalls now or later throw Interrupted, until resume().
+  void end(std::uint32_t exit_code = 0);
+  bool running() const noexcept { return state_.load(std::memory_order_acquire) == State::running; }
+  bool stopped_with_signal() const noexcept {
+    return state_.load(std::memory_order_acquire) == State::stopped;
+  }
+  /// How the last kernel ended, or where the present one has stopped. {exit, 0} if there was none.
+  SpeStop wait_while_running();
+  /// Lets a kernel that stopped with a signal go on; false if it did not.
+  bool resume();
+  /// Makes what stalls now or later throw Interrupted, until withdraw_interrupt(). A stop with a signal
+  /// counts as a stall, and is over at once.
   void interrupt() noexcept;
-  void resume();
+  void withdraw_interrupt();
 
 private:
+  enum class State : std::uint8_t { idle, running, stopped };
+
   struct SignalRegister {
     SignalMode mode = SignalMode::overwrite;
     std::uint32_t value = 0;
@@ -104,15 +118,18 @@ private:
 
   template <class Ready> void stall_until(std::unique_lock<std::mutex>& lock, Ready ready);
   void push_in(std::uint32_t value);
+  void leave_running(State state, SpeStop stop);
   void raise_locked(std::uint32_t events);
   void recount();
   void collect_expiry();
 
   Doorbell& ppe_;
   std::mutex mutex_;
-  std::condition_variable spu_wakes_;  ///< the SPE's thread sleeps here
-  std::condition_variable space_made_; ///< the PPE sleeps here for space in the inbound mailbox
-  bool runs_ = false;
+  std::condition_variable spu_wakes_;     ///< the SPE's thread sleeps here
+  std::condition_variable space_made_;    ///< the PPE sleeps here for space in the inbound mailbox
+  std::condition_variable state_changed_; ///< and here until the kernel stops
+  std::atomic<State> state_{State::idle}; ///< written under the mutex
+  SpeStop stop_;
   bool interrupted_ = false;
 
   std::array<std::uint32_t, kInboundMailboxEntries> in_words_{}; ///< oldest first

@@ -1,6 +1,7 @@
 // What the PPE sleeps on while its SPEs work.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
@@ -18,6 +19,13 @@ public:
     { const std::lock_guard lock(mutex_); }
     changed_.notify_all();
   }
+  /// Rings because an SPE has stopped.
+  void ring_for_stop() noexcept {
+    stopped_.store(true, std::memory_order_release);
+    ring();
+  }
+  /// Whether an SPE has stopped since the last call.
+  bool take_stop() noexcept { return stopped_.exchange(false); }
   /// Sleeps until `ready()` or the timeout; the last value of ready().
   template <class Ready> bool wait(std::chrono::milliseconds timeout, Ready ready) {
     std::unique_lock lock(mutex_);
@@ -27,6 +35,7 @@ public:
 private:
   std::mutex mutex_;
   std::condition_variable changed_;
+  std::atomic<bool> stopped_{false};
 };
 
 } // namespace celltrace::native

@@ -1,12 +1,12 @@
 #include "backends/native/machine.hpp"
 
+#include "backends/native/proxy.hpp"
 #include "backends/native/registers.hpp"
 #include "backends/native/reservations.hpp"
 #include "backends/native/spe.hpp"
 #include "backends/native/spu_types.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <exception>
 #include <mutex>
 #include <stdexcept>
@@ -35,9 +35,8 @@ struct Worker {
   Worker(unsigned id, const MachineConfig& config, Doorbell& ppe) : spe(id, config.signal_mode, ppe) {}
 
   Spe spe;
-  std::thread thread; ///< joinable from start() until the kernel was waited for
-  std::atomic<bool> running{false};
-  std::string error; ///< written by the thread, read after it was joined; empty: none
+  std::thread thread; ///< joinable from start() until the kernel's end was waited for
+  std::string error;  ///< written by the thread, read after it was joined; empty: none
 };
 
 class NativeMachine final : public Machine {
@@ -50,8 +49,9 @@ public:
   std::string_view spu_key() const noexcept override { return current_type_->key; }
 
   void start(unsigned spe, const SpeProgram& program, ea_t argument) override;
-  void wait(unsigned spe) override;
-  bool running(unsigned spe) const override { return worker(spe).running.load(std::memory_order_acquire); }
+  SpeStop wait(unsigned spe) override;
+  void resume(unsigned spe) override;
+  bool running(unsigned spe) const override { return worker(spe).spe.channels.running(); }
   void interrupt() noexcept override;
 
   void write_in_mailbox(unsigned spe, std::uint32_t value) override;
@@ -60,6 +60,10 @@ public:
   std::optional<std::uint32_t> read_out_interrupt_mailbox(unsigned spe) override;
   void write_signal(unsigned spe, Signal which, std::uint32_t value) override;
   bool wait_for_mail(std::chrono::milliseconds timeout) override;
+
+  void proxy_command(unsigned spe, MfcOpcode op, std::uint32_t lsa, ea_t ea, std::uint32_t size,
+                     std::uint32_t tag) override;
+  std::uint32_t proxy_tag_status(unsigned spe, std::uint32_t mask, TagUpdate request) override;
 
   SpeAddresses addresses(unsigned spe) const override { return addresses_.at(spe); }
   SpeStatistics statistics(unsigned spe) const override { return worker(spe).spe.counters.snapshot(); }
@@ -78,7 +82,6 @@ private:
   const std::vector<const SpuType*> types_; ///< the widest first; not empty
   const SpuType* current_type_;
   Doorbell doorbell_;
-  std::atomic<bool> stopped_{false}; ///< an SPE has stopped since wait_for_mail() last returned
   std::vector<std::unique_ptr<Worker>> workers_;
   std::unique_ptr<RegisterMap> registers_;
   std::unique_ptr<Reservations> reservations_;
@@ -139,21 +142,26 @@ const SpuType& NativeMachine::type_for(const SpeProgram& program) const {
 
 void NativeMachine::start(unsigned spe, const SpeProgram& program, ea_t argument) {
   Worker& to_start = worker(spe);
-  if (running(spe)) throw SpeError(name_of(spe) + " is running");
+  const Channels& channels = to_start.spe.channels;
+  if (channels.running()) throw SpeError(name_of(spe) + " is running");
+  if (channels.stopped_with_signal())
+    throw SpeError(name_of(spe) + " has stopped with a signal and waits to be resumed");
   const SpuType& type = type_for(program);
   join(to_start);
   current_type_ = &type;
   to_start.error.clear();
   to_start.spe.begin();
-  to_start.running.store(true, std::memory_order_release);
   const SpeProgram::Entry entry = program.entry(type.key);
   to_start.thread =
       std::thread([this, &to_start, &type, entry, argument] { run(to_start, type, entry, argument); });
 }
 
 void NativeMachine::run(Worker& worker, const SpuType& type, SpeProgram::Entry entry, ea_t argument) {
+  std::uint32_t exit_code = 0;
   try {
     type.run(worker.spe, entry, argument);
+  } catch (const Exited& exit) {
+    exit_code = exit.code;
   } catch (const Interrupted&) {
     worker.error = name_of(worker.spe.id) + ": interrupted" + interruption();
   } catch (const std::exception& error) {
@@ -161,10 +169,7 @@ void NativeMachine::run(Worker& worker, const SpuType& type, SpeProgram::Entry e
   } catch (...) {
     fail(worker, "stopped by an unknown exception");
   }
-  worker.spe.end();
-  worker.running.store(false, std::memory_order_release);
-  stopped_.store(true, std::memory_order_release);
-  doorbell_.ring();
+  worker.spe.end(exit_code);
 }
 
 void NativeMachine::fail(Worker& worker, const std::string& what) {
@@ -181,13 +186,19 @@ std::string NativeMachine::interruption() const {
   return failure_.empty() ? "" : " (" + failure_ + ")";
 }
 
-void NativeMachine::wait(unsigned spe) {
+SpeStop NativeMachine::wait(unsigned spe) {
   Worker& stopped = worker(spe);
+  const SpeStop stop = stopped.spe.channels.wait_while_running();
+  if (stop.reason == SpeStop::Reason::stop_and_signal) return stop;
   join(stopped);
-  if (stopped.error.empty()) return;
+  if (stopped.error.empty()) return stop;
   const std::string error = std::move(stopped.error);
   stopped.error.clear();
   throw SpeError(error);
+}
+
+void NativeMachine::resume(unsigned spe) {
+  if (!worker(spe).spe.channels.resume()) throw SpeError(name_of(spe) + " has not stopped with a signal");
 }
 
 /// Once nobody is left whom a failure could leave waiting, kernels may stall again.
@@ -200,7 +211,7 @@ void NativeMachine::join(Worker& worker) {
   if (busy || shut_down_ || failure_.empty()) return;
   failure_.clear();
   for (const auto& idle : workers_)
-    idle->spe.channels.resume();
+    idle->spe.channels.withdraw_interrupt();
 }
 
 void NativeMachine::interrupt() noexcept {
@@ -241,12 +252,24 @@ void NativeMachine::write_signal(unsigned spe, Signal which, std::uint32_t value
 
 bool NativeMachine::wait_for_mail(std::chrono::milliseconds timeout) {
   return doorbell_.wait(timeout, [&] {
-    if (stopped_.exchange(false)) return true;
+    if (doorbell_.take_stop()) return true;
     return std::any_of(workers_.begin(), workers_.end(), [](const auto& worker) {
       const Channels& channels = worker->spe.channels;
       return channels.has_mail(OutMailbox::plain) || channels.has_mail(OutMailbox::interrupting);
     });
   });
+}
+
+// --- proxy commands ---
+
+void NativeMachine::proxy_command(unsigned spe, MfcOpcode op, std::uint32_t lsa, ea_t ea, std::uint32_t size,
+                                  std::uint32_t tag) {
+  run_proxy_command(worker(spe).spe, *registers_, *reservations_, op, lsa, ea, size, tag);
+}
+
+std::uint32_t NativeMachine::proxy_tag_status(unsigned spe, std::uint32_t mask, TagUpdate /*request*/) {
+  worker(spe); // throws if there is none
+  return mask;
 }
 
 } // namespace

@@ -1,7 +1,5 @@
 #include "backends/native/mfc.hpp"
 
-#include "celltrace/error.hpp"
-
 #include <cstring>
 
 namespace celltrace::native {
@@ -158,10 +156,7 @@ void Mfc::transfer(bool to_main_storage, std::uint8_t* ls, ea_t ea, std::uint32_
 }
 
 void Mfc::write_register(const std::uint8_t* ls, ea_t ea, std::uint32_t size) {
-  if (size != sizeof(std::uint32_t)) throw SpeError("DMA write to problem state that is not one word");
-  std::uint32_t value;
-  std::memcpy(&value, ls, sizeof value);
-  const bool mailbox = registers_.write(ea, value) == RegisterMap::Register::in_mailbox;
+  const bool mailbox = registers_.write(ea, ls, size) == RegisterMap::Register::in_mailbox;
   (mailbox ? counters_.mailbox_words_sent : counters_.signals_sent).add(1);
 }
 

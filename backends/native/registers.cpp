@@ -2,6 +2,7 @@
 
 #include "celltrace/error.hpp"
 
+#include <cstring>
 #include <utility>
 
 namespace celltrace::native {
@@ -23,7 +24,10 @@ ea_t RegisterMap::address(unsigned spe, Register which) const {
   return begin_ + spe * sizeof(Page) + static_cast<std::uint32_t>(which) * kQuadword + kLastWord;
 }
 
-RegisterMap::Register RegisterMap::write(ea_t ea, std::uint32_t value) const {
+RegisterMap::Register RegisterMap::write(ea_t ea, const void* ls, std::uint32_t size) const {
+  std::uint32_t value;
+  if (size != sizeof value) throw SpeError("DMA write to problem state that is not one word");
+  std::memcpy(&value, ls, sizeof value);
   const ea_t offset = ea - begin_;
   const ea_t quadword = offset % sizeof(Page) / kQuadword;
   if (offset % kQuadword != kLastWord || quadword >= kRegisters)

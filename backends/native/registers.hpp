@@ -26,8 +26,9 @@ public:
   ea_t address(unsigned spe, Register which) const;
   /// True if a transfer to `ea` would write registers. One compare.
   bool contains(ea_t ea) const noexcept { return ea - begin_ < bytes_; }
-  /// Delivers a word and returns the register's kind. Throws SpeError if no register lies at `ea`.
-  Register write(ea_t ea, std::uint32_t value) const;
+  /// Delivers the word at `ls` and returns the register's kind. Throws SpeError if no register lies at `ea`,
+  /// or if `size` is not that of a word.
+  Register write(ea_t ea, const void* ls, std::uint32_t size) const;
 
 private:
   struct alignas(kLineBytes) Page {

@@ -11,6 +11,10 @@ namespace {
 
 constexpr std::align_val_t kArenaAlignment{kLineBytes};
 
+// Stops that libspe2 takes for the end of the program.
+constexpr std::uint32_t kExitStop = 0x2000;
+constexpr std::uint32_t kExitCodes = 0x100;
+
 } // namespace
 
 Spe::Spe(unsigned spe, const SignalMode (&modes)[2], Doorbell& ppe) : id(spe), channels(modes, ppe) {
@@ -29,10 +33,15 @@ void Spe::begin() {
   channels.begin();
 }
 
-void Spe::end() {
+void Spe::end(std::uint32_t exit_code) {
   tracked_arena();
   mfc->reset();
-  channels.end();
+  channels.end(exit_code);
+}
+
+void Spe::stop(std::uint32_t code) {
+  if (code - kExitStop < kExitCodes) throw Exited{code - kExitStop};
+  channels.stop_and_signal(code);
 }
 
 void Spe::halt(HaltCode code) const {

@@ -12,6 +12,11 @@
 
 namespace celltrace::native {
 
+/// Unwinds a kernel that ended by a stop with one of the exit codes.
+struct Exited {
+  std::uint32_t code;
+};
+
 /// Bytes of an SPE's arena, which is all of its local store. Far more than a Cell's, because what a kernel
 /// keeps in local store there (code, stack) does not lie in it here.
 constexpr std::uint32_t kArenaBytes = 1024 * 1024;
@@ -25,13 +30,15 @@ struct Spe {
   /// Empties the arena and resets the MFC and the SPU's own channels.
   void begin();
   /// Ends the kernel towards the PPE.
-  void end();
+  void end(std::uint32_t exit_code);
 
   /// The arena, for the SPE's thread. Every change of its fill is preceded by a call, which keeps the peak.
   ArenaState& tracked_arena() {
     counters.local_store_peak.raise_to(static_cast<std::uint64_t>(arena.next - arena.begin));
     return arena;
   }
+  /// Stops with a 14-bit code: ends the kernel, or waits for the PPE.
+  void stop(std::uint32_t code);
   /// Ends the kernel with an SpeError.
   [[noreturn]] void halt(HaltCode code) const;
 

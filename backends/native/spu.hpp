@@ -113,6 +113,7 @@ public:
     spe_.mfc->list_command(op, ls, ea, list, bytes, tag);
   }
 
+  template <uint32_t code> void stop() { spe_.stop(code); }
   [[noreturn]] void halt(HaltCode code) { spe_.halt(code); }
   ArenaState& arena() { return spe_.tracked_arena(); }
 

@@ -58,17 +58,23 @@ public:
     enqueue<op>(ls, ea, static_cast<uint32_t>(reinterpret_cast<uintptr_t>(list)), bytes, tag);
   }
 
+  /// The PPE may look at local store and main storage, and change them, before it lets the SPU go on.
+  template <uint32_t code> void stop() {
+    __asm__ volatile("" ::: "memory");
+    spu_stop(code);
+    __asm__ volatile("" ::: "memory");
+  }
   [[noreturn]] void halt(HaltCode code) {
     // The code is part of the instruction.
     switch (code) {
     case HaltCode::local_store_exhausted:
-      stop<HaltCode::local_store_exhausted>();
+      stop_for_good<HaltCode::local_store_exhausted>();
     case HaltCode::bad_argument:
-      stop<HaltCode::bad_argument>();
+      stop_for_good<HaltCode::bad_argument>();
     case HaltCode::internal_error:
       break;
     }
-    stop<HaltCode::internal_error>();
+    stop_for_good<HaltCode::internal_error>();
   }
   ArenaState& arena() { return arena_; }
 
@@ -83,7 +89,7 @@ private:
   static void enqueue(void* ls, ea_t ea, uint32_t ea_low, uint32_t size, uint32_t tag) {
     spu_mfcdma64(ls, static_cast<uint32_t>(ea >> 32), ea_low, size, tag, static_cast<uint32_t>(op));
   }
-  template <HaltCode code> [[noreturn]] static void stop() {
+  template <HaltCode code> [[noreturn]] static void stop_for_good() {
     for (;;)
       spu_stop(kHaltStop + static_cast<uint32_t>(code));
   }
