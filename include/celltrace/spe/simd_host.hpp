@@ -3,6 +3,9 @@
 //
 // `Arch` is an xsimd architecture ("xsimd::sse2", "xsimd::avx2", "xsimd::avx512dq"); it is part of every
 // type's name, so that translation units compiled for different CPUs share no inline function.
+//
+// `Counter` is told with every operation what the facade of the spu backend issues for it, for whoever models
+// the time that a real SPU would take. By default nobody listens, and nothing is left of it.
 #pragma once
 
 #include "celltrace/spe/simd.hpp"
@@ -39,7 +42,28 @@ uint32_t lane_bits(const xsimd::batch_bool<typename Batch::value_type, typename 
 
 } // namespace simd_host
 
-template <class Arch> struct HostSimd {
+/// Instructions of an SPU, by the unit that executes them. What is missing is 0.
+struct SpuInstructions {
+  uint32_t fx2 = 0;  ///< add, logic, compare, select, load immediate
+  uint32_t fx3 = 0;  ///< word shift
+  uint32_t fxb = 0;  ///< byte operation
+  uint32_t fp6 = 0;  ///< single precision arithmetic
+  uint32_t fp7 = 0;  ///< conversion, interpolation, integer multiply
+  uint32_t ls = 0;   ///< load, store
+  uint32_t shuf = 0; ///< shuffle, quadword rotate, estimate
+  uint32_t br = 0;   ///< branch, orx
+};
+
+/// The counting policy of HostSimd that does not count. One that does replaces all of it.
+struct CountNothing {
+  /// Each of the instructions is issued once for each of the four quadwords of a packet; the four are
+  /// independent of each other, the instructions are a chain.
+  static constexpr void packet(const SpuInstructions&) {}
+  /// Each of the instructions is issued once, and needs the result of the one before.
+  static constexpr void chain(const SpuInstructions&) {}
+};
+
+template <class Arch, class Counter = CountNothing> struct HostSimd {
   using FloatBatch = xsimd::batch<float, Arch>;
   using IntBatch = xsimd::batch<int32_t, Arch>;
   using FloatMask = xsimd::batch_bool<float, Arch>;
@@ -52,38 +76,56 @@ template <class Arch> struct HostSimd {
     FloatMask part[kParts];
 
     static M from_bits(uint32_t bits) {
-      M result;
-      const I lane_bit = I::load(simd_lane_bits);
-      const I all = I::splat(static_cast<int32_t>(bits));
-      for (uint32_t i = 0; i < kParts; ++i)
-        result.part[i] = xsimd::bool_cast((all.part[i] & lane_bit.part[i]) != IntBatch(0));
-      return result;
+      Counter::chain({.shuf = 1});
+      Counter::packet({.fx2 = 2, .ls = 1});
+      return spread(bits);
     }
-    static M none() { return from_bits(0); }
-    static M all() { return from_bits(0xFFFF); }
+    static M none() {
+      Counter::chain({.fx2 = 1});
+      return spread(0);
+    }
+    static M all() {
+      Counter::chain({.fx2 = 1});
+      return spread(0xFFFF);
+    }
     uint32_t bits() const {
+      Counter::packet({.fx2 = 1, .ls = 1});
+      Counter::chain({.fx2 = 3, .br = 1});
       uint32_t result = 0;
       for (uint32_t i = 0; i < kParts; ++i)
         result |= simd_host::lane_bits<FloatBatch>(part[i]) << (i * kWidth);
       return result;
     }
     friend M operator&(const M& a, const M& b) {
+      Counter::packet({.fx2 = 1});
       M r;
       for (uint32_t i = 0; i < kParts; ++i)
         r.part[i] = a.part[i] & b.part[i];
       return r;
     }
     friend M operator|(const M& a, const M& b) {
+      Counter::packet({.fx2 = 1});
       M r;
       for (uint32_t i = 0; i < kParts; ++i)
         r.part[i] = a.part[i] | b.part[i];
       return r;
     }
+    /// Costs nothing: becomes part of the operation that follows, as andc, orc or exchanged operands of selb.
     friend M operator!(const M& a) {
       M r;
       for (uint32_t i = 0; i < kParts; ++i)
         r.part[i] = !a.part[i];
       return r;
+    }
+
+  private:
+    static M spread(uint32_t bits) {
+      M result;
+      const IntBatch all(static_cast<int32_t>(bits));
+      for (uint32_t i = 0; i < kParts; ++i)
+        result.part[i] =
+            xsimd::bool_cast((all & IntBatch::load_aligned(simd_lane_bits + i * kWidth)) != IntBatch(0));
+      return result;
     }
   };
 
@@ -91,17 +133,21 @@ template <class Arch> struct HostSimd {
     FloatBatch part[kParts];
 
     F() = default;
+    /// A constant takes two immediates, or a load; a number from memory a load, a rotation and a shuffle.
     F(float value) {
+      Counter::chain({.fx2 = 1, .ls = 1, .shuf = 1});
       for (uint32_t i = 0; i < kParts; ++i)
         part[i] = FloatBatch(value);
     }
     static F load(const float* lanes) {
+      Counter::packet({.ls = 1});
       F r;
       for (uint32_t i = 0; i < kParts; ++i)
         r.part[i] = FloatBatch::load_aligned(lanes + i * kWidth);
       return r;
     }
     void store(float* lanes) const {
+      Counter::packet({.ls = 1});
       for (uint32_t i = 0; i < kParts; ++i)
         part[i].store_aligned(lanes + i * kWidth);
     }
@@ -124,30 +170,38 @@ template <class Arch> struct HostSimd {
       return r;
     }
     friend F operator+(const F& a, const F& b) {
+      Counter::packet({.fp6 = 1});
       return zip(a, b, [](auto x, auto y) { return x + y; });
     }
     friend F operator-(const F& a, const F& b) {
+      Counter::packet({.fp6 = 1});
       return zip(a, b, [](auto x, auto y) { return x - y; });
     }
     friend F operator*(const F& a, const F& b) {
+      Counter::packet({.fp6 = 1});
       return zip(a, b, [](auto x, auto y) { return x * y; });
     }
     friend F operator/(const F& a, const F& b) {
+      Counter::packet({.fp6 = 5, .fp7 = 1, .shuf = 1});
       return zip(a, b, [](auto x, auto y) { return x / y; });
     }
     friend F operator-(const F& a) {
+      Counter::packet({.fx2 = 1});
       // Not 0 - x, which is what some architectures make of -x: that of a zero would have another sign.
       return map(a, [](auto x) { return x ^ FloatBatch(-0.0f); });
     }
     friend M operator<(const F& a, const F& b) {
+      Counter::packet({.fx2 = 1});
       return test(a, b, [](auto x, auto y) { return x < y; });
     }
     friend M operator<=(const F& a, const F& b) {
+      Counter::packet({.fx2 = 1});
       return test(a, b, [](auto x, auto y) { return x <= y; });
     }
     friend M operator>(const F& a, const F& b) { return b < a; }
     friend M operator>=(const F& a, const F& b) { return b <= a; }
     friend M operator==(const F& a, const F& b) {
+      Counter::packet({.fx2 = 1});
       return test(a, b, [](auto x, auto y) { return x == y; });
     }
   };
@@ -156,18 +210,21 @@ template <class Arch> struct HostSimd {
     IntBatch part[kParts];
 
     static I splat(int32_t value) {
+      Counter::chain({.shuf = 1});
       I r;
       for (uint32_t i = 0; i < kParts; ++i)
         r.part[i] = IntBatch(value);
       return r;
     }
     static I load(const int32_t* lanes) {
+      Counter::packet({.ls = 1});
       I r;
       for (uint32_t i = 0; i < kParts; ++i)
         r.part[i] = IntBatch::load_aligned(lanes + i * kWidth);
       return r;
     }
     void store(int32_t* lanes) const {
+      Counter::packet({.ls = 1});
       for (uint32_t i = 0; i < kParts; ++i)
         part[i].store_aligned(lanes + i * kWidth);
     }
@@ -178,24 +235,30 @@ template <class Arch> struct HostSimd {
       return r;
     }
     friend I operator+(const I& a, const I& b) {
+      Counter::packet({.fx2 = 1});
       return zip(a, b, [](auto x, auto y) { return x + y; });
     }
     friend I operator-(const I& a, const I& b) {
+      Counter::packet({.fx2 = 1});
       return zip(a, b, [](auto x, auto y) { return x - y; });
     }
     friend I operator&(const I& a, const I& b) {
+      Counter::packet({.fx2 = 1});
       return zip(a, b, [](auto x, auto y) { return x & y; });
     }
     friend I operator|(const I& a, const I& b) {
+      Counter::packet({.fx2 = 1});
       return zip(a, b, [](auto x, auto y) { return x | y; });
     }
     friend M operator==(const I& a, const I& b) {
+      Counter::packet({.fx2 = 1});
       M r;
       for (uint32_t i = 0; i < kParts; ++i)
         r.part[i] = xsimd::bool_cast(a.part[i] == b.part[i]);
       return r;
     }
     friend M operator<(const I& a, const I& b) {
+      Counter::packet({.fx2 = 1});
       M r;
       for (uint32_t i = 0; i < kParts; ++i)
         r.part[i] = xsimd::bool_cast(a.part[i] < b.part[i]);
@@ -204,36 +267,44 @@ template <class Arch> struct HostSimd {
   };
 
   static F min(const F& a, const F& b) {
+    Counter::packet({.fx2 = 2});
     return F::zip(a, b, [](auto x, auto y) { return xsimd::min(x, y); });
   }
   static F max(const F& a, const F& b) {
+    Counter::packet({.fx2 = 2});
     return F::zip(a, b, [](auto x, auto y) { return xsimd::max(x, y); });
   }
   static F abs(const F& a) {
+    Counter::packet({.fx2 = 1});
     return F::map(a, [](auto x) { return xsimd::abs(x); });
   }
   static F sqrt(const F& a) {
+    Counter::packet({.fp6 = 7, .fp7 = 1, .shuf = 1});
     return F::map(a, [](auto x) { return xsimd::sqrt(x); });
   }
   static F select(const M& m, const F& a, const F& b) {
+    Counter::packet({.fx2 = 1});
     F r;
     for (uint32_t i = 0; i < kParts; ++i)
       r.part[i] = xsimd::select(m.part[i], a.part[i], b.part[i]);
     return r;
   }
   static I select(const M& m, const I& a, const I& b) {
+    Counter::packet({.fx2 = 1});
     I r;
     for (uint32_t i = 0; i < kParts; ++i)
       r.part[i] = xsimd::select(xsimd::bool_cast(m.part[i]), a.part[i], b.part[i]);
     return r;
   }
   static I to_int(const F& a) {
+    Counter::packet({.fp7 = 1});
     I r;
     for (uint32_t i = 0; i < kParts; ++i)
       r.part[i] = xsimd::to_int(a.part[i]);
     return r;
   }
   static F to_float(const I& a) {
+    Counter::packet({.fp7 = 1});
     F r;
     for (uint32_t i = 0; i < kParts; ++i)
       r.part[i] = xsimd::to_float(a.part[i]);
@@ -252,12 +323,14 @@ template <class Arch> struct HostSimd {
     return r;
   }
   template <int bits> static I shift_left(const I& a) {
+    Counter::packet({.fx3 = 1});
     I r;
     for (uint32_t i = 0; i < kParts; ++i)
       r.part[i] = a.part[i] << bits;
     return r;
   }
   template <int bits> static I shift_right(const I& a) {
+    Counter::packet({.fx3 = 1});
     I r;
     for (uint32_t i = 0; i < kParts; ++i)
       r.part[i] = a.part[i] >> bits;
@@ -268,12 +341,28 @@ template <class Arch> struct HostSimd {
     using Batch = xsimd::batch<uint32_t, xsimd::make_sized_batch_t<uint32_t, 4>::arch_type>;
     Batch lanes;
 
-    static U4 splat(uint32_t value) { return {Batch(value)}; }
-    static U4 load(const uint32_t* words) { return {Batch::load_aligned(words)}; }
-    void store(uint32_t* words) const { lanes.store_aligned(words); }
-    friend U4 operator&(const U4& a, const U4& b) { return {a.lanes & b.lanes}; }
-    friend U4 operator|(const U4& a, const U4& b) { return {a.lanes | b.lanes}; }
+    static U4 splat(uint32_t value) {
+      Counter::chain({.shuf = 1});
+      return {Batch(value)};
+    }
+    static U4 load(const uint32_t* words) {
+      Counter::chain({.ls = 1});
+      return {Batch::load_aligned(words)};
+    }
+    void store(uint32_t* words) const {
+      Counter::chain({.ls = 1});
+      lanes.store_aligned(words);
+    }
+    friend U4 operator&(const U4& a, const U4& b) {
+      Counter::chain({.fx2 = 1});
+      return {a.lanes & b.lanes};
+    }
+    friend U4 operator|(const U4& a, const U4& b) {
+      Counter::chain({.fx2 = 1});
+      return {a.lanes | b.lanes};
+    }
     friend uint32_t equal_bits(const U4& a, const U4& b) {
+      Counter::chain({.fx2 = 2, .ls = 1, .br = 1});
       return simd_host::lane_bits<Batch>(a.lanes == b.lanes);
     }
   };

@@ -1,0 +1,65 @@
+// What a kernel computes on the emulated SPU, counted: the instructions that a real SPU would issue for the
+// operations of the SIMD facade, and those that the kernel declares by compute().
+#pragma once
+
+#include "celltrace/spe/simd_host.hpp"
+#include "celltrace/spe/spu.hpp"
+
+#include <cstdint>
+
+namespace celltrace::cell_emu {
+
+/// Instructions by the unit that executes them.
+struct UnitCounts {
+  std::uint64_t fx2 = 0, fx3 = 0, fxb = 0, fp6 = 0, fp7 = 0; ///< even pipe
+  std::uint64_t ls = 0, shuf = 0, br = 0;                    ///< odd pipe
+
+  void add(const SpuInstructions& n) {
+    // Without the branches the compiler would not see that most of these are nothing.
+    if (n.fx2 != 0) fx2 += n.fx2;
+    if (n.fx3 != 0) fx3 += n.fx3;
+    if (n.fxb != 0) fxb += n.fxb;
+    if (n.fp6 != 0) fp6 += n.fp6;
+    if (n.fp7 != 0) fp7 += n.fp7;
+    if (n.ls != 0) ls += n.ls;
+    if (n.shuf != 0) shuf += n.shuf;
+    if (n.br != 0) br += n.br;
+  }
+};
+
+/// What was computed since the last look; see cycles_of() in pipeline.hpp.
+struct OperationCounts {
+  UnitCounts
+      packet;       ///< times four: each on the four quadwords of a packet, which do not depend on each other
+  UnitCounts chain; ///< each depends on the one before
+  std::uint64_t branches = 0; ///< conditional branches; they are in `chain` too
+};
+
+/// Of the kernel that runs on this host thread. Counting must not cost more than the operations themselves:
+/// no function, no guard, and nothing that keeps the compiler from adding up the counts of a basic block.
+inline constinit thread_local OperationCounts operation_counts [[gnu::tls_model("initial-exec")]];
+
+/// The counts of this thread, which start again at 0.
+inline OperationCounts take_operation_counts() {
+  const OperationCounts taken = operation_counts;
+  operation_counts = OperationCounts();
+  return taken;
+}
+
+/// Scalar work that a kernel declares.
+inline void count(const ScalarWork& work) {
+  operation_counts.chain.add({.fx2 = work.fixed,
+                              .fp6 = work.floating,
+                              .ls = work.memory,
+                              .shuf = work.shuffle,
+                              .br = work.branches});
+  operation_counts.branches += work.branches;
+}
+
+/// The policy of HostSimd that counts.
+struct CountOperations {
+  static void packet(const SpuInstructions& n) { operation_counts.packet.add(n); }
+  static void chain(const SpuInstructions& n) { operation_counts.chain.add(n); }
+};
+
+} // namespace celltrace::cell_emu
