@@ -1,10 +1,12 @@
-// Runs a generic lambda as a kernel on a machine of a given SPU type.
+// Runs a generic lambda as a kernel on a machine of a given kind.
 //
 //   const std::string key = GENERATE(from_range(spu_keys()));
 //   run_on(key, 2, [](auto& spu, ea_t argument) { ... }, to_ea(&control));
 //
 // Kernels here are host code: they may write what they found straight into host memory, which the test reads
 // after the run. Every run requires that the SPU type it names really ran the kernel.
+//
+// A key names an SPU type, and for cell_emu a schedule too: "native.avx2", "cell_emu", "cell_emu.lockstep".
 #pragma once
 
 #include "backends/cell_emu/machine.hpp"
@@ -20,17 +22,26 @@
 
 namespace celltrace::test {
 
+constexpr const char* kLockstep = "cell_emu.lockstep";
+
+inline std::string spu_type_of(const std::string& key) {
+  return key == kLockstep ? cell_emu::Spu::kKey : key;
+}
+
 inline std::unique_ptr<Machine> machine_of(const std::string& key, unsigned spes, MachineConfig config = {}) {
   config.spes = spes;
-  if (key == "cell_emu") return cell_emu::make_machine(config);
+  if (spu_type_of(key) == cell_emu::Spu::kKey) {
+    if (key == kLockstep) config.emulation.schedule = Schedule::lockstep;
+    return cell_emu::make_machine(config);
+  }
   config.simd = key.substr(key.find('.') + 1);
   return native::make_machine(config);
 }
 
-/// The SPU types that this host can run.
+/// The kinds of machine that this host can run.
 inline std::vector<std::string> spu_keys() {
   std::vector<std::string> keys;
-  for (const char* key : {"cell_emu", "native.sse2", "native.avx2", "native.avx512"}) {
+  for (const char* key : {cell_emu::Spu::kKey, kLockstep, "native.sse2", "native.avx2", "native.avx512"}) {
     try {
       machine_of(key, 1);
       keys.push_back(key);
@@ -61,7 +72,7 @@ template <class Kernel> SpeProgram program_of(Kernel) {
 }
 
 template <class Kernel> unsigned entries_on(const std::string& key, Kernel) {
-  if (key == "cell_emu") return entries<cell_emu::Spu, Kernel>;
+  if (spu_type_of(key) == cell_emu::Spu::kKey) return entries<cell_emu::Spu, Kernel>;
   if (key == "native.sse2") return entries<native::Spu<xsimd::sse2>, Kernel>;
   if (key == "native.avx2") return entries<native::Spu<xsimd::avx2>, Kernel>;
   return entries<native::Spu<xsimd::avx512dq>, Kernel>;
@@ -78,7 +89,7 @@ void run_on(const std::string& key, Machine& machine, Kernel kernel, ea_t argume
   ppe(machine);
   for (unsigned spe = 0; spe < machine.spe_count(); ++spe)
     machine.wait(spe);
-  REQUIRE(std::string(machine.spu_key()) == key);
+  REQUIRE(std::string(machine.spu_key()) == spu_type_of(key));
   REQUIRE(entries_on(key, kernel) == before + machine.spe_count());
 }
 

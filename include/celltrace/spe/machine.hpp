@@ -73,9 +73,9 @@ public:
   /// The SPU type in use, for reports: "native.avx512", "cell_emu".
   virtual std::string_view spu_key() const noexcept = 0;
 
-  /// Starts a program on an idle SPE. Throws SpeError if the program was not compiled for this machine, or the
-  /// SPE is running or waits for resume(). `argument` is handed to the kernel: the ea of its control block, 16-byte aligned by
-  /// convention.
+  /// Starts a program on an idle SPE. Throws SpeError if the program was not compiled for this machine, or
+  /// the SPE is running or waits for resume(). `argument` is handed to the kernel: the ea of its control
+  /// block, 16-byte aligned by convention.
   virtual void start(unsigned spe, const SpeProgram& program, ea_t argument) = 0;
   /// Blocks until the kernel has stopped. Throws SpeError with the SPE's error if it stopped for one. When
   /// one SPE stops with an error the others are interrupted, so that nobody waits for it for ever. Called
@@ -86,8 +86,8 @@ public:
   virtual void resume(unsigned spe) = 0;
   /// False while a kernel waits for resume().
   virtual bool running(unsigned spe) const = 0;
-  /// Makes every kernel that stalls on a channel or waits for resume(), now or later, stop; wait() then throws
-  /// SpeError. For shutdown.
+  /// Makes every kernel that stalls on a channel or waits for resume(), now or later, stop; wait() then
+  /// throws SpeError. For shutdown.
   virtual void interrupt() noexcept = 0;
 
   /// Writes a word to the inbound mailbox; blocks while it is full (libspe2's SPE_MBOX_ALL_BLOCKING). Throws
@@ -105,9 +105,9 @@ public:
   virtual bool wait_for_mail(std::chrono::milliseconds timeout) = 0;
 
   // Proxy commands: DMA between main storage and the local store of an SPE on behalf of the PPE. `op` is a
-  // get or put, with or without fence or barrier, but no list; `lsa` is the offset in local store, that is from
-  // addresses().local_store; `tag` is 0..15. `native`, where all is complete at once, throws SpeError for what
-  // it cannot do.
+  // get or put, with or without fence or barrier, but no list; `lsa` is the offset in local store, that is
+  // from addresses().local_store; `tag` is 0..15. `native`, where all is complete at once, throws SpeError
+  // for what it cannot do.
 
   /// Queues the command (8 entries; blocks while they are taken).
   virtual void proxy_command(unsigned spe, MfcOpcode op, std::uint32_t lsa, ea_t ea, std::uint32_t size,
