@@ -4,6 +4,7 @@
 #include "celltrace/cache.hpp"
 #include "celltrace/image.hpp"
 #include "celltrace/scene.hpp"
+#include "celltrace/spe/emulation.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -25,7 +26,7 @@ struct RenderOptions {
   int height = 480; ///< pixels, 1..65520
   /// "native" or "cell_emu"; see machine_backends().
   std::string backend = "native";
-  /// Number of SPEs, up to 256; 0: one per hardware thread on native, 8 on cell_emu.
+  /// Number of SPEs, up to 256; 0: one per hardware thread on native, `emulation.timing.spes` on cell_emu.
   unsigned spes = 0;
   /// SIMD of native: "auto", "sse2", "avx2", "avx512".
   std::string simd = "auto";
@@ -35,9 +36,15 @@ struct RenderOptions {
   /// In place of the scene's own settings.
   std::optional<int> max_trace_level;
   std::optional<double> adc_bailout;
+  /// Of cell_emu; native knows none of it. The trace is complete when the renderer is gone.
+  EmulationConfig emulation;
+  /// Called for every rule of the Cell that cell_emu saw broken, by the thread that renders or destroys the
+  /// renderer. Must not throw.
+  std::function<void(const Diagnostic& diagnostic)> diagnostic;
 };
 
-/// What a frame cost. Sums over all SPEs unless said otherwise.
+/// What a frame cost. Sums over all SPEs unless said otherwise; what building the grid took is only in the
+/// seconds and cycles of its own.
 struct RenderStatistics {
   struct Cache {
     std::uint64_t hits = 0, misses = 0;
@@ -48,11 +55,14 @@ struct RenderStatistics {
     std::uint64_t rays = 0;
     std::uint32_t rows = 0; ///< rows of 4x4 packets
     std::uint32_t exchanges = 0;
-    std::uint64_t local_store_peak = 0; ///< bytes of the arena
+    std::uint64_t local_store_peak = 0; ///< bytes of the arena, since the renderer was made
+    SpuCycles cycles;                   ///< virtual time of the frame; all 0 on native
   };
 
   std::string backend;
   std::string spu; ///< SPU type, e.g. "native.avx512"
+  Schedule schedule = Schedule::free;
+  std::uint64_t seed = 0;
   int width = 0, height = 0;
   std::uint64_t objects = 0; ///< after unions and instances are taken apart
 
@@ -72,14 +82,21 @@ struct RenderStatistics {
 
   std::uint64_t balance_exchanges = 0; ///< that moved rows
   std::uint64_t balance_rows_moved = 0;
-  /// Greatest over mean number of rays per SPE, minus 1.
+  /// Greatest over mean load of an SPE, minus 1. The load is its number of rays; in lockstep, the cycles that
+  /// it did not wait at a channel.
   double imbalance = 0;
+
+  // Virtual time, on cell_emu: the greatest total_cycle of an SPE.
+  std::uint64_t prepare_cycles = 0; ///< until the grid is built and every SPE knows it
+  std::uint64_t render_cycles = 0;
 
   double build_seconds = 0;   ///< scene image, on the host
   double prepare_seconds = 0; ///< grid, by an SPE
   double render_seconds = 0;
 
   std::vector<Spe> spes;
+  /// Rules that were broken since the frame before.
+  std::vector<Diagnostic> diagnostics;
 
   std::uint64_t total_rays() const { return primary_rays + shadow_rays + reflection_rays + refraction_rays; }
 };

@@ -2,6 +2,8 @@
 
 #include "celltrace/error.hpp"
 #include "celltrace/image.hpp"
+#include "cli/choice.hpp"
+#include "cli/emulation_options.hpp"
 #include "cli/version.hpp"
 
 #include <algorithm>
@@ -36,25 +38,6 @@ CacheReplacement parse_replacement(const std::string& policy) {
   throw InputError("--cache: '" + policy + "' is none of random, fifo, lru");
 }
 
-/// Options whose value is a word from a list, some of which the program does not have yet.
-struct Choice {
-  std::vector<std::string> known;
-  std::vector<std::string> not_yet;
-};
-
-void set_choice(CLI::App& command, const std::string& name, std::string& target, const Choice& choice,
-                const std::string& help) {
-  const auto check = [name, choice](const std::string& value) -> std::string {
-    const auto has = [&](const std::vector<std::string>& list) {
-      return std::find(list.begin(), list.end(), value) != list.end();
-    };
-    if (has(choice.known)) return "";
-    if (has(choice.not_yet)) return "'" + value + "' is not supported yet";
-    return "'" + value + "' is none of " + CLI::detail::join(choice.known, ", ");
-  };
-  command.add_option(name, target, help)->check(CLI::Validator(check, CLI::detail::join(choice.known, "|")));
-}
-
 std::pair<std::string, std::string> parse_declare(const std::string& text) {
   auto declare = split(text, '=');
   if (declare.first.empty() || declare.first.size() == text.size())
@@ -66,10 +49,8 @@ std::pair<std::string, std::string> parse_declare(const std::string& text) {
 struct RenderTexts {
   std::string cache = "4x128:random";
   std::string balance = "gde";
-  std::string schedule = "free";
   std::string model = "shared";
-  std::string seed;
-  std::string trace;
+  EmulationTexts emulation;
   std::vector<std::string> declares;
 };
 
@@ -100,25 +81,24 @@ void add_picture_options(CLI::App& command, RenderRequest& request, RenderTexts&
 }
 
 void add_machine_options(CLI::App& command, RenderOptions& options, RenderTexts& texts) {
-  set_choice(command, "--backend", options.backend, {{"native", "cell_emu"}, {"spu"}}, "The machine");
-  command.add_option("--spes", options.spes, "SPEs; default: one a hardware thread on native, 8 on cell_emu")
+  add_choice(command, "--backend", options.backend, {{"native", "cell_emu"}, {"spu"}}, "The machine");
+  command
+      .add_option("--spes", options.spes,
+                  "SPEs; default: one a hardware thread on native, those of the timing on cell_emu")
       ->check(CLI::Range(1u, 256u));
-  set_choice(command, "--simd", options.simd, {{"auto", "sse2", "avx2", "avx512"}, {}},
+  add_choice(command, "--simd", options.simd, {{"auto", "sse2", "avx2", "avx512"}, {}},
              "Instruction set of native");
-  set_choice(command, "--schedule", texts.schedule, {{"free"}, {"lockstep"}}, "How cell_emu takes turns");
   command.add_option("--cache", texts.cache, "Software cache: WAYSxSETS[:random|fifo|lru], or off")
       ->type_name("CACHE")
       ->capture_default_str();
-  set_choice(command, "--balance", texts.balance, {{"gde", "static"}, {"diffusion", "scatter"}},
+  add_choice(command, "--balance", texts.balance, {{"gde", "static"}, {"diffusion", "scatter"}},
              "Load balancing");
-  set_choice(command, "--model", texts.model, {{"shared"}, {"pipeline", "offload"}}, "Programming model");
+  add_choice(command, "--model", texts.model, {{"shared"}, {"pipeline", "offload"}}, "Programming model");
+  add_emulation_options(command, texts.emulation);
 }
 
-void add_report_options(CLI::App& command, RenderRequest& request, RenderTexts& texts) {
+void add_report_options(CLI::App& command, RenderRequest& request) {
   command.add_option("--stats", request.stats, "Write statistics as JSON; - is stdout")->type_name("FILE|-");
-  command.add_option("--seed", texts.seed, "Seed of cell_emu (not supported yet)")->type_name("N");
-  command.add_option("--trace", texts.trace, "Write a trace of cell_emu (not supported yet)")
-      ->type_name("FILE");
   command.add_flag("--quiet", request.quiet, "No progress, notes or summary");
 }
 
@@ -134,11 +114,11 @@ void add_compare_options(CLI::App& command, CompareRequest& request) {
 }
 
 void finish(RenderRequest& request, const RenderTexts& texts) {
-  if (!texts.seed.empty()) throw InputError("--seed is not supported yet");
-  if (!texts.trace.empty()) throw InputError("--trace is not supported yet");
   if (request.scene.extension() == ".ini")
     throw InputError(request.scene.string() + ": INI files are not supported");
   request.options.cache = parse_cache(texts.cache);
+  request.options.emulation = emulation_config(texts.emulation, request.options.backend);
+  request.trace = texts.emulation.trace;
   request.options.balance = texts.balance == "gde" ? Balance::gde : Balance::fixed;
   for (const std::string& text : texts.declares)
     request.declares.push_back(parse_declare(text));
@@ -180,7 +160,7 @@ Request parse_command_line(std::vector<std::string> arguments) {
   CLI::App& render_command = *app.add_subcommand("render", "Render a scene into a picture");
   add_picture_options(render_command, render, texts);
   add_machine_options(render_command, render.options, texts);
-  add_report_options(render_command, render, texts);
+  add_report_options(render_command, render);
 
   CompareRequest compare;
   CLI::App& compare_command = *app.add_subcommand("compare", "Say how far two pictures are apart");

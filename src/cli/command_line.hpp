@@ -23,6 +23,7 @@ struct RenderRequest {
   std::vector<std::filesystem::path> library_paths;
   std::vector<std::pair<std::string, std::string>> declares; ///< name and value
   std::string stats;                                         ///< file, "-" for stdout, empty for none
+  std::filesystem::path trace;                               ///< empty: none
   bool quiet = false;
 };
 

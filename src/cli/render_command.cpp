@@ -40,13 +40,57 @@ ParseOptions parse_options(const RenderRequest& request) {
   return options;
 }
 
-RenderResult render_with_progress(const Scene& scene, const RenderRequest& request) {
-  ProgressLine line(std::cerr, !request.quiet && stderr_is_terminal());
-  return render(scene, request.options, [&line](double fraction) {
-    line.update(fraction);
-    return !interrupted();
-  });
+/// Prints what cell_emu finds wrong. `error` is what is printed as the error anyway.
+void print_diagnostics(const std::vector<Diagnostic>& diagnostics, const std::string& error = {}) {
+  for (const Diagnostic& diagnostic : diagnostics)
+    if (error.find(diagnostic.text) == std::string::npos)
+      std::cerr << "celltrace: warning: " << diagnostic.text << '\n';
 }
+
+RenderResult render_with_progress(const Scene& scene, const RenderRequest& request, std::ostream* trace) {
+  RenderOptions options = request.options;
+  options.emulation.trace = trace;
+  std::vector<Diagnostic> diagnostics;
+  options.diagnostic = [&](const Diagnostic& diagnostic) { diagnostics.push_back(diagnostic); };
+  try {
+    const RenderResult result = [&] {
+      ProgressLine line(std::cerr, !request.quiet && stderr_is_terminal());
+      return render(scene, options, [&line](double fraction) {
+        line.update(fraction);
+        return !interrupted();
+      });
+    }();
+    print_diagnostics(diagnostics);
+    return result;
+  } catch (const std::exception& error) {
+    print_diagnostics(diagnostics, error.what());
+    throw;
+  }
+}
+
+/// The stream that a trace goes to.
+class TraceFile {
+public:
+  /// Throws InputError if the file cannot be written. `path` empty: there is no trace.
+  explicit TraceFile(const std::filesystem::path& path) : path_(path) {
+    if (!path.empty()) file_.open(path, std::ios::binary);
+    check();
+  }
+  std::ostream* stream() { return path_.empty() ? nullptr : &file_; }
+  /// As the constructor, for what was written since.
+  void finish() {
+    if (!path_.empty()) file_.close();
+    check();
+  }
+
+private:
+  void check() const {
+    if (!file_) throw InputError(path_.string() + ": cannot be written");
+  }
+
+  std::filesystem::path path_;
+  std::ofstream file_;
+};
 
 void write_statistics(const std::string& where, const RenderStatistics& statistics, double parse_seconds) {
   auto json = nlohmann::ordered_json::parse(to_json(statistics));
@@ -65,9 +109,12 @@ void print_summary(const RenderRequest& request, const RenderResult& result, dou
   const double build_seconds = s.build_seconds + s.prepare_seconds;
   const double rate = s.render_seconds > 0 ? static_cast<double>(s.total_rays()) / s.render_seconds : 0;
   std::fprintf(stderr,
-               "%s: %s%dx%d, %s, %zu SPEs; parse %.2f s, build %.2f s, render %.2f s; %.2f million rays/s\n",
+               "%s: %s%dx%d, %s, %zu SPEs; parse %.2f s, build %.2f s, render %.2f s; %.2f million rays/s",
                request.output.c_str(), result.complete ? "" : "interrupted, partial, ", s.width, s.height,
                s.spu.c_str(), s.spes.size(), parse_seconds, build_seconds, s.render_seconds, rate / 1e6);
+  if (s.render_cycles != 0)
+    std::fprintf(stderr, "; %.2f million virtual cycles", static_cast<double>(s.render_cycles) / 1e6);
+  std::fputc('\n', stderr);
 }
 
 } // namespace
@@ -83,8 +130,10 @@ int run_render(const RenderRequest& request) {
     std::cerr << "interrupted before the first pixel\n";
     return 2;
   }
-  const RenderResult result = render_with_progress(scene, request);
+  TraceFile trace(request.trace);
+  const RenderResult result = render_with_progress(scene, request, trace.stream());
   save_image(request.output, result.image);
+  trace.finish();
   if (!request.stats.empty()) write_statistics(request.stats, result.statistics, parsing.count());
   if (!request.quiet) print_summary(request, result, parsing.count());
   return result.complete ? 0 : 2;

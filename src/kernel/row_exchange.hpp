@@ -87,6 +87,7 @@ private:
     if (after <= before) return;
     ++exchanges_;
     received_ += after - before;
+    spu_.note("balance exchange", after - before);
   }
 
   void act() {

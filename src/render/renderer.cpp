@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <utility>
 
 namespace celltrace {
 
@@ -32,6 +33,7 @@ MachineConfig machine_config(const RenderOptions& options) {
   config.backend = options.backend;
   config.spes = options.spes;
   config.simd = options.simd;
+  config.emulation = options.emulation;
   // Commands and doorbells that come before the last ones are read must not replace them.
   config.signal_mode[0] = SignalMode::logical_or;
   config.signal_mode[1] = SignalMode::logical_or;
@@ -65,27 +67,58 @@ public:
     hand_out(even_strips(frame_.packet_rows, spes));
     team_ = std::make_unique<SpeTeam>(*machine_, frame_);
   }
+  ~Impl() {
+    // Some rules are for the end of a program.
+    team_.reset();
+    new_diagnostics();
+  }
 
   RenderResult render(const Scene& scene, const Progress& progress) {
+    return reporting_failures([&] { return render_scene(scene, progress); });
+  }
+  RenderResult render(const Camera& camera, const Progress& progress) {
+    return reporting_failures([&] { return render_camera(camera, progress); });
+  }
+
+private:
+  template <class Work> RenderResult reporting_failures(Work work) {
+    try {
+      return work();
+    } catch (...) {
+      new_diagnostics();
+      throw;
+    }
+  }
+  /// What the machine has found since the last call; the caller's function hears of it.
+  std::vector<Diagnostic> new_diagnostics() {
+    std::vector<Diagnostic> found = machine_->diagnostics();
+    found.erase(found.begin(),
+                found.begin() + static_cast<std::ptrdiff_t>(std::exchange(known_diagnostics_, found.size())));
+    if (options_.diagnostic) std::for_each(found.begin(), found.end(), options_.diagnostic);
+    return found;
+  }
+
+  RenderResult render_scene(const Scene& scene, const Progress& progress) {
     RenderStatistics statistics;
     const Stopwatch build;
     image_ = std::make_unique<SceneImage>(scene);
     scene_ = scene;
     statistics.build_seconds = build.seconds();
     const Stopwatch prepare;
+    const SpeMeter meter(*machine_);
     build_grid();
     statistics.prepare_seconds = prepare.seconds();
+    statistics.prepare_cycles = elapsed_cycles(meter.read());
     return render_frame(scene.camera, statistics, progress);
   }
 
-  RenderResult render(const Camera& camera, const Progress& progress) {
+  RenderResult render_camera(const Camera& camera, const Progress& progress) {
     if (!image_) throw InputError("a camera alone cannot be rendered: there is no scene yet");
     validate(camera);
     RenderStatistics statistics;
     return render_frame(camera, statistics, progress);
   }
 
-private:
   void hand_out(const std::vector<RowRange>& strips) {
     for (std::size_t spe = 0; spe < strips.size(); ++spe)
       strip(spe) = {strips[spe].first, strips[spe].first + strips[spe].count, {0, 0}};
@@ -137,13 +170,19 @@ private:
     std::memset(surface_.data(), 0, surface_.size());
     std::memset(reports_.data(), 0, reports_.size());
     const Stopwatch render;
+    const SpeMeter meter(*machine_);
     RenderResult result;
     StripTally tally(machine_->spe_count(), frame_.packet_rows);
     result.complete = team_->render_frame(tally, progress);
     statistics.render_seconds = render.seconds();
     if (result.complete) hand_out(tally.next_strips());
+    if (machine_->backend() == "cell_emu") {
+      statistics.schedule = options_.emulation.schedule;
+      statistics.seed = options_.emulation.seed;
+    }
     collect(statistics, *machine_, frame_,
-            {reinterpret_cast<const ReportRecord*>(reports_.data()), strip_count()});
+            {reinterpret_cast<const ReportRecord*>(reports_.data()), strip_count()}, meter.read());
+    statistics.diagnostics = new_diagnostics();
     result.statistics = statistics;
     result.image = copy_picture();
     return result;
@@ -168,6 +207,7 @@ private:
   FrameBlock& frame_;
   std::unique_ptr<Machine> machine_;
   std::unique_ptr<SpeTeam> team_;
+  std::size_t known_diagnostics_ = 0;
 };
 
 Renderer::Renderer(const RenderOptions& options) : impl_(std::make_unique<Impl>(options)) {

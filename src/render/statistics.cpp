@@ -3,6 +3,8 @@
 #include "celltrace/balance.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -17,15 +19,74 @@ void add_cache(RenderStatistics::Cache& cache, const ReportRecord& report, DataK
   cache.misses += report.cache_misses[static_cast<int>(kind)];
 }
 
-double imbalance_of_rays(const std::vector<RenderStatistics::Spe>& spes) {
-  std::vector<std::uint64_t> rays;
-  for (const auto& spe : spes)
-    rays.push_back(spe.rays);
-  return imbalance<std::uint64_t>(rays);
+/// What an SPE had to do in a frame, whatever the others did.
+std::uint64_t load(const RenderStatistics::Spe& spe, Schedule schedule) {
+  // An SPE that has run dry waits until the frame is over: all SPEs' totals are the same.
+  return schedule == Schedule::lockstep ? spe.cycles.total_cycle - spe.cycles.channel_stall_cycle : spe.rays;
+}
+
+double imbalance_of(const RenderStatistics& s) {
+  std::vector<std::uint64_t> loads;
+  for (const auto& spe : s.spes)
+    loads.push_back(load(spe, s.schedule));
+  return imbalance<std::uint64_t>(loads);
+}
+
+/// Every count of SpuCycles by its name.
+constexpr std::pair<const char*, std::uint64_t SpuCycles::*> kCycleCounts[] = {
+    {"total_cycle", &SpuCycles::total_cycle},
+    {"single_cycle", &SpuCycles::single_cycle},
+    {"dual_cycle", &SpuCycles::dual_cycle},
+    {"stall_due_to_dependency", &SpuCycles::stall_due_to_dependency},
+    {"stall_due_to_branch_miss", &SpuCycles::stall_due_to_branch_miss},
+    {"channel_stall_cycle", &SpuCycles::channel_stall_cycle},
+    {"stall_due_to_injection", &SpuCycles::stall_due_to_injection},
+    {"fx2", &SpuCycles::fx2},
+    {"fx3", &SpuCycles::fx3},
+    {"fxb", &SpuCycles::fxb},
+    {"fp6", &SpuCycles::fp6},
+    {"fp7", &SpuCycles::fp7},
+    {"ls", &SpuCycles::ls},
+    {"shuf", &SpuCycles::shuf},
+    {"br", &SpuCycles::br},
+    {"spr", &SpuCycles::spr},
+    {"branch_taken_miss", &SpuCycles::branch_taken_miss},
+};
+static_assert(sizeof(SpuCycles) == std::size(kCycleCounts) * sizeof(std::uint64_t), "a count has no name");
+
+constexpr std::uint64_t SpeStatistics::*kTrafficCounts[] = {
+    &SpeStatistics::dma_commands,      &SpeStatistics::dma_list_elements, &SpeStatistics::dma_bytes_read,
+    &SpeStatistics::dma_bytes_written, &SpeStatistics::signals_sent,      &SpeStatistics::mailbox_words_sent,
+};
+
+std::vector<SpeStatistics> count(const Machine& machine) {
+  std::vector<SpeStatistics> spes;
+  for (unsigned spe = 0; spe < machine.spe_count(); ++spe)
+    spes.push_back(machine.statistics(spe));
+  return spes;
 }
 
 nlohmann::ordered_json cache_json(const RenderStatistics::Cache& cache) {
   return {{"hits", cache.hits}, {"misses", cache.misses}, {"hit_rate", cache.hit_rate()}};
+}
+
+nlohmann::ordered_json cycles_json(const SpuCycles& cycles) {
+  nlohmann::ordered_json json;
+  for (const auto& [name, count] : kCycleCounts)
+    json[name] = cycles.*count;
+  return json;
+}
+
+/// Without the addresses of its text: those of main memory differ from run to run.
+nlohmann::ordered_json diagnostic_json(const Diagnostic& d) {
+  const std::string_view file(d.site.file);
+  return {{"rule", name_of(d.rule)},
+          {"text", text_of(d.rule)},
+          {"by", d.spe == Diagnostic::kPpe ? "PPE" : "SPE " + std::to_string(d.spe)},
+          {"command", d.command},
+          {"cycle", d.cycle},
+          {"file", file.substr(file.find_last_of('/') + 1)},
+          {"line", d.site.line}};
 }
 
 } // namespace
@@ -34,8 +95,29 @@ double RenderStatistics::Cache::hit_rate() const {
   return hits + misses == 0 ? 0 : static_cast<double>(hits) / static_cast<double>(hits + misses);
 }
 
+SpeMeter::SpeMeter(const Machine& machine) : machine_(machine), start_(count(machine)) {
+}
+
+std::vector<SpeStatistics> SpeMeter::read() const {
+  std::vector<SpeStatistics> spes = count(machine_);
+  for (std::size_t spe = 0; spe < spes.size(); ++spe) {
+    for (const auto member : kTrafficCounts)
+      spes[spe].*member -= start_[spe].*member;
+    for (const auto& [name, member] : kCycleCounts)
+      spes[spe].cycles.*member -= start_[spe].cycles.*member;
+  }
+  return spes;
+}
+
+std::uint64_t elapsed_cycles(std::span<const SpeStatistics> spes) {
+  std::uint64_t most = 0;
+  for (const SpeStatistics& spe : spes)
+    most = std::max(most, spe.cycles.total_cycle);
+  return most;
+}
+
 void collect(RenderStatistics& s, const Machine& machine, const FrameBlock& frame,
-             std::span<const ReportRecord> reports) {
+             std::span<const ReportRecord> reports, std::span<const SpeStatistics> spes) {
   s.backend = machine.backend();
   s.spu = machine.spu_key();
   s.width = static_cast<int>(frame.width);
@@ -43,7 +125,7 @@ void collect(RenderStatistics& s, const Machine& machine, const FrameBlock& fram
   s.objects = frame.object_count;
   std::copy(std::begin(frame.grid.cells), std::end(frame.grid.cells), s.grid_cells);
   s.grid_list_entries = frame.grid.list_count;
-  unsigned index = 0;
+  std::size_t index = 0;
   for (const ReportRecord& r : reports) {
     s.primary_rays += r.primary_rays;
     s.shadow_rays += r.shadow_rays;
@@ -62,7 +144,7 @@ void collect(RenderStatistics& s, const Machine& machine, const FrameBlock& fram
     s.balance_exchanges += r.exchanges;
     s.balance_rows_moved += r.rows_received;
 
-    const SpeStatistics spe = machine.statistics(index++);
+    const SpeStatistics& spe = spes[index++];
     s.dma_commands += spe.dma_commands;
     s.dma_list_elements += spe.dma_list_elements;
     s.dma_bytes_read += spe.dma_bytes_read;
@@ -70,9 +152,10 @@ void collect(RenderStatistics& s, const Machine& machine, const FrameBlock& fram
     s.signals += spe.signals_sent;
     s.mailbox_words += spe.mailbox_words_sent;
     s.spes.push_back({r.primary_rays + r.shadow_rays + r.reflection_rays + r.refraction_rays, r.rows,
-                      r.exchanges, spe.local_store_peak});
+                      r.exchanges, spe.local_store_peak, spe.cycles});
   }
-  s.imbalance = imbalance_of_rays(s.spes);
+  s.render_cycles = elapsed_cycles(spes);
+  s.imbalance = imbalance_of(s);
 }
 
 std::string to_json(const RenderStatistics& s) {
@@ -81,14 +164,21 @@ std::string to_json(const RenderStatistics& s) {
     spes.push_back({{"rays", spe.rays},
                     {"rows", spe.rows},
                     {"exchanges", spe.exchanges},
-                    {"local_store_peak", spe.local_store_peak}});
+                    {"local_store_peak", spe.local_store_peak},
+                    {"cycles", cycles_json(spe.cycles)}});
+  nlohmann::ordered_json diagnostics = nlohmann::ordered_json::array();
+  for (const Diagnostic& diagnostic : s.diagnostics)
+    diagnostics.push_back(diagnostic_json(diagnostic));
   const nlohmann::ordered_json json = {
       {"backend", s.backend},
       {"spu", s.spu},
+      {"schedule", s.schedule == Schedule::lockstep ? "lockstep" : "free"},
+      {"seed", s.seed},
       {"width", s.width},
       {"height", s.height},
       {"objects", s.objects},
       {"seconds", {{"build", s.build_seconds}, {"prepare", s.prepare_seconds}, {"render", s.render_seconds}}},
+      {"cycles", {{"prepare", s.prepare_cycles}, {"render", s.render_cycles}}},
       {"rays",
        {{"primary", s.primary_rays},
         {"shadow", s.shadow_rays},
@@ -118,7 +208,8 @@ std::string to_json(const RenderStatistics& s) {
        {{"exchanges", s.balance_exchanges},
         {"rows_moved", s.balance_rows_moved},
         {"imbalance", s.imbalance}}},
-      {"spes", spes}};
+      {"spes", spes},
+      {"diagnostics", diagnostics}};
   return json.dump(2);
 }
 

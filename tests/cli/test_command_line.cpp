@@ -51,17 +51,23 @@ TEST_CASE("render has the documented defaults") {
   CHECK(r.options.balance == Balance::gde);
   CHECK_FALSE(r.options.max_trace_level);
   CHECK_FALSE(r.options.adc_bailout);
+  CHECK(r.options.emulation.schedule == Schedule::free);
+  CHECK(r.options.emulation.transfers == TransferTime::at_wait);
+  CHECK(r.options.emulation.faults.slowest_spe == 1);
+  CHECK(r.options.emulation.timing.spes == 8);
+  CHECK_FALSE(r.options.emulation.explore);
+  CHECK(r.trace.empty());
   CHECK(r.stats.empty());
   CHECK_FALSE(r.quiet);
 }
 
 TEST_CASE("every option of render arrives") {
-  const RenderRequest r = render_request(
-      {"-o",      "out.ppm", "-W",         "32",   "-H",          "16",       "--backend", "cell_emu",
-       "--spes",  "6",       "--simd",     "avx2", "--cache",     "2x64:lru", "--balance", "static",
-       "--model", "shared",  "--schedule", "free", "--max-level", "9",        "--adc",     "0.01",
-       "-L",      "one",     "-L",         "two",  "--declare",   "x=1",      "--declare", "s=a=b",
-       "--stats", "-",       "--quiet",    "a.pov"});
+  const RenderRequest r =
+      render_request({"-o",        "out.ppm", "-W",      "32",     "-H",          "16",        "--backend",
+                      "cell_emu",  "--spes",  "6",       "--simd", "avx2",        "--cache",   "2x64:lru",
+                      "--balance", "static",  "--model", "shared", "--max-level", "9",         "--adc",
+                      "0.01",      "-L",      "one",     "-L",     "two",         "--declare", "x=1",
+                      "--declare", "s=a=b",   "--stats", "-",      "--quiet",     "a.pov"});
   CHECK(r.scene == "a.pov");
   CHECK(r.output == "out.ppm");
   CHECK(r.options.width == 32);
@@ -77,6 +83,67 @@ TEST_CASE("every option of render arrives") {
   CHECK(r.declares == std::vector<std::pair<std::string, std::string>>{{"x", "1"}, {"s", "a=b"}});
   CHECK(r.stats == "-");
   CHECK(r.quiet);
+}
+
+TEST_CASE("every option of cell_emu arrives") {
+  const auto request = [](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--backend", "cell_emu", "a.pov"});
+    return render_request(std::move(arguments));
+  };
+  const RenderRequest all =
+      request({"--schedule", "lockstep", "--seed", "18446744073709551615", "--transfers", "random",
+               "--faults", "--timing", "ps3", "--trace", "t.json"});
+  const EmulationConfig& emulation = all.options.emulation;
+  CHECK(emulation.schedule == Schedule::lockstep);
+  CHECK(emulation.explore);
+  CHECK(emulation.seed == 18446744073709551615u);
+  CHECK(emulation.transfers == TransferTime::random);
+  CHECK(emulation.faults.slowest_spe == Faults::mixed().slowest_spe);
+  CHECK(emulation.timing.spes == 6);
+  CHECK(emulation.timing.clock_hz == 3.192e9);
+  CHECK(all.trace == "t.json");
+
+  const auto config = [&](std::vector<std::string> arguments) {
+    return request(std::move(arguments)).options.emulation;
+  };
+  CHECK_FALSE(config({"--schedule", "lockstep"}).explore);
+  CHECK(config({"--trace", "t.json"}).schedule == Schedule::lockstep);
+  CHECK_FALSE(config({"--trace", "t.json"}).explore);
+  CHECK(config({"--trace", "t.json", "--seed", "3"}).explore);
+  CHECK(config({"--schedule", "free"}).schedule == Schedule::free);
+  CHECK(config({"--transfers", "issue"}).transfers == TransferTime::at_issue);
+  CHECK(config({"--transfers", "wait"}).transfers == TransferTime::at_wait);
+  CHECK(config({"--timing", "cell"}).timing.spes == 8);
+  for (const std::vector<std::string>& drawn : {std::vector<std::string>{"--faults"},
+                                                {"--transfers", "random"},
+                                                {"--schedule", "free", "--faults"}}) {
+    std::vector<std::string> arguments = drawn;
+    arguments.insert(arguments.end(), {"--seed", "9"});
+    CHECK(config(arguments).seed == 9);
+    CHECK_FALSE(config(arguments).explore);
+  }
+}
+
+TEST_CASE("options of cell_emu that make no sense are refused") {
+  const std::vector<std::vector<std::string>> emulated = {
+      {"--schedule", "free"}, {"--schedule", "lockstep"}, {"--seed", "7"},      {"--transfers", "wait"},
+      {"--faults"},           {"--timing", "cell"},       {"--trace", "t.json"}};
+  for (const auto& arguments : emulated)
+    CHECK_THAT(render_error(arguments), StartsWith(arguments[0] + " needs --backend cell_emu"));
+
+  const auto error = [](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--backend", "cell_emu"});
+    return render_error(std::move(arguments));
+  };
+  CHECK_THAT(error({"--schedule", "free", "--trace", "t.json"}),
+             StartsWith("--trace needs --schedule lockstep"));
+  CHECK_THAT(error({"--seed", "7"}), StartsWith("--seed needs --schedule lockstep"));
+  CHECK_THAT(error({"--seed", "7", "--schedule", "free"}), StartsWith("--seed needs --schedule lockstep"));
+  CHECK_THAT(error({"--schedule", "fair"}), Contains("'fair' is none of free, lockstep"));
+  CHECK_THAT(error({"--transfers", "late"}), Contains("'late' is none of issue, wait, random"));
+  CHECK_THAT(error({"--timing", "ps2"}), Contains("'ps2' is none of cell, ps3"));
+  for (const std::string bad : {"-1", "x", "1.5", "18446744073709551616"})
+    CHECK_THAT(error({"--schedule", "lockstep", "--seed", bad}), Contains("--seed"));
 }
 
 TEST_CASE("cache settings") {
@@ -95,14 +162,10 @@ TEST_CASE("cache settings") {
 }
 
 TEST_CASE("what is to come is refused as such") {
-  CHECK_THAT(render_error({"--schedule", "lockstep"}),
-             Contains("--schedule: 'lockstep' is not supported yet"));
   CHECK_THAT(render_error({"--balance", "diffusion"}), Contains("'diffusion' is not supported yet"));
   CHECK_THAT(render_error({"--balance", "scatter"}), Contains("'scatter' is not supported yet"));
   CHECK_THAT(render_error({"--model", "pipeline"}), Contains("'pipeline' is not supported yet"));
   CHECK_THAT(render_error({"--model", "offload"}), Contains("'offload' is not supported yet"));
-  CHECK_THAT(render_error({"--seed", "7"}), Contains("--seed is not supported yet"));
-  CHECK_THAT(render_error({"--trace", "t.json"}), Contains("--trace is not supported yet"));
 }
 
 TEST_CASE("errors of the command line are one line that names the option") {

@@ -109,6 +109,8 @@ TEST_CASE("celltrace's own options and their values pass through") {
                          "x=1", "--seed", "+5", "--cache=off", "--quiet", "a.pov"};
   CHECK(translated(own) == own);
   CHECK(translated({"--quiet", "+W8"}) == Arguments{"--quiet", "-W", "8"});
+  CHECK(translated({"--faults", "+W8"}) == Arguments{"--faults", "-W", "8"});
+  CHECK(translated({"--trace", "+t.json", "+W8"}) == Arguments{"--trace", "+t.json", "-W", "8"});
   CHECK(translated({"--cache=off", "+W8"}) == Arguments{"--cache=off", "-W", "8"});
   CHECK(translated({"+W8", "--", "+W8", "-o"}) == Arguments{"-W", "8", "--", "+W8", "-o"});
   CHECK(translated({"./a=b.pov"}) == Arguments{"./a=b.pov"});

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
+#include <set>
 #include <thread>
 
 #include <catch2/catch.hpp>
@@ -157,18 +159,70 @@ TEST_CASE("every key of the statistics is documented") {
   }
 }
 
+TEST_CASE("two runs in lockstep are the same to the bit") {
+  const TemporaryFolder folder;
+  struct Products {
+    std::string picture, trace;
+    nlohmann::json statistics;
+  };
+  const auto products = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(),
+                     {kScene, "-W", "32", "-H", "18", "-o", "p.ppm", "--backend", "cell_emu", "--spes", "3",
+                      "--stats", "s.json", "--trace", "t.json"});
+    const Outcome outcome = celltrace_run(folder, arguments);
+    CAPTURE(outcome.err);
+    REQUIRE(outcome.exit_code == 0);
+    CHECK_THAT(outcome.err, Contains("million virtual cycles"));
+    Products p{read_bytes(folder / "p.ppm"), read_bytes(folder / "t.json"),
+               nlohmann::json::parse(read_bytes(folder / "s.json"))};
+    p.statistics.erase("seconds");
+    return p;
+  };
+  REQUIRE(celltrace_run(folder, {kScene, "-W", "32", "-H", "18", "-o", "native.ppm"}).exit_code == 0);
+  const std::string expected = read_bytes(folder / "native.ppm");
+  std::set<std::string> traces;
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{}, {"--seed", "1"}, {"--seed", "2", "--transfers", "random", "--faults"}}) {
+    const Products first = products(arguments);
+    const Products second = products(arguments);
+    CHECK(first.picture == expected);
+    CHECK(second.picture == expected);
+    CHECK(first.statistics == second.statistics);
+    CHECK(first.trace == second.trace);
+    CHECK(first.statistics["schedule"] == "lockstep");
+    CHECK(first.statistics["cycles"]["render"] > 0);
+    CHECK(first.statistics["diagnostics"].empty());
+    traces.insert(first.trace);
+
+    std::map<std::string, int> phases;
+    const auto trace = nlohmann::json::parse(first.trace);
+    for (const auto& event : trace["traceEvents"])
+      ++phases[event["ph"]];
+    CHECK(phases["X"] > 0); // computing, waits, messages
+    CHECK(phases["b"] > 0); // DMA
+    CHECK(phases["b"] == phases["e"]);
+    CHECK(phases["f"] > 0); // arrows
+    CHECK(phases["f"] <= phases["s"]);
+  }
+  CHECK(traces.size() == 3);
+}
+
 TEST_CASE("errors are one line and exit code 1") {
   const TemporaryFolder folder;
   write_bytes(folder / "bad.pov", "sphere { <0, 0, 0>, 1 }\ncylinder_ { }\n");
-  const std::vector<std::vector<std::string>> wrong = {{"missing.pov"},
-                                                       {"bad.pov"},
-                                                       {kScene, "-o", "a.gif"},
-                                                       {kScene, "-o", "no/a.png"},
-                                                       {kScene, "+A0.3"},
-                                                       {"+Z", kScene},
-                                                       {kScene, "--cache", "3x3"},
-                                                       {"compare", "a.png", "b.png"},
-                                                       {kScene, "--schedule", "lockstep"}};
+  const std::vector<std::vector<std::string>> wrong = {
+      {"missing.pov"},
+      {"bad.pov"},
+      {kScene, "-o", "a.gif"},
+      {kScene, "-o", "no/a.png"},
+      {kScene, "+A0.3"},
+      {"+Z", kScene},
+      {kScene, "--cache", "3x3"},
+      {"compare", "a.png", "b.png"},
+      {kScene, "--schedule", "lockstep"},
+      {kScene, "--trace", "t.json"},
+      {kScene, "--backend", "cell_emu", "--trace", "no/t.json"},
+      {kScene, "--balance", "scatter"}};
   for (const auto& arguments : wrong) {
     const Outcome outcome = celltrace_run(folder, arguments);
     CAPTURE(arguments, outcome.err);

@@ -118,6 +118,20 @@ TEST_CASE("Statistics agree with each other") {
   }
 }
 
+TEST_CASE("Statistics are of their frame alone") {
+  const Scene scene = scene_named("glass and mirrors");
+  Renderer renderer(Backend{"cell_emu", "auto"}.options(kWidth, kHeight, 1));
+  const RenderStatistics first = renderer.render(scene).statistics;
+  for (int frame = 0; frame < 2; ++frame) {
+    const RenderStatistics s = renderer.render(scene.camera).statistics;
+    CHECK(s.dma_bytes_written == first.dma_bytes_written);
+    CHECK(s.dma_bytes_read <= first.dma_bytes_read); // the cache is warm
+    CHECK(s.dma_bytes_read > 0);
+    CHECK(s.prepare_seconds == 0);
+    CHECK(s.prepare_cycles == 0);
+  }
+}
+
 TEST_CASE("The cache's shape changes the misses, not the picture") {
   const Scene scene = scene_named("meshes");
   const Image expected = picture(scene);

@@ -1,0 +1,22 @@
+// Options whose value is a word from a list.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace celltrace::cli {
+
+struct Choice {
+  std::vector<std::string> known;
+  std::vector<std::string> not_yet; ///< words that the program is to understand one day, and refuses as such
+};
+
+/// Adds an option that puts its word into `target`, which keeps its value where the option is not given.
+void add_choice(CLI::App& command, const std::string& name, std::string& target, const Choice& choice,
+                const std::string& help);
+
+} // namespace celltrace::cli

@@ -1,0 +1,30 @@
+// The options that only cell_emu has: schedule, seed, transfers, faults, timing, trace.
+#pragma once
+
+#include "celltrace/spe/emulation.hpp"
+
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace celltrace::cli {
+
+/// The options as they were given; empty: not given.
+struct EmulationTexts {
+  std::string schedule;
+  std::string seed;
+  std::string transfers;
+  bool faults = false;
+  std::string timing;
+  std::string trace;
+};
+
+void add_emulation_options(CLI::App& command, EmulationTexts& texts);
+
+/// What they say together. Throws InputError if they contradict each other or the backend. A trace's stream
+/// stays unset.
+EmulationConfig emulation_config(const EmulationTexts& texts, const std::string& backend);
+
+} // namespace celltrace::cli
