@@ -71,24 +71,31 @@ void Bus::put(unsigned spe, std::uint32_t lsa, ea_t ea, std::uint32_t size) {
   });
 }
 
+void Bus::zero(unsigned spe, ea_t ea, std::uint32_t size) {
+  const LocalStoreLocks local_stores(units_.get(), spe, map_.locate(ea, size));
+  for_each_span(ea, size, [&](Stripe& stripe, ea_t at, std::uint32_t, std::uint32_t bytes) {
+    std::memset(host_address(at), 0, bytes);
+    lose_reservations(spe, OwnLoss::event, stripe, at, bytes);
+  });
+}
+
 std::uint32_t Bus::read_register(AddressMap::Place place) const {
   return problem_states_[place.spe]->peek_signal(place.kind == EaKind::signal_1 ? Signal::one : Signal::two);
 }
 
-void Bus::write_register(AddressMap::Place place, std::uint32_t value) {
+bool Bus::write_register(AddressMap::Place place, std::uint32_t value, Sender sender) {
   ProblemState& target = *problem_states_[place.spe];
-  if (place.kind == EaKind::in_mailbox)
-    target.write_in_mailbox(value);
-  else
-    target.write_signal(place.kind == EaKind::signal_1 ? Signal::one : Signal::two, value);
+  if (place.kind == EaKind::in_mailbox) return target.write_in_mailbox(value, sender);
+  return target.write_signal(place.kind == EaKind::signal_1 ? Signal::one : Signal::two, value, sender);
 }
 
 // --- reservations ---
 
-bool Bus::release_reservation(unsigned spe, Stripe& stripe, ea_t line) {
+bool Bus::release_reservation(unsigned spe, Stripe& stripe, ea_t line, Reservation state) {
   std::atomic<ea_t>& reserved = units_[spe].reserved;
   if (reserved.load(std::memory_order_relaxed) != line) return false;
   reserved.store(kNoLine, std::memory_order_relaxed);
+  units_[spe].state.store(state, std::memory_order_relaxed);
   --stripe.reservations;
   return true;
 }
@@ -99,9 +106,16 @@ void Bus::lose_reservations(unsigned writer, OwnLoss own, Stripe& stripe, ea_t e
   for (unsigned spe = 0; spe < map_.spes(); ++spe) {
     const ea_t line = units_[spe].reserved.load(std::memory_order_relaxed);
     if (line == kNoLine || line - first >= ea + size - first) continue;
-    release_reservation(spe, stripe, line);
+    release_reservation(spe, stripe, line,
+                        spe == writer ? Reservation::lost_to_own_put : Reservation::lost_to_others);
     if (spe != writer || own == OwnLoss::event) problem_states_[spe]->raise(event::reservation_lost);
   }
+}
+
+bool Bus::reserved_by_another(unsigned spe, ea_t line) const {
+  for (unsigned other = 0; other < map_.spes(); ++other)
+    if (other != spe && reserves(other, line)) return true;
+  return false;
 }
 
 void Bus::drop_reservation(unsigned spe) {
@@ -109,7 +123,7 @@ void Bus::drop_reservation(unsigned spe) {
   if (line == kNoLine) return;
   Stripe& stripe = locks_->of(line);
   const std::lock_guard lock(stripe.lock);
-  release_reservation(spe, stripe, line);
+  release_reservation(spe, stripe, line, Reservation::none);
 }
 
 void Bus::get_line_and_reserve(unsigned spe, std::uint32_t lsa, ea_t ea) {
@@ -119,6 +133,7 @@ void Bus::get_line_and_reserve(unsigned spe, std::uint32_t lsa, ea_t ea) {
   const std::lock_guard lock(stripe.lock);
   std::memmove(map_.local_store(spe) + lsa, host_address(ea), kLineBytes);
   units_[spe].reserved.store(ea, std::memory_order_relaxed);
+  units_[spe].state.store(Reservation::held, std::memory_order_relaxed);
   ++stripe.reservations;
 }
 
@@ -128,7 +143,7 @@ bool Bus::put_line_conditional(unsigned spe, std::uint32_t lsa, ea_t ea) {
     const LocalStoreLocks local_stores(units_.get(), spe, map_.locate(ea, kLineBytes));
     Stripe& stripe = locks_->of(ea);
     const std::lock_guard lock(stripe.lock);
-    written = release_reservation(spe, stripe, ea);
+    written = release_reservation(spe, stripe, ea, Reservation::none);
     if (written) {
       std::memmove(host_address(ea), map_.local_store(spe) + lsa, kLineBytes);
       lose_reservations(spe, OwnLoss::silent, stripe, ea, kLineBytes);

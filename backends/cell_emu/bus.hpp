@@ -19,7 +19,7 @@ namespace celltrace::cell_emu {
 /// Thread safety: all members from any thread. Commands must have passed the rules of mfc_rules.hpp.
 class Bus {
 public:
-  using ProblemStates = std::vector<std::unique_ptr<ProblemState>>;
+  using ProblemStates = std::vector<ProblemState*>;
 
   Bus(const AddressMap& map, const ProblemStates& problem_states);
 
@@ -30,8 +30,12 @@ public:
   /// Local store -> storage; loses the reservations on the lines it touches, the SPE's own included.
   void put(unsigned spe, std::uint32_t lsa, ea_t ea, std::uint32_t size);
 
+  /// Zeroes lines of main memory or of a local store, as a put of zeroes would.
+  void zero(unsigned spe, ea_t ea, std::uint32_t size);
+
   std::uint32_t read_register(AddressMap::Place place) const;
-  void write_register(AddressMap::Place place, std::uint32_t value);
+  /// False if an unread word was lost to it.
+  bool write_register(AddressMap::Place place, std::uint32_t value, Sender sender);
 
   // One line each. An SPE has one reservation; getllar replaces it.
   void get_line_and_reserve(unsigned spe, std::uint32_t lsa, ea_t ea);
@@ -39,6 +43,13 @@ public:
   bool put_line_conditional(unsigned spe, std::uint32_t lsa, ea_t ea);
   void put_line(unsigned spe, std::uint32_t lsa, ea_t ea);
   void drop_reservation(unsigned spe);
+  /// What became of the SPE's last reservation.
+  enum class Reservation : unsigned char { none, held, lost_to_own_put, lost_to_others };
+  Reservation reservation(unsigned spe) const { return units_[spe].state.load(std::memory_order_relaxed); }
+  bool reserves(unsigned spe, ea_t line) const {
+    return units_[spe].reserved.load(std::memory_order_relaxed) == line;
+  }
+  bool reserved_by_another(unsigned spe, ea_t line) const;
 
 private:
   /// What one SPE has on the bus.
@@ -46,6 +57,7 @@ private:
     SpinLock local_store_lock;
     /// The reserved line, or kNoLine. Changes only under the stripe of that line.
     std::atomic<ea_t> reserved{kNoLine};
+    std::atomic<Reservation> state{Reservation::none};
   };
   /// No line has an address that is not a multiple of 128.
   static constexpr ea_t kNoLine = 1;
@@ -56,7 +68,7 @@ private:
 
   template <class Move> void for_each_span(ea_t ea, std::uint32_t size, Move move);
   void lose_reservations(unsigned writer, OwnLoss own, Stripe& stripe, ea_t ea, std::uint32_t size);
-  bool release_reservation(unsigned spe, Stripe& stripe, ea_t line);
+  bool release_reservation(unsigned spe, Stripe& stripe, ea_t line, Reservation state);
 
   const AddressMap& map_;
   const ProblemStates& problem_states_;

@@ -4,6 +4,7 @@
 #include "celltrace/spe/machine.hpp"
 
 #include <atomic>
+#include <iterator>
 
 namespace celltrace::cell_emu {
 
@@ -22,14 +23,53 @@ private:
   std::atomic<std::uint64_t> value_{0};
 };
 
+/// SpuCycles as counters.
+class CycleCounters {
+public:
+  void add(const SpuCycles& cycles) {
+    for (std::size_t i = 0; i < std::size(kFields); ++i)
+      if (const std::uint64_t n = cycles.*kFields[i]; n != 0) counters_[i].add(n);
+  }
+  SpuCycles value() const {
+    SpuCycles cycles;
+    for (std::size_t i = 0; i < std::size(kFields); ++i)
+      cycles.*kFields[i] = counters_[i].value();
+    return cycles;
+  }
+
+private:
+  static constexpr std::uint64_t SpuCycles::*kFields[] = {
+      &SpuCycles::total_cycle,
+      &SpuCycles::single_cycle,
+      &SpuCycles::dual_cycle,
+      &SpuCycles::stall_due_to_dependency,
+      &SpuCycles::stall_due_to_branch_miss,
+      &SpuCycles::channel_stall_cycle,
+      &SpuCycles::stall_due_to_injection,
+      &SpuCycles::fx2,
+      &SpuCycles::fx3,
+      &SpuCycles::fxb,
+      &SpuCycles::fp6,
+      &SpuCycles::fp7,
+      &SpuCycles::ls,
+      &SpuCycles::shuf,
+      &SpuCycles::br,
+      &SpuCycles::spr,
+      &SpuCycles::branch_taken_miss,
+  };
+  static_assert(sizeof(SpuCycles) == sizeof(std::uint64_t) * std::size(kFields), "one entry per field");
+  Counter counters_[std::size(kFields)];
+};
+
 struct Counters {
   Counter dma_commands, dma_list_elements, dma_bytes_read, dma_bytes_written;
   Counter signals_sent, mailbox_words_sent, local_store_peak;
+  CycleCounters cycles;
 
   SpeStatistics statistics() const {
-    return {dma_commands.value(),      dma_list_elements.value(), dma_bytes_read.value(),
-            dma_bytes_written.value(), signals_sent.value(),      mailbox_words_sent.value(),
-            local_store_peak.value()};
+    return {
+        dma_commands.value(), dma_list_elements.value(),  dma_bytes_read.value(),   dma_bytes_written.value(),
+        signals_sent.value(), mailbox_words_sent.value(), local_store_peak.value(), cycles.value()};
   }
 };
 

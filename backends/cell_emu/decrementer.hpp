@@ -7,8 +7,8 @@ namespace celltrace::cell_emu {
 
 class Decrementer {
 public:
-  /// 3.2 GHz over a timebase of 80 MHz.
-  static constexpr std::uint64_t kCyclesPerTick = 40;
+  /// One tick of the timebase takes this many cycles.
+  explicit Decrementer(std::uint32_t cycles_per_tick) : cycles_per_tick_(cycles_per_tick) {}
 
   /// Starts it from `value` at virtual time `cycles`.
   void write(std::uint32_t value, std::uint64_t cycles) {
@@ -27,16 +27,17 @@ public:
   /// Counts up to `cycles`. True if the top bit went from 0 to 1: that is the decrementer event.
   bool advance(std::uint64_t cycles) {
     if (!running_) return false;
-    const std::uint64_t ticks = (cycles - since_) / kCyclesPerTick;
+    const std::uint64_t ticks = (cycles - since_) / cycles_per_tick_;
     const bool expired = ticks > value_;
     value_ -= static_cast<std::uint32_t>(ticks);
-    since_ += ticks * kCyclesPerTick;
+    since_ += ticks * cycles_per_tick_;
     return expired;
   }
   /// The virtual time of the next event, if it keeps running.
-  std::uint64_t expiry() const { return since_ + (std::uint64_t{value_} + 1) * kCyclesPerTick; }
+  std::uint64_t expiry() const { return since_ + (std::uint64_t{value_} + 1) * cycles_per_tick_; }
 
 private:
+  std::uint64_t cycles_per_tick_;
   std::uint32_t value_ = 0;
   std::uint64_t since_ = 0;
   bool running_ = false;

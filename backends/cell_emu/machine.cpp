@@ -1,23 +1,26 @@
 #include "backends/cell_emu/machine.hpp"
 
+#include "backends/cell_emu/free_scheduler.hpp"
+#include "backends/cell_emu/lockstep_scheduler.hpp"
+#include "backends/cell_emu/mfc_rules.hpp"
+#include "backends/cell_emu/program_guard.hpp"
 #include "backends/cell_emu/spu.hpp"
 
 #include <algorithm>
 #include <exception>
-#include <mutex>
-#include <thread>
+#include <utility>
 
 namespace celltrace::cell_emu {
 namespace {
 
 constexpr unsigned kMaxSpes = 256;
-constexpr unsigned kDefaultSpes = 8;
 
 MachineConfig checked(MachineConfig config) {
   if (config.spes > kMaxSpes)
     throw InputError("cell_emu has at most " + std::to_string(kMaxSpes) + " SPEs, not " +
                      std::to_string(config.spes));
-  if (config.spes == 0) config.spes = kDefaultSpes;
+  const TimingParameters& timing = config.emulation.timing;
+  if (config.spes == 0) config.spes = std::clamp(timing.spes, 1u, kMaxSpes);
   for (const SignalMode mode : config.signal_mode)
     if (mode != SignalMode::overwrite && mode != SignalMode::logical_or)
       throw InputError("a signal notification register is in overwrite or in logical_or mode");
@@ -26,15 +29,22 @@ MachineConfig checked(MachineConfig config) {
     throw InputError("code (" + std::to_string(config.code_bytes) + " bytes) and stack (" +
                      std::to_string(config.stack_bytes) +
                      " bytes) leave no arena in a local store of 262144 bytes");
+  if (!(timing.clock_hz >= 1000) || timing.cycles_per_tick == 0)
+    throw InputError("the timing of a machine needs a clock of at least 1000 Hz and a timebase");
+  if (config.emulation.trace != nullptr && config.emulation.schedule != Schedule::lockstep)
+    throw InputError("a trace needs the lockstep schedule");
   return config;
 }
 
-/// What the PPE keeps of one SPE.
-struct Spe {
-  std::thread thread; ///< joinable from start() until somebody has waited
-  Counters counters;
-  std::string error; ///< of the last run; empty: none. Written by the thread, read after it was joined.
-};
+ArenaRange arena_of(const MachineConfig& config) {
+  return {(config.code_bytes + kLineBytes - 1) / kLineBytes * kLineBytes,
+          kLocalStoreBytes - config.stack_bytes};
+}
+
+std::unique_ptr<Trace> make_trace(const MachineConfig& config) {
+  if (config.emulation.trace == nullptr) return nullptr;
+  return std::make_unique<Trace>(*config.emulation.trace, config.spes, config.emulation.timing.clock_hz);
+}
 
 class EmulatedCell final : public Machine {
 public:
@@ -46,144 +56,279 @@ public:
   std::string_view spu_key() const noexcept override { return Spu::kKey; }
 
   void start(unsigned spe, const SpeProgram& program, ea_t argument) override;
-  void wait(unsigned spe) override;
-  bool running(unsigned spe) const override { return problem_states_.at(spe)->running(); }
+  SpeStop wait(unsigned spe) override;
+  void resume(unsigned spe) override;
+  bool running(unsigned spe) const override;
   void interrupt() noexcept override;
 
-  void write_in_mailbox(unsigned spe, std::uint32_t value) override {
-    problem_states_.at(spe)->write_in_mailbox_when_free(value);
-  }
-  unsigned in_mailbox_space(unsigned spe) const override {
-    return kInboundMailboxEntries - problem_states_.at(spe)->in_mailbox_count();
-  }
+  void write_in_mailbox(unsigned spe, std::uint32_t value) override;
+  unsigned in_mailbox_space(unsigned spe) const override;
   std::optional<std::uint32_t> read_out_mailbox(unsigned spe) override {
-    return problem_states_.at(spe)->take_out_mailbox();
+    Spe& from = *spes_.at(spe);
+    return from.state.take_out_mailbox(scheduler_->enter());
   }
   std::optional<std::uint32_t> read_out_interrupt_mailbox(unsigned spe) override {
-    return problem_states_.at(spe)->take_out_interrupt_mailbox();
+    Spe& from = *spes_.at(spe);
+    return from.state.take_out_interrupt_mailbox(scheduler_->enter());
   }
-  void write_signal(unsigned spe, Signal which, std::uint32_t value) override {
-    problem_states_.at(spe)->write_signal(which, value);
-  }
+  void write_signal(unsigned spe, Signal which, std::uint32_t value) override;
   bool wait_for_mail(std::chrono::milliseconds timeout) override;
 
+  void proxy_command(unsigned spe, MfcOpcode op, std::uint32_t lsa, ea_t ea, std::uint32_t size,
+                     std::uint32_t tag) override;
+  std::uint32_t proxy_tag_status(unsigned spe, std::uint32_t mask, TagUpdate request) override;
+
+  std::vector<Diagnostic> diagnostics() const override { return log_.all(); }
   SpeAddresses addresses(unsigned spe) const override {
-    problem_states_.at(spe);
+    spes_.at(spe);
     return map_.addresses(spe);
   }
   SpeStatistics statistics(unsigned spe) const override { return spes_.at(spe)->counters.statistics(); }
 
 private:
+  bool lockstep() const { return config_.emulation.schedule == Schedule::lockstep; }
+  std::unique_ptr<Scheduler> make_scheduler();
   ArenaState arena(unsigned spe) const;
-  void run(unsigned spe, SpeProgram::Entry entry, ea_t argument);
-  void fail(unsigned spe, const std::string& error);
-  void join(unsigned spe);
+  void run(Spe& spe, const SpeProgram::Entry& entry, ea_t argument);
+  void fail(Spe& spe, const std::string& error);
+  void report_ppe(Rule rule, unsigned spe, const std::string& what);
+  void wait_until_stopped(const Spe& spe);
+  void collect(Spe& spe);
   void resume_when_idle();
 
   const MachineConfig config_;
   AddressMap map_;
-  PpeBell bell_;
-  Bus::ProblemStates problem_states_;
+  std::unique_ptr<Trace> trace_;
+  DiagnosticLog log_;
+  Flights flights_;
+  std::vector<DmaTiming> timing_; ///< one, or in the free schedule one for every SPE
+  std::vector<ProblemState*> registers_;
   Bus bus_;
-  std::vector<std::unique_ptr<Spe>> spes_;
-  bool failed_ = false; ///< an SPE has failed and interrupted the others. PPE thread only.
+  const MfcContext mfc_context_;
+  Spes spes_;
+  std::unique_ptr<Scheduler> scheduler_;
+  std::vector<bool> started_; ///< and not yet collected
+  unsigned stops_seen_ = 0;   ///< programs that had stopped when the PPE last waited for mail
+  bool failed_ = false;       ///< an SPE has failed and interrupted the others. PPE thread only.
   std::atomic<bool> interrupted_{false};
 };
 
 EmulatedCell::EmulatedCell(const MachineConfig& config)
-    : config_(checked(config)), map_(config_.spes), bus_(map_, problem_states_) {
+    : config_(checked(config)), map_(config_.spes), trace_(make_trace(config_)),
+      log_(
+          config_.emulation, trace_ == nullptr
+                                 ? DiagnosticLog::Listener{}
+                                 : [this](const Diagnostic& diagnostic) { trace_->diagnostic(diagnostic); }),
+      flights_(config_.spes),
+      bus_(map_, registers_), mfc_context_{bus_, flights_, log_, config_.emulation, trace_.get()},
+      started_(config_.spes) {
+  scheduler_ = make_scheduler();
+  timing_.assign(lockstep() ? 1 : config_.spes, DmaTiming(config_.emulation.timing, config_.spes));
   for (unsigned spe = 0; spe < config_.spes; ++spe) {
-    problem_states_.push_back(std::make_unique<ProblemState>(spe, config_.signal_mode, bell_));
-    spes_.push_back(std::make_unique<Spe>());
+    spes_.push_back(std::make_unique<Spe>(spe, config_.signal_mode, *scheduler_, mfc_context_,
+                                          timing_[lockstep() ? 0 : spe], arena_of(config_)));
+    registers_.push_back(&spes_.back()->state);
   }
+}
+
+std::unique_ptr<Scheduler> EmulatedCell::make_scheduler() {
+  if (lockstep()) return std::make_unique<LockstepScheduler>(spes_, config_.spes, log_, config_.emulation);
+  return std::make_unique<FreeScheduler>(spes_, config_.spes, log_);
 }
 
 EmulatedCell::~EmulatedCell() {
   interrupt();
-  for (const auto& spe : spes_)
-    if (spe->thread.joinable()) spe->thread.join();
+  scheduler_->shut_down();
 }
 
 // --- run control ---
 
 ArenaState EmulatedCell::arena(unsigned spe) const {
   std::uint8_t* const base = map_.local_store(spe);
-  std::uint8_t* const begin = base + (config_.code_bytes + kLineBytes - 1) / kLineBytes * kLineBytes;
-  return {begin, base + kLocalStoreBytes - config_.stack_bytes, begin};
+  const ArenaRange range = arena_of(config_);
+  return {base + range.begin, base + range.end, base + range.begin};
 }
 
 void EmulatedCell::start(unsigned spe, const SpeProgram& program, ea_t argument) {
-  if (running(spe)) throw SpeError("SPE " + std::to_string(spe) + " is running");
+  Spe& started = *spes_.at(spe);
+  scheduler_->enter();
+  if (started.running) throw SpeError("SPE " + std::to_string(spe) + " is running");
   const SpeProgram::Entry entry = program.entry(Spu::kKey);
-  if (entry == nullptr) throw SpeError("program \"" + program.name() + "\" was not compiled for cell_emu");
-  join(spe);
-  spes_[spe]->error.clear();
-  problem_states_[spe]->start();
-  try {
-    spes_[spe]->thread = std::thread([this, spe, entry, argument] { run(spe, entry, argument); });
-  } catch (...) {
-    problem_states_[spe]->stop();
-    throw;
-  }
+  if (!entry) throw SpeError("program \"" + program.name() + "\" was not compiled for cell_emu");
+  collect(started);
+  started.error.clear();
+  started.exit_code = 0;
+  started.mfc.begin_program();
+  started.state.start();
+  scheduler_->start(started, [this, &started, entry, argument] { run(started, entry, argument); });
+  started_[spe] = true;
 }
 
-void EmulatedCell::run(unsigned spe, SpeProgram::Entry entry, ea_t argument) {
+void EmulatedCell::run(Spe& spe, const SpeProgram::Entry& entry, ea_t argument) {
+  const SpuContext context{mfc_context_, *scheduler_};
+  const ProgramGuard guard(map_.local_store(spe.id), arena_of(config_));
+  const auto broken_off = [&](const std::string& error) {
+    spe.mfc.abandon();
+    fail(spe, error);
+  };
   try {
-    Spu spu(spe, bus_, *problem_states_[spe], spes_[spe]->counters, arena(spe));
-    entry(&spu, argument);
+    Spu spu(spe, context, arena(spe.id));
+    try {
+      entry(&spu, argument);
+    } catch (const Spu::Exit& exit) {
+      spe.exit_code = exit.code;
+    } catch (...) {
+      spu.abandon();
+      throw;
+    }
     spu.finish();
+    guard.check(spe.id, log_);
   } catch (const SpeError& error) {
-    fail(spe, error.what());
+    broken_off(error.what());
   } catch (const std::exception& error) {
-    fail(spe, "SPE " + std::to_string(spe) + ": " + error.what());
+    broken_off("SPE " + std::to_string(spe.id) + ": " + error.what());
   } catch (...) {
-    fail(spe, "SPE " + std::to_string(spe) + ": stopped by an unknown exception");
+    broken_off("SPE " + std::to_string(spe.id) + ": stopped by an unknown exception");
   }
-  problem_states_[spe]->stop();
-  bell_.ring_stop();
 }
 
-void EmulatedCell::fail(unsigned spe, const std::string& error) {
-  spes_[spe]->error = error;
-  for (const auto& problem_state : problem_states_)
-    problem_state->interrupt(error);
+void EmulatedCell::fail(Spe& spe, const std::string& error) {
+  spe.error = error;
+  scheduler_->break_off(", because another SPE failed first: " + error);
 }
 
-void EmulatedCell::wait(unsigned spe) {
-  const auto& stopped = spes_.at(spe);
-  join(spe);
-  if (!stopped->error.empty()) throw SpeError(std::exchange(stopped->error, {}));
+void EmulatedCell::wait_until_stopped(const Spe& spe) {
+  const auto stopped = [&] { return !spe.running || spe.paused(); };
+  const std::string what = "SPE " + std::to_string(spe.id) + " to stop";
+  try {
+    scheduler_->wait(stopped, std::nullopt, what);
+  } catch (const SpeError&) {
+    // The deadlock has been reported to the SPEs, which end with it.
+    scheduler_->wait(stopped, std::nullopt, what);
+  }
 }
 
-void EmulatedCell::join(unsigned spe) {
-  if (!spes_[spe]->thread.joinable()) return;
-  spes_[spe]->thread.join();
-  failed_ = failed_ || !spes_[spe]->error.empty();
+SpeStop EmulatedCell::wait(unsigned spe) {
+  Spe& stopped = *spes_.at(spe);
+  if (!started_[spe]) return {SpeStop::Reason::exit, stopped.exit_code};
+  wait_until_stopped(stopped);
+  if (stopped.running) return {SpeStop::Reason::stop_and_signal, *stopped.signalled};
+  collect(stopped);
+  if (!stopped.error.empty()) {
+    stopped.exit_code = 0;
+    throw SpeError(std::exchange(stopped.error, {}));
+  }
+  return {SpeStop::Reason::exit, stopped.exit_code};
+}
+
+void EmulatedCell::resume(unsigned spe) {
+  Spe& paused = *spes_.at(spe);
+  scheduler_->enter();
+  if (!paused.paused()) throw SpeError("SPE " + std::to_string(spe) + " has not stopped with a signal");
+  scheduler_->resume(paused);
+}
+
+bool EmulatedCell::running(unsigned spe) const {
+  const Spe& asked = *spes_.at(spe);
+  scheduler_->enter();
+  return asked.running && !asked.paused();
+}
+
+void EmulatedCell::collect(Spe& spe) {
+  if (!started_[spe.id]) return;
+  scheduler_->collect(spe);
+  started_[spe.id] = false;
+  failed_ = failed_ || !spe.error.empty();
   resume_when_idle();
 }
 
 /// Once nobody is left whom a failure could leave waiting, kernels may stall again.
 void EmulatedCell::resume_when_idle() {
-  const auto busy = [](const auto& spe) { return spe->thread.joinable(); };
-  if (!failed_ || std::any_of(spes_.begin(), spes_.end(), busy)) return;
+  if (!failed_ || std::find(started_.begin(), started_.end(), true) != started_.end()) return;
   failed_ = false;
-  for (const auto& problem_state : problem_states_)
-    problem_state->resume();
+  for (const auto& spe : spes_)
+    spe->state.resume();
   // An interrupt() from another thread may have come in between; it is for good.
-  if (interrupted_) interrupt();
+  if (interrupted_) scheduler_->interrupt();
 }
 
 void EmulatedCell::interrupt() noexcept {
   interrupted_ = true;
-  for (const auto& problem_state : problem_states_)
-    problem_state->interrupt({});
+  scheduler_->interrupt();
+}
+
+// --- registers ---
+
+void EmulatedCell::report_ppe(Rule rule, unsigned spe, const std::string& what) {
+  Diagnostic diagnostic;
+  diagnostic.rule = rule;
+  diagnostic.spe = Diagnostic::kPpe;
+  diagnostic.other_spe = spe;
+  log_.report(diagnostic, what + " of SPE " + std::to_string(spe) + ": " + std::string(text_of(rule)));
+}
+
+void EmulatedCell::write_in_mailbox(unsigned spe, std::uint32_t value) {
+  Spe& to = *spes_.at(spe);
+  const auto full = [&] { return to.state.in_mailbox_count() == kInboundMailboxEntries; };
+  const auto stopped = [&] { return !to.running || to.paused(); };
+  scheduler_->wait([&] { return !full() || stopped(); }, std::nullopt,
+                   "room in the mailbox of SPE " + std::to_string(spe));
+  if (full())
+    throw SpeError("SPE " + std::to_string(spe) + ": is not running, and its inbound mailbox is full");
+  to.state.write_in_mailbox(value, {Diagnostic::kPpe, scheduler_->enter()});
+}
+
+unsigned EmulatedCell::in_mailbox_space(unsigned spe) const {
+  const Spe& asked = *spes_.at(spe);
+  scheduler_->enter();
+  return kInboundMailboxEntries - asked.state.in_mailbox_count();
+}
+
+void EmulatedCell::write_signal(unsigned spe, Signal which, std::uint32_t value) {
+  Spe& to = *spes_.at(spe);
+  if (to.state.write_signal(which, value, {Diagnostic::kPpe, scheduler_->enter()})) return;
+  report_ppe(Rule::signal_overwritten, spe, which == Signal::one ? "signal 1" : "signal 2");
 }
 
 bool EmulatedCell::wait_for_mail(std::chrono::milliseconds timeout) {
-  return bell_.wait_for(timeout, [&] {
-    return std::any_of(problem_states_.begin(), problem_states_.end(),
-                       [](const auto& problem_state) { return problem_state->has_outbound_mail(); });
-  });
+  const auto news = [&] {
+    if (scheduler_->stops() != stops_seen_) return true;
+    return std::any_of(spes_.begin(), spes_.end(),
+                       [](const auto& spe) { return spe->state.has_outbound_mail(); });
+  };
+  const bool rang = scheduler_->wait(news, timeout, "mail");
+  stops_seen_ = scheduler_->stops();
+  return rang;
+}
+
+// --- proxy commands ---
+
+void EmulatedCell::proxy_command(unsigned spe, MfcOpcode op, std::uint32_t lsa, ea_t ea, std::uint32_t size,
+                                 std::uint32_t tag) {
+  Mfc& mfc = spes_.at(spe)->mfc;
+  const MfcCommand command{op, tag, lsa, size, ea};
+  mfc.check_proxy(command, scheduler_->enter());
+  if (!lockstep()) return mfc.perform_proxy(command);
+  scheduler_->wait([&] { return mfc.free_proxy_entries() != 0; }, std::nullopt,
+                   "room in the proxy queue of SPE " + std::to_string(spe));
+  mfc.issue_proxy(command, scheduler_->enter());
+}
+
+std::uint32_t EmulatedCell::proxy_tag_status(unsigned spe, std::uint32_t mask, TagUpdate request) {
+  Mfc& mfc = spes_.at(spe)->mfc;
+  Cycle now = scheduler_->enter();
+  const auto complete = [&] { return lockstep() ? mask & ~mfc.outstanding_proxy_tags() : mask; };
+  const auto ready = [&] {
+    return request == TagUpdate::immediate ||
+           (request == TagUpdate::all ? complete() == mask : complete() != 0);
+  };
+  if (!ready()) {
+    scheduler_->wait(ready, std::nullopt, "a proxy tag group of SPE " + std::to_string(spe));
+    now = scheduler_->enter();
+  }
+  const std::uint32_t tags = complete();
+  if (lockstep()) mfc.observe_proxy(tags, now);
+  return tags;
 }
 
 } // namespace

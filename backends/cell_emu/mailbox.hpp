@@ -6,6 +6,12 @@
 
 namespace celltrace::cell_emu {
 
+/// A word on its way: its value, and the arrow that a trace draws for it (0: none).
+struct Word {
+  std::uint32_t value = 0;
+  std::uint64_t arrow = 0;
+};
+
 template <unsigned Entries> class Mailbox {
 public:
   unsigned count() const { return count_; }
@@ -13,20 +19,20 @@ public:
   bool full() const { return count_ == Entries; }
 
   /// Appends a word; a full mailbox loses its newest word to it.
-  void push(std::uint32_t value) {
+  void push(Word word) {
     if (!full()) ++count_;
-    entries_[(first_ + count_ - 1) % Entries] = value;
+    entries_[(first_ + count_ - 1) % Entries] = word;
   }
   /// The oldest word. Not for an empty mailbox.
-  std::uint32_t pop() {
-    const std::uint32_t value = entries_[first_];
+  Word pop() {
+    const Word word = entries_[first_];
     first_ = (first_ + 1) % Entries;
     --count_;
-    return value;
+    return word;
   }
 
 private:
-  std::array<std::uint32_t, Entries> entries_{};
+  std::array<Word, Entries> entries_{};
   unsigned first_ = 0;
   unsigned count_ = 0;
 };

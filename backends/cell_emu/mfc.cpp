@@ -1,63 +1,243 @@
 #include "backends/cell_emu/mfc.hpp"
 
+#include "backends/cell_emu/local_store_watch.hpp"
 #include "backends/cell_emu/mfc_rules.hpp"
-#include "celltrace/error.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <cstring>
 
 namespace celltrace::cell_emu {
 namespace {
 
-/// Must `earlier` be complete before `later` may move?
-bool is_ordered(const MfcCommand& earlier, const MfcCommand& later) {
-  if (kind_of(earlier.opcode) == CommandKind::barrier || kind_of(later.opcode) == CommandKind::barrier)
-    return true;
-  if (earlier.tag != later.tag) return false;
-  return has_barrier(earlier.opcode) || has_barrier(later.opcode) || has_fence(later.opcode);
+constexpr std::uint64_t kStream = 0x4D4643;
+
+std::string to_hex(std::uint32_t value) {
+  char text[9];
+  std::snprintf(text, sizeof text, "%x", static_cast<unsigned>(value));
+  return text;
+}
+
+const char* name_of(EaKind kind) {
+  switch (kind) {
+  case EaKind::main_memory:
+    return "main memory";
+  case EaKind::local_store:
+    return "local store";
+  case EaKind::signal_1:
+    return "signal 1";
+  case EaKind::signal_2:
+    return "signal 2";
+  case EaKind::in_mailbox:
+    return "in mailbox";
+  case EaKind::no_register:
+  case EaKind::unmapped:
+    break;
+  }
+  return "nothing";
 }
 
 } // namespace
 
-Mfc::Mfc(unsigned spe, Bus& bus, ProblemState& problem_state, Counters& counters)
-    : spe_(spe), bus_(bus), problem_state_(problem_state), counters_(counters) {
+Mfc::Mfc(unsigned spe, const MfcContext& context, DmaTiming& timing, ArenaRange arena,
+         ProblemState& problem_state, Counters& counters)
+    : spe_(spe), context_(context), arena_(arena), bus_(context.bus), timing_(timing),
+      problem_state_(problem_state), counters_(counters), random_(context.config.seed, kStream + spe) {
 }
 
-Mfc::~Mfc() {
+// --- a program's life ---
+
+void Mfc::begin_program() {
+  tag_groups_ = {};
+  used_tags_ = waited_tags_ = stalled_tags_ = 0;
+  last_wait_ = {};
+  atomic_status_.reset();
+}
+
+void Mfc::finish(Cycle now) {
+  while (next_event() != kNever)
+    now = std::max(now, run_next());
+  const auto left = [&](const Flight& flight) { return !flight.proxy; };
+  const std::uint32_t idle_waits = waited_tags_ & ~used_tags_;
+  std::optional<Diagnostic> first;
+  std::uint64_t last = 0;
+  for (const Flight& flight : context_.flights.of(spe_)) {
+    if (!left(flight) || flight.command == last) continue;
+    last = flight.command;
+    Diagnostic diagnostic =
+        about({flight.transfer, flight.command, flight.site, false, 0}, Rule::in_flight_at_exit, now);
+    std::string what = describe(flight.transfer) + ": " + std::string(text_of(Rule::in_flight_at_exit));
+    if (!flight.completed) what += "; its list is still stopped at a notify element";
+    const bool kept = context_.log.note(diagnostic, what);
+    if (kept && diagnostic.action == Action::stop && !first) first = diagnostic;
+  }
+  if (last != 0 && idle_waits != 0) {
+    Diagnostic diagnostic = about({}, Rule::wait_without_command, now);
+    diagnostic.site = last_wait_;
+    context_.log.note(diagnostic, "tag groups 0x" + to_hex(idle_waits) + ": " +
+                                      std::string(text_of(Rule::wait_without_command)));
+  }
+  if (tag_groups_.available() || tag_groups_.waiting()) {
+    Diagnostic diagnostic = about({}, Rule::tag_status_unread, now);
+    diagnostic.site = last_wait_;
+    context_.log.note(diagnostic, std::string(text_of(Rule::tag_status_unread)));
+  }
+  if (atomic_status_ && !first) {
+    Diagnostic diagnostic =
+        about({last_atomic_, commands_, last_atomic_site_, false, 0}, Rule::atomic_status_unread, now);
+    if (context_.log.note(diagnostic,
+                          describe(last_atomic_) + ": " + std::string(text_of(Rule::atomic_status_unread))) &&
+        diagnostic.action == Action::stop)
+      first = diagnostic;
+  }
+  abandon();
+  if (first) throw RuleViolation(*first);
+}
+
+void Mfc::abandon() {
+  context_.flights.remove_if(spe_, [&](const Flight& flight) {
+    if (!flight.proxy) permit_access(local_store(flight.transfer), flight.bytes());
+    return !flight.proxy;
+  });
+  std::erase_if(queue_, [](const Entry& entry) { return !entry.proxy; });
+  spu_entries_ = 0;
+  stalled_tags_ = 0;
+  tag_groups_ = {};
+  atomic_status_.reset();
   bus_.drop_reservation(spe_);
-}
-
-void Mfc::fail(const std::string& what) const {
-  throw SpeError("SPE " + std::to_string(spe_) + ": " + what);
+  start_ready(0);
 }
 
 // --- issue ---
 
-void Mfc::check(const MfcCommand& command) const {
-  MfcRule rule = broken_common_rule(command);
-  if (rule == MfcRule::none) {
-    const CommandKind kind = kind_of(command.opcode);
+Diagnostic Mfc::about(const Entry& entry, Rule rule, Cycle now) const {
+  Diagnostic diagnostic;
+  diagnostic.rule = rule;
+  diagnostic.spe = entry.proxy ? Diagnostic::kPpe : spe_;
+  diagnostic.command = entry.number;
+  diagnostic.opcode = static_cast<std::uint32_t>(entry.command.opcode);
+  diagnostic.tag = entry.command.tag;
+  diagnostic.lsa = entry.command.lsa;
+  diagnostic.size = entry.command.size;
+  diagnostic.ea = entry.command.ea;
+  diagnostic.site = entry.site;
+  diagnostic.cycle = now;
+  return diagnostic;
+}
+
+void Mfc::check(const MfcCommand& command, std::uint64_t number, CallSite site, Cycle now, bool proxy) {
+  Rule rule = broken_common_rule(command);
+  if (rule == Rule::none && proxy) rule = broken_proxy_rule(command);
+  const CommandKind kind = kind_of(command.opcode);
+  if (rule == Rule::none) {
     if (is_list(command.opcode))
       rule = broken_list_rule(command);
     else if (kind == CommandKind::lock_line)
       rule = broken_lock_line_rule(command, bus_.map().locate(command.ea, kLineBytes).kind);
+    else if (kind == CommandKind::cache_control)
+      rule = broken_cache_control_rule(command, bus_.map().locate(command.ea, command.size).kind);
     else if (kind != CommandKind::barrier)
       rule = broken_transfer_rule(command, bus_.map().locate(command.ea, command.size).kind);
   }
-  if (rule != MfcRule::none) fail(describe(command) + ": " + text_of(rule));
+  if (rule == Rule::none && kind == CommandKind::get && !is_list(command.opcode) && command.size != 0 &&
+      (command.lsa < arena_.begin || command.lsa + command.size > arena_.end))
+    rule = Rule::program_overwritten;
+  if (rule == Rule::none && (kind == CommandKind::get || kind == CommandKind::put) && command.size == 0)
+    rule = Rule::zero_size;
+  if (rule != Rule::none)
+    context_.log.report(about({command, number, site, proxy, now}, rule, now),
+                        describe(command) + ": " + std::string(text_of(rule)));
 }
 
-void Mfc::issue(const MfcCommand& command) {
-  check(command);
+void Mfc::issue(const MfcCommand& command, CallSite site, Cycle now) {
+  ++commands_;
+  check(command, commands_, site, now, false);
   counters_.dma_commands.add(1);
-  if (is_immediate(command.opcode))
-    execute_immediate(command);
-  else
-    enqueue(command);
+  const std::uint32_t bit = 1u << command.tag;
+  if (is_immediate(command.opcode)) {
+    check_conditional(command, site, now);
+    last_atomic_ = command;
+    last_atomic_site_ = site;
+    depart({command, commands_, site, false, now}, command, now);
+    execute_immediate(command, now);
+    return;
+  }
+  if ((tag_groups_.waiting() || tag_groups_.available()) && (tag_groups_.mask() & bit) != 0)
+    context_.log.report(about({command, commands_, site, false, now}, Rule::tag_reused, now),
+                        describe(command) + ": " + std::string(text_of(Rule::tag_reused)));
+  used_tags_ |= bit;
+  enqueue(command, site, now, false);
 }
 
-void Mfc::execute_immediate(const MfcCommand& command) {
+void Mfc::check_proxy(const MfcCommand& command, Cycle now) {
+  check(command, 0, {}, now, true);
+}
+
+void Mfc::issue_proxy(const MfcCommand& command, Cycle now) {
+  ++commands_;
+  enqueue(command, {}, now, true);
+}
+
+void Mfc::perform_proxy(const MfcCommand& command) {
+  if (command.size == 0) return;
+  const AddressMap::Place place = bus_.map().locate(command.ea, command.size);
+  const bool reads = kind_of(command.opcode) == CommandKind::get;
+  if (!is_register(place.kind))
+    return reads ? bus_.get(spe_, command.lsa, command.ea, command.size)
+                 : bus_.put(spe_, command.lsa, command.ea, command.size);
+  std::uint32_t value;
+  if (reads) {
+    value = bus_.read_register(place);
+    std::memcpy(local_store(command), &value, sizeof value);
+  } else {
+    std::memcpy(&value, local_store(command), sizeof value);
+    bus_.write_register(place, value, {Diagnostic::kPpe, 0});
+  }
+}
+
+void Mfc::enqueue(const MfcCommand& command, CallSite site, Cycle now, bool proxy) {
+  Entry entry{command, commands_, site, proxy, now};
+  if (is_list(command.opcode)) {
+    entry.next_lsa = command.lsa & ~15u;
+    read_list(entry);
+    begin_part(entry, now);
+  } else if (kind_of(command.opcode) == CommandKind::get || kind_of(command.opcode) == CommandKind::put ||
+             kind_of(command.opcode) == CommandKind::send_signal) {
+    depart(entry, command, now);
+  }
+  if (kind_of(command.opcode) == CommandKind::barrier) last_queue_barrier_[proxy] = commands_;
+  if (has_barrier(command.opcode)) last_tag_barrier_[proxy][command.tag] = commands_;
+  queue_.push_back(std::move(entry));
+  if (!proxy) ++spu_entries_;
+  start_ready(now + context_.config.timing.mfc_issue);
+}
+
+void Mfc::check_conditional(const MfcCommand& command, CallSite site, Cycle now) {
+  if (command.opcode != MfcOpcode::putllc) return;
+  Rule rule = Rule::none;
+  switch (bus_.reservation(spe_)) {
+  case Bus::Reservation::none:
+    rule = Rule::conditional_without_reservation;
+    break;
+  case Bus::Reservation::lost_to_own_put:
+    rule = Rule::reservation_lost_to_own_put;
+    break;
+  case Bus::Reservation::held:
+    if (!bus_.reserves(spe_, command.ea)) rule = Rule::conditional_without_reservation;
+    break;
+  case Bus::Reservation::lost_to_others:
+    break;
+  }
+  if (rule != Rule::none)
+    context_.log.report(about({command, commands_, site, false, now}, rule, now),
+                        describe(command) + ": " + std::string(text_of(rule)));
+}
+
+void Mfc::execute_immediate(const MfcCommand& command, Cycle now) {
   const auto [opcode, tag, lsa, size, ea] = command;
+  const bool elsewhere = bus_.reserved_by_another(spe_, ea);
+  const TimingParameters& timing = context_.config.timing;
+  atomic_due_ = now + timing.mfc_issue + (elsewhere ? timing.lock_line_spe : timing.lock_line_memory);
   if (opcode == MfcOpcode::getllar) {
     bus_.get_line_and_reserve(spe_, lsa, ea);
     counters_.dma_bytes_read.add(kLineBytes);
@@ -73,200 +253,445 @@ void Mfc::execute_immediate(const MfcCommand& command) {
   }
 }
 
-void Mfc::enqueue(const MfcCommand& command) {
-  while (free_entries() == 0)
-    if (!advance()) fail(describe(command) + ": the queue is full, and all of it waits for stopped lists");
-  queue_[queued_++] = {command, timing_.mark(), 0, command.lsa & ~15u, false};
+// --- transfers in flight ---
+
+std::uint8_t* Mfc::local_store(const MfcCommand& transfer) const {
+  return bus_.map().local_store(spe_) + transfer.lsa;
 }
 
-// --- order ---
-
-unsigned Mfc::first_before(unsigned index) const {
-  for (unsigned earlier = 0; earlier < index; ++earlier)
-    if (is_ordered(queue_[earlier].command, queue_[index].command)) return earlier;
-  return index;
-}
-
-bool Mfc::advance_towards(unsigned index) {
-  for (unsigned before = first_before(index); before != index; before = first_before(index))
-    index = before;
-  Entry& entry = queue_[index];
-  if (entry.stalled) return false;
-  if (execute(entry)) remove(index);
-  return true;
-}
-
-bool Mfc::advance_any_of(std::uint32_t tags) {
-  for (unsigned i = 0; i < queued_; ++i)
-    if ((tags >> queue_[i].command.tag & 1) != 0 && advance_towards(i)) return true;
-  return false;
-}
-
-bool Mfc::advance() {
-  return queued_ != 0 && advance_any_of(~0u);
-}
-
-void Mfc::drain() {
-  while (advance()) {
-  }
-}
-
-void Mfc::finish() {
-  drain();
-  if (queued_ != 0) fail("ended while a list is stopped at a notify element: " + describe(queue_[0].command));
-}
-
-void Mfc::remove(unsigned index) {
-  if (free_entries() == 0) problem_state_.raise_own(event::command_queue);
-  std::copy(queue_.begin() + index + 1, queue_.begin() + queued_, queue_.begin() + index);
-  --queued_;
-  judge_tag_groups();
-}
-
-// --- execution ---
-
-bool Mfc::execute(Entry& entry) {
-  const MfcCommand& command = entry.command;
-  if (is_list(command.opcode)) return execute_list(entry);
-  if (kind_of(command.opcode) == CommandKind::barrier) return true;
-  if (kind_of(command.opcode) == CommandKind::lock_line) {
-    bus_.put_line(spe_, command.lsa, command.ea);
-    counters_.dma_bytes_written.add(kLineBytes);
+bool Mfc::is_ordered_before(const Flight& flight, const Entry& entry) const {
+  if (flight.proxy != entry.proxy) return false;
+  if (flight.command == entry.number) return true; // elements of a list are taken in order
+  if (kind_of(entry.command.opcode) == CommandKind::barrier ||
+      flight.command < last_queue_barrier_[entry.proxy])
     return true;
-  }
-  transfer(command);
-  return true;
+  if (flight.transfer.tag != entry.command.tag) return false;
+  return has_fence(entry.command.opcode) || has_barrier(entry.command.opcode) ||
+         flight.command <= last_tag_barrier_[entry.proxy][entry.command.tag];
 }
 
-ListElement Mfc::read_element(const Entry& entry) const {
-  const std::uint8_t* const list =
-      bus_.map().local_store(spe_) + static_cast<std::uint32_t>(entry.command.ea);
-  ListElement element;
-  std::memcpy(&element, list + entry.next_element * sizeof element, sizeof element);
-  return element;
-}
-
-bool Mfc::execute_list(Entry& entry) {
-  const MfcCommand& list = entry.command;
-  const std::uint32_t elements = list.size / sizeof(ListElement);
-  while (entry.next_element < elements) {
-    const ListElement element = read_element(entry);
-    const MfcCommand part = element_command(list, element, entry.next_lsa);
-    const MfcRule rule = broken_element_rule(part, bus_.map().locate(part.ea, part.size).kind);
-    if (rule != MfcRule::none)
-      fail("element " + std::to_string(entry.next_element) + " of " + describe(list) + ": " + describe(part) +
-           ": " + text_of(rule));
-    transfer(part);
-    counters_.dma_list_elements.add(1);
-    if (part.size != 0) entry.next_lsa = (part.lsa + part.size + 15) & ~15u;
-    ++entry.next_element;
-    if ((element.notify_and_size & ListElement::kNotify) != 0 && entry.next_element < elements) {
-      entry.stalled = true;
-      stalled_tags_ |= 1u << list.tag;
-      problem_state_.raise_own(event::list_stall);
-      return false;
+void Mfc::depart(const Entry& entry, const MfcCommand& transfer, Cycle now) {
+  if (transfer.size == 0) return;
+  Flight flight;
+  flight.command = entry.number;
+  flight.transfer = transfer;
+  flight.site = entry.site;
+  flight.proxy = entry.proxy;
+  flight.local = bus_.map().addresses(spe_).local_store + transfer.lsa;
+  const bool lock_line = kind_of(transfer.opcode) == CommandKind::lock_line;
+  if (lock_line)
+    flight.transfer.opcode = transfer.opcode == MfcOpcode::getllar ? MfcOpcode::get : MfcOpcode::put;
+  // Lines that change hands whole are no race; nor are registers.
+  flight.has_storage = !lock_line && !is_register(bus_.map().locate(transfer.ea, transfer.size).kind);
+  for (std::size_t i = 0; i < context_.flights.of(spe_).size(); ++i) {
+    Flight& other = context_.flights.at(spe_, i);
+    const Overlap overlap = overlap_of(flight, other);
+    if (!overlap.any) continue;
+    if (is_ordered_before(other, entry)) {
+      flight.shared = other.shared = true;
+      continue;
     }
+    report_conflict(entry, transfer, {spe_, other.command, other.transfer, other.site, overlap.local}, now);
   }
-  return true;
+  if (flight.has_storage)
+    if (const auto conflict = context_.flights.conflict_elsewhere(spe_, flight))
+      report_conflict(entry, transfer, *conflict, now);
+  if (!lock_line) context_.flights.add(spe_, flight);
 }
 
-void Mfc::transfer(const MfcCommand& command) {
-  if (command.size == 0) return;
-  const AddressMap::Place place = bus_.map().locate(command.ea, command.size);
-  if (is_register(place.kind))
-    transfer_word(command, place);
-  else
-    transfer_block(command);
+void Mfc::report_conflict(const Entry& entry, const MfcCommand& transfer, const Conflict& conflict,
+                          Cycle now) {
+  const Rule rule = conflict.in_local_store ? Rule::local_store_race : Rule::main_storage_race;
+  Diagnostic diagnostic = about({transfer, entry.number, entry.site, entry.proxy, now}, rule, now);
+  diagnostic.other_spe = conflict.spe;
+  diagnostic.other_command = conflict.command;
+  diagnostic.other_site = conflict.site;
+  std::string other = "command " + std::to_string(conflict.command) + " of SPE " +
+                      std::to_string(conflict.spe) + " (" + describe(conflict.transfer);
+  if (const std::string site = to_text(conflict.site); !site.empty()) other += ", at " + site;
+  context_.log.report(diagnostic,
+                      describe(transfer) + " meets " + other + "): " + std::string(text_of(rule)));
 }
 
-void Mfc::transfer_word(const MfcCommand& command, AddressMap::Place place) {
-  std::uint8_t* const word = bus_.map().local_store(spe_) + command.lsa;
+void Mfc::report_touched(const Flight& flight, Cycle now) {
+  const Rule rule = flight.writes_local_store() ? Rule::get_target_touched : Rule::put_source_changed;
+  context_.log.report(about({flight.transfer, flight.command, flight.site, flight.proxy, now}, rule, now),
+                      describe(flight.transfer) + ": " + std::string(text_of(rule)));
+}
+
+void Mfc::verify(const Flight& flight, Cycle now) {
+  if (flight.hashed && !flight.shared &&
+      checksum(local_store(flight.transfer), flight.bytes()) != flight.hash)
+    report_touched(flight, now);
+}
+
+void Mfc::move_word(const Flight& flight, AddressMap::Place place, Cycle now) {
+  std::uint8_t* const word = local_store(flight.transfer);
   std::uint32_t value;
-  if (kind_of(command.opcode) == CommandKind::get) {
+  if (flight.writes_local_store()) {
     value = bus_.read_register(place);
     std::memcpy(word, &value, sizeof value);
     counters_.dma_bytes_read.add(sizeof value);
     return;
   }
   std::memcpy(&value, word, sizeof value);
-  bus_.write_register(place, value);
+  const bool mail = place.kind == EaKind::in_mailbox;
   counters_.dma_bytes_written.add(sizeof value);
-  (place.kind == EaKind::in_mailbox ? counters_.mailbox_words_sent : counters_.signals_sent).add(1);
+  (mail ? counters_.mailbox_words_sent : counters_.signals_sent).add(1);
+  if (bus_.write_register(place, value, {flight.proxy ? Diagnostic::kPpe : spe_, now})) return;
+  const Rule rule = mail ? Rule::mailbox_overwritten : Rule::signal_overwritten;
+  Diagnostic diagnostic = about({flight.transfer, flight.command, flight.site, flight.proxy, now}, rule, now);
+  diagnostic.other_spe = place.spe;
+  context_.log.report(diagnostic, describe(flight.transfer) + " (" + (mail ? "mailbox" : "signal") +
+                                      " of SPE " + std::to_string(place.spe) +
+                                      "): " + std::string(text_of(rule)));
 }
 
-void Mfc::transfer_block(const MfcCommand& command) {
-  if (kind_of(command.opcode) == CommandKind::get) {
-    bus_.get(spe_, command.lsa, command.ea, command.size);
-    counters_.dma_bytes_read.add(command.size);
+void Mfc::move(Flight& flight, Cycle now) {
+  flight.moved = true;
+  const auto [opcode, tag, lsa, size, ea] = flight.transfer;
+  std::uint8_t* const local = local_store(flight.transfer);
+  permit_access(local, size);
+  const AddressMap::Place place = bus_.map().locate(ea, size);
+  if (flight.writes_local_store()) {
+    const bool touched = flight.hashed && !flight.shared && !is_poison(local, size);
+    if (is_register(place.kind)) {
+      move_word(flight, place, now);
+    } else {
+      bus_.get(spe_, lsa, ea, size);
+      counters_.dma_bytes_read.add(size);
+    }
+    flight.hashed = !flight.shared;
+    if (flight.hashed) flight.hash = checksum(local, size);
+    if (touched) report_touched(flight, now);
+    return;
+  }
+  verify(flight, now);
+  if (is_register(place.kind)) {
+    move_word(flight, place, now);
   } else {
-    bus_.put(spe_, command.lsa, command.ea, command.size);
-    counters_.dma_bytes_written.add(command.size);
+    bus_.put(spe_, lsa, ea, size);
+    counters_.dma_bytes_written.add(size);
   }
 }
 
-// --- tag groups ---
+void Mfc::observe(std::uint32_t tags, std::uint64_t last_command, bool proxy, Cycle now) {
+  const auto seen = [&](const Flight& flight) {
+    return flight.completed && flight.proxy == proxy && (tags >> flight.transfer.tag & 1) != 0 &&
+           flight.command <= last_command;
+  };
+  std::optional<Flight> touched;
+  for (std::size_t i = 0; i < context_.flights.of(spe_).size(); ++i) {
+    Flight& flight = context_.flights.at(spe_, i);
+    if (!seen(flight)) continue;
+    if (!flight.moved)
+      move(flight, now);
+    else
+      verify(flight, now);
+  }
+  context_.flights.remove_if(spe_, seen);
+}
 
-std::uint32_t Mfc::outstanding_tags() const {
+void Mfc::observe_proxy(std::uint32_t tags, Cycle now) {
+  observe(tags, commands_, true, now);
+}
+
+// --- progress ---
+
+std::uint32_t Mfc::outstanding(bool proxy) const {
   std::uint32_t tags = 0;
-  for (unsigned i = 0; i < queued_; ++i)
-    tags |= 1u << queue_[i].command.tag;
+  for (const Entry& entry : queue_)
+    if (entry.proxy == proxy) tags |= 1u << entry.command.tag;
   return tags;
 }
 
+Cycle Mfc::next_event() const {
+  Cycle next = kNever;
+  for (const Entry& entry : queue_)
+    next = std::min(next, entry.moved ? entry.due : std::min(entry.due, entry.move_at));
+  return next;
+}
+
+Cycle Mfc::run_next() {
+  const Cycle now = next_event();
+  for (std::size_t i = 0; i < queue_.size(); ++i) {
+    Entry& entry = queue_[i];
+    if (!entry.moved && entry.move_at == now && entry.move_at < entry.due) {
+      move_data(entry, now);
+      return now;
+    }
+    if (entry.due == now) {
+      complete(i, now);
+      return now;
+    }
+  }
+  return now;
+}
+
+bool Mfc::may_start(std::size_t index) const {
+  for (std::size_t earlier = 0; earlier < index; ++earlier)
+    if (queue_[earlier].proxy == queue_[index].proxy &&
+        is_ordered(queue_[earlier].command, queue_[index].command))
+      return false;
+  return true;
+}
+
+void Mfc::start_ready(Cycle now) {
+  for (std::size_t i = 0; i < queue_.size(); ++i)
+    if (queue_[i].due == kNever && !queue_[i].stalled && may_start(i)) start(queue_[i], now);
+}
+
+void Mfc::start(Entry& entry, Cycle now) {
+  const EmulationConfig& config = context_.config;
+  // What it is ordered behind is complete: so must its data be, however late they may come.
+  std::vector<Flight>::size_type count = context_.flights.of(spe_).size();
+  for (std::size_t i = 0; i < count; ++i) {
+    Flight& flight = context_.flights.at(spe_, i);
+    if (flight.completed && !flight.moved && flight.command != entry.number &&
+        is_ordered_before(flight, entry))
+      move(flight, now);
+  }
+  entry.due = time_of(entry, now) + random_.below(config.faults.dma_delay);
+  entry.moved = false;
+  entry.move_at = kNever;
+  const bool random = config.transfers == TransferTime::random;
+  if (random) entry.due += random_.below(entry.due - now + 1);
+  // A get may as well come when it is waited for.
+  if (random && !(kind_of(entry.command.opcode) == CommandKind::get && random_.once_in(2)))
+    entry.move_at = now + random_.below(entry.due - now + 1);
+  for (std::size_t i = 0; i < count; ++i) {
+    Flight& flight = context_.flights.at(spe_, i);
+    if (flight.command != entry.number || flight.started) continue;
+    flight.started = true;
+    if (flight.shared) continue;
+    std::uint8_t* const local = local_store(flight.transfer);
+    flight.hashed = true;
+    if (!flight.writes_local_store()) {
+      flight.hash = checksum(local, flight.bytes());
+    } else if (config.transfers != TransferTime::at_issue) {
+      fill_with_poison(local, flight.bytes());
+      forbid_access(local, flight.bytes());
+    } else {
+      flight.hashed = false;
+    }
+  }
+  if (config.transfers == TransferTime::at_issue) move_data(entry, now);
+}
+
+Cycle Mfc::time_of_transfer(const MfcCommand& transfer, Cycle start) {
+  const AddressMap::Place place = bus_.map().locate(transfer.ea, transfer.size);
+  const DmaTarget target = place.kind == EaKind::main_memory   ? DmaTarget::memory
+                           : place.kind == EaKind::local_store ? DmaTarget::local_store
+                                                               : DmaTarget::problem_state;
+  return timing_.complete(spe_, start, target, place.spe, transfer.ea, transfer.size);
+}
+
+Cycle Mfc::time_of(const Entry& entry, Cycle start) {
+  const TimingParameters& timing = context_.config.timing;
+  switch (kind_of(entry.command.opcode)) {
+  case CommandKind::barrier:
+  case CommandKind::cache_control:
+  case CommandKind::unknown:
+    return start + timing.list_element;
+  case CommandKind::lock_line:
+    return start + timing.lock_line_memory;
+  case CommandKind::get:
+  case CommandKind::put:
+  case CommandKind::send_signal:
+    break;
+  }
+  if (!is_list(entry.command.opcode))
+    return entry.command.size == 0 ? start + 1 : time_of_transfer(entry.command, start);
+  Cycle due = start + timing.list_element;
+  for (const Flight& flight : context_.flights.of(spe_)) {
+    if (flight.command != entry.number || flight.started) continue;
+    start += timing.list_element;
+    due = std::max(due, time_of_transfer(flight.transfer, start));
+  }
+  return due;
+}
+
+void Mfc::move_data(Entry& entry, Cycle now) {
+  entry.moved = true;
+  if (entry.command.opcode == MfcOpcode::putqlluc) {
+    bus_.put_line(spe_, entry.command.lsa, entry.command.ea);
+    counters_.dma_bytes_written.add(kLineBytes);
+    return;
+  }
+  if (entry.command.opcode == MfcOpcode::sdcrz) {
+    bus_.zero(spe_, entry.command.ea, entry.command.size);
+    return;
+  }
+  for (std::size_t i = 0; i < context_.flights.of(spe_).size(); ++i) {
+    Flight& flight = context_.flights.at(spe_, i);
+    if (flight.command == entry.number && flight.started && !flight.moved) move(flight, now);
+  }
+}
+
+void Mfc::complete(std::size_t index, Cycle now) {
+  Entry& entry = queue_[index];
+  const TransferTime when = context_.config.transfers;
+  // A get whose data nobody has asked for yet comes with the wait.
+  const bool deferred = kind_of(entry.command.opcode) == CommandKind::get && entry.move_at == kNever &&
+                        when != TransferTime::at_issue;
+  if (!entry.moved && !deferred) move_data(entry, now);
+  const bool last_part = !is_list(entry.command.opcode) || complete_part(entry, now);
+  const bool releases = kind_of(entry.command.opcode) == CommandKind::barrier ||
+                        has_fence(entry.command.opcode) || has_barrier(entry.command.opcode);
+  context_.flights.for_each(spe_, [&](Flight& flight) {
+    if (flight.command == entry.number)
+      flight.completed |= flight.started;
+    else if (releases && is_ordered_before(flight, entry))
+      flight.released = true;
+  });
+  if (context_.trace != nullptr) trace_command(entry, now);
+  if (!last_part) return;
+  const bool was_full = free_entries() == 0;
+  if (!entry.proxy) --spu_entries_;
+  queue_.erase(queue_.begin() + static_cast<std::ptrdiff_t>(index));
+  if (was_full && free_entries() != 0) problem_state_.raise_own(event::command_queue);
+  judge_tag_groups();
+  start_ready(now);
+}
+
+void Mfc::trace_command(const Entry& entry, Cycle now) const {
+  const MfcCommand& command = entry.command;
+  const AddressMap::Place place = bus_.map().locate(command.ea, is_list(command.opcode) ? 0 : command.size);
+  const bool memory = kind_of(command.opcode) == CommandKind::barrier || is_list(command.opcode);
+  context_.trace->dma(spe_, entry.number, cell_emu::name_of(command.opcode), command.tag, command.lsa,
+                      command.size, memory ? name_of(EaKind::main_memory) : name_of(place.kind), place.spe,
+                      entry.issued, now, entry.site);
+}
+
+// --- lists ---
+
+void Mfc::read_list(Entry& entry) const {
+  entry.elements.resize(entry.command.size / sizeof(ListElement));
+  if (entry.elements.empty()) return;
+  std::memcpy(entry.elements.data(),
+              bus_.map().local_store(spe_) + static_cast<std::uint32_t>(entry.command.ea),
+              entry.command.size);
+}
+
+void Mfc::begin_part(Entry& entry, Cycle now) {
+  while (entry.next_element < entry.elements.size()) {
+    const ListElement element = entry.elements[entry.next_element];
+    const MfcCommand part = element_command(entry.command, element, entry.next_lsa);
+    const Rule rule = broken_element_rule(part, bus_.map().locate(part.ea, part.size).kind);
+    if (rule != Rule::none)
+      context_.log.report(about({part, entry.number, entry.site, false, now}, rule, now),
+                          "element " + std::to_string(entry.next_element) + " of " + describe(entry.command) +
+                              ": " + describe(part) + ": " + std::string(text_of(rule)));
+    depart(entry, part, now);
+    counters_.dma_list_elements.add(1);
+    if (part.size != 0) entry.next_lsa = (part.lsa + part.size + 15) & ~15u;
+    ++entry.next_element;
+    if ((element.notify_and_size & ListElement::kNotify) != 0) break;
+  }
+}
+
+void Mfc::check_list_unchanged(const Entry& entry, Cycle now) {
+  const std::uint8_t* const list =
+      bus_.map().local_store(spe_) + static_cast<std::uint32_t>(entry.command.ea);
+  if (std::memcmp(list, entry.elements.data(), entry.next_element * sizeof(ListElement)) == 0) return;
+  context_.log.report(about(entry, Rule::list_changed, now),
+                      describe(entry.command) + ": " + std::string(text_of(Rule::list_changed)));
+}
+
+bool Mfc::complete_part(Entry& entry, Cycle now) {
+  check_list_unchanged(entry, now);
+  // A notify bit in the last element has no effect: there is nothing left to stop.
+  if (entry.next_element == entry.elements.size()) return true;
+  entry.stalled = true;
+  entry.due = kNever;
+  entry.moved = true;
+  stalled_tags_ |= 1u << entry.command.tag;
+  problem_state_.raise_own(event::list_stall);
+  return false;
+}
+
+std::uint32_t Mfc::take_list_stall_status(Cycle now) {
+  const std::uint32_t tags = stalled_tags_;
+  stalled_tags_ = 0;
+  // The parts before the stops have been transferred, and the program knows.
+  for (const Entry& entry : queue_) {
+    if (!entry.stalled || (tags >> entry.command.tag & 1) == 0) continue;
+    const auto seen = [&](const Flight& flight) {
+      return flight.command == entry.number && flight.completed;
+    };
+    for (std::size_t i = 0; i < context_.flights.of(spe_).size(); ++i) {
+      Flight& flight = context_.flights.at(spe_, i);
+      if (!seen(flight)) continue;
+      if (!flight.moved)
+        move(flight, now);
+      else
+        verify(flight, now);
+    }
+    context_.flights.remove_if(spe_, seen);
+  }
+  return tags;
+}
+
+void Mfc::acknowledge_list_stall(std::uint32_t tag, CallSite site, Cycle now) {
+  if (tag >= kMfcTags) {
+    Diagnostic diagnostic = about({}, Rule::list_stall_tag, now);
+    diagnostic.site = site;
+    context_.log.report(diagnostic, "MFC_WrListStallAck " + std::to_string(tag) + ": " +
+                                        std::string(text_of(Rule::list_stall_tag)));
+    return;
+  }
+  for (Entry& entry : queue_) {
+    if (!entry.stalled || entry.command.tag != tag) continue;
+    entry.stalled = false;
+    // The rest of the list may have been written since it was read ahead: that is what the stop is for.
+    const std::uint32_t done = entry.next_element;
+    read_list(entry);
+    entry.next_element = done;
+    begin_part(entry, now);
+  }
+  start_ready(now);
+}
+
+// --- tag groups and atomics ---
+
 void Mfc::judge_tag_groups() {
-  if (tag_groups_.waiting() && tag_groups_.judge(outstanding_tags()))
+  if (tag_groups_.waiting() && tag_groups_.judge(outstanding(false), commands_))
     problem_state_.raise_own(event::tag_status);
 }
 
-void Mfc::write_tag_mask(std::uint32_t mask) {
+void Mfc::write_tag_mask(std::uint32_t mask, Cycle) {
   tag_groups_.write_mask(mask);
   judge_tag_groups();
 }
 
-void Mfc::write_tag_update(std::uint32_t request) {
-  if (request > static_cast<std::uint32_t>(TagUpdate::all))
-    fail("MFC_WrTagUpdate " + std::to_string(request) + ": a request is 0 (immediate), 1 (any) or 2 (all)");
+void Mfc::write_tag_update(std::uint32_t request, CallSite site, Cycle now) {
+  last_wait_ = site;
+  if (request > static_cast<std::uint32_t>(TagUpdate::all)) {
+    Diagnostic diagnostic = about({}, Rule::tag_update_request, now);
+    diagnostic.site = site;
+    context_.log.report(diagnostic, "MFC_WrTagUpdate " + std::to_string(request) + ": " +
+                                        std::string(text_of(Rule::tag_update_request)));
+    return;
+  }
+  if (request != 0) waited_tags_ |= tag_groups_.mask();
   tag_groups_.request(static_cast<TagUpdate>(request));
   judge_tag_groups();
-  // A program that polls must see the end some time.
-  if (static_cast<TagUpdate>(request) == TagUpdate::immediate) advance();
 }
 
-std::uint32_t Mfc::read_tag_status() {
-  while (!tag_groups_.available()) {
-    if (!tag_groups_.waiting())
-      fail("MFC_RdTagStat would stall for ever: no tag status update has been requested");
-    if (!advance_any_of(tag_groups_.mask()))
-      fail("MFC_RdTagStat would stall for ever: " +
-           std::string(tag_groups_.mask() == 0 ? "no tag group is enabled"
-                                               : "a list of the tag group is stopped at a notify element"));
-  }
-  timing_.count_wait();
-  if (queued_ != 0 && timing_.overdue(queue_[0].mark)) advance();
-  return tag_groups_.take();
+std::uint32_t Mfc::take_tag_status(Cycle now) {
+  const std::uint64_t last = tag_groups_.answered_up_to();
+  const std::uint32_t status = tag_groups_.take();
+  observe(status, last, false, now);
+  return status;
 }
 
-// --- lists and atomics ---
-
-std::uint32_t Mfc::read_list_stall_status() {
-  while (stalled_tags_ == 0)
-    if (!advance())
-      fail("MFC_RdListStallStat would stall for ever: no list in the queue has a notify element");
-  const std::uint32_t tags = stalled_tags_;
-  stalled_tags_ = 0;
-  return tags;
+std::string Mfc::why_no_tag_status() const {
+  if (!tag_groups_.waiting()) return "no tag status update has been requested";
+  return tag_groups_.mask() == 0 ? "no tag group is enabled"
+                                 : "a list of the tag group is stopped at a notify element";
 }
 
-void Mfc::acknowledge_list_stall(std::uint32_t tag) {
-  if (tag >= kMfcTags) fail("MFC_WrListStallAck " + std::to_string(tag) + ": " + text_of(MfcRule::tag_range));
-  for (unsigned i = 0; i < queued_; ++i)
-    if (queue_[i].command.tag == tag) queue_[i].stalled = false;
-}
-
-std::uint32_t Mfc::read_atomic_status() {
-  if (!atomic_status_) fail("MFC_RdAtomicStat would stall for ever: no lock-line command has been issued");
-  // A program may spin on a line that another SPE writes only in answer to what is still queued here.
-  advance();
+std::uint32_t Mfc::take_atomic_status() {
   const std::uint32_t status = *atomic_status_;
   atomic_status_.reset();
   return status;

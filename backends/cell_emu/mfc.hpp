@@ -1,107 +1,193 @@
-// The memory flow controller of one SPE: checks commands, queues them, and moves their data later, in an
-// order that fences and barriers allow.
+// The memory flow controller of one SPE: checks commands, queues them, and completes them in virtual time, in
+// an order that fences and barriers allow.
 //
-// Commands of the queue complete in any order, except that a fenced command follows all earlier ones of its
+// Commands of a queue complete in any order, except that a fenced command follows all earlier ones of its
 // tag, a barriered one also precedes all later ones of its tag, and mfc_barrier, mfceieio and mfcsync follow
 // everything earlier and precede everything later. A list that stopped at a notify element stays in the queue
 // until it is acknowledged; the other commands of its tag go on.
+//
+// A command starts when nothing is left that it is ordered behind; the timing model says when it is complete,
+// and the configuration when its data move. Its transfers are in flight, and watched, until the program has
+// observed that it is complete.
 #pragma once
 
 #include "backends/cell_emu/bus.hpp"
 #include "backends/cell_emu/counters.hpp"
+#include "backends/cell_emu/cycle.hpp"
+#include "backends/cell_emu/diagnostic_log.hpp"
+#include "backends/cell_emu/dma_timing.hpp"
+#include "backends/cell_emu/flights.hpp"
 #include "backends/cell_emu/mfc_command.hpp"
+#include "backends/cell_emu/seeded_random.hpp"
 #include "backends/cell_emu/tag_groups.hpp"
-#include "backends/cell_emu/transfer_timing.hpp"
+#include "backends/cell_emu/trace.hpp"
 
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace celltrace::cell_emu {
 
-/// Thread safety: belongs to the thread of its SPE. Every member that may move data throws SpeError when a
-/// command, or an element of a list, breaks a rule; `read_...` members also when the channel would stall for
-/// ever.
+/// What the MFCs of a machine share.
+struct MfcContext {
+  Bus& bus;
+  Flights& flights;
+  DiagnosticLog& log;
+  const EmulationConfig& config;
+  Trace* trace; ///< null: no trace is written
+};
+
+/// The part of local store that is the program's own memory; the rest is its code and stack.
+struct ArenaRange {
+  std::uint32_t begin, end;
+};
+
+/// Thread safety: belongs to the thread that runs its SPE. Members throw RuleViolation when a rule is broken
+/// whose action is to stop.
 class Mfc {
 public:
-  Mfc(unsigned spe, Bus& bus, ProblemState& problem_state, Counters& counters);
-  ~Mfc();
+  Mfc(unsigned spe, const MfcContext& context, DmaTiming& timing, ArenaRange arena,
+      ProblemState& problem_state, Counters& counters);
   Mfc(const Mfc&) = delete;
   Mfc& operator=(const Mfc&) = delete;
 
-  /// Executes an immediate command, queues any other; makes room first if the queue is full.
-  void issue(const MfcCommand& command);
-  unsigned free_entries() const { return kMfcQueueEntries - queued_; }
+  // --- a program's life ---
 
-  /// Moves the oldest command that may move, or a list up to its next stop. False if there is none.
-  bool advance();
-  /// Moves all commands that may move.
-  void drain();
-  /// The end of the kernel: moves everything; a list that is still stopped is an error.
-  void finish();
+  void begin_program();
+  /// The kernel has returned: completes everything and reports what is left undone.
+  void finish(Cycle now);
+  /// The program was broken off: forgets its commands.
+  void abandon();
+
+  // --- commands of the SPU ---
+
+  unsigned free_entries() const { return kMfcQueueEntries - spu_entries_; }
+  /// Executes an immediate command, queues any other. The queue is not full.
+  void issue(const MfcCommand& command, CallSite site, Cycle now);
+
+  // --- commands of the PPE ---
+
+  unsigned free_proxy_entries() const {
+    return kProxyQueueEntries - static_cast<unsigned>(queue_.size() - spu_entries_);
+  }
+  /// The rules of a proxy command, which the PPE breaks. Thread-safe.
+  void check_proxy(const MfcCommand& command, Cycle now);
+  void issue_proxy(const MfcCommand& command, Cycle now);
+  /// Instead of issue_proxy(), from a thread that does not run the SPE: the data move at once. Thread-safe.
+  void perform_proxy(const MfcCommand& command);
+  /// Tags with proxy commands in the queue.
+  std::uint32_t outstanding_proxy_tags() const { return outstanding(true); }
+  void observe_proxy(std::uint32_t tags, Cycle now);
+
+  // --- virtual time ---
+
+  /// When the next thing happens by itself, or kNever.
+  Cycle next_event() const;
+  /// Lets it happen. Returns its time.
+  Cycle run_next();
+  void run_until(Cycle now) {
+    while (next_event() <= now)
+      run_next();
+  }
+
+  // --- channels ---
 
   std::uint32_t tag_mask() const { return tag_groups_.mask(); }
-  void write_tag_mask(std::uint32_t mask);
-  void write_tag_update(std::uint32_t request);
+  void write_tag_mask(std::uint32_t mask, Cycle now);
+  void write_tag_update(std::uint32_t request, CallSite site, Cycle now);
   bool tag_status_available() const { return tag_groups_.available(); }
-  /// Moves what the request needs, and what is overdue.
-  std::uint32_t read_tag_status();
+  /// Only when available.
+  std::uint32_t take_tag_status(Cycle now);
+  /// Why channel 24 will never have a value; the queue has nothing left that happens by itself.
+  std::string why_no_tag_status() const;
 
   bool list_stall_status_available() const { return stalled_tags_ != 0; }
-  std::uint32_t read_list_stall_status();
-  void acknowledge_list_stall(std::uint32_t tag);
+  std::uint32_t take_list_stall_status(Cycle now);
+  void acknowledge_list_stall(std::uint32_t tag, CallSite site, Cycle now);
 
   bool atomic_status_available() const { return atomic_status_.has_value(); }
-  std::uint32_t read_atomic_status();
-
-  /// Bytes moved so far.
-  std::uint64_t bytes_moved() const {
-    return counters_.dma_bytes_read.value() + counters_.dma_bytes_written.value();
-  }
+  /// When the status of the last lock-line command is there.
+  Cycle atomic_status_time() const { return atomic_due_; }
+  std::uint32_t take_atomic_status();
 
 private:
   struct Entry {
     MfcCommand command;
-    std::uint32_t mark;         ///< age, see LateTransfers
-    std::uint32_t next_element; ///< of a list
-    std::uint32_t next_lsa;     ///< of a list: where its next element's quadword lies
-    bool stalled;               ///< at a notify element
+    std::uint64_t number;
+    CallSite site;
+    bool proxy;
+    Cycle issued;
+    Cycle due = kNever;     ///< when it, or the present part of a list, is complete; kNever until it starts
+    Cycle move_at = kNever; ///< when its data move, if that is before `due`
+    bool moved = false;
+    bool stalled = false;                ///< at a notify element
+    std::vector<ListElement> elements{}; ///< of a list, as the MFC has read them
+    std::uint32_t next_element = 0;      ///< first of the part that comes after the present one
+    std::uint32_t next_lsa = 0;          ///< of a list: where that part's first quadword lies
   };
 
-  void check(const MfcCommand& command) const;
-  void execute_immediate(const MfcCommand& command);
-  void enqueue(const MfcCommand& command);
+  Diagnostic about(const Entry& entry, Rule rule, Cycle now) const;
+  void check(const MfcCommand& command, std::uint64_t number, CallSite site, Cycle now, bool proxy);
+  void enqueue(const MfcCommand& command, CallSite site, Cycle now, bool proxy);
+  void execute_immediate(const MfcCommand& command, Cycle now);
+  void check_conditional(const MfcCommand& command, CallSite site, Cycle now);
 
-  /// The oldest command that must complete before entry `index` may move; `index` itself if it may move now.
-  unsigned first_before(unsigned index) const;
-  /// Moves entry `index` or what must come before it. False if a stopped list is in the way.
-  bool advance_towards(unsigned index);
-  bool advance_any_of(std::uint32_t tags);
-  void remove(unsigned index);
+  // --- transfers in flight ---
+
+  void depart(const Entry& entry, const MfcCommand& transfer, Cycle now);
+  void report_conflict(const Entry& entry, const MfcCommand& transfer, const Conflict& conflict, Cycle now);
+  bool is_ordered_before(const Flight& flight, const Entry& entry) const;
+  void move(Flight& flight, Cycle now);
+  void move_word(const Flight& flight, AddressMap::Place place, Cycle now);
+  /// Reports a flight whose local store has another content than the emulator left there.
+  void report_touched(const Flight& flight, Cycle now);
+  void verify(const Flight& flight, Cycle now);
+  void observe(std::uint32_t tags, std::uint64_t last_command, bool proxy, Cycle now);
+  std::uint8_t* local_store(const MfcCommand& transfer) const;
+
+  // --- progress ---
+
+  void start_ready(Cycle now);
+  bool may_start(std::size_t index) const;
+  void start(Entry& entry, Cycle now);
+  Cycle time_of(const Entry& entry, Cycle start);
+  Cycle time_of_transfer(const MfcCommand& transfer, Cycle start);
+  void move_data(Entry& entry, Cycle now);
+  void complete(std::size_t index, Cycle now);
+  /// True when the list is done; else it stands at its notify element.
+  bool complete_part(Entry& entry, Cycle now);
+  void begin_part(Entry& entry, Cycle now);
+  void read_list(Entry& entry) const;
+  void check_list_unchanged(const Entry& entry, Cycle now);
+  void trace_command(const Entry& entry, Cycle now) const;
   void judge_tag_groups();
-  std::uint32_t outstanding_tags() const;
-
-  /// True when the command is complete.
-  bool execute(Entry& entry);
-  bool execute_list(Entry& entry);
-  ListElement read_element(const Entry& entry) const;
-  void transfer(const MfcCommand& command);
-  void transfer_word(const MfcCommand& command, AddressMap::Place place);
-  void transfer_block(const MfcCommand& command);
-
-  [[noreturn]] void fail(const std::string& what) const;
+  std::uint32_t outstanding(bool proxy) const;
 
   const unsigned spe_;
+  const MfcContext context_;
+  const ArenaRange arena_;
   Bus& bus_;
+  DmaTiming& timing_;
   ProblemState& problem_state_;
   Counters& counters_;
+  SeededRandom random_;
 
-  std::array<Entry, kMfcQueueEntries> queue_;
-  unsigned queued_ = 0;
-  LateTransfers timing_;
+  std::vector<Entry> queue_; ///< of the SPU and of the PPE, oldest first
+  unsigned spu_entries_ = 0;
+  std::uint64_t commands_ = 0; ///< issued
+  std::uint64_t last_queue_barrier_[2] = {0, 0};
+  std::array<std::uint64_t, kMfcTags> last_tag_barrier_[2] = {};
+
   TagGroups tag_groups_;
+  std::uint32_t used_tags_ = 0;
+  std::uint32_t waited_tags_ = 0;
+  CallSite last_wait_;
   std::uint32_t stalled_tags_ = 0; ///< not yet read from channel 25
   std::optional<std::uint32_t> atomic_status_;
+  Cycle atomic_due_ = 0;
+  MfcCommand last_atomic_{};
+  CallSite last_atomic_site_;
 };
 
 } // namespace celltrace::cell_emu

@@ -7,6 +7,11 @@
 
 namespace celltrace::cell_emu {
 
+/// The queue through which the PPE, or whoever writes an SPE's problem state, gives commands.
+constexpr unsigned kProxyQueueEntries = 8;
+/// Of libspe2; the others are the system's.
+constexpr std::uint32_t kProxyTags = 16;
+
 /// The local-store address of a pointer that does not point into the SPE's local store.
 constexpr std::uint32_t kOutsideLocalStore = 0xFFFFFFFFu;
 
@@ -20,7 +25,7 @@ struct MfcCommand {
   ea_t ea;
 };
 
-enum class CommandKind { get, put, send_signal, lock_line, barrier, unknown };
+enum class CommandKind { get, put, send_signal, lock_line, barrier, cache_control, unknown };
 
 constexpr CommandKind kind_of(MfcOpcode opcode) {
   switch (opcode) {
@@ -37,6 +42,12 @@ constexpr CommandKind kind_of(MfcOpcode opcode) {
   case MfcOpcode::putl:
   case MfcOpcode::putlb:
   case MfcOpcode::putlf:
+  case MfcOpcode::putr:
+  case MfcOpcode::putrb:
+  case MfcOpcode::putrf:
+  case MfcOpcode::putrl:
+  case MfcOpcode::putrlb:
+  case MfcOpcode::putrlf:
     return CommandKind::put;
   case MfcOpcode::sndsig:
   case MfcOpcode::sndsigb:
@@ -51,6 +62,12 @@ constexpr CommandKind kind_of(MfcOpcode opcode) {
   case MfcOpcode::mfceieio:
   case MfcOpcode::mfcsync:
     return CommandKind::barrier;
+  case MfcOpcode::sdcrt:
+  case MfcOpcode::sdcrtst:
+  case MfcOpcode::sdcrz:
+  case MfcOpcode::sdcrst:
+  case MfcOpcode::sdcrf:
+    return CommandKind::cache_control;
   }
   return CommandKind::unknown;
 }
@@ -77,6 +94,14 @@ constexpr bool is_immediate(MfcOpcode opcode) {
   return kind_of(opcode) == CommandKind::lock_line && opcode != MfcOpcode::putqlluc;
 }
 
+/// Must `earlier` be complete before `later` of the same queue may move, going by these two alone?
+constexpr bool is_ordered(const MfcCommand& earlier, const MfcCommand& later) {
+  if (kind_of(earlier.opcode) == CommandKind::barrier || kind_of(later.opcode) == CommandKind::barrier)
+    return true;
+  if (earlier.tag != later.tag) return false;
+  return has_barrier(earlier.opcode) || has_barrier(later.opcode) || has_fence(later.opcode);
+}
+
 constexpr const char* name_of(MfcOpcode opcode) {
   switch (opcode) {
   case MfcOpcode::put:
@@ -91,6 +116,28 @@ constexpr const char* name_of(MfcOpcode opcode) {
     return "putlb";
   case MfcOpcode::putlf:
     return "putlf";
+  case MfcOpcode::putr:
+    return "putr";
+  case MfcOpcode::putrb:
+    return "putrb";
+  case MfcOpcode::putrf:
+    return "putrf";
+  case MfcOpcode::putrl:
+    return "putrl";
+  case MfcOpcode::putrlb:
+    return "putrlb";
+  case MfcOpcode::putrlf:
+    return "putrlf";
+  case MfcOpcode::sdcrt:
+    return "sdcrt";
+  case MfcOpcode::sdcrtst:
+    return "sdcrtst";
+  case MfcOpcode::sdcrz:
+    return "sdcrz";
+  case MfcOpcode::sdcrst:
+    return "sdcrst";
+  case MfcOpcode::sdcrf:
+    return "sdcrf";
   case MfcOpcode::get:
     return "get";
   case MfcOpcode::getb:

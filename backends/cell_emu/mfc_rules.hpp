@@ -6,39 +6,11 @@
 #pragma once
 
 #include "backends/cell_emu/mfc_command.hpp"
+#include "celltrace/spe/diagnostic.hpp"
 
 #include <string>
 
 namespace celltrace::cell_emu {
-
-enum class MfcRule {
-  none, ///< nothing is broken
-  known_command,
-  tag_range,
-  transfer_size,
-  in_local_store,
-  local_store_end,
-  same_low_bits,
-  natural_alignment,
-  quadword_alignment,
-  mapped_address,
-  register_exists,
-  register_size,
-  register_word,
-  register_readable,
-  signal_size,
-  signal_target,
-  line_alignment,
-  line_in_memory,
-  list_in_local_store,
-  list_alignment,
-  list_length,
-  list_end,
-  element_region,
-};
-
-/// The rule in words: what must hold.
-const char* text_of(MfcRule rule);
 
 /// What lies at an effective address.
 enum class EaKind {
@@ -55,23 +27,29 @@ constexpr bool is_register(EaKind kind) {
 }
 
 /// A get, put or sndsig of `size` bytes. Size 0 is a legal no-op.
-MfcRule broken_transfer_rule(const MfcCommand& command, EaKind target);
+Rule broken_transfer_rule(const MfcCommand& command, EaKind target);
 
 /// A list command without its elements.
-MfcRule broken_list_rule(const MfcCommand& command);
+Rule broken_list_rule(const MfcCommand& command);
 
 /// The transfer that one element of a list asks for; `quadword` is the local-store address of the element's
 /// first quadword, in which the low 4 bits of its effective address choose the byte.
 MfcCommand element_command(const MfcCommand& list, const ListElement& element, std::uint32_t quadword);
 
 /// What element_command() returned.
-MfcRule broken_element_rule(const MfcCommand& part, EaKind target);
+Rule broken_element_rule(const MfcCommand& part, EaKind target);
 
 /// getllar, putllc, putlluc, putqlluc.
-MfcRule broken_lock_line_rule(const MfcCommand& command, EaKind target);
+Rule broken_lock_line_rule(const MfcCommand& command, EaKind target);
+
+/// sdcrt and its like. The hints may name any mapped address.
+Rule broken_cache_control_rule(const MfcCommand& command, EaKind target);
+
+/// What holds of a command of the proxy queue besides the rules of a transfer.
+Rule broken_proxy_rule(const MfcCommand& command);
 
 /// What holds for every command: the opcode exists, the tag is 0..31.
-MfcRule broken_common_rule(const MfcCommand& command);
+Rule broken_common_rule(const MfcCommand& command);
 
 /// The command in one line: "get 20 bytes, LS 0x18010 <- EA 0x7f0010, tag 5".
 std::string describe(const MfcCommand& command);

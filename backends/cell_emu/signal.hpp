@@ -1,6 +1,7 @@
 // A signal notification register. Not synchronised; see problem_state.hpp.
 #pragma once
 
+#include "backends/cell_emu/mailbox.hpp"
 #include "celltrace/spe/types.hpp"
 
 #include <cstdint>
@@ -13,26 +14,26 @@ public:
 
   /// The channel count: 1 while a write has not been read.
   unsigned count() const { return count_; }
-  /// True if the count rose by this write.
-  bool write(std::uint32_t value) {
-    value_ = mode_ == SignalMode::logical_or ? value_ | value : value;
-    const bool rose = count_ == 0;
+  /// True if this write replaces a value that nobody has read.
+  bool loses_a_value() const { return count_ != 0 && mode_ == SignalMode::overwrite; }
+  void write(Word word) {
+    word_.value = mode_ == SignalMode::logical_or ? word_.value | word.value : word.value;
+    word_.arrow = word.arrow;
     count_ = 1;
-    return rose;
   }
   /// The SPU's read: clears value and count.
-  std::uint32_t read() {
-    const std::uint32_t value = value_;
-    value_ = 0;
+  Word read() {
+    const Word word = word_;
+    word_ = {};
     count_ = 0;
-    return value;
+    return word;
   }
   /// A read through the main storage domain changes nothing.
-  std::uint32_t peek() const { return value_; }
+  std::uint32_t peek() const { return word_.value; }
 
 private:
   SignalMode mode_;
-  std::uint32_t value_ = 0;
+  Word word_;
   unsigned count_ = 0;
 };
 

@@ -1,28 +1,104 @@
 #include "backends/cell_emu/spu.hpp"
 
-#include "celltrace/error.hpp"
+#include "backends/cell_emu/pipeline.hpp"
 
 #include <algorithm>
 #include <string>
 
 namespace celltrace::cell_emu {
+namespace {
 
-Spu::Spu(unsigned id, Bus& bus, ProblemState& problem_state, Counters& counters, const ArenaState& arena)
-    : id_(id), bus_(bus), problem_state_(problem_state), counters_(counters),
-      mfc_(id, bus, problem_state, counters), arena_(arena), bytes_before_(mfc_.bytes_moved()) {
+constexpr std::uint64_t kStream = 0x535055;
+constexpr std::uint64_t kUnit = 65536;
+
+constexpr unsigned kAllParameters = 0x1F << 16;
+/// EAH keeps 0 in programs that never write it: the 32-bit forms of the intrinsics do not.
+constexpr unsigned kOptionalParameters = 1u << static_cast<unsigned>(Channel::mfc_eah);
+
+const char* wait_for(Channel channel) {
+  switch (channel) {
+  case Channel::rd_event_stat:
+    return "wait for event";
+  case Channel::rd_sig_notify_1:
+  case Channel::rd_sig_notify_2:
+    return "wait for signal";
+  case Channel::rd_in_mbox:
+    return "wait for mailbox";
+  case Channel::wr_out_mbox:
+  case Channel::wr_out_intr_mbox:
+    return "wait for PPE";
+  case Channel::mfc_cmd:
+    return "queue full";
+  case Channel::rd_tag_stat:
+    return "wait for tag group";
+  case Channel::rd_list_stall_stat:
+    return "wait for list";
+  case Channel::rd_atomic_stat:
+    return "wait for lock line";
+  default:
+    return "wait";
+  }
+}
+
+/// Calls `use(std::integral_constant<Channel, c>)` for the channel with this number.
+template <unsigned c = 0, class Use> void with_channel(unsigned channel, Use use) {
+  if constexpr (c <= static_cast<unsigned>(Channel::wr_out_intr_mbox)) {
+    if (c == channel) return use(std::integral_constant<Channel, static_cast<Channel>(c)>());
+    with_channel<c + 1>(channel, use);
+  }
+}
+
+} // namespace
+
+Spu::Spu(Spe& spe, const SpuContext& context, const ArenaState& arena)
+    : spe_(spe), context_(context), mfc_(spe.mfc), state_(spe.state), counters_(spe.counters),
+      random_(context.mfc.config.seed, kStream + spe.id), arena_(arena),
+      decrementer_(context.mfc.config.timing.cycles_per_tick), now_(spe.now), computing_since_(spe.now) {
+  const double slowest = std::max(1.0, context.mfc.config.faults.slowest_spe);
+  slowness_ = kUnit + static_cast<std::uint64_t>((slowest - 1.0) * kUnit * random_.fraction());
+  take_operation_counts();
   initialise_base();
 }
 
 void Spu::finish() {
-  mfc_.finish();
+  settle();
+  reach();
+  mfc_.finish(now_);
+  const auto left = [&](Rule rule, bool broken, const char* what) {
+    if (!broken) return;
+    Diagnostic diagnostic;
+    diagnostic.rule = rule;
+    diagnostic.spe = id();
+    diagnostic.cycle = now_;
+    context_.mfc.log.report(diagnostic, what + std::string(text_of(rule)));
+  };
+  left(Rule::mailbox_unread, state_.in_mailbox_count() != 0, "");
+  left(Rule::signal_unread, state_.signal_count(Signal::one) != 0, "signal 1: ");
+  left(Rule::signal_unread, state_.signal_count(Signal::two) != 0, "signal 2: ");
+  abandon();
+}
+
+void Spu::abandon() {
   arena();
+  spe_.now = now_;
+  if (context_.mfc.trace != nullptr) context_.mfc.trace->compute(id(), computing_since_, now_);
+}
+
+void Spu::fail(Rule rule, const std::string& what) {
+  Diagnostic diagnostic;
+  diagnostic.rule = rule;
+  diagnostic.spe = id();
+  diagnostic.site = site_;
+  diagnostic.cycle = now_;
+  if (!context_.mfc.log.note(diagnostic, what)) diagnostic.text = "SPE " + std::to_string(id()) + ": " + what;
+  throw RuleViolation(diagnostic);
 }
 
 SpeAddresses Spu::addresses(std::uint32_t spe) const {
   if (spe >= count())
-    throw SpeError("SPE " + std::to_string(id_) + ": there is no SPE " + std::to_string(spe) + ", only " +
+    throw SpeError("SPE " + std::to_string(id()) + ": there is no SPE " + std::to_string(spe) + ", only " +
                    std::to_string(count()));
-  return bus_.map().addresses(spe);
+  return context_.mfc.bus.map().addresses(spe);
 }
 
 /// Every change of the fill is preceded by a call of arena(), so the peak is seen here.
@@ -32,55 +108,182 @@ ArenaState& Spu::arena() {
 }
 
 void Spu::halt(HaltCode code) {
-  std::string text = "SPE " + std::to_string(id_) + ": halted: " + to_text(code);
-  if (code == HaltCode::local_store_exhausted)
-    text += ", " + std::to_string(available()) + " of " + std::to_string(arena_.end - arena_.begin) +
-            " bytes of the arena are free";
-  throw SpeError(text);
+  std::string text = std::string("halted: ") + to_text(code);
+  if (code != HaltCode::local_store_exhausted) fail(Rule::halted, text);
+  fail(Rule::local_store_exhausted, text + ", " + std::to_string(available()) + " of " +
+                                        std::to_string(arena_.end - arena_.begin) +
+                                        " bytes of the arena are free");
+}
+
+void Spu::stop_with(std::uint32_t code) {
+  settle();
+  reach();
+  if (code >= 0x2000 && code <= 0x20FF) throw Exit{code & 0xFF};
+  waited(context_.scheduler.pause(spe_, code, now_), "stopped");
+}
+
+void Spu::note(const char* what, std::uint32_t value) {
+  if (context_.mfc.trace == nullptr) return;
+  settle();
+  context_.mfc.trace->note(id(), what, value, now_);
+}
+
+// --- virtual time ---
+
+void Spu::settle() {
+  const OperationCounts counts = take_operation_counts();
+  SpuCycles cycles = cycles_of(counts, context_.mfc.config.timing);
+  if (cycles.total_cycle == 0) return;
+  if (slowness_ != kUnit) {
+    cycles.stall_due_to_injection = cycles.total_cycle * slowness_ / kUnit - cycles.total_cycle;
+    cycles.total_cycle += cycles.stall_due_to_injection;
+  }
+  now_ += cycles.total_cycle;
+  counters_.cycles.add(cycles);
+}
+
+void Spu::charge(std::uint32_t channel_reads, std::uint32_t channel_writes) {
+  settle();
+  const TimingParameters& timing = context_.mfc.config.timing;
+  SpuCycles cycles;
+  cycles.spr = channel_reads + channel_writes;
+  cycles.single_cycle = cycles.spr;
+  cycles.total_cycle = std::uint64_t{channel_reads} * timing.channel_read +
+                       std::uint64_t{channel_writes} * timing.channel_write;
+  cycles.stall_due_to_dependency = cycles.total_cycle - std::min(cycles.total_cycle, cycles.single_cycle);
+  now_ += cycles.total_cycle;
+  counters_.cycles.add(cycles);
+  if (context_.mfc.config.faults.pause_probability > 0) inject_faults();
+  if (interrupts_enabled_) run_interrupts();
+}
+
+void Spu::inject_faults() {
+  const Faults& faults = context_.mfc.config.faults;
+  if (random_.fraction() >= faults.pause_probability) return;
+  SpuCycles cycles;
+  cycles.stall_due_to_injection = cycles.total_cycle = random_.below(faults.longest_pause);
+  now_ += cycles.total_cycle;
+  counters_.cycles.add(cycles);
+}
+
+void Spu::waited(Cycle until, const char* what) {
+  if (until <= now_) return;
+  if (Trace* const trace = context_.mfc.trace) {
+    trace->compute(id(), computing_since_, now_);
+    trace->wait(id(), what, now_, until);
+    computing_since_ = until;
+  }
+  SpuCycles cycles;
+  cycles.channel_stall_cycle = cycles.total_cycle = until - now_;
+  now_ = until;
+  counters_.cycles.add(cycles);
+}
+
+void Spu::reach() {
+  context_.scheduler.reach(spe_, now_);
+}
+
+void Spu::await_mfc(Channel channel) {
+  const Cycle before = now_;
+  const auto ready = [&] {
+    switch (channel) {
+    case Channel::mfc_cmd:
+      return mfc_.free_entries() != 0;
+    case Channel::rd_tag_stat:
+      return mfc_.tag_status_available();
+    case Channel::rd_list_stall_stat:
+      return mfc_.list_stall_status_available();
+    default:
+      return mfc_.atomic_status_available() && mfc_.atomic_status_time() <= now_;
+    }
+  };
+  Cycle until = before;
+  while (!ready()) {
+    if (state_.interrupted()) state_.stop_at(channel);
+    if (channel == Channel::rd_atomic_stat && mfc_.atomic_status_available()) {
+      waited(mfc_.atomic_status_time(), wait_for(channel));
+      reach();
+      return;
+    }
+    const Cycle next = mfc_.next_event();
+    if (next == kNever) {
+      const std::string why =
+          channel == Channel::rd_tag_stat          ? mfc_.why_no_tag_status()
+          : channel == Channel::rd_list_stall_stat ? "no list in the queue has a notify element"
+          : channel == Channel::mfc_cmd ? "the queue is full, and all of it waits for stopped lists"
+                                        : "no lock-line command has been issued";
+      fail(Rule::stalls_for_ever, std::string(name_of(channel)) + " would stall for ever: " + why);
+    }
+    until = std::max(until, next);
+    context_.scheduler.await_mfc(spe_, until);
+  }
+  waited(until, wait_for(channel));
+}
+
+void Spu::await_other(Channel channel) {
+  for (;;) {
+    if (state_.interrupted()) state_.stop_at(channel);
+    const Cycle deadline = channel == Channel::rd_event_stat ? decrementer_deadline() : kNever;
+    waited(context_.scheduler.stall(spe_, {channel, site_, phantom_}, now_, deadline), wait_for(channel));
+    if (channel == Channel::rd_event_stat) update_decrementer();
+    if (state_.count(channel) != 0) return;
+  }
 }
 
 // --- MFC commands ---
 
 std::uint32_t Spu::local_address(const void* pointer) const {
-  const std::uintptr_t base = reinterpret_cast<std::uintptr_t>(bus_.map().local_store(id_));
+  const std::uintptr_t base = reinterpret_cast<std::uintptr_t>(context_.mfc.bus.map().local_store(id()));
   const std::uintptr_t offset = reinterpret_cast<std::uintptr_t>(pointer) - base;
   return offset < kLocalStoreBytes ? static_cast<std::uint32_t>(offset) : kOutsideLocalStore;
 }
 
 void Spu::command(const MfcCommand& command) {
-  if (mfc_.free_entries() == 0 && problem_state_.interrupted()) problem_state_.stop_at(Channel::mfc_cmd);
   // Six channel writes: the parameters and the command.
-  cycles_ += 6 * kCyclesPerChannel;
+  charge(0, 6);
+  reach();
+  await<Channel::mfc_cmd>();
   parameters_ = command;
-  mfc_.issue(command);
+  written_parameters_ = 0;
+  mfc_.issue(command, site_, now_);
 }
 
 void Spu::command_word(std::uint32_t word) {
-  // The high half holds replacement class and transfer class ids; bits of performance, not of meaning. So is
-  // the "result" bit of a put.
-  std::uint32_t opcode = word & 0xFFFF;
-  if ((opcode & 0xFFF8) == 0x30) opcode -= 0x10;
+  reach();
+  await<Channel::mfc_cmd>();
+  const unsigned missing = kAllParameters & ~kOptionalParameters & ~written_parameters_;
+  written_parameters_ = 0;
+  // The high half holds replacement class and transfer class ids; bits of performance, not of meaning.
   MfcCommand issued = parameters_;
-  issued.opcode = static_cast<MfcOpcode>(opcode);
-  command(issued);
+  issued.opcode = static_cast<MfcOpcode>(word & 0xFFFF);
+  if (missing != 0 && kind_of(issued.opcode) != CommandKind::barrier) {
+    Diagnostic diagnostic;
+    diagnostic.rule = Rule::parameters_kept;
+    diagnostic.spe = id();
+    diagnostic.site = site_;
+    diagnostic.cycle = now_;
+    context_.mfc.log.report(diagnostic,
+                            describe(issued) + ": " + std::string(text_of(Rule::parameters_kept)));
+  }
+  mfc_.issue(issued, site_, now_);
 }
 
-// --- events and decrementer ---
+// --- events, interrupts and the decrementer ---
 
 std::uint32_t Spu::event_status_channel() {
   update_decrementer();
-  // Nothing but the decrementer counts while the SPU stalls: let its time pass.
-  const bool expects_expiry =
-      decrementer_.running() && (problem_state_.event_mask() & event::decrementer) != 0;
-  if (expects_expiry && problem_state_.event_count() == 0) {
-    cycles_ += decrementer_.expiry() - std::min(cycles(), decrementer_.expiry());
-    update_decrementer();
-  }
-  return problem_state_.read_event_status();
+  const std::uint32_t status = state_.read_event_status();
+  phantom_ = status == 0;
+  return status;
+}
+
+Cycle Spu::decrementer_deadline() const {
+  const bool expected = decrementer_.running() && (state_.event_mask() & event::decrementer) != 0;
+  return expected ? decrementer_.expiry() : kNever;
 }
 
 void Spu::update_decrementer() {
-  if (decrementer_.advance(cycles())) problem_state_.raise_own(event::decrementer);
+  if (decrementer_.advance(now_)) state_.raise_own(event::decrementer);
 }
 
 std::uint32_t Spu::decrementer() {
@@ -90,14 +293,67 @@ std::uint32_t Spu::decrementer() {
 
 void Spu::start_decrementer(std::uint32_t value) {
   update_decrementer();
-  decrementer_.write(value, cycles());
+  decrementer_.write(value, now_);
 }
 
 void Spu::event_ack_channel(std::uint32_t events) {
   update_decrementer();
-  problem_state_.acknowledge_events(events);
+  state_.acknowledge_events(events);
   // Masked off and acknowledged is how the decrementer is stopped.
-  if ((events & ~problem_state_.event_mask() & event::decrementer) != 0) decrementer_.freeze(cycles());
+  if ((events & ~state_.event_mask() & event::decrementer) != 0) decrementer_.freeze(now_);
+}
+
+void Spu::enable_interrupts(std::function<void(Spu&)> handler) {
+  interrupt_handler_ = std::move(handler);
+  interrupts_enabled_ = true;
+}
+
+void Spu::run_interrupts() {
+  if (in_handler_) return;
+  update_decrementer();
+  while (interrupts_enabled_ && state_.event_count() != 0) {
+    in_handler_ = true;
+    interrupts_enabled_ = false;
+    interrupt_handler_(*this);
+    in_handler_ = false;
+    interrupts_enabled_ = true;
+  }
+}
+
+// --- channels by number ---
+
+std::uint32_t Spu::read_channel(unsigned channel) {
+  std::uint32_t value = 0;
+  bool known = false;
+  with_channel(channel, [&](auto c) {
+    if constexpr (is_readable(c())) {
+      value = read_channel<c()>();
+      known = true;
+    }
+  });
+  if (!known)
+    fail(Rule::invalid_channel,
+         "read of channel " + std::to_string(channel) + ": " + std::string(text_of(Rule::invalid_channel)));
+  return value;
+}
+
+void Spu::write_channel(unsigned channel, std::uint32_t value) {
+  bool known = false;
+  with_channel(channel, [&](auto c) {
+    if constexpr (exists(c()) && !is_readable(c())) {
+      write_channel<c()>(value);
+      known = true;
+    }
+  });
+  if (!known)
+    fail(Rule::invalid_channel,
+         "write of channel " + std::to_string(channel) + ": " + std::string(text_of(Rule::invalid_channel)));
+}
+
+std::uint32_t Spu::channel_count(unsigned channel) {
+  std::uint32_t count = 0;
+  with_channel(channel, [&](auto c) { count = channel_count<c()>(); });
+  return count;
 }
 
 } // namespace celltrace::cell_emu

@@ -18,9 +18,10 @@ public:
   void write_mask(std::uint32_t mask) { mask_ = mask; }
   void request(TagUpdate update) { request_ = update; }
 
-  /// Judges the request that waits; `outstanding` are the tags with commands in the queue. True if a request
+  /// Judges the request that waits; `outstanding` are the tags with commands in the queue, `last_command` the
+  /// number of the newest command, up to which the answer speaks. True if a request
   /// for any or all became true: that is the tag status event.
-  bool judge(std::uint32_t outstanding) {
+  bool judge(std::uint32_t outstanding, std::uint64_t last_command) {
     if (!request_) return false;
     const std::uint32_t completed = mask_ & ~outstanding;
     const TagUpdate update = *request_;
@@ -28,12 +29,15 @@ public:
     if (update == TagUpdate::all && completed != mask_) return false;
     request_.reset();
     status_ = completed;
+    answered_up_to_ = last_command;
     return update != TagUpdate::immediate;
   }
 
   bool waiting() const { return request_.has_value(); }
   /// The count of channel 24.
   bool available() const { return status_.has_value(); }
+  /// The newest command that the answer covers.
+  std::uint64_t answered_up_to() const { return answered_up_to_; }
   /// The answer. Only when there is one.
   std::uint32_t take() {
     const std::uint32_t status = *status_;
@@ -45,6 +49,7 @@ private:
   std::uint32_t mask_ = 0;
   std::optional<TagUpdate> request_;
   std::optional<std::uint32_t> status_;
+  std::uint64_t answered_up_to_ = 0;
 };
 
 } // namespace celltrace::cell_emu

@@ -1,0 +1,151 @@
+#include "backends/cell_emu/coroutine.hpp"
+
+#include <boost/context/fiber.hpp>
+#include <boost/context/protected_fixedsize_stack.hpp>
+
+#include <cstdint>
+#include <cxxabi.h>
+#include <utility>
+
+#if defined(__SANITIZE_ADDRESS__)
+#define CELLTRACE_HAS_ASAN 1
+#endif
+#if defined(__SANITIZE_THREAD__)
+#define CELLTRACE_HAS_TSAN 1
+#endif
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define CELLTRACE_HAS_ASAN 1
+#endif
+#if __has_feature(thread_sanitizer)
+#define CELLTRACE_HAS_TSAN 1
+#endif
+#endif
+#ifdef CELLTRACE_HAS_ASAN
+#include <sanitizer/common_interface_defs.h>
+#endif
+#ifdef CELLTRACE_HAS_TSAN
+#include <sanitizer/tsan_interface.h>
+#endif
+
+namespace celltrace::cell_emu {
+namespace {
+
+namespace context = boost::context;
+
+/// The exceptions that a thread has under way, as the C++ ABI lays them out. Each stack has its own.
+struct ExceptionState {
+  void* caught = nullptr;
+  unsigned int uncaught = 0;
+};
+
+void exchange_exceptions(ExceptionState& state) {
+  std::swap(*reinterpret_cast<ExceptionState*>(abi::__cxa_get_globals()), state);
+}
+
+} // namespace
+
+class Coroutine::Impl {
+public:
+  explicit Impl(std::function<void()> body) : body_(std::move(body)) {
+#ifdef CELLTRACE_HAS_TSAN
+    tsan_fiber_ = __tsan_create_fiber(0);
+#endif
+    context::protected_fixedsize_stack allocator(kStackBytes);
+    const context::stack_context stack = allocator.allocate();
+#ifdef CELLTRACE_HAS_ASAN
+    stack_bottom_ = static_cast<const char*>(stack.sp) - stack.size;
+    stack_bytes_ = stack.size;
+#endif
+    fiber_ = context::fiber(std::allocator_arg, context::preallocated(stack.sp, stack.size, stack), allocator,
+                            [this](context::fiber&& caller) { return run(std::move(caller)); });
+  }
+  ~Impl() {
+#ifdef CELLTRACE_HAS_TSAN
+    __tsan_destroy_fiber(tsan_fiber_);
+#endif
+  }
+
+  void resume() {
+    exchange_exceptions(exceptions_);
+#ifdef CELLTRACE_HAS_TSAN
+    tsan_caller_ = __tsan_get_current_fiber();
+    __tsan_switch_to_fiber(tsan_fiber_, 0);
+#endif
+#ifdef CELLTRACE_HAS_ASAN
+    void* fake_stack = nullptr;
+    __sanitizer_start_switch_fiber(&fake_stack, stack_bottom_, stack_bytes_);
+#endif
+    fiber_ = std::move(fiber_).resume();
+#ifdef CELLTRACE_HAS_ASAN
+    __sanitizer_finish_switch_fiber(fake_stack, nullptr, nullptr);
+#endif
+    exchange_exceptions(exceptions_);
+  }
+
+  void suspend() {
+    leave(false);
+    caller_ = std::move(caller_).resume();
+    arrive();
+  }
+
+  bool ended() const {
+    return !fiber_;
+  }
+
+private:
+  context::fiber run(context::fiber&& caller) {
+    caller_ = std::move(caller);
+    arrive();
+    body_();
+    body_ = nullptr;
+    leave(true);
+    return std::move(caller_);
+  }
+
+  void arrive() {
+#ifdef CELLTRACE_HAS_ASAN
+    __sanitizer_finish_switch_fiber(fake_stack_, &caller_bottom_, &caller_bytes_);
+#endif
+  }
+  void leave([[maybe_unused]] bool for_good) {
+#ifdef CELLTRACE_HAS_TSAN
+    __tsan_switch_to_fiber(tsan_caller_, 0);
+#endif
+#ifdef CELLTRACE_HAS_ASAN
+    __sanitizer_start_switch_fiber(for_good ? nullptr : &fake_stack_, caller_bottom_, caller_bytes_);
+#endif
+  }
+
+  std::function<void()> body_;
+  context::fiber fiber_;
+  context::fiber caller_;
+  ExceptionState exceptions_;
+#ifdef CELLTRACE_HAS_ASAN
+  const void* stack_bottom_ = nullptr;
+  std::size_t stack_bytes_ = 0;
+  void* fake_stack_ = nullptr;
+  const void* caller_bottom_ = nullptr;
+  std::size_t caller_bytes_ = 0;
+#endif
+#ifdef CELLTRACE_HAS_TSAN
+  void* tsan_fiber_ = nullptr;
+  void* tsan_caller_ = nullptr;
+#endif
+};
+
+Coroutine::Coroutine(std::function<void()> body) : impl_(std::make_unique<Impl>(std::move(body))) {
+}
+Coroutine::~Coroutine() = default;
+
+void Coroutine::resume() {
+  impl_->resume();
+}
+void Coroutine::suspend() {
+  impl_->suspend();
+}
+bool Coroutine::ended() const {
+  return impl_->ended();
+}
+
+} // namespace celltrace::cell_emu

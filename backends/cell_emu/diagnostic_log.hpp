@@ -1,0 +1,51 @@
+// Where diagnostics are collected, and where it is decided what they lead to.
+#pragma once
+
+#include "celltrace/error.hpp"
+#include "celltrace/spe/emulation.hpp"
+
+#include <array>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace celltrace::cell_emu {
+
+/// Ends the program of the SPE that broke a rule.
+class RuleViolation : public SpeError {
+public:
+  explicit RuleViolation(const Diagnostic& diagnostic) : SpeError(diagnostic.text) {}
+};
+
+/// Thread safety: all members from any thread.
+class DiagnosticLog {
+public:
+  static constexpr std::size_t kCapacity = 4096;
+  using Listener = std::function<void(const Diagnostic&)>;
+
+  explicit DiagnosticLog(const EmulationConfig& config, Listener listener = {});
+
+  Action action(Rule rule) const { return actions_[static_cast<unsigned>(rule)]; }
+  bool checks(Rule rule) const { return action(rule) != Action::ignore; }
+
+  /// Completes the text of the diagnostic, which says what happened, and keeps it. Throws RuleViolation if
+  /// the rule's action is to stop.
+  void report(Diagnostic diagnostic, const std::string& what);
+  /// As report(), without throwing. False if the rule is ignored.
+  bool note(Diagnostic& diagnostic, const std::string& what);
+
+  std::vector<Diagnostic> all() const;
+
+private:
+  std::array<Action, kRules> actions_;
+  Listener listener_;
+  mutable std::mutex mutex_;
+  std::vector<Diagnostic> diagnostics_;
+};
+
+/// "kernel.hpp:12", or "" if the place is unknown.
+std::string to_text(const CallSite& site);
+
+} // namespace celltrace::cell_emu

@@ -1,0 +1,113 @@
+// The transfers in flight: from the issue of a command until its SPU, or the PPE for proxy commands, has
+// observed its completion, whenever the data really moved. What overlaps in between is a race.
+//
+// Both sides of a transfer are ranges of the main storage domain, a local store by the address at which it is
+// mapped, so that one rule covers local store, main memory, and local store reached from outside.
+#pragma once
+
+#include "backends/cell_emu/line_locks.hpp"
+#include "backends/cell_emu/mfc_command.hpp"
+#include "celltrace/spe/call_site.hpp"
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+namespace celltrace::cell_emu {
+
+/// One contiguous transfer: a plain command, or an element of a list.
+struct Flight {
+  std::uint64_t command = 0; ///< number on its SPE
+  MfcCommand transfer{};     ///< a plain one, also for an element of a list
+  CallSite site;
+  bool proxy = false;
+  bool has_storage = true; ///< false: a register is on the other side
+  ea_t local = 0;          ///< where its part of local store is mapped
+
+  bool started = false;   ///< nothing it is ordered behind is left
+  bool moved = false;     ///< the data have been copied
+  bool completed = false; ///< the MFC has reported it done
+  /// A command that is ordered behind it has been performed, so that who learnt of that one may rely on it.
+  bool released = false;
+  /// Something else may rightly write its local store, so that a change says nothing.
+  bool shared = false;
+  std::uint64_t hash = 0; ///< of its local store, when `hashed`
+  bool hashed = false;
+
+  std::uint32_t bytes() const { return transfer.size; }
+  bool writes_local_store() const { return kind_of(transfer.opcode) == CommandKind::get; }
+};
+
+struct Conflict {
+  unsigned spe;
+  std::uint64_t command;
+  MfcCommand transfer;
+  CallSite site;
+  bool in_local_store; ///< of the SPE whose new transfer meets it
+};
+
+/// Thread safety: an SPE's own list is changed by one thread at a time; conflicts_elsewhere() may look at it
+/// meanwhile.
+class Flights {
+public:
+  explicit Flights(unsigned spes) : spes_(spes), lists_(std::make_unique<List[]>(spes)) {}
+
+  /// The flights of one SPE, for the thread that owns it; changes go through the members below.
+  const std::vector<Flight>& of(unsigned spe) const { return lists_[spe].flights; }
+  Flight& at(unsigned spe, std::size_t index) { return lists_[spe].flights[index]; }
+
+  void add(unsigned spe, const Flight& flight);
+  /// Removes the flights of which `gone(flight)` is true.
+  template <class Gone> void remove_if(unsigned spe, Gone gone);
+  /// Calls `change(flight)` for each while nobody looks.
+  template <class Change> void for_each(unsigned spe, Change change);
+
+  /// A flight of another SPE that overlaps with `flight` where one of them writes.
+  std::optional<Conflict> conflict_elsewhere(unsigned spe, const Flight& flight) const;
+
+private:
+  struct alignas(64) List {
+    mutable SpinLock lock;
+    std::vector<Flight> flights;
+  };
+
+  unsigned spes_;
+  std::unique_ptr<List[]> lists_;
+  /// Flights that write outside the local store of their own SPE: while there are none, gets cannot conflict.
+  std::atomic<std::uint32_t> outward_{0};
+};
+
+/// Where the two overlap with one of them writing; `local` is true if that is in the local store of `a`'s
+/// side.
+struct Overlap {
+  bool any = false;
+  bool local = false;
+};
+Overlap overlap_of(const Flight& a, const Flight& b);
+
+template <class Gone> void Flights::remove_if(unsigned spe, Gone gone) {
+  List& list = lists_[spe];
+  const std::lock_guard lock(list.lock);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < list.flights.size(); ++i) {
+    Flight& flight = list.flights[i];
+    if (gone(flight)) {
+      if (!flight.writes_local_store()) outward_.fetch_sub(1, std::memory_order_relaxed);
+      continue;
+    }
+    if (kept != i) list.flights[kept] = flight;
+    ++kept;
+  }
+  list.flights.resize(kept);
+}
+
+template <class Change> void Flights::for_each(unsigned spe, Change change) {
+  List& list = lists_[spe];
+  const std::lock_guard lock(list.lock);
+  for (Flight& flight : list.flights)
+    change(flight);
+}
+
+} // namespace celltrace::cell_emu

@@ -1,0 +1,124 @@
+#include "backends/cell_emu/free_scheduler.hpp"
+
+#include <algorithm>
+
+namespace celltrace::cell_emu {
+
+void FreeScheduler::stalled(unsigned) {
+  const std::lock_guard lock(mutex_);
+  ++stalled_;
+  if (all_stalled()) ppe_.notify_all();
+}
+
+void FreeScheduler::unstalled(unsigned) {
+  // Whoever ends another's stall is not stalled itself, so that the count cannot have been full by mistake.
+  const std::lock_guard lock(mutex_);
+  --stalled_;
+  idle_timeouts_ = 0;
+}
+
+Cycle FreeScheduler::stall(Spe& spe, const ProblemState::Stall& stall, Cycle now, Cycle deadline) {
+  // The SPE would wait for as long as its MFC needs: let everything happen that happens by itself.
+  while (spe.mfc.next_event() != kNever) {
+    now = std::max(now, spe.mfc.run_next());
+    if (spe.state.count(stall.channel) != 0) return now;
+  }
+  if (deadline != kNever) return std::max(now, deadline);
+  spe.now = now;
+  if (spe.state.begin_stall(stall)) spe.state.sleep_until_unstalled();
+  return now;
+}
+
+Cycle FreeScheduler::pause(Spe& spe, std::uint32_t code, Cycle now) {
+  while (spe.mfc.next_event() != kNever)
+    now = std::max(now, spe.mfc.run_next());
+  std::unique_lock lock(mutex_);
+  spe.signalled = code;
+  spe.now = now;
+  --active_;
+  count_stop();
+  ppe_.notify_all();
+  resumed_.wait(lock, [&] { return !spe.signalled || spe.state.interrupted(); });
+  ++active_;
+  if (spe.signalled) {
+    spe.signalled.reset();
+    spe.state.stop_while_stopped(code);
+  }
+  return now;
+}
+
+void FreeScheduler::start(Spe& spe, Program program) {
+  {
+    const std::lock_guard lock(mutex_);
+    spe.running = true;
+    spe.signalled.reset();
+    ++active_;
+  }
+  const auto ended = [this, &spe] {
+    const std::lock_guard lock(mutex_);
+    spe.running = false;
+    --active_;
+    count_stop();
+    ppe_.notify_all();
+  };
+  try {
+    threads_[spe.id] = std::thread([program = std::move(program), ended] {
+      program();
+      ended();
+    });
+  } catch (...) {
+    ended();
+    throw;
+  }
+}
+
+void FreeScheduler::resume(Spe& spe) {
+  const std::lock_guard lock(mutex_);
+  spe.signalled.reset();
+  resumed_.notify_all();
+}
+
+void FreeScheduler::ring() {
+  { const std::lock_guard lock(mutex_); }
+  ppe_.notify_all();
+}
+
+bool FreeScheduler::wait(const Ready& ready, std::optional<std::chrono::milliseconds> timeout,
+                         const std::string& what) {
+  std::unique_lock lock(mutex_);
+  const auto over = [&] { return ready() || (!timeout && all_stalled()); };
+  bool rang = true;
+  if (timeout)
+    rang = ppe_.wait_for(lock, *timeout, over);
+  else
+    ppe_.wait(lock, over);
+  if (rang && ready()) {
+    idle_timeouts_ = 0;
+    return true;
+  }
+  // Who looks in from time to time may have something to say in between, but hardly twice in vain.
+  idle_timeouts_ = all_stalled() ? idle_timeouts_ + 1 : 0;
+  if (timeout && idle_timeouts_ < 2) return false;
+  lock.unlock();
+  const std::string text = report_deadlock(spes_, log_, what);
+  break_off(": " + text);
+  throw SpeError(text);
+}
+
+void FreeScheduler::break_off(const std::string& because) {
+  for (const auto& spe : spes_)
+    spe->state.interrupt(because);
+  const std::lock_guard lock(mutex_);
+  resumed_.notify_all();
+}
+
+void FreeScheduler::shut_down() {
+  for (const auto& spe : spes_)
+    collect(*spe);
+}
+
+void FreeScheduler::collect(Spe& spe) {
+  if (threads_[spe.id].joinable()) threads_[spe.id].join();
+}
+
+} // namespace celltrace::cell_emu

@@ -1,0 +1,74 @@
+#include "backends/cell_emu/local_store_watch.hpp"
+
+#include <cstring>
+
+#if defined(__SANITIZE_ADDRESS__)
+#define CELLTRACE_HAS_ASAN 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define CELLTRACE_HAS_ASAN 1
+#endif
+#endif
+#ifdef CELLTRACE_HAS_ASAN
+#include <sanitizer/asan_interface.h>
+#endif
+
+namespace celltrace::cell_emu {
+namespace {
+
+constexpr std::uint8_t kPoison[8] = {0xAD, 0xDE, 0xB0, 0x7F, 0xAD, 0xDE, 0xB0, 0x7F};
+
+std::uint64_t poison_word() {
+  std::uint64_t word;
+  std::memcpy(&word, kPoison, sizeof word);
+  return word;
+}
+
+} // namespace
+
+std::uint64_t checksum(const std::uint8_t* at, std::uint32_t bytes) {
+  std::uint64_t sum = bytes;
+  for (; bytes >= 8; at += 8, bytes -= 8) {
+    std::uint64_t word;
+    std::memcpy(&word, at, sizeof word);
+    sum = (sum ^ word) * 0x9E3779B97F4A7C15u;
+    sum ^= sum >> 29;
+  }
+  for (; bytes != 0; ++at, --bytes)
+    sum = (sum ^ *at) * 0x100000001B3u;
+  return sum;
+}
+
+void fill_with_poison(std::uint8_t* at, std::uint32_t bytes) {
+  const std::uint64_t word = poison_word();
+  for (; bytes >= 8; at += 8, bytes -= 8)
+    std::memcpy(at, &word, sizeof word);
+  std::memcpy(at, kPoison, bytes);
+}
+
+bool is_poison(const std::uint8_t* at, std::uint32_t bytes) {
+  const std::uint64_t poison = poison_word();
+  std::uint64_t difference = 0;
+  for (; bytes >= 8; at += 8, bytes -= 8) {
+    std::uint64_t word;
+    std::memcpy(&word, at, sizeof word);
+    difference |= word ^ poison;
+  }
+  return difference == 0 && std::memcmp(at, kPoison, bytes) == 0;
+}
+
+#ifdef CELLTRACE_HAS_ASAN
+void forbid_access(const std::uint8_t* at, std::uint32_t bytes) {
+  __asan_poison_memory_region(at, bytes);
+}
+void permit_access(const std::uint8_t* at, std::uint32_t bytes) {
+  __asan_unpoison_memory_region(at, bytes);
+}
+#else
+void forbid_access(const std::uint8_t*, std::uint32_t) {
+}
+void permit_access(const std::uint8_t*, std::uint32_t) {
+}
+#endif
+
+} // namespace celltrace::cell_emu

@@ -1,0 +1,270 @@
+#include "backends/cell_emu/lockstep_scheduler.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace celltrace::cell_emu {
+namespace {
+
+constexpr std::uint64_t kStream = 0x5343484544;
+/// Looks of the PPE at a machine in which nothing can happen, before that counts as a deadlock.
+constexpr std::uint64_t kIdleEntries = 1000000;
+
+} // namespace
+
+LockstepScheduler::LockstepScheduler(Spes& spes, unsigned count, DiagnosticLog& log,
+                                     const EmulationConfig& config)
+    : spes_(spes), log_(log), config_(config), random_(config.seed, kStream), agents_(count) {
+  // Some seeds change hands all the time, others let an SPE run far ahead.
+  constexpr std::uint32_t kPatience[] = {2, 4, 16, 128};
+  patience_ = kPatience[random_.below(4)];
+}
+
+// --- SPU side ---
+
+void LockstepScheduler::suspend(Agent& agent) {
+  agent.program->suspend();
+  if (agent.failure) std::rethrow_exception(std::exchange(agent.failure, nullptr));
+}
+
+void LockstepScheduler::reach(Spe& spe, Cycle now) {
+  Agent& agent = agents_[spe.id];
+  agent.now = now;
+  if (config_.explore) {
+    if (random_.once_in(patience_)) suspend(agent);
+    current_ = now;
+    return;
+  }
+  for (;;) {
+    if (now > horizon_) {
+      suspend(agent);
+      continue;
+    }
+    const Cycle event = spe.mfc.next_event();
+    if (event > now) break;
+    current_ = event;
+    spe.mfc.run_next();
+  }
+  current_ = now;
+}
+
+void LockstepScheduler::await_mfc(Spe& spe, Cycle at) {
+  Agent& agent = agents_[spe.id];
+  if (!config_.explore) return reach(spe, at);
+  agent.now = at;
+  suspend(agent);
+  current_ = at;
+}
+
+Cycle LockstepScheduler::stall(Spe& spe, const ProblemState::Stall& stall, Cycle now, Cycle deadline) {
+  Agent& agent = agents_[spe.id];
+  agent.now = now;
+  agent.deadline = deadline;
+  if (spe.state.begin_stall(stall)) {
+    spe.now = now;
+    agent.state = State::stalled;
+    suspend(agent);
+    spe.state.end_stall();
+  }
+  agent.deadline = kNever;
+  current_ = agent.now;
+  return agent.now;
+}
+
+Cycle LockstepScheduler::pause(Spe& spe, std::uint32_t code, Cycle now) {
+  Agent& agent = agents_[spe.id];
+  agent.now = now;
+  spe.signalled = code;
+  spe.now = now;
+  if (!spe.state.interrupted()) {
+    agent.state = State::paused;
+    count_stop();
+    suspend(agent);
+  }
+  if (spe.signalled) {
+    spe.signalled.reset();
+    spe.state.stop_while_stopped(code);
+  }
+  current_ = agent.now;
+  return agent.now;
+}
+
+// --- changes ---
+
+void LockstepScheduler::wake(unsigned spe, Cycle at) {
+  Agent& agent = agents_[spe];
+  agent.state = State::ready;
+  agent.now = std::max(agent.now, at);
+  horizon_ = std::min(horizon_, agent.now);
+}
+
+void LockstepScheduler::unstalled(unsigned spe) {
+  idle_timeouts_ = 0;
+  if (agents_[spe].state == State::stalled) wake(spe, current_);
+}
+
+// --- turns ---
+
+LockstepScheduler::Turn LockstepScheduler::next_turn(unsigned apart) const {
+  Turn first;
+  for (unsigned spe = 0; spe < agents_.size(); ++spe) {
+    if (spe == apart) continue;
+    const Agent& agent = agents_[spe];
+    const Cycle event = spes_[spe]->mfc.next_event();
+    if (event < first.at) first = {event, spe, true};
+    const Cycle program = agent.state == State::ready     ? agent.now
+                          : agent.state == State::stalled ? agent.deadline
+                                                          : kNever;
+    if (program < first.at) first = {program, spe, false};
+  }
+  return first;
+}
+
+LockstepScheduler::Turn LockstepScheduler::drawn_turn() {
+  Turn drawn;
+  std::uint64_t candidates = 0;
+  const auto consider = [&](const Turn& turn) {
+    if (turn.at != kNever && random_.once_in(++candidates)) drawn = turn;
+  };
+  for (unsigned spe = 0; spe < agents_.size(); ++spe) {
+    const Agent& agent = agents_[spe];
+    consider({spes_[spe]->mfc.next_event(), spe, true});
+    if (agent.state == State::ready) consider({agent.now, spe, false});
+  }
+  // Only when nothing else can happen does a stall end by the passing of time.
+  return candidates != 0 ? drawn : next_turn();
+}
+
+void LockstepScheduler::run_mfc(unsigned spe) {
+  try {
+    spes_[spe]->mfc.run_next();
+  } catch (...) {
+    // The program learns of it when it is its turn.
+    agents_[spe].failure = std::current_exception();
+    spes_[spe]->mfc.abandon();
+    if (agents_[spe].state == State::stalled || agents_[spe].state == State::paused) wake(spe, current_);
+  }
+}
+
+void LockstepScheduler::run_program(unsigned spe, Cycle until) {
+  Agent& agent = agents_[spe];
+  horizon_ = std::min(until, next_turn(spe).at);
+  agent.state = State::ready;
+  agent.program->resume();
+  horizon_ = kNever;
+  if (agent.program->ended()) {
+    agent.state = State::idle;
+    agent.program.reset();
+    spes_[spe]->running = false;
+    count_stop();
+  }
+}
+
+bool LockstepScheduler::step(Cycle limit) {
+  obey_interrupt();
+  const Turn turn = config_.explore ? drawn_turn() : next_turn();
+  if (turn.at == kNever || (!config_.explore && turn.at > limit)) return false;
+  current_ = turn.at;
+  latest_ = std::max(latest_, turn.at);
+  if (turn.mfc) {
+    run_mfc(turn.spe);
+    return true;
+  }
+  Agent& agent = agents_[turn.spe];
+  if (agent.state == State::stalled) agent.now = agent.deadline;
+  run_program(turn.spe, limit);
+  latest_ = std::max(latest_, agent.now);
+  return true;
+}
+
+void LockstepScheduler::break_off(const std::string& because) {
+  for (const auto& spe : spes_) {
+    spe->state.interrupt(because);
+    if (agents_[spe->id].state == State::paused) wake(spe->id, current_);
+  }
+}
+
+void LockstepScheduler::obey_interrupt() {
+  if (!interrupt_requested_.load(std::memory_order_relaxed)) return;
+  break_off({});
+}
+
+// --- PPE side ---
+
+void LockstepScheduler::start(Spe& spe, Program program) {
+  Agent& agent = agents_[spe.id];
+  agent.now = std::max(spe.now, ppe_now_);
+  spe.now = agent.now;
+  agent.program = std::make_unique<Coroutine>(std::move(program));
+  agent.state = State::ready;
+  agent.failure = nullptr;
+  spe.running = true;
+  spe.signalled.reset();
+}
+
+void LockstepScheduler::resume(Spe& spe) {
+  spe.signalled.reset();
+  wake(spe.id, ppe_now_);
+}
+
+Cycle LockstepScheduler::enter() {
+  ppe_now_ += config_.timing.ppe_access + random_.below(config_.faults.delivery_delay);
+  bool any = false;
+  if (config_.explore) {
+    while (!random_.once_in(4) && step(kNever))
+      any = true;
+    ppe_now_ = std::max(ppe_now_, latest_);
+  } else {
+    while (step(ppe_now_))
+      any = true;
+  }
+  obey_interrupt();
+  idle_entries_ = any ? 0 : idle_entries_ + 1;
+  if (idle_entries_ > kIdleEntries && next_turn().at == kNever) {
+    idle_entries_ = 0;
+    const std::string text = report_deadlock(spes_, log_, "an answer, looking for it again and again");
+    break_off(": " + text);
+    throw SpeError(text);
+  }
+  current_ = ppe_now_;
+  return ppe_now_;
+}
+
+bool LockstepScheduler::wait(const Ready& ready, std::optional<std::chrono::milliseconds> timeout,
+                             const std::string& what) {
+  enter();
+  Cycle limit = kNever;
+  if (timeout)
+    limit =
+        ppe_now_ + static_cast<Cycle>(timeout->count()) * static_cast<Cycle>(config_.timing.clock_hz / 1000);
+  while (!ready()) {
+    if (step(limit)) continue;
+    if (ready()) break;
+    if (timeout) {
+      ppe_now_ = limit;
+      const bool nothing_left = next_turn().at == kNever;
+      idle_timeouts_ = nothing_left ? idle_timeouts_ + 1 : 0;
+      // Who looks in from time to time may have something to say in between, but hardly twice in vain.
+      if (idle_timeouts_ < 2) return false;
+    }
+    idle_timeouts_ = 0;
+    const std::string text = report_deadlock(spes_, log_, what);
+    break_off(": " + text);
+    throw SpeError(text);
+  }
+  idle_timeouts_ = 0;
+  ppe_now_ = std::max(ppe_now_, current_);
+  current_ = ppe_now_;
+  return true;
+}
+
+void LockstepScheduler::shut_down() {
+  interrupt();
+  while (step(kNever)) {
+  }
+}
+
+void LockstepScheduler::collect(Spe&) {
+}
+
+} // namespace celltrace::cell_emu

@@ -1,0 +1,82 @@
+// The lockstep schedule: one SPE at a time, as coroutines of the PPE's thread, so that a run is the same on
+// every machine.
+//
+// By virtual time, the next to act is who is behind: an SPE's program, its MFC, or the PPE; ties go to the
+// MFC and to the lower number. To explore, it is drawn from the seed, and virtual time only adds up. SPEs run
+// while the PPE is inside a call; the PPE's own work between its calls takes no time.
+#pragma once
+
+#include "backends/cell_emu/coroutine.hpp"
+#include "backends/cell_emu/scheduler.hpp"
+
+#include <atomic>
+#include <exception>
+#include <vector>
+
+namespace celltrace::cell_emu {
+
+/// Thread safety: one thread, but interrupt() from any.
+class LockstepScheduler final : public Scheduler {
+public:
+  LockstepScheduler(Spes& spes, unsigned count, DiagnosticLog& log, const EmulationConfig& config);
+
+  void stalled(unsigned) override {}
+  void unstalled(unsigned spe) override;
+  void reach(Spe& spe, Cycle now) override;
+  void await_mfc(Spe& spe, Cycle at) override;
+  Cycle stall(Spe& spe, const ProblemState::Stall& stall, Cycle now, Cycle deadline) override;
+  void ring() override {}
+  Cycle pause(Spe& spe, std::uint32_t code, Cycle now) override;
+  void start(Spe& spe, Program program) override;
+  void resume(Spe& spe) override;
+  Cycle enter() override;
+  bool wait(const Ready& ready, std::optional<std::chrono::milliseconds> timeout,
+            const std::string& what) override;
+  void break_off(const std::string& because) override;
+  void interrupt() noexcept override { interrupt_requested_.store(true); }
+  void shut_down() override;
+  void collect(Spe& spe) override;
+
+private:
+  static constexpr unsigned kNobody = ~0u;
+  enum class State : unsigned char { idle, ready, stalled, paused };
+  struct Agent {
+    State state = State::idle;
+    Cycle now = 0;           ///< when it acts next
+    Cycle deadline = kNever; ///< of a stall
+    std::unique_ptr<Coroutine> program;
+    std::exception_ptr failure; ///< of its MFC, while its program was not running
+  };
+  struct Turn {
+    Cycle at = kNever;
+    unsigned spe = 0;
+    bool mfc = false;
+  };
+
+  /// Who is behind, apart from the SPE `apart`.
+  Turn next_turn(unsigned apart = kNobody) const;
+  Turn drawn_turn();
+  /// Gives one turn to who is behind, if that is not after `limit`. False if there is none.
+  bool step(Cycle limit);
+  void run_mfc(unsigned spe);
+  void run_program(unsigned spe, Cycle until);
+  void suspend(Agent& agent);
+  void wake(unsigned spe, Cycle at);
+  void obey_interrupt();
+
+  Spes& spes_;
+  DiagnosticLog& log_;
+  const EmulationConfig& config_;
+  SeededRandom random_;
+  std::uint32_t patience_; ///< when exploring, an SPE is interrupted once in so many actions
+  std::vector<Agent> agents_;
+  Cycle ppe_now_ = 0;
+  Cycle current_ = 0;      ///< time of what is happening
+  Cycle horizon_ = kNever; ///< the running program must let others go first when it gets past this
+  Cycle latest_ = 0;       ///< of all that has happened
+  unsigned idle_timeouts_ = 0;
+  std::uint64_t idle_entries_ = 0;
+  std::atomic<bool> interrupt_requested_{false};
+};
+
+} // namespace celltrace::cell_emu

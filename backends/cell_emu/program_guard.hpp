@@ -1,0 +1,39 @@
+// Watches over the local store that belongs to a program's code and stack on a real SPE: nothing lies there
+// on the emulator, so whatever changes it is a stray store.
+#pragma once
+
+#include "backends/cell_emu/diagnostic_log.hpp"
+#include "backends/cell_emu/local_store_watch.hpp"
+#include "backends/cell_emu/mfc.hpp"
+
+namespace celltrace::cell_emu {
+
+class ProgramGuard {
+public:
+  ProgramGuard(std::uint8_t* local_store, ArenaRange arena) : local_store_(local_store), arena_(arena) {
+    fill_with_poison(local_store_, arena_.begin);
+    fill_with_poison(local_store_ + arena_.end, kLocalStoreBytes - arena_.end);
+  }
+
+  /// Reports the first bytes that were changed.
+  void check(unsigned spe, DiagnosticLog& log) const {
+    const bool code = is_poison(local_store_, arena_.begin);
+    const bool stack = is_poison(local_store_ + arena_.end, kLocalStoreBytes - arena_.end);
+    if (code && stack) return;
+    std::uint32_t lsa = code ? arena_.end : 0;
+    while (is_poison(local_store_ + lsa, 8))
+      lsa += 8;
+    Diagnostic diagnostic;
+    diagnostic.rule = Rule::program_overwritten;
+    diagnostic.spe = spe;
+    diagnostic.lsa = lsa;
+    log.report(diagnostic, "near LS address " + std::to_string(lsa) + ": " +
+                               std::string(text_of(Rule::program_overwritten)));
+  }
+
+private:
+  std::uint8_t* local_store_;
+  ArenaRange arena_;
+};
+
+} // namespace celltrace::cell_emu

@@ -1,0 +1,41 @@
+// One SPE of the machine: its registers, its MFC, its counters, and how its program stands.
+#pragma once
+
+#include "backends/cell_emu/counters.hpp"
+#include "backends/cell_emu/mfc.hpp"
+#include "backends/cell_emu/problem_state.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace celltrace::cell_emu {
+
+struct Spe {
+  Spe(unsigned spe, const SignalMode (&modes)[2], StallObserver& observer, const MfcContext& context,
+      DmaTiming& timing, ArenaRange arena)
+      : id(spe), state(spe, modes, observer, context.trace),
+        mfc(spe, context, timing, arena, state, counters) {}
+
+  const unsigned id;
+  ProblemState state;
+  Counters counters;
+  Mfc mfc;
+  Cycle now = 0; ///< the SPU's virtual time while its program does not run
+
+  // What follows is kept by the schedule.
+  bool running = false;
+  std::optional<std::uint32_t> signalled; ///< it stopped with this code and waits to be resumed
+
+  /// It can be resumed; one that was interrupted in its stop is about to end.
+  bool paused() const { return signalled && !state.interrupted(); }
+
+  // Written by the program, read when it does not run.
+  std::uint32_t exit_code = 0;
+  std::string error; ///< of the last run; empty: none
+};
+
+using Spes = std::vector<std::unique_ptr<Spe>>;
+
+} // namespace celltrace::cell_emu
