@@ -29,10 +29,12 @@ struct UnitCounts {
 
 /// What was computed since the last look; see cycles_of() in pipeline.hpp.
 struct OperationCounts {
-  UnitCounts
-      packet;       ///< times four: each on the four quadwords of a packet, which do not depend on each other
-  UnitCounts chain; ///< each depends on the one before
-  std::uint64_t branches = 0; ///< conditional branches; they are in `chain` too
+  /// Each issued once for each of the four quadwords of a packet, which do not depend on each other.
+  UnitCounts packet;
+  /// Each depends on the one before.
+  UnitCounts chain;
+  std::uint64_t moves = 0;    ///< loads and stores of quadwords that nothing waits for
+  std::uint64_t branches = 0; ///< conditional ones
 };
 
 /// Of the kernel that runs on this host thread. Initial-exec and constant-initialised, and everything below
@@ -47,13 +49,12 @@ inline OperationCounts take_operation_counts() {
   return taken;
 }
 
-/// Scalar work that a kernel declares.
-inline void count(const ScalarWork& work) {
-  operation_counts.chain.add({.fx2 = work.fixed,
-                              .fp6 = work.floating,
-                              .ls = work.memory,
-                              .shuf = work.shuffle,
-                              .br = work.branches});
+/// Scalar work that a kernel declares. A scalar load or store comes with a shuffle; those without one move
+/// quadwords from one place to another.
+[[gnu::always_inline]] inline void count(const ScalarWork& work) {
+  const std::uint32_t scalars = work.memory < work.shuffle ? work.memory : work.shuffle;
+  operation_counts.chain.add({.fx2 = work.fixed, .fp6 = work.floating, .ls = scalars, .shuf = work.shuffle});
+  operation_counts.moves += work.memory - scalars;
   operation_counts.branches += work.branches;
 }
 

@@ -3,6 +3,7 @@
 
 #include "kernel/records.hpp"
 #include "kernel/scalar.hpp"
+#include "kernel/scalar_work.hpp"
 
 namespace celltrace::kernel {
 
@@ -140,7 +141,9 @@ inline bool overlaps(const ObjectRecord& object, const Box& box) {
 
 /// Calls `visit(cell)` for each voxel that the object touches. Voxels count as a little larger than they are,
 /// by more than what the rounding of rays and points amounts to.
-template <class Visit> void for_each_voxel(const GridRecord& grid, const ObjectRecord& object, Visit visit) {
+template <class Spu, class Visit>
+void for_each_voxel(Spu& spu, const GridRecord& grid, const ObjectRecord& object, Visit visit) {
+  compute(spu, scalar_work::kBounds);
   const Box bounds = bounding_box(object);
   int32_t low[3];
   int32_t high[3];
@@ -161,6 +164,7 @@ template <class Visit> void for_each_voxel(const GridRecord& grid, const ObjectR
     for (int32_t y = low[1]; y <= high[1]; ++y, row += grid.cells[0]) {
       for (int32_t x = low[0]; x <= high[0]; ++x) {
         if (!single) {
+          compute(spu, scalar_work::kOverlap);
           const int32_t at[3] = {x, y, z};
           Box voxel;
           for (int i = 0; i < 3; ++i) {

@@ -2,6 +2,7 @@
 // store: input streams through, and each bucket collects a line before it is put. Kernel dialect.
 #pragma once
 
+#include "kernel/scalar_work.hpp"
 #include "kernel/stream.hpp"
 
 namespace celltrace::kernel {
@@ -47,7 +48,10 @@ private:
   void pass(ea_t source, ea_t target, uint32_t count, uint32_t shift) {
     for (uint32_t b = 0; b < kBuckets; ++b)
       next_[b] = 0;
-    reader_.for_each(source, count, [&](const SortPair& pair, uint32_t) { ++next_[digit(pair, shift)]; });
+    reader_.for_each(source, count, [&](const SortPair& pair, uint32_t) {
+      compute(spu_, scalar_work::kCountPair);
+      ++next_[digit(pair, shift)];
+    });
     uint32_t sum = 0;
     for (uint32_t b = 0; b < kBuckets; ++b) {
       const uint32_t size = next_[b];
@@ -67,6 +71,7 @@ private:
   static uint32_t digit(const SortPair& pair, uint32_t shift) { return (pair.key >> shift) & (kBuckets - 1); }
 
   void append(ea_t target, uint32_t bucket, const SortPair& pair) {
+    compute(spu_, scalar_work::kPlacePair);
     const uint32_t at = next_[bucket]++;
     if constexpr (Spu::direct_memory) {
       reinterpret_cast<SortPair*>(static_cast<uintptr_t>(target))[at] = pair;

@@ -25,6 +25,7 @@ public:
   uint32_t list_word(uint32_t offset) { return *read<uint32_t>(offset, DataKind::list); }
 
   SoftwareCache<Spu, DataKind>& cache() { return cache_; }
+  Spu& spu() { return cache_.spu(); }
 
 private:
   template <class T> const T* read(uint32_t offset, DataKind kind) {

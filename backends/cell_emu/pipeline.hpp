@@ -1,0 +1,85 @@
+// From counted operations to cycles of the SPU: in-order issue to two pipes, as a statistical model.
+//
+// The counts say how many instructions of each unit there were and which came in fours, not in which order.
+// The model (latencies and parts in TimingParameters):
+//
+//   issue       The even pipe gets FX2, FX3, FXB, FP6 and FP7, the odd one LS, SHUF and BR. At most the
+//   smaller of
+//               the two sums can issue together with one of the other pipe; `paired_issue` of it does. Every
+//               other instruction takes a cycle of its own.
+//   dependency  An instruction of a chain holds up the one behind it for its latency less one cycle. An
+//   operation on
+//               a packet issues for four cycles, one per quadword, so only what its latency exceeds these by
+//               is left. `exposed_latency` of all that finds nothing else to issue.
+//   branches    `missed_branches` of the conditional branches take the way that nothing foretold, for
+//   `branch_miss`
+//               cycles.
+//
+// Not modelled: hints and no-ops, fetch stalls, contention for the local store.
+//
+// All sums are integers and the parts multiples of 1/65536, so that every compiler and machine gets the same
+// cycles. The parts lie in [0, 1]; there may be 2^42 instructions at a time.
+#pragma once
+
+#include "backends/cell_emu/operation_counter.hpp"
+#include "celltrace/spe/timing.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace celltrace::cell_emu {
+
+namespace detail {
+
+/// `part` of `n`, rounded to nearest.
+inline std::uint64_t part_of(std::uint64_t n, double part) {
+  constexpr std::uint64_t one = 65536;
+  const auto multiple = static_cast<std::uint64_t>(part * static_cast<double>(one) + 0.5);
+  return (n * multiple + one / 2) / one;
+}
+
+/// Cycles for which the instructions keep their results back from those that follow, where each issues
+/// `width` times in a row.
+inline std::uint64_t latency_beyond_issue(const UnitCounts& n, std::uint32_t width,
+                                          const TimingParameters& timing) {
+  const auto beyond = [&](std::uint32_t latency) -> std::uint64_t {
+    return latency > width ? latency - width : 0;
+  };
+  return n.fx2 * beyond(timing.simple_fixed) + n.fx3 * beyond(timing.shift) +
+         n.fxb * beyond(timing.byte_operation) + n.fp6 * beyond(timing.float_operation) +
+         n.fp7 * beyond(timing.float_conversion) + n.ls * beyond(timing.load_store) +
+         n.shuf * beyond(timing.shuffle) + n.br * beyond(timing.branch);
+}
+
+} // namespace detail
+
+/// Where the cycles of the counted operations went.
+inline SpuCycles cycles_of(const OperationCounts& counts, const TimingParameters& timing) {
+  constexpr std::uint32_t quadwords = 4; // of a packet
+  const UnitCounts& packet = counts.packet;
+  const UnitCounts& chain = counts.chain;
+  SpuCycles cycles;
+  cycles.fx2 = quadwords * packet.fx2 + chain.fx2;
+  cycles.fx3 = quadwords * packet.fx3 + chain.fx3;
+  cycles.fxb = quadwords * packet.fxb + chain.fxb;
+  cycles.fp6 = quadwords * packet.fp6 + chain.fp6;
+  cycles.fp7 = quadwords * packet.fp7 + chain.fp7;
+  cycles.ls = quadwords * packet.ls + chain.ls + counts.moves;
+  cycles.shuf = quadwords * packet.shuf + chain.shuf;
+  cycles.br = quadwords * packet.br + chain.br + counts.branches;
+
+  const std::uint64_t even = cycles.fx2 + cycles.fx3 + cycles.fxb + cycles.fp6 + cycles.fp7;
+  const std::uint64_t odd = cycles.ls + cycles.shuf + cycles.br;
+  cycles.dual_cycle = detail::part_of(std::min(even, odd), timing.paired_issue);
+  cycles.single_cycle = even + odd - 2 * cycles.dual_cycle;
+  cycles.stall_due_to_dependency = detail::part_of(detail::latency_beyond_issue(packet, quadwords, timing) +
+                                                       detail::latency_beyond_issue(chain, 1, timing),
+                                                   timing.exposed_latency);
+  cycles.branch_taken_miss = detail::part_of(counts.branches, timing.missed_branches);
+  cycles.stall_due_to_branch_miss = cycles.branch_taken_miss * timing.branch_miss;
+  cycles.total_cycle = cycles.single_cycle + cycles.dual_cycle + cycles.stall_due_to_dependency +
+                       cycles.stall_due_to_branch_miss;
+  return cycles;
+}
+
+} // namespace celltrace::cell_emu

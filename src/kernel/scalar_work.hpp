@@ -1,0 +1,81 @@
+// What the kernels do on an SPU besides the arithmetic of the SIMD facade, for SpuBase::compute(): walks and
+// loops, scalar loads with their rotations, and the quadwords that functions hand each other in local store.
+// Kernel dialect.
+//
+// Counted in the disassembly of the real SPE program (spu-elf-g++ 9.3, -O2): the instructions of the lines in
+// question along the usual way, by unit, less those that the facade's own operations account for. Branches
+// are the conditional ones; no-ops and hints are left out. Rounded: the next change of the code shifts them
+// anyway.
+#pragma once
+
+#include "celltrace/spe/spu.hpp"
+
+#include <type_traits>
+
+namespace celltrace::kernel {
+
+/// Declares scalar work. An Spu of a test that is not a whole one does not count.
+template <class Spu> void compute(Spu& spu, const ScalarWork& work) {
+  if constexpr (std::is_base_of<SpuBase<Spu>, Spu>::value) spu.compute(work);
+}
+
+namespace scalar_work {
+
+// Each is {fixed, floating, memory, shuffle, branches}.
+
+// --- traversal.hpp, voxel_walk.hpp ---
+/// Sets a ray's walk through the grid up.
+constexpr ScalarWork kWalk = {240, 78, 185, 100, 23};
+/// A step to the next voxel, and its record.
+constexpr ScalarWork kVoxel = {72, 7, 33, 35, 8};
+/// The loop over a voxel's objects, and their mailbox.
+constexpr ScalarWork kListedObject = {15, 0, 9, 9, 4};
+/// A packet against an object, by ObjectKind.
+constexpr ScalarWork kTest[3] = {{78, 0, 247, 0, 2}, {104, 14, 305, 20, 2}, {171, 9, 421, 20, 8}};
+/// What the search for the closest hit makes of it.
+constexpr ScalarWork kClosest = {22, 0, 28, 4, 2};
+/// What a shadow packet makes of it.
+constexpr ScalarWork kShadow = {30, 0, 40, 8, 4};
+/// The filtering of one ray by a translucent surface.
+constexpr ScalarWork kFilter = {100, 10, 90, 50, 15};
+
+// --- ray_tracer.hpp and what it calls ---
+/// A packet of primary rays from the camera to the pixels.
+constexpr ScalarWork kPrimaryPacket = {420, 8, 550, 135, 35};
+/// A node of the ray tree: its hits and misses.
+constexpr ScalarWork kNode = {240, 0, 216, 51, 22};
+/// A node copied to or from the stack.
+constexpr ScalarWork kNodeCopy = {60, 0, 192, 0, 2};
+/// The hits of a packet on one object, and of one lane there.
+constexpr ScalarWork kHitObject = {280, 0, 460, 50, 22};
+constexpr ScalarWork kHitLane = {12, 0, 4, 4, 1};
+/// The lanes of one material.
+constexpr ScalarWork kMaterial = {345, 0, 300, 185, 60};
+/// The surfaces of a packet, apart from their lights.
+constexpr ScalarWork kShade = {150, 0, 377, 40, 8};
+/// A light that some of them face.
+constexpr ScalarWork kLight = {220, 0, 560, 60, 14};
+/// What they pass on, if anything.
+constexpr ScalarWork kPassOn = {130, 0, 560, 25, 8};
+constexpr ScalarWork kSendOn = {140, 0, 200, 60, 11};
+constexpr ScalarWork kTransmit = {155, 0, 300, 50, 9};
+/// A lane that enters or leaves an interior.
+constexpr ScalarWork kCrossing = {130, 0, 70, 60, 10};
+/// A packet of secondary rays.
+constexpr ScalarWork kChild = {130, 0, 120, 60, 15};
+
+// --- prepare_frame.hpp ---
+/// The voxels that an object may touch, and the test of one of them.
+constexpr ScalarWork kBounds = {125, 54, 63, 76, 12};
+constexpr ScalarWork kOverlap = {190, 75, 62, 71, 24};
+/// A pair of voxel and object: written, counted and put in its place by a pass of the sort, put into a list.
+constexpr ScalarWork kEmitPair = {22, 0, 17, 17, 2};
+constexpr ScalarWork kCountPair = {12, 0, 4, 4, 1};
+constexpr ScalarWork kPlacePair = {25, 0, 10, 12, 2};
+constexpr ScalarWork kListPair = {30, 0, 14, 16, 3};
+/// A voxel's record.
+constexpr ScalarWork kCloseVoxel = {16, 0, 10, 10, 2};
+
+} // namespace scalar_work
+
+} // namespace celltrace::kernel

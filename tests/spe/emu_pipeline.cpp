@@ -1,0 +1,189 @@
+// Cycles of computation: what the SIMD facade and compute() count, and what the pipeline model makes of it.
+#include "backends/cell_emu/operation_counter.hpp"
+#include "backends/cell_emu/pipeline.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <thread>
+
+namespace celltrace::cell_emu {
+namespace {
+
+using S = HostSimd<xsimd::sse2, CountOperations>;
+
+/// What `work` counts.
+template <class Work> OperationCounts counted(Work work) {
+  take_operation_counts();
+  work();
+  return take_operation_counts();
+}
+
+/// A machine whose latencies all are `latency`, and which exposes and misses all there is.
+TimingParameters uniform(std::uint32_t latency) {
+  TimingParameters timing;
+  timing.simple_fixed = timing.shift = timing.byte_operation = latency;
+  timing.float_operation = timing.float_conversion = latency;
+  timing.load_store = timing.shuffle = timing.branch = latency;
+  timing.exposed_latency = 1;
+  timing.missed_branches = 1;
+  timing.paired_issue = 1;
+  return timing;
+}
+
+TEST_CASE("operations of the SIMD facade count the instructions of a real SPU") {
+  const S::F a(3.0f);
+  const S::F b(2.0f);
+  CHECK(counted([&] { (void)(a + b); }).packet.fp6 == 1);
+  CHECK(counted([&] { (void)(a < b); }).packet.fx2 == 1);
+  CHECK(counted([&] { (void)S::max(a, b); }).packet.fx2 == 2);
+  CHECK(counted([&] { (void)S::to_int(a); }).packet.fp7 == 1);
+  CHECK(counted([&] { (void)S::shift_left<3>(S::bits_of(a)); }).packet.fx3 == 1);
+
+  // Estimate, interpolation, a Newton-Raphson step, and the correction by the remainder.
+  const OperationCounts quotient = counted([&] { (void)(a / b); });
+  CHECK(quotient.packet.shuf == 1);
+  CHECK(quotient.packet.fp7 == 1);
+  CHECK(quotient.packet.fp6 == 5);
+  CHECK(quotient.packet.fx2 == 0);
+
+  const S::M mask = a < b;
+  const OperationCounts gathered = counted([&] { (void)mask.bits(); });
+  CHECK(gathered.packet.fx2 == 1);
+  CHECK(gathered.chain.br == 1); // orx
+  CHECK(gathered.branches == 0);
+}
+
+TEST_CASE("a load counts and gives the same lanes as one that nobody counts") {
+  alignas(64) float lanes[kSimdLanes];
+  for (std::uint32_t i = 0; i < kSimdLanes; ++i)
+    lanes[i] = static_cast<float>(i) - 7.5f;
+  alignas(64) float counting[kSimdLanes];
+  alignas(64) float silent[kSimdLanes];
+  const OperationCounts counts = counted([&] { (S::F::load(lanes) / S::F(3.0f)).store(counting); });
+  using Silent = HostSimd<xsimd::sse2>;
+  (Silent::F::load(lanes) / Silent::F(3.0f)).store(silent);
+  for (std::uint32_t i = 0; i < kSimdLanes; ++i)
+    CHECK(counting[i] == silent[i]);
+  CHECK(counts.packet.ls == 2);
+  CHECK(counts.chain.shuf == 1); // the splat
+}
+
+TEST_CASE("declared work divides into scalar accesses and moves of quadwords") {
+  const OperationCounts counts = counted([] { count(ScalarWork{5, 2, 30, 4, 3}); });
+  CHECK(counts.chain.fx2 == 5);
+  CHECK(counts.chain.fp6 == 2);
+  CHECK(counts.chain.ls == 4);
+  CHECK(counts.chain.shuf == 4);
+  CHECK(counts.moves == 26);
+  CHECK(counts.branches == 3);
+
+  const OperationCounts shuffles = counted([] { count(ScalarWork{0, 0, 1, 4, 0}); });
+  CHECK(shuffles.chain.ls == 1);
+  CHECK(shuffles.moves == 0);
+}
+
+TEST_CASE("counts are a host thread's own and start again when they are taken") {
+  take_operation_counts();
+  count(ScalarWork{1, 0, 0, 0, 0});
+  std::uint64_t elsewhere = 1;
+  std::thread([&] { elsewhere = take_operation_counts().chain.fx2; }).join();
+  CHECK(elsewhere == 0);
+  CHECK(take_operation_counts().chain.fx2 == 1);
+  CHECK(take_operation_counts().chain.fx2 == 0);
+}
+
+TEST_CASE("instructions of both pipes pair up, the rest issues alone") {
+  OperationCounts counts;
+  counts.chain.fx2 = 10;
+  counts.moves = 4;
+  const SpuCycles all = cycles_of(counts, uniform(1));
+  CHECK(all.dual_cycle == 4);
+  CHECK(all.single_cycle == 6);
+  CHECK(all.total_cycle == 10);
+  CHECK(all.instructions() == 14);
+  CHECK(all.fx2 == 10);
+  CHECK(all.ls == 4);
+
+  TimingParameters half = uniform(1);
+  half.paired_issue = 0.5;
+  const SpuCycles some = cycles_of(counts, half);
+  CHECK(some.dual_cycle == 2);
+  CHECK(some.single_cycle == 10);
+  CHECK(some.total_cycle == 12);
+}
+
+TEST_CASE("an operation on a packet issues for four cycles, which hide as much of its latency") {
+  OperationCounts counts;
+  counts.packet.fp6 = 3;
+  const SpuCycles cycles = cycles_of(counts, uniform(6));
+  CHECK(cycles.fp6 == 12);
+  CHECK(cycles.single_cycle == 12);
+  CHECK(cycles.stall_due_to_dependency == 6);
+  CHECK(cycles.total_cycle == 18);
+  CHECK(cycles_of(counts, uniform(3)).stall_due_to_dependency == 0);
+
+  OperationCounts chain;
+  chain.chain.fp6 = 12;
+  CHECK(cycles_of(chain, uniform(6)).stall_due_to_dependency == 60);
+
+  OperationCounts moves;
+  moves.moves = 12;
+  CHECK(cycles_of(moves, uniform(6)).stall_due_to_dependency == 0);
+}
+
+TEST_CASE("the latency of each unit is its own") {
+  const auto stall = [](std::uint64_t UnitCounts::*unit) {
+    TimingParameters timing;
+    timing.exposed_latency = 1;
+    OperationCounts counts;
+    counts.chain.*unit = 1;
+    return cycles_of(counts, timing).stall_due_to_dependency;
+  };
+  CHECK(stall(&UnitCounts::fx2) == 1);
+  CHECK(stall(&UnitCounts::fx3) == 3);
+  CHECK(stall(&UnitCounts::fxb) == 3);
+  CHECK(stall(&UnitCounts::fp6) == 5);
+  CHECK(stall(&UnitCounts::fp7) == 6);
+  CHECK(stall(&UnitCounts::ls) == 5);
+  CHECK(stall(&UnitCounts::shuf) == 3);
+  CHECK(stall(&UnitCounts::br) == 3);
+}
+
+TEST_CASE("missed branches stand still") {
+  OperationCounts counts;
+  counts.branches = 10;
+  TimingParameters timing = uniform(1);
+  timing.missed_branches = 0.3;
+  timing.branch_miss = 18;
+  const SpuCycles cycles = cycles_of(counts, timing);
+  CHECK(cycles.br == 10);
+  CHECK(cycles.branch_taken_miss == 3);
+  CHECK(cycles.stall_due_to_branch_miss == 54);
+  CHECK(cycles.total_cycle == 64);
+}
+
+TEST_CASE("parts of cycles round to nearest, and nothing costs nothing") {
+  CHECK(detail::part_of(0, 0.6) == 0);
+  CHECK(detail::part_of(1, 0.6) == 1);
+  CHECK(detail::part_of(1, 0.4) == 0);
+  CHECK(detail::part_of(5, 0.5) == 3);
+  CHECK(detail::part_of(1'000'000'000'000, 1.0) == 1'000'000'000'000);
+  CHECK(cycles_of(OperationCounts(), TimingParameters::cell()).total_cycle == 0);
+}
+
+TEST_CASE("a quotient of packets on a Cell") {
+  const S::F a(3.0f);
+  const S::F b(2.0f);
+  TimingParameters timing;
+  timing.exposed_latency = 0.5;
+  timing.paired_issue = 0.5;
+  const SpuCycles cycles = cycles_of(counted([&] { (void)(a / b); }), timing);
+  CHECK(cycles.instructions() == 28); // seven for each quadword
+  CHECK(cycles.dual_cycle == 2);      // the four estimates with half of them
+  CHECK(cycles.single_cycle == 24);
+  CHECK(cycles.stall_due_to_dependency == 7); // half of 5 * 2 + 3
+  CHECK(cycles.total_cycle == 33);
+}
+
+} // namespace
+} // namespace celltrace::cell_emu
