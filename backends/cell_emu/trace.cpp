@@ -29,7 +29,7 @@ std::string numbered(std::string_view name, unsigned number) {
 
 Trace::Trace(std::ostream& out, unsigned spes, double clock_hz)
     : spes_(spes), clock_hz_(static_cast<std::uint64_t>(std::llround(clock_hz))), events_(out, clock_hz_),
-      computing_(spes), message_end_(spes + 1) {
+      computing_(spes), messages_(spes + 1) {
   name_process(activity_of(Diagnostic::kPpe), "Cell");
   name_thread(activity_of(Diagnostic::kPpe), "PPE");
   for (unsigned spe = 0; spe < spes; ++spe) {
@@ -46,6 +46,9 @@ Trace::~Trace() {
   try {
     for (unsigned spe = 0; spe < spes_; ++spe)
       flush_compute(spe);
+    for (unsigned spe = 0; spe < spes_; ++spe)
+      draw_messages(spe);
+    draw_messages(Diagnostic::kPpe);
     events_.close();
   } catch (const std::exception&) {
     // A stream that throws keeps the state that says so to whoever opened it.
@@ -81,17 +84,13 @@ void Trace::dma(unsigned spe, std::uint64_t number, const char* opcode, std::uin
 }
 
 std::uint64_t Trace::send(unsigned from, const char* what, std::uint32_t value, std::uint64_t at) {
-  begin_message(from, "send ", what, at);
-  events_.argument_in_hex("value", value);
-  events_.end();
-  arrow_end('s', from, ++arrows_, at);
+  messages_[std::min(from, spes_)].push_back(
+      {nanoseconds(at), 's', std::string("send ") + what, ++arrows_, value});
   return arrows_;
 }
 
 void Trace::receive(std::uint64_t arrow, unsigned to, const char* what, std::uint64_t at) {
-  begin_message(to, "read ", what, at);
-  events_.end();
-  if (arrow != 0) arrow_end('f', to, arrow, at);
+  messages_[std::min(to, spes_)].push_back({nanoseconds(at), 'f', std::string("read ") + what, arrow, 0});
 }
 
 void Trace::note(unsigned spe, const char* what, std::uint32_t value, std::uint64_t at) {
@@ -175,15 +174,34 @@ void Trace::flush_compute(unsigned spe) {
   running = {};
 }
 
-void Trace::arrow_end(char phase, unsigned spe, std::uint64_t arrow, std::uint64_t at) {
-  const Track track = messages_of(spe);
-  events_.begin(phase, track.process, track.thread);
-  events_.time("ts", nanoseconds(at));
+void Trace::draw_messages(unsigned spe) {
+  std::vector<Message>& messages = messages_[std::min(spe, spes_)];
+  std::stable_sort(messages.begin(), messages.end(),
+                   [](const Message& a, const Message& b) { return a.at < b.at; });
+  for (auto message = messages.begin(); message != messages.end(); ++message) {
+    // Slices end where the next one begins, or lie in each other if they begin together.
+    const auto next =
+        std::find_if(message, messages.end(), [&](const Message& m) { return m.at != message->at; });
+    const std::uint64_t longest = message->at + kMessageNanoseconds;
+    draw(*message, messages_of(spe), next == messages.end() ? longest : std::min(longest, next->at));
+  }
+}
+
+void Trace::draw(const Message& message, Track track, std::uint64_t end) {
+  events_.begin('X', track.process, track.thread);
+  events_.time("ts", message.at);
+  events_.time("dur", end - message.at);
+  events_.text("name", message.name);
+  if (message.phase == 's') events_.argument_in_hex("value", message.value);
+  events_.end();
+  if (message.arrow == 0) return;
+  events_.begin(message.phase, track.process, track.thread);
+  events_.time("ts", message.at);
   events_.text("cat", kArrow);
   events_.text("name", kArrow);
-  events_.identifier(arrow);
+  events_.identifier(message.arrow);
   // At the slice around it, not at the next one.
-  if (phase == 'f') events_.text("bp", "e");
+  if (message.phase == 'f') events_.text("bp", "e");
   events_.end();
 }
 
@@ -195,18 +213,6 @@ void Trace::begin_command(char phase, unsigned spe, std::uint64_t number, const 
   events_.text("cat", "dma");
   events_.text("name", opcode);
   events_.identifier((std::uint64_t{spe} << 48) + number);
-}
-
-void Trace::begin_message(unsigned spe, std::string_view verb, std::string_view what, std::uint64_t at) {
-  const Track track = messages_of(spe);
-  const std::uint64_t begin = nanoseconds(at);
-  std::uint64_t& end = message_end_[std::min(spe, spes_)];
-  // What begins within the slice before lies inside it, to its end: the two must not overlap otherwise.
-  if (begin >= end) end = begin + kMessageNanoseconds;
-  events_.begin('X', track.process, track.thread);
-  events_.time("ts", begin);
-  events_.time("dur", end - begin);
-  events_.text("name", std::string(verb).append(what));
 }
 
 void Trace::begin_instant(unsigned spe, std::string_view category, std::string_view name, std::uint64_t at) {

@@ -10,13 +10,15 @@
 
 #include <cstdint>
 #include <iosfwd>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace celltrace::cell_emu {
 
-/// Writes as it goes. Times are virtual cycles; for one SPE (or the PPE) those of compute(), wait(), note(),
-/// send() and receive() do not fall. Errors: the stream's own state. Thread safety: one thread at a time.
+/// Writes as it goes, but the messages at the end, in the order of their times: a word that leaves by DMA may
+/// do so after words that its SPE reads later. Times are virtual cycles; what compute() and wait() say of one
+/// SPE does not overlap. Errors: the stream's own state. Thread safety: one thread at a time.
 class Trace {
 public:
   /// `clock_hz` is at least 1 Hz. `out` must outlive the trace.
@@ -55,6 +57,15 @@ private:
     bool empty() const { return begin == end; }
   };
 
+  /// One end of an arrow.
+  struct Message {
+    std::uint64_t at; ///< nanoseconds
+    char phase;       ///< of the arrow: s, where it starts, or f, where it ends
+    std::string name;
+    std::uint64_t arrow;
+    std::uint32_t value; ///< of what is sent
+  };
+
   // `spe` may be the PPE.
   static Track activity_of(unsigned spe);
   static Track messages_of(unsigned spe);
@@ -65,10 +76,10 @@ private:
   void name_thread(Track track, std::string_view name);
   void slice(Track track, std::string_view name, Interval cycles);
   void flush_compute(unsigned spe);
-  void arrow_end(char phase, unsigned spe, std::uint64_t arrow, std::uint64_t at);
+  void draw_messages(unsigned spe);
+  void draw(const Message& message, Track track, std::uint64_t end);
   // These leave the event open for its arguments.
   void begin_command(char phase, unsigned spe, std::uint64_t number, const char* opcode, std::uint64_t at);
-  void begin_message(unsigned spe, std::string_view verb, std::string_view what, std::uint64_t at);
   void begin_instant(unsigned spe, std::string_view category, std::string_view name, std::uint64_t at);
   void site_argument(const CallSite& site);
 
@@ -76,8 +87,8 @@ private:
   std::uint64_t clock_hz_;
   TraceEvents events_;
   std::uint64_t arrows_ = 0;
-  std::vector<Interval> computing_;        ///< by SPE, cycles: the stretch that may go on
-  std::vector<std::uint64_t> message_end_; ///< by SPE, then the PPE, nanoseconds: of the slice drawn last
+  std::vector<Interval> computing_;            ///< by SPE, cycles: the stretch that may go on
+  std::vector<std::vector<Message>> messages_; ///< by SPE, then the PPE's
 };
 
 } // namespace celltrace::cell_emu
