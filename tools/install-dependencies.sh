@@ -9,7 +9,7 @@
 set -euo pipefail
 
 declare -A packages=(
-  [build]="g++ cmake ninja-build flex bison libcli11-dev libglm-dev libpng-dev libxsimd-dev nlohmann-json3-dev"
+  [build]="g++ cmake ninja-build flex bison libboost-context-dev libcli11-dev libglm-dev libpng-dev libxsimd-dev nlohmann-json3-dev"
   [tests]="catch2 libbenchmark-dev xz-utils"
   [extras]="ccache povray povray-includes"
 )
