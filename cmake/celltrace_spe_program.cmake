@@ -1,8 +1,9 @@
 # Compiles SPE programs for every SPU type of the build.
 #
-#   celltrace_spe_program(NAME SOURCE entry.cpp [LINK targets...])
+#   celltrace_spe_program(NAME SOURCE entry.cpp [CODE_BYTES n STACK_BYTES n] [LINK targets...])
 #
-# makes the static library celltrace_NAME_program. The source says which kernel it is:
+# makes the static library celltrace_NAME_program. CODE_BYTES (with data) and STACK_BYTES are what the program takes of
+# a real SPE's local store; celltrace_spu_budget_test() of the same name holds them against the real build. The source says which kernel it is:
 #
 #   #include "kernel/tracer.hpp"
 #   #include "backends/spe_entry.hpp"
@@ -45,7 +46,13 @@ endif()
 celltrace_spu_type(cell_emu HEADER backends/cell_emu/spu.hpp KEY cell_emu TYPE "celltrace::cell_emu::Spu")
 
 function(celltrace_spe_program name)
-  cmake_parse_arguments(PROGRAM "" "SOURCE" "LINK" ${ARGN})
+  cmake_parse_arguments(PROGRAM "" "SOURCE;CODE_BYTES;STACK_BYTES" "LINK" ${ARGN})
+  set(local_store_use "")
+  if(PROGRAM_CODE_BYTES)
+    set(local_store_use "  program.takes({${PROGRAM_CODE_BYTES}, ${PROGRAM_STACK_BYTES}});\n")
+    set_property(GLOBAL PROPERTY CELLTRACE_${name}_CODE_BYTES ${PROGRAM_CODE_BYTES})
+    set_property(GLOBAL PROPERTY CELLTRACE_${name}_STACK_BYTES ${PROGRAM_STACK_BYTES})
+  endif()
   set(library celltrace_${name}_program)
   set(declarations "")
   set(entries "")
@@ -73,7 +80,7 @@ namespace celltrace {
 SpeProgram @name@_program();
 SpeProgram @name@_program() {
   SpeProgram program("@name@");
-@entries@  return program;
+@entries@@local_store_use@  return program;
 }
 
 } // namespace celltrace

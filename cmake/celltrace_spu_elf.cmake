@@ -7,7 +7,8 @@
 #
 #   celltrace_spu_budget_test("test name" NAME)
 #
-# checks in CTest that code, data, arena and stack of NAME fit the local store together. Without a compiler both do
+# checks in CTest that code, data, arena and stack of NAME fit the local store together, and that they are not more than
+# celltrace_spe_program(NAME) says, if it says something. Without a compiler both do
 # nothing but to register a test that is skipped.
 
 # What stays of the 256 KB for code, data and stack is 128 KB.
@@ -56,7 +57,10 @@ function(celltrace_spu_budget_test test name)
   get_target_property(base celltrace_spu_${name} CELLTRACE_BASE)
   get_target_property(arena celltrace_spu_${name} CELLTRACE_ARENA)
   set(check ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../backends/spu/check_budget.cmake)
+  get_property(said_code GLOBAL PROPERTY CELLTRACE_${name}_CODE_BYTES)
+  get_property(said_stack GLOBAL PROPERTY CELLTRACE_${name}_STACK_BYTES)
   string(REGEX REPLACE "g\\+\\+$" "size" size_tool ${CELLTRACE_SPU_GXX})
   add_test(NAME ${test} COMMAND ${CMAKE_COMMAND}
-    -DELF=${base}.elf -DSTACK=${base}.stack.txt -DARENA=${arena} -DSIZE_TOOL=${size_tool} -P ${check})
+    -DELF=${base}.elf -DSTACK=${base}.stack.txt -DARENA=${arena} -DSAID_CODE=${said_code}
+    -DSAID_STACK=${said_stack} -DSIZE_TOOL=${size_tool} -P ${check})
 endfunction()

@@ -33,15 +33,15 @@ Cycle FreeScheduler::pause(Spe& spe, std::uint32_t code, Cycle now) {
   while (spe.mfc.next_event() != kNever)
     now = std::max(now, spe.mfc.run_next());
   std::unique_lock lock(mutex_);
-  spe.signalled = code;
+  spe.signal = code;
   spe.now = now;
   --active_;
   count_stop();
   ppe_.notify_all();
-  resumed_.wait(lock, [&] { return !spe.signalled || spe.state.interrupted(); });
-  ++active_;
-  if (spe.signalled) {
-    spe.signalled.reset();
+  resumed_.wait(lock, [&] { return spe.signal == Spe::kNoSignal || spe.state.interrupted(); });
+  if (spe.signal != Spe::kNoSignal) {
+    ++active_;
+    spe.signal = Spe::kNoSignal;
     spe.state.stop_while_stopped(code);
   }
   return now;
@@ -51,7 +51,7 @@ void FreeScheduler::start(Spe& spe, Program program) {
   {
     const std::lock_guard lock(mutex_);
     spe.running = true;
-    spe.signalled.reset();
+    spe.signal = Spe::kNoSignal;
     ++active_;
   }
   const auto ended = [this, &spe] {
@@ -74,7 +74,8 @@ void FreeScheduler::start(Spe& spe, Program program) {
 
 void FreeScheduler::resume(Spe& spe) {
   const std::lock_guard lock(mutex_);
-  spe.signalled.reset();
+  spe.signal = Spe::kNoSignal;
+  ++active_;
   resumed_.notify_all();
 }
 

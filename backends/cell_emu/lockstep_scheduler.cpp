@@ -74,15 +74,15 @@ Cycle LockstepScheduler::stall(Spe& spe, const ProblemState::Stall& stall, Cycle
 Cycle LockstepScheduler::pause(Spe& spe, std::uint32_t code, Cycle now) {
   Agent& agent = agents_[spe.id];
   agent.now = now;
-  spe.signalled = code;
+  spe.signal = code;
   spe.now = now;
   if (!spe.state.interrupted()) {
     agent.state = State::paused;
     count_stop();
     suspend(agent);
   }
-  if (spe.signalled) {
-    spe.signalled.reset();
+  if (spe.signal != Spe::kNoSignal) {
+    spe.signal = Spe::kNoSignal;
     spe.state.stop_while_stopped(code);
   }
   current_ = agent.now;
@@ -199,11 +199,11 @@ void LockstepScheduler::start(Spe& spe, Program program) {
   agent.state = State::ready;
   agent.failure = nullptr;
   spe.running = true;
-  spe.signalled.reset();
+  spe.signal = Spe::kNoSignal;
 }
 
 void LockstepScheduler::resume(Spe& spe) {
-  spe.signalled.reset();
+  spe.signal = Spe::kNoSignal;
   wake(spe.id, ppe_now_);
 }
 

@@ -36,9 +36,12 @@ MachineConfig checked(MachineConfig config) {
   return config;
 }
 
-ArenaRange arena_of(const MachineConfig& config) {
-  return {(config.code_bytes + kLineBytes - 1) / kLineBytes * kLineBytes,
-          kLocalStoreBytes - config.stack_bytes};
+/// The arena of a program: what its code and stack leave of the local store; empty if that is nothing.
+ArenaRange arena_of(LocalStoreUse use) {
+  const std::uint64_t begin = (std::uint64_t{use.code_bytes} + kLineBytes - 1) / kLineBytes * kLineBytes;
+  const std::uint64_t taken = begin + use.stack_bytes + 2 * kLineBytes;
+  if (taken > kLocalStoreBytes) return {0, 0};
+  return {static_cast<std::uint32_t>(begin), kLocalStoreBytes - use.stack_bytes};
 }
 
 std::unique_ptr<Trace> make_trace(const MachineConfig& config) {
@@ -88,8 +91,9 @@ public:
 private:
   bool lockstep() const { return config_.emulation.schedule == Schedule::lockstep; }
   std::unique_ptr<Scheduler> make_scheduler();
-  ArenaState arena(unsigned spe) const;
-  void run(Spe& spe, const SpeProgram::Entry& entry, ea_t argument);
+  ArenaState arena(unsigned spe, ArenaRange range) const;
+  void run(Spe& spe, const SpeProgram::Entry& entry, ea_t argument, ArenaRange range);
+  [[noreturn]] void refuse_too_large(unsigned spe, const std::string& name, LocalStoreUse use);
   void fail(Spe& spe, const std::string& error);
   void report_ppe(Rule rule, unsigned spe, const std::string& what);
   void wait_until_stopped(const Spe& spe);
@@ -126,7 +130,7 @@ EmulatedCell::EmulatedCell(const MachineConfig& config)
   timing_.assign(lockstep() ? 1 : config_.spes, DmaTiming(config_.emulation.timing, config_.spes));
   for (unsigned spe = 0; spe < config_.spes; ++spe) {
     spes_.push_back(std::make_unique<Spe>(spe, config_.signal_mode, *scheduler_, mfc_context_,
-                                          timing_[lockstep() ? 0 : spe], arena_of(config_)));
+                                          timing_[lockstep() ? 0 : spe]));
     registers_.push_back(&spes_.back()->state);
   }
 }
@@ -143,9 +147,8 @@ EmulatedCell::~EmulatedCell() {
 
 // --- run control ---
 
-ArenaState EmulatedCell::arena(unsigned spe) const {
+ArenaState EmulatedCell::arena(unsigned spe, ArenaRange range) const {
   std::uint8_t* const base = map_.local_store(spe);
-  const ArenaRange range = arena_of(config_);
   return {base + range.begin, base + range.end, base + range.begin};
 }
 
@@ -155,24 +158,48 @@ void EmulatedCell::start(unsigned spe, const SpeProgram& program, ea_t argument)
   if (started.running) throw SpeError("SPE " + std::to_string(spe) + " is running");
   const SpeProgram::Entry entry = program.entry(Spu::kKey);
   if (!entry) throw SpeError("program \"" + program.name() + "\" was not compiled for cell_emu");
+  const LocalStoreUse use =
+      program.local_store_use().value_or(LocalStoreUse{config_.code_bytes, config_.stack_bytes});
+  const ArenaRange range = arena_of(use);
+  if (range.end == 0) refuse_too_large(spe, program.name(), use);
   collect(started);
   started.error.clear();
   started.exit_code = 0;
-  started.mfc.begin_program();
+  started.mfc.begin_program(range);
   started.state.start();
-  scheduler_->start(started, [this, &started, entry, argument] { run(started, entry, argument); });
+  scheduler_->start(started,
+                    [this, &started, entry, argument, range] { run(started, entry, argument, range); });
   started_[spe] = true;
 }
 
-void EmulatedCell::run(Spe& spe, const SpeProgram::Entry& entry, ea_t argument) {
+void EmulatedCell::refuse_too_large(unsigned spe, const std::string& name, LocalStoreUse use) {
+  Diagnostic diagnostic;
+  diagnostic.rule = Rule::local_store_exhausted;
+  diagnostic.spe = spe;
+  const std::string what = "program \"" + name + "\" takes " + std::to_string(use.code_bytes) +
+                           " bytes of code and data and " + std::to_string(use.stack_bytes) +
+                           " of stack: " + std::string(text_of(Rule::local_store_exhausted));
+  log_.report(diagnostic, what);
+  throw SpeError("SPE " + std::to_string(spe) + ": " + what);
+}
+
+void EmulatedCell::run(Spe& spe, const SpeProgram::Entry& entry, ea_t argument, ArenaRange range) {
   const SpuContext context{mfc_context_, *scheduler_};
-  const ProgramGuard guard(map_.local_store(spe.id), arena_of(config_));
+  const ProgramGuard guard(map_.local_store(spe.id), range);
   const auto broken_off = [&](const std::string& error) {
     spe.mfc.abandon();
     fail(spe, error);
   };
+  const auto threw = [&](const std::string& what) {
+    Diagnostic diagnostic;
+    diagnostic.rule = Rule::kernel_exception;
+    diagnostic.spe = spe.id;
+    diagnostic.cycle = spe.now;
+    const bool kept = log_.note(diagnostic, what + ": " + std::string(text_of(diagnostic.rule)));
+    broken_off(kept ? diagnostic.text : "SPE " + std::to_string(spe.id) + ": " + what);
+  };
   try {
-    Spu spu(spe, context, arena(spe.id));
+    Spu spu(spe, context, arena(spe.id, range));
     try {
       entry(&spu, argument);
     } catch (const Spu::Exit& exit) {
@@ -186,9 +213,9 @@ void EmulatedCell::run(Spe& spe, const SpeProgram::Entry& entry, ea_t argument) 
   } catch (const SpeError& error) {
     broken_off(error.what());
   } catch (const std::exception& error) {
-    broken_off("SPE " + std::to_string(spe.id) + ": " + error.what());
+    threw(error.what());
   } catch (...) {
-    broken_off("SPE " + std::to_string(spe.id) + ": stopped by an unknown exception");
+    threw("an unknown exception");
   }
 }
 
@@ -212,7 +239,7 @@ SpeStop EmulatedCell::wait(unsigned spe) {
   Spe& stopped = *spes_.at(spe);
   if (!started_[spe]) return {SpeStop::Reason::exit, stopped.exit_code};
   wait_until_stopped(stopped);
-  if (stopped.running) return {SpeStop::Reason::stop_and_signal, *stopped.signalled};
+  if (stopped.running) return {SpeStop::Reason::stop_and_signal, stopped.signal};
   collect(stopped);
   if (!stopped.error.empty()) {
     stopped.exit_code = 0;
@@ -275,7 +302,9 @@ void EmulatedCell::write_in_mailbox(unsigned spe, std::uint32_t value) {
                    "room in the mailbox of SPE " + std::to_string(spe));
   if (full())
     throw SpeError("SPE " + std::to_string(spe) + ": is not running, and its inbound mailbox is full");
-  to.state.write_in_mailbox(value, {Diagnostic::kPpe, scheduler_->enter()});
+  // Nothing has happened since, on the lockstep schedule; with threads another SPE may have been faster.
+  if (!to.state.write_in_mailbox(value, {Diagnostic::kPpe, scheduler_->ppe_time()}))
+    report_ppe(Rule::mailbox_overwritten, spe, "inbound mailbox");
 }
 
 unsigned EmulatedCell::in_mailbox_space(unsigned spe) const {

@@ -1,6 +1,8 @@
 // A mailbox: a short queue of 32-bit words. Not synchronised; see problem_state.hpp.
 #pragma once
 
+#include "backends/cell_emu/cycle.hpp"
+
 #include <array>
 #include <cstdint>
 
@@ -10,6 +12,7 @@ namespace celltrace::cell_emu {
 struct Word {
   std::uint32_t value = 0;
   std::uint64_t arrow = 0;
+  Cycle at = 0; ///< when it arrived
 };
 
 template <unsigned Entries> class Mailbox {

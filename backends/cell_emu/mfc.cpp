@@ -39,15 +39,16 @@ const char* name_of(EaKind kind) {
 
 } // namespace
 
-Mfc::Mfc(unsigned spe, const MfcContext& context, DmaTiming& timing, ArenaRange arena,
-         ProblemState& problem_state, Counters& counters)
-    : spe_(spe), context_(context), arena_(arena), bus_(context.bus), timing_(timing),
-      problem_state_(problem_state), counters_(counters), random_(context.config.seed, kStream + spe) {
+Mfc::Mfc(unsigned spe, const MfcContext& context, DmaTiming& timing, ProblemState& problem_state,
+         Counters& counters)
+    : spe_(spe), context_(context), bus_(context.bus), timing_(timing), problem_state_(problem_state),
+      counters_(counters), random_(context.config.seed, kStream + spe) {
 }
 
 // --- a program's life ---
 
-void Mfc::begin_program() {
+void Mfc::begin_program(ArenaRange arena) {
+  arena_ = arena;
   tag_groups_ = {};
   used_tags_ = waited_tags_ = stalled_tags_ = 0;
   last_wait_ = {};
@@ -380,7 +381,6 @@ void Mfc::observe(std::uint32_t tags, std::uint64_t last_command, bool proxy, Cy
     return flight.completed && flight.proxy == proxy && (tags >> flight.transfer.tag & 1) != 0 &&
            flight.command <= last_command;
   };
-  std::optional<Flight> touched;
   for (std::size_t i = 0; i < context_.flights.of(spe_).size(); ++i) {
     Flight& flight = context_.flights.at(spe_, i);
     if (!seen(flight)) continue;

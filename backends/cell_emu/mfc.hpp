@@ -47,14 +47,15 @@ struct ArenaRange {
 /// whose action is to stop.
 class Mfc {
 public:
-  Mfc(unsigned spe, const MfcContext& context, DmaTiming& timing, ArenaRange arena,
-      ProblemState& problem_state, Counters& counters);
+  Mfc(unsigned spe, const MfcContext& context, DmaTiming& timing, ProblemState& problem_state,
+      Counters& counters);
   Mfc(const Mfc&) = delete;
   Mfc& operator=(const Mfc&) = delete;
 
   // --- a program's life ---
 
-  void begin_program();
+  /// While none runs.
+  void begin_program(ArenaRange arena);
   /// The kernel has returned: completes everything and reports what is left undone.
   void finish(Cycle now);
   /// The program was broken off: forgets its commands.
@@ -166,7 +167,7 @@ private:
 
   const unsigned spe_;
   const MfcContext context_;
-  const ArenaRange arena_;
+  ArenaRange arena_{0, kLocalStoreBytes};
   Bus& bus_;
   DmaTiming& timing_;
   ProblemState& problem_state_;

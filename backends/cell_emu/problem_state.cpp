@@ -3,6 +3,8 @@
 #include "backends/cell_emu/channels.hpp"
 #include "backends/cell_emu/diagnostic_log.hpp"
 
+#include <algorithm>
+
 namespace celltrace::cell_emu {
 
 ProblemState::ProblemState(unsigned spe, const SignalMode (&modes)[2], StallObserver& observer, Trace* trace)
@@ -48,7 +50,7 @@ unsigned ProblemState::count(Channel channel) const {
 // --- registers ---
 
 Word ProblemState::sent(const char* what, std::uint32_t value, Sender sender) const {
-  return {value, trace_ == nullptr ? 0 : trace_->send(sender.spe, what, value, sender.at)};
+  return {value, trace_ == nullptr ? 0 : trace_->send(sender.spe, what, value, sender.at), sender.at};
 }
 
 std::uint32_t ProblemState::received(const char* what, Word word, unsigned by, Cycle now) const {
@@ -122,16 +124,18 @@ void ProblemState::stop_while_stopped(std::uint32_t code) const {
                  std::to_string(code) + because_);
 }
 
-std::uint32_t ProblemState::read_in_mailbox(Cycle now) {
+std::uint32_t ProblemState::read_in_mailbox(Cycle& now) {
   const std::lock_guard lock(mutex_);
   const Word word = in_mailbox_.pop();
+  now = std::max(now, word.at);
   publish();
   return received("mailbox", word, spe_, now);
 }
 
-std::uint32_t ProblemState::read_signal(Signal which, Cycle now) {
+std::uint32_t ProblemState::read_signal(Signal which, Cycle& now) {
   const std::lock_guard lock(mutex_);
   const Word word = signal(which).read();
+  now = std::max(now, word.at);
   publish();
   return received(name_of_signal(which), word, spe_, now);
 }

@@ -66,8 +66,10 @@ public:
 
   // --- channels, for the SPU's own thread; only while the count is not 0 ---
 
-  std::uint32_t read_in_mailbox(Cycle now);
-  std::uint32_t read_signal(Signal which, Cycle now);
+  // Reads at time `now`, which rises to the time at which the word arrived if that is later: exploring, an
+  // SPE may come to read a word before it is as late as the word's sender.
+  std::uint32_t read_in_mailbox(Cycle& now);
+  std::uint32_t read_signal(Signal which, Cycle& now);
   void write_out_mailbox(std::uint32_t value, Cycle now);
   void write_out_interrupt_mailbox(std::uint32_t value, Cycle now);
   std::uint32_t read_event_status();

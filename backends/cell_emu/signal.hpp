@@ -19,6 +19,7 @@ public:
   void write(Word word) {
     word_.value = mode_ == SignalMode::logical_or ? word_.value | word.value : word.value;
     word_.arrow = word.arrow;
+    word_.at = word.at;
     count_ = 1;
   }
   /// The SPU's read: clears value and count.

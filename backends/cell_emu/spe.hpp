@@ -5,8 +5,8 @@
 #include "backends/cell_emu/mfc.hpp"
 #include "backends/cell_emu/problem_state.hpp"
 
+#include <atomic>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,9 +14,8 @@ namespace celltrace::cell_emu {
 
 struct Spe {
   Spe(unsigned spe, const SignalMode (&modes)[2], StallObserver& observer, const MfcContext& context,
-      DmaTiming& timing, ArenaRange arena)
-      : id(spe), state(spe, modes, observer, context.trace),
-        mfc(spe, context, timing, arena, state, counters) {}
+      DmaTiming& timing)
+      : id(spe), state(spe, modes, observer, context.trace), mfc(spe, context, timing, state, counters) {}
 
   const unsigned id;
   ProblemState state;
@@ -25,11 +24,12 @@ struct Spe {
   Cycle now = 0; ///< the SPU's virtual time while its program does not run
 
   // What follows is kept by the schedule.
-  bool running = false;
-  std::optional<std::uint32_t> signalled; ///< it stopped with this code and waits to be resumed
+  static constexpr std::uint32_t kNoSignal = ~0u;
+  std::atomic<bool> running{false};
+  std::atomic<std::uint32_t> signal{kNoSignal}; ///< it stopped with this code and waits to be resumed
 
   /// It can be resumed; one that was interrupted in its stop is about to end.
-  bool paused() const { return signalled && !state.interrupted(); }
+  bool paused() const { return signal != kNoSignal && !state.interrupted(); }
 
   // Written by the program, read when it does not run.
   std::uint32_t exit_code = 0;

@@ -1,5 +1,6 @@
 #include "backends/cell_emu/spu.hpp"
 
+#include "backends/cell_emu/coroutine.hpp"
 #include "backends/cell_emu/pipeline.hpp"
 
 #include <algorithm>
@@ -58,11 +59,22 @@ Spu::Spu(Spe& spe, const SpuContext& context, const ArenaState& arena)
   slowness_ = kUnit + static_cast<std::uint64_t>((slowest - 1.0) * kUnit * random_.fraction());
   take_operation_counts();
   initialise_base();
+  stack_local() = this;
+}
+
+Spu::~Spu() {
+  stack_local() = nullptr;
+}
+
+Spu& Spu::running() {
+  if (stack_local() == nullptr) throw SpeError("an operation of an SPE where no SPE program runs");
+  return *static_cast<Spu*>(stack_local());
 }
 
 void Spu::finish() {
   settle();
   reach();
+  abandon();
   mfc_.finish(now_);
   const auto left = [&](Rule rule, bool broken, const char* what) {
     if (!broken) return;
@@ -75,7 +87,6 @@ void Spu::finish() {
   left(Rule::mailbox_unread, state_.in_mailbox_count() != 0, "");
   left(Rule::signal_unread, state_.signal_count(Signal::one) != 0, "signal 1: ");
   left(Rule::signal_unread, state_.signal_count(Signal::two) != 0, "signal 2: ");
-  abandon();
 }
 
 void Spu::abandon() {
@@ -238,6 +249,12 @@ std::uint32_t Spu::local_address(const void* pointer) const {
   return offset < kLocalStoreBytes ? static_cast<std::uint32_t>(offset) : kOutsideLocalStore;
 }
 
+void* Spu::local_static(const void* key, std::uint32_t bytes, std::uint32_t alignment) {
+  void*& object = statics_[key];
+  if (object == nullptr) object = allocate<std::uint8_t>(bytes, alignment);
+  return object;
+}
+
 void Spu::command(const MfcCommand& command) {
   // Six channel writes: the parameters and the command.
   charge(0, 6);
@@ -269,6 +286,20 @@ void Spu::command_word(std::uint32_t word) {
 }
 
 // --- events, interrupts and the decrementer ---
+
+std::uint32_t Spu::read_in_mailbox_channel() {
+  Cycle arrived = now_;
+  const std::uint32_t value = state_.read_in_mailbox(arrived);
+  waited(arrived, wait_for(Channel::rd_in_mbox));
+  return value;
+}
+
+std::uint32_t Spu::read_signal(Signal which) {
+  Cycle arrived = now_;
+  const std::uint32_t value = state_.read_signal(which, arrived);
+  waited(arrived, wait_for(Channel::rd_sig_notify_1));
+  return value;
+}
 
 std::uint32_t Spu::event_status_channel() {
   update_decrementer();

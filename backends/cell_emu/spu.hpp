@@ -10,6 +10,7 @@
 #include "celltrace/spe/spu.hpp"
 
 #include <functional>
+#include <map>
 
 namespace celltrace::cell_emu {
 
@@ -31,6 +32,12 @@ public:
 
   /// `arena` is the part of the SPE's local store that is the kernel's.
   Spu(Spe& spe, const SpuContext& context, const ArenaState& arena);
+  ~Spu();
+  Spu(const Spu&) = delete;
+  Spu& operator=(const Spu&) = delete;
+
+  /// That of the program which runs here: for code that has no Spu at hand. Throws SpeError if none does.
+  static Spu& running();
 
   std::uint32_t id() const { return spe_.id; }
   std::uint32_t count() const { return context_.mfc.bus.map().spes(); }
@@ -58,6 +65,11 @@ public:
   void compute(const ScalarWork& work) { cell_emu::count(work); }
   void note(const char* what, std::uint32_t value);
   void at(CallSite site) { site_ = site; }
+
+  /// Offset in this SPE's local store; kOutsideLocalStore for a pointer to elsewhere.
+  std::uint32_t local_address(const void* pointer) const;
+  /// Zeroed local store that belongs to `key` until the program ends: what a static object is on a real SPE.
+  void* local_static(const void* key, std::uint32_t bytes, std::uint32_t alignment);
 
   /// Channels by number, for programs that compute it; one that does not exist in this direction ends the
   /// program as an invalid channel does.
@@ -92,7 +104,6 @@ public:
   };
 
 private:
-  std::uint32_t local_address(const void* pointer) const;
   void command(const MfcCommand& command);
   void command_word(std::uint32_t word);
   void stop_with(std::uint32_t code);
@@ -108,6 +119,8 @@ private:
   void inject_faults();
   void run_interrupts();
 
+  std::uint32_t read_in_mailbox_channel();
+  std::uint32_t read_signal(Signal which);
   std::uint32_t event_status_channel();
   std::uint32_t decrementer();
   void start_decrementer(std::uint32_t value);
@@ -130,6 +143,7 @@ private:
   Counters& counters_;
   SeededRandom random_;
   ArenaState arena_;
+  std::map<const void*, void*> statics_;
   MfcCommand parameters_{}; ///< channels 16..21 keep what was written
   unsigned written_parameters_ = 0;
   Decrementer decrementer_;
@@ -161,8 +175,8 @@ template <Channel c> std::uint32_t Spu::read_channel() {
     await<c>();
   }
   if constexpr (c == Channel::rd_event_stat) return event_status_channel();
-  if constexpr (c == Channel::rd_sig_notify_1) return state_.read_signal(Signal::one, now_);
-  if constexpr (c == Channel::rd_sig_notify_2) return state_.read_signal(Signal::two, now_);
+  if constexpr (c == Channel::rd_sig_notify_1) return read_signal(Signal::one);
+  if constexpr (c == Channel::rd_sig_notify_2) return read_signal(Signal::two);
   if constexpr (c == Channel::rd_dec) return decrementer();
   if constexpr (c == Channel::rd_event_mask) return state_.event_mask();
   if constexpr (c == Channel::rd_tag_mask) return mfc_.tag_mask();
@@ -171,7 +185,7 @@ template <Channel c> std::uint32_t Spu::read_channel() {
   if constexpr (c == Channel::rd_tag_stat) return mfc_.take_tag_status(now_);
   if constexpr (c == Channel::rd_list_stall_stat) return mfc_.take_list_stall_status(now_);
   if constexpr (c == Channel::rd_atomic_stat) return mfc_.take_atomic_status();
-  if constexpr (c == Channel::rd_in_mbox) return state_.read_in_mailbox(now_);
+  if constexpr (c == Channel::rd_in_mbox) return read_in_mailbox_channel();
 }
 
 template <Channel c> void Spu::write_channel(std::uint32_t value) {

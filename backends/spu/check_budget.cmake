@@ -1,7 +1,9 @@
 # Prints what a program takes of an SPE's local store, and fails if that is more than there is.
 #
-#   cmake -DELF=... -DSTACK=... -DARENA=bytes -DSIZE_TOOL=spu-elf-size -P check_budget.cmake
+#   cmake -DELF=... -DSTACK=... -DARENA=bytes [-DSAID_CODE=bytes -DSAID_STACK=bytes] -DSIZE_TOOL=spu-elf-size
+#     -P check_budget.cmake
 #
+# SAID_... is what the emulator takes the program's code with its data, and its stack, to be: they may not be more.
 # STACK is what the linker printed with --stack-analysis: the worst call chain from the entry, crt0 included.
 
 set(local_store 262144)
@@ -28,6 +30,11 @@ message("local store of ${name}, bytes:\n"
   "  arena               ${ARENA}\n"
   "  stack               ${stack}\n"
   "  free                ${free}")
+math(EXPR program "${code} + ${data}")
+if(SAID_CODE AND (program GREATER SAID_CODE OR stack GREATER SAID_STACK))
+  message(FATAL_ERROR "${name} takes ${program} bytes of code and data and ${stack} of stack; its "
+    "celltrace_spe_program() says ${SAID_CODE} and ${SAID_STACK}")
+endif()
 if(free LESS 0)
   message(FATAL_ERROR "${name} takes ${total} of ${local_store} bytes")
 endif()

@@ -74,7 +74,7 @@ TEST_CASE("a cache works on every SPU, and counts where it is one") {
   control.trace = random_trace(memory, 4000);
   run_on(key, 1, kReadAll, to_ea(&control));
   CHECK(control.wrong == 0);
-  const CacheCounters expected = key == "cell_emu" ? expected_counters(control) : CacheCounters{};
+  const CacheCounters expected = key.starts_with("cell_emu") ? expected_counters(control) : CacheCounters{};
   CHECK(control.counters.hits == expected.hits);
   CHECK(control.counters.misses == expected.misses);
 }

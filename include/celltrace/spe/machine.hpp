@@ -26,8 +26,8 @@ struct MachineConfig {
   std::string simd = "auto";
   /// How the two signal notification registers of every SPE take a second write.
   SignalMode signal_mode[2] = {SignalMode::overwrite, SignalMode::overwrite};
-  /// `cell_emu`: local store that the program's code and data take, and that is kept for its stack; bytes.
-  /// The rest of the 256 KB is the kernel's arena.
+  /// `cell_emu`: local store that the code and data of a program take, and that is kept for its stack, if it
+  /// does not say itself (SpeProgram::takes); bytes. The rest of the 256 KB is the kernel's arena.
   unsigned code_bytes = 104 * 1024;
   unsigned stack_bytes = 24 * 1024;
   /// `cell_emu` only.

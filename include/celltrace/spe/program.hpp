@@ -5,11 +5,18 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
 
 namespace celltrace {
+
+/// Local store that a program takes on a real SPE besides its arena; bytes.
+struct LocalStoreUse {
+  unsigned code_bytes = 0; ///< code, constants and data
+  unsigned stack_bytes = 0;
+};
 
 /// A kernel compiled for one or more backends. `Spu::kKey` names the SPU type ("cell_emu", "native.avx2",
 /// ...); the machine picks the entry whose key fits it best. Copyable; immutable while a machine runs it.
@@ -32,7 +39,14 @@ public:
     return *this;
   }
 
+  /// What the program takes of a local store, as its real build says; else the machine's configuration decides.
+  SpeProgram& takes(LocalStoreUse use) {
+    local_store_use_ = use;
+    return *this;
+  }
+
   const std::string& name() const noexcept { return name_; }
+  const std::optional<LocalStoreUse>& local_store_use() const noexcept { return local_store_use_; }
   /// The entry for an SPU type, or an empty one if the program was not compiled for it.
   Entry entry(const std::string& key) const noexcept {
     const auto found = entries_.find(key);
@@ -41,6 +55,7 @@ public:
 
 private:
   std::string name_;
+  std::optional<LocalStoreUse> local_store_use_;
   std::map<std::string, Entry> entries_;
 };
 
