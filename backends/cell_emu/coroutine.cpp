@@ -33,6 +33,9 @@ namespace {
 
 namespace context = boost::context;
 
+/// That of the stack that is running.
+thread_local void* running_stack_local = nullptr;
+
 /// The exceptions that a thread has under way, as the C++ ABI lays them out. Each stack has its own.
 struct ExceptionState {
   void* caught = nullptr;
@@ -68,6 +71,7 @@ public:
 
   void resume() {
     exchange_exceptions(exceptions_);
+    std::swap(running_stack_local, stack_local_);
 #ifdef CELLTRACE_HAS_TSAN
     tsan_caller_ = __tsan_get_current_fiber();
     __tsan_switch_to_fiber(tsan_fiber_, 0);
@@ -80,6 +84,7 @@ public:
 #ifdef CELLTRACE_HAS_ASAN
     __sanitizer_finish_switch_fiber(fake_stack, nullptr, nullptr);
 #endif
+    std::swap(running_stack_local, stack_local_);
     exchange_exceptions(exceptions_);
   }
 
@@ -121,6 +126,7 @@ private:
   context::fiber fiber_;
   context::fiber caller_;
   ExceptionState exceptions_;
+  void* stack_local_ = nullptr;
 #ifdef CELLTRACE_HAS_ASAN
   const void* stack_bottom_ = nullptr;
   std::size_t stack_bytes_ = 0;
@@ -146,6 +152,11 @@ void Coroutine::suspend() {
 }
 bool Coroutine::ended() const {
   return impl_->ended();
+}
+
+// Not inline: where a coroutine goes on on another thread, no address of the old thread's may have been kept.
+void*& stack_local() {
+  return running_stack_local;
 }
 
 } // namespace celltrace::cell_emu

@@ -31,4 +31,7 @@ private:
   std::unique_ptr<Impl> impl_;
 };
 
+/// A pointer that every thread and every coroutine has for itself; null at first.
+void*& stack_local();
+
 } // namespace celltrace::cell_emu
