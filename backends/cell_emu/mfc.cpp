@@ -58,20 +58,32 @@ void Mfc::begin_program(ArenaRange arena) {
 void Mfc::finish(Cycle now) {
   while (next_event() != kNever)
     now = std::max(now, run_next());
-  const auto left = [&](const Flight& flight) { return !flight.proxy; };
+  const auto still_stopped = [&](std::uint64_t command) {
+    return std::any_of(queue_.begin(), queue_.end(), [&](const Entry& entry) {
+      return !entry.proxy && entry.number == command && entry.stalled;
+    });
+  };
   const std::uint32_t idle_waits = waited_tags_ & ~used_tags_;
   std::optional<Diagnostic> first;
   std::uint64_t last = 0;
-  for (const Flight& flight : context_.flights.of(spe_)) {
-    if (!left(flight) || flight.command == last) continue;
-    last = flight.command;
-    Diagnostic diagnostic =
-        about({flight.transfer, flight.command, flight.site, false, 0}, Rule::in_flight_at_exit, now);
-    std::string what = describe(flight.transfer) + ": " + std::string(text_of(Rule::in_flight_at_exit));
-    if (!flight.completed) what += "; its list is still stopped at a notify element";
+  const auto report_left = [&](const Entry& entry) {
+    if (entry.number == last) return;
+    last = entry.number;
+    Diagnostic diagnostic = about(entry, Rule::in_flight_at_exit, now);
+    std::string what = describe(entry.command) + ": " + std::string(text_of(Rule::in_flight_at_exit));
+    if (still_stopped(entry.number)) what += "; its list is still stopped at a notify element";
     const bool kept = context_.log.note(diagnostic, what);
     if (kept && diagnostic.action == Action::stop && !first) first = diagnostic;
-  }
+  };
+  for (const Flight& flight : context_.flights.of(spe_))
+    if (!flight.proxy) report_left({flight.transfer, flight.command, flight.site, false, 0});
+  // A stopped list of which the program has seen all that was transferred has no flight, but is not done.
+  const std::vector<Flight>& flights = context_.flights.of(spe_);
+  for (const Entry& entry : queue_)
+    if (entry.stalled && !entry.proxy &&
+        std::none_of(flights.begin(), flights.end(),
+                     [&](const Flight& flight) { return flight.command == entry.number; }))
+      report_left(entry);
   if (last != 0 && idle_waits != 0) {
     Diagnostic diagnostic = about({}, Rule::wait_without_command, now);
     diagnostic.site = last_wait_;
