@@ -14,31 +14,40 @@ namespace {
 TEST_CASE("a full mailbox loses its newest word") {
   Mailbox<4> mailbox;
   for (std::uint32_t word = 1; word <= 5; ++word)
-    mailbox.push(word);
+    mailbox.push({word, word + 100});
   CHECK(mailbox.count() == 4);
-  for (const std::uint32_t word : {1u, 2u, 3u, 5u})
-    CHECK(mailbox.pop() == word);
+  for (const std::uint32_t value : {1u, 2u, 3u, 5u}) {
+    const Word word = mailbox.pop();
+    CHECK(word.value == value);
+    CHECK(word.arrow == value + 100);
+  }
   CHECK(mailbox.empty());
-  mailbox.push(6);
-  CHECK(mailbox.pop() == 6);
+  mailbox.push({6, 0});
+  CHECK(mailbox.pop().value == 6);
 }
 
-TEST_CASE("a signal register says when its count rises") {
+TEST_CASE("a signal register says when a write would lose a value") {
   SignalRegister overwriting(SignalMode::overwrite);
-  CHECK(overwriting.write(1));
-  CHECK_FALSE(overwriting.write(2));
+  CHECK_FALSE(overwriting.loses_a_value());
+  overwriting.write({1, 0});
+  CHECK(overwriting.loses_a_value());
+  overwriting.write({2, 7});
   CHECK(overwriting.peek() == 2);
   CHECK(overwriting.count() == 1);
-  CHECK(overwriting.read() == 2);
+  const Word word = overwriting.read();
+  CHECK(word.value == 2);
+  CHECK(word.arrow == 7);
   CHECK(overwriting.count() == 0);
   CHECK(overwriting.peek() == 0);
+  CHECK_FALSE(overwriting.loses_a_value());
 
   SignalRegister collecting(SignalMode::logical_or);
-  collecting.write(1);
-  collecting.write(2);
-  CHECK(collecting.read() == 3);
-  CHECK(collecting.write(4));
-  CHECK(collecting.read() == 4);
+  collecting.write({1, 0});
+  CHECK_FALSE(collecting.loses_a_value());
+  collecting.write({2, 0});
+  CHECK(collecting.read().value == 3);
+  collecting.write({4, 0});
+  CHECK(collecting.read().value == 4);
 }
 
 TEST_CASE(
@@ -80,52 +89,59 @@ TEST_CASE(
 TEST_CASE("tag status requests wait for their condition") {
   TagGroups groups;
   groups.write_mask(0x6);
-  CHECK_FALSE(groups.judge(0));
+  CHECK_FALSE(groups.judge(0, 0));
 
   SECTION("immediate") {
     groups.request(TagUpdate::immediate);
-    CHECK_FALSE(groups.judge(0x2));
+    CHECK_FALSE(groups.judge(0x2, 0));
     CHECK(groups.take() == 0x4);
     CHECK_FALSE(groups.available());
   }
   SECTION("any") {
     groups.request(TagUpdate::any);
-    CHECK_FALSE(groups.judge(0x6));
+    CHECK_FALSE(groups.judge(0x6, 0));
     CHECK(groups.waiting());
-    CHECK(groups.judge(0x4));
+    CHECK(groups.judge(0x4, 0));
     CHECK(groups.take() == 0x2);
   }
   SECTION("all") {
     groups.request(TagUpdate::all);
-    CHECK_FALSE(groups.judge(0x4));
-    CHECK(groups.judge(0x1));
+    CHECK_FALSE(groups.judge(0x4, 0));
+    CHECK(groups.judge(0x1, 0));
     CHECK(groups.take() == 0x6);
   }
   SECTION("all of none is true, any of none is not until the mask names one") {
     groups.write_mask(0);
     groups.request(TagUpdate::all);
-    CHECK(groups.judge(~0u));
+    CHECK(groups.judge(~0u, 0));
     CHECK(groups.take() == 0);
     groups.request(TagUpdate::any);
-    CHECK_FALSE(groups.judge(0));
+    CHECK_FALSE(groups.judge(0, 0));
     groups.write_mask(0x8);
-    CHECK(groups.judge(0));
+    CHECK(groups.judge(0, 0));
     CHECK(groups.take() == 0x8);
   }
   SECTION("a request that waits does not take the last answer away") {
     groups.request(TagUpdate::immediate);
-    groups.judge(0);
+    groups.judge(0, 0);
     groups.request(TagUpdate::all);
-    CHECK_FALSE(groups.judge(0x2));
+    CHECK_FALSE(groups.judge(0x2, 0));
     CHECK(groups.available());
     CHECK(groups.take() == 0x6);
     CHECK(groups.waiting());
   }
+  SECTION("an answer speaks of the commands up to the moment of its condition") {
+    groups.request(TagUpdate::all);
+    groups.judge(0x2, 5);
+    groups.judge(0, 7);
+    groups.judge(0, 9);
+    CHECK(groups.answered_up_to() == 7);
+  }
 }
 
 TEST_CASE("the decrementer fires once when it passes zero") {
-  Decrementer decrementer;
-  constexpr std::uint64_t kTick = Decrementer::kCyclesPerTick;
+  constexpr std::uint32_t kTick = 40;
+  Decrementer decrementer(kTick);
   CHECK_FALSE(decrementer.advance(1000));
   decrementer.write(10, 1000);
   CHECK(decrementer.expiry() == 1000 + 11 * kTick);
@@ -141,8 +157,8 @@ TEST_CASE("the decrementer fires once when it passes zero") {
   CHECK(decrementer.value() == frozen);
   // From a negative value it first has to go all the way round.
   decrementer.write(0x80000000, 0);
-  CHECK_FALSE(decrementer.advance(0x80000000 * kTick));
-  CHECK(decrementer.advance(0x80000001 * kTick));
+  CHECK_FALSE(decrementer.advance(std::uint64_t{0x80000000} * kTick));
+  CHECK(decrementer.advance(std::uint64_t{0x80000001} * kTick));
 }
 
 TEST_CASE("the address map tells storage, registers and nothing apart") {

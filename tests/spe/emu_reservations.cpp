@@ -1,88 +1,99 @@
 // What takes a reservation away on the emulated Cell, and what says so (event 0x400).
+#include "celltrace/emulator.hpp"
 #include "spe/run_on.hpp"
 
 namespace celltrace::test {
 namespace {
 
-const std::string kEmulator = "cell_emu";
+using Spu = EmulatedSpu;
 
 struct alignas(128) Line {
   std::uint32_t word[32];
 };
 struct Lines {
-  Line reserved;
-  Line other;
-  std::uint32_t events;
-  bool written;
+  Line reserved{};
+  Line other{};
+};
+struct Outcome {
+  std::uint32_t events = 0;
+  bool written = false;
+  EmulatedRun run;
 };
 
-/// SPE 0 reserves a line, then does `Act`; was the event raised, and does putllc still write?
-template <class Act> Lines after(Act) {
-  Lines lines{};
-  const auto kernel = [](auto& spu, ea_t argument) {
-    Lines& data = at<Lines>(argument);
-    auto* line = spu.template allocate<Line>();
+/// SPE 0 reserves a line, then does `act`; was the event raised, and does putllc still write?
+template <class Act> Outcome after(Act act) {
+  Lines lines;
+  Outcome outcome;
+  outcome.run = emulate(lockstep(1), [&](Spu& spu) {
+    auto* line = spu.allocate<Line>();
     spu.write_event_mask(event::reservation_lost);
-    spu.getllar(line, to_ea(&data.reserved));
-    Act{}(spu, data, line);
-    data.events = spu.event_count() != 0 ? spu.read_event_status() : 0;
-    data.written = spu.putllc(line, to_ea(&data.reserved));
-  };
-  run_on(kEmulator, 1, kernel, to_ea(&lines));
-  return lines;
+    spu.getllar(line, to_ea(&lines.reserved));
+    act(spu, lines, line);
+    outcome.events = spu.event_count() != 0 ? spu.read_event_status() : 0;
+    outcome.written = spu.putllc(line, to_ea(&lines.reserved));
+  });
+  CHECK(outcome.run.errors[0].empty());
+  return outcome;
 }
 
 TEST_CASE("nothing happens: the reservation holds") {
-  const Lines lines = after([](auto&, Lines&, Line*) {});
-  CHECK(lines.events == 0);
-  CHECK(lines.written);
+  const Outcome outcome = after([](Spu&, Lines&, Line*) {});
+  CHECK(outcome.events == 0);
+  CHECK(outcome.written);
+  CHECK(outcome.run.ok());
 }
 
 TEST_CASE("an own plain put of the line loses it, with the event") {
-  const Lines lines = after([](auto& spu, Lines& data, Line* line) {
-    spu.put(line, to_ea(&data.reserved) + 112, 16, 0);
+  const Outcome outcome = after([](Spu& spu, Lines& lines, Line* line) {
+    spu.put(line, to_ea(&lines.reserved) + 112, 16, 0);
     spu.wait_all(1);
   });
-  CHECK(lines.events == event::reservation_lost);
-  CHECK_FALSE(lines.written);
+  CHECK(outcome.events == event::reservation_lost);
+  CHECK_FALSE(outcome.written);
+  CHECK(outcome.run.count(Rule::reservation_lost_to_own_put) == 1);
 }
 
 TEST_CASE("an own put next to the line leaves it") {
-  const Lines lines = after([](auto& spu, Lines& data, Line* line) {
-    spu.put(line, to_ea(&data.other), 128, 0);
+  const Outcome outcome = after([](Spu& spu, Lines& lines, Line* line) {
+    spu.put(line, to_ea(&lines.other), 128, 0);
     spu.wait_all(1);
   });
-  CHECK(lines.events == 0);
-  CHECK(lines.written);
+  CHECK(outcome.events == 0);
+  CHECK(outcome.written);
+  CHECK(outcome.run.ok());
 }
 
 TEST_CASE("an own putlluc of the line loses it without the event") {
-  const Lines lines =
-      after([](auto& spu, Lines& data, Line* line) { spu.putlluc(line, to_ea(&data.reserved)); });
-  CHECK(lines.events == 0);
-  CHECK_FALSE(lines.written);
+  const Outcome outcome =
+      after([](Spu& spu, Lines& lines, Line* line) { spu.putlluc(line, to_ea(&lines.reserved)); });
+  CHECK(outcome.events == 0);
+  CHECK_FALSE(outcome.written);
+  CHECK(outcome.run.count(Rule::reservation_lost_to_own_put) == 1);
 }
 
 TEST_CASE("own lock-line commands on another line replace it or lose it without the event") {
-  const Lines replaced =
-      after([](auto& spu, Lines& data, Line* line) { spu.getllar(line, to_ea(&data.other)); });
+  const Outcome replaced =
+      after([](Spu& spu, Lines& lines, Line* line) { spu.getllar(line, to_ea(&lines.other)); });
   CHECK(replaced.events == 0);
   CHECK_FALSE(replaced.written);
-  const Lines lost = after([](auto& spu, Lines& data, Line* line) { spu.putllc(line, to_ea(&data.other)); });
+  CHECK(replaced.run.count(Rule::conditional_without_reservation) == 1);
+  const Outcome lost =
+      after([](Spu& spu, Lines& lines, Line* line) { spu.putllc(line, to_ea(&lines.other)); });
   CHECK(lost.events == 0);
   CHECK_FALSE(lost.written);
+  CHECK(lost.run.count(Rule::conditional_without_reservation) == 2);
 }
 
 TEST_CASE("any write by another SPE loses it, with the event") {
-  const std::uint32_t how = GENERATE(0u, 1u, 2u, 3u);
-  CAPTURE(how);
-  Lines lines{};
-  lines.other.word[0] = how;
-  const auto kernel = [](auto& spu, ea_t argument) {
-    Lines& data = at<Lines>(argument);
-    const ea_t reserved = to_ea(&data.reserved);
-    const std::uint32_t way = data.other.word[0];
-    auto* line = spu.template allocate<Line>();
+  const int way = GENERATE(0, 1, 2, 3);
+  const MachineConfig config = GENERATE(lockstep(2), free_running(2));
+  CAPTURE(way);
+  Lines lines;
+  std::uint32_t events = 0;
+  bool written = true;
+  const EmulatedRun run = emulate(config, [&](Spu& spu) {
+    const ea_t reserved = to_ea(&lines.reserved);
+    auto* line = spu.allocate<Line>();
     if (spu.id() == 1) {
       spu.read_signal_1();
       if (way == 0) spu.put(line, reserved, 16, 0);
@@ -92,30 +103,35 @@ TEST_CASE("any write by another SPE loses it, with the event") {
         spu.getllar(line, reserved);
         if (!spu.putllc(line, reserved)) spu.halt(HaltCode::internal_error);
       }
+      spu.wait_all(1);
       return;
     }
     spu.write_event_mask(event::reservation_lost);
     spu.getllar(line, reserved);
     spu.send_signal(1, Signal::one, 1);
-    data.events = spu.read_event_status();
-    data.written = spu.putllc(line, reserved);
-  };
-  run_on(kEmulator, 2, kernel, to_ea(&lines));
-  CHECK(lines.events == event::reservation_lost);
-  CHECK_FALSE(lines.written);
+    events = spu.read_event_status();
+    written = spu.putllc(line, reserved);
+  });
+  CHECK(events == event::reservation_lost);
+  CHECK_FALSE(written);
+  // That another SPE was first is no mistake.
+  CHECK(run.report() == "");
 }
 
 TEST_CASE("a reservation ends with its kernel") {
-  Lines lines{};
-  const auto machine = machine_of(kEmulator, 1);
-  const auto reserve = [](auto& spu, ea_t argument) { spu.getllar(spu.template allocate<Line>(), argument); };
-  const auto write = [](auto& spu, ea_t argument) {
-    at<Lines>(argument).written = spu.putllc(spu.template allocate<Line>(), argument);
+  Lines lines;
+  lines.other.word[0] = true;
+  const auto machine = machine_of("cell_emu", 1);
+  const auto reserve = [](auto& spu, ea_t argument) {
+    spu.getllar(spu.template allocate<Line>(), to_ea(&at<Lines>(argument).reserved));
   };
-  lines.written = true;
-  run_on(kEmulator, *machine, reserve, to_ea(&lines), [](Machine&) {});
-  run_on(kEmulator, *machine, write, to_ea(&lines), [](Machine&) {});
-  CHECK_FALSE(lines.written);
+  const auto write = [](auto& spu, ea_t argument) {
+    Lines& data = at<Lines>(argument);
+    data.other.word[0] = spu.putllc(spu.template allocate<Line>(), to_ea(&data.reserved));
+  };
+  run_on("cell_emu", *machine, reserve, to_ea(&lines), [](Machine&) {});
+  run_on("cell_emu", *machine, write, to_ea(&lines), [](Machine&) {});
+  CHECK_FALSE(lines.other.word[0]);
 }
 
 } // namespace
