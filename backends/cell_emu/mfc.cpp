@@ -4,6 +4,7 @@
 #include "backends/cell_emu/mfc_rules.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cstdio>
 #include <cstring>
 
@@ -51,7 +52,8 @@ void Mfc::begin_program(ArenaRange arena) {
   arena_ = arena;
   tag_groups_ = {};
   used_tags_ = waited_tags_ = stalled_tags_ = 0;
-  last_wait_ = {};
+  waits_ = {};
+  last_request_ = {};
   atomic_status_.reset();
 }
 
@@ -86,13 +88,14 @@ void Mfc::finish(Cycle now) {
       report_left(entry);
   if (last != 0 && idle_waits != 0) {
     Diagnostic diagnostic = about({}, Rule::wait_without_command, now);
-    diagnostic.site = last_wait_;
+    diagnostic.tag = static_cast<std::uint32_t>(std::countr_zero(idle_waits));
+    diagnostic.site = waits_[diagnostic.tag];
     context_.log.note(diagnostic, "tag groups 0x" + to_hex(idle_waits) + ": " +
                                       std::string(text_of(Rule::wait_without_command)));
   }
   if (tag_groups_.available() || tag_groups_.waiting()) {
     Diagnostic diagnostic = about({}, Rule::tag_status_unread, now);
-    diagnostic.site = last_wait_;
+    diagnostic.site = last_request_;
     context_.log.note(diagnostic, std::string(text_of(Rule::tag_status_unread)));
   }
   if (atomic_status_ && !first) {
@@ -677,7 +680,7 @@ void Mfc::write_tag_mask(std::uint32_t mask, Cycle) {
 }
 
 void Mfc::write_tag_update(std::uint32_t request, CallSite site, Cycle now) {
-  last_wait_ = site;
+  last_request_ = site;
   if (request > static_cast<std::uint32_t>(TagUpdate::all)) {
     Diagnostic diagnostic = about({}, Rule::tag_update_request, now);
     diagnostic.site = site;
@@ -685,7 +688,11 @@ void Mfc::write_tag_update(std::uint32_t request, CallSite site, Cycle now) {
                                         std::string(text_of(Rule::tag_update_request)));
     return;
   }
-  if (request != 0) waited_tags_ |= tag_groups_.mask();
+  if (request != 0) {
+    waited_tags_ |= tag_groups_.mask();
+    for (std::uint32_t tags = tag_groups_.mask(); tags != 0; tags &= tags - 1)
+      waits_[static_cast<unsigned>(std::countr_zero(tags))] = site;
+  }
   tag_groups_.request(static_cast<TagUpdate>(request));
   judge_tag_groups();
 }

@@ -183,7 +183,8 @@ private:
   TagGroups tag_groups_;
   std::uint32_t used_tags_ = 0;
   std::uint32_t waited_tags_ = 0;
-  CallSite last_wait_;
+  std::array<CallSite, kMfcTags> waits_{}; ///< by tag: the last wait for it
+  CallSite last_request_;
   std::uint32_t stalled_tags_ = 0; ///< not yet read from channel 25
   std::optional<std::uint32_t> atomic_status_;
   Cycle atomic_due_ = 0;
