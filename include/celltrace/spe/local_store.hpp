@@ -1,0 +1,44 @@
+// Static objects of SPE programs, in local store on the emulated Cell as on the real one.
+//
+//   static celltrace::LocalStore<float[2][2048]> samples;
+//   mfc_get((*samples)[0], ea, sizeof (*samples)[0], tag, 0, 0);
+//
+// On a PC a plain static object lies in the host's memory, once for all SPEs; no DMA command reaches it.
+#pragma once
+
+#ifndef __SPU__
+#include "backends/cell_emu/spu.hpp"
+
+#include <type_traits>
+#endif
+
+namespace celltrace {
+
+/// A T of which every SPE has one, aligned to `alignment` (a power of two, at least 16). It is all zero when
+/// the SPE's program first uses it, and gone when the program ends. On a PC, SpeError where no SPE program
+/// runs.
+template <class T, unsigned alignment = 128> class LocalStore {
+public:
+#ifdef __SPU__
+  T& operator*() {
+    return object_;
+  }
+
+private:
+  alignas(alignment) T object_;
+#else
+  static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>,
+                "what DMA moves is plain data");
+
+  T& operator*() const {
+    return *static_cast<T*>(cell_emu::Spu::running().local_static(this, sizeof(T), alignment));
+  }
+#endif
+
+public:
+  T* operator->() {
+    return &**this;
+  }
+};
+
+} // namespace celltrace

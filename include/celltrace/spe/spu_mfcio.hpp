@@ -1,0 +1,417 @@
+// The SDK's <spu_mfcio.h>, for existing SPE sources in C or C++ on the emulated Cell: DMA, tag groups,
+// mailboxes, signals, events and the decrementer under the names that they use. Everything acts on the SPE
+// whose program runs on the present thread, and throws SpeError where none does. On a real SPU this header is
+// the compiler's own.
+//
+//   #define main saxpy_main
+//   #include "saxpy.c"
+//   #undef main
+//   const EmulatedRun run = emulate(lockstep(2), spe_main(saxpy_main), to_ea(&control));
+//
+// Differences from the SDK: effective addresses have 64 bits, as main memory has on a PC; what DMA moves lies
+// in LocalStore objects or in what EmulatedSpu::allocate() returns; functions instead of macros.
+// docs/testing-spe-code.md says more.
+#pragma once
+
+#ifdef __SPU__
+#include <spu_mfcio.h>
+#else
+
+#include "celltrace/spe/local_store.hpp"
+#include "celltrace/spe/spu_intrinsics.hpp"
+#include "celltrace/spe/spu_mfcio_constants.hpp"
+
+#include <concepts>
+#include <cstdint>
+
+constexpr unsigned int MFC_CMD_WORD(unsigned int tid, unsigned int rid, unsigned int command) {
+  return tid << 24 | rid << 16 | command;
+}
+
+/// As the SDK's, with the bits where ListElement has them on a little-endian host.
+struct mfc_list_element_t {
+  uint32_t size : 15;
+  uint32_t reserved : 16;
+  uint32_t notify : 1;
+  uint32_t eal;
+
+  mfc_list_element_t() = default;
+  /// In the order of the SDK's fields.
+  constexpr mfc_list_element_t(uint32_t notify_bit, uint32_t reserved_bits, uint32_t bytes, uint32_t ea_low)
+      : size(bytes), reserved(reserved_bits), notify(notify_bit), eal(ea_low) {}
+};
+static_assert(sizeof(mfc_list_element_t) == sizeof(celltrace::ListElement));
+
+// --- addresses ---
+
+namespace celltrace::sdk {
+
+/// What the SDK's macros take for an effective address: 64 bits, or a pointer of the host.
+struct EffectiveAddress {
+  ea_t value;
+
+  template <std::integral Integer> constexpr EffectiveAddress(Integer ea) : value(static_cast<ea_t>(ea)) {
+    static_assert(sizeof(Integer) == sizeof(ea_t),
+                  "an effective address has 64 bits here: keep it in an unsigned long long");
+  }
+  EffectiveAddress(const volatile void* pointer) : value(reinterpret_cast<uintptr_t>(pointer)) {}
+};
+
+} // namespace celltrace::sdk
+
+inline unsigned int mfc_ea2h(celltrace::sdk::EffectiveAddress ea) {
+  return static_cast<unsigned int>(ea.value >> 32);
+}
+inline unsigned int mfc_ea2l(celltrace::sdk::EffectiveAddress ea) {
+  return static_cast<unsigned int>(ea.value);
+}
+constexpr unsigned long long mfc_hl2ea(unsigned int high, unsigned int low) {
+  return static_cast<unsigned long long>(high) << 32 | low;
+}
+template <std::integral Integer> constexpr Integer mfc_ceil128(Integer value) {
+  return (value + 127) & ~static_cast<Integer>(127);
+}
+
+namespace celltrace::sdk {
+
+template <MfcOpcode op>
+void command(const volatile void* ls, EffectiveAddress ea, uint32_t size, uint32_t tag, CallSite site) {
+  spu_at(site).mfc_command<op>(local_pointer(ls), ea.value, size, tag);
+}
+template <MfcOpcode op>
+void list_command(const volatile void* ls, EffectiveAddress ea, const volatile void* list, uint32_t bytes,
+                  uint32_t tag, CallSite site) {
+  spu_at(site).mfc_list_command<op>(local_pointer(ls), ea.value,
+                                    static_cast<const ListElement*>(local_pointer(list)), bytes, tag);
+}
+
+} // namespace celltrace::sdk
+
+// --- DMA ---
+// tid and rid, the transfer and replacement class, change the speed of a transfer and not what it does; they
+// are ignored.
+
+inline void mfc_put(const volatile void* ls, celltrace::sdk::EffectiveAddress ea, unsigned int size,
+                    unsigned int tag, unsigned int, unsigned int,
+                    celltrace::CallSite site = celltrace::CallSite::here()) {
+  celltrace::sdk::command<celltrace::MfcOpcode::put>(ls, ea, size, tag, site);
+}
+inline void mfc_putf(const volatile void* ls, celltrace::sdk::EffectiveAddress ea, unsigned int size,
+                     unsigned int tag, unsigned int, unsigned int,
+                     celltrace::CallSite site = celltrace::CallSite::here()) {
+  celltrace::sdk::command<celltrace::MfcOpcode::putf>(ls, ea, size, tag, site);
+}
+inline void mfc_putb(const volatile void* ls, celltrace::sdk::EffectiveAddress ea, unsigned int size,
+                     unsigned int tag, unsigned int, unsigned int,
+                     celltrace::CallSite site = celltrace::CallSite::here()) {
+  celltrace::sdk::command<celltrace::MfcOpcode::putb>(ls, ea, size, tag, site);
+}
+inline void mfc_get(const volatile void* ls, celltrace::sdk::EffectiveAddress ea, unsigned int size,
+                    unsigned int tag, unsigned int, unsigned int,
+                    celltrace::CallSite site = celltrace::CallSite::here()) {
+  celltrace::sdk::command<celltrace::MfcOpcode::get>(ls, ea, size, tag, site);
+}
+inline void mfc_getf(const volatile void* ls, celltrace::sdk::EffectiveAddress ea, unsigned int size,
+                     unsigned int tag, unsigned int, unsigned int,
+                     celltrace::CallSite site = celltrace::CallSite::here()) {
+  celltrace::sdk::command<celltrace::MfcOpcode::getf>(ls, ea, size, tag, site);
+}
+inline void mfc_getb(const volatile void* ls, celltrace::sdk::EffectiveAddress ea, unsigned int size,
+                     unsigned int tag, unsigned int, unsigned int,
+                     celltrace::CallSite site = celltrace::CallSite::here()) {
+  celltrace::sdk::command<celltrace::MfcOpcode::getb>(ls, ea, size, tag, site);
+}
+
+// Lists: `bytes` is the size of the list, 8 for every element; of `ea` only the high half counts.
+
+inline void mfc_putl(const volatile void* ls, celltrace::sdk::EffectiveAddress ea, const volatile void* list,
+                     unsigned int bytes, unsigned int tag, unsigned int, unsigned int,
+                     celltrace::CallSite site = celltrace::CallSite::here()) {
+  celltrace::sdk::list_command<celltrace::MfcOpcode::putl>(ls, ea, list, bytes, tag, site);
+}
+inline void mfc_putlf(const volatile void* ls, celltrace::sdk::EffectiveAddress ea, const volatile void* list,
+                      unsigned int bytes, unsigned int tag, unsigned int, unsigned int,
+                      celltrace::CallSite site = celltrace::CallSite::here()) {
+  celltrace::sdk::list_command<celltrace::MfcOpcode::putlf>(ls, ea, list, bytes, tag, site);
+}
+inline void mfc_putlb(const volatile void* ls, celltrace::sdk::EffectiveAddress ea, const volatile void* list,
+                      unsigned int bytes, unsigned int tag, unsigned int, unsigned int,
+                      celltrace::CallSite site = celltrace::CallSite::here()) {
+  celltrace::sdk::list_command<celltrace::MfcOpcode::putlb>(ls, ea, list, bytes, tag, site);
+}
+inline void mfc_getl(const volatile void* ls, celltrace::sdk::EffectiveAddress ea, const volatile void* list,
+                     unsigned int bytes, unsigned int tag, unsigned int, unsigned int,
+                     celltrace::CallSite site = celltrace::CallSite::here()) {
+  celltrace::sdk::list_command<celltrace::MfcOpcode::getl>(ls, ea, list, bytes, tag, site);
+}
+inline void mfc_getlf(const volatile void* ls, celltrace::sdk::EffectiveAddress ea, const volatile void* list,
+                      unsigned int bytes, unsigned int tag, unsigned int, unsigned int,
+                      celltrace::CallSite site = celltrace::CallSite::here()) {
+  celltrace::sdk::list_command<celltrace::MfcOpcode::getlf>(ls, ea, list, bytes, tag, site);
+}
+inline void mfc_getlb(const volatile void* ls, celltrace::sdk::EffectiveAddress ea, const volatile void* list,
+                      unsigned int bytes, unsigned int tag, unsigned int, unsigned int,
+                      celltrace::CallSite site = celltrace::CallSite::here()) {
+  celltrace::sdk::list_command<celltrace::MfcOpcode::getlb>(ls, ea, list, bytes, tag, site);
+}
+
+// Lock lines; mfc_read_atomic_status() says how the first three went.
+
+inline void mfc_getllar(const volatile void* ls, celltrace::sdk::EffectiveAddress ea, unsigned int,
+                        unsigned int, celltrace::CallSite site = celltrace::CallSite::here()) {
+  celltrace::sdk::command<celltrace::MfcOpcode::getllar>(ls, ea, celltrace::kLineBytes, 0, site);
+}
+inline void mfc_putllc(const volatile void* ls, celltrace::sdk::EffectiveAddress ea, unsigned int,
+                       unsigned int, celltrace::CallSite site = celltrace::CallSite::here()) {
+  celltrace::sdk::command<celltrace::MfcOpcode::putllc>(ls, ea, celltrace::kLineBytes, 0, site);
+}
+inline void mfc_putlluc(const volatile void* ls, celltrace::sdk::EffectiveAddress ea, unsigned int,
+                        unsigned int, celltrace::CallSite site = celltrace::CallSite::here()) {
+  celltrace::sdk::command<celltrace::MfcOpcode::putlluc>(ls, ea, celltrace::kLineBytes, 0, site);
+}
+inline void mfc_putqlluc(const volatile void* ls, celltrace::sdk::EffectiveAddress ea, unsigned int tag,
+                         unsigned int, unsigned int, celltrace::CallSite site = celltrace::CallSite::here()) {
+  celltrace::sdk::command<celltrace::MfcOpcode::putqlluc>(ls, ea, celltrace::kLineBytes, tag, site);
+}
+
+// Signals and order.
+
+inline void mfc_sndsig(const volatile void* ls, celltrace::sdk::EffectiveAddress ea, unsigned int tag,
+                       unsigned int, unsigned int, celltrace::CallSite site = celltrace::CallSite::here()) {
+  celltrace::sdk::command<celltrace::MfcOpcode::sndsig>(ls, ea, 4, tag, site);
+}
+inline void mfc_sndsigf(const volatile void* ls, celltrace::sdk::EffectiveAddress ea, unsigned int tag,
+                        unsigned int, unsigned int, celltrace::CallSite site = celltrace::CallSite::here()) {
+  celltrace::sdk::command<celltrace::MfcOpcode::sndsigf>(ls, ea, 4, tag, site);
+}
+inline void mfc_sndsigb(const volatile void* ls, celltrace::sdk::EffectiveAddress ea, unsigned int tag,
+                        unsigned int, unsigned int, celltrace::CallSite site = celltrace::CallSite::here()) {
+  celltrace::sdk::command<celltrace::MfcOpcode::sndsigb>(ls, ea, 4, tag, site);
+}
+inline void mfc_barrier(unsigned int tag, celltrace::CallSite site = celltrace::CallSite::here()) {
+  celltrace::sdk::command<celltrace::MfcOpcode::barrier>(nullptr, nullptr, 0, tag, site);
+}
+inline void mfc_eieio(unsigned int tag, unsigned int, unsigned int,
+                      celltrace::CallSite site = celltrace::CallSite::here()) {
+  celltrace::sdk::command<celltrace::MfcOpcode::mfceieio>(nullptr, nullptr, 0, tag, site);
+}
+inline void mfc_sync(unsigned int tag, celltrace::CallSite site = celltrace::CallSite::here()) {
+  celltrace::sdk::command<celltrace::MfcOpcode::mfcsync>(nullptr, nullptr, 0, tag, site);
+}
+
+// The cache of the PPE; mfc_sdcrz() zeroes lines of main storage.
+
+inline void mfc_sdcrt(celltrace::sdk::EffectiveAddress ea, unsigned int size, unsigned int tag, unsigned int,
+                      unsigned int, celltrace::CallSite site = celltrace::CallSite::here()) {
+  celltrace::sdk::command<celltrace::MfcOpcode::sdcrt>(nullptr, ea, size, tag, site);
+}
+inline void mfc_sdcrtst(celltrace::sdk::EffectiveAddress ea, unsigned int size, unsigned int tag,
+                        unsigned int, unsigned int, celltrace::CallSite site = celltrace::CallSite::here()) {
+  celltrace::sdk::command<celltrace::MfcOpcode::sdcrtst>(nullptr, ea, size, tag, site);
+}
+inline void mfc_sdcrz(celltrace::sdk::EffectiveAddress ea, unsigned int size, unsigned int tag, unsigned int,
+                      unsigned int, celltrace::CallSite site = celltrace::CallSite::here()) {
+  celltrace::sdk::command<celltrace::MfcOpcode::sdcrz>(nullptr, ea, size, tag, site);
+}
+inline void mfc_sdcrst(celltrace::sdk::EffectiveAddress ea, unsigned int size, unsigned int tag, unsigned int,
+                       unsigned int, celltrace::CallSite site = celltrace::CallSite::here()) {
+  celltrace::sdk::command<celltrace::MfcOpcode::sdcrst>(nullptr, ea, size, tag, site);
+}
+inline void mfc_sdcrf(celltrace::sdk::EffectiveAddress ea, unsigned int size, unsigned int tag, unsigned int,
+                      unsigned int, celltrace::CallSite site = celltrace::CallSite::here()) {
+  celltrace::sdk::command<celltrace::MfcOpcode::sdcrf>(nullptr, ea, size, tag, site);
+}
+
+// --- tag groups ---
+
+inline unsigned int mfc_stat_cmd_queue(celltrace::CallSite site = celltrace::CallSite::here()) {
+  return spu_readchcnt(MFC_Cmd, site);
+}
+inline void mfc_write_tag_mask(unsigned int mask, celltrace::CallSite site = celltrace::CallSite::here()) {
+  spu_writech(MFC_WrTagMask, mask, site);
+}
+inline unsigned int mfc_read_tag_mask(celltrace::CallSite site = celltrace::CallSite::here()) {
+  return spu_readch(MFC_RdTagMask, site);
+}
+inline void mfc_write_tag_update(unsigned int request,
+                                 celltrace::CallSite site = celltrace::CallSite::here()) {
+  spu_writech(MFC_WrTagUpdate, request, site);
+}
+inline void mfc_write_tag_update_immediate(celltrace::CallSite site = celltrace::CallSite::here()) {
+  mfc_write_tag_update(MFC_TAG_UPDATE_IMMEDIATE, site);
+}
+inline void mfc_write_tag_update_any(celltrace::CallSite site = celltrace::CallSite::here()) {
+  mfc_write_tag_update(MFC_TAG_UPDATE_ANY, site);
+}
+inline void mfc_write_tag_update_all(celltrace::CallSite site = celltrace::CallSite::here()) {
+  mfc_write_tag_update(MFC_TAG_UPDATE_ALL, site);
+}
+inline unsigned int mfc_stat_tag_update(celltrace::CallSite site = celltrace::CallSite::here()) {
+  return spu_readchcnt(MFC_WrTagUpdate, site);
+}
+inline unsigned int mfc_read_tag_status(celltrace::CallSite site = celltrace::CallSite::here()) {
+  return spu_readch(MFC_RdTagStat, site);
+}
+inline unsigned int mfc_read_tag_status_immediate(celltrace::CallSite site = celltrace::CallSite::here()) {
+  mfc_write_tag_update_immediate(site);
+  return mfc_read_tag_status(site);
+}
+inline unsigned int mfc_read_tag_status_any(celltrace::CallSite site = celltrace::CallSite::here()) {
+  mfc_write_tag_update_any(site);
+  return mfc_read_tag_status(site);
+}
+inline unsigned int mfc_read_tag_status_all(celltrace::CallSite site = celltrace::CallSite::here()) {
+  mfc_write_tag_update_all(site);
+  return mfc_read_tag_status(site);
+}
+inline unsigned int mfc_stat_tag_status(celltrace::CallSite site = celltrace::CallSite::here()) {
+  return spu_readchcnt(MFC_RdTagStat, site);
+}
+inline unsigned int mfc_read_list_stall_status(celltrace::CallSite site = celltrace::CallSite::here()) {
+  return spu_readch(MFC_RdListStallStat, site);
+}
+inline unsigned int mfc_stat_list_stall_status(celltrace::CallSite site = celltrace::CallSite::here()) {
+  return spu_readchcnt(MFC_RdListStallStat, site);
+}
+inline void mfc_write_list_stall_ack(unsigned int tag,
+                                     celltrace::CallSite site = celltrace::CallSite::here()) {
+  spu_writech(MFC_WrListStallAck, tag, site);
+}
+inline unsigned int mfc_read_atomic_status(celltrace::CallSite site = celltrace::CallSite::here()) {
+  return spu_readch(MFC_RdAtomicStat, site);
+}
+inline unsigned int mfc_stat_atomic_status(celltrace::CallSite site = celltrace::CallSite::here()) {
+  return spu_readchcnt(MFC_RdAtomicStat, site);
+}
+inline void mfc_write_multi_src_sync_request(celltrace::CallSite site = celltrace::CallSite::here()) {
+  spu_writech(MFC_WrMSSyncReq, 0, site);
+}
+inline unsigned int mfc_stat_multi_src_sync_request(celltrace::CallSite site = celltrace::CallSite::here()) {
+  return spu_readchcnt(MFC_WrMSSyncReq, site);
+}
+
+// --- mailboxes, signals, events, the decrementer ---
+
+inline unsigned int spu_read_in_mbox(celltrace::CallSite site = celltrace::CallSite::here()) {
+  return spu_readch(SPU_RdInMbox, site);
+}
+inline unsigned int spu_stat_in_mbox(celltrace::CallSite site = celltrace::CallSite::here()) {
+  return spu_readchcnt(SPU_RdInMbox, site);
+}
+inline void spu_write_out_mbox(unsigned int value, celltrace::CallSite site = celltrace::CallSite::here()) {
+  spu_writech(SPU_WrOutMbox, value, site);
+}
+inline unsigned int spu_stat_out_mbox(celltrace::CallSite site = celltrace::CallSite::here()) {
+  return spu_readchcnt(SPU_WrOutMbox, site);
+}
+inline void spu_write_out_intr_mbox(unsigned int value,
+                                    celltrace::CallSite site = celltrace::CallSite::here()) {
+  spu_writech(SPU_WrOutIntrMbox, value, site);
+}
+inline unsigned int spu_stat_out_intr_mbox(celltrace::CallSite site = celltrace::CallSite::here()) {
+  return spu_readchcnt(SPU_WrOutIntrMbox, site);
+}
+inline unsigned int spu_read_signal1(celltrace::CallSite site = celltrace::CallSite::here()) {
+  return spu_readch(SPU_RdSigNotify1, site);
+}
+inline unsigned int spu_stat_signal1(celltrace::CallSite site = celltrace::CallSite::here()) {
+  return spu_readchcnt(SPU_RdSigNotify1, site);
+}
+inline unsigned int spu_read_signal2(celltrace::CallSite site = celltrace::CallSite::here()) {
+  return spu_readch(SPU_RdSigNotify2, site);
+}
+inline unsigned int spu_stat_signal2(celltrace::CallSite site = celltrace::CallSite::here()) {
+  return spu_readchcnt(SPU_RdSigNotify2, site);
+}
+inline unsigned int spu_read_event_status(celltrace::CallSite site = celltrace::CallSite::here()) {
+  return spu_readch(SPU_RdEventStat, site);
+}
+inline unsigned int spu_stat_event_status(celltrace::CallSite site = celltrace::CallSite::here()) {
+  return spu_readchcnt(SPU_RdEventStat, site);
+}
+inline void spu_write_event_mask(unsigned int mask, celltrace::CallSite site = celltrace::CallSite::here()) {
+  spu_writech(SPU_WrEventMask, mask, site);
+}
+inline unsigned int spu_read_event_mask(celltrace::CallSite site = celltrace::CallSite::here()) {
+  return spu_readch(SPU_RdEventMask, site);
+}
+inline void spu_write_event_ack(unsigned int events, celltrace::CallSite site = celltrace::CallSite::here()) {
+  spu_writech(SPU_WrEventAck, events, site);
+}
+inline unsigned int spu_read_decrementer(celltrace::CallSite site = celltrace::CallSite::here()) {
+  return spu_readch(SPU_RdDec, site);
+}
+inline void spu_write_decrementer(unsigned int value,
+                                  celltrace::CallSite site = celltrace::CallSite::here()) {
+  spu_writech(SPU_WrDec, value, site);
+}
+inline unsigned int spu_read_machine_status(celltrace::CallSite site = celltrace::CallSite::here()) {
+  return spu_readch(SPU_RdMachStat, site);
+}
+inline void spu_write_srr0(unsigned int address, celltrace::CallSite site = celltrace::CallSite::here()) {
+  spu_writech(SPU_WrSRR0, address, site);
+}
+inline unsigned int spu_read_srr0(celltrace::CallSite site = celltrace::CallSite::here()) {
+  return spu_readch(SPU_RdSRR0, site);
+}
+
+// --- the tag manager ---
+
+namespace celltrace::sdk {
+
+/// The tags that an SPE's program has reserved.
+inline LocalStore<uint32_t, 16> reserved_tags;
+
+/// The bits of `count` tags from `tag` on; 0 if there are no such tags.
+constexpr uint32_t tag_bits(unsigned int tag, unsigned int count) {
+  if (count == 0 || count > kMfcTags || tag > kMfcTags - count) return 0;
+  return static_cast<uint32_t>(((uint64_t{1} << count) - 1) << tag);
+}
+
+} // namespace celltrace::sdk
+
+/// The first of `count` free tags in sequence, which are reserved from now on, or MFC_TAG_INVALID.
+inline unsigned int mfc_multi_tag_reserve(unsigned int count) {
+  uint32_t& reserved = *celltrace::sdk::reserved_tags;
+  for (unsigned int tag = 0; tag < celltrace::kMfcTags; ++tag) {
+    const uint32_t bits = celltrace::sdk::tag_bits(tag, count);
+    if (bits == 0 || (reserved & bits) != 0) continue;
+    reserved |= bits;
+    return tag;
+  }
+  return MFC_TAG_INVALID;
+}
+/// MFC_TAG_INVALID, and nothing is released, unless all of them are reserved.
+inline unsigned int mfc_multi_tag_release(unsigned int tag, unsigned int count) {
+  uint32_t& reserved = *celltrace::sdk::reserved_tags;
+  const uint32_t bits = celltrace::sdk::tag_bits(tag, count);
+  if (bits == 0 || (reserved & bits) != bits) return MFC_TAG_INVALID;
+  reserved &= ~bits;
+  return MFC_TAG_VALID;
+}
+inline unsigned int mfc_tag_reserve() {
+  return mfc_multi_tag_reserve(1);
+}
+inline unsigned int mfc_tag_release(unsigned int tag) {
+  return mfc_multi_tag_release(tag, 1);
+}
+
+namespace celltrace {
+
+/// The `main(speid, argp, envp)` of an SPE program, renamed, as a program for emulate(). What it returns is
+/// the exit code. It may take fewer arguments.
+template <class... Arguments> auto spe_main(int (*main_function)(Arguments...), unsigned long long envp = 0) {
+  static_assert(sizeof...(Arguments) <= 3, "main(speid, argp, envp)");
+  return [main_function, envp](cell_emu::Spu& spu, ea_t argp) {
+    int code = 0;
+    if constexpr (sizeof...(Arguments) == 0) code = main_function();
+    if constexpr (sizeof...(Arguments) == 1) code = main_function(spu.id());
+    if constexpr (sizeof...(Arguments) == 2) code = main_function(spu.id(), argp);
+    if constexpr (sizeof...(Arguments) == 3) code = main_function(spu.id(), argp, envp);
+    throw cell_emu::Spu::Exit{static_cast<uint32_t>(code) & 0xFF};
+  };
+}
+
+} // namespace celltrace
+
+#endif
