@@ -336,7 +336,7 @@ void EmulatedCell::proxy_command(unsigned spe, MfcOpcode op, std::uint32_t lsa, 
                                  std::uint32_t tag) {
   Mfc& mfc = spes_.at(spe)->mfc;
   const MfcCommand command{op, tag, lsa, size, ea};
-  mfc.check_proxy(command, scheduler_->enter());
+  if (!mfc.check_proxy(command, scheduler_->enter())) return;
   if (!lockstep()) return mfc.perform_proxy(command);
   scheduler_->wait([&] { return mfc.free_proxy_entries() != 0; }, std::nullopt,
                    "room in the proxy queue of SPE " + std::to_string(spe));

@@ -19,6 +19,12 @@ std::string to_hex(std::uint32_t value) {
   return text;
 }
 
+/// Of a rule that is not to stop the program: does the command that broke it still mean something?
+constexpr bool can_be_carried_out(Rule rule) {
+  return rule == Rule::none || rule == Rule::zero_size || rule == Rule::line_alignment ||
+         rule == Rule::program_overwritten;
+}
+
 const char* name_of(EaKind kind) {
   switch (kind) {
   case EaKind::main_memory:
@@ -141,7 +147,7 @@ Diagnostic Mfc::about(const Entry& entry, Rule rule, Cycle now) const {
   return diagnostic;
 }
 
-void Mfc::check(const MfcCommand& command, std::uint64_t number, CallSite site, Cycle now, bool proxy) {
+bool Mfc::check(const MfcCommand& command, std::uint64_t number, CallSite site, Cycle now, bool proxy) {
   Rule rule = broken_common_rule(command);
   if (rule == Rule::none && proxy) rule = broken_proxy_rule(command);
   const CommandKind kind = kind_of(command.opcode);
@@ -163,11 +169,18 @@ void Mfc::check(const MfcCommand& command, std::uint64_t number, CallSite site, 
   if (rule != Rule::none)
     context_.log.report(about({command, number, site, proxy, now}, rule, now),
                         describe(command) + ": " + std::string(text_of(rule)));
+  return can_be_carried_out(rule);
 }
 
-void Mfc::issue(const MfcCommand& command, CallSite site, Cycle now) {
+void Mfc::issue(const MfcCommand& given, CallSite site, Cycle now) {
   ++commands_;
-  check(command, commands_, site, now, false);
+  if (!check(given, commands_, site, now, false)) return;
+  MfcCommand command = given;
+  if (kind_of(command.opcode) == CommandKind::lock_line) {
+    // Whoever lets an unaligned one pass gets what the hardware makes of it.
+    command.lsa &= ~(kLineBytes - 1);
+    command.ea &= ~ea_t{kLineBytes - 1};
+  }
   counters_.dma_commands.add(1);
   const std::uint32_t bit = 1u << command.tag;
   if (is_immediate(command.opcode)) {
@@ -185,8 +198,8 @@ void Mfc::issue(const MfcCommand& command, CallSite site, Cycle now) {
   enqueue(command, site, now, false);
 }
 
-void Mfc::check_proxy(const MfcCommand& command, Cycle now) {
-  check(command, 0, {}, now, true);
+bool Mfc::check_proxy(const MfcCommand& command, Cycle now) {
+  return check(command, 0, {}, now, true);
 }
 
 void Mfc::issue_proxy(const MfcCommand& command, Cycle now) {
@@ -217,8 +230,8 @@ void Mfc::enqueue(const MfcCommand& command, CallSite site, Cycle now, bool prox
     entry.next_lsa = command.lsa & ~15u;
     read_list(entry);
     begin_part(entry, now);
-  } else if (kind_of(command.opcode) == CommandKind::get || kind_of(command.opcode) == CommandKind::put ||
-             kind_of(command.opcode) == CommandKind::send_signal) {
+  } else if (kind_of(command.opcode) != CommandKind::barrier &&
+             kind_of(command.opcode) != CommandKind::cache_control) {
     depart(entry, command, now);
   }
   if (kind_of(command.opcode) == CommandKind::barrier) last_queue_barrier_[proxy] = commands_;
@@ -295,7 +308,7 @@ void Mfc::depart(const Entry& entry, const MfcCommand& transfer, Cycle now) {
   flight.proxy = entry.proxy;
   flight.local = bus_.map().addresses(spe_).local_store + transfer.lsa;
   const bool lock_line = kind_of(transfer.opcode) == CommandKind::lock_line;
-  if (lock_line)
+  if (is_immediate(transfer.opcode))
     flight.transfer.opcode = transfer.opcode == MfcOpcode::getllar ? MfcOpcode::get : MfcOpcode::put;
   // Lines that change hands whole are no race; nor are registers.
   flight.has_storage = !lock_line && !is_register(bus_.map().locate(transfer.ea, transfer.size).kind);
@@ -312,7 +325,7 @@ void Mfc::depart(const Entry& entry, const MfcCommand& transfer, Cycle now) {
   if (flight.has_storage)
     if (const auto conflict = context_.flights.conflict_elsewhere(spe_, flight))
       report_conflict(entry, transfer, *conflict, now);
-  if (!lock_line) context_.flights.add(spe_, flight);
+  if (!is_immediate(transfer.opcode)) context_.flights.add(spe_, flight);
 }
 
 void Mfc::report_conflict(const Entry& entry, const MfcCommand& transfer, const Conflict& conflict,
@@ -385,6 +398,9 @@ void Mfc::move(Flight& flight, Cycle now) {
   verify(flight, now);
   if (is_register(place.kind)) {
     move_word(flight, place, now);
+  } else if (opcode == MfcOpcode::putqlluc) {
+    bus_.put_line(spe_, lsa, ea);
+    counters_.dma_bytes_written.add(size);
   } else {
     bus_.put(spe_, lsa, ea, size);
     counters_.dma_bytes_written.add(size);
@@ -528,11 +544,6 @@ Cycle Mfc::time_of(const Entry& entry, Cycle start) {
 
 void Mfc::move_data(Entry& entry, Cycle now) {
   entry.moved = true;
-  if (entry.command.opcode == MfcOpcode::putqlluc) {
-    bus_.put_line(spe_, entry.command.lsa, entry.command.ea);
-    counters_.dma_bytes_written.add(kLineBytes);
-    return;
-  }
   if (entry.command.opcode == MfcOpcode::sdcrz) {
     bus_.zero(spe_, entry.command.ea, entry.command.size);
     return;
@@ -597,7 +608,7 @@ void Mfc::begin_part(Entry& entry, Cycle now) {
       context_.log.report(about({part, entry.number, entry.site, false, now}, rule, now),
                           "element " + std::to_string(entry.next_element) + " of " + describe(entry.command) +
                               ": " + describe(part) + ": " + std::string(text_of(rule)));
-    depart(entry, part, now);
+    if (can_be_carried_out(rule)) depart(entry, part, now);
     counters_.dma_list_elements.add(1);
     if (part.size != 0) entry.next_lsa = (part.lsa + part.size + 15) & ~15u;
     ++entry.next_element;

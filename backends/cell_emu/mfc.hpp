@@ -72,8 +72,8 @@ public:
   unsigned free_proxy_entries() const {
     return kProxyQueueEntries - static_cast<unsigned>(queue_.size() - spu_entries_);
   }
-  /// The rules of a proxy command, which the PPE breaks. Thread-safe.
-  void check_proxy(const MfcCommand& command, Cycle now);
+  /// The rules of a proxy command, which the PPE breaks. False if it must not be issued. Thread-safe.
+  bool check_proxy(const MfcCommand& command, Cycle now);
   void issue_proxy(const MfcCommand& command, Cycle now);
   /// Instead of issue_proxy(), from a thread that does not run the SPE: the data move at once. Thread-safe.
   void perform_proxy(const MfcCommand& command);
@@ -129,7 +129,8 @@ private:
   };
 
   Diagnostic about(const Entry& entry, Rule rule, Cycle now) const;
-  void check(const MfcCommand& command, std::uint64_t number, CallSite site, Cycle now, bool proxy);
+  /// False if the command cannot be carried out, though whoever broke the rule goes on.
+  bool check(const MfcCommand& command, std::uint64_t number, CallSite site, Cycle now, bool proxy);
   void enqueue(const MfcCommand& command, CallSite site, Cycle now, bool proxy);
   void execute_immediate(const MfcCommand& command, Cycle now);
   void check_conditional(const MfcCommand& command, CallSite site, Cycle now);
