@@ -5,13 +5,13 @@
 #
 #   build    to build the library and the program
 #   tests    to build and run the tests and benchmarks
-#   extras   POV-Ray, for the tests that compare with it, and ccache
+#   extras   POV-Ray, for the tests that compare with it, clang, to compare builds, and ccache
 set -euo pipefail
 
 declare -A packages=(
   [build]="g++ cmake ninja-build flex bison libboost-context-dev libcli11-dev libglm-dev libpng-dev libxsimd-dev nlohmann-json3-dev"
   [tests]="catch2 libbenchmark-dev xz-utils"
-  [extras]="ccache povray povray-includes"
+  [extras]="ccache clang povray povray-includes"
 )
 
 is_installed() {
