@@ -22,7 +22,9 @@
 #include "celltrace/spe/spu_mfcio_constants.hpp"
 
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
+#include <utility>
 
 constexpr unsigned int MFC_CMD_WORD(unsigned int tid, unsigned int rid, unsigned int command) {
   return tid << 24 | rid << 16 | command;
@@ -403,12 +405,11 @@ namespace celltrace {
 template <class... Arguments> auto spe_main(int (*main_function)(Arguments...), unsigned long long envp = 0) {
   static_assert(sizeof...(Arguments) <= 3, "main(speid, argp, envp)");
   return [main_function, envp](cell_emu::Spu& spu, ea_t argp) {
-    int code = 0;
-    if constexpr (sizeof...(Arguments) == 0) code = main_function();
-    if constexpr (sizeof...(Arguments) == 1) code = main_function(spu.id());
-    if constexpr (sizeof...(Arguments) == 2) code = main_function(spu.id(), argp);
-    if constexpr (sizeof...(Arguments) == 3) code = main_function(spu.id(), argp, envp);
-    throw cell_emu::Spu::Exit{static_cast<uint32_t>(code) & 0xFF};
+    const unsigned long long given[] = {spu.id(), argp, envp};
+    const auto call = [&]<std::size_t... i>(std::index_sequence<i...>) {
+      return main_function(static_cast<Arguments>(given[i])...);
+    };
+    throw cell_emu::Spu::Exit{static_cast<uint32_t>(call(std::index_sequence_for<Arguments...>())) & 0xFF};
   };
 }
 
