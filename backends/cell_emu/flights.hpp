@@ -29,7 +29,7 @@ struct Flight {
   bool started = false;   ///< nothing it is ordered behind is left
   bool moved = false;     ///< the data have been copied
   bool completed = false; ///< the MFC has reported it done
-  /// A command that is ordered behind it has been performed, so that who learnt of that one may rely on it.
+  /// A command that is ordered behind it has started, so that who learns of that one may rely on it.
   bool released = false;
   /// Something else may rightly write its local store, so that a change says nothing.
   bool shared = false;

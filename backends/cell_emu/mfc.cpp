@@ -289,7 +289,7 @@ std::uint8_t* Mfc::local_store(const MfcCommand& transfer) const {
 }
 
 bool Mfc::is_ordered_before(const Flight& flight, const Entry& entry) const {
-  if (flight.proxy != entry.proxy) return false;
+  if (flight.proxy != entry.proxy || flight.command > entry.number) return false;
   if (flight.command == entry.number) return true; // elements of a list are taken in order
   if (kind_of(entry.command.opcode) == CommandKind::barrier ||
       flight.command < last_queue_barrier_[entry.proxy])
@@ -482,6 +482,12 @@ void Mfc::start(Entry& entry, Cycle now) {
         is_ordered_before(flight, entry))
       move(flight, now);
   }
+  const bool releases = kind_of(entry.command.opcode) == CommandKind::barrier ||
+                        has_fence(entry.command.opcode) || has_barrier(entry.command.opcode);
+  if (releases)
+    context_.flights.for_each(spe_, [&](Flight& flight) {
+      flight.released |= flight.command != entry.number && is_ordered_before(flight, entry);
+    });
   entry.due = time_of(entry, now) + random_.below(config.faults.dma_delay);
   entry.moved = false;
   entry.move_at = kNever;
@@ -562,13 +568,8 @@ void Mfc::complete(std::size_t index, Cycle now) {
                         when != TransferTime::at_issue;
   if (!entry.moved && !deferred) move_data(entry, now);
   const bool last_part = !is_list(entry.command.opcode) || complete_part(entry, now);
-  const bool releases = kind_of(entry.command.opcode) == CommandKind::barrier ||
-                        has_fence(entry.command.opcode) || has_barrier(entry.command.opcode);
   context_.flights.for_each(spe_, [&](Flight& flight) {
-    if (flight.command == entry.number)
-      flight.completed |= flight.started;
-    else if (releases && is_ordered_before(flight, entry))
-      flight.released = true;
+    if (flight.command == entry.number) flight.completed |= flight.started;
   });
   if (context_.trace != nullptr) trace_command(entry, now);
   if (!last_part) return;
