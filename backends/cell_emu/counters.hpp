@@ -14,6 +14,7 @@ public:
   void add(std::uint64_t n) {
     value_.store(value_.load(std::memory_order_relaxed) + n, std::memory_order_relaxed);
   }
+  void set(std::uint64_t n) { value_.store(n, std::memory_order_relaxed); }
   void raise_to(std::uint64_t n) {
     if (n > value()) value_.store(n, std::memory_order_relaxed);
   }
@@ -26,9 +27,9 @@ private:
 /// SpuCycles as counters.
 class CycleCounters {
 public:
-  void add(const SpuCycles& cycles) {
+  void publish(const SpuCycles& cycles) {
     for (std::size_t i = 0; i < std::size(kFields); ++i)
-      if (const std::uint64_t n = cycles.*kFields[i]; n != 0) counters_[i].add(n);
+      counters_[i].set(cycles.*kFields[i]);
   }
   SpuCycles value() const {
     SpuCycles cycles;

@@ -16,13 +16,13 @@ MachineConfig emulated(unsigned spes, Schedule schedule) {
 } // namespace
 
 bool EmulatedRun::ok() const {
-  return diagnostics.empty() &&
+  return diagnostics.empty() && ppe_error.empty() &&
          std::all_of(errors.begin(), errors.end(), [](const std::string& error) { return error.empty(); });
 }
 
 std::size_t EmulatedRun::count(Rule rule) const {
-  return static_cast<std::size_t>(std::count_if(
-      diagnostics.begin(), diagnostics.end(), [&](const Diagnostic& each) { return each.rule == rule; }));
+  return static_cast<std::size_t>(std::count_if(diagnostics.begin(), diagnostics.end(),
+                                                [&](const Diagnostic& each) { return each.rule == rule; }));
 }
 
 const Diagnostic* EmulatedRun::find(Rule rule) const {
@@ -35,6 +35,7 @@ std::string EmulatedRun::report() const {
   std::string text;
   for (const Diagnostic& each : diagnostics)
     text += each.text + "\n";
+  if (!ppe_error.empty()) text += "PPE: " + ppe_error + "\n";
   for (const std::string& error : errors)
     if (!error.empty() && text.find(error) == std::string::npos) text += error + "\n";
   return text;
@@ -71,8 +72,12 @@ EmulatedRun emulate_program(const MachineConfig& config, const EmulatedProgram& 
   const unsigned spes = machine->spe_count();
   for (unsigned spe = 0; spe < spes; ++spe)
     machine->start(spe, entries, argument);
-  if (ppe) ppe(*machine);
   EmulatedRun run;
+  try {
+    if (ppe) ppe(*machine);
+  } catch (const SpeError& error) {
+    run.ppe_error = error.what();
+  }
   for (unsigned spe = 0; spe < spes; ++spe) {
     run.errors.emplace_back();
     run.exit_codes.push_back(0);
@@ -80,8 +85,8 @@ EmulatedRun emulate_program(const MachineConfig& config, const EmulatedProgram& 
       const SpeStop stop = machine->wait(spe);
       run.exit_codes.back() = stop.code;
       if (stop.reason == SpeStop::Reason::stop_and_signal)
-        run.errors.back() = "SPE " + std::to_string(spe) + ": stopped with code " + std::to_string(stop.code) +
-                            " and was not resumed";
+        run.errors.back() = "SPE " + std::to_string(spe) + ": stopped with code " +
+                            std::to_string(stop.code) + " and was not resumed";
     } catch (const SpeError& error) {
       run.errors.back() = error.what();
     }

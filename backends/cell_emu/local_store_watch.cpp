@@ -27,15 +27,24 @@ std::uint64_t poison_word() {
 } // namespace
 
 std::uint64_t checksum(const std::uint8_t* at, std::uint32_t bytes) {
-  std::uint64_t sum = bytes;
-  for (; bytes >= 8; at += 8, bytes -= 8) {
+  // Four sums side by side, as each step has to wait for the one before.
+  std::uint64_t sums[4] = {bytes, 1, 2, 3};
+  const auto take = [](std::uint64_t& sum, const std::uint8_t* from) {
     std::uint64_t word;
-    std::memcpy(&word, at, sizeof word);
+    std::memcpy(&word, from, sizeof word);
     sum = (sum ^ word) * 0x9E3779B97F4A7C15u;
     sum ^= sum >> 29;
-  }
+  };
+  for (; bytes >= 32; at += 32, bytes -= 32)
+    for (unsigned i = 0; i < 4; ++i)
+      take(sums[i], at + 8 * i);
+  for (; bytes >= 8; at += 8, bytes -= 8)
+    take(sums[0], at);
   for (; bytes != 0; ++at, --bytes)
-    sum = (sum ^ *at) * 0x100000001B3u;
+    sums[1] = (sums[1] ^ *at) * 0x100000001B3u;
+  std::uint64_t sum = 0;
+  for (const std::uint64_t each : sums)
+    sum = (sum ^ each) * 0xD1342543DE82EF95u;
   return sum;
 }
 

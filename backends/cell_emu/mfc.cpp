@@ -376,7 +376,7 @@ void Mfc::move_word(const Flight& flight, AddressMap::Place place, Cycle now) {
                                       "): " + std::string(text_of(rule)));
 }
 
-void Mfc::move(Flight& flight, Cycle now) {
+void Mfc::move(Flight& flight, Cycle now, bool observed) {
   flight.moved = true;
   const auto [opcode, tag, lsa, size, ea] = flight.transfer;
   std::uint8_t* const local = local_store(flight.transfer);
@@ -390,7 +390,7 @@ void Mfc::move(Flight& flight, Cycle now) {
       bus_.get(spe_, lsa, ea, size);
       counters_.dma_bytes_read.add(size);
     }
-    flight.hashed = !flight.shared;
+    flight.hashed = !flight.shared && !observed;
     if (flight.hashed) flight.hash = checksum(local, size);
     if (touched) report_touched(flight, now);
     return;
@@ -416,7 +416,7 @@ void Mfc::observe(std::uint32_t tags, std::uint64_t last_command, bool proxy, Cy
     Flight& flight = context_.flights.at(spe_, i);
     if (!seen(flight)) continue;
     if (!flight.moved)
-      move(flight, now);
+      move(flight, now, true);
     else
       verify(flight, now);
   }
@@ -650,7 +650,7 @@ std::uint32_t Mfc::take_list_stall_status(Cycle now) {
       Flight& flight = context_.flights.at(spe_, i);
       if (!seen(flight)) continue;
       if (!flight.moved)
-        move(flight, now);
+        move(flight, now, true);
       else
         verify(flight, now);
     }

@@ -140,7 +140,8 @@ private:
   void depart(const Entry& entry, const MfcCommand& transfer, Cycle now);
   void report_conflict(const Entry& entry, const MfcCommand& transfer, const Conflict& conflict, Cycle now);
   bool is_ordered_before(const Flight& flight, const Entry& entry) const;
-  void move(Flight& flight, Cycle now);
+  /// `observed`: nobody watches over its local store any more.
+  void move(Flight& flight, Cycle now, bool observed = false);
   void move_word(const Flight& flight, AddressMap::Place place, Cycle now);
   /// Reports a flight whose local store has another content than the emulator left there.
   void report_touched(const Flight& flight, Cycle now);

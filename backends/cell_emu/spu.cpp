@@ -54,7 +54,8 @@ template <unsigned c = 0, class Use> void with_channel(unsigned channel, Use use
 Spu::Spu(Spe& spe, const SpuContext& context, const ArenaState& arena)
     : spe_(spe), context_(context), mfc_(spe.mfc), state_(spe.state), counters_(spe.counters),
       random_(context.mfc.config.seed, kStream + spe.id), arena_(arena),
-      decrementer_(context.mfc.config.timing.cycles_per_tick), now_(spe.now), computing_since_(spe.now) {
+      decrementer_(context.mfc.config.timing.cycles_per_tick), cycles_(spe.counters.cycles.value()),
+      now_(spe.now), computing_since_(spe.now) {
   const double slowest = std::max(1.0, context.mfc.config.faults.slowest_spe);
   slowness_ = kUnit + static_cast<std::uint64_t>((slowest - 1.0) * kUnit * random_.fraction());
   take_operation_counts();
@@ -91,6 +92,7 @@ void Spu::finish() {
 
 void Spu::abandon() {
   arena();
+  publish_cycles();
   spe_.now = now_;
   if (context_.mfc.trace != nullptr) context_.mfc.trace->compute(id(), computing_since_, now_);
 }
@@ -128,6 +130,7 @@ void Spu::halt(HaltCode code) {
 
 void Spu::stop_with(std::uint32_t code) {
   settle();
+  publish_cycles();
   reach();
   if (code >= 0x2000 && code <= 0x20FF) throw Exit{code & 0xFF};
   waited(context_.scheduler.pause(spe_, code, now_), "stopped");
@@ -144,26 +147,25 @@ void Spu::note(const char* what, std::uint32_t value) {
 void Spu::settle() {
   const OperationCounts counts = take_operation_counts();
   SpuCycles cycles = cycles_of(counts, context_.mfc.config.timing);
-  if (cycles.total_cycle == 0) return;
   if (slowness_ != kUnit) {
     cycles.stall_due_to_injection = cycles.total_cycle * slowness_ / kUnit - cycles.total_cycle;
     cycles.total_cycle += cycles.stall_due_to_injection;
   }
   now_ += cycles.total_cycle;
-  counters_.cycles.add(cycles);
+  cycles_ += cycles;
 }
 
 void Spu::charge(std::uint32_t channel_reads, std::uint32_t channel_writes) {
   settle();
   const TimingParameters& timing = context_.mfc.config.timing;
-  SpuCycles cycles;
-  cycles.spr = channel_reads + channel_writes;
-  cycles.single_cycle = cycles.spr;
-  cycles.total_cycle = std::uint64_t{channel_reads} * timing.channel_read +
-                       std::uint64_t{channel_writes} * timing.channel_write;
-  cycles.stall_due_to_dependency = cycles.total_cycle - std::min(cycles.total_cycle, cycles.single_cycle);
-  now_ += cycles.total_cycle;
-  counters_.cycles.add(cycles);
+  const std::uint64_t accesses = channel_reads + channel_writes;
+  const std::uint64_t cycles = std::uint64_t{channel_reads} * timing.channel_read +
+                               std::uint64_t{channel_writes} * timing.channel_write;
+  now_ += cycles;
+  cycles_.spr += accesses;
+  cycles_.single_cycle += std::min(accesses, cycles);
+  cycles_.stall_due_to_dependency += cycles - std::min(accesses, cycles);
+  cycles_.total_cycle += cycles;
   if (context_.mfc.config.faults.pause_probability > 0) inject_faults();
   if (interrupts_enabled_) run_interrupts();
 }
@@ -171,10 +173,10 @@ void Spu::charge(std::uint32_t channel_reads, std::uint32_t channel_writes) {
 void Spu::inject_faults() {
   const Faults& faults = context_.mfc.config.faults;
   if (random_.fraction() >= faults.pause_probability) return;
-  SpuCycles cycles;
-  cycles.stall_due_to_injection = cycles.total_cycle = random_.below(faults.longest_pause);
-  now_ += cycles.total_cycle;
-  counters_.cycles.add(cycles);
+  const std::uint64_t cycles = random_.below(faults.longest_pause);
+  now_ += cycles;
+  cycles_.stall_due_to_injection += cycles;
+  cycles_.total_cycle += cycles;
 }
 
 void Spu::waited(Cycle until, const char* what) {
@@ -184,10 +186,9 @@ void Spu::waited(Cycle until, const char* what) {
     trace->wait(id(), what, now_, until);
     computing_since_ = until;
   }
-  SpuCycles cycles;
-  cycles.channel_stall_cycle = cycles.total_cycle = until - now_;
+  cycles_.channel_stall_cycle += until - now_;
+  cycles_.total_cycle += until - now_;
   now_ = until;
-  counters_.cycles.add(cycles);
 }
 
 void Spu::reach() {
@@ -232,6 +233,7 @@ void Spu::await_mfc(Channel channel) {
 }
 
 void Spu::await_other(Channel channel) {
+  publish_cycles();
   for (;;) {
     if (state_.interrupted()) state_.stop_at(channel);
     const Cycle deadline = channel == Channel::rd_event_stat ? decrementer_deadline() : kNever;

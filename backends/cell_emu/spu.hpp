@@ -116,6 +116,8 @@ private:
   void charge(std::uint32_t channel_reads, std::uint32_t channel_writes);
   /// The SPU has stood still until `until`.
   void waited(Cycle until, const char* what);
+  /// Makes the cycles so far visible to the PPE's statistics.
+  void publish_cycles() { counters_.cycles.publish(cycles_); }
   void inject_faults();
   void run_interrupts();
 
@@ -154,6 +156,7 @@ private:
   bool in_handler_ = false;
   std::function<void(Spu&)> interrupt_handler_;
 
+  SpuCycles cycles_; ///< since the machine was made
   Cycle now_;
   Cycle computing_since_;  ///< for the trace
   std::uint64_t slowness_; ///< in 1/65536: what faults make of a cycle of work
@@ -216,11 +219,13 @@ template <Channel c> void Spu::write_channel(std::uint32_t value) {
   if constexpr (c == Channel::wr_tag_update) mfc_.write_tag_update(value, site_, now_);
   if constexpr (c == Channel::wr_list_stall_ack) mfc_.acknowledge_list_stall(value, site_, now_);
   if constexpr (c == Channel::wr_out_mbox) {
+    publish_cycles();
     state_.write_out_mailbox(value, now_);
     counters_.mailbox_words_sent.add(1);
     context_.scheduler.ring();
   }
   if constexpr (c == Channel::wr_out_intr_mbox) {
+    publish_cycles();
     state_.write_out_interrupt_mailbox(value, now_);
     counters_.mailbox_words_sent.add(1);
     context_.scheduler.ring();

@@ -16,8 +16,6 @@
 
 #include <stdint.h>
 
-#include <type_traits>
-
 namespace celltrace {
 
 /// Which line of a full set makes room: any, the one fetched first, the one used least recently.
@@ -172,15 +170,11 @@ private:
   static constexpr ScalarWork kLookup = {26, 0, 8, 9, 2};
   static constexpr ScalarWork kSlowLookup = {60, 0, 25, 25, 8};
   static constexpr ScalarWork kFetch = {85, 0, 28, 28, 6};
-  /// A test's Spu that has only what a cache needs does not count.
-  void compute(const ScalarWork& work) {
-    if constexpr (std::is_base_of<SpuBase<Spu>, Spu>::value) spu_.compute(work);
-  }
 
   // --- the way of a hit ---
 
   const uint8_t* find(uint32_t offset, uint32_t size, Kind kind) {
-    compute(kLookup);
+    spu_.compute(kLookup);
     const uint32_t line = offset & ~kLineMask;
     const uint32_t set = set_of(line);
     const uint32_t match = equal_bits(U4::load(tags_ + (set << 2)), U4::splat(line | kValid));
@@ -201,7 +195,7 @@ private:
   // --- misses, and lines with further flags ---
 
   __attribute__((noinline)) const uint8_t* find_slowly(uint32_t offset, uint32_t size, Kind kind) {
-    compute(kSlowLookup);
+    spu_.compute(kSlowLookup);
     CacheCounters& counters = counters_[static_cast<uint32_t>(kind)];
     if (!config_.enabled) {
       ++counters.misses;
@@ -253,7 +247,7 @@ private:
   /// Starts to fetch a line into the way that holds it out of date, or if none does into one that makes room.
   /// Returns the way.
   uint32_t start_fetch(uint32_t set, uint32_t way, uint32_t line) {
-    compute(kFetch);
+    spu_.compute(kFetch);
     if (way == kNotFound) way = free_way(set);
     if (way == kNotFound) way = victim(set);
     finish_fetch(set, way); // two transfers into one line would race

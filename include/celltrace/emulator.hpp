@@ -32,6 +32,8 @@ struct EmulatedRun {
   std::vector<Diagnostic> diagnostics; ///< in the order of their discovery
   /// By SPE: the error that ended its program; "" if there was none.
   std::vector<std::string> errors;
+  /// The SpeError that one of the PPE's calls ended with, a deadlock for instance; or "".
+  std::string ppe_error;
   std::vector<std::uint32_t> exit_codes; ///< by SPE
   std::vector<SpeStatistics> spes;       ///< by SPE
   /// Virtual time from the first start to the last end.
@@ -59,21 +61,23 @@ MachineConfig free_running(unsigned spes);
 using EmulatedProgram = std::function<void(EmulatedSpu&, ea_t)>;
 using EmulatedPpe = std::function<void(Machine&)>;
 
-/// Runs the program on every SPE of a new machine while `ppe` plays the PPE, and waits for all. A program that
-/// stops with a signal is the PPE's to resume. Programs may use whatever the host has, also what they capture;
-/// on the free schedule they run at the same time. Throws InputError for a configuration out of range, and what
-/// `ppe` throws.
+/// Runs the program on every SPE of a new machine while `ppe` plays the PPE, and waits for all. A program
+/// that stops with a signal is the PPE's to resume. Programs may use whatever the host has, also what they
+/// capture; on the free schedule they run at the same time. Throws InputError for a configuration out of
+/// range, and what `ppe` throws unless that is an SpeError.
 EmulatedRun emulate_program(const MachineConfig& config, const EmulatedProgram& program, ea_t argument,
                             const EmulatedPpe& ppe);
 
 /// The same with a program that takes (spu, argument) or only (spu).
 template <class Program>
-EmulatedRun emulate(const MachineConfig& config, Program program, ea_t argument = 0, const EmulatedPpe& ppe = {}) {
+EmulatedRun emulate(const MachineConfig& config, Program program, ea_t argument = 0,
+                    const EmulatedPpe& ppe = {}) {
   if constexpr (std::is_invocable_v<Program&, EmulatedSpu&, ea_t>) {
     return emulate_program(config, std::move(program), argument, ppe);
   } else {
     return emulate_program(
-        config, [program = std::move(program)](EmulatedSpu& spu, ea_t) mutable { program(spu); }, argument, ppe);
+        config, [program = std::move(program)](EmulatedSpu& spu, ea_t) mutable { program(spu); }, argument,
+        ppe);
   }
 }
 

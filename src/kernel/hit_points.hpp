@@ -73,7 +73,7 @@ HitPoints<typename Spu::simd> find_hit_points(SceneAccess<Spu>& scene, const Ray
   HitPoints<S> result;
   bool first = true;
   for_each_value(hits.object, lanes, [&](uint32_t offset, uint32_t same) {
-    compute(scene.spu(), scalar_work::kHitObject);
+    scene.spu().compute(scalar_work::kHitObject);
     // A copy: reading the normals may replace the object's line.
     const ObjectRecord object = *scene.object(offset);
     V3<S> point, normal;
@@ -84,7 +84,7 @@ HitPoints<typename Spu::simd> find_hit_points(SceneAccess<Spu>& scene, const Ray
     first = false;
     if ((object.kind_and_flags & object_flag::blended) != 0) result.blended |= same;
     for_each_lane(same, [&](uint32_t lane) {
-      compute(scene.spu(), scalar_work::kHitLane);
+      scene.spu().compute(scalar_work::kHitLane);
       result.material.lane[lane] = object.material;
       result.interior.lane[lane] = object.interior;
     });

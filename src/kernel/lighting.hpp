@@ -81,7 +81,7 @@ V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, Traversal<Spu>& trav
     const auto faces = arrival.cosine >= F(1e-10f);
     const uint32_t facing = faces.bits() & lanes;
     if (facing == 0) continue;
-    compute(scene.spu(), scalar_work::kLight);
+    scene.spu().compute(scalar_work::kLight);
     arrival.cosine = S::max(arrival.cosine, F(0.0f));
     arrival.colour = splat3<S>(light.colour);
 

@@ -29,7 +29,7 @@ MaterialLanes<typename Spu::simd> gather_materials(SceneAccess<Spu>& scene, cons
   MaterialLanes<S> m;
   bool first = true;
   for_each_value(offsets, lanes, [&](uint32_t offset, uint32_t same) {
-    compute(scene.spu(), scalar_work::kMaterial);
+    scene.spu().compute(scalar_work::kMaterial);
     const MaterialRecord& r = *scene.material(offset);
     const auto take = S::M::from_bits(same);
     const auto put = [&](F& field, float value) {

@@ -143,7 +143,7 @@ inline bool overlaps(const ObjectRecord& object, const Box& box) {
 /// by more than what the rounding of rays and points amounts to.
 template <class Spu, class Visit>
 void for_each_voxel(Spu& spu, const GridRecord& grid, const ObjectRecord& object, Visit visit) {
-  compute(spu, scalar_work::kBounds);
+  spu.compute(scalar_work::kBounds);
   const Box bounds = bounding_box(object);
   int32_t low[3];
   int32_t high[3];
@@ -164,7 +164,7 @@ void for_each_voxel(Spu& spu, const GridRecord& grid, const ObjectRecord& object
     for (int32_t y = low[1]; y <= high[1]; ++y, row += grid.cells[0]) {
       for (int32_t x = low[0]; x <= high[0]; ++x) {
         if (!single) {
-          compute(spu, scalar_work::kOverlap);
+          spu.compute(scalar_work::kOverlap);
           const int32_t at[3] = {x, y, z};
           Box voxel;
           for (int i = 0; i < 3; ++i) {

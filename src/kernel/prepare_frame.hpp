@@ -25,7 +25,7 @@ template <class Spu> uint32_t emit_pairs(Spu& spu, const FrameBlock& frame) {
       frame.image + frame.object_offset, frame.object_count, [&](const ObjectRecord& object, uint32_t index) {
         const uint32_t offset = frame.object_offset + index * static_cast<uint32_t>(sizeof(ObjectRecord));
         for_each_voxel(spu, frame.grid, object, [&](uint32_t cell) {
-          compute(spu, scalar_work::kEmitPair);
+          spu.compute(scalar_work::kEmitPair);
           if (count++ < frame.sort_capacity) pairs.write({cell, offset});
         });
       });
@@ -42,13 +42,13 @@ void write_lists(Spu& spu, const FrameBlock& frame, ea_t sorted, uint32_t count,
   CellRecord open = {frame.grid.list_offset, 0};
   const auto close_up_to = [&](uint32_t cell) {
     while (cells.count() < cell) {
-      compute(spu, scalar_work::kCloseVoxel);
+      spu.compute(scalar_work::kCloseVoxel);
       cells.write(open);
       open = {frame.grid.list_offset + lists.count() * 4, 0};
     }
   };
   pairs.for_each(sorted, count, [&](const SortPair& pair, uint32_t) {
-    compute(spu, scalar_work::kListPair);
+    spu.compute(scalar_work::kListPair);
     close_up_to(pair.key);
     lists.write(pair.value);
     ++open.count;

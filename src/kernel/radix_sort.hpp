@@ -49,7 +49,7 @@ private:
     for (uint32_t b = 0; b < kBuckets; ++b)
       next_[b] = 0;
     reader_.for_each(source, count, [&](const SortPair& pair, uint32_t) {
-      compute(spu_, scalar_work::kCountPair);
+      spu_.compute(scalar_work::kCountPair);
       ++next_[digit(pair, shift)];
     });
     uint32_t sum = 0;
@@ -71,7 +71,7 @@ private:
   static uint32_t digit(const SortPair& pair, uint32_t shift) { return (pair.key >> shift) & (kBuckets - 1); }
 
   void append(ea_t target, uint32_t bucket, const SortPair& pair) {
-    compute(spu_, scalar_work::kPlacePair);
+    spu_.compute(scalar_work::kPlacePair);
     const uint32_t at = next_[bucket]++;
     if constexpr (Spu::direct_memory) {
       reinterpret_cast<SortPair*>(static_cast<uintptr_t>(target))[at] = pair;

@@ -44,7 +44,7 @@ public:
   bool push(const RayNode& node) {
     if (size_ == capacity_) return false;
     if (size_ < kResident) {
-      compute(spu_, scalar_work::kNodeCopy);
+      spu_.compute(scalar_work::kNodeCopy);
       resident_[size_] = node;
     } else {
       spu_.put(&node, place(size_), kRayNodeBytes, kTag);
@@ -59,7 +59,7 @@ public:
   void pop(RayNode& node) {
     --size_;
     if (size_ < kResident) {
-      compute(spu_, scalar_work::kNodeCopy);
+      spu_.compute(scalar_work::kNodeCopy);
       node = resident_[size_];
       return;
     }

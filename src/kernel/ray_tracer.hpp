@@ -26,7 +26,7 @@ public:
 
   /// The colours of primary rays; `rays` are of unit direction and leave the camera.
   V3<S> trace(const RayPacket& rays, uint32_t lanes) {
-    compute(scene_.spu(), scalar_work::kPrimaryPacket);
+    scene_.spu().compute(scalar_work::kPrimaryPacket);
     clear(0);
     accumulators_in_use_ = 1;
     push_primary(rays, lanes);
@@ -100,7 +100,7 @@ private:
   }
 
   void trace_node() {
-    compute(scene_.spu(), scalar_work::kNode);
+    scene_.spu().compute(scalar_work::kNode);
     traversal_.find_closest(node_.rays, node_.lanes, hits_);
     uint32_t hit = 0;
     for_each_lane(node_.lanes, [&](uint32_t lane) {
@@ -150,11 +150,11 @@ private:
   /// local store has no room for a copy at each call.
   [[gnu::noinline]] Onward<S> shade(const Surfaces<S>& surfaces, const WordLanes& interior,
                                     const WordLanes& materials, uint32_t lanes, const F& share) {
-    compute(scene_.spu(), scalar_work::kShade);
+    scene_.spu().compute(scalar_work::kShade);
     const MaterialLanes<S> m = gather_materials(scene_, materials, lanes);
     add(lanes, local_light(scene_, traversal_, frame_, surfaces, m, lanes, counters_.shadow) * share);
     if (!m.has_reflection && !m.has_transmission) return Onward<S>::nothing();
-    compute(scene_.spu(), scalar_work::kPassOn);
+    scene_.spu().compute(scalar_work::kPassOn);
     F fresnel_ratio(1.0f);
     if (m.fresnel != 0)
       fresnel_ratio = F::load(fresnel_ratios(scene_, interior, lanes & m.fresnel, node_).lane);
@@ -166,7 +166,7 @@ private:
   [[gnu::noinline]] void send_on(const Surfaces<S>& surfaces, const WordLanes& interior,
                                  const Onward<S>& onward) {
     if ((onward.mirrors | onward.clear) == 0) return;
-    compute(scene_.spu(), scalar_work::kSendOn);
+    scene_.spu().compute(scalar_work::kSendOn);
     const F cosine = -dot<S>(surfaces.direction, surfaces.normal);
     const V3<S> mirrored = mirror<S>(surfaces.direction, surfaces.normal, cosine);
     const uint32_t total = onward.clear != 0 ? transmit(surfaces, interior, onward, cosine, mirrored) : 0;
@@ -176,7 +176,7 @@ private:
   /// Fills child_ with rays from the surfaces whose weight and level allow them; false if there are none.
   bool prepare_child(const Surfaces<S>& surfaces, const V3<S>& direction, const V3<S>& throughput,
                      const F& weight, uint32_t one_level_deeper, uint32_t lanes) {
-    compute(scene_.spu(), scalar_work::kChild);
+    scene_.spu().compute(scalar_work::kChild);
     uint32_t go = 0;
     const M heavy = weight >= F(frame_.adc_bailout);
     for_each_lane(lanes & heavy.bits(), [&](uint32_t lane) {
@@ -228,7 +228,7 @@ private:
   /// Pushes the transmitted rays; returns the lanes that were totally reflected.
   uint32_t transmit(const Surfaces<S>& surfaces, const WordLanes& interior, const Onward<S>& onward,
                     const F& cosine, const V3<S>& mirrored) {
-    compute(scene_.spu(), scalar_work::kTransmit);
+    scene_.spu().compute(scalar_work::kTransmit);
     inherit_interiors();
     const Refraction refraction = cross_surfaces(scene_, interior, onward.clear, child_, counters_.dropped);
     M beyond = M::none();

@@ -10,14 +10,7 @@
 
 #include "celltrace/spe/spu.hpp"
 
-#include <type_traits>
-
 namespace celltrace::kernel {
-
-/// Declares scalar work. An Spu of a test that is not a whole one does not count.
-template <class Spu> void compute(Spu& spu, const ScalarWork& work) {
-  if constexpr (std::is_base_of<SpuBase<Spu>, Spu>::value) spu.compute(work);
-}
 
 namespace scalar_work {
 

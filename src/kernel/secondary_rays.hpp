@@ -20,7 +20,7 @@ struct MediumChange {
 /// does not bend.
 template <class Spu>
 MediumChange medium_change(SceneAccess<Spu>& scene, const RayNode& ray, uint32_t lane, uint32_t interior) {
-  compute(scene.spu(), scalar_work::kCrossing);
+  scene.spu().compute(scalar_work::kCrossing);
   const auto ior_of = [&](uint32_t offset) { return scene.interior(offset)->ior; };
   const uint32_t depth = ray.interior_depth.lane[lane];
   const auto at = [&](uint32_t d) { return ray.interiors[d].lane[lane]; };

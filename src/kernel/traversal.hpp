@@ -98,10 +98,10 @@ private:
     const float direction[3] = {rays.direction.x.lane[lane], rays.direction.y.lane[lane],
                                 rays.direction.z.lane[lane]};
     uint64_t voxels = 0;
-    compute(scene_.spu(), scalar_work::kWalk);
+    scene_.spu().compute(scalar_work::kWalk);
     walk_voxels(grid_, origin, direction, [&](uint32_t cell, float enter, float leave) {
       ++voxels;
-      compute(scene_.spu(), scalar_work::kVoxel);
+      scene_.spu().compute(scalar_work::kVoxel);
       return visit(cell, enter, leave);
     });
     counters_.voxels += voxels;
@@ -111,7 +111,7 @@ private:
   template <class Visit> void for_each_object(uint32_t cell, Visit visit) {
     const CellRecord list = scene_.cell(grid_, cell);
     for (uint32_t i = 0; i < list.count; ++i) {
-      compute(scene_.spu(), scalar_work::kListedObject);
+      scene_.spu().compute(scalar_work::kListedObject);
       if (visit(scene_.list_word(list.list + i * 4))) return;
     }
   }
@@ -119,12 +119,12 @@ private:
   Crossings<S> test(const RayPacket& rays, const ObjectRecord& object, uint32_t self) {
     const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
     ++counters_.tests[kind];
-    compute(scene_.spu(), scalar_work::kTest[kind]);
+    scene_.spu().compute(scalar_work::kTest[kind]);
     return intersect<S>(rays, object, self);
   }
 
   void test_closest(const RayPacket& rays, uint32_t self, HitPacket& hits) {
-    compute(scene_.spu(), scalar_work::kClosest);
+    scene_.spu().compute(scalar_work::kClosest);
     const Crossings<S> c = test(rays, *scene_.object(self), self);
     const M near_valid = c.near_hit & (c.near > F(kMinHitDistance));
     const M far_valid = c.far_hit & (c.far > F(kMinHitDistance));
@@ -144,7 +144,7 @@ private:
   /// each crossing counts once although the object is in the lists of several voxels.
   uint32_t shadowed(const RayPacket& rays, uint32_t self, uint32_t lane, float enter, float leave,
                     const FloatLanes& distance, VectorLanes& light) {
-    compute(scene_.spu(), scalar_work::kShadow);
+    scene_.spu().compute(scalar_work::kShadow);
     const ObjectRecord& object = *scene_.object(self);
     const uint32_t flags = object.kind_and_flags;
     if ((flags & object_flag::no_shadow) != 0) return 0;
@@ -169,7 +169,7 @@ private:
     };
     const uint32_t crossings = static_cast<uint32_t>(counts(c.near_hit, near.lane[lane])) +
                                static_cast<uint32_t>(counts(c.far_hit, far.lane[lane]));
-    compute(scene_.spu(), scalar_work::kFilter);
+    scene_.spu().compute(scalar_work::kFilter);
     if (crossings == 0) return 0;
     float through[3];
     transmission(object.kind_and_flags, object.material, u.lane[lane], v.lane[lane], through);

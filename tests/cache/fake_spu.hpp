@@ -2,6 +2,7 @@
 #pragma once
 
 #include "celltrace/spe/simd_host.hpp"
+#include "celltrace/spe/spu.hpp"
 #include "celltrace/spe/types.hpp"
 
 #include <cstdint>
@@ -50,6 +51,7 @@ public:
     under_way_ = left;
     return mask;
   }
+  void compute(const ScalarWork&) {}
   [[noreturn]] void halt(HaltCode code) { throw code; }
 
   std::size_t local_store_used() const { return next_; }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "celltrace/spe/simd_host.hpp"
+#include "celltrace/spe/spu.hpp"
 #include "celltrace/spe/types.hpp"
 
 #include <array>
@@ -40,6 +41,7 @@ public:
     }
   }
   std::uint32_t wait_all(std::uint32_t mask) { return mask; }
+  void compute(const ScalarWork&) {}
   [[noreturn]] void halt(HaltCode) { throw std::length_error("the kernel halted"); }
 
 private:

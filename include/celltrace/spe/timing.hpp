@@ -43,11 +43,11 @@ struct TimingParameters {
   std::uint32_t branch = 4;           ///< BR
   std::uint32_t branch_miss = 18;
   /// Part of the latency beyond the issue of an operation's own four quadwords that the code cannot fill.
-  double exposed_latency = 0.5;
+  double exposed_latency = 0.3;
   /// Part of the taken branches that no hint foresees.
   double missed_branches = 0.3;
   /// Part of the cycles in which both pipes have something to issue that really pair up.
-  double paired_issue = 0.6;
+  double paired_issue = 0.45;
 
   /// A Cell at 3.2 GHz with 8 SPEs.
   static constexpr TimingParameters cell() { return {}; }
@@ -75,6 +75,28 @@ struct SpuCycles {
   std::uint64_t branch_taken_miss = 0;                       ///< mispredicted branches
 
   std::uint64_t instructions() const { return fx2 + fx3 + fxb + fp6 + fp7 + ls + shuf + br + spr; }
+  SpuCycles& operator+=(const SpuCycles& more);
 };
+
+inline SpuCycles& SpuCycles::operator+=(const SpuCycles& more) {
+  total_cycle += more.total_cycle;
+  single_cycle += more.single_cycle;
+  dual_cycle += more.dual_cycle;
+  stall_due_to_dependency += more.stall_due_to_dependency;
+  stall_due_to_branch_miss += more.stall_due_to_branch_miss;
+  channel_stall_cycle += more.channel_stall_cycle;
+  stall_due_to_injection += more.stall_due_to_injection;
+  fx2 += more.fx2;
+  fx3 += more.fx3;
+  fxb += more.fxb;
+  fp6 += more.fp6;
+  fp7 += more.fp7;
+  ls += more.ls;
+  shuf += more.shuf;
+  br += more.br;
+  spr += more.spr;
+  branch_taken_miss += more.branch_taken_miss;
+  return *this;
+}
 
 } // namespace celltrace
