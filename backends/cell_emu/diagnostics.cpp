@@ -54,7 +54,6 @@ constexpr std::array<Entry, kRules> kTable = {{
      "a proxy command is a get or a put, with or without fence or barrier; no list, signal or lock line"},
     {Rule::proxy_tag_range, "proxy-tag-range", kStop,
      "the tag of a proxy command must be 0..15 (16..31 are the system's)"},
-    {Rule::proxy_queue_full, "proxy-queue-full", kStop, "the proxy queue has 8 entries"},
 
     {Rule::local_store_race, "local-store-race", kStop,
      "transfers in flight overlap in local store, one of them writes there, and nothing orders them"},

@@ -43,7 +43,6 @@ enum class Rule : unsigned char {
   parameters_kept,
   proxy_command,
   proxy_tag_range,
-  proxy_queue_full,
 
   // commands in flight: from their issue until the SPU has observed their completion
   local_store_race,
