@@ -1,0 +1,171 @@
+// Where to cut a range of references in two: by the surface area heuristic over bins of their centres (Wald,
+// On fast construction of SAH-based bounding volume hierarchies, 2007). Kernel dialect.
+#pragma once
+
+#include "kernel/build_hierarchy_boxes.hpp"
+
+namespace celltrace::kernel::hierarchy {
+
+/// Cuts ranges in two. `kBins` is a power of two.
+template <class S, uint32_t kBins> class BinnedSplitter {
+public:
+  using F4 = typename S::F4;
+
+  /// Orders the references of `range` (two at least) so that those of `left` come first, stably. `spare` has
+  /// room for all of them.
+  static void split(Reference* references, Reference* spare, const Range<S>& range, Range<S>& left,
+                    Range<S>& right) {
+    // Points and lines are all the same to rays, and to the heuristic.
+    if (range.box.area() == 0.0f) return halve(references, range, left, right);
+    const Places places(range.centres);
+    Bins bins;
+    fill(bins, references, range, places);
+    const Cut cut = best_cut(bins);
+    if (cut.bin == 0) return halve(references, range, left, right);
+    measure(bins, cut, left, right);
+    partition(references, spare, range, places, cut, left, right);
+  }
+
+  /// In the order in which they are.
+  static void halve(const Reference* references, const Range<S>& range, Range<S>& left, Range<S>& right) {
+    const uint32_t middle = range.begin + range.count() / 2;
+    left = range_of<S>(references, range.begin, middle);
+    right = range_of<S>(references, middle, range.end);
+  }
+
+private:
+  /// From centres to bins, coordinate by coordinate.
+  struct Places {
+    F4 base, scale;
+    alignas(16) float base_of[4];
+    alignas(16) float scale_of[4];
+
+    explicit Places(const LaneBox<S>& centres) {
+      alignas(16) float extent[4];
+      (centres.max - centres.min).store(extent);
+      centres.min.store(base_of);
+      for (int axis = 0; axis < 3; ++axis)
+        scale_of[axis] = extent[axis] > 1e-30f ? (kBins - 1) / extent[axis] : 0.0f;
+      // Off the range of denormal numbers, which some processors are slow with.
+      base_of[3] = -1.0f;
+      scale_of[3] = 0.0f;
+      base = F4::load(base_of);
+      scale = F4::load(scale_of);
+    }
+    /// Adding this to a small number leaves that, rounded, in the low bits. Where a number is not small, or
+    /// none, some bin comes out.
+    static constexpr float kRounder = 8388608.0f;
+
+    void bins_of(const F4& centre, uint32_t (&bin)[4]) const {
+      alignas(16) float place[4];
+      ((centre - base) * scale + F4::splat(kRounder)).store(place);
+      for (int axis = 0; axis < 3; ++axis)
+        bin[axis] = low_bits(place[axis]);
+    }
+    /// The same along one axis.
+    uint32_t bin_of(const Reference& reference, uint32_t axis) const {
+      const float centre = reference.min[axis] + reference.max[axis];
+      return low_bits((centre - base_of[axis]) * scale_of[axis] + kRounder);
+    }
+    static uint32_t low_bits(float number) {
+      uint32_t bits;
+      __builtin_memcpy(&bits, &number, sizeof bits);
+      return bits & (kBins - 1);
+    }
+  };
+
+  struct Bins {
+    LaneBox<S> box[3][kBins];
+    uint32_t weight[3][kBins];
+  };
+
+  /// `bin` is the first on the right; 0 if there is no cut.
+  struct Cut {
+    uint32_t axis, bin;
+  };
+
+  static void fill(Bins& bins, const Reference* references, const Range<S>& range, const Places& places) {
+    for (uint32_t axis = 0; axis < 3; ++axis)
+      for (uint32_t i = 0; i < kBins; ++i) {
+        bins.box[axis][i] = LaneBox<S>::empty();
+        bins.weight[axis][i] = 0;
+      }
+    for (uint32_t i = range.begin; i < range.end; ++i) {
+      const LaneBox<S> box = LaneBox<S>::of(references[i]);
+      uint32_t bin[4];
+      places.bins_of(box.centre(), bin);
+      for (uint32_t axis = 0; axis < 3; ++axis) {
+        bins.box[axis][bin[axis]].grow(box);
+        bins.weight[axis][bin[axis]] += references[i].weight;
+      }
+    }
+  }
+
+  static Cut best_cut(const Bins& bins) {
+    Cut best = {0, 0};
+    float least = kHuge;
+    for (uint32_t axis = 0; axis < 3; ++axis) {
+      float left_cost[kBins];
+      LaneBox<S> box = bins.box[axis][0];
+      uint32_t weight = bins.weight[axis][0];
+      for (uint32_t i = 1; i < kBins; ++i) {
+        left_cost[i] = box.area() * static_cast<float>(weight);
+        box.grow(bins.box[axis][i]);
+        weight += bins.weight[axis][i];
+      }
+      box = LaneBox<S>::empty();
+      weight = 0;
+      for (uint32_t i = kBins - 1; i > 0; --i) {
+        box.grow(bins.box[axis][i]);
+        weight += bins.weight[axis][i];
+        // The area of nothing is infinite, and nothing times that is less than no number.
+        const float cost = left_cost[i] + box.area() * static_cast<float>(weight);
+        if (cost < least) {
+          least = cost;
+          best = {axis, i};
+        }
+      }
+    }
+    return best;
+  }
+
+  static void measure(const Bins& bins, const Cut& cut, Range<S>& left, Range<S>& right) {
+    left = right = {0, 0, 0, LaneBox<S>::empty(), LaneBox<S>::empty()};
+    for (uint32_t i = 0; i < kBins; ++i) {
+      Range<S>& side = i < cut.bin ? left : right;
+      side.box.grow(bins.box[cut.axis][i]);
+      side.weight += bins.weight[cut.axis][i];
+    }
+  }
+
+  /// Sends each reference both ways and keeps the one that is right: branches would be guesses. Stores on the
+  /// left never pass what is still to be read.
+  static void partition(Reference* references, Reference* spare, const Range<S>& range, const Places& places,
+                        const Cut& cut, Range<S>& left, Range<S>& right) {
+    const F4 away[2] = {F4::splat(kHuge), F4::splat(0.0f)};
+    LaneBox<S> left_centres = LaneBox<S>::empty(), right_centres = LaneBox<S>::empty();
+    uint32_t on_left = range.begin, on_right = 0;
+    for (uint32_t i = range.begin; i < range.end; ++i) {
+      const Reference reference = references[i];
+      const uint32_t goes_left = places.bin_of(reference, cut.axis) < cut.bin;
+      references[on_left] = reference;
+      spare[on_right] = reference;
+      on_left += goes_left;
+      on_right += 1 - goes_left;
+      const F4 centre = LaneBox<S>::of(reference).centre();
+      left_centres.min = S::min(left_centres.min, centre + away[goes_left]);
+      left_centres.max = S::max(left_centres.max, centre - away[goes_left]);
+      right_centres.min = S::min(right_centres.min, centre + away[1 - goes_left]);
+      right_centres.max = S::max(right_centres.max, centre - away[1 - goes_left]);
+    }
+    for (uint32_t i = 0; i < on_right; ++i)
+      references[on_left + i] = spare[i];
+    left.begin = range.begin;
+    left.end = right.begin = on_left;
+    right.end = range.end;
+    left.centres = left_centres;
+    right.centres = right_centres;
+  }
+};
+
+} // namespace celltrace::kernel::hierarchy

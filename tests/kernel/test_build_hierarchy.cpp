@@ -1,0 +1,225 @@
+// The hierarchy of boxes: each object is in one leaf, boxes hold what is below them, and neither the memory
+// nor the depth that is set aside is exceeded, whatever the objects.
+#include "built_hierarchy.hpp"
+#include "lanes.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <set>
+
+using namespace celltrace;
+using namespace celltrace::kernel;
+using namespace celltrace::test;
+
+namespace {
+
+using Objects = std::vector<ObjectRecord>;
+
+ObjectRecord record_of(ObjectKind kind, const std::vector<double>& geometry) {
+  ObjectRecord object{};
+  object.kind_and_flags = static_cast<std::uint32_t>(kind);
+  for (std::size_t i = 0; i < geometry.size(); ++i)
+    object.geometry[i] = static_cast<float>(geometry[i]);
+  return object;
+}
+ObjectRecord sphere(const Vec3& centre, double radius) {
+  return record_of(ObjectKind::sphere, {centre.x, centre.y, centre.z, radius});
+}
+ObjectRecord triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
+  return record_of(ObjectKind::triangle, {a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z});
+}
+
+/// `make(i)` for i < count.
+Objects objects(unsigned count, const std::function<ObjectRecord(unsigned)>& make) {
+  Objects result;
+  for (unsigned i = 0; i < count; ++i)
+    result.push_back(make(i));
+  return result;
+}
+Objects random_triangles(unsigned count, double reach, double size, unsigned seed = 1) {
+  Random random(seed);
+  return objects(count, [&](unsigned) {
+    const Vec3 place = random.point(reach);
+    return triangle(place + random.point(size), place + random.point(size), place + random.point(size));
+  });
+}
+
+Box child_box(const NodeRecord& node, unsigned slot) {
+  Box box;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.min[axis] = node.box[2 * axis][slot];
+    box.max[axis] = node.box[2 * axis + 1][slot];
+  }
+  return box;
+}
+bool contains(const Box& outer, const Box& inner) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(outer.min[axis] <= inner.min[axis] && inner.max[axis] <= outer.max[axis])) return false;
+  return true;
+}
+
+struct Shape {
+  unsigned nodes = 0, depth = 0, largest_leaf = 0;
+  std::set<std::uint32_t> objects;
+};
+
+/// Walks through the whole hierarchy and holds it against the format.
+Shape check_tree(const BuiltHierarchy& tree) {
+  struct Open {
+    std::uint32_t offset;
+    unsigned depth;
+    Box box;
+  };
+  const float infinite = HUGE_VALF;
+  const HierarchyRecord& hierarchy = tree.frame().hierarchy;
+  std::vector<Open> open = {
+      {hierarchy.node_offset, 0, {{-infinite, -infinite, -infinite}, {infinite, infinite, infinite}}}};
+  std::set<std::uint32_t> nodes;
+  std::set<std::uint32_t> words;
+  Shape shape;
+  while (!open.empty()) {
+    const Open at = open.back();
+    open.pop_back();
+    REQUIRE(at.offset >= hierarchy.node_offset);
+    REQUIRE((at.offset - hierarchy.node_offset) % 128 == 0);
+    REQUIRE((at.offset - hierarchy.node_offset) / 128 < hierarchy.node_count);
+    REQUIRE(nodes.insert(at.offset).second);
+    shape.depth = std::max(shape.depth, at.depth);
+    const NodeRecord& node = tree.node(at.offset);
+    for (unsigned slot = 0; slot < 4; ++slot) {
+      const Box box = child_box(node, slot);
+      if (box.min[0] > box.max[0]) {
+        REQUIRE(node.count[slot] == 0);
+        continue;
+      }
+      REQUIRE(contains(at.box, box));
+      for (int axis = 0; axis < 3; ++axis)
+        REQUIRE(box.min[axis] < box.max[axis]);
+      if (node.count[slot] == 0) {
+        open.push_back({node.child[slot], at.depth + 1, box});
+        continue;
+      }
+      shape.largest_leaf = std::max(shape.largest_leaf, node.count[slot]);
+      for (std::uint32_t i = 0; i < node.count[slot]; ++i) {
+        const std::uint32_t word = node.child[slot] + i * 4;
+        REQUIRE(words.insert(word).second);
+        REQUIRE(word >= hierarchy.list_offset);
+        REQUIRE((word - hierarchy.list_offset) / 4 < tree.frame().object_count);
+        const std::uint32_t object = tree.list_word(word);
+        REQUIRE((object - tree.frame().object_offset) % 64 == 0);
+        REQUIRE((object - tree.frame().object_offset) / 64 < tree.frame().object_count);
+        REQUIRE(shape.objects.insert(object).second);
+        REQUIRE(contains(box, bounding_box(tree.object(object))));
+      }
+    }
+  }
+  shape.nodes = static_cast<unsigned>(nodes.size());
+  return shape;
+}
+
+Shape check(const Objects& objects) {
+  BuiltHierarchy tree(objects);
+  const std::uint32_t nodes = tree.build();
+  REQUIRE(nodes >= 1);
+  REQUIRE(nodes <= tree.capacity());
+  const Shape shape = check_tree(tree);
+  REQUIRE(shape.objects.size() == objects.size());
+  REQUIRE(shape.depth <= hierarchy::kMaxDepth);
+  REQUIRE(shape.largest_leaf <= hierarchy::kMaxLeaf);
+  BuiltHierarchy again(objects);
+  again.build();
+  REQUIRE(tree.bytes() == again.bytes());
+  return shape;
+}
+
+} // namespace
+
+TEST_CASE("A hierarchy over few objects") {
+  CHECK(check({}).nodes == 1);
+  for (unsigned count = 1; count <= 40; ++count) {
+    INFO(count << " objects");
+    const Shape shape = check(random_triangles(count, 10, 1, count));
+    if (count < 4) CHECK(shape.nodes == 1);
+  }
+}
+
+TEST_CASE("A hierarchy over objects of any kind and number") {
+  Random random(2);
+  for (unsigned count : {100u, 1000u, 5000u, 20000u, 70000u}) {
+    INFO(count << " objects");
+    const Shape shape = check(objects(static_cast<unsigned>(times(static_cast<int>(count))), [&](unsigned i) {
+      const Vec3 place = random.point(100);
+      if (i % 3 == 0) return sphere(place, random.uniform(0.1, 2));
+      if (i % 3 == 1)
+        return record_of(ObjectKind::ellipsoid,
+                         {2, 0.1, 0, place.x, 0.2, 0.5, 0, place.y, 0, 0.3, 1, place.z});
+      return triangle(place, place + random.point(2), place + random.point(2));
+    }));
+    CHECK(shape.depth <= 16);
+  }
+}
+
+TEST_CASE("A hierarchy over objects that nothing tells apart") {
+  const auto same = static_cast<unsigned>(times(50000));
+  CHECK(check(objects(same, [](unsigned) { return sphere({1, 2, 3}, 1); })).depth <= 12);
+  CHECK(check(objects(same, [](unsigned) { return triangle({0, 0, 0}, {0, 0, 0}, {0, 0, 0}); })).depth <= 12);
+  CHECK(check(objects(same, [](unsigned) { return triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}); })).depth <= 12);
+  // Shells around one centre.
+  CHECK(check(objects(same, [](unsigned i) { return sphere({1, 2, 3}, 1 + i); })).depth <= 16);
+}
+
+TEST_CASE("A hierarchy over scenes with one huge object") {
+  Objects scene = random_triangles(static_cast<unsigned>(times(30000)), 1, 0.01);
+  scene.push_back(sphere({0, 0, 0}, 1e6));
+  check(scene);
+  // All but one lie in what is a point by the measure of the whole.
+  scene.back() = sphere({1e7, 1e7, 1e7}, 1);
+  check(scene);
+}
+
+TEST_CASE("A hierarchy over flat scenes and lines") {
+  Random random(3);
+  const auto count = static_cast<unsigned>(times(30000));
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto flat = [&](Vec3 p) {
+      p[axis] = 0;
+      return p;
+    };
+    CHECK(check(objects(count, [&](unsigned) {
+            const Vec3 at = flat(random.point(100));
+            return triangle(at, at + flat(random.point(1)), at + flat(random.point(1)));
+          })).depth <= 20);
+    CHECK(check(objects(count, [&](unsigned i) {
+            Vec3 at(5, 5, 5);
+            at[axis] = i;
+            return triangle(at, at, at);
+          })).depth <= 20);
+  }
+}
+
+TEST_CASE("A hierarchy over objects that crowd at one place, scale by scale") {
+  const auto spiral = [](double shrink) {
+    return [=](unsigned i) {
+      const double scale = std::pow(shrink, i % 700);
+      return sphere(Vec3(std::cos(i), std::sin(i), std::cos(2.0 * i)) * scale, 0.1 * scale);
+    };
+  };
+  for (double shrink : {0.97, 0.9, 0.5, 0.1})
+    check(objects(static_cast<unsigned>(times(20000)), spiral(shrink)));
+}
+
+TEST_CASE("A hierarchy over objects at the end of the numbers") {
+  for (double reach : {1e12, 1e18, 1e30, 1e37, 1e-12, 1e-30, 1e-37}) {
+    INFO(reach);
+    check(random_triangles(static_cast<unsigned>(times(10000)), reach, reach / 100));
+  }
+  // Large coordinates of small objects: their centres are a few numbers.
+  Random random(4);
+  check(objects(static_cast<unsigned>(times(10000)), [&](unsigned) {
+    const Vec3 at = Vec3(1e6, 1e6, 1e6) + random.point(1);
+    return triangle(at, at + random.point(0.1), at + random.point(0.1));
+  }));
+}
