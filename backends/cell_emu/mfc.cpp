@@ -299,6 +299,21 @@ bool Mfc::is_ordered_before(const Flight& flight, const Entry& entry) const {
          flight.command <= last_tag_barrier_[entry.proxy][entry.command.tag];
 }
 
+/// Of a list that goes on after a stop: does the flight belong to a command that waits for all of the list?
+bool Mfc::is_ordered_behind(const Flight& flight, const Entry& entry) const {
+  if (flight.proxy != entry.proxy || flight.command <= entry.number) return false;
+  std::vector<const MfcCommand*> chain{&entry.command};
+  for (const Entry& later : queue_) {
+    if (later.proxy != entry.proxy || later.number <= entry.number) continue;
+    if (std::none_of(chain.begin(), chain.end(),
+                     [&](const MfcCommand* earlier) { return is_ordered(*earlier, later.command); }))
+      continue;
+    if (later.number == flight.command) return true;
+    chain.push_back(&later.command);
+  }
+  return false;
+}
+
 void Mfc::depart(const Entry& entry, const MfcCommand& transfer, Cycle now) {
   if (transfer.size == 0) return;
   Flight flight;
@@ -316,7 +331,7 @@ void Mfc::depart(const Entry& entry, const MfcCommand& transfer, Cycle now) {
     Flight& other = context_.flights.at(spe_, i);
     const Overlap overlap = overlap_of(flight, other);
     if (!overlap.any) continue;
-    if (is_ordered_before(other, entry)) {
+    if (is_ordered_before(other, entry) || is_ordered_behind(other, entry)) {
       flight.shared = other.shared = true;
       continue;
     }

@@ -140,6 +140,7 @@ private:
   void depart(const Entry& entry, const MfcCommand& transfer, Cycle now);
   void report_conflict(const Entry& entry, const MfcCommand& transfer, const Conflict& conflict, Cycle now);
   bool is_ordered_before(const Flight& flight, const Entry& entry) const;
+  bool is_ordered_behind(const Flight& flight, const Entry& entry) const;
   /// `observed`: nobody watches over its local store any more.
   void move(Flight& flight, Cycle now, bool observed = false);
   void move_word(const Flight& flight, AddressMap::Place place, Cycle now);
