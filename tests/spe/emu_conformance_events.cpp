@@ -154,15 +154,21 @@ const Rows kEvents = {
         }),
     fact("room in a full queue is an event",
          [](Spu& spu, Stage& stage) {
+           // A stopped list and 15 commands behind it: the queue is full until the list is acknowledged.
+           auto* line = line_of(spu);
+           auto* list = spu.allocate<ListElement>(2);
+           list[0] = ListElement::make(16, to_ea(stage.from), true);
+           list[1] = ListElement::make(16, to_ea(stage.from));
            spu.write_event_mask(event::command_queue);
-           auto* lines = spu.allocate<std::uint32_t>(32 * 16);
-           // Until the queue was full once: commands may be done before the last is issued.
-           for (std::uint32_t rounds = 0; spu.event_count() == 0 && rounds < 100; ++rounds) {
-             for (std::uint32_t i = 0; i < 16; ++i)
-               spu.get(lines + 32 * i, to_ea(stage.from), 128, 0);
-             spu.wait_all(1);
-           }
+           spu.getl(line, to_ea(stage.from), list, 2, 3);
+           for (std::uint32_t i = 0; i < 15; ++i)
+             spu.getb(line, to_ea(stage.from), 128, 3);
+           stage.is(spu.channel_count<Channel::mfc_cmd>(), 0);
+           spu.read_list_stall_status();
+           stage.is(spu.event_count(), 0);
+           spu.acknowledge_list_stall(3);
            stage.is(spu.read_event_status(), event::command_queue);
+           spu.wait_all(1u << 3);
          }),
     fact("a multi-source synchronisation is an event",
          [](Spu& spu, Stage& stage) {

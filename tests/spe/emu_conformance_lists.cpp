@@ -341,6 +341,24 @@ const Rows kStops = {
            spu.wait_all(1u << 3);
            stage.is(stage.to[0], 1);
          }),
+    kept(Rule::local_store_race, "a fenced command behind a stopped list comes behind all of it",
+         [](Spu& spu, Stage& stage) {
+           const StoppingList list(spu, stage);
+           spu.getf(list.buffer + 32, to_ea(stage.from + 64), 128, 3);
+           spu.read_list_stall_status();
+           spu.acknowledge_list_stall(3);
+           spu.wait_all(1u << 3);
+           stage.is(list.buffer[32], 65);
+         }),
+    broken(Rule::local_store_race, "one without a fence meets what the list still has to do",
+           [](Spu& spu, Stage& stage) {
+             stage.next_line();
+             const StoppingList list(spu, stage);
+             spu.get(list.buffer + 32, to_ea(stage.from + 64), 128, 3);
+             spu.read_list_stall_status();
+             spu.acknowledge_list_stall(3);
+           },
+           {"meets command 2 of SPE 0 (get 128 bytes"}),
     fact("a notify bit in the last element stops nothing",
          [](Spu& spu, Stage& stage) {
            auto* line = line_of(spu);
