@@ -227,6 +227,26 @@ struct Simd {
     return I::map(a, [](vec_int4 x) { return spu_rlmaska(x, -bits); });
   }
 
+  struct F4 {
+    vec_float4 lanes;
+
+    static F4 splat(float value) { return {spu_splats(value)}; }
+    static F4 load(const float* words) { return {*reinterpret_cast<const vec_float4*>(words)}; }
+    void store(float* words) const { *reinterpret_cast<vec_float4*>(words) = lanes; }
+    friend F4 operator+(const F4& a, const F4& b) { return {spu_add(a.lanes, b.lanes)}; }
+    friend F4 operator-(const F4& a, const F4& b) { return {spu_sub(a.lanes, b.lanes)}; }
+    friend F4 operator*(const F4& a, const F4& b) { return {spu_mul(a.lanes, b.lanes)}; }
+    friend uint32_t not_above_bits(const F4& a, const F4& b) {
+      return ~spu_extract(spu_orx(spu_and(spu_cmpgt(a.lanes, b.lanes), lane_bits(0))), 0) & 0xFu;
+    }
+  };
+  static F4 min(const F4& a, const F4& b) {
+    return {spu_sel(a.lanes, b.lanes, spu_cmpgt(a.lanes, b.lanes))};
+  }
+  static F4 max(const F4& a, const F4& b) {
+    return {spu_sel(b.lanes, a.lanes, spu_cmpgt(a.lanes, b.lanes))};
+  }
+
   struct U4 {
     vec_uint4 lanes;
 

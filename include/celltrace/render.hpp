@@ -21,6 +21,13 @@ enum class Balance {
   fixed ///< strips of equal height that stay as they are
 };
 
+/// How rays find the objects that they may meet.
+enum class Accelerator {
+  automatic, ///< the hierarchy on native, the grid elsewhere
+  grid,      ///< a uniform grid of voxels
+  hierarchy  ///< a hierarchy of boxes; native only
+};
+
 struct RenderOptions {
   int width = 640;  ///< pixels, 1..65520
   int height = 480; ///< pixels, 1..65520
@@ -33,6 +40,7 @@ struct RenderOptions {
   /// The software cache of each SPE (native reads memory directly and has none).
   CacheConfig cache;
   Balance balance = Balance::gde;
+  Accelerator accelerator = Accelerator::automatic;
   /// In place of the scene's own settings.
   std::optional<int> max_trace_level;
   std::optional<double> adc_bailout;
@@ -43,8 +51,8 @@ struct RenderOptions {
   std::function<void(const Diagnostic& diagnostic)> diagnostic;
 };
 
-/// What a frame cost. Sums over all SPEs unless said otherwise; what building the grid took is only in the
-/// seconds and cycles of its own.
+/// What a frame cost. Sums over all SPEs unless said otherwise; what building the accelerator took is only in
+/// the seconds and cycles of its own.
 struct RenderStatistics {
   struct Cache {
     std::uint64_t hits = 0, misses = 0;
@@ -70,11 +78,14 @@ struct RenderStatistics {
   std::uint64_t dropped_rays = 0; ///< cut off by the limits of the SPE program; 0 in any but extreme scenes
   std::uint64_t spilled_packets = 0; ///< that the ray stacks put to main memory for want of local store
   std::uint64_t sphere_tests = 0, ellipsoid_tests = 0,
-                triangle_tests = 0; ///< packet of 16 rays against object
-  std::uint64_t voxels_visited = 0;
+                triangle_tests = 0;     ///< packet of 16 rays against object
+  std::uint64_t accelerator_visits = 0; ///< voxels by rays, or nodes by packets and parts of packets
 
-  std::uint32_t grid_cells[3] = {0, 0, 0};
-  std::uint64_t grid_list_entries = 0;
+  Accelerator accelerator = Accelerator::grid; ///< never automatic
+  std::uint32_t grid_cells[3] = {0, 0, 0};     ///< all 0 for a hierarchy
+  std::uint32_t hierarchy_nodes = 0;           ///< 0 for a grid
+  std::uint64_t accelerator_list_entries = 0;  ///< object numbers in all lists
+  std::uint64_t accelerator_bytes = 0;
 
   Cache list_cache, object_cache, material_cache, light_cache; ///< all 0 where memory is direct
   std::uint64_t dma_commands = 0, dma_list_elements = 0, dma_bytes_read = 0, dma_bytes_written = 0;
@@ -87,11 +98,11 @@ struct RenderStatistics {
   double imbalance = 0;
 
   // Virtual time, on cell_emu: the greatest total_cycle of an SPE.
-  std::uint64_t prepare_cycles = 0; ///< until the grid is built and every SPE knows it
+  std::uint64_t prepare_cycles = 0; ///< until the accelerator is built and every SPE knows it
   std::uint64_t render_cycles = 0;
 
   double build_seconds = 0;   ///< scene image, on the host
-  double prepare_seconds = 0; ///< grid, by an SPE
+  double prepare_seconds = 0; ///< accelerator, by the SPEs
   double render_seconds = 0;
 
   std::vector<Spe> spes;
@@ -129,7 +140,8 @@ public:
   /// scene is not valid, SpeError if a kernel failed; exceptions of `progress` pass through. After SpeError
   /// the renderer throws again at every call.
   RenderResult render(const Scene& scene, const Progress& progress = {});
-  /// As above, with another camera and nothing else changed since the last render(): the grid is kept.
+  /// As above, with another camera and nothing else changed since the last render(): the accelerator is
+  /// kept.
   RenderResult render(const Camera& camera, const Progress& progress = {});
 
 private:

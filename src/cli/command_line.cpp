@@ -49,6 +49,7 @@ std::pair<std::string, std::string> parse_declare(const std::string& text) {
 struct RenderTexts {
   std::string cache = "4x128:random";
   std::string balance = "gde";
+  std::string accelerator = "auto";
   std::string model = "shared";
   EmulationTexts emulation;
   std::vector<std::string> declares;
@@ -91,6 +92,8 @@ void add_machine_options(CLI::App& command, RenderOptions& options, RenderTexts&
   command.add_option("--cache", texts.cache, "Software cache: WAYSxSETS[:random|fifo|lru], or off")
       ->type_name("CACHE")
       ->capture_default_str();
+  add_choice(command, "--accelerator", texts.accelerator, {{"auto", "grid", "hierarchy"}, {}},
+             "How rays find objects; auto is the hierarchy of boxes on native, the grid on cell_emu");
   add_choice(command, "--balance", texts.balance, {{"gde", "static"}, {"diffusion", "scatter"}},
              "Load balancing");
   add_choice(command, "--model", texts.model, {{"shared"}, {"pipeline", "offload"}}, "Programming model");
@@ -113,12 +116,18 @@ void add_compare_options(CLI::App& command, CompareRequest& request) {
   command.add_flag("--json", request.json, "Print JSON");
 }
 
+Accelerator accelerator_of(const std::string& text) {
+  if (text == "grid") return Accelerator::grid;
+  return text == "hierarchy" ? Accelerator::hierarchy : Accelerator::automatic;
+}
+
 void finish(RenderRequest& request, const RenderTexts& texts) {
   if (request.scene.extension() == ".ini")
     throw InputError(request.scene.string() + ": INI files are not supported");
   request.options.cache = parse_cache(texts.cache);
   request.options.emulation = emulation_config(texts.emulation, request.options.backend);
   request.trace = texts.emulation.trace;
+  request.options.accelerator = accelerator_of(texts.accelerator);
   request.options.balance = texts.balance == "gde" ? Balance::gde : Balance::fixed;
   for (const std::string& text : texts.declares)
     request.declares.push_back(parse_declare(text));

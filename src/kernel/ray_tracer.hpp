@@ -54,7 +54,7 @@ private:
     struct Storage {
       alignas(16) uint8_t bytes[sizeof(Traversal<Spu>)];
     };
-    return new (static_cast<void*>(spu.template allocate<Storage>())) Traversal<Spu>(scene, frame.grid);
+    return new (static_cast<void*>(spu.template allocate<Storage>())) Traversal<Spu>(scene, frame);
   }
 
   static uint32_t count(uint32_t lanes) { return static_cast<uint32_t>(__builtin_popcount(lanes)); }

@@ -148,6 +148,28 @@ struct alignas(16) GridRecord {
 };
 static_assert(sizeof(GridRecord) == 80, "crosses DMA");
 
+/// A node of the hierarchy of boxes, four children wide: their boxes, coordinate by coordinate, and what is
+/// in them. A child without objects has a box that is empty (min > max).
+struct alignas(128) NodeRecord {
+  float box[6][4];   ///< min x, max x, min y, max y, min z, max z of each child
+  uint32_t child[4]; ///< offset of its NodeRecord; of a leaf: of the first of `count` words, each an object's
+                     ///< offset
+  uint32_t count[4]; ///< objects of a leaf; 0: a node, or nothing if the box is empty
+};
+static_assert(sizeof(NodeRecord) == 128, "one node a line");
+
+/// The hierarchy of boxes. The root is the first node.
+struct alignas(16) HierarchyRecord {
+  uint32_t node_offset;
+  uint32_t node_capacity; ///< nodes
+  uint32_t node_count;    ///< in use, set by PREPARE FRAME
+  uint32_t list_offset;   ///< a word per object, in the order of the leaves
+};
+static_assert(sizeof(HierarchyRecord) == 16, "crosses DMA");
+
+/// How rays find objects.
+enum class AcceleratorKind : uint32_t { grid = 0, hierarchy = 1 };
+
 enum class GammaEncoding : uint32_t { none = 0, assumed = 1 };
 enum class BalanceMode : uint32_t { fixed = 0, gde = 1 };
 
@@ -159,6 +181,7 @@ constexpr uint32_t kPacketEdge = 4; ///< a packet is 4x4 rays
 struct alignas(128) FrameBlock {
   CameraRecord camera;
   GridRecord grid;
+  HierarchyRecord hierarchy;
 
   ea_t image;          ///< base of the scene image
   ea_t surface;        ///< RGBA8, rows of `surface_pitch` bytes, both multiples of 16 bytes
@@ -190,7 +213,7 @@ struct alignas(128) FrameBlock {
   uint32_t balance;            ///< BalanceMode
   uint32_t exchange_parameter; ///< lambda, 16-bit fixed point
   uint32_t camera_interior_count;
-  uint32_t unused_word;
+  uint32_t accelerator;                         ///< AcceleratorKind
   uint32_t camera_interiors[kMaxInteriorDepth]; ///< offsets, outermost first
 };
 static_assert(sizeof(FrameBlock) % 128 == 0 && sizeof(FrameBlock) <= 512, "fetched by one DMA command");
@@ -206,7 +229,7 @@ static_assert(sizeof(StripRecord) == 16, "crosses DMA");
 struct alignas(128) ReportRecord {
   uint64_t primary_rays, shadow_rays, reflection_rays, refraction_rays;
   uint64_t sphere_tests, ellipsoid_tests, triangle_tests; ///< packet against object
-  uint64_t voxels_visited;
+  uint64_t accelerator_visits; ///< voxels by rays, or nodes by beams
   uint64_t cache_hits[4], cache_misses[4]; ///< by DataKind
   uint64_t dropped_rays;                   ///< rays beyond the depth of the interior stack
   uint32_t rows;                           ///< packet rows rendered

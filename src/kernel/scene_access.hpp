@@ -22,6 +22,7 @@ public:
     return *read<CellRecord>(grid.cell_offset + index * static_cast<uint32_t>(sizeof(CellRecord)),
                              DataKind::list);
   }
+  const NodeRecord* node(uint32_t offset) { return read<NodeRecord>(offset, DataKind::list); }
   uint32_t list_word(uint32_t offset) { return *read<uint32_t>(offset, DataKind::list); }
 
   SoftwareCache<Spu, DataKind>& cache() { return cache_; }

@@ -69,7 +69,7 @@ private:
     drop_phase();
     const PrepareResult result = prepare_frame(spu_, frame_);
     report_ = ReportRecord();
-    report_.list_entries = result.pairs;
+    report_.list_entries = result.entries;
     send_report();
     spu_.write_out_mailbox(make_report(result.built ? ReportKind::prepared : ReportKind::needs_memory, 0));
   }
@@ -155,7 +155,7 @@ private:
     report_.sphere_tests = walked.tests[0];
     report_.ellipsoid_tests = walked.tests[1];
     report_.triangle_tests = walked.tests[2];
-    report_.voxels_visited = walked.voxels;
+    report_.accelerator_visits = walked.voxels;
     for (uint32_t kind = 0; kind < kDataKinds; ++kind) {
       const CacheCounters counters = phase_->scene.cache().counters(static_cast<DataKind>(kind));
       report_.cache_hits[kind] = counters.hits;

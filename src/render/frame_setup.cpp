@@ -39,6 +39,12 @@ double voxels_per_unit(std::array<double, 3> extent, double wanted) {
   return per_unit;
 }
 
+AcceleratorKind accelerator_of(const RenderOptions& options) {
+  if (options.accelerator == Accelerator::automatic)
+    return options.backend == "native" ? AcceleratorKind::hierarchy : AcceleratorKind::grid;
+  return options.accelerator == Accelerator::hierarchy ? AcceleratorKind::hierarchy : AcceleratorKind::grid;
+}
+
 bool inside(const Sphere& sphere, const Transform& transform, const Vec3& point) {
   const Vec3 local = transform.inverse().point(point) - sphere.centre;
   return local.x * local.x + local.y * local.y + local.z * local.z < sphere.radius * sphere.radius;
@@ -61,6 +67,9 @@ void check(const RenderOptions& options) {
     throw InputError("the cache takes " + std::to_string(options.cache.local_store_bytes()) +
                      " bytes of local store; beside the program there is room for " +
                      std::to_string(kMaxCacheBytes));
+  if (options.backend != "native" && options.accelerator == Accelerator::hierarchy)
+    throw InputError("the hierarchy of boxes needs the direct memory of native; " + options.backend +
+                     " has the grid");
   if (options.max_trace_level && (*options.max_trace_level < 1 || *options.max_trace_level > 256))
     throw InputError("the maximum trace level has to be 1 to 256");
   if (options.adc_bailout && !(*options.adc_bailout >= 0))
@@ -77,6 +86,7 @@ void set_options(FrameBlock& frame, const RenderOptions& options, unsigned spes)
   frame.cache_sets = options.cache.sets;
   frame.cache_replacement = static_cast<std::uint32_t>(options.cache.replacement);
   frame.cache_enabled = options.cache.enabled ? 1 : 0;
+  frame.accelerator = static_cast<std::uint32_t>(accelerator_of(options));
   frame.balance =
       static_cast<std::uint32_t>(options.balance == Balance::gde ? BalanceMode::gde : BalanceMode::fixed);
   frame.exchange_parameter = fixed_point_parameter(optimal_chain_parameter(spes));

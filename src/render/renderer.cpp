@@ -81,6 +81,9 @@ public:
   }
 
 private:
+  /// Of the buffers that PREPARE FRAME builds a hierarchy in.
+  static constexpr std::uint32_t kWorkPairsPerObject = 4;
+
   template <class Work> RenderResult reporting_failures(Work work) {
     try {
       return work();
@@ -106,7 +109,7 @@ private:
     statistics.build_seconds = build.seconds();
     const Stopwatch prepare;
     const SpeMeter meter(*machine_);
-    build_grid();
+    build_accelerator();
     statistics.prepare_seconds = prepare.seconds();
     statistics.prepare_cycles = elapsed_cycles(meter.read());
     return render_frame(scene.camera, statistics, progress);
@@ -128,27 +131,45 @@ private:
     return reinterpret_cast<const ReportRecord*>(reports_.data())[spe];
   }
 
+  void build_accelerator() {
+    if (static_cast<AcceleratorKind>(frame_.accelerator) == AcceleratorKind::hierarchy)
+      build_hierarchy();
+    else
+      build_grid();
+    for (AlignedBlock& buffer : sort_buffers_)
+      buffer = AlignedBlock();
+    team_->synchronize();
+  }
   void build_grid() {
     const GridRecord grid = choose_grid(image_->header());
     const std::uint32_t cells = grid.row_of_cells * grid.cells[2];
     std::uint64_t pairs = std::max<std::uint64_t>(std::uint64_t{image_->header().object_count} * 6, 1024);
     for (;;) {
       if (pairs > 0x3FFFFFFF) throw InputError("the scene is too large: its object lists would pass 4 GB");
-      reserve(grid, cells, static_cast<std::uint32_t>(pairs));
+      const auto words = static_cast<std::uint32_t>(pairs);
+      image_->reserve_accelerator(std::uint64_t{cells} * sizeof(CellRecord), words);
+      frame_.grid = grid;
+      frame_.grid.cell_offset = image_->table_offset();
+      frame_.grid.list_offset = image_->list_offset();
+      frame_.grid.list_capacity = words;
+      reserve_work(words);
       if (team_->prepare_frame()) break;
       pairs = report(0).list_entries;
     }
     frame_.grid.list_count = report(0).list_entries;
-    sort_buffers_[0] = AlignedBlock();
-    sort_buffers_[1] = AlignedBlock();
-    team_->synchronize();
   }
-  void reserve(const GridRecord& grid, std::uint32_t cells, std::uint32_t pairs) {
-    image_->reserve_grid(cells, pairs);
-    frame_.grid = grid;
-    frame_.grid.cell_offset = image_->cell_offset();
-    frame_.grid.list_offset = image_->list_offset();
-    frame_.grid.list_capacity = pairs;
+  void build_hierarchy() {
+    const std::uint32_t objects = image_->header().object_count;
+    // A node has four children, and a leaf at least one object.
+    const std::uint32_t nodes = objects / 3 + 2;
+    image_->reserve_accelerator(std::uint64_t{nodes} * sizeof(NodeRecord), objects);
+    frame_.hierarchy = {image_->table_offset(), nodes, 0, image_->list_offset()};
+    reserve_work(std::max(objects, 1u) * kWorkPairsPerObject);
+    team_->prepare_frame();
+    frame_.hierarchy.node_count = report(0).list_entries;
+  }
+  /// Work memory of PREPARE FRAME, and what else depends on the scene.
+  void reserve_work(std::uint32_t pairs) {
     frame_.sort_capacity = pairs;
     for (int i = 0; i < 2; ++i) {
       sort_buffers_[i] = AlignedBlock(std::size_t{pairs} * 8);

@@ -66,6 +66,21 @@ std::vector<SpeStatistics> count(const Machine& machine) {
   return spes;
 }
 
+void collect_accelerator(RenderStatistics& s, const FrameBlock& frame) {
+  if (static_cast<AcceleratorKind>(frame.accelerator) == AcceleratorKind::hierarchy) {
+    s.accelerator = Accelerator::hierarchy;
+    s.hierarchy_nodes = frame.hierarchy.node_count;
+    s.accelerator_list_entries = frame.object_count;
+    s.accelerator_bytes = std::uint64_t{s.hierarchy_nodes} * sizeof(NodeRecord);
+  } else {
+    s.accelerator = Accelerator::grid;
+    std::copy(std::begin(frame.grid.cells), std::end(frame.grid.cells), s.grid_cells);
+    s.accelerator_list_entries = frame.grid.list_count;
+    s.accelerator_bytes = std::uint64_t{frame.grid.row_of_cells} * frame.grid.cells[2] * sizeof(CellRecord);
+  }
+  s.accelerator_bytes += s.accelerator_list_entries * sizeof(std::uint32_t);
+}
+
 nlohmann::ordered_json cache_json(const RenderStatistics::Cache& cache) {
   return {{"hits", cache.hits}, {"misses", cache.misses}, {"hit_rate", cache.hit_rate()}};
 }
@@ -123,8 +138,7 @@ void collect(RenderStatistics& s, const Machine& machine, const FrameBlock& fram
   s.width = static_cast<int>(frame.width);
   s.height = static_cast<int>(frame.height);
   s.objects = frame.object_count;
-  std::copy(std::begin(frame.grid.cells), std::end(frame.grid.cells), s.grid_cells);
-  s.grid_list_entries = frame.grid.list_count;
+  collect_accelerator(s, frame);
   std::size_t index = 0;
   for (const ReportRecord& r : reports) {
     s.primary_rays += r.primary_rays;
@@ -136,7 +150,7 @@ void collect(RenderStatistics& s, const Machine& machine, const FrameBlock& fram
     s.sphere_tests += r.sphere_tests;
     s.ellipsoid_tests += r.ellipsoid_tests;
     s.triangle_tests += r.triangle_tests;
-    s.voxels_visited += r.voxels_visited;
+    s.accelerator_visits += r.accelerator_visits;
     add_cache(s.list_cache, r, DataKind::list);
     add_cache(s.object_cache, r, DataKind::object);
     add_cache(s.material_cache, r, DataKind::material);
@@ -189,10 +203,13 @@ std::string to_json(const RenderStatistics& s) {
         {"spilled_packets", s.spilled_packets}}},
       {"packet_tests",
        {{"sphere", s.sphere_tests}, {"ellipsoid", s.ellipsoid_tests}, {"triangle", s.triangle_tests}}},
-      {"grid",
-       {{"cells", {s.grid_cells[0], s.grid_cells[1], s.grid_cells[2]}},
-        {"list_entries", s.grid_list_entries},
-        {"voxels_visited", s.voxels_visited}}},
+      {"accelerator",
+       {{"kind", s.accelerator == Accelerator::hierarchy ? "hierarchy" : "grid"},
+        {"cells", {s.grid_cells[0], s.grid_cells[1], s.grid_cells[2]}},
+        {"nodes", s.hierarchy_nodes},
+        {"list_entries", s.accelerator_list_entries},
+        {"bytes", s.accelerator_bytes},
+        {"visits", s.accelerator_visits}}},
       {"cache",
        {{"list", cache_json(s.list_cache)},
         {"object", cache_json(s.object_cache)},

@@ -167,9 +167,9 @@ SceneImage SceneImage::from_bytes(std::span<const std::byte> bytes) {
   return image;
 }
 
-void SceneImage::reserve_grid(std::uint32_t cells, std::uint32_t list_words) {
+void SceneImage::reserve_accelerator(std::uint64_t table_bytes, std::uint32_t list_words) {
   const std::size_t begin = header().bytes;
-  const std::size_t lists = round_up(begin + std::size_t{cells} * sizeof(CellRecord));
+  const std::size_t lists = round_up(begin + table_bytes);
   const std::size_t end = round_up(lists + std::size_t{list_words} * sizeof(std::uint32_t));
   if (end > std::numeric_limits<std::uint32_t>::max())
     throw InputError("the scene is too large: its image would pass 4 GB");
@@ -178,7 +178,7 @@ void SceneImage::reserve_grid(std::uint32_t cells, std::uint32_t list_words) {
     std::memcpy(larger.data(), block_.data(), begin);
     block_ = std::move(larger);
   }
-  cell_offset_ = static_cast<std::uint32_t>(begin);
+  table_offset_ = static_cast<std::uint32_t>(begin);
   list_offset_ = static_cast<std::uint32_t>(lists);
 }
 

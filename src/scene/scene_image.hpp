@@ -1,9 +1,9 @@
 // SceneImage: a Scene in the flat binary form that the SPEs read.
 //
 // One contiguous, 128-byte aligned block: header, lights, materials, blends, interiors, normals, objects (the
-// static part, written here), then the voxels and object lists of the grid (written by PREPARE FRAME). All
-// positions are 32-bit offsets from its base, so that the static part can be saved, mapped elsewhere and sent
-// to another process of the same byte order; it carries a version and a checksum.
+// static part, written here), then the voxels or nodes and the object lists of the accelerator (PREPARE
+// FRAME's). All positions are 32-bit offsets from its base, so that the static part can be saved, mapped
+// elsewhere and sent to another process of the same byte order; it carries a version and a checksum.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -42,22 +42,22 @@ public:
   /// every offset in it are right.
   static SceneImage from_bytes(std::span<const std::byte> bytes);
 
-  /// Makes room for a grid of `cells` voxels with lists of `list_words` words in all; where the static part
-  /// moves, the old address becomes invalid.
-  void reserve_grid(std::uint32_t cells, std::uint32_t list_words);
+  /// Makes room for an accelerator: a table of `table_bytes` bytes, of voxels or of nodes, and lists of
+  /// `list_words` words in all; where the static part moves, the old address becomes invalid.
+  void reserve_accelerator(std::uint64_t table_bytes, std::uint32_t list_words);
 
   const kernel::ImageHeader& header() const noexcept;
   std::span<const std::byte> static_part() const noexcept;
   const std::byte* base() const noexcept { return block_.data(); }
-  /// Offsets of the two grid tables; valid after reserve_grid().
-  std::uint32_t cell_offset() const noexcept { return cell_offset_; }
+  /// Offsets of the two, multiples of 128; valid after reserve_accelerator().
+  std::uint32_t table_offset() const noexcept { return table_offset_; }
   std::uint32_t list_offset() const noexcept { return list_offset_; }
 
 private:
   SceneImage() = default;
 
   AlignedBlock block_;
-  std::uint32_t cell_offset_ = 0;
+  std::uint32_t table_offset_ = 0;
   std::uint32_t list_offset_ = 0;
 };
 

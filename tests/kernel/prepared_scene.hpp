@@ -21,19 +21,24 @@ public:
     set_scene(frame_, scene, RenderOptions(), image_);
   }
 
+  /// Has a hierarchy of boxes built in place of the grid.
+  void use_hierarchy() {
+    const std::uint32_t nodes = object_count() / 3 + 2;
+    image_.reserve_accelerator(nodes * sizeof(kernel::NodeRecord), object_count());
+    frame_.image = reinterpret_cast<std::uintptr_t>(image_.base());
+    frame_.accelerator = static_cast<std::uint32_t>(kernel::AcceleratorKind::hierarchy);
+    frame_.hierarchy = {image_.table_offset(), nodes, 0, image_.list_offset()};
+    reserve_work(std::max(object_count(), 1u) * 4);
+  }
   /// Room for this many (voxel, object) pairs.
   void make_room(std::uint32_t pairs) {
-    image_.reserve_grid(grid_.row_of_cells * grid_.cells[2], pairs);
+    image_.reserve_accelerator(std::uint64_t{cell_count()} * sizeof(kernel::CellRecord), pairs);
     frame_.image = reinterpret_cast<std::uintptr_t>(image_.base());
     frame_.grid = grid_;
-    frame_.grid.cell_offset = image_.cell_offset();
+    frame_.grid.cell_offset = image_.table_offset();
     frame_.grid.list_offset = image_.list_offset();
     frame_.grid.list_capacity = pairs;
-    frame_.sort_capacity = pairs;
-    for (int i = 0; i < 2; ++i) {
-      sort_[i] = AlignedBlock(std::size_t{pairs} * 8);
-      frame_.sort_buffer[i] = reinterpret_cast<std::uintptr_t>(sort_[i].data());
-    }
+    reserve_work(pairs);
   }
   /// Builds the grid in this thread.
   kernel::PrepareResult prepare() {
@@ -58,6 +63,14 @@ public:
   std::uint32_t cell_count() const { return grid_.row_of_cells * grid_.cells[2]; }
 
 private:
+  void reserve_work(std::uint32_t pairs) {
+    frame_.sort_capacity = pairs;
+    for (int i = 0; i < 2; ++i) {
+      sort_[i] = AlignedBlock(std::size_t{pairs} * 8);
+      frame_.sort_buffer[i] = reinterpret_cast<std::uintptr_t>(sort_[i].data());
+    }
+  }
+
   SceneImage image_;
   kernel::GridRecord grid_;
   AlignedBlock sort_[2];

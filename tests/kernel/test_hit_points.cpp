@@ -43,7 +43,7 @@ TEST_CASE("Points, normals and materials of hits") {
     REQUIRE(scene.object_count() == shapes.size());
     DirectSpu spu;
     SceneAccess<DirectSpu> access(spu, CacheConfig(), scene.frame().image);
-    Traversal<DirectSpu> traversal(access, scene.frame().grid);
+    Traversal<DirectSpu> traversal(access, scene.frame());
     Random random(seed);
     unsigned compared = 0;
     for (int k = 0; k < 500; ++k) {

@@ -93,7 +93,7 @@ TEST_CASE("Ambient light, diffuse light and highlights of mixed materials") {
     REQUIRE(scene.prepare().built);
     DirectSpu spu;
     SceneAccess<DirectSpu> access(spu, CacheConfig(), scene.frame().image);
-    Traversal<DirectSpu> traversal(access, scene.frame().grid);
+    Traversal<DirectSpu> traversal(access, scene.frame());
     const Hits hits(random, scene, 12);
     const std::uint32_t lanes = random.below(3) == 0 ? random.word() & 0xFFFF : 0xFFFF;
     const auto materials = gather_materials(access, hits.material, lanes);

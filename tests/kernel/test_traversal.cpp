@@ -1,4 +1,4 @@
-// Packets through the grid, as every SPU type builds and walks it, against brute force over all objects with
+// Packets through the grid and through the hierarchy of boxes, as every SPU type builds and walks them, against brute force over all objects with
 // the same intersection tests: closest hits have to be equal to the last bit.
 #include "celltrace/spe/program.hpp"
 #include "machines.hpp"
@@ -131,7 +131,7 @@ void check(const PreparedScene& scene, const TraversalQuery& asked, const Traver
                  << asked.rays.origin.z.lane[l] << " along " << asked.rays.direction.x.lane[l] << ' '
                  << asked.rays.direction.y.lane[l] << ' ' << asked.rays.direction.z.lane[l]);
     REQUIRE(answer.hits.distance.lane[l] == expected.hits.distance.lane[l]);
-    REQUIRE((answer.hits.object.lane[l] == kNoOffset) == (expected.hits.object.lane[l] == kNoOffset));
+    REQUIRE(answer.hits.object.lane[l] == expected.hits.object.lane[l]);
     const Vec3 light = brute_light(scene, asked, l);
     INFO("light " << light.x << " of 1, distance " << asked.distance.lane[l]);
     for (int i = 0; i < 3; ++i)
@@ -141,11 +141,13 @@ void check(const PreparedScene& scene, const TraversalQuery& asked, const Traver
     REQUIRE(at(answer.light, l).y <= 0.5); // nothing else was touched
 }
 
-void check_scene(const Scene& scene, unsigned packets = times(160)) {
-  PreparedScene prepared(scene);
-  const std::vector<TraversalQuery> first = queries_for(prepared, 99, packets);
+void check_accelerator(PreparedScene& prepared, const std::vector<TraversalQuery>& first) {
+  const auto packets = static_cast<unsigned>(first.size());
+  const bool hierarchy =
+      static_cast<AcceleratorKind>(prepared.frame().accelerator) == AcceleratorKind::hierarchy;
   for (const auto& machine : machines()) {
-    INFO(machine->spu_key());
+    if (hierarchy && machine->backend() != "native") continue;
+    INFO(machine->spu_key() << (hierarchy ? ", hierarchy" : ", grid"));
     std::vector<TraversalQuery> asked = first;
     for (int round = 0; round < 2; ++round) {
       std::vector<TraversalQuery> answers = asked;
@@ -158,6 +160,14 @@ void check_scene(const Scene& scene, unsigned packets = times(160)) {
       continue_from_hits(asked, answers);
     }
   }
+}
+
+void check_scene(const Scene& scene, unsigned packets = times(160)) {
+  PreparedScene prepared(scene);
+  const std::vector<TraversalQuery> first = queries_for(prepared, 99, packets);
+  check_accelerator(prepared, first);
+  prepared.use_hierarchy();
+  check_accelerator(prepared, first);
 }
 
 } // namespace
@@ -179,7 +189,7 @@ TEST_CASE("Through large and small scenes, and far from the origin") {
   check_scene(scene);
 }
 
-TEST_CASE("Through a grid without objects, and with one") {
+TEST_CASE("Through scenes without objects, and with one") {
   check_scene(soup(10, {0, 0, 0}, 1, 1), 20);
   check_scene(soup(11, {1, 0, 0}, 1, 1), 60);
   check_scene(soup(12, {0, 1, 0}, 1, 1), 60);

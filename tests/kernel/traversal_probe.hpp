@@ -36,7 +36,7 @@ template <class Spu> void traversal(Spu& spu, ea_t argument) {
   fetch(frame, task->frame, sizeof *frame);
   const PrepareResult result = prepare_frame(spu, *frame);
   task->built = result.built ? 1 : 0;
-  task->pairs = result.pairs;
+  task->pairs = result.entries;
   spu.put(task, argument, sizeof *task, 0);
   spu.wait_all(1);
   if (!result.built) return;
@@ -44,7 +44,7 @@ template <class Spu> void traversal(Spu& spu, ea_t argument) {
   CacheConfig config;
   config.sets = 32; // small, so that lines are replaced
   SceneAccess<Spu> scene(spu, config, frame->image);
-  Traversal<Spu> walker(scene, frame->grid);
+  Traversal<Spu> walker(scene, *frame);
   TraversalQuery* query = spu.template allocate<TraversalQuery>();
   for (uint32_t i = 0; i < task->count; ++i) {
     const ea_t at = task->queries + i * sizeof(TraversalQuery);

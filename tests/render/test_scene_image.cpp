@@ -68,14 +68,14 @@ TEST_CASE("Making room for a grid keeps the static part") {
   SceneImage image(scene_named("meshes"));
   const Bytes bytes = bytes_of(image);
   for (std::uint32_t cells : {1u, 1000u, 50u}) {
-    image.reserve_grid(cells, 3 * cells);
+    image.reserve_accelerator(cells * sizeof(CellRecord), 3 * cells);
     CHECK(bytes_of(image) == bytes);
-    CHECK(image.cell_offset() == bytes.size());
-    CHECK(image.cell_offset() % 128 == 0);
+    CHECK(image.table_offset() == bytes.size());
+    CHECK(image.table_offset() % 128 == 0);
     CHECK(image.list_offset() % 128 == 0);
-    CHECK(image.list_offset() >= image.cell_offset() + cells * sizeof(CellRecord));
+    CHECK(image.list_offset() >= image.table_offset() + cells * sizeof(CellRecord));
   }
-  CHECK_THROWS_AS(image.reserve_grid(0x20000000, 1), InputError);
+  CHECK_THROWS_AS(image.reserve_accelerator(0x100000000, 1), InputError);
 }
 
 TEST_CASE("Any flipped bit of a scene image is noticed") {

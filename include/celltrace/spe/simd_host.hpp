@@ -337,6 +337,48 @@ template <class Arch, class Counter = CountNothing> struct HostSimd {
     return r;
   }
 
+  struct F4 {
+    using Batch = xsimd::batch<float, xsimd::make_sized_batch_t<float, 4>::arch_type>;
+    Batch lanes;
+
+    static F4 splat(float value) {
+      Counter::chain({.shuf = 1});
+      return {Batch(value)};
+    }
+    static F4 load(const float* words) {
+      Counter::chain({.ls = 1});
+      return {Batch::load_aligned(words)};
+    }
+    void store(float* words) const {
+      Counter::chain({.ls = 1});
+      lanes.store_aligned(words);
+    }
+    friend F4 operator+(const F4& a, const F4& b) {
+      Counter::chain({.fp6 = 1});
+      return {a.lanes + b.lanes};
+    }
+    friend F4 operator-(const F4& a, const F4& b) {
+      Counter::chain({.fp6 = 1});
+      return {a.lanes - b.lanes};
+    }
+    friend F4 operator*(const F4& a, const F4& b) {
+      Counter::chain({.fp6 = 1});
+      return {a.lanes * b.lanes};
+    }
+    friend uint32_t not_above_bits(const F4& a, const F4& b) {
+      Counter::chain({.fx2 = 2, .shuf = 2});
+      return simd_host::lane_bits<Batch>(a.lanes <= b.lanes);
+    }
+  };
+  static F4 min(const F4& a, const F4& b) {
+    Counter::chain({.fx2 = 2});
+    return {xsimd::min(a.lanes, b.lanes)};
+  }
+  static F4 max(const F4& a, const F4& b) {
+    Counter::chain({.fx2 = 2});
+    return {xsimd::max(a.lanes, b.lanes)};
+  }
+
   struct U4 {
     using Batch = xsimd::batch<uint32_t, xsimd::make_sized_batch_t<uint32_t, 4>::arch_type>;
     Batch lanes;

@@ -1,4 +1,4 @@
-// PREPARE FRAME: the lists are complete, without duplicates and not much longer than need be, on every SPU
+// Building the grid: the lists are complete, without duplicates and not much longer than need be, on every SPU
 // type.
 #include "prepared_scene.hpp"
 #include "reference/geometry.hpp"
@@ -31,7 +31,7 @@ PrepareResult prepare_on(const std::string& key, const FrameBlock& frame) {
         FrameBlock* local = spu.template allocate<FrameBlock>();
         spu.get(local, a.frame, sizeof(FrameBlock), 0);
         spu.wait_all(1);
-        a.result = prepare_frame(spu, *local);
+        a.result = build_grid(spu, *local);
       },
       to_ea(&answer));
   return answer.result;
@@ -58,7 +58,7 @@ Lists lists_of(const PreparedScene& scene, const PrepareResult& result) {
     REQUIRE(std::adjacent_find(lists[c].begin(), lists[c].end()) == lists[c].end());
     end += cell.count * 4;
   }
-  REQUIRE(end == scene.frame().grid.list_offset + result.pairs * 4);
+  REQUIRE(end == scene.frame().grid.list_offset + result.entries * 4);
   return lists;
 }
 
@@ -194,7 +194,7 @@ TEST_CASE("Without objects all lists are empty") {
   for (const std::string& key : spu_keys()) {
     PreparedScene scene(soup(38, {0, 0, 0}, 1, 1));
     const PrepareResult result = prepare_on(key, scene.frame());
-    CHECK(result.pairs == 0);
+    CHECK(result.entries == 0);
     for (const auto& list : lists_of(scene, result))
       CHECK(list.empty());
   }
@@ -225,7 +225,7 @@ TEST_CASE("Long thin shapes are in all the voxels on their way") {
 TEST_CASE("Too little room is answered with how much it takes, and nothing is written") {
   const Scene source = soup(41, {100, 100, 100}, 10, 3);
   PreparedScene whole(source);
-  const std::uint32_t pairs = whole.prepare().pairs;
+  const std::uint32_t pairs = whole.prepare().entries;
   REQUIRE(pairs > 2000);
   for (const std::string& key : spu_keys()) {
     INFO(key);
@@ -234,9 +234,9 @@ TEST_CASE("Too little room is answered with how much it takes, and nothing is wr
       scene.make_room(room);
       const PrepareResult result = prepare_on(key, scene.frame());
       CHECK_FALSE(result.built);
-      CHECK(result.pairs == pairs);
+      CHECK(result.entries == pairs);
       CHECK(scene.cell(0).list == 0);
-      scene.make_room(result.pairs);
+      scene.make_room(result.entries);
       CHECK(lists_of(scene, prepare_on(key, scene.frame())).size() == scene.cell_count());
     }
   }

@@ -1,0 +1,91 @@
+// Some rays of a packet taken together: intervals that hold all their origins and directions, tested against
+// four boxes at a time. What the beam misses, every one of its rays misses. Kernel dialect.
+#pragma once
+
+#include "kernel/packet.hpp"
+#include "kernel/scalar.hpp"
+
+namespace celltrace::kernel {
+
+/// The least and the greatest of a value over the lanes in question.
+struct Interval {
+  float low, high;
+};
+
+template <class S> class Beam {
+public:
+  using F4 = typename S::F4;
+
+  /// The rays in `lanes`, at least one, whose directions have the same signs (octant_of()).
+  Beam(const RayPacket& rays, uint32_t lanes, uint32_t octant) {
+    const FloatLanes* origins[3] = {&rays.origin.x, &rays.origin.y, &rays.origin.z};
+    const FloatLanes* directions[3] = {&rays.direction.x, &rays.direction.y, &rays.direction.z};
+    for (uint32_t axis = 0; axis < 3; ++axis) {
+      const bool backward = ((octant >> axis) & 1) != 0;
+      const Interval origin = interval_of(*origins[axis], lanes);
+      const Interval direction = interval_of(*directions[axis], lanes);
+      origin_spread_ = larger(origin_spread_, origin.high - origin.low);
+      direction_spread_ += direction.high - direction.low;
+      // 1 / direction falls from the low end to the high one. A direction of almost 0 keeps its sign.
+      const float low = backward ? smaller(direction.low, -kTiny) : larger(direction.low, kTiny);
+      const float high = backward ? smaller(direction.high, -kTiny) : larger(direction.high, kTiny);
+      inverse_low_[axis] = F4::splat(1.0f / high);
+      inverse_high_[axis] = F4::splat(1.0f / low);
+      near_origin_[axis] = F4::splat(backward ? origin.low : origin.high);
+      far_origin_[axis] = F4::splat(backward ? origin.high : origin.low);
+      near_plane_[axis] = 2 * axis + (backward ? 1 : 0);
+    }
+  }
+
+  /// The octant of a ray's direction: bit a is set if it is negative on axis a.
+  static uint32_t octant_of(const RayPacket& rays, uint32_t lane) {
+    return (rays.direction.x.lane[lane] < 0.0f ? 1u : 0u) | (rays.direction.y.lane[lane] < 0.0f ? 2u : 0u) |
+           (rays.direction.z.lane[lane] < 0.0f ? 4u : 0u);
+  }
+
+  /// Greatest difference of origins on an axis, and sum of the differences of directions on all.
+  float origin_spread() const { return origin_spread_; }
+  float direction_spread() const { return direction_spread_; }
+
+  /// Which of four boxes (as in NodeRecord) the beam may meet between its origins and `limit` along it; bit i
+  /// for box i. `enter` gets a lower bound of the distance at which it does.
+  uint32_t meets(const float (&box)[6][4], float limit, float (&enter)[4]) const {
+    F4 first = F4::splat(0.0f);
+    F4 last = F4::splat(limit);
+    for (uint32_t axis = 0; axis < 3; ++axis) {
+      const F4 near = F4::load(box[near_plane_[axis]]) - near_origin_[axis];
+      const F4 far = F4::load(box[near_plane_[axis] ^ 1]) - far_origin_[axis];
+      first = S::max(first, S::min(near * inverse_low_[axis], near * inverse_high_[axis]));
+      last = S::min(last, S::max(far * inverse_low_[axis], far * inverse_high_[axis]));
+    }
+    first.store(enter);
+    return not_above_bits(first, last);
+  }
+
+private:
+  static constexpr float kTiny = 1e-12f;
+
+  /// Lanes outside the mask take the value of the first one inside.
+  static Interval interval_of(const FloatLanes& values, uint32_t lanes) {
+    using F = typename S::F;
+    const F all =
+        S::select(S::M::from_bits(lanes), F::load(values.lane), F(values.lane[__builtin_ctz(lanes)]));
+    FloatLanes low, high;
+    all.store(low.lane);
+    all.store(high.lane);
+    for (uint32_t half = kSimdLanes / 2; half != 0; half /= 2)
+      for (uint32_t i = 0; i < half; ++i) {
+        low.lane[i] = smaller(low.lane[i], low.lane[i + half]);
+        high.lane[i] = larger(high.lane[i], high.lane[i + half]);
+      }
+    return {low.lane[0], high.lane[0]};
+  }
+
+  F4 inverse_low_[3], inverse_high_[3];
+  F4 near_origin_[3], far_origin_[3];
+  uint32_t near_plane_[3]; ///< row of NodeRecord::box that the beam meets first
+  float origin_spread_ = 0.0f;
+  float direction_spread_ = 0.0f;
+};
+
+} // namespace celltrace::kernel

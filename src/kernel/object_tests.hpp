@@ -1,0 +1,141 @@
+// What a ray packet does with one object, however the object was found: keeps its hit if it is the closest,
+// or takes from the light that passes it. Kernel dialect.
+#pragma once
+
+#include "kernel/intersect.hpp"
+#include "kernel/scalar_work.hpp"
+#include "kernel/scene_access.hpp"
+
+namespace celltrace::kernel {
+
+/// Counters of a frame that the report carries.
+struct TraversalCounters {
+  uint64_t tests[3] = {0, 0, 0}; ///< by ObjectKind
+  uint64_t voxels = 0;           ///< or nodes of the hierarchy
+};
+
+/// Remembers which objects were tested against the current packet. Direct mapped: a collision costs a second
+/// test.
+class PacketMailbox {
+public:
+  void begin_packet() { ++packet_; }
+  /// True the first time an object is asked for within a packet; may be true again later.
+  bool first_visit(uint32_t object) {
+    Entry& entry = entries_[(object >> 6) & (kEntries - 1)];
+    if (entry.packet == packet_ && entry.object == object) return false;
+    entry.packet = packet_;
+    entry.object = object;
+    return true;
+  }
+
+private:
+  static constexpr uint32_t kEntries = 256;
+  struct Entry {
+    uint32_t packet, object;
+  };
+  Entry entries_[kEntries] = {};
+  uint32_t packet_ = 0;
+};
+
+template <class Spu> class ObjectTests {
+public:
+  using S = typename Spu::simd;
+  using F = typename S::F;
+  using I = typename S::I;
+  using M = typename S::M;
+
+  explicit ObjectTests(SceneAccess<Spu>& scene) : scene_(scene) {}
+
+  Crossings<S> test(const RayPacket& rays, const ObjectRecord& object, uint32_t self) {
+    const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
+    ++counters_.tests[kind];
+    scene_.spu().compute(scalar_work::kTest[kind]);
+    return intersect<S>(rays, object, self);
+  }
+
+  void test_closest(const RayPacket& rays, uint32_t self, HitPacket& hits) {
+    scene_.spu().compute(scalar_work::kClosest);
+    const Crossings<S> c = test(rays, *scene_.object(self), self);
+    const M near_valid = c.near_hit & (c.near > F(kMinHitDistance));
+    const M far_valid = c.far_hit & (c.far > F(kMinHitDistance));
+    const F distance = S::select(near_valid, c.near, c.far);
+    const F nearest = F::load(hits.distance.lane);
+    const M hit = near_valid | far_valid;
+    const M not_farther = hit & (distance <= nearest);
+    if (not_farther.bits() == 0) return;
+    // Of two hits at the same place the object that comes first in the scene counts, in whatever order they
+    // are found.
+    auto* objects = reinterpret_cast<int32_t*>(hits.object.lane);
+    const I present = I::load(objects);
+    const I candidate = I::splat(static_cast<int32_t>(self));
+    const M closer = not_farther & ((distance < nearest) | (candidate < present));
+    S::select(closer, distance, nearest).store(hits.distance.lane);
+    S::select(closer, c.u, F::load(hits.u.lane)).store(hits.u.lane);
+    S::select(closer, c.v, F::load(hits.v.lane)).store(hits.v.lane);
+    S::select(closer, candidate, present).store(objects);
+  }
+
+  /// Lanes whose ray crosses the object between its origin and `distance` along it, both not quite reached.
+  static uint32_t crossed_before(const Crossings<S>& c, const FloatLanes& distance) {
+    const F low(kShadowTolerance);
+    const F high = F::load(distance.lane) - low;
+    return ((c.near_hit & (c.near > low) & (c.near < high)) | (c.far_hit & (c.far > low) & (c.far < high)))
+        .bits();
+  }
+
+  /// Takes from the light of one lane what `crossings` crossings of a translucent object hold back. True if
+  /// that leaves it dark.
+  bool dim(uint32_t flags, uint32_t material, float u, float v, uint32_t crossings, uint32_t lane,
+           VectorLanes& light) {
+    scene_.spu().compute(scalar_work::kFilter);
+    float through[3];
+    transmission(flags, material, u, v, through);
+    FloatLanes* channels[3] = {&light.x, &light.y, &light.z};
+    bool dark = true;
+    for (int i = 0; i < 3; ++i) {
+      const float passed = crossings == 2 ? through[i] * through[i] : through[i];
+      float& value = channels[i]->lane[lane];
+      value *= passed;
+      dark = dark && value < 1e-10f && value > -1e-10f;
+    }
+    return dark;
+  }
+
+  SceneAccess<Spu>& scene() { return scene_; }
+  PacketMailbox& mailbox() { return mailbox_; }
+  TraversalCounters& counters() { return counters_; }
+  const TraversalCounters& counters() const { return counters_; }
+  void reset_counters() { counters_ = TraversalCounters(); }
+
+  /// POV-Ray's tolerance at both ends of a shadow ray.
+  static constexpr float kShadowTolerance = 1e-3f;
+
+private:
+  /// What a surface lets through of each colour channel.
+  void transmission(uint32_t flags, uint32_t material, float u, float v, float (&through)[3]) {
+    uint32_t corners[3] = {material, material, material};
+    float weights[3] = {1.0f, 0.0f, 0.0f};
+    const bool blended = (flags & object_flag::blended) != 0;
+    if (blended) {
+      const BlendRecord blend = *scene_.blend(material);
+      for (int i = 0; i < 3; ++i)
+        corners[i] = blend.material[i];
+      weights[0] = 1.0f - u - v;
+      weights[1] = u;
+      weights[2] = v;
+    }
+    for (int i = 0; i < 3; ++i)
+      through[i] = 0.0f;
+    for (int corner = 0; corner < (blended ? 3 : 1); ++corner) {
+      const MaterialRecord& m = *scene_.material(corners[corner]);
+      for (int i = 0; i < 3; ++i)
+        through[i] += weights[corner] * (m.pigment[i] * m.filter + m.transmit);
+    }
+  }
+
+  SceneAccess<Spu>& scene_;
+  PacketMailbox mailbox_;
+  TraversalCounters counters_;
+};
+
+} // namespace celltrace::kernel
