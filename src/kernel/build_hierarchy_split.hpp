@@ -6,6 +6,14 @@
 
 namespace celltrace::kernel::hierarchy {
 
+/// Cuts a range in two in the order in which its references are.
+template <class S>
+void halve_range(const Reference* references, const Range<S>& range, Range<S>& left, Range<S>& right) {
+  const uint32_t middle = range.begin + range.count() / 2;
+  left = range_of<S>(references, range.begin, middle);
+  right = range_of<S>(references, middle, range.end);
+}
+
 /// Cuts ranges in two. `kBins` is a power of two.
 template <class S, uint32_t kBins> class BinnedSplitter {
 public:
@@ -16,21 +24,14 @@ public:
   static void split(Reference* references, Reference* spare, const Range<S>& range, Range<S>& left,
                     Range<S>& right) {
     // Points and lines are all the same to rays, and to the heuristic.
-    if (range.box.area() == 0.0f) return halve(references, range, left, right);
+    if (range.box.area() == 0.0f) return halve_range(references, range, left, right);
     const Places places(range.centres);
     Bins bins;
     fill(bins, references, range, places);
     const Cut cut = best_cut(bins);
-    if (cut.bin == 0) return halve(references, range, left, right);
+    if (cut.bin == 0) return halve_range(references, range, left, right);
     measure(bins, cut, left, right);
     partition(references, spare, range, places, cut, left, right);
-  }
-
-  /// In the order in which they are.
-  static void halve(const Reference* references, const Range<S>& range, Range<S>& left, Range<S>& right) {
-    const uint32_t middle = range.begin + range.count() / 2;
-    left = range_of<S>(references, range.begin, middle);
-    right = range_of<S>(references, middle, range.end);
   }
 
 private:
@@ -167,5 +168,15 @@ private:
     right.centres = right_centres;
   }
 };
+
+/// Cuts a range, with as many bins as are worth while for so many references.
+template <class S>
+void split_range(Reference* references, Reference* spare, const Range<S>& range, Range<S>& left,
+                 Range<S>& right) {
+  if (range.count() > 32)
+    BinnedSplitter<S, 8>::split(references, spare, range, left, right);
+  else
+    BinnedSplitter<S, 4>::split(references, spare, range, left, right);
+}
 
 } // namespace celltrace::kernel::hierarchy

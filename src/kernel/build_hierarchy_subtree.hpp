@@ -1,63 +1,57 @@
 // From references to nodes, top down. Kernel dialect.
 #pragma once
 
+#include "kernel/build_hierarchy_clusters.hpp"
 #include "kernel/build_hierarchy_split.hpp"
 
 namespace celltrace::kernel::hierarchy {
 
-constexpr uint32_t kChildren = 4;
 /// No node lies deeper, the root being at 0.
 constexpr uint32_t kMaxDepth = 48;
-constexpr uint32_t kMaxLeaf = 8;
-/// What the test of an object takes, in visits of nodes.
-constexpr float kObjectCost = 2.0f;
 
-/// Where a subtree belongs: child `slot` of `parent`, which is at `depth`.
+/// Where a subtree belongs: child `slot` of `parent`, at `depth` itself. The root has no parent.
 struct Place {
   NodeRecord* parent;
   uint32_t slot;
   uint32_t depth;
 };
 
-/// Enters a box into a node. It is a little larger than what is in it, and never flat, so that rounding loses
-/// no ray that grazes it.
-template <class S> void set_box(NodeRecord& node, uint32_t slot, const LaneBox<S>& box) {
+/// Enters the boxes of a node's children. Each becomes a little larger than what is in it, and is never flat,
+/// so that rounding loses no ray that grazes it.
+template <class S> void set_boxes(NodeRecord& node, const Range<S> (&children)[kChildren]) {
   using F4 = typename S::F4;
-  constexpr float kMargin = 1e-6f;
-  alignas(16) float e[4];
-  const F4 extent = box.max - box.min;
-  extent.store(e);
-  const F4 reach = S::max(box.max, F4::splat(0.0f) - box.min);
-  const F4 margin = reach * F4::splat(kMargin) + F4::splat((e[0] + e[1] + e[2]) * kMargin + 1e-30f);
-  alignas(16) float low[4];
-  alignas(16) float high[4];
-  (box.min - margin).store(low);
-  (box.max + margin).store(high);
+  for (uint32_t i = 0; i < kChildren; ++i) {
+    alignas(16) float low[4];
+    alignas(16) float high[4];
+    children[i].box.min.store(low);
+    children[i].box.max.store(high);
+    for (uint32_t axis = 0; axis < 3; ++axis) {
+      node.box[2 * axis][i] = low[axis];
+      node.box[2 * axis + 1][i] = high[axis];
+    }
+  }
+  const F4 zero = F4::splat(0.0f);
+  const F4 relative = F4::splat(1e-6f);
+  F4 extent = zero;
+  for (uint32_t axis = 0; axis < 3; ++axis)
+    extent = extent + (F4::load(node.box[2 * axis + 1]) - F4::load(node.box[2 * axis]));
+  const F4 thickness = S::max(extent, zero) * relative + F4::splat(1e-30f);
   for (uint32_t axis = 0; axis < 3; ++axis) {
-    node.box[2 * axis][slot] = low[axis];
-    node.box[2 * axis + 1][slot] = high[axis];
+    const F4 low = F4::load(node.box[2 * axis]);
+    const F4 high = F4::load(node.box[2 * axis + 1]);
+    (low - (S::max(low, zero - low) * relative + thickness)).store(node.box[2 * axis]);
+    (high + (S::max(high, zero - high) * relative + thickness)).store(node.box[2 * axis + 1]);
   }
 }
 
-inline void set_empty(NodeRecord& node, uint32_t slot) {
-  for (uint32_t axis = 0; axis < 3; ++axis) {
-    node.box[2 * axis][slot] = kHuge;
-    node.box[2 * axis + 1][slot] = -kHuge;
-  }
-  node.child[slot] = 0;
-  node.count[slot] = 0;
-}
-
-/// Builds subtrees over references to objects.
-template <class S> class SubtreeBuilder {
+/// Builds the nodes above references. What ends the nodes is `Ends`:
+///   static constexpr uint32_t kMaxDepthOfCuts          below it ranges are halved
+///   bool end(const Range<S>&)                          whether a range has no node of its own
+///   bool end(const Range<S>&, const Range<S> (&)[4])   the same of one whose children would be these
+///   void add(const Range<S>&, const Place&)            enters such a range into its parent
+/// Ranges of fewer than kChildren references must end; then every node has four children.
+template <class S, class Ends> class SubtreeBuilder {
 public:
-  /// `image` is the scene image, at `image + list_offset` the list of object offsets in the order of leaves.
-  struct Memory {
-    uint8_t* image;
-    uint32_t list_offset;
-    NodeRecord* next_node; ///< is advanced past the nodes in use
-  };
-
   /// A range that waits for its nodes.
   struct Task {
     Range<S> range;
@@ -66,105 +60,80 @@ public:
   /// Three children wait per level, at most.
   static constexpr uint32_t kStackTasks = 3 * kMaxDepth + kChildren;
 
-  /// `stack` has room for kStackTasks.
-  SubtreeBuilder(const Memory& memory, Task* stack) : memory_(memory), stack_(stack) {}
+  /// `spare` has room for as many references as `references` has, `stack` for kStackTasks.
+  SubtreeBuilder(uint8_t* image, Reference* references, Reference* spare, Ends& ends, Task* stack)
+      : image_(image), references_(references), spare_(spare), ends_(ends), stack_(stack) {}
 
-  /// Builds the subtree over `range` of `references`, whose places are those in the list. `spare` has room
-  /// for all of them.
-  void build(Reference* references, Reference* spare, const Range<S>& range, const Place& place) {
-    references_ = references;
-    spare_ = spare;
-    stack_[0] = {range, place};
-    waiting_ = 1;
+  /// Writes the nodes of a range from `next` on, and returns the end of what it has written.
+  NodeRecord* build(const Range<S>& range, const Place& place, NodeRecord* next) {
+    next_ = next;
+    waiting_ = 0;
+    enter(range, place);
     while (waiting_ != 0) {
       const Task task = stack_[--waiting_];
-      grow(task);
+      grow(task.range, task.place);
     }
-  }
-
-  NodeRecord* next_node() const { return memory_.next_node; }
-
-  /// Makes the node above all others. Fewer than four references are a leaf of it.
-  void build_root(Reference* references, Reference* spare, const Range<S>& range) {
-    NodeRecord* root = memory_.next_node;
-    references_ = references;
-    if (range.count() >= kChildren) return build(references, spare, range, {nullptr, 0, 0});
-    ++memory_.next_node;
-    for (uint32_t i = 0; i < kChildren; ++i)
-      set_empty(*root, i);
-    if (range.count() != 0) add_leaf(range, {root, 0, 0});
+    return next_;
   }
 
 private:
-  /// Below this depth cuts are in halves, so that kMaxDepth is not reached whatever the objects.
-  static constexpr uint32_t kMaxDepthOfCuts = 32;
+  void enter(const Range<S>& range, const Place& place) {
+    if (ends_.end(range))
+      ends_.add(range, place);
+    else
+      stack_[waiting_++] = {range, place};
+  }
 
-  void grow(const Task& task) {
-    const Range<S>& range = task.range;
-    if (range.count() < kChildren) return add_leaf(range, task.place);
+  void grow(const Range<S>& range, const Place& place) {
     Range<S> children[kChildren];
-    split(range, task.place.depth, children);
-    if (range.count() <= kMaxLeaf && task.place.parent && leaf_is_cheaper(range, children))
-      return add_leaf(range, task.place);
-    NodeRecord* node = memory_.next_node++;
-    if (task.place.parent) {
-      set_box<S>(*task.place.parent, task.place.slot, range.box);
-      task.place.parent->child[task.place.slot] = offset_of(node);
-      task.place.parent->count[task.place.slot] = 0;
+    split(range, place.depth, children);
+    if (place.parent) {
+      if (ends_.end(range, children)) return ends_.add(range, place);
+      place.parent->child[place.slot] =
+          static_cast<uint32_t>(reinterpret_cast<const uint8_t*>(next_) - image_);
+      place.parent->count[place.slot] = 0;
     }
+    NodeRecord* node = next_++;
+    set_boxes<S>(*node, children);
     for (uint32_t i = 0; i < kChildren; ++i)
-      stack_[waiting_++] = {children[i], {node, i, task.place.depth + 1}};
+      enter(children[i], {node, i, place.depth + 1});
+  }
+
+  void split(const Range<S>& range, uint32_t depth, Range<S> (&children)[kChildren]) {
+    if (range.count() <= Clusters<S>::kMaxReferences)
+      Clusters<S>::make(references_, range, children);
+    else
+      cut(range, depth, children);
   }
 
   /// Cuts the child that is likeliest to be hit until there are four.
-  void split(const Range<S>& range, uint32_t depth, Range<S> (&children)[kChildren]) {
-    const bool halve = depth >= kMaxDepthOfCuts;
+  void cut(const Range<S>& range, uint32_t depth, Range<S> (&children)[kChildren]) {
+    const bool halve = depth >= Ends::kMaxDepthOfCuts;
     children[0] = range;
     float size[kChildren] = {1.0f};
     for (uint32_t n = 1; n < kChildren; ++n) {
       uint32_t widest = kChildren;
       for (uint32_t i = 0; i < n; ++i)
         if (children[i].count() > 1 && (widest == kChildren || size[i] > size[widest])) widest = i;
-      const Range<S> cut = children[widest];
+      const Range<S> whole = children[widest];
       Range<S>& left = children[widest];
       Range<S>& right = children[n];
       if (halve)
-        BinnedSplitter<S, 16>::halve(references_, cut, left, right);
+        halve_range(references_, whole, left, right);
       else
-        BinnedSplitter<S, 16>::split(references_, spare_, cut, left, right);
+        split_range(references_, spare_, whole, left, right);
       for (uint32_t i : {widest, n})
         size[i] = halve ? static_cast<float>(children[i].count()) : children[i].box.area();
     }
   }
 
-  static bool leaf_is_cheaper(const Range<S>& range, const Range<S> (&children)[kChildren]) {
-    float below = 0.0f;
-    for (const Range<S>& child : children)
-      below += child.box.area() * static_cast<float>(child.count());
-    const float area = range.box.area();
-    const float saved = area * static_cast<float>(range.count()) - below;
-    return !(saved * kObjectCost > area);
-  }
-
-  void add_leaf(const Range<S>& range, const Place& place) {
-    const uint32_t first = memory_.list_offset + range.begin * 4;
-    uint32_t* list = reinterpret_cast<uint32_t*>(memory_.image + first);
-    for (uint32_t i = 0; i < range.count(); ++i)
-      list[i] = references_[range.begin + i].value;
-    set_box<S>(*place.parent, place.slot, range.box);
-    place.parent->child[place.slot] = first;
-    place.parent->count[place.slot] = range.count();
-  }
-
-  uint32_t offset_of(const NodeRecord* node) const {
-    return static_cast<uint32_t>(reinterpret_cast<const uint8_t*>(node) - memory_.image);
-  }
-
-  Memory memory_;
+  uint8_t* image_;
+  Reference* references_;
+  Reference* spare_;
+  Ends& ends_;
   Task* stack_;
   uint32_t waiting_ = 0;
-  Reference* references_ = nullptr;
-  Reference* spare_ = nullptr;
+  NodeRecord* next_ = nullptr;
 };
 
 } // namespace celltrace::kernel::hierarchy

@@ -34,6 +34,9 @@ public:
   /// In this thread.
   std::uint32_t build() {
     DirectSpu spu;
+    return build(spu);
+  }
+  template <class Spu> std::uint32_t build(Spu& spu) {
     return frame_.hierarchy.node_count = kernel::build_hierarchy(spu, frame_);
   }
 
@@ -52,7 +55,7 @@ public:
 
 private:
   static constexpr std::uint32_t kFirst = 128;
-  static constexpr std::uint32_t kPairsPerObject = 4;
+  static constexpr std::uint32_t kPairsPerObject = kernel::hierarchy::kPairsPerObject;
 
   template <class Record> const Record& record(std::uint32_t offset) const {
     return *reinterpret_cast<const Record*>(image_.data() + offset);
