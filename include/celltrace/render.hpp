@@ -23,9 +23,9 @@ enum class Balance {
 
 /// How rays find the objects that they may meet.
 enum class Accelerator {
-  automatic, ///< the hierarchy on native, the grid elsewhere
-  grid,      ///< a uniform grid of voxels
-  hierarchy  ///< a hierarchy of boxes; native only
+  automatic, ///< the hierarchy
+  grid,      ///< a uniform grid of voxels, which an SPE builds
+  hierarchy  ///< a hierarchy of boxes; where SPEs have no direct memory, the PPE's side builds it
 };
 
 struct RenderOptions {

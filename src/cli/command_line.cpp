@@ -93,7 +93,7 @@ void add_machine_options(CLI::App& command, RenderOptions& options, RenderTexts&
       ->type_name("CACHE")
       ->capture_default_str();
   add_choice(command, "--accelerator", texts.accelerator, {{"auto", "grid", "hierarchy"}, {}},
-             "How rays find objects; auto is the hierarchy of boxes on native, the grid on cell_emu");
+             "How rays find objects: a uniform grid or a hierarchy of boxes, which auto is");
   add_choice(command, "--balance", texts.balance, {{"gde", "static"}, {"diffusion", "scatter"}},
              "Load balancing");
   add_choice(command, "--model", texts.model, {{"shared"}, {"pipeline", "offload"}}, "Programming model");

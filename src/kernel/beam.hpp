@@ -14,10 +14,14 @@ struct Interval {
 
 template <class S> class Beam {
 public:
+  using F = typename S::F;
   using F4 = typename S::F4;
 
   /// The rays in `lanes`, at least one, whose directions have the same signs (octant_of()).
-  Beam(const RayPacket& rays, uint32_t lanes, uint32_t octant) {
+  Beam(const RayPacket& rays, uint32_t lanes, uint32_t octant) : origin_(rays.origin.template load<S>()) {
+    const V3<S> along = rays.direction.template load<S>();
+    inverse_ = {inverse_of(along.x, (octant & 1) != 0), inverse_of(along.y, (octant & 2) != 0),
+                inverse_of(along.z, (octant & 4) != 0)};
     const FloatLanes* origins[3] = {&rays.origin.x, &rays.origin.y, &rays.origin.z};
     const FloatLanes* directions[3] = {&rays.direction.x, &rays.direction.y, &rays.direction.z};
     for (uint32_t axis = 0; axis < 3; ++axis) {
@@ -59,15 +63,32 @@ public:
       last = S::min(last, S::max(far * inverse_low_[axis], far * inverse_high_[axis]));
     }
     first.store(enter);
-    return not_above_bits(first, last);
+    return not_above_bits(first, last * F4::splat(kRoundedUp));
+  }
+
+  /// Which rays of the packet meet box `i` of the four up to their `limit`. Lanes of other octants are
+  /// meaningless.
+  uint32_t rays_that_meet(const float (&box)[6][4], uint32_t i, const F& limit) const {
+    const auto near = [&](uint32_t axis) { return F(box[near_plane_[axis]][i]); };
+    const auto far = [&](uint32_t axis) { return F(box[near_plane_[axis] ^ 1][i]); };
+    const F first = S::max(S::max((near(0) - origin_.x) * inverse_.x, (near(1) - origin_.y) * inverse_.y),
+                           S::max((near(2) - origin_.z) * inverse_.z, F(0.0f)));
+    const F last = S::min(S::min((far(0) - origin_.x) * inverse_.x, (far(1) - origin_.y) * inverse_.y),
+                          S::min((far(2) - origin_.z) * inverse_.z, limit));
+    return (first <= last * F(kRoundedUp)).bits();
   }
 
 private:
   static constexpr float kTiny = 1e-12f;
+  /// Distances to planes are rounded three times.
+  static constexpr float kRoundedUp = 1.000001f;
+
+  static F inverse_of(const F& direction, bool backward) {
+    return F(1.0f) / (backward ? S::min(direction, F(-kTiny)) : S::max(direction, F(kTiny)));
+  }
 
   /// Lanes outside the mask take the value of the first one inside.
   static Interval interval_of(const FloatLanes& values, uint32_t lanes) {
-    using F = typename S::F;
     const F all =
         S::select(S::M::from_bits(lanes), F::load(values.lane), F(values.lane[__builtin_ctz(lanes)]));
     FloatLanes low, high;
@@ -81,6 +102,7 @@ private:
     return {low.lane[0], high.lane[0]};
   }
 
+  V3<S> origin_, inverse_;
   F4 inverse_low_[3], inverse_high_[3];
   F4 near_origin_[3], far_origin_[3];
   uint32_t near_plane_[3]; ///< row of NodeRecord::box that the beam meets first

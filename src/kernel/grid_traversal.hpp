@@ -53,8 +53,6 @@ public:
   }
 
 private:
-  static constexpr float kTolerance = ObjectTests<Spu>::kShadowTolerance;
-
   template <class Visit> void walk(const RayPacket& rays, uint32_t lane, Visit visit) {
     const float origin[3] = {rays.origin.x.lane[lane], rays.origin.y.lane[lane], rays.origin.z.lane[lane]};
     const float direction[3] = {rays.direction.x.lane[lane], rays.direction.y.lane[lane],
@@ -88,25 +86,17 @@ private:
     const uint32_t flags = object.kind_and_flags;
     const uint32_t material = object.material;
     if ((flags & object_flag::no_shadow) != 0) return 0;
-    if ((flags & object_flag::opaque) != 0) {
-      if (!objects_.mailbox().first_visit(self)) return 0;
-      return objects_.crossed_before(objects_.test(rays, object, self), distance);
-    }
-    const Crossings<S> c = objects_.test(rays, object, self);
+    const bool opaque = (flags & object_flag::opaque) != 0;
+    if (opaque && !objects_.mailbox().first_visit(self)) return 0;
+    ShadowCrossings c;
+    objects_.test_shadow(rays, object, self, distance, c);
+    if (opaque) return c.near_hit | c.far_hit;
     const uint32_t bit = 1u << lane;
-    FloatLanes near, far, u, v;
-    c.near.store(near.lane);
-    c.far.store(far.lane);
-    c.u.store(u.lane);
-    c.v.store(v.lane);
-    const auto counts = [&](const M& hit, float t) {
-      return (hit.bits() & bit) != 0 && t > kTolerance && t < distance.lane[lane] - kTolerance && t > enter &&
-             t <= leave;
-    };
-    const uint32_t crossings = static_cast<uint32_t>(counts(c.near_hit, near.lane[lane])) +
-                               static_cast<uint32_t>(counts(c.far_hit, far.lane[lane]));
+    const auto counts = [&](uint32_t hit, float t) { return (hit & bit) != 0 && t > enter && t <= leave; };
+    const uint32_t crossings = static_cast<uint32_t>(counts(c.near_hit, c.near.lane[lane])) +
+                               static_cast<uint32_t>(counts(c.far_hit, c.far.lane[lane]));
     if (crossings == 0) return 0;
-    return objects_.dim(flags, material, u.lane[lane], v.lane[lane], crossings, lane, light) ? bit : 0;
+    return objects_.dim(flags, material, c.u.lane[lane], c.v.lane[lane], crossings, lane, light) ? bit : 0;
   }
 
   ObjectTests<Spu>& objects_;

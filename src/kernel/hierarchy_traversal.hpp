@@ -1,7 +1,8 @@
 // Packets through the hierarchy of boxes. Kernel dialect.
 //
 // The rays of a packet whose directions have the same signs go together as a beam, nearest children first;
-// rays that have little in common go alone. An object met by some is tested against the whole packet.
+// rays that have little in common go alone. A box that the beam meets is held against its rays, all at once,
+// before it is opened. An object met by some is tested against the whole packet.
 #pragma once
 
 #include "kernel/beam.hpp"
@@ -20,48 +21,53 @@ public:
 
   /// As Traversal's, into hits that hold none yet.
   void find_closest(const RayPacket& rays, uint32_t lanes, HitPacket& hits) {
-    objects_.mailbox().begin_packet();
-    for_each_beam(rays, lanes, [&](const Beam<S>& beam, uint32_t group) {
-      walk(beam, kMaxHitDistance, [&](uint32_t self, float& limit) {
-        if (!objects_.mailbox().first_visit(self)) return false;
-        objects_.test_closest(rays, self, hits);
-        limit = farthest(hits.distance, group);
-        return false;
-      });
-    });
+    Search search{rays, &hits, nullptr, nullptr, lanes};
+    run(search);
   }
 
   /// As Traversal's; returns the lanes to which some light comes.
   uint32_t attenuate(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance, VectorLanes& light) {
-    objects_.mailbox().begin_packet();
-    uint32_t lit = lanes;
-    for_each_beam(rays, lanes, [&](const Beam<S>& beam, uint32_t group) {
-      if ((lit & group) == 0) return;
-      walk(beam, farthest(distance, group), [&](uint32_t self, float&) {
-        lit &= ~shadowed(rays, self, group, distance, light);
-        return (lit & group) == 0;
-      });
-    });
-    return lit;
+    Search search{rays, nullptr, &distance, &light, lanes};
+    run(search);
+    return search.lanes;
   }
 
 private:
   /// Beams whose rays differ by more go as single rays: found by measurement on meshes with mirrors.
   static constexpr float kMaxDirectionSpread = 0.6f;
 
-  /// Splits the lanes into beams: calls `visit(beam, lanes of it)` for each.
-  template <class Visit> void for_each_beam(const RayPacket& rays, uint32_t lanes, Visit visit) {
-    uint32_t left = lanes;
+  /// What is asked of a packet. One code for both questions: it is long, and local store is short.
+  struct Search {
+    const RayPacket& rays;
+    HitPacket* hits;            ///< of a search for the closest hits
+    const FloatLanes* distance; ///< of a search for what is in the way of the light
+    VectorLanes* light;
+    uint32_t lanes; ///< that are looked at; of shadow rays, those to which some light still comes
+  };
+
+  /// Splits the lanes into beams, and sends each through the hierarchy.
+  void run(Search& search) {
+    Spu& spu = objects_.scene().spu();
+    objects_.mailbox().begin_packet();
+    const RayPacket& rays = search.rays;
+    uint32_t left = search.lanes;
     while (left != 0) {
       const uint32_t octant = Beam<S>::octant_of(rays, static_cast<uint32_t>(__builtin_ctz(left)));
-      const uint32_t group = left & lanes_in_octant(rays, octant);
+      uint32_t group = left & lanes_in_octant(rays, octant);
       left &= ~group;
-      const Beam<S> beam(rays, group, octant);
-      if (beam.direction_spread() <= kMaxDirectionSpread) {
-        visit(beam, group);
-        continue;
+      bool whole = true;
+      while (group != 0) {
+        // First all of them; if they have little in common, one by one.
+        const uint32_t part = whole ? group : group & (~group + 1);
+        spu.compute(scalar_work::kBeam);
+        const Beam<S> beam(rays, part, octant);
+        if (whole && beam.direction_spread() > kMaxDirectionSpread) {
+          whole = false;
+          continue;
+        }
+        group &= ~part;
+        if ((search.lanes & part) != 0) walk(beam, part, search);
       }
-      for_each_lane(group, [&](uint32_t lane) { visit(Beam<S>(rays, 1u << lane, octant), 1u << lane); });
     }
   }
 
@@ -88,12 +94,17 @@ private:
     uint32_t child, count;
     float enter;
   };
-  /// Three children wait per level, at most.
+  /// Three children wait per level, at most. The builder goes no deeper.
   static constexpr uint32_t kStackEntries = 3 * 48 + 4;
 
-  /// Visits the objects in the boxes that the beam meets up to `limit`, which `visit(object, limit)` may
-  /// bring nearer; it returns true to stop.
-  template <class Visit> void walk(const Beam<S>& beam, float limit, Visit visit) {
+  /// How far each ray looks.
+  static F limits(const Search& search) {
+    return F::load(search.hits != nullptr ? search.hits->distance.lane : search.distance->lane);
+  }
+
+  /// Visits the objects in the boxes that the beam, which has the rays in `group`, meets.
+  void walk(const Beam<S>& beam, uint32_t group, Search& search) {
+    float limit = search.hits != nullptr ? kMaxHitDistance : farthest(*search.distance, group);
     SceneAccess<Spu>& scene = objects_.scene();
     Entry stack[kStackEntries];
     uint32_t waiting = 1;
@@ -103,14 +114,23 @@ private:
       const Entry entry = stack[--waiting];
       if (entry.enter > limit) continue;
       if (entry.count != 0) {
-        for (uint32_t i = 0; i < entry.count; ++i)
-          if (visit(scene.list_word(entry.child + i * 4), limit)) {
+        for (uint32_t i = 0; i < entry.count; ++i) {
+          scene.spu().compute(scalar_work::kListedObject);
+          const uint32_t self = scene.list_word(entry.child + i * 4);
+          if (search.hits == nullptr) {
+            search.lanes &= ~shadowed(search.rays, self, group, *search.distance, *search.light);
+            if ((search.lanes & group) != 0) continue;
             waiting = 0;
             break;
+          } else if (objects_.mailbox().first_visit(self)) {
+            objects_.test_closest(search.rays, self, *search.hits);
+            limit = farthest(search.hits->distance, group);
           }
+        }
         continue;
       }
       ++nodes;
+      scene.spu().compute(scalar_work::kNodeOfBoxes);
       const NodeRecord& node = *scene.node(entry.child);
       alignas(16) float enter[4];
       uint32_t met = beam.meets(node.box, limit, enter);
@@ -118,6 +138,8 @@ private:
       while (met != 0) {
         const uint32_t i = static_cast<uint32_t>(__builtin_ctz(met));
         met &= met - 1;
+        // Looser than its rays, the beam may meet what passes between them.
+        if ((beam.rays_that_meet(node.box, i, limits(search)) & group) == 0) continue;
         // Into its place among its siblings, the nearest last.
         uint32_t place = waiting++;
         for (; place > first && stack[place - 1].enter < enter[i]; --place)
@@ -132,26 +154,20 @@ private:
   /// the packet it covers; a translucent one is met once by each beam.
   uint32_t shadowed(const RayPacket& rays, uint32_t self, uint32_t group, const FloatLanes& distance,
                     VectorLanes& light) {
+    objects_.scene().spu().compute(scalar_work::kShadow);
     const ObjectRecord& object = *objects_.scene().object(self);
     const uint32_t flags = object.kind_and_flags;
     const uint32_t material = object.material;
     if ((flags & object_flag::no_shadow) != 0) return 0;
-    if ((flags & object_flag::opaque) != 0) {
-      if (!objects_.mailbox().first_visit(self)) return 0;
-      return objects_.crossed_before(objects_.test(rays, object, self), distance);
-    }
-    const Crossings<S> c = objects_.test(rays, object, self);
-    const F low(ObjectTests<Spu>::kShadowTolerance);
-    const F high = F::load(distance.lane) - low;
-    const uint32_t near = (c.near_hit & (c.near > low) & (c.near < high)).bits() & group;
-    const uint32_t far = (c.far_hit & (c.far > low) & (c.far < high)).bits() & group;
-    FloatLanes u, v;
-    c.u.store(u.lane);
-    c.v.store(v.lane);
+    const bool opaque = (flags & object_flag::opaque) != 0;
+    if (opaque && !objects_.mailbox().first_visit(self)) return 0;
+    ShadowCrossings c;
+    objects_.test_shadow(rays, object, self, distance, c);
+    if (opaque) return c.near_hit | c.far_hit;
     uint32_t dark = 0;
-    for_each_lane(near | far, [&](uint32_t lane) {
-      const uint32_t crossings = ((near >> lane) & 1) + ((far >> lane) & 1);
-      if (objects_.dim(flags, material, u.lane[lane], v.lane[lane], crossings, lane, light))
+    for_each_lane((c.near_hit | c.far_hit) & group, [&](uint32_t lane) {
+      const uint32_t crossings = ((c.near_hit >> lane) & 1) + ((c.far_hit >> lane) & 1);
+      if (objects_.dim(flags, material, c.u.lane[lane], c.v.lane[lane], crossings, lane, light))
         dark |= 1u << lane;
     });
     return dark;

@@ -37,6 +37,14 @@ private:
   uint32_t packet_ = 0;
 };
 
+/// Where a packet of shadow rays crosses an object between their origins and the light, both not quite
+/// reached. Distances and weights of lanes outside the masks are meaningless.
+struct ShadowCrossings {
+  FloatLanes near, far;
+  FloatLanes u, v;
+  uint32_t near_hit, far_hit; ///< bit per lane
+};
+
 template <class Spu> class ObjectTests {
 public:
   using S = typename Spu::simd;
@@ -46,14 +54,10 @@ public:
 
   explicit ObjectTests(SceneAccess<Spu>& scene) : scene_(scene) {}
 
-  Crossings<S> test(const RayPacket& rays, const ObjectRecord& object, uint32_t self) {
-    const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
-    ++counters_.tests[kind];
-    scene_.spu().compute(scalar_work::kTest[kind]);
-    return intersect<S>(rays, object, self);
-  }
+  // One copy of each, whatever calls them: the tests are what most of the program's code consists of, and
+  // local store is short.
 
-  void test_closest(const RayPacket& rays, uint32_t self, HitPacket& hits) {
+  __attribute__((noinline)) void test_closest(const RayPacket& rays, uint32_t self, HitPacket& hits) {
     scene_.spu().compute(scalar_work::kClosest);
     const Crossings<S> c = test(rays, *scene_.object(self), self);
     const M near_valid = c.near_hit & (c.near > F(kMinHitDistance));
@@ -75,12 +79,17 @@ public:
     S::select(closer, candidate, present).store(objects);
   }
 
-  /// Lanes whose ray crosses the object between its origin and `distance` along it, both not quite reached.
-  static uint32_t crossed_before(const Crossings<S>& c, const FloatLanes& distance) {
+  __attribute__((noinline)) void test_shadow(const RayPacket& rays, const ObjectRecord& object, uint32_t self,
+                                             const FloatLanes& distance, ShadowCrossings& crossings) {
+    const Crossings<S> c = test(rays, object, self);
     const F low(kShadowTolerance);
     const F high = F::load(distance.lane) - low;
-    return ((c.near_hit & (c.near > low) & (c.near < high)) | (c.far_hit & (c.far > low) & (c.far < high)))
-        .bits();
+    crossings.near_hit = (c.near_hit & (c.near > low) & (c.near < high)).bits();
+    crossings.far_hit = (c.far_hit & (c.far > low) & (c.far < high)).bits();
+    c.near.store(crossings.near.lane);
+    c.far.store(crossings.far.lane);
+    c.u.store(crossings.u.lane);
+    c.v.store(crossings.v.lane);
   }
 
   /// Takes from the light of one lane what `crossings` crossings of a translucent object hold back. True if
@@ -107,10 +116,17 @@ public:
   const TraversalCounters& counters() const { return counters_; }
   void reset_counters() { counters_ = TraversalCounters(); }
 
+private:
   /// POV-Ray's tolerance at both ends of a shadow ray.
   static constexpr float kShadowTolerance = 1e-3f;
 
-private:
+  Crossings<S> test(const RayPacket& rays, const ObjectRecord& object, uint32_t self) {
+    const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
+    ++counters_.tests[kind];
+    scene_.spu().compute(scalar_work::kTest[kind]);
+    return intersect<S>(rays, object, self);
+  }
+
   /// What a surface lets through of each colour channel.
   void transmission(uint32_t flags, uint32_t material, float u, float v, float (&through)[3]) {
     uint32_t corners[3] = {material, material, material};

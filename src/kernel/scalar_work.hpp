@@ -23,6 +23,10 @@ constexpr ScalarWork kWalk = {240, 78, 185, 100, 23};
 constexpr ScalarWork kVoxel = {72, 7, 33, 35, 8};
 /// The loop over a voxel's objects, and their mailbox.
 constexpr ScalarWork kListedObject = {15, 0, 9, 9, 4};
+/// The intervals of a beam.
+constexpr ScalarWork kBeam = {150, 12, 110, 70, 14};
+/// A node of the hierarchy: the children that a beam meets, into their places on the stack.
+constexpr ScalarWork kNodeOfBoxes = {80, 0, 50, 45, 12};
 /// A packet against an object, by ObjectKind.
 constexpr ScalarWork kTest[3] = {{78, 0, 247, 0, 2}, {104, 14, 305, 20, 2}, {171, 9, 421, 20, 8}};
 /// What the search for the closest hit makes of it.

@@ -38,8 +38,7 @@ public:
 
 private:
   bool by_hierarchy() const {
-    return Spu::direct_memory &&
-           static_cast<AcceleratorKind>(frame_.accelerator) == AcceleratorKind::hierarchy;
+    return static_cast<AcceleratorKind>(frame_.accelerator) == AcceleratorKind::hierarchy;
   }
 
   const FrameBlock& frame_;

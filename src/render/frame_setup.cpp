@@ -40,9 +40,7 @@ double voxels_per_unit(std::array<double, 3> extent, double wanted) {
 }
 
 AcceleratorKind accelerator_of(const RenderOptions& options) {
-  if (options.accelerator == Accelerator::automatic)
-    return options.backend == "native" ? AcceleratorKind::hierarchy : AcceleratorKind::grid;
-  return options.accelerator == Accelerator::hierarchy ? AcceleratorKind::hierarchy : AcceleratorKind::grid;
+  return options.accelerator == Accelerator::grid ? AcceleratorKind::grid : AcceleratorKind::hierarchy;
 }
 
 bool inside(const Sphere& sphere, const Transform& transform, const Vec3& point) {
@@ -67,9 +65,6 @@ void check(const RenderOptions& options) {
     throw InputError("the cache takes " + std::to_string(options.cache.local_store_bytes()) +
                      " bytes of local store; beside the program there is room for " +
                      std::to_string(kMaxCacheBytes));
-  if (options.backend != "native" && options.accelerator == Accelerator::hierarchy)
-    throw InputError("the hierarchy of boxes needs the direct memory of native; " + options.backend +
-                     " has the grid");
   if (options.max_trace_level && (*options.max_trace_level < 1 || *options.max_trace_level > 256))
     throw InputError("the maximum trace level has to be 1 to 256");
   if (options.adc_bailout && !(*options.adc_bailout >= 0))

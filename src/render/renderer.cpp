@@ -165,7 +165,15 @@ private:
     image_->reserve_accelerator(std::uint64_t{nodes} * sizeof(NodeRecord), objects);
     frame_.hierarchy = {image_->table_offset(), nodes, 0, image_->list_offset()};
     reserve_work(std::max(objects, 1u) * kWorkPairsPerObject);
-    team_->prepare_frame();
+    if (machine_->backend() == "native") {
+      team_->prepare_frame();
+    } else {
+      // The builder follows pointers through main memory: work for the PPE's side where SPEs cannot.
+      MachineConfig host;
+      host.spes = 1;
+      const std::unique_ptr<Machine> machine = make_machine(host);
+      SpeTeam(*machine, frame_).prepare_frame();
+    }
     frame_.hierarchy.node_count = report(0).list_entries;
   }
   /// Work memory of PREPARE FRAME, and what else depends on the scene.
