@@ -28,7 +28,8 @@ public:
   void start(Spe& spe, Program program) override;
   void resume(Spe& spe) override;
   Cycle enter() override { return 0; }
-  Cycle ppe_time() const override { return 0; }
+  Cycle post() override { return 0; }
+  Cycle post_at_once() override { return 0; }
   bool wait(const Ready& ready, std::optional<std::chrono::milliseconds> timeout,
             const std::string& what) override;
   void break_off(const std::string& because) override;

@@ -30,7 +30,11 @@ public:
   void start(Spe& spe, Program program) override;
   void resume(Spe& spe) override;
   Cycle enter() override;
-  Cycle ppe_time() const override { return ppe_now_; }
+  Cycle post() override {
+    enter();
+    return post_at_once();
+  }
+  Cycle post_at_once() override { return current_ = ppe_now_ + config_.timing.ppe_delivery; }
   bool wait(const Ready& ready, std::optional<std::chrono::milliseconds> timeout,
             const std::string& what) override;
   void break_off(const std::string& because) override;

@@ -303,7 +303,7 @@ void EmulatedCell::write_in_mailbox(unsigned spe, std::uint32_t value) {
   if (full())
     throw SpeError("SPE " + std::to_string(spe) + ": is not running, and its inbound mailbox is full");
   // Nothing has happened since, on the lockstep schedule; with threads another SPE may have been faster.
-  if (!to.state.write_in_mailbox(value, {Diagnostic::kPpe, scheduler_->ppe_time()}))
+  if (!to.state.write_in_mailbox(value, {Diagnostic::kPpe, scheduler_->post_at_once()}))
     report_ppe(Rule::mailbox_overwritten, spe, "inbound mailbox");
 }
 
@@ -315,7 +315,7 @@ unsigned EmulatedCell::in_mailbox_space(unsigned spe) const {
 
 void EmulatedCell::write_signal(unsigned spe, Signal which, std::uint32_t value) {
   Spe& to = *spes_.at(spe);
-  if (to.state.write_signal(which, value, {Diagnostic::kPpe, scheduler_->enter()})) return;
+  if (to.state.write_signal(which, value, {Diagnostic::kPpe, scheduler_->post()})) return;
   report_ppe(Rule::signal_overwritten, spe, which == Signal::one ? "signal 1" : "signal 2");
 }
 

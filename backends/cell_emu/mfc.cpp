@@ -136,6 +136,7 @@ Diagnostic Mfc::about(const Entry& entry, Rule rule, Cycle now) const {
   Diagnostic diagnostic;
   diagnostic.rule = rule;
   diagnostic.spe = entry.proxy ? Diagnostic::kPpe : spe_;
+  if (entry.proxy) diagnostic.other_spe = spe_;
   diagnostic.command = entry.number;
   diagnostic.opcode = static_cast<std::uint32_t>(entry.command.opcode);
   diagnostic.tag = entry.command.tag;

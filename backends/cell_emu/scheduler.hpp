@@ -42,8 +42,10 @@ public:
   virtual void resume(Spe& spe) = 0;
   /// The PPE is about to look at the machine or to change it. Returns its time.
   virtual Cycle enter() = 0;
-  /// The PPE's time, without giving way to anybody.
-  virtual Cycle ppe_time() const = 0;
+  /// As enter(), for a word that the PPE sends off. Returns the time at which it arrives.
+  virtual Cycle post() = 0;
+  /// The same without giving way to anybody first.
+  virtual Cycle post_at_once() = 0;
   /// Blocks the PPE until `ready()`, which may change when an SPE stops or its registers change. False if
   /// `timeout` passes. Throws SpeError if nothing can ever make it ready.
   virtual bool wait(const Ready& ready, std::optional<std::chrono::milliseconds> timeout,

@@ -120,7 +120,8 @@ ArenaState& Spu::arena() {
   return arena_;
 }
 
-void Spu::halt(HaltCode code) {
+void Spu::halt(HaltCode code, CallSite site) {
+  site_ = site;
   std::string text = std::string("halted: ") + to_text(code);
   if (code != HaltCode::local_store_exhausted) fail(Rule::halted, text);
   fail(Rule::local_store_exhausted, text + ", " + std::to_string(available()) + " of " +

@@ -44,7 +44,8 @@ public:
   /// Throws SpeError if there is no such SPE.
   SpeAddresses addresses(std::uint32_t spe) const;
   ArenaState& arena();
-  [[noreturn]] void halt(HaltCode code);
+  [[noreturn]] void halt(HaltCode code, CallSite site = CallSite::here());
+  [[noreturn]] void halt_exhausted(CallSite site) { halt(HaltCode::local_store_exhausted, site); }
   template <std::uint32_t code> void stop() { stop_with(code); }
 
   template <Channel c> std::uint32_t read_channel();

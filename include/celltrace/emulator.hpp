@@ -36,7 +36,7 @@ struct EmulatedRun {
   std::string ppe_error;
   std::vector<std::uint32_t> exit_codes; ///< by SPE
   std::vector<SpeStatistics> spes;       ///< by SPE
-  /// Virtual time from the first start to the last end.
+  /// Virtual cycles of the SPE that took most, from its start to its end.
   std::uint64_t cycles = 0;
 
   /// No rule was broken and no program failed.

@@ -113,7 +113,11 @@ const Rows kRunControl = {
          })
         .ppe([](Machine& machine, Stage& stage) { stage.is(machine.wait(0).code, 7); }),
     broken(Rule::halted, "a halt ends the program with an error",
-           [](Spu& spu, Stage&) { spu.halt(HaltCode::bad_argument); }, {"halted: bad argument"}),
+           [](Spu& spu, Stage& stage) {
+             stage.next_line();
+             spu.halt(HaltCode::bad_argument);
+           },
+           {"halted: bad argument"}),
     kept(Rule::kernel_exception, "an exception that the kernel catches is its own affair",
          [](Spu&, Stage& stage) {
            try {
@@ -135,10 +139,16 @@ const Rows kRunControl = {
            stage.is(lsa_of(spu, spu.arena().end), kLocalStoreBytes - 24 * 1024);
          }),
     broken(Rule::local_store_exhausted, "but not beyond",
-           [](Spu& spu, Stage&) { spu.allocate<std::uint8_t>(spu.available() + 1, 16); },
+           [](Spu& spu, Stage& stage) {
+             stage.next_line();
+             spu.allocate<std::uint8_t>(spu.available() + 1, 16);
+           },
            {"local store exhausted", "of 131072 bytes of the arena are free"}),
     broken(Rule::local_store_exhausted, "a count that overflows is too large, too",
-           [](Spu& spu, Stage&) { spu.allocate<std::uint64_t>(0x20000000); }),
+           [](Spu& spu, Stage& stage) {
+             stage.next_line();
+             spu.allocate<std::uint64_t>(0x20000000);
+           }),
     fact("code and stack take their part of the 256 KB",
          [](Spu& spu, Stage& stage) {
            stage.is(lsa_of(spu, spu.arena().begin), 200 * 1024);

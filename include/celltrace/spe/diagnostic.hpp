@@ -110,7 +110,7 @@ struct Diagnostic {
   std::uint32_t size = 0; ///< bytes
   ea_t ea = 0;
   CallSite site; ///< of the operation; line 0: unknown
-  // The other side of a race.
+  // The other side of a race; for a rule that the PPE broke, the SPE that it dealt with.
   unsigned other_spe = 0;
   std::uint64_t other_command = 0; ///< 0: none
   CallSite other_site;

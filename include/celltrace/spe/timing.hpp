@@ -29,7 +29,7 @@ struct TimingParameters {
   std::uint32_t list_element = 10;
   std::uint32_t lock_line_spe = 290; ///< a lock line that another SPE's atomic unit holds
   std::uint32_t lock_line_memory = 500;
-  std::uint32_t ppe_delivery = 200; ///< from the PPE's store to an SPE's register
+  std::uint32_t ppe_delivery = 200; ///< from the PPE's store until an SPE's register has it
   std::uint32_t ppe_access = 400;   ///< what an access to an SPE's registers costs the PPE
 
   // --- SPU pipelines: latencies ---
