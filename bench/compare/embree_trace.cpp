@@ -54,6 +54,13 @@ void make_primary_rays(const EmbreeFrame& frame, int left, int top, Tile& tile) 
   }
 }
 
+bool any_hit(const Tile& tile) {
+  bool any = false;
+  for (int lane = 0; lane < kLanes; ++lane)
+    any |= tile.rays.hit.geomID[lane] != RTC_INVALID_GEOMETRY_ID;
+  return any;
+}
+
 /// Returns the number of rays.
 int make_shadow_rays(const EmbreeFrame& frame, Tile& tile) {
   const RTCRay16& ray = tile.rays.ray;
@@ -219,7 +226,8 @@ template <int kPacket> std::uint64_t trace_row(const EmbreeFrame& frame, int til
     Tile tile;
     make_primary_rays(frame, left, top, tile);
     Calls<kPacket>::intersect(frame.scene, context, tile);
-    const int count = make_shadow_rays(frame, tile);
+    std::fill_n(tile.facing, kLanes, 0);
+    const int count = any_hit(tile) ? make_shadow_rays(frame, tile) : 0;
     if (count != 0) Calls<kPacket>::occlude(frame.scene, context, tile);
     shadow_rays += static_cast<std::uint64_t>(count);
     write_pixels(frame, left, top, tile);

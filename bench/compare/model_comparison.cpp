@@ -54,13 +54,12 @@ public:
   void first_frame() {
     if (!wanted("first frame")) return;
     std::vector<double> build;
+    celltrace_.build_and_trace();
     const auto ours = [&] {
       const Frame frame = celltrace_.build_and_trace();
-      build.push_back(static_cast<double>(model_.primitives()) / 1e6 / build_seconds(frame));
+      build.push_back(static_cast<double>(model_.primitives()) / 1e6 / frame.build.wall);
       return settings_(frame.build + frame.trace);
     };
-    ours();
-    build.clear();
     frames(
         "first frame", Quality::medium, {"celltrace", ours}, [](Side&) {}, std::nullopt);
     const bool judged = model_.triangles.size() >= kManyPrimitives && threads_ == 1;
@@ -110,12 +109,6 @@ private:
   static std::optional<Bar> at_least(double value) { return Bar{Bar::Sense::at_least, value}; }
   std::optional<Bar> bar_for_scanned(double value) const {
     return kind_ == ModelKind::scanned ? at_least(value) : std::nullopt;
-  }
-
-  /// celltrace's processor time is known of building and tracing together.
-  double build_seconds(const Frame& frame) {
-    if (!settings_.processor_clock) return frame.build.wall;
-    return frame.trace.processor - celltrace_.trace().trace.processor;
   }
 
   double megarays_a_second(Side& side) const {
