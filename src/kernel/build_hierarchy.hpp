@@ -1,173 +1,305 @@
-// Builds the hierarchy of boxes, for memory that can be dereferenced. Kernel dialect.
+// Builds the hierarchy of boxes, for memory that can be dereferenced, on any number of SPEs. Kernel dialect.
 #pragma once
 
-#include "kernel/build_hierarchy_cells.hpp"
 #include "kernel/build_hierarchy_leaves.hpp"
+#include "kernel/build_hierarchy_memory.hpp"
 #include "kernel/overlap.hpp"
 
 namespace celltrace::kernel {
 
 namespace hierarchy {
 
-/// Work memory, in pairs of each sort buffer, for each object.
-constexpr uint32_t kPairsPerObject = 5;
-/// Fewer objects are built without cells.
+/// Fewer objects are built by one SPE, without cells.
 constexpr uint32_t kMinObjectsForCells = 4096;
-constexpr uint32_t kObjectsPerCell = 16;
-constexpr uint32_t kMaxCells = 1u << 18;
 
-/// The steps of a build.
+/// A part of [0, count).
+struct Part {
+  uint32_t begin, end;
+
+  Part(uint32_t count, uint32_t part, uint32_t parts)
+      : begin(static_cast<uint32_t>(uint64_t{count} * part / parts)),
+        end(static_cast<uint32_t>(uint64_t{count} * (part + 1) / parts)) {}
+};
+
+/// The work of one SPE in a build, step by step; every step needs what all have done in those before. What
+/// comes out does not depend on how many there are.
 template <class Spu> class Builder {
 public:
   using S = typename Spu::simd;
 
-  Builder(Spu& spu, const FrameBlock& frame)
-      : frame_(frame), count_(frame.object_count), image_(pointer<uint8_t>(frame.image)),
-        objects_(reinterpret_cast<const ObjectRecord*>(image_ + frame.object_offset)),
+  /// SPE `self` of `builders`.
+  Builder(Spu& spu, const FrameBlock& frame, uint32_t self, uint32_t builders)
+      : frame_(frame), memory_(spu, frame), self_(self), builders_(builders), count_(frame.object_count),
+        image_(WorkMemory::pointer<uint8_t>(frame.image)),
         nodes_(reinterpret_cast<NodeRecord*>(image_ + frame.hierarchy.node_offset)),
-        references_(pointer<Reference>(frame.sort_buffer[0])),
-        sorted_(pointer<Reference>(frame.sort_buffer[1])), cells_(sorted_ + count_),
-        cell_begin_(reinterpret_cast<uint32_t*>(cells_ + max_cells())),
-        counts_(reinterpret_cast<uint32_t*>(references_ + count_)), spare_cells_(references_ + count_),
-        treelets_(reinterpret_cast<Treelet*>(spare_cells_ + max_cells())),
         top_stack_(spu.template allocate<typename TopBuilder::Task>(TopBuilder::kStackTasks)),
-        treelet_stack_(spu.template allocate<typename TreeletBuilder::Task>(TreeletBuilder::kStackTasks)) {}
+        treelet_stack_(spu.template allocate<typename TreeletBuilder::Task>(TreeletBuilder::kStackTasks)),
+        spare_(spu.template allocate<Reference>(Treelets<S>::kObjects)) {}
 
-  uint32_t build() {
-    const Range<S> all = make_references();
-    if (count_ < kChildren) return build_leaf(all);
-    if (count_ < kMinObjectsForCells || frame_.sort_capacity / kPairsPerObject < count_)
-      return static_cast<uint32_t>(build_treelet(references_, sorted_, all, {nullptr, 0, 0}, nodes_) -
-                                   nodes_);
-    const Range<S> cells = sort_into_cells(all);
-    return build_over_cells(cells);
+  static constexpr uint32_t kSteps = 9;
+  void run(uint32_t step) {
+    if (step == 0) return make_references();
+    if (count_ < kMinObjectsForCells || memory_.max_cells == 0) {
+      if (step == 1 && self_ == 0) build_whole();
+      return;
+    }
+    switch (step) {
+    case 1:
+      return count_cells();
+    case 2:
+      return add_counts();
+    case 3:
+      return place_cells();
+    case 4:
+      return sort();
+    case 5:
+      return measure_cells();
+    case 6:
+      if (self_ == 0) build_top();
+      return;
+    case 7:
+      return for_each_treelet(memory_.team->next_to_gather, [&](const Treelet& treelet) { gather(treelet); });
+    default:
+      return for_each_treelet(memory_.team->next_to_build, [&](const Treelet& treelet) { build(treelet); });
+    }
   }
+  /// After the last step.
+  uint32_t nodes() const { return memory_.team->nodes; }
 
 private:
   using TopBuilder = SubtreeBuilder<S, Treelets<S>>;
   using TreeletBuilder = SubtreeBuilder<S, Leaves<S>>;
+  using F4 = typename S::F4;
 
-  template <class T> static T* pointer(ea_t ea) { return reinterpret_cast<T*>(static_cast<uintptr_t>(ea)); }
-  uint32_t max_cells() const {
-    const uint32_t cells = count_ / kObjectsPerCell;
-    return cells < kMaxCells ? cells : kMaxCells;
+  Part part_of(uint32_t count) const { return Part(count, self_, builders_); }
+  uint32_t* counts_of(uint32_t builder) const {
+    return memory_.counts + uint64_t{builder} * memory_.max_cells;
   }
 
-  Range<S> make_references() {
-    Range<S> all = {0, count_, count_, LaneBox<S>::empty(), LaneBox<S>::empty()};
-    for (uint32_t i = 0; i < count_; ++i) {
-      const Box box = bounding_box(objects_[i]);
+  void make_references() {
+    const auto* objects = reinterpret_cast<const ObjectRecord*>(image_ + frame_.object_offset);
+    LaneBox<S> around = LaneBox<S>::empty(), centres = LaneBox<S>::empty();
+    const Part part = part_of(count_);
+    for (uint32_t i = part.begin; i < part.end; ++i) {
+      const Box box = bounding_box(objects[i]);
       const uint32_t offset = frame_.object_offset + i * static_cast<uint32_t>(sizeof(ObjectRecord));
-      references_[i] = {
+      memory_.references[i] = {
           {box.min[0], box.min[1], box.min[2]}, offset, {box.max[0], box.max[1], box.max[2]}, 1};
-      const LaneBox<S> lanes = LaneBox<S>::of(references_[i]);
-      all.box.grow(lanes);
-      all.centres.grow(lanes.centre());
+      const LaneBox<S> lanes = LaneBox<S>::of(memory_.references[i]);
+      around.grow(lanes);
+      centres.grow(lanes.centre());
+    }
+    tell(around, centres);
+  }
+
+  /// Tells the others what is around the objects or cells of this SPE.
+  void tell(const LaneBox<S>& box, const LaneBox<S>& centres) {
+    BuilderRecord& record = memory_.builders[self_];
+    box.min.store(record.box_min);
+    box.max.store(record.box_max);
+    centres.min.store(record.centres_min);
+    centres.max.store(record.centres_max);
+  }
+  /// A range around what all have told.
+  Range<S> around_all(uint32_t references) const {
+    Range<S> all = {0, references, count_, LaneBox<S>::empty(), LaneBox<S>::empty()};
+    for (uint32_t b = 0; b < builders_; ++b) {
+      const BuilderRecord& record = memory_.builders[b];
+      all.box.grow({F4::load(record.box_min), F4::load(record.box_max)});
+      all.centres.grow({F4::load(record.centres_min), F4::load(record.centres_max)});
     }
     return all;
   }
+  CellGrid<S> grid() const { return CellGrid<S>(around_all(count_).centres, memory_.max_cells); }
 
-  /// Sorts the references by cell, stably, and makes references to the cells that have some.
-  Range<S> sort_into_cells(const Range<S>& all) {
-    const CellGrid<S> grid(all.centres, max_cells());
-    const uint32_t cells = grid.count();
-    for (uint32_t c = 0; c < cells; ++c)
-      counts_[c] = 0;
-    for (uint32_t i = 0; i < count_; ++i)
-      ++counts_[grid.cell_of(references_[i])];
-    uint32_t sum = 0;
-    uint32_t used = 0;
-    for (uint32_t c = 0; c < cells; ++c) {
-      const uint32_t size = counts_[c];
-      counts_[c] = sum;
-      if (size != 0) cell_begin_[used++] = sum;
-      sum += size;
-    }
-    for (uint32_t i = 0; i < count_; ++i)
-      sorted_[counts_[grid.cell_of(references_[i])]++] = references_[i];
-    Range<S> range = {0, used, count_, all.box, LaneBox<S>::empty()};
-    for (uint32_t c = 0; c < used; ++c) {
-      const uint32_t end = c + 1 < used ? cell_begin_[c + 1] : count_;
-      const Range<S> cell = range_of<S>(sorted_, cell_begin_[c], end);
-      cell.box.min.store(cells_[c].min);
-      cell.box.max.store(cells_[c].max);
-      cells_[c].value = cell_begin_[c];
-      cells_[c].weight = cell.count();
-      range.centres.grow(cell.box.centre());
-    }
-    return range;
+  void count_cells() {
+    const CellGrid<S> cells = grid();
+    uint32_t* counts = counts_of(self_);
+    for (uint32_t c = 0; c < cells.count(); ++c)
+      counts[c] = 0;
+    const Part part = part_of(count_);
+    for (uint32_t i = part.begin; i < part.end; ++i)
+      ++counts[cells.cell_of(memory_.references[i])];
   }
 
-  uint32_t build_over_cells(const Range<S>& cells) {
-    Treelets<S> treelets(treelets_);
-    TopBuilder top(image_, cells_, spare_cells_, treelets, top_stack_);
-    NodeRecord* node = top.build(cells, {nullptr, 0, 0}, nodes_);
-    for (uint32_t t = 0; t < treelets.count(); ++t)
-      gather(treelets_[t]);
-    for (uint32_t t = 0; t < treelets.count(); ++t) {
-      const Treelet& treelet = treelets_[t];
-      const Range<S> range = range_of<S>(references_, treelet.first, treelet.first + treelet.count);
-      build_treelet(references_, sorted_, range, treelet.place, node);
-      node += max_nodes(treelet.count);
+  uint32_t objects_in(uint32_t cell) const {
+    uint32_t sum = 0;
+    for (uint32_t b = 0; b < builders_; ++b)
+      sum += counts_of(b)[cell];
+    return sum;
+  }
+
+  void add_counts() {
+    BuilderRecord& record = memory_.builders[self_];
+    record.objects = record.used_cells = 0;
+    const Part part = part_of(grid().count());
+    for (uint32_t c = part.begin; c < part.end; ++c) {
+      const uint32_t objects = objects_in(c);
+      record.objects += objects;
+      record.used_cells += objects != 0;
     }
-    return static_cast<uint32_t>(node - nodes_);
+  }
+
+  /// Where the objects of each cell go, and of each SPE within; and where the reference to the cell goes.
+  void place_cells() {
+    uint32_t cell = 0;
+    uint32_t place = 0;
+    for (uint32_t b = 0; b < self_; ++b) {
+      cell += memory_.builders[b].used_cells;
+      place += memory_.builders[b].objects;
+    }
+    const Part part = part_of(grid().count());
+    for (uint32_t c = part.begin; c < part.end; ++c) {
+      const uint32_t first = place;
+      for (uint32_t b = 0; b < builders_; ++b) {
+        uint32_t& count = counts_of(b)[c];
+        const uint32_t objects = count;
+        count = place;
+        place += objects;
+      }
+      if (place == first) continue;
+      memory_.cells[cell].value = first;
+      memory_.cells[cell].weight = place - first;
+      ++cell;
+    }
+  }
+
+  /// The references by cell, stably.
+  void sort() {
+    const CellGrid<S> cells = grid();
+    uint32_t* next = counts_of(self_);
+    const Part part = part_of(count_);
+    for (uint32_t i = part.begin; i < part.end; ++i)
+      memory_.sorted[next[cells.cell_of(memory_.references[i])]++] = memory_.references[i];
+  }
+
+  uint32_t used_cells() const {
+    uint32_t sum = 0;
+    for (uint32_t b = 0; b < builders_; ++b)
+      sum += memory_.builders[b].used_cells;
+    return sum;
+  }
+
+  void measure_cells() {
+    LaneBox<S> around = LaneBox<S>::empty(), centres = LaneBox<S>::empty();
+    const Part part = part_of(used_cells());
+    for (uint32_t c = part.begin; c < part.end; ++c) {
+      Reference& cell = memory_.cells[c];
+      const uint32_t first = cell.value;
+      const uint32_t objects = cell.weight;
+      const LaneBox<S> box = range_of<S>(memory_.sorted, first, first + objects).box;
+      box.min.store(cell.min); // over the words beside
+      box.max.store(cell.max);
+      cell.value = first;
+      cell.weight = objects;
+      around.grow(box);
+      centres.grow(box.centre());
+    }
+    tell(around, centres);
+  }
+
+  void build_top() {
+    Treelets<S> treelets(memory_.treelets);
+    TopBuilder top(image_, memory_.cells, memory_.spare_cells, treelets, top_stack_);
+    const NodeRecord* end = top.build(around_all(used_cells()), {nullptr, 0, 0}, nodes_);
+    const auto top_nodes = static_cast<uint32_t>(end - nodes_);
+    *memory_.team = {treelets.count(), top_nodes, top_nodes + treelets.nodes(), 0, 0, {}};
+  }
+
+  /// Those that no other SPE takes.
+  template <class Visit> void for_each_treelet(uint32_t& next, Visit visit) {
+    constexpr uint32_t kTaken = 8;
+    const uint32_t treelets = memory_.team->treelets;
+    for (;;) {
+      const uint32_t first = __atomic_fetch_add(&next, kTaken, __ATOMIC_RELAXED);
+      if (first >= treelets) return;
+      for (uint32_t t = first; t < treelets && t < first + kTaken; ++t)
+        visit(memory_.treelets[t]);
+    }
   }
 
   /// Brings the references of a treelet together.
   void gather(const Treelet& treelet) {
-    Reference* to = references_ + treelet.first;
+    Reference* to = memory_.references + treelet.first;
     for (uint32_t c = treelet.begin; c < treelet.end; ++c) {
-      const Reference* from = sorted_ + cells_[c].value;
-      for (uint32_t i = 0; i < cells_[c].weight; ++i)
+      const Reference* from = memory_.sorted + memory_.cells[c].value;
+      for (uint32_t i = 0; i < memory_.cells[c].weight; ++i)
         *to++ = from[i];
     }
   }
 
-  NodeRecord* build_treelet(Reference* references, Reference* spare, const Range<S>& range,
-                            const Place& place, NodeRecord* next) {
-    Leaves<S> leaves(image_, frame_.hierarchy.list_offset, references);
-    return TreeletBuilder(image_, references, spare, leaves, treelet_stack_).build(range, place, next);
+  void build(const Treelet& treelet) {
+    NodeRecord* first = nodes_ + memory_.team->top_nodes + treelet.first_node;
+    build(range_of<S>(memory_.references, treelet.first, treelet.first + treelet.count), treelet.place,
+          first);
+  }
+  NodeRecord* build(const Range<S>& range, const Place& place, NodeRecord* first) {
+    Leaves<S> leaves(image_, frame_.hierarchy.list_offset, memory_.references);
+    Reference* spare = range.count() <= Treelets<S>::kObjects ? spare_ : memory_.sorted + range.begin;
+    return TreeletBuilder(image_, memory_.references, spare, leaves, treelet_stack_)
+        .build(range, place, first);
   }
 
+  /// Few objects, without cells.
+  void build_whole() {
+    const Range<S> all = around_all(count_);
+    const NodeRecord* end = count_ < kChildren ? add_root(all) : build(all, {nullptr, 0, 0}, nodes_);
+    memory_.team->nodes = static_cast<uint32_t>(end - nodes_);
+  }
   /// The root above fewer than four objects.
-  uint32_t build_leaf(const Range<S>& all) {
+  NodeRecord* add_root(const Range<S>& all) {
     const LaneBox<S> empty = LaneBox<S>::empty();
     const Range<S> nothing = {0, 0, 0, empty, empty};
     set_boxes<S>(*nodes_, {all, nothing, nothing, nothing});
     for (uint32_t i = 0; i < kChildren; ++i)
       nodes_->child[i] = nodes_->count[i] = 0;
-    if (count_ != 0) Leaves<S>(image_, frame_.hierarchy.list_offset, references_).add(all, {nodes_, 0, 0});
-    return 1;
+    if (count_ != 0)
+      Leaves<S>(image_, frame_.hierarchy.list_offset, memory_.references).add(all, {nodes_, 0, 0});
+    return nodes_ + 1;
   }
 
   const FrameBlock& frame_;
+  const WorkMemory memory_;
+  uint32_t self_, builders_;
   uint32_t count_;
   uint8_t* image_;
-  const ObjectRecord* objects_;
   NodeRecord* nodes_;
-  Reference* references_; ///< in the order of objects, later of treelets
-  Reference* sorted_;     ///< by cell, later spare
-  Reference* cells_;      ///< `value`: the first of its references
-  uint32_t* cell_begin_;
-  uint32_t* counts_;       ///< of references by cell, then where the next one goes
-  Reference* spare_cells_; ///< once the counts are used
-  Treelet* treelets_;
   typename TopBuilder::Task* top_stack_;
   typename TreeletBuilder::Task* treelet_stack_;
+  Reference* spare_; ///< for usual treelets; large ones use what was sorted
 };
 
 } // namespace hierarchy
 
 /// Writes the nodes and the list that `frame.hierarchy` has room for, from the objects of the scene image,
 /// and returns the number of nodes, with gaps between those that are used. The sort buffers have room for
-/// hierarchy::kPairsPerObject pairs an object. A node lies at most hierarchy::kMaxDepth below the root. What
-/// is built depends on the objects alone.
-template <class Spu> uint32_t build_hierarchy(Spu& spu, const FrameBlock& frame) {
+/// hierarchy::work_pairs(). A node lies at most hierarchy::kMaxDepth below the root. What is built depends on
+/// the objects alone.
+///
+/// All SPEs of a team call it at a time. `team`: its size(), the index() of this one in it, and wait(), which
+/// returns when all have called it and makes visible what they have written.
+template <class Spu, class Team> uint32_t build_hierarchy(Spu& spu, const FrameBlock& frame, Team&& team) {
   static_assert(Spu::direct_memory, "the builder follows pointers to main memory");
+  using Builder = hierarchy::Builder<Spu>;
+  const uint32_t builders = team.size() < hierarchy::kMaxBuilders ? team.size() : hierarchy::kMaxBuilders;
   uint8_t* const marked = spu.mark();
-  const uint32_t nodes = hierarchy::Builder<Spu>(spu, frame).build();
+  Builder builder(spu, frame, team.index(), builders);
+  for (uint32_t step = 0; step < Builder::kSteps; ++step) {
+    if (team.index() < builders) builder.run(step);
+    team.wait();
+  }
   spu.release(marked);
-  return nodes;
+  return builder.nodes();
+}
+
+/// On this SPE alone.
+template <class Spu> uint32_t build_hierarchy(Spu& spu, const FrameBlock& frame) {
+  struct Alone {
+    uint32_t size() const { return 1; }
+    uint32_t index() const { return 0; }
+    void wait() const {}
+  };
+  return build_hierarchy(spu, frame, Alone());
 }
 
 } // namespace celltrace::kernel

@@ -70,13 +70,10 @@ struct Treelet {
   uint32_t begin, end;
   uint32_t first; ///< of its objects in the order of the list
   uint32_t count;
+  uint32_t first_node; ///< counted from the first of all treelets
+  uint32_t unused;
 };
-static_assert(sizeof(Treelet) == 32, "four a line");
-
-/// Nodes that a treelet of so many objects has at most.
-inline uint32_t max_nodes(uint32_t objects) {
-  return (objects - 1) / 3;
-}
+static_assert(sizeof(Treelet) == 40, "part of the work memory");
 
 /// Ends nodes over cells at treelets.
 template <class S> class Treelets {
@@ -89,15 +86,19 @@ public:
   bool end(const Range<S>& range) const { return range.weight <= kObjects || range.count() < kChildren; }
   bool end(const Range<S>&, const Range<S> (&)[kChildren]) const { return false; }
   void add(const Range<S>& range, const Place& place) {
-    treelets_[count_++] = {place, range.begin, range.end, objects_, range.weight};
+    treelets_[count_++] = {place, range.begin, range.end, objects_, range.weight, nodes_, 0};
     objects_ += range.weight;
+    nodes_ += (range.weight - 1) / 3; // of four children each, above an object or more a leaf
   }
   uint32_t count() const { return count_; }
+  /// Nodes that all of them have at most.
+  uint32_t nodes() const { return nodes_; }
 
 private:
   Treelet* treelets_;
   uint32_t count_ = 0;
   uint32_t objects_ = 0;
+  uint32_t nodes_ = 0;
 };
 
 } // namespace celltrace::kernel::hierarchy

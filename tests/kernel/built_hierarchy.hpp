@@ -5,15 +5,18 @@
 #include "kernel/build_hierarchy.hpp"
 #include "scene/scene_image.hpp"
 
+#include <barrier>
 #include <cstdint>
 #include <cstring>
+#include <thread>
 #include <vector>
 
 namespace celltrace::test {
 
 class BuiltHierarchy {
 public:
-  explicit BuiltHierarchy(const std::vector<kernel::ObjectRecord>& objects)
+  /// `work_pairs` for each sort buffer; 0: as many as should be.
+  explicit BuiltHierarchy(const std::vector<kernel::ObjectRecord>& objects, std::uint32_t work_pairs = 0)
       : capacity_(static_cast<std::uint32_t>(objects.size()) / 3 + 2),
         frame_memory_(sizeof(kernel::FrameBlock)), frame_(*new (frame_memory_.data()) kernel::FrameBlock()) {
     const auto count = static_cast<std::uint32_t>(objects.size());
@@ -25,7 +28,8 @@ public:
     frame_.object_offset = kFirst;
     frame_.object_count = count;
     frame_.hierarchy = {nodes, capacity_, 0, list};
-    frame_.sort_capacity = kPairsPerObject * (count + 1);
+    frame_.sort_capacity =
+        work_pairs != 0 ? work_pairs : static_cast<std::uint32_t>(kernel::hierarchy::work_pairs(count));
     for (int i = 0; i < 2; ++i) {
       work_[i] = AlignedBlock(std::size_t{frame_.sort_capacity} * 8);
       frame_.sort_buffer[i] = reinterpret_cast<std::uintptr_t>(work_[i].data());
@@ -34,10 +38,28 @@ public:
   /// In this thread.
   std::uint32_t build() {
     DirectSpu spu;
-    return build(spu);
-  }
-  template <class Spu> std::uint32_t build(Spu& spu) {
     return frame_.hierarchy.node_count = kernel::build_hierarchy(spu, frame_);
+  }
+  /// In so many threads.
+  std::uint32_t build(std::uint32_t threads) {
+    struct Team {
+      std::barrier<>& barrier;
+      std::uint32_t threads, self;
+      std::uint32_t size() const { return threads; }
+      std::uint32_t index() const { return self; }
+      void wait() { barrier.arrive_and_wait(); }
+    };
+    std::barrier<> barrier(threads);
+    std::vector<std::uint32_t> nodes(threads);
+    std::vector<std::thread> team;
+    for (std::uint32_t i = 0; i < threads; ++i)
+      team.emplace_back([&, i] {
+        DirectSpu spu;
+        nodes[i] = kernel::build_hierarchy(spu, frame_, Team{barrier, threads, i});
+      });
+    for (std::thread& thread : team)
+      thread.join();
+    return frame_.hierarchy.node_count = nodes.back();
   }
 
   const kernel::FrameBlock& frame() const { return frame_; }
@@ -55,7 +77,6 @@ public:
 
 private:
   static constexpr std::uint32_t kFirst = 128;
-  static constexpr std::uint32_t kPairsPerObject = kernel::hierarchy::kPairsPerObject;
 
   template <class Record> const Record& record(std::uint32_t offset) const {
     return *reinterpret_cast<const Record*>(image_.data() + offset);

@@ -120,8 +120,7 @@ Shape check_tree(const BuiltHierarchy& tree) {
   return shape;
 }
 
-Shape check(const Objects& objects) {
-  BuiltHierarchy tree(objects);
+Shape check(BuiltHierarchy& tree, const Objects& objects) {
   const std::uint32_t nodes = tree.build();
   REQUIRE(nodes >= 1);
   REQUIRE(nodes <= tree.capacity());
@@ -129,9 +128,20 @@ Shape check(const Objects& objects) {
   REQUIRE(shape.objects.size() == objects.size());
   REQUIRE(shape.depth <= hierarchy::kMaxDepth);
   REQUIRE(shape.largest_leaf <= hierarchy::kMaxLeaf);
+  return shape;
+}
+
+/// Not the bytes themselves, of which a failed check would print every one.
+bool same_bytes(const BuiltHierarchy& a, const BuiltHierarchy& b) {
+  return a.bytes() == b.bytes();
+}
+
+Shape check(const Objects& objects) {
+  BuiltHierarchy tree(objects);
+  const Shape shape = check(tree, objects);
   BuiltHierarchy again(objects);
-  again.build();
-  REQUIRE(tree.bytes() == again.bytes());
+  again.build(3);
+  REQUIRE(same_bytes(tree, again));
   return shape;
 }
 
@@ -222,4 +232,29 @@ TEST_CASE("A hierarchy over objects at the end of the numbers") {
     const Vec3 at = Vec3(1e6, 1e6, 1e6) + random.point(1);
     return triangle(at, at + random.point(0.1), at + random.point(0.1));
   }));
+}
+
+TEST_CASE("A hierarchy is the same whoever builds it") {
+  for (unsigned count : {3u, 100u, 4500u, 60000u}) {
+    const Objects scene = random_triangles(count, 100, 1);
+    BuiltHierarchy alone(scene);
+    const std::uint32_t nodes = alone.build();
+    for (std::uint32_t threads : {1u, 2u, 5u, 8u, 32u, 33u}) {
+      INFO(count << " objects, " << threads << " threads");
+      BuiltHierarchy shared(scene);
+      REQUIRE(shared.build(threads) == nodes);
+      REQUIRE(same_bytes(shared, alone));
+      // Over what the last build has left.
+      shared.build(threads);
+      REQUIRE(same_bytes(shared, alone));
+    }
+  }
+}
+
+TEST_CASE("A hierarchy is built with less work memory than should be") {
+  for (unsigned count : {1u, 3u, 100u, 20000u}) {
+    const Objects scene = random_triangles(count, 100, 1);
+    BuiltHierarchy tree(scene, 4 * count);
+    check(tree, scene);
+  }
 }

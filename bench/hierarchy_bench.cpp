@@ -1,0 +1,105 @@
+// What building the hierarchy of boxes takes in one thread, and what rays have of it: expected visits of
+// nodes and tests of objects of a ray that hits the root (the surface area heuristic).
+#include "compare/generated.hpp"
+#include "kernel/built_hierarchy.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <random>
+#include <vector>
+
+using namespace celltrace;
+using namespace celltrace::kernel;
+
+namespace {
+
+using Objects = std::vector<ObjectRecord>;
+
+Objects objects_of(const compare::Model& model) {
+  Objects objects;
+  for (const auto& triangle : model.triangles) {
+    ObjectRecord object{};
+    object.kind_and_flags = static_cast<std::uint32_t>(ObjectKind::triangle);
+    for (int corner = 0; corner < 3; ++corner)
+      for (int axis = 0; axis < 3; ++axis)
+        object.geometry[3 * corner + axis] = model.vertices[triangle[static_cast<std::size_t>(corner)]][axis];
+    objects.push_back(object);
+  }
+  return objects;
+}
+
+Objects hills(std::size_t triangles) {
+  return objects_of(compare::hills(triangles));
+}
+/// Neighbours are anywhere in the list.
+Objects shuffled_hills(std::size_t triangles) {
+  Objects objects = hills(triangles);
+  std::shuffle(objects.begin(), objects.end(), std::mt19937(1));
+  return objects;
+}
+Objects random_triangles(std::size_t triangles) {
+  return objects_of(compare::random_triangles(triangles));
+}
+/// All but one in one cell of the grid over all.
+Objects crowd(std::size_t triangles) {
+  Objects objects = hills(triangles);
+  for (float& coordinate : objects.front().geometry)
+    coordinate *= 1e5f;
+  return objects;
+}
+
+double area(const NodeRecord& node, int slot) {
+  double extent[3];
+  for (int axis = 0; axis < 3; ++axis)
+    extent[axis] = double{node.box[2 * axis + 1][slot]} - node.box[2 * axis][slot];
+  return extent[0] * (extent[1] + extent[2]) + extent[1] * extent[2];
+}
+
+struct Expected {
+  double visits = 1, tests = 0;
+};
+Expected expected(const test::BuiltHierarchy& hierarchy) {
+  Expected sum;
+  double whole = 0;
+  for (int slot = 0; slot < 4; ++slot)
+    whole += area(hierarchy.root(), slot);
+  std::vector<const NodeRecord*> open = {&hierarchy.root()};
+  while (!open.empty()) {
+    const NodeRecord& node = *open.back();
+    open.pop_back();
+    for (int slot = 0; slot < 4; ++slot) {
+      const double hit = area(node, slot) / whole;
+      if (node.count[slot] != 0) {
+        sum.tests += hit * node.count[slot];
+      } else {
+        sum.visits += hit;
+        open.push_back(&hierarchy.node(node.child[slot]));
+      }
+    }
+  }
+  return sum;
+}
+
+void build(benchmark::State& state, Objects (*make)(std::size_t)) {
+  const Objects objects = make(static_cast<std::size_t>(state.range(0)));
+  test::BuiltHierarchy hierarchy(objects);
+  for (auto _ : state)
+    benchmark::DoNotOptimize(hierarchy.build());
+  const Expected cost = expected(hierarchy);
+  const auto count = static_cast<double>(objects.size());
+  state.counters["triangles"] =
+      benchmark::Counter(count * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+  state.counters["visits"] = cost.visits;
+  state.counters["tests"] = cost.tests;
+  state.counters["bytes/triangle"] = 128.0 * hierarchy.frame().hierarchy.node_count / count + 4;
+}
+
+#define CELLTRACE_SIZES                                                                                      \
+  ->Arg(70'000)->Arg(400'000)->Arg(1'000'000)->Arg(10'000'000)->Unit(benchmark::kMillisecond)
+BENCHMARK_CAPTURE(build, hills, hills) CELLTRACE_SIZES;
+BENCHMARK_CAPTURE(build, shuffled, shuffled_hills) CELLTRACE_SIZES;
+BENCHMARK_CAPTURE(build, random, random_triangles) CELLTRACE_SIZES;
+BENCHMARK_CAPTURE(build, crowd, crowd) CELLTRACE_SIZES;
+
+} // namespace
