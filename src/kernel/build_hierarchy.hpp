@@ -9,9 +9,6 @@ namespace celltrace::kernel {
 
 namespace hierarchy {
 
-/// Fewer objects are built by one SPE, without cells.
-constexpr uint32_t kMinObjectsForCells = 4096;
-
 /// A part of [0, count).
 struct Part {
   uint32_t begin, end;
@@ -36,7 +33,7 @@ public:
         treelet_stack_(spu.template allocate<typename TreeletBuilder::Task>(TreeletBuilder::kStackTasks)),
         spare_(spu.template allocate<Reference>(Treelets<S>::kObjects)) {}
 
-  static constexpr uint32_t kSteps = 9;
+  static constexpr uint32_t kSteps = hierarchy::kSteps;
   void run(uint32_t step) {
     if (step == 0) return make_references();
     if (count_ < kMinObjectsForCells || memory_.max_cells == 0) {

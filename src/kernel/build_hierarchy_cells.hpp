@@ -73,7 +73,7 @@ struct Treelet {
   uint32_t first_node; ///< counted from the first of all treelets
   uint32_t unused;
 };
-static_assert(sizeof(Treelet) == 40, "part of the work memory");
+static_assert(sizeof(void*) != 8 || sizeof(Treelet) == 40, "part of the work memory");
 
 /// Ends nodes over cells at treelets.
 template <class S> class Treelets {

@@ -2,11 +2,10 @@
 #pragma once
 
 #include "kernel/build_hierarchy_cells.hpp"
+#include "kernel/build_hierarchy_plan.hpp"
 
 namespace celltrace::kernel::hierarchy {
 
-/// SPEs that build at a time; others wait.
-constexpr uint32_t kMaxBuilders = 32;
 constexpr uint32_t kObjectsPerCell = 16;
 constexpr uint32_t kMaxCells = 1u << 18;
 
@@ -27,12 +26,6 @@ struct alignas(128) TeamRecord {
   uint32_t unused[27];
 };
 static_assert(sizeof(TeamRecord) == 128, "one line");
-
-/// Pairs that each sort buffer should have room for. A single SPE makes do with 4 an object, and takes
-/// longer.
-constexpr uint64_t work_pairs(uint32_t objects) {
-  return uint64_t{5} * objects + (kMaxBuilders + 1) * sizeof(BuilderRecord) / 8;
-}
 
 /// Where what lies. Of 40 bytes an object in each buffer, 32 are its reference and the rest is for cells, of
 /// which there is one for kObjectsPerCell objects at most.

@@ -183,13 +183,14 @@ struct alignas(128) FrameBlock {
   GridRecord grid;
   HierarchyRecord hierarchy;
 
-  ea_t image;          ///< base of the scene image
-  ea_t surface;        ///< RGBA8, rows of `surface_pitch` bytes, both multiples of 16 bytes
-  ea_t strips;         ///< StripRecord per SPE: the rows it starts the frame with
-  ea_t reports;        ///< ReportRecord per SPE
-  ea_t ray_stack;      ///< spill area: ray_stack_nodes nodes of kRayNodeBytes per SPE
-  ea_t sort_buffer[2]; ///< PREPARE FRAME's (cell, object) pairs, 8 bytes each; `sort_capacity` pairs
-  ea_t unused_ea;
+  ea_t image;            ///< base of the scene image
+  ea_t surface;          ///< RGBA8, rows of `surface_pitch` bytes, both multiples of 16 bytes
+  ea_t strips;           ///< StripRecord per SPE: the rows it starts the frame with
+  ea_t reports;          ///< ReportRecord per SPE
+  ea_t ray_stack;        ///< spill area: ray_stack_nodes nodes of kRayNodeBytes per SPE
+  ea_t sort_buffer[2];   ///< work memory of PREPARE FRAME: `sort_capacity` pairs of 8 bytes each
+  uint32_t prepare_spes; ///< that build the accelerator; more than one go step by step
+  uint32_t prepare_step; ///< of those, the step that they are to take
 
   uint32_t width, height; ///< pixels
   uint32_t packet_columns, packet_rows;
@@ -229,11 +230,11 @@ static_assert(sizeof(StripRecord) == 16, "crosses DMA");
 struct alignas(128) ReportRecord {
   uint64_t primary_rays, shadow_rays, reflection_rays, refraction_rays;
   uint64_t sphere_tests, ellipsoid_tests, triangle_tests; ///< packet against object
-  uint64_t accelerator_visits; ///< voxels by rays, or nodes by beams
-  uint64_t cache_hits[4], cache_misses[4]; ///< by DataKind
-  uint64_t dropped_rays;                   ///< rays beyond the depth of the interior stack
-  uint32_t rows;                           ///< packet rows rendered
-  uint32_t exchanges;                      ///< balance exchanges that brought this SPE rows
+  uint64_t accelerator_visits;                            ///< voxels by rays, or nodes by beams
+  uint64_t cache_hits[4], cache_misses[4];                ///< by DataKind
+  uint64_t dropped_rays;                                  ///< rays beyond the depth of the interior stack
+  uint32_t rows;                                          ///< packet rows rendered
+  uint32_t exchanges;                                     ///< balance exchanges that brought this SPE rows
   uint32_t rows_received;
   uint32_t spilled_nodes;
   uint32_t list_entries; ///< PREPARE FRAME

@@ -1,6 +1,7 @@
 #include "celltrace/render.hpp"
 
 #include "celltrace/error.hpp"
+#include "kernel/build_hierarchy_plan.hpp"
 #include "kernel/ray_stack.hpp"
 #include "render/frame_setup.hpp"
 #include "render/spe_team.hpp"
@@ -81,9 +82,6 @@ public:
   }
 
 private:
-  /// Of the buffers that PREPARE FRAME builds a hierarchy in.
-  static constexpr std::uint32_t kWorkPairsPerObject = 4;
-
   template <class Work> RenderResult reporting_failures(Work work) {
     try {
       return work();
@@ -164,17 +162,24 @@ private:
     const std::uint32_t nodes = objects / 3 + 2;
     image_->reserve_accelerator(std::uint64_t{nodes} * sizeof(NodeRecord), objects);
     frame_.hierarchy = {image_->table_offset(), nodes, 0, image_->list_offset()};
-    reserve_work(std::max(objects, 1u) * kWorkPairsPerObject);
+    reserve_work(static_cast<std::uint32_t>(hierarchy::work_pairs(objects)));
     if (machine_->backend() == "native") {
-      team_->prepare_frame();
+      build_hierarchy_on(*team_, machine_->spe_count());
     } else {
       // The builder follows pointers through main memory: work for the PPE's side where SPEs cannot.
-      MachineConfig host;
-      host.spes = 1;
-      const std::unique_ptr<Machine> machine = make_machine(host);
-      SpeTeam(*machine, frame_).prepare_frame();
+      const std::unique_ptr<Machine> host = make_machine({});
+      SpeTeam team(*host, frame_);
+      build_hierarchy_on(team, host->spe_count());
     }
     frame_.hierarchy.node_count = report(0).list_entries;
+  }
+  void build_hierarchy_on(SpeTeam& team, unsigned spes) {
+    if (image_->header().object_count < hierarchy::kMinObjectsForCells) spes = 1;
+    frame_.prepare_spes = std::min(spes, hierarchy::kMaxBuilders);
+    frame_.prepare_step = 0;
+    const std::uint32_t steps = frame_.prepare_spes == 1 ? 1 : hierarchy::kSteps;
+    for (; frame_.prepare_step < steps; ++frame_.prepare_step)
+      team.prepare_frame(frame_.prepare_spes);
   }
   /// Work memory of PREPARE FRAME, and what else depends on the scene.
   void reserve_work(std::uint32_t pairs) {

@@ -30,14 +30,16 @@ SpeTeam::~SpeTeam() {
   }
 }
 
-bool SpeTeam::prepare_frame() {
-  members_[0].answered = false;
-  machine_.write_signal(0, Signal::one, command::prepare_frame);
-  bool built = false;
-  while (!members_[0].answered)
+bool SpeTeam::prepare_frame(unsigned spes) {
+  for (Member& member : members_)
+    member.answered = member.spe >= spes;
+  for (unsigned spe = 0; spe < spes; ++spe)
+    machine_.write_signal(spe, Signal::one, command::prepare_frame);
+  bool built = true;
+  while (!all_answered())
     receive([&](Member& member, ReportKind kind, std::uint32_t) {
-      built = kind == ReportKind::prepared;
-      member.answered = built || kind == ReportKind::needs_memory;
+      if (kind == ReportKind::needs_memory) built = false;
+      member.answered = member.answered || kind == ReportKind::prepared || kind == ReportKind::needs_memory;
     });
   return built;
 }

@@ -20,8 +20,9 @@ public:
   SpeTeam(const SpeTeam&) = delete;
   SpeTeam& operator=(const SpeTeam&) = delete;
 
-  /// One SPE builds the grid. False if it needs more room than the frame block offers.
-  bool prepare_frame();
+  /// The first `spes` SPEs build the accelerator, or take the frame block's step in building it. False if
+  /// they need more room than the frame block offers.
+  bool prepare_frame(unsigned spes = 1);
   /// Every SPE forgets what it has cached and what is in its mailbox.
   void synchronize();
   /// All SPEs render; what each completed is in `tally`. False if `progress` broke the frame off; what it

@@ -17,6 +17,7 @@ namespace celltrace::test {
 class DirectSpu {
 public:
   static constexpr bool direct_memory = true;
+  std::uint32_t id() const { return 0; }
   using simd = HostSimd<xsimd::sse2>;
 
   template <class T> T* allocate(std::uint32_t count = 1, std::uint32_t alignment = kLineBytes) {

@@ -28,7 +28,7 @@ public:
     frame_.image = reinterpret_cast<std::uintptr_t>(image_.base());
     frame_.accelerator = static_cast<std::uint32_t>(kernel::AcceleratorKind::hierarchy);
     frame_.hierarchy = {image_.table_offset(), nodes, 0, image_.list_offset()};
-    reserve_work(std::max(object_count(), 1u) * 4);
+    reserve_work(static_cast<std::uint32_t>(kernel::hierarchy::work_pairs(object_count())));
   }
   /// Room for this many (voxel, object) pairs.
   void make_room(std::uint32_t pairs) {
