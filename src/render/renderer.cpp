@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <thread>
 #include <utility>
 
 namespace celltrace {
@@ -167,9 +168,12 @@ private:
       build_hierarchy_on(*team_, machine_->spe_count());
     } else {
       // The builder follows pointers through main memory: work for the PPE's side where SPEs cannot.
-      const std::unique_ptr<Machine> host = make_machine({});
-      SpeTeam team(*host, frame_);
-      build_hierarchy_on(team, host->spe_count());
+      // No more of them than there are reports in the frame.
+      MachineConfig host;
+      host.spes = std::clamp(std::thread::hardware_concurrency(), 1u, machine_->spe_count());
+      const std::unique_ptr<Machine> machine = make_machine(host);
+      SpeTeam team(*machine, frame_);
+      build_hierarchy_on(team, host.spes);
     }
     frame_.hierarchy.node_count = report(0).list_entries;
   }
