@@ -381,3 +381,35 @@ TEST_CASE("A refused scene leaves the one before in place") {
   CHECK_THROWS_AS(renderer.render(bad), InputError);
   CHECK(renderer.render(good.camera).image == picture(good));
 }
+
+TEST_CASE("Both accelerators show the same, built by one SPE or by many, also of many triangles") {
+  Scene scene = scene_named("glass and mirrors");
+  const Mesh ball = ball_mesh(40); // 6,400 triangles: enough for several SPEs
+  REQUIRE(ball.triangles.size() > 4096);
+  scene.objects.push_back(mesh_object(ball, 0, 0));
+  RenderOptions options = backends().front().options(kWidth, kHeight, 1);
+  options.accelerator = Accelerator::grid;
+  const RenderResult by_grid = render(scene, options);
+  CHECK(by_grid.statistics.accelerator == Accelerator::grid);
+  CHECK(by_grid.statistics.hierarchy_nodes == 0);
+  std::uint32_t nodes = 0;
+  for (const Backend& backend : one_of_each()) {
+    for (unsigned spes : {1u, 3u, 8u}) {
+      INFO(backend.spu() << " with " << spes);
+      options = backend.options(kWidth, kHeight, spes);
+      options.accelerator = Accelerator::hierarchy;
+      Renderer renderer(options);
+      for (int frame = 0; frame < 2; ++frame) {
+        const RenderResult result = renderer.render(scene);
+        check_complete(result, backend, by_grid.image);
+        const RenderStatistics& s = result.statistics;
+        CHECK(s.accelerator == Accelerator::hierarchy);
+        CHECK(s.grid_cells[0] == 0);
+        CHECK(s.accelerator_list_entries == s.objects);
+        CHECK(s.accelerator_bytes <= 64 * s.objects);
+        if (nodes == 0) nodes = s.hierarchy_nodes;
+        CHECK(s.hierarchy_nodes == nodes);
+      }
+    }
+  }
+}
