@@ -7,11 +7,6 @@
 
 namespace celltrace::kernel {
 
-/// The least and the greatest of a value over the lanes in question.
-struct Interval {
-  float low, high;
-};
-
 template <class S> class Beam {
 public:
   using F = typename S::F;
@@ -22,12 +17,20 @@ public:
     const V3<S> along = rays.direction.template load<S>();
     inverse_ = {inverse_of(along.x, (octant & 1) != 0), inverse_of(along.y, (octant & 2) != 0),
                 inverse_of(along.z, (octant & 4) != 0)};
-    const FloatLanes* origins[3] = {&rays.origin.x, &rays.origin.y, &rays.origin.z};
-    const FloatLanes* directions[3] = {&rays.direction.x, &rays.direction.y, &rays.direction.z};
+    const F* origins[3] = {&origin_.x, &origin_.y, &origin_.z};
+    const F* directions[3] = {&along.x, &along.y, &along.z};
+    const auto inside = S::M::from_bits(lanes);
+    const uint32_t some = static_cast<uint32_t>(__builtin_ctz(lanes));
+    const float origin_of_some[3] = {rays.origin.x.lane[some], rays.origin.y.lane[some],
+                                     rays.origin.z.lane[some]};
+    const float direction_of_some[3] = {rays.direction.x.lane[some], rays.direction.y.lane[some],
+                                        rays.direction.z.lane[some]};
     for (uint32_t axis = 0; axis < 3; ++axis) {
       const bool backward = ((octant >> axis) & 1) != 0;
-      const Interval origin = interval_of(*origins[axis], lanes);
-      const Interval direction = interval_of(*directions[axis], lanes);
+      // Lanes outside take the value of one inside.
+      const Interval origin = interval_of<S>(S::select(inside, *origins[axis], F(origin_of_some[axis])));
+      const Interval direction =
+          interval_of<S>(S::select(inside, *directions[axis], F(direction_of_some[axis])));
       origin_spread_ = larger(origin_spread_, origin.high - origin.low);
       direction_spread_ += direction.high - direction.low;
       // 1 / direction falls from the low end to the high one. A direction of almost 0 keeps its sign.
@@ -85,21 +88,6 @@ private:
 
   static F inverse_of(const F& direction, bool backward) {
     return F(1.0f) / (backward ? S::min(direction, F(-kTiny)) : S::max(direction, F(kTiny)));
-  }
-
-  /// Lanes outside the mask take the value of the first one inside.
-  static Interval interval_of(const FloatLanes& values, uint32_t lanes) {
-    const F all =
-        S::select(S::M::from_bits(lanes), F::load(values.lane), F(values.lane[__builtin_ctz(lanes)]));
-    FloatLanes low, high;
-    all.store(low.lane);
-    all.store(high.lane);
-    for (uint32_t half = kSimdLanes / 2; half != 0; half /= 2)
-      for (uint32_t i = 0; i < half; ++i) {
-        low.lane[i] = smaller(low.lane[i], low.lane[i + half]);
-        high.lane[i] = larger(high.lane[i], high.lane[i + half]);
-      }
-    return {low.lane[0], high.lane[0]};
   }
 
   V3<S> origin_, inverse_;

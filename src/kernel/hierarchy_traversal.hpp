@@ -82,12 +82,7 @@ private:
 
   /// The greatest value of the lanes in `group`; all are positive.
   static float farthest(const FloatLanes& values, uint32_t group) {
-    FloatLanes high;
-    S::select(M::from_bits(group), F::load(values.lane), F(0.0f)).store(high.lane);
-    for (uint32_t half = kSimdLanes / 2; half != 0; half /= 2)
-      for (uint32_t i = 0; i < half; ++i)
-        high.lane[i] = larger(high.lane[i], high.lane[i + half]);
-    return high.lane[0];
+    return interval_of<S>(S::select(M::from_bits(group), F::load(values.lane), F(0.0f))).high;
   }
 
   struct Entry {
@@ -106,12 +101,11 @@ private:
   void walk(const Beam<S>& beam, uint32_t group, Search& search) {
     float limit = search.hits != nullptr ? kMaxHitDistance : farthest(*search.distance, group);
     SceneAccess<Spu>& scene = objects_.scene();
-    Entry stack[kStackEntries];
     uint32_t waiting = 1;
-    stack[0] = {hierarchy_.node_offset, 0, 0.0f};
+    stack_[0] = {hierarchy_.node_offset, 0, 0.0f};
     uint64_t nodes = 0;
     while (waiting != 0) {
-      const Entry entry = stack[--waiting];
+      const Entry entry = stack_[--waiting];
       if (entry.enter > limit) continue;
       if (entry.count != 0) {
         for (uint32_t i = 0; i < entry.count; ++i) {
@@ -142,9 +136,9 @@ private:
         if ((beam.rays_that_meet(node.box, i, limits(search)) & group) == 0) continue;
         // Into its place among its siblings, the nearest last.
         uint32_t place = waiting++;
-        for (; place > first && stack[place - 1].enter < enter[i]; --place)
-          stack[place] = stack[place - 1];
-        stack[place] = {node.child[i], node.count[i], enter[i]};
+        for (; place > first && stack_[place - 1].enter < enter[i]; --place)
+          stack_[place] = stack_[place - 1];
+        stack_[place] = {node.child[i], node.count[i], enter[i]};
       }
     }
     objects_.counters().voxels += nodes;
@@ -175,6 +169,7 @@ private:
 
   ObjectTests<Spu>& objects_;
   const HierarchyRecord& hierarchy_;
+  Entry stack_[kStackEntries];
 };
 
 } // namespace celltrace::kernel

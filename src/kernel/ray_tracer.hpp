@@ -29,13 +29,14 @@ public:
     scene_.spu().compute(scalar_work::kPrimaryPacket);
     clear(0);
     accumulators_in_use_ = 1;
-    push_primary(rays, lanes);
-    while (!stack_.empty()) {
-      stack_.pop(node_);
+    start(rays, lanes);
+    for (;;) {
       if (node_.gathers != 0)
         gather();
       else
         trace_node();
+      if (stack_.empty()) break;
+      stack_.pop(node_);
     }
     return light_[0].template load<S>();
   }
@@ -59,21 +60,22 @@ private:
 
   static uint32_t count(uint32_t lanes) { return static_cast<uint32_t>(__builtin_popcount(lanes)); }
 
-  void push_primary(const RayPacket& rays, uint32_t lanes) {
-    child_.rays = rays;
-    child_.throughput.template store<S>({F(1.0f), F(1.0f), F(1.0f)});
-    F(1.0f).store(child_.weight.lane);
-    for (uint32_t lane = 0; lane < kSimdLanes; ++lane) {
-      child_.level.lane[lane] = 0;
-      child_.interior_depth.lane[lane] = frame_.camera_interior_count;
-      for (uint32_t d = 0; d < frame_.camera_interior_count; ++d)
-        child_.interiors[d].lane[lane] = frame_.camera_interiors[d];
-    }
-    child_.lanes = lanes;
-    child_.target = 0;
-    child_.gathers = 0;
+  /// The root of the tree: the rays as they leave the camera.
+  void start(const RayPacket& rays, uint32_t lanes) {
+    node_.rays = rays;
+    node_.throughput.template store<S>({F(1.0f), F(1.0f), F(1.0f)});
+    F(1.0f).store(node_.weight.lane);
+    fill(node_.level, 0);
+    fill(node_.interior_depth, frame_.camera_interior_count);
+    for (uint32_t d = 0; d < frame_.camera_interior_count; ++d)
+      fill(node_.interiors[d], frame_.camera_interiors[d]);
+    node_.lanes = lanes;
+    node_.target = 0;
+    node_.gathers = 0;
     counters_.primary += count(lanes);
-    push();
+  }
+  static void fill(WordLanes& lanes, uint32_t value) {
+    S::I::splat(static_cast<int32_t>(value)).store(reinterpret_cast<int32_t*>(lanes.lane));
   }
 
   bool push() {

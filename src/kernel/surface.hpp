@@ -11,8 +11,11 @@ namespace celltrace::kernel {
 /// sRGB encoding (IEC 61966-2-1) of linear values in [0, 1].
 template <class S> typename S::F encode_srgb(const typename S::F& linear) {
   using F = typename S::F;
+  const F line = linear * F(12.92f);
+  const auto dark = linear <= F(0.0031308f);
+  if (dark.bits() == (1u << kSimdLanes) - 1) return line;
   const F power = F(1.055f) * pow<S>(linear, F(1.0f / 2.4f)) - F(0.055f);
-  return S::select(linear <= F(0.0031308f), linear * F(12.92f), power);
+  return S::select(dark, line, power);
 }
 
 template <class Spu> class PixelWriter {
