@@ -32,6 +32,7 @@ public:
     std::memcpy(ls, reinterpret_cast<const void*>(ea), size);
   }
   std::uint32_t wait_all(std::uint32_t mask) { return mask; }
+  void compute(const ScalarWork&) {}
   [[noreturn]] void halt(HaltCode) { std::abort(); }
 
 private:

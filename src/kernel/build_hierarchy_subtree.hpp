@@ -122,7 +122,8 @@ private:
         halve_range(references_, whole, left, right);
       else
         split_range(references_, spare_, whole, left, right);
-      for (uint32_t i : {widest, n})
+      const uint32_t halves[2] = {widest, n};
+      for (const uint32_t i : halves)
         size[i] = halve ? static_cast<float>(children[i].count()) : children[i].box.area();
     }
   }
