@@ -13,18 +13,6 @@ namespace celltrace::cell_emu {
 struct UnitCounts {
   std::uint64_t fx2 = 0, fx3 = 0, fxb = 0, fp6 = 0, fp7 = 0; ///< even pipe
   std::uint64_t ls = 0, shuf = 0, br = 0;                    ///< odd pipe
-
-  [[gnu::always_inline]] void add(const SpuInstructions& n) {
-    // Most of these are 0 and known when this is compiled.
-    if (n.fx2 != 0) fx2 += n.fx2;
-    if (n.fx3 != 0) fx3 += n.fx3;
-    if (n.fxb != 0) fxb += n.fxb;
-    if (n.fp6 != 0) fp6 += n.fp6;
-    if (n.fp7 != 0) fp7 += n.fp7;
-    if (n.ls != 0) ls += n.ls;
-    if (n.shuf != 0) shuf += n.shuf;
-    if (n.br != 0) br += n.br;
-  }
 };
 
 /// What was computed since the last look; see cycles_of() in pipeline.hpp.
@@ -49,19 +37,39 @@ inline OperationCounts take_operation_counts() {
   return taken;
 }
 
+/// The policy of HostSimd that counts. Most of the numbers are 0, which is known when this is compiled. The
+/// fields are named one by one, as GCC 12's undefined-behaviour sanitizer takes a reference to part of a
+/// thread-local for null.
+struct CountOperations {
+  [[gnu::always_inline]] static void packet(const SpuInstructions& n) {
+    if (n.fx2 != 0) operation_counts.packet.fx2 += n.fx2;
+    if (n.fx3 != 0) operation_counts.packet.fx3 += n.fx3;
+    if (n.fxb != 0) operation_counts.packet.fxb += n.fxb;
+    if (n.fp6 != 0) operation_counts.packet.fp6 += n.fp6;
+    if (n.fp7 != 0) operation_counts.packet.fp7 += n.fp7;
+    if (n.ls != 0) operation_counts.packet.ls += n.ls;
+    if (n.shuf != 0) operation_counts.packet.shuf += n.shuf;
+    if (n.br != 0) operation_counts.packet.br += n.br;
+  }
+  [[gnu::always_inline]] static void chain(const SpuInstructions& n) {
+    if (n.fx2 != 0) operation_counts.chain.fx2 += n.fx2;
+    if (n.fx3 != 0) operation_counts.chain.fx3 += n.fx3;
+    if (n.fxb != 0) operation_counts.chain.fxb += n.fxb;
+    if (n.fp6 != 0) operation_counts.chain.fp6 += n.fp6;
+    if (n.fp7 != 0) operation_counts.chain.fp7 += n.fp7;
+    if (n.ls != 0) operation_counts.chain.ls += n.ls;
+    if (n.shuf != 0) operation_counts.chain.shuf += n.shuf;
+    if (n.br != 0) operation_counts.chain.br += n.br;
+  }
+};
+
 /// Scalar work that a kernel declares. A scalar load or store comes with a shuffle; those without one move
 /// quadwords from one place to another.
 [[gnu::always_inline]] inline void count(const ScalarWork& work) {
   const std::uint32_t scalars = work.memory < work.shuffle ? work.memory : work.shuffle;
-  operation_counts.chain.add({.fx2 = work.fixed, .fp6 = work.floating, .ls = scalars, .shuf = work.shuffle});
+  CountOperations::chain({.fx2 = work.fixed, .fp6 = work.floating, .ls = scalars, .shuf = work.shuffle});
   operation_counts.moves += work.memory - scalars;
   operation_counts.branches += work.branches;
 }
-
-/// The policy of HostSimd that counts.
-struct CountOperations {
-  [[gnu::always_inline]] static void packet(const SpuInstructions& n) { operation_counts.packet.add(n); }
-  [[gnu::always_inline]] static void chain(const SpuInstructions& n) { operation_counts.chain.add(n); }
-};
 
 } // namespace celltrace::cell_emu
