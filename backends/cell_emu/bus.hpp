@@ -12,6 +12,7 @@
 
 #include <atomic>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 namespace celltrace::cell_emu {
@@ -32,6 +33,12 @@ public:
 
   /// Zeroes lines of main memory or of a local store, as a put of zeroes would.
   void zero(unsigned spe, ea_t ea, std::uint32_t size);
+
+  /// Calls `use()` while no DMA touches the local store.
+  template <class Use> void hold_local_store(unsigned spe, Use use) {
+    const std::lock_guard lock(units_[spe].local_store_lock);
+    use();
+  }
 
   std::uint32_t read_register(AddressMap::Place place) const;
   /// False if an unread word was lost to it.

@@ -186,6 +186,7 @@ void EmulatedCell::refuse_too_large(unsigned spe, const std::string& name, Local
 void EmulatedCell::run(Spe& spe, const SpeProgram::Entry& entry, ea_t argument, ArenaRange range) {
   const SpuContext context{mfc_context_, *scheduler_};
   const ProgramGuard guard(map_.local_store(spe.id), range);
+  bus_.hold_local_store(spe.id, [&] { guard.fill(); });
   const auto broken_off = [&](const std::string& error) {
     spe.mfc.abandon();
     fail(spe, error);
@@ -209,7 +210,7 @@ void EmulatedCell::run(Spe& spe, const SpeProgram::Entry& entry, ea_t argument, 
       throw;
     }
     spu.finish();
-    guard.check(spe.id, log_);
+    bus_.hold_local_store(spe.id, [&] { guard.check(spe.id, log_); });
   } catch (const SpeError& error) {
     broken_off(error.what());
   } catch (const std::exception& error) {

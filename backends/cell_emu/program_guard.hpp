@@ -10,7 +10,11 @@ namespace celltrace::cell_emu {
 
 class ProgramGuard {
 public:
-  ProgramGuard(std::uint8_t* local_store, ArenaRange arena) : local_store_(local_store), arena_(arena) {
+  ProgramGuard(std::uint8_t* local_store, ArenaRange arena) : local_store_(local_store), arena_(arena) {}
+
+  // Others' DMA may reach the local store meanwhile: call these while the bus holds it.
+
+  void fill() const {
     fill_with_poison(local_store_, arena_.begin);
     fill_with_poison(local_store_ + arena_.end, kLocalStoreBytes - arena_.end);
   }
