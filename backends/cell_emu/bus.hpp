@@ -56,6 +56,11 @@ public:
   bool reserves(unsigned spe, ea_t line) const {
     return units_[spe].reserved.load(std::memory_order_relaxed) == line;
   }
+  /// The SPE has a reservation, but of another line.
+  bool reserves_other_than(unsigned spe, ea_t line) const {
+    const ea_t reserved = units_[spe].reserved.load(std::memory_order_relaxed);
+    return reserved != kNoLine && reserved != line;
+  }
   bool reserved_by_another(unsigned spe, ea_t line) const;
 
 private:

@@ -56,6 +56,7 @@ public:
 
   std::string_view backend() const noexcept override { return "cell_emu"; }
   unsigned spe_count() const noexcept override { return map_.spes(); }
+  bool direct_memory() const noexcept override { return Spu::direct_memory; }
   std::string_view spu_key() const noexcept override { return Spu::kKey; }
 
   void start(unsigned spe, const SpeProgram& program, ea_t argument) override;

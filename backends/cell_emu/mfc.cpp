@@ -1,5 +1,6 @@
 #include "backends/cell_emu/mfc.hpp"
 
+#include "backends/cell_emu/channels.hpp"
 #include "backends/cell_emu/local_store_watch.hpp"
 #include "backends/cell_emu/mfc_rules.hpp"
 
@@ -148,6 +149,25 @@ Diagnostic Mfc::about(const Entry& entry, Rule rule, Cycle now) const {
   return diagnostic;
 }
 
+void Mfc::report(const Entry& entry, Rule rule, Cycle now, const std::string& before) const {
+  context_.log.report(about(entry, rule, now),
+                      before + describe(entry.command) + ": " + std::string(text_of(rule)));
+}
+
+void Mfc::report_channel(Channel channel, std::uint32_t value, Rule rule, CallSite site, Cycle now) const {
+  Diagnostic diagnostic = about({}, rule, now);
+  diagnostic.site = site;
+  context_.log.report(diagnostic, std::string(cell_emu::name_of(channel)) + " " + std::to_string(value) +
+                                      ": " + std::string(text_of(rule)));
+}
+
+/// A get may only fill what is the program's own.
+Rule Mfc::broken_arena_rule(const MfcCommand& transfer) const {
+  const bool outside = transfer.lsa < arena_.begin || transfer.lsa + transfer.size > arena_.end;
+  const bool fills = kind_of(transfer.opcode) == CommandKind::get && transfer.size != 0;
+  return fills && outside ? Rule::program_overwritten : Rule::none;
+}
+
 bool Mfc::check(const MfcCommand& command, std::uint64_t number, CallSite site, Cycle now, bool proxy) {
   Rule rule = broken_common_rule(command);
   if (rule == Rule::none && proxy) rule = broken_proxy_rule(command);
@@ -162,14 +182,10 @@ bool Mfc::check(const MfcCommand& command, std::uint64_t number, CallSite site, 
     else if (kind != CommandKind::barrier)
       rule = broken_transfer_rule(command, bus_.map().locate(command.ea, command.size).kind);
   }
-  if (rule == Rule::none && kind == CommandKind::get && !is_list(command.opcode) && command.size != 0 &&
-      (command.lsa < arena_.begin || command.lsa + command.size > arena_.end))
-    rule = Rule::program_overwritten;
+  if (rule == Rule::none && !is_list(command.opcode)) rule = broken_arena_rule(command);
   if (rule == Rule::none && (kind == CommandKind::get || kind == CommandKind::put) && command.size == 0)
     rule = Rule::zero_size;
-  if (rule != Rule::none)
-    context_.log.report(about({command, number, site, proxy, now}, rule, now),
-                        describe(command) + ": " + std::string(text_of(rule)));
+  if (rule != Rule::none) report({command, number, site, proxy, now}, rule, now);
   return can_be_carried_out(rule);
 }
 
@@ -193,8 +209,7 @@ void Mfc::issue(const MfcCommand& given, CallSite site, Cycle now) {
     return;
   }
   if ((tag_groups_.waiting() || tag_groups_.available()) && (tag_groups_.mask() & bit) != 0)
-    context_.log.report(about({command, commands_, site, false, now}, Rule::tag_reused, now),
-                        describe(command) + ": " + std::string(text_of(Rule::tag_reused)));
+    report({command, commands_, site, false, now}, Rule::tag_reused, now);
   used_tags_ |= bit;
   enqueue(command, site, now, false);
 }
@@ -253,14 +268,13 @@ void Mfc::check_conditional(const MfcCommand& command, CallSite site, Cycle now)
     rule = Rule::reservation_lost_to_own_put;
     break;
   case Bus::Reservation::held:
-    if (!bus_.reserves(spe_, command.ea)) rule = Rule::conditional_without_reservation;
+    // In the meantime another SPE may have taken it, which is nobody's mistake.
+    if (bus_.reserves_other_than(spe_, command.ea)) rule = Rule::conditional_without_reservation;
     break;
   case Bus::Reservation::lost_to_others:
     break;
   }
-  if (rule != Rule::none)
-    context_.log.report(about({command, commands_, site, false, now}, rule, now),
-                        describe(command) + ": " + std::string(text_of(rule)));
+  if (rule != Rule::none) report({command, commands_, site, false, now}, rule, now);
 }
 
 void Mfc::execute_immediate(const MfcCommand& command, Cycle now) {
@@ -281,166 +295,6 @@ void Mfc::execute_immediate(const MfcCommand& command, Cycle now) {
     if (written) counters_.dma_bytes_written.add(kLineBytes);
     atomic_status_ = written ? 0 : atomic_status::putllc_failed;
   }
-}
-
-// --- transfers in flight ---
-
-std::uint8_t* Mfc::local_store(const MfcCommand& transfer) const {
-  return bus_.map().local_store(spe_) + transfer.lsa;
-}
-
-bool Mfc::is_ordered_before(const Flight& flight, const Entry& entry) const {
-  if (flight.proxy != entry.proxy || flight.command > entry.number) return false;
-  if (flight.command == entry.number) return true; // elements of a list are taken in order
-  if (kind_of(entry.command.opcode) == CommandKind::barrier ||
-      flight.command < last_queue_barrier_[entry.proxy])
-    return true;
-  if (flight.transfer.tag != entry.command.tag) return false;
-  return has_fence(entry.command.opcode) || has_barrier(entry.command.opcode) ||
-         flight.command <= last_tag_barrier_[entry.proxy][entry.command.tag];
-}
-
-/// Of a list that goes on after a stop: does the flight belong to a command that waits for all of the list?
-bool Mfc::is_ordered_behind(const Flight& flight, const Entry& entry) const {
-  if (flight.proxy != entry.proxy || flight.command <= entry.number) return false;
-  std::vector<const MfcCommand*> chain{&entry.command};
-  for (const Entry& later : queue_) {
-    if (later.proxy != entry.proxy || later.number <= entry.number) continue;
-    if (std::none_of(chain.begin(), chain.end(),
-                     [&](const MfcCommand* earlier) { return is_ordered(*earlier, later.command); }))
-      continue;
-    if (later.number == flight.command) return true;
-    chain.push_back(&later.command);
-  }
-  return false;
-}
-
-void Mfc::depart(const Entry& entry, const MfcCommand& transfer, Cycle now) {
-  if (transfer.size == 0) return;
-  Flight flight;
-  flight.command = entry.number;
-  flight.transfer = transfer;
-  flight.site = entry.site;
-  flight.proxy = entry.proxy;
-  flight.local = bus_.map().addresses(spe_).local_store + transfer.lsa;
-  const bool lock_line = kind_of(transfer.opcode) == CommandKind::lock_line;
-  if (is_immediate(transfer.opcode))
-    flight.transfer.opcode = transfer.opcode == MfcOpcode::getllar ? MfcOpcode::get : MfcOpcode::put;
-  // Lines that change hands whole are no race; nor are registers.
-  flight.has_storage = !lock_line && !is_register(bus_.map().locate(transfer.ea, transfer.size).kind);
-  for (std::size_t i = 0; i < context_.flights.of(spe_).size(); ++i) {
-    Flight& other = context_.flights.at(spe_, i);
-    const Overlap overlap = overlap_of(flight, other);
-    if (!overlap.any) continue;
-    if (is_ordered_before(other, entry) || is_ordered_behind(other, entry)) {
-      flight.shared = other.shared = true;
-      continue;
-    }
-    report_conflict(entry, transfer, {spe_, other.command, other.transfer, other.site, overlap.local}, now);
-  }
-  if (flight.has_storage)
-    if (const auto conflict = context_.flights.conflict_elsewhere(spe_, flight))
-      report_conflict(entry, transfer, *conflict, now);
-  if (!is_immediate(transfer.opcode)) context_.flights.add(spe_, flight);
-}
-
-void Mfc::report_conflict(const Entry& entry, const MfcCommand& transfer, const Conflict& conflict,
-                          Cycle now) {
-  const Rule rule = conflict.in_local_store ? Rule::local_store_race : Rule::main_storage_race;
-  Diagnostic diagnostic = about({transfer, entry.number, entry.site, entry.proxy, now}, rule, now);
-  diagnostic.other_spe = conflict.spe;
-  diagnostic.other_command = conflict.command;
-  diagnostic.other_site = conflict.site;
-  std::string other = "command " + std::to_string(conflict.command) + " of SPE " +
-                      std::to_string(conflict.spe) + " (" + describe(conflict.transfer);
-  if (const std::string site = to_text(conflict.site); !site.empty()) other += ", at " + site;
-  context_.log.report(diagnostic,
-                      describe(transfer) + " meets " + other + "): " + std::string(text_of(rule)));
-}
-
-void Mfc::report_touched(const Flight& flight, Cycle now) {
-  const Rule rule = flight.writes_local_store() ? Rule::get_target_touched : Rule::put_source_changed;
-  context_.log.report(about({flight.transfer, flight.command, flight.site, flight.proxy, now}, rule, now),
-                      describe(flight.transfer) + ": " + std::string(text_of(rule)));
-}
-
-void Mfc::verify(const Flight& flight, Cycle now) {
-  if (flight.hashed && !flight.shared &&
-      checksum(local_store(flight.transfer), flight.bytes()) != flight.hash)
-    report_touched(flight, now);
-}
-
-void Mfc::move_word(const Flight& flight, AddressMap::Place place, Cycle now) {
-  std::uint8_t* const word = local_store(flight.transfer);
-  std::uint32_t value;
-  if (flight.writes_local_store()) {
-    value = bus_.read_register(place);
-    std::memcpy(word, &value, sizeof value);
-    counters_.dma_bytes_read.add(sizeof value);
-    return;
-  }
-  std::memcpy(&value, word, sizeof value);
-  const bool mail = place.kind == EaKind::in_mailbox;
-  counters_.dma_bytes_written.add(sizeof value);
-  (mail ? counters_.mailbox_words_sent : counters_.signals_sent).add(1);
-  if (bus_.write_register(place, value, {flight.proxy ? Diagnostic::kPpe : spe_, now})) return;
-  const Rule rule = mail ? Rule::mailbox_overwritten : Rule::signal_overwritten;
-  Diagnostic diagnostic = about({flight.transfer, flight.command, flight.site, flight.proxy, now}, rule, now);
-  diagnostic.other_spe = place.spe;
-  context_.log.report(diagnostic, describe(flight.transfer) + " (" + (mail ? "mailbox" : "signal") +
-                                      " of SPE " + std::to_string(place.spe) +
-                                      "): " + std::string(text_of(rule)));
-}
-
-void Mfc::move(Flight& flight, Cycle now, bool observed) {
-  flight.moved = true;
-  const auto [opcode, tag, lsa, size, ea] = flight.transfer;
-  std::uint8_t* const local = local_store(flight.transfer);
-  permit_access(local, size);
-  const AddressMap::Place place = bus_.map().locate(ea, size);
-  if (flight.writes_local_store()) {
-    const bool touched = flight.hashed && !flight.shared && !is_poison(local, size);
-    if (is_register(place.kind)) {
-      move_word(flight, place, now);
-    } else {
-      bus_.get(spe_, lsa, ea, size);
-      counters_.dma_bytes_read.add(size);
-    }
-    flight.hashed = !flight.shared && !observed;
-    if (flight.hashed) flight.hash = checksum(local, size);
-    if (touched) report_touched(flight, now);
-    return;
-  }
-  verify(flight, now);
-  if (is_register(place.kind)) {
-    move_word(flight, place, now);
-  } else if (opcode == MfcOpcode::putqlluc) {
-    bus_.put_line(spe_, lsa, ea);
-    counters_.dma_bytes_written.add(size);
-  } else {
-    bus_.put(spe_, lsa, ea, size);
-    counters_.dma_bytes_written.add(size);
-  }
-}
-
-void Mfc::observe(std::uint32_t tags, std::uint64_t last_command, bool proxy, Cycle now) {
-  const auto seen = [&](const Flight& flight) {
-    return flight.completed && flight.proxy == proxy && (tags >> flight.transfer.tag & 1) != 0 &&
-           flight.command <= last_command;
-  };
-  for (std::size_t i = 0; i < context_.flights.of(spe_).size(); ++i) {
-    Flight& flight = context_.flights.at(spe_, i);
-    if (!seen(flight)) continue;
-    if (!flight.moved)
-      move(flight, now, true);
-    else
-      verify(flight, now);
-  }
-  context_.flights.remove_if(spe_, seen);
-}
-
-void Mfc::observe_proxy(std::uint32_t tags, Cycle now) {
-  observe(tags, commands_, true, now);
 }
 
 // --- progress ---
@@ -620,11 +474,11 @@ void Mfc::begin_part(Entry& entry, Cycle now) {
   while (entry.next_element < entry.elements.size()) {
     const ListElement element = entry.elements[entry.next_element];
     const MfcCommand part = element_command(entry.command, element, entry.next_lsa);
-    const Rule rule = broken_element_rule(part, bus_.map().locate(part.ea, part.size).kind);
+    Rule rule = broken_element_rule(part, bus_.map().locate(part.ea, part.size).kind);
+    if (rule == Rule::none) rule = broken_arena_rule(part);
     if (rule != Rule::none)
-      context_.log.report(about({part, entry.number, entry.site, false, now}, rule, now),
-                          "element " + std::to_string(entry.next_element) + " of " + describe(entry.command) +
-                              ": " + describe(part) + ": " + std::string(text_of(rule)));
+      report({part, entry.number, entry.site, false, now}, rule, now,
+             "element " + std::to_string(entry.next_element) + " of " + describe(entry.command) + ": ");
     if (can_be_carried_out(rule)) depart(entry, part, now);
     counters_.dma_list_elements.add(1);
     if (part.size != 0) entry.next_lsa = (part.lsa + part.size + 15) & ~15u;
@@ -637,8 +491,7 @@ void Mfc::check_list_unchanged(const Entry& entry, Cycle now) {
   const std::uint8_t* const list =
       bus_.map().local_store(spe_) + static_cast<std::uint32_t>(entry.command.ea);
   if (std::memcmp(list, entry.elements.data(), entry.next_element * sizeof(ListElement)) == 0) return;
-  context_.log.report(about(entry, Rule::list_changed, now),
-                      describe(entry.command) + ": " + std::string(text_of(Rule::list_changed)));
+  report(entry, Rule::list_changed, now);
 }
 
 bool Mfc::complete_part(Entry& entry, Cycle now) {
@@ -657,30 +510,14 @@ std::uint32_t Mfc::take_list_stall_status(Cycle now) {
   const std::uint32_t tags = stalled_tags_;
   stalled_tags_ = 0;
   // The parts before the stops have been transferred, and the program knows.
-  for (const Entry& entry : queue_) {
-    if (!entry.stalled || (tags >> entry.command.tag & 1) == 0) continue;
-    const auto seen = [&](const Flight& flight) {
-      return flight.command == entry.number && flight.completed;
-    };
-    for (std::size_t i = 0; i < context_.flights.of(spe_).size(); ++i) {
-      Flight& flight = context_.flights.at(spe_, i);
-      if (!seen(flight)) continue;
-      if (!flight.moved)
-        move(flight, now, true);
-      else
-        verify(flight, now);
-    }
-    context_.flights.remove_if(spe_, seen);
-  }
+  for (const Entry& entry : queue_)
+    if (entry.stalled && (tags >> entry.command.tag & 1) != 0) observe_part(entry.number, now);
   return tags;
 }
 
 void Mfc::acknowledge_list_stall(std::uint32_t tag, CallSite site, Cycle now) {
   if (tag >= kMfcTags) {
-    Diagnostic diagnostic = about({}, Rule::list_stall_tag, now);
-    diagnostic.site = site;
-    context_.log.report(diagnostic, "MFC_WrListStallAck " + std::to_string(tag) + ": " +
-                                        std::string(text_of(Rule::list_stall_tag)));
+    report_channel(Channel::wr_list_stall_ack, tag, Rule::list_stall_tag, site, now);
     return;
   }
   for (Entry& entry : queue_) {
@@ -702,7 +539,7 @@ void Mfc::judge_tag_groups() {
     problem_state_.raise_own(event::tag_status);
 }
 
-void Mfc::write_tag_mask(std::uint32_t mask, Cycle) {
+void Mfc::write_tag_mask(std::uint32_t mask) {
   tag_groups_.write_mask(mask);
   judge_tag_groups();
 }
@@ -710,10 +547,7 @@ void Mfc::write_tag_mask(std::uint32_t mask, Cycle) {
 void Mfc::write_tag_update(std::uint32_t request, CallSite site, Cycle now) {
   last_request_ = site;
   if (request > static_cast<std::uint32_t>(TagUpdate::all)) {
-    Diagnostic diagnostic = about({}, Rule::tag_update_request, now);
-    diagnostic.site = site;
-    context_.log.report(diagnostic, "MFC_WrTagUpdate " + std::to_string(request) + ": " +
-                                        std::string(text_of(Rule::tag_update_request)));
+    report_channel(Channel::wr_tag_update, request, Rule::tag_update_request, site, now);
     return;
   }
   if (request != 0) {

@@ -95,7 +95,7 @@ public:
   // --- channels ---
 
   std::uint32_t tag_mask() const { return tag_groups_.mask(); }
-  void write_tag_mask(std::uint32_t mask, Cycle now);
+  void write_tag_mask(std::uint32_t mask);
   void write_tag_update(std::uint32_t request, CallSite site, Cycle now);
   bool tag_status_available() const { return tag_groups_.available(); }
   /// Only when available.
@@ -129,13 +129,17 @@ private:
   };
 
   Diagnostic about(const Entry& entry, Rule rule, Cycle now) const;
+  /// Reports a rule that a command breaks; `before` comes before the command in the text.
+  void report(const Entry& entry, Rule rule, Cycle now, const std::string& before = {}) const;
+  void report_channel(Channel channel, std::uint32_t value, Rule rule, CallSite site, Cycle now) const;
+  Rule broken_arena_rule(const MfcCommand& transfer) const;
   /// False if the command cannot be carried out, though whoever broke the rule goes on.
   bool check(const MfcCommand& command, std::uint64_t number, CallSite site, Cycle now, bool proxy);
   void enqueue(const MfcCommand& command, CallSite site, Cycle now, bool proxy);
   void execute_immediate(const MfcCommand& command, Cycle now);
   void check_conditional(const MfcCommand& command, CallSite site, Cycle now);
 
-  // --- transfers in flight ---
+  // --- transfers in flight: mfc_transfers.cpp ---
 
   void depart(const Entry& entry, const MfcCommand& transfer, Cycle now);
   void report_conflict(const Entry& entry, const MfcCommand& transfer, const Conflict& conflict, Cycle now);
@@ -147,6 +151,10 @@ private:
   /// Reports a flight whose local store has another content than the emulator left there.
   void report_touched(const Flight& flight, Cycle now);
   void verify(const Flight& flight, Cycle now);
+  /// The program knows that the flights of which `seen(flight)` is true are complete.
+  template <class Seen> void observe_if(Seen seen, Cycle now);
+  /// What of a list has been transferred.
+  void observe_part(std::uint64_t command, Cycle now);
   void observe(std::uint32_t tags, std::uint64_t last_command, bool proxy, Cycle now);
   std::uint8_t* local_store(const MfcCommand& transfer) const;
 

@@ -216,7 +216,7 @@ template <Channel c> void Spu::write_channel(std::uint32_t value) {
   if constexpr (c >= Channel::mfc_lsa && c <= Channel::mfc_tag_id)
     written_parameters_ |= 1u << static_cast<unsigned>(c);
   if constexpr (c == Channel::mfc_cmd) command_word(value);
-  if constexpr (c == Channel::wr_tag_mask) mfc_.write_tag_mask(value, now_);
+  if constexpr (c == Channel::wr_tag_mask) mfc_.write_tag_mask(value);
   if constexpr (c == Channel::wr_tag_update) mfc_.write_tag_update(value, site_, now_);
   if constexpr (c == Channel::wr_list_stall_ack) mfc_.acknowledge_list_stall(value, site_, now_);
   if constexpr (c == Channel::wr_out_mbox) {

@@ -46,6 +46,7 @@ public:
 
   std::string_view backend() const noexcept override { return "native"; }
   unsigned spe_count() const noexcept override { return static_cast<unsigned>(workers_.size()); }
+  bool direct_memory() const noexcept override { return true; }
   std::string_view spu_key() const noexcept override { return current_type_->key; }
 
   void start(unsigned spe, const SpeProgram& program, ea_t argument) override;

@@ -164,7 +164,7 @@ private:
     image_->reserve_accelerator(std::uint64_t{nodes} * sizeof(NodeRecord), objects);
     frame_.hierarchy = {image_->table_offset(), nodes, 0, image_->list_offset()};
     reserve_work(static_cast<std::uint32_t>(hierarchy::work_pairs(objects)));
-    if (machine_->backend() == "native") {
+    if (machine_->direct_memory()) {
       build_hierarchy_on(*team_, machine_->spe_count());
     } else {
       // The builder follows pointers through main memory: work for the PPE's side where SPEs cannot.

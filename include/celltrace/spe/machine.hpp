@@ -70,6 +70,8 @@ public:
 
   virtual std::string_view backend() const noexcept = 0;
   virtual unsigned spe_count() const noexcept = 0;
+  /// The SPEs can dereference effective addresses (Spu::direct_memory).
+  virtual bool direct_memory() const noexcept = 0;
   /// The SPU type in use, for reports: "native.avx512", "cell_emu".
   virtual std::string_view spu_key() const noexcept = 0;
 

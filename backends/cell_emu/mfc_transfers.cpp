@@ -1,0 +1,177 @@
+// The MFC's transfers in flight: what meets what, when data move, and whether the program kept its hands off.
+#include "backends/cell_emu/local_store_watch.hpp"
+#include "backends/cell_emu/mfc.hpp"
+#include "backends/cell_emu/mfc_rules.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace celltrace::cell_emu {
+
+std::uint8_t* Mfc::local_store(const MfcCommand& transfer) const {
+  return bus_.map().local_store(spe_) + transfer.lsa;
+}
+
+bool Mfc::is_ordered_before(const Flight& flight, const Entry& entry) const {
+  if (flight.proxy != entry.proxy || flight.command > entry.number) return false;
+  if (flight.command == entry.number) return true; // elements of a list are taken in order
+  if (kind_of(entry.command.opcode) == CommandKind::barrier ||
+      flight.command < last_queue_barrier_[entry.proxy])
+    return true;
+  if (flight.transfer.tag != entry.command.tag) return false;
+  return has_fence(entry.command.opcode) || has_barrier(entry.command.opcode) ||
+         flight.command <= last_tag_barrier_[entry.proxy][entry.command.tag];
+}
+
+/// Of a list that goes on after a stop: does the flight belong to a command that waits for all of the list?
+bool Mfc::is_ordered_behind(const Flight& flight, const Entry& entry) const {
+  if (flight.proxy != entry.proxy || flight.command <= entry.number) return false;
+  std::vector<const MfcCommand*> chain{&entry.command};
+  for (const Entry& later : queue_) {
+    if (later.proxy != entry.proxy || later.number <= entry.number) continue;
+    if (std::none_of(chain.begin(), chain.end(),
+                     [&](const MfcCommand* earlier) { return is_ordered(*earlier, later.command); }))
+      continue;
+    if (later.number == flight.command) return true;
+    chain.push_back(&later.command);
+  }
+  return false;
+}
+
+void Mfc::depart(const Entry& entry, const MfcCommand& transfer, Cycle now) {
+  if (transfer.size == 0) return;
+  Flight flight;
+  flight.command = entry.number;
+  flight.transfer = transfer;
+  flight.site = entry.site;
+  flight.proxy = entry.proxy;
+  flight.local = bus_.map().addresses(spe_).local_store + transfer.lsa;
+  const bool lock_line = kind_of(transfer.opcode) == CommandKind::lock_line;
+  if (is_immediate(transfer.opcode))
+    flight.transfer.opcode = transfer.opcode == MfcOpcode::getllar ? MfcOpcode::get : MfcOpcode::put;
+  // Lines that change hands whole are no race; nor are registers.
+  flight.has_storage = !lock_line && !is_register(bus_.map().locate(transfer.ea, transfer.size).kind);
+  for (std::size_t i = 0; i < context_.flights.of(spe_).size(); ++i) {
+    Flight& other = context_.flights.at(spe_, i);
+    const Overlap overlap = overlap_of(flight, other);
+    if (!overlap.any) continue;
+    if (is_ordered_before(other, entry) || is_ordered_behind(other, entry)) {
+      flight.shared = other.shared = true;
+      continue;
+    }
+    report_conflict(entry, transfer, {spe_, other.command, other.transfer, other.site, overlap.local}, now);
+  }
+  if (flight.has_storage)
+    if (const auto conflict = context_.flights.conflict_elsewhere(spe_, flight))
+      report_conflict(entry, transfer, *conflict, now);
+  if (!is_immediate(transfer.opcode)) context_.flights.add(spe_, flight);
+}
+
+void Mfc::report_conflict(const Entry& entry, const MfcCommand& transfer, const Conflict& conflict,
+                          Cycle now) {
+  const Rule rule = conflict.in_local_store ? Rule::local_store_race : Rule::main_storage_race;
+  Diagnostic diagnostic = about({transfer, entry.number, entry.site, entry.proxy, now}, rule, now);
+  diagnostic.other_spe = conflict.spe;
+  diagnostic.other_command = conflict.command;
+  diagnostic.other_site = conflict.site;
+  std::string other = "command " + std::to_string(conflict.command) + " of SPE " +
+                      std::to_string(conflict.spe) + " (" + describe(conflict.transfer);
+  if (const std::string site = to_text(conflict.site); !site.empty()) other += ", at " + site;
+  context_.log.report(diagnostic,
+                      describe(transfer) + " meets " + other + "): " + std::string(text_of(rule)));
+}
+
+void Mfc::report_touched(const Flight& flight, Cycle now) {
+  const Rule rule = flight.writes_local_store() ? Rule::get_target_touched : Rule::put_source_changed;
+  report({flight.transfer, flight.command, flight.site, flight.proxy, now}, rule, now);
+}
+
+void Mfc::verify(const Flight& flight, Cycle now) {
+  if (flight.hashed && !flight.shared &&
+      checksum(local_store(flight.transfer), flight.bytes()) != flight.hash)
+    report_touched(flight, now);
+}
+
+void Mfc::move_word(const Flight& flight, AddressMap::Place place, Cycle now) {
+  std::uint8_t* const word = local_store(flight.transfer);
+  std::uint32_t value;
+  if (flight.writes_local_store()) {
+    value = bus_.read_register(place);
+    std::memcpy(word, &value, sizeof value);
+    counters_.dma_bytes_read.add(sizeof value);
+    return;
+  }
+  std::memcpy(&value, word, sizeof value);
+  const bool mail = place.kind == EaKind::in_mailbox;
+  counters_.dma_bytes_written.add(sizeof value);
+  (mail ? counters_.mailbox_words_sent : counters_.signals_sent).add(1);
+  if (bus_.write_register(place, value, {flight.proxy ? Diagnostic::kPpe : spe_, now})) return;
+  const Rule rule = mail ? Rule::mailbox_overwritten : Rule::signal_overwritten;
+  Diagnostic diagnostic = about({flight.transfer, flight.command, flight.site, flight.proxy, now}, rule, now);
+  diagnostic.other_spe = place.spe;
+  context_.log.report(diagnostic, describe(flight.transfer) + " (" + (mail ? "mailbox" : "signal") +
+                                      " of SPE " + std::to_string(place.spe) +
+                                      "): " + std::string(text_of(rule)));
+}
+
+void Mfc::move(Flight& flight, Cycle now, bool observed) {
+  flight.moved = true;
+  const auto [opcode, tag, lsa, size, ea] = flight.transfer;
+  std::uint8_t* const local = local_store(flight.transfer);
+  permit_access(local, size);
+  const AddressMap::Place place = bus_.map().locate(ea, size);
+  if (flight.writes_local_store()) {
+    const bool touched = flight.hashed && !flight.shared && !is_poison(local, size);
+    if (is_register(place.kind)) {
+      move_word(flight, place, now);
+    } else {
+      bus_.get(spe_, lsa, ea, size);
+      counters_.dma_bytes_read.add(size);
+    }
+    flight.hashed = !flight.shared && !observed;
+    if (flight.hashed) flight.hash = checksum(local, size);
+    if (touched) report_touched(flight, now);
+    return;
+  }
+  verify(flight, now);
+  if (is_register(place.kind)) {
+    move_word(flight, place, now);
+  } else if (opcode == MfcOpcode::putqlluc) {
+    bus_.put_line(spe_, lsa, ea);
+    counters_.dma_bytes_written.add(size);
+  } else {
+    bus_.put(spe_, lsa, ea, size);
+    counters_.dma_bytes_written.add(size);
+  }
+}
+
+template <class Seen> void Mfc::observe_if(Seen seen, Cycle now) {
+  for (std::size_t i = 0; i < context_.flights.of(spe_).size(); ++i) {
+    Flight& flight = context_.flights.at(spe_, i);
+    if (!seen(flight)) continue;
+    if (!flight.moved)
+      move(flight, now, true);
+    else
+      verify(flight, now);
+  }
+  context_.flights.remove_if(spe_, seen);
+}
+
+void Mfc::observe(std::uint32_t tags, std::uint64_t last_command, bool proxy, Cycle now) {
+  observe_if(
+      [&](const Flight& flight) {
+        return flight.completed && flight.proxy == proxy && (tags >> flight.transfer.tag & 1) != 0 &&
+               flight.command <= last_command;
+      },
+      now);
+}
+
+void Mfc::observe_part(std::uint64_t command, Cycle now) {
+  observe_if([&](const Flight& flight) { return flight.command == command && flight.completed; }, now);
+}
+
+void Mfc::observe_proxy(std::uint32_t tags, Cycle now) {
+  observe(tags, commands_, true, now);
+}
+
+} // namespace celltrace::cell_emu
