@@ -118,5 +118,18 @@ TEST_CASE("list elements reach registers word by word") {
   CHECK(run.ok());
 }
 
+TEST_CASE("an element of a list may not fill local store that belongs to the program's code") {
+  alignas(128) static std::uint32_t data[32];
+  const EmulatedRun run = emulate(lockstep(1), [&](EmulatedSpu& spu) {
+    auto* list = spu.allocate<ListElement>(1);
+    list[0] = ListElement::make(128, to_ea(data));
+    spu.getl(spu.arena().begin - 128, to_ea(data), list, 1, 0);
+    spu.wait_all(1);
+  });
+  REQUIRE(run.diagnostics.size() == 1);
+  CHECK(run.diagnostics[0].rule == Rule::program_overwritten);
+  CHECK_THAT(run.errors[0], Catch::Contains("element 0 of getl"));
+}
+
 } // namespace
 } // namespace celltrace::test
