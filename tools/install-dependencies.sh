@@ -10,7 +10,7 @@
 set -euo pipefail
 
 declare -A packages=(
-  [build]="g++ cmake ninja-build flex bison libboost-context-dev libcli11-dev libglm-dev libpng-dev libxsimd-dev nlohmann-json3-dev"
+  [build]="g++ cmake ninja-build flex bison libboost-context-dev libcli11-dev libdeflate-dev libglm-dev libpng-dev libxsimd-dev nlohmann-json3-dev"
   [tests]="catch2 libbenchmark-dev xz-utils"
   [bench]="libembree-dev povray povray-includes"
   [extras]="ccache clang povray povray-includes"

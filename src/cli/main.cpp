@@ -8,6 +8,10 @@
 #include <iostream>
 #include <new>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace {
 
 using namespace celltrace::cli;
@@ -15,6 +19,16 @@ using namespace celltrace::cli;
 void print_notes(const Translation& translation) {
   for (const std::string& note : translation.notes)
     std::cerr << "note: " << note << '\n';
+}
+
+/// One picture takes a few large blocks one after the other. glibc would give each of them back to the system
+/// and have the pages of the next one brought in anew, and cut the heap into pieces too short for huge pages.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, 1 << 30);
+  mallopt(M_TRIM_THRESHOLD, -1);
+  mallopt(M_TOP_PAD, 64 << 20);
+#endif
 }
 
 int run(const std::vector<std::string>& arguments) {
@@ -33,6 +47,7 @@ int run(const std::vector<std::string>& arguments) {
 } // namespace
 
 int main(int argc, char** argv) {
+  keep_freed_memory();
   try {
     return run({argv + 1, argv + argc});
   } catch (const celltrace::SceneError& error) {

@@ -53,7 +53,7 @@ RenderResult render_with_progress(const Scene& scene, const RenderRequest& reque
   std::vector<Diagnostic> diagnostics;
   options.diagnostic = [&](const Diagnostic& diagnostic) { diagnostics.push_back(diagnostic); };
   try {
-    const RenderResult result = [&] {
+    RenderResult result = [&] {
       ProgressLine line(std::cerr, !request.quiet && stderr_is_terminal());
       return render(scene, options, [&line](double fraction) {
         line.update(fraction);

@@ -1,12 +1,16 @@
 #include "celltrace/image.hpp"
 
+#include "image/huge_pages.hpp"
 #include "image/limits.hpp"
 
 namespace celltrace {
 
 Image::Image(int image_width, int image_height) : width(image_width), height(image_height) {
   image::check_size(image_width, image_height);
-  rgba.resize(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  const std::size_t bytes = 4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  rgba.reserve(bytes);
+  use_huge_pages(rgba.data(), bytes);
+  rgba.resize(bytes);
   for (std::size_t alpha = 3; alpha < rgba.size(); alpha += 4)
     rgba[alpha] = 255;
 }

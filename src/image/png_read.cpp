@@ -1,4 +1,4 @@
-// PNG by libpng. libpng leaves by longjmp when it fails; every function here that calls setjmp therefore
+// PNG in, by libpng. libpng leaves by longjmp when it fails; every function here that calls setjmp therefore
 // keeps nothing with a destructor, and owners live in its caller.
 #include "image/formats.hpp"
 #include "image/limits.hpp"
@@ -39,17 +39,6 @@ struct Reader {
   ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
 };
 
-struct Writer {
-  Message message;
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &message, keep_message, ignore_warning);
-  png_infop info = png ? png_create_info_struct(png) : nullptr;
-
-  Writer() = default;
-  Writer(const Writer&) = delete;
-  Writer& operator=(const Writer&) = delete;
-  ~Writer() { png_destroy_write_struct(&png, &info); }
-};
-
 [[noreturn]] void fail(const Message& message) {
   throw InputError(std::string("is damaged: ") + (message.text[0] ? message.text : "unknown error"));
 }
@@ -79,24 +68,6 @@ bool read_pixels(png_structp png, png_infop info, png_bytepp rows) {
   return true;
 }
 
-bool write_rows(png_structp png, png_infop info, std::FILE* file, const Image& image, bool opaque) {
-  if (setjmp(png_jmpbuf(png))) return false;
-  png_init_io(png, file);
-  png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
-  png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
-               opaque ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGBA, PNG_INTERLACE_NONE,
-               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  // Files some 15 % larger than by libpng's defaults, written in a third of the time.
-  png_set_compression_level(png, 3);
-  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
-  png_write_info(png, info);
-  if (opaque) png_set_filler(png, 0, PNG_FILLER_AFTER);
-  for (int y = 0; y < image.height; ++y)
-    png_write_row(png, image.pixel(0, y));
-  png_write_end(png, nullptr);
-  return true;
-}
-
 /// A small file cannot hold a large picture: seen before memory is taken for it.
 void check_plausible(png_structp png, png_infop info, std::uintmax_t file_bytes) {
   const std::uintmax_t bits_per_pixel =
@@ -104,12 +75,6 @@ void check_plausible(png_structp png, png_infop info, std::uintmax_t file_bytes)
   const std::uintmax_t row_bytes = (png_get_image_width(png, info) * bits_per_pixel + 7) / 8;
   if (row_bytes * png_get_image_height(png, info) / kMaxDeflateRatio > file_bytes)
     throw InputError("is too short for the size it declares");
-}
-
-bool is_opaque(const Image& image) {
-  for (std::size_t alpha = 3; alpha < image.rgba.size(); alpha += 4)
-    if (image.rgba[alpha] != 255) return false;
-  return true;
 }
 
 } // namespace
@@ -129,13 +94,6 @@ Image read_png(std::FILE* file, std::uintmax_t file_bytes) {
     rows[static_cast<std::size_t>(y)] = image.pixel(0, y);
   if (!read_pixels(reader.png, reader.info, rows.data())) fail(reader.message);
   return image;
-}
-
-void write_png(std::FILE* file, const Image& image) {
-  Writer writer;
-  if (!writer.info) throw std::bad_alloc();
-  if (!write_rows(writer.png, writer.info, file, image, is_opaque(image)))
-    throw InputError(std::string("cannot be written: ") + writer.message.text);
 }
 
 } // namespace celltrace::image

@@ -1,0 +1,27 @@
+// Large blocks of memory on huge pages, where the system has them to give (Linux: transparent_hugepage).
+//
+// A picture is written once and read once or twice, so that bringing in its pages, 4 KB at a time, can take
+// as long as the work on it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <sys/mman.h>
+
+namespace celltrace {
+
+/// Advice for memory that is about to be filled: it changes what page faults cost and nothing else. Blocks
+/// too small to hold a huge page are left alone.
+inline void use_huge_pages(void* data, std::size_t bytes) noexcept {
+#ifdef MADV_HUGEPAGE
+  constexpr std::uintptr_t kHugePage = std::uintptr_t{2} << 20;
+  const auto begin = reinterpret_cast<std::uintptr_t>(data) & ~(kHugePage - 1);
+  const auto end = (reinterpret_cast<std::uintptr_t>(data) + bytes + kHugePage - 1) & ~(kHugePage - 1);
+  if (bytes >= kHugePage) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+#else
+  static_cast<void>(data), static_cast<void>(bytes);
+#endif
+}
+
+} // namespace celltrace
