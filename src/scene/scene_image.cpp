@@ -92,17 +92,6 @@ bool references_are_valid(const std::byte* base, const ImageHeader& h) {
 
 } // namespace
 
-AlignedBlock::AlignedBlock(std::size_t bytes)
-    : bytes_(static_cast<std::byte*>(std::aligned_alloc(kLineBytes, round_up(bytes == 0 ? 1 : bytes)))),
-      size_(bytes) {
-  if (!bytes_) throw std::bad_alloc();
-  std::memset(bytes_.get(), 0, round_up(bytes == 0 ? 1 : bytes));
-}
-
-void AlignedBlock::Free::operator()(std::byte* bytes) const noexcept {
-  std::free(bytes);
-}
-
 SceneImage::SceneImage(const Scene& scene) {
   validate(scene);
   ImageTables tables = build_tables(scene);

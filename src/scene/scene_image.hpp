@@ -8,30 +8,12 @@
 
 #include "celltrace/scene.hpp"
 #include "kernel/records.hpp"
+#include "scene/aligned_block.hpp"
 
 #include <cstddef>
-#include <memory>
 #include <span>
 
 namespace celltrace {
-
-/// Memory that starts on a 128-byte boundary and is zero at first.
-class AlignedBlock {
-public:
-  AlignedBlock() = default;
-  /// Throws std::bad_alloc.
-  explicit AlignedBlock(std::size_t bytes);
-
-  std::byte* data() const noexcept { return bytes_.get(); }
-  std::size_t size() const noexcept { return size_; }
-
-private:
-  struct Free {
-    void operator()(std::byte* bytes) const noexcept;
-  };
-  std::unique_ptr<std::byte, Free> bytes_;
-  std::size_t size_ = 0;
-};
 
 /// Thread safety: as a standard container.
 class SceneImage {

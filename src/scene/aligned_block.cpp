@@ -1,0 +1,51 @@
+#include "scene/aligned_block.hpp"
+
+#include <cstdlib>
+#include <cstring>
+#include <new>
+
+#include <sys/mman.h>
+
+namespace celltrace {
+
+namespace {
+
+constexpr std::size_t kLine = 128;
+constexpr std::size_t kLargePage = std::size_t{2} << 20;
+
+std::size_t round_up(std::size_t bytes, std::size_t unit) {
+  return (bytes + unit - 1) / unit * unit;
+}
+
+} // namespace
+
+void AlignedBlock::Free::operator()(std::byte* bytes) const noexcept {
+  std::free(bytes);
+}
+
+AlignedBlock AlignedBlock::uninitialised(std::size_t bytes) {
+  const bool large = bytes >= 2 * kLargePage;
+  const std::size_t unit = large ? kLargePage : kLine;
+  const std::size_t whole = round_up(bytes == 0 ? 1 : bytes, unit);
+  AlignedBlock block;
+  block.bytes_.reset(static_cast<std::byte*>(std::aligned_alloc(unit, whole)));
+  if (!block.bytes_) throw std::bad_alloc();
+  block.size_ = bytes;
+#ifdef MADV_HUGEPAGE
+  // Without large pages everything works as well.
+  if (large) static_cast<void>(madvise(block.bytes_.get(), whole, MADV_HUGEPAGE));
+#endif
+  return block;
+}
+
+AlignedBlock::AlignedBlock(std::size_t bytes) : AlignedBlock(uninitialised(bytes)) {
+  std::memset(data(), 0, bytes);
+}
+
+void AlignedBlock::reserve(std::size_t bytes) {
+  if (bytes <= size_) return;
+  *this = AlignedBlock(); // never both at a time
+  *this = uninitialised(bytes);
+}
+
+} // namespace celltrace
