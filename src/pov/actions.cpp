@@ -19,6 +19,19 @@ double positive(Session& session, double value, const char* what, const Location
   return value;
 }
 
+void require_finite(Session& session, const ListEntry& entry, const Location& where) {
+  if (!std::isfinite(entry.v.x) || !std::isfinite(entry.v.y) || !std::isfinite(entry.v.z))
+    session.fail(where, "this number is not finite");
+}
+
+/// The number that leads a list.
+double list_count(Session& session, const std::vector<ListEntry>& list, const Location& where) {
+  const ListEntry& count = list.front();
+  if (!count.is_float) session.fail(where, "expected a float, found a vector");
+  require_finite(session, count, where);
+  return count.v.x;
+}
+
 std::shared_ptr<ObjectDefinition> make_object(std::shared_ptr<MeshDefinition> mesh) {
   auto object = std::make_shared<ObjectDefinition>();
   object->shape = std::move(mesh);
@@ -189,25 +202,24 @@ void check_count(Session& session, double announced, std::size_t found, const Lo
                             " entries, but has " + std::to_string(found));
 }
 
-std::vector<Quantity> counted(Session& session, const std::vector<Quantity>& list, const Location& where) {
-  check_count(session, session.number(list.front(), where), list.size() - 1, where);
-  return {list.begin() + 1, list.end()};
+std::vector<ListEntry> counted(Session& session, std::vector<ListEntry>& list, const Location& where) {
+  check_count(session, list_count(session, list, where), list.size() - 1, where);
+  list.erase(list.begin());
+  return std::move(list);
 }
 
-void set_faces(Session& session, Mesh2Definition& mesh, const std::vector<Quantity>& list,
-               const Location& where) {
-  const auto is_face = [](const Quantity& entry) { return !entry.is_float(); };
-  const auto faces = static_cast<std::size_t>(std::count_if(list.begin(), list.end(), is_face));
-  check_count(session, session.number(list.front(), where), faces, where);
-  mesh.face_indices.assign(list.begin() + 1, list.end());
+std::vector<ListEntry> faces(Session& session, std::vector<ListEntry>& list, const Location& where) {
+  const auto is_face = [](const ListEntry& entry) { return !entry.is_float; };
+  const auto count = static_cast<std::size_t>(std::count_if(list.begin(), list.end(), is_face));
+  check_count(session, list_count(session, list, where), count, where);
+  list.erase(list.begin());
+  return std::move(list);
 }
 
-std::vector<Vec3> vectors(Session& session, const std::vector<Quantity>& list, const Location& where) {
-  check_count(session, session.number(list.front(), where), list.size() - 1, where);
-  std::vector<Vec3> result;
-  result.reserve(list.size() - 1);
-  for (std::size_t i = 1; i < list.size(); ++i)
-    result.push_back(session.vector(list[i], where));
+std::vector<ListEntry> vectors(Session& session, std::vector<ListEntry>& list, const Location& where) {
+  std::vector<ListEntry> result = counted(session, list, where);
+  for (const ListEntry& entry : result)
+    require_finite(session, entry, where);
   return result;
 }
 

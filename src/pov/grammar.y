@@ -2,7 +2,7 @@
 // already obeyed the directives. It can be entered for a whole scene or for one value (see Start):
 // entered for a value it finishes as soon as the value is complete, whatever follows, because every state
 // that could end a value reduces by default. Actions that move on in the token stream themselves
-// (skip_group, skip_to_close) belong to rules that are reduced without looking ahead.
+// (take_literals, skip_group, skip_to_close) belong to rules that are reduced without looking ahead.
 
 %require "3.8"
 %language "c++"
@@ -17,7 +17,7 @@
 %param { celltrace::pov::Session& session }
 // After a value both an operator and, since commas are optional, a sign or a colour's channel can follow: the
 // longer value is meant.
-%expect 52
+%expect 58
 
 %code requires {
 #include "pov/actions.hpp"
@@ -78,7 +78,8 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %nterm <std::string> text
 %nterm <std::vector<Value>> arguments
 %nterm <Value> argument declarable element
-%nterm <std::vector<Quantity>> counted_list list_items numbers
+%nterm <std::vector<Quantity>> list_items numbers
+%nterm <std::vector<ListEntry>> counted_list entries literals
 %nterm <std::vector<std::size_t>> dimensions
 %nterm <std::shared_ptr<Array>> elements
 %nterm <Transform> transformation transform_items
@@ -593,7 +594,7 @@ mesh2_head
       check_count(session, $4, $5.size(), @2);
       $$->textures = $5;
     }
-  | mesh2_head FACE_INDICES counted_list     { $$ = $1; set_faces(session, *$$, $3, @3); }
+  | mesh2_head FACE_INDICES counted_list     { $$ = $1; $$->face_indices = faces(session, $3, @3); }
   | mesh2_head NORMAL_INDICES counted_list   { $$ = $1; $$->normal_indices = counted(session, $3, @3); }
   | mesh2_head UV_INDICES counted_list       { $$ = $1; counted(session, $3, @3); }
   | mesh2_head INSIDE_VECTOR quantity        { $$ = $1; }
@@ -607,8 +608,18 @@ texture_list
   ;
 
 counted_list // the count comes first
-  : '{' list_items '}'     { $$ = std::move($2); }
-  | '{' list_items ',' '}' { $$ = std::move($2); }
+  : '{' entries '}'      { $$ = std::move($2); }
+  | '{' entries ',' '}'  { $$ = std::move($2); }
+  ;
+
+entries
+  : literals quantity    { $$ = std::move($1); append(session, $$, ListEntry($2), @2); }
+  | entries quantity     { $$ = std::move($1); append(session, $$, ListEntry($2), @2); }
+  | entries ',' quantity { $$ = std::move($1); append(session, $$, ListEntry($3), @3); }
+  ;
+
+literals // those in front that need no grammar
+  : %empty               { session.tokens.take_literals($$); }
   ;
 
 // ---- What names can stand for ----

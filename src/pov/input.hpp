@@ -53,6 +53,8 @@ public:
 
   /// Kind::end, and no further, at the end of the top frame.
   Token read();
+  /// Whether the next token comes from a file.
+  bool reads_file() const { return put_back_.empty() && frames_.back().scanner != nullptr; }
   /// Whether the top frame is a macro with nothing left to read.
   bool is_exhausted() const;
   void unread(const Token& token) { put_back_.push_back(token); }

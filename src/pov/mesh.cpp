@@ -51,22 +51,29 @@ Index to_index(double value, std::size_t count, const char* what) {
   return static_cast<Index>(whole);
 }
 
-std::vector<Face> to_faces(const Mesh2Definition& definition) {
-  std::vector<Face> faces;
-  for (const Quantity& entry : definition.face_indices) {
-    if (!entry.is_finite()) throw InputError("mesh2 has an index that is not finite");
-    if (!entry.is_float()) {
-      Face& face = faces.emplace_back();
-      for (std::size_t i = 0; i < 3; ++i)
-        face.vertex[i] = to_index(entry.v[i], definition.vertex_vectors.size(), "vertex");
-      continue;
-    }
-    if (faces.empty() || faces.back().texture_count == 3)
-      throw InputError("mesh2 has a texture index without a face");
-    Face& face = faces.back();
-    face.texture[face.texture_count++] = to_index(entry.v[0], definition.textures.size(), "texture");
+bool is_finite(const Vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+void to_indices(const ListEntry& entry, std::size_t count, const char* what, Index (&indices)[3]) {
+  if (!is_finite(entry.v)) throw InputError("mesh2 has an index that is not finite");
+  for (int i = 0; i < 3; ++i)
+    indices[i] = to_index(entry.v[i], count, what);
+}
+
+/// Reads the face at `entry`, and moves on past it and the textures behind it.
+Face take_face(const Mesh2Definition& definition, std::vector<ListEntry>::const_iterator& entry) {
+  if (entry->is_float) throw InputError("mesh2 has a texture index without a face");
+  Face face;
+  to_indices(*entry++, definition.vertex_vectors.size(), "vertex", face.vertex);
+  for (; entry != definition.face_indices.end() && entry->is_float && face.texture_count < 3; ++entry) {
+    Index texture[3];
+    to_indices(*entry, definition.textures.size(), "texture", texture);
+    face.texture[face.texture_count++] = texture[0];
   }
-  return faces;
+  if (face.texture_count == 2)
+    throw InputError("mesh2 has a face with two texture indices: one or three can be given");
+  return face;
 }
 
 /// The normals of face number `face`: those of its indices or, without any, those with its vertices' numbers.
@@ -77,13 +84,10 @@ bool find_normals(const Mesh2Definition& definition, std::size_t face, const Fac
     std::copy(of.vertex, of.vertex + 3, normal);
   } else {
     if (face >= definition.normal_indices.size()) return false;
-    const Quantity& indices = definition.normal_indices[face];
-    if (!indices.is_finite()) throw InputError("mesh2 has an index that is not finite");
-    for (std::size_t i = 0; i < 3; ++i)
-      normal[i] = to_index(indices.v[i], definition.normal_vectors.size(), "normal");
+    to_indices(definition.normal_indices[face], definition.normal_vectors.size(), "normal", normal);
   }
-  return are_smooth(definition.normal_vectors[normal[0]], definition.normal_vectors[normal[1]],
-                    definition.normal_vectors[normal[2]]);
+  return are_smooth(definition.normal_vectors[normal[0]].v, definition.normal_vectors[normal[1]].v,
+                    definition.normal_vectors[normal[2]].v);
 }
 
 } // namespace
@@ -125,18 +129,18 @@ Index MeshBuilder::texture_index(const TexturePtr& texture) {
 }
 
 std::shared_ptr<MeshDefinition> make_mesh(Mesh2Definition definition) {
-  for (Vec3& normal : definition.normal_vectors)
-    normal = unit(normal);
+  const std::vector<ListEntry>& vertices = definition.vertex_vectors;
+  for (ListEntry& normal : definition.normal_vectors)
+    normal.v = unit(normal.v);
   auto result = std::make_shared<MeshDefinition>();
   Mesh& mesh = result->mesh;
-  const std::vector<Face> faces = to_faces(definition);
-  mesh.triangles.reserve(faces.size());
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    const Face& face = faces[i];
-    if (face.texture_count == 2)
-      throw InputError("mesh2 has a face with two texture indices: one or three can be given");
-    if (is_degenerate(definition.vertex_vectors[face.vertex[0]], definition.vertex_vectors[face.vertex[1]],
-                      definition.vertex_vectors[face.vertex[2]]))
+  const std::vector<ListEntry>& faces = definition.face_indices;
+  const auto is_face = [](const ListEntry& entry) { return !entry.is_float; };
+  mesh.triangles.reserve(static_cast<std::size_t>(std::count_if(faces.begin(), faces.end(), is_face)));
+  auto entry = faces.begin();
+  for (std::size_t i = 0; entry != faces.end(); ++i) {
+    const Face face = take_face(definition, entry);
+    if (is_degenerate(vertices[face.vertex[0]].v, vertices[face.vertex[1]].v, vertices[face.vertex[2]].v))
       continue;
     Mesh::Triangle triangle;
     std::copy(face.vertex, face.vertex + 3, triangle.vertex);
@@ -146,12 +150,12 @@ std::shared_ptr<MeshDefinition> make_mesh(Mesh2Definition definition) {
       triangle.material[corner] = face.texture[face.texture_count == 3 ? corner : 0];
     mesh.triangles.push_back(triangle);
   }
-  mesh.vertices.reserve(definition.vertex_vectors.size());
-  for (const Vec3& vertex : definition.vertex_vectors)
-    mesh.vertices.push_back(to_single(vertex));
+  mesh.vertices.reserve(vertices.size());
+  for (const ListEntry& vertex : vertices)
+    mesh.vertices.push_back(to_single(vertex.v));
   mesh.normals.reserve(definition.normal_vectors.size());
-  for (const Vec3& normal : definition.normal_vectors)
-    mesh.normals.push_back(to_single(normal));
+  for (const ListEntry& normal : definition.normal_vectors)
+    mesh.normals.push_back(to_single(normal.v));
   result->textures = std::move(definition.textures);
   return result;
 }

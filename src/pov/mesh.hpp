@@ -5,8 +5,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "pov/literals.hpp"
 #include "pov/object.hpp"
-#include "pov/quantity.hpp"
 
 namespace celltrace::pov {
 
@@ -25,11 +25,11 @@ private:
 
 /// The lists of a mesh2, each as written behind its count.
 struct Mesh2Definition {
-  std::vector<Vec3> vertex_vectors;
-  std::vector<Vec3> normal_vectors;
+  std::vector<ListEntry> vertex_vectors;
+  std::vector<ListEntry> normal_vectors;
   std::vector<TexturePtr> textures;
-  std::vector<Quantity> face_indices; ///< a vector for a face, floats for its textures behind it
-  std::vector<Quantity> normal_indices;
+  std::vector<ListEntry> face_indices; ///< a vector for a face, floats for its textures behind it
+  std::vector<ListEntry> normal_indices;
 };
 
 /// Throws InputError, without a position, for indices that are out of range or do not belong to a face.

@@ -1,5 +1,6 @@
 #include "pov/scanner.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
 #include <stdexcept>
@@ -40,12 +41,29 @@ void Scanner::start_lexeme(std::size_t length) {
 
 void Scanner::count_lines(std::string_view lexeme) {
   const std::size_t begin = offset_ - lexeme.size();
+  if (lexeme.find('\r') == lexeme.npos) {
+    line_ += static_cast<std::uint32_t>(std::count(lexeme.begin(), lexeme.end(), '\n'));
+    if (const std::size_t last = lexeme.rfind('\n'); last != lexeme.npos) line_start_ = begin + last + 1;
+    return;
+  }
   for (std::size_t i = 0; i < lexeme.size(); ++i) {
     const bool carriage_return = lexeme[i] == '\r' && (i + 1 == lexeme.size() || lexeme[i + 1] != '\n');
     if (lexeme[i] != '\n' && !carriage_return) continue;
     ++line_;
     line_start_ = begin + i + 1;
   }
+}
+
+bool Scanner::take_literals(std::vector<ListEntry>& list, std::size_t most) {
+  const std::size_t count = list.size();
+  move_flex(); // puts back the character that flex has replaced behind its last lexeme
+  const char* begin = text_.data() + offset_;
+  const char* end = pov::take_literals(begin, text_.data() + text_.size(), list, most);
+  const std::string_view taken(begin, static_cast<std::size_t>(end - begin));
+  offset_ += taken.size();
+  count_lines(taken);
+  move_flex();
+  return list.size() > count;
 }
 
 void Scanner::open_comment() {

@@ -4,9 +4,13 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "pov/literals.hpp"
 #include "pov/names.hpp"
 #include "pov/token.hpp"
+
+struct yy_buffer_state; // flex's
 
 namespace celltrace::pov {
 
@@ -23,6 +27,9 @@ public:
   /// The next token; Token::Kind::end again and again at the end. Comments may nest; line ends are CR, LF or
   /// CR LF.
   Token next();
+
+  /// Literals from here on, see pov::take_literals(). False if there were none.
+  bool take_literals(std::vector<ListEntry>& list, std::size_t most);
 
   // What the generated code calls.
   void start_lexeme(std::size_t length);
@@ -42,12 +49,15 @@ public:
   Token end() const;
 
 private:
+  /// Has flex go on at offset_.
+  void move_flex();
   [[noreturn]] void fail(const Location& where, const std::string& what) const;
 
   std::string text_; // two NULs longer than the file: flex scans it in place
   Names& names_;
   Fail fail_;
   void* flex_ = nullptr;
+  yy_buffer_state* buffer_ = nullptr; // flex's view of the text
   std::size_t offset_ = 0;
   std::size_t line_start_ = 0;
   std::uint32_t line_ = 1;

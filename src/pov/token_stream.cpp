@@ -16,6 +16,8 @@ using tokens = Parser::token;
 /// stack.
 constexpr std::size_t kMostLevels = 200;
 
+constexpr std::size_t kLiteralsAtOnce = 1u << 16;
+
 int number_of(const Token& punctuation) {
   switch (punctuation.symbol) {
   case Token::kLessEqual:
@@ -301,6 +303,15 @@ bool TokenStream::look_up(const Token& word, Terminal& terminal) {
   }
   terminal.token = std::visit(TokenOf{}, terminal.value);
   return true;
+}
+
+void TokenStream::take_literals(std::vector<ListEntry>& list) {
+  if (!session_.input.reads_file()) return;
+  Scanner& scanner = *session_.input.top().scanner;
+  while (scanner.take_literals(
+      list, std::min(list.size() + kLiteralsAtOnce, session_.options.limits.list_entries))) {
+  }
+  tokens_read_ += 2 * list.size(); // with their commas
 }
 
 void TokenStream::skip_to_depth(std::size_t depth) {

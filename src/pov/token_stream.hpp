@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "pov/input.hpp"
+#include "pov/literals.hpp"
 #include "pov/value.hpp"
 
 namespace celltrace::pov {
@@ -53,6 +54,9 @@ public:
   /// Enters the grammar and returns what it finished with.
   Value evaluate(Start start);
 
+  /// For the grammar, at the front of a list: takes the entries that can be read straight from the file, if
+  /// that is what is being read.
+  void take_literals(std::vector<ListEntry>& list);
   /// For the grammar, inside { }: passes over everything up to, not including, the closing brace.
   void skip_to_close();
   /// For the grammar, after a keyword: passes over ( ) if there, and { }.

@@ -1,0 +1,109 @@
+#include "pov/literals.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+
+namespace celltrace::pov {
+
+namespace {
+
+/// As long as the scanner takes without complaint.
+constexpr std::ptrdiff_t kLongestEntry = 4096;
+
+/// Bytes of the shortest vector with its comma, "<0,0>,".
+constexpr std::ptrdiff_t kShortestVector = 6;
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+bool starts_literal(char c) {
+  return c == '<' || is_digit(c);
+}
+
+const char* skip_gap(const char* at) {
+  while (*at == ' ' || *at == '\t')
+    ++at;
+  return at;
+}
+
+/// Blanks, line ends and comments up to the end of a line.
+const char* skip_blanks(const char* at) {
+  for (;;) {
+    while (*at == ' ' || *at == '\n' || *at == '\r' || *at == '\t')
+      ++at;
+    if (at[0] != '/' || at[1] != '/') return at;
+    while (*at != '\n' && *at != '\r' && *at != '\0')
+      ++at;
+  }
+}
+
+/// Null if there is no number, or none that a double can hold.
+const char* read_number(const char* at, const char* end, double& value) {
+  const bool plus = *at == '+';
+  if (plus) ++at;
+  const char digit = at[!plus && *at == '-' ? 1 : 0];
+  if (!is_digit(digit) && digit != '.') return nullptr;
+  const auto [behind, error] = std::from_chars(at, end, value);
+  return error == std::errc() ? behind : nullptr;
+}
+
+const char* read_vector(const char* at, const char* end, Vec3& vector) {
+  for (int i = 0; i < 3; ++i) {
+    at = read_number(skip_gap(at + 1), end, vector[i]);
+    if (!at) return nullptr;
+    at = skip_gap(at);
+    if (*at == '>') return i == 0 ? nullptr : at + 1;
+    if (*at != ',') return nullptr;
+  }
+  return nullptr;
+}
+
+/// What is behind the entry; null if it is no literal.
+const char* read_entry(const char* at, const char* end, ListEntry& entry) {
+  const char* behind = nullptr;
+  if (*at == '<') {
+    behind = read_vector(at, end, entry.v);
+  } else if (is_digit(*at)) {
+    behind = read_number(at, end, entry.v.x);
+    entry.v = Vec3(entry.v.x);
+    entry.is_float = true;
+  }
+  return behind && behind - at <= kLongestEntry ? behind : nullptr;
+}
+
+/// The count in front of a list says how long it will be, as far as the rest of the text can hold that.
+std::size_t expected(double count, const char* text, const char* end, std::size_t most) {
+  const auto room = static_cast<std::size_t>((end - text) / kShortestVector + 2);
+  return count < static_cast<double>(std::min(room, most)) ? static_cast<std::size_t>(count) + 1
+                                                           : std::min(room, most);
+}
+
+} // namespace
+
+ListEntry::ListEntry(const Quantity& quantity) : v(quantity.vec3()), is_float(quantity.is_float()) {
+  if (!quantity.is_finite()) v.x = std::numeric_limits<double>::infinity();
+}
+
+const char* take_literals(const char* text, const char* end, std::vector<ListEntry>& list, std::size_t most) {
+  const bool is_front = list.empty();
+  const char* taken = text;
+  while (list.size() < most) {
+    ListEntry entry;
+    const char* at = read_entry(skip_blanks(taken), end, entry);
+    if (!at) break;
+    at = skip_blanks(at);
+    if (*at == ',')
+      at = skip_blanks(at + 1);
+    else if (*at != '<')
+      break;
+    if (!starts_literal(*at)) break;
+    if (is_front && list.size() == 1) list.reserve(expected(list.front().v.x, taken, end, most));
+    list.push_back(entry);
+    taken = at;
+  }
+  return taken;
+}
+
+} // namespace celltrace::pov

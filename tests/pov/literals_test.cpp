@@ -1,0 +1,151 @@
+// mesh2's lists, read as literals and by the grammar: the scene, or the error and its place, must be the
+// same. A sign in front of the count keeps a whole list from being read as literals.
+#include <bit>
+#include <random>
+#include <sstream>
+
+#include <catch2/catch.hpp>
+
+#include "pov/parsing.hpp"
+
+using namespace celltrace;
+using test::parse;
+
+namespace {
+
+/// A list's text, with % where its count starts.
+std::string with_first(std::string text, char first) {
+  for (char& c : text)
+    if (c == '%') c = first;
+  return text;
+}
+
+/// Everything a mesh holds, to the bit, or the error.
+std::string outcome(const std::string& text) {
+  try {
+    const Scene scene = parse(text);
+    const Mesh& mesh = *std::get<std::shared_ptr<const Mesh>>(scene.objects.at(0).shape);
+    std::ostringstream all;
+    for (const auto* list : {&mesh.vertices, &mesh.normals})
+      for (const Vec3f& v : *list)
+        for (int i = 0; i < 3; ++i)
+          all << std::bit_cast<std::uint32_t>(v[i]) << ' ';
+    for (const Mesh::Triangle& triangle : mesh.triangles)
+      for (int corner = 0; corner < 3; ++corner)
+        all << triangle.vertex[corner] << '/' << triangle.normal[corner] << '/' << triangle.material[corner]
+            << ' ';
+    return all.str();
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+}
+
+/// Returns whether the text is a scene.
+bool check_same(const std::string& text) {
+  CAPTURE(text);
+  const std::string by_grammar = outcome(with_first(text, '+'));
+  CHECK(outcome(with_first(text, ' ')) == by_grammar);
+  return by_grammar.find("error") == by_grammar.npos;
+}
+
+std::string mesh(const std::string& vertices, const std::string& faces = "%1, <0, 1, 2>") {
+  return "#declare Z = 0;\n#macro V() <7, 8, 9> #end\nmesh2 {\n vertex_vectors {" + vertices +
+         "}\n texture_list { 2, texture { pigment { rgb 1 } } texture { } }\n face_indices {" + faces +
+         "} }\n";
+}
+
+} // namespace
+
+TEST_CASE("literal lists are what the grammar makes of them") {
+  for (const std::string vertices : {
+           "%3, <0, 0, 0>, <1, 0, 0>, <0, 1, 0>",
+           "%3,\n<0,0,0>,\r\n<1,0,0>,\r<0,1,0>\n",
+           "%3 <0, 0, 0> <1, 0, 0> <0, 1, 0>",
+           "%3.7, <-0, +.5, 1.>, // <9, 9, 9>,\n <1e-3,\t-1E+2 , 0.1>,<\t0, 1, 16777217>",
+           "%3, <0.1, 0.30000000000000004, 123456789012345678901234567890>, <1e-320, 5e-324, 1>, <1e-400, 2, "
+           "3>",
+           "%3, <0, 0, 0>, <1, 0, 0> + Z, <0, 1, 0> -<1, 2, 3> * 2",
+           "%4, <0, 0, 0>, <1, 0, 0>, V(), #if (Z) <1, 1, 1> #else <2, 2, 2> #end",
+           "%4, <0, 0, 0>, <1, 2>, <1, 2, 3, 4>, <1, 2, 3, 4, 5>",
+           "%4, 0, 1 <0, 1, 0> /* <5, 5, 5> */, 2",
+           "%3, <0, 0, 0>, <1, 0, 0>.x, <0, 1, 0>,",
+       })
+    CHECK(check_same(mesh(vertices)));
+  CHECK(check_same(mesh("%3, <0, 0, 0>, <1, 0, 0>, <0, 1, 0>",
+                        "%4, <0, 1, 2>, 1, <0, 2, 1>, 0, 1, 1, <0.9, 1, 2> <2, 1, 0>")));
+}
+
+TEST_CASE("literal lists have the grammar's errors, at the same place") {
+  for (const std::string vertices : {
+           "",
+           "%",
+           "%3",
+           "%3, ,",
+           "%3, <0, 0, 0>,, <1, 0, 0>",
+           "%3, <0, 0, 0>, <1, 0, 0>",
+           "%3, <0, 0, 0>, <1, 0, 0>, <0, 1, 0>, <0, 1, 0>",
+           "%3, <0, 0, 0>,\n <1, 0, 1e999>,\n <0, 1, 0>",
+           "%3, <0, 0, 0>,\n <1, , 0>, <0, 1, 0>",
+           "%3, <0, 0, 0>,\n\n <1, 0, 0x>, <0, 1, 0>",
+           "%3, <0, 0, 0>,\r\r\n <1, 0, 0>, <0, 1, 0>; <0, 0, 0>",
+           "%3, <0, 0, 0>, 1 / 0, <0, 1, 0>",
+           "%3, <0, 0, 0>, <1>, <0, 1, 0>",
+           "%3, <0, 0, 0>, <1, 0, 0, <0, 1, 0>",
+           "%3, <0, 0, 0>, \x01 <1, 0, 0>",
+           "%3, <0, 0, 0>, #else <1, 0, 0>",
+           "%<1, 2, 3>, <0, 0, 0>",
+           "%1e9, <0, 0, 0>",
+           "%3, <0, 0, 0>, 1e, <0, 0, 0>",
+           "%3, <0, 0, 0>, <1, 2, 3> /* <0, 1, 0>",
+       })
+    check_same(mesh(vertices));
+  for (const std::string faces :
+       {"%1, <0, 1, 3>", "%1, <0, 1, -1>", "%1, 0, <0, 1, 2>", "%1, <0, 1, 2>, 0, 1",
+        "%1, <0, 1, 2>, 0, 1, 1, 1", "%1, <0, 1, 2>, 2", "%1, <0, 1, 1e30>"})
+    check_same(mesh("%3, <0, 0, 0>, <1, 0, 0>, <0, 1, 0>", faces));
+}
+
+TEST_CASE("lists put together at random are the same read either way") {
+  const std::string pieces[] = {"<1, 2, 3>",  "<0.5,-1.25,+3e1>",
+                                "<1, 2>",     "4",
+                                "0.25",       "-1",
+                                ",",          ",",
+                                ",\n",        ",\r\n",
+                                " ",          "// c\n",
+                                "/* c */",    "Z",
+                                "+",          "*",
+                                "V()",        "<1,\n2, 3>",
+                                "< 1 ,2,3 >", "1.x",
+                                "<",          ">",
+                                "(1)",        "#if (1)"};
+  std::mt19937 random(7);
+  int scenes = 0;
+  for (int i = 0; i < 2000; ++i) {
+    std::string list;
+    int vectors = 3;
+    for (unsigned length = random() % 8; length-- > 0;) {
+      const auto chosen = random() % 3 == 0 ? random() % std::size(pieces) : random() % 2 * 6;
+      list += pieces[chosen];
+      vectors += chosen <= 2 || chosen >= 16;
+    }
+    std::string counted = "%";
+    counted += std::to_string(vectors);
+    counted += ", <9, 9, 9>, <1, 0, 0>, <0, 1, 0> ";
+    scenes += check_same(mesh(counted + list));
+    check_same(mesh("%3, <0, 0, 0>, <1, 0, 0>, <0, 1, 0>", "%1, <0, 1, 2>" + list));
+  }
+  CHECK(scenes > 200);
+}
+
+TEST_CASE("a literal list may not be longer than any other") {
+  ParseOptions options;
+  options.limits.list_entries = 4;
+  const auto fault = [&](const std::string& faces, char first) {
+    const std::string text = mesh("%3, <0, 0, 0>, <1, 0, 0>, <0, 1, 0>", faces);
+    return test::error_line(with_first(text, first), options);
+  };
+  CHECK(fault("%3, <0, 1, 2>, <0, 1, 2>, <0, 1, 2>", ' ').empty());
+  const std::string five = "%4, <0, 1, 2>, <0, 1, 2>, <0, 1, 2>, <0, 1, 2>";
+  CHECK(fault(five, ' ') == "scene.pov:6:53: error: this list is too long");
+  CHECK(fault(five, '+') == fault(five, ' '));
+}
