@@ -62,6 +62,9 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %token BAD_CHARACTER DEFINED CONSTANT
 %token LESS_EQUAL GREATER_EQUAL NOT_EQUAL
 
+%left '+' '-'
+%left '*' '/'
+
 %token ADC_BAILOUT AMBIENT AMBIENT_LIGHT ANGLE APERTURE ARRAY ASSUMED_GAMMA BACKGROUND BOUNDED_BY
 %token BRILLIANCE CAMERA CAUSTICS CHARSET COLOUR CONSERVE_ENERGY CRAND DIFFUSE DIMENSIONS DIMENSION_SIZE
 %token DIRECTION DISPERSION EMISSION EXPONENT FACE_INDICES FADE_DISTANCE FADE_POWER FALLOFF FINISH
@@ -72,7 +75,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %token SMOOTH_TRIANGLE SPECULAR SPHERE SRGB TEXTURE TEXTURE_LIST TRANSFORM TRANSLATE TRIANGLE UNION UP
 %token UV_INDICES UV_MAPPING UV_VECTORS VERTEX_VECTORS
 
-%nterm <Quantity> quantity product factor primary vector vector_items comparison logic value_in_brackets
+%nterm <Quantity> quantity operand vector vector_items comparison logic value_in_brackets
 %nterm <Quantity> colour colour_value colour_base
 %nterm <Signs> signs
 %nterm <std::string> text
@@ -166,21 +169,24 @@ defaults
 
 // ---- Numbers ----
 
+// One symbol for sums and products, told apart by precedence: a lone number goes through no long chain of rules.
 quantity
-  : product
-  | quantity '+' product { $$ = $1 + $3; }
-  | quantity '-' product { $$ = $1 - $3; }
+  : operand
+  | signs operand         { $$ = $1.apply($2); }
+  | quantity '*' quantity { $$ = $1 * $3; }
+  | quantity '/' quantity { $$ = $1 / $3; }
+  | quantity '+' quantity { $$ = $1 + $3; }
+  | quantity '-' quantity { $$ = $1 - $3; }
   ;
 
-product
-  : factor
-  | product '*' factor   { $$ = $1 * $3; }
-  | product '/' factor   { $$ = $1 / $3; }
-  ;
-
-factor
-  : primary
-  | signs primary        { $$ = $1.apply($2); }
+operand
+  : QUANTITY
+  | vector
+  | '(' value_in_brackets ')'      { $$ = $2; }
+  | operand COMPONENT              { $$ = component(session, $1, $2, @2); }
+  | FUNCTION '(' arguments ')'     { $$ = call_numeric(session, $1, $3, @1); }
+  | DIMENSIONS '(' ARRAY_ID ')'    { $$ = double(dimensions(*$3)); }
+  | DIMENSION_SIZE '(' ARRAY_ID ',' number ')' { $$ = dimension_size(session, *$3, $5, @5); }
   ;
 
 signs
@@ -190,16 +196,6 @@ signs
   | signs '-'            { $$ = $1; $$.add('-'); }
   | signs '+'            { $$ = $1; }
   | signs '!'            { $$ = $1; $$.add('!'); }
-  ;
-
-primary
-  : QUANTITY
-  | vector
-  | '(' value_in_brackets ')'      { $$ = $2; }
-  | primary COMPONENT              { $$ = component(session, $1, $2, @2); }
-  | FUNCTION '(' arguments ')'     { $$ = call_numeric(session, $1, $3, @1); }
-  | DIMENSIONS '(' ARRAY_ID ')'    { $$ = double(dimensions(*$3)); }
-  | DIMENSION_SIZE '(' ARRAY_ID ',' number ')' { $$ = dimension_size(session, *$3, $5, @5); }
   ;
 
 vector

@@ -64,9 +64,13 @@ bool expects(const Parser::symbol_kind_type* expected, int count, Parser::symbol
 
 int yylex(Parser::semantic_type* value, Location* where, Session& session) {
   if (const auto start = session.tokens.take_start()) return start_token(*start);
-  Terminal terminal = session.tokens.next();
+  Terminal terminal;
+  session.tokens.next(terminal);
   *where = terminal.where;
-  std::visit(Deliver{*value, terminal}, terminal.value);
+  if (const auto* quantity = std::get_if<Quantity>(&terminal.value))
+    value->emplace<Quantity>(*quantity); // the most frequent kind by far
+  else
+    std::visit(Deliver{*value, terminal}, terminal.value);
   return terminal.token;
 }
 

@@ -163,55 +163,52 @@ Token TokenStream::read() {
   return session_.input.read();
 }
 
-Terminal TokenStream::next() {
+void TokenStream::next(Terminal& terminal) {
   for (;;) {
     const Token token = read();
     switch (token.kind) {
     case Token::Kind::end:
-      if (!leave_frame_at_end()) return end_at(token);
+      if (!leave_frame_at_end()) return end_at(token, terminal);
       continue;
     case Token::Kind::directive:
       // In the middle of a value a directive ends it, as in POV-Ray.
       if (is_inside_value()) {
         session_.input.unread(token);
-        return end_at(token);
+        return end_at(token, terminal);
       }
       obey(token);
       continue;
-    case Token::Kind::word: {
+    case Token::Kind::word:
       if (is_inside_value() && levels_.back().after_operand && session_.names[token.name].token == 0) {
         session_.input.unread(token);
-        return end_at(token);
+        return end_at(token, terminal);
       }
-      Terminal terminal;
-      if (look_up(token, terminal)) return deliver(token, std::move(terminal));
+      if (look_up(token, terminal)) return deliver(token, terminal);
       continue;
-    }
     default:
-      return deliver(token, terminal_of(token));
+      interpret(token, terminal);
+      return deliver(token, terminal);
     }
   }
 }
 
-Terminal TokenStream::end_at(const Token& token) {
+void TokenStream::end_at(const Token& token, Terminal& terminal) {
   levels_.back().at_end = true;
   levels_.back().last_token = token;
-  return {0, 0, token.where, {}};
+  terminal.where = token.where;
 }
 
-Terminal TokenStream::deliver(const Token& token, Terminal terminal) {
-  count_brackets(token);
+void TokenStream::deliver(const Token& token, Terminal& terminal) {
+  if (token.kind == Token::Kind::punctuation) count_brackets(token);
   Level& level = levels_.back();
   level.any_delivered = true;
   level.after_operand = ends_operand(terminal.token);
   level.last_token = token;
   terminal.where = token.where;
-  return terminal;
 }
 
 /// < and ? count until the bracket around them closes, because they may or may not have a partner.
 void TokenStream::count_brackets(const Token& token) {
-  if (token.kind != Token::Kind::punctuation) return;
   Level& level = levels_.back();
   if (opens(token)) {
     level.enclosing.push_back(level.nesting);
@@ -231,8 +228,7 @@ void TokenStream::count_brackets(const Token& token) {
 }
 
 /// What a token means that needs no table.
-Terminal TokenStream::terminal_of(const Token& token) const {
-  Terminal terminal;
+void TokenStream::interpret(const Token& token, Terminal& terminal) const {
   switch (token.kind) {
   case Token::Kind::number:
     terminal.token = tokens::T_QUANTITY;
@@ -261,7 +257,6 @@ Terminal TokenStream::terminal_of(const Token& token) const {
     terminal.token = tokens::T_BAD_CHARACTER;
     break;
   }
-  return terminal;
 }
 
 /// False if the word was a macro or a directive without its #: it has been dealt with.
@@ -316,8 +311,11 @@ void TokenStream::take_literals(std::vector<ListEntry>& list) {
 
 void TokenStream::skip_to_depth(std::size_t depth) {
   const Location opened = last_place();
-  while (levels_.back().enclosing.size() > depth)
-    if (next().token == 0) session_.fail(opened, "the block that starts here is never closed");
+  while (levels_.back().enclosing.size() > depth) {
+    Terminal terminal;
+    next(terminal);
+    if (terminal.token == 0) session_.fail(opened, "the block that starts here is never closed");
+  }
 }
 
 void TokenStream::skip_to_close() {
@@ -333,10 +331,12 @@ void TokenStream::skip_to_close() {
 void TokenStream::skip_group() {
   const std::size_t depth = levels_.back().enclosing.size();
   const std::string keyword = describe_last();
-  Terminal terminal = next();
+  Terminal terminal;
+  next(terminal);
   if (terminal.token == '(') {
     skip_to_depth(depth);
-    terminal = next();
+    terminal = {};
+    next(terminal);
   }
   if (terminal.token != '{') session_.fail(terminal.where, "expected '{' after " + keyword);
   skip_to_depth(depth);

@@ -46,7 +46,8 @@ public:
 
   /// What the grammar is entered for, once per entry.
   std::optional<Start> take_start();
-  Terminal next();
+  /// Fills in a new terminal.
+  void next(Terminal& terminal);
 
   /// For the grammar: the value is complete; `has_lookahead` if next() was called once too often.
   void finish(Value value, bool has_lookahead);
@@ -90,11 +91,11 @@ private:
   void leave_finished_macros();
   bool is_inside_value() const;
   Token read();
-  Terminal deliver(const Token& token, Terminal terminal);
+  void deliver(const Token& token, Terminal& terminal);
   void count_brackets(const Token& token);
-  Terminal end_at(const Token& token);
+  void end_at(const Token& token, Terminal& terminal);
   bool look_up(const Token& token, Terminal& terminal);
-  Terminal terminal_of(const Token& token) const;
+  void interpret(const Token& token, Terminal& terminal) const;
   void skip_to_depth(std::size_t depth);
 
   // directives.cpp
