@@ -33,6 +33,7 @@ public:
   }
   std::uint32_t wait_all(std::uint32_t mask) { return mask; }
   void compute(const ScalarWork&) {}
+  void record(const void*, std::uint32_t) {}
   [[noreturn]] void halt(HaltCode) { std::abort(); }
 
 private:

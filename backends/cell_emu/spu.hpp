@@ -65,6 +65,9 @@ public:
 
   void compute(const ScalarWork& work) { cell_emu::count(work); }
   void note(const char* what, std::uint32_t value);
+  void record(const void* source, std::uint32_t word) {
+    if (SpeRecorder* recorder = context_.mfc.config.recorder) recorder->record(spe_.id, source, word);
+  }
   void at(CallSite site) { site_ = site; }
 
   /// Offset in this SPE's local store; kOutsideLocalStore for a pointer to elsewhere.

@@ -71,6 +71,8 @@ public:
       stop_for_good<HaltCode::local_store_exhausted>();
     case HaltCode::bad_argument:
       stop_for_good<HaltCode::bad_argument>();
+    case HaltCode::stale_pointer:
+      stop_for_good<HaltCode::stale_pointer>();
     case HaltCode::internal_error:
       break;
     }

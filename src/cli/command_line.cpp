@@ -127,6 +127,7 @@ void finish(RenderRequest& request, const RenderTexts& texts) {
   request.options.cache = parse_cache(texts.cache);
   request.options.emulation = emulation_config(texts.emulation, request.options.backend);
   request.trace = texts.emulation.trace;
+  request.cache_trace = texts.emulation.cache_trace;
   request.options.accelerator = accelerator_of(texts.accelerator);
   request.options.balance = texts.balance == "gde" ? Balance::gde : Balance::fixed;
   for (const std::string& text : texts.declares)
@@ -149,8 +150,7 @@ CacheConfig parse_cache(const std::string& text) {
   if (sizes.size() < text.size()) cache.replacement = parse_replacement(policy);
   if (!cache.valid())
     throw InputError("--cache: '" + text +
-                     "' is no cache: 1, 2 or 4 ways and a power of two of sets, or one set and a "
-                     "power of two of ways; at most " +
+                     "' is no cache: ways and sets have to be powers of two, and at most " +
                      std::to_string(CacheConfig::kMaxLines) + " lines");
   return cache;
 }

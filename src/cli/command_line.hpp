@@ -24,6 +24,7 @@ struct RenderRequest {
   std::vector<std::pair<std::string, std::string>> declares; ///< name and value
   std::string stats;                                         ///< file, "-" for stdout, empty for none
   std::filesystem::path trace;                               ///< empty: none
+  std::filesystem::path cache_trace;                         ///< empty: none
   bool quiet = false;
 };
 

@@ -20,6 +20,7 @@ const char* first_given(const EmulationTexts& texts) {
   if (texts.faults) return "--faults";
   if (!texts.timing.empty()) return "--timing";
   if (!texts.trace.empty()) return "--trace";
+  if (!texts.cache_trace.empty()) return "--cache-trace";
   return nullptr;
 }
 
@@ -62,6 +63,10 @@ void add_emulation_options(CLI::App& command, EmulationTexts& texts) {
              "cell_emu: the machine that is modelled, with 8 (default) or 6 SPEs");
   command.add_option("--trace", texts.trace, "cell_emu: write what happened as a Chrome trace, in lockstep")
       ->type_name("FILE.json");
+  command
+      .add_option("--cache-trace", texts.cache_trace,
+                  "cell_emu: write what the software caches are asked for; see celltrace replay")
+      ->type_name("FILE");
 }
 
 EmulationConfig emulation_config(const EmulationTexts& texts, const std::string& backend) {

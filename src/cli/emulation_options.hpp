@@ -1,4 +1,4 @@
-// The options that only cell_emu has: schedule, seed, transfers, faults, timing, trace.
+// The options that only cell_emu has: schedule, seed, transfers, faults, timing, traces.
 #pragma once
 
 #include "celltrace/spe/emulation.hpp"
@@ -19,12 +19,13 @@ struct EmulationTexts {
   bool faults = false;
   std::string timing;
   std::string trace;
+  std::string cache_trace;
 };
 
 void add_emulation_options(CLI::App& command, EmulationTexts& texts);
 
-/// What they say together. Throws InputError if they contradict each other or the backend. A trace's stream
-/// stays unset.
+/// What they say together. Throws InputError if they contradict each other or the backend. Where the
+/// traces go stays unset.
 EmulationConfig emulation_config(const EmulationTexts& texts, const std::string& backend);
 
 } // namespace celltrace::cli

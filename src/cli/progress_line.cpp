@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <ostream>
+#include <utility>
 
 #include <unistd.h>
 
@@ -27,11 +28,17 @@ std::string progress_text(double fraction, std::chrono::duration<double> elapsed
   return text;
 }
 
-ProgressLine::ProgressLine(std::ostream& out, bool visible) : out_(out), visible_(visible) {
+ProgressLine::ProgressLine(std::ostream& out, bool visible, std::string job, std::chrono::milliseconds delay)
+    : out_(out), visible_(visible), job_(std::move(job)), next_(start_ + delay) {
 }
 
 ProgressLine::~ProgressLine() {
+  wipe();
+}
+
+void ProgressLine::wipe() {
   if (drawn_) out_ << "\r\x1b[K" << std::flush;
+  drawn_ = false;
 }
 
 void ProgressLine::update(double fraction) {
@@ -40,7 +47,7 @@ void ProgressLine::update(double fraction) {
   if (now < next_) return;
   next_ = now + std::chrono::milliseconds(100);
   drawn_ = true;
-  out_ << "\r\x1b[K" << progress_text(fraction, now - start_) << std::flush;
+  out_ << "\r\x1b[K" << job_ << progress_text(fraction, now - start_) << std::flush;
 }
 
 bool stderr_is_terminal() {

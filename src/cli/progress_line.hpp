@@ -1,4 +1,4 @@
-// How far a render is, in one line of a terminal.
+// How far a job is, in one line of a terminal.
 #pragma once
 
 #include <chrono>
@@ -10,25 +10,28 @@ namespace celltrace::cli {
 /// The line's text: percent, time gone, and time to go once a guess makes sense. `fraction` is 0..1.
 std::string progress_text(double fraction, std::chrono::duration<double> elapsed);
 
-/// Rewrites its line at most ten times a second and wipes it at the end. Writes nothing at all if not
-/// `visible`.
+/// Rewrites its line at most ten times a second, from `delay` after its making on, and wipes it at the end.
+/// Writes nothing at all if not `visible`. `job` stands in front.
 class ProgressLine {
 public:
-  ProgressLine(std::ostream& out, bool visible);
+  ProgressLine(std::ostream& out, bool visible, std::string job = {}, std::chrono::milliseconds delay = {});
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
   ~ProgressLine();
 
   void update(double fraction);
+  /// Makes room for other text, until the next update.
+  void wipe();
 
 private:
   using Clock = std::chrono::steady_clock;
 
   std::ostream& out_;
   bool visible_;
+  std::string job_;
   bool drawn_ = false;
   Clock::time_point start_ = Clock::now();
-  Clock::time_point next_ = start_;
+  Clock::time_point next_;
 };
 
 /// Whether stderr is a terminal.

@@ -1,5 +1,6 @@
 #include "cli/render_command.hpp"
 
+#include "celltrace/cache/trace.hpp"
 #include "celltrace/image.hpp"
 #include "celltrace/pov.hpp"
 #include "celltrace/render.hpp"
@@ -11,6 +12,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
@@ -34,10 +36,27 @@ ParseOptions parse_options(const RenderRequest& request) {
     else
       options.declares.emplace_back(name, text);
   }
-  options.message = [quiet = request.quiet](std::string_view text) {
-    if (!quiet) std::cerr << text;
-  };
   return options;
+}
+
+/// None if the user interrupted it.
+std::optional<Scene> parse_with_progress(const RenderRequest& request) {
+  ProgressLine line(std::cerr, !request.quiet && stderr_is_terminal(), "reading ", std::chrono::milliseconds(500));
+  ParseOptions options = parse_options(request);
+  options.message = [&](std::string_view text) {
+    if (request.quiet) return;
+    line.wipe();
+    std::cerr << text;
+  };
+  options.progress = [&line](std::uint64_t bytes, std::uint64_t total) {
+    line.update(static_cast<double>(bytes) / static_cast<double>(total));
+    return !interrupted();
+  };
+  try {
+    return parse_file(request.scene, options);
+  } catch (const Cancelled&) {
+    return std::nullopt;
+  }
 }
 
 /// Prints what cell_emu finds wrong. `error` is what is printed as the error anyway.
@@ -47,9 +66,17 @@ void print_diagnostics(const std::vector<Diagnostic>& diagnostics, const std::st
       std::cerr << "celltrace: warning: " << diagnostic.text << '\n';
 }
 
-RenderResult render_with_progress(const Scene& scene, const RenderRequest& request, std::ostream* trace) {
+/// Where the traces go; null: nowhere.
+struct TraceStreams {
+  std::ostream* events;
+  std::ostream* cache;
+};
+
+RenderResult render_with_progress(const Scene& scene, const RenderRequest& request, TraceStreams traces) {
   RenderOptions options = request.options;
-  options.emulation.trace = trace;
+  options.emulation.trace = traces.events;
+  std::optional<CacheTraceWriter> cache_trace;
+  if (traces.cache != nullptr) options.emulation.recorder = &cache_trace.emplace(*traces.cache);
   std::vector<Diagnostic> diagnostics;
   options.diagnostic = [&](const Diagnostic& diagnostic) { diagnostics.push_back(diagnostic); };
   try {
@@ -123,17 +150,19 @@ int run_render(const RenderRequest& request) {
   check_image_path(request.output);
   catch_interrupts();
   const Clock::time_point start = Clock::now();
-  const Scene scene = parse_file(request.scene, parse_options(request));
+  const std::optional<Scene> scene = parse_with_progress(request);
   const std::chrono::duration<double> parsing = Clock::now() - start;
 
-  if (interrupted()) {
+  if (!scene || interrupted()) {
     std::cerr << "interrupted before the first pixel\n";
     return 2;
   }
   TraceFile trace(request.trace);
-  const RenderResult result = render_with_progress(scene, request, trace.stream());
+  TraceFile cache_trace(request.cache_trace);
+  const RenderResult result = render_with_progress(*scene, request, {trace.stream(), cache_trace.stream()});
   save_image(request.output, result.image);
   trace.finish();
+  cache_trace.finish();
   if (!request.stats.empty()) write_statistics(request.stats, result.statistics, parsing.count());
   if (!request.quiet) print_summary(request, result, parsing.count());
   return result.complete ? 0 : 2;

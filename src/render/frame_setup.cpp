@@ -57,10 +57,8 @@ void check(const RenderOptions& options) {
   if (std::int64_t{options.width} * options.height > kMaxImagePixels)
     throw InputError("the picture has to have at most " + std::to_string(kMaxImagePixels) + " pixels");
   if (!options.cache.valid())
-    throw InputError(
-        "the cache has to have 1, 2 or 4 ways and a power of two of sets, or one set of any power of two "
-        "of ways, and at most " +
-        std::to_string(CacheConfig::kMaxLines) + " lines");
+    throw InputError("the cache has to have a power of two of ways and a power of two of sets, and at most " +
+                     std::to_string(CacheConfig::kMaxLines) + " lines");
   if (options.backend != "native" && options.cache.local_store_bytes() > kMaxCacheBytes)
     throw InputError("the cache takes " + std::to_string(options.cache.local_store_bytes()) +
                      " bytes of local store; beside the program there is room for " +
@@ -92,6 +90,9 @@ void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& optio
   frame.image = reinterpret_cast<std::uintptr_t>(image.base());
   frame.object_offset = header.object_offset;
   frame.object_count = header.object_count;
+  frame.run_offset = header.run_offset;
+  frame.run_count = header.run_count;
+  frame.longest_run = header.longest_run;
   frame.light_offset = header.light_offset;
   frame.light_count = header.light_count;
   frame.max_trace_level =

@@ -45,7 +45,7 @@ HaltCode halt_code(const CacheConfig& config, ea_t base = 0) {
 
 TEST_CASE("a cache hits and misses as its model does, and its data are right") {
   const auto shape = GENERATE(Shape{1, 1}, Shape{1, 16}, Shape{2, 8}, Shape{4, 1}, Shape{4, 8}, Shape{4, 128},
-                              Shape{2, 1}, Shape{8, 1}, Shape{64, 1});
+                              Shape{2, 1}, Shape{8, 1}, Shape{8, 64}, Shape{16, 4}, Shape{64, 1});
   const auto replacement = GENERATE(CacheReplacement::random, CacheReplacement::fifo, CacheReplacement::lru);
   const auto tag_count = GENERATE(1u, 8u);
   CacheConfig config = configuration(shape, replacement);
@@ -203,7 +203,7 @@ TEST_CASE("the last lines of the 32-bit offsets are lines like others") {
 }
 
 TEST_CASE("shapes that are no cache are refused") {
-  const auto shape = GENERATE(Shape{3, 8}, Shape{8, 2}, Shape{0, 1}, Shape{4, 0}, Shape{4, 12},
+  const auto shape = GENERATE(Shape{3, 8}, Shape{8, 512}, Shape{0, 1}, Shape{4, 0}, Shape{4, 12},
                               Shape{4, 4096}, Shape{12, 1}, Shape{4096, 1}, Shape{4, 0x80000000u});
   const CacheConfig config = configuration(shape, CacheReplacement::random);
   CHECK_FALSE(config.valid());

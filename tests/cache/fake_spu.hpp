@@ -1,4 +1,5 @@
-// Just enough of an Spu for a cache: a local store, and DMA that moves data as late as it may.
+// Just enough of an Spu for a cache: a local store, and DMA that moves data as late as it may, when it is
+// waited for.
 #pragma once
 
 #include "celltrace/spe/simd_host.hpp"
@@ -7,6 +8,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <new>
 #include <stdexcept>
 #include <vector>
@@ -28,16 +30,11 @@ public:
     return objects;
   }
   void get(void* ls, ea_t ea, std::uint32_t size, std::uint32_t tag) {
-    const auto place = reinterpret_cast<std::uintptr_t>(ls);
-    if (size % 16 != 0 || place % 16 != 0 || ea % 16 != 0) throw std::logic_error("misaligned transfer");
-    if (size > kLineBytes || tag >= kMfcTags) throw std::logic_error("bad transfer");
-    for (const Transfer& other : under_way_) {
-      if (other.ls < place + size && place < other.ls + other.size) throw std::logic_error("transfers race");
-    }
+    start({reinterpret_cast<std::uintptr_t>(ls), ea, size, tag, false});
     std::memset(ls, 0xEE, size);
-    under_way_.push_back({place, ea, size, tag});
-    ++transfers_;
-    bytes_ += size;
+  }
+  void put(const void* ls, ea_t ea, std::uint32_t size, std::uint32_t tag) {
+    start({reinterpret_cast<std::uintptr_t>(ls), ea, size, tag, true});
   }
   std::uint32_t wait_all(std::uint32_t mask) {
     std::vector<Transfer> left;
@@ -45,16 +42,29 @@ public:
       if ((mask >> transfer.tag & 1) == 0)
         left.push_back(transfer);
       else
-        std::memcpy(reinterpret_cast<void*>(transfer.ls), reinterpret_cast<const void*>(transfer.ea),
-                    transfer.size);
+        move(transfer);
     }
     under_way_ = left;
     return mask;
   }
+  void getllar(void* ls, ea_t ea) {
+    std::memcpy(ls, reinterpret_cast<const void*>(ea), kLineBytes);
+    std::memcpy(reserved_, ls, kLineBytes);
+    if (after_getllar) after_getllar();
+  }
+  bool putllc(const void* ls, ea_t ea) {
+    if (std::memcmp(reinterpret_cast<const void*>(ea), reserved_, kLineBytes) != 0) return false;
+    std::memcpy(reinterpret_cast<void*>(ea), ls, kLineBytes);
+    return true;
+  }
   void compute(const ScalarWork&) {}
+  void record(const void*, std::uint32_t word) { recorded.push_back(word); }
   [[noreturn]] void halt(HaltCode code) { throw code; }
 
   std::size_t local_store_used() const { return next_; }
+  std::function<void()> after_getllar; ///< what others do to main memory
+  std::vector<std::uint32_t> recorded;
+
   unsigned transfers() const { return transfers_; }
   unsigned bytes() const { return bytes_; }
   std::size_t under_way() const { return under_way_.size(); }
@@ -65,12 +75,35 @@ private:
     ea_t ea;
     std::uint32_t size;
     std::uint32_t tag;
+    bool put;
   };
   struct alignas(kLineBytes) Store {
     unsigned char bytes[kLocalStoreBytes];
   };
 
+  void start(const Transfer& transfer) {
+    if (transfer.size % 16 != 0 || transfer.ls % 16 != 0 || transfer.ea % 16 != 0)
+      throw std::logic_error("misaligned transfer");
+    if (transfer.size > kLineBytes || transfer.tag >= kMfcTags) throw std::logic_error("bad transfer");
+    for (const Transfer& other : under_way_) {
+      if (other.ls < transfer.ls + transfer.size && transfer.ls < other.ls + other.size)
+        throw std::logic_error("transfers race");
+      if ((other.put || transfer.put) && other.ea < transfer.ea + transfer.size &&
+          transfer.ea < other.ea + other.size)
+        throw std::logic_error("transfers race in main memory");
+    }
+    under_way_.push_back(transfer);
+    ++transfers_;
+    bytes_ += transfer.size;
+  }
+  static void move(const Transfer& transfer) {
+    auto* ls = reinterpret_cast<void*>(transfer.ls);
+    auto* ea = reinterpret_cast<void*>(transfer.ea);
+    std::memcpy(transfer.put ? ea : ls, transfer.put ? ls : ea, transfer.size);
+  }
+
   Store store_{};
+  unsigned char reserved_[kLineBytes]{};
   std::size_t next_ = 0;
   std::vector<Transfer> under_way_;
   unsigned transfers_ = 0;

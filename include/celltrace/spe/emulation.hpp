@@ -2,6 +2,7 @@
 #pragma once
 
 #include "celltrace/spe/diagnostic.hpp"
+#include "celltrace/spe/recorder.hpp"
 #include "celltrace/spe/timing.hpp"
 
 #include <cstdint>
@@ -56,6 +57,8 @@ struct EmulationConfig {
   std::map<Rule, Action> actions;
   /// Lockstep: where the trace goes, as Chrome trace JSON; it must outlive the machine. Null: nowhere.
   std::ostream* trace = nullptr;
+  /// Takes what the kernels record; it must outlive the machine. Null: nothing is recorded.
+  SpeRecorder* recorder = nullptr;
 };
 
 } // namespace celltrace

@@ -19,7 +19,7 @@
 //   [[noreturn]] void halt(HaltCode)         stops this SPE with an error that Machine::wait() reports
 //   ArenaState& arena()                      the part of local store that is free for the kernel
 //
-// A backend that measures or checks also hides the members of SpuBase that do nothing: compute(), note(), at(), halt_exhausted().
+// A backend that measures or checks also hides the members of SpuBase that do nothing: compute(), note(), record(), at(), halt_exhausted().
 // clang-format on
 //
 // Threads: a Spu belongs to the thread that runs its kernel; no operation may be called from another one.
@@ -277,6 +277,8 @@ public:
   void compute(const ScalarWork&) {}
   /// Marks a moment in the trace. `what` is a string literal.
   void note(const char*, uint32_t) {}
+  /// Adds a word to what the object `source` of the kernel records (recorder.hpp).
+  void record(const void*, uint32_t) {}
   /// Where in the kernel the operation that follows stands.
   void at(CallSite) {}
   /// The arena has no room for what allocate() was asked for at this place.

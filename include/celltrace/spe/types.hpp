@@ -141,6 +141,7 @@ enum class HaltCode : uint32_t {
   local_store_exhausted = 1,
   bad_argument = 2,
   internal_error = 3,
+  stale_pointer = 4, ///< a pointer into a cache was used after its lifetime
 };
 
 /// For messages.
@@ -152,6 +153,8 @@ constexpr const char* to_text(HaltCode code) {
     return "bad argument";
   case HaltCode::internal_error:
     return "internal error";
+  case HaltCode::stale_pointer:
+    return "stale pointer into a cache";
   }
   return "unknown halt code";
 }

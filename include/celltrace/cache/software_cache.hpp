@@ -1,0 +1,424 @@
+// The cache. The design follows "An introduction to compiling for the Cell Broadband Engine, part 5: Managing
+// memory" (IBM developerWorks, 2006). Kernel dialect.
+//
+// What is cached is one region of main memory, addressed by its base and 32-bit offsets. The tag of a line is
+// one word: its offset with flags in the low seven bits. Only `line offset | valid` counts as a hit at first
+// sight; lines under way or out of date carry further flags and are looked up again where time matters less.
+// So are the ways of a set beyond the first four: the first quadwords of tags of all sets come first in the
+// table, then the second ones, and so on.
+#pragma once
+
+#include "celltrace/cache/config.hpp"
+#include "celltrace/cache/dirty_bytes.hpp"
+#include "celltrace/cache/lifetimes.hpp"
+#include "celltrace/cache/trace_words.hpp"
+#include "celltrace/spe/spu.hpp"
+#include "celltrace/spe/types.hpp"
+
+#include <stdint.h>
+
+namespace celltrace {
+
+/// A cache of main memory in local store. `Kind` numbers the kinds of data whose references are counted
+/// apart: an integer or an enumeration with values below kKinds. If `Spu::direct_memory`, it is nothing but
+/// an addition, and the counters stay 0.
+///
+/// Lifetime of pointers: what get() returns stays valid until the next call of a member, counters apart,
+/// because that call may fetch another line in its place. With replacement `lru` an enabled cache leaves it
+/// alone for ways - 1 more calls of get(), copy(), word(), write() and prefetch(). Whoever needs an object
+/// for longer takes a copy(). CacheOptions::checked watches over this.
+///
+/// Thread safety: one thread, as the Spu.
+template <class Spu, class Kind = uint32_t, class Options = typename DefaultCacheOptions<Spu>::type>
+class SoftwareCache : public CacheLifetimes<Spu, Options::checked && !Spu::direct_memory>,
+                      public DirtyBytes<Spu, Options::write_back && !Spu::direct_memory> {
+  using Lifetimes = CacheLifetimes<Spu, Options::checked && !Spu::direct_memory>;
+  using Dirt = DirtyBytes<Spu, Options::write_back && !Spu::direct_memory>;
+
+public:
+  static constexpr uint32_t kKinds = cache_trace::kKinds;
+  /// `const T*`, or if checked what behaves as one.
+  template <class T> using Pointer = typename Lifetimes::template Pointer<T>;
+
+  /// An empty cache in `spu`'s local store, taken from its arena; `spu` must outlive it. `base`: the region
+  /// in main memory, 128-byte aligned and a multiple of 128 bytes long. Halts the SPE with bad_argument for
+  /// an invalid configuration or base, with local_store_exhausted if the cache does not fit.
+  SoftwareCache(Spu& spu, const CacheConfig& config, ea_t base) : spu_(spu), config_(config), base_(base) {
+    clear_counters();
+    if constexpr (!Spu::direct_memory) set_up();
+  }
+  SoftwareCache(const SoftwareCache&) = delete;
+  SoftwareCache& operator=(const SoftwareCache&) = delete;
+
+  /// Local store that such a cache takes, in bytes.
+  static constexpr uint32_t local_store_bytes(const CacheConfig& config) {
+    return config.local_store_bytes() + Lifetimes::lifetime_bytes(config) +
+           Dirt::dirt_bytes(config.enabled ? config.lines() : 1);
+  }
+
+  // --- reading ---
+
+  /// The object at `offset`, which must not cross a line. Waits for it if need be.
+  template <class T> Pointer<T> get(uint32_t offset, Kind kind) {
+    static_assert(sizeof(T) <= kLineBytes, "an object must fit into a line");
+    if constexpr (Spu::direct_memory) {
+      return reinterpret_cast<const T*>(base_ + offset);
+    } else {
+      this->begin_call();
+      record(cache_trace::Operation::read, offset, kind);
+      return this->template shown<T>(find(offset, sizeof(T), kind), offset & kLineMask);
+    }
+  }
+  /// The object by value.
+  template <class T> T copy(uint32_t offset, Kind kind) { return *get<T>(offset, kind); }
+  /// The word at `offset`, a multiple of 4.
+  uint32_t word(uint32_t offset, Kind kind) { return *get<uint32_t>(offset, kind); }
+
+  // --- fetching ahead ---
+  // Not counted; the get() that follows is a hit if the line is still there.
+
+  /// Starts to fetch the line of `offset` unless it is there. Does not wait, unless the line that makes room
+  /// is itself under way or dirty.
+  void prefetch(uint32_t offset) {
+    if constexpr (!Spu::direct_memory) {
+      this->begin_call();
+      record(cache_trace::Operation::prefetch, offset);
+      spu_.compute(kLookup);
+      const uint32_t line = offset & ~kLineMask;
+      if (matches(set_of(line), line) == 0) start_fetch_if_absent(line);
+    }
+  }
+  /// Fetches the lines of `count` offsets that are not there, with one wait for sixteen of them. Those that
+  /// the cache has no room for together with the others are not there afterwards.
+  void fetch(const uint32_t* offsets, uint32_t count) {
+    if constexpr (!Spu::direct_memory) {
+      this->begin_call();
+      for (uint32_t first = 0; first < count; first += kMfcQueueEntries)
+        fetch_batch(offsets + first, count - first < kMfcQueueEntries ? count - first : kMfcQueueEntries);
+    }
+  }
+
+  // --- main memory changes ---
+
+  /// Forgets all lines, once what is dirty is written back.
+  void invalidate_all() {
+    if constexpr (!Spu::direct_memory) {
+      this->end_lifetimes();
+      record(cache_trace::Operation::invalidate_all);
+      if (config_.enabled) clear();
+    }
+  }
+  /// Main memory has changed: lines are fetched again at their next reference. Dirty bytes are written back
+  /// before that.
+  void synchronize_all() {
+    if constexpr (!Spu::direct_memory) {
+      this->end_lifetimes();
+      record(cache_trace::Operation::synchronize_all);
+      for (uint32_t i = 0; i < tag_words_; ++i)
+        mark_out_of_date(tags_[i]);
+    }
+  }
+  /// As synchronize_all(), for the lines that hold [offset, offset + bytes). offset + bytes < 2^32.
+  void synchronize(uint32_t offset, uint32_t bytes) {
+    if constexpr (!Spu::direct_memory) {
+      this->end_lifetimes();
+      if (bytes == 0) return;
+      const uint32_t first = offset & ~kLineMask;
+      const uint32_t span = offset - first + bytes;
+      record(cache_trace::Operation::synchronize, first);
+      spu_.record(this, ((span - 1) >> kLineShift) + 1);
+      for (uint32_t i = 0; i < tag_words_; ++i) {
+        if ((tags_[i] & ~kLineMask) - first < span) mark_out_of_date(tags_[i]);
+      }
+    }
+  }
+
+  // --- writing, with CacheOptions::write_back ---
+
+  /// Writes an object that must not cross a line. Counted as a reference. Main memory has it when the line
+  /// makes room, at invalidate_all() or at flush(). With direct memory it has it at once.
+  template <class T> void write(uint32_t offset, const T& value, Kind kind) {
+    static_assert(Options::write_back && sizeof(T) <= kLineBytes && std::is_trivially_copyable_v<T>);
+    if constexpr (Spu::direct_memory) {
+      *reinterpret_cast<T*>(base_ + offset) = value;
+    } else {
+      this->begin_call();
+      record(cache_trace::Operation::write, offset, kind);
+      uint8_t* line = find(offset, sizeof(T), kind);
+      *reinterpret_cast<T*>(line + (offset & kLineMask)) = value;
+      const uint32_t slot = static_cast<uint32_t>(line - lines_) >> kLineShift;
+      this->mark_dirty(slot, offset & ~kLineMask, offset & kLineMask, sizeof(T));
+    }
+  }
+  /// Writes all dirty bytes to main memory; the lines stay. Nothing else does that at the end of a program.
+  void flush() {
+    static_assert(Options::write_back);
+    if constexpr (!Spu::direct_memory) {
+      record(cache_trace::Operation::flush);
+      clean_all();
+    }
+  }
+
+  // --- counters ---
+
+  CacheCounters counters(Kind kind) const { return counters_[static_cast<uint32_t>(kind)]; }
+  void reset_counters() {
+    if constexpr (!Spu::direct_memory) record(cache_trace::Operation::reset_counters);
+    clear_counters();
+  }
+
+  /// The SPU whose local store it is in.
+  Spu& spu() { return spu_; }
+
+private:
+  using U4 = typename Spu::simd::U4;
+
+  static constexpr uint32_t kLineMask = kLineBytes - 1;
+  static constexpr uint32_t kLineShift = 7;
+  // Flags of a tag. 0 is a free way.
+  static constexpr uint32_t kValid = 1;
+  static constexpr uint32_t kOutOfDate = 2; ///< the synchronize flag: to be fetched again
+  static constexpr uint32_t kUnderWay = 4;  ///< its transfer has not been waited for
+  /// The tag of a way that does not exist: neither free nor equal to the tag of any line, whatever its flags.
+  static constexpr uint32_t kNoWay = 0xFFFFFFFFu;
+  static constexpr uint32_t kNotFound = 0xFFFFFFFFu;
+
+  // Scalar work besides the comparison of tags: fixed, floating, memory, shuffle, branches. Counted in the
+  // disassembly for an SPU; see src/kernel/scalar_work.hpp for the method.
+  static constexpr ScalarWork kLookup = {26, 0, 8, 9, 2};
+  static constexpr ScalarWork kSlowLookup = {60, 0, 25, 25, 8};
+  static constexpr ScalarWork kFetch = {85, 0, 28, 28, 6};
+
+  // --- the way of a hit ---
+
+  uint8_t* find(uint32_t offset, uint32_t size, Kind kind) {
+    spu_.compute(kLookup);
+    const uint32_t line = offset & ~kLineMask;
+    const uint32_t set = set_of(line);
+    const uint32_t match = matches(set, line);
+    if (__builtin_expect(match == 0, 0)) return find_slowly(offset, size, kind);
+    const uint32_t slot = slot_of(set, lane_of(match));
+    ++counters_[static_cast<uint32_t>(kind)].hits;
+    if (stamp_hits_) stamp(slot);
+    return line_at(slot);
+  }
+
+  /// Which of the first four ways of a set holds the line, ready to be read: a bit, or 0.
+  uint32_t matches(uint32_t set, uint32_t line) const {
+    return equal_bits(U4::load(tags_ + (set << 2)), U4::splat(line | kValid));
+  }
+  uint32_t set_of(uint32_t line) const { return line >> kLineShift & set_mask_; }
+  uint32_t slot_of(uint32_t set, uint32_t way) const { return (set << way_shift_) + way; }
+  uint8_t* line_at(uint32_t slot) const { return lines_ + (slot << kLineShift); }
+  /// The lane of a single bit of four.
+  static uint32_t lane_of(uint32_t bit) { return (bit >> 1) - (bit >> 3); }
+  static uint32_t lowest_bit(uint32_t bits) { return bits & (~bits + 1); }
+
+  // --- misses, and lines with further flags ---
+
+  __attribute__((noinline)) uint8_t* find_slowly(uint32_t offset, uint32_t size, Kind kind) {
+    spu_.compute(kSlowLookup);
+    CacheCounters& counters = counters_[static_cast<uint32_t>(kind)];
+    if (!config_.enabled) {
+      ++counters.misses;
+      return read_through(offset, size);
+    }
+    const uint32_t line = offset & ~kLineMask;
+    const uint32_t set = set_of(line);
+    uint32_t way = locate(set, line);
+    if (up_to_date(set, way)) {
+      ++counters.hits;
+      if (stamp_hits_) stamp(slot_of(set, way));
+    } else {
+      ++counters.misses;
+      way = start_fetch(set, way, line);
+    }
+    finish_fetch(set, way);
+    return line_at(slot_of(set, way));
+  }
+
+  __attribute__((noinline)) void start_fetch_if_absent(uint32_t line) {
+    if (!config_.enabled) return;
+    const uint32_t set = set_of(line);
+    const uint32_t way = locate(set, line);
+    if (!up_to_date(set, way)) start_fetch(set, way, line);
+  }
+
+  __attribute__((noinline)) void fetch_batch(const uint32_t* offsets, uint32_t count) {
+    uint32_t dma_tags = 0;
+    uint32_t* arriving[kMfcQueueEntries];
+    uint32_t arriving_count = 0;
+    for (uint32_t i = 0; i < count; ++i) {
+      record(cache_trace::Operation::prefetch, offsets[i]);
+      if (!config_.enabled) continue;
+      spu_.compute(kSlowLookup);
+      const uint32_t line = offsets[i] & ~kLineMask;
+      const uint32_t set = set_of(line);
+      uint32_t way = locate(set, line);
+      if (!up_to_date(set, way)) way = start_fetch(set, way, line);
+      uint32_t& state = tag(set, way);
+      if ((state & kUnderWay) == 0) continue;
+      arriving[arriving_count++] = &state;
+      dma_tags |= 1u << dma_tag(slot_of(set, way));
+    }
+    if (arriving_count != 0) spu_.wait_all(dma_tags);
+    for (uint32_t i = 0; i < arriving_count; ++i)
+      *arriving[i] &= ~kUnderWay;
+  }
+
+  /// The way that holds the line, up to date and arrived or not; or kNotFound.
+  uint32_t locate(uint32_t set, uint32_t line) const {
+    const U4 state = U4::splat(~(kOutOfDate | kUnderWay));
+    const U4 wanted = U4::splat(line | kValid);
+    return first_way(set, state, wanted);
+  }
+  uint32_t free_way(uint32_t set) const { return first_way(set, U4::splat(kValid), U4::splat(0)); }
+  /// The first way whose tag & mask equals `wanted`, or kNotFound.
+  uint32_t first_way(uint32_t set, const U4& mask, const U4& wanted) const {
+    const uint32_t* tags = tags_ + (set << 2);
+    for (uint32_t way = 0; way < config_.ways; way += 4, tags += config_.sets << 2) {
+      const uint32_t match = equal_bits(U4::load(tags) & mask, wanted);
+      if (match != 0) return way + lane_of(lowest_bit(match));
+    }
+    return kNotFound;
+  }
+
+  uint32_t& tag(uint32_t set, uint32_t way) {
+    return tags_[((way & ~3u) << set_shift_) + (set << 2) + (way & 3)];
+  }
+  bool up_to_date(uint32_t set, uint32_t way) {
+    return way != kNotFound && (tag(set, way) & kOutOfDate) == 0;
+  }
+
+  /// Starts to fetch a line into the way that holds it out of date, or if none does into one that makes room.
+  /// Returns the way.
+  uint32_t start_fetch(uint32_t set, uint32_t way, uint32_t line) {
+    spu_.compute(kFetch);
+    if (way == kNotFound) way = free_way(set);
+    if (way == kNotFound) way = victim(set);
+    finish_fetch(set, way); // two transfers into one line would race
+    const uint32_t slot = slot_of(set, way);
+    this->clean(spu_, slot, line_at(slot), base_, dma_tag(slot));
+    tag(set, way) = line | kValid | kUnderWay;
+    stamp(slot);
+    spu_.get(line_at(slot), base_ + line, kLineBytes, dma_tag(slot));
+    return way;
+  }
+  void finish_fetch(uint32_t set, uint32_t way) {
+    uint32_t& state = tag(set, way);
+    if ((state & kUnderWay) == 0) return;
+    spu_.wait_all(1u << dma_tag(slot_of(set, way)));
+    state &= ~kUnderWay;
+  }
+  uint32_t dma_tag(uint32_t slot) const { return config_.first_tag + (slot & (config_.tag_count - 1)); }
+
+  // --- replacement ---
+
+  uint32_t victim(uint32_t set) {
+    return config_.replacement == CacheReplacement::random ? random_.next_below_power_of_two(config_.ways)
+                                                           : oldest_way(set);
+  }
+  uint32_t oldest_way(uint32_t set) const {
+    const uint32_t* stamps = stamps_ + slot_of(set, 0);
+    uint32_t oldest = 0;
+    for (uint32_t way = 1; way < config_.ways; ++way) {
+      if (clock_ - stamps[way] > clock_ - stamps[oldest]) oldest = way;
+    }
+    return oldest;
+  }
+  void stamp(uint32_t slot) { stamps_[slot] = ++clock_; }
+
+  // --- without a cache ---
+
+  /// Fetches the quadwords that the object touches. Returns the line it would lie in.
+  uint8_t* read_through(uint32_t offset, uint32_t size) {
+    const uint32_t first = offset & ~15u;
+    const uint32_t bytes = ((offset + size - 1) | 15u) + 1 - first;
+    this->clean(spu_, 0, lines_, base_, config_.first_tag);
+    spu_.get(lines_ + (first & kLineMask), base_ + first, bytes, config_.first_tag);
+    spu_.wait_all(1u << config_.first_tag);
+    return lines_;
+  }
+
+  // --- state ---
+
+  /// A disabled cache is one bounce line behind a set without ways, so that no lookup succeeds.
+  void set_up() {
+    if (!config_.valid() || (base_ & kLineMask) != 0) spu_.halt(HaltCode::bad_argument);
+    const bool enabled = config_.enabled;
+    tag_words_ = enabled ? config_.tag_words() : 4;
+    set_mask_ = enabled ? config_.sets - 1 : 0;
+    set_shift_ = exponent_of(config_.sets);
+    way_shift_ = enabled ? exponent_of(config_.ways) : 0;
+    stamp_hits_ = enabled && config_.replacement == CacheReplacement::lru;
+    lines_ = spu_.template allocate<uint8_t>(slots() * kLineBytes);
+    tags_ = spu_.template allocate<uint32_t>(tag_words_, 16);
+    if (enabled) stamps_ = spu_.template allocate<uint32_t>(config_.lines(), 16);
+    for (uint32_t i = 0; i < tag_words_; ++i)
+      tags_[i] = enabled && way_exists(i) ? 0 : kNoWay;
+    this->set_up_lifetimes(spu_, config_);
+    this->set_up_dirt(spu_, slots());
+    record(cache_trace::Operation::begin);
+    spu_.record(this, cache_trace::first_word(config_));
+    spu_.record(this, cache_trace::second_word(config_));
+  }
+  uint32_t slots() const { return config_.enabled ? config_.lines() : 1; }
+  bool way_exists(uint32_t tag_index) const { return config_.ways >= 4 || (tag_index & 3) < config_.ways; }
+  static uint32_t exponent_of(uint32_t power_of_two) {
+    uint32_t exponent = 0;
+    while (power_of_two >> exponent > 1)
+      ++exponent;
+    return exponent;
+  }
+
+  void clear() {
+    clean_all();
+    spu_.wait_all(((config_.tag_count < 32 ? 1u << config_.tag_count : 0u) - 1) << config_.first_tag);
+    for (uint32_t i = 0; i < tag_words_; ++i) {
+      if (way_exists(i)) tags_[i] = 0;
+    }
+  }
+  void clean_all() {
+    if constexpr (Options::write_back) {
+      for (uint32_t slot = 0; slot < slots(); ++slot)
+        this->clean(spu_, slot, line_at(slot), base_, dma_tag(slot));
+    }
+  }
+  static void mark_out_of_date(uint32_t& tag) {
+    if ((tag & kValid) != 0) tag |= kOutOfDate;
+  }
+  void clear_counters() {
+    for (CacheCounters& each : counters_)
+      each = CacheCounters{0, 0};
+  }
+
+  // --- recording ---
+
+  void record(cache_trace::Operation operation, uint32_t offset, Kind kind) {
+    spu_.record(this, cache_trace::make(operation, offset & ~kLineMask, static_cast<uint32_t>(kind)));
+  }
+  void record(cache_trace::Operation operation, uint32_t offset = 0) {
+    spu_.record(this, cache_trace::make(operation, offset & ~kLineMask));
+  }
+
+  Spu& spu_;
+  CacheConfig config_;
+  ea_t base_;
+  uint32_t set_mask_ = 0;
+  uint32_t set_shift_ = 0;
+  uint32_t way_shift_ = 0;
+  uint32_t tag_words_ = 0;
+  bool stamp_hits_ = false;
+  uint8_t* lines_ = nullptr;
+  uint32_t* tags_ = nullptr;
+  uint32_t* stamps_ = nullptr;
+  uint32_t clock_ = 0;
+  CacheRandom random_;
+  CacheCounters counters_[kKinds];
+};
+
+/// A cache that can be written to.
+template <class Spu, class Kind = uint32_t>
+using WriteBackCache = SoftwareCache<Spu, Kind, WriteBackCacheOptions>;
+
+} // namespace celltrace

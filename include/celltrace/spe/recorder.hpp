@@ -1,0 +1,17 @@
+// What kernels record while they run on a machine that measures, word by word: for studies and tests.
+#pragma once
+
+#include <cstdint>
+
+namespace celltrace {
+
+/// Takes the words. `source` tells apart the objects of one SPE's program that record; what their words mean
+/// is their own affair.
+class SpeRecorder {
+public:
+  virtual ~SpeRecorder() = default;
+  /// Called by the threads that run the SPEs: by one at a time for one `spe`, but for several SPEs at once.
+  virtual void record(unsigned spe, const void* source, std::uint32_t word) = 0;
+};
+
+} // namespace celltrace
