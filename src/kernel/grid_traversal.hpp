@@ -26,10 +26,7 @@ public:
     objects_.mailbox().begin_packet();
     for_each_lane(lanes, [&](uint32_t lane) {
       walk(rays, lane, [&](uint32_t cell, float, float leave) {
-        for_each_object(cell, [&](uint32_t self) {
-          if (objects_.mailbox().first_visit(self)) objects_.test_closest(rays, self, hits);
-          return false;
-        });
+        find_closest_in(cell, rays, hits);
         return hits.distance.lane[lane] <= leave;
       });
     });
@@ -42,14 +39,29 @@ public:
     for_each_lane(lanes, [&](uint32_t lane) {
       if (((lit >> lane) & 1) == 0) return;
       walk(rays, lane, [&](uint32_t cell, float enter, float leave) {
-        for_each_object(cell, [&](uint32_t self) {
-          lit &= ~shadowed(rays, self, lane, enter, leave, distance, light);
-          return ((lit >> lane) & 1) == 0;
-        });
+        attenuate_in(cell, lane, enter, leave, rays, distance, light, lit);
         return ((lit >> lane) & 1) == 0 || distance.lane[lane] <= leave;
       });
     });
     return lit;
+  }
+
+  // --- one voxel, for whoever does not walk; objects_.mailbox() says what it has seen of the packet ---
+
+  void find_closest_in(uint32_t cell, const RayPacket& rays, HitPacket& hits) {
+    for_each_object(cell, [&](uint32_t self) {
+      if (objects_.mailbox().first_visit(self)) objects_.test_closest(rays, self, hits);
+      return false;
+    });
+  }
+  /// For the ray of `lane`, which is in the voxel from `enter` to `leave`. Takes the lanes that are shut off
+  /// from the light out of `lit`.
+  void attenuate_in(uint32_t cell, uint32_t lane, float enter, float leave, const RayPacket& rays,
+                    const FloatLanes& distance, VectorLanes& light, uint32_t& lit) {
+    for_each_object(cell, [&](uint32_t self) {
+      lit &= ~shadowed(rays, self, lane, enter, leave, distance, light);
+      return ((lit >> lane) & 1) == 0;
+    });
   }
 
 private:

@@ -15,13 +15,31 @@ template <class S> struct Surfaces {
   const WordLanes* objects; ///< what the points lie on
 };
 
+/// Where a light is, as seen from surfaces.
+template <class S> struct Bearing {
+  V3<S> direction; ///< of unit length
+  typename S::F distance;
+  typename S::F cosine; ///< to the normal
+  uint32_t facing;      ///< lanes from which it can be seen if nothing is in the way
+
+  Bearing(const LightRecord& light, const Surfaces<S>& s, uint32_t lanes) {
+    using F = typename S::F;
+    const V3<S> to_light = splat3<S>(light.location) - s.point;
+    distance = S::sqrt(dot<S>(to_light, to_light));
+    direction = to_light * (F(1.0f) / S::max(distance, F(1e-30f)));
+    cosine = dot<S>(direction, s.normal);
+    facing = (cosine >= F(1e-10f)).bits() & lanes;
+  }
+};
+
 namespace detail {
 
 /// A light as it arrives at a surface.
-template <class S> struct Arrival {
-  V3<S> direction;      ///< toward the light, of unit length
-  V3<S> colour;         ///< after what lies between
-  typename S::F cosine; ///< to the normal
+template <class S> struct Arrival : Bearing<S> {
+  V3<S> colour; ///< after what lies between
+
+  Arrival(const LightRecord& light, const Surfaces<S>& s, uint32_t lanes)
+      : Bearing<S>(light, s, lanes), colour(splat3<S>(light.colour)) {}
 };
 
 template <class S>
@@ -60,30 +78,28 @@ V3<S> reflected_light(const Surfaces<S>& s, const MaterialLanes<S>& m, const Arr
 
 } // namespace detail
 
+/// Number `i` of the frame's lights.
+template <class Spu> LightRecord light_at(SceneAccess<Spu>& scene, const FrameBlock& frame, uint32_t i) {
+  return *scene.light(frame.light_offset + i * static_cast<uint32_t>(sizeof(LightRecord)));
+}
+
 /// Ambient light, and what all lights contribute, at the surfaces of `lanes`. Counts a shadow ray per light
 /// and lane that faces it.
-template <class Spu>
-V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, Traversal<Spu>& traversal,
-                                   const FrameBlock& frame, const Surfaces<typename Spu::simd>& s,
+template <class Spu, class Finder>
+V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, Finder& finder, const FrameBlock& frame,
+                                   const Surfaces<typename Spu::simd>& s,
                                    const MaterialLanes<typename Spu::simd>& m, uint32_t lanes,
                                    uint64_t& shadow_rays) {
   using S = typename Spu::simd;
   using F = typename S::F;
   V3<S> sum = m.pigment * m.ambient * m.opacity;
   for (uint32_t i = 0; i < frame.light_count; ++i) {
-    const LightRecord light =
-        *scene.light(frame.light_offset + i * static_cast<uint32_t>(sizeof(LightRecord)));
-    const V3<S> to_light = splat3<S>(light.location) - s.point;
-    const F distance = S::sqrt(dot<S>(to_light, to_light));
-    detail::Arrival<S> arrival;
-    arrival.direction = to_light * (F(1.0f) / S::max(distance, F(1e-30f)));
-    arrival.cosine = dot<S>(arrival.direction, s.normal);
-    const auto faces = arrival.cosine >= F(1e-10f);
-    const uint32_t facing = faces.bits() & lanes;
+    const LightRecord light = light_at(scene, frame, i);
+    detail::Arrival<S> arrival(light, s, lanes);
+    const uint32_t facing = arrival.facing;
     if (facing == 0) continue;
     scene.spu().compute(scalar_work::kLight);
     arrival.cosine = S::max(arrival.cosine, F(0.0f));
-    arrival.colour = splat3<S>(light.colour);
 
     const bool shadowless = (light.flags & light_flag::shadowless) != 0;
     if (!shadowless) {
@@ -92,10 +108,10 @@ V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, Traversal<Spu>& trav
       rays.direction.template store<S>(arrival.direction);
       rays.start_object = *s.objects;
       FloatLanes distances;
-      distance.store(distances.lane);
+      arrival.distance.store(distances.lane);
       VectorLanes colour;
       colour.template store<S>(arrival.colour);
-      traversal.attenuate(rays, facing, distances, colour);
+      finder.attenuate(rays, facing, distances, colour, i);
       arrival.colour = colour.template load<S>();
       shadow_rays += static_cast<uint32_t>(__builtin_popcount(facing));
     }

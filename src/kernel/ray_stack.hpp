@@ -28,12 +28,13 @@ struct alignas(128) RayNode {
 constexpr uint32_t kRayNodeBytes = sizeof(RayNode);
 static_assert(kRayNodeBytes % 128 == 0 && kRayNodeBytes <= kMaxDmaBytes, "spilled by one DMA command");
 
+/// Nodes of a stack that stay in local store, unless its owner has many stacks.
+constexpr uint32_t kResidentNodes = 12;
+
 /// A stack whose first `kResident` nodes are in local store; deeper ones are spilled to main memory, at most
 /// `spill_nodes` of them. Depth-first order makes a tree of level n need n + 1 nodes at most.
-template <class Spu> class RayStack {
+template <class Spu, uint32_t kResident = kResidentNodes> class RayStack {
 public:
-  static constexpr uint32_t kResident = 12;
-
   RayStack(Spu& spu, ea_t spill, uint32_t spill_nodes)
       : spu_(spu), resident_(spu.template allocate<RayNode>(kResident)), spill_(spill),
         capacity_(kResident + spill_nodes) {}

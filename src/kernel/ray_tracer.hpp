@@ -12,7 +12,11 @@ struct RayCounters {
   uint64_t dropped = 0; ///< beyond what the stacks hold
 };
 
-template <class Spu> class RayTracer {
+/// The tree of one packet at a time. `Finder` says what rays hit and what light comes through to them: a
+/// Traversal, or where another SPE searches, what hands its answers on. With trace() the tree is worked off
+/// at once; whoever has to wait for answers takes its steps: begin(), then for each node() take_hits() and
+/// shade_hits(), until advance() finds no more.
+template <class Spu, class Finder = Traversal<Spu>, uint32_t kResident = kResidentNodes> class RayTracer {
 public:
   using S = typename Spu::simd;
   using F = typename S::F;
@@ -20,26 +24,62 @@ public:
   using M = typename S::M;
 
   RayTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, ea_t spill)
-      : frame_(frame), scene_(scene), traversal_(*place_traversal(spu, frame, scene)),
-        stack_(spu, spill, frame.ray_stack_nodes), node_(*spu.template allocate<RayNode>()),
-        child_(*spu.template allocate<RayNode>()) {}
+      : RayTracer(spu, frame, scene, spill, frame.ray_stack_nodes, *place_traversal(spu, frame, scene),
+                  *spu.template allocate<RayNode>()) {}
+  /// `spill` has room for `spill_nodes`. `scratch` may be shared by tracers.
+  RayTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, ea_t spill, uint32_t spill_nodes,
+            Finder& finder, RayNode& scratch)
+      : frame_(frame), scene_(scene), traversal_(finder), stack_(spu, spill, spill_nodes),
+        node_(*spu.template allocate<RayNode>()), child_(scratch) {}
 
   /// The colours of primary rays; `rays` are of unit direction and leave the camera.
   V3<S> trace(const RayPacket& rays, uint32_t lanes) {
+    begin(rays, lanes);
+    do
+      trace_node();
+    while (advance());
+    return light();
+  }
+
+  /// Starts the tree of a packet of primary rays.
+  void begin(const RayPacket& rays, uint32_t lanes) {
     scene_.spu().compute(scalar_work::kPrimaryPacket);
     clear(0);
     accumulators_in_use_ = 1;
     start(rays, lanes);
-    for (;;) {
-      if (node_.gathers != 0)
-        gather();
-      else
-        trace_node();
-      if (stack_.empty()) break;
-      stack_.pop(node_);
-    }
-    return light_[0].template load<S>();
   }
+  /// The rays whose closest hits are wanted next, and where to put them.
+  const RayNode& node() const { return node_; }
+  HitPacket& hits() { return hits_; }
+  /// The lanes of node() that hit something; the others see the background.
+  [[gnu::always_inline]] uint32_t take_hits() {
+    scene_.spu().compute(scalar_work::kNode);
+    uint32_t hit = 0;
+    for_each_lane(node_.lanes, [&](uint32_t lane) {
+      hit |= static_cast<uint32_t>(hits_.object.lane[lane] != kNoOffset) << lane;
+    });
+    const uint32_t missed = node_.lanes & ~hit;
+    if (missed != 0) add(missed, splat3<S>(frame_.background));
+    return hit;
+  }
+  /// The light of the surfaces that take_hits() told of, and the rays that go on from there.
+  [[gnu::always_inline]] void shade_hits(const HitPoints<S>& points, uint32_t hit) {
+    const Surfaces<S> surfaces = {points.point, points.normal, node_.rays.direction.template load<S>(),
+                                  &hits_.object};
+    if (const uint32_t plain = hit & ~points.blended; plain != 0)
+      send_on(surfaces, points.interior, shade(surfaces, points.interior, points.material, plain, F(1.0f)));
+    if (points.blended != 0) shade_blended(surfaces, points);
+  }
+  /// Goes on to the next node() of the tree. False: there is none, light() is complete.
+  bool advance() {
+    while (!stack_.empty()) {
+      stack_.pop(node_);
+      if (node_.gathers == 0) return true;
+      gather();
+    }
+    return false;
+  }
+  V3<S> light() const { return light_[0].template load<S>(); }
 
   void reset_counters() {
     counters_ = RayCounters();
@@ -51,11 +91,11 @@ public:
   uint32_t spilled_nodes() const { return stack_.spilled(); }
 
 private:
-  static Traversal<Spu>* place_traversal(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene) {
+  static Finder* place_traversal(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene) {
     struct Storage {
-      alignas(16) uint8_t bytes[sizeof(Traversal<Spu>)];
+      alignas(16) uint8_t bytes[sizeof(Finder)];
     };
-    return new (static_cast<void*>(spu.template allocate<Storage>())) Traversal<Spu>(scene, frame);
+    return new (static_cast<void*>(spu.template allocate<Storage>())) Finder(scene, frame);
   }
 
   static uint32_t count(uint32_t lanes) { return static_cast<uint32_t>(__builtin_popcount(lanes)); }
@@ -102,22 +142,9 @@ private:
   }
 
   void trace_node() {
-    scene_.spu().compute(scalar_work::kNode);
     traversal_.find_closest(node_.rays, node_.lanes, hits_);
-    uint32_t hit = 0;
-    for_each_lane(node_.lanes, [&](uint32_t lane) {
-      hit |= static_cast<uint32_t>(hits_.object.lane[lane] != kNoOffset) << lane;
-    });
-    const uint32_t missed = node_.lanes & ~hit;
-    if (missed != 0) add(missed, splat3<S>(frame_.background));
-    if (hit == 0) return;
-
-    const HitPoints<S> points = find_hit_points(scene_, node_.rays, hits_, hit);
-    const Surfaces<S> surfaces = {points.point, points.normal, node_.rays.direction.template load<S>(),
-                                  &hits_.object};
-    if (const uint32_t plain = hit & ~points.blended; plain != 0)
-      send_on(surfaces, points.interior, shade(surfaces, points.interior, points.material, plain, F(1.0f)));
-    if (points.blended != 0) shade_blended(surfaces, points);
+    const uint32_t hit = take_hits();
+    if (hit != 0) shade_hits(find_hit_points(scene_, node_.rays, hits_, hit), hit);
   }
 
   /// Faces with three materials: each is shaded whole, and the results are blended by the vertices' weights.
@@ -259,8 +286,8 @@ private:
 
   const FrameBlock& frame_;
   SceneAccess<Spu>& scene_;
-  Traversal<Spu>& traversal_;
-  RayStack<Spu> stack_;
+  Finder& traversal_;
+  RayStack<Spu, kResident> stack_;
   RayNode& node_;  ///< being traced
   RayNode& child_; ///< being made
   HitPacket hits_;

@@ -23,8 +23,10 @@ public:
   }
 
   /// Multiplies `light` of each ray in `lanes` by what lies between its origin and `distance` along it: 0
-  /// behind an opaque object, the filtering of each surface crossed otherwise.
-  void attenuate(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance, VectorLanes& light) {
+  /// behind an opaque object, the filtering of each surface crossed otherwise. The number of the light does
+  /// not matter here.
+  void attenuate(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance, VectorLanes& light,
+                 uint32_t = 0) {
     using S = typename Spu::simd;
     using F = typename S::F;
     const uint32_t lit = by_hierarchy() ? hierarchy_.attenuate(rays, lanes, distance, light)
