@@ -49,12 +49,16 @@ struct ParseOptions {
   /// Receives the text of #debug, #render and #statistics as it is, and "file:line:column: warning: text\n"
   /// for #warning. Called by the parsing thread. If empty, warnings go to stderr and the rest nowhere.
   std::function<void(std::string_view)> message;
+  /// Hears again and again, from the parsing thread, how many bytes of the scene's own file have been read,
+  /// and of how many. Neither included files nor loops move it on, but it is called while they are read. If
+  /// it returns false, reading ends with Cancelled.
+  std::function<bool(std::uint64_t bytes, std::uint64_t total)> progress;
   ParseLimits limits;
 };
 
 /// Throws SceneError for a fault of the scene: "file:line:column: error: text", followed by a line for every
-/// file and macro the place was reached through. InputError if an option is unusable. Safe to call from
-/// several threads.
+/// file and macro the place was reached through. InputError if an option is unusable, Cancelled if `progress`
+/// asked for it. Safe to call from several threads.
 Scene parse_file(const std::filesystem::path& path, const ParseOptions& options = {});
 
 /// The same for a scene in memory. `name` stands in messages; includes are looked for from the current

@@ -49,7 +49,7 @@ std::optional<Scene> parse_with_progress(const RenderRequest& request) {
     std::cerr << text;
   };
   options.progress = [&line](std::uint64_t bytes, std::uint64_t total) {
-    line.update(static_cast<double>(bytes) / static_cast<double>(total));
+    if (total > 0) line.update(static_cast<double>(bytes) / static_cast<double>(total));
     return !interrupted();
   };
   try {

@@ -28,6 +28,10 @@ public:
   /// CR LF.
   Token next();
 
+  /// How much of the text has been read, and how much there is.
+  std::size_t offset() const { return offset_; }
+  std::size_t size() const { return text_.size() - kPadding; }
+
   /// Literals from here on, see pov::take_literals(). False if there were none.
   bool take_literals(std::vector<ListEntry>& list, std::size_t most);
 
@@ -49,11 +53,13 @@ public:
   Token end() const;
 
 private:
+  static constexpr std::size_t kPadding = 2; // NULs that flex wants behind the text it scans in place
+
   /// Has flex go on at offset_.
   void move_flex();
   [[noreturn]] void fail(const Location& where, const std::string& what) const;
 
-  std::string text_; // two NULs longer than the file: flex scans it in place
+  std::string text_; // with its padding
   Names& names_;
   Fail fail_;
   void* flex_ = nullptr;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "celltrace/error.hpp"
 #include "pov/constants.hpp"
 #include "pov/grammar.hpp"
 #include "pov/session.hpp"
@@ -16,6 +17,7 @@ using tokens = Parser::token;
 /// stack.
 constexpr std::size_t kMostLevels = 200;
 
+constexpr std::uint64_t kTokensWithoutPause = 1u << 13;
 constexpr std::size_t kLiteralsAtOnce = 1u << 16;
 
 int number_of(const Token& punctuation) {
@@ -159,8 +161,18 @@ bool TokenStream::is_inside_value() const {
 }
 
 Token TokenStream::read() {
-  if (++tokens_read_ > session_.options.limits.tokens) session_.fail(last_place(), "the scene is too long");
+  if (++tokens_read_ > next_pause_) pause();
   return session_.input.read();
+}
+
+/// What is seen to once in a while.
+void TokenStream::pause() {
+  const std::uint64_t most = session_.options.limits.tokens;
+  if (tokens_read_ > most) session_.fail(last_place(), "the scene is too long");
+  next_pause_ = std::min(tokens_read_ + kTokensWithoutPause, most);
+  const Scanner& scene = *session_.input.frames().front().scanner;
+  const auto& progress = session_.options.progress;
+  if (progress && !progress(scene.offset(), scene.size())) throw Cancelled();
 }
 
 void TokenStream::next(Terminal& terminal) {
@@ -303,10 +315,12 @@ bool TokenStream::look_up(const Token& word, Terminal& terminal) {
 void TokenStream::take_literals(std::vector<ListEntry>& list) {
   if (!session_.input.reads_file()) return;
   Scanner& scanner = *session_.input.top().scanner;
-  while (scanner.take_literals(
-      list, std::min(list.size() + kLiteralsAtOnce, session_.options.limits.list_entries))) {
+  const std::uint64_t limit = session_.options.limits.list_entries;
+  for (std::size_t before = 0; scanner.take_literals(list, std::min(before + kLiteralsAtOnce, limit));
+       before = list.size()) {
+    tokens_read_ += 2 * (list.size() - before); // with their commas
+    pause();
   }
-  tokens_read_ += 2 * list.size(); // with their commas
 }
 
 void TokenStream::skip_to_depth(std::size_t depth) {

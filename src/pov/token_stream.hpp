@@ -91,6 +91,7 @@ private:
   void leave_finished_macros();
   bool is_inside_value() const;
   Token read();
+  void pause();
   void deliver(const Token& token, Terminal& terminal);
   void count_brackets(const Token& token);
   void end_at(const Token& token, Terminal& terminal);
@@ -141,6 +142,7 @@ private:
   Session& session_;
   std::vector<Level> levels_;
   std::uint64_t tokens_read_ = 0;
+  std::uint64_t next_pause_ = 0; ///< after so many tokens
   std::uint64_t tokens_recorded_ = 0;
   std::uint64_t iterations_ = 0;
   unsigned macro_calls_ = 0;

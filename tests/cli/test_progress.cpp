@@ -27,6 +27,17 @@ TEST_CASE("a visible progress line wipes itself, an invisible one writes nothing
   CHECK(hidden.str().empty());
 }
 
+TEST_CASE("a progress line names its job, waits, and makes room") {
+  std::ostringstream shown, late;
+  ProgressLine line(shown, true, "reading "), patient(late, true, "reading ", std::chrono::hours(1));
+  line.update(0.5);
+  line.wipe();
+  line.wipe();
+  CHECK(shown.str() == "\r\x1b[Kreading  50 %  0:00\r\x1b[K");
+  patient.update(0.5);
+  CHECK(late.str().empty());
+}
+
 TEST_CASE("the first interrupt is only noted") {
   catch_interrupts();
   CHECK_FALSE(interrupted());
