@@ -13,7 +13,7 @@ public:
   explicit RowExchange(Spu& spu) : spu_(spu), node_(spu.id(), spu.count()) {}
 
   /// Enters the frame's event domain: only signal 2 and the mailbox.
-  void begin_frame(const FrameBlock& frame, RowRange rows) {
+  void begin_frame(const FrameBlock& frame, UnitRange units) {
     over_ = false;
     epoch_ = frame.epoch & (strip_word::kEpochs - 1);
     exchanges_ = 0;
@@ -22,15 +22,15 @@ public:
         static_cast<BalanceMode>(frame.balance) == BalanceMode::gde ? frame.exchange_parameter : 0;
     // Words that outlived their frame make room; those of a neighbour that is a frame ahead are kept.
     drain_mailbox();
-    node_.begin_frame(frame.epoch, rows, lambda);
+    node_.begin_frame(frame.epoch, units, lambda);
     spu_.write_event_mask(kDomain);
     act();
   }
   void end_frame() { node_.end_frame(); }
 
-  bool take_row(uint32_t& row) { return node_.take_row(row); }
-  void complete_row() {
-    node_.complete_row();
+  bool take_unit(uint32_t& unit) { return node_.take_unit(unit); }
+  void complete_unit() {
+    node_.complete_unit();
     if (spu_.out_mailbox_count() != 0)
       spu_.write_out_mailbox(make_report(ReportKind::progress, node_.completed()));
   }
@@ -56,7 +56,7 @@ private:
 
   /// The safe order of an event handler: mask, read, acknowledge, drain, unmask. A phantom event finds
   /// nothing to drain.
-  void handle() {
+  [[gnu::noinline]] void handle() {
     const uint32_t events = spu_.read_event_status();
     spu_.write_event_mask(0);
     spu_.acknowledge_events(events);
@@ -65,7 +65,7 @@ private:
     spu_.write_event_mask(kDomain);
     act();
   }
-  void drain_mailbox() {
+  [[gnu::noinline]] void drain_mailbox() {
     while (spu_.in_mailbox_count() != 0) {
       const uint32_t word = spu_.read_in_mailbox();
       // A doorbell that was delivered before the word has to be seen before it.
@@ -90,7 +90,7 @@ private:
     spu_.note("balance exchange", after - before);
   }
 
-  void act() {
+  [[gnu::noinline]] void act() {
     for (;;) {
       const StripAction action = node_.next_action();
       switch (action.kind) {
@@ -104,7 +104,7 @@ private:
         spu_.send_signal(action.neighbour, Signal::two, action.doorbell);
         break;
       case StripAction::Kind::report_idle:
-        spu_.write_out_mailbox(make_report(ReportKind::idle, action.rows));
+        spu_.write_out_mailbox(make_report(ReportKind::idle, action.units));
         break;
       }
     }

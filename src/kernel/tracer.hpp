@@ -91,19 +91,19 @@ private:
     phase_->scene.cache().reset_counters();
     phase_->tracer.reset_counters();
     fetch(&strip_, frame_.strips + spu_.id() * sizeof(StripRecord), sizeof(StripRecord));
-    exchange_.begin_frame(frame_, RowRange{strip_.begin, strip_.end - strip_.begin});
+    exchange_.begin_frame(frame_, UnitRange{strip_.begin, strip_.end - strip_.begin});
 
     uint32_t rows = 0;
     while (!exchange_.over()) {
       uint32_t row = 0;
-      if (!exchange_.take_row(row)) {
+      if (!exchange_.take_unit(row)) {
         exchange_.wait();
         continue;
       }
       if (!render_row(row)) break;
       phase_->pixels.flush();
       ++rows;
-      exchange_.complete_row();
+      exchange_.complete_unit();
     }
     phase_->pixels.flush();
     exchange_.end_frame();

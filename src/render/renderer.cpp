@@ -121,7 +121,7 @@ private:
     return render_frame(camera, statistics, progress);
   }
 
-  void hand_out(const std::vector<RowRange>& strips) {
+  void hand_out(const std::vector<UnitRange>& strips) {
     for (std::size_t spe = 0; spe < strips.size(); ++spe)
       strip(spe) = {strips[spe].first, strips[spe].first + strips[spe].count, {0, 0}};
   }

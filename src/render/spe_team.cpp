@@ -116,7 +116,7 @@ std::uint32_t SpeTeam::rows_completed() const {
 }
 
 void SpeTeam::end_frame(bool complete) {
-  const std::uint32_t over = strip_word::kFromPpe | strip_word::make(frame_.epoch, false, {0, 0});
+  const std::uint32_t over = strip_word::frame_over(frame_.epoch);
   const auto tell = [&] {
     for (unsigned spe = 0; spe < members_.size(); ++spe)
       if (!members_[spe].answered && machine_.in_mailbox_space(spe) != 0)

@@ -54,29 +54,6 @@ template <class Load> Load sum(const std::vector<Load>& loads) {
   return std::accumulate(loads.begin(), loads.end(), Load{});
 }
 
-/// Shifts loads to mean 0 and scales them to a largest of 1; returns the factor.
-double normalise(std::vector<double>& loads) {
-  const double mean = sum(loads) / static_cast<double>(loads.size());
-  double largest = 0;
-  for (double& load : loads)
-    largest = std::max(largest, std::abs(load -= mean));
-  for (double& load : loads)
-    load /= largest;
-  return largest;
-}
-
-/// log of the deviation from the mean that many sweeps leave: the smaller, the faster the convergence.
-double log_deviation(const SystemGraph& graph, double lambda) {
-  std::vector<double> loads = random_loads<double>(graph.nodes, 5);
-  normalise(loads);
-  double scale = 0;
-  for (int i = 0; i < 2000; ++i) {
-    gde_sweep(graph, loads, lambda);
-    scale += std::log(normalise(loads));
-  }
-  return scale;
-}
-
 } // namespace
 
 TEST_CASE("graphs have the edges and colours they should") {
@@ -94,6 +71,10 @@ TEST_CASE("graphs have the edges and colours they should") {
       Expected{"torus 4x6", box({4, 6}, true), 24, 48, 4, 4},
       Expected{"torus 2x4", box({2, 4}, true), 8, 12, 3, 3},
       Expected{"torus 3x4", box({3, 4}, true), 12, 24, 4, 5},
+      Expected{"complete graph of 1", complete_graph(1), 1, 0, 0, 0},
+      Expected{"complete graph of 2", complete_graph(2), 2, 1, 1, 1},
+      Expected{"complete graph of 7", complete_graph(7), 7, 21, 6, 7},
+      Expected{"complete graph of 8", complete_graph(8), 8, 28, 7, 7},
       Expected{"hypercube 0", hypercube_graph(0), 1, 0, 0, 0},
       Expected{"hypercube 4", hypercube_graph(4), 16, 32, 4, 4});
   INFO(expected.name);
@@ -124,12 +105,18 @@ TEST_CASE("any graph is coloured with at most degree + 1 colours") {
   }
 }
 
-TEST_CASE("graphs that are not simple are refused") {
+TEST_CASE("graphs that are not simple, or too large, are refused") {
   CHECK_THROWS_AS(coloured_graph(2, Pairs{{0, 2}}), std::invalid_argument);
   CHECK_THROWS_AS(coloured_graph(2, Pairs{{1, 1}}), std::invalid_argument);
   CHECK_THROWS_AS(coloured_graph(2, Pairs{{0, 1}, {1, 0}}), std::invalid_argument);
   CHECK_THROWS_AS(chain_graph(0), std::invalid_argument);
   CHECK_THROWS_AS(hypercube_graph(21), std::invalid_argument);
+  CHECK_THROWS_AS(hypercube_graph(64), std::invalid_argument);
+  CHECK_THROWS_AS(box({65536, 65536}), std::invalid_argument);
+  CHECK_THROWS_AS(box({65536, 65537}, true), std::invalid_argument);
+  CHECK_THROWS_AS(complete_graph(0), std::invalid_argument);
+  CHECK_THROWS_AS(complete_graph(5000), std::invalid_argument);
+  CHECK_THROWS_AS(coloured_graph(0, Pairs{}), std::invalid_argument);
 }
 
 TEST_CASE("one exchange gives each side the part lambda of the other's load") {
@@ -196,34 +183,12 @@ TEST_CASE("a hypercube is balanced in one sweep") {
   CHECK(imbalance<double>(loads) == Approx(0).margin(1e-12));
 }
 
-TEST_CASE("no other exchange parameter converges faster than the optimal one") {
-  struct Case {
-    std::string name;
-    SystemGraph graph;
-    double optimum;
-  };
-  const Case each =
-      GENERATE(Case{"chain of 4", chain_graph(4), optimal_chain_parameter(4)},
-               Case{"chain of 8", chain_graph(8), optimal_chain_parameter(8)},
-               Case{"chain of 9", chain_graph(9), optimal_chain_parameter(9)},
-               Case{"ring of 8", ring_graph(8), optimal_ring_parameter(8)},
-               Case{"ring of 12", ring_graph(12), optimal_ring_parameter(12)},
-               Case{"mesh 4x8", box({4, 8}), optimal_mesh_parameter(std::array{4u, 8u})},
-               Case{"torus 4x8", box({4, 8}, true), optimal_torus_parameter(std::array{4u, 8u})});
-  INFO(each.name);
-  const double best = log_deviation(each.graph, each.optimum);
-  for (const double away : {-0.1, -0.05, -0.02, 0.02, 0.05, 0.1})
-    CHECK(best < log_deviation(each.graph, each.optimum + away));
-}
-
 TEST_CASE("exchange parameters out of range are refused") {
   std::vector<double> loads{1, 2, 3};
   CHECK_THROWS_AS(gde_sweep(chain_graph(3), loads, 1.01), std::invalid_argument);
   CHECK_THROWS_AS(gde_sweep(chain_graph(3), loads, -0.01), std::invalid_argument);
   CHECK_THROWS_AS(gde_sweep(chain_graph(2), loads, 0.5), std::invalid_argument);
   CHECK_THROWS_AS(diffusion_step(chain_graph(3), loads, 0.6), std::invalid_argument);
-  CHECK_THROWS_AS(optimal_ring_parameter(5), std::invalid_argument);
-  CHECK_THROWS_AS(optimal_chain_parameter(0), std::invalid_argument);
 }
 
 TEST_CASE("exchange parameters become 16-bit fractions") {

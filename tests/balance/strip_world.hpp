@@ -14,20 +14,24 @@ namespace celltrace::test {
 
 class StripWorld {
 public:
-  /// When a doorbell that was rung may be handed to its node: before any later word of the same neighbour, as
-  /// on the Cell, or whenever the test likes.
-  enum class Doorbells { before_later_words, any_time };
+  /// What may overtake what on the way from one node to another.
+  enum class Transport {
+    mailboxes,      ///< nothing: a doorbell comes before any later word, as on the Cell
+    late_doorbells, ///< doorbells come whenever the test likes, words in their order
+    any_order,      ///< words also overtake each other
+  };
   struct Config {
-    std::vector<std::uint32_t> strips; ///< rows per node at the start of the first frame
+    std::vector<std::uint32_t> strips; ///< units per node at the start of the first frame
     std::uint32_t lambda;
     unsigned frames;
-    Doorbells doorbells;
+    Transport transport;
   };
   struct Step {
     enum Kind { lower_word, upper_word, ppe_word, lower_bell, upper_bell, start, work };
     static constexpr int kKinds = 7;
     unsigned node;
     Kind kind;
+    unsigned place = 0; ///< of the word among those that wait
   };
 
   explicit StripWorld(Config config)
@@ -36,7 +40,7 @@ public:
     for (unsigned id = 0; id < count(); ++id)
       nodes_.emplace_back(id, count());
     strips_ = consecutive_strips(config_.strips);
-    rows_ = strips_.back().first + strips_.back().count;
+    units_ = strips_.back().first + strips_.back().count;
     start_frame();
   }
 
@@ -44,8 +48,9 @@ public:
     std::vector<Step> steps;
     for (unsigned node = 0; node < count(); ++node) {
       for (int kind = 0; kind < Step::kKinds; ++kind) {
-        const Step step{node, static_cast<Step::Kind>(kind)};
-        if (possible(step)) steps.push_back(step);
+        Step step{node, static_cast<Step::Kind>(kind)};
+        for (; possible(step); ++step.place)
+          steps.push_back(step);
       }
     }
     return steps;
@@ -54,7 +59,7 @@ public:
     switch (step.kind) {
     case Step::lower_word:
     case Step::upper_word:
-      deliver_word(step.node, step.kind == Step::upper_word);
+      deliver_word(step.node, step.kind == Step::upper_word, step.place);
       break;
     case Step::ppe_word:
       leave_frame(step.node);
@@ -79,7 +84,11 @@ public:
   /// everywhere.
   unsigned fullest_mailbox() const { return fullest_mailbox_; }
   unsigned fullest_mailbox_at_end() const { return fullest_mailbox_at_end_; }
-  const std::vector<RowRange>& strips() const { return strips_; }
+  const std::vector<UnitRange>& strips() const { return strips_; }
+  /// Since the first frame began: what the nodes sent, and exchanges that moved units.
+  unsigned words() const { return words_; }
+  unsigned doorbells() const { return doorbells_; }
+  unsigned gifts() const { return gifts_; }
 
   /// Equal for worlds that behave alike from now on.
   std::string key() const {
@@ -109,7 +118,7 @@ private:
     std::array<bool, 2> bell{};
     bool finish = false; ///< the PPE's word in the mailbox
     bool start = false;
-    bool working = false; ///< a row has been taken and not completed
+    bool working = false; ///< a unit has been taken and not completed
   };
 
   unsigned count() const { return static_cast<unsigned>(seats_.size()); }
@@ -118,9 +127,18 @@ private:
     const Seat& seat = seats_[step.node];
     switch (step.kind) {
     case Step::lower_word:
-      return !seat.words[0].empty();
     case Step::upper_word:
-      return !seat.words[1].empty();
+      return word_waits(seat, step.kind == Step::upper_word, step.place);
+    default:
+      return step.place == 0 && possible_at(step.node, step.kind);
+    }
+  }
+  bool word_waits(const Seat& seat, unsigned side, unsigned place) const {
+    return place < seat.words[side].size() && (place == 0 || config_.transport == Transport::any_order);
+  }
+  bool possible_at(unsigned node, Step::Kind kind) const {
+    const Seat& seat = seats_[node];
+    switch (kind) {
     case Step::ppe_word:
       return seat.finish;
     case Step::lower_bell:
@@ -130,29 +148,33 @@ private:
     case Step::start:
       return seat.start;
     case Step::work:
-      return seat.working || !nodes_[step.node].remaining().empty();
+      return seat.working || !nodes_[node].remaining().empty();
+    default:
+      return false;
     }
-    return false;
   }
 
   /// A node that cares for its mailbox empties it first.
   void enter_frame(unsigned node) {
     seats_[node].start = false;
-    for (unsigned side = 0; config_.doorbells == Doorbells::before_later_words && side < 2; ++side) {
+    for (unsigned side = 0; config_.transport == Transport::mailboxes && side < 2; ++side) {
       while (!seats_[node].words[side].empty())
-        deliver_word(node, side);
+        deliver_word(node, side, 0);
     }
     nodes_[node].begin_frame(frame_, strips_[node], config_.lambda);
   }
-  void deliver_word(unsigned node, unsigned side) {
+  void deliver_word(unsigned node, unsigned side, unsigned place) {
     Seat& seat = seats_[node];
-    if (config_.doorbells == Doorbells::before_later_words) {
+    if (config_.transport == Transport::mailboxes) {
       for (unsigned each = 0; each < 2; ++each)
         deliver_bell(node, each);
     }
-    const std::uint32_t word = seat.words[side].front();
-    seat.words[side].erase(seat.words[side].begin());
+    const auto at = seat.words[side].begin() + place;
+    const std::uint32_t word = *at;
+    seat.words[side].erase(at);
+    const std::uint32_t before = nodes_[node].remaining().count;
     nodes_[node].on_word(word);
+    if (nodes_[node].remaining().count > before) ++gifts_;
   }
   void deliver_bell(unsigned node, unsigned side) {
     if (!seats_[node].bell[side]) return;
@@ -163,13 +185,13 @@ private:
   void work(unsigned node) {
     Seat& seat = seats_[node];
     if (seat.working) {
-      nodes_[node].complete_row();
+      nodes_[node].complete_unit();
       seat.working = false;
       return;
     }
-    std::uint32_t row = 0;
-    if (!nodes_[node].take_row(row)) throw std::logic_error("no row where one remained");
-    if (row >= rows_ || taken_[row]++ != 0) throw std::logic_error("a row was taken twice");
+    std::uint32_t unit = 0;
+    if (!nodes_[node].take_unit(unit)) throw std::logic_error("no unit where one remained");
+    if (unit >= units_ || taken_[unit]++ != 0) throw std::logic_error("a unit was taken twice");
     seat.working = true;
   }
 
@@ -178,8 +200,8 @@ private:
       const StripAction action = nodes_[node].next_action();
       if (action.kind == StripAction::Kind::none) return;
       if (action.kind == StripAction::Kind::report_idle) {
-        tally_.report(node, action.rows);
-        reported_[node] = static_cast<int>(action.rows);
+        tally_.report(node, action.units);
+        reported_[node] = static_cast<int>(action.units);
         continue;
       }
       send(node, action);
@@ -193,10 +215,12 @@ private:
     if (action.doorbell != 0) {
       if (action.doorbell != 1u << node % 32) throw std::logic_error("wrong doorbell");
       to.bell[side] = true;
+      ++doorbells_;
     }
     if (action.kind == StripAction::Kind::send_word) {
       if (strip_word::from_ppe(action.word)) throw std::logic_error("word of the PPE");
       to.words[side].push_back(action.word);
+      ++words_;
       measure_mailbox(to);
     }
   }
@@ -207,8 +231,8 @@ private:
   }
 
   void start_frame() {
-    tally_ = StripTally(count(), rows_);
-    taken_.assign(rows_, 0);
+    tally_ = StripTally(count(), units_);
+    taken_.assign(units_, 0);
     reported_.assign(count(), -1);
     for (Seat& seat : seats_)
       seat.start = true;
@@ -218,10 +242,10 @@ private:
     if (finishing_ || done() || !tally_.frame_complete()) return;
     finishing_ = true;
     for (const char taken : taken_) {
-      if (taken != 1) throw std::logic_error("a row was lost");
+      if (taken != 1) throw std::logic_error("a unit was lost");
     }
     for (Seat& seat : seats_) {
-      if (seat.working) throw std::logic_error("the frame ended before its last row was complete");
+      if (seat.working) throw std::logic_error("the frame ended before its last unit was complete");
       seat.finish = true;
       measure_mailbox(seat);
     }
@@ -242,14 +266,17 @@ private:
   std::vector<StripNode> nodes_;
   std::vector<Seat> seats_;
   StripTally tally_;
-  std::vector<RowRange> strips_;
-  std::uint32_t rows_ = 0;
+  std::vector<UnitRange> strips_;
+  std::uint32_t units_ = 0;
   unsigned frame_ = 0;
   bool finishing_ = false;
   std::vector<char> taken_;
   std::vector<int> reported_;
   unsigned fullest_mailbox_ = 0;
   unsigned fullest_mailbox_at_end_ = 0;
+  unsigned words_ = 0;
+  unsigned doorbells_ = 0;
+  unsigned gifts_ = 0;
 };
 
 } // namespace celltrace::test

@@ -2,9 +2,8 @@
 // diffusion.
 //
 // Sources: C.-Z. Xu and F. C. M. Lau, "Analysis of the generalized dimension exchange method for dynamic load
-// balancing", J. Parallel and Distributed Computing 16 (1992), and "The generalized dimension exchange method
-// for load balancing in k-ary n-cubes and variants", same journal 24 (1995); G. Cybenko, "Dynamic load
-// balancing for distributed memory multiprocessors", same journal 7 (1989).
+// balancing", J. Parallel and Distributed Computing 16 (1992); G. Cybenko, "Dynamic load balancing for
+// distributed memory multiprocessors", same journal 7 (1989).
 //
 // Loads are one number per node. Pure functions: they touch nothing but the loads they are given.
 #pragma once
@@ -12,9 +11,7 @@
 #include "celltrace/balance/system_graph.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <numeric>
 #include <span>
 #include <stdexcept>
@@ -91,36 +88,6 @@ inline void diffusion_step(const SystemGraph& graph, std::span<std::int64_t> loa
 /// The usual alpha, 1 / (degree + 1), with which diffusion converges on every connected graph.
 inline double diffusion_parameter(const SystemGraph& graph) {
   return 1.0 / (graph.degree() + 1.0);
-}
-
-/// The lambda with which GDE converges fastest on a chain of n >= 1 nodes: 1 / (1 + sin(pi / n)).
-inline double optimal_chain_parameter(std::uint32_t nodes) {
-  if (nodes == 0) throw std::invalid_argument("a chain without nodes");
-  return nodes == 1 ? 0.5 : 1 / (1 + std::sin(std::numbers::pi / nodes));
-}
-/// On a ring of an even number of nodes: 1 / (1 + sin(2 pi / n)). There is no closed form for odd rings:
-/// std::invalid_argument. 2 nodes are a chain.
-inline double optimal_ring_parameter(std::uint32_t nodes) {
-  if (nodes == 0 || nodes % 2 == 1) throw std::invalid_argument("the optimal parameter needs an even ring");
-  return nodes == 2 ? 0.5 : 1 / (1 + std::sin(2 * std::numbers::pi / nodes));
-}
-/// On a mesh or torus the longest side decides. `sides` is not empty; those of a torus are even.
-inline double optimal_mesh_parameter(std::span<const std::uint32_t> sides) {
-  return optimal_chain_parameter(*std::max_element(sides.begin(), sides.end()));
-}
-inline double optimal_torus_parameter(std::span<const std::uint32_t> sides) {
-  for (const std::uint32_t side : sides)
-    (void)optimal_ring_parameter(side);
-  return optimal_ring_parameter(*std::max_element(sides.begin(), sides.end()));
-}
-/// On a hypercube one sweep with 1/2 balances exactly.
-inline double optimal_hypercube_parameter() {
-  return 0.5;
-}
-
-/// An exchange parameter in units of 2^-16 as StripNode takes it: 0..1 becomes 0..65535.
-inline std::uint32_t fixed_point_parameter(double lambda) {
-  return static_cast<std::uint32_t>(std::clamp(std::lround(lambda * 65536), 0L, 65535L));
 }
 
 /// max / mean - 1: 0 is perfect balance. 0 for no loads or loads that are all 0.

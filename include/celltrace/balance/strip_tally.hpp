@@ -1,4 +1,4 @@
-// The PPE's part in balancing the rows of a frame (strip.hpp): it hands out strips and knows when a frame is
+// The PPE's part in balancing the work of a frame (strip.hpp): it hands out strips and knows when a frame is
 // complete.
 #pragma once
 
@@ -11,9 +11,9 @@
 
 namespace celltrace {
 
-/// Strips of the given numbers of rows, one after the other from row 0.
-inline std::vector<RowRange> consecutive_strips(const std::vector<std::uint32_t>& counts) {
-  std::vector<RowRange> strips;
+/// Strips of the given numbers of units, one after the other from unit 0.
+inline std::vector<UnitRange> consecutive_strips(const std::vector<std::uint32_t>& counts) {
+  std::vector<UnitRange> strips;
   strips.reserve(counts.size());
   std::uint32_t first = 0;
   for (const std::uint32_t count : counts) {
@@ -23,10 +23,10 @@ inline std::vector<RowRange> consecutive_strips(const std::vector<std::uint32_t>
   return strips;
 }
 
-/// `rows` rows in `nodes` (at least 1) strips that differ by at most one row.
-inline std::vector<RowRange> even_strips(std::uint32_t rows, std::uint32_t nodes) {
-  std::vector<std::uint32_t> counts(nodes, rows / nodes);
-  for (std::uint32_t node = 0; node < rows % nodes; ++node)
+/// `units` units in `nodes` (at least 1) strips that differ by at most one unit.
+inline std::vector<UnitRange> even_strips(std::uint32_t units, std::uint32_t nodes) {
+  std::vector<std::uint32_t> counts(nodes, units / nodes);
+  for (std::uint32_t node = 0; node < units % nodes; ++node)
     ++counts[node];
   return consecutive_strips(counts);
 }
@@ -34,26 +34,26 @@ inline std::vector<RowRange> even_strips(std::uint32_t rows, std::uint32_t nodes
 /// Counts the idle reports of one frame. Not thread safe.
 class StripTally {
 public:
-  /// `rows`: of the whole frame.
-  StripTally(std::uint32_t nodes, std::uint32_t rows) : rows_(rows), reports_(nodes) {}
+  /// `units`: of the whole frame.
+  StripTally(std::uint32_t nodes, std::uint32_t units) : units_(units), reports_(nodes) {}
 
-  /// Node `node` is idle and has completed `completed` rows in this frame. Its newest report counts.
+  /// Node `node` is idle and has completed `completed` units in this frame. Its newest report counts.
   void report(std::uint32_t node, std::uint32_t completed) { reports_.at(node) = completed; }
-  /// Rows that are known to be completed.
+  /// Units that are known to be completed.
   std::uint32_t completed() const {
     return std::accumulate(reports_.begin(), reports_.end(), std::uint32_t{0},
                            [](std::uint32_t sum, const auto& report) { return sum + report.value_or(0); });
   }
-  /// Every node has been idle and all rows are completed.
+  /// Every node has been idle and all units are completed.
   bool frame_complete() const {
     for (const auto& report : reports_) {
       if (!report) return false;
     }
-    return completed() == rows_;
+    return completed() == units_;
   }
-  /// The strips for the next frame, which is likely to resemble this one: as many rows for each node as it
+  /// The strips for the next frame, which is likely to resemble this one: as many units for each node as it
   /// managed. Precondition: frame_complete().
-  std::vector<RowRange> next_strips() const {
+  std::vector<UnitRange> next_strips() const {
     std::vector<std::uint32_t> counts;
     for (const auto& report : reports_)
       counts.push_back(report.value_or(0));
@@ -61,7 +61,7 @@ public:
   }
 
 private:
-  std::uint32_t rows_;
+  std::uint32_t units_;
   std::vector<std::optional<std::uint32_t>> reports_;
 };
 

@@ -25,6 +25,9 @@ struct SystemGraph {
   std::uint32_t degree() const;
 };
 
+/// Builders throw std::invalid_argument for graphs without nodes and for graphs of more than this many.
+inline constexpr std::uint32_t kMaxGraphNodes = 1u << 20;
+
 /// Nodes 0 .. n-1 in a row; 2 colours, the edge above node i has colour i mod 2.
 SystemGraph chain_graph(std::uint32_t nodes);
 /// A chain whose ends are neighbours, from 3 nodes on; 2 colours if `nodes` is even, else 3.
@@ -36,6 +39,9 @@ SystemGraph mesh_graph(std::span<const std::uint32_t> sides);
 SystemGraph torus_graph(std::span<const std::uint32_t> sides);
 /// 2^dimensions nodes; neighbours differ in one bit of their number, which is the edge's colour.
 SystemGraph hypercube_graph(std::uint32_t dimensions);
+/// Everyone is everyone's neighbour; n - 1 colours if `nodes` is even, else n: the fewest there can be. At
+/// most 4096 nodes.
+SystemGraph complete_graph(std::uint32_t nodes);
 
 /// Any graph, from pairs of neighbours; at most degree + 1 colours (Vizing), found as by J. Misra and D.
 /// Gries, "A constructive proof of Vizing's theorem", Information Processing Letters 41 (1992). Throws

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <set>
 #include <stdexcept>
+#include <string>
 
 namespace celltrace {
 
@@ -36,11 +37,17 @@ inline void add_axis(SystemGraph& graph, Axis axis, bool torus) {
   graph.colours += odd_ring ? 3 : std::min(axis.side - 1, 2u);
 }
 
+inline void require_nodes(std::uint64_t nodes, std::uint32_t most = kMaxGraphNodes) {
+  if (nodes == 0) throw std::invalid_argument("a system graph without nodes");
+  if (nodes > most)
+    throw std::invalid_argument("a system graph of more than " + std::to_string(most) + " nodes");
+}
+
 inline SystemGraph box_graph(std::span<const std::uint32_t> sides, bool torus) {
   SystemGraph graph;
   graph.nodes = 1;
   for (const std::uint32_t side : sides) {
-    if (side == 0) throw std::invalid_argument("a side of a system graph has no nodes");
+    require_nodes(std::uint64_t{graph.nodes} * side);
     graph.nodes *= side;
   }
   std::uint32_t stride = 1;
@@ -99,13 +106,29 @@ inline SystemGraph torus_graph(std::span<const std::uint32_t> sides) {
 }
 
 inline SystemGraph hypercube_graph(std::uint32_t dimensions) {
-  if (dimensions > 20) throw std::invalid_argument("a hypercube of more than 20 dimensions");
+  detail::require_nodes(dimensions > 20 ? std::uint64_t{kMaxGraphNodes} + 1 : 1u << dimensions);
   const std::vector<std::uint32_t> sides(dimensions, 2);
   return mesh_graph(sides);
 }
 
+inline SystemGraph complete_graph(std::uint32_t nodes) {
+  detail::require_nodes(nodes, 4096);
+  // A round robin tournament: an odd number of players meet in round a + b; one more meets, in each round,
+  // the player who would have to meet himself.
+  const std::uint32_t rounds = nodes - 1 + nodes % 2;
+  SystemGraph graph;
+  graph.nodes = nodes;
+  graph.colours = nodes == 1 ? 0 : rounds;
+  for (std::uint32_t b = 1; b < nodes; ++b) {
+    for (std::uint32_t a = 0; a < b; ++a)
+      graph.edges.push_back({a, b, (b == rounds ? 2 * a : a + b) % rounds});
+  }
+  return graph;
+}
+
 inline SystemGraph coloured_graph(std::uint32_t nodes,
                                   std::span<const std::pair<std::uint32_t, std::uint32_t>> neighbours) {
+  detail::require_nodes(nodes);
   detail::require_simple(nodes, neighbours);
   SystemGraph graph;
   graph.nodes = nodes;

@@ -1,0 +1,135 @@
+// Measuring how fast load balancing converges on a system graph, whether or not theory has a formula for it.
+//
+// The convergence factor is what a sweep, or a step of diffusion, leaves in the long run of the deviation
+// from balance: the spectral radius of the sweep as a matrix, apart from the equal loads that it does not
+// change. It is found by Gelfand's formula, the limit of |M^k|^(1/k), with k = 2^24 by repeated squaring:
+// also where eigenvalues are complex or coincide. n^3 work, so meant for graphs of at most some hundred
+// nodes.
+#pragma once
+
+#include "celltrace/balance/dimension_exchange.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace celltrace {
+
+namespace detail {
+
+/// A square matrix, row by row.
+class SquareMatrix {
+public:
+  explicit SquareMatrix(std::size_t size) : size_(size), values_(size * size) {}
+
+  std::span<double> row(std::size_t index) { return {values_.data() + index * size_, size_}; }
+  SquareMatrix squared() const {
+    SquareMatrix square(size_);
+    for (std::size_t i = 0; i < size_; ++i) {
+      for (std::size_t k = 0; k < size_; ++k) {
+        const double factor = values_[i * size_ + k];
+        for (std::size_t j = 0; j < size_; ++j)
+          square.values_[i * size_ + j] += factor * values_[k * size_ + j];
+      }
+    }
+    return square;
+  }
+  /// The largest magnitude; all values are divided by it unless it is 0.
+  double normalise() {
+    double largest = 0;
+    for (const double value : values_)
+      largest = std::max(largest, std::abs(value));
+    if (largest == 0) return 0;
+    for (double& value : values_)
+      value /= largest;
+    return largest;
+  }
+
+private:
+  std::size_t size_;
+  std::vector<double> values_;
+};
+
+/// `balance(loads)` is linear and keeps the sum.
+template <class Balance> double spectral_radius(std::uint32_t nodes, Balance balance) {
+  // Below this, what is left of a deviation is rounding.
+  constexpr double kNothing = 1e-14;
+  SquareMatrix power(nodes);
+  for (std::uint32_t node = 0; node < nodes; ++node) {
+    const std::span<double> loads = power.row(node);
+    loads[node] = 1;
+    balance(loads);
+    for (double& load : loads)
+      load -= 1.0 / nodes;
+  }
+  double log_norm = 0;
+  double exponent = 1;
+  for (int doubling = 0; doubling < 24; ++doubling) {
+    const double norm = power.normalise();
+    if (norm < kNothing) return 0;
+    log_norm += std::log(norm) / exponent;
+    power = power.squared();
+    exponent *= 2;
+  }
+  return std::exp(log_norm);
+}
+
+} // namespace detail
+
+/// What a sweep of GDE with `lambda` leaves of a deviation, 0..1. Errors as gde_sweep().
+inline double convergence_factor(const SystemGraph& graph, double lambda) {
+  return detail::spectral_radius(graph.nodes,
+                                 [&](std::span<double> loads) { gde_sweep(graph, loads, lambda); });
+}
+/// The same for a step of diffusion with `alpha`. Errors as diffusion_step().
+inline double diffusion_convergence_factor(const SystemGraph& graph, double alpha) {
+  return detail::spectral_radius(graph.nodes,
+                                 [&](std::span<double> loads) { diffusion_step(graph, loads, alpha); });
+}
+
+/// The lambda of the smallest convergence factor on any graph, by search to about 1e-4: for the graphs that
+/// have no formula.
+inline double best_exchange_parameter(const SystemGraph& graph) {
+  double best = 0.5;
+  double smallest = convergence_factor(graph, best);
+  for (double step = 1.0 / 16; step > 1e-4; step /= 4) {
+    const double centre = best;
+    for (int i = -7; i <= 7; ++i) {
+      const double lambda = centre + i * step;
+      if (lambda <= 0 || lambda >= 1) continue;
+      const double factor = convergence_factor(graph, lambda);
+      if (factor < smallest) {
+        smallest = factor;
+        best = lambda;
+      }
+    }
+  }
+  return best;
+}
+
+/// Sweeps of GDE until the imbalance is at most `tolerance`; none if `most` are not enough.
+inline std::optional<std::uint32_t> sweeps_to_balance(const SystemGraph& graph, std::vector<double> loads,
+                                                      double lambda, double tolerance,
+                                                      std::uint32_t most = 100'000) {
+  for (std::uint32_t sweeps = 0; sweeps <= most; ++sweeps) {
+    if (imbalance<double>(loads) <= tolerance) return sweeps;
+    gde_sweep(graph, loads, lambda);
+  }
+  return std::nullopt;
+}
+/// Steps of diffusion until then.
+inline std::optional<std::uint32_t> steps_to_balance(const SystemGraph& graph, std::vector<double> loads,
+                                                     double alpha, double tolerance,
+                                                     std::uint32_t most = 100'000) {
+  for (std::uint32_t steps = 0; steps <= most; ++steps) {
+    if (imbalance<double>(loads) <= tolerance) return steps;
+    diffusion_step(graph, loads, alpha);
+  }
+  return std::nullopt;
+}
+
+} // namespace celltrace
