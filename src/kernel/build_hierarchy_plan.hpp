@@ -2,7 +2,7 @@
 // Kernel dialect.
 #pragma once
 
-#include "celltrace/spe/types.hpp"
+#include "kernel/records.hpp"
 
 #include <stdint.h>
 
@@ -10,15 +10,36 @@ namespace celltrace::kernel::hierarchy {
 
 /// SPEs that build at a time.
 constexpr uint32_t kMaxBuilders = 32;
-/// Steps that several SPEs take one after the other; each needs what all have done in those before.
-constexpr uint32_t kSteps = 9;
-/// Fewer objects are built by one SPE, without cells.
-constexpr uint32_t kMinObjectsForCells = 4096;
+/// Steps that several SPEs take one after the other; the last needs what the first has done.
+constexpr uint32_t kSteps = 2;
 
-/// Pairs of 8 bytes that each of the two sort buffers should have room for: five an object, and a line for
-/// every SPE and one for all. A single SPE makes do with 4 an object, and takes longer.
-constexpr uint64_t work_pairs(uint32_t objects) {
-  return uint64_t{5} * objects + (kMaxBuilders + 1) * kLineBytes / 8;
-}
+/// Part of the hierarchy that is built by itself: where it ends, unless there are fewer than four runs.
+constexpr uint32_t kTreeletObjects = 256;
+/// References that an SPE has room for.
+constexpr uint32_t kLocalReferences = 3 * kTreeletObjects;
+
+/// What all SPEs know of a build. A line, at the start of the work memory.
+struct alignas(128) TeamRecord {
+  uint32_t treelets;
+  uint32_t top_nodes;
+  uint32_t nodes;
+  uint32_t next; ///< treelet nobody has taken; to stop the build, put kStopped here
+  uint32_t unused[28];
+};
+static_assert(sizeof(TeamRecord) == 128, "one line");
+constexpr uint32_t kStopped = 0x80000000u;
+
+/// The size of the work memory, which lies in the sort buffers.
+struct WorkSize {
+  uint32_t runs;
+  uint32_t references; ///< of objects, if an SPE might not have room for those of a treelet
+
+  constexpr WorkSize(uint32_t objects, uint32_t run_count, uint32_t longest_run)
+      : runs(run_count),
+        references((run_count == 0 ? objects : uint64_t{3} * longest_run) > kLocalReferences ? objects : 0) {}
+  /// Pairs of 8 bytes that each of the two sort buffers should have room for: 4 a reference, to a run or to
+  /// an object; 5 a treelet, as many as runs; and a line.
+  constexpr uint64_t pairs() const { return uint64_t{9} * runs + uint64_t{4} * references + kLineBytes / 8; }
+};
 
 } // namespace celltrace::kernel::hierarchy

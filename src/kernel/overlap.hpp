@@ -53,6 +53,16 @@ inline Box bounding_box(const ObjectRecord& object) {
   }
 }
 
+/// The smallest box around both.
+inline Box box_around(const Box& a, const Box& b) {
+  Box both;
+  for (int i = 0; i < 3; ++i) {
+    both.min[i] = smaller(a.min[i], b.min[i]);
+    both.max[i] = larger(a.max[i], b.max[i]);
+  }
+  return both;
+}
+
 /// The surface of a sphere touches a box if the box's nearest point is inside and its farthest one is
 /// outside.
 inline bool sphere_overlaps(const ObjectRecord& object, const Box& box) {

@@ -11,9 +11,9 @@ namespace detail {
 /// The part of this SPE in a build by several, in the step that they are at.
 template <class Spu> PrepareResult take_step(Spu& spu, const FrameBlock& frame) {
   uint8_t* const marked = spu.mark();
-  hierarchy::Builder<Spu> builder(spu, frame, spu.id(), frame.prepare_spes);
+  hierarchy::Builder<Spu> builder(spu, frame, spu.id());
   builder.run(frame.prepare_step);
-  const bool last = frame.prepare_step + 1 == hierarchy::Builder<Spu>::kSteps;
+  const bool last = frame.prepare_step + 1 == hierarchy::kSteps;
   const uint32_t nodes = last ? builder.nodes() : 0;
   spu.release(marked);
   return {nodes, true};

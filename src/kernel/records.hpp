@@ -103,6 +103,15 @@ struct alignas(8) CellRecord {
 };
 static_assert(sizeof(CellRecord) == 8, "sixteen voxels a line");
 
+/// Objects that are near each other and neighbours in the table, with a box around them.
+struct alignas(32) RunRecord {
+  float min[3];
+  uint32_t first; ///< index of an ObjectRecord
+  float max[3];
+  uint32_t count;
+};
+static_assert(sizeof(RunRecord) == 32, "four runs a line");
+
 /// Head of a scene image.
 struct alignas(128) ImageHeader {
   uint32_t magic;
@@ -117,7 +126,9 @@ struct alignas(128) ImageHeader {
   uint32_t blend_offset, blend_count;
   float bounds_min[3];
   float bounds_max[3];
-  uint32_t unused[8];
+  uint32_t run_offset, run_count; ///< all objects by run, or nothing: there are few
+  uint32_t longest_run;           ///< objects
+  uint32_t unused[5];
 };
 static_assert(sizeof(ImageHeader) == 128, "one line");
 
@@ -216,6 +227,9 @@ struct alignas(128) FrameBlock {
   uint32_t camera_interior_count;
   uint32_t accelerator;                         ///< AcceleratorKind
   uint32_t camera_interiors[kMaxInteriorDepth]; ///< offsets, outermost first
+
+  uint32_t run_offset, run_count; ///< RunRecords
+  uint32_t longest_run;           ///< objects
 };
 static_assert(sizeof(FrameBlock) % 128 == 0 && sizeof(FrameBlock) <= 512, "fetched by one DMA command");
 

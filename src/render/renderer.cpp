@@ -103,7 +103,7 @@ private:
   RenderResult render_scene(const Scene& scene, const Progress& progress) {
     RenderStatistics statistics;
     const Stopwatch build;
-    image_ = std::make_unique<SceneImage>(scene);
+    image_.assign(scene, scratch_, machine_->direct_memory() ? machine_->spe_count() : 1);
     scene_ = scene;
     statistics.build_seconds = build.seconds();
     const Stopwatch prepare;
@@ -115,7 +115,7 @@ private:
   }
 
   RenderResult render_camera(const Camera& camera, const Progress& progress) {
-    if (!image_) throw InputError("a camera alone cannot be rendered: there is no scene yet");
+    if (image_.empty()) throw InputError("a camera alone cannot be rendered: there is no scene yet");
     validate(camera);
     RenderStatistics statistics;
     return render_frame(camera, statistics, progress);
@@ -135,21 +135,19 @@ private:
       build_hierarchy();
     else
       build_grid();
-    for (AlignedBlock& buffer : sort_buffers_)
-      buffer = AlignedBlock();
     team_->synchronize();
   }
   void build_grid() {
-    const GridRecord grid = choose_grid(image_->header());
+    const GridRecord grid = choose_grid(image_.header());
     const std::uint32_t cells = grid.row_of_cells * grid.cells[2];
-    std::uint64_t pairs = std::max<std::uint64_t>(std::uint64_t{image_->header().object_count} * 6, 1024);
+    std::uint64_t pairs = std::max<std::uint64_t>(std::uint64_t{image_.header().object_count} * 6, 1024);
     for (;;) {
       if (pairs > 0x3FFFFFFF) throw InputError("the scene is too large: its object lists would pass 4 GB");
       const auto words = static_cast<std::uint32_t>(pairs);
-      image_->reserve_accelerator(std::uint64_t{cells} * sizeof(CellRecord), words);
+      image_.reserve_accelerator(std::uint64_t{cells} * sizeof(CellRecord), words);
       frame_.grid = grid;
-      frame_.grid.cell_offset = image_->table_offset();
-      frame_.grid.list_offset = image_->list_offset();
+      frame_.grid.cell_offset = image_.table_offset();
+      frame_.grid.list_offset = image_.list_offset();
       frame_.grid.list_capacity = words;
       reserve_work(words);
       if (team_->prepare_frame()) break;
@@ -158,12 +156,13 @@ private:
     frame_.grid.list_count = report(0).list_entries;
   }
   void build_hierarchy() {
-    const std::uint32_t objects = image_->header().object_count;
+    const std::uint32_t objects = image_.header().object_count;
     // A node has four children, and a leaf at least one object.
     const std::uint32_t nodes = objects / 3 + 2;
-    image_->reserve_accelerator(std::uint64_t{nodes} * sizeof(NodeRecord), objects);
-    frame_.hierarchy = {image_->table_offset(), nodes, 0, image_->list_offset()};
-    reserve_work(static_cast<std::uint32_t>(hierarchy::work_pairs(objects)));
+    image_.reserve_accelerator(std::uint64_t{nodes} * sizeof(NodeRecord), objects);
+    frame_.hierarchy = {image_.table_offset(), nodes, 0, image_.list_offset()};
+    const ImageHeader& header = image_.header();
+    reserve_work(hierarchy::WorkSize(objects, header.run_count, header.longest_run).pairs());
     if (machine_->direct_memory()) {
       build_hierarchy_on(*team_, machine_->spe_count());
     } else {
@@ -178,7 +177,7 @@ private:
     frame_.hierarchy.node_count = report(0).list_entries;
   }
   void build_hierarchy_on(SpeTeam& team, unsigned spes) {
-    if (image_->header().object_count < hierarchy::kMinObjectsForCells) spes = 1;
+    if (image_.header().run_count == 0) spes = 1;
     frame_.prepare_spes = std::min(spes, hierarchy::kMaxBuilders);
     frame_.prepare_step = 0;
     const std::uint32_t steps = frame_.prepare_spes == 1 ? 1 : hierarchy::kSteps;
@@ -186,13 +185,13 @@ private:
       team.prepare_frame(frame_.prepare_spes);
   }
   /// Work memory of PREPARE FRAME, and what else depends on the scene.
-  void reserve_work(std::uint32_t pairs) {
-    frame_.sort_capacity = pairs;
+  void reserve_work(std::uint64_t pairs) {
+    frame_.sort_capacity = static_cast<std::uint32_t>(pairs);
     for (int i = 0; i < 2; ++i) {
-      sort_buffers_[i] = AlignedBlock(std::size_t{pairs} * 8);
+      sort_buffers_[i].reserve(std::size_t{pairs} * 8);
       frame_.sort_buffer[i] = to_ea(sort_buffers_[i].data());
     }
-    set_scene(frame_, scene_, options_, *image_);
+    set_scene(frame_, scene_, options_, image_);
     // A tree of n levels needs n + 1 nodes; straight transmission may add some that cost no level.
     const std::uint32_t nodes = frame_.max_trace_level + 32;
     if (nodes != frame_.ray_stack_nodes) {
@@ -203,7 +202,7 @@ private:
   }
 
   RenderResult render_frame(const Camera& camera, RenderStatistics& statistics, const Progress& progress) {
-    set_camera(frame_, camera, scene_, *image_);
+    set_camera(frame_, camera, scene_, image_);
     ++frame_.epoch;
     std::memset(surface_.data(), 0, surface_.size());
     std::memset(reports_.data(), 0, reports_.size());
@@ -238,7 +237,8 @@ private:
 
   RenderOptions options_;
   Scene scene_;
-  std::unique_ptr<SceneImage> image_;
+  SceneImage image_;
+  AlignedBlock scratch_;
   // Everything from here to the machine is read and written by the SPEs.
   AlignedBlock surface_, strips_, reports_, ray_stack_, sort_buffers_[2];
   AlignedBlock frame_block_;

@@ -1,9 +1,12 @@
 #include "scene/scene_image.hpp"
 
 #include "celltrace/error.hpp"
-#include "scene/image_builder.hpp"
+#include "scene/parallel.hpp"
+#include "scene/scene_objects.hpp"
+#include "scene/surface_records.hpp"
 
-#include <cstdlib>
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <new>
@@ -14,34 +17,69 @@ using namespace kernel;
 
 namespace {
 
-constexpr std::uint32_t kMagic = 0x43545349; // "CTSI"
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kObjectsPerThread = 8192;
+/// What the accelerator that is most likely to be built needs an object.
+constexpr std::size_t kAcceleratorBytes = 48;
 
 std::size_t round_up(std::size_t bytes) {
   return (bytes + kLineBytes - 1) / kLineBytes * kLineBytes;
 }
 
-/// FNV-1a over 64-bit words; the block is a multiple of a line long.
-std::uint64_t checksum(std::span<const std::byte> bytes) {
-  std::uint64_t sum = 0xCBF29CE484222325u;
-  for (std::size_t at = 0; at + 8 <= bytes.size(); at += 8) {
-    std::uint64_t word = 0;
-    if (at != offsetof(ImageHeader, checksum)) std::memcpy(&word, bytes.data() + at, 8);
-    sum = (sum ^ word) * 0x100000001B3u;
+/// Work memory for ordering objects.
+struct OrderMemory {
+  PlacedObject* objects;
+  PlacedObject* spare;
+  std::uint32_t* cells;
+
+  OrderMemory(AlignedBlock& block, std::uint32_t count) {
+    const std::size_t list = round_up(std::size_t{count} * sizeof(PlacedObject));
+    block.reserve(2 * list + std::size_t{count} * sizeof(std::uint32_t));
+    objects = reinterpret_cast<PlacedObject*>(block.data());
+    spare = reinterpret_cast<PlacedObject*>(block.data() + list);
+    cells = reinterpret_cast<std::uint32_t*>(block.data() + 2 * list);
   }
-  return sum;
+};
+
+/// Writes those of the scene's objects that can be hit to `to`; in parts, which are brought together.
+ObjectCensus place_all(const SceneObjects& objects, PlacedObject* to, unsigned threads) {
+  std::vector<ObjectCensus> census(threads);
+  for_each_part(threads, [&](unsigned part) {
+    const HostPart mine(objects.count(), part, threads);
+    census[part] = objects.place(mine.begin, mine.end, to + mine.begin);
+  });
+  for (unsigned part = 1; part < threads; ++part) {
+    const PlacedObject* from = to + HostPart(objects.count(), part, threads).begin;
+    std::copy(from, from + census[part].objects, to + census[0].objects);
+    census[0].add(census[part]);
+  }
+  return census[0];
 }
 
-/// Appends tables to a block whose size is known beforehand.
+/// A box around everything, a little larger than it is.
+Box bounds_of(const ObjectCensus& census) {
+  if (census.objects == 0) return {{0, 0, 0}, {1, 1, 1}};
+  Box all = census.around;
+  float largest = 0;
+  for (int i = 0; i < 3; ++i)
+    largest = std::max({largest, all.max[i] - all.min[i], std::abs(all.min[i]), std::abs(all.max[i])});
+  for (int i = 0; i < 3; ++i) {
+    all.min[i] -= largest * 1e-5f;
+    all.max[i] += largest * 1e-5f;
+  }
+  return all;
+}
+
+/// Appends tables to a block whose size is known afterwards.
 class Layout {
 public:
   explicit Layout(std::size_t begin) : end_(begin) {}
-  template <class Record> std::uint32_t place(const std::vector<Record>& table) {
-    const std::size_t offset = end_;
-    end_ = round_up(end_ + table.size() * sizeof(Record));
+  template <class Record>
+  void place(std::size_t count, std::uint32_t& offset_field, std::uint32_t& count_field) {
+    offset_field = static_cast<std::uint32_t>(end_);
+    count_field = static_cast<std::uint32_t>(count);
+    end_ = round_up(end_ + count * sizeof(Record));
     if (end_ > std::numeric_limits<std::uint32_t>::max())
       throw InputError("the scene is too large: its image would pass 4 GB");
-    return static_cast<std::uint32_t>(offset);
   }
   std::size_t end() const { return end_; }
 
@@ -49,111 +87,125 @@ private:
   std::size_t end_;
 };
 
-template <class Record>
-void copy_table(std::byte* base, std::uint32_t offset, const std::vector<Record>& table) {
-  if (!table.empty()) std::memcpy(base + offset, table.data(), table.size() * sizeof(Record));
-}
-
-/// True if a table of `count` records at `offset` lies within `bytes` and is aligned.
-bool table_fits(std::uint32_t offset, std::uint32_t count, std::size_t record, std::size_t bytes) {
-  return offset % kLineBytes == 0 && offset >= sizeof(ImageHeader) && offset <= bytes &&
-         std::uint64_t{count} * record <= bytes - offset;
-}
-/// True if `offset` is that of a record of the table.
-bool refers_to(std::uint32_t offset, std::uint32_t table, std::uint32_t count, std::size_t record) {
-  return offset >= table && (offset - table) % record == 0 && (offset - table) / record < count;
-}
-
-bool references_are_valid(const std::byte* base, const ImageHeader& h) {
-  const auto* objects = reinterpret_cast<const ObjectRecord*>(base + h.object_offset);
-  const auto is_material = [&](std::uint32_t offset) {
-    return refers_to(offset, h.material_offset, h.material_count, sizeof(MaterialRecord));
-  };
-  const auto* blends = reinterpret_cast<const BlendRecord*>(base + h.blend_offset);
-  for (std::uint32_t i = 0; i < h.blend_count; ++i)
-    for (std::uint32_t material : blends[i].material)
-      if (!is_material(material)) return false;
-  for (std::uint32_t i = 0; i < h.object_count; ++i) {
-    const ObjectRecord& object = objects[i];
-    const std::uint32_t flags = object.kind_and_flags;
-    const bool blended = (flags & object_flag::blended) != 0;
-    if ((flags & object_flag::kind_mask) > static_cast<std::uint32_t>(ObjectKind::triangle)) return false;
-    if (blended ? !refers_to(object.material, h.blend_offset, h.blend_count, sizeof(BlendRecord))
-                : !is_material(object.material))
-      return false;
-    if (!refers_to(object.interior, h.interior_offset, h.interior_count, sizeof(InteriorRecord)))
-      return false;
-    if ((flags & object_flag::smooth) != 0 &&
-        !refers_to(object.normals, h.normals_offset, h.normals_count, sizeof(NormalsRecord)))
-      return false;
+ImageHeader make_header(const Scene& scene, const ObjectCensus& census, std::span<const std::uint32_t> runs) {
+  ImageHeader header{};
+  header.magic = kImageMagic;
+  header.version = kImageVersion;
+  Layout layout(sizeof(ImageHeader));
+  layout.place<LightRecord>(scene.lights.size(), header.light_offset, header.light_count);
+  layout.place<MaterialRecord>(scene.materials.size(), header.material_offset, header.material_count);
+  layout.place<BlendRecord>(census.blended, header.blend_offset, header.blend_count);
+  layout.place<InteriorRecord>(scene.interiors.size(), header.interior_offset, header.interior_count);
+  layout.place<NormalsRecord>(census.smooth, header.normals_offset, header.normals_count);
+  layout.place<ObjectRecord>(census.objects, header.object_offset, header.object_count);
+  layout.place<RunRecord>(runs.empty() ? 0 : runs.size() - 1, header.run_offset, header.run_count);
+  header.bytes = layout.end();
+  for (std::uint32_t run = 0; run < header.run_count; ++run)
+    header.longest_run = std::max(header.longest_run, runs[run + 1] - runs[run]);
+  const Box bounds = bounds_of(census);
+  for (int i = 0; i < 3; ++i) {
+    header.bounds_min[i] = bounds.min[i];
+    header.bounds_max[i] = bounds.max[i];
   }
-  return true;
+  return header;
 }
+
+/// Puts the records of a scene where the header says.
+class TableWriter {
+public:
+  TableWriter(std::byte* base, const ImageHeader& header) : base_(base), header_(header) {
+    // What lies between the tables is always the same.
+    std::memset(base, 0, header.normals_offset);
+    std::memset(base + header.object_offset - kLineBytes, 0, kLineBytes);
+    const std::size_t objects_end =
+        header.object_offset + std::size_t{header.object_count} * sizeof(ObjectRecord);
+    std::memset(base + objects_end, 0, header.bytes - objects_end);
+    std::memcpy(base, &header, sizeof header);
+  }
+
+  void write_surfaces(const Scene& scene) {
+    for (std::size_t i = 0; i < scene.lights.size(); ++i)
+      table<LightRecord>(header_.light_offset)[i] = make_record(scene.lights[i]);
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+      table<MaterialRecord>(header_.material_offset)[i] = make_record(scene.materials[i], scene);
+    for (std::size_t i = 0; i < scene.interiors.size(); ++i)
+      table<InteriorRecord>(header_.interior_offset)[i].ior = static_cast<float>(scene.interiors[i].ior);
+  }
+
+  void write_objects(const SceneObjects& objects, std::span<const PlacedObject> placed, unsigned threads) {
+    std::vector<ObjectCensus> before(threads + 1);
+    const bool has_tables = header_.normals_count != 0 || header_.blend_count != 0;
+    if (has_tables && threads > 1)
+      for_each_part(threads, [&](unsigned part) {
+        before[part + 1] = objects.count_tables(part_of(placed, part, threads));
+      });
+    for (unsigned part = 1; part < threads; ++part)
+      before[part].add(before[part - 1]);
+    const RecordTables tables = {header_.material_offset,
+                                 header_.interior_offset,
+                                 header_.normals_offset,
+                                 header_.blend_offset,
+                                 table<NormalsRecord>(header_.normals_offset),
+                                 table<BlendRecord>(header_.blend_offset)};
+    for_each_part(threads, [&](unsigned part) {
+      const auto mine = part_of(placed, part, threads);
+      objects.write(mine, tables, before[part],
+                    table<ObjectRecord>(header_.object_offset) + (mine.data() - placed.data()));
+    });
+  }
+
+  void write_runs(std::span<const std::uint32_t> runs, unsigned threads) {
+    const auto* objects = table<ObjectRecord>(header_.object_offset);
+    for_each_part(threads, [&](unsigned part) {
+      const HostPart mine(header_.run_count, part, threads);
+      for (std::uint32_t run = mine.begin; run < mine.end; ++run) {
+        Box box = bounding_box(objects[runs[run]]);
+        for (std::uint32_t i = runs[run] + 1; i < runs[run + 1]; ++i)
+          box = box_around(box, bounding_box(objects[i]));
+        table<RunRecord>(header_.run_offset)[run] = {{box.min[0], box.min[1], box.min[2]},
+                                                     runs[run],
+                                                     {box.max[0], box.max[1], box.max[2]},
+                                                     runs[run + 1] - runs[run]};
+      }
+    });
+  }
+
+private:
+  template <class Record> Record* table(std::uint32_t offset) const {
+    return reinterpret_cast<Record*>(base_ + offset);
+  }
+  static std::span<const PlacedObject> part_of(std::span<const PlacedObject> all, unsigned part,
+                                               unsigned parts) {
+    const HostPart mine(static_cast<std::uint32_t>(all.size()), part, parts);
+    return all.subspan(mine.begin, mine.end - mine.begin);
+  }
+
+  std::byte* base_;
+  const ImageHeader& header_;
+};
 
 } // namespace
 
 SceneImage::SceneImage(const Scene& scene) {
-  validate(scene);
-  ImageTables tables = build_tables(scene);
-
-  Layout layout(sizeof(ImageHeader));
-  ImageHeader header{};
-  header.magic = kMagic;
-  header.version = kVersion;
-  header.light_offset = layout.place(tables.lights);
-  header.light_count = static_cast<std::uint32_t>(tables.lights.size());
-  header.material_offset = layout.place(tables.materials);
-  header.material_count = static_cast<std::uint32_t>(tables.materials.size());
-  header.blend_offset = layout.place(tables.blends);
-  header.blend_count = static_cast<std::uint32_t>(tables.blends.size());
-  header.interior_offset = layout.place(tables.interiors);
-  header.interior_count = static_cast<std::uint32_t>(tables.interiors.size());
-  header.normals_offset = layout.place(tables.normals);
-  header.normals_count = static_cast<std::uint32_t>(tables.normals.size());
-  header.object_offset = layout.place(tables.objects);
-  header.object_count = static_cast<std::uint32_t>(tables.objects.size());
-  header.bytes = layout.end();
-  for (int i = 0; i < 3; ++i) {
-    header.bounds_min[i] = tables.bounds.min[i];
-    header.bounds_max[i] = tables.bounds.max[i];
-  }
-  make_offsets(tables, header);
-
-  block_ = AlignedBlock(layout.end());
-  std::byte* base = block_.data();
-  copy_table(base, header.light_offset, tables.lights);
-  copy_table(base, header.material_offset, tables.materials);
-  copy_table(base, header.blend_offset, tables.blends);
-  copy_table(base, header.interior_offset, tables.interiors);
-  copy_table(base, header.normals_offset, tables.normals);
-  copy_table(base, header.object_offset, tables.objects);
-  std::memcpy(base, &header, sizeof(header));
-  header.checksum = checksum({base, layout.end()});
-  std::memcpy(base, &header, sizeof(header));
+  AlignedBlock work;
+  assign(scene, work, 1);
 }
 
-SceneImage SceneImage::from_bytes(std::span<const std::byte> bytes) {
-  SceneImage image;
-  if (bytes.size() < sizeof(ImageHeader)) throw InputError("not a scene image: too short");
-  image.block_ = AlignedBlock(bytes.size());
-  std::memcpy(image.block_.data(), bytes.data(), bytes.size());
-  const ImageHeader& h = image.header();
-  if (h.magic != kMagic) throw InputError("not a scene image");
-  if (h.version != kVersion)
-    throw InputError("scene image of version " + std::to_string(h.version) + "; this library reads version " +
-                     std::to_string(kVersion));
-  if (h.bytes != bytes.size() || h.bytes % kLineBytes != 0)
-    throw InputError("scene image: its size is wrong");
-  if (h.checksum != checksum(bytes)) throw InputError("scene image: its checksum is wrong");
-  if (!table_fits(h.light_offset, h.light_count, sizeof(LightRecord), bytes.size()) ||
-      !table_fits(h.material_offset, h.material_count, sizeof(MaterialRecord), bytes.size()) ||
-      !table_fits(h.blend_offset, h.blend_count, sizeof(BlendRecord), bytes.size()) ||
-      !table_fits(h.interior_offset, h.interior_count, sizeof(InteriorRecord), bytes.size()) ||
-      !table_fits(h.normals_offset, h.normals_count, sizeof(NormalsRecord), bytes.size()) ||
-      !table_fits(h.object_offset, h.object_count, sizeof(ObjectRecord), bytes.size()) ||
-      !references_are_valid(image.base(), h))
-    throw InputError("scene image: an offset is out of range");
-  return image;
+void SceneImage::assign(const Scene& scene, AlignedBlock& work, unsigned threads) {
+  validate(scene);
+  const SceneObjects objects(scene, threads);
+  threads = std::clamp(objects.count() / kObjectsPerThread, 1u, threads);
+  const OrderMemory memory(work, objects.count());
+  const ObjectCensus census = place_all(objects, memory.objects, threads);
+  const std::vector<std::uint32_t> runs =
+      order_along_curve(memory.objects, memory.spare, memory.cells, census.objects, threads);
+  const ImageHeader header = make_header(scene, census, runs);
+
+  block_.reserve(header.bytes + std::size_t{census.objects} * kAcceleratorBytes);
+  TableWriter writer(block_.data(), header);
+  writer.write_surfaces(scene);
+  writer.write_objects(objects, {memory.objects, census.objects}, threads);
+  writer.write_runs(runs, threads);
 }
 
 void SceneImage::reserve_accelerator(std::uint64_t table_bytes, std::uint32_t list_words) {
@@ -163,7 +215,7 @@ void SceneImage::reserve_accelerator(std::uint64_t table_bytes, std::uint32_t li
   if (end > std::numeric_limits<std::uint32_t>::max())
     throw InputError("the scene is too large: its image would pass 4 GB");
   if (end > block_.size()) {
-    AlignedBlock larger(end);
+    AlignedBlock larger = AlignedBlock::uninitialised(end);
     std::memcpy(larger.data(), block_.data(), begin);
     block_ = std::move(larger);
   }
@@ -173,10 +225,6 @@ void SceneImage::reserve_accelerator(std::uint64_t table_bytes, std::uint32_t li
 
 const ImageHeader& SceneImage::header() const noexcept {
   return *reinterpret_cast<const ImageHeader*>(block_.data());
-}
-
-std::span<const std::byte> SceneImage::static_part() const noexcept {
-  return {block_.data(), static_cast<std::size_t>(header().bytes)};
 }
 
 } // namespace celltrace

@@ -1,9 +1,10 @@
 // SceneImage: a Scene in the flat binary form that the SPEs read.
 //
-// One contiguous, 128-byte aligned block: header, lights, materials, blends, interiors, normals, objects (the
-// static part, written here), then the voxels or nodes and the object lists of the accelerator (PREPARE
-// FRAME's). All positions are 32-bit offsets from its base, so that the static part can be saved, mapped
-// elsewhere and sent to another process of the same byte order; it carries a version and a checksum.
+// One contiguous, 128-byte aligned block: header, lights, materials, blends, interiors, normals, objects,
+// runs of objects (the static part, written here), then the voxels or nodes and the object lists of the
+// accelerator (PREPARE FRAME's). From kMinObjectsToOrder on, objects lie in the order of a Morton curve. All
+// positions are 32-bit offsets from its base, so that the static part can be saved, mapped elsewhere and sent
+// to another process of the same byte order; it carries a version and a checksum.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -11,33 +12,46 @@
 #include "scene/aligned_block.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
+#include <vector>
 
 namespace celltrace {
+
+constexpr std::uint32_t kImageMagic = 0x43545349; // "CTSI"
+constexpr std::uint32_t kImageVersion = 2;
 
 /// Thread safety: as a standard container.
 class SceneImage {
 public:
-  /// Builds the static part. Throws InputError as validate() does, and if the image would pass 4 GB.
+  /// Without an image: nothing but assign() makes sense.
+  SceneImage() = default;
+  /// Builds the static part. Throws InputError as validate() does, if an object's coordinates leave what
+  /// single precision can hold, and if the image would pass 4 GB.
   explicit SceneImage(const Scene& scene);
-  /// Takes over a static part as static_part() gave it. Throws InputError unless version, checksum, sizes and
+  /// Takes over a static part as to_bytes() gave it. Throws InputError unless version, checksum, sizes and
   /// every offset in it are right.
   static SceneImage from_bytes(std::span<const std::byte> bytes);
+
+  /// Becomes the image of `scene` in `threads` threads; what comes out does not depend on their number. Keeps
+  /// its memory where that is large enough, and uses `work`, which may grow. After an InputError it is as
+  /// before; after another exception it may be empty.
+  void assign(const Scene& scene, AlignedBlock& work, unsigned threads);
+  bool empty() const noexcept { return block_.size() == 0; }
 
   /// Makes room for an accelerator: a table of `table_bytes` bytes, of voxels or of nodes, and lists of
   /// `list_words` words in all; where the static part moves, the old address becomes invalid.
   void reserve_accelerator(std::uint64_t table_bytes, std::uint32_t list_words);
 
   const kernel::ImageHeader& header() const noexcept;
-  std::span<const std::byte> static_part() const noexcept;
+  /// The static part.
+  std::vector<std::byte> to_bytes() const;
   const std::byte* base() const noexcept { return block_.data(); }
   /// Offsets of the two, multiples of 128; valid after reserve_accelerator().
   std::uint32_t table_offset() const noexcept { return table_offset_; }
   std::uint32_t list_offset() const noexcept { return list_offset_; }
 
 private:
-  SceneImage() = default;
-
   AlignedBlock block_;
   std::uint32_t table_offset_ = 0;
   std::uint32_t list_offset_ = 0;

@@ -3,8 +3,10 @@
 
 #include "direct_spu.hpp"
 #include "kernel/build_hierarchy.hpp"
+#include "scene/object_order.hpp"
 #include "scene/scene_image.hpp"
 
+#include <algorithm>
 #include <barrier>
 #include <cstdint>
 #include <cstring>
@@ -15,21 +17,29 @@ namespace celltrace::test {
 
 class BuiltHierarchy {
 public:
-  /// `work_pairs` for each sort buffer; 0: as many as should be.
-  explicit BuiltHierarchy(const std::vector<kernel::ObjectRecord>& objects, std::uint32_t work_pairs = 0)
+  /// Orders the objects as a scene image does.
+  explicit BuiltHierarchy(std::vector<kernel::ObjectRecord> objects)
       : capacity_(static_cast<std::uint32_t>(objects.size()) / 3 + 2),
         frame_memory_(sizeof(kernel::FrameBlock)), frame_(*new (frame_memory_.data()) kernel::FrameBlock()) {
+    const std::vector<kernel::RunRecord> runs = order(objects);
     const auto count = static_cast<std::uint32_t>(objects.size());
-    const std::uint32_t nodes = kFirst + (count + 1) / 2 * 128;
+    const auto run_count = static_cast<std::uint32_t>(runs.size());
+    const std::uint32_t first_run = kFirst + (count + 1) / 2 * 128;
+    const std::uint32_t nodes = first_run + (run_count + 3) / 4 * 128;
     const std::uint32_t list = nodes + capacity_ * 128;
     image_ = AlignedBlock(list + std::size_t{count} * 4 + 4);
     if (count != 0) std::memcpy(image_.data() + kFirst, objects.data(), std::size_t{count} * 64);
+    if (run_count != 0) std::memcpy(image_.data() + first_run, runs.data(), std::size_t{run_count} * 32);
     frame_.image = reinterpret_cast<std::uintptr_t>(image_.data());
     frame_.object_offset = kFirst;
     frame_.object_count = count;
+    frame_.run_offset = first_run;
+    frame_.run_count = run_count;
+    for (const kernel::RunRecord& run : runs)
+      frame_.longest_run = std::max(frame_.longest_run, run.count);
     frame_.hierarchy = {nodes, capacity_, 0, list};
-    frame_.sort_capacity =
-        work_pairs != 0 ? work_pairs : static_cast<std::uint32_t>(kernel::hierarchy::work_pairs(count));
+    const kernel::hierarchy::WorkSize work(count, run_count, frame_.longest_run);
+    frame_.sort_capacity = static_cast<std::uint32_t>(work.pairs());
     for (int i = 0; i < 2; ++i) {
       work_[i] = AlignedBlock(std::size_t{frame_.sort_capacity} * 8);
       frame_.sort_buffer[i] = reinterpret_cast<std::uintptr_t>(work_[i].data());
@@ -77,6 +87,32 @@ public:
 
 private:
   static constexpr std::uint32_t kFirst = 128;
+
+  static std::vector<kernel::RunRecord> order(std::vector<kernel::ObjectRecord>& objects) {
+    const auto count = static_cast<std::uint32_t>(objects.size());
+    std::vector<PlacedObject> placed(count), spare(count);
+    std::vector<std::uint32_t> cells(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const kernel::Box box = bounding_box(objects[i]);
+      placed[i] = {{box.min[0] + box.max[0], box.min[1] + box.max[1], box.min[2] + box.max[2]}, i};
+    }
+    const std::vector<std::uint32_t> begins =
+        order_along_curve(placed.data(), spare.data(), cells.data(), count, 1);
+    const std::vector<kernel::ObjectRecord> as_given = objects;
+    std::vector<kernel::RunRecord> runs;
+    for (std::size_t run = 0; run + 1 < begins.size(); ++run) {
+      kernel::Box around = bounding_box(as_given[placed[begins[run]].source]);
+      for (std::uint32_t i = begins[run]; i < begins[run + 1]; ++i) {
+        objects[i] = as_given[placed[i].source];
+        around = box_around(around, bounding_box(objects[i]));
+      }
+      runs.push_back({{around.min[0], around.min[1], around.min[2]},
+                      begins[run],
+                      {around.max[0], around.max[1], around.max[2]},
+                      begins[run + 1] - begins[run]});
+    }
+    return runs;
+  }
 
   template <class Record> const Record& record(std::uint32_t offset) const {
     return *reinterpret_cast<const Record*>(image_.data() + offset);

@@ -28,7 +28,8 @@ public:
     frame_.image = reinterpret_cast<std::uintptr_t>(image_.base());
     frame_.accelerator = static_cast<std::uint32_t>(kernel::AcceleratorKind::hierarchy);
     frame_.hierarchy = {image_.table_offset(), nodes, 0, image_.list_offset()};
-    reserve_work(static_cast<std::uint32_t>(kernel::hierarchy::work_pairs(object_count())));
+    const kernel::hierarchy::WorkSize work(object_count(), header().run_count, header().longest_run);
+    reserve_work(static_cast<std::uint32_t>(work.pairs()));
   }
   /// Room for this many (voxel, object) pairs.
   void make_room(std::uint32_t pairs) {

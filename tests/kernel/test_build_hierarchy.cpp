@@ -250,11 +250,3 @@ TEST_CASE("A hierarchy is the same whoever builds it") {
     }
   }
 }
-
-TEST_CASE("A hierarchy is built with less work memory than should be") {
-  for (unsigned count : {1u, 3u, 100u, 20000u}) {
-    const Objects scene = random_triangles(count, 100, 1);
-    BuiltHierarchy tree(scene, 4 * count);
-    check(tree, scene);
-  }
-}

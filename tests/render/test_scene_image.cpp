@@ -18,8 +18,7 @@ namespace {
 using Bytes = std::vector<std::byte>;
 
 Bytes bytes_of(const SceneImage& image) {
-  const auto part = image.static_part();
-  return {part.begin(), part.end()};
+  return image.to_bytes();
 }
 
 ImageHeader& header_of(Bytes& bytes) {

@@ -1,0 +1,111 @@
+// Scene images as bytes: out with a checksum, in with distrust.
+#include "scene/scene_image.hpp"
+
+#include "celltrace/error.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+
+namespace celltrace {
+
+using namespace kernel;
+
+namespace {
+
+/// FNV-1a over 64-bit words; the block is a multiple of a line long.
+std::uint64_t checksum(std::span<const std::byte> bytes) {
+  std::uint64_t sum = 0xCBF29CE484222325u;
+  for (std::size_t at = 0; at + 8 <= bytes.size(); at += 8) {
+    std::uint64_t word = 0;
+    if (at != offsetof(ImageHeader, checksum)) std::memcpy(&word, bytes.data() + at, 8);
+    sum = (sum ^ word) * 0x100000001B3u;
+  }
+  return sum;
+}
+
+/// True if a table of `count` records at `offset` lies within `bytes` and is aligned.
+bool table_fits(std::uint32_t offset, std::uint32_t count, std::size_t record, std::size_t bytes) {
+  return offset % kLineBytes == 0 && offset >= sizeof(ImageHeader) && offset <= bytes &&
+         std::uint64_t{count} * record <= bytes - offset;
+}
+/// True if `offset` is that of a record of the table.
+bool refers_to(std::uint32_t offset, std::uint32_t table, std::uint32_t count, std::size_t record) {
+  return offset >= table && (offset - table) % record == 0 && (offset - table) / record < count;
+}
+
+bool references_are_valid(const std::byte* base, const ImageHeader& h) {
+  const auto* objects = reinterpret_cast<const ObjectRecord*>(base + h.object_offset);
+  const auto is_material = [&](std::uint32_t offset) {
+    return refers_to(offset, h.material_offset, h.material_count, sizeof(MaterialRecord));
+  };
+  const auto* blends = reinterpret_cast<const BlendRecord*>(base + h.blend_offset);
+  for (std::uint32_t i = 0; i < h.blend_count; ++i)
+    for (std::uint32_t material : blends[i].material)
+      if (!is_material(material)) return false;
+  for (std::uint32_t i = 0; i < h.object_count; ++i) {
+    const ObjectRecord& object = objects[i];
+    const std::uint32_t flags = object.kind_and_flags;
+    const bool blended = (flags & object_flag::blended) != 0;
+    if ((flags & object_flag::kind_mask) > static_cast<std::uint32_t>(ObjectKind::triangle)) return false;
+    if (blended ? !refers_to(object.material, h.blend_offset, h.blend_count, sizeof(BlendRecord))
+                : !is_material(object.material))
+      return false;
+    if (!refers_to(object.interior, h.interior_offset, h.interior_count, sizeof(InteriorRecord)))
+      return false;
+    if ((flags & object_flag::smooth) != 0 &&
+        !refers_to(object.normals, h.normals_offset, h.normals_count, sizeof(NormalsRecord)))
+      return false;
+  }
+  return true;
+}
+
+/// True if there are no runs, or each object is in one.
+bool runs_are_valid(const std::byte* base, const ImageHeader& h) {
+  const auto* runs = reinterpret_cast<const RunRecord*>(base + h.run_offset);
+  std::uint32_t objects = 0;
+  std::uint32_t longest = 0;
+  for (std::uint32_t i = 0; i < h.run_count; ++i) {
+    if (runs[i].first != objects || runs[i].count == 0 || runs[i].count > h.object_count - objects)
+      return false;
+    objects += runs[i].count;
+    longest = std::max(longest, runs[i].count);
+  }
+  return (h.run_count == 0 || objects == h.object_count) && longest == h.longest_run;
+}
+
+} // namespace
+
+std::vector<std::byte> SceneImage::to_bytes() const {
+  std::vector<std::byte> bytes(block_.data(), block_.data() + header().bytes);
+  const std::uint64_t sum = checksum(bytes);
+  std::memcpy(bytes.data() + offsetof(ImageHeader, checksum), &sum, sizeof sum);
+  return bytes;
+}
+
+SceneImage SceneImage::from_bytes(std::span<const std::byte> bytes) {
+  SceneImage image;
+  if (bytes.size() < sizeof(ImageHeader)) throw InputError("not a scene image: too short");
+  image.block_ = AlignedBlock::uninitialised(bytes.size());
+  std::memcpy(image.block_.data(), bytes.data(), bytes.size());
+  const ImageHeader& h = image.header();
+  if (h.magic != kImageMagic) throw InputError("not a scene image");
+  if (h.version != kImageVersion)
+    throw InputError("scene image of version " + std::to_string(h.version) + "; this library reads version " +
+                     std::to_string(kImageVersion));
+  if (h.bytes != bytes.size() || h.bytes % kLineBytes != 0)
+    throw InputError("scene image: its size is wrong");
+  if (h.checksum != checksum(bytes)) throw InputError("scene image: its checksum is wrong");
+  if (!table_fits(h.light_offset, h.light_count, sizeof(LightRecord), bytes.size()) ||
+      !table_fits(h.material_offset, h.material_count, sizeof(MaterialRecord), bytes.size()) ||
+      !table_fits(h.blend_offset, h.blend_count, sizeof(BlendRecord), bytes.size()) ||
+      !table_fits(h.interior_offset, h.interior_count, sizeof(InteriorRecord), bytes.size()) ||
+      !table_fits(h.normals_offset, h.normals_count, sizeof(NormalsRecord), bytes.size()) ||
+      !table_fits(h.object_offset, h.object_count, sizeof(ObjectRecord), bytes.size()) ||
+      !table_fits(h.run_offset, h.run_count, sizeof(RunRecord), bytes.size()) ||
+      !references_are_valid(image.base(), h) || !runs_are_valid(image.base(), h))
+    throw InputError("scene image: an offset is out of range");
+  return image;
+}
+
+} // namespace celltrace

@@ -1,0 +1,312 @@
+#include "scene/scene_objects.hpp"
+
+#include "celltrace/error.hpp"
+#include "scene/parallel.hpp"
+#include "scene/surface_records.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+namespace celltrace {
+
+using namespace kernel;
+
+namespace {
+
+constexpr std::uint32_t kVerticesPerThread = 16384;
+
+void copy(const Vec3& from, float* to) {
+  for (int i = 0; i < 3; ++i)
+    to[i] = static_cast<float>(from[i]);
+}
+
+/// The factor by which a transformation scales everything, or 0 if it does not scale all directions alike.
+double uniform_scale(const Transform& t) {
+  const double x = glm::length(t.rows[0]);
+  const double y = glm::length(t.rows[1]);
+  const double z = glm::length(t.rows[2]);
+  const double tolerance = 1e-9 * x * x;
+  const bool round = std::abs(x - y) <= 1e-9 * x && std::abs(x - z) <= 1e-9 * x &&
+                     std::abs(glm::dot(t.rows[0], t.rows[1])) <= tolerance &&
+                     std::abs(glm::dot(t.rows[0], t.rows[2])) <= tolerance &&
+                     std::abs(glm::dot(t.rows[1], t.rows[2])) <= tolerance;
+  return round ? x : 0;
+}
+
+ObjectRecord start_record(const Object& object, ObjectKind kind, std::uint32_t interior_offset) {
+  ObjectRecord r{};
+  r.kind_and_flags = static_cast<std::uint32_t>(kind) | (object.no_shadow ? object_flag::no_shadow : 0);
+  r.interior = interior_offset + object.interior * static_cast<std::uint32_t>(sizeof(InteriorRecord));
+  r.normals = kNoOffset;
+  return r;
+}
+
+/// Kind and geometry of a sphere in the world. Spheres that a transformation leaves round stay spheres.
+ObjectKind place_sphere(const Object& object, const Sphere& sphere, float (&geometry)[12]) {
+  const double radius = std::abs(sphere.radius);
+  const double scale = object.transform.is_identity() ? 1 : uniform_scale(object.transform);
+  if (scale > 0) {
+    copy(object.transform.point(sphere.centre), geometry);
+    geometry[3] = static_cast<float>(radius * scale);
+    return ObjectKind::sphere;
+  }
+  const Transform inverse = object.transform.inverse();
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 4; ++column) {
+      const double value = inverse.rows[column][row] - (column == 3 ? sphere.centre[row] : 0);
+      geometry[row * 4 + column] = static_cast<float>(value / radius);
+    }
+  return ObjectKind::ellipsoid;
+}
+
+/// Single precision has to hold the squares of coordinates.
+void check_size(const Box& box) {
+  constexpr float kMost = 1e18f;
+  for (int i = 0; i < 3; ++i)
+    if (!(box.min[i] > -kMost && box.max[i] < kMost))
+      throw InputError(
+          "the scene has an object that is too large, too thin or too far away for single precision");
+}
+
+PlacedObject placed(const Box& box, std::uint32_t source) {
+  return {{box.min[0] + box.max[0], box.min[1] + box.max[1], box.min[2] + box.max[2]}, source};
+}
+
+/// In double precision it is right; where single precision leaves no doubt, that is faster.
+bool has_area(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
+  const Vec3f u = b - a;
+  const Vec3f v = c - a;
+  const float x[3] = {u.y * v.z, u.z * v.x, u.x * v.y};
+  const float y[3] = {u.z * v.y, u.x * v.z, u.y * v.x};
+  for (int i = 0; i < 3; ++i)
+    if (std::abs(x[i] - y[i]) > 1e-6f * (std::abs(x[i]) + std::abs(y[i])) + 1e-30f) return true;
+  const Vec3 area = glm::cross(Vec3(b) - Vec3(a), Vec3(c) - Vec3(a));
+  return glm::dot(area, area) != 0;
+}
+
+bool same(const Index (&index)[3]) {
+  return index[0] == index[1] && index[0] == index[2];
+}
+bool is_smooth(const Mesh::Triangle& triangle) {
+  return triangle.normal[0] != kNoIndex && !same(triangle.normal);
+}
+
+/// In parts of a reasonable size.
+template <class Change>
+std::vector<Vec3f> changed(const std::vector<Vec3f>& from, unsigned threads, Change change) {
+  std::vector<Vec3f> to(from.size());
+  const auto count = static_cast<std::uint32_t>(from.size());
+  const unsigned parts = std::clamp(count / kVerticesPerThread, 1u, threads);
+  for_each_part(parts, [&](unsigned part) {
+    const HostPart mine(count, part, parts);
+    for (std::uint32_t i = mine.begin; i < mine.end; ++i)
+      to[i] = change(from[i]);
+  });
+  return to;
+}
+
+} // namespace
+
+void ObjectCensus::add(const ObjectCensus& other) {
+  objects += other.objects;
+  smooth += other.smooth;
+  blended += other.blended;
+  around = box_around(around, other.around);
+}
+
+SceneObjects::SceneObjects(const Scene& scene, unsigned threads) : scene_(scene) {
+  for (const Material& material : scene.materials)
+    opaque_.push_back(is_opaque(material));
+  for (const Object& object : scene.objects) {
+    if (std::holds_alternative<Sphere>(object.shape))
+      add_spheres(object);
+    else
+      add_mesh(object, *std::get<std::shared_ptr<const Mesh>>(object.shape), threads);
+  }
+}
+
+void SceneObjects::grow(std::size_t objects) {
+  // Beyond that the image would be too large, whatever can be hit.
+  if (objects > std::numeric_limits<std::uint32_t>::max() - count_)
+    throw InputError("the scene is too large: it has more objects than 32 bits can count");
+  count_ += static_cast<std::uint32_t>(objects);
+}
+
+void SceneObjects::add_spheres(const Object& object) {
+  if (pieces_.empty() || pieces_.back().mesh != nullptr)
+    pieces_.push_back({count_, &object, nullptr, {}, {}});
+  grow(1);
+}
+
+void SceneObjects::add_mesh(const Object& object, const Mesh& mesh, unsigned threads) {
+  if (mesh.triangles.empty()) return;
+  Piece piece = {count_, &object, &mesh, mesh.vertices, mesh.normals};
+  if (!object.transform.is_identity()) {
+    transformed_.push_back(changed(mesh.vertices, threads, [&](const Vec3f& vertex) {
+      return Vec3f(object.transform.point(Vec3(vertex)));
+    }));
+    piece.vertices = transformed_.back();
+  }
+  if (!mesh.normals.empty()) {
+    // The inverse transpose, once for the mesh, not once a normal. Normals are of unit length before, not
+    // after it: the blend of a triangle's normals is that of the mesh's own space.
+    const Vec3 columns[3] = {object.transform.normal({1, 0, 0}), object.transform.normal({0, 1, 0}),
+                             object.transform.normal({0, 0, 1})};
+    const double scale =
+        1 / std::max({glm::length(columns[0]), glm::length(columns[1]), glm::length(columns[2])});
+    transformed_.push_back(changed(mesh.normals, threads, [&](const Vec3f& normal) {
+      const Vec3 n(normal);
+      const double length = glm::length(n);
+      const Vec3 unit = length > 0 ? n / length : Vec3(0, 0, 1);
+      return Vec3f(scale * (unit.x * columns[0] + unit.y * columns[1] + unit.z * columns[2]));
+    }));
+    piece.normals = transformed_.back();
+  }
+  pieces_.push_back(piece);
+  grow(mesh.triangles.size());
+}
+
+std::uint32_t SceneObjects::end_of(const Piece& piece) const {
+  return &piece == &pieces_.back() ? count_ : (&piece + 1)->first;
+}
+
+const SceneObjects::Piece& SceneObjects::piece_of(std::uint32_t number, const Piece* near) const {
+  if (near != nullptr && number >= near->first && number < end_of(*near)) return *near;
+  const auto after = std::upper_bound(pieces_.begin(), pieces_.end(), number,
+                                      [](std::uint32_t n, const Piece& piece) { return n < piece.first; });
+  return after[-1];
+}
+
+bool SceneObjects::is_blended(const Piece& piece, const Mesh::Triangle& triangle) const {
+  if (same(triangle.material)) return false;
+  const Index own = piece.object->material;
+  const auto material = [own](Index index) { return index != kNoIndex ? index : own; };
+  return material(triangle.material[0]) != material(triangle.material[1]) ||
+         material(triangle.material[0]) != material(triangle.material[2]);
+}
+
+ObjectCensus SceneObjects::place(std::uint32_t begin, std::uint32_t end, PlacedObject* to) const {
+  ObjectCensus census;
+  while (begin < end) {
+    const Piece& piece = piece_of(begin, nullptr);
+    const std::uint32_t piece_end = std::min(end, end_of(piece));
+    for (std::uint32_t number = begin; number < piece_end; ++number) {
+      ObjectRecord record;
+      if (piece.mesh == nullptr) {
+        const Object& object = piece.object[number - piece.first];
+        const Sphere& sphere = std::get<Sphere>(object.shape);
+        if (sphere.radius == 0) continue;
+        record.kind_and_flags = static_cast<std::uint32_t>(place_sphere(object, sphere, record.geometry));
+      } else {
+        const Mesh::Triangle& triangle = piece.mesh->triangles[number - piece.first];
+        const Vec3f corners[3] = {piece.vertices[triangle.vertex[0]], piece.vertices[triangle.vertex[1]],
+                                  piece.vertices[triangle.vertex[2]]};
+        if (!has_area(corners[0], corners[1], corners[2])) continue;
+        census.smooth += is_smooth(triangle);
+        census.blended += is_blended(piece, triangle);
+        record.kind_and_flags = static_cast<std::uint32_t>(ObjectKind::triangle);
+        for (int v = 0; v < 3; ++v)
+          for (int i = 0; i < 3; ++i)
+            record.geometry[v * 3 + i] = corners[v][i];
+      }
+      const Box box = bounding_box(record);
+      check_size(box);
+      census.around = box_around(census.around, box);
+      to[census.objects++] = placed(box, number);
+    }
+    begin = piece_end;
+  }
+  return census;
+}
+
+ObjectCensus SceneObjects::count_tables(std::span<const PlacedObject> objects) const {
+  ObjectCensus census;
+  const Piece* near = nullptr;
+  for (const PlacedObject& object : objects) {
+    const Piece& piece = piece_of(object.source, near);
+    near = &piece;
+    if (piece.mesh == nullptr) continue;
+    const Mesh::Triangle& triangle = piece.mesh->triangles[object.source - piece.first];
+    census.smooth += is_smooth(triangle);
+    census.blended += is_blended(piece, triangle);
+  }
+  return census;
+}
+
+class SceneObjects::Writer {
+public:
+  Writer(const SceneObjects& objects, const RecordTables& tables, const ObjectCensus& before)
+      : objects_(objects), tables_(tables), smooth_(before.smooth), blended_(before.blended) {}
+
+  ObjectRecord sphere(const Object& object) const {
+    ObjectRecord r = start_record(object, ObjectKind::sphere, tables_.interior_offset);
+    r.kind_and_flags |=
+        static_cast<std::uint32_t>(place_sphere(object, std::get<Sphere>(object.shape), r.geometry));
+    set_material(r, object.material);
+    return r;
+  }
+
+  ObjectRecord triangle(const Piece& piece, const Mesh::Triangle& triangle) {
+    ObjectRecord r = start_record(*piece.object, ObjectKind::triangle, tables_.interior_offset);
+    for (int v = 0; v < 3; ++v)
+      for (int i = 0; i < 3; ++i)
+        r.geometry[v * 3 + i] = piece.vertices[triangle.vertex[v]][i];
+    if (objects_.is_blended(piece, triangle))
+      blend(r, piece.object->material, triangle);
+    else
+      set_material(r, triangle.material[0] != kNoIndex ? triangle.material[0] : piece.object->material);
+    if (is_smooth(triangle)) {
+      r.kind_and_flags |= object_flag::smooth;
+      r.normals = tables_.normals_offset + smooth_ * static_cast<std::uint32_t>(sizeof(NormalsRecord));
+      NormalsRecord record{};
+      for (int v = 0; v < 3; ++v)
+        for (int i = 0; i < 3; ++i)
+          record.normal[v * 3 + i] = piece.normals[triangle.normal[v]][i];
+      tables_.normals[smooth_++] = record;
+    }
+    return r;
+  }
+
+private:
+  std::uint32_t material_offset(Index index) const {
+    return tables_.material_offset + index * static_cast<std::uint32_t>(sizeof(MaterialRecord));
+  }
+  void set_material(ObjectRecord& r, Index material) const {
+    r.material = material_offset(material);
+    if (objects_.opaque_[material]) r.kind_and_flags |= object_flag::opaque;
+  }
+  void blend(ObjectRecord& r, Index own, const Mesh::Triangle& triangle) {
+    BlendRecord record{};
+    bool opaque = true;
+    for (int i = 0; i < 3; ++i) {
+      const Index material = triangle.material[i] != kNoIndex ? triangle.material[i] : own;
+      record.material[i] = material_offset(material);
+      opaque = opaque && objects_.opaque_[material];
+    }
+    r.kind_and_flags |= object_flag::blended | (opaque ? object_flag::opaque : 0);
+    r.material = tables_.blend_offset + blended_ * static_cast<std::uint32_t>(sizeof(BlendRecord));
+    tables_.blends[blended_++] = record;
+  }
+
+  const SceneObjects& objects_;
+  const RecordTables& tables_;
+  std::uint32_t smooth_, blended_;
+};
+
+void SceneObjects::write(std::span<const PlacedObject> objects, const RecordTables& tables,
+                         const ObjectCensus& before, ObjectRecord* to) const {
+  Writer writer(*this, tables, before);
+  const Piece* near = nullptr;
+  for (const PlacedObject& object : objects) {
+    const Piece& piece = piece_of(object.source, near);
+    near = &piece;
+    const std::uint32_t number = object.source - piece.first;
+    *to++ = piece.mesh != nullptr ? writer.triangle(piece, piece.mesh->triangles[number])
+                                  : writer.sphere(piece.object[number]);
+  }
+}
+
+} // namespace celltrace
