@@ -65,7 +65,9 @@ private:
       return;
     }
   }
-  void add(const Event& event, std::uint32_t line) { sets_[line & (sets_.size() - 1)].push_back(event); }
+  void add(const Event& event, std::uint32_t line) {
+    sets_[cache_set(line * kLineBytes) & (sets_.size() - 1)].push_back(event);
+  }
   Version version_of(std::uint32_t line) {
     const auto [entry, is_new] = current_.try_emplace(line, versions_);
     if (is_new) ++versions_;

@@ -52,7 +52,8 @@ private:
   struct Stream {
     std::uint32_t cache = 0;
     std::vector<std::uint32_t> words;
-    std::uint32_t repeats = 0;       ///< of the last word, not yet among the words
+    bool after_reference = false;    ///< the last word is a reference, which may be repeated
+    std::uint32_t repeats = 0;       ///< of it, not yet among the words
     std::uint32_t words_to_come = 0; ///< that belong to the last operation
   };
   struct Spe {
@@ -66,8 +67,7 @@ private:
     if (stream.words_to_come != 0) {
       --stream.words_to_come;
     } else {
-      const bool again = !stream.words.empty() && stream.words.back() == word && is_reference(word);
-      if (again && stream.repeats < kMaxRepeat) {
+      if (stream.after_reference && stream.words.back() == word && stream.repeats < kMaxRepeat) {
         ++stream.repeats;
         return;
       }
@@ -75,6 +75,7 @@ private:
       // No operation is cut in two.
       if (stream.words.size() + 4 > kMaxChunkWords) write(spe, stream);
       stream.words_to_come = words_after(operation_of(word));
+      stream.after_reference = is_reference(word);
     }
     stream.words.push_back(word);
   }
@@ -92,6 +93,7 @@ private:
     for (const std::uint32_t word : stream.words)
       append(bytes, word);
     stream.words.clear();
+    stream.after_reference = false;
     const std::lock_guard lock(mutex_);
     file_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   }

@@ -47,7 +47,7 @@ std::pair<std::string, std::string> parse_declare(const std::string& text) {
 
 /// What CLI11 fills in besides the request.
 struct RenderTexts {
-  std::string cache = "4x128:random";
+  std::string cache = "4x128:fifo";
   std::string balance = "gde";
   std::string accelerator = "auto";
   std::string model = "shared";
@@ -116,6 +116,24 @@ void add_compare_options(CLI::App& command, CompareRequest& request) {
   command.add_flag("--json", request.json, "Print JSON");
 }
 
+struct ReplayTexts {
+  std::vector<std::string> caches;
+  bool demand = false;
+};
+
+void add_replay_options(CLI::App& command, ReplayRequest& request, ReplayTexts& texts) {
+  command.add_option("trace", request.trace, "What render --cache-trace wrote")
+      ->required()
+      ->type_name("FILE");
+  command
+      .add_option("--cache", texts.caches,
+                  "A software cache, as for render; may be repeated; default: the recorded one")
+      ->type_name("CACHE")
+      ->allow_extra_args(false);
+  command.add_flag("--no-prefetch", texts.demand, "Leave the program's prefetches out");
+  command.add_flag("--json", request.json, "Print JSON");
+}
+
 Accelerator accelerator_of(const std::string& text) {
   if (text == "grid") return Accelerator::grid;
   return text == "hierarchy" ? Accelerator::hierarchy : Accelerator::automatic;
@@ -133,6 +151,12 @@ void finish(RenderRequest& request, const RenderTexts& texts) {
   for (const std::string& text : texts.declares)
     request.declares.push_back(parse_declare(text));
   if (request.output.empty()) request.output = request.scene.stem().string() + ".png";
+}
+
+void finish(ReplayRequest& request, const ReplayTexts& texts) {
+  for (const std::string& text : texts.caches)
+    request.shapes.push_back(parse_cache(text));
+  request.prefetches = !texts.demand;
 }
 
 } // namespace
@@ -175,6 +199,12 @@ Request parse_command_line(std::vector<std::string> arguments) {
   CLI::App& compare_command = *app.add_subcommand("compare", "Say how far two pictures are apart");
   add_compare_options(compare_command, compare);
 
+  ReplayRequest replay;
+  ReplayTexts replay_texts;
+  CLI::App& replay_command =
+      *app.add_subcommand("replay", "Ask other software caches what a recorded one was asked");
+  add_replay_options(replay_command, replay, replay_texts);
+
   try {
     std::reverse(arguments.begin(), arguments.end()); // as CLI11 wants them
     app.parse(std::move(arguments));
@@ -186,6 +216,10 @@ Request parse_command_line(std::vector<std::string> arguments) {
     throw InputError(std::string(error.what()) + " (celltrace --help says more)");
   }
   if (compare_command.parsed()) return compare;
+  if (replay_command.parsed()) {
+    finish(replay, replay_texts);
+    return replay;
+  }
   finish(render, texts);
   return render;
 }

@@ -37,12 +37,19 @@ struct CompareRequest {
   bool json = false;
 };
 
+struct ReplayRequest {
+  std::filesystem::path trace;
+  std::vector<CacheConfig> shapes; ///< none: as recorded
+  bool prefetches = true;          ///< false: as if the program had made none
+  bool json = false;
+};
+
 /// A text for stdout: --help or --version.
 struct InformationRequest {
   std::string text;
 };
 
-using Request = std::variant<RenderRequest, CompareRequest, InformationRequest>;
+using Request = std::variant<RenderRequest, CompareRequest, ReplayRequest, InformationRequest>;
 
 /// Reads a command line (without the program's name) after translate_pov_switches(). Throws InputError for
 /// whatever does not fit, and for what the program is to have and has not yet.

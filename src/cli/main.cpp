@@ -3,6 +3,7 @@
 #include "cli/compare_command.hpp"
 #include "cli/pov_switches.hpp"
 #include "cli/render_command.hpp"
+#include "cli/replay_command.hpp"
 
 #include <exception>
 #include <iostream>
@@ -39,6 +40,7 @@ int run(const std::vector<std::string>& arguments) {
     return 0;
   }
   if (const auto* compare = std::get_if<CompareRequest>(&request)) return run_compare(*compare);
+  if (const auto* replay = std::get_if<ReplayRequest>(&request)) return run_replay(*replay);
   const auto& render = std::get<RenderRequest>(request);
   if (!render.quiet) print_notes(translation);
   return run_render(render);

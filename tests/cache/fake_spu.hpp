@@ -37,6 +37,7 @@ public:
     start({reinterpret_cast<std::uintptr_t>(ls), ea, size, tag, true});
   }
   std::uint32_t wait_all(std::uint32_t mask) {
+    ++waits_;
     std::vector<Transfer> left;
     for (const Transfer& transfer : under_way_) {
       if ((mask >> transfer.tag & 1) == 0)
@@ -67,6 +68,7 @@ public:
 
   unsigned transfers() const { return transfers_; }
   unsigned bytes() const { return bytes_; }
+  unsigned waits() const { return waits_; }
   std::size_t under_way() const { return under_way_.size(); }
 
 private:
@@ -107,6 +109,7 @@ private:
   std::size_t next_ = 0;
   std::vector<Transfer> under_way_;
   unsigned transfers_ = 0;
+  unsigned waits_ = 0;
   unsigned bytes_ = 0;
 };
 

@@ -21,7 +21,7 @@ public:
 
   bool read(std::uint32_t offset) {
     const std::uint32_t line = offset / kLineBytes;
-    Set& set = sets_[line % config_.sets];
+    Set& set = set_of(line);
     const auto way = find(set, line);
     if (!way || set.ways[*way]->out_of_date) {
       fetch(set, way, line);
@@ -32,7 +32,7 @@ public:
   }
   void prefetch(std::uint32_t offset) {
     const std::uint32_t line = offset / kLineBytes;
-    Set& set = sets_[line % config_.sets];
+    Set& set = set_of(line);
     const auto way = find(set, line);
     if (!way || set.ways[*way]->out_of_date) fetch(set, way, line);
   }
@@ -64,6 +64,7 @@ private:
     std::vector<std::size_t> by_age; ///< ways, the oldest first
   };
 
+  Set& set_of(std::uint32_t line) { return sets_[(line ^ line / 128) % config_.sets]; }
   static std::optional<std::size_t> find(const Set& set, std::uint32_t line) {
     for (std::size_t way = 0; way < set.ways.size(); ++way) {
       if (set.ways[way] && set.ways[way]->line == line) return way;

@@ -47,7 +47,7 @@ TEST_CASE("render has the documented defaults") {
   CHECK(r.options.spes == 0);
   CHECK(r.options.simd == "auto");
   CHECK(r.options.cache.enabled);
-  CHECK(shape(r.options.cache) == "4x128:0");
+  CHECK(shape(r.options.cache) == "4x128:1");
   CHECK(r.options.balance == Balance::gde);
   CHECK_FALSE(r.options.max_trace_level);
   CHECK_FALSE(r.options.adc_bailout);
@@ -148,7 +148,7 @@ TEST_CASE("options of cell_emu that make no sense are refused") {
 
 TEST_CASE("cache settings") {
   CHECK(parse_cache("off").enabled == false);
-  CHECK(shape(parse_cache("4x128")) == "4x128:0");
+  CHECK(shape(parse_cache("4x128")) == "4x128:1");
   CHECK(shape(parse_cache("64x1:fifo")) == "64x1:1");
   CHECK(shape(parse_cache("1x512:random")) == "1x512:0");
   for (const std::string bad : {"", "4", "4x", "x4", "4x4x4", "-4x4", "4x4 ", "4x99999999999", "on"}) {
@@ -159,6 +159,25 @@ TEST_CASE("cache settings") {
   CHECK_THROWS_AS(parse_cache("4x4:"), InputError);
   for (const std::string impossible : {"0x0", "3x4", "4x3", "12x2", "4x65536"})
     CHECK_THROWS_WITH(parse_cache(impossible), Contains("'" + impossible + "' is no cache"));
+}
+
+TEST_CASE("replay takes a trace and shapes of caches") {
+  const auto replay = std::get<ReplayRequest>(parse_command_line(
+      {"replay", "a.trace", "--cache", "8x4:lru", "--cache", "off", "--no-prefetch", "--json"}));
+  CHECK(replay.trace == "a.trace");
+  REQUIRE(replay.shapes.size() == 2);
+  CHECK(shape(replay.shapes[0]) == "8x4:2");
+  CHECK_FALSE(replay.shapes[1].enabled);
+  CHECK_FALSE(replay.prefetches);
+  CHECK(replay.json);
+  const auto plain = std::get<ReplayRequest>(parse_command_line({"replay", "a.trace"}));
+  CHECK(plain.shapes.empty());
+  CHECK(plain.prefetches);
+  CHECK_FALSE(plain.json);
+  CHECK_THAT(error_of({"replay"}), Contains("trace"));
+  CHECK_THAT(error_of({"replay", "a", "--cache", "3x3"}), Contains("no cache"));
+  CHECK_THAT(render_error({"--cache-trace", "t"}), Contains("--cache-trace needs --backend cell_emu"));
+  CHECK(render_request({"a.pov", "--backend", "cell_emu", "--cache-trace", "t"}).cache_trace == "t");
 }
 
 TEST_CASE("what is to come is refused as such") {

@@ -207,6 +207,29 @@ TEST_CASE("two runs in lockstep are the same to the bit") {
   CHECK(traces.size() == 3);
 }
 
+TEST_CASE("replay of a recorded trace counts what the statistics of the run count") {
+  const TemporaryFolder folder;
+  REQUIRE(celltrace_run(folder, {kScene, "-W", "32", "-H", "18", "--backend", "cell_emu", "--spes", "3",
+                                 "--cache", "2x4:lru", "--cache-trace", "caches", "--stats", "s.json"})
+              .exit_code == 0);
+  const auto stats = nlohmann::json::parse(read_bytes(folder / "s.json"))["cache"];
+  const Outcome outcome = celltrace_run(folder, {"replay", "caches", "--json"});
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.exit_code == 0);
+  const auto replayed = nlohmann::json::parse(outcome.out);
+  REQUIRE(replayed.size() == 1);
+  CHECK(replayed[0]["cache"] == "2x4:lru");
+  const auto& kinds = replayed[0]["replayed"]["kinds"];
+  const char* const names[] = {"list", "object", "material", "light"};
+  for (std::size_t kind = 0; kind < 4; ++kind)
+    for (const char* what : {"hits", "misses"})
+      CHECK(kinds[kind][what] == stats[names[kind]][what]);
+  const Outcome table =
+      celltrace_run(folder, {"replay", "caches", "--cache", "4x128", "--cache", "off", "--no-prefetch"});
+  CHECK(table.exit_code == 0);
+  CHECK(lines(table.out) == 3);
+}
+
 TEST_CASE("errors are one line and exit code 1") {
   const TemporaryFolder folder;
   write_bytes(folder / "bad.pov", "sphere { <0, 0, 0>, 1 }\ncylinder_ { }\n");
@@ -222,6 +245,9 @@ TEST_CASE("errors are one line and exit code 1") {
       {kScene, "--schedule", "lockstep"},
       {kScene, "--trace", "t.json"},
       {kScene, "--backend", "cell_emu", "--trace", "no/t.json"},
+      {kScene, "--backend", "cell_emu", "--cache-trace", "no/t"},
+      {"replay", "missing"},
+      {"replay", "bad.pov"},
       {kScene, "--balance", "scatter"}};
   for (const auto& arguments : wrong) {
     const Outcome outcome = celltrace_run(folder, arguments);

@@ -17,7 +17,8 @@ struct CacheConfig {
   uint32_t ways = 4;
   /// A power of two: 1 is a fully associative cache. ways * sets is at most kMaxLines.
   uint32_t sets = 128;
-  CacheReplacement replacement = CacheReplacement::random;
+  /// `lru` costs time at every hit, the others only at misses; docs/software-cache.md compares them.
+  CacheReplacement replacement = CacheReplacement::fifo;
   /// The DMA tags first_tag .. first_tag + tag_count - 1 are the cache's own; tag_count is a power of two.
   /// Lines of different tags are waited for separately, which only matters to prefetch().
   uint32_t first_tag = 16;
@@ -66,6 +67,13 @@ template <class Spu, class = void> struct DefaultCacheOptions { using type = Cac
 template <class Spu> struct DefaultCacheOptions<Spu, std::void_t<typename Spu::cache_options>> {
   using type = typename Spu::cache_options;
 };
+
+/// The set of the line at an offset, before the number of sets is masked out. Two digits of the line's number
+/// are combined: tables of a scene, and rows of a grid, are often a power of two of lines apart, and would
+/// come into each other's way in one set.
+constexpr uint32_t cache_set(uint32_t offset) {
+  return offset >> 7 ^ offset >> 14;
+}
 
 /// References to one kind of data.
 struct CacheCounters {

@@ -105,6 +105,7 @@ public:
     if constexpr (!Spu::direct_memory) {
       this->end_lifetimes();
       record(cache_trace::Operation::invalidate_all);
+      clean_all();
       if (config_.enabled) clear();
     }
   }
@@ -186,6 +187,7 @@ private:
   // Scalar work besides the comparison of tags: fixed, floating, memory, shuffle, branches. Counted in the
   // disassembly for an SPU; see src/kernel/scalar_work.hpp for the method.
   static constexpr ScalarWork kLookup = {26, 0, 8, 9, 2};
+  static constexpr ScalarWork kStamp = {6, 0, 6, 5, 0};
   static constexpr ScalarWork kSlowLookup = {60, 0, 25, 25, 8};
   static constexpr ScalarWork kFetch = {85, 0, 28, 28, 6};
 
@@ -199,7 +201,7 @@ private:
     if (__builtin_expect(match == 0, 0)) return find_slowly(offset, size, kind);
     const uint32_t slot = slot_of(set, lane_of(match));
     ++counters_[static_cast<uint32_t>(kind)].hits;
-    if (stamp_hits_) stamp(slot);
+    if (stamp_hits_) stamp_hit(slot);
     return line_at(slot);
   }
 
@@ -207,7 +209,7 @@ private:
   uint32_t matches(uint32_t set, uint32_t line) const {
     return equal_bits(U4::load(tags_ + (set << 2)), U4::splat(line | kValid));
   }
-  uint32_t set_of(uint32_t line) const { return line >> kLineShift & set_mask_; }
+  uint32_t set_of(uint32_t line) const { return cache_set(line) & set_mask_; }
   uint32_t slot_of(uint32_t set, uint32_t way) const { return (set << way_shift_) + way; }
   uint8_t* line_at(uint32_t slot) const { return lines_ + (slot << kLineShift); }
   /// The lane of a single bit of four.
@@ -228,7 +230,7 @@ private:
     uint32_t way = locate(set, line);
     if (up_to_date(set, way)) {
       ++counters.hits;
-      if (stamp_hits_) stamp(slot_of(set, way));
+      if (stamp_hits_) stamp_hit(slot_of(set, way));
     } else {
       ++counters.misses;
       way = start_fetch(set, way, line);
@@ -327,6 +329,10 @@ private:
     return oldest;
   }
   void stamp(uint32_t slot) { stamps_[slot] = ++clock_; }
+  void stamp_hit(uint32_t slot) {
+    spu_.compute(kStamp);
+    stamp(slot);
+  }
 
   // --- without a cache ---
 
@@ -352,12 +358,12 @@ private:
     way_shift_ = enabled ? exponent_of(config_.ways) : 0;
     stamp_hits_ = enabled && config_.replacement == CacheReplacement::lru;
     lines_ = spu_.template allocate<uint8_t>(slots() * kLineBytes);
+    this->set_up_lifetimes(spu_, config_);
+    this->set_up_dirt(spu_, slots());
     tags_ = spu_.template allocate<uint32_t>(tag_words_, 16);
     if (enabled) stamps_ = spu_.template allocate<uint32_t>(config_.lines(), 16);
     for (uint32_t i = 0; i < tag_words_; ++i)
       tags_[i] = enabled && way_exists(i) ? 0 : kNoWay;
-    this->set_up_lifetimes(spu_, config_);
-    this->set_up_dirt(spu_, slots());
     record(cache_trace::Operation::begin);
     spu_.record(this, cache_trace::first_word(config_));
     spu_.record(this, cache_trace::second_word(config_));
@@ -372,7 +378,6 @@ private:
   }
 
   void clear() {
-    clean_all();
     spu_.wait_all(((config_.tag_count < 32 ? 1u << config_.tag_count : 0u) - 1) << config_.first_tag);
     for (uint32_t i = 0; i < tag_words_; ++i) {
       if (way_exists(i)) tags_[i] = 0;

@@ -1,0 +1,12 @@
+// celltrace replay
+#pragma once
+
+#include "cli/command_line.hpp"
+
+namespace celltrace::cli {
+
+/// Prints a table, or JSON, of how caches of the shapes asked for would have done on a recorded trace, all
+/// SPEs together. Returns 0. Throws InputError for a trace that cannot be read.
+int run_replay(const ReplayRequest& request);
+
+} // namespace celltrace::cli

@@ -1,0 +1,132 @@
+// Fetching ahead: batches, and runs of words.
+#include "fake_spu.hpp"
+#include "memory.hpp"
+#include "spe/run_on.hpp"
+
+#include "celltrace/cache.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <memory>
+#include <numeric>
+
+using namespace celltrace;
+using namespace celltrace::test;
+
+namespace {
+
+using Cache = SoftwareCache<FakeSpu>;
+
+std::vector<std::uint32_t> lines(std::uint32_t count) {
+  std::vector<std::uint32_t> offsets(count);
+  for (std::uint32_t i = 0; i < count; ++i)
+    offsets[i] = i * kLineBytes + i % 32 * 4;
+  return offsets;
+}
+
+} // namespace
+
+TEST_CASE("a batch is fetched with one wait, and is hit afterwards") {
+  Memory memory(64);
+  const auto spu = std::make_unique<FakeSpu>();
+  Cache cache(*spu, CacheConfig{}, memory.base());
+  cache.word(0, 0);
+  const unsigned waits = spu->waits();
+  const auto count = GENERATE(1u, 12u, 16u);
+  const std::vector<std::uint32_t> offsets = lines(count);
+  cache.fetch(offsets.data(), count);
+  CHECK(spu->transfers() == count); // one of them by word()
+  CHECK(spu->under_way() == 0);
+  CHECK(spu->waits() == waits + (count > 1 ? 1 : 0));
+  for (const std::uint32_t offset : offsets)
+    CHECK(cache.word(offset, 1) == memory.word(offset));
+  CHECK(cache.counters(1).hits == count);
+  CHECK(cache.counters(1).misses == 0);
+  CHECK(spu->waits() == waits + (count > 1 ? 1 : 0));
+}
+
+TEST_CASE("a batch may hold a line twice, more lines than the queue, and more than the cache") {
+  Memory memory(64);
+  const auto spu = std::make_unique<FakeSpu>();
+  CacheConfig config;
+  config.ways = GENERATE(1u, 4u);
+  config.sets = 2;
+  config.enabled = GENERATE(true, false);
+  Cache cache(*spu, config, memory.base());
+  std::vector<std::uint32_t> offsets = lines(50);
+  offsets.insert(offsets.begin() + 20, {0, 0, 128, 4});
+  cache.prefetch(7 * kLineBytes);
+  cache.fetch(offsets.data(), static_cast<std::uint32_t>(offsets.size()));
+  CHECK(spu->under_way() == 0);
+  std::uint32_t wrong = 0;
+  for (const std::uint32_t offset : lines(64))
+    wrong += cache.word(offset, 0) != memory.word(offset);
+  CHECK(wrong == 0);
+  cache.fetch(nullptr, 0);
+}
+
+TEST_CASE("a run of words is one reference a line, and the next line is under way") {
+  Memory memory(64);
+  const auto spu = std::make_unique<FakeSpu>();
+  CacheConfig config;
+  config.enabled = GENERATE(true, false);
+  Cache cache(*spu, config, memory.base());
+  WordRun run(cache, 120u, 70u, 2u);
+  std::uint32_t offset = 120;
+  std::uint32_t wrong = 0;
+  for (; !run.empty(); offset += 4) {
+    wrong += run.next() != memory.word(offset);
+    // The cache is used for other things meanwhile.
+    cache.word((offset * 7) % memory.bytes() & ~3u, 1);
+    if (config.enabled && offset == 120) CHECK(spu->under_way() == 1);
+  }
+  CHECK(wrong == 0);
+  CHECK(offset == 120 + 70 * 4);
+  // 120..127, 128..255, 256..383, 384..399
+  CHECK(cache.counters(2).hits + cache.counters(2).misses == 4);
+  if (config.enabled) CHECK(cache.counters(2).hits == 3);
+}
+
+TEST_CASE("runs of every length end where they should") {
+  Memory memory(64);
+  const auto spu = std::make_unique<FakeSpu>();
+  SoftwareCache<FakeSpu, std::uint32_t, CheckedCacheOptions> cache(*spu, CacheConfig{}, memory.base());
+  for (std::uint32_t offset = 0; offset < 256; offset += 36)
+    for (std::uint32_t count = 0; count < 100; ++count) {
+      std::uint32_t at = offset;
+      std::uint32_t wrong = 0;
+      for (WordRun run(cache, offset, count, 0u); !run.empty(); at += 4)
+        wrong += run.next() != memory.word(at);
+      CHECK(wrong == 0);
+      CHECK(at == offset + 4 * count);
+    }
+}
+
+namespace {
+
+struct Sum {
+  Memory memory{40};
+  std::uint32_t sum = 0;
+};
+
+constexpr auto kSumRun = [](auto& spu, ea_t argument) {
+  Sum& control = at<Sum>(argument);
+  SoftwareCache cache(spu, CacheConfig{}, control.memory.base());
+  const uint32_t offsets[] = {0, 1024, 4096};
+  cache.fetch(offsets, 3);
+  for (WordRun run(cache, 64u, 1000u, 0u); !run.empty();)
+    control.sum += run.next();
+  cache.invalidate_all();
+};
+
+} // namespace
+
+TEST_CASE("batches and runs work on every SPU") {
+  const std::string key = GENERATE(from_range(spu_keys()));
+  Sum control;
+  run_on(key, 1, kSumRun, to_ea(&control));
+  std::uint32_t expected = 0;
+  for (std::uint32_t i = 0; i < 1000; ++i)
+    expected += control.memory.word(64 + 4 * i);
+  CHECK(control.sum == expected);
+}

@@ -1,0 +1,189 @@
+// The cache that can be written to.
+#include "fake_spu.hpp"
+#include "memory.hpp"
+#include "spe/run_on.hpp"
+
+#include "celltrace/cache.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cstring>
+#include <memory>
+#include <random>
+
+using namespace celltrace;
+using namespace celltrace::test;
+
+namespace {
+
+using Cache = WriteBackCache<FakeSpu>;
+
+CacheConfig shape(std::uint32_t ways, std::uint32_t sets,
+                  CacheReplacement replacement = CacheReplacement::fifo) {
+  CacheConfig config;
+  config.ways = ways;
+  config.sets = sets;
+  config.replacement = replacement;
+  return config;
+}
+
+CacheConfig disabled() {
+  CacheConfig config;
+  config.enabled = false;
+  return config;
+}
+
+std::uint8_t& byte(Memory& memory, std::uint32_t offset) {
+  return reinterpret_cast<std::uint8_t*>(&memory.word(offset & ~3u))[offset & 3];
+}
+
+struct alignas(16) Block {
+  std::uint32_t words[4];
+};
+struct Whole {
+  std::uint32_t words[kLineBytes / 4];
+};
+
+} // namespace
+
+TEST_CASE("what was written is read, and is in main memory after a flush") {
+  const auto config = GENERATE(shape(1, 1), shape(1, 8), shape(4, 4), shape(4, 4, CacheReplacement::random),
+                               shape(8, 2, CacheReplacement::lru), shape(16, 1), disabled());
+  CAPTURE(config.ways, config.sets, config.replacement, config.enabled);
+  Memory memory(40), expected(40);
+  const auto spu = std::make_unique<FakeSpu>();
+  Cache cache(*spu, config, memory.base());
+  std::mt19937 random(config.ways);
+  std::uint32_t wrong = 0;
+  for (int round = 0; round < 20; ++round) {
+    for (int i = 0; i < 500; ++i) {
+      const std::uint32_t offset = random() % memory.bytes();
+      const std::uint32_t word = offset & ~3u;
+      switch (random() % 8) {
+      case 0:
+        cache.write(offset, static_cast<std::uint8_t>(i), 1u);
+        byte(expected, offset) = static_cast<std::uint8_t>(i);
+        break;
+      case 1:
+        expected.word(word) = static_cast<std::uint32_t>(random());
+        cache.write(word, expected.word(word), 1u);
+        break;
+      case 2: {
+        const Block block = {{offset, 2, 3, 4}};
+        cache.write(offset & ~15u, block, 1u);
+        std::memcpy(&expected.word(offset & ~15u), &block, sizeof block);
+        break;
+      }
+      case 3:
+        cache.prefetch(offset);
+        break;
+      default:
+        wrong += cache.word(word, 0u) != expected.word(word);
+      }
+    }
+    if (round % 4 == 0)
+      cache.invalidate_all();
+    else
+      cache.flush();
+    for (std::uint32_t offset = 0; offset < memory.bytes(); offset += 4)
+      wrong += memory.word(offset) != expected.word(offset);
+  }
+  CHECK(wrong == 0);
+  cache.invalidate_all();
+  CHECK(spu->under_way() == 0);
+  CHECK(cache.written_back() > 0);
+  CHECK(cache.counters(1).hits + cache.counters(1).misses > 0);
+}
+
+TEST_CASE("bytes that others write to a line are kept") {
+  Memory memory(2);
+  const auto config = GENERATE(shape(4, 4), disabled());
+  const auto spu = std::make_unique<FakeSpu>();
+  Cache cache(*spu, config, memory.base());
+  cache.write(8, std::uint8_t{1}, 0u);
+  byte(memory, 9) = 2;
+  std::uint8_t others = 0;
+  spu->after_getllar = [&] {
+    // Another SPE is quicker, twice.
+    if (others == 2) return;
+    ++others;
+    byte(memory, 100u + others) = others;
+  };
+  cache.flush();
+  CHECK(byte(memory, 8) == 1);
+  CHECK(byte(memory, 9) == 2);
+  CHECK(byte(memory, 101) == 1);
+  CHECK(byte(memory, 102) == 2);
+  CHECK(cache.written_back() == 1);
+  cache.flush();
+  CHECK(cache.written_back() == 1);
+}
+
+TEST_CASE("a line that was written as a whole leaves by a put") {
+  Memory memory(1);
+  const auto spu = std::make_unique<FakeSpu>();
+  Cache cache(*spu, shape(1, 1), memory.base());
+  spu->after_getllar = [] { FAIL("an atomic update"); };
+  Whole whole{};
+  for (std::uint32_t i = 0; i < kLineBytes / 4; ++i)
+    whole.words[i] = i;
+  cache.write(0, whole, 0u);
+  cache.flush();
+  CHECK(memory.word(124) == 31);
+  CHECK(spu->transfers() == 2);
+}
+
+TEST_CASE("a synchronize keeps what was written and fetches the rest again") {
+  Memory memory(2);
+  const auto spu = std::make_unique<FakeSpu>();
+  Cache cache(*spu, CacheConfig{}, memory.base());
+  cache.write(0, 11u, 0u);
+  memory.word(4) = 22;
+  CHECK(cache.word(4, 0u) != 22);
+  cache.synchronize(0, 8);
+  CHECK(cache.word(4, 0u) == 22);
+  CHECK(cache.word(0, 0u) == 11);
+  CHECK(memory.word(0) == 11);
+  cache.write(0, 12u, 0u);
+  cache.synchronize_all();
+  cache.prefetch(0);
+  CHECK(cache.word(0, 0u) == 12);
+}
+
+TEST_CASE("a cache that can be written to takes the local store that it says") {
+  const auto config = GENERATE(shape(1, 16), shape(4, 8), shape(64, 1), disabled());
+  const auto spu = std::make_unique<FakeSpu>();
+  Cache cache(*spu, config, 0);
+  CHECK(spu->local_store_used() == Cache::local_store_bytes(config));
+}
+
+namespace {
+
+struct Shared {
+  Memory memory{16};
+  CacheConfig config = shape(2, 2);
+};
+
+/// Every SPE writes the bytes whose offset is its id modulo the number of SPEs.
+constexpr auto kWriteOwnBytes = [](auto& spu, ea_t argument) {
+  Shared& shared = at<Shared>(argument);
+  WriteBackCache<std::remove_reference_t<decltype(spu)>> cache(spu, shared.config, shared.memory.base());
+  for (int round = 0; round < 3; ++round)
+    for (std::uint32_t offset = spu.id(); offset < shared.memory.bytes(); offset += spu.count())
+      cache.write(offset, static_cast<std::uint8_t>(offset * 7 + spu.id()), 0u);
+  cache.flush();
+};
+
+} // namespace
+
+TEST_CASE("SPEs that write different bytes of the same lines lose none") {
+  const std::string key = GENERATE(from_range(spu_keys()));
+  const std::uint32_t spes = GENERATE(2u, 5u);
+  INFO(key << ", " << spes);
+  Shared shared;
+  run_on(key, spes, kWriteOwnBytes, to_ea(&shared));
+  std::uint32_t wrong = 0;
+  for (std::uint32_t offset = 0; offset < shared.memory.bytes(); ++offset)
+    wrong += byte(shared.memory, offset) != static_cast<std::uint8_t>(offset * 7 + offset % spes);
+  CHECK(wrong == 0);
+}
