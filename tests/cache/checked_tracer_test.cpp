@@ -1,0 +1,107 @@
+// The tracer with caches that watch over their pointers: it uses none too late. This test program brings a
+// tracer_program() of its own, which the renderer starts in place of the usual one.
+#include "backends/cell_emu/spu.hpp"
+#include "celltrace/render.hpp"
+#include "kernel/tracer.hpp"
+#include "render/scenes.hpp"
+#include "render/tracer_program.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <atomic>
+
+namespace celltrace {
+
+// Of the usual program: where the PPE's side builds the accelerator.
+#ifdef __aarch64__
+void tracer_native_neon64(void* spu, ea_t argument);
+constexpr auto kHostEntry = tracer_native_neon64;
+constexpr const char* kHostKey = "native.neon64";
+#else
+void tracer_native_sse2(void* spu, ea_t argument);
+constexpr auto kHostEntry = tracer_native_sse2;
+constexpr const char* kHostKey = "native.sse2";
+#endif
+
+namespace {
+
+/// cell_emu's SPU, with other options for the caches of its kernels.
+class CheckedSpu : public SpuBase<CheckedSpu> {
+public:
+  using cache_options = CheckedCacheOptions;
+  using simd = cell_emu::Spu::simd;
+  static constexpr bool direct_memory = cell_emu::Spu::direct_memory;
+
+  explicit CheckedSpu(cell_emu::Spu& spu) : spu_(spu) { initialise_base(); }
+
+  std::uint32_t id() const { return spu_.id(); }
+  std::uint32_t count() const { return spu_.count(); }
+  SpeAddresses addresses(std::uint32_t spe) const { return spu_.addresses(spe); }
+  ArenaState& arena() { return spu_.arena(); }
+  [[noreturn]] void halt(HaltCode code) { spu_.halt(code); }
+  template <std::uint32_t code> void stop() { spu_.stop<code>(); }
+
+  template <Channel c> std::uint32_t read_channel() { return spu_.read_channel<c>(); }
+  template <Channel c> void write_channel(std::uint32_t value) { spu_.write_channel<c>(value); }
+  template <Channel c> std::uint32_t channel_count() { return spu_.channel_count<c>(); }
+  template <MfcOpcode op> void mfc_command(void* ls, ea_t ea, std::uint32_t size, std::uint32_t tag) {
+    spu_.mfc_command<op>(ls, ea, size, tag);
+  }
+  template <MfcOpcode op>
+  void mfc_list_command(void* ls, ea_t ea, const ListElement* list, std::uint32_t bytes, std::uint32_t tag) {
+    spu_.mfc_list_command<op>(ls, ea, list, bytes, tag);
+  }
+
+  void compute(const ScalarWork& work) { spu_.compute(work); }
+  void note(const char* what, std::uint32_t value) { spu_.note(what, value); }
+  void at(CallSite site) { spu_.at(site); }
+
+private:
+  cell_emu::Spu& spu_;
+};
+
+std::atomic<bool> checked = false;
+std::atomic<unsigned> checked_runs = 0;
+
+} // namespace
+
+SpeProgram tracer_program() {
+  SpeProgram program("tracer");
+  program.add(kHostKey, kHostEntry);
+  program.add(cell_emu::Spu::kKey, [](void* spu, ea_t argument) {
+    cell_emu::Spu& real = *static_cast<cell_emu::Spu*>(spu);
+    if (checked) {
+      ++checked_runs;
+      CheckedSpu watched(real);
+      kernel::tracer(watched, argument);
+    } else {
+      kernel::tracer(real, argument);
+    }
+  });
+  return program;
+}
+
+} // namespace celltrace
+
+using namespace celltrace;
+using namespace celltrace::test;
+
+TEST_CASE("the tracer uses no pointer into its cache too late") {
+  RenderOptions options;
+  options.width = 48;
+  options.height = 36;
+  options.backend = "cell_emu";
+  options.spes = 2;
+  options.emulation.schedule = Schedule::lockstep;
+  options.accelerator = GENERATE(Accelerator::grid, Accelerator::hierarchy);
+  options.cache.sets = GENERATE(1u, 128u);
+  for (const NamedScene& named : scenes()) {
+    CAPTURE(named.name, options.accelerator, options.cache.sets);
+    checked = false;
+    const Image expected = render(named.make(), options).image;
+    checked = true;
+    const unsigned before = checked_runs;
+    CHECK(render(named.make(), options).image == expected);
+    CHECK(checked_runs == before + options.spes);
+  }
+}
