@@ -34,7 +34,9 @@ public:
 
 private:
   /// Beams whose rays differ by more go as single rays: found by measurement on meshes with mirrors.
-  static constexpr float kMaxDirectionSpread = 0.6f;
+  static constexpr float kMaxDirectionSpread = 1.0f;
+  /// What the rounding of hits' distances amounts to.
+  static constexpr float kBeyond = 1.00001f;
 
   /// What is asked of a packet. One code for both questions: it is long, and local store is short.
   struct Search {
@@ -52,23 +54,31 @@ private:
     const RayPacket& rays = search.rays;
     uint32_t left = search.lanes;
     while (left != 0) {
-      const uint32_t octant = Beam<S>::octant_of(rays, static_cast<uint32_t>(__builtin_ctz(left)));
+      const uint32_t octant = octant_of(rays, static_cast<uint32_t>(__builtin_ctz(left)));
       uint32_t group = left & lanes_in_octant(rays, octant);
       left &= ~group;
-      bool whole = true;
+      const OctantRays<S> octant_rays(rays, octant);
+      // First all of them; if they have little in common, four neighbours at a time, or one.
+      uint32_t parts = 0;
       while (group != 0) {
-        // First all of them; if they have little in common, one by one.
-        const uint32_t part = whole ? group : group & (~group + 1);
+        const uint32_t part = group & part_of(parts, static_cast<uint32_t>(__builtin_ctz(group)));
         spu.compute(scalar_work::kBeam);
-        const Beam<S> beam(rays, part, octant);
-        if (whole && beam.direction_spread() > kMaxDirectionSpread) {
-          whole = false;
+        beam_.set(rays, part, octant);
+        if (beam_.direction_spread() > kMaxDirectionSpread) {
+          ++parts;
           continue;
         }
+        if (parts == 2) parts = 1;
         group &= ~part;
-        if ((search.lanes & part) != 0) walk(beam, part, search);
+        if ((search.lanes & part) != 0) walk(octant_rays, BoxSides(octant), part, search);
       }
     }
+  }
+
+  /// The lanes that go with `lane` when a packet is taken whole (0), in blocks of 2x2 (1) or apart (2).
+  static uint32_t part_of(uint32_t parts, uint32_t lane) {
+    if (parts == 0) return 0xFFFF;
+    return parts == 1 ? 0x33u << (lane & 0xAu) : 1u << lane;
   }
 
   static uint32_t lanes_in_octant(const RayPacket& rays, uint32_t octant) {
@@ -80,68 +90,127 @@ private:
     return same(x, octant & 1) & same(y, octant & 2) & same(z, octant & 4);
   }
 
-  /// The greatest value of the lanes in `group`; all are positive.
-  static float farthest(const FloatLanes& values, uint32_t group) {
-    return interval_of<S>(S::select(M::from_bits(group), F::load(values.lane), F(0.0f))).high;
-  }
-
-  struct Entry {
-    uint32_t child, count;
-    float enter;
-  };
-  /// Three children wait per level, at most. The builder goes no deeper.
-  static constexpr uint32_t kStackEntries = 3 * 48 + 4;
+  static bool is_single(uint32_t lanes) { return (lanes & (lanes - 1)) == 0; }
 
   /// How far each ray looks.
   static F limits(const Search& search) {
     return F::load(search.hits != nullptr ? search.hits->distance.lane : search.distance->lane);
   }
+  /// How far the farthest-looking ray of the group looks, as boxes at just that distance should be opened: of
+  /// two hits there, it matters which object comes first. All distances are positive.
+  static float limit_of(const Search& search, uint32_t group) {
+    if (is_single(group)) {
+      const uint32_t lane = static_cast<uint32_t>(__builtin_ctz(group));
+      return kBeyond *
+             (search.hits != nullptr ? search.hits->distance.lane[lane] : search.distance->lane[lane]);
+    }
+    return kBeyond * interval_of<S>(S::select(M::from_bits(group), limits(search), F(0.0f))).high;
+  }
 
-  /// Visits the objects in the boxes that the beam, which has the rays in `group`, meets.
-  void walk(const Beam<S>& beam, uint32_t group, Search& search) {
-    float limit = search.hits != nullptr ? kMaxHitDistance : farthest(*search.distance, group);
-    SceneAccess<Spu>& scene = objects_.scene();
-    uint32_t waiting = 1;
-    stack_[0] = {hierarchy_.node_offset, 0, 0.0f};
-    uint64_t nodes = 0;
-    while (waiting != 0) {
-      const Entry entry = stack_[--waiting];
-      if (entry.enter > limit) continue;
-      if (entry.count != 0) {
-        for (uint32_t i = 0; i < entry.count; ++i) {
-          scene.spu().compute(scalar_work::kListedObject);
-          const uint32_t self = scene.list_word(entry.child + i * 4);
-          if (search.hits == nullptr) {
-            search.lanes &= ~shadowed(search.rays, self, group, *search.distance, *search.light);
-            if ((search.lanes & group) != 0) continue;
-            waiting = 0;
-            break;
-          } else if (objects_.mailbox().first_visit(self)) {
-            objects_.test_closest(search.rays, self, *search.hits);
-            limit = farthest(search.hits->distance, group);
-          }
-        }
+  /// Part of the hierarchy: a node, or `count` objects.
+  struct Branch {
+    uint32_t child, count;
+  };
+  /// A branch that is to be visited, the rays that do, and how far away it is at least.
+  struct Entry {
+    Branch branch;
+    uint32_t lanes;
+    float enter;
+  };
+  /// Three children wait per level, at most. The builder goes no deeper.
+  static constexpr uint32_t kStackEntries = 3 * 48 + 4;
+
+  /// Visits the objects in the boxes that beam_, which has the rays in `lanes`, meets. A branch that only one
+  /// of them meets is walked through by that ray alone, which misses more of it.
+  void walk(const OctantRays<S>& rays, const BoxSides& sides, uint32_t lanes, Search& search) {
+    const Beam<S>* beam = &beam_;
+    uint32_t group = lanes, floor = 0;
+    float limit = limit_of(search, group);
+    Branch branch = {hierarchy_.node_offset, 0};
+    waiting_ = 0;
+    for (;;) {
+      if (branch.count != 0) {
+        test_objects(branch, group, search);
+        if (search.hits != nullptr)
+          limit = limit_of(search, group);
+        else if ((search.lanes & group) == 0)
+          waiting_ = floor;
+      } else if (open(*beam, rays, sides, group, search, limit, branch)) {
         continue;
       }
-      ++nodes;
-      scene.spu().compute(scalar_work::kNodeOfBoxes);
-      const NodeRecord& node = *scene.node(entry.child);
-      alignas(16) float enter[4];
-      uint32_t met = beam.meets(node.box, limit, enter);
-      const uint32_t first = waiting;
-      while (met != 0) {
-        const uint32_t i = static_cast<uint32_t>(__builtin_ctz(met));
-        met &= met - 1;
-        // Looser than its rays, the beam may meet what passes between them.
-        if ((beam.rays_that_meet(node.box, i, limits(search)) & group) == 0) continue;
-        // Into its place among its siblings, the nearest last.
-        uint32_t place = waiting++;
-        for (; place > first && stack_[place - 1].enter < enter[i]; --place)
-          stack_[place] = stack_[place - 1];
-        stack_[place] = {node.child[i], node.count[i], enter[i]};
+      for (;;) {
+        if (waiting_ == floor) {
+          if (group == lanes || (search.lanes & lanes) == 0) return;
+          beam = &beam_;
+          group = lanes;
+          floor = 0;
+          limit = limit_of(search, group);
+          continue;
+        }
+        const Entry& next = stack_[--waiting_];
+        if (next.enter > limit || (next.lanes & search.lanes) == 0) continue;
+        branch = next.branch;
+        if (branch.count == 0 && is_single(next.lanes) && group == lanes && !is_single(lanes)) {
+          group = next.lanes;
+          limit = limit_of(search, group);
+          if (next.enter > limit) {
+            group = lanes;
+            limit = limit_of(search, group);
+            continue;
+          }
+          single_.set(search.rays, static_cast<uint32_t>(__builtin_ctz(group)));
+          beam = &single_;
+          floor = waiting_;
+        }
+        break;
       }
     }
-    objects_.counters().voxels += nodes;
+  }
+
+  void test_objects(const Branch& leaf, uint32_t group, Search& search) {
+    SceneAccess<Spu>& scene = objects_.scene();
+    for (uint32_t i = 0; i < leaf.count; ++i) {
+      scene.spu().compute(scalar_work::kListedObject);
+      const uint32_t self = scene.list_word(leaf.child + i * 4);
+      if (search.hits == nullptr) {
+        search.lanes &= ~shadowed(search.rays, self, group, *search.distance, *search.light);
+        if ((search.lanes & group) == 0) return;
+      } else if (objects_.mailbox().first_visit(self)) {
+        objects_.test_closest(search.rays, self, *search.hits);
+      }
+    }
+  }
+
+  /// Opens the node at `branch`. If one child is met, goes on there and returns true; if several, they go on
+  /// the stack.
+  bool open(const Beam<S>& beam, const OctantRays<S>& rays, const BoxSides& sides, uint32_t group,
+            const Search& search, float limit, Branch& branch) {
+    objects_.scene().spu().compute(scalar_work::kNodeOfBoxes);
+    ++objects_.counters().voxels;
+    const NodeRecord& node = *objects_.scene().node(branch.child);
+    alignas(16) float enter[4];
+    uint32_t met = beam.meets(node.box, sides, limit, enter);
+    if (met == 0) return false;
+    if (is_single(met)) {
+      const uint32_t i = static_cast<uint32_t>(__builtin_ctz(met));
+      branch = {node.child[i], node.count[i]};
+      return true;
+    }
+    const F each_limit = limits(search);
+    const uint32_t first = waiting_;
+    do {
+      const uint32_t i = static_cast<uint32_t>(__builtin_ctz(met));
+      met &= met - 1;
+      // Looser than its rays, a beam may meet what passes between them.
+      const uint32_t lanes = is_single(group) ? group : rays.meet(node.box, sides, i, each_limit) & group;
+      if (lanes == 0) continue;
+      // Into its place among its siblings, the nearest last.
+      uint32_t place = waiting_++;
+      for (; place > first && stack_[place - 1].enter < enter[i]; --place)
+        stack_[place] = stack_[place - 1];
+      stack_[place] = {{node.child[i], node.count[i]}, lanes, enter[i]};
+    } while (met != 0);
+    return false;
   }
 
   /// Lanes of the group that the object shuts off from the light. An opaque one shuts off whatever lanes of
@@ -169,7 +238,9 @@ private:
 
   ObjectTests<Spu>& objects_;
   const HierarchyRecord& hierarchy_;
+  Beam<S> beam_, single_;
   Entry stack_[kStackEntries];
+  uint32_t waiting_ = 0; ///< on the stack
 };
 
 } // namespace celltrace::kernel

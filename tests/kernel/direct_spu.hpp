@@ -32,6 +32,9 @@ public:
   std::uint8_t* mark() { return store_->bytes + next_; }
   void release(std::uint8_t* marked) { next_ = static_cast<std::size_t>(marked - store_->bytes); }
 
+  void put(const void* ls, ea_t ea, std::uint32_t size, std::uint32_t) {
+    std::memcpy(reinterpret_cast<void*>(static_cast<std::uintptr_t>(ea)), ls, size);
+  }
   void putl(const void* ls, ea_t ea, const ListElement* list, std::uint32_t elements, std::uint32_t) {
     const auto* from = static_cast<const std::uint8_t*>(ls);
     for (std::uint32_t i = 0; i < elements; ++i) {
