@@ -28,6 +28,10 @@ enum class Accelerator {
   hierarchy  ///< a hierarchy of boxes; where SPEs have no direct memory, the PPE's side builds it
 };
 
+/// Called now and then by the thread that renders, with the finished fraction of a job: starts at 0, never
+/// falls, ends at 1 if the job is completed. Return false to cancel.
+using Progress = std::function<bool(double fraction)>;
+
 struct RenderOptions {
   int width = 640;  ///< pixels, 1..65520
   int height = 480; ///< pixels, 1..65520
@@ -46,6 +50,9 @@ struct RenderOptions {
   std::optional<double> adc_bailout;
   /// Of cell_emu; native knows none of it. The trace is complete when the renderer is gone.
   EmulationConfig emulation;
+  /// Hears how far the image and the accelerator of a scene are, before its first frame. Where it cancels,
+  /// the frame has no pixels, and the renderer no scene.
+  Progress build_progress;
   /// Called for every rule of the Cell that cell_emu saw broken, by the thread that renders or destroys the
   /// renderer. Must not throw.
   std::function<void(const Diagnostic& diagnostic)> diagnostic;
@@ -115,10 +122,6 @@ struct RenderStatistics {
 /// The statistics as JSON text; docs/statistics.md describes the keys.
 std::string to_json(const RenderStatistics& statistics);
 
-/// Called now and then by the thread that renders, with the finished fraction of the frame: starts at 0,
-/// never falls, ends at 1 if the frame is completed. Return false to cancel.
-using Progress = std::function<bool(double fraction)>;
-
 struct RenderResult {
   Image image;
   RenderStatistics statistics;
@@ -136,9 +139,9 @@ public:
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
 
-  /// Renders a frame; the strips that the frame before ended with start this one. Throws InputError if the
-  /// scene is not valid, SpeError if a kernel failed; exceptions of `progress` pass through. After SpeError
-  /// the renderer throws again at every call.
+  /// Renders a frame; `progress` is of tracing alone. The strips that the frame before ended with start this
+  /// one. Throws InputError if the scene is not valid, SpeError if a kernel failed; exceptions of `progress`
+  /// pass through. After SpeError the renderer throws again at every call.
   RenderResult render(const Scene& scene, const Progress& progress = {});
   /// As above, with another camera and nothing else changed since the last render(): the accelerator is
   /// kept.

@@ -41,7 +41,8 @@ ParseOptions parse_options(const RenderRequest& request) {
 
 /// None if the user interrupted it.
 std::optional<Scene> parse_with_progress(const RenderRequest& request) {
-  ProgressLine line(std::cerr, !request.quiet && stderr_is_terminal(), "reading ", std::chrono::milliseconds(500));
+  ProgressLine line(std::cerr, !request.quiet && stderr_is_terminal(), "reading ",
+                    std::chrono::milliseconds(500));
   ParseOptions options = parse_options(request);
   options.message = [&](std::string_view text) {
     if (request.quiet) return;
@@ -81,7 +82,14 @@ RenderResult render_with_progress(const Scene& scene, const RenderRequest& reque
   options.diagnostic = [&](const Diagnostic& diagnostic) { diagnostics.push_back(diagnostic); };
   try {
     RenderResult result = [&] {
-      ProgressLine line(std::cerr, !request.quiet && stderr_is_terminal());
+      const bool visible = !request.quiet && stderr_is_terminal();
+      ProgressLine building(std::cerr, visible, "building ", std::chrono::milliseconds(500));
+      options.build_progress = [&building](double fraction) {
+        building.update(fraction);
+        if (fraction >= 1) building.wipe();
+        return !interrupted();
+      };
+      ProgressLine line(std::cerr, visible);
       return render(scene, options, [&line](double fraction) {
         line.update(fraction);
         return !interrupted();

@@ -28,7 +28,7 @@ public:
     if (step == 0 && self_ == 0) build_top();
     if (step == 1 && frame_.run_count != 0) build_treelets();
   }
-  /// After the last step.
+  /// After step 0.
   uint32_t nodes() const { return memory_.team->nodes; }
 
 private:

@@ -8,25 +8,24 @@ namespace celltrace::kernel {
 
 namespace detail {
 
-/// The part of this SPE in a build by several, in the step that they are at.
+/// The part of this SPE in a build step by step. The first SPE knows the number of nodes from its first step
+/// on.
 template <class Spu> PrepareResult take_step(Spu& spu, const FrameBlock& frame) {
   uint8_t* const marked = spu.mark();
   hierarchy::Builder<Spu> builder(spu, frame, spu.id());
   builder.run(frame.prepare_step);
-  const bool last = frame.prepare_step + 1 == hierarchy::kSteps;
-  const uint32_t nodes = last ? builder.nodes() : 0;
+  const uint32_t nodes = spu.id() == 0 ? builder.nodes() : 0;
   spu.release(marked);
   return {nodes, true};
 }
 
 } // namespace detail
 
-/// The grid is built by one SPE. A hierarchy is built by one, or by several that take the same step at a
-/// time.
+/// The grid is built by one SPE. A hierarchy is built by one, or step by step by any number of them.
 template <class Spu> PrepareResult prepare_frame(Spu& spu, const FrameBlock& frame) {
   if constexpr (Spu::direct_memory) {
     if (static_cast<AcceleratorKind>(frame.accelerator) == AcceleratorKind::hierarchy) {
-      if (frame.prepare_spes > 1) return detail::take_step(spu, frame);
+      if (frame.prepare_spes != 0) return detail::take_step(spu, frame);
       return {build_hierarchy(spu, frame), true};
     }
   }

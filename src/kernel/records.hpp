@@ -200,8 +200,8 @@ struct alignas(128) FrameBlock {
   ea_t reports;          ///< ReportRecord per SPE
   ea_t ray_stack;        ///< spill area: ray_stack_nodes nodes of kRayNodeBytes per SPE
   ea_t sort_buffer[2];   ///< work memory of PREPARE FRAME: `sort_capacity` pairs of 8 bytes each
-  uint32_t prepare_spes; ///< that build the accelerator; more than one go step by step
-  uint32_t prepare_step; ///< of those, the step that they are to take
+  uint32_t prepare_spes; ///< that build the accelerator step by step; 0: one takes all steps
+  uint32_t prepare_step; ///< the step that is to be taken
 
   uint32_t width, height; ///< pixels
   uint32_t packet_columns, packet_rows;

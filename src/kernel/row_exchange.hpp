@@ -18,6 +18,8 @@ public:
     epoch_ = frame.epoch & (strip_word::kEpochs - 1);
     exchanges_ = 0;
     received_ = 0;
+    // Every word wakes the PPE: about 64 of them will do.
+    units_per_report_ = until_report_ = frame.packet_rows / 64 + 1;
     const uint32_t lambda =
         static_cast<BalanceMode>(frame.balance) == BalanceMode::gde ? frame.exchange_parameter : 0;
     // Words that outlived their frame make room; those of a neighbour that is a frame ahead are kept.
@@ -31,6 +33,8 @@ public:
   bool take_unit(uint32_t& unit) { return node_.take_unit(unit); }
   void complete_unit() {
     node_.complete_unit();
+    if (--until_report_ != 0) return;
+    until_report_ = units_per_report_;
     if (spu_.out_mailbox_count() != 0)
       spu_.write_out_mailbox(make_report(ReportKind::progress, node_.completed()));
   }
@@ -116,6 +120,7 @@ private:
   bool over_ = true;
   uint32_t exchanges_ = 0;
   uint32_t received_ = 0;
+  uint32_t units_per_report_ = 1, until_report_ = 1;
 };
 
 } // namespace celltrace::kernel

@@ -1,8 +1,8 @@
 #include "celltrace/render.hpp"
 
 #include "celltrace/error.hpp"
-#include "kernel/build_hierarchy_plan.hpp"
 #include "kernel/ray_stack.hpp"
+#include "render/accelerator_builder.hpp"
 #include "render/frame_setup.hpp"
 #include "render/spe_team.hpp"
 #include "render/statistics.hpp"
@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
-#include <thread>
+#include <span>
 #include <utility>
 
 namespace celltrace {
@@ -68,6 +68,7 @@ public:
     frame_.reports = to_ea(reports_.data());
     hand_out(even_strips(frame_.packet_rows, spes));
     team_ = std::make_unique<SpeTeam>(*machine_, frame_);
+    builder_ = std::make_unique<AcceleratorBuilder>(*machine_, *team_, frame_, image_);
   }
   ~Impl() {
     // Some rules are for the end of a program.
@@ -103,19 +104,36 @@ private:
   RenderResult render_scene(const Scene& scene, const Progress& progress) {
     RenderStatistics statistics;
     const Stopwatch build;
-    image_.assign(scene, scratch_, machine_->direct_memory() ? machine_->spe_count() : 1);
+    if (options_.build_progress && !options_.build_progress(0)) return no_frame(statistics);
+    builder_->make_image(scene);
+    has_scene_ = false;
     scene_ = scene;
     statistics.build_seconds = build.seconds();
     const Stopwatch prepare;
     const SpeMeter meter(*machine_);
-    build_accelerator();
+    enter_scene();
+    if (!builder_->build(options_.build_progress)) return no_frame(statistics);
+    has_scene_ = true;
     statistics.prepare_seconds = prepare.seconds();
     statistics.prepare_cycles = elapsed_cycles(meter.read());
     return render_frame(scene.camera, statistics, progress);
   }
 
+  /// Cancelled before the first pixel.
+  RenderResult no_frame(RenderStatistics& statistics) {
+    has_scene_ = false;
+    std::memset(surface_.data(), 0, surface_.size());
+    std::memset(reports_.data(), 0, reports_.size());
+    RenderResult result;
+    result.complete = false;
+    collect(statistics, *machine_, frame_, reports(), SpeMeter(*machine_).read());
+    result.statistics = statistics;
+    result.image = copy_picture();
+    return result;
+  }
+
   RenderResult render_camera(const Camera& camera, const Progress& progress) {
-    if (image_.empty()) throw InputError("a camera alone cannot be rendered: there is no scene yet");
+    if (!has_scene_) throw InputError("a camera alone cannot be rendered: there is no scene yet");
     validate(camera);
     RenderStatistics statistics;
     return render_frame(camera, statistics, progress);
@@ -126,85 +144,23 @@ private:
       strip(spe) = {strips[spe].first, strips[spe].first + strips[spe].count, {0, 0}};
   }
   StripRecord& strip(std::size_t spe) { return reinterpret_cast<StripRecord*>(strips_.data())[spe]; }
-  const ReportRecord& report(std::size_t spe) const {
-    return reinterpret_cast<const ReportRecord*>(reports_.data())[spe];
-  }
 
-  void build_accelerator() {
-    if (static_cast<AcceleratorKind>(frame_.accelerator) == AcceleratorKind::hierarchy)
-      build_hierarchy();
-    else
-      build_grid();
-    team_->synchronize();
-  }
-  void build_grid() {
-    const GridRecord grid = choose_grid(image_.header());
-    const std::uint32_t cells = grid.row_of_cells * grid.cells[2];
-    std::uint64_t pairs = std::max<std::uint64_t>(std::uint64_t{image_.header().object_count} * 6, 1024);
-    for (;;) {
-      if (pairs > 0x3FFFFFFF) throw InputError("the scene is too large: its object lists would pass 4 GB");
-      const auto words = static_cast<std::uint32_t>(pairs);
-      image_.reserve_accelerator(std::uint64_t{cells} * sizeof(CellRecord), words);
-      frame_.grid = grid;
-      frame_.grid.cell_offset = image_.table_offset();
-      frame_.grid.list_offset = image_.list_offset();
-      frame_.grid.list_capacity = words;
-      reserve_work(words);
-      if (team_->prepare_frame()) break;
-      pairs = report(0).list_entries;
-    }
-    frame_.grid.list_count = report(0).list_entries;
-  }
-  void build_hierarchy() {
-    const std::uint32_t objects = image_.header().object_count;
-    // A node has four children, and a leaf at least one object.
-    const std::uint32_t nodes = objects / 3 + 2;
-    image_.reserve_accelerator(std::uint64_t{nodes} * sizeof(NodeRecord), objects);
-    frame_.hierarchy = {image_.table_offset(), nodes, 0, image_.list_offset()};
-    const ImageHeader& header = image_.header();
-    reserve_work(hierarchy::WorkSize(objects, header.run_count, header.longest_run).pairs());
-    if (machine_->direct_memory()) {
-      build_hierarchy_on(*team_, machine_->spe_count());
-    } else {
-      // The builder follows pointers through main memory: work for the PPE's side where SPEs cannot.
-      // No more of them than there are reports in the frame.
-      MachineConfig host;
-      host.spes = std::clamp(std::thread::hardware_concurrency(), 1u, machine_->spe_count());
-      const std::unique_ptr<Machine> machine = make_machine(host);
-      SpeTeam team(*machine, frame_);
-      build_hierarchy_on(team, host.spes);
-    }
-    frame_.hierarchy.node_count = report(0).list_entries;
-  }
-  void build_hierarchy_on(SpeTeam& team, unsigned spes) {
-    if (image_.header().run_count == 0) spes = 1;
-    frame_.prepare_spes = std::min(spes, hierarchy::kMaxBuilders);
-    frame_.prepare_step = 0;
-    const std::uint32_t steps = frame_.prepare_spes == 1 ? 1 : hierarchy::kSteps;
-    for (; frame_.prepare_step < steps; ++frame_.prepare_step)
-      team.prepare_frame(frame_.prepare_spes);
-  }
-  /// Work memory of PREPARE FRAME, and what else depends on the scene.
-  void reserve_work(std::uint64_t pairs) {
-    frame_.sort_capacity = static_cast<std::uint32_t>(pairs);
-    for (int i = 0; i < 2; ++i) {
-      sort_buffers_[i].reserve(std::size_t{pairs} * 8);
-      frame_.sort_buffer[i] = to_ea(sort_buffers_[i].data());
-    }
+  /// What the frame block says of a scene whose image is there.
+  void enter_scene() {
     set_scene(frame_, scene_, options_, image_);
     // A tree of n levels needs n + 1 nodes; straight transmission may add some that cost no level.
     const std::uint32_t nodes = frame_.max_trace_level + 32;
-    if (nodes != frame_.ray_stack_nodes) {
-      frame_.ray_stack_nodes = nodes;
-      ray_stack_ = AlignedBlock(std::size_t{machine_->spe_count()} * nodes * kRayNodeBytes);
-      frame_.ray_stack = to_ea(ray_stack_.data());
-    }
+    if (nodes == frame_.ray_stack_nodes) return;
+    frame_.ray_stack_nodes = nodes;
+    ray_stack_ = AlignedBlock(std::size_t{machine_->spe_count()} * nodes * kRayNodeBytes);
+    frame_.ray_stack = to_ea(ray_stack_.data());
   }
 
   RenderResult render_frame(const Camera& camera, RenderStatistics& statistics, const Progress& progress) {
     set_camera(frame_, camera, scene_, image_);
     ++frame_.epoch;
-    std::memset(surface_.data(), 0, surface_.size());
+    // A frame that nobody can break off leaves no pixel out.
+    if (progress) std::memset(surface_.data(), 0, surface_.size());
     std::memset(reports_.data(), 0, reports_.size());
     const Stopwatch render;
     const SpeMeter meter(*machine_);
@@ -217,34 +173,39 @@ private:
       statistics.schedule = options_.emulation.schedule;
       statistics.seed = options_.emulation.seed;
     }
-    collect(statistics, *machine_, frame_,
-            {reinterpret_cast<const ReportRecord*>(reports_.data()), strip_count()}, meter.read());
+    collect(statistics, *machine_, frame_, reports(), meter.read());
     statistics.diagnostics = new_diagnostics();
     result.statistics = statistics;
     result.image = copy_picture();
     return result;
   }
-  std::size_t strip_count() const { return machine_->spe_count(); }
+  std::span<const ReportRecord> reports() const {
+    return {reinterpret_cast<const ReportRecord*>(reports_.data()), machine_->spe_count()};
+  }
 
   Image copy_picture() const {
-    Image image(options_.width, options_.height);
-    for (int y = 0; y < options_.height; ++y)
-      std::memcpy(image.pixel(0, y),
-                  surface_.data() + std::size_t{frame_.surface_pitch} * static_cast<std::size_t>(y),
-                  static_cast<std::size_t>(options_.width) * 4);
+    Image image;
+    image.width = options_.width;
+    image.height = options_.height;
+    const std::size_t row = std::size_t{4} * static_cast<std::size_t>(options_.width);
+    image.rgba.reserve(row * static_cast<std::size_t>(options_.height));
+    const auto* from = reinterpret_cast<const std::uint8_t*>(surface_.data());
+    for (int y = 0; y < options_.height; ++y, from += frame_.surface_pitch)
+      image.rgba.insert(image.rgba.end(), from, from + row);
     return image;
   }
 
   RenderOptions options_;
   Scene scene_;
   SceneImage image_;
-  AlignedBlock scratch_;
+  bool has_scene_ = false; ///< and an accelerator for it
   // Everything from here to the machine is read and written by the SPEs.
-  AlignedBlock surface_, strips_, reports_, ray_stack_, sort_buffers_[2];
+  AlignedBlock surface_, strips_, reports_, ray_stack_;
   AlignedBlock frame_block_;
   FrameBlock& frame_;
   std::unique_ptr<Machine> machine_;
   std::unique_ptr<SpeTeam> team_;
+  std::unique_ptr<AcceleratorBuilder> builder_;
   std::size_t known_diagnostics_ = 0;
 };
 

@@ -30,17 +30,19 @@ SpeTeam::~SpeTeam() {
   }
 }
 
-bool SpeTeam::prepare_frame(unsigned spes) {
+bool SpeTeam::prepare_frame(unsigned spes, const std::function<void()>& look) {
   for (Member& member : members_)
     member.answered = member.spe >= spes;
   for (unsigned spe = 0; spe < spes; ++spe)
     machine_.write_signal(spe, Signal::one, command::prepare_frame);
   bool built = true;
-  while (!all_answered())
+  while (!all_answered()) {
     receive([&](Member& member, ReportKind kind, std::uint32_t) {
       if (kind == ReportKind::needs_memory) built = false;
       member.answered = member.answered || kind == ReportKind::prepared || kind == ReportKind::needs_memory;
     });
+    if (look) look();
+  }
   return built;
 }
 

@@ -6,6 +6,7 @@
 #include "celltrace/spe/machine.hpp"
 #include "kernel/records.hpp"
 
+#include <functional>
 #include <vector>
 
 namespace celltrace {
@@ -20,9 +21,9 @@ public:
   SpeTeam(const SpeTeam&) = delete;
   SpeTeam& operator=(const SpeTeam&) = delete;
 
-  /// The first `spes` SPEs build the accelerator, or take the frame block's step in building it. False if
-  /// they need more room than the frame block offers.
-  bool prepare_frame(unsigned spes = 1);
+  /// The first `spes` SPEs build the accelerator, or take the frame block's step in building it; `look` is
+  /// called now and then, and must not throw. False if they need more room than the frame block offers.
+  bool prepare_frame(unsigned spes, const std::function<void()>& look);
   /// Every SPE forgets what it has cached and what is in its mailbox.
   void synchronize();
   /// All SPEs render; what each completed is in `tally`. False if `progress` broke the frame off; what it

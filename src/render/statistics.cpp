@@ -209,6 +209,8 @@ std::string to_json(const RenderStatistics& s) {
         {"nodes", s.hierarchy_nodes},
         {"list_entries", s.accelerator_list_entries},
         {"bytes", s.accelerator_bytes},
+        {"bytes_per_object",
+         s.objects == 0 ? 0.0 : static_cast<double>(s.accelerator_bytes) / static_cast<double>(s.objects)},
         {"visits", s.accelerator_visits}}},
       {"cache",
        {{"list", cache_json(s.list_cache)},

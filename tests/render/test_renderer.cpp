@@ -38,6 +38,21 @@ void check_complete(const RenderResult& result, const Backend& backend, const Im
   CHECK(result.image == expected);
 }
 
+/// Enough triangles for runs.
+Scene large_scene() {
+  Scene scene = scene_named("glass and mirrors");
+  Mesh mesh;
+  for (int i = 0; i < 5000; ++i) {
+    const float x = static_cast<float>(i % 71) * 0.1f - 3.5f;
+    const float y = static_cast<float>(i / 71) * 0.1f - 3.5f;
+    const auto first = static_cast<Index>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), {{x, y, 5}, {x + 0.08f, y, 5.1f}, {x, y + 0.08f, 5.2f}});
+    mesh.triangles.push_back({{first, first + 1, first + 2}});
+  }
+  scene.objects.push_back(mesh_object(mesh, 0, 0));
+  return scene;
+}
+
 } // namespace
 
 TEST_CASE("Progress starts at 0, never falls and ends at 1") {
@@ -310,6 +325,50 @@ TEST_CASE("What the progress function throws passes through, and the next frame 
       CHECK_THROWS_AS(renderer.render(scene, fail), std::domain_error);
       check_complete(renderer.render(scene), backend, expected);
       CHECK_THROWS_AS(renderer.render(scene, fail), std::domain_error);
+    }
+  }
+}
+
+TEST_CASE("Building says how far it is, and can be cancelled") {
+  const Scene scene = large_scene();
+  const Image expected = render(scene, backends().front().options(kWidth, kHeight, 2)).image;
+  for (const Backend& backend : one_of_each()) {
+    for (Accelerator accelerator : {Accelerator::hierarchy, Accelerator::grid}) {
+      INFO(backend.spu());
+      std::vector<double> fractions;
+      double limit = 2;
+      RenderOptions options = backend.options(kWidth, kHeight, 2);
+      options.accelerator = accelerator;
+      options.build_progress = [&](double fraction) {
+        fractions.push_back(fraction);
+        if (limit < 0) throw std::domain_error("enough");
+        return fraction < limit;
+      };
+      Renderer renderer(options);
+      CHECK(renderer.render(scene).image == expected);
+      CHECK(fractions.front() == 0);
+      CHECK(fractions.back() == 1);
+      CHECK(std::is_sorted(fractions.begin(), fractions.end()));
+      for (double end : {0.0, 0.2, 1.0, -1.0}) {
+        limit = end;
+        if (end < 0) {
+          CHECK_THROWS_AS(renderer.render(scene), std::domain_error);
+        } else {
+          const RenderResult cancelled = renderer.render(scene);
+          CHECK_FALSE(cancelled.complete);
+          CHECK(cancelled.statistics.total_rays() == 0);
+          const auto& pixels = cancelled.image.rgba;
+          CHECK(pixels.size() == std::size_t{kWidth} * kHeight * 4);
+          CHECK(std::all_of(pixels.begin(), pixels.end(), [](std::uint8_t byte) { return byte == 0; }));
+        }
+        CHECK_THROWS_AS(renderer.render(scene.camera), InputError);
+      }
+      limit = 2;
+      CHECK(renderer.render(scene).image == expected);
+      // It is of building alone.
+      fractions.clear();
+      renderer.render(scene.camera);
+      CHECK(fractions.empty());
     }
   }
 }

@@ -1,5 +1,6 @@
 // SceneImage: what its tables hold, and that nothing else than its own bytes is taken for one.
 #include "celltrace/error.hpp"
+#include "kernel/overlap.hpp"
 #include "render/scenes.hpp"
 #include "scene/scene_image.hpp"
 
@@ -206,4 +207,100 @@ TEST_CASE("Faces and materials are flagged for what the kernel may skip") {
   CHECK(blend->material[0] == material(0));
   CHECK(blend->material[1] == material(1));
   CHECK(blend->material[2] == material(2));
+}
+
+namespace {
+
+/// Spheres and two meshes, one of them smooth and in several materials, in no order.
+Scene crowd(int triangles, double reach) {
+  Scene scene;
+  for (int i = 0; i < 3; ++i)
+    scene.add(matte({0.2 * i, 1, 1}));
+  scene.add(Interior{});
+  unsigned state = 1;
+  const auto random = [&] { return (state = state * 1664525 + 1013904223) / 4294967296.0; };
+  Mesh flat, smooth;
+  for (Mesh* mesh : {&flat, &smooth})
+    for (int i = 0; i < triangles; ++i) {
+      const Vec3 at = reach * Vec3(random(), random(), random());
+      const auto first = static_cast<Index>(mesh->vertices.size());
+      for (int corner = 0; corner < 3; ++corner)
+        mesh->vertices.push_back(Vec3f(at + Vec3(random(), random(), random())));
+      mesh->triangles.push_back({{first, first + 1, first + 2}});
+      if (mesh == &flat || i % 3 == 0) continue;
+      mesh->normals.insert(mesh->normals.end(),
+                           {{0, 1, 0.1f * static_cast<float>(i % 5)}, {0, 1, 0}, {1, 0, 0}});
+      const auto normal = static_cast<Index>(mesh->normals.size()) - 3;
+      Mesh::Triangle& last = mesh->triangles.back();
+      for (Index corner = 0; corner < 3; ++corner) {
+        last.normal[corner] = normal + corner;
+        last.material[corner] = i % 2 == 0 ? corner : 2;
+      }
+    }
+  scene.objects = {mesh_object(flat, 0, 0)};
+  for (int i = 0; i < triangles; ++i)
+    scene.objects.push_back(sphere_at(reach * Vec3(random(), random(), random()), 0.5 * random(), 1, 0));
+  scene.objects.push_back(mesh_object(smooth, 1, 0));
+  scene.objects.back().transform = Transform::rotate({10, 20, 30});
+  return scene;
+}
+
+} // namespace
+
+TEST_CASE("An image of many objects has them by run, the same whoever makes it") {
+  for (const double reach : {0.0, 30.0, 1000.0}) {
+    INFO(reach);
+    Scene scene = crowd(9000, reach);
+    const SceneImage image(scene);
+    const ImageHeader& h = image.header();
+    REQUIRE(h.object_count == 27000);
+    REQUIRE(h.run_count > 1);
+    // Spheres around one point cannot be told apart.
+    CHECK((h.longest_run <= 256) == (reach > 0));
+    const auto* objects = table<ObjectRecord>(image, h.object_offset);
+    const auto* runs = table<RunRecord>(image, h.run_offset);
+    std::uint32_t next = 0;
+    for (std::uint32_t run = 0; run < h.run_count; ++run) {
+      REQUIRE(runs[run].first == next);
+      for (; next < runs[run].first + runs[run].count; ++next) {
+        const Box box = bounding_box(objects[next]);
+        for (int axis = 0; axis < 3; ++axis) {
+          REQUIRE(box.min[axis] >= runs[run].min[axis]);
+          REQUIRE(box.max[axis] <= runs[run].max[axis]);
+        }
+      }
+    }
+    REQUIRE(next == h.object_count);
+    CHECK(h.normals_count == 6000);
+    CHECK(h.blend_count == 3000);
+    const Bytes bytes = bytes_of(image);
+    CHECK(bytes_of(SceneImage::from_bytes(bytes)) == bytes);
+    // In memory that held something else.
+    SceneImage again(crowd(100, 1));
+    AlignedBlock work;
+    for (unsigned threads : {1u, 2u, 3u, 7u}) {
+      again.assign(scene, work, threads);
+      CHECK(bytes_of(again) == bytes);
+    }
+    // A scene that is refused changes nothing.
+    scene.objects.push_back(sphere_at({1e30, 0, 0}, 1, 0, 0));
+    CHECK_THROWS_AS(again.assign(scene, work, 2), InputError);
+    CHECK(bytes_of(again) == bytes);
+  }
+}
+
+TEST_CASE("A sealed scene image with a fault in its runs is refused") {
+  const Bytes good = bytes_of(SceneImage(crowd(3000, 10)));
+  const auto refused = [&](const std::function<void(ImageHeader&, RunRecord*)>& change) {
+    Bytes bytes = good;
+    change(header_of(bytes), table<RunRecord>(bytes, header_of(bytes).run_offset));
+    seal(bytes);
+    CHECK_THROWS_WITH(SceneImage::from_bytes(bytes), Catch::Contains("offset"));
+  };
+  refused([](ImageHeader&, RunRecord* runs) { ++runs[1].first; });
+  refused([](ImageHeader&, RunRecord* runs) { runs[0].count = 0; });
+  refused([](ImageHeader& h, RunRecord* runs) { runs[h.run_count - 1].count = 0xFFFFFFFF; });
+  refused([](ImageHeader& h, RunRecord*) { --h.run_count; });
+  refused([](ImageHeader& h, RunRecord*) { --h.longest_run; });
+  refused([](ImageHeader& h, RunRecord*) { h.run_offset = 0xFFFFFF80; });
 }

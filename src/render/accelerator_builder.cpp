@@ -1,0 +1,144 @@
+#include "render/accelerator_builder.hpp"
+
+#include "celltrace/error.hpp"
+#include "kernel/build_hierarchy_plan.hpp"
+#include "render/frame_setup.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <thread>
+
+namespace celltrace {
+
+using namespace kernel;
+
+namespace {
+
+/// What of building a hierarchy is over before the first treelet: making the image, and the nodes above.
+constexpr double kBeforeTreelets = 0.3;
+/// Larger work memory goes back to the system between frames.
+constexpr std::size_t kKeptBytes = std::size_t{256} << 20;
+
+/// Looks into the work memory of a hierarchy while it is built.
+class HierarchyWatch {
+public:
+  HierarchyWatch(const AlignedBlock& work, const Progress& go_on)
+      : team_(*reinterpret_cast<hierarchy::TeamRecord*>(work.data())), go_on_(go_on) {}
+
+  /// Asks whether to go on; if not, the SPEs take no more treelets.
+  void look(bool treelets) {
+    if (stopped_ || !go_on_) return;
+    try {
+      stopped_ = !go_on_(treelets ? fraction() : 0);
+    } catch (...) {
+      failure_ = std::current_exception();
+      stopped_ = true;
+    }
+    if (stopped_ && treelets)
+      std::atomic_ref(team_.next).store(hierarchy::kStopped, std::memory_order_relaxed);
+  }
+  bool stopped() const { return stopped_; }
+  void rethrow() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+private:
+  double fraction() const {
+    const double done = std::min(std::atomic_ref(team_.next).load(std::memory_order_relaxed), team_.treelets);
+    return kBeforeTreelets + (1 - kBeforeTreelets) * done / std::max(team_.treelets, 1u);
+  }
+
+  hierarchy::TeamRecord& team_;
+  const Progress& go_on_;
+  bool stopped_ = false;
+  std::exception_ptr failure_;
+};
+
+} // namespace
+
+void AcceleratorBuilder::make_image(const Scene& scene) {
+  image_.assign(scene, work_[0], machine_.direct_memory() ? machine_.spe_count() : 1);
+}
+
+bool AcceleratorBuilder::build(const Progress& go_on) {
+  const bool built = static_cast<AcceleratorKind>(frame_.accelerator) == AcceleratorKind::hierarchy
+                         ? build_hierarchy(go_on)
+                         : build_grid();
+  for (AlignedBlock& block : work_)
+    if (block.size() > kKeptBytes) block = AlignedBlock();
+  team_.synchronize();
+  return built && (!go_on || go_on(1));
+}
+
+const ReportRecord& AcceleratorBuilder::report() const {
+  return *reinterpret_cast<const ReportRecord*>(static_cast<std::uintptr_t>(frame_.reports));
+}
+
+bool AcceleratorBuilder::build_grid() {
+  const GridRecord grid = choose_grid(image_.header());
+  const std::uint32_t cells = grid.row_of_cells * grid.cells[2];
+  std::uint64_t pairs = std::max<std::uint64_t>(std::uint64_t{image_.header().object_count} * 6, 1024);
+  for (;;) {
+    if (pairs > 0x3FFFFFFF) throw InputError("the scene is too large: its object lists would pass 4 GB");
+    const auto words = static_cast<std::uint32_t>(pairs);
+    image_.reserve_accelerator(std::uint64_t{cells} * sizeof(CellRecord), words);
+    frame_.grid = grid;
+    frame_.grid.cell_offset = image_.table_offset();
+    frame_.grid.list_offset = image_.list_offset();
+    frame_.grid.list_capacity = words;
+    enter_memory(words);
+    if (team_.prepare_frame(1, {})) break;
+    pairs = report().list_entries;
+  }
+  frame_.grid.list_count = report().list_entries;
+  return true;
+}
+
+bool AcceleratorBuilder::build_hierarchy(const Progress& go_on) {
+  const ImageHeader& header = image_.header();
+  const std::uint32_t objects = header.object_count;
+  const hierarchy::WorkSize work(objects, header.run_count, header.longest_run);
+  // A node has four children, and a leaf at least one object.
+  const std::uint32_t nodes = objects / 3 + 2;
+  image_.reserve_accelerator(std::uint64_t{nodes} * sizeof(NodeRecord), objects);
+  frame_.hierarchy = {image_.table_offset(), nodes, 0, image_.list_offset()};
+  enter_memory(work.pairs());
+  bool built = false;
+  if (machine_.direct_memory()) {
+    built = build_hierarchy_on(team_, machine_.spe_count(), go_on);
+  } else {
+    // The builder follows pointers through main memory: work for the PPE's side where SPEs cannot.
+    // No more of them than there are reports in the frame.
+    MachineConfig host;
+    host.spes = std::clamp(std::thread::hardware_concurrency(), 1u, machine_.spe_count());
+    const std::unique_ptr<Machine> machine = make_machine(host);
+    SpeTeam team(*machine, frame_);
+    built = build_hierarchy_on(team, host.spes, go_on);
+  }
+  frame_.hierarchy.node_count = report().list_entries;
+  return built;
+}
+
+bool AcceleratorBuilder::build_hierarchy_on(SpeTeam& team, unsigned spes, const Progress& go_on) {
+  HierarchyWatch watch(work_[0], go_on);
+  // What a few objects take is not worth while to share.
+  frame_.prepare_spes = frame_.run_count == 0 ? 1 : std::min(spes, hierarchy::kMaxBuilders);
+  frame_.prepare_step = 0;
+  const std::uint32_t steps = frame_.run_count == 0 ? 1 : hierarchy::kSteps;
+  for (; frame_.prepare_step < steps && !watch.stopped(); ++frame_.prepare_step)
+    team.prepare_frame(frame_.prepare_spes, [&] { watch.look(frame_.prepare_step != 0); });
+  watch.rethrow();
+  return !watch.stopped();
+}
+
+void AcceleratorBuilder::enter_memory(std::uint64_t pairs) {
+  frame_.image = reinterpret_cast<std::uintptr_t>(image_.base());
+  frame_.sort_capacity = static_cast<std::uint32_t>(pairs);
+  for (int i = 0; i < 2; ++i) {
+    work_[i].reserve(static_cast<std::size_t>(pairs) * 8);
+    frame_.sort_buffer[i] = reinterpret_cast<std::uintptr_t>(work_[i].data());
+  }
+}
+
+} // namespace celltrace
