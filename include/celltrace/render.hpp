@@ -32,6 +32,15 @@ enum class Accelerator {
 /// falls, ends at 1 if the job is completed. Return false to cancel.
 using Progress = std::function<bool(double fraction)>;
 
+/// Which part of a frame an SPE does (docs/programming-models.md). The picture is the same.
+enum class Model {
+  shared,   ///< everything: each SPE is a ray tracer of its own
+  pipeline, ///< rays go through main memory from SPEs that make them to such that search, and that shade
+  pipeline_split, ///< as pipeline, with walking the grid and testing objects on different SPEs
+  offload ///< SPEs search for a PPE that does the rest; on a machine of `spes` + 1, the first is the PPE's
+          ///< part
+};
+
 struct RenderOptions {
   int width = 640;  ///< pixels, 1..65520
   int height = 480; ///< pixels, 1..65520
@@ -44,7 +53,10 @@ struct RenderOptions {
   /// The software cache of each SPE (native reads memory directly and has none).
   CacheConfig cache;
   Balance balance = Balance::gde;
+  /// Pipelines take the grid for automatic, and the split one nothing else.
   Accelerator accelerator = Accelerator::automatic;
+  /// Models other than `shared` need 2 SPEs; balance is for `shared` only.
+  Model model = Model::shared;
   /// In place of the scene's own settings.
   std::optional<int> max_trace_level;
   std::optional<double> adc_bailout;
@@ -74,7 +86,19 @@ struct RenderStatistics {
     SpuCycles cycles;                   ///< virtual time of the frame; all 0 on native
   };
 
+  /// Of models other than `shared`; 0 there.
+  struct Stages {
+    std::uint32_t generators = 0, shaders = 0, searchers = 0, testers = 0; ///< SPEs by what they do
+    std::uint64_t jobs = 0;                ///< of one or more searches, taken from main memory
+    std::uint64_t searches = 0;            ///< of 16 rays, each time that one was taken up
+    std::uint64_t primary_hits = 0;        ///< primary rays that hit something
+    std::uint64_t primary_reprocessed = 0; ///< split: of the primary rays, those that were ever sent back
+    std::uint64_t returns = 0;             ///< split: times that a ray was sent back
+  };
+
   std::string backend;
+  Model model = Model::shared;
+  Stages stages;
   std::string spu; ///< SPU type, e.g. "native.avx512"
   Schedule schedule = Schedule::free;
   std::uint64_t seed = 0;

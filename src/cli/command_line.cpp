@@ -96,7 +96,8 @@ void add_machine_options(CLI::App& command, RenderOptions& options, RenderTexts&
              "How rays find objects: a uniform grid or a hierarchy of boxes, which auto is");
   add_choice(command, "--balance", texts.balance, {{"gde", "static"}, {"diffusion", "scatter"}},
              "Load balancing");
-  add_choice(command, "--model", texts.model, {{"shared"}, {"pipeline", "offload"}}, "Programming model");
+  add_choice(command, "--model", texts.model, {{"shared", "pipeline", "pipeline-split", "offload"}, {}},
+             "Programming model");
   add_emulation_options(command, texts.emulation);
 }
 
@@ -134,6 +135,12 @@ void add_replay_options(CLI::App& command, ReplayRequest& request, ReplayTexts& 
   command.add_flag("--json", request.json, "Print JSON");
 }
 
+Model model_of(const std::string& text) {
+  if (text == "pipeline") return Model::pipeline;
+  if (text == "pipeline-split") return Model::pipeline_split;
+  return text == "offload" ? Model::offload : Model::shared;
+}
+
 Accelerator accelerator_of(const std::string& text) {
   if (text == "grid") return Accelerator::grid;
   return text == "hierarchy" ? Accelerator::hierarchy : Accelerator::automatic;
@@ -147,6 +154,7 @@ void finish(RenderRequest& request, const RenderTexts& texts) {
   request.trace = texts.emulation.trace;
   request.cache_trace = texts.emulation.cache_trace;
   request.options.accelerator = accelerator_of(texts.accelerator);
+  request.options.model = model_of(texts.model);
   request.options.balance = texts.balance == "gde" ? Balance::gde : Balance::fixed;
   for (const std::string& text : texts.declares)
     request.declares.push_back(parse_declare(text));

@@ -40,6 +40,8 @@ double voxels_per_unit(std::array<double, 3> extent, double wanted) {
 }
 
 AcceleratorKind accelerator_of(const RenderOptions& options) {
+  const bool pipeline = options.model == Model::pipeline || options.model == Model::pipeline_split;
+  if (pipeline && options.accelerator == Accelerator::automatic) return AcceleratorKind::grid;
   return options.accelerator == Accelerator::grid ? AcceleratorKind::grid : AcceleratorKind::hierarchy;
 }
 
@@ -51,6 +53,8 @@ bool inside(const Sphere& sphere, const Transform& transform, const Vec3& point)
 } // namespace
 
 void check(const RenderOptions& options) {
+  if (options.model == Model::pipeline_split && options.accelerator == Accelerator::hierarchy)
+    throw InputError("the split pipeline finds objects by the grid");
   if (options.width < 1 || options.width > kMaxEdge || options.height < 1 || options.height > kMaxEdge)
     throw InputError("the picture's width and height have to be 1 to " + std::to_string(kMaxEdge) +
                      " pixels");

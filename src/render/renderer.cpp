@@ -4,6 +4,7 @@
 #include "kernel/ray_stack.hpp"
 #include "render/accelerator_builder.hpp"
 #include "render/frame_setup.hpp"
+#include "render/models/stage_team.hpp"
 #include "render/spe_team.hpp"
 #include "render/statistics.hpp"
 
@@ -33,7 +34,7 @@ MachineConfig machine_config(const RenderOptions& options) {
   check(options);
   MachineConfig config;
   config.backend = options.backend;
-  config.spes = options.spes;
+  config.spes = machine_spes(options);
   config.simd = options.simd;
   config.emulation = options.emulation;
   // Commands and doorbells that come before the last ones are read must not replace them.
@@ -69,6 +70,8 @@ public:
     hand_out(even_strips(frame_.packet_rows, spes));
     team_ = std::make_unique<SpeTeam>(*machine_, frame_);
     builder_ = std::make_unique<AcceleratorBuilder>(*machine_, *team_, frame_, image_);
+    if (options_.model != Model::shared)
+      stages_ = std::make_unique<StageTeam>(*machine_, frame_, options_.model);
   }
   ~Impl() {
     // Some rules are for the end of a program.
@@ -112,7 +115,9 @@ private:
     const Stopwatch prepare;
     const SpeMeter meter(*machine_);
     enter_scene();
+    team_->assemble();
     if (!builder_->build(options_.build_progress)) return no_frame(statistics);
+    if (stages_) team_->dismiss(); // the SPEs get other programs
     has_scene_ = true;
     statistics.prepare_seconds = prepare.seconds();
     statistics.prepare_cycles = elapsed_cycles(meter.read());
@@ -166,14 +171,16 @@ private:
     const SpeMeter meter(*machine_);
     RenderResult result;
     StripTally tally(machine_->spe_count(), frame_.packet_rows);
-    result.complete = team_->render_frame(tally, progress);
+    result.complete = stages_ ? stages_->render_frame(progress) : team_->render_frame(tally, progress);
     statistics.render_seconds = render.seconds();
-    if (result.complete) hand_out(tally.next_strips());
+    if (result.complete && !stages_) hand_out(tally.next_strips());
     if (machine_->backend() == "cell_emu") {
       statistics.schedule = options_.emulation.schedule;
       statistics.seed = options_.emulation.seed;
     }
     collect(statistics, *machine_, frame_, reports(), meter.read());
+    statistics.model = options_.model;
+    if (stages_) statistics.stages = stages_->counts();
     statistics.diagnostics = new_diagnostics();
     result.statistics = statistics;
     result.image = copy_picture();
@@ -206,6 +213,7 @@ private:
   std::unique_ptr<Machine> machine_;
   std::unique_ptr<SpeTeam> team_;
   std::unique_ptr<AcceleratorBuilder> builder_;
+  std::unique_ptr<StageTeam> stages_;
   std::size_t known_diagnostics_ = 0;
 };
 

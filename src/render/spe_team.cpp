@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <exception>
 #include <numeric>
+#include <utility>
 
 namespace celltrace {
 
@@ -14,20 +15,30 @@ SpeTeam::SpeTeam(Machine& machine, const FrameBlock& frame)
     : machine_(machine), frame_(frame), members_(machine.spe_count()) {
   for (unsigned spe = 0; spe < members_.size(); ++spe)
     members_[spe].spe = spe;
+  assemble();
+}
+
+SpeTeam::~SpeTeam() {
+  try {
+    dismiss();
+  } catch (const std::exception&) {
+    // An SPE that failed has been reported by the call that met it; here it only has to be gone.
+    machine_.interrupt();
+  }
+}
+
+void SpeTeam::assemble() {
+  if (std::exchange(assembled_, true)) return;
   const SpeProgram program = tracer_program();
   for (unsigned spe = 0; spe < members_.size(); ++spe)
     machine_.start(spe, program, to_ea(&frame_));
 }
 
-SpeTeam::~SpeTeam() {
-  try {
-    signal_all(command::quit);
-    for (unsigned spe = 0; spe < members_.size(); ++spe)
-      machine_.wait(spe);
-  } catch (const std::exception&) {
-    // An SPE that failed has been reported by the call that met it; here it only has to be gone.
-    machine_.interrupt();
-  }
+void SpeTeam::dismiss() {
+  if (!std::exchange(assembled_, false)) return;
+  signal_all(command::quit);
+  for (unsigned spe = 0; spe < members_.size(); ++spe)
+    machine_.wait(spe);
 }
 
 bool SpeTeam::prepare_frame(unsigned spes, const std::function<void()>& look) {

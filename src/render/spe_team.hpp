@@ -21,6 +21,10 @@ public:
   SpeTeam(const SpeTeam&) = delete;
   SpeTeam& operator=(const SpeTeam&) = delete;
 
+  /// Lets the SPEs leave, so that they can run something else; assemble() brings back those that have left.
+  void dismiss();
+  void assemble();
+
   /// The first `spes` SPEs build the accelerator, or take the frame block's step in building it; `look` is
   /// called now and then, and must not throw. False if they need more room than the frame block offers.
   bool prepare_frame(unsigned spes, const std::function<void()>& look);
@@ -50,6 +54,7 @@ private:
   Machine& machine_;
   const kernel::FrameBlock& frame_;
   std::vector<Member> members_;
+  bool assembled_ = false;
 };
 
 } // namespace celltrace

@@ -85,6 +85,32 @@ nlohmann::ordered_json cache_json(const RenderStatistics::Cache& cache) {
   return {{"hits", cache.hits}, {"misses", cache.misses}, {"hit_rate", cache.hit_rate()}};
 }
 
+const char* name_of(Model model) {
+  switch (model) {
+  case Model::shared:
+    return "shared";
+  case Model::pipeline:
+    return "pipeline";
+  case Model::pipeline_split:
+    return "pipeline-split";
+  case Model::offload:
+    break;
+  }
+  return "offload";
+}
+
+nlohmann::ordered_json stages_json(const RenderStatistics::Stages& stages) {
+  return {{"generators", stages.generators},
+          {"shaders", stages.shaders},
+          {"searchers", stages.searchers},
+          {"testers", stages.testers},
+          {"jobs", stages.jobs},
+          {"searches", stages.searches},
+          {"primary_hits", stages.primary_hits},
+          {"primary_reprocessed", stages.primary_reprocessed},
+          {"returns", stages.returns}};
+}
+
 nlohmann::ordered_json cycles_json(const SpuCycles& cycles) {
   nlohmann::ordered_json json;
   for (const auto& [name, count] : kCycleCounts)
@@ -185,6 +211,7 @@ std::string to_json(const RenderStatistics& s) {
     diagnostics.push_back(diagnostic_json(diagnostic));
   const nlohmann::ordered_json json = {
       {"backend", s.backend},
+      {"model", name_of(s.model)},
       {"spu", s.spu},
       {"schedule", s.schedule == Schedule::lockstep ? "lockstep" : "free"},
       {"seed", s.seed},
@@ -227,6 +254,7 @@ std::string to_json(const RenderStatistics& s) {
        {{"exchanges", s.balance_exchanges},
         {"rows_moved", s.balance_rows_moved},
         {"imbalance", s.imbalance}}},
+      {"stages", stages_json(s.stages)},
       {"spes", spes},
       {"diagnostics", diagnostics}};
   return json.dump(2);

@@ -180,11 +180,18 @@ TEST_CASE("replay takes a trace and shapes of caches") {
   CHECK(render_request({"a.pov", "--backend", "cell_emu", "--cache-trace", "t"}).cache_trace == "t");
 }
 
+TEST_CASE("the programming model is one of four") {
+  const auto model = [](const char* name) { return render_request({"--model", name, "a.pov"}).options.model; };
+  CHECK(model("shared") == Model::shared);
+  CHECK(model("pipeline") == Model::pipeline);
+  CHECK(model("pipeline-split") == Model::pipeline_split);
+  CHECK(model("offload") == Model::offload);
+  CHECK_THAT(render_error({"--model", "stream"}), Contains("'stream' is none of shared, pipeline"));
+}
+
 TEST_CASE("what is to come is refused as such") {
   CHECK_THAT(render_error({"--balance", "diffusion"}), Contains("'diffusion' is not supported yet"));
   CHECK_THAT(render_error({"--balance", "scatter"}), Contains("'scatter' is not supported yet"));
-  CHECK_THAT(render_error({"--model", "pipeline"}), Contains("'pipeline' is not supported yet"));
-  CHECK_THAT(render_error({"--model", "offload"}), Contains("'offload' is not supported yet"));
 }
 
 TEST_CASE("errors of the command line are one line that names the option") {

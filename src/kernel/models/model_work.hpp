@@ -1,0 +1,24 @@
+// Scalar work of the stages besides that of the kernels that they share with the tracer; see scalar_work.hpp
+// for the method. Kernel dialect.
+#pragma once
+
+#include "celltrace/spe/spu.hpp"
+
+namespace celltrace::kernel::models {
+
+namespace model_work {
+
+// Each is {fixed, floating, memory, shuffle, branches}.
+
+/// A job taken, and one sent: doorbell, addresses, commands.
+constexpr ScalarWork kJob = {120, 0, 60, 50, 12};
+/// A search of a job, fetched and put.
+constexpr ScalarWork kSearch = {60, 0, 30, 25, 6};
+/// A packet's rays or answers, copied within local store.
+constexpr ScalarWork kCopy = {12, 0, 56, 0, 1};
+/// A ray that is handed over with its voxel.
+constexpr ScalarWork kHandOver = {25, 2, 12, 14, 3};
+
+} // namespace model_work
+
+} // namespace celltrace::kernel::models

@@ -1,0 +1,102 @@
+// The first stage: gives contexts that are free the next packets of primary rays, and knows when the frame is
+// complete. Kernel dialect.
+#pragma once
+
+#include "kernel/models/job_sender.hpp"
+#include "kernel/models/model_work.hpp"
+#include "kernel/primary_rays.hpp"
+
+namespace celltrace::kernel::models {
+
+template <class Spu> class PrimaryFeed {
+public:
+  using S = typename Spu::simd;
+
+  PrimaryFeed(Spu& spu, const StageBlock& stage, const FrameBlock& frame, JobSender<Spu>& sender)
+      : spu_(spu), stage_(stage), frame_(frame), sender_(sender), row_(stage.first_row),
+        slots_(spu.template allocate<Slot>(kSlots)) {}
+
+  /// A context is free: for the first time, or because its packet is complete.
+  void give_back(uint32_t context) {
+    const uint32_t bit = 1u << context;
+    heard_ |= bit;
+    if ((busy_ & bit) != 0) ++completed_;
+    busy_ &= ~bit;
+    if (row_ < frame_.packet_rows && !stopped_) {
+      busy_ |= bit;
+      issue(context);
+    }
+    report();
+  }
+  /// No new packets.
+  void stop() {
+    stopped_ = true;
+    report();
+  }
+
+  /// Of everything that it puts.
+  static constexpr uint32_t kTags = 0xFu << 24;
+
+private:
+  static constexpr uint32_t kSlots = 4;
+  static constexpr uint32_t kFirstTag = 24;
+
+  /// A packet on its way to main memory.
+  struct Slot {
+    JobRecord job;
+    SearchRecord search;
+    OutgoingWord word;
+  };
+
+  void issue(uint32_t context) {
+    spu_.compute(model_work::kJob);
+    Slot& slot = slots_[slot_];
+    const uint32_t tag = kFirstTag + slot_;
+    slot_ = (slot_ + 1) % kSlots;
+    spu_.wait_all(1u << tag);
+    sender_.wait_until_sent(context);
+    slot.job.searches = 1;
+    slot.job.live = 1;
+    slot.job.column = column_;
+    slot.job.row = row_;
+    make_primary_rays<S>(frame_, column_, row_, slot.search.rays);
+    slot.search.kind = static_cast<uint32_t>(SearchKind::closest);
+    slot.search.lanes = lanes_in_picture(frame_, column_, row_);
+    slot.search.primary = 1;
+    spu_.put(&slot.job, sender_.job(context), sizeof(JobRecord) + search_part::question, tag);
+    sender_.send(context, slot.word, tag);
+    if (++column_ == frame_.packet_columns) {
+      column_ = 0;
+      row_ += stage_.row_step;
+    }
+  }
+
+  /// Tells the PPE how far the frame is, when it listens, and that it is complete. That is not before every
+  /// shader has been heard: nothing may ring in an SPE that has left.
+  void report() {
+    const bool all_issued = stopped_ || row_ >= frame_.packet_rows;
+    const bool complete = all_issued && busy_ == 0 && (heard_ & stage_.announced) == stage_.announced;
+    if (complete && !finished_) {
+      finished_ = true;
+      spu_.write_out_mailbox(make_report(ReportKind::finished, completed_));
+    } else if (!finished_ && (completed_ & 15) == 0 && spu_.out_mailbox_count() != 0) {
+      spu_.write_out_mailbox(make_report(ReportKind::progress, completed_));
+    }
+  }
+
+  Spu& spu_;
+  const StageBlock& stage_;
+  const FrameBlock& frame_;
+  JobSender<Spu>& sender_;
+  uint32_t column_ = 0;
+  uint32_t row_;
+  Slot* slots_;
+  uint32_t slot_ = 0;
+  uint32_t heard_ = 0; ///< contexts
+  uint32_t busy_ = 0;
+  uint32_t completed_ = 0; ///< packets
+  bool stopped_ = false;
+  bool finished_ = false;
+};
+
+} // namespace celltrace::kernel::models

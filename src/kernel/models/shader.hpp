@@ -1,0 +1,277 @@
+// The program of an SPE that shades: works off the trees of many packets at once, each of which has a
+// question under way most of the time. Kernel dialect.
+#pragma once
+
+#include "kernel/models/arrived_light.hpp"
+#include "kernel/models/primary_feed.hpp"
+#include "kernel/models/search_writer.hpp"
+#include "kernel/models/stage.hpp"
+#include "kernel/ray_tracer.hpp"
+#include "kernel/surface.hpp"
+
+namespace celltrace::kernel::models {
+
+template <class Spu> class Shader {
+public:
+  using S = typename Spu::simd;
+
+  Shader(Spu& spu, ea_t block)
+      : spu_(spu), stage_(spu, block), orders_(stage_.orders()), frame_(stage_.frame()),
+        doorbell_(spu, orders_), sender_(spu, orders_), feed_(spu, orders_, frame_, sender_),
+        scene_(spu, stage_.cache_config(), frame_.image), writer_(spu, sender_), pixels_(spu, frame_),
+        light_(spu), scratch_(*spu.template allocate<RayNode>()),
+        arrivals_(spu.template allocate<Arrival>(2)) {
+    place_contexts();
+  }
+
+  void run() {
+    announce();
+    uint32_t context = 0;
+    bool ahead = false; // its answer is being fetched
+    while (ahead || wait_for_answer(context)) {
+      if (!ahead) fetch(context);
+      const uint32_t present = context;
+      current_ ^= 1;
+      doorbell_.look();
+      ahead = doorbell_.take_context(context);
+      if (ahead) fetch(context);
+      current_ ^= 1;
+      spu_.wait_all(tag());
+      take(present, arrivals_[current_]);
+      current_ ^= 1;
+    }
+    pixels_.flush();
+    spu_.wait_all(PrimaryFeed<Spu>::kTags | SearchWriter<Spu>::kTags);
+    report();
+  }
+
+private:
+  static constexpr uint32_t kFirstTag = 8;
+  static constexpr uint32_t kResident = 1; // nodes of each stack in local store
+
+  /// What a context waits for.
+  enum class Awaits : uint32_t { packet, hits, light };
+
+  using Tracer = RayTracer<Spu, ArrivedLight<Spu>, kResident>;
+
+  struct Context {
+    Context(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, ea_t spill, uint32_t spill_nodes,
+            ArrivedLight<Spu>& light, RayNode& scratch)
+        : tracer(spu, frame, scene, spill, spill_nodes, light, scratch) {}
+
+    Tracer tracer;
+    HitPoints<S> points;
+    uint32_t hit = 0; ///< lanes
+    Awaits awaits = Awaits::packet;
+    uint32_t column = 0, row = 0;
+    uint32_t searches = 0; ///< under way
+  };
+  struct alignas(128) ContextStorage {
+    uint8_t bytes[sizeof(Context)];
+  };
+
+  struct Arrival {
+    JobRecord job;
+    SearchRecord search;
+    AnswerBlock lights;
+  };
+
+  uint32_t tag() const { return 1u << (kFirstTag + current_); }
+
+  /// As many of its contexts as there is room for.
+  void place_contexts() {
+    constexpr uint32_t bytes = sizeof(ContextStorage) + (kResident + 1) * kRayNodeBytes;
+    for (uint32_t context = 0; context < kMaxContexts; ++context) {
+      if ((orders_.contexts >> context & 1) == 0) continue;
+      if (placed_ != 0 && spu_.available() < bytes + kLineBytes) return;
+      const ea_t spill = orders_.ray_stack + static_cast<ea_t>(context * orders_.stack_nodes) * kRayNodeBytes;
+      void* const storage = spu_.template allocate<ContextStorage>();
+      contexts_[context] =
+          new (storage) Context(spu_, frame_, scene_, spill, orders_.stack_nodes, light_, scratch_);
+      placed_ |= 1u << context;
+    }
+  }
+  void announce() {
+    if (!stage_.has(task::generate)) {
+      spu_.send_signal(orders_.generator, Signal::two, placed_);
+      return;
+    }
+    for_each_lane(placed_, [&](uint32_t context) { feed_.give_back(context); });
+  }
+
+  /// False: the frame is over.
+  bool wait_for_answer(uint32_t& context) {
+    doorbell_.look();
+    while (!doorbell_.take_context(context)) {
+      if (doorbell_.take(bell::stop))
+        feed_.stop();
+      else if (doorbell_.take(bell::quit))
+        return false;
+      else
+        doorbell_.wait();
+    }
+    return true;
+  }
+
+  void fetch(uint32_t context) {
+    Arrival& to = arrivals_[current_];
+    sender_.wait_until_sent(context);
+    const uint32_t tag = kFirstTag + current_;
+    const ea_t search = sender_.search(context, 0);
+    switch (contexts_[context]->awaits) {
+    case Awaits::packet:
+      spu_.get(&to.job, sender_.job(context), sizeof(JobRecord) + search_part::question, tag);
+      return;
+    case Awaits::hits:
+      spu_.get(&to.search.hits, search + search_part::answer_offset, search_part::answer, tag);
+      return;
+    case Awaits::light:
+      fetch_answers(spu_, search, 0, contexts_[context]->searches, to.lights, tag);
+      return;
+    }
+  }
+
+  void take(uint32_t number, Arrival& arrival) {
+    Context& context = *contexts_[number];
+    spu_.compute(model_work::kJob);
+    sender_.answered(number, PrimaryFeed<Spu>::kTags | SearchWriter<Spu>::kTags);
+    switch (context.awaits) {
+    case Awaits::packet:
+      context.column = arrival.job.column;
+      context.row = arrival.job.row;
+      context.tracer.begin(arrival.search.rays, arrival.search.lanes);
+      take_hits(number, arrival.search.hits);
+      return;
+    case Awaits::hits:
+      take_hits(number, arrival.search.hits);
+      return;
+    case Awaits::light:
+      light_.arrive(sender_.search(number, 0), context.searches, arrival.lights, kFirstTag + current_);
+      shade(number);
+      return;
+    }
+  }
+
+  void take_hits(uint32_t number, const HitPacket& hits) {
+    Context& context = *contexts_[number];
+    spu_.compute(model_work::kCopy);
+    context.tracer.hits() = hits;
+    context.hit = context.tracer.take_hits();
+    if (context.hit == 0) {
+      go_on(number);
+      return;
+    }
+    context.points = find_hit_points(scene_, context.tracer.node().rays, hits, context.hit);
+    if (!ask_for_light(number)) shade(number);
+  }
+
+  /// Sends a shadow search for every light that some of the surfaces face; false if there is none.
+  bool ask_for_light(uint32_t number) {
+    Context& context = *contexts_[number];
+    const RayPacket& rays = context.tracer.node().rays;
+    const WordLanes& objects = context.tracer.hits().object;
+    const Surfaces<S> surfaces = {context.points.point, context.points.normal,
+                                  rays.direction.template load<S>(), &objects};
+    writer_.begin(number);
+    for (uint32_t i = 0; i < frame_.light_count; ++i) {
+      const LightRecord light = light_at(scene_, frame_, i);
+      if ((light.flags & light_flag::shadowless) != 0) continue;
+      const Bearing<S> bearing(light, surfaces, context.hit);
+      if (bearing.facing == 0) continue;
+      spu_.compute(model_work::kCopy);
+      SearchRecord& search = writer_.next();
+      search.rays.origin.template store<S>(surfaces.point);
+      search.rays.direction.template store<S>(bearing.direction);
+      search.rays.start_object = objects;
+      bearing.distance.store(search.light.distance.lane);
+      search.light.colour.template store<S>(splat3<S>(light.colour));
+      search.kind = static_cast<uint32_t>(SearchKind::shadow);
+      search.lanes = bearing.facing;
+      search.primary = 0;
+      search.number = i;
+      writer_.put();
+    }
+    context.searches = writer_.count();
+    if (context.searches == 0) return false;
+    context.awaits = Awaits::light;
+    writer_.send();
+    return true;
+  }
+
+  void shade(uint32_t number) {
+    Context& context = *contexts_[number];
+    context.tracer.shade_hits(context.points, context.hit);
+    go_on(number);
+  }
+
+  /// To the next node of the tree, or the next packet.
+  void go_on(uint32_t number) {
+    Context& context = *contexts_[number];
+    if (context.tracer.advance()) {
+      ask_for_hits(number);
+      return;
+    }
+    pixels_.put(context.column, context.row, context.tracer.light());
+    context.awaits = Awaits::packet;
+    if (stage_.has(task::generate))
+      feed_.give_back(number);
+    else
+      spu_.send_signal(orders_.generator, Signal::two, 1u << number);
+  }
+
+  void ask_for_hits(uint32_t number) {
+    Context& context = *contexts_[number];
+    const RayNode& node = context.tracer.node();
+    writer_.begin(number);
+    SearchRecord& search = writer_.next();
+    spu_.compute(model_work::kCopy);
+    search.rays = node.rays;
+    search.kind = static_cast<uint32_t>(SearchKind::closest);
+    search.lanes = node.lanes;
+    search.primary = 0;
+    writer_.put();
+    context.awaits = Awaits::hits;
+    writer_.send();
+  }
+
+  void report() {
+    ReportRecord& report = stage_.report();
+    for_each_lane(placed_, [&](uint32_t number) {
+      const Tracer& tracer = contexts_[number]->tracer;
+      const RayCounters& rays = tracer.counters();
+      report.primary_rays += rays.primary;
+      report.shadow_rays += rays.shadow;
+      report.reflection_rays += rays.reflection;
+      report.refraction_rays += rays.refraction;
+      report.dropped_rays += rays.dropped;
+      report.spilled_nodes += tracer.spilled_nodes();
+    });
+    stage_.stage_report().jobs = sender_.jobs();
+    stage_.add_cache(scene_);
+    stage_.send_reports();
+  }
+
+  Spu& spu_;
+  Stage<Spu> stage_;
+  const StageBlock& orders_;
+  const FrameBlock& frame_;
+  Doorbell<Spu> doorbell_;
+  JobSender<Spu> sender_;
+  PrimaryFeed<Spu> feed_;
+  SceneAccess<Spu> scene_;
+  SearchWriter<Spu> writer_;
+  PixelWriter<Spu> pixels_;
+  ArrivedLight<Spu> light_;
+  RayNode& scratch_;
+  Arrival* arrivals_;
+  uint32_t current_ = 0;
+  Context* contexts_[kMaxContexts] = {};
+  uint32_t placed_ = 0; ///< contexts
+};
+
+/// `argument` is the ea of the SPE's StageBlock.
+template <class Spu> void shader(Spu& spu, ea_t argument) {
+  Shader<Spu>(spu, argument).run();
+}
+
+} // namespace celltrace::kernel::models

@@ -1,0 +1,118 @@
+#include "render/models/stage_plan.hpp"
+
+#include "celltrace/error.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace celltrace {
+
+using namespace kernel::models;
+
+namespace {
+
+/// SPEs of one pipeline by what they do.
+struct Crew {
+  bool generator = false; ///< an SPE of its own; else a shader generates too
+  unsigned shaders = 1;
+  unsigned walkers = 0, testers = 0;
+  unsigned searchers = 0; ///< that walk and test in one
+};
+
+/// Found by measurement on eight SPEs (docs/programming-models.md): of what a crew can be, the one that is
+/// best for most scenes.
+Crew crew_of(Model model, unsigned spes) {
+  Crew crew;
+  if (model == Model::offload) {
+    crew.searchers = spes - 1;
+    return crew;
+  }
+  const bool split = model == Model::pipeline_split;
+  crew.generator = spes >= (split ? 4u : 3u);
+  const unsigned others = spes - (crew.generator ? 1 : 0);
+  crew.shaders = std::max(1u, others * 2 / 7);
+  const unsigned left = others - crew.shaders;
+  if (!split) {
+    crew.searchers = left;
+  } else if (left >= 2) {
+    crew.testers = std::max(1u, left * 2 / 5);
+    crew.walkers = left - crew.testers;
+  } // else one SPE walks and tests in turn
+  return crew;
+}
+
+/// Puts the SPEs from `first` on to work as one pipeline.
+void plan_pipeline(Model model, unsigned first, unsigned spes, unsigned pipeline, StagePlan& plan) {
+  const Crew crew = crew_of(model, spes);
+  unsigned next = first;
+  const unsigned generator = next;
+  next += crew.generator ? 1 : 0;
+  const unsigned first_shader = next;
+  const unsigned first_searcher = first_shader + crew.shaders;
+  const bool split = model == Model::pipeline_split;
+  const unsigned walkers = split ? std::max(crew.walkers, 1u) : crew.searchers;
+  const unsigned first_tester = crew.testers != 0 ? first_searcher + walkers : first_searcher;
+  const unsigned testers = std::max(crew.testers, 1u);
+
+  StageBlock common{};
+  common.generator = generator;
+  common.first_searcher = first_searcher;
+  common.searchers = walkers;
+  for (unsigned context = 0; context < kMaxContexts; ++context) {
+    common.searcher[context] = static_cast<std::uint8_t>(first_searcher + context % walkers);
+    common.tester[context] = static_cast<std::uint8_t>(first_tester + context % testers);
+    common.shader[context] = static_cast<std::uint8_t>(first_shader + context % crew.shaders);
+  }
+  common.announced = (1u << crew.shaders) - 1;
+  common.contexts = bell::contexts;
+  common.first_row = pipeline;
+  common.row_step = plan.pipelines;
+
+  for (unsigned spe = first; spe < first + spes; ++spe) {
+    StagePlan::Spe one{StagePlan::Program::searcher, common, pipeline};
+    StageBlock& orders = one.orders;
+    if (crew.generator && spe == generator) {
+      one.program = StagePlan::Program::generator;
+      orders.tasks = task::generate;
+    } else if (spe < first_searcher) {
+      one.program = StagePlan::Program::shader;
+      orders.tasks = task::shade | (crew.generator ? 0 : task::generate);
+      if (model == Model::offload) orders.tasks |= task::dispatch;
+      orders.contexts = 0;
+      for (unsigned context = spe - first_shader; context < kMaxContexts; context += crew.shaders)
+        orders.contexts |= 1u << context;
+    } else if (!split) {
+      orders.tasks = task::search | (model == Model::offload ? task::by_mailbox : 0);
+    } else {
+      const bool walks = spe < first_searcher + walkers;
+      const bool tests = spe >= first_tester;
+      orders.tasks = (walks ? task::walk : 0) | (tests ? task::test : 0);
+    }
+    plan.spes.push_back(one);
+  }
+}
+
+} // namespace
+
+StagePlan plan_stages(Model model, unsigned spes) {
+  if (spes < 2)
+    throw InputError("this programming model splits the work of a ray between SPEs: it needs at least 2");
+  constexpr unsigned kPipelineSpes = 8;
+  StagePlan plan;
+  plan.pipelines = model == Model::offload ? 1 : std::max(1u, spes / kPipelineSpes);
+  for (unsigned pipeline = 0, first = 0; pipeline < plan.pipelines; ++pipeline) {
+    const unsigned members = (spes - first) / (plan.pipelines - pipeline);
+    plan_pipeline(model, first, members, pipeline, plan);
+    first += members;
+  }
+  return plan;
+}
+
+unsigned machine_spes(const RenderOptions& options) {
+  if (options.model != Model::offload) return options.spes;
+  const unsigned of_the_model = options.backend == "cell_emu" ? options.emulation.timing.spes : 0;
+  const unsigned spes = options.spes != 0 ? options.spes : of_the_model;
+  return spes != 0 ? spes + 1 : 0;
+}
+
+} // namespace celltrace

@@ -1,0 +1,173 @@
+#include "render/models/stage_team.hpp"
+
+#include "kernel/models/search_record.hpp"
+#include "kernel/ray_stack.hpp"
+#include "render/models/stage_programs.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <exception>
+#include <numeric>
+#include <string>
+
+namespace celltrace {
+
+using namespace kernel;
+using namespace kernel::models;
+
+namespace {
+
+SpeProgram program_of(StagePlan::Program program) {
+  switch (program) {
+  case StagePlan::Program::generator:
+    return stage_generator_program();
+  case StagePlan::Program::searcher:
+    return stage_searcher_program();
+  case StagePlan::Program::shader:
+    break;
+  }
+  return stage_shader_program();
+}
+
+} // namespace
+
+StageTeam::StageTeam(Machine& machine, const FrameBlock& frame, Model model)
+    : machine_(machine), frame_(frame), plan_(plan_stages(model, machine.spe_count())),
+      orders_(plan_.spes.size() * sizeof(StageBlock)), reports_(plan_.spes.size() * sizeof(StageReport)),
+      pipelines_(plan_.pipelines) {
+  for (unsigned spe = 0; spe < plan_.spes.size(); ++spe)
+    if ((plan_.spes[spe].orders.tasks & task::generate) != 0) pipelines_[plan_.spes[spe].pipeline].head = spe;
+}
+
+bool StageTeam::render_frame(const Progress& progress) {
+  std::exception_ptr failure;
+  const auto ask = [&](double fraction) {
+    try {
+      return !progress || progress(fraction);
+    } catch (...) {
+      failure = std::current_exception();
+      return false;
+    }
+  };
+  std::memset(reports_.data(), 0, reports_.size());
+  if (failed_) throw SpeError("an SPE has failed in a frame before");
+  const bool complete = ask(0) && render_frame_while(ask);
+  if (complete) ask(1);
+  if (failure) std::rethrow_exception(failure);
+  return complete;
+}
+
+template <class Ask> bool StageTeam::render_frame_while(Ask ask) {
+  failed_ = true; // unless it comes to its end
+  prepare();
+  start();
+  bool go_on = true;
+  const double packets = static_cast<double>(frame_.packet_columns) * frame_.packet_rows;
+  while (!finished()) {
+    receive();
+    if (!go_on) continue;
+    const std::uint64_t complete =
+        std::accumulate(pipelines_.begin(), pipelines_.end(), std::uint64_t{0},
+                        [](std::uint64_t sum, const Pipeline& p) { return sum + p.packets; });
+    // 1 is kept for the finished frame.
+    go_on = ask(std::min(static_cast<double>(complete) / packets, 0.999));
+    if (!go_on) stop();
+  }
+  leave();
+  failed_ = false;
+  return go_on;
+}
+
+void StageTeam::prepare() {
+  const std::size_t searches = std::max(frame_.light_count, 1u);
+  const std::size_t job_bytes = sizeof(JobRecord) + searches * sizeof(SearchRecord);
+  // Of its stack a context keeps fewer nodes in local store than the tracer does.
+  const std::uint32_t stack_nodes = frame_.ray_stack_nodes + kResidentNodes;
+  const std::size_t contexts = std::size_t{plan_.pipelines} * kMaxContexts;
+  jobs_ = AlignedBlock(contexts * job_bytes);
+  ray_stacks_ = AlignedBlock(contexts * stack_nodes * kRayNodeBytes);
+  for (unsigned spe = 0; spe < plan_.spes.size(); ++spe) {
+    const StagePlan::Spe& planned = plan_.spes[spe];
+    StageBlock orders = planned.orders;
+    const std::size_t first = std::size_t{planned.pipeline} * kMaxContexts;
+    orders.frame = to_ea(&frame_);
+    orders.jobs = to_ea(jobs_.data() + first * job_bytes);
+    orders.report = to_ea(reports_.data() + spe * sizeof(StageReport));
+    orders.ray_stack = to_ea(ray_stacks_.data() + first * stack_nodes * kRayNodeBytes);
+    orders.job_bytes = static_cast<std::uint32_t>(job_bytes);
+    orders.stack_nodes = stack_nodes;
+    new (orders_.data() + spe * sizeof(StageBlock)) StageBlock(orders);
+  }
+}
+
+void StageTeam::start() {
+  for (Pipeline& pipeline : pipelines_)
+    pipeline = {pipeline.head, 0, false};
+  for (unsigned spe = 0; spe < plan_.spes.size(); ++spe)
+    machine_.start(spe, program_of(plan_.spes[spe].program),
+                   to_ea(orders_.data() + spe * sizeof(StageBlock)));
+}
+
+bool StageTeam::receive() {
+  bool any = false;
+  for (Pipeline& pipeline : pipelines_) {
+    const auto word = machine_.read_out_mailbox(pipeline.head);
+    if (!word) continue;
+    any = true;
+    pipeline.packets = report_count(*word);
+    pipeline.finished |= report_kind(*word) == ReportKind::finished;
+  }
+  if (any) return true;
+  throw_if_stopped();
+  machine_.wait_for_mail(std::chrono::milliseconds(50));
+  return false;
+}
+
+bool StageTeam::finished() const {
+  return std::all_of(pipelines_.begin(), pipelines_.end(), [](const Pipeline& p) { return p.finished; });
+}
+
+void StageTeam::stop() {
+  for (const Pipeline& pipeline : pipelines_)
+    if (!pipeline.finished) machine_.write_signal(pipeline.head, Signal::two, bell::stop);
+}
+
+/// No job is under way anywhere: the programs may end.
+void StageTeam::leave() {
+  for (unsigned spe = 0; spe < plan_.spes.size(); ++spe) {
+    if ((plan_.spes[spe].orders.tasks & task::by_mailbox) != 0)
+      machine_.write_in_mailbox(spe, bell::quit);
+    else
+      machine_.write_signal(spe, Signal::two, bell::quit);
+  }
+  for (unsigned spe = 0; spe < plan_.spes.size(); ++spe)
+    machine_.wait(spe);
+}
+
+RenderStatistics::Stages StageTeam::counts() const {
+  RenderStatistics::Stages sum;
+  for (unsigned spe = 0; spe < plan_.spes.size(); ++spe) {
+    const auto& report = *reinterpret_cast<const StageReport*>(reports_.data() + spe * sizeof(StageReport));
+    const StageBlock& orders = plan_.spes[spe].orders;
+    if (plan_.spes[spe].program == StagePlan::Program::searcher) sum.jobs += report.jobs;
+    sum.searches += report.searches;
+    sum.primary_hits += report.primary_hits;
+    sum.primary_reprocessed += report.primary_returned;
+    sum.returns += report.returns;
+    sum.generators += (orders.tasks & task::generate) != 0 ? 1 : 0;
+    sum.shaders += (orders.tasks & task::shade) != 0 ? 1 : 0;
+    sum.searchers += (orders.tasks & (task::search | task::walk)) != 0 ? 1 : 0;
+    sum.testers += (orders.tasks & task::test) != 0 ? 1 : 0;
+  }
+  return sum;
+}
+
+void StageTeam::throw_if_stopped() {
+  for (unsigned spe = 0; spe < plan_.spes.size(); ++spe) {
+    if (machine_.running(spe)) continue;
+    machine_.wait(spe);
+    throw SpeError("SPE " + std::to_string(spe) + " left its program in the middle of its work");
+  }
+}
+
+} // namespace celltrace

@@ -1,0 +1,56 @@
+// The SPEs of a machine at work on frames under a programming model other than the shared one: what the PPE
+// says to them and hears from them.
+#pragma once
+
+#include "celltrace/render.hpp"
+#include "celltrace/spe/machine.hpp"
+#include "kernel/records.hpp"
+#include "render/models/stage_plan.hpp"
+#include "scene/aligned_block.hpp"
+
+#include <vector>
+
+namespace celltrace {
+
+/// Runs the programs of the stages for a frame at a time. Throws SpeError as soon as one of them fails.
+class StageTeam {
+public:
+  /// `frame` stays in place as long as the team lives. Throws InputError if the model does not go with the
+  /// machine's number of SPEs.
+  StageTeam(Machine& machine, const kernel::FrameBlock& frame, Model model);
+
+  /// Renders a frame; no program may be running. False if `progress` broke it off; what it throws passes
+  /// through, the SPEs being ready for the next frame all the same. After SpeError it throws at every call.
+  bool render_frame(const Progress& progress);
+
+  /// What the stages did in the last frame.
+  RenderStatistics::Stages counts() const;
+
+private:
+  template <class Ask> bool render_frame_while(Ask ask);
+  /// Memory that depends on the frame, and its addresses in the orders.
+  void prepare();
+  void start();
+  /// Reads all mail. Sleeps a little and returns false if there is none.
+  bool receive();
+  bool finished() const;
+  void stop();
+  void leave();
+  void throw_if_stopped();
+
+  Machine& machine_;
+  const kernel::FrameBlock& frame_;
+  StagePlan plan_;
+  AlignedBlock orders_, reports_, jobs_, ray_stacks_;
+
+  /// Of each pipeline: who reports to the PPE, and what it has reported.
+  struct Pipeline {
+    unsigned head = 0;
+    std::uint32_t packets = 0;
+    bool finished = false;
+  };
+  std::vector<Pipeline> pipelines_;
+  bool failed_ = false;
+};
+
+} // namespace celltrace

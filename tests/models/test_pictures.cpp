@@ -1,0 +1,108 @@
+// Every programming model renders the shared model's picture, bit for bit, on every backend and for any
+// number of SPEs, and breaks no rule of the Cell.
+#include "celltrace/pov.hpp"
+#include "models/models.hpp"
+#include "render/scenes.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+
+using namespace celltrace;
+using namespace celltrace::test;
+
+namespace {
+
+struct Machine {
+  const char* name;
+  const char* backend;
+  Schedule schedule;
+};
+constexpr Machine kMachines[] = {{"native", "native", Schedule::free},
+                                 {"cell_emu, free", "cell_emu", Schedule::free},
+                                 {"cell_emu, lockstep", "cell_emu", Schedule::lockstep}};
+
+RenderResult render_by(Model model, const Machine& machine, unsigned spes, const Scene& scene) {
+  RenderOptions options = model_options(model, machine.backend, spes, pixels(48), pixels(36));
+  options.emulation.schedule = machine.schedule;
+  std::string broken;
+  options.diagnostic = [&](const Diagnostic& diagnostic) { broken += diagnostic.text + "\n"; };
+  RenderResult result = render(scene, options);
+  CHECK(broken == "");
+  REQUIRE(result.complete);
+  REQUIRE(result.statistics.backend == machine.backend);
+  REQUIRE(result.statistics.model == model);
+  return result;
+}
+
+void check_models(const Scene& scene) {
+  const RenderResult expected = render_by(Model::shared, kMachines[0], 1, scene);
+  for (const NamedModel& model : kModels) {
+    for (const Machine& machine : kMachines) {
+      for (unsigned spes : {2u, 3u, 5u, 8u}) {
+        INFO(model.name << " on " << machine.name << " with " << spes << " SPEs");
+        const RenderResult result = render_by(model.model, machine, spes, scene);
+        CHECK(result.image == expected.image);
+        const RenderStatistics& s = result.statistics;
+        CHECK(s.primary_rays == expected.statistics.primary_rays);
+        CHECK(s.shadow_rays == expected.statistics.shadow_rays);
+        CHECK(s.reflection_rays == expected.statistics.reflection_rays);
+        CHECK(s.refraction_rays == expected.statistics.refraction_rays);
+        CHECK(s.dropped_rays == expected.statistics.dropped_rays);
+      }
+    }
+  }
+}
+
+} // namespace
+
+TEST_CASE("Scenes of all kinds look the same under every model") {
+  for (const NamedScene& scene : scenes()) {
+    INFO(scene.name);
+    check_models(scene.make());
+  }
+}
+
+TEST_CASE("Scene files look the same under every model") {
+  unsigned files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(CELLTRACE_SOURCE_DIR "/tests/scenes")) {
+    if (entry.path().extension() != ".pov") continue;
+    INFO(entry.path().filename().string());
+    check_models(parse_file(entry.path()));
+    ++files;
+  }
+  CHECK(files >= 4);
+}
+
+TEST_CASE("More lights than a job has bits look the same under every model") {
+  Scene scene = scene_named("glass and mirrors");
+  for (int i = 0; i < 45; ++i)
+    scene.lights.push_back({{8.0 - i * 0.4, 5 + 0.1 * i, -6}, {0.01, 0.02, 0.01 * (i % 3)}, i % 7 == 0});
+  check_models(scene);
+}
+
+TEST_CASE("Joined pipeline and offload find objects by the hierarchy as well") {
+  const Scene scene = scene_named("meshes");
+  for (const Model model : {Model::pipeline, Model::offload}) {
+    RenderOptions options = model_options(Model::shared, "cell_emu", 5, pixels(48), pixels(36));
+    options.accelerator = Accelerator::hierarchy;
+    const Image expected = render(scene, options).image;
+    options.model = model;
+    const RenderResult result = render(scene, options);
+    CHECK(result.image == expected);
+    CHECK(result.statistics.accelerator == Accelerator::hierarchy);
+    CHECK(result.statistics.hierarchy_nodes > 0);
+  }
+}
+
+TEST_CASE("Pipelines take the grid unless told otherwise") {
+  const Scene scene = scene_named("highlights");
+  const auto accelerator = [&](Model model) {
+    RenderOptions options = model_options(model, "native", 4, 16, 12);
+    options.accelerator = Accelerator::automatic;
+    return render(scene, options).statistics.accelerator;
+  };
+  CHECK(accelerator(Model::pipeline) == Accelerator::grid);
+  CHECK(accelerator(Model::pipeline_split) == Accelerator::grid);
+  CHECK(accelerator(Model::offload) == Accelerator::hierarchy);
+}
