@@ -1,4 +1,5 @@
-// How fast scenes are read: a mesh2 of numbers, and language that loops.
+// How fast scenes are read: a mesh2 of literals, the same behind an expression, objects, and language that
+// loops.
 #include "celltrace/pov.hpp"
 
 #include <benchmark/benchmark.h>
@@ -7,14 +8,15 @@
 
 namespace {
 
-/// A square grid of side * side vertices as a mesh2.
-std::string mesh_scene(int side) {
+/// A square grid of side * side vertices as a mesh2. A `sign` in front of its counts leaves the lists to the
+/// grammar.
+std::string mesh_scene(int side, const char* sign) {
   std::ostringstream text;
-  text << "#version 3.7;\nmesh2 {\nvertex_vectors { " << side * side;
+  text << "#version 3.7;\nmesh2 {\nvertex_vectors { " << sign << side * side;
   for (int y = 0; y < side; ++y)
     for (int x = 0; x < side; ++x)
       text << ",\n<" << 0.125 * x << ", " << 0.001 * (x * y % 97) << ", " << 0.125 * y << ">";
-  text << "}\nface_indices { " << 2 * (side - 1) * (side - 1);
+  text << "}\nface_indices { " << sign << 2 * (side - 1) * (side - 1);
   for (int y = 0; y + 1 < side; ++y)
     for (int x = 0; x + 1 < side; ++x) {
       const int corner = y * side + x;
@@ -22,6 +24,14 @@ std::string mesh_scene(int side) {
            << corner + side + 1 << ", " << corner + side << ">";
     }
   text << "}\n}\n";
+  return text.str();
+}
+
+std::string sphere_scene(int spheres) {
+  std::ostringstream text;
+  text << "#version 3.7;\n#declare T = texture { pigment { rgb 1 } }\n";
+  for (int i = 0; i < spheres; ++i)
+    text << "sphere { <" << 0.125 * i << ", " << 0.001 * (i % 97) << ", -1.5>, 0.25 texture { T } }\n";
   return text.str();
 }
 
@@ -38,9 +48,19 @@ void parse(benchmark::State& state, const std::string& text) {
 }
 
 void parse_mesh2(benchmark::State& state) {
-  parse(state, mesh_scene(static_cast<int>(state.range(0))));
+  parse(state, mesh_scene(static_cast<int>(state.range(0)), ""));
 }
-BENCHMARK(parse_mesh2)->Arg(16)->Arg(256)->Unit(benchmark::kMillisecond);
+BENCHMARK(parse_mesh2)->Arg(16)->Arg(256)->Arg(1024)->Unit(benchmark::kMillisecond);
+
+void parse_mesh2_by_grammar(benchmark::State& state) {
+  parse(state, mesh_scene(static_cast<int>(state.range(0)), "+"));
+}
+BENCHMARK(parse_mesh2_by_grammar)->Arg(256)->Unit(benchmark::kMillisecond);
+
+void parse_spheres(benchmark::State& state) {
+  parse(state, sphere_scene(static_cast<int>(state.range(0))));
+}
+BENCHMARK(parse_spheres)->Arg(10000)->Unit(benchmark::kMillisecond);
 
 void parse_loop(benchmark::State& state) {
   parse(state, loop_scene(static_cast<int>(state.range(0))));
