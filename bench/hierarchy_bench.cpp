@@ -1,5 +1,5 @@
-// What building the hierarchy of boxes takes in one thread, and what rays have of it: expected visits of
-// nodes and tests of objects of a ray that hits the root (the surface area heuristic).
+// What the scene image and the hierarchy of boxes take in one thread, and what rays have of the hierarchy:
+// expected visits of nodes and tests of objects of a ray that hits the root (the surface area heuristic).
 #include "compare/generated.hpp"
 #include "kernel/built_hierarchy.hpp"
 
@@ -95,11 +95,32 @@ void build(benchmark::State& state, Objects (*make)(std::size_t)) {
   state.counters["bytes/triangle"] = 128.0 * hierarchy.frame().hierarchy.node_count / count + 4;
 }
 
+/// Records in the order of the image, from frame to frame.
+void image(benchmark::State& state, compare::Model (*make)(std::size_t)) {
+  const compare::Model model = make(static_cast<std::size_t>(state.range(0)));
+  Mesh mesh{model.vertices, {}, {}};
+  for (const auto& [a, b, c] : model.triangles)
+    mesh.triangles.push_back({{a, b, c}});
+  Scene scene;
+  scene.add(Material{});
+  scene.add(Interior{});
+  scene.objects.push_back({std::make_shared<const Mesh>(std::move(mesh)), {}});
+  SceneImage result;
+  AlignedBlock work;
+  for (auto _ : state)
+    result.assign(scene, work, 1);
+  state.counters["triangles"] =
+      benchmark::Counter(static_cast<double>(state.range(0)) * static_cast<double>(state.iterations()),
+                         benchmark::Counter::kIsRate);
+}
+
 #define CELLTRACE_SIZES                                                                                      \
   ->Arg(70'000)->Arg(400'000)->Arg(1'000'000)->Arg(10'000'000)->Unit(benchmark::kMillisecond)
 BENCHMARK_CAPTURE(build, hills, hills) CELLTRACE_SIZES;
 BENCHMARK_CAPTURE(build, shuffled, shuffled_hills) CELLTRACE_SIZES;
 BENCHMARK_CAPTURE(build, random, random_triangles) CELLTRACE_SIZES;
 BENCHMARK_CAPTURE(build, crowd, crowd) CELLTRACE_SIZES;
+BENCHMARK_CAPTURE(image, hills, compare::hills) CELLTRACE_SIZES;
+BENCHMARK_CAPTURE(image, random, compare::random_triangles) CELLTRACE_SIZES;
 
 } // namespace
