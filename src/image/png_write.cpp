@@ -50,10 +50,10 @@ void write_chunk(std::FILE* file, const char (&type)[5], const std::uint8_t* dat
   put_big_endian(front, static_cast<std::uint32_t>(count));
   std::memcpy(front + 4, type, 4);
   std::uint32_t crc = libdeflate_crc32(0, front + 4, 4);
-  if (count > 0) crc = libdeflate_crc32(crc, data, count); // a null pointer would start anew
+  if (count > 0) crc = libdeflate_crc32(crc, data, count);
   put_big_endian(checksum, crc);
   write_bytes(file, front, sizeof front);
-  write_bytes(file, data, count);
+  if (count > 0) write_bytes(file, data, count);
   write_bytes(file, checksum, sizeof checksum);
 }
 
