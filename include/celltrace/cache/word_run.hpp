@@ -51,7 +51,11 @@ private:
     const uint32_t line = offset_ & ~kLineMask;
     // The copy comes last: what it reads would not outlive the prefetch.
     if (count_ > (kLineBytes - (offset_ - line)) / 4) cache_.prefetch(line + kLineBytes);
-    line_ = cache_.template copy<Line>(line, kind_);
+    using U4 = typename Spu::simd::U4;
+    const auto fetched = cache_.template get<Line>(line, kind_);
+    const uint32_t* const words = fetched->words;
+    for (uint32_t i = 0; i < kLineBytes / 4; i += 4)
+      U4::load(words + i).store(line_.words + i);
   }
 
   Cache& cache_;
