@@ -24,7 +24,7 @@ namespace celltrace {
 /// One thing that a cache was asked for.
 struct CacheRequest {
   cache_trace::Operation operation = cache_trace::Operation::read;
-  std::uint8_t kind = 0;   ///< of a read or a write
+  std::uint8_t kind = 0;   ///< of a read or a write; below kKinds
   std::uint32_t line = 0;  ///< its number; of synchronize the first
   std::uint32_t count = 1; ///< of a read or a write: how often, without pause; of synchronize: lines
 };
