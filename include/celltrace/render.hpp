@@ -89,11 +89,13 @@ struct RenderStatistics {
   /// Of models other than `shared`; 0 there.
   struct Stages {
     std::uint32_t generators = 0, shaders = 0, searchers = 0, testers = 0; ///< SPEs by what they do
-    std::uint64_t jobs = 0;                ///< of one or more searches, taken from main memory
-    std::uint64_t searches = 0;            ///< of 16 rays, each time that one was taken up
-    std::uint64_t primary_hits = 0;        ///< primary rays that hit something
-    std::uint64_t primary_reprocessed = 0; ///< split: of the primary rays, those that were ever sent back
-    std::uint64_t returns = 0;             ///< split: times that a ray was sent back
+    std::uint64_t jobs = 0;         ///< of one or more searches, taken from main memory
+    std::uint64_t searches = 0;     ///< of 16 rays, each time that one was taken up
+    std::uint64_t primary_hits = 0; ///< primary rays that hit something
+    /// Split: primary rays that were sent back for traversal at least once, and those of them that hit
+    /// something in the end.
+    std::uint64_t primary_reprocessed = 0, primary_hits_reprocessed = 0;
+    std::uint64_t returns = 0; ///< split: times that a ray was sent back
   };
 
   std::string backend;

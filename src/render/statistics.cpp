@@ -108,6 +108,7 @@ nlohmann::ordered_json stages_json(const RenderStatistics::Stages& stages) {
           {"searches", stages.searches},
           {"primary_hits", stages.primary_hits},
           {"primary_reprocessed", stages.primary_reprocessed},
+          {"primary_hits_reprocessed", stages.primary_hits_reprocessed},
           {"returns", stages.returns}};
 }
 

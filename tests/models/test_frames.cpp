@@ -101,7 +101,9 @@ TEST_CASE("The split pipeline counts the rays that it sends back") {
   CHECK(split.primary_hits > 0);
   CHECK(split.primary_hits < std::uint64_t{kWidth} * kHeight);
   CHECK(split.returns >= split.primary_reprocessed);
-  CHECK(split.primary_reprocessed > 0);
+  CHECK(split.primary_hits_reprocessed > 0);
+  CHECK(split.primary_hits_reprocessed <= split.primary_reprocessed);
+  CHECK(split.primary_hits_reprocessed <= split.primary_hits);
   CHECK(split.searches > joined.searches);
   CHECK(joined.returns == 0);
   CHECK(joined.primary_reprocessed == 0);

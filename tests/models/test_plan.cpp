@@ -11,7 +11,7 @@ using namespace celltrace::kernel::models;
 
 namespace {
 
-using Program = StagePlan::Program;
+constexpr auto kGrid = kernel::AcceleratorKind::grid;
 
 void check_context(const StagePlan& plan, const StagePlan::Spe& planned, unsigned context, Model model) {
   const StageBlock& orders = planned.orders;
@@ -36,9 +36,11 @@ void check_context(const StagePlan& plan, const StagePlan::Spe& planned, unsigne
 
 TEST_CASE("Every context of a plan has a shader, a generator and searchers of its pipeline") {
   for (const NamedModel& model : kModels) {
-    for (unsigned spes = 2; spes <= 40; ++spes) {
+    for (unsigned i = 2 * 2; i <= 2 * 40; ++i) {
+      const unsigned spes = i / 2;
+      const auto accelerator = static_cast<kernel::AcceleratorKind>(i % 2);
       INFO(model.name << " on " << spes);
-      const StagePlan plan = plan_stages(model.model, spes);
+      const StagePlan plan = plan_stages(model.model, accelerator, spes);
       REQUIRE(plan.spes.size() == spes);
       for (const StagePlan::Spe& planned : plan.spes) {
         CHECK(planned.orders.tasks != 0);
@@ -54,7 +56,7 @@ TEST_CASE("Every context of a plan has a shader, a generator and searchers of it
 
 TEST_CASE("A pipeline of a Cell has each stage on SPEs of its own") {
   for (const Model model : {Model::pipeline, Model::pipeline_split}) {
-    const StagePlan plan = plan_stages(model, 8);
+    const StagePlan plan = plan_stages(model, kGrid, 8);
     CHECK(plan.pipelines == 1);
     unsigned generators = 0, shaders = 0;
     for (const StagePlan::Spe& planned : plan.spes) {
@@ -69,12 +71,12 @@ TEST_CASE("A pipeline of a Cell has each stage on SPEs of its own") {
 }
 
 TEST_CASE("Twice the SPEs are two pipelines") {
-  CHECK(plan_stages(Model::pipeline, 15).pipelines == 1);
-  CHECK(plan_stages(Model::pipeline, 16).pipelines == 2);
-  CHECK(plan_stages(Model::pipeline_split, 256).pipelines == 32);
-  CHECK(plan_stages(Model::offload, 256).pipelines == 1);
+  CHECK(plan_stages(Model::pipeline, kGrid, 15).pipelines == 1);
+  CHECK(plan_stages(Model::pipeline, kGrid, 16).pipelines == 2);
+  CHECK(plan_stages(Model::pipeline_split, kGrid, 256).pipelines == 32);
+  CHECK(plan_stages(Model::offload, kGrid, 256).pipelines == 1);
 }
 
 TEST_CASE("A ray cannot be split on one SPE") {
-  CHECK_THROWS_AS(plan_stages(Model::pipeline, 1), InputError);
+  CHECK_THROWS_AS(plan_stages(Model::pipeline, kGrid, 1), InputError);
 }

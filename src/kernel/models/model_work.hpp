@@ -11,9 +11,9 @@ namespace model_work {
 // Each is {fixed, floating, memory, shuffle, branches}.
 
 /// A job taken, and one sent: doorbell, addresses, commands.
-constexpr ScalarWork kJob = {120, 0, 60, 50, 12};
+constexpr ScalarWork kJob = {150, 0, 90, 75, 16};
 /// A search of a job, fetched and put.
-constexpr ScalarWork kSearch = {60, 0, 30, 25, 6};
+constexpr ScalarWork kSearch = {80, 0, 60, 45, 8};
 /// A packet's rays or answers, copied within local store.
 constexpr ScalarWork kCopy = {12, 0, 56, 0, 1};
 /// A ray that is handed over with its voxel.

@@ -31,13 +31,17 @@ private:
   Traversal<Spu> traversal_;
 };
 
-/// The lanes of primary rays that hit something, and of those that were ever sent back.
+/// Primary rays that hit something, and that were ever sent back.
 inline void count_primary(const SearchRecord& search, StageReport& report) {
   if (search.primary == 0) return;
+  uint32_t hits = 0;
   for_each_lane(search.lanes, [&](uint32_t lane) {
-    report.primary_hits += static_cast<uint32_t>(search.hits.object.lane[lane] != kNoOffset);
+    hits |= static_cast<uint32_t>(search.hits.object.lane[lane] != kNoOffset) << lane;
   });
-  report.primary_returned += static_cast<uint32_t>(__builtin_popcount(search.returned));
+  const auto count = [](uint32_t lanes) { return static_cast<uint32_t>(__builtin_popcount(lanes)); };
+  report.primary_hits += count(hits);
+  report.primary_returned += count(search.returned);
+  report.primary_hits_returned += count(search.returned & hits);
 }
 
 /// How far a ray has to be looked at: to its closest hit yet, or to the light.

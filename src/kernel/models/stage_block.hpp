@@ -49,10 +49,11 @@ static_assert(sizeof(StageBlock) == 256, "fetched by one DMA command");
 struct alignas(128) StageReport {
   uint64_t jobs;     ///< of one or more searches: done by who searches, asked for by who generates or shades
   uint64_t searches; ///< done
-  uint64_t primary_hits;     ///< primary rays that hit something
-  uint64_t primary_returned; ///< primary rays that were sent back for traversal at least once
-  uint64_t returns;          ///< times that any ray was sent back
-  uint64_t unused[11];
+  uint64_t primary_hits; ///< primary rays that hit something
+  /// Primary rays that were sent back for traversal at least once; and those of them that hit something.
+  uint64_t primary_returned, primary_hits_returned;
+  uint64_t returns; ///< times that any ray was sent back
+  uint64_t unused[10];
 };
 static_assert(sizeof(StageReport) == 128, "crosses DMA");
 

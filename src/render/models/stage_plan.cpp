@@ -7,6 +7,7 @@
 
 namespace celltrace {
 
+using namespace kernel;
 using namespace kernel::models;
 
 namespace {
@@ -19,9 +20,9 @@ struct Crew {
   unsigned searchers = 0; ///< that walk and test in one
 };
 
-/// Found by measurement on eight SPEs (docs/programming-models.md): of what a crew can be, the one that is
-/// best for most scenes.
-Crew crew_of(Model model, unsigned spes) {
+/// Found by measurement on eight SPEs (docs/programming-models.md): of all ways to share them out, the one
+/// that is best for most scenes. The hierarchy's searches are short, and leave more to the shaders.
+Crew crew_of(Model model, AcceleratorKind accelerator, unsigned spes) {
   Crew crew;
   if (model == Model::offload) {
     crew.searchers = spes - 1;
@@ -30,20 +31,22 @@ Crew crew_of(Model model, unsigned spes) {
   const bool split = model == Model::pipeline_split;
   crew.generator = spes >= (split ? 4u : 3u);
   const unsigned others = spes - (crew.generator ? 1 : 0);
-  crew.shaders = std::max(1u, others * 2 / 7);
+  const unsigned shaders_of_seven = split ? 1 : accelerator == AcceleratorKind::grid ? 2 : 4;
+  crew.shaders = std::max(1u, others * shaders_of_seven / 7);
   const unsigned left = others - crew.shaders;
   if (!split) {
     crew.searchers = left;
   } else if (left >= 2) {
-    crew.testers = std::max(1u, left * 2 / 5);
+    crew.testers = std::max(1u, left / 3);
     crew.walkers = left - crew.testers;
   } // else one SPE walks and tests in turn
   return crew;
 }
 
 /// Puts the SPEs from `first` on to work as one pipeline.
-void plan_pipeline(Model model, unsigned first, unsigned spes, unsigned pipeline, StagePlan& plan) {
-  const Crew crew = crew_of(model, spes);
+void plan_pipeline(Model model, AcceleratorKind accelerator, unsigned first, unsigned spes, unsigned pipeline,
+                   StagePlan& plan) {
+  const Crew crew = crew_of(model, accelerator, spes);
   unsigned next = first;
   const unsigned generator = next;
   next += crew.generator ? 1 : 0;
@@ -94,7 +97,7 @@ void plan_pipeline(Model model, unsigned first, unsigned spes, unsigned pipeline
 
 } // namespace
 
-StagePlan plan_stages(Model model, unsigned spes) {
+StagePlan plan_stages(Model model, AcceleratorKind accelerator, unsigned spes) {
   if (spes < 2)
     throw InputError("this programming model splits the work of a ray between SPEs: it needs at least 2");
   constexpr unsigned kPipelineSpes = 8;
@@ -102,7 +105,7 @@ StagePlan plan_stages(Model model, unsigned spes) {
   plan.pipelines = model == Model::offload ? 1 : std::max(1u, spes / kPipelineSpes);
   for (unsigned pipeline = 0, first = 0; pipeline < plan.pipelines; ++pipeline) {
     const unsigned members = (spes - first) / (plan.pipelines - pipeline);
-    plan_pipeline(model, first, members, pipeline, plan);
+    plan_pipeline(model, accelerator, first, members, pipeline, plan);
     first += members;
   }
   return plan;

@@ -27,7 +27,7 @@ struct StagePlan {
 
 /// `model` is not Model::shared. Pipelines have 2 to 15 SPEs each: more SPEs make more of them, which take
 /// the picture's rows of packets in turn. Throws InputError for fewer than 2 SPEs.
-StagePlan plan_stages(Model model, unsigned spes);
+StagePlan plan_stages(Model model, kernel::AcceleratorKind accelerator, unsigned spes);
 
 /// SPEs to ask a machine for (0: as many as it likes): the offload model's PPE is one more than the options
 /// say.

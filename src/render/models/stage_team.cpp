@@ -32,7 +32,8 @@ SpeProgram program_of(StagePlan::Program program) {
 } // namespace
 
 StageTeam::StageTeam(Machine& machine, const FrameBlock& frame, Model model)
-    : machine_(machine), frame_(frame), plan_(plan_stages(model, machine.spe_count())),
+    : machine_(machine), frame_(frame),
+      plan_(plan_stages(model, static_cast<AcceleratorKind>(frame.accelerator), machine.spe_count())),
       orders_(plan_.spes.size() * sizeof(StageBlock)), reports_(plan_.spes.size() * sizeof(StageReport)),
       pipelines_(plan_.pipelines) {
   for (unsigned spe = 0; spe < plan_.spes.size(); ++spe)
@@ -153,6 +154,7 @@ RenderStatistics::Stages StageTeam::counts() const {
     sum.searches += report.searches;
     sum.primary_hits += report.primary_hits;
     sum.primary_reprocessed += report.primary_returned;
+    sum.primary_hits_reprocessed += report.primary_hits_returned;
     sum.returns += report.returns;
     sum.generators += (orders.tasks & task::generate) != 0 ? 1 : 0;
     sum.shaders += (orders.tasks & task::shade) != 0 ? 1 : 0;
