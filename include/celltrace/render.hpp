@@ -15,10 +15,14 @@
 
 namespace celltrace {
 
-/// How the rows of a frame are shared between the SPEs.
+/// How the work of a frame is shared between the SPEs; docs/balancing.md compares them.
 enum class Balance {
-  gde,  ///< strips that generalized dimension exchange adjusts while the frame is rendered
-  fixed ///< strips of equal height that stay as they are
+  gde, ///< strips that generalized dimension exchange adjusts while the frame is rendered, cut by what the
+       ///< frame before has cost
+  diffusion, ///< strips that stay during a frame; a step of first-order diffusion adjusts them between frames
+  fixed,     ///< strips of equal size that stay as they are
+  scatter,   ///< packets of 4x4 pixels, dealt one by one in turn
+  tiles,     ///< tiles of 32x32 pixels, dealt at random
 };
 
 /// How rays find the objects that they may meet.
@@ -80,8 +84,9 @@ struct RenderStatistics {
   };
   struct Spe {
     std::uint64_t rays = 0;
-    std::uint32_t rows = 0; ///< rows of 4x4 packets
+    std::uint32_t packets = 0; ///< of 4x4 primary rays
     std::uint32_t exchanges = 0;
+    std::uint32_t busy_ticks = 0;       ///< of the decrementer, in which it did not wait for work
     std::uint64_t local_store_peak = 0; ///< bytes of the arena, since the renderer was made
     SpuCycles cycles;                   ///< virtual time of the frame; all 0 on native
   };
@@ -124,10 +129,9 @@ struct RenderStatistics {
   std::uint64_t dma_commands = 0, dma_list_elements = 0, dma_bytes_read = 0, dma_bytes_written = 0;
   std::uint64_t signals = 0, mailbox_words = 0;
 
-  std::uint64_t balance_exchanges = 0; ///< that moved rows
-  std::uint64_t balance_rows_moved = 0;
-  /// Greatest over mean load of an SPE, minus 1. The load is its number of rays; in lockstep, the cycles that
-  /// it did not wait at a channel.
+  std::uint64_t balance_exchanges = 0;   ///< that moved units of work
+  std::uint64_t balance_units_moved = 0; ///< runs of packets
+  /// Greatest over mean load of an SPE, minus 1. The load is its number of rays; in lockstep, its busy ticks.
   double imbalance = 0;
 
   // Virtual time, on cell_emu: the greatest total_cycle of an SPE.
@@ -165,8 +169,8 @@ public:
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
 
-  /// Renders a frame; `progress` is of tracing alone. The strips that the frame before ended with start this
-  /// one. Throws InputError if the scene is not valid, SpeError if a kernel failed; exceptions of `progress`
+  /// Renders a frame; `progress` is of tracing alone. What the frame before has cost decides which SPE starts
+  /// where. Throws InputError if the scene is not valid, SpeError if a kernel failed; exceptions of `progress`
   /// pass through. After SpeError the renderer throws again at every call.
   RenderResult render(const Scene& scene, const Progress& progress = {});
   /// As above, with another camera and nothing else changed since the last render(): the accelerator is

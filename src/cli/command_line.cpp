@@ -94,8 +94,10 @@ void add_machine_options(CLI::App& command, RenderOptions& options, RenderTexts&
       ->capture_default_str();
   add_choice(command, "--accelerator", texts.accelerator, {{"auto", "grid", "hierarchy"}, {}},
              "How rays find objects: a uniform grid or a hierarchy of boxes, which auto is");
-  add_choice(command, "--balance", texts.balance, {{"gde", "static"}, {"diffusion", "scatter"}},
-             "Load balancing");
+  add_choice(
+      command, "--balance", texts.balance, {{"gde", "diffusion", "static", "scatter", "tiles"}, {}},
+      "How the SPEs share a frame: strips that exchange work, that diffusion adjusts between frames or "
+      "that stay; or packets or random tiles, dealt out");
   add_choice(command, "--model", texts.model, {{"shared", "pipeline", "pipeline-split", "offload"}, {}},
              "Programming model");
   add_emulation_options(command, texts.emulation);
@@ -141,6 +143,13 @@ Model model_of(const std::string& text) {
   return text == "offload" ? Model::offload : Model::shared;
 }
 
+Balance balance_of(const std::string& text) {
+  if (text == "diffusion") return Balance::diffusion;
+  if (text == "static") return Balance::fixed;
+  if (text == "scatter") return Balance::scatter;
+  return text == "tiles" ? Balance::tiles : Balance::gde;
+}
+
 Accelerator accelerator_of(const std::string& text) {
   if (text == "grid") return Accelerator::grid;
   return text == "hierarchy" ? Accelerator::hierarchy : Accelerator::automatic;
@@ -155,7 +164,7 @@ void finish(RenderRequest& request, const RenderTexts& texts) {
   request.cache_trace = texts.emulation.cache_trace;
   request.options.accelerator = accelerator_of(texts.accelerator);
   request.options.model = model_of(texts.model);
-  request.options.balance = texts.balance == "gde" ? Balance::gde : Balance::fixed;
+  request.options.balance = balance_of(texts.balance);
   for (const std::string& text : texts.declares)
     request.declares.push_back(parse_declare(text));
   if (request.output.empty()) request.output = request.scene.stem().string() + ".png";

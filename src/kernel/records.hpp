@@ -182,7 +182,6 @@ static_assert(sizeof(HierarchyRecord) == 16, "crosses DMA");
 enum class AcceleratorKind : uint32_t { grid = 0, hierarchy = 1 };
 
 enum class GammaEncoding : uint32_t { none = 0, assumed = 1 };
-enum class BalanceMode : uint32_t { fixed = 0, gde = 1 };
 
 constexpr uint32_t kMaxInteriorDepth = 8;
 constexpr uint32_t kPacketEdge = 4; ///< a packet is 4x4 rays
@@ -196,7 +195,9 @@ struct alignas(128) FrameBlock {
 
   ea_t image;            ///< base of the scene image
   ea_t surface;          ///< RGBA8, rows of `surface_pitch` bytes, both multiples of 16 bytes
-  ea_t strips;           ///< StripRecord per SPE: the rows it starts the frame with
+  ea_t units;            ///< UnitRecord per unit of work, whole lines of them
+  ea_t costs;            ///< uint32_t per unit of work, written by the SPEs: ticks that it took
+  ea_t strips;           ///< StripRecord per SPE: the units it starts the frame with
   ea_t reports;          ///< ReportRecord per SPE
   ea_t ray_stack;        ///< spill area: ray_stack_nodes nodes of kRayNodeBytes per SPE
   ea_t sort_buffer[2];   ///< work memory of PREPARE FRAME: `sort_capacity` pairs of 8 bytes each
@@ -222,8 +223,8 @@ struct alignas(128) FrameBlock {
 
   uint32_t cache_ways, cache_sets, cache_replacement, cache_enabled;
 
-  uint32_t balance;            ///< BalanceMode
-  uint32_t exchange_parameter; ///< lambda, 16-bit fixed point
+  uint32_t unit_count;
+  uint32_t exchange_parameter; ///< lambda, 16-bit fixed point; 0: strips stay as they are
   uint32_t camera_interior_count;
   uint32_t accelerator;                         ///< AcceleratorKind
   uint32_t camera_interiors[kMaxInteriorDepth]; ///< offsets, outermost first
@@ -233,7 +234,14 @@ struct alignas(128) FrameBlock {
 };
 static_assert(sizeof(FrameBlock) % 128 == 0 && sizeof(FrameBlock) <= 512, "fetched by one DMA command");
 
-/// Packet rows [begin, end) that an SPE starts a frame with.
+/// A unit of work: packets in a row of packets from `column` on, and on in the next row where it ends.
+struct alignas(8) UnitRecord {
+  uint16_t column, row;
+  uint32_t packets;
+};
+static_assert(sizeof(UnitRecord) == 8, "sixteen units a line");
+
+/// Units [begin, end) that an SPE starts a frame with.
 struct alignas(16) StripRecord {
   uint32_t begin, end;
   uint32_t unused[2];
@@ -247,12 +255,13 @@ struct alignas(128) ReportRecord {
   uint64_t accelerator_visits;                            ///< voxels by rays, or nodes by beams
   uint64_t cache_hits[4], cache_misses[4];                ///< by DataKind
   uint64_t dropped_rays;                                  ///< rays beyond the depth of the interior stack
-  uint32_t rows;                                          ///< packet rows rendered
-  uint32_t exchanges;                                     ///< balance exchanges that brought this SPE rows
-  uint32_t rows_received;
+  uint32_t packets;                                       ///< rendered
+  uint32_t exchanges;                                     ///< balance exchanges that brought this SPE units
+  uint32_t units_received;
+  uint32_t busy_ticks; ///< of the decrementer, in which the SPE did not wait for work
   uint32_t spilled_nodes;
   uint32_t list_entries; ///< PREPARE FRAME
-  uint32_t unused[9];
+  uint32_t unused[8];
 };
 static_assert(sizeof(ReportRecord) == 256, "two lines");
 
@@ -276,7 +285,7 @@ enum class ReportKind : uint32_t {
   prepared = 1, ///< count: 0
   needs_memory =
       2, ///< PREPARE FRAME ran out of room for pairs; the report's list_entries says how many there are
-  progress = 3, ///< count: packet rows rendered in this frame so far
+  progress = 3, ///< count: units completed in this frame so far
   idle = 4,     ///< as progress, and nothing left to do
   finished = 5, ///< left the frame; the report record is written
   synchronised = 6,

@@ -19,18 +19,21 @@ public:
     exchanges_ = 0;
     received_ = 0;
     // Every word wakes the PPE: about 64 of them will do.
-    units_per_report_ = until_report_ = frame.packet_rows / 64 + 1;
-    const uint32_t lambda =
-        static_cast<BalanceMode>(frame.balance) == BalanceMode::gde ? frame.exchange_parameter : 0;
+    units_per_report_ = until_report_ = frame.unit_count / 64 + 1;
     // Words that outlived their frame make room; those of a neighbour that is a frame ahead are kept.
     drain_mailbox();
-    node_.begin_frame(frame.epoch, units, lambda);
+    node_.begin_frame(frame.epoch, units, frame.exchange_parameter);
     spu_.write_event_mask(kDomain);
     act();
   }
   void end_frame() { node_.end_frame(); }
 
-  bool take_unit(uint32_t& unit) { return node_.take_unit(unit); }
+  /// With the last one a node is dry and asks for more, so that answers come while it is at work.
+  bool take_unit(uint32_t& unit) {
+    if (!node_.take_unit(unit)) return false;
+    if (node_.remaining().empty()) act();
+    return true;
+  }
   void complete_unit() {
     node_.complete_unit();
     if (--until_report_ != 0) return;
@@ -51,9 +54,9 @@ public:
   /// The PPE has declared the frame finished.
   bool over() const { return over_; }
 
-  /// Exchanges that brought this node rows in this frame, and how many.
+  /// Exchanges that brought this node units in this frame, and how many.
   uint32_t exchanges() const { return exchanges_; }
-  uint32_t rows_received() const { return received_; }
+  uint32_t units_received() const { return received_; }
 
 private:
   static constexpr uint32_t kDomain = event::signal_2 | event::in_mailbox;

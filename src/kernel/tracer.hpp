@@ -9,6 +9,7 @@
 #include "kernel/ray_tracer.hpp"
 #include "kernel/row_exchange.hpp"
 #include "kernel/surface.hpp"
+#include "kernel/work_units.hpp"
 
 namespace celltrace::kernel {
 
@@ -18,9 +19,11 @@ public:
   Tracer(Spu& spu, ea_t frame_block)
       : spu_(spu), frame_block_(frame_block), frame_(*spu.template allocate<FrameBlock>()),
         report_(*spu.template allocate<ReportRecord>()), strip_(*spu.template allocate<StripRecord>()),
-        exchange_(spu), free_(spu.mark()) {}
+        exchange_(spu), units_(spu), free_(spu.mark()) {}
 
   void run() {
+    // From here on it is a clock; what it does when it has run down, no event tells.
+    spu_.write_decrementer(~0u);
     spu_.write_event_mask(kDomain);
     for (;;) {
       const uint32_t events = spu_.read_event_status();
@@ -91,24 +94,23 @@ private:
     phase_->scene.cache().reset_counters();
     phase_->tracer.reset_counters();
     fetch(&strip_, frame_.strips + spu_.id() * sizeof(StripRecord), sizeof(StripRecord));
+    const uint32_t start = spu_.read_decrementer();
+    uint32_t idle = 0;
+    packets_ = 0;
+    units_.begin_frame(frame_);
     exchange_.begin_frame(frame_, UnitRange{strip_.begin, strip_.end - strip_.begin});
-
-    uint32_t rows = 0;
     while (!exchange_.over()) {
-      uint32_t row = 0;
-      if (!exchange_.take_unit(row)) {
-        exchange_.wait();
-        continue;
-      }
-      if (!render_row(row)) break;
-      phase_->pixels.flush();
-      ++rows;
-      exchange_.complete_unit();
+      uint32_t unit = 0;
+      if (exchange_.take_unit(unit))
+        render_unit(unit);
+      else
+        idle += wait();
     }
     phase_->pixels.flush();
+    units_.flush();
     exchange_.end_frame();
-    report(rows);
-    spu_.write_out_mailbox(make_report(ReportKind::finished, rows));
+    report(start - spu_.read_decrementer() - idle);
+    spu_.write_out_mailbox(make_report(ReportKind::finished, 0));
   }
 
   void start_phase() {
@@ -122,16 +124,34 @@ private:
     spu_.release(free_);
   }
 
-  /// False if the frame was declared over on the way.
-  bool render_row(uint32_t row) {
-    RayPacket rays;
-    for (uint32_t column = 0; column < frame_.packet_columns; ++column) {
+  /// Breaks off if the frame is declared over on the way.
+  void render_unit(uint32_t unit) {
+    const uint32_t start = spu_.read_decrementer();
+    const UnitRecord run = units_.at(unit);
+    uint32_t column = run.column;
+    uint32_t row = run.row;
+    for (uint32_t packet = 0; packet < run.packets; ++packet) {
+      RayPacket rays;
       make_primary_rays<typename Spu::simd>(frame_, column, row, rays);
       phase_->pixels.put(column, row, phase_->tracer.trace(rays, lanes_in_picture(frame_, column, row)));
       exchange_.poll();
-      if (exchange_.over()) return false;
+      if (exchange_.over()) return;
+      if (++column == frame_.packet_columns) {
+        column = 0;
+        ++row;
+      }
     }
-    return true;
+    packets_ += run.packets;
+    units_.write_cost(unit, start - spu_.read_decrementer());
+    exchange_.complete_unit();
+  }
+  /// For work, or for the end of the frame: what an idle SPE has done is in main memory. Returns the ticks.
+  uint32_t wait() {
+    phase_->pixels.flush();
+    units_.flush();
+    const uint32_t start = spu_.read_decrementer();
+    exchange_.wait();
+    return start - spu_.read_decrementer();
   }
 
   CacheConfig cache_config() const {
@@ -143,7 +163,7 @@ private:
     return config;
   }
 
-  void report(uint32_t rows) {
+  void report(uint32_t busy_ticks) {
     report_ = ReportRecord();
     const RayCounters& rays = phase_->tracer.counters();
     report_.primary_rays = rays.primary;
@@ -161,9 +181,10 @@ private:
       report_.cache_hits[kind] = counters.hits;
       report_.cache_misses[kind] = counters.misses;
     }
-    report_.rows = rows;
+    report_.packets = packets_;
     report_.exchanges = exchange_.exchanges();
-    report_.rows_received = exchange_.rows_received();
+    report_.units_received = exchange_.units_received();
+    report_.busy_ticks = busy_ticks;
     report_.spilled_nodes = phase_->tracer.spilled_nodes();
     send_report();
   }
@@ -179,6 +200,8 @@ private:
   ReportRecord& report_;
   StripRecord& strip_;
   RowExchange<Spu> exchange_;
+  WorkUnits<Spu> units_;
+  uint32_t packets_ = 0; ///< of the units completed in this frame
   Phase* phase_ = nullptr;
   uint8_t* free_; ///< local store from here on belongs to PREPARE FRAME or to the rendering phase
 };

@@ -84,9 +84,8 @@ void set_options(FrameBlock& frame, const RenderOptions& options, unsigned spes)
   frame.cache_replacement = static_cast<std::uint32_t>(options.cache.replacement);
   frame.cache_enabled = options.cache.enabled ? 1 : 0;
   frame.accelerator = static_cast<std::uint32_t>(accelerator_of(options));
-  frame.balance =
-      static_cast<std::uint32_t>(options.balance == Balance::gde ? BalanceMode::gde : BalanceMode::fixed);
-  frame.exchange_parameter = fixed_point_parameter(optimal_chain_parameter(spes));
+  frame.exchange_parameter =
+      options.balance == Balance::gde ? fixed_point_parameter(optimal_chain_parameter(spes)) : 0;
 }
 
 void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& options, const SceneImage& image) {

@@ -7,6 +7,7 @@
 #include "render/models/stage_team.hpp"
 #include "render/spe_team.hpp"
 #include "render/statistics.hpp"
+#include "render/work_plan.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -62,12 +63,10 @@ public:
     const unsigned spes = machine_->spe_count();
     set_options(frame_, options_, spes);
     surface_ = make_list_target(std::size_t{frame_.surface_pitch} * frame_.packet_rows * kPacketEdge);
-    strips_ = AlignedBlock(spes * sizeof(StripRecord));
     reports_ = AlignedBlock(spes * sizeof(ReportRecord));
     frame_.surface = to_ea(surface_.data());
-    frame_.strips = to_ea(strips_.data());
     frame_.reports = to_ea(reports_.data());
-    hand_out(even_strips(frame_.packet_rows, spes));
+    plan_ = std::make_unique<WorkPlan>(options_.balance, frame_.packet_columns, frame_.packet_rows, spes);
     team_ = std::make_unique<SpeTeam>(*machine_, frame_);
     builder_ = std::make_unique<AcceleratorBuilder>(*machine_, *team_, frame_, image_);
     if (options_.model != Model::shared)
@@ -144,12 +143,6 @@ private:
     return render_frame(camera, statistics, progress);
   }
 
-  void hand_out(const std::vector<UnitRange>& strips) {
-    for (std::size_t spe = 0; spe < strips.size(); ++spe)
-      strip(spe) = {strips[spe].first, strips[spe].first + strips[spe].count, {0, 0}};
-  }
-  StripRecord& strip(std::size_t spe) { return reinterpret_cast<StripRecord*>(strips_.data())[spe]; }
-
   /// What the frame block says of a scene whose image is there.
   void enter_scene() {
     set_scene(frame_, scene_, options_, image_);
@@ -170,10 +163,11 @@ private:
     const Stopwatch render;
     const SpeMeter meter(*machine_);
     RenderResult result;
-    StripTally tally(machine_->spe_count(), frame_.packet_rows);
+    plan_->place(frame_);
+    StripTally tally(machine_->spe_count(), plan_->units());
     result.complete = stages_ ? stages_->render_frame(progress) : team_->render_frame(tally, progress);
     statistics.render_seconds = render.seconds();
-    if (result.complete && !stages_) hand_out(tally.next_strips());
+    if (result.complete && !stages_) plan_->learn();
     if (machine_->backend() == "cell_emu") {
       statistics.schedule = options_.emulation.schedule;
       statistics.seed = options_.emulation.seed;
@@ -207,9 +201,10 @@ private:
   SceneImage image_;
   bool has_scene_ = false; ///< and an accelerator for it
   // Everything from here to the machine is read and written by the SPEs.
-  AlignedBlock surface_, strips_, reports_, ray_stack_;
+  AlignedBlock surface_, reports_, ray_stack_;
   AlignedBlock frame_block_;
   FrameBlock& frame_;
+  std::unique_ptr<WorkPlan> plan_;
   std::unique_ptr<Machine> machine_;
   std::unique_ptr<SpeTeam> team_;
   std::unique_ptr<AcceleratorBuilder> builder_;

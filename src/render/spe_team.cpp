@@ -82,12 +82,12 @@ bool SpeTeam::render_frame(StripTally& tally, const Progress& progress) {
   while (go_on && !tally.frame_complete()) {
     receive([&](Member& member, ReportKind kind, std::uint32_t count) {
       if (kind != ReportKind::progress && kind != ReportKind::idle) return;
-      member.rows = count;
+      member.units = count;
       // Only an idle SPE has no question under way.
       if (kind == ReportKind::idle) tally.report(member.spe, count);
     });
     // 1 is kept for the finished frame.
-    go_on = ask(std::min(static_cast<double>(rows_completed()) / frame_.packet_rows, 0.999));
+    go_on = ask(std::min(static_cast<double>(units_completed()) / tally.units(), 0.999));
   }
   end_frame(go_on);
   if (go_on) ask(1);
@@ -123,9 +123,9 @@ bool SpeTeam::all_answered() const {
   return std::all_of(members_.begin(), members_.end(), [](const Member& member) { return member.answered; });
 }
 
-std::uint32_t SpeTeam::rows_completed() const {
+std::uint32_t SpeTeam::units_completed() const {
   return std::accumulate(members_.begin(), members_.end(), std::uint32_t{0},
-                         [](std::uint32_t sum, const Member& member) { return sum + member.rows; });
+                         [](std::uint32_t sum, const Member& member) { return sum + member.units; });
 }
 
 void SpeTeam::end_frame(bool complete) {

@@ -37,8 +37,8 @@ public:
 private:
   struct Member {
     unsigned spe = 0;
-    std::uint32_t rows = 0; ///< completed, as last heard
-    bool answered = false;  ///< the report that a command ends with has come
+    std::uint32_t units = 0; ///< completed, as last heard
+    bool answered = false;   ///< the report that a command ends with has come
   };
 
   void signal_all(std::uint32_t commands);
@@ -47,7 +47,7 @@ private:
   /// As receive(), marking the members that report `kind`.
   bool receive_answers(kernel::ReportKind kind);
   bool all_answered() const;
-  std::uint32_t rows_completed() const;
+  std::uint32_t units_completed() const;
   void end_frame(bool complete);
   void throw_if_stopped();
 

@@ -19,10 +19,11 @@ void add_cache(RenderStatistics::Cache& cache, const ReportRecord& report, DataK
   cache.misses += report.cache_misses[static_cast<int>(kind)];
 }
 
-/// What an SPE had to do in a frame, whatever the others did.
+/// What an SPE had to do in a frame, whatever the others did. Host time also depends on the host.
 std::uint64_t load(const RenderStatistics::Spe& spe, Schedule schedule) {
-  // An SPE that has run dry waits until the frame is over: all SPEs' totals are the same.
-  return schedule == Schedule::lockstep ? spe.cycles.total_cycle - spe.cycles.channel_stall_cycle : spe.rays;
+  if (schedule != Schedule::lockstep) return spe.rays;
+  // Stages of a pipeline wait for rays, not for work of their own, and do not say how long.
+  return spe.busy_ticks != 0 ? spe.busy_ticks : spe.cycles.total_cycle - spe.cycles.channel_stall_cycle;
 }
 
 double imbalance_of(const RenderStatistics& s) {
@@ -183,7 +184,7 @@ void collect(RenderStatistics& s, const Machine& machine, const FrameBlock& fram
     add_cache(s.material_cache, r, DataKind::material);
     add_cache(s.light_cache, r, DataKind::light);
     s.balance_exchanges += r.exchanges;
-    s.balance_rows_moved += r.rows_received;
+    s.balance_units_moved += r.units_received;
 
     const SpeStatistics& spe = spes[index++];
     s.dma_commands += spe.dma_commands;
@@ -192,8 +193,8 @@ void collect(RenderStatistics& s, const Machine& machine, const FrameBlock& fram
     s.dma_bytes_written += spe.dma_bytes_written;
     s.signals += spe.signals_sent;
     s.mailbox_words += spe.mailbox_words_sent;
-    s.spes.push_back({r.primary_rays + r.shadow_rays + r.reflection_rays + r.refraction_rays, r.rows,
-                      r.exchanges, spe.local_store_peak, spe.cycles});
+    s.spes.push_back({r.primary_rays + r.shadow_rays + r.reflection_rays + r.refraction_rays, r.packets,
+                      r.exchanges, r.busy_ticks, spe.local_store_peak, spe.cycles});
   }
   s.render_cycles = elapsed_cycles(spes);
   s.imbalance = imbalance_of(s);
@@ -203,8 +204,9 @@ std::string to_json(const RenderStatistics& s) {
   nlohmann::ordered_json spes = nlohmann::ordered_json::array();
   for (const auto& spe : s.spes)
     spes.push_back({{"rays", spe.rays},
-                    {"rows", spe.rows},
+                    {"packets", spe.packets},
                     {"exchanges", spe.exchanges},
+                    {"busy_ticks", spe.busy_ticks},
                     {"local_store_peak", spe.local_store_peak},
                     {"cycles", cycles_json(spe.cycles)}});
   nlohmann::ordered_json diagnostics = nlohmann::ordered_json::array();
@@ -253,7 +255,7 @@ std::string to_json(const RenderStatistics& s) {
       {"communication", {{"signals", s.signals}, {"mailbox_words", s.mailbox_words}}},
       {"balance",
        {{"exchanges", s.balance_exchanges},
-        {"rows_moved", s.balance_rows_moved},
+        {"units_moved", s.balance_units_moved},
         {"imbalance", s.imbalance}}},
       {"stages", stages_json(s.stages)},
       {"spes", spes},

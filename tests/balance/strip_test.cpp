@@ -164,6 +164,7 @@ TEST_CASE("an exchange parameter of 0 moves nothing") {
   CHECK(world.strips()[0].count == 9);
   CHECK(world.strips()[1].count == 0);
   CHECK(world.strips()[2].count == 5);
+  CHECK(world.words() == 0);
 }
 
 TEST_CASE("a dry node asks on the edge of colour 0 first, then waits") {
@@ -178,6 +179,21 @@ TEST_CASE("a dry node asks on the edge of colour 0 first, then waits") {
   CHECK(strip_word::from_upper(ask.word) == (id == 1));
   CHECK(node.waiting());
   CHECK(node.next_action().kind == StripAction::Kind::none);
+}
+
+TEST_CASE("a node asks first on the edge that did not give the last time") {
+  StripNode node(1, 3);
+  node.begin_frame(0, {2, 0}, kHalf);
+  CHECK(node.next_action().neighbour == 0);
+  node.on_word(strip_word::make(0, 0, false, {0, 2}));
+  std::uint32_t unit = 0;
+  REQUIRE(node.take_unit(unit));
+  CHECK(unit == 1);
+  CHECK(node.next_action().neighbour == 2);
+  node.on_word(strip_word::make(0, 0, true, {2, 2}));
+  REQUIRE(node.take_unit(unit));
+  CHECK(unit == 2);
+  CHECK(node.next_action().neighbour == 0);
 }
 
 TEST_CASE("both sides of an exchange compute the same boundary") {

@@ -189,9 +189,20 @@ TEST_CASE("the programming model is one of four") {
   CHECK_THAT(render_error({"--model", "stream"}), Contains("'stream' is none of shared, pipeline"));
 }
 
+TEST_CASE("the ways to share a frame are five") {
+  const auto balance = [](const char* name) {
+    return render_request({"--balance", name, "a.pov"}).options.balance;
+  };
+  CHECK(balance("gde") == Balance::gde);
+  CHECK(balance("diffusion") == Balance::diffusion);
+  CHECK(balance("static") == Balance::fixed);
+  CHECK(balance("scatter") == Balance::scatter);
+  CHECK(balance("tiles") == Balance::tiles);
+  CHECK_THAT(render_error({"--balance", "fair"}), Contains("'fair' is none of gde, diffusion"));
+}
+
 TEST_CASE("what is to come is refused as such") {
-  CHECK_THAT(render_error({"--balance", "diffusion"}), Contains("'diffusion' is not supported yet"));
-  CHECK_THAT(render_error({"--balance", "scatter"}), Contains("'scatter' is not supported yet"));
+  CHECK_THAT(render_error({"--backend", "spu"}), Contains("'spu' is not supported yet"));
 }
 
 TEST_CASE("errors of the command line are one line that names the option") {

@@ -248,7 +248,7 @@ TEST_CASE("errors are one line and exit code 1") {
       {kScene, "--backend", "cell_emu", "--cache-trace", "no/t"},
       {"replay", "missing"},
       {"replay", "bad.pov"},
-      {kScene, "--balance", "scatter"}};
+      {kScene, "--balance", "fair"}};
   for (const auto& arguments : wrong) {
     const Outcome outcome = celltrace_run(folder, arguments);
     CAPTURE(arguments, outcome.err);

@@ -45,11 +45,11 @@ std::string fault_of(const Scene& scene, const RenderOptions& common, const Imag
     if (difference.differing_pixels != 0)
       broken += std::to_string(difference.differing_pixels) + " pixels differ\n";
     const auto& spes = result.statistics.spes;
-    const std::uint32_t rows = std::accumulate(
-        spes.begin(), spes.end(), 0u, [](std::uint32_t sum, const auto& spe) { return sum + spe.rows; });
-    const auto expected_rows = static_cast<std::uint32_t>((options.height + 3) / 4);
-    if (rows != expected_rows)
-      broken += std::to_string(rows) + " rows of packets rendered, not " + std::to_string(expected_rows) + "\n";
+    const std::uint32_t packets = std::accumulate(
+        spes.begin(), spes.end(), 0u, [](std::uint32_t sum, const auto& spe) { return sum + spe.packets; });
+    const auto in_picture = static_cast<std::uint32_t>((options.width + 3) / 4 * ((options.height + 3) / 4));
+    if (packets != in_picture)
+      broken += std::to_string(packets) + " packets rendered, not " + std::to_string(in_picture) + "\n";
   } catch (const Error& error) {
     broken += error.what();
   }

@@ -30,10 +30,12 @@ std::string statistics_document() {
 
 } // namespace
 
-TEST_CASE("The imbalance is of rays, and in lockstep of the cycles that are not waited") {
+TEST_CASE("The imbalance is of rays, and in lockstep of the time in which SPEs did not wait for work") {
   std::vector<kernel::ReportRecord> reports(2);
   reports[0].primary_rays = 300;
   reports[1].shadow_rays = 100;
+  reports[0].busy_ticks = 10;
+  reports[1].busy_ticks = 90;
   std::vector<SpeStatistics> spes(2);
   spes[0].cycles.total_cycle = 1000;
   spes[0].cycles.channel_stall_cycle = 900;

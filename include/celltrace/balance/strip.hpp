@@ -12,10 +12,10 @@
 // the other, those that lie next to it; otherwise nothing moves. The pairs order everything that matters, so
 // that no unit is lost or given twice however words are delayed.
 //
-// - A node asks when it is dry: one edge at a time, edges of colour 0 (those above an even node) first. It
-//   rings the neighbour's doorbell, sends its word and waits for the neighbour's. It stays dry until that
-//   word has come, so what it said remains true. A word from a neighbour that asked at the same moment is
-//   as good as an answer.
+// - A node asks when it is dry: one edge at a time, edges of colour 0 (those above an even node) first, later
+//   on the edge first that did not give the last time. It rings the neighbour's doorbell, sends its word and
+//   waits for the neighbour's. It stays dry until that word has come, so what it said remains true. A word
+//   from a neighbour that asked at the same moment is as good as an answer.
 // - A node that is asked answers at once; the exchange is complete on its side.
 // - A node that saw its neighbour go away empty-handed rings the neighbour's doorbell as soon as it has units
 //   to give. A doorbell invites a dry node that was refused to ask on that edge again; at any other time it
@@ -124,13 +124,15 @@ public:
   }
 
   /// Starts a frame with the units this node has at first. `epoch`: the frame's number modulo 4, the same for
-  /// all nodes. `lambda`: exchange parameter in parts of 2^-16, 0..65535; 0 never moves a unit. Words of this
+  /// all nodes. `lambda`: exchange parameter in parts of 2^-16, 0..65535; 0: nobody asks and no unit
+  /// moves, so that there may be any number of units. Words of this
   /// frame that came early are handled now.
   void begin_frame(uint32_t epoch, UnitRange units, uint32_t lambda) {
     epoch_ = epoch & (strip_word::kEpochs - 1);
     in_frame_ = 1;
     lambda_ = lambda;
     units_ = units;
+    first_side_ = (id_ & 1u) == 0 ? kUpper : kLower;
     taken_ = 0;
     completed_ = 0;
     reported_ = kNeverReported;
@@ -286,6 +288,7 @@ private:
       return 0;
     }
     const bool from_tail = &edge == &edges_[kLower];
+    first_side_ = from_tail ? kUpper : kLower;
     units_ = UnitRange{from_tail ? other.first + other.count - moved : other.first, moved};
     for (Edge& each : edges_)
       each.question = Question::open;
@@ -307,15 +310,17 @@ private:
     return {StripAction::Kind::ring, neighbour(side), 0, own_doorbell(), 0};
   }
   StripAction next_action_when_dry() {
-    const uint32_t colour_0 = (id_ & 1u) == 0 ? kUpper : kLower;
-    const uint32_t in_turn[2] = {colour_0, 1u - colour_0};
+    const uint32_t in_turn[2] = {first_side_, 1u - first_side_};
     for (uint32_t side : in_turn) {
-      if (edges_[side].exists && edges_[side].question == Question::open) return ask(side, own_doorbell());
+      if (may_ask(side, Question::open)) return ask(side, own_doorbell());
     }
     for (uint32_t side : in_turn) {
-      if (edges_[side].question == Question::invited) return ask(side, 0);
+      if (may_ask(side, Question::invited)) return ask(side, 0);
     }
     return taken_ == completed_ && reported_ != completed_ ? report() : nothing();
+  }
+  bool may_ask(uint32_t side, Question question) const {
+    return edges_[side].exists && edges_[side].question == question && lambda_ != 0;
   }
   StripAction ask(uint32_t side, uint32_t doorbell) {
     edges_[side].question = Question::waiting;
@@ -331,6 +336,7 @@ private:
   uint32_t epoch_; ///< of this frame or the last one; kNoFrame before the first
   uint32_t in_frame_;
   UnitRange units_;
+  uint32_t first_side_; ///< whose edge is the next to ask on
   uint32_t taken_;
   uint32_t completed_;
   uint32_t reported_;

@@ -37,6 +37,7 @@ public:
   /// `units`: of the whole frame.
   StripTally(std::uint32_t nodes, std::uint32_t units) : units_(units), reports_(nodes) {}
 
+  std::uint32_t units() const { return units_; }
   /// Node `node` is idle and has completed `completed` units in this frame. Its newest report counts.
   void report(std::uint32_t node, std::uint32_t completed) { reports_.at(node) = completed; }
   /// Units that are known to be completed.

@@ -1,0 +1,191 @@
+#include "render/work_plan.hpp"
+
+#include "celltrace/balance.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+#include <random>
+#include <utility>
+
+namespace celltrace {
+
+using namespace kernel;
+
+namespace {
+
+/// So that a unit is a small part of what an SPE has to do: it is what strips may be uneven by.
+constexpr std::uint32_t kUnitsPerStrip = 512;
+/// Where packets have been cheap, units are long, but no longer than this many times the mean: the next
+/// picture may be another.
+constexpr std::uint32_t kLongestUnit = 8;
+/// Nothing is known of the first frame: a strip is of pieces from all over the picture, which exchanges have
+/// less to do about.
+constexpr std::uint32_t kPiecesPerStrip = 16;
+/// Packets a side of the tiles that are dealt at random.
+constexpr std::uint32_t kTileEdge = 8;
+constexpr std::uint32_t kTileSeed = 1;
+
+constexpr std::uint32_t divided(std::uint32_t count, std::uint32_t by) {
+  return (count + by - 1) / by;
+}
+
+template <class Record> void store(const std::vector<Record>& records, AlignedBlock& block) {
+  // SPEs read whole lines.
+  block.reserve((records.size() * sizeof(Record) + 127) / 128 * 128);
+  std::memcpy(block.data(), records.data(), records.size() * sizeof(Record));
+}
+
+ea_t address(const AlignedBlock& block) {
+  return reinterpret_cast<std::uintptr_t>(block.data());
+}
+
+} // namespace
+
+WorkPlan::WorkPlan(Balance balance, std::uint32_t columns, std::uint32_t rows, std::uint32_t spes)
+    : balance_(balance), columns_(columns), rows_(rows), spes_(spes) {
+  // Cuts by cost have at most an eighth more, and one.
+  constexpr std::uint32_t kMostUnits = strip_word::kMaxUnits / 9 * 8 - 8;
+  wanted_units_ = std::min({kMostUnits, kUnitsPerStrip * spes, columns * rows});
+  if (balance == Balance::scatter)
+    deal_packets();
+  else if (balance == Balance::tiles)
+    deal_tiles();
+  else if (balance == Balance::gde)
+    deal_pieces();
+  else
+    cut_evenly();
+  write();
+}
+
+void WorkPlan::place(FrameBlock& frame) const {
+  frame.units = address(unit_block_);
+  frame.strips = address(strip_block_);
+  frame.costs = address(cost_block_);
+  frame.unit_count = units();
+}
+
+void WorkPlan::learn() {
+  if (balance_ == Balance::gde)
+    cut_by_cost();
+  else if (balance_ == Balance::diffusion)
+    strips_ = diffused_strips(costs(), strips_, diffusion_parameter(chain_graph(spes_)));
+  else
+    return;
+  write();
+}
+
+void WorkPlan::cut_by_cost() {
+  const std::uint32_t longest = kLongestUnit * divided(columns_ * rows_, wanted_units_);
+  std::vector<std::uint32_t> lengths;
+  std::vector<double> expected;
+  for (const CostRun& run : equal_cost_runs(measured_runs(), wanted_units_, longest)) {
+    lengths.push_back(run.items);
+    expected.push_back(run.cost);
+  }
+  cut(lengths);
+  strips_ = strips_of_equal_cost(expected, spes_);
+}
+
+void WorkPlan::cut(const std::vector<std::uint32_t>& lengths) {
+  units_.clear();
+  std::uint32_t first = 0;
+  for (const std::uint32_t length : lengths) {
+    add_unit(first % columns_, first / columns_, length);
+    first += length;
+  }
+}
+
+void WorkPlan::cut_evenly() {
+  std::vector<std::uint32_t> lengths;
+  for (const UnitRange& run : even_strips(columns_ * rows_, wanted_units_))
+    lengths.push_back(run.count);
+  cut(lengths);
+  strips_ = even_strips(units(), spes_);
+}
+
+void WorkPlan::deal_pieces() {
+  cut_evenly();
+  const std::vector<UnitRecord> in_order = std::exchange(units_, {});
+  const std::vector<UnitRange> pieces =
+      even_strips(static_cast<std::uint32_t>(in_order.size()), kPiecesPerStrip * spes_);
+  std::vector<std::uint32_t> counts;
+  for (std::uint32_t spe = 0; spe < spes_; ++spe) {
+    const std::uint32_t before = units();
+    for (std::uint32_t round = 0; round < kPiecesPerStrip; ++round) {
+      // To and fro, so that nobody always gets the lowest piece of a round.
+      const UnitRange piece = pieces[round * spes_ + (round % 2 == 0 ? spe : spes_ - 1 - spe)];
+      units_.insert(units_.end(), in_order.begin() + piece.first,
+                    in_order.begin() + piece.first + piece.count);
+    }
+    counts.push_back(units() - before);
+  }
+  strips_ = consecutive_strips(counts);
+}
+
+void WorkPlan::deal_packets() {
+  const std::uint32_t packets = columns_ * rows_;
+  std::vector<std::uint32_t> counts;
+  for (std::uint32_t spe = 0; spe < spes_; ++spe) {
+    for (std::uint32_t packet = spe; packet < packets; packet += spes_)
+      add_unit(packet % columns_, packet / columns_, 1);
+    counts.push_back(packets / spes_ + (spe < packets % spes_ ? 1 : 0));
+  }
+  strips_ = consecutive_strips(counts);
+}
+
+void WorkPlan::deal_tiles() {
+  const std::uint32_t across = divided(columns_, kTileEdge);
+  std::vector<std::uint32_t> tiles(across * divided(rows_, kTileEdge));
+  std::iota(tiles.begin(), tiles.end(), 0u);
+  std::mt19937 random(kTileSeed);
+  for (std::size_t left = tiles.size(); left > 1; --left)
+    std::swap(tiles[left - 1], tiles[random() % left]);
+  std::vector<std::uint32_t> counts;
+  for (std::uint32_t spe = 0; spe < spes_; ++spe) {
+    const std::uint32_t before = units();
+    for (std::size_t i = spe; i < tiles.size(); i += spes_) {
+      const std::uint32_t column = tiles[i] % across * kTileEdge;
+      const std::uint32_t row = tiles[i] / across * kTileEdge;
+      for (std::uint32_t y = row; y < std::min(row + kTileEdge, rows_); ++y)
+        add_unit(column, y, std::min(kTileEdge, columns_ - column));
+    }
+    counts.push_back(units() - before);
+  }
+  strips_ = consecutive_strips(counts);
+}
+
+void WorkPlan::add_unit(std::uint32_t column, std::uint32_t row, std::uint32_t packets) {
+  units_.push_back({static_cast<std::uint16_t>(column), static_cast<std::uint16_t>(row), packets});
+}
+
+void WorkPlan::write() {
+  std::vector<StripRecord> strips;
+  for (const UnitRange strip : strips_)
+    strips.push_back({strip.first, strip.first + strip.count, {0, 0}});
+  store(units_, unit_block_);
+  store(strips, strip_block_);
+  store(std::vector<std::uint32_t>(units_.size()), cost_block_);
+}
+
+std::vector<CostRun> WorkPlan::measured_runs() const {
+  const std::vector<double> cost = costs();
+  std::vector<std::size_t> order(cost.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto place = [&](std::size_t unit) { return units_[unit].row * columns_ + units_[unit].column; };
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
+  std::vector<CostRun> runs;
+  for (const std::size_t unit : order)
+    runs.push_back({units_[unit].packets, cost[unit]});
+  return runs;
+}
+
+std::vector<double> WorkPlan::costs() const {
+  const auto* ticks = reinterpret_cast<const std::uint32_t*>(cost_block_.data());
+  // What took less than a tick was not for nothing.
+  std::vector<double> costs(units_.size());
+  std::transform(ticks, ticks + costs.size(), costs.begin(), [](std::uint32_t each) { return each + 1.0; });
+  return costs;
+}
+
+} // namespace celltrace

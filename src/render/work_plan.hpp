@@ -1,0 +1,50 @@
+// How the packets of a frame are cut into units of work, and which SPE starts with which of them.
+#pragma once
+
+#include "celltrace/balance/partition.hpp"
+#include "celltrace/render.hpp"
+#include "kernel/records.hpp"
+#include "scene/aligned_block.hpp"
+
+#include <vector>
+
+namespace celltrace {
+
+/// The plan of the next frame, in the memory that the SPEs read it from. Learns from the frame before where
+/// the way of balancing does.
+class WorkPlan {
+public:
+  /// For a picture of `columns` x `rows` packets (at least one), and for so many SPEs.
+  WorkPlan(Balance balance, std::uint32_t columns, std::uint32_t rows, std::uint32_t spes);
+
+  /// Writes where everything lies. Call it before every frame: plans may move.
+  void place(kernel::FrameBlock& frame) const;
+  std::uint32_t units() const { return static_cast<std::uint32_t>(units_.size()); }
+  /// Plans the next frame by what the units of the one that is complete have cost.
+  void learn();
+
+private:
+  void cut_evenly();
+  void cut_by_cost();
+  /// Row by row, as long as `lengths` says.
+  void cut(const std::vector<std::uint32_t>& lengths);
+  void deal_pieces();
+  void deal_packets();
+  void deal_tiles();
+  void add_unit(std::uint32_t column, std::uint32_t row, std::uint32_t packets);
+  void write();
+  /// By unit, as the SPEs wrote them.
+  std::vector<double> costs() const;
+  /// In the order of the picture.
+  std::vector<CostRun> measured_runs() const;
+
+  Balance balance_;
+  std::uint32_t columns_, rows_, spes_;
+  std::uint32_t wanted_units_; ///< fewer than there may be at most, for cuts that do not come out even
+  std::vector<kernel::UnitRecord> units_;
+  std::vector<UnitRange> strips_;
+  // What the SPEs read and write.
+  AlignedBlock unit_block_, strip_block_, cost_block_;
+};
+
+} // namespace celltrace
