@@ -7,8 +7,8 @@
 #include "kernel/prepare_frame.hpp"
 #include "kernel/primary_rays.hpp"
 #include "kernel/ray_tracer.hpp"
-#include "kernel/row_exchange.hpp"
 #include "kernel/surface.hpp"
+#include "kernel/work_exchange.hpp"
 #include "kernel/work_units.hpp"
 
 namespace celltrace::kernel {
@@ -145,7 +145,8 @@ private:
     units_.write_cost(unit, start - spu_.read_decrementer());
     exchange_.complete_unit();
   }
-  /// For work, or for the end of the frame: what an idle SPE has done is in main memory. Returns the ticks.
+  /// Waits for work or for the end of the frame, and returns how many ticks. An SPE that says it is idle has
+  /// all that it did in main memory.
   uint32_t wait() {
     phase_->pixels.flush();
     units_.flush();
@@ -199,7 +200,7 @@ private:
   FrameBlock& frame_;
   ReportRecord& report_;
   StripRecord& strip_;
-  RowExchange<Spu> exchange_;
+  WorkExchange<Spu> exchange_;
   WorkUnits<Spu> units_;
   uint32_t packets_ = 0; ///< of the units completed in this frame
   Phase* phase_ = nullptr;

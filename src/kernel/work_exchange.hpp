@@ -8,9 +8,9 @@
 namespace celltrace::kernel {
 
 /// Connects a StripNode to the SPE's mailbox and signal 2, and to the PPE.
-template <class Spu> class RowExchange {
+template <class Spu> class WorkExchange {
 public:
-  explicit RowExchange(Spu& spu) : spu_(spu), node_(spu.id(), spu.count()) {}
+  explicit WorkExchange(Spu& spu) : spu_(spu), node_(spu.id(), spu.count()) {}
 
   /// Enters the frame's event domain: only signal 2 and the mailbox.
   void begin_frame(const FrameBlock& frame, UnitRange units) {
