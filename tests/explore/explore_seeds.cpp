@@ -69,7 +69,7 @@ bool explore(const std::string& path, const Settings& settings) {
                  fault.c_str());
     return false;
   }
-  std::printf("%s: %llu seeds from %llu on: the same picture, no diagnostic, no deadlock, every row once\n",
+  std::printf("%s: %llu seeds from %llu on: the same picture, no diagnostic, no deadlock, every packet once\n",
               path.c_str(), static_cast<unsigned long long>(settings.seeds),
               static_cast<unsigned long long>(settings.first));
   std::fflush(stdout);
