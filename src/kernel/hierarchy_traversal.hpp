@@ -169,6 +169,8 @@ private:
 
   void test_objects(const Branch& leaf, uint32_t group, Search& search) {
     SceneAccess<Spu>& scene = objects_.scene();
+    for (uint32_t i = 1; i < leaf.count; ++i)
+      scene.hint_listed(leaf.child + i * 4);
     for (uint32_t i = 0; i < leaf.count; ++i) {
       scene.spu().compute(scalar_work::kListedObject);
       const uint32_t self = scene.list_word(leaf.child + i * 4);
@@ -210,6 +212,8 @@ private:
         stack_[place] = stack_[place - 1];
       stack_[place] = {{node.child[i], node.count[i]}, lanes, enter[i]};
     } while (met != 0);
+    for (uint32_t place = first; place < waiting_; ++place)
+      objects_.scene().hint(stack_[place].branch.child);
     return false;
   }
 

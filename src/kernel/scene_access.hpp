@@ -25,6 +25,13 @@ public:
   const NodeRecord* node(uint32_t offset) { return read<NodeRecord>(offset, DataKind::list); }
   uint32_t list_word(uint32_t offset) { return *read<uint32_t>(offset, DataKind::list); }
 
+  /// As the cache's: of what lies at an offset, and of the object whose offset lies there.
+  void hint(uint32_t offset) { cache_.hint(offset); }
+  void hint_listed(uint32_t offset) {
+    if constexpr (Spu::direct_memory) cache_.hint(list_word(offset));
+    (void)offset;
+  }
+
   SoftwareCache<Spu, DataKind>& cache() { return cache_; }
   Spu& spu() { return cache_.spu(); }
 
