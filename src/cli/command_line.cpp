@@ -137,6 +137,18 @@ void add_replay_options(CLI::App& command, ReplayRequest& request, ReplayTexts& 
   command.add_flag("--json", request.json, "Print JSON");
 }
 
+void add_study_options(CLI::App& command, StudyRequest& request) {
+  command
+      .add_option("--out", request.out, "Folder for study.txt, study.json, and a CSV and an SVG file a table")
+      ->type_name("DIR");
+  command.add_flag("--quick", request.options.quick, "Smaller pictures: about a minute on two cores");
+  command.add_option("--only", request.options.only, "Make one table only")
+      ->check(CLI::IsMember(study::table_ids()));
+  command.add_option("--threads", request.options.threads, "Of the host; default: as many as it has")
+      ->check(CLI::Range(1, 256));
+  command.add_flag("--quiet", request.quiet, "No progress, and no tables on stdout");
+}
+
 Model model_of(const std::string& text) {
   if (text == "pipeline") return Model::pipeline;
   if (text == "pipeline-split") return Model::pipeline_split;
@@ -222,6 +234,11 @@ Request parse_command_line(std::vector<std::string> arguments) {
       *app.add_subcommand("replay", "Ask other software caches what a recorded one was asked");
   add_replay_options(replay_command, replay, replay_texts);
 
+  StudyRequest study;
+  CLI::App& study_command =
+      *app.add_subcommand("study", "Repeat the experiments of the thesis on the emulated Cell");
+  add_study_options(study_command, study);
+
   try {
     std::reverse(arguments.begin(), arguments.end()); // as CLI11 wants them
     app.parse(std::move(arguments));
@@ -233,6 +250,7 @@ Request parse_command_line(std::vector<std::string> arguments) {
     throw InputError(std::string(error.what()) + " (celltrace --help says more)");
   }
   if (compare_command.parsed()) return compare;
+  if (study_command.parsed()) return study;
   if (replay_command.parsed()) {
     finish(replay, replay_texts);
     return replay;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "celltrace/render.hpp"
+#include "study/study.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -44,12 +45,18 @@ struct ReplayRequest {
   bool json = false;
 };
 
+struct StudyRequest {
+  study::StudyOptions options;
+  std::filesystem::path out = "."; ///< folder of the files
+  bool quiet = false;
+};
+
 /// A text for stdout: --help or --version.
 struct InformationRequest {
   std::string text;
 };
 
-using Request = std::variant<RenderRequest, CompareRequest, ReplayRequest, InformationRequest>;
+using Request = std::variant<RenderRequest, CompareRequest, ReplayRequest, StudyRequest, InformationRequest>;
 
 /// Reads a command line (without the program's name) after translate_pov_switches(). Throws InputError for
 /// whatever does not fit, and for what the program is to have and has not yet.

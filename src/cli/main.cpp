@@ -4,6 +4,7 @@
 #include "cli/pov_switches.hpp"
 #include "cli/render_command.hpp"
 #include "cli/replay_command.hpp"
+#include "cli/study_command.hpp"
 
 #include <exception>
 #include <iostream>
@@ -41,6 +42,7 @@ int run(const std::vector<std::string>& arguments) {
   }
   if (const auto* compare = std::get_if<CompareRequest>(&request)) return run_compare(*compare);
   if (const auto* replay = std::get_if<ReplayRequest>(&request)) return run_replay(*replay);
+  if (const auto* study = std::get_if<StudyRequest>(&request)) return run_study_command(*study);
   const auto& render = std::get<RenderRequest>(request);
   if (!render.quiet) print_notes(translation);
   return run_render(render);

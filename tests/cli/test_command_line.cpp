@@ -161,6 +161,17 @@ TEST_CASE("cache settings") {
     CHECK_THROWS_WITH(parse_cache(impossible), Contains("'" + impossible + "' is no cache"));
 }
 
+TEST_CASE("study takes a folder, and what to make") {
+  const auto study = std::get<StudyRequest>(
+      parse_command_line({"study", "--quick", "--out", "a", "--only", "simd", "--threads", "3", "--quiet"}));
+  CHECK(study.options.quick);
+  CHECK(study.options.only == "simd");
+  CHECK(study.options.threads == 3);
+  CHECK(study.out == "a");
+  CHECK(study.quiet);
+  CHECK_THROWS_AS(parse_command_line({"study", "--only", "nothing"}), InputError);
+}
+
 TEST_CASE("replay takes a trace and shapes of caches") {
   const auto replay = std::get<ReplayRequest>(parse_command_line(
       {"replay", "a.trace", "--cache", "8x4:lru", "--cache", "off", "--no-prefetch", "--json"}));
@@ -181,7 +192,9 @@ TEST_CASE("replay takes a trace and shapes of caches") {
 }
 
 TEST_CASE("the programming model is one of four") {
-  const auto model = [](const char* name) { return render_request({"--model", name, "a.pov"}).options.model; };
+  const auto model = [](const char* name) {
+    return render_request({"--model", name, "a.pov"}).options.model;
+  };
   CHECK(model("shared") == Model::shared);
   CHECK(model("pipeline") == Model::pipeline);
   CHECK(model("pipeline-split") == Model::pipeline_split);

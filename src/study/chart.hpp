@@ -1,0 +1,13 @@
+// Charts as SVG.
+#pragma once
+
+#include "study/table.hpp"
+
+#include <string>
+
+namespace celltrace::study {
+
+/// A picture of 900x520 with title, axes, marks and a legend.
+std::string draw(const std::string& title, const Chart& chart);
+
+} // namespace celltrace::study

@@ -1,0 +1,81 @@
+#include "study/runs.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <thread>
+
+namespace celltrace::study {
+
+namespace {
+
+/// FNV-1a.
+std::uint64_t digest(const Image& image) {
+  std::uint64_t hash = 14695981039346656037u;
+  for (const std::uint8_t byte : image.rgba)
+    hash = (hash ^ byte) * 1099511628211u;
+  return hash;
+}
+
+Outcome run(const Job& job) {
+  RenderOptions options = job.options;
+  options.backend = "cell_emu";
+  options.emulation.schedule = Schedule::lockstep;
+  Renderer renderer(options);
+  Outcome outcome;
+  for (int frame = 0; frame < job.frames; ++frame) {
+    RenderResult result = frame == 0 ? renderer.render(*job.scene) : renderer.render(job.scene->camera);
+    if (frame + 1 == job.frames) outcome.picture = digest(result.image);
+    outcome.frames.push_back(std::move(result.statistics));
+  }
+  return outcome;
+}
+
+} // namespace
+
+std::vector<Outcome> Runner::emulate(const std::vector<Job>& jobs) const {
+  std::vector<Outcome> outcomes(jobs.size());
+  each(jobs.size(), [&](std::size_t i) { outcomes[i] = run(jobs[i]); });
+  return outcomes;
+}
+
+void Runner::each(std::size_t count, const std::function<void(std::size_t)>& work) const {
+  std::atomic<std::size_t> next{0};
+  std::mutex mutex;
+  std::exception_ptr failure;
+  const auto help = [&] {
+    for (std::size_t i = next++; i < count; i = next++) {
+      try {
+        work(i);
+        const std::lock_guard lock(mutex);
+        heard_();
+      } catch (...) {
+        const std::lock_guard lock(mutex);
+        if (!failure) failure = std::current_exception();
+        next = count;
+      }
+    }
+  };
+  const unsigned wanted = threads_ != 0 ? threads_ : std::max(1u, std::thread::hardware_concurrency());
+  std::vector<std::thread> others;
+  for (std::size_t i = 1; i < std::min<std::size_t>(wanted, count); ++i)
+    others.emplace_back(help);
+  help();
+  for (std::thread& other : others)
+    other.join();
+  if (failure) std::rethrow_exception(failure);
+}
+
+double native_seconds(const Scene& scene, RenderOptions options, int frames) {
+  options.backend = "native";
+  options.spes = 1;
+  Renderer renderer(options);
+  std::vector<double> seconds;
+  renderer.render(scene);
+  for (int frame = 0; frame < frames; ++frame)
+    seconds.push_back(renderer.render(scene.camera).statistics.render_seconds);
+  std::nth_element(seconds.begin(), seconds.begin() + frames / 2, seconds.end());
+  return seconds[static_cast<std::size_t>(frames / 2)];
+}
+
+} // namespace celltrace::study

@@ -1,0 +1,50 @@
+// Frames of a study: rendered on the emulated Cell in lockstep, several at a time, each always the same.
+#pragma once
+
+#include "celltrace/render.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace celltrace::study {
+
+struct Job {
+  const Scene* scene = nullptr;
+  RenderOptions options; ///< backend and schedule are set by run()
+  int frames = 1;
+};
+
+/// The statistics of a job's frames, and what its last picture holds, as a number.
+struct Outcome {
+  std::vector<RenderStatistics> frames;
+  std::uint64_t picture = 0;
+
+  const RenderStatistics& first() const { return frames.front(); }
+  const RenderStatistics& last() const { return frames.back(); }
+};
+
+/// Runs jobs on the threads of the host. Thread safety: one thread at a time.
+class Runner {
+public:
+  /// 0 threads: as many as the host has. `heard` is told of every job that is done, by any thread but one at
+  /// a time.
+  Runner(unsigned threads, std::function<void()> heard) : threads_(threads), heard_(std::move(heard)) {}
+
+  /// Emulated, in lockstep. In the order of the jobs. The first error of any is thrown.
+  std::vector<Outcome> emulate(const std::vector<Job>& jobs) const;
+  /// Calls `work(0)` to `work(count - 1)`.
+  void each(std::size_t count, const std::function<void(std::size_t)>& work) const;
+
+private:
+  unsigned threads_;
+  std::function<void()> heard_;
+};
+
+/// Seconds that a native machine of one SPE takes to trace a frame: the median of `frames`.
+double native_seconds(const Scene& scene, RenderOptions options, int frames);
+
+} // namespace celltrace::study
