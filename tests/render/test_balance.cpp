@@ -84,7 +84,7 @@ std::uint32_t uneven_cost(std::uint32_t packet) {
 }
 
 RenderOptions lockstep(unsigned spes, Balance balance) {
-  RenderOptions options = Backend{"cell_emu", "auto"}.options(pixels(512), pixels(384), spes);
+  RenderOptions options = Backend{"cell_emu", "auto"}.options(512, 384, spes);
   options.emulation.schedule = Schedule::lockstep;
   options.balance = balance;
   return options;
