@@ -41,4 +41,31 @@ void render(benchmark::State& state, const char* backend) {
 BENCHMARK_CAPTURE(render, native, "native")->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(render, cell_emu, "cell_emu")->Arg(1)->Arg(8)->UseRealTime()->Unit(benchmark::kMillisecond);
 
+/// Primary rays through the accelerator and nothing else: no lights, no mirrors.
+void traverse(benchmark::State& state, celltrace::Accelerator accelerator) {
+  celltrace::Scene scene = sphere_field(static_cast<int>(state.range(0)));
+  scene.lights.clear();
+  scene.max_trace_level = 1;
+  celltrace::RenderOptions options;
+  options.width = options.height = 512;
+  options.spes = 1;
+  options.accelerator = accelerator;
+  celltrace::Renderer renderer(options);
+  renderer.render(scene);
+  std::uint64_t rays = 0;
+  for (auto _ : state)
+    rays += renderer.render(scene.camera).statistics.total_rays();
+  state.counters["rays"] = benchmark::Counter(static_cast<double>(rays), benchmark::Counter::kIsRate);
+}
+BENCHMARK_CAPTURE(traverse, hierarchy, celltrace::Accelerator::hierarchy)
+    ->Arg(10)
+    ->Arg(100)
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(traverse, grid, celltrace::Accelerator::grid)
+    ->Arg(10)
+    ->Arg(100)
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+
 } // namespace
