@@ -33,7 +33,7 @@ public:
   }
 
 private:
-  /// Beams whose rays differ by more go as single rays: found by measurement on meshes with mirrors.
+  /// Beams whose rays differ by more go in parts: found by measurement on scenes with mirrors and glass.
   static constexpr float kMaxDirectionSpread = 1.0f;
   /// What the rounding of hits' distances amounts to.
   static constexpr float kBeyond = 1.00001f;
@@ -151,6 +151,7 @@ private:
         if (next.enter > limit || (next.lanes & search.lanes) == 0) continue;
         branch = next.branch;
         if (branch.count == 0 && is_single(next.lanes) && group == lanes && !is_single(lanes)) {
+          // That ray alone, until nothing is left above what the others are to visit.
           group = next.lanes;
           limit = limit_of(search, group);
           if (next.enter > limit) {
