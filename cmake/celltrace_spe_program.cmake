@@ -35,10 +35,12 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   endif()
   celltrace_spu_type(native_sse2 HEADER backends/native/spu.hpp KEY native.sse2
     TYPE "celltrace::native::Spu<xsimd::sse2>")
-  celltrace_spu_type(native_avx2 HEADER backends/native/spu.hpp KEY native.avx2
-    TYPE "celltrace::native::Spu<xsimd::avx2>" FLAGS -mavx2)
-  celltrace_spu_type(native_avx512 HEADER backends/native/spu.hpp KEY native.avx512
-    TYPE "celltrace::native::Spu<xsimd::avx512dq>" FLAGS ${avx512_flags})
+  if(CELLTRACE_WIDE_SIMD)
+    celltrace_spu_type(native_avx2 HEADER backends/native/spu.hpp KEY native.avx2
+      TYPE "celltrace::native::Spu<xsimd::avx2>" FLAGS -mavx2)
+    celltrace_spu_type(native_avx512 HEADER backends/native/spu.hpp KEY native.avx512
+      TYPE "celltrace::native::Spu<xsimd::avx512dq>" FLAGS ${avx512_flags})
+  endif()
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
   celltrace_spu_type(native_neon64 HEADER backends/native/spu.hpp KEY native.neon64
     TYPE "celltrace::native::Spu<xsimd::neon64>")

@@ -28,12 +28,14 @@ std::string names() {
 const std::vector<SpuType>& spu_types() {
   static const std::vector<SpuType> types = {
 #if defined(__x86_64__)
+#ifdef CELLTRACE_WIDE_SIMD
     spu_type<xsimd::avx512dq>([] {
       return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512cd") &&
              __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
              __builtin_cpu_supports("avx512vl");
     }),
     spu_type<xsimd::avx2>([]() -> bool { return __builtin_cpu_supports("avx2"); }),
+#endif
     spu_type<xsimd::sse2>([] { return true; }),
 #elif defined(__aarch64__)
     spu_type<xsimd::neon64>([] { return true; }),
