@@ -22,6 +22,7 @@
 #endif
 #endif
 #ifdef CELLTRACE_HAS_ASAN
+#include <sanitizer/asan_interface.h>
 #include <sanitizer/common_interface_defs.h>
 #endif
 #ifdef CELLTRACE_HAS_TSAN
@@ -59,6 +60,8 @@ public:
 #ifdef CELLTRACE_HAS_ASAN
     stack_bottom_ = static_cast<const char*>(stack.sp) - stack.size;
     stack_bytes_ = stack.size;
+    // A stack that lay here before ended by a jump, with its last frames still marked.
+    __asan_unpoison_memory_region(stack_bottom_, stack_bytes_);
 #endif
     fiber_ = context::fiber(std::allocator_arg, context::preallocated(stack.sp, stack.size, stack), allocator,
                             [this](context::fiber&& caller) { return run(std::move(caller)); });
