@@ -54,20 +54,6 @@ struct alignas(kLineBytes) Line {
   std::uint32_t words[kLineBytes / 4];
 };
 
-CacheConfig shape(std::uint32_t ways, std::uint32_t sets,
-                  CacheReplacement replacement = CacheReplacement::fifo) {
-  CacheConfig config;
-  config.ways = ways;
-  config.sets = sets;
-  config.replacement = replacement;
-  return config;
-}
-CacheConfig disabled() {
-  CacheConfig config;
-  config.enabled = false;
-  return config;
-}
-
 /// A cache, and main memory of `lines` lines before it.
 template <class Cache> struct Bench {
   Bench(const CacheConfig& config, std::uint32_t lines)
@@ -203,30 +189,30 @@ void optimal_replacement(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(trace.requests.size()));
 }
 
-BENCHMARK_CAPTURE(hit, 1x512, shape(1, 512));
-BENCHMARK_CAPTURE(hit, 2x256, shape(2, 256));
-BENCHMARK_CAPTURE(hit, 4x128, shape(4, 128));
-BENCHMARK_CAPTURE(hit, 4x128_lru, shape(4, 128, CacheReplacement::lru));
-BENCHMARK_CAPTURE(hit, 8x64, shape(8, 64));
-BENCHMARK_CAPTURE(hit, 512x1, shape(512, 1));
-BENCHMARK_CAPTURE(hit_checked, 4x128, shape(4, 128));
-BENCHMARK_CAPTURE(miss, 1x512, shape(1, 512));
-BENCHMARK_CAPTURE(miss, 2x256, shape(2, 256));
-BENCHMARK_CAPTURE(miss, 4x128, shape(4, 128));
-BENCHMARK_CAPTURE(miss, 4x128_random, shape(4, 128, CacheReplacement::random));
-BENCHMARK_CAPTURE(miss, 4x128_lru, shape(4, 128, CacheReplacement::lru));
-BENCHMARK_CAPTURE(miss, 8x64, shape(8, 64));
-BENCHMARK_CAPTURE(miss, 512x1, shape(512, 1));
-BENCHMARK_CAPTURE(miss, 512x1_random, shape(512, 1, CacheReplacement::random));
-BENCHMARK_CAPTURE(miss, off, disabled());
+BENCHMARK_CAPTURE(hit, 1x512, CacheConfig::of(1, 512));
+BENCHMARK_CAPTURE(hit, 2x256, CacheConfig::of(2, 256));
+BENCHMARK_CAPTURE(hit, 4x128, CacheConfig::of(4, 128));
+BENCHMARK_CAPTURE(hit, 4x128_lru, CacheConfig::of(4, 128, CacheReplacement::lru));
+BENCHMARK_CAPTURE(hit, 8x64, CacheConfig::of(8, 64));
+BENCHMARK_CAPTURE(hit, 512x1, CacheConfig::of(512, 1));
+BENCHMARK_CAPTURE(hit_checked, 4x128, CacheConfig::of(4, 128));
+BENCHMARK_CAPTURE(miss, 1x512, CacheConfig::of(1, 512));
+BENCHMARK_CAPTURE(miss, 2x256, CacheConfig::of(2, 256));
+BENCHMARK_CAPTURE(miss, 4x128, CacheConfig::of(4, 128));
+BENCHMARK_CAPTURE(miss, 4x128_random, CacheConfig::of(4, 128, CacheReplacement::random));
+BENCHMARK_CAPTURE(miss, 4x128_lru, CacheConfig::of(4, 128, CacheReplacement::lru));
+BENCHMARK_CAPTURE(miss, 8x64, CacheConfig::of(8, 64));
+BENCHMARK_CAPTURE(miss, 512x1, CacheConfig::of(512, 1));
+BENCHMARK_CAPTURE(miss, 512x1_random, CacheConfig::of(512, 1, CacheReplacement::random));
+BENCHMARK_CAPTURE(miss, off, CacheConfig::off());
 BENCHMARK(prefetch_of_what_is_there);
 BENCHMARK(batch_of_16_misses);
 BENCHMARK(write_hit);
 BENCHMARK(write_miss);
 BENCHMARK(run_of_words);
 BENCHMARK(words_one_by_one);
-BENCHMARK_CAPTURE(replaying, 4x128, shape(4, 128));
-BENCHMARK_CAPTURE(replaying, 512x1_lru, shape(512, 1, CacheReplacement::lru));
+BENCHMARK_CAPTURE(replaying, 4x128, CacheConfig::of(4, 128));
+BENCHMARK_CAPTURE(replaying, 512x1_lru, CacheConfig::of(512, 1, CacheReplacement::lru));
 BENCHMARK(optimal_replacement);
 
 } // namespace

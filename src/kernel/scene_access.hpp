@@ -6,6 +6,13 @@
 
 namespace celltrace::kernel {
 
+/// The software cache that a frame asks for.
+inline CacheConfig cache_config(const FrameBlock& frame) {
+  if (frame.cache_enabled == 0) return CacheConfig::off();
+  return CacheConfig::of(frame.cache_ways, frame.cache_sets,
+                         static_cast<CacheReplacement>(frame.cache_replacement));
+}
+
 /// Typed reads of the scene image by offset. A returned pointer is valid until the next read of any kind.
 template <class Spu> class SceneAccess {
 public:

@@ -117,7 +117,8 @@ private:
     struct alignas(128) Storage {
       uint8_t bytes[sizeof(Phase)];
     };
-    phase_ = new (static_cast<void*>(spu_.template allocate<Storage>())) Phase(spu_, frame_, cache_config());
+    phase_ =
+        new (static_cast<void*>(spu_.template allocate<Storage>())) Phase(spu_, frame_, cache_config(frame_));
   }
   void drop_phase() {
     phase_ = nullptr;
@@ -153,15 +154,6 @@ private:
     const uint32_t start = spu_.read_decrementer();
     exchange_.wait();
     return start - spu_.read_decrementer();
-  }
-
-  CacheConfig cache_config() const {
-    CacheConfig config;
-    config.ways = frame_.cache_ways;
-    config.sets = frame_.cache_sets;
-    config.replacement = static_cast<CacheReplacement>(frame_.cache_replacement);
-    config.enabled = frame_.cache_enabled != 0;
-    return config;
   }
 
   void report(uint32_t busy_ticks) {

@@ -19,16 +19,6 @@ double waiting(const RenderStatistics& statistics) {
   return 100 * stalled / total;
 }
 
-RenderStatistics::Cache all_reads(const RenderStatistics& statistics) {
-  RenderStatistics::Cache all;
-  for (const RenderStatistics::Cache* cache : {&statistics.list_cache, &statistics.object_cache,
-                                               &statistics.material_cache, &statistics.light_cache}) {
-    all.hits += cache->hits;
-    all.misses += cache->misses;
-  }
-  return all;
-}
-
 } // namespace
 
 Table study_cache_cost(Laboratory& laboratory) {
@@ -77,9 +67,7 @@ Table study_cache_cost(Laboratory& laboratory) {
                           static_cast<double>(reads.hits + reads.misses), 100 * reads.hit_rate(),
                           waiting(off), waiting(on)});
     values.push_back({name + " on a " + word,
-                      "-W " + std::to_string(jobs[i].options.width) + " -H " +
-                          std::to_string(jobs[i].options.height) +
-                          " --backend cell_emu --schedule lockstep --spes 8" + " --accelerator " + word +
+                      command_options(jobs[i].options) + " --accelerator " + word +
                           " --cache off | --cache 4x128, second frame",
                       ratio});
     if (accelerator == Accelerator::hierarchy) table.chart.labels.push_back(name);
@@ -148,10 +136,7 @@ Table study_cache_shapes(Laboratory& laboratory) {
     for (const std::uint32_t lines : sizes)
       results[i].optimal.push_back(rate([&](const CacheTrace& trace) { return optimal(trace, lines); }));
     for (const Shape& shape : shapes) {
-      CacheConfig config;
-      config.ways = shape.ways;
-      config.sets = shape.lines / shape.ways;
-      config.replacement = shape.policy;
+      const CacheConfig config = CacheConfig::of(shape.ways, shape.lines / shape.ways, shape.policy);
       results[i].rates.push_back(rate([&](const CacheTrace& trace) { return replay(trace, config); }));
     }
   });

@@ -4,6 +4,7 @@
 #include "spe/run_on.hpp"
 
 #include "celltrace/cache.hpp"
+#include "celltrace/emulator.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -120,6 +121,20 @@ constexpr auto kSumRun = [](auto& spu, ea_t argument) {
 };
 
 } // namespace
+
+TEST_CASE("a program that leaves a run before its end has to settle the cache") {
+  Memory memory(8);
+  const auto end_within_a_run = [&](bool settles) {
+    return emulate(lockstep(1), [&](EmulatedSpu& spu) {
+      SoftwareCache cache(spu, CacheConfig::of(4, 4), memory.base());
+      WordRun run(cache, 0, 100, 0u);
+      run.next();
+      if (settles) cache.settle();
+    });
+  };
+  CHECK(end_within_a_run(false).broke(Rule::in_flight_at_exit));
+  CHECK(end_within_a_run(true).ok());
+}
 
 TEST_CASE("batches and runs work on every SPU") {
   const std::string key = GENERATE(from_range(spu_keys()));

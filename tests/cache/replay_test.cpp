@@ -17,20 +17,6 @@ using namespace celltrace::test;
 
 namespace {
 
-CacheConfig shape(std::uint32_t ways, std::uint32_t sets, CacheReplacement replacement) {
-  CacheConfig config;
-  config.ways = ways;
-  config.sets = sets;
-  config.replacement = replacement;
-  return config;
-}
-
-CacheConfig disabled() {
-  CacheConfig config;
-  config.enabled = false;
-  return config;
-}
-
 /// All that can be done with a cache that can be written to, at random.
 template <class Cache> void use(Cache& cache, const Memory& memory, unsigned seed) {
   std::mt19937 random(seed);
@@ -80,11 +66,12 @@ std::size_t fewest_misses(const std::vector<std::uint32_t>& lines, std::size_t a
 } // namespace
 
 TEST_CASE("a replay through the recorded shape hits and misses as the cache did, kind by kind") {
-  const auto config =
-      GENERATE(shape(1, 16, CacheReplacement::random), shape(2, 8, CacheReplacement::random),
-               shape(4, 8, CacheReplacement::random), shape(4, 8, CacheReplacement::fifo),
-               shape(4, 8, CacheReplacement::lru), shape(8, 4, CacheReplacement::random),
-               shape(16, 1, CacheReplacement::fifo), shape(32, 1, CacheReplacement::lru), disabled());
+  const auto config = GENERATE(
+      CacheConfig::of(1, 16, CacheReplacement::random), CacheConfig::of(2, 8, CacheReplacement::random),
+      CacheConfig::of(4, 8, CacheReplacement::random), CacheConfig::of(4, 8, CacheReplacement::fifo),
+      CacheConfig::of(4, 8, CacheReplacement::lru), CacheConfig::of(8, 4, CacheReplacement::random),
+      CacheConfig::of(16, 1, CacheReplacement::fifo), CacheConfig::of(32, 1, CacheReplacement::lru),
+      CacheConfig::off());
   const Memory memory(120);
   const auto spu = std::make_unique<FakeSpu>();
   WriteBackCache<FakeSpu> cache(*spu, config, memory.base());
@@ -109,12 +96,13 @@ TEST_CASE("a replay through the recorded shape hits and misses as the cache did,
 TEST_CASE("a replay through another shape is what a cache of that shape does with the same requests") {
   const Memory memory(120);
   const auto recorded = std::make_unique<FakeSpu>();
-  WriteBackCache<FakeSpu> cache(*recorded, shape(4, 8, CacheReplacement::random), memory.base());
+  WriteBackCache<FakeSpu> cache(*recorded, CacheConfig::of(4, 8, CacheReplacement::random), memory.base());
   use(cache, memory, 99);
   const CacheTrace trace = trace_of(*recorded);
   for (const CacheConfig& other :
-       {shape(1, 4, CacheReplacement::fifo), shape(2, 16, CacheReplacement::lru),
-        shape(8, 8, CacheReplacement::lru), shape(64, 1, CacheReplacement::random), disabled()}) {
+       {CacheConfig::of(1, 4, CacheReplacement::fifo), CacheConfig::of(2, 16, CacheReplacement::lru),
+        CacheConfig::of(8, 8, CacheReplacement::lru), CacheConfig::of(64, 1, CacheReplacement::random),
+        CacheConfig::off()}) {
     const auto spu = std::make_unique<FakeSpu>();
     WriteBackCache<FakeSpu> again(*spu, other, memory.base());
     use(again, memory, 99);
@@ -153,7 +141,7 @@ TEST_CASE("no cache fetches less than the optimal one of its size, nor than that
        {CacheReplacement::random, CacheReplacement::fifo, CacheReplacement::lru})
     for (const auto& [ways, sets] :
          {std::pair{1u, 32u}, {2u, 16u}, {4u, 8u}, {8u, 4u}, {32u, 1u}, {4u, 1u}}) {
-      const ReplayResult result = replay(trace, shape(ways, sets, replacement));
+      const ReplayResult result = replay(trace, CacheConfig::of(ways, sets, replacement));
       const ReplayResult in_sets = optimal(trace, ways, sets);
       const ReplayResult best = optimal(trace, ways * sets);
       CHECK(best.fetched <= in_sets.fetched);
@@ -188,7 +176,7 @@ TEST_CASE("a replay counts what is written back") {
   using cache_trace::Operation;
   CacheTrace trace;
   trace.requests = {{Operation::write, 3, 0, 2}, {Operation::write, 3, 1, 1}, {Operation::read, 2, 2, 5}};
-  const ReplayResult result = replay(trace, shape(1, 1, CacheReplacement::fifo));
+  const ReplayResult result = replay(trace, CacheConfig::of(1, 1, CacheReplacement::fifo));
   CHECK(result.written_back == 2);
   CHECK(result.fetched == 3);
   CHECK(result.kinds[3].hits == 1);
@@ -211,7 +199,7 @@ TEST_CASE("the last line of the 32-bit offsets can be replayed and forgotten") {
 
 TEST_CASE("shapes that are no cache are refused by a replay") {
   const CacheTrace trace = reads_of_lines({1});
-  CHECK_THROWS_AS(replay(trace, shape(3, 1, CacheReplacement::lru)), InputError);
+  CHECK_THROWS_AS(replay(trace, CacheConfig::of(3, 1, CacheReplacement::lru)), InputError);
   CHECK_THROWS_AS(optimal(trace, 0), InputError);
   CHECK_THROWS_AS(optimal(trace, 4, 3), InputError);
   CHECK_THROWS_AS(optimal(trace, 4, 0), InputError);

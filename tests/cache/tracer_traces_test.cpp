@@ -15,20 +15,6 @@ using namespace celltrace::test;
 
 namespace {
 
-CacheConfig shape(std::uint32_t ways, std::uint32_t sets, CacheReplacement replacement) {
-  CacheConfig config;
-  config.ways = ways;
-  config.sets = sets;
-  config.replacement = replacement;
-  return config;
-}
-
-CacheConfig disabled() {
-  CacheConfig config;
-  config.enabled = false;
-  return config;
-}
-
 /// The scenes of tests/scenes, and one that is far larger than a cache.
 std::vector<std::pair<std::string, Scene>> all_scenes() {
   std::vector<std::pair<std::string, Scene>> all;
@@ -95,10 +81,11 @@ void check_as_recorded(const std::vector<CacheTrace>& traces, const RenderStatis
 
 TEST_CASE("a replay has exactly the hits and misses of the frame that was recorded") {
   const auto accelerator = GENERATE(Accelerator::grid, Accelerator::hierarchy);
-  const auto cache =
-      GENERATE(shape(4, 128, CacheReplacement::fifo), shape(4, 4, CacheReplacement::random),
-               shape(2, 8, CacheReplacement::lru), shape(1, 16, CacheReplacement::random),
-               shape(8, 4, CacheReplacement::fifo), shape(32, 1, CacheReplacement::lru), disabled());
+  const auto cache = GENERATE(
+      CacheConfig::of(4, 128, CacheReplacement::fifo), CacheConfig::of(4, 4, CacheReplacement::random),
+      CacheConfig::of(2, 8, CacheReplacement::lru), CacheConfig::of(1, 16, CacheReplacement::random),
+      CacheConfig::of(8, 4, CacheReplacement::fifo), CacheConfig::of(32, 1, CacheReplacement::lru),
+      CacheConfig::off());
   for (const auto& [name, scene] : all_scenes()) {
     CAPTURE(name, accelerator, cache.ways, cache.sets, cache.replacement, cache.enabled);
     const Recording recording = record(scene, cache, accelerator);
@@ -132,7 +119,8 @@ TEST_CASE("the last of several frames can be replayed, from warm caches and afte
   Scene scene = scene_named("meshes");
   RenderStatistics statistics;
   {
-    Renderer renderer(options_for(shape(2, 8, CacheReplacement::random), Accelerator::hierarchy, writer));
+    Renderer renderer(
+        options_for(CacheConfig::of(2, 8, CacheReplacement::random), Accelerator::hierarchy, writer));
     renderer.render(scene);
     scene.camera = camera_at({0.5, 0.7, -4.5}, {0.1, 0.2, 0});
     renderer.render(scene.camera);
@@ -155,7 +143,7 @@ TEST_CASE("the default cache is within two points of a full one that replaces wh
     const CacheConfig usual;
     REQUIRE(usual.ways == 4);
     const std::vector<CacheTrace> traces = read(record(scene, usual, accelerator).file);
-    const CacheConfig full = shape(usual.lines(), 1, CacheReplacement::lru);
+    const CacheConfig full = CacheConfig::of(usual.lines(), 1, CacheReplacement::lru);
     const double rate = sum(traces, [&](const CacheTrace& trace) { return replay(trace, usual); }).hit_rate();
     const double full_rate =
         sum(traces, [&](const CacheTrace& trace) { return replay(trace, full); }).hit_rate();

@@ -18,21 +18,6 @@ namespace {
 
 using Cache = WriteBackCache<FakeSpu>;
 
-CacheConfig shape(std::uint32_t ways, std::uint32_t sets,
-                  CacheReplacement replacement = CacheReplacement::fifo) {
-  CacheConfig config;
-  config.ways = ways;
-  config.sets = sets;
-  config.replacement = replacement;
-  return config;
-}
-
-CacheConfig disabled() {
-  CacheConfig config;
-  config.enabled = false;
-  return config;
-}
-
 std::uint8_t& byte(Memory& memory, std::uint32_t offset) {
   return reinterpret_cast<std::uint8_t*>(&memory.word(offset & ~3u))[offset & 3];
 }
@@ -47,8 +32,10 @@ struct Whole {
 } // namespace
 
 TEST_CASE("what was written is read, and is in main memory after a flush") {
-  const auto config = GENERATE(shape(1, 1), shape(1, 8), shape(4, 4), shape(4, 4, CacheReplacement::random),
-                               shape(8, 2, CacheReplacement::lru), shape(16, 1), disabled());
+  const auto config =
+      GENERATE(CacheConfig::of(1, 1), CacheConfig::of(1, 8), CacheConfig::of(4, 4),
+               CacheConfig::of(4, 4, CacheReplacement::random), CacheConfig::of(8, 2, CacheReplacement::lru),
+               CacheConfig::of(16, 1), CacheConfig::off());
   CAPTURE(config.ways, config.sets, config.replacement, config.enabled);
   Memory memory(40), expected(40);
   const auto spu = std::make_unique<FakeSpu>();
@@ -97,7 +84,7 @@ TEST_CASE("what was written is read, and is in main memory after a flush") {
 
 TEST_CASE("bytes that others write to a line are kept") {
   Memory memory(2);
-  const auto config = GENERATE(shape(4, 4), disabled());
+  const auto config = GENERATE(CacheConfig::of(4, 4), CacheConfig::off());
   const auto spu = std::make_unique<FakeSpu>();
   Cache cache(*spu, config, memory.base());
   cache.write(8, std::uint8_t{1}, 0u);
@@ -122,7 +109,7 @@ TEST_CASE("bytes that others write to a line are kept") {
 TEST_CASE("a line that was written as a whole leaves by a put") {
   Memory memory(1);
   const auto spu = std::make_unique<FakeSpu>();
-  Cache cache(*spu, shape(1, 1), memory.base());
+  Cache cache(*spu, CacheConfig::of(1, 1), memory.base());
   spu->after_getllar = [] { FAIL("an atomic update"); };
   Whole whole{};
   for (std::uint32_t i = 0; i < kLineBytes / 4; ++i)
@@ -151,7 +138,8 @@ TEST_CASE("a synchronize keeps what was written and fetches the rest again") {
 }
 
 TEST_CASE("a cache that can be written to takes the local store that it says") {
-  const auto config = GENERATE(shape(1, 16), shape(4, 8), shape(64, 1), disabled());
+  const auto config =
+      GENERATE(CacheConfig::of(1, 16), CacheConfig::of(4, 8), CacheConfig::of(64, 1), CacheConfig::off());
   const auto spu = std::make_unique<FakeSpu>();
   Cache cache(*spu, config, 0);
   CHECK(spu->local_store_used() == Cache::local_store_bytes(config));
@@ -161,7 +149,7 @@ namespace {
 
 struct Shared {
   Memory memory{16};
-  CacheConfig config = shape(2, 2);
+  CacheConfig config = CacheConfig::of(2, 2);
 };
 
 /// Every SPE writes the bytes whose offset is its id modulo the number of SPEs.

@@ -28,6 +28,21 @@ struct CacheConfig {
 
   static constexpr uint32_t kMaxLines = kLocalStoreBytes / kLineBytes;
 
+  static constexpr CacheConfig of(uint32_t ways, uint32_t sets,
+                                  CacheReplacement replacement = CacheReplacement::fifo) {
+    CacheConfig config;
+    config.ways = ways;
+    config.sets = sets;
+    config.replacement = replacement;
+    return config;
+  }
+  /// Nothing is kept.
+  static constexpr CacheConfig off() {
+    CacheConfig config;
+    config.enabled = false;
+    return config;
+  }
+
   constexpr uint32_t lines() const { return ways * sets; }
   constexpr bool valid() const {
     return power_of_two(ways) && power_of_two(sets) && ways <= kMaxLines && sets <= kMaxLines &&

@@ -90,6 +90,10 @@ public:
       hint(offset);
     }
   }
+  /// Waits for what prefetch() has under way. Programs may not end before it has come.
+  void settle() {
+    if constexpr (!Spu::direct_memory) wait_for_fetches();
+  }
   /// Where memory is direct, tells the processor what will be read; elsewhere nothing: for what is there as a
   /// rule, so that looking for it with prefetch() costs more than its misses.
   void hint(uint32_t offset) {
@@ -387,8 +391,11 @@ private:
     return exponent;
   }
 
-  void clear() {
+  void wait_for_fetches() {
     spu_.wait_all(((config_.tag_count < 32 ? 1u << config_.tag_count : 0u) - 1) << config_.first_tag);
+  }
+  void clear() {
+    wait_for_fetches();
     for (uint32_t i = 0; i < tag_words_; ++i) {
       if (way_exists(i)) tags_[i] = 0;
     }

@@ -8,7 +8,8 @@
 namespace celltrace {
 
 /// Reads words one after the other, with one reference to the cache a line. Between the words the cache may
-/// be used for other things: the line being read is a copy. The line after it is prefetched.
+/// be used for other things: the line being read is a copy. The line after it is prefetched, so that whoever
+/// leaves a run before its end has to settle() the cache before the program ends.
 ///
 ///   for (WordRun list(cache, offset, count, Kind::list); !list.empty();)
 ///     visit(list.next());

@@ -12,8 +12,9 @@ template <class Spu> class Searcher {
 public:
   Searcher(Spu& spu, ea_t block)
       : spu_(spu), stage_(spu, block), orders_(stage_.orders()), doorbell_(spu, orders_),
-        scene_(spu, stage_.cache_config(), stage_.frame().image), slots_(spu.template allocate<Slot>(2)),
-        whole_(scene_, stage_.frame()), walk_(scene_, stage_.frame()), tests_(scene_, stage_.frame()) {}
+        scene_(spu, cache_config(stage_.frame()), stage_.frame().image),
+        slots_(spu.template allocate<Slot>(2)), whole_(scene_, stage_.frame()), walk_(scene_, stage_.frame()),
+        tests_(scene_, stage_.frame()) {}
 
   void run() {
     Item item;

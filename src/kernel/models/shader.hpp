@@ -18,7 +18,7 @@ public:
   Shader(Spu& spu, ea_t block)
       : spu_(spu), stage_(spu, block), orders_(stage_.orders()), frame_(stage_.frame()),
         doorbell_(spu, orders_), sender_(spu, orders_), feed_(spu, orders_, frame_, sender_),
-        scene_(spu, stage_.cache_config(), frame_.image), writer_(spu, sender_), pixels_(spu, frame_),
+        scene_(spu, cache_config(stage_.frame()), frame_.image), writer_(spu, sender_), pixels_(spu, frame_),
         light_(spu), scratch_(*spu.template allocate<RayNode>()),
         arrivals_(spu.template allocate<Arrival>(2)) {
     place_contexts();

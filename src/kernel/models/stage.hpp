@@ -23,15 +23,6 @@ public:
   StageReport& stage_report() { return stage_report_; }
   bool has(uint32_t tasks) const { return (orders_.tasks & tasks) != 0; }
 
-  CacheConfig cache_config() const {
-    CacheConfig config;
-    config.ways = frame_.cache_ways;
-    config.sets = frame_.cache_sets;
-    config.replacement = static_cast<CacheReplacement>(frame_.cache_replacement);
-    config.enabled = frame_.cache_enabled != 0;
-    return config;
-  }
-
   /// Counts what the cache did.
   void add_cache(SceneAccess<Spu>& scene) {
     for (uint32_t kind = 0; kind < kDataKinds; ++kind) {
