@@ -3,10 +3,10 @@
 #include "celltrace/error.hpp"
 #include "kernel/build_hierarchy_plan.hpp"
 #include "render/frame_setup.hpp"
+#include "render/held_progress.hpp"
 
 #include <algorithm>
 #include <atomic>
-#include <exception>
 #include <thread>
 
 namespace celltrace {
@@ -28,20 +28,11 @@ public:
 
   /// Asks whether to go on; if not, the SPEs take no more treelets.
   void look(bool treelets) {
-    if (stopped_ || !go_on_) return;
-    try {
-      stopped_ = !go_on_(treelets ? fraction() : 0);
-    } catch (...) {
-      failure_ = std::current_exception();
-      stopped_ = true;
-    }
-    if (stopped_ && treelets)
-      std::atomic_ref(team_.next).store(hierarchy::kStopped, std::memory_order_relaxed);
+    if (stopped() || go_on_.ask(treelets ? fraction() : 0)) return;
+    if (treelets) std::atomic_ref(team_.next).store(hierarchy::kStopped, std::memory_order_relaxed);
   }
-  bool stopped() const { return stopped_; }
-  void rethrow() const {
-    if (failure_) std::rethrow_exception(failure_);
-  }
+  bool stopped() const { return go_on_.stopped(); }
+  void rethrow() const { go_on_.rethrow(); }
 
 private:
   double fraction() const {
@@ -50,9 +41,7 @@ private:
   }
 
   hierarchy::TeamRecord& team_;
-  const Progress& go_on_;
-  bool stopped_ = false;
-  std::exception_ptr failure_;
+  HeldProgress go_on_;
 };
 
 } // namespace

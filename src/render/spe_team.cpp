@@ -1,5 +1,6 @@
 #include "render/spe_team.hpp"
 
+#include "render/held_progress.hpp"
 #include "render/tracer_program.hpp"
 
 #include <algorithm>
@@ -66,19 +67,11 @@ void SpeTeam::synchronize() {
 }
 
 bool SpeTeam::render_frame(StripTally& tally, const Progress& progress) {
-  std::exception_ptr failure;
-  const auto ask = [&](double fraction) {
-    try {
-      return !progress || progress(fraction);
-    } catch (...) {
-      failure = std::current_exception();
-      return false;
-    }
-  };
+  HeldProgress held(progress);
   for (unsigned spe = 0; spe < members_.size(); ++spe)
     members_[spe] = Member{spe, 0, false};
   signal_all(command::render_frame);
-  bool go_on = ask(0);
+  bool go_on = held.ask(0);
   while (go_on && !tally.frame_complete()) {
     receive([&](Member& member, ReportKind kind, std::uint32_t count) {
       if (kind != ReportKind::progress && kind != ReportKind::idle) return;
@@ -87,11 +80,11 @@ bool SpeTeam::render_frame(StripTally& tally, const Progress& progress) {
       if (kind == ReportKind::idle) tally.report(member.spe, count);
     });
     // 1 is kept for the finished frame.
-    go_on = ask(std::min(static_cast<double>(units_completed()) / tally.units(), 0.999));
+    go_on = held.ask(std::min(static_cast<double>(units_completed()) / tally.units(), 0.999));
   }
   end_frame(go_on);
-  if (go_on) ask(1);
-  if (failure) std::rethrow_exception(failure);
+  if (go_on) held.ask(1);
+  held.rethrow();
   return go_on;
 }
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <exception>
 #include <numeric>
 #include <string>
 
@@ -41,24 +40,16 @@ StageTeam::StageTeam(Machine& machine, const FrameBlock& frame, Model model)
 }
 
 bool StageTeam::render_frame(const Progress& progress) {
-  std::exception_ptr failure;
-  const auto ask = [&](double fraction) {
-    try {
-      return !progress || progress(fraction);
-    } catch (...) {
-      failure = std::current_exception();
-      return false;
-    }
-  };
+  HeldProgress held(progress);
   std::memset(reports_.data(), 0, reports_.size());
   if (failed_) throw SpeError("an SPE has failed in a frame before");
-  const bool complete = ask(0) && render_frame_while(ask);
-  if (complete) ask(1);
-  if (failure) std::rethrow_exception(failure);
+  const bool complete = held.ask(0) && render_frame_while(held);
+  if (complete) held.ask(1);
+  held.rethrow();
   return complete;
 }
 
-template <class Ask> bool StageTeam::render_frame_while(Ask ask) {
+bool StageTeam::render_frame_while(HeldProgress& held) {
   failed_ = true; // unless it comes to its end
   prepare();
   start();
@@ -71,7 +62,7 @@ template <class Ask> bool StageTeam::render_frame_while(Ask ask) {
         std::accumulate(pipelines_.begin(), pipelines_.end(), std::uint64_t{0},
                         [](std::uint64_t sum, const Pipeline& p) { return sum + p.packets; });
     // 1 is kept for the finished frame.
-    go_on = ask(std::min(static_cast<double>(complete) / packets, 0.999));
+    go_on = held.ask(std::min(static_cast<double>(complete) / packets, 0.999));
     if (!go_on) stop();
   }
   leave();

@@ -5,6 +5,7 @@
 #include "celltrace/render.hpp"
 #include "celltrace/spe/machine.hpp"
 #include "kernel/records.hpp"
+#include "render/held_progress.hpp"
 #include "render/models/stage_plan.hpp"
 #include "scene/aligned_block.hpp"
 
@@ -27,7 +28,7 @@ public:
   RenderStatistics::Stages counts() const;
 
 private:
-  template <class Ask> bool render_frame_while(Ask ask);
+  bool render_frame_while(HeldProgress& held);
   /// Memory that depends on the frame, and its addresses in the orders.
   void prepare();
   void start();

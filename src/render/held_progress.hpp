@@ -1,0 +1,38 @@
+// Asking a caller's Progress while SPEs are at work, which an exception of his must not leave behind.
+#pragma once
+
+#include "celltrace/render.hpp"
+
+#include <exception>
+
+namespace celltrace {
+
+/// Holds what the function throws until the SPEs are at rest.
+class HeldProgress {
+public:
+  /// `progress` may be empty, and has to outlive this.
+  explicit HeldProgress(const Progress& progress) : progress_(progress) {}
+
+  /// Whether to go on. Once it is not, the function is not called again.
+  bool ask(double fraction) {
+    if (stopped_ || !progress_) return !stopped_;
+    try {
+      stopped_ = !progress_(fraction);
+    } catch (...) {
+      failure_ = std::current_exception();
+      stopped_ = true;
+    }
+    return !stopped_;
+  }
+  bool stopped() const { return stopped_; }
+  void rethrow() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+private:
+  const Progress& progress_;
+  bool stopped_ = false;
+  std::exception_ptr failure_;
+};
+
+} // namespace celltrace
