@@ -120,51 +120,53 @@ private:
   /// Three children wait per level, at most. The builder goes no deeper.
   static constexpr uint32_t kStackEntries = 3 * 48 + 4;
 
-  /// Visits the objects in the boxes that beam_, which has the rays in `lanes`, meets. A branch that only one
-  /// of them meets is walked through by that ray alone, which misses more of it.
+  /// Who walks at the moment: the rays in `group`, as far as `limit`. Entries below `floor` of the stack are
+  /// not theirs.
+  struct Course {
+    const Beam<S>* beam;
+    uint32_t group, floor;
+    float limit;
+  };
+
+  /// Visits the objects in the boxes that beam_, which has the rays in `lanes`, meets.
   void walk(const OctantRays<S>& rays, const BoxSides& sides, uint32_t lanes, Search& search) {
-    const Beam<S>* beam = &beam_;
-    uint32_t group = lanes, floor = 0;
-    float limit = limit_of(search, group);
+    Course course = {&beam_, lanes, 0, limit_of(search, lanes)};
     Branch branch = {hierarchy_.node_offset, 0};
     waiting_ = 0;
     for (;;) {
       if (branch.count != 0) {
-        test_objects(branch, group, search);
+        test_objects(branch, course.group, search);
         if (search.hits != nullptr)
-          limit = limit_of(search, group);
-        else if ((search.lanes & group) == 0)
-          waiting_ = floor;
-      } else if (open(*beam, rays, sides, group, search, limit, branch)) {
+          course.limit = limit_of(search, course.group);
+        else if ((search.lanes & course.group) == 0)
+          waiting_ = course.floor;
+      } else if (open(course, rays, sides, search, branch)) {
         continue;
       }
-      for (;;) {
-        if (waiting_ == floor) {
-          if (group == lanes || (search.lanes & lanes) == 0) return;
-          beam = &beam_;
-          group = lanes;
-          floor = 0;
-          limit = limit_of(search, group);
-          continue;
-        }
-        const Entry& next = stack_[--waiting_];
-        if (next.enter > limit || (next.lanes & search.lanes) == 0) continue;
-        branch = next.branch;
-        if (branch.count == 0 && is_single(next.lanes) && group == lanes && !is_single(lanes)) {
-          // That ray alone, until nothing is left above what the others are to visit.
-          group = next.lanes;
-          limit = limit_of(search, group);
-          if (next.enter > limit) {
-            group = lanes;
-            limit = limit_of(search, group);
-            continue;
-          }
-          single_.set(search.rays, static_cast<uint32_t>(__builtin_ctz(group)));
-          beam = &single_;
-          floor = waiting_;
-        }
-        break;
+      if (!take_next(course, lanes, search, branch)) return;
+    }
+  }
+
+  /// Takes a branch that is still to be visited off the stack; false if there is none. A node that only one
+  /// of the rays in `lanes` meets is for that ray alone, which misses more of it than the beam; the others go
+  /// on when nothing is left above what was waiting for them.
+  bool take_next(Course& course, uint32_t lanes, const Search& search, Branch& branch) {
+    for (;;) {
+      if (waiting_ == course.floor) {
+        if (course.group == lanes || (search.lanes & lanes) == 0) return false;
+        course = {&beam_, lanes, 0, limit_of(search, lanes)};
+        continue;
       }
+      const Entry& next = stack_[--waiting_];
+      if (next.enter > course.limit || (next.lanes & search.lanes) == 0) continue;
+      if (next.branch.count == 0 && is_single(next.lanes) && course.group == lanes && !is_single(lanes)) {
+        const Course alone = {&single_, next.lanes, waiting_, limit_of(search, next.lanes)};
+        if (next.enter > alone.limit) continue;
+        single_.set(search.rays, static_cast<uint32_t>(__builtin_ctz(next.lanes)));
+        course = alone;
+      }
+      branch = next.branch;
+      return true;
     }
   }
 
@@ -186,19 +188,20 @@ private:
 
   /// Opens the node at `branch`. If one child is met, goes on there and returns true; if several, they go on
   /// the stack.
-  bool open(const Beam<S>& beam, const OctantRays<S>& rays, const BoxSides& sides, uint32_t group,
-            const Search& search, float limit, Branch& branch) {
+  bool open(const Course& course, const OctantRays<S>& rays, const BoxSides& sides, const Search& search,
+            Branch& branch) {
     objects_.scene().spu().compute(scalar_work::kNodeOfBoxes);
     ++objects_.counters().voxels;
     const NodeRecord& node = *objects_.scene().node(branch.child);
     alignas(16) float enter[4];
-    uint32_t met = beam.meets(node.box, sides, limit, enter);
+    uint32_t met = course.beam->meets(node.box, sides, course.limit, enter);
     if (met == 0) return false;
     if (is_single(met)) {
       const uint32_t i = static_cast<uint32_t>(__builtin_ctz(met));
       branch = {node.child[i], node.count[i]};
       return true;
     }
+    const uint32_t group = course.group;
     const F each_limit = limits(search);
     const uint32_t first = waiting_;
     do {
