@@ -1,14 +1,17 @@
 #include "study/chart.hpp"
 
+#include "image/svg.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <sstream>
 
 namespace celltrace::study {
 
 namespace {
+
+using image::Svg;
 
 constexpr double kWidth = 900, kHeight = 520;
 constexpr double kLeft = 80, kRight = 190, kTop = 50, kBottom = 60; ///< margins
@@ -71,39 +74,6 @@ private:
   bool logarithmic_;
 };
 
-class Svg {
-public:
-  Svg() {
-    out_ << "<svg xmlns='http://www.w3.org/2000/svg' width='" << kWidth << "' height='" << kHeight
-         << "' viewBox='0 0 " << kWidth << ' ' << kHeight << "' font-family='sans-serif' font-size='13'>\n"
-         << "<rect width='100%' height='100%' fill='white'/>\n";
-  }
-  void line(double x1, double y1, double x2, double y2, const char* stroke, double width) {
-    out_ << "<line x1='" << x1 << "' y1='" << y1 << "' x2='" << x2 << "' y2='" << y2 << "' stroke='" << stroke
-         << "' stroke-width='" << width << "'/>\n";
-  }
-  void bar(double x, double y, double width, double height, const char* fill) {
-    out_ << "<rect x='" << x << "' y='" << y << "' width='" << width << "' height='" << height << "' fill='"
-         << fill << "'/>\n";
-  }
-  void dot(double x, double y, const char* fill) {
-    out_ << "<circle cx='" << x << "' cy='" << y << "' r='4' fill='" << fill << "'/>\n";
-  }
-  void text(double x, double y, const char* anchor, const std::string& words, const std::string& more = "") {
-    out_ << "<text x='" << x << "' y='" << y << "' text-anchor='" << anchor << "' " << more << '>';
-    for (const char each : words)
-      out_ << (each == '&' ? "&amp;" : each == '<' ? "&lt;" : each == '>' ? "&gt;" : std::string(1, each));
-    out_ << "</text>\n";
-  }
-  std::string finish() {
-    out_ << "</svg>\n";
-    return out_.str();
-  }
-
-private:
-  std::ostringstream out_;
-};
-
 std::string label(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.4g", value);
@@ -120,18 +90,17 @@ struct Range {
 };
 
 void draw_frame(Svg& svg, const std::string& title, const Chart& chart, const Axis& y) {
-  svg.text(kLeft, 28, "start", title, "font-size='17' font-weight='bold'");
+  svg.title(kLeft, 28, title);
   for (const double value : y.ticks()) {
     svg.line(kLeft, y(value), kWidth - kRight, y(value), "#dddddd", 1);
     svg.text(kLeft - 8, y(value) + 4, "end", label(value));
   }
   svg.line(kLeft, kHeight - kBottom, kWidth - kRight, kHeight - kBottom, "black", 1);
   svg.text((kLeft + kWidth - kRight) / 2, kHeight - 15, "middle", chart.x);
-  const std::string turned = "transform='rotate(-90 20 " + label((kTop + kHeight - kBottom) / 2) + ")'";
-  svg.text(20, (kTop + kHeight - kBottom) / 2, "middle", chart.y, turned);
+  svg.rising_text(20, (kTop + kHeight - kBottom) / 2, chart.y);
   for (std::size_t i = 0; i < chart.series.size(); ++i) {
     const double at = kTop + 20 * static_cast<double>(i);
-    svg.bar(kWidth - kRight + 15, at - 9, 12, 12, colour(i));
+    svg.box(kWidth - kRight + 15, at - 9, 12, 12, colour(i));
     svg.text(kWidth - kRight + 33, at + 2, "start", chart.series[i].name);
   }
 }
@@ -145,7 +114,7 @@ void draw_lines(Svg& svg, const Chart& chart, const Axis& y, const Range& range)
   for (std::size_t i = 0; i < chart.series.size(); ++i) {
     const auto& points = chart.series[i].points;
     for (std::size_t p = 0; p < points.size(); ++p) {
-      svg.dot(x(points[p].first), y(points[p].second), colour(i));
+      svg.dot(x(points[p].first), y(points[p].second), 4, colour(i));
       if (p > 0)
         svg.line(x(points[p - 1].first), y(points[p - 1].second), x(points[p].first), y(points[p].second),
                  colour(i), 2);
@@ -163,7 +132,7 @@ void draw_bars(Svg& svg, const Chart& chart, const Axis& y) {
   for (std::size_t i = 0; i < chart.series.size(); ++i)
     for (const auto& [index, height] : chart.series[i].points) {
       const double left = kLeft + group * (index + 0.1) + width * static_cast<double>(i);
-      svg.bar(left, y(height), width * 0.92, std::max(y.base() - y(height), 0.0), colour(i));
+      svg.box(left, y(height), width * 0.92, std::max(y.base() - y(height), 0.0), colour(i));
     }
 }
 
@@ -184,7 +153,7 @@ std::string draw(const std::string& title, const Chart& chart) {
   const double floor =
       chart.kind == Chart::Kind::bars && chart.logarithmic_y ? std::min(y.low * 0.8, 1.0) : y.low;
   const Axis vertical(floor, y.high, kHeight - kBottom, kTop, chart.logarithmic_y);
-  Svg svg;
+  Svg svg(kWidth, kHeight, 13);
   draw_frame(svg, title, chart, vertical);
   if (chart.kind == Chart::Kind::lines)
     draw_lines(svg, chart, vertical, x);
