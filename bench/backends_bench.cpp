@@ -2,6 +2,7 @@
 // either schedule. See docs/benchmarks.md.
 //
 //   bench_backends [--benchmark_...] [scene.pov ...]
+#include "bench/scene_arguments.hpp"
 #include "celltrace/pov.hpp"
 #include "celltrace/render.hpp"
 
@@ -93,11 +94,8 @@ void add(const std::filesystem::path& scene) {
 
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
-  for (int i = 1; i < argc; ++i)
-    add(argv[i]);
-  if (argc == 1)
-    for (const char* name : {"finishes.pov", "glass.pov", "mesh.pov"})
-      add(std::filesystem::path(SCENES) / name);
+  for (const std::filesystem::path& scene : scene_arguments(argc, argv, SCENES))
+    add(scene);
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return 0;

@@ -2,6 +2,7 @@
 // every way to share them. See docs/balancing.md.
 //
 //   bench_balance [--benchmark_...] [scene.pov ...]
+#include "bench/scene_arguments.hpp"
 #include "celltrace/balance.hpp"
 #include "celltrace/pov.hpp"
 #include "celltrace/render.hpp"
@@ -141,11 +142,8 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   for (const GraphCase& each : graph_cases())
     benchmark::RegisterBenchmark(("sweeps/" + each.name).c_str(), sweeps, each);
-  for (int i = 1; i < argc; ++i)
-    add(argv[i]);
-  if (argc == 1)
-    for (const char* name : {"finishes.pov", "glass.pov", "mesh.pov"})
-      add(std::filesystem::path(SCENES) / name);
+  for (const std::filesystem::path& scene : scene_arguments(argc, argv, SCENES))
+    add(scene);
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   return 0;

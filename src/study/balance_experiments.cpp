@@ -20,11 +20,6 @@ RenderOptions sized(unsigned spes) {
   return options;
 }
 
-std::string parameters(unsigned spes, const std::string& more) {
-  return "-W " + std::to_string(kWidth) + " -H " + std::to_string(kHeight) +
-         " --backend cell_emu --schedule lockstep --spes " + std::to_string(spes) + more;
-}
-
 } // namespace
 
 Table study_balance(Laboratory& laboratory) {
@@ -76,12 +71,9 @@ Table study_balance(Laboratory& laboratory) {
         if (name == "corner") table.chart.series.back().points.emplace_back(spes, 100 * statistics.imbalance);
         if (spes == 8 && balance == Balance::fixed) fixed = megacycles(statistics.render_cycles);
         if (spes == 8 && balance == Balance::gde)
-          over_static.push_back(
-              {name,
-               "-W " + std::to_string(jobs[i].options.width) + " -H " +
-                   std::to_string(jobs[i].options.height) +
-                   " --backend cell_emu --schedule lockstep --spes 8 --balance static | gde, third frame",
-               fixed / megacycles(statistics.render_cycles)});
+          over_static.push_back({name,
+                                 command_options(jobs[i].options) + " --balance static | gde, third frame",
+                                 fixed / megacycles(statistics.render_cycles)});
         ++i;
       }
     }
@@ -137,7 +129,8 @@ Table study_imbalance(Laboratory& laboratory) {
     }
     row.emplace_back(static_cast<double>(outcomes[i].frames[1].balance_exchanges));
     table.rows.push_back(row);
-    worst[i % 2].push_back({scene.name, parameters(counts[i % 2], ", second to fourth frame"), greatest});
+    worst[i % 2].push_back(
+        {scene.name, command_options(jobs[i].options) + ", second to fourth frame", greatest});
     if (i % 2 == 0) table.chart.labels.push_back(scene.name);
     table.chart.series[i % 2].points.emplace_back(double(i / 2), 100 * greatest);
   }
@@ -185,8 +178,10 @@ Table study_speedup(Laboratory& laboratory) {
     }
     demand_same_picture(name, same);
     table.rows.push_back(row);
-    of_8.push_back({name, parameters(8, " against --spes 1, third frame"), cycles(0) / cycles(3)});
-    of_16.push_back({name, parameters(16, " against --spes 1, third frame"), cycles(0) / cycles(4)});
+    of_8.push_back(
+        {name, command_options(sized(8)) + " against --spes 1, third frame", cycles(0) / cycles(3)});
+    of_16.push_back(
+        {name, command_options(sized(16)) + " against --spes 1, third frame", cycles(0) / cycles(4)});
   }
   const Claim eight = make_claim(of_8, Holds::everywhere, 7.5, false, 0);
   const Claim sixteen = make_claim(of_16, Holds::everywhere, 14, false, 0);

@@ -28,11 +28,7 @@ Table study_warmth(Laboratory& laboratory) {
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     const std::string& name = laboratory.scenes[i].name;
     const auto frame = [&](std::size_t n) -> const RenderStatistics& { return outcomes[i].frames[n]; };
-    const auto misses = [&](std::size_t n) {
-      const RenderStatistics& s = frame(n);
-      return static_cast<double>(s.list_cache.misses + s.object_cache.misses + s.material_cache.misses +
-                                 s.light_cache.misses);
-    };
+    const auto misses = [&](std::size_t n) { return static_cast<double>(all_reads(frame(n)).misses); };
     const double ratio = megacycles(frame(0).render_cycles) / megacycles(frame(2).render_cycles);
     if (ratio > most) {
       most = ratio;

@@ -41,6 +41,21 @@ Claim make_claim(const std::vector<ClaimValue>& values, Holds holds, double bar,
   return claim;
 }
 
+RenderStatistics::Cache all_reads(const RenderStatistics& statistics) {
+  RenderStatistics::Cache all;
+  for (const RenderStatistics::Cache* cache : {&statistics.list_cache, &statistics.object_cache,
+                                               &statistics.material_cache, &statistics.light_cache}) {
+    all.hits += cache->hits;
+    all.misses += cache->misses;
+  }
+  return all;
+}
+
+std::string command_options(const RenderOptions& options) {
+  return "-W " + std::to_string(options.width) + " -H " + std::to_string(options.height) +
+         " --backend cell_emu --schedule lockstep --spes " + std::to_string(options.spes);
+}
+
 void demand_same_picture(const std::string& scene, const std::vector<const Outcome*>& outcomes) {
   for (const Outcome* outcome : outcomes)
     if (outcome->picture != outcomes.front()->picture)

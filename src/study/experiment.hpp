@@ -44,8 +44,14 @@ struct ClaimValue {
 enum class Holds { somewhere, everywhere };
 Claim make_claim(const std::vector<ClaimValue>& values, Holds holds, double bar, bool at_most, double thesis);
 
+/// The options of `celltrace render` for frames in lockstep of this size on so many SPEs.
+std::string command_options(const RenderOptions& options);
+
 /// Throws Error if outcomes of one scene show different pictures.
 void demand_same_picture(const std::string& scene, const std::vector<const Outcome*>& outcomes);
+
+/// Of all kinds of data.
+RenderStatistics::Cache all_reads(const RenderStatistics& statistics);
 
 double megacycles(std::uint64_t cycles);
 /// 1.234 -> "1.23".

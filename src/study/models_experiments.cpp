@@ -121,8 +121,7 @@ Table study_models(Laboratory& laboratory) {
     table.rows.push_back({names[i], cycles[0], cycles[1], cycles[2], cycles[3], cycles[4],
                           cycles[0] / cycles[1], cycles[1] / cycles[3], cycles[1] / cycles[4],
                           1e3 * native_seconds(laboratory.scene(names[i]).scene, options, 3)});
-    const std::string size = "-W " + std::to_string(options.width) + " -H " + std::to_string(options.height) +
-                             " --backend cell_emu --schedule lockstep --spes 8, second frame, ";
+    const std::string size = command_options(options) + ", second frame, ";
     joined_over_split.push_back(
         {names[i], size + "--model pipeline-split | --model pipeline", cycles[0] / cycles[1]});
     shared_over_pipeline.push_back(

@@ -1,8 +1,10 @@
 #include "study/runs.hpp"
 
+#include "scene/parallel.hpp"
+
 #include <algorithm>
 #include <atomic>
-#include <exception>
+#include <mutex>
 #include <thread>
 
 namespace celltrace::study {
@@ -42,28 +44,20 @@ std::vector<Outcome> Runner::emulate(const std::vector<Job>& jobs) const {
 void Runner::each(std::size_t count, const std::function<void(std::size_t)>& work) const {
   std::atomic<std::size_t> next{0};
   std::mutex mutex;
-  std::exception_ptr failure;
-  const auto help = [&] {
+  const unsigned wanted = threads_ != 0 ? threads_ : std::max(1u, std::thread::hardware_concurrency());
+  const auto helpers = static_cast<unsigned>(std::clamp<std::size_t>(count, 1, wanted));
+  for_each_part(helpers, [&](unsigned) {
     for (std::size_t i = next++; i < count; i = next++) {
       try {
         work(i);
-        const std::lock_guard lock(mutex);
-        heard_();
       } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (!failure) failure = std::current_exception();
-        next = count;
+        next = count; // nobody begins another
+        throw;
       }
+      const std::lock_guard lock(mutex);
+      heard_();
     }
-  };
-  const unsigned wanted = threads_ != 0 ? threads_ : std::max(1u, std::thread::hardware_concurrency());
-  std::vector<std::thread> others;
-  for (std::size_t i = 1; i < std::min<std::size_t>(wanted, count); ++i)
-    others.emplace_back(help);
-  help();
-  for (std::thread& other : others)
-    other.join();
-  if (failure) std::rethrow_exception(failure);
+  });
 }
 
 double native_seconds(const Scene& scene, RenderOptions options, int frames) {

@@ -3,6 +3,9 @@
 
 #include "celltrace/render.hpp"
 
+#include <catch2/catch.hpp>
+
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -45,6 +48,14 @@ inline std::vector<Backend> backends() {
     }
   }
   return usable;
+}
+
+/// What a Progress has heard of a job that was completed.
+inline void check_completed(const std::vector<double>& fractions) {
+  REQUIRE(fractions.size() >= 2);
+  CHECK(fractions.front() == 0);
+  CHECK(fractions.back() == 1);
+  CHECK(std::is_sorted(fractions.begin(), fractions.end()));
 }
 
 } // namespace celltrace::test
