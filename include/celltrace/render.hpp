@@ -21,8 +21,8 @@ enum class Balance {
        ///< frame before has cost
   diffusion, ///< strips that stay during a frame; a step of first-order diffusion adjusts them between frames
   fixed,     ///< strips of equal size that stay as they are
-  scatter,   ///< packets of 4x4 pixels, dealt one by one in turn
-  tiles,     ///< tiles of 32x32 pixels, dealt at random
+  scatter,   ///< bundles of packets, dealt one by one in turn
+  tiles,     ///< tiles of 4x4 bundles, dealt at random
 };
 
 /// How rays find the objects that they may meet.
@@ -117,7 +117,7 @@ struct RenderStatistics {
   std::uint64_t spilled_packets = 0; ///< that the ray stacks put to main memory for want of local store
   std::uint64_t sphere_tests = 0, ellipsoid_tests = 0,
                 triangle_tests = 0;     ///< packet of 16 rays against object
-  std::uint64_t accelerator_visits = 0; ///< voxels by rays, or nodes by packets and parts of packets
+  std::uint64_t accelerator_visits = 0; ///< voxels by rays, or nodes by bundles, packets and parts of packets
 
   Accelerator accelerator = Accelerator::grid; ///< never automatic
   std::uint32_t grid_cells[3] = {0, 0, 0};     ///< all 0 for a hierarchy
@@ -130,7 +130,7 @@ struct RenderStatistics {
   std::uint64_t signals = 0, mailbox_words = 0;
 
   std::uint64_t balance_exchanges = 0;   ///< that moved units of work
-  std::uint64_t balance_units_moved = 0; ///< runs of packets
+  std::uint64_t balance_units_moved = 0; ///< runs of bundles of packets
   /// Greatest over mean load of an SPE, minus 1. The load is its number of rays; in lockstep, its busy ticks.
   double imbalance = 0;
 
@@ -170,8 +170,8 @@ public:
   Renderer& operator=(Renderer&&) noexcept;
 
   /// Renders a frame; `progress` is of tracing alone. What the frame before has cost decides which SPE starts
-  /// where. Throws InputError if the scene is not valid, SpeError if a kernel failed; exceptions of `progress`
-  /// pass through. After SpeError the renderer throws again at every call.
+  /// where. Throws InputError if the scene is not valid, SpeError if a kernel failed; exceptions of
+  /// `progress` pass through. After SpeError the renderer throws again at every call.
   RenderResult render(const Scene& scene, const Progress& progress = {});
   /// As above, with another camera and nothing else changed since the last render(): the accelerator is
   /// kept.

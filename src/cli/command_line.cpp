@@ -97,7 +97,7 @@ void add_machine_options(CLI::App& command, RenderOptions& options, RenderTexts&
   add_choice(
       command, "--balance", texts.balance, {{"gde", "diffusion", "static", "scatter", "tiles"}, {}},
       "How the SPEs share a frame: strips that exchange work, that diffusion adjusts between frames or "
-      "that stay; or packets or random tiles, dealt out");
+      "that stay; or bundles of packets or random tiles, dealt out");
   add_choice(command, "--model", texts.model, {{"shared", "pipeline", "pipeline-split", "offload"}, {}},
              "Programming model");
   add_emulation_options(command, texts.emulation);

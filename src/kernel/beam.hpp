@@ -8,6 +8,11 @@
 
 namespace celltrace::kernel {
 
+/// Of bits for lanes: one of them at most.
+inline bool is_single(uint32_t lanes) {
+  return (lanes & (lanes - 1)) == 0;
+}
+
 namespace detail {
 
 /// 1 / direction where that is almost 0 is that of this, with the same sign.
@@ -37,6 +42,8 @@ template <class S> class OctantRays {
 public:
   using F = typename S::F;
 
+  /// Meet nothing sensible until others are assigned.
+  OctantRays() = default;
   OctantRays(const RayPacket& rays, uint32_t octant) : origin_(rays.origin.template load<S>()) {
     const V3<S> along = rays.direction.template load<S>();
     inverse_ = {inverse_of(along.x, (octant & 1) != 0), inverse_of(along.y, (octant & 2) != 0),
@@ -63,54 +70,106 @@ private:
   V3<S> origin_, inverse_;
 };
 
+/// The intervals of some rays' origins and directions, axis by axis.
+struct RayBounds {
+  Interval origin[3], direction[3];
+
+  /// Sum of the differences of directions on all axes.
+  float direction_spread() const {
+    float sum = 0.0f;
+    for (const Interval& each : direction)
+      sum += each.high - each.low;
+    return sum;
+  }
+  void include(const RayBounds& other) {
+    for (uint32_t axis = 0; axis < 3; ++axis) {
+      origin[axis] = united(origin[axis], other.origin[axis]);
+      direction[axis] = united(direction[axis], other.direction[axis]);
+    }
+  }
+
+private:
+  static Interval united(const Interval& a, const Interval& b) {
+    return {smaller(a.low, b.low), larger(a.high, b.high)};
+  }
+};
+
+/// Of the rays in `lanes`, at least one.
+template <class S> [[gnu::noinline]] RayBounds bounds_of(const RayPacket& rays, uint32_t lanes) {
+  using F = typename S::F;
+  const auto inside = S::M::from_bits(lanes);
+  const uint32_t some = static_cast<uint32_t>(__builtin_ctz(lanes));
+  const FloatLanes* origins[3] = {&rays.origin.x, &rays.origin.y, &rays.origin.z};
+  const FloatLanes* directions[3] = {&rays.direction.x, &rays.direction.y, &rays.direction.z};
+  // Lanes outside take the value of one inside.
+  const auto interval = [&](const FloatLanes& values) {
+    return interval_of<S>(S::select(inside, F::load(values.lane), F(values.lane[some])));
+  };
+  const auto as_some = [&](const FloatLanes& values) { return F::load(values.lane) == F(values.lane[some]); };
+  // Primary rays have one origin.
+  const auto from_there = as_some(rays.origin.x) & as_some(rays.origin.y) & as_some(rays.origin.z);
+  const bool one_origin = (from_there.bits() & lanes) == lanes;
+  RayBounds bounds;
+  for (uint32_t axis = 0; axis < 3; ++axis) {
+    const float origin = origins[axis]->lane[some];
+    bounds.origin[axis] = one_origin ? Interval{origin, origin} : interval(*origins[axis]);
+    bounds.direction[axis] = interval(*directions[axis]);
+  }
+  return bounds;
+}
+
+/// Of one ray.
+inline RayBounds bounds_of_ray(const RayPacket& rays, uint32_t lane) {
+  const FloatLanes* origins[3] = {&rays.origin.x, &rays.origin.y, &rays.origin.z};
+  const FloatLanes* directions[3] = {&rays.direction.x, &rays.direction.y, &rays.direction.z};
+  RayBounds bounds;
+  for (uint32_t axis = 0; axis < 3; ++axis) {
+    const float origin = origins[axis]->lane[lane], direction = directions[axis]->lane[lane];
+    bounds.origin[axis] = {origin, origin};
+    bounds.direction[axis] = {direction, direction};
+  }
+  return bounds;
+}
+
+namespace detail {
+
+/// What intervals of the distances to an axis' planes are computed from: 1 / direction at both ends, and the
+/// origins that planes on the near and on the far side of boxes are farthest from.
+struct Slab {
+  float inverse_low, inverse_high, near_origin, far_origin;
+
+  Slab(const Interval& origin, const Interval& direction, bool backward) {
+    // 1 / direction falls from the low end to the high one.
+    const float low =
+        backward ? smaller(direction.low, -kTinyDirection) : larger(direction.low, kTinyDirection);
+    const float high =
+        backward ? smaller(direction.high, -kTinyDirection) : larger(direction.high, kTinyDirection);
+    inverse_low = 1.0f / high;
+    inverse_high = 1.0f / low;
+    near_origin = backward ? origin.low : origin.high;
+    far_origin = backward ? origin.high : origin.low;
+  }
+};
+
+} // namespace detail
+
 template <class S> class Beam {
 public:
-  using F = typename S::F;
   using F4 = typename S::F4;
 
   /// Meets nothing sensible until it is set.
   Beam() = default;
 
-  /// The rays in `lanes`, at least one, all of this octant.
-  void set(const RayPacket& rays, uint32_t lanes, uint32_t octant) {
-    const auto inside = S::M::from_bits(lanes);
-    const uint32_t some = static_cast<uint32_t>(__builtin_ctz(lanes));
-    const FloatLanes* origins[3] = {&rays.origin.x, &rays.origin.y, &rays.origin.z};
-    const FloatLanes* directions[3] = {&rays.direction.x, &rays.direction.y, &rays.direction.z};
-    // Lanes outside take the value of one inside.
-    const auto interval = [&](const FloatLanes& values) {
-      return interval_of<S>(S::select(inside, F::load(values.lane), F(values.lane[some])));
-    };
-    const auto as_some = [&](const FloatLanes& values) {
-      return F::load(values.lane) == F(values.lane[some]);
-    };
-    // Primary rays have one origin.
-    const auto from_there = as_some(rays.origin.x) & as_some(rays.origin.y) & as_some(rays.origin.z);
-    const bool one_origin = (from_there.bits() & lanes) == lanes;
-    direction_spread_ = 0.0f;
+  /// Rays of this octant.
+  void set(const RayBounds& bounds, uint32_t octant) {
     for (uint32_t axis = 0; axis < 3; ++axis) {
-      const Interval direction = interval(*directions[axis]);
-      direction_spread_ += direction.high - direction.low;
-      const float origin = origins[axis]->lane[some];
-      set_axis(axis, one_origin ? Interval{origin, origin} : interval(*origins[axis]), direction,
-               ((octant >> axis) & 1) != 0);
+      const detail::Slab slab(bounds.origin[axis], bounds.direction[axis], ((octant >> axis) & 1) != 0);
+      inverse_low_[axis] = F4::splat(slab.inverse_low);
+      inverse_high_[axis] = F4::splat(slab.inverse_high);
+      near_origin_[axis] = F4::splat(slab.near_origin);
+      far_origin_[axis] = F4::splat(slab.far_origin);
     }
   }
-
-  /// One ray alone.
-  void set(const RayPacket& rays, uint32_t lane) {
-    const uint32_t octant = octant_of(rays, lane);
-    const FloatLanes* origins[3] = {&rays.origin.x, &rays.origin.y, &rays.origin.z};
-    const FloatLanes* directions[3] = {&rays.direction.x, &rays.direction.y, &rays.direction.z};
-    direction_spread_ = 0.0f;
-    for (uint32_t axis = 0; axis < 3; ++axis) {
-      const float origin = origins[axis]->lane[lane], direction = directions[axis]->lane[lane];
-      set_axis(axis, {origin, origin}, {direction, direction}, ((octant >> axis) & 1) != 0);
-    }
-  }
-
-  /// Sum of the differences of directions on all axes.
-  float direction_spread() const { return direction_spread_; }
 
   /// Which of four boxes (as in NodeRecord) the beam may meet between its origins and `limit` along it; bit i
   /// for box i. `enter` gets a lower bound of the distance at which it does.
@@ -128,20 +187,70 @@ public:
   }
 
 private:
-  void set_axis(uint32_t axis, const Interval& origin, const Interval& direction, bool backward) {
-    constexpr float kTiny = detail::kTinyDirection;
-    // 1 / direction falls from the low end to the high one.
-    const float low = backward ? smaller(direction.low, -kTiny) : larger(direction.low, kTiny);
-    const float high = backward ? smaller(direction.high, -kTiny) : larger(direction.high, kTiny);
-    inverse_low_[axis] = F4::splat(1.0f / high);
-    inverse_high_[axis] = F4::splat(1.0f / low);
-    near_origin_[axis] = F4::splat(backward ? origin.low : origin.high);
-    far_origin_[axis] = F4::splat(backward ? origin.high : origin.low);
-  }
-
   F4 inverse_low_[3], inverse_high_[3];
   F4 near_origin_[3], far_origin_[3];
-  float direction_spread_;
+};
+
+/// A lane for each packet of a bundle.
+template <class S, uint32_t kPackets> struct BundleLanes;
+template <class S> struct BundleLanes<S, 4> {
+  using Type = typename S::F4;
+  static Type splat(float value) { return Type::splat(value); }
+  static uint32_t at_most(const Type& a, const Type& b) { return not_above_bits(a, b); }
+  static float greatest_of(uint32_t packets, const float (&values)[4]) {
+    float greatest = 0.0f;
+    for_each_lane(packets, [&](uint32_t packet) { greatest = larger(greatest, values[packet]); });
+    return greatest;
+  }
+};
+template <class S> struct BundleLanes<S, 16> {
+  using Type = typename S::F;
+  static Type splat(float value) { return Type(value); }
+  static uint32_t at_most(const Type& a, const Type& b) { return (a <= b).bits(); }
+  static float greatest_of(uint32_t packets, const float (&values)[16]) {
+    return interval_of<S>(S::select(S::M::from_bits(packets), Type::load(values), Type(0.0f))).high;
+  }
+};
+
+/// The beams of a bundle's packets, all of one octant, side by side.
+template <class S, uint32_t kPackets> class BundleBeams {
+public:
+  using Lanes = BundleLanes<S, kPackets>;
+  using L = typename Lanes::Type;
+
+  void set(uint32_t packet, const RayBounds& bounds, uint32_t octant) {
+    for (uint32_t axis = 0; axis < 3; ++axis) {
+      const detail::Slab slab(bounds.origin[axis], bounds.direction[axis], ((octant >> axis) & 1) != 0);
+      Axis& a = axes_[axis];
+      a.inverse_low[packet] = slab.inverse_low;
+      a.inverse_high[packet] = slab.inverse_high;
+      a.near_origin[packet] = slab.near_origin;
+      a.far_origin[packet] = slab.far_origin;
+    }
+  }
+
+  /// Which packets' beams may meet box `i` of the four, each up to its limit.
+  uint32_t meet(const float (&box)[6][4], const BoxSides& sides, uint32_t i,
+                const float (&limits)[kPackets]) const {
+    L first = Lanes::splat(0.0f);
+    L last = L::load(limits);
+    for (uint32_t axis = 0; axis < 3; ++axis) {
+      const Axis& a = axes_[axis];
+      const L near = Lanes::splat(box[sides.near[axis]][i]) - L::load(a.near_origin);
+      const L far = Lanes::splat(box[sides.far[axis]][i]) - L::load(a.far_origin);
+      const L low = L::load(a.inverse_low), high = L::load(a.inverse_high);
+      first = S::max(first, S::min(near * low, near * high));
+      last = S::min(last, S::max(far * low, far * high));
+    }
+    return Lanes::at_most(first, last * Lanes::splat(detail::kRoundedUp));
+  }
+
+private:
+  struct alignas(64) Axis {
+    float inverse_low[kPackets], inverse_high[kPackets];
+    float near_origin[kPackets], far_origin[kPackets];
+  };
+  Axis axes_[3] = {};
 };
 
 } // namespace celltrace::kernel

@@ -1,12 +1,11 @@
-// Packets through the hierarchy of boxes. Kernel dialect.
+// Packets through the hierarchy of boxes, alone or several together. Kernel dialect.
 //
-// The rays of a packet whose directions have the same signs go together as a beam, nearest children first;
-// rays that have little in common go alone. A box that the beam meets is held against its rays, all at once,
-// before it is opened. An object met by some is tested against the whole packet.
+// The packets of a bundle whose rays have much in common go together: a beam around all of them is tested
+// against a node's boxes, and what it meets against the packets' own beams, a lane each. What only one of the
+// packets meets, it visits alone (PacketWalk); so do packets whose rays go different ways, in parts.
 #pragma once
 
-#include "kernel/beam.hpp"
-#include "kernel/object_tests.hpp"
+#include "kernel/packet_walk.hpp"
 
 namespace celltrace::kernel {
 
@@ -14,63 +13,59 @@ template <class Spu> class HierarchyTraversal {
 public:
   using S = typename Spu::simd;
   using F = typename S::F;
-  using M = typename S::M;
 
   HierarchyTraversal(ObjectTests<Spu>& objects, const HierarchyRecord& hierarchy)
-      : objects_(objects), hierarchy_(hierarchy) {}
+      : objects_(objects), hierarchy_(hierarchy), walk_(objects) {}
 
-  /// As Traversal's, into hits that hold none yet.
-  void find_closest(const RayPacket& rays, uint32_t lanes, HitPacket& hits) {
-    Search search{rays, &hits, nullptr, nullptr, lanes};
-    run(search);
-  }
-
-  /// As Traversal's; returns the lanes to which some light comes.
-  uint32_t attenuate(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance, VectorLanes& light) {
-    Search search{rays, nullptr, &distance, &light, lanes};
-    run(search);
-    return search.lanes;
+  /// Answers each of the searches, at most a bundle's. Hits hold none yet; the lanes of searches for light
+  /// become those to which some comes.
+  void run(Search* searches, uint32_t count) {
+    uint32_t left = 0;
+    for (uint32_t packet = 0; packet < count; ++packet)
+      left |= static_cast<uint32_t>(searches[packet].lanes != 0) << packet;
+    if (!is_single(left)) left &= ~run_together(searches, left);
+    for_each_lane(left, [&](uint32_t packet) { run_alone(searches[packet]); });
   }
 
 private:
+  using Lanes = BundleLanes<S, kBundlePackets<Spu>>;
+  using Entry = BranchStack::Entry;
+
+  /// A packet's beam is loose once it has met this many boxes that none of its rays meet: where surfaces
+  /// begin and end, shadow rays leave from places far apart.
+  static constexpr uint32_t kMissesOfLoose = 2;
   /// Beams whose rays differ by more go in parts: found by measurement on scenes with mirrors and glass.
   static constexpr float kMaxDirectionSpread = 1.0f;
-  /// What the rounding of hits' distances amounts to.
-  static constexpr float kBeyond = 1.00001f;
 
-  /// What is asked of a packet. One code for both questions: it is long, and local store is short.
-  struct Search {
-    const RayPacket& rays;
-    HitPacket* hits;            ///< of a search for the closest hits
-    const FloatLanes* distance; ///< of a search for what is in the way of the light
-    VectorLanes* light;
-    uint32_t lanes; ///< that are looked at; of shadow rays, those to which some light still comes
-  };
+  Branch root() const { return {hierarchy_.node_offset, 0}; }
+
+  // --- packets alone ---
 
   /// Splits the lanes into beams, and sends each through the hierarchy.
-  void run(Search& search) {
-    Spu& spu = objects_.scene().spu();
+  void run_alone(Search& search) {
     objects_.mailbox().begin_packet();
-    const RayPacket& rays = search.rays;
+    const RayPacket& rays = *search.rays;
+    RayGroup<S>& group = members_[0];
     uint32_t left = search.lanes;
     while (left != 0) {
       const uint32_t octant = octant_of(rays, static_cast<uint32_t>(__builtin_ctz(left)));
-      uint32_t group = left & lanes_in_octant(rays, octant);
-      left &= ~group;
-      const OctantRays<S> octant_rays(rays, octant);
+      uint32_t same = left & lanes_in_octant(rays, octant);
+      left &= ~same;
       // First all of them; if they have little in common, four neighbours at a time, or one.
       uint32_t parts = 0;
-      while (group != 0) {
-        const uint32_t part = group & part_of(parts, static_cast<uint32_t>(__builtin_ctz(group)));
-        spu.compute(scalar_work::kBeam);
-        beam_.set(rays, part, octant);
-        if (beam_.direction_spread() > kMaxDirectionSpread) {
+      while (same != 0) {
+        const uint32_t part = same & part_of(parts, static_cast<uint32_t>(__builtin_ctz(same)));
+        objects_.scene().spu().compute(scalar_work::kBeam);
+        const RayBounds bounds = bounds_of<S>(rays, part);
+        if (bounds.direction_spread() > kMaxDirectionSpread) {
           ++parts;
           continue;
         }
         if (parts == 2) parts = 1;
-        group &= ~part;
-        if ((search.lanes & part) != 0) walk(octant_rays, BoxSides(octant), part, search);
+        same &= ~part;
+        if ((search.lanes & part) == 0) continue;
+        group.set(rays, bounds, octant);
+        walk_.walk(group, BoxSides(octant), part, search, root());
       }
     }
   }
@@ -90,165 +85,147 @@ private:
     return same(x, octant & 1) & same(y, octant & 2) & same(z, octant & 4);
   }
 
-  static bool is_single(uint32_t lanes) { return (lanes & (lanes - 1)) == 0; }
+  // --- packets together ---
 
-  /// How far each ray looks.
-  static F limits(const Search& search) {
-    return F::load(search.hits != nullptr ? search.hits->distance.lane : search.distance->lane);
+  /// Those of the packets whose rays have enough in common go through the hierarchy together. Returns which
+  /// did.
+  uint32_t run_together(Search* searches, uint32_t packets) {
+    const Search& some = searches[__builtin_ctz(packets)];
+    const uint32_t octant = octant_of(*some.rays, static_cast<uint32_t>(__builtin_ctz(some.lanes)));
+    RayBounds all;
+    uint32_t together = 0;
+    loose_ = 0;
+    for_each_lane(packets, [&](uint32_t packet) {
+      const Search& search = searches[packet];
+      if ((search.lanes & ~lanes_in_octant(*search.rays, octant)) != 0) return;
+      objects_.scene().spu().compute(scalar_work::kBeam);
+      const RayBounds bounds = bounds_of<S>(*search.rays, search.lanes);
+      RayBounds more = bounds;
+      if (together != 0) more.include(all);
+      if (more.direction_spread() > kMaxDirectionSpread) return;
+      all = more;
+      together |= 1u << packet;
+      misses_[packet] = 0;
+      beams_.set(packet, bounds, octant);
+      members_[packet].set(*search.rays, bounds, octant);
+      limits_[packet] = PacketWalk<Spu>::limit_of(search, search.lanes);
+    });
+    if (is_single(together)) return 0;
+    around_.set(all, octant);
+    walk_together(searches, BoxSides(octant), together);
+    return together;
   }
-  /// How far the farthest-looking ray of the group looks, as boxes at just that distance should be opened: of
-  /// two hits there, it matters which object comes first. All distances are positive.
-  static float limit_of(const Search& search, uint32_t group) {
-    if (is_single(group)) {
-      const uint32_t lane = static_cast<uint32_t>(__builtin_ctz(group));
-      return kBeyond *
-             (search.hits != nullptr ? search.hits->distance.lane[lane] : search.distance->lane[lane]);
-    }
-    return kBeyond * interval_of<S>(S::select(M::from_bits(group), limits(search), F(0.0f))).high;
-  }
 
-  /// Part of the hierarchy: a node, or `count` objects.
-  struct Branch {
-    uint32_t child, count;
-  };
-  /// A branch that is to be visited, the rays that do, and how far away it is at least.
-  struct Entry {
-    Branch branch;
-    uint32_t lanes;
-    float enter;
-  };
-  /// Three children wait per level, at most. The builder goes no deeper.
-  static constexpr uint32_t kStackEntries = 3 * 48 + 4;
-
-  /// Who walks at the moment: the rays in `group`, as far as `limit`. Entries below `floor` of the stack are
-  /// not theirs.
-  struct Course {
-    const Beam<S>* beam;
-    uint32_t group, floor;
-    float limit;
-  };
-
-  /// Visits the objects in the boxes that beam_, which has the rays in `lanes`, meets.
-  void walk(const OctantRays<S>& rays, const BoxSides& sides, uint32_t lanes, Search& search) {
-    Course course = {&beam_, lanes, 0, limit_of(search, lanes)};
-    Branch branch = {hierarchy_.node_offset, 0};
-    waiting_ = 0;
+  void walk_together(Search* searches, const BoxSides& sides, uint32_t packets) {
+    BranchStack& stack = walk_.stack();
+    Branch branch = root();
     for (;;) {
-      if (branch.count != 0) {
-        test_objects(branch, course.group, search);
-        if (search.hits != nullptr)
-          course.limit = limit_of(search, course.group);
-        else if ((search.lanes & course.group) == 0)
-          waiting_ = course.floor;
-      } else if (open(course, rays, sides, search, branch)) {
+      if (branch.is_leaf()) {
+        test_objects(branch, packets, searches);
+      } else if (is_single(packets)) {
+        const uint32_t packet = static_cast<uint32_t>(__builtin_ctz(packets));
+        objects_.mailbox().begin_packet();
+        walk_.walk(members_[packet], sides, searches[packet].lanes, searches[packet], branch);
+        update_limit(searches[packet], packet);
+      } else if (open(searches, sides, packets, branch)) {
         continue;
       }
-      if (!take_next(course, lanes, search, branch)) return;
+      do {
+        if (stack.size() == 0) return;
+        const Entry& next = stack.pop();
+        branch = next.branch;
+        packets = next.lanes & looking_as_far_as(next.enter);
+      } while (packets == 0);
     }
   }
 
-  /// Takes a branch that is still to be visited off the stack; false if there is none. A node that only one
-  /// of the rays in `lanes` meets is for that ray alone, which misses more of it than the beam; the others go
-  /// on when nothing is left above what was waiting for them.
-  bool take_next(Course& course, uint32_t lanes, const Search& search, Branch& branch) {
-    for (;;) {
-      if (waiting_ == course.floor) {
-        if (course.group == lanes || (search.lanes & lanes) == 0) return false;
-        course = {&beam_, lanes, 0, limit_of(search, lanes)};
-        continue;
+  /// As PacketWalk's, with the packets' beams in place of rays. The rays themselves are asked where objects
+  /// are and where beams are loose.
+  bool open(const Search* searches, const BoxSides& sides, uint32_t packets, Branch& branch) {
+    objects_.scene().spu().compute(scalar_work::kNodeOfBoxes);
+    ++objects_.counters().voxels;
+    const NodeRecord& node = *objects_.scene().node(branch.child);
+    alignas(16) float enter[4];
+    uint32_t met = around_.meets(node.box, sides, greatest_limit(packets), enter);
+    if (met == 0) return false;
+    if (is_single(met)) {
+      const uint32_t i = static_cast<uint32_t>(__builtin_ctz(met));
+      if (node.count[i] == 0) {
+        branch = {node.child[i], 0};
+        return true;
       }
-      const Entry& next = stack_[--waiting_];
-      if (next.enter > course.limit || (next.lanes & search.lanes) == 0) continue;
-      if (next.branch.count == 0 && is_single(next.lanes) && course.group == lanes && !is_single(lanes)) {
-        const Course alone = {&single_, next.lanes, waiting_, limit_of(search, next.lanes)};
-        if (next.enter > alone.limit) continue;
-        single_.set(search.rays, static_cast<uint32_t>(__builtin_ctz(next.lanes)));
-        course = alone;
-      }
-      branch = next.branch;
-      return true;
     }
+    BranchStack& stack = walk_.stack();
+    const uint32_t first = stack.size();
+    do {
+      const uint32_t i = static_cast<uint32_t>(__builtin_ctz(met));
+      met &= met - 1;
+      uint32_t lanes = beams_.meet(node.box, sides, i, limits_) & packets;
+      lanes &= ~without_rays_in(node.box, sides, i, searches, node.count[i] != 0 ? lanes : lanes & loose_);
+      if (lanes != 0) stack.push(first, {{node.child[i], node.count[i]}, lanes, enter[i]});
+    } while (met != 0);
+    for (uint32_t place = first; place < stack.size(); ++place)
+      objects_.scene().hint(stack[place].branch.child);
+    return false;
   }
 
-  void test_objects(const Branch& leaf, uint32_t group, Search& search) {
+  /// Those of the packets that have no ray that meets the box.
+  uint32_t without_rays_in(const float (&box)[6][4], const BoxSides& sides, uint32_t i,
+                           const Search* searches, uint32_t packets) {
+    uint32_t without = 0;
+    for_each_lane(packets, [&](uint32_t packet) {
+      const Search& search = searches[packet];
+      const uint32_t rays =
+          members_[packet].rays.meet(box, sides, i, PacketWalk<Spu>::limits(search)) & search.lanes;
+      const uint32_t missed = static_cast<uint32_t>(rays == 0);
+      without |= missed << packet;
+      misses_[packet] += missed;
+      loose_ |= static_cast<uint32_t>(misses_[packet] >= kMissesOfLoose) << packet;
+    });
+    return without;
+  }
+
+  void test_objects(const Branch& leaf, uint32_t packets, Search* searches) {
     SceneAccess<Spu>& scene = objects_.scene();
     for (uint32_t i = 1; i < leaf.count; ++i)
       scene.hint_listed(leaf.child + i * 4);
     for (uint32_t i = 0; i < leaf.count; ++i) {
       scene.spu().compute(scalar_work::kListedObject);
       const uint32_t self = scene.list_word(leaf.child + i * 4);
-      if (search.hits == nullptr) {
-        search.lanes &= ~shadowed(search.rays, self, group, *search.distance, *search.light);
-        if ((search.lanes & group) == 0) return;
-      } else if (objects_.mailbox().first_visit(self)) {
-        objects_.test_closest(search.rays, self, *search.hits);
-      }
+      for_each_lane(packets, [&](uint32_t packet) {
+        Search& search = searches[packet];
+        if (search.hits != nullptr) {
+          objects_.test_closest(*search.rays, self, *search.hits);
+        } else if (search.lanes != 0) {
+          objects_.mailbox().begin_packet();
+          search.lanes &= ~walk_.shadowed(search, self, search.lanes);
+        }
+      });
     }
+    for_each_lane(packets, [&](uint32_t packet) { update_limit(searches[packet], packet); });
   }
 
-  /// Opens the node at `branch`. If one child is met, goes on there and returns true; if several, they go on
-  /// the stack.
-  bool open(const Course& course, const OctantRays<S>& rays, const BoxSides& sides, const Search& search,
-            Branch& branch) {
-    objects_.scene().spu().compute(scalar_work::kNodeOfBoxes);
-    ++objects_.counters().voxels;
-    const NodeRecord& node = *objects_.scene().node(branch.child);
-    alignas(16) float enter[4];
-    uint32_t met = course.beam->meets(node.box, sides, course.limit, enter);
-    if (met == 0) return false;
-    if (is_single(met)) {
-      const uint32_t i = static_cast<uint32_t>(__builtin_ctz(met));
-      branch = {node.child[i], node.count[i]};
-      return true;
-    }
-    const uint32_t group = course.group;
-    const F each_limit = limits(search);
-    const uint32_t first = waiting_;
-    do {
-      const uint32_t i = static_cast<uint32_t>(__builtin_ctz(met));
-      met &= met - 1;
-      // Looser than its rays, a beam may meet what passes between them.
-      const uint32_t lanes = is_single(group) ? group : rays.meet(node.box, sides, i, each_limit) & group;
-      if (lanes == 0) continue;
-      // Into its place among its siblings, the nearest last.
-      uint32_t place = waiting_++;
-      for (; place > first && stack_[place - 1].enter < enter[i]; --place)
-        stack_[place] = stack_[place - 1];
-      stack_[place] = {{node.child[i], node.count[i]}, lanes, enter[i]};
-    } while (met != 0);
-    for (uint32_t place = first; place < waiting_; ++place)
-      objects_.scene().hint(stack_[place].branch.child);
-    return false;
+  /// A packet that no light comes to any more looks nowhere.
+  void update_limit(const Search& search, uint32_t packet) {
+    if (search.hits != nullptr)
+      limits_[packet] = PacketWalk<Spu>::limit_of(search, search.lanes);
+    else if (search.lanes == 0)
+      limits_[packet] = -1.0f;
   }
-
-  /// Lanes of the group that the object shuts off from the light. An opaque one shuts off whatever lanes of
-  /// the packet it covers; a translucent one is met once by each beam.
-  uint32_t shadowed(const RayPacket& rays, uint32_t self, uint32_t group, const FloatLanes& distance,
-                    VectorLanes& light) {
-    objects_.scene().spu().compute(scalar_work::kShadow);
-    const ObjectRecord& object = *objects_.scene().object(self);
-    const uint32_t flags = object.kind_and_flags;
-    const uint32_t material = object.material;
-    if ((flags & object_flag::no_shadow) != 0) return 0;
-    const bool opaque = (flags & object_flag::opaque) != 0;
-    if (opaque && !objects_.mailbox().first_visit(self)) return 0;
-    ShadowCrossings c;
-    objects_.test_shadow(rays, object, self, distance, c);
-    if (opaque) return c.near_hit | c.far_hit;
-    uint32_t dark = 0;
-    for_each_lane((c.near_hit | c.far_hit) & group, [&](uint32_t lane) {
-      const uint32_t crossings = ((c.near_hit >> lane) & 1) + ((c.far_hit >> lane) & 1);
-      if (objects_.dim(flags, material, c.u.lane[lane], c.v.lane[lane], crossings, lane, light))
-        dark |= 1u << lane;
-    });
-    return dark;
+  float greatest_limit(uint32_t packets) const { return Lanes::greatest_of(packets, limits_); }
+  uint32_t looking_as_far_as(float distance) const {
+    return Lanes::at_most(Lanes::splat(distance), Lanes::Type::load(limits_));
   }
 
   ObjectTests<Spu>& objects_;
   const HierarchyRecord& hierarchy_;
-  Beam<S> beam_, single_;
-  Entry stack_[kStackEntries];
-  uint32_t waiting_ = 0; ///< on the stack
+  PacketWalk<Spu> walk_;
+  RayGroup<S> members_[kBundlePackets<Spu>]; ///< packets of the bundle; a packet alone is the first
+  BundleBeams<S, kBundlePackets<Spu>> beams_;
+  Beam<S> around_;                       ///< all of them
+  uint32_t misses_[kBundlePackets<Spu>]; ///< boxes that a beam met but no ray
+  uint32_t loose_ = 0;                   ///< packets
+  alignas(64) float limits_[kBundlePackets<Spu>] = {};
 };
 
 } // namespace celltrace::kernel

@@ -64,13 +64,23 @@ void surface_of(SceneAccess<Spu>& scene, const ObjectRecord& object, const RayPa
 
 } // namespace detail
 
-/// The hits of `lanes`, all of which hit something.
+/// Those of `lanes` that hit something.
+inline uint32_t hit_lanes(const HitPacket& hits, uint32_t lanes) {
+  uint32_t hit = 0;
+  for_each_lane(lanes, [&](uint32_t lane) {
+    hit |= static_cast<uint32_t>(hits.object.lane[lane] != kNoOffset) << lane;
+  });
+  return hit;
+}
+
+/// Of the hits of `lanes`, all of which hit something.
 template <class Spu>
-HitPoints<typename Spu::simd> find_hit_points(SceneAccess<Spu>& scene, const RayPacket& rays,
-                                              const HitPacket& hits, uint32_t lanes) {
+void find_hit_points(SceneAccess<Spu>& scene, const RayPacket& rays, const HitPacket& hits, uint32_t lanes,
+                     HitPoints<typename Spu::simd>& points) {
   using S = typename Spu::simd;
   using F = typename S::F;
-  HitPoints<S> result;
+  using I = typename S::I;
+  points.blended = 0;
   bool first = true;
   for_each_value(hits.object, lanes, [&](uint32_t offset, uint32_t same) {
     scene.spu().compute(scalar_work::kHitObject);
@@ -78,22 +88,22 @@ HitPoints<typename Spu::simd> find_hit_points(SceneAccess<Spu>& scene, const Ray
     const ObjectRecord object = *scene.object(offset);
     V3<S> point, normal;
     detail::surface_of(scene, object, rays, hits, point, normal);
-    const auto take = S::M::from_bits(same);
-    result.point = first ? point : select<S>(take, point, result.point);
-    result.normal = first ? normal : select<S>(take, normal, result.normal);
+    const auto take = S::M::from_bits(first ? 0xFFFF : same);
     first = false;
-    if ((object.kind_and_flags & object_flag::blended) != 0) result.blended |= same;
-    for_each_lane(same, [&](uint32_t lane) {
-      scene.spu().compute(scalar_work::kHitLane);
-      result.material.lane[lane] = object.material;
-      result.interior.lane[lane] = object.interior;
-    });
+    const auto put = [&](uint32_t value, WordLanes& words) {
+      auto* const at = reinterpret_cast<int32_t*>(words.lane);
+      S::select(take, I::splat(static_cast<int32_t>(value)), I::load(at)).store(at);
+    };
+    points.point = select<S>(take, point, points.point);
+    points.normal = select<S>(take, normal, points.normal);
+    put(object.material, points.material);
+    put(object.interior, points.interior);
+    if ((object.kind_and_flags & object_flag::blended) != 0) points.blended |= same;
   });
   const V3<S> direction = rays.direction.template load<S>();
-  const auto away = dot<S>(direction, result.normal) > F(0.0f);
-  const V3<S> opposite = {-result.normal.x, -result.normal.y, -result.normal.z};
-  result.normal = select<S>(away, opposite, result.normal);
-  return result;
+  const auto away = dot<S>(direction, points.normal) > F(0.0f);
+  const V3<S> opposite = {-points.normal.x, -points.normal.y, -points.normal.z};
+  points.normal = select<S>(away, opposite, points.normal);
 }
 
 } // namespace celltrace::kernel

@@ -4,7 +4,6 @@
 
 #include "kernel/hit_points.hpp"
 #include "kernel/material_lanes.hpp"
-#include "kernel/traversal.hpp"
 
 namespace celltrace::kernel {
 
@@ -22,7 +21,7 @@ template <class S> struct Bearing {
   typename S::F cosine; ///< to the normal
   uint32_t facing;      ///< lanes from which it can be seen if nothing is in the way
 
-  Bearing(const LightRecord& light, const Surfaces<S>& s, uint32_t lanes) {
+  [[gnu::noinline]] Bearing(const LightRecord& light, const Surfaces<S>& s, uint32_t lanes) {
     using F = typename S::F;
     const V3<S> to_light = splat3<S>(light.location) - s.point;
     distance = S::sqrt(dot<S>(to_light, to_light));
@@ -31,6 +30,16 @@ template <class S> struct Bearing {
     facing = (cosine >= F(1e-10f)).bits() & lanes;
   }
 };
+
+/// The rays from surfaces toward a light, and how far each goes.
+template <class S>
+void make_shadow_rays(const Surfaces<S>& s, const Bearing<S>& to_light, RayPacket& rays,
+                      FloatLanes& distance) {
+  rays.origin.template store<S>(s.point);
+  rays.direction.template store<S>(to_light.direction);
+  rays.start_object = *s.objects;
+  to_light.distance.store(distance.lane);
+}
 
 namespace detail {
 
@@ -84,7 +93,8 @@ template <class Spu> LightRecord light_at(SceneAccess<Spu>& scene, const FrameBl
 }
 
 /// Ambient light, and what all lights contribute, at the surfaces of `lanes`. Counts a shadow ray per light
-/// and lane that faces it.
+/// and lane that faces it. `finder.attenuate(surfaces, bearing, number, colour)` multiplies the light of that
+/// number by what comes through.
 template <class Spu, class Finder>
 V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, Finder& finder, const FrameBlock& frame,
                                    const Surfaces<typename Spu::simd>& s,
@@ -103,15 +113,9 @@ V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, Finder& finder, cons
 
     const bool shadowless = (light.flags & light_flag::shadowless) != 0;
     if (!shadowless) {
-      RayPacket rays;
-      rays.origin.template store<S>(s.point);
-      rays.direction.template store<S>(arrival.direction);
-      rays.start_object = *s.objects;
-      FloatLanes distances;
-      arrival.distance.store(distances.lane);
       VectorLanes colour;
       colour.template store<S>(arrival.colour);
-      finder.attenuate(rays, facing, distances, colour, i);
+      finder.attenuate(s, arrival, i, colour);
       arrival.colour = colour.template load<S>();
       shadow_rays += static_cast<uint32_t>(__builtin_popcount(facing));
     }

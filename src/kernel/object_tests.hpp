@@ -66,7 +66,6 @@ public:
     const F nearest = F::load(hits.distance.lane);
     const M hit = near_valid | far_valid;
     const M not_farther = hit & (distance <= nearest);
-    if (not_farther.bits() == 0) return;
     // Of two hits at the same place the object that comes first in the scene counts, in whatever order they
     // are found.
     auto* objects = reinterpret_cast<int32_t*>(hits.object.lane);
@@ -94,8 +93,8 @@ public:
 
   /// Takes from the light of one lane what `crossings` crossings of a translucent object hold back. True if
   /// that leaves it dark.
-  bool dim(uint32_t flags, uint32_t material, float u, float v, uint32_t crossings, uint32_t lane,
-           VectorLanes& light) {
+  __attribute__((noinline)) bool dim(uint32_t flags, uint32_t material, float u, float v, uint32_t crossings,
+                                     uint32_t lane, VectorLanes& light) {
     scene_.spu().compute(scalar_work::kFilter);
     float through[3];
     transmission(flags, material, u, v, through);

@@ -10,6 +10,9 @@
 
 namespace celltrace::kernel {
 
+template <class Spu> constexpr uint32_t kBundleEdge = bundle_edge(Spu::direct_memory);
+template <class Spu> constexpr uint32_t kBundlePackets = kBundleEdge<Spu>* kBundleEdge<Spu>;
+
 /// One value per lane, in local store.
 struct alignas(64) FloatLanes {
   float lane[kSimdLanes];
@@ -46,6 +49,16 @@ struct HitPacket {
   FloatLanes distance;
   WordLanes object;
   FloatLanes u, v;
+};
+
+/// What is asked of the rays of a packet in `lanes`: the closest hits, into `hits`, or what light comes to
+/// them from `distance` away, by which `light` is multiplied.
+struct Search {
+  const RayPacket* rays;
+  HitPacket* hits;
+  const FloatLanes* distance;
+  VectorLanes* light;
+  uint32_t lanes; ///< that are looked at; of shadow rays, those to which some light still comes
 };
 
 /// The least and the greatest of some values.

@@ -2,7 +2,7 @@
 // level and by contribution (adaptive depth control, Hall and Greenberg 1983). Kernel dialect.
 #pragma once
 
-#include "kernel/lighting.hpp"
+#include "kernel/finder.hpp"
 #include "kernel/secondary_rays.hpp"
 
 namespace celltrace::kernel {
@@ -12,11 +12,11 @@ struct RayCounters {
   uint64_t dropped = 0; ///< beyond what the stacks hold
 };
 
-/// The tree of one packet at a time. `Finder` says what rays hit and what light comes through to them: a
-/// Traversal, or where another SPE searches, what hands its answers on. With trace() the tree is worked off
-/// at once; whoever has to wait for answers takes its steps: begin(), then for each node() take_hits() and
+/// The tree of one packet at a time. `Answers` says what rays hit and what light comes through to them: a
+/// Finder, or where another SPE searches, what hands its answers on. With trace() the tree is worked off at
+/// once; whoever has to wait for answers takes its steps: begin(), then for each node() take_hits() and
 /// shade_hits(), until advance() finds no more.
-template <class Spu, class Finder = Traversal<Spu>, uint32_t kResident = kResidentNodes> class RayTracer {
+template <class Spu, class Answers = Finder<Spu>, uint32_t kResident = kResidentNodes> class RayTracer {
 public:
   using S = typename Spu::simd;
   using F = typename S::F;
@@ -24,21 +24,28 @@ public:
   using M = typename S::M;
 
   RayTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, ea_t spill)
-      : RayTracer(spu, frame, scene, spill, frame.ray_stack_nodes, *place_traversal(spu, frame, scene),
+      : RayTracer(spu, frame, scene, spill, frame.ray_stack_nodes, *place_finder(spu, frame, scene),
                   *spu.template allocate<RayNode>()) {}
   /// `spill` has room for `spill_nodes`. `scratch` may be shared by tracers.
   RayTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, ea_t spill, uint32_t spill_nodes,
-            Finder& finder, RayNode& scratch)
-      : frame_(frame), scene_(scene), traversal_(finder), stack_(spu, spill, spill_nodes),
+            Answers& finder, RayNode& scratch)
+      : frame_(frame), scene_(scene), finder_(finder), stack_(spu, spill, spill_nodes),
         node_(*spu.template allocate<RayNode>()), child_(scratch) {}
 
-  /// The colours of primary rays; `rays` are of unit direction and leave the camera.
-  V3<S> trace(const RayPacket& rays, uint32_t lanes) {
+  /// The colours of primary rays, which leave the camera. What they hit is known, and the finder may know
+  /// what light comes there. Points of later hits replace the first ones'.
+  V3<S> trace(const RayPacket& rays, uint32_t lanes, const HitPacket& hits, HitPoints<S>& points) {
     begin(rays, lanes);
-    do
-      trace_node();
-    while (advance());
-    return light();
+    hits_ = hits;
+    uint32_t hit = take_hits();
+    for (;;) {
+      if (hit != 0) shade_hits(points, hit);
+      finder_.forget_light();
+      if (!advance()) return light();
+      finder_.find_closest(node_.rays, node_.lanes, hits_);
+      hit = take_hits();
+      if (hit != 0) find_hit_points(scene_, node_.rays, hits_, hit, points);
+    }
   }
 
   /// Starts the tree of a packet of primary rays.
@@ -52,12 +59,9 @@ public:
   const RayNode& node() const { return node_; }
   HitPacket& hits() { return hits_; }
   /// The lanes of node() that hit something; the others see the background.
-  [[gnu::always_inline]] uint32_t take_hits() {
+  uint32_t take_hits() {
     scene_.spu().compute(scalar_work::kNode);
-    uint32_t hit = 0;
-    for_each_lane(node_.lanes, [&](uint32_t lane) {
-      hit |= static_cast<uint32_t>(hits_.object.lane[lane] != kNoOffset) << lane;
-    });
+    const uint32_t hit = hit_lanes(hits_, node_.lanes);
     const uint32_t missed = node_.lanes & ~hit;
     if (missed != 0) add(missed, splat3<S>(frame_.background));
     return hit;
@@ -81,21 +85,23 @@ public:
   }
   V3<S> light() const { return light_[0].template load<S>(); }
 
+  Answers& finder() { return finder_; }
+
   void reset_counters() {
     counters_ = RayCounters();
-    traversal_.reset_counters();
+    finder_.reset_counters();
     stack_.reset_counters();
   }
   const RayCounters& counters() const { return counters_; }
-  const TraversalCounters& traversal_counters() const { return traversal_.counters(); }
+  const TraversalCounters& traversal_counters() const { return finder_.counters(); }
   uint32_t spilled_nodes() const { return stack_.spilled(); }
 
 private:
-  static Finder* place_traversal(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene) {
+  static Answers* place_finder(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene) {
     struct Storage {
-      alignas(16) uint8_t bytes[sizeof(Finder)];
+      alignas(16) uint8_t bytes[sizeof(Answers)];
     };
-    return new (static_cast<void*>(spu.template allocate<Storage>())) Finder(scene, frame);
+    return new (static_cast<void*>(spu.template allocate<Storage>())) Answers(scene, frame);
   }
 
   static uint32_t count(uint32_t lanes) { return static_cast<uint32_t>(__builtin_popcount(lanes)); }
@@ -141,12 +147,6 @@ private:
     add(node_.lanes, {pow<S>(sum.x, power), pow<S>(sum.y, power), pow<S>(sum.z, power)});
   }
 
-  void trace_node() {
-    traversal_.find_closest(node_.rays, node_.lanes, hits_);
-    const uint32_t hit = take_hits();
-    if (hit != 0) shade_hits(find_hit_points(scene_, node_.rays, hits_, hit), hit);
-  }
-
   /// Faces with three materials: each is shaded whole, and the results are blended by the vertices' weights.
   /// Adaptive depth control drops a material by its weight alone, as POV-Ray does. What goes on goes the same
   /// ways for all three: as one ray each where it weighs the same, or every such face would multiply the rays
@@ -181,7 +181,7 @@ private:
                                     const WordLanes& materials, uint32_t lanes, const F& share) {
     scene_.spu().compute(scalar_work::kShade);
     const MaterialLanes<S> m = gather_materials(scene_, materials, lanes);
-    add(lanes, local_light(scene_, traversal_, frame_, surfaces, m, lanes, counters_.shadow) * share);
+    add(lanes, local_light(scene_, finder_, frame_, surfaces, m, lanes, counters_.shadow) * share);
     if (!m.has_reflection && !m.has_transmission) return Onward<S>::nothing();
     scene_.spu().compute(scalar_work::kPassOn);
     F fresnel_ratio(1.0f);
@@ -286,7 +286,7 @@ private:
 
   const FrameBlock& frame_;
   SceneAccess<Spu>& scene_;
-  Finder& traversal_;
+  Answers& finder_;
   RayStack<Spu, kResident> stack_;
   RayNode& node_;  ///< being traced
   RayNode& child_; ///< being made

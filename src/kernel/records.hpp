@@ -185,6 +185,10 @@ enum class GammaEncoding : uint32_t { none = 0, assumed = 1 };
 
 constexpr uint32_t kMaxInteriorDepth = 8;
 constexpr uint32_t kPacketEdge = 4; ///< a packet is 4x4 rays
+/// Packets a side of a bundle, which one SPE takes as a whole: as many as local store has room for.
+constexpr uint32_t bundle_edge(bool direct_memory) {
+  return direct_memory ? 4 : 2;
+}
 
 /// Everything an SPE needs for a frame. Lies in main memory at a place that does not change while the SPEs
 /// run.
@@ -206,6 +210,7 @@ struct alignas(128) FrameBlock {
 
   uint32_t width, height; ///< pixels
   uint32_t packet_columns, packet_rows;
+  uint32_t bundle_columns, bundle_rows;
   uint32_t surface_pitch;
   uint32_t sort_capacity;
   uint32_t ray_stack_nodes;
@@ -234,10 +239,10 @@ struct alignas(128) FrameBlock {
 };
 static_assert(sizeof(FrameBlock) % 128 == 0 && sizeof(FrameBlock) <= 512, "fetched by one DMA command");
 
-/// A unit of work: packets in a row of packets from `column` on, and on in the next row where it ends.
+/// A unit of work: bundles in a row of bundles from `column` on, and on in the next row where it ends.
 struct alignas(8) UnitRecord {
   uint16_t column, row;
-  uint32_t packets;
+  uint32_t bundles;
 };
 static_assert(sizeof(UnitRecord) == 8, "sixteen units a line");
 

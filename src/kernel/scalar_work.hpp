@@ -43,9 +43,8 @@ constexpr ScalarWork kPrimaryPacket = {420, 8, 550, 135, 35};
 constexpr ScalarWork kNode = {240, 0, 216, 51, 22};
 /// A node copied to or from the stack.
 constexpr ScalarWork kNodeCopy = {60, 0, 192, 0, 2};
-/// The hits of a packet on one object, and of one lane there.
+/// The hits of a packet on one object.
 constexpr ScalarWork kHitObject = {280, 0, 460, 50, 22};
-constexpr ScalarWork kHitLane = {12, 0, 4, 4, 1};
 /// The lanes of one material.
 constexpr ScalarWork kMaterial = {345, 0, 300, 185, 60};
 /// The surfaces of a packet, apart from their lights.

@@ -24,7 +24,8 @@ template <class S> typename S::F encode_srgb(const typename S::F& linear) {
   return S::select(linear <= F(0.0031308f), linear * F(12.92f), power);
 }
 
-template <class Spu> class PixelWriter {
+/// `kRows` rows of packets are written at once: those of a column are put one after the other.
+template <class Spu, uint32_t kRows = 1> class PixelWriter {
 public:
   using S = typename Spu::simd;
   using F = typename S::F;
@@ -36,19 +37,23 @@ public:
   /// Encodes sixteen colours. They leave with those of the next packets of the row. `column` and `row` count
   /// packets.
   void put(uint32_t column, uint32_t row, const V3<S>& colour) {
-    if (packets_ == kRunPackets || row != row_ || column != column_ + packets_) send();
+    const uint32_t y0 = row % kRows;
+    if (columns_ != 0 && (row - y0 != row_ || column < column_ || column > column_ + columns_ ||
+                          column - column_ >= kRunPackets))
+      send();
     Run& run = runs_[current_];
-    if (packets_ == 0) {
+    if (columns_ == 0) {
       spu_.wait_all(1u << (kFirstTag + current_));
       column_ = column;
-      row_ = row;
+      row_ = row - y0;
     }
+    const uint32_t x = column - column_;
     WordLanes pixels;
     pack(quantise(colour.x), quantise(colour.y), quantise(colour.z))
         .store(reinterpret_cast<int32_t*>(pixels.lane));
     for (uint32_t y = 0; y < kPacketEdge; ++y)
-      U4::load(pixels.lane + y * kPacketEdge).store(run.pixels[y] + packets_ * kPacketEdge);
-    ++packets_;
+      U4::load(pixels.lane + y * kPacketEdge).store(run.pixels[y0 * kPacketEdge + y] + x * kPacketEdge);
+    if (x == columns_) ++columns_;
   }
 
   /// Waits until all pixels have arrived.
@@ -67,26 +72,29 @@ private:
 
   /// Neighbours in a row of packets.
   struct alignas(128) Run {
-    uint32_t pixels[kPacketEdge][kRunPackets * kPacketEdge];
-    ListElement list[kPacketEdge];
+    uint32_t pixels[kRows * kPacketEdge][kRunPackets * kPacketEdge];
+    ListElement list[kRows * kPacketEdge];
   };
 
-  void send() {
-    if (packets_ == 0) return;
+  // One copy: local store is short.
+  [[gnu::noinline]] void send() {
+    if (columns_ == 0) return;
     Run& run = runs_[current_];
+    const uint32_t below = frame_.packet_rows - row_;
+    const uint32_t rows = (below < kRows ? below : kRows) * kPacketEdge;
+    const uint32_t bytes = columns_ * kPacketRowBytes;
     const ea_t corner =
         frame_.surface + row_ * kPacketEdge * frame_.surface_pitch + column_ * kPacketRowBytes;
-    for (uint32_t y = 0; y < kPacketEdge; ++y)
-      run.list[y] = ListElement::make(packets_ * kPacketRowBytes, corner + y * frame_.surface_pitch);
-    if (packets_ == kRunPackets) {
-      spu_.putl(run.pixels[0], corner, run.list, kPacketEdge, kFirstTag + current_);
+    for (uint32_t y = 0; y < rows; ++y)
+      run.list[y] = ListElement::make(bytes, corner + y * frame_.surface_pitch);
+    if (columns_ == kRunPackets) {
+      spu_.putl(run.pixels[0], corner, run.list, rows, kFirstTag + current_);
     } else {
       // The elements of a list lie one behind the other, those of an unfinished run do not.
-      for (uint32_t y = 0; y < kPacketEdge; ++y)
-        spu_.put(run.pixels[y], corner + y * frame_.surface_pitch, packets_ * kPacketRowBytes,
-                 kFirstTag + current_);
+      for (uint32_t y = 0; y < rows; ++y)
+        spu_.put(run.pixels[y], corner + y * frame_.surface_pitch, bytes, kFirstTag + current_);
     }
-    packets_ = 0;
+    columns_ = 0;
     current_ ^= 1;
   }
 
@@ -114,7 +122,7 @@ private:
   const FrameBlock& frame_;
   Run* runs_;
   uint32_t current_ = 0;          ///< of the runs, the one being filled
-  uint32_t packets_ = 0;          ///< in it
+  uint32_t columns_ = 0;          ///< of packets in it
   uint32_t column_ = 0, row_ = 0; ///< of the first of them
 };
 

@@ -4,9 +4,8 @@
 // and the mailbox (the neighbours' balancing, and the PPE's word that ends the frame).
 #pragma once
 
+#include "kernel/bundle_tracer.hpp"
 #include "kernel/prepare_frame.hpp"
-#include "kernel/primary_rays.hpp"
-#include "kernel/ray_tracer.hpp"
 #include "kernel/surface.hpp"
 #include "kernel/work_exchange.hpp"
 #include "kernel/work_units.hpp"
@@ -48,12 +47,13 @@ private:
         : image(frame.image), ray_stack(frame.ray_stack), scene(spu, config, frame.image),
           tracer(spu, frame, scene,
                  frame.ray_stack + static_cast<ea_t>(spu.id() * frame.ray_stack_nodes) * kRayNodeBytes),
-          pixels(spu, frame) {}
+          bundles(spu, frame, scene, tracer), pixels(spu, frame) {}
 
     ea_t image, ray_stack;
     SceneAccess<Spu> scene;
     RayTracer<Spu> tracer;
-    PixelWriter<Spu> pixels;
+    BundleTracer<Spu> bundles;
+    PixelWriter<Spu, kBundleEdge<Spu>> pixels;
   };
 
   void obey(uint32_t commands) {
@@ -131,18 +131,18 @@ private:
     const UnitRecord run = units_.at(unit);
     uint32_t column = run.column;
     uint32_t row = run.row;
-    for (uint32_t packet = 0; packet < run.packets; ++packet) {
-      RayPacket rays;
-      make_primary_rays<typename Spu::simd>(frame_, column, row, rays);
-      phase_->pixels.put(column, row, phase_->tracer.trace(rays, lanes_in_picture(frame_, column, row)));
-      exchange_.poll();
+    for (uint32_t bundle = 0; bundle < run.bundles; ++bundle) {
+      phase_->bundles.trace(column, row, [&](uint32_t x, uint32_t y, const V3<typename Spu::simd>& colour) {
+        phase_->pixels.put(x, y, colour);
+        ++packets_;
+        exchange_.poll();
+      });
       if (exchange_.over()) return;
-      if (++column == frame_.packet_columns) {
+      if (++column == frame_.bundle_columns) {
         column = 0;
         ++row;
       }
     }
-    packets_ += run.packets;
     units_.write_cost(unit, start - spu_.read_decrementer());
     exchange_.complete_unit();
   }

@@ -13,26 +13,44 @@ public:
 
   /// The closest hit of each ray in `lanes`. Other lanes' results are meaningless.
   void find_closest(const RayPacket& rays, uint32_t lanes, HitPacket& hits) {
-    using S = typename Spu::simd;
-    typename S::F(kMaxHitDistance).store(hits.distance.lane);
-    S::I::splat(-1).store(reinterpret_cast<int32_t*>(hits.object.lane));
-    if (by_hierarchy())
-      hierarchy_.find_closest(rays, lanes, hits);
-    else
-      grid_.find_closest(rays, lanes, hits);
+    Search search = {&rays, &hits, nullptr, nullptr, lanes};
+    run(&search, 1);
   }
 
   /// Multiplies `light` of each ray in `lanes` by what lies between its origin and `distance` along it: 0
-  /// behind an opaque object, the filtering of each surface crossed otherwise. The number of the light does
-  /// not matter here.
-  void attenuate(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance, VectorLanes& light,
-                 uint32_t = 0) {
+  /// behind an opaque object, the filtering of each surface crossed otherwise.
+  void attenuate(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance, VectorLanes& light) {
+    Search search = {&rays, nullptr, &distance, &light, lanes};
+    run(&search, 1);
+  }
+
+  /// Answers all of these, at most a bundle's: quicker than one by one if their rays have much in common.
+  void run(Search* searches, uint32_t count) {
     using S = typename Spu::simd;
     using F = typename S::F;
-    const uint32_t lit = by_hierarchy() ? hierarchy_.attenuate(rays, lanes, distance, light)
-                                        : grid_.attenuate(rays, lanes, distance, light);
+    for (uint32_t i = 0; i < count; ++i) {
+      HitPacket* const hits = searches[i].hits;
+      if (hits == nullptr) continue;
+      F(kMaxHitDistance).store(hits->distance.lane);
+      S::I::splat(-1).store(reinterpret_cast<int32_t*>(hits->object.lane));
+    }
+    if (by_hierarchy()) {
+      hierarchy_.run(searches, count);
+    } else {
+      for (uint32_t i = 0; i < count; ++i) {
+        Search& s = searches[i];
+        if (s.hits != nullptr)
+          grid_.find_closest(*s.rays, s.lanes, *s.hits);
+        else
+          s.lanes = grid_.attenuate(*s.rays, s.lanes, *s.distance, *s.light);
+      }
+    }
     const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
-    light.template store<S>(select<S>(S::M::from_bits(lit), light.template load<S>(), dark));
+    for (uint32_t i = 0; i < count; ++i) {
+      const Search& s = searches[i];
+      if (s.light == nullptr) continue;
+      s.light->template store<S>(select<S>(S::M::from_bits(s.lanes), s.light->template load<S>(), dark));
+    }
   }
 
   const TraversalCounters& counters() const { return objects_.counters(); }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "celltrace/render.hpp"
+#include "celltrace/spe/machine.hpp"
 #include "kernel/records.hpp"
 #include "scene/scene_image.hpp"
 
@@ -10,8 +11,8 @@ namespace celltrace {
 /// Pixels, size and limits: throws InputError for options out of range.
 void check(const RenderOptions& options);
 
-/// Fills what depends on the picture's size and the options.
-void set_options(kernel::FrameBlock& frame, const RenderOptions& options, unsigned spes);
+/// Fills what depends on the picture's size, the options and the machine.
+void set_options(kernel::FrameBlock& frame, const RenderOptions& options, const Machine& machine);
 /// Fills what depends on the scene but not on its camera.
 void set_scene(kernel::FrameBlock& frame, const Scene& scene, const RenderOptions& options,
                const SceneImage& image);

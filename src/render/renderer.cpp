@@ -61,12 +61,12 @@ public:
       : options_(options), frame_block_(sizeof(FrameBlock)), frame_(*new (frame_block_.data()) FrameBlock()),
         machine_(make_machine(machine_config(options))) {
     const unsigned spes = machine_->spe_count();
-    set_options(frame_, options_, spes);
+    set_options(frame_, options_, *machine_);
     surface_ = make_list_target(std::size_t{frame_.surface_pitch} * frame_.packet_rows * kPacketEdge);
     reports_ = AlignedBlock(spes * sizeof(ReportRecord));
     frame_.surface = to_ea(surface_.data());
     frame_.reports = to_ea(reports_.data());
-    plan_ = std::make_unique<WorkPlan>(options_.balance, frame_.packet_columns, frame_.packet_rows, spes);
+    plan_ = std::make_unique<WorkPlan>(options_.balance, frame_.bundle_columns, frame_.bundle_rows, spes);
     team_ = std::make_unique<SpeTeam>(*machine_, frame_);
     builder_ = std::make_unique<AcceleratorBuilder>(*machine_, *team_, frame_, image_);
     if (options_.model != Model::shared)

@@ -16,14 +16,18 @@ namespace {
 
 /// So that a unit is a small part of what an SPE has to do: it is what strips may be uneven by.
 constexpr std::uint32_t kUnitsPerStrip = 512;
-/// Where packets have been cheap, units are long, but no longer than this many times the mean: the next
+/// Where bundles have been cheap, units are long, but no longer than this many times the mean: the next
 /// picture may be another.
 constexpr std::uint32_t kLongestUnit = 8;
+/// Units that cost more than this many times the mean are what a strip begins with: at the end of a frame
+/// they would keep one SPE busy while the others have run dry. The rest stays in the picture's order, in
+/// which neighbours find in the cache what they share.
+constexpr double kCostly = 1.5;
 /// Nothing is known of the first frame: a strip is of pieces from all over the picture, which exchanges have
 /// less to do about.
 constexpr std::uint32_t kPiecesPerStrip = 16;
-/// Packets a side of the tiles that are dealt at random.
-constexpr std::uint32_t kTileEdge = 8;
+/// Bundles a side of the tiles that are dealt at random.
+constexpr std::uint32_t kTileEdge = 4;
 constexpr std::uint32_t kTileSeed = 1;
 
 constexpr std::uint32_t divided(std::uint32_t count, std::uint32_t by) {
@@ -48,7 +52,7 @@ WorkPlan::WorkPlan(Balance balance, std::uint32_t columns, std::uint32_t rows, s
   constexpr std::uint32_t kMostUnits = strip_word::kMaxUnits / 9 * 8 - 8;
   wanted_units_ = std::min({kMostUnits, kUnitsPerStrip * spes, columns * rows});
   if (balance == Balance::scatter)
-    deal_packets();
+    deal_bundles();
   else if (balance == Balance::tiles)
     deal_tiles();
   else if (balance == Balance::gde)
@@ -85,6 +89,24 @@ void WorkPlan::cut_by_cost() {
   }
   cut(lengths);
   strips_ = strips_of_equal_cost(expected, spes_);
+  begin_with_costly(expected);
+}
+
+void WorkPlan::begin_with_costly(const std::vector<double>& expected) {
+  const double costly = kCostly * std::accumulate(expected.begin(), expected.end(), 0.0) / units();
+  const std::vector<UnitRecord> in_order = units_;
+  std::vector<std::size_t> order(expected.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  for (const UnitRange strip : strips_) {
+    const auto begin = order.begin() + strip.first;
+    const auto rest = std::stable_partition(begin, begin + strip.count,
+                                            [&](std::size_t unit) { return expected[unit] > costly; });
+    std::sort(begin, rest, [&](std::size_t a, std::size_t b) {
+      return std::pair(-expected[a], a) < std::pair(-expected[b], b);
+    });
+  }
+  std::transform(order.begin(), order.end(), units_.begin(),
+                 [&](std::size_t unit) { return in_order[unit]; });
 }
 
 void WorkPlan::cut(const std::vector<std::uint32_t>& lengths) {
@@ -123,13 +145,13 @@ void WorkPlan::deal_pieces() {
   strips_ = consecutive_strips(counts);
 }
 
-void WorkPlan::deal_packets() {
-  const std::uint32_t packets = columns_ * rows_;
+void WorkPlan::deal_bundles() {
+  const std::uint32_t bundles = columns_ * rows_;
   std::vector<std::uint32_t> counts;
   for (std::uint32_t spe = 0; spe < spes_; ++spe) {
-    for (std::uint32_t packet = spe; packet < packets; packet += spes_)
-      add_unit(packet % columns_, packet / columns_, 1);
-    counts.push_back(packets / spes_ + (spe < packets % spes_ ? 1 : 0));
+    for (std::uint32_t bundle = spe; bundle < bundles; bundle += spes_)
+      add_unit(bundle % columns_, bundle / columns_, 1);
+    counts.push_back(bundles / spes_ + (spe < bundles % spes_ ? 1 : 0));
   }
   strips_ = consecutive_strips(counts);
 }
@@ -155,8 +177,8 @@ void WorkPlan::deal_tiles() {
   strips_ = consecutive_strips(counts);
 }
 
-void WorkPlan::add_unit(std::uint32_t column, std::uint32_t row, std::uint32_t packets) {
-  units_.push_back({static_cast<std::uint16_t>(column), static_cast<std::uint16_t>(row), packets});
+void WorkPlan::add_unit(std::uint32_t column, std::uint32_t row, std::uint32_t bundles) {
+  units_.push_back({static_cast<std::uint16_t>(column), static_cast<std::uint16_t>(row), bundles});
 }
 
 void WorkPlan::write() {
@@ -176,7 +198,7 @@ std::vector<CostRun> WorkPlan::measured_runs() const {
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return place(a) < place(b); });
   std::vector<CostRun> runs;
   for (const std::size_t unit : order)
-    runs.push_back({units_[unit].packets, cost[unit]});
+    runs.push_back({units_[unit].bundles, cost[unit]});
   return runs;
 }
 

@@ -1,4 +1,4 @@
-// How the packets of a frame are cut into units of work, and which SPE starts with which of them.
+// How the bundles of a frame are cut into units of work, and which SPE starts with which of them.
 #pragma once
 
 #include "celltrace/balance/partition.hpp"
@@ -14,7 +14,7 @@ namespace celltrace {
 /// the way of balancing does.
 class WorkPlan {
 public:
-  /// For a picture of `columns` x `rows` packets (at least one), and for so many SPEs.
+  /// For a picture of `columns` x `rows` bundles (at least one), and for so many SPEs.
   WorkPlan(Balance balance, std::uint32_t columns, std::uint32_t rows, std::uint32_t spes);
 
   /// Writes where everything lies. Call it before every frame: plans may move.
@@ -26,12 +26,14 @@ public:
 private:
   void cut_evenly();
   void cut_by_cost();
+  /// Moves the costly units of each strip to its beginning.
+  void begin_with_costly(const std::vector<double>& expected);
   /// Row by row, as long as `lengths` says.
   void cut(const std::vector<std::uint32_t>& lengths);
   void deal_pieces();
-  void deal_packets();
+  void deal_bundles();
   void deal_tiles();
-  void add_unit(std::uint32_t column, std::uint32_t row, std::uint32_t packets);
+  void add_unit(std::uint32_t column, std::uint32_t row, std::uint32_t bundles);
   void write();
   /// By unit, as the SPEs wrote them.
   std::vector<double> costs() const;

@@ -59,7 +59,8 @@ TEST_CASE("Points, normals and materials of hits") {
       for (unsigned l = 0; l < kSimdLanes; ++l)
         lanes |= hits.object.lane[l] != kNoOffset ? 1u << l : 0;
       if (lanes == 0) continue;
-      const HitPoints<Simd> found = find_hit_points(access, rays, hits, lanes);
+      HitPoints<Simd> found;
+      find_hit_points(access, rays, hits, lanes, found);
       const VectorLanes points = lanes_of(found.point);
       const VectorLanes normals = lanes_of(found.normal);
       for_each_lane(lanes, [&](unsigned l) {

@@ -1,5 +1,5 @@
 // The light of a hit in single precision against the formulas of the reference.
-#include "kernel/lighting.hpp"
+#include "kernel/finder.hpp"
 #include "kernel/secondary_rays.hpp"
 #include "lanes.hpp"
 #include "prepared_scene.hpp"
@@ -93,13 +93,13 @@ TEST_CASE("Ambient light, diffuse light and highlights of mixed materials") {
     REQUIRE(scene.prepare().built);
     DirectSpu spu;
     SceneAccess<DirectSpu> access(spu, CacheConfig(), scene.frame().image);
-    Traversal<DirectSpu> traversal(access, scene.frame());
+    Finder<DirectSpu> finder(access, scene.frame());
     const Hits hits(random, scene, 12);
     const std::uint32_t lanes = random.below(3) == 0 ? random.word() & 0xFFFF : 0xFFFF;
     const auto materials = gather_materials(access, hits.material, lanes);
     std::uint64_t shadow_rays = 0;
-    const VectorLanes light = lanes_of(
-        local_light(access, traversal, scene.frame(), hits.surfaces(), materials, lanes, shadow_rays));
+    const VectorLanes light =
+        lanes_of(local_light(access, finder, scene.frame(), hits.surfaces(), materials, lanes, shadow_rays));
 
     std::uint64_t expected_rays = 0;
     for_each_lane(lanes, [&](unsigned l) {

@@ -6,6 +6,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -97,20 +98,26 @@ TEST_CASE("Colours far out of range are clipped") {
   }
 }
 
-TEST_CASE("Every block of pixels goes to its own place, red first") {
-  for (const auto& [width, height] : {std::pair{1u, 1u}, {4u, 4u}, {5u, 3u}, {33u, 17u}, {100u, 4u}}) {
+/// Writes a picture whose pixels say where they belong, in blocks of `kRows` x `kRows` packets.
+template <std::uint32_t kRows> void check_places() {
+  for (const auto& [width, height] :
+       {std::pair{1u, 1u}, {4u, 4u}, {5u, 3u}, {33u, 17u}, {100u, 4u}, {250u, 90u}}) {
     const Surface surface(width, height);
     DirectSpu spu;
-    PixelWriter<DirectSpu> writer(spu, surface.frame());
-    for (std::uint32_t row = 0; row < surface.rows(); ++row)
-      for (std::uint32_t column = 0; column < surface.columns(); ++column) {
-        FloatLanes x, y;
-        for (unsigned l = 0; l < 16; ++l) {
-          x.lane[l] = static_cast<float>(column * 4 + l % 4) / 255;
-          y.lane[l] = static_cast<float>(row * 4 + l / 4) / 255;
-        }
-        writer.put(column, row, {load(x), load(y), F(1.0f)});
+    PixelWriter<DirectSpu, kRows> writer(spu, surface.frame());
+    const auto put = [&](std::uint32_t column, std::uint32_t row) {
+      FloatLanes x, y;
+      for (unsigned l = 0; l < 16; ++l) {
+        x.lane[l] = static_cast<float>(column * 4 + l % 4) / 255;
+        y.lane[l] = static_cast<float>(row * 4 + l / 4) / 255;
       }
+      writer.put(column, row, {load(x), load(y), F(1.0f)});
+    };
+    for (std::uint32_t top = 0; top < surface.rows(); top += kRows)
+      for (std::uint32_t left = 0; left < surface.columns(); left += kRows)
+        for (std::uint32_t row = top; row < std::min(top + kRows, surface.rows()); ++row)
+          for (std::uint32_t column = left; column < std::min(left + kRows, surface.columns()); ++column)
+            put(column, row);
     writer.flush();
     for (std::uint32_t y = 0; y < surface.rows() * 4; ++y)
       for (std::uint32_t x = 0; x < surface.columns() * 4; ++x) {
@@ -121,4 +128,10 @@ TEST_CASE("Every block of pixels goes to its own place, red first") {
         REQUIRE(int{p[3]} == 255);
       }
   }
+}
+
+TEST_CASE("Every block of pixels goes to its own place, red first") {
+  check_places<1>();
+  check_places<2>();
+  check_places<4>();
 }

@@ -1,5 +1,6 @@
-// Packets through the grid and through the hierarchy of boxes, as every SPU type builds and walks them, against brute force over all objects with
-// the same intersection tests: closest hits have to be equal to the last bit.
+// Packets through the grid and through the hierarchy of boxes, as every SPU type builds and walks them,
+// against brute force over all objects with the same intersection tests: closest hits have to be equal to the
+// last bit.
 #include "celltrace/spe/program.hpp"
 #include "machines.hpp"
 #include "prepared_scene.hpp"
@@ -29,11 +30,19 @@ std::vector<TraversalQuery> queries_for(const PreparedScene& scene, unsigned see
     half[i] = 0.5 * (double{grid.max[i]} - double{grid.min[i]});
   }
   std::vector<TraversalQuery> queries(packets);
-  for (TraversalQuery& q : queries) {
-    const unsigned kind = random.below(6);
-    const Vec3 common = random.direction();
+  // Half of them have much in common with their neighbours, as the packets of a bundle have.
+  constexpr unsigned kNeighbours = 24;
+  Vec3 common_aim, common;
+  for (unsigned packet = 0; packet < packets; ++packet) {
+    TraversalQuery& q = queries[packet];
+    const bool neighbour = packet / kNeighbours % 2 == 1;
+    const unsigned kind = neighbour ? 0 : random.below(6);
+    if (!neighbour || packet % kNeighbours == 0) {
+      common_aim = middle + half * random.point(1);
+      common = random.direction();
+    }
     for (unsigned l = 0; l < kSimdLanes; ++l) {
-      Vec3 aim = middle + half * random.point(1.1);
+      Vec3 aim = neighbour ? common_aim + half * random.point(0.03) : middle + half * random.point(1.1);
       Vec3 direction = kind == 0 ? glm::normalize(common + random.point(0.05)) : random.direction();
       if (kind >= 4) { // along an axis; 5: on the border of voxels
         const int axis = static_cast<int>(random.below(3));
@@ -150,13 +159,17 @@ void check_accelerator(PreparedScene& prepared, const std::vector<TraversalQuery
     INFO(machine->spu_key() << (hierarchy ? ", hierarchy" : ", grid"));
     std::vector<TraversalQuery> asked = first;
     for (int round = 0; round < 2; ++round) {
-      std::vector<TraversalQuery> answers = asked;
-      TraversalTask task = {to_ea(&prepared.frame()), to_ea(answers.data()), packets, 0, 0, 0};
-      machine->start(0, traversal_program(), to_ea(&task));
-      machine->wait(0);
-      REQUIRE(task.built == 1);
-      for (unsigned i = 0; i < packets; ++i)
-        check(prepared, asked[i], answers[i]);
+      std::vector<TraversalQuery> answers;
+      for (const std::uint32_t bundles : {0u, 1u}) {
+        INFO((bundles != 0 ? "bundles" : "packets"));
+        answers = asked;
+        TraversalTask task = {to_ea(&prepared.frame()), to_ea(answers.data()), packets, 0, 0, bundles};
+        machine->start(0, traversal_program(), to_ea(&task));
+        machine->wait(0);
+        REQUIRE(task.built == 1);
+        for (unsigned i = 0; i < packets; ++i)
+          check(prepared, asked[i], answers[i]);
+      }
       continue_from_hits(asked, answers);
     }
   }

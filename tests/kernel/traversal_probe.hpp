@@ -19,9 +19,9 @@ static_assert(sizeof(TraversalQuery) % 128 == 0, "crosses DMA");
 struct alignas(16) TraversalTask {
   ea_t frame, queries;
   uint32_t count;
-  uint32_t built; ///< answer
-  uint32_t pairs; ///< answer
-  uint32_t pad;
+  uint32_t built;   ///< answer
+  uint32_t pairs;   ///< answer
+  uint32_t bundles; ///< not 0: as many queries at once as a bundle has packets
 };
 
 template <class Spu> void traversal(Spu& spu, ea_t argument) {
@@ -45,13 +45,23 @@ template <class Spu> void traversal(Spu& spu, ea_t argument) {
   config.sets = 32; // small, so that lines are replaced
   SceneAccess<Spu> scene(spu, config, frame->image);
   Traversal<Spu> walker(scene, *frame);
-  TraversalQuery* query = spu.template allocate<TraversalQuery>();
-  for (uint32_t i = 0; i < task->count; ++i) {
-    const ea_t at = task->queries + i * sizeof(TraversalQuery);
-    fetch(query, at, sizeof *query);
-    walker.find_closest(query->rays, query->lanes, query->hits);
-    walker.attenuate(query->rays, query->lanes, query->distance, query->light);
-    spu.put(query, at, sizeof *query, 0);
+  const uint32_t most = task->bundles != 0 ? kBundlePackets<Spu> : 1;
+  TraversalQuery* const query = spu.template allocate<TraversalQuery>(most);
+  for (uint32_t first = 0; first < task->count; first += most) {
+    const uint32_t left = task->count - first;
+    const uint32_t n = left < most ? left : most;
+    const ea_t at = task->queries + first * sizeof(TraversalQuery);
+    Search closest[kBundlePackets<Spu>], light[kBundlePackets<Spu>];
+    for (uint32_t i = 0; i < n; ++i) {
+      TraversalQuery& q = query[i];
+      fetch(&q, at + i * sizeof q, sizeof q);
+      closest[i] = {&q.rays, &q.hits, nullptr, nullptr, q.lanes};
+      light[i] = {&q.rays, nullptr, &q.distance, &q.light, q.lanes};
+    }
+    walker.run(closest, n);
+    walker.run(light, n);
+    for (uint32_t i = 0; i < n; ++i)
+      spu.put(query + i, at + i * sizeof *query, sizeof *query, 0);
     spu.wait_all(1);
   }
 }

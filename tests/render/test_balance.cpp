@@ -21,16 +21,16 @@ struct Size {
   std::uint32_t columns, rows, spes;
 };
 
-/// What the SPEs would read; they would have measured `cost(column, row)` for each packet.
+/// What the SPEs would read; they would have measured `cost(column, row)` for each bundle.
 class PlannedFrame {
 public:
   PlannedFrame(const WorkPlan& plan, Size size) : size_(size), units_(plan.units()) { plan.place(frame_); }
 
-  /// How often each packet is in a unit, and how often each unit is in a strip.
-  std::vector<int> packets() const {
+  /// How often each bundle is in a unit, and how often each unit is in a strip.
+  std::vector<int> bundles() const {
     std::vector<int> times(size_.columns * size_.rows);
     for (std::uint32_t unit = 0; unit < units_; ++unit)
-      for_each_packet(unit, [&](std::uint32_t packet) { ++times.at(packet); });
+      for_each_bundle(unit, [&](std::uint32_t bundle) { ++times.at(bundle); });
     return times;
   }
   std::vector<int> units() const {
@@ -43,7 +43,7 @@ public:
   template <class Cost> void measure(Cost cost) const {
     auto* const costs = reinterpret_cast<std::uint32_t*>(frame_.costs);
     for (std::uint32_t unit = 0; unit < units_; ++unit)
-      for_each_packet(unit, [&](std::uint32_t packet) { costs[unit] += cost(packet); });
+      for_each_bundle(unit, [&](std::uint32_t bundle) { costs[unit] += cost(bundle); });
   }
   /// Greatest over mean cost of a strip, minus 1.
   template <class Cost> double imbalance(Cost cost) const {
@@ -52,7 +52,7 @@ public:
     for (std::uint32_t spe = 0; spe < size_.spes; ++spe) {
       double load = 0;
       for (std::uint32_t unit = strip(spe).begin; unit < strip(spe).end; ++unit)
-        for_each_packet(unit, [&](std::uint32_t packet) { load += cost(packet); });
+        for_each_bundle(unit, [&](std::uint32_t bundle) { load += cost(bundle); });
       most = std::max(most, load);
       sum += load;
     }
@@ -63,9 +63,9 @@ private:
   const kernel::StripRecord& strip(std::uint32_t spe) const {
     return reinterpret_cast<const kernel::StripRecord*>(frame_.strips)[spe];
   }
-  template <class Visit> void for_each_packet(std::uint32_t unit, Visit visit) const {
+  template <class Visit> void for_each_bundle(std::uint32_t unit, Visit visit) const {
     const auto& run = reinterpret_cast<const kernel::UnitRecord*>(frame_.units)[unit];
-    for (std::uint32_t i = 0; i < run.packets; ++i)
+    for (std::uint32_t i = 0; i < run.bundles; ++i)
       visit(run.row * size_.columns + run.column + i);
   }
 
@@ -79,8 +79,8 @@ bool all_once(const std::vector<int>& times) {
 }
 
 /// A ray that costs nothing, and a bright spot in the upper right corner of a picture of 100 columns.
-std::uint32_t uneven_cost(std::uint32_t packet) {
-  return packet % 100 > 60 && packet / 100 < 30 ? 500 : 10;
+std::uint32_t uneven_cost(std::uint32_t bundle) {
+  return bundle % 100 > 60 && bundle / 100 < 30 ? 500 : 10;
 }
 
 RenderOptions lockstep(unsigned spes, Balance balance) {
@@ -92,7 +92,7 @@ RenderOptions lockstep(unsigned spes, Balance balance) {
 
 } // namespace
 
-TEST_CASE("Every packet is in one unit of one strip, also after plans have learnt") {
+TEST_CASE("Every bundle is in one unit of one strip, also after plans have learnt") {
   for (const Balance balance : kBalances) {
     for (const Size size : {Size{1, 1, 1},
                             {1, 1, 16},
@@ -106,17 +106,17 @@ TEST_CASE("Every packet is in one unit of one strip, also after plans have learn
       WorkPlan plan(balance, size.columns, size.rows, size.spes);
       for (int frame = 0; frame < 4; ++frame) {
         const PlannedFrame planned(plan, size);
-        CHECK(all_once(planned.packets()));
+        CHECK(all_once(planned.bundles()));
         CHECK(all_once(planned.units()));
         if (balance == Balance::gde) CHECK(plan.units() <= strip_word::kMaxUnits);
-        planned.measure([](std::uint32_t packet) { return packet % 11 == 0 ? 300u : 2u; });
+        planned.measure([](std::uint32_t bundle) { return bundle % 11 == 0 ? 300u : 2u; });
         plan.learn();
       }
     }
   }
 }
 
-TEST_CASE("Plans learn from what packets cost") {
+TEST_CASE("Plans learn from what bundles cost") {
   const Size size{100, 75, 8};
   const auto imbalance_after = [&](Balance balance, int frames) {
     WorkPlan plan(balance, size.columns, size.rows, size.spes);

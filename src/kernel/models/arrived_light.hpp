@@ -45,8 +45,9 @@ public:
     cursor_ = 0;
   }
 
-  /// As Traversal's: the light of this number, all of whose `lanes` were asked for.
-  void attenuate(const RayPacket&, uint32_t, const FloatLanes&, VectorLanes& light, uint32_t number) {
+  /// As Finder's.
+  template <class Surfaces, class Bearing>
+  void attenuate(const Surfaces&, const Bearing&, uint32_t number, VectorLanes& light) {
     // Lights come in order, and from the beginning again for each of a face's materials.
     while (answer(cursor_).number != number)
       cursor_ = cursor_ + 1 == searches_ ? 0 : cursor_ + 1;

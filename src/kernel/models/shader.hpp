@@ -161,7 +161,7 @@ private:
       go_on(number);
       return;
     }
-    context.points = find_hit_points(scene_, context.tracer.node().rays, hits, context.hit);
+    find_hit_points(scene_, context.tracer.node().rays, hits, context.hit, context.points);
     if (!ask_for_light(number)) shade(number);
   }
 
@@ -180,10 +180,7 @@ private:
       if (bearing.facing == 0) continue;
       spu_.compute(model_work::kCopy);
       SearchRecord& search = writer_.next();
-      search.rays.origin.template store<S>(surfaces.point);
-      search.rays.direction.template store<S>(bearing.direction);
-      search.rays.start_object = objects;
-      bearing.distance.store(search.light.distance.lane);
+      make_shadow_rays(surfaces, bearing, search.rays, search.light.distance);
       search.light.colour.template store<S>(splat3<S>(light.colour));
       search.kind = static_cast<uint32_t>(SearchKind::shadow);
       search.lanes = bearing.facing;

@@ -1,0 +1,45 @@
+// Parts of the hierarchy that are still to be visited, nearest last. Kernel dialect.
+#pragma once
+
+#include <stdint.h>
+
+namespace celltrace::kernel {
+
+/// Part of the hierarchy: a node, or a leaf of `count` objects.
+struct Branch {
+  uint32_t child, count;
+
+  bool is_leaf() const { return count != 0; }
+};
+
+class BranchStack {
+public:
+  /// A branch that is to be visited, by which rays of a packet or packets of a bundle, and how far away it is
+  /// at least.
+  struct Entry {
+    Branch branch;
+    uint32_t lanes;
+    float enter;
+  };
+
+  uint32_t size() const { return size_; }
+  void shrink(uint32_t size) { size_ = size; }
+  const Entry& pop() { return entries_[--size_]; }
+  /// In its place among its siblings, which begin at `first`.
+  void push(uint32_t first, const Entry& entry) {
+    uint32_t place = size_++;
+    for (; place > first && entries_[place - 1].enter < entry.enter; --place)
+      entries_[place] = entries_[place - 1];
+    entries_[place] = entry;
+  }
+  const Entry& operator[](uint32_t place) const { return entries_[place]; }
+
+private:
+  /// Three children wait per level, at most. The builder goes no deeper.
+  static constexpr uint32_t kEntries = 3 * 48 + 4;
+
+  Entry entries_[kEntries];
+  uint32_t size_ = 0;
+};
+
+} // namespace celltrace::kernel

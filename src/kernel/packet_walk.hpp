@@ -1,0 +1,180 @@
+// A packet of rays in the hierarchy of boxes, from any of its branches on. Kernel dialect.
+//
+// The rays go together as a beam, nearest children first. A box that the beam meets is held against its rays,
+// all at once, before it is opened; what only one of them meets, that ray visits alone. An object met by some
+// is tested against the whole packet.
+#pragma once
+
+#include "kernel/beam.hpp"
+#include "kernel/branch_stack.hpp"
+#include "kernel/object_tests.hpp"
+
+namespace celltrace::kernel {
+
+/// Rays of a packet that go together, all of one octant.
+template <class S> struct RayGroup {
+  OctantRays<S> rays;
+  Beam<S> beam;
+
+  [[gnu::noinline]] void set(const RayPacket& packet, const RayBounds& bounds, uint32_t octant) {
+    rays = OctantRays<S>(packet, octant);
+    beam.set(bounds, octant);
+  }
+};
+
+template <class Spu> class PacketWalk {
+public:
+  using S = typename Spu::simd;
+  using F = typename S::F;
+  using M = typename S::M;
+
+  explicit PacketWalk(ObjectTests<Spu>& objects) : objects_(objects) {}
+
+  BranchStack& stack() { return stack_; }
+
+  /// The rays in `lanes`, which `group` is of, visit the objects of a branch.
+  void walk(const RayGroup<S>& group, const BoxSides& sides, uint32_t lanes, Search& search, Branch branch) {
+    const uint32_t floor = stack_.size();
+    Course course = {&group.beam, lanes, floor, limit_of(search, lanes)};
+    for (;;) {
+      if (branch.is_leaf()) {
+        test_objects(branch, course.group, search);
+        if (search.hits != nullptr)
+          course.limit = limit_of(search, course.group);
+        else if ((search.lanes & course.group) == 0)
+          stack_.shrink(course.floor);
+      } else if (open(course, group.rays, sides, search, branch)) {
+        continue;
+      }
+      if (!take_next(course, {&group.beam, lanes, floor, 0.0f}, search, branch)) break;
+    }
+    stack_.shrink(floor);
+  }
+
+  /// How far each ray looks.
+  static F limits(const Search& search) {
+    return F::load(search.hits != nullptr ? search.hits->distance.lane : search.distance->lane);
+  }
+  /// How far the farthest-looking ray of the group looks, as boxes at just that distance should be opened: of
+  /// two hits there, it matters which object comes first. All distances are positive.
+  static float limit_of(const Search& search, uint32_t group) {
+    if (is_single(group)) {
+      const uint32_t lane = static_cast<uint32_t>(__builtin_ctz(group));
+      return kBeyond *
+             (search.hits != nullptr ? search.hits->distance.lane[lane] : search.distance->lane[lane]);
+    }
+    return kBeyond * interval_of<S>(S::select(M::from_bits(group), limits(search), F(0.0f))).high;
+  }
+
+  /// Lanes of the group that the object shuts off from the light. An opaque one shuts off whatever lanes of
+  /// the packet it covers; a translucent one is met once by each beam.
+  uint32_t shadowed(const Search& search, uint32_t self, uint32_t group) {
+    objects_.scene().spu().compute(scalar_work::kShadow);
+    const ObjectRecord& object = *objects_.scene().object(self);
+    const uint32_t flags = object.kind_and_flags;
+    const uint32_t material = object.material;
+    if ((flags & object_flag::no_shadow) != 0) return 0;
+    const bool opaque = (flags & object_flag::opaque) != 0;
+    if (opaque && !objects_.mailbox().first_visit(self)) return 0;
+    ShadowCrossings c;
+    objects_.test_shadow(*search.rays, object, self, *search.distance, c);
+    if (opaque) return c.near_hit | c.far_hit;
+    uint32_t dark = 0;
+    for_each_lane((c.near_hit | c.far_hit) & group, [&](uint32_t lane) {
+      const uint32_t crossings = ((c.near_hit >> lane) & 1) + ((c.far_hit >> lane) & 1);
+      if (objects_.dim(flags, material, c.u.lane[lane], c.v.lane[lane], crossings, lane, *search.light))
+        dark |= 1u << lane;
+    });
+    return dark;
+  }
+
+private:
+  /// What the rounding of hits' distances amounts to.
+  static constexpr float kBeyond = 1.00001f;
+
+  /// Who walks at the moment: the rays in `group`, as far as `limit`. Entries below `floor` of the stack are
+  /// not theirs.
+  struct Course {
+    const Beam<S>* beam;
+    uint32_t group, floor;
+    float limit;
+  };
+
+  /// Takes a branch that is still to be visited off the stack; false if there is none. A node that only one
+  /// of the rays of `whole` meets is for that ray alone, which misses more of it than the beam; the others go
+  /// on when nothing is left above what was waiting for them.
+  bool take_next(Course& course, const Course& whole, const Search& search, Branch& branch) {
+    const uint32_t lanes = whole.group;
+    for (;;) {
+      if (stack_.size() == course.floor) {
+        if (course.group == lanes || (search.lanes & lanes) == 0) return false;
+        course = whole;
+        course.limit = limit_of(search, lanes);
+        continue;
+      }
+      const BranchStack::Entry& next = stack_.pop();
+      if (next.enter > course.limit || (next.lanes & search.lanes) == 0) continue;
+      if (!next.branch.is_leaf() && is_single(next.lanes) && course.group == lanes && !is_single(lanes)) {
+        const Course alone = {&single_, next.lanes, stack_.size(), limit_of(search, next.lanes)};
+        if (next.enter > alone.limit) continue;
+        const uint32_t lane = static_cast<uint32_t>(__builtin_ctz(next.lanes));
+        single_.set(bounds_of_ray(*search.rays, lane), octant_of(*search.rays, lane));
+        course = alone;
+      }
+      branch = next.branch;
+      return true;
+    }
+  }
+
+  void test_objects(const Branch& leaf, uint32_t group, Search& search) {
+    SceneAccess<Spu>& scene = objects_.scene();
+    for (uint32_t i = 1; i < leaf.count; ++i)
+      scene.hint_listed(leaf.child + i * 4);
+    for (uint32_t i = 0; i < leaf.count; ++i) {
+      scene.spu().compute(scalar_work::kListedObject);
+      const uint32_t self = scene.list_word(leaf.child + i * 4);
+      if (search.hits == nullptr) {
+        search.lanes &= ~shadowed(search, self, group);
+        if ((search.lanes & group) == 0) return;
+      } else if (objects_.mailbox().first_visit(self)) {
+        objects_.test_closest(*search.rays, self, *search.hits);
+      }
+    }
+  }
+
+  /// Opens the node at `branch`. If one child is met, goes on there and returns true; if several, they go on
+  /// the stack.
+  bool open(const Course& course, const OctantRays<S>& rays, const BoxSides& sides, const Search& search,
+            Branch& branch) {
+    objects_.scene().spu().compute(scalar_work::kNodeOfBoxes);
+    ++objects_.counters().voxels;
+    const NodeRecord& node = *objects_.scene().node(branch.child);
+    alignas(16) float enter[4];
+    uint32_t met = course.beam->meets(node.box, sides, course.limit, enter);
+    if (met == 0) return false;
+    if (is_single(met)) {
+      const uint32_t i = static_cast<uint32_t>(__builtin_ctz(met));
+      branch = {node.child[i], node.count[i]};
+      return true;
+    }
+    const uint32_t group = course.group;
+    const F each_limit = limits(search);
+    const uint32_t first = stack_.size();
+    do {
+      const uint32_t i = static_cast<uint32_t>(__builtin_ctz(met));
+      met &= met - 1;
+      // Looser than its rays, a beam may meet what passes between them.
+      const uint32_t lanes = is_single(group) ? group : rays.meet(node.box, sides, i, each_limit) & group;
+      if (lanes != 0) stack_.push(first, {{node.child[i], node.count[i]}, lanes, enter[i]});
+    } while (met != 0);
+    for (uint32_t place = first; place < stack_.size(); ++place)
+      objects_.scene().hint(stack_[place].branch.child);
+    return false;
+  }
+
+  ObjectTests<Spu>& objects_;
+  BranchStack stack_;
+  Beam<S> single_; ///< of a ray that goes alone
+};
+
+} // namespace celltrace::kernel
