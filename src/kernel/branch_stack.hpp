@@ -12,14 +12,16 @@ struct Branch {
   bool is_leaf() const { return count != 0; }
 };
 
-class BranchStack {
+/// Packets of a bundle that visit a branch one by one have an entry each, at most `kMostAlone`.
+template <uint32_t kMostAlone> class BranchStack {
 public:
   /// A branch that is to be visited, by which rays of a packet or packets of a bundle, and how far away it is
-  /// at least.
+  /// at least. If a packet of a bundle visits it alone: which of its rays meet it.
   struct Entry {
     Branch branch;
     uint32_t lanes;
     float enter;
+    uint32_t rays;
   };
 
   uint32_t size() const { return size_; }
@@ -35,8 +37,9 @@ public:
   const Entry& operator[](uint32_t place) const { return entries_[place]; }
 
 private:
-  /// Three children wait per level, at most. The builder goes no deeper.
-  static constexpr uint32_t kEntries = 3 * 48 + 4;
+  /// Of each level three children wait, at most, and other packets for the one that is visited. The builder
+  /// goes no deeper.
+  static constexpr uint32_t kEntries = (4 * kMostAlone - 1) * 48 + 4;
 
   Entry entries_[kEntries];
   uint32_t size_ = 0;

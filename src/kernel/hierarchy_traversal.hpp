@@ -2,10 +2,10 @@
 //
 // The packets of a bundle whose rays have much in common go together: a beam around all of them is tested
 // against a node's boxes, and what it meets against the packets' own beams, a lane each. What only one of the
-// packets meets, it visits alone (PacketWalk); so do packets whose rays go different ways, in parts.
+// packets meets, it visits alone (BranchWalk); so do packets whose rays go different ways, in parts.
 #pragma once
 
-#include "kernel/packet_walk.hpp"
+#include "kernel/branch_walk.hpp"
 
 namespace celltrace::kernel {
 
@@ -29,7 +29,7 @@ public:
 
 private:
   using Lanes = BundleLanes<S, kBundlePackets<Spu>>;
-  using Entry = BranchStack::Entry;
+  using Stack = typename BranchWalk<Spu>::Stack;
 
   /// A packet's beam is loose once it has met this many boxes that none of its rays meet: where surfaces
   /// begin and end, shadow rays leave from places far apart.
@@ -65,7 +65,7 @@ private:
         same &= ~part;
         if ((search.lanes & part) == 0) continue;
         group.set(rays, bounds, octant);
-        walk_.walk(group, BoxSides(octant), part, search, root());
+        walk_.walk(group, BoxSides(octant), part, search, root(), part);
       }
     }
   }
@@ -108,7 +108,7 @@ private:
       misses_[packet] = 0;
       beams_.set(packet, bounds, octant);
       members_[packet].set(*search.rays, bounds, octant);
-      limits_[packet] = PacketWalk<Spu>::limit_of(search, search.lanes);
+      limits_[packet] = BranchWalk<Spu>::limit_of(search, search.lanes);
     });
     if (is_single(together)) return 0;
     around_.set(all, octant);
@@ -117,29 +117,32 @@ private:
   }
 
   void walk_together(Search* searches, const BoxSides& sides, uint32_t packets) {
-    BranchStack& stack = walk_.stack();
+    Stack& stack = walk_.stack();
     Branch branch = root();
+    uint32_t rays = 0; // if there is one packet
     for (;;) {
       if (branch.is_leaf()) {
         test_objects(branch, packets, searches);
-      } else if (is_single(packets)) {
+      } else if (rays != 0) {
         const uint32_t packet = static_cast<uint32_t>(__builtin_ctz(packets));
+        Search& search = searches[packet];
         objects_.mailbox().begin_packet();
-        walk_.walk(members_[packet], sides, searches[packet].lanes, searches[packet], branch);
-        update_limit(searches[packet], packet);
+        walk_.walk(members_[packet], sides, search.lanes, search, branch, rays);
+        update_limit(search, packet);
       } else if (open(searches, sides, packets, branch)) {
         continue;
       }
       do {
         if (stack.size() == 0) return;
-        const Entry& next = stack.pop();
+        const typename Stack::Entry& next = stack.pop();
         branch = next.branch;
+        rays = next.rays;
         packets = next.lanes & looking_as_far_as(next.enter);
       } while (packets == 0);
     }
   }
 
-  /// As PacketWalk's, with the packets' beams in place of rays. The rays themselves are asked where objects
+  /// As BranchWalk's, with the packets' beams in place of rays. The rays themselves are asked where objects
   /// are and where beams are loose.
   bool open(const Search* searches, const BoxSides& sides, uint32_t packets, Branch& branch) {
     objects_.scene().spu().compute(scalar_work::kNodeOfBoxes);
@@ -155,28 +158,40 @@ private:
         return true;
       }
     }
-    BranchStack& stack = walk_.stack();
+    Stack& stack = walk_.stack();
     const uint32_t first = stack.size();
     do {
       const uint32_t i = static_cast<uint32_t>(__builtin_ctz(met));
       met &= met - 1;
       uint32_t lanes = beams_.meet(node.box, sides, i, limits_) & packets;
-      lanes &= ~without_rays_in(node.box, sides, i, searches, node.count[i] != 0 ? lanes : lanes & loose_);
-      if (lanes != 0) stack.push(first, {{node.child[i], node.count[i]}, lanes, enter[i]});
+      const Branch child = {node.child[i], node.count[i]};
+      const bool ask_all = child.is_leaf() || is_lonely(lanes);
+      lanes &= ~without_rays_in(node.box, sides, i, searches, ask_all ? lanes : lanes & loose_);
+      if (ask_all && !child.is_leaf())
+        for_each_lane(lanes, [&](uint32_t packet) {
+          stack.push(first, {child, 1u << packet, enter[i], rays_[packet]});
+        });
+      else if (lanes != 0)
+        stack.push(first, {child, lanes, enter[i], 0});
     } while (met != 0);
     for (uint32_t place = first; place < stack.size(); ++place)
-      objects_.scene().hint(stack[place].branch.child);
+      objects_.scene().hint(stack[place].branch);
     return false;
   }
 
-  /// Those of the packets that have no ray that meets the box.
+  static bool is_lonely(uint32_t packets) {
+    return static_cast<uint32_t>(__builtin_popcount(packets)) <= BranchWalk<Spu>::kMostAlone;
+  }
+
+  /// Those of the packets that have no ray that meets the box; the others' rays that do go to rays_.
   uint32_t without_rays_in(const float (&box)[6][4], const BoxSides& sides, uint32_t i,
                            const Search* searches, uint32_t packets) {
     uint32_t without = 0;
     for_each_lane(packets, [&](uint32_t packet) {
       const Search& search = searches[packet];
       const uint32_t rays =
-          members_[packet].rays.meet(box, sides, i, PacketWalk<Spu>::limits(search)) & search.lanes;
+          members_[packet].rays.meet(box, sides, i, BranchWalk<Spu>::limits(search)) & search.lanes;
+      rays_[packet] = rays;
       const uint32_t missed = static_cast<uint32_t>(rays == 0);
       without |= missed << packet;
       misses_[packet] += missed;
@@ -208,7 +223,7 @@ private:
   /// A packet that no light comes to any more looks nowhere.
   void update_limit(const Search& search, uint32_t packet) {
     if (search.hits != nullptr)
-      limits_[packet] = PacketWalk<Spu>::limit_of(search, search.lanes);
+      limits_[packet] = BranchWalk<Spu>::limit_of(search, search.lanes);
     else if (search.lanes == 0)
       limits_[packet] = -1.0f;
   }
@@ -219,10 +234,11 @@ private:
 
   ObjectTests<Spu>& objects_;
   const HierarchyRecord& hierarchy_;
-  PacketWalk<Spu> walk_;
+  BranchWalk<Spu> walk_;
   RayGroup<S> members_[kBundlePackets<Spu>]; ///< packets of the bundle; a packet alone is the first
   BundleBeams<S, kBundlePackets<Spu>> beams_;
   Beam<S> around_;                       ///< all of them
+  uint32_t rays_[kBundlePackets<Spu>];   ///< of each packet that was asked last
   uint32_t misses_[kBundlePackets<Spu>]; ///< boxes that a beam met but no ray
   uint32_t loose_ = 0;                   ///< packets
   alignas(64) float limits_[kBundlePackets<Spu>] = {};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "celltrace/cache.hpp"
+#include "kernel/branch_stack.hpp"
 #include "kernel/records.hpp"
 
 namespace celltrace::kernel {
@@ -32,8 +33,12 @@ public:
   const NodeRecord* node(uint32_t offset) { return read<NodeRecord>(offset, DataKind::list); }
   uint32_t list_word(uint32_t offset) { return *read<uint32_t>(offset, DataKind::list); }
 
-  /// As the cache's: of what lies at an offset, and of the object whose offset lies there.
-  void hint(uint32_t offset) { cache_.hint(offset); }
+  /// As the cache's: of a branch of the hierarchy, and of the object whose offset lies there.
+  void hint(const Branch& branch) {
+    cache_.hint(branch.child);
+    // A node has two of a PC's lines.
+    if (!branch.is_leaf()) cache_.hint(branch.child + sizeof(NodeRecord) / 2);
+  }
   void hint_listed(uint32_t offset) {
     if constexpr (Spu::direct_memory) cache_.hint(list_word(offset));
     (void)offset;

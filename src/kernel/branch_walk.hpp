@@ -22,20 +22,26 @@ template <class S> struct RayGroup {
   }
 };
 
-template <class Spu> class PacketWalk {
+template <class Spu> class BranchWalk {
 public:
   using S = typename Spu::simd;
   using F = typename S::F;
   using M = typename S::M;
 
-  explicit PacketWalk(ObjectTests<Spu>& objects) : objects_(objects) {}
+  /// A node that no more packets of a bundle than this meet, each visits alone.
+  static constexpr uint32_t kMostAlone = kBundlePackets<Spu> >= 16 ? 2 : 1;
+  using Stack = BranchStack<kMostAlone>;
 
-  BranchStack& stack() { return stack_; }
+  explicit BranchWalk(ObjectTests<Spu>& objects) : objects_(objects) {}
 
-  /// The rays in `lanes`, which `group` is of, visit the objects of a branch.
-  void walk(const RayGroup<S>& group, const BoxSides& sides, uint32_t lanes, Search& search, Branch branch) {
+  Stack& stack() { return stack_; }
+
+  /// The rays in `lanes`, which `group` is of, visit the objects of a branch that those in `met` meet.
+  void walk(const RayGroup<S>& group, const BoxSides& sides, uint32_t lanes, Search& search, Branch branch,
+            uint32_t met) {
     const uint32_t floor = stack_.size();
     Course course = {&group.beam, lanes, floor, limit_of(search, lanes)};
+    if (is_single(met) && !is_single(lanes)) go_alone(course, met, search);
     for (;;) {
       if (branch.is_leaf()) {
         test_objects(branch, course.group, search);
@@ -112,18 +118,22 @@ private:
         course.limit = limit_of(search, lanes);
         continue;
       }
-      const BranchStack::Entry& next = stack_.pop();
+      const typename Stack::Entry& next = stack_.pop();
       if (next.enter > course.limit || (next.lanes & search.lanes) == 0) continue;
       if (!next.branch.is_leaf() && is_single(next.lanes) && course.group == lanes && !is_single(lanes)) {
-        const Course alone = {&single_, next.lanes, stack_.size(), limit_of(search, next.lanes)};
-        if (next.enter > alone.limit) continue;
-        const uint32_t lane = static_cast<uint32_t>(__builtin_ctz(next.lanes));
-        single_.set(bounds_of_ray(*search.rays, lane), octant_of(*search.rays, lane));
-        course = alone;
+        if (next.enter > limit_of(search, next.lanes)) continue;
+        go_alone(course, next.lanes, search);
       }
       branch = next.branch;
       return true;
     }
+  }
+
+  /// One ray goes on without the others.
+  void go_alone(Course& course, uint32_t ray, const Search& search) {
+    const uint32_t lane = static_cast<uint32_t>(__builtin_ctz(ray));
+    single_.set(bounds_of_ray(*search.rays, lane), octant_of(*search.rays, lane));
+    course = {&single_, ray, stack_.size(), limit_of(search, ray)};
   }
 
   void test_objects(const Branch& leaf, uint32_t group, Search& search) {
@@ -165,15 +175,15 @@ private:
       met &= met - 1;
       // Looser than its rays, a beam may meet what passes between them.
       const uint32_t lanes = is_single(group) ? group : rays.meet(node.box, sides, i, each_limit) & group;
-      if (lanes != 0) stack_.push(first, {{node.child[i], node.count[i]}, lanes, enter[i]});
+      if (lanes != 0) stack_.push(first, {{node.child[i], node.count[i]}, lanes, enter[i], 0});
     } while (met != 0);
     for (uint32_t place = first; place < stack_.size(); ++place)
-      objects_.scene().hint(stack_[place].branch.child);
+      objects_.scene().hint(stack_[place].branch);
     return false;
   }
 
   ObjectTests<Spu>& objects_;
-  BranchStack stack_;
+  Stack stack_;
   Beam<S> single_; ///< of a ray that goes alone
 };
 
