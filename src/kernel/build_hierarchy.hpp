@@ -16,8 +16,10 @@ public:
 
   /// SPE `self` of a team.
   Builder(Spu& spu, const FrameBlock& frame, uint32_t self)
-      : frame_(frame), memory_(frame), self_(self), image_(WorkMemory::pointer<uint8_t>(frame.image)),
+      : frame_(frame), memory_(frame), prototypes_(frame), self_(self),
+        image_(WorkMemory::pointer<uint8_t>(frame.image)),
         objects_(reinterpret_cast<const ObjectRecord*>(image_ + frame.object_offset)),
+        runs_(reinterpret_cast<const RunRecord*>(image_ + frame.run_offset)),
         nodes_(reinterpret_cast<NodeRecord*>(image_ + frame.hierarchy.node_offset)),
         top_stack_(spu.template allocate<typename TopBuilder::Task>(TopBuilder::kStackTasks)),
         treelet_stack_(spu.template allocate<typename TreeletBuilder::Task>(TreeletBuilder::kStackTasks)),
@@ -27,41 +29,130 @@ public:
   void run(uint32_t step) {
     if (step == 0 && self_ == 0) build_top();
     if (step == 1 && frame_.run_count != 0) build_treelets();
+    if (step == 2 && prototypes_.any()) copy_treelets();
   }
-  /// After step 0.
+  /// After the last step.
   uint32_t nodes() const { return memory_.team->nodes; }
 
 private:
   using TopBuilder = SubtreeBuilder<S, Treelets<S>>;
   using TreeletBuilder = SubtreeBuilder<S, Leaves<S>>;
   using F4 = typename S::F4;
+  /// Treelets that an SPE takes at a time.
+  static constexpr uint32_t kTaken = 8;
 
   void build_top() {
     const uint32_t runs = frame_.run_count;
     if (runs == 0) return build_whole();
-    const auto* from = reinterpret_cast<const Reference*>(image_ + frame_.run_offset);
-    for (uint32_t i = 0; i < runs; ++i)
-      memory_.runs[i] = from[i];
-    Treelets<S> treelets(memory_.treelets);
+    static_assert(sizeof(Reference) == sizeof(RunRecord), "a run is referred to by its box");
+    for (uint32_t i = 0; i < runs; ++i) {
+      __builtin_memcpy(static_cast<void*>(&memory_.runs[i]), &runs_[i], sizeof(Reference));
+      memory_.runs[i].value = i;
+    }
+    Treelets<S> treelets(memory_.runs, prototypes_, memory_.treelets);
     TopBuilder top(image_, memory_.runs, memory_.spare_runs, treelets, top_stack_);
     const NodeRecord* end = top.build(range_of<S>(memory_.runs, 0, runs), {nullptr, 0, 0}, nodes_);
     const auto top_nodes = static_cast<uint32_t>(end - nodes_);
-    *memory_.team = {treelets.count(), top_nodes, top_nodes + treelets.nodes(), 0, {}};
+    const uint32_t built = top_nodes + treelets.nodes();
+    *memory_.team = {treelets.count(), top_nodes, built, built, 0, 0, {}};
+    if (prototypes_.any()) find_prototypes(treelets.count());
+  }
+
+  /// The deepest copy says how deep a prototype may become.
+  void find_prototypes(uint32_t treelets) {
+    for (uint32_t t = 0; t < treelets; ++t)
+      if (!is_copy(memory_.treelets[t])) memory_.treelet_of[run_of(memory_.treelets[t])] = t;
+    for (uint32_t t = 0; t < treelets; ++t) {
+      const Treelet& treelet = memory_.treelets[t];
+      if (!is_copy(treelet)) continue;
+      Place& place = prototype_of(treelet).place;
+      if (place.depth < treelet.place.depth) place.depth = treelet.place.depth;
+    }
+  }
+  /// The first of its runs.
+  uint32_t run_of(const Treelet& treelet) const { return memory_.runs[treelet.begin].value; }
+  bool is_copy(const Treelet& treelet) const { return prototypes_.is_copy(run_of(treelet)); }
+  Treelet& prototype_of(const Treelet& copy) const {
+    return memory_.treelets[memory_.treelet_of[prototypes_.of(run_of(copy))]];
   }
 
   /// Those that no other SPE takes.
   void build_treelets() {
-    constexpr uint32_t kTaken = 8;
     const uint32_t treelets = memory_.team->treelets;
     for (;;) {
       const uint32_t first = __atomic_fetch_add(&memory_.team->next, kTaken, __ATOMIC_RELAXED);
       if (first >= treelets) return;
       for (uint32_t t = first; t < treelets && t < first + kTaken; ++t)
-        build(memory_.treelets[t]);
+        if (!is_copy(memory_.treelets[t])) build(memory_.treelets[t]);
     }
   }
 
-  void build(const Treelet& treelet) {
+  /// Copies those that no other SPE takes. Their nodes lie one after the other in the order of the treelets.
+  void copy_treelets() {
+    const uint32_t treelets = memory_.team->treelets;
+    NodeRecord* next = nodes_ + memory_.team->built_nodes;
+    uint32_t seen = 0;
+    const auto pass = [&](uint32_t end, bool mine) {
+      for (; seen < end && seen < treelets; ++seen) {
+        const Treelet& treelet = memory_.treelets[seen];
+        if (!is_copy(treelet)) continue;
+        const Treelet& prototype = prototype_of(treelet);
+        if (mine) copy(prototype, treelet, next);
+        next += prototype.nodes;
+      }
+    };
+    while (seen < treelets) {
+      const uint32_t first = __atomic_fetch_add(&memory_.team->next_copy, kTaken, __ATOMIC_RELAXED);
+      pass(first, false);
+      pass(first + kTaken, true);
+    }
+    if (self_ == 0) memory_.team->nodes = static_cast<uint32_t>(next - nodes_);
+  }
+
+  /// Gives a treelet the nodes and the list of its prototype, with boxes around its own objects.
+  void copy(const Treelet& prototype, const Treelet& treelet, NodeRecord* nodes) {
+    const NodeRecord* from = nodes_ + memory_.team->top_nodes + prototype.first_node;
+    const uint32_t list = frame_.hierarchy.list_offset + treelet.first * 4;
+    const uint32_t from_list = frame_.hierarchy.list_offset + prototype.first * 4;
+    const uint32_t moved = (runs_[run_of(treelet)].first - runs_[run_of(prototype)].first) *
+                           static_cast<uint32_t>(sizeof(ObjectRecord)); // modulo 2^32
+    const auto* from_words = reinterpret_cast<const uint32_t*>(image_ + from_list);
+    auto* words = reinterpret_cast<uint32_t*>(image_ + list);
+    for (uint32_t i = 0; i < treelet.count; ++i)
+      words[i] = from_words[i] + moved;
+    const Place& place = treelet.place;
+    place.parent->child[place.slot] = prototype.nodes == 0 ? list : offset_of(nodes);
+    place.parent->count[place.slot] = prototype.nodes == 0 ? treelet.count : 0;
+
+    Reference* boxes = spare_;                     // of the nodes
+    for (uint32_t n = prototype.nodes; n-- > 0;) { // children come after their parents
+      LaneBox<S> children[kChildren];
+      LaneBox<S> whole = LaneBox<S>::empty();
+      for (uint32_t i = 0; i < kChildren; ++i) {
+        const uint32_t count = from[n].count[i];
+        const uint32_t child = from[n].child[i] - (count == 0 ? offset_of(from) : from_list);
+        nodes[n].count[i] = count;
+        nodes[n].child[i] = child + (count == 0 ? offset_of(nodes) : list);
+        children[i] = count == 0 ? LaneBox<S>::of(boxes[child / sizeof(NodeRecord)])
+                                 : box_around(words + child / 4, count);
+        whole.grow(children[i]);
+      }
+      set_boxes<S>(nodes[n], children);
+      whole.min.store(boxes[n].min); // over the words beside
+      whole.max.store(boxes[n].max);
+    }
+  }
+  uint32_t offset_of(const NodeRecord* node) const {
+    return static_cast<uint32_t>(reinterpret_cast<const uint8_t*>(node) - image_);
+  }
+  LaneBox<S> box_around(const uint32_t* words, uint32_t count) const {
+    LaneBox<S> box = LaneBox<S>::empty();
+    for (uint32_t i = 0; i < count; ++i)
+      box.grow(box_of(*reinterpret_cast<const ObjectRecord*>(image_ + words[i])));
+    return box;
+  }
+
+  void build(Treelet& treelet) {
     Reference* references = references_;
     Reference* spare = spare_;
     if (treelet.count > kLocalReferences) {
@@ -69,10 +160,13 @@ private:
       spare = memory_.spare_references + treelet.first;
     }
     Range<S> all = {0, 0, 0, LaneBox<S>::empty(), LaneBox<S>::empty()};
-    for (uint32_t r = treelet.begin; r < treelet.end; ++r)
-      add_references(memory_.runs[r].value, memory_.runs[r].weight, references, all);
-    build(all, treelet.place, nodes_ + memory_.team->top_nodes + treelet.first_node, references, spare,
-          treelet.first);
+    for (uint32_t r = treelet.begin; r < treelet.end; ++r) {
+      const RunRecord& run = runs_[memory_.runs[r].value];
+      add_references(run.first, run.count, references, all);
+    }
+    NodeRecord* nodes = nodes_ + memory_.team->top_nodes + treelet.first_node;
+    const NodeRecord* end = build(all, treelet.place, nodes, references, spare, treelet.first);
+    treelet.nodes = static_cast<uint32_t>(end - nodes);
   }
 
   static LaneBox<S> box_of(const ObjectRecord& object) {
@@ -131,8 +225,7 @@ private:
   /// The root above fewer than four objects.
   NodeRecord* add_root(const Range<S>& all, const Reference* references) {
     const LaneBox<S> empty = LaneBox<S>::empty();
-    const Range<S> nothing = {0, 0, 0, empty, empty};
-    set_boxes<S>(*nodes_, {all, nothing, nothing, nothing});
+    set_boxes<S>(*nodes_, {all.box, empty, empty, empty});
     for (uint32_t i = 0; i < kChildren; ++i)
       nodes_->child[i] = nodes_->count[i] = 0;
     if (all.count() != 0)
@@ -142,9 +235,11 @@ private:
 
   const FrameBlock& frame_;
   const WorkMemory memory_;
+  const Prototypes prototypes_;
   uint32_t self_;
   uint8_t* image_;
   const ObjectRecord* objects_;
+  const RunRecord* runs_;
   NodeRecord* nodes_;
   typename TopBuilder::Task* top_stack_;
   typename TreeletBuilder::Task* treelet_stack_;

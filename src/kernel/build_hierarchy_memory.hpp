@@ -9,11 +9,12 @@ namespace celltrace::kernel::hierarchy {
 /// Where what lies.
 struct WorkMemory {
   TeamRecord* team;
-  Reference* runs; ///< `value`: index of the first object; `weight`: objects
+  Reference* runs; ///< `value`: index of the RunRecord; `weight`: objects
   Reference* spare_runs;
   Treelet* treelets;
   Reference* references; ///< of the objects of treelets too large for an SPE, in the order of the list
   Reference* spare_references;
+  uint32_t* treelet_of; ///< by run, if that is a prototype
 
   explicit WorkMemory(const FrameBlock& frame) {
     const WorkSize size(frame.object_count, frame.run_count, frame.longest_run);
@@ -23,6 +24,7 @@ struct WorkMemory {
     treelets = reinterpret_cast<Treelet*>(references + size.references);
     spare_runs = pointer<Reference>(frame.sort_buffer[1]);
     spare_references = spare_runs + size.runs;
+    treelet_of = reinterpret_cast<uint32_t*>(spare_references + size.references);
   }
   template <class T> static T* pointer(ea_t ea) { return reinterpret_cast<T*>(static_cast<uintptr_t>(ea)); }
 };

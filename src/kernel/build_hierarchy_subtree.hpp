@@ -18,13 +18,13 @@ struct Place {
 
 /// Enters the boxes of a node's children. Each becomes a little larger than what is in it, and is never flat,
 /// so that rounding loses no ray that grazes it.
-template <class S> void set_boxes(NodeRecord& node, const Range<S> (&children)[kChildren]) {
+template <class S> void set_boxes(NodeRecord& node, const LaneBox<S> (&children)[kChildren]) {
   using F4 = typename S::F4;
   for (uint32_t i = 0; i < kChildren; ++i) {
     alignas(16) float low[4];
     alignas(16) float high[4];
-    children[i].box.min.store(low);
-    children[i].box.max.store(high);
+    children[i].min.store(low);
+    children[i].max.store(high);
     for (uint32_t axis = 0; axis < 3; ++axis) {
       node.box[2 * axis][i] = low[axis];
       node.box[2 * axis + 1][i] = high[axis];
@@ -49,7 +49,8 @@ template <class S> void set_boxes(NodeRecord& node, const Range<S> (&children)[k
 ///   bool end(const Range<S>&)                          whether a range has no node of its own
 ///   bool end(const Range<S>&, const Range<S> (&)[4])   the same of one whose children would be these
 ///   void add(const Range<S>&, const Place&)            enters such a range into its parent
-/// Ranges of fewer than kChildren references must end; then every node has four children.
+/// Single references must end. Where all ranges of fewer than kChildren references do, every node has four
+/// children.
 template <class S, class Ends> class SubtreeBuilder {
 public:
   /// A range that waits for its nodes.
@@ -78,7 +79,9 @@ public:
 
 private:
   void enter(const Range<S>& range, const Place& place) {
-    if (ends_.end(range))
+    if (range.count() == 0)
+      place.parent->child[place.slot] = place.parent->count[place.slot] = 0;
+    else if (ends_.end(range))
       ends_.add(range, place);
     else
       stack_[waiting_++] = {range, place};
@@ -94,16 +97,26 @@ private:
       place.parent->count[place.slot] = 0;
     }
     NodeRecord* node = next_++;
-    set_boxes<S>(*node, children);
+    set_boxes<S>(*node, {children[0].box, children[1].box, children[2].box, children[3].box});
     for (uint32_t i = 0; i < kChildren; ++i)
       enter(children[i], {node, i, place.depth + 1});
   }
 
   void split(const Range<S>& range, uint32_t depth, Range<S> (&children)[kChildren]) {
-    if (range.count() <= Clusters<S>::kMaxReferences)
+    if (range.count() < kChildren)
+      take_apart(range, children);
+    else if (range.count() <= Clusters<S>::kMaxReferences)
       Clusters<S>::make(references_, range, children);
     else
       cut(range, depth, children);
+  }
+
+  /// A child for each reference, and nothing in those that are left over.
+  void take_apart(const Range<S>& range, Range<S> (&children)[kChildren]) {
+    for (uint32_t i = 0; i < kChildren; ++i) {
+      const uint32_t begin = range.begin + i < range.end ? range.begin + i : range.end;
+      children[i] = range_of<S>(references_, begin, begin < range.end ? begin + 1 : begin);
+    }
   }
 
   /// Cuts the child that is likeliest to be hit until there are four.

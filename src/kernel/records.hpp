@@ -10,6 +10,7 @@
 namespace celltrace::kernel {
 
 constexpr uint32_t kNoOffset = 0xFFFFFFFFu;
+constexpr uint32_t kNoRun = 0xFFFFFFFFu;
 
 // --- scene image ---
 
@@ -111,6 +112,9 @@ struct alignas(32) RunRecord {
   uint32_t count;
 };
 static_assert(sizeof(RunRecord) == 32, "four runs a line");
+/// A run may be a copy of an earlier one, its prototype: it has as many objects, each of which lies among its
+/// neighbours as the one at the same place of the prototype does. Both have no more objects than this.
+constexpr uint32_t kMaxCopiedObjects = 256;
 
 /// Head of a scene image.
 struct alignas(128) ImageHeader {
@@ -128,7 +132,10 @@ struct alignas(128) ImageHeader {
   float bounds_max[3];
   uint32_t run_offset, run_count; ///< all objects by run, or nothing: there are few
   uint32_t longest_run;           ///< objects
-  uint32_t unused[5];
+  /// By run, the run that it is a copy of, its own index if it has copies, or kNoRun; or nothing: there are
+  /// no copies.
+  uint32_t prototype_offset, prototype_count;
+  uint32_t unused[3];
 };
 static_assert(sizeof(ImageHeader) == 128, "one line");
 
@@ -236,6 +243,7 @@ struct alignas(128) FrameBlock {
 
   uint32_t run_offset, run_count; ///< RunRecords
   uint32_t longest_run;           ///< objects
+  uint32_t prototype_offset;      ///< a word per run; 0: there are no copies
 };
 static_assert(sizeof(FrameBlock) % 128 == 0 && sizeof(FrameBlock) <= 512, "fetched by one DMA command");
 

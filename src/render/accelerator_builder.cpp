@@ -88,8 +88,7 @@ bool AcceleratorBuilder::build_hierarchy(const Progress& go_on) {
   const ImageHeader& header = image_.header();
   const std::uint32_t objects = header.object_count;
   const hierarchy::WorkSize work(objects, header.run_count, header.longest_run);
-  // A node has four children, and a leaf at least one object.
-  const std::uint32_t nodes = objects / 3 + 2;
+  const std::uint32_t nodes = hierarchy::most_nodes(objects, header.run_count, header.prototype_count != 0);
   image_.reserve_accelerator(std::uint64_t{nodes} * sizeof(NodeRecord), objects);
   frame_.hierarchy = {image_.table_offset(), nodes, 0, image_.list_offset()};
   enter_memory(work.pairs());

@@ -101,6 +101,7 @@ void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& optio
   frame.run_offset = header.run_offset;
   frame.run_count = header.run_count;
   frame.longest_run = header.longest_run;
+  frame.prototype_offset = header.prototype_count != 0 ? header.prototype_offset : 0;
   frame.light_offset = header.light_offset;
   frame.light_count = header.light_count;
   frame.max_trace_level =

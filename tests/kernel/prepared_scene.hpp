@@ -23,7 +23,8 @@ public:
 
   /// Has a hierarchy of boxes built in place of the grid.
   void use_hierarchy() {
-    const std::uint32_t nodes = object_count() / 3 + 2;
+    const std::uint32_t nodes =
+        kernel::hierarchy::most_nodes(object_count(), header().run_count, header().prototype_count != 0);
     image_.reserve_accelerator(nodes * sizeof(kernel::NodeRecord), object_count());
     frame_.image = reinterpret_cast<std::uintptr_t>(image_.base());
     frame_.accelerator = static_cast<std::uint32_t>(kernel::AcceleratorKind::hierarchy);
