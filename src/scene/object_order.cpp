@@ -207,7 +207,6 @@ private:
 
 std::vector<std::uint32_t> order_along_curve(PlacedObject* objects, PlacedObject* spare, std::uint32_t* cells,
                                              std::uint32_t count, unsigned threads) {
-  if (count < kMinObjectsToOrder) return {};
   return Orderer(objects, spare, cells).order(count, threads);
 }
 

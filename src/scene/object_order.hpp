@@ -12,7 +12,7 @@ struct PlacedObject {
   std::uint32_t source; ///< its number
 };
 
-/// Fewer objects keep the scene's order.
+/// Where a scene has fewer objects, they keep its order.
 constexpr std::uint32_t kMinObjectsToOrder = 4096;
 /// A run has no more objects, unless nothing tells them apart.
 constexpr std::uint32_t kMaxRun = 256;

@@ -1,6 +1,8 @@
 #include "scene/scene_image.hpp"
 
 #include "celltrace/error.hpp"
+#include "kernel/build_hierarchy_plan.hpp"
+#include "scene/mesh_instances.hpp"
 #include "scene/parallel.hpp"
 #include "scene/scene_objects.hpp"
 #include "scene/surface_records.hpp"
@@ -18,8 +20,13 @@ using namespace kernel;
 namespace {
 
 constexpr std::uint32_t kObjectsPerThread = 8192;
-/// What the accelerator that is most likely to be built needs an object.
-constexpr std::size_t kAcceleratorBytes = 48;
+
+/// What the accelerator that is most likely to be built needs.
+std::size_t hierarchy_bytes(const ImageHeader& header) {
+  const std::size_t nodes =
+      hierarchy::most_nodes(header.object_count, header.run_count, header.prototype_count != 0);
+  return nodes * sizeof(NodeRecord) + header.object_count * sizeof(std::uint32_t) + kLineBytes;
+}
 
 std::size_t round_up(std::size_t bytes) {
   return (bytes + kLineBytes - 1) / kLineBytes * kLineBytes;
@@ -87,7 +94,9 @@ private:
   std::size_t end_;
 };
 
-ImageHeader make_header(const Scene& scene, const ObjectCensus& census, std::span<const std::uint32_t> runs) {
+/// Of all objects; `runs` are those of the objects that are no instances.
+ImageHeader make_header(const Scene& scene, const ObjectCensus& census, std::span<const std::uint32_t> runs,
+                        const MeshInstances& instances) {
   ImageHeader header{};
   header.magic = kImageMagic;
   header.version = kImageVersion;
@@ -98,9 +107,13 @@ ImageHeader make_header(const Scene& scene, const ObjectCensus& census, std::spa
   layout.place<InteriorRecord>(scene.interiors.size(), header.interior_offset, header.interior_count);
   layout.place<NormalsRecord>(census.smooth, header.normals_offset, header.normals_count);
   layout.place<ObjectRecord>(census.objects, header.object_offset, header.object_count);
-  layout.place<RunRecord>(runs.empty() ? 0 : runs.size() - 1, header.run_offset, header.run_count);
+  const std::size_t ordered = runs.empty() ? 0 : runs.size() - 1;
+  layout.place<RunRecord>(ordered + instances.run_count(), header.run_offset, header.run_count);
+  layout.place<std::uint32_t>(instances.run_count() == 0 ? 0 : header.run_count, header.prototype_offset,
+                              header.prototype_count);
   header.bytes = layout.end();
-  for (std::uint32_t run = 0; run < header.run_count; ++run)
+  header.longest_run = instances.longest_run();
+  for (std::size_t run = 0; run < ordered; ++run)
     header.longest_run = std::max(header.longest_run, runs[run + 1] - runs[run]);
   const Box bounds = bounds_of(census);
   for (int i = 0; i < 3; ++i) {
@@ -113,7 +126,16 @@ ImageHeader make_header(const Scene& scene, const ObjectCensus& census, std::spa
 /// Puts the records of a scene where the header says.
 class TableWriter {
 public:
-  TableWriter(std::byte* base, const ImageHeader& header) : base_(base), header_(header) {
+  TableWriter(std::byte* base, const ImageHeader& header, const Scene& scene)
+      : base_(base), header_(header), scene_(scene), tables_{header.material_offset,
+                                                             header.interior_offset,
+                                                             header.normals_offset,
+                                                             header.blend_offset,
+                                                             table<NormalsRecord>(header.normals_offset),
+                                                             table<BlendRecord>(header.blend_offset),
+                                                             {}} {
+    for (const Material& material : scene.materials)
+      tables_.opaque.push_back(is_opaque(material));
     // What lies between the tables is always the same.
     std::memset(base, 0, header.normals_offset);
     std::memset(base + header.object_offset - kLineBytes, 0, kLineBytes);
@@ -123,13 +145,13 @@ public:
     std::memcpy(base, &header, sizeof header);
   }
 
-  void write_surfaces(const Scene& scene) {
-    for (std::size_t i = 0; i < scene.lights.size(); ++i)
-      table<LightRecord>(header_.light_offset)[i] = make_record(scene.lights[i]);
-    for (std::size_t i = 0; i < scene.materials.size(); ++i)
-      table<MaterialRecord>(header_.material_offset)[i] = make_record(scene.materials[i], scene);
-    for (std::size_t i = 0; i < scene.interiors.size(); ++i)
-      table<InteriorRecord>(header_.interior_offset)[i].ior = static_cast<float>(scene.interiors[i].ior);
+  void write_surfaces() {
+    for (std::size_t i = 0; i < scene_.lights.size(); ++i)
+      table<LightRecord>(header_.light_offset)[i] = make_record(scene_.lights[i]);
+    for (std::size_t i = 0; i < scene_.materials.size(); ++i)
+      table<MaterialRecord>(header_.material_offset)[i] = make_record(scene_.materials[i], scene_);
+    for (std::size_t i = 0; i < scene_.interiors.size(); ++i)
+      table<InteriorRecord>(header_.interior_offset)[i].ior = static_cast<float>(scene_.interiors[i].ior);
   }
 
   void write_objects(const SceneObjects& objects, std::span<const PlacedObject> placed, unsigned threads) {
@@ -141,23 +163,22 @@ public:
       });
     for (unsigned part = 1; part < threads; ++part)
       before[part].add(before[part - 1]);
-    const RecordTables tables = {header_.material_offset,
-                                 header_.interior_offset,
-                                 header_.normals_offset,
-                                 header_.blend_offset,
-                                 table<NormalsRecord>(header_.normals_offset),
-                                 table<BlendRecord>(header_.blend_offset)};
     for_each_part(threads, [&](unsigned part) {
       const auto mine = part_of(placed, part, threads);
-      objects.write(mine, tables, before[part],
+      objects.write(mine, tables_, before[part],
                     table<ObjectRecord>(header_.object_offset) + (mine.data() - placed.data()));
     });
   }
 
+  /// Of objects that are no instances.
   void write_runs(std::span<const std::uint32_t> runs, unsigned threads) {
+    if (runs.empty()) return;
     const auto* objects = table<ObjectRecord>(header_.object_offset);
+    const auto count = static_cast<std::uint32_t>(runs.size()) - 1;
+    if (header_.prototype_count != 0)
+      std::fill_n(table<std::uint32_t>(header_.prototype_offset), count, kNoRun);
     for_each_part(threads, [&](unsigned part) {
-      const HostPart mine(header_.run_count, part, threads);
+      const HostPart mine(count, part, threads);
       for (std::uint32_t run = mine.begin; run < mine.end; ++run) {
         Box box = bounding_box(objects[runs[run]]);
         for (std::uint32_t i = runs[run] + 1; i < runs[run + 1]; ++i)
@@ -168,6 +189,18 @@ public:
                                                      runs[run + 1] - runs[run]};
       }
     });
+  }
+
+  /// Behind everything else.
+  void write_instances(const MeshInstances& instances, unsigned threads) {
+    if (instances.run_count() == 0) return;
+    const std::uint32_t first_object = header_.object_count - instances.census().objects;
+    const std::uint32_t first_run = header_.run_count - instances.run_count();
+    instances.write({tables_, table<ObjectRecord>(header_.object_offset) + first_object, first_object,
+                     header_.normals_count - instances.census().smooth,
+                     table<RunRecord>(header_.run_offset) + first_run,
+                     table<std::uint32_t>(header_.prototype_offset) + first_run, first_run},
+                    threads);
   }
 
 private:
@@ -182,6 +215,8 @@ private:
 
   std::byte* base_;
   const ImageHeader& header_;
+  const Scene& scene_;
+  RecordTables tables_;
 };
 
 } // namespace
@@ -193,19 +228,25 @@ SceneImage::SceneImage(const Scene& scene) {
 
 void SceneImage::assign(const Scene& scene, AlignedBlock& work, unsigned threads) {
   validate(scene);
-  const SceneObjects objects(scene, threads);
-  threads = std::clamp(objects.count() / kObjectsPerThread, 1u, threads);
+  const MeshInstances instances(scene, threads);
+  const SceneObjects objects(scene, instances, threads);
+  const std::uint64_t all = std::uint64_t{objects.count()} + instances.census().objects;
+  threads = static_cast<unsigned>(std::clamp<std::uint64_t>(all / kObjectsPerThread, 1, threads));
   const OrderMemory memory(work, objects.count());
-  const ObjectCensus census = place_all(objects, memory.objects, threads);
-  const std::vector<std::uint32_t> runs =
-      order_along_curve(memory.objects, memory.spare, memory.cells, census.objects, threads);
-  const ImageHeader header = make_header(scene, census, runs);
+  const ObjectCensus loose = place_all(objects, memory.objects, threads);
+  std::vector<std::uint32_t> runs;
+  if (loose.objects != 0 && (loose.objects >= kMinObjectsToOrder || instances.run_count() != 0))
+    runs = order_along_curve(memory.objects, memory.spare, memory.cells, loose.objects, threads);
+  ObjectCensus census = loose;
+  census.add(instances.census());
+  const ImageHeader header = make_header(scene, census, runs, instances);
 
-  block_.reserve(header.bytes + std::size_t{census.objects} * kAcceleratorBytes);
-  TableWriter writer(block_.data(), header);
-  writer.write_surfaces(scene);
-  writer.write_objects(objects, {memory.objects, census.objects}, threads);
+  block_.reserve(header.bytes + hierarchy_bytes(header));
+  TableWriter writer(block_.data(), header, scene);
+  writer.write_surfaces();
+  writer.write_objects(objects, {memory.objects, loose.objects}, threads);
   writer.write_runs(runs, threads);
+  writer.write_instances(instances, threads);
 }
 
 void SceneImage::reserve_accelerator(std::uint64_t table_bytes, std::uint32_t list_words) {

@@ -74,6 +74,23 @@ bool runs_are_valid(const std::byte* base, const ImageHeader& h) {
   return (h.run_count == 0 || objects == h.object_count) && longest == h.longest_run;
 }
 
+/// True if there are no copies, or each of them and its prototype are of one number of objects, and not many.
+/// The runs are valid.
+bool prototypes_are_valid(const std::byte* base, const ImageHeader& h) {
+  if (h.prototype_count == 0) return true;
+  if (h.prototype_count != h.run_count) return false;
+  const auto* runs = reinterpret_cast<const RunRecord*>(base + h.run_offset);
+  const auto* prototypes = reinterpret_cast<const std::uint32_t*>(base + h.prototype_offset);
+  for (std::uint32_t i = 0; i < h.run_count; ++i) {
+    const std::uint32_t prototype = prototypes[i];
+    if (prototype == kNoRun) continue;
+    if (prototype > i || prototypes[prototype] != prototype || runs[prototype].count != runs[i].count ||
+        runs[i].count > kMaxCopiedObjects)
+      return false;
+  }
+  return true;
+}
+
 } // namespace
 
 std::vector<std::byte> SceneImage::to_bytes() const {
@@ -103,7 +120,9 @@ SceneImage SceneImage::from_bytes(std::span<const std::byte> bytes) {
       !table_fits(h.normals_offset, h.normals_count, sizeof(NormalsRecord), bytes.size()) ||
       !table_fits(h.object_offset, h.object_count, sizeof(ObjectRecord), bytes.size()) ||
       !table_fits(h.run_offset, h.run_count, sizeof(RunRecord), bytes.size()) ||
-      !references_are_valid(image.base(), h) || !runs_are_valid(image.base(), h))
+      !table_fits(h.prototype_offset, h.prototype_count, sizeof(std::uint32_t), bytes.size()) ||
+      !references_are_valid(image.base(), h) || !runs_are_valid(image.base(), h) ||
+      !prototypes_are_valid(image.base(), h))
     throw InputError("scene image: an offset is out of range");
   return image;
 }

@@ -2,7 +2,7 @@
 
 #include "celltrace/error.hpp"
 #include "scene/parallel.hpp"
-#include "scene/surface_records.hpp"
+#include "scene/triangles.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,14 +36,6 @@ double uniform_scale(const Transform& t) {
   return round ? x : 0;
 }
 
-ObjectRecord start_record(const Object& object, ObjectKind kind, std::uint32_t interior_offset) {
-  ObjectRecord r{};
-  r.kind_and_flags = static_cast<std::uint32_t>(kind) | (object.no_shadow ? object_flag::no_shadow : 0);
-  r.interior = interior_offset + object.interior * static_cast<std::uint32_t>(sizeof(InteriorRecord));
-  r.normals = kNoOffset;
-  return r;
-}
-
 /// Kind and geometry of a sphere in the world. Spheres that a transformation leaves round stay spheres.
 ObjectKind place_sphere(const Object& object, const Sphere& sphere, float (&geometry)[12]) {
   const double radius = std::abs(sphere.radius);
@@ -62,36 +54,8 @@ ObjectKind place_sphere(const Object& object, const Sphere& sphere, float (&geom
   return ObjectKind::ellipsoid;
 }
 
-/// Single precision has to hold the squares of coordinates.
-void check_size(const Box& box) {
-  constexpr float kMost = 1e18f;
-  for (int i = 0; i < 3; ++i)
-    if (!(box.min[i] > -kMost && box.max[i] < kMost))
-      throw InputError(
-          "the scene has an object that is too large, too thin or too far away for single precision");
-}
-
 PlacedObject placed(const Box& box, std::uint32_t source) {
   return {{box.min[0] + box.max[0], box.min[1] + box.max[1], box.min[2] + box.max[2]}, source};
-}
-
-/// In double precision it is right; where single precision leaves no doubt, that is faster.
-bool has_area(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
-  const Vec3f u = b - a;
-  const Vec3f v = c - a;
-  const float x[3] = {u.y * v.z, u.z * v.x, u.x * v.y};
-  const float y[3] = {u.z * v.y, u.x * v.z, u.y * v.x};
-  for (int i = 0; i < 3; ++i)
-    if (std::abs(x[i] - y[i]) > 1e-6f * (std::abs(x[i]) + std::abs(y[i])) + 1e-30f) return true;
-  const Vec3 area = glm::cross(Vec3(b) - Vec3(a), Vec3(c) - Vec3(a));
-  return glm::dot(area, area) != 0;
-}
-
-bool same(const Index (&index)[3]) {
-  return index[0] == index[1] && index[0] == index[2];
-}
-bool is_smooth(const Mesh::Triangle& triangle) {
-  return triangle.normal[0] != kNoIndex && !same(triangle.normal);
 }
 
 /// In parts of a reasonable size.
@@ -110,19 +74,12 @@ std::vector<Vec3f> changed(const std::vector<Vec3f>& from, unsigned threads, Cha
 
 } // namespace
 
-void ObjectCensus::add(const ObjectCensus& other) {
-  objects += other.objects;
-  smooth += other.smooth;
-  blended += other.blended;
-  around = box_around(around, other.around);
-}
-
-SceneObjects::SceneObjects(const Scene& scene, unsigned threads) : scene_(scene) {
-  for (const Material& material : scene.materials)
-    opaque_.push_back(is_opaque(material));
-  for (const Object& object : scene.objects) {
+SceneObjects::SceneObjects(const Scene& scene, const MeshInstances& instances, unsigned threads) {
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& object = scene.objects[i];
+    if (instances.contains(i)) continue;
     if (std::holds_alternative<Sphere>(object.shape))
-      add_spheres(object);
+      add_sphere(object);
     else
       add_mesh(object, *std::get<std::shared_ptr<const Mesh>>(object.shape), threads);
   }
@@ -135,9 +92,11 @@ void SceneObjects::grow(std::size_t objects) {
   count_ += static_cast<std::uint32_t>(objects);
 }
 
-void SceneObjects::add_spheres(const Object& object) {
-  if (pieces_.empty() || pieces_.back().mesh != nullptr)
-    pieces_.push_back({count_, &object, nullptr, {}, {}});
+void SceneObjects::add_sphere(const Object& object) {
+  const auto goes_on = [&](const Piece& piece) {
+    return piece.mesh == nullptr && &object == piece.object + (count_ - piece.first);
+  };
+  if (pieces_.empty() || !goes_on(pieces_.back())) pieces_.push_back({count_, &object, nullptr, {}, {}});
   grow(1);
 }
 
@@ -151,18 +110,9 @@ void SceneObjects::add_mesh(const Object& object, const Mesh& mesh, unsigned thr
     piece.vertices = transformed_.back();
   }
   if (!mesh.normals.empty()) {
-    // The inverse transpose, once for the mesh, not once a normal. Normals are of unit length before, not
-    // after it: the blend of a triangle's normals is that of the mesh's own space.
-    const Vec3 columns[3] = {object.transform.normal({1, 0, 0}), object.transform.normal({0, 1, 0}),
-                             object.transform.normal({0, 0, 1})};
-    const double scale =
-        1 / std::max({glm::length(columns[0]), glm::length(columns[1]), glm::length(columns[2])});
-    transformed_.push_back(changed(mesh.normals, threads, [&](const Vec3f& normal) {
-      const Vec3 n(normal);
-      const double length = glm::length(n);
-      const Vec3 unit = length > 0 ? n / length : Vec3(0, 0, 1);
-      return Vec3f(scale * (unit.x * columns[0] + unit.y * columns[1] + unit.z * columns[2]));
-    }));
+    const NormalTransform to_world(object.transform);
+    transformed_.push_back(
+        changed(mesh.normals, threads, [&](const Vec3f& normal) { return to_world(unit_normal(normal)); }));
     piece.normals = transformed_.back();
   }
   pieces_.push_back(piece);
@@ -245,7 +195,7 @@ public:
     ObjectRecord r = start_record(object, ObjectKind::sphere, tables_.interior_offset);
     r.kind_and_flags |=
         static_cast<std::uint32_t>(place_sphere(object, std::get<Sphere>(object.shape), r.geometry));
-    set_material(r, object.material);
+    tables_.set_material(r, object.material);
     return r;
   }
 
@@ -257,10 +207,11 @@ public:
     if (objects_.is_blended(piece, triangle))
       blend(r, piece.object->material, triangle);
     else
-      set_material(r, triangle.material[0] != kNoIndex ? triangle.material[0] : piece.object->material);
+      tables_.set_material(r,
+                           triangle.material[0] != kNoIndex ? triangle.material[0] : piece.object->material);
     if (is_smooth(triangle)) {
       r.kind_and_flags |= object_flag::smooth;
-      r.normals = tables_.normals_offset + smooth_ * static_cast<std::uint32_t>(sizeof(NormalsRecord));
+      r.normals = tables_.offset_of_normals(smooth_);
       NormalsRecord record{};
       for (int v = 0; v < 3; ++v)
         for (int i = 0; i < 3; ++i)
@@ -271,20 +222,13 @@ public:
   }
 
 private:
-  std::uint32_t material_offset(Index index) const {
-    return tables_.material_offset + index * static_cast<std::uint32_t>(sizeof(MaterialRecord));
-  }
-  void set_material(ObjectRecord& r, Index material) const {
-    r.material = material_offset(material);
-    if (objects_.opaque_[material]) r.kind_and_flags |= object_flag::opaque;
-  }
   void blend(ObjectRecord& r, Index own, const Mesh::Triangle& triangle) {
     BlendRecord record{};
     bool opaque = true;
     for (int i = 0; i < 3; ++i) {
       const Index material = triangle.material[i] != kNoIndex ? triangle.material[i] : own;
-      record.material[i] = material_offset(material);
-      opaque = opaque && objects_.opaque_[material];
+      record.material[i] = tables_.offset_of_material(material);
+      opaque = opaque && tables_.opaque[material];
     }
     r.kind_and_flags |= object_flag::blended | (opaque ? object_flag::opaque : 0);
     r.material = tables_.blend_offset + blended_ * static_cast<std::uint32_t>(sizeof(BlendRecord));

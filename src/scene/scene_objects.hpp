@@ -1,38 +1,23 @@
-// The objects of a Scene one by one, and their records: meshes taken apart into triangles, everything
-// transformed to the world, in single precision.
+// The objects of a Scene that are no instances, one by one, and their records: meshes taken apart into
+// triangles, everything transformed to the world, in single precision.
 #pragma once
 
 #include "celltrace/scene.hpp"
-#include "kernel/overlap.hpp"
 #include "kernel/records.hpp"
+#include "scene/mesh_instances.hpp"
 #include "scene/object_order.hpp"
+#include "scene/object_records.hpp"
 
 #include <span>
 #include <vector>
 
 namespace celltrace {
 
-/// What there is in a range of objects.
-struct ObjectCensus {
-  std::uint32_t objects = 0; ///< that can be hit
-  std::uint32_t smooth = 0, blended = 0;
-  kernel::Box around = {{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
-
-  static constexpr float kFar = 3e38f;
-  void add(const ObjectCensus& other);
-};
-
-/// Where records go that objects refer to, and where the tables lie in the image.
-struct RecordTables {
-  std::uint32_t material_offset, interior_offset, normals_offset, blend_offset;
-  kernel::NormalsRecord* normals; ///< table
-  kernel::BlendRecord* blends;    ///< table
-};
-
 class SceneObjects {
 public:
-  /// `scene` stays as it is as long as this lives. Throws InputError if there are too many objects.
-  SceneObjects(const Scene& scene, unsigned threads);
+  /// Those that are not among `instances`. `scene` stays as it is as long as this lives. Throws InputError if
+  /// there are too many objects.
+  SceneObjects(const Scene& scene, const MeshInstances& instances, unsigned threads);
 
   /// All of them, those that cannot be hit included: spheres without a radius and triangles without an area.
   std::uint32_t count() const { return count_; }
@@ -58,7 +43,7 @@ private:
   };
   class Writer;
 
-  void add_spheres(const Object& object);
+  void add_sphere(const Object& object);
   void add_mesh(const Object& object, const Mesh& mesh, unsigned threads);
   void grow(std::size_t objects);
   std::uint32_t end_of(const Piece& piece) const;
@@ -66,8 +51,6 @@ private:
   const Piece& piece_of(std::uint32_t number, const Piece* near) const;
   bool is_blended(const Piece& piece, const Mesh::Triangle& triangle) const;
 
-  const Scene& scene_;
-  std::vector<bool> opaque_; ///< by material
   std::vector<Piece> pieces_;
   std::vector<std::vector<Vec3f>> transformed_;
   std::uint32_t count_ = 0;

@@ -15,26 +15,45 @@
 
 namespace celltrace::test {
 
+/// A run of objects that is a copy of an earlier one, or the prototype itself, by the index among such runs.
+struct CopiedRun {
+  std::uint32_t prototype;
+  std::vector<kernel::ObjectRecord> objects;
+};
+
 class BuiltHierarchy {
 public:
-  /// Orders the objects as a scene image does.
-  explicit BuiltHierarchy(std::vector<kernel::ObjectRecord> objects)
-      : capacity_(static_cast<std::uint32_t>(objects.size()) / 3 + 2),
-        frame_memory_(sizeof(kernel::FrameBlock)), frame_(*new (frame_memory_.data()) kernel::FrameBlock()) {
-    const std::vector<kernel::RunRecord> runs = order(objects);
+  /// Orders the objects as a scene image does. Those of `copies` come behind them.
+  explicit BuiltHierarchy(std::vector<kernel::ObjectRecord> objects,
+                          const std::vector<CopiedRun>& copies = {})
+      : frame_memory_(sizeof(kernel::FrameBlock)), frame_(*new (frame_memory_.data()) kernel::FrameBlock()) {
+    std::vector<kernel::RunRecord> runs = order(objects, copies.empty() ? kMinObjectsToOrder : 1);
+    const auto first_copy = static_cast<std::uint32_t>(runs.size());
+    std::vector<std::uint32_t> prototypes(runs.size(), kernel::kNoRun);
+    for (const CopiedRun& copy : copies) {
+      prototypes.push_back(first_copy + copy.prototype);
+      const auto first = static_cast<std::uint32_t>(objects.size());
+      objects.insert(objects.end(), copy.objects.begin(), copy.objects.end());
+      runs.push_back(run_of(objects, first, static_cast<std::uint32_t>(objects.size())));
+    }
     const auto count = static_cast<std::uint32_t>(objects.size());
     const auto run_count = static_cast<std::uint32_t>(runs.size());
+    capacity_ = kernel::hierarchy::most_nodes(count, run_count, !copies.empty());
     const std::uint32_t first_run = kFirst + (count + 1) / 2 * 128;
-    const std::uint32_t nodes = first_run + (run_count + 3) / 4 * 128;
+    const std::uint32_t first_prototype = first_run + (run_count + 3) / 4 * 128;
+    const std::uint32_t nodes = first_prototype + (run_count + 31) / 32 * 128;
     const std::uint32_t list = nodes + capacity_ * 128;
     image_ = AlignedBlock(list + std::size_t{count} * 4 + 4);
     if (count != 0) std::memcpy(image_.data() + kFirst, objects.data(), std::size_t{count} * 64);
     if (run_count != 0) std::memcpy(image_.data() + first_run, runs.data(), std::size_t{run_count} * 32);
+    if (run_count != 0)
+      std::memcpy(image_.data() + first_prototype, prototypes.data(), std::size_t{run_count} * 4);
     frame_.image = reinterpret_cast<std::uintptr_t>(image_.data());
     frame_.object_offset = kFirst;
     frame_.object_count = count;
     frame_.run_offset = first_run;
     frame_.run_count = run_count;
+    frame_.prototype_offset = copies.empty() ? 0 : first_prototype;
     for (const kernel::RunRecord& run : runs)
       frame_.longest_run = std::max(frame_.longest_run, run.count);
     frame_.hierarchy = {nodes, capacity_, 0, list};
@@ -88,8 +107,11 @@ public:
 private:
   static constexpr std::uint32_t kFirst = 128;
 
-  static std::vector<kernel::RunRecord> order(std::vector<kernel::ObjectRecord>& objects) {
+  /// Nothing if there are fewer than `fewest`.
+  static std::vector<kernel::RunRecord> order(std::vector<kernel::ObjectRecord>& objects,
+                                              std::uint32_t fewest) {
     const auto count = static_cast<std::uint32_t>(objects.size());
+    if (count < fewest) return {};
     std::vector<PlacedObject> placed(count), spare(count);
     std::vector<std::uint32_t> cells(count);
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -100,25 +122,28 @@ private:
         order_along_curve(placed.data(), spare.data(), cells.data(), count, 1);
     const std::vector<kernel::ObjectRecord> as_given = objects;
     std::vector<kernel::RunRecord> runs;
-    for (std::size_t run = 0; run + 1 < begins.size(); ++run) {
-      kernel::Box around = bounding_box(as_given[placed[begins[run]].source]);
-      for (std::uint32_t i = begins[run]; i < begins[run + 1]; ++i) {
-        objects[i] = as_given[placed[i].source];
-        around = box_around(around, bounding_box(objects[i]));
-      }
-      runs.push_back({{around.min[0], around.min[1], around.min[2]},
-                      begins[run],
-                      {around.max[0], around.max[1], around.max[2]},
-                      begins[run + 1] - begins[run]});
-    }
+    for (std::uint32_t i = 0; i < count; ++i)
+      objects[i] = as_given[placed[i].source];
+    for (std::size_t run = 0; run + 1 < begins.size(); ++run)
+      runs.push_back(run_of(objects, begins[run], begins[run + 1]));
     return runs;
+  }
+  static kernel::RunRecord run_of(const std::vector<kernel::ObjectRecord>& objects, std::uint32_t begin,
+                                  std::uint32_t end) {
+    kernel::Box around = bounding_box(objects[begin]);
+    for (std::uint32_t i = begin + 1; i < end; ++i)
+      around = box_around(around, bounding_box(objects[i]));
+    return {{around.min[0], around.min[1], around.min[2]},
+            begin,
+            {around.max[0], around.max[1], around.max[2]},
+            end - begin};
   }
 
   template <class Record> const Record& record(std::uint32_t offset) const {
     return *reinterpret_cast<const Record*>(image_.data() + offset);
   }
 
-  std::uint32_t capacity_;
+  std::uint32_t capacity_ = 0;
   AlignedBlock image_;
   AlignedBlock work_[2];
   AlignedBlock frame_memory_;

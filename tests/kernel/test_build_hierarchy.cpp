@@ -250,3 +250,78 @@ TEST_CASE("A hierarchy is the same whoever builds it") {
     }
   }
 }
+
+namespace {
+
+ObjectRecord moved(const ObjectRecord& from, const Vec3& by) {
+  ObjectRecord object = from;
+  for (int word = 0; word < 9; ++word)
+    object.geometry[word] += static_cast<float>(by[word % 3]);
+  return object;
+}
+
+/// `copies` of each of the prototypes, in turn, anywhere.
+std::vector<CopiedRun> scattered(const std::vector<Objects>& prototypes, unsigned copies, double reach) {
+  Random random(7);
+  std::vector<CopiedRun> runs;
+  for (unsigned copy = 0; copy < copies; ++copy)
+    for (std::uint32_t p = 0; p < prototypes.size(); ++p) {
+      CopiedRun run = {p, {}};
+      const Vec3 by = random.point(reach);
+      for (const ObjectRecord& object : prototypes[p])
+        run.objects.push_back(moved(object, by));
+      runs.push_back(run);
+    }
+  return runs;
+}
+
+Shape check(const Objects& objects, const std::vector<CopiedRun>& copies) {
+  BuiltHierarchy tree(objects, copies);
+  Objects all = objects;
+  for (const CopiedRun& copy : copies)
+    all.insert(all.end(), copy.objects.begin(), copy.objects.end());
+  const Shape shape = check(tree, all);
+  for (std::uint32_t threads : {2u, 5u, 32u}) {
+    BuiltHierarchy shared(objects, copies);
+    REQUIRE(shared.build(threads) == tree.frame().hierarchy.node_count);
+    REQUIRE(same_bytes(shared, tree));
+  }
+  return shape;
+}
+
+} // namespace
+
+TEST_CASE("A hierarchy over runs that are copies of others") {
+  for (unsigned loose : {0u, 1u, 2u, 3u, 5u, 300u, 20000u})
+    for (unsigned copies : {1u, 2u, 3u, 50u, 700u}) {
+      INFO(loose << " objects beside, " << copies << " of each");
+      const std::vector<Objects> prototypes = {
+          random_triangles(100, 1, 0.3, 1), random_triangles(37, 1, 1, 2), random_triangles(3, 1, 1, 3),
+          random_triangles(1, 1, 1, 4), random_triangles(256, 2, 0.1, 5)};
+      const double reach = copies == 50 ? 0.5 : 100; // apart, or in one another
+      CHECK(check(random_triangles(loose, reach, 1, 6), scattered(prototypes, copies, reach)).depth <= 20);
+    }
+}
+
+TEST_CASE("Copies lie deeper than their prototypes, but not too deep") {
+  // What is nearest to the origin lies deepest, and the prototype is as deep as its cuts allow.
+  Objects prototype;
+  for (unsigned i = 0; i < 200; ++i) {
+    const double at = std::pow(0.8, i);
+    prototype.push_back(triangle({at, 0, 0}, {at, 0.1 * at, 0}, {at, 0, 0.1 * at}));
+  }
+  std::vector<CopiedRun> runs;
+  for (int i = 0; i < 120; ++i) {
+    CopiedRun run = {0, {}};
+    const auto scale = static_cast<float>(std::pow(0.5, i));
+    for (ObjectRecord object : prototype) {
+      for (float& coordinate : object.geometry)
+        coordinate *= scale;
+      run.objects.push_back(object);
+    }
+    runs.push_back(run);
+  }
+  CHECK(check({}, runs).depth > 8);
+  std::reverse(runs.begin(), runs.end());
+  check({}, runs);
+}

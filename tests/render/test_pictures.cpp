@@ -51,3 +51,36 @@ TEST_CASE("Every backend with any number of SPEs renders the same picture") {
       }
   }
 }
+
+namespace {
+
+/// Balls of one mesh, in one another.
+Scene instances() {
+  Scene scene = scene_named("meshes");
+  const Object ball = mesh_object(ball_mesh(6), 0, 0);
+  for (int i = 0; i < 45; ++i) {
+    scene.objects.push_back(ball);
+    scene.objects.back().material = static_cast<Index>(i) % 4;
+    scene.objects.back().transform =
+        Transform::scale({0.3, 0.2 + 0.02 * (i % 11), 0.3})
+            .then(Transform::rotate({37.0 * i, 11.0 * i, 5.0 * i}))
+            .then(Transform::translate({0.4 * (i % 9) - 1.6, 0.35 * (i / 9) - 0.9, -1 + 0.17 * (i % 4)}));
+  }
+  return scene;
+}
+
+} // namespace
+
+TEST_CASE("Instances of a mesh look as meshes of their own do") {
+  const Scene scene = instances();
+  Scene apart = scene;
+  for (Object& object : apart.objects)
+    if (auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape))
+      *mesh = std::make_shared<const Mesh>(**mesh);
+  const Image expected = render_on(backends().front(), 1, apart);
+  for (const Backend& backend : backends())
+    for (unsigned spes : {1u, 3u, 8u}) {
+      INFO(backend.spu() << " with " << spes);
+      CHECK(render_on(backend, spes, scene) == expected);
+    }
+}

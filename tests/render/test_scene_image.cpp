@@ -304,3 +304,165 @@ TEST_CASE("A sealed scene image with a fault in its runs is refused") {
   refused([](ImageHeader& h, RunRecord*) { --h.longest_run; });
   refused([](ImageHeader& h, RunRecord*) { h.run_offset = 0xFFFFFF80; });
 }
+
+namespace {
+
+/// Two meshes several times each, one of them smooth, spheres between them, and a mesh of its own.
+Scene instances(unsigned of_each) {
+  Scene scene;
+  for (int i = 0; i < 4; ++i)
+    scene.add(matte({0.2 * i, 1, 1}));
+  scene.materials[1].pigment.transmit = 0.5;
+  const Object ball = mesh_object(ball_mesh(12), 0, scene.add(Interior{}));
+  Mesh plates = ball_mesh(7);
+  for (std::size_t t = 0; t < plates.triangles.size(); ++t)
+    for (int corner = 0; corner < 3; ++corner) {
+      plates.triangles[t].normal[corner] = kNoIndex;
+      if (t % 5 == 0) plates.triangles[t].material[corner] = 3;
+    }
+  const Object plate = mesh_object(plates, 1, scene.add(Interior{}));
+  for (unsigned i = 0; i < of_each; ++i) {
+    for (const Object& object : {ball, plate}) {
+      scene.objects.push_back(object);
+      scene.objects.back().material = i % 3;
+      scene.objects.back().transform =
+          Transform::scale({1, 0.5 + 0.1 * (i % 7), 1})
+              .then(Transform::rotate({10.0 * i, 25.0 * i, 0}))
+              .then(Transform::translate({2.5 * (i % 5), 2.5 * (i / 5), i % 2 * 1.0}));
+    }
+    if (i % 4 == 1) scene.objects.push_back(sphere_at({1.0 * i, -2, 0}, 0.5, 2, 0));
+  }
+  scene.objects.push_back(mesh_object(ball_mesh(3), 2, 1));
+  return scene;
+}
+
+/// The same with a mesh of its own for each object.
+Scene without_instances(Scene scene) {
+  for (Object& object : scene.objects)
+    if (auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape))
+      *mesh = std::make_shared<const Mesh>(**mesh);
+  return scene;
+}
+
+/// Everything that records of objects say, in an order of its own: normals in place of their offsets.
+std::vector<std::vector<float>> contents(const SceneImage& image) {
+  const ImageHeader& h = image.header();
+  std::vector<std::vector<float>> all;
+  for (std::uint32_t i = 0; i < h.object_count; ++i) {
+    const ObjectRecord& object = table<ObjectRecord>(image, h.object_offset)[i];
+    std::vector<float> words = {static_cast<float>(object.kind_and_flags),
+                                static_cast<float>((object.material - h.material_offset) / 128),
+                                static_cast<float>((object.interior - h.interior_offset) / 16)};
+    words.insert(words.end(), object.geometry, object.geometry + 12);
+    if ((object.kind_and_flags & object_flag::smooth) != 0) {
+      const auto& normals = *table<NormalsRecord>(image, object.normals);
+      words.insert(words.end(), normals.normal, normals.normal + 9);
+    } else {
+      CHECK(object.normals == kNoOffset);
+    }
+    all.push_back(words);
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+} // namespace
+
+TEST_CASE("Instances of a mesh are copies of runs") {
+  const Scene scene = instances(30);
+  const SceneImage image(scene);
+  const ImageHeader& h = image.header();
+  REQUIRE(h.prototype_count == h.run_count);
+  CHECK(h.longest_run <= kMaxCopiedObjects);
+  const auto* objects = table<ObjectRecord>(image, h.object_offset);
+  const auto* runs = table<RunRecord>(image, h.run_offset);
+  const auto* prototypes = table<std::uint32_t>(image, h.prototype_offset);
+  std::uint32_t next = 0, copies = 0, alone = 0;
+  for (std::uint32_t run = 0; run < h.run_count; ++run) {
+    REQUIRE(runs[run].first == next);
+    Box around = bounding_box(objects[next]);
+    for (const std::uint32_t end = next + runs[run].count; next < end; ++next)
+      around = box_around(around, bounding_box(objects[next]));
+    CHECK(std::equal(around.min, around.min + 3, runs[run].min));
+    CHECK(std::equal(around.max, around.max + 3, runs[run].max));
+    if (prototypes[run] == kNoRun)
+      ++alone;
+    else if (prototypes[run] != run)
+      ++copies;
+    if (prototypes[run] == kNoRun) continue;
+    REQUIRE(prototypes[prototypes[run]] == prototypes[run]);
+    REQUIRE(runs[prototypes[run]].count == runs[run].count);
+  }
+  CHECK(next == h.object_count);
+  CHECK(alone > 0);
+  CHECK(copies == (h.run_count - alone) / 30 * 29);
+
+  const SceneImage apart(without_instances(scene));
+  CHECK(apart.header().prototype_count == 0);
+  CHECK((contents(image) == contents(apart)));
+  for (int axis = 0; axis < 3; ++axis) {
+    CHECK(h.bounds_min[axis] == apart.header().bounds_min[axis]);
+    CHECK(h.bounds_max[axis] == apart.header().bounds_max[axis]);
+  }
+  const Bytes bytes = bytes_of(image);
+  CHECK((bytes_of(SceneImage::from_bytes(bytes)) == bytes));
+  AlignedBlock work;
+  SceneImage again(crowd(100, 1));
+  for (unsigned threads : {1u, 2u, 3u, 7u}) {
+    again.assign(scene, work, threads);
+    CHECK((bytes_of(again) == bytes));
+  }
+}
+
+TEST_CASE("Meshes that are not worth while to share have runs of their own") {
+  // Too few triangles in all.
+  CHECK(SceneImage(instances(2)).header().prototype_count == 0);
+  // Triangles of several materials.
+  Scene scene = instances(30);
+  for (Object& object : scene.objects)
+    if (auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape)) {
+      static std::shared_ptr<const Mesh> blended = [] {
+        Mesh ball = ball_mesh(12);
+        ball.triangles[7].material[1] = 2;
+        return std::make_shared<const Mesh>(ball);
+      }();
+      *mesh = blended;
+    }
+  CHECK(SceneImage(scene).header().prototype_count == 0);
+}
+
+TEST_CASE("Instances that single precision cannot tell from points lose their triangles alone") {
+  Scene scene = instances(30);
+  const SceneImage before(scene);
+  // Flattened to a line, and far away.
+  scene.objects[5].transform = Transform();
+  scene.objects[5].transform.rows[0] = scene.objects[5].transform.rows[1] = Vec3(0);
+  scene.objects[9].transform = Transform::translate({1e9, 0, 0});
+  const SceneImage after(scene);
+  CHECK((contents(after) == contents(SceneImage(without_instances(scene)))));
+  CHECK(after.header().object_count < before.header().object_count);
+  CHECK(after.header().prototype_count != 0);
+  // And what is too far away for single precision altogether is refused.
+  scene.objects[9].transform = Transform::translate({1e30, 0, 0});
+  SceneImage image(instances(30));
+  const Bytes bytes = bytes_of(image);
+  AlignedBlock work;
+  CHECK_THROWS_AS(image.assign(scene, work, 2), InputError);
+  CHECK((bytes_of(image) == bytes));
+}
+
+TEST_CASE("A sealed scene image with a fault in its copies is refused") {
+  const Bytes good = bytes_of(SceneImage(instances(30)));
+  const auto refused = [&](const std::function<void(ImageHeader&, std::uint32_t*)>& change) {
+    Bytes bytes = good;
+    ImageHeader& header = header_of(bytes);
+    change(header, table<std::uint32_t>(bytes, header.prototype_offset));
+    seal(bytes);
+    CHECK_THROWS_WITH(SceneImage::from_bytes(bytes), Catch::Contains("offset"));
+  };
+  refused([](ImageHeader& h, std::uint32_t*) { --h.prototype_count; });
+  refused([](ImageHeader& h, std::uint32_t*) { h.prototype_offset = 0xFFFFFF80; });
+  refused([](ImageHeader& h, std::uint32_t* prototypes) { prototypes[h.run_count - 1] = h.run_count; });
+  refused([](ImageHeader& h, std::uint32_t* prototypes) { prototypes[h.run_count - 1] = h.run_count - 2; });
+  refused([](ImageHeader& h, std::uint32_t* prototypes) { prototypes[h.run_count - 1] = 0; });
+}

@@ -1,0 +1,224 @@
+#include "scene/mesh_instances.hpp"
+
+#include "celltrace/error.hpp"
+#include "celltrace/spe/simd_host.hpp"
+#include "kernel/build_hierarchy_boxes.hpp"
+#include "scene/object_order.hpp"
+#include "scene/parallel.hpp"
+#include "scene/triangles.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <unordered_map>
+
+namespace celltrace {
+
+using namespace kernel;
+
+namespace {
+
+using Simd = HostSimd<xsimd::sse2>;
+using LaneBox = hierarchy::LaneBox<Simd>;
+
+const Mesh* mesh_of(const Object& object) {
+  const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape);
+  return mesh != nullptr ? mesh->get() : nullptr;
+}
+
+/// Objects of the image that a scene has if all its triangles have an area.
+std::uint64_t objects_of(const Scene& scene) {
+  std::uint64_t count = 0;
+  for (const Object& object : scene.objects) {
+    const Mesh* mesh = mesh_of(object);
+    count += mesh != nullptr ? mesh->triangles.size() : 1;
+  }
+  return count;
+}
+
+} // namespace
+
+MeshInstances::MeshInstances(const Scene& scene, unsigned threads) : scene_(scene) {
+  if (objects_of(scene) < kMinObjectsToOrder) return;
+  find(scene, threads);
+  if (instances_.empty()) return;
+  std::size_t vertices = 0;
+  for (Instance& instance : instances_) {
+    instance.first_vertex = static_cast<std::uint32_t>(vertices);
+    vertices += prototypes_[instance.prototype].vertices().size();
+    if (vertices > std::numeric_limits<std::uint32_t>::max())
+      throw InputError("the scene is too large: it has more objects than 32 bits can count");
+  }
+  vertices_ = AlignedBlock::uninitialised(vertices * sizeof(Vertex));
+  for_each_part(threads, [&](unsigned part) {
+    const HostPart mine(static_cast<std::uint32_t>(instances_.size()), part, threads);
+    for (std::uint32_t i = mine.begin; i < mine.end; ++i)
+      place(instances_[i]);
+  });
+  const auto unsound = [](const Instance& instance) { return !instance.is_sound; };
+  instances_.erase(std::remove_if(instances_.begin(), instances_.end(), unsound), instances_.end());
+  number();
+}
+
+void MeshInstances::find(const Scene& scene, unsigned threads) {
+  constexpr std::uint32_t kUnknown = 0xFFFFFFFF, kNone = 0xFFFFFFFE;
+  struct Uses {
+    std::uint32_t count = 0;
+    std::uint32_t prototype = kUnknown;
+  };
+  std::unordered_map<const Mesh*, Uses> uses;
+  for (const Object& object : scene.objects)
+    if (const Mesh* mesh = mesh_of(object); mesh != nullptr && MeshPrototype::is_large_enough(*mesh))
+      ++uses[mesh].count;
+  for (const Object& object : scene.objects) {
+    const auto found = uses.find(mesh_of(object));
+    if (found == uses.end() || found->second.count < 2) continue;
+    const Mesh& mesh = *found->first;
+    std::uint32_t& prototype = found->second.prototype;
+    if (prototype == kUnknown) {
+      prototype = kNone;
+      if (MeshPrototype::can_be_made(mesh)) {
+        prototype = static_cast<std::uint32_t>(prototypes_.size());
+        prototypes_.emplace_back(mesh, threads);
+      }
+    }
+    if (prototype != kNone) instances_.push_back({&object, prototype, true, {}, 0, 0, 0, 0});
+  }
+}
+
+/// Takes the vertices to the world and looks at what comes out.
+void MeshInstances::place(Instance& instance) {
+  const MeshPrototype& prototype = prototypes_[instance.prototype];
+  const Transform& transform = instance.object->transform;
+  Vertex* const world = vertices_of(instance);
+  Vertex* to = world;
+  ObjectCensus census;
+  for (const Vec3f& vertex : prototype.vertices()) {
+    const Vec3f at(transform.point(Vec3(vertex)));
+    *to++ = {{at.x, at.y, at.z, 0.0f}};
+    const Box point = {{at.x, at.y, at.z}, {at.x, at.y, at.z}};
+    check_size(point);
+    census.around = box_around(census.around, point);
+  }
+  instance.around = census.around;
+  const auto point = [&](Index vertex) {
+    const float(&at)[4] = world[vertex].at;
+    return Vec3f(at[0], at[1], at[2]);
+  };
+  for (const MeshPrototype::Triangle& triangle : prototype.triangles())
+    if (!has_area(point(triangle.vertex[0]), point(triangle.vertex[1]), point(triangle.vertex[2])))
+      instance.is_sound = false;
+}
+
+/// Counts what there is, and tells the instances their places.
+void MeshInstances::number() {
+  constexpr std::uint32_t kNone = 0xFFFFFFFF;
+  is_instance_.resize(scene_.objects.size());
+  first_run_of_.resize(prototypes_.size(), kNone);
+  for (Instance& instance : instances_) {
+    const MeshPrototype& prototype = prototypes_[instance.prototype];
+    is_instance_[static_cast<std::size_t>(instance.object - scene_.objects.data())] = true;
+    instance.first_object = census_.objects;
+    instance.first_normals = census_.smooth;
+    instance.first_run = run_count_;
+    std::uint32_t& first_run = first_run_of_[instance.prototype];
+    if (first_run == kNone) {
+      first_run = run_count_;
+      for (std::uint32_t run = 0; run < prototype.run_count(); ++run)
+        longest_run_ = std::max(longest_run_, prototype.runs()[run + 1] - prototype.runs()[run]);
+    }
+    const auto objects = static_cast<std::uint32_t>(prototype.triangles().size());
+    if (objects > std::numeric_limits<std::uint32_t>::max() - census_.objects)
+      throw InputError("the scene is too large: it has more objects than 32 bits can count");
+    census_.add({objects, prototype.smooth(), 0, instance.around});
+    run_count_ += prototype.run_count();
+  }
+}
+
+class MeshInstances::Writer {
+public:
+  Writer(const MeshInstances& instances, const InstanceTables& tables)
+      : instances_(instances), tables_(tables) {}
+
+  void write(const Instance& instance) {
+    const MeshPrototype& prototype = instances_.prototypes_[instance.prototype];
+    start(instance, prototype);
+    ObjectRecord* to = tables_.objects + instance.first_object;
+    for (std::uint32_t run = 0; run < prototype.run_count(); ++run) {
+      const std::uint32_t begin = prototype.runs()[run], end = prototype.runs()[run + 1];
+      LaneBox around = LaneBox::empty();
+      for (std::uint32_t i = begin; i < end; ++i)
+        write(prototype.triangles()[i], to[i], around);
+      const std::uint32_t number = instance.first_run + run;
+      hierarchy::Reference box;
+      around.min.store(box.min); // over the words beside
+      around.max.store(box.max);
+      tables_.runs[number] = {{box.min[0], box.min[1], box.min[2]},
+                              tables_.first_object + instance.first_object + begin,
+                              {box.max[0], box.max[1], box.max[2]},
+                              end - begin};
+      tables_.prototypes[number] = tables_.first_run + instances_.first_run_of_[instance.prototype] + run;
+    }
+  }
+
+private:
+  void start(const Instance& instance, const MeshPrototype& prototype) {
+    object_ = instance.object;
+    vertices_ = instances_.vertices_of(instance);
+    next_normals_ = tables_.first_normals + instance.first_normals;
+    normals_.clear();
+    if (!prototype.unit_normals().empty()) {
+      const NormalTransform to_world(object_->transform);
+      for (const Vec3& unit : prototype.unit_normals())
+        normals_.push_back(to_world(unit));
+    }
+    set_material(kNoIndex);
+  }
+
+  void set_material(Index material) {
+    material_ = material;
+    head_ = start_record(*object_, ObjectKind::triangle, tables_.records.interior_offset);
+    tables_.records.set_material(head_, material != kNoIndex ? material : object_->material);
+  }
+
+  void write(const MeshPrototype::Triangle& triangle, ObjectRecord& to, LaneBox& around) {
+    if (triangle.material != material_) set_material(triangle.material);
+    to = head_;
+    for (int corner = 0; corner < 3; ++corner) {
+      const float(&at)[4] = vertices_[triangle.vertex[corner]].at;
+      std::memcpy(to.geometry + 3 * corner, at, sizeof at); // over the word behind, where the next one begins
+      const auto lanes = Simd::F4::load(at);
+      around.grow(lanes);
+    }
+    if (triangle.normal[0] != kNoIndex) write_normals(triangle, to);
+  }
+
+  void write_normals(const MeshPrototype::Triangle& triangle, ObjectRecord& to) {
+    to.kind_and_flags |= object_flag::smooth;
+    to.normals = tables_.records.offset_of_normals(next_normals_);
+    NormalsRecord record{};
+    for (int corner = 0; corner < 3; ++corner)
+      std::memcpy(record.normal + 3 * corner, &normals_[triangle.normal[corner]], sizeof(Vec3f));
+    tables_.records.normals[next_normals_++] = record;
+  }
+
+  const MeshInstances& instances_;
+  const InstanceTables& tables_;
+  const Object* object_ = nullptr;
+  const Vertex* vertices_ = nullptr;
+  std::vector<Vec3f> normals_; ///< in the world
+  std::uint32_t next_normals_ = 0;
+  Index material_ = kNoIndex; ///< as the triangles have it
+  ObjectRecord head_;         ///< of a triangle with that material
+};
+
+void MeshInstances::write(const InstanceTables& tables, unsigned threads) const {
+  for_each_part(threads, [&](unsigned part) {
+    const HostPart mine(static_cast<std::uint32_t>(instances_.size()), part, threads);
+    Writer writer(*this, tables);
+    for (std::uint32_t i = mine.begin; i < mine.end; ++i)
+      writer.write(instances_[i]);
+  });
+}
+
+} // namespace celltrace

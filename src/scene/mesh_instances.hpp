@@ -1,0 +1,76 @@
+// Objects that are instances of one mesh: what depends on the mesh alone is worked out once.
+#pragma once
+
+#include "celltrace/scene.hpp"
+#include "kernel/records.hpp"
+#include "scene/aligned_block.hpp"
+#include "scene/mesh_prototype.hpp"
+#include "scene/object_records.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace celltrace {
+
+/// Where the records of instances go, and where they lie in the tables.
+struct InstanceTables {
+  RecordTables records;
+  kernel::ObjectRecord* objects; ///< of instances
+  std::uint32_t first_object;    ///< in the table of all
+  std::uint32_t first_normals;
+  kernel::RunRecord* runs;   ///< of instances
+  std::uint32_t* prototypes; ///< a word per run of instances
+  std::uint32_t first_run;   ///< in the table of all
+};
+
+class MeshInstances {
+public:
+  /// Those of `scene`, which is valid and stays as it is as long as this lives: meshes that are worth while
+  /// to share, placed at least twice, such that each triangle with an area keeps one. None in a scene of few
+  /// triangles. Throws InputError if an object's coordinates leave what single precision can hold, or if
+  /// there are too many objects.
+  MeshInstances(const Scene& scene, unsigned threads);
+
+  /// Whether an object of the scene is among them.
+  bool contains(std::size_t object) const { return !is_instance_.empty() && is_instance_[object]; }
+  /// What all of them have.
+  const ObjectCensus& census() const { return census_; }
+  std::uint32_t run_count() const { return run_count_; }
+  std::uint32_t longest_run() const { return longest_run_; }
+
+  /// Makes the records of all of them, instance by instance in the order of the scene, and run by run.
+  void write(const InstanceTables& tables, unsigned threads) const;
+
+private:
+  struct Instance {
+    const Object* object;
+    std::uint32_t prototype;
+    bool is_sound; ///< each triangle has an area
+    kernel::Box around;
+    std::uint32_t first_vertex, first_object, first_normals, first_run; ///< among those of all instances
+  };
+  /// A vertex in the world. Its last word is 0.
+  struct alignas(16) Vertex {
+    float at[4];
+  };
+  class Writer;
+
+  void find(const Scene& scene, unsigned threads);
+  void place(Instance& instance);
+  void number();
+  Vertex* vertices_of(const Instance& instance) const {
+    return reinterpret_cast<Vertex*>(vertices_.data()) + instance.first_vertex;
+  }
+
+  const Scene& scene_;
+  std::vector<MeshPrototype> prototypes_;
+  std::vector<Instance> instances_;
+  std::vector<std::uint32_t> first_run_of_; ///< by prototype: of its first instance
+  std::vector<bool> is_instance_;           ///< by object
+  AlignedBlock vertices_;
+  ObjectCensus census_;
+  std::uint32_t run_count_ = 0;
+  std::uint32_t longest_run_ = 0;
+};
+
+} // namespace celltrace

@@ -1,0 +1,212 @@
+#include "scene/mesh_prototype.hpp"
+
+#include "celltrace/spe/simd_host.hpp"
+#include "kernel/build_hierarchy_split.hpp"
+#include "scene/object_order.hpp"
+#include "scene/triangles.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace celltrace {
+
+using namespace kernel;
+using hierarchy::Reference;
+
+namespace {
+
+using Simd = HostSimd<xsimd::sse2>;
+using Range = hierarchy::Range<Simd>;
+
+/// Below it, to place a run of each instance in the hierarchy takes longer than to build that anew.
+constexpr std::size_t kFewestTriangles = 32;
+constexpr std::uint32_t kTrianglesPerRun = 128;
+static_assert(kTrianglesPerRun <= kMaxCopiedObjects);
+/// About a leaf of the hierarchy: within it, order does not matter.
+constexpr std::uint32_t kTrianglesPerLeaf = 4;
+
+void copy(const Vec3f& from, float* to) {
+  for (int i = 0; i < 3; ++i)
+    to[i] = from[i];
+}
+
+Reference reference_to(std::uint32_t number, const Mesh& mesh) {
+  const Index(&vertex)[3] = mesh.triangles[number].vertex;
+  const Vec3f &a = mesh.vertices[vertex[0]], &b = mesh.vertices[vertex[1]], &c = mesh.vertices[vertex[2]];
+  Reference reference;
+  copy(glm::min(a, glm::min(b, c)), reference.min);
+  copy(glm::max(a, glm::max(b, c)), reference.max);
+  reference.value = number;
+  reference.weight = 1;
+  return reference;
+}
+
+/// Orders references from the whole down to its parts.
+class Divider {
+public:
+  explicit Divider(std::vector<Reference>& references) : references_(references), spare_(references.size()) {}
+
+  /// Calls part(begin, end) for each part in order, and divides it further if that returns true.
+  template <class Part> void divide(std::uint32_t begin, std::uint32_t end, Part part) {
+    std::vector<Range> open = {hierarchy::range_of<Simd>(references_.data(), begin, end)};
+    while (!open.empty()) {
+      const Range range = open.back();
+      open.pop_back();
+      if (!part(range) || range.count() < 2) continue;
+      Range left, right;
+      hierarchy::split_range(references_.data(), spare_.data(), range, left, right);
+      open.push_back(right);
+      open.push_back(left);
+    }
+  }
+
+private:
+  std::vector<Reference>& references_;
+  std::vector<Reference> spare_;
+};
+
+/// The triangles with an area in the order of their places in the mesh.
+std::vector<Reference> references_to_triangles(const Mesh& mesh) {
+  std::vector<Reference> references;
+  references.reserve(mesh.triangles.size());
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Index(&vertex)[3] = mesh.triangles[i].vertex;
+    if (has_area(mesh.vertices[vertex[0]], mesh.vertices[vertex[1]], mesh.vertices[vertex[2]]))
+      references.push_back(reference_to(i, mesh));
+  }
+  return references;
+}
+
+/// A reference to each run of references that lie together along a curve, after they are ordered so.
+std::vector<Reference> order_coarsely(std::vector<Reference>& references, unsigned threads) {
+  const auto count = static_cast<std::uint32_t>(references.size());
+  std::vector<PlacedObject> placed(count), spare(count);
+  std::vector<std::uint32_t> cells(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Reference& r = references[i];
+    placed[i] = {{r.min[0] + r.max[0], r.min[1] + r.max[1], r.min[2] + r.max[2]}, i};
+  }
+  const std::vector<std::uint32_t> begins =
+      order_along_curve(placed.data(), spare.data(), cells.data(), count, threads);
+  std::vector<Reference> ordered(count);
+  for (std::uint32_t i = 0; i < count; ++i)
+    ordered[i] = references[placed[i].source];
+  references = std::move(ordered);
+  std::vector<Reference> groups(begins.size() - 1);
+  for (std::size_t group = 0; group < groups.size(); ++group) {
+    const Range range = hierarchy::range_of<Simd>(references.data(), begins[group], begins[group + 1]);
+    range.box.min.store(groups[group].min); // over the words beside
+    range.box.max.store(groups[group].max);
+    groups[group].value = range.begin;
+    groups[group].weight = range.count();
+  }
+  return groups;
+}
+
+/// Orders references so that few groups of neighbours together are neighbours. Returns where the parts begin
+/// that are to be divided further, and the number of references at last.
+std::vector<std::uint32_t> order_groups(std::vector<Reference>& references, unsigned threads) {
+  const auto count = static_cast<std::uint32_t>(references.size());
+  if (count < kMinObjectsToOrder) return {0, count};
+  std::vector<Reference> groups = order_coarsely(references, threads);
+  std::vector<Reference> ordered;
+  ordered.reserve(count);
+  std::vector<std::uint32_t> begins;
+  Divider(groups).divide(0, static_cast<std::uint32_t>(groups.size()), [&](const Range& range) {
+    if (range.weight > kTrianglesPerRun && range.count() > 1) return true;
+    begins.push_back(static_cast<std::uint32_t>(ordered.size()));
+    for (std::uint32_t group = range.begin; group < range.end; ++group) {
+      const auto first = references.begin() + groups[group].value;
+      ordered.insert(ordered.end(), first, first + groups[group].weight);
+    }
+    return false;
+  });
+  begins.push_back(count);
+  references = std::move(ordered);
+  return begins;
+}
+
+/// Orders references down to the leaves. Returns where the runs begin, and the number of references at last.
+std::vector<std::uint32_t> order_by_run(std::vector<Reference>& references, unsigned threads) {
+  const std::vector<std::uint32_t> parts = order_groups(references, threads);
+  std::vector<std::uint32_t> runs;
+  Divider divider(references);
+  for (std::size_t part = 0; part + 1 < parts.size(); ++part) {
+    std::uint32_t run_end = parts[part];
+    divider.divide(parts[part], parts[part + 1], [&](const Range& range) {
+      if (range.begin >= run_end && range.count() <= kTrianglesPerRun) {
+        runs.push_back(range.begin);
+        run_end = range.end;
+      }
+      return range.count() > kTrianglesPerLeaf;
+    });
+  }
+  runs.push_back(static_cast<std::uint32_t>(references.size()));
+  return runs;
+}
+
+/// Numbers equal points alike, in the order in which they are asked for.
+class PointTable {
+public:
+  explicit PointTable(const std::vector<Vec3f>& points) : points_(points), first_like_(points.size()) {
+    std::vector<Index> order(points.size());
+    std::iota(order.begin(), order.end(), Index{0});
+    const auto less = [&](Index a, Index b) {
+      const Vec3f &p = points[a], &q = points[b];
+      return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : p.z < q.z;
+    };
+    std::sort(order.begin(), order.end(), less);
+    for (std::size_t i = 0; i < order.size(); ++i)
+      first_like_[order[i]] = i != 0 && !less(order[i - 1], order[i]) ? first_like_[order[i - 1]] : order[i];
+    number_.resize(points.size(), kNoIndex);
+  }
+
+  Index number_of(Index point) {
+    Index& number = number_[first_like_[point]];
+    if (number == kNoIndex) {
+      number = static_cast<Index>(used_.size());
+      used_.push_back(points_[point]);
+    }
+    return number;
+  }
+  std::vector<Vec3f> take_used() { return std::move(used_); }
+
+private:
+  const std::vector<Vec3f>& points_;
+  std::vector<Index> first_like_; ///< by point, one that is equal
+  std::vector<Index> number_;     ///< by such a point
+  std::vector<Vec3f> used_;
+};
+
+} // namespace
+
+bool MeshPrototype::is_large_enough(const Mesh& mesh) {
+  return mesh.triangles.size() >= kFewestTriangles;
+}
+
+bool MeshPrototype::can_be_made(const Mesh& mesh) {
+  const auto one_material = [](const Mesh::Triangle& triangle) { return same(triangle.material); };
+  return is_large_enough(mesh) && std::all_of(mesh.triangles.begin(), mesh.triangles.end(), one_material);
+}
+
+MeshPrototype::MeshPrototype(const Mesh& mesh, unsigned threads) {
+  std::vector<Reference> references = references_to_triangles(mesh);
+  runs_ = order_by_run(references, threads);
+  PointTable vertices(mesh.vertices), normals(mesh.normals);
+  triangles_.reserve(references.size());
+  for (const Reference& reference : references) {
+    const Mesh::Triangle& from = mesh.triangles[reference.value];
+    Triangle triangle = {{0, 0, 0}, {kNoIndex, kNoIndex, kNoIndex}, from.material[0]};
+    for (int corner = 0; corner < 3; ++corner) {
+      triangle.vertex[corner] = vertices.number_of(from.vertex[corner]);
+      if (is_smooth(from)) triangle.normal[corner] = normals.number_of(from.normal[corner]);
+    }
+    smooth_ += is_smooth(from);
+    triangles_.push_back(triangle);
+  }
+  vertices_ = vertices.take_used();
+  for (const Vec3f& normal : normals.take_used())
+    unit_normals_.push_back(unit_normal(normal));
+}
+
+} // namespace celltrace

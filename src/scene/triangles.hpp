@@ -1,0 +1,59 @@
+// What is asked of a mesh's triangles one by one.
+#pragma once
+
+#include "celltrace/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace celltrace {
+
+/// In double precision it is right; where single precision leaves no doubt, that is faster.
+inline bool has_area(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
+  const Vec3f u = b - a;
+  const Vec3f v = c - a;
+  const float x[3] = {u.y * v.z, u.z * v.x, u.x * v.y};
+  const float y[3] = {u.z * v.y, u.x * v.z, u.y * v.x};
+  for (int i = 0; i < 3; ++i)
+    if (std::abs(x[i] - y[i]) > 1e-6f * (std::abs(x[i]) + std::abs(y[i])) + 1e-30f) return true;
+  const Vec3 area = glm::cross(Vec3(b) - Vec3(a), Vec3(c) - Vec3(a));
+  return glm::dot(area, area) != 0;
+}
+
+inline bool same(const Index (&index)[3]) {
+  return index[0] == index[1] && index[0] == index[2];
+}
+
+/// Whether its normals bend it.
+inline bool is_smooth(const Mesh::Triangle& triangle) {
+  return triangle.normal[0] != kNoIndex && !same(triangle.normal);
+}
+
+/// A normal at unit length; what has none gets some direction.
+inline Vec3 unit_normal(const Vec3f& normal) {
+  const Vec3 n(normal);
+  const double length = glm::length(n);
+  return length > 0 ? n / length : Vec3(0, 0, 1);
+}
+
+/// Takes unit normals of a mesh to the world: the inverse transpose, worked out once. Normals are of unit
+/// length before, not after it: the blend of a triangle's normals is that of the mesh's own space.
+class NormalTransform {
+public:
+  explicit NormalTransform(const Transform& transform)
+      : columns_{transform.normal({1, 0, 0}), transform.normal({0, 1, 0}), transform.normal({0, 0, 1})},
+        scale_(1 / std::max({glm::length(columns_[0]), glm::length(columns_[1]), glm::length(columns_[2])})) {
+  }
+
+  Vec3f operator()(const Vec3& unit) const {
+    return Vec3f(scale_ * (unit.x * columns_[0] + unit.y * columns_[1] + unit.z * columns_[2]));
+  }
+
+private:
+  Vec3 columns_[3];
+  double scale_;
+};
+
+} // namespace celltrace
