@@ -217,12 +217,12 @@ private:
     Reference* references = local ? references_ : memory_.references;
     Range<S> all = {0, 0, 0, LaneBox<S>::empty(), LaneBox<S>::empty()};
     add_references(0, count, references, all);
-    const NodeRecord* end = count < kChildren ? add_root(all, references)
-                                              : build(all, {nullptr, 0, 0}, nodes_, references,
-                                                      local ? spare_ : memory_.spare_references, 0);
+    const NodeRecord* end = count <= kCertainLeaf ? add_root(all, references)
+                                                  : build(all, {nullptr, 0, 0}, nodes_, references,
+                                                          local ? spare_ : memory_.spare_references, 0);
     memory_.team->nodes = static_cast<uint32_t>(end - nodes_);
   }
-  /// The root above fewer than four objects.
+  /// The root above objects that are one leaf.
   NodeRecord* add_root(const Range<S>& all, const Reference* references) {
     const LaneBox<S> empty = LaneBox<S>::empty();
     set_boxes<S>(*nodes_, {all.box, empty, empty, empty});

@@ -6,6 +6,9 @@
 namespace celltrace::kernel::hierarchy {
 
 constexpr uint32_t kMaxLeaf = 8;
+/// So many objects share a leaf whatever the heuristic says: a node of leaves of one object each takes more
+/// memory than they do, and the time to bring it in.
+constexpr uint32_t kCertainLeaf = 4;
 /// What the test of an object takes, in visits of nodes.
 constexpr float kObjectCost = 2.0f;
 
@@ -17,7 +20,7 @@ public:
   Leaves(uint8_t* image, uint32_t list_offset, const Reference* references)
       : image_(image), list_offset_(list_offset), references_(references) {}
 
-  bool end(const Range<S>& range) const { return range.count() < kChildren; }
+  bool end(const Range<S>& range) const { return range.count() <= kCertainLeaf; }
 
   bool end(const Range<S>& range, const Range<S> (&children)[kChildren]) const {
     if (range.count() > kMaxLeaf) return false;
