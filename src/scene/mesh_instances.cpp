@@ -26,6 +26,10 @@ const Mesh* mesh_of(const Object& object) {
   return mesh != nullptr ? mesh->get() : nullptr;
 }
 
+Vec3f in_world(const Transform& transform, const Vec3f& vertex) {
+  return Vec3f(transform.point(Vec3(vertex)));
+}
+
 /// Objects of the image that a scene has if all its triangles have an area.
 std::uint64_t objects_of(const Scene& scene) {
   std::uint64_t count = 0;
@@ -41,22 +45,13 @@ std::uint64_t objects_of(const Scene& scene) {
 MeshInstances::MeshInstances(const Scene& scene, unsigned threads) : scene_(scene) {
   if (objects_of(scene) < kMinObjectsToOrder) return;
   find(scene, threads);
-  if (instances_.empty()) return;
-  std::size_t vertices = 0;
-  for (Instance& instance : instances_) {
-    instance.first_vertex = static_cast<std::uint32_t>(vertices);
-    vertices += prototypes_[instance.prototype].vertices().size();
-    if (vertices > std::numeric_limits<std::uint32_t>::max())
-      throw InputError("the scene is too large: it has more objects than 32 bits can count");
-  }
-  vertices_ = AlignedBlock::uninitialised(vertices * sizeof(Vertex));
   for_each_part(threads, [&](unsigned part) {
     const HostPart mine(static_cast<std::uint32_t>(instances_.size()), part, threads);
     for (std::uint32_t i = mine.begin; i < mine.end; ++i)
-      place(instances_[i]);
+      instances_[i].is_sound = keeps_areas(instances_[i]);
   });
-  const auto unsound = [](const Instance& instance) { return !instance.is_sound; };
-  instances_.erase(std::remove_if(instances_.begin(), instances_.end(), unsound), instances_.end());
+  const auto is_unsound = [](const Instance& instance) { return !instance.is_sound; };
+  instances_.erase(std::remove_if(instances_.begin(), instances_.end(), is_unsound), instances_.end());
   number();
 }
 
@@ -82,32 +77,25 @@ void MeshInstances::find(const Scene& scene, unsigned threads) {
         prototypes_.emplace_back(mesh, threads);
       }
     }
-    if (prototype != kNone) instances_.push_back({&object, prototype, true, {}, 0, 0, 0, 0});
+    if (prototype != kNone) instances_.push_back({&object, prototype, false, 0, 0, 0});
   }
 }
 
-/// Takes the vertices to the world and looks at what comes out.
-void MeshInstances::place(Instance& instance) {
+/// Throws InputError if single precision does not hold the coordinates.
+bool MeshInstances::keeps_areas(const Instance& instance) const {
   const MeshPrototype& prototype = prototypes_[instance.prototype];
   const Transform& transform = instance.object->transform;
-  Vertex* const world = vertices_of(instance);
-  Vertex* to = world;
-  ObjectCensus census;
+  if (prototype.surely_keeps_areas(transform)) return true;
+  std::vector<Vec3f> world;
   for (const Vec3f& vertex : prototype.vertices()) {
-    const Vec3f at(transform.point(Vec3(vertex)));
-    *to++ = {{at.x, at.y, at.z, 0.0f}};
-    const Box point = {{at.x, at.y, at.z}, {at.x, at.y, at.z}};
-    check_size(point);
-    census.around = box_around(census.around, point);
+    const Vec3f at = in_world(transform, vertex);
+    check_size({{at.x, at.y, at.z}, {at.x, at.y, at.z}});
+    world.push_back(at);
   }
-  instance.around = census.around;
-  const auto point = [&](Index vertex) {
-    const float(&at)[4] = world[vertex].at;
-    return Vec3f(at[0], at[1], at[2]);
+  const auto has_area_in_world = [&](const MeshPrototype::Triangle& triangle) {
+    return has_area(world[triangle.vertex[0]], world[triangle.vertex[1]], world[triangle.vertex[2]]);
   };
-  for (const MeshPrototype::Triangle& triangle : prototype.triangles())
-    if (!has_area(point(triangle.vertex[0]), point(triangle.vertex[1]), point(triangle.vertex[2])))
-      instance.is_sound = false;
+  return std::all_of(prototype.triangles().begin(), prototype.triangles().end(), has_area_in_world);
 }
 
 /// Counts what there is, and tells the instances their places.
@@ -130,12 +118,18 @@ void MeshInstances::number() {
     const auto objects = static_cast<std::uint32_t>(prototype.triangles().size());
     if (objects > std::numeric_limits<std::uint32_t>::max() - census_.objects)
       throw InputError("the scene is too large: it has more objects than 32 bits can count");
-    census_.add({objects, prototype.smooth(), 0, instance.around});
+    census_.objects += objects;
+    census_.smooth += prototype.smooth();
     run_count_ += prototype.run_count();
   }
 }
 
 class MeshInstances::Writer {
+  /// Its last word is 0.
+  struct alignas(16) Vertex {
+    float at[4];
+  };
+
 public:
   Writer(const MeshInstances& instances, const InstanceTables& tables)
       : instances_(instances), tables_(tables) {}
@@ -164,7 +158,11 @@ public:
 private:
   void start(const Instance& instance, const MeshPrototype& prototype) {
     object_ = instance.object;
-    vertices_ = instances_.vertices_of(instance);
+    vertices_.clear();
+    for (const Vec3f& vertex : prototype.vertices()) {
+      const Vec3f at = in_world(object_->transform, vertex);
+      vertices_.push_back({{at.x, at.y, at.z, 0.0f}});
+    }
     next_normals_ = tables_.first_normals + instance.first_normals;
     normals_.clear();
     if (!prototype.unit_normals().empty()) {
@@ -205,8 +203,8 @@ private:
   const MeshInstances& instances_;
   const InstanceTables& tables_;
   const Object* object_ = nullptr;
-  const Vertex* vertices_ = nullptr;
-  std::vector<Vec3f> normals_; ///< in the world
+  std::vector<Vertex> vertices_; ///< in the world
+  std::vector<Vec3f> normals_;   ///< in the world
   std::uint32_t next_normals_ = 0;
   Index material_ = kNoIndex; ///< as the triangles have it
   ObjectRecord head_;         ///< of a triangle with that material

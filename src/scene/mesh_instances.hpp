@@ -3,7 +3,6 @@
 
 #include "celltrace/scene.hpp"
 #include "kernel/records.hpp"
-#include "scene/aligned_block.hpp"
 #include "scene/mesh_prototype.hpp"
 #include "scene/object_records.hpp"
 
@@ -33,7 +32,7 @@ public:
 
   /// Whether an object of the scene is among them.
   bool contains(std::size_t object) const { return !is_instance_.empty() && is_instance_[object]; }
-  /// What all of them have.
+  /// What all of them have, but for the box around.
   const ObjectCensus& census() const { return census_; }
   std::uint32_t run_count() const { return run_count_; }
   std::uint32_t longest_run() const { return longest_run_; }
@@ -45,29 +44,20 @@ private:
   struct Instance {
     const Object* object;
     std::uint32_t prototype;
-    bool is_sound; ///< each triangle has an area
-    kernel::Box around;
-    std::uint32_t first_vertex, first_object, first_normals, first_run; ///< among those of all instances
-  };
-  /// A vertex in the world. Its last word is 0.
-  struct alignas(16) Vertex {
-    float at[4];
+    bool is_sound;                                        ///< keeps_areas()
+    std::uint32_t first_object, first_normals, first_run; ///< among those of all instances
   };
   class Writer;
 
   void find(const Scene& scene, unsigned threads);
-  void place(Instance& instance);
+  bool keeps_areas(const Instance& instance) const;
   void number();
-  Vertex* vertices_of(const Instance& instance) const {
-    return reinterpret_cast<Vertex*>(vertices_.data()) + instance.first_vertex;
-  }
 
   const Scene& scene_;
   std::vector<MeshPrototype> prototypes_;
   std::vector<Instance> instances_;
   std::vector<std::uint32_t> first_run_of_; ///< by prototype: of its first instance
   std::vector<bool> is_instance_;           ///< by object
-  AlignedBlock vertices_;
   ObjectCensus census_;
   std::uint32_t run_count_ = 0;
   std::uint32_t longest_run_ = 0;

@@ -6,6 +6,8 @@
 #include "scene/triangles.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace celltrace {
@@ -205,8 +207,47 @@ MeshPrototype::MeshPrototype(const Mesh& mesh, unsigned threads) {
     triangles_.push_back(triangle);
   }
   vertices_ = vertices.take_used();
+  measure();
   for (const Vec3f& normal : normals.take_used())
     unit_normals_.push_back(unit_normal(normal));
+}
+
+void MeshPrototype::measure() {
+  if (vertices_.empty()) return;
+  min_ = max_ = vertices_.front();
+  for (const Vec3f& vertex : vertices_) {
+    min_ = glm::min(min_, vertex);
+    max_ = glm::max(max_, vertex);
+  }
+  least_height_ = std::numeric_limits<double>::max();
+  for (const Triangle& triangle : triangles_) {
+    const Vec3 a(vertices_[triangle.vertex[0]]);
+    const Vec3 u = Vec3(vertices_[triangle.vertex[1]]) - a;
+    const Vec3 v = Vec3(vertices_[triangle.vertex[2]]) - a;
+    const double longest = std::max({glm::length(u), glm::length(v), glm::length(u - v)});
+    least_height_ = std::min(least_height_, glm::length(glm::cross(u, v)) / longest);
+  }
+}
+
+bool MeshPrototype::surely_keeps_areas(const Transform& transform) const {
+  constexpr double kMost = 1e17;
+  double farthest = 0; // coordinate of a corner of the box around all
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    const auto of = [corner, this](int axis) { return (corner >> axis & 1) != 0 ? max_[axis] : min_[axis]; };
+    const Vec3 at = transform.point(Vec3(of(0), of(1), of(2)));
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!(std::abs(at[axis]) < kMost)) return false;
+      farthest = std::max(farthest, std::abs(at[axis]));
+    }
+  }
+  // The product of the factors by which it stretches is the determinant, and the sum of the squares of the
+  // largest two at most this: no direction shrinks more than by the quotient.
+  double squares = 0;
+  for (int row = 0; row < 3; ++row)
+    squares += glm::dot(transform.rows[row], transform.rows[row]);
+  const double least_factor = std::abs(transform.determinant()) / squares;
+  // Rounding moves a corner by a ten millionth of that.
+  return least_height_ * least_factor > 1e-6 * farthest + 1e-35;
 }
 
 } // namespace celltrace

@@ -34,13 +34,20 @@ public:
   std::uint32_t run_count() const { return static_cast<std::uint32_t>(runs_.size()) - 1; }
   /// Triangles that have normals.
   std::uint32_t smooth() const { return smooth_; }
+  /// Whether it is certain, without a look at each of them, that the triangles still have areas in single
+  /// precision when they are transformed so, and that this holds their coordinates.
+  bool surely_keeps_areas(const Transform& transform) const;
 
 private:
+  void measure();
+
   std::vector<Vec3f> vertices_;
   std::vector<Vec3> unit_normals_;
   std::vector<Triangle> triangles_;
   std::vector<std::uint32_t> runs_;
   std::uint32_t smooth_ = 0;
+  double least_height_ = 0; ///< of a triangle over one of its sides
+  Vec3f min_{0, 0, 0}, max_{0, 0, 0};
 };
 
 } // namespace celltrace

@@ -63,9 +63,8 @@ ObjectCensus place_all(const SceneObjects& objects, PlacedObject* to, unsigned t
 }
 
 /// A box around everything, a little larger than it is.
-Box bounds_of(const ObjectCensus& census) {
-  if (census.objects == 0) return {{0, 0, 0}, {1, 1, 1}};
-  Box all = census.around;
+Box bounds_of(Box all) {
+  if (all.min[0] > all.max[0]) return {{0, 0, 0}, {1, 1, 1}};
   float largest = 0;
   for (int i = 0; i < 3; ++i)
     largest = std::max({largest, all.max[i] - all.min[i], std::abs(all.min[i]), std::abs(all.max[i])});
@@ -94,7 +93,7 @@ private:
   std::size_t end_;
 };
 
-/// Of all objects; `runs` are those of the objects that are no instances.
+/// Of all objects, but for their bounds; `runs` are those of the objects that are no instances.
 ImageHeader make_header(const Scene& scene, const ObjectCensus& census, std::span<const std::uint32_t> runs,
                         const MeshInstances& instances) {
   ImageHeader header{};
@@ -115,11 +114,6 @@ ImageHeader make_header(const Scene& scene, const ObjectCensus& census, std::spa
   header.longest_run = instances.longest_run();
   for (std::size_t run = 0; run < ordered; ++run)
     header.longest_run = std::max(header.longest_run, runs[run + 1] - runs[run]);
-  const Box bounds = bounds_of(census);
-  for (int i = 0; i < 3; ++i) {
-    header.bounds_min[i] = bounds.min[i];
-    header.bounds_max[i] = bounds.max[i];
-  }
   return header;
 }
 
@@ -203,6 +197,18 @@ public:
                     threads);
   }
 
+  /// At last. `around`: objects that are no instances.
+  void write_bounds(Box around) {
+    if (header_.prototype_count != 0)
+      for (const RunRecord& run : std::span(table<RunRecord>(header_.run_offset), header_.run_count))
+        around =
+            box_around(around, {{run.min[0], run.min[1], run.min[2]}, {run.max[0], run.max[1], run.max[2]}});
+    const Box bounds = bounds_of(around);
+    auto& header = *reinterpret_cast<ImageHeader*>(base_);
+    std::copy(bounds.min, bounds.min + 3, header.bounds_min);
+    std::copy(bounds.max, bounds.max + 3, header.bounds_max);
+  }
+
 private:
   template <class Record> Record* table(std::uint32_t offset) const {
     return reinterpret_cast<Record*>(base_ + offset);
@@ -247,6 +253,7 @@ void SceneImage::assign(const Scene& scene, AlignedBlock& work, unsigned threads
   writer.write_objects(objects, {memory.objects, loose.objects}, threads);
   writer.write_runs(runs, threads);
   writer.write_instances(instances, threads);
+  writer.write_bounds(loose.around);
 }
 
 void SceneImage::reserve_accelerator(std::uint64_t table_bytes, std::uint32_t list_words) {
