@@ -178,6 +178,7 @@ public:
   RenderResult render(const Camera& camera, const Progress& progress = {});
 
 private:
+  friend RenderResult render(const Scene& scene, const RenderOptions& options, const Progress& progress);
   class Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -97,7 +97,10 @@ private:
         const Treelet& treelet = memory_.treelets[seen];
         if (!is_copy(treelet)) continue;
         const Treelet& prototype = prototype_of(treelet);
-        if (mine) copy(prototype, treelet, next);
+        if (mine) {
+          if (seen + 1 < treelets) prefetch_objects(memory_.treelets[seen + 1]);
+          copy(prototype, treelet, next);
+        }
         next += prototype.nodes;
       }
     };
@@ -107,6 +110,13 @@ private:
       pass(first + kTaken, true);
     }
     if (self_ == 0) memory_.team->nodes = static_cast<uint32_t>(next - nodes_);
+  }
+
+  /// Who made the image may have been another processor.
+  void prefetch_objects(const Treelet& treelet) const {
+    const ObjectRecord* objects = objects_ + runs_[run_of(treelet)].first;
+    for (uint32_t i = 0; i < treelet.count; ++i)
+      __builtin_prefetch(objects + i);
   }
 
   /// Gives a treelet the nodes and the list of its prototype, with boxes around its own objects.

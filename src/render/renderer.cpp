@@ -46,7 +46,7 @@ MachineConfig machine_config(const RenderOptions& options) {
 
 /// A block that a DMA list can address: all of it in one region of 4 GB.
 AlignedBlock make_list_target(std::size_t bytes) {
-  AlignedBlock block(bytes);
+  AlignedBlock block = AlignedBlock::uninitialised(bytes);
   const auto region = [](const std::byte* at) { return reinterpret_cast<std::uintptr_t>(at) >> 31 >> 1; };
   // The block that straddles a border is kept while another one is made, which therefore lies elsewhere.
   if (region(block.data()) != region(block.data() + bytes - 1)) return make_list_target(bytes);
@@ -83,6 +83,11 @@ public:
   }
   RenderResult render(const Camera& camera, const Progress& progress) {
     return reporting_failures([&] { return render_camera(camera, progress); });
+  }
+  /// The only frame of this renderer.
+  RenderResult render_once(const Scene& scene, const Progress& progress) {
+    is_last_frame_ = true;
+    return render(scene, progress);
   }
 
 private:
@@ -177,6 +182,8 @@ private:
     if (stages_) statistics.stages = stages_->counts();
     statistics.diagnostics = new_diagnostics();
     result.statistics = statistics;
+    // The picture then lies in memory that the scene has had.
+    if (is_last_frame_) image_ = SceneImage();
     result.image = copy_picture();
     return result;
   }
@@ -210,6 +217,7 @@ private:
   std::unique_ptr<AcceleratorBuilder> builder_;
   std::unique_ptr<StageTeam> stages_;
   std::size_t known_diagnostics_ = 0;
+  bool is_last_frame_ = false;
 };
 
 Renderer::Renderer(const RenderOptions& options) : impl_(std::make_unique<Impl>(options)) {
@@ -226,7 +234,7 @@ RenderResult Renderer::render(const Camera& camera, const Progress& progress) {
 }
 
 RenderResult render(const Scene& scene, const RenderOptions& options, const Progress& progress) {
-  return Renderer(options).render(scene, progress);
+  return Renderer(options).impl_->render_once(scene, progress);
 }
 
 } // namespace celltrace
