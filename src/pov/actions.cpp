@@ -56,12 +56,14 @@ void append_component(Session& session, Quantity& vector, double component, cons
   vector.v[static_cast<std::size_t>(vector.count++)] = component;
 }
 
-Transform matrix(Session& session, const std::vector<Quantity>& numbers, const Location& where) {
+Transform matrix(Session& session, const std::vector<ListEntry>& numbers, const Location& where) {
   if (numbers.size() != 12)
     session.fail(where, "a matrix has 12 numbers, not " + std::to_string(numbers.size()));
   double values[12];
-  for (std::size_t i = 0; i < 12; ++i)
-    values[i] = session.number(numbers[i], where);
+  for (std::size_t i = 0; i < 12; ++i) {
+    const ListEntry& entry = numbers[i];
+    values[i] = session.number(entry.is_float ? Quantity(entry.v.x) : Quantity::vector(entry.v), where);
+  }
   return Transform::matrix(values);
 }
 

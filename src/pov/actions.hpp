@@ -25,7 +25,7 @@ void append(Session& session, std::vector<T>& list, U&& element, const Location&
 double component(Session& session, const Quantity& quantity, int which, const Location& where);
 /// Adds one to a vector being read.
 void append_component(Session& session, Quantity& vector, double component, const Location& where);
-Transform matrix(Session& session, const std::vector<Quantity>& numbers, const Location& where);
+Transform matrix(Session& session, const std::vector<ListEntry>& numbers, const Location& where);
 Transform inverse(Session& session, const Transform& transform, const Location& where);
 
 // ---- Arrays (arrays.cpp) ----

@@ -17,7 +17,7 @@
 %param { celltrace::pov::Session& session }
 // After a value both an operator and, since commas are optional, a sign or a colour's channel can follow: the
 // longer value is meant.
-%expect 58
+%expect 52
 
 %code requires {
 #include "pov/actions.hpp"
@@ -81,7 +81,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %nterm <std::string> text
 %nterm <std::vector<Value>> arguments
 %nterm <Value> argument declarable element
-%nterm <std::vector<Quantity>> list_items numbers
+%nterm <std::vector<Quantity>> numbers
 %nterm <std::vector<ListEntry>> counted_list entries literals
 %nterm <std::vector<std::size_t>> dimensions
 %nterm <std::shared_ptr<Array>> elements
@@ -305,7 +305,7 @@ transformation
   : TRANSLATE quantity        { $$ = Transform::translate(session.vector($2, @2)); }
   | ROTATE quantity           { $$ = Transform::rotate(session.vector($2, @2)); }
   | SCALE quantity            { $$ = Transform::scale(session.vector($2, @2)); }
-  | MATRIX '<' list_items '>' { $$ = matrix(session, $3, @1); }
+  | MATRIX '<' entries '>'    { $$ = matrix(session, $3, @1); }
   | TRANSFORM TRANSFORM_ID    { $$ = $2; }
   | TRANSFORM '{' transform_items '}' { $$ = $3; }
   ;
@@ -315,12 +315,6 @@ transform_items
   | transform_items transformation { $$ = $1.then($2); }
   | transform_items TRANSFORM_ID   { $$ = $1.then($2); }
   | transform_items INVERSE        { $$ = inverse(session, $1, @2); }
-  ;
-
-list_items
-  : quantity                { $$.push_back($1); }
-  | list_items quantity     { $$ = std::move($1); append(session, $$, $2, @2); }
-  | list_items ',' quantity { $$ = std::move($1); append(session, $$, $3, @3); }
   ;
 
 // ---- Textures ----

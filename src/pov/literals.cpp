@@ -18,8 +18,11 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-bool starts_literal(char c) {
-  return c == '<' || is_digit(c);
+bool starts_number(const char* at) {
+  return is_digit(at[*at == '-' || *at == '+' ? 1 : 0]);
+}
+bool starts_literal(const char* at) {
+  return *at == '<' || starts_number(at);
 }
 
 const char* skip_gap(const char* at) {
@@ -65,7 +68,7 @@ const char* read_entry(const char* at, const char* end, ListEntry& entry) {
   const char* behind = nullptr;
   if (*at == '<') {
     behind = read_vector(at, end, entry.v);
-  } else if (is_digit(*at)) {
+  } else if (starts_number(at)) {
     behind = read_number(at, end, entry.v.x);
     entry.v = Vec3(entry.v.x);
     entry.is_float = true;
@@ -98,7 +101,7 @@ const char* take_literals(const char* text, const char* end, std::vector<ListEnt
       at = skip_blanks(at + 1);
     else if (*at != '<')
       break;
-    if (!starts_literal(*at)) break;
+    if (!starts_literal(at)) break;
     if (is_front && list.size() == 1) list.reserve(expected(list.front().v.x, taken, end, most));
     list.push_back(entry);
     taken = at;

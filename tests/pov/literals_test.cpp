@@ -1,5 +1,5 @@
 // mesh2's lists, read as literals and by the grammar: the scene, or the error and its place, must be the
-// same. A sign in front of the count keeps a whole list from being read as literals.
+// same. A sum in front keeps a whole list from being read as literals.
 #include <bit>
 #include <random>
 #include <sstream>
@@ -13,10 +13,12 @@ using test::parse;
 
 namespace {
 
-/// A list's text, with % where its count starts.
-std::string with_first(std::string text, char first) {
-  for (char& c : text)
-    if (c == '%') c = first;
+constexpr std::string_view kByGrammar = "0+", kByLiterals = "  ";
+
+/// A list's text, with % where its first entry starts.
+std::string with_first(std::string text, std::string_view first) {
+  for (std::size_t at = 0; (at = text.find('%', at)) != text.npos; at += first.size())
+    text.replace(at, 1, first);
   return text;
 }
 
@@ -43,8 +45,8 @@ std::string outcome(const std::string& text) {
 /// Returns whether the text is a scene.
 bool check_same(const std::string& text) {
   CAPTURE(text);
-  const std::string by_grammar = outcome(with_first(text, '+'));
-  CHECK(outcome(with_first(text, ' ')) == by_grammar);
+  const std::string by_grammar = outcome(with_first(text, kByGrammar));
+  CHECK(outcome(with_first(text, kByLiterals)) == by_grammar);
   return by_grammar.find("error") == by_grammar.npos;
 }
 
@@ -140,12 +142,57 @@ TEST_CASE("lists put together at random are the same read either way") {
 TEST_CASE("a literal list may not be longer than any other") {
   ParseOptions options;
   options.limits.list_entries = 4;
-  const auto fault = [&](const std::string& faces, char first) {
+  const auto fault = [&](const std::string& faces, std::string_view first) {
     const std::string text = mesh("%3, <0, 0, 0>, <1, 0, 0>, <0, 1, 0>", faces);
     return test::error_line(with_first(text, first), options);
   };
-  CHECK(fault("%3, <0, 1, 2>, <0, 1, 2>, <0, 1, 2>", ' ').empty());
+  CHECK(fault("%3, <0, 1, 2>, <0, 1, 2>, <0, 1, 2>", kByLiterals).empty());
   const std::string five = "%4, <0, 1, 2>, <0, 1, 2>, <0, 1, 2>, <0, 1, 2>";
-  CHECK(fault(five, ' ') == "scene.pov:6:53: error: this list is too long");
-  CHECK(fault(five, '+') == fault(five, ' '));
+  CHECK(fault(five, kByLiterals) == "scene.pov:6:54: error: this list is too long");
+  CHECK(fault(five, kByGrammar) == fault(five, kByLiterals));
+}
+
+namespace {
+
+/// The transformation a matrix makes, or the error.
+std::string matrix_outcome(const std::string& numbers, std::string_view first) {
+  const std::string text =
+      "#declare Z = 0;\n#macro N() 7 #end\nsphere { 0, 1\n matrix <" + with_first(numbers, first) + "> }\n";
+  try {
+    std::ostringstream all;
+    for (const Vec3& row : parse(text).objects.at(0).transform.rows)
+      for (int i = 0; i < 3; ++i)
+        all << std::hex << std::bit_cast<std::uint64_t>(row[i]) << ' ';
+    return all.str();
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+}
+
+} // namespace
+
+TEST_CASE("a matrix of literals is what the grammar makes of it") {
+  for (const std::string numbers : {
+           "%1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0",
+           "%-1.5, -0.0, +2e-1, 0, 1, -0, 0, 0, -1.0000, -0.25, 1e10, -3",
+           "%2 , -1,\n-1,\t3, // -9,\n 1, 0, 0, 2, -7, 1, 2, -3",
+           "%1, 0, 0, 0, 1 - 2, 0, 0, 0, 1, 0, -Z, N()",
+           "%1, 0, 0, 0, - 1, 0, 0, 0, 1, -N(), 5 - 1, 3 * -2",
+           "%1, 0, 0 0, 1, 0 0, 0, 1, 0, 0 0",
+           "%3 -2, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0",
+       }) {
+    CAPTURE(numbers);
+    const std::string by_grammar = matrix_outcome(numbers, kByGrammar);
+    CHECK(by_grammar.find("error") == by_grammar.npos);
+    CHECK(matrix_outcome(numbers, kByLiterals) == by_grammar);
+  }
+  for (const std::string numbers :
+       {"%", "%1", "%1, 2, 3, 4, 5, 6", "%1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 4",
+        "%-1, 0, 0,, 1, 0, 0, 0, 1, 0, 0, 0", "%1, 0, 0, <0, 1, 2>, 1, 0, 0, 0, 1, 0, 0, 0",
+        "%1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -1e999", "%1, 0, -, 0, 1, 0, 0, 0, 1, 0, 0, 0",
+        "%1, --1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0,"}) {
+    CAPTURE(numbers);
+    const std::string by_grammar = matrix_outcome(numbers, kByGrammar);
+    CHECK(matrix_outcome(numbers, kByLiterals) == by_grammar);
+  }
 }
