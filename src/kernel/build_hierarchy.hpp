@@ -175,7 +175,9 @@ private:
       add_references(run.first, run.count, references, all);
     }
     NodeRecord* nodes = nodes_ + memory_.team->top_nodes + treelet.first_node;
-    const NodeRecord* end = build(all, treelet.place, nodes, references, spare, treelet.first);
+    const bool copied = prototypes_.of(run_of(treelet)) != kNoRun;
+    const NodeRecord* end = build(all, treelet.place, nodes, references, spare, treelet.first,
+                                  copied ? kCertainCopiedLeaf : kCertainLeaf);
     treelet.nodes = static_cast<uint32_t>(end - nodes);
   }
 
@@ -215,8 +217,8 @@ private:
 
   /// A subtree over the objects from place `first` of the list on.
   NodeRecord* build(const Range<S>& range, const Place& place, NodeRecord* next, Reference* references,
-                    Reference* spare, uint32_t first) {
-    Leaves<S> leaves(image_, frame_.hierarchy.list_offset + first * 4, references);
+                    Reference* spare, uint32_t first, uint32_t certain_leaf) {
+    Leaves<S> leaves(image_, frame_.hierarchy.list_offset + first * 4, references, certain_leaf);
     return TreeletBuilder(image_, references, spare, leaves, treelet_stack_).build(range, place, next);
   }
 
@@ -227,9 +229,10 @@ private:
     Reference* references = local ? references_ : memory_.references;
     Range<S> all = {0, 0, 0, LaneBox<S>::empty(), LaneBox<S>::empty()};
     add_references(0, count, references, all);
-    const NodeRecord* end = count <= kCertainLeaf ? add_root(all, references)
-                                                  : build(all, {nullptr, 0, 0}, nodes_, references,
-                                                          local ? spare_ : memory_.spare_references, 0);
+    const NodeRecord* end = count <= kCertainLeaf
+                                ? add_root(all, references)
+                                : build(all, {nullptr, 0, 0}, nodes_, references,
+                                        local ? spare_ : memory_.spare_references, 0, kCertainLeaf);
     memory_.team->nodes = static_cast<uint32_t>(end - nodes_);
   }
   /// The root above objects that are one leaf.
@@ -239,7 +242,7 @@ private:
     for (uint32_t i = 0; i < kChildren; ++i)
       nodes_->child[i] = nodes_->count[i] = 0;
     if (all.count() != 0)
-      Leaves<S>(image_, frame_.hierarchy.list_offset, references).add(all, {nodes_, 0, 0});
+      Leaves<S>(image_, frame_.hierarchy.list_offset, references, kCertainLeaf).add(all, {nodes_, 0, 0});
     return nodes_ + 1;
   }
 

@@ -6,9 +6,12 @@
 namespace celltrace::kernel::hierarchy {
 
 constexpr uint32_t kMaxLeaf = 8;
-/// So many objects share a leaf whatever the heuristic says: a node of leaves of one object each takes more
-/// memory than they do, and the time to bring it in.
-constexpr uint32_t kCertainLeaf = 4;
+/// Objects that share a leaf whatever the heuristic says. It has nothing to say of fewer than a node has
+/// children.
+constexpr uint32_t kCertainLeaf = kChildren - 1;
+/// The same where leaves are copied: a node of four leaves of one object each takes more memory than they do,
+/// and rays wait longer for it than the tests take.
+constexpr uint32_t kCertainCopiedLeaf = kChildren;
 /// What the test of an object takes, in visits of nodes.
 constexpr float kObjectCost = 2.0f;
 
@@ -17,10 +20,10 @@ template <class S> class Leaves {
 public:
   static constexpr uint32_t kMaxDepthOfCuts = 32;
 
-  Leaves(uint8_t* image, uint32_t list_offset, const Reference* references)
-      : image_(image), list_offset_(list_offset), references_(references) {}
+  Leaves(uint8_t* image, uint32_t list_offset, const Reference* references, uint32_t certain_leaf)
+      : image_(image), list_offset_(list_offset), references_(references), certain_leaf_(certain_leaf) {}
 
-  bool end(const Range<S>& range) const { return range.count() <= kCertainLeaf; }
+  bool end(const Range<S>& range) const { return range.count() <= certain_leaf_; }
 
   bool end(const Range<S>& range, const Range<S> (&children)[kChildren]) const {
     if (range.count() > kMaxLeaf) return false;
@@ -44,6 +47,7 @@ private:
   uint8_t* image_;
   uint32_t list_offset_;
   const Reference* references_;
+  uint32_t certain_leaf_;
 };
 
 } // namespace celltrace::kernel::hierarchy

@@ -13,14 +13,6 @@ void ObjectCensus::add(const ObjectCensus& other) {
   around = box_around(around, other.around);
 }
 
-ObjectRecord start_record(const Object& object, ObjectKind kind, std::uint32_t interior_offset) {
-  ObjectRecord r{};
-  r.kind_and_flags = static_cast<std::uint32_t>(kind) | (object.no_shadow ? object_flag::no_shadow : 0);
-  r.interior = interior_offset + object.interior * static_cast<std::uint32_t>(sizeof(InteriorRecord));
-  r.normals = kNoOffset;
-  return r;
-}
-
 void check_size(const Box& box) {
   constexpr float kMost = 1e18f;
   for (int i = 0; i < 3; ++i)

@@ -41,8 +41,15 @@ struct RecordTables {
 };
 
 /// A record without a material, without normals and without geometry.
-kernel::ObjectRecord start_record(const Object& object, kernel::ObjectKind kind,
-                                  std::uint32_t interior_offset);
+inline kernel::ObjectRecord start_record(const Object& object, kernel::ObjectKind kind,
+                                         std::uint32_t interior_offset) {
+  kernel::ObjectRecord r{};
+  r.kind_and_flags =
+      static_cast<std::uint32_t>(kind) | (object.no_shadow ? kernel::object_flag::no_shadow : 0);
+  r.interior = interior_offset + object.interior * static_cast<std::uint32_t>(sizeof(kernel::InteriorRecord));
+  r.normals = kernel::kNoOffset;
+  return r;
+}
 
 /// Throws InputError unless single precision holds the squares of an object's coordinates.
 void check_size(const kernel::Box& box);
