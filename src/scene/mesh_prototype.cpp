@@ -147,20 +147,14 @@ std::vector<std::uint32_t> order_by_run(std::vector<Reference>& references, unsi
   return runs;
 }
 
-/// Numbers equal points alike, in the order in which they are asked for.
+/// Numbers points in the order in which they are asked for, and equal ones alike.
 class PointTable {
 public:
-  explicit PointTable(const std::vector<Vec3f>& points) : points_(points), first_like_(points.size()) {
-    std::vector<Index> order(points.size());
-    std::iota(order.begin(), order.end(), Index{0});
-    const auto less = [&](Index a, Index b) {
-      const Vec3f &p = points[a], &q = points[b];
-      return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : p.z < q.z;
-    };
-    std::sort(order.begin(), order.end(), less);
-    for (std::size_t i = 0; i < order.size(); ++i)
-      first_like_[order[i]] = i != 0 && !less(order[i - 1], order[i]) ? first_like_[order[i - 1]] : order[i];
-    number_.resize(points.size(), kNoIndex);
+  /// Of a mesh with so many triangles. Where that has fewer points, they are shared already.
+  PointTable(const std::vector<Vec3f>& points, std::size_t triangles)
+      : points_(points), first_like_(points.size()), number_(points.size(), kNoIndex) {
+    std::iota(first_like_.begin(), first_like_.end(), Index{0});
+    if (points.size() > triangles) find_equal();
   }
 
   Index number_of(Index point) {
@@ -174,6 +168,17 @@ public:
   std::vector<Vec3f> take_used() { return std::move(used_); }
 
 private:
+  void find_equal() {
+    std::vector<Index> order = first_like_;
+    const auto less = [this](Index a, Index b) {
+      const Vec3f &p = points_[a], &q = points_[b];
+      return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : p.z < q.z;
+    };
+    std::sort(order.begin(), order.end(), less);
+    for (std::size_t i = 1; i < order.size(); ++i)
+      if (!less(order[i - 1], order[i])) first_like_[order[i]] = first_like_[order[i - 1]];
+  }
+
   const std::vector<Vec3f>& points_;
   std::vector<Index> first_like_; ///< by point, one that is equal
   std::vector<Index> number_;     ///< by such a point
@@ -194,7 +199,8 @@ bool MeshPrototype::can_be_made(const Mesh& mesh) {
 MeshPrototype::MeshPrototype(const Mesh& mesh, unsigned threads) {
   std::vector<Reference> references = references_to_triangles(mesh);
   runs_ = order_by_run(references, threads);
-  PointTable vertices(mesh.vertices), normals(mesh.normals);
+  PointTable vertices(mesh.vertices, mesh.triangles.size());
+  PointTable normals(mesh.normals, mesh.triangles.size());
   triangles_.reserve(references.size());
   for (const Reference& reference : references) {
     const Mesh::Triangle& from = mesh.triangles[reference.value];

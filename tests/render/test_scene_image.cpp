@@ -307,13 +307,30 @@ TEST_CASE("A sealed scene image with a fault in its runs is refused") {
 
 namespace {
 
+/// The triangles of a mesh without shared vertices.
+Mesh taken_apart(const Mesh& mesh) {
+  Mesh apart;
+  for (Mesh::Triangle triangle : mesh.triangles) {
+    for (Index* indices : {triangle.vertex, triangle.normal}) {
+      auto& points = indices == triangle.vertex ? apart.vertices : apart.normals;
+      const auto& from = indices == triangle.vertex ? mesh.vertices : mesh.normals;
+      for (int corner = 0; corner < 3; ++corner) {
+        points.push_back(from[indices[corner]]);
+        indices[corner] = static_cast<Index>(points.size()) - 1;
+      }
+    }
+    apart.triangles.push_back(triangle);
+  }
+  return apart;
+}
+
 /// Two meshes several times each, one of them smooth, spheres between them, and a mesh of its own.
-Scene instances(unsigned of_each) {
+Scene instances(unsigned of_each, int rings = 12) {
   Scene scene;
   for (int i = 0; i < 4; ++i)
     scene.add(matte({0.2 * i, 1, 1}));
   scene.materials[1].pigment.transmit = 0.5;
-  const Object ball = mesh_object(ball_mesh(12), 0, scene.add(Interior{}));
+  const Object ball = mesh_object(taken_apart(ball_mesh(rings)), 0, scene.add(Interior{}));
   Mesh plates = ball_mesh(7);
   for (std::size_t t = 0; t < plates.triangles.size(); ++t)
     for (int corner = 0; corner < 3; ++corner) {
@@ -412,6 +429,34 @@ TEST_CASE("Instances of a mesh are copies of runs") {
     again.assign(scene, work, threads);
     CHECK((bytes_of(again) == bytes));
   }
+}
+
+TEST_CASE("Instances of a large mesh are copies of short runs") {
+  const Scene scene = instances(2, 60);
+  const SceneImage image(scene);
+  REQUIRE(image.header().prototype_count == image.header().run_count);
+  CHECK(image.header().longest_run <= kMaxCopiedObjects);
+  CHECK((contents(image) == contents(SceneImage(without_instances(scene)))));
+  const Bytes bytes = bytes_of(image);
+  AlignedBlock work;
+  SceneImage again;
+  for (unsigned threads : {2u, 5u}) {
+    again.assign(scene, work, threads);
+    CHECK((bytes_of(again) == bytes));
+  }
+}
+
+TEST_CASE("Instances of one point many times over are copies of short runs") {
+  Scene scene = instances(1);
+  Mesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.triangles.resize(5000, {{0, 1, 2}});
+  const Object object = mesh_object(mesh, 0, 0);
+  scene.objects.insert(scene.objects.end(), 2, object);
+  const SceneImage image(scene);
+  CHECK(image.header().prototype_count == image.header().run_count);
+  CHECK(image.header().longest_run <= kMaxCopiedObjects);
+  CHECK((contents(image) == contents(SceneImage(without_instances(scene)))));
 }
 
 TEST_CASE("Meshes that are not worth while to share have runs of their own") {
