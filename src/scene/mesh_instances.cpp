@@ -8,9 +8,12 @@
 #include "scene/triangles.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <unordered_map>
+
+#include <glm/common.hpp>
 
 namespace celltrace {
 
@@ -29,6 +32,35 @@ const Mesh* mesh_of(const Object& object) {
 Vec3f in_world(const Transform& transform, const Vec3f& vertex) {
   return Vec3f(transform.point(Vec3(vertex)));
 }
+
+/// The box around a box that is transformed.
+class WorldBox {
+public:
+  WorldBox() = default;
+  WorldBox(const Box& box, const Transform& transform) {
+    const Vec3 low(box.min[0], box.min[1], box.min[2]), high(box.max[0], box.max[1], box.max[2]);
+    const Vec3 centre = transform.point(0.5 * (low + high));
+    const Vec3 half = 0.5 * (high - low);
+    Vec3 reach(0);
+    for (int row = 0; row < 3; ++row)
+      reach += half[row] * glm::abs(transform.rows[row]);
+    min_ = centre - reach;
+    max_ = centre + reach;
+  }
+
+  void grow(const WorldBox& other) {
+    min_ = glm::min(min_, other.min_);
+    max_ = glm::max(max_, other.max_);
+  }
+  /// Half the surface.
+  double area() const {
+    const Vec3 e = max_ - min_;
+    return e.x * e.y + (e.x + e.y) * e.z;
+  }
+
+private:
+  Vec3 min_ = Vec3(1e300), max_ = Vec3(-1e300);
+};
 
 /// Objects of the image that a scene has if all its triangles have an area.
 std::uint64_t objects_of(const Scene& scene) {
@@ -52,6 +84,7 @@ MeshInstances::MeshInstances(const Scene& scene, unsigned threads) : scene_(scen
   });
   const auto is_unsound = [](const Instance& instance) { return !instance.is_sound; };
   instances_.erase(std::remove_if(instances_.begin(), instances_.end(), is_unsound), instances_.end());
+  if (are_tangled()) instances_.clear();
   number();
 }
 
@@ -96,6 +129,26 @@ bool MeshInstances::keeps_areas(const Instance& instance) const {
     return has_area(world[triangle.vertex[0]], world[triangle.vertex[1]], world[triangle.vertex[2]]);
   };
   return std::all_of(prototype.triangles().begin(), prototype.triangles().end(), has_area_in_world);
+}
+
+/// Runs are not cut where those of other instances reach into them. Of n boxes that fill a space and do not
+/// overlap, a ray meets about the cube root of n, and it meets fewer where they lie on surfaces.
+bool MeshInstances::are_tangled() const {
+  constexpr double kMost = 1.5;
+  double areas = 0;
+  std::size_t runs = 0;
+  WorldBox all;
+  for (const Instance& instance : instances_) {
+    for (const Box& run : prototypes_[instance.prototype].run_boxes()) {
+      const WorldBox box(run, instance.object->transform);
+      areas += box.area();
+      all.grow(box);
+    }
+    runs += prototypes_[instance.prototype].run_count();
+  }
+  // Half the surface in both cases: by Crofton's formula their quotient is the number of boxes that a ray
+  // through all of it meets.
+  return runs != 0 && areas > kMost * std::cbrt(static_cast<double>(runs)) * all.area();
 }
 
 /// Counts what there is, and tells the instances their places.

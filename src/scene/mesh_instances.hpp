@@ -51,6 +51,7 @@ private:
 
   void find(const Scene& scene, unsigned threads);
   bool keeps_areas(const Instance& instance) const;
+  bool are_tangled() const;
   void number();
 
   const Scene& scene_;

@@ -128,6 +128,14 @@ std::vector<std::uint32_t> order_groups(std::vector<Reference>& references, unsi
   return begins;
 }
 
+Box box_around_references(const std::vector<Reference>& references, std::uint32_t begin, std::uint32_t end) {
+  const Range range = hierarchy::range_of<Simd>(references.data(), begin, end);
+  Reference around;
+  range.box.min.store(around.min); // over the words beside
+  range.box.max.store(around.max);
+  return {{around.min[0], around.min[1], around.min[2]}, {around.max[0], around.max[1], around.max[2]}};
+}
+
 /// Orders references down to the leaves. Returns where the runs begin, and the number of references at last.
 std::vector<std::uint32_t> order_by_run(std::vector<Reference>& references, unsigned threads) {
   const std::vector<std::uint32_t> parts = order_groups(references, threads);
@@ -199,6 +207,8 @@ bool MeshPrototype::can_be_made(const Mesh& mesh) {
 MeshPrototype::MeshPrototype(const Mesh& mesh, unsigned threads) {
   std::vector<Reference> references = references_to_triangles(mesh);
   runs_ = order_by_run(references, threads);
+  for (std::size_t run = 0; run + 1 < runs_.size(); ++run)
+    run_boxes_.push_back(box_around_references(references, runs_[run], runs_[run + 1]));
   PointTable vertices(mesh.vertices, mesh.triangles.size());
   PointTable normals(mesh.normals, mesh.triangles.size());
   triangles_.reserve(references.size());

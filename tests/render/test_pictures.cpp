@@ -4,6 +4,7 @@
 #include "reference/tracer.hpp"
 #include "render/backends.hpp"
 #include "render/scenes.hpp"
+#include "scene/scene_image.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -77,6 +78,8 @@ TEST_CASE("Instances of a mesh look as meshes of their own do") {
   for (Object& object : apart.objects)
     if (auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape))
       *mesh = std::make_shared<const Mesh>(**mesh);
+  REQUIRE(SceneImage(scene).header().prototype_count != 0);
+  REQUIRE(SceneImage(apart).header().prototype_count == 0);
   const Image expected = render_on(backends().front(), 1, apart);
   for (const Backend& backend : backends())
     for (unsigned spes : {1u, 3u, 8u}) {

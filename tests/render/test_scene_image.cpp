@@ -2,6 +2,7 @@
 #include "celltrace/error.hpp"
 #include "kernel/overlap.hpp"
 #include "render/scenes.hpp"
+#include "scene/mesh_prototype.hpp"
 #include "scene/scene_image.hpp"
 
 #include <catch2/catch.hpp>
@@ -446,24 +447,30 @@ TEST_CASE("Instances of a large mesh are copies of short runs") {
   }
 }
 
-TEST_CASE("Instances of one point many times over are copies of short runs") {
-  Scene scene = instances(1);
+TEST_CASE("Runs of a prototype are short where nothing tells triangles apart") {
   Mesh mesh;
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   mesh.triangles.resize(5000, {{0, 1, 2}});
-  const Object object = mesh_object(mesh, 0, 0);
-  scene.objects.insert(scene.objects.end(), 2, object);
-  const SceneImage image(scene);
-  CHECK(image.header().prototype_count == image.header().run_count);
-  CHECK(image.header().longest_run <= kMaxCopiedObjects);
-  CHECK((contents(image) == contents(SceneImage(without_instances(scene)))));
+  const MeshPrototype prototype(mesh, 2);
+  CHECK(prototype.triangles().size() == 5000);
+  CHECK(prototype.vertices().size() == 3);
+  REQUIRE(prototype.runs().back() == 5000);
+  for (std::uint32_t run = 0; run < prototype.run_count(); ++run) {
+    REQUIRE(prototype.runs()[run] < prototype.runs()[run + 1]);
+    REQUIRE(prototype.runs()[run + 1] - prototype.runs()[run] <= kMaxCopiedObjects);
+  }
 }
 
 TEST_CASE("Meshes that are not worth while to share have runs of their own") {
   // Too few triangles in all.
   CHECK(SceneImage(instances(2)).header().prototype_count == 0);
-  // Triangles of several materials.
+  // Everything in one another.
   Scene scene = instances(30);
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    scene.objects[i].transform = Transform::rotate({1.0 * static_cast<double>(i), 0, 0});
+  CHECK(SceneImage(scene).header().prototype_count == 0);
+  // Triangles of several materials.
+  scene = instances(30);
   for (Object& object : scene.objects)
     if (auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape)) {
       static std::shared_ptr<const Mesh> blended = [] {
