@@ -24,6 +24,8 @@ namespace {
 using Simd = HostSimd<xsimd::sse2>;
 using LaneBox = hierarchy::LaneBox<Simd>;
 
+constexpr std::uint32_t kInstancesPerThread = 64;
+
 const Mesh* mesh_of(const Object& object) {
   const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape);
   return mesh != nullptr ? mesh->get() : nullptr;
@@ -77,8 +79,10 @@ std::uint64_t objects_of(const Scene& scene) {
 MeshInstances::MeshInstances(const Scene& scene, unsigned threads) : scene_(scene) {
   if (objects_of(scene) < kMinObjectsToOrder) return;
   find(scene, threads);
-  for_each_part(threads, [&](unsigned part) {
-    const HostPart mine(static_cast<std::uint32_t>(instances_.size()), part, threads);
+  const auto count = static_cast<std::uint32_t>(instances_.size());
+  const unsigned parts = std::clamp(count / kInstancesPerThread, 1u, threads);
+  for_each_part(parts, [&](unsigned part) {
+    const HostPart mine(count, part, parts);
     for (std::uint32_t i = mine.begin; i < mine.end; ++i)
       instances_[i].is_sound = keeps_areas(instances_[i]);
   });

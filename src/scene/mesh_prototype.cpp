@@ -22,6 +22,7 @@ using Range = hierarchy::Range<Simd>;
 
 /// Below it, to place a run of each instance in the hierarchy takes longer than to build that anew.
 constexpr std::size_t kFewestTriangles = 32;
+constexpr std::uint32_t kTrianglesPerThread = 8192;
 constexpr std::uint32_t kTrianglesPerRun = 128;
 static_assert(kTrianglesPerRun <= kMaxCopiedObjects);
 /// About a leaf of the hierarchy: within it, order does not matter.
@@ -50,6 +51,7 @@ public:
 
   /// Calls part(begin, end) for each part in order, and divides it further if that returns true.
   template <class Part> void divide(std::uint32_t begin, std::uint32_t end, Part part) {
+    if (begin == end) return;
     std::vector<Range> open = {hierarchy::range_of<Simd>(references_.data(), begin, end)};
     while (!open.empty()) {
       const Range range = open.back();
@@ -88,8 +90,8 @@ std::vector<Reference> order_coarsely(std::vector<Reference>& references, unsign
     const Reference& r = references[i];
     placed[i] = {{r.min[0] + r.max[0], r.min[1] + r.max[1], r.min[2] + r.max[2]}, i};
   }
-  const std::vector<std::uint32_t> begins =
-      order_along_curve(placed.data(), spare.data(), cells.data(), count, threads);
+  const std::vector<std::uint32_t> begins = order_along_curve(
+      placed.data(), spare.data(), cells.data(), count, std::clamp(count / kTrianglesPerThread, 1u, threads));
   std::vector<Reference> ordered(count);
   for (std::uint32_t i = 0; i < count; ++i)
     ordered[i] = references[placed[i].source];

@@ -461,6 +461,19 @@ TEST_CASE("Runs of a prototype are short where nothing tells triangles apart") {
   }
 }
 
+TEST_CASE("Instances of a mesh without areas are nothing") {
+  Mesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  mesh.triangles.resize(40, {{0, 1, 2}});
+  Scene scene = instances(30);
+  const SceneImage without(scene);
+  scene.objects.insert(scene.objects.begin() + 1, 2, mesh_object(mesh, 0, 0));
+  const SceneImage with(scene);
+  CHECK(with.header().run_count == without.header().run_count);
+  CHECK((contents(with) == contents(without)));
+  CHECK((bytes_of(SceneImage::from_bytes(bytes_of(with))) == bytes_of(with)));
+}
+
 TEST_CASE("Meshes that are not worth while to share have runs of their own") {
   // Too few triangles in all.
   CHECK(SceneImage(instances(2)).header().prototype_count == 0);
