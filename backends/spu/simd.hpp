@@ -251,6 +251,10 @@ struct Simd {
     vec_uint4 lanes;
 
     static U4 splat(uint32_t value) { return {spu_splats(static_cast<unsigned>(value))}; }
+    static U4 of(uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
+      return {(vec_uint4){static_cast<unsigned>(a), static_cast<unsigned>(b), static_cast<unsigned>(c),
+                          static_cast<unsigned>(d)}};
+    }
     static U4 load(const uint32_t* words) { return {*reinterpret_cast<const vec_uint4*>(words)}; }
     void store(uint32_t* words) const { *reinterpret_cast<vec_uint4*>(words) = lanes; }
     friend U4 operator&(const U4& a, const U4& b) { return {spu_and(a.lanes, b.lanes)}; }

@@ -1,13 +1,13 @@
 // Packets through the uniform grid. Kernel dialect.
 //
-// The rays of a packet walk the grid one by one, as voxels differ from ray to ray; an object met by one of
-// them is tested against the whole packet, and a mailbox per packet (Amanatides and Woo) keeps the next ray
+// The rays of a packet walk the grid side by side, each through voxels of its own. An object met by one of
+// them is tested against the whole packet, and a mailbox per packet (Amanatides and Woo) keeps the others
 // from testing it again. Each lane keeps the nearest of all tested hits and stops once that lies in the voxel
 // it is in.
 #pragma once
 
 #include "kernel/object_tests.hpp"
-#include "kernel/voxel_walk.hpp"
+#include "kernel/packet_walk.hpp"
 
 namespace celltrace::kernel {
 
@@ -24,11 +24,10 @@ public:
   /// As Traversal's, into hits that hold none yet.
   void find_closest(const RayPacket& rays, uint32_t lanes, HitPacket& hits) {
     objects_.mailbox().begin_packet();
-    for_each_lane(lanes, [&](uint32_t lane) {
-      walk(rays, lane, [&](uint32_t cell, float, float leave) {
-        find_closest_in(cell, rays, hits);
-        return hits.distance.lane[lane] <= leave;
-      });
+    walk(rays, lanes, [&](const PacketWalk<S>& at, uint32_t listing) {
+      for_each_cell(at.cell(), listing,
+                    [&](uint32_t cell, uint32_t) { find_closest_in(cell, rays, hits); });
+      return (F::load(hits.distance.lane) > at.leave()).bits();
     });
   }
 
@@ -36,12 +35,16 @@ public:
   uint32_t attenuate(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance, VectorLanes& light) {
     objects_.mailbox().begin_packet();
     uint32_t lit = lanes;
-    for_each_lane(lanes, [&](uint32_t lane) {
-      if (((lit >> lane) & 1) == 0) return;
-      walk(rays, lane, [&](uint32_t cell, float enter, float leave) {
-        attenuate_in(cell, lane, enter, leave, rays, distance, light, lit);
-        return ((lit >> lane) & 1) == 0 || distance.lane[lane] <= leave;
-      });
+    walk(rays, lanes, [&](const PacketWalk<S>& at, uint32_t listing) {
+      if (listing != 0) {
+        FloatLanes enter, leave;
+        at.enter().store(enter.lane);
+        at.leave().store(leave.lane);
+        for_each_cell(at.cell(), listing, [&](uint32_t cell, uint32_t there) {
+          attenuate_in(cell, there, enter, leave, rays, distance, light, lit);
+        });
+      }
+      return (F::load(distance.lane) > at.leave()).bits() & lit;
     });
     return lit;
   }
@@ -54,29 +57,47 @@ public:
       return false;
     });
   }
-  /// For the ray of `lane`, which is in the voxel from `enter` to `leave`. Takes the lanes that are shut off
-  /// from the light out of `lit`.
-  void attenuate_in(uint32_t cell, uint32_t lane, float enter, float leave, const RayPacket& rays,
-                    const FloatLanes& distance, VectorLanes& light, uint32_t& lit) {
+  /// For the rays of `lanes`, which are in the voxel from `enter` to `leave`. Takes the lanes that are shut
+  /// off from the light out of `lit`.
+  void attenuate_in(uint32_t cell, uint32_t lanes, const FloatLanes& enter, const FloatLanes& leave,
+                    const RayPacket& rays, const FloatLanes& distance, VectorLanes& light, uint32_t& lit) {
+    if ((lanes & lit) == 0) return;
     for_each_object(cell, [&](uint32_t self) {
-      lit &= ~shadowed(rays, self, lane, enter, leave, distance, light);
-      return ((lit >> lane) & 1) == 0;
+      lit &= ~shadowed(rays, self, lanes & lit, enter, leave, distance, light);
+      return (lanes & lit) == 0;
     });
   }
 
 private:
-  template <class Visit> void walk(const RayPacket& rays, uint32_t lane, Visit visit) {
-    const float origin[3] = {rays.origin.x.lane[lane], rays.origin.y.lane[lane], rays.origin.z.lane[lane]};
-    const float direction[3] = {rays.direction.x.lane[lane], rays.direction.y.lane[lane],
-                                rays.direction.z.lane[lane]};
+  /// Calls `visit(walk, lanes in voxels that list objects)` after every step; those of the lanes that it
+  /// returns go on.
+  template <class Visit> void walk(const RayPacket& rays, uint32_t lanes, Visit visit) {
+    scene_.spu().compute(scalar_work::kPacketWalk);
     uint64_t voxels = 0;
-    scene_.spu().compute(scalar_work::kWalk);
-    walk_voxels(grid_, origin, direction, [&](uint32_t cell, float enter, float leave) {
-      ++voxels;
-      scene_.spu().compute(scalar_work::kVoxel);
-      return visit(cell, enter, leave);
-    });
+    PacketWalk<S> walk(grid_, rays, lanes);
+    while (walk.lanes() != 0) {
+      scene_.spu().compute(scalar_work::kPacketStep);
+      voxels += static_cast<uint32_t>(__builtin_popcount(walk.lanes()));
+      WordLanes counts;
+      scene_.listed_in(grid_, walk.cell(), walk.lanes(), counts);
+      const M lists = !(I::load(reinterpret_cast<const int32_t*>(counts.lane)) == I::splat(0));
+      walk.step(walk.lanes() & visit(walk, walk.lanes() & lists.bits()));
+    }
     objects_.counters().voxels += voxels;
+  }
+
+  /// Splits `lanes` by the voxel that they are in.
+  template <class Visit> void for_each_cell(const I& cells, uint32_t lanes, Visit visit) {
+    if (lanes == 0) return;
+    WordLanes each;
+    cells.store(reinterpret_cast<int32_t*>(each.lane));
+    while (lanes != 0) {
+      scene_.spu().compute(scalar_work::kVoxelOfPacket);
+      const uint32_t cell = each.lane[__builtin_ctz(lanes)];
+      const uint32_t there = lanes & (cells == I::splat(static_cast<int32_t>(cell))).bits();
+      lanes &= ~there;
+      visit(cell, there);
+    }
   }
 
   /// Calls `visit(object offset)` for the objects of a voxel until it returns true.
@@ -89,10 +110,10 @@ private:
   }
 
   /// Lanes that the object shuts off from the light. An opaque object shuts off whatever lanes it covers; a
-  /// translucent one dims the ray that is walking, at those crossings that lie in the voxel it is in, so that
+  /// translucent one dims the rays that are in the voxel, `lanes`, at those crossings that lie in it, so that
   /// each crossing counts once although the object is in the lists of several voxels.
-  uint32_t shadowed(const RayPacket& rays, uint32_t self, uint32_t lane, float enter, float leave,
-                    const FloatLanes& distance, VectorLanes& light) {
+  uint32_t shadowed(const RayPacket& rays, uint32_t self, uint32_t lanes, const FloatLanes& enter,
+                    const FloatLanes& leave, const FloatLanes& distance, VectorLanes& light) {
     scene_.spu().compute(scalar_work::kShadow);
     const ObjectRecord& object = *scene_.object(self);
     const uint32_t flags = object.kind_and_flags;
@@ -103,12 +124,18 @@ private:
     ShadowCrossings c;
     objects_.test_shadow(rays, object, self, distance, c);
     if (opaque) return c.near_hit | c.far_hit;
-    const uint32_t bit = 1u << lane;
-    const auto counts = [&](uint32_t hit, float t) { return (hit & bit) != 0 && t > enter && t <= leave; };
-    const uint32_t crossings = static_cast<uint32_t>(counts(c.near_hit, c.near.lane[lane])) +
-                               static_cast<uint32_t>(counts(c.far_hit, c.far.lane[lane]));
-    if (crossings == 0) return 0;
-    return objects_.dim(flags, material, c.u.lane[lane], c.v.lane[lane], crossings, lane, light) ? bit : 0;
+    uint32_t dark = 0;
+    for_each_lane(lanes & (c.near_hit | c.far_hit), [&](uint32_t lane) {
+      const auto counts = [&](uint32_t hit, float t) {
+        return ((hit >> lane) & 1) != 0 && t > enter.lane[lane] && t <= leave.lane[lane];
+      };
+      const uint32_t crossings = static_cast<uint32_t>(counts(c.near_hit, c.near.lane[lane])) +
+                                 static_cast<uint32_t>(counts(c.far_hit, c.far.lane[lane]));
+      if (crossings == 0) return;
+      if (objects_.dim(flags, material, c.u.lane[lane], c.v.lane[lane], crossings, lane, light))
+        dark |= 1u << lane;
+    });
+    return dark;
   }
 
   ObjectTests<Spu>& objects_;

@@ -16,7 +16,11 @@ namespace scalar_work {
 
 // Each is {fixed, floating, memory, shuffle, branches}.
 
-// --- traversal.hpp, voxel_walk.hpp ---
+// --- traversal.hpp, packet_walk.hpp, voxel_walk.hpp ---
+/// The packet's walk: set up; a step of it; those of its lanes that are in one voxel.
+constexpr ScalarWork kPacketWalk = {60, 12, 60, 30, 2};
+constexpr ScalarWork kPacketStep = {20, 0, 120, 8, 3};
+constexpr ScalarWork kVoxelOfPacket = {12, 0, 6, 6, 2};
 /// Sets a ray's walk through the grid up.
 constexpr ScalarWork kWalk = {240, 78, 185, 100, 23};
 /// A step to the next voxel, and its record.

@@ -12,6 +12,7 @@
 #include "celltrace/cache/dirty_bytes.hpp"
 #include "celltrace/cache/lifetimes.hpp"
 #include "celltrace/cache/trace_words.hpp"
+#include "celltrace/spe/simd.hpp"
 #include "celltrace/spe/spu.hpp"
 #include "celltrace/spe/types.hpp"
 
@@ -73,6 +74,21 @@ public:
   template <class T> T copy(uint32_t offset, Kind kind) { return *get<T>(offset, kind); }
   /// The word at `offset`, a multiple of 4.
   uint32_t word(uint32_t offset, Kind kind) { return *get<uint32_t>(offset, kind); }
+  /// The words at `offsets`, for those of kSimdLanes lanes that have their bit set: a reference each, as if
+  /// by word(). Lanes side by side that want the same line share its lookup. Both arrays are 16-byte aligned.
+  void words(const uint32_t* offsets, uint32_t lanes, uint32_t* words, Kind kind) {
+    if constexpr (Spu::direct_memory) {
+      for (uint32_t i = 0; i < kSimdLanes; ++i)
+        words[i] = ((lanes >> i) & 1) != 0 ? word(offsets[i], kind) : 0;
+    } else {
+      this->end_lifetimes();
+      Seen seen = {kNoLine, lines_};
+      for (uint32_t i = 0; i < kSimdLanes; i += 4, lanes >>= 4) {
+        spu_.compute(kFourWords);
+        if ((lanes & 15) != 0) four_words(offsets + i, lanes & 15, words + i, kind, seen);
+      }
+    }
+  }
 
   // --- fetching ahead ---
   // Not counted; the get() that follows is a hit if the line is still there.
@@ -197,10 +213,14 @@ private:
   /// The tag of a way that does not exist: neither free nor equal to the tag of any line, whatever its flags.
   static constexpr uint32_t kNoWay = 0xFFFFFFFFu;
   static constexpr uint32_t kNotFound = 0xFFFFFFFFu;
+  /// Not the offset of a line.
+  static constexpr uint32_t kNoLine = 1;
 
   // Scalar work besides the comparison of tags: fixed, floating, memory, shuffle, branches. Counted in the
   // disassembly for an SPU; see src/kernel/scalar_work.hpp for the method.
   static constexpr ScalarWork kLookup = {26, 0, 8, 9, 2};
+  static constexpr ScalarWork kFourWords = {16, 0, 6, 6, 2};
+  static constexpr ScalarWork kOneWord = {10, 0, 4, 4, 2};
   static constexpr ScalarWork kStamp = {6, 0, 6, 5, 0};
   static constexpr ScalarWork kSlowLookup = {60, 0, 25, 25, 8};
   static constexpr ScalarWork kFetch = {85, 0, 28, 28, 6};
@@ -229,6 +249,51 @@ private:
   /// The lane of a single bit of four.
   static uint32_t lane_of(uint32_t bit) { return (bit >> 1) - (bit >> 3); }
   static uint32_t lowest_bit(uint32_t bits) { return bits & (~bits + 1); }
+
+  /// The line that was found last.
+  struct Seen {
+    uint32_t line;
+    const uint8_t* data;
+  };
+
+  void four_words(const uint32_t* offsets, uint32_t lanes, uint32_t* words, Kind kind, Seen& seen) {
+    const U4 at = U4::load(offsets);
+    const uint32_t others = ~equal_bits(at & U4::splat(~kLineMask), U4::splat(seen.line));
+    if (__builtin_expect((lanes & others) != 0, 0)) return find_words(offsets, lanes, words, kind, seen);
+    for (uint32_t i = 0; i < 4; ++i)
+      if (((lanes >> i) & 1) != 0) record(cache_trace::Operation::read, offsets[i], kind);
+    counters_[static_cast<uint32_t>(kind)].hits += bits_in(lanes);
+    // Those of the other lanes too, whatever they are: there is no branch for it.
+    const uint32_t a = offsets[0], b = offsets[1], c = offsets[2], d = offsets[3];
+    U4::of(word_at(seen, a), word_at(seen, b), word_at(seen, c), word_at(seen, d)).store(words);
+  }
+  static uint32_t word_at(const Seen& seen, uint32_t offset) {
+    return *reinterpret_cast<const uint32_t*>(seen.data + (offset & kLineMask));
+  }
+  /// How many of four bits are set.
+  static uint32_t bits_in(uint32_t bits) {
+    const uint32_t pairs = bits - (bits >> 1 & 5);
+    return (pairs & 3) + (pairs >> 2);
+  }
+
+  __attribute__((noinline)) void find_words(const uint32_t* offsets, uint32_t lanes, uint32_t* words,
+                                            Kind kind, Seen& seen) {
+    for (uint32_t i = 0; i < 4; ++i) {
+      spu_.compute(kOneWord);
+      if (((lanes >> i) & 1) == 0) continue;
+      record(cache_trace::Operation::read, offsets[i], kind);
+      if ((offsets[i] & ~kLineMask) == seen.line)
+        ++counters_[static_cast<uint32_t>(kind)].hits;
+      else
+        seen = look_up(offsets[i], kind);
+      words[i] = word_at(seen, offsets[i]);
+    }
+  }
+  /// A line that was read through is not one that the next word finds.
+  Seen look_up(uint32_t offset, Kind kind) {
+    const uint8_t* const data = find(offset, sizeof(uint32_t), kind);
+    return {config_.enabled ? offset & ~kLineMask : kNoLine, data};
+  }
 
   // --- misses, and lines with further flags ---
 

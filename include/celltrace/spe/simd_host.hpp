@@ -387,6 +387,11 @@ template <class Arch, class Counter = CountNothing> struct HostSimd {
       Counter::chain({.shuf = 1});
       return {Batch(value)};
     }
+    static U4 of(uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
+      Counter::chain({.shuf = 3});
+      alignas(16) const uint32_t words[4] = {a, b, c, d};
+      return {Batch::load_aligned(words)};
+    }
     static U4 load(const uint32_t* words) {
       Counter::chain({.ls = 1});
       return {Batch::load_aligned(words)};

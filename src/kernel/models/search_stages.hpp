@@ -149,10 +149,9 @@ private:
                    [&](uint32_t cell, uint32_t) { grid_.find_closest_in(cell, search.rays, search.hits); });
   }
   void attenuate(SearchRecord& search) {
-    for_each_lane(search.pending, [&](uint32_t lane) {
-      if (((search.lit >> lane) & 1) != 0)
-        grid_.attenuate_in(search.cell.lane[lane], lane, search.enter.lane[lane], search.leave.lane[lane],
-                           search.rays, search.light.distance, search.light.colour, search.lit);
+    for_each_value(search.cell, search.pending, [&](uint32_t cell, uint32_t lanes) {
+      grid_.attenuate_in(cell, lanes, search.enter, search.leave, search.rays, search.light.distance,
+                         search.light.colour, search.lit);
     });
     search.pending &= search.lit;
     const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};

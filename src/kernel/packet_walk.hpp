@@ -1,0 +1,130 @@
+// The ways of a packet's rays through the uniform grid (Amanatides and Woo, A Fast Voxel Traversal Algorithm,
+// 1987), all of them at a time: each lane is in a voxel of its own, and they step together. VoxelWalk is the
+// same for one ray, which can be broken off and taken up elsewhere. Kernel dialect.
+#pragma once
+
+#include "kernel/packet.hpp"
+#include "kernel/voxel_walk.hpp"
+
+#include <stdint.h>
+
+namespace celltrace::kernel {
+
+/// A packet on its way. As VoxelWalk, the first voxel is entered at -kFarAway and the last one left at
+/// kFarAway, so that rounding at the grid's border loses nothing.
+template <class S> class PacketWalk {
+public:
+  using F = typename S::F;
+  using I = typename S::I;
+  using M = typename S::M;
+
+  /// Enters the grid with `lanes`.
+  PacketWalk(const GridRecord& grid, const RayPacket& rays, uint32_t lanes) {
+    const V3<S> origin = rays.origin.template load<S>();
+    const V3<S> direction = rays.direction.template load<S>();
+    F enter(0.0f), leave(kFarAway);
+    M outside = M::none();
+    cross_slab(grid, 0, origin.x, direction.x, x_, enter, leave, outside);
+    cross_slab(grid, 1, origin.y, direction.y, y_, enter, leave, outside);
+    cross_slab(grid, 2, origin.z, direction.z, z_, enter, leave, outside);
+    lanes_ = lanes & ((!outside) & (enter <= leave)).bits();
+    if (lanes_ == 0) return;
+    // Numbers of voxels are exact as floats: there are no more than 2^24.
+    F cell = start(grid, 0, 1, origin.x + direction.x * enter, direction.x, x_);
+    cell = cell + start(grid, 1, grid.cells[0], origin.y + direction.y * enter, direction.y, y_);
+    cell = cell + start(grid, 2, grid.row_of_cells, origin.z + direction.z * enter, direction.z, z_);
+    cell_ = S::to_int(cell);
+    enter_ = F(-kFarAway);
+    choose_axis();
+  }
+
+  /// The rays that are in the grid; what follows is meaningless for all others.
+  uint32_t lanes() const { return lanes_; }
+  /// The voxels' indices, and the rays' distances there.
+  const I& cell() const { return cell_; }
+  const F& enter() const { return enter_; }
+  const F& leave() const { return leave_; }
+
+  /// Takes those of `lanes` that have voxels before them to the next one, and leaves the others behind.
+  void step(uint32_t lanes) {
+    lanes_ = lanes & ~at_last_;
+    enter_ = leave_;
+    const F one(1.0f), zero(0.0f);
+    x_.take_step(S::select(first_before_second_ & two_before_third_, one, zero));
+    y_.take_step(S::select((!first_before_second_) & two_before_third_, one, zero));
+    z_.take_step(S::select(two_before_third_, zero, one));
+    cell_ = cell_ + of_axis(x_.stride, y_.stride, z_.stride);
+    choose_axis();
+  }
+
+private:
+  struct Axis {
+    F steps;  ///< how many voxels are left to the grid's border
+    F last;   ///< the distance of that border
+    F apart;  ///< how far borders of voxels are apart
+    F next;   ///< the distance of the voxel's own border
+    I stride; ///< from a voxel's index to the next one's
+
+    void take_step(const F& step) {
+      steps = steps - step;
+      find_border();
+    }
+    /// From the number of the voxel, not by adding up steps, so that it does not drift.
+    void find_border() { next = last - steps * apart; }
+  };
+
+  static void cross_slab(const GridRecord& grid, int axis, const F& origin, const F& direction, Axis& a,
+                         F& enter, F& leave, M& outside) {
+    const F low(grid.min[axis]), high(grid.max[axis]);
+    const M parallel = S::abs(direction) < F(1e-12f);
+    const F inverse = F(1.0f) / S::select(parallel, F(1.0f), direction);
+    const F to_low = (low - origin) * inverse;
+    const F to_high = (high - origin) * inverse;
+    enter = S::select(parallel, enter, S::max(enter, S::min(to_low, to_high)));
+    leave = S::select(parallel, leave, S::min(leave, S::max(to_low, to_high)));
+    outside = outside | (parallel & ((origin < low) | (origin > high)));
+    // The grid's borders as those of voxels are.
+    const M back = direction < F(0.0f);
+    const F far_border(grid.min[axis] + static_cast<float>(grid.cells[axis]) * grid.cell_size[axis]);
+    a.last = S::select(parallel, F(kFarAway), (S::select(back, low, far_border) - origin) * inverse);
+    a.apart = S::select(parallel, F(0.0f), S::abs(inverse) * F(grid.cell_size[axis]));
+  }
+  /// Where on the axis a walk starts that enters the grid at `at`; returns what that adds to the voxel's
+  /// index.
+  static F start(const GridRecord& grid, int axis, uint32_t stride, const F& at, const F& direction, Axis& a) {
+    const F last(static_cast<float>(grid.cells[axis] - 1));
+    // Clamped as a number, so that whatever it is converts.
+    const F voxels = (at - F(grid.min[axis])) * F(grid.inverse_cell_size[axis]);
+    const F position = S::to_float(S::to_int(S::max(S::min(voxels, last), F(0.0f))));
+    const M back = direction < F(0.0f);
+    a.steps = S::select(back, position, last - position);
+    const auto step = static_cast<int32_t>(stride);
+    a.stride = S::select(back, I::splat(-step), I::splat(step));
+    a.find_border();
+    return position * F(static_cast<float>(stride));
+  }
+
+  /// The axes on which the rays leave their voxels, and where.
+  void choose_axis() {
+    first_before_second_ = x_.next < y_.next;
+    const F nearer = S::select(first_before_second_, x_.next, y_.next);
+    two_before_third_ = nearer < z_.next;
+    leave_ = S::select(two_before_third_, nearer, z_.next);
+    const M at_last = of_axis(x_.steps, y_.steps, z_.steps) <= F(0.0f);
+    leave_ = S::select(at_last, F(kFarAway), leave_);
+    at_last_ = (leave_ >= F(kFarAway)).bits();
+  }
+  /// That of the axis on which each ray leaves its voxel.
+  template <class Lanes> Lanes of_axis(const Lanes& x, const Lanes& y, const Lanes& z) const {
+    return S::select(two_before_third_, S::select(first_before_second_, x, y), z);
+  }
+
+  Axis x_, y_, z_;
+  I cell_;
+  F enter_, leave_;
+  M first_before_second_, two_before_third_; ///< of the three axes' borders
+  uint32_t lanes_;
+  uint32_t at_last_; ///< rays in their last voxel
+};
+
+} // namespace celltrace::kernel
