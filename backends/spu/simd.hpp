@@ -144,6 +144,21 @@ struct Simd {
       const vec_int4 q = spu_splats(static_cast<int>(value));
       return {{q, q, q, q}};
     }
+    static I load_words(const void* line, const I& offsets) {
+      const vec_uchar16 first_two = {0, 1, 2, 3, 16, 17, 18, 19, 0, 0, 0, 0, 0, 0, 0, 0};
+      const vec_uchar16 halves = {0, 1, 2, 3, 4, 5, 6, 7, 16, 17, 18, 19, 20, 21, 22, 23};
+      return map(offsets, [&](vec_int4 four) {
+        const vec_int4 at = spu_and(four, 124);
+        const auto word = [&](int lane) {
+          const int offset = spu_extract(at, lane);
+          // Loads take the quadword that an address is in.
+          const qword quad = si_lqx(si_from_ptr(line), si_from_int(offset));
+          return (vec_int4)si_rotqby(quad, si_from_int(offset));
+        };
+        return spu_shuffle(spu_shuffle(word(0), word(1), first_two), spu_shuffle(word(2), word(3), first_two),
+                           halves);
+      });
+    }
     static I load(const int32_t* lanes) {
       const vec_int4* quads = reinterpret_cast<const vec_int4*>(lanes);
       return {{quads[0], quads[1], quads[2], quads[3]}};
@@ -251,10 +266,6 @@ struct Simd {
     vec_uint4 lanes;
 
     static U4 splat(uint32_t value) { return {spu_splats(static_cast<unsigned>(value))}; }
-    static U4 of(uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
-      return {(vec_uint4){static_cast<unsigned>(a), static_cast<unsigned>(b), static_cast<unsigned>(c),
-                          static_cast<unsigned>(d)}};
-    }
     static U4 load(const uint32_t* words) { return {*reinterpret_cast<const vec_uint4*>(words)}; }
     void store(uint32_t* words) const { *reinterpret_cast<vec_uint4*>(words) = lanes; }
     friend U4 operator&(const U4& a, const U4& b) { return {spu_and(a.lanes, b.lanes)}; }

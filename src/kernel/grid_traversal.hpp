@@ -21,8 +21,10 @@ public:
   GridTraversal(ObjectTests<Spu>& objects, const GridRecord& grid)
       : objects_(objects), scene_(objects.scene()), grid_(grid) {}
 
+  // Not inlined: what a walk has on the stack is not there in what callers do apart from it.
+
   /// As Traversal's, into hits that hold none yet.
-  void find_closest(const RayPacket& rays, uint32_t lanes, HitPacket& hits) {
+  [[gnu::noinline]] void find_closest(const RayPacket& rays, uint32_t lanes, HitPacket& hits) {
     objects_.mailbox().begin_packet();
     walk(rays, lanes, [&](const PacketWalk<S>& at, uint32_t listing) {
       for_each_cell(at.cell(), listing,
@@ -32,7 +34,8 @@ public:
   }
 
   /// As Traversal's; returns the lanes to which some light comes.
-  uint32_t attenuate(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance, VectorLanes& light) {
+  [[gnu::noinline]] uint32_t attenuate(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance,
+                                       VectorLanes& light) {
     objects_.mailbox().begin_packet();
     uint32_t lit = lanes;
     walk(rays, lanes, [&](const PacketWalk<S>& at, uint32_t listing) {
@@ -69,19 +72,20 @@ public:
   }
 
 private:
-  /// Calls `visit(walk, lanes in voxels that list objects)` after every step; those of the lanes that it
-  /// returns go on.
+  /// Calls `visit(walk, lanes in voxels that list objects)` after every step. It returns the lanes that go on,
+  /// which may not be those that are in their last voxel.
   template <class Visit> void walk(const RayPacket& rays, uint32_t lanes, Visit visit) {
     scene_.spu().compute(scalar_work::kPacketWalk);
     uint64_t voxels = 0;
     PacketWalk<S> walk(grid_, rays, lanes);
-    while (walk.lanes() != 0) {
+    if (walk.lanes() == 0) return;
+    for (;;) {
       scene_.spu().compute(scalar_work::kPacketStep);
       voxels += static_cast<uint32_t>(__builtin_popcount(walk.lanes()));
-      WordLanes counts;
-      scene_.listed_in(grid_, walk.cell(), walk.lanes(), counts);
-      const M lists = !(I::load(reinterpret_cast<const int32_t*>(counts.lane)) == I::splat(0));
-      walk.step(walk.lanes() & visit(walk, walk.lanes() & lists.bits()));
+      const uint32_t empty = (scene_.listed_in(grid_, walk.cell(), walk.lanes()) == I::splat(0)).bits();
+      const uint32_t onward = walk.lanes() & visit(walk, walk.lanes() & ~empty);
+      if (onward == 0) break;
+      walk.step(onward);
     }
     objects_.counters().voxels += voxels;
   }

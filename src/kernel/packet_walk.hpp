@@ -45,9 +45,10 @@ public:
   const F& enter() const { return enter_; }
   const F& leave() const { return leave_; }
 
-  /// Takes those of `lanes` that have voxels before them to the next one, and leaves the others behind.
+  /// Takes `lanes` to their next voxels and leaves the others behind. There has to be a next one: the last one
+  /// is not left before kFarAway, farther than anyone looks.
   void step(uint32_t lanes) {
-    lanes_ = lanes & ~at_last_;
+    lanes_ = lanes;
     enter_ = leave_;
     const F one(1.0f), zero(0.0f);
     x_.take_step(S::select(first_before_second_ & two_before_third_, one, zero));
@@ -110,9 +111,8 @@ private:
     const F nearer = S::select(first_before_second_, x_.next, y_.next);
     two_before_third_ = nearer < z_.next;
     leave_ = S::select(two_before_third_, nearer, z_.next);
-    const M at_last = of_axis(x_.steps, y_.steps, z_.steps) <= F(0.0f);
-    leave_ = S::select(at_last, F(kFarAway), leave_);
-    at_last_ = (leave_ >= F(kFarAway)).bits();
+    const M more = of_axis(x_.steps, y_.steps, z_.steps) > F(0.0f);
+    leave_ = S::select(more, leave_, F(kFarAway));
   }
   /// That of the axis on which each ray leaves its voxel.
   template <class Lanes> Lanes of_axis(const Lanes& x, const Lanes& y, const Lanes& z) const {
@@ -124,7 +124,6 @@ private:
   F enter_, leave_;
   M first_before_second_, two_before_third_; ///< of the three axes' borders
   uint32_t lanes_;
-  uint32_t at_last_; ///< rays in their last voxel
 };
 
 } // namespace celltrace::kernel

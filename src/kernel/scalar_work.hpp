@@ -17,11 +17,13 @@ namespace scalar_work {
 // Each is {fixed, floating, memory, shuffle, branches}.
 
 // --- traversal.hpp, packet_walk.hpp, voxel_walk.hpp ---
-/// The packet's walk: set up; a step of it; those of its lanes that are in one voxel.
-constexpr ScalarWork kPacketWalk = {60, 12, 60, 30, 2};
-constexpr ScalarWork kPacketStep = {20, 0, 120, 8, 3};
-constexpr ScalarWork kVoxelOfPacket = {12, 0, 6, 6, 2};
-/// Sets a ray's walk through the grid up.
+/// Sets a packet's walk through the grid up.
+constexpr ScalarWork kPacketWalk = {60, 0, 440, 40, 2};
+/// A step to the next voxels: most of it is the walk itself, too large for the registers.
+constexpr ScalarWork kPacketStep = {27, 0, 116, 7, 4};
+/// Those of its rays that are in one voxel.
+constexpr ScalarWork kVoxelOfPacket = {20, 0, 6, 6, 2};
+/// Sets a single ray's walk up.
 constexpr ScalarWork kWalk = {240, 78, 185, 100, 23};
 /// A step to the next voxel, and its record.
 constexpr ScalarWork kVoxel = {72, 7, 33, 35, 8};

@@ -3,7 +3,6 @@
 
 #include "celltrace/cache.hpp"
 #include "kernel/branch_stack.hpp"
-#include "kernel/packet.hpp"
 #include "kernel/records.hpp"
 
 #include <stddef.h>
@@ -33,16 +32,13 @@ public:
     return *read<CellRecord>(grid.cell_offset + index * static_cast<uint32_t>(sizeof(CellRecord)),
                              DataKind::list);
   }
-  /// How many objects the voxels of `lanes` list, whichever voxels they are.
-  void listed_in(const GridRecord& grid, const typename Spu::simd::I& cells, uint32_t lanes,
-                 WordLanes& counts) {
+  /// How many objects each voxel of `lanes` lists.
+  typename Spu::simd::I listed_in(const GridRecord& grid, const typename Spu::simd::I& cells, uint32_t lanes) {
     using I = typename Spu::simd::I;
     static_assert(sizeof(CellRecord) == 8);
     const uint32_t first = grid.cell_offset + static_cast<uint32_t>(offsetof(CellRecord, count));
-    WordLanes offsets;
     const I at = Spu::simd::template shift_left<3>(cells) + I::splat(static_cast<int32_t>(first));
-    at.store(reinterpret_cast<int32_t*>(offsets.lane));
-    cache_.words(offsets.lane, lanes, counts.lane, DataKind::list);
+    return cache_.words(at, lanes, DataKind::list);
   }
   const NodeRecord* node(uint32_t offset) { return read<NodeRecord>(offset, DataKind::list); }
   uint32_t list_word(uint32_t offset) { return *read<uint32_t>(offset, DataKind::list); }

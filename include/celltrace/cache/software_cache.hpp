@@ -38,6 +38,8 @@ class SoftwareCache : public CacheLifetimes<Spu, Options::checked && !Spu::direc
 
 public:
   static constexpr uint32_t kKinds = cache_trace::kKinds;
+  /// A word for each of kSimdLanes lanes.
+  using Lanes = typename Spu::simd::I;
   /// `const T*`, or if checked what behaves as one.
   template <class T> using Pointer = typename Lifetimes::template Pointer<T>;
 
@@ -74,19 +76,14 @@ public:
   template <class T> T copy(uint32_t offset, Kind kind) { return *get<T>(offset, kind); }
   /// The word at `offset`, a multiple of 4.
   uint32_t word(uint32_t offset, Kind kind) { return *get<uint32_t>(offset, kind); }
-  /// The words at `offsets`, for those of kSimdLanes lanes that have their bit set: a reference each, as if
-  /// by word(). Lanes side by side that want the same line share its lookup. Both arrays are 16-byte aligned.
-  void words(const uint32_t* offsets, uint32_t lanes, uint32_t* words, Kind kind) {
+  /// The words at `offsets`, multiples of 4, in those of the lanes that have their bit set; what other lanes
+  /// get is meaningless. A reference each, as if by word(), but lanes that want the same line share its lookup.
+  Lanes words(const Lanes& offsets, uint32_t lanes, Kind kind) {
     if constexpr (Spu::direct_memory) {
-      for (uint32_t i = 0; i < kSimdLanes; ++i)
-        words[i] = ((lanes >> i) & 1) != 0 ? word(offsets[i], kind) : 0;
+      return words_one_by_one(offsets, lanes, kind);
     } else {
       this->end_lifetimes();
-      Seen seen = {kNoLine, lines_};
-      for (uint32_t i = 0; i < kSimdLanes; i += 4, lanes >>= 4) {
-        spu_.compute(kFourWords);
-        if ((lanes & 15) != 0) four_words(offsets + i, lanes & 15, words + i, kind, seen);
-      }
+      return config_.enabled ? words_by_line(offsets, lanes, kind) : words_one_by_one(offsets, lanes, kind);
     }
   }
 
@@ -213,14 +210,14 @@ private:
   /// The tag of a way that does not exist: neither free nor equal to the tag of any line, whatever its flags.
   static constexpr uint32_t kNoWay = 0xFFFFFFFFu;
   static constexpr uint32_t kNotFound = 0xFFFFFFFFu;
-  /// Not the offset of a line.
-  static constexpr uint32_t kNoLine = 1;
 
   // Scalar work besides the comparison of tags: fixed, floating, memory, shuffle, branches. Counted in the
   // disassembly for an SPU; see src/kernel/scalar_work.hpp for the method.
   static constexpr ScalarWork kLookup = {26, 0, 8, 9, 2};
-  static constexpr ScalarWork kFourWords = {16, 0, 6, 6, 2};
-  static constexpr ScalarWork kOneWord = {10, 0, 4, 4, 2};
+  static constexpr ScalarWork kReadThrough = {12, 0, 4, 8, 0};
+  static constexpr ScalarWork kWords = {12, 0, 6, 12, 1};
+  static constexpr ScalarWork kLineOfLanes = {4, 0, 0, 0, 1};
+  static constexpr ScalarWork kWordOfLane = {10, 0, 4, 4, 1};
   static constexpr ScalarWork kStamp = {6, 0, 6, 5, 0};
   static constexpr ScalarWork kSlowLookup = {60, 0, 25, 25, 8};
   static constexpr ScalarWork kFetch = {85, 0, 28, 28, 6};
@@ -250,60 +247,59 @@ private:
   static uint32_t lane_of(uint32_t bit) { return (bit >> 1) - (bit >> 3); }
   static uint32_t lowest_bit(uint32_t bits) { return bits & (~bits + 1); }
 
-  /// The line that was found last.
-  struct Seen {
-    uint32_t line;
-    const uint8_t* data;
+  // --- many words at a time ---
+
+  struct alignas(64) EachLane {
+    uint32_t word[kSimdLanes];
+
+    explicit EachLane(const Lanes& lanes) { lanes.store(reinterpret_cast<int32_t*>(word)); }
+    Lanes load() const { return Lanes::load(reinterpret_cast<const int32_t*>(word)); }
   };
+  static uint32_t lane_number(uint32_t bit) { return static_cast<uint32_t>(__builtin_ctz(bit)); }
 
-  void four_words(const uint32_t* offsets, uint32_t lanes, uint32_t* words, Kind kind, Seen& seen) {
-    const U4 at = U4::load(offsets);
-    const uint32_t others = ~equal_bits(at & U4::splat(~kLineMask), U4::splat(seen.line));
-    if (__builtin_expect((lanes & others) != 0, 0)) return find_words(offsets, lanes, words, kind, seen);
-    for (uint32_t i = 0; i < 4; ++i)
-      if (((lanes >> i) & 1) != 0) record(cache_trace::Operation::read, offsets[i], kind);
-    counters_[static_cast<uint32_t>(kind)].hits += bits_in(lanes);
-    // Those of the other lanes too, whatever they are: there is no branch for it.
-    const uint32_t a = offsets[0], b = offsets[1], c = offsets[2], d = offsets[3];
-    U4::of(word_at(seen, a), word_at(seen, b), word_at(seen, c), word_at(seen, d)).store(words);
-  }
-  static uint32_t word_at(const Seen& seen, uint32_t offset) {
-    return *reinterpret_cast<const uint32_t*>(seen.data + (offset & kLineMask));
-  }
-  /// How many of four bits are set.
-  static uint32_t bits_in(uint32_t bits) {
-    const uint32_t pairs = bits - (bits >> 1 & 5);
-    return (pairs & 3) + (pairs >> 2);
-  }
-
-  __attribute__((noinline)) void find_words(const uint32_t* offsets, uint32_t lanes, uint32_t* words,
-                                            Kind kind, Seen& seen) {
-    for (uint32_t i = 0; i < 4; ++i) {
-      spu_.compute(kOneWord);
-      if (((lanes >> i) & 1) == 0) continue;
-      record(cache_trace::Operation::read, offsets[i], kind);
-      if ((offsets[i] & ~kLineMask) == seen.line)
-        ++counters_[static_cast<uint32_t>(kind)].hits;
-      else
-        seen = look_up(offsets[i], kind);
-      words[i] = word_at(seen, offsets[i]);
+  Lanes words_by_line(const Lanes& offsets, uint32_t lanes, Kind kind) {
+    using Simd = typename Spu::simd;
+    spu_.compute(kWords);
+    const Lanes lines = offsets & Lanes::splat(static_cast<int32_t>(~kLineMask));
+    const EachLane each(offsets);
+    Lanes words = Lanes::splat(0);
+    while (lanes != 0) {
+      spu_.compute(kLineOfLanes);
+      const uint32_t offset = each.word[lane_number(lanes)];
+      record(cache_trace::Operation::read, offset, kind);
+      const uint8_t* const line = find(offset, sizeof(uint32_t), kind);
+      const auto here = lines == Lanes::splat(static_cast<int32_t>(offset & ~kLineMask));
+      const uint32_t found = lanes & here.bits();
+      lanes &= ~found;
+      const auto others = static_cast<uint32_t>(__builtin_popcount(found)) - 1;
+      counters_[static_cast<uint32_t>(kind)].hits += others;
+      for (uint32_t i = 0; i < others; ++i)
+        record(cache_trace::Operation::read, offset, kind);
+      words = Simd::select(here, Lanes::load_words(line, offsets), words);
     }
+    return words;
   }
-  /// A line that was read through is not one that the next word finds.
-  Seen look_up(uint32_t offset, Kind kind) {
-    const uint8_t* const data = find(offset, sizeof(uint32_t), kind);
-    return {config_.enabled ? offset & ~kLineMask : kNoLine, data};
+  Lanes words_one_by_one(const Lanes& offsets, uint32_t lanes, Kind kind) {
+    EachLane each(offsets);
+    while (lanes != 0) {
+      spu_.compute(kWordOfLane);
+      uint32_t& word = each.word[lane_number(lanes)];
+      lanes &= lanes - 1;
+      word = this->word(word, kind);
+    }
+    return each.load();
   }
 
   // --- misses, and lines with further flags ---
 
   __attribute__((noinline)) uint8_t* find_slowly(uint32_t offset, uint32_t size, Kind kind) {
-    spu_.compute(kSlowLookup);
     CacheCounters& counters = counters_[static_cast<uint32_t>(kind)];
     if (!config_.enabled) {
+      spu_.compute(kReadThrough);
       ++counters.misses;
       return read_through(offset, size);
     }
+    spu_.compute(kSlowLookup);
     const uint32_t line = offset & ~kLineMask;
     const uint32_t set = set_of(line);
     uint32_t way = locate(set, line);

@@ -216,6 +216,20 @@ template <class Arch, class Counter = CountNothing> struct HostSimd {
         r.part[i] = IntBatch(value);
       return r;
     }
+    /// For each lane a load and a rotation, and for four of them three rotations more to have their offsets,
+    /// and three shuffles.
+    static I load_words(const void* line, const I& offsets) {
+      Counter::packet({.fx2 = 1, .ls = 4, .shuf = 10});
+      alignas(64) int32_t lanes[kSimdLanes];
+      for (uint32_t i = 0; i < kParts; ++i)
+        (offsets.part[i] & IntBatch(124)).store_aligned(lanes + i * kWidth);
+      for (int32_t& lane : lanes)
+        lane = *reinterpret_cast<const int32_t*>(static_cast<const uint8_t*>(line) + lane);
+      I r;
+      for (uint32_t i = 0; i < kParts; ++i)
+        r.part[i] = IntBatch::load_aligned(lanes + i * kWidth);
+      return r;
+    }
     static I load(const int32_t* lanes) {
       Counter::packet({.ls = 1});
       I r;
@@ -386,11 +400,6 @@ template <class Arch, class Counter = CountNothing> struct HostSimd {
     static U4 splat(uint32_t value) {
       Counter::chain({.shuf = 1});
       return {Batch(value)};
-    }
-    static U4 of(uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
-      Counter::chain({.shuf = 3});
-      alignas(16) const uint32_t words[4] = {a, b, c, d};
-      return {Batch::load_aligned(words)};
     }
     static U4 load(const uint32_t* words) {
       Counter::chain({.ls = 1});
