@@ -38,15 +38,14 @@ public:
                                        VectorLanes& light) {
     objects_.mailbox().begin_packet();
     uint32_t lit = lanes;
+    FloatLanes enter, leave;
+    F(-kFarAway).store(leave.lane);
     walk(rays, lanes, [&](const PacketWalk<S>& at, uint32_t listing) {
-      if (listing != 0) {
-        FloatLanes enter, leave;
-        at.enter().store(enter.lane);
-        at.leave().store(leave.lane);
-        for_each_cell(at.cell(), listing, [&](uint32_t cell, uint32_t there) {
-          attenuate_in(cell, there, enter, leave, rays, distance, light, lit);
-        });
-      }
+      enter = leave;
+      at.leave().store(leave.lane);
+      for_each_cell(at.cell(), listing, [&](uint32_t cell, uint32_t there) {
+        attenuate_in(cell, there, enter, leave, rays, distance, light, lit);
+      });
       return (F::load(distance.lane) > at.leave()).bits() & lit;
     });
     return lit;

@@ -10,8 +10,8 @@
 
 namespace celltrace::kernel {
 
-/// A packet on its way. As VoxelWalk, the first voxel is entered at -kFarAway and the last one left at
-/// kFarAway, so that rounding at the grid's border loses nothing.
+/// A packet on its way. A voxel is entered where the one before was left, the first one at -kFarAway, and the
+/// last one is left at kFarAway, so that rounding at the grid's border loses nothing.
 template <class S> class PacketWalk {
 public:
   using F = typename S::F;
@@ -34,28 +34,25 @@ public:
     cell = cell + start(grid, 1, grid.cells[0], origin.y + direction.y * enter, direction.y, y_);
     cell = cell + start(grid, 2, grid.row_of_cells, origin.z + direction.z * enter, direction.z, z_);
     cell_ = S::to_int(cell);
-    enter_ = F(-kFarAway);
-    choose_axis();
+    choose_axis(x_.border(), y_.border(), z_.border());
   }
 
   /// The rays that are in the grid; what follows is meaningless for all others.
   uint32_t lanes() const { return lanes_; }
-  /// The voxels' indices, and the rays' distances there.
+  /// The voxels' indices, and the distances at which the rays leave them.
   const I& cell() const { return cell_; }
-  const F& enter() const { return enter_; }
   const F& leave() const { return leave_; }
 
   /// Takes `lanes` to their next voxels and leaves the others behind. There has to be a next one: the last one
   /// is not left before kFarAway, farther than anyone looks.
   void step(uint32_t lanes) {
     lanes_ = lanes;
-    enter_ = leave_;
-    const F one(1.0f), zero(0.0f);
-    x_.take_step(S::select(first_before_second_ & two_before_third_, one, zero));
-    y_.take_step(S::select((!first_before_second_) & two_before_third_, one, zero));
-    z_.take_step(S::select(two_before_third_, zero, one));
     cell_ = cell_ + of_axis(x_.stride, y_.stride, z_.stride);
-    choose_axis();
+    const F one(1.0f), zero(0.0f);
+    x_.steps = x_.steps - S::select(first_before_second_ & two_before_third_, one, zero);
+    y_.steps = y_.steps - S::select((!first_before_second_) & two_before_third_, one, zero);
+    z_.steps = z_.steps - S::select(two_before_third_, zero, one);
+    choose_axis(x_.border(), y_.border(), z_.border());
   }
 
 private:
@@ -63,15 +60,11 @@ private:
     F steps;  ///< how many voxels are left to the grid's border
     F last;   ///< the distance of that border
     F apart;  ///< how far borders of voxels are apart
-    F next;   ///< the distance of the voxel's own border
     I stride; ///< from a voxel's index to the next one's
 
-    void take_step(const F& step) {
-      steps = steps - step;
-      find_border();
-    }
-    /// From the number of the voxel, not by adding up steps, so that it does not drift.
-    void find_border() { next = last - steps * apart; }
+    /// The distance of the voxel's own border: from the voxel's number, not by adding up steps, so that it
+    /// does not drift over hundreds of voxels.
+    F border() const { return last - steps * apart; }
   };
 
   static void cross_slab(const GridRecord& grid, int axis, const F& origin, const F& direction, Axis& a,
@@ -101,18 +94,16 @@ private:
     a.steps = S::select(back, position, last - position);
     const auto step = static_cast<int32_t>(stride);
     a.stride = S::select(back, I::splat(-step), I::splat(step));
-    a.find_border();
     return position * F(static_cast<float>(stride));
   }
 
   /// The axes on which the rays leave their voxels, and where.
-  void choose_axis() {
-    first_before_second_ = x_.next < y_.next;
-    const F nearer = S::select(first_before_second_, x_.next, y_.next);
-    two_before_third_ = nearer < z_.next;
-    leave_ = S::select(two_before_third_, nearer, z_.next);
+  void choose_axis(const F& x, const F& y, const F& z) {
+    first_before_second_ = x < y;
+    const F nearer = S::select(first_before_second_, x, y);
+    two_before_third_ = nearer < z;
     const M more = of_axis(x_.steps, y_.steps, z_.steps) > F(0.0f);
-    leave_ = S::select(more, leave_, F(kFarAway));
+    leave_ = S::select(more, S::select(two_before_third_, nearer, z), F(kFarAway));
   }
   /// That of the axis on which each ray leaves its voxel.
   template <class Lanes> Lanes of_axis(const Lanes& x, const Lanes& y, const Lanes& z) const {
@@ -121,7 +112,7 @@ private:
 
   Axis x_, y_, z_;
   I cell_;
-  F enter_, leave_;
+  F leave_;
   M first_before_second_, two_before_third_; ///< of the three axes' borders
   uint32_t lanes_;
 };

@@ -213,10 +213,10 @@ private:
 
   // Scalar work besides the comparison of tags: fixed, floating, memory, shuffle, branches. Counted in the
   // disassembly for an SPU; see src/kernel/scalar_work.hpp for the method.
-  static constexpr ScalarWork kLookup = {26, 0, 8, 9, 2};
+  static constexpr ScalarWork kLookup = {22, 0, 8, 8, 2};
   static constexpr ScalarWork kReadThrough = {12, 0, 4, 8, 0};
-  static constexpr ScalarWork kWords = {12, 0, 6, 12, 1};
-  static constexpr ScalarWork kLineOfLanes = {4, 0, 0, 0, 1};
+  static constexpr ScalarWork kWords = {12, 0, 2, 10, 1};
+  static constexpr ScalarWork kLineOfLanes = {25, 0, 6, 0, 3};
   static constexpr ScalarWork kWordOfLane = {10, 0, 4, 4, 1};
   static constexpr ScalarWork kStamp = {6, 0, 6, 5, 0};
   static constexpr ScalarWork kSlowLookup = {60, 0, 25, 25, 8};
@@ -226,13 +226,17 @@ private:
 
   uint8_t* find(uint32_t offset, uint32_t size, Kind kind) {
     spu_.compute(kLookup);
+    return look_up(offset, size, kind);
+  }
+  /// The same, whose work the caller accounts for.
+  uint8_t* look_up(uint32_t offset, uint32_t size, Kind kind) {
     const uint32_t line = offset & ~kLineMask;
     const uint32_t set = set_of(line);
     const uint32_t match = matches(set, line);
     if (__builtin_expect(match == 0, 0)) return find_slowly(offset, size, kind);
     const uint32_t slot = slot_of(set, lane_of(match));
     ++counters_[static_cast<uint32_t>(kind)].hits;
-    if (stamp_hits_) stamp_hit(slot);
+    if (stamp_hits_ != 0) stamp_hit(slot);
     return line_at(slot);
   }
 
@@ -267,7 +271,7 @@ private:
       spu_.compute(kLineOfLanes);
       const uint32_t offset = each.word[lane_number(lanes)];
       record(cache_trace::Operation::read, offset, kind);
-      const uint8_t* const line = find(offset, sizeof(uint32_t), kind);
+      const uint8_t* const line = look_up(offset, sizeof(uint32_t), kind);
       const auto here = lines == Lanes::splat(static_cast<int32_t>(offset & ~kLineMask));
       const uint32_t found = lanes & here.bits();
       lanes &= ~found;
@@ -305,7 +309,7 @@ private:
     uint32_t way = locate(set, line);
     if (up_to_date(set, way)) {
       ++counters.hits;
-      if (stamp_hits_) stamp_hit(slot_of(set, way));
+      if (stamp_hits_ != 0) stamp_hit(slot_of(set, way));
     } else {
       ++counters.misses;
       way = start_fetch(set, way, line);
@@ -431,7 +435,7 @@ private:
     set_mask_ = enabled ? config_.sets - 1 : 0;
     set_shift_ = exponent_of(config_.sets);
     way_shift_ = enabled ? exponent_of(config_.ways) : 0;
-    stamp_hits_ = enabled && config_.replacement == CacheReplacement::lru;
+    stamp_hits_ = enabled && config_.replacement == CacheReplacement::lru ? 1 : 0;
     lines_ = spu_.template allocate<uint8_t>(slots() * kLineBytes);
     this->set_up_lifetimes(spu_, config_);
     this->set_up_dirt(spu_, slots());
@@ -484,20 +488,22 @@ private:
     spu_.record(this, cache_trace::make(operation, offset & ~kLineMask));
   }
 
+  // What a hit needs lies in the first word of a quadword each: an SPU takes that as it is loaded, and has to
+  // rotate any other one into its place.
+  alignas(16) uint32_t set_mask_ = 0;
+  alignas(16) uint32_t* tags_ = nullptr;
+  alignas(16) uint8_t* lines_ = nullptr;
+  alignas(16) uint32_t way_shift_ = 0;
+  alignas(16) uint32_t stamp_hits_ = 0; ///< 0 or 1
+  alignas(16) CacheCounters counters_[kKinds];
   Spu& spu_;
   CacheConfig config_;
   ea_t base_;
-  uint32_t set_mask_ = 0;
   uint32_t set_shift_ = 0;
-  uint32_t way_shift_ = 0;
   uint32_t tag_words_ = 0;
-  bool stamp_hits_ = false;
-  uint8_t* lines_ = nullptr;
-  uint32_t* tags_ = nullptr;
   uint32_t* stamps_ = nullptr;
   uint32_t clock_ = 0;
   CacheRandom random_;
-  CacheCounters counters_[kKinds];
 };
 
 /// A cache that can be written to.
