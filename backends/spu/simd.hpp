@@ -255,12 +255,8 @@ struct Simd {
       return ~spu_extract(spu_orx(spu_and(spu_cmpgt(a.lanes, b.lanes), lane_bits(0))), 0) & 0xFu;
     }
   };
-  static F4 min(const F4& a, const F4& b) {
-    return {spu_sel(a.lanes, b.lanes, spu_cmpgt(a.lanes, b.lanes))};
-  }
-  static F4 max(const F4& a, const F4& b) {
-    return {spu_sel(b.lanes, a.lanes, spu_cmpgt(a.lanes, b.lanes))};
-  }
+  static F4 min(const F4& a, const F4& b) { return {spu_sel(a.lanes, b.lanes, spu_cmpgt(a.lanes, b.lanes))}; }
+  static F4 max(const F4& a, const F4& b) { return {spu_sel(b.lanes, a.lanes, spu_cmpgt(a.lanes, b.lanes))}; }
 
   struct U4 {
     vec_uint4 lanes;

@@ -27,8 +27,7 @@ public:
   [[gnu::noinline]] void find_closest(const RayPacket& rays, uint32_t lanes, HitPacket& hits) {
     objects_.mailbox().begin_packet();
     walk(rays, lanes, [&](const PacketWalk<S>& at, uint32_t listing) {
-      for_each_cell(at.cell(), listing,
-                    [&](uint32_t cell, uint32_t) { find_closest_in(cell, rays, hits); });
+      for_each_cell(at.cell(), listing, [&](uint32_t cell, uint32_t) { find_closest_in(cell, rays, hits); });
       return (F::load(hits.distance.lane) > at.leave()).bits();
     });
   }
@@ -71,8 +70,8 @@ public:
   }
 
 private:
-  /// Calls `visit(walk, lanes in voxels that list objects)` after every step. It returns the lanes that go on,
-  /// which may not be those that are in their last voxel.
+  /// Calls `visit(walk, lanes in voxels that list objects)` after every step. It returns the lanes that go
+  /// on, which may not be those that are in their last voxel.
   template <class Visit> void walk(const RayPacket& rays, uint32_t lanes, Visit visit) {
     scene_.spu().compute(scalar_work::kPacketWalk);
     uint64_t voxels = 0;

@@ -43,8 +43,8 @@ public:
   const I& cell() const { return cell_; }
   const F& leave() const { return leave_; }
 
-  /// Takes `lanes` to their next voxels and leaves the others behind. There has to be a next one: the last one
-  /// is not left before kFarAway, farther than anyone looks.
+  /// Takes `lanes` to their next voxels and leaves the others behind. There has to be a next one: the last
+  /// one is not left before kFarAway, farther than anyone looks.
   void step(uint32_t lanes) {
     lanes_ = lanes;
     cell_ = cell_ + of_axis(x_.stride, y_.stride, z_.stride);
@@ -85,7 +85,8 @@ private:
   }
   /// Where on the axis a walk starts that enters the grid at `at`; returns what that adds to the voxel's
   /// index.
-  static F start(const GridRecord& grid, int axis, uint32_t stride, const F& at, const F& direction, Axis& a) {
+  static F start(const GridRecord& grid, int axis, uint32_t stride, const F& at, const F& direction,
+                 Axis& a) {
     const F last(static_cast<float>(grid.cells[axis] - 1));
     // Clamped as a number, so that whatever it is converts.
     const F voxels = (at - F(grid.min[axis])) * F(grid.inverse_cell_size[axis]);

@@ -18,9 +18,9 @@ namespace scalar_work {
 
 // --- traversal.hpp, packet_walk.hpp, voxel_walk.hpp ---
 /// Sets a packet's walk through the grid up.
-constexpr ScalarWork kPacketWalk = {60, 0, 440, 40, 2};
+constexpr ScalarWork kPacketWalk = {60, 0, 400, 40, 2};
 /// A step to the next voxels: most of it is the walk itself, too large for the registers.
-constexpr ScalarWork kPacketStep = {27, 0, 116, 7, 4};
+constexpr ScalarWork kPacketStep = {16, 0, 93, 6, 3};
 /// Those of its rays that are in one voxel.
 constexpr ScalarWork kVoxelOfPacket = {20, 0, 6, 6, 2};
 /// Sets a single ray's walk up.

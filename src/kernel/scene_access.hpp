@@ -33,7 +33,8 @@ public:
                              DataKind::list);
   }
   /// How many objects each voxel of `lanes` lists.
-  typename Spu::simd::I listed_in(const GridRecord& grid, const typename Spu::simd::I& cells, uint32_t lanes) {
+  typename Spu::simd::I listed_in(const GridRecord& grid, const typename Spu::simd::I& cells,
+                                  uint32_t lanes) {
     using I = typename Spu::simd::I;
     static_assert(sizeof(CellRecord) == 8);
     const uint32_t first = grid.cell_offset + static_cast<uint32_t>(offsetof(CellRecord, count));

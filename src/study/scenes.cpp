@@ -106,6 +106,26 @@ Scene corner() {
   return scene;
 }
 
+/// Beads on the edges of a long box that has nothing in it: rays walk far through a grid before they meet
+/// something, if they do.
+Scene cage() {
+  Scene scene = empty(look(Vec3(0, 0, -60), Vec3(0, 0, 0), 0.44));
+  const Index red = paint(scene, Vec3(0.8, 0.3, 0.2));
+  const double half[3] = {10, 7.5, 20};
+  const int beads[3] = {37, 37, 300};
+  for (int axis = 0; axis < 3; ++axis)
+    for (const int side : {-1, 1})
+      for (const int other_side : {-1, 1})
+        for (int i = 0; i < beads[axis]; ++i) {
+          double at[3];
+          at[axis] = half[axis] * ((2.0 * i + 1) / beads[axis] - 1);
+          at[(axis + 1) % 3] = half[(axis + 1) % 3] * side;
+          at[(axis + 2) % 3] = half[(axis + 2) % 3] * other_side;
+          add_sphere(scene, Vec3(at[0], at[1], at[2]), 0.04, red);
+        }
+  return scene;
+}
+
 /// A sphere with nine on it, and nine on each of those (Haines, "A proposal for standard graphics
 /// environments", 1987).
 void add_flake(Scene& scene, const Vec3& centre, const Vec3& up, double radius, int levels, Index material) {
@@ -160,6 +180,7 @@ std::vector<StudyScene> make_scenes() {
   return {{"few", "8 spheres on a floor, half of them mirrors", few()},
           {"molecule", "900 spheres in a heap", molecule()},
           {"corner", "400 mirrors in one corner of an empty picture", corner()},
+          {"cage", "1,496 beads on the edges of an empty box", cage()},
           {"flake", "7,381 spheres that mirror each other, on a floor", flake()},
           {"terrain", "10,082 triangles", hills(71)},
           {"mountains", "100,352 triangles", hills(224)}};

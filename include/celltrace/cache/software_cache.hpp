@@ -77,7 +77,8 @@ public:
   /// The word at `offset`, a multiple of 4.
   uint32_t word(uint32_t offset, Kind kind) { return *get<uint32_t>(offset, kind); }
   /// The words at `offsets`, multiples of 4, in those of the lanes that have their bit set; what other lanes
-  /// get is meaningless. A reference each, as if by word(), but lanes that want the same line share its lookup.
+  /// get is meaningless. A reference each, as if by word(), but lanes that want the same line share its
+  /// lookup.
   Lanes words(const Lanes& offsets, uint32_t lanes, Kind kind) {
     if constexpr (Spu::direct_memory) {
       return words_one_by_one(offsets, lanes, kind);
@@ -215,7 +216,7 @@ private:
   // disassembly for an SPU; see src/kernel/scalar_work.hpp for the method.
   static constexpr ScalarWork kLookup = {22, 0, 8, 8, 2};
   static constexpr ScalarWork kReadThrough = {12, 0, 4, 8, 0};
-  static constexpr ScalarWork kWords = {12, 0, 2, 10, 1};
+  static constexpr ScalarWork kWords = {13, 0, 0, 10, 1};
   static constexpr ScalarWork kLineOfLanes = {25, 0, 6, 0, 3};
   static constexpr ScalarWork kWordOfLane = {10, 0, 4, 4, 1};
   static constexpr ScalarWork kStamp = {6, 0, 6, 5, 0};
