@@ -20,6 +20,8 @@ template <class Cache> uint32_t read_everything(Cache& cache) {
   for (WordRun run(cache, 4, 100, CacheKind::word); !run.empty();)
     sum += run.next();
   sum += cache.word(12, CacheKind::word) + cache.template copy<CacheBlock>(64, CacheKind::block).words[2];
+  const auto words = cache.words(Cache::Lanes::splat(16), 0xF0F1, CacheKind::word);
+  sum += (words == Cache::Lanes::splat(0)).bits();
   cache.synchronize(0, 400);
   cache.synchronize_all();
   cache.invalidate_all();

@@ -66,6 +66,38 @@ TEST_CASE("a batch may hold a line twice, more lines than the queue, and more th
   cache.fetch(nullptr, 0);
 }
 
+TEST_CASE("words of many lanes are a reference each, and a transfer a miss") {
+  Memory memory(64);
+  const auto spu = std::make_unique<FakeSpu>();
+  CacheConfig config =
+      CacheConfig::of(GENERATE(1u, 4u, 8u), 4, GENERATE(CacheReplacement::fifo, CacheReplacement::lru));
+  config.enabled = GENERATE(true, false);
+  Cache cache(*spu, config, memory.base());
+  std::mt19937 random(3);
+  std::uint32_t wrong = 0, wanted = 0;
+  for (int k = 0; k < 500; ++k) {
+    alignas(64) std::int32_t offsets[kSimdLanes], words[kSimdLanes];
+    const std::uint32_t spread = 4u << (random() % 12);
+    const std::uint32_t first = random();
+    for (std::int32_t& offset : offsets)
+      offset = static_cast<std::int32_t>((first + random() % spread) % memory.bytes() & ~3u);
+    const std::uint32_t lanes = k % 3 == 0 ? 0xFFFF : random() & 0xFFFF;
+    cache.words(Cache::Lanes::load(offsets), lanes, 2).store(words);
+    for (std::uint32_t lane = 0; lane < kSimdLanes; ++lane) {
+      if ((lanes >> lane & 1) == 0) continue;
+      const auto offset = static_cast<std::uint32_t>(offsets[lane]);
+      ++wanted;
+      wrong += static_cast<std::uint32_t>(words[lane]) != memory.word(offset);
+    }
+  }
+  CHECK(wrong == 0);
+  CHECK(spu->under_way() == 0);
+  const CacheCounters seen = cache.counters(2);
+  CHECK(seen.hits + seen.misses == wanted);
+  CHECK(spu->transfers() == seen.misses);
+  if (!config.enabled) CHECK(seen.misses == wanted);
+}
+
 TEST_CASE("a run of words is one reference a line, and the next line is under way") {
   Memory memory(64);
   const auto spu = std::make_unique<FakeSpu>();

@@ -20,12 +20,13 @@ struct alignas(128) FacadeBlock {
   float splat[16], from_int[16], reinterpreted[16];
   int32_t int_sum[16], int_difference[16], int_and[16], int_or[16], int_chosen[16];
   int32_t to_int[16], bits[16], left_1[16], left_23[16], right_1[16], right_23[16], int_splat[16];
+  int32_t of_line[16];
   uint32_t u4_and[4], u4_or[4], u4_splat[4];
   uint32_t u4_equal, u4_equal_self;
   uint32_t less, less_equal, greater, greater_equal, equal;
   uint32_t int_equal, int_less;
   uint32_t mask_and, mask_or, mask_not, mask_none, mask_all, mask_same;
-  uint32_t pad_end[9];
+  uint32_t pad_end[25];
 };
 static_assert(sizeof(FacadeBlock) % 128 == 0, "crosses DMA");
 
@@ -74,6 +75,8 @@ template <class S> void apply_facade(FacadeBlock& x) {
   S::template shift_left<1>(i).store(x.left_1);
   S::template shift_left<23>(i).store(x.left_23);
   S::template shift_right<1>(i).store(x.right_1);
+  // The first line of the block: a, and behind it b.
+  I::load_words(&x, S::template shift_left<2>(i)).store(x.of_line);
   S::template shift_right<23>(i).store(x.right_23);
 
   const M m = M::from_bits(x.m);

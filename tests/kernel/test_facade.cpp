@@ -112,6 +112,10 @@ void check_ints(const FacadeBlock& x) {
   CHECK(same_ints(x.left_23, [&](int l) { return word(x.i[l]) << 23; }));
   CHECK(same_ints(x.right_1, [&](int l) { return x.i[l] >> 1; }));
   CHECK(same_ints(x.right_23, [&](int l) { return x.i[l] >> 23; }));
+  CHECK(same_ints(x.of_line, [&](int l) {
+    const std::uint32_t at = word(x.i[l]) % 32;
+    return bits(at < 16 ? x.a[at] : x.b[at - 16]);
+  }));
 }
 
 void check_masks(const FacadeBlock& x) {
