@@ -16,17 +16,13 @@ namespace scalar_work {
 
 // Each is {fixed, floating, memory, shuffle, branches}.
 
-// --- traversal.hpp, packet_walk.hpp, voxel_walk.hpp ---
+// --- traversal.hpp, packet_walk.hpp ---
 /// Sets a packet's walk through the grid up.
 constexpr ScalarWork kPacketWalk = {60, 0, 400, 40, 2};
 /// A step to the next voxels: most of it is the walk itself, too large for the registers.
 constexpr ScalarWork kPacketStep = {16, 0, 93, 6, 3};
 /// Those of its rays that are in one voxel.
 constexpr ScalarWork kVoxelOfPacket = {20, 0, 6, 6, 2};
-/// Sets a single ray's walk up.
-constexpr ScalarWork kWalk = {240, 78, 185, 100, 23};
-/// A step to the next voxel, and its record.
-constexpr ScalarWork kVoxel = {72, 7, 33, 35, 8};
 /// The loop over a voxel's objects, and their mailbox.
 constexpr ScalarWork kListedObject = {15, 0, 9, 9, 4};
 /// The intervals of a beam.

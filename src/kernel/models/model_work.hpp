@@ -16,8 +16,8 @@ constexpr ScalarWork kJob = {150, 0, 90, 75, 16};
 constexpr ScalarWork kSearch = {80, 0, 60, 45, 8};
 /// A packet's rays or answers, copied within local store.
 constexpr ScalarWork kCopy = {12, 0, 56, 0, 1};
-/// A ray that is handed over with its voxel.
-constexpr ScalarWork kHandOver = {25, 2, 12, 14, 3};
+/// Rays that are handed over with their voxels.
+constexpr ScalarWork kHandOver = {25, 2, 24, 14, 3};
 
 } // namespace model_work
 

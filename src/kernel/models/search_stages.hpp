@@ -9,6 +9,8 @@
 #include "kernel/models/stage_block.hpp"
 #include "kernel/traversal.hpp"
 
+#include <type_traits>
+
 namespace celltrace::kernel::models {
 
 /// Walks and tests, by any accelerator.
@@ -50,10 +52,12 @@ inline float limit_of(const SearchRecord& search, uint32_t lane) {
                                                                      : search.light.distance.lane[lane];
 }
 
-/// Takes the pending rays to their next voxels.
+/// Takes the pending rays to their next voxels that list objects.
 template <class Spu> class GridWalk {
 public:
   using S = typename Spu::simd;
+  using F = typename S::F;
+  using I = typename S::I;
 
   GridWalk(SceneAccess<Spu>& scene, const FrameBlock& frame) : scene_(scene), grid_(frame.grid) {}
 
@@ -61,16 +65,33 @@ public:
   void run(SearchRecord& search) {
     const bool begins = search.walked == 0;
     if (begins) begin(search);
+    PacketWalk<S> walk = set_out(search, begins);
+    F enter(-kFarAway);
+    const auto step = [&](uint32_t lanes) {
+      enter = walk.leave();
+      walk.step(lanes);
+    };
+    if (!begins) step(walk.lanes()); // what is there has been tested
     uint32_t in_voxels = 0;
-    for_each_lane(search.pending, [&](uint32_t lane) {
-      if (go_on(search, lane, begins)) in_voxels |= 1u << lane;
-    });
+    while (walk.lanes() != 0) {
+      scene_.spu().compute(scalar_work::kPacketStep);
+      voxels_ += static_cast<uint32_t>(__builtin_popcount(walk.lanes()));
+      const uint32_t empty = (scene_.listed_in(grid_, walk.cell(), walk.lanes()) == I::splat(0)).bits();
+      const uint32_t listing = walk.lanes() & ~empty;
+      if (listing != 0) hand_over(walk, enter, listing, search);
+      in_voxels |= listing;
+      step(walk.lanes() & empty & (limits_of(search) > walk.leave()).bits());
+    }
     search.pending = in_voxels;
   }
 
   uint64_t voxels() const { return voxels_; }
 
 private:
+  static F limits_of(const SearchRecord& search) {
+    return F::load(static_cast<SearchKind>(search.kind) == SearchKind::closest ? search.hits.distance.lane
+                                                                               : search.light.distance.lane);
+  }
   static void begin(SearchRecord& search) {
     search.walked = 1;
     search.pending = search.lanes;
@@ -81,33 +102,23 @@ private:
     S::I::splat(-1).store(reinterpret_cast<int32_t*>(search.hits.object.lane));
   }
 
-  /// True if the ray is in a voxel that has objects.
-  bool go_on(SearchRecord& search, uint32_t lane, bool begins) {
-    const RayPacket& rays = search.rays;
-    const float origin[3] = {rays.origin.x.lane[lane], rays.origin.y.lane[lane], rays.origin.z.lane[lane]};
-    const float direction[3] = {rays.direction.x.lane[lane], rays.direction.y.lane[lane],
-                                rays.direction.z.lane[lane]};
-    scene_.spu().compute(scalar_work::kWalk);
-    VoxelWalk walk(grid_, origin, direction);
-    bool inside =
-        begins ? walk.start(direction) : walk.resume({search.place.lane[lane], search.leave.lane[lane]});
-    for (; inside; inside = walk.step()) {
-      ++voxels_;
-      scene_.spu().compute(scalar_work::kVoxel);
-      if (scene_.cell(grid_, walk.cell()).count != 0) {
-        hand_over(walk, lane, search);
-        return true;
-      }
-      if (limit_of(search, lane) <= walk.leave()) return false;
-    }
-    return false;
+  PacketWalk<S> set_out(const SearchRecord& search, bool begins) {
+    scene_.spu().compute(scalar_work::kPacketWalk);
+    if (begins) return {grid_, search.rays, search.pending};
+    return {grid_, search.rays, search.pending, I::load(reinterpret_cast<const int32_t*>(search.place.lane))};
   }
-  void hand_over(const VoxelWalk& walk, uint32_t lane, SearchRecord& search) {
+  /// Keeps where those of `lanes` are.
+  void hand_over(const PacketWalk<S>& walk, const F& enter, uint32_t lanes, SearchRecord& search) {
     scene_.spu().compute(model_work::kHandOver);
-    search.cell.lane[lane] = walk.cell();
-    search.place.lane[lane] = walk.place().position;
-    search.enter.lane[lane] = walk.enter();
-    search.leave.lane[lane] = walk.leave();
+    const auto here = S::M::from_bits(lanes);
+    const auto keep = [&](const auto& now, auto* lane) {
+      using Lanes = std::decay_t<decltype(now)>;
+      S::select(here, now, Lanes::load(lane)).store(lane);
+    };
+    keep(walk.cell(), reinterpret_cast<int32_t*>(search.cell.lane));
+    keep(walk.place(grid_), reinterpret_cast<int32_t*>(search.place.lane));
+    keep(enter, search.enter.lane);
+    keep(walk.leave(), search.leave.lane);
   }
 
   SceneAccess<Spu>& scene_;
