@@ -49,8 +49,9 @@ Table study_cache_cost(Laboratory& laboratory) {
   for (const StudyScene& scene : laboratory.scenes)
     for (const auto& [word, accelerator] : accelerators)
       for (const bool enabled : {false, true}) {
-        // At the size of the thesis's larger pictures the rays of a packet stay together on long ways.
-        Job job{&scene.scene, laboratory.options(scene.name == "cage" ? 640 : 256, 8), 2};
+        // The rays of a packet stay together on long ways only if there are enough of them, in a hurry too.
+        const int width = scene.name != "cage" ? 256 : laboratory.quick ? 1280 : 640;
+        Job job{&scene.scene, laboratory.options(width, 8), 2};
         job.options.accelerator = accelerator;
         job.options.cache.enabled = enabled;
         jobs.push_back(job);
