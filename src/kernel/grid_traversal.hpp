@@ -7,7 +7,7 @@
 #pragma once
 
 #include "kernel/object_tests.hpp"
-#include "kernel/packet_walk.hpp"
+#include "kernel/voxel_walk.hpp"
 
 namespace celltrace::kernel {
 
@@ -26,7 +26,7 @@ public:
   /// As Traversal's, into hits that hold none yet.
   [[gnu::noinline]] void find_closest(const RayPacket& rays, uint32_t lanes, HitPacket& hits) {
     objects_.mailbox().begin_packet();
-    walk(rays, lanes, [&](const PacketWalk<S>& at, uint32_t listing) {
+    walk(rays, lanes, [&](const VoxelWalk<S>& at, uint32_t listing) {
       for_each_cell(at.cell(), listing, [&](uint32_t cell, uint32_t) { find_closest_in(cell, rays, hits); });
       return (F::load(hits.distance.lane) > at.leave()).bits();
     });
@@ -39,7 +39,7 @@ public:
     uint32_t lit = lanes;
     FloatLanes enter, leave;
     F(-kFarAway).store(leave.lane);
-    walk(rays, lanes, [&](const PacketWalk<S>& at, uint32_t listing) {
+    walk(rays, lanes, [&](const VoxelWalk<S>& at, uint32_t listing) {
       enter = leave;
       at.leave().store(leave.lane);
       for_each_cell(at.cell(), listing, [&](uint32_t cell, uint32_t there) {
@@ -73,9 +73,9 @@ private:
   /// Calls `visit(walk, lanes in voxels that list objects)` after every step. It returns the lanes that go
   /// on, which may not be those that are in their last voxel.
   template <class Visit> void walk(const RayPacket& rays, uint32_t lanes, Visit visit) {
-    scene_.spu().compute(scalar_work::kPacketWalk);
+    scene_.spu().compute(scalar_work::kVoxelWalk);
     uint64_t voxels = 0;
-    PacketWalk<S> walk(grid_, rays, lanes);
+    VoxelWalk<S> walk(grid_, rays, lanes);
     if (walk.lanes() == 0) return;
     for (;;) {
       scene_.spu().compute(scalar_work::kPacketStep);

@@ -16,9 +16,9 @@ namespace scalar_work {
 
 // Each is {fixed, floating, memory, shuffle, branches}.
 
-// --- traversal.hpp, packet_walk.hpp ---
+// --- traversal.hpp, voxel_walk.hpp ---
 /// Sets a packet's walk through the grid up.
-constexpr ScalarWork kPacketWalk = {60, 0, 400, 40, 2};
+constexpr ScalarWork kVoxelWalk = {60, 0, 400, 40, 2};
 /// A step to the next voxels: most of it is the walk itself, too large for the registers.
 constexpr ScalarWork kPacketStep = {16, 0, 93, 6, 3};
 /// Those of its rays that are in one voxel.

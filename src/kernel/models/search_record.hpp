@@ -49,7 +49,7 @@ struct alignas(128) SearchRecord {
   uint32_t returned; ///< rays that came back from the tests without a hit in their voxel
   uint32_t unused[8];
   WordLanes cell;   ///< the voxel that each pending ray is in: its index,
-  WordLanes place;  ///< its coordinates (PacketWalk::place()),
+  WordLanes place;  ///< its coordinates (VoxelWalk::place()),
   FloatLanes enter; ///< and where the ray enters
   FloatLanes leave; ///< and leaves it
 };

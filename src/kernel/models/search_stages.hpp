@@ -65,7 +65,7 @@ public:
   void run(SearchRecord& search) {
     const bool begins = search.walked == 0;
     if (begins) begin(search);
-    PacketWalk<S> walk = set_out(search, begins);
+    VoxelWalk<S> walk = set_out(search, begins);
     F enter(-kFarAway);
     const auto step = [&](uint32_t lanes) {
       enter = walk.leave();
@@ -102,13 +102,13 @@ private:
     S::I::splat(-1).store(reinterpret_cast<int32_t*>(search.hits.object.lane));
   }
 
-  PacketWalk<S> set_out(const SearchRecord& search, bool begins) {
-    scene_.spu().compute(scalar_work::kPacketWalk);
+  VoxelWalk<S> set_out(const SearchRecord& search, bool begins) {
+    scene_.spu().compute(scalar_work::kVoxelWalk);
     if (begins) return {grid_, search.rays, search.pending};
     return {grid_, search.rays, search.pending, I::load(reinterpret_cast<const int32_t*>(search.place.lane))};
   }
   /// Keeps where those of `lanes` are.
-  void hand_over(const PacketWalk<S>& walk, const F& enter, uint32_t lanes, SearchRecord& search) {
+  void hand_over(const VoxelWalk<S>& walk, const F& enter, uint32_t lanes, SearchRecord& search) {
     scene_.spu().compute(model_work::kHandOver);
     const auto here = S::M::from_bits(lanes);
     const auto keep = [&](const auto& now, auto* lane) {

@@ -14,14 +14,14 @@ constexpr float kFarAway = 1e30f;
 
 /// A packet on its way. A voxel is entered where the one before was left, the first one at -kFarAway, and the
 /// last one is left at kFarAway, so that rounding at the grid's border loses nothing.
-template <class S> class PacketWalk {
+template <class S> class VoxelWalk {
 public:
   using F = typename S::F;
   using I = typename S::I;
   using M = typename S::M;
 
   /// Enters the grid with `lanes`.
-  PacketWalk(const GridRecord& grid, const RayPacket& rays, uint32_t lanes) {
+  VoxelWalk(const GridRecord& grid, const RayPacket& rays, uint32_t lanes) {
     const V3<S> origin = rays.origin.template load<S>();
     const V3<S> direction = rays.direction.template load<S>();
     const Way way = cross_slabs(grid, origin, direction);
@@ -32,7 +32,7 @@ public:
                  {voxel_at(grid, 0, at.x), voxel_at(grid, 1, at.y), voxel_at(grid, 2, at.z)});
   }
   /// Stands with `lanes` where another walk of the same rays stood, by its place().
-  PacketWalk(const GridRecord& grid, const RayPacket& rays, uint32_t lanes, const I& place) : lanes_(lanes) {
+  VoxelWalk(const GridRecord& grid, const RayPacket& rays, uint32_t lanes, const I& place) : lanes_(lanes) {
     const V3<S> direction = rays.direction.template load<S>();
     cross_slabs(grid, rays.origin.template load<S>(), direction);
     const I mask = I::splat((1 << kPlaceBits) - 1);
