@@ -87,7 +87,7 @@ template <class Spu> struct DefaultCacheOptions<Spu, std::void_t<typename Spu::c
 /// are combined: tables of a scene, and rows of a grid, are often a power of two of lines apart, and would
 /// come into each other's way in one set.
 constexpr uint32_t cache_set(uint32_t offset) {
-  return offset >> 7 ^ offset >> 14;
+  return offset >> 7 ^ offset >> 13;
 }
 
 /// References to one kind of data.
