@@ -46,6 +46,14 @@ AcceleratorKind accelerator_of(const RenderOptions& options) {
 }
 
 bool inside(const Sphere& sphere, const Transform& transform, const Vec3& point) {
+  // Hardly any of a million spheres is worth an inverse: most do not even have the point in their box.
+  const Vec3 away = point - transform.point(sphere.centre);
+  constexpr double kRoundedUp = 1.000001;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 reach(transform.rows[0][axis], transform.rows[1][axis], transform.rows[2][axis]);
+    if (away[axis] * away[axis] > glm::dot(reach, reach) * sphere.radius * sphere.radius * kRoundedUp)
+      return false;
+  }
   const Vec3 local = transform.inverse().point(point) - sphere.centre;
   return local.x * local.x + local.y * local.y + local.z * local.z < sphere.radius * sphere.radius;
 }

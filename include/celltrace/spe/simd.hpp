@@ -7,13 +7,11 @@
 //
 //   F    16 floats, implicitly from one float (splat); default construction leaves it indeterminate
 //        F::load(const float*) / store(float*), 64-byte aligned; + - * / and unary -; < <= > >= == give M
-//   I    16 int32: I::splat, load, store; + - & |; == < give M; I::load_words(line, offsets): for each lane
-//   the
-//        word at its offset, a multiple of 4 and taken modulo 128, of the 128 bytes at `line`
+//   I    16 int32: I::splat, load, store; + - & |; == < give M; I::load_words(line, offsets): for each
+//        lane the word at its offset, a multiple of 4 and taken modulo 128, of the 128 bytes at `line`
 //   M    16 truth values: M::none(), all(), from_bits(uint32), bits() (lane l in bit l); & | !
-//   F4   4 floats, one SPU quadword: splat, load, store (16-byte aligned); + - *; not_above_bits(a, b): 4
-//   bits,
-//        lane 0 in bit 0, of a <= b; min max
+//   F4   4 floats, one SPU quadword: splat, load, store (16-byte aligned); + - *; not_above_bits(a, b):
+//        4 bits, lane 0 in bit 0, of a <= b; min max
 //   U4   4 uint32, one SPU quadword: splat, load, store (16-byte aligned); & |; equal_bits(a, b) -> 4 bits,
 //        lane 0 in bit 0
 //
