@@ -19,10 +19,6 @@ constexpr std::uint32_t kUnitsPerStrip = 512;
 /// Where bundles have been cheap, units are long, but no longer than this many times the mean: the next
 /// picture may be another.
 constexpr std::uint32_t kLongestUnit = 8;
-/// Units that cost more than this many times the mean are what a strip begins with: at the end of a frame
-/// they would keep one SPE busy while the others have run dry. The rest stays in the picture's order, in
-/// which neighbours find in the cache what they share.
-constexpr double kCostly = 1.5;
 /// Nothing is known of the first frame: a strip is of pieces from all over the picture, which exchanges have
 /// less to do about.
 constexpr std::uint32_t kPiecesPerStrip = 16;
@@ -93,17 +89,14 @@ void WorkPlan::cut_by_cost() {
 }
 
 void WorkPlan::begin_with_costly(const std::vector<double>& expected) {
-  const double costly = kCostly * std::accumulate(expected.begin(), expected.end(), 0.0) / units();
+  const double mean = std::accumulate(expected.begin(), expected.end(), 0.0) / units();
   const std::vector<UnitRecord> in_order = units_;
   std::vector<std::size_t> order(expected.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   for (const UnitRange strip : strips_) {
     const auto begin = order.begin() + strip.first;
-    const auto rest = std::stable_partition(begin, begin + strip.count,
-                                            [&](std::size_t unit) { return expected[unit] > costly; });
-    std::sort(begin, rest, [&](std::size_t a, std::size_t b) {
-      return std::pair(-expected[a], a) < std::pair(-expected[b], b);
-    });
+    std::stable_partition(begin, begin + strip.count,
+                          [&](std::size_t unit) { return expected[unit] > mean; });
   }
   std::transform(order.begin(), order.end(), units_.begin(),
                  [&](std::size_t unit) { return in_order[unit]; });

@@ -26,7 +26,9 @@ public:
 private:
   void cut_evenly();
   void cut_by_cost();
-  /// Moves the costly units of each strip to its beginning.
+  /// Moves the units of each strip that cost more than the mean to its beginning: at the end of a frame they
+  /// would keep one SPE busy while the others have run dry. The rest stays in the picture's order, in which
+  /// neighbours find in the cache what they share.
   void begin_with_costly(const std::vector<double>& expected);
   /// Row by row, as long as `lengths` says.
   void cut(const std::vector<std::uint32_t>& lengths);

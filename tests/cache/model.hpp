@@ -64,7 +64,7 @@ private:
     std::vector<std::size_t> by_age; ///< ways, the oldest first
   };
 
-  Set& set_of(std::uint32_t line) { return sets_[(line ^ line / 128) % config_.sets]; }
+  Set& set_of(std::uint32_t line) { return sets_[(line ^ line / 64) % config_.sets]; }
   static std::optional<std::size_t> find(const Set& set, std::uint32_t line) {
     for (std::size_t way = 0; way < set.ways.size(); ++way) {
       if (set.ways[way] && set.ways[way]->line == line) return way;
