@@ -72,28 +72,6 @@ public:
     return kBeyond * interval_of<S>(S::select(M::from_bits(group), limits(search), F(0.0f))).high;
   }
 
-  /// Lanes of the group that the object shuts off from the light. An opaque one shuts off whatever lanes of
-  /// the packet it covers; a translucent one is met once by each beam.
-  uint32_t shadowed(const Search& search, uint32_t self, uint32_t group) {
-    objects_.scene().spu().compute(scalar_work::kShadow);
-    const ObjectRecord& object = *objects_.scene().object(self);
-    const uint32_t flags = object.kind_and_flags;
-    const uint32_t material = object.material;
-    if ((flags & object_flag::no_shadow) != 0) return 0;
-    const bool opaque = (flags & object_flag::opaque) != 0;
-    if (opaque && !objects_.mailbox().first_visit(self)) return 0;
-    ShadowCrossings c;
-    objects_.test_shadow(*search.rays, object, self, *search.distance, c);
-    if (opaque) return c.near_hit | c.far_hit;
-    uint32_t dark = 0;
-    for_each_lane((c.near_hit | c.far_hit) & group, [&](uint32_t lane) {
-      const uint32_t crossings = ((c.near_hit >> lane) & 1) + ((c.far_hit >> lane) & 1);
-      if (objects_.dim(flags, material, c.u.lane[lane], c.v.lane[lane], crossings, lane, *search.light))
-        dark |= 1u << lane;
-    });
-    return dark;
-  }
-
 private:
   /// What the rounding of hits' distances amounts to.
   static constexpr float kBeyond = 1.00001f;
@@ -144,7 +122,7 @@ private:
       scene.spu().compute(scalar_work::kListedObject);
       const uint32_t self = scene.list_word(leaf.child + i * 4);
       if (search.hits == nullptr) {
-        search.lanes &= ~shadowed(search, self, group);
+        search.lanes &= ~objects_.shadowed(*search.rays, self, group, *search.distance, *search.light);
         if ((search.lanes & group) == 0) return;
       } else if (objects_.mailbox().first_visit(self)) {
         objects_.test_closest(*search.rays, self, *search.hits);

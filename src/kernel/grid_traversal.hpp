@@ -64,7 +64,7 @@ public:
                     const RayPacket& rays, const FloatLanes& distance, VectorLanes& light, uint32_t& lit) {
     if ((lanes & lit) == 0) return;
     for_each_object(cell, [&](uint32_t self) {
-      lit &= ~shadowed(rays, self, lanes & lit, enter, leave, distance, light);
+      lit &= ~objects_.shadowed(rays, self, lanes & lit, distance, light, {&enter, &leave});
       return (lanes & lit) == 0;
     });
   }
@@ -109,35 +109,6 @@ private:
       scene_.spu().compute(scalar_work::kListedObject);
       if (visit(scene_.list_word(list.list + i * 4))) return;
     }
-  }
-
-  /// Lanes that the object shuts off from the light. An opaque object shuts off whatever lanes it covers; a
-  /// translucent one dims the rays that are in the voxel, `lanes`, at those crossings that lie in it, so that
-  /// each crossing counts once although the object is in the lists of several voxels.
-  uint32_t shadowed(const RayPacket& rays, uint32_t self, uint32_t lanes, const FloatLanes& enter,
-                    const FloatLanes& leave, const FloatLanes& distance, VectorLanes& light) {
-    scene_.spu().compute(scalar_work::kShadow);
-    const ObjectRecord& object = *scene_.object(self);
-    const uint32_t flags = object.kind_and_flags;
-    const uint32_t material = object.material;
-    if ((flags & object_flag::no_shadow) != 0) return 0;
-    const bool opaque = (flags & object_flag::opaque) != 0;
-    if (opaque && !objects_.mailbox().first_visit(self)) return 0;
-    ShadowCrossings c;
-    objects_.test_shadow(rays, object, self, distance, c);
-    if (opaque) return c.near_hit | c.far_hit;
-    uint32_t dark = 0;
-    for_each_lane(lanes & (c.near_hit | c.far_hit), [&](uint32_t lane) {
-      const auto counts = [&](uint32_t hit, float t) {
-        return ((hit >> lane) & 1) != 0 && t > enter.lane[lane] && t <= leave.lane[lane];
-      };
-      const uint32_t crossings = static_cast<uint32_t>(counts(c.near_hit, c.near.lane[lane])) +
-                                 static_cast<uint32_t>(counts(c.far_hit, c.far.lane[lane]));
-      if (crossings == 0) return;
-      if (objects_.dim(flags, material, c.u.lane[lane], c.v.lane[lane], crossings, lane, light))
-        dark |= 1u << lane;
-    });
-    return dark;
   }
 
   ObjectTests<Spu>& objects_;

@@ -213,7 +213,8 @@ private:
           objects_.test_closest(*search.rays, self, *search.hits);
         } else if (search.lanes != 0) {
           objects_.mailbox().begin_packet();
-          search.lanes &= ~walk_.shadowed(search, self, search.lanes);
+          search.lanes &=
+              ~objects_.shadowed(*search.rays, self, search.lanes, *search.distance, *search.light);
         }
       });
     }

@@ -37,12 +37,14 @@ private:
   uint32_t packet_ = 0;
 };
 
-/// Where a packet of shadow rays crosses an object between their origins and the light, both not quite
-/// reached. Distances and weights of lanes outside the masks are meaningless.
-struct ShadowCrossings {
-  FloatLanes near, far;
-  FloatLanes u, v;
-  uint32_t near_hit, far_hit; ///< bit per lane
+/// Part of each ray: beyond `enter`, up to `leave`. Without them, all of it.
+struct Stretch {
+  const FloatLanes* enter;
+  const FloatLanes* leave;
+
+  bool has(uint32_t lane, float distance) const {
+    return enter == nullptr || (distance > enter->lane[lane] && distance <= leave->lane[lane]);
+  }
 };
 
 template <class Spu> class ObjectTests {
@@ -78,23 +80,56 @@ public:
     S::select(closer, candidate, present).store(objects);
   }
 
-  __attribute__((noinline)) void test_shadow(const RayPacket& rays, const ObjectRecord& object, uint32_t self,
-                                             const FloatLanes& distance, ShadowCrossings& crossings) {
+  /// Lanes that an object shuts off from the light. An opaque one shuts off whatever lanes of the packet it
+  /// covers, when it is met first; a translucent one dims `lanes` at each crossing on the stretch, so that
+  /// each counts once although the object may be met on several.
+  __attribute__((noinline)) uint32_t shadowed(const RayPacket& rays, uint32_t self, uint32_t lanes,
+                                              const FloatLanes& distance, VectorLanes& light,
+                                              const Stretch& on = {nullptr, nullptr}) {
+    scene_.spu().compute(scalar_work::kShadow);
+    const ObjectRecord& object = *scene_.object(self);
+    const uint32_t flags = object.kind_and_flags;
+    const uint32_t material = object.material;
+    if ((flags & object_flag::no_shadow) != 0) return 0;
+    const bool opaque = (flags & object_flag::opaque) != 0;
+    if (opaque && !mailbox_.first_visit(self)) return 0;
     const Crossings<S> c = test(rays, object, self);
     const F low(kShadowTolerance);
     const F high = F::load(distance.lane) - low;
-    crossings.near_hit = (c.near_hit & (c.near > low) & (c.near < high)).bits();
-    crossings.far_hit = (c.far_hit & (c.far > low) & (c.far < high)).bits();
-    c.near.store(crossings.near.lane);
-    c.far.store(crossings.far.lane);
-    c.u.store(crossings.u.lane);
-    c.v.store(crossings.v.lane);
+    const uint32_t near_hit = (c.near_hit & (c.near > low) & (c.near < high)).bits();
+    const uint32_t far_hit = (c.far_hit & (c.far > low) & (c.far < high)).bits();
+    if (opaque) return near_hit | far_hit;
+    FloatLanes near, far, u, v;
+    c.near.store(near.lane);
+    c.far.store(far.lane);
+    c.u.store(u.lane);
+    c.v.store(v.lane);
+    uint32_t dark = 0;
+    for_each_lane(lanes & (near_hit | far_hit), [&](uint32_t lane) {
+      const auto counts = [&](uint32_t hit, const FloatLanes& at) {
+        return static_cast<uint32_t>(((hit >> lane) & 1) != 0 && on.has(lane, at.lane[lane]));
+      };
+      const uint32_t crossings = counts(near_hit, near) + counts(far_hit, far);
+      if (crossings != 0 && dim(flags, material, u.lane[lane], v.lane[lane], crossings, lane, light))
+        dark |= 1u << lane;
+    });
+    return dark;
   }
+
+  SceneAccess<Spu>& scene() { return scene_; }
+  PacketMailbox& mailbox() { return mailbox_; }
+  TraversalCounters& counters() { return counters_; }
+  const TraversalCounters& counters() const { return counters_; }
+  void reset_counters() { counters_ = TraversalCounters(); }
+
+private:
+  /// POV-Ray's tolerance at both ends of a shadow ray.
+  static constexpr float kShadowTolerance = 1e-3f;
 
   /// Takes from the light of one lane what `crossings` crossings of a translucent object hold back. True if
   /// that leaves it dark.
-  __attribute__((noinline)) bool dim(uint32_t flags, uint32_t material, float u, float v, uint32_t crossings,
-                                     uint32_t lane, VectorLanes& light) {
+  bool dim(uint32_t flags, uint32_t material, float u, float v, uint32_t crossings, uint32_t lane,
+           VectorLanes& light) {
     scene_.spu().compute(scalar_work::kFilter);
     float through[3];
     transmission(flags, material, u, v, through);
@@ -108,16 +143,6 @@ public:
     }
     return dark;
   }
-
-  SceneAccess<Spu>& scene() { return scene_; }
-  PacketMailbox& mailbox() { return mailbox_; }
-  TraversalCounters& counters() { return counters_; }
-  const TraversalCounters& counters() const { return counters_; }
-  void reset_counters() { counters_ = TraversalCounters(); }
-
-private:
-  /// POV-Ray's tolerance at both ends of a shadow ray.
-  static constexpr float kShadowTolerance = 1e-3f;
 
   Crossings<S> test(const RayPacket& rays, const ObjectRecord& object, uint32_t self) {
     const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;

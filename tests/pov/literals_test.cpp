@@ -159,8 +159,9 @@ std::string matrix_outcome(const std::string& numbers, std::string_view first) {
   const std::string text =
       "#declare Z = 0;\n#macro N() 7 #end\nsphere { 0, 1\n matrix <" + with_first(numbers, first) + "> }\n";
   try {
+    const Scene scene = parse(text);
     std::ostringstream all;
-    for (const Vec3& row : parse(text).objects.at(0).transform.rows)
+    for (const Vec3& row : scene.objects.at(0).transform.rows)
       for (int i = 0; i < 3; ++i)
         all << std::hex << std::bit_cast<std::uint64_t>(row[i]) << ' ';
     return all.str();
