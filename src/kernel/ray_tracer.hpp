@@ -24,8 +24,14 @@ public:
   using M = typename S::M;
 
   RayTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, ea_t spill)
-      : RayTracer(spu, frame, scene, spill, frame.ray_stack_nodes, *place_finder(spu, frame, scene),
-                  *spu.template allocate<RayNode>()) {}
+      // In braces, so that every compiler allocates in this order.
+      : RayTracer{spu,
+                  frame,
+                  scene,
+                  spill,
+                  frame.ray_stack_nodes,
+                  *place_finder(spu, frame, scene),
+                  *spu.template allocate<RayNode>()} {}
   /// `spill` has room for `spill_nodes`. `scratch` may be shared by tracers.
   RayTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, ea_t spill, uint32_t spill_nodes,
             Answers& finder, RayNode& scratch)
