@@ -115,19 +115,14 @@ private:
   }
 
   void test_objects(const Branch& leaf, uint32_t group, Search& search) {
-    SceneAccess<Spu>& scene = objects_.scene();
-    for (uint32_t i = 1; i < leaf.count; ++i)
-      scene.hint_listed(leaf.child + i * 4);
-    for (uint32_t i = 0; i < leaf.count; ++i) {
-      scene.spu().compute(scalar_work::kListedObject);
-      const uint32_t self = scene.list_word(leaf.child + i * 4);
-      if (search.hits == nullptr) {
-        search.lanes &= ~objects_.shadowed(*search.rays, self, group, *search.distance, *search.light);
-        if ((search.lanes & group) == 0) return;
-      } else if (objects_.mailbox().first_visit(self)) {
-        objects_.test_closest(*search.rays, self, *search.hits);
+    objects_.scene().for_each_listed(leaf.child, leaf.count, [&](uint32_t self) {
+      if (search.hits != nullptr) {
+        if (objects_.mailbox().first_visit(self)) objects_.test_closest(*search.rays, self, *search.hits);
+        return false;
       }
-    }
+      search.lanes &= ~objects_.shadowed(*search.rays, self, group, *search.distance, *search.light);
+      return (search.lanes & group) == 0;
+    });
   }
 
   /// Opens the node at `branch`. If one child is met, goes on there and returns true; if several, they go on

@@ -105,10 +105,7 @@ private:
   /// Calls `visit(object offset)` for the objects of a voxel until it returns true.
   template <class Visit> void for_each_object(uint32_t cell, Visit visit) {
     const CellRecord list = scene_.cell(grid_, cell);
-    for (uint32_t i = 0; i < list.count; ++i) {
-      scene_.spu().compute(scalar_work::kListedObject);
-      if (visit(scene_.list_word(list.list + i * 4))) return;
-    }
+    scene_.for_each_listed(list.list, list.count, visit);
   }
 
   ObjectTests<Spu>& objects_;

@@ -201,12 +201,7 @@ private:
   }
 
   void test_objects(const Branch& leaf, uint32_t packets, Search* searches) {
-    SceneAccess<Spu>& scene = objects_.scene();
-    for (uint32_t i = 1; i < leaf.count; ++i)
-      scene.hint_listed(leaf.child + i * 4);
-    for (uint32_t i = 0; i < leaf.count; ++i) {
-      scene.spu().compute(scalar_work::kListedObject);
-      const uint32_t self = scene.list_word(leaf.child + i * 4);
+    objects_.scene().for_each_listed(leaf.child, leaf.count, [&](uint32_t self) {
       for_each_lane(packets, [&](uint32_t packet) {
         Search& search = searches[packet];
         if (search.hits != nullptr) {
@@ -217,7 +212,8 @@ private:
               ~objects_.shadowed(*search.rays, self, search.lanes, *search.distance, *search.light);
         }
       });
-    }
+      return false;
+    });
     for_each_lane(packets, [&](uint32_t packet) { update_limit(searches[packet], packet); });
   }
 

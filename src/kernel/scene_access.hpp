@@ -4,6 +4,7 @@
 #include "celltrace/cache.hpp"
 #include "kernel/branch_stack.hpp"
 #include "kernel/records.hpp"
+#include "kernel/scalar_work.hpp"
 
 #include <stddef.h>
 
@@ -44,21 +45,44 @@ public:
   const NodeRecord* node(uint32_t offset) { return read<NodeRecord>(offset, DataKind::list); }
   uint32_t list_word(uint32_t offset) { return *read<uint32_t>(offset, DataKind::list); }
 
-  /// As the cache's: of a branch of the hierarchy, and of the object whose offset lies there.
+  /// Calls `visit(offset)` for each object of a list until it returns true. The next object is on its way
+  /// meanwhile.
+  template <class Visit> void for_each_listed(uint32_t list, uint32_t count, Visit visit) {
+    if (count == 0) return;
+    uint32_t next = listed(list, false);
+    for (uint32_t i = 1;; ++i) {
+      spu().compute(scalar_work::kListedObject);
+      const uint32_t self = next;
+      if (i < count) next = listed(list + i * 4, true);
+      if (visit(self) || i == count) return;
+    }
+  }
+
+  /// As the cache's, of a branch of the hierarchy.
   void hint(const Branch& branch) {
     cache_.hint(branch.child);
     // A node has two of a PC's lines.
     if (!branch.is_leaf()) cache_.hint(branch.child + sizeof(NodeRecord) / 2);
-  }
-  void hint_listed(uint32_t offset) {
-    if constexpr (Spu::direct_memory) cache_.hint(list_word(offset));
-    (void)offset;
   }
 
   SoftwareCache<Spu, DataKind>& cache() { return cache_; }
   Spu& spu() { return cache_.spu(); }
 
 private:
+  /// The object whose offset lies at an offset, and on its way if that is wanted.
+  uint32_t listed(uint32_t offset, bool fetch) {
+    if constexpr (!Spu::direct_memory) return listed_through_cache(offset, fetch);
+    const uint32_t object = list_word(offset);
+    if (fetch) cache_.hint(object);
+    return object;
+  }
+  /// One copy: local store is short.
+  [[gnu::noinline]] uint32_t listed_through_cache(uint32_t offset, bool fetch) {
+    const uint32_t object = list_word(offset);
+    if (fetch) cache_.prefetch(object);
+    return object;
+  }
+
   template <class T> const T* read(uint32_t offset, DataKind kind) {
     return cache_.template get<T>(offset, kind);
   }

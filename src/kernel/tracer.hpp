@@ -108,6 +108,7 @@ private:
     }
     phase_->pixels.flush();
     units_.flush();
+    phase_->scene.cache().settle();
     exchange_.end_frame();
     report(start - spu_.read_decrementer() - idle);
     spu_.write_out_mailbox(make_report(ReportKind::finished, 0));

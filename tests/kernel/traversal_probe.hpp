@@ -64,6 +64,7 @@ template <class Spu> void traversal(Spu& spu, ea_t argument) {
       spu.put(query + i, at + i * sizeof *query, sizeof *query, 0);
     spu.wait_all(1);
   }
+  scene.cache().settle();
 }
 
 } // namespace celltrace::test

@@ -39,6 +39,7 @@ public:
       current_ ^= 1;
     }
     spu_.wait_all(1u << kPutTag);
+    scene_.cache().settle();
     report();
   }
 
