@@ -29,7 +29,7 @@ public:
   using M = typename S::M;
 
   /// A node that no more packets of a bundle than this meet, each visits alone.
-  static constexpr uint32_t kMostAlone = kBundlePackets<Spu> >= 16 ? 2 : 1;
+  static constexpr uint32_t kMostAlone = kBundlePackets<Spu> >= 16 ? 2 : 1; // measured
   using Stack = BranchStack<kMostAlone>;
 
   explicit BranchWalk(ObjectTests<Spu>& objects) : objects_(objects) {}

@@ -16,7 +16,6 @@ public:
   using S = typename Spu::simd;
   using F = typename S::F;
   using I = typename S::I;
-  using M = typename S::M;
 
   GridTraversal(ObjectTests<Spu>& objects, const GridRecord& grid)
       : objects_(objects), scene_(objects.scene()), grid_(grid) {}

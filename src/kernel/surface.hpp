@@ -24,7 +24,8 @@ template <class S> typename S::F encode_srgb(const typename S::F& linear) {
   return S::select(linear <= F(0.0031308f), linear * F(12.92f), power);
 }
 
-/// `kRows` rows of packets are written at once: those of a column are put one after the other.
+/// Writes `kRows` rows of packets at once. Whoever puts one packet puts all of its block of kRows x kRows
+/// that are in the picture before one of another block, and before flush().
 template <class Spu, uint32_t kRows = 1> class PixelWriter {
 public:
   using S = typename Spu::simd;
@@ -37,22 +38,22 @@ public:
   /// Encodes sixteen colours. They leave with those of the next packets of the row. `column` and `row` count
   /// packets.
   void put(uint32_t column, uint32_t row, const V3<S>& colour) {
-    const uint32_t y0 = row % kRows;
-    if (columns_ != 0 && (row - y0 != row_ || column < column_ || column > column_ + columns_ ||
+    const uint32_t below = row % kRows; // the first row of its block
+    if (columns_ != 0 && (row - below != row_ || column < column_ || column > column_ + columns_ ||
                           column - column_ >= kRunPackets))
       send();
     Run& run = runs_[current_];
     if (columns_ == 0) {
       spu_.wait_all(1u << (kFirstTag + current_));
       column_ = column;
-      row_ = row - y0;
+      row_ = row - below;
     }
     const uint32_t x = column - column_;
     WordLanes pixels;
     pack(quantise(colour.x), quantise(colour.y), quantise(colour.z))
         .store(reinterpret_cast<int32_t*>(pixels.lane));
     for (uint32_t y = 0; y < kPacketEdge; ++y)
-      U4::load(pixels.lane + y * kPacketEdge).store(run.pixels[y0 * kPacketEdge + y] + x * kPacketEdge);
+      U4::load(pixels.lane + y * kPacketEdge).store(run.pixels[below * kPacketEdge + y] + x * kPacketEdge);
     if (x == columns_) ++columns_;
   }
 
@@ -80,8 +81,8 @@ private:
   [[gnu::noinline]] void send() {
     if (columns_ == 0) return;
     Run& run = runs_[current_];
-    const uint32_t below = frame_.packet_rows - row_;
-    const uint32_t rows = (below < kRows ? below : kRows) * kPacketEdge;
+    const uint32_t left = frame_.packet_rows - row_;
+    const uint32_t rows = (left < kRows ? left : kRows) * kPacketEdge;
     const uint32_t bytes = columns_ * kPacketRowBytes;
     const ea_t corner =
         frame_.surface + row_ * kPacketEdge * frame_.surface_pitch + column_ * kPacketRowBytes;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <vector>
 
 using namespace celltrace;
 using namespace celltrace::test;
@@ -39,6 +40,16 @@ public:
       for (std::uint32_t unit = strip(spe).begin; unit < strip(spe).end; ++unit)
         ++times.at(unit);
     return times;
+  }
+  /// Of each strip, in order.
+  template <class Cost> std::vector<std::vector<std::uint32_t>> unit_costs(Cost cost) const {
+    std::vector<std::vector<std::uint32_t>> strips(size_.spes);
+    for (std::uint32_t spe = 0; spe < size_.spes; ++spe)
+      for (std::uint32_t unit = strip(spe).begin; unit < strip(spe).end; ++unit) {
+        strips[spe].push_back(0);
+        for_each_bundle(unit, [&](std::uint32_t bundle) { strips[spe].back() += cost(bundle); });
+      }
+    return strips;
   }
   template <class Cost> void measure(Cost cost) const {
     auto* const costs = reinterpret_cast<std::uint32_t*>(frame_.costs);
@@ -132,6 +143,20 @@ TEST_CASE("Plans learn from what bundles cost") {
   CHECK(imbalance_after(Balance::diffusion, 10) < imbalance_after(Balance::fixed, 10));
   CHECK(imbalance_after(Balance::diffusion, 10) > 0.1);
   CHECK(imbalance_after(Balance::diffusion, 150) < 0.1);
+}
+
+TEST_CASE("Strips begin with what costs more than a unit should") {
+  const Size size{100, 75, 8};
+  const auto cost = [](std::uint32_t bundle) { return bundle % 97 == 0 ? 5000u : 2u; };
+  WorkPlan plan(Balance::gde, size.columns, size.rows, size.spes);
+  for (int frame = 0; frame < 4; ++frame) {
+    PlannedFrame(plan, size).measure(cost);
+    plan.learn();
+  }
+  for (const std::vector<std::uint32_t>& strip : PlannedFrame(plan, size).unit_costs(cost)) {
+    REQUIRE(strip.front() >= 5000);
+    CHECK(std::is_partitioned(strip.begin(), strip.end(), [](std::uint32_t unit) { return unit >= 5000; }));
+  }
 }
 
 TEST_CASE("Pictures are the same however the SPEs share them") {

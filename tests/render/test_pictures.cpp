@@ -40,6 +40,23 @@ TEST_CASE("Pictures come close to the reference tracer's") {
   }
 }
 
+TEST_CASE("More lights than a bundle of packets searches for, some of them shadowless") {
+  Scene scene = scene_named("glass and mirrors");
+  for (int i = 0; i < 6; ++i) {
+    Light light = scene.lights.front();
+    light.location += Vec3(2 * i - 5, 1, i % 3);
+    light.colour *= 0.1;
+    light.shadowless = i % 4 == 1;
+    scene.lights.push_back(light);
+  }
+  const Image expected = reference::Tracer(scene).render(kWidth, kHeight);
+  for (const Backend& backend : {backends().front(), backends().back()}) {
+    const Comparison comparison = compare_images(expected, render_on(backend, 2, scene));
+    INFO(backend.spu() << ": " << to_text(comparison));
+    CHECK(comparison.psnr >= 60);
+  }
+}
+
 TEST_CASE("Every backend with any number of SPEs renders the same picture") {
   for (const NamedScene& named : scenes()) {
     INFO(named.name);
