@@ -258,6 +258,20 @@ struct Simd {
   static F4 min(const F4& a, const F4& b) { return {spu_sel(a.lanes, b.lanes, spu_cmpgt(a.lanes, b.lanes))}; }
   static F4 max(const F4& a, const F4& b) { return {spu_sel(b.lanes, a.lanes, spu_cmpgt(a.lanes, b.lanes))}; }
 
+  static void extremes(const F& a, float& least, float& greatest) {
+    const auto pick = [](const vec_float4& x, const vec_float4& y, bool wants_greater) {
+      return wants_greater ? spu_sel(y, x, spu_cmpgt(x, y)) : spu_sel(x, y, spu_cmpgt(x, y));
+    };
+    const auto of_all = [&](bool wants_greater) {
+      const vec_float4 four = pick(pick(a.quad[0], a.quad[1], wants_greater),
+                                   pick(a.quad[2], a.quad[3], wants_greater), wants_greater);
+      const vec_float4 two = pick(four, spu_rlqwbyte(four, 8), wants_greater);
+      return spu_extract(pick(two, spu_rlqwbyte(two, 4), wants_greater), 0);
+    };
+    least = of_all(false);
+    greatest = of_all(true);
+  }
+
   struct U4 {
     vec_uint4 lanes;
 

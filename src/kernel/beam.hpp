@@ -74,6 +74,18 @@ private:
 struct RayBounds {
   Interval origin[3], direction[3];
 
+  /// Whether all directions are of one octant.
+  bool is_in(uint32_t octant) const {
+    for (uint32_t axis = 0; axis < 3; ++axis)
+      if (((octant >> axis) & 1) != 0 ? !(direction[axis].high < 0.0f) : !(direction[axis].low >= 0.0f))
+        return false;
+    return true;
+  }
+  bool has_one_origin() const {
+    for (const Interval& each : origin)
+      if (each.low != each.high) return false;
+    return true;
+  }
   /// Sum of the differences of directions on all axes.
   float direction_spread() const {
     float sum = 0.0f;
@@ -131,27 +143,20 @@ inline RayBounds bounds_of_ray(const RayPacket& rays, uint32_t lane) {
   return bounds;
 }
 
-namespace detail {
-
 /// What intervals of the distances to an axis' planes are computed from: 1 / direction at both ends, and the
 /// origins that planes on the near and on the far side of boxes are farthest from.
 struct Slab {
   float inverse_low, inverse_high, near_origin, far_origin;
-
-  Slab(const Interval& origin, const Interval& direction, bool backward) {
-    // 1 / direction falls from the low end to the high one.
-    const float low =
-        backward ? smaller(direction.low, -kTinyDirection) : larger(direction.low, kTinyDirection);
-    const float high =
-        backward ? smaller(direction.high, -kTinyDirection) : larger(direction.high, kTinyDirection);
-    inverse_low = 1.0f / high;
-    inverse_high = 1.0f / low;
-    near_origin = backward ? origin.low : origin.high;
-    far_origin = backward ? origin.high : origin.low;
-  }
 };
-
-} // namespace detail
+inline Slab slab_of(const Interval& origin, const Interval& direction, bool backward) {
+  using detail::kTinyDirection;
+  // 1 / direction falls from the low end to the high one.
+  const float low =
+      backward ? smaller(direction.low, -kTinyDirection) : larger(direction.low, kTinyDirection);
+  const float high =
+      backward ? smaller(direction.high, -kTinyDirection) : larger(direction.high, kTinyDirection);
+  return {1.0f / high, 1.0f / low, backward ? origin.low : origin.high, backward ? origin.high : origin.low};
+}
 
 template <class S> class Beam {
 public:
@@ -162,13 +167,14 @@ public:
 
   /// Rays of this octant.
   void set(const RayBounds& bounds, uint32_t octant) {
-    for (uint32_t axis = 0; axis < 3; ++axis) {
-      const detail::Slab slab(bounds.origin[axis], bounds.direction[axis], ((octant >> axis) & 1) != 0);
-      inverse_low_[axis] = F4::splat(slab.inverse_low);
-      inverse_high_[axis] = F4::splat(slab.inverse_high);
-      near_origin_[axis] = F4::splat(slab.near_origin);
-      far_origin_[axis] = F4::splat(slab.far_origin);
-    }
+    for (uint32_t axis = 0; axis < 3; ++axis)
+      set(axis, slab_of(bounds.origin[axis], bounds.direction[axis], ((octant >> axis) & 1) != 0));
+  }
+  void set(uint32_t axis, const Slab& slab) {
+    inverse_low_[axis] = F4::splat(slab.inverse_low);
+    inverse_high_[axis] = F4::splat(slab.inverse_high);
+    near_origin_[axis] = F4::splat(slab.near_origin);
+    far_origin_[axis] = F4::splat(slab.far_origin);
   }
 
   /// Which of four boxes (as in NodeRecord) the beam may meet between its origins and `limit` along it; bit i
@@ -220,12 +226,37 @@ public:
 
   void set(uint32_t packet, const RayBounds& bounds, uint32_t octant) {
     for (uint32_t axis = 0; axis < 3; ++axis) {
-      const detail::Slab slab(bounds.origin[axis], bounds.direction[axis], ((octant >> axis) & 1) != 0);
+      const Slab slab = slab_of(bounds.origin[axis], bounds.direction[axis], ((octant >> axis) & 1) != 0);
       Axis& a = axes_[axis];
       a.inverse_low[packet] = slab.inverse_low;
       a.inverse_high[packet] = slab.inverse_high;
       a.near_origin[packet] = slab.near_origin;
       a.far_origin[packet] = slab.far_origin;
+    }
+  }
+  /// All of them at once: rays from `origin` in directions between `low` and `high`, a lane for each packet.
+  void set(const float* origin, const V3<S>& low, const V3<S>& high, uint32_t octant) {
+    const L* const lows[3] = {&low.x, &low.y, &low.z};
+    const L* const highs[3] = {&high.x, &high.y, &high.z};
+    for (uint32_t axis = 0; axis < 3; ++axis) {
+      const auto inverse_of = [&](const L& direction) {
+        return L(1.0f) / (((octant >> axis) & 1) != 0 ? S::min(direction, L(-detail::kTinyDirection))
+                                                      : S::max(direction, L(detail::kTinyDirection)));
+      };
+      Axis& a = axes_[axis];
+      inverse_of(*highs[axis]).store(a.inverse_low);
+      inverse_of(*lows[axis]).store(a.inverse_high);
+      Lanes::splat(origin[axis]).store(a.near_origin);
+      Lanes::splat(origin[axis]).store(a.far_origin);
+    }
+  }
+
+  /// That of one packet by itself.
+  void get(uint32_t packet, Beam<S>& beam) const {
+    for (uint32_t axis = 0; axis < 3; ++axis) {
+      const Axis& a = axes_[axis];
+      beam.set(axis, {a.inverse_low[packet], a.inverse_high[packet], a.near_origin[packet],
+                      a.far_origin[packet]});
     }
   }
 

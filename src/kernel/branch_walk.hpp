@@ -15,11 +15,6 @@ namespace celltrace::kernel {
 template <class S> struct RayGroup {
   OctantRays<S> rays;
   Beam<S> beam;
-
-  [[gnu::noinline]] void set(const RayPacket& packet, const RayBounds& bounds, uint32_t octant) {
-    rays = OctantRays<S>(packet, octant);
-    beam.set(bounds, octant);
-  }
 };
 
 template <class Spu> class BranchWalk {
@@ -28,6 +23,8 @@ public:
   using F = typename S::F;
   using M = typename S::M;
 
+  /// What the rounding of hits' distances amounts to.
+  static constexpr float kBeyond = 1.00001f;
   /// A node that no more packets of a bundle than this meet, each visits alone.
   static constexpr uint32_t kMostAlone = kBundlePackets<Spu> >= 16 ? 2 : 1; // measured
   using Stack = BranchStack<kMostAlone>;
@@ -73,9 +70,6 @@ public:
   }
 
 private:
-  /// What the rounding of hits' distances amounts to.
-  static constexpr float kBeyond = 1.00001f;
-
   /// Who walks at the moment: the rays in `group`, as far as `limit`. Entries below `floor` of the stack are
   /// not theirs.
   struct Course {

@@ -17,16 +17,24 @@ public:
   /// Calls `put(column, row, colours)` for each packet in the picture of the bundle at (column, row); that
   /// counts bundles, `put` packets.
   template <class Put> void trace(uint32_t column, uint32_t row, Put put) {
-    const uint32_t count = make_rays(column, row);
-    find_hits(count);
+    place(column, row);
+    if constexpr (Spu::direct_memory) {
+      const PinholeBundle<S> bundle(frame_, column, row);
+      if (tracer_.finder().traversal().is_lost(bundle))
+        return for_each_member([&](Member& member) {
+          put(member.column, member.row, tracer_.background(member.lanes));
+        });
+      find_hits([&](Search* searches) { tracer_.finder().traversal().run(searches, bundle); });
+    } else {
+      find_hits([&](Search* searches) { tracer_.finder().traversal().run(searches, kPackets); });
+    }
     const uint32_t lights = frame_.light_count < kKnownLights ? frame_.light_count : kKnownLights;
     for (uint32_t light = 0; light < lights; ++light)
-      find_light(light, count);
-    for (uint32_t i = 0; i < count; ++i) {
-      Member& member = members_[i];
+      find_light(light);
+    for_each_member([&](Member& member) {
       tracer_.finder().know_light(member.light, lights);
       put(member.column, member.row, tracer_.trace(member.rays, member.lanes, member.hits, member.points));
-    }
+    });
   }
 
 private:
@@ -46,38 +54,44 @@ private:
     uint32_t lanes, hit; ///< in the picture; of them, those that hit something
   };
 
-  /// Returns the number of packets.
-  uint32_t make_rays(uint32_t column, uint32_t row) {
-    uint32_t count = 0;
-    for (uint32_t y = row * kEdge; y < (row + 1) * kEdge && y < frame_.packet_rows; ++y)
-      for (uint32_t x = column * kEdge; x < (column + 1) * kEdge && x < frame_.packet_columns; ++x) {
-        Member& member = members_[count++];
-        member.column = x;
-        member.row = y;
-        member.lanes = lanes_in_picture(frame_, x, y);
-        make_primary_rays<S>(frame_, x, y, member.rays);
-      }
-    return count;
+  /// Calls `visit` with each packet in the picture.
+  template <class Visit> void for_each_member(Visit visit) {
+    for (uint32_t i = 0; i < kPackets; ++i)
+      if (members_[i].lanes != 0) visit(members_[i]);
   }
 
-  void find_hits(uint32_t count) {
+  void place(uint32_t column, uint32_t row) {
+    for (uint32_t i = 0; i < kPackets; ++i) {
+      Member& member = members_[i];
+      member.column = column * kEdge + i % kEdge;
+      member.row = row * kEdge + i / kEdge;
+      const bool inside = member.column < frame_.packet_columns && member.row < frame_.packet_rows;
+      member.lanes = inside ? lanes_in_picture(frame_, member.column, member.row) : 0;
+    }
+  }
+
+  /// `run` answers the searches of all packets; those of packets outside are for nothing.
+  template <class Run> void find_hits(Run run) {
     Search searches[kPackets];
-    for (uint32_t i = 0; i < count; ++i)
-      searches[i] = {&members_[i].rays, &members_[i].hits, nullptr, nullptr, members_[i].lanes};
-    tracer_.finder().traversal().run(searches, count);
-    for (uint32_t i = 0; i < count; ++i) {
+    for (uint32_t i = 0; i < kPackets; ++i) {
+      Member& member = members_[i];
+      searches[i] = {&member.rays, &member.hits, nullptr, nullptr, member.lanes};
+      if (member.lanes != 0) make_primary_rays<S>(frame_, member.column, member.row, member.rays);
+    }
+    run(searches);
+    for (uint32_t i = 0; i < kPackets; ++i) {
       Member& member = members_[i];
       member.hit = hit_lanes(member.hits, member.lanes);
       if (member.hit != 0) find_hit_points(scene_, member.rays, member.hits, member.hit, member.points);
     }
   }
 
-  void find_light(uint32_t number, uint32_t count) {
+  void find_light(uint32_t number) {
     const LightRecord light = light_at(scene_, frame_, number);
     if ((light.flags & light_flag::shadowless) != 0) return;
     Search searches[kPackets];
     uint32_t asked = 0;
-    for (uint32_t i = 0; i < count; ++i) {
+    for (uint32_t i = 0; i < kPackets; ++i) {
       Member& member = members_[i];
       if (member.hit == 0) continue;
       const Surfaces<S> surfaces = {member.points.point, member.points.normal,

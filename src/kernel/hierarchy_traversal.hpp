@@ -6,6 +6,7 @@
 #pragma once
 
 #include "kernel/branch_walk.hpp"
+#include "kernel/primary_rays.hpp"
 
 namespace celltrace::kernel {
 
@@ -25,6 +26,42 @@ public:
       left |= static_cast<uint32_t>(searches[packet].lanes != 0) << packet;
     if (!is_single(left)) left &= ~run_together(searches, left);
     for_each_lane(left, [&](uint32_t packet) { run_alone(searches[packet]); });
+  }
+
+  /// The same of the hits of a bundle's primary rays; search i is of its packet i.
+  void run(Search* searches, const PinholeBundle<S>& bundle) {
+    uint32_t packets = 0;
+    for (uint32_t packet = 0; packet < kBundlePackets<Spu>; ++packet) {
+      packets |= static_cast<uint32_t>(searches[packet].lanes != 0) << packet;
+      limits_[packet] = BranchWalk<Spu>::kBeyond * kMaxHitDistance;
+      misses_[packet] = 0;
+    }
+    beams_.set(bundle.origin, bundle.low, bundle.high, bundle.octant);
+    around_.set(bundle.all, bundle.octant);
+    one_origin_ = true;
+    walk_together(searches, bundle.octant, packets);
+  }
+
+  /// Whether a bundle comes to no leaf, as far as a look at a few nodes tells.
+  bool is_lost(const PinholeBundle<S>& bundle) {
+    constexpr uint32_t kMostNodes = 24;
+    const BoxSides sides(bundle.octant);
+    around_.set(bundle.all, bundle.octant);
+    Stack& stack = walk_.stack();
+    stack.push(0, {root(), 0, 0.0f, 0});
+    bool lost = true;
+    for (uint32_t nodes = 0; stack.size() != 0; ++nodes) {
+      const Branch branch = stack.pop().branch;
+      lost = !branch.is_leaf() && nodes < kMostNodes;
+      if (!lost) break;
+      const NodeRecord& node = *objects_.scene().node(branch.child);
+      alignas(16) float enter[4];
+      for_each_lane(around_.meets(node.box, sides, kMaxHitDistance, enter), [&](uint32_t i) {
+        stack.push(stack.size(), {{node.child[i], node.count[i]}, 0, 0.0f, 0});
+      });
+    }
+    stack.shrink(0);
+    return lost;
   }
 
 private:
@@ -64,7 +101,8 @@ private:
         if (parts == 2) parts = 1;
         same &= ~part;
         if ((search.lanes & part) == 0) continue;
-        group.set(rays, bounds, octant);
+        group.rays = OctantRays<S>(rays, octant);
+        group.beam.set(bounds, octant);
         walk_.walk(group, BoxSides(octant), part, search, root(), part);
       }
     }
@@ -94,12 +132,11 @@ private:
     const uint32_t octant = octant_of(*some.rays, static_cast<uint32_t>(__builtin_ctz(some.lanes)));
     RayBounds all;
     uint32_t together = 0;
-    loose_ = 0;
     for_each_lane(packets, [&](uint32_t packet) {
       const Search& search = searches[packet];
-      if ((search.lanes & ~lanes_in_octant(*search.rays, octant)) != 0) return;
       objects_.scene().spu().compute(scalar_work::kBeam);
       const RayBounds bounds = bounds_of<S>(*search.rays, search.lanes);
+      if (!bounds.is_in(octant)) return;
       RayBounds more = bounds;
       if (together != 0) more.include(all);
       if (more.direction_spread() > kMaxDirectionSpread) return;
@@ -107,16 +144,20 @@ private:
       together |= 1u << packet;
       misses_[packet] = 0;
       beams_.set(packet, bounds, octant);
-      members_[packet].set(*search.rays, bounds, octant);
       limits_[packet] = BranchWalk<Spu>::limit_of(search, search.lanes);
     });
     if (is_single(together)) return 0;
     around_.set(all, octant);
-    walk_together(searches, BoxSides(octant), together);
+    one_origin_ = all.has_one_origin();
+    walk_together(searches, octant, together);
     return together;
   }
 
-  void walk_together(Search* searches, const BoxSides& sides, uint32_t packets) {
+  void walk_together(Search* searches, uint32_t octant, uint32_t packets) {
+    const BoxSides sides(octant);
+    octant_ = octant;
+    loose_ = 0;
+    known_rays_ = known_beams_ = 0;
     Stack& stack = walk_.stack();
     Branch branch = root();
     uint32_t rays = 0; // if there is one packet
@@ -124,11 +165,7 @@ private:
       if (branch.is_leaf()) {
         test_objects(branch, packets, searches);
       } else if (rays != 0) {
-        const uint32_t packet = static_cast<uint32_t>(__builtin_ctz(packets));
-        Search& search = searches[packet];
-        objects_.mailbox().begin_packet();
-        walk_.walk(members_[packet], sides, search.lanes, search, branch, rays);
-        update_limit(search, packet);
+        walk_alone(searches, sides, static_cast<uint32_t>(__builtin_ctz(packets)), branch, rays);
       } else if (open(searches, sides, packets, branch)) {
         continue;
       }
@@ -140,6 +177,26 @@ private:
         packets = next.lanes & looking_as_far_as(next.enter);
       } while (packets == 0);
     }
+  }
+
+  void walk_alone(Search* searches, const BoxSides& sides, uint32_t packet, const Branch& branch,
+                  uint32_t rays) {
+    Search& search = searches[packet];
+    objects_.mailbox().begin_packet();
+    if ((known_beams_ & (1u << packet)) == 0) {
+      beams_.get(packet, members_[packet].beam);
+      known_beams_ |= 1u << packet;
+    }
+    walk_.walk(members_[packet], sides, search.lanes, search, branch, rays);
+    update_limit(search, packet);
+  }
+
+  const OctantRays<S>& rays_of(const Search& search, uint32_t packet) {
+    if ((known_rays_ & (1u << packet)) == 0) {
+      members_[packet].rays = OctantRays<S>(*search.rays, octant_);
+      known_rays_ |= 1u << packet;
+    }
+    return members_[packet].rays;
   }
 
   /// As BranchWalk's, with the packets' beams in place of rays. The rays themselves are asked where objects
@@ -190,7 +247,7 @@ private:
     for_each_lane(packets, [&](uint32_t packet) {
       const Search& search = searches[packet];
       const uint32_t rays =
-          members_[packet].rays.meet(box, sides, i, BranchWalk<Spu>::limits(search)) & search.lanes;
+          rays_of(search, packet).meet(box, sides, i, BranchWalk<Spu>::limits(search)) & search.lanes;
       rays_[packet] = rays;
       const uint32_t missed = static_cast<uint32_t>(rays == 0);
       without |= missed << packet;
@@ -202,19 +259,29 @@ private:
 
   void test_objects(const Branch& leaf, uint32_t packets, Search* searches) {
     objects_.scene().for_each_listed(leaf.child, leaf.count, [&](uint32_t self) {
-      for_each_lane(packets, [&](uint32_t packet) {
-        Search& search = searches[packet];
-        if (search.hits != nullptr) {
-          objects_.test_closest(*search.rays, self, *search.hits);
-        } else if (search.lanes != 0) {
-          objects_.mailbox().begin_packet();
-          search.lanes &=
-              ~objects_.shadowed(*search.rays, self, search.lanes, *search.distance, *search.light);
-        }
-      });
+      test_object(self, packets, searches);
       return false;
     });
     for_each_lane(packets, [&](uint32_t packet) { update_limit(searches[packet], packet); });
+  }
+  void test_object(uint32_t self, uint32_t packets, Search* searches) {
+    if constexpr (Spu::direct_memory) {
+      if (searches[__builtin_ctz(packets)].hits != nullptr)
+        objects_.test_closest_of_all(searches, packets, self, one_origin_);
+      else
+        objects_.shadow_all(searches, packets, self);
+      return;
+    }
+    for_each_lane(packets, [&](uint32_t packet) {
+      Search& search = searches[packet];
+      if (search.hits != nullptr) {
+        objects_.test_closest(*search.rays, self, *search.hits);
+      } else if (search.lanes != 0) {
+        objects_.mailbox().begin_packet();
+        search.lanes &=
+            ~objects_.shadowed(*search.rays, self, search.lanes, *search.distance, *search.light);
+      }
+    });
   }
 
   /// A packet that no light comes to any more looks nowhere.
@@ -238,6 +305,9 @@ private:
   uint32_t rays_[kBundlePackets<Spu>];   ///< of each packet that was asked last
   uint32_t misses_[kBundlePackets<Spu>]; ///< boxes that a beam met but no ray
   uint32_t loose_ = 0;                   ///< packets
+  uint32_t octant_ = 0;                  ///< of all rays that go together
+  bool one_origin_ = false;              ///< of theirs
+  uint32_t known_rays_ = 0, known_beams_ = 0; ///< packets of which members_ has them
   alignas(64) float limits_[kBundlePackets<Spu>] = {};
 };
 

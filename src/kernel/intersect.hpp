@@ -79,52 +79,71 @@ Crossings<S> intersect_ellipsoid(const V3<S>& origin, const V3<S>& direction,
   return detail::chord<S>(along, (F(1.0f) - dot<S>(nearest, nearest)) * inverse_square, starts_here);
 }
 
+/// A triangle as seen from the origins of a packet's rays; what packets of one origin have in common.
+///
 /// Neighbours overlap by what the rounding of the barycentric coordinates may amount to, so that no ray slips
 /// between them: that grows with the distance over the triangle's size, and as the ray gets parallel to it.
-template <class S>
-Crossings<S> intersect_triangle(const V3<S>& origin, const V3<S>& direction, const typename S::M& starts_here,
-                                const ObjectRecord& object) {
+template <class S> class SeenTriangle {
+public:
   using F = typename S::F;
-  constexpr float kRounding = 6e-8f; // a unit in the last place
-  constexpr float kMaxOverlap = 1e-3f;
-  const float* g = object.geometry;
-  const float side1[3] = {g[3] - g[0], g[4] - g[1], g[5] - g[2]};
-  const float side2[3] = {g[6] - g[0], g[7] - g[1], g[8] - g[2]};
-  const float size = larger(absolute_sum(side1), absolute_sum(side2));
-  const V3<S> edge1 = splat3<S>(side1);
-  const V3<S> edge2 = splat3<S>(side2);
-  const V3<S> p = cross<S>(direction, edge2);
-  const F determinant = dot<S>(edge1, p);
-  const auto crosses = S::abs(determinant) > F(1e-30f);
-  const F inverse = F(1.0f) / S::select(crosses, determinant, F(1.0f));
-  const V3<S> from_v0 = origin - splat3<S>(g);
-  const V3<S> q = cross<S>(from_v0, edge1);
-  const F reach = S::abs(from_v0.x) + S::abs(from_v0.y) + S::abs(from_v0.z);
-  const F overlap = S::min(reach * F(kRounding * size) * S::abs(inverse), F(kMaxOverlap));
-  Crossings<S> c;
-  c.u = dot<S>(from_v0, p) * inverse;
-  c.v = dot<S>(direction, q) * inverse;
-  c.near = dot<S>(edge2, q) * inverse;
-  c.far = c.near;
-  c.near_hit = crosses & (S::min(c.u, c.v) >= -overlap) & (c.u + c.v <= F(1.0f) + overlap) & !starts_here;
-  c.far_hit = S::M::none();
-  return c;
+
+  SeenTriangle(const V3<S>& origin, const ObjectRecord& object) {
+    constexpr float kRounding = 6e-8f; // a unit in the last place
+    const float* g = object.geometry;
+    const float side1[3] = {g[3] - g[0], g[4] - g[1], g[5] - g[2]};
+    const float side2[3] = {g[6] - g[0], g[7] - g[1], g[8] - g[2]};
+    const float size = larger(absolute_sum(side1), absolute_sum(side2));
+    edge1_ = splat3<S>(side1);
+    edge2_ = splat3<S>(side2);
+    from_v0_ = origin - splat3<S>(g);
+    q_ = cross<S>(from_v0_, edge1_);
+    distance_ = dot<S>(edge2_, q_);
+    const F reach = S::abs(from_v0_.x) + S::abs(from_v0_.y) + S::abs(from_v0_.z);
+    overlap_ = reach * F(kRounding * size);
+  }
+
+  /// By rays of these directions.
+  Crossings<S> crossed(const V3<S>& direction, const typename S::M& starts_here) const {
+    constexpr float kMaxOverlap = 1e-3f;
+    const V3<S> p = cross<S>(direction, edge2_);
+    const F determinant = dot<S>(edge1_, p);
+    const auto crosses = S::abs(determinant) > F(1e-30f);
+    const F inverse = F(1.0f) / S::select(crosses, determinant, F(1.0f));
+    const F overlap = S::min(overlap_ * S::abs(inverse), F(kMaxOverlap));
+    Crossings<S> c;
+    c.u = dot<S>(from_v0_, p) * inverse;
+    c.v = dot<S>(direction, q_) * inverse;
+    c.near = distance_ * inverse;
+    c.far = c.near;
+    c.near_hit = crosses & (S::min(c.u, c.v) >= -overlap) & (c.u + c.v <= F(1.0f) + overlap) & !starts_here;
+    c.far_hit = S::M::none();
+    return c;
+  }
+
+private:
+  V3<S> edge1_, edge2_, from_v0_, q_;
+  F distance_, overlap_; ///< both times the determinant
+};
+
+/// The rays that start on an object.
+template <class S> typename S::M lanes_that_start_on(const RayPacket& rays, uint32_t self) {
+  using I = typename S::I;
+  return I::load(reinterpret_cast<const int32_t*>(rays.start_object.lane)) ==
+         I::splat(static_cast<int32_t>(self));
 }
 
 /// `self` is the object's offset in the scene image, against which the packet's start objects are compared.
 template <class S> Crossings<S> intersect(const RayPacket& rays, const ObjectRecord& object, uint32_t self) {
-  using I = typename S::I;
   const V3<S> origin = rays.origin.template load<S>();
   const V3<S> direction = rays.direction.template load<S>();
-  const auto starts_here = I::load(reinterpret_cast<const int32_t*>(rays.start_object.lane)) ==
-                           I::splat(static_cast<int32_t>(self));
+  const auto starts_here = lanes_that_start_on<S>(rays, self);
   switch (static_cast<ObjectKind>(object.kind_and_flags & object_flag::kind_mask)) {
   case ObjectKind::sphere:
     return intersect_sphere<S>(origin, direction, starts_here, object);
   case ObjectKind::ellipsoid:
     return intersect_ellipsoid<S>(origin, direction, starts_here, object);
   default:
-    return intersect_triangle<S>(origin, direction, starts_here, object);
+    return SeenTriangle<S>(origin, object).crossed(direction, starts_here);
   }
 }
 

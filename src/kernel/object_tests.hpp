@@ -61,23 +61,32 @@ public:
 
   __attribute__((noinline)) void test_closest(const RayPacket& rays, uint32_t self, HitPacket& hits) {
     scene_.spu().compute(scalar_work::kClosest);
-    const Crossings<S> c = test(rays, *scene_.object(self), self);
-    const M near_valid = c.near_hit & (c.near > F(kMinHitDistance));
-    const M far_valid = c.far_hit & (c.far > F(kMinHitDistance));
-    const F distance = S::select(near_valid, c.near, c.far);
-    const F nearest = F::load(hits.distance.lane);
-    const M hit = near_valid | far_valid;
-    const M not_farther = hit & (distance <= nearest);
-    // Of two hits at the same place the object that comes first in the scene counts, in whatever order they
-    // are found.
-    auto* objects = reinterpret_cast<int32_t*>(hits.object.lane);
-    const I present = I::load(objects);
-    const I candidate = I::splat(static_cast<int32_t>(self));
-    const M closer = not_farther & ((distance < nearest) | (candidate < present));
-    S::select(closer, distance, nearest).store(hits.distance.lane);
-    S::select(closer, c.u, F::load(hits.u.lane)).store(hits.u.lane);
-    S::select(closer, c.v, F::load(hits.v.lane)).store(hits.v.lane);
-    S::select(closer, candidate, present).store(objects);
+    keep_closest(test(rays, *scene_.object(self), self), self, hits);
+  }
+
+  /// The same of several packets, whose rays may all have one origin.
+  void test_closest_of_all(Search* searches, uint32_t packets, uint32_t self, bool one_origin) {
+    const ObjectRecord& object = *scene_.object(self);
+    const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
+    if (static_cast<ObjectKind>(kind) != ObjectKind::triangle) {
+      for_each_lane(packets,
+                    [&](uint32_t i) { test_closest(*searches[i].rays, self, *searches[i].hits); });
+      return;
+    }
+    counters_.tests[kind] += static_cast<uint32_t>(__builtin_popcount(packets));
+    const auto origin_of = [&](uint32_t i) { return searches[i].rays->origin.template load<S>(); };
+    const auto test_by = [&](uint32_t i, const SeenTriangle<S>& triangle) {
+      const RayPacket& rays = *searches[i].rays;
+      keep_closest(
+          triangle.crossed(rays.direction.template load<S>(), lanes_that_start_on<S>(rays, self)),
+          self, *searches[i].hits);
+    };
+    if (one_origin) {
+      const SeenTriangle<S> triangle(origin_of(static_cast<uint32_t>(__builtin_ctz(packets))), object);
+      for_each_lane(packets, [&](uint32_t i) { test_by(i, triangle); });
+    } else {
+      for_each_lane(packets, [&](uint32_t i) { test_by(i, SeenTriangle<S>(origin_of(i), object)); });
+    }
   }
 
   /// Lanes that an object shuts off from the light. An opaque one shuts off whatever lanes of the packet it
@@ -94,10 +103,7 @@ public:
     const bool opaque = (flags & object_flag::opaque) != 0;
     if (opaque && !mailbox_.first_visit(self)) return 0;
     const Crossings<S> c = test(rays, object, self);
-    const F low(kShadowTolerance);
-    const F high = F::load(distance.lane) - low;
-    const uint32_t near_hit = (c.near_hit & (c.near > low) & (c.near < high)).bits();
-    const uint32_t far_hit = (c.far_hit & (c.far > low) & (c.far < high)).bits();
+    const auto [near_hit, far_hit] = in_between(c, distance);
     if (opaque) return near_hit | far_hit;
     FloatLanes near, far, u, v;
     c.near.store(near.lane);
@@ -116,6 +122,34 @@ public:
     return dark;
   }
 
+  /// The same of several packets, each in the lanes to which light still comes, on the whole stretch. None of
+  /// them has met the object before.
+  void shadow_all(Search* searches, uint32_t packets, uint32_t self) {
+    const ObjectRecord& object = *scene_.object(self);
+    const uint32_t flags = object.kind_and_flags;
+    const uint32_t kind = flags & object_flag::kind_mask;
+    if ((flags & object_flag::no_shadow) != 0) return;
+    if (static_cast<ObjectKind>(kind) != ObjectKind::triangle || (flags & object_flag::opaque) == 0) {
+      for_each_lane(packets, [&](uint32_t i) {
+        Search& search = searches[i];
+        mailbox_.begin_packet();
+        search.lanes &= ~shadowed(*search.rays, self, search.lanes, *search.distance, *search.light);
+      });
+      return;
+    }
+    for_each_lane(packets, [&](uint32_t i) {
+      Search& search = searches[i];
+      if (search.lanes == 0) return;
+      ++counters_.tests[kind];
+      const RayPacket& rays = *search.rays;
+      const SeenTriangle<S> triangle(rays.origin.template load<S>(), object);
+      search.lanes &= ~in_between(triangle.crossed(rays.direction.template load<S>(),
+                                                   lanes_that_start_on<S>(rays, self)),
+                                  *search.distance)
+                           .near;
+    });
+  }
+
   SceneAccess<Spu>& scene() { return scene_; }
   PacketMailbox& mailbox() { return mailbox_; }
   TraversalCounters& counters() { return counters_; }
@@ -125,6 +159,17 @@ public:
 private:
   /// POV-Ray's tolerance at both ends of a shadow ray.
   static constexpr float kShadowTolerance = 1e-3f;
+
+  /// Lanes that cross a surface on their way to a light.
+  struct Between {
+    uint32_t near, far;
+  };
+  static Between in_between(const Crossings<S>& c, const FloatLanes& distance) {
+    const F low(kShadowTolerance);
+    const F high = F::load(distance.lane) - low;
+    return {(c.near_hit & (c.near > low) & (c.near < high)).bits(),
+            (c.far_hit & (c.far > low) & (c.far < high)).bits()};
+  }
 
   /// Takes from the light of one lane what `crossings` crossings of a translucent object hold back. True if
   /// that leaves it dark.
@@ -142,6 +187,25 @@ private:
       dark = dark && value < 1e-10f && value > -1e-10f;
     }
     return dark;
+  }
+
+  static void keep_closest(const Crossings<S>& c, uint32_t self, HitPacket& hits) {
+    const M near_valid = c.near_hit & (c.near > F(kMinHitDistance));
+    const M far_valid = c.far_hit & (c.far > F(kMinHitDistance));
+    const F distance = S::select(near_valid, c.near, c.far);
+    const F nearest = F::load(hits.distance.lane);
+    const M hit = near_valid | far_valid;
+    const M not_farther = hit & (distance <= nearest);
+    // Of two hits at the same place the object that comes first in the scene counts, in whatever order they
+    // are found.
+    auto* objects = reinterpret_cast<int32_t*>(hits.object.lane);
+    const I present = I::load(objects);
+    const I candidate = I::splat(static_cast<int32_t>(self));
+    const M closer = not_farther & ((distance < nearest) | (candidate < present));
+    S::select(closer, distance, nearest).store(hits.distance.lane);
+    S::select(closer, c.u, F::load(hits.u.lane)).store(hits.u.lane);
+    S::select(closer, c.v, F::load(hits.v.lane)).store(hits.v.lane);
+    S::select(closer, candidate, present).store(objects);
   }
 
   Crossings<S> test(const RayPacket& rays, const ObjectRecord& object, uint32_t self) {

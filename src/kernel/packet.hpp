@@ -68,16 +68,9 @@ struct Interval {
 
 /// Of all lanes.
 template <class S> Interval interval_of(const typename S::F& values) {
-  using F4 = typename S::F4;
-  FloatLanes all;
-  values.store(all.lane);
-  const F4 a = F4::load(all.lane), b = F4::load(all.lane + 4), c = F4::load(all.lane + 8),
-           d = F4::load(all.lane + 12);
-  alignas(16) float low[4], high[4];
-  S::min(S::min(a, b), S::min(c, d)).store(low);
-  S::max(S::max(a, b), S::max(c, d)).store(high);
-  return {smaller(smaller(low[0], low[1]), smaller(low[2], low[3])),
-          larger(larger(high[0], high[1]), larger(high[2], high[3]))};
+  Interval all;
+  S::extremes(values, all.low, all.high);
+  return all;
 }
 
 /// Calls `visit(lane)` for each set bit, lowest first.

@@ -1,7 +1,7 @@
 // Render ray packet: the sixteen rays through a 4x4 block of pixels. Kernel dialect.
 #pragma once
 
-#include "kernel/packet.hpp"
+#include "kernel/beam.hpp"
 
 namespace celltrace::kernel {
 
@@ -25,8 +25,61 @@ void make_primary_rays(const FrameBlock& frame, uint32_t column, uint32_t row, R
     rays.start_object.lane[lane] = kNoOffset;
 }
 
+/// What the primary rays of a bundle of 4x4 packets have in common if they leave one point into one octant.
+///
+/// Their directions are taken in the plane of the picture, where they lie between those of the corners, and in
+/// a scale in which none is shorter than 1: distances along them are not greater than along the unit
+/// directions.
+template <class S> struct PinholeBundle {
+  RayBounds all;
+  const float* origin;
+  V3<S> low, high; ///< between which the directions are, a lane for each packet
+  uint32_t octant = 0;
+  bool exists = false; ///< if not, all else is meaningless
+
+  PinholeBundle(const FrameBlock& frame, uint32_t column, uint32_t row) : origin(frame.camera.origin) {
+    using F = typename S::F;
+    if (frame.orthographic != 0) return;
+    const CameraRecord& camera = frame.camera;
+    constexpr float kEdge = kPacketEdge;
+    const F x = (F::load(detail::kLaneX) + F(static_cast<float>(column) * kEdge)) * F(kEdge);
+    const F y = (F::load(detail::kLaneY) + F(static_cast<float>(row) * kEdge)) * F(kEdge);
+    F* const lows[3] = {&low.x, &low.y, &low.z};
+    F* const highs[3] = {&high.x, &high.y, &high.z};
+    float square = 0.0f; // of the shortest direction
+    for (uint32_t axis = 0; axis < 3; ++axis) {
+      const float base = camera.base[axis], dx = camera.dx[axis], dy = camera.dy[axis];
+      const F corner = F(base) + F(dx) * x + F(dy) * y;
+      const float right = (kEdge - 1) * dx, down = (kEdge - 1) * dy;
+      // The rays themselves are rounded otherwise.
+      const float rounding = 1e-6f * (magnitude(base) + magnitude(dx) * static_cast<float>(frame.width) +
+                                      magnitude(dy) * static_cast<float>(frame.height));
+      *lows[axis] = corner + F(smaller(right, 0.0f) + smaller(down, 0.0f) - rounding);
+      *highs[axis] = corner + F(larger(right, 0.0f) + larger(down, 0.0f) + rounding);
+      const Interval along = {interval_of<S>(*lows[axis]).low, interval_of<S>(*highs[axis]).high};
+      const bool backward = along.high < 0.0f;
+      if (!backward && along.low < 0.0f) return;
+      octant |= static_cast<uint32_t>(backward) << axis;
+      const float least = backward ? along.high : along.low;
+      square += least * least;
+      all.origin[axis] = {camera.origin[axis], camera.origin[axis]};
+      all.direction[axis] = along;
+    }
+    if (!(square > 1e-20f)) return;
+    const F scale = F(1.000001f) / S::sqrt(F(square));
+    low = low * scale;
+    high = high * scale;
+    FloatLanes scales;
+    scale.store(scales.lane);
+    for (Interval& along : all.direction)
+      along = {along.low * scales.lane[0], along.high * scales.lane[0]};
+    exists = true;
+  }
+};
+
 /// Lanes of the packet that lie in the picture.
 inline uint32_t lanes_in_picture(const FrameBlock& frame, uint32_t column, uint32_t row) {
+  if ((column + 1) * kPacketEdge <= frame.width && (row + 1) * kPacketEdge <= frame.height) return 0xFFFF;
   const uint32_t columns = frame.width - column * kPacketEdge;
   const uint32_t rows = frame.height - row * kPacketEdge;
   const uint32_t in_row = columns >= kPacketEdge ? 0xFu : (1u << columns) - 1;

@@ -54,6 +54,12 @@ public:
     }
   }
 
+  /// Those of primary rays that hit nothing.
+  V3<S> background(uint32_t lanes) {
+    counters_.primary += count(lanes);
+    return splat3<S>(frame_.background);
+  }
+
   /// Starts the tree of a packet of primary rays.
   void begin(const RayPacket& rays, uint32_t lanes) {
     scene_.spu().compute(scalar_work::kPrimaryPacket);

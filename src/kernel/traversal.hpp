@@ -8,6 +8,9 @@ namespace celltrace::kernel {
 
 template <class Spu> class Traversal {
 public:
+  using S = typename Spu::simd;
+  using F = typename S::F;
+
   Traversal(SceneAccess<Spu>& scene, const FrameBlock& frame)
       : frame_(frame), objects_(scene), grid_(objects_, frame.grid), hierarchy_(objects_, frame.hierarchy) {}
 
@@ -24,16 +27,10 @@ public:
     run(&search, 1);
   }
 
-  /// Answers all of these, at most a bundle's: quicker than one by one if their rays have much in common.
+  /// Answers all of these, at most a bundle's, all for hits or all for light: quicker than one by one if
+  /// their rays have much in common.
   void run(Search* searches, uint32_t count) {
-    using S = typename Spu::simd;
-    using F = typename S::F;
-    for (uint32_t i = 0; i < count; ++i) {
-      HitPacket* const hits = searches[i].hits;
-      if (hits == nullptr) continue;
-      F(kMaxHitDistance).store(hits->distance.lane);
-      S::I::splat(-1).store(reinterpret_cast<int32_t*>(hits->object.lane));
-    }
+    forget_hits(searches, count);
     if (by_hierarchy()) {
       hierarchy_.run(searches, count);
     } else {
@@ -53,10 +50,29 @@ public:
     }
   }
 
+  /// The same of the hits of a bundle's primary rays; search i is of its packet i.
+  void run(Search* searches, const PinholeBundle<S>& bundle) {
+    if (!by_hierarchy() || !bundle.exists) return run(searches, kBundlePackets<Spu>);
+    forget_hits(searches, kBundlePackets<Spu>);
+    hierarchy_.run(searches, bundle);
+  }
+  /// Whether it is plain that none of a bundle's primary rays hits anything.
+  bool is_lost(const PinholeBundle<S>& bundle) {
+    return by_hierarchy() && bundle.exists && hierarchy_.is_lost(bundle);
+  }
+
   const TraversalCounters& counters() const { return objects_.counters(); }
   void reset_counters() { objects_.reset_counters(); }
 
 private:
+  static void forget_hits(const Search* searches, uint32_t count) {
+    for (uint32_t i = 0; i < count; ++i) {
+      HitPacket* const hits = searches[i].hits;
+      if (hits == nullptr) continue;
+      F(kMaxHitDistance).store(hits->distance.lane);
+      S::I::splat(-1).store(reinterpret_cast<int32_t*>(hits->object.lane));
+    }
+  }
   bool by_hierarchy() const {
     return static_cast<AcceleratorKind>(frame_.accelerator) == AcceleratorKind::hierarchy;
   }

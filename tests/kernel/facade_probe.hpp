@@ -26,7 +26,8 @@ struct alignas(128) FacadeBlock {
   uint32_t less, less_equal, greater, greater_equal, equal;
   uint32_t int_equal, int_less;
   uint32_t mask_and, mask_or, mask_not, mask_none, mask_all, mask_same;
-  uint32_t pad_end[25];
+  float least_of_all, greatest_of_all;
+  uint32_t pad_end[23];
 };
 static_assert(sizeof(FacadeBlock) % 128 == 0, "crosses DMA");
 
@@ -50,6 +51,7 @@ template <class S> void apply_facade(FacadeBlock& x) {
   (-a).store(x.negative);
   S::min(a, b).store(x.least);
   S::max(a, b).store(x.most);
+  S::extremes(a, x.least_of_all, x.greatest_of_all);
   S::abs(a).store(x.magnitude);
   S::sqrt(S::abs(a)).store(x.root);
   F(x.a[3]).store(x.splat);

@@ -6,6 +6,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <vector>
@@ -94,6 +95,8 @@ void check_floats(const FacadeBlock& x) {
     CHECK(x.least[l] == std::min(x.a[l], x.b[l]));
     CHECK(x.most[l] == std::max(x.a[l], x.b[l]));
   }
+  CHECK(x.least_of_all == *std::min_element(x.a, x.a + 16));
+  CHECK(x.greatest_of_all == *std::max_element(x.a, x.a + 16));
 }
 
 void check_ints(const FacadeBlock& x) {

@@ -40,6 +40,27 @@ uint32_t lane_bits(const xsimd::batch_bool<typename Batch::value_type, typename 
   return bits;
 }
 
+/// The least number of `low` and the greatest of `high`.
+template <class Batch>
+void extremes(const Batch& low, const Batch& high, float& least, float& greatest) {
+#if defined(__AVX512F__)
+  if constexpr (Batch::size == 16) {
+    least = _mm512_reduce_min_ps(low);
+    greatest = _mm512_reduce_max_ps(high);
+    return;
+  }
+#endif
+  alignas(64) float lows[Batch::size], highs[Batch::size];
+  low.store_aligned(lows);
+  high.store_aligned(highs);
+  least = lows[0];
+  greatest = highs[0];
+  for (uint32_t i = 1; i < Batch::size; ++i) {
+    least = lows[i] < least ? lows[i] : least;
+    greatest = highs[i] > greatest ? highs[i] : greatest;
+  }
+}
+
 } // namespace simd_host
 
 /// Instructions of an SPU, by the unit that executes them. What is missing is 0.
@@ -121,6 +142,12 @@ template <class Arch, class Counter = CountNothing> struct HostSimd {
   private:
     static M spread(uint32_t bits) {
       M result;
+#if defined(__AVX512F__)
+      if constexpr (kWidth == kSimdLanes) {
+        result.part[0] = static_cast<typename FloatMask::register_type>(bits);
+        return result;
+      }
+#endif
       const IntBatch all(static_cast<int32_t>(bits));
       for (uint32_t i = 0; i < kParts; ++i)
         result.part[i] =
@@ -287,6 +314,17 @@ template <class Arch, class Counter = CountNothing> struct HostSimd {
   static F max(const F& a, const F& b) {
     Counter::packet({.fx2 = 2});
     return F::zip(a, b, [](auto x, auto y) { return xsimd::max(x, y); });
+  }
+  /// The least and the greatest of all lanes.
+  static void extremes(const F& a, float& least, float& greatest) {
+    Counter::packet({.ls = 1});
+    Counter::chain({.fx2 = 12, .ls = 6});
+    FloatBatch low = a.part[0], high = a.part[0];
+    for (uint32_t i = 1; i < kParts; ++i) {
+      low = xsimd::min(low, a.part[i]);
+      high = xsimd::max(high, a.part[i]);
+    }
+    simd_host::extremes(low, high, least, greatest);
   }
   static F abs(const F& a) {
     Counter::packet({.fx2 = 1});
