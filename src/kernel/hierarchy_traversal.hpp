@@ -222,7 +222,7 @@ private:
       met &= met - 1;
       uint32_t lanes = beams_.meet(node.box, sides, i, limits_) & packets;
       const Branch child = {node.child[i], node.count[i]};
-      const bool ask_all = child.is_leaf() || is_lonely(lanes);
+      const bool ask_all = (child.is_leaf() && !one_origin_) || is_lonely(lanes);
       lanes &= ~without_rays_in(node.box, sides, i, searches, ask_all ? lanes : lanes & loose_);
       if (ask_all && !child.is_leaf())
         for_each_lane(lanes, [&](uint32_t packet) {
