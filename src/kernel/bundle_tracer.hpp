@@ -81,7 +81,7 @@ private:
     run(searches);
     for (uint32_t i = 0; i < kPackets; ++i) {
       Member& member = members_[i];
-      member.hit = hit_lanes(member.hits, member.lanes);
+      member.hit = hit_lanes<S>(member.hits, member.lanes);
       if (member.hit != 0) find_hit_points(scene_, member.rays, member.hits, member.hit, member.points);
     }
   }

@@ -19,51 +19,49 @@ namespace detail {
 
 /// The objects that rays of a packet hit, side by side.
 template <class S> struct ObjectLanes {
-  using F = typename S::F;
-
-  F geometry[12]; ///< as ObjectRecord's
-  F normals[9];   ///< as NormalsRecord's, of smooth triangles
+  V3<S> geometry[4];   ///< as ObjectRecord's
+  V3<S> normals[3];    ///< as NormalsRecord's, of smooth triangles
   uint32_t of_kind[3]; ///< lanes by ObjectKind; each is of one
   uint32_t smooth;
 };
 
-template <class S> V3<S> at(const typename S::F* v) {
-  return {v[0], v[1], v[2]};
-}
-
-template <class S> void surface_of_spheres(const ObjectLanes<S>& o, const V3<S>& along_ray, V3<S>& point,
-                                           V3<S>& normal) {
-  const V3<S> centre = at<S>(o.geometry);
+template <class S>
+void surface_of_spheres(const ObjectLanes<S>& o, const V3<S>& along_ray, V3<S>& point, V3<S>& normal) {
+  const V3<S>& centre = o.geometry[0];
   normal = normalise<S>(along_ray - centre);
-  point = centre + normal * o.geometry[3];
+  point = centre + normal * o.geometry[1].x;
 }
 
-template <class S> void surface_of_ellipsoids(const ObjectLanes<S>& o, const V3<S>& along_ray,
-                                              V3<S>& point, V3<S>& normal) {
-  const auto* const m = o.geometry;
+template <class S>
+void surface_of_ellipsoids(const ObjectLanes<S>& o, const V3<S>& along_ray, V3<S>& point, V3<S>& normal) {
+  using F = typename S::F;
+  // Three rows of four.
+  const V3<S>*const g = o.geometry;
+  const F m[3][4] = {
+      {g[0].x, g[0].y, g[0].z, g[1].x}, {g[1].y, g[1].z, g[2].x, g[2].y}, {g[2].z, g[3].x, g[3].y, g[3].z}};
   const auto row = [&](int r) {
-    return m[4 * r] * along_ray.x + m[4 * r + 1] * along_ray.y + m[4 * r + 2] * along_ray.z + m[4 * r + 3];
+    return m[r][0] * along_ray.x + m[r][1] * along_ray.y + m[r][2] * along_ray.z + m[r][3];
   };
   // The gradient of |M p + t|^2: the transposed map applied to the point on the unit sphere.
   const V3<S> unit = normalise<S>({row(0), row(1), row(2)});
-  const auto column = [&](int c) { return m[c] * unit.x + m[4 + c] * unit.y + m[8 + c] * unit.z; };
+  const auto column = [&](int c) { return m[0][c] * unit.x + m[1][c] * unit.y + m[2][c] * unit.z; };
   normal = normalise<S>({column(0), column(1), column(2)});
   point = along_ray;
 }
 
-template <class S> void surface_of_triangles(const ObjectLanes<S>& o, const HitPacket& hits, V3<S>& point,
-                                             V3<S>& normal) {
+template <class S>
+void surface_of_triangles(const ObjectLanes<S>& o, const HitPacket& hits, V3<S>& point, V3<S>& normal) {
   using F = typename S::F;
   const F u = F::load(hits.u.lane);
   const F v = F::load(hits.v.lane);
-  const V3<S> v0 = at<S>(o.geometry);
-  const V3<S> edge1 = at<S>(o.geometry + 3) - v0;
-  const V3<S> edge2 = at<S>(o.geometry + 6) - v0;
+  const V3<S>& v0 = o.geometry[0];
+  const V3<S> edge1 = o.geometry[1] - v0;
+  const V3<S> edge2 = o.geometry[2] - v0;
   point = v0 + edge1 * u + edge2 * v;
   normal = cross<S>(edge1, edge2);
   if (o.smooth != 0) {
     const F w = F(1.0f) - u - v;
-    const V3<S> between = at<S>(o.normals) * w + at<S>(o.normals + 3) * u + at<S>(o.normals + 6) * v;
+    const V3<S> between = o.normals[0] * w + o.normals[1] * u + o.normals[2] * v;
     normal = select<S>(S::M::from_bits(o.smooth), between, normal);
   }
   normal = normalise<S>(normal);
@@ -93,12 +91,10 @@ void surface_of(const ObjectLanes<S>& o, const V3<S>& along_ray, const HitPacket
 } // namespace detail
 
 /// Those of `lanes` that hit something.
-inline uint32_t hit_lanes(const HitPacket& hits, uint32_t lanes) {
-  uint32_t hit = 0;
-  for_each_lane(lanes, [&](uint32_t lane) {
-    hit |= static_cast<uint32_t>(hits.object.lane[lane] != kNoOffset) << lane;
-  });
-  return hit;
+template <class S> uint32_t hit_lanes(const HitPacket& hits, uint32_t lanes) {
+  using I = typename S::I;
+  const I objects = I::load(reinterpret_cast<const int32_t*>(hits.object.lane));
+  return lanes & ~(objects == I::splat(static_cast<int32_t>(kNoOffset))).bits();
 }
 
 /// Of the hits of `lanes`, all of which hit something. Points are computed from the object, not along the ray:
@@ -114,7 +110,7 @@ void find_hit_points(SceneAccess<Spu>& scene, const RayPacket& rays, const HitPa
   I material = I::splat(0), interior = I::splat(0);
   bool first = true;
   points.blended = 0;
-  for_each_value(hits.object, lanes, [&](uint32_t offset, uint32_t same) {
+  for_each_value<S>(hits.object, lanes, [&](uint32_t offset, uint32_t same) {
     scene.spu().compute(scalar_work::kHitObject);
     const ObjectRecord& object = *scene.object(offset);
     const uint32_t flags = object.kind_and_flags;
@@ -123,11 +119,13 @@ void find_hit_points(SceneAccess<Spu>& scene, const RayPacket& rays, const HitPa
     const uint32_t of_object = first ? 0xFFFF : same;
     first = false;
     const M mask = M::from_bits(of_object);
-    const auto put = [&](const float* values, uint32_t count, F* into) {
-      for (uint32_t i = 0; i < count; ++i)
-        into[i] = S::select(mask, F(values[i]), into[i]);
+    const auto put = [&](const float* values, V3<S>& into) {
+      into = select<S>(mask, splat3<S>(values), into);
     };
-    put(object.geometry, 12, objects.geometry);
+    put(object.geometry, objects.geometry[0]);
+    put(object.geometry + 3, objects.geometry[1]);
+    put(object.geometry + 6, objects.geometry[2]);
+    put(object.geometry + 9, objects.geometry[3]);
     material = S::select(mask, I::splat(static_cast<int32_t>(object.material)), material);
     interior = S::select(mask, I::splat(static_cast<int32_t>(object.interior)), interior);
     for (uint32_t& of_kind : objects.of_kind)
@@ -137,7 +135,10 @@ void find_hit_points(SceneAccess<Spu>& scene, const RayPacket& rays, const HitPa
     if ((flags & object_flag::blended) != 0) points.blended |= same;
     if ((flags & object_flag::smooth) != 0) {
       objects.smooth |= of_object;
-      put(scene.normals(normals)->normal, 9, objects.normals);
+      const float* const n = scene.normals(normals)->normal;
+      put(n, objects.normals[0]);
+      put(n + 3, objects.normals[1]);
+      put(n + 6, objects.normals[2]);
     }
   });
   material.store(reinterpret_cast<int32_t*>(points.material.lane));

@@ -83,13 +83,13 @@ template <class Visit> inline void for_each_lane(uint32_t lanes, Visit visit) {
 }
 
 /// Splits `lanes` by the value they have in `words`: calls `visit(value, lanes that have it)` once per value.
-template <class Visit> inline void for_each_value(const WordLanes& words, uint32_t lanes, Visit visit) {
+template <class S, class Visit>
+inline void for_each_value(const WordLanes& words, uint32_t lanes, Visit visit) {
+  using I = typename S::I;
+  const I all = I::load(reinterpret_cast<const int32_t*>(words.lane));
   while (lanes != 0) {
     const uint32_t value = words.lane[__builtin_ctz(lanes)];
-    uint32_t same = 0;
-    for (uint32_t l = 0; l < kSimdLanes; ++l)
-      same |= static_cast<uint32_t>(words.lane[l] == value) << l;
-    same &= lanes;
+    const uint32_t same = (all == I::splat(static_cast<int32_t>(value))).bits() & lanes;
     lanes &= ~same;
     visit(value, same);
   }

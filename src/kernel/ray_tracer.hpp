@@ -73,7 +73,7 @@ public:
   /// The lanes of node() that hit something; the others see the background.
   uint32_t take_hits() {
     scene_.spu().compute(scalar_work::kNode);
-    const uint32_t hit = hit_lanes(hits_, node_.lanes);
+    const uint32_t hit = hit_lanes<S>(hits_, node_.lanes);
     const uint32_t missed = node_.lanes & ~hit;
     if (missed != 0) add(missed, splat3<S>(frame_.background));
     return hit;
