@@ -41,6 +41,10 @@ public:
   /// The colours of primary rays, which leave the camera. What they hit is known, and the finder may know
   /// what light comes there. Points of later hits replace the first ones'.
   V3<S> trace(const RayPacket& rays, uint32_t lanes, const HitPacket& hits, HitPoints<S>& points) {
+    if constexpr (Spu::direct_memory) {
+      V3<S> colour;
+      if (ends_at_once(rays, lanes, hits, points, colour)) return colour;
+    }
     begin(rays, lanes);
     hits_ = hits;
     uint32_t hit = take_hits();
@@ -58,6 +62,23 @@ public:
   V3<S> background(uint32_t lanes) {
     counters_.primary += count(lanes);
     return splat3<S>(frame_.background);
+  }
+
+  /// As trace(), of rays that go on nowhere; false if some do.
+  bool ends_at_once(const RayPacket& rays, uint32_t lanes, const HitPacket& hits, const HitPoints<S>& points,
+                    V3<S>& colour) {
+    const uint32_t hit = hit_lanes<S>(hits, lanes);
+    if (hit != 0) {
+      if (points.blended != 0) return false;
+      const MaterialLanes<S> m = gather_materials(scene_, points.material, hit);
+      if (m.has_reflection || m.has_transmission) return false;
+      const Surfaces<S> surfaces = {points.point, points.normal, rays.direction.template load<S>(),
+                                    &hits.object};
+      colour = local_light(scene_, finder_, frame_, surfaces, m, hit, counters_.shadow);
+    }
+    finder_.forget_light();
+    colour = select<S>(M::from_bits(hit), colour, background(lanes));
+    return true;
   }
 
   /// Starts the tree of a packet of primary rays.
