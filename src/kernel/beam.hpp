@@ -143,19 +143,19 @@ inline RayBounds bounds_of_ray(const RayPacket& rays, uint32_t lane) {
   return bounds;
 }
 
-/// What intervals of the distances to an axis' planes are computed from: 1 / direction at both ends, and the
-/// origins that planes on the near and on the far side of boxes are farthest from.
+/// What the least distance to planes on the near side of boxes is computed from, and the greatest one to those
+/// on the far side: the origin that is nearest or farthest, and 1 / direction of the steepest or the flattest
+/// ray. Of planes that lie behind that says no more than that.
 struct Slab {
-  float inverse_low, inverse_high, near_origin, far_origin;
+  float near_origin, near_inverse, far_origin, far_inverse;
 };
 inline Slab slab_of(const Interval& origin, const Interval& direction, bool backward) {
   using detail::kTinyDirection;
-  // 1 / direction falls from the low end to the high one.
-  const float low =
-      backward ? smaller(direction.low, -kTinyDirection) : larger(direction.low, kTinyDirection);
-  const float high =
-      backward ? smaller(direction.high, -kTinyDirection) : larger(direction.high, kTinyDirection);
-  return {1.0f / high, 1.0f / low, backward ? origin.low : origin.high, backward ? origin.high : origin.low};
+  if (backward)
+    return {origin.low, 1.0f / smaller(direction.low, -kTinyDirection), origin.high,
+            1.0f / smaller(direction.high, -kTinyDirection)};
+  return {origin.high, 1.0f / larger(direction.high, kTinyDirection), origin.low,
+          1.0f / larger(direction.low, kTinyDirection)};
 }
 
 template <class S> class Beam {
@@ -171,10 +171,10 @@ public:
       set(axis, slab_of(bounds.origin[axis], bounds.direction[axis], ((octant >> axis) & 1) != 0));
   }
   void set(uint32_t axis, const Slab& slab) {
-    inverse_low_[axis] = F4::splat(slab.inverse_low);
-    inverse_high_[axis] = F4::splat(slab.inverse_high);
     near_origin_[axis] = F4::splat(slab.near_origin);
+    near_inverse_[axis] = F4::splat(slab.near_inverse);
     far_origin_[axis] = F4::splat(slab.far_origin);
+    far_inverse_[axis] = F4::splat(slab.far_inverse);
   }
 
   /// Which of four boxes (as in NodeRecord) the beam may meet between its origins and `limit` along it; bit i
@@ -183,18 +183,16 @@ public:
     F4 first = F4::splat(0.0f);
     F4 last = F4::splat(limit);
     for (uint32_t axis = 0; axis < 3; ++axis) {
-      const F4 near = F4::load(box[sides.near[axis]]) - near_origin_[axis];
-      const F4 far = F4::load(box[sides.far[axis]]) - far_origin_[axis];
-      first = S::max(first, S::min(near * inverse_low_[axis], near * inverse_high_[axis]));
-      last = S::min(last, S::max(far * inverse_low_[axis], far * inverse_high_[axis]));
+      first = S::max(first, (F4::load(box[sides.near[axis]]) - near_origin_[axis]) * near_inverse_[axis]);
+      last = S::min(last, (F4::load(box[sides.far[axis]]) - far_origin_[axis]) * far_inverse_[axis]);
     }
     first.store(enter);
     return not_above_bits(first, last * F4::splat(detail::kRoundedUp));
   }
 
 private:
-  F4 inverse_low_[3], inverse_high_[3];
-  F4 near_origin_[3], far_origin_[3];
+  F4 near_origin_[3], near_inverse_[3];
+  F4 far_origin_[3], far_inverse_[3];
 };
 
 /// A lane for each packet of a bundle.
@@ -228,10 +226,10 @@ public:
     for (uint32_t axis = 0; axis < 3; ++axis) {
       const Slab slab = slab_of(bounds.origin[axis], bounds.direction[axis], ((octant >> axis) & 1) != 0);
       Axis& a = axes_[axis];
-      a.inverse_low[packet] = slab.inverse_low;
-      a.inverse_high[packet] = slab.inverse_high;
       a.near_origin[packet] = slab.near_origin;
+      a.near_inverse[packet] = slab.near_inverse;
       a.far_origin[packet] = slab.far_origin;
+      a.far_inverse[packet] = slab.far_inverse;
     }
   }
   /// All of them at once: rays from `origin` in directions between `low` and `high`, a lane for each packet.
@@ -239,15 +237,16 @@ public:
     const L* const lows[3] = {&low.x, &low.y, &low.z};
     const L* const highs[3] = {&high.x, &high.y, &high.z};
     for (uint32_t axis = 0; axis < 3; ++axis) {
+      const bool backward = ((octant >> axis) & 1) != 0;
       const auto inverse_of = [&](const L& direction) {
-        return L(1.0f) / (((octant >> axis) & 1) != 0 ? S::min(direction, L(-detail::kTinyDirection))
-                                                      : S::max(direction, L(detail::kTinyDirection)));
+        return L(1.0f) / (backward ? S::min(direction, L(-detail::kTinyDirection))
+                                   : S::max(direction, L(detail::kTinyDirection)));
       };
       Axis& a = axes_[axis];
-      inverse_of(*highs[axis]).store(a.inverse_low);
-      inverse_of(*lows[axis]).store(a.inverse_high);
       Lanes::splat(origin[axis]).store(a.near_origin);
+      inverse_of(backward ? *lows[axis] : *highs[axis]).store(a.near_inverse);
       Lanes::splat(origin[axis]).store(a.far_origin);
+      inverse_of(backward ? *highs[axis] : *lows[axis]).store(a.far_inverse);
     }
   }
 
@@ -255,8 +254,8 @@ public:
   void get(uint32_t packet, Beam<S>& beam) const {
     for (uint32_t axis = 0; axis < 3; ++axis) {
       const Axis& a = axes_[axis];
-      beam.set(axis, {a.inverse_low[packet], a.inverse_high[packet], a.near_origin[packet],
-                      a.far_origin[packet]});
+      beam.set(axis, {a.near_origin[packet], a.near_inverse[packet], a.far_origin[packet],
+                      a.far_inverse[packet]});
     }
   }
 
@@ -267,19 +266,17 @@ public:
     L last = L::load(limits);
     for (uint32_t axis = 0; axis < 3; ++axis) {
       const Axis& a = axes_[axis];
-      const L near = Lanes::splat(box[sides.near[axis]][i]) - L::load(a.near_origin);
-      const L far = Lanes::splat(box[sides.far[axis]][i]) - L::load(a.far_origin);
-      const L low = L::load(a.inverse_low), high = L::load(a.inverse_high);
-      first = S::max(first, S::min(near * low, near * high));
-      last = S::min(last, S::max(far * low, far * high));
+      const L near = Lanes::splat(box[sides.near[axis]][i]), far = Lanes::splat(box[sides.far[axis]][i]);
+      first = S::max(first, (near - L::load(a.near_origin)) * L::load(a.near_inverse));
+      last = S::min(last, (far - L::load(a.far_origin)) * L::load(a.far_inverse));
     }
     return Lanes::at_most(first, last * Lanes::splat(detail::kRoundedUp));
   }
 
 private:
   struct alignas(64) Axis {
-    float inverse_low[kPackets], inverse_high[kPackets];
-    float near_origin[kPackets], far_origin[kPackets];
+    float near_origin[kPackets], near_inverse[kPackets];
+    float far_origin[kPackets], far_inverse[kPackets];
   };
   Axis axes_[3] = {};
 };
