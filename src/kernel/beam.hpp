@@ -42,9 +42,10 @@ template <class S> class OctantRays {
 public:
   using F = typename S::F;
 
-  /// Meet nothing sensible until others are assigned.
+  /// Meet nothing sensible until they are set.
   OctantRays() = default;
-  OctantRays(const RayPacket& rays, uint32_t octant) : origin_(rays.origin.template load<S>()) {
+  [[gnu::noinline]] void set(const RayPacket& rays, uint32_t octant) {
+    origin_ = rays.origin.template load<S>();
     const V3<S> along = rays.direction.template load<S>();
     inverse_ = {inverse_of(along.x, (octant & 1) != 0), inverse_of(along.y, (octant & 2) != 0),
                 inverse_of(along.z, (octant & 4) != 0)};

@@ -101,7 +101,7 @@ private:
         if (parts == 2) parts = 1;
         same &= ~part;
         if ((search.lanes & part) == 0) continue;
-        group.rays = OctantRays<S>(rays, octant);
+        group.rays.set(rays, octant);
         group.beam.set(bounds, octant);
         walk_.walk(group, BoxSides(octant), part, search, root(), part);
       }
@@ -193,7 +193,7 @@ private:
 
   const OctantRays<S>& rays_of(const Search& search, uint32_t packet) {
     if ((known_rays_ & (1u << packet)) == 0) {
-      members_[packet].rays = OctantRays<S>(*search.rays, octant_);
+      members_[packet].rays.set(*search.rays, octant_);
       known_rays_ |= 1u << packet;
     }
     return members_[packet].rays;

@@ -119,9 +119,7 @@ void find_hit_points(SceneAccess<Spu>& scene, const RayPacket& rays, const HitPa
     const uint32_t of_object = first ? 0xFFFF : same;
     first = false;
     const M mask = M::from_bits(of_object);
-    const auto put = [&](const float* values, V3<S>& into) {
-      into = select<S>(mask, splat3<S>(values), into);
-    };
+    const auto put = [&](const float* values, V3<S>& into) { put_in_lanes<Spu>(mask, values, into); };
     put(object.geometry, objects.geometry[0]);
     put(object.geometry + 3, objects.geometry[1]);
     put(object.geometry + 6, objects.geometry[2]);

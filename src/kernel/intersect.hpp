@@ -87,7 +87,7 @@ template <class S> class SeenTriangle {
 public:
   using F = typename S::F;
 
-  SeenTriangle(const V3<S>& origin, const ObjectRecord& object) {
+  [[gnu::always_inline]] SeenTriangle(const V3<S>& origin, const ObjectRecord& object) {
     constexpr float kRounding = 6e-8f; // a unit in the last place
     const float* g = object.geometry;
     const float side1[3] = {g[3] - g[0], g[4] - g[1], g[5] - g[2]};
@@ -103,7 +103,8 @@ public:
   }
 
   /// By rays of these directions.
-  Crossings<S> crossed(const V3<S>& direction, const typename S::M& starts_here) const {
+  [[gnu::always_inline]] Crossings<S> crossed(const V3<S>& direction,
+                                              const typename S::M& starts_here) const {
     constexpr float kMaxOverlap = 1e-3f;
     const V3<S> p = cross<S>(direction, edge2_);
     const F determinant = dot<S>(edge1_, p);
@@ -125,6 +126,12 @@ private:
   F distance_, overlap_; ///< both times the determinant
 };
 
+template <class S>
+Crossings<S> intersect_triangle(const V3<S>& origin, const V3<S>& direction, const typename S::M& starts_here,
+                                const ObjectRecord& object) {
+  return SeenTriangle<S>(origin, object).crossed(direction, starts_here);
+}
+
 /// The rays that start on an object.
 template <class S> typename S::M lanes_that_start_on(const RayPacket& rays, uint32_t self) {
   using I = typename S::I;
@@ -143,7 +150,7 @@ template <class S> Crossings<S> intersect(const RayPacket& rays, const ObjectRec
   case ObjectKind::ellipsoid:
     return intersect_ellipsoid<S>(origin, direction, starts_here, object);
   default:
-    return SeenTriangle<S>(origin, object).crossed(direction, starts_here);
+    return intersect_triangle<S>(origin, direction, starts_here, object);
   }
 }
 

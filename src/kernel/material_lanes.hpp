@@ -26,20 +26,15 @@ MaterialLanes<typename Spu::simd> gather_materials(SceneAccess<Spu>& scene, cons
                                                    uint32_t lanes) {
   using S = typename Spu::simd;
   using F = typename S::F;
-  MaterialLanes<S> m;
+  MaterialLanes<S> m = {};
   bool first = true;
   for_each_value<typename Spu::simd>(offsets, lanes, [&](uint32_t offset, uint32_t same) {
     scene.spu().compute(scalar_work::kMaterial);
     const MaterialRecord& r = *scene.material(offset);
-    const auto take = S::M::from_bits(same);
-    const auto put = [&](F& field, float value) {
-      field = first ? F(value) : S::select(take, F(value), field);
-    };
-    const auto put3 = [&](V3<S>& field, const float(&value)[3]) {
-      put(field.x, value[0]);
-      put(field.y, value[1]);
-      put(field.z, value[2]);
-    };
+    const auto take = S::M::from_bits(first ? 0xFFFF : same);
+    first = false;
+    const auto put = [&](F& field, float value) { field = S::select(take, F(value), field); };
+    const auto put3 = [&](V3<S>& field, const float(&value)[3]) { put_in_lanes<Spu>(take, value, field); };
     put3(m.pigment, r.pigment);
     put3(m.ambient, r.ambient);
     put3(m.reflection_min, r.reflection_min);
@@ -68,7 +63,6 @@ MaterialLanes<typename Spu::simd> gather_materials(SceneAccess<Spu>& scene, cons
     m.has_falloff |= r.reflection_falloff != 1.0f;
     m.bends_reflection |= r.inverse_reflection_exponent != 1.0f;
     m.has_transmission |= r.filter != 0.0f || r.transmit != 0.0f;
-    first = false;
   });
   return m;
 }

@@ -75,7 +75,7 @@ public:
     }
     counters_.tests[kind] += static_cast<uint32_t>(__builtin_popcount(packets));
     const auto origin_of = [&](uint32_t i) { return searches[i].rays->origin.template load<S>(); };
-    const auto test_by = [&](uint32_t i, const SeenTriangle<S>& triangle) {
+    const auto test_by = [&](uint32_t i, const SeenTriangle<S>& triangle) __attribute__((always_inline)) {
       const RayPacket& rays = *searches[i].rays;
       keep_closest(
           triangle.crossed(rays.direction.template load<S>(), lanes_that_start_on<S>(rays, self)),

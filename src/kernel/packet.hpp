@@ -35,6 +35,26 @@ struct VectorLanes {
   }
 };
 
+namespace detail {
+
+/// One copy: local store is short.
+template <class S>
+[[gnu::noinline]] void put_elsewhere(const typename S::M& lanes, const float* values, V3<S>& into) {
+  into = select<S>(lanes, splat3<S>(values), into);
+}
+
+} // namespace detail
+
+/// Gives some lanes the same three values.
+template <class Spu>
+void put_in_lanes(const typename Spu::simd::M& lanes, const float* values, V3<typename Spu::simd>& into) {
+  using S = typename Spu::simd;
+  if constexpr (Spu::direct_memory)
+    into = select<S>(lanes, splat3<S>(values), into);
+  else
+    detail::put_elsewhere<S>(lanes, values, into);
+}
+
 /// Rays of unit direction. `start_object` is the offset of the object a ray starts on, or kNoOffset: a ray
 /// does not hit a triangle that it starts on, and a sphere it starts on only at the other end of the chord.
 struct RayPacket {

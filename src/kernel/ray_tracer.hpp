@@ -40,7 +40,8 @@ public:
 
   /// The colours of primary rays, which leave the camera. What they hit is known, and the finder may know
   /// what light comes there. Points of later hits replace the first ones'.
-  V3<S> trace(const RayPacket& rays, uint32_t lanes, const HitPacket& hits, HitPoints<S>& points) {
+  [[gnu::always_inline]] V3<S> trace(const RayPacket& rays, uint32_t lanes, const HitPacket& hits,
+                                     HitPoints<S>& points) {
     if constexpr (Spu::direct_memory) {
       V3<S> colour;
       if (ends_at_once(rays, lanes, hits, points, colour)) return colour;
