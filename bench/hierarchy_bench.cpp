@@ -70,8 +70,8 @@ Expected expected(const test::BuiltHierarchy& hierarchy) {
     open.pop_back();
     for (int slot = 0; slot < 4; ++slot) {
       const double hit = area(node, slot) / whole;
-      if (node.count[slot] != 0) {
-        sum.tests += hit * node.count[slot];
+      if (node.leaf[slot] != 0) {
+        sum.tests += hit * kernel::leaf_word::count(node.leaf[slot]);
       } else {
         sum.visits += hit;
         open.push_back(&hierarchy.node(node.child[slot]));

@@ -5,11 +5,11 @@
 
 namespace celltrace::kernel {
 
-/// Part of the hierarchy: a node, or a leaf of `count` objects.
+/// Part of the hierarchy: a node, or a leaf; as in NodeRecord.
 struct Branch {
-  uint32_t child, count;
+  uint32_t child, leaf;
 
-  bool is_leaf() const { return count != 0; }
+  bool is_leaf() const { return leaf != 0; }
 };
 
 /// Packets of a bundle that visit a branch one by one have an entry each, at most `kMostAlone`.

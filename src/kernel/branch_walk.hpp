@@ -109,7 +109,7 @@ private:
   }
 
   void test_objects(const Branch& leaf, uint32_t group, Search& search) {
-    objects_.scene().for_each_listed(leaf.child, leaf.count, [&](uint32_t self) {
+    objects_.scene().for_each_object(leaf, [&](uint32_t self) {
       if (search.hits != nullptr) {
         if (objects_.mailbox().first_visit(self)) objects_.test_closest(*search.rays, self, *search.hits);
         return false;
@@ -131,7 +131,7 @@ private:
     if (met == 0) return false;
     if (is_single(met)) {
       const uint32_t i = static_cast<uint32_t>(__builtin_ctz(met));
-      branch = {node.child[i], node.count[i]};
+      branch = {node.child[i], node.leaf[i]};
       return true;
     }
     const uint32_t group = course.group;
@@ -142,7 +142,7 @@ private:
       met &= met - 1;
       // Looser than its rays, a beam may meet what passes between them.
       const uint32_t lanes = is_single(group) ? group : rays.meet(node.box, sides, i, each_limit) & group;
-      if (lanes != 0) stack_.push(first, {{node.child[i], node.count[i]}, lanes, enter[i], 0});
+      if (lanes != 0) stack_.push(first, {{node.child[i], node.leaf[i]}, lanes, enter[i], 0});
     } while (met != 0);
     for (uint32_t place = first; place < stack_.size(); ++place)
       objects_.scene().hint(stack_[place].branch);

@@ -119,32 +119,42 @@ private:
       __builtin_prefetch(objects + i);
   }
 
-  /// Gives a treelet the nodes and the list of its prototype, with boxes around its own objects.
+  /// What the copy of a leaf adds to offsets, modulo 2^32.
+  struct Move {
+    uint32_t objects, list;
+  };
+
+  /// Gives a treelet the nodes and the lists of its prototype, with boxes around its own objects.
   void copy(const Treelet& prototype, const Treelet& treelet, NodeRecord* nodes) {
     const NodeRecord* from = nodes_ + memory_.team->top_nodes + prototype.first_node;
-    const uint32_t list = frame_.hierarchy.list_offset + treelet.first * 4;
-    const uint32_t from_list = frame_.hierarchy.list_offset + prototype.first * 4;
-    const uint32_t moved = (runs_[run_of(treelet)].first - runs_[run_of(prototype)].first) *
-                           static_cast<uint32_t>(sizeof(ObjectRecord)); // modulo 2^32
-    const auto* from_words = reinterpret_cast<const uint32_t*>(image_ + from_list);
-    auto* words = reinterpret_cast<uint32_t*>(image_ + list);
-    for (uint32_t i = 0; i < treelet.count; ++i)
-      words[i] = from_words[i] + moved;
+    const Move move = {(runs_[run_of(treelet)].first - runs_[run_of(prototype)].first) *
+                           static_cast<uint32_t>(sizeof(ObjectRecord)),
+                       (treelet.first - prototype.first) * 4};
     const Place& place = treelet.place;
-    place.parent->child[place.slot] = prototype.nodes == 0 ? list : offset_of(nodes);
-    place.parent->count[place.slot] = prototype.nodes == 0 ? treelet.count : 0;
+    uint32_t& child = place.parent->child[place.slot];
+    uint32_t& leaf = place.parent->leaf[place.slot];
+    child = offset_of(nodes);
+    leaf = 0;
+    if (prototype.nodes == 0) {
+      const Place& original = prototype.place;
+      leaf = original.parent->leaf[original.slot];
+      child = copy_leaf(original.parent->child[original.slot], leaf, move);
+    }
 
     Reference* boxes = spare_;                     // of the nodes
     for (uint32_t n = prototype.nodes; n-- > 0;) { // children come after their parents
       LaneBox<S> children[kChildren];
       LaneBox<S> whole = LaneBox<S>::empty();
       for (uint32_t i = 0; i < kChildren; ++i) {
-        const uint32_t count = from[n].count[i];
-        const uint32_t child = from[n].child[i] - (count == 0 ? offset_of(from) : from_list);
-        nodes[n].count[i] = count;
-        nodes[n].child[i] = child + (count == 0 ? offset_of(nodes) : list);
-        children[i] = count == 0 ? LaneBox<S>::of(boxes[child / sizeof(NodeRecord)])
-                                 : box_around(words + child / 4, count);
+        const uint32_t word = nodes[n].leaf[i] = from[n].leaf[i];
+        if (word == 0) {
+          const uint32_t below = from[n].child[i] - offset_of(from);
+          nodes[n].child[i] = below + offset_of(nodes);
+          children[i] = LaneBox<S>::of(boxes[below / sizeof(NodeRecord)]);
+        } else {
+          nodes[n].child[i] = copy_leaf(from[n].child[i], word, move);
+          children[i] = box_around(nodes[n].child[i], word);
+        }
         whole.grow(children[i]);
       }
       set_boxes<S>(nodes[n], children);
@@ -155,10 +165,21 @@ private:
   uint32_t offset_of(const NodeRecord* node) const {
     return static_cast<uint32_t>(reinterpret_cast<const uint8_t*>(node) - image_);
   }
-  LaneBox<S> box_around(const uint32_t* words, uint32_t count) const {
+  uint32_t copy_leaf(uint32_t first, uint32_t word, const Move& move) const {
+    if (!leaf_word::is_list(word)) return first + move.objects;
+    for (uint32_t i = 0; i < leaf_word::count(word); ++i)
+      word_at(first + move.list + i * 4) = word_at(first + i * 4) + move.objects;
+    return first + move.list;
+  }
+  uint32_t& word_at(uint32_t offset) const { return *reinterpret_cast<uint32_t*>(image_ + offset); }
+  /// As in NodeRecord.
+  LaneBox<S> box_around(uint32_t first, uint32_t word) const {
+    const uint32_t step = leaf_word::step_bytes(word);
     LaneBox<S> box = LaneBox<S>::empty();
-    for (uint32_t i = 0; i < count; ++i)
-      box.grow(box_of(*reinterpret_cast<const ObjectRecord*>(image_ + words[i])));
+    for (uint32_t i = 0; i < leaf_word::count(word); ++i) {
+      const uint32_t object = step == 0 ? word_at(first + i * 4) : first + i * step;
+      box.grow(box_of(*reinterpret_cast<const ObjectRecord*>(image_ + object)));
+    }
     return box;
   }
 
@@ -240,7 +261,7 @@ private:
     const LaneBox<S> empty = LaneBox<S>::empty();
     set_boxes<S>(*nodes_, {all.box, empty, empty, empty});
     for (uint32_t i = 0; i < kChildren; ++i)
-      nodes_->child[i] = nodes_->count[i] = 0;
+      nodes_->child[i] = nodes_->leaf[i] = 0;
     if (all.count() != 0)
       Leaves<S>(image_, frame_.hierarchy.list_offset, references, kCertainLeaf).add(all, {nodes_, 0, 0});
     return nodes_ + 1;

@@ -35,15 +35,30 @@ public:
   }
 
   void add(const Range<S>& range, const Place& place) {
-    const uint32_t first = list_offset_ + range.begin * 4;
-    uint32_t* list = reinterpret_cast<uint32_t*>(image_ + first);
-    for (uint32_t i = 0; i < range.count(); ++i)
-      list[i] = references_[range.begin + i].value;
+    const Reference* const objects = references_ + range.begin;
+    const int32_t step = step_of(objects, range.count());
+    uint32_t first = objects[0].value;
+    if (step == 0) {
+      first = list_offset_ + range.begin * 4;
+      uint32_t* list = reinterpret_cast<uint32_t*>(image_ + first);
+      for (uint32_t i = 0; i < range.count(); ++i)
+        list[i] = objects[i].value;
+    }
     place.parent->child[place.slot] = first;
-    place.parent->count[place.slot] = range.count();
+    place.parent->leaf[place.slot] = leaf_word::make(range.count(), step);
   }
 
 private:
+  /// From each object to the next one, in places of the table, if that is the same for all; or 0.
+  static int32_t step_of(const Reference* objects, uint32_t count) {
+    if (count == 1) return 1;
+    const uint32_t bytes = objects[1].value - objects[0].value;
+    for (uint32_t i = 2; i < count; ++i)
+      if (objects[i].value - objects[i - 1].value != bytes) return 0;
+    const int32_t step = static_cast<int32_t>(bytes) / static_cast<int32_t>(sizeof(ObjectRecord));
+    return step <= leaf_word::kMaxStep && step >= -leaf_word::kMaxStep ? step : 0;
+  }
+
   uint8_t* image_;
   uint32_t list_offset_;
   const Reference* references_;

@@ -80,7 +80,7 @@ public:
 private:
   void enter(const Range<S>& range, const Place& place) {
     if (range.count() == 0)
-      place.parent->child[place.slot] = place.parent->count[place.slot] = 0;
+      place.parent->child[place.slot] = place.parent->leaf[place.slot] = 0;
     else if (ends_.end(range))
       ends_.add(range, place);
     else
@@ -94,7 +94,7 @@ private:
       if (ends_.end(range, children)) return ends_.add(range, place);
       place.parent->child[place.slot] =
           static_cast<uint32_t>(reinterpret_cast<const uint8_t*>(next_) - image_);
-      place.parent->count[place.slot] = 0;
+      place.parent->leaf[place.slot] = 0;
     }
     NodeRecord* node = next_++;
     set_boxes<S>(*node, {children[0].box, children[1].box, children[2].box, children[3].box});

@@ -57,7 +57,7 @@ public:
       const NodeRecord& node = *objects_.scene().node(branch.child);
       alignas(16) float enter[4];
       for_each_lane(around_.meets(node.box, sides, kMaxHitDistance, enter), [&](uint32_t i) {
-        stack.push(stack.size(), {{node.child[i], node.count[i]}, 0, 0.0f, 0});
+        stack.push(stack.size(), {{node.child[i], node.leaf[i]}, 0, 0.0f, 0});
       });
     }
     stack.shrink(0);
@@ -210,7 +210,7 @@ private:
     if (met == 0) return false;
     if (is_single(met)) {
       const uint32_t i = static_cast<uint32_t>(__builtin_ctz(met));
-      if (node.count[i] == 0) {
+      if (node.leaf[i] == 0) {
         branch = {node.child[i], 0};
         return true;
       }
@@ -221,7 +221,7 @@ private:
       const uint32_t i = static_cast<uint32_t>(__builtin_ctz(met));
       met &= met - 1;
       uint32_t lanes = beams_.meet(node.box, sides, i, limits_) & packets;
-      const Branch child = {node.child[i], node.count[i]};
+      const Branch child = {node.child[i], node.leaf[i]};
       const bool ask_all = (child.is_leaf() && !one_origin_) || is_lonely(lanes);
       lanes &= ~without_rays_in(node.box, sides, i, searches, ask_all ? lanes : lanes & loose_);
       if (ask_all && !child.is_leaf())
@@ -258,7 +258,7 @@ private:
   }
 
   void test_objects(const Branch& leaf, uint32_t packets, Search* searches) {
-    objects_.scene().for_each_listed(leaf.child, leaf.count, [&](uint32_t self) {
+    objects_.scene().for_each_object(leaf, [&](uint32_t self) {
       test_object(self, packets, searches);
       return false;
     });

@@ -170,18 +170,38 @@ static_assert(sizeof(GridRecord) == 80, "crosses DMA");
 /// in them. A child without objects has a box that is empty (min > max).
 struct alignas(128) NodeRecord {
   float box[6][4];   ///< min x, max x, min y, max y, min z, max z of each child
-  uint32_t child[4]; ///< offset of its NodeRecord; of a leaf: of the first of `count` words, each an object's
-                     ///< offset
-  uint32_t count[4]; ///< objects of a leaf; 0: a node, or nothing if the box is empty
+  uint32_t child[4]; ///< offset of its NodeRecord; of a leaf: of its first object, or of its list
+  uint32_t leaf[4];  ///< the objects of a leaf; 0: a node, or nothing if the box is empty
 };
 static_assert(sizeof(NodeRecord) == 128, "one node a line");
+
+/// NodeRecord::leaf: in the low 8 bits how many objects there are, above them by how many places each lies
+/// after the one before it in the table, signed. That is 0 if they are listed, a word each, its offset.
+namespace leaf_word {
+constexpr uint32_t kCountBits = 8;
+constexpr uint32_t make(uint32_t count, int32_t step) {
+  return count | (static_cast<uint32_t>(step) << kCountBits);
+}
+constexpr uint32_t count(uint32_t word) {
+  return word & ((1u << kCountBits) - 1);
+}
+constexpr bool is_list(uint32_t word) {
+  return (word >> kCountBits) == 0;
+}
+/// From one object's offset to the next one's, modulo 2^32.
+constexpr uint32_t step_bytes(uint32_t word) {
+  return (word >> kCountBits) * static_cast<uint32_t>(sizeof(ObjectRecord));
+}
+/// What fits.
+constexpr int32_t kMaxStep = (1 << (31 - kCountBits)) - 1;
+} // namespace leaf_word
 
 /// The hierarchy of boxes. The root is the first node.
 struct alignas(16) HierarchyRecord {
   uint32_t node_offset;
   uint32_t node_capacity; ///< nodes
   uint32_t node_count;    ///< in use, set by PREPARE FRAME
-  uint32_t list_offset;   ///< a word per object, in the order of the leaves
+  uint32_t list_offset;   ///< a word per object, in the order of the leaves, of which lists take theirs
 };
 static_assert(sizeof(HierarchyRecord) == 16, "crosses DMA");
 

@@ -48,39 +48,56 @@ public:
   /// Calls `visit(offset)` for each object of a list until it returns true. The next object is on its way
   /// meanwhile.
   template <class Visit> void for_each_listed(uint32_t list, uint32_t count, Visit visit) {
-    if (count == 0) return;
-    uint32_t next = listed(list, false);
-    for (uint32_t i = 1;; ++i) {
-      spu().compute(scalar_work::kListedObject);
-      const uint32_t self = next;
-      if (i < count) next = listed(list + i * 4, true);
-      if (visit(self) || i == count) return;
-    }
+    for_each_of({list, count, 0}, visit);
+  }
+  /// The same of a leaf.
+  template <class Visit> void for_each_object(const Branch& leaf, Visit visit) {
+    for_each_of({leaf.child, leaf_word::count(leaf.leaf), leaf_word::step_bytes(leaf.leaf)}, visit);
   }
 
   /// As the cache's, of a branch of the hierarchy.
   void hint(const Branch& branch) {
     cache_.hint(branch.child);
-    // A node has two of a PC's lines.
-    if (!branch.is_leaf()) cache_.hint(branch.child + sizeof(NodeRecord) / 2);
+    if (!branch.is_leaf())
+      cache_.hint(branch.child + sizeof(NodeRecord) / 2); // a node has two of a PC's lines
+    else if (leaf_word::count(branch.leaf) == 2)
+      cache_.hint(branch.child + leaf_word::step_bytes(branch.leaf));
   }
 
   SoftwareCache<Spu, DataKind>& cache() { return cache_; }
   Spu& spu() { return cache_.spu(); }
 
 private:
-  /// The object whose offset lies at an offset, and on its way if that is wanted.
-  uint32_t listed(uint32_t offset, bool fetch) {
-    if constexpr (!Spu::direct_memory) return listed_through_cache(offset, fetch);
-    const uint32_t object = list_word(offset);
-    if (fetch) cache_.hint(object);
+  /// Objects that follow each other by `step` bytes from `first` on, or if that is 0, whose offsets do, a word
+  /// each.
+  struct Sequence {
+    uint32_t first, count, step;
+  };
+  template <class Visit> void for_each_of(const Sequence& objects, Visit visit) {
+    if (objects.count == 0) return;
+    uint32_t next = member(objects, 0);
+    for (uint32_t i = 1;; ++i) {
+      spu().compute(scalar_work::kListedObject);
+      const uint32_t self = next;
+      if (i < objects.count) next = member(objects, i);
+      if (visit(self) || i == objects.count) return;
+    }
+  }
+  /// The offset of one of them; of those after the first one, on its way.
+  uint32_t member(const Sequence& objects, uint32_t i) {
+    if constexpr (!Spu::direct_memory) return member_through_cache(objects, i);
+    const uint32_t object = offset_of(objects, i);
+    if (i != 0) cache_.hint(object);
     return object;
   }
   /// One copy: local store is short.
-  [[gnu::noinline]] uint32_t listed_through_cache(uint32_t offset, bool fetch) {
-    const uint32_t object = list_word(offset);
-    if (fetch) cache_.prefetch(object);
+  [[gnu::noinline]] uint32_t member_through_cache(const Sequence& objects, uint32_t i) {
+    const uint32_t object = offset_of(objects, i);
+    if (i != 0) cache_.prefetch(object);
     return object;
+  }
+  uint32_t offset_of(const Sequence& objects, uint32_t i) {
+    return objects.step == 0 ? list_word(objects.first + i * 4) : objects.first + i * objects.step;
   }
 
   template <class T> const T* read(uint32_t offset, DataKind kind) {

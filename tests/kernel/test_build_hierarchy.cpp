@@ -92,23 +92,27 @@ Shape check_tree(const BuiltHierarchy& tree) {
     for (unsigned slot = 0; slot < 4; ++slot) {
       const Box box = child_box(node, slot);
       if (box.min[0] > box.max[0]) {
-        REQUIRE(node.count[slot] == 0);
+        REQUIRE(node.leaf[slot] == 0);
         continue;
       }
       REQUIRE(contains(at.box, box));
       for (int axis = 0; axis < 3; ++axis)
         REQUIRE(box.min[axis] < box.max[axis]);
-      if (node.count[slot] == 0) {
+      if (node.leaf[slot] == 0) {
         open.push_back({node.child[slot], at.depth + 1, box});
         continue;
       }
-      shape.largest_leaf = std::max(shape.largest_leaf, node.count[slot]);
-      for (std::uint32_t i = 0; i < node.count[slot]; ++i) {
-        const std::uint32_t word = node.child[slot] + i * 4;
-        REQUIRE(words.insert(word).second);
-        REQUIRE(word >= hierarchy.list_offset);
-        REQUIRE((word - hierarchy.list_offset) / 4 < tree.frame().object_count);
-        const std::uint32_t object = tree.list_word(word);
+      const std::uint32_t leaf = node.leaf[slot];
+      shape.largest_leaf = std::max(shape.largest_leaf, leaf_word::count(leaf));
+      for (std::uint32_t i = 0; i < leaf_word::count(leaf); ++i) {
+        std::uint32_t object = node.child[slot] + i * leaf_word::step_bytes(leaf);
+        if (leaf_word::is_list(leaf)) {
+          const std::uint32_t word = node.child[slot] + i * 4;
+          REQUIRE(words.insert(word).second);
+          REQUIRE(word >= hierarchy.list_offset);
+          REQUIRE((word - hierarchy.list_offset) / 4 < tree.frame().object_count);
+          object = tree.list_word(word);
+        }
         REQUIRE((object - tree.frame().object_offset) % 64 == 0);
         REQUIRE((object - tree.frame().object_offset) / 64 < tree.frame().object_count);
         REQUIRE(shape.objects.insert(object).second);
