@@ -41,16 +41,14 @@ public:
     if (is_single(met) && !is_single(lanes)) go_alone(course, met, search);
     for (;;) {
       if (branch.is_leaf()) {
-        test_objects(branch, course.group, search);
-        if (search.hits != nullptr)
-          course.limit = limit_of(search, course.group);
-        else if ((search.lanes & course.group) == 0)
-          stack_.shrink(course.floor);
-      } else if (open(course, group.rays, sides, search, branch)) {
-        continue;
+        meet(course, branch, search);
+      } else {
+        if (open(course, group.rays, sides, search, branch)) continue;
+        test_waiting(course, search);
       }
       if (!take_next(course, {&group.beam, lanes, floor, 0.0f}, search, branch)) break;
     }
+    test_waiting(course, search);
     stack_.shrink(floor);
   }
 
@@ -108,6 +106,32 @@ private:
     course = {&single_, ray, stack_.size(), limit_of(search, ray)};
   }
 
+  /// The objects of a leaf are tested at once; where memory is direct, after the next node was opened: they
+  /// arrive meanwhile, and that node's children arrive while they are tested.
+  void meet(Course& course, const Branch& leaf, Search& search) {
+    if constexpr (kMostWaiting == 0) {
+      test_objects(leaf, course.group, search);
+      take_results(course, search);
+    } else {
+      if (waiting_count_ == kMostWaiting) test_waiting(course, search);
+      objects_.scene().hint(leaf);
+      waiting_[waiting_count_++] = {leaf, course.group};
+    }
+  }
+  void test_waiting(Course& course, Search& search) {
+    if (waiting_count_ == 0) return;
+    for (uint32_t i = 0; i < waiting_count_; ++i)
+      test_objects(waiting_[i].leaf, waiting_[i].group, search);
+    waiting_count_ = 0;
+    take_results(course, search);
+  }
+  void take_results(Course& course, const Search& search) {
+    if (search.hits != nullptr)
+      course.limit = limit_of(search, course.group);
+    else if ((search.lanes & course.group) == 0)
+      stack_.shrink(course.floor);
+  }
+
   void test_objects(const Branch& leaf, uint32_t group, Search& search) {
     objects_.scene().for_each_object(leaf, [&](uint32_t self) {
       if (search.hits != nullptr) {
@@ -149,8 +173,17 @@ private:
     return false;
   }
 
+  /// A leaf that the rays in `group` have met.
+  struct Waiting {
+    Branch leaf;
+    uint32_t group;
+  };
+  static constexpr uint32_t kMostWaiting = Spu::direct_memory ? 8 : 0;
+
   ObjectTests<Spu>& objects_;
   Stack stack_;
+  Waiting waiting_[kMostWaiting + 1];
+  uint32_t waiting_count_ = 0;
   Beam<S> single_; ///< of a ray that goes alone
 };
 
