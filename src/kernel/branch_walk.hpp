@@ -44,7 +44,7 @@ public:
         meet(course, branch, search);
       } else {
         if (open(course, group.rays, sides, search, branch)) continue;
-        test_waiting(course, search);
+        if (waiting_count_ >= kEnoughWaiting) test_waiting(course, search);
       }
       if (!take_next(course, {&group.beam, lanes, floor, 0.0f}, search, branch)) break;
     }
@@ -106,10 +106,10 @@ private:
     course = {&single_, ray, stack_.size(), limit_of(search, ray)};
   }
 
-  /// The objects of a leaf are tested at once; where memory is direct, after the next node was opened: they
-  /// arrive meanwhile, and that node's children arrive while they are tested.
+  /// The objects of a leaf are tested at once; where memory is direct, with those of a few leaves more when a
+  /// node was opened: they arrive meanwhile, and that node's children arrive while they are tested.
   void meet(Course& course, const Branch& leaf, Search& search) {
-    if constexpr (kMostWaiting == 0) {
+    if constexpr (!Spu::direct_memory) {
       test_objects(leaf, course.group, search);
       take_results(course, search);
     } else {
@@ -119,7 +119,7 @@ private:
     }
   }
   void test_waiting(Course& course, Search& search) {
-    if (waiting_count_ == 0) return;
+    if (!Spu::direct_memory || waiting_count_ == 0) return;
     for (uint32_t i = 0; i < waiting_count_; ++i)
       test_objects(waiting_[i].leaf, waiting_[i].group, search);
     waiting_count_ = 0;
@@ -178,11 +178,12 @@ private:
     Branch leaf;
     uint32_t group;
   };
-  static constexpr uint32_t kMostWaiting = Spu::direct_memory ? 8 : 0;
+  static constexpr uint32_t kMostWaiting = Spu::direct_memory ? 8 : 1;
+  static constexpr uint32_t kEnoughWaiting = kMostWaiting / 2; // measured
 
   ObjectTests<Spu>& objects_;
   Stack stack_;
-  Waiting waiting_[kMostWaiting + 1];
+  Waiting waiting_[kMostWaiting];
   uint32_t waiting_count_ = 0;
   Beam<S> single_; ///< of a ray that goes alone
 };
