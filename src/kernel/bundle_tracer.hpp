@@ -15,17 +15,23 @@ public:
       : frame_(frame), scene_(scene), tracer_(tracer), members_(spu.template allocate<Member>(kPackets)) {}
 
   /// Calls `put(column, row, colours)` for each packet in the picture of the bundle at (column, row); that
-  /// counts bundles, `put` packets.
-  template <class Put> void trace(uint32_t column, uint32_t row, Put put) {
-    place(column, row);
+  /// counts bundles, `put` packets. Or `fill(column, row, colour)` where all of the bundle has one colour and
+  /// is in the picture.
+  template <class Put, class Fill> void trace(uint32_t column, uint32_t row, Put put, [[maybe_unused]] Fill fill) {
     if constexpr (Spu::direct_memory) {
       const PinholeBundle<S> bundle(frame_, column, row);
-      if (tracer_.finder().traversal().is_lost(bundle))
-        return for_each_member([&](Member& member) {
-          put(member.column, member.row, tracer_.background(member.lanes));
+      const bool lost = tracer_.finder().traversal().is_lost(bundle);
+      if (lost && is_whole(column, row))
+        return fill(column * kEdge, row * kEdge, tracer_.background(kPackets * kSimdLanes));
+      place(column, row);
+      if (lost)
+        return for_each_member([&](const Member& member) {
+          const auto rays = static_cast<uint32_t>(__builtin_popcount(member.lanes));
+          put(member.column, member.row, tracer_.background(rays));
         });
       find_hits([&](Search* searches) { tracer_.finder().traversal().run(searches, bundle); });
     } else {
+      place(column, row);
       find_hits([&](Search* searches) { tracer_.finder().traversal().run(searches, kPackets); });
     }
     const uint32_t lights = frame_.light_count < kKnownLights ? frame_.light_count : kKnownLights;
@@ -60,6 +66,10 @@ private:
       if (members_[i].lanes != 0) visit(members_[i]);
   }
 
+  bool is_whole(uint32_t column, uint32_t row) const {
+    constexpr uint32_t kPixels = kEdge * kPacketEdge;
+    return (column + 1) * kPixels <= frame_.width && (row + 1) * kPixels <= frame_.height;
+  }
   void place(uint32_t column, uint32_t row) {
     for (uint32_t i = 0; i < kPackets; ++i) {
       Member& member = members_[i];

@@ -155,6 +155,8 @@ private:
 
   void walk_together(Search* searches, uint32_t octant, uint32_t packets) {
     const BoxSides sides(octant);
+    together_ = packets;
+    farthest_ = greatest_limit(packets);
     octant_ = octant;
     loose_ = 0;
     known_rays_ = known_beams_ = 0;
@@ -189,6 +191,7 @@ private:
     }
     walk_.walk(members_[packet], sides, search.lanes, search, branch, rays);
     update_limit(search, packet);
+    farthest_ = greatest_limit(together_);
   }
 
   const OctantRays<S>& rays_of(const Search& search, uint32_t packet) {
@@ -206,7 +209,7 @@ private:
     ++objects_.counters().voxels;
     const NodeRecord& node = *objects_.scene().node(branch.child);
     alignas(16) float enter[4];
-    uint32_t met = around_.meets(node.box, sides, greatest_limit(packets), enter);
+    uint32_t met = around_.meets(node.box, sides, farthest_, enter);
     if (met == 0) return false;
     if (is_single(met)) {
       const uint32_t i = static_cast<uint32_t>(__builtin_ctz(met));
@@ -263,6 +266,7 @@ private:
       return false;
     });
     for_each_lane(packets, [&](uint32_t packet) { update_limit(searches[packet], packet); });
+    farthest_ = greatest_limit(together_);
   }
   void test_object(uint32_t self, uint32_t packets, Search* searches) {
     if constexpr (Spu::direct_memory) {
@@ -305,6 +309,8 @@ private:
   uint32_t rays_[kBundlePackets<Spu>];   ///< of each packet that was asked last
   uint32_t misses_[kBundlePackets<Spu>]; ///< boxes that a beam met but no ray
   uint32_t loose_ = 0;                   ///< packets
+  uint32_t together_ = 0;                ///< packets
+  float farthest_ = 0.0f;                ///< of their limits
   uint32_t octant_ = 0;                  ///< of all rays that go together
   bool one_origin_ = false;              ///< of theirs
   uint32_t known_rays_ = 0, known_beams_ = 0; ///< packets of which members_ has them

@@ -59,9 +59,9 @@ public:
     }
   }
 
-  /// Those of primary rays that hit nothing.
-  V3<S> background(uint32_t lanes) {
-    counters_.primary += count(lanes);
+  /// Those of `rays` primary rays that hit nothing.
+  V3<S> background(uint32_t rays) {
+    counters_.primary += rays;
     return splat3<S>(frame_.background);
   }
 
@@ -78,7 +78,7 @@ public:
       colour = local_light(scene_, finder_, frame_, surfaces, m, hit, counters_.shadow);
     }
     finder_.forget_light();
-    colour = select<S>(M::from_bits(hit), colour, background(lanes));
+    colour = select<S>(M::from_bits(hit), colour, background(count(lanes)));
     return true;
   }
 

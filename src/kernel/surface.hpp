@@ -39,22 +39,24 @@ public:
   /// packets.
   void put(uint32_t column, uint32_t row, const V3<S>& colour) {
     const uint32_t below = row % kRows; // the first row of its block
-    if (columns_ != 0 && (row - below != row_ || column < column_ || column > column_ + columns_ ||
-                          column - column_ >= kRunPackets))
-      send();
-    Run& run = runs_[current_];
-    if (columns_ == 0) {
-      spu_.wait_all(1u << (kFirstTag + current_));
-      column_ = column;
-      row_ = row - below;
-    }
+    Run& run = run_for(column, row - below);
     const uint32_t x = column - column_;
     WordLanes pixels;
-    pack(quantise(colour.x), quantise(colour.y), quantise(colour.z))
-        .store(reinterpret_cast<int32_t*>(pixels.lane));
+    encode(colour).store(reinterpret_cast<int32_t*>(pixels.lane));
     for (uint32_t y = 0; y < kPacketEdge; ++y)
       U4::load(pixels.lane + y * kPacketEdge).store(run.pixels[below * kPacketEdge + y] + x * kPacketEdge);
     if (x == columns_) ++columns_;
+  }
+
+  /// Puts all packets of the block whose first one is at (column, row), all of one colour.
+  void fill(uint32_t column, uint32_t row, const V3<S>& colour) {
+    static_assert(kRows * kPacketEdge == kSimdLanes, "a row of the block is one vector");
+    Run& run = run_for(column, row);
+    const uint32_t x = column - column_;
+    const I pixels = encode(colour);
+    for (uint32_t y = 0; y < kRows * kPacketEdge; ++y)
+      pixels.store(reinterpret_cast<int32_t*>(run.pixels[y] + x * kPacketEdge));
+    columns_ = x + kRows;
   }
 
   /// Waits until all pixels have arrived.
@@ -76,6 +78,19 @@ private:
     uint32_t pixels[kRows * kPacketEdge][kRunPackets * kPacketEdge];
     ListElement list[kRows * kPacketEdge];
   };
+
+  /// Where a packet goes that is in the column, in the block from `row` on.
+  Run& run_for(uint32_t column, uint32_t row) {
+    if (columns_ != 0 && (row != row_ || column < column_ || column > column_ + columns_ ||
+                          column - column_ >= kRunPackets))
+      send();
+    if (columns_ == 0) {
+      spu_.wait_all(1u << (kFirstTag + current_));
+      column_ = column;
+      row_ = row;
+    }
+    return runs_[current_];
+  }
 
   // One copy: local store is short.
   [[gnu::noinline]] void send() {
@@ -99,6 +114,9 @@ private:
     current_ ^= 1;
   }
 
+  I encode(const V3<S>& colour) const {
+    return pack(quantise(colour.x), quantise(colour.y), quantise(colour.z));
+  }
   /// Normalises to 0..255 without branches.
   I quantise(const F& value) const {
     const F clipped = S::min(S::max(value, F(0.0f)), F(1.0f));

@@ -38,6 +38,8 @@ public:
   }
 
 private:
+  using Colours = V3<typename Spu::simd>;
+
   static constexpr uint32_t kDomain = event::signal_1;
   static constexpr uint32_t kTag = 0;
 
@@ -133,11 +135,18 @@ private:
     uint32_t column = run.column;
     uint32_t row = run.row;
     for (uint32_t bundle = 0; bundle < run.bundles; ++bundle) {
-      phase_->bundles.trace(column, row, [&](uint32_t x, uint32_t y, const V3<typename Spu::simd>& colour) {
-        phase_->pixels.put(x, y, colour);
-        ++packets_;
-        exchange_.poll();
-      });
+      phase_->bundles.trace(
+          column, row,
+          [&](uint32_t x, uint32_t y, const Colours& colours) {
+            phase_->pixels.put(x, y, colours);
+            ++packets_;
+            exchange_.poll();
+          },
+          [&](uint32_t x, uint32_t y, const auto& colour) {
+            phase_->pixels.fill(x, y, colour);
+            packets_ += kBundlePackets<Spu>;
+            exchange_.poll();
+          });
       if (exchange_.over()) return;
       if (++column == frame_.bundle_columns) {
         column = 0;
