@@ -144,9 +144,9 @@ inline RayBounds bounds_of_ray(const RayPacket& rays, uint32_t lane) {
   return bounds;
 }
 
-/// What the least distance to planes on the near side of boxes is computed from, and the greatest one to those
-/// on the far side: the origin that is nearest or farthest, and 1 / direction of the steepest or the flattest
-/// ray. Of planes that lie behind that says no more than that.
+/// What the least distance to planes on the near side of boxes is computed from, and the greatest one to
+/// those on the far side: the origin that is nearest or farthest, and 1 / direction of the steepest or the
+/// flattest ray. Of planes that lie behind that says no more than that.
 struct Slab {
   float near_origin, near_inverse, far_origin, far_inverse;
 };
@@ -255,8 +255,8 @@ public:
   void get(uint32_t packet, Beam<S>& beam) const {
     for (uint32_t axis = 0; axis < 3; ++axis) {
       const Axis& a = axes_[axis];
-      beam.set(axis, {a.near_origin[packet], a.near_inverse[packet], a.far_origin[packet],
-                      a.far_inverse[packet]});
+      beam.set(axis,
+               {a.near_origin[packet], a.near_inverse[packet], a.far_origin[packet], a.far_inverse[packet]});
     }
   }
 

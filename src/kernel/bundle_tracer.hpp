@@ -17,7 +17,8 @@ public:
   /// Calls `put(column, row, colours)` for each packet in the picture of the bundle at (column, row); that
   /// counts bundles, `put` packets. Or `fill(column, row, colour)` where all of the bundle has one colour and
   /// is in the picture.
-  template <class Put, class Fill> void trace(uint32_t column, uint32_t row, Put put, [[maybe_unused]] Fill fill) {
+  template <class Put, class Fill>
+  void trace(uint32_t column, uint32_t row, Put put, [[maybe_unused]] Fill fill) {
     if constexpr (Spu::direct_memory) {
       const PinholeBundle<S> bundle(frame_, column, row);
       const bool lost = tracer_.finder().traversal().is_lost(bundle);

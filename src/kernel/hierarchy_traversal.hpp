@@ -155,8 +155,8 @@ private:
 
   void walk_together(Search* searches, uint32_t octant, uint32_t packets) {
     const BoxSides sides(octant);
-    together_ = packets;
-    farthest_ = greatest_limit(packets);
+    const uint32_t together = packets;
+    farthest_ = BranchWalk<Spu>::kBeyond * kMaxHitDistance; // until there are hits
     octant_ = octant;
     loose_ = 0;
     known_rays_ = known_beams_ = 0;
@@ -164,10 +164,12 @@ private:
     Branch branch = root();
     uint32_t rays = 0; // if there is one packet
     for (;;) {
-      if (branch.is_leaf()) {
-        test_objects(branch, packets, searches);
-      } else if (rays != 0) {
-        walk_alone(searches, sides, static_cast<uint32_t>(__builtin_ctz(packets)), branch, rays);
+      if (branch.is_leaf() || rays != 0) {
+        if (branch.is_leaf())
+          test_objects(branch, packets, searches);
+        else
+          walk_alone(searches, sides, static_cast<uint32_t>(__builtin_ctz(packets)), branch, rays);
+        farthest_ = Lanes::greatest_of(together, limits_);
       } else if (open(searches, sides, packets, branch)) {
         continue;
       }
@@ -191,7 +193,6 @@ private:
     }
     walk_.walk(members_[packet], sides, search.lanes, search, branch, rays);
     update_limit(search, packet);
-    farthest_ = greatest_limit(together_);
   }
 
   const OctantRays<S>& rays_of(const Search& search, uint32_t packet) {
@@ -266,7 +267,6 @@ private:
       return false;
     });
     for_each_lane(packets, [&](uint32_t packet) { update_limit(searches[packet], packet); });
-    farthest_ = greatest_limit(together_);
   }
   void test_object(uint32_t self, uint32_t packets, Search* searches) {
     if constexpr (Spu::direct_memory) {
@@ -282,8 +282,7 @@ private:
         objects_.test_closest(*search.rays, self, *search.hits);
       } else if (search.lanes != 0) {
         objects_.mailbox().begin_packet();
-        search.lanes &=
-            ~objects_.shadowed(*search.rays, self, search.lanes, *search.distance, *search.light);
+        search.lanes &= ~objects_.shadowed(*search.rays, self, search.lanes, *search.distance, *search.light);
       }
     });
   }
@@ -295,7 +294,6 @@ private:
     else if (search.lanes == 0)
       limits_[packet] = -1.0f;
   }
-  float greatest_limit(uint32_t packets) const { return Lanes::greatest_of(packets, limits_); }
   uint32_t looking_as_far_as(float distance) const {
     return Lanes::at_most(Lanes::splat(distance), Lanes::Type::load(limits_));
   }
@@ -305,14 +303,13 @@ private:
   BranchWalk<Spu> walk_;
   RayGroup<S> members_[kBundlePackets<Spu>]; ///< packets of the bundle; a packet alone is the first
   BundleBeams<S, kBundlePackets<Spu>> beams_;
-  Beam<S> around_;                       ///< all of them
-  uint32_t rays_[kBundlePackets<Spu>];   ///< of each packet that was asked last
-  uint32_t misses_[kBundlePackets<Spu>]; ///< boxes that a beam met but no ray
-  uint32_t loose_ = 0;                   ///< packets
-  uint32_t together_ = 0;                ///< packets
-  float farthest_ = 0.0f;                ///< of their limits
-  uint32_t octant_ = 0;                  ///< of all rays that go together
-  bool one_origin_ = false;              ///< of theirs
+  Beam<S> around_;                            ///< all of them
+  uint32_t rays_[kBundlePackets<Spu>];        ///< of each packet that was asked last
+  uint32_t misses_[kBundlePackets<Spu>];      ///< boxes that a beam met but no ray
+  uint32_t loose_ = 0;                        ///< packets
+  float farthest_ = 0.0f;                     ///< no packet looks farther
+  uint32_t octant_ = 0;                       ///< of all rays that go together
+  bool one_origin_ = false;                   ///< of theirs
   uint32_t known_rays_ = 0, known_beams_ = 0; ///< packets of which members_ has them
   alignas(64) float limits_[kBundlePackets<Spu>] = {};
 };

@@ -36,7 +36,7 @@ template <class S>
 void surface_of_ellipsoids(const ObjectLanes<S>& o, const V3<S>& along_ray, V3<S>& point, V3<S>& normal) {
   using F = typename S::F;
   // Three rows of four.
-  const V3<S>*const g = o.geometry;
+  const V3<S>* const g = o.geometry;
   const F m[3][4] = {
       {g[0].x, g[0].y, g[0].z, g[1].x}, {g[1].y, g[1].z, g[2].x, g[2].y}, {g[2].z, g[3].x, g[3].y, g[3].z}};
   const auto row = [&](int r) {
@@ -97,8 +97,8 @@ template <class S> uint32_t hit_lanes(const HitPacket& hits, uint32_t lanes) {
   return lanes & ~(objects == I::splat(static_cast<int32_t>(kNoOffset))).bits();
 }
 
-/// Of the hits of `lanes`, all of which hit something. Points are computed from the object, not along the ray:
-/// they lie on the surface to its own precision, however far away the ray began.
+/// Of the hits of `lanes`, all of which hit something. Points are computed from the object, not along the
+/// ray: they lie on the surface to its own precision, however far away the ray began.
 template <class Spu>
 void find_hit_points(SceneAccess<Spu>& scene, const RayPacket& rays, const HitPacket& hits, uint32_t lanes,
                      HitPoints<typename Spu::simd>& points) {

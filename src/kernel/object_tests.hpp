@@ -69,17 +69,15 @@ public:
     const ObjectRecord& object = *scene_.object(self);
     const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
     if (static_cast<ObjectKind>(kind) != ObjectKind::triangle) {
-      for_each_lane(packets,
-                    [&](uint32_t i) { test_closest(*searches[i].rays, self, *searches[i].hits); });
+      for_each_lane(packets, [&](uint32_t i) { test_closest(*searches[i].rays, self, *searches[i].hits); });
       return;
     }
     counters_.tests[kind] += static_cast<uint32_t>(__builtin_popcount(packets));
     const auto origin_of = [&](uint32_t i) { return searches[i].rays->origin.template load<S>(); };
     const auto test_by = [&](uint32_t i, const SeenTriangle<S>& triangle) __attribute__((always_inline)) {
       const RayPacket& rays = *searches[i].rays;
-      keep_closest(
-          triangle.crossed(rays.direction.template load<S>(), lanes_that_start_on<S>(rays, self)),
-          self, *searches[i].hits);
+      keep_closest(triangle.crossed(rays.direction.template load<S>(), lanes_that_start_on<S>(rays, self)),
+                   self, *searches[i].hits);
     };
     if (one_origin) {
       const SeenTriangle<S> triangle(origin_of(static_cast<uint32_t>(__builtin_ctz(packets))), object);
@@ -143,10 +141,10 @@ public:
       ++counters_.tests[kind];
       const RayPacket& rays = *search.rays;
       const SeenTriangle<S> triangle(rays.origin.template load<S>(), object);
-      search.lanes &= ~in_between(triangle.crossed(rays.direction.template load<S>(),
-                                                   lanes_that_start_on<S>(rays, self)),
-                                  *search.distance)
-                           .near;
+      search.lanes &=
+          ~in_between(triangle.crossed(rays.direction.template load<S>(), lanes_that_start_on<S>(rays, self)),
+                      *search.distance)
+               .near;
     });
   }
 

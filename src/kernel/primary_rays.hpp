@@ -27,8 +27,8 @@ void make_primary_rays(const FrameBlock& frame, uint32_t column, uint32_t row, R
 
 /// What the primary rays of a bundle of 4x4 packets have in common if they leave one point into one octant.
 ///
-/// Their directions are taken in the plane of the picture, where they lie between those of the corners, and in
-/// a scale in which none is shorter than 1: distances along them are not greater than along the unit
+/// Their directions are taken in the plane of the picture, where they lie between those of the corners, and
+/// in a scale in which none is shorter than 1: distances along them are not greater than along the unit
 /// directions.
 template <class S> struct PinholeBundle {
   RayBounds all;

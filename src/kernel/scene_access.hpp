@@ -68,8 +68,8 @@ public:
   Spu& spu() { return cache_.spu(); }
 
 private:
-  /// Objects that follow each other by `step` bytes from `first` on, or if that is 0, whose offsets do, a word
-  /// each.
+  /// Objects that follow each other by `step` bytes from `first` on, or if that is 0, whose offsets do, a
+  /// word each.
   struct Sequence {
     uint32_t first, count, step;
   };

@@ -81,8 +81,8 @@ private:
 
   /// Where a packet goes that is in the column, in the block from `row` on.
   Run& run_for(uint32_t column, uint32_t row) {
-    if (columns_ != 0 && (row != row_ || column < column_ || column > column_ + columns_ ||
-                          column - column_ >= kRunPackets))
+    if (columns_ != 0 &&
+        (row != row_ || column < column_ || column > column_ + columns_ || column - column_ >= kRunPackets))
       send();
     if (columns_ == 0) {
       spu_.wait_all(1u << (kFirstTag + current_));
