@@ -103,7 +103,7 @@ private:
   }
 
   void split(const Range<S>& range, uint32_t depth, Range<S> (&children)[kChildren]) {
-    if (range.count() < kChildren)
+    if (range.count() <= kChildren)
       take_apart(range, children);
     else if (range.count() <= Clusters<S>::kMaxReferences)
       Clusters<S>::make(references_, range, children);

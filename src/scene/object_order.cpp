@@ -11,7 +11,7 @@ namespace celltrace {
 
 namespace {
 
-constexpr std::uint32_t kObjectsPerCell = 16;
+constexpr std::uint32_t kObjectsPerCell = 4;
 constexpr std::uint32_t kMaxCellBits = 18;
 /// Grids within cells of grids; objects that are still together then stay so.
 constexpr int kMaxLevels = 24;
