@@ -1,6 +1,8 @@
 #include "scene/scene_image.hpp"
 
 #include "celltrace/error.hpp"
+#include "celltrace/spe/simd_host.hpp"
+#include "kernel/build_hierarchy_boxes.hpp"
 #include "kernel/build_hierarchy_plan.hpp"
 #include "scene/mesh_instances.hpp"
 #include "scene/parallel.hpp"
@@ -18,6 +20,8 @@ namespace celltrace {
 using namespace kernel;
 
 namespace {
+
+using Simd = HostSimd<xsimd::sse2>;
 
 constexpr std::uint32_t kObjectsPerThread = 8192;
 
@@ -174,9 +178,12 @@ public:
     for_each_part(threads, [&](unsigned part) {
       const HostPart mine(count, part, threads);
       for (std::uint32_t run = mine.begin; run < mine.end; ++run) {
-        Box box = bounding_box(objects[runs[run]]);
-        for (std::uint32_t i = runs[run] + 1; i < runs[run + 1]; ++i)
-          box = box_around(box, bounding_box(objects[i]));
+        auto lanes = hierarchy::LaneBox<Simd>::empty();
+        for (std::uint32_t i = runs[run]; i < runs[run + 1]; ++i)
+          lanes.grow(hierarchy::box_of<Simd>(objects[i]));
+        hierarchy::Reference box;
+        lanes.min.store(box.min); // over the words beside
+        lanes.max.store(box.max);
         table<RunRecord>(header_.run_offset)[run] = {{box.min[0], box.min[1], box.min[2]},
                                                      runs[run],
                                                      {box.max[0], box.max[1], box.max[2]},

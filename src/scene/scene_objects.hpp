@@ -43,9 +43,14 @@ private:
   };
   class Writer;
 
+  void place_spheres(const Piece& piece, std::uint32_t begin, std::uint32_t end, ObjectCensus& census,
+                     PlacedObject* to) const;
+  void place_triangles(const Piece& piece, std::uint32_t begin, std::uint32_t end, ObjectCensus& census,
+                       PlacedObject* to) const;
   void add_sphere(const Object& object);
   void add_mesh(const Object& object, const Mesh& mesh, unsigned threads);
   void grow(std::size_t objects);
+  void fetch(const Piece& piece, const PlacedObject& soon, const PlacedObject& later) const;
   std::uint32_t end_of(const Piece& piece) const;
   /// `near`: a piece that is likely to be it, or null.
   const Piece& piece_of(std::uint32_t number, const Piece* near) const;
