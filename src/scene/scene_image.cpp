@@ -152,10 +152,15 @@ public:
       table<InteriorRecord>(header_.interior_offset)[i].ior = static_cast<float>(scene_.interiors[i].ior);
   }
 
-  void write_objects(const SceneObjects& objects, std::span<const PlacedObject> placed, unsigned threads) {
-    std::vector<ObjectCensus> before(threads + 1);
+  /// `places` has room for a word per object.
+  void write_objects(const SceneObjects& objects, std::span<const PlacedObject> placed, std::uint32_t* places,
+                     unsigned threads) {
+    // Without tables that grow with them objects are written in the scene's order: it takes fewer lines to
+    // send records anywhere than to fetch triangles and vertices from there.
     const bool has_tables = header_.normals_count != 0 || header_.blend_count != 0;
-    if (has_tables && threads > 1)
+    if (!has_tables) return send_objects(objects, placed, places, threads);
+    std::vector<ObjectCensus> before(threads + 1);
+    if (threads > 1)
       for_each_part(threads, [&](unsigned part) {
         before[part + 1] = objects.count_tables(part_of(placed, part, threads));
       });
@@ -217,6 +222,17 @@ public:
   }
 
 private:
+  void send_objects(const SceneObjects& objects, std::span<const PlacedObject> placed, std::uint32_t* places,
+                    unsigned threads) {
+    std::fill_n(places, objects.count(), SceneObjects::kNoPlace);
+    for (std::uint32_t i = 0; i < placed.size(); ++i)
+      places[placed[i].source] = i;
+    for_each_part(threads, [&](unsigned part) {
+      const HostPart mine(objects.count(), part, threads);
+      objects.write_apart(mine.begin, mine.end, places, tables_, table<ObjectRecord>(header_.object_offset));
+    });
+  }
+
   template <class Record> Record* table(std::uint32_t offset) const {
     return reinterpret_cast<Record*>(base_ + offset);
   }
@@ -257,7 +273,7 @@ void SceneImage::assign(const Scene& scene, AlignedBlock& work, unsigned threads
   block_.reserve(header.bytes + hierarchy_bytes(header));
   TableWriter writer(block_.data(), header, scene);
   writer.write_surfaces();
-  writer.write_objects(objects, {memory.objects, loose.objects}, threads);
+  writer.write_objects(objects, {memory.objects, loose.objects}, memory.cells, threads);
   writer.write_runs(runs, threads);
   writer.write_instances(instances, threads);
   writer.write_bounds(loose.around);

@@ -23,8 +23,8 @@ using Simd = HostSimd<xsimd::sse2>;
 using LaneBox = hierarchy::LaneBox<Simd>;
 
 constexpr std::uint32_t kVerticesPerThread = 16384;
-/// Objects whose vertices are on their way while one is written, for they lie anywhere.
-constexpr std::size_t kAhead = 32;
+/// Objects whose records are on their way while one is written, for they lie anywhere.
+constexpr std::uint32_t kAhead = 16;
 
 void copy(const Vec3& from, float* to) {
   for (int i = 0; i < 3; ++i)
@@ -305,20 +305,28 @@ void SceneObjects::write(std::span<const PlacedObject> objects, const RecordTabl
       to[i] = writer.sphere(piece.object[number]);
       continue;
     }
-    if (objects.size() - i > 2 * kAhead) fetch(piece, objects[i + kAhead], objects[i + 2 * kAhead]);
     writer.triangle(piece, piece.mesh->triangles[number], to[i]);
   }
 }
 
-/// Asks for the vertices of the one and for the other, as far as they belong to the piece.
-void SceneObjects::fetch(const Piece& piece, const PlacedObject& soon, const PlacedObject& later) const {
-  const std::vector<Mesh::Triangle>& triangles = piece.mesh->triangles;
-  const std::uint32_t number = soon.source - piece.first;
-  const std::uint32_t later_number = later.source - piece.first;
-  if (later_number < triangles.size()) __builtin_prefetch(&triangles[later_number]);
-  if (number < triangles.size())
-    for (const Index vertex : triangles[number].vertex)
-      __builtin_prefetch(&piece.vertices[vertex]);
+void SceneObjects::write_apart(std::uint32_t begin, std::uint32_t end, const std::uint32_t* places,
+                               const RecordTables& tables, ObjectRecord* to) const {
+  Writer writer(*this, tables, {});
+  while (begin < end) {
+    const Piece& piece = piece_of(begin, nullptr);
+    const std::uint32_t piece_end = std::min(end, end_of(piece));
+    for (std::uint32_t number = begin; number < piece_end; ++number) {
+      if (piece_end - number > kAhead && places[number + kAhead] != kNoPlace)
+        __builtin_prefetch(to + places[number + kAhead], 1);
+      if (places[number] == kNoPlace) continue;
+      ObjectRecord& record = to[places[number]];
+      if (piece.mesh != nullptr)
+        writer.triangle(piece, piece.mesh->triangles[number - piece.first], record);
+      else
+        record = writer.sphere(piece.object[number - piece.first]);
+    }
+    begin = piece_end;
+  }
 }
 
 } // namespace celltrace
