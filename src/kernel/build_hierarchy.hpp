@@ -115,8 +115,9 @@ private:
     if (self_ == 0) memory_.team->nodes = static_cast<uint32_t>(next - nodes_);
   }
 
-  /// Who made the image may have been another processor, and treelets lie anywhere in it.
-  void prefetch_objects(const Treelet& treelet) const {
+  /// Who made the image may have been another processor, and treelets lie anywhere in it. A compiler drops
+  /// calls of what only prefetches.
+  [[gnu::always_inline]] void prefetch_objects(const Treelet& treelet) const {
     for (uint32_t r = treelet.begin; r < treelet.end; ++r) {
       const RunRecord& run = runs_[memory_.runs[r].value];
       for (uint32_t i = 0; i < run.count; ++i)

@@ -40,6 +40,16 @@ template <class S> struct LaneBox {
   using F4 = typename S::F4;
   F4 min, max;
 
+  LaneBox() = default;
+  LaneBox(const F4& low, const F4& high) : min(low), max(high) {}
+  // In the pieces in which it is made, so that a processor need not wait for it to be in memory.
+  LaneBox(const LaneBox& other) : min(other.min), max(other.max) {}
+  LaneBox& operator=(const LaneBox& other) {
+    min = other.min;
+    max = other.max;
+    return *this;
+  }
+
   static LaneBox empty() { return {F4::splat(kHuge), F4::splat(-kHuge)}; }
   static LaneBox of(const Reference& reference) { return {F4::load(reference.min), F4::load(reference.max)}; }
 
@@ -74,6 +84,13 @@ template <class S> LaneBox<S> box_of(const ObjectRecord& object) {
   const Box box = bounding_box(object);
   return {four<S>(box.min[0], box.min[1], box.min[2], 0.0f),
           four<S>(box.max[0], box.max[1], box.max[2], 0.0f)};
+}
+
+/// In the pieces in which boxes are loaded and stored.
+template <class S> void copy(const Reference& from, Reference& to) {
+  const auto low = S::F4::load(from.min), high = S::F4::load(from.max);
+  low.store(to.min); // and the words beside
+  high.store(to.max);
 }
 
 /// References [begin, end) of a list.

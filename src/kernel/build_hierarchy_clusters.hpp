@@ -78,14 +78,14 @@ private:
   }
 
   void collect(Reference* references, const Range<S>& range, Range<S> (&clusters)[kChildren]) const {
-    Reference copy[kMaxReferences];
+    Reference as_given[kMaxReferences];
     for (uint32_t i = 0; i < range.count(); ++i)
-      copy[i] = references[i];
+      copy<S>(references[i], as_given[i]);
     uint32_t place = 0;
     for (uint32_t c = 0; c < kChildren; ++c) {
       clusters[c] = {range.begin + place, 0, weight_[c], box_[c]};
       for (uint32_t members = members_[c]; members != 0; members &= members - 1)
-        references[place++] = copy[__builtin_ctz(members)];
+        copy<S>(as_given[__builtin_ctz(members)], references[place++]);
       clusters[c].end = range.begin + place;
     }
   }

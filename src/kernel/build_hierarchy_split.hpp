@@ -163,15 +163,14 @@ private:
                         Range<S>& right, IsOnLeft is_on_left) {
     uint32_t on_left = range.begin, on_right = 0;
     for (uint32_t i = range.begin; i < range.end; ++i) {
-      const Reference reference = references[i];
-      const uint32_t goes_left = is_on_left(reference, i);
-      references[on_left] = reference;
-      spare[on_right] = reference;
+      const uint32_t goes_left = is_on_left(references[i], i);
+      copy<S>(references[i], spare[on_right]);
+      copy<S>(references[i], references[on_left]);
       on_left += goes_left;
       on_right += 1 - goes_left;
     }
     for (uint32_t i = 0; i < on_right; ++i)
-      references[on_left + i] = spare[i];
+      copy<S>(spare[i], references[on_left + i]);
     left.begin = range.begin;
     left.end = right.begin = on_left;
     right.end = range.end;
