@@ -33,16 +33,23 @@ template <class S, uint32_t kBins> class LaneCuts {
 public:
   static constexpr uint32_t kNone = kSimdLanes;
 
-  /// Of kFewReferences at most; `centres` is around the doubles of their centres.
-  LaneCuts(const Reference* references, const Range<S>& range, const LaneBox<S>& centres) {
+  /// Of kFewReferences at most.
+  LaneCuts(const Reference* references, const Range<S>& range) {
+    alignas(16) float centres[kFewReferences][4]; // the doubles of them
+    LaneBox<S> around = LaneBox<S>::empty();
+    for (uint32_t i = 0; i < range.count(); ++i) {
+      const F4 centre = LaneBox<S>::of(references[range.begin + i]).centre();
+      around.grow(centre);
+      centre.store(centres[i]);
+    }
     const M is_x = M::from_bits(kCutLanes<kBins>.is_x), is_y = M::from_bits(kCutLanes<kBins>.is_y);
     const auto of_axis = [&](const F& x, const F& y, const F& z) {
       return S::select(is_x, x, S::select(is_y, y, z));
     };
     alignas(16) float first[4];
     alignas(16) float last[4];
-    centres.min.store(first);
-    centres.max.store(last);
+    around.min.store(first);
+    around.max.store(last);
     const F base = of_axis(first[0], first[1], first[2]);
     const F extent = of_axis(last[0], last[1], last[2]) - base;
     const F scale = S::select(extent > F(kThin), F(kBins - 1) / extent, F(0.0f));
@@ -54,7 +61,7 @@ public:
       const Reference& reference = references[range.begin + i];
       const F low[3] = {reference.min[0], reference.min[1], reference.min[2]};
       const F high[3] = {reference.max[0], reference.max[1], reference.max[2]};
-      const F centre = of_axis(low[0] + high[0], low[1] + high[1], low[2] + high[2]);
+      const F centre = of_axis(centres[i][0], centres[i][1], centres[i][2]);
       const M on_left = (S::bits_of((centre - base) * scale + F(kRounder)) & low_bits) < bin;
       left.grow(on_left, low, high);
       right.grow(!on_left, low, high);

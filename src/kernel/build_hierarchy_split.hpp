@@ -36,16 +36,15 @@ public:
                                       Range<S>& left, Range<S>& right) {
     // Points and lines are all the same to rays, and to the heuristic.
     if (range.box.area() == 0.0f) return halve_range(references, range, left, right);
-    const LaneBox<S> centres = centres_of(references, range);
     if constexpr (S::kWidth == kSimdLanes && kBins == kFewBins) {
-      const LaneCuts<S, kBins> cuts(references, range, centres);
+      const LaneCuts<S, kBins> cuts(references, range);
       const uint32_t lane = cuts.best();
       if (lane == cuts.kNone) return halve_range(references, range, left, right);
       cuts.sides_of(lane, range.weight, left, right);
       partition(references, spare, range, left, right,
                 [&](const Reference&, uint32_t i) { return cuts.is_on_left(i - range.begin, lane); });
     } else {
-      const Places places(centres);
+      const Places places(centres_of(references, range));
       Bins bins;
       fill(bins, references, range, places);
       const Cut cut = best_cut(bins);
