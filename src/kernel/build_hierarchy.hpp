@@ -82,8 +82,11 @@ private:
     for (;;) {
       const uint32_t first = __atomic_fetch_add(&memory_.team->next, kTaken, __ATOMIC_RELAXED);
       if (first >= treelets) return;
-      for (uint32_t t = first; t < treelets && t < first + kTaken; ++t)
+      const uint32_t end = treelets - first < kTaken ? treelets : first + kTaken;
+      for (uint32_t t = first; t < end; ++t) {
+        if (t + 1 < end) prefetch_objects(memory_.treelets[t + 1]);
         if (!is_copy(memory_.treelets[t])) build(memory_.treelets[t]);
+      }
     }
   }
 
@@ -112,11 +115,14 @@ private:
     if (self_ == 0) memory_.team->nodes = static_cast<uint32_t>(next - nodes_);
   }
 
-  /// Who made the image may have been another processor.
-  void prefetch_objects(const Treelet& treelet) const {
-    const ObjectRecord* objects = objects_ + runs_[run_of(treelet)].first;
-    for (uint32_t i = 0; i < treelet.count; ++i)
-      __builtin_prefetch(objects + i);
+  /// Who made the image may have been another processor, and treelets lie anywhere in it. A compiler drops
+  /// calls of what only prefetches.
+  [[gnu::always_inline]] void prefetch_objects(const Treelet& treelet) const {
+    for (uint32_t r = treelet.begin; r < treelet.end; ++r) {
+      const RunRecord& run = runs_[memory_.runs[r].value];
+      for (uint32_t i = 0; i < run.count; ++i)
+        __builtin_prefetch(objects_ + run.first + i);
+    }
   }
 
   /// What the copy of a leaf adds to offsets, modulo 2^32.
@@ -178,7 +184,7 @@ private:
     LaneBox<S> box = LaneBox<S>::empty();
     for (uint32_t i = 0; i < leaf_word::count(word); ++i) {
       const uint32_t object = step == 0 ? word_at(first + i * 4) : first + i * step;
-      box.grow(box_of(*reinterpret_cast<const ObjectRecord*>(image_ + object)));
+      box.grow(box_of<S>(*reinterpret_cast<const ObjectRecord*>(image_ + object)));
     }
     return box;
   }
@@ -190,7 +196,7 @@ private:
       references = memory_.references + treelet.first;
       spare = memory_.spare_references + treelet.first;
     }
-    Range<S> all = {0, 0, 0, LaneBox<S>::empty(), LaneBox<S>::empty()};
+    Range<S> all = {0, 0, 0, LaneBox<S>::empty()};
     for (uint32_t r = treelet.begin; r < treelet.end; ++r) {
       const RunRecord& run = runs_[memory_.runs[r].value];
       add_references(run.first, run.count, references, all);
@@ -202,36 +208,16 @@ private:
     treelet.nodes = static_cast<uint32_t>(end - nodes);
   }
 
-  static LaneBox<S> box_of(const ObjectRecord& object) {
-    alignas(16) float words[3][4];
-    if (is_triangle(object)) {
-      for (int vertex = 0; vertex < 3; ++vertex)
-        __builtin_memcpy(words[vertex], object.geometry + 3 * vertex, sizeof words[0]);
-      const F4 a = F4::load(words[0]), b = F4::load(words[1]), c = F4::load(words[2]);
-      return {S::min(a, S::min(b, c)), S::max(a, S::max(b, c))};
-    }
-    const Box box = bounding_box(object);
-    for (int i = 0; i < 4; ++i) {
-      words[0][i] = i < 3 ? box.min[i] : 0.0f;
-      words[1][i] = i < 3 ? box.max[i] : 0.0f;
-    }
-    return {F4::load(words[0]), F4::load(words[1])};
-  }
-  static bool is_triangle(const ObjectRecord& object) {
-    return static_cast<ObjectKind>(object.kind_and_flags & object_flag::kind_mask) == ObjectKind::triangle;
-  }
-
   /// Adds references to objects that are neighbours in the table.
   void add_references(uint32_t first, uint32_t count, Reference* references, Range<S>& range) const {
     for (uint32_t i = first; i < first + count; ++i) {
       Reference& reference = references[range.end++];
-      const LaneBox<S> lanes = box_of(objects_[i]);
+      const LaneBox<S> lanes = box_of<S>(objects_[i]);
       lanes.min.store(reference.min); // over the words beside
       lanes.max.store(reference.max);
       reference.value = frame_.object_offset + i * static_cast<uint32_t>(sizeof(ObjectRecord));
       reference.weight = 1;
       range.box.grow(lanes);
-      range.centres.grow(lanes.centre());
     }
     range.weight += count;
   }
@@ -248,7 +234,7 @@ private:
     const uint32_t count = frame_.object_count;
     const bool local = count <= kLocalReferences;
     Reference* references = local ? references_ : memory_.references;
-    Range<S> all = {0, 0, 0, LaneBox<S>::empty(), LaneBox<S>::empty()};
+    Range<S> all = {0, 0, 0, LaneBox<S>::empty()};
     add_references(0, count, references, all);
     const NodeRecord* end = count <= kCertainLeaf
                                 ? add_root(all, references)

@@ -1,6 +1,7 @@
 // What the builder of the hierarchy handles: boxes in SIMD lanes, and references to objects. Kernel dialect.
 #pragma once
 
+#include "kernel/overlap.hpp"
 #include "kernel/records.hpp"
 
 #include <stdint.h>
@@ -18,11 +19,36 @@ struct alignas(32) Reference {
 static_assert(sizeof(Reference) == 32, "four a line");
 
 constexpr float kHuge = 3e38f;
+/// Along an axis where centres are no farther apart there is no cut.
+constexpr float kThin = 1e-30f;
+/// Adding this to a small number leaves that, rounded, in the low bits. Where a number is not small, or none,
+/// something is in them.
+constexpr float kRounder = 8388608.0f;
+
+/// Numbers that are in registers go to lanes without a detour through memory, where a processor would wait
+/// for the last of them.
+template <class S> typename S::F4 four(float a, float b, float c, float d) {
+  typedef float Four __attribute__((vector_size(16)));
+  const Four numbers = {a, b, c, d};
+  alignas(16) float lanes[4];
+  __builtin_memcpy(lanes, &numbers, sizeof lanes);
+  return S::F4::load(lanes);
+}
 
 /// A box whose coordinates are lanes 0 to 2; lane 3 is undefined.
 template <class S> struct LaneBox {
   using F4 = typename S::F4;
   F4 min, max;
+
+  LaneBox() = default;
+  LaneBox(const F4& low, const F4& high) : min(low), max(high) {}
+  // In the pieces in which it is made, so that a processor need not wait for it to be in memory.
+  LaneBox(const LaneBox& other) : min(other.min), max(other.max) {}
+  LaneBox& operator=(const LaneBox& other) {
+    min = other.min;
+    max = other.max;
+    return *this;
+  }
 
   static LaneBox empty() { return {F4::splat(kHuge), F4::splat(-kHuge)}; }
   static LaneBox of(const Reference& reference) { return {F4::load(reference.min), F4::load(reference.max)}; }
@@ -45,23 +71,42 @@ template <class S> struct LaneBox {
   }
 };
 
+/// The box around an object.
+template <class S> LaneBox<S> box_of(const ObjectRecord& object) {
+  using F4 = typename S::F4;
+  if (static_cast<ObjectKind>(object.kind_and_flags & object_flag::kind_mask) == ObjectKind::triangle) {
+    alignas(16) float words[3][4];
+    for (int vertex = 0; vertex < 3; ++vertex)
+      __builtin_memcpy(words[vertex], object.geometry + 3 * vertex, sizeof words[0]);
+    const F4 a = F4::load(words[0]), b = F4::load(words[1]), c = F4::load(words[2]);
+    return {S::min(a, S::min(b, c)), S::max(a, S::max(b, c))};
+  }
+  const Box box = bounding_box(object);
+  return {four<S>(box.min[0], box.min[1], box.min[2], 0.0f),
+          four<S>(box.max[0], box.max[1], box.max[2], 0.0f)};
+}
+
+/// In the pieces in which boxes are loaded and stored.
+template <class S> void copy(const Reference& from, Reference& to) {
+  const auto low = S::F4::load(from.min), high = S::F4::load(from.max);
+  low.store(to.min); // and the words beside
+  high.store(to.max);
+}
+
 /// References [begin, end) of a list.
 template <class S> struct Range {
   uint32_t begin, end;
-  uint32_t weight;    ///< of all of them
-  LaneBox<S> box;     ///< around them
-  LaneBox<S> centres; ///< around the doubles of their centres
+  uint32_t weight; ///< of all of them
+  LaneBox<S> box;  ///< around them
 
   uint32_t count() const { return end - begin; }
 };
 
 /// The range of `references` [begin, end), measured.
 template <class S> Range<S> range_of(const Reference* references, uint32_t begin, uint32_t end) {
-  Range<S> range = {begin, end, 0, LaneBox<S>::empty(), LaneBox<S>::empty()};
+  Range<S> range = {begin, end, 0, LaneBox<S>::empty()};
   for (uint32_t i = begin; i < end; ++i) {
-    const LaneBox<S> box = LaneBox<S>::of(references[i]);
-    range.box.grow(box);
-    range.centres.grow(box.centre());
+    range.box.grow(LaneBox<S>::of(references[i]));
     range.weight += references[i].weight;
   }
   return range;

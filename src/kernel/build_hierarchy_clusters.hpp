@@ -13,8 +13,10 @@ template <class S> class Clusters {
 public:
   static constexpr uint32_t kMaxReferences = 8;
 
-  /// Orders the references of `range`, of which there are kChildren to kMaxReferences, by cluster.
-  static void make(Reference* references, const Range<S>& range, Range<S> (&clusters)[kChildren]) {
+  /// Orders the references of `range`, of which there are more than kChildren, and kMaxReferences at most, by
+  /// cluster.
+  [[gnu::noinline]] static void make(Reference* references, const Range<S>& range,
+                                     Range<S> (&clusters)[kChildren]) {
     Clusters work;
     work.start(references + range.begin, range.count());
     while (work.count_ > kChildren)
@@ -31,7 +33,6 @@ private:
       weight_[i] = references[i].weight;
       cost_[i] = box_[i].area() * static_cast<float>(weight_[i]);
     }
-    if (count == kChildren) return;
     for (uint32_t i = 1; i < count; ++i)
       for (uint32_t j = 0; j < i; ++j)
         join(i, j);
@@ -45,15 +46,16 @@ private:
   }
 
   void merge_best() {
-    uint32_t into = 0, from = 1;
+    // Branches would be guesses.
     float least = added_[1][0];
+    uint32_t best = kMaxReferences;
     for (uint32_t i = 2; i < count_; ++i)
-      for (uint32_t j = 0; j < i; ++j)
-        if (added_[i][j] < least) {
-          least = added_[i][j];
-          into = j;
-          from = i;
-        }
+      for (uint32_t j = 0; j < i; ++j) {
+        const bool less = added_[i][j] < least;
+        least = less ? added_[i][j] : least;
+        best = less ? i * kMaxReferences + j : best;
+      }
+    const uint32_t into = best % kMaxReferences, from = best / kMaxReferences;
     box_[into].grow(box_[from]);
     members_[into] |= members_[from];
     weight_[into] += weight_[from];
@@ -76,14 +78,14 @@ private:
   }
 
   void collect(Reference* references, const Range<S>& range, Range<S> (&clusters)[kChildren]) const {
-    Reference copy[kMaxReferences];
+    Reference as_given[kMaxReferences];
     for (uint32_t i = 0; i < range.count(); ++i)
-      copy[i] = references[i];
+      copy<S>(references[i], as_given[i]);
     uint32_t place = 0;
     for (uint32_t c = 0; c < kChildren; ++c) {
-      clusters[c] = {range.begin + place, 0, weight_[c], box_[c], LaneBox<S>::empty()};
+      clusters[c] = {range.begin + place, 0, weight_[c], box_[c]};
       for (uint32_t members = members_[c]; members != 0; members &= members - 1)
-        references[place++] = copy[__builtin_ctz(members)];
+        copy<S>(as_given[__builtin_ctz(members)], references[place++]);
       clusters[c].end = range.begin + place;
     }
   }

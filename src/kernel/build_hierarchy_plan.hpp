@@ -14,9 +14,9 @@ constexpr uint32_t kMaxBuilders = 32;
 constexpr uint32_t kSteps = 3;
 
 /// Part of the hierarchy that is built by itself: where it ends, unless there are fewer than four runs.
-constexpr uint32_t kTreeletObjects = 256;
+constexpr uint32_t kTreeletObjects = 64;
 /// References that an SPE has room for.
-constexpr uint32_t kLocalReferences = 3 * kTreeletObjects;
+constexpr uint32_t kLocalReferences = 768;
 
 /// What all SPEs know of a build. A line, at the start of the work memory.
 struct alignas(128) TeamRecord {

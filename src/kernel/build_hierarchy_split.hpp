@@ -2,7 +2,7 @@
 // On fast construction of SAH-based bounding volume hierarchies, 2007). Kernel dialect.
 #pragma once
 
-#include "kernel/build_hierarchy_boxes.hpp"
+#include "kernel/build_hierarchy_lanes.hpp"
 
 namespace celltrace::kernel::hierarchy {
 
@@ -14,6 +14,17 @@ void halve_range(const Reference* references, const Range<S>& range, Range<S>& l
   right = range_of<S>(references, middle, range.end);
 }
 
+/// Around the doubles of the centres of a range's references.
+template <class S> LaneBox<S> centres_of(const Reference* references, const Range<S>& range) {
+  LaneBox<S> centres = LaneBox<S>::empty();
+  for (uint32_t i = range.begin; i < range.end; ++i)
+    centres.grow(LaneBox<S>::of(references[i]).centre());
+  return centres;
+}
+
+/// Of ranges of kFewReferences at most.
+constexpr uint32_t kFewBins = 4;
+
 /// Cuts ranges in two. `kBins` is a power of two.
 template <class S, uint32_t kBins> class BinnedSplitter {
 public:
@@ -21,17 +32,28 @@ public:
 
   /// Orders the references of `range` (two at least) so that those of `left` come first, stably. `spare` has
   /// room for all of them.
-  static void split(Reference* references, Reference* spare, const Range<S>& range, Range<S>& left,
-                    Range<S>& right) {
+  [[gnu::noinline]] static void split(Reference* references, Reference* spare, const Range<S>& range,
+                                      Range<S>& left, Range<S>& right) {
     // Points and lines are all the same to rays, and to the heuristic.
     if (range.box.area() == 0.0f) return halve_range(references, range, left, right);
-    const Places places(range.centres);
-    Bins bins;
-    fill(bins, references, range, places);
-    const Cut cut = best_cut(bins);
-    if (cut.bin == 0) return halve_range(references, range, left, right);
-    measure(bins, cut, left, right);
-    partition(references, spare, range, places, cut, left, right);
+    if constexpr (S::kWidth == kSimdLanes && kBins == kFewBins) {
+      const LaneCuts<S, kBins> cuts(references, range);
+      const uint32_t lane = cuts.best();
+      if (lane == cuts.kNone) return halve_range(references, range, left, right);
+      cuts.sides_of(lane, range.weight, left, right);
+      partition(references, spare, range, left, right,
+                [&](const Reference&, uint32_t i) { return cuts.is_on_left(i - range.begin, lane); });
+    } else {
+      const Places places(centres_of(references, range));
+      Bins bins;
+      fill(bins, references, range, places);
+      const Cut cut = best_cut(bins);
+      if (cut.bin == 0) return halve_range(references, range, left, right);
+      measure(bins, cut, left, right);
+      partition(references, spare, range, left, right, [&](const Reference& reference, uint32_t) {
+        return static_cast<uint32_t>(places.bin_of(reference, cut.axis) < cut.bin);
+      });
+    }
   }
 
 private:
@@ -39,24 +61,18 @@ private:
   struct Places {
     F4 base, scale;
     alignas(16) float base_of[4];
-    alignas(16) float scale_of[4];
+    float scale_of[3];
 
     explicit Places(const LaneBox<S>& centres) {
       alignas(16) float extent[4];
       (centres.max - centres.min).store(extent);
       centres.min.store(base_of);
       for (int axis = 0; axis < 3; ++axis)
-        scale_of[axis] = extent[axis] > 1e-30f ? (kBins - 1) / extent[axis] : 0.0f;
+        scale_of[axis] = extent[axis] > kThin ? (kBins - 1) / extent[axis] : 0.0f;
       // Off the range of denormal numbers, which some processors are slow with.
-      base_of[3] = -1.0f;
-      scale_of[3] = 0.0f;
-      base = F4::load(base_of);
-      scale = F4::load(scale_of);
+      base = four<S>(base_of[0], base_of[1], base_of[2], -1.0f);
+      scale = four<S>(scale_of[0], scale_of[1], scale_of[2], 0.0f);
     }
-    /// Adding this to a small number leaves that, rounded, in the low bits. Where a number is not small, or
-    /// none, some bin comes out.
-    static constexpr float kRounder = 8388608.0f;
-
     void bins_of(const F4& centre, uint32_t (&bin)[4]) const {
       alignas(16) float place[4];
       ((centre - base) * scale + F4::splat(kRounder)).store(place);
@@ -131,7 +147,7 @@ private:
   }
 
   static void measure(const Bins& bins, const Cut& cut, Range<S>& left, Range<S>& right) {
-    left = right = {0, 0, 0, LaneBox<S>::empty(), LaneBox<S>::empty()};
+    left = right = {0, 0, 0, LaneBox<S>::empty()};
     for (uint32_t i = 0; i < kBins; ++i) {
       Range<S>& side = i < cut.bin ? left : right;
       side.box.grow(bins.box[cut.axis][i]);
@@ -141,31 +157,22 @@ private:
 
   /// Sends each reference both ways and keeps the one that is right: branches would be guesses. Stores on the
   /// left never pass what is still to be read.
-  static void partition(Reference* references, Reference* spare, const Range<S>& range, const Places& places,
-                        const Cut& cut, Range<S>& left, Range<S>& right) {
-    const F4 away[2] = {F4::splat(kHuge), F4::splat(0.0f)};
-    LaneBox<S> left_centres = LaneBox<S>::empty(), right_centres = LaneBox<S>::empty();
+  template <class IsOnLeft>
+  static void partition(Reference* references, Reference* spare, const Range<S>& range, Range<S>& left,
+                        Range<S>& right, IsOnLeft is_on_left) {
     uint32_t on_left = range.begin, on_right = 0;
     for (uint32_t i = range.begin; i < range.end; ++i) {
-      const Reference reference = references[i];
-      const uint32_t goes_left = places.bin_of(reference, cut.axis) < cut.bin;
-      references[on_left] = reference;
-      spare[on_right] = reference;
+      const uint32_t goes_left = is_on_left(references[i], i);
+      copy<S>(references[i], spare[on_right]);
+      copy<S>(references[i], references[on_left]);
       on_left += goes_left;
       on_right += 1 - goes_left;
-      const F4 centre = LaneBox<S>::of(reference).centre();
-      left_centres.min = S::min(left_centres.min, centre + away[goes_left]);
-      left_centres.max = S::max(left_centres.max, centre - away[goes_left]);
-      right_centres.min = S::min(right_centres.min, centre + away[1 - goes_left]);
-      right_centres.max = S::max(right_centres.max, centre - away[1 - goes_left]);
     }
     for (uint32_t i = 0; i < on_right; ++i)
-      references[on_left + i] = spare[i];
+      copy<S>(spare[i], references[on_left + i]);
     left.begin = range.begin;
     left.end = right.begin = on_left;
     right.end = range.end;
-    left.centres = left_centres;
-    right.centres = right_centres;
   }
 };
 
@@ -173,10 +180,10 @@ private:
 template <class S>
 void split_range(Reference* references, Reference* spare, const Range<S>& range, Range<S>& left,
                  Range<S>& right) {
-  if (range.count() > 32)
+  if (range.count() > kFewReferences)
     BinnedSplitter<S, 8>::split(references, spare, range, left, right);
   else
-    BinnedSplitter<S, 4>::split(references, spare, range, left, right);
+    BinnedSplitter<S, kFewBins>::split(references, spare, range, left, right);
 }
 
 } // namespace celltrace::kernel::hierarchy

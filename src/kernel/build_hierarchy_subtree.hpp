@@ -20,27 +20,26 @@ struct Place {
 /// so that rounding loses no ray that grazes it.
 template <class S> void set_boxes(NodeRecord& node, const LaneBox<S> (&children)[kChildren]) {
   using F4 = typename S::F4;
+  alignas(16) float low[kChildren][4];
+  alignas(16) float high[kChildren][4];
   for (uint32_t i = 0; i < kChildren; ++i) {
-    alignas(16) float low[4];
-    alignas(16) float high[4];
-    children[i].min.store(low);
-    children[i].max.store(high);
-    for (uint32_t axis = 0; axis < 3; ++axis) {
-      node.box[2 * axis][i] = low[axis];
-      node.box[2 * axis + 1][i] = high[axis];
-    }
+    children[i].min.store(low[i]);
+    children[i].max.store(high[i]);
   }
   const F4 zero = F4::splat(0.0f);
   const F4 relative = F4::splat(1e-6f);
+  F4 lows[3], highs[3];
   F4 extent = zero;
-  for (uint32_t axis = 0; axis < 3; ++axis)
-    extent = extent + (F4::load(node.box[2 * axis + 1]) - F4::load(node.box[2 * axis]));
+  for (uint32_t axis = 0; axis < 3; ++axis) {
+    lows[axis] = four<S>(low[0][axis], low[1][axis], low[2][axis], low[3][axis]);
+    highs[axis] = four<S>(high[0][axis], high[1][axis], high[2][axis], high[3][axis]);
+    extent = extent + (highs[axis] - lows[axis]);
+  }
   const F4 thickness = S::max(extent, zero) * relative + F4::splat(1e-30f);
   for (uint32_t axis = 0; axis < 3; ++axis) {
-    const F4 low = F4::load(node.box[2 * axis]);
-    const F4 high = F4::load(node.box[2 * axis + 1]);
-    (low - (S::max(low, zero - low) * relative + thickness)).store(node.box[2 * axis]);
-    (high + (S::max(high, zero - high) * relative + thickness)).store(node.box[2 * axis + 1]);
+    const F4 least = lows[axis], most = highs[axis];
+    (least - (S::max(least, zero - least) * relative + thickness)).store(node.box[2 * axis]);
+    (most + (S::max(most, zero - most) * relative + thickness)).store(node.box[2 * axis + 1]);
   }
 }
 
@@ -71,7 +70,7 @@ public:
     waiting_ = 0;
     enter(range, place);
     while (waiting_ != 0) {
-      const Task task = stack_[--waiting_];
+      const Task& task = stack_[--waiting_];
       grow(task.range, task.place);
     }
     return next_;
@@ -87,9 +86,11 @@ private:
       stack_[waiting_++] = {range, place};
   }
 
+  /// Both may lie where the first child will wait.
   void grow(const Range<S>& range, const Place& place) {
+    const uint32_t depth = place.depth;
     Range<S> children[kChildren];
-    split(range, place.depth, children);
+    split(range, depth, children);
     if (place.parent) {
       if (ends_.end(range, children)) return ends_.add(range, place);
       place.parent->child[place.slot] =
@@ -99,11 +100,11 @@ private:
     NodeRecord* node = next_++;
     set_boxes<S>(*node, {children[0].box, children[1].box, children[2].box, children[3].box});
     for (uint32_t i = 0; i < kChildren; ++i)
-      enter(children[i], {node, i, place.depth + 1});
+      enter(children[i], {node, i, depth + 1});
   }
 
   void split(const Range<S>& range, uint32_t depth, Range<S> (&children)[kChildren]) {
-    if (range.count() < kChildren)
+    if (range.count() <= kChildren)
       take_apart(range, children);
     else if (range.count() <= Clusters<S>::kMaxReferences)
       Clusters<S>::make(references_, range, children);

@@ -18,8 +18,7 @@ public:
     epoch_ = frame.epoch & (strip_word::kEpochs - 1);
     exchanges_ = 0;
     received_ = 0;
-    // Every word wakes the PPE: about 64 of them will do.
-    units_per_report_ = until_report_ = frame.unit_count / 64 + 1;
+    until_report_ = units_per_report_ = frame.units_per_word;
     // Words that outlived their frame make room; those of a neighbour that is a frame ahead are kept.
     drain_mailbox();
     node_.begin_frame(frame.epoch, units, frame.exchange_parameter);
@@ -36,7 +35,7 @@ public:
   }
   void complete_unit() {
     node_.complete_unit();
-    if (--until_report_ != 0) return;
+    if (units_per_report_ == 0 || --until_report_ != 0) return;
     until_report_ = units_per_report_;
     if (spu_.out_mailbox_count() != 0)
       spu_.write_out_mailbox(make_report(ReportKind::progress, node_.completed()));
@@ -123,7 +122,7 @@ private:
   bool over_ = true;
   uint32_t exchanges_ = 0;
   uint32_t received_ = 0;
-  uint32_t units_per_report_ = 1, until_report_ = 1;
+  uint32_t units_per_report_ = 0, until_report_ = 0;
 };
 
 } // namespace celltrace::kernel

@@ -111,11 +111,14 @@ bool AcceleratorBuilder::build_hierarchy(const Progress& go_on) {
 bool AcceleratorBuilder::build_hierarchy_on(SpeTeam& team, unsigned spes, const Progress& go_on) {
   HierarchyWatch watch(work_[0], go_on);
   // What a few objects take is not worth while to share.
-  frame_.prepare_spes = frame_.run_count == 0 ? 1 : std::min(spes, hierarchy::kMaxBuilders);
+  const unsigned builders = frame_.run_count == 0 ? 1 : std::min(spes, hierarchy::kMaxBuilders);
+  // Between steps others are waited for, and it may be stopped.
+  const bool at_once = builders == 1 && !go_on;
+  frame_.prepare_spes = at_once ? 0 : builders;
   frame_.prepare_step = 0;
-  const std::uint32_t steps = frame_.run_count == 0 ? 1 : hierarchy::kSteps;
+  const std::uint32_t steps = at_once || frame_.run_count == 0 ? 1 : hierarchy::kSteps;
   for (; frame_.prepare_step < steps && !watch.stopped(); ++frame_.prepare_step)
-    team.prepare_frame(frame_.prepare_spes, [&] { watch.look(frame_.prepare_step != 0); });
+    team.prepare_frame(builders, [&] { watch.look(frame_.prepare_step != 0); });
   watch.rethrow();
   return !watch.stopped();
 }

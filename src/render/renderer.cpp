@@ -169,6 +169,10 @@ private:
     const SpeMeter meter(*machine_);
     RenderResult result;
     plan_->place(frame_);
+    // Every word wakes the PPE: about 64 of them will do, and none where nobody asks and each costs a
+    // thread's sleep.
+    const bool silent = !progress && machine_->direct_memory();
+    frame_.units_per_word = silent ? 0 : plan_->units() / 64 + 1;
     StripTally tally(machine_->spe_count(), plan_->units());
     result.complete = stages_ ? stages_->render_frame(progress) : team_->render_frame(tally, progress);
     statistics.render_seconds = render.seconds();

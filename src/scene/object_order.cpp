@@ -1,5 +1,7 @@
 #include "scene/object_order.hpp"
 
+#include "celltrace/spe/simd_host.hpp"
+#include "kernel/build_hierarchy_boxes.hpp"
 #include "scene/parallel.hpp"
 
 #include <algorithm>
@@ -9,9 +11,13 @@
 
 namespace celltrace {
 
+using namespace kernel;
+
 namespace {
 
-constexpr std::uint32_t kObjectsPerCell = 16;
+using Simd = HostSimd<xsimd::sse2>;
+
+constexpr std::uint32_t kObjectsPerCell = 4;
 constexpr std::uint32_t kMaxCellBits = 18;
 /// Grids within cells of grids; objects that are still together then stay so.
 constexpr int kMaxLevels = 24;
@@ -32,9 +38,14 @@ struct Bounds {
 };
 
 Bounds bounds_of(const PlacedObject* objects, std::uint32_t begin, std::uint32_t end) {
-  Bounds bounds;
+  auto lanes = hierarchy::LaneBox<Simd>::empty();
   for (std::uint32_t i = begin; i < end; ++i)
-    bounds.grow(objects[i].centre, objects[i].centre);
+    lanes.grow(Simd::F4::load(objects[i].centre)); // and the word behind
+  hierarchy::Reference box;
+  lanes.min.store(box.min); // over the words beside
+  lanes.max.store(box.max);
+  Bounds bounds;
+  bounds.grow(box.min, box.max);
   return bounds;
 }
 
@@ -137,6 +148,7 @@ public:
       const HostPart mine(count, part, threads);
       const auto first = std::lower_bound(begins.begin(), begins.end(), mine.begin);
       const auto last = std::lower_bound(begins.begin(), begins.end(), mine.end);
+      std::copy(spare_ + *first, spare_ + *last, objects_ + *first);
       for (auto cell = first; cell != last; ++cell)
         finish(cell[0], cell[1], 1, runs[part]);
     });
@@ -179,9 +191,8 @@ private:
       spare_[next[cells_[i]]++] = objects_[i];
   }
 
-  /// Takes the objects of a cell from `spare_` to `objects_`, in order.
+  /// Divides a cell with many objects.
   void finish(std::uint32_t begin, std::uint32_t end, int level, std::vector<std::uint32_t>& runs) {
-    std::copy(spare_ + begin, spare_ + end, objects_ + begin);
     if (end - begin <= kMaxRun || level == kMaxLevels || !divide(begin, end, level, runs))
       runs.push_back(begin);
   }
@@ -193,6 +204,7 @@ private:
     const std::vector<std::uint32_t> begins = add_up(next, begin);
     if (begins.size() == 2) return false;
     send(next[0], begin, end);
+    std::copy(spare_ + begin, spare_ + end, objects_ + begin);
     for (std::size_t cell = 0; cell + 1 < begins.size(); ++cell)
       finish(begins[cell], begins[cell + 1], level + 1, runs);
     return true;

@@ -7,7 +7,7 @@
 namespace celltrace {
 
 /// An object of the scene, at the double of the centre of its bounding box.
-struct PlacedObject {
+struct alignas(16) PlacedObject {
   float centre[3];
   std::uint32_t source; ///< its number
 };

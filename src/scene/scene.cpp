@@ -1,7 +1,9 @@
 #include "celltrace/scene.hpp"
 
-#include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <initializer_list>
 #include <limits>
 #include <unordered_set>
@@ -18,14 +20,19 @@ bool is_finite(const Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// Without a branch for each.
+/// Word by word, without a branch for each.
 bool all_finite(const std::vector<Vec3f>& vectors) {
+  static_assert(sizeof(Vec3f) == 3 * sizeof(std::uint32_t));
   constexpr std::uint32_t kExponent = 0x7F800000; // all ones: infinite, or no number
-  bool finite = true;
-  for (const Vec3f& v : vectors)
-    for (int i = 0; i < 3; ++i)
-      finite &= (std::bit_cast<std::uint32_t>(v[i]) & kExponent) != kExponent;
-  return finite;
+  constexpr std::uint32_t kLastOfIt = 0x00800000;
+  const auto* bytes = reinterpret_cast<const std::byte*>(vectors.data());
+  std::uint32_t carries = 0;
+  for (std::size_t i = 0; i < vectors.size() * sizeof(Vec3f); i += sizeof(std::uint32_t)) {
+    std::uint32_t word = 0;
+    std::memcpy(&word, bytes + i, sizeof word);
+    carries |= (word & kExponent) + kLastOfIt;
+  }
+  return carries >> 31 == 0;
 }
 
 template <class Number> void check_finite(std::initializer_list<Number> values, const std::string& what) {
@@ -58,14 +65,17 @@ void check_index(Index index, std::size_t count, const std::string& what) {
 }
 
 bool is_sound(const Mesh& mesh, const Mesh::Triangle& triangle, std::size_t materials) {
-  const auto optional = [](Index index, std::size_t count) { return index == kNoIndex || index < count; };
+  // All indices without a branch for each. kNoIndex is the number before 0.
+  const auto optional = [](Index index, std::size_t count) { return Index{index + 1} <= count; };
   const bool smooth = triangle.normal[0] != kNoIndex;
-  for (int corner = 0; corner < 3; ++corner)
-    if (triangle.vertex[corner] >= mesh.vertices.size() || (triangle.normal[corner] != kNoIndex) != smooth ||
-        !optional(triangle.normal[corner], mesh.normals.size()) ||
-        !optional(triangle.material[corner], materials))
-      return false;
-  return true;
+  bool sound = true;
+  for (int corner = 0; corner < 3; ++corner) {
+    sound &= triangle.vertex[corner] < mesh.vertices.size();
+    sound &= (triangle.normal[corner] != kNoIndex) == smooth;
+    sound &= optional(triangle.normal[corner], mesh.normals.size());
+    sound &= optional(triangle.material[corner], materials);
+  }
+  return sound;
 }
 
 void check_mesh(const Mesh& mesh, std::size_t materials, const std::string& what) {

@@ -1,6 +1,8 @@
 #include "scene/scene_image.hpp"
 
 #include "celltrace/error.hpp"
+#include "celltrace/spe/simd_host.hpp"
+#include "kernel/build_hierarchy_boxes.hpp"
 #include "kernel/build_hierarchy_plan.hpp"
 #include "scene/mesh_instances.hpp"
 #include "scene/parallel.hpp"
@@ -18,6 +20,8 @@ namespace celltrace {
 using namespace kernel;
 
 namespace {
+
+using Simd = HostSimd<xsimd::sse2>;
 
 constexpr std::uint32_t kObjectsPerThread = 8192;
 
@@ -148,10 +152,15 @@ public:
       table<InteriorRecord>(header_.interior_offset)[i].ior = static_cast<float>(scene_.interiors[i].ior);
   }
 
-  void write_objects(const SceneObjects& objects, std::span<const PlacedObject> placed, unsigned threads) {
-    std::vector<ObjectCensus> before(threads + 1);
+  /// `places` has room for a word per object.
+  void write_objects(const SceneObjects& objects, std::span<const PlacedObject> placed, std::uint32_t* places,
+                     unsigned threads) {
+    // Without tables that grow with them objects are written in the scene's order: it takes fewer lines to
+    // send records anywhere than to fetch triangles and vertices from there.
     const bool has_tables = header_.normals_count != 0 || header_.blend_count != 0;
-    if (has_tables && threads > 1)
+    if (!has_tables) return send_objects(objects, placed, places, threads);
+    std::vector<ObjectCensus> before(threads + 1);
+    if (threads > 1)
       for_each_part(threads, [&](unsigned part) {
         before[part + 1] = objects.count_tables(part_of(placed, part, threads));
       });
@@ -174,9 +183,12 @@ public:
     for_each_part(threads, [&](unsigned part) {
       const HostPart mine(count, part, threads);
       for (std::uint32_t run = mine.begin; run < mine.end; ++run) {
-        Box box = bounding_box(objects[runs[run]]);
-        for (std::uint32_t i = runs[run] + 1; i < runs[run + 1]; ++i)
-          box = box_around(box, bounding_box(objects[i]));
+        auto lanes = hierarchy::LaneBox<Simd>::empty();
+        for (std::uint32_t i = runs[run]; i < runs[run + 1]; ++i)
+          lanes.grow(hierarchy::box_of<Simd>(objects[i]));
+        hierarchy::Reference box;
+        lanes.min.store(box.min); // over the words beside
+        lanes.max.store(box.max);
         table<RunRecord>(header_.run_offset)[run] = {{box.min[0], box.min[1], box.min[2]},
                                                      runs[run],
                                                      {box.max[0], box.max[1], box.max[2]},
@@ -210,6 +222,17 @@ public:
   }
 
 private:
+  void send_objects(const SceneObjects& objects, std::span<const PlacedObject> placed, std::uint32_t* places,
+                    unsigned threads) {
+    std::fill_n(places, objects.count(), SceneObjects::kNoPlace);
+    for (std::uint32_t i = 0; i < placed.size(); ++i)
+      places[placed[i].source] = i;
+    for_each_part(threads, [&](unsigned part) {
+      const HostPart mine(objects.count(), part, threads);
+      objects.write_apart(mine.begin, mine.end, places, tables_, table<ObjectRecord>(header_.object_offset));
+    });
+  }
+
   template <class Record> Record* table(std::uint32_t offset) const {
     return reinterpret_cast<Record*>(base_ + offset);
   }
@@ -250,7 +273,7 @@ void SceneImage::assign(const Scene& scene, AlignedBlock& work, unsigned threads
   block_.reserve(header.bytes + hierarchy_bytes(header));
   TableWriter writer(block_.data(), header, scene);
   writer.write_surfaces();
-  writer.write_objects(objects, {memory.objects, loose.objects}, threads);
+  writer.write_objects(objects, {memory.objects, loose.objects}, memory.cells, threads);
   writer.write_runs(runs, threads);
   writer.write_instances(instances, threads);
   writer.write_bounds(loose.around);

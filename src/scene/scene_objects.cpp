@@ -1,11 +1,14 @@
 #include "scene/scene_objects.hpp"
 
 #include "celltrace/error.hpp"
+#include "celltrace/spe/simd_host.hpp"
+#include "kernel/build_hierarchy_boxes.hpp"
 #include "scene/parallel.hpp"
 #include "scene/triangles.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include <glm/geometric.hpp>
@@ -16,7 +19,12 @@ using namespace kernel;
 
 namespace {
 
+using Simd = HostSimd<xsimd::sse2>;
+using LaneBox = hierarchy::LaneBox<Simd>;
+
 constexpr std::uint32_t kVerticesPerThread = 16384;
+/// Objects whose records are on their way while one is written, for they lie anywhere.
+constexpr std::uint32_t kAhead = 16;
 
 void copy(const Vec3& from, float* to) {
   for (int i = 0; i < 3; ++i)
@@ -56,6 +64,24 @@ ObjectKind place_sphere(const Object& object, const Sphere& sphere, float (&geom
 
 PlacedObject placed(const Box& box, std::uint32_t source) {
   return {{box.min[0] + box.max[0], box.min[1] + box.max[1], box.min[2] + box.max[2]}, source};
+}
+
+Simd::F4 lanes_of(const Vec3f& vertex) {
+  return hierarchy::four<Simd>(vertex.x, vertex.y, vertex.z, 0.0f);
+}
+
+Box box_of(const LaneBox& lanes) {
+  hierarchy::Reference around;
+  lanes.min.store(around.min); // over the words beside
+  lanes.max.store(around.max);
+  return {{around.min[0], around.min[1], around.min[2]}, {around.max[0], around.max[1], around.max[2]}};
+}
+
+/// Whether check_size() surely accepts it.
+bool has_size(const LaneBox& box) {
+  constexpr float kSmall = 0.99e18f;
+  return (not_above_bits(Simd::F4::splat(-kSmall), box.min) &
+          not_above_bits(box.max, Simd::F4::splat(kSmall)) & 7) == 7;
 }
 
 /// In parts of a reasonable size.
@@ -143,33 +169,52 @@ ObjectCensus SceneObjects::place(std::uint32_t begin, std::uint32_t end, PlacedO
   while (begin < end) {
     const Piece& piece = piece_of(begin, nullptr);
     const std::uint32_t piece_end = std::min(end, end_of(piece));
-    for (std::uint32_t number = begin; number < piece_end; ++number) {
-      ObjectRecord record;
-      if (piece.mesh == nullptr) {
-        const Object& object = piece.object[number - piece.first];
-        const Sphere& sphere = std::get<Sphere>(object.shape);
-        if (sphere.radius == 0) continue;
-        record.kind_and_flags = static_cast<std::uint32_t>(place_sphere(object, sphere, record.geometry));
-      } else {
-        const Mesh::Triangle& triangle = piece.mesh->triangles[number - piece.first];
-        const Vec3f corners[3] = {piece.vertices[triangle.vertex[0]], piece.vertices[triangle.vertex[1]],
-                                  piece.vertices[triangle.vertex[2]]};
-        if (!has_area(corners[0], corners[1], corners[2])) continue;
-        census.smooth += is_smooth(triangle);
-        census.blended += is_blended(piece, triangle);
-        record.kind_and_flags = static_cast<std::uint32_t>(ObjectKind::triangle);
-        for (int v = 0; v < 3; ++v)
-          for (int i = 0; i < 3; ++i)
-            record.geometry[v * 3 + i] = corners[v][i];
-      }
-      const Box box = bounding_box(record);
-      check_size(box);
-      census.around = box_around(census.around, box);
-      to[census.objects++] = placed(box, number);
-    }
+    if (piece.mesh != nullptr)
+      place_triangles(piece, begin, piece_end, census, to);
+    else
+      place_spheres(piece, begin, piece_end, census, to);
     begin = piece_end;
   }
   return census;
+}
+
+void SceneObjects::place_spheres(const Piece& piece, std::uint32_t begin, std::uint32_t end,
+                                 ObjectCensus& census, PlacedObject* to) const {
+  for (std::uint32_t number = begin; number < end; ++number) {
+    const Object& object = piece.object[number - piece.first];
+    const Sphere& sphere = std::get<Sphere>(object.shape);
+    if (sphere.radius == 0) continue;
+    ObjectRecord record;
+    record.kind_and_flags = static_cast<std::uint32_t>(place_sphere(object, sphere, record.geometry));
+    const Box box = bounding_box(record);
+    check_size(box);
+    census.around = box_around(census.around, box);
+    to[census.objects++] = placed(box, number);
+  }
+}
+
+void SceneObjects::place_triangles(const Piece& piece, std::uint32_t begin, std::uint32_t end,
+                                   ObjectCensus& census, PlacedObject* to) const {
+  const Mesh& mesh = *piece.mesh;
+  LaneBox around = LaneBox::empty();
+  PlacedObject* next = to + census.objects;
+  for (std::uint32_t number = begin; number < end; ++number) {
+    const Mesh::Triangle& triangle = mesh.triangles[number - piece.first];
+    const Vec3f &a = piece.vertices[triangle.vertex[0]], &b = piece.vertices[triangle.vertex[1]],
+                &c = piece.vertices[triangle.vertex[2]];
+    if (!has_area(a, b, c)) continue;
+    census.smooth += is_smooth(triangle);
+    census.blended += is_blended(piece, triangle);
+    LaneBox box = {lanes_of(a), lanes_of(a)};
+    box.grow(lanes_of(b));
+    box.grow(lanes_of(c));
+    if (!has_size(box)) check_size(box_of(box));
+    around.grow(box);
+    box.centre().store(next->centre); // over the word behind
+    next++->source = number;
+  }
+  census.objects = static_cast<std::uint32_t>(next - to);
+  census.around = box_around(census.around, box_of(around));
 }
 
 ObjectCensus SceneObjects::count_tables(std::span<const PlacedObject> objects) const {
@@ -199,16 +244,13 @@ public:
     return r;
   }
 
-  ObjectRecord triangle(const Piece& piece, const Mesh::Triangle& triangle) {
-    ObjectRecord r = start_record(*piece.object, ObjectKind::triangle, tables_.interior_offset);
+  void triangle(const Piece& piece, const Mesh::Triangle& triangle, ObjectRecord& r) {
+    if (piece.object != object_ || triangle.material[0] != material_)
+      start(*piece.object, triangle.material[0]);
+    r = head_;
     for (int v = 0; v < 3; ++v)
-      for (int i = 0; i < 3; ++i)
-        r.geometry[v * 3 + i] = piece.vertices[triangle.vertex[v]][i];
-    if (objects_.is_blended(piece, triangle))
-      blend(r, piece.object->material, triangle);
-    else
-      tables_.set_material(r,
-                           triangle.material[0] != kNoIndex ? triangle.material[0] : piece.object->material);
+      std::memcpy(r.geometry + 3 * v, &piece.vertices[triangle.vertex[v]], sizeof(Vec3f));
+    if (objects_.is_blended(piece, triangle)) blend(r, *piece.object, triangle);
     if (is_smooth(triangle)) {
       r.kind_and_flags |= object_flag::smooth;
       r.normals = tables_.offset_of_normals(smooth_);
@@ -218,18 +260,26 @@ public:
           record.normal[v * 3 + i] = piece.normals[triangle.normal[v]][i];
       tables_.normals[smooth_++] = record;
     }
-    return r;
   }
 
 private:
-  void blend(ObjectRecord& r, Index own, const Mesh::Triangle& triangle) {
+  /// What triangles of one material have in common.
+  void start(const Object& object, Index material) {
+    object_ = &object;
+    material_ = material;
+    head_ = start_record(object, ObjectKind::triangle, tables_.interior_offset);
+    tables_.set_material(head_, material != kNoIndex ? material : object.material);
+  }
+
+  void blend(ObjectRecord& r, const Object& object, const Mesh::Triangle& triangle) {
     BlendRecord record{};
     bool opaque = true;
     for (int i = 0; i < 3; ++i) {
-      const Index material = triangle.material[i] != kNoIndex ? triangle.material[i] : own;
+      const Index material = triangle.material[i] != kNoIndex ? triangle.material[i] : object.material;
       record.material[i] = tables_.offset_of_material(material);
       opaque = opaque && tables_.opaque[material];
     }
+    r.kind_and_flags &= ~object_flag::opaque;
     r.kind_and_flags |= object_flag::blended | (opaque ? object_flag::opaque : 0);
     r.material = tables_.blend_offset + blended_ * static_cast<std::uint32_t>(sizeof(BlendRecord));
     tables_.blends[blended_++] = record;
@@ -238,18 +288,44 @@ private:
   const SceneObjects& objects_;
   const RecordTables& tables_;
   std::uint32_t smooth_, blended_;
+  const Object* object_ = nullptr;
+  Index material_ = kNoIndex;
+  ObjectRecord head_;
 };
 
 void SceneObjects::write(std::span<const PlacedObject> objects, const RecordTables& tables,
                          const ObjectCensus& before, ObjectRecord* to) const {
   Writer writer(*this, tables, before);
   const Piece* near = nullptr;
-  for (const PlacedObject& object : objects) {
-    const Piece& piece = piece_of(object.source, near);
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const Piece& piece = piece_of(objects[i].source, near);
     near = &piece;
-    const std::uint32_t number = object.source - piece.first;
-    *to++ = piece.mesh != nullptr ? writer.triangle(piece, piece.mesh->triangles[number])
-                                  : writer.sphere(piece.object[number]);
+    const std::uint32_t number = objects[i].source - piece.first;
+    if (piece.mesh == nullptr) {
+      to[i] = writer.sphere(piece.object[number]);
+      continue;
+    }
+    writer.triangle(piece, piece.mesh->triangles[number], to[i]);
+  }
+}
+
+void SceneObjects::write_apart(std::uint32_t begin, std::uint32_t end, const std::uint32_t* places,
+                               const RecordTables& tables, ObjectRecord* to) const {
+  Writer writer(*this, tables, {});
+  while (begin < end) {
+    const Piece& piece = piece_of(begin, nullptr);
+    const std::uint32_t piece_end = std::min(end, end_of(piece));
+    for (std::uint32_t number = begin; number < piece_end; ++number) {
+      if (piece_end - number > kAhead && places[number + kAhead] != kNoPlace)
+        __builtin_prefetch(to + places[number + kAhead], 1);
+      if (places[number] == kNoPlace) continue;
+      ObjectRecord& record = to[places[number]];
+      if (piece.mesh != nullptr)
+        writer.triangle(piece, piece.mesh->triangles[number - piece.first], record);
+      else
+        record = writer.sphere(piece.object[number - piece.first]);
+    }
+    begin = piece_end;
   }
 }
 

@@ -32,6 +32,12 @@ public:
   void write(std::span<const PlacedObject> objects, const RecordTables& tables, const ObjectCensus& before,
              kernel::ObjectRecord* to) const;
 
+  /// The same for those of [begin, end) of the scene, where there are no tables: `places` says by object
+  /// where in `to` it belongs, or kNoPlace.
+  void write_apart(std::uint32_t begin, std::uint32_t end, const std::uint32_t* places,
+                   const RecordTables& tables, kernel::ObjectRecord* to) const;
+  static constexpr std::uint32_t kNoPlace = 0xFFFFFFFF;
+
 private:
   /// Spheres in a row, or one mesh.
   struct Piece {
@@ -43,6 +49,10 @@ private:
   };
   class Writer;
 
+  void place_spheres(const Piece& piece, std::uint32_t begin, std::uint32_t end, ObjectCensus& census,
+                     PlacedObject* to) const;
+  void place_triangles(const Piece& piece, std::uint32_t begin, std::uint32_t end, ObjectCensus& census,
+                       PlacedObject* to) const;
   void add_sphere(const Object& object);
   void add_mesh(const Object& object, const Mesh& mesh, unsigned threads);
   void grow(std::size_t objects);

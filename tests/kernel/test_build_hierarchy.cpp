@@ -238,6 +238,58 @@ TEST_CASE("A hierarchy over objects at the end of the numbers") {
   }));
 }
 
+TEST_CASE("A lane for each cut makes the same of few references as bins do") {
+  using Simd = HostSimd<xsimd::sse2>;
+  using hierarchy::Reference;
+  static_assert(Simd::kWidth < kSimdLanes, "splits by bins");
+  Random random(5);
+  const auto same = [](const hierarchy::LaneBox<Simd>& a, const hierarchy::LaneBox<Simd>& b) {
+    Reference first, second;
+    a.min.store(first.min);
+    a.max.store(first.max);
+    b.min.store(second.min);
+    b.max.store(second.max);
+    return std::equal(first.min, first.min + 3, second.min) &&
+           std::equal(first.max, first.max + 3, second.max);
+  };
+  for (std::uint32_t count = 2; count <= hierarchy::kFewReferences; ++count)
+    for (int round = 0; round < 20; ++round) {
+      std::vector<Reference> references, spare(count);
+      for (std::uint32_t i = 0; i < count; ++i) {
+        const Vec3 place = random.point(round % 3 == 0 ? 1e-3 : 10);
+        const Vec3 size = random.point(round % 5);
+        Reference reference;
+        for (int axis = 0; axis < 3; ++axis) {
+          const double flat = axis == round % 4 ? 0 : 1;
+          reference.min[axis] = static_cast<float>(flat * (place[axis] - std::abs(size[axis])));
+          reference.max[axis] = static_cast<float>(flat * (place[axis] + std::abs(size[axis])));
+        }
+        reference.value = i;
+        reference.weight = 1 + i % 3;
+        references.push_back(reference);
+      }
+      INFO(count << " in round " << round);
+      const auto range = hierarchy::range_of<Simd>(references.data(), 0, count);
+      if (range.box.area() == 0.0f) continue; // halved
+      const hierarchy::LaneCuts<Simd, hierarchy::kFewBins> cuts(references.data(), range);
+      const std::uint32_t lane = cuts.best();
+      hierarchy::Range<Simd> left, right;
+      hierarchy::split_range(references.data(), spare.data(), range, left, right);
+      if (lane == cuts.kNone) {
+        CHECK(left.count() == count / 2);
+        continue;
+      }
+      hierarchy::Range<Simd> left_of, right_of;
+      cuts.sides_of(lane, range.weight, left_of, right_of);
+      CHECK(same(left_of.box, left.box));
+      CHECK(same(right_of.box, right.box));
+      CHECK(left_of.weight == left.weight);
+      CHECK(right_of.weight == right.weight);
+      for (std::uint32_t i = 0; i < count; ++i)
+        CHECK(cuts.is_on_left(references[i].value, lane) == (i < left.end ? 1 : 0));
+    }
+}
+
 TEST_CASE("A hierarchy is the same whoever builds it") {
   for (unsigned count : {3u, 100u, 4500u, 60000u}) {
     const Objects scene = random_triangles(count, 100, 1);

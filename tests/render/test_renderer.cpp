@@ -293,6 +293,18 @@ TEST_CASE("A cancelled frame is broken off, and the next one is as usual") {
   }
 }
 
+TEST_CASE("On the host an SPE says little where nobody asks how far it is") {
+  const Scene scene = uneven();
+  Renderer renderer(backends().front().options(kWidth, kHeight, 1));
+  const auto words = [&](const Progress& progress) {
+    return renderer.render(scene.camera, progress).statistics.mailbox_words;
+  };
+  renderer.render(scene);
+  CHECK(words({}) <= 2);
+  CHECK(words([](double) { return true; }) >= 2);
+  CHECK(words({}) <= 2);
+}
+
 TEST_CASE("Pixels of a cancelled frame are finished or transparent black") {
   const Scene scene = scene_named("glass and mirrors");
   const Image expected = picture(scene);
