@@ -28,7 +28,9 @@ function(celltrace_spu_type name)
 endfunction()
 
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-  set(avx512_flags -mavx512f -mavx512cd -mavx512dq -mavx512bw -mavx512vl -mprefer-vector-width=512)
+  # Processors with AVX2 know PREFETCHW, or take it for nothing.
+  set(avx2_flags -mavx2 -mprfchw)
+  set(avx512_flags -mavx512f -mavx512cd -mavx512dq -mavx512bw -mavx512vl -mprfchw -mprefer-vector-width=512)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # GCC 12 reports the undefined operands of its own AVX-512 headers.
     list(APPEND avx512_flags -Wno-uninitialized -Wno-maybe-uninitialized)
@@ -37,7 +39,7 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     TYPE "celltrace::native::Spu<xsimd::sse2>")
   if(CELLTRACE_WIDE_SIMD)
     celltrace_spu_type(native_avx2 HEADER backends/native/spu.hpp KEY native.avx2
-      TYPE "celltrace::native::Spu<xsimd::avx2>" FLAGS -mavx2)
+      TYPE "celltrace::native::Spu<xsimd::avx2>" FLAGS ${avx2_flags})
     celltrace_spu_type(native_avx512 HEADER backends/native/spu.hpp KEY native.avx512
       TYPE "celltrace::native::Spu<xsimd::avx512dq>" FLAGS ${avx512_flags})
   endif()

@@ -120,15 +120,16 @@ void find_hit_points(SceneAccess<Spu>& scene, const RayPacket& rays, const HitPa
     first = false;
     const M mask = M::from_bits(of_object);
     const auto put = [&](const float* values, V3<S>& into) { put_in_lanes<Spu>(mask, values, into); };
+    const auto kind = static_cast<ObjectKind>(flags & object_flag::kind_mask);
     put(object.geometry, objects.geometry[0]);
     put(object.geometry + 3, objects.geometry[1]);
-    put(object.geometry + 6, objects.geometry[2]);
-    put(object.geometry + 9, objects.geometry[3]);
+    if (kind != ObjectKind::sphere) put(object.geometry + 6, objects.geometry[2]);
+    if (kind == ObjectKind::ellipsoid) put(object.geometry + 9, objects.geometry[3]);
     material = S::select(mask, I::splat(static_cast<int32_t>(object.material)), material);
     interior = S::select(mask, I::splat(static_cast<int32_t>(object.interior)), interior);
     for (uint32_t& of_kind : objects.of_kind)
       of_kind &= ~of_object;
-    objects.of_kind[flags & object_flag::kind_mask] |= of_object;
+    objects.of_kind[static_cast<uint32_t>(kind)] |= of_object;
     objects.smooth &= ~of_object;
     if ((flags & object_flag::blended) != 0) points.blended |= same;
     if ((flags & object_flag::smooth) != 0) {

@@ -41,7 +41,7 @@ template <class S> struct PinholeBundle {
     using F = typename S::F;
     if (frame.orthographic != 0) return;
     const CameraRecord& camera = frame.camera;
-    constexpr float kEdge = kPacketEdge;
+    constexpr float kEdge = kPacketEdge, kBundle = kEdge * kEdge; // pixels
     const F x = (F::load(detail::kLaneX) + F(static_cast<float>(column) * kEdge)) * F(kEdge);
     const F y = (F::load(detail::kLaneY) + F(static_cast<float>(row) * kEdge)) * F(kEdge);
     F* const lows[3] = {&low.x, &low.y, &low.z};
@@ -49,14 +49,21 @@ template <class S> struct PinholeBundle {
     float square = 0.0f; // of the shortest direction
     for (uint32_t axis = 0; axis < 3; ++axis) {
       const float base = camera.base[axis], dx = camera.dx[axis], dy = camera.dy[axis];
-      const F corner = F(base) + F(dx) * x + F(dy) * y;
-      const float right = (kEdge - 1) * dx, down = (kEdge - 1) * dy;
-      // The rays themselves are rounded otherwise.
+      // Some pixels on, between which the rays are rounded otherwise.
       const float rounding = 1e-6f * (magnitude(base) + magnitude(dx) * static_cast<float>(frame.width) +
                                       magnitude(dy) * static_cast<float>(frame.height));
-      *lows[axis] = corner + F(smaller(right, 0.0f) + smaller(down, 0.0f) - rounding);
-      *highs[axis] = corner + F(larger(right, 0.0f) + larger(down, 0.0f) + rounding);
-      const Interval along = {interval_of<S>(*lows[axis]).low, interval_of<S>(*highs[axis]).high};
+      const auto lowest = [&](float pixels) {
+        return smaller(pixels * dx, 0.0f) + smaller(pixels * dy, 0.0f) - rounding;
+      };
+      const auto highest = [&](float pixels) {
+        return larger(pixels * dx, 0.0f) + larger(pixels * dy, 0.0f) + rounding;
+      };
+      const F corners = F(base) + F(dx) * x + F(dy) * y;
+      *lows[axis] = corners + F(lowest(kEdge - 1));
+      *highs[axis] = corners + F(highest(kEdge - 1));
+      const float corner = base + dx * (static_cast<float>(column) * kBundle) +
+                           dy * (static_cast<float>(row) * kBundle);
+      const Interval along = {corner + lowest(kBundle - 1), corner + highest(kBundle - 1)};
       const bool backward = along.high < 0.0f;
       if (!backward && along.low < 0.0f) return;
       octant |= static_cast<uint32_t>(backward) << axis;

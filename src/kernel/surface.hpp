@@ -88,8 +88,22 @@ private:
       spu_.wait_all(1u << (kFirstTag + current_));
       column_ = column;
       row_ = row;
+      if constexpr (Spu::direct_memory) claim_run();
     }
     return runs_[current_];
+  }
+
+  ea_t corner_of_run() const {
+    return frame_.surface + row_ * kPacketEdge * frame_.surface_pitch + column_ * kPacketRowBytes;
+  }
+
+  /// Asks for the lines that a run will be written to: another processor may have read the last picture.
+  void claim_run() const {
+    const auto* row = reinterpret_cast<const uint8_t*>(static_cast<uintptr_t>(corner_of_run()));
+    for (uint32_t y = 0; y < kRows * kPacketEdge; ++y, row += frame_.surface_pitch) {
+      __builtin_prefetch(row, 1);
+      __builtin_prefetch(row + kLineBytes / 2, 1); // a PC's lines have half the size
+    }
   }
 
   // One copy: local store is short.
@@ -99,8 +113,7 @@ private:
     const uint32_t left = frame_.packet_rows - row_;
     const uint32_t rows = (left < kRows ? left : kRows) * kPacketEdge;
     const uint32_t bytes = columns_ * kPacketRowBytes;
-    const ea_t corner =
-        frame_.surface + row_ * kPacketEdge * frame_.surface_pitch + column_ * kPacketRowBytes;
+    const ea_t corner = corner_of_run();
     for (uint32_t y = 0; y < rows; ++y)
       run.list[y] = ListElement::make(bytes, corner + y * frame_.surface_pitch);
     if (columns_ == kRunPackets) {
