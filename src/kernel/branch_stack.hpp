@@ -34,7 +34,6 @@ public:
       entries_[place] = entries_[place - 1];
     entries_[place] = entry;
   }
-  const Entry& operator[](uint32_t place) const { return entries_[place]; }
 
 private:
   /// Of each level three children wait, at most, and other packets for the one that is visited. The builder

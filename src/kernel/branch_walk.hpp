@@ -166,10 +166,11 @@ private:
       met &= met - 1;
       // Looser than its rays, a beam may meet what passes between them.
       const uint32_t lanes = is_single(group) ? group : rays.meet(node.box, sides, i, each_limit) & group;
-      if (lanes != 0) stack_.push(first, {{node.child[i], node.leaf[i]}, lanes, enter[i], 0});
+      if (lanes == 0) continue;
+      const Branch child = {node.child[i], node.leaf[i]};
+      objects_.scene().hint(child);
+      stack_.push(first, {child, lanes, enter[i], 0});
     } while (met != 0);
-    for (uint32_t place = first; place < stack_.size(); ++place)
-      objects_.scene().hint(stack_[place].branch);
     return false;
   }
 

@@ -227,6 +227,8 @@ private:
       uint32_t lanes = beams_.meet(node.box, sides, i, limits_) & packets;
       const Branch child = {node.child[i], node.leaf[i]};
       const bool ask_all = (child.is_leaf() && !one_origin_) || is_lonely(lanes);
+      if (lanes == 0) continue;
+      objects_.scene().hint(child);
       lanes &= ~without_rays_in(node.box, sides, i, searches, ask_all ? lanes : lanes & loose_);
       if (ask_all && !child.is_leaf())
         for_each_lane(lanes, [&](uint32_t packet) {
@@ -235,8 +237,6 @@ private:
       else if (lanes != 0)
         stack.push(first, {child, lanes, enter[i], 0});
     } while (met != 0);
-    for (uint32_t place = first; place < stack.size(); ++place)
-      objects_.scene().hint(stack[place].branch);
     return false;
   }
 
