@@ -25,8 +25,8 @@ public:
 
   /// What the rounding of hits' distances amounts to.
   static constexpr float kBeyond = 1.00001f;
-  /// A node that no more packets of a bundle than this meet, each visits alone.
-  static constexpr uint32_t kMostAlone = kBundlePackets<Spu> >= 16 ? 2 : 1; // measured
+  /// A node that no more packets of a bundle than some meet, each visits alone; that many at most.
+  static constexpr uint32_t kMostAlone = kBundlePackets<Spu> >= 16 ? 4 : 1; // measured
   using Stack = BranchStack<kMostAlone>;
 
   explicit BranchWalk(ObjectTests<Spu>& objects) : objects_(objects) {}

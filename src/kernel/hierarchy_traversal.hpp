@@ -15,8 +15,10 @@ public:
   using S = typename Spu::simd;
   using F = typename S::F;
 
-  HierarchyTraversal(ObjectTests<Spu>& objects, const HierarchyRecord& hierarchy)
-      : objects_(objects), hierarchy_(hierarchy), walk_(objects) {}
+  HierarchyTraversal(ObjectTests<Spu>& objects, const FrameBlock& frame)
+      : objects_(objects), hierarchy_(frame.hierarchy), walk_(objects),
+        // Where objects are small beside pixels, the packets of a bundle part early.
+        most_alone_(frame.object_count > frame.width * frame.height / 2 ? BranchWalk<Spu>::kMostAlone : 1) {}
 
   /// Answers each of the searches, at most a bundle's. Hits hold none yet; the lanes of searches for light
   /// become those to which some comes.
@@ -240,8 +242,9 @@ private:
     return false;
   }
 
-  static bool is_lonely(uint32_t packets) {
-    return static_cast<uint32_t>(__builtin_popcount(packets)) <= BranchWalk<Spu>::kMostAlone;
+  bool is_lonely(uint32_t packets) const {
+    if constexpr (BranchWalk<Spu>::kMostAlone == 1) return is_single(packets);
+    return static_cast<uint32_t>(__builtin_popcount(packets)) <= most_alone_;
   }
 
   /// Those of the packets that have no ray that meets the box; the others' rays that do go to rays_.
@@ -301,6 +304,7 @@ private:
   ObjectTests<Spu>& objects_;
   const HierarchyRecord& hierarchy_;
   BranchWalk<Spu> walk_;
+  const uint32_t most_alone_;                ///< packets
   RayGroup<S> members_[kBundlePackets<Spu>]; ///< packets of the bundle; a packet alone is the first
   BundleBeams<S, kBundlePackets<Spu>> beams_;
   Beam<S> around_;                            ///< all of them

@@ -61,8 +61,8 @@ template <class S> struct PinholeBundle {
       const F corners = F(base) + F(dx) * x + F(dy) * y;
       *lows[axis] = corners + F(lowest(kEdge - 1));
       *highs[axis] = corners + F(highest(kEdge - 1));
-      const float corner = base + dx * (static_cast<float>(column) * kBundle) +
-                           dy * (static_cast<float>(row) * kBundle);
+      const float corner =
+          base + dx * (static_cast<float>(column) * kBundle) + dy * (static_cast<float>(row) * kBundle);
       const Interval along = {corner + lowest(kBundle - 1), corner + highest(kBundle - 1)};
       const bool backward = along.high < 0.0f;
       if (!backward && along.low < 0.0f) return;

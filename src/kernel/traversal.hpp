@@ -12,7 +12,7 @@ public:
   using F = typename S::F;
 
   Traversal(SceneAccess<Spu>& scene, const FrameBlock& frame)
-      : frame_(frame), objects_(scene), grid_(objects_, frame.grid), hierarchy_(objects_, frame.hierarchy) {}
+      : frame_(frame), objects_(scene), grid_(objects_, frame.grid), hierarchy_(objects_, frame) {}
 
   /// The closest hit of each ray in `lanes`. Other lanes' results are meaningless.
   void find_closest(const RayPacket& rays, uint32_t lanes, HitPacket& hits) {
