@@ -16,9 +16,7 @@ public:
   using F = typename S::F;
 
   HierarchyTraversal(ObjectTests<Spu>& objects, const FrameBlock& frame)
-      : objects_(objects), hierarchy_(frame.hierarchy), walk_(objects),
-        // Where objects are small beside pixels, the packets of a bundle part early.
-        most_alone_(frame.object_count > frame.width * frame.height / 2 ? BranchWalk<Spu>::kMostAlone : 1) {}
+      : objects_(objects), hierarchy_(frame.hierarchy), walk_(objects), most_alone_(most_alone(frame)) {}
 
   /// Answers each of the searches, at most a bundle's. Hits hold none yet; the lanes of searches for light
   /// become those to which some comes.
@@ -242,6 +240,11 @@ private:
     return false;
   }
 
+  /// Where objects are small beside pixels, the packets of a bundle part early.
+  static uint32_t most_alone(const FrameBlock& frame) {
+    constexpr uint32_t kMost = BranchWalk<Spu>::kMostAlone;
+    return kMost == 1 || frame.object_count <= frame.width * frame.height / 2 ? 1 : kMost;
+  }
   bool is_lonely(uint32_t packets) const {
     if constexpr (BranchWalk<Spu>::kMostAlone == 1) return is_single(packets);
     return static_cast<uint32_t>(__builtin_popcount(packets)) <= most_alone_;

@@ -81,7 +81,7 @@ private:
 
   /// Data has changed in main memory, or a frame was broken off: nothing cached and no word of it is valid
   /// any more.
-  void synchronize() {
+  [[gnu::cold]] void synchronize() {
     while (spu_.in_mailbox_count() != 0)
       spu_.read_in_mailbox();
     if (phase_ != nullptr && phase_->image == frame_.image && phase_->ray_stack == frame_.ray_stack)
