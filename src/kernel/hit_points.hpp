@@ -106,9 +106,12 @@ void find_hit_points(SceneAccess<Spu>& scene, const RayPacket& rays, const HitPa
   using F = typename S::F;
   using I = typename S::I;
   using M = typename S::M;
-  detail::ObjectLanes<S> objects = {};
+  detail::ObjectLanes<S> objects;
+  for (uint32_t& of_kind : objects.of_kind)
+    of_kind = 0;
+  objects.smooth = 0;
   I material = I::splat(0), interior = I::splat(0);
-  bool first = true;
+  bool is_first = true;
   points.blended = 0;
   for_each_value<S>(hits.object, lanes, [&](uint32_t offset, uint32_t same) {
     scene.spu().compute(scalar_work::kHitObject);
@@ -116,10 +119,11 @@ void find_hit_points(SceneAccess<Spu>& scene, const RayPacket& rays, const HitPa
     const uint32_t flags = object.kind_and_flags;
     const uint32_t normals = object.normals;
     // Lanes without a hit hold what the first has.
+    const bool first = is_first;
     const uint32_t of_object = first ? 0xFFFF : same;
-    first = false;
+    is_first = false;
     const M mask = M::from_bits(of_object);
-    const auto put = [&](const float* values, V3<S>& into) { put_in_lanes<Spu>(mask, values, into); };
+    const auto put = [&](const float* values, V3<S>& into) { put_in_lanes<Spu>(first, mask, values, into); };
     const auto kind = static_cast<ObjectKind>(flags & object_flag::kind_mask);
     put(object.geometry, objects.geometry[0]);
     put(object.geometry + 3, objects.geometry[1]);
@@ -140,6 +144,7 @@ void find_hit_points(SceneAccess<Spu>& scene, const RayPacket& rays, const HitPa
       put(n + 6, objects.normals[2]);
     }
   });
+  scene.spu().compute(scalar_work::kHitSurfaces);
   material.store(reinterpret_cast<int32_t*>(points.material.lane));
   interior.store(reinterpret_cast<int32_t*>(points.interior.lane));
 

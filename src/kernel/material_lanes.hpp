@@ -34,7 +34,9 @@ MaterialLanes<typename Spu::simd> gather_materials(SceneAccess<Spu>& scene, cons
     const auto take = S::M::from_bits(first ? 0xFFFF : same);
     first = false;
     const auto put = [&](F& field, float value) { field = S::select(take, F(value), field); };
-    const auto put3 = [&](V3<S>& field, const float(&value)[3]) { put_in_lanes<Spu>(take, value, field); };
+    const auto put3 = [&](V3<S>& field, const float(&value)[3]) {
+      put_in_lanes<Spu>(false, take, value, field);
+    };
     put3(m.pigment, r.pigment);
     put3(m.ambient, r.ambient);
     put3(m.reflection_min, r.reflection_min);

@@ -45,12 +45,13 @@ template <class S>
 
 } // namespace detail
 
-/// Gives some lanes the same three values.
+/// Gives some lanes the same three values; if they are `all`, `into` need not hold anything before.
 template <class Spu>
-void put_in_lanes(const typename Spu::simd::M& lanes, const float* values, V3<typename Spu::simd>& into) {
+void put_in_lanes([[maybe_unused]] bool all, const typename Spu::simd::M& lanes, const float* values,
+                  V3<typename Spu::simd>& into) {
   using S = typename Spu::simd;
   if constexpr (Spu::direct_memory)
-    into = select<S>(lanes, splat3<S>(values), into);
+    into = all ? splat3<S>(values) : select<S>(lanes, splat3<S>(values), into);
   else
     detail::put_elsewhere<S>(lanes, values, into);
 }

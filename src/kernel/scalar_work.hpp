@@ -45,8 +45,10 @@ constexpr ScalarWork kPrimaryPacket = {420, 8, 550, 135, 35};
 constexpr ScalarWork kNode = {240, 0, 216, 51, 22};
 /// A node copied to or from the stack.
 constexpr ScalarWork kNodeCopy = {60, 0, 192, 0, 2};
-/// The hits of a packet on one object.
-constexpr ScalarWork kHitObject = {280, 0, 460, 50, 22};
+/// An object that rays of a packet hit, into their lanes.
+constexpr ScalarWork kHitObject = {115, 0, 240, 36, 6};
+/// The surfaces there.
+constexpr ScalarWork kHitSurfaces = {130, 0, 560, 8, 5};
 /// The lanes of one material.
 constexpr ScalarWork kMaterial = {345, 0, 300, 185, 60};
 /// The surfaces of a packet, apart from their lights.
