@@ -135,3 +135,28 @@ TEST_CASE("Every block of pixels goes to its own place, red first") {
   check_places<2>();
   check_places<4>();
 }
+
+TEST_CASE("A block of one colour is filled like packet by packet, between others") {
+  Random random(70);
+  const Surface filled(80, 32), put(80, 32);
+  DirectSpu spu;
+  PixelWriter<DirectSpu, 4> filling(spu, filled.frame());
+  PixelWriter<DirectSpu, 4> putting(spu, put.frame());
+  for (std::uint32_t row = 0; row < 8; row += 4)
+    for (std::uint32_t column = 0; column < 20; column += 4) {
+      const Vec colour = {F(static_cast<float>(random.uniform(0, 1))),
+                          F(static_cast<float>(random.uniform(0, 1))),
+                          F(static_cast<float>(random.uniform(0, 1)))};
+      const bool fill = random.below(2) == 0;
+      if (fill) filling.fill(column, row, colour);
+      for (std::uint32_t i = 0; i < 16; ++i) {
+        putting.put(column + i % 4, row + i / 4, colour);
+        if (!fill) filling.put(column + i % 4, row + i / 4, colour);
+      }
+    }
+  filling.flush();
+  putting.flush();
+  for (std::uint32_t y = 0; y < 32; ++y)
+    for (std::uint32_t x = 0; x < 80; ++x)
+      REQUIRE(std::equal(filled.pixel(x, y), filled.pixel(x, y) + 4, put.pixel(x, y)));
+}
