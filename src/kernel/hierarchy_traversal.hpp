@@ -226,7 +226,7 @@ private:
       met &= met - 1;
       uint32_t lanes = beams_.meet(node.box, sides, i, limits_) & packets;
       const Branch child = {node.child[i], node.leaf[i]};
-      const bool ask_all = (child.is_leaf() && !one_origin_) || is_lonely(lanes);
+      const bool ask_all = (child.is_leaf() && !trusts_beams()) || is_lonely(lanes);
       if (lanes == 0) continue;
       objects_.scene().hint(child);
       lanes &= ~without_rays_in(node.box, sides, i, searches, ask_all ? lanes : lanes & loose_);
@@ -240,6 +240,9 @@ private:
     return false;
   }
 
+  /// Beams of primary rays are hardly larger than their rays; but where an object has to be fetched, that
+  /// takes longer than asking them.
+  bool trusts_beams() const { return Spu::direct_memory && one_origin_; }
   /// Where objects are small beside pixels, the packets of a bundle part early.
   static uint32_t most_alone(const FrameBlock& frame) {
     constexpr uint32_t kMost = BranchWalk<Spu>::kMostAlone;
