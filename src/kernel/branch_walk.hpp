@@ -29,7 +29,8 @@ public:
   static constexpr uint32_t kMostAlone = kBundlePackets<Spu> >= 16 ? 4 : 1; // measured
   using Stack = BranchStack<kMostAlone>;
 
-  explicit BranchWalk(ObjectTests<Spu>& objects) : objects_(objects) {}
+  BranchWalk(ObjectTests<Spu>& objects, const FrameBlock& frame)
+      : objects_(objects), waits_(Spu::direct_memory && frame.object_count > kObjectsAtHand) {}
 
   Stack& stack() { return stack_; }
 
@@ -106,10 +107,11 @@ private:
     course = {&single_, ray, stack_.size(), limit_of(search, ray)};
   }
 
-  /// The objects of a leaf are tested at once; where memory is direct, with those of a few leaves more when a
-  /// node was opened: they arrive meanwhile, and that node's children arrive while they are tested.
+  /// The objects of a leaf are tested at once; where memory is direct and far away, with those of a few
+  /// leaves more when a node was opened: they arrive meanwhile, and that node's children arrive while they
+  /// are tested.
   void meet(Course& course, const Branch& leaf, Search& search) {
-    if constexpr (!Spu::direct_memory) {
+    if (!Spu::direct_memory || !waits_) {
       test_objects(leaf, course.group, search);
       take_results(course, search);
     } else {
@@ -182,7 +184,11 @@ private:
   static constexpr uint32_t kMostWaiting = Spu::direct_memory ? 8 : 1;
   static constexpr uint32_t kEnoughWaiting = kMostWaiting / 2; // measured
 
+  /// So many, with their nodes, are in a PC's caches.
+  static constexpr uint32_t kObjectsAtHand = 20000;
+
   ObjectTests<Spu>& objects_;
+  const bool waits_; ///< leaves
   Stack stack_;
   Waiting waiting_[kMostWaiting];
   uint32_t waiting_count_ = 0;

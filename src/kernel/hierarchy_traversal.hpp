@@ -16,7 +16,8 @@ public:
   using F = typename S::F;
 
   HierarchyTraversal(ObjectTests<Spu>& objects, const FrameBlock& frame)
-      : objects_(objects), hierarchy_(frame.hierarchy), walk_(objects), most_alone_(most_alone(frame)) {}
+      : objects_(objects), hierarchy_(frame.hierarchy), walk_(objects, frame),
+        most_alone_(most_alone(frame)) {}
 
   /// Answers each of the searches, at most a bundle's. Hits hold none yet; the lanes of searches for light
   /// become those to which some comes.

@@ -190,7 +190,8 @@ constexpr bool is_list(uint32_t word) {
 }
 /// From one object's offset to the next one's, modulo 2^32.
 constexpr uint32_t step_bytes(uint32_t word) {
-  return (word >> kCountBits) * static_cast<uint32_t>(sizeof(ObjectRecord));
+  return static_cast<uint32_t>(static_cast<int32_t>(word) >> kCountBits) *
+         static_cast<uint32_t>(sizeof(ObjectRecord));
 }
 /// What fits.
 constexpr int32_t kMaxStep = (1 << (31 - kCountBits)) - 1;

@@ -151,6 +151,18 @@ Shape check(const Objects& objects) {
 
 } // namespace
 
+TEST_CASE("The word of a leaf says where each of its objects lies, before and behind the first") {
+  for (const std::int32_t step : {1, 7, -1, -300, leaf_word::kMaxStep, -leaf_word::kMaxStep})
+    for (const std::uint32_t count : {1u, 2u, 8u}) {
+      const std::uint32_t word = leaf_word::make(count, step);
+      CHECK(leaf_word::count(word) == count);
+      CHECK_FALSE(leaf_word::is_list(word));
+      CHECK(leaf_word::step_bytes(word) == static_cast<std::uint32_t>(std::int64_t{step} * 64));
+    }
+  CHECK(leaf_word::is_list(leaf_word::make(8, 0)));
+  CHECK(leaf_word::make(1, -1) != 0); // a node
+}
+
 TEST_CASE("A hierarchy over few objects") {
   CHECK(check({}).nodes == 1);
   for (unsigned count = 1; count <= 40; ++count) {
