@@ -25,6 +25,8 @@ public:
 
   /// What the rounding of hits' distances amounts to.
   static constexpr float kBeyond = 1.00001f;
+  /// So many, with their nodes, are in a PC's caches.
+  static constexpr uint32_t kObjectsAtHand = 20000;
   /// A node that no more packets of a bundle than some meet, each visits alone; that many at most.
   static constexpr uint32_t kMostAlone = kBundlePackets<Spu> >= 16 ? 4 : 1; // measured
   using Stack = BranchStack<kMostAlone>;
@@ -183,9 +185,6 @@ private:
   };
   static constexpr uint32_t kMostWaiting = Spu::direct_memory ? 8 : 1;
   static constexpr uint32_t kEnoughWaiting = kMostWaiting / 2; // measured
-
-  /// So many, with their nodes, are in a PC's caches.
-  static constexpr uint32_t kObjectsAtHand = 20000;
 
   ObjectTests<Spu>& objects_;
   const bool waits_; ///< leaves

@@ -2,6 +2,7 @@
 // against brute force over all objects with the same intersection tests: closest hits have to be equal to the
 // last bit.
 #include "celltrace/spe/program.hpp"
+#include "kernel/branch_walk.hpp"
 #include "machines.hpp"
 #include "prepared_scene.hpp"
 #include "soups.hpp"
@@ -191,6 +192,19 @@ TEST_CASE("Through soups of spheres, ellipsoids, triangles and all of them") {
   check_scene(soup(3, {0, 0, 300}, 10, 2));
   check_scene(soup(4, {100, 100, 100}, 10, 3)); // much overlap
   check_scene(soup(5, {100, 100, 100}, 10, 0.1));
+}
+
+TEST_CASE("Through more objects than are at hand, so that leaves wait") {
+  constexpr unsigned kTriangles = 21000;
+  PreparedScene prepared(soup(9, {0, 0, kTriangles}, 10, 0.3));
+  REQUIRE(prepared.object_count() > BranchWalk<DirectSpu>::kObjectsAtHand);
+  const std::vector<TraversalQuery> all = queries_for(prepared, 98, 32);
+  // Some of them alone, some with much in common.
+  constexpr int few = times(64) / 16 > 0 ? times(64) / 16 : 1;
+  std::vector<TraversalQuery> some(all.begin(), all.begin() + few);
+  some.insert(some.end(), all.end() - few, all.end());
+  prepared.use_hierarchy();
+  check_accelerator(prepared, some);
 }
 
 TEST_CASE("Through large and small scenes, and far from the origin") {
