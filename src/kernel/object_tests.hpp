@@ -101,7 +101,8 @@ public:
     const bool opaque = (flags & object_flag::opaque) != 0;
     if (opaque && !mailbox_.first_visit(self)) return 0;
     const Crossings<S> c = test(rays, object, self);
-    const auto [near_hit, far_hit] = in_between(c, distance);
+    const Between between = in_between(c, distance);
+    const uint32_t near_hit = between.near, far_hit = between.far;
     if (opaque) return near_hit | far_hit;
     FloatLanes near, far, u, v;
     c.near.store(near.lane);
