@@ -233,8 +233,9 @@ public:
       a.far_inverse[packet] = slab.far_inverse;
     }
   }
-  /// All of them at once: rays from `origin` in directions between `low` and `high`, a lane for each packet.
-  void set(const float* origin, const V3<S>& low, const V3<S>& high, uint32_t octant) {
+  /// All of them at once: rays from one origin in directions between `low` and `high`, a lane for each
+  /// packet.
+  void set(const Interval (&origin)[3], const V3<S>& low, const V3<S>& high, uint32_t octant) {
     const L* const lows[3] = {&low.x, &low.y, &low.z};
     const L* const highs[3] = {&high.x, &high.y, &high.z};
     for (uint32_t axis = 0; axis < 3; ++axis) {
@@ -244,9 +245,9 @@ public:
                                    : S::max(direction, L(detail::kTinyDirection)));
       };
       Axis& a = axes_[axis];
-      Lanes::splat(origin[axis]).store(a.near_origin);
+      Lanes::splat(origin[axis].low).store(a.near_origin);
       inverse_of(backward ? *lows[axis] : *highs[axis]).store(a.near_inverse);
-      Lanes::splat(origin[axis]).store(a.far_origin);
+      Lanes::splat(origin[axis].low).store(a.far_origin);
       inverse_of(backward ? *highs[axis] : *lows[axis]).store(a.far_inverse);
     }
   }

@@ -37,7 +37,7 @@ public:
       limits_[packet] = BranchWalk<Spu>::kBeyond * kMaxHitDistance;
       misses_[packet] = 0;
     }
-    beams_.set(bundle.origin, bundle.low, bundle.high, bundle.octant);
+    beams_.set(bundle.all.origin, bundle.low, bundle.high, bundle.octant);
     around_.set(bundle.all, bundle.octant);
     one_origin_ = true;
     walk_together(searches, bundle.octant, packets);

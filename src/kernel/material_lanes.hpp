@@ -28,7 +28,7 @@ MaterialLanes<typename Spu::simd> gather_materials(SceneAccess<Spu>& scene, cons
   using F = typename S::F;
   MaterialLanes<S> m = {};
   bool first = true;
-  for_each_value<typename Spu::simd>(offsets, lanes, [&](uint32_t offset, uint32_t same) {
+  for_each_value<S>(offsets, lanes, [&](uint32_t offset, uint32_t same) {
     scene.spu().compute(scalar_work::kMaterial);
     const MaterialRecord& r = *scene.material(offset);
     const auto take = S::M::from_bits(first ? 0xFFFF : same);

@@ -32,12 +32,11 @@ void make_primary_rays(const FrameBlock& frame, uint32_t column, uint32_t row, R
 /// directions.
 template <class S> struct PinholeBundle {
   RayBounds all;
-  const float* origin;
   V3<S> low, high; ///< between which the directions are, a lane for each packet
   uint32_t octant = 0;
   bool exists = false; ///< if not, all else is meaningless
 
-  PinholeBundle(const FrameBlock& frame, uint32_t column, uint32_t row) : origin(frame.camera.origin) {
+  PinholeBundle(const FrameBlock& frame, uint32_t column, uint32_t row) {
     using F = typename S::F;
     if (frame.orthographic != 0) return;
     const CameraRecord& camera = frame.camera;

@@ -80,7 +80,7 @@ private:
   }
 
   /// Data has changed in main memory, or a frame was broken off: nothing cached and no word of it is valid
-  /// any more.
+  /// any more. It happens rarely: compiled for size, as local store is short.
   [[gnu::cold]] void synchronize() {
     while (spu_.in_mailbox_count() != 0)
       spu_.read_in_mailbox();

@@ -88,7 +88,7 @@ TEST_CASE("The beams of a pinhole bundle meet every box that one of its rays mee
     ++bundles;
     const Bundle bundle(*frame, place);
     BundleBeams<Simd, kPackets> beams;
-    beams.set(pinhole.origin, pinhole.low, pinhole.high, pinhole.octant);
+    beams.set(pinhole.all.origin, pinhole.low, pinhole.high, pinhole.octant);
     Beam<Simd> around;
     around.set(pinhole.all, pinhole.octant);
     const BoxSides sides(pinhole.octant);

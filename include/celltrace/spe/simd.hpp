@@ -15,7 +15,8 @@
 //   U4   4 uint32, one SPU quadword: splat, load, store (16-byte aligned); & |; equal_bits(a, b) -> 4 bits,
 //        lane 0 in bit 0
 //
-//   min max (of ordinary numbers), extremes(F, least, greatest): of all lanes; abs, sqrt (of x >= 0), select(M, a, b) = m ? a : b for F and I,
+//   min max (of ordinary numbers), extremes(F, least, greatest) (of all lanes), abs, sqrt (of x >= 0),
+//   select(M, a, b) = m ? a : b for F and I,
 //   to_int (truncates; |x| < 2^31), to_float, bits_of / float_of (reinterpret),
 //   shift_left<n>, shift_right<n> (arithmetic)
 //

@@ -41,8 +41,7 @@ uint32_t lane_bits(const xsimd::batch_bool<typename Batch::value_type, typename 
 }
 
 /// The least number of `low` and the greatest of `high`.
-template <class Batch>
-void extremes(const Batch& low, const Batch& high, float& least, float& greatest) {
+template <class Batch> void extremes(const Batch& low, const Batch& high, float& least, float& greatest) {
 #if defined(__AVX512F__)
   if constexpr (Batch::size == 16) {
     least = _mm512_reduce_min_ps(low);
@@ -317,8 +316,8 @@ template <class Arch, class Counter = CountNothing> struct HostSimd {
   }
   /// The least and the greatest of all lanes.
   static void extremes(const F& a, float& least, float& greatest) {
-    Counter::packet({.ls = 1});
-    Counter::chain({.fx2 = 12, .ls = 6});
+    Counter::packet({.fx2 = 2});
+    Counter::chain({.fx2 = 12, .shuf = 4});
     FloatBatch low = a.part[0], high = a.part[0];
     for (uint32_t i = 1; i < kParts; ++i) {
       low = xsimd::min(low, a.part[i]);

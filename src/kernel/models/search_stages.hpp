@@ -156,11 +156,12 @@ public:
 
 private:
   void find_closest(SearchRecord& search) {
-    for_each_value<typename Spu::simd>(search.cell, search.pending,
-                   [&](uint32_t cell, uint32_t) { grid_.find_closest_in(cell, search.rays, search.hits); });
+    for_each_value<S>(search.cell, search.pending, [&](uint32_t cell, uint32_t) {
+      grid_.find_closest_in(cell, search.rays, search.hits);
+    });
   }
   void attenuate(SearchRecord& search) {
-    for_each_value<typename Spu::simd>(search.cell, search.pending, [&](uint32_t cell, uint32_t lanes) {
+    for_each_value<S>(search.cell, search.pending, [&](uint32_t cell, uint32_t lanes) {
       grid_.attenuate_in(cell, lanes, search.enter, search.leave, search.rays, search.light.distance,
                          search.light.colour, search.lit);
     });
