@@ -65,23 +65,6 @@ public:
     return splat3<S>(frame_.background);
   }
 
-  /// As trace(), of rays that go on nowhere; false if some do.
-  bool ends_at_once(const RayPacket& rays, uint32_t lanes, const HitPacket& hits, const HitPoints<S>& points,
-                    V3<S>& colour) {
-    const uint32_t hit = hit_lanes<S>(hits, lanes);
-    if (hit != 0) {
-      if (points.blended != 0) return false;
-      const MaterialLanes<S> m = gather_materials(scene_, points.material, hit);
-      if (m.has_reflection || m.has_transmission) return false;
-      const Surfaces<S> surfaces = {points.point, points.normal, rays.direction.template load<S>(),
-                                    &hits.object};
-      colour = local_light(scene_, finder_, frame_, surfaces, m, hit, counters_.shadow);
-    }
-    finder_.forget_light();
-    colour = select<S>(M::from_bits(hit), colour, background(count(lanes)));
-    return true;
-  }
-
   /// Starts the tree of a packet of primary rays.
   void begin(const RayPacket& rays, uint32_t lanes) {
     scene_.spu().compute(scalar_work::kPrimaryPacket);
@@ -139,6 +122,24 @@ private:
   }
 
   static uint32_t count(uint32_t lanes) { return static_cast<uint32_t>(__builtin_popcount(lanes)); }
+
+  /// As trace(), of rays that go on nowhere; false if some do.
+  bool ends_at_once(const RayPacket& rays, uint32_t lanes, const HitPacket& hits, const HitPoints<S>& points,
+                    V3<S>& colour) {
+    const uint32_t hit = hit_lanes<S>(hits, lanes);
+    if (hit != 0) {
+      if (points.blended != 0) return false;
+      const MaterialLanes<S> m = gather_materials(scene_, points.material, hit);
+      if (m.has_reflection || m.has_transmission) return false;
+      const Surfaces<S> surfaces = {points.point, points.normal, rays.direction.template load<S>(),
+                                    &hits.object};
+      colour = local_light(scene_, finder_, frame_, surfaces, m, hit, counters_.shadow);
+    }
+    finder_.forget_light();
+    const V3<S> behind = background(count(lanes));
+    colour = hit != 0 ? select<S>(M::from_bits(hit), colour, behind) : behind;
+    return true;
+  }
 
   /// The root of the tree: the rays as they leave the camera.
   void start(const RayPacket& rays, uint32_t lanes) {
