@@ -258,6 +258,9 @@ struct Simd {
   static F4 min(const F4& a, const F4& b) { return {spu_sel(a.lanes, b.lanes, spu_cmpgt(a.lanes, b.lanes))}; }
   static F4 max(const F4& a, const F4& b) { return {spu_sel(b.lanes, a.lanes, spu_cmpgt(a.lanes, b.lanes))}; }
 
+  static F join(const F4& a, const F4& b, const F4& c, const F4& d) {
+    return F(a.lanes, b.lanes, c.lanes, d.lanes);
+  }
   static void extremes(const F& a, float& least, float& greatest) {
     const auto pick = [](const vec_float4& x, const vec_float4& y, bool wants_greater) {
       return wants_greater ? spu_sel(y, x, spu_cmpgt(x, y)) : spu_sel(x, y, spu_cmpgt(x, y));

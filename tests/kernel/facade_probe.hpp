@@ -17,7 +17,7 @@ struct alignas(128) FacadeBlock {
   // results
   float sum[16], difference[16], product[16], quotient[16], negative[16];
   float least[16], most[16], magnitude[16], root[16], chosen[16];
-  float splat[16], from_int[16], reinterpreted[16];
+  float splat[16], from_int[16], reinterpreted[16], joined[16];
   int32_t int_sum[16], int_difference[16], int_and[16], int_or[16], int_chosen[16];
   int32_t to_int[16], bits[16], left_1[16], left_23[16], right_1[16], right_23[16], int_splat[16];
   int32_t of_line[16];
@@ -27,7 +27,7 @@ struct alignas(128) FacadeBlock {
   uint32_t int_equal, int_less;
   uint32_t mask_and, mask_or, mask_not, mask_none, mask_all, mask_same;
   float least_of_all, greatest_of_all;
-  uint32_t pad_end[23];
+  uint32_t pad_end[7];
 };
 static_assert(sizeof(FacadeBlock) % 128 == 0, "crosses DMA");
 
@@ -55,6 +55,8 @@ template <class S> void apply_facade(FacadeBlock& x) {
   S::abs(a).store(x.magnitude);
   S::sqrt(S::abs(a)).store(x.root);
   F(x.a[3]).store(x.splat);
+  using F4 = typename S::F4;
+  S::join(F4::load(x.a), F4::load(x.b), F4::load(x.a + 12), F4::load(x.b + 4)).store(x.joined);
   x.less = (a < b).bits();
   x.less_equal = (a <= b).bits();
   x.greater = (a > b).bits();

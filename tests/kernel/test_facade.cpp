@@ -97,6 +97,10 @@ void check_floats(const FacadeBlock& x) {
   }
   CHECK(x.least_of_all == *std::min_element(x.a, x.a + 16));
   CHECK(x.greatest_of_all == *std::max_element(x.a, x.a + 16));
+  CHECK(same_floats(x.joined, [&](int l) {
+    const float* const quads[4] = {x.a, x.b, x.a + 12, x.b + 4};
+    return quads[l / 4][l % 4];
+  }));
 }
 
 void check_ints(const FacadeBlock& x) {

@@ -60,6 +60,31 @@ template <class Batch> void extremes(const Batch& low, const Batch& high, float&
   }
 }
 
+/// 16 lanes of 4 each, as batches.
+template <class Batch> struct Joined { Batch part[kSimdLanes / Batch::size]; };
+template <class Batch, class Four>
+Joined<Batch> join(const Four& a, const Four& b, const Four& c, const Four& d) {
+#if defined(__AVX512DQ__)
+  if constexpr (Batch::size == 16)
+    return {{_mm512_insertf32x8(_mm512_castps256_ps512(_mm256_set_m128(b, a)), _mm256_set_m128(d, c), 1)}};
+#endif
+#if defined(__AVX__)
+  if constexpr (Batch::size == 8) return {{_mm256_set_m128(b, a), _mm256_set_m128(d, c)}};
+#endif
+#if defined(__SSE2__)
+  if constexpr (Batch::size == 4) return {{__m128(a), __m128(b), __m128(c), __m128(d)}};
+#endif
+  alignas(64) float lanes[kSimdLanes];
+  a.store_aligned(lanes);
+  b.store_aligned(lanes + 4);
+  c.store_aligned(lanes + 8);
+  d.store_aligned(lanes + 12);
+  Joined<Batch> all;
+  for (uint32_t i = 0; i < kSimdLanes / Batch::size; ++i)
+    all.part[i] = Batch::load_aligned(lanes + i * Batch::size);
+  return all;
+}
+
 } // namespace simd_host
 
 /// Instructions of an SPU, by the unit that executes them. What is missing is 0.
@@ -421,6 +446,14 @@ template <class Arch, class Counter = CountNothing> struct HostSimd {
       return simd_host::lane_bits<Batch>(a.lanes <= b.lanes);
     }
   };
+  /// Costs nothing: the quadwords are where they are.
+  static F join(const F4& a, const F4& b, const F4& c, const F4& d) {
+    const auto all = simd_host::join<FloatBatch>(a.lanes, b.lanes, c.lanes, d.lanes);
+    F r;
+    for (uint32_t i = 0; i < kParts; ++i)
+      r.part[i] = all.part[i];
+    return r;
+  }
   static F4 min(const F4& a, const F4& b) {
     Counter::chain({.fx2 = 2});
     return {xsimd::min(a.lanes, b.lanes)};
