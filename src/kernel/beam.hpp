@@ -22,6 +22,9 @@ constexpr float kRoundedUp = 1.000001f;
 
 } // namespace detail
 
+/// Rays whose directions differ by more go in parts: found by measurement on scenes with mirrors and glass.
+constexpr float kMaxDirectionSpread = 1.0f;
+
 /// The octant of a ray's direction: bit a is set if it is negative on axis a.
 inline uint32_t octant_of(const RayPacket& rays, uint32_t lane) {
   return (rays.direction.x.lane[lane] < 0.0f ? 1u : 0u) | (rays.direction.y.lane[lane] < 0.0f ? 2u : 0u) |
@@ -80,11 +83,6 @@ struct RayBounds {
     for (uint32_t axis = 0; axis < 3; ++axis)
       if (((octant >> axis) & 1) != 0 ? !(direction[axis].high < 0.0f) : !(direction[axis].low >= 0.0f))
         return false;
-    return true;
-  }
-  bool has_one_origin() const {
-    for (const Interval& each : origin)
-      if (each.low != each.high) return false;
     return true;
   }
   /// Sum of the differences of directions on all axes.
@@ -194,93 +192,6 @@ public:
 private:
   F4 near_origin_[3], near_inverse_[3];
   F4 far_origin_[3], far_inverse_[3];
-};
-
-/// A lane for each packet of a bundle.
-template <class S, uint32_t kPackets> struct BundleLanes;
-template <class S> struct BundleLanes<S, 4> {
-  using Type = typename S::F4;
-  static Type splat(float value) { return Type::splat(value); }
-  static uint32_t at_most(const Type& a, const Type& b) { return not_above_bits(a, b); }
-  static float greatest_of(uint32_t packets, const float (&values)[4]) {
-    float greatest = 0.0f;
-    for_each_lane(packets, [&](uint32_t packet) { greatest = larger(greatest, values[packet]); });
-    return greatest;
-  }
-};
-template <class S> struct BundleLanes<S, 16> {
-  using Type = typename S::F;
-  static Type splat(float value) { return Type(value); }
-  static uint32_t at_most(const Type& a, const Type& b) { return (a <= b).bits(); }
-  static float greatest_of(uint32_t packets, const float (&values)[16]) {
-    return interval_of<S>(S::select(S::M::from_bits(packets), Type::load(values), Type(0.0f))).high;
-  }
-};
-
-/// The beams of a bundle's packets, all of one octant, side by side.
-template <class S, uint32_t kPackets> class BundleBeams {
-public:
-  using Lanes = BundleLanes<S, kPackets>;
-  using L = typename Lanes::Type;
-
-  void set(uint32_t packet, const RayBounds& bounds, uint32_t octant) {
-    for (uint32_t axis = 0; axis < 3; ++axis) {
-      const Slab slab = slab_of(bounds.origin[axis], bounds.direction[axis], ((octant >> axis) & 1) != 0);
-      Axis& a = axes_[axis];
-      a.near_origin[packet] = slab.near_origin;
-      a.near_inverse[packet] = slab.near_inverse;
-      a.far_origin[packet] = slab.far_origin;
-      a.far_inverse[packet] = slab.far_inverse;
-    }
-  }
-  /// All of them at once: rays from one origin in directions between `low` and `high`, a lane for each
-  /// packet.
-  void set(const Interval (&origin)[3], const V3<S>& low, const V3<S>& high, uint32_t octant) {
-    const L* const lows[3] = {&low.x, &low.y, &low.z};
-    const L* const highs[3] = {&high.x, &high.y, &high.z};
-    for (uint32_t axis = 0; axis < 3; ++axis) {
-      const bool backward = ((octant >> axis) & 1) != 0;
-      const auto inverse_of = [&](const L& direction) {
-        return L(1.0f) / (backward ? S::min(direction, L(-detail::kTinyDirection))
-                                   : S::max(direction, L(detail::kTinyDirection)));
-      };
-      Axis& a = axes_[axis];
-      Lanes::splat(origin[axis].low).store(a.near_origin);
-      inverse_of(backward ? *lows[axis] : *highs[axis]).store(a.near_inverse);
-      Lanes::splat(origin[axis].low).store(a.far_origin);
-      inverse_of(backward ? *highs[axis] : *lows[axis]).store(a.far_inverse);
-    }
-  }
-
-  /// That of one packet by itself.
-  void get(uint32_t packet, Beam<S>& beam) const {
-    for (uint32_t axis = 0; axis < 3; ++axis) {
-      const Axis& a = axes_[axis];
-      beam.set(axis,
-               {a.near_origin[packet], a.near_inverse[packet], a.far_origin[packet], a.far_inverse[packet]});
-    }
-  }
-
-  /// Which packets' beams may meet box `i` of the four, each up to its limit.
-  uint32_t meet(const float (&box)[6][4], const BoxSides& sides, uint32_t i,
-                const float (&limits)[kPackets]) const {
-    L first = Lanes::splat(0.0f);
-    L last = L::load(limits);
-    for (uint32_t axis = 0; axis < 3; ++axis) {
-      const Axis& a = axes_[axis];
-      const L near = Lanes::splat(box[sides.near[axis]][i]), far = Lanes::splat(box[sides.far[axis]][i]);
-      first = S::max(first, (near - L::load(a.near_origin)) * L::load(a.near_inverse));
-      last = S::min(last, (far - L::load(a.far_origin)) * L::load(a.far_inverse));
-    }
-    return Lanes::at_most(first, last * Lanes::splat(detail::kRoundedUp));
-  }
-
-private:
-  struct alignas(64) Axis {
-    float near_origin[kPackets], near_inverse[kPackets];
-    float far_origin[kPackets], far_inverse[kPackets];
-  };
-  Axis axes_[3] = {};
 };
 
 } // namespace celltrace::kernel

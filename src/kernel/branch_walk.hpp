@@ -7,7 +7,7 @@
 
 #include "kernel/beam.hpp"
 #include "kernel/branch_stack.hpp"
-#include "kernel/object_tests.hpp"
+#include "kernel/leaf_tests.hpp"
 
 namespace celltrace::kernel {
 
@@ -137,6 +137,12 @@ private:
   }
 
   void test_objects(const Branch& leaf, uint32_t group, Search& search) {
+    if constexpr (Spu::direct_memory) {
+      using Tests = LeafTests<Spu>;
+      if (leaf_word::count(leaf.leaf) >= Tests::kLeastTriangles &&
+          __builtin_popcount(group) <= Tests::kMostRays)
+        return Tests(objects_).test(search, group, leaf);
+    }
     objects_.scene().for_each_object(leaf, [&](uint32_t self) {
       if (search.hits != nullptr) {
         if (objects_.mailbox().first_visit(self)) objects_.test_closest(*search.rays, self, *search.hits);

@@ -196,36 +196,37 @@ private:
       references = memory_.references + treelet.first;
       spare = memory_.spare_references + treelet.first;
     }
+    const LeafRule rule = leaf_rule(frame_.wide_leaves != 0, prototypes_.of(run_of(treelet)) != kNoRun);
     Range<S> all = {0, 0, 0, LaneBox<S>::empty()};
     for (uint32_t r = treelet.begin; r < treelet.end; ++r) {
       const RunRecord& run = runs_[memory_.runs[r].value];
-      add_references(run.first, run.count, references, all);
+      add_references(run.first, run.count, rule, references, all);
     }
     NodeRecord* nodes = nodes_ + memory_.team->top_nodes + treelet.first_node;
-    const bool copied = prototypes_.of(run_of(treelet)) != kNoRun;
-    const NodeRecord* end = build(all, treelet.place, nodes, references, spare, treelet.first,
-                                  copied ? kCertainCopiedLeaf : kCertainLeaf);
+    const NodeRecord* end = build(all, treelet.place, nodes, references, spare, treelet.first, rule);
     treelet.nodes = static_cast<uint32_t>(end - nodes);
   }
 
   /// Adds references to objects that are neighbours in the table.
-  void add_references(uint32_t first, uint32_t count, Reference* references, Range<S>& range) const {
+  void add_references(uint32_t first, uint32_t count, const LeafRule& rule, Reference* references,
+                      Range<S>& range) const {
     for (uint32_t i = first; i < first + count; ++i) {
       Reference& reference = references[range.end++];
       const LaneBox<S> lanes = box_of<S>(objects_[i]);
       lanes.min.store(reference.min); // over the words beside
       lanes.max.store(reference.max);
       reference.value = frame_.object_offset + i * static_cast<uint32_t>(sizeof(ObjectRecord));
-      reference.weight = 1;
+      const uint32_t kind = objects_[i].kind_and_flags & object_flag::kind_mask;
+      reference.weight = static_cast<ObjectKind>(kind) == ObjectKind::triangle ? 1 : rule.weight_else;
+      range.weight += reference.weight;
       range.box.grow(lanes);
     }
-    range.weight += count;
   }
 
   /// A subtree over the objects from place `first` of the list on.
   NodeRecord* build(const Range<S>& range, const Place& place, NodeRecord* next, Reference* references,
-                    Reference* spare, uint32_t first, uint32_t certain_leaf) {
-    Leaves<S> leaves(image_, frame_.hierarchy.list_offset + first * 4, references, certain_leaf);
+                    Reference* spare, uint32_t first, const LeafRule& rule) {
+    Leaves<S> leaves(image_, frame_.hierarchy.list_offset + first * 4, references, rule);
     return TreeletBuilder(image_, references, spare, leaves, treelet_stack_).build(range, place, next);
   }
 
@@ -234,22 +235,23 @@ private:
     const uint32_t count = frame_.object_count;
     const bool local = count <= kLocalReferences;
     Reference* references = local ? references_ : memory_.references;
+    const LeafRule rule = leaf_rule(frame_.wide_leaves != 0, false);
     Range<S> all = {0, 0, 0, LaneBox<S>::empty()};
-    add_references(0, count, references, all);
-    const NodeRecord* end = count <= kCertainLeaf
-                                ? add_root(all, references)
+    add_references(0, count, rule, references, all);
+    const NodeRecord* end = all.weight <= rule.certain
+                                ? add_root(all, references, rule)
                                 : build(all, {nullptr, 0, 0}, nodes_, references,
-                                        local ? spare_ : memory_.spare_references, 0, kCertainLeaf);
+                                        local ? spare_ : memory_.spare_references, 0, rule);
     memory_.team->nodes = static_cast<uint32_t>(end - nodes_);
   }
   /// The root above objects that are one leaf.
-  NodeRecord* add_root(const Range<S>& all, const Reference* references) {
+  NodeRecord* add_root(const Range<S>& all, const Reference* references, const LeafRule& rule) {
     const LaneBox<S> empty = LaneBox<S>::empty();
     set_boxes<S>(*nodes_, {all.box, empty, empty, empty});
     for (uint32_t i = 0; i < kChildren; ++i)
       nodes_->child[i] = nodes_->leaf[i] = 0;
     if (all.count() != 0)
-      Leaves<S>(image_, frame_.hierarchy.list_offset, references, kCertainLeaf).add(all, {nodes_, 0, 0});
+      Leaves<S>(image_, frame_.hierarchy.list_offset, references, rule).add(all, {nodes_, 0, 0});
     return nodes_ + 1;
   }
 

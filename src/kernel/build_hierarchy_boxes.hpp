@@ -1,6 +1,7 @@
 // What the builder of the hierarchy handles: boxes in SIMD lanes, and references to objects. Kernel dialect.
 #pragma once
 
+#include "kernel/math.hpp"
 #include "kernel/overlap.hpp"
 #include "kernel/records.hpp"
 
@@ -24,16 +25,6 @@ constexpr float kThin = 1e-30f;
 /// Adding this to a small number leaves that, rounded, in the low bits. Where a number is not small, or none,
 /// something is in them.
 constexpr float kRounder = 8388608.0f;
-
-/// Numbers that are in registers go to lanes without a detour through memory, where a processor would wait
-/// for the last of them.
-template <class S> typename S::F4 four(float a, float b, float c, float d) {
-  typedef float Four __attribute__((vector_size(16)));
-  const Four numbers = {a, b, c, d};
-  alignas(16) float lanes[4];
-  __builtin_memcpy(lanes, &numbers, sizeof lanes);
-  return S::F4::load(lanes);
-}
 
 /// A box whose coordinates are lanes 0 to 2; lane 3 is undefined.
 template <class S> struct LaneBox {

@@ -5,33 +5,41 @@
 
 namespace celltrace::kernel::hierarchy {
 
-constexpr uint32_t kMaxLeaf = 8;
-/// Objects that share a leaf whatever the heuristic says. It has nothing to say of fewer than a node has
-/// children.
-constexpr uint32_t kCertainLeaf = kChildren - 1;
-/// The same where leaves are copied: a node of four leaves of one object each takes more memory than they do,
-/// and rays wait longer for it than the tests take.
-constexpr uint32_t kCertainCopiedLeaf = kChildren;
-/// What the test of an object takes, in visits of nodes.
-constexpr float kObjectCost = 2.0f;
+/// When objects share a leaf. A triangle weighs 1.
+struct LeafRule {
+  uint32_t certain;     ///< up to this weight they do whatever the heuristic says
+  uint32_t most;        ///< above this weight they do not
+  float cost;           ///< of testing an object that weighs 1, in visits of nodes
+  uint32_t weight_else; ///< of an object that is no triangle
+};
+/// No leaf has more objects.
+constexpr uint32_t kMaxLeaf = 16;
+
+/// Where objects are tested one by one, the heuristic has nothing to say of fewer than a node has children.
+/// Where leaves are copied, a node of four leaves of one object each takes more memory than they do, and rays
+/// wait longer for it than the tests take. All found by measurement.
+inline LeafRule leaf_rule(bool wide, bool copied) {
+  if (wide) return {12, 32, 0.5f, 4};
+  return {copied ? kChildren : kChildren - 1, 8, 2.0f, 1};
+}
 
 /// Ends nodes at objects. Reference i is of the object whose offset belongs at place i of the list.
 template <class S> class Leaves {
 public:
   static constexpr uint32_t kMaxDepthOfCuts = 32;
 
-  Leaves(uint8_t* image, uint32_t list_offset, const Reference* references, uint32_t certain_leaf)
-      : image_(image), list_offset_(list_offset), references_(references), certain_leaf_(certain_leaf) {}
+  Leaves(uint8_t* image, uint32_t list_offset, const Reference* references, const LeafRule& rule)
+      : image_(image), list_offset_(list_offset), references_(references), rule_(rule) {}
 
-  bool end(const Range<S>& range) const { return range.count() <= certain_leaf_; }
+  bool end(const Range<S>& range) const { return range.weight <= rule_.certain; }
 
   bool end(const Range<S>& range, const Range<S> (&children)[kChildren]) const {
-    if (range.count() > kMaxLeaf) return false;
+    if (range.weight > rule_.most || range.count() > kMaxLeaf) return false;
     const float area = range.box.area();
-    float saved = area * static_cast<float>(range.count());
+    float saved = area * static_cast<float>(range.weight);
     for (const Range<S>& child : children)
-      saved -= child.box.area() * static_cast<float>(child.count());
-    return !(saved * kObjectCost > area);
+      saved -= child.box.area() * static_cast<float>(child.weight);
+    return !(saved * rule_.cost > area);
   }
 
   void add(const Range<S>& range, const Place& place) {
@@ -62,7 +70,7 @@ private:
   uint8_t* image_;
   uint32_t list_offset_;
   const Reference* references_;
-  uint32_t certain_leaf_;
+  LeafRule rule_;
 };
 
 } // namespace celltrace::kernel::hierarchy

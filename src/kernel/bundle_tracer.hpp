@@ -114,7 +114,7 @@ private:
       searches[asked++] = {&member.shadow_rays, nullptr, &member.distance, &member.light[number],
                            bearing.facing};
     }
-    if (asked != 0) tracer_.finder().traversal().run(searches, asked);
+    if (asked != 0) tracer_.finder().traversal().run(searches, asked, light.location);
   }
 
   const FrameBlock& frame_;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "kernel/branch_walk.hpp"
+#include "kernel/light_bundle.hpp"
 #include "kernel/primary_rays.hpp"
 
 namespace celltrace::kernel {
@@ -21,26 +22,25 @@ public:
 
   /// Answers each of the searches, at most a bundle's. Hits hold none yet; the lanes of searches for light
   /// become those to which some comes.
-  void run(Search* searches, uint32_t count) {
-    uint32_t left = 0;
-    for (uint32_t packet = 0; packet < count; ++packet)
-      left |= static_cast<uint32_t>(searches[packet].lanes != 0) << packet;
-    if (!is_single(left)) left &= ~run_together(searches, left);
-    for_each_lane(left, [&](uint32_t packet) { run_alone(searches[packet]); });
-  }
-
+  void run(Search* searches, uint32_t count) { run(searches, count, 0); }
   /// The same of the hits of a bundle's primary rays; search i is of its packet i.
   void run(Search* searches, const PinholeBundle<S>& bundle) {
     uint32_t packets = 0;
     for (uint32_t packet = 0; packet < kBundlePackets<Spu>; ++packet) {
       packets |= static_cast<uint32_t>(searches[packet].lanes != 0) << packet;
       limits_[packet] = BranchWalk<Spu>::kBeyond * kMaxHitDistance;
-      misses_[packet] = 0;
     }
-    beams_.set(bundle.all.origin, bundle.low, bundle.high, bundle.octant);
-    around_.set(bundle.all, bundle.octant);
-    one_origin_ = true;
-    walk_together(searches, bundle.octant, packets);
+    bundle.shortening.store(shortening_);
+    walk_together(searches, bundle, false, packets);
+  }
+  /// The same of searches, all with some lanes, for the light that comes from one place.
+  void run(Search* searches, uint32_t count, const float (&light)[3]) {
+    const LightBundle<S> bundle(light, searches, count);
+    if (bundle.packets != 0) {
+      (bundle.reach * F(BranchWalk<Spu>::kBeyond)).store(limits_);
+      walk_together(searches, bundle, bundle.turned, bundle.packets);
+    }
+    run(searches, count, bundle.packets);
   }
 
   /// Whether a bundle comes to no leaf, as far as a look at a few nodes tells.
@@ -72,8 +72,6 @@ private:
   /// A packet's beam is loose once it has met this many boxes that none of its rays meet: where surfaces
   /// begin and end, shadow rays leave from places far apart.
   static constexpr uint32_t kMissesOfLoose = 2;
-  /// Beams whose rays differ by more go in parts: found by measurement on scenes with mirrors and glass.
-  static constexpr float kMaxDirectionSpread = 1.0f;
 
   Branch root() const { return {hierarchy_.node_offset, 0}; }
 
@@ -126,12 +124,22 @@ private:
 
   // --- packets together ---
 
+  /// All but `answered` searches.
+  void run(Search* searches, uint32_t count, uint32_t answered) {
+    uint32_t left = 0;
+    for (uint32_t packet = 0; packet < count; ++packet)
+      left |= static_cast<uint32_t>(searches[packet].lanes != 0) << packet;
+    left &= ~answered;
+    if (!is_single(left)) left &= ~run_together(searches, left);
+    for_each_lane(left, [&](uint32_t packet) { run_alone(searches[packet]); });
+  }
+
   /// Those of the packets whose rays have enough in common go through the hierarchy together. Returns which
   /// did.
   uint32_t run_together(Search* searches, uint32_t packets) {
     const Search& some = searches[__builtin_ctz(packets)];
     const uint32_t octant = octant_of(*some.rays, static_cast<uint32_t>(__builtin_ctz(some.lanes)));
-    RayBounds all;
+    RayBounds all = {};
     uint32_t together = 0;
     for_each_lane(packets, [&](uint32_t packet) {
       const Search& search = searches[packet];
@@ -149,16 +157,29 @@ private:
     });
     if (is_single(together)) return 0;
     around_.set(all, octant);
-    one_origin_ = all.has_one_origin();
-    walk_together(searches, octant, together);
+    view_ = nullptr;
+    octant_ = octant;
+    turned_ = false;
+    const BoxSides sides(octant);
+    walk_together(searches, sides, sides, together);
     return together;
   }
 
-  void walk_together(Search* searches, uint32_t octant, uint32_t packets) {
-    const BoxSides sides(octant);
+  /// By a bundle's beams; the rays may be turned.
+  void walk_together(Search* searches, const ViewBundle<S>& bundle, bool turned, uint32_t packets) {
+    for (uint32_t& misses : misses_)
+      misses = 0;
+    beams_.set(bundle.bounds, bundle.octant);
+    around_.set(bundle.all, bundle.octant);
+    view_ = &bundle.view;
+    octant_ = turned ? bundle.octant ^ 7 : bundle.octant;
+    turned_ = turned;
+    walk_together(searches, BoxSides(bundle.octant), BoxSides(octant_), packets);
+  }
+  /// By their beams, which enter and leave boxes by `sides`; the rays themselves do by `ray_sides`.
+  void walk_together(Search* searches, const BoxSides& sides, const BoxSides& ray_sides, uint32_t packets) {
     const uint32_t together = packets;
     farthest_ = BranchWalk<Spu>::kBeyond * kMaxHitDistance; // until there are hits
-    octant_ = octant;
     loose_ = 0;
     known_rays_ = known_beams_ = 0;
     Stack& stack = walk_.stack();
@@ -169,9 +190,9 @@ private:
         if (branch.is_leaf())
           test_objects(branch, packets, searches);
         else
-          walk_alone(searches, sides, static_cast<uint32_t>(__builtin_ctz(packets)), branch, rays);
+          walk_alone(searches, ray_sides, static_cast<uint32_t>(__builtin_ctz(packets)), branch, rays);
         farthest_ = Lanes::greatest_of(together, limits_);
-      } else if (open(searches, sides, packets, branch)) {
+      } else if (open(searches, sides, ray_sides, packets, branch)) {
         continue;
       }
       do {
@@ -189,7 +210,10 @@ private:
     Search& search = searches[packet];
     objects_.mailbox().begin_packet();
     if ((known_beams_ & (1u << packet)) == 0) {
-      beams_.get(packet, members_[packet].beam);
+      if (Spu::direct_memory && turned_)
+        members_[packet].beam.set(bounds_of<S>(*search.rays, search.lanes), octant_);
+      else
+        beams_.get(packet, members_[packet].beam);
       known_beams_ |= 1u << packet;
     }
     walk_.walk(members_[packet], sides, search.lanes, search, branch, rays);
@@ -206,7 +230,8 @@ private:
 
   /// As BranchWalk's, with the packets' beams in place of rays. The rays themselves are asked where objects
   /// are and where beams are loose.
-  bool open(const Search* searches, const BoxSides& sides, uint32_t packets, Branch& branch) {
+  bool open(const Search* searches, const BoxSides& sides, const BoxSides& ray_sides, uint32_t packets,
+            Branch& branch) {
     objects_.scene().spu().compute(scalar_work::kNodeOfBoxes);
     ++objects_.counters().voxels;
     const NodeRecord& node = *objects_.scene().node(branch.child);
@@ -230,7 +255,7 @@ private:
       const bool ask_all = (child.is_leaf() && !trusts_beams()) || is_lonely(lanes);
       if (lanes == 0) continue;
       objects_.scene().hint(child);
-      lanes &= ~without_rays_in(node.box, sides, i, searches, ask_all ? lanes : lanes & loose_);
+      lanes &= ~without_rays_in(node.box, ray_sides, i, searches, ask_all ? lanes : lanes & loose_);
       if (ask_all && !child.is_leaf())
         for_each_lane(lanes, [&](uint32_t packet) {
           stack.push(first, {child, 1u << packet, enter[i], rays_[packet]});
@@ -241,9 +266,9 @@ private:
     return false;
   }
 
-  /// Beams of primary rays are hardly larger than their rays; but where an object has to be fetched, that
+  /// Beams through one point are hardly larger than their rays; but where an object has to be fetched, that
   /// takes longer than asking them.
-  bool trusts_beams() const { return Spu::direct_memory && one_origin_; }
+  bool trusts_beams() const { return Spu::direct_memory && view_ != nullptr; }
   /// Where objects are small beside pixels, the packets of a bundle part early.
   static uint32_t most_alone(const FrameBlock& frame) {
     constexpr uint32_t kMost = BranchWalk<Spu>::kMostAlone;
@@ -272,16 +297,24 @@ private:
   }
 
   void test_objects(const Branch& leaf, uint32_t packets, Search* searches) {
+    const uint32_t changed = test_leaf(leaf, packets, searches);
+    for_each_lane(changed, [&](uint32_t packet) { update_limit(searches[packet], packet); });
+  }
+  /// Returns the packets that may have been changed.
+  uint32_t test_leaf(const Branch& leaf, uint32_t packets, Search* searches) {
+    if constexpr (Spu::direct_memory)
+      if (view_ != nullptr && !is_single(packets))
+        return LeafTests<Spu>(objects_).test(searches, packets, leaf, *view_);
     objects_.scene().for_each_object(leaf, [&](uint32_t self) {
       test_object(self, packets, searches);
       return false;
     });
-    for_each_lane(packets, [&](uint32_t packet) { update_limit(searches[packet], packet); });
+    return packets;
   }
   void test_object(uint32_t self, uint32_t packets, Search* searches) {
     if constexpr (Spu::direct_memory) {
       if (searches[__builtin_ctz(packets)].hits != nullptr)
-        objects_.test_closest_of_all(searches, packets, self, one_origin_);
+        objects_.test_closest_of_all(searches, packets, self);
       else
         objects_.shadow_all(searches, packets, self);
       return;
@@ -300,9 +333,14 @@ private:
   /// A packet that no light comes to any more looks nowhere.
   void update_limit(const Search& search, uint32_t packet) {
     if (search.hits != nullptr)
-      limits_[packet] = BranchWalk<Spu>::limit_of(search, search.lanes);
+      limits_[packet] = BranchWalk<Spu>::limit_of(search, search.lanes) * shortening(packet);
     else if (search.lanes == 0)
       limits_[packet] = -1.0f;
+  }
+  /// By which distances along a packet's rays are multiplied to get those along its beam.
+  float shortening([[maybe_unused]] uint32_t packet) const {
+    if constexpr (Spu::direct_memory) return view_ != nullptr ? shortening_[packet] : 1.0f;
+    return 1.0f;
   }
   uint32_t looking_as_far_as(float distance) const {
     return Lanes::at_most(Lanes::splat(distance), Lanes::Type::load(limits_));
@@ -314,15 +352,18 @@ private:
   const uint32_t most_alone_;                ///< packets
   RayGroup<S> members_[kBundlePackets<Spu>]; ///< packets of the bundle; a packet alone is the first
   BundleBeams<S, kBundlePackets<Spu>> beams_;
-  Beam<S> around_;                            ///< all of them
-  uint32_t rays_[kBundlePackets<Spu>];        ///< of each packet that was asked last
-  uint32_t misses_[kBundlePackets<Spu>];      ///< boxes that a beam met but no ray
-  uint32_t loose_ = 0;                        ///< packets
-  float farthest_ = 0.0f;                     ///< no packet looks farther
-  uint32_t octant_ = 0;                       ///< of all rays that go together
-  bool one_origin_ = false;                   ///< of theirs
-  uint32_t known_rays_ = 0, known_beams_ = 0; ///< packets of which members_ has them
-  alignas(64) float limits_[kBundlePackets<Spu>] = {};
+  Beam<S> around_;                                     ///< all of them
+  uint32_t rays_[kBundlePackets<Spu>];                 ///< of each packet that was asked last
+  uint32_t misses_[kBundlePackets<Spu>];               ///< boxes that a beam met but no ray
+  uint32_t loose_ = 0;                                 ///< packets
+  float farthest_ = 0.0f;                              ///< no packet looks farther
+  const BundleView<S>* view_ = nullptr;                ///< of theirs, if they go through one point
+  uint32_t octant_ = 0;                                ///< of all rays that go together
+  bool turned_ = false;                                ///< their beams go the other way
+  uint32_t known_rays_ = 0, known_beams_ = 0;          ///< packets of which members_ has them
+  alignas(64) float limits_[kBundlePackets<Spu>] = {}; ///< how far each packet looks along its beam
+  /// Of each packet of primary rays, which go through one point.
+  alignas(64) float shortening_[Spu::direct_memory ? kBundlePackets<Spu> : 1] = {};
 };
 
 } // namespace celltrace::kernel

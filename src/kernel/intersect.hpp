@@ -79,6 +79,24 @@ Crossings<S> intersect_ellipsoid(const V3<S>& origin, const V3<S>& direction,
   return detail::chord<S>(along, (F(1.0f) - dot<S>(nearest, nearest)) * inverse_square, starts_here);
 }
 
+/// The rays that start on an object.
+template <class S> typename S::M lanes_that_start_on(const RayPacket& rays, uint32_t self) {
+  using I = typename S::I;
+  return I::load(reinterpret_cast<const int32_t*>(rays.start_object.lane)) ==
+         I::splat(static_cast<int32_t>(self));
+}
+
+/// A triangle for a packet of rays, or one for each lane.
+template <class S> struct TriangleSides {
+  V3<S> v0, edge1, edge2;
+
+  static TriangleSides of(const ObjectRecord& object) {
+    const float* g = object.geometry;
+    const V3<S> corner = splat3<S>(g);
+    return {corner, splat3<S>(g + 3) - corner, splat3<S>(g + 6) - corner};
+  }
+};
+
 /// A triangle as seen from the origins of a packet's rays; what packets of one origin have in common.
 ///
 /// Neighbours overlap by what the rounding of the barycentric coordinates may amount to, so that no ray slips
@@ -87,19 +105,14 @@ template <class S> class SeenTriangle {
 public:
   using F = typename S::F;
 
-  [[gnu::always_inline]] SeenTriangle(const V3<S>& origin, const ObjectRecord& object) {
+  [[gnu::always_inline]] SeenTriangle(const V3<S>& origin, const TriangleSides<S>& sides)
+      : edge1_(sides.edge1), edge2_(sides.edge2) {
     constexpr float kRounding = 6e-8f; // a unit in the last place
-    const float* g = object.geometry;
-    const float side1[3] = {g[3] - g[0], g[4] - g[1], g[5] - g[2]};
-    const float side2[3] = {g[6] - g[0], g[7] - g[1], g[8] - g[2]};
-    const float size = larger(absolute_sum(side1), absolute_sum(side2));
-    edge1_ = splat3<S>(side1);
-    edge2_ = splat3<S>(side2);
-    from_v0_ = origin - splat3<S>(g);
+    from_v0_ = origin - sides.v0;
     q_ = cross<S>(from_v0_, edge1_);
     distance_ = dot<S>(edge2_, q_);
-    const F reach = S::abs(from_v0_.x) + S::abs(from_v0_.y) + S::abs(from_v0_.z);
-    overlap_ = reach * F(kRounding * size);
+    const F size = S::max(absolute_sum<S>(edge1_), absolute_sum<S>(edge2_));
+    overlap_ = absolute_sum<S>(from_v0_) * (F(kRounding) * size);
   }
 
   /// By rays of these directions.
@@ -121,6 +134,11 @@ public:
     return c;
   }
 
+  /// By the rays of a packet.
+  [[gnu::always_inline]] Crossings<S> crossed(const RayPacket& rays, uint32_t self) const {
+    return crossed(rays.direction.template load<S>(), lanes_that_start_on<S>(rays, self));
+  }
+
 private:
   V3<S> edge1_, edge2_, from_v0_, q_;
   F distance_, overlap_; ///< both times the determinant
@@ -129,14 +147,7 @@ private:
 template <class S>
 Crossings<S> intersect_triangle(const V3<S>& origin, const V3<S>& direction, const typename S::M& starts_here,
                                 const ObjectRecord& object) {
-  return SeenTriangle<S>(origin, object).crossed(direction, starts_here);
-}
-
-/// The rays that start on an object.
-template <class S> typename S::M lanes_that_start_on(const RayPacket& rays, uint32_t self) {
-  using I = typename S::I;
-  return I::load(reinterpret_cast<const int32_t*>(rays.start_object.lane)) ==
-         I::splat(static_cast<int32_t>(self));
+  return SeenTriangle<S>(origin, TriangleSides<S>::of(object)).crossed(direction, starts_here);
 }
 
 /// `self` is the object's offset in the scene image, against which the packet's start objects are compared.

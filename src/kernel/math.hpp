@@ -15,6 +15,16 @@ template <class S> struct V3 {
   friend V3 operator*(const V3& a, const typename S::F& s) { return {a.x * s, a.y * s, a.z * s}; }
 };
 
+/// Numbers that are in registers go to lanes without a detour through memory, where a processor would wait
+/// for the last of them.
+template <class S> typename S::F4 four(float a, float b, float c, float d) {
+  typedef float Four __attribute__((vector_size(16)));
+  const Four numbers = {a, b, c, d};
+  alignas(16) float lanes[4];
+  __builtin_memcpy(lanes, &numbers, sizeof lanes);
+  return S::F4::load(lanes);
+}
+
 template <class S> V3<S> splat3(const float* v) {
   return {typename S::F(v[0]), typename S::F(v[1]), typename S::F(v[2])};
 }
@@ -26,6 +36,9 @@ template <class S> V3<S> cross(const V3<S>& a, const V3<S>& b) {
 }
 template <class S> V3<S> select(const typename S::M& m, const V3<S>& a, const V3<S>& b) {
   return {S::select(m, a.x, b.x), S::select(m, a.y, b.y), S::select(m, a.z, b.z)};
+}
+template <class S> typename S::F absolute_sum(const V3<S>& v) {
+  return S::abs(v.x) + S::abs(v.y) + S::abs(v.z);
 }
 /// A vector of length 0 stays 0.
 template <class S> V3<S> normalise(const V3<S>& v) {

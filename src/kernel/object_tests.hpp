@@ -64,8 +64,8 @@ public:
     keep_closest(test(rays, *scene_.object(self), self), self, hits);
   }
 
-  /// The same of several packets, whose rays may all have one origin.
-  void test_closest_of_all(Search* searches, uint32_t packets, uint32_t self, bool one_origin) {
+  /// The same of several packets.
+  void test_closest_of_all(const Search* searches, uint32_t packets, uint32_t self) {
     const ObjectRecord& object = *scene_.object(self);
     const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
     if (static_cast<ObjectKind>(kind) != ObjectKind::triangle) {
@@ -73,17 +73,12 @@ public:
       return;
     }
     counters_.tests[kind] += static_cast<uint32_t>(__builtin_popcount(packets));
-    const auto origin_of = [&](uint32_t i) { return searches[i].rays->origin.template load<S>(); };
-    const auto test_by = [&](uint32_t i, const SeenTriangle<S>& triangle) __attribute__((always_inline)) {
-      const RayPacket& rays = *searches[i].rays;
-      keep_closest(triangle.crossed(rays.direction.template load<S>(), lanes_that_start_on<S>(rays, self)),
-                   self, *searches[i].hits);
-    };
-    if (one_origin) {
-      const SeenTriangle<S> triangle(origin_of(static_cast<uint32_t>(__builtin_ctz(packets))), object);
-      for_each_lane(packets, [&](uint32_t i) { test_by(i, triangle); });
-    } else {
-      for_each_lane(packets, [&](uint32_t i) { test_by(i, SeenTriangle<S>(origin_of(i), object)); });
+    const auto sides = TriangleSides<S>::of(object);
+    // A plain loop: what does not change in it stays in registers.
+    for (uint32_t left = packets; left != 0; left &= left - 1) {
+      const Search& search = searches[__builtin_ctz(left)];
+      const SeenTriangle<S> triangle(search.rays->origin.template load<S>(), sides);
+      keep_closest(triangle.crossed(*search.rays, self), self, *search.hits);
     }
   }
 
@@ -126,9 +121,8 @@ public:
   void shadow_all(Search* searches, uint32_t packets, uint32_t self) {
     const ObjectRecord& object = *scene_.object(self);
     const uint32_t flags = object.kind_and_flags;
-    const uint32_t kind = flags & object_flag::kind_mask;
     if ((flags & object_flag::no_shadow) != 0) return;
-    if (static_cast<ObjectKind>(kind) != ObjectKind::triangle || (flags & object_flag::opaque) == 0) {
+    if (!is_opaque_triangle(flags)) {
       for_each_lane(packets, [&](uint32_t i) {
         Search& search = searches[i];
         mailbox_.begin_packet();
@@ -136,18 +130,43 @@ public:
       });
       return;
     }
-    for_each_lane(packets, [&](uint32_t i) {
-      Search& search = searches[i];
-      if (search.lanes == 0) return;
-      ++counters_.tests[kind];
+    counters_.tests[flags & object_flag::kind_mask] += static_cast<uint32_t>(__builtin_popcount(packets));
+    const auto sides = TriangleSides<S>::of(object);
+    for (uint32_t left = packets; left != 0; left &= left - 1) {
+      Search& search = searches[__builtin_ctz(left)];
       const RayPacket& rays = *search.rays;
-      const SeenTriangle<S> triangle(rays.origin.template load<S>(), object);
-      search.lanes &=
-          ~in_between(triangle.crossed(rays.direction.template load<S>(), lanes_that_start_on<S>(rays, self)),
-                      *search.distance)
-               .near;
-    });
+      const SeenTriangle<S> triangle(rays.origin.template load<S>(), sides);
+      search.lanes &= ~in_between(triangle.crossed(rays, self), *search.distance).near;
+    }
   }
+
+  static void keep_closest(const Crossings<S>& c, uint32_t self, HitPacket& hits) {
+    const M near_valid = c.near_hit & (c.near > F(kMinHitDistance));
+    const M far_valid = c.far_hit & (c.far > F(kMinHitDistance));
+    const F distance = S::select(near_valid, c.near, c.far);
+    const F nearest = F::load(hits.distance.lane);
+    const M hit = near_valid | far_valid;
+    const M not_farther = hit & (distance <= nearest);
+    // Of two hits at the same place the object that comes first in the scene counts, in whatever order they
+    // are found.
+    auto* objects = reinterpret_cast<int32_t*>(hits.object.lane);
+    const I present = I::load(objects);
+    const I candidate = I::splat(static_cast<int32_t>(self));
+    const M closer = not_farther & ((distance < nearest) | (candidate < present));
+    S::select(closer, distance, nearest).store(hits.distance.lane);
+    S::select(closer, c.u, F::load(hits.u.lane)).store(hits.u.lane);
+    S::select(closer, c.v, F::load(hits.v.lane)).store(hits.v.lane);
+    S::select(closer, candidate, present).store(objects);
+  }
+
+  /// Whether an object is a triangle that keeps all light off.
+  static bool is_opaque_triangle(uint32_t flags) {
+    return static_cast<ObjectKind>(flags & object_flag::kind_mask) == ObjectKind::triangle &&
+           (flags & (object_flag::opaque | object_flag::no_shadow)) == object_flag::opaque;
+  }
+
+  /// POV-Ray's tolerance at both ends of a shadow ray.
+  static constexpr float kShadowTolerance = 1e-3f;
 
   SceneAccess<Spu>& scene() { return scene_; }
   PacketMailbox& mailbox() { return mailbox_; }
@@ -156,9 +175,6 @@ public:
   void reset_counters() { counters_ = TraversalCounters(); }
 
 private:
-  /// POV-Ray's tolerance at both ends of a shadow ray.
-  static constexpr float kShadowTolerance = 1e-3f;
-
   /// Lanes that cross a surface on their way to a light.
   struct Between {
     uint32_t near, far;
@@ -186,25 +202,6 @@ private:
       dark = dark && value < 1e-10f && value > -1e-10f;
     }
     return dark;
-  }
-
-  static void keep_closest(const Crossings<S>& c, uint32_t self, HitPacket& hits) {
-    const M near_valid = c.near_hit & (c.near > F(kMinHitDistance));
-    const M far_valid = c.far_hit & (c.far > F(kMinHitDistance));
-    const F distance = S::select(near_valid, c.near, c.far);
-    const F nearest = F::load(hits.distance.lane);
-    const M hit = near_valid | far_valid;
-    const M not_farther = hit & (distance <= nearest);
-    // Of two hits at the same place the object that comes first in the scene counts, in whatever order they
-    // are found.
-    auto* objects = reinterpret_cast<int32_t*>(hits.object.lane);
-    const I present = I::load(objects);
-    const I candidate = I::splat(static_cast<int32_t>(self));
-    const M closer = not_farther & ((distance < nearest) | (candidate < present));
-    S::select(closer, distance, nearest).store(hits.distance.lane);
-    S::select(closer, c.u, F::load(hits.u.lane)).store(hits.u.lane);
-    S::select(closer, c.v, F::load(hits.v.lane)).store(hits.v.lane);
-    S::select(closer, candidate, present).store(objects);
   }
 
   Crossings<S> test(const RayPacket& rays, const ObjectRecord& object, uint32_t self) {

@@ -1,7 +1,7 @@
 // Render ray packet: the sixteen rays through a 4x4 block of pixels. Kernel dialect.
 #pragma once
 
-#include "kernel/beam.hpp"
+#include "kernel/bundle_view.hpp"
 
 namespace celltrace::kernel {
 
@@ -25,61 +25,87 @@ void make_primary_rays(const FrameBlock& frame, uint32_t column, uint32_t row, R
     rays.start_object.lane[lane] = kNoOffset;
 }
 
-/// What the primary rays of a bundle of 4x4 packets have in common if they leave one point into one octant.
-///
-/// Their directions are taken in the plane of the picture, where they lie between those of the corners, and
-/// in a scale in which none is shorter than 1: distances along them are not greater than along the unit
-/// directions.
-template <class S> struct PinholeBundle {
-  RayBounds all;
-  V3<S> low, high; ///< between which the directions are, a lane for each packet
-  uint32_t octant = 0;
-  bool exists = false; ///< if not, all else is meaningless
+/// The primary rays of a bundle of 4x4 packets, if they leave one point into one octant; else of no packets.
+template <class S> class PinholeBundle : public ViewBundle<S> {
+public:
+  using F = typename S::F;
+  using ViewBundle<S>::view, ViewBundle<S>::bounds, ViewBundle<S>::all, ViewBundle<S>::octant,
+      ViewBundle<S>::packets;
+
+  F shortening; ///< of unit directions: none is longer on the major axis
 
   PinholeBundle(const FrameBlock& frame, uint32_t column, uint32_t row) {
-    using F = typename S::F;
     if (frame.orthographic != 0) return;
     const CameraRecord& camera = frame.camera;
-    constexpr float kEdge = kPacketEdge, kBundle = kEdge * kEdge; // pixels
-    const F x = (F::load(detail::kLaneX) + F(static_cast<float>(column) * kEdge)) * F(kEdge);
-    const F y = (F::load(detail::kLaneY) + F(static_cast<float>(row) * kEdge)) * F(kEdge);
-    F* const lows[3] = {&low.x, &low.y, &low.z};
-    F* const highs[3] = {&high.x, &high.y, &high.z};
-    float square = 0.0f; // of the shortest direction
+    constexpr float kBundle = kPacketEdge * kPacketEdge; // pixels
+    const float middle_x = (static_cast<float>(column) + 0.5f) * kBundle;
+    const float middle_y = (static_cast<float>(row) + 0.5f) * kBundle;
+    uint32_t major = 0;
+    float middle[3];
     for (uint32_t axis = 0; axis < 3; ++axis) {
-      const float base = camera.base[axis], dx = camera.dx[axis], dy = camera.dy[axis];
-      // Some pixels on, between which the rays are rounded otherwise.
-      const float rounding = 1e-6f * (magnitude(base) + magnitude(dx) * static_cast<float>(frame.width) +
-                                      magnitude(dy) * static_cast<float>(frame.height));
-      const auto lowest = [&](float pixels) {
-        return smaller(pixels * dx, 0.0f) + smaller(pixels * dy, 0.0f) - rounding;
-      };
-      const auto highest = [&](float pixels) {
-        return larger(pixels * dx, 0.0f) + larger(pixels * dy, 0.0f) + rounding;
-      };
-      const F corners = F(base) + F(dx) * x + F(dy) * y;
-      *lows[axis] = corners + F(lowest(kEdge - 1));
-      *highs[axis] = corners + F(highest(kEdge - 1));
-      const float corner =
-          base + dx * (static_cast<float>(column) * kBundle) + dy * (static_cast<float>(row) * kBundle);
-      const Interval along = {corner + lowest(kBundle - 1), corner + highest(kBundle - 1)};
-      const bool backward = along.high < 0.0f;
-      if (!backward && along.low < 0.0f) return;
-      octant |= static_cast<uint32_t>(backward) << axis;
-      const float least = backward ? along.high : along.low;
-      square += least * least;
-      all.origin[axis] = {camera.origin[axis], camera.origin[axis]};
-      all.direction[axis] = along;
+      middle[axis] = camera.base[axis] + camera.dx[axis] * middle_x + camera.dy[axis] * middle_y;
+      if (magnitude(middle[axis]) > magnitude(middle[major])) major = axis;
     }
-    if (!(square > 1e-20f)) return;
-    const F scale = F(1.000001f) / S::sqrt(F(square));
-    low = low * scale;
-    high = high * scale;
-    FloatLanes scales;
-    scale.store(scales.lane);
-    for (Interval& along : all.direction)
-      along = {along.low * scales.lane[0], along.high * scales.lane[0]};
-    exists = true;
+    view.set_major(major);
+    view.forth = middle[major] < 0.0f ? -1.0f : 1.0f;
+    if (see(frame, static_cast<float>(column), static_cast<float>(row))) bound(camera);
+  }
+
+private:
+  /// The rectangles are those around the directions through the corners of packets. False if some go another
+  /// way along the major axis.
+  bool see(const FrameBlock& frame, float column, float row) {
+    constexpr float kEdge = kPacketEdge;
+    const CameraRecord& camera = frame.camera;
+    float rounding[3];
+    for (uint32_t i = 0; i < 3; ++i) {
+      const uint32_t axis = view.axes[i];
+      rounding[i] = 2e-6f * (magnitude(camera.base[axis]) +
+                             magnitude(camera.dx[axis]) * static_cast<float>(frame.width) +
+                             magnitude(camera.dy[axis]) * static_cast<float>(frame.height));
+    }
+    const F x = (F::load(detail::kLaneX) + F(column * kEdge)) * F(kEdge);
+    const F y = (F::load(detail::kLaneY) + F(row * kEdge)) * F(kEdge);
+    for (uint32_t corner = 0; corner < 4; ++corner) {
+      const F right = x + F((corner & 1) != 0 ? kEdge - 1 : 0.0f);
+      const F down = y + F((corner & 2) != 0 ? kEdge - 1 : 0.0f);
+      const auto through = [&](uint32_t axis) {
+        return F(camera.base[axis]) + F(camera.dx[axis]) * right + F(camera.dy[axis]) * down;
+      };
+      const F length = through(view.axes[2]) * F(view.forth);
+      if ((length > F(2.0f * rounding[2])).bits() != 0xFFFF) return false;
+      const F scale = F(1.0f) / length;
+      for (uint32_t i = 0; i < 2; ++i) {
+        const F along = through(view.axes[i]) * scale;
+        const F off = (S::abs(along) * F(rounding[2]) + F(rounding[i])) * scale;
+        LaneInterval<S>& seen = view.seen[i];
+        seen.low = corner == 0 ? along - off : S::min(seen.low, along - off);
+        seen.high = corner == 0 ? along + off : S::max(seen.high, along + off);
+      }
+    }
+    return true;
+  }
+
+  void bound(const CameraRecord& camera) {
+    F square(1.0f);
+    for (uint32_t i = 0; i < 3; ++i) {
+      const uint32_t axis = view.axes[i];
+      const float origin = camera.origin[axis];
+      view.origin[axis] = origin;
+      all.origin[axis] = {origin, origin};
+      bounds.origin[axis] = LaneInterval<S>::splat(all.origin[axis]);
+      const Interval straight = {view.forth, view.forth};
+      const LaneInterval<S> direction = i < 2 ? view.seen[i] : LaneInterval<S>::splat(straight);
+      bounds.direction[axis] = direction;
+      all.direction[axis] = i < 2 ? direction.all() : straight;
+      const bool backward = all.direction[axis].high < 0.0f;
+      if (!backward && all.direction[axis].low < 0.0f) return;
+      octant |= static_cast<uint32_t>(backward) << axis;
+      const F least = backward ? direction.high : direction.low;
+      if (i < 2) square = square + least * least;
+    }
+    shortening = F(1.000001f) / S::sqrt(square);
+    packets = 0xFFFF;
   }
 };
 

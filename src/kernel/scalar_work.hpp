@@ -30,7 +30,7 @@ constexpr ScalarWork kBeam = {150, 12, 110, 70, 14};
 /// A node of the hierarchy: the children that a beam meets, into their places on the stack.
 constexpr ScalarWork kNodeOfBoxes = {80, 0, 50, 45, 12};
 /// A packet against an object, by ObjectKind.
-constexpr ScalarWork kTest[3] = {{78, 0, 247, 0, 2}, {104, 14, 305, 20, 2}, {171, 9, 421, 20, 8}};
+constexpr ScalarWork kTest[3] = {{78, 0, 247, 0, 2}, {104, 14, 305, 20, 2}, {152, 0, 469, 1, 2}};
 /// What the search for the closest hit makes of it.
 constexpr ScalarWork kClosest = {22, 0, 28, 4, 2};
 /// What a shadow packet makes of it.

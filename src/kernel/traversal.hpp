@@ -42,23 +42,29 @@ public:
           s.lanes = grid_.attenuate(*s.rays, s.lanes, *s.distance, *s.light);
       }
     }
-    const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
-    for (uint32_t i = 0; i < count; ++i) {
-      const Search& s = searches[i];
-      if (s.light == nullptr) continue;
-      s.light->template store<S>(select<S>(S::M::from_bits(s.lanes), s.light->template load<S>(), dark));
+    darken(searches, count);
+  }
+
+  /// The same of light that comes from one place.
+  void run(Search* searches, uint32_t count, const float (&light)[3]) {
+    if constexpr (Spu::direct_memory) {
+      if (by_hierarchy()) {
+        hierarchy_.run(searches, count, light);
+        return darken(searches, count);
+      }
     }
+    run(searches, count);
   }
 
   /// The same of the hits of a bundle's primary rays; search i is of its packet i.
   void run(Search* searches, const PinholeBundle<S>& bundle) {
-    if (!by_hierarchy() || !bundle.exists) return run(searches, kBundlePackets<Spu>);
+    if (!by_hierarchy() || bundle.packets == 0) return run(searches, kBundlePackets<Spu>);
     forget_hits(searches, kBundlePackets<Spu>);
     hierarchy_.run(searches, bundle);
   }
   /// Whether it is plain that none of a bundle's primary rays hits anything.
   bool is_lost(const PinholeBundle<S>& bundle) {
-    return by_hierarchy() && bundle.exists && hierarchy_.is_lost(bundle);
+    return by_hierarchy() && bundle.packets != 0 && hierarchy_.is_lost(bundle);
   }
 
   const TraversalCounters& counters() const { return objects_.counters(); }
@@ -71,6 +77,15 @@ private:
       if (hits == nullptr) continue;
       F(kMaxHitDistance).store(hits->distance.lane);
       S::I::splat(-1).store(reinterpret_cast<int32_t*>(hits->object.lane));
+    }
+  }
+  /// Of searches for light, those lanes to which none comes.
+  static void darken(const Search* searches, uint32_t count) {
+    const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
+    for (uint32_t i = 0; i < count; ++i) {
+      const Search& s = searches[i];
+      if (s.light == nullptr) continue;
+      s.light->template store<S>(select<S>(S::M::from_bits(s.lanes), s.light->template load<S>(), dark));
     }
   }
   bool by_hierarchy() const {

@@ -17,6 +17,8 @@ namespace {
 
 /// What of building a hierarchy is over before the first treelet: making the image, and the nodes above.
 constexpr double kBeforeTreelets = 0.3;
+/// Leaves are wide where their objects, so many, are in a PC's caches.
+constexpr std::uint32_t kMostOfWideLeaves = 500000;
 /// Larger work memory goes back to the system between frames.
 constexpr std::size_t kKeptBytes = std::size_t{256} << 20;
 
@@ -91,6 +93,7 @@ bool AcceleratorBuilder::build_hierarchy(const Progress& go_on) {
   const std::uint32_t nodes = hierarchy::most_nodes(objects, header.run_count, header.prototype_count != 0);
   image_.reserve_accelerator(std::uint64_t{nodes} * sizeof(NodeRecord), objects);
   frame_.hierarchy = {image_.table_offset(), nodes, 0, image_.list_offset()};
+  frame_.wide_leaves = machine_.direct_memory() && objects <= kMostOfWideLeaves;
   enter_memory(work.pairs());
   bool built = false;
   if (machine_.direct_memory()) {

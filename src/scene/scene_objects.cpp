@@ -67,7 +67,7 @@ PlacedObject placed(const Box& box, std::uint32_t source) {
 }
 
 Simd::F4 lanes_of(const Vec3f& vertex) {
-  return hierarchy::four<Simd>(vertex.x, vertex.y, vertex.z, 0.0f);
+  return four<Simd>(vertex.x, vertex.y, vertex.z, 0.0f);
 }
 
 Box box_of(const LaneBox& lanes) {

@@ -91,6 +91,7 @@ public:
     return frame_.hierarchy.node_count = nodes.back();
   }
 
+  void use_wide_leaves(bool wide) { frame_.wide_leaves = wide; }
   const kernel::FrameBlock& frame() const { return frame_; }
   std::uint32_t capacity() const { return capacity_; }
   const kernel::NodeRecord& root() const { return node(frame_.hierarchy.node_offset); }

@@ -22,7 +22,8 @@ public:
   }
 
   /// Has a hierarchy of boxes built in place of the grid.
-  void use_hierarchy() {
+  void use_hierarchy(bool wide_leaves) {
+    frame_.wide_leaves = wide_leaves;
     const std::uint32_t nodes =
         kernel::hierarchy::most_nodes(object_count(), header().run_count, header().prototype_count != 0);
     image_.reserve_accelerator(nodes * sizeof(kernel::NodeRecord), object_count());

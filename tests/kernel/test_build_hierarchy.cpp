@@ -131,7 +131,7 @@ Shape check(BuiltHierarchy& tree, const Objects& objects) {
   const Shape shape = check_tree(tree);
   REQUIRE(shape.objects.size() == objects.size());
   REQUIRE(shape.depth <= hierarchy::kMaxDepth);
-  REQUIRE(shape.largest_leaf <= hierarchy::kMaxLeaf);
+  REQUIRE(shape.largest_leaf <= (tree.frame().wide_leaves != 0 ? hierarchy::kMaxLeaf : 8));
   return shape;
 }
 
@@ -140,13 +140,22 @@ bool same_bytes(const BuiltHierarchy& a, const BuiltHierarchy& b) {
   return a.bytes() == b.bytes();
 }
 
-Shape check(const Objects& objects) {
+Shape check(const Objects& objects, bool wide_leaves) {
   BuiltHierarchy tree(objects);
+  tree.use_wide_leaves(wide_leaves);
   const Shape shape = check(tree, objects);
   BuiltHierarchy again(objects);
+  again.use_wide_leaves(wide_leaves);
   again.build(3);
   REQUIRE(same_bytes(tree, again));
   return shape;
+}
+
+Shape check(const Objects& objects) {
+  const Shape narrow = check(objects, false);
+  const Shape wide = check(objects, true);
+  CHECK(wide.nodes <= narrow.nodes);
+  return narrow;
 }
 
 } // namespace

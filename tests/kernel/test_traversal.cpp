@@ -180,8 +180,11 @@ void check_scene(const Scene& scene, unsigned packets = times(160)) {
   PreparedScene prepared(scene);
   const std::vector<TraversalQuery> first = queries_for(prepared, 99, packets);
   check_accelerator(prepared, first);
-  prepared.use_hierarchy();
-  check_accelerator(prepared, first);
+  for (const bool wide_leaves : {false, true}) {
+    INFO("wide leaves: " << wide_leaves);
+    prepared.use_hierarchy(wide_leaves);
+    check_accelerator(prepared, first);
+  }
 }
 
 } // namespace
@@ -203,8 +206,11 @@ TEST_CASE("Through more objects than are at hand, so that leaves wait") {
   constexpr int few = times(64) / 16 > 0 ? times(64) / 16 : 1;
   std::vector<TraversalQuery> some(all.begin(), all.begin() + few);
   some.insert(some.end(), all.end() - few, all.end());
-  prepared.use_hierarchy();
-  check_accelerator(prepared, some);
+  for (const bool wide_leaves : {false, true}) {
+    INFO("wide leaves: " << wide_leaves);
+    prepared.use_hierarchy(wide_leaves);
+    check_accelerator(prepared, some);
+  }
 }
 
 TEST_CASE("Through large and small scenes, and far from the origin") {

@@ -1,0 +1,235 @@
+// Bundles of rays to a light: what they are bounded by, which triangles their packets see, and what light
+// comes to them.
+#include "kernel/light_bundle.hpp"
+#include "kernel/moment_triangles.hpp"
+#include "kernel/traversal.hpp"
+#include "kernel/viewed_triangles.hpp"
+#include "prepared_scene.hpp"
+#include "soups.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <memory>
+
+using namespace celltrace;
+using namespace celltrace::kernel;
+using namespace celltrace::test;
+
+namespace {
+
+constexpr std::uint32_t kPackets = 16;
+
+/// Packets that look at a light from a patch of a rough surface, some far behind it.
+struct ShadowBundle {
+  RayPacket rays[kPackets];
+  FloatLanes distance[kPackets];
+  VectorLanes light[kPackets];
+  Search searches[kPackets];
+  float place[3]; ///< of the light
+
+  ShadowBundle(Random& random, const Vec3& middle, double size, const Vec3& light_place) {
+    for (int axis = 0; axis < 3; ++axis)
+      place[axis] = static_cast<float>(light_place[axis]);
+    const Vec3 lamp(place[0], place[1], place[2]);
+    const Vec3 normal = random.direction();
+    const Vec3 right = glm::normalize(glm::cross(normal, random.direction()));
+    const Vec3 down = glm::cross(right, normal);
+    const double rough = random.below(2) == 0 ? 0 : std::pow(10.0, random.uniform(-3, 0));
+    const Vec3 behind = random.below(4) == 0 ? random.point(20 * size) : Vec3(0);
+    for (std::uint32_t i = 0; i < kPackets; ++i) {
+      for (unsigned lane = 0; lane < kSimdLanes; ++lane) {
+        const double x = (i % 4) * 4 + lane % 4, y = (i / 4) * 4 + lane / 4;
+        const Vec3 point = middle + (right * x + down * y) * (size / 16) + random.point(rough * size) +
+                           (x + y > 20 ? behind : Vec3(0));
+        set(rays[i].origin, lane, point);
+        const Vec3 to_light = lamp - at(rays[i].origin, lane);
+        set(rays[i].direction, lane, glm::normalize(to_light));
+        distance[i].lane[lane] = static_cast<float>(glm::length(to_light));
+        rays[i].start_object.lane[lane] = kNoOffset;
+      }
+      light[i] = lanes_of(Vec{F(1.0f), F(0.5f), F(2.0f)});
+      const std::uint32_t lanes = random.below(3) == 0 ? (random.word() & 0xFFFF) | 1 : 0xFFFF;
+      searches[i] = {&rays[i], nullptr, &distance[i], &light[i], lanes};
+    }
+  }
+};
+
+/// From next to the bundle to farther away than any sun.
+Vec3 any_light(Random& random, const Vec3& middle, double size) {
+  return middle + random.direction() * (size * std::pow(10.0, random.uniform(0.2, 6)));
+}
+
+void put_box(float (&box)[6][4], const Vec3& min, const Vec3& max) {
+  for (int axis = 0; axis < 3; ++axis)
+    for (int i = 0; i < 4; ++i) {
+      box[2 * axis][i] = static_cast<float>(min[axis]);
+      box[2 * axis + 1][i] = static_cast<float>(max[axis]);
+    }
+}
+
+ObjectRecord triangle_at(const Vec3& a, const Vec3& b, const Vec3& c) {
+  ObjectRecord record = {};
+  record.kind_and_flags = static_cast<std::uint32_t>(ObjectKind::triangle) | object_flag::opaque;
+  for (int axis = 0; axis < 3; ++axis) {
+    record.geometry[axis] = static_cast<float>(a[axis]);
+    record.geometry[3 + axis] = static_cast<float>(b[axis]);
+    record.geometry[6 + axis] = static_cast<float>(c[axis]);
+  }
+  return record;
+}
+
+std::uint32_t between(const F& at, const FloatLanes& distance) {
+  const F low(1e-3f);
+  return ((at > low) & (at < load(distance) - low)).bits();
+}
+
+} // namespace
+
+TEST_CASE("The beams of rays to a light meet every box that one of them meets before it") {
+  Random random(120);
+  int near = 0, far = 0;
+  for (int k = 0; k < times(4000); ++k) {
+    const double size = std::pow(10.0, random.uniform(-2, 2));
+    const Vec3 middle = random.point(k % 3 == 0 ? 100 * size : size);
+    const ShadowBundle shadows(random, middle, size, any_light(random, middle, size));
+    const LightBundle<Simd> bundle(shadows.place, shadows.searches, kPackets);
+    if (bundle.packets == 0) continue;
+    ++(bundle.turned ? near : far);
+    BundleBeams<Simd, kPackets> beams;
+    beams.set(bundle.bounds, bundle.octant);
+    Beam<Simd> around;
+    around.set(bundle.all, bundle.octant);
+    const BoxSides sides(bundle.octant);
+    alignas(64) float limits[kPackets];
+    (bundle.reach * F(1.00001f)).store(limits);
+    float farthest = 0;
+    for_each_lane(bundle.packets, [&](std::uint32_t i) { farthest = std::max(farthest, limits[i]); });
+    for (int trial = 0; trial < 40; ++trial) {
+      const std::uint32_t packet = random.below(kPackets), lane = random.below(kSimdLanes);
+      if ((bundle.packets >> packet & 1) == 0 || (shadows.searches[packet].lanes >> lane & 1) == 0) continue;
+      const RayPacket& rays = shadows.rays[packet];
+      const double along = shadows.distance[packet].lane[lane] * std::pow(10.0, random.uniform(-6, 0));
+      const Vec3 point = at(rays.origin, lane) + at(rays.direction, lane) * along;
+      // Not less than the coordinates' own rounding.
+      const double half = (3e-6 + std::pow(10.0, random.uniform(-5, 0))) *
+                          (glm::length(glm::abs(point)) + glm::length(glm::abs(at(rays.origin, lane))));
+      const Vec3 centre = point + random.point(0.9 * half);
+      alignas(16) float box[6][4];
+      put_box(box, centre - half, centre + half);
+      const std::uint32_t child = random.below(4);
+      INFO((bundle.turned ? "from the light" : "from afar") << ", packet " << packet << ", " << along);
+      REQUIRE((beams.meet(box, sides, child, limits) >> packet & 1) == 1);
+      alignas(16) float enter[4];
+      REQUIRE(around.meets(box, sides, farthest, enter) == 0xF);
+      REQUIRE(enter[child] <= limits[packet]);
+    }
+  }
+  CHECK(near > times(300));
+  CHECK(far > times(300));
+}
+
+TEST_CASE("Packets see the triangles that their rays to a light cross, and cross them where they do") {
+  Random random(121);
+  int crossed = 0, unseen = 0;
+  for (int k = 0; k < times(4000); ++k) {
+    const double size = std::pow(10.0, random.uniform(-1, 2));
+    const Vec3 middle = random.point(k % 3 == 0 ? 100 * size : size);
+    const ShadowBundle shadows(random, middle, size, any_light(random, middle, size));
+    const LightBundle<Simd> bundle(shadows.place, shadows.searches, kPackets);
+    if (bundle.packets == 0) continue;
+    // Triangles around points of rays, not farther away than the surface is large, or the light.
+    const unsigned count = 1 + random.below(LeafTriangles<Simd>::kMost);
+    ObjectRecord records[LeafTriangles<Simd>::kMost];
+    LeafTriangles<Simd> leaf{};
+    for (unsigned i = 0; i < count; ++i) {
+      const std::uint32_t packet = random.below(kPackets), lane = random.below(kSimdLanes);
+      const RayPacket& rays = shadows.rays[packet];
+      const double most = std::min<double>(shadows.distance[packet].lane[lane], 30 * size);
+      const Vec3 point = at(rays.origin, lane) + at(rays.direction, lane) * (most * random.uniform(0, 1.1));
+      const double side = size * std::pow(10.0, random.uniform(-2, 1));
+      records[i] =
+          triangle_at(point + random.point(side), point + random.point(side), point + random.point(side));
+      leaf.add(64 * (i + 1), records[i]);
+    }
+    const ViewedTriangles<Simd> viewed(leaf.sides(), bundle.view);
+    const MomentTriangles<Simd> by_moment(leaf.sides(), *bundle.view.moments);
+    for (unsigned i = 0; i < count; ++i) {
+      const std::uint32_t seen_by = viewed.seen_by(i, bundle.view);
+      for_each_lane(bundle.packets, [&](std::uint32_t packet) {
+        const RayPacket& rays = shadows.rays[packet];
+        const Crossings<Simd> c = intersect<Simd>(rays, records[i], 64 * (i + 1));
+        const std::uint32_t lanes = shadows.searches[packet].lanes;
+        const std::uint32_t hits = c.near_hit.bits() & between(c.near, shadows.distance[packet]) & lanes;
+        INFO("triangle " << i << ", packet " << packet
+                         << (bundle.turned ? ", from the light" : ", from afar"));
+        if (hits != 0) REQUIRE((seen_by >> packet & 1) == 1);
+        unseen += (seen_by >> packet & 1) == 0;
+        const F low(1e-3f);
+        const std::uint32_t by =
+            by_moment
+                .crossed_between(i, rays, bundle.view.moments->of[packet], *bundle.view.moments, low,
+                                 load(shadows.distance[packet]) - low)
+                .bits() &
+            lanes;
+        // But where rounding decides: at sides and ends, and along the plane.
+        const FloatLanes u = lanes_of(c.u), v = lanes_of(c.v), near = lanes_of(c.near);
+        for_each_lane(hits ^ by, [&](std::uint32_t lane) {
+          const Vec3 a(records[i].geometry[0], records[i].geometry[1], records[i].geometry[2]);
+          const Vec3 edge1 = Vec3(records[i].geometry[3], records[i].geometry[4], records[i].geometry[5]) - a;
+          const Vec3 edge2 = Vec3(records[i].geometry[6], records[i].geometry[7], records[i].geometry[8]) - a;
+          const Vec3 d = at(rays.direction, lane);
+          const double cosine =
+              std::abs(glm::dot(glm::cross(edge1, edge2), d)) / (glm::length(edge1) * glm::length(edge2));
+          const double least = std::min(
+              {std::abs(u.lane[lane]), std::abs(v.lane[lane]), std::abs(1 - u.lane[lane] - v.lane[lane])});
+          const double reach = glm::length(at(rays.origin, lane) - a) + 1e-7 * glm::length(a);
+          const double doubt = 1e-5 * reach / (std::min(glm::length(edge1), glm::length(edge2)) * cosine);
+          const double end = std::min(std::abs(near.lane[lane] - 1e-3),
+                                      std::abs(near.lane[lane] - shadows.distance[packet].lane[lane] + 1e-3));
+          CAPTURE(lane, cosine, least, doubt, end, near.lane[lane], shadows.distance[packet].lane[lane]);
+          REQUIRE((least < doubt || end < 1e-6 * (near.lane[lane] + reach) / cosine));
+        });
+        crossed += __builtin_popcount(hits);
+      });
+    }
+  }
+  CHECK(crossed > times(10000));
+  CHECK(unseen > times(10000));
+}
+
+TEST_CASE("Light comes to a bundle as it comes to its packets") {
+  Random random(122);
+  int dark = 0, bright = 0;
+  for (const Scene& scene :
+       {soup(40, {0, 0, 400}, 10, 1), soup(41, {60, 60, 60}, 10, 1), soup(42, {0, 0, 30}, 10, 4)})
+    for (const bool wide_leaves : {false, true}) {
+      PreparedScene prepared(scene);
+      prepared.use_hierarchy(wide_leaves);
+      REQUIRE(prepared.prepare().built);
+      FrameBlock& frame = prepared.frame();
+      for (int k = 0; k < times(300); ++k) {
+        const Vec3 middle = random.point(12);
+        const double size = std::pow(10.0, random.uniform(-1, 0.7));
+        const Vec3 lamp = any_light(random, middle, size);
+        const Random state = random;
+        ShadowBundle together(random, middle, size, lamp);
+        random = state;
+        ShadowBundle alone(random, middle, size, lamp);
+        DirectSpu spu;
+        SceneAccess<DirectSpu> access(spu, CacheConfig(), frame.image);
+        Traversal<DirectSpu> traversal(access, frame);
+        traversal.run(together.searches, kPackets, together.place);
+        for (std::uint32_t i = 0; i < kPackets; ++i) {
+          traversal.attenuate(alone.rays[i], alone.searches[i].lanes, alone.distance[i], alone.light[i]);
+          for_each_lane(alone.searches[i].lanes, [&](std::uint32_t lane) {
+            for (int c = 0; c < 3; ++c)
+              REQUIRE(at(together.light[i], lane)[c] == Approx(at(alone.light[i], lane)[c]).margin(1e-6));
+            ++(alone.light[i].y.lane[lane] == 0 ? dark : bright);
+          });
+        }
+      }
+    }
+  CHECK(dark > times(8000));
+  CHECK(bright > times(8000));
+}
