@@ -21,7 +21,7 @@ public:
   void trace(uint32_t column, uint32_t row, Put put, [[maybe_unused]] Fill fill) {
     if constexpr (Spu::direct_memory) {
       const PinholeBundle<S> bundle(frame_, column, row);
-      const bool lost = tracer_.finder().traversal().is_lost(bundle);
+      const bool lost = !tracer_.finder().traversal().enter(bundle);
       if (lost && is_whole(column, row))
         return fill(column * kEdge, row * kEdge, tracer_.background(kPackets * kSimdLanes));
       place(column, row);

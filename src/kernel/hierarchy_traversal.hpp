@@ -23,57 +23,69 @@ public:
   /// Answers each of the searches, at most a bundle's. Hits hold none yet; the lanes of searches for light
   /// become those to which some comes.
   void run(Search* searches, uint32_t count) { run(searches, count, 0); }
-  /// The same of the hits of a bundle's primary rays; search i is of its packet i.
+  /// The same of the hits of a bundle's primary rays, which was entered just before; search i is of its
+  /// packet i.
   void run(Search* searches, const PinholeBundle<S>& bundle) {
-    uint32_t packets = 0;
-    for (uint32_t packet = 0; packet < kBundlePackets<Spu>; ++packet) {
-      packets |= static_cast<uint32_t>(searches[packet].lanes != 0) << packet;
-      limits_[packet] = BranchWalk<Spu>::kBeyond * kMaxHitDistance;
-    }
+    for (uint32_t packet = 0; packet < kBundlePackets<Spu>; ++packet)
+      limits_[packet] = searches[packet].lanes != 0 ? BranchWalk<Spu>::kBeyond * kMaxHitDistance : -1.0f;
     bundle.shortening.store(shortening_);
-    walk_together(searches, bundle, false, packets);
+    walk_together(searches, bundle, false, kAllPackets);
   }
   /// The same of searches, all with some lanes, for the light that comes from one place.
   void run(Search* searches, uint32_t count, const float (&light)[3]) {
     const LightBundle<S> bundle(light, searches, count);
     if (bundle.packets != 0) {
       (bundle.reach * F(BranchWalk<Spu>::kBeyond)).store(limits_);
+      begin(bundle.packets);
       walk_together(searches, bundle, bundle.turned, bundle.packets);
     }
     run(searches, count, bundle.packets);
   }
 
-  /// Whether a bundle comes to no leaf, as far as a look at a few nodes tells.
-  bool is_lost(const PinholeBundle<S>& bundle) {
+  /// Sends a bundle's beam through the hierarchy until it comes to a leaf or has opened a few nodes. False:
+  /// it left without; otherwise run() goes on from there.
+  bool enter(const PinholeBundle<S>& bundle) {
     constexpr uint32_t kMostNodes = 24;
     const BoxSides sides(bundle.octant);
     around_.set(bundle.all, bundle.octant);
-    Stack& stack = walk_.stack();
-    stack.push(0, {root(), 0, 0.0f, 0});
-    bool lost = true;
+    Stack& stack = begin(kAllPackets);
     for (uint32_t nodes = 0; stack.size() != 0; ++nodes) {
-      const Branch branch = stack.pop().branch;
-      lost = !branch.is_leaf() && nodes < kMostNodes;
-      if (!lost) break;
-      const NodeRecord& node = *objects_.scene().node(branch.child);
-      alignas(16) float enter[4];
-      for_each_lane(around_.meets(node.box, sides, kMaxHitDistance, enter), [&](uint32_t i) {
-        stack.push(stack.size(), {{node.child[i], node.leaf[i]}, 0, 0.0f, 0});
+      const typename Stack::Entry next = stack.pop();
+      if (next.branch.is_leaf() || nodes == kMostNodes) {
+        stack.push(stack.size(), next);
+        return true;
+      }
+      ++objects_.counters().voxels;
+      const NodeRecord& node = *objects_.scene().node(next.branch.child);
+      alignas(16) float distance[4];
+      const uint32_t first = stack.size();
+      for_each_lane(around_.meets(node.box, sides, kMaxHitDistance, distance), [&](uint32_t i) {
+        const Branch child = {node.child[i], node.leaf[i]};
+        objects_.scene().hint(child);
+        stack.push(first, {child, kAllPackets, distance[i], 0});
       });
     }
-    stack.shrink(0);
-    return lost;
+    return false;
   }
 
 private:
   using Lanes = BundleLanes<S, kBundlePackets<Spu>>;
   using Stack = typename BranchWalk<Spu>::Stack;
 
+  static constexpr uint32_t kAllPackets = (1u << kBundlePackets<Spu>)-1;
   /// A packet's beam is loose once it has met this many boxes that none of its rays meet: where surfaces
   /// begin and end, shadow rays leave from places far apart.
   static constexpr uint32_t kMissesOfLoose = 2;
 
   Branch root() const { return {hierarchy_.node_offset, 0}; }
+
+  /// Nothing but the root, for these packets, on the stack.
+  Stack& begin(uint32_t packets) {
+    Stack& stack = walk_.stack();
+    stack.shrink(0);
+    stack.push(0, {root(), packets, 0.0f, 0});
+    return stack;
+  }
 
   // --- packets alone ---
 
@@ -160,6 +172,7 @@ private:
     view_ = nullptr;
     octant_ = octant;
     turned_ = false;
+    begin(together);
     const BoxSides sides(octant);
     walk_together(searches, sides, sides, together);
     return together;
@@ -176,32 +189,29 @@ private:
     turned_ = turned;
     walk_together(searches, BoxSides(bundle.octant), BoxSides(octant_), packets);
   }
-  /// By their beams, which enter and leave boxes by `sides`; the rays themselves do by `ray_sides`.
-  void walk_together(Search* searches, const BoxSides& sides, const BoxSides& ray_sides, uint32_t packets) {
-    const uint32_t together = packets;
+  /// By their beams, which enter and leave boxes by `sides`; the rays themselves do by `ray_sides`. What is
+  /// to be visited is on the stack.
+  void walk_together(Search* searches, const BoxSides& sides, const BoxSides& ray_sides, uint32_t together) {
     farthest_ = BranchWalk<Spu>::kBeyond * kMaxHitDistance; // until there are hits
     loose_ = 0;
     known_rays_ = known_beams_ = 0;
     Stack& stack = walk_.stack();
-    Branch branch = root();
-    uint32_t rays = 0; // if there is one packet
-    for (;;) {
-      if (branch.is_leaf() || rays != 0) {
-        if (branch.is_leaf())
-          test_objects(branch, packets, searches);
-        else
-          walk_alone(searches, ray_sides, static_cast<uint32_t>(__builtin_ctz(packets)), branch, rays);
-        farthest_ = Lanes::greatest_of(together, limits_);
-      } else if (open(searches, sides, ray_sides, packets, branch)) {
+    while (stack.size() != 0) {
+      const typename Stack::Entry& next = stack.pop();
+      const uint32_t packets = next.lanes & looking_as_far_as(next.enter);
+      if (packets == 0) continue;
+      Branch branch = next.branch;
+      const uint32_t rays = next.rays; // if there is one packet
+      if (rays == 0)
+        while (!branch.is_leaf() && open(searches, sides, ray_sides, packets, branch)) {
+        }
+      if (branch.is_leaf())
+        test_objects(branch, packets, searches);
+      else if (rays != 0)
+        walk_alone(searches, ray_sides, static_cast<uint32_t>(__builtin_ctz(packets)), branch, rays);
+      else
         continue;
-      }
-      do {
-        if (stack.size() == 0) return;
-        const typename Stack::Entry& next = stack.pop();
-        branch = next.branch;
-        rays = next.rays;
-        packets = next.lanes & looking_as_far_as(next.enter);
-      } while (packets == 0);
+      farthest_ = Lanes::greatest_of(together, limits_);
     }
   }
 

@@ -56,15 +56,15 @@ public:
     run(searches, count);
   }
 
-  /// The same of the hits of a bundle's primary rays; search i is of its packet i.
+  /// Begins with a bundle of primary rays. False: it is plain that none of them hits anything.
+  bool enter(const PinholeBundle<S>& bundle) {
+    return !by_hierarchy() || bundle.packets == 0 || hierarchy_.enter(bundle);
+  }
+  /// Finds the hits of the bundle that was entered last; search i is of its packet i.
   void run(Search* searches, const PinholeBundle<S>& bundle) {
     if (!by_hierarchy() || bundle.packets == 0) return run(searches, kBundlePackets<Spu>);
     forget_hits(searches, kBundlePackets<Spu>);
     hierarchy_.run(searches, bundle);
-  }
-  /// Whether it is plain that none of a bundle's primary rays hits anything.
-  bool is_lost(const PinholeBundle<S>& bundle) {
-    return by_hierarchy() && bundle.packets != 0 && hierarchy_.is_lost(bundle);
   }
 
   const TraversalCounters& counters() const { return objects_.counters(); }

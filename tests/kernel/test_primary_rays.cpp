@@ -138,10 +138,10 @@ TEST_CASE("A bundle of primary rays hits what its packets hit, and nothing where
         const Place place = any_bundle(frame, random);
         const PinholeBundle<Simd> pinhole(frame, place.column, place.row);
         Bundle together(frame, place), alone(frame, place);
+        const bool is_lost = !traversal.enter(pinhole);
         traversal.run(together.searches, pinhole);
         for (Search& search : alone.searches)
           if (search.lanes != 0) traversal.find_closest(*search.rays, search.lanes, *search.hits);
-        const bool is_lost = traversal.is_lost(pinhole);
         lost += is_lost;
         for (std::uint32_t i = 0; i < kPackets; ++i)
           for_each_lane(alone.searches[i].lanes, [&](std::uint32_t lane) {
