@@ -98,11 +98,6 @@ struct RayBounds {
       direction[axis] = united(direction[axis], other.direction[axis]);
     }
   }
-
-private:
-  static Interval united(const Interval& a, const Interval& b) {
-    return {smaller(a.low, b.low), larger(a.high, b.high)};
-  }
 };
 
 /// Of the rays in `lanes`, at least one.

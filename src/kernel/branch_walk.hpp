@@ -25,7 +25,7 @@ public:
 
   /// What the rounding of hits' distances amounts to.
   static constexpr float kBeyond = 1.00001f;
-  /// So many, with their nodes, are in a PC's caches.
+  /// So many, with their nodes, are in the caches of one core.
   static constexpr uint32_t kObjectsAtHand = 20000;
   /// A node that no more packets of a bundle than some meet, each visits alone; that many at most.
   static constexpr uint32_t kMostAlone = kBundlePackets<Spu> >= 16 ? 4 : 1; // measured

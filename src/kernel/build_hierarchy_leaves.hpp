@@ -1,4 +1,4 @@
-// Leaves: objects that are tested one by one. Kernel dialect.
+// Leaves: which objects share one. Kernel dialect.
 #pragma once
 
 #include "kernel/build_hierarchy_subtree.hpp"

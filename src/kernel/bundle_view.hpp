@@ -53,9 +53,7 @@ template <class S> struct BundleView {
   }
   /// A direction, where the map is that from a point itself.
   V3<S> mapped(const VectorLanes& v) const {
-    const FloatLanes* const components[3] = {&v.x, &v.y, &v.z};
-    return {F::load(components[axes[0]]->lane), F::load(components[axes[1]]->lane),
-            F::load(components[axes[2]]->lane) * F(forth)};
+    return {F::load(v[axes[0]].lane), F::load(v[axes[1]].lane), F::load(v[axes[2]].lane) * F(forth)};
   }
 };
 
@@ -65,6 +63,7 @@ template <class S> struct ViewBundle {
   LaneBounds<S> bounds;
   RayBounds all; ///< around those
   uint32_t octant = 0;
+  bool turned = false;  ///< they are the opposite of the rays'
   uint32_t packets = 0; ///< of others all else is meaningless
 };
 

@@ -29,7 +29,7 @@ public:
     for (uint32_t packet = 0; packet < kBundlePackets<Spu>; ++packet)
       limits_[packet] = searches[packet].lanes != 0 ? BranchWalk<Spu>::kBeyond * kMaxHitDistance : -1.0f;
     bundle.shortening.store(shortening_);
-    walk_together(searches, bundle, false, kAllPackets);
+    walk_together(searches, bundle);
   }
   /// The same of searches, all with some lanes, for the light that comes from one place.
   void run(Search* searches, uint32_t count, const float (&light)[3]) {
@@ -37,7 +37,7 @@ public:
     if (bundle.packets != 0) {
       (bundle.reach * F(BranchWalk<Spu>::kBeyond)).store(limits_);
       begin(bundle.packets);
-      walk_together(searches, bundle, bundle.turned, bundle.packets);
+      walk_together(searches, bundle);
     }
     run(searches, count, bundle.packets);
   }
@@ -48,7 +48,7 @@ public:
     constexpr uint32_t kMostNodes = 24;
     const BoxSides sides(bundle.octant);
     around_.set(bundle.all, bundle.octant);
-    Stack& stack = begin(kAllPackets);
+    Stack& stack = begin(bundle.packets);
     for (uint32_t nodes = 0; stack.size() != 0; ++nodes) {
       const typename Stack::Entry next = stack.pop();
       if (next.branch.is_leaf() || nodes == kMostNodes) {
@@ -62,7 +62,7 @@ public:
       for_each_lane(around_.meets(node.box, sides, kMaxHitDistance, distance), [&](uint32_t i) {
         const Branch child = {node.child[i], node.leaf[i]};
         objects_.scene().hint(child);
-        stack.push(first, {child, kAllPackets, distance[i], 0});
+        stack.push(first, {child, bundle.packets, distance[i], 0});
       });
     }
     return false;
@@ -72,7 +72,6 @@ private:
   using Lanes = BundleLanes<S, kBundlePackets<Spu>>;
   using Stack = typename BranchWalk<Spu>::Stack;
 
-  static constexpr uint32_t kAllPackets = (1u << kBundlePackets<Spu>)-1;
   /// A packet's beam is loose once it has met this many boxes that none of its rays meet: where surfaces
   /// begin and end, shadow rays leave from places far apart.
   static constexpr uint32_t kMissesOfLoose = 2;
@@ -178,16 +177,16 @@ private:
     return together;
   }
 
-  /// By a bundle's beams; the rays may be turned.
-  void walk_together(Search* searches, const ViewBundle<S>& bundle, bool turned, uint32_t packets) {
+  /// By a bundle's beams.
+  void walk_together(Search* searches, const ViewBundle<S>& bundle) {
     for (uint32_t& misses : misses_)
       misses = 0;
     beams_.set(bundle.bounds, bundle.octant);
     around_.set(bundle.all, bundle.octant);
     view_ = &bundle.view;
-    octant_ = turned ? bundle.octant ^ 7 : bundle.octant;
-    turned_ = turned;
-    walk_together(searches, BoxSides(bundle.octant), BoxSides(octant_), packets);
+    octant_ = bundle.turned ? bundle.octant ^ 7 : bundle.octant;
+    turned_ = bundle.turned;
+    walk_together(searches, BoxSides(bundle.octant), BoxSides(octant_), bundle.packets);
   }
   /// By their beams, which enter and leave boxes by `sides`; the rays themselves do by `ray_sides`. What is
   /// to be visited is on the stack.

@@ -86,6 +86,15 @@ template <class S> typename S::M lanes_that_start_on(const RayPacket& rays, uint
          I::splat(static_cast<int32_t>(self));
 }
 
+namespace detail {
+
+// What all tests of triangles have in common.
+constexpr float kUnitInLastPlace = 6e-8f;
+constexpr float kMaxOverlap = 1e-3f;        ///< of neighbours, in barycentric coordinates
+constexpr float kLeastDeterminant = 1e-30f; ///< rays along the plane have less
+
+} // namespace detail
+
 /// A triangle for a packet of rays, or one for each lane.
 template <class S> struct TriangleSides {
   V3<S> v0, edge1, edge2;
@@ -107,23 +116,21 @@ public:
 
   [[gnu::always_inline]] SeenTriangle(const V3<S>& origin, const TriangleSides<S>& sides)
       : edge1_(sides.edge1), edge2_(sides.edge2) {
-    constexpr float kRounding = 6e-8f; // a unit in the last place
     from_v0_ = origin - sides.v0;
     q_ = cross<S>(from_v0_, edge1_);
     distance_ = dot<S>(edge2_, q_);
     const F size = S::max(absolute_sum<S>(edge1_), absolute_sum<S>(edge2_));
-    overlap_ = absolute_sum<S>(from_v0_) * (F(kRounding) * size);
+    overlap_ = absolute_sum<S>(from_v0_) * (F(detail::kUnitInLastPlace) * size);
   }
 
   /// By rays of these directions.
   [[gnu::always_inline]] Crossings<S> crossed(const V3<S>& direction,
                                               const typename S::M& starts_here) const {
-    constexpr float kMaxOverlap = 1e-3f;
     const V3<S> p = cross<S>(direction, edge2_);
     const F determinant = dot<S>(edge1_, p);
-    const auto crosses = S::abs(determinant) > F(1e-30f);
+    const auto crosses = S::abs(determinant) > F(detail::kLeastDeterminant);
     const F inverse = F(1.0f) / S::select(crosses, determinant, F(1.0f));
-    const F overlap = S::min(overlap_ * S::abs(inverse), F(kMaxOverlap));
+    const F overlap = S::min(overlap_ * S::abs(inverse), F(detail::kMaxOverlap));
     Crossings<S> c;
     c.u = dot<S>(from_v0_, p) * inverse;
     c.v = dot<S>(direction, q_) * inverse;

@@ -5,6 +5,12 @@
 
 namespace celltrace::kernel {
 
+/// The scalar product of lane `i` of one vector with each lane of another.
+template <class S> typename S::F product(const VectorLanes& a, uint32_t i, const V3<S>& b) {
+  using F = typename S::F;
+  return F(a.x.lane[i]) * b.x + F(a.y.lane[i]) * b.y + F(a.z.lane[i]) * b.z;
+}
+
 template <class S> class LeafTriangles {
 public:
   static constexpr uint32_t kMost = kSimdLanes;

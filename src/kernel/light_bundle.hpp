@@ -11,10 +11,9 @@ template <class S> class LightBundle : public ViewBundle<S> {
 public:
   using F = typename S::F;
   using ViewBundle<S>::view, ViewBundle<S>::bounds, ViewBundle<S>::all, ViewBundle<S>::octant,
-      ViewBundle<S>::packets;
+      ViewBundle<S>::turned, ViewBundle<S>::packets;
 
-  F reach;             ///< how far the rays of each packet go, at most, on the major axis
-  bool turned = false; ///< the rays
+  F reach; ///< how far the rays of each packet go, at most, on the major axis
 
   /// Looks at the searches' `lanes`; each has some.
   LightBundle(const float (&light)[3], const Search* searches, uint32_t count) : searches_(searches) {
@@ -45,12 +44,8 @@ private:
   /// Packets whose slopes differ less are lost in the rounding of distances from the light.
   static constexpr float kLeastSpread = 1e-3f;
 
-  static const FloatLanes& component(const VectorLanes& v, uint32_t axis) {
-    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-  }
   static bool longer(const RayPacket& rays, uint32_t axis, uint32_t than, uint32_t lane) {
-    return magnitude(component(rays.direction, axis).lane[lane]) >
-           magnitude(component(rays.direction, than).lane[lane]);
+    return magnitude(rays.direction[axis].lane[lane]) > magnitude(rays.direction[than].lane[lane]);
   }
 
   /// What of a packet's vectors is in its lanes; lanes outside take the value of one inside.
@@ -61,7 +56,7 @@ private:
     explicit Inside(const Search& search)
         : lanes(S::M::from_bits(search.lanes)), some(static_cast<uint32_t>(__builtin_ctz(search.lanes))) {}
     F operator()(const VectorLanes& v, uint32_t axis) const {
-      const FloatLanes& all = component(v, axis);
+      const FloatLanes& all = v[axis];
       return S::select(lanes, F::load(all.lane), F(all.lane[some]));
     }
   };
@@ -202,11 +197,7 @@ private:
   }
   float some_origin(uint32_t axis) const {
     const Search& first = searches_[__builtin_ctz(packets)];
-    return component(first.rays->origin, axis).lane[__builtin_ctz(first.lanes)];
-  }
-
-  static Interval united(const Interval& a, const Interval& b) {
-    return {smaller(a.low, b.low), larger(a.high, b.high)};
+    return first.rays->origin[axis].lane[__builtin_ctz(first.lanes)];
   }
 
   const Search* searches_; ///< until all is known

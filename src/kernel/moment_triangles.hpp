@@ -13,7 +13,6 @@ public:
   using M = typename S::M;
 
   [[gnu::always_inline]] MomentTriangles(const TriangleSides<S>& sides, const BundleMoments& moments) {
-    constexpr float kUnit = 6e-8f; // in the last place
     const V3<S> corner = sides.v0 - splat3<S>(moments.base);
     const V3<S> whole = cross<S>(sides.edge2, sides.edge1);
     // Turned so that rays that go through them to the light have positive products.
@@ -28,29 +27,24 @@ public:
     normal_.template store<S>(normal);
     dot<S>(normal, corner).store(plane_.lane);
     const F size = S::max(absolute_sum<S>(sides.edge1), absolute_sum<S>(sides.edge2));
-    ((absolute_sum<S>(corner) + F(moments.span)) * size * F(kUnit)).store(overlap_.lane);
+    ((absolute_sum<S>(corner) + F(moments.span)) * size * F(detail::kUnitInLastPlace)).store(overlap_.lane);
   }
 
   /// Which of the rays of a packet cross triangle `i` between `low` and `high`.
   [[gnu::always_inline]] M crossed_between(uint32_t i, const RayPacket& rays, const VectorLanes& moment,
                                            const BundleMoments& moments, const F& low, const F& high) const {
-    constexpr float kMaxOverlap = 1e-3f;
     const V3<S> d = rays.direction.template load<S>(), m = moment.template load<S>();
     const V3<S> from = rays.origin.template load<S>() - splat3<S>(moments.base);
-    const F u = product(first_, i, m) + product(first_moment_, i, d);
-    const F v = product(second_, i, m) + product(second_moment_, i, d);
-    const F sum = product(normal_, i, d);
-    const F overlap = S::min(F(overlap_.lane[i]), sum * F(kMaxOverlap));
-    const F distance = F(plane_.lane[i]) - product(normal_, i, from);
-    return (S::min(S::min(u, v), sum - u - v) >= -overlap) & (sum > F(1e-30f)) & (distance > low * sum) &
-           (distance < high * sum);
+    const F u = product<S>(first_, i, m) + product<S>(first_moment_, i, d);
+    const F v = product<S>(second_, i, m) + product<S>(second_moment_, i, d);
+    const F sum = product<S>(normal_, i, d);
+    const F overlap = S::min(F(overlap_.lane[i]), sum * F(detail::kMaxOverlap));
+    const F distance = F(plane_.lane[i]) - product<S>(normal_, i, from);
+    return (S::min(S::min(u, v), sum - u - v) >= -overlap) & (sum > F(detail::kLeastDeterminant)) &
+           (distance > low * sum) & (distance < high * sum);
   }
 
 private:
-  static F product(const VectorLanes& a, uint32_t i, const V3<S>& b) {
-    return F(a.x.lane[i]) * b.x + F(a.y.lane[i]) * b.y + F(a.z.lane[i]) * b.z;
-  }
-
   // A lane for each triangle.
   VectorLanes first_, first_moment_, second_, second_moment_; ///< of two sides
   VectorLanes normal_;

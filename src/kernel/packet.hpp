@@ -24,6 +24,8 @@ struct alignas(64) WordLanes {
 struct VectorLanes {
   FloatLanes x, y, z;
 
+  const FloatLanes& operator[](uint32_t axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
+
   template <class S> V3<S> load() const {
     using F = typename S::F;
     return {F::load(x.lane), F::load(y.lane), F::load(z.lane)};
@@ -86,6 +88,10 @@ struct Search {
 struct Interval {
   float low, high;
 };
+/// Around both.
+inline Interval united(const Interval& a, const Interval& b) {
+  return {smaller(a.low, b.low), larger(a.high, b.high)};
+}
 
 /// Of all lanes.
 template <class S> Interval interval_of(const typename S::F& values) {

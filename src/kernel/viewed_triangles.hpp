@@ -16,7 +16,6 @@ public:
   using M = typename S::M;
 
   [[gnu::always_inline]] ViewedTriangles(const TriangleSides<S>& sides, const BundleView<S>& view) {
-    constexpr float kUnit = 6e-8f; // in the last place
     const V3<S> from = view.to_origin(sides.v0);
     const V3<S> edge1 = view.mapped(sides.edge1), edge2 = view.mapped(sides.edge2);
     const V3<S> p = cross<S>(edge2, from), q = cross<S>(from, edge1), whole = cross<S>(edge2, edge1);
@@ -26,13 +25,13 @@ public:
     (distance * sign).store(distance_.lane);
     const F size = S::max(absolute_sum<S>(edge1), absolute_sum<S>(edge2));
     const F reach = absolute_sum<S>(from);
-    (reach * size * F(kUnit)).store(overlap_.lane);
+    (reach * size * F(detail::kUnitInLastPlace)).store(overlap_.lane);
     const V3<S> u = p * sign, v = q * sign, all = whole * sign, w = all - u - v;
     whole_.template store<S>(all);
     inward_[0].template store<S>(u);
     inward_[1].template store<S>(v);
     inward_[2].template store<S>(w);
-    const F rounding = (reach + F(view.span)) * size * F(32.0f * kUnit);
+    const F rounding = (reach + F(view.span)) * size * F(32.0f * detail::kUnitInLastPlace);
     (-u.z - rounding).store(least_[0].lane);
     (-v.z - rounding).store(least_[1].lane);
     (-w.z - rounding).store(least_[2].lane);
@@ -52,27 +51,21 @@ public:
 
   /// Where rays from the origin cross triangle `i`. Directions are mapped.
   [[gnu::always_inline]] Crossings<S> crossed(uint32_t i, const V3<S>& direction) const {
-    constexpr float kLeastSum = 1e-30f;
-    constexpr float kMaxOverlap = 1e-3f;
-    const F u = product(inward_[0], i, direction), v = product(inward_[1], i, direction);
-    const F sum = product(whole_, i, direction);
-    const F overlap = S::min(F(overlap_.lane[i]), sum * F(kMaxOverlap));
-    const F inverse = F(1.0f) / S::max(sum, F(kLeastSum));
+    const F u = product<S>(inward_[0], i, direction), v = product<S>(inward_[1], i, direction);
+    const F sum = product<S>(whole_, i, direction);
+    const F overlap = S::min(F(overlap_.lane[i]), sum * F(detail::kMaxOverlap));
+    const F inverse = F(1.0f) / S::max(sum, F(detail::kLeastDeterminant));
     Crossings<S> c;
     c.u = u * inverse;
     c.v = v * inverse;
     c.near = F(distance_.lane[i]) * inverse;
     c.far = c.near;
-    c.near_hit = (S::min(S::min(u, v), sum - u - v) >= -overlap) & (sum > F(kLeastSum));
+    c.near_hit = (S::min(S::min(u, v), sum - u - v) >= -overlap) & (sum > F(detail::kLeastDeterminant));
     c.far_hit = M::none();
     return c;
   }
 
 private:
-  static F product(const VectorLanes& a, uint32_t i, const V3<S>& b) {
-    return F(a.x.lane[i]) * b.x + F(a.y.lane[i]) * b.y + F(a.z.lane[i]) * b.z;
-  }
-
   // A lane for each triangle.
   VectorLanes inward_[3];         ///< normals of the planes through the sides
   VectorLanes whole_;             ///< their sum

@@ -17,7 +17,7 @@ namespace {
 
 /// What of building a hierarchy is over before the first treelet: making the image, and the nodes above.
 constexpr double kBeforeTreelets = 0.3;
-/// Leaves are wide where their objects, so many, are in a PC's caches.
+/// Leaves are wide where all objects, so many, are in the cache that a PC's cores share.
 constexpr std::uint32_t kMostOfWideLeaves = 500000;
 /// Larger work memory goes back to the system between frames.
 constexpr std::size_t kKeptBytes = std::size_t{256} << 20;

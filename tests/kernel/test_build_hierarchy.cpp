@@ -2,6 +2,7 @@
 // nor the depth that is set aside is exceeded, whatever the objects.
 #include "built_hierarchy.hpp"
 #include "lanes.hpp"
+#include "made_records.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -17,20 +18,6 @@ using namespace celltrace::test;
 namespace {
 
 using Objects = std::vector<ObjectRecord>;
-
-ObjectRecord record_of(ObjectKind kind, const std::vector<double>& geometry) {
-  ObjectRecord object{};
-  object.kind_and_flags = static_cast<std::uint32_t>(kind);
-  for (std::size_t i = 0; i < geometry.size(); ++i)
-    object.geometry[i] = static_cast<float>(geometry[i]);
-  return object;
-}
-ObjectRecord sphere(const Vec3& centre, double radius) {
-  return record_of(ObjectKind::sphere, {centre.x, centre.y, centre.z, radius});
-}
-ObjectRecord triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
-  return record_of(ObjectKind::triangle, {a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z});
-}
 
 /// `make(i)` for i < count.
 Objects objects(unsigned count, const std::function<ObjectRecord(unsigned)>& make) {
@@ -131,7 +118,8 @@ Shape check(BuiltHierarchy& tree, const Objects& objects) {
   const Shape shape = check_tree(tree);
   REQUIRE(shape.objects.size() == objects.size());
   REQUIRE(shape.depth <= hierarchy::kMaxDepth);
-  REQUIRE(shape.largest_leaf <= (tree.frame().wide_leaves != 0 ? hierarchy::kMaxLeaf : 8));
+  REQUIRE(shape.largest_leaf <=
+          (tree.frame().wide_leaves != 0 ? hierarchy::kMaxLeaf : hierarchy::leaf_rule(false, false).most));
   return shape;
 }
 

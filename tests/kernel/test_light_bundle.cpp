@@ -4,6 +4,7 @@
 #include "kernel/moment_triangles.hpp"
 #include "kernel/traversal.hpp"
 #include "kernel/viewed_triangles.hpp"
+#include "made_records.hpp"
 #include "prepared_scene.hpp"
 #include "soups.hpp"
 
@@ -58,25 +59,6 @@ struct ShadowBundle {
 /// From next to the bundle to farther away than any sun.
 Vec3 any_light(Random& random, const Vec3& middle, double size) {
   return middle + random.direction() * (size * std::pow(10.0, random.uniform(0.2, 6)));
-}
-
-void put_box(float (&box)[6][4], const Vec3& min, const Vec3& max) {
-  for (int axis = 0; axis < 3; ++axis)
-    for (int i = 0; i < 4; ++i) {
-      box[2 * axis][i] = static_cast<float>(min[axis]);
-      box[2 * axis + 1][i] = static_cast<float>(max[axis]);
-    }
-}
-
-ObjectRecord triangle_at(const Vec3& a, const Vec3& b, const Vec3& c) {
-  ObjectRecord record = {};
-  record.kind_and_flags = static_cast<std::uint32_t>(ObjectKind::triangle) | object_flag::opaque;
-  for (int axis = 0; axis < 3; ++axis) {
-    record.geometry[axis] = static_cast<float>(a[axis]);
-    record.geometry[3 + axis] = static_cast<float>(b[axis]);
-    record.geometry[6 + axis] = static_cast<float>(c[axis]);
-  }
-  return record;
 }
 
 std::uint32_t between(const F& at, const FloatLanes& distance) {
@@ -149,7 +131,7 @@ TEST_CASE("Packets see the triangles that their rays to a light cross, and cross
       const Vec3 point = at(rays.origin, lane) + at(rays.direction, lane) * (most * random.uniform(0, 1.1));
       const double side = size * std::pow(10.0, random.uniform(-2, 1));
       records[i] =
-          triangle_at(point + random.point(side), point + random.point(side), point + random.point(side));
+          triangle(point + random.point(side), point + random.point(side), point + random.point(side));
       leaf.add(64 * (i + 1), records[i]);
     }
     const ViewedTriangles<Simd> viewed(leaf.sides(), bundle.view);
