@@ -141,6 +141,7 @@ TEST_CASE("A bundle of primary rays hits what its packets hit, and nothing where
             REQUIRE(together.hits[i].object.lane[lane] == object);
             if (object == kNoOffset) return;
             REQUIRE_FALSE(is_lost);
+            // Together they are tested by the planes through the sides, which rounds otherwise.
             REQUIRE(together.hits[i].distance.lane[lane] ==
                     Approx(alone.hits[i].distance.lane[lane]).epsilon(2e-6));
             ++found;
