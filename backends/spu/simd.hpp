@@ -261,6 +261,21 @@ struct Simd {
   static F join(const F4& a, const F4& b, const F4& c, const F4& d) {
     return F(a.lanes, b.lanes, c.lanes, d.lanes);
   }
+  static void transpose_quads(F& a, F& b, F& c, F& d) {
+    const vec_uchar16 low = {0, 1, 2, 3, 16, 17, 18, 19, 4, 5, 6, 7, 20, 21, 22, 23};
+    const vec_uchar16 high = {8, 9, 10, 11, 24, 25, 26, 27, 12, 13, 14, 15, 28, 29, 30, 31};
+    for (int q = 0; q < kQuads; ++q) {
+      // Numbers of every other row come to lie side by side, twice.
+      const vec_float4 ac_low = spu_shuffle(a.quad[q], c.quad[q], low);
+      const vec_float4 ac_high = spu_shuffle(a.quad[q], c.quad[q], high);
+      const vec_float4 bd_low = spu_shuffle(b.quad[q], d.quad[q], low);
+      const vec_float4 bd_high = spu_shuffle(b.quad[q], d.quad[q], high);
+      a.quad[q] = spu_shuffle(ac_low, bd_low, low);
+      b.quad[q] = spu_shuffle(ac_low, bd_low, high);
+      c.quad[q] = spu_shuffle(ac_high, bd_high, low);
+      d.quad[q] = spu_shuffle(ac_high, bd_high, high);
+    }
+  }
   static void extremes(const F& a, float& least, float& greatest) {
     const auto pick = [](const vec_float4& x, const vec_float4& y, bool wants_greater) {
       return wants_greater ? spu_sel(y, x, spu_cmpgt(x, y)) : spu_sel(x, y, spu_cmpgt(x, y));

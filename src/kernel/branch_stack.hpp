@@ -26,6 +26,7 @@ public:
 
   uint32_t size() const { return size_; }
   void shrink(uint32_t size) { size_ = size; }
+  const Entry& top() const { return entries_[size_ - 1]; }
   const Entry& pop() { return entries_[--size_]; }
   /// In its place among its siblings, which begin at `first`.
   void push(uint32_t first, const Entry& entry) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "kernel/branch_walk.hpp"
+#include "kernel/bundle_leaf_tests.hpp"
 #include "kernel/light_bundle.hpp"
 #include "kernel/primary_rays.hpp"
 
@@ -195,7 +196,10 @@ private:
     loose_ = 0;
     known_rays_ = known_beams_ = 0;
     Stack& stack = walk_.stack();
-    while (stack.size() != 0) {
+    BundleLeafTests<Spu> leaves(objects_);
+    for (;;) {
+      if (!goes_on_with(leaves)) test_waiting(leaves, searches, together);
+      if (stack.size() == 0) break;
       const typename Stack::Entry& next = stack.pop();
       const uint32_t packets = next.lanes & looking_as_far_as(next.enter);
       if (packets == 0) continue;
@@ -205,7 +209,7 @@ private:
         while (!branch.is_leaf() && open(searches, sides, ray_sides, packets, branch)) {
         }
       if (branch.is_leaf())
-        test_objects(branch, packets, searches);
+        meet(leaves, branch, packets, searches);
       else if (rays != 0)
         walk_alone(searches, ray_sides, static_cast<uint32_t>(__builtin_ctz(packets)), branch, rays);
       else
@@ -305,20 +309,26 @@ private:
     return without;
   }
 
-  void test_objects(const Branch& leaf, uint32_t packets, Search* searches) {
-    const uint32_t changed = test_leaf(leaf, packets, searches);
-    for_each_lane(changed, [&](uint32_t packet) { update_limit(searches[packet], packet); });
+  void meet(BundleLeafTests<Spu>& leaves, const Branch& leaf, uint32_t packets, Search* searches) {
+    uint32_t changed = packets;
+    if (Spu::direct_memory && view_ != nullptr && !is_single(packets))
+      changed = leaves.add(searches, packets, leaf);
+    else
+      objects_.scene().for_each_object(leaf, [&](uint32_t self) {
+        test_object(self, packets, searches);
+        return false;
+      });
+    update_limits(changed, searches);
   }
-  /// Returns the packets that may have been changed.
-  uint32_t test_leaf(const Branch& leaf, uint32_t packets, Search* searches) {
-    if constexpr (Spu::direct_memory)
-      if (view_ != nullptr && !is_single(packets))
-        return LeafTests<Spu>(objects_).test(searches, packets, leaf, *view_);
-    objects_.scene().for_each_object(leaf, [&](uint32_t self) {
-      test_object(self, packets, searches);
-      return false;
-    });
-    return packets;
+  /// Before a node is opened, what lies in leaves should be known.
+  bool goes_on_with(const BundleLeafTests<Spu>& leaves) {
+    if (!Spu::direct_memory || !leaves.is_waiting()) return true;
+    const Stack& stack = walk_.stack();
+    return stack.size() != 0 && stack.top().branch.is_leaf() && leaves.has_room_for(stack.top().branch);
+  }
+  void test_waiting(BundleLeafTests<Spu>& leaves, Search* searches, uint32_t together) {
+    update_limits(leaves.test(searches, *view_), searches);
+    farthest_ = Lanes::greatest_of(together, limits_);
   }
   void test_object(uint32_t self, uint32_t packets, Search* searches) {
     if constexpr (Spu::direct_memory) {
@@ -339,6 +349,9 @@ private:
     });
   }
 
+  void update_limits(uint32_t packets, const Search* searches) {
+    for_each_lane(packets, [&](uint32_t packet) { update_limit(searches[packet], packet); });
+  }
   /// A packet that no light comes to any more looks nowhere.
   void update_limit(const Search& search, uint32_t packet) {
     if (search.hits != nullptr)

@@ -1,11 +1,8 @@
-// What rays do with the objects of a leaf where memory is direct: many triangles are tested at a time. Kernel
-// dialect.
+// What few rays of a packet do with the objects of a leaf where memory is direct: all triangles are tested at
+// a time. Kernel dialect.
 #pragma once
 
 #include "kernel/leaf_triangles.hpp"
-#include "kernel/moment_triangles.hpp"
-#include "kernel/object_tests.hpp"
-#include "kernel/viewed_triangles.hpp"
 
 namespace celltrace::kernel {
 
@@ -24,59 +21,11 @@ public:
 
   explicit LeafTests(Tests& tests) : tests_(tests) {}
 
-  /// The objects of a leaf that packets of a bundle have met. Returns the packets that may have been changed.
-  uint32_t test(Search* searches, uint32_t packets, const Branch& leaf, const BundleView<S>& view) {
-    const bool shadows = searches[__builtin_ctz(packets)].hits == nullptr;
-    uint32_t changed = 0;
-    LeafTriangles<S> triangles;
-    collect(leaf, shadows, triangles, [&](uint32_t self) {
-      changed = packets;
-      test_one(searches, packets, self, shadows);
-    });
-    const uint32_t count = triangles.count();
-    if (count == 0) return changed;
-    const TriangleSides<S> sides = triangles.sides();
-    const ViewedTriangles<S> viewed(sides, view);
-    // First all of these, so that none waits for the tests of the one before.
-    uint32_t seen_by[LeafTriangles<S>::kMost];
-    for (uint32_t i = 0; i < count; ++i)
-      seen_by[i] = packets & viewed.seen_by(i, view);
-    uint32_t tests = 0;
-    for (uint32_t i = 0; i < count; ++i) {
-      changed |= seen_by[i];
-      tests += static_cast<uint32_t>(__builtin_popcount(seen_by[i]));
-    }
-    count_tests(tests);
-    // Plain loops: what does not change in them stays in registers.
-    if (!shadows) {
-      for (uint32_t i = 0; i < count; ++i)
-        for (uint32_t left = seen_by[i]; left != 0; left &= left - 1) {
-          const Search& search = searches[__builtin_ctz(left)];
-          const V3<S> direction = view.mapped(search.rays->direction);
-          Tests::keep_closest(viewed.crossed(i, direction), triangles.offset(i), *search.hits);
-        }
-    } else if (changed != 0) {
-      const BundleMoments& moments = *view.moments;
-      const MomentTriangles<S> by_moment(sides, moments);
-      for (uint32_t i = 0; i < count; ++i)
-        for (uint32_t left = seen_by[i]; left != 0; left &= left - 1) {
-          const auto packet = static_cast<uint32_t>(__builtin_ctz(left));
-          Search& search = searches[packet];
-          const F low(Tests::kShadowTolerance);
-          const F high = F::load(search.distance->lane) - low;
-          const M between =
-              by_moment.crossed_between(i, *search.rays, moments.of[packet], moments, low, high);
-          search.lanes &= ~(between & !lanes_that_start_on<S>(*search.rays, triangles.offset(i))).bits();
-        }
-    }
-    return changed;
-  }
-
-  /// Those of some rays of a packet.
+  /// The objects of a leaf that some rays of a packet have met.
   void test(Search& search, uint32_t rays, const Branch& leaf) {
     const bool shadows = search.hits == nullptr;
     LeafTriangles<S> triangles;
-    collect(leaf, shadows, triangles, [&](uint32_t self) {
+    collect_triangles(tests_.scene(), leaf, shadows, triangles, [&](uint32_t self) {
       if (!shadows) {
         if (tests_.mailbox().first_visit(self)) tests_.test_closest(*search.rays, self, *search.hits);
       } else if ((search.lanes & rays) != 0) {
@@ -93,37 +42,10 @@ public:
       else
         keep_closest(crossings, triangles, lane, *search.hits);
     }
-    count_tests(triangles.count());
+    tests_.counters().tests[static_cast<uint32_t>(ObjectKind::triangle)] += triangles.count();
   }
 
 private:
-  /// Triangles that can be tested together; what else is in the leaf is for `visit`.
-  template <class Visit>
-  [[gnu::always_inline]] void collect(const Branch& leaf, bool shadows, LeafTriangles<S>& triangles,
-                                      Visit visit) {
-    tests_.scene().for_each_object(leaf, [&](uint32_t self) {
-      const ObjectRecord& object = *tests_.scene().object(self);
-      const uint32_t flags = object.kind_and_flags;
-      const bool fits = shadows
-                            ? Tests::is_opaque_triangle(flags)
-                            : static_cast<ObjectKind>(flags & object_flag::kind_mask) == ObjectKind::triangle;
-      if (fits && triangles.count() < LeafTriangles<S>::kMost)
-        triangles.add(self, object);
-      else
-        visit(self);
-      return false;
-    });
-  }
-
-  void test_one(Search* searches, uint32_t packets, uint32_t self, bool shadows) {
-    if (shadows)
-      tests_.shadow_all(searches, packets, self);
-    else
-      tests_.test_closest_of_all(searches, packets, self);
-  }
-
-  // --- one ray, and a triangle in each lane ---
-
   static Crossings<S> crossed(const RayPacket& rays, uint32_t lane, const TriangleSides<S>& sides,
                               const LeafTriangles<S>& triangles) {
     const auto of_ray = [&](const VectorLanes& v) {
@@ -160,10 +82,6 @@ private:
       hits.v.lane[lane] = v.lane[i];
       hits.object.lane[lane] = triangles.offset(i);
     });
-  }
-
-  void count_tests(uint32_t triangles) {
-    tests_.counters().tests[static_cast<uint32_t>(ObjectKind::triangle)] += triangles;
   }
 
   Tests& tests_;

@@ -1,7 +1,7 @@
-// The triangles of a leaf, a lane for each. Kernel dialect.
+// Triangles of leaves, a lane for each. Kernel dialect.
 #pragma once
 
-#include "kernel/intersect.hpp"
+#include "kernel/object_tests.hpp"
 
 namespace celltrace::kernel {
 
@@ -16,6 +16,7 @@ public:
   static constexpr uint32_t kMost = kSimdLanes;
 
   uint32_t count() const { return count_; }
+  void clear() { count_ = 0; }
   uint32_t all() const { return (2u << (count_ - 1)) - 1; } ///< lanes; there is one
   /// Of triangle `i`, in the scene image.
   uint32_t offset(uint32_t i) const { return offsets_.lane[i]; }
@@ -27,31 +28,49 @@ public:
     geometry_[count_++] = triangle.geometry;
   }
 
-  /// Of all of them, at least one. Lanes without one hold another one's.
+  /// Of all of them, at least one. Lanes without one hold the first.
   [[gnu::always_inline]] TriangleSides<S> sides() const {
-    const V3<S> v0 = vertices(0);
-    return {v0, vertices(3) - v0, vertices(6) - v0};
+    F numbers[12]; // the last three are nobody's
+    for (uint32_t first = 0; first < 12; first += 4) {
+      F* const four = numbers + first;
+      for (uint32_t i = 0; i < 4; ++i)
+        four[i] = S::join(words(i, first), words(i + 4, first), words(i + 8, first), words(i + 12, first));
+      S::transpose_quads(four[0], four[1], four[2], four[3]);
+    }
+    const V3<S> v0 = {numbers[0], numbers[1], numbers[2]};
+    return {v0, V3<S>{numbers[3], numbers[4], numbers[5]} - v0,
+            V3<S>{numbers[6], numbers[7], numbers[8]} - v0};
   }
 
 private:
+  using F = typename S::F;
   using F4 = typename S::F4;
 
-  V3<S> vertices(uint32_t k) const { return {numbers(k), numbers(k + 1), numbers(k + 2)}; }
-  typename S::F numbers(uint32_t k) const {
-    const F4 first = four_numbers(0, k);
-    const F4 second = count_ > 4 ? four_numbers(4, k) : first;
-    const F4 third = count_ > 8 ? four_numbers(8, k) : first;
-    const F4 fourth = count_ > 12 ? four_numbers(12, k) : first;
-    return S::join(first, second, third, fourth);
-  }
-  F4 four_numbers(uint32_t first, uint32_t k) const {
-    const auto number = [&](uint32_t i) { return geometry_[i < count_ ? i : first][k]; };
-    return four<S>(geometry_[first][k], number(first + 1), number(first + 2), number(first + 3));
-  }
+  F4 words(uint32_t i, uint32_t first) const { return F4::load(geometry_[i < count_ ? i : 0] + first); }
 
   WordLanes offsets_;
   const float* geometry_[kMost];
   uint32_t count_ = 0;
 };
+
+/// Adds those of a leaf's triangles that can be tested together, as far as there is room; what else is in the
+/// leaf is for `visit`.
+template <class Spu, class Visit>
+[[gnu::always_inline]] inline void
+collect_triangles(SceneAccess<Spu>& scene, const Branch& leaf, bool shadows,
+                  LeafTriangles<typename Spu::simd>& triangles, Visit visit) {
+  scene.for_each_object(leaf, [&](uint32_t self) {
+    const ObjectRecord& object = *scene.object(self);
+    const uint32_t flags = object.kind_and_flags;
+    const bool fits = shadows
+                          ? ObjectTests<Spu>::is_opaque_triangle(flags)
+                          : static_cast<ObjectKind>(flags & object_flag::kind_mask) == ObjectKind::triangle;
+    if (fits && triangles.count() < LeafTriangles<typename Spu::simd>::kMost)
+      triangles.add(self, object);
+    else
+      visit(self);
+    return false;
+  });
+}
 
 } // namespace celltrace::kernel

@@ -18,6 +18,7 @@ struct alignas(128) FacadeBlock {
   float sum[16], difference[16], product[16], quotient[16], negative[16];
   float least[16], most[16], magnitude[16], root[16], chosen[16];
   float splat[16], from_int[16], reinterpreted[16], joined[16];
+  float transposed[4][16];
   int32_t int_sum[16], int_difference[16], int_and[16], int_or[16], int_chosen[16];
   int32_t to_int[16], bits[16], left_1[16], left_23[16], right_1[16], right_23[16], int_splat[16];
   int32_t of_line[16];
@@ -57,6 +58,10 @@ template <class S> void apply_facade(FacadeBlock& x) {
   F(x.a[3]).store(x.splat);
   using F4 = typename S::F4;
   S::join(F4::load(x.a), F4::load(x.b), F4::load(x.a + 12), F4::load(x.b + 4)).store(x.joined);
+  F rows[4] = {a, b, a + b, a - b};
+  S::transpose_quads(rows[0], rows[1], rows[2], rows[3]);
+  for (int row = 0; row < 4; ++row)
+    rows[row].store(x.transposed[row]);
   x.less = (a < b).bits();
   x.less_equal = (a <= b).bits();
   x.greater = (a > b).bits();

@@ -101,6 +101,11 @@ void check_floats(const FacadeBlock& x) {
     const float* const quads[4] = {x.a, x.b, x.a + 12, x.b + 4};
     return quads[l / 4][l % 4];
   }));
+  for (int row = 0; row < 4; ++row)
+    CHECK(same_floats(x.transposed[row], [&](int l) {
+      const float* const rows[4] = {x.a, x.b, x.sum, x.difference};
+      return rows[l % 4][l / 4 * 4 + row];
+    }));
 }
 
 void check_ints(const FacadeBlock& x) {

@@ -17,6 +17,7 @@
 //
 //   min max (of ordinary numbers), extremes(F, least, greatest) (of all lanes), abs, sqrt (of x >= 0),
 //   join(F4, F4, F4, F4) -> F, lanes 0 to 3 first,
+//   transpose_quads(F& a, b, c, d): of each four lanes 4q to 4q + 3, the 4x4 numbers with rows a to d,
 //   select(M, a, b) = m ? a : b for F and I,
 //   to_int (truncates; |x| < 2^31), to_float, bits_of / float_of (reinterpret),
 //   shift_left<n>, shift_right<n> (arithmetic)

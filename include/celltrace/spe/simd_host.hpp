@@ -85,6 +85,34 @@ Joined<Batch> join(const Four& a, const Four& b, const Four& c, const Four& d) {
   return all;
 }
 
+/// In each 128 bits, the two lower or the two higher numbers of `a` and `b` in turn.
+template <class Batch> Batch zip_low(const Batch& a, const Batch& b) {
+#if defined(__AVX512F__)
+  if constexpr (Batch::size == 16) return _mm512_unpacklo_ps(a, b);
+#endif
+#if defined(__AVX__)
+  if constexpr (Batch::size == 8) return _mm256_unpacklo_ps(a, b);
+#endif
+  if constexpr (Batch::size == 4) return xsimd::zip_lo(a, b);
+}
+template <class Batch> Batch zip_high(const Batch& a, const Batch& b) {
+#if defined(__AVX512F__)
+  if constexpr (Batch::size == 16) return _mm512_unpackhi_ps(a, b);
+#endif
+#if defined(__AVX__)
+  if constexpr (Batch::size == 8) return _mm256_unpackhi_ps(a, b);
+#endif
+  if constexpr (Batch::size == 4) return xsimd::zip_hi(a, b);
+}
+template <class Batch> void transpose_quads(Batch& a, Batch& b, Batch& c, Batch& d) {
+  const Batch ac_low = zip_low(a, c), ac_high = zip_high(a, c);
+  const Batch bd_low = zip_low(b, d), bd_high = zip_high(b, d);
+  a = zip_low(ac_low, bd_low);
+  b = zip_high(ac_low, bd_low);
+  c = zip_low(ac_high, bd_high);
+  d = zip_high(ac_high, bd_high);
+}
+
 } // namespace simd_host
 
 /// Instructions of an SPU, by the unit that executes them. What is missing is 0.
@@ -453,6 +481,11 @@ template <class Arch, class Counter = CountNothing> struct HostSimd {
     for (uint32_t i = 0; i < kParts; ++i)
       r.part[i] = all.part[i];
     return r;
+  }
+  static void transpose_quads(F& a, F& b, F& c, F& d) {
+    Counter::packet({.shuf = 8});
+    for (uint32_t i = 0; i < kParts; ++i)
+      simd_host::transpose_quads(a.part[i], b.part[i], c.part[i], d.part[i]);
   }
   static F4 min(const F4& a, const F4& b) {
     Counter::chain({.fx2 = 2});
