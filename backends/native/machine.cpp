@@ -1,5 +1,6 @@
 #include "backends/native/machine.hpp"
 
+#include "backends/native/cpus.hpp"
 #include "backends/native/proxy.hpp"
 #include "backends/native/registers.hpp"
 #include "backends/native/reservations.hpp"
@@ -23,7 +24,15 @@ unsigned spe_count_of(const MachineConfig& config) {
     throw InputError("a machine has at most " + std::to_string(kMaxSpes) + " SPEs, not " +
                      std::to_string(config.spes));
   if (config.spes != 0) return config.spes;
-  return std::clamp(std::thread::hardware_concurrency(), 1u, kMaxSpes);
+  return std::min(static_cast<unsigned>(usable_cpus().size()), kMaxSpes);
+}
+
+/// A CPU for each SPE where there are as many: the system may let two of several threads that wake up at once
+/// share one for milliseconds, which is a frame. Otherwise none, for it knows better who else is there.
+std::vector<unsigned> cpus_for(unsigned spes) {
+  std::vector<unsigned> cpus = usable_cpus();
+  if (spes == 1 || cpus.size() != spes) cpus.clear();
+  return cpus;
 }
 
 std::string name_of(unsigned spe) {
@@ -82,6 +91,7 @@ private:
 
   const std::vector<const SpuType*> types_; ///< the widest first; not empty
   const SpuType* current_type_;
+  const std::vector<unsigned> cpus_; ///< of each SPE; empty: anywhere
   Doorbell doorbell_;
   std::vector<std::unique_ptr<Worker>> workers_;
   std::unique_ptr<RegisterMap> registers_;
@@ -94,7 +104,8 @@ private:
 };
 
 NativeMachine::NativeMachine(const MachineConfig& config)
-    : types_(usable_spu_types(config.simd)), current_type_(types_.front()) {
+    : types_(usable_spu_types(config.simd)), current_type_(types_.front()),
+      cpus_(cpus_for(spe_count_of(config))) {
   const unsigned count = spe_count_of(config);
   for (unsigned i = 0; i < count; ++i)
     workers_.push_back(std::make_unique<Worker>(i, config, doorbell_));
@@ -158,6 +169,7 @@ void NativeMachine::start(unsigned spe, const SpeProgram& program, ea_t argument
 }
 
 void NativeMachine::run(Worker& worker, const SpuType& type, SpeProgram::Entry entry, ea_t argument) {
+  if (!cpus_.empty()) stay_on_cpu(cpus_[worker.spe.id]);
   std::uint32_t exit_code = 0;
   try {
     type.run(worker.spe, entry, argument);

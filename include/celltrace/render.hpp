@@ -50,7 +50,8 @@ struct RenderOptions {
   int height = 480; ///< pixels, 1..65520
   /// "native" or "cell_emu"; see machine_backends().
   std::string backend = "native";
-  /// Number of SPEs, up to 256; 0: one per hardware thread on native, `emulation.timing.spes` on cell_emu.
+  /// Number of SPEs, up to 256; 0: on native one per CPU that the calling thread may use, on cell_emu
+  /// `emulation.timing.spes`. On native, as many SPEs as such CPUs keep to one each.
   unsigned spes = 0;
   /// SIMD of native: "auto", "sse2", "avx2", "avx512".
   std::string simd = "auto";

@@ -1,9 +1,12 @@
+#include "backends/native/cpus.hpp"
 #include "backends/native/machine.hpp"
 #include "backends/native/spu.hpp"
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <chrono>
+#include <vector>
 
 using namespace celltrace;
 
@@ -56,6 +59,35 @@ TEST_CASE("PPE and SPE talk through mailboxes and signals") {
   CHECK(machine->read_out_interrupt_mailbox(0) == 1u);
   CHECK(machine->in_mailbox_space(0) == 4);
   CHECK(machine->statistics(0).mailbox_words_sent == 3);
+}
+
+TEST_CASE("As many SPEs as there are CPUs have one each, others go where the system likes") {
+  const std::vector<unsigned> all = native::usable_cpus();
+  REQUIRE_FALSE(all.empty());
+  CHECK(machine_of(0)->spe_count() == std::min<std::size_t>(all.size(), 256));
+  for (const unsigned spes : {static_cast<unsigned>(all.size()), static_cast<unsigned>(all.size()) + 1}) {
+    if (spes > 256) continue;
+    const auto machine = machine_of(spes);
+    std::vector<std::vector<unsigned>> of_spe(spes);
+    const SpeProgram look = program([](auto& spu, ea_t argument) {
+      auto* const found = reinterpret_cast<std::vector<unsigned>*>(static_cast<uintptr_t>(argument));
+      found[spu.id()] = native::usable_cpus();
+    });
+    for (unsigned spe = 0; spe < spes; ++spe)
+      machine->start(spe, look, to_ea(of_spe.data()));
+    for (unsigned spe = 0; spe < spes; ++spe) {
+      machine->wait(spe);
+      INFO("SPE " << spe << " of " << spes);
+#if defined(__linux__)
+      if (spes == all.size()) {
+        CHECK(of_spe[spe] == std::vector<unsigned>{all[spe]});
+        continue;
+      }
+#endif
+      CHECK(of_spe[spe] == all);
+    }
+  }
+  CHECK(native::usable_cpus() == all);
 }
 
 TEST_CASE("SPEs pass a word round a ring") {

@@ -20,7 +20,8 @@ namespace celltrace {
 struct MachineConfig {
   /// One of machine_backends().
   std::string backend = "native";
-  /// Number of SPEs, 1..256; 0: one per hardware thread on `native`, `emulation.timing.spes` on `cell_emu`.
+  /// Number of SPEs, 1..256; 0: on `native` one per CPU that the calling thread may use,
+  /// on `cell_emu` `emulation.timing.spes`.
   unsigned spes = 0;
   /// SIMD of `native`: "auto" (the widest that CPU and program have), "sse2", "avx2", "avx512".
   std::string simd = "auto";
