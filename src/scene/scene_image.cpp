@@ -23,8 +23,6 @@ namespace {
 
 using Simd = HostSimd<xsimd::sse2>;
 
-constexpr std::uint32_t kObjectsPerThread = 8192;
-
 /// What the accelerator that is most likely to be built needs.
 std::size_t hierarchy_bytes(const ImageHeader& header) {
   const std::size_t nodes =
@@ -255,12 +253,13 @@ SceneImage::SceneImage(const Scene& scene) {
   assign(scene, work, 1);
 }
 
-void SceneImage::assign(const Scene& scene, AlignedBlock& work, unsigned threads) {
+void SceneImage::assign(const Scene& scene, AlignedBlock& work, unsigned threads,
+                        std::uint32_t objects_a_thread) {
   validate(scene);
   const MeshInstances instances(scene, threads);
   const SceneObjects objects(scene, instances, threads);
   const std::uint64_t all = std::uint64_t{objects.count()} + instances.census().objects;
-  threads = static_cast<unsigned>(std::clamp<std::uint64_t>(all / kObjectsPerThread, 1, threads));
+  threads = static_cast<unsigned>(std::clamp<std::uint64_t>(all / objects_a_thread, 1, threads));
   const OrderMemory memory(work, objects.count());
   const ObjectCensus loose = place_all(objects, memory.objects, threads);
   std::vector<std::uint32_t> runs;

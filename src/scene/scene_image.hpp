@@ -34,10 +34,13 @@ public:
   /// every offset in it are right.
   static SceneImage from_bytes(std::span<const std::byte> bytes);
 
-  /// Becomes the image of `scene` in `threads` threads; what comes out does not depend on their number. Keeps
-  /// its memory where that is large enough, and uses `work`, which may grow. After an InputError it is as
-  /// before; after another exception it may be empty.
-  void assign(const Scene& scene, AlignedBlock& work, unsigned threads);
+  /// With fewer, starting threads takes longer than they save.
+  static constexpr std::uint32_t kObjectsAThread = 32768;
+  /// Becomes the image of `scene` in up to `threads` threads, which have so many objects each at least; what
+  /// comes out does not depend on their number. Keeps its memory where that is large enough, and uses `work`,
+  /// which may grow. After an InputError it is as before; after another exception it may be empty.
+  void assign(const Scene& scene, AlignedBlock& work, unsigned threads,
+              std::uint32_t objects_a_thread = kObjectsAThread);
   bool empty() const noexcept { return block_.size() == 0; }
 
   /// Makes room for an accelerator: a table of `table_bytes` bytes, of voxels or of nodes, and lists of

@@ -280,12 +280,12 @@ TEST_CASE("An image of many objects has them by run, the same whoever makes it")
     SceneImage again(crowd(100, 1));
     AlignedBlock work;
     for (unsigned threads : {1u, 2u, 3u, 7u}) {
-      again.assign(scene, work, threads);
+      again.assign(scene, work, threads, 1000);
       CHECK(bytes_of(again) == bytes);
     }
     // A scene that is refused changes nothing.
     scene.objects.push_back(sphere_at({1e30, 0, 0}, 1, 0, 0));
-    CHECK_THROWS_AS(again.assign(scene, work, 2), InputError);
+    CHECK_THROWS_AS(again.assign(scene, work, 2, 1000), InputError);
     CHECK(bytes_of(again) == bytes);
   }
 }
@@ -427,7 +427,7 @@ TEST_CASE("Instances of a mesh are copies of runs") {
   AlignedBlock work;
   SceneImage again(crowd(100, 1));
   for (unsigned threads : {1u, 2u, 3u, 7u}) {
-    again.assign(scene, work, threads);
+    again.assign(scene, work, threads, 1000);
     CHECK((bytes_of(again) == bytes));
   }
 }
@@ -442,7 +442,7 @@ TEST_CASE("Instances of a large mesh are copies of short runs") {
   AlignedBlock work;
   SceneImage again;
   for (unsigned threads : {2u, 5u}) {
-    again.assign(scene, work, threads);
+    again.assign(scene, work, threads, 1000);
     CHECK((bytes_of(again) == bytes));
   }
 }
