@@ -114,7 +114,7 @@ private:
         if ((search.lanes & part) == 0) continue;
         group.rays.set(rays, octant);
         group.beam.set(bounds, octant);
-        walk_.walk(group, BoxSides(octant), part, search, root(), part);
+        walk_.walk({&group, &search, part, part, root()}, BoxSides(octant));
       }
     }
   }
@@ -203,34 +203,55 @@ private:
       const typename Stack::Entry& next = stack.pop();
       const uint32_t packets = next.lanes & looking_as_far_as(next.enter);
       if (packets == 0) continue;
-      Branch branch = next.branch;
-      const uint32_t rays = next.rays; // if there is one packet
-      if (rays == 0)
+      if (next.rays != 0) {
+        walk_alone(searches, ray_sides, next);
+      } else {
+        Branch branch = next.branch;
         while (!branch.is_leaf() && open(searches, sides, ray_sides, packets, branch)) {
         }
-      if (branch.is_leaf())
+        if (!branch.is_leaf()) continue;
         meet(leaves, branch, packets, searches);
-      else if (rays != 0)
-        walk_alone(searches, ray_sides, static_cast<uint32_t>(__builtin_ctz(packets)), branch, rays);
-      else
-        continue;
+      }
       farthest_ = Lanes::greatest_of(together, limits_);
     }
   }
 
-  void walk_alone(Search* searches, const BoxSides& sides, uint32_t packet, const Branch& branch,
-                  uint32_t rays) {
+  /// Packets that go alone to branches: `first`, and others that are next on the stack if they take turns.
+  [[gnu::noinline]] void walk_alone(Search* searches, const BoxSides& sides, typename Stack::Entry first) {
+    typename BranchWalk<Spu>::Visit visits[BranchWalk<Spu>::kMostInTurn];
+    visits[0] = visit_of(searches, first);
+    uint32_t count = 1, packets = first.lanes;
+    if (Spu::direct_memory && walk_.takes_turns()) {
+      Stack& stack = walk_.stack();
+      while (count < BranchWalk<Spu>::kMostInTurn && stack.size() != 0) {
+        const typename Stack::Entry& next = stack.top();
+        if (next.rays == 0 || (next.lanes & packets) != 0) break;
+        stack.pop();
+        if ((next.lanes & looking_as_far_as(next.enter)) == 0) continue;
+        visits[count++] = visit_of(searches, next);
+        packets |= next.lanes;
+      }
+    }
+    if (count == 1) {
+      objects_.mailbox().begin_packet();
+      walk_.walk(visits[0], sides);
+    } else {
+      walk_.walk_in_turn(visits, count, sides);
+    }
+    update_limits(packets, searches);
+  }
+  /// Of an entry for one packet.
+  typename BranchWalk<Spu>::Visit visit_of(Search* searches, const typename Stack::Entry& entry) {
+    const auto packet = static_cast<uint32_t>(__builtin_ctz(entry.lanes));
     Search& search = searches[packet];
-    objects_.mailbox().begin_packet();
-    if ((known_beams_ & (1u << packet)) == 0) {
+    if ((known_beams_ & entry.lanes) == 0) {
       if (Spu::direct_memory && turned_)
         members_[packet].beam.set(bounds_of<S>(*search.rays, search.lanes), octant_);
       else
         beams_.get(packet, members_[packet].beam);
-      known_beams_ |= 1u << packet;
+      known_beams_ |= entry.lanes;
     }
-    walk_.walk(members_[packet], sides, search.lanes, search, branch, rays);
-    update_limit(search, packet);
+    return {&members_[packet], &search, search.lanes, entry.rays, entry.branch};
   }
 
   const OctantRays<S>& rays_of(const Search& search, uint32_t packet) {

@@ -18,7 +18,9 @@ struct TraversalCounters {
 /// test.
 class PacketMailbox {
 public:
-  void begin_packet() { ++packet_; }
+  /// Returns what resume_packet() goes on with.
+  uint32_t begin_packet() { return packet_ = ++last_packet_; }
+  void resume_packet(uint32_t packet) { packet_ = packet; }
   /// True the first time an object is asked for within a packet; may be true again later.
   bool first_visit(uint32_t object) {
     Entry& entry = entries_[(object >> 6) & (kEntries - 1)];
@@ -34,7 +36,7 @@ private:
     uint32_t packet, object;
   };
   Entry entries_[kEntries] = {};
-  uint32_t packet_ = 0;
+  uint32_t packet_ = 0, last_packet_ = 0;
 };
 
 /// Part of each ray: beyond `enter`, up to `leave`. Without them, all of it.

@@ -267,6 +267,7 @@ struct alignas(128) FrameBlock {
   uint32_t prototype_offset;      ///< a word per run; 0: there are no copies
   uint32_t units_per_word;        ///< that an SPE tells of its progress by; 0: it does not
   uint32_t wide_leaves;           ///< 0 or 1: for SPEs that test many triangles of a leaf at once
+  uint32_t far_nodes;             ///< 0 or 1: for SPEs that wait long for a node of the hierarchy
 };
 static_assert(sizeof(FrameBlock) % 128 == 0 && sizeof(FrameBlock) <= 512, "fetched by one DMA command");
 

@@ -22,8 +22,9 @@ public:
   }
 
   /// Has a hierarchy of boxes built in place of the grid.
-  void use_hierarchy(bool wide_leaves) {
+  void use_hierarchy(bool wide_leaves, bool far_nodes = false) {
     frame_.wide_leaves = wide_leaves;
+    frame_.far_nodes = far_nodes;
     const std::uint32_t nodes =
         kernel::hierarchy::most_nodes(object_count(), header().run_count, header().prototype_count != 0);
     image_.reserve_accelerator(nodes * sizeof(kernel::NodeRecord), object_count());

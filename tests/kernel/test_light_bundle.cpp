@@ -187,7 +187,7 @@ TEST_CASE("Light comes to a bundle as it comes to its packets") {
        {soup(40, {0, 0, 400}, 10, 1), soup(41, {60, 60, 60}, 10, 1), soup(42, {0, 0, 30}, 10, 4)})
     for (const bool wide_leaves : {false, true}) {
       PreparedScene prepared(scene);
-      prepared.use_hierarchy(wide_leaves);
+      prepared.use_hierarchy(wide_leaves, !wide_leaves);
       REQUIRE(prepared.prepare().built);
       FrameBlock& frame = prepared.frame();
       for (int k = 0; k < times(300); ++k) {

@@ -118,7 +118,7 @@ TEST_CASE("A bundle of primary rays hits what its packets hit, and nothing where
        {soup(30, {0, 0, 400}, 10, 1), soup(31, {60, 60, 60}, 10, 1), soup(32, {0, 0, 30}, 10, 4)}) {
     for (const bool wide_leaves : {false, true}) {
       PreparedScene prepared(scene);
-      prepared.use_hierarchy(wide_leaves);
+      prepared.use_hierarchy(wide_leaves, !wide_leaves);
       REQUIRE(prepared.prepare().built);
       FrameBlock& frame = prepared.frame();
       for (int k = 0; k < times(300); ++k) {

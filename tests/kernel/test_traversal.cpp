@@ -176,15 +176,23 @@ void check_accelerator(PreparedScene& prepared, const std::vector<TraversalQuery
   }
 }
 
+/// As they are for few objects, for many, and for more than that.
+void check_hierarchies(PreparedScene& prepared, const std::vector<TraversalQuery>& first) {
+  const struct {
+    bool wide_leaves, far_nodes;
+  } kinds[] = {{true, false}, {false, false}, {false, true}};
+  for (const auto& kind : kinds) {
+    INFO("wide leaves: " << kind.wide_leaves << ", far nodes: " << kind.far_nodes);
+    prepared.use_hierarchy(kind.wide_leaves, kind.far_nodes);
+    check_accelerator(prepared, first);
+  }
+}
+
 void check_scene(const Scene& scene, unsigned packets = times(160)) {
   PreparedScene prepared(scene);
   const std::vector<TraversalQuery> first = queries_for(prepared, 99, packets);
   check_accelerator(prepared, first);
-  for (const bool wide_leaves : {false, true}) {
-    INFO("wide leaves: " << wide_leaves);
-    prepared.use_hierarchy(wide_leaves);
-    check_accelerator(prepared, first);
-  }
+  check_hierarchies(prepared, first);
 }
 
 } // namespace
@@ -206,11 +214,7 @@ TEST_CASE("Through more objects than are at hand, so that leaves wait") {
   constexpr int few = times(64) / 16 > 0 ? times(64) / 16 : 1;
   std::vector<TraversalQuery> some(all.begin(), all.begin() + few);
   some.insert(some.end(), all.end() - few, all.end());
-  for (const bool wide_leaves : {false, true}) {
-    INFO("wide leaves: " << wide_leaves);
-    prepared.use_hierarchy(wide_leaves);
-    check_accelerator(prepared, some);
-  }
+  check_hierarchies(prepared, some);
 }
 
 TEST_CASE("Through large and small scenes, and far from the origin") {
