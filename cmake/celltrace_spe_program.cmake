@@ -27,6 +27,12 @@ function(celltrace_spu_type name)
   endforeach()
 endfunction()
 
+set(native_flags "")
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # A program is one translation unit, and GCC stops inlining what is called for every packet where the unit grows by
+  # more than 40 %: rays then take 2 to 4 % longer.
+  set(native_flags --param=inline-unit-growth=100)
+endif()
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   # Processors with AVX2 know PREFETCHW, or take it for nothing.
   set(avx2_flags -mavx2 -mprfchw)
@@ -36,16 +42,16 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     list(APPEND avx512_flags -Wno-uninitialized -Wno-maybe-uninitialized)
   endif()
   celltrace_spu_type(native_sse2 HEADER backends/native/spu.hpp KEY native.sse2
-    TYPE "celltrace::native::Spu<xsimd::sse2>")
+    TYPE "celltrace::native::Spu<xsimd::sse2>" FLAGS ${native_flags})
   if(CELLTRACE_WIDE_SIMD)
     celltrace_spu_type(native_avx2 HEADER backends/native/spu.hpp KEY native.avx2
-      TYPE "celltrace::native::Spu<xsimd::avx2>" FLAGS ${avx2_flags})
+      TYPE "celltrace::native::Spu<xsimd::avx2>" FLAGS ${native_flags} ${avx2_flags})
     celltrace_spu_type(native_avx512 HEADER backends/native/spu.hpp KEY native.avx512
-      TYPE "celltrace::native::Spu<xsimd::avx512dq>" FLAGS ${avx512_flags})
+      TYPE "celltrace::native::Spu<xsimd::avx512dq>" FLAGS ${native_flags} ${avx512_flags})
   endif()
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
   celltrace_spu_type(native_neon64 HEADER backends/native/spu.hpp KEY native.neon64
-    TYPE "celltrace::native::Spu<xsimd::neon64>")
+    TYPE "celltrace::native::Spu<xsimd::neon64>" FLAGS ${native_flags})
 endif()
 celltrace_spu_type(cell_emu HEADER backends/cell_emu/spu.hpp KEY cell_emu TYPE "celltrace::cell_emu::Spu")
 

@@ -127,7 +127,7 @@ private:
     current_ ^= 1;
   }
 
-  I encode(const V3<S>& colour) const {
+  [[gnu::always_inline]] I encode(const V3<S>& colour) const {
     return pack(quantise(colour.x), quantise(colour.y), quantise(colour.z));
   }
   /// Normalises to 0..255 without branches.
