@@ -2,6 +2,7 @@
 
 #include "celltrace/balance.hpp"
 #include "celltrace/error.hpp"
+#include "scene/surface_records.hpp"
 
 #include <algorithm>
 #include <array>
@@ -56,6 +57,30 @@ bool inside(const Sphere& sphere, const Transform& transform, const Vec3& point)
   }
   const Vec3 local = transform.inverse().point(point) - sphere.centre;
   return local.x * local.x + local.y * local.y + local.z * local.z < sphere.radius * sphere.radius;
+}
+
+/// Whether what a ray is in makes a difference where it meets the material.
+bool asks_for_interiors(const Material& material) {
+  return !is_opaque(material) || material.finish.reflection_fresnel;
+}
+
+/// Offsets of the interiors that the point is in, the largest sphere's first.
+std::vector<std::uint32_t> interiors_around(const Vec3& point, const Scene& scene,
+                                            const ImageHeader& header) {
+  if (std::none_of(scene.materials.begin(), scene.materials.end(), asks_for_interiors)) return {};
+  std::vector<std::pair<double, std::uint32_t>> around;
+  for (const Object& object : scene.objects) {
+    const auto* sphere = std::get_if<Sphere>(&object.shape);
+    if (sphere == nullptr || sphere->radius == 0 || !inside(*sphere, object.transform, point)) continue;
+    const double volume = std::abs(object.transform.determinant()) * std::pow(std::abs(sphere->radius), 3);
+    around.emplace_back(volume, header.interior_offset +
+                                    object.interior * static_cast<std::uint32_t>(sizeof(InteriorRecord)));
+  }
+  std::sort(around.begin(), around.end(), std::greater<>());
+  std::vector<std::uint32_t> offsets;
+  for (const auto& [volume, offset] : around)
+    offsets.push_back(offset);
+  return offsets;
 }
 
 } // namespace
@@ -132,20 +157,10 @@ void set_camera(FrameBlock& frame, const Camera& camera, const Scene& scene, con
   store(camera.right / w, frame.camera.dx);
   store(-camera.up / h, frame.camera.dy);
 
-  std::vector<std::pair<double, std::uint32_t>> around;
-  for (const Object& object : scene.objects) {
-    const auto* sphere = std::get_if<Sphere>(&object.shape);
-    if (sphere == nullptr || sphere->radius == 0 || !inside(*sphere, object.transform, camera.location))
-      continue;
-    const double volume = std::abs(object.transform.determinant()) * std::pow(std::abs(sphere->radius), 3);
-    around.emplace_back(volume, image.header().interior_offset +
-                                    object.interior * static_cast<std::uint32_t>(sizeof(InteriorRecord)));
-  }
-  std::sort(around.begin(), around.end(), std::greater<>());
+  const std::vector<std::uint32_t> around = interiors_around(camera.location, scene, image.header());
   const std::size_t kept = std::min<std::size_t>(around.size(), kMaxInteriorDepth);
   frame.camera_interior_count = static_cast<std::uint32_t>(kept);
-  for (std::size_t i = 0; i < kept; ++i)
-    frame.camera_interiors[i] = around[around.size() - kept + i].second;
+  std::copy(around.end() - static_cast<std::ptrdiff_t>(kept), around.end(), frame.camera_interiors);
 }
 
 GridRecord choose_grid(const ImageHeader& header) {

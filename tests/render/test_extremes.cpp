@@ -57,6 +57,29 @@ TEST_CASE("A small scene in a large one") {
   CHECK(c.psnr >= 45);
 }
 
+TEST_CASE("A camera in a medium, before an opaque mirror that asks for it") {
+  const auto in_medium = [](double ior) {
+    Scene scene;
+    Material mirror = matte({0.1, 0.1, 0.1});
+    mirror.finish.reflection_max = Vec3(1);
+    mirror.finish.reflection_fresnel = true;
+    scene.objects.push_back(sphere_at({0, 0, 0}, 1, scene.add(mirror), scene.add(Interior{1.3})));
+    const Index sky = scene.add(matte({0.4, 0.6, 0.9}));
+    scene.materials[sky].finish.ambient = Vec3(1);
+    scene.objects.push_back(sphere_at({0, 0, 0}, 50, sky, scene.add(Interior{ior})));
+    scene.lights.push_back(Light{{5, 5, -5}});
+    scene.camera.location = {0, 0, -3};
+    return scene;
+  };
+  const Comparison c = against_reference(in_medium(1.6));
+  INFO(to_text(c));
+  CHECK(c.psnr >= 45);
+  const auto picture = [&](double ior) {
+    return render(in_medium(ior), backends().front().options(80, 60, 2)).image;
+  };
+  CHECK(compare_images(picture(1.6), picture(1.0)).psnr < 30);
+}
+
 TEST_CASE("A distant camera with a long lens") {
   Scene scene = scene_named("highlights");
   scene.camera.location = {0, 1500, -7000};
