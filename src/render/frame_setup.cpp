@@ -46,8 +46,10 @@ AcceleratorKind accelerator_of(const RenderOptions& options) {
   return options.accelerator == Accelerator::grid ? AcceleratorKind::grid : AcceleratorKind::hierarchy;
 }
 
-bool inside(const Sphere& sphere, const Transform& transform, const Vec3& point) {
+bool is_inside(const Medium& medium, const Vec3& point) {
   // Hardly any of a million spheres is worth an inverse: most do not even have the point in their box.
+  const Sphere& sphere = medium.sphere;
+  const Transform& transform = medium.transform;
   const Vec3 away = point - transform.point(sphere.centre);
   constexpr double kRoundedUp = 1.000001;
   for (int axis = 0; axis < 3; ++axis) {
@@ -62,25 +64,6 @@ bool inside(const Sphere& sphere, const Transform& transform, const Vec3& point)
 /// Whether what a ray is in makes a difference where it meets the material.
 bool asks_for_interiors(const Material& material) {
   return !is_opaque(material) || material.finish.reflection_fresnel;
-}
-
-/// Offsets of the interiors that the point is in, the largest sphere's first.
-std::vector<std::uint32_t> interiors_around(const Vec3& point, const Scene& scene,
-                                            const ImageHeader& header) {
-  if (std::none_of(scene.materials.begin(), scene.materials.end(), asks_for_interiors)) return {};
-  std::vector<std::pair<double, std::uint32_t>> around;
-  for (const Object& object : scene.objects) {
-    const auto* sphere = std::get_if<Sphere>(&object.shape);
-    if (sphere == nullptr || sphere->radius == 0 || !inside(*sphere, object.transform, point)) continue;
-    const double volume = std::abs(object.transform.determinant()) * std::pow(std::abs(sphere->radius), 3);
-    around.emplace_back(volume, header.interior_offset +
-                                    object.interior * static_cast<std::uint32_t>(sizeof(InteriorRecord)));
-  }
-  std::sort(around.begin(), around.end(), std::greater<>());
-  std::vector<std::uint32_t> offsets;
-  for (const auto& [volume, offset] : around)
-    offsets.push_back(offset);
-  return offsets;
 }
 
 } // namespace
@@ -146,7 +129,26 @@ void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& optio
   store(scene.background, frame.background);
 }
 
-void set_camera(FrameBlock& frame, const Camera& camera, const Scene& scene, const SceneImage& image) {
+std::vector<Medium> media_of(const Scene& scene) {
+  if (std::none_of(scene.materials.begin(), scene.materials.end(), asks_for_interiors)) return {};
+  std::vector<std::pair<double, Medium>> by_volume;
+  for (const Object& object : scene.objects) {
+    const auto* sphere = std::get_if<Sphere>(&object.shape);
+    if (sphere == nullptr || sphere->radius == 0) continue;
+    const double volume = std::abs(object.transform.determinant()) * std::pow(std::abs(sphere->radius), 3);
+    by_volume.push_back({volume, {*sphere, object.transform, object.interior}});
+  }
+  std::sort(by_volume.begin(), by_volume.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.first, a.second.interior) > std::pair(b.first, b.second.interior);
+  });
+  std::vector<Medium> media;
+  for (const auto& [volume, medium] : by_volume)
+    media.push_back(medium);
+  return media;
+}
+
+void set_camera(FrameBlock& frame, const Camera& camera, const std::vector<Medium>& media,
+                const SceneImage& image) {
   const double w = frame.width;
   const double h = frame.height;
   const bool orthographic = camera.kind == Camera::Kind::orthographic;
@@ -157,7 +159,11 @@ void set_camera(FrameBlock& frame, const Camera& camera, const Scene& scene, con
   store(camera.right / w, frame.camera.dx);
   store(-camera.up / h, frame.camera.dy);
 
-  const std::vector<std::uint32_t> around = interiors_around(camera.location, scene, image.header());
+  std::vector<std::uint32_t> around;
+  for (const Medium& medium : media)
+    if (is_inside(medium, camera.location))
+      around.push_back(image.header().interior_offset +
+                       medium.interior * static_cast<std::uint32_t>(sizeof(InteriorRecord)));
   const std::size_t kept = std::min<std::size_t>(around.size(), kMaxInteriorDepth);
   frame.camera_interior_count = static_cast<std::uint32_t>(kept);
   std::copy(around.end() - static_cast<std::ptrdiff_t>(kept), around.end(), frame.camera_interiors);

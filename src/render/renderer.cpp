@@ -114,11 +114,11 @@ private:
     if (options_.build_progress && !options_.build_progress(0)) return no_frame(statistics);
     builder_->make_image(scene);
     has_scene_ = false;
-    scene_ = scene;
+    media_ = media_of(scene);
     statistics.build_seconds = build.seconds();
     const Stopwatch prepare;
     const SpeMeter meter(*machine_);
-    enter_scene();
+    enter_scene(scene);
     team_->assemble();
     if (!builder_->build(options_.build_progress)) return no_frame(statistics);
     if (stages_) team_->dismiss(); // the SPEs get other programs
@@ -149,8 +149,8 @@ private:
   }
 
   /// What the frame block says of a scene whose image is there.
-  void enter_scene() {
-    set_scene(frame_, scene_, options_, image_);
+  void enter_scene(const Scene& scene) {
+    set_scene(frame_, scene, options_, image_);
     // A tree of n levels needs n + 1 nodes; straight transmission may add some that cost no level.
     const std::uint32_t nodes = frame_.max_trace_level + 32;
     if (nodes == frame_.ray_stack_nodes) return;
@@ -160,7 +160,7 @@ private:
   }
 
   RenderResult render_frame(const Camera& camera, RenderStatistics& statistics, const Progress& progress) {
-    set_camera(frame_, camera, scene_, image_);
+    set_camera(frame_, camera, media_, image_);
     ++frame_.epoch;
     // A frame that nobody can break off leaves no pixel out.
     if (progress) std::memset(surface_.data(), 0, surface_.size());
@@ -208,8 +208,8 @@ private:
   }
 
   RenderOptions options_;
-  Scene scene_;
   SceneImage image_;
+  std::vector<Medium> media_;
   bool has_scene_ = false; ///< and an accelerator for it
   // Everything from here to the machine is read and written by the SPEs.
   AlignedBlock surface_, reports_, ray_stack_;

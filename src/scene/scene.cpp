@@ -35,32 +35,40 @@ bool all_finite(const std::vector<Vec3f>& vectors) {
   return carries >> 31 == 0;
 }
 
-template <class Number> void check_finite(std::initializer_list<Number> values, const std::string& what) {
+/// What is checked; put into words only for an error.
+struct Name {
+  const char* what;
+  std::size_t index = kNoNumber; ///< one of many
+  const char* part = "";
+
+  static constexpr std::size_t kNoNumber = std::numeric_limits<std::size_t>::max();
+  std::string text() const {
+    return what + (index == kNoNumber ? std::string() : ' ' + std::to_string(index)) + part;
+  }
+};
+
+template <class Number> void check_finite(std::initializer_list<Number> values, const Name& name) {
   for (const Number& value : values)
-    if (!std::isfinite(value)) throw InputError(what + " has a number that is not finite");
+    if (!std::isfinite(value)) throw InputError(name.text() + " has a number that is not finite");
 }
 
-template <class Vector> void check_vectors(std::initializer_list<Vector> values, const std::string& what) {
+template <class Vector> void check_vectors(std::initializer_list<Vector> values, const Name& name) {
   for (const Vector& value : values)
-    if (!is_finite(value)) throw InputError(what + " has a number that is not finite");
+    if (!is_finite(value)) throw InputError(name.text() + " has a number that is not finite");
 }
 
-std::string nth(const char* what, std::size_t index) {
-  return std::string(what) + ' ' + std::to_string(index);
-}
-
-void check(const Material& material, const std::string& what) {
+void check(const Material& material, const Name& name) {
   const Finish& f = material.finish;
-  check_vectors({material.pigment.rgb, f.ambient, f.emission, f.reflection_min, f.reflection_max}, what);
+  check_vectors({material.pigment.rgb, f.ambient, f.emission, f.reflection_min, f.reflection_max}, name);
   check_finite({material.pigment.filter, material.pigment.transmit, f.diffuse, f.brilliance, f.phong,
                 f.phong_size, f.specular, f.roughness, f.metallic, f.reflection_falloff,
                 f.reflection_exponent, f.reflection_metallic},
-               what);
+               name);
 }
 
-void check_index(Index index, std::size_t count, const std::string& what) {
+void check_index(Index index, std::size_t count, const Name& name) {
   if (index >= count)
-    throw InputError(what + ": index " + std::to_string(index) + " is out of range, there are " +
+    throw InputError(name.text() + ": index " + std::to_string(index) + " is out of range, there are " +
                      std::to_string(count));
 }
 
@@ -78,29 +86,29 @@ bool is_sound(const Mesh& mesh, const Mesh::Triangle& triangle, std::size_t mate
   return sound;
 }
 
-void check_mesh(const Mesh& mesh, std::size_t materials, const std::string& what) {
+void check_mesh(const Mesh& mesh, std::size_t materials, const Name& name) {
   if (mesh.vertices.size() > kMostEntries || mesh.normals.size() > kMostEntries ||
       mesh.triangles.size() > kMostEntries)
-    throw InputError(what + " has more entries than 32 bits can count");
+    throw InputError(name.text() + " has more entries than 32 bits can count");
   if (!all_finite(mesh.vertices) || !all_finite(mesh.normals))
-    throw InputError(what + " has a number that is not finite");
+    throw InputError(name.text() + " has a number that is not finite");
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
     if (!is_sound(mesh, mesh.triangles[i], materials))
-      throw InputError(what + nth(", triangle", i) + " has an index that is out of range");
+      throw InputError(name.text() + Name{", triangle", i}.text() + " has an index that is out of range");
 }
 
 void check_object(const Scene& scene, std::size_t index) {
   const Object& object = scene.objects[index];
-  const std::string what = nth("object", index);
-  check_index(object.material, scene.materials.size(), what + ", material");
-  check_index(object.interior, scene.interiors.size(), what + ", interior");
+  const Name name = {"object", index};
+  check_index(object.material, scene.materials.size(), {"object", index, ", material"});
+  check_index(object.interior, scene.interiors.size(), {"object", index, ", interior"});
   const Vec3(&rows)[4] = object.transform.rows;
-  check_vectors({rows[0], rows[1], rows[2], rows[3]}, what);
+  check_vectors({rows[0], rows[1], rows[2], rows[3]}, name);
   if (const Sphere* sphere = std::get_if<Sphere>(&object.shape)) {
-    check_vectors({sphere->centre}, what);
-    check_finite({sphere->radius}, what);
+    check_vectors({sphere->centre}, name);
+    check_finite({sphere->radius}, name);
   } else if (!std::get<1>(object.shape)) {
-    throw InputError(what + " has no mesh");
+    throw InputError(name.text() + " has no mesh");
   }
 }
 
@@ -109,7 +117,7 @@ void check_meshes(const Scene& scene) {
   std::unordered_set<const Mesh*> seen;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&scene.objects[i].shape);
-    if (mesh && seen.insert(mesh->get()).second) check_mesh(**mesh, scene.materials.size(), nth("object", i));
+    if (mesh && seen.insert(mesh->get()).second) check_mesh(**mesh, scene.materials.size(), {"object", i});
   }
 }
 
@@ -126,23 +134,23 @@ Index Scene::add(const Interior& interior) {
 }
 
 void validate(const Camera& camera) {
-  check_vectors({camera.location, camera.direction, camera.right, camera.up}, "the camera");
+  check_vectors({camera.location, camera.direction, camera.right, camera.up}, {"the camera"});
 }
 
 void validate(const Scene& scene) {
   validate(scene.camera);
-  check_vectors({scene.background}, "the background");
-  check_vectors({scene.ambient_light}, "the ambient light");
-  check_finite({scene.assumed_gamma, scene.version, scene.adc_bailout}, "the scene");
+  check_vectors({scene.background}, {"the background"});
+  check_vectors({scene.ambient_light}, {"the ambient light"});
+  check_finite({scene.assumed_gamma, scene.version, scene.adc_bailout}, {"the scene"});
   if (scene.objects.size() > kMostEntries || scene.materials.size() > kMostEntries ||
       scene.interiors.size() > kMostEntries)
     throw InputError("the scene has more entries than 32 bits can count");
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
-    check_vectors({scene.lights[i].location, scene.lights[i].colour}, nth("light", i));
+    check_vectors({scene.lights[i].location, scene.lights[i].colour}, {"light", i});
   for (std::size_t i = 0; i < scene.materials.size(); ++i)
-    check(scene.materials[i], nth("material", i));
+    check(scene.materials[i], {"material", i});
   for (std::size_t i = 0; i < scene.interiors.size(); ++i)
-    check_finite({scene.interiors[i].ior}, nth("interior", i));
+    check_finite({scene.interiors[i].ior}, {"interior", i});
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
     check_object(scene, i);
   check_meshes(scene);
