@@ -44,34 +44,49 @@ public:
       : objects_(objects), waits_(Spu::direct_memory && frame.object_count > kObjectsAtHand),
         takes_turns_(Spu::direct_memory && frame.far_nodes != 0) {}
 
-  Stack& stack() { return stacks_[0]; }
+  Stack& stack() { return places_[0].stack; }
   /// Whether walk_in_turn() is quicker than one walk after the other.
   bool takes_turns() const { return takes_turns_; }
 
   /// The rays of a visit go to the objects of its branch.
   void walk(const Visit& visit, const BoxSides& sides) {
-    Walk walk;
-    begin(walk, visit, 0);
-    do {
-      go_on(walk, sides);
-    } while (!walk.at_end);
+    const RayGroup<S>& group = *visit.group;
+    Search& search = *visit.search;
+    const uint32_t lanes = visit.lanes;
+    Branch branch = visit.branch;
+    Place& place = places_[0];
+    const uint32_t floor = place.stack.size();
+    Course course = begin(place, visit, floor);
+    for (;;) {
+      if (branch.is_leaf()) {
+        meet(place, course, branch, search);
+      } else {
+        if (open(place, course, group.rays, sides, search, branch)) continue;
+        if (place.waiting_count >= kEnoughWaiting) test_waiting(place, course, search);
+      }
+      if (!take_next(place, course, {&group.beam, lanes, floor, 0.0f}, search, branch)) break;
+    }
+    test_waiting(place, course, search);
+    place.stack.shrink(floor);
   }
+
   /// The same of several visits, by a packet each: while a node that one of them needs is on its way, others
   /// go on.
   void walk_in_turn(const Visit* visits, uint32_t count, const BoxSides& sides) {
-    Walk walks[kMostInTurn];
-    uint32_t packets[kMostInTurn];
+    Turn turns[kMostInTurn];
     for (uint32_t i = 0; i < count; ++i) {
-      packets[i] = objects_.mailbox().begin_packet();
-      begin(walks[i], visits[i], i);
+      Place& place = places_[i];
+      if (i != 0) place.stack.shrink(0);
+      const uint32_t floor = place.stack.size();
+      const uint32_t packet = objects_.mailbox().begin_packet();
+      turns[i] = {visits[i], begin(place, visits[i], floor), floor, packet};
     }
     uint32_t walking = (1u << count) - 1;
     while (walking != 0)
       for (uint32_t left = walking; left != 0; left &= left - 1) {
         const auto i = static_cast<uint32_t>(__builtin_ctz(left));
-        objects_.mailbox().resume_packet(packets[i]);
-        go_on(walks[i], sides);
-        if (walks[i].at_end) walking &= ~(1u << i);
+        objects_.mailbox().resume_packet(turns[i].packet);
+        if (!go_on(places_[i], turns[i], sides)) walking &= ~(1u << i);
       }
   }
 
@@ -98,6 +113,7 @@ private:
     uint32_t group, floor;
     float limit;
   };
+
   /// A leaf that the rays in `group` have met.
   struct Waiting {
     Branch leaf;
@@ -106,105 +122,120 @@ private:
   static constexpr uint32_t kMostWaiting = Spu::direct_memory ? 8 : 1;
   static constexpr uint32_t kEnoughWaiting = kMostWaiting / 2; // measured
 
-  struct Walk {
-    Visit visit; ///< its branch is the next one
-    Course whole, course;
-    Stack* stack;
-    Waiting* waiting;
-    uint32_t waiting_count;
-    Beam<S>* single; ///< of a ray that goes alone
-    bool at_end;
+  /// What a walk needs for itself.
+  struct Place {
+    Stack stack;
+    Waiting waiting[kMostWaiting];
+    uint32_t waiting_count = 0;
+    Beam<S> single; ///< of a ray that goes alone
   };
 
-  void begin(Walk& walk, const Visit& visit, uint32_t turn) {
-    Stack& stack = stacks_[turn];
-    if (turn != 0) stack.shrink(0);
-    const Course whole = {&visit.group->beam, visit.lanes, stack.size(),
-                          limit_of(*visit.search, visit.lanes)};
-    walk = {visit, whole, whole, &stack, waiting_[turn], 0, &single_[turn], false};
-    if (is_single(visit.met) && !is_single(visit.lanes)) go_alone(walk, visit.met);
+  /// A walk that is not at its end.
+  struct Turn {
+    Visit visit; ///< its branch is the next one
+    Course course;
+    uint32_t floor, packet; ///< `packet`: for the mailbox
+  };
+
+  Course begin(Place& place, const Visit& visit, uint32_t floor) {
+    Course course = {&visit.group->beam, visit.lanes, floor, limit_of(*visit.search, visit.lanes)};
+    if (is_single(visit.met) && !is_single(visit.lanes)) go_alone(place, course, visit.met, *visit.search);
+    return course;
   }
 
-  /// Until a node is needed that was asked for just now, or to the end.
-  void go_on(Walk& walk, const BoxSides& sides) {
+  /// As walk(), until a node is needed that was asked for just now, or to the end, which returns false.
+  bool go_on(Place& place, Turn& turn, const BoxSides& sides) {
+    Visit& visit = turn.visit;
+    Course& course = turn.course;
+    Search& search = *visit.search;
     for (;;) {
-      bool pushed = false;
-      if (walk.visit.branch.is_leaf()) {
-        meet(walk);
+      const uint32_t size = place.stack.size();
+      if (visit.branch.is_leaf()) {
+        meet(place, course, visit.branch, search);
       } else {
-        const uint32_t size = walk.stack->size();
-        if (open(walk, sides)) return;
-        pushed = walk.stack->size() != size;
-        if (walk.waiting_count >= kEnoughWaiting) test_waiting(walk);
+        if (open(place, course, visit.group->rays, sides, search, visit.branch)) {
+          objects_.scene().hint(visit.branch);
+          return true;
+        }
+        if (place.waiting_count >= kEnoughWaiting) test_waiting(place, course, search);
       }
-      if (!take_next(walk)) break;
-      if (pushed) return;
+      const bool pushed = place.stack.size() > size;
+      if (!take_next(place, course, {&visit.group->beam, visit.lanes, turn.floor, 0.0f}, search,
+                     visit.branch))
+        break;
+      if (pushed) return true;
     }
-    test_waiting(walk);
-    walk.stack->shrink(walk.whole.floor);
-    walk.at_end = true;
+    test_waiting(place, course, search);
+    place.stack.shrink(turn.floor);
+    return false;
   }
 
   /// Takes a branch that is still to be visited off the stack; false if there is none. A node that only one
-  /// of all rays meets is for that ray alone, which misses more of it than the beam; the others go on when
-  /// nothing is left above what was waiting for them.
-  bool take_next(Walk& walk) {
-    Course& course = walk.course;
-    const Search& search = *walk.visit.search;
-    const uint32_t lanes = walk.visit.lanes;
+  /// of the rays of `whole` meets is for that ray alone, which misses more of it than the beam; the others go
+  /// on when nothing is left above what was waiting for them.
+  bool take_next(Place& place, Course& course, const Course& whole, const Search& search, Branch& branch) {
+    const uint32_t lanes = whole.group;
     for (;;) {
-      if (walk.stack->size() == course.floor) {
+      if (place.stack.size() == course.floor) {
         if (course.group == lanes || (search.lanes & lanes) == 0) return false;
-        course = walk.whole;
+        course = whole;
         course.limit = limit_of(search, lanes);
         continue;
       }
-      const typename Stack::Entry& next = walk.stack->pop();
+      const typename Stack::Entry& next = place.stack.pop();
       if (next.enter > course.limit || (next.lanes & search.lanes) == 0) continue;
       if (!next.branch.is_leaf() && is_single(next.lanes) && course.group == lanes && !is_single(lanes)) {
         if (next.enter > limit_of(search, next.lanes)) continue;
-        go_alone(walk, next.lanes);
+        go_alone(place, course, next.lanes, search);
       }
-      walk.visit.branch = next.branch;
+      branch = next.branch;
       return true;
     }
   }
 
   /// One ray goes on without the others.
-  void go_alone(Walk& walk, uint32_t ray) {
-    const Search& search = *walk.visit.search;
+  void go_alone(Place& place, Course& course, uint32_t ray, const Search& search) {
+    if constexpr (Spu::direct_memory)
+      set_alone(place, course, ray, search);
+    else
+      set_alone_elsewhere(place, course, ray, search);
+  }
+  [[gnu::always_inline]] void set_alone(Place& place, Course& course, uint32_t ray, const Search& search) {
     const uint32_t lane = static_cast<uint32_t>(__builtin_ctz(ray));
-    walk.single->set(bounds_of_ray(*search.rays, lane), octant_of(*search.rays, lane));
-    walk.course = {walk.single, ray, walk.stack->size(), limit_of(search, ray)};
+    place.single.set(bounds_of_ray(*search.rays, lane), octant_of(*search.rays, lane));
+    course = {&place.single, ray, place.stack.size(), limit_of(search, ray)};
+  }
+  /// One copy: local store is short.
+  [[gnu::noinline]] void set_alone_elsewhere(Place& place, Course& course, uint32_t ray,
+                                             const Search& search) {
+    set_alone(place, course, ray, search);
   }
 
   /// The objects of a leaf are tested at once; where memory is direct and far away, with those of a few
   /// leaves more when a node was opened: they arrive meanwhile, and that node's children arrive while they
   /// are tested.
-  void meet(Walk& walk) {
-    const Branch& leaf = walk.visit.branch;
+  void meet(Place& place, Course& course, const Branch& leaf, Search& search) {
     if (!Spu::direct_memory || !waits_) {
-      test_objects(leaf, walk.course.group, *walk.visit.search);
-      take_results(walk);
+      test_objects(leaf, course.group, search);
+      take_results(place, course, search);
     } else {
-      if (walk.waiting_count == kMostWaiting) test_waiting(walk);
+      if (place.waiting_count == kMostWaiting) test_waiting(place, course, search);
       objects_.scene().hint(leaf);
-      walk.waiting[walk.waiting_count++] = {leaf, walk.course.group};
+      place.waiting[place.waiting_count++] = {leaf, course.group};
     }
   }
-  void test_waiting(Walk& walk) {
-    if (!Spu::direct_memory || walk.waiting_count == 0) return;
-    for (uint32_t i = 0; i < walk.waiting_count; ++i)
-      test_objects(walk.waiting[i].leaf, walk.waiting[i].group, *walk.visit.search);
-    walk.waiting_count = 0;
-    take_results(walk);
+  void test_waiting(Place& place, Course& course, Search& search) {
+    if (!Spu::direct_memory || place.waiting_count == 0) return;
+    for (uint32_t i = 0; i < place.waiting_count; ++i)
+      test_objects(place.waiting[i].leaf, place.waiting[i].group, search);
+    place.waiting_count = 0;
+    take_results(place, course, search);
   }
-  void take_results(Walk& walk) {
-    const Search& search = *walk.visit.search;
+  void take_results(Place& place, Course& course, const Search& search) {
     if (search.hits != nullptr)
-      walk.course.limit = limit_of(search, walk.course.group);
-    else if ((search.lanes & walk.course.group) == 0)
-      walk.stack->shrink(walk.course.floor);
+      course.limit = limit_of(search, course.group);
+    else if ((search.lanes & course.group) == 0)
+      place.stack.shrink(course.floor);
   }
 
   void test_objects(const Branch& leaf, uint32_t group, Search& search) {
@@ -224,12 +255,10 @@ private:
     });
   }
 
-  /// Opens the node that is next. If one child is met, that one is next, and it returns true; if several,
-  /// they go on the stack.
-  bool open(Walk& walk, const BoxSides& sides) {
-    const Course& course = walk.course;
-    const Search& search = *walk.visit.search;
-    Branch& branch = walk.visit.branch;
+  /// Opens the node at `branch`. If one child is met, goes on there and returns true; if several, they go on
+  /// the stack.
+  bool open(Place& place, const Course& course, const OctantRays<S>& rays, const BoxSides& sides,
+            const Search& search, Branch& branch) {
     objects_.scene().spu().compute(scalar_work::kNodeOfBoxes);
     ++objects_.counters().voxels;
     const NodeRecord& node = *objects_.scene().node(branch.child);
@@ -239,22 +268,20 @@ private:
     if (is_single(met)) {
       const uint32_t i = static_cast<uint32_t>(__builtin_ctz(met));
       branch = {node.child[i], node.leaf[i]};
-      if (takes_turns_) objects_.scene().hint(branch);
       return true;
     }
     const uint32_t group = course.group;
     const F each_limit = limits(search);
-    const uint32_t first = walk.stack->size();
+    const uint32_t first = place.stack.size();
     do {
       const uint32_t i = static_cast<uint32_t>(__builtin_ctz(met));
       met &= met - 1;
       // Looser than its rays, a beam may meet what passes between them.
-      const uint32_t lanes =
-          is_single(group) ? group : walk.visit.group->rays.meet(node.box, sides, i, each_limit) & group;
+      const uint32_t lanes = is_single(group) ? group : rays.meet(node.box, sides, i, each_limit) & group;
       if (lanes == 0) continue;
       const Branch child = {node.child[i], node.leaf[i]};
       objects_.scene().hint(child);
-      walk.stack->push(first, {child, lanes, enter[i], 0});
+      place.stack.push(first, {child, lanes, enter[i], 0});
     } while (met != 0);
     return false;
   }
@@ -262,10 +289,7 @@ private:
   ObjectTests<Spu>& objects_;
   const bool waits_; ///< leaves
   const bool takes_turns_;
-  // Of each walk in turn. Where one is in no turn, it takes the first.
-  Stack stacks_[kMostInTurn];
-  Waiting waiting_[kMostInTurn][kMostWaiting];
-  Beam<S> single_[kMostInTurn];
+  Place places_[kMostInTurn]; ///< the first is also that of a walk in no turn
 };
 
 } // namespace celltrace::kernel
