@@ -143,7 +143,8 @@ private:
     return course;
   }
 
-  /// As walk(), until a node is needed that was asked for just now, or to the end, which returns false.
+  /// As walk(), until a node is needed that was asked for just now, or to the end, which returns false. A
+  /// loop of its own: walk()'s state would not stay in registers if it could be left and taken up again.
   bool go_on(Place& place, Turn& turn, const BoxSides& sides) {
     Visit& visit = turn.visit;
     Course& course = turn.course;

@@ -131,19 +131,10 @@ void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& optio
 
 std::vector<Medium> media_of(const Scene& scene) {
   if (std::none_of(scene.materials.begin(), scene.materials.end(), asks_for_interiors)) return {};
-  std::vector<std::pair<double, Medium>> by_volume;
-  for (const Object& object : scene.objects) {
-    const auto* sphere = std::get_if<Sphere>(&object.shape);
-    if (sphere == nullptr || sphere->radius == 0) continue;
-    const double volume = std::abs(object.transform.determinant()) * std::pow(std::abs(sphere->radius), 3);
-    by_volume.push_back({volume, {*sphere, object.transform, object.interior}});
-  }
-  std::sort(by_volume.begin(), by_volume.end(), [](const auto& a, const auto& b) {
-    return std::pair(a.first, a.second.interior) > std::pair(b.first, b.second.interior);
-  });
   std::vector<Medium> media;
-  for (const auto& [volume, medium] : by_volume)
-    media.push_back(medium);
+  for (const Object& object : scene.objects)
+    if (const auto* sphere = std::get_if<Sphere>(&object.shape); sphere != nullptr && sphere->radius != 0)
+      media.push_back({*sphere, object.transform, object.interior});
   return media;
 }
 
@@ -159,14 +150,19 @@ void set_camera(FrameBlock& frame, const Camera& camera, const std::vector<Mediu
   store(camera.right / w, frame.camera.dx);
   store(-camera.up / h, frame.camera.dy);
 
-  std::vector<std::uint32_t> around;
-  for (const Medium& medium : media)
-    if (is_inside(medium, camera.location))
-      around.push_back(image.header().interior_offset +
-                       medium.interior * static_cast<std::uint32_t>(sizeof(InteriorRecord)));
+  std::vector<std::pair<double, std::uint32_t>> around;
+  for (const Medium& medium : media) {
+    if (!is_inside(medium, camera.location)) continue;
+    const double radius = std::abs(medium.sphere.radius);
+    around.emplace_back(std::abs(medium.transform.determinant()) * radius * radius * radius,
+                        image.header().interior_offset +
+                            medium.interior * static_cast<std::uint32_t>(sizeof(InteriorRecord)));
+  }
+  std::sort(around.begin(), around.end(), std::greater<>());
   const std::size_t kept = std::min<std::size_t>(around.size(), kMaxInteriorDepth);
   frame.camera_interior_count = static_cast<std::uint32_t>(kept);
-  std::copy(around.end() - static_cast<std::ptrdiff_t>(kept), around.end(), frame.camera_interiors);
+  for (std::size_t i = 0; i < kept; ++i)
+    frame.camera_interiors[i] = around[around.size() - kept + i].second;
 }
 
 GridRecord choose_grid(const ImageHeader& header) {

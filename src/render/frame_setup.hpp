@@ -24,7 +24,7 @@ struct Medium {
   Transform transform;
   Index interior;
 };
-/// The largest first. None where no material asks what a ray is in.
+/// All of a scene's; none where no material asks what a ray is in.
 std::vector<Medium> media_of(const Scene& scene);
 /// Fills the camera, and the interiors of the media of the scene that it is inside of.
 void set_camera(kernel::FrameBlock& frame, const Camera& camera, const std::vector<Medium>& media,
