@@ -1,0 +1,215 @@
+// What every SPU of the machine is made of, whatever executes its program: the channels, the parameters of
+// the next MFC command, the decrementer, and the SPE's virtual clock.
+//
+// Who executes the program charges what computing and the accesses themselves take; from then on everything
+// here happens at now().
+#pragma once
+
+#include "backends/cell_emu/channels.hpp"
+#include "backends/cell_emu/decrementer.hpp"
+#include "backends/cell_emu/scheduler.hpp"
+
+#include <type_traits>
+
+namespace celltrace::cell_emu {
+
+/// What the SPUs of a machine share.
+struct SpuContext {
+  const MfcContext& mfc;
+  Scheduler& scheduler;
+};
+
+/// One run of a program on one SPE. Thread safety: belongs to the thread that runs the SPE.
+///
+/// A stall, or a poll that finds a count of 0, throws SpeError when the SPE has been interrupted; a broken
+/// rule whose action is to stop throws RuleViolation.
+class SpuCore {
+public:
+  SpuCore(Spe& spe, const SpuContext& context);
+  SpuCore(const SpuCore&) = delete;
+  SpuCore& operator=(const SpuCore&) = delete;
+
+  std::uint32_t id() const { return spe_.id; }
+
+  /// Thrown by stop_with() for one of the exit codes.
+  struct Exit {
+    std::uint32_t code;
+  };
+
+protected:
+  ~SpuCore() = default;
+
+  // --- channels ---
+
+  template <Channel c> std::uint32_t channel_read();
+  template <Channel c> void channel_write(std::uint32_t value);
+  /// A channel that does not exist has the count 0.
+  template <Channel c> std::uint32_t channel_count_of();
+  // The same by number; one that does not exist in this direction ends the program.
+  std::uint32_t channel_read(unsigned channel);
+  void channel_write(unsigned channel, std::uint32_t value);
+  std::uint32_t channel_count_of(unsigned channel);
+  /// All of a command at once, for who need not write its parameters channel by channel.
+  void issue_command(const MfcCommand& command);
+
+  // --- run control ---
+
+  /// Returns when the PPE has resumed the program; throws Exit for a code that ends it.
+  void stop_with(std::uint32_t code);
+  [[noreturn]] void fail(Rule rule, const std::string& what);
+  /// The program is over: completes what is queued and looks for what it left undone.
+  void finish();
+  /// The program is over or was broken off: leaves its time to the SPE.
+  void leave();
+
+  // --- virtual time ---
+
+  Cycle now() const { return now_; }
+  /// Adds cycles in which the SPU was busy, or was kept from it by its own pipelines; and what faults make of
+  /// them.
+  void spend(SpuCycles cycles);
+  /// Adds cycles of accesses to channels.
+  void spend_on_channels(const SpuCycles& cycles) {
+    now_ += cycles.total_cycle;
+    cycles_ += cycles;
+  }
+  /// The pauses that the configuration asks for at accesses to channels.
+  void inject_faults();
+  /// The SPU has stood still until `until`.
+  void waited(Cycle until, const char* what);
+  /// Makes the cycles so far visible to the PPE's statistics.
+  void publish_cycles() { counters_.cycles.publish(cycles_); }
+  /// Before an access to a channel that others can notice.
+  void reach() { context_.scheduler.reach(spe_, now_); }
+  void update_decrementer();
+
+  Spe& spe_;
+  const SpuContext context_;
+  Mfc& mfc_;
+  ProblemState& state_;
+  Counters& counters_;
+  CallSite site_; ///< of the operation that is under way
+  std::uint32_t srr0_ = 0;
+  bool interrupts_enabled_ = false;
+
+private:
+  void spend_on_fault(std::uint64_t cycles);
+  void command_word(std::uint32_t word);
+  std::uint32_t read_in_mailbox_channel();
+  std::uint32_t read_signal_channel(Signal which);
+  std::uint32_t event_status_channel();
+  std::uint32_t decrementer();
+  void start_decrementer(std::uint32_t value);
+  void event_ack_channel(std::uint32_t events);
+  Cycle decrementer_deadline() const;
+
+  /// Waits until channel `c` has a count.
+  template <Channel c> void await();
+  void await_other(Channel channel);
+  void await_mfc(Channel channel);
+  template <Channel c> std::uint32_t present_count();
+
+  static constexpr std::uint64_t kUnit = 65536;
+
+  SeededRandom random_;
+  MfcCommand parameters_{}; ///< channels 16..21 keep what was written
+  unsigned written_parameters_ = 0;
+  Decrementer decrementer_;
+  bool phantom_ = false; ///< the last event status was 0
+
+  SpuCycles cycles_; ///< since the machine was made
+  Cycle now_;
+  Cycle computing_since_;          ///< for the trace
+  std::uint64_t slowness_ = kUnit; ///< what faults make of a cycle of work, in 1/65536
+};
+
+template <Channel c> void SpuCore::await() {
+  if (present_count<c>() != 0) return;
+  if (belongs_to_mfc(c))
+    await_mfc(c);
+  else
+    await_other(c);
+}
+
+template <Channel c> std::uint32_t SpuCore::channel_read() {
+  static_assert(is_readable(c), "no such channel, or it cannot be read");
+  if constexpr (may_stall(c)) {
+    reach();
+    await<c>();
+  }
+  if constexpr (c == Channel::rd_event_stat) return event_status_channel();
+  if constexpr (c == Channel::rd_sig_notify_1) return read_signal_channel(Signal::one);
+  if constexpr (c == Channel::rd_sig_notify_2) return read_signal_channel(Signal::two);
+  if constexpr (c == Channel::rd_dec) return decrementer();
+  if constexpr (c == Channel::rd_event_mask) return state_.event_mask();
+  if constexpr (c == Channel::rd_tag_mask) return mfc_.tag_mask();
+  if constexpr (c == Channel::rd_mach_stat) return interrupts_enabled_ ? 1 : 0; // not isolated
+  if constexpr (c == Channel::rd_srr0) return srr0_;
+  if constexpr (c == Channel::rd_tag_stat) return mfc_.take_tag_status(now_);
+  if constexpr (c == Channel::rd_list_stall_stat) return mfc_.take_list_stall_status(now_);
+  if constexpr (c == Channel::rd_atomic_stat) return mfc_.take_atomic_status();
+  if constexpr (c == Channel::rd_in_mbox) return read_in_mailbox_channel();
+}
+
+template <Channel c> void SpuCore::channel_write(std::uint32_t value) {
+  static_assert(exists(c) && !is_readable(c), "no such channel, or it cannot be written");
+  constexpr bool visible = may_stall(c) || c == Channel::wr_event_mask || c == Channel::wr_event_ack ||
+                           c == Channel::wr_ms_sync_req || c == Channel::wr_tag_mask ||
+                           c == Channel::wr_tag_update || c == Channel::wr_list_stall_ack;
+  if constexpr (visible && c != Channel::mfc_cmd) {
+    reach();
+    await<c>();
+  }
+  if constexpr (c == Channel::wr_event_mask) state_.write_event_mask(value);
+  if constexpr (c == Channel::wr_event_ack) event_ack_channel(value);
+  if constexpr (c == Channel::wr_dec) start_decrementer(value);
+  // What other SPEs have queued has not started, so nothing is on its way to this SPE.
+  if constexpr (c == Channel::wr_ms_sync_req) state_.raise_own(event::multi_source_sync);
+  if constexpr (c == Channel::wr_srr0) srr0_ = value;
+  if constexpr (c == Channel::mfc_lsa) parameters_.lsa = value;
+  if constexpr (c == Channel::mfc_eah) parameters_.ea = (ea_t{value} << 32) | (parameters_.ea & 0xFFFFFFFF);
+  if constexpr (c == Channel::mfc_eal) parameters_.ea = (parameters_.ea & ~ea_t{0xFFFFFFFF}) | value;
+  if constexpr (c == Channel::mfc_size) parameters_.size = value;
+  if constexpr (c == Channel::mfc_tag_id) parameters_.tag = value;
+  if constexpr (c >= Channel::mfc_lsa && c <= Channel::mfc_tag_id)
+    written_parameters_ |= 1u << static_cast<unsigned>(c);
+  if constexpr (c == Channel::mfc_cmd) command_word(value);
+  if constexpr (c == Channel::wr_tag_mask) mfc_.write_tag_mask(value);
+  if constexpr (c == Channel::wr_tag_update) mfc_.write_tag_update(value, site_, now_);
+  if constexpr (c == Channel::wr_list_stall_ack) mfc_.acknowledge_list_stall(value, site_, now_);
+  if constexpr (c == Channel::wr_out_mbox) {
+    publish_cycles();
+    state_.write_out_mailbox(value, now_);
+    counters_.mailbox_words_sent.add(1);
+    context_.scheduler.ring();
+  }
+  if constexpr (c == Channel::wr_out_intr_mbox) {
+    publish_cycles();
+    state_.write_out_interrupt_mailbox(value, now_);
+    counters_.mailbox_words_sent.add(1);
+    context_.scheduler.ring();
+  }
+}
+
+template <Channel c> std::uint32_t SpuCore::present_count() {
+  if constexpr (c == Channel::mfc_cmd) return mfc_.free_entries();
+  if constexpr (c == Channel::rd_tag_stat) return mfc_.tag_status_available() ? 1 : 0;
+  if constexpr (c == Channel::rd_list_stall_stat) return mfc_.list_stall_status_available() ? 1 : 0;
+  if constexpr (c == Channel::rd_atomic_stat)
+    return mfc_.atomic_status_available() && mfc_.atomic_status_time() <= now_ ? 1 : 0;
+  if constexpr (!exists(c)) return 0;
+  return state_.count(c);
+}
+
+template <Channel c> std::uint32_t SpuCore::channel_count_of() {
+  if constexpr (may_stall(c)) {
+    reach();
+    if constexpr (c == Channel::rd_event_stat) update_decrementer();
+    const std::uint32_t count = present_count<c>();
+    if (count == 0 && state_.interrupted()) state_.stop_at(c);
+    return count;
+  }
+  return present_count<c>();
+}
+
+} // namespace celltrace::cell_emu
