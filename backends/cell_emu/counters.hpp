@@ -28,38 +28,18 @@ private:
 class CycleCounters {
 public:
   void publish(const SpuCycles& cycles) {
-    for (std::size_t i = 0; i < std::size(kFields); ++i)
-      counters_[i].set(cycles.*kFields[i]);
+    for (std::size_t i = 0; i < std::size(kSpuCycleCounts); ++i)
+      counters_[i].set(cycles.*kSpuCycleCounts[i].second);
   }
   SpuCycles value() const {
     SpuCycles cycles;
-    for (std::size_t i = 0; i < std::size(kFields); ++i)
-      cycles.*kFields[i] = counters_[i].value();
+    for (std::size_t i = 0; i < std::size(kSpuCycleCounts); ++i)
+      cycles.*kSpuCycleCounts[i].second = counters_[i].value();
     return cycles;
   }
 
 private:
-  static constexpr std::uint64_t SpuCycles::*kFields[] = {
-      &SpuCycles::total_cycle,
-      &SpuCycles::single_cycle,
-      &SpuCycles::dual_cycle,
-      &SpuCycles::stall_due_to_dependency,
-      &SpuCycles::stall_due_to_branch_miss,
-      &SpuCycles::channel_stall_cycle,
-      &SpuCycles::stall_due_to_injection,
-      &SpuCycles::fx2,
-      &SpuCycles::fx3,
-      &SpuCycles::fxb,
-      &SpuCycles::fp6,
-      &SpuCycles::fp7,
-      &SpuCycles::ls,
-      &SpuCycles::shuf,
-      &SpuCycles::br,
-      &SpuCycles::spr,
-      &SpuCycles::branch_taken_miss,
-  };
-  static_assert(sizeof(SpuCycles) == sizeof(std::uint64_t) * std::size(kFields), "one entry per field");
-  Counter counters_[std::size(kFields)];
+  Counter counters_[std::size(kSpuCycleCounts)];
 };
 
 struct Counters {

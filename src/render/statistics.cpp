@@ -33,28 +33,6 @@ double imbalance_of(const RenderStatistics& s) {
   return imbalance<std::uint64_t>(loads);
 }
 
-/// Every count of SpuCycles by its name.
-constexpr std::pair<const char*, std::uint64_t SpuCycles::*> kCycleCounts[] = {
-    {"total_cycle", &SpuCycles::total_cycle},
-    {"single_cycle", &SpuCycles::single_cycle},
-    {"dual_cycle", &SpuCycles::dual_cycle},
-    {"stall_due_to_dependency", &SpuCycles::stall_due_to_dependency},
-    {"stall_due_to_branch_miss", &SpuCycles::stall_due_to_branch_miss},
-    {"channel_stall_cycle", &SpuCycles::channel_stall_cycle},
-    {"stall_due_to_injection", &SpuCycles::stall_due_to_injection},
-    {"fx2", &SpuCycles::fx2},
-    {"fx3", &SpuCycles::fx3},
-    {"fxb", &SpuCycles::fxb},
-    {"fp6", &SpuCycles::fp6},
-    {"fp7", &SpuCycles::fp7},
-    {"ls", &SpuCycles::ls},
-    {"shuf", &SpuCycles::shuf},
-    {"br", &SpuCycles::br},
-    {"spr", &SpuCycles::spr},
-    {"branch_taken_miss", &SpuCycles::branch_taken_miss},
-};
-static_assert(sizeof(SpuCycles) == std::size(kCycleCounts) * sizeof(std::uint64_t), "a count has no name");
-
 constexpr std::uint64_t SpeStatistics::*kTrafficCounts[] = {
     &SpeStatistics::dma_commands,      &SpeStatistics::dma_list_elements, &SpeStatistics::dma_bytes_read,
     &SpeStatistics::dma_bytes_written, &SpeStatistics::signals_sent,      &SpeStatistics::mailbox_words_sent,
@@ -115,7 +93,7 @@ nlohmann::ordered_json stages_json(const RenderStatistics::Stages& stages) {
 
 nlohmann::ordered_json cycles_json(const SpuCycles& cycles) {
   nlohmann::ordered_json json;
-  for (const auto& [name, count] : kCycleCounts)
+  for (const auto& [name, count] : kSpuCycleCounts)
     json[name] = cycles.*count;
   return json;
 }
@@ -146,7 +124,7 @@ std::vector<SpeStatistics> SpeMeter::read() const {
   for (std::size_t spe = 0; spe < spes.size(); ++spe) {
     for (const auto member : kTrafficCounts)
       spes[spe].*member -= start_[spe].*member;
-    for (const auto& [name, member] : kCycleCounts)
+    for (const auto& [name, member] : kSpuCycleCounts)
       spes[spe].cycles.*member -= start_[spe].cycles.*member;
   }
   return spes;

@@ -78,11 +78,8 @@ std::string text_of(const SpeStatistics& of) {
        {of.dma_commands, of.dma_list_elements, of.dma_bytes_read, of.dma_bytes_written, of.signals_sent,
         of.mailbox_words_sent, of.local_store_peak})
     text << n << ' ';
-  const SpuCycles& c = of.cycles;
-  for (const std::uint64_t n :
-       {c.total_cycle, c.single_cycle, c.dual_cycle, c.stall_due_to_dependency, c.stall_due_to_branch_miss,
-        c.channel_stall_cycle, c.stall_due_to_injection, c.instructions(), c.branch_taken_miss})
-    text << n << ' ';
+  for (const auto& [name, count] : kSpuCycleCounts)
+    text << of.cycles.*count << ' ';
   return text.str();
 }
 

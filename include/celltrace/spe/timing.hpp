@@ -1,4 +1,5 @@
-// The timing model of `cell_emu`: every number in one place. Results are a model's, not a machine's.
+// The timing model of `cell_emu` and `cell_sim`: every number in one place. Results are a model's, not a
+// machine's.
 //
 // Units are SPU cycles unless said otherwise. Sources: Kistler, Perrone, Petrini, "Cell Multiprocessor
 // Communication Network", IEEE Micro 2006 (290 cycles for a line from SPE to SPE, 25.6 GB/s a port); IBM Cell
@@ -6,7 +7,12 @@
 // miss).
 #pragma once
 
+#include <array>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
+#include <utility>
 
 namespace celltrace {
 
@@ -42,6 +48,17 @@ struct TimingParameters {
   std::uint32_t shuffle = 4;          ///< SHUF: shuffle, quadword rotate, estimates, gather
   std::uint32_t branch = 4;           ///< BR
   std::uint32_t branch_miss = 18;
+
+  // --- machine code: `cell_sim` ---
+  std::uint32_t double_operation = 13; ///< FPD, of which the first cycles keep both pipes from issuing
+  std::uint32_t double_issue_block = 6;
+  std::uint32_t hint_latency =
+      15; ///< from a hint until its target can be issued from; an earlier branch waits
+  std::uint32_t hint_distance = 8; ///< instructions from a hint to its branch; a closer one is not hinted
+  std::uint32_t fetch_miss = 9;    ///< the next 32 instructions were not fetched in time
+  std::uint32_t ppe_call = 20000;  ///< a call for help from the PPE: two system calls and a switch of context
+
+  // --- counted operations: `cell_emu` ---
   /// Part of the latency beyond the issue of an operation's own four quadwords that the code cannot fill.
   double exposed_latency = 0.3;
   /// Part of the taken branches that no hint foresees.
@@ -60,43 +77,91 @@ struct TimingParameters {
   }
 };
 
-/// Where the cycles of an SPE went, under the names of IBM's full-system simulator.
+/// Where the cycles of an SPE went, under the names of IBM's full-system simulator. `cell_emu` cannot see
+/// some of them, which are 0 there.
 struct SpuCycles {
+  /// The sum of all cycles and stalls that follow.
   std::uint64_t total_cycle = 0;
   std::uint64_t single_cycle = 0; ///< one instruction issued
   std::uint64_t dual_cycle = 0;   ///< two instructions issued
+  std::uint64_t nop_cycle = 0;    ///< nothing but no-ops issued
   std::uint64_t stall_due_to_dependency = 0;
   std::uint64_t stall_due_to_branch_miss = 0;
-  std::uint64_t channel_stall_cycle = 0;    ///< waits for DMA, mailboxes, signals and events
-  std::uint64_t stall_due_to_injection = 0; ///< of faults that the configuration asked for
+  std::uint64_t stall_due_to_prefetch_miss = 0; ///< instructions were not fetched in time
+  std::uint64_t stall_due_to_hint_target = 0;   ///< a hint came too late to be of full use
+  std::uint64_t stall_due_to_fp_resource = 0;   ///< a double precision operation kept both pipes
+  std::uint64_t stall_due_to_ls_contention = 0; ///< loads and stores against DMA
+  std::uint64_t channel_stall_cycle = 0;        ///< waits for DMA, mailboxes, signals and events
+  std::uint64_t stall_due_to_injection = 0;     ///< of faults that the configuration asked for
   // Instructions by unit.
-  std::uint64_t fx2 = 0, fx3 = 0, fxb = 0, fp6 = 0, fp7 = 0; ///< even pipe
-  std::uint64_t ls = 0, shuf = 0, br = 0, spr = 0;           ///< odd pipe; spr: channel instructions
-  std::uint64_t branch_taken_miss = 0;                       ///< mispredicted branches
+  std::uint64_t fx2 = 0, fx3 = 0, fxb = 0, fp6 = 0, fp7 = 0, fpd = 0; ///< even pipe
+  std::uint64_t ls = 0, shuf = 0, br = 0, hbr = 0, spr = 0;           ///< odd pipe; spr: channel instructions
+  std::uint64_t nop = 0;                                              ///< no-ops of both pipes
+  // Of stall_due_to_dependency: by the unit whose result was waited for.
+  std::uint64_t dependency_fx2 = 0, dependency_fx3 = 0, dependency_fxb = 0, dependency_fp6 = 0,
+                dependency_fp7 = 0, dependency_fpd = 0, dependency_ls = 0, dependency_shuf = 0,
+                dependency_br = 0, dependency_spr = 0;
+  std::uint64_t branch_taken = 0;      ///< branches that were taken
+  std::uint64_t branch_taken_miss = 0; ///< branches whose way neither a hint nor falling through foretold
+  std::uint64_t hint_hit = 0;          ///< branches that went where a hint said
 
-  std::uint64_t instructions() const { return fx2 + fx3 + fxb + fp6 + fp7 + ls + shuf + br + spr; }
+  /// Without no-ops.
+  std::uint64_t instructions() const {
+    return fx2 + fx3 + fxb + fp6 + fp7 + fpd + ls + shuf + br + hbr + spr;
+  }
   SpuCycles& operator+=(const SpuCycles& more);
 };
 
+/// Every count by its name.
+inline constexpr std::pair<const char*, std::uint64_t SpuCycles::*> kSpuCycleCounts[] = {
+    {"total_cycle", &SpuCycles::total_cycle},
+    {"single_cycle", &SpuCycles::single_cycle},
+    {"dual_cycle", &SpuCycles::dual_cycle},
+    {"nop_cycle", &SpuCycles::nop_cycle},
+    {"stall_due_to_dependency", &SpuCycles::stall_due_to_dependency},
+    {"stall_due_to_branch_miss", &SpuCycles::stall_due_to_branch_miss},
+    {"stall_due_to_prefetch_miss", &SpuCycles::stall_due_to_prefetch_miss},
+    {"stall_due_to_hint_target", &SpuCycles::stall_due_to_hint_target},
+    {"stall_due_to_fp_resource", &SpuCycles::stall_due_to_fp_resource},
+    {"stall_due_to_ls_contention", &SpuCycles::stall_due_to_ls_contention},
+    {"channel_stall_cycle", &SpuCycles::channel_stall_cycle},
+    {"stall_due_to_injection", &SpuCycles::stall_due_to_injection},
+    {"fx2", &SpuCycles::fx2},
+    {"fx3", &SpuCycles::fx3},
+    {"fxb", &SpuCycles::fxb},
+    {"fp6", &SpuCycles::fp6},
+    {"fp7", &SpuCycles::fp7},
+    {"fpd", &SpuCycles::fpd},
+    {"ls", &SpuCycles::ls},
+    {"shuf", &SpuCycles::shuf},
+    {"br", &SpuCycles::br},
+    {"hbr", &SpuCycles::hbr},
+    {"spr", &SpuCycles::spr},
+    {"nop", &SpuCycles::nop},
+    {"dependency_fx2", &SpuCycles::dependency_fx2},
+    {"dependency_fx3", &SpuCycles::dependency_fx3},
+    {"dependency_fxb", &SpuCycles::dependency_fxb},
+    {"dependency_fp6", &SpuCycles::dependency_fp6},
+    {"dependency_fp7", &SpuCycles::dependency_fp7},
+    {"dependency_fpd", &SpuCycles::dependency_fpd},
+    {"dependency_ls", &SpuCycles::dependency_ls},
+    {"dependency_shuf", &SpuCycles::dependency_shuf},
+    {"dependency_br", &SpuCycles::dependency_br},
+    {"dependency_spr", &SpuCycles::dependency_spr},
+    {"branch_taken", &SpuCycles::branch_taken},
+    {"branch_taken_miss", &SpuCycles::branch_taken_miss},
+    {"hint_hit", &SpuCycles::hint_hit},
+};
+static_assert(sizeof(SpuCycles) == std::size(kSpuCycleCounts) * sizeof(std::uint64_t), "a count has no name");
+
 inline SpuCycles& SpuCycles::operator+=(const SpuCycles& more) {
-  total_cycle += more.total_cycle;
-  single_cycle += more.single_cycle;
-  dual_cycle += more.dual_cycle;
-  stall_due_to_dependency += more.stall_due_to_dependency;
-  stall_due_to_branch_miss += more.stall_due_to_branch_miss;
-  channel_stall_cycle += more.channel_stall_cycle;
-  stall_due_to_injection += more.stall_due_to_injection;
-  fx2 += more.fx2;
-  fx3 += more.fx3;
-  fxb += more.fxb;
-  fp6 += more.fp6;
-  fp7 += more.fp7;
-  ls += more.ls;
-  shuf += more.shuf;
-  br += more.br;
-  spr += more.spr;
-  branch_taken_miss += more.branch_taken_miss;
-  return *this;
+  // As arrays, which the compiler adds up a vector at a time.
+  using Counts = std::array<std::uint64_t, std::size(kSpuCycleCounts)>;
+  Counts sums = std::bit_cast<Counts>(*this);
+  const Counts terms = std::bit_cast<Counts>(more);
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    sums[i] += terms[i];
+  return *this = std::bit_cast<SpuCycles>(sums);
 }
 
 } // namespace celltrace
