@@ -1,6 +1,7 @@
 # Compiles SPE programs for every SPU type of the build.
 #
-#   celltrace_spe_program(NAME SOURCE entry.cpp [CODE_BYTES n STACK_BYTES n] [LINK targets...])
+#   celltrace_spe_program(NAME SOURCE entry.cpp [CODE_BYTES n STACK_BYTES n]
+#     [SPU_HEADER kernel.hpp SPU_KERNEL qualified::function [SPU_ARENA bytes]] [LINK targets...])
 #
 # makes the static library celltrace_NAME_program. CODE_BYTES (with data) and STACK_BYTES are what the program takes of
 # a real SPE's local store; celltrace_spu_budget_test() of the same name holds them against the real build. The source says which kernel it is:
@@ -16,6 +17,9 @@
 #   CELLTRACE_SPU_NAME     an identifier for it, as in the lists below
 #
 # The library defines `celltrace::SpeProgram celltrace::NAME_program()` with all entries; its user declares it.
+#
+# SPU_HEADER and SPU_KERNEL say the same kernel to the real SPU's compiler: celltrace_spu_elf(NAME) makes an ELF of it,
+# which is the program's image for machines that execute machine code (`cell_sim`). Without that compiler there is none.
 
 # Per SPU type: its header, type, key and flags.
 set(CELLTRACE_SPUS "" CACHE INTERNAL "SPU types of this build")
@@ -56,7 +60,7 @@ endif()
 celltrace_spu_type(cell_emu HEADER backends/cell_emu/spu.hpp KEY cell_emu TYPE "celltrace::cell_emu::Spu")
 
 function(celltrace_spe_program name)
-  cmake_parse_arguments(PROGRAM "" "SOURCE;CODE_BYTES;STACK_BYTES" "LINK" ${ARGN})
+  cmake_parse_arguments(PROGRAM "" "SOURCE;CODE_BYTES;STACK_BYTES;SPU_HEADER;SPU_KERNEL;SPU_ARENA" "LINK" ${ARGN})
   set(local_store_use "")
   if(PROGRAM_CODE_BYTES)
     set(local_store_use "  program.takes({${PROGRAM_CODE_BYTES}, ${PROGRAM_STACK_BYTES}});\n")
@@ -80,6 +84,14 @@ function(celltrace_spe_program name)
     string(APPEND entries "  program.add(\"${CELLTRACE_SPU_${spu}_KEY}\", ${name}_${spu});\n")
     list(APPEND objects $<TARGET_OBJECTS:${object}>)
   endforeach()
+  set(image "")
+  if(PROGRAM_SPU_KERNEL AND CELLTRACE_SPU_GXX)
+    celltrace_spu_elf(${name} HEADER ${PROGRAM_SPU_HEADER} KERNEL ${PROGRAM_SPU_KERNEL} ARENA ${PROGRAM_SPU_ARENA})
+    celltrace_spu_elf_source(elf_source ${name})
+    list(APPEND objects ${elf_source})
+    string(APPEND declarations "std::span<const std::uint8_t> ${name}_elf();\n")
+    set(image "  program.add_image(\"cell_sim\", ${name}_elf());\n")
+  endif()
   set(source ${CMAKE_CURRENT_BINARY_DIR}/${name}_program.cpp)
   file(CONFIGURE OUTPUT ${source} @ONLY CONTENT [=[
 #include "celltrace/spe/program.hpp"
@@ -90,7 +102,7 @@ namespace celltrace {
 SpeProgram @name@_program();
 SpeProgram @name@_program() {
   SpeProgram program("@name@");
-@entries@@local_store_use@  return program;
+@entries@@image@@local_store_use@  return program;
 }
 
 } // namespace celltrace
@@ -98,4 +110,8 @@ SpeProgram @name@_program() {
   add_library(${library} STATIC ${source} ${objects})
   target_link_libraries(${library}
     PRIVATE celltrace_options PUBLIC celltrace_native celltrace_cell_emu ${PROGRAM_LINK})
+  if(image)
+    # Make would otherwise let both targets make the ELF at a time.
+    add_dependencies(${library} celltrace_spu_${name})
+  endif()
 endfunction()

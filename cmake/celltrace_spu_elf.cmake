@@ -1,21 +1,27 @@
 # Compiles kernels for the real SPU with CELLTRACE_SPU_GXX.
 #
-#   celltrace_spu_elf(NAME HEADER kernel.hpp KERNEL qualified::function [ARENA bytes] [INCLUDES directories...])
+#   celltrace_spu_elf(NAME HEADER kernel.hpp KERNEL qualified::function [ARENA bytes])
 #
 # makes the target celltrace_spu_NAME, part of `all`: NAME.elf, NAME.map (the linker's map, with the stack that every
-# function needs) and NAME.stack.txt in the current binary directory.
+# function needs) and NAME.stack.txt in the current binary directory. The header is looked for in the current source
+# directory too. The ELF names functions and lines; that is no part of what is loaded.
+#
+#   celltrace_spu_elf_source(VARIABLE NAME)
+#
+# sets VARIABLE to a C++ source, made when the ELF has been, that defines
+# `std::span<const std::uint8_t> celltrace::NAME_elf()`: its bytes. For a target of the same directory.
 #
 #   celltrace_spu_budget_test("test name" NAME)
 #
 # checks in CTest that code, data, arena and stack of NAME fit the local store together, and that they are not more than
-# celltrace_spe_program(NAME) says, if it says something. Without a compiler both do
+# celltrace_spe_program(NAME) says, if it says something. Without a compiler all of this does
 # nothing but to register a test that is skipped.
 
 # What stays of the 256 KB for code, data and stack is 144 KB.
 set(CELLTRACE_SPU_ARENA_BYTES 111744 CACHE STRING "Local store for the kernel's arena in programs for the real SPU")
 
 function(celltrace_spu_elf name)
-  cmake_parse_arguments(ELF "" "HEADER;KERNEL;ARENA" "INCLUDES" ${ARGN})
+  cmake_parse_arguments(ELF "" "HEADER;KERNEL;ARENA" "" ${ARGN})
   if(NOT CELLTRACE_SPU_GXX)
     return()
   endif()
@@ -23,15 +29,17 @@ function(celltrace_spu_elf name)
     set(ELF_ARENA ${CELLTRACE_SPU_ARENA_BYTES})
   endif()
   set(includes "")
-  foreach(directory ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR} ${ELF_INCLUDES})
+  foreach(directory ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}
+      ${CMAKE_CURRENT_SOURCE_DIR})
     list(APPEND includes -I${directory})
   endforeach()
   set(main ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../backends/spu/main.cpp)
   set(base ${CMAKE_CURRENT_BINARY_DIR}/${name})
   add_custom_command(
     OUTPUT ${base}.o
-    COMMAND ${CELLTRACE_SPU_GXX} -std=c++17 -O2 -Wall -Wextra -Werror -fno-exceptions -fno-rtti
-      -fno-threadsafe-statics -ffunction-sections -fdata-sections ${includes}
+    COMMAND ${CELLTRACE_SPU_GXX} -std=c++17 -O2 -g1 -Wall -Wextra -Werror -fno-exceptions -fno-rtti
+      -fno-threadsafe-statics -ffunction-sections -fdata-sections
+      -fdebug-prefix-map=${PROJECT_BINARY_DIR}=. -fdebug-prefix-map=${PROJECT_SOURCE_DIR}/= ${includes}
       "-DCELLTRACE_SPU_KERNEL_HEADER=\"${ELF_HEADER}\"" -DCELLTRACE_SPU_KERNEL=${ELF_KERNEL}
       -DCELLTRACE_SPU_ARENA_BYTES=${ELF_ARENA} -MD -MF ${base}.d -MT ${base}.o
       -c ${main} -o ${base}.o
@@ -41,11 +49,21 @@ function(celltrace_spu_elf name)
     OUTPUT ${base}.elf
     BYPRODUCTS ${base}.map ${base}.stack.txt
     COMMAND ${CELLTRACE_SPU_GXX} -Wl,--gc-sections -Wl,--stack-analysis -Wl,-Map,${base}.map
-      ${base}.o -o ${base}.elf > ${base}.stack.txt
-    DEPENDS ${base}.o
+      ${name}.o -o ${name}.elf > ${name}.stack.txt # whose name as given here becomes part of it
+    DEPENDS ${base}.o WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}
     COMMENT "Linking ${name} for the SPU" VERBATIM)
   add_custom_target(celltrace_spu_${name} ALL DEPENDS ${base}.elf)
   set_target_properties(celltrace_spu_${name} PROPERTIES CELLTRACE_BASE ${base} CELLTRACE_ARENA ${ELF_ARENA})
+endfunction()
+
+function(celltrace_spu_elf_source variable name)
+  get_target_property(base celltrace_spu_${name} CELLTRACE_BASE)
+  set(script ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/bytes_as_source.cmake)
+  add_custom_command(
+    OUTPUT ${base}_elf.cpp
+    COMMAND ${CMAKE_COMMAND} -DINPUT=${base}.elf -DFUNCTION=${name}_elf -DOUTPUT=${base}_elf.cpp -P ${script}
+    DEPENDS ${base}.elf ${script} VERBATIM)
+  set(${variable} ${base}_elf.cpp PARENT_SCOPE)
 endfunction()
 
 function(celltrace_spu_budget_test test name)

@@ -60,6 +60,23 @@ TEST_CASE("auto takes the widest SPU type that both CPU and program have") {
   CHECK(machine->spu_key() == usable.back()->key);
 }
 
+TEST_CASE("a program's machine code is an executable of the SPU's") {
+  const SpeProgram program = lane_sum_program();
+  CHECK(program.image("cell_emu").empty());
+#ifdef HAS_SPU_COMPILER
+  const auto elf = program.image("cell_sim");
+  REQUIRE(elf.size() > 52);
+  const auto half = [&](std::size_t at) { return elf[at] << 8 | elf[at + 1]; };
+  CHECK((elf[0] == 0x7F && elf[1] == 'E' && elf[2] == 'L' && elf[3] == 'F'));
+  CHECK(elf[4] == 1);    // 32 bits
+  CHECK(elf[5] == 2);    // most significant byte first
+  CHECK(half(16) == 2);  // executable
+  CHECK(half(18) == 23); // SPU
+#else
+  CHECK(program.image("cell_sim").empty());
+#endif
+}
+
 TEST_CASE("a program without an entry for the machine is refused") {
   const auto machine = make_machine(MachineConfig{});
   CHECK_THROWS_AS(machine->start(0, SpeProgram("nothing"), 0), SpeError);

@@ -6,6 +6,7 @@
 #include "celltrace/spe/program.hpp"
 #include "celltrace/spe/types.hpp"
 
+#include <bit>
 #include <chrono>
 #include <cstdint>
 #include <memory>
@@ -75,6 +76,10 @@ public:
   virtual bool direct_memory() const noexcept = 0;
   /// The SPU type in use, for reports: "native.avx512", "cell_emu".
   virtual std::string_view spu_key() const noexcept = 0;
+
+  /// The byte order of its SPUs: that of every number in main storage that their programs read or write. DMA
+  /// copies bytes as they are. Words in mailboxes and signals, and addresses, are numbers here.
+  virtual std::endian byte_order() const noexcept { return std::endian::native; }
 
   /// Starts a program on an idle SPE. Throws SpeError if the program was not compiled for this machine, or
   /// the SPE is running or waits for resume(). `argument` is handed to the kernel: the ea of its control

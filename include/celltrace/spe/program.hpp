@@ -1,11 +1,14 @@
-// An SPE program as the PPE handles it: a name and its entry points, one per kind of SPU it was compiled for.
+// An SPE program as the PPE handles it: a name and its entry points, one per kind of SPU it was compiled for,
+// and its machine code for SPUs that execute that.
 #pragma once
 
 #include "celltrace/spe/types.hpp"
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -19,7 +22,8 @@ struct LocalStoreUse {
 };
 
 /// A kernel compiled for one or more backends. `Spu::kKey` names the SPU type ("cell_emu", "native.avx2",
-/// ...); the machine picks the entry whose key fits it best. Copyable; immutable while a machine runs it.
+/// ...); the machine picks the entry or the image whose key fits it best. Copyable; immutable while a machine
+/// runs it.
 class SpeProgram {
 public:
   /// `spu` is the address of the backend's Spu object.
@@ -39,7 +43,15 @@ public:
     return *this;
   }
 
-  /// What the program takes of a local store, as its real build says; else the machine's configuration decides.
+  /// Adds machine code: an ELF executable, whose bytes outlive the program and its copies; they are not
+  /// looked at here.
+  SpeProgram& add_image(std::string key, std::span<const std::uint8_t> elf) {
+    images_[std::move(key)] = elf;
+    return *this;
+  }
+
+  /// What the program takes of a local store, as its real build says; else the machine's configuration
+  /// decides.
   SpeProgram& takes(LocalStoreUse use) {
     local_store_use_ = use;
     return *this;
@@ -52,11 +64,17 @@ public:
     const auto found = entries_.find(key);
     return found == entries_.end() ? nullptr : found->second;
   }
+  /// The machine code for an SPU type, or no bytes if there is none.
+  std::span<const std::uint8_t> image(const std::string& key) const noexcept {
+    const auto found = images_.find(key);
+    return found == images_.end() ? std::span<const std::uint8_t>() : found->second;
+  }
 
 private:
   std::string name_;
   std::optional<LocalStoreUse> local_store_use_;
   std::map<std::string, Entry> entries_;
+  std::map<std::string, std::span<const std::uint8_t>> images_;
 };
 
 } // namespace celltrace
