@@ -14,6 +14,7 @@ struct Backend {
 constexpr Backend kBackends[] = {
     {"native", native::make_machine},
     {"cell_emu", cell_emu::make_machine},
+    {"cell_sim", cell_emu::make_machine},
 };
 
 std::string names() {

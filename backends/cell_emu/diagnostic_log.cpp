@@ -5,11 +5,13 @@
 namespace celltrace::cell_emu {
 
 std::string to_text(const CallSite& site) {
-  if (site.line == 0) return "";
+  if (site.line == 0) return site.function;
   const std::string_view file = site.file;
   const std::size_t slash = file.find_last_of('/');
-  return std::string(slash == std::string_view::npos ? file : file.substr(slash + 1)) + ":" +
-         std::to_string(site.line);
+  std::string text(slash == std::string_view::npos ? file : file.substr(slash + 1));
+  text += ":" + std::to_string(site.line);
+  if (*site.function != 0) text += std::string(" in ") + site.function;
+  return text;
 }
 
 DiagnosticLog::DiagnosticLog(const EmulationConfig& config, Listener listener)

@@ -1,13 +1,17 @@
 #include "backends/cell_emu/machine.hpp"
 
 #include "backends/cell_emu/free_scheduler.hpp"
+#include "backends/cell_emu/local_store_watch.hpp"
 #include "backends/cell_emu/lockstep_scheduler.hpp"
 #include "backends/cell_emu/mfc_rules.hpp"
 #include "backends/cell_emu/program_guard.hpp"
+#include "backends/cell_emu/simulator/simulated_programs.hpp"
+#include "backends/cell_emu/simulator/simulated_spu.hpp"
 #include "backends/cell_emu/spu.hpp"
 
 #include <algorithm>
 #include <exception>
+#include <functional>
 #include <utility>
 
 namespace celltrace::cell_emu {
@@ -54,10 +58,13 @@ public:
   explicit EmulatedCell(const MachineConfig& config);
   ~EmulatedCell() override;
 
-  std::string_view backend() const noexcept override { return "cell_emu"; }
+  std::string_view backend() const noexcept override { return simulated() ? "cell_sim" : "cell_emu"; }
   unsigned spe_count() const noexcept override { return map_.spes(); }
   bool direct_memory() const noexcept override { return Spu::direct_memory; }
-  std::string_view spu_key() const noexcept override { return Spu::kKey; }
+  std::string_view spu_key() const noexcept override { return simulated() ? SimulatedSpu::kKey : Spu::kKey; }
+  std::endian byte_order() const noexcept override {
+    return simulated() ? std::endian::big : std::endian::native;
+  }
 
   void start(unsigned spe, const SpeProgram& program, ea_t argument) override;
   SpeStop wait(unsigned spe) override;
@@ -90,10 +97,18 @@ public:
   SpeStatistics statistics(unsigned spe) const override { return spes_.at(spe)->counters.statistics(); }
 
 private:
+  /// Its SPUs execute machine code.
+  bool simulated() const { return config_.backend == "cell_sim"; }
   bool lockstep() const { return config_.emulation.schedule == Schedule::lockstep; }
   std::unique_ptr<Scheduler> make_scheduler();
   ArenaState arena(unsigned spe, ArenaRange range) const;
-  void run(Spe& spe, const SpeProgram::Entry& entry, ea_t argument, ArenaRange range);
+  /// What a program does from its start to its end, and after it.
+  using Run = std::function<void(Spe&)>;
+  Run host_code(unsigned spe, const SpeProgram& program, ea_t argument, ArenaRange& range);
+  Run machine_code(unsigned spe, const SpeProgram& program, ea_t argument, ArenaRange& range);
+  template <class AnySpu, class Execute, class Check>
+  void execute(Spe& spe, AnySpu& spu, Execute program, Check check);
+  void run(Spe& spe, const Run& program);
   [[noreturn]] void refuse_too_large(unsigned spe, const std::string& name, LocalStoreUse use);
   void fail(Spe& spe, const std::string& error);
   void report_ppe(Rule rule, unsigned spe, const std::string& what);
@@ -112,9 +127,10 @@ private:
   const MfcContext mfc_context_;
   Spes spes_;
   std::unique_ptr<Scheduler> scheduler_;
-  std::vector<bool> started_; ///< and not yet collected
-  unsigned stops_seen_ = 0;   ///< programs that had stopped when the PPE last waited for mail
-  bool failed_ = false;       ///< an SPE has failed and interrupted the others. PPE thread only.
+  std::unique_ptr<SimulatedPrograms> programs_; ///< what only SPUs that execute machine code need
+  std::vector<bool> started_;                   ///< and not yet collected
+  unsigned stops_seen_ = 0; ///< programs that had stopped when the PPE last waited for mail
+  bool failed_ = false;     ///< an SPE has failed and interrupted the others. PPE thread only.
   std::atomic<bool> interrupted_{false};
 };
 
@@ -125,9 +141,11 @@ EmulatedCell::EmulatedCell(const MachineConfig& config)
                                  ? DiagnosticLog::Listener{}
                                  : [this](const Diagnostic& diagnostic) { trace_->diagnostic(diagnostic); }),
       flights_(config_.spes),
-      bus_(map_, registers_), mfc_context_{bus_, flights_, log_, config_.emulation, trace_.get()},
+      bus_(map_, registers_), mfc_context_{bus_,         flights_,    log_, config_.emulation,
+                                           trace_.get(), byte_order()},
       started_(config_.spes) {
   scheduler_ = make_scheduler();
+  if (simulated()) programs_ = std::make_unique<SimulatedPrograms>(config_, map_);
   timing_.assign(lockstep() ? 1 : config_.spes, DmaTiming(config_.emulation.timing, config_.spes));
   for (unsigned spe = 0; spe < config_.spes; ++spe) {
     spes_.push_back(std::make_unique<Spe>(spe, config_.signal_mode, *scheduler_, mfc_context_,
@@ -157,20 +175,50 @@ void EmulatedCell::start(unsigned spe, const SpeProgram& program, ea_t argument)
   Spe& started = *spes_.at(spe);
   scheduler_->enter();
   if (started.running) throw SpeError("SPE " + std::to_string(spe) + " is running");
-  const SpeProgram::Entry entry = program.entry(Spu::kKey);
-  if (!entry) throw SpeError("program \"" + program.name() + "\" was not compiled for cell_emu");
-  const LocalStoreUse use =
-      program.local_store_use().value_or(LocalStoreUse{config_.code_bytes, config_.stack_bytes});
-  const ArenaRange range = arena_of(use);
-  if (range.end == 0) refuse_too_large(spe, program.name(), use);
+  ArenaRange range{0, kLocalStoreBytes};
+  const Run entered =
+      simulated() ? machine_code(spe, program, argument, range) : host_code(spe, program, argument, range);
   collect(started);
   started.error.clear();
   started.exit_code = 0;
   started.mfc.begin_program(range);
   started.state.start();
-  scheduler_->start(started,
-                    [this, &started, entry, argument, range] { run(started, entry, argument, range); });
+  scheduler_->start(started, [this, &started, entered] { run(started, entered); });
   started_[spe] = true;
+}
+
+EmulatedCell::Run EmulatedCell::host_code(unsigned spe, const SpeProgram& program, ea_t argument,
+                                          ArenaRange& range) {
+  const SpeProgram::Entry entry = program.entry(Spu::kKey);
+  if (!entry) throw SpeError("program \"" + program.name() + "\" was not compiled for cell_emu");
+  const LocalStoreUse use =
+      program.local_store_use().value_or(LocalStoreUse{config_.code_bytes, config_.stack_bytes});
+  range = arena_of(use);
+  if (range.end == 0) refuse_too_large(spe, program.name(), use);
+  return [this, entry, argument, range](Spe& runs) {
+    const ProgramGuard guard(map_.local_store(runs.id), range);
+    bus_.hold_local_store(runs.id, [&] { guard.fill(); });
+    Spu spu(runs, {mfc_context_, *scheduler_}, arena(runs.id, range));
+    execute(
+        runs, spu, [&] { entry(&spu, argument); },
+        [&] { bus_.hold_local_store(runs.id, [&] { guard.check(runs.id, log_); }); });
+  };
+}
+
+EmulatedCell::Run EmulatedCell::machine_code(unsigned spe, const SpeProgram& program, ea_t argument,
+                                             ArenaRange&) {
+  const auto code = programs_->find(program);
+  const SimulatedSpu::Arguments arguments = programs_->arguments(*code, spe, argument);
+  return [this, code, arguments](Spe& runs) {
+    bus_.hold_local_store(runs.id, [&] {
+      fill_with_poison(map_.local_store(runs.id), kLocalStoreBytes);
+      code->elf().load(map_.local_store(runs.id));
+    });
+    SimulatedSpu spu(runs, {mfc_context_, *scheduler_}, *code, programs_->calls(),
+                     config_.simulation.profile);
+    execute(
+        runs, spu, [&] { spu.run(arguments); }, [] {});
+  };
 }
 
 void EmulatedCell::refuse_too_large(unsigned spe, const std::string& name, LocalStoreUse use) {
@@ -184,10 +232,21 @@ void EmulatedCell::refuse_too_large(unsigned spe, const std::string& name, Local
   throw SpeError("SPE " + std::to_string(spe) + ": " + what);
 }
 
-void EmulatedCell::run(Spe& spe, const SpeProgram::Entry& entry, ea_t argument, ArenaRange range) {
-  const SpuContext context{mfc_context_, *scheduler_};
-  const ProgramGuard guard(map_.local_store(spe.id), range);
-  bus_.hold_local_store(spe.id, [&] { guard.fill(); });
+template <class AnySpu, class Execute, class Check>
+void EmulatedCell::execute(Spe& spe, AnySpu& spu, Execute program, Check check) {
+  try {
+    program();
+  } catch (const SpuCore::Exit& exit) {
+    spe.exit_code = exit.code;
+  } catch (...) {
+    spu.abandon();
+    throw;
+  }
+  spu.finish();
+  check();
+}
+
+void EmulatedCell::run(Spe& spe, const Run& program) {
   const auto broken_off = [&](const std::string& error) {
     spe.mfc.abandon();
     fail(spe, error);
@@ -201,17 +260,7 @@ void EmulatedCell::run(Spe& spe, const SpeProgram::Entry& entry, ea_t argument, 
     broken_off(kept ? diagnostic.text : "SPE " + std::to_string(spe.id) + ": " + what);
   };
   try {
-    Spu spu(spe, context, arena(spe.id, range));
-    try {
-      entry(&spu, argument);
-    } catch (const Spu::Exit& exit) {
-      spe.exit_code = exit.code;
-    } catch (...) {
-      spu.abandon();
-      throw;
-    }
-    spu.finish();
-    bus_.hold_local_store(spe.id, [&] { guard.check(spe.id, log_); });
+    program(spe);
   } catch (const SpeError& error) {
     broken_off(error.what());
   } catch (const std::exception& error) {

@@ -118,6 +118,8 @@ void Mfc::finish(Cycle now) {
 }
 
 void Mfc::abandon() {
+  if (watch_ != nullptr) std::memset(watch_, 0, kLocalStoreBytes / 16);
+  watch_ = nullptr;
   context_.flights.remove_if(spe_, [&](const Flight& flight) {
     if (!flight.proxy) permit_access(local_store(flight.transfer), flight.bytes());
     return !flight.proxy;
@@ -232,11 +234,11 @@ void Mfc::perform_proxy(const MfcCommand& command) {
                  : bus_.put(spe_, command.lsa, command.ea, command.size);
   std::uint32_t value;
   if (reads) {
-    value = bus_.read_register(place);
+    value = context_.from_spu(bus_.read_register(place));
     std::memcpy(local_store(command), &value, sizeof value);
   } else {
     std::memcpy(&value, local_store(command), sizeof value);
-    bus_.write_register(place, value, {Diagnostic::kPpe, 0});
+    bus_.write_register(place, context_.from_spu(value), {Diagnostic::kPpe, 0});
   }
 }
 
@@ -468,6 +470,8 @@ void Mfc::read_list(Entry& entry) const {
   std::memcpy(entry.elements.data(),
               bus_.map().local_store(spe_) + static_cast<std::uint32_t>(entry.command.ea),
               entry.command.size);
+  for (ListElement& element : entry.elements)
+    element = {context_.from_spu(element.notify_and_size), context_.from_spu(element.ea_low)};
 }
 
 void Mfc::begin_part(Entry& entry, Cycle now) {
@@ -488,10 +492,14 @@ void Mfc::begin_part(Entry& entry, Cycle now) {
 }
 
 void Mfc::check_list_unchanged(const Entry& entry, Cycle now) {
-  const std::uint8_t* const list =
-      bus_.map().local_store(spe_) + static_cast<std::uint32_t>(entry.command.ea);
-  if (std::memcmp(list, entry.elements.data(), entry.next_element * sizeof(ListElement)) == 0) return;
-  report(entry, Rule::list_changed, now);
+  Entry again = entry;
+  read_list(again);
+  const auto same = [](const ListElement& a, const ListElement& b) {
+    return a.notify_and_size == b.notify_and_size && a.ea_low == b.ea_low;
+  };
+  if (!std::equal(again.elements.begin(), again.elements.begin() + entry.next_element, entry.elements.begin(),
+                  same))
+    report(entry, Rule::list_changed, now);
 }
 
 bool Mfc::complete_part(Entry& entry, Cycle now) {

@@ -23,6 +23,7 @@
 #include "backends/cell_emu/trace.hpp"
 
 #include <array>
+#include <bit>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,6 +37,12 @@ struct MfcContext {
   DiagnosticLog& log;
   const EmulationConfig& config;
   Trace* trace; ///< null: no trace is written
+  /// Of the words that the SPUs write for their MFCs: list elements, and words for registers.
+  std::endian byte_order = std::endian::native;
+
+  std::uint32_t from_spu(std::uint32_t word) const {
+    return byte_order == std::endian::native ? word : __builtin_bswap32(word);
+  }
 };
 
 /// The part of local store that is the program's own memory; the rest is its code and stack.
@@ -80,6 +87,18 @@ public:
   /// Tags with proxy commands in the queue.
   std::uint32_t outstanding_proxy_tags() const { return outstanding(true); }
   void observe_proxy(std::uint32_t tags, Cycle now);
+
+  // --- machine code ---
+
+  /// From now on `watch`, a byte a quadword of local store, says what check_load() and check_store() are for:
+  /// its bits are those of isa::State. Null: nobody looks.
+  void watch_flights(std::uint8_t* watch) { watch_ = watch; }
+  /// An instruction is about to load the quadword at `lsa`. A load of which only a part is in flight may be
+  /// meant for the other part.
+  void check_load(std::uint32_t lsa, CallSite site, Cycle now);
+  /// An instruction is about to store the 16 bytes at `bytes` at `lsa`. That it leaves a put's bytes as they
+  /// are is no change of them.
+  void check_store(std::uint32_t lsa, const std::uint8_t* bytes, CallSite site, Cycle now);
 
   // --- virtual time ---
 
@@ -157,6 +176,9 @@ private:
   void observe_part(std::uint64_t command, Cycle now);
   void observe(std::uint32_t tags, std::uint64_t last_command, bool proxy, Cycle now);
   std::uint8_t* local_store(const MfcCommand& transfer) const;
+  void report_access(const Flight& flight, Rule rule, std::uint32_t lsa, CallSite site, Cycle now);
+  void watch(const Flight& flight);
+  template <class Gone> void remove_flights(Gone gone);
 
   // --- progress ---
 
@@ -185,6 +207,7 @@ private:
   Counters& counters_;
   SeededRandom random_;
 
+  std::uint8_t* watch_ = nullptr;
   std::vector<Entry> queue_; ///< of the SPU and of the PPE, oldest first
   unsigned spu_entries_ = 0;
   std::uint64_t commands_ = 0; ///< issued

@@ -1,9 +1,11 @@
 // The MFC's transfers in flight: what meets what, when data move, and whether the program kept its hands off.
+#include "backends/cell_emu/isa/state.hpp"
 #include "backends/cell_emu/local_store_watch.hpp"
 #include "backends/cell_emu/mfc.hpp"
 #include "backends/cell_emu/mfc_rules.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <cstring>
 
 namespace celltrace::cell_emu {
@@ -64,7 +66,66 @@ void Mfc::depart(const Entry& entry, const MfcCommand& transfer, Cycle now) {
   if (flight.has_storage)
     if (const auto conflict = context_.flights.conflict_elsewhere(spe_, flight))
       report_conflict(entry, transfer, *conflict, now);
-  if (!is_immediate(transfer.opcode)) context_.flights.add(spe_, flight);
+  if (is_immediate(transfer.opcode)) return;
+  context_.flights.add(spe_, flight);
+  watch(flight);
+}
+
+// --- loads and stores of machine code ---
+
+/// A proxy command is no secret of the SPU's, who cannot know of it.
+void Mfc::watch(const Flight& flight) {
+  if (watch_ == nullptr || flight.proxy) return;
+  const std::uint32_t lsa = flight.transfer.lsa;
+  const std::uint8_t bits = flight.writes_local_store() ? isa::State::kWatchLoads | isa::State::kWatchStores
+                                                        : isa::State::kWatchStores;
+  for (std::uint32_t quadword = lsa / 16; quadword <= (lsa + flight.bytes() - 1) / 16; ++quadword)
+    watch_[quadword] |= bits;
+}
+
+template <class Gone> void Mfc::remove_flights(Gone gone) {
+  if (watch_ != nullptr) {
+    for (const Flight& flight : context_.flights.of(spe_))
+      if (gone(flight))
+        std::memset(watch_ + flight.transfer.lsa / 16, 0,
+                    (flight.transfer.lsa % 16 + flight.bytes() + 15) / 16);
+  }
+  context_.flights.remove_if(spe_, gone);
+  // What others that stay have in the same quadwords.
+  for (const Flight& flight : context_.flights.of(spe_))
+    watch(flight);
+}
+
+void Mfc::report_access(const Flight& flight, Rule rule, std::uint32_t lsa, CallSite site, Cycle now) {
+  Diagnostic diagnostic = about({flight.transfer, flight.command, site, false, now}, rule, now);
+  diagnostic.other_site = flight.site;
+  char at[32];
+  std::snprintf(at, sizeof at, "LS 0x%x meets ", static_cast<unsigned>(lsa));
+  std::string command = describe(flight.transfer);
+  if (const std::string where = to_text(flight.site); !where.empty()) command += ", at " + where;
+  context_.log.report(diagnostic, (rule == Rule::get_target_read ? "load of " : "store to ") +
+                                      std::string(at) + command + ": " + std::string(text_of(rule)));
+}
+
+void Mfc::check_load(std::uint32_t lsa, CallSite site, Cycle now) {
+  for (const Flight& flight : context_.flights.of(spe_))
+    if (!flight.proxy && flight.writes_local_store() && flight.transfer.lsa <= lsa &&
+        flight.transfer.lsa + flight.bytes() >= lsa + 16)
+      report_access(flight, Rule::get_target_read, lsa, site, now);
+}
+
+void Mfc::check_store(std::uint32_t lsa, const std::uint8_t* bytes, CallSite site, Cycle now) {
+  for (std::size_t i = 0; i < context_.flights.of(spe_).size(); ++i) {
+    Flight& flight = context_.flights.at(spe_, i);
+    const std::uint32_t begin = std::max(lsa, flight.transfer.lsa);
+    const std::uint32_t end = std::min(lsa + 16, flight.transfer.lsa + flight.bytes());
+    if (flight.proxy || begin >= end) continue;
+    const bool get = flight.writes_local_store();
+    if (!get && std::memcmp(bus_.map().local_store(spe_) + begin, bytes + (begin - lsa), end - begin) == 0)
+      continue;
+    report_access(flight, get ? Rule::get_target_touched : Rule::put_source_changed, lsa, site, now);
+    flight.shared = true; // said once
+  }
 }
 
 void Mfc::report_conflict(const Entry& entry, const MfcCommand& transfer, const Conflict& conflict,
@@ -96,12 +157,13 @@ void Mfc::move_word(const Flight& flight, AddressMap::Place place, Cycle now) {
   std::uint8_t* const word = local_store(flight.transfer);
   std::uint32_t value;
   if (flight.writes_local_store()) {
-    value = bus_.read_register(place);
+    value = context_.from_spu(bus_.read_register(place));
     std::memcpy(word, &value, sizeof value);
     counters_.dma_bytes_read.add(sizeof value);
     return;
   }
   std::memcpy(&value, word, sizeof value);
+  value = context_.from_spu(value);
   const bool mail = place.kind == EaKind::in_mailbox;
   counters_.dma_bytes_written.add(sizeof value);
   (mail ? counters_.mailbox_words_sent : counters_.signals_sent).add(1);
@@ -154,7 +216,7 @@ template <class Seen> void Mfc::observe_if(Seen seen, Cycle now) {
     else
       verify(flight, now);
   }
-  context_.flights.remove_if(spe_, seen);
+  remove_flights(seen);
 }
 
 void Mfc::observe(std::uint32_t tags, std::uint64_t last_command, bool proxy, Cycle now) {

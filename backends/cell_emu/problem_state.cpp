@@ -118,6 +118,11 @@ void ProblemState::stop_at(Channel channel) const {
                  std::to_string(static_cast<unsigned>(channel)) + " (" + name_of(channel) + ")" + because_);
 }
 
+void ProblemState::stop_running(const std::string& place) const {
+  const std::lock_guard lock(mutex_);
+  throw SpeError("SPE " + std::to_string(spe_) + ": interrupted at " + place + because_);
+}
+
 void ProblemState::stop_while_stopped(std::uint32_t code) const {
   const std::lock_guard lock(mutex_);
   throw SpeError("SPE " + std::to_string(spe_) + ": interrupted while it was stopped with code " +

@@ -82,6 +82,8 @@ public:
   }
   /// Throws the SpeError of an SPE that was interrupted at a channel.
   [[noreturn]] void stop_at(Channel channel) const;
+  /// The same for one that was interrupted on its way, at `place`.
+  [[noreturn]] void stop_running(const std::string& place) const;
   /// The same for one that was interrupted while it was stopped with a signal.
   [[noreturn]] void stop_while_stopped(std::uint32_t code) const;
 

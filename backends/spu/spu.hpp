@@ -2,8 +2,8 @@
 // over the channel intrinsics of spu-elf-g++.
 #pragma once
 
-#include "backends/spu/control_block.hpp"
 #include "backends/spu/simd.hpp"
+#include "celltrace/spe/control_block.hpp"
 #include "celltrace/spe/spu.hpp"
 
 #include <spu_intrinsics.h>
@@ -19,8 +19,6 @@ public:
   static constexpr bool direct_memory = false;
   static constexpr const char* kKey = "spu";
   using simd = Simd;
-
-  static constexpr uint32_t kHaltStop = 0x1000;
 
   /// `arena` is `bytes` of local store; `control_block` the ea of the ControlBlock.
   Spu(ea_t control_block, uint8_t* arena, uint32_t bytes) : arena_{arena, arena + bytes, arena} {

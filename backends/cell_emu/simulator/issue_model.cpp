@@ -29,8 +29,8 @@ std::uint64_t IssueModel::instructions() const {
 
 void IssueModel::stall(StallReason reason, Cycle until) {
   stalls_[static_cast<unsigned>(reason)] += until - last_;
+  recent_[static_cast<unsigned>(reason)] += until - last_;
   last_ = until;
-  reason_ = reason;
 }
 
 void IssueModel::wait_for_operands(const isa::Instruction& instruction, Cycle ready) {

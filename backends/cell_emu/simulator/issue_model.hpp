@@ -1,30 +1,38 @@
-// When the SPU issues its instructions: in order, at most two a cycle, from the latencies of TimingParameters.
+// When the SPU issues its instructions: in order, at most two a cycle, from the latencies of
+// TimingParameters.
 //
-//   fetch group   Two instructions at an 8-byte boundary. They issue together where the first goes to the even pipe, the
-//                 second to the odd one, and the operands of both are there; the next group only when both have issued.
+//   fetch group   Two instructions at an 8-byte boundary. They issue together where the first goes to the
+//   even pipe, the
+//                 second to the odd one, and the operands of both are there; the next group only when both
+//                 have issued.
 //   dependency    A result can be used when its unit's latency has passed.
-//   branches      Fall through unless a hint says otherwise. A wrong guess costs `branch_miss`. A hint counts for its
-//                 branch `hint_distance` instructions later; if `hint_latency` has not passed, the branch waits for it.
+//   branches      Fall through unless a hint says otherwise. A wrong guess costs `branch_miss`. A hint counts
+//   for its
+//                 branch `hint_distance` instructions later; if `hint_latency` has not passed, the branch
+//                 waits for it.
 //   double        Keeps both pipes for `double_issue_block` cycles.
-//   fetch         32 instructions at a time, when neither a load nor a store takes the local store's only port: where
+//   fetch         32 instructions at a time, when neither a load nor a store takes the local store's only
+//   port: where
 //                 they take it in every cycle, the next 32 instructions come late.
 //   DMA           Takes the port for a cycle a line, before loads and stores.
 //
-// Sources: IBM SDK 3.0 programming tutorial (pipelines, dual issue, hints); the order of the port's users from the SPU's
-// description in the same place. The buffers of the fetch unit are not modelled line by line.
+// Sources: IBM SDK 3.0 programming tutorial (pipelines, dual issue, hints); the order of the port's users
+// from the SPU's description in the same place. The buffers of the fetch unit are not modelled line by line.
 #pragma once
 
 #include "backends/cell_emu/cycle.hpp"
 #include "backends/cell_emu/isa/instruction.hpp"
 #include "celltrace/spe/timing.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
 namespace celltrace::cell_emu {
 
 /// Why an instruction did not issue earlier.
-enum class StallReason : std::uint8_t { none, dependency, branch_miss, prefetch_miss, hint_target, fp_resource };
+enum class StallReason : std::uint8_t { dependency, branch_miss, prefetch_miss, hint_target, fp_resource };
+constexpr unsigned kStallReasons = static_cast<unsigned>(StallReason::fp_resource) + 1;
 
 /// Thread safety: none.
 class IssueModel {
@@ -81,9 +89,9 @@ public:
 
   /// The cycle of the last issue. Rises by 0 where two instructions issue together.
   Cycle last() const { return last_; }
-  /// Why the last issues waited, since the last clear_stall(); for a profile.
-  StallReason stall_reason() const { return reason_; }
-  void clear_stall() { reason_ = StallReason::none; }
+  /// For a profile: cycles lost since the last forget_recent().
+  Cycle recent(StallReason reason) const { return recent_[static_cast<unsigned>(reason)]; }
+  void forget_recent() { recent_ = {}; }
 
 private:
   static constexpr unsigned kUnits = static_cast<unsigned>(isa::Unit::lnop) + 1;
@@ -117,11 +125,11 @@ private:
   Cycle taken_ = 0; ///< up to which cycle take() has taken
   std::array<std::uint64_t, kUnits> units_{};
   std::array<std::uint64_t, kUnits> dependency_{}; ///< stalls by the unit waited for
-  std::array<std::uint64_t, 6> stalls_{};          ///< by StallReason
+  std::array<Cycle, kStallReasons> stalls_{};      ///< by StallReason
+  std::array<Cycle, kStallReasons> recent_{};      ///< of these, what a profile has not seen yet
   std::uint64_t issued_before_ = 0;                ///< instructions that take() has taken
   std::uint64_t single_cycle_ = 0, dual_cycle_ = 0, nop_cycle_ = 0;
   std::uint64_t contention_ = 0, branch_taken_ = 0, branch_miss_ = 0, hint_hit_ = 0;
-  StallReason reason_ = StallReason::none;
 };
 
 } // namespace celltrace::cell_emu

@@ -10,9 +10,11 @@ namespace celltrace {
 struct CallSite {
   const char* file = "";
   uint32_t line = 0; ///< from 1; 0: unknown
+  /// Of machine code: the function, as in its symbol table, and the offset in it; else "".
+  const char* function = "";
 
   static constexpr CallSite here(const char* file = __builtin_FILE(), uint32_t line = __builtin_LINE()) {
-    return {file, line};
+    return {file, line, ""};
   }
 };
 

@@ -12,7 +12,7 @@
 
 namespace celltrace {
 
-/// The rules that `cell_emu` checks. text_of() says what each demands.
+/// The rules that `cell_emu` and `cell_sim` check. text_of() says what each demands.
 enum class Rule : unsigned char {
   none, ///< nothing is broken
 
@@ -48,6 +48,7 @@ enum class Rule : unsigned char {
   local_store_race,
   main_storage_race,
   get_target_touched,
+  get_target_read,
   put_source_changed,
   list_changed,
   in_flight_at_exit,
@@ -73,8 +74,11 @@ enum class Rule : unsigned char {
   // local store
   local_store_exhausted,
   program_overwritten,
+  stack_overflow,
 
   // run control
+  invalid_instruction,
+  unwritten_code,
   invalid_channel,
   stalls_for_ever,
   phantom_event,

@@ -4,6 +4,7 @@
 #include "celltrace/error.hpp"
 #include "celltrace/spe/emulation.hpp"
 #include "celltrace/spe/program.hpp"
+#include "celltrace/spe/simulation.hpp"
 #include "celltrace/spe/types.hpp"
 
 #include <bit>
@@ -22,7 +23,7 @@ struct MachineConfig {
   /// One of machine_backends().
   std::string backend = "native";
   /// Number of SPEs, 1..256; 0: on `native` one per CPU that the calling thread may use,
-  /// on `cell_emu` `emulation.timing.spes`.
+  /// on `cell_emu` and `cell_sim` `emulation.timing.spes`.
   unsigned spes = 0;
   /// SIMD of `native`: "auto" (the widest that CPU and program have), "sse2", "avx2", "avx512".
   std::string simd = "auto";
@@ -32,8 +33,10 @@ struct MachineConfig {
   /// does not say itself (SpeProgram::takes); bytes. The rest of the 256 KB is the kernel's arena.
   unsigned code_bytes = 104 * 1024;
   unsigned stack_bytes = 24 * 1024;
-  /// `cell_emu` only.
+  /// `cell_emu` and `cell_sim` only.
   EmulationConfig emulation;
+  /// `cell_sim` only.
+  SimulationConfig simulation;
 };
 
 /// How an SPE's program stopped.
@@ -74,7 +77,7 @@ public:
   virtual unsigned spe_count() const noexcept = 0;
   /// The SPEs can dereference effective addresses (Spu::direct_memory).
   virtual bool direct_memory() const noexcept = 0;
-  /// The SPU type in use, for reports: "native.avx512", "cell_emu".
+  /// The SPU type in use, for reports: "native.avx512", "cell_emu", "cell_sim".
   virtual std::string_view spu_key() const noexcept = 0;
 
   /// The byte order of its SPUs: that of every number in main storage that their programs read or write. DMA
@@ -133,7 +136,7 @@ public:
   virtual SpeStatistics statistics(unsigned spe) const = 0;
 };
 
-/// Names of the backends of this build: "native", "cell_emu".
+/// Names of the backends of this build: "native", "cell_emu", "cell_sim".
 std::vector<std::string> machine_backends();
 
 /// A machine by its configuration. Throws InputError for an unknown backend or a value out of range.

@@ -44,7 +44,8 @@ public:
   }
 
   /// Adds machine code: an ELF executable, whose bytes outlive the program and its copies; they are not
-  /// looked at here.
+  /// looked at here. Under the key "cell_sim" it is a kernel with the main() of backends/spu/main.cpp; under
+  /// "elf" a stand-alone program, main(speid, argp, envp), to which the argument of Machine::start() is argp.
   SpeProgram& add_image(std::string key, std::span<const std::uint8_t> elf) {
     images_[std::move(key)] = elf;
     return *this;

@@ -143,6 +143,10 @@ enum class HaltCode : uint32_t {
   internal_error = 3,
   stale_pointer = 4, ///< a pointer into a cache was used after its lifetime
 };
+constexpr HaltCode kLastHaltCode = HaltCode::stale_pointer;
+
+/// A kernel on an SPU halts with the stop-and-signal code kHaltStop + HaltCode.
+constexpr uint32_t kHaltStop = 0x1000;
 
 /// For messages.
 constexpr const char* to_text(HaltCode code) {

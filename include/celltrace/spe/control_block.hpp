@@ -1,11 +1,11 @@
-// What the PPE hands to a program on a real SPE.
+// What the PPE hands to a kernel that was compiled for the SPU. Freestanding C++17.
 #pragma once
 
 #include "celltrace/spe/types.hpp"
 
 #include <stdint.h>
 
-namespace celltrace::spu {
+namespace celltrace {
 
 /// The argument of the program's main() is the effective address of one of these, 16-byte aligned, which the
 /// program fetches by DMA. Big-endian, like everything that a PPE writes.
@@ -18,4 +18,4 @@ struct alignas(16) ControlBlock {
 };
 static_assert(sizeof(ControlBlock) == 32, "ControlBlock crosses DMA");
 
-} // namespace celltrace::spu
+} // namespace celltrace

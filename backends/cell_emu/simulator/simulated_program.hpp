@@ -1,0 +1,40 @@
+// A program of machine code: what is loaded, and what its addresses mean.
+#pragma once
+
+#include "backends/cell_emu/simulator/spu_elf.hpp"
+#include "backends/cell_emu/simulator/spu_symbols.hpp"
+#include "celltrace/spe/call_site.hpp"
+
+#include <cstdint>
+#include <span>
+
+namespace celltrace::cell_emu {
+
+/// How a program takes what Machine::start() was given.
+enum class Convention : std::uint8_t {
+  kernel,      ///< as backends/spu/main.cpp: its second argument is the address of a ControlBlock
+  stand_alone, ///< main(speid, argp, envp), whose second argument it is
+};
+
+/// Thread safety: all members are const.
+class SimulatedProgram {
+public:
+  /// Throws InputError if `image` is no executable for the SPU.
+  SimulatedProgram(std::span<const std::uint8_t> image, Convention convention);
+
+  const SpuElf& elf() const { return elf_; }
+  const SpuSymbols& symbols() const { return symbols_; }
+  Convention convention() const { return convention_; }
+  /// It keeps a stack as the ABI says: register 1 holds the stack pointer and the space that is left.
+  bool has_abi_stack() const { return has_abi_stack_; }
+  /// For diagnostics: its strings stay valid for as long as the process runs.
+  CallSite site(std::uint32_t address) const;
+
+private:
+  SpuElf elf_;
+  SpuSymbols symbols_;
+  Convention convention_;
+  bool has_abi_stack_;
+};
+
+} // namespace celltrace::cell_emu

@@ -1,0 +1,68 @@
+#include "backends/cell_emu/simulator/simulated_programs.hpp"
+
+#include "backends/cell_emu/simulator/big_endian.hpp"
+#include "celltrace/spe/control_block.hpp"
+
+#include <algorithm>
+
+namespace celltrace::cell_emu {
+namespace {
+
+constexpr std::size_t kMaxSpes = 256;
+
+/// As the main thread of a process that asked for an SPE would have it: any value but 0.
+constexpr std::uint64_t kFirstSpeId = 0x10000000;
+
+} // namespace
+
+/// As the SPU reads it: ControlBlock, then SpeAddresses.
+struct alignas(kLineBytes) SimulatedPrograms::Block {
+  std::uint8_t control[sizeof(ControlBlock)];
+  std::uint8_t addresses[kMaxSpes * sizeof(SpeAddresses)];
+};
+
+SimulatedPrograms::SimulatedPrograms(const MachineConfig& config, const AddressMap& map)
+    : blocks_(std::make_unique<Block[]>(map.spes())), spes_(map.spes()), calls_(config.simulation) {
+  for (unsigned spe = 0; spe < spes_; ++spe) {
+    Block& block = blocks_[spe];
+    for (unsigned other = 0; other < spes_; ++other) {
+      const SpeAddresses addresses = map.addresses(other);
+      std::uint8_t* const at = block.addresses + other * sizeof(SpeAddresses);
+      store_big_endian64(at + offsetof(SpeAddresses, local_store), addresses.local_store);
+      store_big_endian64(at + offsetof(SpeAddresses, signal_1), addresses.signal_1);
+      store_big_endian64(at + offsetof(SpeAddresses, signal_2), addresses.signal_2);
+      store_big_endian64(at + offsetof(SpeAddresses, in_mailbox), addresses.in_mailbox);
+    }
+    store_big_endian64(block.control + offsetof(ControlBlock, addresses), to_ea(block.addresses));
+    store_big_endian32(block.control + offsetof(ControlBlock, id), spe);
+    store_big_endian32(block.control + offsetof(ControlBlock, count), spes_);
+  }
+}
+
+std::shared_ptr<const SimulatedProgram> SimulatedPrograms::find(const SpeProgram& program) {
+  std::span<const std::uint8_t> image = program.image(SimulatedSpu::kKey);
+  const Convention convention = image.empty() ? Convention::stand_alone : Convention::kernel;
+  if (image.empty()) image = program.image(SimulatedSpu::kElfKey);
+  if (image.empty())
+    throw SpeError("program \"" + program.name() +
+                   "\" has no machine code for cell_sim: was it built without spu-elf-g++?");
+  const auto same = [&](const auto& known) {
+    const std::span<const std::uint8_t> its = known->elf().image();
+    return known->convention() == convention &&
+           std::equal(its.begin(), its.end(), image.begin(), image.end());
+  };
+  const auto found = std::find_if(programs_.begin(), programs_.end(), same);
+  if (found != programs_.end()) return *found;
+  programs_.push_back(std::make_shared<SimulatedProgram>(image, convention));
+  return programs_.back();
+}
+
+SimulatedSpu::Arguments SimulatedPrograms::arguments(const SimulatedProgram& program, unsigned spe,
+                                                     ea_t argument) {
+  const std::uint64_t id = kFirstSpeId + spe;
+  if (program.convention() == Convention::stand_alone) return {id, argument, 0};
+  store_big_endian64(blocks_[spe].control + offsetof(ControlBlock, argument), argument);
+  return {id, to_ea(blocks_[spe].control), 0};
+}
+
+} // namespace celltrace::cell_emu

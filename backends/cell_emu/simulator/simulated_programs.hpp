@@ -1,0 +1,39 @@
+// What a machine keeps for SPUs that execute machine code: the programs it was given, what their kernels find
+// in main memory, and the PPE's answers to their calls.
+#pragma once
+
+#include "backends/cell_emu/address_map.hpp"
+#include "backends/cell_emu/simulator/ppe_calls.hpp"
+#include "backends/cell_emu/simulator/simulated_program.hpp"
+#include "backends/cell_emu/simulator/simulated_spu.hpp"
+#include "celltrace/spe/machine.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace celltrace::cell_emu {
+
+/// Thread safety: calls() from any thread, all else from the PPE's.
+class SimulatedPrograms {
+public:
+  SimulatedPrograms(const MachineConfig& config, const AddressMap& map);
+
+  /// The machine code of a program. Throws SpeError if it has none, InputError if that is no executable for
+  /// the SPU.
+  std::shared_ptr<const SimulatedProgram> find(const SpeProgram& program);
+  /// What the program finds in its registers when SPE `spe` starts it.
+  SimulatedSpu::Arguments arguments(const SimulatedProgram& program, unsigned spe, ea_t argument);
+  PpeCalls& calls() { return calls_; }
+
+private:
+  /// Of one SPE, as its kernel reads it: big-endian.
+  struct Block;
+
+  std::vector<std::shared_ptr<const SimulatedProgram>> programs_;
+  std::unique_ptr<Block[]> blocks_;
+  unsigned spes_;
+  PpeCalls calls_;
+};
+
+} // namespace celltrace::cell_emu

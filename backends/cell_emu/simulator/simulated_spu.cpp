@@ -1,0 +1,292 @@
+#include "backends/cell_emu/simulator/simulated_spu.hpp"
+
+#include "backends/cell_emu/local_store_watch.hpp"
+#include "backends/cell_emu/simulator/big_endian.hpp"
+
+#include <algorithm>
+#include <cinttypes>
+#include <cstdio>
+
+namespace celltrace::cell_emu {
+namespace {
+
+/// Instructions between two looks at the others: who polls its local store for what another SPE's DMA brings
+/// must let that one have its turn. A compromise: every look may change coroutines.
+constexpr std::uint32_t kSlice = 2048;
+
+constexpr std::uint32_t kFirstPpeCall = 0x2100, kLastPpeCall = 0x21FF;
+
+} // namespace
+
+SimulatedSpu::SimulatedSpu(Spe& spe, const SpuContext& context, const SimulatedProgram& program,
+                           PpeCalls& calls, SpuProfile* profile)
+    : SpuCore(spe, context), program_(program), calls_(calls), profile_(profile),
+      decoded_(kLocalStoreBytes / 4, isa::decode(0)), watch_(kLocalStoreBytes / 16),
+      model_(context.mfc.config.timing) {
+  state_of_spu_.local_store = context.mfc.bus.map().local_store(id());
+  state_of_spu_.watch = watch_.data();
+  state_of_spu_.environment = this;
+  mfc_.watch_flights(watch_.data());
+  if (profile != nullptr) words_.resize(SpuProfile::kWords);
+}
+
+void SimulatedSpu::run(const Arguments& arguments) {
+  state_of_spu_.pc = program_.elf().entry();
+  const std::uint64_t values[] = {arguments.spe_id, arguments.argp, arguments.envp};
+  for (unsigned i = 0; i < 3; ++i)
+    state_of_spu_.gpr[3 + i].set<std::uint64_t>(0, values[i]);
+  if (profile_ == nullptr) {
+    for (;;) {
+      attend();
+      run_slice<false>();
+    }
+  }
+  for (;;) {
+    attend();
+    run_slice<true>();
+  }
+}
+
+void SimulatedSpu::finish() {
+  settle();
+  if (profile_ != nullptr) profile_->add(words_);
+  SpuCore::finish();
+}
+
+void SimulatedSpu::abandon() {
+  settle();
+  if (profile_ != nullptr) profile_->add(words_);
+  leave();
+}
+
+// --- the loop ---
+
+const isa::Instruction& SimulatedSpu::fetch(std::uint32_t pc) {
+  const isa::Instruction& instruction = decoded_[pc / 4];
+  const std::uint32_t word = word_at(state_of_spu_.local_store + pc);
+  // Whoever changed local store need not say so: what was decoded is held against what is there.
+  if (instruction.word != word) [[unlikely]]
+    return decode_again(pc, word);
+  return instruction;
+}
+
+const isa::Instruction& SimulatedSpu::decode_again(std::uint32_t pc, std::uint32_t word) {
+  if (is_poison(state_of_spu_.local_store + (pc & ~7u), 8))
+    fail_at(pc, Rule::unwritten_code, place_of(pc) + ": " + std::string(text_of(Rule::unwritten_code)));
+  return decoded_[pc / 4] = isa::decode(word);
+}
+
+template <bool profiled> void SimulatedSpu::run_slice() {
+  isa::State& state = state_of_spu_;
+  while (left_in_slice_ != 0) {
+    --left_in_slice_;
+    const std::uint32_t pc = state.pc;
+    const isa::Instruction& instruction = fetch(pc);
+    const isa::Unit unit = instruction.unit;
+    const std::uint8_t target = instruction.target;
+    const Cycle before = model_.last();
+    if constexpr (profiled) model_.forget_recent();
+    model_.issue(instruction, pc);
+    const std::uint32_t following = (pc + 4) & isa::kLocalStoreLimit;
+    state.next = following;
+    instruction.execute(state, instruction);
+    if (unit == isa::Unit::br)
+      model_.branched(pc, state.next, state.next != following);
+    else if (unit == isa::Unit::hbr) [[unlikely]]
+      hint(instruction, pc);
+    if (target == 1) [[unlikely]]
+      check_stack();
+    if constexpr (profiled) record(instruction.word, pc, before);
+    state.pc = state.next;
+  }
+}
+
+void SimulatedSpu::record(std::uint32_t instruction, std::uint32_t pc, Cycle before) {
+  SpuProfile::Word& word = words_[pc / 4];
+  const Cycle cycles = model_.last() - before;
+  ++word.hits;
+  word.instruction = instruction;
+  word.cycles += cycles;
+  word.dual += cycles == 0;
+  word.dependency += model_.recent(StallReason::dependency);
+  word.branch_miss += model_.recent(StallReason::branch_miss);
+  word.prefetch_miss += model_.recent(StallReason::prefetch_miss);
+  word.hint_target += model_.recent(StallReason::hint_target);
+  word.fp_resource += model_.recent(StallReason::fp_resource);
+  word.channel += waited_;
+  waited_ = 0;
+}
+
+void SimulatedSpu::attend() {
+  settle();
+  if (state_.interrupted()) state_.stop_running(place_of(state_of_spu_.pc));
+  if (context_.mfc.config.faults.pause_probability > 0) inject_faults();
+  reach();
+  if (interrupts_enabled_) {
+    update_decrementer();
+    if (state_.event_count() != 0) take_interrupt();
+  }
+  // Where events may interrupt, they do so between any two instructions.
+  left_in_slice_ = interrupts_enabled_ ? 1 : kSlice;
+}
+
+void SimulatedSpu::take_interrupt() {
+  srr0_ = state_of_spu_.pc;
+  interrupts_enabled_ = false;
+  state_of_spu_.pc = 0;
+}
+
+void SimulatedSpu::hint(const isa::Instruction& instruction, std::uint32_t pc) {
+  const std::uint32_t word = instruction.word;
+  // The offset of the branch is cut in two by the instruction's other fields: its high bits lie at another
+  // place in hbr.
+  const bool by_register = (word >> 21) == 0x1AC;
+  const std::uint32_t high = by_register ? word >> 14 & 3 : word >> 23 & 3;
+  if (by_register && (word >> 20 & 1) != 0) return; // hbrp: only makes room for fetching
+  const std::int32_t words = static_cast<std::int32_t>((high << 7 | (word & 0x7F)) << 23) >> 23;
+  const std::uint32_t branch = (pc + static_cast<std::uint32_t>(words * 4)) & isa::kLocalStoreLimit;
+  const std::uint32_t immediate = static_cast<std::uint32_t>(static_cast<std::int16_t>(word >> 7)) * 4;
+  const bool relative = (word >> 25) == 0x09;
+  const std::uint32_t target = by_register ? state_of_spu_.gpr[word >> 7 & 0x7F].word(0)
+                               : relative  ? pc + immediate
+                                           : immediate;
+  model_.hint(branch, target & (isa::kLocalStoreLimit & ~3u));
+}
+
+// --- the clock ---
+
+void SimulatedSpu::settle() {
+  const std::uint64_t bytes = counters_.dma_bytes_read.value() + counters_.dma_bytes_written.value();
+  model_.contend((bytes - dma_bytes_seen_ + kLineBytes - 1) / kLineBytes);
+  dma_bytes_seen_ = bytes;
+  spend(model_.take());
+}
+
+template <class Access> auto SimulatedSpu::access(Access use) {
+  settle();
+  site_ = site_of(state_of_spu_.pc);
+  if (context_.mfc.config.faults.pause_probability > 0) inject_faults();
+  struct Pass {
+    SimulatedSpu& spu;
+    Cycle before = spu.now();
+    ~Pass() {
+      spu.waited_ += spu.now() - before;
+      spu.model_.pass(spu.now() - before);
+    }
+  } pass{*this};
+  return use();
+}
+
+// --- what instructions ask for ---
+
+std::uint32_t SimulatedSpu::read_channel(unsigned channel) {
+  return access([&] { return channel_read(channel); });
+}
+
+void SimulatedSpu::write_channel(unsigned channel, std::uint32_t value) {
+  access([&] { channel_write(channel, value); });
+}
+
+std::uint32_t SimulatedSpu::channel_count(unsigned channel) {
+  return access([&] { return channel_count_of(channel); });
+}
+
+void SimulatedSpu::stop(std::uint32_t code) {
+  access([&] {
+    const std::uint32_t halt = code - kHaltStop;
+    if (program_.convention() == Convention::kernel && halt >= 1 &&
+        halt <= static_cast<std::uint32_t>(kLastHaltCode)) {
+      const auto why = static_cast<HaltCode>(halt);
+      fail(why == HaltCode::local_store_exhausted ? Rule::local_store_exhausted : Rule::halted,
+           std::string("halted: ") + to_text(why));
+    }
+    if (code >= kFirstPpeCall && code <= kLastPpeCall)
+      call_ppe(code);
+    else
+      stop_with(code);
+  });
+}
+
+void SimulatedSpu::call_ppe(std::uint32_t code) {
+  reach();
+  const std::uint32_t word = state_of_spu_.next & ~3u;
+  if (!calls_.handle(code, state_of_spu_.local_store, word)) return stop_with(code);
+  waited(now() + context_.mfc.config.timing.ppe_call, "call of the PPE");
+  state_of_spu_.next = (word + 4) & isa::kLocalStoreLimit;
+}
+
+void SimulatedSpu::halt() {
+  fail_at(state_of_spu_.pc, Rule::halted,
+          place_of(state_of_spu_.pc) + ": " + std::string(text_of(Rule::halted)));
+}
+
+void SimulatedSpu::invalid_instruction(std::uint32_t word) {
+  char text[32];
+  std::snprintf(text, sizeof text, ": 0x%08" PRIx32 ": ", word);
+  fail_at(state_of_spu_.pc, Rule::invalid_instruction,
+          place_of(state_of_spu_.pc) + text + std::string(text_of(Rule::invalid_instruction)));
+}
+
+bool SimulatedSpu::has_event() {
+  return access([&] {
+    reach();
+    update_decrementer();
+    return state_.event_count() != 0;
+  });
+}
+
+void SimulatedSpu::enable_interrupts(bool enabled) {
+  interrupts_enabled_ = enabled;
+  left_in_slice_ = 0;
+}
+
+// --- local store ---
+
+void SimulatedSpu::watched_load(std::uint32_t lsa) {
+  settle();
+  mfc_.check_load(lsa, site_of(state_of_spu_.pc), now());
+}
+
+void SimulatedSpu::watched_store(std::uint32_t lsa, const isa::Quadword& value) {
+  settle();
+  std::uint8_t bytes[16];
+  value.store(bytes);
+  mfc_.check_store(lsa, bytes, site_of(state_of_spu_.pc), now());
+}
+
+void SimulatedSpu::check_stack() {
+  if (!program_.has_abi_stack()) return;
+  const isa::Quadword& pointer = state_of_spu_.gpr[1];
+  const std::int32_t left = static_cast<std::int32_t>(pointer.word(1));
+  // A store to a frame that does not fit comes after this.
+  if (stack_left_ >= 0 && left < 0)
+    fail_at(state_of_spu_.pc, Rule::stack_overflow,
+            place_of(state_of_spu_.pc) + ": " + std::to_string(-static_cast<std::int64_t>(left)) +
+                " bytes too many: " + std::string(text_of(Rule::stack_overflow)));
+  stack_left_ = left;
+  if (left < 0 || pointer.word(0) > isa::kLocalStoreLimit) return;
+  lowest_stack_ = std::min(lowest_stack_, pointer.word(0));
+  counters_.local_store_peak.raise_to(program_.elf().program_end() + (kLocalStoreBytes - lowest_stack_));
+}
+
+// --- places ---
+
+const CallSite& SimulatedSpu::site_of(std::uint32_t pc) {
+  const auto [place, is_new] = sites_.try_emplace(pc);
+  if (is_new) place->second = program_.site(pc);
+  return place->second;
+}
+
+std::string SimulatedSpu::place_of(std::uint32_t pc) {
+  char text[32];
+  std::snprintf(text, sizeof text, "LS 0x%05" PRIx32, pc);
+  return text;
+}
+
+void SimulatedSpu::fail_at(std::uint32_t pc, Rule rule, const std::string& what) {
+  settle();
+  site_ = site_of(pc);
+  fail(rule, what);
+}
+
+} // namespace celltrace::cell_emu

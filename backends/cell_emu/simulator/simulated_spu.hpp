@@ -1,0 +1,88 @@
+// The SPU that executes machine code: fetches, issues and executes instructions from its real local store, on
+// the channels and the clock that it shares with the SPU of host code.
+#pragma once
+
+#include "backends/cell_emu/isa/instruction.hpp"
+#include "backends/cell_emu/simulator/issue_model.hpp"
+#include "backends/cell_emu/simulator/ppe_calls.hpp"
+#include "backends/cell_emu/simulator/simulated_program.hpp"
+#include "backends/cell_emu/spu_core.hpp"
+#include "celltrace/spe/simulation.hpp"
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace celltrace::cell_emu {
+
+/// One run of a program on one SPE. Thread safety: belongs to the thread that runs the SPE.
+class SimulatedSpu final : public SpuCore, private isa::Environment {
+public:
+  static constexpr const char* kKey = "cell_sim";
+  /// The key of a stand-alone program's image.
+  static constexpr const char* kElfKey = "elf";
+
+  /// Registers 3, 4 and 5 at the start, as an SPE's loader fills them: 64 bits each, in the preferred slot.
+  struct Arguments {
+    std::uint64_t spe_id, argp, envp;
+  };
+
+  /// The program must have been loaded. `profile` may be null.
+  SimulatedSpu(Spe& spe, const SpuContext& context, const SimulatedProgram& program, PpeCalls& calls,
+               SpuProfile* profile);
+
+  /// Executes the program from its entry on, until it throws: Exit when it ends, or as SpuCore does.
+  [[noreturn]] void run(const Arguments& arguments);
+  void finish();
+  void abandon();
+
+private:
+  // --- Environment ---
+  std::uint32_t read_channel(unsigned channel) override;
+  void write_channel(unsigned channel, std::uint32_t value) override;
+  std::uint32_t channel_count(unsigned channel) override;
+  void stop(std::uint32_t code) override;
+  void halt() override;
+  void invalid_instruction(std::uint32_t word) override;
+  bool has_event() override;
+  void enable_interrupts(bool enabled) override;
+  std::uint32_t srr0() override { return srr0_; }
+  void watched_load(std::uint32_t lsa) override;
+  void watched_store(std::uint32_t lsa, const isa::Quadword& value) override;
+
+  template <bool profiled> void run_slice();
+  void record(std::uint32_t instruction, std::uint32_t pc, Cycle before);
+  const isa::Instruction& fetch(std::uint32_t pc);
+  const isa::Instruction& decode_again(std::uint32_t pc, std::uint32_t word);
+  /// Between instructions: limits, interrupts, and the others' turn.
+  void attend();
+  void take_interrupt();
+  void hint(const isa::Instruction& instruction, std::uint32_t pc);
+  void check_stack();
+  void call_ppe(std::uint32_t code);
+
+  /// Brings the clock up to what has been issued.
+  void settle();
+  /// Around what may let virtual time pass.
+  template <class Access> auto access(Access use);
+  const CallSite& site_of(std::uint32_t pc);
+  std::string place_of(std::uint32_t pc);
+  [[noreturn]] void fail_at(std::uint32_t pc, Rule rule, const std::string& what);
+
+  const SimulatedProgram& program_;
+  PpeCalls& calls_;
+  SpuProfile* const profile_;
+  isa::State state_of_spu_;
+  std::vector<isa::Instruction> decoded_; ///< by word of local store
+  std::vector<std::uint8_t> watch_;       ///< by quadword of local store
+  IssueModel model_;
+  std::uint32_t left_in_slice_ = 0; ///< instructions until attend()
+  std::uint64_t dma_bytes_seen_ = 0;
+  std::int32_t stack_left_ = -1; ///< as register 1 last said; less than 0: it says nothing
+  std::uint32_t lowest_stack_ = kLocalStoreBytes;
+  std::unordered_map<std::uint32_t, CallSite> sites_;
+  std::vector<SpuProfile::Word> words_; ///< for the profile
+  Cycle waited_ = 0;                    ///< at channels, by the present instruction
+};
+
+} // namespace celltrace::cell_emu
