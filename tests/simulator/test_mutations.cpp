@@ -1,6 +1,6 @@
 // Programs damaged at random: the loader refuses each with a reason or keeps its promises. The sanitizers
 // watch.
-#include "backends/cell_emu/simulator/spu_elf.hpp"
+#include "backends/cell_emu/simulator/code_places.hpp"
 #include "celltrace/error.hpp"
 #include "simulator/elf_image.hpp"
 
@@ -10,6 +10,7 @@
 
 using namespace celltrace;
 using namespace celltrace::test;
+using cell_emu::CodePlaces;
 using cell_emu::SpuElf;
 
 namespace {
@@ -52,6 +53,9 @@ bool survive(const Bytes& image) {
     CHECK(elf.program_end() <= local_store.size());
     CHECK(elf.entry() % 4 == 0);
     CHECK(elf.entry() < local_store.size());
+    const CodePlaces places(elf);
+    for (std::uint32_t lsa = 0; lsa < 0x1000; lsa += 64)
+      if (const auto place = places.at(lsa); place.function != nullptr) CHECK(place.function[0] != 0);
     return true;
   } catch (const InputError& error) {
     CHECK(std::string(error.what()).starts_with("SPU program: "));
