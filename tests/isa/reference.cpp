@@ -63,8 +63,8 @@ bool Reference::execute_rrr(std::uint32_t word) {
   const Register a = gpr[ra_of(word)], b = gpr[rb_of(word)], c = gpr[rc_of(word)];
   Register& t = gpr[word >> 21 & 0x7F];
   const auto fused = [&](bool negate_product, bool negate_c) {
-    return for_parts(4, [&](unsigned i) {
-      return single_multiply_add(a.word(i), b.word(i), c.word(i), negate_product, negate_c);
+    return compute_singles([&](unsigned i, std::uint32_t& exceptions) {
+      return single_multiply_add(a.word(i), b.word(i), c.word(i), negate_product, negate_c, exceptions);
     });
   };
   switch (word >> 28) {
@@ -294,11 +294,14 @@ bool Reference::execute_ri8(std::uint32_t word) {
     t = for_parts(4, [&](unsigned i) { return single_to_unsigned(a.word(i), 173 - immediate); });
     return true;
   case 0x1DA: // csflt
-    t = for_parts(4,
-                  [&](unsigned i) { return single_from_integer(with_sign(a.word(i), 32), immediate - 155); });
+    t = compute_singles([&](unsigned i, std::uint32_t& exceptions) {
+      return single_from_integer(with_sign(a.word(i), 32), immediate - 155, exceptions);
+    });
     return true;
   case 0x1DB: // cuflt
-    t = for_parts(4, [&](unsigned i) { return single_from_integer(a.word(i), immediate - 155); });
+    t = compute_singles([&](unsigned i, std::uint32_t& exceptions) {
+      return single_from_integer(a.word(i), immediate - 155, exceptions);
+    });
     return true;
   default:
     return false;

@@ -1,8 +1,8 @@
 // The SPU, instruction by instruction, as the SPU Instruction Set Architecture 1.2 states it and in the
 // plainest form: what the interpreter is held against. Slow.
 //
-// Of the FPSCR it models the rounding modes and the exceptions of double precision by arithmetic and
-// conversions (kModelledFpscr); those of single precision and of compares it leaves as fscrwr wrote them.
+// Of the FPSCR's exceptions it models those of arithmetic, of conversions but to integers, and divisions by
+// zero of the estimates; not what compares, fi and conversions to integers may raise.
 #pragma once
 
 #include "isa/register.hpp"
@@ -32,9 +32,8 @@ struct Effect {
   friend bool operator==(const Effect&, const Effect&) = default;
 };
 
-/// Bits of the four words of the FPSCR.
-constexpr std::uint32_t kWritableFpscr[4] = {0xF07, 0x3F07, 0x3F07, 0xF07};
-constexpr std::uint32_t kModelledFpscr[4] = {0xF00, 0x3F00, 0x3F00, 0};
+/// Bits of the four words of the FPSCR that mean something.
+constexpr std::uint32_t kDefinedFpscr[4] = {0xF07, 0x3F07, 0x3F07, 0xF07};
 
 class Reference {
 public:
@@ -74,6 +73,15 @@ private:
   void branch_indirect(std::uint32_t word, std::uint32_t address);
   Register link() const;
   void halt_if(bool condition);
+  /// f(slot, exceptions) for each of the four; the exceptions go to the FPSCR.
+  template <class F> Register compute_singles(F f) {
+    return for_parts(4, [&](unsigned slot) {
+      std::uint32_t exceptions = 0;
+      const std::uint32_t result = f(slot, exceptions);
+      fpscr.set_part(4, slot, fpscr.word(slot) | exceptions);
+      return result;
+    });
+  }
 };
 
 } // namespace celltrace::test

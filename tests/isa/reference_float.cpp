@@ -22,21 +22,34 @@ void add_exceptions(Register& fpscr, unsigned slot, std::uint32_t exceptions) {
   fpscr.set_part(4, 1 + slot, fpscr.word(1 + slot) | exceptions << 8);
 }
 
+/// Word 3 has them, bit 20 that of slot 0.
+void add_divisions_by_zero(Register& fpscr, const Register& divisor) {
+  for (unsigned i = 0; i < 4; ++i)
+    if (single_is_zero(divisor.word(i))) fpscr.set_bit(3 * 32 + 20 + i, true);
+}
+
 } // namespace
 
 bool Reference::execute_float(std::uint32_t word) {
   const Register a = gpr[ra_of(word)], b = gpr[rb_of(word)];
   Register& t = gpr[rt_of(word)];
+  const auto compute = [&](auto f) {
+    t = compute_singles(
+        [&](unsigned i, std::uint32_t& exceptions) { return f(a.word(i), b.word(i), exceptions); });
+    return true;
+  };
+  const auto estimate = [&](auto f) {
+    add_divisions_by_zero(fpscr, a);
+    t = for_parts(4, [&](unsigned i) { return f(a.word(i)); });
+    return true;
+  };
   switch (word >> 21) {
   case 0x2C4: // fa
-    t = for_parts(4, [&](unsigned i) { return single_add(a.word(i), b.word(i)); });
-    return true;
+    return compute(single_add);
   case 0x2C5: // fs
-    t = for_parts(4, [&](unsigned i) { return single_subtract(a.word(i), b.word(i)); });
-    return true;
+    return compute(single_subtract);
   case 0x2C6: // fm
-    t = for_parts(4, [&](unsigned i) { return single_multiply(a.word(i), b.word(i)); });
-    return true;
+    return compute(single_multiply);
   case 0x3C2: // fceq
     t = test_parts(4, [&](unsigned i) { return single_equal(a.word(i), b.word(i)); });
     return true;
@@ -54,11 +67,9 @@ bool Reference::execute_float(std::uint32_t word) {
     });
     return true;
   case 0x1B8: // frest
-    t = for_parts(4, [&](unsigned i) { return reciprocal_estimate(a.word(i)); });
-    return true;
+    return estimate(reciprocal_estimate);
   case 0x1B9: // frsqest
-    t = for_parts(4, [&](unsigned i) { return reciprocal_square_root_estimate(a.word(i)); });
-    return true;
+    return estimate(reciprocal_square_root_estimate);
   case 0x3D4: // fi
     t = for_parts(4, [&](unsigned i) { return interpolate(a.word(i), b.word(i)); });
     return true;
@@ -133,7 +144,7 @@ bool Reference::execute_double(std::uint32_t word) {
     t = fpscr;
     return true;
   case 0x3BA: // fscrwr
-    fpscr = for_parts(4, [&](unsigned i) { return a.word(i) & kWritableFpscr[i]; });
+    fpscr = for_parts(4, [&](unsigned i) { return a.word(i) & kDefinedFpscr[i]; });
     return true;
   default:
     return false;

@@ -22,24 +22,41 @@ struct Number {
   int exponent;              ///< of its last bit
 };
 
+int exponent_field(std::uint32_t bits) {
+  return static_cast<int>(bits >> kFractionBits & 0xFF);
+}
+
 Number number_of(std::uint32_t bits) {
   const bool negative = (bits & kSign) != 0;
-  const int exponent = static_cast<int>(bits >> kFractionBits & 0xFF);
+  const int exponent = exponent_field(bits);
   if (exponent == 0) return {negative, 0, 0};
   const std::uint32_t significand = (1u << kFractionBits) | (bits & ((1u << kFractionBits) - 1));
   return {negative, significand, exponent - kBias - kFractionBits};
+}
+
+Number operand(std::uint32_t bits, std::uint32_t& exceptions) {
+  const bool denormal = exponent_field(bits) == 0 && (bits & ~kSign) != 0;
+  if (denormal || exponent_field(bits) == 255) exceptions |= single_exception::differs;
+  return number_of(bits);
 }
 
 Value value_of(const Number& number) {
   return Value::of(number.negative, number.significand, number.exponent);
 }
 
-std::uint32_t truncated(const Value& value) {
+std::uint32_t truncated(const Value& value, std::uint32_t& exceptions) {
   if (value.is_zero()) return 0;
   const int exponent = value.exponent();
-  if (exponent + kBias < 1) return 0;
+  if (exponent + kBias < 1) {
+    exceptions |= single_exception::underflow | single_exception::differs;
+    return 0;
+  }
   const std::uint32_t sign = value.negative() ? kSign : 0;
-  if (exponent + kBias > 255) return sign | 0x7FFFFFFF;
+  if (exponent + kBias >= 255) exceptions |= single_exception::differs;
+  if (exponent + kBias > 255) {
+    exceptions |= single_exception::overflow;
+    return sign | 0x7FFFFFFF;
+  }
   const auto significand = static_cast<std::uint32_t>(value.integer(exponent - kFractionBits));
   return sign | static_cast<std::uint32_t>(exponent + kBias) << kFractionBits |
          (significand & ((1u << kFractionBits) - 1));
@@ -71,23 +88,24 @@ constexpr std::uint32_t kReciprocalSquareRoot[64] = {
 } // namespace
 
 std::uint32_t single_multiply_add(std::uint32_t a, std::uint32_t b, std::uint32_t c, bool negate_product,
-                                  bool negate_c) {
-  const Number x = number_of(a), y = number_of(b);
+                                  bool negate_c, std::uint32_t& exceptions) {
+  const Number x = operand(a, exceptions), y = operand(b, exceptions);
+  const Number z = operand(negate_c ? c ^ kSign : c, exceptions);
   const Value product = Value::of((x.negative != y.negative) != negate_product,
                                   Wide{x.significand} * y.significand, x.exponent + y.exponent);
-  return truncated(product + value_of(number_of(negate_c ? c ^ kSign : c)));
+  return truncated(product + value_of(z), exceptions);
 }
 
-std::uint32_t single_add(std::uint32_t a, std::uint32_t b) {
-  return truncated(value_of(number_of(a)) + value_of(number_of(b)));
+std::uint32_t single_add(std::uint32_t a, std::uint32_t b, std::uint32_t& exceptions) {
+  return truncated(value_of(operand(a, exceptions)) + value_of(operand(b, exceptions)), exceptions);
 }
 
-std::uint32_t single_subtract(std::uint32_t a, std::uint32_t b) {
-  return single_add(a, b ^ kSign);
+std::uint32_t single_subtract(std::uint32_t a, std::uint32_t b, std::uint32_t& exceptions) {
+  return single_add(a, b ^ kSign, exceptions);
 }
 
-std::uint32_t single_multiply(std::uint32_t a, std::uint32_t b) {
-  return single_multiply_add(a, b, 0);
+std::uint32_t single_multiply(std::uint32_t a, std::uint32_t b, std::uint32_t& exceptions) {
+  return single_multiply_add(a, b, 0, false, false, exceptions);
 }
 
 bool single_equal(std::uint32_t a, std::uint32_t b) {
@@ -102,8 +120,9 @@ std::uint32_t single_magnitude(std::uint32_t a) {
   return a & ~kSign;
 }
 
-std::uint32_t single_from_integer(std::int64_t value, int exponent) {
-  return truncated(Value::of(value < 0, static_cast<Wide>(value < 0 ? -value : value), exponent));
+std::uint32_t single_from_integer(std::int64_t value, int exponent, std::uint32_t& exceptions) {
+  const auto magnitude = static_cast<Wide>(value < 0 ? -value : value);
+  return truncated(Value::of(value < 0, magnitude, exponent), exceptions);
 }
 
 std::uint32_t single_to_signed(std::uint32_t a, int exponent) {
@@ -121,14 +140,18 @@ std::uint32_t single_to_unsigned(std::uint32_t a, int exponent) {
   return value.exponent() >= 32 ? 0xFFFFFFFF : static_cast<std::uint32_t>(value.integer(0));
 }
 
+bool single_is_zero(std::uint32_t a) {
+  return exponent_field(a) == 0;
+}
+
 std::uint32_t reciprocal_estimate(std::uint32_t a) {
-  const int exponent = static_cast<int>(a >> 23 & 0xFF);
+  const int exponent = exponent_field(a);
   const int estimated = exponent == 0 ? 0xFF : std::max(0, 253 - exponent);
   return (a & kSign) | static_cast<std::uint32_t>(estimated) << 23 | kReciprocal[a >> 18 & 31];
 }
 
 std::uint32_t reciprocal_square_root_estimate(std::uint32_t a) {
-  const int exponent = static_cast<int>(a >> 23 & 0xFF);
+  const int exponent = exponent_field(a);
   const int estimated = exponent == 0 ? 0xFF : 190 - (exponent + 1) / 2;
   return static_cast<std::uint32_t>(estimated) << 23 | kReciprocalSquareRoot[a >> 18 & 63];
 }
@@ -140,7 +163,7 @@ std::uint32_t interpolate(std::uint32_t a, std::uint32_t estimate) {
   const std::int64_t place = a & 0x7FFFF;
   const std::int64_t line = (base << 19) - step * place;
   const bool below_one = line < std::int64_t{1} << 32;
-  const int exponent = static_cast<int>(estimate >> 23 & 0xFF) - (below_one ? 1 : 0);
+  const int exponent = exponent_field(estimate) - (below_one ? 1 : 0);
   if (exponent <= 0) return 0;
   const auto fraction = static_cast<std::uint32_t>(line >> (below_one ? 8 : 9)) & 0x7FFFFF;
   return (estimate & kSign) | static_cast<std::uint32_t>(exponent) << 23 | fraction;
