@@ -62,6 +62,8 @@ void Mfc::begin_program(ArenaRange arena) {
   waits_ = {};
   last_request_ = {};
   atomic_status_.reset();
+  drain_site_ = {};
+  drain_reported_ = false;
 }
 
 void Mfc::finish(Cycle now) {
@@ -84,8 +86,14 @@ void Mfc::finish(Cycle now) {
     const bool kept = context_.log.note(diagnostic, what);
     if (kept && diagnostic.action == Action::stop && !first) first = diagnostic;
   };
-  for (const Flight& flight : context_.flights.of(spe_))
-    if (!flight.proxy) report_left({flight.transfer, flight.command, flight.site, false, 0});
+  for (const Flight& flight : context_.flights.of(spe_)) {
+    if (flight.proxy) continue;
+    Diagnostic diagnostic;
+    if (!flight.drained)
+      report_left({flight.transfer, flight.command, flight.site, false, 0});
+    else if (note_drained(flight, diagnostic, now) && diagnostic.action == Action::stop && !first)
+      first = diagnostic;
+  }
   // A stopped list of which the program has seen all that was transferred has no flight, but is not done.
   const std::vector<Flight>& flights = context_.flights.of(spe_);
   for (const Entry& entry : queue_)
