@@ -360,8 +360,8 @@ void Mfc::start(Entry& entry, Cycle now) {
         is_ordered_before(flight, entry))
       move(flight, now);
   }
-  const bool releases = kind_of(entry.command.opcode) == CommandKind::barrier ||
-                        has_fence(entry.command.opcode) || has_barrier(entry.command.opcode);
+  const bool releases =
+      kind_of(entry.command.opcode) == CommandKind::barrier || follows_its_tag(entry.command.opcode);
   if (releases)
     context_.flights.for_each(spe_, [&](Flight& flight) {
       flight.released |= flight.command != entry.number && is_ordered_before(flight, entry);
@@ -509,8 +509,10 @@ bool Mfc::complete_part(Entry& entry, Cycle now) {
   entry.stalled = true;
   entry.due = kNever;
   entry.moved = true;
+  // The event is the rise of the channel's count; what joins an unread status adds to its bits only.
+  const bool rises = stalled_tags_ == 0;
   stalled_tags_ |= 1u << entry.command.tag;
-  problem_state_.raise_own(event::list_stall);
+  if (rises) problem_state_.raise_own(event::list_stall);
   return false;
 }
 

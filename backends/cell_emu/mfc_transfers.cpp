@@ -19,7 +19,7 @@ bool Mfc::is_ordered_before(const Flight& flight, const Entry& entry) const {
       flight.command < last_queue_barrier_[entry.proxy])
     return true;
   if (flight.transfer.tag != entry.command.tag) return false;
-  return has_fence(entry.command.opcode) || has_barrier(entry.command.opcode) ||
+  return follows_its_tag(entry.command.opcode) ||
          flight.command <= last_tag_barrier_[entry.proxy][entry.command.tag];
 }
 

@@ -39,7 +39,7 @@ const char* wait_for(Channel channel) {
 
 /// Calls `use(std::integral_constant<Channel, c>)` for the channel with this number.
 template <unsigned c = 0, class Use> void with_channel(unsigned channel, Use use) {
-  if constexpr (c <= static_cast<unsigned>(Channel::wr_out_intr_mbox)) {
+  if constexpr (c <= static_cast<unsigned>(Channel::pm_stop_event)) {
     if (c == channel) return use(std::integral_constant<Channel, static_cast<Channel>(c)>());
     with_channel<c + 1>(channel, use);
   }
@@ -248,7 +248,13 @@ std::uint32_t SpuCore::decrementer() {
 
 void SpuCore::start_decrementer(std::uint32_t value) {
   update_decrementer();
-  decrementer_.write(value, now_);
+  if (decrementer_.write(value, now_)) state_.raise_own(event::decrementer);
+}
+
+void SpuCore::event_mask_channel(std::uint32_t mask) {
+  // What has expired by now meets the old mask: the new one may leave a phantom of it.
+  update_decrementer();
+  state_.write_event_mask(mask);
 }
 
 void SpuCore::event_ack_channel(std::uint32_t events) {

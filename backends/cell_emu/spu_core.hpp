@@ -100,6 +100,7 @@ private:
   std::uint32_t event_status_channel();
   std::uint32_t decrementer();
   void start_decrementer(std::uint32_t value);
+  void event_mask_channel(std::uint32_t mask);
   void event_ack_channel(std::uint32_t events);
   Cycle decrementer_deadline() const;
 
@@ -110,6 +111,8 @@ private:
   template <Channel c> std::uint32_t present_count();
 
   static constexpr std::uint64_t kUnit = 65536;
+  /// The bits that an address of an instruction has.
+  static constexpr std::uint32_t kInstructionAddress = kLocalStoreBytes - 4;
 
   SeededRandom random_;
   MfcCommand parameters_{}; ///< channels 16..21 keep what was written
@@ -160,12 +163,12 @@ template <Channel c> void SpuCore::channel_write(std::uint32_t value) {
     reach();
     await<c>();
   }
-  if constexpr (c == Channel::wr_event_mask) state_.write_event_mask(value);
+  if constexpr (c == Channel::wr_event_mask) event_mask_channel(value);
   if constexpr (c == Channel::wr_event_ack) event_ack_channel(value);
   if constexpr (c == Channel::wr_dec) start_decrementer(value);
   // What other SPEs have queued has not started, so nothing is on its way to this SPE.
   if constexpr (c == Channel::wr_ms_sync_req) state_.raise_own(event::multi_source_sync);
-  if constexpr (c == Channel::wr_srr0) srr0_ = value;
+  if constexpr (c == Channel::wr_srr0) srr0_ = value & kInstructionAddress;
   if constexpr (c == Channel::mfc_lsa) parameters_.lsa = value;
   if constexpr (c == Channel::mfc_eah) parameters_.ea = (ea_t{value} << 32) | (parameters_.ea & 0xFFFFFFFF);
   if constexpr (c == Channel::mfc_eal) parameters_.ea = (parameters_.ea & ~ea_t{0xFFFFFFFF}) | value;
@@ -206,6 +209,8 @@ template <Channel c> std::uint32_t SpuCore::channel_count_of() {
     reach();
     if constexpr (c == Channel::rd_event_stat) update_decrementer();
     const std::uint32_t count = present_count<c>();
+    if constexpr (c == Channel::mfc_cmd)
+      if (count == kMfcQueueEntries) mfc_.observe_empty_queue(site_, now_);
     if (count == 0 && state_.interrupted()) state_.stop_at(c);
     return count;
   }

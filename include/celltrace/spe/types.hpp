@@ -89,6 +89,10 @@ enum class Channel : uint32_t {
   wr_out_mbox = 28,
   rd_in_mbox = 29,
   wr_out_intr_mbox = 30,
+  // For tools that measure: marks in a trace, and the start and end of counting.
+  set_bookmark_tag = 69,
+  pm_start_event = 70,
+  pm_stop_event = 71,
 };
 
 /// What a write to channel 23 (tag status update) asks for.
