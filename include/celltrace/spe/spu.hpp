@@ -316,8 +316,8 @@ private:
   void list_command(const void* ls, ea_t ea, const ListElement* list, uint32_t elements, uint32_t tag,
                     CallSite site) {
     self().at(site);
-    self().template mfc_list_command<op>(const_cast<void*>(ls), ea, list,
-                                         elements * static_cast<uint32_t>(sizeof(ListElement)), tag);
+    self().template mfc_list_command<op>(const_cast<void*>(ls), ea, list, ListElement::list_bytes(elements),
+                                         tag);
   }
   template <MfcOpcode op> uint32_t atomic_command(const void* ls, ea_t ea, CallSite site) {
     command<op>(ls, ea, kLineBytes, 0, site);

@@ -137,6 +137,11 @@ struct ListElement {
   static constexpr ListElement make(uint32_t size, ea_t ea, bool notify = false) {
     return {size | (notify ? kNotify : 0u), static_cast<uint32_t>(ea)};
   }
+  /// The bytes of a list of `elements`. What 32 bits do not hold becomes a length that no MFC takes.
+  static constexpr uint32_t list_bytes(uint64_t elements) {
+    constexpr uint64_t most = 0xFFFFFFFFu / 8;
+    return static_cast<uint32_t>(elements < most ? elements : most) * 8;
+  }
 };
 static_assert(sizeof(ListElement) == 8, "a list element is 8 bytes");
 
