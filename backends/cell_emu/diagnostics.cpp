@@ -102,6 +102,7 @@ constexpr std::array<Entry, kRules> kTable = {{
     {Rule::phantom_event, "phantom-event", kStop,
      "after a phantom event (status 0) the program waits for what the event did not announce"},
     {Rule::deadlock, "deadlock", kStop, "every SPE waits, and so does the PPE"},
+    {Rule::time_limit, "time-limit", kStop, "the program runs longer than the configuration allows"},
     {Rule::halted, "halted", kStop, "the program halted itself"},
     {Rule::kernel_exception, "kernel-exception", kStop, "the kernel threw an exception"},
 }};

@@ -9,6 +9,8 @@
 #include "backends/cell_emu/decrementer.hpp"
 #include "backends/cell_emu/scheduler.hpp"
 
+#include <chrono>
+#include <string>
 #include <type_traits>
 
 namespace celltrace::cell_emu {
@@ -68,6 +70,12 @@ protected:
   /// Adds cycles in which the SPU was busy, or was kept from it by its own pipelines; and what faults make of
   /// them.
   void spend(SpuCycles cycles);
+  /// Breaks Rule::time_limit when the program takes longer than the configuration allows. Cheap: for every
+  /// access to a channel, and for now and then where a program has none.
+  void check_limits() {
+    if (now_ >= cycle_end_ || --looks_left_ == 0) [[unlikely]]
+      look_at_limits();
+  }
   /// Adds cycles of accesses to channels.
   void spend_on_channels(const SpuCycles& cycles) {
     now_ += cycles.total_cycle;
@@ -94,6 +102,8 @@ protected:
 
 private:
   void spend_on_fault(std::uint64_t cycles);
+  void look_at_limits();
+  void report_limit(const std::string& passed);
   void command_word(std::uint32_t word);
   std::uint32_t read_in_mailbox_channel();
   std::uint32_t read_signal_channel(Signal which);
@@ -122,7 +132,13 @@ private:
 
   SpuCycles cycles_; ///< since the machine was made
   Cycle now_;
-  Cycle computing_since_;          ///< for the trace
+  Cycle computing_since_; ///< for the trace
+  /// The clock of the host is looked at once in so many calls of check_limits().
+  static constexpr std::uint32_t kLooks = 1024;
+  Cycle start_;
+  Cycle cycle_end_ = kNever;
+  std::uint32_t looks_left_ = kLooks;
+  std::optional<std::chrono::steady_clock::time_point> host_end_;
   std::uint64_t slowness_ = kUnit; ///< what faults make of a cycle of work, in 1/65536
 };
 

@@ -122,6 +122,12 @@ const Rows kRunControl = {
              spu.halt(HaltCode::bad_argument);
            },
            {"halted: bad argument"}),
+    broken(Rule::halted, "so does an alignment that is none",
+           [](Spu& spu, Stage& stage) {
+             stage.next_line();
+             spu.allocate<std::uint32_t>(4, 0);
+           },
+           {"halted: bad argument"}),
     kept(Rule::kernel_exception, "an exception that the kernel catches is its own affair",
          [](Spu&, Stage& stage) {
            try {

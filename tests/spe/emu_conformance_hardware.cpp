@@ -73,6 +73,33 @@ const Rows kHardware = {
     fact("also for one that stops", HardwareRow::get_behind_list_barrier),
     broken(Rule::list_length, "a number of elements whose bytes 32 bits do not hold is too large, too",
            HardwareRow::list_count_wraps, {"getl of 4294967288 bytes of list"}),
+
+    kept(Rule::time_limit, "a program that ends in time", HardwareRow::drained_and_waited)
+        .configured([](MachineConfig& config) {
+          config.emulation.cycle_limit = 10000000;
+          config.emulation.seconds_limit = 100;
+        }),
+    broken(Rule::time_limit, "one that polls for ever ends after so many cycles", HardwareRow::poll_for_ever,
+           {"after 100000 cycles"})
+        .configured([](MachineConfig& config) { config.emulation.cycle_limit = 100000; }),
+    broken(Rule::time_limit, "or after so many seconds of the host", HardwareRow::poll_for_ever,
+           {"after 0.010000 seconds"})
+        .configured([](MachineConfig& config) { config.emulation.seconds_limit = 0.01; }),
+    broken(Rule::time_limit, "who waits for it ends, too", HardwareRow::wait_of_two)
+        .spes(2)
+        .configured([](MachineConfig& config) { config.emulation.cycle_limit = 100000; }),
+    broken(Rule::time_limit, "so does the PPE, when it looks for mail", HardwareRow::poll_for_ever)
+        .ppe([](Machine& machine, Stage&) {
+          while (!machine.read_out_mailbox(0))
+            machine.wait_for_mail(std::chrono::milliseconds(1));
+        })
+        .configured([](MachineConfig& config) { config.emulation.cycle_limit = 100000; }),
+    broken(Rule::time_limit, "or polls for it without a pause", HardwareRow::poll_for_ever)
+        .ppe([](Machine& machine, Stage&) {
+          while (!machine.read_out_mailbox(0)) {
+          }
+        })
+        .configured([](MachineConfig& config) { config.emulation.cycle_limit = 100000; }),
 };
 
 TEST_CASE("conformance: hardware") {

@@ -80,6 +80,7 @@ enum class Rule : unsigned char {
   stalls_for_ever,
   phantom_event,
   deadlock,
+  time_limit,
   halted,
   kernel_exception,
 };
