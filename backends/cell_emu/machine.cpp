@@ -208,7 +208,7 @@ EmulatedCell::Run EmulatedCell::host_code(unsigned spe, const SpeProgram& progra
 EmulatedCell::Run EmulatedCell::machine_code(unsigned spe, const SpeProgram& program, ea_t argument,
                                              ArenaRange&) {
   const auto code = programs_->find(program);
-  const SimulatedSpu::Arguments arguments = programs_->arguments(*code, spe, argument);
+  const StartRegisters arguments = programs_->arguments(*code, spe, argument);
   return [this, code, arguments](Spe& runs) {
     bus_.hold_local_store(runs.id, [&] {
       fill_with_poison(map_.local_store(runs.id), kLocalStoreBytes);

@@ -22,10 +22,11 @@ struct alignas(kLineBytes) SimulatedPrograms::Block {
 };
 
 SimulatedPrograms::SimulatedPrograms(const MachineConfig& config, const AddressMap& map)
-    : blocks_(std::make_unique<Block[]>(map.spes())), spes_(map.spes()), calls_(config.simulation) {
-  for (unsigned spe = 0; spe < spes_; ++spe) {
+    : blocks_(std::make_unique<Block[]>(map.spes())), map_(map), arguments_(config.simulation.arguments),
+      calls_(config.simulation) {
+  for (unsigned spe = 0; spe < map.spes(); ++spe) {
     Block& block = blocks_[spe];
-    for (unsigned other = 0; other < spes_; ++other) {
+    for (unsigned other = 0; other < map.spes(); ++other) {
       const SpeAddresses addresses = map.addresses(other);
       std::uint8_t* const at = block.addresses + other * sizeof(SpeAddresses);
       store_big_endian64(at + offsetof(SpeAddresses, local_store), addresses.local_store);
@@ -35,7 +36,7 @@ SimulatedPrograms::SimulatedPrograms(const MachineConfig& config, const AddressM
     }
     store_big_endian64(block.control + offsetof(ControlBlock, addresses), to_ea(block.addresses));
     store_big_endian32(block.control + offsetof(ControlBlock, id), spe);
-    store_big_endian32(block.control + offsetof(ControlBlock, count), spes_);
+    store_big_endian32(block.control + offsetof(ControlBlock, count), map.spes());
   }
 }
 
@@ -57,12 +58,15 @@ std::shared_ptr<const SimulatedProgram> SimulatedPrograms::find(const SpeProgram
   return programs_.back();
 }
 
-SimulatedSpu::Arguments SimulatedPrograms::arguments(const SimulatedProgram& program, unsigned spe,
-                                                     ea_t argument) {
-  const std::uint64_t id = kFirstSpeId + spe;
-  if (program.convention() == Convention::stand_alone) return {id, argument, 0};
+StartRegisters SimulatedPrograms::arguments(const SimulatedProgram& program, unsigned spe, ea_t argument) {
+  const ea_t local_store = map_.addresses(spe).local_store;
+  if (program.convention() == Convention::stand_alone) {
+    if (fetches_argv(program.elf())) return arguments_.for_fetching(local_store);
+    const ea_t argp = arguments_.has_any() ? arguments_.ppe_argv() : argument;
+    return StartRegisters::of(kFirstSpeId + spe, argp, local_store);
+  }
   store_big_endian64(blocks_[spe].control + offsetof(ControlBlock, argument), argument);
-  return {id, to_ea(blocks_[spe].control), 0};
+  return StartRegisters::of(kFirstSpeId + spe, to_ea(blocks_[spe].control), local_store);
 }
 
 } // namespace celltrace::cell_emu

@@ -4,6 +4,7 @@
 
 #include "backends/cell_emu/address_map.hpp"
 #include "backends/cell_emu/simulator/ppe_calls.hpp"
+#include "backends/cell_emu/simulator/program_arguments.hpp"
 #include "backends/cell_emu/simulator/simulated_program.hpp"
 #include "backends/cell_emu/simulator/simulated_spu.hpp"
 #include "celltrace/spe/machine.hpp"
@@ -17,13 +18,14 @@ namespace celltrace::cell_emu {
 /// Thread safety: calls() from any thread, all else from the PPE's.
 class SimulatedPrograms {
 public:
+  /// Throws InputError for arguments that no program can take. The map has to outlive it.
   SimulatedPrograms(const MachineConfig& config, const AddressMap& map);
 
   /// The machine code of a program. Throws SpeError if it has none, InputError if that is no executable for
   /// the SPU.
   std::shared_ptr<const SimulatedProgram> find(const SpeProgram& program);
   /// What the program finds in its registers when SPE `spe` starts it.
-  SimulatedSpu::Arguments arguments(const SimulatedProgram& program, unsigned spe, ea_t argument);
+  StartRegisters arguments(const SimulatedProgram& program, unsigned spe, ea_t argument);
   PpeCalls& calls() { return calls_; }
 
 private:
@@ -32,7 +34,8 @@ private:
 
   std::vector<std::shared_ptr<const SimulatedProgram>> programs_;
   std::unique_ptr<Block[]> blocks_;
-  unsigned spes_;
+  const AddressMap& map_;
+  const ProgramArguments arguments_;
   PpeCalls calls_;
 };
 

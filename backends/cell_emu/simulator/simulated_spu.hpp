@@ -5,6 +5,7 @@
 #include "backends/cell_emu/isa/instruction.hpp"
 #include "backends/cell_emu/simulator/issue_model.hpp"
 #include "backends/cell_emu/simulator/ppe_calls.hpp"
+#include "backends/cell_emu/simulator/program_arguments.hpp"
 #include "backends/cell_emu/simulator/simulated_program.hpp"
 #include "backends/cell_emu/spu_core.hpp"
 #include "celltrace/spe/simulation.hpp"
@@ -22,17 +23,12 @@ public:
   /// The key of a stand-alone program's image.
   static constexpr const char* kElfKey = "elf";
 
-  /// Registers 3, 4 and 5 at the start, as an SPE's loader fills them: 64 bits each, in the preferred slot.
-  struct Arguments {
-    std::uint64_t spe_id, argp, envp;
-  };
-
   /// The program must have been loaded. `profile` may be null.
   SimulatedSpu(Spe& spe, const SpuContext& context, const SimulatedProgram& program, PpeCalls& calls,
                SpuProfile* profile);
 
   /// Executes the program from its entry on, until it throws: Exit when it ends, or as SpuCore does.
-  [[noreturn]] void run(const Arguments& arguments);
+  [[noreturn]] void run(const StartRegisters& registers);
   void finish();
   void abandon();
 
