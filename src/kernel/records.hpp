@@ -268,6 +268,7 @@ struct alignas(128) FrameBlock {
   uint32_t units_per_word;        ///< that an SPE tells of its progress by; 0: it does not
   uint32_t wide_leaves;           ///< 0 or 1: for SPEs that test many triangles of a leaf at once
   uint32_t far_nodes;             ///< 0 or 1: for SPEs that wait long for a node of the hierarchy
+  uint32_t unused[23];
 };
 static_assert(sizeof(FrameBlock) % 128 == 0 && sizeof(FrameBlock) <= 512, "fetched by one DMA command");
 
@@ -298,7 +299,7 @@ struct alignas(128) ReportRecord {
   uint32_t busy_ticks; ///< of the decrementer, in which the SPE did not wait for work
   uint32_t spilled_nodes;
   uint32_t list_entries; ///< PREPARE FRAME
-  uint32_t unused[8];
+  uint32_t unused[24];
 };
 static_assert(sizeof(ReportRecord) == 256, "two lines");
 

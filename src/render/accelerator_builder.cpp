@@ -65,10 +65,6 @@ bool AcceleratorBuilder::build(const Progress& go_on) {
   return built && (!go_on || go_on(1));
 }
 
-const ReportRecord& AcceleratorBuilder::report() const {
-  return *reinterpret_cast<const ReportRecord*>(static_cast<std::uintptr_t>(frame_.reports));
-}
-
 bool AcceleratorBuilder::build_grid() {
   const GridRecord grid = choose_grid(image_.header());
   const std::uint32_t cells = grid.row_of_cells * grid.cells[2];
@@ -81,11 +77,15 @@ bool AcceleratorBuilder::build_grid() {
     frame_.grid.cell_offset = image_.table_offset();
     frame_.grid.list_offset = image_.list_offset();
     frame_.grid.list_capacity = words;
-    enter_memory(words);
-    if (team_.prepare_frame(1, {})) break;
-    pairs = report().list_entries;
+    enter_work_memory(words);
+    shared_image_.publish_static();
+    frame_.image = shared_image_.ea();
+    const bool built = team_.prepare_frame(1, {});
+    reports_.fetch();
+    if (built) break;
+    pairs = reports_[0].list_entries;
   }
-  frame_.grid.list_count = report().list_entries;
+  frame_.grid.list_count = reports_[0].list_entries;
   return true;
 }
 
@@ -98,40 +98,48 @@ bool AcceleratorBuilder::build_hierarchy(const Progress& go_on) {
   frame_.hierarchy = {image_.table_offset(), nodes, 0, image_.list_offset()};
   frame_.wide_leaves = machine_.direct_memory() && objects <= kMostOfWideLeaves;
   frame_.far_nodes = machine_.direct_memory() && objects > kMostOfNearNodes;
-  enter_memory(work.pairs());
-  bool built = false;
-  if (machine_.direct_memory()) {
-    built = build_hierarchy_on(team_, machine_.spe_count(), go_on);
-  } else {
-    // The builder follows pointers through main memory: work for the PPE's side where SPEs cannot.
-    // No more of them than there are reports in the frame.
-    MachineConfig host;
-    host.spes = std::clamp(std::thread::hardware_concurrency(), 1u, machine_.spe_count());
-    const std::unique_ptr<Machine> machine = make_machine(host);
-    SpeTeam team(*machine, frame_);
-    built = build_hierarchy_on(team, host.spes, go_on);
-  }
-  frame_.hierarchy.node_count = report().list_entries;
+  enter_work_memory(work.pairs());
+  frame_.image = to_ea(image_.base());
+  // The builder follows pointers through main memory: work for the PPE's side where SPEs cannot.
+  if (!machine_.direct_memory()) return build_hierarchy_for_spes(go_on);
+  const bool built = build_hierarchy_on(team_, frame_, machine_.spe_count(), go_on);
+  frame_.hierarchy.node_count = reports_[0].list_entries;
   return built;
 }
 
-bool AcceleratorBuilder::build_hierarchy_on(SpeTeam& team, unsigned spes, const Progress& go_on) {
+bool AcceleratorBuilder::build_hierarchy_for_spes(const Progress& go_on) {
+  MachineConfig host;
+  host.spes = std::clamp(std::thread::hardware_concurrency(), 1u, hierarchy::kMaxBuilders);
+  const std::unique_ptr<Machine> machine = make_machine(host);
+  SharedRecords<ReportRecord> reports(host.spes, machine->byte_order());
+  SharedRecords<FrameBlock> frame(1, machine->byte_order());
+  frame[0] = frame_;
+  frame[0].reports = reports.ea();
+  SpeTeam team(*machine, frame);
+  const bool built = build_hierarchy_on(team, frame[0], host.spes, go_on);
+  frame_.hierarchy.node_count = reports[0].list_entries;
+  shared_image_.publish_all();
+  frame_.image = shared_image_.ea();
+  return built;
+}
+
+bool AcceleratorBuilder::build_hierarchy_on(SpeTeam& team, FrameBlock& frame, unsigned spes,
+                                            const Progress& go_on) {
   HierarchyWatch watch(work_[0], go_on);
   // What a few objects take is not worth while to share.
   const unsigned builders = frame_.run_count == 0 ? 1 : std::min(spes, hierarchy::kMaxBuilders);
   // Between steps others are waited for, and it may be stopped.
   const bool at_once = builders == 1 && !go_on;
-  frame_.prepare_spes = at_once ? 0 : builders;
-  frame_.prepare_step = 0;
+  frame.prepare_spes = at_once ? 0 : builders;
+  frame.prepare_step = 0;
   const std::uint32_t steps = at_once || frame_.run_count == 0 ? 1 : hierarchy::kSteps;
-  for (; frame_.prepare_step < steps && !watch.stopped(); ++frame_.prepare_step)
-    team.prepare_frame(builders, [&] { watch.look(frame_.prepare_step != 0); });
+  for (; frame.prepare_step < steps && !watch.stopped(); ++frame.prepare_step)
+    team.prepare_frame(builders, [&] { watch.look(frame.prepare_step != 0); });
   watch.rethrow();
   return !watch.stopped();
 }
 
-void AcceleratorBuilder::enter_memory(std::uint64_t pairs) {
-  frame_.image = reinterpret_cast<std::uintptr_t>(image_.base());
+void AcceleratorBuilder::enter_work_memory(std::uint64_t pairs) {
   frame_.sort_capacity = static_cast<std::uint32_t>(pairs);
   for (int i = 0; i < 2; ++i) {
     work_[i].reserve(static_cast<std::size_t>(pairs) * 8);

@@ -3,18 +3,22 @@
 
 #include "celltrace/render.hpp"
 #include "celltrace/spe/machine.hpp"
-#include "kernel/records.hpp"
+#include "celltrace/spe/shared_records.hpp"
+#include "render/frame_fields.hpp"
 #include "render/spe_team.hpp"
 #include "scene/scene_image.hpp"
+#include "scene/shared_image.hpp"
 
 namespace celltrace {
 
 /// Keeps its work memory from frame to frame.
 class AcceleratorBuilder {
 public:
-  /// All of them stay as long as this lives.
-  AcceleratorBuilder(Machine& machine, SpeTeam& team, kernel::FrameBlock& frame, SceneImage& image)
-      : machine_(machine), team_(team), frame_(frame), image_(image) {}
+  /// All of them stay as long as this lives. `reports` are what the frame block names.
+  AcceleratorBuilder(Machine& machine, SpeTeam& team, kernel::FrameBlock& frame,
+                     SharedRecords<kernel::ReportRecord>& reports, SceneImage& image)
+      : machine_(machine), team_(team), frame_(frame), reports_(reports), image_(image),
+        shared_image_(image, machine.byte_order()) {}
 
   /// Makes `image` that of `scene`. Throws as SceneImage::assign() does.
   void make_image(const Scene& scene);
@@ -27,15 +31,19 @@ public:
 private:
   bool build_grid();
   bool build_hierarchy(const Progress& go_on);
-  bool build_hierarchy_on(SpeTeam& team, unsigned spes, const Progress& go_on);
-  /// Tells the frame block where the image now lies, and work memory of `pairs` pairs in each of two blocks.
-  void enter_memory(std::uint64_t pairs);
-  const kernel::ReportRecord& report() const;
+  /// On the PPE's side.
+  bool build_hierarchy_for_spes(const Progress& go_on);
+  /// `frame` is the team's.
+  bool build_hierarchy_on(SpeTeam& team, kernel::FrameBlock& frame, unsigned spes, const Progress& go_on);
+  /// Tells the frame block where work memory of `pairs` pairs in each of two blocks lies.
+  void enter_work_memory(std::uint64_t pairs);
 
   Machine& machine_;
   SpeTeam& team_;
   kernel::FrameBlock& frame_;
+  SharedRecords<kernel::ReportRecord>& reports_;
   SceneImage& image_;
+  SharedImage shared_image_;
   AlignedBlock work_[2];
 };
 

@@ -57,21 +57,7 @@ AlignedBlock make_list_target(std::size_t bytes) {
 
 class Renderer::Impl {
 public:
-  explicit Impl(const RenderOptions& options)
-      : options_(options), frame_block_(sizeof(FrameBlock)), frame_(*new (frame_block_.data()) FrameBlock()),
-        machine_(make_machine(machine_config(options))) {
-    const unsigned spes = machine_->spe_count();
-    set_options(frame_, options_, *machine_);
-    surface_ = make_list_target(std::size_t{frame_.surface_pitch} * frame_.packet_rows * kPacketEdge);
-    reports_ = AlignedBlock(spes * sizeof(ReportRecord));
-    frame_.surface = to_ea(surface_.data());
-    frame_.reports = to_ea(reports_.data());
-    plan_ = std::make_unique<WorkPlan>(options_.balance, frame_.bundle_columns, frame_.bundle_rows, spes);
-    team_ = std::make_unique<SpeTeam>(*machine_, frame_);
-    builder_ = std::make_unique<AcceleratorBuilder>(*machine_, *team_, frame_, image_);
-    if (options_.model != Model::shared)
-      stages_ = std::make_unique<StageTeam>(*machine_, frame_, options_.model);
-  }
+  explicit Impl(const RenderOptions& options) : Impl(options, make_machine(machine_config(options))) {}
   ~Impl() {
     // Some rules are for the end of a program.
     team_.reset();
@@ -91,6 +77,22 @@ public:
   }
 
 private:
+  Impl(const RenderOptions& options, std::unique_ptr<Machine> machine)
+      : options_(options), reports_(machine->spe_count(), machine->byte_order()),
+        frame_block_(1, machine->byte_order()), frame_(frame_block_[0]), machine_(std::move(machine)) {
+    const unsigned spes = machine_->spe_count();
+    set_options(frame_, options_, *machine_);
+    surface_ = make_list_target(std::size_t{frame_.surface_pitch} * frame_.packet_rows * kPacketEdge);
+    frame_.surface = to_ea(surface_.data());
+    frame_.reports = reports_.ea();
+    plan_ = std::make_unique<WorkPlan>(options_.balance, frame_.bundle_columns, frame_.bundle_rows, spes,
+                                       machine_->byte_order());
+    team_ = std::make_unique<SpeTeam>(*machine_, frame_block_);
+    builder_ = std::make_unique<AcceleratorBuilder>(*machine_, *team_, frame_, reports_, image_);
+    if (options_.model != Model::shared)
+      stages_ = std::make_unique<StageTeam>(*machine_, frame_block_, options_.model);
+  }
+
   template <class Work> RenderResult reporting_failures(Work work) {
     try {
       return work();
@@ -132,10 +134,10 @@ private:
   RenderResult no_frame(RenderStatistics& statistics) {
     has_scene_ = false;
     std::memset(surface_.data(), 0, surface_.size());
-    std::memset(reports_.data(), 0, reports_.size());
+    reports_.clear();
     RenderResult result;
     result.complete = false;
-    collect(statistics, *machine_, frame_, reports(), SpeMeter(*machine_).read());
+    collect(statistics, *machine_, frame_, reports_.all(), SpeMeter(*machine_).read());
     result.statistics = statistics;
     result.image = copy_picture();
     return result;
@@ -164,7 +166,7 @@ private:
     ++frame_.epoch;
     // A frame that nobody can break off leaves no pixel out.
     if (progress) std::memset(surface_.data(), 0, surface_.size());
-    std::memset(reports_.data(), 0, reports_.size());
+    reports_.clear();
     const Stopwatch render;
     const SpeMeter meter(*machine_);
     RenderResult result;
@@ -175,13 +177,14 @@ private:
     frame_.units_per_word = silent ? 0 : plan_->units() / 64 + 1;
     StripTally tally(machine_->spe_count(), plan_->units());
     result.complete = stages_ ? stages_->render_frame(progress) : team_->render_frame(tally, progress);
+    reports_.fetch();
     statistics.render_seconds = render.seconds();
     if (result.complete && !stages_) plan_->learn();
     if (machine_->backend() == "cell_emu") {
       statistics.schedule = options_.emulation.schedule;
       statistics.seed = options_.emulation.seed;
     }
-    collect(statistics, *machine_, frame_, reports(), meter.read());
+    collect(statistics, *machine_, frame_, reports_.all(), meter.read());
     statistics.model = options_.model;
     if (stages_) statistics.stages = stages_->counts();
     statistics.diagnostics = new_diagnostics();
@@ -190,9 +193,6 @@ private:
     if (is_last_frame_) image_ = SceneImage();
     result.image = copy_picture();
     return result;
-  }
-  std::span<const ReportRecord> reports() const {
-    return {reinterpret_cast<const ReportRecord*>(reports_.data()), machine_->spe_count()};
   }
 
   Image copy_picture() const {
@@ -212,9 +212,10 @@ private:
   std::vector<Medium> media_;
   bool has_scene_ = false; ///< and an accelerator for it
   // Everything from here to the machine is read and written by the SPEs.
-  AlignedBlock surface_, reports_, ray_stack_;
-  AlignedBlock frame_block_;
-  FrameBlock& frame_;
+  AlignedBlock surface_, ray_stack_; // bytes, and the SPEs' own
+  SharedRecords<ReportRecord> reports_;
+  SharedRecords<FrameBlock> frame_block_;
+  FrameBlock& frame_; ///< the PPE's
   std::unique_ptr<WorkPlan> plan_;
   std::unique_ptr<Machine> machine_;
   std::unique_ptr<SpeTeam> team_;

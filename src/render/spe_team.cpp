@@ -12,7 +12,7 @@ namespace celltrace {
 
 using namespace kernel;
 
-SpeTeam::SpeTeam(Machine& machine, const FrameBlock& frame)
+SpeTeam::SpeTeam(Machine& machine, SharedRecords<FrameBlock>& frame)
     : machine_(machine), frame_(frame), members_(machine.spe_count()) {
   for (unsigned spe = 0; spe < members_.size(); ++spe)
     members_[spe].spe = spe;
@@ -32,7 +32,7 @@ void SpeTeam::assemble() {
   if (std::exchange(assembled_, true)) return;
   const SpeProgram program = tracer_program();
   for (unsigned spe = 0; spe < members_.size(); ++spe)
-    machine_.start(spe, program, to_ea(&frame_));
+    machine_.start(spe, program, frame_.ea());
 }
 
 void SpeTeam::dismiss() {
@@ -45,8 +45,7 @@ void SpeTeam::dismiss() {
 bool SpeTeam::prepare_frame(unsigned spes, const std::function<void()>& look) {
   for (Member& member : members_)
     member.answered = member.spe >= spes;
-  for (unsigned spe = 0; spe < spes; ++spe)
-    machine_.write_signal(spe, Signal::one, command::prepare_frame);
+  signal_first(spes, command::prepare_frame);
   bool built = true;
   while (!all_answered()) {
     receive([&](Member& member, ReportKind kind, std::uint32_t) {
@@ -89,7 +88,12 @@ bool SpeTeam::render_frame(StripTally& tally, const Progress& progress) {
 }
 
 void SpeTeam::signal_all(std::uint32_t commands) {
-  for (unsigned spe = 0; spe < members_.size(); ++spe)
+  signal_first(static_cast<unsigned>(members_.size()), commands);
+}
+
+void SpeTeam::signal_first(unsigned spes, std::uint32_t commands) {
+  frame_.publish();
+  for (unsigned spe = 0; spe < spes; ++spe)
     machine_.write_signal(spe, Signal::one, commands);
 }
 
@@ -122,7 +126,7 @@ std::uint32_t SpeTeam::units_completed() const {
 }
 
 void SpeTeam::end_frame(bool complete) {
-  const std::uint32_t over = strip_word::frame_over(frame_.epoch);
+  const std::uint32_t over = strip_word::frame_over(frame_[0].epoch);
   const auto tell = [&] {
     for (unsigned spe = 0; spe < members_.size(); ++spe)
       if (!members_[spe].answered && machine_.in_mailbox_space(spe) != 0)

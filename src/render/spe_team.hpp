@@ -4,7 +4,8 @@
 #include "celltrace/balance/strip_tally.hpp"
 #include "celltrace/render.hpp"
 #include "celltrace/spe/machine.hpp"
-#include "kernel/records.hpp"
+#include "celltrace/spe/shared_records.hpp"
+#include "render/frame_fields.hpp"
 
 #include <functional>
 #include <vector>
@@ -14,8 +15,9 @@ namespace celltrace {
 /// Runs the tracer on every SPE of a machine. Throws SpeError as soon as one of them fails.
 class SpeTeam {
 public:
-  /// `frame` stays in place as long as the team lives.
-  SpeTeam(Machine& machine, const kernel::FrameBlock& frame);
+  /// `frame` is one block, in the machine's byte order. It stays in place as long as the team lives; with
+  /// every command the SPEs see what it says then.
+  SpeTeam(Machine& machine, SharedRecords<kernel::FrameBlock>& frame);
   /// Lets the SPEs leave their program; none may be inside a frame, unless it has failed.
   ~SpeTeam();
   SpeTeam(const SpeTeam&) = delete;
@@ -41,6 +43,7 @@ private:
     bool answered = false;   ///< the report that a command ends with has come
   };
 
+  void signal_first(unsigned spes, std::uint32_t commands);
   void signal_all(std::uint32_t commands);
   /// Reads all mail; calls `handle(member, kind, count)`. Sleeps a little and returns false if there is none.
   template <class Handle> bool receive(Handle handle);
@@ -52,7 +55,7 @@ private:
   void throw_if_stopped();
 
   Machine& machine_;
-  const kernel::FrameBlock& frame_;
+  SharedRecords<kernel::FrameBlock>& frame_;
   std::vector<Member> members_;
   bool assembled_ = false;
 };

@@ -3,7 +3,6 @@
 #include "celltrace/balance.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <numeric>
 #include <random>
 #include <utility>
@@ -30,20 +29,12 @@ constexpr std::uint32_t divided(std::uint32_t count, std::uint32_t by) {
   return (count + by - 1) / by;
 }
 
-template <class Record> void store(const std::vector<Record>& records, AlignedBlock& block) {
-  // SPEs read whole lines.
-  block.reserve((records.size() * sizeof(Record) + 127) / 128 * 128);
-  std::memcpy(block.data(), records.data(), records.size() * sizeof(Record));
-}
-
-ea_t address(const AlignedBlock& block) {
-  return reinterpret_cast<std::uintptr_t>(block.data());
-}
-
 } // namespace
 
-WorkPlan::WorkPlan(Balance balance, std::uint32_t columns, std::uint32_t rows, std::uint32_t spes)
-    : balance_(balance), columns_(columns), rows_(rows), spes_(spes) {
+WorkPlan::WorkPlan(Balance balance, std::uint32_t columns, std::uint32_t rows, std::uint32_t spes,
+                   std::endian spe_order)
+    : balance_(balance), columns_(columns), rows_(rows), spes_(spes), unit_records_(0, spe_order),
+      strip_records_(0, spe_order), cost_records_(0, spe_order) {
   // Cuts by cost have at most an eighth more, and one.
   constexpr std::uint32_t kMostUnits = strip_word::kMaxUnits / 9 * 8 - 8;
   wanted_units_ = std::min({kMostUnits, kUnitsPerStrip * spes, columns * rows});
@@ -59,13 +50,14 @@ WorkPlan::WorkPlan(Balance balance, std::uint32_t columns, std::uint32_t rows, s
 }
 
 void WorkPlan::place(FrameBlock& frame) const {
-  frame.units = address(unit_block_);
-  frame.strips = address(strip_block_);
-  frame.costs = address(cost_block_);
+  frame.units = unit_records_.ea();
+  frame.strips = strip_records_.ea();
+  frame.costs = cost_records_.ea();
   frame.unit_count = units();
 }
 
 void WorkPlan::learn() {
+  cost_records_.fetch();
   if (balance_ == Balance::gde)
     cut_by_cost();
   else if (balance_ == Balance::diffusion)
@@ -178,9 +170,9 @@ void WorkPlan::write() {
   std::vector<StripRecord> strips;
   for (const UnitRange strip : strips_)
     strips.push_back({strip.first, strip.first + strip.count, {0, 0}});
-  store(units_, unit_block_);
-  store(strips, strip_block_);
-  store(std::vector<std::uint32_t>(units_.size()), cost_block_);
+  unit_records_.assign(units_);
+  strip_records_.assign(strips);
+  cost_records_.assign(std::vector<std::uint32_t>(units_.size()));
 }
 
 std::vector<CostRun> WorkPlan::measured_runs() const {
@@ -196,10 +188,10 @@ std::vector<CostRun> WorkPlan::measured_runs() const {
 }
 
 std::vector<double> WorkPlan::costs() const {
-  const auto* ticks = reinterpret_cast<const std::uint32_t*>(cost_block_.data());
   // What took less than a tick was not for nothing.
-  std::vector<double> costs(units_.size());
-  std::transform(ticks, ticks + costs.size(), costs.begin(), [](std::uint32_t each) { return each + 1.0; });
+  const auto ticks = cost_records_.all();
+  std::vector<double> costs(ticks.size());
+  std::transform(ticks.begin(), ticks.end(), costs.begin(), [](std::uint32_t each) { return each + 1.0; });
   return costs;
 }
 

@@ -3,9 +3,10 @@
 
 #include "celltrace/balance/partition.hpp"
 #include "celltrace/render.hpp"
-#include "kernel/records.hpp"
-#include "scene/aligned_block.hpp"
+#include "celltrace/spe/shared_records.hpp"
+#include "render/frame_fields.hpp"
 
+#include <bit>
 #include <vector>
 
 namespace celltrace {
@@ -14,8 +15,10 @@ namespace celltrace {
 /// the way of balancing does.
 class WorkPlan {
 public:
-  /// For a picture of `columns` x `rows` bundles (at least one), and for so many SPEs.
-  WorkPlan(Balance balance, std::uint32_t columns, std::uint32_t rows, std::uint32_t spes);
+  /// For a picture of `columns` x `rows` bundles (at least one), and for so many SPEs, whose SPUs have this
+  /// byte order.
+  WorkPlan(Balance balance, std::uint32_t columns, std::uint32_t rows, std::uint32_t spes,
+           std::endian spe_order = std::endian::native);
 
   /// Writes where everything lies. Call it before every frame: plans may move.
   void place(kernel::FrameBlock& frame) const;
@@ -48,7 +51,9 @@ private:
   std::vector<kernel::UnitRecord> units_;
   std::vector<UnitRange> strips_;
   // What the SPEs read and write.
-  AlignedBlock unit_block_, strip_block_, cost_block_;
+  SharedRecords<kernel::UnitRecord> unit_records_;
+  SharedRecords<kernel::StripRecord> strip_records_;
+  SharedRecords<std::uint32_t> cost_records_;
 };
 
 } // namespace celltrace

@@ -4,6 +4,7 @@
 #include "celltrace/spe/simd_host.hpp"
 #include "kernel/build_hierarchy_boxes.hpp"
 #include "kernel/build_hierarchy_plan.hpp"
+#include "scene/image_fields.hpp"
 #include "scene/mesh_instances.hpp"
 #include "scene/parallel.hpp"
 #include "scene/scene_objects.hpp"
@@ -83,6 +84,7 @@ public:
   explicit Layout(std::size_t begin) : end_(begin) {}
   template <class Record>
   void place(std::size_t count, std::uint32_t& offset_field, std::uint32_t& count_field) {
+    static_assert(consists_of_words<Record>(), "SharedImage converts tables word by word");
     offset_field = static_cast<std::uint32_t>(end_);
     count_field = static_cast<std::uint32_t>(count);
     end_ = round_up(end_ + count * sizeof(Record));
@@ -291,6 +293,7 @@ void SceneImage::reserve_accelerator(std::uint64_t table_bytes, std::uint32_t li
   }
   table_offset_ = static_cast<std::uint32_t>(begin);
   list_offset_ = static_cast<std::uint32_t>(lists);
+  end_offset_ = static_cast<std::uint32_t>(end);
 }
 
 const ImageHeader& SceneImage::header() const noexcept {

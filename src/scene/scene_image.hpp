@@ -5,7 +5,8 @@
 // the object lists of the accelerator (PREPARE FRAME's). From kMinObjectsToOrder on, objects lie in the order
 // of a Morton curve, and behind them instances of meshes, each in the order of its mesh's prototype. All
 // positions are 32-bit offsets from its base, so that the static part can be saved, mapped elsewhere and sent
-// to another process of the same byte order; it carries a version and a checksum.
+// to another process of the same byte order; it carries a version and a checksum. Words are in the host's
+// order: SharedImage is what SPEs of another order read.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -54,11 +55,14 @@ public:
   /// Offsets of the two, multiples of 128; valid after reserve_accelerator().
   std::uint32_t table_offset() const noexcept { return table_offset_; }
   std::uint32_t list_offset() const noexcept { return list_offset_; }
+  /// Behind the lists; valid as the others.
+  std::uint32_t end_offset() const noexcept { return end_offset_; }
 
 private:
   AlignedBlock block_;
   std::uint32_t table_offset_ = 0;
   std::uint32_t list_offset_ = 0;
+  std::uint32_t end_offset_ = 0;
 };
 
 } // namespace celltrace

@@ -35,13 +35,13 @@ struct alignas(128) StageBlock {
   uint32_t job_bytes;   ///< from one context's job to the next one's
   uint32_t stack_nodes; ///< room for nodes in the spill area of a context
   uint32_t tasks;
-  uint32_t contexts;                  ///< who generates: of its shaders; who shades: its own
-  uint32_t announced;                 ///< who generates: the first context of every shader
-  uint32_t generator;                 ///< SPE to give contexts back to
-  uint32_t first_row, row_step;       ///< rows of packets of this pipeline
-  uint32_t first_searcher, searchers; ///< SPEs to dispatch to
-  uint32_t unused[2];
+  uint32_t contexts;                            ///< who generates: of its shaders; who shades: its own
+  uint32_t announced;                           ///< who generates: the first context of every shader
+  uint32_t generator;                           ///< SPE to give contexts back to
+  uint32_t first_row, row_step;                 ///< rows of packets of this pipeline
+  uint32_t first_searcher, searchers;           ///< SPEs to dispatch to
   uint8_t searcher[32], tester[32], shader[32]; ///< SPEs by context
+  uint32_t unused[22];
 };
 static_assert(sizeof(StageBlock) == 256, "fetched by one DMA command");
 

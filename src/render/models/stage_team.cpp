@@ -5,7 +5,6 @@
 #include "render/models/stage_programs.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <numeric>
 #include <string>
 
@@ -30,10 +29,10 @@ SpeProgram program_of(StagePlan::Program program) {
 
 } // namespace
 
-StageTeam::StageTeam(Machine& machine, const FrameBlock& frame, Model model)
+StageTeam::StageTeam(Machine& machine, SharedRecords<FrameBlock>& frame, Model model)
     : machine_(machine), frame_(frame),
-      plan_(plan_stages(model, static_cast<AcceleratorKind>(frame.accelerator), machine.spe_count())),
-      orders_(plan_.spes.size() * sizeof(StageBlock)), reports_(plan_.spes.size() * sizeof(StageReport)),
+      plan_(plan_stages(model, static_cast<AcceleratorKind>(frame[0].accelerator), machine.spe_count())),
+      orders_(plan_.spes.size(), machine.byte_order()), reports_(plan_.spes.size(), machine.byte_order()),
       pipelines_(plan_.pipelines) {
   for (unsigned spe = 0; spe < plan_.spes.size(); ++spe)
     if ((plan_.spes[spe].orders.tasks & task::generate) != 0) pipelines_[plan_.spes[spe].pipeline].head = spe;
@@ -41,7 +40,7 @@ StageTeam::StageTeam(Machine& machine, const FrameBlock& frame, Model model)
 
 bool StageTeam::render_frame(const Progress& progress) {
   HeldProgress held(progress);
-  std::memset(reports_.data(), 0, reports_.size());
+  reports_.clear();
   if (failed_) throw SpeError("an SPE has failed in a frame before");
   const bool complete = held.ask(0) && render_frame_while(held);
   if (complete) held.ask(1);
@@ -54,7 +53,7 @@ bool StageTeam::render_frame_while(HeldProgress& held) {
   prepare();
   start();
   bool go_on = true;
-  const double packets = static_cast<double>(frame_.packet_columns) * frame_.packet_rows;
+  const double packets = static_cast<double>(frame_[0].packet_columns) * frame_[0].packet_rows;
   while (!finished()) {
     receive();
     if (!go_on) continue;
@@ -71,33 +70,34 @@ bool StageTeam::render_frame_while(HeldProgress& held) {
 }
 
 void StageTeam::prepare() {
-  const std::size_t searches = std::max(frame_.light_count, 1u);
+  const std::size_t searches = std::max(frame_[0].light_count, 1u);
   const std::size_t job_bytes = sizeof(JobRecord) + searches * sizeof(SearchRecord);
   // Of its stack a context keeps fewer nodes in local store than the tracer does.
-  const std::uint32_t stack_nodes = frame_.ray_stack_nodes + kResidentNodes;
+  const std::uint32_t stack_nodes = frame_[0].ray_stack_nodes + kResidentNodes;
   const std::size_t contexts = std::size_t{plan_.pipelines} * kMaxContexts;
   jobs_ = AlignedBlock(contexts * job_bytes);
   ray_stacks_ = AlignedBlock(contexts * stack_nodes * kRayNodeBytes);
   for (unsigned spe = 0; spe < plan_.spes.size(); ++spe) {
     const StagePlan::Spe& planned = plan_.spes[spe];
-    StageBlock orders = planned.orders;
+    StageBlock& orders = orders_[spe];
+    orders = planned.orders;
     const std::size_t first = std::size_t{planned.pipeline} * kMaxContexts;
-    orders.frame = to_ea(&frame_);
+    orders.frame = frame_.ea();
     orders.jobs = to_ea(jobs_.data() + first * job_bytes);
-    orders.report = to_ea(reports_.data() + spe * sizeof(StageReport));
+    orders.report = reports_.ea(spe);
     orders.ray_stack = to_ea(ray_stacks_.data() + first * stack_nodes * kRayNodeBytes);
     orders.job_bytes = static_cast<std::uint32_t>(job_bytes);
     orders.stack_nodes = stack_nodes;
-    new (orders_.data() + spe * sizeof(StageBlock)) StageBlock(orders);
   }
+  frame_.publish();
+  orders_.publish();
 }
 
 void StageTeam::start() {
   for (Pipeline& pipeline : pipelines_)
     pipeline = {pipeline.head, 0, false};
   for (unsigned spe = 0; spe < plan_.spes.size(); ++spe)
-    machine_.start(spe, program_of(plan_.spes[spe].program),
-                   to_ea(orders_.data() + spe * sizeof(StageBlock)));
+    machine_.start(spe, program_of(plan_.spes[spe].program), orders_.ea(spe));
 }
 
 bool StageTeam::receive() {
@@ -134,12 +134,13 @@ void StageTeam::leave() {
   }
   for (unsigned spe = 0; spe < plan_.spes.size(); ++spe)
     machine_.wait(spe);
+  reports_.fetch();
 }
 
 RenderStatistics::Stages StageTeam::counts() const {
   RenderStatistics::Stages sum;
   for (unsigned spe = 0; spe < plan_.spes.size(); ++spe) {
-    const auto& report = *reinterpret_cast<const StageReport*>(reports_.data() + spe * sizeof(StageReport));
+    const StageReport& report = reports_[spe];
     const StageBlock& orders = plan_.spes[spe].orders;
     if (plan_.spes[spe].program == StagePlan::Program::searcher) sum.jobs += report.jobs;
     sum.searches += report.searches;

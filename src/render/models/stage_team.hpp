@@ -4,8 +4,10 @@
 
 #include "celltrace/render.hpp"
 #include "celltrace/spe/machine.hpp"
-#include "kernel/records.hpp"
+#include "celltrace/spe/shared_records.hpp"
+#include "render/frame_fields.hpp"
 #include "render/held_progress.hpp"
+#include "render/models/stage_fields.hpp"
 #include "render/models/stage_plan.hpp"
 #include "scene/aligned_block.hpp"
 
@@ -16,9 +18,10 @@ namespace celltrace {
 /// Runs the programs of the stages for a frame at a time. Throws SpeError as soon as one of them fails.
 class StageTeam {
 public:
-  /// `frame` stays in place as long as the team lives. Throws InputError if the model does not go with the
-  /// machine's number of SPEs.
-  StageTeam(Machine& machine, const kernel::FrameBlock& frame, Model model);
+  /// `frame` is one block, in the machine's byte order. It stays in place as long as the team lives; the SPEs
+  /// see what it says when a frame begins. Throws InputError if the model does not go with the machine's
+  /// number of SPEs.
+  StageTeam(Machine& machine, SharedRecords<kernel::FrameBlock>& frame, Model model);
 
   /// Renders a frame; no program may be running. False if `progress` broke it off; what it throws passes
   /// through, the SPEs being ready for the next frame all the same. After SpeError it throws at every call.
@@ -40,9 +43,11 @@ private:
   void throw_if_stopped();
 
   Machine& machine_;
-  const kernel::FrameBlock& frame_;
+  SharedRecords<kernel::FrameBlock>& frame_;
   StagePlan plan_;
-  AlignedBlock orders_, reports_, jobs_, ray_stacks_;
+  SharedRecords<kernel::models::StageBlock> orders_;
+  SharedRecords<kernel::models::StageReport> reports_;
+  AlignedBlock jobs_, ray_stacks_; ///< the SPEs' own
 
   /// Of each pipeline: who reports to the PPE, and what it has reported.
   struct Pipeline {

@@ -1,0 +1,114 @@
+// Records of main storage in the byte order of a machine's SPUs (Machine::byte_order()).
+//
+// What a record consists of is said once, field by field, by a function of its namespace that is never
+// defined:
+//
+//   struct alignas(16) Task { ea_t blocks; uint32_t count; float scale; };
+//   FieldList<&Task::blocks, &Task::count, &Task::scale> fields_of(const Task&);
+//
+// The widths follow from the types. A list that leaves a field out, names one twice or leaves padding does
+// not compile: give padding a name.
+#pragma once
+
+#include "celltrace/spe/types.hpp"
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+#include <utility>
+
+namespace celltrace {
+
+namespace detail {
+
+template <class Member> struct MemberPointer;
+template <class R, class F> struct MemberPointer<F R::*> {
+  using Record = R;
+  using Field = F;
+};
+template <auto member> using RecordOf = typename MemberPointer<decltype(member)>::Record;
+template <auto member> using FieldOf = typename MemberPointer<decltype(member)>::Field;
+
+template <auto a, auto b> consteval bool same_member() {
+  if constexpr (std::is_same_v<decltype(a), decltype(b)>)
+    return a == b;
+  else
+    return false;
+}
+template <auto first, auto... others> consteval bool are_different() {
+  if ((same_member<first, others>() || ...)) return false;
+  if constexpr (sizeof...(others) != 0)
+    return are_different<others...>();
+  else
+    return true;
+}
+
+} // namespace detail
+
+/// All data members of a record: numbers, enumerations, other records with fields, and arrays of all of them.
+template <auto first, auto... others> struct FieldList {
+  using Record = detail::RecordOf<first>;
+  static_assert((std::is_same_v<Record, detail::RecordOf<others>> && ...), "fields of two records");
+  static_assert(detail::are_different<first, others...>(), "a field is named twice");
+  static_assert((sizeof(detail::FieldOf<first>) + ... + sizeof(detail::FieldOf<others>)) == sizeof(Record),
+                "a field of the record is missing in its list, or it has padding");
+  static_assert(std::is_trivially_copyable_v<Record>, "a record is copied by DMA");
+
+  template <class Visit> static constexpr void for_each(Record& record, Visit visit) {
+    visit(record.*first);
+    (visit(record.*others), ...);
+  }
+  /// Whether `holds` is true of every field's type.
+  template <class Holds> static consteval bool all(Holds holds) {
+    return holds.template operator()<detail::FieldOf<first>>() &&
+           (holds.template operator()<detail::FieldOf<others>>() && ...);
+  }
+};
+
+/// A record that says what it consists of.
+template <class T>
+concept HasFields = requires(const T& record) {
+  fields_of(record);
+};
+template <HasFields Record> using FieldsOf = decltype(fields_of(std::declval<const Record&>()));
+
+/// Whether all numbers of a T have 32 bits, so that it can be taken for an array of words.
+template <class T> consteval bool consists_of_words() {
+  if constexpr (std::is_array_v<T>)
+    return consists_of_words<std::remove_all_extents_t<T>>();
+  else if constexpr (HasFields<T>)
+    return FieldsOf<T>::all([]<class Field>() { return consists_of_words<Field>(); });
+  else
+    return !std::is_class_v<T> && sizeof(T) == 4;
+}
+
+/// Reverses the bytes of a number, or of every number in an array or a record. Its own inverse. What there is
+/// in between is for memcpy() and DMA only: floats among it may be anything.
+template <class T> void reverse_bytes(T& value) noexcept {
+  if constexpr (std::is_array_v<T>) {
+    for (auto& element : value)
+      reverse_bytes(element);
+  } else if constexpr (HasFields<T>) {
+    FieldsOf<T>::for_each(value, [](auto& field) { reverse_bytes(field); });
+  } else {
+    static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>, "a record needs its fields_of()");
+    std::byte bytes[sizeof(T)];
+    std::memcpy(bytes, &value, sizeof(T));
+    for (std::size_t i = 0; i < sizeof(T) / 2; ++i)
+      std::swap(bytes[i], bytes[sizeof(T) - 1 - i]);
+    std::memcpy(&value, bytes, sizeof(T));
+  }
+}
+
+/// From the host's order to `order`, or back.
+template <class T> void reorder(T& value, std::endian order) noexcept {
+  if (order != std::endian::native) reverse_bytes(value);
+}
+
+FieldList<&SpeAddresses::local_store, &SpeAddresses::signal_1, &SpeAddresses::signal_2,
+          &SpeAddresses::in_mailbox>
+fields_of(const SpeAddresses&);
+
+} // namespace celltrace

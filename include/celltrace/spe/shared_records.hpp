@@ -1,0 +1,101 @@
+// Records in main memory that the PPE and a machine's SPEs both use, whatever the byte order of each.
+#pragma once
+
+#include "celltrace/spe/byte_order.hpp"
+#include "celltrace/spe/types.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <span>
+#include <type_traits>
+#include <utility>
+
+namespace celltrace {
+
+/// An array of a number type, or of a record that has fields_of(). The PPE has it in the host's order, the
+/// SPEs in theirs. Where the two are the same there is one array, and publish() and fetch() do nothing; else
+/// there are two, and they copy. What either side writes is seen by the other only after that.
+///
+/// Thread safety: as a standard container; SPEs count as threads that use what ea() gives.
+template <class Record> class SharedRecords {
+  static_assert(std::is_trivially_copyable_v<Record> && alignof(Record) <= kLineBytes);
+
+public:
+  /// None.
+  SharedRecords() = default;
+  /// `count` of them, of zeros, for a machine whose SPUs have this order. Throws std::bad_alloc.
+  SharedRecords(std::size_t count, std::endian spe_order) : converts_(spe_order != std::endian::native) {
+    resize(count);
+    clear();
+  }
+
+  std::size_t size() const noexcept { return count_; }
+  std::span<Record> all() noexcept { return {data(), count_}; }
+  std::span<const Record> all() const noexcept { return {data(), count_}; }
+  Record& operator[](std::size_t index) noexcept { return data()[index]; }
+  const Record& operator[](std::size_t index) const noexcept { return data()[index]; }
+
+  /// Where the SPEs find a record. The first one is 128-byte aligned, and the last one's line is all there.
+  ea_t ea(std::size_t index = 0) const noexcept {
+    const Line* lines = converts_ ? theirs_.get() : ours_.get();
+    return reinterpret_cast<std::uintptr_t>(lines) + index * sizeof(Record);
+  }
+
+  /// Shows the SPEs what is in the PPE's array.
+  void publish() noexcept {
+    if (converts_) copy(ours_.get(), theirs_.get());
+  }
+  /// Takes what the SPEs have written into the PPE's array.
+  void fetch() noexcept {
+    if (converts_) copy(theirs_.get(), ours_.get());
+  }
+
+  /// All zeros on both sides.
+  void clear() noexcept {
+    std::fill_n(ours_.get(), lines_of(count_), Line{});
+    if (converts_) std::fill_n(theirs_.get(), lines_of(count_), Line{});
+  }
+  /// Becomes these, on both sides; may move. Throws std::bad_alloc.
+  void assign(std::span<const Record> records) {
+    resize(records.size());
+    std::copy(records.begin(), records.end(), data());
+    publish();
+  }
+
+private:
+  struct alignas(kLineBytes) Line {
+    std::byte bytes[kLineBytes];
+  };
+
+  static constexpr std::size_t lines_of(std::size_t count) {
+    return (count * sizeof(Record) + kLineBytes - 1) / kLineBytes;
+  }
+  Record* data() const noexcept { return reinterpret_cast<Record*>(ours_.get()); }
+
+  /// With anything in them.
+  void resize(std::size_t count) {
+    const std::size_t lines = lines_of(count);
+    if (lines > capacity_) {
+      auto ours = std::make_unique<Line[]>(lines);
+      if (converts_) theirs_ = std::make_unique<Line[]>(lines);
+      ours_ = std::move(ours);
+      capacity_ = lines;
+    }
+    count_ = count;
+  }
+  void copy(const Line* from, Line* to) const noexcept {
+    std::memcpy(to, from, count_ * sizeof(Record));
+    auto* records = reinterpret_cast<Record*>(to);
+    std::for_each(records, records + count_, [](Record& record) { reverse_bytes(record); });
+  }
+
+  bool converts_ = false;
+  std::size_t count_ = 0, capacity_ = 0; ///< capacity: lines
+  std::unique_ptr<Line[]> ours_, theirs_;
+};
+
+} // namespace celltrace

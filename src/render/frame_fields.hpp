@@ -1,0 +1,51 @@
+// What the frame block and the records beside it consist of, field by field, for SPEs of another byte order:
+// celltrace/spe/byte_order.hpp.
+#pragma once
+
+#include "celltrace/spe/byte_order.hpp"
+#include "kernel/records.hpp"
+
+namespace celltrace::kernel {
+
+FieldList<&CameraRecord::origin, &CameraRecord::base, &CameraRecord::dx, &CameraRecord::dy>
+fields_of(const CameraRecord&);
+
+FieldList<&GridRecord::min, &GridRecord::cell_offset, &GridRecord::max, &GridRecord::list_offset,
+          &GridRecord::cell_size, &GridRecord::list_capacity, &GridRecord::inverse_cell_size,
+          &GridRecord::list_count, &GridRecord::cells, &GridRecord::row_of_cells>
+fields_of(const GridRecord&);
+
+FieldList<&HierarchyRecord::node_offset, &HierarchyRecord::node_capacity, &HierarchyRecord::node_count,
+          &HierarchyRecord::list_offset>
+fields_of(const HierarchyRecord&);
+
+FieldList<&FrameBlock::camera, &FrameBlock::grid, &FrameBlock::hierarchy, &FrameBlock::image,
+          &FrameBlock::surface, &FrameBlock::units, &FrameBlock::costs, &FrameBlock::strips,
+          &FrameBlock::reports, &FrameBlock::ray_stack, &FrameBlock::sort_buffer, &FrameBlock::prepare_spes,
+          &FrameBlock::prepare_step, &FrameBlock::width, &FrameBlock::height, &FrameBlock::packet_columns,
+          &FrameBlock::packet_rows, &FrameBlock::bundle_columns, &FrameBlock::bundle_rows,
+          &FrameBlock::surface_pitch, &FrameBlock::sort_capacity, &FrameBlock::ray_stack_nodes,
+          &FrameBlock::orthographic, &FrameBlock::object_offset, &FrameBlock::object_count,
+          &FrameBlock::light_offset, &FrameBlock::light_count, &FrameBlock::max_trace_level,
+          &FrameBlock::adc_bailout, &FrameBlock::gamma_encoding, &FrameBlock::assumed_gamma,
+          &FrameBlock::background, &FrameBlock::epoch, &FrameBlock::cache_ways, &FrameBlock::cache_sets,
+          &FrameBlock::cache_replacement, &FrameBlock::cache_enabled, &FrameBlock::unit_count,
+          &FrameBlock::exchange_parameter, &FrameBlock::camera_interior_count, &FrameBlock::accelerator,
+          &FrameBlock::camera_interiors, &FrameBlock::run_offset, &FrameBlock::run_count,
+          &FrameBlock::longest_run, &FrameBlock::prototype_offset, &FrameBlock::units_per_word,
+          &FrameBlock::wide_leaves, &FrameBlock::far_nodes, &FrameBlock::unused>
+fields_of(const FrameBlock&);
+
+FieldList<&UnitRecord::column, &UnitRecord::row, &UnitRecord::bundles> fields_of(const UnitRecord&);
+
+FieldList<&StripRecord::begin, &StripRecord::end, &StripRecord::unused> fields_of(const StripRecord&);
+
+FieldList<&ReportRecord::primary_rays, &ReportRecord::shadow_rays, &ReportRecord::reflection_rays,
+          &ReportRecord::refraction_rays, &ReportRecord::sphere_tests, &ReportRecord::ellipsoid_tests,
+          &ReportRecord::triangle_tests, &ReportRecord::accelerator_visits, &ReportRecord::cache_hits,
+          &ReportRecord::cache_misses, &ReportRecord::dropped_rays, &ReportRecord::packets,
+          &ReportRecord::exchanges, &ReportRecord::units_received, &ReportRecord::busy_ticks,
+          &ReportRecord::spilled_nodes, &ReportRecord::list_entries, &ReportRecord::unused>
+fields_of(const ReportRecord&);
+
+} // namespace celltrace::kernel

@@ -1,0 +1,22 @@
+// What the records that a stage and the PPE share consist of, field by field, for SPEs of another byte order:
+// celltrace/spe/byte_order.hpp.
+#pragma once
+
+#include "celltrace/spe/byte_order.hpp"
+#include "kernel/models/stage_block.hpp"
+
+namespace celltrace::kernel::models {
+
+FieldList<&StageBlock::frame, &StageBlock::jobs, &StageBlock::report, &StageBlock::ray_stack,
+          &StageBlock::job_bytes, &StageBlock::stack_nodes, &StageBlock::tasks, &StageBlock::contexts,
+          &StageBlock::announced, &StageBlock::generator, &StageBlock::first_row, &StageBlock::row_step,
+          &StageBlock::first_searcher, &StageBlock::searchers, &StageBlock::searcher, &StageBlock::tester,
+          &StageBlock::shader, &StageBlock::unused>
+fields_of(const StageBlock&);
+
+FieldList<&StageReport::jobs, &StageReport::searches, &StageReport::primary_hits,
+          &StageReport::primary_returned, &StageReport::primary_hits_returned, &StageReport::returns,
+          &StageReport::unused>
+fields_of(const StageReport&);
+
+} // namespace celltrace::kernel::models

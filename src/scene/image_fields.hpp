@@ -1,0 +1,48 @@
+// What the records of a scene image consist of, field by field, for SPEs of another byte order:
+// celltrace/spe/byte_order.hpp.
+#pragma once
+
+#include "celltrace/spe/byte_order.hpp"
+#include "kernel/records.hpp"
+
+namespace celltrace::kernel {
+
+FieldList<&ImageHeader::magic, &ImageHeader::version, &ImageHeader::bytes, &ImageHeader::checksum,
+          &ImageHeader::object_offset, &ImageHeader::object_count, &ImageHeader::material_offset,
+          &ImageHeader::material_count, &ImageHeader::interior_offset, &ImageHeader::interior_count,
+          &ImageHeader::light_offset, &ImageHeader::light_count, &ImageHeader::normals_offset,
+          &ImageHeader::normals_count, &ImageHeader::blend_offset, &ImageHeader::blend_count,
+          &ImageHeader::bounds_min, &ImageHeader::bounds_max, &ImageHeader::run_offset,
+          &ImageHeader::run_count, &ImageHeader::longest_run, &ImageHeader::prototype_offset,
+          &ImageHeader::prototype_count, &ImageHeader::unused>
+fields_of(const ImageHeader&);
+
+FieldList<&ObjectRecord::kind_and_flags, &ObjectRecord::material, &ObjectRecord::interior,
+          &ObjectRecord::normals, &ObjectRecord::geometry>
+fields_of(const ObjectRecord&);
+
+FieldList<&NormalsRecord::normal, &NormalsRecord::unused> fields_of(const NormalsRecord&);
+
+FieldList<&BlendRecord::material, &BlendRecord::unused> fields_of(const BlendRecord&);
+
+FieldList<&MaterialRecord::pigment, &MaterialRecord::filter, &MaterialRecord::transmit,
+          &MaterialRecord::opacity, &MaterialRecord::ambient, &MaterialRecord::diffuse,
+          &MaterialRecord::brilliance, &MaterialRecord::phong, &MaterialRecord::phong_size,
+          &MaterialRecord::specular, &MaterialRecord::inverse_roughness, &MaterialRecord::metallic,
+          &MaterialRecord::reflection_min, &MaterialRecord::reflection_max,
+          &MaterialRecord::reflection_falloff, &MaterialRecord::reflection_metallic,
+          &MaterialRecord::inverse_reflection_exponent, &MaterialRecord::flags, &MaterialRecord::unused>
+fields_of(const MaterialRecord&);
+
+FieldList<&InteriorRecord::ior, &InteriorRecord::unused> fields_of(const InteriorRecord&);
+
+FieldList<&LightRecord::location, &LightRecord::flags, &LightRecord::colour, &LightRecord::unused>
+fields_of(const LightRecord&);
+
+FieldList<&RunRecord::min, &RunRecord::first, &RunRecord::max, &RunRecord::count> fields_of(const RunRecord&);
+
+FieldList<&CellRecord::list, &CellRecord::count> fields_of(const CellRecord&);
+
+FieldList<&NodeRecord::box, &NodeRecord::child, &NodeRecord::leaf> fields_of(const NodeRecord&);
+
+} // namespace celltrace::kernel
