@@ -35,6 +35,10 @@ MachineConfig simulated(unsigned spes);
 SimulatedRun simulate(const MachineConfig& config, std::span<const std::uint8_t> elf, ea_t argument = 0,
                       const EmulatedPpe& ppe = {}, const std::stop_token& stop = {});
 
+/// The counters of all SPEs together, in the order of IBM's full-system simulator; several lines. `timing` is
+/// that of the machine.
+std::string counters_text(const EmulatedRun& run, const TimingParameters& timing);
+
 /// Where the cycles of a profile went, for people: the functions, hottest first, then the instructions of the
 /// hottest ones that make up `listed` (0..1) of all cycles together. `elf` is the program that was profiled;
 /// throws InputError if it is none.

@@ -126,7 +126,7 @@ int run_spu(const SpuRequest& request) {
   if (!request.stats.empty())
     write_report(request.stats, spu_statistics(run, request.machine, seconds.count()));
   if (!request.profile.empty()) write_profile(request, profile, elf);
-  if (request.summary) std::cerr << spu_summary(run, request.machine.emulation.timing) << std::flush;
+  if (request.summary) std::cerr << counters_text(run, request.machine.emulation.timing) << std::flush;
   return exit_code_of(run);
 }
 

@@ -1,12 +1,11 @@
 #include "backends/cell_emu/simulator/profile_report.hpp"
 
 #include "backends/cell_emu/isa/instruction.hpp"
+#include "backends/cell_emu/simulator/append.hpp"
 #include "celltrace/simulator.hpp"
 
 #include <algorithm>
 #include <cinttypes>
-#include <cstdarg>
-#include <cstdio>
 #include <cstdlib>
 #include <memory>
 
@@ -16,29 +15,21 @@
 namespace celltrace::cell_emu {
 namespace {
 
-using Word = SpuProfile::Word;
+using Counts = SpuProfile::Word;
 
 struct Count {
   const char* name;
-  std::uint64_t Word::*member;
+  std::uint64_t Counts::*member;
 };
-constexpr Count kCounts[] = {{"hits", &Word::hits}, {"cycles", &Word::cycles}, {"dual", &Word::dual}};
+constexpr Count kCounts[] = {{"hits", &Counts::hits}, {"cycles", &Counts::cycles}, {"dual", &Counts::dual}};
 /// What kept instructions, of their cycles.
-constexpr Count kReasons[] = {{"dependency", &Word::dependency},       {"branch_miss", &Word::branch_miss},
-                              {"prefetch_miss", &Word::prefetch_miss}, {"hint_target", &Word::hint_target},
-                              {"fp_resource", &Word::fp_resource},     {"channel", &Word::channel}};
+constexpr Count kReasons[] = {
+    {"dependency", &Counts::dependency},       {"branch_miss", &Counts::branch_miss},
+    {"prefetch_miss", &Counts::prefetch_miss}, {"hint_target", &Counts::hint_target},
+    {"fp_resource", &Counts::fp_resource},     {"channel", &Counts::channel}};
 
 /// Without a symbol, words that are further apart than this belong to different pieces of code.
 constexpr std::uint32_t kLargestGap = 128;
-
-[[gnu::format(printf, 2, 3)]] void append(std::string& text, const char* format, ...) {
-  char line[512];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(line, sizeof line, format, arguments);
-  va_end(arguments);
-  text += line;
-}
 
 double percent(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? 0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
@@ -58,7 +49,7 @@ std::string file_of(const CodePlace& place) {
 }
 
 /// In columns, as assemblers are used to.
-std::string instruction_text(const Word& word, std::uint32_t lsa) {
+std::string instruction_text(const Counts& word, std::uint32_t lsa) {
   std::string text = isa::disassemble(word.instruction, lsa);
   const std::size_t tab = text.find('\t');
   if (tab != std::string::npos)
@@ -66,7 +57,7 @@ std::string instruction_text(const Word& word, std::uint32_t lsa) {
   return text;
 }
 
-std::string reasons_text(const Word& word) {
+std::string reasons_text(const Counts& word) {
   std::string text;
   for (const auto& [name, member] : kReasons) {
     if (word.*member == 0) continue;
@@ -77,7 +68,7 @@ std::string reasons_text(const Word& word) {
   return text;
 }
 
-nlohmann::ordered_json counts_json(const Word& word) {
+nlohmann::ordered_json counts_json(const Counts& word) {
   nlohmann::ordered_json json;
   for (const auto& [name, member] : kCounts)
     json[name] = word.*member;
@@ -88,7 +79,7 @@ nlohmann::ordered_json counts_json(const Word& word) {
 
 } // namespace
 
-ProfileSum& ProfileSum::operator+=(const Word& more) {
+ProfileSum& ProfileSum::operator+=(const Counts& more) {
   for (const auto& [name, member] : kCounts)
     word.*member += more.*member;
   for (const auto& [name, member] : kReasons)
@@ -148,7 +139,7 @@ void ProfileReport::append_table(std::string& text) const {
   text += "       cycles      %  instructions    CPI paired     dep   miss  fetch   hint     dp   wait  "
           "function\n";
   for (const ProfiledFunction& function : functions_) {
-    const Word& sum = function.sum.word;
+    const Counts& sum = function.sum.word;
     append(text, "%13" PRIu64 " %6.2f %13" PRIu64 " %6.2f %5.1f%% ", sum.cycles,
            percent(sum.cycles, total_.word.cycles), sum.hits, function.sum.cycles_per_instruction(),
            100 * function.sum.paired());
@@ -163,7 +154,7 @@ void ProfileReport::append_table(std::string& text) const {
 }
 
 void ProfileReport::append_instruction(std::string& text, std::uint32_t lsa) const {
-  const Word& word = word_at(lsa);
+  const Counts& word = word_at(lsa);
   const std::uint64_t pairs = pairs_of(lsa);
   const char mark = pairs == 0 ? ' ' : 2 * pairs >= word.hits ? 'D' : 'd';
   const char pipe = isa::is_even(isa::decode(word.instruction).unit) ? '0' : '1';

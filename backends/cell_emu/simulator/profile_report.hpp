@@ -16,7 +16,7 @@ namespace celltrace::cell_emu {
 /// What a word, a function or a whole program did.
 struct ProfileSum {
   SpuProfile::Word word; ///< its sums; `instruction` means nothing
-  SpuProfile::Word& operator+=(const SpuProfile::Word& more);
+  ProfileSum& operator+=(const SpuProfile::Word& more);
 
   /// Cycles an instruction; 0 if none was executed.
   double cycles_per_instruction() const;
