@@ -20,6 +20,7 @@ class SimulatedPrograms {
 public:
   /// Throws InputError for arguments that no program can take. The map has to outlive it.
   SimulatedPrograms(const MachineConfig& config, const AddressMap& map);
+  ~SimulatedPrograms();
 
   /// The machine code of a program. Throws SpeError if it has none, InputError if that is no executable for
   /// the SPU.
