@@ -75,7 +75,9 @@ void add_cache_trace_option(CLI::App& command, EmulationTexts& texts) {
 
 EmulationConfig emulation_config(const EmulationTexts& texts, const std::string& backend,
                                  Schedule default_schedule) {
-  if (const char* given = first_given(texts); given && backend != "cell_emu" && backend != "cell_sim")
+  if (!texts.cache_trace.empty() && backend != "cell_emu")
+    throw InputError("--cache-trace needs --backend cell_emu: machine code records nothing");
+  if (const char* given = first_given(texts); given && backend == "native")
     throw InputError(std::string(given) + " needs --backend cell_emu or cell_sim");
   EmulationConfig config;
   config.schedule = schedule_of(texts, default_schedule);

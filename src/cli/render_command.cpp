@@ -60,7 +60,7 @@ std::optional<Scene> parse_with_progress(const RenderRequest& request) {
   }
 }
 
-/// Prints what cell_emu finds wrong. `error` is what is printed as the error anyway.
+/// Prints what an emulated machine finds wrong. `error` is what is printed as the error anyway.
 void print_diagnostics(const std::vector<Diagnostic>& diagnostics, const std::string& error = {}) {
   for (const Diagnostic& diagnostic : diagnostics)
     if (error.find(diagnostic.text) == std::string::npos)

@@ -1,4 +1,5 @@
-// How `cell_emu` runs a machine: its schedule, when data moves, what goes wrong on purpose, what is checked.
+// How `cell_emu` and `cell_sim` run a machine: its schedule, when data moves, what goes wrong on purpose,
+// what is checked.
 #pragma once
 
 #include "celltrace/spe/diagnostic.hpp"
@@ -57,7 +58,7 @@ struct EmulationConfig {
   std::map<Rule, Action> actions;
   /// Lockstep: where the trace goes, as Chrome trace JSON; it must outlive the machine. Null: nowhere.
   std::ostream* trace = nullptr;
-  /// Takes what the kernels record; it must outlive the machine. Null: nothing is recorded.
+  /// `cell_emu`: takes what the kernels record; it must outlive the machine. Null: nothing is recorded.
   SpeRecorder* recorder = nullptr;
 };
 
