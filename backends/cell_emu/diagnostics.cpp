@@ -62,7 +62,7 @@ constexpr std::array<Entry, kRules> kTable = {{
     {Rule::get_target_touched, "get-target-touched", kStop,
      "local store was written while a get that targets it was in flight"},
     {Rule::get_target_read, "get-target-read", kStop,
-     "local store was loaded while a get that targets it was in flight"},
+     "the program uses local store that it loaded while a get that targets it was in flight"},
     {Rule::put_source_changed, "put-source-changed", kStop,
      "local store was written while a put that reads it was in flight"},
     {Rule::list_changed, "list-changed", kStop, "a list was written while the MFC was walking it"},

@@ -93,9 +93,17 @@ public:
   /// From now on `watch`, a byte a quadword of local store, says what check_load() and check_store() are for:
   /// its bits are those of isa::State. Null: nobody looks.
   void watch_flights(std::uint8_t* watch) { watch_ = watch; }
-  /// An instruction is about to load the quadword at `lsa`. A load of which only a part is in flight may be
-  /// meant for the other part.
-  void check_load(std::uint32_t lsa, CallSite site, Cycle now);
+  /// A transfer in flight, for who looks at local store meanwhile.
+  struct FlightInfo {
+    std::uint64_t command = 0;
+    MfcCommand transfer{};
+    CallSite site;
+  };
+  /// A get in flight that targets all of the quadword at `lsa`. A load of which only a part is in flight may
+  /// be meant for the other part.
+  std::optional<FlightInfo> get_in_flight(std::uint32_t lsa) const;
+  /// The program uses at `use` what it loaded from there at `load`.
+  void report_early_load(const FlightInfo& flight, std::uint32_t lsa, CallSite load, CallSite use, Cycle now);
   /// An instruction is about to store the 16 bytes at `bytes` at `lsa`. That it leaves a put's bytes as they
   /// are is no change of them.
   void check_store(std::uint32_t lsa, const std::uint8_t* bytes, CallSite site, Cycle now);
@@ -176,7 +184,7 @@ private:
   void observe_part(std::uint64_t command, Cycle now);
   void observe(std::uint32_t tags, std::uint64_t last_command, bool proxy, Cycle now);
   std::uint8_t* local_store(const MfcCommand& transfer) const;
-  void report_access(const Flight& flight, Rule rule, std::uint32_t lsa, CallSite site, Cycle now);
+  void report_access(const FlightInfo& flight, Rule rule, const std::string& what, CallSite site, Cycle now);
   void watch(const Flight& flight);
   template <class Gone> void remove_flights(Gone gone);
 

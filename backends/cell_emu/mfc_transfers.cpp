@@ -9,6 +9,15 @@
 #include <cstring>
 
 namespace celltrace::cell_emu {
+namespace {
+
+std::string to_hex(std::uint32_t address) {
+  char text[16];
+  std::snprintf(text, sizeof text, "0x%05x", static_cast<unsigned>(address));
+  return text;
+}
+
+} // namespace
 
 std::uint8_t* Mfc::local_store(const MfcCommand& transfer) const {
   return bus_.map().local_store(spe_) + transfer.lsa;
@@ -96,22 +105,27 @@ template <class Gone> void Mfc::remove_flights(Gone gone) {
     watch(flight);
 }
 
-void Mfc::report_access(const Flight& flight, Rule rule, std::uint32_t lsa, CallSite site, Cycle now) {
+void Mfc::report_access(const FlightInfo& flight, Rule rule, const std::string& what, CallSite site,
+                        Cycle now) {
   Diagnostic diagnostic = about({flight.transfer, flight.command, site, false, now}, rule, now);
   diagnostic.other_site = flight.site;
-  char at[32];
-  std::snprintf(at, sizeof at, "LS 0x%x meets ", static_cast<unsigned>(lsa));
   std::string command = describe(flight.transfer);
   if (const std::string where = to_text(flight.site); !where.empty()) command += ", at " + where;
-  context_.log.report(diagnostic, (rule == Rule::get_target_read ? "load of " : "store to ") +
-                                      std::string(at) + command + ": " + std::string(text_of(rule)));
+  context_.log.report(diagnostic, what + " meets " + command + ": " + std::string(text_of(rule)));
 }
 
-void Mfc::check_load(std::uint32_t lsa, CallSite site, Cycle now) {
+std::optional<Mfc::FlightInfo> Mfc::get_in_flight(std::uint32_t lsa) const {
   for (const Flight& flight : context_.flights.of(spe_))
     if (!flight.proxy && flight.writes_local_store() && flight.transfer.lsa <= lsa &&
         flight.transfer.lsa + flight.bytes() >= lsa + 16)
-      report_access(flight, Rule::get_target_read, lsa, site, now);
+      return FlightInfo{flight.command, flight.transfer, flight.site};
+  return std::nullopt;
+}
+
+void Mfc::report_early_load(const FlightInfo& flight, std::uint32_t lsa, CallSite load, CallSite use,
+                            Cycle now) {
+  report_access(flight, Rule::get_target_read,
+                "load of LS " + to_hex(lsa) + ", used at " + to_text(use) + ",", load, now);
 }
 
 void Mfc::check_store(std::uint32_t lsa, const std::uint8_t* bytes, CallSite site, Cycle now) {
@@ -123,8 +137,10 @@ void Mfc::check_store(std::uint32_t lsa, const std::uint8_t* bytes, CallSite sit
     const bool get = flight.writes_local_store();
     if (!get && std::memcmp(bus_.map().local_store(spe_) + begin, bytes + (begin - lsa), end - begin) == 0)
       continue;
-    report_access(flight, get ? Rule::get_target_touched : Rule::put_source_changed, lsa, site, now);
     flight.shared = true; // said once
+    report_access({flight.command, flight.transfer, flight.site},
+                  get ? Rule::get_target_touched : Rule::put_source_changed, "store to LS " + to_hex(lsa),
+                  site, now);
   }
 }
 

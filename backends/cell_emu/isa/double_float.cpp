@@ -19,6 +19,7 @@ using U64 = std::uint64_t;
 constexpr U64 kSign = U64{1} << 63, kExponent = U64{0x7FF} << 52, kQuiet = U64{1} << 51;
 constexpr U64 kDefaultNan = kExponent | kQuiet;
 constexpr U32 kDefaultNanSingle = 0x7FC00000;
+constexpr U64 kSmallestSingle = U64{1023 - 126} << 52;
 
 constexpr bool is_nan(U64 x) {
   return (x & ~kSign) > kExponent;
@@ -93,11 +94,22 @@ template <class F, class... Operands>
 }
 
 constexpr U32 kTooSmall = double_exception::underflow | double_exception::inexact;
+constexpr U64 kSmallest = U64{1} << 52;
 
-U64 finished(double result, U32& exceptions) {
-  const U64 bits = std::bit_cast<U64>(result);
+/// f(operands), none of them a NaN or a denormal. A result is too small if it is so before rounding; the host
+/// may have made the smallest number of it, or a zero that nothing but inexactness tells from a true one.
+template <class F, class... Operands>
+U64 computed(Rounding rounding, U32& exceptions, F f, Operands... operands) {
+  U32 raised = 0;
+  const U64 bits = std::bit_cast<U64>(by_host(rounding, raised, f, operands...));
+  exceptions |= raised;
   if (is_nan(bits)) return kDefaultNan;
-  if (!is_denormal(bits)) return bits;
+  bool too_small = is_denormal(bits);
+  if ((raised & double_exception::inexact) != 0 && (bits & ~kSign) <= kSmallest) [[unlikely]] {
+    const double truncated = by_host(Rounding::to_zero, raised, f, operands...);
+    too_small = std::fabs(truncated) < std::bit_cast<double>(kSmallest);
+  }
+  if (!too_small) return bits;
   exceptions |= kTooSmall;
   return bits & kSign;
 }
@@ -122,7 +134,7 @@ template <class F> void operation(State& state, const Instruction& i, F f) {
     U64 bits = kDefaultNan;
     if (!has_nan(exceptions, a, b)) {
       const Rounding rounding = double_rounding(state.fpscr, slot);
-      bits = finished(by_host(rounding, exceptions, f, number(a), number(b)), exceptions);
+      bits = computed(rounding, exceptions, f, number(a), number(b));
     }
     raise_double(state.fpscr, slot, exceptions);
     result.set(slot, bits);
@@ -150,7 +162,7 @@ void multiply_add(State& state, const Instruction& i, Signs signs) {
       constexpr auto f = [](double x, double y, double z) { return std::fma(x, y, z); };
       const double z = signs.minus_rt ? -number(c) : number(c);
       const Rounding rounding = double_rounding(state.fpscr, slot);
-      bits = finished(by_host(rounding, exceptions, f, number(a), number(b), z), exceptions);
+      bits = computed(rounding, exceptions, f, number(a), number(b), z);
       if (signs.negative && !is_nan(bits)) bits ^= kSign;
     }
     raise_double(state.fpscr, slot, exceptions);
@@ -178,14 +190,13 @@ U64 extended(U32 single, U32& exceptions) {
 U32 shortened(U64 value, Rounding rounding, U32& exceptions) {
   const U64 bits = operand(value, exceptions);
   if (has_nan(exceptions, bits)) return kDefaultNanSingle;
+  if (!is_zero(bits) && (bits & ~kSign) < kSmallestSingle) { // decided before rounding
+    exceptions |= kTooSmall;
+    return static_cast<U32>((bits & kSign) >> 32);
+  }
   const float single = by_host(
       rounding, exceptions, [](double x) { return static_cast<float>(x); }, number(bits));
-  const U32 word = std::bit_cast<U32>(single);
-  const bool denormal = (word & 0x7F800000) == 0 && (word & 0x7FFFFFFF) != 0;
-  // What became zero without being it was below the denormals.
-  if (!denormal && !((word & 0x7FFFFFFF) == 0 && !is_zero(bits))) return word;
-  exceptions |= kTooSmall;
-  return word & 0x80000000;
+  return std::bit_cast<U32>(single);
 }
 
 /// In the order of the numbers; not for NaN.

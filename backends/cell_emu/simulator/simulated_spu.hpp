@@ -3,6 +3,7 @@
 #pragma once
 
 #include "backends/cell_emu/isa/instruction.hpp"
+#include "backends/cell_emu/simulator/early_loads.hpp"
 #include "backends/cell_emu/simulator/issue_model.hpp"
 #include "backends/cell_emu/simulator/ppe_calls.hpp"
 #include "backends/cell_emu/simulator/program_arguments.hpp"
@@ -55,6 +56,7 @@ private:
   void attend();
   void take_interrupt();
   void hint(const isa::Instruction& instruction, std::uint32_t pc);
+  void look_for_early_use(const isa::Instruction& instruction);
   void check_stack();
   void call_ppe(std::uint32_t code);
 
@@ -72,6 +74,7 @@ private:
   isa::State state_of_spu_;
   std::vector<isa::Instruction> decoded_; ///< by word of local store
   std::vector<std::uint8_t> watch_;       ///< by quadword of local store
+  EarlyLoads early_loads_;
   IssueModel model_;
   std::uint32_t left_in_slice_ = 0; ///< instructions until attend()
   std::uint64_t dma_bytes_seen_ = 0;
