@@ -24,8 +24,8 @@ const char* first_given(const EmulationTexts& texts) {
   return nullptr;
 }
 
-Schedule schedule_of(const EmulationTexts& texts) {
-  if (texts.schedule.empty()) return texts.trace.empty() ? Schedule::free : Schedule::lockstep;
+Schedule schedule_of(const EmulationTexts& texts, Schedule default_schedule) {
+  if (texts.schedule.empty()) return texts.trace.empty() ? default_schedule : Schedule::lockstep;
   if (texts.schedule == "free" && !texts.trace.empty())
     throw InputError("--trace needs --schedule lockstep: only there do all SPEs share one virtual time");
   return texts.schedule == "lockstep" ? Schedule::lockstep : Schedule::free;
@@ -48,32 +48,39 @@ std::uint64_t parse_seed(const std::string& text) {
 
 } // namespace
 
-void add_emulation_options(CLI::App& command, EmulationTexts& texts) {
+void add_emulation_options(CLI::App& command, EmulationTexts& texts, Schedule default_schedule) {
+  const std::string defaults = default_schedule == Schedule::free ? "free" : "lockstep";
   add_choice(command, "--schedule", texts.schedule, {{"free", "lockstep"}, {}},
-             "cell_emu: SPEs run as they like (default), or in turns that can be repeated");
+             "SPEs run as they like, or in turns that can be repeated; default: " + defaults);
   command
       .add_option("--seed", texts.seed,
-                  "cell_emu: what random transfers and faults, and the turns of lockstep, are drawn from; "
-                  "without it, lockstep goes by virtual time")
+                  "What random transfers and faults, and the turns of lockstep, are drawn from; without it, "
+                  "lockstep goes by virtual time")
       ->type_name("N");
   add_choice(command, "--transfers", texts.transfers, {{"issue", "wait", "random"}, {}},
-             "cell_emu: when the data of a DMA command move; default: wait");
-  command.add_flag("--faults", texts.faults, "cell_emu: slow SPEs, pauses and delays at random");
+             "When the data of a DMA command move; default: wait");
+  command.add_flag("--faults", texts.faults, "Slow SPEs, pauses and delays at random");
   add_choice(command, "--timing", texts.timing, {{"cell", "ps3"}, {}},
-             "cell_emu: the machine that is modelled, with 8 (default) or 6 SPEs");
-  command.add_option("--trace", texts.trace, "cell_emu: write what happened as a Chrome trace, in lockstep")
+             "The machine that is modelled, with 8 (default) or 6 SPEs");
+  command.add_option("--trace", texts.trace, "Write what happened as a Chrome trace, in lockstep")
       ->type_name("FILE.json");
+}
+
+void add_cache_trace_option(CLI::App& command, EmulationTexts& texts) {
   command
       .add_option("--cache-trace", texts.cache_trace,
-                  "cell_emu: write what the software caches are asked for; see celltrace replay")
+                  "Write what the software caches are asked for; see celltrace replay")
       ->type_name("FILE");
 }
 
-EmulationConfig emulation_config(const EmulationTexts& texts, const std::string& backend) {
-  if (const char* given = first_given(texts); given && backend != "cell_emu" && backend != "cell_sim")
-    throw InputError(std::string(given) + " needs --backend cell_emu");
+EmulationConfig emulation_config(const EmulationTexts& texts, const std::string& backend,
+                                 Schedule default_schedule) {
+  if (!texts.cache_trace.empty() && backend != "cell_emu")
+    throw InputError("--cache-trace needs --backend cell_emu: machine code records nothing");
+  if (const char* given = first_given(texts); given && backend == "native")
+    throw InputError(std::string(given) + " needs --backend cell_emu or cell_sim");
   EmulationConfig config;
-  config.schedule = schedule_of(texts);
+  config.schedule = schedule_of(texts, default_schedule);
   config.transfers = transfers_of(texts);
   if (texts.faults) config.faults = Faults::mixed();
   if (texts.timing == "ps3") config.timing = TimingParameters::playstation_3();

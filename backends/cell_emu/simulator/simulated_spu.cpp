@@ -37,11 +37,12 @@ SimulatedSpu::SimulatedSpu(Spe& spe, const SpuContext& context, const SimulatedP
   if (profile != nullptr) words_.resize(SpuProfile::kWords);
 }
 
-void SimulatedSpu::run(const Arguments& arguments) {
+void SimulatedSpu::run(const StartRegisters& registers) {
   state_of_spu_.pc = program_.elf().entry();
-  const std::uint64_t values[] = {arguments.spe_id, arguments.argp, arguments.envp};
-  for (unsigned i = 0; i < 3; ++i)
-    state_of_spu_.gpr[3 + i].set<std::uint64_t>(0, values[i]);
+  state_of_spu_.gpr[3] = registers.spe_id;
+  state_of_spu_.gpr[4] = registers.argp;
+  state_of_spu_.gpr[5] = registers.envp;
+  state_of_spu_.gpr[6] = registers.local_store;
   if (profile_ == nullptr) {
     for (;;) {
       attend();
@@ -129,6 +130,8 @@ void SimulatedSpu::record(std::uint32_t instruction, std::uint32_t pc, Cycle bef
 void SimulatedSpu::attend() {
   settle();
   if (state_.interrupted()) state_.stop_running(place_of(state_of_spu_.pc));
+  site_ = site_of(state_of_spu_.pc);
+  check_limits();
   if (context_.mfc.config.faults.pause_probability > 0) inject_faults();
   reach();
   if (interrupts_enabled_) {

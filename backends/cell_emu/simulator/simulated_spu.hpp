@@ -5,6 +5,7 @@
 #include "backends/cell_emu/isa/instruction.hpp"
 #include "backends/cell_emu/simulator/early_loads.hpp"
 #include "backends/cell_emu/simulator/issue_model.hpp"
+#include "backends/cell_emu/simulator/program_arguments.hpp"
 #include "backends/cell_emu/simulator/simulated_program.hpp"
 #include "backends/cell_emu/spu_core.hpp"
 #include "celltrace/spe/simulation.hpp"
@@ -23,11 +24,6 @@ public:
   /// The key of a stand-alone program's image.
   static constexpr const char* kElfKey = "elf";
 
-  /// Registers 3, 4 and 5 at the start, as an SPE's loader fills them: 64 bits each, in the preferred slot.
-  struct Arguments {
-    std::uint64_t spe_id, argp, envp;
-  };
-
   /// Answers a call for help; see PpeCalls::handle(). False: it is none.
   using CallPpe = std::function<bool(unsigned code, std::uint8_t* local_store, std::uint32_t npc, Cycle now)>;
 
@@ -37,7 +33,7 @@ public:
   ~SimulatedSpu() override { mfc_.watch_flights(nullptr); }
 
   /// Executes the program from its entry on, until it throws: Exit when it ends, or as SpuCore does.
-  [[noreturn]] void run(const Arguments& arguments);
+  [[noreturn]] void run(const StartRegisters& registers);
   void finish();
   void abandon();
 
