@@ -70,7 +70,11 @@ EmulatedRun emulate_program(const MachineConfig& config, const EmulatedProgram& 
   SpeProgram entries("emulated program");
   entries.add(EmulatedSpu::kKey,
               [&program](void* spu, ea_t given) { program(*static_cast<EmulatedSpu*>(spu), given); });
-  return cell_emu::run_programs(*machine, entries, argument, ppe);
+  return emulate_on(*machine, entries, argument, ppe);
+}
+
+EmulatedRun emulate_on(Machine& machine, const SpeProgram& program, ea_t argument, const EmulatedPpe& ppe) {
+  return cell_emu::run_programs(machine, program, argument, ppe);
 }
 
 } // namespace celltrace

@@ -71,6 +71,8 @@ public:
   // --- commands of the SPU ---
 
   unsigned free_entries() const { return kMfcQueueEntries - spu_entries_; }
+  /// The program has read that all entries are free: all of its commands are complete, and it knows.
+  void observe_empty_queue(CallSite site, Cycle now);
   /// Executes an immediate command, queues any other. The queue is not full.
   void issue(const MfcCommand& command, CallSite site, Cycle now);
 
@@ -178,6 +180,9 @@ private:
   /// Reports a flight whose local store has another content than the emulator left there.
   void report_touched(const Flight& flight, Cycle now);
   void verify(const Flight& flight, Cycle now);
+  /// The program relies on what only the count of the queue has told it. False if that is not reported.
+  bool note_drained(const Flight& flight, Diagnostic& diagnostic, Cycle now);
+  void report_drained(const Flight& flight, Cycle now);
   /// The program knows that the flights of which `seen(flight)` is true are complete.
   template <class Seen> void observe_if(Seen seen, Cycle now);
   /// What of a list has been transferred.
@@ -227,6 +232,8 @@ private:
   std::uint32_t waited_tags_ = 0;
   std::array<CallSite, kMfcTags> waits_{}; ///< by tag: the last wait for it
   CallSite last_request_;
+  CallSite drain_site_; ///< where the queue was last seen empty
+  bool drain_reported_ = false;
   std::uint32_t stalled_tags_ = 0; ///< not yet read from channel 25
   std::optional<std::uint32_t> atomic_status_;
   Cycle atomic_due_ = 0;

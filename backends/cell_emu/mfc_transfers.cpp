@@ -30,7 +30,7 @@ bool Mfc::is_ordered_before(const Flight& flight, const Entry& entry) const {
       flight.command < last_queue_barrier_[entry.proxy])
     return true;
   if (flight.transfer.tag != entry.command.tag) return false;
-  return has_fence(entry.command.opcode) || has_barrier(entry.command.opcode) ||
+  return follows_its_tag(entry.command.opcode) ||
          flight.command <= last_tag_barrier_[entry.proxy][entry.command.tag];
 }
 
@@ -68,6 +68,11 @@ void Mfc::depart(const Entry& entry, const MfcCommand& transfer, Cycle now) {
     if (!overlap.any) continue;
     if (is_ordered_before(other, entry) || is_ordered_behind(other, entry)) {
       flight.shared = other.shared = true;
+      continue;
+    }
+    if (other.drained) {
+      other.shared = true;
+      report_drained(other, now);
       continue;
     }
     report_conflict(entry, transfer, {spe_, other.command, other.transfer, other.site, overlap.local}, now);
@@ -164,8 +169,12 @@ void Mfc::report_touched(const Flight& flight, Cycle now) {
 }
 
 void Mfc::verify(const Flight& flight, Cycle now) {
-  if (flight.hashed && !flight.shared &&
-      checksum(local_store(flight.transfer), flight.bytes()) != flight.hash)
+  if (!flight.hashed || flight.shared ||
+      checksum(local_store(flight.transfer), flight.bytes()) == flight.hash)
+    return;
+  if (flight.drained)
+    report_drained(flight, now);
+  else
     report_touched(flight, now);
 }
 
@@ -242,6 +251,44 @@ void Mfc::observe(std::uint32_t tags, std::uint64_t last_command, bool proxy, Cy
                flight.command <= last_command;
       },
       now);
+}
+
+void Mfc::observe_empty_queue(CallSite site, Cycle now) {
+  const std::vector<Flight>& flights = context_.flights.of(spe_);
+  const auto is_new = [](const Flight& flight) { return !flight.proxy && !flight.drained; };
+  if (std::none_of(flights.begin(), flights.end(), is_new)) return;
+  drain_site_ = site;
+  if (drain_reported_ || !context_.log.checks(Rule::drained_queue)) {
+    observe_if([](const Flight& flight) { return !flight.proxy; }, now);
+    return;
+  }
+  for (std::size_t i = 0; i < flights.size(); ++i) {
+    Flight& flight = context_.flights.at(spe_, i);
+    if (!is_new(flight)) continue;
+    if (!flight.moved)
+      move(flight, now);
+    else
+      verify(flight, now);
+  }
+  context_.flights.for_each(spe_, [&](Flight& flight) {
+    if (!flight.proxy) flight.drained = flight.released = true;
+  });
+}
+
+bool Mfc::note_drained(const Flight& flight, Diagnostic& diagnostic, Cycle now) {
+  // What a program does once it does everywhere.
+  if (drain_reported_) return false;
+  drain_reported_ = true;
+  diagnostic = about({flight.transfer, flight.command, drain_site_, false, 0}, Rule::drained_queue, now);
+  std::string what = describe(flight.transfer);
+  if (const std::string site = to_text(flight.site); !site.empty()) what += " at " + site;
+  return context_.log.note(diagnostic, what + ": " + std::string(text_of(Rule::drained_queue)));
+}
+
+void Mfc::report_drained(const Flight& flight, Cycle now) {
+  Diagnostic diagnostic;
+  if (note_drained(flight, diagnostic, now) && diagnostic.action == Action::stop)
+    throw RuleViolation(diagnostic);
 }
 
 void Mfc::observe_part(std::uint64_t command, Cycle now) {

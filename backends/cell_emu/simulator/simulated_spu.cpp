@@ -26,8 +26,8 @@ constexpr std::uint32_t kFirstPpeCall = 0x2100, kLastPpeCall = 0x21FF;
 } // namespace
 
 SimulatedSpu::SimulatedSpu(Spe& spe, const SpuContext& context, const SimulatedProgram& program,
-                           PpeCalls& calls, SpuProfile* profile)
-    : SpuCore(spe, context), program_(program), calls_(calls), profile_(profile),
+                           CallPpe call_ppe, SpuProfile* profile)
+    : SpuCore(spe, context), program_(program), call_ppe_(std::move(call_ppe)), profile_(profile),
       decoded_(kLocalStoreBytes / 4, isa::decode(0)), watch_(kLocalStoreBytes / 16),
       model_(context.mfc.config.timing) {
   state_of_spu_.local_store = context.mfc.bus.map().local_store(id());
@@ -130,6 +130,8 @@ void SimulatedSpu::record(std::uint32_t instruction, std::uint32_t pc, Cycle bef
 void SimulatedSpu::attend() {
   settle();
   if (state_.interrupted()) state_.stop_running(place_of(state_of_spu_.pc));
+  site_ = site_of(state_of_spu_.pc);
+  check_limits();
   if (context_.mfc.config.faults.pause_probability > 0) inject_faults();
   reach();
   if (interrupts_enabled_) {
@@ -223,7 +225,7 @@ void SimulatedSpu::stop(std::uint32_t code) {
 void SimulatedSpu::call_ppe(std::uint32_t code) {
   reach();
   const std::uint32_t word = state_of_spu_.next & ~3u;
-  if (!calls_.handle(code, state_of_spu_.local_store, word)) return stop_with(code);
+  if (!call_ppe_(code, state_of_spu_.local_store, word, now())) return stop_with(code);
   waited(now() + context_.mfc.config.timing.ppe_call, "call of the PPE");
   state_of_spu_.next = (word + 4) & isa::kLocalStoreLimit;
 }

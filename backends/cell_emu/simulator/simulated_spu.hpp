@@ -5,13 +5,13 @@
 #include "backends/cell_emu/isa/instruction.hpp"
 #include "backends/cell_emu/simulator/early_loads.hpp"
 #include "backends/cell_emu/simulator/issue_model.hpp"
-#include "backends/cell_emu/simulator/ppe_calls.hpp"
 #include "backends/cell_emu/simulator/program_arguments.hpp"
 #include "backends/cell_emu/simulator/simulated_program.hpp"
 #include "backends/cell_emu/spu_core.hpp"
 #include "celltrace/spe/simulation.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <unordered_map>
 #include <vector>
 
@@ -24,8 +24,11 @@ public:
   /// The key of a stand-alone program's image.
   static constexpr const char* kElfKey = "elf";
 
+  /// Answers a call for help; see PpeCalls::handle(). False: it is none.
+  using CallPpe = std::function<bool(unsigned code, std::uint8_t* local_store, std::uint32_t npc, Cycle now)>;
+
   /// The program must have been loaded. `profile` may be null.
-  SimulatedSpu(Spe& spe, const SpuContext& context, const SimulatedProgram& program, PpeCalls& calls,
+  SimulatedSpu(Spe& spe, const SpuContext& context, const SimulatedProgram& program, CallPpe call_ppe,
                SpuProfile* profile);
   ~SimulatedSpu() override { mfc_.watch_flights(nullptr); }
 
@@ -69,7 +72,7 @@ private:
   [[noreturn]] void fail_at(std::uint32_t pc, Rule rule, const std::string& what);
 
   const SimulatedProgram& program_;
-  PpeCalls& calls_;
+  const CallPpe call_ppe_;
   SpuProfile* const profile_;
   isa::State state_of_spu_;
   std::vector<isa::Instruction> decoded_; ///< by word of local store
