@@ -19,6 +19,9 @@ const char* first_given(const EmulationTexts& texts) {
   if (!texts.transfers.empty()) return "--transfers";
   if (texts.faults) return "--faults";
   if (!texts.timing.empty()) return "--timing";
+  if (!texts.cycle_limit.empty()) return "--cycle-limit";
+  if (!texts.seconds_limit.empty()) return "--seconds-limit";
+  if (texts.lenient) return "--lenient";
   if (!texts.trace.empty()) return "--trace";
   if (!texts.cache_trace.empty()) return "--cache-trace";
   return nullptr;
@@ -37,13 +40,25 @@ TransferTime transfers_of(const EmulationTexts& texts) {
   return TransferTime::at_wait;
 }
 
-std::uint64_t parse_seed(const std::string& text) {
-  std::uint64_t seed = 0;
+/// False if the text is something else, or more.
+template <class Number> bool parse(const std::string& text, Number& number) {
   const char* const last = text.data() + text.size();
-  const auto [end, error] = std::from_chars(text.data(), last, seed);
-  if (error != std::errc() || end != last)
-    throw InputError("--seed: '" + text + "' is not a whole number from 0 to 2^64 - 1");
-  return seed;
+  const auto [end, error] = std::from_chars(text.data(), last, number);
+  return error == std::errc() && end == last;
+}
+
+std::uint64_t parse_whole(const char* option, const std::string& text) {
+  std::uint64_t number = 0;
+  if (!parse(text, number))
+    throw InputError(std::string(option) + ": '" + text + "' is not a whole number from 0 to 2^64 - 1");
+  return number;
+}
+
+double parse_seconds(const char* option, const std::string& text) {
+  double seconds = 0;
+  if (!parse(text, seconds) || !(seconds >= 0 && seconds <= 1e9))
+    throw InputError(std::string(option) + ": '" + text + "' is not a number of seconds from 0 to 1e9");
+  return seconds;
 }
 
 } // namespace
@@ -62,6 +77,15 @@ void add_emulation_options(CLI::App& command, EmulationTexts& texts, Schedule de
   command.add_flag("--faults", texts.faults, "Slow SPEs, pauses and delays at random");
   add_choice(command, "--timing", texts.timing, {{"cell", "ps3"}, {}},
              "The machine that is modelled, with 8 (default) or 6 SPEs");
+  command
+      .add_option("--cycle-limit,--limit", texts.cycle_limit,
+                  "A program that runs for N virtual cycles ends with an error; 0, the default: no limit")
+      ->type_name("N");
+  command
+      .add_option("--seconds-limit", texts.seconds_limit,
+                  "The same for seconds of this computer, which may be a fraction")
+      ->type_name("SECONDS");
+  command.add_flag("--lenient", texts.lenient, "Ignore the rules that the hardware has no objection to");
   command.add_option("--trace", texts.trace, "Write what happened as a Chrome trace, in lockstep")
       ->type_name("FILE.json");
 }
@@ -84,8 +108,12 @@ EmulationConfig emulation_config(const EmulationTexts& texts, const std::string&
   config.transfers = transfers_of(texts);
   if (texts.faults) config.faults = Faults::mixed();
   if (texts.timing == "ps3") config.timing = TimingParameters::playstation_3();
+  if (!texts.cycle_limit.empty()) config.cycle_limit = parse_whole("--cycle-limit", texts.cycle_limit);
+  if (!texts.seconds_limit.empty())
+    config.seconds_limit = parse_seconds("--seconds-limit", texts.seconds_limit);
+  if (texts.lenient) config.actions = lenient_actions();
   if (!texts.seed.empty()) {
-    config.seed = parse_seed(texts.seed);
+    config.seed = parse_whole("--seed", texts.seed);
     config.explore = config.schedule == Schedule::lockstep;
     if (!config.explore && !texts.faults && config.transfers != TransferTime::random)
       throw InputError(

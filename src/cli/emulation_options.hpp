@@ -1,4 +1,4 @@
-// The options that only emulated machines have: schedule, seed, transfers, faults, timing, traces.
+// The options that only emulated machines have: schedule, seed, transfers, faults, timing, limits, traces.
 #pragma once
 
 #include "celltrace/spe/emulation.hpp"
@@ -18,6 +18,9 @@ struct EmulationTexts {
   std::string transfers;
   bool faults = false;
   std::string timing;
+  std::string cycle_limit;
+  std::string seconds_limit;
+  bool lenient = false;
   std::string trace;
   std::string cache_trace;
 };
