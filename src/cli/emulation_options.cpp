@@ -19,7 +19,7 @@ const char* first_given(const EmulationTexts& texts) {
   if (!texts.transfers.empty()) return "--transfers";
   if (texts.faults) return "--faults";
   if (!texts.timing.empty()) return "--timing";
-  if (!texts.cycle_limit.empty()) return "--cycle-limit";
+  if (!texts.cycle_limit.empty()) return "--limit";
   if (!texts.seconds_limit.empty()) return "--seconds-limit";
   if (texts.lenient) return "--lenient";
   if (!texts.trace.empty()) return "--trace";
@@ -78,9 +78,9 @@ void add_emulation_options(CLI::App& command, EmulationTexts& texts, Schedule de
   add_choice(command, "--timing", texts.timing, {{"cell", "ps3"}, {}},
              "The machine that is modelled, with 8 (default) or 6 SPEs");
   command
-      .add_option("--cycle-limit,--limit", texts.cycle_limit,
-                  "A program that runs for N virtual cycles ends with an error; 0, the default: no limit")
-      ->type_name("N");
+      .add_option("--limit", texts.cycle_limit,
+                  "A program that runs for N virtual cycles ends with an error that says where; 0: none")
+      ->type_name("CYCLES");
   command
       .add_option("--seconds-limit", texts.seconds_limit,
                   "The same for seconds of this computer, which may be a fraction")
@@ -108,7 +108,7 @@ EmulationConfig emulation_config(const EmulationTexts& texts, const std::string&
   config.transfers = transfers_of(texts);
   if (texts.faults) config.faults = Faults::mixed();
   if (texts.timing == "ps3") config.timing = TimingParameters::playstation_3();
-  if (!texts.cycle_limit.empty()) config.cycle_limit = parse_whole("--cycle-limit", texts.cycle_limit);
+  if (!texts.cycle_limit.empty()) config.cycle_limit = parse_whole("--limit", texts.cycle_limit);
   if (!texts.seconds_limit.empty())
     config.seconds_limit = parse_seconds("--seconds-limit", texts.seconds_limit);
   if (texts.lenient) config.actions = lenient_actions();

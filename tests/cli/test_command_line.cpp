@@ -117,7 +117,7 @@ TEST_CASE("every option of cell_emu arrives") {
   CHECK(config({}).cycle_limit == 0);
   CHECK(config({}).seconds_limit == 0);
   CHECK(config({}).actions.empty());
-  CHECK(config({"--cycle-limit", "3200000000"}).cycle_limit == 3200000000u);
+  CHECK(config({"--limit", "3200000000"}).cycle_limit == 3200000000u);
   CHECK(config({"--seconds-limit", "1.5"}).seconds_limit == 1.5);
   CHECK(config({"--lenient"}).actions == lenient_actions());
   for (const std::vector<std::string>& drawn : {std::vector<std::string>{"--faults"},
@@ -138,7 +138,7 @@ TEST_CASE("options of cell_emu that make no sense are refused") {
                                                           {"--faults"},
                                                           {"--timing", "cell"},
                                                           {"--trace", "t.json"},
-                                                          {"--cycle-limit", "5"},
+                                                          {"--limit", "5"},
                                                           {"--seconds-limit", "1"},
                                                           {"--lenient"}};
   for (const auto& arguments : emulated)
@@ -158,7 +158,7 @@ TEST_CASE("options of cell_emu that make no sense are refused") {
   for (const std::string bad : {"-1", "x", "1.5", "18446744073709551616"})
     CHECK_THAT(error({"--schedule", "lockstep", "--seed", bad}), Contains("--seed"));
   for (const std::string bad : {"-1", "x", "1.5"})
-    CHECK_THAT(error({"--cycle-limit", bad}), StartsWith("--cycle-limit: '" + bad + "' is not a whole"));
+    CHECK_THAT(error({"--limit", bad}), StartsWith("--limit: '" + bad + "' is not a whole"));
   for (const std::string bad : {"-1", "x", "nan", "inf", "1e10"})
     CHECK_THAT(error({"--seconds-limit", bad}), StartsWith("--seconds-limit: '" + bad + "' is not a number"));
 }
