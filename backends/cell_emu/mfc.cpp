@@ -118,8 +118,6 @@ void Mfc::finish(Cycle now) {
 }
 
 void Mfc::abandon() {
-  if (watch_ != nullptr) std::memset(watch_, 0, kLocalStoreBytes / 16);
-  watch_ = nullptr;
   context_.flights.remove_if(spe_, [&](const Flight& flight) {
     if (!flight.proxy) permit_access(local_store(flight.transfer), flight.bytes());
     return !flight.proxy;

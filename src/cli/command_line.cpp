@@ -82,7 +82,7 @@ void add_picture_options(CLI::App& command, RenderRequest& request, RenderTexts&
 }
 
 void add_machine_options(CLI::App& command, RenderOptions& options, RenderTexts& texts) {
-  add_choice(command, "--backend", options.backend, {{"native", "cell_emu"}, {"spu"}}, "The machine");
+  add_choice(command, "--backend", options.backend, {{"native", "cell_emu", "cell_sim"}, {"spu"}}, "The machine");
   command
       .add_option("--spes", options.spes,
                   "SPEs; default: one a hardware thread on native, those of the timing on cell_emu")

@@ -70,7 +70,7 @@ void add_emulation_options(CLI::App& command, EmulationTexts& texts) {
 }
 
 EmulationConfig emulation_config(const EmulationTexts& texts, const std::string& backend) {
-  if (const char* given = first_given(texts); given && backend != "cell_emu")
+  if (const char* given = first_given(texts); given && backend != "cell_emu" && backend != "cell_sim")
     throw InputError(std::string(given) + " needs --backend cell_emu");
   EmulationConfig config;
   config.schedule = schedule_of(texts);

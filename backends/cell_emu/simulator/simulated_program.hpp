@@ -1,8 +1,8 @@
 // A program of machine code: what is loaded, and what its addresses mean.
 #pragma once
 
+#include "backends/cell_emu/simulator/code_places.hpp"
 #include "backends/cell_emu/simulator/spu_elf.hpp"
-#include "backends/cell_emu/simulator/spu_symbols.hpp"
 #include "celltrace/spe/call_site.hpp"
 
 #include <cstdint>
@@ -23,7 +23,7 @@ public:
   SimulatedProgram(std::span<const std::uint8_t> image, Convention convention);
 
   const SpuElf& elf() const { return elf_; }
-  const SpuSymbols& symbols() const { return symbols_; }
+  const CodePlaces& places() const { return places_; }
   Convention convention() const { return convention_; }
   /// It keeps a stack as the ABI says: register 1 holds the stack pointer and the space that is left.
   bool has_abi_stack() const { return has_abi_stack_; }
@@ -32,7 +32,7 @@ public:
 
 private:
   SpuElf elf_;
-  SpuSymbols symbols_;
+  CodePlaces places_;
   Convention convention_;
   bool has_abi_stack_;
 };

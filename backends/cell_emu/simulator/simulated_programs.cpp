@@ -1,11 +1,18 @@
 #include "backends/cell_emu/simulator/simulated_programs.hpp"
 
-#include "backends/cell_emu/simulator/big_endian.hpp"
+#include "celltrace/spe/byte_order.hpp"
 #include "celltrace/spe/control_block.hpp"
 
 #include <algorithm>
+#include <bit>
 
-namespace celltrace::cell_emu {
+namespace celltrace {
+
+FieldList<&ControlBlock::argument, &ControlBlock::addresses, &ControlBlock::id, &ControlBlock::count,
+          &ControlBlock::unused>
+fields_of(const ControlBlock&);
+
+namespace cell_emu {
 namespace {
 
 constexpr std::size_t kMaxSpes = 256;
@@ -15,29 +22,21 @@ constexpr std::uint64_t kFirstSpeId = 0x10000000;
 
 } // namespace
 
-/// As the SPU reads it: ControlBlock, then SpeAddresses.
 struct alignas(kLineBytes) SimulatedPrograms::Block {
-  std::uint8_t control[sizeof(ControlBlock)];
-  std::uint8_t addresses[kMaxSpes * sizeof(SpeAddresses)];
+  ControlBlock control;
+  SpeAddresses addresses[kMaxSpes];
 };
 
 SimulatedPrograms::SimulatedPrograms(const MachineConfig& config, const AddressMap& map)
     : blocks_(std::make_unique<Block[]>(map.spes())), spes_(map.spes()), calls_(config.simulation) {
-  for (unsigned spe = 0; spe < spes_; ++spe) {
-    Block& block = blocks_[spe];
+  for (unsigned spe = 0; spe < spes_; ++spe)
     for (unsigned other = 0; other < spes_; ++other) {
-      const SpeAddresses addresses = map.addresses(other);
-      std::uint8_t* const at = block.addresses + other * sizeof(SpeAddresses);
-      store_big_endian64(at + offsetof(SpeAddresses, local_store), addresses.local_store);
-      store_big_endian64(at + offsetof(SpeAddresses, signal_1), addresses.signal_1);
-      store_big_endian64(at + offsetof(SpeAddresses, signal_2), addresses.signal_2);
-      store_big_endian64(at + offsetof(SpeAddresses, in_mailbox), addresses.in_mailbox);
+      blocks_[spe].addresses[other] = map.addresses(other);
+      reorder(blocks_[spe].addresses[other], std::endian::big);
     }
-    store_big_endian64(block.control + offsetof(ControlBlock, addresses), to_ea(block.addresses));
-    store_big_endian32(block.control + offsetof(ControlBlock, id), spe);
-    store_big_endian32(block.control + offsetof(ControlBlock, count), spes_);
-  }
 }
+
+SimulatedPrograms::~SimulatedPrograms() = default;
 
 std::shared_ptr<const SimulatedProgram> SimulatedPrograms::find(const SpeProgram& program) {
   std::span<const std::uint8_t> image = program.image(SimulatedSpu::kKey);
@@ -61,8 +60,11 @@ SimulatedSpu::Arguments SimulatedPrograms::arguments(const SimulatedProgram& pro
                                                      ea_t argument) {
   const std::uint64_t id = kFirstSpeId + spe;
   if (program.convention() == Convention::stand_alone) return {id, argument, 0};
-  store_big_endian64(blocks_[spe].control + offsetof(ControlBlock, argument), argument);
-  return {id, to_ea(blocks_[spe].control), 0};
+  Block& block = blocks_[spe];
+  block.control = {argument, to_ea(block.addresses), spe, spes_, {}};
+  reorder(block.control, std::endian::big);
+  return {id, to_ea(&block.control), 0};
 }
 
-} // namespace celltrace::cell_emu
+} // namespace cell_emu
+} // namespace celltrace

@@ -18,6 +18,7 @@ namespace celltrace::cell_emu {
 class SimulatedPrograms {
 public:
   SimulatedPrograms(const MachineConfig& config, const AddressMap& map);
+  ~SimulatedPrograms();
 
   /// The machine code of a program. Throws SpeError if it has none, InputError if that is no executable for
   /// the SPU.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cinttypes>
 #include <cstdio>
+#include <cstring>
 
 namespace celltrace::cell_emu {
 namespace {
@@ -13,6 +14,12 @@ namespace {
 /// Instructions between two looks at the others: who polls its local store for what another SPE's DMA brings
 /// must let that one have its turn. A compromise: every look may change coroutines.
 constexpr std::uint32_t kSlice = 2048;
+
+std::uint32_t word_at(const std::uint8_t* from) {
+  std::uint32_t word;
+  std::memcpy(&word, from, sizeof word);
+  return std::endian::native == std::endian::big ? word : __builtin_bswap32(word);
+}
 
 constexpr std::uint32_t kFirstPpeCall = 0x2100, kLastPpeCall = 0x21FF;
 

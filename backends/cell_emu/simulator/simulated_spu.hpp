@@ -30,6 +30,7 @@ public:
   /// The program must have been loaded. `profile` may be null.
   SimulatedSpu(Spe& spe, const SpuContext& context, const SimulatedProgram& program, PpeCalls& calls,
                SpuProfile* profile);
+  ~SimulatedSpu() override { mfc_.watch_flights(nullptr); }
 
   /// Executes the program from its entry on, until it throws: Exit when it ends, or as SpuCore does.
   [[noreturn]] void run(const Arguments& arguments);

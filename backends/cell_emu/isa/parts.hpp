@@ -1,0 +1,81 @@
+// Operations on all bytes, halfwords, words or doublewords of registers at once. Which part comes first does
+// not matter to them, so they work in the host's order; loops of a fixed length that compilers vectorise.
+#pragma once
+
+#include "backends/cell_emu/isa/instruction.hpp"
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+namespace celltrace::isa {
+
+template <class Part> using Parts = std::array<Part, 16 / sizeof(Part)>;
+
+template <class Part> inline Parts<Part> parts(const Quadword& q) {
+  return std::bit_cast<Parts<Part>>(q);
+}
+template <class Part> inline Quadword quadword(const Parts<Part>& from) {
+  return std::bit_cast<Quadword>(from);
+}
+
+template <class Part, class F> inline Quadword map(const Quadword& a, F f) {
+  const auto x = parts<Part>(a);
+  Parts<Part> result;
+  for (std::size_t k = 0; k < result.size(); ++k)
+    result[k] = static_cast<Part>(f(x[k]));
+  return quadword<Part>(result);
+}
+
+template <class Part, class F> inline Quadword map(const Quadword& a, const Quadword& b, F f) {
+  const auto x = parts<Part>(a), y = parts<Part>(b);
+  Parts<Part> result;
+  for (std::size_t k = 0; k < result.size(); ++k)
+    result[k] = static_cast<Part>(f(x[k], y[k]));
+  return quadword<Part>(result);
+}
+
+template <class Part, class F>
+inline Quadword map(const Quadword& a, const Quadword& b, const Quadword& c, F f) {
+  const auto x = parts<Part>(a), y = parts<Part>(b), z = parts<Part>(c);
+  Parts<Part> result;
+  for (std::size_t k = 0; k < result.size(); ++k)
+    result[k] = static_cast<Part>(f(x[k], y[k], z[k]));
+  return quadword<Part>(result);
+}
+
+/// rt = f(ra), part by part.
+template <class Part, class F> inline void of_ra(State& state, const Instruction& i, F f) {
+  state.gpr[i.rt] = map<Part>(state.gpr[i.ra], f);
+}
+/// rt = f(ra, rb)
+template <class Part, class F> inline void of_ra_rb(State& state, const Instruction& i, F f) {
+  state.gpr[i.rt] = map<Part>(state.gpr[i.ra], state.gpr[i.rb], f);
+}
+/// rt = f(ra, rb, rt)
+template <class Part, class F> inline void of_ra_rb_rt(State& state, const Instruction& i, F f) {
+  state.gpr[i.rt] = map<Part>(state.gpr[i.ra], state.gpr[i.rb], state.gpr[i.rt], f);
+}
+/// rt = f(ra, rb, rc)
+template <class Part, class F> inline void of_ra_rb_rc(State& state, const Instruction& i, F f) {
+  state.gpr[i.rt] = map<Part>(state.gpr[i.ra], state.gpr[i.rb], state.gpr[i.rc], f);
+}
+/// rt = f(ra, immediate), the immediate cut to the size of a part
+template <class Part, class F> inline void of_ra_immediate(State& state, const Instruction& i, F f) {
+  const auto immediate = static_cast<Part>(i.immediate);
+  state.gpr[i.rt] = map<Part>(state.gpr[i.ra], [=](Part x) { return f(x, immediate); });
+}
+
+/// What compares give: ones or zeros.
+template <class Part> constexpr Part mask_of(bool condition) {
+  return static_cast<Part>(condition ? -1 : 0);
+}
+
+/// The word in the preferred slot, zeros in the others.
+inline Quadword preferred(std::uint32_t word) {
+  Quadword q = Quadword::zero();
+  q.set<std::uint32_t>(0, word);
+  return q;
+}
+
+} // namespace celltrace::isa

@@ -1,0 +1,45 @@
+// What a profile or a message says of an address in a program: function, file and line.
+#pragma once
+
+#include "backends/cell_emu/simulator/line_table.hpp"
+#include "backends/cell_emu/simulator/spu_symbols.hpp"
+
+#include <cstdint>
+
+namespace celltrace::cell_emu {
+
+/// Strings live as long as the CodePlaces they come from.
+struct CodePlace {
+  const char* function = nullptr; ///< null: unknown
+  std::uint32_t offset = 0;       ///< bytes from the function's start
+  const char* file = nullptr;     ///< null: unknown
+  std::uint32_t line = 0;         ///< from 1; 0: unknown
+};
+
+/// Symbols and lines of one program. Thread safety: all members are const.
+class CodePlaces {
+public:
+  explicit CodePlaces(const SpuElf& elf) : symbols_(elf), lines_(elf) {}
+
+  /// Two binary searches.
+  CodePlace at(std::uint32_t lsa) const {
+    CodePlace place;
+    if (const FunctionSymbol* function = symbols_.function_at(lsa)) {
+      place.function = function->name;
+      place.offset = lsa - function->lsa;
+    }
+    const SourceLine line = lines_.at(lsa);
+    place.file = line.file;
+    place.line = line.line;
+    return place;
+  }
+
+  const SpuSymbols& symbols() const { return symbols_; }
+  const LineTable& lines() const { return lines_; }
+
+private:
+  SpuSymbols symbols_;
+  LineTable lines_;
+};
+
+} // namespace celltrace::cell_emu
