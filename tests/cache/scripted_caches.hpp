@@ -8,6 +8,7 @@
 #pragma once
 
 #include "script.hpp"
+#include "script_fields.hpp"
 #include "script_model.hpp"
 #include "spe/machine_kinds.hpp"
 
@@ -24,18 +25,6 @@ namespace celltrace {
 SpeProgram cache_scripts_program();
 
 namespace test {
-
-FieldList<&CacheEntry::step, &CacheEntry::kind, &CacheEntry::offset, &CacheEntry::value>
-fields_of(const CacheEntry&);
-
-FieldList<&CacheTask::memory, &CacheTask::script, &CacheTask::report, &CacheTask::entries,
-          &CacheTask::flavour, &CacheTask::ways, &CacheTask::sets, &CacheTask::replacement,
-          &CacheTask::enabled, &CacheTask::first_tag, &CacheTask::tag_count, &CacheTask::unused>
-fields_of(const CacheTask&);
-
-FieldList<&CacheReport::played, &CacheReport::wrong, &CacheReport::first_wrong, &CacheReport::written_back,
-          &CacheReport::local_store_bytes, &CacheReport::hits, &CacheReport::misses, &CacheReport::unused>
-fields_of(const CacheReport&);
 
 /// A machine whose SPEs play a script each, on one region of main memory.
 class ScriptedCaches {
@@ -60,7 +49,7 @@ public:
     for (unsigned spe = 0; spe < spes(); ++spe) {
       entries.emplace_back(0, order);
       entries[spe].assign(scripts_[spe].entries());
-      tasks[spe] = task(flavour, entries[spe], reports_.ea(spe));
+      tasks[spe] = task_of(flavour, config, words_.ea(), entries[spe], reports_.ea(spe));
     }
     tasks.publish();
     run_ = run_program(*machine_, cache_scripts_program(), tasks.ea());
@@ -121,21 +110,6 @@ public:
   }
 
 private:
-  CacheTask task(CacheFlavour flavour, const SharedRecords<CacheEntry>& script, ea_t report) const {
-    CacheTask task{};
-    task.memory = words_.ea();
-    task.script = script.ea();
-    task.report = report;
-    task.entries = static_cast<std::uint32_t>(script.size());
-    task.flavour = flavour;
-    task.ways = config_.ways;
-    task.sets = config_.sets;
-    task.replacement = static_cast<std::uint32_t>(config_.replacement);
-    task.enabled = config_.enabled ? 1 : 0;
-    task.first_tag = config_.first_tag;
-    task.tag_count = config_.tag_count;
-    return task;
-  }
   /// Without those by which machine code learns where it runs, before its kernel starts.
   SpeStatistics transfers(unsigned spe) const {
     SpeStatistics statistics = run_.spes[spe];
