@@ -1,6 +1,7 @@
 #include "celltrace/emulator.hpp"
 
 #include "backends/cell_emu/machine.hpp"
+#include "backends/cell_emu/run_programs.hpp"
 
 namespace celltrace {
 namespace {
@@ -69,32 +70,11 @@ EmulatedRun emulate_program(const MachineConfig& config, const EmulatedProgram& 
   SpeProgram entries("emulated program");
   entries.add(EmulatedSpu::kKey,
               [&program](void* spu, ea_t given) { program(*static_cast<EmulatedSpu*>(spu), given); });
-  const unsigned spes = machine->spe_count();
-  for (unsigned spe = 0; spe < spes; ++spe)
-    machine->start(spe, entries, argument);
-  EmulatedRun run;
-  try {
-    if (ppe) ppe(*machine);
-  } catch (const SpeError& error) {
-    run.ppe_error = error.what();
-  }
-  for (unsigned spe = 0; spe < spes; ++spe) {
-    run.errors.emplace_back();
-    run.exit_codes.push_back(0);
-    try {
-      const SpeStop stop = machine->wait(spe);
-      run.exit_codes.back() = stop.code;
-      if (stop.reason == SpeStop::Reason::stop_and_signal)
-        run.errors.back() = "SPE " + std::to_string(spe) + ": stopped with code " +
-                            std::to_string(stop.code) + " and was not resumed";
-    } catch (const SpeError& error) {
-      run.errors.back() = error.what();
-    }
-    run.spes.push_back(machine->statistics(spe));
-    run.cycles = std::max(run.cycles, run.spes.back().cycles.total_cycle);
-  }
-  run.diagnostics = machine->diagnostics();
-  return run;
+  return emulate_on(*machine, entries, argument, ppe);
+}
+
+EmulatedRun emulate_on(Machine& machine, const SpeProgram& program, ea_t argument, const EmulatedPpe& ppe) {
+  return cell_emu::run_programs(machine, program, argument, ppe);
 }
 
 } // namespace celltrace

@@ -4,6 +4,13 @@
 
 namespace celltrace::cell_emu {
 
+bool FreeScheduler::all_stalled() const {
+  if (active_ != 0) return stalled_ == active_;
+  // One that was interrupted while it paused is about to go on.
+  return std::none_of(spes_.begin(), spes_.end(),
+                      [](const auto& spe) { return spe->running && !spe->paused(); });
+}
+
 void FreeScheduler::stalled(unsigned) {
   const std::lock_guard lock(mutex_);
   ++stalled_;
@@ -47,7 +54,20 @@ Cycle FreeScheduler::pause(Spe& spe, std::uint32_t code, Cycle now) {
   return now;
 }
 
+Cycle FreeScheduler::enter() {
+  // Who looks for an answer of programs that have failed would do so for ever.
+  if (!broken_off_.load(std::memory_order_relaxed) || ++idle_entries_ < kIdleEntries) return 0;
+  idle_entries_ = 0;
+  const std::lock_guard lock(mutex_);
+  if (all_stalled())
+    throw SpeError(report_deadlock(
+        spes_, log_, "an answer, looking for it again and again when no program runs any more"));
+  return 0;
+}
+
 void FreeScheduler::start(Spe& spe, Program program) {
+  broken_off_ = false;
+  idle_entries_ = 0;
   {
     const std::lock_guard lock(mutex_);
     spe.running = true;
@@ -109,6 +129,7 @@ bool FreeScheduler::wait(const Ready& ready, std::optional<std::chrono::millisec
 void FreeScheduler::break_off(const std::string& because) {
   for (const auto& spe : spes_)
     spe->state.interrupt(because);
+  broken_off_ = true;
   const std::lock_guard lock(mutex_);
   resumed_.notify_all();
 }

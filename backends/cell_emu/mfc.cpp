@@ -57,11 +57,14 @@ Mfc::Mfc(unsigned spe, const MfcContext& context, DmaTiming& timing, ProblemStat
 
 void Mfc::begin_program(ArenaRange arena) {
   arena_ = arena;
+  host_memory_.forget();
   tag_groups_ = {};
   used_tags_ = waited_tags_ = stalled_tags_ = 0;
   waits_ = {};
   last_request_ = {};
   atomic_status_.reset();
+  drain_site_ = {};
+  drain_reported_ = false;
 }
 
 void Mfc::finish(Cycle now) {
@@ -84,8 +87,14 @@ void Mfc::finish(Cycle now) {
     const bool kept = context_.log.note(diagnostic, what);
     if (kept && diagnostic.action == Action::stop && !first) first = diagnostic;
   };
-  for (const Flight& flight : context_.flights.of(spe_))
-    if (!flight.proxy) report_left({flight.transfer, flight.command, flight.site, false, 0});
+  for (const Flight& flight : context_.flights.of(spe_)) {
+    if (flight.proxy) continue;
+    Diagnostic diagnostic;
+    if (!flight.drained)
+      report_left({flight.transfer, flight.command, flight.site, false, 0});
+    else if (note_drained(flight, diagnostic, now) && diagnostic.action == Action::stop && !first)
+      first = diagnostic;
+  }
   // A stopped list of which the program has seen all that was transferred has no flight, but is not done.
   const std::vector<Flight>& flights = context_.flights.of(spe_);
   for (const Entry& entry : queue_)
@@ -168,6 +177,16 @@ Rule Mfc::broken_arena_rule(const MfcCommand& transfer) const {
   return fills && outside ? Rule::program_overwritten : Rule::none;
 }
 
+EaKind Mfc::target_of(const MfcCommand& command, std::uint32_t size, bool proxy) {
+  const EaKind kind = bus_.map().locate(command.ea, size).kind;
+  if (kind != EaKind::main_memory) return kind;
+  const bool write = writes_storage(command.opcode);
+  // The PPE checks its commands on a thread of its own.
+  const bool accessible = proxy ? accessible_memory(command.ea, size, write).has_value()
+                                : host_memory_.is_accessible(command.ea, size, write);
+  return accessible ? kind : EaKind::unmapped;
+}
+
 bool Mfc::check(const MfcCommand& command, std::uint64_t number, CallSite site, Cycle now, bool proxy) {
   Rule rule = broken_common_rule(command);
   if (rule == Rule::none && proxy) rule = broken_proxy_rule(command);
@@ -176,11 +195,11 @@ bool Mfc::check(const MfcCommand& command, std::uint64_t number, CallSite site, 
     if (is_list(command.opcode))
       rule = broken_list_rule(command);
     else if (kind == CommandKind::lock_line)
-      rule = broken_lock_line_rule(command, bus_.map().locate(command.ea, kLineBytes).kind);
+      rule = broken_lock_line_rule(command, target_of(command, kLineBytes, proxy));
     else if (kind == CommandKind::cache_control)
-      rule = broken_cache_control_rule(command, bus_.map().locate(command.ea, command.size).kind);
+      rule = broken_cache_control_rule(command, target_of(command, command.size, proxy));
     else if (kind != CommandKind::barrier)
-      rule = broken_transfer_rule(command, bus_.map().locate(command.ea, command.size).kind);
+      rule = broken_transfer_rule(command, target_of(command, command.size, proxy));
   }
   if (rule == Rule::none && !is_list(command.opcode)) rule = broken_arena_rule(command);
   if (rule == Rule::none && (kind == CommandKind::get || kind == CommandKind::put) && command.size == 0)
@@ -352,8 +371,8 @@ void Mfc::start(Entry& entry, Cycle now) {
         is_ordered_before(flight, entry))
       move(flight, now);
   }
-  const bool releases = kind_of(entry.command.opcode) == CommandKind::barrier ||
-                        has_fence(entry.command.opcode) || has_barrier(entry.command.opcode);
+  const bool releases =
+      kind_of(entry.command.opcode) == CommandKind::barrier || follows_its_tag(entry.command.opcode);
   if (releases)
     context_.flights.for_each(spe_, [&](Flight& flight) {
       flight.released |= flight.command != entry.number && is_ordered_before(flight, entry);
@@ -476,7 +495,7 @@ void Mfc::begin_part(Entry& entry, Cycle now) {
   while (entry.next_element < entry.elements.size()) {
     const ListElement element = entry.elements[entry.next_element];
     const MfcCommand part = element_command(entry.command, element, entry.next_lsa);
-    Rule rule = broken_element_rule(part, bus_.map().locate(part.ea, part.size).kind);
+    Rule rule = broken_element_rule(part, target_of(part, part.size, false));
     if (rule == Rule::none) rule = broken_arena_rule(part);
     if (rule != Rule::none)
       report({part, entry.number, entry.site, false, now}, rule, now,
@@ -507,8 +526,10 @@ bool Mfc::complete_part(Entry& entry, Cycle now) {
   entry.stalled = true;
   entry.due = kNever;
   entry.moved = true;
+  // The event is the rise of the channel's count; what joins an unread status adds to its bits only.
+  const bool rises = stalled_tags_ == 0;
   stalled_tags_ |= 1u << entry.command.tag;
-  problem_state_.raise_own(event::list_stall);
+  if (rises) problem_state_.raise_own(event::list_stall);
   return false;
 }
 

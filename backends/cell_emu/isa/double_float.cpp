@@ -9,6 +9,11 @@
 #include <cfenv>
 #include <cmath>
 #include <limits>
+#include <type_traits>
+
+#if defined(__SSE2_MATH__)
+#include <immintrin.h>
+#endif
 
 namespace celltrace::isa::execute {
 namespace {
@@ -43,26 +48,41 @@ U64 operand(U64 x, U32& exceptions) {
   return x & kSign;
 }
 
-int host_rounding(Rounding rounding) {
-  switch (rounding) {
-  case Rounding::nearest:
-    break;
-  case Rounding::to_zero:
-    return FE_TOWARDZERO;
-  case Rounding::up:
-    return FE_UPWARD;
-  case Rounding::down:
-    return FE_DOWNWARD;
-  }
-  return FE_TONEAREST;
-}
+#if defined(__SSE2_MATH__)
+/// The host's floating-point environment with a rounding mode and without flags, for as long as this lives.
+/// That of SSE alone: <cfenv> changes the x87's as well, which takes several times as long as the arithmetic.
+class HostEnvironment {
+public:
+  explicit HostEnvironment(Rounding rounding) : kept_(_mm_getcsr()) { _mm_setcsr(kMasked | mode(rounding)); }
+  ~HostEnvironment() { _mm_setcsr(kept_); }
+  HostEnvironment(const HostEnvironment&) = delete;
+  HostEnvironment& operator=(const HostEnvironment&) = delete;
 
+  static U32 exceptions() {
+    const unsigned raised = _mm_getcsr();
+    U32 exceptions = 0;
+    if ((raised & _MM_EXCEPT_INVALID) != 0) exceptions |= double_exception::invalid;
+    if ((raised & _MM_EXCEPT_OVERFLOW) != 0) exceptions |= double_exception::overflow;
+    if ((raised & _MM_EXCEPT_INEXACT) != 0) exceptions |= double_exception::inexact;
+    return exceptions;
+  }
+
+private:
+  static constexpr unsigned kMasked = _MM_MASK_MASK;
+  static unsigned mode(Rounding rounding) {
+    constexpr unsigned modes[] = {_MM_ROUND_NEAREST, _MM_ROUND_TOWARD_ZERO, _MM_ROUND_UP, _MM_ROUND_DOWN};
+    return modes[static_cast<unsigned>(rounding)];
+  }
+  unsigned kept_;
+};
+#else
 /// The host's floating-point environment with a rounding mode and without flags, for as long as this lives.
 class HostEnvironment {
 public:
   explicit HostEnvironment(Rounding rounding) {
+    constexpr int modes[] = {FE_TONEAREST, FE_TOWARDZERO, FE_UPWARD, FE_DOWNWARD};
     std::feholdexcept(&kept_);
-    std::fesetround(host_rounding(rounding));
+    std::fesetround(modes[static_cast<unsigned>(rounding)]);
   }
   ~HostEnvironment() { std::fesetenv(&kept_); }
   HostEnvironment(const HostEnvironment&) = delete;
@@ -80,6 +100,7 @@ public:
 private:
   std::fenv_t kept_;
 };
+#endif
 
 /// f(operands) by the host. Volatile, as compilers move arithmetic across changes of the environment.
 template <class F, class... Operands>
@@ -92,14 +113,28 @@ template <class F, class... Operands>
   return value;
 }
 
-constexpr U32 kTooSmall = double_exception::underflow | double_exception::inexact;
+/// f(operands), and zero for what is below the normal numbers. Whether it is, is decided before rounding.
+template <class F, class... Operands>
+auto rounded(Rounding rounding, U32& exceptions, F f, Operands... operands) {
+  U32 raised = 0;
+  const auto result = by_host(rounding, raised, f, operands...);
+  using Result = std::remove_const_t<decltype(result)>;
+  constexpr Result smallest = std::numeric_limits<Result>::min();
+  const auto is_normal = [&](Result x) { return !(std::fabs(x) < smallest); };
+  const bool inexact = (raised & double_exception::inexact) != 0;
+  bool too_small = !is_normal(result) && (result != 0 || inexact);
+  if (std::fabs(result) == smallest && inexact) {
+    U32 ignored = 0;
+    too_small = !is_normal(by_host(Rounding::to_zero, ignored, f, operands...));
+  }
+  exceptions |= raised;
+  if (!too_small) return result;
+  exceptions |= double_exception::underflow | double_exception::inexact;
+  return std::copysign(Result{0}, result);
+}
 
-U64 finished(double result, U32& exceptions) {
-  const U64 bits = std::bit_cast<U64>(result);
-  if (is_nan(bits)) return kDefaultNan;
-  if (!is_denormal(bits)) return bits;
-  exceptions |= kTooSmall;
-  return bits & kSign;
+U64 bits_of(double result) {
+  return std::isnan(result) ? kDefaultNan : std::bit_cast<U64>(result);
 }
 
 /// Whether the result is a NaN because an operand is one.
@@ -122,7 +157,7 @@ template <class F> void operation(State& state, const Instruction& i, F f) {
     U64 bits = kDefaultNan;
     if (!has_nan(exceptions, a, b)) {
       const Rounding rounding = double_rounding(state.fpscr, slot);
-      bits = finished(by_host(rounding, exceptions, f, number(a), number(b)), exceptions);
+      bits = bits_of(rounded(rounding, exceptions, f, number(a), number(b)));
     }
     raise_double(state.fpscr, slot, exceptions);
     result.set(slot, bits);
@@ -150,7 +185,7 @@ void multiply_add(State& state, const Instruction& i, Signs signs) {
       constexpr auto f = [](double x, double y, double z) { return std::fma(x, y, z); };
       const double z = signs.minus_rt ? -number(c) : number(c);
       const Rounding rounding = double_rounding(state.fpscr, slot);
-      bits = finished(by_host(rounding, exceptions, f, number(a), number(b), z), exceptions);
+      bits = bits_of(rounded(rounding, exceptions, f, number(a), number(b), z));
       if (signs.negative && !is_nan(bits)) bits ^= kSign;
     }
     raise_double(state.fpscr, slot, exceptions);
@@ -178,14 +213,8 @@ U64 extended(U32 single, U32& exceptions) {
 U32 shortened(U64 value, Rounding rounding, U32& exceptions) {
   const U64 bits = operand(value, exceptions);
   if (has_nan(exceptions, bits)) return kDefaultNanSingle;
-  const float single = by_host(
-      rounding, exceptions, [](double x) { return static_cast<float>(x); }, number(bits));
-  const U32 word = std::bit_cast<U32>(single);
-  const bool denormal = (word & 0x7F800000) == 0 && (word & 0x7FFFFFFF) != 0;
-  // What became zero without being it was below the denormals.
-  if (!denormal && !((word & 0x7FFFFFFF) == 0 && !is_zero(bits))) return word;
-  exceptions |= kTooSmall;
-  return word & 0x80000000;
+  constexpr auto f = [](double x) { return static_cast<float>(x); };
+  return std::bit_cast<U32>(rounded(rounding, exceptions, f, number(bits)));
 }
 
 /// In the order of the numbers; not for NaN.
