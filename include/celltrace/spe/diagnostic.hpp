@@ -73,6 +73,8 @@ enum class Rule : unsigned char {
 
   // local store
   local_store_exhausted,
+  local_store_overrun,
+  foreign_store,
   program_overwritten,
 
   // run control
