@@ -1,4 +1,5 @@
-// How fast cell_sim executes machine code: instructions of SPUs a second on one host thread, no-ops included.
+// How fast cell_sim executes machine code: instructions of SPUs in a second of one host thread, no-ops
+// included.
 #include "celltrace/render.hpp"
 #include "celltrace/spe/machine.hpp"
 #include "celltrace/spe/shared_records.hpp"
