@@ -82,7 +82,8 @@ void add_emulation_options(CLI::App& command, EmulationTexts& texts, Schedule de
                   "A program that runs for N virtual cycles ends with an error that says where; 0: none")
       ->type_name("CYCLES");
   command
-      .add_option("--seconds-limit", texts.seconds_limit, "The same for seconds, which may be a fraction")
+      .add_option("--seconds-limit", texts.seconds_limit,
+                  "The same for seconds of this computer, which may be a fraction")
       ->type_name("SECONDS");
   command.add_flag("--lenient", texts.lenient, "Ignore the rules that the hardware has no objection to");
   command.add_option("--trace", texts.trace, "Write what happened as a Chrome trace, in lockstep")

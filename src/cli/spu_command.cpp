@@ -7,6 +7,7 @@
 #include "cli/spu_report.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <fstream>
 #include <functional>
@@ -14,6 +15,8 @@
 #include <iterator>
 #include <optional>
 #include <thread>
+
+#include <unistd.h>
 
 namespace celltrace::cli {
 
@@ -52,11 +55,28 @@ auto writer_to(std::ostream& stream) {
   return [&stream](std::string_view piece) { stream << piece << std::flush; };
 }
 
+/// What there is to read now, but at least a byte before the end; a terminal gives a line.
+std::string read_piece(int descriptor) {
+  std::string piece(65536, '\0');
+  ssize_t count = 0;
+  do
+    count = read(descriptor, piece.data(), piece.size());
+  while (count < 0 && errno == EINTR && !interrupted());
+  piece.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
+  return piece;
+}
+
 SimulatedRun run_program(const SpuRequest& request, const Bytes& elf, std::ostream* trace,
                          SpuProfile* profile) {
   MachineConfig config = request.machine;
   config.simulation.output = writer_to(std::cout);
   config.simulation.error_output = writer_to(std::cerr);
+  if (request.input.empty()) {
+    config.simulation.more_input = [] { return read_piece(STDIN_FILENO); };
+  } else {
+    const Bytes input = read_file(request.input);
+    config.simulation.input.assign(input.begin(), input.end());
+  }
   config.simulation.profile = profile;
   config.emulation.trace = trace;
   const InterruptWatch watch;
@@ -83,15 +103,12 @@ std::vector<std::string> errors_of(const SimulatedRun& run) {
   return firsts;
 }
 
+/// What stopped a program is among the errors.
 void print_messages(const SimulatedRun& run, bool quiet) {
-  const std::vector<std::string> errors = errors_of(run);
-  for (const Diagnostic& diagnostic : run.diagnostics) {
-    const bool is_error = std::any_of(errors.begin(), errors.end(), [&](const std::string& error) {
-      return error.find(diagnostic.text) != std::string::npos;
-    });
-    if (!is_error && !quiet) std::cerr << "celltrace: warning: " << diagnostic.text << '\n';
-  }
-  for (const std::string& error : errors)
+  for (const Diagnostic& diagnostic : run.diagnostics)
+    if (diagnostic.action == Action::warn && !quiet)
+      std::cerr << "celltrace: warning: " << diagnostic.text << '\n';
+  for (const std::string& error : errors_of(run))
     std::cerr << "celltrace: error: " << error << '\n';
 }
 
@@ -104,6 +121,7 @@ void write_profile(const SpuRequest& request, const SpuProfile& profile, const B
 
 int exit_code_of(const SimulatedRun& run) {
   if (interrupted()) return kSpuInterrupted;
+  if (run.broke(Rule::time_limit)) return kSpuLimitReached;
   if (failed(run)) return kSpuRunFailed;
   const auto code = std::find_if(run.exit_codes.begin(), run.exit_codes.end(),
                                  [](std::uint32_t each) { return each != 0; });

@@ -1,5 +1,4 @@
 #include "backends/cell_emu/machine.hpp"
-#include "backends/cell_emu/run_programs.hpp"
 #include "backends/cell_emu/simulator/simulated_spu.hpp"
 #include "celltrace/simulator.hpp"
 
@@ -28,7 +27,7 @@ SimulatedRun simulate(const MachineConfig& config, std::span<const std::uint8_t>
   SpeProgram program("SPU program");
   program.add_image(cell_emu::SimulatedSpu::kElfKey, elf);
   const std::stop_callback interrupt(stop, [&machine] { machine->interrupt(); });
-  static_cast<EmulatedRun&>(run) = cell_emu::run_programs(*machine, program, argument, ppe);
+  static_cast<EmulatedRun&>(run) = emulate_on(*machine, program, argument, ppe);
   return run;
 }
 

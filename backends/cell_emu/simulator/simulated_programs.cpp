@@ -47,6 +47,7 @@ PpeCallsConfig SimulatedPrograms::calls_config(const MachineConfig& config, cons
   calls.standard_output = config.simulation.output;
   calls.standard_error = config.simulation.error_output;
   calls.standard_input = config.simulation.input;
+  calls.more_input = config.simulation.more_input;
   calls.folders = config.simulation.allowed_folders;
   calls.effective_memory = [&map](std::uint64_t ea, std::uint64_t bytes) -> std::uint8_t* {
     if (bytes > kLocalStoreBytes) return nullptr;

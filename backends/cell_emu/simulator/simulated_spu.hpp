@@ -52,7 +52,10 @@ private:
   void watched_store(std::uint32_t lsa, const isa::Quadword& value) override;
 
   template <bool profiled> void run_slice();
-  void record(std::uint32_t instruction, std::uint32_t pc, Cycle before);
+  // For the profile: the instruction under way; the cycles that no other has; all to who asked for it.
+  void record();
+  void record_cycles();
+  void hand_in_profile();
   const isa::Instruction& fetch(std::uint32_t pc);
   const isa::Instruction& decode_again(std::uint32_t pc, std::uint32_t word);
   /// Between instructions: limits, interrupts, and the others' turn.
@@ -85,7 +88,13 @@ private:
   std::uint32_t lowest_stack_ = kLocalStoreBytes;
   std::unordered_map<std::uint32_t, CallSite> sites_;
   std::vector<SpuProfile::Word> words_; ///< for the profile
-  Cycle waited_ = 0;                    ///< at channels, by the present instruction
+  struct {
+    std::uint32_t pc = 0;
+    bool issued = false; ///< and not recorded
+    bool paired = false; ///< issued with the one before
+  } under_way_;
+  Cycle profiled_until_ = 0;
+  Cycle waited_ = 0; ///< at channels, by the present instruction
 };
 
 } // namespace celltrace::cell_emu

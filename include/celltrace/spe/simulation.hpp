@@ -48,8 +48,10 @@ struct SimulationConfig {
   /// argv[0], argp is the effective address of an argv as a PPE of 64 bits has it (big-endian effective
   /// addresses of strings, and a 0) instead of what Machine::start() was given.
   std::vector<std::string> arguments;
-  /// What programs read from their standard input.
+  /// What programs read from their standard input, and what gives more when they have read it all: pieces, ""
+  /// at the end; null: there is no more. Called by one thread at a time.
   std::string input;
+  std::function<std::string()> more_input;
   /// The folders whose files programs may open, read, write, make and remove; none: no files.
   std::vector<std::filesystem::path> allowed_folders;
   /// Where the cycles of all programs are added up; it must outlive the machine. Null: nowhere.
