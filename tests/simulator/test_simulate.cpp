@@ -17,11 +17,9 @@ using Catch::Matchers::StartsWith;
 TEST_CASE("what is no program for the SPU is refused") {
   const std::vector<std::uint8_t> text = {'#', '!', '/', 'b', 'i', 'n'};
   CHECK_THROWS_AS(simulate(simulated(1), text), InputError);
-  CHECK_THROWS_AS(simulate(simulated(1), {}), SpeError);
+  CHECK_THROWS_AS(simulate(simulated(1), {}), InputError);
   CHECK_THROWS_WITH(simulate(lockstep(1), text), "machine code runs on cell_sim, not on cell_emu");
-  MachineConfig config = simulated(1);
-  config.simulation.arguments = {std::string(20000, 'x')};
-  CHECK_THROWS_WITH(simulate(config, text), Contains("more than 16384"));
+  CHECK_THROWS_AS(check_spu_program(text), InputError);
 }
 
 #ifdef CELLTRACE_SIMULATOR_PROGRAMS
@@ -58,6 +56,7 @@ TEST_CASE("a main(argc, argv) finds its arguments in local store") {
   const SimulatedRun long_one = run_case({"echo", std::string(16000, 'y')});
   CHECK(long_one.ok());
   CHECK(long_one.output.size() > 16000);
+  CHECK_THROWS_WITH(run_case({"echo", std::string(17000, 'z')}), Contains("more than 16384"));
 }
 
 TEST_CASE("a main(speid, argp, envp) finds the argv of a PPE in main memory") {
