@@ -24,6 +24,9 @@ struct SimulatedRun : EmulatedRun {
   std::string output, error_output;
 };
 
+/// Throws InputError, which says why, if `elf` is no executable for the SPU.
+void check_spu_program(std::span<const std::uint8_t> elf);
+
 /// A machine of SPUs that execute machine code, in lockstep by virtual time.
 MachineConfig simulated(unsigned spes);
 

@@ -32,6 +32,16 @@ Bytes read_file(const std::filesystem::path& path) {
   return bytes;
 }
 
+Bytes read_program(const std::filesystem::path& path) {
+  Bytes elf = read_file(path);
+  try {
+    check_spu_program(elf);
+  } catch (const InputError& error) {
+    throw InputError(path.string() + ": " + error.what());
+  }
+  return elf;
+}
+
 /// Passes an interrupt by the user on to who asks for a stop token.
 class InterruptWatch {
 public:
@@ -131,7 +141,7 @@ int exit_code_of(const SimulatedRun& run) {
 } // namespace
 
 int run_spu(const SpuRequest& request) {
-  const Bytes elf = read_file(request.program);
+  const Bytes elf = read_program(request.program);
   OutputFile trace(request.trace);
   SpuProfile profile;
   const Clock::time_point start = Clock::now();

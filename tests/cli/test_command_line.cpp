@@ -163,6 +163,73 @@ TEST_CASE("options of cell_emu that make no sense are refused") {
     CHECK_THAT(error({"--seconds-limit", bad}), StartsWith("--seconds-limit: '" + bad + "' is not a number"));
 }
 
+TEST_CASE("cell_sim takes the options of cell_emu, but for what machine code cannot tell") {
+  const auto simulated = [](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--backend", "cell_sim", "a.pov"});
+    return render_request(std::move(arguments));
+  };
+  const RenderRequest all = simulated({"--schedule", "lockstep", "--seed", "7", "--transfers", "random",
+                                       "--faults", "--timing", "ps3", "--trace", "t.json", "--limit", "5"});
+  CHECK(all.options.backend == "cell_sim");
+  CHECK(all.options.emulation.explore);
+  CHECK(all.options.emulation.timing.spes == 6);
+  CHECK(all.options.emulation.cycle_limit == 5);
+  CHECK(all.trace == "t.json");
+  CHECK(simulated({}).options.emulation.schedule == Schedule::free);
+  CHECK_THAT(render_error({"--backend", "cell_sim", "--cache-trace", "t"}),
+             StartsWith("--cache-trace needs --backend cell_emu"));
+}
+
+TEST_CASE("spu takes a program, its arguments and what it may use") {
+  const auto spu = [](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "spu");
+    return std::get<SpuRequest>(parse_command_line(std::move(arguments)));
+  };
+  const SpuRequest plain = spu({"a/b.elf"});
+  CHECK(plain.program == "a/b.elf");
+  CHECK(plain.machine.backend == "cell_sim");
+  CHECK(plain.machine.spes == 1);
+  CHECK(plain.machine.emulation.schedule == Schedule::lockstep);
+  CHECK_FALSE(plain.machine.emulation.explore);
+  CHECK(plain.machine.emulation.cycle_limit == 0);
+  CHECK(plain.machine.simulation.arguments == std::vector<std::string>{"a/b.elf"});
+  CHECK(plain.machine.simulation.allowed_folders.empty());
+  CHECK(plain.input.empty());
+  CHECK(plain.stats.empty());
+  CHECK(plain.profile.empty());
+  CHECK(plain.trace.empty());
+  CHECK_FALSE(plain.summary);
+  CHECK_FALSE(plain.quiet);
+
+  const SpuRequest all =
+      spu({"--spes",  "3",       "p.elf",     "one",      "--limit",       "9",       "two",
+           "--allow", "x",       "--allow",   "y",        "--stdin",       "in.txt",  "--summary",
+           "--stats", "-",       "--profile", "p.json",   "--profile-all", "--quiet", "--seed",
+           "4",       "--trace", "t.json",    "--timing", "ps3",           "--",      "--three"});
+  CHECK(all.program == "p.elf");
+  CHECK(all.machine.spes == 3);
+  CHECK(all.machine.emulation.cycle_limit == 9);
+  CHECK(all.machine.emulation.seed == 4);
+  CHECK(all.machine.emulation.explore);
+  CHECK(all.machine.emulation.timing.spes == 6);
+  CHECK(all.machine.simulation.arguments == std::vector<std::string>{"p.elf", "one", "two", "--three"});
+  CHECK(all.machine.simulation.allowed_folders == std::vector<std::filesystem::path>{"x", "y"});
+  CHECK(all.input == "in.txt");
+  CHECK(all.stats == "-");
+  CHECK(all.profile == "p.json");
+  CHECK(all.profile_all);
+  CHECK(all.trace == "t.json");
+  CHECK(all.summary);
+  CHECK(all.quiet);
+  CHECK(spu({"p.elf", "--schedule", "free"}).machine.emulation.schedule == Schedule::free);
+
+  CHECK_THAT(error_of({"spu"}), Contains("program"));
+  CHECK_THAT(error_of({"spu", "p.elf", "--cache-trace", "t"}), Contains("--cache-trace"));
+  CHECK_THAT(error_of({"spu", "p.elf", "--profile-all"}), Contains("--profile-all needs --profile"));
+  CHECK_THAT(error_of({"spu", "p.elf", "--spes", "257"}), Contains("--spes"));
+  CHECK_THAT(error_of({"spu", "p.elf", "--schedule", "free", "--trace", "t"}), Contains("--trace needs"));
+}
+
 TEST_CASE("cache settings") {
   CHECK(parse_cache("off").enabled == false);
   CHECK(shape(parse_cache("4x128")) == "4x128:1");

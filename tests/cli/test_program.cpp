@@ -1,20 +1,11 @@
 // The program itself, run as its users run it.
+#include "cli/program_run.hpp"
 #include "image/picture_files.hpp"
 
-#include <algorithm>
-#include <fstream>
 #include <map>
 #include <set>
-#include <thread>
 
-#include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
-
-#include <fcntl.h>
-#include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 using namespace celltrace;
 using namespace celltrace::test;
@@ -24,71 +15,6 @@ using Catch::Matchers::StartsWith;
 namespace {
 
 const std::string kScene = CELLTRACE_SOURCE_DIR "/examples/scenes/first.pov";
-
-struct Outcome {
-  int exit_code = -1;
-  std::string out;
-  std::string err;
-};
-
-/// One run of celltrace in a folder of its own, with its output in files there.
-class Run {
-public:
-  Run(const TemporaryFolder& folder, std::vector<std::string> arguments) : folder_(folder) {
-    arguments.insert(arguments.begin(), "celltrace");
-    std::vector<char*> argv;
-    for (std::string& argument : arguments)
-      argv.push_back(argument.data());
-    argv.push_back(nullptr);
-    // posix_spawn() returns after the exec, so that no handler of the test program is taken for celltrace's.
-    constexpr int kFlags = O_CREAT | O_TRUNC | O_WRONLY;
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addchdir_np(&actions, folder.path().c_str());
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "stdout.txt", kFlags, 0600);
-    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "stderr.txt", kFlags, 0600);
-    const int error = posix_spawn(&pid_, CELLTRACE_PROGRAM, &actions, nullptr, argv.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    REQUIRE(error == 0);
-  }
-
-  /// Waits until the program catches SIGINT and its SPEs run, then sends it.
-  void interrupt_the_render() {
-    while (!renders())
-      std::this_thread::yield();
-    kill(pid_, SIGINT);
-  }
-
-  Outcome finish() {
-    int status = 0;
-    waitpid(pid_, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
-            read_bytes(folder_ / "stdout.txt"), read_bytes(folder_ / "stderr.txt")};
-  }
-
-private:
-  bool renders() const {
-    std::ifstream file("/proc/" + std::to_string(pid_) + "/status");
-    unsigned long threads = 0, caught = 0;
-    for (std::string line; std::getline(file, line);) {
-      if (line.rfind("Threads:", 0) == 0) threads = std::stoul(line.substr(8));
-      if (line.rfind("SigCgt:", 0) == 0) caught = std::stoul(line.substr(7), nullptr, 16);
-      if (line.rfind("State:\tZ", 0) == 0) return true; // over already, as finish() will show
-    }
-    return threads > 1 && (caught >> (SIGINT - 1) & 1) != 0;
-  }
-
-  const TemporaryFolder& folder_;
-  pid_t pid_ = -1;
-};
-
-Outcome celltrace_run(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
-  return Run(folder, arguments).finish();
-}
-
-long lines(const std::string& text) {
-  return std::count(text.begin(), text.end(), '\n');
-}
 
 } // namespace
 
@@ -263,7 +189,7 @@ TEST_CASE("errors are one line and exit code 1") {
 TEST_CASE("an interrupted render keeps what it has and exits with 2") {
   const TemporaryFolder folder;
   Run run(folder, {kScene, "-W", "3000", "-H", "2000", "--spes", "1", "-o", "partial.png"});
-  run.interrupt_the_render();
+  run.interrupt();
   const Outcome outcome = run.finish();
   CAPTURE(outcome.err);
   CHECK(outcome.exit_code == 2);

@@ -3,6 +3,7 @@
 
 #include "backends/cell_emu/simulator/big_endian.hpp"
 #include "backends/cell_emu/simulator/ppe_calls.hpp"
+#include "files.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -13,8 +14,6 @@
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <stdlib.h>
 
 namespace celltrace::test {
 
@@ -138,24 +137,6 @@ private:
   std::unique_ptr<cell_emu::PpeCalls> ppe_;
   std::uint32_t next_text_ = kStrings;
   bool known_ = false;
-};
-
-/// A folder that is gone afterwards.
-class TemporaryFolder {
-public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "celltrace-XXXXXX").string();
-    path_ = std::filesystem::canonical(::mkdtemp(name.data()));
-  }
-  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-
-private:
-  std::filesystem::path path_;
 };
 
 } // namespace celltrace::test

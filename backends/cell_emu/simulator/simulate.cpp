@@ -4,6 +4,10 @@
 
 namespace celltrace {
 
+void check_spu_program(std::span<const std::uint8_t> elf) {
+  const cell_emu::SpuElf checked(elf);
+}
+
 MachineConfig simulated(unsigned spes) {
   MachineConfig config;
   config.backend = "cell_sim";
@@ -16,6 +20,7 @@ SimulatedRun simulate(const MachineConfig& config, std::span<const std::uint8_t>
                       const EmulatedPpe& ppe, const std::stop_token& stop) {
   if (config.backend != "cell_sim")
     throw InputError("machine code runs on cell_sim, not on " + config.backend);
+  check_spu_program(elf);
   SimulatedRun run;
   MachineConfig own = config;
   const auto collect_in = [](std::string& text) {
