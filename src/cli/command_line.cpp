@@ -215,12 +215,22 @@ void finish(RenderRequest& request, const RenderTexts& texts) {
   if (request.output.empty()) request.output = request.scene.stem().string() + ".png";
 }
 
-void finish(SpuRequest& request, const EmulationTexts& texts) {
+/// Takes what follows the first "--" away: CLI11 gives it to a command only before its positional arguments.
+std::vector<std::string> split_rest(std::vector<std::string>& arguments) {
+  const auto mark = std::find(arguments.begin(), arguments.end(), "--");
+  if (mark == arguments.end()) return {};
+  std::vector<std::string> rest(mark + 1, arguments.end());
+  arguments.erase(mark, arguments.end());
+  return rest;
+}
+
+void finish(SpuRequest& request, const EmulationTexts& texts, const std::vector<std::string>& rest) {
   request.machine.emulation = emulation_config(texts, request.machine.backend, Schedule::lockstep);
   request.trace = texts.trace;
   if (request.profile_all && request.profile.empty()) throw InputError("--profile-all needs --profile");
   std::vector<std::string>& arguments = request.machine.simulation.arguments;
   arguments.insert(arguments.begin(), request.program.string());
+  arguments.insert(arguments.end(), rest.begin(), rest.end());
 }
 
 void finish(ReplayRequest& request, const ReplayTexts& texts) {
@@ -273,6 +283,7 @@ Request parse_command_line(std::vector<std::string> arguments) {
   EmulationTexts spu_texts;
   CLI::App& spu_command = *app.add_subcommand("spu", "Run a program for the SPU, instruction by instruction");
   add_spu_options(spu_command, spu, spu_texts);
+  spu_command.footer("Exit codes: the program's; 124 limit reached, 125 error of the run, 130 interrupted.");
 
   ReplayRequest replay;
   ReplayTexts replay_texts;
@@ -285,6 +296,8 @@ Request parse_command_line(std::vector<std::string> arguments) {
       *app.add_subcommand("study", "Repeat the experiments of the thesis on the emulated Cell");
   add_study_options(study_command, study);
 
+  std::vector<std::string> rest;
+  if (!arguments.empty() && arguments.front() == "spu") rest = split_rest(arguments);
   try {
     std::reverse(arguments.begin(), arguments.end()); // as CLI11 wants them
     app.parse(std::move(arguments));
@@ -298,7 +311,7 @@ Request parse_command_line(std::vector<std::string> arguments) {
   if (compare_command.parsed()) return compare;
   if (study_command.parsed()) return study;
   if (spu_command.parsed()) {
-    finish(spu, spu_texts);
+    finish(spu, spu_texts, rest);
     return spu;
   }
   if (replay_command.parsed()) {

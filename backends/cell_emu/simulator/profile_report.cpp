@@ -48,13 +48,14 @@ std::string file_of(const CodePlace& place) {
   return std::string(file.substr(file.find_last_of('/') + 1)) + ":" + std::to_string(place.line);
 }
 
-/// In columns, as assemblers are used to.
+/// In columns, as assemblers are used to, without the disassembler's remarks.
 std::string instruction_text(const Counts& word, std::uint32_t lsa) {
-  std::string text = isa::disassemble(word.instruction, lsa);
+  const std::string text = isa::disassemble(word.instruction, lsa);
   const std::size_t tab = text.find('\t');
-  if (tab != std::string::npos)
-    text.replace(tab, 1, std::max<std::size_t>(1, 8 - std::min<std::size_t>(tab, 7)), ' ');
-  return text;
+  if (tab == std::string::npos) return text;
+  std::string mnemonic = text.substr(0, tab);
+  mnemonic.resize(std::max<std::size_t>(8, tab + 1), ' ');
+  return mnemonic + text.substr(tab + 1, text.find('\t', tab + 1) - tab - 1);
 }
 
 std::string reasons_text(const Counts& word) {
@@ -174,8 +175,7 @@ void ProfileReport::append_listing(std::string& text, const ProfiledFunction& fu
   std::string last_place;
   std::uint32_t expected = function.words.front();
   for (const std::uint32_t lsa : function.words) {
-    if (lsa != expected)
-      append(text, "  ... %" PRIu32 " words that were not executed\n", (lsa - expected) / 4);
+    if (lsa != expected) append(text, "  ... not executed: %" PRIu32 "\n", (lsa - expected) / 4);
     expected = lsa + 4;
     const CodePlace place = places_.at(lsa);
     const std::string where = place.file == nullptr ? "" : file_of(place);
