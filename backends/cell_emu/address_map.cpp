@@ -1,7 +1,5 @@
 #include "backends/cell_emu/address_map.hpp"
 
-#include <cstring>
-
 namespace celltrace::cell_emu {
 namespace {
 
@@ -22,11 +20,10 @@ AddressMap::Block AddressMap::allocate(std::size_t bytes, std::size_t alignment)
 }
 
 AddressMap::AddressMap(unsigned spes)
-    : spes_(spes), local_stores_(allocate(spes * std::size_t{kLocalStoreBytes}, kLocalStoreBytes)),
+    : spes_(spes), local_stores_(spes),
       problem_states_(allocate(spes * std::size_t{kProblemStateBytes}, kProblemStateBytes)),
-      local_store_base_(address_of(local_stores_.get())),
+      local_store_base_(address_of(local_stores_.begin())),
       problem_state_base_(address_of(problem_states_.get())) {
-  std::memset(local_stores_.get(), 0, spes * std::size_t{kLocalStoreBytes});
 }
 
 SpeAddresses AddressMap::addresses(unsigned spe) const {
@@ -35,9 +32,11 @@ SpeAddresses AddressMap::addresses(unsigned spe) const {
 }
 
 AddressMap::Place AddressMap::locate_local_store(ea_t offset, std::uint32_t size) const {
-  const auto spe = static_cast<unsigned>(offset / kLocalStoreBytes);
-  const bool fits = offset % kLocalStoreBytes + size <= kLocalStoreBytes;
-  return {fits ? EaKind::local_store : EaKind::unmapped, spe};
+  // In front of the first one, and behind each, is a gap.
+  if (offset < kLocalStoreBytes) return {EaKind::unmapped, 0};
+  const ea_t in_stride = (offset - kLocalStoreBytes) % LocalStoreBlock::kStride;
+  if (in_stride + size > kLocalStoreBytes) return {EaKind::unmapped, 0};
+  return {EaKind::local_store, static_cast<unsigned>((offset - kLocalStoreBytes) / LocalStoreBlock::kStride)};
 }
 
 AddressMap::Place AddressMap::locate_register(ea_t offset) const {

@@ -1,10 +1,12 @@
 // The main storage domain: where local stores and problem-state registers are mapped among the host's memory.
 //
-// Main memory is the host's, an effective address a host address. Local stores lie side by side in one block,
-// each aligned to its 256 KB. Behind every problem-state address lies reserved memory, so that no object of
-// the host can have the same address; the registers have their architected offsets.
+// Main memory is the host's, an effective address a host address. Local stores lie in one block, each aligned
+// to its 256 KB, with gaps in between that are no storage. Behind every problem-state address lies reserved
+// memory, so that no object of the host can have the same address; the registers have their architected
+// offsets.
 #pragma once
 
+#include "backends/cell_emu/local_store_block.hpp"
 #include "backends/cell_emu/mfc_rules.hpp"
 #include "celltrace/spe/types.hpp"
 
@@ -25,15 +27,14 @@ public:
   explicit AddressMap(unsigned spes);
 
   unsigned spes() const { return spes_; }
-  std::uint8_t* local_store(unsigned spe) const {
-    return local_stores_.get() + spe * std::size_t{kLocalStoreBytes};
-  }
+  std::uint8_t* local_store(unsigned spe) const { return local_stores_.local_store(spe); }
+  const LocalStoreBlock& local_stores() const { return local_stores_; }
   SpeAddresses addresses(unsigned spe) const;
 
   /// What lies at [ea, ea + size).
   Place locate(ea_t ea, std::uint32_t size) const {
     const ea_t in_local_stores = ea - local_store_base_;
-    if (in_local_stores < spes_ * ea_t{kLocalStoreBytes}) return locate_local_store(in_local_stores, size);
+    if (in_local_stores < local_stores_.bytes()) return locate_local_store(in_local_stores, size);
     const ea_t in_problem_state = ea - problem_state_base_;
     if (in_problem_state < spes_ * kProblemStateBytes) return locate_register(in_problem_state);
     return {is_host_memory(ea, size) ? EaKind::main_memory : EaKind::unmapped, 0};
@@ -59,7 +60,7 @@ private:
   }
 
   unsigned spes_;
-  Block local_stores_;
+  LocalStoreBlock local_stores_;
   Block problem_states_;
   ea_t local_store_base_;
   ea_t problem_state_base_;

@@ -54,6 +54,7 @@ template <class Move> void Bus::for_each_span(ea_t ea, std::uint32_t size, Move 
 }
 
 void Bus::get(unsigned spe, std::uint32_t lsa, ea_t ea, std::uint32_t size) {
+  count_local_store_write(spe);
   const LocalStoreLocks local_stores(units_.get(), spe, map_.locate(ea, size));
   std::uint8_t* const to = map_.local_store(spe) + lsa;
   // Source and target may overlap: an SPE can address its own local store from outside.
@@ -62,8 +63,14 @@ void Bus::get(unsigned spe, std::uint32_t lsa, ea_t ea, std::uint32_t size) {
   });
 }
 
+void Bus::count_write(AddressMap::Place to) {
+  if (to.kind == EaKind::local_store) count_local_store_write(to.spe);
+}
+
 void Bus::put(unsigned spe, std::uint32_t lsa, ea_t ea, std::uint32_t size) {
-  const LocalStoreLocks local_stores(units_.get(), spe, map_.locate(ea, size));
+  const AddressMap::Place to = map_.locate(ea, size);
+  const LocalStoreLocks local_stores(units_.get(), spe, to);
+  count_write(to);
   const std::uint8_t* const from = map_.local_store(spe) + lsa;
   for_each_span(ea, size, [&](Stripe& stripe, ea_t at, std::uint32_t offset, std::uint32_t bytes) {
     std::memmove(host_address(at), from + offset, bytes);
@@ -72,7 +79,9 @@ void Bus::put(unsigned spe, std::uint32_t lsa, ea_t ea, std::uint32_t size) {
 }
 
 void Bus::zero(unsigned spe, ea_t ea, std::uint32_t size) {
-  const LocalStoreLocks local_stores(units_.get(), spe, map_.locate(ea, size));
+  const AddressMap::Place to = map_.locate(ea, size);
+  const LocalStoreLocks local_stores(units_.get(), spe, to);
+  count_write(to);
   for_each_span(ea, size, [&](Stripe& stripe, ea_t at, std::uint32_t, std::uint32_t bytes) {
     std::memset(host_address(at), 0, bytes);
     lose_reservations(spe, OwnLoss::event, stripe, at, bytes);
@@ -128,6 +137,7 @@ void Bus::drop_reservation(unsigned spe) {
 
 void Bus::get_line_and_reserve(unsigned spe, std::uint32_t lsa, ea_t ea) {
   drop_reservation(spe);
+  count_local_store_write(spe);
   const LocalStoreLocks local_stores(units_.get(), spe, map_.locate(ea, kLineBytes));
   Stripe& stripe = locks_->of(ea);
   const std::lock_guard lock(stripe.lock);
@@ -140,7 +150,9 @@ void Bus::get_line_and_reserve(unsigned spe, std::uint32_t lsa, ea_t ea) {
 bool Bus::put_line_conditional(unsigned spe, std::uint32_t lsa, ea_t ea) {
   bool written = false;
   {
-    const LocalStoreLocks local_stores(units_.get(), spe, map_.locate(ea, kLineBytes));
+    const AddressMap::Place to = map_.locate(ea, kLineBytes);
+    const LocalStoreLocks local_stores(units_.get(), spe, to);
+    count_write(to);
     Stripe& stripe = locks_->of(ea);
     const std::lock_guard lock(stripe.lock);
     written = release_reservation(spe, stripe, ea, Reservation::none);
@@ -154,7 +166,9 @@ bool Bus::put_line_conditional(unsigned spe, std::uint32_t lsa, ea_t ea) {
 }
 
 void Bus::put_line(unsigned spe, std::uint32_t lsa, ea_t ea) {
-  const LocalStoreLocks local_stores(units_.get(), spe, map_.locate(ea, kLineBytes));
+  const AddressMap::Place to = map_.locate(ea, kLineBytes);
+  const LocalStoreLocks local_stores(units_.get(), spe, to);
+  count_write(to);
   Stripe& stripe = locks_->of(ea);
   const std::lock_guard lock(stripe.lock);
   std::memmove(host_address(ea), map_.local_store(spe) + lsa, kLineBytes);

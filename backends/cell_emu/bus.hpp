@@ -34,6 +34,14 @@ public:
   /// Zeroes lines of main memory or of a local store, as a put of zeroes would.
   void zero(unsigned spe, ea_t ea, std::uint32_t size);
 
+  /// How often DMA, or the MFC on its own account, has written into the local store.
+  std::uint64_t local_store_writes(unsigned spe) const {
+    return units_[spe].local_store_writes.load(std::memory_order_relaxed);
+  }
+  void count_local_store_write(unsigned spe) {
+    units_[spe].local_store_writes.fetch_add(1, std::memory_order_relaxed);
+  }
+
   /// Calls `use()` while no DMA touches the local store.
   template <class Use> void hold_local_store(unsigned spe, Use use) {
     const std::lock_guard lock(units_[spe].local_store_lock);
@@ -67,6 +75,7 @@ private:
   /// What one SPE has on the bus.
   struct alignas(64) Unit {
     SpinLock local_store_lock;
+    std::atomic<std::uint64_t> local_store_writes{0};
     /// The reserved line, or kNoLine. Changes only under the stripe of that line.
     std::atomic<ea_t> reserved{kNoLine};
     std::atomic<Reservation> state{Reservation::none};
@@ -78,6 +87,7 @@ private:
   class LocalStoreLocks;
   enum class OwnLoss { event, silent };
 
+  void count_write(AddressMap::Place to);
   template <class Move> void for_each_span(ea_t ea, std::uint32_t size, Move move);
   void lose_reservations(unsigned writer, OwnLoss own, Stripe& stripe, ea_t ea, std::uint32_t size);
   bool release_reservation(unsigned spe, Stripe& stripe, ea_t line, Reservation state);

@@ -96,6 +96,10 @@ constexpr std::array<Entry, kRules> kTable = {{
 
     {Rule::local_store_exhausted, "local-store-exhausted", kStop,
      "code, data, stack and arena must fit into 256 KB"},
+    {Rule::local_store_overrun, "local-store-overrun", kStop,
+     "a store went beyond the end, or in front of the beginning, of local store"},
+    {Rule::foreign_store, "foreign-store", kStop,
+     "a store changed the local store of another SPE, which only DMA reaches"},
     {Rule::program_overwritten, "program-overwritten", kStop,
      "a store or transfer hit local store that belongs to the program's code or stack"},
     {Rule::stack_overflow, "stack-overflow", kStop,

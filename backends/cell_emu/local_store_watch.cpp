@@ -70,13 +70,19 @@ bool is_poison(const std::uint8_t* at, std::uint32_t bytes) {
 void forbid_access(const std::uint8_t* at, std::uint32_t bytes) {
   __asan_poison_memory_region(at, bytes);
 }
-void permit_access(const std::uint8_t* at, std::uint32_t bytes) {
+void permit_access(const std::uint8_t* at, std::size_t bytes) {
   __asan_unpoison_memory_region(at, bytes);
+}
+bool may_access(const std::uint8_t* at, std::uint32_t bytes) {
+  return __asan_region_is_poisoned(const_cast<std::uint8_t*>(at), bytes) == nullptr;
 }
 #else
 void forbid_access(const std::uint8_t*, std::uint32_t) {
 }
-void permit_access(const std::uint8_t*, std::uint32_t) {
+void permit_access(const std::uint8_t*, std::size_t) {
+}
+bool may_access(const std::uint8_t*, std::uint32_t) {
+  return true;
 }
 #endif
 

@@ -2,6 +2,7 @@
 // builds with the address sanitizer, its shadow memory.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace celltrace::cell_emu {
@@ -15,6 +16,8 @@ bool is_poison(const std::uint8_t* at, std::uint32_t bytes);
 
 /// Makes the address sanitizer, if the build has it, report every access of the program.
 void forbid_access(const std::uint8_t* at, std::uint32_t bytes);
-void permit_access(const std::uint8_t* at, std::uint32_t bytes);
+void permit_access(const std::uint8_t* at, std::size_t bytes);
+/// Nothing there is forbidden.
+bool may_access(const std::uint8_t* at, std::uint32_t bytes);
 
 } // namespace celltrace::cell_emu

@@ -12,7 +12,8 @@ constexpr std::uint64_t kStream = 0x5343484544;
 
 LockstepScheduler::LockstepScheduler(Spes& spes, unsigned count, DiagnosticLog& log,
                                      const EmulationConfig& config)
-    : spes_(spes), log_(log), config_(config), random_(config.seed, kStream), agents_(count) {
+    : spes_(spes), log_(log), config_(config), random_(config.seed, kStream), agents_(count), watch_(count),
+      watches_(count > 1 && log.checks(Rule::foreign_store)) {
   // Some seeds change hands all the time, others let an SPE run far ahead.
   constexpr std::uint32_t kPatience[] = {2, 4, 16, 128};
   patience_ = kPatience[random_.below(4)];
@@ -21,7 +22,10 @@ LockstepScheduler::LockstepScheduler(Spes& spes, unsigned count, DiagnosticLog& 
 // --- SPU side ---
 
 void LockstepScheduler::suspend(Agent& agent) {
+  const auto spe = static_cast<unsigned>(&agent - agents_.data());
+  if (watches_) watch_.end_turn(spe, spes_[spe]->mfc.local_store_in_use());
   agent.program->suspend();
+  if (watches_) check_foreign_stores(spe);
   if (agent.failure) std::rethrow_exception(std::exchange(agent.failure, nullptr));
 }
 
@@ -103,6 +107,46 @@ void LockstepScheduler::unstalled(unsigned spe) {
   if (agents_[spe].state == State::stalled) wake(spe, current_);
 }
 
+// --- stores into other local stores ---
+
+void LockstepScheduler::check_foreign_stores(unsigned spe) {
+  const auto change = watch_.take_change(spe, spes_[spe]->mfc.local_store_in_use());
+  if (!change) return;
+  const bool certain = change->suspects.size() == 1;
+  const unsigned writer = change->suspects.front();
+  Diagnostic diagnostic;
+  diagnostic.rule = Rule::foreign_store;
+  diagnostic.spe = certain ? writer : spe;
+  diagnostic.other_spe = spe;
+  diagnostic.lsa = spes_[spe]->mfc.arena_begin() + change->offset;
+  diagnostic.cycle = agents_[spe].now;
+  std::string what = "local store of SPE " + std::to_string(spe) + ", LS address " +
+                     std::to_string(diagnostic.lsa) + ": " + std::string(text_of(diagnostic.rule));
+  if (!certain) {
+    what += "; had turns:";
+    for (const unsigned suspect : change->suspects)
+      what += " SPE " + std::to_string(suspect);
+  }
+  if (!log_.note(diagnostic, what) || diagnostic.action != Action::stop) return;
+  // Where the writer has ended, or is not known, the one whose data are spoilt cannot go on.
+  const bool writer_runs = certain && agents_[writer].state != State::idle;
+  fail(writer_runs ? writer : spe, std::make_exception_ptr(RuleViolation(diagnostic)));
+}
+
+/// What the PPE finds changed when its turn begins is not its own doing.
+void LockstepScheduler::begin_ppe_turn() {
+  if (!watches_ || std::exchange(ppe_turn_, true)) return;
+  for (const auto& spe : spes_)
+    check_foreign_stores(spe->id);
+}
+
+/// It may store into any local store, where it is mapped.
+void LockstepScheduler::end_ppe_turn() {
+  if (!watches_ || !std::exchange(ppe_turn_, false)) return;
+  for (const auto& spe : spes_)
+    watch_.accept_changes(spe->id, spe->mfc.local_store_in_use());
+}
+
 // --- turns ---
 
 LockstepScheduler::Turn LockstepScheduler::next_turn(unsigned apart) const {
@@ -139,14 +183,19 @@ void LockstepScheduler::run_mfc(unsigned spe) {
   try {
     spes_[spe]->mfc.run_next();
   } catch (...) {
-    // The program learns of it when it is its turn.
-    agents_[spe].failure = std::current_exception();
-    spes_[spe]->mfc.abandon();
-    if (agents_[spe].state == State::stalled || agents_[spe].state == State::paused) wake(spe, current_);
+    fail(spe, std::current_exception());
   }
 }
 
+/// The program learns of it when it is its turn.
+void LockstepScheduler::fail(unsigned spe, std::exception_ptr failure) {
+  agents_[spe].failure = std::move(failure);
+  spes_[spe]->mfc.abandon();
+  if (agents_[spe].state == State::stalled || agents_[spe].state == State::paused) wake(spe, current_);
+}
+
 void LockstepScheduler::run_program(unsigned spe, Cycle until) {
+  end_ppe_turn();
   Agent& agent = agents_[spe];
   horizon_ = std::min(until, next_turn(spe).at);
   agent.state = State::ready;
@@ -155,6 +204,7 @@ void LockstepScheduler::run_program(unsigned spe, Cycle until) {
   if (agent.program->ended()) {
     agent.state = State::idle;
     agent.program.reset();
+    watch_.end(spe);
     spes_[spe]->running = false;
     count_stop();
   }
@@ -198,6 +248,7 @@ void LockstepScheduler::start(Spe& spe, Program program) {
   agent.program = std::make_unique<Coroutine>(std::move(program));
   agent.state = State::ready;
   agent.failure = nullptr;
+  watch_.begin(spe.id);
   spe.running = true;
   spe.signal = Spe::kNoSignal;
 }
@@ -227,6 +278,7 @@ Cycle LockstepScheduler::enter() {
     throw SpeError(text);
   }
   current_ = ppe_now_;
+  begin_ppe_turn();
   return ppe_now_;
 }
 
@@ -245,7 +297,10 @@ bool LockstepScheduler::wait(const Ready& ready, std::optional<std::chrono::mill
       const bool nothing_left = next_turn().at == kNever;
       idle_timeouts_ = nothing_left ? idle_timeouts_ + 1 : 0;
       // Who looks in from time to time may have something to say in between, but hardly twice in vain.
-      if (idle_timeouts_ < 2) return false;
+      if (idle_timeouts_ < 2) {
+        begin_ppe_turn();
+        return false;
+      }
     }
     idle_timeouts_ = 0;
     const std::string text = report_deadlock(spes_, log_, what);
@@ -255,6 +310,7 @@ bool LockstepScheduler::wait(const Ready& ready, std::optional<std::chrono::mill
   idle_timeouts_ = 0;
   ppe_now_ = std::max(ppe_now_, current_);
   current_ = ppe_now_;
+  begin_ppe_turn();
   return true;
 }
 

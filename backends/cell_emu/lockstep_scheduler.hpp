@@ -50,7 +50,7 @@ private:
     Cycle now = 0;           ///< when it acts next
     Cycle deadline = kNever; ///< of a stall
     std::unique_ptr<Coroutine> program;
-    std::exception_ptr failure; ///< of its MFC, while its program was not running
+    std::exception_ptr failure; ///< found while its program was not running
   };
   struct Turn {
     Cycle at = kNever;
@@ -64,8 +64,12 @@ private:
   /// Gives one turn to who is behind, if that is not after `limit`. False if there is none.
   bool step(Cycle limit);
   void run_mfc(unsigned spe);
+  void fail(unsigned spe, std::exception_ptr failure);
   void run_program(unsigned spe, Cycle until);
   void suspend(Agent& agent);
+  void check_foreign_stores(unsigned spe);
+  void begin_ppe_turn();
+  void end_ppe_turn();
   void wake(unsigned spe, Cycle at);
   void obey_interrupt();
 
@@ -75,6 +79,9 @@ private:
   SeededRandom random_;
   std::uint32_t patience_; ///< when exploring, an SPE is interrupted once in so many actions
   std::vector<Agent> agents_;
+  ForeignStoreWatch watch_;
+  const bool watches_;
+  bool ppe_turn_ = true;
   Cycle ppe_now_ = 0;
   Cycle current_ = 0;      ///< time of what is happening
   Cycle horizon_ = kNever; ///< the running program must let others go first when it gets past this

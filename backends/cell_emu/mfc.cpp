@@ -57,6 +57,7 @@ Mfc::Mfc(unsigned spe, const MfcContext& context, DmaTiming& timing, ProblemStat
 
 void Mfc::begin_program(ArenaRange arena) {
   arena_ = arena;
+  bus_.map().local_stores().take_overrun(spe_);
   host_memory_.forget();
   tag_groups_ = {};
   used_tags_ = waited_tags_ = stalled_tags_ = 0;
@@ -87,6 +88,8 @@ void Mfc::finish(Cycle now) {
     const bool kept = context_.log.note(diagnostic, what);
     if (kept && diagnostic.action == Action::stop && !first) first = diagnostic;
   };
+  Diagnostic overrun;
+  if (note_overrun(overrun, {}, now) && overrun.action == Action::stop) first = overrun;
   for (const Flight& flight : context_.flights.of(spe_)) {
     if (flight.proxy) continue;
     Diagnostic diagnostic;
@@ -124,6 +127,13 @@ void Mfc::finish(Cycle now) {
   }
   abandon();
   if (first) throw RuleViolation(*first);
+}
+
+ForeignStoreWatch::Used Mfc::local_store_in_use() const {
+  const std::uint64_t used =
+      std::min<std::uint64_t>(counters_.local_store_peak.value(), arena_.end - arena_.begin);
+  return {bus_.map().local_store(spe_) + arena_.begin, static_cast<std::uint32_t>(used),
+          bus_.local_store_writes(spe_)};
 }
 
 void Mfc::abandon() {
@@ -170,6 +180,17 @@ void Mfc::report_channel(Channel channel, std::uint32_t value, Rule rule, CallSi
                                       ": " + std::string(text_of(rule)));
 }
 
+bool Mfc::note_overrun(Diagnostic& diagnostic, CallSite site, Cycle now) {
+  const auto at = bus_.map().local_stores().take_overrun(spe_);
+  if (!at) return false;
+  diagnostic = about({}, Rule::local_store_overrun, now);
+  diagnostic.site = site;
+  diagnostic.lsa = static_cast<std::uint32_t>(*at);
+  const std::string where = *at < 0 ? std::to_string(-*at) + " bytes in front of LS 0"
+                                    : "near LS 0x" + to_hex(static_cast<std::uint32_t>(*at));
+  return context_.log.note(diagnostic, where + ": " + std::string(text_of(diagnostic.rule)));
+}
+
 /// A get may only fill what is the program's own.
 Rule Mfc::broken_arena_rule(const MfcCommand& transfer) const {
   const bool outside = transfer.lsa < arena_.begin || transfer.lsa + transfer.size > arena_.end;
@@ -209,6 +230,10 @@ bool Mfc::check(const MfcCommand& command, std::uint64_t number, CallSite site, 
 }
 
 void Mfc::issue(const MfcCommand& given, CallSite site, Cycle now) {
+  Diagnostic overrun;
+  if (!bus_.map().local_stores().is_edge_intact(spe_) && note_overrun(overrun, site, now) &&
+      overrun.action == Action::stop)
+    throw RuleViolation(overrun);
   ++commands_;
   if (!check(given, commands_, site, now, false)) return;
   MfcCommand command = given;
@@ -395,6 +420,7 @@ void Mfc::start(Entry& entry, Cycle now) {
     if (!flight.writes_local_store()) {
       flight.hash = checksum(local, flight.bytes());
     } else if (config.transfers != TransferTime::at_issue) {
+      bus_.count_local_store_write(spe_);
       fill_with_poison(local, flight.bytes());
       forbid_access(local, flight.bytes());
     } else {

@@ -17,6 +17,7 @@
 #include "backends/cell_emu/diagnostic_log.hpp"
 #include "backends/cell_emu/dma_timing.hpp"
 #include "backends/cell_emu/flights.hpp"
+#include "backends/cell_emu/foreign_store_watch.hpp"
 #include "backends/cell_emu/host_memory.hpp"
 #include "backends/cell_emu/mfc_command.hpp"
 #include "backends/cell_emu/seeded_random.hpp"
@@ -68,6 +69,10 @@ public:
   void finish(Cycle now);
   /// The program was broken off: forgets its commands.
   void abandon();
+
+  /// The part of the arena that the program has used.
+  ForeignStoreWatch::Used local_store_in_use() const;
+  std::uint32_t arena_begin() const { return arena_.begin; }
 
   // --- commands of the SPU ---
 
@@ -162,6 +167,8 @@ private:
   /// Reports a rule that a command breaks; `before` comes before the command in the text.
   void report(const Entry& entry, Rule rule, Cycle now, const std::string& before = {}) const;
   void report_channel(Channel channel, std::uint32_t value, Rule rule, CallSite site, Cycle now) const;
+  /// A store past the local store that is found by a command, or at the end. False if it is not reported.
+  bool note_overrun(Diagnostic& diagnostic, CallSite site, Cycle now);
   Rule broken_arena_rule(const MfcCommand& transfer) const;
   /// What a command of the SPU, or of the PPE, finds at its effective address.
   EaKind target_of(const MfcCommand& command, std::uint32_t size, bool proxy);

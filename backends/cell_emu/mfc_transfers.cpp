@@ -183,6 +183,7 @@ void Mfc::move_word(const Flight& flight, AddressMap::Place place, Cycle now) {
   std::uint32_t value;
   if (flight.writes_local_store()) {
     value = context_.from_spu(bus_.read_register(place));
+    bus_.count_local_store_write(spe_);
     std::memcpy(word, &value, sizeof value);
     counters_.dma_bytes_read.add(sizeof value);
     return;

@@ -76,6 +76,7 @@ void Spu::settle() {
 
 void Spu::charge(std::uint32_t channel_reads, std::uint32_t channel_writes) {
   settle();
+  arena();
   const TimingParameters& timing = context_.mfc.config.timing;
   const std::uint64_t accesses = channel_reads + channel_writes;
   SpuCycles cycles;

@@ -131,7 +131,7 @@ TEST_CASE("in a prescribed order SPEs exchange what their sequential twins excha
   FrameRecords records(spes, {}, machine->byte_order());
   Conductor conductor(*machine, records);
   std::uint32_t exchanges = 0;
-  const ProgramRun run = run_program(*machine, stepped_exchange_program(), records.block.ea(), [&](Machine&) {
+  const EmulatedRun run = emulate_on(*machine, stepped_exchange_program(), records.block.ea(), [&](Machine&) {
     std::mt19937 random(spes);
     for (int frame = 0; frame < 4; ++frame) {
       std::vector<std::uint32_t> counts(spes);

@@ -65,7 +65,7 @@ Loads random_loads(std::uint32_t nodes) {
 
 struct Swept {
   std::vector<Loads> loads; ///< after each sweep
-  ProgramRun run;
+  EmulatedRun run;
 };
 
 Swept sweep(const MachineKind& kind, const SystemGraph& graph, const Loads& loads, std::uint32_t parameter,
@@ -89,7 +89,7 @@ Swept sweep(const MachineKind& kind, const SystemGraph& graph, const Loads& load
   task.publish();
 
   Swept swept;
-  swept.run = run_program(*machine, load_sweeps_program(), task.ea());
+  swept.run = emulate_on(*machine, load_sweeps_program(), task.ea());
   records.fetch();
   for (std::uint32_t sweep = 1; sweep <= sweeps; ++sweep) {
     swept.loads.emplace_back();

@@ -147,7 +147,7 @@ TEST_CASE("a cache that does not fit or makes no sense ends the program") {
   CAPTURE(kind);
   ScriptedCaches caches(kind, 1, 1);
   caches.play(CacheFlavour::plain, CacheConfig::of(4, 512));
-  CHECK_THAT(caches.run().error, Catch::Contains("local store exhausted"));
+  CHECK_THAT(caches.run().errors[0], Catch::Contains("local store exhausted"));
   caches.play(CacheFlavour::plain, CacheConfig::of(4, 3));
-  CHECK_THAT(caches.run().error, Catch::Contains("bad argument"));
+  CHECK_THAT(caches.run().errors[0], Catch::Contains("bad argument"));
 }

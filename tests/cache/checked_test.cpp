@@ -147,7 +147,7 @@ TEST_CASE("a pointer that is used too late ends the program on a Cell, and is no
   if (kind.is_native())
     caches.check_values();
   else
-    CHECK_THAT(caches.run().error, Catch::Contains("stale pointer"));
+    CHECK_THAT(caches.run().errors[0], Catch::Contains("stale pointer"));
 }
 
 TEST_CASE("with lru a pointer is good for as many calls as there are ways on every SPU") {
@@ -163,7 +163,7 @@ TEST_CASE("with lru a pointer is good for as many calls as there are ways on eve
   script.add(CacheStep::use, 0, script.word(8));
   caches.play(CacheFlavour::checked, full(ways, CacheReplacement::lru));
   if (too_late && !kind.is_native())
-    CHECK_THAT(caches.run().error, Catch::Contains("stale pointer"));
+    CHECK_THAT(caches.run().errors[0], Catch::Contains("stale pointer"));
   else
     caches.check_values();
 }

@@ -34,7 +34,7 @@ public:
         local_store_bytes_(static_cast<uint32_t>(spu.mark() - free_)) {}
 
   void play(const CacheEntry& entry) {
-    if (!read(entry) && !change(entry) && !write(entry)) spu_.halt(HaltCode::bad_argument);
+    if (!find(entry) && !ask(entry) && !write(entry)) spu_.halt(HaltCode::bad_argument);
     ++played_;
   }
 
@@ -65,7 +65,9 @@ private:
     return config;
   }
 
-  bool read(const CacheEntry& entry) {
+  // The three groups of steps. False for a step of another one.
+
+  bool find(const CacheEntry& entry) {
     const uint32_t offset = entry.offset;
     const uint32_t kind = entry.kind;
     switch (entry.step) {
@@ -92,34 +94,34 @@ private:
     case CacheStep::use_plain:
       expect(entry, *plain_);
       return true;
-    case CacheStep::item:
-      items_[item_count_++] = entry;
-      return true;
-    case CacheStep::fetch:
-      fetch();
-      return true;
     case CacheStep::lanes:
       lanes(entry);
       return true;
-    case CacheStep::run:
-      run_.make(cache_, offset, entry.value, kind);
-      return true;
     case CacheStep::next:
       expect(entry, run_->empty() ? ~entry.value : run_->next());
-      return true;
-    case CacheStep::prefetch:
-      cache_.prefetch(offset);
-      return true;
-    case CacheStep::settle:
-      cache_.settle();
       return true;
     default:
       return false;
     }
   }
 
-  bool change(const CacheEntry& entry) {
+  bool ask(const CacheEntry& entry) {
     switch (entry.step) {
+    case CacheStep::item:
+      items_[item_count_++] = entry;
+      return true;
+    case CacheStep::fetch:
+      fetch();
+      return true;
+    case CacheStep::run:
+      run_.make(cache_, entry.offset, entry.value, entry.kind);
+      return true;
+    case CacheStep::prefetch:
+      cache_.prefetch(entry.offset);
+      return true;
+    case CacheStep::settle:
+      cache_.settle();
+      return true;
     case CacheStep::synchronize:
       cache_.synchronize(entry.offset, entry.value);
       return true;

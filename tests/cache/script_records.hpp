@@ -8,33 +8,35 @@
 
 namespace celltrace::test {
 
-/// What is asked of the cache. What it has to find there is the entry's value, unless that says otherwise.
+/// What is asked of the cache. Values that are found are held against the entry's.
 enum class CacheStep : uint32_t {
-  read,            ///< word()
-  read_byte,       ///< get() of a byte
-  read_block,      ///< copy() of a CacheBlock; value: sum_of_words() of it
-  read_line,       ///< get() of a CacheLine; value: likewise
-  get,             ///< get() of a word, the pointer to which is kept
-  use,             ///< looks where that points
-  use_plain,       ///< looks where a plain pointer that was made of it points
-  item,            ///< one more offset for fetch or lanes; value: for lanes
-  fetch,           ///< fetch() of the items before
-  lanes,           ///< words() of the 16 items before; value: the lanes that are wanted
-  run,             ///< begins a WordRun; value: how many words
-  next,            ///< its next word
-  prefetch,        ///< value: nothing, as below
-  settle,          ///<
-  synchronize,     ///< value: bytes
-  synchronize_all, ///<
-  invalidate_all,  ///<
-  reset_counters,  ///<
-  change,          ///< past the cache, the word in main memory becomes `value`
-  // Caches that can be written to.
+  // Finding something.
+  read,       ///< word()
+  read_byte,  ///< get() of a byte
+  read_block, ///< copy() of a CacheBlock; value: sum_of_words() of it
+  read_line,  ///< get() of a CacheLine; value: likewise
+  get,        ///< get() of a word, the pointer to which is kept
+  use,        ///< looks where that points
+  use_plain,  ///< looks where a plain pointer that was made of it points
+  next,       ///< the next word of a run
+  lanes,      ///< words() of the 16 items before, which have the values; value: the lanes that are wanted
+  // Without anything to be found.
+  item,        ///< one more offset for fetch or lanes
+  fetch,       ///< fetch() of the items before
+  run,         ///< begins a WordRun; value: how many words
+  synchronize, ///< value: bytes
+  change,      ///< past the cache: value becomes the word in main memory
+  prefetch,
+  settle,
+  synchronize_all,
+  invalidate_all,
+  reset_counters,
+  // Of caches that can be written to.
   write_byte,  ///< value: written
   write_word,  ///< likewise
   write_block, ///< value: of its first word; the next one is greater by 1, and so on
   write_line,  ///< likewise
-  flush,       ///<
+  flush,
 };
 
 struct alignas(16) CacheEntry {
@@ -51,7 +53,7 @@ enum class CacheFlavour : uint32_t { plain, checked, write_back };
 /// One SPE's task. The argument of the program is that of SPE 0; the others follow.
 struct alignas(128) CacheTask {
   ea_t memory; ///< what is cached
-  ea_t script; ///< CacheEntries, 128-byte aligned, whole lines of them
+  ea_t script; ///< CacheEntries
   ea_t report; ///< a CacheReport
   uint32_t entries;
   CacheFlavour flavour;

@@ -15,7 +15,6 @@
 #include "celltrace/spe/control_block.hpp"
 #include "celltrace/spe/shared_records.hpp"
 
-#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -52,21 +51,17 @@ public:
       tasks[spe] = task_of(flavour, config, words_.ea(), entries[spe], reports_.ea(spe));
     }
     tasks.publish();
-    run_ = run_program(*machine_, cache_scripts_program(), tasks.ea());
+    run_ = emulate_on(*machine_, cache_scripts_program(), tasks.ea());
     words_.fetch();
     reports_.fetch();
   }
 
-  const ProgramRun& run() const { return run_; }
+  const EmulatedRun& run() const { return run_; }
   const CacheReport& report(unsigned spe = 0) const { return reports_[spe]; }
   /// Of main memory as it is now.
   std::uint32_t word(std::uint32_t offset) const { return words_[offset / 4]; }
   std::uint32_t byte(std::uint32_t offset) const {
     return word(offset) >> shift_of_byte(offset, machine_->byte_order()) & 0xFF;
-  }
-  bool broke(Rule rule) const {
-    return std::any_of(run_.diagnostics.begin(), run_.diagnostics.end(),
-                       [&](const Diagnostic& each) { return each.rule == rule; });
   }
 
   /// Every SPE played its script to the end and found what it should, and no rule was broken.
@@ -127,7 +122,7 @@ private:
   CacheConfig config_;
   SharedRecords<std::uint32_t> words_;
   SharedRecords<CacheReport> reports_;
-  ProgramRun run_;
+  EmulatedRun run_;
 };
 
 } // namespace test

@@ -67,10 +67,10 @@ TEST_CASE("to leave the code is an error that says where") {
     CHECK_THAT(ended.errors[0], Catch::Contains("LS 0x20000"));
   }
   SECTION("into data that are no instruction") {
-    code.add("br", {.immediate = 1}).word(0xFFFFFFFF);
+    code.add("br", {.immediate = 1}).word(0x00800000);
     const SimulatedRun ended = run(code);
     REQUIRE(ended.broke(Rule::invalid_instruction));
-    CHECK_THAT(ended.errors[0], Catch::Contains("LS 0x00004: 0xffffffff"));
+    CHECK_THAT(ended.errors[0], Catch::Contains("LS 0x00004: 0x00800000"));
   }
   SECTION("into zeros, which are stops") {
     code.add("br", {.immediate = 1}).word(0);

@@ -141,6 +141,12 @@ void check_on_all_schedules(const Row& row) {
   }
 }
 
+/// Host code cannot break them; tests/simulator/test_machine_code.cpp does.
+bool is_of_machine_code(Rule rule) {
+  return rule == Rule::get_target_read || rule == Rule::stack_overflow || rule == Rule::invalid_instruction ||
+         rule == Rule::unwritten_code;
+}
+
 } // namespace
 
 Rows::Rows(std::initializer_list<Row> rows) : rows_(rows) {
@@ -162,6 +168,7 @@ TEST_CASE("conformance: every rule is kept by a row and broken by another") {
   for (unsigned number = 1; number < kRules; ++number) {
     const Rule rule = static_cast<Rule>(number);
     CAPTURE(name_of(rule));
+    if (is_of_machine_code(rule)) continue;
     bool is_kept = false, is_broken = false;
     for (const Rows* rows : all_rows())
       for (const Row& row : rows->all())

@@ -6,6 +6,7 @@
 // monitor, and when the decrementer is an event.
 #include "spe/emu_conformance.hpp"
 
+#include <algorithm>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -159,6 +160,99 @@ const Rows kHardware = {
         })
         .configured([](MachineConfig& config) { config.emulation.cycle_limit = 100000; }),
 };
+
+std::uint32_t* local_store_of(Spu& spu, unsigned spe) {
+  return reinterpret_cast<std::uint32_t*>(static_cast<std::uintptr_t>(spu.addresses(spe).local_store));
+}
+constexpr std::uint32_t kLocalStoreWords = kLocalStoreBytes / sizeof(std::uint32_t);
+
+/// SPE 0 tells SPE 1 where a line of its local store is, and looks at it when SPE 1 has changed it by `act`.
+std::function<void(Spu&, Stage&)> line_changed_by(std::function<void(Spu&, std::uint32_t lsa)> act) {
+  return [act](Spu& spu, Stage& stage) {
+    if (spu.id() == 1) {
+      act(spu, spu.read_signal_1());
+      spu.send_signal(0, Signal::one, 1);
+      spu.read_signal_1();
+      return;
+    }
+    auto* line = line_of(spu);
+    spu.send_signal(1, Signal::one, lsa_of(spu, line));
+    spu.read_signal_1();
+    stage.is(line[2], 7);
+    spu.send_signal(1, Signal::one, 1);
+  };
+}
+
+// What machine code cannot do: its addresses wrap at 256 KB, and name its own local store only.
+const Rows kPointers = {
+    kept(Rule::local_store_overrun, "the arena can be written up to its end",
+         [](Spu& spu, Stage& stage) {
+           auto* all = spu.allocate<std::uint32_t>(spu.available() / 4, 16);
+           std::fill(reinterpret_cast<std::uint32_t*>(all), reinterpret_cast<std::uint32_t*>(spu.arena().end),
+                     1u);
+           spu.get(all, to_ea(stage.from), 128, 0);
+           spu.wait_all(1);
+         }),
+    broken(Rule::local_store_overrun, "a store past local store is found by the next command",
+           [](Spu& spu, Stage& stage) {
+             auto* line = line_of(spu);
+             poke(local_store_of(spu, 0) + kLocalStoreWords + 2, 1);
+             stage.next_line();
+             spu.get(line, to_ea(stage.from), 128, 0);
+             spu.wait_all(1);
+           },
+           {"near LS 0x40008"}),
+    broken(Rule::local_store_overrun, "so is one in front of it",
+           [](Spu& spu, Stage& stage) {
+             auto* line = line_of(spu);
+             poke(local_store_of(spu, 0) - 1, 1);
+             stage.next_line();
+             spu.put(line, to_ea(stage.to), 128, 0);
+             spu.wait_all(1);
+           },
+           {"8 bytes in front of LS 0"}),
+    broken(Rule::local_store_overrun, "one by a few kilobytes is found at the end",
+           [](Spu& spu, Stage&) { poke(local_store_of(spu, 0) + kLocalStoreWords + 1023, 1); },
+           {"near LS 0x40ff8"}),
+    kept(Rule::foreign_store, "other SPEs reach local store by DMA",
+         line_changed_by([](Spu& spu, std::uint32_t lsa) {
+           auto* word = spu.allocate<std::uint32_t>(4);
+           word[2] = 7;
+           spu.put(word + 2, spu.addresses(0).local_store + lsa + 8, 8, 1);
+           spu.wait_all(1u << 1);
+         }))
+        .spes(2),
+    kept(Rule::foreign_store, "and the PPE where it is mapped",
+         [](Spu& spu, Stage& stage) {
+           auto* line = line_of(spu);
+           if (spu.id() == 1) return;
+           spu.write_out_mailbox(lsa_of(spu, line));
+           spu.read_in_mailbox();
+           stage.is(line[2], 7);
+         })
+        .spes(2)
+        .ppe([](Machine& machine, Stage&) {
+          std::optional<std::uint32_t> lsa;
+          while (!(lsa = machine.read_out_mailbox(0)))
+            machine.wait_for_mail(std::chrono::seconds(60));
+          poke(reinterpret_cast<std::uint32_t*>(
+                   static_cast<std::uintptr_t>(machine.addresses(0).local_store + *lsa)) +
+                   2,
+               7);
+          machine.write_in_mailbox(0, 1);
+        }),
+    broken(
+        Rule::foreign_store, "a store through a pointer is none that a Cell has",
+        line_changed_by([](Spu& spu, std::uint32_t lsa) { poke(local_store_of(spu, 0) + lsa / 4 + 2, 7); }),
+        {"local store of SPE 0, LS address 106632"})
+        .spes(2)
+        .by(1)
+        .lockstep_only(),
+};
+
+TEST_CASE("conformance: pointers") {
+  run_rows(kPointers);
+}
 
 TEST_CASE("conformance: hardware") {
   run_rows(kHardware);

@@ -5,7 +5,7 @@
 //   const auto kind = GENERATE(from_range(kinds_for(probe_program())));
 //   const std::unique_ptr<Machine> machine = kind.machine(2);
 //   ... records in machine->byte_order() ...
-//   const ProgramRun run = run_program(*machine, probe_program(), records.ea());
+//   check_clean(emulate_on(*machine, probe_program(), records.ea()));
 #pragma once
 
 #include "celltrace/emulator.hpp"
@@ -66,43 +66,10 @@ inline std::vector<MachineKind> kinds_for(const SpeProgram& program) {
   return kinds;
 }
 
-/// What is left of a run besides what the program wrote to main memory.
-struct ProgramRun {
-  std::string error; ///< of the first SPE in their order that failed; or ""
-  std::vector<Diagnostic> diagnostics;
-  std::vector<SpeStatistics> spes;
-};
-
-/// Runs the program on every SPE while `ppe(machine)` plays the PPE, and waits for all.
-template <class Ppe>
-ProgramRun run_program(Machine& machine, const SpeProgram& program, ea_t argument, Ppe ppe) {
-  ProgramRun run;
-  const auto keep_error = [&](auto part) {
-    try {
-      part();
-    } catch (const SpeError& error) {
-      if (run.error.empty()) run.error = error.what();
-    }
-  };
-  for (unsigned spe = 0; spe < machine.spe_count(); ++spe)
-    machine.start(spe, program, argument);
-  keep_error([&] { ppe(machine); });
-  for (unsigned spe = 0; spe < machine.spe_count(); ++spe) {
-    keep_error([&] { machine.wait(spe); });
-    run.spes.push_back(machine.statistics(spe));
-  }
-  run.diagnostics = machine.diagnostics();
-  return run;
-}
-inline ProgramRun run_program(Machine& machine, const SpeProgram& program, ea_t argument) {
-  return run_program(machine, program, argument, [](Machine&) {});
-}
-
 /// No program failed and no rule was broken.
-inline void check_clean(const ProgramRun& run) {
-  CHECK(run.error.empty());
-  for (const Diagnostic& diagnostic : run.diagnostics)
-    FAIL_CHECK(diagnostic.text);
+inline void check_clean(const EmulatedRun& run) {
+  INFO(run.report());
+  CHECK(run.ok());
 }
 
 } // namespace celltrace::test

@@ -74,6 +74,8 @@ enum class Rule : unsigned char {
 
   // local store
   local_store_exhausted,
+  local_store_overrun,
+  foreign_store,
   program_overwritten,
   stack_overflow,
 
