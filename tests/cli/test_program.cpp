@@ -59,6 +59,27 @@ TEST_CASE("POV-Ray's switches render the same picture, and every backend does") 
   CHECK(load_image(folder / "a.png") == load_image(folder / "c.ppm"));
 }
 
+TEST_CASE("cell_sim renders what the others render, or says what the build lacks") {
+  const TemporaryFolder folder;
+  const Outcome simulated = celltrace_run(folder, {kScene, "-W", "32", "-H", "18", "-o", "s.png", "--backend",
+                                                   "cell_sim", "--spes", "2", "--stats", "s.json"});
+  CAPTURE(simulated.err);
+#ifdef CELLTRACE_SIMULATOR_PROGRAMS
+  CHECK(simulated.exit_code == 0);
+  CHECK_THAT(simulated.err, Contains("cell_sim, 2 SPEs") && Contains("million virtual cycles"));
+  const auto statistics = nlohmann::json::parse(read_bytes(folder / "s.json"));
+  CHECK(statistics["backend"] == "cell_sim");
+  CHECK(statistics["spes"][0]["cycles"]["hbr"] > 0);
+  CHECK(statistics["diagnostics"].empty());
+  REQUIRE(celltrace_run(folder, {kScene, "-W", "32", "-H", "18", "-o", "n.png"}).exit_code == 0);
+  CHECK(celltrace_run(folder, {"compare", "n.png", "s.png", "--min-psnr", "45"}).exit_code == 0);
+#else
+  CHECK(simulated.exit_code == 1);
+  CHECK(lines(simulated.err) == 1);
+  CHECK_THAT(simulated.err, Contains("no machine code for cell_sim"));
+#endif
+}
+
 TEST_CASE("statistics go where they are asked for, and quiet is quiet") {
   const TemporaryFolder folder;
   const Outcome to_stdout = celltrace_run(folder, {kScene, "-W", "8", "-H", "8", "--stats", "-", "--quiet"});
