@@ -33,12 +33,9 @@ TEST_CASE("a scene alone means render") {
 }
 
 TEST_CASE("other commands are left alone") {
-  for (const Arguments& arguments : {Arguments{},
-                                     Arguments{"compare", "+a.png", "-D"},
-                                     {"spu", "p.elf", "+W640", "-D"},
-                                     Arguments{"--version"},
-                                     Arguments{"--help"},
-                                     Arguments{"-h"}})
+  for (const Arguments& arguments :
+       {Arguments{}, Arguments{"compare", "+a.png", "-D"}, Arguments{"spu", "p.elf", "+W640", "-D"},
+        Arguments{"--version"}, Arguments{"--help"}, Arguments{"-h"}})
     CHECK(translate_pov_switches(arguments).arguments == arguments);
 }
 
