@@ -67,7 +67,7 @@ struct CountOperations {
 /// quadwords from one place to another.
 [[gnu::always_inline]] inline void count(const ScalarWork& work) {
   const std::uint32_t scalars = work.memory < work.shuffle ? work.memory : work.shuffle;
-  CountOperations::chain({.fx2 = work.fixed, .fp6 = work.floating, .ls = scalars, .shuf = work.shuffle});
+  CountOperations::chain({.fx2 = work.fixed, .fx3 = work.shift, .fp6 = work.floating, .ls = scalars, .shuf = work.shuffle});
   operation_counts.moves += work.memory - scalars;
   operation_counts.branches += work.branches;
 }

@@ -214,14 +214,14 @@ private:
 
   // Scalar work besides the comparison of tags: fixed, floating, memory, shuffle, branches. Counted in the
   // disassembly for an SPU; see src/kernel/scalar_work.hpp for the method.
-  static constexpr ScalarWork kLookup = {22, 0, 8, 8, 2};
-  static constexpr ScalarWork kReadThrough = {12, 0, 4, 8, 0};
-  static constexpr ScalarWork kWords = {13, 0, 0, 10, 1};
-  static constexpr ScalarWork kLineOfLanes = {25, 0, 6, 0, 3};
-  static constexpr ScalarWork kWordOfLane = {10, 0, 4, 4, 1};
-  static constexpr ScalarWork kStamp = {6, 0, 6, 5, 0};
-  static constexpr ScalarWork kSlowLookup = {60, 0, 25, 25, 8};
-  static constexpr ScalarWork kFetch = {85, 0, 28, 28, 6};
+  static constexpr ScalarWork kLookup = {22, 0, 8, 8, 2, 0, "kLookup"};
+  static constexpr ScalarWork kReadThrough = {12, 0, 4, 8, 0, 0, "kReadThrough"};
+  static constexpr ScalarWork kWords = {13, 0, 0, 10, 1, 0, "kWords"};
+  static constexpr ScalarWork kLineOfLanes = {25, 0, 6, 0, 3, 0, "kLineOfLanes"};
+  static constexpr ScalarWork kWordOfLane = {10, 0, 4, 4, 1, 0, "kWordOfLane"};
+  static constexpr ScalarWork kStamp = {6, 0, 6, 5, 0, 0, "kStamp"};
+  static constexpr ScalarWork kSlowLookup = {60, 0, 25, 25, 8, 0, "kSlowLookup"};
+  static constexpr ScalarWork kFetch = {85, 0, 28, 28, 6, 0, "kFetch"};
 
   // --- the way of a hit ---
 

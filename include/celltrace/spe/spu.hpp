@@ -55,7 +55,9 @@ struct ScalarWork {
   uint32_t memory = 0;   ///< loads and stores of local store
   uint32_t shuffle =
       0; ///< of these, one comes with every scalar load or store that is not in the preferred slot
-  uint32_t branches = 0; ///< conditional branches
+  uint32_t branches = 0;      ///< conditional branches
+  uint32_t shift = 0;         ///< word shifts and rotations
+  const char* name = nullptr; ///< of the constant, for who counts how often which work is done; null: nobody
 };
 
 template <class Derived> class SpuBase {

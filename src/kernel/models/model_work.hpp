@@ -11,13 +11,13 @@ namespace model_work {
 // Each is {fixed, floating, memory, shuffle, branches}.
 
 /// A job taken, and one sent: doorbell, addresses, commands.
-constexpr ScalarWork kJob = {150, 0, 90, 75, 16};
+constexpr ScalarWork kJob = {150, 0, 90, 75, 16, 0, "kJob"};
 /// A search of a job, fetched and put.
-constexpr ScalarWork kSearch = {80, 0, 60, 45, 8};
+constexpr ScalarWork kSearch = {80, 0, 60, 45, 8, 0, "kSearch"};
 /// A packet's rays or answers, copied within local store.
-constexpr ScalarWork kCopy = {12, 0, 56, 0, 1};
+constexpr ScalarWork kCopy = {12, 0, 56, 0, 1, 0, "kCopy"};
 /// Rays that are handed over with their voxels.
-constexpr ScalarWork kHandOver = {25, 2, 24, 14, 3};
+constexpr ScalarWork kHandOver = {25, 2, 24, 14, 3, 0, "kHandOver"};
 
 } // namespace model_work
 
