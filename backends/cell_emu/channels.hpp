@@ -63,6 +63,12 @@ constexpr const char* name_of(Channel channel) {
     return "SPU_RdInMbox";
   case Channel::wr_out_intr_mbox:
     return "SPU_WrOutIntrMbox";
+  case Channel::set_bookmark_tag:
+    return "SPU_Set_Bkmk_Tag";
+  case Channel::pm_start_event:
+    return "SPU_PM_Start_Ev";
+  case Channel::pm_stop_event:
+    return "SPU_PM_Stop_Ev";
   }
   return "no channel";
 }

@@ -10,11 +10,14 @@ public:
   /// One tick of the timebase takes this many cycles.
   explicit Decrementer(std::uint32_t cycles_per_tick) : cycles_per_tick_(cycles_per_tick) {}
 
-  /// Starts it from `value` at virtual time `cycles`.
-  void write(std::uint32_t value, std::uint64_t cycles) {
+  /// Starts it from `value` at virtual time `cycles`, up to which it has been advanced. True if the top bit
+  /// goes from 0 to 1: that is the decrementer event, as when it counts.
+  bool write(std::uint32_t value, std::uint64_t cycles) {
+    const bool rises = (~value_ & value) >> 31 != 0;
     value_ = value;
     since_ = cycles;
     running_ = true;
+    return rises;
   }
   /// Keeps the present value until the next write.
   void freeze(std::uint64_t cycles) {

@@ -62,12 +62,14 @@ constexpr std::array<Entry, kRules> kTable = {{
     {Rule::get_target_touched, "get-target-touched", kStop,
      "local store was written while a get that targets it was in flight"},
     {Rule::get_target_read, "get-target-read", kStop,
-     "local store was loaded while a get that targets it was in flight"},
+     "the program uses local store that it loaded while a get that targets it was in flight"},
     {Rule::put_source_changed, "put-source-changed", kStop,
      "local store was written while a put that reads it was in flight"},
     {Rule::list_changed, "list-changed", kStop, "a list was written while the MFC was walking it"},
     {Rule::in_flight_at_exit, "in-flight-at-exit", kStop,
      "the program ended without a wait for the tag group of this command"},
+    {Rule::drained_queue, "drained-queue", kWarn,
+     "that the command is complete was seen by the room in the queue (MFC_Cmd's count), not by a tag status"},
 
     {Rule::tag_reused, "tag-reused", kWarn,
      "a command joins a tag group whose status has been requested and not yet read"},
@@ -107,6 +109,7 @@ constexpr std::array<Entry, kRules> kTable = {{
     {Rule::phantom_event, "phantom-event", kStop,
      "after a phantom event (status 0) the program waits for what the event did not announce"},
     {Rule::deadlock, "deadlock", kStop, "every SPE waits, and so does the PPE"},
+    {Rule::time_limit, "time-limit", kStop, "the program runs longer than the configuration allows"},
     {Rule::halted, "halted", kStop, "the program halted itself"},
     {Rule::kernel_exception, "kernel-exception", kStop, "the kernel threw an exception"},
 }};
@@ -134,6 +137,16 @@ std::string_view text_of(Rule rule) {
 
 Action default_action(Rule rule) {
   return entry_of(rule).action;
+}
+
+std::map<Rule, Action> lenient_actions() {
+  std::map<Rule, Action> actions;
+  for (const Rule rule : {Rule::zero_size, Rule::line_alignment, Rule::parameters_kept, Rule::drained_queue,
+                          Rule::tag_reused, Rule::wait_without_command, Rule::tag_status_unread,
+                          Rule::atomic_status_unread, Rule::reservation_lost_to_own_put,
+                          Rule::conditional_without_reservation, Rule::mailbox_unread, Rule::signal_unread})
+    actions[rule] = Action::ignore;
+  return actions;
 }
 
 } // namespace celltrace

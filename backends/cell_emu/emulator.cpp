@@ -69,12 +69,16 @@ EmulatedRun emulate_program(const MachineConfig& config, const EmulatedProgram& 
   SpeProgram entries("emulated program");
   entries.add(EmulatedSpu::kKey,
               [&program](void* spu, ea_t given) { program(*static_cast<EmulatedSpu*>(spu), given); });
-  const unsigned spes = machine->spe_count();
+  return emulate_on(*machine, entries, argument, ppe);
+}
+
+EmulatedRun emulate_on(Machine& machine, const SpeProgram& program, ea_t argument, const EmulatedPpe& ppe) {
+  const unsigned spes = machine.spe_count();
   for (unsigned spe = 0; spe < spes; ++spe)
-    machine->start(spe, entries, argument);
+    machine.start(spe, program, argument);
   EmulatedRun run;
   try {
-    if (ppe) ppe(*machine);
+    if (ppe) ppe(machine);
   } catch (const SpeError& error) {
     run.ppe_error = error.what();
   }
@@ -82,7 +86,7 @@ EmulatedRun emulate_program(const MachineConfig& config, const EmulatedProgram& 
     run.errors.emplace_back();
     run.exit_codes.push_back(0);
     try {
-      const SpeStop stop = machine->wait(spe);
+      const SpeStop stop = machine.wait(spe);
       run.exit_codes.back() = stop.code;
       if (stop.reason == SpeStop::Reason::stop_and_signal)
         run.errors.back() = "SPE " + std::to_string(spe) + ": stopped with code " +
@@ -90,10 +94,10 @@ EmulatedRun emulate_program(const MachineConfig& config, const EmulatedProgram& 
     } catch (const SpeError& error) {
       run.errors.back() = error.what();
     }
-    run.spes.push_back(machine->statistics(spe));
+    run.spes.push_back(machine.statistics(spe));
     run.cycles = std::max(run.cycles, run.spes.back().cycles.total_cycle);
   }
-  run.diagnostics = machine->diagnostics();
+  run.diagnostics = machine.diagnostics();
   return run;
 }
 

@@ -31,6 +31,8 @@ struct Flight {
   bool completed = false; ///< the MFC has reported it done
   /// A command that is ordered behind it has started, so that who learns of that one may rely on it.
   bool released = false;
+  /// The program has seen the queue empty, but not yet the status of the tag.
+  bool drained = false;
   /// Something else may rightly write its local store, so that a change says nothing.
   bool shared = false;
   std::uint64_t hash = 0; ///< of its local store, when `hashed`

@@ -47,7 +47,20 @@ Cycle FreeScheduler::pause(Spe& spe, std::uint32_t code, Cycle now) {
   return now;
 }
 
+Cycle FreeScheduler::enter() {
+  // Who looks for an answer of programs that have failed would do so for ever.
+  if (!broken_off_.load(std::memory_order_relaxed) || ++idle_entries_ < kIdleEntries) return 0;
+  idle_entries_ = 0;
+  const std::lock_guard lock(mutex_);
+  if (active_ == 0)
+    throw SpeError(report_deadlock(
+        spes_, log_, "an answer, looking for it again and again when no program runs any more"));
+  return 0;
+}
+
 void FreeScheduler::start(Spe& spe, Program program) {
+  broken_off_ = false;
+  idle_entries_ = 0;
   {
     const std::lock_guard lock(mutex_);
     spe.running = true;
@@ -109,6 +122,7 @@ bool FreeScheduler::wait(const Ready& ready, std::optional<std::chrono::millisec
 void FreeScheduler::break_off(const std::string& because) {
   for (const auto& spe : spes_)
     spe->state.interrupt(because);
+  broken_off_ = true;
   const std::lock_guard lock(mutex_);
   resumed_.notify_all();
 }

@@ -27,7 +27,7 @@ public:
   Cycle pause(Spe& spe, std::uint32_t code, Cycle now) override;
   void start(Spe& spe, Program program) override;
   void resume(Spe& spe) override;
-  Cycle enter() override { return 0; }
+  Cycle enter() override;
   Cycle post() override { return 0; }
   Cycle post_at_once() override { return 0; }
   bool wait(const Ready& ready, std::optional<std::chrono::milliseconds> timeout,
@@ -38,7 +38,8 @@ public:
   void collect(Spe& spe) override;
 
 private:
-  bool all_stalled() const { return active_ != 0 && stalled_ == active_; }
+  /// Nobody runs who could change what others wait for.
+  bool all_stalled() const { return stalled_ == active_; }
 
   Spes& spes_;
   DiagnosticLog& log_;
@@ -49,6 +50,8 @@ private:
   unsigned active_ = 0;             ///< programs that neither ended nor paused
   unsigned stalled_ = 0;            ///< of these, how many stall
   unsigned idle_timeouts_ = 0;      ///< of the PPE, one after the other, while all stalled
+  std::atomic<bool> broken_off_{false};
+  std::uint64_t idle_entries_ = 0; ///< of the PPE since then
 };
 
 } // namespace celltrace::cell_emu

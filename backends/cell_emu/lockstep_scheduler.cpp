@@ -7,8 +7,6 @@ namespace celltrace::cell_emu {
 namespace {
 
 constexpr std::uint64_t kStream = 0x5343484544;
-/// Looks of the PPE at a machine in which nothing can happen, before that counts as a deadlock.
-constexpr std::uint64_t kIdleEntries = 1000000;
 
 } // namespace
 

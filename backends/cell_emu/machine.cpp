@@ -1,5 +1,6 @@
 #include "backends/cell_emu/machine.hpp"
 
+#include "backends/cell_emu/config_rules.hpp"
 #include "backends/cell_emu/free_scheduler.hpp"
 #include "backends/cell_emu/local_store_watch.hpp"
 #include "backends/cell_emu/lockstep_scheduler.hpp"
@@ -17,14 +18,12 @@
 namespace celltrace::cell_emu {
 namespace {
 
-constexpr unsigned kMaxSpes = 256;
-
 MachineConfig checked(MachineConfig config) {
   if (config.spes > kMaxSpes)
     throw InputError("cell_emu has at most " + std::to_string(kMaxSpes) + " SPEs, not " +
                      std::to_string(config.spes));
-  const TimingParameters& timing = config.emulation.timing;
-  if (config.spes == 0) config.spes = std::clamp(timing.spes, 1u, kMaxSpes);
+  check_emulation(config.emulation);
+  if (config.spes == 0) config.spes = config.emulation.timing.spes;
   for (const SignalMode mode : config.signal_mode)
     if (mode != SignalMode::overwrite && mode != SignalMode::logical_or)
       throw InputError("a signal notification register is in overwrite or in logical_or mode");
@@ -33,10 +32,6 @@ MachineConfig checked(MachineConfig config) {
     throw InputError("code (" + std::to_string(config.code_bytes) + " bytes) and stack (" +
                      std::to_string(config.stack_bytes) +
                      " bytes) leave no arena in a local store of 262144 bytes");
-  if (!(timing.clock_hz >= 1000) || timing.cycles_per_tick == 0)
-    throw InputError("the timing of a machine needs a clock of at least 1000 Hz and a timebase");
-  if (config.emulation.trace != nullptr && config.emulation.schedule != Schedule::lockstep)
-    throw InputError("a trace needs the lockstep schedule");
   return config;
 }
 

@@ -12,8 +12,8 @@
 
 namespace celltrace::cell_emu {
 
-/// Throws InputError for more than 256 SPEs, for a signal mode that does not exist, and if code and stack
-/// leave no arena.
+/// Throws InputError for more than 256 SPEs, for a signal mode that does not exist, if code and stack leave
+/// no arena, and for an EmulationConfig out of range.
 std::unique_ptr<Machine> make_machine(const MachineConfig& config);
 
 } // namespace celltrace::cell_emu

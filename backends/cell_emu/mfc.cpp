@@ -62,6 +62,8 @@ void Mfc::begin_program(ArenaRange arena) {
   waits_ = {};
   last_request_ = {};
   atomic_status_.reset();
+  drain_site_ = {};
+  drain_reported_ = false;
 }
 
 void Mfc::finish(Cycle now) {
@@ -84,8 +86,14 @@ void Mfc::finish(Cycle now) {
     const bool kept = context_.log.note(diagnostic, what);
     if (kept && diagnostic.action == Action::stop && !first) first = diagnostic;
   };
-  for (const Flight& flight : context_.flights.of(spe_))
-    if (!flight.proxy) report_left({flight.transfer, flight.command, flight.site, false, 0});
+  for (const Flight& flight : context_.flights.of(spe_)) {
+    if (flight.proxy) continue;
+    Diagnostic diagnostic;
+    if (!flight.drained)
+      report_left({flight.transfer, flight.command, flight.site, false, 0});
+    else if (note_drained(flight, diagnostic, now) && diagnostic.action == Action::stop && !first)
+      first = diagnostic;
+  }
   // A stopped list of which the program has seen all that was transferred has no flight, but is not done.
   const std::vector<Flight>& flights = context_.flights.of(spe_);
   for (const Entry& entry : queue_)
@@ -352,8 +360,8 @@ void Mfc::start(Entry& entry, Cycle now) {
         is_ordered_before(flight, entry))
       move(flight, now);
   }
-  const bool releases = kind_of(entry.command.opcode) == CommandKind::barrier ||
-                        has_fence(entry.command.opcode) || has_barrier(entry.command.opcode);
+  const bool releases =
+      kind_of(entry.command.opcode) == CommandKind::barrier || follows_its_tag(entry.command.opcode);
   if (releases)
     context_.flights.for_each(spe_, [&](Flight& flight) {
       flight.released |= flight.command != entry.number && is_ordered_before(flight, entry);
@@ -507,8 +515,10 @@ bool Mfc::complete_part(Entry& entry, Cycle now) {
   entry.stalled = true;
   entry.due = kNever;
   entry.moved = true;
+  // The event is the rise of the channel's count; what joins an unread status adds to its bits only.
+  const bool rises = stalled_tags_ == 0;
   stalled_tags_ |= 1u << entry.command.tag;
-  problem_state_.raise_own(event::list_stall);
+  if (rises) problem_state_.raise_own(event::list_stall);
   return false;
 }
 

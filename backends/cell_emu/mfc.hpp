@@ -71,6 +71,8 @@ public:
   // --- commands of the SPU ---
 
   unsigned free_entries() const { return kMfcQueueEntries - spu_entries_; }
+  /// The program has read that all entries are free: all of its commands are complete, and it knows.
+  void observe_empty_queue(CallSite site, Cycle now);
   /// Executes an immediate command, queues any other. The queue is not full.
   void issue(const MfcCommand& command, CallSite site, Cycle now);
 
@@ -93,9 +95,17 @@ public:
   /// From now on `watch`, a byte a quadword of local store, says what check_load() and check_store() are for:
   /// its bits are those of isa::State. Null: nobody looks.
   void watch_flights(std::uint8_t* watch) { watch_ = watch; }
-  /// An instruction is about to load the quadword at `lsa`. A load of which only a part is in flight may be
-  /// meant for the other part.
-  void check_load(std::uint32_t lsa, CallSite site, Cycle now);
+  /// A transfer in flight, for who looks at local store meanwhile.
+  struct FlightInfo {
+    std::uint64_t command = 0;
+    MfcCommand transfer{};
+    CallSite site;
+  };
+  /// A get in flight that targets all of the quadword at `lsa`. A load of which only a part is in flight may
+  /// be meant for the other part.
+  std::optional<FlightInfo> get_in_flight(std::uint32_t lsa) const;
+  /// The program uses at `use` what it loaded from there at `load`.
+  void report_early_load(const FlightInfo& flight, std::uint32_t lsa, CallSite load, CallSite use, Cycle now);
   /// An instruction is about to store the 16 bytes at `bytes` at `lsa`. That it leaves a put's bytes as they
   /// are is no change of them.
   void check_store(std::uint32_t lsa, const std::uint8_t* bytes, CallSite site, Cycle now);
@@ -170,13 +180,16 @@ private:
   /// Reports a flight whose local store has another content than the emulator left there.
   void report_touched(const Flight& flight, Cycle now);
   void verify(const Flight& flight, Cycle now);
+  /// The program relies on what only the count of the queue has told it. False if that is not reported.
+  bool note_drained(const Flight& flight, Diagnostic& diagnostic, Cycle now);
+  void report_drained(const Flight& flight, Cycle now);
   /// The program knows that the flights of which `seen(flight)` is true are complete.
   template <class Seen> void observe_if(Seen seen, Cycle now);
   /// What of a list has been transferred.
   void observe_part(std::uint64_t command, Cycle now);
   void observe(std::uint32_t tags, std::uint64_t last_command, bool proxy, Cycle now);
   std::uint8_t* local_store(const MfcCommand& transfer) const;
-  void report_access(const Flight& flight, Rule rule, std::uint32_t lsa, CallSite site, Cycle now);
+  void report_access(const FlightInfo& flight, Rule rule, const std::string& what, CallSite site, Cycle now);
   void watch(const Flight& flight);
   template <class Gone> void remove_flights(Gone gone);
 
@@ -219,6 +232,8 @@ private:
   std::uint32_t waited_tags_ = 0;
   std::array<CallSite, kMfcTags> waits_{}; ///< by tag: the last wait for it
   CallSite last_request_;
+  CallSite drain_site_; ///< where the queue was last seen empty
+  bool drain_reported_ = false;
   std::uint32_t stalled_tags_ = 0; ///< not yet read from channel 25
   std::optional<std::uint32_t> atomic_status_;
   Cycle atomic_due_ = 0;

@@ -94,12 +94,17 @@ constexpr bool is_immediate(MfcOpcode opcode) {
   return kind_of(opcode) == CommandKind::lock_line && opcode != MfcOpcode::putqlluc;
 }
 
+/// Waits for all earlier commands of its tag.
+constexpr bool follows_its_tag(MfcOpcode opcode) {
+  return has_fence(opcode) || has_barrier(opcode) || opcode == MfcOpcode::putqlluc;
+}
+
 /// Must `earlier` be complete before `later` of the same queue may move, going by these two alone?
 constexpr bool is_ordered(const MfcCommand& earlier, const MfcCommand& later) {
   if (kind_of(earlier.opcode) == CommandKind::barrier || kind_of(later.opcode) == CommandKind::barrier)
     return true;
   if (earlier.tag != later.tag) return false;
-  return has_barrier(earlier.opcode) || has_barrier(later.opcode) || has_fence(later.opcode);
+  return has_barrier(earlier.opcode) || follows_its_tag(later.opcode);
 }
 
 constexpr const char* name_of(MfcOpcode opcode) {

@@ -9,6 +9,15 @@
 #include <cstring>
 
 namespace celltrace::cell_emu {
+namespace {
+
+std::string to_hex(std::uint32_t address) {
+  char text[16];
+  std::snprintf(text, sizeof text, "0x%05x", static_cast<unsigned>(address));
+  return text;
+}
+
+} // namespace
 
 std::uint8_t* Mfc::local_store(const MfcCommand& transfer) const {
   return bus_.map().local_store(spe_) + transfer.lsa;
@@ -21,7 +30,7 @@ bool Mfc::is_ordered_before(const Flight& flight, const Entry& entry) const {
       flight.command < last_queue_barrier_[entry.proxy])
     return true;
   if (flight.transfer.tag != entry.command.tag) return false;
-  return has_fence(entry.command.opcode) || has_barrier(entry.command.opcode) ||
+  return follows_its_tag(entry.command.opcode) ||
          flight.command <= last_tag_barrier_[entry.proxy][entry.command.tag];
 }
 
@@ -61,6 +70,11 @@ void Mfc::depart(const Entry& entry, const MfcCommand& transfer, Cycle now) {
       flight.shared = other.shared = true;
       continue;
     }
+    if (other.drained) {
+      other.shared = true;
+      report_drained(other, now);
+      continue;
+    }
     report_conflict(entry, transfer, {spe_, other.command, other.transfer, other.site, overlap.local}, now);
   }
   if (flight.has_storage)
@@ -96,22 +110,27 @@ template <class Gone> void Mfc::remove_flights(Gone gone) {
     watch(flight);
 }
 
-void Mfc::report_access(const Flight& flight, Rule rule, std::uint32_t lsa, CallSite site, Cycle now) {
+void Mfc::report_access(const FlightInfo& flight, Rule rule, const std::string& what, CallSite site,
+                        Cycle now) {
   Diagnostic diagnostic = about({flight.transfer, flight.command, site, false, now}, rule, now);
   diagnostic.other_site = flight.site;
-  char at[32];
-  std::snprintf(at, sizeof at, "LS 0x%x meets ", static_cast<unsigned>(lsa));
   std::string command = describe(flight.transfer);
   if (const std::string where = to_text(flight.site); !where.empty()) command += ", at " + where;
-  context_.log.report(diagnostic, (rule == Rule::get_target_read ? "load of " : "store to ") +
-                                      std::string(at) + command + ": " + std::string(text_of(rule)));
+  context_.log.report(diagnostic, what + " meets " + command + ": " + std::string(text_of(rule)));
 }
 
-void Mfc::check_load(std::uint32_t lsa, CallSite site, Cycle now) {
+std::optional<Mfc::FlightInfo> Mfc::get_in_flight(std::uint32_t lsa) const {
   for (const Flight& flight : context_.flights.of(spe_))
     if (!flight.proxy && flight.writes_local_store() && flight.transfer.lsa <= lsa &&
         flight.transfer.lsa + flight.bytes() >= lsa + 16)
-      report_access(flight, Rule::get_target_read, lsa, site, now);
+      return FlightInfo{flight.command, flight.transfer, flight.site};
+  return std::nullopt;
+}
+
+void Mfc::report_early_load(const FlightInfo& flight, std::uint32_t lsa, CallSite load, CallSite use,
+                            Cycle now) {
+  report_access(flight, Rule::get_target_read,
+                "load of LS " + to_hex(lsa) + ", used at " + to_text(use) + ",", load, now);
 }
 
 void Mfc::check_store(std::uint32_t lsa, const std::uint8_t* bytes, CallSite site, Cycle now) {
@@ -123,8 +142,10 @@ void Mfc::check_store(std::uint32_t lsa, const std::uint8_t* bytes, CallSite sit
     const bool get = flight.writes_local_store();
     if (!get && std::memcmp(bus_.map().local_store(spe_) + begin, bytes + (begin - lsa), end - begin) == 0)
       continue;
-    report_access(flight, get ? Rule::get_target_touched : Rule::put_source_changed, lsa, site, now);
     flight.shared = true; // said once
+    report_access({flight.command, flight.transfer, flight.site},
+                  get ? Rule::get_target_touched : Rule::put_source_changed, "store to LS " + to_hex(lsa),
+                  site, now);
   }
 }
 
@@ -148,8 +169,12 @@ void Mfc::report_touched(const Flight& flight, Cycle now) {
 }
 
 void Mfc::verify(const Flight& flight, Cycle now) {
-  if (flight.hashed && !flight.shared &&
-      checksum(local_store(flight.transfer), flight.bytes()) != flight.hash)
+  if (!flight.hashed || flight.shared ||
+      checksum(local_store(flight.transfer), flight.bytes()) == flight.hash)
+    return;
+  if (flight.drained)
+    report_drained(flight, now);
+  else
     report_touched(flight, now);
 }
 
@@ -226,6 +251,44 @@ void Mfc::observe(std::uint32_t tags, std::uint64_t last_command, bool proxy, Cy
                flight.command <= last_command;
       },
       now);
+}
+
+void Mfc::observe_empty_queue(CallSite site, Cycle now) {
+  const std::vector<Flight>& flights = context_.flights.of(spe_);
+  const auto is_new = [](const Flight& flight) { return !flight.proxy && !flight.drained; };
+  if (std::none_of(flights.begin(), flights.end(), is_new)) return;
+  drain_site_ = site;
+  if (drain_reported_ || !context_.log.checks(Rule::drained_queue)) {
+    observe_if([](const Flight& flight) { return !flight.proxy; }, now);
+    return;
+  }
+  for (std::size_t i = 0; i < flights.size(); ++i) {
+    Flight& flight = context_.flights.at(spe_, i);
+    if (!is_new(flight)) continue;
+    if (!flight.moved)
+      move(flight, now);
+    else
+      verify(flight, now);
+  }
+  context_.flights.for_each(spe_, [&](Flight& flight) {
+    if (!flight.proxy) flight.drained = flight.released = true;
+  });
+}
+
+bool Mfc::note_drained(const Flight& flight, Diagnostic& diagnostic, Cycle now) {
+  // What a program does once it does everywhere.
+  if (drain_reported_) return false;
+  drain_reported_ = true;
+  diagnostic = about({flight.transfer, flight.command, drain_site_, false, 0}, Rule::drained_queue, now);
+  std::string what = describe(flight.transfer);
+  if (const std::string site = to_text(flight.site); !site.empty()) what += " at " + site;
+  return context_.log.note(diagnostic, what + ": " + std::string(text_of(Rule::drained_queue)));
+}
+
+void Mfc::report_drained(const Flight& flight, Cycle now) {
+  Diagnostic diagnostic;
+  if (note_drained(flight, diagnostic, now) && diagnostic.action == Action::stop)
+    throw RuleViolation(diagnostic);
 }
 
 void Mfc::observe_part(std::uint64_t command, Cycle now) {

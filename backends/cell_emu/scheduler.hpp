@@ -12,6 +12,9 @@
 
 namespace celltrace::cell_emu {
 
+/// Looks of the PPE at a machine in which nothing can happen, before that counts as a deadlock.
+constexpr std::uint64_t kIdleEntries = 1000000;
+
 class Scheduler : public StallObserver {
 public:
   /// What an SPE runs: the kernel from its start to its end. Lets no exception out.

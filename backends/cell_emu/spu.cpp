@@ -85,6 +85,7 @@ void Spu::charge(std::uint32_t channel_reads, std::uint32_t channel_writes) {
   cycles.single_cycle = std::min(accesses, cycles.total_cycle);
   cycles.stall_due_to_dependency = cycles.total_cycle - cycles.single_cycle;
   spend_on_channels(cycles);
+  check_limits();
   if (context_.mfc.config.faults.pause_probability > 0) inject_faults();
   if (interrupts_enabled_) run_interrupts();
 }

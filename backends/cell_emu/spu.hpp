@@ -35,7 +35,7 @@ public:
   SpeAddresses addresses(std::uint32_t spe) const;
   ArenaState& arena();
   [[noreturn]] void halt(HaltCode code, CallSite site = CallSite::here());
-  [[noreturn]] void halt_exhausted(CallSite site) { halt(HaltCode::local_store_exhausted, site); }
+  [[noreturn]] void halt_at(HaltCode code, CallSite site) { halt(code, site); }
   template <std::uint32_t code> void stop() { stop(code); }
 
   template <Channel c> std::uint32_t read_channel() {

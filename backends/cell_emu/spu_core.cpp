@@ -39,7 +39,7 @@ const char* wait_for(Channel channel) {
 
 /// Calls `use(std::integral_constant<Channel, c>)` for the channel with this number.
 template <unsigned c = 0, class Use> void with_channel(unsigned channel, Use use) {
-  if constexpr (c <= static_cast<unsigned>(Channel::wr_out_intr_mbox)) {
+  if constexpr (c <= static_cast<unsigned>(Channel::pm_stop_event)) {
     if (c == channel) return use(std::integral_constant<Channel, static_cast<Channel>(c)>());
     with_channel<c + 1>(channel, use);
   }
@@ -51,8 +51,15 @@ SpuCore::SpuCore(Spe& spe, const SpuContext& context)
     : spe_(spe), context_(context), mfc_(spe.mfc), state_(spe.state), counters_(spe.counters),
       random_(context.mfc.config.seed, kStream + spe.id),
       decrementer_(context.mfc.config.timing.cycles_per_tick), cycles_(spe.counters.cycles.value()),
-      now_(spe.now), computing_since_(spe.now) {
+      now_(spe.now), computing_since_(spe.now), start_(spe.now) {
   const double slowest = std::max(1.0, context.mfc.config.faults.slowest_spe);
+  const EmulationConfig& config = context.mfc.config;
+  if (config.cycle_limit != 0 && config.cycle_limit < kNever - start_)
+    cycle_end_ = start_ + config.cycle_limit;
+  if (config.seconds_limit != 0)
+    host_end_ =
+        std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                                               std::chrono::duration<double>(config.seconds_limit));
   slowness_ = kUnit + static_cast<std::uint64_t>((slowest - 1.0) * kUnit * random_.fraction());
 }
 
@@ -105,6 +112,26 @@ void SpuCore::spend(SpuCycles cycles) {
   }
   now_ += cycles.total_cycle;
   cycles_ += cycles;
+}
+
+void SpuCore::look_at_limits() {
+  looks_left_ = kLooks;
+  const EmulationConfig& config = context_.mfc.config;
+  if (now_ >= cycle_end_) report_limit(std::to_string(config.cycle_limit) + " cycles");
+  if (host_end_ && std::chrono::steady_clock::now() >= *host_end_)
+    report_limit(std::to_string(config.seconds_limit) + " seconds");
+}
+
+void SpuCore::report_limit(const std::string& passed) {
+  Diagnostic diagnostic;
+  diagnostic.rule = Rule::time_limit;
+  diagnostic.spe = id();
+  diagnostic.site = site_;
+  diagnostic.cycle = now_;
+  context_.mfc.log.report(diagnostic, "after " + passed + ": " + std::string(text_of(Rule::time_limit)));
+  // To say it once is enough for a program that may go on.
+  cycle_end_ = kNever;
+  host_end_.reset();
 }
 
 void SpuCore::inject_faults() {
@@ -248,7 +275,13 @@ std::uint32_t SpuCore::decrementer() {
 
 void SpuCore::start_decrementer(std::uint32_t value) {
   update_decrementer();
-  decrementer_.write(value, now_);
+  if (decrementer_.write(value, now_)) state_.raise_own(event::decrementer);
+}
+
+void SpuCore::event_mask_channel(std::uint32_t mask) {
+  // What has expired by now meets the old mask: the new one may leave a phantom of it.
+  update_decrementer();
+  state_.write_event_mask(mask);
 }
 
 void SpuCore::event_ack_channel(std::uint32_t events) {

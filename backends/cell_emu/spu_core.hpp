@@ -9,6 +9,8 @@
 #include "backends/cell_emu/decrementer.hpp"
 #include "backends/cell_emu/scheduler.hpp"
 
+#include <chrono>
+#include <string>
 #include <type_traits>
 
 namespace celltrace::cell_emu {
@@ -68,6 +70,12 @@ protected:
   /// Adds cycles in which the SPU was busy, or was kept from it by its own pipelines; and what faults make of
   /// them.
   void spend(SpuCycles cycles);
+  /// Breaks Rule::time_limit when the program takes longer than the configuration allows. Cheap: for every
+  /// access to a channel, and for now and then where a program has none.
+  void check_limits() {
+    if (now_ >= cycle_end_ || --looks_left_ == 0) [[unlikely]]
+      look_at_limits();
+  }
   /// Adds cycles of accesses to channels.
   void spend_on_channels(const SpuCycles& cycles) {
     now_ += cycles.total_cycle;
@@ -94,12 +102,15 @@ protected:
 
 private:
   void spend_on_fault(std::uint64_t cycles);
+  void look_at_limits();
+  void report_limit(const std::string& passed);
   void command_word(std::uint32_t word);
   std::uint32_t read_in_mailbox_channel();
   std::uint32_t read_signal_channel(Signal which);
   std::uint32_t event_status_channel();
   std::uint32_t decrementer();
   void start_decrementer(std::uint32_t value);
+  void event_mask_channel(std::uint32_t mask);
   void event_ack_channel(std::uint32_t events);
   Cycle decrementer_deadline() const;
 
@@ -110,6 +121,8 @@ private:
   template <Channel c> std::uint32_t present_count();
 
   static constexpr std::uint64_t kUnit = 65536;
+  /// The bits that an address of an instruction has.
+  static constexpr std::uint32_t kInstructionAddress = kLocalStoreBytes - 4;
 
   SeededRandom random_;
   MfcCommand parameters_{}; ///< channels 16..21 keep what was written
@@ -119,7 +132,13 @@ private:
 
   SpuCycles cycles_; ///< since the machine was made
   Cycle now_;
-  Cycle computing_since_;          ///< for the trace
+  Cycle computing_since_; ///< for the trace
+  /// The clock of the host is looked at once in so many calls of check_limits().
+  static constexpr std::uint32_t kLooks = 1024;
+  Cycle start_;
+  Cycle cycle_end_ = kNever;
+  std::uint32_t looks_left_ = kLooks;
+  std::optional<std::chrono::steady_clock::time_point> host_end_;
   std::uint64_t slowness_ = kUnit; ///< what faults make of a cycle of work, in 1/65536
 };
 
@@ -160,12 +179,12 @@ template <Channel c> void SpuCore::channel_write(std::uint32_t value) {
     reach();
     await<c>();
   }
-  if constexpr (c == Channel::wr_event_mask) state_.write_event_mask(value);
+  if constexpr (c == Channel::wr_event_mask) event_mask_channel(value);
   if constexpr (c == Channel::wr_event_ack) event_ack_channel(value);
   if constexpr (c == Channel::wr_dec) start_decrementer(value);
   // What other SPEs have queued has not started, so nothing is on its way to this SPE.
   if constexpr (c == Channel::wr_ms_sync_req) state_.raise_own(event::multi_source_sync);
-  if constexpr (c == Channel::wr_srr0) srr0_ = value;
+  if constexpr (c == Channel::wr_srr0) srr0_ = value & kInstructionAddress;
   if constexpr (c == Channel::mfc_lsa) parameters_.lsa = value;
   if constexpr (c == Channel::mfc_eah) parameters_.ea = (ea_t{value} << 32) | (parameters_.ea & 0xFFFFFFFF);
   if constexpr (c == Channel::mfc_eal) parameters_.ea = (parameters_.ea & ~ea_t{0xFFFFFFFF}) | value;
@@ -206,6 +225,8 @@ template <Channel c> std::uint32_t SpuCore::channel_count_of() {
     reach();
     if constexpr (c == Channel::rd_event_stat) update_decrementer();
     const std::uint32_t count = present_count<c>();
+    if constexpr (c == Channel::mfc_cmd)
+      if (count == kMfcQueueEntries) mfc_.observe_empty_queue(site_, now_);
     if (count == 0 && state_.interrupted()) state_.stop_at(c);
     return count;
   }

@@ -19,18 +19,19 @@ public:
   void request(TagUpdate update) { request_ = update; }
 
   /// Judges the request that waits; `outstanding` are the tags with commands in the queue, `last_command` the
-  /// number of the newest command, up to which the answer speaks. True if a request
-  /// for any or all became true: that is the tag status event.
+  /// number of the newest command, up to which the answer speaks. True if the count of channel 24 rose from 0
+  /// to 1: that is the tag status event, whatever was asked for.
   bool judge(std::uint32_t outstanding, std::uint64_t last_command) {
     if (!request_) return false;
     const std::uint32_t completed = mask_ & ~outstanding;
     const TagUpdate update = *request_;
     if (update == TagUpdate::any && completed == 0) return false;
     if (update == TagUpdate::all && completed != mask_) return false;
+    const bool rises = !status_;
     request_.reset();
     status_ = completed;
     answered_up_to_ = last_command;
-    return update != TagUpdate::immediate;
+    return rises;
   }
 
   bool waiting() const { return request_.has_value(); }

@@ -68,7 +68,12 @@ using EmulatedPpe = std::function<void(Machine&)>;
 EmulatedRun emulate_program(const MachineConfig& config, const EmulatedProgram& program, ea_t argument,
                             const EmulatedPpe& ppe);
 
-/// The same with a program that takes (spu, argument) or only (spu).
+/// The same on a machine that is there, with a program as machines take it. Of the machine before there must
+/// be nothing left to wait for.
+EmulatedRun emulate_on(Machine& machine, const SpeProgram& program, ea_t argument = 0,
+                       const EmulatedPpe& ppe = {});
+
+/// emulate_program() with a program that takes (spu, argument) or only (spu).
 template <class Program>
 EmulatedRun emulate(const MachineConfig& config, Program program, ea_t argument = 0,
                     const EmulatedPpe& ppe = {}) {

@@ -1,6 +1,7 @@
 // The records that cross DMA between the PPE and the SPE program: the tables of the scene image, the frame,
 // and what an SPE reports. Fixed-width types, 16-byte aligned, sizes asserted; offsets are bytes from the
-// base of the scene image. Kernel dialect.
+// base of the scene image. Each says its fields to the PPE, padding included, in scene/image_fields.hpp or
+// render/frame_fields.hpp. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/types.hpp"

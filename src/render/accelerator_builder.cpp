@@ -118,9 +118,10 @@ bool AcceleratorBuilder::build_hierarchy_for_spes(const Progress& go_on) {
   SpeTeam team(*machine, frame);
   const bool built = build_hierarchy_on(team, frame[0], host.spes, go_on);
   frame_.hierarchy.node_count = reports[0].list_entries;
+  if (!built) return false;
   shared_image_.publish_all();
   frame_.image = shared_image_.ea();
-  return built;
+  return true;
 }
 
 bool AcceleratorBuilder::build_hierarchy_on(SpeTeam& team, FrameBlock& frame, unsigned spes,

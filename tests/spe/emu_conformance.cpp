@@ -11,11 +11,14 @@ std::vector<const Rows*>& registry() {
   return all;
 }
 
+/// The machines on which a kernel that also exists as machine code runs.
+constexpr const char* kBackends[] = {"cell_emu"};
+
 void check_diagnostic(const Row& row, const Stage& stage, const EmulatedRun& run) {
   const Diagnostic* const found = run.find(row.rule);
   REQUIRE(found != nullptr);
   REQUIRE(found->spe == row.culprit_spe);
-  REQUIRE(std::string(found->site.file) == stage.culprit().file);
+  REQUIRE_THAT(found->site.file, Catch::EndsWith(stage.culprit().file));
   REQUIRE(found->site.line == stage.culprit().line);
   const auto says = [&](const std::string& what) {
     CAPTURE(what);
@@ -46,14 +49,70 @@ void check_diagnostic(const Row& row, const Stage& stage, const EmulatedRun& run
     REQUIRE(error.empty());
 }
 
+EmulatedRun run_host_code(const Row& row, const MachineConfig& config, Stage& stage, const EmulatedPpe& ppe) {
+  return emulate(
+      config, [&](Spu& spu) { row.program(spu, stage); }, 0, ppe);
+}
+
+const SpeProgram& hardware_program() {
+  static const SpeProgram program = [] {
+    SpeProgram made("hardware_rows");
+    made.add<Spu>([](Spu& spu, ea_t argument) { hardware_rows(spu, argument); });
+    return made;
+  }();
+  return program;
+}
+
+/// What the kernel wrote back.
+void collect_results(const Row& row, std::endian order, const std::uint32_t* results, const EmulatedRun& run,
+                     Stage& stage) {
+  for (unsigned spe = 0; spe < row.spe_count; ++spe) {
+    const auto word = [&](std::uint32_t index) {
+      return load_word(order, results + spe * block::kWords + index);
+    };
+    const std::string who = "SPE " + std::to_string(spe);
+    if (word(block::kFailedLine) != 0)
+      stage.fail(who + ", hardware_rows.hpp:" + std::to_string(word(block::kFailedLine)) + ": " +
+                 std::to_string(word(block::kFound)) + ", not " + std::to_string(word(block::kExpected)));
+    if (run.errors[spe].empty() && word(block::kFinished) != 1) stage.fail(who + " did not get to its end");
+    if (spe == row.culprit_spe) {
+      const std::uint32_t line = word(block::kCulpritLine);
+      stage.set_culprit({line == 0 ? "" : "hardware_rows.hpp", line});
+    }
+  }
+}
+
+EmulatedRun run_kernel(const Row& row, const MachineConfig& config, Stage& stage, const EmulatedPpe& ppe) {
+  const std::unique_ptr<Machine> machine = make_machine(config);
+  const std::endian order = machine->byte_order();
+  for (std::uint32_t i = 0; i < std::size(stage.from); ++i)
+    store_word(order, stage.from + i, i + 1);
+  constexpr unsigned kMostSpes = 4;
+  alignas(128) std::uint32_t words[(1 + kMostSpes) * block::kWords] = {};
+  const auto address = [&](std::uint32_t word, ea_t ea) {
+    store_word(order, words + word, static_cast<std::uint32_t>(ea >> 32));
+    store_word(order, words + word + 1, static_cast<std::uint32_t>(ea));
+  };
+  const Given given = row.given_part ? row.given_part(stage) : Given();
+  store_word(order, words + block::kRow, static_cast<std::uint32_t>(row.kernel));
+  address(block::kFrom, to_ea(stage.from));
+  address(block::kTo, to_ea(stage.to));
+  address(block::kGiven, given.address);
+  store_word(order, words + block::kValue, given.value);
+  EmulatedRun run = emulate_on(*machine, hardware_program(), to_ea(words), ppe);
+  collect_results(row, order, words + block::kWords, run, stage);
+  if (row.after_part) row.after_part(stage, order);
+  return run;
+}
+
 void check(const Row& row, MachineConfig config) {
   config.spes = row.spe_count;
   if (row.configuration) row.configuration(config);
   Stage stage;
   EmulatedPpe ppe;
   if (row.ppe_part) ppe = [&](Machine& machine) { row.ppe_part(machine, stage); };
-  EmulatedRun run = emulate(
-      config, [&](Spu& spu) { row.program(spu, stage); }, 0, ppe);
+  const EmulatedRun run = row.kernel == HardwareRow::none ? run_host_code(row, config, stage, ppe)
+                                                          : run_kernel(row, config, stage, ppe);
   INFO(run.report());
   REQUIRE(stage.failures() == "");
   if (row.is_broken)
@@ -66,12 +125,18 @@ void check_on_all_schedules(const Row& row) {
   std::vector<MachineConfig> configs = {lockstep(1), exploring_with_faults(1, 1),
                                         exploring_with_faults(1, 2)};
   if (!row.in_lockstep_only) configs.push_back(free_running(1));
+  for (std::uint64_t seed = 0; seed < row.more_seeds; ++seed)
+    configs.push_back(exploring(1, seed));
   for (MachineConfig& config : configs) {
     for (const TransferTime when : {TransferTime::at_issue, TransferTime::at_wait, TransferTime::random}) {
       if (when == TransferTime::at_issue && !row.at_issue_too) continue;
       config.emulation.transfers = when;
-      CAPTURE(config.emulation.schedule, config.emulation.explore, config.emulation.seed, when);
-      check(row, config);
+      for (const char* const backend : kBackends) {
+        config.backend = backend;
+        CAPTURE(backend, config.emulation.schedule, config.emulation.explore, config.emulation.seed, when);
+        check(row, config);
+        if (row.kernel == HardwareRow::none) break;
+      }
     }
   }
 }

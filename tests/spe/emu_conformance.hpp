@@ -17,9 +17,11 @@
 
 #include "celltrace/emulator.hpp"
 #include "spe/emu_peek.hpp"
+#include "spe/hardware_rows.hpp"
 
 #include <catch2/catch.hpp>
 
+#include <bit>
 #include <functional>
 #include <initializer_list>
 #include <mutex>
@@ -30,6 +32,17 @@
 namespace celltrace::test {
 
 using Spu = EmulatedSpu;
+
+// Numbers in main storage, in the byte order of a machine's SPUs.
+constexpr std::uint32_t in_order(std::endian order, std::uint32_t value) {
+  return order == std::endian::native ? value : __builtin_bswap32(value);
+}
+inline std::uint32_t load_word(std::endian order, const std::uint32_t* from) {
+  return in_order(order, *from);
+}
+inline void store_word(std::endian order, std::uint32_t* to, std::uint32_t value) {
+  *to = in_order(order, value);
+}
 
 /// What the programs of a row share: main memory, and the book of what they found. Thread-safe.
 class Stage {
@@ -62,13 +75,22 @@ public:
     failures_ += text.str() + "\n";
   }
 
+  void fail(const std::string& text) { failures_ += text + "\n"; }
+
   CallSite culprit() const { return culprit_; }
+  void set_culprit(CallSite site) { culprit_ = site; }
   const std::string& failures() const { return failures_; }
 
 private:
   std::mutex mutex_;
   CallSite culprit_;
   std::string failures_;
+};
+
+/// What a hardware row finds in its block.
+struct Given {
+  ea_t address = 0;
+  std::uint32_t value = 0;
 };
 
 struct Row {
@@ -84,6 +106,11 @@ struct Row {
   std::function<void(MachineConfig&)> configuration{};
   bool in_lockstep_only = false;
   bool at_issue_too = true;
+  /// Instead of `program`: a kernel that also exists as machine code.
+  HardwareRow kernel = HardwareRow::none;
+  unsigned more_seeds = 0;
+  std::function<Given(Stage&)> given_part{};
+  std::function<void(Stage&, std::endian)> after_part{};
 
   Row&& spes(unsigned count) && { return spe_count = count, std::move(*this); }
   /// Whose mistake it is.
@@ -97,6 +124,13 @@ struct Row {
   }
   /// What virtual time decides, or what only the queue of a machine in lockstep shows.
   Row&& lockstep_only() && { return in_lockstep_only = true, std::move(*this); }
+  /// Orders that few seeds bring about.
+  Row&& seeds(unsigned more) && { return more_seeds = more, std::move(*this); }
+  Row&& given(std::function<Given(Stage&)> make) && { return given_part = std::move(make), std::move(*this); }
+  /// What main storage holds in the end.
+  Row&& after(std::function<void(Stage&, std::endian)> check) && {
+    return after_part = std::move(check), std::move(*this);
+  }
   /// Data that are already there cannot be missed.
   Row&& not_at_issue() && { return at_issue_too = false, std::move(*this); }
 };
@@ -111,6 +145,21 @@ inline Row fact(const char* fact, std::function<void(Spu&, Stage&)> program) {
 inline Row broken(Rule rule, const char* fact, std::function<void(Spu&, Stage&)> program,
                   std::vector<std::string> says = {}) {
   return {rule, true, fact, std::move(program), std::move(says)};
+}
+
+// The same for kernels that run on host code and as machine code.
+inline Row kept(Rule rule, const char* fact, HardwareRow kernel) {
+  Row row = kept(rule, fact, std::function<void(Spu&, Stage&)>());
+  row.kernel = kernel;
+  return row;
+}
+inline Row fact(const char* fact, HardwareRow kernel) {
+  return kept(Rule::none, fact, kernel);
+}
+inline Row broken(Rule rule, const char* fact, HardwareRow kernel, std::vector<std::string> says = {}) {
+  Row row = broken(rule, fact, std::function<void(Spu&, Stage&)>(), std::move(says));
+  row.kernel = kernel;
+  return row;
 }
 
 /// The rows of one subject; all of them together are all_rows().

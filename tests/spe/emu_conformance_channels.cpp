@@ -42,6 +42,8 @@ const Rows kChannels = {
                                                1, 1, 1, 1, 1, 16, 1, 1, 0, 0, 1, 0, 1, 0, 1, 0};
            for (unsigned channel = 0; channel < 32; ++channel)
              stage.is(spu.channel_count(channel), expected[channel]);
+           for (unsigned channel = 32; channel < 128; ++channel)
+             stage.is(spu.channel_count(channel), channel >= 69 && channel <= 71 ? 1 : 0);
          }),
     kept(Rule::invalid_channel, "a channel that does not exist has the count 0",
          [](Spu& spu, Stage& stage) {
@@ -56,6 +58,7 @@ const Rows kChannels = {
            stage.is(read(spu, 12), 0x55);
            write(spu, 23, 0);
            stage.is(read(spu, 24), 0x55);
+           write(spu, 69, 1);
            write(spu, 14, 0x1230);
            stage.is(read(spu, 15), 0x1230);
            write(spu, 7, 1000);
@@ -66,6 +69,7 @@ const Rows kChannels = {
     no_channel_to_write("neither to write", 6),
     no_channel_to_read("nor a channel 31", 31),
     no_channel_to_read("nor a channel 128", 128),
+    no_channel_to_read("what measures cannot be read", 70),
     no_channel_to_read("the outbound mailbox cannot be read", 28),
     no_channel_to_read("nor the command", 21),
     no_channel_to_write("the inbound mailbox cannot be written", 29),
@@ -116,6 +120,12 @@ const Rows kRunControl = {
            [](Spu& spu, Stage& stage) {
              stage.next_line();
              spu.halt(HaltCode::bad_argument);
+           },
+           {"halted: bad argument"}),
+    broken(Rule::halted, "so does an alignment that is none",
+           [](Spu& spu, Stage& stage) {
+             stage.next_line();
+             spu.allocate<std::uint32_t>(4, 0);
            },
            {"halted: bad argument"}),
     kept(Rule::kernel_exception, "an exception that the kernel catches is its own affair",

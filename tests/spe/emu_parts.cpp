@@ -93,7 +93,7 @@ TEST_CASE("tag status requests wait for their condition") {
 
   SECTION("immediate") {
     groups.request(TagUpdate::immediate);
-    CHECK_FALSE(groups.judge(0x2, 0));
+    CHECK(groups.judge(0x2, 0));
     CHECK(groups.take() == 0x4);
     CHECK_FALSE(groups.available());
   }
@@ -121,6 +121,13 @@ TEST_CASE("tag status requests wait for their condition") {
     CHECK(groups.judge(0, 0));
     CHECK(groups.take() == 0x8);
   }
+  SECTION("an answer that replaces another is no event") {
+    groups.request(TagUpdate::all);
+    CHECK(groups.judge(0, 0));
+    groups.request(TagUpdate::immediate);
+    CHECK_FALSE(groups.judge(0x2, 0));
+    CHECK(groups.take() == 0x4);
+  }
   SECTION("a request that waits does not take the last answer away") {
     groups.request(TagUpdate::immediate);
     groups.judge(0, 0);
@@ -143,7 +150,7 @@ TEST_CASE("the decrementer fires once when it passes zero") {
   constexpr std::uint32_t kTick = 40;
   Decrementer decrementer(kTick);
   CHECK_FALSE(decrementer.advance(1000));
-  decrementer.write(10, 1000);
+  CHECK_FALSE(decrementer.write(10, 1000));
   CHECK(decrementer.expiry() == 1000 + 11 * kTick);
   CHECK_FALSE(decrementer.advance(1000 + 10 * kTick));
   CHECK(decrementer.value() == 0);
@@ -155,8 +162,11 @@ TEST_CASE("the decrementer fires once when it passes zero") {
   const std::uint32_t frozen = decrementer.value();
   CHECK_FALSE(decrementer.advance(1u << 30));
   CHECK(decrementer.value() == frozen);
+  // A write is a count, as far as the top bit goes.
+  CHECK_FALSE(decrementer.write(0xC0000000, 0));
+  CHECK_FALSE(decrementer.write(7, 0));
+  CHECK(decrementer.write(0x80000000, 0));
   // From a negative value it first has to go all the way round.
-  decrementer.write(0x80000000, 0);
   CHECK_FALSE(decrementer.advance(std::uint64_t{0x80000000} * kTick));
   CHECK(decrementer.advance(std::uint64_t{0x80000001} * kTick));
 }

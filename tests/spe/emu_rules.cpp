@@ -50,6 +50,8 @@ const Case kTransfers[] = {
     {"mailbox", {kPut, 0, 0x1800C, 4, kMemory + 12}, EaKind::in_mailbox, Rule::none},
     {"mailbox read", {kGet, 0, 0x1800C, 4, kMemory + 12}, EaKind::in_mailbox, Rule::register_readable},
     {"mailbox, first word", {kPut, 0, 0x18000, 4, kMemory + 12}, EaKind::in_mailbox, Rule::register_word},
+    {"mailbox, second word", {kPut, 0, 0x18004, 4, kMemory + 12}, EaKind::in_mailbox, Rule::register_word},
+    {"mailbox, third word", {kPut, 0, 0x18008, 4, kMemory + 12}, EaKind::in_mailbox, Rule::register_word},
     {"mailbox, quadword", {kPut, 0, 0x18000, 16, kMemory + 12}, EaKind::in_mailbox, Rule::register_size},
     {"mailbox, byte", {kPut, 0, 0x1800C, 1, kMemory + 12}, EaKind::in_mailbox, Rule::register_size},
     {"signal by put", {kPut, 0, 0x1800C, 4, kMemory + 12}, EaKind::signal_2, Rule::none},
@@ -58,6 +60,8 @@ const Case kTransfers[] = {
 
     {"signal", {kSignal, 31, 0x1800C, 4, kMemory + 12}, EaKind::signal_1, Rule::none},
     {"signal, first word", {kSignal, 31, 0x18000, 4, kMemory + 12}, EaKind::signal_1, Rule::register_word},
+    {"signal, second word", {kSignal, 31, 0x18004, 4, kMemory + 12}, EaKind::signal_1, Rule::register_word},
+    {"signal, third word", {kSignal, 31, 0x18008, 4, kMemory + 12}, EaKind::signal_2, Rule::register_word},
     {"signal, 8 bytes", {kSignal, 31, 0x18008, 8, kMemory + 12}, EaKind::signal_1, Rule::signal_size},
     {"signal to mailbox", {kSignal, 31, 0x1800C, 4, kMemory + 12}, EaKind::in_mailbox, Rule::signal_target},
     {"signal to memory", {kSignal, 31, 0x1800C, 4, kMemory + 12}, EaKind::main_memory, Rule::signal_target},

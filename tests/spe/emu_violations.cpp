@@ -4,6 +4,11 @@
 
 #include <catch2/catch.hpp>
 
+#include <functional>
+#include <limits>
+#include <string>
+#include <utility>
+
 namespace celltrace::test {
 namespace {
 
@@ -132,6 +137,48 @@ TEST_CASE("a configuration that does not fit is refused") {
   config.spes = 257;
   CHECK_THROWS_AS(cell_emu::make_machine(config), InputError);
   config = {};
+  CHECK(cell_emu::make_machine(config)->spe_count() == 8);
+}
+
+TEST_CASE("numbers, enumerators and rules of a configuration that do not exist are refused") {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const std::pair<const char*, std::function<void(EmulationConfig&)>> kWrong[] = {
+      {"schedule", [](auto& c) { c.schedule = static_cast<Schedule>(2); }},
+      {"transfers", [](auto& c) { c.transfers = static_cast<TransferTime>(3); }},
+      {"actions", [](auto& c) { c.actions[static_cast<Rule>(kRules)] = Action::warn; }},
+      {"actions", [](auto& c) { c.actions[Rule::zero_size] = static_cast<Action>(3); }},
+      {"faults.slowest_spe", [](auto& c) { c.faults.slowest_spe = 0.5; }},
+      {"faults.slowest_spe", [](auto& c) { c.faults.slowest_spe = kNaN; }},
+      {"faults.slowest_spe", [](auto& c) { c.faults.slowest_spe = kInfinity; }},
+      {"faults.pause_probability", [](auto& c) { c.faults.pause_probability = 2; }},
+      {"faults.pause_probability", [](auto& c) { c.faults.pause_probability = -0.1; }},
+      {"faults.pause_probability", [](auto& c) { c.faults.pause_probability = kNaN; }},
+      {"timing.clock_hz", [](auto& c) { c.timing.clock_hz = 0; }},
+      {"timing.clock_hz", [](auto& c) { c.timing.clock_hz = kNaN; }},
+      {"timing.clock_hz", [](auto& c) { c.timing.clock_hz = kInfinity; }},
+      {"timing.cycles_per_tick", [](auto& c) { c.timing.cycles_per_tick = 0; }},
+      {"timing.spes", [](auto& c) { c.timing.spes = 0; }},
+      {"timing.spes", [](auto& c) { c.timing.spes = 257; }},
+      {"timing.exposed_latency", [](auto& c) { c.timing.exposed_latency = 1.5; }},
+      {"timing.missed_branches", [](auto& c) { c.timing.missed_branches = -1; }},
+      {"timing.paired_issue", [](auto& c) { c.timing.paired_issue = kNaN; }},
+      {"seconds_limit", [](auto& c) { c.seconds_limit = -1; }},
+      {"seconds_limit", [](auto& c) { c.seconds_limit = kNaN; }},
+  };
+  for (const auto& [member, spoil] : kWrong) {
+    CAPTURE(member);
+    MachineConfig config;
+    spoil(config.emulation);
+    CHECK_THROWS_AS(cell_emu::make_machine(config), InputError);
+    CHECK_THROWS_WITH(cell_emu::make_machine(config), Contains(std::string("EmulationConfig::") + member));
+  }
+  MachineConfig config;
+  config.emulation.faults.pause_probability = 1;
+  config.emulation.timing.exposed_latency = 0;
+  config.emulation.timing.paired_issue = 1;
+  config.emulation.seconds_limit = 1e9;
+  config.emulation.cycle_limit = ~std::uint64_t{0};
   CHECK(cell_emu::make_machine(config)->spe_count() == 8);
 }
 

@@ -24,12 +24,12 @@ enum class Format : std::uint8_t {
 /// Who executes an instruction, which decides its pipe and its latency.
 enum class Unit : std::uint8_t {
   // even pipe
-  fx2,  ///< simple fixed point, logic, compares
-  fx3,  ///< word rotates and shifts
-  fxb,  ///< byte operations
-  fp6,  ///< single precision
-  fp7,  ///< integer multiply, conversions, interpolation
-  fpd,  ///< double precision
+  fx2, ///< simple fixed point, logic, compares
+  fx3, ///< word rotates and shifts
+  fxb, ///< byte operations
+  fp6, ///< single precision
+  fp7, ///< integer multiply, conversions, interpolation
+  fpd, ///< double precision
   nop,
   // odd pipe
   ls,   ///< loads and stores
@@ -43,11 +43,45 @@ constexpr bool is_even(Unit unit) {
   return unit <= Unit::nop;
 }
 
-/// How an instruction is written in assembly.
-enum class Syntax : std::uint8_t;
+/// How an instruction is written in assembly, which also says what Instruction::immediate holds.
+enum class Syntax : std::uint8_t {
+  none,
+  features, ///< a letter behind the mnemonic for a feature bit: syncc
+  rt,
+  rt_ra,
+  rt_ra_rb,
+  rt_ra_rb_rc,
+  ra_features,     ///< letters for the feature bits: bid, bie
+  rt_ra_features,  ///< bisld, bizd
+  rt_ra_i7,        ///< immediate: I7, sign-extended
+  rt_i7_ra,        ///< $3,4($5); immediate: I7, sign-extended
+  rt_ra_i10,       ///< immediate: I10, sign-extended, whatever the size of the parts
+  rt_displacement, ///< $3,16($5); immediate: I10 in bytes, a multiple of 16
+  rt_ra_scale_173, ///< to integers; immediate: the binary exponent to multiply with, 173 - I8
+  rt_ra_scale_155, ///< from integers; immediate: the binary exponent to divide by, 155 - I8
+  rt_i16,          ///< immediate: I16, sign-extended
+  rt_u16,          ///< immediate: I16, not sign-extended
+  rt_u18,          ///< immediate: I18, not sign-extended
+  relative,        ///< immediate: the offset from this instruction in bytes
+  rt_relative,
+  absolute, ///< immediate: the address in local store, a multiple of 4
+  rt_absolute,
+  hint_register, ///< immediate: the offset in bytes of the branch that is hinted; its target is in ra
+  hint_relative, ///< immediate: the offset of the branch's target
+  hint_absolute, ///< immediate: the address of the branch's target
+  stop,          ///< immediate: the stop code, which is not written
+  rt_spr,
+  spr_rt,
+  rt_channel, ///< the channel's number is in ra
+  channel_rt,
+};
 
-/// Named as in assembly, in the order of opcodes.def.
-enum class Opcode : std::uint8_t;
+/// Named as in assembly, in the order of opcodes.def; with an underscore behind the words of C++.
+enum class Opcode : std::uint8_t {
+#define SPU_OPCODE(name, mnemonic, format, code, unit, syntax, operands) name,
+#include "backends/cell_emu/isa/opcodes.def"
+#undef SPU_OPCODE
+};
 
 struct Instruction;
 using Execute = void (*)(State& state, const Instruction& instruction);
@@ -78,20 +112,25 @@ constexpr std::uint8_t kNoRegister = 128;
 
 /// An instruction word, decoded.
 struct Instruction {
-  Execute execute;      ///< calls Environment::invalid_instruction() for a word that is none
+  Execute execute; ///< calls Environment::invalid_instruction() for a word that is none
   std::uint32_t word;
-  std::int32_t immediate; ///< sign-extended where the instruction does that; I16 and RI16 offsets in bytes
-  std::uint8_t rt, ra, rb, rc;
+  std::int32_t immediate; ///< see Syntax; 0 if there is none
+  std::uint8_t rt, ra, rb,
+      rc;                 ///< the fields of the format, 0 if it lacks them; rt also where it means nothing
   std::uint8_t source[3]; ///< registers that it reads; kNoRegister
   std::uint8_t target;    ///< register that it writes; kNoRegister
-  Opcode opcode;
+  Opcode opcode;          ///< of a word that is none: stop
   Unit unit;
 };
 
 Instruction decode(std::uint32_t word);
 
-/// In the assembler's words, tabs between mnemonic and operands, as spu-elf-objdump writes it: "ai\t$3,$4,-16",
-/// branch targets as addresses ("brsl\t$0,0x1a0").
+/// Where the branch lies that a hint (Unit::hbr) at `pc` is for.
+std::uint32_t hinted_branch(const Instruction& hint, std::uint32_t pc);
+
+/// In the assembler's words, tabs between mnemonic and operands, as spu-elf-objdump writes it where it knows
+/// no symbols: "ai\t$3,$4,-16", branch targets as addresses and immediates above 16 in hexadecimal behind
+/// ("brsl\t$0,0x1a0\t# 1a0").
 std::string disassemble(std::uint32_t word, std::uint32_t address);
 
 } // namespace celltrace::isa

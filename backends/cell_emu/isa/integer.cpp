@@ -1,43 +1,383 @@
+// Execution: constants, integer arithmetic and logic, shifts of halfwords and words, compares, halts.
+#include "backends/cell_emu/isa/execute.hpp"
 #include "backends/cell_emu/isa/parts.hpp"
-namespace celltrace::isa {
-using u8=std::uint8_t; using u16=std::uint16_t; using u32=std::uint32_t; using u64=std::uint64_t; using s8=std::int8_t; using s16=std::int16_t; using s32=std::int32_t; using s64=std::int64_t;
-#define X(name) void execute_##name([[maybe_unused]] State& s, [[maybe_unused]] const Instruction& i)
-#define B(name, P, e) X(name) { binary<P>(s, i, [](P a, P b) { return e; }); }
-#define U(name, P, e) X(name) { const auto m = static_cast<P>(i.immediate); (void)m; unary<P>(s, i, [m](P a) { (void)m; return e; }); }
-#define ACC(name, P, e) X(name) { accumulate<P>(s, i, [](P a, P b, P t) { return e; }); }
-#define T(name, P, e) X(name) { ternary<P>(s, i, [](P a, P b, P c) { return e; }); }
-#define ALL(P, c) ((c) ? static_cast<P>(~P{0}) : P{0})
-B(a,u32,a+b) B(ah,u16,a+b) B(sf,u32,b-a) B(sfh,u16,b-a)
-U(ai,u32,a+m) U(ahi,u16,a+m) U(sfi,u32,m-a) U(sfhi,u16,m-a)
-B(cg,u32,(u64{a}+b)>>32) B(bg,u32,b>=a)
-ACC(addx,u32,a+b+(t&1)) ACC(sfx,u32,b+~a+(t&1)) ACC(cgx,u32,(u64{a}+b+(t&1))>>32) ACC(bgx,u32,(u64{b}+u32(~a)+(t&1))>>32)
-B(mpy,u32,u32(s32{s16(a)}*s32{s16(b)})) B(mpyu,u32,(a&0xffff)*(b&0xffff)) B(mpyh,u32,((a>>16)*(b&0xffff))<<16)
-B(mpys,u32,u32((s32{s16(a)}*s32{s16(b)})>>16)) B(mpyhh,u32,u32(s32{s16(a>>16)}*s32{s16(b>>16)})) B(mpyhhu,u32,(a>>16)*(b>>16))
-ACC(mpyhha,u32,t+u32(s32{s16(a>>16)}*s32{s16(b>>16)})) ACC(mpyhhau,u32,t+(a>>16)*(b>>16))
-T(mpya,u32,u32(s32{s16(a)}*s32{s16(b)})+c)
-U(mpyi,u32,u32(s32{s16(a)}*s32{s16(m)})) U(mpyui,u32,(a&0xffff)*(m&0xffff))
-U(clz,u32,u32(std::countl_zero(a))) U(cntb,u8,std::popcount(a))
-U(xswd,u64,u64(s64{s32(u32(a))})) U(xshw,u32,u32(s32{s16(a)})) U(xsbh,u16,u16(s16{s8(a)}))
-B(absdb,u8,a>b?a-b:b-a) B(avgb,u8,(a+b+1)>>1)
-X(sumb) { auto sum=[](u32 w){return (w>>24)+(w>>16&255)+(w>>8&255)+(w&255);}; binary<u32>(s,i,[&](u32 a,u32 b){return sum(b)<<16|sum(a);}); }
-B(and_,u64,a&b) B(andc,u64,a&~b) B(or_,u64,a|b) B(orc,u64,a|~b) B(xor_,u64,a^b) B(nand,u64,~(a&b)) B(nor,u64,~(a|b)) B(eqv,u64,~(a^b))
-U(andi,u32,a&m) U(andhi,u16,a&m) U(andbi,u8,a&m) U(ori,u32,a|m) U(orhi,u16,a|m) U(orbi,u8,a|m) U(xori,u32,a^m) U(xorhi,u16,a^m) U(xorbi,u8,a^m)
-B(ceq,u32,ALL(u32,a==b)) B(ceqh,u16,ALL(u16,a==b)) B(ceqb,u8,ALL(u8,a==b)) U(ceqi,u32,ALL(u32,a==m)) U(ceqhi,u16,ALL(u16,a==m)) U(ceqbi,u8,ALL(u8,a==m))
-B(cgt,u32,ALL(u32,s32(a)>s32(b))) B(cgth,u16,ALL(u16,s16(a)>s16(b))) B(cgtb,u8,ALL(u8,s8(a)>s8(b)))
-U(cgti,u32,ALL(u32,s32(a)>s32(m))) U(cgthi,u16,ALL(u16,s16(a)>s16(m))) U(cgtbi,u8,ALL(u8,s8(a)>s8(m)))
-B(clgt,u32,ALL(u32,a>b)) B(clgth,u16,ALL(u16,a>b)) B(clgtb,u8,ALL(u8,a>b)) U(clgti,u32,ALL(u32,a>m)) U(clgthi,u16,ALL(u16,a>m)) U(clgtbi,u8,ALL(u8,a>m))
-T(selb,u64,(c&b)|(~c&a))
-X(il) { s.gpr[i.rt]=Quadword::splat(u32(i.immediate)); }
-X(ilhu) { s.gpr[i.rt]=Quadword::splat(u32(i.immediate)<<16); }
-X(ilh) { s.gpr[i.rt]=Quadword::splat(u32(i.immediate)*0x10001u); }
-X(ila) { s.gpr[i.rt]=Quadword::splat(u32(i.immediate)); }
-X(iohl) { const Quadword m=Quadword::splat(u32(i.immediate)); auto t=parts<u64>(s.gpr[i.rt]), k=parts<u64>(m); t[0]|=k[0]; t[1]|=k[1]; s.gpr[i.rt]=joined<u64>(t); }
-#define HALT(name, e) X(name) { const u32 a=s.gpr[i.ra].word(0), b=s.gpr[i.rb].word(0), m=u32(i.immediate); (void)a;(void)b;(void)m; if (e) s.environment->halt(); }
-HALT(heq,a==b) HALT(heqi,a==m) HALT(hgt,s32(a)>s32(b)) HALT(hgti,s32(a)>s32(m)) HALT(hlgt,a>b) HALT(hlgti,a>m)
-static u32 shl(u32 a,u32 n){return n>31?0:a<<n;} static u32 shr(u32 a,u32 n){return n>31?0:a>>n;} static u32 sar(u32 a,u32 n){return u32(s32(a)>>(n>31?31:n));}
-static u16 shlh(u16 a,u32 n){return n>15?0:u16(a<<n);} static u16 shrh(u16 a,u32 n){return n>15?0:u16(a>>n);} static u16 sarh(u16 a,u32 n){return u16(s16(a)>>(n>15?15:n));}
-B(shl,u32,shl(a,b&63)) U(shli,u32,shl(a,m&63)) B(shlh,u16,shlh(a,b&31)) U(shlhi,u16,shlh(a,m&31))
-B(rot,u32,std::rotl(a,int(b&31))) U(roti,u32,std::rotl(a,int(m&31))) B(roth,u16,std::rotl(a,int(b&15))) U(rothi,u16,std::rotl(a,int(m&15)))
-B(rotm,u32,shr(a,(0u-b)&63)) U(rotmi,u32,shr(a,(0u-m)&63)) B(rothm,u16,shrh(a,(0u-b)&31)) U(rothmi,u16,shrh(a,(0u-m)&31))
-B(rotma,u32,sar(a,(0u-b)&63)) U(rotmai,u32,sar(a,(0u-m)&63)) B(rotmah,u16,sarh(a,(0u-b)&31)) U(rotmahi,u16,sarh(a,(0u-m)&31))
+
+namespace celltrace::isa::execute {
+namespace {
+
+using U8 = std::uint8_t;
+using U16 = std::uint16_t;
+using U32 = std::uint32_t;
+using S8 = std::int8_t;
+using S16 = std::int16_t;
+using S32 = std::int32_t;
+
+constexpr S32 low(U32 word) {
+  return static_cast<S16>(word);
 }
+constexpr S32 high(U32 word) {
+  return static_cast<S32>(word) >> 16;
+}
+constexpr U32 low_unsigned(U32 word) {
+  return word & 0xFFFF;
+}
+constexpr U32 product(S32 x, S32 y) {
+  return static_cast<U32>(x * y); // of halfwords: cannot overflow
+}
+constexpr U32 sum_of_bytes(U32 x) {
+  return (x >> 24) + (x >> 16 & 0xFF) + (x >> 8 & 0xFF) + (x & 0xFF);
+}
+
+template <class Part> constexpr unsigned kBits = 8 * sizeof(Part);
+
+// Counts have one bit more than the width of a part needs, and those that are too large shift everything out.
+template <class Part> constexpr Part shift_left(Part x, U32 count) {
+  count &= 2 * kBits<Part> - 1;
+  return static_cast<Part>(count < kBits<Part> ? static_cast<U32>(x) << count : 0);
+}
+template <class Part> constexpr Part rotate_left(Part x, U32 count) {
+  return std::rotl(x, static_cast<int>(count & (kBits<Part> - 1)));
+}
+/// "Rotate and mask" shifts right by the negative count.
+template <class Part> constexpr Part shift_right(Part x, U32 count) {
+  count = (0 - count) & (2 * kBits<Part> - 1);
+  return static_cast<Part>(count < kBits<Part> ? static_cast<U32>(x) >> count : 0);
+}
+template <class Part> constexpr Part shift_right_algebraic(Part x, U32 count) {
+  count = (0 - count) & (2 * kBits<Part> - 1);
+  if (count >= kBits<Part>) count = kBits<Part> - 1;
+  return static_cast<Part>(static_cast<std::make_signed_t<Part>>(x) >> count);
+}
+
+constexpr auto equal = [](auto x, auto y) { return mask_of<decltype(x)>(x == y); };
+constexpr auto greater = [](auto x, auto y) { return mask_of<decltype(x)>(x > y); };
+
+} // namespace
+
+// Constants
+
+void ilh(State& state, const Instruction& i) {
+  state.gpr[i.rt] = Quadword::splat(static_cast<U32>(i.immediate) * 0x10001);
+}
+void ilhu(State& state, const Instruction& i) {
+  state.gpr[i.rt] = Quadword::splat(static_cast<U32>(i.immediate) << 16);
+}
+void il(State& state, const Instruction& i) {
+  state.gpr[i.rt] = Quadword::splat(static_cast<U32>(i.immediate));
+}
+void ila(State& state, const Instruction& i) {
+  state.gpr[i.rt] = Quadword::splat(static_cast<U32>(i.immediate));
+}
+void iohl(State& state, const Instruction& i) {
+  const auto low_half = static_cast<U32>(i.immediate);
+  state.gpr[i.rt] = map<U32>(state.gpr[i.rt], [=](U32 x) { return x | low_half; });
+}
+
+// Integers
+
+void ah(State& state, const Instruction& i) {
+  of_ra_rb<U16>(state, i, [](U16 x, U16 y) { return x + y; });
+}
+void a(State& state, const Instruction& i) {
+  of_ra_rb<U32>(state, i, [](U32 x, U32 y) { return x + y; });
+}
+void ahi(State& state, const Instruction& i) {
+  of_ra_immediate<U16>(state, i, [](U16 x, U16 y) { return x + y; });
+}
+void ai(State& state, const Instruction& i) {
+  of_ra_immediate<U32>(state, i, [](U32 x, U32 y) { return x + y; });
+}
+void sfh(State& state, const Instruction& i) {
+  of_ra_rb<U16>(state, i, [](U16 x, U16 y) { return y - x; });
+}
+void sf(State& state, const Instruction& i) {
+  of_ra_rb<U32>(state, i, [](U32 x, U32 y) { return y - x; });
+}
+void sfhi(State& state, const Instruction& i) {
+  of_ra_immediate<U16>(state, i, [](U16 x, U16 y) { return y - x; });
+}
+void sfi(State& state, const Instruction& i) {
+  of_ra_immediate<U32>(state, i, [](U32 x, U32 y) { return y - x; });
+}
+
+// Carries and borrows are the lowest bit of a word; a borrow bit of 1 means that there is none.
+void cg(State& state, const Instruction& i) {
+  of_ra_rb<U32>(state, i, [](U32 x, U32 y) { return x + y < x; });
+}
+void bg(State& state, const Instruction& i) {
+  of_ra_rb<U32>(state, i, [](U32 x, U32 y) { return y >= x; });
+}
+void addx(State& state, const Instruction& i) {
+  of_ra_rb_rt<U32>(state, i, [](U32 x, U32 y, U32 c) { return x + y + (c & 1); });
+}
+void sfx(State& state, const Instruction& i) {
+  of_ra_rb_rt<U32>(state, i, [](U32 x, U32 y, U32 c) { return y + ~x + (c & 1); });
+}
+void cgx(State& state, const Instruction& i) {
+  of_ra_rb_rt<U32>(state, i, [](U32 x, U32 y, U32 c) { return (c & 1) != 0 ? x >= ~y : x > ~y; });
+}
+void bgx(State& state, const Instruction& i) {
+  of_ra_rb_rt<U32>(state, i, [](U32 x, U32 y, U32 c) { return (c & 1) != 0 ? y >= x : y > x; });
+}
+
+void mpy(State& state, const Instruction& i) {
+  of_ra_rb<U32>(state, i, [](U32 x, U32 y) { return product(low(x), low(y)); });
+}
+void mpyu(State& state, const Instruction& i) {
+  of_ra_rb<U32>(state, i, [](U32 x, U32 y) { return low_unsigned(x) * low_unsigned(y); });
+}
+void mpyh(State& state, const Instruction& i) {
+  of_ra_rb<U32>(state, i, [](U32 x, U32 y) { return ((x >> 16) * low_unsigned(y)) << 16; });
+}
+void mpys(State& state, const Instruction& i) {
+  of_ra_rb<U32>(state, i, [](U32 x, U32 y) { return (low(x) * low(y)) >> 16; });
+}
+void mpyhh(State& state, const Instruction& i) {
+  of_ra_rb<U32>(state, i, [](U32 x, U32 y) { return product(high(x), high(y)); });
+}
+void mpyhhu(State& state, const Instruction& i) {
+  of_ra_rb<U32>(state, i, [](U32 x, U32 y) { return (x >> 16) * (y >> 16); });
+}
+void mpyhha(State& state, const Instruction& i) {
+  of_ra_rb_rt<U32>(state, i, [](U32 x, U32 y, U32 z) { return product(high(x), high(y)) + z; });
+}
+void mpyhhau(State& state, const Instruction& i) {
+  of_ra_rb_rt<U32>(state, i, [](U32 x, U32 y, U32 z) { return (x >> 16) * (y >> 16) + z; });
+}
+void mpyi(State& state, const Instruction& i) {
+  of_ra_immediate<U32>(state, i, [](U32 x, U32 y) { return product(low(x), low(y)); });
+}
+void mpyui(State& state, const Instruction& i) {
+  of_ra_immediate<U32>(state, i, [](U32 x, U32 y) { return low_unsigned(x) * low_unsigned(y); });
+}
+void mpya(State& state, const Instruction& i) {
+  of_ra_rb_rc<U32>(state, i, [](U32 x, U32 y, U32 z) { return product(low(x), low(y)) + z; });
+}
+
+void clz(State& state, const Instruction& i) {
+  of_ra<U32>(state, i, [](U32 x) { return std::countl_zero(x); });
+}
+void cntb(State& state, const Instruction& i) {
+  of_ra<U8>(state, i, [](U8 x) { return std::popcount(x); });
+}
+void avgb(State& state, const Instruction& i) {
+  of_ra_rb<U8>(state, i, [](U8 x, U8 y) { return (x + y + 1) >> 1; });
+}
+void absdb(State& state, const Instruction& i) {
+  of_ra_rb<U8>(state, i, [](U8 x, U8 y) { return x > y ? x - y : y - x; });
+}
+void sumb(State& state, const Instruction& i) {
+  of_ra_rb<U32>(state, i, [](U32 x, U32 y) { return sum_of_bytes(y) << 16 | sum_of_bytes(x); });
+}
+void xsbh(State& state, const Instruction& i) {
+  of_ra<U16>(state, i, [](U16 x) { return static_cast<S8>(x); });
+}
+void xshw(State& state, const Instruction& i) {
+  of_ra<U32>(state, i, [](U32 x) { return static_cast<S16>(x); });
+}
+void xswd(State& state, const Instruction& i) {
+  of_ra<std::uint64_t>(state, i, [](std::uint64_t x) { return static_cast<S32>(x); });
+}
+
+// Logic
+
+void and_(State& state, const Instruction& i) {
+  of_ra_rb<U32>(state, i, [](U32 x, U32 y) { return x & y; });
+}
+void andc(State& state, const Instruction& i) {
+  of_ra_rb<U32>(state, i, [](U32 x, U32 y) { return x & ~y; });
+}
+void or_(State& state, const Instruction& i) {
+  of_ra_rb<U32>(state, i, [](U32 x, U32 y) { return x | y; });
+}
+void orc(State& state, const Instruction& i) {
+  of_ra_rb<U32>(state, i, [](U32 x, U32 y) { return x | ~y; });
+}
+void xor_(State& state, const Instruction& i) {
+  of_ra_rb<U32>(state, i, [](U32 x, U32 y) { return x ^ y; });
+}
+void nand(State& state, const Instruction& i) {
+  of_ra_rb<U32>(state, i, [](U32 x, U32 y) { return ~(x & y); });
+}
+void nor(State& state, const Instruction& i) {
+  of_ra_rb<U32>(state, i, [](U32 x, U32 y) { return ~(x | y); });
+}
+void eqv(State& state, const Instruction& i) {
+  of_ra_rb<U32>(state, i, [](U32 x, U32 y) { return ~(x ^ y); });
+}
+void andbi(State& state, const Instruction& i) {
+  of_ra_immediate<U8>(state, i, [](U8 x, U8 y) { return x & y; });
+}
+void andhi(State& state, const Instruction& i) {
+  of_ra_immediate<U16>(state, i, [](U16 x, U16 y) { return x & y; });
+}
+void andi(State& state, const Instruction& i) {
+  of_ra_immediate<U32>(state, i, [](U32 x, U32 y) { return x & y; });
+}
+void orbi(State& state, const Instruction& i) {
+  of_ra_immediate<U8>(state, i, [](U8 x, U8 y) { return x | y; });
+}
+void orhi(State& state, const Instruction& i) {
+  of_ra_immediate<U16>(state, i, [](U16 x, U16 y) { return x | y; });
+}
+void ori(State& state, const Instruction& i) {
+  of_ra_immediate<U32>(state, i, [](U32 x, U32 y) { return x | y; });
+}
+void xorbi(State& state, const Instruction& i) {
+  of_ra_immediate<U8>(state, i, [](U8 x, U8 y) { return x ^ y; });
+}
+void xorhi(State& state, const Instruction& i) {
+  of_ra_immediate<U16>(state, i, [](U16 x, U16 y) { return x ^ y; });
+}
+void xori(State& state, const Instruction& i) {
+  of_ra_immediate<U32>(state, i, [](U32 x, U32 y) { return x ^ y; });
+}
+void selb(State& state, const Instruction& i) {
+  of_ra_rb_rc<U32>(state, i, [](U32 x, U32 y, U32 m) { return (y & m) | (x & ~m); });
+}
+
+// Shifts and rotates
+
+void shlh(State& state, const Instruction& i) {
+  of_ra_rb<U16>(state, i, shift_left<U16>);
+}
+void shl(State& state, const Instruction& i) {
+  of_ra_rb<U32>(state, i, shift_left<U32>);
+}
+void roth(State& state, const Instruction& i) {
+  of_ra_rb<U16>(state, i, rotate_left<U16>);
+}
+void rot(State& state, const Instruction& i) {
+  of_ra_rb<U32>(state, i, rotate_left<U32>);
+}
+void rothm(State& state, const Instruction& i) {
+  of_ra_rb<U16>(state, i, shift_right<U16>);
+}
+void rotm(State& state, const Instruction& i) {
+  of_ra_rb<U32>(state, i, shift_right<U32>);
+}
+void rotmah(State& state, const Instruction& i) {
+  of_ra_rb<U16>(state, i, shift_right_algebraic<U16>);
+}
+void rotma(State& state, const Instruction& i) {
+  of_ra_rb<U32>(state, i, shift_right_algebraic<U32>);
+}
+void shlhi(State& state, const Instruction& i) {
+  of_ra_immediate<U16>(state, i, shift_left<U16>);
+}
+void shli(State& state, const Instruction& i) {
+  of_ra_immediate<U32>(state, i, shift_left<U32>);
+}
+void rothi(State& state, const Instruction& i) {
+  of_ra_immediate<U16>(state, i, rotate_left<U16>);
+}
+void roti(State& state, const Instruction& i) {
+  of_ra_immediate<U32>(state, i, rotate_left<U32>);
+}
+void rothmi(State& state, const Instruction& i) {
+  of_ra_immediate<U16>(state, i, shift_right<U16>);
+}
+void rotmi(State& state, const Instruction& i) {
+  of_ra_immediate<U32>(state, i, shift_right<U32>);
+}
+void rotmahi(State& state, const Instruction& i) {
+  of_ra_immediate<U16>(state, i, shift_right_algebraic<U16>);
+}
+void rotmai(State& state, const Instruction& i) {
+  of_ra_immediate<U32>(state, i, shift_right_algebraic<U32>);
+}
+
+// Compares
+
+void ceqb(State& state, const Instruction& i) {
+  of_ra_rb<U8>(state, i, equal);
+}
+void ceqh(State& state, const Instruction& i) {
+  of_ra_rb<U16>(state, i, equal);
+}
+void ceq(State& state, const Instruction& i) {
+  of_ra_rb<U32>(state, i, equal);
+}
+void cgtb(State& state, const Instruction& i) {
+  of_ra_rb<S8>(state, i, greater);
+}
+void cgth(State& state, const Instruction& i) {
+  of_ra_rb<S16>(state, i, greater);
+}
+void cgt(State& state, const Instruction& i) {
+  of_ra_rb<S32>(state, i, greater);
+}
+void clgtb(State& state, const Instruction& i) {
+  of_ra_rb<U8>(state, i, greater);
+}
+void clgth(State& state, const Instruction& i) {
+  of_ra_rb<U16>(state, i, greater);
+}
+void clgt(State& state, const Instruction& i) {
+  of_ra_rb<U32>(state, i, greater);
+}
+void ceqbi(State& state, const Instruction& i) {
+  of_ra_immediate<U8>(state, i, equal);
+}
+void ceqhi(State& state, const Instruction& i) {
+  of_ra_immediate<U16>(state, i, equal);
+}
+void ceqi(State& state, const Instruction& i) {
+  of_ra_immediate<U32>(state, i, equal);
+}
+void cgtbi(State& state, const Instruction& i) {
+  of_ra_immediate<S8>(state, i, greater);
+}
+void cgthi(State& state, const Instruction& i) {
+  of_ra_immediate<S16>(state, i, greater);
+}
+void cgti(State& state, const Instruction& i) {
+  of_ra_immediate<S32>(state, i, greater);
+}
+void clgtbi(State& state, const Instruction& i) {
+  of_ra_immediate<U8>(state, i, greater);
+}
+void clgthi(State& state, const Instruction& i) {
+  of_ra_immediate<U16>(state, i, greater);
+}
+void clgti(State& state, const Instruction& i) {
+  of_ra_immediate<U32>(state, i, greater);
+}
+
+// Halts: of the preferred slot alone
+
+namespace {
+
+void halt_if(State& state, bool condition) {
+  if (condition) [[unlikely]]
+    state.environment->halt();
+}
+U32 word_ra(const State& state, const Instruction& i) {
+  return state.gpr[i.ra].word(0);
+}
+U32 word_rb(const State& state, const Instruction& i) {
+  return state.gpr[i.rb].word(0);
+}
+
+} // namespace
+
+void heq(State& state, const Instruction& i) {
+  halt_if(state, word_ra(state, i) == word_rb(state, i));
+}
+void hgt(State& state, const Instruction& i) {
+  halt_if(state, static_cast<S32>(word_ra(state, i)) > static_cast<S32>(word_rb(state, i)));
+}
+void hlgt(State& state, const Instruction& i) {
+  halt_if(state, word_ra(state, i) > word_rb(state, i));
+}
+void heqi(State& state, const Instruction& i) {
+  halt_if(state, word_ra(state, i) == static_cast<U32>(i.immediate));
+}
+void hgti(State& state, const Instruction& i) {
+  halt_if(state, static_cast<S32>(word_ra(state, i)) > i.immediate);
+}
+void hlgti(State& state, const Instruction& i) {
+  halt_if(state, word_ra(state, i) > static_cast<U32>(i.immediate));
+}
+
+} // namespace celltrace::isa::execute

@@ -1,37 +1,81 @@
+// Operations on all bytes, halfwords, words or doublewords of registers at once. Which part comes first does
+// not matter to them, so they work in the host's order; loops of a fixed length that compilers vectorise.
 #pragma once
+
 #include "backends/cell_emu/isa/instruction.hpp"
+
 #include <array>
 #include <bit>
+#include <cstdint>
+
 namespace celltrace::isa {
-#define CELLTRACE_INSTRUCTION(name, ...) void execute_##name(State& s, const Instruction& i);
-#include "backends/cell_emu/isa/opcodes.def"
-#undef CELLTRACE_INSTRUCTION
+
 template <class Part> using Parts = std::array<Part, 16 / sizeof(Part)>;
-template <class Part> Parts<Part> parts(const Quadword& q) { return std::bit_cast<Parts<Part>>(q); }
-template <class Part> Quadword joined(const Parts<Part>& p) { return std::bit_cast<Quadword>(p); }
-template <class Part, class F> void unary(State& s, const Instruction& i, F f) {
-  const auto a = parts<Part>(s.gpr[i.ra]);
-  Parts<Part> r;
-  for (std::size_t k = 0; k < r.size(); ++k) r[k] = static_cast<Part>(f(a[k]));
-  s.gpr[i.rt] = joined<Part>(r);
+
+template <class Part> inline Parts<Part> parts(const Quadword& q) {
+  return std::bit_cast<Parts<Part>>(q);
 }
-template <class Part, class F> void binary(State& s, const Instruction& i, F f) {
-  const auto a = parts<Part>(s.gpr[i.ra]); const auto b = parts<Part>(s.gpr[i.rb]);
-  Parts<Part> r;
-  for (std::size_t k = 0; k < r.size(); ++k) r[k] = static_cast<Part>(f(a[k], b[k]));
-  s.gpr[i.rt] = joined<Part>(r);
+template <class Part> inline Quadword quadword(const Parts<Part>& from) {
+  return std::bit_cast<Quadword>(from);
 }
-template <class Part, class F> void accumulate(State& s, const Instruction& i, F f) {
-  const auto a = parts<Part>(s.gpr[i.ra]); const auto b = parts<Part>(s.gpr[i.rb]); const auto t = parts<Part>(s.gpr[i.rt]);
-  Parts<Part> r;
-  for (std::size_t k = 0; k < r.size(); ++k) r[k] = static_cast<Part>(f(a[k], b[k], t[k]));
-  s.gpr[i.rt] = joined<Part>(r);
+
+template <class Part, class F> inline Quadword map(const Quadword& a, F f) {
+  const auto x = parts<Part>(a);
+  Parts<Part> result;
+  for (std::size_t k = 0; k < result.size(); ++k)
+    result[k] = static_cast<Part>(f(x[k]));
+  return quadword<Part>(result);
 }
-template <class Part, class F> void ternary(State& s, const Instruction& i, F f) {
-  const auto a = parts<Part>(s.gpr[i.ra]); const auto b = parts<Part>(s.gpr[i.rb]); const auto c = parts<Part>(s.gpr[i.rc]);
-  Parts<Part> r;
-  for (std::size_t k = 0; k < r.size(); ++k) r[k] = static_cast<Part>(f(a[k], b[k], c[k]));
-  s.gpr[i.rt] = joined<Part>(r);
+
+template <class Part, class F> inline Quadword map(const Quadword& a, const Quadword& b, F f) {
+  const auto x = parts<Part>(a), y = parts<Part>(b);
+  Parts<Part> result;
+  for (std::size_t k = 0; k < result.size(); ++k)
+    result[k] = static_cast<Part>(f(x[k], y[k]));
+  return quadword<Part>(result);
 }
-inline Quadword preferred(std::uint32_t w) { Quadword q = Quadword::zero(); q.set<std::uint32_t>(0, w); return q; }
+
+template <class Part, class F>
+inline Quadword map(const Quadword& a, const Quadword& b, const Quadword& c, F f) {
+  const auto x = parts<Part>(a), y = parts<Part>(b), z = parts<Part>(c);
+  Parts<Part> result;
+  for (std::size_t k = 0; k < result.size(); ++k)
+    result[k] = static_cast<Part>(f(x[k], y[k], z[k]));
+  return quadword<Part>(result);
 }
+
+/// rt = f(ra), part by part.
+template <class Part, class F> inline void of_ra(State& state, const Instruction& i, F f) {
+  state.gpr[i.rt] = map<Part>(state.gpr[i.ra], f);
+}
+/// rt = f(ra, rb)
+template <class Part, class F> inline void of_ra_rb(State& state, const Instruction& i, F f) {
+  state.gpr[i.rt] = map<Part>(state.gpr[i.ra], state.gpr[i.rb], f);
+}
+/// rt = f(ra, rb, rt)
+template <class Part, class F> inline void of_ra_rb_rt(State& state, const Instruction& i, F f) {
+  state.gpr[i.rt] = map<Part>(state.gpr[i.ra], state.gpr[i.rb], state.gpr[i.rt], f);
+}
+/// rt = f(ra, rb, rc)
+template <class Part, class F> inline void of_ra_rb_rc(State& state, const Instruction& i, F f) {
+  state.gpr[i.rt] = map<Part>(state.gpr[i.ra], state.gpr[i.rb], state.gpr[i.rc], f);
+}
+/// rt = f(ra, immediate), the immediate cut to the size of a part
+template <class Part, class F> inline void of_ra_immediate(State& state, const Instruction& i, F f) {
+  const auto immediate = static_cast<Part>(i.immediate);
+  state.gpr[i.rt] = map<Part>(state.gpr[i.ra], [=](Part x) { return f(x, immediate); });
+}
+
+/// What compares give: ones or zeros.
+template <class Part> constexpr Part mask_of(bool condition) {
+  return static_cast<Part>(condition ? -1 : 0);
+}
+
+/// The word in the preferred slot, zeros in the others.
+inline Quadword preferred(std::uint32_t word) {
+  Quadword q = Quadword::zero();
+  q.set<std::uint32_t>(0, word);
+  return q;
+}
+
+} // namespace celltrace::isa

@@ -1,31 +1,222 @@
+// Execution: instructions on quadwords as a whole.
+#include "backends/cell_emu/isa/execute.hpp"
 #include "backends/cell_emu/isa/parts.hpp"
-namespace celltrace::isa {
-using u8=std::uint8_t; using u16=std::uint16_t; using u32=std::uint32_t; using u64=std::uint64_t; using u128=unsigned __int128;
-#define X(name) void execute_##name([[maybe_unused]] State& s, [[maybe_unused]] const Instruction& i)
-static u128 whole(const Quadword& q){ return u128{q.doubleword(0)}<<64 | q.doubleword(1); }
-static Quadword quad(u128 v){ Quadword q; q.set<u64>(0,u64(v>>64)); q.set<u64>(1,u64(v)); return q; }
-static u128 left(u128 v,u32 bits){ return bits>127?0:v<<bits; } static u128 right(u128 v,u32 bits){ return bits>127?0:v>>bits; }
-static u128 rotl(u128 v,u32 bits){ bits&=127; return bits==0?v:v<<bits|v>>(128-bits); }
-#define Q(name, e) X(name) { const u128 v=whole(s.gpr[i.ra]); const u32 n=s.gpr[i.rb].word(0), m=u32(i.immediate); (void)n;(void)m; s.gpr[i.rt]=quad(e); }
-Q(shlqbi,left(v,n&7)) Q(shlqbii,left(v,m&7)) Q(shlqby,left(v,8*(n&31))) Q(shlqbyi,left(v,8*(m&31))) Q(shlqbybi,left(v,8*(n>>3&31)))
-Q(rotqbi,rotl(v,n&7)) Q(rotqbii,rotl(v,m&7)) Q(rotqby,rotl(v,8*(n&15))) Q(rotqbyi,rotl(v,8*(m&15))) Q(rotqbybi,rotl(v,8*(n>>3&15)))
-Q(rotqmbi,right(v,(0u-n)&7)) Q(rotqmbii,right(v,(0u-m)&7)) Q(rotqmby,right(v,8*((0u-n)&31))) Q(rotqmbyi,right(v,8*((0u-m)&31))) Q(rotqmbybi,right(v,8*((0u-(n>>3))&31)))
-static Quadword control(u32 at,u32 bytes){ Quadword q; for(u32 k=0;k<16;++k) q.set<u8>(k,u8(0x10+k)); at&=16-bytes; for(u32 k=0;k<bytes;++k) q.set<u8>(at+k,u8(bytes<4?4-bytes+k:k)); return q; }
-#define C(name,n) X(name##d) { s.gpr[i.rt]=control(s.gpr[i.ra].word(0)+u32(i.immediate),n); } X(name##x) { s.gpr[i.rt]=control(s.gpr[i.ra].word(0)+s.gpr[i.rb].word(0),n); }
-C(cb,1) C(ch,2) C(cw,4) C(cd,8)
-X(shufb) {
-  u8 from[32]; const Quadword &a=s.gpr[i.ra],&b=s.gpr[i.rb],c=s.gpr[i.rc];
-  a.store(from); b.store(from+16); u8 sel[16]; c.store(sel); u8 out[16];
-  for(int k=0;k<16;++k){ const u8 x=sel[k]; out[k]= x<0x80?from[x&31]: x<0xc0?0: x<0xe0?0xff:0x80; }
-  s.gpr[i.rt]=Quadword::load(out);
+
+namespace celltrace::isa::execute {
+namespace {
+
+using U32 = std::uint32_t;
+using U64 = std::uint64_t;
+
+struct Wide {
+  U64 high, low;
+};
+Wide wide(const Quadword& q) {
+  return {q.doubleword(0), q.doubleword(1)};
 }
-X(gb) { u32 r=0; for(unsigned k=0;k<4;++k) r=r<<1|(s.gpr[i.ra].word(k)&1); s.gpr[i.rt]=preferred(r); }
-X(gbh) { u32 r=0; for(unsigned k=0;k<8;++k) r=r<<1|(s.gpr[i.ra].half(k)&1u); s.gpr[i.rt]=preferred(r); }
-X(gbb) { u32 r=0; for(unsigned k=0;k<16;++k) r=r<<1|(s.gpr[i.ra].byte(k)&1u); s.gpr[i.rt]=preferred(r); }
-X(fsm) { const u32 m=s.gpr[i.ra].word(0); Quadword q; for(unsigned k=0;k<4;++k) q.set<u32>(k,m>>(3-k)&1?~0u:0); s.gpr[i.rt]=q; }
-X(fsmh) { const u32 m=s.gpr[i.ra].word(0); Quadword q; for(unsigned k=0;k<8;++k) q.set<u16>(k,m>>(7-k)&1?0xffff:0); s.gpr[i.rt]=q; }
-static Quadword bytes_of(u32 m){ Quadword q; for(unsigned k=0;k<16;++k) q.set<u8>(k,m>>(15-k)&1?0xff:0); return q; }
-X(fsmb) { s.gpr[i.rt]=bytes_of(s.gpr[i.ra].word(0)); }
-X(fsmbi) { s.gpr[i.rt]=bytes_of(u32(i.immediate)); }
-X(orx) { const auto a=parts<u32>(s.gpr[i.ra]); s.gpr[i.rt]=preferred(a[0]|a[1]|a[2]|a[3]); }
+Quadword quadword(Wide x) {
+  Quadword q;
+  q.set<U64>(0, x.high);
+  q.set<U64>(1, x.low);
+  return q;
 }
+
+// Shifting by 1 and then by the rest keeps counts of 0 below the width.
+Wide rotate(Wide x, U32 bits) {
+  if ((bits & 64) != 0) x = {x.low, x.high};
+  const U32 n = bits & 63;
+  return {x.high << n | x.low >> 1 >> (63 - n), x.low << n | x.high >> 1 >> (63 - n)};
+}
+/// bits < 256; from 128 on nothing is left.
+Wide shift_left(Wide x, U32 bits) {
+  if ((bits & 64) != 0) x = {x.low, 0};
+  if ((bits & 128) != 0) x = {0, 0};
+  const U32 n = bits & 63;
+  return {x.high << n | x.low >> 1 >> (63 - n), x.low << n};
+}
+Wide shift_right(Wide x, U32 bits) {
+  if ((bits & 64) != 0) x = {0, x.high};
+  if ((bits & 128) != 0) x = {0, 0};
+  const U32 n = bits & 63;
+  return {x.high >> n, x.low >> n | x.high << 1 << (63 - n)};
+}
+
+/// Counts come from the preferred slot of rb or from the immediate.
+U32 count_rb(const State& state, const Instruction& i) {
+  return state.gpr[i.rb].word(0);
+}
+U32 count_immediate(const Instruction& i) {
+  return static_cast<U32>(i.immediate);
+}
+
+template <class F> void shift(State& state, const Instruction& i, F f, U32 bits) {
+  state.gpr[i.rt] = quadword(f(wide(state.gpr[i.ra]), bits));
+}
+constexpr U32 bits_of(U32 count) {
+  return count & 7;
+}
+constexpr U32 bytes_of(U32 count) {
+  return (count & 31) * 8;
+}
+
+/// The control of shufb that puts the preferred slot's part of `size` bytes at the address and keeps the
+/// rest.
+void generate_control(State& state, const Instruction& i, U32 address, unsigned size) {
+  Quadword control;
+  control.set<U64>(0, 0x1011121314151617);
+  control.set<U64>(1, 0x18191A1B1C1D1E1F);
+  // Of a doubleword the preferred slot starts at byte 0, of a smaller part it ends with byte 3.
+  const unsigned first = size == 8 ? 0 : 4 - size;
+  const unsigned place = address & 15 & ~(size - 1);
+  for (unsigned k = 0; k < size; ++k)
+    control.set<std::uint8_t>(place + k, static_cast<std::uint8_t>(first + k));
+  state.gpr[i.rt] = control;
+}
+U32 displaced(const State& state, const Instruction& i) {
+  return state.gpr[i.ra].word(0) + static_cast<U32>(i.immediate);
+}
+U32 indexed(const State& state, const Instruction& i) {
+  return state.gpr[i.ra].word(0) + state.gpr[i.rb].word(0);
+}
+
+/// Each bit of the low ones, the highest first, as a part of ones or zeros.
+template <class Part> Quadword form_mask(U32 bits) {
+  Parts<Part> mask;
+  constexpr unsigned count = sizeof mask / sizeof(Part);
+  for (unsigned k = 0; k < count; ++k) {
+    const unsigned bit = Quadword::kReversed ? k : count - 1 - k;
+    mask[k] = mask_of<Part>((bits >> bit & 1) != 0);
+  }
+  return isa::quadword<Part>(mask);
+}
+/// The lowest bits of all parts.
+template <class Part> Quadword gather(const Quadword& from) {
+  const auto x = parts<Part>(from);
+  U32 bits = 0;
+  for (unsigned k = 0; k < x.size(); ++k) {
+    const unsigned bit = Quadword::kReversed ? k : static_cast<unsigned>(x.size()) - 1 - k;
+    bits |= static_cast<U32>(x[k] & 1) << bit;
+  }
+  return preferred(bits);
+}
+
+} // namespace
+
+void shufb(State& state, const Instruction& i) {
+  // On a little-endian host byte k of ra followed by rb is the (31 - k)th of rb followed by ra.
+  std::uint8_t table[32];
+  std::memcpy(table + (Quadword::kReversed ? 16 : 0), state.gpr[i.ra].bytes, 16);
+  std::memcpy(table + (Quadword::kReversed ? 0 : 16), state.gpr[i.rb].bytes, 16);
+  constexpr unsigned flip = Quadword::kReversed ? 31 : 0;
+  const auto control = parts<std::uint8_t>(state.gpr[i.rc]);
+  Parts<std::uint8_t> chosen;
+  for (unsigned k = 0; k < 16; ++k)
+    chosen[k] = table[(control[k] & 31u) ^ flip];
+  for (unsigned k = 0; k < 16; ++k) {
+    const std::uint8_t c = control[k];
+    const auto constant = static_cast<std::uint8_t>(c < 0xC0 ? 0 : c < 0xE0 ? 0xFF : 0x80);
+    chosen[k] = c < 0x80 ? chosen[k] : constant;
+  }
+  state.gpr[i.rt] = isa::quadword<std::uint8_t>(chosen);
+}
+
+void cbd(State& state, const Instruction& i) {
+  generate_control(state, i, displaced(state, i), 1);
+}
+void chd(State& state, const Instruction& i) {
+  generate_control(state, i, displaced(state, i), 2);
+}
+void cwd(State& state, const Instruction& i) {
+  generate_control(state, i, displaced(state, i), 4);
+}
+void cdd(State& state, const Instruction& i) {
+  generate_control(state, i, displaced(state, i), 8);
+}
+void cbx(State& state, const Instruction& i) {
+  generate_control(state, i, indexed(state, i), 1);
+}
+void chx(State& state, const Instruction& i) {
+  generate_control(state, i, indexed(state, i), 2);
+}
+void cwx(State& state, const Instruction& i) {
+  generate_control(state, i, indexed(state, i), 4);
+}
+void cdx(State& state, const Instruction& i) {
+  generate_control(state, i, indexed(state, i), 8);
+}
+
+void shlqbi(State& state, const Instruction& i) {
+  shift(state, i, shift_left, bits_of(count_rb(state, i)));
+}
+void shlqby(State& state, const Instruction& i) {
+  shift(state, i, shift_left, bytes_of(count_rb(state, i)));
+}
+void shlqbybi(State& state, const Instruction& i) {
+  shift(state, i, shift_left, bytes_of(count_rb(state, i) >> 3));
+}
+void shlqbii(State& state, const Instruction& i) {
+  shift(state, i, shift_left, bits_of(count_immediate(i)));
+}
+void shlqbyi(State& state, const Instruction& i) {
+  shift(state, i, shift_left, bytes_of(count_immediate(i)));
+}
+void rotqbi(State& state, const Instruction& i) {
+  shift(state, i, rotate, bits_of(count_rb(state, i)));
+}
+void rotqby(State& state, const Instruction& i) {
+  shift(state, i, rotate, bytes_of(count_rb(state, i)));
+}
+void rotqbybi(State& state, const Instruction& i) {
+  shift(state, i, rotate, bytes_of(count_rb(state, i) >> 3));
+}
+void rotqbii(State& state, const Instruction& i) {
+  shift(state, i, rotate, bits_of(count_immediate(i)));
+}
+void rotqbyi(State& state, const Instruction& i) {
+  shift(state, i, rotate, bytes_of(count_immediate(i)));
+}
+// "Rotate and mask" shifts right by the negative count.
+void rotqmbi(State& state, const Instruction& i) {
+  shift(state, i, shift_right, bits_of(0 - count_rb(state, i)));
+}
+void rotqmby(State& state, const Instruction& i) {
+  shift(state, i, shift_right, bytes_of(0 - count_rb(state, i)));
+}
+void rotqmbybi(State& state, const Instruction& i) {
+  shift(state, i, shift_right, bytes_of(0 - (count_rb(state, i) >> 3)));
+}
+void rotqmbii(State& state, const Instruction& i) {
+  shift(state, i, shift_right, bits_of(0 - count_immediate(i)));
+}
+void rotqmbyi(State& state, const Instruction& i) {
+  shift(state, i, shift_right, bytes_of(0 - count_immediate(i)));
+}
+
+void fsmbi(State& state, const Instruction& i) {
+  state.gpr[i.rt] = form_mask<std::uint8_t>(count_immediate(i));
+}
+void fsmb(State& state, const Instruction& i) {
+  state.gpr[i.rt] = form_mask<std::uint8_t>(state.gpr[i.ra].word(0));
+}
+void fsmh(State& state, const Instruction& i) {
+  state.gpr[i.rt] = form_mask<std::uint16_t>(state.gpr[i.ra].word(0));
+}
+void fsm(State& state, const Instruction& i) {
+  state.gpr[i.rt] = form_mask<U32>(state.gpr[i.ra].word(0));
+}
+void gbb(State& state, const Instruction& i) {
+  state.gpr[i.rt] = gather<std::uint8_t>(state.gpr[i.ra]);
+}
+void gbh(State& state, const Instruction& i) {
+  state.gpr[i.rt] = gather<std::uint16_t>(state.gpr[i.ra]);
+}
+void gb(State& state, const Instruction& i) {
+  state.gpr[i.rt] = gather<U32>(state.gpr[i.ra]);
+}
+
+void orx(State& state, const Instruction& i) {
+  const auto x = parts<U32>(state.gpr[i.ra]);
+  state.gpr[i.rt] = preferred(x[0] | x[1] | x[2] | x[3]);
+}
+
+} // namespace celltrace::isa::execute

@@ -22,8 +22,8 @@ const char* keep(std::string text) {
 /// A C++ function without its parameters and template arguments, which would fill a page.
 std::string short_name(const char* symbol) {
   int status = 0;
-  const std::unique_ptr<char, void (*)(void*)> demangled(abi::__cxa_demangle(symbol, nullptr, nullptr, &status),
-                                                         std::free);
+  const std::unique_ptr<char, void (*)(void*)> demangled(
+      abi::__cxa_demangle(symbol, nullptr, nullptr, &status), std::free);
   if (status != 0) return symbol;
   std::string name;
   int depth = 0;
@@ -42,7 +42,8 @@ std::string short_name(const char* symbol) {
 
 SimulatedProgram::SimulatedProgram(std::span<const std::uint8_t> image, Convention convention)
     : elf_(image), places_(elf_), convention_(convention),
-      has_abi_stack_(places_.symbols().value_of("_start").has_value() && places_.symbols().value_of("_end").has_value()) {
+      has_abi_stack_(places_.symbols().value_of("_start").has_value() &&
+                     places_.symbols().value_of("_end").has_value()) {
 }
 
 CallSite SimulatedProgram::site(std::uint32_t address) const {

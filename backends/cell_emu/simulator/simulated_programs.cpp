@@ -20,6 +20,9 @@ constexpr std::size_t kMaxSpes = 256;
 /// As the main thread of a process that asked for an SPE would have it: any value but 0.
 constexpr std::uint64_t kFirstSpeId = 0x10000000;
 
+/// When virtual time starts, for programs that ask: a day in 2007.
+constexpr std::chrono::seconds kFirstSecond{1167609600};
+
 } // namespace
 
 struct alignas(kLineBytes) SimulatedPrograms::Block {
@@ -28,7 +31,7 @@ struct alignas(kLineBytes) SimulatedPrograms::Block {
 };
 
 SimulatedPrograms::SimulatedPrograms(const MachineConfig& config, const AddressMap& map)
-    : blocks_(std::make_unique<Block[]>(map.spes())), spes_(map.spes()), calls_(config.simulation) {
+    : blocks_(std::make_unique<Block[]>(map.spes())), spes_(map.spes()), calls_(calls_config(config, map)) {
   for (unsigned spe = 0; spe < spes_; ++spe)
     for (unsigned other = 0; other < spes_; ++other) {
       blocks_[spe].addresses[other] = map.addresses(other);
@@ -37,6 +40,29 @@ SimulatedPrograms::SimulatedPrograms(const MachineConfig& config, const AddressM
 }
 
 SimulatedPrograms::~SimulatedPrograms() = default;
+
+PpeCallsConfig SimulatedPrograms::calls_config(const MachineConfig& config, const AddressMap& map) {
+  PpeCallsConfig calls;
+  calls.standard_output = config.simulation.output;
+  calls.standard_error = config.simulation.error_output;
+  calls.standard_input = config.simulation.input;
+  calls.folders = config.simulation.allowed_folders;
+  calls.effective_memory = [&map](std::uint64_t ea, std::uint64_t bytes) -> std::uint8_t* {
+    if (bytes > kLocalStoreBytes) return nullptr;
+    const AddressMap::Place place = map.locate(ea, static_cast<std::uint32_t>(bytes));
+    return place.kind == EaKind::local_store ? reinterpret_cast<std::uint8_t*>(ea) : nullptr;
+  };
+  calls.clock = [this, hertz = config.emulation.timing.clock_hz] {
+    const double seconds = static_cast<double>(time_of_call_.load()) / hertz;
+    return kFirstSecond + std::chrono::microseconds(static_cast<std::int64_t>(seconds * 1e6));
+  };
+  return calls;
+}
+
+bool SimulatedPrograms::call(unsigned code, std::uint8_t* local_store, std::uint32_t npc, Cycle now) {
+  time_of_call_ = now;
+  return calls_.handle(code, local_store, npc);
+}
 
 std::shared_ptr<const SimulatedProgram> SimulatedPrograms::find(const SpeProgram& program) {
   std::span<const std::uint8_t> image = program.image(SimulatedSpu::kKey);

@@ -8,13 +8,14 @@
 #include "backends/cell_emu/simulator/simulated_spu.hpp"
 #include "celltrace/spe/machine.hpp"
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
 namespace celltrace::cell_emu {
 
-/// Thread safety: calls() from any thread, all else from the PPE's.
+/// Thread safety: call() from any thread, all else from the PPE's.
 class SimulatedPrograms {
 public:
   SimulatedPrograms(const MachineConfig& config, const AddressMap& map);
@@ -25,15 +26,19 @@ public:
   std::shared_ptr<const SimulatedProgram> find(const SpeProgram& program);
   /// What the program finds in its registers when SPE `spe` starts it.
   SimulatedSpu::Arguments arguments(const SimulatedProgram& program, unsigned spe, ea_t argument);
-  PpeCalls& calls() { return calls_; }
+  /// As PpeCalls::handle(), at virtual time `now`. From any thread.
+  bool call(unsigned code, std::uint8_t* local_store, std::uint32_t npc, Cycle now);
 
 private:
+  PpeCallsConfig calls_config(const MachineConfig& config, const AddressMap& map);
+
   /// Of one SPE, as its kernel reads it: big-endian.
   struct Block;
 
   std::vector<std::shared_ptr<const SimulatedProgram>> programs_;
   std::unique_ptr<Block[]> blocks_;
   unsigned spes_;
+  std::atomic<Cycle> time_of_call_{0};
   PpeCalls calls_;
 };
 

@@ -26,8 +26,8 @@ constexpr std::uint32_t kFirstPpeCall = 0x2100, kLastPpeCall = 0x21FF;
 } // namespace
 
 SimulatedSpu::SimulatedSpu(Spe& spe, const SpuContext& context, const SimulatedProgram& program,
-                           PpeCalls& calls, SpuProfile* profile)
-    : SpuCore(spe, context), program_(program), calls_(calls), profile_(profile),
+                           CallPpe call_ppe, SpuProfile* profile)
+    : SpuCore(spe, context), program_(program), call_ppe_(std::move(call_ppe)), profile_(profile),
       decoded_(kLocalStoreBytes / 4, isa::decode(0)), watch_(kLocalStoreBytes / 16),
       model_(context.mfc.config.timing) {
   state_of_spu_.local_store = context.mfc.bus.map().local_store(id());
@@ -96,6 +96,8 @@ template <bool profiled> void SimulatedSpu::run_slice() {
     model_.issue(instruction, pc);
     const std::uint32_t following = (pc + 4) & isa::kLocalStoreLimit;
     state.next = following;
+    if (early_loads_.any()) [[unlikely]]
+      look_for_early_use(instruction);
     instruction.execute(state, instruction);
     if (unit == isa::Unit::br)
       model_.branched(pc, state.next, state.next != following);
@@ -144,20 +146,23 @@ void SimulatedSpu::take_interrupt() {
 }
 
 void SimulatedSpu::hint(const isa::Instruction& instruction, std::uint32_t pc) {
-  const std::uint32_t word = instruction.word;
-  // The offset of the branch is cut in two by the instruction's other fields: its high bits lie at another
-  // place in hbr.
-  const bool by_register = (word >> 21) == 0x1AC;
-  const std::uint32_t high = by_register ? word >> 14 & 3 : word >> 23 & 3;
-  if (by_register && (word >> 20 & 1) != 0) return; // hbrp: only makes room for fetching
-  const std::int32_t words = static_cast<std::int32_t>((high << 7 | (word & 0x7F)) << 23) >> 23;
-  const std::uint32_t branch = (pc + static_cast<std::uint32_t>(words * 4)) & isa::kLocalStoreLimit;
-  const std::uint32_t immediate = static_cast<std::uint32_t>(static_cast<std::int16_t>(word >> 7)) * 4;
-  const bool relative = (word >> 25) == 0x09;
-  const std::uint32_t target = by_register ? state_of_spu_.gpr[word >> 7 & 0x7F].word(0)
-                               : relative  ? pc + immediate
-                                           : immediate;
-  model_.hint(branch, target & (isa::kLocalStoreLimit & ~3u));
+  std::uint32_t target = static_cast<std::uint32_t>(instruction.immediate);
+  if (instruction.opcode == isa::Opcode::hbr) {
+    if ((instruction.word >> 20 & 1) != 0) return; // hbrp only makes room for fetching
+    target = state_of_spu_.gpr[instruction.ra].word(0);
+  } else if (instruction.opcode == isa::Opcode::hbrr) {
+    target += pc;
+  }
+  model_.hint(isa::hinted_branch(instruction, pc), target & (isa::kLocalStoreLimit & ~3u));
+}
+
+void SimulatedSpu::look_for_early_use(const isa::Instruction& instruction) {
+  const EarlyLoads::Load* const used = early_loads_.use(state_of_spu_, instruction);
+  if (used == nullptr) return;
+  settle();
+  const EarlyLoads::Load load = *used;
+  early_loads_.forget(); // said once
+  mfc_.report_early_load(load.flight, load.lsa, load.site, site_of(state_of_spu_.pc), now());
 }
 
 // --- the clock ---
@@ -217,7 +222,7 @@ void SimulatedSpu::stop(std::uint32_t code) {
 void SimulatedSpu::call_ppe(std::uint32_t code) {
   reach();
   const std::uint32_t word = state_of_spu_.next & ~3u;
-  if (!calls_.handle(code, state_of_spu_.local_store, word)) return stop_with(code);
+  if (!call_ppe_(code, state_of_spu_.local_store, word, now())) return stop_with(code);
   waited(now() + context_.mfc.config.timing.ppe_call, "call of the PPE");
   state_of_spu_.next = (word + 4) & isa::kLocalStoreLimit;
 }
@@ -250,8 +255,10 @@ void SimulatedSpu::enable_interrupts(bool enabled) {
 // --- local store ---
 
 void SimulatedSpu::watched_load(std::uint32_t lsa) {
-  settle();
-  mfc_.check_load(lsa, site_of(state_of_spu_.pc), now());
+  const auto flight = mfc_.get_in_flight(lsa);
+  if (!flight) return;
+  const std::uint32_t pc = state_of_spu_.pc;
+  early_loads_.loaded(decoded_[pc / 4].target, {lsa, site_of(pc), *flight});
 }
 
 void SimulatedSpu::watched_store(std::uint32_t lsa, const isa::Quadword& value) {

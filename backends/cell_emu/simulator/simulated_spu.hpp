@@ -3,13 +3,14 @@
 #pragma once
 
 #include "backends/cell_emu/isa/instruction.hpp"
+#include "backends/cell_emu/simulator/early_loads.hpp"
 #include "backends/cell_emu/simulator/issue_model.hpp"
-#include "backends/cell_emu/simulator/ppe_calls.hpp"
 #include "backends/cell_emu/simulator/simulated_program.hpp"
 #include "backends/cell_emu/spu_core.hpp"
 #include "celltrace/spe/simulation.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <unordered_map>
 #include <vector>
 
@@ -27,8 +28,11 @@ public:
     std::uint64_t spe_id, argp, envp;
   };
 
+  /// Answers a call for help; see PpeCalls::handle(). False: it is none.
+  using CallPpe = std::function<bool(unsigned code, std::uint8_t* local_store, std::uint32_t npc, Cycle now)>;
+
   /// The program must have been loaded. `profile` may be null.
-  SimulatedSpu(Spe& spe, const SpuContext& context, const SimulatedProgram& program, PpeCalls& calls,
+  SimulatedSpu(Spe& spe, const SpuContext& context, const SimulatedProgram& program, CallPpe call_ppe,
                SpuProfile* profile);
   ~SimulatedSpu() override { mfc_.watch_flights(nullptr); }
 
@@ -59,6 +63,7 @@ private:
   void attend();
   void take_interrupt();
   void hint(const isa::Instruction& instruction, std::uint32_t pc);
+  void look_for_early_use(const isa::Instruction& instruction);
   void check_stack();
   void call_ppe(std::uint32_t code);
 
@@ -71,11 +76,12 @@ private:
   [[noreturn]] void fail_at(std::uint32_t pc, Rule rule, const std::string& what);
 
   const SimulatedProgram& program_;
-  PpeCalls& calls_;
+  const CallPpe call_ppe_;
   SpuProfile* const profile_;
   isa::State state_of_spu_;
   std::vector<isa::Instruction> decoded_; ///< by word of local store
   std::vector<std::uint8_t> watch_;       ///< by quadword of local store
+  EarlyLoads early_loads_;
   IssueModel model_;
   std::uint32_t left_in_slice_ = 0; ///< instructions until attend()
   std::uint64_t dma_bytes_seen_ = 0;

@@ -52,6 +52,7 @@ enum class Rule : unsigned char {
   put_source_changed,
   list_changed,
   in_flight_at_exit,
+  drained_queue,
 
   // tag groups and statuses
   tag_reused,
@@ -83,6 +84,7 @@ enum class Rule : unsigned char {
   stalls_for_ever,
   phantom_event,
   deadlock,
+  time_limit,
   halted,
   kernel_exception,
 };
@@ -98,6 +100,9 @@ std::string_view text_of(Rule rule);
 enum class Action : unsigned char { ignore, warn, stop };
 /// What happens if the machine's configuration says nothing else.
 Action default_action(Rule rule);
+/// For programs that were written for the hardware and rely on what it does beyond the manuals: the rules
+/// that it has no objection to, all of which are Action::ignore. For EmulationConfig::actions.
+std::map<Rule, Action> lenient_actions();
 
 /// One broken rule. The address fields are those of the command, where there is one.
 struct Diagnostic {

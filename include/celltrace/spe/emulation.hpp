@@ -30,9 +30,10 @@ enum class TransferTime : unsigned char {
 
 /// What the architecture allows to be slow, drawn at random from the seed. All zero: nothing is.
 struct Faults {
-  /// Every SPE's work takes 1 to this many times as long; at least 1.
+  /// Every SPE's work takes 1 to this many times as long; 1 to 1000.
   double slowest_spe = 1;
-  /// At a channel access, with this probability, an SPE stands still for up to `longest_pause` cycles.
+  /// At a channel access, with this probability (0 to 1), an SPE stands still for up to `longest_pause`
+  /// cycles.
   double pause_probability = 0;
   std::uint32_t longest_pause = 0;
   /// A DMA command takes up to this many cycles longer; so do the signals and mailbox words that SPEs send.
@@ -44,6 +45,8 @@ struct Faults {
   static constexpr Faults mixed() { return {4.0, 0.002, 20000, 5000, 5000}; }
 };
 
+/// How to run a machine. make_machine() throws InputError for values out of the ranges that are stated here
+/// and in timing.hpp, for what is no number, and for enumerators that do not exist.
 struct EmulationConfig {
   Schedule schedule = Schedule::free;
   /// Everything that is drawn at random derives from it.
@@ -55,6 +58,10 @@ struct EmulationConfig {
   TimingParameters timing;
   /// Where default_action() does not suit.
   std::map<Rule, Action> actions;
+  /// A program that runs for so many virtual cycles, waits included, breaks Rule::time_limit; 0: none.
+  std::uint64_t cycle_limit = 0;
+  /// The same for seconds of the host, 0 to 1e9. They pass for all programs at once, also while others run.
+  double seconds_limit = 0;
   /// Lockstep: where the trace goes, as Chrome trace JSON; it must outlive the machine. Null: nowhere.
   std::ostream* trace = nullptr;
   /// Takes what the kernels record; it must outlive the machine. Null: nothing is recorded.

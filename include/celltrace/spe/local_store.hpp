@@ -18,6 +18,8 @@ namespace celltrace {
 /// the SPE's program first uses it, and gone when the program ends. On a PC, SpeError where no SPE program
 /// runs.
 template <class T, unsigned alignment = 128> class LocalStore {
+  static_assert(alignment >= 16 && (alignment & (alignment - 1)) == 0, "a power of two, at least 16");
+
 public:
 #ifdef __SPU__
   T& operator*() {

@@ -19,7 +19,7 @@
 //   [[noreturn]] void halt(HaltCode)         stops this SPE with an error that Machine::wait() reports
 //   ArenaState& arena()                      the part of local store that is free for the kernel
 //
-// A backend that measures or checks also hides the members of SpuBase that do nothing: compute(), note(), record(), at(), halt_exhausted().
+// A backend that measures or checks also hides the members of SpuBase that do nothing: compute(), note(), record(), at(), halt_at().
 // clang-format on
 //
 // Threads: a Spu belongs to the thread that runs its kernel; no operation may be called from another one.
@@ -65,14 +65,16 @@ public:
   // --- local store ---
 
   /// `count` value-initialised objects in local store, aligned to `alignment` (a power of two, at least 16).
-  /// Halts the SPE with local_store_exhausted if they do not fit. There is no free; see mark() and release().
+  /// Halts the SPE with local_store_exhausted if they do not fit, with bad_argument for another alignment.
+  /// There is no free; see mark() and release().
   template <class T>
   T* allocate(uint32_t count = 1, uint32_t alignment = kLineBytes, CallSite site = CallSite::here()) {
+    if (alignment < 16 || (alignment & (alignment - 1)) != 0) self().halt_at(HaltCode::bad_argument, site);
     ArenaState& arena = self().arena();
     const uintptr_t mask = static_cast<uintptr_t>(alignment) - 1;
     uint8_t* start = arena.next + ((~reinterpret_cast<uintptr_t>(arena.next) + 1) & mask);
     const uint32_t available = start < arena.end ? static_cast<uint32_t>(arena.end - start) : 0;
-    if (count > available / sizeof(T)) self().halt_exhausted(site);
+    if (count > available / sizeof(T)) self().halt_at(HaltCode::local_store_exhausted, site);
     arena.next = start + count * sizeof(T);
     T* objects = reinterpret_cast<T*>(start);
     for (uint32_t i = 0; i < count; ++i)
@@ -283,8 +285,8 @@ public:
   void record(const void*, uint32_t) {}
   /// Where in the kernel the operation that follows stands.
   void at(CallSite) {}
-  /// The arena has no room for what allocate() was asked for at this place.
-  [[noreturn]] void halt_exhausted(CallSite) { self().halt(HaltCode::local_store_exhausted); }
+  /// halt() for what was asked for at this place.
+  [[noreturn]] void halt_at(HaltCode code, CallSite) { self().halt(code); }
 
   /// The tag of send_signal() and send_mailbox().
   static constexpr uint32_t kRuntimeTag = 31;
@@ -318,8 +320,8 @@ private:
   void list_command(const void* ls, ea_t ea, const ListElement* list, uint32_t elements, uint32_t tag,
                     CallSite site) {
     self().at(site);
-    self().template mfc_list_command<op>(const_cast<void*>(ls), ea, list,
-                                         elements * static_cast<uint32_t>(sizeof(ListElement)), tag);
+    self().template mfc_list_command<op>(const_cast<void*>(ls), ea, list, ListElement::list_bytes(elements),
+                                         tag);
   }
   template <MfcOpcode op> uint32_t atomic_command(const void* ls, ea_t ea, CallSite site) {
     command<op>(ls, ea, kLineBytes, 0, site);

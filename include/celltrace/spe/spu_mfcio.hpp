@@ -21,6 +21,7 @@
 #include "celltrace/spe/spu_intrinsics.hpp"
 #include "celltrace/spe/spu_mfcio_constants.hpp"
 
+#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -81,10 +82,13 @@ void command(const volatile void* ls, EffectiveAddress ea, uint32_t size, uint32
   spu_at(site).mfc_command<op>(local_pointer(ls), ea.value, size, tag);
 }
 template <MfcOpcode op>
-void list_command(const volatile void* ls, EffectiveAddress ea, const volatile void* list, uint32_t bytes,
+void list_command(const volatile void* ls, EffectiveAddress ea, const volatile void* list, std::size_t bytes,
                   uint32_t tag, CallSite site) {
+  // A product with the size of an element has 64 bits on a PC.
+  const auto length =
+      static_cast<uint32_t>(std::min<std::size_t>(bytes, ListElement::list_bytes(~uint64_t{0})));
   spu_at(site).mfc_list_command<op>(local_pointer(ls), ea.value,
-                                    static_cast<const ListElement*>(local_pointer(list)), bytes, tag);
+                                    static_cast<const ListElement*>(local_pointer(list)), length, tag);
 }
 
 } // namespace celltrace::sdk
@@ -127,32 +131,32 @@ inline void mfc_getb(const volatile void* ls, celltrace::sdk::EffectiveAddress e
 // Lists: `bytes` is the size of the list, 8 for every element; of `ea` only the high half counts.
 
 inline void mfc_putl(const volatile void* ls, celltrace::sdk::EffectiveAddress ea, const volatile void* list,
-                     unsigned int bytes, unsigned int tag, unsigned int, unsigned int,
+                     std::size_t bytes, unsigned int tag, unsigned int, unsigned int,
                      celltrace::CallSite site = celltrace::CallSite::here()) {
   celltrace::sdk::list_command<celltrace::MfcOpcode::putl>(ls, ea, list, bytes, tag, site);
 }
 inline void mfc_putlf(const volatile void* ls, celltrace::sdk::EffectiveAddress ea, const volatile void* list,
-                      unsigned int bytes, unsigned int tag, unsigned int, unsigned int,
+                      std::size_t bytes, unsigned int tag, unsigned int, unsigned int,
                       celltrace::CallSite site = celltrace::CallSite::here()) {
   celltrace::sdk::list_command<celltrace::MfcOpcode::putlf>(ls, ea, list, bytes, tag, site);
 }
 inline void mfc_putlb(const volatile void* ls, celltrace::sdk::EffectiveAddress ea, const volatile void* list,
-                      unsigned int bytes, unsigned int tag, unsigned int, unsigned int,
+                      std::size_t bytes, unsigned int tag, unsigned int, unsigned int,
                       celltrace::CallSite site = celltrace::CallSite::here()) {
   celltrace::sdk::list_command<celltrace::MfcOpcode::putlb>(ls, ea, list, bytes, tag, site);
 }
 inline void mfc_getl(const volatile void* ls, celltrace::sdk::EffectiveAddress ea, const volatile void* list,
-                     unsigned int bytes, unsigned int tag, unsigned int, unsigned int,
+                     std::size_t bytes, unsigned int tag, unsigned int, unsigned int,
                      celltrace::CallSite site = celltrace::CallSite::here()) {
   celltrace::sdk::list_command<celltrace::MfcOpcode::getl>(ls, ea, list, bytes, tag, site);
 }
 inline void mfc_getlf(const volatile void* ls, celltrace::sdk::EffectiveAddress ea, const volatile void* list,
-                      unsigned int bytes, unsigned int tag, unsigned int, unsigned int,
+                      std::size_t bytes, unsigned int tag, unsigned int, unsigned int,
                       celltrace::CallSite site = celltrace::CallSite::here()) {
   celltrace::sdk::list_command<celltrace::MfcOpcode::getlf>(ls, ea, list, bytes, tag, site);
 }
 inline void mfc_getlb(const volatile void* ls, celltrace::sdk::EffectiveAddress ea, const volatile void* list,
-                      unsigned int bytes, unsigned int tag, unsigned int, unsigned int,
+                      std::size_t bytes, unsigned int tag, unsigned int, unsigned int,
                       celltrace::CallSite site = celltrace::CallSite::here()) {
   celltrace::sdk::list_command<celltrace::MfcOpcode::getlb>(ls, ea, list, bytes, tag, site);
 }

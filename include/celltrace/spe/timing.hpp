@@ -17,9 +17,9 @@
 namespace celltrace {
 
 struct TimingParameters {
-  double clock_hz = 3.2e9;
-  std::uint32_t cycles_per_tick = 40; ///< of the decrementer: 80 MHz
-  unsigned spes = 8;                  ///< of a machine that is not told otherwise
+  double clock_hz = 3.2e9;            ///< 1000 to 1e12
+  std::uint32_t cycles_per_tick = 40; ///< of the decrementer: 80 MHz; at least 1
+  unsigned spes = 8;                  ///< of a machine that is not told otherwise; 1 to 256
 
   // --- channels ---
   std::uint32_t channel_write = 1;
@@ -58,7 +58,7 @@ struct TimingParameters {
   std::uint32_t fetch_miss = 9;    ///< the next 32 instructions were not fetched in time
   std::uint32_t ppe_call = 20000;  ///< a call for help from the PPE: two system calls and a switch of context
 
-  // --- counted operations: `cell_emu` ---
+  // --- counted operations: `cell_emu`; 0 to 1 each ---
   /// Part of the latency beyond the issue of an operation's own four quadwords that the code cannot fill.
   double exposed_latency = 0.3;
   /// Part of the taken branches that no hint foresees.

@@ -89,6 +89,10 @@ enum class Channel : uint32_t {
   wr_out_mbox = 28,
   rd_in_mbox = 29,
   wr_out_intr_mbox = 30,
+  // For tools that measure: marks in a trace, and the start and end of counting.
+  set_bookmark_tag = 69,
+  pm_start_event = 70,
+  pm_stop_event = 71,
 };
 
 /// What a write to channel 23 (tag status update) asks for.
@@ -132,6 +136,11 @@ struct ListElement {
   static constexpr uint32_t kNotify = 0x80000000u;
   static constexpr ListElement make(uint32_t size, ea_t ea, bool notify = false) {
     return {size | (notify ? kNotify : 0u), static_cast<uint32_t>(ea)};
+  }
+  /// The bytes of a list of `elements`. What 32 bits do not hold becomes a length that no MFC takes.
+  static constexpr uint32_t list_bytes(uint64_t elements) {
+    constexpr uint64_t most = 0xFFFFFFFFu / 8;
+    return static_cast<uint32_t>(elements < most ? elements : most) * 8;
   }
 };
 static_assert(sizeof(ListElement) == 8, "a list element is 8 bytes");

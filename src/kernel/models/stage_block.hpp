@@ -1,4 +1,5 @@
-// What an SPE of a pipeline is told by the PPE, and what it reports. Kernel dialect.
+// What an SPE of a pipeline is told by the PPE, and what it reports. The records' fields are listed in
+// render/models/stage_fields.hpp. Kernel dialect.
 #pragma once
 
 #include "kernel/packet.hpp"

@@ -1,0 +1,14 @@
+// Which values a machine's configuration may have.
+#pragma once
+
+#include "celltrace/spe/emulation.hpp"
+
+namespace celltrace::cell_emu {
+
+constexpr unsigned kMaxSpes = 256;
+
+/// Throws InputError, which names the member, for a value out of the range that emulation.hpp and timing.hpp
+/// state.
+void check_emulation(const EmulationConfig& config);
+
+} // namespace celltrace::cell_emu

@@ -1,0 +1,48 @@
+// Execution: channels, special registers, the floating-point status, and what only orders others.
+#include "backends/cell_emu/isa/execute.hpp"
+#include "backends/cell_emu/isa/parts.hpp"
+
+namespace celltrace::isa::execute {
+
+void rdch(State& state, const Instruction& i) {
+  state.gpr[i.rt] = preferred(state.environment->read_channel(i.ra));
+}
+void rchcnt(State& state, const Instruction& i) {
+  state.gpr[i.rt] = preferred(state.environment->channel_count(i.ra));
+}
+void wrch(State& state, const Instruction& i) {
+  state.environment->write_channel(i.ra, state.gpr[i.rt].word(0));
+}
+
+// No special-purpose register is defined; those that are not read as zero.
+void mfspr(State& state, const Instruction& i) {
+  state.gpr[i.rt] = Quadword::zero();
+}
+void mtspr(State&, const Instruction&) {
+}
+
+void fscrrd(State& state, const Instruction& i) {
+  state.gpr[i.rt] = state.fpscr;
+}
+void fscrwr(State& state, const Instruction& i) {
+  // The bits that mean nothing stay zero: see floating_status.hpp.
+  Quadword defined;
+  defined.set<std::uint32_t>(0, 0x00000F07);
+  defined.set<std::uint32_t>(1, 0x00003F07);
+  defined.set<std::uint32_t>(2, 0x00003F07);
+  defined.set<std::uint32_t>(3, 0x00000F07);
+  state.fpscr =
+      map<std::uint32_t>(state.gpr[i.ra], defined, [](std::uint32_t x, std::uint32_t y) { return x & y; });
+}
+
+// Instructions are executed one by one and stores are seen at once, so that there is nothing to wait for.
+void nop(State&, const Instruction&) {
+}
+void lnop(State&, const Instruction&) {
+}
+void sync(State&, const Instruction&) {
+}
+void dsync(State&, const Instruction&) {
+}
+
+} // namespace celltrace::isa::execute

@@ -1,0 +1,15 @@
+// What instructions do: a function each, named as its Opcode.
+#pragma once
+
+#include "backends/cell_emu/isa/instruction.hpp"
+
+namespace celltrace::isa::execute {
+
+#define SPU_OPCODE(name, mnemonic, format, code, unit, syntax, operands)                                     \
+  void name(State& state, const Instruction& i);
+#include "backends/cell_emu/isa/opcodes.def"
+#undef SPU_OPCODE
+
+void invalid(State& state, const Instruction& i);
+
+} // namespace celltrace::isa::execute

@@ -1,0 +1,142 @@
+// The files that the programs of one machine have open: descriptors, as POSIX knows them, and the streams of
+// the C library above them.
+#pragma once
+
+#include "backends/cell_emu/simulator/ppe/allowed_folders.hpp"
+#include "backends/cell_emu/simulator/ppe/scanf_format.hpp"
+#include "backends/cell_emu/simulator/ppe/spu_errno.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace celltrace::cell_emu {
+
+/// What descriptors refer to. All functions throw CallFailed.
+class OpenFile {
+public:
+  enum class From { start, here, end };
+
+  virtual ~OpenFile() = default;
+  /// Returns how many bytes there were, 0 at the end.
+  virtual std::size_t read(std::span<std::uint8_t>) { throw CallFailed{SpuErrno::bad_file}; }
+  virtual void write(std::string_view) { throw CallFailed{SpuErrno::bad_file}; }
+  /// Returns the new position.
+  virtual std::int64_t seek(std::int64_t, From) { throw CallFailed{SpuErrno::illegal_seek}; }
+  /// The host's descriptor, or -1 for what is no file of the host.
+  virtual int host_descriptor() const { return -1; }
+};
+
+/// Text that is there from the start.
+class InputText final : public OpenFile {
+public:
+  explicit InputText(std::string text) : text_(std::move(text)) {}
+  std::size_t read(std::span<std::uint8_t> to) override;
+
+private:
+  std::string text_;
+  std::size_t at_ = 0;
+};
+
+/// Text that somebody takes at once, or that is dropped.
+class OutputText final : public OpenFile {
+public:
+  explicit OutputText(std::function<void(std::string_view)> take) : take_(std::move(take)) {}
+  void write(std::string_view text) override;
+
+private:
+  std::function<void(std::string_view)> take_;
+};
+
+/// A file of the host.
+class HostFile final : public OpenFile {
+public:
+  /// @param path for fchdir()
+  HostFile(HostDescriptor file, std::string path) : file_(std::move(file)), path_(std::move(path)) {}
+  std::size_t read(std::span<std::uint8_t> to) override;
+  void write(std::string_view bytes) override;
+  std::int64_t seek(std::int64_t offset, From from) override;
+  int host_descriptor() const override { return file_.get(); }
+  const std::string& path() const { return path_; }
+
+private:
+  HostDescriptor file_;
+  std::string path_;
+};
+
+/// Descriptors from 0: standard input, output and error, then the lowest free ones. Thread safety: none.
+class OpenFiles {
+public:
+  explicit OpenFiles(std::size_t most) : files_(most) {}
+
+  /// Throws EBADF.
+  const std::shared_ptr<OpenFile>& at(std::int32_t descriptor) const;
+  /// Throws EMFILE.
+  std::int32_t add(std::shared_ptr<OpenFile> file);
+  /// In place of what it refers to. Throws EBADF for a number that cannot be.
+  void set(std::int32_t descriptor, std::shared_ptr<OpenFile> file);
+  /// Throws EBADF.
+  void close(std::int32_t descriptor);
+
+private:
+  bool possible(std::int32_t descriptor) const {
+    return descriptor >= 0 && static_cast<std::size_t>(descriptor) < files_.size();
+  }
+
+  std::vector<std::shared_ptr<OpenFile>> files_;
+};
+
+/// A FILE. It has no buffer, so that descriptors and streams may be mixed.
+class Stream final : public CharacterSource {
+public:
+  Stream(OpenFiles& files, std::int32_t descriptor, bool reads, bool writes)
+      : files_(files), descriptor_(descriptor), reads_(reads), writes_(writes) {}
+
+  std::int32_t descriptor() const { return descriptor_; }
+  bool at_end() const { return at_end_; }
+  bool has_error() const { return has_error_; }
+  void clear_errors() { at_end_ = has_error_ = false; }
+
+  int get() override;
+  void unget(int character) override { pushed_back_ += static_cast<char>(character); }
+  /// ungetc(). Throws CallFailed if too much is pushed back.
+  void push_back(int character);
+
+  std::size_t read(std::span<std::uint8_t> to);
+  void write(std::string_view text);
+  void seek(std::int64_t offset, OpenFile::From from);
+  std::int64_t tell();
+
+private:
+  OpenFile& file() { return *files_.at(descriptor_); }
+
+  OpenFiles& files_;
+  std::int32_t descriptor_;
+  bool reads_, writes_;
+  bool at_end_ = false, has_error_ = false;
+  std::string pushed_back_; // the last one is read first
+};
+
+/// Streams by the number that a program has for them, from 1: standard input, output and error, then the
+/// lowest free ones. Thread safety: none.
+class Streams {
+public:
+  explicit Streams(std::size_t most) : streams_(most) {}
+
+  /// Throws EBADF.
+  Stream& at(std::uint32_t number);
+  /// Throws EMFILE.
+  std::uint32_t add(Stream stream);
+  void set(std::uint32_t number, Stream stream);
+  void remove(std::uint32_t number) { streams_[number - 1].reset(); }
+
+private:
+  std::vector<std::unique_ptr<Stream>> streams_;
+};
+
+} // namespace celltrace::cell_emu

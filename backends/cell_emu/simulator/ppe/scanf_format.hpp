@@ -1,0 +1,39 @@
+// The scanf family's conversions, into local store.
+#pragma once
+
+#include "backends/cell_emu/simulator/ppe/call_arguments.hpp"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace celltrace::cell_emu {
+
+/// Characters one after the other.
+class CharacterSource {
+public:
+  virtual ~CharacterSource() = default;
+  /// The next one, 0..255, or -1 at the end.
+  virtual int get() = 0;
+  /// Takes the last one back; at most one in a row.
+  virtual void unget(int character) = 0;
+};
+
+class StringSource final : public CharacterSource {
+public:
+  explicit StringSource(std::string_view text) : text_(text) {}
+  int get() override { return at_ < text_.size() ? static_cast<unsigned char>(text_[at_++]) : -1; }
+  void unget(int) override { --at_; }
+
+private:
+  std::string text_; // a copy: conversions may write where it was
+  std::size_t at_ = 0;
+};
+
+/// Reads as C99's vscanf() does where int, long and pointers have 32 bits, in the "C" locale. Returns the
+/// number of conversions that were stored, or -1 if the input ended before there was one. Throws CallFailed:
+/// EFAULT for places outside local store; EINVAL for conversions that C99 does not have.
+int scan_formatted(CharacterSource& source, std::string_view format, const LocalStoreView& local_store,
+                   VariableArguments arguments);
+
+} // namespace celltrace::cell_emu

@@ -1,0 +1,47 @@
+// The errno of programs for the SPU. Its C library has the numbers of Linux on PowerPC.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace celltrace::cell_emu {
+
+enum class SpuErrno : std::uint32_t {
+  none = 0,
+  not_permitted = 1,        ///< EPERM
+  no_entry = 2,             ///< ENOENT
+  io = 5,                   ///< EIO
+  bad_file = 9,             ///< EBADF
+  no_memory = 12,           ///< ENOMEM
+  access = 13,              ///< EACCES
+  fault = 14,               ///< EFAULT
+  exists = 17,              ///< EEXIST
+  no_device = 19,           ///< ENODEV
+  not_directory = 20,       ///< ENOTDIR
+  is_directory = 21,        ///< EISDIR
+  invalid = 22,             ///< EINVAL
+  too_many_open_files = 24, ///< EMFILE
+  illegal_seek = 29,        ///< ESPIPE
+  range = 34,               ///< ERANGE
+  name_too_long = 36,       ///< ENAMETOOLONG
+  not_implemented = 38,     ///< ENOSYS
+  loop = 40,                ///< ELOOP
+  overflow = 75,            ///< EOVERFLOW
+  illegal_sequence = 84,    ///< EILSEQ
+};
+
+/// Thrown inside the answer to a call, which then reports failure with this errno. Never leaves PpeCalls.
+struct CallFailed {
+  SpuErrno error;
+};
+
+/// The number that the SPU has for an errno of the host; EIO for one that it does not have.
+SpuErrno spu_errno(int host_errno);
+
+/// Throws CallFailed with what the host says.
+[[noreturn]] void fail_with_host_errno();
+
+/// What perror() says of it.
+std::string_view error_text(std::uint32_t spu_errno);
+
+} // namespace celltrace::cell_emu

@@ -1,0 +1,110 @@
+// Conformance: what programs that were recorded on a Cell do, and a model easily misses. The programs are
+// those of hardware_rows.hpp, which run on host code and as machine code.
+//
+// Covers of the facts: the room in the queue as a sign of completion, the tag status event of every kind of
+// request, the order of putqlluc, SRR0, the event of a stopped list, the channels of the performance
+// monitor, and when the decrementer is an event.
+#include "spe/emu_conformance.hpp"
+
+namespace celltrace::test {
+namespace {
+
+void be_lenient(MachineConfig& config) {
+  config.emulation.actions = lenient_actions();
+}
+
+const Rows kHardware = {
+    broken(Rule::drained_queue, "an empty queue says that a get is complete, but not by a tag",
+           HardwareRow::drained_get, {"get 128 bytes", "MFC_Cmd's count"}),
+    broken(Rule::drained_queue, "or a put, whose source is free again", HardwareRow::drained_put,
+           {"put 128 bytes"})
+        .after([](Stage& stage, std::endian order) { stage.is(load_word(order, stage.to), 7); }),
+    broken(Rule::drained_queue, "so that a buffer can be used again, and reported once",
+           HardwareRow::drained_buffer_again, {"get 128 bytes"})
+        .after([](Stage& stage, std::endian order) {
+          for (std::uint32_t i = 0; i < 96; ++i)
+            stage.is(load_word(order, stage.to + i), i + 1);
+        }),
+    kept(Rule::drained_queue, "a lenient machine takes it for a wait", HardwareRow::drained_get)
+        .configured(be_lenient),
+    kept(Rule::drained_queue, "also where buffers are used again", HardwareRow::drained_buffer_again)
+        .configured(be_lenient),
+    kept(Rule::drained_queue, "who looks at the room, but waits for the tag",
+         HardwareRow::drained_and_waited),
+    broken(Rule::in_flight_at_exit, "room that is not all of the queue says nothing",
+           HardwareRow::room_is_not_all, {"get 128 bytes"}),
+
+    fact("an answer to an immediate request is an event, too", HardwareRow::immediate_is_event),
+    fact("the tag status event is the rise of the status's count", HardwareRow::event_of_status_rises_once),
+
+    fact("a putqlluc comes behind a put of its tag to the same line", HardwareRow::putqlluc_behind_put)
+        .seeds(100),
+    fact("and behind a get from there", HardwareRow::putqlluc_behind_get).seeds(100),
+    kept(Rule::local_store_race, "and takes what a get before it brought", HardwareRow::putqlluc_from_get)
+        .seeds(20),
+    broken(Rule::local_store_race, "it does not wait for other tags", HardwareRow::putqlluc_of_other_tag,
+           {"putqlluc 128 bytes"}),
+
+    fact("SRR0 holds an address of an instruction: 18 bits, of which the low two are 0",
+         HardwareRow::srr0_bits),
+    fact("a list that stops while the stall status is unread raises no further event",
+         HardwareRow::stall_event_once),
+    fact("the channels 69 to 71 take what is written", HardwareRow::measurement_channels),
+    fact("a decrementer that expired under the old mask leaves a phantom event",
+         HardwareRow::decrementer_phantom),
+    fact("the decrementer is an event also when the written value has the top bit that the last one had not",
+         HardwareRow::decrementer_written_negative),
+
+    broken(Rule::register_word, "word 1 of a quadword is none for a register",
+           HardwareRow::signal_from_given_word, {"sndsig 4 bytes"})
+        .given([](Stage&) {
+          return Given{0, 1};
+        }),
+    broken(Rule::register_word, "nor is word 2", HardwareRow::signal_from_given_word, {"sndsig 4 bytes"})
+        .given([](Stage&) {
+          return Given{0, 2};
+        }),
+    kept(Rule::register_word, "word 3 is", HardwareRow::signal_from_given_word).given([](Stage&) {
+      return Given{0, 3};
+    }),
+    fact("what comes behind a barriered command waits for that command itself",
+         HardwareRow::put_behind_barrier)
+        .seeds(20),
+    fact("also for one that stops", HardwareRow::get_behind_list_barrier),
+    broken(Rule::list_length, "a number of elements whose bytes 32 bits do not hold is too large, too",
+           HardwareRow::list_count_wraps, {"getl of 4294967288 bytes of list"}),
+
+    kept(Rule::time_limit, "a program that ends in time", HardwareRow::drained_and_waited)
+        .configured([](MachineConfig& config) {
+          config.emulation.cycle_limit = 10000000;
+          config.emulation.seconds_limit = 100;
+        }),
+    broken(Rule::time_limit, "one that polls for ever ends after so many cycles", HardwareRow::poll_for_ever,
+           {"after 100000 cycles"})
+        .configured([](MachineConfig& config) { config.emulation.cycle_limit = 100000; }),
+    broken(Rule::time_limit, "or after so many seconds of the host", HardwareRow::poll_for_ever,
+           {"after 0.010000 seconds"})
+        .configured([](MachineConfig& config) { config.emulation.seconds_limit = 0.01; }),
+    broken(Rule::time_limit, "who waits for it ends, too", HardwareRow::wait_of_two)
+        .spes(2)
+        .configured([](MachineConfig& config) { config.emulation.cycle_limit = 100000; }),
+    broken(Rule::time_limit, "so does the PPE, when it looks for mail", HardwareRow::poll_for_ever)
+        .ppe([](Machine& machine, Stage&) {
+          while (!machine.read_out_mailbox(0))
+            machine.wait_for_mail(std::chrono::milliseconds(1));
+        })
+        .configured([](MachineConfig& config) { config.emulation.cycle_limit = 100000; }),
+    broken(Rule::time_limit, "or polls for it without a pause", HardwareRow::poll_for_ever)
+        .ppe([](Machine& machine, Stage&) {
+          while (!machine.read_out_mailbox(0)) {
+          }
+        })
+        .configured([](MachineConfig& config) { config.emulation.cycle_limit = 100000; }),
+};
+
+TEST_CASE("conformance: hardware") {
+  run_rows(kHardware);
+}
+
+} // namespace
+} // namespace celltrace::test
