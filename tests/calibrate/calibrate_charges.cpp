@@ -10,9 +10,38 @@
 
 #include <fstream>
 #include <iostream>
+#include <regex>
+#include <sstream>
+
+namespace {
+
+using namespace celltrace::calibration;
+
+/// In every line `constexpr ScalarWork kName = {...};` of a header.
+void replace_charges(const std::string& path, const Fit& fitted) {
+  std::ifstream in(path);
+  std::ostringstream out;
+  const std::regex definition("(.*constexpr ScalarWork (k\\w+) = )\\{.*\\};");
+  for (std::string line; std::getline(in, line);) {
+    std::smatch parts;
+    const bool defines = std::regex_match(line, parts, definition);
+    const auto found = defines ? fitted.charges.find(parts[2]) : fitted.charges.end();
+    if (found == fitted.charges.end()) {
+      out << line << '\n';
+      continue;
+    }
+    out << parts[1] << '{';
+    for (const double charge : found->second)
+      out << static_cast<long>(charge) << ", ";
+    out << '"' << parts[2] << "\"};\n";
+  }
+  in.close();
+  std::ofstream(path) << out.str();
+}
+
+} // namespace
 
 int main(int argc, char** argv) {
-  using namespace celltrace::calibration;
   CLI::App app("Calibrates the charges of compute()");
   std::vector<std::string> scenes, headers;
   std::string file;
@@ -28,10 +57,12 @@ int main(int argc, char** argv) {
   fitting->add_option("--trust", trust);
   CLI11_PARSE(app, argc, argv);
   if (measuring->parsed()) {
-    write(std::cout, measure(scenes, threads));
+    measure(scenes, threads, std::cout);
     return 0;
   }
   std::ifstream in(file);
-  fit(read(in), trust, std::cout);
+  const Fit fitted = fit(read(in), trust, std::cout);
+  for (const std::string& header : headers)
+    replace_charges(header, fitted);
   return 0;
 }

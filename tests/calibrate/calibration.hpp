@@ -38,8 +38,9 @@ struct Measurements {
 void write(std::ostream& out, const Measurements& measurements);
 Measurements read(std::istream& in);
 
-/// Renders the study's scenes and `scenes` on both backends. Takes its time.
-Measurements measure(const std::vector<std::string>& scenes, unsigned threads);
+/// Renders the study's scenes and `scenes` on both backends, and writes what it measures as it goes. Takes
+/// its time.
+void measure(const std::vector<std::string>& scenes, unsigned threads, std::ostream& out);
 
 /// What explains the simulated instructions best, with the charges as they are in doubt.
 struct Fit {

@@ -60,6 +60,88 @@ private:
   std::vector<double> matrix_, right_, solution_;
 };
 
+/// What the statistical model says of a frame, before its parameters come in.
+struct Drivers {
+  double even = 0, odd = 0; ///< instructions by pipe
+  double latency = 0;       ///< beyond issue, in cycles
+  double branches = 0, moves = 0;
+};
+Drivers drivers_of(const Frame& frame, const std::map<std::string, Charges>& charges) {
+  const TimingParameters timing;
+  enum { fixed, floating, memory, shuffle, branches, shift };
+  Charges all = frame.facade;
+  Drivers d;
+  d.latency = frame.latency;
+  for (const auto& [kind, times] : frame.times) {
+    const Charges& each = charges.at(kind);
+    for (std::size_t unit = 0; unit < kUnitCount; ++unit)
+      all[unit] += times * each[unit];
+    const double scalars = std::min(each[memory], each[shuffle]);
+    d.latency += times * (each[fixed] * (timing.simple_fixed - 1) + each[shift] * (timing.shift - 1) +
+                          each[floating] * (timing.float_operation - 1) + scalars * (timing.load_store - 1) +
+                          each[shuffle] * (timing.shuffle - 1));
+    d.moves += times * (each[memory] - scalars);
+    d.branches += times * each[branches];
+  }
+  d.even = all[fixed] + all[floating] + all[shift] + frame.other;
+  d.odd = all[memory] + all[shuffle] + all[branches];
+  return d;
+}
+
+TimingParameters fit_timing(const std::vector<Frame>& frames, const std::map<std::string, Charges>& charges,
+                            std::ostream& out) {
+  TimingParameters timing;
+  // Each parameter by its own stalls, every frame as important as another.
+  const auto ratio = [&](auto driver, std::initializer_list<const char*> stalls) {
+    double of = 0, all = 0;
+    for (const Frame& frame : frames) {
+      of += sum(frame.simulated, stalls) / busy(frame.simulated);
+      all += driver(drivers_of(frame, charges)) / busy(frame.simulated);
+    }
+    return of / all;
+  };
+  const auto branches = [](const Drivers& d) { return d.branches; };
+  timing.hints = ratio(branches, {"hbr"});
+  timing.missed_branches = ratio(branches, {"branch_taken_miss"});
+  timing.late_hint = ratio(branches, {"stall_due_to_hint_target"});
+  timing.no_ops = ratio(branches, {"nop_cycle"});
+  timing.late_fetch = ratio([](const Drivers& d) { return d.moves; }, {"stall_due_to_prefetch_miss"});
+  timing.exposed_latency = ratio([](const Drivers& d) { return d.latency; }, {"stall_due_to_dependency"});
+  timing.paired_issue = ratio(
+      [&](const Drivers& d) { return std::min(d.even, d.odd + timing.hints * d.branches); }, {"dual_cycle"});
+  out << std::setprecision(3) << "exposed_latency " << timing.exposed_latency << "\nmissed_branches "
+      << timing.missed_branches << "\npaired_issue " << timing.paired_issue << "\nhints " << timing.hints
+      << "\nlate_hint " << timing.late_hint << "\nno_ops " << timing.no_ops << "\nlate_fetch "
+      << timing.late_fetch << "\n\ncycles, fitted / simulated; parts fitted - simulated, %: issue dependency "
+      << "branch_miss fetch\n";
+  double mean = 0, least = 9, most = 0;
+  for (const Frame& frame : frames) {
+    const Drivers d = drivers_of(frame, charges);
+    const double odd = d.odd + timing.hints * d.branches;
+    const double issue = d.even + odd - timing.paired_issue * std::min(d.even, odd) +
+                         (timing.no_ops + timing.late_hint) * d.branches;
+    const double dependency = timing.exposed_latency * d.latency;
+    const double miss = timing.missed_branches * d.branches * timing.branch_miss;
+    const double fetch = timing.late_fetch * d.moves;
+    const double real = busy(frame.simulated);
+    const double all = (issue + dependency + miss + fetch) / real;
+    mean += all / double(frames.size());
+    least = std::min(least, all);
+    most = std::max(most, all);
+    const auto part = [&](double fitted, std::initializer_list<const char*> names) {
+      out << std::setw(7) << 100 * (fitted - sum(frame.simulated, names)) / real;
+    };
+    out << std::setw(24) << frame.name << std::setprecision(3) << std::setw(7) << all << std::setprecision(1);
+    part(issue, {"single_cycle", "dual_cycle", "nop_cycle", "stall_due_to_hint_target"});
+    part(dependency, {"stall_due_to_dependency"});
+    part(miss, {"stall_due_to_branch_miss"});
+    part(fetch, {"stall_due_to_prefetch_miss"});
+    out << '\n';
+  }
+  out << std::setprecision(3) << "mean " << mean << ", least " << least << ", most " << most << '\n';
+  return timing;
+}
+
 } // namespace
 
 Fit fit(const Measurements& m, double trust, std::ostream& out) {
@@ -120,6 +202,7 @@ Fit fit(const Measurements& m, double trust, std::ostream& out) {
     out << "  hbr " << 100 * s.at("hbr") / all << " miss/br " << s.at("branch_taken_miss") / s.at("br")
         << '\n';
   }
+  result.timing = fit_timing(m.frames, result.charges, out);
   return result;
 }
 

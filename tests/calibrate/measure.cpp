@@ -124,7 +124,7 @@ std::string file_name(std::string path) {
 
 } // namespace
 
-Measurements measure(const std::vector<std::string>& paths, unsigned threads) {
+void measure(const std::vector<std::string>& paths, unsigned threads, std::ostream& out) {
   std::vector<study::StudyScene> scenes = study::make_scenes();
   for (const std::string& path : paths)
     scenes.push_back({file_name(path), "", parse_file(path)});
@@ -156,22 +156,18 @@ Measurements measure(const std::vector<std::string>& paths, unsigned threads) {
         o.spes = 4;
       });
   }
-  Measurements measurements;
   std::mutex mutex;
-  std::vector<std::vector<Frame>> frames(jobs.size());
   std::size_t done = 0;
   const study::Runner runner("cell_sim", threads,
                              [&] { std::cerr << '\r' << ++done << " of " << jobs.size() << std::flush; });
   runner.each(jobs.size(), [&](std::size_t i) {
-    std::map<std::string, Charges> charges;
-    frames[i] = render_both(jobs[i], charges);
+    Measurements both;
+    both.frames = render_both(jobs[i], both.charges);
     const std::lock_guard lock(mutex);
-    measurements.charges.insert(charges.begin(), charges.end());
+    write(out, both);
+    out.flush();
   });
   std::cerr << '\n';
-  for (const std::vector<Frame>& both : frames)
-    measurements.frames.insert(measurements.frames.end(), both.begin(), both.end());
-  return measurements;
 }
 
 namespace {

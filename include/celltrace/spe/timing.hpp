@@ -59,12 +59,21 @@ struct TimingParameters {
   std::uint32_t ppe_call = 20000;  ///< a call for help from the PPE: two system calls and a switch of context
 
   // --- counted operations: `cell_emu`; 0 to 1 each ---
+  // Calibrated by cell_sim with tools/calibrate-charges.sh.
   /// Part of the latency beyond the issue of an operation's own four quadwords that the code cannot fill.
   double exposed_latency = 0.3;
-  /// Part of the taken branches that no hint foresees.
+  /// Part of the branches that go where neither a hint nor falling through foretold.
   double missed_branches = 0.3;
   /// Part of the cycles in which both pipes have something to issue that really pair up.
   double paired_issue = 0.45;
+  /// Hints for each branch.
+  double hints = 1.0;
+  /// Cycles that each branch waits for a hint that comes too late.
+  double late_hint = 0.4;
+  /// Cycles of nothing but no-ops for each branch.
+  double no_ops = 0.3;
+  /// Cycles that instructions come late for each quadword that code moves about.
+  double late_fetch = 0.05;
 
   /// A Cell at 3.2 GHz with 8 SPEs.
   static constexpr TimingParameters cell() { return {}; }
