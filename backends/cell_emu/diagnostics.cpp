@@ -30,7 +30,7 @@ constexpr std::array<Entry, kRules> kTable = {{
     {Rule::quadword_alignment, "quadword-alignment", kStop,
      "a transfer of 16 bytes or more must be 16-byte aligned"},
     {Rule::mapped_address, "mapped-address", kStop,
-     "EA must be mapped, and the transfer stay in the storage it starts in"},
+     "EA must be mapped, readable for a get and writable for a put, and the transfer stay in the storage it starts in"},
     {Rule::register_exists, "register-exists", kStop,
      "EA must be a problem-state register: signal 1, signal 2 or inbound mailbox"},
     {Rule::register_size, "register-size", kStop, "a problem-state register takes exactly 4 bytes"},

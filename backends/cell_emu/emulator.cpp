@@ -13,6 +13,20 @@ MachineConfig emulated(unsigned spes, Schedule schedule) {
   return config;
 }
 
+void wait_for(Machine& machine, unsigned spe, EmulatedRun& run) {
+  run.errors.emplace_back();
+  run.exit_codes.push_back(0);
+  try {
+    const SpeStop stop = machine.wait(spe);
+    run.exit_codes.back() = stop.code;
+    if (stop.reason == SpeStop::Reason::stop_and_signal)
+      run.errors.back() = "SPE " + std::to_string(spe) + ": stopped with code " + std::to_string(stop.code) +
+                          " and was not resumed";
+  } catch (const SpeError& error) {
+    run.errors.back() = error.what();
+  }
+}
+
 } // namespace
 
 bool EmulatedRun::ok() const {
@@ -83,17 +97,7 @@ EmulatedRun emulate_on(Machine& machine, const SpeProgram& program, ea_t argumen
     run.ppe_error = error.what();
   }
   for (unsigned spe = 0; spe < spes; ++spe) {
-    run.errors.emplace_back();
-    run.exit_codes.push_back(0);
-    try {
-      const SpeStop stop = machine.wait(spe);
-      run.exit_codes.back() = stop.code;
-      if (stop.reason == SpeStop::Reason::stop_and_signal)
-        run.errors.back() = "SPE " + std::to_string(spe) + ": stopped with code " +
-                            std::to_string(stop.code) + " and was not resumed";
-    } catch (const SpeError& error) {
-      run.errors.back() = error.what();
-    }
+    wait_for(machine, spe, run);
     run.spes.push_back(machine.statistics(spe));
     run.cycles = std::max(run.cycles, run.spes.back().cycles.total_cycle);
   }

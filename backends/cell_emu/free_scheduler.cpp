@@ -4,6 +4,13 @@
 
 namespace celltrace::cell_emu {
 
+bool FreeScheduler::all_stalled() const {
+  if (active_ != 0) return stalled_ == active_;
+  // One that was interrupted while it paused is about to go on.
+  return std::none_of(spes_.begin(), spes_.end(),
+                      [](const auto& spe) { return spe->running && !spe->paused(); });
+}
+
 void FreeScheduler::stalled(unsigned) {
   const std::lock_guard lock(mutex_);
   ++stalled_;
@@ -52,7 +59,7 @@ Cycle FreeScheduler::enter() {
   if (!broken_off_.load(std::memory_order_relaxed) || ++idle_entries_ < kIdleEntries) return 0;
   idle_entries_ = 0;
   const std::lock_guard lock(mutex_);
-  if (active_ == 0)
+  if (all_stalled())
     throw SpeError(report_deadlock(
         spes_, log_, "an answer, looking for it again and again when no program runs any more"));
   return 0;

@@ -39,7 +39,7 @@ public:
 
 private:
   /// Nobody runs who could change what others wait for.
-  bool all_stalled() const { return stalled_ == active_; }
+  bool all_stalled() const;
 
   Spes& spes_;
   DiagnosticLog& log_;

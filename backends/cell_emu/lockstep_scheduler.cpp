@@ -26,6 +26,8 @@ void LockstepScheduler::suspend(Agent& agent) {
 }
 
 void LockstepScheduler::reach(Spe& spe, Cycle now) {
+  // An SPE that nobody is behind keeps its turn for ever.
+  obey_interrupt();
   Agent& agent = agents_[spe.id];
   agent.now = now;
   if (config_.explore) {

@@ -203,14 +203,15 @@ EmulatedCell::Run EmulatedCell::host_code(unsigned spe, const SpeProgram& progra
 EmulatedCell::Run EmulatedCell::machine_code(unsigned spe, const SpeProgram& program, ea_t argument,
                                              ArenaRange&) {
   const auto code = programs_->find(program);
-  const SimulatedSpu::Arguments arguments = programs_->arguments(*code, spe, argument);
+  const StartRegisters arguments = programs_->arguments(*code, spe, argument);
   return [this, code, arguments](Spe& runs) {
     bus_.hold_local_store(runs.id, [&] {
       fill_with_poison(map_.local_store(runs.id), kLocalStoreBytes);
       code->elf().load(map_.local_store(runs.id));
     });
-    SimulatedSpu spu(runs, {mfc_context_, *scheduler_}, *code, programs_->calls(),
-                     config_.simulation.profile);
+    SimulatedSpu spu(
+        runs, {mfc_context_, *scheduler_}, *code, [this](auto... call) { return programs_->call(call...); },
+        config_.simulation.profile);
     execute(
         runs, spu, [&] { spu.run(arguments); }, [] {});
   };

@@ -57,6 +57,7 @@ Mfc::Mfc(unsigned spe, const MfcContext& context, DmaTiming& timing, ProblemStat
 
 void Mfc::begin_program(ArenaRange arena) {
   arena_ = arena;
+  host_memory_.forget();
   tag_groups_ = {};
   used_tags_ = waited_tags_ = stalled_tags_ = 0;
   waits_ = {};
@@ -176,6 +177,16 @@ Rule Mfc::broken_arena_rule(const MfcCommand& transfer) const {
   return fills && outside ? Rule::program_overwritten : Rule::none;
 }
 
+EaKind Mfc::target_of(const MfcCommand& command, std::uint32_t size, bool proxy) {
+  const EaKind kind = bus_.map().locate(command.ea, size).kind;
+  if (kind != EaKind::main_memory) return kind;
+  const bool write = writes_storage(command.opcode);
+  // The PPE checks its commands on a thread of its own.
+  const bool accessible = proxy ? accessible_memory(command.ea, size, write).has_value()
+                                : host_memory_.is_accessible(command.ea, size, write);
+  return accessible ? kind : EaKind::unmapped;
+}
+
 bool Mfc::check(const MfcCommand& command, std::uint64_t number, CallSite site, Cycle now, bool proxy) {
   Rule rule = broken_common_rule(command);
   if (rule == Rule::none && proxy) rule = broken_proxy_rule(command);
@@ -184,11 +195,11 @@ bool Mfc::check(const MfcCommand& command, std::uint64_t number, CallSite site, 
     if (is_list(command.opcode))
       rule = broken_list_rule(command);
     else if (kind == CommandKind::lock_line)
-      rule = broken_lock_line_rule(command, bus_.map().locate(command.ea, kLineBytes).kind);
+      rule = broken_lock_line_rule(command, target_of(command, kLineBytes, proxy));
     else if (kind == CommandKind::cache_control)
-      rule = broken_cache_control_rule(command, bus_.map().locate(command.ea, command.size).kind);
+      rule = broken_cache_control_rule(command, target_of(command, command.size, proxy));
     else if (kind != CommandKind::barrier)
-      rule = broken_transfer_rule(command, bus_.map().locate(command.ea, command.size).kind);
+      rule = broken_transfer_rule(command, target_of(command, command.size, proxy));
   }
   if (rule == Rule::none && !is_list(command.opcode)) rule = broken_arena_rule(command);
   if (rule == Rule::none && (kind == CommandKind::get || kind == CommandKind::put) && command.size == 0)
@@ -484,7 +495,7 @@ void Mfc::begin_part(Entry& entry, Cycle now) {
   while (entry.next_element < entry.elements.size()) {
     const ListElement element = entry.elements[entry.next_element];
     const MfcCommand part = element_command(entry.command, element, entry.next_lsa);
-    Rule rule = broken_element_rule(part, bus_.map().locate(part.ea, part.size).kind);
+    Rule rule = broken_element_rule(part, target_of(part, part.size, false));
     if (rule == Rule::none) rule = broken_arena_rule(part);
     if (rule != Rule::none)
       report({part, entry.number, entry.site, false, now}, rule, now,

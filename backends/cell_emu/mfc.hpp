@@ -17,6 +17,7 @@
 #include "backends/cell_emu/diagnostic_log.hpp"
 #include "backends/cell_emu/dma_timing.hpp"
 #include "backends/cell_emu/flights.hpp"
+#include "backends/cell_emu/host_memory.hpp"
 #include "backends/cell_emu/mfc_command.hpp"
 #include "backends/cell_emu/seeded_random.hpp"
 #include "backends/cell_emu/tag_groups.hpp"
@@ -162,6 +163,8 @@ private:
   void report(const Entry& entry, Rule rule, Cycle now, const std::string& before = {}) const;
   void report_channel(Channel channel, std::uint32_t value, Rule rule, CallSite site, Cycle now) const;
   Rule broken_arena_rule(const MfcCommand& transfer) const;
+  /// What a command of the SPU, or of the PPE, finds at its effective address.
+  EaKind target_of(const MfcCommand& command, std::uint32_t size, bool proxy);
   /// False if the command cannot be carried out, though whoever broke the rule goes on.
   bool check(const MfcCommand& command, std::uint64_t number, CallSite site, Cycle now, bool proxy);
   void enqueue(const MfcCommand& command, CallSite site, Cycle now, bool proxy);
@@ -219,6 +222,7 @@ private:
   ProblemState& problem_state_;
   Counters& counters_;
   SeededRandom random_;
+  HostMemory host_memory_;
 
   std::uint8_t* watch_ = nullptr;
   std::vector<Entry> queue_; ///< of the SPU and of the PPE, oldest first

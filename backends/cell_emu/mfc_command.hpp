@@ -99,6 +99,13 @@ constexpr bool follows_its_tag(MfcOpcode opcode) {
   return has_fence(opcode) || has_barrier(opcode) || opcode == MfcOpcode::putqlluc;
 }
 
+/// Changes what lies at its effective address.
+constexpr bool writes_storage(MfcOpcode opcode) {
+  const CommandKind kind = kind_of(opcode);
+  return kind == CommandKind::put || opcode == MfcOpcode::sdcrz ||
+         (kind == CommandKind::lock_line && opcode != MfcOpcode::getllar);
+}
+
 /// Must `earlier` be complete before `later` of the same queue may move, going by these two alone?
 constexpr bool is_ordered(const MfcCommand& earlier, const MfcCommand& later) {
   if (kind_of(earlier.opcode) == CommandKind::barrier || kind_of(later.opcode) == CommandKind::barrier)

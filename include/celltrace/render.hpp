@@ -48,10 +48,11 @@ enum class Model {
 struct RenderOptions {
   int width = 640;  ///< pixels, 1..65520
   int height = 480; ///< pixels, 1..65520
-  /// "native" or "cell_emu"; see machine_backends().
+  /// "native", "cell_emu" or "cell_sim"; see machine_backends(). The last needs a build with a compiler for
+  /// the SPU.
   std::string backend = "native";
-  /// Number of SPEs, up to 256; 0: on native one per CPU that the calling thread may use, on cell_emu
-  /// `emulation.timing.spes`. On native, as many SPEs as such CPUs keep to one each.
+  /// Number of SPEs, up to 256; 0: on native one per CPU that the calling thread may use, on the
+  /// others `emulation.timing.spes`. On native, as many SPEs as such CPUs keep to one each.
   unsigned spes = 0;
   /// SIMD of native: "auto", "sse2", "avx2", "avx512".
   std::string simd = "auto";
@@ -65,13 +66,14 @@ struct RenderOptions {
   /// In place of the scene's own settings.
   std::optional<int> max_trace_level;
   std::optional<double> adc_bailout;
-  /// Of cell_emu; native knows none of it. The trace is complete when the renderer is gone.
+  /// Of cell_emu and cell_sim; native knows none of it, and nothing is recorded on cell_sim. The trace is
+  /// complete when the renderer is gone.
   EmulationConfig emulation;
   /// Hears how far the image and the accelerator of a scene are, before its first frame. Where it cancels,
   /// the frame has no pixels, and the renderer no scene.
   Progress build_progress;
-  /// Called for every rule of the Cell that cell_emu saw broken, by the thread that renders or destroys the
-  /// renderer. Must not throw.
+  /// Called for every rule of the Cell that an emulated machine saw broken, by the thread that renders or
+  /// destroys the renderer. Must not throw.
   std::function<void(const Diagnostic& diagnostic)> diagnostic;
 };
 
@@ -135,7 +137,7 @@ struct RenderStatistics {
   /// Greatest over mean load of an SPE, minus 1. The load is its number of rays; in lockstep, its busy ticks.
   double imbalance = 0;
 
-  // Virtual time, on cell_emu: the greatest total_cycle of an SPE.
+  // Virtual time, 0 on native: the greatest total_cycle of an SPE.
   std::uint64_t prepare_cycles = 0; ///< until the accelerator is built and every SPE knows it
   std::uint64_t render_cycles = 0;
   SpuCycles prepare; ///< where the cycles of building the accelerator went, summed over the SPEs

@@ -83,10 +83,10 @@ void add_picture_options(CLI::App& command, RenderRequest& request, RenderTexts&
 
 void add_machine_options(CLI::App& command, RenderOptions& options, RenderTexts& texts) {
   add_choice(command, "--backend", options.backend, {{"native", "cell_emu", "cell_sim"}, {"spu"}},
-             "The machine");
+             "The machine: threads, an emulated Cell, or one whose SPUs execute machine code");
   command
       .add_option("--spes", options.spes,
-                  "SPEs; default: one a hardware thread on native, those of the timing on cell_emu")
+                  "SPEs; default: one a hardware thread on native, else those of the timing")
       ->check(CLI::Range(1u, 256u));
   add_choice(command, "--simd", options.simd, {{"auto", "sse2", "avx2", "avx512"}, {}},
              "Instruction set of native");
@@ -101,7 +101,10 @@ void add_machine_options(CLI::App& command, RenderOptions& options, RenderTexts&
       "that stay; or bundles of packets or random tiles, dealt out");
   add_choice(command, "--model", texts.model, {{"shared", "pipeline", "pipeline-split", "offload"}, {}},
              "Programming model");
-  add_emulation_options(command, texts.emulation);
+  // Only emulated machines have what follows.
+  CLI::Option_group& emulation = *command.add_option_group("cell_emu and cell_sim only");
+  add_emulation_options(emulation, texts.emulation, Schedule::free);
+  add_cache_trace_option(emulation, texts.emulation);
 }
 
 void add_report_options(CLI::App& command, RenderRequest& request) {
@@ -118,6 +121,35 @@ void add_compare_options(CLI::App& command, CompareRequest& request) {
   command.add_option("--diff", request.difference, "Write the difference, 8 times as bright")
       ->type_name("OUT.png");
   command.add_flag("--json", request.json, "Print JSON");
+}
+
+void add_spu_options(CLI::App& command, SpuRequest& request, EmulationTexts& texts) {
+  SimulationConfig& simulation = request.machine.simulation;
+  command.add_option("program", request.program, "An executable for the SPU")
+      ->required()
+      ->type_name("PROGRAM.elf");
+  command.add_option("arguments", simulation.arguments,
+                     "What the program finds in argv; -- before those that begin with a dash");
+  command.add_option("--spes", request.machine.spes, "SPEs, each of which runs the program")
+      ->check(CLI::Range(1u, 256u))
+      ->capture_default_str();
+  command
+      .add_option("--allow", simulation.allowed_folders,
+                  "The program may read, write, make and remove files in this folder; may be repeated")
+      ->type_name("DIR")
+      ->allow_extra_args(false);
+  command.add_option("--stdin", request.input, "The program's standard input; default: this one's")
+      ->type_name("FILE");
+  command.add_flag("--summary", request.summary, "Print counters to stderr");
+  command.add_option("--stats", request.stats, "Write statistics as JSON; - is stdout")->type_name("FILE|-");
+  command
+      .add_option("--profile", request.profile,
+                  "Write where the cycles went, by function and instruction; - is stdout")
+      ->type_name("FILE|FILE.json|-");
+  command.add_flag("--profile-all", request.profile_all,
+                   "List the instructions of all functions, not of those only that take 95 % of the cycles");
+  command.add_flag("--quiet", request.quiet, "No warnings");
+  add_emulation_options(command, texts, Schedule::lockstep);
 }
 
 struct ReplayTexts {
@@ -177,7 +209,7 @@ void finish(RenderRequest& request, const RenderTexts& texts) {
   if (request.scene.extension() == ".ini")
     throw InputError(request.scene.string() + ": INI files are not supported");
   request.options.cache = parse_cache(texts.cache);
-  request.options.emulation = emulation_config(texts.emulation, request.options.backend);
+  request.options.emulation = emulation_config(texts.emulation, request.options.backend, Schedule::free);
   request.trace = texts.emulation.trace;
   request.cache_trace = texts.emulation.cache_trace;
   request.options.accelerator = accelerator_of(texts.accelerator);
@@ -186,6 +218,14 @@ void finish(RenderRequest& request, const RenderTexts& texts) {
   for (const std::string& text : texts.declares)
     request.declares.push_back(parse_declare(text));
   if (request.output.empty()) request.output = request.scene.stem().string() + ".png";
+}
+
+void finish(SpuRequest& request, const EmulationTexts& texts) {
+  request.machine.emulation = emulation_config(texts, request.machine.backend, Schedule::lockstep);
+  request.trace = texts.trace;
+  if (request.profile_all && request.profile.empty()) throw InputError("--profile-all needs --profile");
+  std::vector<std::string>& arguments = request.machine.simulation.arguments;
+  arguments.insert(arguments.begin(), request.program.string());
 }
 
 void finish(ReplayRequest& request, const ReplayTexts& texts) {
@@ -234,6 +274,11 @@ Request parse_command_line(std::vector<std::string> arguments) {
   CLI::App& compare_command = *app.add_subcommand("compare", "Say how far two pictures are apart");
   add_compare_options(compare_command, compare);
 
+  SpuRequest spu;
+  EmulationTexts spu_texts;
+  CLI::App& spu_command = *app.add_subcommand("spu", "Run a program for the SPU, instruction by instruction");
+  add_spu_options(spu_command, spu, spu_texts);
+
   ReplayRequest replay;
   ReplayTexts replay_texts;
   CLI::App& replay_command =
@@ -257,6 +302,10 @@ Request parse_command_line(std::vector<std::string> arguments) {
   }
   if (compare_command.parsed()) return compare;
   if (study_command.parsed()) return study;
+  if (spu_command.parsed()) {
+    finish(spu, spu_texts);
+    return spu;
+  }
   if (replay_command.parsed()) {
     finish(replay, replay_texts);
     return replay;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "celltrace/render.hpp"
+#include "celltrace/spe/machine.hpp"
 #include "study/study.hpp"
 
 #include <filesystem>
@@ -38,6 +39,23 @@ struct CompareRequest {
   bool json = false;
 };
 
+struct SpuRequest {
+  SpuRequest() {
+    machine.backend = "cell_sim";
+    machine.spes = 1;
+  }
+
+  std::filesystem::path program;
+  MachineConfig machine;       ///< without where output, input, profile and trace go
+  std::filesystem::path input; ///< empty: this program's own
+  std::string stats;           ///< file, "-" for stdout, empty for none
+  std::string profile;         ///< the same; JSON if it ends with .json
+  bool profile_all = false;
+  bool summary = false;
+  std::filesystem::path trace; ///< empty: none
+  bool quiet = false;
+};
+
 struct ReplayRequest {
   std::filesystem::path trace;
   std::vector<CacheConfig> shapes; ///< none: as recorded
@@ -56,7 +74,8 @@ struct InformationRequest {
   std::string text;
 };
 
-using Request = std::variant<RenderRequest, CompareRequest, ReplayRequest, StudyRequest, InformationRequest>;
+using Request =
+    std::variant<RenderRequest, CompareRequest, SpuRequest, ReplayRequest, StudyRequest, InformationRequest>;
 
 /// Reads a command line (without the program's name) after translate_pov_switches(). Throws InputError for
 /// whatever does not fit, and for what the program is to have and has not yet.

@@ -19,13 +19,16 @@ const char* first_given(const EmulationTexts& texts) {
   if (!texts.transfers.empty()) return "--transfers";
   if (texts.faults) return "--faults";
   if (!texts.timing.empty()) return "--timing";
+  if (!texts.cycle_limit.empty()) return "--limit";
+  if (!texts.seconds_limit.empty()) return "--seconds-limit";
+  if (texts.lenient) return "--lenient";
   if (!texts.trace.empty()) return "--trace";
   if (!texts.cache_trace.empty()) return "--cache-trace";
   return nullptr;
 }
 
-Schedule schedule_of(const EmulationTexts& texts) {
-  if (texts.schedule.empty()) return texts.trace.empty() ? Schedule::free : Schedule::lockstep;
+Schedule schedule_of(const EmulationTexts& texts, Schedule default_schedule) {
+  if (texts.schedule.empty()) return texts.trace.empty() ? default_schedule : Schedule::lockstep;
   if (texts.schedule == "free" && !texts.trace.empty())
     throw InputError("--trace needs --schedule lockstep: only there do all SPEs share one virtual time");
   return texts.schedule == "lockstep" ? Schedule::lockstep : Schedule::free;
@@ -37,48 +40,80 @@ TransferTime transfers_of(const EmulationTexts& texts) {
   return TransferTime::at_wait;
 }
 
-std::uint64_t parse_seed(const std::string& text) {
-  std::uint64_t seed = 0;
+/// False if the text is something else, or more.
+template <class Number> bool parse(const std::string& text, Number& number) {
   const char* const last = text.data() + text.size();
-  const auto [end, error] = std::from_chars(text.data(), last, seed);
-  if (error != std::errc() || end != last)
-    throw InputError("--seed: '" + text + "' is not a whole number from 0 to 2^64 - 1");
-  return seed;
+  const auto [end, error] = std::from_chars(text.data(), last, number);
+  return error == std::errc() && end == last;
+}
+
+std::uint64_t parse_whole(const char* option, const std::string& text) {
+  std::uint64_t number = 0;
+  if (!parse(text, number))
+    throw InputError(std::string(option) + ": '" + text + "' is not a whole number from 0 to 2^64 - 1");
+  return number;
+}
+
+double parse_seconds(const char* option, const std::string& text) {
+  double seconds = 0;
+  if (!parse(text, seconds) || !(seconds >= 0 && seconds <= 1e9))
+    throw InputError(std::string(option) + ": '" + text + "' is not a number of seconds from 0 to 1e9");
+  return seconds;
 }
 
 } // namespace
 
-void add_emulation_options(CLI::App& command, EmulationTexts& texts) {
+void add_emulation_options(CLI::App& command, EmulationTexts& texts, Schedule default_schedule) {
+  const std::string defaults = default_schedule == Schedule::free ? "free" : "lockstep";
   add_choice(command, "--schedule", texts.schedule, {{"free", "lockstep"}, {}},
-             "cell_emu: SPEs run as they like (default), or in turns that can be repeated");
+             "SPEs run as they like, or in turns that can be repeated; default: " + defaults);
   command
       .add_option("--seed", texts.seed,
-                  "cell_emu: what random transfers and faults, and the turns of lockstep, are drawn from; "
-                  "without it, lockstep goes by virtual time")
+                  "What random transfers and faults, and the turns of lockstep, are drawn from; without it, "
+                  "lockstep goes by virtual time")
       ->type_name("N");
   add_choice(command, "--transfers", texts.transfers, {{"issue", "wait", "random"}, {}},
-             "cell_emu: when the data of a DMA command move; default: wait");
-  command.add_flag("--faults", texts.faults, "cell_emu: slow SPEs, pauses and delays at random");
+             "When the data of a DMA command move; default: wait");
+  command.add_flag("--faults", texts.faults, "Slow SPEs, pauses and delays at random");
   add_choice(command, "--timing", texts.timing, {{"cell", "ps3"}, {}},
-             "cell_emu: the machine that is modelled, with 8 (default) or 6 SPEs");
-  command.add_option("--trace", texts.trace, "cell_emu: write what happened as a Chrome trace, in lockstep")
+             "The machine that is modelled, with 8 (default) or 6 SPEs");
+  command
+      .add_option("--limit", texts.cycle_limit,
+                  "A program that runs for N virtual cycles ends with an error that says where; 0: none")
+      ->type_name("CYCLES");
+  command
+      .add_option("--seconds-limit", texts.seconds_limit,
+                  "The same for seconds of this computer, which may be a fraction")
+      ->type_name("SECONDS");
+  command.add_flag("--lenient", texts.lenient, "Ignore the rules that the hardware has no objection to");
+  command.add_option("--trace", texts.trace, "Write what happened as a Chrome trace, in lockstep")
       ->type_name("FILE.json");
+}
+
+void add_cache_trace_option(CLI::App& command, EmulationTexts& texts) {
   command
       .add_option("--cache-trace", texts.cache_trace,
-                  "cell_emu: write what the software caches are asked for; see celltrace replay")
+                  "Write what the software caches are asked for; see celltrace replay")
       ->type_name("FILE");
 }
 
-EmulationConfig emulation_config(const EmulationTexts& texts, const std::string& backend) {
-  if (const char* given = first_given(texts); given && backend != "cell_emu" && backend != "cell_sim")
-    throw InputError(std::string(given) + " needs --backend cell_emu");
+EmulationConfig emulation_config(const EmulationTexts& texts, const std::string& backend,
+                                 Schedule default_schedule) {
+  if (!texts.cache_trace.empty() && backend != "cell_emu")
+    throw InputError("--cache-trace needs --backend cell_emu: machine code records nothing");
+  if (const char* given = first_given(texts); given && backend == "native")
+    throw InputError(std::string(given) + " needs --backend cell_emu or cell_sim");
   EmulationConfig config;
-  config.schedule = schedule_of(texts);
+  config.schedule = schedule_of(texts, default_schedule);
   config.transfers = transfers_of(texts);
   if (texts.faults) config.faults = Faults::mixed();
   if (texts.timing == "ps3") config.timing = TimingParameters::playstation_3();
+  if (!texts.cycle_limit.empty()) config.cycle_limit = parse_whole("--limit", texts.cycle_limit);
+  if (!texts.seconds_limit.empty())
+    config.seconds_limit = parse_seconds("--seconds-limit", texts.seconds_limit);
+  if (texts.lenient) config.actions = lenient_actions();
   if (!texts.seed.empty()) {
-    config.seed = parse_seed(texts.seed);
+    config.seed = parse_whole("--seed", texts.seed);
     config.explore = config.schedule == Schedule::lockstep;
     if (!config.explore && !texts.faults && config.transfers != TransferTime::random)
       throw InputError(

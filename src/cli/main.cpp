@@ -4,6 +4,7 @@
 #include "cli/pov_switches.hpp"
 #include "cli/render_command.hpp"
 #include "cli/replay_command.hpp"
+#include "cli/spu_command.hpp"
 #include "cli/study_command.hpp"
 
 #include <exception>
@@ -41,6 +42,7 @@ int run(const std::vector<std::string>& arguments) {
     return 0;
   }
   if (const auto* compare = std::get_if<CompareRequest>(&request)) return run_compare(*compare);
+  if (const auto* spu = std::get_if<SpuRequest>(&request)) return run_spu(*spu);
   if (const auto* replay = std::get_if<ReplayRequest>(&request)) return run_replay(*replay);
   if (const auto* study = std::get_if<StudyRequest>(&request)) return run_study_command(*study);
   const auto& render = std::get<RenderRequest>(request);
@@ -48,12 +50,18 @@ int run(const std::vector<std::string>& arguments) {
   return run_render(render);
 }
 
+/// For errors: `spu` leaves 1 to the programs that it runs.
+int error_code(const std::vector<std::string>& arguments) {
+  return !arguments.empty() && arguments.front() == "spu" ? kSpuRunFailed : 1;
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
   keep_freed_memory();
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
   try {
-    return run({argv + 1, argv + argc});
+    return run(arguments);
   } catch (const celltrace::SceneError& error) {
     std::cerr << error.what() << '\n'; // says where, and "error:", itself
   } catch (const std::bad_alloc&) {
@@ -61,5 +69,5 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     std::cerr << "celltrace: error: " << error.what() << '\n';
   }
-  return 1;
+  return error_code(arguments);
 }

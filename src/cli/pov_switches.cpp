@@ -281,8 +281,8 @@ private:
 bool is_for_render(const std::vector<std::string>& arguments) {
   if (arguments.empty()) return false;
   const std::string& first = arguments[0];
-  return first != "compare" && first != "replay" && first != "study" && first != "--version" &&
-         first != "--help" && first != "-h";
+  return first != "compare" && first != "spu" && first != "replay" && first != "study" &&
+         first != "--version" && first != "--help" && first != "-h";
 }
 
 } // namespace

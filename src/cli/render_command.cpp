@@ -5,12 +5,12 @@
 #include "celltrace/pov.hpp"
 #include "celltrace/render.hpp"
 #include "cli/interrupt.hpp"
+#include "cli/output_files.hpp"
 #include "cli/progress_line.hpp"
 
 #include <charconv>
 #include <chrono>
 #include <cstdio>
-#include <fstream>
 #include <iostream>
 #include <optional>
 
@@ -60,7 +60,7 @@ std::optional<Scene> parse_with_progress(const RenderRequest& request) {
   }
 }
 
-/// Prints what cell_emu finds wrong. `error` is what is printed as the error anyway.
+/// Prints what an emulated machine finds wrong. `error` is what is printed as the error anyway.
 void print_diagnostics(const std::vector<Diagnostic>& diagnostics, const std::string& error = {}) {
   for (const Diagnostic& diagnostic : diagnostics)
     if (error.find(diagnostic.text) == std::string::npos)
@@ -103,40 +103,10 @@ RenderResult render_with_progress(const Scene& scene, const RenderRequest& reque
   }
 }
 
-/// The stream that a trace goes to.
-class TraceFile {
-public:
-  /// Throws InputError if the file cannot be written. `path` empty: there is no trace.
-  explicit TraceFile(const std::filesystem::path& path) : path_(path) {
-    if (!path.empty()) file_.open(path, std::ios::binary);
-    check();
-  }
-  std::ostream* stream() { return path_.empty() ? nullptr : &file_; }
-  /// As the constructor, for what was written since.
-  void finish() {
-    if (!path_.empty()) file_.close();
-    check();
-  }
-
-private:
-  void check() const {
-    if (!file_) throw InputError(path_.string() + ": cannot be written");
-  }
-
-  std::filesystem::path path_;
-  std::ofstream file_;
-};
-
 void write_statistics(const std::string& where, const RenderStatistics& statistics, double parse_seconds) {
   auto json = nlohmann::ordered_json::parse(to_json(statistics));
   json["seconds"]["parse"] = parse_seconds;
-  const std::string text = json.dump(2) + "\n";
-  if (where == "-") {
-    std::cout << text << std::flush;
-    return;
-  }
-  std::ofstream file(where);
-  if (!(file << text << std::flush)) throw InputError(where + ": cannot be written");
+  write_report(where, json.dump(2) + "\n");
 }
 
 void print_summary(const RenderRequest& request, const RenderResult& result, double parse_seconds) {
@@ -165,8 +135,8 @@ int run_render(const RenderRequest& request) {
     std::cerr << "interrupted before the first pixel\n";
     return 2;
   }
-  TraceFile trace(request.trace);
-  TraceFile cache_trace(request.cache_trace);
+  OutputFile trace(request.trace);
+  OutputFile cache_trace(request.cache_trace);
   const RenderResult result = render_with_progress(*scene, request, {trace.stream(), cache_trace.stream()});
   save_image(request.output, result.image);
   trace.finish();

@@ -183,7 +183,7 @@ private:
     reports_.fetch();
     statistics.render_seconds = render.seconds();
     if (result.complete && !stages_) plan_->learn();
-    if (machine_->backend() == "cell_emu") {
+    if (machine_->backend() != "native") {
       statistics.schedule = options_.emulation.schedule;
       statistics.seed = options_.emulation.seed;
     }

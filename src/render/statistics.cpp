@@ -1,6 +1,7 @@
 #include "render/statistics.hpp"
 
 #include "celltrace/balance.hpp"
+#include "render/spe_json.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -89,25 +90,6 @@ nlohmann::ordered_json stages_json(const RenderStatistics::Stages& stages) {
           {"primary_reprocessed", stages.primary_reprocessed},
           {"primary_hits_reprocessed", stages.primary_hits_reprocessed},
           {"returns", stages.returns}};
-}
-
-nlohmann::ordered_json cycles_json(const SpuCycles& cycles) {
-  nlohmann::ordered_json json;
-  for (const auto& [name, count] : kSpuCycleCounts)
-    json[name] = cycles.*count;
-  return json;
-}
-
-/// Without the addresses of its text: those of main memory differ from run to run.
-nlohmann::ordered_json diagnostic_json(const Diagnostic& d) {
-  const std::string_view file(d.site.file);
-  return {{"rule", name_of(d.rule)},
-          {"text", text_of(d.rule)},
-          {"by", d.spe == Diagnostic::kPpe ? "PPE" : "SPE " + std::to_string(d.spe)},
-          {"command", d.command},
-          {"cycle", d.cycle},
-          {"file", file.substr(file.find_last_of('/') + 1)},
-          {"line", d.site.line}};
 }
 
 } // namespace

@@ -1,7 +1,7 @@
 // The checked mode: pointers that are used too late.
 #include "fake_spu.hpp"
 #include "memory.hpp"
-#include "spe/run_on.hpp"
+#include "scripted_caches.hpp"
 
 #include "celltrace/cache.hpp"
 
@@ -119,25 +119,65 @@ TEST_CASE("a checked cache takes the local store that it says, and counts as ano
   CHECK(cache.counters(1).misses == plain.counters(1).misses);
 }
 
-namespace {
-
-constexpr auto kUseTooLate = [](auto& spu, ea_t argument) {
-  Memory& memory = at<Memory>(argument);
-  using Spu = std::remove_reference_t<decltype(spu)>;
-  SoftwareCache<Spu, std::uint32_t, CheckedCacheOptions> cache(spu, CacheConfig{}, memory.base());
-  const auto pointer = cache.template get<std::uint32_t>(0, 0);
-  cache.prefetch(kLineBytes);
-  if (*pointer != memory.word(0)) spu.halt(HaltCode::internal_error);
-};
-
-} // namespace
-
 TEST_CASE("a pointer that is used too late ends the program on a Cell, and is none where memory is direct") {
-  const std::string key = GENERATE(from_range(spu_keys()));
-  Memory memory(4);
-  const std::string error = error_on(key, kUseTooLate, to_ea(&memory));
-  if (key.starts_with("cell_emu"))
-    CHECK_THAT(error, Catch::Contains("stale pointer"));
+  const auto kind = GENERATE(from_range(kinds_for(cache_scripts_program())));
+  const auto call = GENERATE(CacheStep::read, CacheStep::get, CacheStep::prefetch, CacheStep::fetch,
+                             CacheStep::synchronize, CacheStep::synchronize_all, CacheStep::invalidate_all);
+  CAPTURE(kind, call);
+  ScriptedCaches caches(kind, 1, 4);
+  CacheScript& script = caches.script();
+  script.get(4);
+  const std::uint32_t found = script.word(4);
+  script.add(CacheStep::use, 0, found);
+  script.add(CacheStep::reset_counters);
+  script.add(CacheStep::use, 0, found);
+  if (call != CacheStep::get) {
+    script.add(call, 2 * kLineBytes, script.word(2 * kLineBytes));
+  } else {
+    script.add(CacheStep::read, 0, script.word(0));
+    script.get(8);
+    script.add(CacheStep::use, 0, script.word(8));
+    script.add(CacheStep::settle);
+    script.add(CacheStep::use, 0, script.word(8));
+    script.read(8);
+  }
+  script.add(CacheStep::use, 0, call == CacheStep::get ? script.word(8) : found);
+  script.add(CacheStep::invalidate_all);
+  caches.play(CacheFlavour::checked, CacheConfig{});
+  if (kind.is_native())
+    caches.check_values();
   else
-    CHECK(error.empty());
+    CHECK_THAT(caches.run().error, Catch::Contains("stale pointer"));
+}
+
+TEST_CASE("with lru a pointer is good for as many calls as there are ways on every SPU") {
+  const auto kind = GENERATE(from_range(kinds_for(cache_scripts_program())));
+  const auto ways = GENERATE(2u, 8u);
+  const bool too_late = GENERATE(false, true);
+  CAPTURE(kind, ways, too_late);
+  ScriptedCaches caches(kind, 1, 16);
+  CacheScript& script = caches.script();
+  script.get(8);
+  for (std::uint32_t call = 1; call < ways + (too_late ? 1 : 0); ++call)
+    script.read(call * kLineBytes);
+  script.add(CacheStep::use, 0, script.word(8));
+  caches.play(CacheFlavour::checked, full(ways, CacheReplacement::lru));
+  if (too_late && !kind.is_native())
+    CHECK_THAT(caches.run().error, Catch::Contains("stale pointer"));
+  else
+    caches.check_values();
+}
+
+TEST_CASE("a plain pointer that is kept too long finds poison on every Cell") {
+  const auto kind = GENERATE(from_range(kinds_for(cache_scripts_program())));
+  CAPTURE(kind);
+  ScriptedCaches caches(kind, 1, 4);
+  CacheScript& script = caches.script();
+  script.get(8);
+  script.add(CacheStep::prefetch);
+  script.add(CacheStep::use_plain, 0, kind.is_native() ? script.word(8) : Cache::kPoison);
+  script.read(8);
+  caches.play(CacheFlavour::checked, CacheConfig{});
+  caches.check_values();
+  caches.check_counts();
 }

@@ -1,15 +1,16 @@
 // Fetching ahead: batches, and runs of words.
 #include "fake_spu.hpp"
 #include "memory.hpp"
-#include "spe/run_on.hpp"
+#include "scripted_caches.hpp"
 
 #include "celltrace/cache.hpp"
-#include "celltrace/emulator.hpp"
 
 #include <catch2/catch.hpp>
 
+#include <array>
 #include <memory>
-#include <numeric>
+#include <random>
+#include <vector>
 
 using namespace celltrace;
 using namespace celltrace::test;
@@ -135,45 +136,62 @@ TEST_CASE("runs of every length end where they should") {
     }
 }
 
-namespace {
-
-struct Sum {
-  Memory memory{40};
-  std::uint32_t sum = 0;
-};
-
-constexpr auto kSumRun = [](auto& spu, ea_t argument) {
-  Sum& control = at<Sum>(argument);
-  SoftwareCache cache(spu, CacheConfig{}, control.memory.base());
-  const uint32_t offsets[] = {0, 1024, 4096};
-  cache.fetch(offsets, 3);
-  for (WordRun run(cache, 64u, 1000u, 0u); !run.empty();)
-    control.sum += run.next();
-  cache.invalidate_all();
-};
-
-} // namespace
-
-TEST_CASE("a program that leaves a run before its end has to settle the cache") {
-  Memory memory(8);
-  const auto end_within_a_run = [&](bool settles) {
-    return emulate(lockstep(1), [&](EmulatedSpu& spu) {
-      SoftwareCache cache(spu, CacheConfig::of(4, 4), memory.base());
-      WordRun run(cache, 0, 100, 0u);
-      run.next();
-      if (settles) cache.settle();
-    });
-  };
-  CHECK(end_within_a_run(false).broke(Rule::in_flight_at_exit));
-  CHECK(end_within_a_run(true).ok());
+TEST_CASE("batches, lanes and runs work on every SPU, and count as their model does") {
+  const auto kind = GENERATE(from_range(kinds_for(cache_scripts_program())));
+  const auto config = GENERATE(CacheConfig{}, CacheConfig::of(1, 2), CacheConfig::of(8, 4),
+                               CacheConfig::of(4, 8, CacheReplacement::lru), CacheConfig::off());
+  const auto flavour = GENERATE(CacheFlavour::plain, CacheFlavour::checked);
+  CAPTURE(kind, config.ways, config.sets, config.enabled);
+  ScriptedCaches caches(kind, 1, 80);
+  CacheScript& script = caches.script();
+  std::mt19937 random(5);
+  const auto below = [&](std::uint32_t bound) { return static_cast<std::uint32_t>(random() % bound); };
+  for (int round = 0; round < 60; ++round) {
+    std::vector<std::uint32_t> batch(below(kMaxItems + 1));
+    for (std::uint32_t& offset : batch)
+      offset = below(script.bytes()) & ~3u;
+    script.fetch(batch);
+    std::array<std::uint32_t, kSimdLanes> lanes;
+    const std::uint32_t spread = 4u << below(12);
+    const std::uint32_t first = below(script.bytes());
+    for (std::uint32_t& offset : lanes)
+      offset = (first + below(spread)) % script.bytes() & ~3u;
+    script.lanes(lanes, round % 3 == 0 ? 0xFFFF : below(0x10000), 2);
+    const std::uint32_t count = below(100);
+    script.run(first / 2 & ~3u, count, count, 3);
+  }
+  script.run(64, 1000, 1000, 4);
+  script.add(CacheStep::settle);
+  caches.play(flavour, config);
+  caches.check_values();
+  caches.check_counts();
 }
 
-TEST_CASE("batches and runs work on every SPU") {
-  const std::string key = GENERATE(from_range(spu_keys()));
-  Sum control;
-  run_on(key, 1, kSumRun, to_ea(&control));
-  std::uint32_t expected = 0;
-  for (std::uint32_t i = 0; i < 1000; ++i)
-    expected += control.memory.word(64 + 4 * i);
-  CHECK(control.sum == expected);
+TEST_CASE("a run stays where it is while the cache is used for other things") {
+  const auto kind = GENERATE(from_range(kinds_for(cache_scripts_program())));
+  CAPTURE(kind);
+  ScriptedCaches caches(kind, 1, 64);
+  CacheScript& script = caches.script();
+  script.run(120, 70, 0, 2);
+  for (std::uint32_t offset = 120; offset < 120 + 70 * 4; offset += 4) {
+    script.add(CacheStep::next, offset, script.word(offset), 2);
+    script.read((offset * 7) % script.bytes() & ~3u, 1);
+  }
+  caches.play(CacheFlavour::plain, CacheConfig::of(1, 2));
+  caches.check_values();
+  caches.check_counts();
+}
+
+TEST_CASE("a program that leaves a run before its end has to settle the cache") {
+  const auto kind = GENERATE(from_range(kinds_for(cache_scripts_program())));
+  const bool settles = GENERATE(false, true);
+  CAPTURE(kind, settles);
+  ScriptedCaches caches(kind, 1, 8);
+  caches.script().run(0, 100, 1);
+  if (settles) caches.script().add(CacheStep::settle);
+  caches.play(CacheFlavour::plain, CacheConfig::of(4, 4));
+  if (settles || kind.is_native())
+    caches.check_values();
+  else
+    CHECK(caches.broke(Rule::in_flight_at_exit));
 }

@@ -22,6 +22,8 @@ public:
     return lines_[offset / kLineBytes].words[offset % kLineBytes / 4];
   }
 
+  const std::uint32_t& word(std::uint32_t offset) const { return const_cast<Memory*>(this)->word(offset); }
+
 private:
   struct alignas(kLineBytes) Line {
     std::uint32_t words[kLineBytes / 4];

@@ -1,7 +1,7 @@
 // The cache that can be written to.
 #include "fake_spu.hpp"
 #include "memory.hpp"
-#include "spe/run_on.hpp"
+#include "scripted_caches.hpp"
 
 #include "celltrace/cache.hpp"
 
@@ -147,31 +147,85 @@ TEST_CASE("a cache that can be written to takes the local store that it says") {
 
 namespace {
 
-struct Shared {
-  Memory memory{16};
-  CacheConfig config = CacheConfig::of(2, 2);
-};
-
-/// Every SPE writes the bytes whose offset is its id modulo the number of SPEs.
-constexpr auto kWriteOwnBytes = [](auto& spu, ea_t argument) {
-  Shared& shared = at<Shared>(argument);
-  WriteBackCache<std::remove_reference_t<decltype(spu)>> cache(spu, shared.config, shared.memory.base());
-  for (int round = 0; round < 3; ++round)
-    for (std::uint32_t offset = spu.id(); offset < shared.memory.bytes(); offset += spu.count())
-      cache.write(offset, static_cast<std::uint8_t>(offset * 7 + spu.id()), 0u);
-  cache.flush();
-};
+/// Reads and writes bytes, words, blocks and lines.
+void write_at_random(CacheScript& script, unsigned length, unsigned seed) {
+  std::mt19937 random(seed);
+  for (unsigned i = 0; i < length; ++i) {
+    const auto offset = static_cast<std::uint32_t>(random() % script.bytes());
+    const auto value = static_cast<std::uint32_t>(random());
+    switch (random() % 12) {
+    case 0:
+      script.write_byte(offset, value, 1);
+      break;
+    case 1:
+      script.write_word(offset & ~3u, value, 1);
+      break;
+    case 2:
+      script.write_block(offset & ~15u, value, 2);
+      break;
+    case 3:
+      script.write_line(offset & ~127u, value, 3);
+      break;
+    case 4:
+      script.add(CacheStep::prefetch, offset);
+      break;
+    case 5:
+      script.read_byte(offset);
+      break;
+    case 6:
+      script.read_block(offset & ~15u);
+      break;
+    case 7:
+      script.read_line(offset & ~127u);
+      break;
+    default:
+      script.read(offset & ~3u);
+    }
+    if (i % 300 == 299) script.add(i % 900 == 899 ? CacheStep::invalidate_all : CacheStep::flush);
+  }
+  script.add(CacheStep::invalidate_all);
+}
 
 } // namespace
 
+TEST_CASE("what was written is read, and is in main memory in the end, on every SPU") {
+  const auto kind = GENERATE(from_range(kinds_for(cache_scripts_program())));
+  const auto config =
+      GENERATE(CacheConfig::of(1, 1), CacheConfig::of(1, 8), CacheConfig::of(4, 4),
+               CacheConfig::of(4, 4, CacheReplacement::random), CacheConfig::of(8, 2, CacheReplacement::lru),
+               CacheConfig::of(16, 1), CacheConfig::off());
+  CAPTURE(kind, config.ways, config.sets, config.enabled);
+  ScriptedCaches caches(kind, 1, 40);
+  write_at_random(caches.script(), 3000, config.ways);
+  caches.play(CacheFlavour::write_back, config);
+  caches.check_values();
+  caches.check_counts();
+  caches.check_memory();
+  if (!kind.is_native()) CHECK(caches.report().written_back > 0);
+}
+
 TEST_CASE("SPEs that write different bytes of the same lines lose none") {
-  const std::string key = GENERATE(from_range(spu_keys()));
-  const std::uint32_t spes = GENERATE(2u, 5u);
-  INFO(key << ", " << spes);
-  Shared shared;
-  run_on(key, spes, kWriteOwnBytes, to_ea(&shared));
+  const auto kind = GENERATE(from_range(kinds_for(cache_scripts_program())));
+  const std::uint32_t spes = GENERATE(2u, 5u, 8u);
+  CAPTURE(kind, spes);
+  ScriptedCaches caches(kind, spes, 16);
+  const auto byte_of = [&](std::uint32_t offset, std::uint32_t round) {
+    return (offset * 7 + offset % spes + 3 * round) & 0xFF;
+  };
+  for (std::uint32_t spe = 0; spe < spes; ++spe) {
+    CacheScript& script = caches.script(spe);
+    for (std::uint32_t round = 0; round < 3; ++round)
+      for (std::uint32_t offset = spe; offset < script.bytes(); offset += spes) {
+        if (round != 0) script.read_byte(offset);
+        script.write_byte(offset, byte_of(offset, round));
+      }
+    script.add(CacheStep::flush);
+  }
+  caches.play(CacheFlavour::write_back, CacheConfig::of(2, 2));
+  caches.check_values();
+  caches.check_counts();
   std::uint32_t wrong = 0;
-  for (std::uint32_t offset = 0; offset < shared.memory.bytes(); ++offset)
-    wrong += byte(shared.memory, offset) != static_cast<std::uint8_t>(offset * 7 + offset % spes);
+  for (std::uint32_t offset = 0; offset < caches.script().bytes(); ++offset)
+    wrong += caches.byte(offset) != byte_of(offset, 2);
   CHECK(wrong == 0);
 }

@@ -114,6 +114,12 @@ TEST_CASE("every option of cell_emu arrives") {
   CHECK(config({"--transfers", "issue"}).transfers == TransferTime::at_issue);
   CHECK(config({"--transfers", "wait"}).transfers == TransferTime::at_wait);
   CHECK(config({"--timing", "cell"}).timing.spes == 8);
+  CHECK(config({}).cycle_limit == 0);
+  CHECK(config({}).seconds_limit == 0);
+  CHECK(config({}).actions.empty());
+  CHECK(config({"--limit", "3200000000"}).cycle_limit == 3200000000u);
+  CHECK(config({"--seconds-limit", "1.5"}).seconds_limit == 1.5);
+  CHECK(config({"--lenient"}).actions == lenient_actions());
   for (const std::vector<std::string>& drawn : {std::vector<std::string>{"--faults"},
                                                 {"--transfers", "random"},
                                                 {"--schedule", "free", "--faults"}}) {
@@ -125,9 +131,16 @@ TEST_CASE("every option of cell_emu arrives") {
 }
 
 TEST_CASE("options of cell_emu that make no sense are refused") {
-  const std::vector<std::vector<std::string>> emulated = {
-      {"--schedule", "free"}, {"--schedule", "lockstep"}, {"--seed", "7"},      {"--transfers", "wait"},
-      {"--faults"},           {"--timing", "cell"},       {"--trace", "t.json"}};
+  const std::vector<std::vector<std::string>> emulated = {{"--schedule", "free"},
+                                                          {"--schedule", "lockstep"},
+                                                          {"--seed", "7"},
+                                                          {"--transfers", "wait"},
+                                                          {"--faults"},
+                                                          {"--timing", "cell"},
+                                                          {"--trace", "t.json"},
+                                                          {"--limit", "5"},
+                                                          {"--seconds-limit", "1"},
+                                                          {"--lenient"}};
   for (const auto& arguments : emulated)
     CHECK_THAT(render_error(arguments), StartsWith(arguments[0] + " needs --backend cell_emu"));
 
@@ -144,6 +157,10 @@ TEST_CASE("options of cell_emu that make no sense are refused") {
   CHECK_THAT(error({"--timing", "ps2"}), Contains("'ps2' is none of cell, ps3"));
   for (const std::string bad : {"-1", "x", "1.5", "18446744073709551616"})
     CHECK_THAT(error({"--schedule", "lockstep", "--seed", bad}), Contains("--seed"));
+  for (const std::string bad : {"-1", "x", "1.5"})
+    CHECK_THAT(error({"--limit", bad}), StartsWith("--limit: '" + bad + "' is not a whole"));
+  for (const std::string bad : {"-1", "x", "nan", "inf", "1e10"})
+    CHECK_THAT(error({"--seconds-limit", bad}), StartsWith("--seconds-limit: '" + bad + "' is not a number"));
 }
 
 TEST_CASE("cache settings") {

@@ -29,6 +29,8 @@ const Row kRows[] = {
     {.op = "lqa", .immediate = 0x803, .holds = kHeld, .gives = kHeld},
     {.op = "lqa", .immediate = -4, .at = 0x3FFF0, .holds = kHeld, .gives = kHeld},
     {.op = "lqr", .immediate = 0x400, .holds = kHeld, .gives = kHeld},
+    // From the instruction itself, not from the one after it.
+    {.op = "lqr", .immediate = 0x401, .pc = 0x1008, .holds = kHeld, .gives = kHeld, .next = 0x100C},
     {.op = "lqr", .immediate = -0x400, .pc = 0x3004, .holds = kHeld, .gives = kHeld, .next = 0x3008},
     {.op = "lqr", .immediate = 1, .pc = 0x3FFFC, .at = 0, .holds = kHeld, .gives = kHeld, .next = 0},
 
@@ -41,6 +43,7 @@ const Row kRows[] = {
     {.op = "stqa", .rt = kHeld, .immediate = 0x803, .stores = kHeld},
     {.op = "stqa", .rt = kHeld, .immediate = -4, .at = 0x3FFF0, .stores = kHeld},
     {.op = "stqr", .rt = kHeld, .immediate = 0x400, .stores = kHeld},
+    {.op = "stqr", .rt = kHeld, .immediate = 0x401, .pc = 0x1008, .stores = kHeld, .next = 0x100C},
     {.op = "stqr", .rt = kHeld, .immediate = 1, .pc = 0x3FFFC, .at = 0, .stores = kHeld, .next = 0},
 };
 

@@ -39,8 +39,7 @@ public:
     case 2:
       return last_ = words([&] { return random_.once_in(2) ? edge(kSingleEdges, 31) : single(); });
     case 3:
-      return last_ = doublewords(
-                 [&] { return random_.once_in(2) ? edge(kDoubleEdges, 63) : double_precision(); });
+      return last_ = doublewords([&] { return random_.once_in(2) ? edge(kDoubleEdges, 63) : special(); });
     case 4:
       return last_ = words([&] { return single(); });
     case 5:
@@ -77,12 +76,14 @@ private:
   std::uint64_t fraction(unsigned bits) {
     std::uint64_t value = random_.next() >> (64 - bits);
     const std::uint64_t lower = (std::uint64_t{1} << random_.below(bits + 1)) - 1;
-    switch (random_.below(4)) {
+    switch (random_.below(5)) {
     case 0:
-      return value;
+      return 0;
     case 1:
-      return value & ~lower;
+      return value;
     case 2:
+      return value & ~lower;
+    case 3:
       return value | lower;
     default:
       return (std::uint64_t{1} << random_.below(bits)) & ((std::uint64_t{1} << bits) - 1);
@@ -97,6 +98,11 @@ private:
   }
   std::uint64_t single() { return random_.below(2) << 31 | exponent(8) << 23 | fraction(23); }
   std::uint64_t double_precision() { return random_.below(2) << 63 | exponent(11) << 52 | fraction(52); }
+  /// What the rules of IEEE for infinities, NaN and zeros tell apart.
+  std::uint64_t special() {
+    constexpr std::uint64_t kSpecial[] = {0, 0x3FF0000000000000, 0x7FF0000000000000, 0x7FF8000000000001};
+    return edge(kSpecial, 63);
+  }
   std::uint64_t integer() {
     switch (random_.below(4)) {
     case 0:

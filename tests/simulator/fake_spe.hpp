@@ -85,6 +85,8 @@ public:
     return {static_cast<std::int32_t>(load<std::uint32_t>(block)), load<std::uint64_t>(block),
             load<std::uint32_t>(block + 12)};
   }
+  /// With the word and what it points to as they are.
+  bool handle(unsigned code) { return ppe_->handle(code, local_store(), kWord); }
   bool known() const { return known_; } ///< whether the last call was
   Answer c99(unsigned operation, const std::vector<Slot>& arguments) {
     return call(0x2100, operation, arguments);

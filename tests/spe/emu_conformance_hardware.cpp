@@ -6,11 +6,32 @@
 // monitor, and when the decrementer is an event.
 #include "spe/emu_conformance.hpp"
 
+#include <sys/mman.h>
+#include <unistd.h>
+
 namespace celltrace::test {
 namespace {
 
 void be_lenient(MachineConfig& config) {
   config.emulation.actions = lenient_actions();
+}
+
+/// Pages of the host that a program may or may not use.
+struct Pages {
+  ea_t read_only; ///< behind a page that can be written
+  ea_t none;      ///< behind a page that can be read
+};
+
+const Pages& pages() {
+  static const Pages made = [] {
+    const auto size = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+    auto* const block = static_cast<std::uint8_t*>(
+        mmap(nullptr, 3 * size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0));
+    mprotect(block + size, size, PROT_READ);
+    mprotect(block + 2 * size, size, PROT_NONE);
+    return Pages{to_ea(block + size), to_ea(block + 2 * size)};
+  }();
+  return made;
 }
 
 const Rows kHardware = {
@@ -73,6 +94,43 @@ const Rows kHardware = {
     fact("also for one that stops", HardwareRow::get_behind_list_barrier),
     broken(Rule::list_length, "a number of elements whose bytes 32 bits do not hold is too large, too",
            HardwareRow::list_count_wraps, {"getl of 4294967288 bytes of list"}),
+
+    broken(Rule::mapped_address, "what the host cannot read is not mapped", HardwareRow::get_of_given_address,
+           {"get 128 bytes"})
+        .given([](Stage&) {
+          return Given{pages().none, 0};
+        }),
+    broken(Rule::mapped_address, "nor what it has no memory for", HardwareRow::get_of_given_address,
+           {"get 128 bytes"})
+        .given([](Stage&) {
+          return Given{ea_t{1} << 56, 0};
+        }),
+    broken(Rule::mapped_address, "nor what it cannot write", HardwareRow::put_to_given_address,
+           {"put 128 bytes"})
+        .given([](Stage&) {
+          return Given{pages().read_only, 0};
+        }),
+    kept(Rule::mapped_address, "that can still be read", HardwareRow::get_of_given_address).given([](Stage&) {
+      return Given{pages().read_only, 0};
+    }),
+    kept(Rule::mapped_address, "also as a line", HardwareRow::line_of_given_address).given([](Stage&) {
+      return Given{pages().read_only, 0};
+    }),
+    broken(Rule::mapped_address, "unless there is none", HardwareRow::line_of_given_address,
+           {"getllar 128 bytes"})
+        .given([](Stage&) {
+          return Given{pages().none, 0};
+        }),
+    broken(Rule::mapped_address, "every element of a list has to be writable",
+           HardwareRow::list_to_given_address, {"element 1 of putl"})
+        .given([](Stage&) {
+          return Given{pages().read_only - 128, 0};
+        }),
+    broken(Rule::mapped_address, "and every byte of a transfer", HardwareRow::get_of_given_address,
+           {"get 128 bytes"})
+        .given([](Stage&) {
+          return Given{pages().none - 64, 0};
+        }),
 
     kept(Rule::time_limit, "a program that ends in time", HardwareRow::drained_and_waited)
         .configured([](MachineConfig& config) {

@@ -9,6 +9,11 @@
 #include <cfenv>
 #include <cmath>
 #include <limits>
+#include <type_traits>
+
+#if defined(__SSE2_MATH__)
+#include <immintrin.h>
+#endif
 
 namespace celltrace::isa::execute {
 namespace {
@@ -19,7 +24,6 @@ using U64 = std::uint64_t;
 constexpr U64 kSign = U64{1} << 63, kExponent = U64{0x7FF} << 52, kQuiet = U64{1} << 51;
 constexpr U64 kDefaultNan = kExponent | kQuiet;
 constexpr U32 kDefaultNanSingle = 0x7FC00000;
-constexpr U64 kSmallestSingle = U64{1023 - 126} << 52;
 
 constexpr bool is_nan(U64 x) {
   return (x & ~kSign) > kExponent;
@@ -44,26 +48,41 @@ U64 operand(U64 x, U32& exceptions) {
   return x & kSign;
 }
 
-int host_rounding(Rounding rounding) {
-  switch (rounding) {
-  case Rounding::nearest:
-    break;
-  case Rounding::to_zero:
-    return FE_TOWARDZERO;
-  case Rounding::up:
-    return FE_UPWARD;
-  case Rounding::down:
-    return FE_DOWNWARD;
-  }
-  return FE_TONEAREST;
-}
+#if defined(__SSE2_MATH__)
+/// The host's floating-point environment with a rounding mode and without flags, for as long as this lives.
+/// That of SSE alone: <cfenv> changes the x87's as well, which takes several times as long as the arithmetic.
+class HostEnvironment {
+public:
+  explicit HostEnvironment(Rounding rounding) : kept_(_mm_getcsr()) { _mm_setcsr(kMasked | mode(rounding)); }
+  ~HostEnvironment() { _mm_setcsr(kept_); }
+  HostEnvironment(const HostEnvironment&) = delete;
+  HostEnvironment& operator=(const HostEnvironment&) = delete;
 
+  static U32 exceptions() {
+    const unsigned raised = _mm_getcsr();
+    U32 exceptions = 0;
+    if ((raised & _MM_EXCEPT_INVALID) != 0) exceptions |= double_exception::invalid;
+    if ((raised & _MM_EXCEPT_OVERFLOW) != 0) exceptions |= double_exception::overflow;
+    if ((raised & _MM_EXCEPT_INEXACT) != 0) exceptions |= double_exception::inexact;
+    return exceptions;
+  }
+
+private:
+  static constexpr unsigned kMasked = _MM_MASK_MASK;
+  static unsigned mode(Rounding rounding) {
+    constexpr unsigned modes[] = {_MM_ROUND_NEAREST, _MM_ROUND_TOWARD_ZERO, _MM_ROUND_UP, _MM_ROUND_DOWN};
+    return modes[static_cast<unsigned>(rounding)];
+  }
+  unsigned kept_;
+};
+#else
 /// The host's floating-point environment with a rounding mode and without flags, for as long as this lives.
 class HostEnvironment {
 public:
   explicit HostEnvironment(Rounding rounding) {
+    constexpr int modes[] = {FE_TONEAREST, FE_TOWARDZERO, FE_UPWARD, FE_DOWNWARD};
     std::feholdexcept(&kept_);
-    std::fesetround(host_rounding(rounding));
+    std::fesetround(modes[static_cast<unsigned>(rounding)]);
   }
   ~HostEnvironment() { std::fesetenv(&kept_); }
   HostEnvironment(const HostEnvironment&) = delete;
@@ -81,6 +100,7 @@ public:
 private:
   std::fenv_t kept_;
 };
+#endif
 
 /// f(operands) by the host. Volatile, as compilers move arithmetic across changes of the environment.
 template <class F, class... Operands>
@@ -93,25 +113,28 @@ template <class F, class... Operands>
   return value;
 }
 
-constexpr U32 kTooSmall = double_exception::underflow | double_exception::inexact;
-constexpr U64 kSmallest = U64{1} << 52;
-
-/// f(operands), none of them a NaN or a denormal. A result is too small if it is so before rounding; the host
-/// may have made the smallest number of it, or a zero that nothing but inexactness tells from a true one.
+/// f(operands), and zero for what is below the normal numbers. Whether it is, is decided before rounding.
 template <class F, class... Operands>
-U64 computed(Rounding rounding, U32& exceptions, F f, Operands... operands) {
+auto rounded(Rounding rounding, U32& exceptions, F f, Operands... operands) {
   U32 raised = 0;
-  const U64 bits = std::bit_cast<U64>(by_host(rounding, raised, f, operands...));
-  exceptions |= raised;
-  if (is_nan(bits)) return kDefaultNan;
-  bool too_small = is_denormal(bits);
-  if ((raised & double_exception::inexact) != 0 && (bits & ~kSign) <= kSmallest) [[unlikely]] {
-    const double truncated = by_host(Rounding::to_zero, raised, f, operands...);
-    too_small = std::fabs(truncated) < std::bit_cast<double>(kSmallest);
+  const auto result = by_host(rounding, raised, f, operands...);
+  using Result = std::remove_const_t<decltype(result)>;
+  constexpr Result smallest = std::numeric_limits<Result>::min();
+  const auto is_normal = [&](Result x) { return !(std::fabs(x) < smallest); };
+  const bool inexact = (raised & double_exception::inexact) != 0;
+  bool too_small = !is_normal(result) && (result != 0 || inexact);
+  if (std::fabs(result) == smallest && inexact) {
+    U32 ignored = 0;
+    too_small = !is_normal(by_host(Rounding::to_zero, ignored, f, operands...));
   }
-  if (!too_small) return bits;
-  exceptions |= kTooSmall;
-  return bits & kSign;
+  exceptions |= raised;
+  if (!too_small) return result;
+  exceptions |= double_exception::underflow | double_exception::inexact;
+  return std::copysign(Result{0}, result);
+}
+
+U64 bits_of(double result) {
+  return std::isnan(result) ? kDefaultNan : std::bit_cast<U64>(result);
 }
 
 /// Whether the result is a NaN because an operand is one.
@@ -134,7 +157,7 @@ template <class F> void operation(State& state, const Instruction& i, F f) {
     U64 bits = kDefaultNan;
     if (!has_nan(exceptions, a, b)) {
       const Rounding rounding = double_rounding(state.fpscr, slot);
-      bits = computed(rounding, exceptions, f, number(a), number(b));
+      bits = bits_of(rounded(rounding, exceptions, f, number(a), number(b)));
     }
     raise_double(state.fpscr, slot, exceptions);
     result.set(slot, bits);
@@ -162,7 +185,7 @@ void multiply_add(State& state, const Instruction& i, Signs signs) {
       constexpr auto f = [](double x, double y, double z) { return std::fma(x, y, z); };
       const double z = signs.minus_rt ? -number(c) : number(c);
       const Rounding rounding = double_rounding(state.fpscr, slot);
-      bits = computed(rounding, exceptions, f, number(a), number(b), z);
+      bits = bits_of(rounded(rounding, exceptions, f, number(a), number(b), z));
       if (signs.negative && !is_nan(bits)) bits ^= kSign;
     }
     raise_double(state.fpscr, slot, exceptions);
@@ -190,13 +213,8 @@ U64 extended(U32 single, U32& exceptions) {
 U32 shortened(U64 value, Rounding rounding, U32& exceptions) {
   const U64 bits = operand(value, exceptions);
   if (has_nan(exceptions, bits)) return kDefaultNanSingle;
-  if (!is_zero(bits) && (bits & ~kSign) < kSmallestSingle) { // decided before rounding
-    exceptions |= kTooSmall;
-    return static_cast<U32>((bits & kSign) >> 32);
-  }
-  const float single = by_host(
-      rounding, exceptions, [](double x) { return static_cast<float>(x); }, number(bits));
-  return std::bit_cast<U32>(single);
+  constexpr auto f = [](double x) { return static_cast<float>(x); };
+  return std::bit_cast<U32>(rounded(rounding, exceptions, f, number(bits)));
 }
 
 /// In the order of the numbers; not for NaN.

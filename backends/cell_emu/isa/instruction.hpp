@@ -115,8 +115,8 @@ struct Instruction {
   Execute execute; ///< calls Environment::invalid_instruction() for a word that is none
   std::uint32_t word;
   std::int32_t immediate; ///< see Syntax; 0 if there is none
-  std::uint8_t rt, ra, rb,
-      rc;                 ///< the fields of the format, 0 if it lacks them; rt also where it means nothing
+  /// The fields of the format, 0 if it lacks them; rt also where it means nothing.
+  std::uint8_t rt, ra, rb, rc;
   std::uint8_t source[3]; ///< registers that it reads; kNoRegister
   std::uint8_t target;    ///< register that it writes; kNoRegister
   Opcode opcode;          ///< of a word that is none: stop

@@ -12,62 +12,56 @@ namespace {
 
 using U32 = std::uint32_t;
 using S32 = std::int32_t;
-using Words = Parts<U32>;
-
-/// The slot that the k-th part in the host's order is.
-constexpr unsigned slot_of(unsigned k) {
-  return Quadword::kReversed ? 3 - k : k;
-}
-
-/// Results before they become singles, and what to look for in a slot: operands that IEEE takes differently.
+/// Four numbers, or results before they become singles: of the low and of the high words of both doublewords.
 struct Exact {
-  std::array<double, 4> value;
-  Words odd_operand;
+  Doubles low, high;
 };
 
-[[gnu::noinline]] void raise_flags(Quadword& fpscr, const Exact& exact) {
-  for (unsigned k = 0; k < 4; ++k) {
-    U32 exceptions = 0;
-    if (magnitude(exact.value[k]) >= 0x1p129) exceptions |= single_exception::overflow;
-    if (underflow_mask(exact.value[k]) != 0) exceptions |= single_exception::underflow;
-    if ((exceptions | exact.odd_operand[k] | differs_mask(to_single(exact.value[k]))) != 0)
-      exceptions |= single_exception::differs;
-    raise_single(fpscr, slot_of(k), exceptions);
-  }
+inline Bits words(const Quadword& q) {
+  return std::bit_cast<Bits>(q);
+}
+inline Exact exact(Bits from) {
+  return {from_single(from & 0xFFFFFFFF), from_single(from >> 32)};
 }
 
-/// Flags are rare: one test says whether there is any.
-inline Quadword rounded(State& state, const Exact& exact) {
-  Words result, odd;
-  for (unsigned k = 0; k < 4; ++k) {
-    result[k] = to_single(exact.value[k]);
-    odd[k] = exact.odd_operand[k] | differs_mask(result[k]) | underflow_mask(exact.value[k]);
-  }
-  if ((odd[0] | odd[1] | odd[2] | odd[3]) != 0) [[unlikely]]
-    raise_flags(state.fpscr, exact);
-  return quadword<U32>(result);
+/// The flags of the results in two slots.
+Bits flags_of(Doubles x) {
+  const Bits overflow = reaches_mask(x, 0x1p129), underflow = underflow_mask(x);
+  const Bits differs = reaches_mask(x, 0x1p128) | underflow;
+  return (overflow & single_exception::overflow) | (underflow & single_exception::underflow) |
+         (differs & single_exception::differs);
+}
+
+[[gnu::noinline]] Quadword rounded_with_flags(Quadword& fpscr, const Exact& value, Bits differing_operands) {
+  constexpr std::uint64_t kBothDiffer =
+      std::uint64_t{single_exception::differs} << 32 | single_exception::differs;
+  // A slot's flags are the lowest bits of the word in that slot.
+  const Bits raised = flags_of(value.low) | flags_of(value.high) << 32 | (differing_operands & kBothDiffer);
+  fpscr = std::bit_cast<Quadword>(std::bit_cast<Bits>(fpscr) | raised);
+  return std::bit_cast<Quadword>(to_single(value.low) | to_single(value.high) << 32);
+}
+
+/// Flags are rare, and with them numbers that are too large: one test says whether there is any.
+inline Quadword rounded(State& state, const Exact& value, Bits differing_operands) {
+  const Bits odd = differing_operands | underflow_mask(value.low) | underflow_mask(value.high) |
+                   reaches_mask(value.low, 0x1p128) | reaches_mask(value.high, 0x1p128);
+  if ((odd[0] | odd[1]) != 0) [[unlikely]]
+    return rounded_with_flags(state.fpscr, value, differing_operands);
+  return std::bit_cast<Quadword>(to_single_in_range(value.low) | to_single_in_range(value.high) << 32);
 }
 
 /// rt = f(ra, rb)
 template <class F> inline void operation(State& state, const Instruction& i, F f) {
-  const auto a = parts<U32>(state.gpr[i.ra]), b = parts<U32>(state.gpr[i.rb]);
-  Exact exact;
-  for (unsigned k = 0; k < 4; ++k) {
-    exact.value[k] = f(from_single(a[k]), from_single(b[k]));
-    exact.odd_operand[k] = differs_mask(a[k]) | differs_mask(b[k]);
-  }
-  state.gpr[i.rt] = rounded(state, exact);
+  const Bits a = words(state.gpr[i.ra]), b = words(state.gpr[i.rb]);
+  const Exact x = exact(a), y = exact(b);
+  state.gpr[i.rt] = rounded(state, {f(x.low, y.low), f(x.high, y.high)}, differs_mask(a) | differs_mask(b));
 }
 /// rt = f(ra * rb, rc)
 template <class F> inline void of_product(State& state, const Instruction& i, F f) {
-  const auto a = parts<U32>(state.gpr[i.ra]), b = parts<U32>(state.gpr[i.rb]),
-             c = parts<U32>(state.gpr[i.rc]);
-  Exact exact;
-  for (unsigned k = 0; k < 4; ++k) {
-    exact.value[k] = f(from_single(a[k]) * from_single(b[k]), from_single(c[k]));
-    exact.odd_operand[k] = differs_mask(a[k]) | differs_mask(b[k]) | differs_mask(c[k]);
-  }
-  state.gpr[i.rt] = rounded(state, exact);
+  const Bits a = words(state.gpr[i.ra]), b = words(state.gpr[i.rb]), c = words(state.gpr[i.rc]);
+  const Exact x = exact(a), y = exact(b), z = exact(c);
+  state.gpr[i.rt] = rounded(state, {f(x.low * y.low, z.low), f(x.high * y.high, z.high)},
+                            differs_mask(a) | differs_mask(b) | differs_mask(c));
 }
 
 /// 2^exponent, of -1022 to 1023
@@ -76,12 +70,17 @@ constexpr double power_of_two(S32 exponent) {
 }
 
 template <class Integer> inline void from_integer(State& state, const Instruction& i) {
-  const auto a = parts<Integer>(state.gpr[i.ra]);
+  const auto numbers = parts<Integer>(state.gpr[i.ra]);
   const double scale = power_of_two(-i.immediate);
-  Exact exact{};
-  for (unsigned k = 0; k < 4; ++k)
-    exact.value[k] = static_cast<double>(a[k]) * scale;
-  state.gpr[i.rt] = rounded(state, exact);
+  constexpr unsigned low = Quadword::kReversed ? 0 : 1, high = 1 - low;
+  const Doubles low_numbers = {static_cast<double>(numbers[low]), static_cast<double>(numbers[low + 2])};
+  const Doubles high_numbers = {static_cast<double>(numbers[high]), static_cast<double>(numbers[high + 2])};
+  state.gpr[i.rt] = rounded(state, {low_numbers * scale, high_numbers * scale}, Bits{});
+}
+
+/// The number that is cut to an integer.
+double scaled(U32 single, double scale) {
+  return from_single(Bits{single, 0})[0] * scale;
 }
 
 void raise_divisions_by_zero(State& state, const Quadword& divisor) {
@@ -92,22 +91,22 @@ void raise_divisions_by_zero(State& state, const Quadword& divisor) {
 } // namespace
 
 void fa(State& state, const Instruction& i) {
-  operation(state, i, [](double x, double y) { return sum_towards_zero(x, y); });
+  operation(state, i, [](Doubles x, Doubles y) { return sum_towards_zero(x, y); });
 }
 void fs(State& state, const Instruction& i) {
-  operation(state, i, [](double x, double y) { return sum_towards_zero(x, -y); });
+  operation(state, i, [](Doubles x, Doubles y) { return sum_towards_zero(x, -y); });
 }
 void fm(State& state, const Instruction& i) {
-  operation(state, i, [](double x, double y) { return x * y; });
+  operation(state, i, [](Doubles x, Doubles y) { return x * y; });
 }
 void fma(State& state, const Instruction& i) {
-  of_product(state, i, [](double product, double z) { return sum_towards_zero(product, z); });
+  of_product(state, i, [](Doubles product, Doubles z) { return sum_towards_zero(product, z); });
 }
 void fms(State& state, const Instruction& i) {
-  of_product(state, i, [](double product, double z) { return sum_towards_zero(product, -z); });
+  of_product(state, i, [](Doubles product, Doubles z) { return sum_towards_zero(product, -z); });
 }
 void fnms(State& state, const Instruction& i) {
-  of_product(state, i, [](double product, double z) { return sum_towards_zero(z, -product); });
+  of_product(state, i, [](Doubles product, Doubles z) { return sum_towards_zero(z, -product); });
 }
 
 void frest(State& state, const Instruction& i) {
@@ -131,16 +130,16 @@ void cuflt(State& state, const Instruction& i) {
 void cflts(State& state, const Instruction& i) {
   const double scale = power_of_two(i.immediate);
   of_ra<U32>(state, i, [=](U32 x) {
-    const double scaled = from_single(x) * scale;
-    const double limited = scaled > 0x7FFFFFFF ? 0x7FFFFFFF : scaled < -0x1p31 ? -0x1p31 : scaled;
+    const double value = scaled(x, scale);
+    const double limited = value > 0x7FFFFFFF ? 0x7FFFFFFF : value < -0x1p31 ? -0x1p31 : value;
     return static_cast<U32>(static_cast<S32>(limited));
   });
 }
 void cfltu(State& state, const Instruction& i) {
   const double scale = power_of_two(i.immediate);
   of_ra<U32>(state, i, [=](U32 x) {
-    const double scaled = from_single(x) * scale;
-    const double limited = scaled > 0xFFFFFFFF ? 0xFFFFFFFF : scaled < 0 ? 0 : scaled;
+    const double value = scaled(x, scale);
+    const double limited = value > 0xFFFFFFFF ? 0xFFFFFFFF : value < 0 ? 0 : value;
     return static_cast<U32>(static_cast<std::int64_t>(limited));
   });
 }

@@ -26,6 +26,8 @@ struct PpeCallsConfig {
   /// throws leaves handle(). Empty: the text is dropped.
   Output standard_output, standard_error;
   std::string standard_input;
+  /// Gives what follows, when that has been read: a piece, "" at the end. Empty: nothing follows.
+  std::function<std::string()> more_input;
 
   /// Folders of the host whose files may be read and written, with all that is below them. Names that are not
   /// absolute start at the first one. Without any, every file is refused with EACCES.

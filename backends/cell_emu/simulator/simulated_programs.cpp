@@ -31,9 +31,10 @@ struct alignas(kLineBytes) SimulatedPrograms::Block {
 };
 
 SimulatedPrograms::SimulatedPrograms(const MachineConfig& config, const AddressMap& map)
-    : blocks_(std::make_unique<Block[]>(map.spes())), spes_(map.spes()), calls_(calls_config(config, map)) {
-  for (unsigned spe = 0; spe < spes_; ++spe)
-    for (unsigned other = 0; other < spes_; ++other) {
+    : blocks_(std::make_unique<Block[]>(map.spes())), map_(map), arguments_(config.simulation.arguments),
+      calls_(calls_config(config, map)) {
+  for (unsigned spe = 0; spe < map.spes(); ++spe)
+    for (unsigned other = 0; other < map.spes(); ++other) {
       blocks_[spe].addresses[other] = map.addresses(other);
       reorder(blocks_[spe].addresses[other], std::endian::big);
     }
@@ -46,6 +47,7 @@ PpeCallsConfig SimulatedPrograms::calls_config(const MachineConfig& config, cons
   calls.standard_output = config.simulation.output;
   calls.standard_error = config.simulation.error_output;
   calls.standard_input = config.simulation.input;
+  calls.more_input = config.simulation.more_input;
   calls.folders = config.simulation.allowed_folders;
   calls.effective_memory = [&map](std::uint64_t ea, std::uint64_t bytes) -> std::uint8_t* {
     if (bytes > kLocalStoreBytes) return nullptr;
@@ -82,14 +84,17 @@ std::shared_ptr<const SimulatedProgram> SimulatedPrograms::find(const SpeProgram
   return programs_.back();
 }
 
-SimulatedSpu::Arguments SimulatedPrograms::arguments(const SimulatedProgram& program, unsigned spe,
-                                                     ea_t argument) {
-  const std::uint64_t id = kFirstSpeId + spe;
-  if (program.convention() == Convention::stand_alone) return {id, argument, 0};
+StartRegisters SimulatedPrograms::arguments(const SimulatedProgram& program, unsigned spe, ea_t argument) {
+  const ea_t local_store = map_.addresses(spe).local_store;
+  if (program.convention() == Convention::stand_alone) {
+    if (fetches_argv(program.elf())) return arguments_.for_fetching(local_store);
+    const ea_t argp = arguments_.has_any() ? arguments_.ppe_argv() : argument;
+    return StartRegisters::of(kFirstSpeId + spe, argp, local_store);
+  }
   Block& block = blocks_[spe];
-  block.control = {argument, to_ea(block.addresses), spe, spes_, {}};
+  block.control = {argument, to_ea(block.addresses), spe, map_.spes(), {}};
   reorder(block.control, std::endian::big);
-  return {id, to_ea(&block.control), 0};
+  return StartRegisters::of(kFirstSpeId + spe, to_ea(&block.control), local_store);
 }
 
 } // namespace cell_emu

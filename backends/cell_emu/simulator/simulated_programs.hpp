@@ -4,6 +4,7 @@
 
 #include "backends/cell_emu/address_map.hpp"
 #include "backends/cell_emu/simulator/ppe_calls.hpp"
+#include "backends/cell_emu/simulator/program_arguments.hpp"
 #include "backends/cell_emu/simulator/simulated_program.hpp"
 #include "backends/cell_emu/simulator/simulated_spu.hpp"
 #include "celltrace/spe/machine.hpp"
@@ -18,6 +19,7 @@ namespace celltrace::cell_emu {
 /// Thread safety: call() from any thread, all else from the PPE's.
 class SimulatedPrograms {
 public:
+  /// Throws InputError for arguments that no program can take. The map has to outlive it.
   SimulatedPrograms(const MachineConfig& config, const AddressMap& map);
   ~SimulatedPrograms();
 
@@ -25,7 +27,7 @@ public:
   /// the SPU.
   std::shared_ptr<const SimulatedProgram> find(const SpeProgram& program);
   /// What the program finds in its registers when SPE `spe` starts it.
-  SimulatedSpu::Arguments arguments(const SimulatedProgram& program, unsigned spe, ea_t argument);
+  StartRegisters arguments(const SimulatedProgram& program, unsigned spe, ea_t argument);
   /// As PpeCalls::handle(), at virtual time `now`. From any thread.
   bool call(unsigned code, std::uint8_t* local_store, std::uint32_t npc, Cycle now);
 
@@ -37,7 +39,8 @@ private:
 
   std::vector<std::shared_ptr<const SimulatedProgram>> programs_;
   std::unique_ptr<Block[]> blocks_;
-  unsigned spes_;
+  const AddressMap& map_;
+  const ProgramArguments arguments_;
   std::atomic<Cycle> time_of_call_{0};
   PpeCalls calls_;
 };

@@ -37,11 +37,12 @@ SimulatedSpu::SimulatedSpu(Spe& spe, const SpuContext& context, const SimulatedP
   if (profile != nullptr) words_.resize(SpuProfile::kWords);
 }
 
-void SimulatedSpu::run(const Arguments& arguments) {
+void SimulatedSpu::run(const StartRegisters& registers) {
   state_of_spu_.pc = program_.elf().entry();
-  const std::uint64_t values[] = {arguments.spe_id, arguments.argp, arguments.envp};
-  for (unsigned i = 0; i < 3; ++i)
-    state_of_spu_.gpr[3 + i].set<std::uint64_t>(0, values[i]);
+  state_of_spu_.gpr[3] = registers.spe_id;
+  state_of_spu_.gpr[4] = registers.argp;
+  state_of_spu_.gpr[5] = registers.envp;
+  state_of_spu_.gpr[6] = registers.local_store;
   if (profile_ == nullptr) {
     for (;;) {
       attend();
@@ -56,13 +57,13 @@ void SimulatedSpu::run(const Arguments& arguments) {
 
 void SimulatedSpu::finish() {
   settle();
-  if (profile_ != nullptr) profile_->add(words_);
+  hand_in_profile();
   SpuCore::finish();
 }
 
 void SimulatedSpu::abandon() {
   settle();
-  if (profile_ != nullptr) profile_->add(words_);
+  hand_in_profile();
   leave();
 }
 
@@ -91,9 +92,9 @@ template <bool profiled> void SimulatedSpu::run_slice() {
     const isa::Instruction& instruction = fetch(pc);
     const isa::Unit unit = instruction.unit;
     const std::uint8_t target = instruction.target;
-    const Cycle before = model_.last();
-    if constexpr (profiled) model_.forget_recent();
+    [[maybe_unused]] const Cycle before = model_.last();
     model_.issue(instruction, pc);
+    if constexpr (profiled) under_way_ = {pc, true, model_.last() == before};
     const std::uint32_t following = (pc + 4) & isa::kLocalStoreLimit;
     state.next = following;
     if (early_loads_.any()) [[unlikely]]
@@ -105,30 +106,50 @@ template <bool profiled> void SimulatedSpu::run_slice() {
       hint(instruction, pc);
     if (target == 1) [[unlikely]]
       check_stack();
-    if constexpr (profiled) record(instruction.word, pc, before);
+    if constexpr (profiled) record();
     state.pc = state.next;
   }
 }
 
-void SimulatedSpu::record(std::uint32_t instruction, std::uint32_t pc, Cycle before) {
-  SpuProfile::Word& word = words_[pc / 4];
-  const Cycle cycles = model_.last() - before;
+void SimulatedSpu::record() {
+  SpuProfile::Word& word = words_[under_way_.pc / 4];
   ++word.hits;
-  word.instruction = instruction;
-  word.cycles += cycles;
-  word.dual += cycles == 0;
+  word.instruction = decoded_[under_way_.pc / 4].word;
+  word.dual += under_way_.paired;
+  under_way_.issued = false;
+  record_cycles();
+}
+
+void SimulatedSpu::record_cycles() {
+  SpuProfile::Word& word = words_[under_way_.pc / 4];
+  word.cycles += model_.last() - profiled_until_;
   word.dependency += model_.recent(StallReason::dependency);
   word.branch_miss += model_.recent(StallReason::branch_miss);
   word.prefetch_miss += model_.recent(StallReason::prefetch_miss);
   word.hint_target += model_.recent(StallReason::hint_target);
   word.fp_resource += model_.recent(StallReason::fp_resource);
   word.channel += waited_;
+  profiled_until_ = model_.last();
+  model_.forget_recent();
   waited_ = 0;
+}
+
+void SimulatedSpu::hand_in_profile() {
+  if (profile_ == nullptr) return;
+  // The instruction that ended the program has not come back to be recorded.
+  if (under_way_.issued) record();
+  record_cycles();
+  profile_->add(words_);
 }
 
 void SimulatedSpu::attend() {
   settle();
-  if (state_.interrupted()) state_.stop_running(place_of(state_of_spu_.pc));
+  site_ = site_of(state_of_spu_.pc);
+  if (state_.interrupted()) {
+    const std::string place = to_text(site_);
+    state_.stop_running(place.empty() ? place_of(state_of_spu_.pc) : place);
+  }
+  check_limits();
   if (context_.mfc.config.faults.pause_probability > 0) inject_faults();
   reach();
   if (interrupts_enabled_) {

@@ -5,6 +5,7 @@
 #include "backends/cell_emu/isa/instruction.hpp"
 #include "backends/cell_emu/simulator/early_loads.hpp"
 #include "backends/cell_emu/simulator/issue_model.hpp"
+#include "backends/cell_emu/simulator/program_arguments.hpp"
 #include "backends/cell_emu/simulator/simulated_program.hpp"
 #include "backends/cell_emu/spu_core.hpp"
 #include "celltrace/spe/simulation.hpp"
@@ -23,11 +24,6 @@ public:
   /// The key of a stand-alone program's image.
   static constexpr const char* kElfKey = "elf";
 
-  /// Registers 3, 4 and 5 at the start, as an SPE's loader fills them: 64 bits each, in the preferred slot.
-  struct Arguments {
-    std::uint64_t spe_id, argp, envp;
-  };
-
   /// Answers a call for help; see PpeCalls::handle(). False: it is none.
   using CallPpe = std::function<bool(unsigned code, std::uint8_t* local_store, std::uint32_t npc, Cycle now)>;
 
@@ -37,7 +33,7 @@ public:
   ~SimulatedSpu() override { mfc_.watch_flights(nullptr); }
 
   /// Executes the program from its entry on, until it throws: Exit when it ends, or as SpuCore does.
-  [[noreturn]] void run(const Arguments& arguments);
+  [[noreturn]] void run(const StartRegisters& registers);
   void finish();
   void abandon();
 
@@ -56,7 +52,10 @@ private:
   void watched_store(std::uint32_t lsa, const isa::Quadword& value) override;
 
   template <bool profiled> void run_slice();
-  void record(std::uint32_t instruction, std::uint32_t pc, Cycle before);
+  // For the profile: the instruction under way; the cycles that no other has; all to who asked for it.
+  void record();
+  void record_cycles();
+  void hand_in_profile();
   const isa::Instruction& fetch(std::uint32_t pc);
   const isa::Instruction& decode_again(std::uint32_t pc, std::uint32_t word);
   /// Between instructions: limits, interrupts, and the others' turn.
@@ -89,7 +88,13 @@ private:
   std::uint32_t lowest_stack_ = kLocalStoreBytes;
   std::unordered_map<std::uint32_t, CallSite> sites_;
   std::vector<SpuProfile::Word> words_; ///< for the profile
-  Cycle waited_ = 0;                    ///< at channels, by the present instruction
+  struct {
+    std::uint32_t pc = 0;
+    bool issued = false; ///< and not recorded
+    bool paired = false; ///< issued with the one before
+  } under_way_;
+  Cycle profiled_until_ = 0;
+  Cycle waited_ = 0; ///< at channels, by the present instruction
 };
 
 } // namespace celltrace::cell_emu

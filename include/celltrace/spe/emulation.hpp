@@ -1,4 +1,5 @@
-// How `cell_emu` runs a machine: its schedule, when data moves, what goes wrong on purpose, what is checked.
+// How `cell_emu` and `cell_sim` run a machine: its schedule, when data moves, what goes wrong on purpose,
+// what is checked.
 #pragma once
 
 #include "celltrace/spe/diagnostic.hpp"
@@ -64,7 +65,7 @@ struct EmulationConfig {
   double seconds_limit = 0;
   /// Lockstep: where the trace goes, as Chrome trace JSON; it must outlive the machine. Null: nowhere.
   std::ostream* trace = nullptr;
-  /// Takes what the kernels record; it must outlive the machine. Null: nothing is recorded.
+  /// `cell_emu`: takes what the kernels record; it must outlive the machine. Null: nothing is recorded.
   SpeRecorder* recorder = nullptr;
 };
 

@@ -43,8 +43,15 @@ struct SimulationConfig {
   /// Take what programs write to their standard output and error output, in pieces; null: it is dropped.
   /// Called by one thread at a time.
   std::function<void(std::string_view)> output, error_output;
-  /// What programs read from their standard input.
+  /// argv of stand-alone programs, from argv[0], the program's name, on. A program that is linked with
+  /// -mstdmain finds it in its local store, as main(argc, argv). For any other, where there is more than
+  /// argv[0], argp is the effective address of an argv as a PPE of 64 bits has it (big-endian effective
+  /// addresses of strings, and a 0) instead of what Machine::start() was given.
+  std::vector<std::string> arguments;
+  /// What programs read from their standard input, and what gives more when they have read it all: pieces, ""
+  /// at the end; null: there is no more. Called by one thread at a time.
   std::string input;
+  std::function<std::string()> more_input;
   /// The folders whose files programs may open, read, write, make and remove; none: no files.
   std::vector<std::filesystem::path> allowed_folders;
   /// Where the cycles of all programs are added up; it must outlive the machine. Null: nowhere.

@@ -9,6 +9,10 @@
 namespace celltrace::cell_emu {
 
 std::size_t InputText::read(std::span<std::uint8_t> to) {
+  if (at_ == text_.size() && more_ && !to.empty()) {
+    text_ = more_();
+    at_ = 0;
+  }
   const std::size_t count = std::min(to.size(), text_.size() - at_);
   std::memcpy(to.data(), text_.data() + at_, count);
   at_ += count;

@@ -32,14 +32,16 @@ public:
   virtual int host_descriptor() const { return -1; }
 };
 
-/// Text that is there from the start.
+/// Text that is there from the start, and what somebody gives when it has been read.
 class InputText final : public OpenFile {
 public:
-  explicit InputText(std::string text) : text_(std::move(text)) {}
+  InputText(std::string text, std::function<std::string()> more)
+      : text_(std::move(text)), more_(std::move(more)) {}
   std::size_t read(std::span<std::uint8_t> to) override;
 
 private:
   std::string text_;
+  std::function<std::string()> more_;
   std::size_t at_ = 0;
 };
 

@@ -24,7 +24,7 @@ std::string numbered(std::string_view prefix, unsigned number) {
 PpeState::PpeState(PpeCallsConfig c)
     : config(std::move(c)), folders(config.folders), files(config.max_open_files + kStandardFiles),
       streams(config.max_open_files + kStandardFiles), ea_heap(config.max_ea_bytes) {
-  files.add(std::make_shared<InputText>(std::move(config.standard_input)));
+  files.add(std::make_shared<InputText>(std::move(config.standard_input), config.more_input));
   files.add(std::make_shared<OutputText>(config.standard_output));
   files.add(std::make_shared<OutputText>(config.standard_error));
   streams.add(Stream(files, 0, true, false));

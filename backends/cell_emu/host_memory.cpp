@@ -1,0 +1,89 @@
+#include "backends/cell_emu/host_memory.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cinttypes>
+#include <cstdio>
+#include <fstream>
+#include <shared_mutex>
+#include <string>
+#include <vector>
+
+namespace celltrace::cell_emu {
+namespace {
+
+/// Ranges in ascending order, none of which touches the next.
+class Ranges {
+public:
+  void add(MemoryRange range) {
+    if (!ranges_.empty() && ranges_.back().end == range.begin)
+      ranges_.back().end = range.end;
+    else
+      ranges_.push_back(range);
+  }
+  std::optional<MemoryRange> around(ea_t ea, std::uint32_t size) const {
+    const auto behind = std::upper_bound(ranges_.begin(), ranges_.end(), ea,
+                                         [](ea_t at, const MemoryRange& range) { return at < range.begin; });
+    if (behind == ranges_.begin() || !std::prev(behind)->has(ea, size)) return std::nullopt;
+    return *std::prev(behind);
+  }
+
+private:
+  std::vector<MemoryRange> ranges_;
+};
+
+struct Maps {
+  Ranges accessible[2]; ///< for reads, for writes
+  bool known = false;   ///< the host tells
+  std::chrono::steady_clock::time_point read = std::chrono::steady_clock::now();
+};
+
+Maps read_maps() {
+  Maps maps;
+#ifdef __linux__
+  std::ifstream file("/proc/self/maps");
+  for (std::string line; std::getline(file, line);) {
+    MemoryRange range;
+    char permissions[5] = "";
+    if (std::sscanf(line.c_str(), "%" SCNx64 "-%" SCNx64 " %4s", &range.begin, &range.end, permissions) != 3)
+      continue;
+    maps.known = true;
+    if (permissions[0] == 'r') maps.accessible[false].add(range);
+    if (permissions[0] == 'r' && permissions[1] == 'w') maps.accessible[true].add(range);
+  }
+#endif
+  return maps;
+}
+
+/// What was last read.
+struct Shared {
+  std::shared_mutex mutex;
+  Maps maps;
+};
+Shared& shared() {
+  static Shared all;
+  return all;
+}
+
+} // namespace
+
+void forget_old_memory() {
+  constexpr std::chrono::milliseconds kOld(100);
+  Shared& all = shared();
+  const std::lock_guard lock(all.mutex);
+  if (std::chrono::steady_clock::now() - all.maps.read > kOld) all.maps = {};
+}
+
+std::optional<MemoryRange> accessible_memory(ea_t ea, std::uint32_t size, bool write) {
+  Shared& all = shared();
+  {
+    const std::shared_lock lock(all.mutex);
+    if (const auto range = all.maps.accessible[write].around(ea, size)) return range;
+  }
+  const std::lock_guard lock(all.mutex);
+  all.maps = read_maps();
+  if (!all.maps.known) return MemoryRange{0, ~ea_t{0}};
+  return all.maps.accessible[write].around(ea, size);
+}
+
+} // namespace celltrace::cell_emu

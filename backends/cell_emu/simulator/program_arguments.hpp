@@ -1,0 +1,54 @@
+// How a stand-alone program for the SPU gets its command line.
+//
+// Sources: the start-up code of newlib's libgloss/spu (crt1 for main(speid, argp, envp), crt2 for -mstdmain),
+// and libspe2's spe_context_run() and elfspe, which fill the registers that it reads.
+#pragma once
+
+#include "backends/cell_emu/isa/quadword.hpp"
+#include "backends/cell_emu/simulator/spu_elf.hpp"
+#include "celltrace/spe/types.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace celltrace::cell_emu {
+
+/// Registers 3 to 6 at a program's start.
+struct StartRegisters {
+  isa::Quadword spe_id, argp, envp;
+  isa::Quadword local_store; ///< its own effective address
+
+  /// Of a main(speid, argp, envp): 64 bits each, in the preferred slot.
+  static StartRegisters of(std::uint64_t spe_id, std::uint64_t argp, std::uint64_t local_store);
+};
+
+/// Its start-up code fetches argv into its local store, for a main(argc, argv).
+bool fetches_argv(const SpuElf& elf);
+
+/// An argv in main memory, in both of its forms. Immutable; not to be moved while programs run.
+class ProgramArguments {
+public:
+  /// Throws InputError if the arguments do not fit one DMA command: 16 KB with their terminators and
+  /// pointers.
+  explicit ProgramArguments(const std::vector<std::string>& arguments);
+
+  /// Is there more than argv[0]?
+  bool has_any() const { return count_ > 1; }
+  /// The address of an argv as a PPE of 64 bits has it.
+  ea_t ppe_argv() const { return reinterpret_cast<std::uintptr_t>(ppe_argv_.data()); }
+  /// What code that fetches argv is told: argc; where it belongs in local store, and where it lies and how
+  /// many bytes it takes in main memory.
+  StartRegisters for_fetching(std::uint64_t local_store) const;
+
+private:
+  struct alignas(kLineBytes) Line {
+    std::uint8_t bytes[kLineBytes] = {};
+  };
+
+  std::uint32_t count_;
+  std::uint32_t local_bytes_; ///< of spu_argv_, a multiple of 16
+  std::vector<Line> ppe_argv_, spu_argv_;
+};
+
+} // namespace celltrace::cell_emu

@@ -1,0 +1,49 @@
+// Binaries for the SPU on a simulated Cell: for tests of the machine code that the SPU's compiler makes.
+//
+//   const std::vector<std::uint8_t> elf = ...; // spu-elf-gcc -O2 saxpy.c -o saxpy.elf
+//   const SimulatedRun run = simulate(simulated(1), elf, to_ea(&control_block));
+//   CHECK(run.ok());
+//   CHECK(run.exit_codes[0] == 0);
+//   CHECK(run.output == "done\n");
+//
+// docs/simulator.md says more. Link the CMake target celltrace::cell_emu.
+#pragma once
+
+#include "celltrace/emulator.hpp"
+
+#include <cstdint>
+#include <span>
+#include <stop_token>
+#include <string>
+
+namespace celltrace {
+
+/// What a run of a binary left behind.
+struct SimulatedRun : EmulatedRun {
+  /// What the programs wrote; empty where the configuration takes it (SimulationConfig::output).
+  std::string output, error_output;
+};
+
+/// A machine of SPUs that execute machine code, in lockstep by virtual time.
+MachineConfig simulated(unsigned spes);
+
+/// Runs a stand-alone program, main(speid, argp, envp) or one that is linked with -mstdmain, on every SPE of
+/// a new machine while `ppe` plays the PPE, and waits for all. `argument` is argp. A request to stop ends the
+/// programs with errors. Throws InputError for a configuration out of range or of another backend than
+/// "cell_sim" and for an `elf` that is no executable for the SPU, and what `ppe` throws unless that is an
+/// SpeError. Thread safety: runs are independent of each other.
+SimulatedRun simulate(const MachineConfig& config, std::span<const std::uint8_t> elf, ea_t argument = 0,
+                      const EmulatedPpe& ppe = {}, const std::stop_token& stop = {});
+
+/// The counters of all SPEs together, in the order of IBM's full-system simulator; several lines. `timing` is
+/// that of the machine.
+std::string counters_text(const EmulatedRun& run, const TimingParameters& timing);
+
+/// Where the cycles of a profile went, for people: the functions, hottest first, then the instructions of the
+/// hottest ones that make up `listed` (0..1) of all cycles together. `elf` is the program that was profiled;
+/// throws InputError if it is none.
+std::string profile_text(const SpuProfile& profile, std::span<const std::uint8_t> elf, double listed = 0.95);
+/// The same as JSON, which docs/simulator.md describes, with all instructions that were executed.
+std::string profile_json(const SpuProfile& profile, std::span<const std::uint8_t> elf);
+
+} // namespace celltrace

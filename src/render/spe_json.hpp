@@ -1,0 +1,16 @@
+// What SPEs did and broke, as the JSON that docs/statistics.md describes.
+#pragma once
+
+#include "celltrace/spe/diagnostic.hpp"
+#include "celltrace/spe/timing.hpp"
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace celltrace {
+
+nlohmann::ordered_json cycles_json(const SpuCycles& cycles);
+
+/// Without the addresses of its text: those of main memory differ from run to run.
+nlohmann::ordered_json diagnostic_json(const Diagnostic& diagnostic);
+
+} // namespace celltrace

@@ -1,0 +1,102 @@
+// The tracer as the real SPU's compiler makes it, on simulated SPUs, beside native.
+#include "picture_files.hpp"
+
+#include "celltrace/pov.hpp"
+#include "celltrace/render.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <sstream>
+
+using namespace celltrace;
+using celltrace::test::scenes_in;
+
+namespace {
+
+RenderOptions simulated(unsigned spes) {
+  RenderOptions options;
+  options.width = 160;
+  options.height = 120;
+  options.backend = "cell_sim";
+  options.spes = spes;
+  options.emulation.schedule = Schedule::lockstep;
+  return options;
+}
+
+Image native_picture(const Scene& scene) {
+  RenderOptions options = simulated(0);
+  options.backend = "native";
+  options.emulation = {};
+  return render(scene, options).image;
+}
+
+void check_scene(const std::filesystem::path& path) {
+  INFO(path.filename().string());
+  const Scene scene = parse_file(path);
+  const Image expected = native_picture(scene);
+  for (const unsigned spes : {1u, 2u, 8u}) {
+    INFO(spes << " SPEs");
+    const RenderResult result = render(scene, simulated(spes));
+    REQUIRE(result.complete);
+    CHECK(result.statistics.backend == "cell_sim");
+    CHECK(result.statistics.spes.size() == spes);
+    CHECK(result.statistics.diagnostics.empty());
+    const Comparison comparison = compare_images(result.image, expected);
+    INFO(to_text(comparison));
+    CHECK(comparison.psnr >= 50);
+  }
+}
+
+/// False, and a word about it, where this build has no machine code.
+bool has_machine_code() {
+  try {
+    render(parse_file(std::filesystem::path(OWN_SCENES) / "orthographic.pov"), simulated(1));
+    return true;
+  } catch (const SpeError& error) {
+    WARN("skipped: " << error.what());
+    return false;
+  }
+}
+
+} // namespace
+
+TEST_CASE("The SPU's machine code renders the project's scenes") {
+  if (!has_machine_code()) return;
+  for (const auto& path : scenes_in(OWN_SCENES))
+    check_scene(path);
+}
+
+TEST_CASE("The SPU's machine code renders published scenes") {
+  if (!has_machine_code()) return;
+  const std::filesystem::path folder = PUBLISHED_SCENES;
+  if (scenes_in(folder).empty()) {
+    WARN("skipped: no scenes beside the checkout");
+    return;
+  }
+  for (const char* scene : {"crystal.pov", "jncraton_dish.pov", "forste_egg.pov"})
+    check_scene(folder / scene);
+}
+
+TEST_CASE("The SPU's machine code renders all published scenes", "[.all]") {
+  const auto scenes = scenes_in(PUBLISHED_SCENES);
+  REQUIRE(scenes.size() == 10);
+  for (const auto& path : scenes)
+    check_scene(path);
+}
+
+TEST_CASE("Runs of machine code repeat to the last cycle") {
+  if (!has_machine_code()) return;
+  const Scene scene = parse_file(std::filesystem::path(OWN_SCENES) / "finishes.pov");
+  const auto run = [&] {
+    std::ostringstream trace;
+    RenderOptions options = simulated(3);
+    options.width = 64;
+    options.height = 48;
+    options.emulation.trace = &trace;
+    const RenderResult result = render(scene, options);
+    return std::tuple(result.statistics.render_cycles, result.image.rgba, trace.str());
+  };
+  const auto first = run();
+  CHECK(std::get<0>(first) > 1000000);
+  CHECK((first == run()));
+}

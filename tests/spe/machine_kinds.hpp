@@ -1,0 +1,108 @@
+// The kinds of machine that the programs of tests run on: every SPU type of the build, and the emulated Cell,
+// with kernels that the host compiled (cell_emu) or with machine code (cell_sim), under each of its
+// schedules.
+//
+//   const auto kind = GENERATE(from_range(kinds_for(probe_program())));
+//   const std::unique_ptr<Machine> machine = kind.machine(2);
+//   ... records in machine->byte_order() ...
+//   const ProgramRun run = run_program(*machine, probe_program(), records.ea());
+#pragma once
+
+#include "celltrace/emulator.hpp"
+#include "celltrace/spe/machine.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <memory>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace celltrace::test {
+
+struct MachineKind {
+  std::string name; ///< "native.avx2", "cell_sim, exploring"
+  MachineConfig config;
+
+  bool is_native() const { return config.backend == "native"; }
+  bool runs_machine_code() const { return config.backend == "cell_sim"; }
+  std::unique_ptr<Machine> machine(unsigned spes) const {
+    MachineConfig with_spes = config;
+    with_spes.spes = spes;
+    std::unique_ptr<Machine> made = make_machine(with_spes);
+    REQUIRE(made->spu_key() == (is_native() ? config.backend + "." + config.simd : config.backend));
+    return made;
+  }
+  friend std::ostream& operator<<(std::ostream& out, const MachineKind& kind) { return out << kind.name; }
+};
+
+/// Those that this host can run and that the program was made for.
+inline std::vector<MachineKind> kinds_for(const SpeProgram& program) {
+  std::vector<MachineKind> kinds;
+  for (const char* simd : {"sse2", "avx2", "avx512", "neon64"}) {
+    MachineKind kind{std::string("native.") + simd, {}};
+    kind.config.simd = simd;
+    try {
+      make_machine(kind.config);
+      kinds.push_back(kind);
+    } catch (const InputError&) {
+      // The CPU lacks it.
+    }
+  }
+  for (const char* backend : {"cell_emu", "cell_sim"}) {
+    if (backend == std::string("cell_sim") && program.image(backend).empty()) {
+      WARN("skipped on cell_sim: the program \"" << program.name()
+                                                 << "\" has no machine code, which needs CELLTRACE_SPU_GXX");
+      continue;
+    }
+    for (const auto& [schedule, config] :
+         {std::pair{"free", free_running(1)}, std::pair{"lockstep", lockstep(1)},
+          std::pair{"exploring", exploring(1, 11)}, std::pair{"with faults", exploring_with_faults(1, 12)}}) {
+      kinds.push_back({std::string(backend) + ", " + schedule, config});
+      kinds.back().config.backend = backend;
+    }
+  }
+  return kinds;
+}
+
+/// What is left of a run besides what the program wrote to main memory.
+struct ProgramRun {
+  std::string error; ///< of the first SPE in their order that failed; or ""
+  std::vector<Diagnostic> diagnostics;
+  std::vector<SpeStatistics> spes;
+};
+
+/// Runs the program on every SPE while `ppe(machine)` plays the PPE, and waits for all.
+template <class Ppe>
+ProgramRun run_program(Machine& machine, const SpeProgram& program, ea_t argument, Ppe ppe) {
+  ProgramRun run;
+  const auto keep_error = [&](auto part) {
+    try {
+      part();
+    } catch (const SpeError& error) {
+      if (run.error.empty()) run.error = error.what();
+    }
+  };
+  for (unsigned spe = 0; spe < machine.spe_count(); ++spe)
+    machine.start(spe, program, argument);
+  keep_error([&] { ppe(machine); });
+  for (unsigned spe = 0; spe < machine.spe_count(); ++spe) {
+    keep_error([&] { machine.wait(spe); });
+    run.spes.push_back(machine.statistics(spe));
+  }
+  run.diagnostics = machine.diagnostics();
+  return run;
+}
+inline ProgramRun run_program(Machine& machine, const SpeProgram& program, ea_t argument) {
+  return run_program(machine, program, argument, [](Machine&) {});
+}
+
+/// No program failed and no rule was broken.
+inline void check_clean(const ProgramRun& run) {
+  CHECK(run.error.empty());
+  for (const Diagnostic& diagnostic : run.diagnostics)
+    FAIL_CHECK(diagnostic.text);
+}
+
+} // namespace celltrace::test
