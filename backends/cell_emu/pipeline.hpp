@@ -8,9 +8,10 @@
 //               it does. Every other instruction takes a cycle of its own.
 //   dependency  An instruction of a chain holds up the one behind it for its latency less one cycle. An
 //               operation on a packet issues for four cycles, one per quadword, so only what its latency
-//               exceeds these by is left. `exposed_latency` of all that finds nothing else to issue.
-//   branches    `missed_branches` of the branches take the way that nothing foretold, for `branch_miss`
-//               cycles. Each comes with `hints` hints, which go to the odd pipe, with `late_hint` cycles of
+//               exceeds these by is left. `exposed_latency` of all that finds nothing else to issue. Scalar
+//               work says itself how long it waits.
+//   branches    Only scalar work branches, and says how many cycles it loses where nothing foretold the way.
+//               Each branch comes with `hints` hints, which go to the odd pipe, with `late_hint` cycles of
 //               waiting for one, and with `no_ops` cycles in which nothing but no-ops issues.
 //   fetch       Where quadwords are moved about, loads and stores leave the local store's port no time to
 //               fetch instructions: `late_fetch` cycles each.
@@ -59,27 +60,29 @@ inline SpuCycles cycles_of(const OperationCounts& counts, const TimingParameters
   const UnitCounts& packet = counts.packet;
   const UnitCounts& chain = counts.chain;
   SpuCycles cycles;
-  cycles.fx2 = quadwords * packet.fx2 + chain.fx2;
-  cycles.fx3 = quadwords * packet.fx3 + chain.fx3;
+  const UnitCounts& scalar = counts.scalar;
+  cycles.fx2 = quadwords * packet.fx2 + chain.fx2 + scalar.fx2;
+  cycles.fx3 = quadwords * packet.fx3 + chain.fx3 + scalar.fx3;
   cycles.fxb = quadwords * packet.fxb + chain.fxb;
-  cycles.fp6 = quadwords * packet.fp6 + chain.fp6;
+  cycles.fp6 = quadwords * packet.fp6 + chain.fp6 + scalar.fp6;
   cycles.fp7 = quadwords * packet.fp7 + chain.fp7;
-  cycles.ls = quadwords * packet.ls + chain.ls + counts.moves;
-  cycles.shuf = quadwords * packet.shuf + chain.shuf;
-  cycles.br = quadwords * packet.br + chain.br + counts.branches;
+  cycles.ls = quadwords * packet.ls + chain.ls + scalar.ls;
+  cycles.shuf = quadwords * packet.shuf + chain.shuf + scalar.shuf;
+  cycles.br = quadwords * packet.br + chain.br + scalar.br;
 
   const std::uint64_t even = cycles.fx2 + cycles.fx3 + cycles.fxb + cycles.fp6 + cycles.fp7;
-  cycles.hbr = detail::part_of(counts.branches, timing.hints);
+  cycles.hbr = detail::part_of(scalar.br, timing.hints);
   const std::uint64_t odd = cycles.ls + cycles.shuf + cycles.br + cycles.hbr;
   cycles.dual_cycle = detail::part_of(std::min(even, odd), timing.paired_issue);
   cycles.single_cycle = even + odd - 2 * cycles.dual_cycle;
   cycles.stall_due_to_dependency = detail::part_of(detail::latency_beyond_issue(packet, quadwords, timing) +
                                                        detail::latency_beyond_issue(chain, 1, timing),
-                                                   timing.exposed_latency);
-  cycles.branch_taken_miss = detail::part_of(counts.branches, timing.missed_branches);
-  cycles.stall_due_to_branch_miss = cycles.branch_taken_miss * timing.branch_miss;
-  cycles.stall_due_to_hint_target = detail::part_of(counts.branches, timing.late_hint);
-  cycles.nop_cycle = detail::part_of(counts.branches, timing.no_ops);
+                                                   timing.exposed_latency) +
+                                   counts.waits;
+  cycles.stall_due_to_branch_miss = counts.misses;
+  cycles.branch_taken_miss = timing.branch_miss != 0 ? counts.misses / timing.branch_miss : 0;
+  cycles.stall_due_to_hint_target = detail::part_of(scalar.br, timing.late_hint);
+  cycles.nop_cycle = detail::part_of(scalar.br, timing.no_ops);
   cycles.stall_due_to_prefetch_miss = detail::part_of(counts.moves, timing.late_fetch);
   cycles.total_cycle = cycles.single_cycle + cycles.dual_cycle + cycles.nop_cycle +
                        cycles.stall_due_to_dependency + cycles.stall_due_to_branch_miss +

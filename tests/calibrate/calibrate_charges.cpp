@@ -46,7 +46,7 @@ int main(int argc, char** argv) {
   std::vector<std::string> scenes, headers;
   std::string file;
   unsigned threads = 0;
-  double trust = 1;
+  double trust = 0.3; // in what is there before
   app.require_subcommand(1);
   CLI::App* const measuring = app.add_subcommand("measure");
   measuring->add_option("scenes", scenes)->check(CLI::ExistingFile);

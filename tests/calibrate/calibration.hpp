@@ -12,18 +12,19 @@
 
 namespace celltrace::calibration {
 
-/// The units that compute() charges, in the order of ScalarWork.
-constexpr const char* kUnits[] = {"fixed", "floating", "memory", "shuffle", "branches", "shift"};
-constexpr std::size_t kUnitCount = std::size(kUnits);
-/// Instructions by unit.
-using Charges = std::array<double, kUnitCount>;
+/// The units that ScalarWork charges, in its order.
+enum Unit { fixed, floating, memory, shuffle, branches, shift };
+constexpr std::size_t kUnitCount = shift + 1;
+/// Instructions by unit, then cycles of waiting and of missed branches.
+using Charges = std::array<double, kUnitCount + 2>;
+enum Stall { waits = kUnitCount, misses };
 
 /// A frame on both backends. Sums over all SPEs.
 struct Frame {
   std::string name;
   std::map<std::string, double> simulated; ///< by the names of kSpuCycleCounts
   std::map<std::string, double> emulated;  ///< the same
-  Charges facade{};                        ///< instructions of the SIMD facade
+  Charges facade{};                        ///< of the SIMD facade; its stalls are 0
   double other = 0;                        ///< of these, units that compute() does not charge
   double latency = 0;                      ///< beyond the issue of the facade's instructions, in cycles
   std::map<std::string, double> times;     ///< how often each kind of work was done

@@ -9,7 +9,8 @@ namespace celltrace::calibration {
 
 namespace {
 
-constexpr const char* kSimulatedUnits[kUnitCount] = {"fx2", "fp6", "ls", "shuf", "br", "fx3"};
+constexpr const char* kSimulated[] = {
+    "fx2", "fp6", "ls", "shuf", "br", "fx3", "stall_due_to_dependency", "stall_due_to_branch_miss"};
 
 double sum(const std::map<std::string, double>& counts, std::initializer_list<const char*> names) {
   double all = 0;
@@ -63,34 +64,30 @@ private:
 /// What the statistical model says of a frame, before its parameters come in.
 struct Drivers {
   double even = 0, odd = 0; ///< instructions by pipe
-  double latency = 0;       ///< beyond issue, in cycles
   double branches = 0, moves = 0;
+  double waits = 0, misses = 0; ///< of scalar work, in cycles
 };
 Drivers drivers_of(const Frame& frame, const std::map<std::string, Charges>& charges) {
-  const TimingParameters timing;
-  enum { fixed, floating, memory, shuffle, branches, shift };
   Charges all = frame.facade;
   Drivers d;
-  d.latency = frame.latency;
   for (const auto& [kind, times] : frame.times) {
     const Charges& each = charges.at(kind);
-    for (std::size_t unit = 0; unit < kUnitCount; ++unit)
+    for (std::size_t unit = 0; unit < all.size(); ++unit)
       all[unit] += times * each[unit];
-    const double scalars = std::min(each[memory], each[shuffle]);
-    d.latency += times * (each[fixed] * (timing.simple_fixed - 1) + each[shift] * (timing.shift - 1) +
-                          each[floating] * (timing.float_operation - 1) + scalars * (timing.load_store - 1) +
-                          each[shuffle] * (timing.shuffle - 1));
-    d.moves += times * (each[memory] - scalars);
+    d.moves += times * std::max(0.0, each[memory] - each[shuffle]);
     d.branches += times * each[branches];
   }
   d.even = all[fixed] + all[floating] + all[shift] + frame.other;
   d.odd = all[memory] + all[shuffle] + all[branches];
+  d.waits = all[waits];
+  d.misses = all[misses];
   return d;
 }
 
 TimingParameters fit_timing(const std::vector<Frame>& frames, const std::map<std::string, Charges>& charges,
-                            std::ostream& out) {
+                            double exposed_latency, std::ostream& out) {
   TimingParameters timing;
+  timing.exposed_latency = exposed_latency;
   // Each parameter by its own stalls, every frame as important as another.
   const auto ratio = [&](auto driver, std::initializer_list<const char*> stalls) {
     double of = 0, all = 0;
@@ -102,17 +99,15 @@ TimingParameters fit_timing(const std::vector<Frame>& frames, const std::map<std
   };
   const auto branches = [](const Drivers& d) { return d.branches; };
   timing.hints = ratio(branches, {"hbr"});
-  timing.missed_branches = ratio(branches, {"branch_taken_miss"});
   timing.late_hint = ratio(branches, {"stall_due_to_hint_target"});
   timing.no_ops = ratio(branches, {"nop_cycle"});
   timing.late_fetch = ratio([](const Drivers& d) { return d.moves; }, {"stall_due_to_prefetch_miss"});
-  timing.exposed_latency = ratio([](const Drivers& d) { return d.latency; }, {"stall_due_to_dependency"});
   timing.paired_issue = ratio(
       [&](const Drivers& d) { return std::min(d.even, d.odd + timing.hints * d.branches); }, {"dual_cycle"});
-  out << std::setprecision(3) << "exposed_latency " << timing.exposed_latency << "\nmissed_branches "
-      << timing.missed_branches << "\npaired_issue " << timing.paired_issue << "\nhints " << timing.hints
-      << "\nlate_hint " << timing.late_hint << "\nno_ops " << timing.no_ops << "\nlate_fetch "
-      << timing.late_fetch << "\n\ncycles, fitted / simulated; parts fitted - simulated, %: issue dependency "
+  out << std::setprecision(3) << "exposed_latency " << timing.exposed_latency << "\npaired_issue "
+      << timing.paired_issue << "\nhints " << timing.hints << "\nlate_hint " << timing.late_hint
+      << "\nno_ops " << timing.no_ops << "\nlate_fetch " << timing.late_fetch
+      << "\n\ncycles, fitted / simulated; parts fitted - simulated, %: issue dependency "
       << "branch_miss fetch\n";
   double mean = 0, least = 9, most = 0;
   for (const Frame& frame : frames) {
@@ -120,8 +115,8 @@ TimingParameters fit_timing(const std::vector<Frame>& frames, const std::map<std
     const double odd = d.odd + timing.hints * d.branches;
     const double issue = d.even + odd - timing.paired_issue * std::min(d.even, odd) +
                          (timing.no_ops + timing.late_hint) * d.branches;
-    const double dependency = timing.exposed_latency * d.latency;
-    const double miss = timing.missed_branches * d.branches * timing.branch_miss;
+    const double dependency = timing.exposed_latency * frame.latency + d.waits;
+    const double miss = d.misses;
     const double fetch = timing.late_fetch * d.moves;
     const double real = busy(frame.simulated);
     const double all = (issue + dependency + miss + fetch) / real;
@@ -149,30 +144,36 @@ Fit fit(const Measurements& m, double trust, std::ostream& out) {
   for (const auto& [name, charges] : m.charges)
     kinds.push_back(name);
   Fit result;
-  for (std::size_t unit = 0; unit < kUnitCount; ++unit) {
-    Regression regression(kinds.size());
+  double exposed_latency = 0;
+  for (std::size_t unit = 0; unit < Charges().size(); ++unit) {
+    // The last unknown is the part of the facade's latency that counts.
+    Regression regression(kinds.size() + 1);
     for (const Frame& frame : m.frames) {
       std::vector<double> row;
       for (const std::string& kind : kinds) {
         const auto found = frame.times.find(kind);
         row.push_back(found == frame.times.end() ? 0 : found->second);
       }
-      const double scale = 1 / instructions(frame.simulated);
-      regression.add(row, frame.simulated.at(kSimulatedUnits[unit]) - frame.facade[unit], scale * scale);
+      row.push_back(unit == waits ? frame.latency : 0);
+      // Instructions as a part of all of them, stalls of all cycles.
+      const double scale = 1 / (unit < kUnitCount ? instructions(frame.simulated) : busy(frame.simulated));
+      regression.add(row, frame.simulated.at(kSimulated[unit]) - frame.facade[unit], scale * scale);
     }
     for (std::size_t i = 0; i < kinds.size(); ++i) {
       const double before = m.charges.at(kinds[i])[unit];
-      regression.expect(i, before, trust * 1e-3 / ((before + 4) * (before + 4)));
+      regression.expect(i, before, trust * 1e-3 / ((before + 20) * (before + 20)));
     }
+    regression.expect(kinds.size(), TimingParameters().exposed_latency, trust * 1e-3);
     const std::vector<double>& charges = regression.solve();
     for (std::size_t i = 0; i < kinds.size(); ++i)
       result.charges[kinds[i]][unit] = std::round(charges[i]);
+    if (unit == waits) exposed_latency = charges.back();
   }
   out << std::fixed;
   for (const std::string& kind : kinds) {
     out << std::setw(16) << kind << std::setprecision(0);
-    for (std::size_t unit = 0; unit < kUnitCount; ++unit)
-      out << std::setw(8) << m.charges.at(kind)[unit] << " ->" << std::setw(4) << result.charges[kind][unit];
+    for (std::size_t unit = 0; unit < Charges().size(); ++unit)
+      out << std::setw(6) << m.charges.at(kind)[unit] << " ->" << std::setw(4) << result.charges[kind][unit];
     out << '\n';
   }
   out << "frame: instructions now/sim, fitted/sim; by unit fitted-sim in % of instructions; parts of busy\n";
@@ -191,7 +192,7 @@ Fit fit(const Measurements& m, double trust, std::ostream& out) {
         << std::setprecision(3) << std::setw(7) << instructions(frame.emulated) / real << std::setw(7)
         << total / real << " |" << std::setprecision(1);
     for (std::size_t unit = 0; unit < kUnitCount; ++unit)
-      out << std::setw(6) << 100 * (fitted[unit] - s.at(kSimulatedUnits[unit])) / all;
+      out << std::setw(6) << 100 * (fitted[unit] - s.at(kSimulated[unit])) / all;
     out << std::setw(6) << 100 * (frame.other - sum(s, {"fxb", "fp7"})) / all;
     const double cycles = busy(s);
     out << " | emu " << std::setprecision(3) << busy(frame.emulated) / cycles << std::setprecision(1);
@@ -202,7 +203,7 @@ Fit fit(const Measurements& m, double trust, std::ostream& out) {
     out << "  hbr " << 100 * s.at("hbr") / all << " miss/br " << s.at("branch_taken_miss") / s.at("br")
         << '\n';
   }
-  result.timing = fit_timing(m.frames, result.charges, out);
+  result.timing = fit_timing(m.frames, result.charges, exposed_latency, out);
   return result;
 }
 

@@ -18,17 +18,8 @@ namespace celltrace::calibration {
 namespace {
 
 Charges charges_of(const ScalarWork& work) {
-  return {double(work.fixed),   double(work.floating), double(work.memory),
-          double(work.shuffle), double(work.branches), double(work.shift)};
-}
-
-/// As pipeline.hpp has it of a chain.
-double latency_of(const ScalarWork& work) {
-  const TimingParameters timing;
-  const std::uint32_t scalars = std::min(work.memory, work.shuffle);
-  return double(work.fixed) * (timing.simple_fixed - 1) + double(work.shift) * (timing.shift - 1) +
-         double(work.floating) * (timing.float_operation - 1) + double(scalars) * (timing.load_store - 1) +
-         double(work.shuffle) * (timing.shuffle - 1);
+  return {double(work.fixed),    double(work.floating), double(work.memory), double(work.shuffle),
+          double(work.branches), double(work.shift),    double(work.waits),  double(work.misses)};
 }
 
 /// Counts what kinds of work are done.
@@ -84,7 +75,7 @@ void add_work(const std::map<std::string, WorkCounter::Kind>& kinds, Frame& fram
     frame.times[name] = double(kind.times);
     for (std::size_t unit = 0; unit < kUnitCount; ++unit)
       frame.facade[unit] -= double(kind.times) * each[unit];
-    frame.latency -= double(kind.times) * latency_of(kind.work);
+    frame.latency -= double(kind.times) * each[waits];
   }
 }
 
@@ -111,8 +102,9 @@ std::vector<Frame> render_both(const Job& job, std::map<std::string, Charges>& c
     frame.facade = {double(emulated.fx2),  double(emulated.fp6), double(emulated.ls),
                     double(emulated.shuf), double(emulated.br),  double(emulated.fx3)};
     frame.other = double(emulated.fp7) + double(emulated.fxb);
-    frame.latency = double(emulated.stall_due_to_dependency) / options.emulation.timing.exposed_latency;
+    frame.latency = double(emulated.stall_due_to_dependency);
     add_work(counter.take(), frame, charges);
+    frame.latency /= options.emulation.timing.exposed_latency;
     frames.push_back(frame);
   }
   return frames;
