@@ -31,7 +31,10 @@ void check_timing(const TimingParameters& timing) {
   if (timing.spes < 1 || timing.spes > kMaxSpes)
     refuse("timing.spes", "must be from 1 to " + std::to_string(kMaxSpes));
   in_range("timing.exposed_latency", timing.exposed_latency, 0, 1, "from 0 to 1");
-  in_range("timing.missed_branches", timing.missed_branches, 0, 1, "from 0 to 1");
+  in_range("timing.hints", timing.hints, 0, 16, "from 0 to 16");
+  in_range("timing.late_hint", timing.late_hint, 0, 16, "from 0 to 16");
+  in_range("timing.no_ops", timing.no_ops, 0, 16, "from 0 to 16");
+  in_range("timing.late_fetch", timing.late_fetch, 0, 16, "from 0 to 16");
   in_range("timing.paired_issue", timing.paired_issue, 0, 1, "from 0 to 1");
 }
 

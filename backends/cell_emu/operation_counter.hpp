@@ -21,8 +21,10 @@ struct OperationCounts {
   UnitCounts packet;
   /// Each depends on the one before.
   UnitCounts chain;
-  std::uint64_t moves = 0;    ///< loads and stores of quadwords that nothing waits for
-  std::uint64_t branches = 0; ///< conditional ones
+  /// What kernels declare, with what it waits for.
+  UnitCounts scalar;
+  std::uint64_t waits = 0, misses = 0; ///< cycles
+  std::uint64_t moves = 0;             ///< of the loads and stores, those of whole quadwords
 };
 
 /// Of the kernel that runs on this host thread. Initial-exec and constant-initialised, and everything below
@@ -66,10 +68,15 @@ struct CountOperations {
 /// Scalar work that a kernel declares. A scalar load or store comes with a shuffle; those without one move
 /// quadwords from one place to another.
 [[gnu::always_inline]] inline void count(const ScalarWork& work) {
-  const std::uint32_t scalars = work.memory < work.shuffle ? work.memory : work.shuffle;
-  CountOperations::chain({.fx2 = work.fixed, .fp6 = work.floating, .ls = scalars, .shuf = work.shuffle});
-  operation_counts.moves += work.memory - scalars;
-  operation_counts.branches += work.branches;
+  if (work.fixed != 0) operation_counts.scalar.fx2 += work.fixed;
+  if (work.shift != 0) operation_counts.scalar.fx3 += work.shift;
+  if (work.floating != 0) operation_counts.scalar.fp6 += work.floating;
+  if (work.memory != 0) operation_counts.scalar.ls += work.memory;
+  if (work.shuffle != 0) operation_counts.scalar.shuf += work.shuffle;
+  if (work.branches != 0) operation_counts.scalar.br += work.branches;
+  if (work.waits != 0) operation_counts.waits += work.waits;
+  if (work.misses != 0) operation_counts.misses += work.misses;
+  if (work.memory > work.shuffle) operation_counts.moves += work.memory - work.shuffle;
 }
 
 } // namespace celltrace::cell_emu

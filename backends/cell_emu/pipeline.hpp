@@ -3,22 +3,23 @@
 // The counts say how many instructions of each unit there were and which came in fours, not in which order.
 // The model (latencies and parts in TimingParameters):
 //
-//   issue       The even pipe gets FX2, FX3, FXB, FP6 and FP7, the odd one LS, SHUF and BR. At most the
-//   smaller of
-//               the two sums can issue together with one of the other pipe; `paired_issue` of it does. Every
-//               other instruction takes a cycle of its own.
+//   issue       The even pipe gets FX2, FX3, FXB, FP6 and FP7, the odd one LS, SHUF, BR and hints. At most
+//               the smaller of the two sums can issue together with one of the other pipe; `paired_issue` of
+//               it does. Every other instruction takes a cycle of its own.
 //   dependency  An instruction of a chain holds up the one behind it for its latency less one cycle. An
-//   operation on
-//               a packet issues for four cycles, one per quadword, so only what its latency exceeds these by
-//               is left. `exposed_latency` of all that finds nothing else to issue.
-//   branches    `missed_branches` of the conditional branches take the way that nothing foretold, for
-//   `branch_miss`
-//               cycles.
+//               operation on a packet issues for four cycles, one per quadword, so only what its latency
+//               exceeds these by is left. `exposed_latency` of all that finds nothing else to issue. Scalar
+//               work says itself how long it waits.
+//   branches    Only scalar work branches, and says how many cycles it loses where nothing foretold the way.
+//               Each branch comes with `hints` hints, which go to the odd pipe, with `late_hint` cycles of
+//               waiting for one, and with `no_ops` cycles in which nothing but no-ops issues.
+//   fetch       Where quadwords are moved about, loads and stores leave the local store's port no time to
+//               fetch instructions: `late_fetch` cycles each.
 //
-// Not modelled: hints and no-ops, fetch stalls, contention for the local store.
+// Not modelled: contention for the local store.
 //
 // All sums are integers and the parts multiples of 1/65536, so that every compiler and machine gets the same
-// cycles. The parts lie in [0, 1]; there may be 2^42 instructions at a time.
+// cycles. The parts lie in [0, 16]; there may be 2^42 instructions at a time.
 #pragma once
 
 #include "backends/cell_emu/operation_counter.hpp"
@@ -59,26 +60,33 @@ inline SpuCycles cycles_of(const OperationCounts& counts, const TimingParameters
   const UnitCounts& packet = counts.packet;
   const UnitCounts& chain = counts.chain;
   SpuCycles cycles;
-  cycles.fx2 = quadwords * packet.fx2 + chain.fx2;
-  cycles.fx3 = quadwords * packet.fx3 + chain.fx3;
+  const UnitCounts& scalar = counts.scalar;
+  cycles.fx2 = quadwords * packet.fx2 + chain.fx2 + scalar.fx2;
+  cycles.fx3 = quadwords * packet.fx3 + chain.fx3 + scalar.fx3;
   cycles.fxb = quadwords * packet.fxb + chain.fxb;
-  cycles.fp6 = quadwords * packet.fp6 + chain.fp6;
+  cycles.fp6 = quadwords * packet.fp6 + chain.fp6 + scalar.fp6;
   cycles.fp7 = quadwords * packet.fp7 + chain.fp7;
-  cycles.ls = quadwords * packet.ls + chain.ls + counts.moves;
-  cycles.shuf = quadwords * packet.shuf + chain.shuf;
-  cycles.br = quadwords * packet.br + chain.br + counts.branches;
+  cycles.ls = quadwords * packet.ls + chain.ls + scalar.ls;
+  cycles.shuf = quadwords * packet.shuf + chain.shuf + scalar.shuf;
+  cycles.br = quadwords * packet.br + chain.br + scalar.br;
 
   const std::uint64_t even = cycles.fx2 + cycles.fx3 + cycles.fxb + cycles.fp6 + cycles.fp7;
-  const std::uint64_t odd = cycles.ls + cycles.shuf + cycles.br;
+  cycles.hbr = detail::part_of(scalar.br, timing.hints);
+  const std::uint64_t odd = cycles.ls + cycles.shuf + cycles.br + cycles.hbr;
   cycles.dual_cycle = detail::part_of(std::min(even, odd), timing.paired_issue);
   cycles.single_cycle = even + odd - 2 * cycles.dual_cycle;
   cycles.stall_due_to_dependency = detail::part_of(detail::latency_beyond_issue(packet, quadwords, timing) +
                                                        detail::latency_beyond_issue(chain, 1, timing),
-                                                   timing.exposed_latency);
-  cycles.branch_taken_miss = detail::part_of(counts.branches, timing.missed_branches);
-  cycles.stall_due_to_branch_miss = cycles.branch_taken_miss * timing.branch_miss;
-  cycles.total_cycle = cycles.single_cycle + cycles.dual_cycle + cycles.stall_due_to_dependency +
-                       cycles.stall_due_to_branch_miss;
+                                                   timing.exposed_latency) +
+                                   counts.waits;
+  cycles.stall_due_to_branch_miss = counts.misses;
+  cycles.branch_taken_miss = timing.branch_miss != 0 ? counts.misses / timing.branch_miss : 0;
+  cycles.stall_due_to_hint_target = detail::part_of(scalar.br, timing.late_hint);
+  cycles.nop_cycle = detail::part_of(scalar.br, timing.no_ops);
+  cycles.stall_due_to_prefetch_miss = detail::part_of(counts.moves, timing.late_fetch);
+  cycles.total_cycle = cycles.single_cycle + cycles.dual_cycle + cycles.nop_cycle +
+                       cycles.stall_due_to_dependency + cycles.stall_due_to_branch_miss +
+                       cycles.stall_due_to_hint_target + cycles.stall_due_to_prefetch_miss;
   return cycles;
 }
 

@@ -62,7 +62,11 @@ public:
 
   // --- what only the emulator has ---
 
-  void compute(const ScalarWork& work) { cell_emu::count(work); }
+  [[gnu::always_inline]] void compute(const ScalarWork& work) {
+    cell_emu::count(work);
+    if (SpeRecorder* recorder = context_.mfc.config.recorder) [[unlikely]]
+      recorder->computed(spe_.id, work);
+  }
   void note(const char* what, std::uint32_t value);
   void record(const void* source, std::uint32_t word) {
     if (SpeRecorder* recorder = context_.mfc.config.recorder) recorder->record(spe_.id, source, word);

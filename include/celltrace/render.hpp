@@ -140,6 +140,7 @@ struct RenderStatistics {
   // Virtual time, 0 on native: the greatest total_cycle of an SPE.
   std::uint64_t prepare_cycles = 0; ///< until the accelerator is built and every SPE knows it
   std::uint64_t render_cycles = 0;
+  SpuCycles prepare; ///< where the cycles of building the accelerator went, summed over the SPEs
 
   double build_seconds = 0;   ///< scene image, on the host
   double prepare_seconds = 0; ///< accelerator, by the SPEs

@@ -175,6 +175,11 @@ void add_study_options(CLI::App& command, StudyRequest& request) {
       .add_option("--out", request.out, "Folder for study.txt, study.json, and a CSV and an SVG file a table")
       ->type_name("DIR");
   command.add_flag("--quick", request.options.quick, "Smaller pictures: about a minute on two cores");
+  command
+      .add_option("--backend", request.options.backend,
+                  "Whose cycles: of counted operations or of machine code")
+      ->check(CLI::IsMember({"cell_emu", "cell_sim"}))
+      ->capture_default_str();
   command.add_option("--only", request.options.only, "Make one table only")
       ->check(CLI::IsMember(study::table_ids()));
   command.add_option("--threads", request.options.threads, "Of the host; default: as many as it has")

@@ -196,6 +196,7 @@ private:
 
   /// One ray goes on without the others.
   void go_alone(Place& place, Course& course, uint32_t ray, const Search& search) {
+    objects_.scene().spu().compute(scalar_work::kRayAlone);
     if constexpr (Spu::direct_memory)
       set_alone(place, course, ray, search);
     else
@@ -277,6 +278,7 @@ private:
     do {
       const uint32_t i = static_cast<uint32_t>(__builtin_ctz(met));
       met &= met - 1;
+      objects_.scene().spu().compute(scalar_work::kChildOfNode);
       // Looser than its rays, a beam may meet what passes between them.
       const uint32_t lanes = is_single(group) ? group : rays.meet(node.box, sides, i, each_limit) & group;
       if (lanes == 0) continue;

@@ -105,6 +105,7 @@ private:
     for (uint32_t i = 0; i < kPackets; ++i) {
       Member& member = members_[i];
       if (member.hit == 0) continue;
+      scene_.spu().compute(scalar_work::kBundleLight);
       const Surfaces<S> surfaces = {member.points.point, member.points.normal,
                                     member.rays.direction.template load<S>(), &member.hits.object};
       const Bearing<S> bearing(light, surfaces, member.hit);

@@ -112,6 +112,7 @@ private:
         if (parts == 2) parts = 1;
         same &= ~part;
         if ((search.lanes & part) == 0) continue;
+        objects_.scene().spu().compute(scalar_work::kRaysOfPacket);
         group.rays.set(rays, octant);
         group.beam.set(bounds, octant);
         walk_.walk({&group, &search, part, part, root()}, BoxSides(octant));
@@ -218,6 +219,7 @@ private:
 
   /// Packets that go alone to branches: `first`, and others that are next on the stack if they take turns.
   [[gnu::noinline]] void walk_alone(Search* searches, const BoxSides& sides, typename Stack::Entry first) {
+    objects_.scene().spu().compute(scalar_work::kPacketAlone);
     typename BranchWalk<Spu>::Visit visits[BranchWalk<Spu>::kMostInTurn];
     visits[0] = visit_of(searches, first);
     uint32_t count = 1, packets = first.lanes;
@@ -256,6 +258,7 @@ private:
 
   const OctantRays<S>& rays_of(const Search& search, uint32_t packet) {
     if ((known_rays_ & (1u << packet)) == 0) {
+      objects_.scene().spu().compute(scalar_work::kRaysOfPacket);
       members_[packet].rays.set(*search.rays, octant_);
       known_rays_ |= 1u << packet;
     }
@@ -284,6 +287,7 @@ private:
     do {
       const uint32_t i = static_cast<uint32_t>(__builtin_ctz(met));
       met &= met - 1;
+      objects_.scene().spu().compute(scalar_work::kChildOfNode);
       uint32_t lanes = beams_.meet(node.box, sides, i, limits_) & packets;
       const Branch child = {node.child[i], node.leaf[i]};
       const bool ask_all = (child.is_leaf() && !trusts_beams()) || is_lonely(lanes);
@@ -319,6 +323,7 @@ private:
     uint32_t without = 0;
     for_each_lane(packets, [&](uint32_t packet) {
       const Search& search = searches[packet];
+      objects_.scene().spu().compute(scalar_work::kRaysInBox);
       const uint32_t rays =
           rays_of(search, packet).meet(box, sides, i, BranchWalk<Spu>::limits(search)) & search.lanes;
       rays_[packet] = rays;

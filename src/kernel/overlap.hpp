@@ -153,7 +153,8 @@ inline bool overlaps(const ObjectRecord& object, const Box& box) {
 /// by more than what the rounding of rays and points amounts to.
 template <class Spu, class Visit>
 void for_each_voxel(Spu& spu, const GridRecord& grid, const ObjectRecord& object, Visit visit) {
-  spu.compute(scalar_work::kBounds);
+  const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
+  spu.compute(scalar_work::kBounds[kind]);
   const Box bounds = bounding_box(object);
   int32_t low[3];
   int32_t high[3];
@@ -174,7 +175,7 @@ void for_each_voxel(Spu& spu, const GridRecord& grid, const ObjectRecord& object
     for (int32_t y = low[1]; y <= high[1]; ++y, row += grid.cells[0]) {
       for (int32_t x = low[0]; x <= high[0]; ++x) {
         if (!single) {
-          spu.compute(scalar_work::kOverlap);
+          spu.compute(scalar_work::kOverlap[kind]);
           const int32_t at[3] = {x, y, z};
           Box voxel;
           for (int i = 0; i < 3; ++i) {

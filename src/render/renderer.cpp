@@ -126,7 +126,10 @@ private:
     if (stages_) team_->dismiss(); // the SPEs get other programs
     has_scene_ = true;
     statistics.prepare_seconds = prepare.seconds();
-    statistics.prepare_cycles = elapsed_cycles(meter.read());
+    const std::vector<SpeStatistics> prepared = meter.read();
+    statistics.prepare_cycles = elapsed_cycles(prepared);
+    for (const SpeStatistics& spe : prepared)
+      statistics.prepare += spe.cycles;
     return render_frame(scene.camera, statistics, progress);
   }
 

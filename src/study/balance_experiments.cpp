@@ -54,7 +54,7 @@ Table study_balance(Laboratory& laboratory) {
         job.options.balance = balance;
         jobs.push_back(job);
       }
-  const std::vector<Outcome> outcomes = laboratory.runner.emulate(jobs);
+  const std::vector<Outcome> outcomes = laboratory.runner.run(jobs);
   std::vector<ClaimValue> over_static;
   std::size_t i = 0;
   for (const std::string& name : names) {
@@ -71,9 +71,9 @@ Table study_balance(Laboratory& laboratory) {
         if (name == "corner") table.chart.series.back().points.emplace_back(spes, 100 * statistics.imbalance);
         if (spes == 8 && balance == Balance::fixed) fixed = megacycles(statistics.render_cycles);
         if (spes == 8 && balance == Balance::gde)
-          over_static.push_back({name,
-                                 command_options(jobs[i].options) + " --balance static | gde, third frame",
-                                 fixed / megacycles(statistics.render_cycles)});
+          over_static.push_back(
+              {name, laboratory.command_options(jobs[i].options) + " --balance static | gde, third frame",
+               fixed / megacycles(statistics.render_cycles)});
         ++i;
       }
     }
@@ -116,7 +116,7 @@ Table study_imbalance(Laboratory& laboratory) {
   for (const StudyScene& scene : laboratory.scenes)
     for (const unsigned spes : counts)
       jobs.push_back({&scene.scene, sized(spes), kFrames});
-  const std::vector<Outcome> outcomes = laboratory.runner.emulate(jobs);
+  const std::vector<Outcome> outcomes = laboratory.runner.run(jobs);
   std::vector<ClaimValue> worst[2];
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     const StudyScene& scene = laboratory.scenes[i / 2];
@@ -130,7 +130,7 @@ Table study_imbalance(Laboratory& laboratory) {
     row.emplace_back(static_cast<double>(outcomes[i].frames[1].balance_exchanges));
     table.rows.push_back(row);
     worst[i % 2].push_back(
-        {scene.name, command_options(jobs[i].options) + ", second to fourth frame", greatest});
+        {scene.name, laboratory.command_options(jobs[i].options) + ", second to fourth frame", greatest});
     if (i % 2 == 0) table.chart.labels.push_back(scene.name);
     table.chart.series[i % 2].points.emplace_back(double(i / 2), 100 * greatest);
   }
@@ -161,7 +161,7 @@ Table study_speedup(Laboratory& laboratory) {
   for (const StudyScene& scene : laboratory.scenes)
     for (const unsigned spes : counts)
       jobs.push_back({&scene.scene, sized(spes), 3});
-  const std::vector<Outcome> outcomes = laboratory.runner.emulate(jobs);
+  const std::vector<Outcome> outcomes = laboratory.runner.run(jobs);
   std::vector<ClaimValue> of_8, of_16;
   for (std::size_t i = 0; i < laboratory.scenes.size(); ++i) {
     const std::string& name = laboratory.scenes[i].name;
@@ -178,10 +178,10 @@ Table study_speedup(Laboratory& laboratory) {
     }
     demand_same_picture(name, same);
     table.rows.push_back(row);
-    of_8.push_back(
-        {name, command_options(sized(8)) + " against --spes 1, third frame", cycles(0) / cycles(3)});
-    of_16.push_back(
-        {name, command_options(sized(16)) + " against --spes 1, third frame", cycles(0) / cycles(4)});
+    of_8.push_back({name, laboratory.command_options(sized(8)) + " against --spes 1, third frame",
+                    cycles(0) / cycles(3)});
+    of_16.push_back({name, laboratory.command_options(sized(16)) + " against --spes 1, third frame",
+                     cycles(0) / cycles(4)});
   }
   const Claim eight = make_claim(of_8, Holds::everywhere, 7.5, false, 0);
   const Claim sixteen = make_claim(of_16, Holds::everywhere, 14, false, 0);

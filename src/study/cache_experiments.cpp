@@ -56,7 +56,7 @@ Table study_cache_cost(Laboratory& laboratory) {
         job.options.cache.enabled = enabled;
         jobs.push_back(job);
       }
-  const std::vector<Outcome> outcomes = laboratory.runner.emulate(jobs);
+  const std::vector<Outcome> outcomes = laboratory.runner.run(jobs);
   std::vector<ClaimValue> values;
   for (std::size_t i = 0; i < jobs.size(); i += 2) {
     const std::string& name = laboratory.scenes[i / 4].name;
@@ -69,7 +69,7 @@ Table study_cache_cost(Laboratory& laboratory) {
                           static_cast<double>(reads.hits + reads.misses), 100 * reads.hit_rate(),
                           waiting(off), waiting(on)});
     values.push_back({name + " on a " + word,
-                      command_options(jobs[i].options) + " --accelerator " + word +
+                      laboratory.command_options(jobs[i].options) + " --accelerator " + word +
                           " --cache off | --cache 4x128, second frame",
                       ratio});
     if (accelerator == Accelerator::hierarchy) table.chart.labels.push_back(name);
@@ -169,10 +169,11 @@ Table study_cache_shapes(Laboratory& laboratory) {
       if (series == table.chart.series.end()) series = table.chart.series.insert(series, {curve, {}});
       series->points.emplace_back(shape.ways, 100 - rate);
     }
-  table.here =
-      "The 4-way cache of 512 lines that is built in is at most " + number(std::max(farthest, 0.0), 2) +
-      " points behind a fully associative one with LRU, and at most " + number(from_optimal, 2) +
-      " points behind the optimal replacement (Belady). Traces of two SPEs, replayed without prefetches.";
+  table.here = "The 4-way cache of 512 lines that is built in is at most " +
+               number(std::max(farthest, 0.0), 2) +
+               " points behind a fully associative one with LRU, and at most " + number(from_optimal, 2) +
+               " points behind the optimal replacement (Belady). Traces of two SPEs of cell_emu, replayed "
+               "without prefetches.";
   return table;
 }
 

@@ -22,7 +22,7 @@ Table study_warmth(Laboratory& laboratory) {
   std::vector<Job> jobs;
   for (const StudyScene& scene : laboratory.scenes)
     jobs.push_back({&scene.scene, laboratory.options(256, 8), 3});
-  const std::vector<Outcome> outcomes = laboratory.runner.emulate(jobs);
+  const std::vector<Outcome> outcomes = laboratory.runner.run(jobs);
   double most = 0;
   std::string where;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
@@ -70,7 +70,7 @@ Table study_cycles(Laboratory& laboratory) {
   std::vector<Job> jobs;
   for (const StudyScene& scene : laboratory.scenes)
     jobs.push_back({&scene.scene, laboratory.options(256, 8), 2});
-  const std::vector<Outcome> outcomes = laboratory.runner.emulate(jobs);
+  const std::vector<Outcome> outcomes = laboratory.runner.run(jobs);
   double most = 0;
   std::string where;
   for (std::size_t i = 0; i < jobs.size(); ++i) {

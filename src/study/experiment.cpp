@@ -22,6 +22,11 @@ RenderOptions Laboratory::options(int full, unsigned spes) const {
   return options;
 }
 
+std::string Laboratory::command_options(const RenderOptions& options) const {
+  return "-W " + std::to_string(options.width) + " -H " + std::to_string(options.height) + " --backend " +
+         runner.backend() + " --schedule lockstep --spes " + std::to_string(options.spes);
+}
+
 Claim make_claim(const std::vector<ClaimValue>& values, Holds holds, double bar, bool at_most,
                  double thesis) {
   Claim claim;
@@ -49,11 +54,6 @@ RenderStatistics::Cache all_reads(const RenderStatistics& statistics) {
     all.misses += cache->misses;
   }
   return all;
-}
-
-std::string command_options(const RenderOptions& options) {
-  return "-W " + std::to_string(options.width) + " -H " + std::to_string(options.height) +
-         " --backend cell_emu --schedule lockstep --spes " + std::to_string(options.spes);
 }
 
 void demand_same_picture(const std::string& scene, const std::vector<const Outcome*>& outcomes) {

@@ -22,6 +22,8 @@ struct Laboratory {
   /// Options for pictures of the study's size: `full` pixels wide, or half of that if it is to be quick, and
   /// three quarters as high.
   RenderOptions options(int full, unsigned spes) const;
+  /// The options of `celltrace render` for frames in lockstep of this size on so many SPEs.
+  std::string command_options(const RenderOptions& options) const;
 };
 
 // Each makes one table.
@@ -35,6 +37,7 @@ Table study_imbalance(Laboratory& laboratory);
 Table study_speedup(Laboratory& laboratory);
 Table study_warmth(Laboratory& laboratory);
 Table study_cycles(Laboratory& laboratory);
+Table study_calibration(Laboratory& laboratory);
 
 /// Of several scenes' values, the best (or, for what has to hold everywhere, the worst) as the claim.
 struct ClaimValue {
@@ -43,9 +46,6 @@ struct ClaimValue {
 };
 enum class Holds { somewhere, everywhere };
 Claim make_claim(const std::vector<ClaimValue>& values, Holds holds, double bar, bool at_most, double thesis);
-
-/// The options of `celltrace render` for frames in lockstep of this size on so many SPEs.
-std::string command_options(const RenderOptions& options);
 
 /// Throws Error if outcomes of one scene show different pictures.
 void demand_same_picture(const std::string& scene, const std::vector<const Outcome*>& outcomes);

@@ -33,7 +33,7 @@ Table study_reprocessing(Laboratory& laboratory) {
       job.options.model = Model::pipeline_split;
       jobs.push_back(job);
     }
-  const std::vector<Outcome> outcomes = laboratory.runner.emulate(jobs);
+  const std::vector<Outcome> outcomes = laboratory.runner.run(jobs);
   double least = 100, most = 0;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     const RenderStatistics& statistics = outcomes[i].last();
@@ -106,7 +106,7 @@ Table study_models(Laboratory& laboratory) {
       job.options.accelerator = way.accelerator;
       jobs.push_back(job);
     }
-  const std::vector<Outcome> outcomes = laboratory.runner.emulate(jobs);
+  const std::vector<Outcome> outcomes = laboratory.runner.run(jobs);
   std::vector<ClaimValue> joined_over_split, shared_over_pipeline;
   double most_on_grid = 0;
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -121,7 +121,7 @@ Table study_models(Laboratory& laboratory) {
     table.rows.push_back({names[i], cycles[0], cycles[1], cycles[2], cycles[3], cycles[4],
                           cycles[0] / cycles[1], cycles[1] / cycles[3], cycles[1] / cycles[4],
                           1e3 * native_seconds(laboratory.scene(names[i]).scene, options, 3)});
-    const std::string size = command_options(options) + ", second frame, ";
+    const std::string size = laboratory.command_options(options) + ", second frame, ";
     joined_over_split.push_back(
         {names[i], size + "--model pipeline-split | --model pipeline", cycles[0] / cycles[1]});
     shared_over_pipeline.push_back(

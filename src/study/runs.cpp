@@ -1,5 +1,6 @@
 #include "study/runs.hpp"
 
+#include "render/tracer_program.hpp"
 #include "scene/parallel.hpp"
 
 #include <algorithm>
@@ -19,9 +20,9 @@ std::uint64_t digest(const Image& image) {
   return hash;
 }
 
-Outcome run(const Job& job) {
+Outcome run_one(const Job& job, const std::string& backend) {
   RenderOptions options = job.options;
-  options.backend = "cell_emu";
+  options.backend = backend;
   options.emulation.schedule = Schedule::lockstep;
   Renderer renderer(options);
   Outcome outcome;
@@ -35,9 +36,9 @@ Outcome run(const Job& job) {
 
 } // namespace
 
-std::vector<Outcome> Runner::emulate(const std::vector<Job>& jobs) const {
+std::vector<Outcome> Runner::run(const std::vector<Job>& jobs, const std::string& backend) const {
   std::vector<Outcome> outcomes(jobs.size());
-  each(jobs.size(), [&](std::size_t i) { outcomes[i] = run(jobs[i]); });
+  each(jobs.size(), [&](std::size_t i) { outcomes[i] = run_one(jobs[i], backend); });
   return outcomes;
 }
 
@@ -58,6 +59,10 @@ void Runner::each(std::size_t count, const std::function<void(std::size_t)>& wor
       heard_();
     }
   });
+}
+
+bool has_machine_code() {
+  return !tracer_program().image("cell_sim").empty();
 }
 
 double native_seconds(const Scene& scene, RenderOptions options, int frames) {

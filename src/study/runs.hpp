@@ -1,4 +1,5 @@
-// Frames of a study: rendered on the emulated Cell in lockstep, several at a time, each always the same.
+// Frames of a study: rendered on the emulated or the simulated Cell in lockstep, several at a time, each
+// always the same.
 #pragma once
 
 #include "celltrace/render.hpp"
@@ -13,7 +14,7 @@ namespace celltrace::study {
 
 struct Job {
   const Scene* scene = nullptr;
-  RenderOptions options; ///< backend and schedule are set by run()
+  RenderOptions options; ///< backend and schedule are set by the Runner
   int frames = 1;
 };
 
@@ -29,19 +30,26 @@ struct Outcome {
 /// Runs jobs on the threads of the host. Thread safety: one thread at a time.
 class Runner {
 public:
-  /// 0 threads: as many as the host has. `heard` is told of every job that is done, by any thread but one at
-  /// a time.
-  Runner(unsigned threads, std::function<void()> heard) : threads_(threads), heard_(std::move(heard)) {}
+  /// `backend` is where jobs run. 0 threads: as many as the host has. `heard` is told of every job that is
+  /// done, by any thread but one at a time.
+  Runner(std::string backend, unsigned threads, std::function<void()> heard)
+      : backend_(std::move(backend)), threads_(threads), heard_(std::move(heard)) {}
 
-  /// Emulated, in lockstep. In the order of the jobs. The first error of any is thrown.
-  std::vector<Outcome> emulate(const std::vector<Job>& jobs) const;
+  const std::string& backend() const { return backend_; }
+  /// In lockstep. In the order of the jobs. The first error of any is thrown.
+  std::vector<Outcome> run(const std::vector<Job>& jobs) const { return run(jobs, backend_); }
+  std::vector<Outcome> run(const std::vector<Job>& jobs, const std::string& backend) const;
   /// Calls `work(0)` to `work(count - 1)`.
   void each(std::size_t count, const std::function<void(std::size_t)>& work) const;
 
 private:
+  std::string backend_;
   unsigned threads_;
   std::function<void()> heard_;
 };
+
+/// Whether this build's programs can run on cell_sim.
+bool has_machine_code();
 
 /// Seconds that a native machine of one SPE takes to trace a frame: the median of `frames`.
 double native_seconds(const Scene& scene, RenderOptions options, int frames);

@@ -14,7 +14,8 @@ struct StudyScene {
   Scene scene;
 };
 
-/// `few`, `molecule`, `corner`, `cage`, `flake`, `terrain` and `mountains`, in this order. The same on every machine.
+/// `few`, `molecule`, `corner`, `cage`, `flake`, `terrain` and `mountains`, in this order. The same on every
+/// machine.
 std::vector<StudyScene> make_scenes();
 
 } // namespace celltrace::study

@@ -25,6 +25,7 @@ constexpr Experiment kExperiments[] = {
     {"speedup", study_speedup},
     {"warmth", study_warmth},
     {"cycles", study_cycles},
+    {"calibration", study_calibration},
 };
 
 } // namespace
@@ -41,12 +42,17 @@ Study run_study(const StudyOptions& options,
   const std::vector<std::string> ids = table_ids();
   if (!options.only.empty() && std::find(ids.begin(), ids.end(), options.only) == ids.end())
     throw InputError("the study has no table '" + options.only + "', only " + listed(ids));
+  if (options.backend != "cell_emu" && options.backend != "cell_sim")
+    throw InputError("a study is of 'cell_emu' or 'cell_sim', not of '" + options.backend + "'");
+  if (options.backend == "cell_sim" && !has_machine_code())
+    throw InputError("this build has no machine code for cell_sim: it was made without spu-elf-g++");
   const std::vector<StudyScene> scenes = make_scenes();
   Study study;
   study.quick = options.quick;
+  study.backend = options.backend;
   std::string current;
   int jobs = 0;
-  const Runner runner(options.threads, [&] {
+  const Runner runner(options.backend, options.threads, [&] {
     if (progress) progress(current, ++jobs);
   });
   Laboratory laboratory{scenes, runner, options.quick, study.claims};

@@ -18,15 +18,16 @@ template <class Work> OperationCounts counted(Work work) {
   return take_operation_counts();
 }
 
-/// A machine whose latencies all are `latency`, and which exposes and misses all there is.
+/// A machine whose latencies all are `latency`, which exposes all there is, and whose branches cost nothing
+/// but themselves.
 TimingParameters uniform(std::uint32_t latency) {
   TimingParameters timing;
   timing.simple_fixed = timing.shift = timing.byte_operation = latency;
   timing.float_operation = timing.float_conversion = latency;
   timing.load_store = timing.shuffle = timing.branch = latency;
   timing.exposed_latency = 1;
-  timing.missed_branches = 1;
   timing.paired_issue = 1;
+  timing.hints = timing.late_hint = timing.no_ops = timing.late_fetch = 0;
   return timing;
 }
 
@@ -50,7 +51,7 @@ TEST_CASE("operations of the SIMD facade count the instructions of a real SPU") 
   const OperationCounts gathered = counted([&] { (void)mask.bits(); });
   CHECK(gathered.packet.fx2 == 1);
   CHECK(gathered.chain.br == 1); // orx
-  CHECK(gathered.branches == 0);
+  CHECK(gathered.scalar.br == 0);
 }
 
 TEST_CASE("a load counts and gives the same lanes as one that nobody counts") {
@@ -69,16 +70,19 @@ TEST_CASE("a load counts and gives the same lanes as one that nobody counts") {
 }
 
 TEST_CASE("declared work divides into scalar accesses and moves of quadwords") {
-  const OperationCounts counts = counted([] { count(ScalarWork{5, 2, 30, 4, 3}); });
-  CHECK(counts.chain.fx2 == 5);
-  CHECK(counts.chain.fp6 == 2);
-  CHECK(counts.chain.ls == 4);
-  CHECK(counts.chain.shuf == 4);
+  const OperationCounts counts = counted([] { count(ScalarWork{5, 2, 30, 4, 3, 6, 70, 36}); });
+  CHECK(counts.scalar.fx2 == 5);
+  CHECK(counts.scalar.fx3 == 6);
+  CHECK(counts.scalar.fp6 == 2);
+  CHECK(counts.scalar.ls == 30);
+  CHECK(counts.scalar.shuf == 4);
+  CHECK(counts.scalar.br == 3);
+  CHECK(counts.waits == 70);
+  CHECK(counts.misses == 36);
   CHECK(counts.moves == 26);
-  CHECK(counts.branches == 3);
 
   const OperationCounts shuffles = counted([] { count(ScalarWork{0, 0, 1, 4, 0}); });
-  CHECK(shuffles.chain.ls == 1);
+  CHECK(shuffles.scalar.ls == 1);
   CHECK(shuffles.moves == 0);
 }
 
@@ -86,16 +90,16 @@ TEST_CASE("counts are a host thread's own and start again when they are taken") 
   take_operation_counts();
   count(ScalarWork{1, 0, 0, 0, 0});
   std::uint64_t elsewhere = 1;
-  std::thread([&] { elsewhere = take_operation_counts().chain.fx2; }).join();
+  std::thread([&] { elsewhere = take_operation_counts().scalar.fx2; }).join();
   CHECK(elsewhere == 0);
-  CHECK(take_operation_counts().chain.fx2 == 1);
-  CHECK(take_operation_counts().chain.fx2 == 0);
+  CHECK(take_operation_counts().scalar.fx2 == 1);
+  CHECK(take_operation_counts().scalar.fx2 == 0);
 }
 
 TEST_CASE("instructions of both pipes pair up, the rest issues alone") {
   OperationCounts counts;
-  counts.chain.fx2 = 10;
-  counts.moves = 4;
+  counts.scalar.fx2 = 10;
+  counts.scalar.ls = 4;
   const SpuCycles all = cycles_of(counts, uniform(1));
   CHECK(all.dual_cycle == 4);
   CHECK(all.single_cycle == 6);
@@ -126,9 +130,10 @@ TEST_CASE("an operation on a packet issues for four cycles, which hide as much o
   chain.chain.fp6 = 12;
   CHECK(cycles_of(chain, uniform(6)).stall_due_to_dependency == 60);
 
-  OperationCounts moves;
-  moves.moves = 12;
-  CHECK(cycles_of(moves, uniform(6)).stall_due_to_dependency == 0);
+  OperationCounts scalar;
+  scalar.scalar.fp6 = 12;
+  scalar.waits = 7;
+  CHECK(cycles_of(scalar, uniform(6)).stall_due_to_dependency == 7);
 }
 
 TEST_CASE("the latency of each unit is its own") {
@@ -149,17 +154,33 @@ TEST_CASE("the latency of each unit is its own") {
   CHECK(stall(&UnitCounts::br) == 3);
 }
 
-TEST_CASE("missed branches stand still") {
+TEST_CASE("branches come with hints and no-ops, and lose what they say") {
   OperationCounts counts;
-  counts.branches = 10;
+  counts.scalar.br = 10;
+  counts.misses = 55;
   TimingParameters timing = uniform(1);
-  timing.missed_branches = 0.3;
+  timing.hints = 1.5;
+  timing.late_hint = 0.5;
+  timing.no_ops = 0.2;
   timing.branch_miss = 18;
   const SpuCycles cycles = cycles_of(counts, timing);
   CHECK(cycles.br == 10);
+  CHECK(cycles.hbr == 15);
+  CHECK(cycles.single_cycle == 25);
+  CHECK(cycles.nop_cycle == 2);
+  CHECK(cycles.stall_due_to_hint_target == 5);
   CHECK(cycles.branch_taken_miss == 3);
-  CHECK(cycles.stall_due_to_branch_miss == 54);
-  CHECK(cycles.total_cycle == 64);
+  CHECK(cycles.stall_due_to_branch_miss == 55);
+  CHECK(cycles.total_cycle == 87);
+}
+
+TEST_CASE("instructions come late where quadwords are moved about") {
+  OperationCounts counts;
+  counts.moves = 100;
+  TimingParameters timing = uniform(1);
+  timing.late_fetch = 0.1;
+  CHECK(cycles_of(counts, timing).stall_due_to_prefetch_miss == 10);
+  CHECK(cycles_of(counts, timing).total_cycle == 10);
 }
 
 TEST_CASE("parts of cycles round to nearest, and nothing costs nothing") {

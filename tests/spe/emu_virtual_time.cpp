@@ -271,7 +271,13 @@ TEST_CASE("the cycles of an SPE are the sum of their parts, with faults and with
           auto* block = spu.allocate<std::uint8_t>(4096);
           for (int i = 0; i < 50; ++i) {
             spu.get(block, kEa, 4096, 0);
-            spu.compute({.fixed = 500, .floating = 100, .memory = 300, .shuffle = 100, .branches = 60});
+            spu.compute({.fixed = 500,
+                         .floating = 100,
+                         .memory = 300,
+                         .shuffle = 100,
+                         .branches = 60,
+                         .waits = 90,
+                         .misses = 36});
             spu.wait_all(1);
           }
         },
@@ -279,8 +285,9 @@ TEST_CASE("the cycles of an SPE are the sum of their parts, with faults and with
     std::uint64_t injected = 0;
     for (const SpeStatistics& spe : run.spes) {
       const SpuCycles& c = spe.cycles;
-      CHECK(c.total_cycle == c.single_cycle + c.dual_cycle + c.stall_due_to_dependency +
-                                 c.stall_due_to_branch_miss + c.channel_stall_cycle +
+      CHECK(c.total_cycle == c.single_cycle + c.dual_cycle + c.nop_cycle + c.stall_due_to_dependency +
+                                 c.stall_due_to_branch_miss + c.stall_due_to_hint_target +
+                                 c.stall_due_to_prefetch_miss + c.channel_stall_cycle +
                                  c.stall_due_to_injection);
       CHECK(c.instructions() == c.single_cycle + 2 * c.dual_cycle);
       CHECK(c.total_cycle <= run.cycles);

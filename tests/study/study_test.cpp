@@ -6,6 +6,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -113,6 +114,35 @@ TEST_CASE("A study becomes text, JSON, CSV and SVG") {
                       Catch::Contains("&lt;one&gt;"));
   CHECK(count(svg, "<circle") == 2);
   CHECK(folder.read("study.txt") == text);
+}
+
+TEST_CASE("Counted cycles are near those of machine code") {
+  if (!has_machine_code()) {
+    WARN("skipped: this build has no machine code for cell_sim");
+    return;
+  }
+  const std::vector<StudyScene> scenes = make_scenes();
+  std::vector<Job> jobs;
+  for (const std::size_t scene : {0, 1, 2, 3})
+    for (const Accelerator accelerator : {Accelerator::hierarchy, Accelerator::grid}) {
+      Job job{&scenes[scene].scene, {}, 2};
+      job.options.width = 64;
+      job.options.height = 48;
+      job.options.spes = 2;
+      job.options.accelerator = accelerator;
+      jobs.push_back(job);
+    }
+  const Runner runner("cell_emu", 0, [] {});
+  const std::vector<Outcome> counted = runner.run(jobs), executed = runner.run(jobs, "cell_sim");
+  double sum = 0;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    INFO(scenes[i / 2].name << (i % 2 == 0 ? " on a hierarchy" : " on a grid"));
+    const double ratio = static_cast<double>(counted[i].last().render_cycles) /
+                         static_cast<double>(executed[i].last().render_cycles);
+    CHECK(std::abs(ratio - 1) < 0.15);
+    sum += ratio;
+  }
+  CHECK(std::abs(sum / static_cast<double>(jobs.size()) - 1) < 0.05);
 }
 
 TEST_CASE("A folder that cannot be made is an error") {

@@ -212,16 +212,16 @@ private:
   static constexpr uint32_t kNoWay = 0xFFFFFFFFu;
   static constexpr uint32_t kNotFound = 0xFFFFFFFFu;
 
-  // Scalar work besides the comparison of tags: fixed, floating, memory, shuffle, branches. Counted in the
-  // disassembly for an SPU; see src/kernel/scalar_work.hpp for the method.
-  static constexpr ScalarWork kLookup = {22, 0, 8, 8, 2};
-  static constexpr ScalarWork kReadThrough = {12, 0, 4, 8, 0};
-  static constexpr ScalarWork kWords = {13, 0, 0, 10, 1};
-  static constexpr ScalarWork kLineOfLanes = {25, 0, 6, 0, 3};
-  static constexpr ScalarWork kWordOfLane = {10, 0, 4, 4, 1};
-  static constexpr ScalarWork kStamp = {6, 0, 6, 5, 0};
-  static constexpr ScalarWork kSlowLookup = {60, 0, 25, 25, 8};
-  static constexpr ScalarWork kFetch = {85, 0, 28, 28, 6};
+  // Scalar work besides the comparison of tags: fixed, floating, memory, shuffle, branches, shift, waits,
+  // misses. Written by tools/calibrate-charges.sh; see src/kernel/scalar_work.hpp.
+  static constexpr ScalarWork kLookup = {5, 0, 7, 0, 4, 5, 3, 22, "kLookup"};
+  static constexpr ScalarWork kReadThrough = {25, 0, 5, 5, 1, 0, 42, 56, "kReadThrough"};
+  static constexpr ScalarWork kWords = {11, 0, 0, 6, 5, 3, 11, 8, "kWords"};
+  static constexpr ScalarWork kLineOfLanes = {16, 0, 4, 0, 3, 8, 40, 18, "kLineOfLanes"};
+  static constexpr ScalarWork kWordOfLane = {10, 0, 1, 9, 0, 0, 30, 0, "kWordOfLane"};
+  static constexpr ScalarWork kStamp = {11, 0, 13, 12, 3, 3, 42, 5, "kStamp"};
+  static constexpr ScalarWork kSlowLookup = {52, 0, 36, 29, 11, 7, 126, 101, "kSlowLookup"};
+  static constexpr ScalarWork kFetch = {71, 0, 41, 33, 9, 7, 153, 72, "kFetch"};
 
   // --- the way of a hit ---
 

@@ -38,6 +38,7 @@
 #include "celltrace/spe/types.hpp"
 
 #include <new>
+#include <type_traits>
 
 namespace celltrace {
 
@@ -55,7 +56,11 @@ struct ScalarWork {
   uint32_t memory = 0;   ///< loads and stores of local store
   uint32_t shuffle =
       0; ///< of these, one comes with every scalar load or store that is not in the preferred slot
-  uint32_t branches = 0; ///< conditional branches
+  uint32_t branches = 0;      ///< branches of all kinds
+  uint32_t shift = 0;         ///< word shifts and rotations
+  uint32_t waits = 0;         ///< cycles that these instructions wait for each other's results
+  uint32_t misses = 0;        ///< cycles lost to branches that nothing foretold
+  const char* name = nullptr; ///< of the constant, for who counts how often which work is done; null: nobody
 };
 
 template <class Derived> class SpuBase {
@@ -75,8 +80,12 @@ public:
     if (count > available / sizeof(T)) self().halt_at(HaltCode::local_store_exhausted, site);
     arena.next = start + count * sizeof(T);
     T* objects = reinterpret_cast<T*>(start);
-    for (uint32_t i = 0; i < count; ++i)
-      new (static_cast<void*>(objects + i)) T();
+    if constexpr (std::is_trivially_default_constructible_v<T>) {
+      __builtin_memset(start, 0, count * sizeof(T)); // a loop over bytes would take longer than many a frame
+    } else {
+      for (uint32_t i = 0; i < count; ++i)
+        new (static_cast<void*>(objects + i)) T();
+    }
     return objects;
   }
   /// The present fill of the arena; release() gives back what was allocated since.

@@ -59,12 +59,19 @@ struct TimingParameters {
   std::uint32_t ppe_call = 20000;  ///< a call for help from the PPE: two system calls and a switch of context
 
   // --- counted operations: `cell_emu`; 0 to 1 each ---
+  // Calibrated by cell_sim with tools/calibrate-charges.sh.
   /// Part of the latency beyond the issue of an operation's own four quadwords that the code cannot fill.
-  double exposed_latency = 0.3;
-  /// Part of the taken branches that no hint foresees.
-  double missed_branches = 0.3;
+  double exposed_latency = 0.251;
   /// Part of the cycles in which both pipes have something to issue that really pair up.
-  double paired_issue = 0.45;
+  double paired_issue = 0.393;
+  /// Hints for each branch.
+  double hints = 0.986;
+  /// Cycles that each branch waits for a hint that comes too late.
+  double late_hint = 0.283;
+  /// Cycles of nothing but no-ops for each branch.
+  double no_ops = 0.282;
+  /// Cycles that instructions come late for each quadword that code moves about.
+  double late_fetch = 0.11;
 
   /// A Cell at 3.2 GHz with 8 SPEs.
   static constexpr TimingParameters cell() { return {}; }

@@ -8,16 +8,16 @@ namespace celltrace::kernel::models {
 
 namespace model_work {
 
-// Each is {fixed, floating, memory, shuffle, branches}.
+// Each is {fixed, floating, memory, shuffle, branches, shift, waits, misses}.
 
 /// A job taken, and one sent: doorbell, addresses, commands.
-constexpr ScalarWork kJob = {150, 0, 90, 75, 16};
+constexpr ScalarWork kJob = {528, 0, 341, 318, 87, 5, 1772, 179, "kJob"};
 /// A search of a job, fetched and put.
-constexpr ScalarWork kSearch = {80, 0, 60, 45, 8};
+constexpr ScalarWork kSearch = {169, 0, 121, 74, 34, 4, 228, 75, "kSearch"};
 /// A packet's rays or answers, copied within local store.
-constexpr ScalarWork kCopy = {12, 0, 56, 0, 1};
+constexpr ScalarWork kCopy = {13, 0, 94, 5, 8, 1, 9, 7, "kCopy"};
 /// Rays that are handed over with their voxels.
-constexpr ScalarWork kHandOver = {25, 2, 24, 14, 3};
+constexpr ScalarWork kHandOver = {35, 0, 25, 6, 8, 1, 24, 22, "kHandOver"};
 
 } // namespace model_work
 
