@@ -422,7 +422,8 @@ void Mfc::start(Entry& entry, Cycle now) {
     } else if (config.transfers != TransferTime::at_issue) {
       bus_.count_local_store_write(spe_);
       fill_with_poison(local, flight.bytes());
-      forbid_access(local, flight.bytes());
+      // Machine code may load it, and is judged by what it does with it.
+      if (watch_ == nullptr) forbid_access(local, flight.bytes());
     } else {
       flight.hashed = false;
     }
