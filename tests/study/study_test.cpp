@@ -175,15 +175,15 @@ TEST_CASE("Jobs that run side by side give what they give alone, and an error of
     jobs.push_back(job);
   }
   int heard = 0;
-  const std::vector<Outcome> together = Runner(3, [&] { ++heard; }).emulate(jobs);
-  const std::vector<Outcome> one_by_one = Runner(1, [] {}).emulate(jobs);
+  const std::vector<Outcome> together = Runner("cell_emu", 3, [&] { ++heard; }).run(jobs);
+  const std::vector<Outcome> one_by_one = Runner("cell_emu", 1, [] {}).run(jobs);
   CHECK(heard == 3);
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     CHECK(together[i].last().render_cycles == one_by_one[i].last().render_cycles);
     CHECK(together[i].picture == together[0].picture);
   }
   jobs[1].options.width = 0;
-  CHECK_THROWS_AS(Runner(2, [] {}).emulate(jobs), InputError);
+  CHECK_THROWS_AS(Runner("cell_emu", 2, [] {}).run(jobs), InputError);
 }
 
 TEST_CASE("Packets in SIMD lanes take fewer cycles a ray than rays one by one") {
