@@ -121,7 +121,7 @@ void Mfc::report_access(const FlightInfo& flight, Rule rule, const std::string& 
 
 std::optional<Mfc::FlightInfo> Mfc::get_in_flight(std::uint32_t lsa) const {
   for (const Flight& flight : context_.flights.of(spe_))
-    if (!flight.proxy && flight.writes_local_store() && flight.transfer.lsa <= lsa &&
+    if (!flight.proxy && !flight.drained && flight.writes_local_store() && flight.transfer.lsa <= lsa &&
         flight.transfer.lsa + flight.bytes() >= lsa + 16)
       return FlightInfo{flight.command, flight.transfer, flight.site};
   return std::nullopt;
@@ -138,7 +138,7 @@ void Mfc::check_store(std::uint32_t lsa, const std::uint8_t* bytes, CallSite sit
     Flight& flight = context_.flights.at(spe_, i);
     const std::uint32_t begin = std::max(lsa, flight.transfer.lsa);
     const std::uint32_t end = std::min(lsa + 16, flight.transfer.lsa + flight.bytes());
-    if (flight.proxy || begin >= end) continue;
+    if (flight.proxy || flight.drained || begin >= end) continue;
     const bool get = flight.writes_local_store();
     if (!get && std::memcmp(bus_.map().local_store(spe_) + begin, bytes + (begin - lsa), end - begin) == 0)
       continue;
