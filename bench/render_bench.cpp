@@ -57,7 +57,7 @@ void traverse(benchmark::State& state, celltrace::Accelerator accelerator) {
     rays += renderer.render(scene.camera).statistics.total_rays();
   state.counters["rays"] = benchmark::Counter(static_cast<double>(rays), benchmark::Counter::kIsRate);
 }
-BENCHMARK_CAPTURE(traverse, hierarchy, celltrace::Accelerator::hierarchy)
+BENCHMARK_CAPTURE(traverse, bvh, celltrace::Accelerator::bvh)
     ->Arg(10)
     ->Arg(100)
     ->UseRealTime()

@@ -6,7 +6,7 @@
 # makes the static library celltrace_NAME_program. CODE_BYTES (with data) and STACK_BYTES are what the program takes of
 # a real SPE's local store; celltrace_spu_budget_test() of the same name holds them against the real build. The source says which kernel it is:
 #
-#   #include "kernel/tracer.hpp"
+#   #include "kernel/program/tracer.hpp"
 #   #include "backends/spe_entry.hpp"
 #   CELLTRACE_SPE_ENTRY(NAME, celltrace::kernel::tracer)
 #

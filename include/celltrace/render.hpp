@@ -27,9 +27,9 @@ enum class Balance {
 
 /// How rays find the objects that they may meet.
 enum class Accelerator {
-  automatic, ///< the hierarchy
+  automatic, ///< the BVH
   grid,      ///< a uniform grid of voxels, which an SPE builds
-  hierarchy  ///< a hierarchy of boxes; where SPEs have no direct memory, the PPE's side builds it
+  bvh        ///< a bounding volume hierarchy, four wide; where SPEs have no direct memory, the PPE's side builds it
 };
 
 /// Called now and then by the thread that renders, with the finished fraction of a job: starts at 0, never
@@ -123,8 +123,8 @@ struct RenderStatistics {
   std::uint64_t accelerator_visits = 0; ///< voxels by rays, or nodes by bundles, packets and parts of packets
 
   Accelerator accelerator = Accelerator::grid; ///< never automatic
-  std::uint32_t grid_cells[3] = {0, 0, 0};     ///< all 0 for a hierarchy
-  std::uint32_t hierarchy_nodes = 0;           ///< 0 for a grid
+  std::uint32_t grid_cells[3] = {0, 0, 0};     ///< all 0 for a BVH
+  std::uint32_t bvh_nodes = 0;           ///< 0 for a grid
   std::uint64_t accelerator_list_entries = 0;  ///< object numbers in all lists
   std::uint64_t accelerator_bytes = 0;
 

@@ -65,7 +65,7 @@ void add_picture_options(CLI::App& command, RenderRequest& request, RenderTexts&
   command.add_option("-H,--height", options.height, "Rows")->check(side)->capture_default_str();
   command
       .add_option("-L,--library", request.library_paths,
-                  "Search this folder for included files; may be repeated")
+                  "RayQuery this folder for included files; may be repeated")
       ->type_name("DIR")
       ->allow_extra_args(false);
   command.add_option("--declare", texts.declares, "Declare a number or string before the scene begins")
@@ -93,8 +93,8 @@ void add_machine_options(CLI::App& command, RenderOptions& options, RenderTexts&
   command.add_option("--cache", texts.cache, "Software cache: WAYSxSETS[:random|fifo|lru], or off")
       ->type_name("CACHE")
       ->capture_default_str();
-  add_choice(command, "--accelerator", texts.accelerator, {{"auto", "grid", "hierarchy"}, {}},
-             "How rays find objects: a uniform grid or a hierarchy of boxes, which auto is");
+  add_choice(command, "--accelerator", texts.accelerator, {{"auto", "grid", "bvh"}, {}},
+             "How rays find objects: a uniform grid or a BVH, which auto is");
   add_choice(
       command, "--balance", texts.balance, {{"gde", "diffusion", "static", "scatter", "tiles"}, {}},
       "How the SPEs share a frame: strips that exchange work, that diffusion adjusts between frames or "
@@ -202,7 +202,7 @@ Balance balance_of(const std::string& text) {
 
 Accelerator accelerator_of(const std::string& text) {
   if (text == "grid") return Accelerator::grid;
-  return text == "hierarchy" ? Accelerator::hierarchy : Accelerator::automatic;
+  return text == "bvh" ? Accelerator::bvh : Accelerator::automatic;
 }
 
 void finish(RenderRequest& request, const RenderTexts& texts) {

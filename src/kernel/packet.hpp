@@ -76,7 +76,7 @@ struct HitPacket {
 
 /// What is asked of the rays of a packet in `lanes`: the closest hits, into `hits`, or what light comes to
 /// them from `distance` away, by which `light` is multiplied.
-struct Search {
+struct RayQuery {
   const RayPacket* rays;
   HitPacket* hits;
   const FloatLanes* distance;

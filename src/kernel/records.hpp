@@ -11,7 +11,7 @@
 namespace celltrace::kernel {
 
 constexpr uint32_t kNoOffset = 0xFFFFFFFFu;
-constexpr uint32_t kNoRun = 0xFFFFFFFFu;
+constexpr uint32_t kNoGroup = 0xFFFFFFFFu;
 
 // --- scene image ---
 
@@ -106,13 +106,13 @@ struct alignas(8) CellRecord {
 static_assert(sizeof(CellRecord) == 8, "sixteen voxels a line");
 
 /// Objects that are near each other and neighbours in the table, with a box around them.
-struct alignas(32) RunRecord {
+struct alignas(32) GroupRecord {
   float min[3];
   uint32_t first; ///< index of an ObjectRecord
   float max[3];
   uint32_t count;
 };
-static_assert(sizeof(RunRecord) == 32, "four runs a line");
+static_assert(sizeof(GroupRecord) == 32, "four runs a line");
 /// A run may be a copy of an earlier one, its prototype: it has as many objects, each of which lies among its
 /// neighbours as the one at the same place of the prototype does. Both have no more objects than this.
 constexpr uint32_t kMaxCopiedObjects = 256;
@@ -131,9 +131,9 @@ struct alignas(128) ImageHeader {
   uint32_t blend_offset, blend_count;
   float bounds_min[3];
   float bounds_max[3];
-  uint32_t run_offset, run_count; ///< all objects by run, or nothing: there are few
-  uint32_t longest_run;           ///< objects
-  /// By run, the run that it is a copy of, its own index if it has copies, or kNoRun; or nothing: there are
+  uint32_t group_offset, group_count; ///< all objects by run, or nothing: there are few
+  uint32_t longest_group;           ///< objects
+  /// By run, the run that it is a copy of, its own index if it has copies, or kNoGroup; or nothing: there are
   /// no copies.
   uint32_t prototype_offset, prototype_count;
   uint32_t unused[3];
@@ -167,10 +167,10 @@ struct alignas(16) GridRecord {
 };
 static_assert(sizeof(GridRecord) == 80, "crosses DMA");
 
-/// A node of the hierarchy of boxes, four children wide: their boxes, coordinate by coordinate, and what is
+/// A node of the BVH, four children wide: their boxes, coordinate by coordinate, and what is
 /// in them. A child without objects has a box that is empty (min > max).
 struct alignas(128) NodeRecord {
-  float box[6][4];   ///< min x, max x, min y, max y, min z, max z of each child
+  float bounds[6][4]; ///< min x, max x, min y, max y, min z, max z of each child
   uint32_t child[4]; ///< offset of its NodeRecord; of a leaf: of its first object, or of its list
   uint32_t leaf[4];  ///< the objects of a leaf; 0: a node, or nothing if the box is empty
 };
@@ -198,17 +198,17 @@ constexpr uint32_t step_bytes(uint32_t word) {
 constexpr int32_t kMaxStep = (1 << (31 - kCountBits)) - 1;
 } // namespace leaf_word
 
-/// The hierarchy of boxes. The root is the first node.
-struct alignas(16) HierarchyRecord {
+/// the BVH. The root is the first node.
+struct alignas(16) BvhRecord {
   uint32_t node_offset;
   uint32_t node_capacity; ///< nodes
   uint32_t node_count;    ///< in use, set by PREPARE FRAME
   uint32_t list_offset;   ///< a word per object, in the order of the leaves, of which lists take theirs
 };
-static_assert(sizeof(HierarchyRecord) == 16, "crosses DMA");
+static_assert(sizeof(BvhRecord) == 16, "crosses DMA");
 
 /// How rays find objects.
-enum class AcceleratorKind : uint32_t { grid = 0, hierarchy = 1 };
+enum class AcceleratorKind : uint32_t { grid = 0, bvh = 1 };
 
 enum class GammaEncoding : uint32_t { none = 0, assumed = 1 };
 
@@ -224,7 +224,7 @@ constexpr uint32_t bundle_edge(bool direct_memory) {
 struct alignas(128) FrameBlock {
   CameraRecord camera;
   GridRecord grid;
-  HierarchyRecord hierarchy;
+  BvhRecord bvh;
 
   ea_t image;            ///< base of the scene image
   ea_t surface;          ///< RGBA8, rows of `surface_pitch` bytes, both multiples of 16 bytes
@@ -263,12 +263,12 @@ struct alignas(128) FrameBlock {
   uint32_t accelerator;                         ///< AcceleratorKind
   uint32_t camera_interiors[kMaxInteriorDepth]; ///< offsets, outermost first
 
-  uint32_t run_offset, run_count; ///< RunRecords
-  uint32_t longest_run;           ///< objects
+  uint32_t group_offset, group_count; ///< RunRecords
+  uint32_t longest_group;           ///< objects
   uint32_t prototype_offset;      ///< a word per run; 0: there are no copies
   uint32_t units_per_word;        ///< that an SPE tells of its progress by; 0: it does not
   uint32_t wide_leaves;           ///< 0 or 1: for SPEs that test many triangles of a leaf at once
-  uint32_t far_nodes;             ///< 0 or 1: for SPEs that wait long for a node of the hierarchy
+  uint32_t far_nodes;             ///< 0 or 1: for SPEs that wait long for a node of the BVH
   uint32_t unused[23];
 };
 static_assert(sizeof(FrameBlock) % 128 == 0 && sizeof(FrameBlock) <= 512, "fetched by one DMA command");

@@ -14,7 +14,7 @@ namespace scalar_work {
 
 // Each is {fixed, floating, memory, shuffle, branches, shift, waits, misses}.
 
-// --- traversal.hpp, voxel_walk.hpp ---
+// --- traversal.hpp, grid_walk.hpp ---
 /// Sets a packet's walk through the grid up.
 constexpr ScalarWork kVoxelWalk = {82, 0, 450, 38, 8, 1, 72, 14, "kVoxelWalk"};
 /// A step to the next voxels: most of it is the walk itself, too large for the registers.
@@ -24,14 +24,14 @@ constexpr ScalarWork kVoxelOfPacket = {13, 0, 0, 20, 3, 0, 46, 16, "kVoxelOfPack
 /// The loop over a voxel's objects, and their mailbox.
 constexpr ScalarWork kListedObject = {22, 0, 13, 16, 10, 2, 52, 69, "kListedObject"};
 /// The intervals of a beam.
-constexpr ScalarWork kBeam = {126, 17, 110, 50, 30, 5, 344, 199, "kBeam"};
-/// A node of the hierarchy: the children that a beam meets, into their places on the stack.
-constexpr ScalarWork kNodeOfBoxes = {62, 1, 48, 30, 14, 8, 116, 88, "kNodeOfBoxes"};
+constexpr ScalarWork kFrustum = {126, 17, 110, 50, 30, 5, 344, 199, "kFrustum"};
+/// A node of the BVH: the children that a beam meets, into their places on the stack.
+constexpr ScalarWork kBvhNode = {62, 1, 48, 30, 14, 8, 116, 88, "kBvhNode"};
 /// A child of it that packets' beams or a packet's rays are held against.
-constexpr ScalarWork kChildOfNode = {44, 0, 30, 24, 11, 14, 81, 72, "kChildOfNode"};
+constexpr ScalarWork kBvhChild = {44, 0, 30, 24, 11, 14, 81, 72, "kBvhChild"};
 /// The rays of a packet made ready for boxes, and held against one.
 constexpr ScalarWork kRaysOfPacket = {9, 0, 28, 3, 4, 2, 15, 10, "kRaysOfPacket"};
-constexpr ScalarWork kRaysInBox = {46, 0, 68, 20, 17, 15, 68, 92, "kRaysInBox"};
+constexpr ScalarWork kRaysAgainstBounds = {46, 0, 68, 20, 17, 15, 68, 92, "kRaysAgainstBounds"};
 /// A packet that leaves its bundle, and a ray that leaves its packet.
 constexpr ScalarWork kPacketAlone = {45, 0, 44, 32, 5, 1, 103, 36, "kPacketAlone"};
 constexpr ScalarWork kRayAlone = {51, 6, 44, 36, 6, 0, 83, 40, "kRayAlone"};
@@ -67,8 +67,8 @@ constexpr ScalarWork kShade = {150, 0, 429, 44, 13, 1, 189, 61, "kShade"};
 /// A light that some of them face.
 constexpr ScalarWork kLight = {206, 0, 734, 67, 21, 1, 279, 112, "kLight"};
 /// What they pass on, if anything.
-constexpr ScalarWork kPassOn = {134, 0, 256, 25, 9, 0, 125, 55, "kPassOn"};
-constexpr ScalarWork kSendOn = {145, 0, 156, 60, 12, 0, 238, 76, "kSendOn"};
+constexpr ScalarWork kSecondaryRays = {134, 0, 256, 25, 9, 0, 125, 55, "kSecondaryRays"};
+constexpr ScalarWork kSpawn = {145, 0, 156, 60, 12, 0, 238, 76, "kSpawn"};
 constexpr ScalarWork kTransmit = {155, 0, 300, 50, 9, 0, 205, 58, "kTransmit"};
 /// A lane that enters or leaves an interior.
 constexpr ScalarWork kCrossing = {130, 0, 70, 60, 10, 0, 226, 65, "kCrossing"};

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "celltrace/cache.hpp"
-#include "kernel/branch_stack.hpp"
+#include "kernel/accel/traversal_stack.hpp"
 #include "kernel/records.hpp"
 #include "kernel/scalar_work.hpp"
 
@@ -51,17 +51,17 @@ public:
     for_each_of({list, count, 0}, visit);
   }
   /// The same of a leaf.
-  template <class Visit> void for_each_object(const Branch& leaf, Visit visit) {
+  template <class Visit> void for_each_object(const NodeRef& leaf, Visit visit) {
     for_each_of({leaf.child, leaf_word::count(leaf.leaf), leaf_word::step_bytes(leaf.leaf)}, visit);
   }
 
-  /// As the cache's, of a branch of the hierarchy.
-  void hint(const Branch& branch) {
-    cache_.hint(branch.child);
-    if (!branch.is_leaf())
-      cache_.hint(branch.child + sizeof(NodeRecord) / 2); // a node has two of a PC's lines
-    else if (leaf_word::count(branch.leaf) == 2)
-      cache_.hint(branch.child + leaf_word::step_bytes(branch.leaf));
+  /// As the cache's, of a ref of the BVH.
+  void hint(const NodeRef& ref) {
+    cache_.hint(ref.child);
+    if (!ref.is_leaf())
+      cache_.hint(ref.child + sizeof(NodeRecord) / 2); // a node has two of a PC's lines
+    else if (leaf_word::count(ref.leaf) == 2)
+      cache_.hint(ref.child + leaf_word::step_bytes(ref.leaf));
   }
 
   SoftwareCache<Spu, DataKind>& cache() { return cache_; }

@@ -1,7 +1,7 @@
 #include "render/accelerator_builder.hpp"
 
 #include "celltrace/error.hpp"
-#include "kernel/build_hierarchy_plan.hpp"
+#include "kernel/direct/build_bvh_plan.hpp"
 #include "render/frame_setup.hpp"
 #include "render/held_progress.hpp"
 
@@ -15,7 +15,7 @@ using namespace kernel;
 
 namespace {
 
-/// What of building a hierarchy is over before the first treelet: making the image, and the nodes above.
+/// What of building a BVH is over before the first treelet: making the image, and the nodes above.
 constexpr double kBeforeTreelets = 0.3;
 /// Leaves are wide where all objects, so many, are in the cache that a PC's cores share.
 constexpr std::uint32_t kMostOfWideLeaves = 500000;
@@ -25,16 +25,16 @@ constexpr std::uint32_t kMostOfNearNodes = 4000000;
 /// Larger work memory goes back to the system between frames.
 constexpr std::size_t kKeptBytes = std::size_t{256} << 20;
 
-/// Looks into the work memory of a hierarchy while it is built.
-class HierarchyWatch {
+/// Looks into the work memory of a BVH while it is built.
+class BvhWatch {
 public:
-  HierarchyWatch(const AlignedBlock& work, const Progress& go_on)
-      : team_(*reinterpret_cast<hierarchy::TeamRecord*>(work.data())), go_on_(go_on) {}
+  BvhWatch(const AlignedBlock& work, const Progress& go_on)
+      : team_(*reinterpret_cast<bvh::TeamRecord*>(work.data())), go_on_(go_on) {}
 
   /// Asks whether to go on; if not, the SPEs take no more treelets.
   void look(bool treelets) {
     if (stopped() || go_on_.ask(treelets ? fraction() : 0)) return;
-    if (treelets) std::atomic_ref(team_.next).store(hierarchy::kStopped, std::memory_order_relaxed);
+    if (treelets) std::atomic_ref(team_.next).store(bvh::kStopped, std::memory_order_relaxed);
   }
   bool stopped() const { return go_on_.stopped(); }
   void rethrow() const { go_on_.rethrow(); }
@@ -45,7 +45,7 @@ private:
     return kBeforeTreelets + (1 - kBeforeTreelets) * done / std::max(team_.treelets, 1u);
   }
 
-  hierarchy::TeamRecord& team_;
+  bvh::TeamRecord& team_;
   HeldProgress go_on_;
 };
 
@@ -56,8 +56,8 @@ void AcceleratorBuilder::make_image(const Scene& scene) {
 }
 
 bool AcceleratorBuilder::build(const Progress& go_on) {
-  const bool built = static_cast<AcceleratorKind>(frame_.accelerator) == AcceleratorKind::hierarchy
-                         ? build_hierarchy(go_on)
+  const bool built = static_cast<AcceleratorKind>(frame_.accelerator) == AcceleratorKind::bvh
+                         ? build_bvh(go_on)
                          : build_grid();
   for (AlignedBlock& block : work_)
     if (block.size() > kKeptBytes) block = AlignedBlock();
@@ -89,51 +89,51 @@ bool AcceleratorBuilder::build_grid() {
   return true;
 }
 
-bool AcceleratorBuilder::build_hierarchy(const Progress& go_on) {
+bool AcceleratorBuilder::build_bvh(const Progress& go_on) {
   const ImageHeader& header = image_.header();
   const std::uint32_t objects = header.object_count;
-  const hierarchy::WorkSize work(objects, header.run_count, header.longest_run);
-  const std::uint32_t nodes = hierarchy::most_nodes(objects, header.run_count, header.prototype_count != 0);
+  const bvh::WorkSize work(objects, header.group_count, header.longest_group);
+  const std::uint32_t nodes = bvh::most_nodes(objects, header.group_count, header.prototype_count != 0);
   image_.reserve_accelerator(std::uint64_t{nodes} * sizeof(NodeRecord), objects);
-  frame_.hierarchy = {image_.table_offset(), nodes, 0, image_.list_offset()};
+  frame_.bvh = {image_.table_offset(), nodes, 0, image_.list_offset()};
   frame_.wide_leaves = machine_.direct_memory() && objects <= kMostOfWideLeaves;
   frame_.far_nodes = machine_.direct_memory() && objects > kMostOfNearNodes;
   enter_work_memory(work.pairs());
   frame_.image = to_ea(image_.base());
   // The builder follows pointers through main memory: work for the PPE's side where SPEs cannot.
-  if (!machine_.direct_memory()) return build_hierarchy_for_spes(go_on);
-  const bool built = build_hierarchy_on(team_, frame_, machine_.spe_count(), go_on);
-  frame_.hierarchy.node_count = reports_[0].list_entries;
+  if (!machine_.direct_memory()) return build_bvh_for_spes(go_on);
+  const bool built = build_bvh_on(team_, frame_, machine_.spe_count(), go_on);
+  frame_.bvh.node_count = reports_[0].list_entries;
   return built;
 }
 
-bool AcceleratorBuilder::build_hierarchy_for_spes(const Progress& go_on) {
+bool AcceleratorBuilder::build_bvh_for_spes(const Progress& go_on) {
   MachineConfig host;
-  host.spes = std::clamp(std::thread::hardware_concurrency(), 1u, hierarchy::kMaxBuilders);
+  host.spes = std::clamp(std::thread::hardware_concurrency(), 1u, bvh::kMaxBuilders);
   const std::unique_ptr<Machine> machine = make_machine(host);
   SharedRecords<ReportRecord> reports(host.spes, machine->byte_order());
   SharedRecords<FrameBlock> frame(1, machine->byte_order());
   frame[0] = frame_;
   frame[0].reports = reports.ea();
   SpeTeam team(*machine, frame);
-  const bool built = build_hierarchy_on(team, frame[0], host.spes, go_on);
-  frame_.hierarchy.node_count = reports[0].list_entries;
+  const bool built = build_bvh_on(team, frame[0], host.spes, go_on);
+  frame_.bvh.node_count = reports[0].list_entries;
   if (!built) return false;
   shared_image_.publish_all();
   frame_.image = shared_image_.ea();
   return true;
 }
 
-bool AcceleratorBuilder::build_hierarchy_on(SpeTeam& team, FrameBlock& frame, unsigned spes,
+bool AcceleratorBuilder::build_bvh_on(SpeTeam& team, FrameBlock& frame, unsigned spes,
                                             const Progress& go_on) {
-  HierarchyWatch watch(work_[0], go_on);
+  BvhWatch watch(work_[0], go_on);
   // What a few objects take is not worth while to share.
-  const unsigned builders = frame_.run_count == 0 ? 1 : std::min(spes, hierarchy::kMaxBuilders);
+  const unsigned builders = frame_.group_count == 0 ? 1 : std::min(spes, bvh::kMaxBuilders);
   // Between steps others are waited for, and it may be stopped.
   const bool at_once = builders == 1 && !go_on;
   frame.prepare_spes = at_once ? 0 : builders;
   frame.prepare_step = 0;
-  const std::uint32_t steps = at_once || frame_.run_count == 0 ? 1 : hierarchy::kSteps;
+  const std::uint32_t steps = at_once || frame_.group_count == 0 ? 1 : bvh::kSteps;
   for (; frame.prepare_step < steps && !watch.stopped(); ++frame.prepare_step)
     team.prepare_frame(builders, [&] { watch.look(frame.prepare_step != 0); });
   watch.rethrow();

@@ -30,11 +30,11 @@ public:
 
 private:
   bool build_grid();
-  bool build_hierarchy(const Progress& go_on);
+  bool build_bvh(const Progress& go_on);
   /// On the PPE's side.
-  bool build_hierarchy_for_spes(const Progress& go_on);
+  bool build_bvh_for_spes(const Progress& go_on);
   /// `frame` is the team's.
-  bool build_hierarchy_on(SpeTeam& team, kernel::FrameBlock& frame, unsigned spes, const Progress& go_on);
+  bool build_bvh_on(SpeTeam& team, kernel::FrameBlock& frame, unsigned spes, const Progress& go_on);
   /// Tells the frame block where work memory of `pairs` pairs in each of two blocks lies.
   void enter_work_memory(std::uint64_t pairs);
 

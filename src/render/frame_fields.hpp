@@ -15,11 +15,11 @@ FieldList<&GridRecord::min, &GridRecord::cell_offset, &GridRecord::max, &GridRec
           &GridRecord::list_count, &GridRecord::cells, &GridRecord::row_of_cells>
 fields_of(const GridRecord&);
 
-FieldList<&HierarchyRecord::node_offset, &HierarchyRecord::node_capacity, &HierarchyRecord::node_count,
-          &HierarchyRecord::list_offset>
-fields_of(const HierarchyRecord&);
+FieldList<&BvhRecord::node_offset, &BvhRecord::node_capacity, &BvhRecord::node_count,
+          &BvhRecord::list_offset>
+fields_of(const BvhRecord&);
 
-FieldList<&FrameBlock::camera, &FrameBlock::grid, &FrameBlock::hierarchy, &FrameBlock::image,
+FieldList<&FrameBlock::camera, &FrameBlock::grid, &FrameBlock::bvh, &FrameBlock::image,
           &FrameBlock::surface, &FrameBlock::units, &FrameBlock::costs, &FrameBlock::strips,
           &FrameBlock::reports, &FrameBlock::ray_stack, &FrameBlock::sort_buffer, &FrameBlock::prepare_spes,
           &FrameBlock::prepare_step, &FrameBlock::width, &FrameBlock::height, &FrameBlock::packet_columns,
@@ -31,8 +31,8 @@ FieldList<&FrameBlock::camera, &FrameBlock::grid, &FrameBlock::hierarchy, &Frame
           &FrameBlock::background, &FrameBlock::epoch, &FrameBlock::cache_ways, &FrameBlock::cache_sets,
           &FrameBlock::cache_replacement, &FrameBlock::cache_enabled, &FrameBlock::unit_count,
           &FrameBlock::exchange_parameter, &FrameBlock::camera_interior_count, &FrameBlock::accelerator,
-          &FrameBlock::camera_interiors, &FrameBlock::run_offset, &FrameBlock::run_count,
-          &FrameBlock::longest_run, &FrameBlock::prototype_offset, &FrameBlock::units_per_word,
+          &FrameBlock::camera_interiors, &FrameBlock::group_offset, &FrameBlock::group_count,
+          &FrameBlock::longest_group, &FrameBlock::prototype_offset, &FrameBlock::units_per_word,
           &FrameBlock::wide_leaves, &FrameBlock::far_nodes, &FrameBlock::unused>
 fields_of(const FrameBlock&);
 

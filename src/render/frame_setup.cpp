@@ -43,7 +43,7 @@ double voxels_per_unit(std::array<double, 3> extent, double wanted) {
 AcceleratorKind accelerator_of(const RenderOptions& options) {
   const bool pipeline = options.model == Model::pipeline || options.model == Model::pipeline_split;
   if (pipeline && options.accelerator == Accelerator::automatic) return AcceleratorKind::grid;
-  return options.accelerator == Accelerator::grid ? AcceleratorKind::grid : AcceleratorKind::hierarchy;
+  return options.accelerator == Accelerator::grid ? AcceleratorKind::grid : AcceleratorKind::bvh;
 }
 
 bool is_inside(const Medium& medium, const Vec3& point) {
@@ -69,7 +69,7 @@ bool asks_for_interiors(const Material& material) {
 } // namespace
 
 void check(const RenderOptions& options) {
-  if (options.model == Model::pipeline_split && options.accelerator == Accelerator::hierarchy)
+  if (options.model == Model::pipeline_split && options.accelerator == Accelerator::bvh)
     throw InputError("the split pipeline finds objects by the grid");
   if (options.width < 1 || options.width > kMaxEdge || options.height < 1 || options.height > kMaxEdge)
     throw InputError("the picture's width and height have to be 1 to " + std::to_string(kMaxEdge) +
@@ -114,9 +114,9 @@ void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& optio
   frame.image = reinterpret_cast<std::uintptr_t>(image.base());
   frame.object_offset = header.object_offset;
   frame.object_count = header.object_count;
-  frame.run_offset = header.run_offset;
-  frame.run_count = header.run_count;
-  frame.longest_run = header.longest_run;
+  frame.group_offset = header.group_offset;
+  frame.group_count = header.group_count;
+  frame.longest_group = header.longest_group;
   frame.prototype_offset = header.prototype_count != 0 ? header.prototype_offset : 0;
   frame.light_offset = header.light_offset;
   frame.light_count = header.light_count;

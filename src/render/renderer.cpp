@@ -1,7 +1,7 @@
 #include "celltrace/render.hpp"
 
 #include "celltrace/error.hpp"
-#include "kernel/ray_stack.hpp"
+#include "kernel/shading/ray_stack.hpp"
 #include "render/accelerator_builder.hpp"
 #include "render/frame_setup.hpp"
 #include "render/models/stage_team.hpp"

@@ -47,11 +47,11 @@ std::vector<SpeStatistics> count(const Machine& machine) {
 }
 
 void collect_accelerator(RenderStatistics& s, const FrameBlock& frame) {
-  if (static_cast<AcceleratorKind>(frame.accelerator) == AcceleratorKind::hierarchy) {
-    s.accelerator = Accelerator::hierarchy;
-    s.hierarchy_nodes = frame.hierarchy.node_count;
+  if (static_cast<AcceleratorKind>(frame.accelerator) == AcceleratorKind::bvh) {
+    s.accelerator = Accelerator::bvh;
+    s.bvh_nodes = frame.bvh.node_count;
     s.accelerator_list_entries = frame.object_count;
-    s.accelerator_bytes = std::uint64_t{s.hierarchy_nodes} * sizeof(NodeRecord);
+    s.accelerator_bytes = std::uint64_t{s.bvh_nodes} * sizeof(NodeRecord);
   } else {
     s.accelerator = Accelerator::grid;
     std::copy(std::begin(frame.grid.cells), std::end(frame.grid.cells), s.grid_cells);
@@ -194,9 +194,9 @@ std::string to_json(const RenderStatistics& s) {
       {"packet_tests",
        {{"sphere", s.sphere_tests}, {"ellipsoid", s.ellipsoid_tests}, {"triangle", s.triangle_tests}}},
       {"accelerator",
-       {{"kind", s.accelerator == Accelerator::hierarchy ? "hierarchy" : "grid"},
+       {{"kind", s.accelerator == Accelerator::bvh ? "bvh" : "grid"},
         {"cells", {s.grid_cells[0], s.grid_cells[1], s.grid_cells[2]}},
-        {"nodes", s.hierarchy_nodes},
+        {"nodes", s.bvh_nodes},
         {"list_entries", s.accelerator_list_entries},
         {"bytes", s.accelerator_bytes},
         {"bytes_per_object",

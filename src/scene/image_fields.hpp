@@ -12,8 +12,8 @@ FieldList<&ImageHeader::magic, &ImageHeader::version, &ImageHeader::bytes, &Imag
           &ImageHeader::material_count, &ImageHeader::interior_offset, &ImageHeader::interior_count,
           &ImageHeader::light_offset, &ImageHeader::light_count, &ImageHeader::normals_offset,
           &ImageHeader::normals_count, &ImageHeader::blend_offset, &ImageHeader::blend_count,
-          &ImageHeader::bounds_min, &ImageHeader::bounds_max, &ImageHeader::run_offset,
-          &ImageHeader::run_count, &ImageHeader::longest_run, &ImageHeader::prototype_offset,
+          &ImageHeader::bounds_min, &ImageHeader::bounds_max, &ImageHeader::group_offset,
+          &ImageHeader::group_count, &ImageHeader::longest_group, &ImageHeader::prototype_offset,
           &ImageHeader::prototype_count, &ImageHeader::unused>
 fields_of(const ImageHeader&);
 
@@ -39,10 +39,10 @@ FieldList<&InteriorRecord::ior, &InteriorRecord::unused> fields_of(const Interio
 FieldList<&LightRecord::location, &LightRecord::flags, &LightRecord::colour, &LightRecord::unused>
 fields_of(const LightRecord&);
 
-FieldList<&RunRecord::min, &RunRecord::first, &RunRecord::max, &RunRecord::count> fields_of(const RunRecord&);
+FieldList<&GroupRecord::min, &GroupRecord::first, &GroupRecord::max, &GroupRecord::count> fields_of(const GroupRecord&);
 
 FieldList<&CellRecord::list, &CellRecord::count> fields_of(const CellRecord&);
 
-FieldList<&NodeRecord::box, &NodeRecord::child, &NodeRecord::leaf> fields_of(const NodeRecord&);
+FieldList<&NodeRecord::bounds, &NodeRecord::child, &NodeRecord::leaf> fields_of(const NodeRecord&);
 
 } // namespace celltrace::kernel

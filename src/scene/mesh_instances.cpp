@@ -2,7 +2,7 @@
 
 #include "celltrace/error.hpp"
 #include "celltrace/spe/simd_host.hpp"
-#include "kernel/build_hierarchy_boxes.hpp"
+#include "kernel/direct/build_bvh_bounds.hpp"
 #include "scene/object_order.hpp"
 #include "scene/parallel.hpp"
 #include "scene/triangles.hpp"
@@ -22,7 +22,7 @@ using namespace kernel;
 namespace {
 
 using Simd = HostSimd<xsimd::sse2>;
-using LaneBox = hierarchy::LaneBox<Simd>;
+using LaneAabb = bvh::LaneAabb<Simd>;
 
 constexpr std::uint32_t kInstancesPerThread = 64;
 
@@ -148,7 +148,7 @@ bool MeshInstances::are_tangled() const {
       areas += box.area();
       all.grow(box);
     }
-    runs += prototypes_[instance.prototype].run_count();
+    runs += prototypes_[instance.prototype].group_count();
   }
   // Half the surface in both cases: by Crofton's formula their quotient is the number of boxes that a ray
   // through all of it meets.
@@ -169,7 +169,7 @@ void MeshInstances::number() {
     std::uint32_t& first_run = first_run_of_[instance.prototype];
     if (first_run == kNone) {
       first_run = run_count_;
-      for (std::uint32_t run = 0; run < prototype.run_count(); ++run)
+      for (std::uint32_t run = 0; run < prototype.group_count(); ++run)
         longest_run_ = std::max(longest_run_, prototype.runs()[run + 1] - prototype.runs()[run]);
     }
     const auto objects = static_cast<std::uint32_t>(prototype.triangles().size());
@@ -177,7 +177,7 @@ void MeshInstances::number() {
       throw InputError("the scene is too large: it has more objects than 32 bits can count");
     census_.objects += objects;
     census_.smooth += prototype.smooth();
-    run_count_ += prototype.run_count();
+    run_count_ += prototype.group_count();
   }
 }
 
@@ -195,13 +195,13 @@ public:
     const MeshPrototype& prototype = instances_.prototypes_[instance.prototype];
     start(instance, prototype);
     ObjectRecord* to = tables_.objects + instance.first_object;
-    for (std::uint32_t run = 0; run < prototype.run_count(); ++run) {
+    for (std::uint32_t run = 0; run < prototype.group_count(); ++run) {
       const std::uint32_t begin = prototype.runs()[run], end = prototype.runs()[run + 1];
-      LaneBox around = LaneBox::empty();
+      LaneAabb around = LaneAabb::empty();
       for (std::uint32_t i = begin; i < end; ++i)
         write(prototype.triangles()[i], to[i], around);
       const std::uint32_t number = instance.first_run + run;
-      hierarchy::Reference box;
+      bvh::Reference box;
       around.min.store(box.min); // over the words beside
       around.max.store(box.max);
       tables_.runs[number] = {{box.min[0], box.min[1], box.min[2]},
@@ -236,7 +236,7 @@ private:
     tables_.records.set_material(head_, material != kNoIndex ? material : object_->material);
   }
 
-  void write(const MeshPrototype::Triangle& triangle, ObjectRecord& to, LaneBox& around) {
+  void write(const MeshPrototype::Triangle& triangle, ObjectRecord& to, LaneAabb& around) {
     if (triangle.material != material_) set_material(triangle.material);
     to = head_;
     for (int corner = 0; corner < 3; ++corner) {

@@ -17,7 +17,7 @@ struct InstanceTables {
   kernel::ObjectRecord* objects; ///< of instances
   std::uint32_t first_object;    ///< in the table of all
   std::uint32_t first_normals;
-  kernel::RunRecord* runs;   ///< of instances
+  kernel::GroupRecord* runs;   ///< of instances
   std::uint32_t* prototypes; ///< a word per run of instances
   std::uint32_t first_run;   ///< in the table of all
 };
@@ -34,8 +34,8 @@ public:
   bool contains(std::size_t object) const { return !is_instance_.empty() && is_instance_[object]; }
   /// What all of them have, but for the box around.
   const ObjectCensus& census() const { return census_; }
-  std::uint32_t run_count() const { return run_count_; }
-  std::uint32_t longest_run() const { return longest_run_; }
+  std::uint32_t group_count() const { return run_count_; }
+  std::uint32_t longest_group() const { return longest_run_; }
 
   /// Makes the records of all of them, instance by instance in the order of the scene, and run by run.
   void write(const InstanceTables& tables, unsigned threads) const;

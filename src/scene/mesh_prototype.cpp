@@ -1,7 +1,7 @@
 #include "scene/mesh_prototype.hpp"
 
 #include "celltrace/spe/simd_host.hpp"
-#include "kernel/build_hierarchy_split.hpp"
+#include "kernel/direct/build_bvh_split.hpp"
 #include "scene/object_order.hpp"
 #include "scene/triangles.hpp"
 
@@ -13,19 +13,19 @@
 namespace celltrace {
 
 using namespace kernel;
-using hierarchy::Reference;
+using bvh::Reference;
 
 namespace {
 
 using Simd = HostSimd<xsimd::sse2>;
-using Range = hierarchy::Range<Simd>;
+using Range = bvh::Range<Simd>;
 
-/// Below it, to place a run of each instance in the hierarchy takes longer than to build that anew.
+/// Below it, to place a run of each instance in the BVH takes longer than to build that anew.
 constexpr std::size_t kFewestTriangles = 32;
 constexpr std::uint32_t kTrianglesPerThread = 8192;
 constexpr std::uint32_t kTrianglesPerRun = 128;
 static_assert(kTrianglesPerRun <= kMaxCopiedObjects);
-/// About a leaf of the hierarchy: within it, order does not matter.
+/// About a leaf of the BVH: within it, order does not matter.
 constexpr std::uint32_t kTrianglesPerLeaf = 4;
 
 void copy(const Vec3f& from, float* to) {
@@ -52,13 +52,13 @@ public:
   /// Calls part(begin, end) for each part in order, and divides it further if that returns true.
   template <class Part> void divide(std::uint32_t begin, std::uint32_t end, Part part) {
     if (begin == end) return;
-    std::vector<Range> open = {hierarchy::range_of<Simd>(references_.data(), begin, end)};
+    std::vector<Range> open = {bvh::range_of<Simd>(references_.data(), begin, end)};
     while (!open.empty()) {
       const Range range = open.back();
       open.pop_back();
       if (!part(range) || range.count() < 2) continue;
       Range left, right;
-      hierarchy::split_range(references_.data(), spare_.data(), range, left, right);
+      bvh::split_range(references_.data(), spare_.data(), range, left, right);
       open.push_back(right);
       open.push_back(left);
     }
@@ -98,7 +98,7 @@ std::vector<Reference> order_coarsely(std::vector<Reference>& references, unsign
   references = std::move(ordered);
   std::vector<Reference> groups(begins.size() - 1);
   for (std::size_t group = 0; group < groups.size(); ++group) {
-    const Range range = hierarchy::range_of<Simd>(references.data(), begins[group], begins[group + 1]);
+    const Range range = bvh::range_of<Simd>(references.data(), begins[group], begins[group + 1]);
     range.box.min.store(groups[group].min); // over the words beside
     range.box.max.store(groups[group].max);
     groups[group].value = range.begin;
@@ -131,7 +131,7 @@ std::vector<std::uint32_t> order_groups(std::vector<Reference>& references, unsi
 }
 
 Box box_around_references(const std::vector<Reference>& references, std::uint32_t begin, std::uint32_t end) {
-  const Range range = hierarchy::range_of<Simd>(references.data(), begin, end);
+  const Range range = bvh::range_of<Simd>(references.data(), begin, end);
   Reference around;
   range.box.min.store(around.min); // over the words beside
   range.box.max.store(around.max);

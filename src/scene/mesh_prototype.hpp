@@ -2,7 +2,7 @@
 #pragma once
 
 #include "celltrace/scene.hpp"
-#include "kernel/overlap.hpp"
+#include "kernel/primitives/overlap.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -34,7 +34,7 @@ public:
   const std::vector<std::uint32_t>& runs() const { return runs_; }
   /// Boxes around the runs.
   const std::vector<kernel::Box>& run_boxes() const { return run_boxes_; }
-  std::uint32_t run_count() const { return static_cast<std::uint32_t>(runs_.size()) - 1; }
+  std::uint32_t group_count() const { return static_cast<std::uint32_t>(runs_.size()) - 1; }
   /// Triangles that have normals.
   std::uint32_t smooth() const { return smooth_; }
   /// Whether it is certain, without a look at each of them, that the triangles still have areas in single

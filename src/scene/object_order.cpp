@@ -1,7 +1,7 @@
 #include "scene/object_order.hpp"
 
 #include "celltrace/spe/simd_host.hpp"
-#include "kernel/build_hierarchy_boxes.hpp"
+#include "kernel/direct/build_bvh_bounds.hpp"
 #include "scene/parallel.hpp"
 
 #include <algorithm>
@@ -38,10 +38,10 @@ struct Bounds {
 };
 
 Bounds bounds_of(const PlacedObject* objects, std::uint32_t begin, std::uint32_t end) {
-  auto lanes = hierarchy::LaneBox<Simd>::empty();
+  auto lanes = bvh::LaneAabb<Simd>::empty();
   for (std::uint32_t i = begin; i < end; ++i)
     lanes.grow(Simd::F4::load(objects[i].centre)); // and the word behind
-  hierarchy::Reference box;
+  bvh::Reference box;
   lanes.min.store(box.min); // over the words beside
   lanes.max.store(box.max);
   Bounds bounds;

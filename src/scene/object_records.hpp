@@ -2,7 +2,7 @@
 #pragma once
 
 #include "celltrace/scene.hpp"
-#include "kernel/overlap.hpp"
+#include "kernel/primitives/overlap.hpp"
 #include "kernel/records.hpp"
 
 #include <cstdint>

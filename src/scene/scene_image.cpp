@@ -2,8 +2,8 @@
 
 #include "celltrace/error.hpp"
 #include "celltrace/spe/simd_host.hpp"
-#include "kernel/build_hierarchy_boxes.hpp"
-#include "kernel/build_hierarchy_plan.hpp"
+#include "kernel/direct/build_bvh_bounds.hpp"
+#include "kernel/direct/build_bvh_plan.hpp"
 #include "scene/image_fields.hpp"
 #include "scene/mesh_instances.hpp"
 #include "scene/parallel.hpp"
@@ -25,9 +25,9 @@ namespace {
 using Simd = HostSimd<xsimd::sse2>;
 
 /// What the accelerator that is most likely to be built needs.
-std::size_t hierarchy_bytes(const ImageHeader& header) {
+std::size_t bvh_bytes(const ImageHeader& header) {
   const std::size_t nodes =
-      hierarchy::most_nodes(header.object_count, header.run_count, header.prototype_count != 0);
+      bvh::most_nodes(header.object_count, header.group_count, header.prototype_count != 0);
   return nodes * sizeof(NodeRecord) + header.object_count * sizeof(std::uint32_t) + kLineBytes;
 }
 
@@ -111,13 +111,13 @@ ImageHeader make_header(const Scene& scene, const ObjectCensus& census, std::spa
   layout.place<NormalsRecord>(census.smooth, header.normals_offset, header.normals_count);
   layout.place<ObjectRecord>(census.objects, header.object_offset, header.object_count);
   const std::size_t ordered = runs.empty() ? 0 : runs.size() - 1;
-  layout.place<RunRecord>(ordered + instances.run_count(), header.run_offset, header.run_count);
-  layout.place<std::uint32_t>(instances.run_count() == 0 ? 0 : header.run_count, header.prototype_offset,
+  layout.place<GroupRecord>(ordered + instances.group_count(), header.group_offset, header.group_count);
+  layout.place<std::uint32_t>(instances.group_count() == 0 ? 0 : header.group_count, header.prototype_offset,
                               header.prototype_count);
   header.bytes = layout.end();
-  header.longest_run = instances.longest_run();
+  header.longest_group = instances.longest_group();
   for (std::size_t run = 0; run < ordered; ++run)
-    header.longest_run = std::max(header.longest_run, runs[run + 1] - runs[run]);
+    header.longest_group = std::max(header.longest_group, runs[run + 1] - runs[run]);
   return header;
 }
 
@@ -179,17 +179,17 @@ public:
     const auto* objects = table<ObjectRecord>(header_.object_offset);
     const auto count = static_cast<std::uint32_t>(runs.size()) - 1;
     if (header_.prototype_count != 0)
-      std::fill_n(table<std::uint32_t>(header_.prototype_offset), count, kNoRun);
+      std::fill_n(table<std::uint32_t>(header_.prototype_offset), count, kNoGroup);
     for_each_part(threads, [&](unsigned part) {
       const HostPart mine(count, part, threads);
       for (std::uint32_t run = mine.begin; run < mine.end; ++run) {
-        auto lanes = hierarchy::LaneBox<Simd>::empty();
+        auto lanes = bvh::LaneAabb<Simd>::empty();
         for (std::uint32_t i = runs[run]; i < runs[run + 1]; ++i)
-          lanes.grow(hierarchy::box_of<Simd>(objects[i]));
-        hierarchy::Reference box;
+          lanes.grow(bvh::box_of<Simd>(objects[i]));
+        bvh::Reference box;
         lanes.min.store(box.min); // over the words beside
         lanes.max.store(box.max);
-        table<RunRecord>(header_.run_offset)[run] = {{box.min[0], box.min[1], box.min[2]},
+        table<GroupRecord>(header_.group_offset)[run] = {{box.min[0], box.min[1], box.min[2]},
                                                      runs[run],
                                                      {box.max[0], box.max[1], box.max[2]},
                                                      runs[run + 1] - runs[run]};
@@ -199,12 +199,12 @@ public:
 
   /// Behind everything else.
   void write_instances(const MeshInstances& instances, unsigned threads) {
-    if (instances.run_count() == 0) return;
+    if (instances.group_count() == 0) return;
     const std::uint32_t first_object = header_.object_count - instances.census().objects;
-    const std::uint32_t first_run = header_.run_count - instances.run_count();
+    const std::uint32_t first_run = header_.group_count - instances.group_count();
     instances.write({tables_, table<ObjectRecord>(header_.object_offset) + first_object, first_object,
                      header_.normals_count - instances.census().smooth,
-                     table<RunRecord>(header_.run_offset) + first_run,
+                     table<GroupRecord>(header_.group_offset) + first_run,
                      table<std::uint32_t>(header_.prototype_offset) + first_run, first_run},
                     threads);
   }
@@ -212,7 +212,7 @@ public:
   /// At last. `around`: objects that are no instances.
   void write_bounds(Box around) {
     if (header_.prototype_count != 0)
-      for (const RunRecord& run : std::span(table<RunRecord>(header_.run_offset), header_.run_count))
+      for (const GroupRecord& run : std::span(table<GroupRecord>(header_.group_offset), header_.group_count))
         around =
             box_around(around, {{run.min[0], run.min[1], run.min[2]}, {run.max[0], run.max[1], run.max[2]}});
     const Box bounds = bounds_of(around);
@@ -265,13 +265,13 @@ void SceneImage::assign(const Scene& scene, AlignedBlock& work, unsigned threads
   const OrderMemory memory(work, objects.count());
   const ObjectCensus loose = place_all(objects, memory.objects, threads);
   std::vector<std::uint32_t> runs;
-  if (loose.objects != 0 && (loose.objects >= kMinObjectsToOrder || instances.run_count() != 0))
+  if (loose.objects != 0 && (loose.objects >= kMinObjectsToOrder || instances.group_count() != 0))
     runs = order_along_curve(memory.objects, memory.spare, memory.cells, loose.objects, threads);
   ObjectCensus census = loose;
   census.add(instances.census());
   const ImageHeader header = make_header(scene, census, runs, instances);
 
-  block_.reserve(header.bytes + hierarchy_bytes(header));
+  block_.reserve(header.bytes + bvh_bytes(header));
   TableWriter writer(block_.data(), header, scene);
   writer.write_surfaces();
   writer.write_objects(objects, {memory.objects, loose.objects}, memory.cells, threads);

@@ -62,28 +62,28 @@ bool references_are_valid(const std::byte* base, const ImageHeader& h) {
 
 /// True if there are no runs, or each object is in one.
 bool runs_are_valid(const std::byte* base, const ImageHeader& h) {
-  const auto* runs = reinterpret_cast<const RunRecord*>(base + h.run_offset);
+  const auto* runs = reinterpret_cast<const GroupRecord*>(base + h.group_offset);
   std::uint32_t objects = 0;
   std::uint32_t longest = 0;
-  for (std::uint32_t i = 0; i < h.run_count; ++i) {
+  for (std::uint32_t i = 0; i < h.group_count; ++i) {
     if (runs[i].first != objects || runs[i].count == 0 || runs[i].count > h.object_count - objects)
       return false;
     objects += runs[i].count;
     longest = std::max(longest, runs[i].count);
   }
-  return (h.run_count == 0 || objects == h.object_count) && longest == h.longest_run;
+  return (h.group_count == 0 || objects == h.object_count) && longest == h.longest_group;
 }
 
 /// True if there are no copies, or each of them and its prototype are of one number of objects, and not many.
 /// The runs are valid.
 bool prototypes_are_valid(const std::byte* base, const ImageHeader& h) {
   if (h.prototype_count == 0) return true;
-  if (h.prototype_count != h.run_count) return false;
-  const auto* runs = reinterpret_cast<const RunRecord*>(base + h.run_offset);
+  if (h.prototype_count != h.group_count) return false;
+  const auto* runs = reinterpret_cast<const GroupRecord*>(base + h.group_offset);
   const auto* prototypes = reinterpret_cast<const std::uint32_t*>(base + h.prototype_offset);
-  for (std::uint32_t i = 0; i < h.run_count; ++i) {
+  for (std::uint32_t i = 0; i < h.group_count; ++i) {
     const std::uint32_t prototype = prototypes[i];
-    if (prototype == kNoRun) continue;
+    if (prototype == kNoGroup) continue;
     if (prototype > i || prototypes[prototype] != prototype || runs[prototype].count != runs[i].count ||
         runs[i].count > kMaxCopiedObjects)
       return false;
@@ -119,7 +119,7 @@ SceneImage SceneImage::from_bytes(std::span<const std::byte> bytes) {
       !table_fits(h.interior_offset, h.interior_count, sizeof(InteriorRecord), bytes.size()) ||
       !table_fits(h.normals_offset, h.normals_count, sizeof(NormalsRecord), bytes.size()) ||
       !table_fits(h.object_offset, h.object_count, sizeof(ObjectRecord), bytes.size()) ||
-      !table_fits(h.run_offset, h.run_count, sizeof(RunRecord), bytes.size()) ||
+      !table_fits(h.group_offset, h.group_count, sizeof(GroupRecord), bytes.size()) ||
       !table_fits(h.prototype_offset, h.prototype_count, sizeof(std::uint32_t), bytes.size()) ||
       !references_are_valid(image.base(), h) || !runs_are_valid(image.base(), h) ||
       !prototypes_are_valid(image.base(), h))

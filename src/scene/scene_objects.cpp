@@ -2,7 +2,7 @@
 
 #include "celltrace/error.hpp"
 #include "celltrace/spe/simd_host.hpp"
-#include "kernel/build_hierarchy_boxes.hpp"
+#include "kernel/direct/build_bvh_bounds.hpp"
 #include "scene/parallel.hpp"
 #include "scene/triangles.hpp"
 
@@ -20,7 +20,7 @@ using namespace kernel;
 namespace {
 
 using Simd = HostSimd<xsimd::sse2>;
-using LaneBox = hierarchy::LaneBox<Simd>;
+using LaneAabb = bvh::LaneAabb<Simd>;
 
 constexpr std::uint32_t kVerticesPerThread = 16384;
 /// Objects whose records are on their way while one is written, for they lie anywhere.
@@ -70,15 +70,15 @@ Simd::F4 lanes_of(const Vec3f& vertex) {
   return four<Simd>(vertex.x, vertex.y, vertex.z, 0.0f);
 }
 
-Box box_of(const LaneBox& lanes) {
-  hierarchy::Reference around;
+Box box_of(const LaneAabb& lanes) {
+  bvh::Reference around;
   lanes.min.store(around.min); // over the words beside
   lanes.max.store(around.max);
   return {{around.min[0], around.min[1], around.min[2]}, {around.max[0], around.max[1], around.max[2]}};
 }
 
 /// Whether check_size() surely accepts it.
-bool has_size(const LaneBox& box) {
+bool has_size(const LaneAabb& box) {
   constexpr float kSmall = 0.99e18f;
   return (not_above_bits(Simd::F4::splat(-kSmall), box.min) &
           not_above_bits(box.max, Simd::F4::splat(kSmall)) & 7) == 7;
@@ -196,7 +196,7 @@ void SceneObjects::place_spheres(const Piece& piece, std::uint32_t begin, std::u
 void SceneObjects::place_triangles(const Piece& piece, std::uint32_t begin, std::uint32_t end,
                                    ObjectCensus& census, PlacedObject* to) const {
   const Mesh& mesh = *piece.mesh;
-  LaneBox around = LaneBox::empty();
+  LaneAabb around = LaneAabb::empty();
   PlacedObject* next = to + census.objects;
   for (std::uint32_t number = begin; number < end; ++number) {
     const Mesh::Triangle& triangle = mesh.triangles[number - piece.first];
@@ -205,7 +205,7 @@ void SceneObjects::place_triangles(const Piece& piece, std::uint32_t begin, std:
     if (!has_area(a, b, c)) continue;
     census.smooth += is_smooth(triangle);
     census.blended += is_blended(piece, triangle);
-    LaneBox box = {lanes_of(a), lanes_of(a)};
+    LaneAabb box = {lanes_of(a), lanes_of(a)};
     box.grow(lanes_of(b));
     box.grow(lanes_of(c));
     if (!has_size(box)) check_size(box_of(box));

@@ -42,9 +42,9 @@ Table study_cache_cost(Laboratory& laboratory) {
                false,
                false,
                {},
-               {{"hierarchy", {}}, {"grid", {}}}}};
+               {{"bvh", {}}, {"grid", {}}}}};
   const std::vector<std::pair<std::string, Accelerator>> accelerators = {
-      {"hierarchy", Accelerator::hierarchy}, {"grid", Accelerator::grid}};
+      {"bvh", Accelerator::bvh}, {"grid", Accelerator::grid}};
   std::vector<Job> jobs;
   for (const StudyScene& scene : laboratory.scenes)
     for (const auto& [word, accelerator] : accelerators)
@@ -72,7 +72,7 @@ Table study_cache_cost(Laboratory& laboratory) {
                       laboratory.command_options(jobs[i].options) + " --accelerator " + word +
                           " --cache off | --cache 4x128, second frame",
                       ratio});
-    if (accelerator == Accelerator::hierarchy) table.chart.labels.push_back(name);
+    if (accelerator == Accelerator::bvh) table.chart.labels.push_back(name);
     table.chart.series[i / 2 % 2].points.emplace_back(double(i / 4), ratio);
   }
   const Claim claim = make_claim(values, Holds::somewhere, 13.5, false, 13.5);
@@ -82,7 +82,7 @@ Table study_cache_cost(Laboratory& laboratory) {
       "). Less than 13.5: " + (claim.missed.size() == values.size() ? "all" : listed(claim.missed)) +
       ". A read without the cache costs some 670 cycles. On a grid each ray reads the voxels on its way for "
       "itself, with little between two reads where they are empty; a test or shading takes 300 cycles and "
-      "more, and on a hierarchy the rays of a packet share their reads.";
+      "more, and on a BVH the rays of a packet share their reads.";
   return table;
 }
 

@@ -17,9 +17,9 @@ struct Setting {
   bool cached;
 };
 constexpr Setting kSettings[] = {
-    {"hierarchy", 256, 8, Accelerator::hierarchy, true},
-    {"hierarchy, 1 SPE", 256, 1, Accelerator::hierarchy, true},
-    {"hierarchy, no cache", 128, 8, Accelerator::hierarchy, false},
+    {"bvh", 256, 8, Accelerator::bvh, true},
+    {"BVH, 1 SPE", 256, 1, Accelerator::bvh, true},
+    {"BVH, no cache", 128, 8, Accelerator::bvh, false},
     {"grid", 256, 8, Accelerator::grid, true},
     {"grid, no cache", 128, 8, Accelerator::grid, false},
 };

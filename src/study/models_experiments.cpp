@@ -126,7 +126,7 @@ Table study_models(Laboratory& laboratory) {
         {names[i], size + "--model pipeline-split | --model pipeline", cycles[0] / cycles[1]});
     shared_over_pipeline.push_back(
         {names[i],
-         size + "--model pipeline (on a grid) | --model shared (on a hierarchy); " +
+         size + "--model pipeline (on a grid) | --model shared (on a BVH); " +
              number(cycles[1] / cycles[3], 2) + " with --accelerator grid for both",
          cycles[1] / cycles[4]});
     most_on_grid = std::max(most_on_grid, cycles[1] / cycles[3]);
@@ -141,7 +141,7 @@ Table study_models(Laboratory& laboratory) {
   table.here =
       "The joined pipeline is up to " + number(joined.value, 2) + " times as fast as the split one (" +
       joined.scene + "; less than 1.3: " + listed(joined.missed) +
-      "). The shared model, with the hierarchy that it takes by itself, is up to " + number(shared.value, 2) +
+      "). The shared model, with the BVH that it takes by itself, is up to " + number(shared.value, 2) +
       " times as fast as the joined pipeline on its grid (" + shared.scene +
       "; less than 3: " + listed(shared.missed) +
       "). Everything else equal, grid, cache and packets of 16 rays, it is at most " +

@@ -5,8 +5,8 @@
 #include "work_report.hpp"
 
 #include "celltrace/spe/spu.hpp"
-#include "kernel/work_exchange.hpp"
-#include "kernel/work_units.hpp"
+#include "kernel/program/work_exchange.hpp"
+#include "kernel/program/work_units.hpp"
 
 #include <stdint.h>
 

@@ -4,7 +4,7 @@
 
 #include "work_report.hpp"
 
-#include "kernel/work_exchange.hpp"
+#include "kernel/program/work_exchange.hpp"
 
 #include <stdint.h>
 

@@ -2,7 +2,7 @@
 // tracer_program() of its own, which the renderer starts in place of the usual one.
 #include "backends/cell_emu/spu.hpp"
 #include "celltrace/render.hpp"
-#include "kernel/tracer.hpp"
+#include "kernel/program/tracer.hpp"
 #include "render/scenes.hpp"
 #include "render/tracer_program.hpp"
 
@@ -93,7 +93,7 @@ TEST_CASE("the tracer uses no pointer into its cache too late") {
   options.backend = "cell_emu";
   options.spes = 2;
   options.emulation.schedule = Schedule::lockstep;
-  options.accelerator = GENERATE(Accelerator::grid, Accelerator::hierarchy);
+  options.accelerator = GENERATE(Accelerator::grid, Accelerator::bvh);
   options.cache.sets = GENERATE(1u, 128u);
   for (const NamedScene& named : scenes()) {
     CAPTURE(named.name, options.accelerator, options.cache.sets);

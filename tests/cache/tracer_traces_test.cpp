@@ -80,7 +80,7 @@ void check_as_recorded(const std::vector<CacheTrace>& traces, const RenderStatis
 } // namespace
 
 TEST_CASE("a replay has exactly the hits and misses of the frame that was recorded") {
-  const auto accelerator = GENERATE(Accelerator::grid, Accelerator::hierarchy);
+  const auto accelerator = GENERATE(Accelerator::grid, Accelerator::bvh);
   const auto cache = GENERATE(
       CacheConfig::of(4, 128, CacheReplacement::fifo), CacheConfig::of(4, 4, CacheReplacement::random),
       CacheConfig::of(2, 8, CacheReplacement::lru), CacheConfig::of(1, 16, CacheReplacement::random),
@@ -97,15 +97,15 @@ TEST_CASE("a replay has exactly the hits and misses of the frame that was record
 
 TEST_CASE("in lockstep the same run records the same file") {
   const Scene scene = scene_named("glass and mirrors");
-  const Recording first = record(scene, CacheConfig{}, Accelerator::hierarchy);
-  CHECK(record(scene, CacheConfig{}, Accelerator::hierarchy).file == first.file);
+  const Recording first = record(scene, CacheConfig{}, Accelerator::bvh);
+  CHECK(record(scene, CacheConfig{}, Accelerator::bvh).file == first.file);
 }
 
 TEST_CASE("recording changes neither picture nor virtual time") {
   const Scene scene = scene_named("glass and mirrors");
   std::ostringstream file;
   CacheTraceWriter writer(file);
-  RenderOptions options = options_for(CacheConfig{}, Accelerator::hierarchy, writer);
+  RenderOptions options = options_for(CacheConfig{}, Accelerator::bvh, writer);
   const RenderResult recorded = render(scene, options);
   options.emulation.recorder = nullptr;
   const RenderResult plain = render(scene, options);
@@ -120,7 +120,7 @@ TEST_CASE("the last of several frames can be replayed, from warm caches and afte
   RenderStatistics statistics;
   {
     Renderer renderer(
-        options_for(CacheConfig::of(2, 8, CacheReplacement::random), Accelerator::hierarchy, writer));
+        options_for(CacheConfig::of(2, 8, CacheReplacement::random), Accelerator::bvh, writer));
     renderer.render(scene);
     scene.camera = camera_at({0.5, 0.7, -4.5}, {0.1, 0.2, 0});
     renderer.render(scene.camera);
@@ -137,7 +137,7 @@ TEST_CASE("the last of several frames can be replayed, from warm caches and afte
 }
 
 TEST_CASE("the default cache is within two points of a full one that replaces what was used least recently") {
-  const auto accelerator = GENERATE(Accelerator::grid, Accelerator::hierarchy);
+  const auto accelerator = GENERATE(Accelerator::grid, Accelerator::bvh);
   for (const auto& [name, scene] : all_scenes()) {
     CAPTURE(name, accelerator);
     const CacheConfig usual;

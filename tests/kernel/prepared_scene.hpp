@@ -2,7 +2,7 @@
 #pragma once
 
 #include "direct_spu.hpp"
-#include "kernel/prepare_frame.hpp"
+#include "kernel/program/prepare_frame.hpp"
 #include "render/frame_setup.hpp"
 #include "scene/scene_image.hpp"
 
@@ -21,17 +21,17 @@ public:
     set_scene(frame_, scene, RenderOptions(), image_);
   }
 
-  /// Has a hierarchy of boxes built in place of the grid.
-  void use_hierarchy(bool wide_leaves, bool far_nodes = false) {
+  /// Has a BVH built in place of the grid.
+  void use_bvh(bool wide_leaves, bool far_nodes = false) {
     frame_.wide_leaves = wide_leaves;
     frame_.far_nodes = far_nodes;
     const std::uint32_t nodes =
-        kernel::hierarchy::most_nodes(object_count(), header().run_count, header().prototype_count != 0);
+        kernel::bvh::most_nodes(object_count(), header().group_count, header().prototype_count != 0);
     image_.reserve_accelerator(nodes * sizeof(kernel::NodeRecord), object_count());
     frame_.image = reinterpret_cast<std::uintptr_t>(image_.base());
-    frame_.accelerator = static_cast<std::uint32_t>(kernel::AcceleratorKind::hierarchy);
-    frame_.hierarchy = {image_.table_offset(), nodes, 0, image_.list_offset()};
-    const kernel::hierarchy::WorkSize work(object_count(), header().run_count, header().longest_run);
+    frame_.accelerator = static_cast<std::uint32_t>(kernel::AcceleratorKind::bvh);
+    frame_.bvh = {image_.table_offset(), nodes, 0, image_.list_offset()};
+    const kernel::bvh::WorkSize work(object_count(), header().group_count, header().longest_group);
     reserve_work(static_cast<std::uint32_t>(work.pairs()));
   }
   /// Room for this many (voxel, object) pairs.

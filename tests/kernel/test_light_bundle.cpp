@@ -1,9 +1,9 @@
 // Bundles of rays to a light: what they are bounded by, which triangles their packets see, and what light
 // comes to them.
-#include "kernel/light_bundle.hpp"
-#include "kernel/moment_triangles.hpp"
-#include "kernel/traversal.hpp"
-#include "kernel/viewed_triangles.hpp"
+#include "kernel/direct/light_bundle.hpp"
+#include "kernel/direct/pluecker_triangles.hpp"
+#include "kernel/accel/traversal.hpp"
+#include "kernel/direct/edge_function_triangles.hpp"
 #include "made_records.hpp"
 #include "prepared_scene.hpp"
 #include "soups.hpp"
@@ -26,7 +26,7 @@ struct ShadowBundle {
   RayPacket rays[kPackets];
   FloatLanes distance[kPackets];
   VectorLanes light[kPackets];
-  Search searches[kPackets];
+  RayQuery queries[kPackets];
   float place[3]; ///< of the light
 
   ShadowBundle(Random& random, const Vec3& middle, double size, const Vec3& light_place) {
@@ -51,7 +51,7 @@ struct ShadowBundle {
       }
       light[i] = lanes_of(Vec{F(1.0f), F(0.5f), F(2.0f)});
       const std::uint32_t lanes = random.below(3) == 0 ? (random.word() & 0xFFFF) | 1 : 0xFFFF;
-      searches[i] = {&rays[i], nullptr, &distance[i], &light[i], lanes};
+      queries[i] = {&rays[i], nullptr, &distance[i], &light[i], lanes};
     }
   }
 };
@@ -75,21 +75,21 @@ TEST_CASE("The beams of rays to a light meet every box that one of them meets be
     const double size = std::pow(10.0, random.uniform(-2, 2));
     const Vec3 middle = random.point(k % 3 == 0 ? 100 * size : size);
     const ShadowBundle shadows(random, middle, size, any_light(random, middle, size));
-    const LightBundle<Simd> bundle(shadows.place, shadows.searches, kPackets);
+    const LightBundle<Simd> bundle(shadows.place, shadows.queries, kPackets);
     if (bundle.packets == 0) continue;
     ++(bundle.turned ? near : far);
-    BundleBeams<Simd, kPackets> beams;
+    BundleFrusta<Simd, kPackets> beams;
     beams.set(bundle.bounds, bundle.octant);
-    Beam<Simd> around;
+    Frustum<Simd> around;
     around.set(bundle.all, bundle.octant);
-    const BoxSides sides(bundle.octant);
+    const SlabOrder sides(bundle.octant);
     alignas(64) float limits[kPackets];
     (bundle.reach * F(1.00001f)).store(limits);
     float farthest = 0;
     for_each_lane(bundle.packets, [&](std::uint32_t i) { farthest = std::max(farthest, limits[i]); });
     for (int trial = 0; trial < 40; ++trial) {
       const std::uint32_t packet = random.below(kPackets), lane = random.below(kSimdLanes);
-      if ((bundle.packets >> packet & 1) == 0 || (shadows.searches[packet].lanes >> lane & 1) == 0) continue;
+      if ((bundle.packets >> packet & 1) == 0 || (shadows.queries[packet].lanes >> lane & 1) == 0) continue;
       const RayPacket& rays = shadows.rays[packet];
       const double along = shadows.distance[packet].lane[lane] * std::pow(10.0, random.uniform(-6, 0));
       const Vec3 point = at(rays.origin, lane) + at(rays.direction, lane) * along;
@@ -118,7 +118,7 @@ TEST_CASE("Packets see the triangles that their rays to a light cross, and cross
     const double size = std::pow(10.0, random.uniform(-1, 2));
     const Vec3 middle = random.point(k % 3 == 0 ? 100 * size : size);
     const ShadowBundle shadows(random, middle, size, any_light(random, middle, size));
-    const LightBundle<Simd> bundle(shadows.place, shadows.searches, kPackets);
+    const LightBundle<Simd> bundle(shadows.place, shadows.queries, kPackets);
     if (bundle.packets == 0) continue;
     // Triangles around points of rays, not farther away than the surface is large, or the light.
     const unsigned count = 1 + random.below(LeafTriangles<Simd>::kMost);
@@ -134,14 +134,14 @@ TEST_CASE("Packets see the triangles that their rays to a light cross, and cross
           triangle(point + random.point(side), point + random.point(side), point + random.point(side));
       leaf.add(64 * (i + 1), records[i]);
     }
-    const ViewedTriangles<Simd> viewed(leaf.sides(), bundle.view);
-    const MomentTriangles<Simd> by_moment(leaf.sides(), *bundle.view.moments);
+    const EdgeFunctionTriangles<Simd> viewed(leaf.sides(), bundle.view);
+    const PlueckerTriangles<Simd> by_moment(leaf.sides(), *bundle.view.moments);
     for (unsigned i = 0; i < count; ++i) {
       const std::uint32_t seen_by = viewed.seen_by(i, bundle.view);
       for_each_lane(bundle.packets, [&](std::uint32_t packet) {
         const RayPacket& rays = shadows.rays[packet];
         const Crossings<Simd> c = intersect<Simd>(rays, records[i], 64 * (i + 1));
-        const std::uint32_t lanes = shadows.searches[packet].lanes;
+        const std::uint32_t lanes = shadows.queries[packet].lanes;
         const std::uint32_t hits = c.near_hit.bits() & between(c.near, shadows.distance[packet]) & lanes;
         INFO("triangle " << i << ", packet " << packet
                          << (bundle.turned ? ", from the light" : ", from afar"));
@@ -187,7 +187,7 @@ TEST_CASE("Light comes to a bundle as it comes to its packets") {
        {soup(40, {0, 0, 400}, 10, 1), soup(41, {60, 60, 60}, 10, 1), soup(42, {0, 0, 30}, 10, 4)})
     for (const bool wide_leaves : {false, true}) {
       PreparedScene prepared(scene);
-      prepared.use_hierarchy(wide_leaves, !wide_leaves);
+      prepared.use_bvh(wide_leaves, !wide_leaves);
       REQUIRE(prepared.prepare().built);
       FrameBlock& frame = prepared.frame();
       for (int k = 0; k < times(300); ++k) {
@@ -201,10 +201,10 @@ TEST_CASE("Light comes to a bundle as it comes to its packets") {
         DirectSpu spu;
         SceneAccess<DirectSpu> access(spu, CacheConfig(), frame.image);
         Traversal<DirectSpu> traversal(access, frame);
-        traversal.run(together.searches, kPackets, together.place);
+        traversal.run(together.queries, kPackets, together.place);
         for (std::uint32_t i = 0; i < kPackets; ++i) {
-          traversal.attenuate(alone.rays[i], alone.searches[i].lanes, alone.distance[i], alone.light[i]);
-          for_each_lane(alone.searches[i].lanes, [&](std::uint32_t lane) {
+          traversal.transmittance(alone.rays[i], alone.queries[i].lanes, alone.distance[i], alone.light[i]);
+          for_each_lane(alone.queries[i].lanes, [&](std::uint32_t lane) {
             for (int c = 0; c < 3; ++c)
               REQUIRE(at(together.light[i], lane)[c] == Approx(at(alone.light[i], lane)[c]).margin(1e-6));
             ++(alone.light[i].y.lane[lane] == 0 ? dark : bright);

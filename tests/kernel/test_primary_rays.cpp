@@ -1,6 +1,6 @@
 // Bundles of primary rays that leave one point: what they are bounded by, and what is found by that.
-#include "kernel/primary_rays.hpp"
-#include "kernel/traversal.hpp"
+#include "kernel/cameras/primary_rays.hpp"
+#include "kernel/accel/traversal.hpp"
 #include "made_records.hpp"
 #include "prepared_scene.hpp"
 #include "soups.hpp"
@@ -50,18 +50,18 @@ Place any_bundle(const FrameBlock& frame, Random& random) {
           random.below((frame.packet_rows + kEdge - 1) / kEdge)};
 }
 
-/// The packets of a bundle as a tracer searches for their hits.
+/// The packets of a bundle as a tracer queries for their hits.
 struct Bundle {
   RayPacket rays[kPackets];
   HitPacket hits[kPackets];
-  Search searches[kPackets];
+  RayQuery queries[kPackets];
 
   Bundle(const FrameBlock& frame, const Place& place) {
     for (std::uint32_t i = 0; i < kPackets; ++i) {
       const std::uint32_t column = place.column * kEdge + i % kEdge, row = place.row * kEdge + i / kEdge;
       const bool inside = column < frame.packet_columns && row < frame.packet_rows;
       if (inside) make_primary_rays<Simd>(frame, column, row, rays[i]);
-      searches[i] = {&rays[i], &hits[i], nullptr, nullptr, inside ? lanes_in_picture(frame, column, row) : 0};
+      queries[i] = {&rays[i], &hits[i], nullptr, nullptr, inside ? lanes_in_picture(frame, column, row) : 0};
     }
   }
 };
@@ -79,15 +79,15 @@ TEST_CASE("The beams of a pinhole bundle meet every box that one of its rays mee
     if (pinhole.packets == 0) continue;
     ++bundles;
     const Bundle bundle(*frame, place);
-    BundleBeams<Simd, kPackets> beams;
+    BundleFrusta<Simd, kPackets> beams;
     beams.set(pinhole.bounds, pinhole.octant);
-    Beam<Simd> around;
+    Frustum<Simd> around;
     around.set(pinhole.all, pinhole.octant);
     const FloatLanes shortening = lanes_of(pinhole.shortening);
-    const BoxSides sides(pinhole.octant);
+    const SlabOrder sides(pinhole.octant);
     for (int trial = 0; trial < 40; ++trial) {
       const std::uint32_t packet = random.below(kPackets), lane = random.below(kSimdLanes);
-      if ((bundle.searches[packet].lanes >> lane & 1) == 0) continue;
+      if ((bundle.queries[packet].lanes >> lane & 1) == 0) continue;
       const RayPacket& rays = bundle.rays[packet];
       REQUIRE(octant_of(rays, lane) == pinhole.octant);
       const double distance = std::pow(10.0, random.uniform(-2, 4));
@@ -118,7 +118,7 @@ TEST_CASE("A bundle of primary rays hits what its packets hit, and nothing where
        {soup(30, {0, 0, 400}, 10, 1), soup(31, {60, 60, 60}, 10, 1), soup(32, {0, 0, 30}, 10, 4)}) {
     for (const bool wide_leaves : {false, true}) {
       PreparedScene prepared(scene);
-      prepared.use_hierarchy(wide_leaves, !wide_leaves);
+      prepared.use_bvh(wide_leaves, !wide_leaves);
       REQUIRE(prepared.prepare().built);
       FrameBlock& frame = prepared.frame();
       for (int k = 0; k < times(300); ++k) {
@@ -131,12 +131,12 @@ TEST_CASE("A bundle of primary rays hits what its packets hit, and nothing where
         const PinholeBundle<Simd> pinhole(frame, place.column, place.row);
         Bundle together(frame, place), alone(frame, place);
         const bool is_lost = !traversal.enter(pinhole);
-        traversal.run(together.searches, pinhole);
-        for (Search& search : alone.searches)
-          if (search.lanes != 0) traversal.find_closest(*search.rays, search.lanes, *search.hits);
+        traversal.run(together.queries, pinhole);
+        for (RayQuery& query : alone.queries)
+          if (query.lanes != 0) traversal.find_closest(*query.rays, query.lanes, *query.hits);
         lost += is_lost;
         for (std::uint32_t i = 0; i < kPackets; ++i)
-          for_each_lane(alone.searches[i].lanes, [&](std::uint32_t lane) {
+          for_each_lane(alone.queries[i].lanes, [&](std::uint32_t lane) {
             const std::uint32_t object = alone.hits[i].object.lane[lane];
             REQUIRE(together.hits[i].object.lane[lane] == object);
             if (object == kNoOffset) return;

@@ -1,6 +1,6 @@
 // The light of a hit in single precision against the formulas of the reference.
-#include "kernel/finder.hpp"
-#include "kernel/secondary_rays.hpp"
+#include "kernel/shading/intersector.hpp"
+#include "kernel/shading/secondary_rays.hpp"
 #include "lanes.hpp"
 #include "prepared_scene.hpp"
 #include "reference/shading.hpp"
@@ -93,13 +93,13 @@ TEST_CASE("Ambient light, diffuse light and highlights of mixed materials") {
     REQUIRE(scene.prepare().built);
     DirectSpu spu;
     SceneAccess<DirectSpu> access(spu, CacheConfig(), scene.frame().image);
-    Finder<DirectSpu> finder(access, scene.frame());
+    Intersector<DirectSpu> intersector(access, scene.frame());
     const Hits hits(random, scene, 12);
     const std::uint32_t lanes = random.below(3) == 0 ? random.word() & 0xFFFF : 0xFFFF;
     const auto materials = gather_materials(access, hits.material, lanes);
     std::uint64_t shadow_rays = 0;
     const VectorLanes light =
-        lanes_of(local_light(access, finder, scene.frame(), hits.surfaces(), materials, lanes, shadow_rays));
+        lanes_of(local_light(access, intersector, scene.frame(), hits.surfaces(), materials, lanes, shadow_rays));
 
     std::uint64_t expected_rays = 0;
     for_each_lane(lanes, [&](unsigned l) {

@@ -1,5 +1,5 @@
 // Streams and the radix sort through local store, with counts around the borders of chunks and lines.
-#include "kernel/radix_sort.hpp"
+#include "kernel/accel/radix_sort.hpp"
 #include "kernel/records.hpp"
 #include "scene/scene_image.hpp"
 #include "spe/run_on.hpp"

@@ -1,5 +1,5 @@
 // From colours to bytes: encoding against the exact formulas, and where the pixels go.
-#include "kernel/surface.hpp"
+#include "kernel/program/pixel_writer.hpp"
 #include "lanes.hpp"
 #include "reference/shading.hpp"
 #include "scene/scene_image.hpp"

@@ -1,8 +1,8 @@
-// Packets through the grid and through the hierarchy of boxes, as every SPU type builds and walks them,
+// Packets through the grid and through the BVH, as every SPU type builds and walks them,
 // against brute force over all objects with the same intersection tests: closest hits have to be equal to the
 // last bit.
 #include "celltrace/spe/program.hpp"
-#include "kernel/branch_walk.hpp"
+#include "kernel/accel/packet_traversal.hpp"
 #include "machines.hpp"
 #include "prepared_scene.hpp"
 #include "soups.hpp"
@@ -153,11 +153,11 @@ void check(const PreparedScene& scene, const TraversalQuery& asked, const Traver
 
 void check_accelerator(PreparedScene& prepared, const std::vector<TraversalQuery>& first) {
   const auto packets = static_cast<unsigned>(first.size());
-  const bool hierarchy =
-      static_cast<AcceleratorKind>(prepared.frame().accelerator) == AcceleratorKind::hierarchy;
+  const bool bvh =
+      static_cast<AcceleratorKind>(prepared.frame().accelerator) == AcceleratorKind::bvh;
   for (const auto& machine : machines()) {
-    if (hierarchy && machine->backend() != "native") continue;
-    INFO(machine->spu_key() << (hierarchy ? ", hierarchy" : ", grid"));
+    if (bvh && machine->backend() != "native") continue;
+    INFO(machine->spu_key() << (bvh ? ", BVH" : ", grid"));
     std::vector<TraversalQuery> asked = first;
     for (int round = 0; round < 2; ++round) {
       std::vector<TraversalQuery> answers;
@@ -183,7 +183,7 @@ void check_hierarchies(PreparedScene& prepared, const std::vector<TraversalQuery
   } kinds[] = {{true, false}, {false, false}, {false, true}};
   for (const auto& kind : kinds) {
     INFO("wide leaves: " << kind.wide_leaves << ", far nodes: " << kind.far_nodes);
-    prepared.use_hierarchy(kind.wide_leaves, kind.far_nodes);
+    prepared.use_bvh(kind.wide_leaves, kind.far_nodes);
     check_accelerator(prepared, first);
   }
 }
@@ -208,7 +208,7 @@ TEST_CASE("Through soups of spheres, ellipsoids, triangles and all of them") {
 TEST_CASE("Through more objects than are at hand, so that leaves wait") {
   constexpr unsigned kTriangles = 21000;
   PreparedScene prepared(soup(9, {0, 0, kTriangles}, 10, 0.3));
-  REQUIRE(prepared.object_count() > BranchWalk<DirectSpu>::kObjectsAtHand);
+  REQUIRE(prepared.object_count() > PacketTraversal<DirectSpu>::kObjectsAtHand);
   const std::vector<TraversalQuery> all = queries_for(prepared, 98, 32);
   // Some of them alone, some with much in common.
   constexpr int few = times(64) / 16 > 0 ? times(64) / 16 : 1;

@@ -1,8 +1,8 @@
 // A kernel that builds the grid and sends packets of rays through it.
 #pragma once
 
-#include "kernel/prepare_frame.hpp"
-#include "kernel/traversal.hpp"
+#include "kernel/program/prepare_frame.hpp"
+#include "kernel/accel/traversal.hpp"
 
 namespace celltrace::test {
 
@@ -51,7 +51,7 @@ template <class Spu> void traversal(Spu& spu, ea_t argument) {
     const uint32_t left = task->count - first;
     const uint32_t n = left < most ? left : most;
     const ea_t at = task->queries + first * sizeof(TraversalQuery);
-    Search closest[kBundlePackets<Spu>], light[kBundlePackets<Spu>];
+    RayQuery closest[kBundlePackets<Spu>], light[kBundlePackets<Spu>];
     for (uint32_t i = 0; i < n; ++i) {
       TraversalQuery& q = query[i];
       fetch(&q, at + i * sizeof q, sizeof q);

@@ -145,6 +145,6 @@ TEST_CASE("What a model cannot do is an error") {
     CHECK_THROWS_AS(Renderer(small(model.model, "native", 1)), InputError);
   }
   RenderOptions options = small(Model::pipeline_split, "native", 4);
-  options.accelerator = Accelerator::hierarchy;
+  options.accelerator = Accelerator::bvh;
   CHECK_THROWS_AS(Renderer(options), InputError);
 }

@@ -81,17 +81,17 @@ TEST_CASE("More lights than a job has bits look the same under every model") {
   check_models(scene);
 }
 
-TEST_CASE("Joined pipeline and offload find objects by the hierarchy as well") {
+TEST_CASE("Joined pipeline and offload find objects by the BVH as well") {
   const Scene scene = scene_named("meshes");
   for (const Model model : {Model::pipeline, Model::offload}) {
     RenderOptions options = model_options(Model::shared, "cell_emu", 5, pixels(48), pixels(36));
-    options.accelerator = Accelerator::hierarchy;
+    options.accelerator = Accelerator::bvh;
     const Image expected = render(scene, options).image;
     options.model = model;
     const RenderResult result = render(scene, options);
     CHECK(result.image == expected);
-    CHECK(result.statistics.accelerator == Accelerator::hierarchy);
-    CHECK(result.statistics.hierarchy_nodes > 0);
+    CHECK(result.statistics.accelerator == Accelerator::bvh);
+    CHECK(result.statistics.bvh_nodes > 0);
   }
 }
 
@@ -104,5 +104,5 @@ TEST_CASE("Pipelines take the grid unless told otherwise") {
   };
   CHECK(accelerator(Model::pipeline) == Accelerator::grid);
   CHECK(accelerator(Model::pipeline_split) == Accelerator::grid);
-  CHECK(accelerator(Model::offload) == Accelerator::hierarchy);
+  CHECK(accelerator(Model::offload) == Accelerator::bvh);
 }

@@ -344,7 +344,7 @@ TEST_CASE("Building says how far it is, and can be cancelled") {
   const Scene scene = large_scene();
   const Image expected = render(scene, backends().front().options(kWidth, kHeight, 2)).image;
   for (const Backend& backend : one_of_each()) {
-    for (Accelerator accelerator : {Accelerator::hierarchy, Accelerator::grid}) {
+    for (Accelerator accelerator : {Accelerator::bvh, Accelerator::grid}) {
       INFO(backend.spu());
       std::vector<double> fractions;
       double limit = 2;
@@ -461,24 +461,24 @@ TEST_CASE("Both accelerators show the same, built by one SPE or by many, also of
   options.accelerator = Accelerator::grid;
   const RenderResult by_grid = render(scene, options);
   CHECK(by_grid.statistics.accelerator == Accelerator::grid);
-  CHECK(by_grid.statistics.hierarchy_nodes == 0);
+  CHECK(by_grid.statistics.bvh_nodes == 0);
   std::uint32_t nodes = 0;
   for (const Backend& backend : one_of_each()) {
     for (unsigned spes : {1u, 3u, 8u}) {
       INFO(backend.spu() << " with " << spes);
       options = backend.options(kWidth, kHeight, spes);
-      options.accelerator = Accelerator::hierarchy;
+      options.accelerator = Accelerator::bvh;
       Renderer renderer(options);
       for (int frame = 0; frame < 2; ++frame) {
         const RenderResult result = renderer.render(scene);
         check_complete(result, backend, by_grid.image);
         const RenderStatistics& s = result.statistics;
-        CHECK(s.accelerator == Accelerator::hierarchy);
+        CHECK(s.accelerator == Accelerator::bvh);
         CHECK(s.grid_cells[0] == 0);
         CHECK(s.accelerator_list_entries == s.objects);
         CHECK(s.accelerator_bytes <= 64 * s.objects);
-        if (nodes == 0) nodes = s.hierarchy_nodes;
-        CHECK(s.hierarchy_nodes == nodes);
+        if (nodes == 0) nodes = s.bvh_nodes;
+        CHECK(s.bvh_nodes == nodes);
       }
     }
   }

@@ -1,6 +1,6 @@
 // SceneImage: what its tables hold, and that nothing else than its own bytes is taken for one.
 #include "celltrace/error.hpp"
-#include "kernel/overlap.hpp"
+#include "kernel/primitives/overlap.hpp"
 #include "render/scenes.hpp"
 #include "scene/mesh_prototype.hpp"
 #include "scene/scene_image.hpp"
@@ -255,13 +255,13 @@ TEST_CASE("An image of many objects has them by run, the same whoever makes it")
     const SceneImage image(scene);
     const ImageHeader& h = image.header();
     REQUIRE(h.object_count == 27000);
-    REQUIRE(h.run_count > 1);
+    REQUIRE(h.group_count > 1);
     // Spheres around one point cannot be told apart.
-    CHECK((h.longest_run <= 256) == (reach > 0));
+    CHECK((h.longest_group <= 256) == (reach > 0));
     const auto* objects = table<ObjectRecord>(image, h.object_offset);
-    const auto* runs = table<RunRecord>(image, h.run_offset);
+    const auto* runs = table<GroupRecord>(image, h.group_offset);
     std::uint32_t next = 0;
-    for (std::uint32_t run = 0; run < h.run_count; ++run) {
+    for (std::uint32_t run = 0; run < h.group_count; ++run) {
       REQUIRE(runs[run].first == next);
       for (; next < runs[run].first + runs[run].count; ++next) {
         const Box box = bounding_box(objects[next]);
@@ -292,18 +292,18 @@ TEST_CASE("An image of many objects has them by run, the same whoever makes it")
 
 TEST_CASE("A sealed scene image with a fault in its runs is refused") {
   const Bytes good = bytes_of(SceneImage(crowd(3000, 10)));
-  const auto refused = [&](const std::function<void(ImageHeader&, RunRecord*)>& change) {
+  const auto refused = [&](const std::function<void(ImageHeader&, GroupRecord*)>& change) {
     Bytes bytes = good;
-    change(header_of(bytes), table<RunRecord>(bytes, header_of(bytes).run_offset));
+    change(header_of(bytes), table<GroupRecord>(bytes, header_of(bytes).group_offset));
     seal(bytes);
     CHECK_THROWS_WITH(SceneImage::from_bytes(bytes), Catch::Contains("offset"));
   };
-  refused([](ImageHeader&, RunRecord* runs) { ++runs[1].first; });
-  refused([](ImageHeader&, RunRecord* runs) { runs[0].count = 0; });
-  refused([](ImageHeader& h, RunRecord* runs) { runs[h.run_count - 1].count = 0xFFFFFFFF; });
-  refused([](ImageHeader& h, RunRecord*) { --h.run_count; });
-  refused([](ImageHeader& h, RunRecord*) { --h.longest_run; });
-  refused([](ImageHeader& h, RunRecord*) { h.run_offset = 0xFFFFFF80; });
+  refused([](ImageHeader&, GroupRecord* runs) { ++runs[1].first; });
+  refused([](ImageHeader&, GroupRecord* runs) { runs[0].count = 0; });
+  refused([](ImageHeader& h, GroupRecord* runs) { runs[h.group_count - 1].count = 0xFFFFFFFF; });
+  refused([](ImageHeader& h, GroupRecord*) { --h.group_count; });
+  refused([](ImageHeader& h, GroupRecord*) { --h.longest_group; });
+  refused([](ImageHeader& h, GroupRecord*) { h.group_offset = 0xFFFFFF80; });
 }
 
 namespace {
@@ -390,30 +390,30 @@ TEST_CASE("Instances of a mesh are copies of runs") {
   const Scene scene = instances(30);
   const SceneImage image(scene);
   const ImageHeader& h = image.header();
-  REQUIRE(h.prototype_count == h.run_count);
-  CHECK(h.longest_run <= kMaxCopiedObjects);
+  REQUIRE(h.prototype_count == h.group_count);
+  CHECK(h.longest_group <= kMaxCopiedObjects);
   const auto* objects = table<ObjectRecord>(image, h.object_offset);
-  const auto* runs = table<RunRecord>(image, h.run_offset);
+  const auto* runs = table<GroupRecord>(image, h.group_offset);
   const auto* prototypes = table<std::uint32_t>(image, h.prototype_offset);
   std::uint32_t next = 0, copies = 0, alone = 0;
-  for (std::uint32_t run = 0; run < h.run_count; ++run) {
+  for (std::uint32_t run = 0; run < h.group_count; ++run) {
     REQUIRE(runs[run].first == next);
     Box around = bounding_box(objects[next]);
     for (const std::uint32_t end = next + runs[run].count; next < end; ++next)
       around = box_around(around, bounding_box(objects[next]));
     CHECK(std::equal(around.min, around.min + 3, runs[run].min));
     CHECK(std::equal(around.max, around.max + 3, runs[run].max));
-    if (prototypes[run] == kNoRun)
+    if (prototypes[run] == kNoGroup)
       ++alone;
     else if (prototypes[run] != run)
       ++copies;
-    if (prototypes[run] == kNoRun) continue;
+    if (prototypes[run] == kNoGroup) continue;
     REQUIRE(prototypes[prototypes[run]] == prototypes[run]);
     REQUIRE(runs[prototypes[run]].count == runs[run].count);
   }
   CHECK(next == h.object_count);
   CHECK(alone > 0);
-  CHECK(copies == (h.run_count - alone) / 30 * 29);
+  CHECK(copies == (h.group_count - alone) / 30 * 29);
 
   const SceneImage apart(without_instances(scene));
   CHECK(apart.header().prototype_count == 0);
@@ -435,8 +435,8 @@ TEST_CASE("Instances of a mesh are copies of runs") {
 TEST_CASE("Instances of a large mesh are copies of short runs") {
   const Scene scene = instances(2, 60);
   const SceneImage image(scene);
-  REQUIRE(image.header().prototype_count == image.header().run_count);
-  CHECK(image.header().longest_run <= kMaxCopiedObjects);
+  REQUIRE(image.header().prototype_count == image.header().group_count);
+  CHECK(image.header().longest_group <= kMaxCopiedObjects);
   CHECK((contents(image) == contents(SceneImage(without_instances(scene)))));
   const Bytes bytes = bytes_of(image);
   AlignedBlock work;
@@ -455,7 +455,7 @@ TEST_CASE("Runs of a prototype are short where nothing tells triangles apart") {
   CHECK(prototype.triangles().size() == 5000);
   CHECK(prototype.vertices().size() == 3);
   REQUIRE(prototype.runs().back() == 5000);
-  for (std::uint32_t run = 0; run < prototype.run_count(); ++run) {
+  for (std::uint32_t run = 0; run < prototype.group_count(); ++run) {
     REQUIRE(prototype.runs()[run] < prototype.runs()[run + 1]);
     REQUIRE(prototype.runs()[run + 1] - prototype.runs()[run] <= kMaxCopiedObjects);
   }
@@ -469,7 +469,7 @@ TEST_CASE("Instances of a mesh without areas are nothing") {
   const SceneImage without(scene);
   scene.objects.insert(scene.objects.begin() + 1, 2, mesh_object(mesh, 0, 0));
   const SceneImage with(scene);
-  CHECK(with.header().run_count == without.header().run_count);
+  CHECK(with.header().group_count == without.header().group_count);
   CHECK((contents(with) == contents(without)));
   CHECK((bytes_of(SceneImage::from_bytes(bytes_of(with))) == bytes_of(with)));
 }
@@ -527,7 +527,7 @@ TEST_CASE("A sealed scene image with a fault in its copies is refused") {
   };
   refused([](ImageHeader& h, std::uint32_t*) { --h.prototype_count; });
   refused([](ImageHeader& h, std::uint32_t*) { h.prototype_offset = 0xFFFFFF80; });
-  refused([](ImageHeader& h, std::uint32_t* prototypes) { prototypes[h.run_count - 1] = h.run_count; });
-  refused([](ImageHeader& h, std::uint32_t* prototypes) { prototypes[h.run_count - 1] = h.run_count - 2; });
-  refused([](ImageHeader& h, std::uint32_t* prototypes) { prototypes[h.run_count - 1] = 0; });
+  refused([](ImageHeader& h, std::uint32_t* prototypes) { prototypes[h.group_count - 1] = h.group_count; });
+  refused([](ImageHeader& h, std::uint32_t* prototypes) { prototypes[h.group_count - 1] = h.group_count - 2; });
+  refused([](ImageHeader& h, std::uint32_t* prototypes) { prototypes[h.group_count - 1] = 0; });
 }

@@ -240,7 +240,7 @@ TEST_CASE("notes and diagnostics are moments, without addresses of main memory")
     broken.lsa = 0x18080;
     broken.size = 20;
     broken.ea = 0x7FFFABCD1230;
-    broken.site = {"src/kernel/stream.hpp", 33};
+    broken.site = {"src/kernel/accel/stream.hpp", 33};
     broken.cycle = 6400;
     broken.text = "SPE 0: get 20 bytes, LS 0x18080 <- EA 0x7fffabcd1230";
     t.diagnostic(broken);

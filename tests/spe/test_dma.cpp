@@ -124,7 +124,7 @@ TEST_CASE("local stores are reached through the main storage domain") {
   Exchange exchange{};
   // Every SPE tells where its buffer lies, puts a line into its right neighbour's and fetches it back from
   // there.
-  const auto pass_on = [](auto& spu, ea_t argument) {
+  const auto secondary_rays_of = [](auto& spu, ea_t argument) {
     Exchange& control = at<Exchange>(argument);
     auto* inbox = spu.template allocate<std::uint32_t>(32);
     auto* outbox = spu.template allocate<std::uint32_t>(32);
@@ -154,7 +154,7 @@ TEST_CASE("local stores are reached through the main storage domain") {
     spu.send_signal(left, Signal::one, 1);
     spu.read_signal_1();
   };
-  run_on(key, 4, pass_on, to_ea(&exchange));
+  run_on(key, 4, secondary_rays_of, to_ea(&exchange));
   for (std::uint32_t spe = 0; spe < 4; ++spe)
     CHECK(exchange.found[spe] == (spe + 3) % 4 * 100 + 31);
 }

@@ -152,7 +152,7 @@ TEST_CASE("a proxy put reaches the registers of another SPE") {
     std::uint32_t lsa = 0;
     std::uint32_t signal = 0, mail = 0;
   } words;
-  const auto pass_on = [](auto& spu, ea_t argument) {
+  const auto secondary_rays_of = [](auto& spu, ea_t argument) {
     auto& found = at<Words>(argument);
     if (spu.id() == 0) {
       auto* quadwords = spu.template allocate<std::uint32_t>(8, 16);
@@ -165,7 +165,7 @@ TEST_CASE("a proxy put reaches the registers of another SPE") {
     }
   };
   const auto machine = machine_of(key, 2);
-  run_on(key, *machine, pass_on, to_ea(&words), [&](Machine& ppe) {
+  run_on(key, *machine, secondary_rays_of, to_ea(&words), [&](Machine& ppe) {
     ppe.wait(0);
     ppe.proxy_command(0, MfcOpcode::put, words.lsa + 12, ppe.addresses(1).signal_2, 4, 0);
     ppe.proxy_command(0, MfcOpcode::put, words.lsa + 28, ppe.addresses(1).in_mailbox, 4, 1);

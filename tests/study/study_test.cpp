@@ -124,7 +124,7 @@ TEST_CASE("Counted cycles are near those of machine code") {
   const std::vector<StudyScene> scenes = make_scenes();
   std::vector<Job> jobs;
   for (const std::size_t scene : {0, 1, 2, 3})
-    for (const Accelerator accelerator : {Accelerator::hierarchy, Accelerator::grid}) {
+    for (const Accelerator accelerator : {Accelerator::bvh, Accelerator::grid}) {
       Job job{&scenes[scene].scene, {}, 2};
       job.options.width = 64;
       job.options.height = 48;
@@ -136,7 +136,7 @@ TEST_CASE("Counted cycles are near those of machine code") {
   const std::vector<Outcome> counted = runner.run(jobs), executed = runner.run(jobs, "cell_sim");
   double sum = 0;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
-    INFO(scenes[i / 2].name << (i % 2 == 0 ? " on a hierarchy" : " on a grid"));
+    INFO(scenes[i / 2].name << (i % 2 == 0 ? " on a BVH" : " on a grid"));
     const double ratio = static_cast<double>(counted[i].last().render_cycles) /
                          static_cast<double>(executed[i].last().render_cycles);
     CHECK(std::abs(ratio - 1) < 0.15);

@@ -45,9 +45,9 @@ public:
     cursor_ = 0;
   }
 
-  /// As Finder's.
+  /// As Intersector's.
   template <class Surfaces, class Bearing>
-  void attenuate(const Surfaces&, const Bearing&, uint32_t number, VectorLanes& light) {
+  void transmittance(const Surfaces&, const Bearing&, uint32_t number, VectorLanes& light) {
     // Lights come in order, and from the beginning again for each of a face's materials.
     while (answer(cursor_).number != number)
       cursor_ = cursor_ + 1 == searches_ ? 0 : cursor_ + 1;

@@ -4,7 +4,7 @@
 
 #include "kernel/models/job_sender.hpp"
 #include "kernel/models/model_work.hpp"
-#include "kernel/primary_rays.hpp"
+#include "kernel/cameras/primary_rays.hpp"
 
 namespace celltrace::kernel::models {
 

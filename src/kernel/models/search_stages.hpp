@@ -7,7 +7,7 @@
 #include "kernel/models/model_work.hpp"
 #include "kernel/models/search_record.hpp"
 #include "kernel/models/stage_block.hpp"
-#include "kernel/traversal.hpp"
+#include "kernel/accel/traversal.hpp"
 
 #include <type_traits>
 
@@ -24,7 +24,7 @@ public:
     if (static_cast<SearchKind>(search.kind) == SearchKind::closest)
       traversal_.find_closest(search.rays, search.lanes, search.hits);
     else
-      traversal_.attenuate(search.rays, search.lanes, search.light.distance, search.light.colour);
+      traversal_.transmittance(search.rays, search.lanes, search.light.distance, search.light.colour);
   }
 
   const TraversalCounters& counters() const { return traversal_.counters(); }
@@ -137,11 +137,11 @@ public:
 
   /// Rays that need to go no farther are no longer pending.
   void run(SearchRecord& search) {
-    objects_.mailbox().begin_packet();
+    objects_.hit_filter().begin_packet();
     if (static_cast<SearchKind>(search.kind) == SearchKind::closest)
       find_closest(search);
     else
-      attenuate(search);
+      transmittance(search);
     uint32_t back = 0;
     for_each_lane(search.pending, [&](uint32_t lane) {
       back |= static_cast<uint32_t>(limit_of(search, lane) > search.leave.lane[lane]) << lane;
@@ -160,9 +160,9 @@ private:
       grid_.find_closest_in(cell, search.rays, search.hits);
     });
   }
-  void attenuate(SearchRecord& search) {
+  void transmittance(SearchRecord& search) {
     for_each_value<S>(search.cell, search.pending, [&](uint32_t cell, uint32_t lanes) {
-      grid_.attenuate_in(cell, lanes, search.enter, search.leave, search.rays, search.light.distance,
+      grid_.transmittance_in(cell, lanes, search.enter, search.leave, search.rays, search.light.distance,
                          search.light.colour, search.lit);
     });
     search.pending &= search.lit;

@@ -6,8 +6,8 @@
 #include "kernel/models/primary_feed.hpp"
 #include "kernel/models/search_writer.hpp"
 #include "kernel/models/stage.hpp"
-#include "kernel/ray_tracer.hpp"
-#include "kernel/surface.hpp"
+#include "kernel/shading/ray_tracer.hpp"
+#include "kernel/program/pixel_writer.hpp"
 
 namespace celltrace::kernel::models {
 

@@ -21,7 +21,7 @@ struct Crew {
 };
 
 /// Found by measurement on eight SPEs (docs/programming-models.md): of all ways to share them out, the one
-/// that is best for most scenes. The hierarchy's searches are short, and leave more to the shaders.
+/// that is best for most scenes. The BVH's searches are short, and leave more to the shaders.
 Crew crew_of(Model model, AcceleratorKind accelerator, unsigned spes) {
   Crew crew;
   if (model == Model::offload) {

@@ -1,7 +1,7 @@
 #include "render/models/stage_team.hpp"
 
 #include "kernel/models/search_record.hpp"
-#include "kernel/ray_stack.hpp"
+#include "kernel/shading/ray_stack.hpp"
 #include "render/models/stage_programs.hpp"
 
 #include <algorithm>

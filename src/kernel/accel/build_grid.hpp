@@ -1,0 +1,80 @@
+// Builds the uniform grid. Objects stream through local store; each emits a (voxel, object)
+// pair per voxel it touches; the pairs are sorted by voxel and become the lists. Kernel dialect.
+#pragma once
+
+#include "kernel/primitives/overlap.hpp"
+#include "kernel/program/prepare_result.hpp"
+#include "kernel/accel/radix_sort.hpp"
+#include "kernel/accel/stream.hpp"
+
+namespace celltrace::kernel {
+
+namespace detail {
+
+/// Writes the pairs of all objects to the sort buffer; counts on without writing once that is full.
+template <class Spu> uint32_t emit_pairs(Spu& spu, const FrameBlock& frame) {
+  StreamReader<Spu, ObjectRecord> objects(spu, 0);
+  StreamWriter<Spu, SortPair> pairs(spu, 2, frame.sort_buffer[0]);
+  uint32_t count = 0;
+  objects.for_each(
+      frame.image + frame.object_offset, frame.object_count, [&](const ObjectRecord& object, uint32_t index) {
+        const uint32_t offset = frame.object_offset + index * static_cast<uint32_t>(sizeof(ObjectRecord));
+        for_each_voxel(spu, frame.grid, object, [&](uint32_t cell) {
+          spu.compute(scalar_work::kEmitPair);
+          if (count++ < frame.sort_capacity) pairs.write({cell, offset});
+        });
+      });
+  pairs.flush();
+  return count;
+}
+
+/// Writes a record per voxel and a word per pair from pairs sorted by voxel.
+template <class Spu>
+void write_lists(Spu& spu, const FrameBlock& frame, ea_t sorted, uint32_t count, uint32_t cell_count) {
+  StreamReader<Spu, SortPair> pairs(spu, 0);
+  StreamWriter<Spu, CellRecord> cells(spu, 2, frame.image + frame.grid.cell_offset);
+  StreamWriter<Spu, uint32_t> lists(spu, 4, frame.image + frame.grid.list_offset);
+  CellRecord open = {frame.grid.list_offset, 0};
+  const auto close_up_to = [&](uint32_t cell) {
+    while (cells.count() < cell) {
+      spu.compute(scalar_work::kCloseVoxel);
+      cells.write(open);
+      open = {frame.grid.list_offset + lists.count() * 4, 0};
+    }
+  };
+  pairs.for_each(sorted, count, [&](const SortPair& pair, uint32_t) {
+    spu.compute(scalar_work::kListPair);
+    close_up_to(pair.key);
+    lists.write(pair.value);
+    ++open.count;
+  });
+  close_up_to(cell_count);
+  cells.flush();
+  lists.flush();
+}
+
+} // namespace detail
+
+/// Builds the grid that `frame.grid` describes. Needs about 110 KB of local store for the time being.
+template <class Spu> PrepareResult build_grid(Spu& spu, const FrameBlock& frame) {
+  uint8_t* const marked = spu.mark();
+  const uint32_t count = detail::emit_pairs(spu, frame);
+  spu.release(marked);
+  if (count > frame.sort_capacity || count > frame.grid.list_capacity) return {count, false};
+
+  const uint32_t cell_count = frame.grid.row_of_cells * frame.grid.cells[2];
+  uint32_t bits = 0;
+  while (bits < 32 && (cell_count - 1) >> bits != 0)
+    ++bits;
+  uint32_t result = 0;
+  {
+    StreamReader<Spu, SortPair> reader(spu, 0);
+    result = RadixSort<Spu>(spu, reader).sort(frame.sort_buffer, count, bits);
+  }
+  spu.release(marked);
+  detail::write_lists(spu, frame, frame.sort_buffer[result], count, cell_count);
+  spu.release(marked);
+  return {count, true};
+}
+
+} // namespace celltrace::kernel

@@ -1,0 +1,108 @@
+// The packets of a bundle as beams, side by side. Kernel dialect.
+#pragma once
+
+#include "kernel/accel/frustum.hpp"
+
+namespace celltrace::kernel {
+
+/// An interval in each lane.
+template <class S> struct LaneInterval {
+  typename S::F low, high;
+
+  static LaneInterval splat(const Interval& same) {
+    return {typename S::F(same.low), typename S::F(same.high)};
+  }
+  /// Around those of all lanes.
+  Interval all() const { return {interval_of<S>(low).low, interval_of<S>(high).high}; }
+};
+
+/// RayBounds of a packet in each lane.
+template <class S> struct LaneRayBounds { LaneInterval<S> origin[3], direction[3]; };
+
+/// A lane for each packet of a bundle.
+template <class S, uint32_t kPackets> struct BundleLanes;
+template <class S> struct BundleLanes<S, 4> {
+  using Type = typename S::F4;
+  static Type splat(float value) { return Type::splat(value); }
+  static uint32_t at_most(const Type& a, const Type& b) { return not_above_bits(a, b); }
+  static float greatest_of(uint32_t packets, const float (&values)[4]) {
+    float greatest = 0.0f;
+    for_each_lane(packets, [&](uint32_t packet) { greatest = larger(greatest, values[packet]); });
+    return greatest;
+  }
+};
+template <class S> struct BundleLanes<S, 16> {
+  using Type = typename S::F;
+  static Type splat(float value) { return Type(value); }
+  static uint32_t at_most(const Type& a, const Type& b) { return (a <= b).bits(); }
+  static float greatest_of(uint32_t packets, const float (&values)[16]) {
+    return interval_of<S>(S::select(S::M::from_bits(packets), Type::load(values), Type(0.0f))).high;
+  }
+};
+
+/// The beams of a bundle's packets, all of one octant, side by side.
+template <class S, uint32_t kPackets> class BundleFrusta {
+public:
+  using Lanes = BundleLanes<S, kPackets>;
+  using L = typename Lanes::Type;
+
+  void set(uint32_t packet, const RayBounds& bounds, uint32_t octant) {
+    for (uint32_t axis = 0; axis < 3; ++axis) {
+      const Slab slab = slab_of(bounds.origin[axis], bounds.direction[axis], ((octant >> axis) & 1) != 0);
+      Axis& a = axes_[axis];
+      a.near_origin[packet] = slab.near_origin;
+      a.near_inverse[packet] = slab.near_inverse;
+      a.far_origin[packet] = slab.far_origin;
+      a.far_inverse[packet] = slab.far_inverse;
+    }
+  }
+  /// All of them at once, by bounds in their lanes.
+  void set(const LaneRayBounds<S>& bounds, uint32_t octant) {
+    for (uint32_t axis = 0; axis < 3; ++axis) {
+      const bool backward = ((octant >> axis) & 1) != 0;
+      const auto inverse_of = [&](const L& direction) {
+        return L(1.0f) / (backward ? S::min(direction, L(-detail::kTinyDirection))
+                                   : S::max(direction, L(detail::kTinyDirection)));
+      };
+      const LaneInterval<S>& origin = bounds.origin[axis];
+      const LaneInterval<S>& direction = bounds.direction[axis];
+      Axis& a = axes_[axis];
+      (backward ? origin.low : origin.high).store(a.near_origin);
+      inverse_of(backward ? direction.low : direction.high).store(a.near_inverse);
+      (backward ? origin.high : origin.low).store(a.far_origin);
+      inverse_of(backward ? direction.high : direction.low).store(a.far_inverse);
+    }
+  }
+
+  /// That of one packet by itself.
+  void get(uint32_t packet, Frustum<S>& beam) const {
+    for (uint32_t axis = 0; axis < 3; ++axis) {
+      const Axis& a = axes_[axis];
+      beam.set(axis,
+               {a.near_origin[packet], a.near_inverse[packet], a.far_origin[packet], a.far_inverse[packet]});
+    }
+  }
+
+  /// The packets whose frusta hit the bounds of child `i`, each up to its tfar.
+  uint32_t intersect(const float (&bounds)[6][4], const SlabOrder& sides, uint32_t i,
+                const float (&tfar)[kPackets]) const {
+    L first = Lanes::splat(0.0f);
+    L last = L::load(tfar);
+    for (uint32_t axis = 0; axis < 3; ++axis) {
+      const Axis& a = axes_[axis];
+      const L near = Lanes::splat(bounds[sides.near[axis]][i]), far = Lanes::splat(bounds[sides.far[axis]][i]);
+      first = S::max(first, (near - L::load(a.near_origin)) * L::load(a.near_inverse));
+      last = S::min(last, (far - L::load(a.far_origin)) * L::load(a.far_inverse));
+    }
+    return Lanes::at_most(first, last * Lanes::splat(detail::kRoundedUp));
+  }
+
+private:
+  struct alignas(64) Axis {
+    float near_origin[kPackets], near_inverse[kPackets];
+    float far_origin[kPackets], far_inverse[kPackets];
+  };
+  Axis axes_[3] = {};
+};
+
+} // namespace celltrace::kernel

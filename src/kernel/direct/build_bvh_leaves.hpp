@@ -1,0 +1,76 @@
+// Leaves: which objects share one. Kernel dialect.
+#pragma once
+
+#include "kernel/direct/build_bvh_subtree.hpp"
+
+namespace celltrace::kernel::bvh {
+
+/// When objects share a leaf. A triangle weighs 1.
+struct LeafRule {
+  uint32_t certain;     ///< up to this weight they do whatever the heuristic says
+  uint32_t most;        ///< above this weight they do not
+  float cost;           ///< of testing an object that weighs 1, in visits of nodes
+  uint32_t weight_else; ///< of an object that is no triangle
+};
+/// No leaf has more objects.
+constexpr uint32_t kMaxLeaf = 16;
+
+/// Where objects are tested one by one, the heuristic has nothing to say of fewer than a node has children.
+/// Where leaves are copied, a node of four leaves of one object each takes more memory than they do, and rays
+/// wait longer for it than the tests take. All found by measurement.
+inline LeafRule leaf_rule(bool wide, bool copied) {
+  if (wide) return {12, 32, 0.5f, 4};
+  return {copied ? kChildren : kChildren - 1, 8, 2.0f, 1};
+}
+
+/// Ends nodes at objects. Reference i is of the object whose offset belongs at place i of the list.
+template <class S> class Leaves {
+public:
+  static constexpr uint32_t kMaxDepthOfCuts = 32;
+
+  Leaves(uint8_t* image, uint32_t list_offset, const Reference* references, const LeafRule& rule)
+      : image_(image), list_offset_(list_offset), references_(references), rule_(rule) {}
+
+  bool end(const Range<S>& range) const { return range.weight <= rule_.certain; }
+
+  bool end(const Range<S>& range, const Range<S> (&children)[kChildren]) const {
+    if (range.weight > rule_.most || range.count() > kMaxLeaf) return false;
+    const float area = range.box.area();
+    float saved = area * static_cast<float>(range.weight);
+    for (const Range<S>& child : children)
+      saved -= child.box.area() * static_cast<float>(child.weight);
+    return !(saved * rule_.cost > area);
+  }
+
+  void add(const Range<S>& range, const Place& place) {
+    const Reference* const objects = references_ + range.begin;
+    const int32_t step = step_of(objects, range.count());
+    uint32_t first = objects[0].value;
+    if (step == 0) {
+      first = list_offset_ + range.begin * 4;
+      uint32_t* list = reinterpret_cast<uint32_t*>(image_ + first);
+      for (uint32_t i = 0; i < range.count(); ++i)
+        list[i] = objects[i].value;
+    }
+    place.parent->child[place.slot] = first;
+    place.parent->leaf[place.slot] = leaf_word::make(range.count(), step);
+  }
+
+private:
+  /// From each object to the next one, in places of the table, if that is the same for all; or 0.
+  static int32_t step_of(const Reference* objects, uint32_t count) {
+    if (count == 1) return 1;
+    const uint32_t bytes = objects[1].value - objects[0].value;
+    for (uint32_t i = 2; i < count; ++i)
+      if (objects[i].value - objects[i - 1].value != bytes) return 0;
+    const int32_t step = static_cast<int32_t>(bytes) / static_cast<int32_t>(sizeof(ObjectRecord));
+    return step <= leaf_word::kMaxStep && step >= -leaf_word::kMaxStep ? step : 0;
+  }
+
+  uint8_t* image_;
+  uint32_t list_offset_;
+  const Reference* references_;
+  LeafRule rule_;
+};
+
+} // namespace celltrace::kernel::bvh

@@ -1,0 +1,90 @@
+// What few rays of a packet do with the objects of a leaf where memory is direct: all triangles are tested at
+// a time. Kernel dialect.
+#pragma once
+
+#include "kernel/direct/leaf_triangles.hpp"
+
+namespace celltrace::kernel {
+
+template <class Spu> class LeafTests {
+public:
+  using S = typename Spu::simd;
+  using F = typename S::F;
+  using I = typename S::I;
+  using M = typename S::M;
+  using Tests = ObjectTests<Spu>;
+
+  /// Each of some rays is tested against all triangles of a leaf at once, if there are no more rays than
+  /// these and no fewer triangles. Found by measurement.
+  static constexpr int kMostRays = 4;
+  static constexpr uint32_t kLeastTriangles = 4;
+
+  explicit LeafTests(Tests& tests) : tests_(tests) {}
+
+  /// The objects of a leaf that some rays of a packet have met.
+  void test(RayQuery& query, uint32_t rays, const NodeRef& leaf) {
+    const bool shadows = query.hits == nullptr;
+    LeafTriangles<S> triangles;
+    collect_triangles(tests_.scene(), leaf, shadows, triangles, [&](uint32_t self) {
+      if (!shadows) {
+        if (tests_.hit_filter().first_test(self)) tests_.test_closest(*query.rays, self, *query.hits);
+      } else if ((query.lanes & rays) != 0) {
+        query.lanes &= ~tests_.occluded(*query.rays, self, rays, *query.distance, *query.light);
+      }
+    });
+    if (triangles.count() == 0) return;
+    const TriangleSides<S> sides = triangles.sides();
+    for (uint32_t left = rays & query.lanes; left != 0; left &= left - 1) {
+      const auto lane = static_cast<uint32_t>(__builtin_ctz(left));
+      const Crossings<S> crossings = crossed(*query.rays, lane, sides, triangles);
+      if (shadows)
+        shadow(crossings, triangles.all(), lane, query);
+      else
+        keep_closest(crossings, triangles, lane, *query.hits);
+    }
+    tests_.counters().tests[static_cast<uint32_t>(ObjectKind::triangle)] += triangles.count();
+  }
+
+private:
+  static Crossings<S> crossed(const RayPacket& rays, uint32_t lane, const TriangleSides<S>& sides,
+                              const LeafTriangles<S>& triangles) {
+    const auto of_ray = [&](const VectorLanes& v) {
+      return V3<S>{F(v.x.lane[lane]), F(v.y.lane[lane]), F(v.z.lane[lane])};
+    };
+    const I start = I::splat(static_cast<int32_t>(rays.start_object.lane[lane]));
+    const M starts_here = I::load(reinterpret_cast<const int32_t*>(triangles.offsets().lane)) == start;
+    return SeenTriangle<S>(of_ray(rays.origin), sides).crossed(of_ray(rays.direction), starts_here);
+  }
+
+  static void shadow(const Crossings<S>& c, uint32_t triangles, uint32_t lane, RayQuery& query) {
+    const F low(Tests::kShadowTolerance);
+    const M between = c.near_hit & (c.near > low) & (c.near < F(query.distance->lane[lane]) - low);
+    if ((between.bits() & triangles) != 0) query.lanes &= ~(1u << lane);
+  }
+
+  /// As ObjectTests does.
+  static void keep_closest(const Crossings<S>& c, const LeafTriangles<S>& triangles, uint32_t lane,
+                           HitPacket& hits) {
+    const M valid = c.near_hit & (c.near > F(kMinHitDistance)) & (c.near <= F(hits.distance.lane[lane]));
+    const uint32_t hit = valid.bits() & triangles.all();
+    if (hit == 0) return;
+    FloatLanes near, u, v;
+    c.near.store(near.lane);
+    c.u.store(u.lane);
+    c.v.store(v.lane);
+    for_each_lane(hit, [&](uint32_t i) {
+      const float nearest = hits.distance.lane[lane];
+      const auto present = static_cast<int32_t>(hits.object.lane[lane]);
+      const auto candidate = static_cast<int32_t>(triangles.offset(i));
+      if (!(near.lane[i] < nearest || (near.lane[i] == nearest && candidate < present))) return;
+      hits.distance.lane[lane] = near.lane[i];
+      hits.u.lane[lane] = u.lane[i];
+      hits.v.lane[lane] = v.lane[i];
+      hits.object.lane[lane] = triangles.offset(i);
+    });
+  }
+
+  Tests& tests_;
+};
+
+} // namespace celltrace::kernel

@@ -1,0 +1,127 @@
+// What a bundle of packets sees: what its primary rays hit and what light comes there is searched for
+// together; from there on each packet's tree of rays is worked off by itself. Kernel dialect.
+#pragma once
+
+#include "kernel/cameras/primary_rays.hpp"
+#include "kernel/shading/ray_tracer.hpp"
+
+namespace celltrace::kernel {
+
+template <class Spu> class BundleTracer {
+public:
+  using S = typename Spu::simd;
+
+  BundleTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, RayTracer<Spu>& tracer)
+      : frame_(frame), scene_(scene), tracer_(tracer), members_(spu.template allocate<Member>(kPackets)) {}
+
+  /// Calls `put(column, row, colours)` for each packet in the picture of the bundle at (column, row); that
+  /// counts bundles, `put` packets. Or `fill(column, row, colour)` where all of the bundle has one colour and
+  /// is in the picture.
+  template <class Put, class Fill>
+  void trace(uint32_t column, uint32_t row, Put put, [[maybe_unused]] Fill fill) {
+    if constexpr (Spu::direct_memory) {
+      const PinholeBundle<S> bundle(frame_, column, row);
+      const bool missed = !tracer_.intersector().traversal().enter(bundle);
+      if (missed && is_whole(column, row))
+        return fill(column * kEdge, row * kEdge, tracer_.background(kPackets * kSimdLanes));
+      place(column, row);
+      if (missed)
+        return for_each_member([&](const Member& member) {
+          const auto rays = static_cast<uint32_t>(__builtin_popcount(member.lanes));
+          put(member.column, member.row, tracer_.background(rays));
+        });
+      find_hits([&](RayQuery* queries) { tracer_.intersector().traversal().intersect(queries, bundle); });
+    } else {
+      place(column, row);
+      find_hits([&](RayQuery* queries) { tracer_.intersector().traversal().intersect(queries, kPackets); });
+    }
+    const uint32_t lights = frame_.light_count < kKnownLights ? frame_.light_count : kKnownLights;
+    for (uint32_t light = 0; light < lights; ++light)
+      find_light(light);
+    for_each_member([&](Member& member) {
+      tracer_.intersector().know_light(member.light, lights);
+      put(member.column, member.row, tracer_.trace(member.rays, member.lanes, member.hits, member.points));
+    });
+  }
+
+private:
+  static constexpr uint32_t kEdge = kBundleEdge<Spu>;
+  static constexpr uint32_t kPackets = kBundlePackets<Spu>;
+  /// Of further lights each packet asks by itself.
+  static constexpr uint32_t kKnownLights = 4;
+
+  struct Member {
+    RayPacket rays;
+    HitPacket hits;
+    HitPoints<S> points;
+    RayPacket shadow_rays; ///< toward the light that is asked of
+    FloatLanes distance;
+    VectorLanes light[kKnownLights]; ///< that comes to the points
+    uint32_t column, row;
+    uint32_t lanes, hit; ///< in the picture; of them, those that hit something
+  };
+
+  /// Calls `visit` with each packet in the picture.
+  template <class Visit> void for_each_member(Visit visit) {
+    for (uint32_t i = 0; i < kPackets; ++i)
+      if (members_[i].lanes != 0) visit(members_[i]);
+  }
+
+  bool is_whole(uint32_t column, uint32_t row) const {
+    constexpr uint32_t kPixels = kEdge * kPacketEdge;
+    return (column + 1) * kPixels <= frame_.width && (row + 1) * kPixels <= frame_.height;
+  }
+  void place(uint32_t column, uint32_t row) {
+    for (uint32_t i = 0; i < kPackets; ++i) {
+      Member& member = members_[i];
+      member.column = column * kEdge + i % kEdge;
+      member.row = row * kEdge + i / kEdge;
+      const bool inside = member.column < frame_.packet_columns && member.row < frame_.packet_rows;
+      member.lanes = inside ? lanes_in_picture(frame_, member.column, member.row) : 0;
+    }
+  }
+
+  /// `run` answers the queries of all packets; those of packets outside are for nothing.
+  template <class Run> void find_hits(Run run) {
+    RayQuery queries[kPackets];
+    for (uint32_t i = 0; i < kPackets; ++i) {
+      Member& member = members_[i];
+      queries[i] = {&member.rays, &member.hits, nullptr, nullptr, member.lanes};
+      if (member.lanes != 0) make_primary_rays<S>(frame_, member.column, member.row, member.rays);
+    }
+    run(queries);
+    for (uint32_t i = 0; i < kPackets; ++i) {
+      Member& member = members_[i];
+      member.hit = hit_lanes<S>(member.hits, member.lanes);
+      if (member.hit != 0) find_hit_points(scene_, member.rays, member.hits, member.hit, member.points);
+    }
+  }
+
+  void find_light(uint32_t number) {
+    const LightRecord light = light_at(scene_, frame_, number);
+    if ((light.flags & light_flag::shadowless) != 0) return;
+    RayQuery queries[kPackets];
+    uint32_t asked = 0;
+    for (uint32_t i = 0; i < kPackets; ++i) {
+      Member& member = members_[i];
+      if (member.hit == 0) continue;
+      scene_.spu().compute(scalar_work::kBundleLight);
+      const Surfaces<S> surfaces = {member.points.point, member.points.normal,
+                                    member.rays.direction.template load<S>(), &member.hits.object};
+      const Bearing<S> bearing(light, surfaces, member.hit);
+      if (bearing.facing == 0) continue;
+      make_shadow_rays(surfaces, bearing, member.shadow_rays, member.distance);
+      member.light[number].template store<S>(splat3<S>(light.colour));
+      queries[asked++] = {&member.shadow_rays, nullptr, &member.distance, &member.light[number],
+                           bearing.facing};
+    }
+    if (asked != 0) tracer_.intersector().traversal().intersect(queries, asked, light.location);
+  }
+
+  const FrameBlock& frame_;
+  SceneAccess<Spu>& scene_;
+  RayTracer<Spu>& tracer_;
+  Member* members_;
+};
+
+} // namespace celltrace::kernel

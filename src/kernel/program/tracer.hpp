@@ -1,0 +1,217 @@
+// The SPE program: an autonomous ray tracer. Kernel dialect.
+//
+// Between frames only signal 1 (the PPE's commands) and the mailbox are enabled; inside a frame only signal 2
+// and the mailbox (the neighbours' balancing, and the PPE's word that ends the frame).
+#pragma once
+
+#include "kernel/program/bundle_tracer.hpp"
+#include "kernel/program/prepare_frame.hpp"
+#include "kernel/program/pixel_writer.hpp"
+#include "kernel/program/work_exchange.hpp"
+#include "kernel/program/work_units.hpp"
+
+namespace celltrace::kernel {
+
+template <class Spu> class Tracer {
+public:
+  /// `frame_block`: ea of the FrameBlock, which stays there as long as the program runs.
+  Tracer(Spu& spu, ea_t frame_block)
+      : spu_(spu), frame_block_(frame_block), frame_(*spu.template allocate<FrameBlock>()),
+        report_(*spu.template allocate<ReportRecord>()), strip_(*spu.template allocate<StripRecord>()),
+        exchange_(spu), units_(spu), free_(spu.mark()) {}
+
+  void run() {
+    // From here on it is a clock; what it does when it has run down, no event tells.
+    spu_.write_decrementer(~0u);
+    spu_.write_event_mask(kDomain);
+    for (;;) {
+      const uint32_t events = spu_.read_event_status();
+      spu_.write_event_mask(0);
+      spu_.acknowledge_events(events);
+      if (spu_.signal_1_count() != 0) {
+        const uint32_t commands = spu_.read_signal_1();
+        if ((commands & command::quit) != 0) return;
+        obey(commands);
+      }
+      spu_.write_event_mask(kDomain);
+    }
+  }
+
+private:
+  using Colours = V3<typename Spu::simd>;
+
+  static constexpr uint32_t kDomain = event::signal_1;
+  static constexpr uint32_t kTag = 0;
+
+  /// What rendering needs in local store; kept from frame to frame, so that the cache stays warm.
+  struct Phase {
+    Phase(Spu& spu, const FrameBlock& frame, const CacheConfig& config)
+        : image(frame.image), ray_stack(frame.ray_stack), scene(spu, config, frame.image),
+          tracer(spu, frame, scene,
+                 frame.ray_stack + static_cast<ea_t>(spu.id() * frame.ray_stack_nodes) * kRayNodeBytes),
+          bundles(spu, frame, scene, tracer), pixels(spu, frame) {}
+
+    ea_t image, ray_stack;
+    SceneAccess<Spu> scene;
+    RayTracer<Spu> tracer;
+    BundleTracer<Spu> bundles;
+    PixelWriter<Spu, kBundleEdge<Spu>> pixels;
+  };
+
+  void obey(uint32_t commands) {
+    fetch(&frame_, frame_block_, sizeof(FrameBlock));
+    if ((commands & command::prepare_frame) != 0) prepare();
+    if ((commands & command::synchronize) != 0) synchronize();
+    if ((commands & command::render_frame) != 0) render();
+  }
+
+  void fetch(void* ls, ea_t ea, uint32_t bytes) {
+    spu_.get(ls, ea, bytes, kTag);
+    spu_.wait_all(1u << kTag);
+  }
+
+  void prepare() {
+    drop_phase();
+    const PrepareResult result = prepare_frame(spu_, frame_);
+    report_ = ReportRecord();
+    report_.list_entries = result.entries;
+    send_report();
+    spu_.write_out_mailbox(make_report(result.built ? ReportKind::prepared : ReportKind::needs_memory, 0));
+  }
+
+  /// Data has changed in main memory, or a frame was broken off: nothing cached and no word of it is valid
+  /// any more. It happens rarely: compiled for size, as local store is short.
+  [[gnu::cold]] void synchronize() {
+    while (spu_.in_mailbox_count() != 0)
+      spu_.read_in_mailbox();
+    if (phase_ != nullptr && phase_->image == frame_.image && phase_->ray_stack == frame_.ray_stack)
+      phase_->scene.cache().synchronize_all();
+    else
+      drop_phase();
+    spu_.write_out_mailbox(make_report(ReportKind::synchronised, 0));
+  }
+
+  void render() {
+    if (phase_ == nullptr) start_phase();
+    phase_->scene.cache().reset_counters();
+    phase_->tracer.reset_counters();
+    fetch(&strip_, frame_.strips + spu_.id() * sizeof(StripRecord), sizeof(StripRecord));
+    const uint32_t start = spu_.read_decrementer();
+    uint32_t idle = 0;
+    packets_ = 0;
+    units_.begin_frame(frame_);
+    exchange_.begin_frame(frame_, UnitRange{strip_.begin, strip_.end - strip_.begin});
+    while (!exchange_.over()) {
+      uint32_t unit = 0;
+      if (exchange_.take_unit(unit))
+        render_unit(unit);
+      else
+        idle += wait();
+    }
+    phase_->pixels.flush();
+    units_.flush();
+    phase_->scene.cache().settle();
+    exchange_.end_frame();
+    report(start - spu_.read_decrementer() - idle);
+    spu_.write_out_mailbox(make_report(ReportKind::finished, 0));
+  }
+
+  void start_phase() {
+    struct alignas(128) Storage {
+      uint8_t bytes[sizeof(Phase)];
+    };
+    phase_ =
+        new (static_cast<void*>(spu_.template allocate<Storage>())) Phase(spu_, frame_, cache_config(frame_));
+  }
+  void drop_phase() {
+    phase_ = nullptr;
+    spu_.release(free_);
+  }
+
+  /// Breaks off if the frame is declared over on the way.
+  void render_unit(uint32_t unit) {
+    const uint32_t start = spu_.read_decrementer();
+    const UnitRecord run = units_.at(unit);
+    uint32_t column = run.column;
+    uint32_t row = run.row;
+    for (uint32_t bundle = 0; bundle < run.bundles; ++bundle) {
+      phase_->bundles.trace(
+          column, row,
+          [&](uint32_t x, uint32_t y, const Colours& colours) {
+            phase_->pixels.put(x, y, colours);
+            ++packets_;
+            exchange_.poll();
+          },
+          [&](uint32_t x, uint32_t y, const auto& colour) {
+            phase_->pixels.fill(x, y, colour);
+            packets_ += kBundlePackets<Spu>;
+            exchange_.poll();
+          });
+      if (exchange_.over()) return;
+      if (++column == frame_.bundle_columns) {
+        column = 0;
+        ++row;
+      }
+    }
+    units_.write_cost(unit, start - spu_.read_decrementer());
+    exchange_.complete_unit();
+  }
+  /// Waits for work or for the end of the frame, and returns how many ticks. An SPE that says it is idle has
+  /// all that it did in main memory.
+  uint32_t wait() {
+    phase_->pixels.flush();
+    units_.flush();
+    const uint32_t start = spu_.read_decrementer();
+    exchange_.wait();
+    return start - spu_.read_decrementer();
+  }
+
+  void report(uint32_t busy_ticks) {
+    report_ = ReportRecord();
+    const RayCounters& rays = phase_->tracer.counters();
+    report_.primary_rays = rays.primary;
+    report_.shadow_rays = rays.shadow;
+    report_.reflection_rays = rays.reflection;
+    report_.refraction_rays = rays.refraction;
+    report_.dropped_rays = rays.dropped;
+    const TraversalCounters& traversal = phase_->tracer.traversal_counters();
+    report_.sphere_tests = traversal.tests[0];
+    report_.ellipsoid_tests = traversal.tests[1];
+    report_.triangle_tests = traversal.tests[2];
+    report_.accelerator_visits = traversal.visits;
+    for (uint32_t kind = 0; kind < kDataKinds; ++kind) {
+      const CacheCounters counters = phase_->scene.cache().counters(static_cast<DataKind>(kind));
+      report_.cache_hits[kind] = counters.hits;
+      report_.cache_misses[kind] = counters.misses;
+    }
+    report_.packets = packets_;
+    report_.exchanges = exchange_.exchanges();
+    report_.units_received = exchange_.units_received();
+    report_.busy_ticks = busy_ticks;
+    report_.spilled_nodes = phase_->tracer.spilled_nodes();
+    send_report();
+  }
+
+  void send_report() {
+    spu_.put(&report_, frame_.reports + spu_.id() * sizeof(ReportRecord), sizeof(ReportRecord), kTag);
+    spu_.wait_all(1u << kTag);
+  }
+
+  Spu& spu_;
+  ea_t frame_block_;
+  FrameBlock& frame_;
+  ReportRecord& report_;
+  StripRecord& strip_;
+  WorkExchange<Spu> exchange_;
+  WorkUnits<Spu> units_;
+  uint32_t packets_ = 0; ///< of the units completed in this frame
+  Phase* phase_ = nullptr;
+  uint8_t* free_; ///< local store from here on belongs to PREPARE FRAME or to the rendering phase
+};
+
+/// The program as the PPE starts it; `argument` is the ea of the FrameBlock.
+template <class Spu> void tracer(Spu& spu, ea_t argument) {
+  Tracer<Spu>(spu, argument).run();
+}
+
+} // namespace celltrace::kernel

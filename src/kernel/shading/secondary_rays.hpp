@@ -1,0 +1,222 @@
+// Where light goes on from a surface: mirror reflection, transmission with refraction, total internal
+// reflection. Kernel dialect.
+#pragma once
+
+#include "kernel/shading/hit_points.hpp"
+#include "kernel/shading/material_lanes.hpp"
+#include "kernel/shading/ray_stack.hpp"
+
+namespace celltrace::kernel {
+
+/// The media on both sides of a surface that a ray crosses. `position` is where the surface's interior stands
+/// among those the ray is inside of, or their number if it enters.
+struct SolidCrossing {
+  uint32_t position;
+  bool leaves;
+  float from, to; ///< indices of refraction; equal where the ray does not bend
+};
+
+/// What the ray of `lane` does at a surface of `interior`. Leaving an interior that is not the innermost one
+/// does not bend.
+template <class Spu>
+SolidCrossing solid_crossing(SceneAccess<Spu>& scene, const RayNode& ray, uint32_t lane, uint32_t interior) {
+  scene.spu().compute(scalar_work::kCrossing);
+  const auto ior_of = [&](uint32_t offset) { return scene.interior(offset)->ior; };
+  const uint32_t depth = ray.interior_depth.lane[lane];
+  const auto at = [&](uint32_t d) { return ray.interiors[d].lane[lane]; };
+  uint32_t position = depth;
+  for (uint32_t d = 0; d < depth; ++d)
+    if (at(d) == interior) position = d;
+  if (position == depth) return {position, false, depth > 0 ? ior_of(at(depth - 1)) : 1.0f, ior_of(interior)};
+  if (position + 1 < depth) return {position, true, 1.0f, 1.0f};
+  return {position, true, ior_of(interior), depth > 1 ? ior_of(at(depth - 2)) : 1.0f};
+}
+
+/// Relative index of refraction (from over to) at each lane's surface. `straight`: lanes whose ray goes on as
+/// it came.
+struct Refraction {
+  FloatLanes ratio;
+  uint32_t straight = 0;
+};
+
+/// Crosses the surface into or out of `interior` in each of `lanes`: updates the interiors that `ray` is
+/// inside of and says how it bends. Counts rays that are inside more interiors than a node holds; these lose
+/// the outermost.
+template <class Spu>
+Refraction cross_surfaces(SceneAccess<Spu>& scene, const WordLanes& interior, uint32_t lanes, RayNode& ray,
+                          uint64_t& overflows) {
+  Refraction result;
+  for (uint32_t lane = 0; lane < kSimdLanes; ++lane)
+    result.ratio.lane[lane] = 1.0f;
+  for_each_lane(lanes, [&](uint32_t lane) {
+    const SolidCrossing change = solid_crossing(scene, ray, lane, interior.lane[lane]);
+    const float ratio = change.from / change.to;
+    result.ratio.lane[lane] = ratio;
+    if (ratio > 1.0f - 1e-6f && ratio < 1.0f + 1e-6f) result.straight |= 1u << lane;
+
+    uint32_t& depth = ray.interior_depth.lane[lane];
+    const auto at = [&](uint32_t d) -> uint32_t& { return ray.interiors[d].lane[lane]; };
+    const auto remove = [&](uint32_t position) {
+      for (uint32_t d = position; d + 1 < depth; ++d)
+        at(d) = at(d + 1);
+      --depth;
+    };
+    if (change.leaves) {
+      remove(change.position);
+      return;
+    }
+    if (depth == kMaxInteriorDepth) {
+      remove(0);
+      ++overflows;
+    }
+    at(depth++) = interior.lane[lane];
+  });
+  return result;
+}
+
+/// The ratio that POV-Ray's Fresnel mirrors take where `interior` begins or ends, as measured from its
+/// pictures: that of refraction where a ray enters an object or leaves the only one it is in; otherwise that
+/// of entering the innermost object from this one, hence 1, and no mirror at all, out of the innermost one.
+template <class Spu>
+float fresnel_ratio(SceneAccess<Spu>& scene, const RayNode& ray, uint32_t lane, uint32_t interior) {
+  const SolidCrossing change = solid_crossing(scene, ray, lane, interior);
+  const uint32_t depth = ray.interior_depth.lane[lane];
+  if (!change.leaves || depth == 1) return change.from / change.to;
+  const float own = scene.interior(interior)->ior;
+  return own / scene.interior(ray.interiors[depth - 1].lane[lane])->ior;
+}
+
+template <class Spu>
+FloatLanes fresnel_ratios(SceneAccess<Spu>& scene, const WordLanes& interior, uint32_t lanes,
+                          const RayNode& ray) {
+  FloatLanes ratios;
+  for (uint32_t lane = 0; lane < kSimdLanes; ++lane)
+    ratios.lane[lane] = 1.0f;
+  for_each_lane(lanes, [&](uint32_t lane) {
+    ratios.lane[lane] = fresnel_ratio(scene, ray, lane, interior.lane[lane]);
+  });
+  return ratios;
+}
+
+/// Snell's law in vector form. `cosine` = -direction.normal >= 0. Lanes beyond the critical angle go to
+/// `total`.
+template <class S>
+V3<S> refract(const V3<S>& direction, const V3<S>& normal, const typename S::F& cosine,
+              const typename S::F& ratio, typename S::M& total) {
+  using F = typename S::F;
+  const F square = F(1.0f) + ratio * ratio * (cosine * cosine - F(1.0f));
+  total = square < F(0.0f);
+  const F along_normal = ratio * cosine - S::sqrt(S::max(square, F(0.0f)));
+  return normalise<S>(direction * ratio + normal * along_normal);
+}
+
+template <class S> V3<S> mirror(const V3<S>& direction, const V3<S>& normal, const typename S::F& cosine) {
+  return normalise<S>(direction + normal * (cosine + cosine));
+}
+
+/// Fresnel reflectance of unpolarised light, going from index `from` to `to` at `cosine` to the normal; 1
+/// beyond the critical angle.
+template <class S>
+typename S::F fresnel_reflectance(const typename S::F& ratio, const typename S::F& cosine) {
+  using F = typename S::F;
+  // With n = to/from: g^2 = n^2 + c^2 - 1.
+  const F n = F(1.0f) / ratio;
+  const F square = n * n + cosine * cosine - F(1.0f);
+  const F g = S::sqrt(S::max(square, F(0.0f)));
+  const F sum = g + cosine;
+  const F a = (g - cosine) / S::max(sum, F(1e-20f));
+  const F b = (cosine * sum - F(1.0f)) / S::max(cosine * (g - cosine) + F(1.0f), F(1e-20f));
+  const F reflectance = F(0.5f) * a * a * (F(1.0f) + b * b);
+  return S::select(square > F(0.0f), S::min(reflectance, F(1.0f)), F(1.0f));
+}
+
+/// The fraction of each colour that a surface mirrors. `fresnel_ratio` is read in lanes of the material's
+/// fresnel.
+template <class S>
+V3<S> reflectivity(const MaterialLanes<S>& m, const typename S::F& cosine,
+                   const typename S::F& fresnel_ratio) {
+  using F = typename S::F;
+  V3<S> result = m.reflection_min;
+  const F grazing = S::max(F(1.0f) - cosine, F(0.0f));
+  const F share = m.has_falloff ? pow<S>(grazing, m.reflection_falloff) : grazing;
+  result = result + (m.reflection_max - m.reflection_min) * share;
+  if (m.fresnel != 0) {
+    const F f = fresnel_reflectance<S>(fresnel_ratio, cosine);
+    const V3<S> curved = m.reflection_max * f + m.reflection_min * (F(1.0f) - f);
+    result = select<S>(S::M::from_bits(m.fresnel), curved, result);
+  }
+  if (m.has_metallic || m.has_reflection)
+    result = result * metallic_tint<S>(m.reflection_metallic, cosine, m.pigment);
+  return result;
+}
+
+/// What surfaces pass on of the light that comes from beyond them: factors of mirrored and of transmitted
+/// light, with the weights that adaptive depth control gives those rays.
+template <class S> struct SecondaryRays {
+  using F = typename S::F;
+  V3<S> mirror, through;
+  F mirror_weight, through_weight;
+  F clear_share;                   ///< what a totally reflected ray counts in lanes of `clear`
+  F reflection_power;              ///< that mirrored light is raised to, if bends_reflection
+  uint32_t mirrors = 0, clear = 0; ///< lanes with any mirrored, any transmitted light
+  bool bends_reflection = false;
+
+  static SecondaryRays nothing() {
+    const F zero(0.0f);
+    SecondaryRays o;
+    o.mirror = o.through = {zero, zero, zero};
+    o.mirror_weight = o.through_weight = o.clear_share = zero;
+    o.reflection_power = F(1.0f);
+    return o;
+  }
+  bool is_nothing() const { return (mirrors | clear) == 0; }
+  /// True if adaptive depth control would treat the rays of both alike, and neither bends reflections.
+  bool weighs_like(const SecondaryRays& other) const {
+    const auto alike = [](const F& a, const F& b) { return (S::abs(a - b) > F(1e-6f)).bits() == 0; };
+    return mirrors == other.mirrors && clear == other.clear && alike(mirror_weight, other.mirror_weight) &&
+           alike(through_weight, other.through_weight) && !bends_reflection && !other.bends_reflection;
+  }
+  /// Light of the same directions from another material of the same surfaces that weighs the same.
+  void add(const SecondaryRays& other) {
+    mirror = mirror + other.mirror;
+    through = through + other.through;
+    mirror_weight = S::max(mirror_weight, other.mirror_weight);
+    through_weight = S::max(through_weight, other.through_weight);
+    clear_share = clear_share + other.clear_share;
+    mirrors |= other.mirrors;
+    clear |= other.clear;
+  }
+};
+
+/// For surfaces of the materials `m` in `lanes`, `share` of which counts.
+template <class S>
+SecondaryRays<S> secondary_rays_of(const MaterialLanes<S>& m, const typename S::F& cosine, const typename S::F& fresnel_ratio,
+                  float adc_bailout, uint32_t lanes, const typename S::F& share) {
+  using F = typename S::F;
+  const V3<S> mirrored = reflectivity<S>(m, cosine, fresnel_ratio);
+  const F strength = max_component<S>(mirrored);
+  // POV-Ray weighs a reflection that is not Fresnel's by the most that it may be.
+  const F most = S::max(max_component<S>(m.reflection_min), max_component<S>(m.reflection_max));
+  SecondaryRays<S> onward = SecondaryRays<S>::nothing();
+  onward.mirrors = m.has_reflection ? (strength > F(0.0f)).bits() & lanes : 0;
+  const auto mirrors = S::M::from_bits(onward.mirrors);
+  const F zero(0.0f);
+  onward.mirror = mirrored * S::select(mirrors, share, zero);
+  onward.mirror_weight = S::select(mirrors, S::select(S::M::from_bits(m.fresnel), strength, most), zero);
+  onward.bends_reflection = m.bends_reflection;
+  onward.reflection_power = m.inverse_reflection_exponent;
+  if (!m.has_transmission) return onward;
+
+  const V3<S> one = {F(1.0f), F(1.0f), F(1.0f)};
+  V3<S> filter = m.pigment * m.filter + V3<S>{m.transmit, m.transmit, m.transmit};
+  filter = select<S>(S::M::from_bits(m.conserve_energy), filter * (one - mirrored), filter);
+  onward.clear = (grey<S>(filter) > F(adc_bailout)).bits() & lanes;
+  const auto clear = S::M::from_bits(onward.clear);
+  const F counted = S::select(clear, share, zero);
+  onward.through = filter * counted;
+  onward.through_weight = S::select(clear, max_component<S>(filter), zero);
+  onward.clear_share = counted;
+  return onward;
+}
+
+} // namespace celltrace::kernel
