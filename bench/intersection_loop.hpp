@@ -1,7 +1,7 @@
 // A kernel that holds one packet of rays against one object, again and again.
 #pragma once
 
-#include "kernel/primitives/intersect.hpp"
+#include "kernel/primitives/list.hpp"
 #include "kernel/scalar_work.hpp"
 
 #include <stdint.h>

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -118,8 +119,7 @@ struct RenderStatistics {
   std::uint64_t primary_rays = 0, shadow_rays = 0, reflection_rays = 0, refraction_rays = 0;
   std::uint64_t dropped_rays = 0; ///< cut off by the limits of the SPE program; 0 in any but extreme scenes
   std::uint64_t spilled_packets = 0; ///< that the ray stacks put to main memory for want of local store
-  std::uint64_t sphere_tests = 0, ellipsoid_tests = 0,
-                triangle_tests = 0;     ///< packet of 16 rays against object
+  std::map<std::string, std::uint64_t> packet_tests; ///< packet of 16 rays against object, by shape
   std::uint64_t accelerator_visits = 0; ///< voxels by rays, or nodes by bundles, packets and parts of packets
 
   Accelerator accelerator = Accelerator::grid; ///< never automatic

@@ -130,13 +130,72 @@ struct Sphere {
   double radius = 1;
 };
 
-/// One thing to hit: a shape, placed. Unions are already taken apart.
+/// Infinite; the side that the normal points away from is inside.
+struct Plane {
+  Vec3 normal{0, 1, 0}; ///< of any length
+  double distance = 0;  ///< of the origin, along the unit normal
+};
+
+/// Flat and round, with a hole. Inside of its plane, for CSG, is the side that the normal points away from.
+struct Disc {
+  Vec3 centre{0, 0, 0};
+  Vec3 normal{0, 1, 0}; ///< of any length
+  double radius = 1;
+  double hole_radius = 0;
+};
+
+/// From one corner to the opposite one.
+struct Box {
+  Vec3 corner[2] = {{-1, -1, -1}, {1, 1, 1}};
+};
+
+struct Cylinder {
+  Vec3 base{0, 0, 0}, cap{0, 1, 0}; ///< middles of its two ends
+  double radius = 1;
+  bool open = false; ///< without the ends
+};
+
+/// Also cut off, if both radii are greater than 0.
+struct Cone {
+  Vec3 base{0, 0, 0}, cap{0, 1, 0};
+  double base_radius = 1, cap_radius = 0;
+  bool open = false; ///< without the ends
+};
+
+/// Around the y axis.
+struct Torus {
+  double major_radius = 1; ///< from the centre to the middle of the tube
+  double minor_radius = 0.25;
+};
+
+struct Csg;
+
+/// One thing to hit: a shape, placed. Plain unions are already taken apart.
 struct Object {
-  std::variant<Sphere, std::shared_ptr<const Mesh>> shape;
+  std::variant<Sphere, std::shared_ptr<const Mesh>, Plane, Disc, Box, Cylinder, Cone, Torus,
+               std::shared_ptr<const Csg>>
+      shape;
   Transform transform;
-  Index material = 0;
-  Index interior = 0;
+  Index material = 0; ///< of a CSG: means nothing, its parts have their own
+  Index interior = 0; ///< likewise
   bool no_shadow = false;
+  bool inverse = false; ///< inside and outside change places
+  /// Only what is inside all of these is there. They are placed as the object is, and their materials mean
+  /// nothing. Null: all of it.
+  std::shared_ptr<const std::vector<Object>> clipped_by;
+};
+
+/// Constructive solid geometry, as in POV-Ray: which parts of its parts' surfaces are there. A surface that is
+/// there has the material of the part that it belongs to.
+struct Csg {
+  enum class Operation {
+    union_,       ///< all of them
+    merge,        ///< what is in no other part
+    intersection, ///< what is in all other parts
+    difference    ///< the first part without the others
+  };
+  Operation operation = Operation::union_;
+  std::vector<Object> parts; ///< placed in the space of the CSG; no meshes, unless in plain unions
 };
 
 struct Scene {

@@ -1,4 +1,5 @@
-// Ray packets: 4x4 rays in structure-of-arrays form, lane l is ray (l % 4, l / 4). Kernel dialect.
+// Ray packets: 4x4 rays as a structure of arrays, one ray in each SIMD lane. Lane l is ray (l % 4, l / 4).
+// Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/simd.hpp"
@@ -10,10 +11,11 @@
 
 namespace celltrace::kernel {
 
+/// A bundle is a square of packets that are traversed together: this many on a side.
 template <class Spu> constexpr uint32_t kBundleEdge = bundle_edge(Spu::direct_memory);
 template <class Spu> constexpr uint32_t kBundlePackets = kBundleEdge<Spu>* kBundleEdge<Spu>;
 
-/// One value per lane, in local store.
+/// One value for each lane, in local store.
 struct alignas(64) FloatLanes {
   float lane[kSimdLanes];
 };
@@ -21,6 +23,7 @@ struct alignas(64) WordLanes {
   uint32_t lane[kSimdLanes];
 };
 
+/// One vector for each lane.
 struct VectorLanes {
   FloatLanes x, y, z;
 
@@ -39,7 +42,7 @@ struct VectorLanes {
 
 namespace detail {
 
-/// One copy: local store is short.
+/// Not inlined: one copy of the code saves local store.
 template <class S>
 [[gnu::noinline]] void put_elsewhere(const typename S::M& lanes, const float* values, V3<S>& into) {
   into = select<S>(lanes, splat3<S>(values), into);
@@ -47,7 +50,8 @@ template <class S>
 
 } // namespace detail
 
-/// Gives some lanes the same three values; if they are `all`, `into` need not hold anything before.
+/// Sets some lanes of a vector to the same three values. If these are `all` lanes that matter, `into` need
+/// not be initialised.
 template <class Spu>
 void put_in_lanes([[maybe_unused]] bool all, const typename Spu::simd::M& lanes, const float* values,
                   V3<typename Spu::simd>& into) {
@@ -58,49 +62,50 @@ void put_in_lanes([[maybe_unused]] bool all, const typename Spu::simd::M& lanes,
     detail::put_elsewhere<S>(lanes, values, into);
 }
 
-/// Rays of unit direction. `start_object` is the offset of the object a ray starts on, or kNoOffset: a ray
-/// does not hit a triangle that it starts on, and a sphere it starts on only at the other end of the chord.
+/// Rays with directions of unit length. `start_object` is the offset of the object on which a secondary ray
+/// starts, or kNoOffset. A ray does not hit a triangle that it starts on, and hits a sphere that it starts on
+/// only at the other end of the chord.
 struct RayPacket {
   VectorLanes origin;
   VectorLanes direction;
   WordLanes start_object;
 };
 
-/// The closest hit of each ray: distance, object offset (kNoOffset: none), barycentric coordinates of
-/// triangles.
+/// The closest hit of each ray: its distance, the object's offset (kNoOffset: none), and its barycentric
+/// coordinates in a triangle.
 struct HitPacket {
   FloatLanes distance;
   WordLanes object;
   FloatLanes u, v;
 };
 
-/// What is asked of the rays of a packet in `lanes`: the closest hits, into `hits`, or what light comes to
-/// them from `distance` away, by which `light` is multiplied.
+/// A ray query of one packet. If `hits` is given: find the closest hits of the rays. Otherwise, for shadow
+/// rays: multiply `light` by the transmittance up to `distance`.
 struct RayQuery {
   const RayPacket* rays;
   HitPacket* hits;
   const FloatLanes* distance;
   VectorLanes* light;
-  uint32_t lanes; ///< that are looked at; of shadow rays, those to which some light still comes
+  uint32_t lanes; ///< active rays; occluded shadow rays are removed
 };
 
-/// The least and the greatest of some values.
+/// A closed interval.
 struct Interval {
   float low, high;
 };
-/// Around both.
+/// The smallest interval that contains both.
 inline Interval united(const Interval& a, const Interval& b) {
   return {smaller(a.low, b.low), larger(a.high, b.high)};
 }
 
-/// Of all lanes.
+/// The interval of the values in all lanes.
 template <class S> Interval interval_of(const typename S::F& values) {
   Interval all;
   S::extremes(values, all.low, all.high);
   return all;
 }
 
-/// Calls `visit(lane)` for each set bit, lowest first.
+/// Calls `visit(lane)` for each bit that is set, the lowest first.
 template <class Visit> inline void for_each_lane(uint32_t lanes, Visit visit) {
   while (lanes != 0) {
     const uint32_t lane = static_cast<uint32_t>(__builtin_ctz(lanes));
@@ -109,7 +114,7 @@ template <class Visit> inline void for_each_lane(uint32_t lanes, Visit visit) {
   }
 }
 
-/// Splits `lanes` by the value they have in `words`: calls `visit(value, lanes that have it)` once per value.
+/// Groups `lanes` by their values in `words`: calls `visit(value, lanes with it)` once for each value.
 template <class S, class Visit>
 inline void for_each_value(const WordLanes& words, uint32_t lanes, Visit visit) {
   using I = typename S::I;

@@ -15,8 +15,10 @@ constexpr uint32_t kNoGroup = 0xFFFFFFFFu;
 
 // --- scene image ---
 
-/// What an object record describes; low byte of ObjectRecord::kind_and_flags.
+/// What an object record describes; low byte of ObjectRecord::kind_and_flags: the place of a shape in the list
+/// of primitives/list.hpp, of which these are the first.
 enum class ObjectKind : uint32_t { sphere = 0, ellipsoid = 1, triangle = 2 };
+constexpr uint32_t kMaxPrimitives = 16;
 
 namespace object_flag {
 constexpr uint32_t kind_mask = 0xFF;
@@ -24,25 +26,62 @@ constexpr uint32_t smooth = 0x100;    ///< triangle with vertex normals
 constexpr uint32_t no_shadow = 0x200; ///< shadow rays pass
 constexpr uint32_t opaque = 0x400;    ///< shadow rays stop
 constexpr uint32_t blended = 0x800;   ///< `material` is the offset of a BlendRecord
+constexpr uint32_t open = 0x1000;     ///< cylinder or cone without caps
+constexpr uint32_t csg = 0x2000;      ///< part of a CSG: crossings count where its condition holds
 } // namespace object_flag
 
-/// Geometry by kind: sphere: centre (0..2), radius (3). Ellipsoid: the affine map from the
-/// world to the unit sphere, three rows of four (xyz | offset). Triangle: its vertices (0..2, 3..5, 6..8).
+/// Geometry by kind: sphere: centre (0..2), radius (3). Triangle: its vertices (0..2, 3..5, 6..8). All others:
+/// the affine map from the world to the shape's own space, three rows of four (xyz | offset).
 struct alignas(64) ObjectRecord {
   uint32_t kind_and_flags;
   uint32_t material; ///< offset of a MaterialRecord, or of a BlendRecord if `blended`
   uint32_t interior; ///< offset of an InteriorRecord; also identifies the inside
-  uint32_t normals;  ///< offset of a NormalsRecord if `smooth`
+  uint32_t extra;    ///< offset of an ExtraRecord, or kNoOffset
   float geometry[12];
 };
 static_assert(sizeof(ObjectRecord) == 64, "two objects a line");
 
-/// Normals at the three vertices, xyz each, which interpolate linearly; their common scale does not matter.
-struct alignas(64) NormalsRecord {
-  float normal[9];
-  float unused[7];
+/// What few objects have. `value`: of a smooth triangle, the normals at its three vertices, xyz each, which
+/// interpolate linearly and have any common length; of a shape in its own space, its parameters.
+struct alignas(64) ExtraRecord {
+  float value[9];
+  uint32_t csg;    ///< of objects with object_flag::csg: offset of a CsgRecord
+  float bounds[6]; ///< of such objects: what may be there of them; least x, y, z, greatest x, y, z
 };
-static_assert(sizeof(NormalsRecord) == 64, "two records a line");
+static_assert(sizeof(ExtraRecord) == 64, "two records a line");
+
+// Constructive solid geometry. Surfaces of its parts are objects; a crossing with one counts where the
+// condition of the part holds: in all other parts of an intersection, in no other part of a merge, at each
+// level of the tree.
+
+/// The condition of a part, at one level. Its program says of a point whether it is in the other parts; steps
+/// [skip_begin, skip_end) are of the part itself.
+struct alignas(32) CsgRecord {
+  uint32_t next;  ///< offset of the condition at the next level, or kNoOffset
+  uint32_t steps; ///< offset of the first CsgStep
+  uint32_t count; ///< of steps
+  uint32_t skip_begin, skip_end;
+  uint32_t unused[3];
+};
+static_assert(sizeof(CsgRecord) == 32, "four a line");
+
+/// A step: where to go on, by number, if the point is in a solid or not. Steps only go forward.
+struct alignas(16) CsgStep {
+  uint32_t solid; ///< offset of a SolidRecord
+  uint32_t if_inside, if_outside;
+  uint32_t unused;
+};
+static_assert(sizeof(CsgStep) == 16, "eight a line");
+constexpr uint32_t kCsgAccept = 0xFFFFFFFFu;
+constexpr uint32_t kCsgReject = 0xFFFFFFFEu;
+
+/// A shape of which only the inside matters.
+struct alignas(128) SolidRecord {
+  ObjectRecord object; ///< kind and geometry; kEmptySolid: nothing is inside
+  ExtraRecord extra;
+};
+static_assert(sizeof(SolidRecord) == 128, "one a line");
+constexpr uint32_t kEmptySolid = object_flag::kind_mask;
 
 /// A face whose vertices have different materials, blended by barycentric coordinates.
 struct alignas(16) BlendRecord {
@@ -127,7 +166,7 @@ struct alignas(128) ImageHeader {
   uint32_t material_offset, material_count;
   uint32_t interior_offset, interior_count;
   uint32_t light_offset, light_count;
-  uint32_t normals_offset, normals_count;
+  uint32_t extra_offset, extra_count;
   uint32_t blend_offset, blend_count;
   float bounds_min[3];
   float bounds_max[3];
@@ -136,9 +175,14 @@ struct alignas(128) ImageHeader {
   /// By run, the run that it is a copy of, its own index if it has copies, or kNoGroup; or nothing: there are
   /// no copies.
   uint32_t prototype_offset, prototype_count;
-  uint32_t unused[3];
+  /// Objects without bounds, behind the others in their table; no accelerator has them.
+  uint32_t unbounded_count;
+  uint32_t csg_offset, csg_count;           ///< CsgRecords
+  uint32_t csg_step_offset, csg_step_count; ///< CsgSteps
+  uint32_t solid_offset, solid_count;       ///< SolidRecords
+  uint32_t unused[28];
 };
-static_assert(sizeof(ImageHeader) == 128, "one line");
+static_assert(sizeof(ImageHeader) == 256, "two lines");
 
 // --- frame ---
 
@@ -269,7 +313,8 @@ struct alignas(128) FrameBlock {
   uint32_t units_per_word;        ///< that an SPE tells of its progress by; 0: it does not
   uint32_t wide_leaves;           ///< 0 or 1: for SPEs that test many triangles of a leaf at once
   uint32_t far_nodes;             ///< 0 or 1: for SPEs that wait long for a node of the BVH
-  uint32_t unused[23];
+  uint32_t unbounded_count;       ///< objects behind the others in their table that no accelerator has
+  uint32_t unused[22];
 };
 static_assert(sizeof(FrameBlock) % 128 == 0 && sizeof(FrameBlock) <= 512, "fetched by one DMA command");
 
@@ -290,7 +335,7 @@ static_assert(sizeof(StripRecord) == 16, "crosses DMA");
 /// What an SPE did in a frame.
 struct alignas(128) ReportRecord {
   uint64_t primary_rays, shadow_rays, reflection_rays, refraction_rays;
-  uint64_t sphere_tests, ellipsoid_tests, triangle_tests; ///< packet against object
+  uint64_t tests[kMaxPrimitives];                         ///< packet against object, by kind
   uint64_t accelerator_visits;                            ///< voxels by rays, or nodes by beams
   uint64_t cache_hits[4], cache_misses[4];                ///< by DataKind
   uint64_t dropped_rays;                                  ///< rays beyond the depth of the interior stack
@@ -300,9 +345,9 @@ struct alignas(128) ReportRecord {
   uint32_t busy_ticks; ///< of the decrementer, in which the SPE did not wait for work
   uint32_t spilled_nodes;
   uint32_t list_entries; ///< PREPARE FRAME
-  uint32_t unused[24];
+  uint32_t unused[30];
 };
-static_assert(sizeof(ReportRecord) == 256, "two lines");
+static_assert(sizeof(ReportRecord) == 384, "three lines");
 
 /// Kinds of data that the cache counts separately.
 enum class DataKind : uint32_t { list = 0, object = 1, material = 2, light = 3 };

@@ -23,7 +23,10 @@ public:
   SceneAccess(Spu& spu, const CacheConfig& config, ea_t image) : cache_(spu, config, image) {}
 
   const ObjectRecord* object(uint32_t offset) { return read<ObjectRecord>(offset, DataKind::object); }
-  const NormalsRecord* normals(uint32_t offset) { return read<NormalsRecord>(offset, DataKind::object); }
+  const ExtraRecord* extra(uint32_t offset) { return read<ExtraRecord>(offset, DataKind::object); }
+  const CsgRecord* csg(uint32_t offset) { return read<CsgRecord>(offset, DataKind::object); }
+  const CsgStep* csg_step(uint32_t offset) { return read<CsgStep>(offset, DataKind::object); }
+  const SolidRecord* solid(uint32_t offset) { return read<SolidRecord>(offset, DataKind::object); }
   const MaterialRecord* material(uint32_t offset) { return read<MaterialRecord>(offset, DataKind::material); }
   const BlendRecord* blend(uint32_t offset) { return read<BlendRecord>(offset, DataKind::material); }
   const InteriorRecord* interior(uint32_t offset) { return read<InteriorRecord>(offset, DataKind::material); }

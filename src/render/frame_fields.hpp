@@ -33,7 +33,8 @@ FieldList<&FrameBlock::camera, &FrameBlock::grid, &FrameBlock::bvh, &FrameBlock:
           &FrameBlock::exchange_parameter, &FrameBlock::camera_interior_count, &FrameBlock::accelerator,
           &FrameBlock::camera_interiors, &FrameBlock::group_offset, &FrameBlock::group_count,
           &FrameBlock::longest_group, &FrameBlock::prototype_offset, &FrameBlock::units_per_word,
-          &FrameBlock::wide_leaves, &FrameBlock::far_nodes, &FrameBlock::unused>
+          &FrameBlock::wide_leaves, &FrameBlock::far_nodes,
+          &FrameBlock::unbounded_count, &FrameBlock::unused>
 fields_of(const FrameBlock&);
 
 FieldList<&UnitRecord::column, &UnitRecord::row, &UnitRecord::bundles> fields_of(const UnitRecord&);
@@ -41,8 +42,7 @@ FieldList<&UnitRecord::column, &UnitRecord::row, &UnitRecord::bundles> fields_of
 FieldList<&StripRecord::begin, &StripRecord::end, &StripRecord::unused> fields_of(const StripRecord&);
 
 FieldList<&ReportRecord::primary_rays, &ReportRecord::shadow_rays, &ReportRecord::reflection_rays,
-          &ReportRecord::refraction_rays, &ReportRecord::sphere_tests, &ReportRecord::ellipsoid_tests,
-          &ReportRecord::triangle_tests, &ReportRecord::accelerator_visits, &ReportRecord::cache_hits,
+          &ReportRecord::refraction_rays, &ReportRecord::tests, &ReportRecord::accelerator_visits, &ReportRecord::cache_hits,
           &ReportRecord::cache_misses, &ReportRecord::dropped_rays, &ReportRecord::packets,
           &ReportRecord::exchanges, &ReportRecord::units_received, &ReportRecord::busy_ticks,
           &ReportRecord::spilled_nodes, &ReportRecord::list_entries, &ReportRecord::unused>

@@ -114,6 +114,7 @@ void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& optio
   frame.image = reinterpret_cast<std::uintptr_t>(image.base());
   frame.object_offset = header.object_offset;
   frame.object_count = header.object_count;
+  frame.unbounded_count = header.unbounded_count;
   frame.group_offset = header.group_offset;
   frame.group_count = header.group_count;
   frame.longest_group = header.longest_group;

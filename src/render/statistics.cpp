@@ -1,6 +1,7 @@
 #include "render/statistics.hpp"
 
 #include "celltrace/balance.hpp"
+#include "kernel/primitives/list.hpp"
 #include "render/spe_json.hpp"
 
 #include <algorithm>
@@ -135,9 +136,8 @@ void collect(RenderStatistics& s, const Machine& machine, const FrameBlock& fram
     s.refraction_rays += r.refraction_rays;
     s.dropped_rays += r.dropped_rays;
     s.spilled_packets += r.spilled_nodes;
-    s.sphere_tests += r.sphere_tests;
-    s.ellipsoid_tests += r.ellipsoid_tests;
-    s.triangle_tests += r.triangle_tests;
+    for (std::uint32_t kind = 0; kind < kPrimitives; ++kind)
+      s.packet_tests[Primitives::kNames[kind]] += r.tests[kind];
     s.accelerator_visits += r.accelerator_visits;
     add_cache(s.list_cache, r, DataKind::list);
     add_cache(s.object_cache, r, DataKind::object);
@@ -191,8 +191,7 @@ std::string to_json(const RenderStatistics& s) {
         {"total", s.total_rays()},
         {"dropped", s.dropped_rays},
         {"spilled_packets", s.spilled_packets}}},
-      {"packet_tests",
-       {{"sphere", s.sphere_tests}, {"ellipsoid", s.ellipsoid_tests}, {"triangle", s.triangle_tests}}},
+      {"packet_tests", s.packet_tests},
       {"accelerator",
        {{"kind", s.accelerator == Accelerator::bvh ? "bvh" : "grid"},
         {"cells", {s.grid_cells[0], s.grid_cells[1], s.grid_cells[2]}},

@@ -10,18 +10,29 @@ namespace celltrace::kernel {
 FieldList<&ImageHeader::magic, &ImageHeader::version, &ImageHeader::bytes, &ImageHeader::checksum,
           &ImageHeader::object_offset, &ImageHeader::object_count, &ImageHeader::material_offset,
           &ImageHeader::material_count, &ImageHeader::interior_offset, &ImageHeader::interior_count,
-          &ImageHeader::light_offset, &ImageHeader::light_count, &ImageHeader::normals_offset,
-          &ImageHeader::normals_count, &ImageHeader::blend_offset, &ImageHeader::blend_count,
+          &ImageHeader::light_offset, &ImageHeader::light_count, &ImageHeader::extra_offset,
+          &ImageHeader::extra_count, &ImageHeader::blend_offset, &ImageHeader::blend_count,
           &ImageHeader::bounds_min, &ImageHeader::bounds_max, &ImageHeader::group_offset,
           &ImageHeader::group_count, &ImageHeader::longest_group, &ImageHeader::prototype_offset,
-          &ImageHeader::prototype_count, &ImageHeader::unused>
+          &ImageHeader::prototype_count, &ImageHeader::unbounded_count, &ImageHeader::csg_offset,
+          &ImageHeader::csg_count, &ImageHeader::csg_step_offset, &ImageHeader::csg_step_count,
+          &ImageHeader::solid_offset, &ImageHeader::solid_count, &ImageHeader::unused>
 fields_of(const ImageHeader&);
 
 FieldList<&ObjectRecord::kind_and_flags, &ObjectRecord::material, &ObjectRecord::interior,
-          &ObjectRecord::normals, &ObjectRecord::geometry>
+          &ObjectRecord::extra, &ObjectRecord::geometry>
 fields_of(const ObjectRecord&);
 
-FieldList<&NormalsRecord::normal, &NormalsRecord::unused> fields_of(const NormalsRecord&);
+FieldList<&ExtraRecord::value, &ExtraRecord::csg, &ExtraRecord::bounds> fields_of(const ExtraRecord&);
+
+FieldList<&CsgRecord::next, &CsgRecord::steps, &CsgRecord::count, &CsgRecord::skip_begin,
+          &CsgRecord::skip_end, &CsgRecord::unused>
+fields_of(const CsgRecord&);
+
+FieldList<&CsgStep::solid, &CsgStep::if_inside, &CsgStep::if_outside, &CsgStep::unused>
+fields_of(const CsgStep&);
+
+FieldList<&SolidRecord::object, &SolidRecord::extra> fields_of(const SolidRecord&);
 
 FieldList<&BlendRecord::material, &BlendRecord::unused> fields_of(const BlendRecord&);
 

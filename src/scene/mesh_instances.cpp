@@ -39,7 +39,7 @@ Vec3f in_world(const Transform& transform, const Vec3f& vertex) {
 class WorldBox {
 public:
   WorldBox() = default;
-  WorldBox(const Box& box, const Transform& transform) {
+  WorldBox(const Aabb& box, const Transform& transform) {
     const Vec3 low(box.min[0], box.min[1], box.min[2]), high(box.max[0], box.max[1], box.max[2]);
     const Vec3 centre = transform.point(0.5 * (low + high));
     const Vec3 half = 0.5 * (high - low);
@@ -143,7 +143,7 @@ bool MeshInstances::are_tangled() const {
   std::size_t runs = 0;
   WorldBox all;
   for (const Instance& instance : instances_) {
-    for (const Box& run : prototypes_[instance.prototype].run_boxes()) {
+    for (const Aabb& run : prototypes_[instance.prototype].run_boxes()) {
       const WorldBox box(run, instance.object->transform);
       areas += box.area();
       all.grow(box);
@@ -164,7 +164,7 @@ void MeshInstances::number() {
     const MeshPrototype& prototype = prototypes_[instance.prototype];
     is_instance_[static_cast<std::size_t>(instance.object - scene_.objects.data())] = true;
     instance.first_object = census_.objects;
-    instance.first_normals = census_.smooth;
+    instance.first_normals = census_.extras;
     instance.first_run = run_count_;
     std::uint32_t& first_run = first_run_of_[instance.prototype];
     if (first_run == kNone) {
@@ -176,7 +176,7 @@ void MeshInstances::number() {
     if (objects > std::numeric_limits<std::uint32_t>::max() - census_.objects)
       throw InputError("the scene is too large: it has more objects than 32 bits can count");
     census_.objects += objects;
-    census_.smooth += prototype.smooth();
+    census_.extras += prototype.smooth();
     run_count_ += prototype.group_count();
   }
 }
@@ -220,7 +220,7 @@ private:
       const Vec3f at = in_world(object_->transform, vertex);
       vertices_.push_back({{at.x, at.y, at.z, 0.0f}});
     }
-    next_normals_ = tables_.first_normals + instance.first_normals;
+    next_extra_ = tables_.first_normals + instance.first_normals;
     normals_.clear();
     if (!prototype.unit_normals().empty()) {
       const NormalTransform to_world(object_->transform);
@@ -232,7 +232,7 @@ private:
 
   void set_material(Index material) {
     material_ = material;
-    head_ = start_record(*object_, ObjectKind::triangle, tables_.records.interior_offset);
+    head_ = start_record(*object_, static_cast<std::uint32_t>(ObjectKind::triangle), tables_.records.interior_offset);
     tables_.records.set_material(head_, material != kNoIndex ? material : object_->material);
   }
 
@@ -250,11 +250,11 @@ private:
 
   void write_normals(const MeshPrototype::Triangle& triangle, ObjectRecord& to) {
     to.kind_and_flags |= object_flag::smooth;
-    to.normals = tables_.records.offset_of_normals(next_normals_);
-    NormalsRecord record{};
+    to.extra = tables_.records.offset_of_extra(next_extra_);
+    ExtraRecord record{};
     for (int corner = 0; corner < 3; ++corner)
-      std::memcpy(record.normal + 3 * corner, &normals_[triangle.normal[corner]], sizeof(Vec3f));
-    tables_.records.normals[next_normals_++] = record;
+      std::memcpy(record.value + 3 * corner, &normals_[triangle.normal[corner]], sizeof(Vec3f));
+    tables_.records.extras[next_extra_++] = record;
   }
 
   const MeshInstances& instances_;
@@ -262,7 +262,7 @@ private:
   const Object* object_ = nullptr;
   std::vector<Vertex> vertices_; ///< in the world
   std::vector<Vec3f> normals_;   ///< in the world
-  std::uint32_t next_normals_ = 0;
+  std::uint32_t next_extra_ = 0;
   Index material_ = kNoIndex; ///< as the triangles have it
   ObjectRecord head_;         ///< of a triangle with that material
 };

@@ -130,7 +130,7 @@ std::vector<std::uint32_t> order_groups(std::vector<Reference>& references, unsi
   return begins;
 }
 
-Box box_around_references(const std::vector<Reference>& references, std::uint32_t begin, std::uint32_t end) {
+Aabb box_around_references(const std::vector<Reference>& references, std::uint32_t begin, std::uint32_t end) {
   const Range range = bvh::range_of<Simd>(references.data(), begin, end);
   Reference around;
   range.box.min.store(around.min); // over the words beside

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "celltrace/scene.hpp"
-#include "kernel/primitives/overlap.hpp"
+#include "kernel/accel/object_bounds.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -33,7 +33,7 @@ public:
   /// kernel::kMaxCopiedObjects triangles.
   const std::vector<std::uint32_t>& runs() const { return runs_; }
   /// Boxes around the runs.
-  const std::vector<kernel::Box>& run_boxes() const { return run_boxes_; }
+  const std::vector<kernel::Aabb>& run_boxes() const { return run_boxes_; }
   std::uint32_t group_count() const { return static_cast<std::uint32_t>(runs_.size()) - 1; }
   /// Triangles that have normals.
   std::uint32_t smooth() const { return smooth_; }
@@ -48,7 +48,7 @@ private:
   std::vector<Vec3> unit_normals_;
   std::vector<Triangle> triangles_;
   std::vector<std::uint32_t> runs_;
-  std::vector<kernel::Box> run_boxes_;
+  std::vector<kernel::Aabb> run_boxes_;
   std::uint32_t smooth_ = 0;
   double least_height_ = 0; ///< of a triangle over one of its sides
   Vec3f min_{0, 0, 0}, max_{0, 0, 0};

@@ -8,12 +8,12 @@ using namespace kernel;
 
 void ObjectCensus::add(const ObjectCensus& other) {
   objects += other.objects;
-  smooth += other.smooth;
+  extras += other.extras;
   blended += other.blended;
-  around = box_around(around, other.around);
+  around = united(around, other.around);
 }
 
-void check_size(const Box& box) {
+void check_size(const Aabb& box) {
   constexpr float kMost = 1e18f;
   for (int i = 0; i < 3; ++i)
     if (!(box.min[i] > -kMost && box.max[i] < kMost))

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "celltrace/scene.hpp"
-#include "kernel/primitives/overlap.hpp"
+#include "kernel/accel/object_bounds.hpp"
 #include "kernel/records.hpp"
 
 #include <cstdint>
@@ -13,8 +13,8 @@ namespace celltrace {
 /// What there is in a range of objects.
 struct ObjectCensus {
   std::uint32_t objects = 0; ///< that can be hit
-  std::uint32_t smooth = 0, blended = 0;
-  kernel::Box around = {{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
+  std::uint32_t extras = 0, blended = 0; ///< of them, those with such records
+  kernel::Aabb around = {{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
 
   static constexpr float kFar = 3e38f;
   void add(const ObjectCensus& other);
@@ -22,8 +22,9 @@ struct ObjectCensus {
 
 /// Where records go that objects refer to, and where the tables lie in the image.
 struct RecordTables {
-  std::uint32_t material_offset, interior_offset, normals_offset, blend_offset;
-  kernel::NormalsRecord* normals; ///< table
+  std::uint32_t material_offset, interior_offset, extra_offset, blend_offset;
+  std::uint32_t csg_offset;
+  kernel::ExtraRecord* extras; ///< table
   kernel::BlendRecord* blends;    ///< table
   std::vector<bool> opaque;       ///< by material
 
@@ -35,23 +36,22 @@ struct RecordTables {
     record.material = offset_of_material(material);
     if (opaque[material]) record.kind_and_flags |= kernel::object_flag::opaque;
   }
-  std::uint32_t offset_of_normals(std::uint32_t index) const {
-    return normals_offset + index * static_cast<std::uint32_t>(sizeof(kernel::NormalsRecord));
+  std::uint32_t offset_of_extra(std::uint32_t index) const {
+    return extra_offset + index * static_cast<std::uint32_t>(sizeof(kernel::ExtraRecord));
   }
 };
 
-/// A record without a material, without normals and without geometry.
-inline kernel::ObjectRecord start_record(const Object& object, kernel::ObjectKind kind,
+/// A record without a material, without extras and without geometry.
+inline kernel::ObjectRecord start_record(const Object& object, std::uint32_t kind_and_flags,
                                          std::uint32_t interior_offset) {
   kernel::ObjectRecord r{};
-  r.kind_and_flags =
-      static_cast<std::uint32_t>(kind) | (object.no_shadow ? kernel::object_flag::no_shadow : 0);
+  r.kind_and_flags = kind_and_flags | (object.no_shadow ? kernel::object_flag::no_shadow : 0);
   r.interior = interior_offset + object.interior * static_cast<std::uint32_t>(sizeof(kernel::InteriorRecord));
-  r.normals = kernel::kNoOffset;
+  r.extra = kernel::kNoOffset;
   return r;
 }
 
 /// Throws InputError unless single precision holds the squares of an object's coordinates.
-void check_size(const kernel::Box& box);
+void check_size(const kernel::Aabb& box);
 
 } // namespace celltrace

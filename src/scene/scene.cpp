@@ -9,6 +9,7 @@
 #include <unordered_set>
 
 #include "celltrace/error.hpp"
+#include "scene/shapes.hpp"
 
 namespace celltrace {
 
@@ -97,8 +98,10 @@ void check_mesh(const Mesh& mesh, std::size_t materials, const Name& name) {
       throw InputError(name.text() + Name{", triangle", i}.text() + " has an index that is out of range");
 }
 
-void check_object(const Scene& scene, std::size_t index) {
-  const Object& object = scene.objects[index];
+constexpr int kMaxCsgDepth = 100;
+
+/// Object `index` of the scene, or a part of it.
+void check_object(const Scene& scene, const Object& object, std::size_t index, int depth) {
   const Name name = {"object", index};
   check_index(object.material, scene.materials.size(), {"object", index, ", material"});
   check_index(object.interior, scene.interiors.size(), {"object", index, ", interior"});
@@ -107,9 +110,20 @@ void check_object(const Scene& scene, std::size_t index) {
   if (const Sphere* sphere = std::get_if<Sphere>(&object.shape)) {
     check_vectors({sphere->centre}, name);
     check_finite({sphere->radius}, name);
-  } else if (!std::get<1>(object.shape)) {
-    throw InputError(name.text() + " has no mesh");
+  } else if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape)) {
+    if (!*mesh) throw InputError(name.text() + " has no mesh");
+  } else if (const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape)) {
+    if (!*csg) throw InputError(name.text() + " has no CSG");
+    if (depth == kMaxCsgDepth) throw InputError(name.text() + " is a CSG that nests too deeply");
+    for (const Object& part : (*csg)->parts)
+      check_object(scene, part, index, depth + 1);
+  } else {
+    validate_shape(object, name.text());
   }
+  if (!object.clipped_by) return;
+  if (depth == kMaxCsgDepth) throw InputError(name.text() + " is clipped by what nests too deeply");
+  for (const Object& clip : *object.clipped_by)
+    check_object(scene, clip, index, depth + 1);
 }
 
 /// Instances share their mesh: each mesh is looked at once.
@@ -152,7 +166,7 @@ void validate(const Scene& scene) {
   for (std::size_t i = 0; i < scene.interiors.size(); ++i)
     check_finite({scene.interiors[i].ior}, {"interior", i});
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
-    check_object(scene, i);
+    check_object(scene, scene.objects[i], i, 0);
   check_meshes(scene);
 }
 

@@ -66,7 +66,7 @@ ObjectCensus place_all(const SceneObjects& objects, PlacedObject* to, unsigned t
 }
 
 /// A box around everything, a little larger than it is.
-Box bounds_of(Box all) {
+Aabb bounds_of(Aabb all) {
   if (all.min[0] > all.max[0]) return {{0, 0, 0}, {1, 1, 1}};
   float largest = 0;
   for (int i = 0; i < 3; ++i)
@@ -98,8 +98,8 @@ private:
 };
 
 /// Of all objects, but for their bounds; `runs` are those of the objects that are no instances.
-ImageHeader make_header(const Scene& scene, const ObjectCensus& census, std::span<const std::uint32_t> runs,
-                        const MeshInstances& instances) {
+ImageHeader make_header(const Scene& scene, const SceneObjects& objects, const ObjectCensus& census,
+                        std::span<const std::uint32_t> runs, const MeshInstances& instances) {
   ImageHeader header{};
   header.magic = kImageMagic;
   header.version = kImageVersion;
@@ -108,8 +108,16 @@ ImageHeader make_header(const Scene& scene, const ObjectCensus& census, std::spa
   layout.place<MaterialRecord>(scene.materials.size(), header.material_offset, header.material_count);
   layout.place<BlendRecord>(census.blended, header.blend_offset, header.blend_count);
   layout.place<InteriorRecord>(scene.interiors.size(), header.interior_offset, header.interior_count);
-  layout.place<NormalsRecord>(census.smooth, header.normals_offset, header.normals_count);
-  layout.place<ObjectRecord>(census.objects, header.object_offset, header.object_count);
+  const CsgParts& csg = objects.csg();
+  layout.place<CsgRecord>(csg.conditions.size(), header.csg_offset, header.csg_count);
+  layout.place<CsgStep>(csg.steps.size(), header.csg_step_offset, header.csg_step_count);
+  layout.place<SolidRecord>(csg.solids.size(), header.solid_offset, header.solid_count);
+  layout.place<ExtraRecord>(census.extras + objects.unbounded_extras(), header.extra_offset,
+                            header.extra_count);
+  layout.place<ObjectRecord>(std::size_t{census.objects} + objects.unbounded_count(), header.object_offset,
+                             header.object_count);
+  header.object_count = census.objects;
+  header.unbounded_count = objects.unbounded_count();
   const std::size_t ordered = runs.empty() ? 0 : runs.size() - 1;
   layout.place<GroupRecord>(ordered + instances.group_count(), header.group_offset, header.group_count);
   layout.place<std::uint32_t>(instances.group_count() == 0 ? 0 : header.group_count, header.prototype_offset,
@@ -124,21 +132,23 @@ ImageHeader make_header(const Scene& scene, const ObjectCensus& census, std::spa
 /// Puts the records of a scene where the header says.
 class TableWriter {
 public:
-  TableWriter(std::byte* base, const ImageHeader& header, const Scene& scene)
-      : base_(base), header_(header), scene_(scene), tables_{header.material_offset,
+  TableWriter(std::byte* base, const ImageHeader& header, const Scene& scene, std::uint32_t unbounded_extras)
+      : base_(base), header_(header), scene_(scene), unbounded_extras_(unbounded_extras), tables_{header.material_offset,
                                                              header.interior_offset,
-                                                             header.normals_offset,
+                                                             header.extra_offset,
                                                              header.blend_offset,
-                                                             table<NormalsRecord>(header.normals_offset),
+                                                             header.csg_offset,
+                                                             table<ExtraRecord>(header.extra_offset),
                                                              table<BlendRecord>(header.blend_offset),
                                                              {}} {
     for (const Material& material : scene.materials)
       tables_.opaque.push_back(is_opaque(material));
     // What lies between the tables is always the same.
-    std::memset(base, 0, header.normals_offset);
+    std::memset(base, 0, header.extra_offset);
     std::memset(base + header.object_offset - kLineBytes, 0, kLineBytes);
     const std::size_t objects_end =
-        header.object_offset + std::size_t{header.object_count} * sizeof(ObjectRecord);
+        header.object_offset +
+        (std::size_t{header.object_count} + header.unbounded_count) * sizeof(ObjectRecord);
     std::memset(base + objects_end, 0, header.bytes - objects_end);
     std::memcpy(base, &header, sizeof header);
   }
@@ -152,12 +162,38 @@ public:
       table<InteriorRecord>(header_.interior_offset)[i].ior = static_cast<float>(scene_.interiors[i].ior);
   }
 
+  /// Indices become offsets.
+  void write_csg(const CsgParts& csg) {
+    const auto offset = [](std::uint32_t table, std::uint32_t index, std::size_t bytes) {
+      return table + index * static_cast<std::uint32_t>(bytes);
+    };
+    for (std::size_t i = 0; i < csg.conditions.size(); ++i) {
+      CsgRecord record = csg.conditions[i];
+      record.next = record.next == kNoCondition ? kNoOffset
+                                                : offset(header_.csg_offset, record.next, sizeof(CsgRecord));
+      record.steps = offset(header_.csg_step_offset, record.steps, sizeof(CsgStep));
+      table<CsgRecord>(header_.csg_offset)[i] = record;
+    }
+    for (std::size_t i = 0; i < csg.steps.size(); ++i) {
+      CsgStep step = csg.steps[i];
+      step.solid = offset(header_.solid_offset, step.solid, sizeof(SolidRecord));
+      table<CsgStep>(header_.csg_step_offset)[i] = step;
+    }
+    std::copy(csg.solids.begin(), csg.solids.end(), table<SolidRecord>(header_.solid_offset));
+  }
+
+  /// Behind all others. `before`: what the others have in tables.
+  void write_unbounded(const SceneObjects& objects, const ObjectCensus& before) {
+    objects.write_unbounded(tables_, before,
+                            table<ObjectRecord>(header_.object_offset) + header_.object_count);
+  }
+
   /// `places` has room for a word per object.
   void write_objects(const SceneObjects& objects, std::span<const PlacedObject> placed, std::uint32_t* places,
                      unsigned threads) {
     // Without tables that grow with them objects are written in the scene's order: it takes fewer lines to
     // send records anywhere than to fetch triangles and vertices from there.
-    const bool has_tables = header_.normals_count != 0 || header_.blend_count != 0;
+    const bool has_tables = header_.extra_count != 0 || header_.blend_count != 0;
     if (!has_tables) return send_objects(objects, placed, places, threads);
     std::vector<ObjectCensus> before(threads + 1);
     if (threads > 1)
@@ -185,7 +221,7 @@ public:
       for (std::uint32_t run = mine.begin; run < mine.end; ++run) {
         auto lanes = bvh::LaneAabb<Simd>::empty();
         for (std::uint32_t i = runs[run]; i < runs[run + 1]; ++i)
-          lanes.grow(bvh::box_of<Simd>(objects[i]));
+          lanes.grow(bvh::box_of<Simd>(objects[i], base_));
         bvh::Reference box;
         lanes.min.store(box.min); // over the words beside
         lanes.max.store(box.max);
@@ -203,19 +239,24 @@ public:
     const std::uint32_t first_object = header_.object_count - instances.census().objects;
     const std::uint32_t first_run = header_.group_count - instances.group_count();
     instances.write({tables_, table<ObjectRecord>(header_.object_offset) + first_object, first_object,
-                     header_.normals_count - instances.census().smooth,
+                     first_instance_extra(instances),
                      table<GroupRecord>(header_.group_offset) + first_run,
                      table<std::uint32_t>(header_.prototype_offset) + first_run, first_run},
                     threads);
   }
 
+  /// ExtraRecords lie as objects do: of loose ones, of instances, of unbounded ones.
+  std::uint32_t first_instance_extra(const MeshInstances& instances) const {
+    return header_.extra_count - unbounded_extras_ - instances.census().extras;
+  }
+
   /// At last. `around`: objects that are no instances.
-  void write_bounds(Box around) {
+  void write_bounds(Aabb around) {
     if (header_.prototype_count != 0)
       for (const GroupRecord& run : std::span(table<GroupRecord>(header_.group_offset), header_.group_count))
         around =
-            box_around(around, {{run.min[0], run.min[1], run.min[2]}, {run.max[0], run.max[1], run.max[2]}});
-    const Box bounds = bounds_of(around);
+            united(around, {{run.min[0], run.min[1], run.min[2]}, {run.max[0], run.max[1], run.max[2]}});
+    const Aabb bounds = bounds_of(around);
     auto& header = *reinterpret_cast<ImageHeader*>(base_);
     std::copy(bounds.min, bounds.min + 3, header.bounds_min);
     std::copy(bounds.max, bounds.max + 3, header.bounds_max);
@@ -245,6 +286,7 @@ private:
   std::byte* base_;
   const ImageHeader& header_;
   const Scene& scene_;
+  std::uint32_t unbounded_extras_;
   RecordTables tables_;
 };
 
@@ -269,14 +311,16 @@ void SceneImage::assign(const Scene& scene, AlignedBlock& work, unsigned threads
     runs = order_along_curve(memory.objects, memory.spare, memory.cells, loose.objects, threads);
   ObjectCensus census = loose;
   census.add(instances.census());
-  const ImageHeader header = make_header(scene, census, runs, instances);
+  const ImageHeader header = make_header(scene, objects, census, runs, instances);
 
   block_.reserve(header.bytes + bvh_bytes(header));
-  TableWriter writer(block_.data(), header, scene);
+  TableWriter writer(block_.data(), header, scene, objects.unbounded_extras());
   writer.write_surfaces();
+  writer.write_csg(objects.csg());
   writer.write_objects(objects, {memory.objects, loose.objects}, memory.cells, threads);
   writer.write_runs(runs, threads);
   writer.write_instances(instances, threads);
+  writer.write_unbounded(objects, census);
   writer.write_bounds(loose.around);
 }
 

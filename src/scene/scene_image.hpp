@@ -1,7 +1,7 @@
 // SceneImage: a Scene in the flat binary form that the SPEs read.
 //
-// One contiguous, 128-byte aligned block: header, lights, materials, blends, interiors, normals, objects,
-// runs of objects and which of them are copies (the static part, written here), then the voxels or nodes and
+// One contiguous, 128-byte aligned block: header, lights, materials, blends, interiors, conditions of CSG,
+// extra records, objects, groups of objects and which of them are copies (the static part, written here), then the voxels or nodes and
 // the object lists of the accelerator (PREPARE FRAME's). From kMinObjectsToOrder on, objects lie in the order
 // of a Morton curve, and behind them instances of meshes, each in the order of its mesh's prototype. All
 // positions are 32-bit offsets from its base, so that the static part can be saved, mapped elsewhere and sent
@@ -21,7 +21,7 @@
 namespace celltrace {
 
 constexpr std::uint32_t kImageMagic = 0x43545349; // "CTSI"
-constexpr std::uint32_t kImageVersion = 3;
+constexpr std::uint32_t kImageVersion = 4;
 
 /// Thread safety: as a standard container.
 class SceneImage {

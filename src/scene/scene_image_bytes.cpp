@@ -2,6 +2,7 @@
 #include "scene/scene_image.hpp"
 
 #include "celltrace/error.hpp"
+#include "kernel/primitives/list.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -34,6 +35,13 @@ bool refers_to(std::uint32_t offset, std::uint32_t table, std::uint32_t count, s
   return offset >= table && (offset - table) % record == 0 && (offset - table) / record < count;
 }
 
+bool needs_extra(std::uint32_t flags) {
+  bool has_parameters = false;
+  Primitives::dispatch(flags & object_flag::kind_mask,
+                       [&](auto shape) { has_parameters = decltype(shape)::kHasParameters; });
+  return has_parameters || (flags & (object_flag::smooth | object_flag::csg)) != 0;
+}
+
 bool references_are_valid(const std::byte* base, const ImageHeader& h) {
   const auto* objects = reinterpret_cast<const ObjectRecord*>(base + h.object_offset);
   const auto is_material = [&](std::uint32_t offset) {
@@ -43,20 +51,44 @@ bool references_are_valid(const std::byte* base, const ImageHeader& h) {
   for (std::uint32_t i = 0; i < h.blend_count; ++i)
     for (std::uint32_t material : blends[i].material)
       if (!is_material(material)) return false;
-  for (std::uint32_t i = 0; i < h.object_count; ++i) {
+  for (std::uint32_t i = 0; i < h.object_count + h.unbounded_count; ++i) {
     const ObjectRecord& object = objects[i];
     const std::uint32_t flags = object.kind_and_flags;
     const bool blended = (flags & object_flag::blended) != 0;
-    if ((flags & object_flag::kind_mask) > static_cast<std::uint32_t>(ObjectKind::triangle)) return false;
+    if ((flags & object_flag::kind_mask) >= kPrimitives) return false;
     if (blended ? !refers_to(object.material, h.blend_offset, h.blend_count, sizeof(BlendRecord))
                 : !is_material(object.material))
       return false;
     if (!refers_to(object.interior, h.interior_offset, h.interior_count, sizeof(InteriorRecord)))
       return false;
-    if ((flags & object_flag::smooth) != 0 &&
-        !refers_to(object.normals, h.normals_offset, h.normals_count, sizeof(NormalsRecord)))
+    if (needs_extra(flags) && !refers_to(object.extra, h.extra_offset, h.extra_count, sizeof(ExtraRecord)))
+      return false;
+    if ((flags & object_flag::csg) != 0 &&
+        !refers_to(reinterpret_cast<const ExtraRecord*>(base + object.extra)->csg, h.csg_offset, h.csg_count,
+                   sizeof(CsgRecord)))
       return false;
   }
+  return true;
+}
+
+/// True if conditions end, and so do their programs.
+bool csg_is_valid(const std::byte* base, const ImageHeader& h) {
+  const auto* records = reinterpret_cast<const CsgRecord*>(base + h.csg_offset);
+  for (std::uint32_t i = 0; i < h.csg_count; ++i) {
+    const CsgRecord& r = records[i];
+    if (r.next != kNoOffset && !refers_to(r.next, h.csg_offset, i, sizeof(CsgRecord))) return false;
+    if (!refers_to(r.steps, h.csg_step_offset, h.csg_step_count, sizeof(CsgStep)) ||
+        r.count > h.csg_step_count - (r.steps - h.csg_step_offset) / sizeof(CsgStep) ||
+        r.skip_begin > r.skip_end || r.skip_end > r.count)
+      return false;
+    const auto* steps = reinterpret_cast<const CsgStep*>(base + r.steps);
+    for (std::uint32_t s = 0; s < r.count; ++s)
+      for (const std::uint32_t target : {steps[s].if_inside, steps[s].if_outside})
+        if (target < kCsgReject && (target <= s || target >= r.count)) return false;
+  }
+  const auto* steps = reinterpret_cast<const CsgStep*>(base + h.csg_step_offset);
+  for (std::uint32_t i = 0; i < h.csg_step_count; ++i)
+    if (!refers_to(steps[i].solid, h.solid_offset, h.solid_count, sizeof(SolidRecord))) return false;
   return true;
 }
 
@@ -117,11 +149,15 @@ SceneImage SceneImage::from_bytes(std::span<const std::byte> bytes) {
       !table_fits(h.material_offset, h.material_count, sizeof(MaterialRecord), bytes.size()) ||
       !table_fits(h.blend_offset, h.blend_count, sizeof(BlendRecord), bytes.size()) ||
       !table_fits(h.interior_offset, h.interior_count, sizeof(InteriorRecord), bytes.size()) ||
-      !table_fits(h.normals_offset, h.normals_count, sizeof(NormalsRecord), bytes.size()) ||
-      !table_fits(h.object_offset, h.object_count, sizeof(ObjectRecord), bytes.size()) ||
+      !table_fits(h.extra_offset, h.extra_count, sizeof(ExtraRecord), bytes.size()) ||
+      h.unbounded_count > 0xFFFFFFFFu - h.object_count ||
+      !table_fits(h.object_offset, h.object_count + h.unbounded_count, sizeof(ObjectRecord), bytes.size()) ||
+      !table_fits(h.csg_offset, h.csg_count, sizeof(CsgRecord), bytes.size()) ||
+      !table_fits(h.csg_step_offset, h.csg_step_count, sizeof(CsgStep), bytes.size()) ||
+      !table_fits(h.solid_offset, h.solid_count, sizeof(SolidRecord), bytes.size()) ||
       !table_fits(h.group_offset, h.group_count, sizeof(GroupRecord), bytes.size()) ||
       !table_fits(h.prototype_offset, h.prototype_count, sizeof(std::uint32_t), bytes.size()) ||
-      !references_are_valid(image.base(), h) || !runs_are_valid(image.base(), h) ||
+      !references_are_valid(image.base(), h) || !csg_is_valid(image.base(), h) || !runs_are_valid(image.base(), h) ||
       !prototypes_are_valid(image.base(), h))
     throw InputError("scene image: an offset is out of range");
   return image;

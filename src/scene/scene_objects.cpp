@@ -26,43 +26,7 @@ constexpr std::uint32_t kVerticesPerThread = 16384;
 /// Objects whose records are on their way while one is written, for they lie anywhere.
 constexpr std::uint32_t kAhead = 16;
 
-void copy(const Vec3& from, float* to) {
-  for (int i = 0; i < 3; ++i)
-    to[i] = static_cast<float>(from[i]);
-}
-
-/// The factor by which a transformation scales everything, or 0 if it does not scale all directions alike.
-double uniform_scale(const Transform& t) {
-  const double x = glm::length(t.rows[0]);
-  const double y = glm::length(t.rows[1]);
-  const double z = glm::length(t.rows[2]);
-  const double tolerance = 1e-9 * x * x;
-  const bool round = std::abs(x - y) <= 1e-9 * x && std::abs(x - z) <= 1e-9 * x &&
-                     std::abs(glm::dot(t.rows[0], t.rows[1])) <= tolerance &&
-                     std::abs(glm::dot(t.rows[0], t.rows[2])) <= tolerance &&
-                     std::abs(glm::dot(t.rows[1], t.rows[2])) <= tolerance;
-  return round ? x : 0;
-}
-
-/// Kind and geometry of a sphere in the world. Spheres that a transformation leaves round stay spheres.
-ObjectKind place_sphere(const Object& object, const Sphere& sphere, float (&geometry)[12]) {
-  const double radius = std::abs(sphere.radius);
-  const double scale = object.transform.is_identity() ? 1 : uniform_scale(object.transform);
-  if (scale > 0) {
-    copy(object.transform.point(sphere.centre), geometry);
-    geometry[3] = static_cast<float>(radius * scale);
-    return ObjectKind::sphere;
-  }
-  const Transform inverse = object.transform.inverse();
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 4; ++column) {
-      const double value = inverse.rows[column][row] - (column == 3 ? sphere.centre[row] : 0);
-      geometry[row * 4 + column] = static_cast<float>(value / radius);
-    }
-  return ObjectKind::ellipsoid;
-}
-
-PlacedObject placed(const Box& box, std::uint32_t source) {
+PlacedObject placed(const Aabb& box, std::uint32_t source) {
   return {{box.min[0] + box.max[0], box.min[1] + box.max[1], box.min[2] + box.max[2]}, source};
 }
 
@@ -70,7 +34,7 @@ Simd::F4 lanes_of(const Vec3f& vertex) {
   return four<Simd>(vertex.x, vertex.y, vertex.z, 0.0f);
 }
 
-Box box_of(const LaneAabb& lanes) {
+Aabb box_of(const LaneAabb& lanes) {
   bvh::Reference around;
   lanes.min.store(around.min); // over the words beside
   lanes.max.store(around.max);
@@ -100,15 +64,17 @@ std::vector<Vec3f> changed(const std::vector<Vec3f>& from, unsigned threads, Cha
 
 } // namespace
 
-SceneObjects::SceneObjects(const Scene& scene, const MeshInstances& instances, unsigned threads) {
+SceneObjects::SceneObjects(const Scene& scene, const MeshInstances& instances, unsigned threads)
+    : csg_(scene) {
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
-    if (instances.contains(i)) continue;
-    if (std::holds_alternative<Sphere>(object.shape))
-      add_sphere(object);
+    if (instances.contains(i) || CsgParts::contains(object)) continue;
+    if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape))
+      add_mesh(object, **mesh, threads);
     else
-      add_mesh(object, *std::get<std::shared_ptr<const Mesh>>(object.shape), threads);
+      add_shape(object);
   }
+  add_parts();
 }
 
 void SceneObjects::grow(std::size_t objects) {
@@ -118,12 +84,45 @@ void SceneObjects::grow(std::size_t objects) {
   count_ += static_cast<std::uint32_t>(objects);
 }
 
-void SceneObjects::add_sphere(const Object& object) {
+void SceneObjects::add_shape(const Object& object) {
+  if (std::holds_alternative<Plane>(object.shape)) {
+    unbounded_.push_back({&object, nullptr});
+    return;
+  }
   const auto goes_on = [&](const Piece& piece) {
     return piece.mesh == nullptr && &object == piece.object + (count_ - piece.first);
   };
   if (pieces_.empty() || !goes_on(pieces_.back())) pieces_.push_back({count_, &object, nullptr, {}, {}});
   grow(1);
+}
+
+void SceneObjects::add_parts() {
+  const CsgPart* previous = nullptr;
+  for (const CsgPart& part : csg_.parts) {
+    if (!part.is_bounded) {
+      unbounded_.push_back({&part.object, &part});
+      continue;
+    }
+    if (previous == nullptr || previous + 1 != &part)
+      pieces_.push_back({count_, nullptr, nullptr, {}, {}, &part});
+    previous = &part;
+    grow(1);
+  }
+}
+
+SceneObjects::Placed SceneObjects::placed_at(const Piece& piece, std::uint32_t number) {
+  if (piece.part == nullptr) return {piece.object + (number - piece.first), nullptr};
+  const CsgPart* part = piece.part + (number - piece.first);
+  return {&part->object, part};
+}
+
+bool SceneObjects::has_extra(const Placed& placed) {
+  if (placed.part == nullptr) return place_shape(*placed.object).has_parameters;
+  return placed.part->is_limited() || placed.part->shape.has_parameters;
+}
+
+std::uint32_t SceneObjects::unbounded_extras() const {
+  return static_cast<std::uint32_t>(std::count_if(unbounded_.begin(), unbounded_.end(), has_extra));
 }
 
 void SceneObjects::add_mesh(const Object& object, const Mesh& mesh, unsigned threads) {
@@ -172,23 +171,28 @@ ObjectCensus SceneObjects::place(std::uint32_t begin, std::uint32_t end, PlacedO
     if (piece.mesh != nullptr)
       place_triangles(piece, begin, piece_end, census, to);
     else
-      place_spheres(piece, begin, piece_end, census, to);
+      place_shapes(piece, begin, piece_end, census, to);
     begin = piece_end;
   }
   return census;
 }
 
-void SceneObjects::place_spheres(const Piece& piece, std::uint32_t begin, std::uint32_t end,
-                                 ObjectCensus& census, PlacedObject* to) const {
+void SceneObjects::place_shapes(const Piece& piece, std::uint32_t begin, std::uint32_t end,
+                                ObjectCensus& census, PlacedObject* to) const {
   for (std::uint32_t number = begin; number < end; ++number) {
-    const Object& object = piece.object[number - piece.first];
-    const Sphere& sphere = std::get<Sphere>(object.shape);
-    if (sphere.radius == 0) continue;
-    ObjectRecord record;
-    record.kind_and_flags = static_cast<std::uint32_t>(place_sphere(object, sphere, record.geometry));
-    const Box box = bounding_box(record);
+    const Placed object = placed_at(piece, number);
+    Aabb box;
+    if (object.part != nullptr) {
+      box = object.part->bounds;
+      census.extras += has_extra(object);
+    } else {
+      const PlacedShape shape = place_shape(*object.object);
+      if (shape.is_empty) continue;
+      box = shape.bounds();
+      census.extras += shape.has_parameters;
+    }
     check_size(box);
-    census.around = box_around(census.around, box);
+    census.around = united(census.around, box);
     to[census.objects++] = placed(box, number);
   }
 }
@@ -203,7 +207,7 @@ void SceneObjects::place_triangles(const Piece& piece, std::uint32_t begin, std:
     const Vec3f &a = piece.vertices[triangle.vertex[0]], &b = piece.vertices[triangle.vertex[1]],
                 &c = piece.vertices[triangle.vertex[2]];
     if (!has_area(a, b, c)) continue;
-    census.smooth += is_smooth(triangle);
+    census.extras += is_smooth(triangle);
     census.blended += is_blended(piece, triangle);
     LaneAabb box = {lanes_of(a), lanes_of(a)};
     box.grow(lanes_of(b));
@@ -214,7 +218,7 @@ void SceneObjects::place_triangles(const Piece& piece, std::uint32_t begin, std:
     next++->source = number;
   }
   census.objects = static_cast<std::uint32_t>(next - to);
-  census.around = box_around(census.around, box_of(around));
+  census.around = united(census.around, box_of(around));
 }
 
 ObjectCensus SceneObjects::count_tables(std::span<const PlacedObject> objects) const {
@@ -223,9 +227,12 @@ ObjectCensus SceneObjects::count_tables(std::span<const PlacedObject> objects) c
   for (const PlacedObject& object : objects) {
     const Piece& piece = piece_of(object.source, near);
     near = &piece;
-    if (piece.mesh == nullptr) continue;
+    if (piece.mesh == nullptr) {
+      census.extras += has_extra(placed_at(piece, object.source));
+      continue;
+    }
     const Mesh::Triangle& triangle = piece.mesh->triangles[object.source - piece.first];
-    census.smooth += is_smooth(triangle);
+    census.extras += is_smooth(triangle);
     census.blended += is_blended(piece, triangle);
   }
   return census;
@@ -234,13 +241,27 @@ ObjectCensus SceneObjects::count_tables(std::span<const PlacedObject> objects) c
 class SceneObjects::Writer {
 public:
   Writer(const SceneObjects& objects, const RecordTables& tables, const ObjectCensus& before)
-      : objects_(objects), tables_(tables), smooth_(before.smooth), blended_(before.blended) {}
+      : objects_(objects), tables_(tables), extras_(before.extras), blended_(before.blended) {}
 
-  ObjectRecord sphere(const Object& object) const {
-    ObjectRecord r = start_record(object, ObjectKind::sphere, tables_.interior_offset);
-    r.kind_and_flags |=
-        static_cast<std::uint32_t>(place_sphere(object, std::get<Sphere>(object.shape), r.geometry));
+  ObjectRecord shape(const Placed& placed) {
+    const Object& object = *placed.object;
+    const PlacedShape shape = placed.part != nullptr ? placed.part->shape : place_shape(object);
+    ObjectRecord r = start_record(object, shape.kind_and_flags, tables_.interior_offset);
+    std::copy(shape.geometry, shape.geometry + 12, r.geometry);
     tables_.set_material(r, object.material);
+    const bool limited = placed.part != nullptr && placed.part->is_limited();
+    if (!shape.has_parameters && !limited) return r;
+    ExtraRecord extra{};
+    std::copy(shape.parameters, shape.parameters + 2, extra.value);
+    extra.csg = kNoOffset;
+    if (limited) {
+      r.kind_and_flags |= object_flag::csg;
+      extra.csg = tables_.csg_offset + placed.part->condition * static_cast<std::uint32_t>(sizeof(CsgRecord));
+      std::copy(placed.part->bounds.min, placed.part->bounds.min + 3, extra.bounds);
+      std::copy(placed.part->bounds.max, placed.part->bounds.max + 3, extra.bounds + 3);
+    }
+    r.extra = tables_.offset_of_extra(extras_);
+    tables_.extras[extras_++] = extra;
     return r;
   }
 
@@ -253,12 +274,12 @@ public:
     if (objects_.is_blended(piece, triangle)) blend(r, *piece.object, triangle);
     if (is_smooth(triangle)) {
       r.kind_and_flags |= object_flag::smooth;
-      r.normals = tables_.offset_of_normals(smooth_);
-      NormalsRecord record{};
+      r.extra = tables_.offset_of_extra(extras_);
+      ExtraRecord record{};
       for (int v = 0; v < 3; ++v)
         for (int i = 0; i < 3; ++i)
-          record.normal[v * 3 + i] = piece.normals[triangle.normal[v]][i];
-      tables_.normals[smooth_++] = record;
+          record.value[v * 3 + i] = piece.normals[triangle.normal[v]][i];
+      tables_.extras[extras_++] = record;
     }
   }
 
@@ -267,7 +288,7 @@ private:
   void start(const Object& object, Index material) {
     object_ = &object;
     material_ = material;
-    head_ = start_record(object, ObjectKind::triangle, tables_.interior_offset);
+    head_ = start_record(object, static_cast<std::uint32_t>(ObjectKind::triangle), tables_.interior_offset);
     tables_.set_material(head_, material != kNoIndex ? material : object.material);
   }
 
@@ -287,7 +308,7 @@ private:
 
   const SceneObjects& objects_;
   const RecordTables& tables_;
-  std::uint32_t smooth_, blended_;
+  std::uint32_t extras_, blended_;
   const Object* object_ = nullptr;
   Index material_ = kNoIndex;
   ObjectRecord head_;
@@ -300,12 +321,11 @@ void SceneObjects::write(std::span<const PlacedObject> objects, const RecordTabl
   for (std::size_t i = 0; i < objects.size(); ++i) {
     const Piece& piece = piece_of(objects[i].source, near);
     near = &piece;
-    const std::uint32_t number = objects[i].source - piece.first;
-    if (piece.mesh == nullptr) {
-      to[i] = writer.sphere(piece.object[number]);
-      continue;
-    }
-    writer.triangle(piece, piece.mesh->triangles[number], to[i]);
+    const std::uint32_t number = objects[i].source;
+    if (piece.mesh == nullptr)
+      to[i] = writer.shape(placed_at(piece, number));
+    else
+      writer.triangle(piece, piece.mesh->triangles[number - piece.first], to[i]);
   }
 }
 
@@ -323,10 +343,17 @@ void SceneObjects::write_apart(std::uint32_t begin, std::uint32_t end, const std
       if (piece.mesh != nullptr)
         writer.triangle(piece, piece.mesh->triangles[number - piece.first], record);
       else
-        record = writer.sphere(piece.object[number - piece.first]);
+        record = writer.shape(placed_at(piece, number));
     }
     begin = piece_end;
   }
+}
+
+void SceneObjects::write_unbounded(const RecordTables& tables, const ObjectCensus& before,
+                                   ObjectRecord* to) const {
+  Writer writer(*this, tables, before);
+  for (const Placed& object : unbounded_)
+    *to++ = writer.shape(object);
 }
 
 } // namespace celltrace

@@ -1,9 +1,10 @@
 // The objects of a Scene that are no instances, one by one, and their records: meshes taken apart into
-// triangles, everything transformed to the world, in single precision.
+// triangles and CSGs into their parts, everything transformed to the world, in single precision.
 #pragma once
 
 #include "celltrace/scene.hpp"
 #include "kernel/records.hpp"
+#include "scene/csg_parts.hpp"
 #include "scene/mesh_instances.hpp"
 #include "scene/object_order.hpp"
 #include "scene/object_records.hpp"
@@ -19,13 +20,19 @@ public:
   /// there are too many objects.
   SceneObjects(const Scene& scene, const MeshInstances& instances, unsigned threads);
 
-  /// All of them, those that cannot be hit included: spheres without a radius and triangles without an area.
+  /// All that have bounds, those that cannot be hit included: spheres without a radius and triangles without
+  /// an area.
   std::uint32_t count() const { return count_; }
+  /// The others: planes, unless CSG bounds them.
+  std::uint32_t unbounded_count() const { return static_cast<std::uint32_t>(unbounded_.size()); }
+  /// Their ExtraRecords.
+  std::uint32_t unbounded_extras() const;
+  const CsgParts& csg() const { return csg_; }
 
   /// Writes those of [begin, end) that can be hit to `to`, in order. Throws InputError if an object's
   /// coordinates leave what single precision can hold.
   ObjectCensus place(std::uint32_t begin, std::uint32_t end, PlacedObject* to) const;
-  /// Those that are smooth and blended, of `objects`.
+  /// Those with records of their own in other tables, of `objects`.
   ObjectCensus count_tables(std::span<const PlacedObject> objects) const;
 
   /// Makes the records of `objects`. `before` says how many there are in the tables before theirs.
@@ -38,22 +45,35 @@ public:
                    const RecordTables& tables, kernel::ObjectRecord* to) const;
   static constexpr std::uint32_t kNoPlace = 0xFFFFFFFF;
 
+  /// The records of unbounded objects; `before` as for write().
+  void write_unbounded(const RecordTables& tables, const ObjectCensus& before,
+                       kernel::ObjectRecord* to) const;
+
 private:
-  /// Spheres in a row, or one mesh.
+  /// Shapes in a row, parts of CSGs in a row, or one mesh.
   struct Piece {
     std::uint32_t first;             ///< number of its first object
-    const Object* object;            ///< first of the spheres, or of the mesh
-    const Mesh* mesh;                ///< null: spheres
+    const Object* object;            ///< first of the shapes, or the mesh's; null: parts
+    const Mesh* mesh;                ///< null: shapes or parts
     std::span<const Vec3f> vertices; ///< in the world
     std::span<const Vec3f> normals;
+    const CsgPart* part = nullptr; ///< first of the parts
+  };
+  /// A shape by itself or a part of a CSG.
+  struct Placed {
+    const Object* object;
+    const CsgPart* part; ///< null: by itself
   };
   class Writer;
 
-  void place_spheres(const Piece& piece, std::uint32_t begin, std::uint32_t end, ObjectCensus& census,
+  static Placed placed_at(const Piece& piece, std::uint32_t number);
+  static bool has_extra(const Placed& placed);
+  void place_shapes(const Piece& piece, std::uint32_t begin, std::uint32_t end, ObjectCensus& census,
                      PlacedObject* to) const;
   void place_triangles(const Piece& piece, std::uint32_t begin, std::uint32_t end, ObjectCensus& census,
                        PlacedObject* to) const;
-  void add_sphere(const Object& object);
+  void add_shape(const Object& object);
+  void add_parts();
   void add_mesh(const Object& object, const Mesh& mesh, unsigned threads);
   void grow(std::size_t objects);
   std::uint32_t end_of(const Piece& piece) const;
@@ -61,7 +81,9 @@ private:
   const Piece& piece_of(std::uint32_t number, const Piece* near) const;
   bool is_blended(const Piece& piece, const Mesh::Triangle& triangle) const;
 
+  CsgParts csg_;
   std::vector<Piece> pieces_;
+  std::vector<Placed> unbounded_;
   std::vector<std::vector<Vec3f>> transformed_;
   std::uint32_t count_ = 0;
 };

@@ -1,7 +1,7 @@
 // Intersection of packets in SIMD lanes against one ray after the other.
 #include "celltrace/emulator.hpp"
 #include "celltrace/error.hpp"
-#include "kernel/primitives/intersect.hpp"
+#include "kernel/primitives/list.hpp"
 #include "kernel/scalar_work.hpp"
 #include "study/experiment.hpp"
 #include "study/scalar_intersection.hpp"

@@ -116,7 +116,7 @@ private:
     std::vector<PlacedObject> placed(count), spare(count);
     std::vector<std::uint32_t> cells(count);
     for (std::uint32_t i = 0; i < count; ++i) {
-      const kernel::Box box = bounding_box(objects[i]);
+      const kernel::Aabb box = bounding_box(objects[i]);
       placed[i] = {{box.min[0] + box.max[0], box.min[1] + box.max[1], box.min[2] + box.max[2]}, i};
     }
     const std::vector<std::uint32_t> begins =
@@ -131,9 +131,9 @@ private:
   }
   static kernel::GroupRecord run_of(const std::vector<kernel::ObjectRecord>& objects, std::uint32_t begin,
                                   std::uint32_t end) {
-    kernel::Box around = bounding_box(objects[begin]);
+    kernel::Aabb around = bounding_box(objects[begin]);
     for (std::uint32_t i = begin + 1; i < end; ++i)
-      around = box_around(around, bounding_box(objects[i]));
+      around = united(around, bounding_box(objects[i]));
     return {{around.min[0], around.min[1], around.min[2]},
             begin,
             {around.max[0], around.max[1], around.max[2]},

@@ -34,15 +34,15 @@ Objects random_triangles(unsigned count, double reach, double size, unsigned see
   });
 }
 
-Box child_box(const NodeRecord& node, unsigned slot) {
-  Box box;
+Aabb child_box(const NodeRecord& node, unsigned slot) {
+  Aabb box;
   for (int axis = 0; axis < 3; ++axis) {
     box.min[axis] = node.bounds[2 * axis][slot];
     box.max[axis] = node.bounds[2 * axis + 1][slot];
   }
   return box;
 }
-bool contains(const Box& outer, const Box& inner) {
+bool contains(const Aabb& outer, const Aabb& inner) {
   for (int axis = 0; axis < 3; ++axis)
     if (!(outer.min[axis] <= inner.min[axis] && inner.max[axis] <= outer.max[axis])) return false;
   return true;
@@ -58,7 +58,7 @@ Shape check_tree(const BuiltBvh& tree) {
   struct Open {
     std::uint32_t offset;
     unsigned depth;
-    Box box;
+    Aabb box;
   };
   const float infinite = HUGE_VALF;
   const BvhRecord& bvh = tree.frame().bvh;
@@ -77,7 +77,7 @@ Shape check_tree(const BuiltBvh& tree) {
     shape.depth = std::max(shape.depth, at.depth);
     const NodeRecord& node = tree.node(at.offset);
     for (unsigned slot = 0; slot < 4; ++slot) {
-      const Box box = child_box(node, slot);
+      const Aabb box = child_box(node, slot);
       if (box.min[0] > box.max[0]) {
         REQUIRE(node.leaf[slot] == 0);
         continue;

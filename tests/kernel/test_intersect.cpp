@@ -3,7 +3,7 @@
 // Tolerances are stated in units of what single precision can tell apart: kUnit times the numbers that went
 // in, divided by how steeply the ray meets the surface. Within that distance of a silhouette or edge either
 // answer is right; everywhere else the masks have to agree both ways.
-#include "kernel/primitives/intersect.hpp"
+#include "kernel/primitives/list.hpp"
 #include "lanes.hpp"
 #include "reference/geometry.hpp"
 

@@ -50,7 +50,7 @@ template <class Record> bool same_bytes(const Record& a, const Record& b) {
 } // namespace
 
 TEMPLATE_TEST_CASE("Records survive the way to another byte order and back", "", ImageHeader, ObjectRecord,
-                   NormalsRecord, BlendRecord, MaterialRecord, InteriorRecord, LightRecord, GroupRecord,
+                   ExtraRecord, BlendRecord, MaterialRecord, InteriorRecord, LightRecord, GroupRecord,
                    CellRecord, NodeRecord, CameraRecord, GridRecord, BvhRecord, FrameBlock, UnitRecord,
                    StripRecord, ReportRecord, StageBlock, StageReport, SpeAddresses) {
   STATIC_REQUIRE(HasFields<TestType>);

@@ -99,9 +99,8 @@ TEST_CASE("Statistics agree with each other") {
       CHECK(s.reflection_rays == expected.reflection_rays);
       CHECK(s.refraction_rays == expected.refraction_rays);
       CHECK(s.dropped_rays == 0);
-      CHECK(s.sphere_tests == expected.sphere_tests);
-      CHECK(s.triangle_tests == expected.triangle_tests);
-      CHECK(s.ellipsoid_tests == 0);
+      CHECK(s.packet_tests == expected.packet_tests);
+      CHECK(s.packet_tests.at("ellipsoid") == 0);
       CHECK(s.accelerator_visits == expected.accelerator_visits);
       CHECK(s.accelerator_list_entries >= s.objects);
 

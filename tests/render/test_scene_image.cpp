@@ -1,6 +1,6 @@
 // SceneImage: what its tables hold, and that nothing else than its own bytes is taken for one.
 #include "celltrace/error.hpp"
-#include "kernel/primitives/overlap.hpp"
+#include "kernel/accel/object_bounds.hpp"
 #include "render/scenes.hpp"
 #include "scene/mesh_prototype.hpp"
 #include "scene/scene_image.hpp"
@@ -120,7 +120,7 @@ TEST_CASE("A sealed scene image with a fault in it is refused") {
   refused([](Bytes& b) { header_of(b).material_count = 0x10000000; }, "offset");
   refused([](Bytes& b) { header_of(b).light_count = 0x10000000; }, "offset");
   refused([](Bytes& b) { header_of(b).interior_offset = 0x7FFFFF80; }, "offset");
-  refused([](Bytes& b) { header_of(b).normals_count = 0; }, "offset");
+  refused([](Bytes& b) { header_of(b).extra_count = 0; }, "offset");
   refused([](Bytes& b) { header_of(b).blend_count = 0; }, "offset");
   refused([&](Bytes& b) { objects(b)->kind_and_flags = 3; }, "offset");
   refused([&](Bytes& b) { objects(b)->material += 16; }, "offset");
@@ -264,7 +264,7 @@ TEST_CASE("An image of many objects has them by run, the same whoever makes it")
     for (std::uint32_t run = 0; run < h.group_count; ++run) {
       REQUIRE(runs[run].first == next);
       for (; next < runs[run].first + runs[run].count; ++next) {
-        const Box box = bounding_box(objects[next]);
+        const Aabb box = bounding_box(objects[next]);
         for (int axis = 0; axis < 3; ++axis) {
           REQUIRE(box.min[axis] >= runs[run].min[axis]);
           REQUIRE(box.max[axis] <= runs[run].max[axis]);
@@ -272,7 +272,7 @@ TEST_CASE("An image of many objects has them by run, the same whoever makes it")
       }
     }
     REQUIRE(next == h.object_count);
-    CHECK(h.normals_count == 6000);
+    CHECK(h.extra_count == 6000);
     CHECK(h.blend_count == 3000);
     const Bytes bytes = bytes_of(image);
     CHECK(bytes_of(SceneImage::from_bytes(bytes)) == bytes);
@@ -373,10 +373,10 @@ std::vector<std::vector<float>> contents(const SceneImage& image) {
                                 static_cast<float>((object.interior - h.interior_offset) / 16)};
     words.insert(words.end(), object.geometry, object.geometry + 12);
     if ((object.kind_and_flags & object_flag::smooth) != 0) {
-      const auto& normals = *table<NormalsRecord>(image, object.normals);
+      const auto& normals = *table<ExtraRecord>(image, object.extra);
       words.insert(words.end(), normals.normal, normals.normal + 9);
     } else {
-      CHECK(object.normals == kNoOffset);
+      CHECK(object.extra == kNoOffset);
     }
     all.push_back(words);
   }
@@ -398,9 +398,9 @@ TEST_CASE("Instances of a mesh are copies of runs") {
   std::uint32_t next = 0, copies = 0, alone = 0;
   for (std::uint32_t run = 0; run < h.group_count; ++run) {
     REQUIRE(runs[run].first == next);
-    Box around = bounding_box(objects[next]);
+    Aabb around = bounding_box(objects[next]);
     for (const std::uint32_t end = next + runs[run].count; next < end; ++next)
-      around = box_around(around, bounding_box(objects[next]));
+      around = united(around, bounding_box(objects[next]));
     CHECK(std::equal(around.min, around.min + 3, runs[run].min));
     CHECK(std::equal(around.max, around.max + 3, runs[run].max));
     if (prototypes[run] == kNoGroup)

@@ -1,25 +1,33 @@
-// Builds the uniform grid. Objects stream through local store; each emits a (voxel, object)
-// pair per voxel it touches; the pairs are sorted by voxel and become the lists. Kernel dialect.
+// Builds the uniform grid. Objects stream through local store, and each emits a pair of voxel and object for
+// every voxel that it touches. Sorted by voxel, these pairs become the lists of the voxels. Kernel dialect.
 #pragma once
 
-#include "kernel/primitives/overlap.hpp"
-#include "kernel/program/prepare_result.hpp"
+#include "kernel/accel/object_bounds.hpp"
 #include "kernel/accel/radix_sort.hpp"
 #include "kernel/accel/stream.hpp"
+#include "kernel/program/prepare_result.hpp"
 
 namespace celltrace::kernel {
 
 namespace detail {
 
-/// Writes the pairs of all objects to the sort buffer; counts on without writing once that is full.
+constexpr uint32_t kExtraTag = 7;
+
+/// Writes the pairs of all objects to the sort buffer and returns their number. Pairs that do not fit are
+/// counted, so that the PPE knows how much memory to provide.
 template <class Spu> uint32_t emit_pairs(Spu& spu, const FrameBlock& frame) {
   StreamReader<Spu, ObjectRecord> objects(spu, 0);
   StreamWriter<Spu, SortPair> pairs(spu, 2, frame.sort_buffer[0]);
+  auto& extra = *spu.template allocate<ExtraRecord>();
   uint32_t count = 0;
   objects.for_each(
       frame.image + frame.object_offset, frame.object_count, [&](const ObjectRecord& object, uint32_t index) {
         const uint32_t offset = frame.object_offset + index * static_cast<uint32_t>(sizeof(ObjectRecord));
-        for_each_voxel(spu, frame.grid, object, [&](uint32_t cell) {
+        if (object.extra != kNoOffset && (object.kind_and_flags & object_flag::smooth) == 0) {
+          spu.get(&extra, frame.image + object.extra, sizeof extra, kExtraTag);
+          spu.wait_all(1u << kExtraTag);
+        }
+        for_each_voxel(spu, frame.grid, object, extra, [&](uint32_t cell) {
           spu.compute(scalar_work::kEmitPair);
           if (count++ < frame.sort_capacity) pairs.write({cell, offset});
         });
@@ -28,7 +36,7 @@ template <class Spu> uint32_t emit_pairs(Spu& spu, const FrameBlock& frame) {
   return count;
 }
 
-/// Writes a record per voxel and a word per pair from pairs sorted by voxel.
+/// Writes the grid from pairs that are sorted by voxel: a record for each voxel and a word for each pair.
 template <class Spu>
 void write_lists(Spu& spu, const FrameBlock& frame, ea_t sorted, uint32_t count, uint32_t cell_count) {
   StreamReader<Spu, SortPair> pairs(spu, 0);
@@ -55,7 +63,7 @@ void write_lists(Spu& spu, const FrameBlock& frame, ea_t sorted, uint32_t count,
 
 } // namespace detail
 
-/// Builds the grid that `frame.grid` describes. Needs about 110 KB of local store for the time being.
+/// Builds the grid that `frame.grid` describes. Uses about 110 KB of local store while it does so.
 template <class Spu> PrepareResult build_grid(Spu& spu, const FrameBlock& frame) {
   uint8_t* const marked = spu.mark();
   const uint32_t count = detail::emit_pairs(spu, frame);

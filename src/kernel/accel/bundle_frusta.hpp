@@ -1,4 +1,4 @@
-// The packets of a bundle as beams, side by side. Kernel dialect.
+// The frusta of a bundle's packets, one in each SIMD lane. Kernel dialect.
 #pragma once
 
 #include "kernel/accel/frustum.hpp"
@@ -12,14 +12,14 @@ template <class S> struct LaneInterval {
   static LaneInterval splat(const Interval& same) {
     return {typename S::F(same.low), typename S::F(same.high)};
   }
-  /// Around those of all lanes.
+  /// The interval that contains those of all lanes.
   Interval all() const { return {interval_of<S>(low).low, interval_of<S>(high).high}; }
 };
 
-/// RayBounds of a packet in each lane.
+/// The RayBounds of a packet in each lane.
 template <class S> struct LaneRayBounds { LaneInterval<S> origin[3], direction[3]; };
 
-/// A lane for each packet of a bundle.
+/// The vector type with a lane for each packet of a bundle: 4 on an SPE, 16 where memory is direct.
 template <class S, uint32_t kPackets> struct BundleLanes;
 template <class S> struct BundleLanes<S, 4> {
   using Type = typename S::F4;
@@ -40,7 +40,7 @@ template <class S> struct BundleLanes<S, 16> {
   }
 };
 
-/// The beams of a bundle's packets, all of one octant, side by side.
+/// The frusta of a bundle's packets, all of one octant.
 template <class S, uint32_t kPackets> class BundleFrusta {
 public:
   using Lanes = BundleLanes<S, kPackets>;
@@ -56,7 +56,7 @@ public:
       a.far_inverse[packet] = slab.far_inverse;
     }
   }
-  /// All of them at once, by bounds in their lanes.
+  /// Sets those of all packets at once.
   void set(const LaneRayBounds<S>& bounds, uint32_t octant) {
     for (uint32_t axis = 0; axis < 3; ++axis) {
       const bool backward = ((octant >> axis) & 1) != 0;
@@ -74,27 +74,28 @@ public:
     }
   }
 
-  /// That of one packet by itself.
-  void get(uint32_t packet, Frustum<S>& beam) const {
+  /// Extracts the frustum of one packet.
+  void get(uint32_t packet, Frustum<S>& frustum) const {
     for (uint32_t axis = 0; axis < 3; ++axis) {
       const Axis& a = axes_[axis];
-      beam.set(axis,
-               {a.near_origin[packet], a.near_inverse[packet], a.far_origin[packet], a.far_inverse[packet]});
+      frustum.set(
+          axis, {a.near_origin[packet], a.near_inverse[packet], a.far_origin[packet], a.far_inverse[packet]});
     }
   }
 
-  /// The packets whose frusta hit the bounds of child `i`, each up to its tfar.
-  uint32_t intersect(const float (&bounds)[6][4], const SlabOrder& sides, uint32_t i,
-                const float (&tfar)[kPackets]) const {
-    L first = Lanes::splat(0.0f);
-    L last = L::load(tfar);
+  /// Returns the packets whose frusta hit the bounds of child `i`, each up to its own tfar.
+  uint32_t intersect(const float (&bounds)[6][4], const SlabOrder& order, uint32_t i,
+                     const float (&tfar)[kPackets]) const {
+    L t_enter = Lanes::splat(0.0f);
+    L t_exit = L::load(tfar);
     for (uint32_t axis = 0; axis < 3; ++axis) {
       const Axis& a = axes_[axis];
-      const L near = Lanes::splat(bounds[sides.near[axis]][i]), far = Lanes::splat(bounds[sides.far[axis]][i]);
-      first = S::max(first, (near - L::load(a.near_origin)) * L::load(a.near_inverse));
-      last = S::min(last, (far - L::load(a.far_origin)) * L::load(a.far_inverse));
+      const L near = Lanes::splat(bounds[order.near[axis]][i]),
+              far = Lanes::splat(bounds[order.far[axis]][i]);
+      t_enter = S::max(t_enter, (near - L::load(a.near_origin)) * L::load(a.near_inverse));
+      t_exit = S::min(t_exit, (far - L::load(a.far_origin)) * L::load(a.far_inverse));
     }
-    return Lanes::at_most(first, last * Lanes::splat(detail::kRoundedUp));
+    return Lanes::at_most(t_enter, t_exit * Lanes::splat(detail::kRoundedUp));
   }
 
 private:

@@ -1,14 +1,15 @@
-// Packets through the BVH, alone or as a bundle. Kernel dialect.
+// Traverses the BVH with the packets of a bundle. Kernel dialect.
 //
-// The packets of a bundle whose rays have much in common go together: a beam around all of them is tested
-// against a node's boxes, and what it meets against the packets' own beams, a lane each. What only one of the
-// packets meets, it tasks alone (PacketTraversal); so do packets whose rays go different ways, in parts.
+// Coherent packets are traversed together. The frustum of the bundle is tested against the four children of a
+// node at once; each child that it hits is tested against the frusta of all packets at once, which lie in
+// SIMD lanes. A node that few of the packets hit is traversed by each of them separately (PacketTraversal).
+// Divergent packets do not join the bundle: each is traversed by itself, in groups of similar rays.
 #pragma once
 
 #include "kernel/accel/packet_traversal.hpp"
+#include "kernel/cameras/primary_rays.hpp"
 #include "kernel/direct/bundle_leaf_tests.hpp"
 #include "kernel/direct/light_bundle.hpp"
-#include "kernel/cameras/primary_rays.hpp"
 
 namespace celltrace::kernel {
 
@@ -18,41 +19,44 @@ public:
   using F = typename S::F;
 
   BvhTraversal(ObjectTests<Spu>& objects, const FrameBlock& frame)
-      : objects_(objects), bvh_(frame.bvh), packets_(objects, frame),
-        most_alone_(most_alone(frame)) {}
+      : objects_(objects), bvh_(frame.bvh), packet_traversal_(objects, frame),
+        max_split_packets_(max_split_packets(frame)) {}
 
-  /// Answers each of the queries, at most a bundle's. Hits hold none yet; the lanes of queries for light
-  /// become those to which some comes.
+  /// Answers the queries, at most one for each packet of a bundle. Hits must have been reset. Occluded lanes
+  /// are removed from queries for light.
   void intersect(RayQuery* queries, uint32_t count) { intersect(queries, count, 0); }
-  /// The same of the hits of a bundle's primary rays, which was entered just before; query i is of its
-  /// packet i.
+  /// Finds the closest hits of the primary rays of a bundle that has just been entered; query i is that of
+  /// its packet i.
   void intersect(RayQuery* queries, const PinholeBundle<S>& bundle) {
     for (uint32_t packet = 0; packet < kBundlePackets<Spu>; ++packet)
       tfar_[packet] = queries[packet].lanes != 0 ? PacketTraversal<Spu>::kTfarSlack * kMaxHitDistance : -1.0f;
     bundle.shortening.store(shortening_);
-    traverse_together(queries, bundle);
+    traverse_bundle(queries, bundle);
   }
-  /// The same of queries, all with some lanes, for the light that comes from one place.
+  /// Answers queries for the light from the point `light`. Each of them has some lanes.
   void intersect(RayQuery* queries, uint32_t count, const float (&light)[3]) {
     const LightBundle<S> bundle(light, queries, count);
     if (bundle.packets != 0) {
       (bundle.reach * F(PacketTraversal<Spu>::kTfarSlack)).store(tfar_);
       begin(bundle.packets);
-      traverse_together(queries, bundle);
+      traverse_bundle(queries, bundle);
     }
     intersect(queries, count, bundle.packets);
   }
 
-  /// Sends a bundle's beam through the BVH until it comes to a leaf or has opened a few nodes. False:
-  /// it left without; otherwise intersect() goes on from there.
+  /// Traverses the BVH with the frustum of a bundle only, for which its rays need not exist yet, until it
+  /// hits a leaf or a few nodes have been expanded. False: it hits no leaf, and no ray hits anything.
+  /// Otherwise intersect() continues from there.
   bool enter(const PinholeBundle<S>& bundle) {
-    constexpr uint32_t kMostNodes = 24;
-    const SlabOrder sides(bundle.octant);
-    around_.set(bundle.all, bundle.octant);
+    // Larger: more of the bundles that hit nothing are found; smaller: the tighter frusta of the packets are
+    // tested from an earlier node on.
+    constexpr uint32_t kMaxNodes = 24;
+    const SlabOrder order(bundle.octant);
+    bundle_frustum_.set(bundle.all, bundle.octant);
     Stack& stack = begin(bundle.packets);
     for (uint32_t nodes = 0; stack.size() != 0; ++nodes) {
       const typename Stack::Entry next = stack.pop();
-      if (next.ref.is_leaf() || nodes == kMostNodes) {
+      if (next.ref.is_leaf() || nodes == kMaxNodes) {
         stack.push(stack.size(), next);
         return true;
       }
@@ -60,11 +64,12 @@ public:
       const NodeRecord& node = *objects_.scene().node(next.ref.child);
       alignas(16) float distance[4];
       const uint32_t first = stack.size();
-      for_each_lane(around_.intersect(node.bounds, sides, kMaxHitDistance, distance), [&](uint32_t i) {
-        const NodeRef child = {node.child[i], node.leaf[i]};
-        objects_.scene().hint(child);
-        stack.push(first, {child, bundle.packets, distance[i], 0});
-      });
+      for_each_lane(bundle_frustum_.intersect(node.bounds, order, kMaxHitDistance, distance),
+                    [&](uint32_t i) {
+                      const NodeRef child = {node.child[i], node.leaf[i]};
+                      objects_.scene().hint(child);
+                      stack.push(first, {child, bundle.packets, distance[i], 0});
+                    });
     }
     return false;
   }
@@ -73,59 +78,63 @@ private:
   using Lanes = BundleLanes<S, kBundlePackets<Spu>>;
   using Stack = typename PacketTraversal<Spu>::Stack;
 
-  /// A packet's beam is loose once it has hit this many boxes that none of its rays meet: where surfaces
-  /// begin and end, shadow rays leave from places far apart.
+  /// A packet's frustum is loose once it has hit this many nodes that none of the packet's rays hit. From
+  /// then on its rays are tested as well. This occurs at silhouettes, where the origins of shadow rays lie
+  /// far apart.
   static constexpr uint32_t kMissesOfLoose = 2;
 
   NodeRef root() const { return {bvh_.node_offset, 0}; }
 
-  /// Nothing but the root, for these packets, on the stack.
+  /// Resets the stack to the root, for these packets.
   Stack& begin(uint32_t packets) {
-    Stack& stack = packets_.stack();
+    Stack& stack = packet_traversal_.stack();
     stack.shrink(0);
     stack.push(0, {root(), packets, 0.0f, 0});
     return stack;
   }
 
-  // --- packets alone ---
+  // --- one packet ---
 
-  /// Splits the lanes into beams, and sends each through the BVH.
-  void intersect_alone(RayQuery& query) {
+  /// Traverses a packet in groups of rays with similar directions in one octant, each with its own frustum.
+  void intersect_packet(RayQuery& query) {
     objects_.hit_filter().begin_packet();
     const RayPacket& rays = *query.rays;
-    RayGroup<S>& group = members_[0];
-    uint32_t left = query.lanes;
-    while (left != 0) {
-      const uint32_t octant = octant_of(rays, static_cast<uint32_t>(__builtin_ctz(left)));
-      uint32_t same = left & lanes_in_octant(rays, octant);
-      left &= ~same;
-      // First all of them; if they have little in common, four neighbours at a time, or one.
-      uint32_t parts = 0;
+    RayGroup<S>& group = ray_groups_[0];
+    uint32_t remaining = query.lanes;
+    while (remaining != 0) {
+      const uint32_t octant = octant_of(rays, static_cast<uint32_t>(__builtin_ctz(remaining)));
+      uint32_t same = remaining & lanes_in_octant(rays, octant);
+      remaining &= ~same;
+      // All rays of the octant if they are coherent; otherwise blocks of 2x2 rays, and divergent blocks ray
+      // by ray.
+      uint32_t level = 0;
       while (same != 0) {
-        const uint32_t part = same & part_of(parts, static_cast<uint32_t>(__builtin_ctz(same)));
+        const uint32_t subset = same & subset_of(level, static_cast<uint32_t>(__builtin_ctz(same)));
         objects_.scene().spu().compute(scalar_work::kFrustum);
-        const RayBounds bounds = bounds_of<S>(rays, part);
+        const RayBounds bounds = bounds_of<S>(rays, subset);
         if (bounds.direction_spread() > kMaxDirectionSpread) {
-          ++parts;
+          ++level;
           continue;
         }
-        if (parts == 2) parts = 1;
-        same &= ~part;
-        if ((query.lanes & part) == 0) continue;
+        if (level == 2) level = 1;
+        same &= ~subset;
+        if ((query.lanes & subset) == 0) continue;
         objects_.scene().spu().compute(scalar_work::kRaysOfPacket);
         group.rays.set(rays, octant);
         group.frustum.set(bounds, octant);
-        packets_.traverse({&group, &query, part, part, root()}, SlabOrder(octant));
+        packet_traversal_.traverse({&group, &query, subset, subset, root()}, SlabOrder(octant));
       }
     }
   }
 
-  /// The lanes that go with `lane` when a packet is taken whole (0), in blocks of 2x2 (1) or apart (2).
-  static uint32_t part_of(uint32_t parts, uint32_t lane) {
-    if (parts == 0) return 0xFFFF;
-    return parts == 1 ? 0x33u << (lane & 0xAu) : 1u << lane;
+  /// The lanes that `lane` is grouped with: on level 0 the whole packet, on level 1 its block of 2x2 rays, on
+  /// level 2 itself.
+  static uint32_t subset_of(uint32_t level, uint32_t lane) {
+    if (level == 0) return 0xFFFF;
+    return level == 1 ? 0x33u << (lane & 0xAu) : 1u << lane;
   }
 
+  /// The lanes whose directions are in an octant.
   static uint32_t lanes_in_octant(const RayPacket& rays, uint32_t octant) {
     const F zero(0.0f);
     const V3<S> direction = rays.direction.template load<S>();
@@ -135,97 +144,100 @@ private:
     return same(x, octant & 1) & same(y, octant & 2) & same(z, octant & 4);
   }
 
-  // --- packets together ---
+  // --- a bundle of packets ---
 
-  /// All but `answered` queries.
+  /// Answers all queries but those of the packets `answered`.
   void intersect(RayQuery* queries, uint32_t count, uint32_t answered) {
-    uint32_t left = 0;
+    uint32_t remaining = 0;
     for (uint32_t packet = 0; packet < count; ++packet)
-      left |= static_cast<uint32_t>(queries[packet].lanes != 0) << packet;
-    left &= ~answered;
-    if (!is_single(left)) left &= ~intersect_together(queries, left);
-    for_each_lane(left, [&](uint32_t packet) { intersect_alone(queries[packet]); });
+      remaining |= static_cast<uint32_t>(queries[packet].lanes != 0) << packet;
+    remaining &= ~answered;
+    if (!is_single(remaining)) remaining &= ~intersect_bundle(queries, remaining);
+    for_each_lane(remaining, [&](uint32_t packet) { intersect_packet(queries[packet]); });
   }
 
-  /// Those of the packets whose rays have enough in common go through the BVH together. Returns which
-  /// did.
-  uint32_t intersect_together(RayQuery* queries, uint32_t packets) {
-    const RayQuery& some = queries[__builtin_ctz(packets)];
-    const uint32_t octant = octant_of(*some.rays, static_cast<uint32_t>(__builtin_ctz(some.lanes)));
+  /// Traverses those of the packets together whose rays all have similar directions in one octant. Returns
+  /// which packets these are.
+  uint32_t intersect_bundle(RayQuery* queries, uint32_t packets) {
+    const RayQuery& first = queries[__builtin_ctz(packets)];
+    const uint32_t octant = octant_of(*first.rays, static_cast<uint32_t>(__builtin_ctz(first.lanes)));
     RayBounds all = {};
-    uint32_t together = 0;
+    uint32_t bundled = 0;
     for_each_lane(packets, [&](uint32_t packet) {
       const RayQuery& query = queries[packet];
       objects_.scene().spu().compute(scalar_work::kFrustum);
       const RayBounds bounds = bounds_of<S>(*query.rays, query.lanes);
       if (!bounds.is_in(octant)) return;
-      RayBounds more = bounds;
-      if (together != 0) more.include(all);
-      if (more.direction_spread() > kMaxDirectionSpread) return;
-      all = more;
-      together |= 1u << packet;
+      RayBounds extended = bounds;
+      if (bundled != 0) extended.include(all);
+      if (extended.direction_spread() > kMaxDirectionSpread) return;
+      all = extended;
+      bundled |= 1u << packet;
       misses_[packet] = 0;
       frusta_.set(packet, bounds, octant);
       tfar_[packet] = PacketTraversal<Spu>::tfar_of(query, query.lanes);
     });
-    if (is_single(together)) return 0;
-    around_.set(all, octant);
+    if (is_single(bundled)) return 0;
+    bundle_frustum_.set(all, octant);
     view_ = nullptr;
     octant_ = octant;
-    turned_ = false;
-    begin(together);
-    const SlabOrder sides(octant);
-    traverse_together(queries, sides, sides, together);
-    return together;
+    reversed_ = false;
+    begin(bundled);
+    const SlabOrder order(octant);
+    traverse_bundle(queries, order, order, bundled);
+    return bundled;
   }
 
-  /// By a bundle's beams.
-  void traverse_together(RayQuery* queries, const ViewBundle<S>& bundle) {
+  /// Traverses a bundle whose rays all pass through one point, with the frusta that it brings.
+  void traverse_bundle(RayQuery* queries, const ViewBundle<S>& bundle) {
     for (uint32_t& misses : misses_)
       misses = 0;
     frusta_.set(bundle.bounds, bundle.octant);
-    around_.set(bundle.all, bundle.octant);
+    bundle_frustum_.set(bundle.all, bundle.octant);
     view_ = &bundle.view;
     octant_ = bundle.turned ? bundle.octant ^ 7 : bundle.octant;
-    turned_ = bundle.turned;
-    traverse_together(queries, SlabOrder(bundle.octant), SlabOrder(octant_), bundle.packets);
+    reversed_ = bundle.turned;
+    traverse_bundle(queries, SlabOrder(bundle.octant), SlabOrder(octant_), bundle.packets);
   }
-  /// By their beams, which enter and leave boxes by `sides`; the rays themselves do by `ray_sides`. What is
-  /// to be visited is on the stack.
-  void traverse_together(RayQuery* queries, const SlabOrder& sides, const SlabOrder& ray_sides, uint32_t together) {
-    max_tfar_ = PacketTraversal<Spu>::kTfarSlack * kMaxHitDistance; // until there are hits
+  /// Traverses what is on the stack, with the frusta of the packets `bundled`. `order` is that of slab tests
+  /// with frusta, `ray_order` that with rays: they differ where frusta are those of reversed rays.
+  void traverse_bundle(RayQuery* queries, const SlabOrder& order, const SlabOrder& ray_order,
+                       uint32_t bundled) {
+    max_tfar_ = PacketTraversal<Spu>::kTfarSlack * kMaxHitDistance; // until the first leaf has been tested
     loose_ = 0;
     known_rays_ = known_frusta_ = 0;
-    Stack& stack = packets_.stack();
+    Stack& stack = packet_traversal_.stack();
     BundleLeafTests<Spu> leaves(objects_);
     for (;;) {
-      if (!defers_more(leaves)) test_deferred(leaves, queries, together);
+      if (!defers_more(leaves)) test_deferred(leaves, queries, bundled);
       if (stack.size() == 0) break;
       const typename Stack::Entry& next = stack.pop();
       const uint32_t packets = next.lanes & within_tfar(next.enter);
       if (packets == 0) continue;
       if (next.rays != 0) {
-        traverse_alone(queries, ray_sides, next);
+        traverse_split(queries, ray_order, next);
       } else {
         NodeRef ref = next.ref;
-        while (!ref.is_leaf() && expand(queries, sides, ray_sides, packets, ref)) {
+        while (!ref.is_leaf() && expand(queries, order, ray_order, packets, ref)) {
         }
         if (!ref.is_leaf()) continue;
         intersect_leaf(leaves, ref, packets, queries);
       }
-      max_tfar_ = Lanes::greatest_of(together, tfar_);
+      max_tfar_ = Lanes::greatest_of(bundled, tfar_);
     }
   }
 
-  /// Packets that go alone to branches: `first`, and others that are next on the stack if they take turns.
-  [[gnu::noinline]] void traverse_alone(RayQuery* queries, const SlabOrder& sides, typename Stack::Entry first) {
+  /// Traverses a node separately with one packet, by its entry `first`. Where interleaving pays, the next
+  /// entries on the stack are traversed at the same time if they are of other single packets.
+  [[gnu::noinline]] void traverse_split(RayQuery* queries, const SlabOrder& order,
+                                        typename Stack::Entry first) {
     objects_.scene().spu().compute(scalar_work::kPacketAlone);
-    typename PacketTraversal<Spu>::Task tasks[PacketTraversal<Spu>::kMostInterleaved];
+    typename PacketTraversal<Spu>::Task tasks[PacketTraversal<Spu>::kMaxInterleaved];
     tasks[0] = task_of(queries, first);
     uint32_t count = 1, packets = first.lanes;
-    if (Spu::direct_memory && packets_.interleaves()) {
-      Stack& stack = packets_.stack();
-      while (count < PacketTraversal<Spu>::kMostInterleaved && stack.size() != 0) {
+    if (Spu::direct_memory && packet_traversal_.interleaves()) {
+      Stack& stack = packet_traversal_.stack();
+      while (count < PacketTraversal<Spu>::kMaxInterleaved && stack.size() != 0) {
         const typename Stack::Entry& next = stack.top();
         if (next.rays == 0 || (next.lanes & packets) != 0) break;
         stack.pop();
@@ -236,44 +248,45 @@ private:
     }
     if (count == 1) {
       objects_.hit_filter().begin_packet();
-      packets_.traverse(tasks[0], sides);
+      packet_traversal_.traverse(tasks[0], order);
     } else {
-      packets_.traverse_interleaved(tasks, count, sides);
+      packet_traversal_.traverse_interleaved(tasks, count, order);
     }
     update_tfar(packets, queries);
   }
-  /// Of an entry for one packet.
+  /// The task of an entry for one packet. Sets the packet's frustum on first use.
   typename PacketTraversal<Spu>::Task task_of(RayQuery* queries, const typename Stack::Entry& entry) {
     const auto packet = static_cast<uint32_t>(__builtin_ctz(entry.lanes));
     RayQuery& query = queries[packet];
     if ((known_frusta_ & entry.lanes) == 0) {
-      if (Spu::direct_memory && turned_)
-        members_[packet].frustum.set(bounds_of<S>(*query.rays, query.lanes), octant_);
+      if (Spu::direct_memory && reversed_)
+        ray_groups_[packet].frustum.set(bounds_of<S>(*query.rays, query.lanes), octant_);
       else
-        frusta_.get(packet, members_[packet].frustum);
+        frusta_.get(packet, ray_groups_[packet].frustum);
       known_frusta_ |= entry.lanes;
     }
-    return {&members_[packet], &query, query.lanes, entry.rays, entry.ref};
+    return {&ray_groups_[packet], &query, query.lanes, entry.rays, entry.ref};
   }
 
+  /// The rays of a packet prepared for slab tests, on first use.
   const OctantRays<S>& rays_of(const RayQuery& query, uint32_t packet) {
     if ((known_rays_ & (1u << packet)) == 0) {
       objects_.scene().spu().compute(scalar_work::kRaysOfPacket);
-      members_[packet].rays.set(*query.rays, octant_);
+      ray_groups_[packet].rays.set(*query.rays, octant_);
       known_rays_ |= 1u << packet;
     }
-    return members_[packet].rays;
+    return ray_groups_[packet].rays;
   }
 
-  /// As PacketTraversal's, with the packets' beams in place of rays. The rays themselves are asked where objects
-  /// are and where beams are loose.
-  bool expand(const RayQuery* queries, const SlabOrder& sides, const SlabOrder& ray_sides, uint32_t packets,
-            NodeRef& ref) {
+  /// As PacketTraversal::expand(), with the frusta of packets in place of rays. Rays are tested only for
+  /// leaves, for packets that split from the bundle, and for loose frusta.
+  bool expand(const RayQuery* queries, const SlabOrder& order, const SlabOrder& ray_order, uint32_t packets,
+              NodeRef& ref) {
     objects_.scene().spu().compute(scalar_work::kBvhNode);
     ++objects_.counters().visits;
     const NodeRecord& node = *objects_.scene().node(ref.child);
     alignas(16) float enter[4];
-    uint32_t hit = around_.intersect(node.bounds, sides, max_tfar_, enter);
+    uint32_t hit = bundle_frustum_.intersect(node.bounds, order, max_tfar_, enter);
     if (hit == 0) return false;
     if (is_single(hit)) {
       const uint32_t i = static_cast<uint32_t>(__builtin_ctz(hit));
@@ -282,21 +295,21 @@ private:
         return true;
       }
     }
-    Stack& stack = packets_.stack();
+    Stack& stack = packet_traversal_.stack();
     const uint32_t first = stack.size();
     do {
       const uint32_t i = static_cast<uint32_t>(__builtin_ctz(hit));
       hit &= hit - 1;
       objects_.scene().spu().compute(scalar_work::kBvhChild);
-      uint32_t lanes = frusta_.intersect(node.bounds, sides, i, tfar_) & packets;
+      uint32_t lanes = frusta_.intersect(node.bounds, order, i, tfar_) & packets;
       const NodeRef child = {node.child[i], node.leaf[i]};
-      const bool ask_all = (child.is_leaf() && !trusts_beams()) || is_lonely(lanes);
+      const bool tests_rays = (child.is_leaf() && !trusts_frusta()) || should_split(lanes);
       if (lanes == 0) continue;
       objects_.scene().hint(child);
-      lanes &= ~packets_that_miss(node.bounds, ray_sides, i, queries, ask_all ? lanes : lanes & loose_);
-      if (ask_all && !child.is_leaf())
+      lanes &= ~packets_that_miss(node.bounds, ray_order, i, queries, tests_rays ? lanes : lanes & loose_);
+      if (tests_rays && !child.is_leaf())
         for_each_lane(lanes, [&](uint32_t packet) {
-          stack.push(first, {child, 1u << packet, enter[i], rays_[packet]});
+          stack.push(first, {child, 1u << packet, enter[i], hit_rays_[packet]});
         });
       else if (lanes != 0)
         stack.push(first, {child, lanes, enter[i], 0});
@@ -304,38 +317,41 @@ private:
     return false;
   }
 
-  /// Beams through one point are hardly larger than their rays; but where an object has to be fetched, that
-  /// takes longer than asking them.
-  bool trusts_beams() const { return Spu::direct_memory && view_ != nullptr; }
-  /// Where objects are small beside pixels, the packets of a bundle part early.
-  static uint32_t most_alone(const FrameBlock& frame) {
-    constexpr uint32_t kMost = PacketTraversal<Spu>::kMostAlone;
+  /// Whether leaves are hit by frusta only, without slab tests of rays. Frusta of rays through one point are
+  /// tight. On an SPE the rays are tested all the same, because fetching an object by DMA costs more.
+  bool trusts_frusta() const { return Spu::direct_memory && view_ != nullptr; }
+  /// Packets split early where triangles are smaller than pixels, because each then hits other nodes than its
+  /// neighbours. With more than half as many objects as pixels this is assumed.
+  static uint32_t max_split_packets(const FrameBlock& frame) {
+    constexpr uint32_t kMost = PacketTraversal<Spu>::kMaxSplitPackets;
     return kMost == 1 || frame.object_count <= frame.width * frame.height / 2 ? 1 : kMost;
   }
-  bool is_lonely(uint32_t packets) const {
-    if constexpr (PacketTraversal<Spu>::kMostAlone == 1) return is_single(packets);
-    return static_cast<uint32_t>(__builtin_popcount(packets)) <= most_alone_;
+  /// Whether the packets that hit a node traverse it separately.
+  bool should_split(uint32_t packets) const {
+    if constexpr (PacketTraversal<Spu>::kMaxSplitPackets == 1) return is_single(packets);
+    return static_cast<uint32_t>(__builtin_popcount(packets)) <= max_split_packets_;
   }
 
-  /// Those of the packets that have no ray that meets the box; the others' rays that do go to rays_.
-  uint32_t packets_that_miss(const float (&bounds)[6][4], const SlabOrder& sides, uint32_t i,
-                           const RayQuery* queries, uint32_t packets) {
-    uint32_t without = 0;
+  /// Returns those of the packets that have no ray that hits child `i`. hit_rays_ receives the rays that do.
+  uint32_t packets_that_miss(const float (&bounds)[6][4], const SlabOrder& order, uint32_t i,
+                             const RayQuery* queries, uint32_t packets) {
+    uint32_t missing = 0;
     for_each_lane(packets, [&](uint32_t packet) {
       const RayQuery& query = queries[packet];
       objects_.scene().spu().compute(scalar_work::kRaysAgainstBounds);
       const uint32_t rays =
-          rays_of(query, packet).intersect(bounds, sides, i, PacketTraversal<Spu>::tfar(query)) & query.lanes;
-      rays_[packet] = rays;
+          rays_of(query, packet).intersect(bounds, order, i, PacketTraversal<Spu>::tfar(query)) & query.lanes;
+      hit_rays_[packet] = rays;
       const uint32_t missed = static_cast<uint32_t>(rays == 0);
-      without |= missed << packet;
+      missing |= missed << packet;
       misses_[packet] += missed;
       loose_ |= static_cast<uint32_t>(misses_[packet] >= kMissesOfLoose) << packet;
     });
-    return without;
+    return missing;
   }
 
-  void intersect_leaf(BundleLeafTests<Spu>& leaves, const NodeRef& leaf, uint32_t packets, RayQuery* queries) {
+  void intersect_leaf(BundleLeafTests<Spu>& leaves, const NodeRef& leaf, uint32_t packets,
+                      RayQuery* queries) {
     uint32_t changed = packets;
     if (Spu::direct_memory && view_ != nullptr && !is_single(packets))
       changed = leaves.add(queries, packets, leaf);
@@ -346,15 +362,16 @@ private:
       });
     update_tfar(changed, queries);
   }
-  /// Before a node is opened, what lies in leaves should be known.
+  /// Whether deferred triangles can wait for those of the next leaf. If the next entry is a node they cannot:
+  /// their hits should shorten tfar before it is expanded.
   bool defers_more(const BundleLeafTests<Spu>& leaves) {
     if (!Spu::direct_memory || !leaves.has_deferred()) return true;
-    const Stack& stack = packets_.stack();
+    const Stack& stack = packet_traversal_.stack();
     return stack.size() != 0 && stack.top().ref.is_leaf() && leaves.has_room_for(stack.top().ref);
   }
-  void test_deferred(BundleLeafTests<Spu>& leaves, RayQuery* queries, uint32_t together) {
+  void test_deferred(BundleLeafTests<Spu>& leaves, RayQuery* queries, uint32_t bundled) {
     update_tfar(leaves.test(queries, *view_), queries);
-    max_tfar_ = Lanes::greatest_of(together, tfar_);
+    max_tfar_ = Lanes::greatest_of(bundled, tfar_);
   }
   void test_object(uint32_t self, uint32_t packets, RayQuery* queries) {
     if constexpr (Spu::direct_memory) {
@@ -378,14 +395,15 @@ private:
   void update_tfar(uint32_t packets, const RayQuery* queries) {
     for_each_lane(packets, [&](uint32_t packet) { update_tfar(queries[packet], packet); });
   }
-  /// A packet that no light comes to any more looks nowhere.
+  /// A packet that is wholly occluded has a negative tfar: it hits no further node.
   void update_tfar(const RayQuery& query, uint32_t packet) {
     if (query.hits != nullptr)
       tfar_[packet] = PacketTraversal<Spu>::tfar_of(query, query.lanes) * shortening(packet);
     else if (query.lanes == 0)
       tfar_[packet] = -1.0f;
   }
-  /// By which distances along a packet's rays are multiplied to get those along its beam.
+  /// The factor from distances along a packet's rays, of unit directions, to distances in its frustum, whose
+  /// directions have length 1 on the major axis.
   float shortening([[maybe_unused]] uint32_t packet) const {
     if constexpr (Spu::direct_memory) return view_ != nullptr ? shortening_[packet] : 1.0f;
     return 1.0f;
@@ -396,21 +414,22 @@ private:
 
   ObjectTests<Spu>& objects_;
   const BvhRecord& bvh_;
-  PacketTraversal<Spu> packets_;
-  const uint32_t most_alone_;                ///< packets
-  RayGroup<S> members_[kBundlePackets<Spu>]; ///< packets of the bundle; a packet alone is the first
+  PacketTraversal<Spu> packet_traversal_;
+  const uint32_t max_split_packets_;
+  RayGroup<S> ray_groups_[kBundlePackets<Spu>]; ///< by packet; intersect_packet() uses the first
   BundleFrusta<S, kBundlePackets<Spu>> frusta_;
-  Frustum<S> around_;                                     ///< all of them
-  uint32_t rays_[kBundlePackets<Spu>];                 ///< of each packet that was asked last
-  uint32_t misses_[kBundlePackets<Spu>];               ///< boxes that a beam hit but no ray
-  uint32_t loose_ = 0;                                 ///< packets
-  float max_tfar_ = 0.0f;                              ///< no packet looks farther
-  const BundleView<S>* view_ = nullptr;                ///< of theirs, if they go through one point
-  uint32_t octant_ = 0;                                ///< of all rays that go together
-  bool turned_ = false;                                ///< their beams go the other way
-  uint32_t known_rays_ = 0, known_frusta_ = 0;          ///< packets of which members_ has them
-  alignas(64) float tfar_[kBundlePackets<Spu>] = {}; ///< how far each packet looks along its beam
-  /// Of each packet of primary rays, which go through one point.
+  Frustum<S> bundle_frustum_;                  ///< contains all of frusta_
+  uint32_t hit_rays_[kBundlePackets<Spu>];     ///< by packet, of the child that was tested last
+  uint32_t misses_[kBundlePackets<Spu>];       ///< by packet: nodes that its frustum hit, but no ray
+  uint32_t loose_ = 0;                         ///< packets whose frusta are loose
+  float max_tfar_ = 0.0f;                      ///< the greatest of tfar_
+  const BundleView<S>* view_ = nullptr;        ///< of the bundle, if its rays pass through one point
+  uint32_t octant_ = 0;                        ///< of all rays of the bundle
+  bool reversed_ = false;                      ///< the frusta are those of reversed rays
+  uint32_t known_rays_ = 0, known_frusta_ = 0; ///< packets whose part of ray_groups_ is set
+  /// By packet, in distances of its frustum. Negative: the packet hits nothing.
+  alignas(64) float tfar_[kBundlePackets<Spu>] = {};
+  /// By packet; see shortening(). Undefined for rays that do not pass through one point.
   alignas(64) float shortening_[Spu::direct_memory ? kBundlePackets<Spu> : 1] = {};
 };
 

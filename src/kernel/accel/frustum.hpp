@@ -1,7 +1,7 @@
 // Rays against the bounds of BVH nodes: the rays of a packet against one node, and their frustum against four
 // nodes at a time. The frustum is given by intervals that contain the origins and directions of its rays: a
-// node that it misses is missed by every one of them (interval arithmetic: Boulos, Wald and Shirley, Geometric
-// and arithmetic culling methods for entire ray packets, 2006). Kernel dialect.
+// node that it misses is missed by every one of them (interval arithmetic: Boulos, Wald and Shirley,
+// Geometric and arithmetic culling methods for entire ray packets, 2006). Kernel dialect.
 #pragma once
 
 #include "kernel/packet.hpp"
@@ -16,14 +16,16 @@ inline bool is_single(uint32_t lanes) {
 
 namespace detail {
 
-/// Directions closer to 0 than this count as this, with the same sign, so that 1 / direction is finite.
+/// Components of directions closer to 0 are replaced by this, with the same sign: 1 / direction stays finite.
 constexpr float kTinyDirection = 1e-12f;
-/// Relative epsilon of the distance at which a node is left, which is rounded three times.
+/// Relative epsilon of the distance to a node's far plane. That is rounded three times, and a ray that only
+/// grazes the node must not miss it.
 constexpr float kRoundedUp = 1.000001f;
 
 } // namespace detail
 
-/// Rays whose directions differ by more do not share a frustum. Measured on scenes with mirrors and glass.
+/// Rays whose directions differ by more do not share a frustum. Larger: fewer traversals, with looser frusta;
+/// smaller: more traversals, with tighter ones. Measured on scenes with mirrors and glass.
 constexpr float kMaxDirectionSpread = 1.0f;
 
 /// The octant of a ray's direction: bit a is set if it is negative on axis a.
@@ -32,8 +34,8 @@ inline uint32_t octant_of(const RayPacket& rays, uint32_t lane) {
          (rays.direction.z.lane[lane] < 0.0f ? 4u : 0u);
 }
 
-/// The slab test's order of planes: which rows of NodeRecord::bounds are the near and the far ones for rays of
-/// an octant, axis by axis.
+/// The order of planes in the slab test: which rows of NodeRecord::bounds are the near and the far planes for
+/// rays of an octant, axis by axis.
 struct SlabOrder {
   explicit SlabOrder(uint32_t octant)
       : near{octant & 1, 2 + ((octant >> 1) & 1), 4 + ((octant >> 2) & 1)}, far{near[0] ^ 1, near[1] ^ 1,
@@ -42,7 +44,7 @@ struct SlabOrder {
   uint32_t near[3], far[3];
 };
 
-/// The rays of one octant, prepared for slab tests. Results of lanes of other octants are meaningless.
+/// The rays of one octant, prepared for slab tests. Results of lanes of other octants are undefined.
 template <class S> class OctantRays {
 public:
   using F = typename S::F;
@@ -51,20 +53,20 @@ public:
   OctantRays() = default;
   [[gnu::noinline]] void set(const RayPacket& rays, uint32_t octant) {
     origin_ = rays.origin.template load<S>();
-    const V3<S> along = rays.direction.template load<S>();
-    inverse_ = {inverse_of(along.x, (octant & 1) != 0), inverse_of(along.y, (octant & 2) != 0),
-                inverse_of(along.z, (octant & 4) != 0)};
+    const V3<S> direction = rays.direction.template load<S>();
+    inverse_ = {inverse_of(direction.x, (octant & 1) != 0), inverse_of(direction.y, (octant & 2) != 0),
+                inverse_of(direction.z, (octant & 4) != 0)};
   }
 
-  /// The lanes that hit the bounds of child `i`, each up to its `tfar`.
-  uint32_t intersect(const float (&bounds)[6][4], const SlabOrder& sides, uint32_t i, const F& tfar) const {
-    const auto near = [&](uint32_t axis) { return F(bounds[sides.near[axis]][i]); };
-    const auto far = [&](uint32_t axis) { return F(bounds[sides.far[axis]][i]); };
-    const F first = S::max(S::max((near(0) - origin_.x) * inverse_.x, (near(1) - origin_.y) * inverse_.y),
-                           S::max((near(2) - origin_.z) * inverse_.z, F(0.0f)));
-    const F last = S::min(S::min((far(0) - origin_.x) * inverse_.x, (far(1) - origin_.y) * inverse_.y),
-                          S::min((far(2) - origin_.z) * inverse_.z, tfar));
-    return (first <= last * F(detail::kRoundedUp)).bits();
+  /// Returns the lanes that hit the bounds of child `i`, each up to its own `tfar`.
+  uint32_t intersect(const float (&bounds)[6][4], const SlabOrder& order, uint32_t i, const F& tfar) const {
+    const auto near = [&](uint32_t axis) { return F(bounds[order.near[axis]][i]); };
+    const auto far = [&](uint32_t axis) { return F(bounds[order.far[axis]][i]); };
+    const F t_enter = S::max(S::max((near(0) - origin_.x) * inverse_.x, (near(1) - origin_.y) * inverse_.y),
+                             S::max((near(2) - origin_.z) * inverse_.z, F(0.0f)));
+    const F t_exit = S::min(S::min((far(0) - origin_.x) * inverse_.x, (far(1) - origin_.y) * inverse_.y),
+                            S::min((far(2) - origin_.z) * inverse_.z, tfar));
+    return (t_enter <= t_exit * F(detail::kRoundedUp)).bits();
   }
 
 private:
@@ -102,31 +104,33 @@ struct RayBounds {
   }
 };
 
-/// Of the rays in `lanes`, at least one.
+/// The bounds of the rays in `lanes`, of which there is at least one.
 template <class S> [[gnu::noinline]] RayBounds bounds_of(const RayPacket& rays, uint32_t lanes) {
   using F = typename S::F;
-  const auto inside = S::M::from_bits(lanes);
-  const uint32_t some = static_cast<uint32_t>(__builtin_ctz(lanes));
+  const auto active = S::M::from_bits(lanes);
+  const uint32_t active_lane = static_cast<uint32_t>(__builtin_ctz(lanes));
   const FloatLanes* origins[3] = {&rays.origin.x, &rays.origin.y, &rays.origin.z};
   const FloatLanes* directions[3] = {&rays.direction.x, &rays.direction.y, &rays.direction.z};
-  // Lanes outside take the value of one inside.
+  // Inactive lanes take the value of an active one, so that they do not widen the interval.
   const auto interval = [&](const FloatLanes& values) {
-    return interval_of<S>(S::select(inside, F::load(values.lane), F(values.lane[some])));
+    return interval_of<S>(S::select(active, F::load(values.lane), F(values.lane[active_lane])));
   };
-  const auto as_some = [&](const FloatLanes& values) { return F::load(values.lane) == F(values.lane[some]); };
-  // Primary rays have one origin.
-  const auto from_there = as_some(rays.origin.x) & as_some(rays.origin.y) & as_some(rays.origin.z);
-  const bool one_origin = (from_there.bits() & lanes) == lanes;
+  const auto is_same = [&](const FloatLanes& values) {
+    return F::load(values.lane) == F(values.lane[active_lane]);
+  };
+  // Primary rays have a common origin: three reductions fewer.
+  const auto same_origin = is_same(rays.origin.x) & is_same(rays.origin.y) & is_same(rays.origin.z);
+  const bool common_origin = (same_origin.bits() & lanes) == lanes;
   RayBounds bounds;
   for (uint32_t axis = 0; axis < 3; ++axis) {
-    const float origin = origins[axis]->lane[some];
-    bounds.origin[axis] = one_origin ? Interval{origin, origin} : interval(*origins[axis]);
+    const float origin = origins[axis]->lane[active_lane];
+    bounds.origin[axis] = common_origin ? Interval{origin, origin} : interval(*origins[axis]);
     bounds.direction[axis] = interval(*directions[axis]);
   }
   return bounds;
 }
 
-/// Of one ray.
+/// The bounds of one ray.
 inline RayBounds bounds_of_ray(const RayPacket& rays, uint32_t lane) {
   const FloatLanes* origins[3] = {&rays.origin.x, &rays.origin.y, &rays.origin.z};
   const FloatLanes* directions[3] = {&rays.direction.x, &rays.direction.y, &rays.direction.z};
@@ -139,9 +143,10 @@ inline RayBounds bounds_of_ray(const RayPacket& rays, uint32_t lane) {
   return bounds;
 }
 
-/// The operands of the slab test for a frustum on one axis. The least distance to a near plane is that from the
-/// nearest origin along the steepest ray, the greatest distance to a far plane that from the farthest origin
-/// along the flattest ray. Distances to planes behind the origins are negative and otherwise meaningless.
+/// The operands of the slab test for a frustum on one axis. The least distance to a near plane is that from
+/// the nearest origin along the steepest ray; the greatest distance to a far plane is that from the farthest
+/// origin along the flattest ray. Planes behind the origins give negative distances, whose size does not
+/// matter: near ones are clamped to 0, and far ones are a miss.
 struct Slab {
   float near_origin, near_inverse, far_origin, far_inverse;
 };
@@ -154,6 +159,7 @@ inline Slab slab_of(const Interval& origin, const Interval& direction, bool back
           1.0f / larger(direction.low, kTinyDirection)};
 }
 
+/// A conservative bound of some rays of one octant, for slab tests against four nodes at a time.
 template <class S> class Frustum {
 public:
   using F4 = typename S::F4;
@@ -161,7 +167,7 @@ public:
   /// Undefined until set() has been called.
   Frustum() = default;
 
-  /// Rays of this octant.
+  /// Bounds rays that all have this octant.
   void set(const RayBounds& bounds, uint32_t octant) {
     for (uint32_t axis = 0; axis < 3; ++axis)
       set(axis, slab_of(bounds.origin[axis], bounds.direction[axis], ((octant >> axis) & 1) != 0));
@@ -173,17 +179,19 @@ public:
     far_inverse_[axis] = F4::splat(slab.far_inverse);
   }
 
-  /// Which children of a node the frustum hits before `tfar`, bit i for child i. `enter` receives lower bounds
-  /// of the distances to them.
-  uint32_t intersect(const float (&bounds)[6][4], const SlabOrder& sides, float tfar, float (&enter)[4]) const {
-    F4 first = F4::splat(0.0f);
-    F4 last = F4::splat(tfar);
+  /// Returns the children of a node that the frustum hits up to `tfar`, bit i for child i. `enter` receives
+  /// lower bounds of the distances to them.
+  uint32_t intersect(const float (&bounds)[6][4], const SlabOrder& order, float tfar,
+                     float (&enter)[4]) const {
+    F4 t_enter = F4::splat(0.0f);
+    F4 t_exit = F4::splat(tfar);
     for (uint32_t axis = 0; axis < 3; ++axis) {
-      first = S::max(first, (F4::load(bounds[sides.near[axis]]) - near_origin_[axis]) * near_inverse_[axis]);
-      last = S::min(last, (F4::load(bounds[sides.far[axis]]) - far_origin_[axis]) * far_inverse_[axis]);
+      t_enter =
+          S::max(t_enter, (F4::load(bounds[order.near[axis]]) - near_origin_[axis]) * near_inverse_[axis]);
+      t_exit = S::min(t_exit, (F4::load(bounds[order.far[axis]]) - far_origin_[axis]) * far_inverse_[axis]);
     }
-    first.store(enter);
-    return not_above_bits(first, last * F4::splat(detail::kRoundedUp));
+    t_enter.store(enter);
+    return not_above_bits(t_enter, t_exit * F4::splat(detail::kRoundedUp));
   }
 
 private:

@@ -1,13 +1,12 @@
-// Packets through the uniform grid. Kernel dialect.
+// Traverses the uniform grid with packets. Kernel dialect.
 //
-// The rays of a packet walk the grid side by side, each through voxels of its own. An object met by one of
-// them is tested against the whole packet, and a mailbox per packet (Amanatides and Woo) keeps the others
-// from testing it again. Each lane keeps the nearest of all tested hits and stops once that lies in the voxel
-// it is in.
+// All rays of a packet step at once, each through voxels of its own. An object in a voxel of one ray is
+// tested against the whole packet, and the hit filter keeps the other rays from testing it again when they
+// come to it. A ray stops when its closest hit lies within its current voxel.
 #pragma once
 
-#include "kernel/accel/object_tests.hpp"
 #include "kernel/accel/grid_walk.hpp"
+#include "kernel/accel/object_tests.hpp"
 
 namespace celltrace::kernel {
 
@@ -20,9 +19,9 @@ public:
   GridTraversal(ObjectTests<Spu>& objects, const GridRecord& grid)
       : objects_(objects), scene_(objects.scene()), grid_(grid) {}
 
-  // Not inlined: what a walk has on the stack is not there in what callers do apart from it.
+  // Not inlined: the stack frame of a traversal would otherwise be part of the caller's all the time.
 
-  /// As Traversal's, into hits that hold none yet.
+  /// As Traversal's; `hits` have been reset.
   [[gnu::noinline]] void find_closest(const RayPacket& rays, uint32_t lanes, HitPacket& hits) {
     objects_.hit_filter().begin_packet();
     walk(rays, lanes, [&](const VoxelWalk<S>& at, uint32_t listing) {
@@ -31,9 +30,9 @@ public:
     });
   }
 
-  /// As Traversal's; returns the lanes to which some light comes.
+  /// As Traversal's; returns the lanes that are not occluded.
   [[gnu::noinline]] uint32_t transmittance(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance,
-                                       VectorLanes& light) {
+                                           VectorLanes& light) {
     objects_.hit_filter().begin_packet();
     uint32_t lit = lanes;
     FloatLanes enter, leave;
@@ -41,26 +40,28 @@ public:
     walk(rays, lanes, [&](const VoxelWalk<S>& at, uint32_t listing) {
       enter = leave;
       at.leave().store(leave.lane);
-      for_each_cell(at.cell(), listing, [&](uint32_t cell, uint32_t there) {
-        transmittance_in(cell, there, enter, leave, rays, distance, light, lit);
+      for_each_cell(at.cell(), listing, [&](uint32_t cell, uint32_t inside) {
+        transmittance_in(cell, inside, enter, leave, rays, distance, light, lit);
       });
       return (F::load(distance.lane) > at.leave()).bits() & lit;
     });
     return lit;
   }
 
-  // --- one voxel, for whoever does not walk; objects_.mailbox() says what it has seen of the packet ---
+  // --- one voxel, for callers that step by themselves; the hit filter has to know the packet ---
 
+  /// Tests the objects of a voxel.
   void find_closest_in(uint32_t cell, const RayPacket& rays, HitPacket& hits) {
     for_each_object(cell, [&](uint32_t self) {
       if (objects_.hit_filter().first_test(self)) objects_.test_closest(rays, self, hits);
       return false;
     });
   }
-  /// For the rays of `lanes`, which are in the voxel from `enter` to `leave`. Takes the lanes that are shut
-  /// off from the light out of `lit`.
+  /// The same for the shadow rays in `lanes`, which are in the voxel from `enter` to `leave`. Removes
+  /// occluded lanes from `lit`.
   void transmittance_in(uint32_t cell, uint32_t lanes, const FloatLanes& enter, const FloatLanes& leave,
-                    const RayPacket& rays, const FloatLanes& distance, VectorLanes& light, uint32_t& lit) {
+                        const RayPacket& rays, const FloatLanes& distance, VectorLanes& light,
+                        uint32_t& lit) {
     if ((lanes & lit) == 0) return;
     for_each_object(cell, [&](uint32_t self) {
       lit &= ~objects_.occluded(rays, self, lanes & lit, distance, light, {&enter, &leave});
@@ -69,8 +70,8 @@ public:
   }
 
 private:
-  /// Calls `visit(walk, lanes in voxels that list objects)` after every step. It returns the lanes that go
-  /// on, which may not be those that are in their last voxel.
+  /// Steps through the grid and calls `visit(walk, lanes whose voxels are not empty)` in all voxels. It
+  /// returns the lanes that continue; rays in their last voxel must not be among them.
   template <class Visit> void walk(const RayPacket& rays, uint32_t lanes, Visit visit) {
     scene_.spu().compute(scalar_work::kVoxelWalk);
     uint64_t voxels = 0;
@@ -80,14 +81,14 @@ private:
       scene_.spu().compute(scalar_work::kPacketStep);
       voxels += static_cast<uint32_t>(__builtin_popcount(walk.lanes()));
       const uint32_t empty = (scene_.listed_in(grid_, walk.cell(), walk.lanes()) == I::splat(0)).bits();
-      const uint32_t onward = walk.lanes() & visit(walk, walk.lanes() & ~empty);
-      if (onward == 0) break;
-      walk.step(onward);
+      const uint32_t continuing = walk.lanes() & visit(walk, walk.lanes() & ~empty);
+      if (continuing == 0) break;
+      walk.step(continuing);
     }
     objects_.counters().visits += voxels;
   }
 
-  /// Splits `lanes` by the voxel that they are in.
+  /// Calls `visit(cell, lanes in it)` for each of the voxels that `lanes` are in.
   template <class Visit> void for_each_cell(const I& cells, uint32_t lanes, Visit visit) {
     if (lanes == 0) return;
     WordLanes each;
@@ -95,9 +96,9 @@ private:
     while (lanes != 0) {
       scene_.spu().compute(scalar_work::kVoxelOfPacket);
       const uint32_t cell = each.lane[__builtin_ctz(lanes)];
-      const uint32_t there = lanes & (cells == I::splat(static_cast<int32_t>(cell))).bits();
-      lanes &= ~there;
-      visit(cell, there);
+      const uint32_t inside = lanes & (cells == I::splat(static_cast<int32_t>(cell))).bits();
+      lanes &= ~inside;
+      visit(cell, inside);
     }
   }
 

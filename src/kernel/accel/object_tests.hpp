@@ -1,27 +1,29 @@
-// What a ray packet does with one object, however the object was found: keeps its hit if it is the closest,
-// or takes from the light that passes it. Kernel dialect.
+// Tests of ray packets against single objects, whichever accelerator has found them: closest hits, and the
+// transmittance of shadow rays. Kernel dialect.
 #pragma once
 
-#include "kernel/primitives/intersect.hpp"
+#include "kernel/primitives/csg.hpp"
+#include "kernel/primitives/list.hpp"
 #include "kernel/scalar_work.hpp"
 #include "kernel/scene_access.hpp"
 
 namespace celltrace::kernel {
 
-/// Counters of a frame that the report carries.
+/// Counters of a frame, for its report.
 struct TraversalCounters {
-  uint64_t tests[3] = {0, 0, 0}; ///< by ObjectKind
-  uint64_t visits = 0;           ///< or nodes of the BVH
+  uint64_t tests[kPrimitives] = {}; ///< by kind
+  uint64_t visits = 0;           ///< voxels entered by rays, or nodes of the BVH expanded
 };
 
-/// Remembers which objects were tested against the current packet. Direct mapped: a collision costs a second
+/// Mailboxing (Amanatides and Woo 1987): remembers which objects have been tested against the current packet,
+/// so that an object in several voxels or leaves is tested once. Direct mapped: a collision costs a second
 /// test.
 class HitFilter {
 public:
-  /// Returns what resume_packet() goes on with.
+  /// Forgets all objects. Returns the packet's number, for resume_packet().
   uint32_t begin_packet() { return packet_ = ++last_packet_; }
   void resume_packet(uint32_t packet) { packet_ = packet; }
-  /// True the first time an object is asked for within a packet; may be true again later.
+  /// True the first time that an object is asked for with the current packet; may be true again later.
   bool first_test(uint32_t object) {
     Entry& entry = entries_[(object >> 6) & (kEntries - 1)];
     if (entry.packet == packet_ && entry.object == object) return false;
@@ -39,16 +41,17 @@ private:
   uint32_t packet_ = 0, last_packet_ = 0;
 };
 
-/// Part of each ray: beyond `enter`, up to `leave`. Without them, all of it.
-struct Stretch {
+/// The segment of each ray beyond `enter` up to `leave`, or without these the whole ray.
+struct RaySegment {
   const FloatLanes* enter;
   const FloatLanes* leave;
 
-  bool has(uint32_t lane, float distance) const {
+  bool contains(uint32_t lane, float distance) const {
     return enter == nullptr || (distance > enter->lane[lane] && distance <= leave->lane[lane]);
   }
 };
 
+/// Intersection tests of packets with objects of the scene, and the merging of their results.
 template <class Spu> class ObjectTests {
 public:
   using S = typename Spu::simd;
@@ -58,25 +61,27 @@ public:
 
   explicit ObjectTests(SceneAccess<Spu>& scene) : scene_(scene) {}
 
-  // One copy of each, whatever calls them: the tests are what most of the program's code consists of, and
-  // local store is short.
+  // Some are not inlined: the tests are most of the program's code, and one copy of each saves local store.
 
+  /// Tests an object and keeps hits that are closer than those in `hits`.
   __attribute__((noinline)) void test_closest(const RayPacket& rays, uint32_t self, HitPacket& hits) {
     scene_.spu().compute(scalar_work::kClosest);
-    keep_closest(test(rays, *scene_.object(self), self), self, hits);
+    const ObjectRecord& object = *scene_.object(self);
+    if (is_simple(object.kind_and_flags)) return keep_closest(test(rays, object, self), self, hits);
+    test_closest_of_other(rays, object, self, hits);
   }
 
-  /// The same of several packets.
+  /// The same for several packets.
   void test_closest_of_all(const RayQuery* queries, uint32_t packets, uint32_t self) {
     const ObjectRecord& object = *scene_.object(self);
     const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
-    if (static_cast<ObjectKind>(kind) != ObjectKind::triangle) {
+    if (!is_plain_triangle(object.kind_and_flags)) {
       for_each_lane(packets, [&](uint32_t i) { test_closest(*queries[i].rays, self, *queries[i].hits); });
       return;
     }
     counters_.tests[kind] += static_cast<uint32_t>(__builtin_popcount(packets));
     const auto sides = TriangleSides<S>::of(object);
-    // A plain loop: what does not change in it stays in registers.
+    // A loop without a callback: the triangle's edges stay in registers.
     for (uint32_t left = packets; left != 0; left &= left - 1) {
       const RayQuery& query = queries[__builtin_ctz(left)];
       const SeenTriangle<S> triangle(query.rays->origin.template load<S>(), sides);
@@ -84,42 +89,25 @@ public:
     }
   }
 
-  /// Lanes that an object shuts off from the light. An opaque one shuts off whatever lanes of the packet it
-  /// covers, when it is met first; a translucent one dims `lanes` at each crossing on the stretch, so that
-  /// each counts once although the object may be met on several.
+  /// Returns the lanes that an object occludes. An opaque object is tested against all lanes of the packet,
+  /// the first time only. A translucent object attenuates the light of `lanes` by each crossing within
+  /// `segment`: one that lies in several voxels is tested in each of them, but every crossing counts once.
+  /// Lanes that this leaves without light are returned.
   __attribute__((noinline)) uint32_t occluded(const RayPacket& rays, uint32_t self, uint32_t lanes,
                                               const FloatLanes& distance, VectorLanes& light,
-                                              const Stretch& on = {nullptr, nullptr}) {
+                                              const RaySegment& segment = {nullptr, nullptr}) {
     scene_.spu().compute(scalar_work::kShadow);
     const ObjectRecord& object = *scene_.object(self);
     const uint32_t flags = object.kind_and_flags;
     const uint32_t material = object.material;
     if ((flags & object_flag::no_shadow) != 0) return 0;
-    const bool opaque = (flags & object_flag::opaque) != 0;
-    if (opaque && !hit_filter_.first_test(self)) return 0;
-    const Crossings<S> c = test(rays, object, self);
-    const Between between = in_between(c, distance);
-    const uint32_t near_hit = between.near, far_hit = between.far;
-    if (opaque) return near_hit | far_hit;
-    FloatLanes near, far, u, v;
-    c.near.store(near.lane);
-    c.far.store(far.lane);
-    c.u.store(u.lane);
-    c.v.store(v.lane);
-    uint32_t dark = 0;
-    for_each_lane(lanes & (near_hit | far_hit), [&](uint32_t lane) {
-      const auto counts = [&](uint32_t hit, const FloatLanes& at) {
-        return static_cast<uint32_t>(((hit >> lane) & 1) != 0 && on.has(lane, at.lane[lane]));
-      };
-      const uint32_t crossings = counts(near_hit, near) + counts(far_hit, far);
-      if (crossings != 0 && dim(flags, material, u.lane[lane], v.lane[lane], crossings, lane, light))
-        dark |= 1u << lane;
-    });
-    return dark;
+    if ((flags & object_flag::opaque) != 0 && !hit_filter_.first_test(self)) return 0;
+    if (!is_simple(flags)) return occluded_by_other(rays, object, self, lanes, distance, light, segment);
+    return occluded_by(test(rays, object, self), flags, material, lanes, distance, light, segment);
   }
 
-  /// The same of several packets, each in the lanes to which light still comes, on the whole stretch. None of
-  /// them has met the object before.
+  /// The same for the whole rays of several packets: removes occluded lanes from their queries. The object
+  /// must not have been tested against them before.
   void test_occlusion_of_all(RayQuery* queries, uint32_t packets, uint32_t self) {
     const ObjectRecord& object = *scene_.object(self);
     const uint32_t flags = object.kind_and_flags;
@@ -138,10 +126,11 @@ public:
       RayQuery& query = queries[__builtin_ctz(left)];
       const RayPacket& rays = *query.rays;
       const SeenTriangle<S> triangle(rays.origin.template load<S>(), sides);
-      query.lanes &= ~in_between(triangle.crossed(rays, self), *query.distance).near;
+      query.lanes &= ~shadow_hits(triangle.crossed(rays, self), *query.distance).near;
     }
   }
 
+  /// Merges the crossings with object `self` into the closest hits.
   static void keep_closest(const Crossings<S>& c, uint32_t self, HitPacket& hits) {
     const M near_valid = c.near_hit & (c.near > F(kMinHitDistance));
     const M far_valid = c.far_hit & (c.far > F(kMinHitDistance));
@@ -149,8 +138,8 @@ public:
     const F nearest = F::load(hits.distance.lane);
     const M hit = near_valid | far_valid;
     const M not_farther = hit & (distance <= nearest);
-    // Of two hits at the same place the object that comes first in the scene counts, in whatever order they
-    // are found.
+    // Of two hits at the same distance that of the object with the lower offset counts: the result does not
+    // depend on the order of the tests.
     auto* objects = reinterpret_cast<int32_t*>(hits.object.lane);
     const I present = I::load(objects);
     const I candidate = I::splat(static_cast<int32_t>(self));
@@ -161,14 +150,19 @@ public:
     S::select(closer, candidate, present).store(objects);
   }
 
-  /// Whether an object is a triangle that keeps all light off.
+  /// Whether an object is a triangle that is no part of a CSG.
+  static bool is_plain_triangle(uint32_t flags) {
+    return (flags & (object_flag::kind_mask | object_flag::csg)) == static_cast<uint32_t>(ObjectKind::triangle);
+  }
+  /// Whether the flags are those of a triangle that occludes all light.
   static bool is_opaque_triangle(uint32_t flags) {
-    return static_cast<ObjectKind>(flags & object_flag::kind_mask) == ObjectKind::triangle &&
+    return is_plain_triangle(flags) &&
            (flags & (object_flag::opaque | object_flag::no_shadow)) == object_flag::opaque;
   }
 
-  /// POV-Ray's tolerance at both ends of a shadow ray.
-  static constexpr float kShadowTolerance = 1e-3f;
+  /// Epsilon at both ends of a shadow ray, which is POV-Ray's: closer crossings do not count, so that a
+  /// surface does not shadow itself.
+  static constexpr float kShadowEpsilon = 1e-3f;
 
   SceneAccess<Spu>& scene() { return scene_; }
   HitFilter& hit_filter() { return hit_filter_; }
@@ -177,44 +171,143 @@ public:
   void reset_counters() { counters_ = TraversalCounters(); }
 
 private:
-  /// Lanes that cross a surface on their way to a light.
-  struct Between {
+  /// Lanes whose near or far crossing lies between their origin and the light.
+  struct ShadowHits {
     uint32_t near, far;
   };
-  static Between in_between(const Crossings<S>& c, const FloatLanes& distance) {
-    const F low(kShadowTolerance);
+  static ShadowHits shadow_hits(const Crossings<S>& c, const FloatLanes& distance) {
+    const F low(kShadowEpsilon);
     const F high = F::load(distance.lane) - low;
     return {(c.near_hit & (c.near > low) & (c.near < high)).bits(),
             (c.far_hit & (c.far > low) & (c.far < high)).bits()};
   }
 
-  /// Takes from the light of one lane what `crossings` crossings of a translucent object hold back. True if
-  /// that leaves it dark.
-  bool dim(uint32_t flags, uint32_t material, float u, float v, uint32_t crossings, uint32_t lane,
-           VectorLanes& light) {
+  /// Spheres, ellipsoids and triangles that are no parts of a CSG: their test reads no further record.
+  static bool is_simple(uint32_t flags) {
+    return (flags & (object_flag::kind_mask | object_flag::csg)) <= static_cast<uint32_t>(ObjectKind::triangle);
+  }
+
+  /// As occluded(), for crossings with the object.
+  uint32_t occluded_by(const Crossings<S>& c, uint32_t flags, uint32_t material, uint32_t lanes,
+                       const FloatLanes& distance, VectorLanes& light, const RaySegment& segment) {
+    const ShadowHits shadow = shadow_hits(c, distance);
+    const uint32_t near_hit = shadow.near, far_hit = shadow.far;
+    if ((flags & object_flag::opaque) != 0) return near_hit | far_hit;
+    FloatLanes near, far, u, v;
+    c.near.store(near.lane);
+    c.far.store(far.lane);
+    c.u.store(u.lane);
+    c.v.store(v.lane);
+    uint32_t dark = 0;
+    for_each_lane(lanes & (near_hit | far_hit), [&](uint32_t lane) {
+      const auto counts = [&](uint32_t hit, const FloatLanes& at) {
+        return static_cast<uint32_t>(((hit >> lane) & 1) != 0 && segment.contains(lane, at.lane[lane]));
+      };
+      const uint32_t crossings = counts(near_hit, near) + counts(far_hit, far);
+      if (crossings != 0 && attenuate(flags, material, u.lane[lane], v.lane[lane], crossings, lane, light))
+        dark |= 1u << lane;
+    });
+    return dark;
+  }
+
+  // Objects that are not simple: their crossings are several pairs, and count where the CSG's condition holds.
+
+  [[gnu::noinline]] void test_closest_of_other(const RayPacket& rays, const ObjectRecord& record, uint32_t self,
+                                               HitPacket& hits) {
+    const Other other(*this, rays, record, self);
+    for (uint32_t pair = 0; pair < other.pairs; ++pair) {
+      Crossings<S> c = other.crossings[pair];
+      if (other.csg != kNoOffset) {
+        const F nearest = F::load(hits.distance.lane);
+        const auto near = c.near_hit & (c.near > F(kMinHitDistance)) & (c.near <= nearest);
+        const auto far = c.far_hit & (c.far > F(kMinHitDistance)) & (c.far <= nearest);
+        accept(rays, other.csg, near, far, c);
+      }
+      keep_closest(c, self, hits);
+    }
+  }
+  [[gnu::noinline]] uint32_t occluded_by_other(const RayPacket& rays, const ObjectRecord& record, uint32_t self,
+                                               uint32_t lanes, const FloatLanes& distance, VectorLanes& light,
+                                               const RaySegment& segment) {
+    const uint32_t flags = record.kind_and_flags, material = record.material;
+    const Other other(*this, rays, record, self);
+    uint32_t dark = 0;
+    for (uint32_t pair = 0; pair < other.pairs; ++pair) {
+      Crossings<S> c = other.crossings[pair];
+      if (other.csg != kNoOffset) {
+        const ShadowHits shadow = shadow_hits(c, distance);
+        accept(rays, other.csg, M::from_bits(shadow.near), M::from_bits(shadow.far), c);
+      }
+      dark |= occluded_by(c, flags, material, lanes & ~dark, distance, light, segment);
+    }
+    return dark;
+  }
+
+  /// The crossings of a packet with an object that is not simple.
+  struct Other {
+    Crossings<S> crossings[kMaxCrossingPairs];
+    uint32_t pairs = 1;
+    uint32_t csg = kNoOffset; ///< offset of its condition
+
+    Other(ObjectTests& tests, const RayPacket& rays, const ObjectRecord& record, uint32_t self) {
+      // A copy: the next read may replace the record.
+      const ObjectRecord object = record;
+      const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
+      ExtraRecord extra = {};
+      if (object.extra != kNoOffset) extra = *tests.scene_.extra(object.extra);
+      if ((object.kind_and_flags & object_flag::csg) != 0) csg = extra.csg;
+      ++tests.counters_.tests[kind];
+      tests.scene_.spu().compute(scalar_work::kTestEllipsoid);
+      Primitives::dispatch(kind, [&](auto shape) {
+        using Shape = decltype(shape);
+        pairs = Shape::kCrossingPairs;
+        Shape::template intersect<S>(rays, object, extra, self, crossings);
+      });
+    }
+  };
+
+  /// Leaves those of the crossings in `near` and `far` that satisfy the condition.
+  void accept(const RayPacket& rays, uint32_t condition, const M& near, const M& far, Crossings<S>& c) {
+    const V3<S> origin = rays.origin.template load<S>(), direction = rays.direction.template load<S>();
+    c.near_hit = M::from_bits(csg_accepted(scene_, condition, origin + direction * c.near, near.bits()));
+    c.far_hit = M::from_bits(csg_accepted(scene_, condition, origin + direction * c.far, far.bits()));
+  }
+
+  /// Multiplies the light of one lane by the transmittance of `crossings` crossings of a translucent object.
+  /// True if hardly any is left: a ray with less than 1e-10 of it in each channel can stop.
+  bool attenuate(uint32_t flags, uint32_t material, float u, float v, uint32_t crossings, uint32_t lane,
+                 VectorLanes& light) {
     scene_.spu().compute(scalar_work::kFilter);
-    float through[3];
-    transmission(flags, material, u, v, through);
+    float transmitted[3];
+    transmission(flags, material, u, v, transmitted);
     FloatLanes* channels[3] = {&light.x, &light.y, &light.z};
     bool dark = true;
     for (int i = 0; i < 3; ++i) {
-      const float passed = crossings == 2 ? through[i] * through[i] : through[i];
+      const float factor = crossings == 2 ? transmitted[i] * transmitted[i] : transmitted[i];
       float& value = channels[i]->lane[lane];
-      value *= passed;
+      value *= factor;
       dark = dark && value < 1e-10f && value > -1e-10f;
     }
     return dark;
   }
 
+  /// Of a simple object.
   Crossings<S> test(const RayPacket& rays, const ObjectRecord& object, uint32_t self) {
     const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
     ++counters_.tests[kind];
     scene_.spu().compute(scalar_work::kTest[kind]);
-    return intersect<S>(rays, object, self);
+    Crossings<S> c;
+    if (static_cast<ObjectKind>(kind) == ObjectKind::triangle)
+      TrianglePrimitive::intersect<S>(rays, object, {}, self, &c);
+    else if (static_cast<ObjectKind>(kind) == ObjectKind::sphere)
+      SpherePrimitive::intersect<S>(rays, object, {}, self, &c);
+    else
+      EllipsoidPrimitive::intersect<S>(rays, object, {}, self, &c);
+    return c;
   }
 
-  /// What a surface lets through of each colour channel.
-  void transmission(uint32_t flags, uint32_t material, float u, float v, float (&through)[3]) {
+  /// The transmittance of a surface in each colour channel.
+  void transmission(uint32_t flags, uint32_t material, float u, float v, float (&transmitted)[3]) {
     uint32_t corners[3] = {material, material, material};
     float weights[3] = {1.0f, 0.0f, 0.0f};
     const bool blended = (flags & object_flag::blended) != 0;
@@ -227,11 +320,11 @@ private:
       weights[2] = v;
     }
     for (int i = 0; i < 3; ++i)
-      through[i] = 0.0f;
+      transmitted[i] = 0.0f;
     for (int corner = 0; corner < (blended ? 3 : 1); ++corner) {
       const MaterialRecord& m = *scene_.material(corners[corner]);
       for (int i = 0; i < 3; ++i)
-        through[i] += weights[corner] * (m.pigment[i] * m.filter + m.transmit);
+        transmitted[i] += weights[corner] * (m.pigment[i] * m.filter + m.transmit);
     }
   }
 

@@ -1,9 +1,9 @@
-// One packet of rays through the BVH, from any node on. Kernel dialect.
+// Traverses the BVH with one packet of rays, from any node on. Kernel dialect.
 //
-// The rays of a packet are traversed together, nearest children first. A node's child that their frustum
-// intersects is tested against the rays themselves before it is expanded; a child that a single ray hits is
-// traversed for that ray alone, with a frustum of its own. An object in a leaf is tested against the whole
-// packet.
+// The nearest child is traversed first. If the packet's frustum hits several children of a node, each of them
+// is tested against the rays themselves, because a frustum may hit what lies between its rays; if it hits one
+// child only, that test would not pay. A child that a single ray hits is traversed for that ray only, with a
+// frustum of its own. An object in a leaf is tested against the whole packet.
 #pragma once
 
 #include "kernel/accel/frustum.hpp"
@@ -24,36 +24,42 @@ public:
   using F = typename S::F;
   using M = typename S::M;
 
-  /// Relative epsilon of tfar: the distance to a hit is rounded, and a node at just that distance may hold
-  /// the object of the same distance that comes first in the scene.
+  /// Relative epsilon of tfar, as a factor. Distances to hits are rounded; and a node at the distance of a
+  /// hit must still be traversed, because it may hold an object at the same distance that precedes in the
+  /// scene.
   static constexpr float kTfarSlack = 1.00001f;
-  /// Up to this many objects, a core's own caches hold them and their nodes, and leaves are tested at once.
-  /// With more, leaves are deferred while their objects are fetched.
+  /// Up to this many objects, the caches of one core hold them with their nodes, and leaves are tested at
+  /// once. With more objects, leaves are deferred while their objects are prefetched. Smaller: leaves are
+  /// deferred although nothing has to be waited for; larger: tests wait for memory. Measured.
   static constexpr uint32_t kObjectsInCoreCache = 20000;
-  /// A node that this many packets of a bundle hit, or fewer, is traversed by each of them alone.
-  static constexpr uint32_t kMostAlone = kBundlePackets<Spu> >= 16 ? 4 : 1; // measured
-  using Stack = TraversalStack<kMostAlone>;
+  /// A node that this many packets of a bundle hit, or fewer, may be traversed by each of them separately.
+  /// Larger: packets share fewer nodes; smaller: more nodes are tested for packets that do not hit them.
+  /// Measured.
+  static constexpr uint32_t kMaxSplitPackets = kBundlePackets<Spu> >= 16 ? 4 : 1;
+  using Stack = TraversalStack<kMaxSplitPackets>;
 
-  /// A node to traverse for a packet. `lanes` are the rays that `group` consists of, `hit` those of them that
-  /// hit the node.
+  /// A node to traverse with a packet. `lanes` are the rays of the packet that `group` consists of, `hit`
+  /// those of them that hit the node.
   struct Task {
     const RayGroup<S>* group;
     RayQuery* query;
     uint32_t lanes, hit;
     NodeRef ref;
   };
-  static constexpr uint32_t kMostInterleaved = Spu::direct_memory ? 4 : 1; // measured
+  /// Traversals that are interleaved. Larger: more time to fetch a node; smaller: less state to keep in
+  /// cache. Measured.
+  static constexpr uint32_t kMaxInterleaved = Spu::direct_memory ? 4 : 1;
 
   PacketTraversal(ObjectTests<Spu>& objects, const FrameBlock& frame)
       : objects_(objects), defers_leaves_(Spu::direct_memory && frame.object_count > kObjectsInCoreCache),
         interleaves_(Spu::direct_memory && frame.far_nodes != 0) {}
 
   Stack& stack() { return slots_[0].stack; }
-  /// Whether traverse_interleaved() is quicker than one traversal after the other.
+  /// Whether traverse_interleaved() is faster than one traversal after the other.
   bool interleaves() const { return interleaves_; }
 
-  /// Tests the rays of a task against the objects below its node.
-  void traverse(const Task& task, const SlabOrder& sides) {
+  /// Traverses the subtree below a task's node.
+  void traverse(const Task& task, const SlabOrder& order) {
     const RayGroup<S>& group = *task.group;
     RayQuery& query = *task.query;
     const uint32_t lanes = task.lanes;
@@ -65,7 +71,7 @@ public:
       if (ref.is_leaf()) {
         intersect_leaf(slot, state, ref, query);
       } else {
-        if (expand(slot, state, group.rays, sides, query, ref)) continue;
+        if (expand(slot, state, group.rays, order, query, ref)) continue;
         if (slot.deferred_count >= kEnoughDeferred) test_deferred(slot, state, query);
       }
       if (!pop_next(slot, state, {&group.frustum, lanes, floor, 0.0f}, query, ref)) break;
@@ -74,10 +80,10 @@ public:
     slot.stack.shrink(floor);
   }
 
-  /// The same for several tasks, each of a packet of its own. They take turns: while the node that one of
-  /// them needs is fetched from memory, another advances.
-  void traverse_interleaved(const Task* tasks, uint32_t count, const SlabOrder& sides) {
-    Interleaved interleaved[kMostInterleaved];
+  /// The same for several tasks, each of a different packet, interleaved: while the node that one traversal
+  /// needs is fetched from memory, another one advances.
+  void traverse_interleaved(const Task* tasks, uint32_t count, const SlabOrder& order) {
+    Interleaved interleaved[kMaxInterleaved];
     for (uint32_t i = 0; i < count; ++i) {
       Slot& slot = slots_[i];
       if (i != 0) slot.stack.shrink(0);
@@ -90,11 +96,11 @@ public:
       for (uint32_t left = active; left != 0; left &= left - 1) {
         const auto i = static_cast<uint32_t>(__builtin_ctz(left));
         objects_.hit_filter().resume_packet(interleaved[i].packet);
-        if (!advance(slots_[i], interleaved[i], sides)) active &= ~(1u << i);
+        if (!advance(slots_[i], interleaved[i], order)) active &= ~(1u << i);
       }
   }
 
-  /// tfar of each ray: the distance of the closest hit so far, or of the light.
+  /// The tfar of each ray: the distance of its closest hit so far, or of the light.
   static F tfar(const RayQuery& query) {
     return F::load(query.hits != nullptr ? query.hits->distance.lane : query.distance->lane);
   }
@@ -109,34 +115,37 @@ public:
   }
 
 private:
-  /// The rays in `group` are being traversed, up to `tfar`. Entries of the stack below `floor` are not theirs.
+  /// What is being traversed: the rays in `group`, with their frustum, up to `tfar`. Stack entries below
+  /// `floor` belong to others.
   struct TraversalState {
     const Frustum<S>* frustum;
     uint32_t group, floor;
     float tfar;
   };
 
-  /// A leaf that the rays in `group` have hit.
+  /// A leaf that the rays in `group` hit, whose objects have not been tested yet.
   struct DeferredLeaf {
     NodeRef leaf;
     uint32_t group;
   };
-  static constexpr uint32_t kMostDeferred = Spu::direct_memory ? 8 : 1;
-  static constexpr uint32_t kEnoughDeferred = kMostDeferred / 2; // measured
+  static constexpr uint32_t kMaxDeferred = Spu::direct_memory ? 8 : 1;
+  /// With this many deferred leaves, their objects are tested after the next node is expanded. Larger: more
+  /// time to fetch them; smaller: hits shorten tfar sooner. Measured.
+  static constexpr uint32_t kEnoughDeferred = kMaxDeferred / 2;
 
-  /// What each of several interleaved traversals has for itself.
+  /// The storage of one of several interleaved traversals.
   struct Slot {
     Stack stack;
-    DeferredLeaf deferred[kMostDeferred];
+    DeferredLeaf deferred[kMaxDeferred];
     uint32_t deferred_count = 0;
-    Frustum<S> single; ///< of a ray that is traversed alone
+    Frustum<S> single; ///< of the ray that has been split off
   };
 
-  /// A traversal that has not ended.
+  /// An interleaved traversal that has not ended.
   struct Interleaved {
-    Task task; ///< `ref`: the next node
+    Task task; ///< `ref`: the next node to traverse
     TraversalState state;
-    uint32_t floor, packet; ///< `packet`: for the hit filter
+    uint32_t floor, packet; ///< `packet` identifies it for the hit filter
   };
 
   TraversalState begin(Slot& slot, const Task& task, uint32_t floor) {
@@ -145,39 +154,38 @@ private:
     return state;
   }
 
-  /// As traverse(), up to the first node that has been prefetched only just now, or to the end, which returns
-  /// false. It is a loop of its own because the state of traverse() would not stay in registers if that could
-  /// be left and resumed.
-  bool advance(Slot& slot, Interleaved& turn, const SlabOrder& sides) {
-    Task& task = turn.task;
-    TraversalState& state = turn.state;
+  /// Advances a traversal until it needs a node that was prefetched only just now. Returns false at its end.
+  /// This repeats the loop of traverse(), whose state would not stay in registers if it could be suspended.
+  bool advance(Slot& slot, Interleaved& traversal, const SlabOrder& order) {
+    Task& task = traversal.task;
+    TraversalState& state = traversal.state;
     RayQuery& query = *task.query;
     for (;;) {
       const uint32_t size = slot.stack.size();
       if (task.ref.is_leaf()) {
         intersect_leaf(slot, state, task.ref, query);
       } else {
-        if (expand(slot, state, task.group->rays, sides, query, task.ref)) {
+        if (expand(slot, state, task.group->rays, order, query, task.ref)) {
           objects_.scene().hint(task.ref);
           return true;
         }
         if (slot.deferred_count >= kEnoughDeferred) test_deferred(slot, state, query);
       }
       const bool pushed = slot.stack.size() > size;
-      if (!pop_next(slot, state, {&task.group->frustum, task.lanes, turn.floor, 0.0f}, query,
-                     task.ref))
+      if (!pop_next(slot, state, {&task.group->frustum, task.lanes, traversal.floor, 0.0f}, query, task.ref))
         break;
       if (pushed) return true;
     }
     test_deferred(slot, state, query);
-    slot.stack.shrink(turn.floor);
+    slot.stack.shrink(traversal.floor);
     return false;
   }
 
-  /// Pops the next node; false if there is none. A node that only one of the rays of `whole` hits is traversed
-  /// for that ray alone, whose own frustum misses more of the children; the other rays continue when the stack
-  /// is back at their entries.
-  bool pop_next(Slot& slot, TraversalState& state, const TraversalState& whole, const RayQuery& query, NodeRef& ref) {
+  /// Pops the next node or leaf; false if there is none. A node that only one ray of the group `whole` hits
+  /// is traversed for that ray only: its own frustum is tighter and hits fewer children. The group continues
+  /// once the stack is back at its entries.
+  bool pop_next(Slot& slot, TraversalState& state, const TraversalState& whole, const RayQuery& query,
+                NodeRef& ref) {
     const uint32_t lanes = whole.group;
     for (;;) {
       if (slot.stack.size() == state.floor) {
@@ -205,25 +213,26 @@ private:
     else
       set_single_out_of_line(slot, state, ray, query);
   }
-  [[gnu::always_inline]] void set_single(Slot& slot, TraversalState& state, uint32_t ray, const RayQuery& query) {
+  [[gnu::always_inline]] void set_single(Slot& slot, TraversalState& state, uint32_t ray,
+                                         const RayQuery& query) {
     const uint32_t lane = static_cast<uint32_t>(__builtin_ctz(ray));
     slot.single.set(bounds_of_ray(*query.rays, lane), octant_of(*query.rays, lane));
     state = {&slot.single, ray, slot.stack.size(), tfar_of(query, ray)};
   }
-  /// One copy: local store is short.
+  /// Not inlined on an SPE: one copy of the code saves local store.
   [[gnu::noinline]] void set_single_out_of_line(Slot& slot, TraversalState& state, uint32_t ray,
-                                             const RayQuery& query) {
+                                                const RayQuery& query) {
     set_single(slot, state, ray, query);
   }
 
-  /// Tests the objects of a leaf at once; or defers the leaf, with a few more, until the next node is
-  /// expanded. Its objects are prefetched meanwhile, and that node's children while the objects are tested.
+  /// Tests the objects of a leaf, or defers it with a few others until after a node is expanded. Meanwhile
+  /// its objects are prefetched; and while they are tested, the children of that node are.
   void intersect_leaf(Slot& slot, TraversalState& state, const NodeRef& leaf, RayQuery& query) {
     if (!Spu::direct_memory || !defers_leaves_) {
       test_objects(leaf, state.group, query);
-      take_results(slot, state, query);
+      update_state(slot, state, query);
     } else {
-      if (slot.deferred_count == kMostDeferred) test_deferred(slot, state, query);
+      if (slot.deferred_count == kMaxDeferred) test_deferred(slot, state, query);
       objects_.scene().hint(leaf);
       slot.deferred[slot.deferred_count++] = {leaf, state.group};
     }
@@ -233,9 +242,10 @@ private:
     for (uint32_t i = 0; i < slot.deferred_count; ++i)
       test_objects(slot.deferred[i].leaf, slot.deferred[i].group, query);
     slot.deferred_count = 0;
-    take_results(slot, state, query);
+    update_state(slot, state, query);
   }
-  void take_results(Slot& slot, TraversalState& state, const RayQuery& query) {
+  /// Shortens tfar after hits, or ends the traversal of a group that is wholly occluded.
+  void update_state(Slot& slot, TraversalState& state, const RayQuery& query) {
     if (query.hits != nullptr)
       state.tfar = tfar_of(query, state.group);
     else if ((query.lanes & state.group) == 0)
@@ -259,15 +269,15 @@ private:
     });
   }
 
-  /// Intersects the node at `ref` with the group. If one child is hit, `ref` becomes that child and the result
-  /// is true; if several are, they are pushed.
-  bool expand(Slot& slot, const TraversalState& state, const OctantRays<S>& rays, const SlabOrder& sides,
-            const RayQuery& query, NodeRef& ref) {
+  /// Intersects the children of node `ref` with the group. If its frustum hits one child, `ref` becomes that
+  /// child and the result is true. If it hits several, those that are hit by a ray are pushed.
+  bool expand(Slot& slot, const TraversalState& state, const OctantRays<S>& rays, const SlabOrder& order,
+              const RayQuery& query, NodeRef& ref) {
     objects_.scene().spu().compute(scalar_work::kBvhNode);
     ++objects_.counters().visits;
     const NodeRecord& node = *objects_.scene().node(ref.child);
     alignas(16) float enter[4];
-    uint32_t hit = state.frustum->intersect(node.bounds, sides, state.tfar, enter);
+    uint32_t hit = state.frustum->intersect(node.bounds, order, state.tfar, enter);
     if (hit == 0) return false;
     if (is_single(hit)) {
       const uint32_t i = static_cast<uint32_t>(__builtin_ctz(hit));
@@ -281,8 +291,9 @@ private:
       const uint32_t i = static_cast<uint32_t>(__builtin_ctz(hit));
       hit &= hit - 1;
       objects_.scene().spu().compute(scalar_work::kBvhChild);
-      // A frustum may hit what lies between its rays.
-      const uint32_t lanes = is_single(group) ? group : rays.intersect(node.bounds, sides, i, each_tfar) & group;
+      // For a single ray, the frustum is the ray.
+      const uint32_t lanes =
+          is_single(group) ? group : rays.intersect(node.bounds, order, i, each_tfar) & group;
       if (lanes == 0) continue;
       const NodeRef child = {node.child[i], node.leaf[i]};
       objects_.scene().hint(child);
@@ -294,7 +305,7 @@ private:
   ObjectTests<Spu>& objects_;
   const bool defers_leaves_;
   const bool interleaves_;
-  Slot slots_[kMostInterleaved]; ///< traverse() uses the first
+  Slot slots_[kMaxInterleaved]; ///< traverse() uses the first
 };
 
 } // namespace celltrace::kernel

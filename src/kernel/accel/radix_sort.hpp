@@ -1,9 +1,9 @@
-// A least-significant-digit radix sort of pairs in main memory that needs only a few kilobytes of local
-// store: input streams through, and each bucket collects a line before it is put. Kernel dialect.
+// Sorts pairs in main memory by a radix sort, least significant digit first. Input streams through local
+// store, which otherwise holds a line of output for each bucket; full lines are put by DMA. Kernel dialect.
 #pragma once
 
-#include "kernel/scalar_work.hpp"
 #include "kernel/accel/stream.hpp"
+#include "kernel/scalar_work.hpp"
 
 namespace celltrace::kernel {
 
@@ -15,7 +15,7 @@ static_assert(sizeof(SortPair) == 8, "sixteen pairs a line");
 
 template <class Spu> class RadixSort {
 public:
-  /// Allocates its buffers in local store. Uses tags 8..15 and `reader`'s.
+  /// Allocates its buffers in local store. Uses tags 8 to 15, and those of `reader`.
   RadixSort(Spu& spu, StreamReader<Spu, SortPair>& reader)
       : spu_(spu), reader_(reader), next_(spu.template allocate<uint32_t>(kBuckets)),
         begin_(spu.template allocate<uint32_t>(kBuckets)) {
@@ -81,8 +81,8 @@ private:
     }
   }
 
-  /// Puts the bucket's last line, as far as it belongs to the bucket: whole, or pair by pair where it shares
-  /// the line with its neighbours.
+  /// Puts the current line of a bucket by DMA. At its ends a bucket may share a line with its neighbours;
+  /// there its own pairs are put one by one.
   void send(ea_t target, uint32_t bucket) {
     const uint32_t end = next_[bucket];
     const uint32_t line = (end - 1) & ~(kPairsPerLine - 1);

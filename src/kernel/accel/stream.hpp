@@ -1,5 +1,5 @@
-// Long arrays in main memory, read and written in order through double-buffered DMA. Where memory is direct
-// the buffers vanish. Kernel dialect.
+// Sequential reads and writes of long arrays in main memory by DMA with two buffers. Where memory is direct
+// there are no buffers. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/types.hpp"

@@ -1,11 +1,13 @@
-// Find closest intersection, and what reaches a light: by the accelerator that the frame has. Kernel dialect.
+// Ray queries by the accelerator that the frame has: closest hits, and the transmittance toward a light.
+// Kernel dialect.
 #pragma once
 
-#include "kernel/accel/grid_traversal.hpp"
 #include "kernel/accel/bvh_traversal.hpp"
+#include "kernel/accel/grid_traversal.hpp"
 
 namespace celltrace::kernel {
 
+/// Answers ray queries with the uniform grid or the BVH.
 template <class Spu> class Traversal {
 public:
   using S = typename Spu::simd;
@@ -14,41 +16,44 @@ public:
   Traversal(SceneAccess<Spu>& scene, const FrameBlock& frame)
       : frame_(frame), objects_(scene), grid_(objects_, frame.grid), bvh_(objects_, frame) {}
 
-  /// The closest hit of each ray in `lanes`. Other lanes' results are meaningless.
+  /// Finds the closest hit of each ray in `lanes`. The results of other lanes are undefined.
   void find_closest(const RayPacket& rays, uint32_t lanes, HitPacket& hits) {
     RayQuery query = {&rays, &hits, nullptr, nullptr, lanes};
     intersect(&query, 1);
   }
 
-  /// Multiplies `light` of each ray in `lanes` by what lies between its origin and `distance` along it: 0
-  /// behind an opaque object, the filtering of each surface crossed otherwise.
+  /// Multiplies `light` of each ray in `lanes` by the transmittance between its origin and `distance` along
+  /// it: 0 if an opaque object occludes it, otherwise the product over the translucent surfaces that it
+  /// crosses. The light of other lanes becomes 0.
   void transmittance(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance, VectorLanes& light) {
     RayQuery query = {&rays, nullptr, &distance, &light, lanes};
     intersect(&query, 1);
   }
 
-  /// Answers all of these, at most a bundle's, all for hits or all for light: quicker than one by one if
-  /// their rays have much in common.
+  /// Answers all queries, at most one for each packet of a bundle, either all for hits or all for light. If
+  /// their rays are coherent, this is faster than packet by packet.
   void intersect(RayQuery* queries, uint32_t count) {
-    forget_hits(queries, count);
+    reset_hits(queries, count);
+    intersect_unbounded(queries, count);
     if (uses_bvh()) {
       bvh_.intersect(queries, count);
     } else {
       for (uint32_t i = 0; i < count; ++i) {
-        RayQuery& s = queries[i];
-        if (s.hits != nullptr)
-          grid_.find_closest(*s.rays, s.lanes, *s.hits);
+        RayQuery& query = queries[i];
+        if (query.hits != nullptr)
+          grid_.find_closest(*query.rays, query.lanes, *query.hits);
         else
-          s.lanes = grid_.transmittance(*s.rays, s.lanes, *s.distance, *s.light);
+          query.lanes = grid_.transmittance(*query.rays, query.lanes, *query.distance, *query.light);
       }
     }
     clear_occluded(queries, count);
   }
 
-  /// The same of light that comes from one place.
+  /// The same for shadow rays toward one light, at the point `light`.
   void intersect(RayQuery* queries, uint32_t count, const float (&light)[3]) {
     if constexpr (Spu::direct_memory) {
-      if (uses_bvh()) {
+      // Planes may leave packets without rays, which a bundle cannot have.
+      if (uses_bvh() && frame_.unbounded_count == 0) {
         bvh_.intersect(queries, count, light);
         return clear_occluded(queries, count);
       }
@@ -56,14 +61,15 @@ public:
     intersect(queries, count);
   }
 
-  /// Begins with a bundle of primary rays. False: it is plain that none of them hits anything.
+  /// Starts the traversal for a bundle of primary rays. False: certainly none of them hits anything.
   bool enter(const PinholeBundle<S>& bundle) {
-    return !uses_bvh() || bundle.packets == 0 || bvh_.enter(bundle);
+    return !uses_bvh() || bundle.packets == 0 || bvh_.enter(bundle) || frame_.unbounded_count != 0;
   }
-  /// Finds the hits of the bundle that was entered last; query i is of its packet i.
+  /// Finds the closest hits of the bundle that was entered last; query i is that of its packet i.
   void intersect(RayQuery* queries, const PinholeBundle<S>& bundle) {
     if (!uses_bvh() || bundle.packets == 0) return intersect(queries, kBundlePackets<Spu>);
-    forget_hits(queries, kBundlePackets<Spu>);
+    reset_hits(queries, kBundlePackets<Spu>);
+    intersect_unbounded(queries, kBundlePackets<Spu>);
     bvh_.intersect(queries, bundle);
   }
 
@@ -71,7 +77,7 @@ public:
   void reset_counters() { objects_.reset_counters(); }
 
 private:
-  static void forget_hits(const RayQuery* queries, uint32_t count) {
+  static void reset_hits(const RayQuery* queries, uint32_t count) {
     for (uint32_t i = 0; i < count; ++i) {
       HitPacket* const hits = queries[i].hits;
       if (hits == nullptr) continue;
@@ -79,18 +85,38 @@ private:
       S::I::splat(-1).store(reinterpret_cast<int32_t*>(hits->object.lane));
     }
   }
-  /// Of queries for light, those lanes to which none comes.
+  /// Tests the objects that no accelerator has.
+  void intersect_unbounded(RayQuery* queries, uint32_t count) {
+    if (frame_.unbounded_count != 0) test_unbounded(queries, count);
+  }
+  [[gnu::noinline]] void test_unbounded(RayQuery* queries, uint32_t count) {
+    constexpr auto kBytes = static_cast<uint32_t>(sizeof(ObjectRecord));
+    const uint32_t first = frame_.object_offset + frame_.object_count * kBytes;
+    for (uint32_t i = 0; i < count; ++i) {
+      RayQuery& query = queries[i];
+      objects_.hit_filter().begin_packet();
+      for (uint32_t object = 0; object < frame_.unbounded_count && query.lanes != 0; ++object) {
+        const uint32_t self = first + object * kBytes;
+        if (query.hits != nullptr)
+          objects_.test_closest(*query.rays, self, *query.hits);
+        else
+          query.lanes &=
+              ~objects_.occluded(*query.rays, self, query.lanes, *query.distance, *query.light);
+      }
+    }
+  }
+
+  /// Sets the light of a query to 0 in lanes that are occluded or that were not asked for.
   static void clear_occluded(const RayQuery* queries, uint32_t count) {
     const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
     for (uint32_t i = 0; i < count; ++i) {
-      const RayQuery& s = queries[i];
-      if (s.light == nullptr) continue;
-      s.light->template store<S>(select<S>(S::M::from_bits(s.lanes), s.light->template load<S>(), dark));
+      const RayQuery& query = queries[i];
+      if (query.light == nullptr) continue;
+      query.light->template store<S>(
+          select<S>(S::M::from_bits(query.lanes), query.light->template load<S>(), dark));
     }
   }
-  bool uses_bvh() const {
-    return static_cast<AcceleratorKind>(frame_.accelerator) == AcceleratorKind::bvh;
-  }
+  bool uses_bvh() const { return static_cast<AcceleratorKind>(frame_.accelerator) == AcceleratorKind::bvh; }
 
   const FrameBlock& frame_;
   ObjectTests<Spu> objects_;

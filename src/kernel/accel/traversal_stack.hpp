@@ -1,22 +1,23 @@
-// Parts of the BVH that are still to be visited, nearest last. Kernel dialect.
+// The stack of a BVH traversal: nodes and leaves still to be traversed, the nearest on top. Kernel dialect.
 #pragma once
 
 #include <stdint.h>
 
 namespace celltrace::kernel {
 
-/// Part of the BVH: a node, or a leaf; as in NodeRecord.
+/// A reference to a node of the BVH or to a leaf, encoded as in NodeRecord.
 struct NodeRef {
   uint32_t child, leaf;
 
   bool is_leaf() const { return leaf != 0; }
 };
 
-/// Packets of a bundle that visit a ref one by one have an entry each, at most `kMostAlone`.
-template <uint32_t kMostAlone> class TraversalStack {
+/// At most `kMaxSplitPackets` packets of a bundle traverse a node separately; each has an entry of its own.
+template <uint32_t kMaxSplitPackets> class TraversalStack {
 public:
-  /// A ref that is to be visited, by which rays of a packet or packets of a bundle, and how far away it is
-  /// at least. If a packet of a bundle visits it alone: which of its rays meet it.
+  /// A node or leaf to traverse. `lanes`: the rays of a packet, or the packets of a bundle, that hit it.
+  /// `enter`: a lower bound of their distances to it. `rays`: if one packet of a bundle traverses it
+  /// separately, the rays of that packet that hit it; otherwise 0.
   struct Entry {
     NodeRef ref;
     uint32_t lanes;
@@ -28,7 +29,7 @@ public:
   void shrink(uint32_t size) { size_ = size; }
   const Entry& top() const { return entries_[size_ - 1]; }
   const Entry& pop() { return entries_[--size_]; }
-  /// In its place among its siblings, which begin at `first`.
+  /// Inserts an entry by distance among its siblings, which begin at index `first`.
   void push(uint32_t first, const Entry& entry) {
     uint32_t place = size_++;
     for (; place > first && entries_[place - 1].enter < entry.enter; --place)
@@ -37,9 +38,9 @@ public:
   }
 
 private:
-  /// Of each level three children wait, at most, and other packets for the one that is visited. The builder
-  /// goes no deeper.
-  static constexpr uint32_t kEntries = (4 * kMostAlone - 1) * 48 + 4;
+  /// A node has four children, each with an entry for every packet that splits. One of these entries is
+  /// popped before the next level is pushed. The builder keeps a BVH within 48 levels.
+  static constexpr uint32_t kEntries = (4 * kMaxSplitPackets - 1) * 48 + 4;
 
   Entry entries_[kEntries];
   uint32_t size_ = 0;

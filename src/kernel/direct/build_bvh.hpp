@@ -1,15 +1,15 @@
-// Builds the BVH, for memory that can be dereferenced, on any number of SPEs. Kernel dialect.
+// Builds the BVH where main memory can be dereferenced, on any number of SPEs. Kernel dialect.
 #pragma once
 
+#include "kernel/accel/object_bounds.hpp"
 #include "kernel/direct/build_bvh_leaves.hpp"
 #include "kernel/direct/build_bvh_memory.hpp"
-#include "kernel/primitives/overlap.hpp"
 
 namespace celltrace::kernel {
 
 namespace bvh {
 
-/// The work of one SPE in a build, step by step. What comes out does not depend on how many there are.
+/// The work of one SPE in a build, step by step. The result does not depend on the number of SPEs.
 template <class Spu> class Builder {
 public:
   using S = typename Spu::simd;
@@ -19,7 +19,7 @@ public:
       : frame_(frame), memory_(frame), prototypes_(frame), self_(self),
         image_(WorkMemory::pointer<uint8_t>(frame.image)),
         objects_(reinterpret_cast<const ObjectRecord*>(image_ + frame.object_offset)),
-        runs_(reinterpret_cast<const GroupRecord*>(image_ + frame.group_offset)),
+        groups_(reinterpret_cast<const GroupRecord*>(image_ + frame.group_offset)),
         nodes_(reinterpret_cast<NodeRecord*>(image_ + frame.bvh.node_offset)),
         top_stack_(spu.template allocate<typename TopBuilder::Task>(TopBuilder::kStackTasks)),
         treelet_stack_(spu.template allocate<typename TreeletBuilder::Task>(TreeletBuilder::kStackTasks)),
@@ -31,37 +31,40 @@ public:
     if (step == 1 && frame_.group_count != 0) build_treelets();
     if (step == 2 && prototypes_.any()) copy_treelets();
   }
-  /// After the last step.
+  /// The size of the BVH, valid after the last step.
   uint32_t nodes() const { return memory_.team->nodes; }
 
 private:
   using TopBuilder = SubtreeBuilder<S, Treelets<S>>;
   using TreeletBuilder = SubtreeBuilder<S, Leaves<S>>;
   using F4 = typename S::F4;
-  /// Treelets that an SPE takes at a time.
-  static constexpr uint32_t kTaken = 8;
+  /// Treelets that an SPE takes at a time. Larger: fewer atomic operations; smaller: a more even
+  /// distribution.
+  static constexpr uint32_t kBatch = 8;
 
+  /// Step 0: builds the top levels, which end at treelets.
   void build_top() {
-    const uint32_t runs = frame_.group_count;
-    if (runs == 0) return build_whole();
-    static_assert(sizeof(Reference) == sizeof(GroupRecord), "a run is referred to by its box");
-    for (uint32_t i = 0; i < runs; ++i) {
-      __builtin_memcpy(static_cast<void*>(&memory_.runs[i]), &runs_[i], sizeof(Reference));
-      memory_.runs[i].value = i;
+    const uint32_t groups = frame_.group_count;
+    if (groups == 0) return build_whole();
+    static_assert(sizeof(Reference) == sizeof(GroupRecord), "a group is referred to by its bounds");
+    for (uint32_t i = 0; i < groups; ++i) {
+      __builtin_memcpy(static_cast<void*>(&memory_.groups[i]), &groups_[i], sizeof(Reference));
+      memory_.groups[i].value = i;
     }
-    Treelets<S> treelets(memory_.runs, prototypes_, memory_.treelets);
-    TopBuilder top(image_, memory_.runs, memory_.spare_runs, treelets, top_stack_);
-    const NodeRecord* end = top.build(range_of<S>(memory_.runs, 0, runs), {nullptr, 0, 0}, nodes_);
+    Treelets<S> treelets(memory_.groups, prototypes_, memory_.treelets);
+    TopBuilder top(image_, memory_.groups, memory_.spare_groups, treelets, top_stack_);
+    const NodeRecord* end = top.build(range_of<S>(memory_.groups, 0, groups), {nullptr, 0, 0}, nodes_);
     const auto top_nodes = static_cast<uint32_t>(end - nodes_);
     const uint32_t built = top_nodes + treelets.nodes();
     *memory_.team = {treelets.count(), top_nodes, built, built, 0, 0, {}};
     if (prototypes_.any()) find_prototypes(treelets.count());
   }
 
-  /// The deepest copy says how deep a prototype may become.
+  /// Notes the treelets of prototypes. A prototype takes the depth of its deepest copy, so that what is built
+  /// there stays within kMaxDepth wherever it is copied to.
   void find_prototypes(uint32_t treelets) {
     for (uint32_t t = 0; t < treelets; ++t)
-      if (!is_copy(memory_.treelets[t])) memory_.treelet_of[run_of(memory_.treelets[t])] = t;
+      if (!is_copy(memory_.treelets[t])) memory_.treelet_of[group_of(memory_.treelets[t])] = t;
     for (uint32_t t = 0; t < treelets; ++t) {
       const Treelet& treelet = memory_.treelets[t];
       if (!is_copy(treelet)) continue;
@@ -69,20 +72,20 @@ private:
       if (place.depth < treelet.place.depth) place.depth = treelet.place.depth;
     }
   }
-  /// The first of its runs.
-  uint32_t run_of(const Treelet& treelet) const { return memory_.runs[treelet.begin].value; }
-  bool is_copy(const Treelet& treelet) const { return prototypes_.is_copy(run_of(treelet)); }
+  /// The index of a treelet's first group.
+  uint32_t group_of(const Treelet& treelet) const { return memory_.groups[treelet.begin].value; }
+  bool is_copy(const Treelet& treelet) const { return prototypes_.is_copy(group_of(treelet)); }
   Treelet& prototype_of(const Treelet& copy) const {
-    return memory_.treelets[memory_.treelet_of[prototypes_.of(run_of(copy))]];
+    return memory_.treelets[memory_.treelet_of[prototypes_.of(group_of(copy))]];
   }
 
-  /// Those that no other SPE takes.
+  /// Step 1: takes treelets that no other SPE has taken, and builds those that are no copies.
   void build_treelets() {
     const uint32_t treelets = memory_.team->treelets;
     for (;;) {
-      const uint32_t first = __atomic_fetch_add(&memory_.team->next, kTaken, __ATOMIC_RELAXED);
+      const uint32_t first = __atomic_fetch_add(&memory_.team->next, kBatch, __ATOMIC_RELAXED);
       if (first >= treelets) return;
-      const uint32_t end = treelets - first < kTaken ? treelets : first + kTaken;
+      const uint32_t end = treelets - first < kBatch ? treelets : first + kBatch;
       for (uint32_t t = first; t < end; ++t) {
         if (t + 1 < end) prefetch_objects(memory_.treelets[t + 1]);
         if (!is_copy(memory_.treelets[t])) build(memory_.treelets[t]);
@@ -90,7 +93,9 @@ private:
     }
   }
 
-  /// Copies those that no other SPE takes. Their nodes lie one after the other in the order of the treelets.
+  /// Step 2: takes treelets that no other SPE has taken, and makes the copies among them. Nodes of copies lie
+  /// in the order of the treelets without gaps; therefore each SPE counts the nodes of those that others
+  /// make.
   void copy_treelets() {
     const uint32_t treelets = memory_.team->treelets;
     NodeRecord* next = nodes_ + memory_.team->built_nodes;
@@ -108,34 +113,35 @@ private:
       }
     };
     while (seen < treelets) {
-      const uint32_t first = __atomic_fetch_add(&memory_.team->next_copy, kTaken, __ATOMIC_RELAXED);
+      const uint32_t first = __atomic_fetch_add(&memory_.team->next_copy, kBatch, __ATOMIC_RELAXED);
       pass(first, false);
-      pass(first + kTaken, true);
+      pass(first + kBatch, true);
     }
     if (self_ == 0) memory_.team->nodes = static_cast<uint32_t>(next - nodes_);
   }
 
-  /// Who made the image may have been another processor, and treelets lie anywhere in it. A compiler drops
-  /// calls of what only prefetches.
+  /// Prefetches the objects of a treelet: they may be in the cache of another core that wrote them, and the
+  /// objects of the next treelet lie elsewhere in the image. Inlined, because compilers drop calls of
+  /// functions that only prefetch.
   [[gnu::always_inline]] void prefetch_objects(const Treelet& treelet) const {
     for (uint32_t r = treelet.begin; r < treelet.end; ++r) {
-      const GroupRecord& run = runs_[memory_.runs[r].value];
-      for (uint32_t i = 0; i < run.count; ++i)
-        __builtin_prefetch(objects_ + run.first + i);
+      const GroupRecord& group = groups_[memory_.groups[r].value];
+      for (uint32_t i = 0; i < group.count; ++i)
+        __builtin_prefetch(objects_ + group.first + i);
     }
   }
 
-  /// What the copy of a leaf adds to offsets, modulo 2^32.
-  struct Move {
+  /// What is added to the offsets in a leaf to copy it, modulo 2^32.
+  struct Relocation {
     uint32_t objects, list;
   };
 
-  /// Gives a treelet the nodes and the lists of its prototype, with boxes around its own objects.
+  /// Copies the nodes and lists of a prototype to a treelet, with the bounds of the treelet's own objects.
   void copy(const Treelet& prototype, const Treelet& treelet, NodeRecord* nodes) {
     const NodeRecord* from = nodes_ + memory_.team->top_nodes + prototype.first_node;
-    const Move move = {(runs_[run_of(treelet)].first - runs_[run_of(prototype)].first) *
-                           static_cast<uint32_t>(sizeof(ObjectRecord)),
-                       (treelet.first - prototype.first) * 4};
+    const Relocation relocation = {(groups_[group_of(treelet)].first - groups_[group_of(prototype)].first) *
+                                       static_cast<uint32_t>(sizeof(ObjectRecord)),
+                                   (treelet.first - prototype.first) * 4};
     const Place& place = treelet.place;
     uint32_t& child = place.parent->child[place.slot];
     uint32_t& leaf = place.parent->leaf[place.slot];
@@ -144,11 +150,11 @@ private:
     if (prototype.nodes == 0) {
       const Place& original = prototype.place;
       leaf = original.parent->leaf[original.slot];
-      child = copy_leaf(original.parent->child[original.slot], leaf, move);
+      child = copy_leaf(original.parent->child[original.slot], leaf, relocation);
     }
 
-    Reference* boxes = spare_;                     // of the nodes
-    for (uint32_t n = prototype.nodes; n-- > 0;) { // children come after their parents
+    Reference* node_bounds = spare_;               // of nodes that are complete
+    for (uint32_t n = prototype.nodes; n-- > 0;) { // children have higher indices
       LaneAabb<S> children[kChildren];
       LaneAabb<S> whole = LaneAabb<S>::empty();
       for (uint32_t i = 0; i < kChildren; ++i) {
@@ -156,39 +162,40 @@ private:
         if (word == 0) {
           const uint32_t below = from[n].child[i] - offset_of(from);
           nodes[n].child[i] = below + offset_of(nodes);
-          children[i] = LaneAabb<S>::of(boxes[below / sizeof(NodeRecord)]);
+          children[i] = LaneAabb<S>::of(node_bounds[below / sizeof(NodeRecord)]);
         } else {
-          nodes[n].child[i] = copy_leaf(from[n].child[i], word, move);
-          children[i] = box_around(nodes[n].child[i], word);
+          nodes[n].child[i] = copy_leaf(from[n].child[i], word, relocation);
+          children[i] = leaf_bounds(nodes[n].child[i], word);
         }
         whole.grow(children[i]);
       }
       set_child_bounds<S>(nodes[n], children);
-      whole.min.store(boxes[n].min); // over the words beside
-      whole.max.store(boxes[n].max);
+      whole.min.store(node_bounds[n].min); // lane 3 overwrites `value` and `weight`, which are unused
+      whole.max.store(node_bounds[n].max);
     }
   }
   uint32_t offset_of(const NodeRecord* node) const {
     return static_cast<uint32_t>(reinterpret_cast<const uint8_t*>(node) - image_);
   }
-  uint32_t copy_leaf(uint32_t first, uint32_t word, const Move& move) const {
-    if (!leaf_word::is_list(word)) return first + move.objects;
+  uint32_t copy_leaf(uint32_t first, uint32_t word, const Relocation& relocation) const {
+    if (!leaf_word::is_list(word)) return first + relocation.objects;
     for (uint32_t i = 0; i < leaf_word::count(word); ++i)
-      word_at(first + move.list + i * 4) = word_at(first + i * 4) + move.objects;
-    return first + move.list;
+      word_at(first + relocation.list + i * 4) = word_at(first + i * 4) + relocation.objects;
+    return first + relocation.list;
   }
   uint32_t& word_at(uint32_t offset) const { return *reinterpret_cast<uint32_t*>(image_ + offset); }
-  /// As in NodeRecord.
-  LaneAabb<S> box_around(uint32_t first, uint32_t word) const {
+  /// The bounds of the objects in a leaf, which is encoded as in NodeRecord.
+  LaneAabb<S> leaf_bounds(uint32_t first, uint32_t word) const {
     const uint32_t step = leaf_word::step_bytes(word);
-    LaneAabb<S> box = LaneAabb<S>::empty();
+    LaneAabb<S> bounds = LaneAabb<S>::empty();
     for (uint32_t i = 0; i < leaf_word::count(word); ++i) {
       const uint32_t object = step == 0 ? word_at(first + i * 4) : first + i * step;
-      box.grow(box_of<S>(*reinterpret_cast<const ObjectRecord*>(image_ + object)));
+      bounds.grow(box_of<S>(*reinterpret_cast<const ObjectRecord*>(image_ + object), image_));
     }
-    return box;
+    return bounds;
   }
 
+  /// Builds a treelet, with its references in local store if they fit.
   void build(Treelet& treelet) {
     Reference* references = references_;
     Reference* spare = spare_;
@@ -196,41 +203,41 @@ private:
       references = memory_.references + treelet.first;
       spare = memory_.spare_references + treelet.first;
     }
-    const LeafRule rule = leaf_rule(frame_.wide_leaves != 0, prototypes_.of(run_of(treelet)) != kNoGroup);
+    const LeafRule rule = leaf_rule(frame_.wide_leaves != 0, prototypes_.of(group_of(treelet)) != kNoGroup);
     Range<S> all = {0, 0, 0, LaneAabb<S>::empty()};
     for (uint32_t r = treelet.begin; r < treelet.end; ++r) {
-      const GroupRecord& run = runs_[memory_.runs[r].value];
-      add_references(run.first, run.count, rule, references, all);
+      const GroupRecord& group = groups_[memory_.groups[r].value];
+      add_references(group.first, group.count, rule, references, all);
     }
     NodeRecord* nodes = nodes_ + memory_.team->top_nodes + treelet.first_node;
     const NodeRecord* end = build(all, treelet.place, nodes, references, spare, treelet.first, rule);
     treelet.nodes = static_cast<uint32_t>(end - nodes);
   }
 
-  /// Adds references to objects that are neighbours in the table.
+  /// Appends references to the `count` objects from index `first` on.
   void add_references(uint32_t first, uint32_t count, const LeafRule& rule, Reference* references,
                       Range<S>& range) const {
     for (uint32_t i = first; i < first + count; ++i) {
       Reference& reference = references[range.end++];
-      const LaneAabb<S> lanes = box_of<S>(objects_[i]);
-      lanes.min.store(reference.min); // over the words beside
+      const LaneAabb<S> lanes = box_of<S>(objects_[i], image_);
+      lanes.min.store(reference.min); // lane 3 overwrites `value` and `weight`, which are set below
       lanes.max.store(reference.max);
       reference.value = frame_.object_offset + i * static_cast<uint32_t>(sizeof(ObjectRecord));
       const uint32_t kind = objects_[i].kind_and_flags & object_flag::kind_mask;
-      reference.weight = static_cast<ObjectKind>(kind) == ObjectKind::triangle ? 1 : rule.weight_else;
+      reference.weight = static_cast<ObjectKind>(kind) == ObjectKind::triangle ? 1 : rule.other_weight;
       range.weight += reference.weight;
       range.box.grow(lanes);
     }
   }
 
-  /// A subtree over the objects from place `first` of the list on.
+  /// Builds the subtree of a range. Its lists begin at word `first` of the BVH's list.
   NodeRecord* build(const Range<S>& range, const Place& place, NodeRecord* next, Reference* references,
                     Reference* spare, uint32_t first, const LeafRule& rule) {
     Leaves<S> leaves(image_, frame_.bvh.list_offset + first * 4, references, rule);
     return TreeletBuilder(image_, references, spare, leaves, treelet_stack_).build(range, place, next);
   }
 
-  /// Few objects, which have no runs.
+  /// Builds the BVH of a scene with few objects, which are not in groups.
   void build_whole() {
     const uint32_t count = frame_.object_count;
     const bool local = count <= kLocalReferences;
@@ -244,7 +251,7 @@ private:
                                         local ? spare_ : memory_.spare_references, 0, rule);
     memory_.team->nodes = static_cast<uint32_t>(end - nodes_);
   }
-  /// The root above objects that are one leaf.
+  /// Makes the root of a BVH that is a single leaf.
   NodeRecord* add_root(const Range<S>& all, const Reference* references, const LeafRule& rule) {
     const LaneAabb<S> empty = LaneAabb<S>::empty();
     set_child_bounds<S>(*nodes_, {all.box, empty, empty, empty});
@@ -261,23 +268,22 @@ private:
   uint32_t self_;
   uint8_t* image_;
   const ObjectRecord* objects_;
-  const GroupRecord* runs_;
+  const GroupRecord* groups_;
   NodeRecord* nodes_;
   typename TopBuilder::Task* top_stack_;
   typename TreeletBuilder::Task* treelet_stack_;
-  Reference* references_; ///< of a usual treelet
+  Reference* references_; ///< in local store, enough for most treelets
   Reference* spare_;
 };
 
 } // namespace bvh
 
-/// Writes the nodes and the list that `frame.bvh` has room for, from the objects of the scene image,
-/// and returns the number of nodes, with gaps between those that are used. The sort buffers have room for
-/// bvh::WorkSize::pairs(). A node lies at most bvh::kMaxDepth below the root. What is built
-/// depends on the objects alone.
+/// Builds the BVH of the objects in the scene image, in the memory that `frame.bvh` describes. Returns the
+/// number of nodes, including gaps between those that are used. The sort buffers need room for
+/// bvh::WorkSize::pairs(). No node is deeper than bvh::kMaxDepth. The result depends on the objects only.
 ///
-/// All SPEs of a team call it at a time. `team`: its size(), the index() of this one in it, and wait(), which
-/// returns when all have called it and makes visible what they have written.
+/// All SPEs of a team call this at the same time. `team` provides its size(), the index() of this SPE, and a
+/// barrier wait(), which also makes the writes of all of them visible.
 template <class Spu, class Team> uint32_t build_bvh(Spu& spu, const FrameBlock& frame, Team&& team) {
   static_assert(Spu::direct_memory, "the builder follows pointers to main memory");
   using Builder = bvh::Builder<Spu>;
@@ -292,7 +298,7 @@ template <class Spu, class Team> uint32_t build_bvh(Spu& spu, const FrameBlock& 
   return builder.nodes();
 }
 
-/// On this SPE alone.
+/// The same on this SPE only.
 template <class Spu> uint32_t build_bvh(Spu& spu, const FrameBlock& frame) {
   struct Alone {
     uint32_t size() const { return 1; }

@@ -1,16 +1,17 @@
-// What the builder of the BVH handles: boxes in SIMD lanes, and references to objects. Kernel dialect.
+// The values that the builder of the BVH works on: AABBs in SIMD lanes, and references to objects. Kernel
+// dialect.
 #pragma once
 
+#include "kernel/accel/object_bounds.hpp"
 #include "kernel/math.hpp"
-#include "kernel/primitives/overlap.hpp"
 #include "kernel/records.hpp"
 
 #include <stdint.h>
 
 namespace celltrace::kernel::bvh {
 
-/// An object, or a group of `weight` objects, by its bounding box. The words beside the coordinates come
-/// along when the box is loaded, and mean nothing there.
+/// A reference to an object, or to a group of `weight` objects, by its AABB. Vectors loaded from the
+/// coordinates have `value` or `weight` in lane 3, which is not used.
 struct alignas(32) Reference {
   float min[3];
   uint32_t value; ///< offset of the ObjectRecord, or index of the group
@@ -19,21 +20,24 @@ struct alignas(32) Reference {
 };
 static_assert(sizeof(Reference) == 32, "four a line");
 
+/// Larger than any coordinate or cost.
 constexpr float kHuge = 3e38f;
-/// Along an axis where centres are no farther apart there is no cut.
+/// Epsilon of the extent of centres on an axis. A smaller one is not split: its reciprocal could overflow.
 constexpr float kFlatExtent = 1e-30f;
-/// Adding this to a small number leaves that, rounded, in the low bits. Where a number is not small, or none,
-/// something is in them.
+/// 2^23: added to a smaller number that is not negative, it leaves that number, rounded to an integer, in the
+/// low bits of the sum. For other numbers and NaN these bits are arbitrary; masked, they are a valid bin all
+/// the same.
 constexpr float kRoundToInteger = 8388608.0f;
 
-/// A box whose coordinates are lanes 0 to 2; lane 3 is undefined.
+/// An AABB whose coordinates are lanes 0 to 2; lane 3 is undefined.
 template <class S> struct LaneAabb {
   using F4 = typename S::F4;
   F4 min, max;
 
   LaneAabb() = default;
   LaneAabb(const F4& low, const F4& high) : min(low), max(high) {}
-  // In the pieces in which it is made, so that a processor need not wait for it to be in memory.
+  // Copied as two vectors, as it was stored: a load that covers several stores cannot be forwarded from them
+  // and stalls.
   LaneAabb(const LaneAabb& other) : min(other.min), max(other.max) {}
   LaneAabb& operator=(const LaneAabb& other) {
     min = other.min;
@@ -42,19 +46,21 @@ template <class S> struct LaneAabb {
   }
 
   static LaneAabb empty() { return {F4::splat(kHuge), F4::splat(-kHuge)}; }
-  static LaneAabb of(const Reference& reference) { return {F4::load(reference.min), F4::load(reference.max)}; }
+  static LaneAabb of(const Reference& reference) {
+    return {F4::load(reference.min), F4::load(reference.max)};
+  }
 
   void grow(const LaneAabb& other) {
     min = S::min(min, other.min);
     max = S::max(max, other.max);
   }
-  /// Twice the centre.
+  /// Twice the centre, which does for bins as well.
   F4 centre() const { return min + max; }
   void grow(const F4& point) {
     min = S::min(min, point);
     max = S::max(max, point);
   }
-  /// Half the surface.
+  /// Half the surface area: only ratios count.
   float area() const {
     alignas(16) float e[4];
     (max - min).store(e);
@@ -62,38 +68,42 @@ template <class S> struct LaneAabb {
   }
 };
 
-/// The box around an object.
-template <class S> LaneAabb<S> box_of(const ObjectRecord& object) {
+/// The AABB of an object of the scene image at `image`.
+template <class S> LaneAabb<S> box_of(const ObjectRecord& object, const void* image) {
   using F4 = typename S::F4;
-  if (static_cast<ObjectKind>(object.kind_and_flags & object_flag::kind_mask) == ObjectKind::triangle) {
+  constexpr uint32_t kPlainTriangle = static_cast<uint32_t>(ObjectKind::triangle);
+  if ((object.kind_and_flags & (object_flag::kind_mask | object_flag::csg)) == kPlainTriangle) {
     alignas(16) float words[3][4];
     for (int vertex = 0; vertex < 3; ++vertex)
       __builtin_memcpy(words[vertex], object.geometry + 3 * vertex, sizeof words[0]);
     const F4 a = F4::load(words[0]), b = F4::load(words[1]), c = F4::load(words[2]);
     return {S::min(a, S::min(b, c)), S::max(a, S::max(b, c))};
   }
-  const Box box = bounding_box(object);
+  const auto* extras = static_cast<const uint8_t*>(image);
+  const Aabb box = object.extra == kNoOffset
+                       ? bounding_box(object)
+                       : bounding_box(object, *reinterpret_cast<const ExtraRecord*>(extras + object.extra));
   return {four<S>(box.min[0], box.min[1], box.min[2], 0.0f),
           four<S>(box.max[0], box.max[1], box.max[2], 0.0f)};
 }
 
-/// In the pieces in which boxes are loaded and stored.
+/// Copies by the vectors in which bounds are loaded and stored, for the reason given at LaneAabb.
 template <class S> void copy(const Reference& from, Reference& to) {
   const auto low = S::F4::load(from.min), high = S::F4::load(from.max);
-  low.store(to.min); // and the words beside
+  low.store(to.min); // with `value`; the other one with `weight`
   high.store(to.max);
 }
 
-/// References [begin, end) of a list.
+/// The references [begin, end) of an array, with their weight and bounds.
 template <class S> struct Range {
   uint32_t begin, end;
-  uint32_t weight; ///< of all of them
-  LaneAabb<S> box;  ///< around them
+  uint32_t weight; ///< the sum of theirs
+  LaneAabb<S> box; ///< the union of theirs
 
   uint32_t count() const { return end - begin; }
 };
 
-/// The range of `references` [begin, end), measured.
+/// The range [begin, end) of `references`; computes its weight and bounds.
 template <class S> Range<S> range_of(const Reference* references, uint32_t begin, uint32_t end) {
   Range<S> range = {begin, end, 0, LaneAabb<S>::empty()};
   for (uint32_t i = begin; i < end; ++i) {

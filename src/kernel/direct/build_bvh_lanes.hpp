@@ -1,5 +1,5 @@
-// Where to cut a range of few references in two, with a SIMD lane for each cut: for processors whose
-// registers hold all lanes of a packet. Kernel dialect.
+// The SAH split of a range of few references, with one candidate split plane in each SIMD lane: for
+// processors whose registers hold all lanes of a packet. Kernel dialect.
 #pragma once
 
 #include "celltrace/spe/simd.hpp"
@@ -9,13 +9,13 @@ namespace celltrace::kernel::bvh {
 
 constexpr uint32_t kFewReferences = 32;
 
-/// Which lane is which cut. Of two that are equally good, the one in the lower lane is taken.
+/// The split plane of each lane. Of two with the same cost, that in the lower lane is taken.
 template <uint32_t kBins> struct CutLanes {
   static constexpr uint32_t kCuts = 3 * (kBins - 1);
   static_assert(kCuts <= kSimdLanes, "a lane for each");
 
   uint32_t is_x = 0, is_y = 0;              ///< a bit per lane
-  alignas(64) int32_t bin[kSimdLanes] = {}; ///< the first on the right; 0 where there is no cut
+  alignas(64) int32_t bin[kSimdLanes] = {}; ///< first bin on the right; 0: the lane is unused
 
   constexpr CutLanes() {
     for (uint32_t lane = 0; lane < kCuts; ++lane) {
@@ -28,18 +28,18 @@ template <uint32_t kBins> struct CutLanes {
 };
 template <uint32_t kBins> inline constexpr CutLanes<kBins> kCutLanes;
 
-/// What lies on both sides of each cut through a range. `kBins` is a power of two.
+/// Weight and bounds on both sides of every split plane of a range. `kBins` is a power of two.
 template <class S, uint32_t kBins> class LaneCuts {
 public:
   static constexpr uint32_t kNone = kSimdLanes;
 
-  /// Of kFewReferences at most.
+  /// The range has at most kFewReferences.
   LaneCuts(const Reference* references, const Range<S>& range) {
-    alignas(16) float centres[kFewReferences][4]; // the doubles of them
-    LaneAabb<S> around = LaneAabb<S>::empty();
+    alignas(16) float centres[kFewReferences][4]; // doubled, as LaneAabb::centre()
+    LaneAabb<S> centre_bounds = LaneAabb<S>::empty();
     for (uint32_t i = 0; i < range.count(); ++i) {
       const F4 centre = LaneAabb<S>::of(references[range.begin + i]).centre();
-      around.grow(centre);
+      centre_bounds.grow(centre);
       centre.store(centres[i]);
     }
     const M is_x = M::from_bits(kCutLanes<kBins>.is_x), is_y = M::from_bits(kCutLanes<kBins>.is_y);
@@ -48,14 +48,14 @@ public:
     };
     alignas(16) float first[4];
     alignas(16) float last[4];
-    around.min.store(first);
-    around.max.store(last);
+    centre_bounds.min.store(first);
+    centre_bounds.max.store(last);
     const F base = of_axis(first[0], first[1], first[2]);
     const F extent = of_axis(last[0], last[1], last[2]) - base;
     const F scale = S::select(extent > F(kFlatExtent), F(kBins - 1) / extent, F(0.0f));
     const I bin = I::load(kCutLanes<kBins>.bin);
     const I low_bits = I::splat(static_cast<int32_t>(kBins - 1));
-    Side left, right;
+    SideBounds left, right;
     I left_weight = I::splat(0);
     for (uint32_t i = 0; i < range.count(); ++i) {
       const Reference& reference = references[range.begin + i];
@@ -71,14 +71,14 @@ public:
     }
     const I right_weight = I::splat(static_cast<int32_t>(range.weight)) - left_weight;
     const F cost = left.area() * S::to_float(left_weight) + right.area() * S::to_float(right_weight);
-    // The area of nothing is infinite, and nothing times that is no number.
+    // The area of an empty side is infinite and its weight 0; the product is NaN, which must not win.
     cost_ = S::select(cost < F(kHuge), cost, F(kHuge));
     left.store(left_);
     right.store(right_);
     left_weight.store(left_weight_);
   }
 
-  /// The lane of the best cut, or kNone.
+  /// The lane with the least cost, or kNone.
   uint32_t best() const {
     alignas(64) float lanes[kSimdLanes];
     cost_.store(lanes);
@@ -91,14 +91,14 @@ public:
     return least < kHuge ? static_cast<uint32_t>(__builtin_ctz((cost_ == F(least)).bits())) : kNone;
   }
 
-  /// Measures both sides of a cut, but for where they begin and end.
+  /// Sets weight and bounds of both sides of the split in a lane.
   void sides_of(uint32_t lane, uint32_t weight, Range<S>& left, Range<S>& right) const {
-    left.box = left_.box(lane);
-    right.box = right_.box(lane);
+    left.box = left_.at(lane);
+    right.box = right_.at(lane);
     left.weight = static_cast<uint32_t>(left_weight_[lane]);
     right.weight = weight - left.weight;
   }
-  /// 1 or 0: whether the i-th reference of the range lies on the left of a cut.
+  /// 1 or 0: whether reference i of the range is on the left of the split in a lane.
   uint32_t is_on_left(uint32_t i, uint32_t lane) const { return on_left_[i] >> lane & 1; }
 
 private:
@@ -107,32 +107,32 @@ private:
   using M = typename S::M;
   using F4 = typename S::F4;
 
-  struct Boxes {
+  struct CutBounds {
     alignas(64) float low[3][kSimdLanes];
     alignas(64) float high[3][kSimdLanes];
 
-    LaneAabb<S> box(uint32_t lane) const {
+    LaneAabb<S> at(uint32_t lane) const {
       return {four<S>(low[0][lane], low[1][lane], low[2][lane], 0.0f),
               four<S>(high[0][lane], high[1][lane], high[2][lane], 0.0f)};
     }
   };
 
-  /// A box for each cut.
-  struct Side {
+  /// The bounds of one side, for the split plane of each lane.
+  struct SideBounds {
     F low[3] = {kHuge, kHuge, kHuge};
     F high[3] = {-kHuge, -kHuge, -kHuge};
 
-    void grow(const M& where, const F (&min)[3], const F (&max)[3]) {
+    void grow(const M& lanes, const F (&min)[3], const F (&max)[3]) {
       for (int axis = 0; axis < 3; ++axis) {
-        low[axis] = S::select(where, S::min(low[axis], min[axis]), low[axis]);
-        high[axis] = S::select(where, S::max(high[axis], max[axis]), high[axis]);
+        low[axis] = S::select(lanes, S::min(low[axis], min[axis]), low[axis]);
+        high[axis] = S::select(lanes, S::max(high[axis], max[axis]), high[axis]);
       }
     }
     F area() const {
       const F x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
       return x * y + (x + y) * z;
     }
-    void store(Boxes& to) const {
+    void store(CutBounds& to) const {
       for (int axis = 0; axis < 3; ++axis) {
         low[axis].store(to.low[axis]);
         high[axis].store(to.high[axis]);
@@ -141,7 +141,7 @@ private:
   };
 
   F cost_;
-  Boxes left_, right_;
+  CutBounds left_, right_;
   alignas(64) int32_t left_weight_[kSimdLanes];
   uint16_t on_left_[kFewReferences]; ///< a bit per lane
 };

@@ -1,32 +1,35 @@
-// Leaves: which objects share one. Kernel dialect.
+// Leaves of the BVH: which objects share one. Kernel dialect.
 #pragma once
 
 #include "kernel/direct/build_bvh_subtree.hpp"
 
 namespace celltrace::kernel::bvh {
 
-/// When objects share a leaf. A triangle weighs 1.
+/// When the objects of a range share a leaf. A triangle has weight 1.
 struct LeafRule {
-  uint32_t certain;     ///< up to this weight they do whatever the heuristic says
-  uint32_t most;        ///< above this weight they do not
-  float cost;           ///< of testing an object that weighs 1, in visits of nodes
-  uint32_t weight_else; ///< of an object that is no triangle
+  uint32_t certain;      ///< up to this weight always
+  uint32_t most;         ///< above this weight never; between the two, the SAH decides
+  float cost;            ///< of testing an object of weight 1, relative to expanding a node
+  uint32_t other_weight; ///< the weight of an object that is no triangle
 };
-/// No leaf has more objects.
+/// The most objects in a leaf.
 constexpr uint32_t kMaxLeaf = 16;
 
-/// Where objects are tested one by one, the heuristic has nothing to say of fewer than a node has children.
-/// Where leaves are copied, a node of four leaves of one object each takes more memory than they do, and rays
-/// wait longer for it than the tests take. All found by measurement.
+/// Wide leaves are for SPEs that test many triangles of a leaf at once. Larger: fewer nodes are built and
+/// expanded; smaller: fewer triangles are tested in vain. Narrow leaves are for tests one by one: up to three
+/// objects always share one, because they would not fill a node. In copied treelets four do: a node for them
+/// would take memory in every copy, and rays would wait for it longer than the tests take. All numbers are
+/// measured.
 inline LeafRule leaf_rule(bool wide, bool copied) {
   if (wide) return {12, 32, 0.5f, 4};
   return {copied ? kChildren : kChildren - 1, 8, 2.0f, 1};
 }
 
-/// Ends nodes at objects. Reference i is of the object whose offset belongs at place i of the list.
+/// The ends of a SubtreeBuilder over objects. The list of a leaf has the same place in the BVH's list as its
+/// range has in the references.
 template <class S> class Leaves {
 public:
-  static constexpr uint32_t kMaxDepthOfCuts = 32;
+  static constexpr uint32_t kMaxSplitDepth = 32;
 
   Leaves(uint8_t* image, uint32_t list_offset, const Reference* references, const LeafRule& rule)
       : image_(image), list_offset_(list_offset), references_(references), rule_(rule) {}
@@ -57,7 +60,8 @@ public:
   }
 
 private:
-  /// From each object to the next one, in places of the table, if that is the same for all; or 0.
+  /// The distance from each object to the next one in the table, in objects, if it is always the same;
+  /// otherwise 0.
   static int32_t step_of(const Reference* objects, uint32_t count) {
     if (count == 1) return 1;
     const uint32_t bytes = objects[1].value - objects[0].value;

@@ -1,4 +1,4 @@
-// The work memory of the builder of the BVH, which lies in the sort buffers. Kernel dialect.
+// The layout of the work memory of a BVH build, which lies in the frame's sort buffers. Kernel dialect.
 #pragma once
 
 #include "kernel/direct/build_bvh_plan.hpp"
@@ -6,24 +6,24 @@
 
 namespace celltrace::kernel::bvh {
 
-/// Where what lies.
+/// Pointers to its parts.
 struct WorkMemory {
   TeamRecord* team;
-  Reference* runs; ///< `value`: index of the GroupRecord; `weight`: objects
-  Reference* spare_runs;
+  Reference* groups; ///< `value`: index of the GroupRecord; `weight`: objects
+  Reference* spare_groups;
   Treelet* treelets;
-  Reference* references; ///< of the objects of treelets too large for an SPE, in the order of the list
+  Reference* references; ///< to objects of treelets that exceed kLocalReferences; by place in the list
   Reference* spare_references;
-  uint32_t* treelet_of; ///< by run, if that is a prototype
+  uint32_t* treelet_of; ///< by group, defined for prototypes
 
   explicit WorkMemory(const FrameBlock& frame) {
     const WorkSize size(frame.object_count, frame.group_count, frame.longest_group);
     team = pointer<TeamRecord>(frame.sort_buffer[0]);
-    runs = reinterpret_cast<Reference*>(team + 1);
-    references = runs + size.runs;
+    groups = reinterpret_cast<Reference*>(team + 1);
+    references = groups + size.groups;
     treelets = reinterpret_cast<Treelet*>(references + size.references);
-    spare_runs = pointer<Reference>(frame.sort_buffer[1]);
-    spare_references = spare_runs + size.runs;
+    spare_groups = pointer<Reference>(frame.sort_buffer[1]);
+    spare_references = spare_groups + size.groups;
     treelet_of = reinterpret_cast<uint32_t*>(spare_references + size.references);
   }
   template <class T> static T* pointer(ea_t ea) { return reinterpret_cast<T*>(static_cast<uintptr_t>(ea)); }

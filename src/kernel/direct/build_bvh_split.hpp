@@ -1,12 +1,12 @@
-// Where to cut a range of references in two: by the surface area heuristic over bins of their centres (Wald,
-// On fast construction of SAH-based bounding volume hierarchys, 2007). Kernel dialect.
+// Splits a range of references in two by the surface area heuristic (SAH) over bins of their centres (Wald,
+// On fast Construction of SAH-based Bounding Volume Hierarchies, 2007). Kernel dialect.
 #pragma once
 
 #include "kernel/direct/build_bvh_lanes.hpp"
 
 namespace celltrace::kernel::bvh {
 
-/// Cuts a range in two in the order in which its references are.
+/// Splits a range in the middle, without reordering it.
 template <class S>
 void halve_range(const Reference* references, const Range<S>& range, Range<S>& left, Range<S>& right) {
   const uint32_t middle = range.begin + range.count() / 2;
@@ -14,7 +14,7 @@ void halve_range(const Reference* references, const Range<S>& range, Range<S>& l
   right = range_of<S>(references, middle, range.end);
 }
 
-/// Around the doubles of the centres of a range's references.
+/// The bounds of the doubled centres of a range's references.
 template <class S> LaneAabb<S> centres_of(const Reference* references, const Range<S>& range) {
   LaneAabb<S> centres = LaneAabb<S>::empty();
   for (uint32_t i = range.begin; i < range.end; ++i)
@@ -22,19 +22,20 @@ template <class S> LaneAabb<S> centres_of(const Reference* references, const Ran
   return centres;
 }
 
-/// Of ranges of kFewReferences at most.
+/// Bins on each axis for ranges of at most kFewReferences: their nine split planes fit the lanes of a
+/// register.
 constexpr uint32_t kFewBins = 4;
 
-/// Cuts ranges in two. `kBins` is a power of two.
+/// Splits ranges with `kBins` bins on each axis, a power of two.
 template <class S, uint32_t kBins> class BinnedSplitter {
 public:
   using F4 = typename S::F4;
 
-  /// Orders the references of `range` (two at least) so that those of `left` come first, stably. `spare` has
-  /// room for all of them.
+  /// Splits `range`, of at least two references, and reorders these so that those of `left` come first;
+  /// stable. `spare` has room for all of them.
   [[gnu::noinline]] static void split(Reference* references, Reference* spare, const Range<S>& range,
                                       Range<S>& left, Range<S>& right) {
-    // Points and lines are all the same to rays, and to the heuristic.
+    // If all of it lies on a line along an axis, every SAH cost is 0.
     if (range.box.area() == 0.0f) return halve_range(references, range, left, right);
     if constexpr (S::kWidth == kSimdLanes && kBins == kFewBins) {
       const LaneCuts<S, kBins> cuts(references, range);
@@ -44,42 +45,42 @@ public:
       partition(references, spare, range, left, right,
                 [&](const Reference&, uint32_t i) { return cuts.is_on_left(i - range.begin, lane); });
     } else {
-      const Places places(centres_of(references, range));
+      const BinMapping mapping(centres_of(references, range));
       Bins bins;
-      fill(bins, references, range, places);
+      fill(bins, references, range, mapping);
       const Cut cut = best_cut(bins);
       if (cut.bin == 0) return halve_range(references, range, left, right);
       measure(bins, cut, left, right);
       partition(references, spare, range, left, right, [&](const Reference& reference, uint32_t) {
-        return static_cast<uint32_t>(places.bin_of(reference, cut.axis) < cut.bin);
+        return static_cast<uint32_t>(mapping.bin_of(reference, cut.axis) < cut.bin);
       });
     }
   }
 
 private:
-  /// From centres to bins, coordinate by coordinate.
-  struct Places {
+  /// Maps centres to bins, on each axis.
+  struct BinMapping {
     F4 base, scale;
     alignas(16) float base_of[4];
     float scale_of[3];
 
-    explicit Places(const LaneAabb<S>& centres) {
+    explicit BinMapping(const LaneAabb<S>& centres) {
       alignas(16) float extent[4];
       (centres.max - centres.min).store(extent);
       centres.min.store(base_of);
       for (int axis = 0; axis < 3; ++axis)
         scale_of[axis] = extent[axis] > kFlatExtent ? (kBins - 1) / extent[axis] : 0.0f;
-      // Off the range of denormal numbers, which some processors are slow with.
+      // Lane 3 is unused. With -1 its results are no denormal numbers, which are slow on some processors.
       base = four<S>(base_of[0], base_of[1], base_of[2], -1.0f);
       scale = four<S>(scale_of[0], scale_of[1], scale_of[2], 0.0f);
     }
     void bins_of(const F4& centre, uint32_t (&bin)[4]) const {
-      alignas(16) float place[4];
-      ((centre - base) * scale + F4::splat(kRoundToInteger)).store(place);
+      alignas(16) float position[4];
+      ((centre - base) * scale + F4::splat(kRoundToInteger)).store(position);
       for (int axis = 0; axis < 3; ++axis)
-        bin[axis] = low_bits(place[axis]);
+        bin[axis] = low_bits(position[axis]);
     }
-    /// The same along one axis.
+    /// The same on one axis.
     uint32_t bin_of(const Reference& reference, uint32_t axis) const {
       const float centre = reference.min[axis] + reference.max[axis];
       return low_bits((centre - base_of[axis]) * scale_of[axis] + kRoundToInteger);
@@ -92,27 +93,28 @@ private:
   };
 
   struct Bins {
-    LaneAabb<S> box[3][kBins];
+    LaneAabb<S> bounds[3][kBins];
     uint32_t weight[3][kBins];
   };
 
-  /// `bin` is the first on the right; 0 if there is no cut.
+  /// `bin` is the first one on the right; 0: there is no split.
   struct Cut {
     uint32_t axis, bin;
   };
 
-  static void fill(Bins& bins, const Reference* references, const Range<S>& range, const Places& places) {
+  static void fill(Bins& bins, const Reference* references, const Range<S>& range,
+                   const BinMapping& mapping) {
     for (uint32_t axis = 0; axis < 3; ++axis)
       for (uint32_t i = 0; i < kBins; ++i) {
-        bins.box[axis][i] = LaneAabb<S>::empty();
+        bins.bounds[axis][i] = LaneAabb<S>::empty();
         bins.weight[axis][i] = 0;
       }
     for (uint32_t i = range.begin; i < range.end; ++i) {
-      const LaneAabb<S> box = LaneAabb<S>::of(references[i]);
+      const LaneAabb<S> bounds = LaneAabb<S>::of(references[i]);
       uint32_t bin[4];
-      places.bins_of(box.centre(), bin);
+      mapping.bins_of(bounds.centre(), bin);
       for (uint32_t axis = 0; axis < 3; ++axis) {
-        bins.box[axis][bin[axis]].grow(box);
+        bins.bounds[axis][bin[axis]].grow(bounds);
         bins.weight[axis][bin[axis]] += references[i].weight;
       }
     }
@@ -123,20 +125,20 @@ private:
     float least = kHuge;
     for (uint32_t axis = 0; axis < 3; ++axis) {
       float left_cost[kBins];
-      LaneAabb<S> box = bins.box[axis][0];
+      LaneAabb<S> bounds = bins.bounds[axis][0];
       uint32_t weight = bins.weight[axis][0];
       for (uint32_t i = 1; i < kBins; ++i) {
-        left_cost[i] = box.area() * static_cast<float>(weight);
-        box.grow(bins.box[axis][i]);
+        left_cost[i] = bounds.area() * static_cast<float>(weight);
+        bounds.grow(bins.bounds[axis][i]);
         weight += bins.weight[axis][i];
       }
-      box = LaneAabb<S>::empty();
+      bounds = LaneAabb<S>::empty();
       weight = 0;
       for (uint32_t i = kBins - 1; i > 0; --i) {
-        box.grow(bins.box[axis][i]);
+        bounds.grow(bins.bounds[axis][i]);
         weight += bins.weight[axis][i];
-        // The area of nothing is infinite, and nothing times that is less than no number.
-        const float cost = left_cost[i] + box.area() * static_cast<float>(weight);
+        // The area of an empty side is infinite and its weight 0; the product is NaN, which is never less.
+        const float cost = left_cost[i] + bounds.area() * static_cast<float>(weight);
         if (cost < least) {
           least = cost;
           best = {axis, i};
@@ -150,13 +152,14 @@ private:
     left = right = {0, 0, 0, LaneAabb<S>::empty()};
     for (uint32_t i = 0; i < kBins; ++i) {
       Range<S>& side = i < cut.bin ? left : right;
-      side.box.grow(bins.box[cut.axis][i]);
+      side.box.grow(bins.bounds[cut.axis][i]);
       side.weight += bins.weight[cut.axis][i];
     }
   }
 
-  /// Sends each reference both ways and keeps the one that is right: branches would be guesses. Stores on the
-  /// left never pass what is still to be read.
+  /// Partitions the references, stably and without branches, which would be mispredicted: each reference is
+  /// stored on both sides, and only the end of its own side advances. The left end never passes the one that
+  /// is read.
   template <class IsOnLeft>
   static void partition(Reference* references, Reference* spare, const Range<S>& range, Range<S>& left,
                         Range<S>& right, IsOnLeft is_on_left) {
@@ -176,7 +179,7 @@ private:
   }
 };
 
-/// Cuts a range, with as many bins as are worth while for so many references.
+/// Splits a range. More bins find better splits but cost more, which pays only for many references.
 template <class S>
 void split_range(Reference* references, Reference* spare, const Range<S>& range, Range<S>& left,
                  Range<S>& right) {

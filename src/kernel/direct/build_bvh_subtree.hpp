@@ -1,4 +1,4 @@
-// From references to nodes, top down. Kernel dialect.
+// Builds the nodes of a subtree above references, top down. Kernel dialect.
 #pragma once
 
 #include "kernel/direct/build_bvh_clusters.hpp"
@@ -6,18 +6,19 @@
 
 namespace celltrace::kernel::bvh {
 
-/// No node lies deeper, the root being at 0.
+/// The greatest depth of a node; the root is at 0.
 constexpr uint32_t kMaxDepth = 48;
 
-/// Where a subtree belongs: child `slot` of `parent`, at `depth` itself. The root has no parent.
+/// The place of a subtree in the BVH: child `slot` of `parent`; its own root is at `depth`. The root of all
+/// has no parent.
 struct Place {
   NodeRecord* parent;
   uint32_t slot;
   uint32_t depth;
 };
 
-/// Enters the boxes of a node's children. Each becomes a little larger than what is in it, and is never flat,
-/// so that rounding loses no ray that grazes it.
+/// Stores the bounds of a node's children. They are padded by an epsilon relative to the coordinates and to
+/// the extent, and are never flat: rays that graze an object must not miss its node by rounding.
 template <class S> void set_child_bounds(NodeRecord& node, const LaneAabb<S> (&children)[kChildren]) {
   using F4 = typename S::F4;
   alignas(16) float low[kChildren][4];
@@ -43,51 +44,53 @@ template <class S> void set_child_bounds(NodeRecord& node, const LaneAabb<S> (&c
   }
 }
 
-/// Builds the nodes above references. What ends the nodes is `Ends`:
-///   static constexpr uint32_t kMaxDepthOfCuts          below it ranges are halved
-///   bool end(const Range<S>&)                          whether a range has no node of its own
-///   bool end(const Range<S>&, const Range<S> (&)[4])   the same of one whose children would be these
-///   void add(const Range<S>&, const Place&)            enters such a range into its parent
-/// Single references must end. Where all ranges of fewer than kChildren references do, every node has four
-/// children.
+/// Builds the nodes above references. `Ends` says where they end:
+///   static constexpr uint32_t kMaxSplitDepth           from this depth on ranges are halved
+///   bool end(const Range<S>&)                          whether a range ends without a node of its own
+///   bool end(const Range<S>&, const Range<S> (&)[4])   the same, now that its children would be these
+///   void add(const Range<S>&, const Place&)            stores a range that ends in its parent
+/// Halving bounds the depth. A single reference must end. If all ranges of fewer than kChildren references
+/// end, every node has four children.
 template <class S, class Ends> class SubtreeBuilder {
 public:
-  /// A range that waits for its nodes.
+  /// A range whose nodes have not been built.
   struct Task {
     Range<S> range;
     Place place;
   };
-  /// Three children wait per level, at most.
+  /// Depth first: each level leaves at most three of four children on the stack.
   static constexpr uint32_t kStackTasks = 3 * kMaxDepth + kChildren;
 
-  /// `spare` has room for as many references as `references` has, `stack` for kStackTasks.
+  /// `spare` has room for as many references as `references`, `stack` for kStackTasks.
   SubtreeBuilder(uint8_t* image, Reference* references, Reference* spare, Ends& ends, Task* stack)
       : image_(image), references_(references), spare_(spare), ends_(ends), stack_(stack) {}
 
-  /// Writes the nodes of a range from `next` on, and returns the end of what it has written.
+  /// Writes the nodes of a range from `next` on, and returns the end of them.
   NodeRecord* build(const Range<S>& range, const Place& place, NodeRecord* next) {
     next_ = next;
-    waiting_ = 0;
-    enter(range, place);
-    while (waiting_ != 0) {
-      const Task& task = stack_[--waiting_];
-      grow(task.range, task.place);
+    pending_ = 0;
+    add_child(range, place);
+    while (pending_ != 0) {
+      const Task& task = stack_[--pending_];
+      build_node(task.range, task.place);
     }
     return next_;
   }
 
 private:
-  void enter(const Range<S>& range, const Place& place) {
+  /// Stores the child in its parent, if it ends, or pushes it.
+  void add_child(const Range<S>& range, const Place& place) {
     if (range.count() == 0)
       place.parent->child[place.slot] = place.parent->leaf[place.slot] = 0;
     else if (ends_.end(range))
       ends_.add(range, place);
     else
-      stack_[waiting_++] = {range, place};
+      stack_[pending_++] = {range, place};
   }
 
-  /// Both may lie where the first child will wait.
-  void grow(const Range<S>& range, const Place& place) {
+  /// Builds the node of a range and adds its children. The arguments may lie in the stack entry that the
+  /// first child overwrites.
+  void build_node(const Range<S>& range, const Place& place) {
     const uint32_t depth = place.depth;
     Range<S> children[kChildren];
     split(range, depth, children);
@@ -100,43 +103,44 @@ private:
     NodeRecord* node = next_++;
     set_child_bounds<S>(*node, {children[0].box, children[1].box, children[2].box, children[3].box});
     for (uint32_t i = 0; i < kChildren; ++i)
-      enter(children[i], {node, i, depth + 1});
+      add_child(children[i], {node, i, depth + 1});
   }
 
   void split(const Range<S>& range, uint32_t depth, Range<S> (&children)[kChildren]) {
     if (range.count() <= kChildren)
-      take_apart(range, children);
+      one_per_child(range, children);
     else if (range.count() <= Clusters<S>::kMaxReferences)
       Clusters<S>::make(references_, range, children);
     else
-      cut(range, depth, children);
+      split_largest(range, depth, children);
   }
 
-  /// A child for each reference, and nothing in those that are left over.
-  void take_apart(const Range<S>& range, Range<S> (&children)[kChildren]) {
+  /// Makes a child of each reference; the others are empty.
+  void one_per_child(const Range<S>& range, Range<S> (&children)[kChildren]) {
     for (uint32_t i = 0; i < kChildren; ++i) {
       const uint32_t begin = range.begin + i < range.end ? range.begin + i : range.end;
       children[i] = range_of<S>(references_, begin, begin < range.end ? begin + 1 : begin);
     }
   }
 
-  /// Cuts the child that is likeliest to be hit until there are four.
-  void cut(const Range<S>& range, uint32_t depth, Range<S> (&children)[kChildren]) {
-    const bool halve = depth >= Ends::kMaxDepthOfCuts;
+  /// Splits the child with the largest surface area, which rays hit most often, until there are four
+  /// children.
+  void split_largest(const Range<S>& range, uint32_t depth, Range<S> (&children)[kChildren]) {
+    const bool halve = depth >= Ends::kMaxSplitDepth;
     children[0] = range;
     float size[kChildren] = {1.0f};
     for (uint32_t n = 1; n < kChildren; ++n) {
-      uint32_t widest = kChildren;
+      uint32_t largest = kChildren;
       for (uint32_t i = 0; i < n; ++i)
-        if (children[i].count() > 1 && (widest == kChildren || size[i] > size[widest])) widest = i;
-      const Range<S> whole = children[widest];
-      Range<S>& left = children[widest];
+        if (children[i].count() > 1 && (largest == kChildren || size[i] > size[largest])) largest = i;
+      const Range<S> whole = children[largest];
+      Range<S>& left = children[largest];
       Range<S>& right = children[n];
       if (halve)
         halve_range(references_, whole, left, right);
       else
         split_range(references_, spare_, whole, left, right);
-      const uint32_t halves[2] = {widest, n};
+      const uint32_t halves[2] = {largest, n};
       for (const uint32_t i : halves)
         size[i] = halve ? static_cast<float>(children[i].count()) : children[i].box.area();
     }
@@ -147,7 +151,7 @@ private:
   Reference* spare_;
   Ends& ends_;
   Task* stack_;
-  uint32_t waiting_ = 0;
+  uint32_t pending_ = 0;
   NodeRecord* next_ = nullptr;
 };
 

@@ -1,52 +1,53 @@
-// The upper part of a large BVH: nodes are made above the runs of objects that lie along the image's
-// curve until few enough objects are left for a treelet (after Garanzha, Pantaleoni and McAllister, Simpler
-// and faster HLBVH with work queues, 2011). Kernel dialect.
+// The top levels of a large BVH: nodes are built above the groups of objects, which follow each other along a
+// Morton curve, down to treelets (after Garanzha, Pantaleoni and McAllister, Simpler and Faster HLBVH with
+// Work Queues, 2011). Kernel dialect.
 #pragma once
 
 #include "kernel/direct/build_bvh_subtree.hpp"
 
 namespace celltrace::kernel::bvh {
 
-/// Part of a BVH that is built by itself: over the objects of the runs [begin, end).
+/// A subtree that is built by one SPE: over the objects of the groups [begin, end).
 struct Treelet {
   Place place;
   uint32_t begin, end;
-  uint32_t first; ///< of its objects in the order of the list
+  uint32_t first; ///< place of its first object in the BVH's list
   uint32_t count;
-  uint32_t first_node; ///< counted from the first of all treelets; of a copy: nothing
-  uint32_t nodes;      ///< when it is built
+  uint32_t first_node; ///< relative to the first node of all treelets; undefined for a copy
+  uint32_t nodes;      ///< set when it is built
 };
 static_assert(sizeof(void*) != 8 || sizeof(Treelet) == 40, "part of the work memory");
 
-/// Which runs are copies of which.
+/// Which groups are copies of which.
 class Prototypes {
 public:
   explicit Prototypes(const FrameBlock& frame)
-      : of_run_(frame.prototype_offset == 0 ? nullptr
-                                            : reinterpret_cast<const uint32_t*>(static_cast<uintptr_t>(
-                                                  frame.image + frame.prototype_offset))) {}
+      : of_group_(frame.prototype_offset == 0 ? nullptr
+                                              : reinterpret_cast<const uint32_t*>(static_cast<uintptr_t>(
+                                                    frame.image + frame.prototype_offset))) {}
 
-  bool any() const { return of_run_ != nullptr; }
-  /// The prototype of a run, which may be itself, or kNoGroup.
-  uint32_t of(uint32_t run) const { return any() ? of_run_[run] : kNoGroup; }
-  bool is_copy(uint32_t run) const {
-    const uint32_t prototype = of(run);
-    return prototype != kNoGroup && prototype != run;
+  bool any() const { return of_group_ != nullptr; }
+  /// The prototype of a group, which may be the group itself, or kNoGroup.
+  uint32_t of(uint32_t group) const { return any() ? of_group_[group] : kNoGroup; }
+  bool is_copy(uint32_t group) const {
+    const uint32_t prototype = of(group);
+    return prototype != kNoGroup && prototype != group;
   }
 
 private:
-  const uint32_t* of_run_;
+  const uint32_t* of_group_;
 };
 
-/// Ends nodes over runs at treelets. Prototypes and their copies are treelets of their own.
+/// The ends of a SubtreeBuilder over groups: treelets. A prototype is a treelet of its own, and so is each
+/// copy.
 template <class S> class Treelets {
 public:
-  static constexpr uint32_t kMaxDepthOfCuts = 16;
+  static constexpr uint32_t kMaxSplitDepth = 16;
   static constexpr uint32_t kObjects = kTreeletObjects;
 
-  /// Of `runs` that SubtreeBuilder orders.
-  Treelets(const Reference* runs, const Prototypes& prototypes, Treelet* treelets)
-      : runs_(runs), prototypes_(prototypes), treelets_(treelets) {}
+  /// `groups` are the references that the SubtreeBuilder reorders.
+  Treelets(const Reference* groups, const Prototypes& prototypes, Treelet* treelets)
+      : groups_(groups), prototypes_(prototypes), treelets_(treelets) {}
 
   bool end(const Range<S>& range) const {
     if (range.weight > kObjects && range.count() >= kChildren) return false;
@@ -56,21 +57,21 @@ public:
   void add(const Range<S>& range, const Place& place) {
     treelets_[count_++] = {place, range.begin, range.end, objects_, range.weight, nodes_, 0};
     objects_ += range.weight;
-    // Of four children each, above an object or more a leaf.
-    if (!prototypes_.is_copy(runs_[range.begin].value)) nodes_ += (range.weight - 1) / 3;
+    // Nodes of four children above n leaves are (n - 1) / 3, and a leaf has an object or more.
+    if (!prototypes_.is_copy(groups_[range.begin].value)) nodes_ += (range.weight - 1) / 3;
   }
   uint32_t count() const { return count_; }
-  /// Nodes that all but the copies have at most.
+  /// The most nodes that all treelets but the copies can have.
   uint32_t nodes() const { return nodes_; }
 
 private:
   bool has_prototypes(const Range<S>& range) const {
     for (uint32_t i = range.begin; i < range.end; ++i)
-      if (prototypes_.of(runs_[i].value) != kNoGroup) return true;
+      if (prototypes_.of(groups_[i].value) != kNoGroup) return true;
     return false;
   }
 
-  const Reference* runs_;
+  const Reference* groups_;
   const Prototypes& prototypes_;
   Treelet* treelets_;
   uint32_t count_ = 0;

@@ -1,13 +1,15 @@
-// What packets of a bundle do with the objects of leaves where memory is direct: the triangles of several
-// leaves are looked at together. Kernel dialect.
+// Tests the packets of a bundle against the objects of leaves where memory is direct: the triangles of
+// several leaves together. Kernel dialect.
 #pragma once
 
+#include "kernel/direct/edge_function_triangles.hpp"
 #include "kernel/direct/leaf_triangles.hpp"
 #include "kernel/direct/pluecker_triangles.hpp"
-#include "kernel/direct/edge_function_triangles.hpp"
 
 namespace celltrace::kernel {
 
+/// The triangles of consecutive leaves are deferred, so that they fill the SIMD lanes. For each triangle
+/// test() then culls packets, which lie in lanes, and tests those that are left, with their rays in lanes.
 template <class Spu> class BundleLeafTests {
 public:
   using S = typename Spu::simd;
@@ -17,17 +19,17 @@ public:
 
   explicit BundleLeafTests(Tests& tests) : tests_(tests) {}
 
-  /// Whether there are triangles that wait for test().
+  /// Whether triangles have been deferred to test().
   bool has_deferred() const { return triangles_.count() != 0; }
-  /// Whether all objects of one more leaf can wait with them.
+  /// Whether all objects of another leaf could be deferred with them.
   bool has_room_for(const NodeRef& leaf) const {
     return triangles_.count() + leaf_word::count(leaf.leaf) <= kMost;
   }
 
-  /// The objects of a leaf that packets have met: triangles wait, as many as there is room for, others are
-  /// tested. Returns the packets that may have been changed.
+  /// Defers the triangles of a leaf that `packets` have hit, as far as there is room, and tests its other
+  /// objects. Returns the packets whose results may have changed.
   uint32_t add(RayQuery* queries, uint32_t packets, const NodeRef& leaf) {
-    const bool shadows = is_for_light(queries, packets);
+    const bool shadows = is_shadow_query(queries, packets);
     const uint32_t before = triangles_.count();
     uint32_t changed = 0;
     collect_triangles(tests_.scene(), leaf, shadows, triangles_, [&](uint32_t self) {
@@ -42,28 +44,29 @@ public:
     return changed;
   }
 
-  /// Tests all that wait; there are some. Returns the packets that may have been changed.
+  /// Tests the deferred triangles, of which there are some. Returns the packets whose results may have
+  /// changed.
   uint32_t test(RayQuery* queries, const BundleView<S>& view) {
     const TriangleSides<S> sides = triangles_.sides();
-    const EdgeFunctionTriangles<S> viewed(sides, view);
-    // First all of these, so that none waits for the tests of the one before.
+    const EdgeFunctionTriangles<S> edge_functions(sides, view);
+    // Packets are culled for all triangles before the first test: no triangle waits for the tests of another.
     Pairs pairs;
     const uint32_t count = triangles_.count();
     uint32_t changed = 0;
-    for (uint32_t first = 0; first < count; first += kInWord) {
-      uint64_t& word = pairs.word[first / kInWord];
+    for (uint32_t first = 0; first < count; first += kTrianglesPerWord) {
+      uint64_t& word = pairs.word[first / kTrianglesPerWord];
       word = 0;
-      for (uint32_t i = first; i < count && i < first + kInWord; ++i) {
-        const uint32_t packets = packets_of_[i] & viewed.seen_by(i, view);
+      for (uint32_t i = first; i < count && i < first + kTrianglesPerWord; ++i) {
+        const uint32_t packets = packets_of_[i] & edge_functions.seen_by(i, view);
         changed |= packets;
-        word |= static_cast<uint64_t>(packets) << (i % kInWord * kSimdLanes);
+        word |= static_cast<uint64_t>(packets) << (i % kTrianglesPerWord * kSimdLanes);
       }
     }
     if (changed != 0) {
-      if (is_for_light(queries, changed))
-        shadow(queries, sides, *view.moments, pairs);
+      if (is_shadow_query(queries, changed))
+        test_shadows(queries, sides, *view.moments, pairs);
       else
-        keep_closest(queries, viewed, view, pairs);
+        keep_closest(queries, edge_functions, view, pairs);
     }
     triangles_.clear();
     return changed;
@@ -73,16 +76,16 @@ private:
   static constexpr uint32_t kMost = LeafTriangles<S>::kMost;
   static_assert(kBundlePackets<Spu> <= kSimdLanes, "packets of a bundle are lanes");
 
-  /// Triangles and the packets that may see them. A word holds those of four triangles: few loops end in a
-  /// way that a processor cannot foresee.
-  static constexpr uint32_t kInWord = 64 / kSimdLanes;
+  /// Pairs of a triangle and a packet that may hit it, as bits. A word holds the packets of four triangles: a
+  /// loop for each triangle would end in a mispredicted branch more often.
+  static constexpr uint32_t kTrianglesPerWord = 64 / kSimdLanes;
   struct Pairs {
-    uint64_t word[kMost / kInWord];
+    uint64_t word[kMost / kTrianglesPerWord];
   };
   template <class Visit> [[gnu::always_inline]] void for_each_pair(const Pairs& pairs, Visit visit) {
     uint32_t tests = 0;
-    for (uint32_t first = 0; first < triangles_.count(); first += kInWord) {
-      uint64_t left = pairs.word[first / kInWord];
+    for (uint32_t first = 0; first < triangles_.count(); first += kTrianglesPerWord) {
+      uint64_t left = pairs.word[first / kTrianglesPerWord];
       tests += static_cast<uint32_t>(__builtin_popcountll(left));
       for (; left != 0; left &= left - 1) {
         const auto next = static_cast<uint32_t>(__builtin_ctzll(left));
@@ -92,34 +95,35 @@ private:
     tests_.counters().tests[static_cast<uint32_t>(ObjectKind::triangle)] += tests;
   }
 
-  static bool is_for_light(const RayQuery* queries, uint32_t packets) {
+  static bool is_shadow_query(const RayQuery* queries, uint32_t packets) {
     return queries[__builtin_ctz(packets)].hits == nullptr;
   }
 
-  [[gnu::always_inline]] void keep_closest(const RayQuery* queries, const EdgeFunctionTriangles<S>& viewed,
+  [[gnu::always_inline]] void keep_closest(const RayQuery* queries,
+                                           const EdgeFunctionTriangles<S>& edge_functions,
                                            const BundleView<S>& view, const Pairs& pairs) {
     for_each_pair(pairs, [&](uint32_t i, uint32_t packet) {
       const RayQuery& query = queries[packet];
       const V3<S> direction = view.mapped(query.rays->direction);
-      Tests::keep_closest(viewed.crossed(i, direction), triangles_.offset(i), *query.hits);
+      Tests::keep_closest(edge_functions.crossed(i, direction), triangles_.offset(i), *query.hits);
     });
   }
 
-  [[gnu::always_inline]] void shadow(RayQuery* queries, const TriangleSides<S>& sides,
-                                     const BundleMoments& moments, const Pairs& pairs) {
-    const PlueckerTriangles<S> by_moment(sides, moments);
+  [[gnu::always_inline]] void test_shadows(RayQuery* queries, const TriangleSides<S>& sides,
+                                           const BundleMoments& moments, const Pairs& pairs) {
+    const PlueckerTriangles<S> pluecker(sides, moments);
     for_each_pair(pairs, [&](uint32_t i, uint32_t packet) {
       RayQuery& query = queries[packet];
-      const F low(Tests::kShadowTolerance);
+      const F low(Tests::kShadowEpsilon);
       const F high = F::load(query.distance->lane) - low;
-      const M between = by_moment.crossed_between(i, *query.rays, moments.of[packet], moments, low, high);
-      query.lanes &= ~(between & !lanes_that_start_on<S>(*query.rays, triangles_.offset(i))).bits();
+      const M occluded = pluecker.crossed_between(i, *query.rays, moments.of[packet], moments, low, high);
+      query.lanes &= ~(occluded & !lanes_that_start_on<S>(*query.rays, triangles_.offset(i))).bits();
     });
   }
 
   Tests& tests_;
   LeafTriangles<S> triangles_;
-  uint32_t packets_of_[kMost]; ///< packets that have met the leaf of a triangle
+  uint32_t packets_of_[kMost]; ///< by triangle: the packets that hit its leaf
 };
 
 } // namespace celltrace::kernel

@@ -1,36 +1,38 @@
-// How the packets of a bundle see the scene whose rays all go through one point. Kernel dialect.
+// The view of a bundle whose rays all pass through one point: a pinhole, or a light. Kernel dialect.
 #pragma once
 
 #include "kernel/accel/bundle_frusta.hpp"
 
 namespace celltrace::kernel {
 
-/// Rays toward a light, about a point near where they begin: seen from the light itself, what lies near their
-/// origins is rounded by more than the tolerance of shadows.
+/// The moments (of Pluecker coordinates) of rays toward a light. They are taken about a base point near the
+/// origins of the rays: relative to the light, triangles near these origins would be rounded by more than
+/// kShadowEpsilon.
 struct BundleMoments {
   float base[3], light[3];
-  float span;                 ///< the origins are not farther from the base
-  VectorLanes of[kSimdLanes]; ///< each packet's cross products of origins, from the base, and directions
+  float span;                 ///< an upper bound of the origins' distances from the base
+  VectorLanes of[kSimdLanes]; ///< by packet: (origin - base) x direction
 };
 
-/// A projective map of the scene, for rays that all go through one point: in it, a ray has everywhere the
-/// same first two coordinates, in proportion to the third. Those of a packet's rays lie in a rectangle.
+/// A projective map of the scene for rays that all pass through one point, as a camera's onto its image
+/// plane. All points of a ray have the same ratio of the first two coordinates to the third, the depth. The
+/// ratios of a packet's rays lie in a rectangle.
 ///
-/// The third axis of the map is the one along which the rays are longest, the major one. Seen from the point
-/// itself, distances to it are the third coordinate. If it is far away, the map is made around a point near
-/// the bundle, in whose plane the first two coordinates are exact, and little depends on where the far one
-/// is.
+/// Depth runs along the major axis, on which the directions are longest. If the common point is near,
+/// coordinates are relative to it. If it is far away, they would be rounded too much. The map is then made
+/// around a point near the bundle: in the plane of depth through that point the first two coordinates are
+/// exact, and the position of the common point has little influence.
 template <class S> struct BundleView {
   using F = typename S::F;
 
   float origin[3];
-  uint32_t axes[3];                 ///< of the scene, the major one last
-  float forth;                      ///< -1 or 1: which way along the major axis
-  float slope[2] = {0, 0};          ///< by which the first two axes lean along the major one
-  float third = 1.0f, ahead = 0.0f; ///< the third coordinate: of a step along the major axis, of the origin
-  LaneInterval<S> seen[2];          ///< the rectangles, where the third coordinate is 1
-  float span = 0.0f;                ///< rays begin that far from the origin, at most
-  const BundleMoments* moments = nullptr; ///< by which rays to a light are tested; no others have them
+  uint32_t axes[3];                              ///< axes of the scene, the major axis last
+  float forth;                                   ///< -1 or 1: the sign of the rays on the major axis
+  float slope[2] = {0, 0};                       ///< shear of the first two axes along the major axis
+  float depth_scale = 1.0f, depth_offset = 0.0f; ///< depth = scale * length on the major axis - offset
+  LaneInterval<S> seen[2];                       ///< the rectangles of the packets, at depth 1
+  float span = 0.0f; ///< an upper bound of the distances from `origin` at which rays start
+  const BundleMoments* moments = nullptr; ///< of rays toward a light, otherwise null
 
   void set_major(uint32_t axis) {
     axes[0] = axis == 0 ? 1 : 0;
@@ -38,33 +40,33 @@ template <class S> struct BundleView {
     axes[2] = axis;
   }
 
-  /// A difference of points.
+  /// Maps a difference of points.
   V3<S> mapped(const V3<S>& v) const {
     const F* const components[3] = {&v.x, &v.y, &v.z};
     const F along = *components[axes[2]] * F(forth);
     return {*components[axes[0]] - along * F(slope[0]), *components[axes[1]] - along * F(slope[1]),
-            along * F(third)};
+            along * F(depth_scale)};
   }
-  /// From points to the origin.
+  /// Maps the vectors from points to the origin.
   V3<S> to_origin(const V3<S>& points) const {
     V3<S> v = mapped(splat3<S>(origin) - points);
-    v.z = v.z - F(ahead);
+    v.z = v.z - F(depth_offset);
     return v;
   }
-  /// A direction, where the map is that from a point itself.
+  /// Maps directions, if coordinates are relative to the common point.
   V3<S> mapped(const VectorLanes& v) const {
     return {F::load(v[axes[0]].lane), F::load(v[axes[1]].lane), F::load(v[axes[2]].lane) * F(forth)};
   }
 };
 
-/// Packets whose rays all go through one point into one octant.
+/// Packets whose rays all pass through one point and have directions of one octant.
 template <class S> struct ViewBundle {
   BundleView<S> view;
   LaneRayBounds<S> bounds;
-  RayBounds all; ///< around those
+  RayBounds all; ///< contains those of all packets
   uint32_t octant = 0;
-  bool turned = false;  ///< they are the opposite of the rays'
-  uint32_t packets = 0; ///< of others all else is meaningless
+  bool turned = false;  ///< bounds and octant are those of reversed rays
+  uint32_t packets = 0; ///< which packets; for others all else is undefined
 };
 
 } // namespace celltrace::kernel

@@ -1,8 +1,8 @@
-// The triangles of a leaf as the packets of a bundle see them. Kernel dialect.
+// Triangles tested by edge functions, in the view of a bundle. Kernel dialect.
 //
-// In the map of a BundleView, a triangle is what lies between three planes through the origin and its sides:
-// a ray meets it if it is on the inner side of all three. The products of the ray's direction and the planes'
-// normals are its barycentric coordinates, but for their sum.
+// In the map of a BundleView, a ray hits a triangle if its direction is on the inner side of the three planes
+// through the origin and an edge. The edge functions are the scalar products of the direction and the planes'
+// normals. Divided by their sum, they are barycentric coordinates.
 #pragma once
 
 #include "kernel/direct/bundle_view.hpp"
@@ -10,6 +10,7 @@
 
 namespace celltrace::kernel {
 
+/// One triangle in each lane. Tests take one triangle and packets, or rays, in lanes.
 template <class S> class EdgeFunctionTriangles {
 public:
   using F = typename S::F;
@@ -19,25 +20,29 @@ public:
     const V3<S> from = view.to_origin(sides.v0);
     const V3<S> edge1 = view.mapped(sides.edge1), edge2 = view.mapped(sides.edge2);
     const V3<S> p = cross<S>(edge2, from), q = cross<S>(from, edge1), whole = cross<S>(edge2, edge1);
-    // Turned so that rays that meet them in front of the origin have positive products.
+    // Oriented so that edge functions of rays that hit the triangle in front of the origin are positive.
     const F distance = dot<S>(edge2, q);
     const F sign = S::select(distance < F(0.0f), F(-1.0f), F(1.0f));
     (distance * sign).store(distance_.lane);
     const F size = S::max(absolute_sum<S>(edge1), absolute_sum<S>(edge2));
     const F reach = absolute_sum<S>(from);
+    // Neighbours overlap by the rounding of edge functions, so that no ray passes between them (see
+    // SeenTriangle).
     (reach * size * F(detail::kUnitInLastPlace)).store(overlap_.lane);
     const V3<S> u = p * sign, v = q * sign, all = whole * sign, w = all - u - v;
     whole_.template store<S>(all);
     inward_[0].template store<S>(u);
     inward_[1].template store<S>(v);
     inward_[2].template store<S>(w);
+    // Epsilon of culling, larger than that overlap: it must not cull a packet whose rays would hit.
     const F rounding = (reach + F(view.span)) * size * F(32.0f * detail::kUnitInLastPlace);
     (-u.z - rounding).store(least_[0].lane);
     (-v.z - rounding).store(least_[1].lane);
     (-w.z - rounding).store(least_[2].lane);
   }
 
-  /// Which packets may meet triangle `i`.
+  /// Returns the packets that may hit triangle `i`: those whose rectangles reach the inner side of each
+  /// plane.
   [[gnu::always_inline]] uint32_t seen_by(uint32_t i, const BundleView<S>& view) const {
     M seen = M::all();
     for (uint32_t side = 0; side < 3; ++side) {
@@ -49,7 +54,7 @@ public:
     return seen.bits();
   }
 
-  /// Where rays from the origin cross triangle `i`. Directions are mapped.
+  /// Where rays from the origin, with mapped directions, cross triangle `i`.
   [[gnu::always_inline]] Crossings<S> crossed(uint32_t i, const V3<S>& direction) const {
     const F u = product<S>(inward_[0], i, direction), v = product<S>(inward_[1], i, direction);
     const F sum = product<S>(whole_, i, direction);
@@ -67,10 +72,10 @@ public:
 
 private:
   // A lane for each triangle.
-  VectorLanes inward_[3];         ///< normals of the planes through the sides
+  VectorLanes inward_[3];         ///< normals of the planes through edges, inward
   VectorLanes whole_;             ///< their sum
-  FloatLanes least_[3];           ///< what the first two coordinates add to the product of a ray inside
-  FloatLanes distance_, overlap_; ///< both times the sum of the products
+  FloatLanes least_[3];           ///< bound of n.x * x + n.y * y for a ray (x, y, 1) inside
+  FloatLanes distance_, overlap_; ///< distance and epsilon, times the sum of the edge functions
 };
 
 } // namespace celltrace::kernel

@@ -1,5 +1,4 @@
-// What few rays of a packet do with the objects of a leaf where memory is direct: all triangles are tested at
-// a time. Kernel dialect.
+// Tests a few rays of a packet, ray by ray, against all triangles of a leaf at once. Kernel dialect.
 #pragma once
 
 #include "kernel/direct/leaf_triangles.hpp"
@@ -14,14 +13,15 @@ public:
   using M = typename S::M;
   using Tests = ObjectTests<Spu>;
 
-  /// Each of some rays is tested against all triangles of a leaf at once, if there are no more rays than
-  /// these and no fewer triangles. Found by measurement.
+  /// A leaf is tested like this with at most so many rays and at least so many triangles. More rays would
+  /// need more passes, and fewer triangles would leave lanes empty: then each triangle is tested against all
+  /// rays at once. Measured.
   static constexpr int kMostRays = 4;
   static constexpr uint32_t kLeastTriangles = 4;
 
   explicit LeafTests(Tests& tests) : tests_(tests) {}
 
-  /// The objects of a leaf that some rays of a packet have met.
+  /// Tests the objects of a leaf against `rays` of a packet.
   void test(RayQuery& query, uint32_t rays, const NodeRef& leaf) {
     const bool shadows = query.hits == nullptr;
     LeafTriangles<S> triangles;
@@ -38,7 +38,7 @@ public:
       const auto lane = static_cast<uint32_t>(__builtin_ctz(left));
       const Crossings<S> crossings = crossed(*query.rays, lane, sides, triangles);
       if (shadows)
-        shadow(crossings, triangles.all(), lane, query);
+        occlude(crossings, triangles.all(), lane, query);
       else
         keep_closest(crossings, triangles, lane, *query.hits);
     }
@@ -46,6 +46,7 @@ public:
   }
 
 private:
+  /// The crossings of one ray with the triangles in all lanes.
   static Crossings<S> crossed(const RayPacket& rays, uint32_t lane, const TriangleSides<S>& sides,
                               const LeafTriangles<S>& triangles) {
     const auto of_ray = [&](const VectorLanes& v) {
@@ -56,13 +57,13 @@ private:
     return SeenTriangle<S>(of_ray(rays.origin), sides).crossed(of_ray(rays.direction), starts_here);
   }
 
-  static void shadow(const Crossings<S>& c, uint32_t triangles, uint32_t lane, RayQuery& query) {
-    const F low(Tests::kShadowTolerance);
-    const M between = c.near_hit & (c.near > low) & (c.near < F(query.distance->lane[lane]) - low);
-    if ((between.bits() & triangles) != 0) query.lanes &= ~(1u << lane);
+  static void occlude(const Crossings<S>& c, uint32_t triangles, uint32_t lane, RayQuery& query) {
+    const F low(Tests::kShadowEpsilon);
+    const M occluding = c.near_hit & (c.near > low) & (c.near < F(query.distance->lane[lane]) - low);
+    if ((occluding.bits() & triangles) != 0) query.lanes &= ~(1u << lane);
   }
 
-  /// As ObjectTests does.
+  /// As ObjectTests::keep_closest(), with the triangles in lanes and a single ray.
   static void keep_closest(const Crossings<S>& c, const LeafTriangles<S>& triangles, uint32_t lane,
                            HitPacket& hits) {
     const M valid = c.near_hit & (c.near > F(kMinHitDistance)) & (c.near <= F(hits.distance.lane[lane]));

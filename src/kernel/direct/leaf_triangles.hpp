@@ -1,36 +1,37 @@
-// Triangles of leaves, a lane for each. Kernel dialect.
+// The triangles of leaves, one in each SIMD lane. Kernel dialect.
 #pragma once
 
 #include "kernel/accel/object_tests.hpp"
 
 namespace celltrace::kernel {
 
-/// The scalar product of lane `i` of one vector with each lane of another.
+/// The scalar products of the vector in lane `i` of `a` with the vectors in all lanes of `b`.
 template <class S> typename S::F product(const VectorLanes& a, uint32_t i, const V3<S>& b) {
   using F = typename S::F;
   return F(a.x.lane[i]) * b.x + F(a.y.lane[i]) * b.y + F(a.z.lane[i]) * b.z;
 }
 
+/// Triangles that are collected from leaves and tested at once.
 template <class S> class LeafTriangles {
 public:
   static constexpr uint32_t kMost = kSimdLanes;
 
   uint32_t count() const { return count_; }
   void clear() { count_ = 0; }
-  uint32_t all() const { return (2u << (count_ - 1)) - 1; } ///< lanes; there is one
-  /// Of triangle `i`, in the scene image.
+  uint32_t all() const { return (2u << (count_ - 1)) - 1; } ///< lanes in use; count() is not 0
+  /// The offset of triangle `i` in the scene image.
   uint32_t offset(uint32_t i) const { return offsets_.lane[i]; }
   const WordLanes& offsets() const { return offsets_; }
 
-  /// There is room for it; the record stays where it is.
+  /// Adds a triangle, for which there is room. Its record must stay valid.
   void add(uint32_t offset, const ObjectRecord& triangle) {
     offsets_.lane[count_] = offset;
     geometry_[count_++] = triangle.geometry;
   }
 
-  /// Of all of them, at least one. Lanes without one hold the first.
+  /// Loads all triangles, of which there is at least one. Unused lanes repeat the first.
   [[gnu::always_inline]] TriangleSides<S> sides() const {
-    F numbers[12]; // the last three are nobody's
+    F numbers[12]; // a triangle's record has nine of them; the last three are unused
     for (uint32_t first = 0; first < 12; first += 4) {
       F* const four = numbers + first;
       for (uint32_t i = 0; i < 4; ++i)
@@ -53,8 +54,8 @@ private:
   uint32_t count_ = 0;
 };
 
-/// Adds those of a leaf's triangles that can be tested together, as far as there is room; what else is in the
-/// leaf is for `visit`.
+/// Adds the triangles of a leaf, as far as there is room; for shadow rays only the opaque ones. Calls
+/// `visit(offset)` for all other objects of the leaf.
 template <class Spu, class Visit>
 [[gnu::always_inline]] inline void
 collect_triangles(SceneAccess<Spu>& scene, const NodeRef& leaf, bool shadows,
@@ -64,7 +65,7 @@ collect_triangles(SceneAccess<Spu>& scene, const NodeRef& leaf, bool shadows,
     const uint32_t flags = object.kind_and_flags;
     const bool fits = shadows
                           ? ObjectTests<Spu>::is_opaque_triangle(flags)
-                          : static_cast<ObjectKind>(flags & object_flag::kind_mask) == ObjectKind::triangle;
+                          : ObjectTests<Spu>::is_plain_triangle(flags);
     if (fits && triangles.count() < LeafTriangles<typename Spu::simd>::kMost)
       triangles.add(self, object);
     else

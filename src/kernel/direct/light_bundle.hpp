@@ -1,21 +1,22 @@
-// Rays of a bundle on their way to a light. Kernel dialect.
+// The shadow rays of a bundle toward one light. Kernel dialect.
 #pragma once
 
 #include "kernel/direct/bundle_view.hpp"
 
 namespace celltrace::kernel {
 
-/// Those packets of a bundle that have enough in common. Rays to a light that is near are turned around, and
-/// leave it; to one that is far away, they leave a plane beneath the points they come from.
+/// The coherent packets of a bundle. Rays toward a near light are reversed and start at the light, as primary
+/// rays do at a pinhole. Rays toward a far light start at a plane below their origins, so that the distance
+/// of the light does not cost precision.
 template <class S> class LightBundle : public ViewBundle<S> {
 public:
   using F = typename S::F;
   using ViewBundle<S>::view, ViewBundle<S>::bounds, ViewBundle<S>::all, ViewBundle<S>::octant,
       ViewBundle<S>::turned, ViewBundle<S>::packets;
 
-  F reach; ///< how far the rays of each packet go, at most, on the major axis
+  F reach; ///< by packet: the greatest length of its rays on the major axis
 
-  /// Looks at the queries' `lanes`; each has some.
+  /// Bounds the rays of the queries. Each query has some lanes.
   LightBundle(const float (&light)[3], const RayQuery* queries, uint32_t count) : queries_(queries) {
     const RayPacket& rays = *queries[0].rays;
     const auto lane = static_cast<uint32_t>(__builtin_ctz(queries[0].lanes));
@@ -24,159 +25,167 @@ public:
       if (longer(rays, axis, major, lane)) major = axis;
     view.set_major(major);
     octant = octant_of(rays, lane);
-    way_ = ((octant >> major) & 1) != 0 ? -1.0f : 1.0f;
+    major_sign_ = ((octant >> major) & 1) != 0 ? -1.0f : 1.0f;
     for (uint32_t packet = 0; packet < count; ++packet)
-      take(packet);
+      include(packet);
     if (is_single(packets)) {
       packets = 0;
       return;
     }
     reach = F::load(reaches_.lane);
-    if (2 * wide_ >= __builtin_popcount(packets))
-      see_from(light);
+    if (2 * spread_count_ >= __builtin_popcount(packets))
+      bound_near(light);
     else
-      see_from_afar(light);
-    take_moments(light);
+      bound_far(light);
+    compute_moments(light);
   }
 
 private:
-  static constexpr float kRounding = 1e-6f;
-  /// Packets whose slopes differ less are lost in the rounding of distances from the light.
+  /// Epsilon for the rounding of slopes and positions, relative to their sizes.
+  static constexpr float kRelativeEpsilon = 1e-6f;
+  /// Packets whose slopes differ less are too narrow for coordinates relative to the light: rounding would
+  /// blur their rectangles.
   static constexpr float kLeastSpread = 1e-3f;
 
   static bool longer(const RayPacket& rays, uint32_t axis, uint32_t than, uint32_t lane) {
     return magnitude(rays.direction[axis].lane[lane]) > magnitude(rays.direction[than].lane[lane]);
   }
 
-  /// What of a packet's vectors is in its lanes; lanes outside take the value of one inside.
-  struct Inside {
+  /// Reads the active lanes of a packet's vectors. Other lanes take the value of an active one, so that they
+  /// do not widen intervals.
+  struct ActiveLanes {
     typename S::M lanes;
-    uint32_t some;
+    uint32_t any_lane;
 
-    explicit Inside(const RayQuery& query)
-        : lanes(S::M::from_bits(query.lanes)), some(static_cast<uint32_t>(__builtin_ctz(query.lanes))) {}
+    explicit ActiveLanes(const RayQuery& query)
+        : lanes(S::M::from_bits(query.lanes)), any_lane(static_cast<uint32_t>(__builtin_ctz(query.lanes))) {}
     F operator()(const VectorLanes& v, uint32_t axis) const {
       const FloatLanes& all = v[axis];
-      return S::select(lanes, F::load(all.lane), F(all.lane[some]));
+      return S::select(lanes, F::load(all.lane), F(all.lane[any_lane]));
     }
   };
 
-  /// Takes a packet along if its rays go the same way.
-  void take(uint32_t packet) {
+  /// Includes a packet if its rays are coherent with those before.
+  void include(uint32_t packet) {
     const RayQuery& query = queries_[packet];
     const uint32_t* const axes = view.axes;
-    const Inside inside(query);
-    const F length = inside(query.rays->direction, axes[2]) * F(way_);
-    if ((length > F(1e-3f)).bits() != 0xFFFF) return;
+    const ActiveLanes active(query);
+    const F length = active(query.rays->direction, axes[2]) * F(major_sign_);
+    if ((length > F(1e-3f)).bits() != 0xFFFF) return; // otherwise slopes exceed 1000
     const F scale = F(1.0f) / length;
-    Interval across[2];
+    Interval extents[2];
     float spread = 0.0f;
     for (uint32_t i = 0; i < 2; ++i) {
-      Interval slopes = interval_of<S>(inside(query.rays->direction, axes[i]) * scale);
-      slopes = {slopes.low - kRounding, slopes.high + kRounding};
+      Interval slopes = interval_of<S>(active(query.rays->direction, axes[i]) * scale);
+      slopes = {slopes.low - kRelativeEpsilon, slopes.high + kRelativeEpsilon};
       const bool backward = ((octant >> axes[i]) & 1) != 0;
       if (backward ? !(slopes.high < 0.0f) : !(slopes.low >= 0.0f)) return;
       spread += slopes.high - slopes.low;
-      put(slopes.low, packet, lows_[i]);
-      put(slopes.high, packet, highs_[i]);
-      across[i] = packets == 0 ? slopes : united(slopes, across_[i]);
+      set_lane(slopes.low, packet, lows_[i]);
+      set_lane(slopes.high, packet, highs_[i]);
+      extents[i] = packets == 0 ? slopes : united(slopes, slopes_[i]);
     }
-    if (across[0].high - across[0].low + across[1].high - across[1].low > kMaxDirectionSpread) return;
-    wide_ += spread >= kLeastSpread ? 1 : 0;
-    across_[0] = across[0];
-    across_[1] = across[1];
-    const F lengths = S::select(inside.lanes, F::load(query.distance->lane) * length, F(0.0f));
+    if (extents[0].high - extents[0].low + extents[1].high - extents[1].low > kMaxDirectionSpread) return;
+    spread_count_ += spread >= kLeastSpread ? 1 : 0;
+    slopes_[0] = extents[0];
+    slopes_[1] = extents[1];
+    const F lengths = S::select(active.lanes, F::load(query.distance->lane) * length, F(0.0f));
     const float longest = interval_of<S>(lengths).high;
-    put(longest, packet, reaches_);
+    set_lane(longest, packet, reaches_);
     farthest_ = larger(farthest_, longest);
     packets |= 1u << packet;
   }
 
-  /// The first packet's number also stands in the lanes of those that are left out.
-  void put(float value, uint32_t packet, FloatLanes& lanes) const {
+  /// Sets a packet's lane. The first packet's value is also that of the lanes of packets that are not
+  /// included.
+  void set_lane(float value, uint32_t packet, FloatLanes& lanes) const {
     if (packets == 0) F(value).store(lanes.lane);
     lanes.lane[packet] = value;
   }
 
-  void see_from(const float (&light)[3]) {
+  /// Bounds reversed rays, which start at the light.
+  void bound_near(const float (&light)[3]) {
     turned = true;
     octant ^= 7;
-    view.forth = -way_;
+    view.forth = -major_sign_;
     view.span = 3.0f * farthest_;
-    const float off = kRounding * farthest_; // what a ray passes the light by
+    const float epsilon = kRelativeEpsilon * farthest_; // of the distance at which a ray passes the light
     for (uint32_t i = 0; i < 3; ++i) {
       const uint32_t axis = view.axes[i];
       view.origin[axis] = light[axis];
-      all.origin[axis] = {light[axis] - off, light[axis] + off};
+      all.origin[axis] = {light[axis] - epsilon, light[axis] + epsilon};
       bounds.origin[axis] = LaneInterval<S>::splat(all.origin[axis]);
       if (i == 2) {
         all.direction[axis] = {view.forth, view.forth};
         bounds.direction[axis] = LaneInterval<S>::splat(all.direction[axis]);
       } else {
-        all.direction[axis] = {-across_[i].high, -across_[i].low};
+        all.direction[axis] = {-slopes_[i].high, -slopes_[i].low};
         view.seen[i] = {-F::load(highs_[i].lane), -F::load(lows_[i].lane)};
         bounds.direction[axis] = view.seen[i];
       }
     }
   }
 
-  void see_from_afar(const float (&light)[3]) {
+  /// Bounds rays where they cross a plane below their origins.
+  void bound_far(const float (&light)[3]) {
     const uint32_t* const axes = view.axes;
     for (uint32_t axis = 0; axis < 3; ++axis)
       view.origin[axis] = some_origin(axis);
-    view.forth = way_;
-    const float depth = (light[axes[2]] - view.origin[axes[2]]) * way_;
+    view.forth = major_sign_;
+    const float depth = (light[axes[2]] - view.origin[axes[2]]) * major_sign_;
     for (uint32_t i = 0; i < 2; ++i)
       view.slope[i] = (light[axes[i]] - view.origin[axes[i]]) / depth;
-    // Where the rays of each packet cross the plane of the origin, and how far above it the lowest begins.
+    // By packet: where its rays cross the plane through the view's origin, and the height above it at which
+    // the lowest of them starts.
     FloatLanes lowest;
     F(0.0f).store(lowest.lane);
-    float wide = 0.0f;
+    float extent = 0.0f;
     for_each_lane(packets, [&](uint32_t packet) {
       const RayQuery& query = queries_[packet];
       const VectorLanes &points = query.rays->origin, &directions = query.rays->direction;
-      const Inside inside(query);
-      const F height = (inside(points, axes[2]) - F(view.origin[axes[2]])) * F(way_);
-      const F steps = height / (inside(directions, axes[2]) * F(way_));
+      const ActiveLanes active(query);
+      const F height = (active(points, axes[2]) - F(view.origin[axes[2]])) * F(major_sign_);
+      const F steps = height / (active(directions, axes[2]) * F(major_sign_));
       for (uint32_t i = 0; i < 2; ++i) {
-        const Interval crossed = interval_of<S>(inside(points, axes[i]) - F(view.origin[axes[i]]) -
-                                                inside(directions, axes[i]) * steps);
+        const Interval crossed = interval_of<S>(active(points, axes[i]) - F(view.origin[axes[i]]) -
+                                                active(directions, axes[i]) * steps);
         lows_[i].lane[packet] = crossed.low;
         highs_[i].lane[packet] = crossed.high;
-        wide = larger(wide, larger(magnitude(crossed.low), magnitude(crossed.high)));
+        extent = larger(extent, larger(magnitude(crossed.low), magnitude(crossed.high)));
       }
       const Interval heights = interval_of<S>(height);
       lowest.lane[packet] = heights.low;
       reaches_.lane[packet] += heights.high - heights.low;
-      wide = larger(wide, larger(magnitude(heights.low), magnitude(heights.high)));
+      extent = larger(extent, larger(magnitude(heights.low), magnitude(heights.high)));
     });
     reach = F::load(reaches_.lane);
-    wide = larger(wide, kRounding * depth); // not 0
-    // Of the size of what is seen, so that all coordinates are of a size.
-    view.ahead = 64.0f * wide;
-    view.third = -view.ahead / depth;
-    const F scale(1.0f / view.ahead);
-    const F off(4.0f * kRounding * wide);
+    extent = larger(extent, kRelativeEpsilon * depth); // not 0
+    // In proportion to the extent of the origins, so that all coordinates have similar magnitudes.
+    view.depth_offset = 64.0f * extent;
+    view.depth_scale = -view.depth_offset / depth;
+    const F scale(1.0f / view.depth_offset);
+    const F epsilon(4.0f * kRelativeEpsilon * extent);
     const F begin = F::load(lowest.lane);
     for (uint32_t i = 0; i < 2; ++i) {
-      const LaneInterval<S> across = {F::load(lows_[i].lane) - off, F::load(highs_[i].lane) + off};
-      view.seen[i] = {across.low * scale, across.high * scale};
-      all.direction[axes[i]] = across_[i];
-      bounds.direction[axes[i]] = LaneInterval<S>::splat(across_[i]);
-      const F slow = F(across_[i].low) * begin, fast = F(across_[i].high) * begin;
+      const LaneInterval<S> extents = {F::load(lows_[i].lane) - epsilon, F::load(highs_[i].lane) + epsilon};
+      view.seen[i] = {extents.low * scale, extents.high * scale};
+      all.direction[axes[i]] = slopes_[i];
+      bounds.direction[axes[i]] = LaneInterval<S>::splat(slopes_[i]);
+      const F slow = F(slopes_[i].low) * begin, fast = F(slopes_[i].high) * begin;
       const F origin(view.origin[axes[i]]);
-      bounds.origin[axes[i]] = {across.low + S::min(slow, fast) + origin,
-                                across.high + S::max(slow, fast) + origin};
+      bounds.origin[axes[i]] = {extents.low + S::min(slow, fast) + origin,
+                                extents.high + S::max(slow, fast) + origin};
     }
-    const F plane = begin * F(way_) + F(view.origin[axes[2]]);
+    const F plane = begin * F(major_sign_) + F(view.origin[axes[2]]);
     bounds.origin[axes[2]] = {plane, plane};
-    all.direction[axes[2]] = {way_, way_};
+    all.direction[axes[2]] = {major_sign_, major_sign_};
     bounds.direction[axes[2]] = LaneInterval<S>::splat(all.direction[axes[2]]);
     for (uint32_t axis = 0; axis < 3; ++axis)
       all.origin[axis] = bounds.origin[axis].all();
   }
 
-  void take_moments(const float (&light)[3]) {
+  /// Computes moments about the origin of one of the rays.
+  void compute_moments(const float (&light)[3]) {
     moments_.span = 0.0f;
     for (uint32_t axis = 0; axis < 3; ++axis) {
       moments_.light[axis] = light[axis];
@@ -186,9 +195,9 @@ private:
     F span(0.0f);
     for_each_lane(packets, [&](uint32_t packet) {
       const RayQuery& query = queries_[packet];
-      const Inside inside(query);
+      const ActiveLanes active(query);
       const VectorLanes& points = query.rays->origin;
-      const V3<S> from = V3<S>{inside(points, 0), inside(points, 1), inside(points, 2)} - base;
+      const V3<S> from = V3<S>{active(points, 0), active(points, 1), active(points, 2)} - base;
       span = S::max(span, absolute_sum<S>(from));
       moments_.of[packet].template store<S>(cross<S>(from, query.rays->direction.template load<S>()));
     });
@@ -200,12 +209,12 @@ private:
     return first.rays->origin[axis].lane[__builtin_ctz(first.lanes)];
   }
 
-  const RayQuery* queries_; ///< until all is known
-  float way_;
-  Interval across_[2];                      ///< slopes of all of them
-  int wide_ = 0;                            ///< packets whose slopes differ enough
-  float farthest_ = 0.0f;                   ///< greatest of `reach`
-  FloatLanes lows_[2], highs_[2], reaches_; ///< a lane for each packet
+  const RayQuery* queries_;                 ///< valid in the constructor only
+  float major_sign_;                        ///< of directions on the major axis
+  Interval slopes_[2];                      ///< of all packets, on the two minor axes
+  int spread_count_ = 0;                    ///< packets whose slopes differ by kLeastSpread or more
+  float farthest_ = 0.0f;                   ///< the greatest of `reach`
+  FloatLanes lows_[2], highs_[2], reaches_; ///< by packet: rectangles; `reach`
   BundleMoments moments_;
 };
 

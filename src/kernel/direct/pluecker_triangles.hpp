@@ -1,5 +1,5 @@
-// The triangles of a leaf, tested by the moments of rays: the inner products of the Pluecker coordinates of a
-// ray and of a triangle's sides are barycentric coordinates, but for their sum. Kernel dialect.
+// Triangles tested by Pluecker coordinates: the permuted inner products of a ray and a triangle's edges are,
+// divided by their sum, barycentric coordinates. Kernel dialect.
 #pragma once
 
 #include "kernel/direct/bundle_view.hpp"
@@ -7,6 +7,7 @@
 
 namespace celltrace::kernel {
 
+/// One triangle in each lane. Tests take one triangle and the shadow rays of a packet in lanes.
 template <class S> class PlueckerTriangles {
 public:
   using F = typename S::F;
@@ -15,9 +16,9 @@ public:
   [[gnu::always_inline]] PlueckerTriangles(const TriangleSides<S>& sides, const BundleMoments& moments) {
     const V3<S> corner = sides.v0 - splat3<S>(moments.base);
     const V3<S> whole = cross<S>(sides.edge2, sides.edge1);
-    // Turned so that rays that go through them to the light have positive products.
-    const F beyond = dot<S>(whole, splat3<S>(moments.light) - sides.v0);
-    const F sign = S::select(beyond < F(0.0f), F(-1.0f), F(1.0f));
+    // Oriented so that the products of rays that cross the triangle toward the light are positive.
+    const F toward_light = dot<S>(whole, splat3<S>(moments.light) - sides.v0);
+    const F sign = S::select(toward_light < F(0.0f), F(-1.0f), F(1.0f));
     const V3<S> edge1 = sides.edge1 * sign, edge2 = sides.edge2 * sign;
     first_.template store<S>(edge2);
     first_moment_.template store<S>(cross<S>(corner, edge2));
@@ -27,10 +28,11 @@ public:
     normal_.template store<S>(normal);
     dot<S>(normal, corner).store(plane_.lane);
     const F size = S::max(absolute_sum<S>(sides.edge1), absolute_sum<S>(sides.edge2));
+    // Neighbours overlap by the rounding of products, so that no ray passes between them (see SeenTriangle).
     ((absolute_sum<S>(corner) + F(moments.span)) * size * F(detail::kUnitInLastPlace)).store(overlap_.lane);
   }
 
-  /// Which of the rays of a packet cross triangle `i` between `low` and `high`.
+  /// The rays of a packet that cross triangle `i` at a distance between `low` and `high`.
   [[gnu::always_inline]] M crossed_between(uint32_t i, const RayPacket& rays, const VectorLanes& moment,
                                            const BundleMoments& moments, const F& low, const F& high) const {
     const V3<S> d = rays.direction.template load<S>(), m = moment.template load<S>();
@@ -46,9 +48,9 @@ public:
 
 private:
   // A lane for each triangle.
-  VectorLanes first_, first_moment_, second_, second_moment_; ///< of two sides
+  VectorLanes first_, first_moment_, second_, second_moment_; ///< two edges: direction, moment
   VectorLanes normal_;
-  FloatLanes plane_, overlap_;
+  FloatLanes plane_, overlap_; ///< normal * corner; epsilon of the products
 };
 
 } // namespace celltrace::kernel

@@ -138,9 +138,8 @@ private:
     stage_report.returns = tests_.returns();
     ReportRecord& report = stage_.report();
     const TraversalCounters& counters = split() ? tests_.counters() : whole_.counters();
-    report.sphere_tests = counters.tests[0];
-    report.ellipsoid_tests = counters.tests[1];
-    report.triangle_tests = counters.tests[2];
+    for (uint32_t kind = 0; kind < kPrimitives; ++kind)
+      report.tests[kind] = counters.tests[kind];
     report.accelerator_visits = split() ? walk_.voxels() : counters.voxels;
     stage_.add_cache(scene_);
     stage_.send_reports();

@@ -175,9 +175,8 @@ private:
     report_.refraction_rays = rays.refraction;
     report_.dropped_rays = rays.dropped;
     const TraversalCounters& traversal = phase_->tracer.traversal_counters();
-    report_.sphere_tests = traversal.tests[0];
-    report_.ellipsoid_tests = traversal.tests[1];
-    report_.triangle_tests = traversal.tests[2];
+    for (uint32_t kind = 0; kind < kPrimitives; ++kind)
+      report_.tests[kind] = traversal.tests[kind];
     report_.accelerator_visits = traversal.visits;
     for (uint32_t kind = 0; kind < kDataKinds; ++kind) {
       const CacheCounters counters = phase_->scene.cache().counters(static_cast<DataKind>(kind));

@@ -1,7 +1,7 @@
 // Where rays hit, and the surface there. Kernel dialect.
 #pragma once
 
-#include "kernel/primitives/intersect.hpp"
+#include "kernel/primitives/list.hpp"
 #include "kernel/scalar_work.hpp"
 #include "kernel/scene_access.hpp"
 
@@ -19,9 +19,10 @@ namespace detail {
 
 /// The objects that rays of a packet hit, side by side.
 template <class S> struct ObjectLanes {
-  V3<S> geometry[4];   ///< as ObjectRecord's
-  V3<S> normals[3];    ///< as NormalsRecord's, of smooth triangles
-  uint32_t of_kind[3]; ///< lanes by ObjectKind; each is of one
+  V3<S> geometry[4];              ///< as ObjectRecord's
+  V3<S> normals[3];               ///< the values of ExtraRecords, of smooth triangles
+  LocalParameters<S> parameters;  ///< of shapes in a space of their own
+  uint32_t of_kind[kPrimitives];  ///< lanes by kind; each is of one
   uint32_t smooth;
 };
 
@@ -32,20 +33,25 @@ void surface_of_spheres(const ObjectLanes<S>& o, const V3<S>& along_ray, V3<S>& 
   point = centre + normal * o.geometry[1].x;
 }
 
+/// Of shapes in a space of their own: the gradient is transformed by the transposed map.
 template <class S>
-void surface_of_ellipsoids(const ObjectLanes<S>& o, const V3<S>& along_ray, V3<S>& point, V3<S>& normal) {
-  using F = typename S::F;
+void surface_of_local_shapes(const ObjectLanes<S>& o, const V3<S>& along_ray, V3<S>& point, V3<S>& normal) {
   // Three rows of four.
   const V3<S>* const g = o.geometry;
-  const F m[3][4] = {
-      {g[0].x, g[0].y, g[0].z, g[1].x}, {g[1].y, g[1].z, g[2].x, g[2].y}, {g[2].z, g[3].x, g[3].y, g[3].z}};
-  const auto row = [&](int r) {
-    return m[r][0] * along_ray.x + m[r][1] * along_ray.y + m[r][2] * along_ray.z + m[r][3];
-  };
-  // The gradient of |M p + t|^2: the transposed map applied to the point on the unit sphere.
-  const V3<S> unit = normalise<S>({row(0), row(1), row(2)});
-  const auto column = [&](int c) { return m[0][c] * unit.x + m[1][c] * unit.y + m[2][c] * unit.z; };
-  normal = normalise<S>({column(0), column(1), column(2)});
+  const V3<S> rows[3] = {{g[0].x, g[0].y, g[0].z}, {g[1].y, g[1].z, g[2].x}, {g[2].z, g[3].x, g[3].y}};
+  const V3<S> local = {dot<S>(rows[0], along_ray) + g[1].x, dot<S>(rows[1], along_ray) + g[2].y,
+                       dot<S>(rows[2], along_ray) + g[3].z};
+  V3<S> gradient = local;
+  uint32_t kind = 0;
+  Primitives::for_each([&](auto shape) {
+    using Shape = decltype(shape);
+    if constexpr (Shape::kIsLocal)
+      if (o.of_kind[kind] != 0)
+        gradient = select<S>(S::M::from_bits(o.of_kind[kind]),
+                             Shape::template gradient<S>(local, o.parameters), gradient);
+    ++kind;
+  });
+  normal = normalise<S>(rows[0] * gradient.x + rows[1] * gradient.y + rows[2] * gradient.z);
   point = along_ray;
 }
 
@@ -70,7 +76,12 @@ void surface_of_triangles(const ObjectLanes<S>& o, const HitPacket& hits, V3<S>&
 template <class S>
 void surface_of(const ObjectLanes<S>& o, const V3<S>& along_ray, const HitPacket& hits, V3<S>& point,
                 V3<S>& normal) {
-  const uint32_t spheres = o.of_kind[0], ellipsoids = o.of_kind[1], triangles = o.of_kind[2];
+  const uint32_t spheres = o.of_kind[kPrimitiveKind<SpherePrimitive>],
+                 triangles = o.of_kind[kPrimitiveKind<TrianglePrimitive>];
+  uint32_t others = 0;
+  for (uint32_t kind = 0; kind < kPrimitives; ++kind)
+    if (kind != kPrimitiveKind<SpherePrimitive> && kind != kPrimitiveKind<TrianglePrimitive>)
+      others |= o.of_kind[kind];
   if (spheres != 0) surface_of_spheres<S>(o, along_ray, point, normal);
   const auto add = [&](uint32_t lanes, const V3<S>& p, const V3<S>& n) {
     const auto mask = S::M::from_bits(lanes);
@@ -78,9 +89,9 @@ void surface_of(const ObjectLanes<S>& o, const V3<S>& along_ray, const HitPacket
     normal = select<S>(mask, n, normal);
   };
   V3<S> p, n;
-  if (ellipsoids != 0) {
-    surface_of_ellipsoids<S>(o, along_ray, p, n);
-    add(ellipsoids, p, n);
+  if (others != 0) {
+    surface_of_local_shapes<S>(o, along_ray, p, n);
+    add(others, p, n);
   }
   if (triangles != 0) {
     surface_of_triangles<S>(o, hits, p, n);
@@ -112,41 +123,54 @@ void find_hit_points(SceneAccess<Spu>& scene, const RayPacket& rays, const HitPa
   objects.smooth = 0;
   I material = I::splat(0), interior = I::splat(0);
   bool is_first = true;
+  uint32_t open = 0;
+  objects.parameters.ratio = F(0.0f);
   points.blended = 0;
   for_each_value<S>(hits.object, lanes, [&](uint32_t offset, uint32_t same) {
     scene.spu().compute(scalar_work::kHitObject);
     const ObjectRecord& object = *scene.object(offset);
     const uint32_t flags = object.kind_and_flags;
-    const uint32_t normals = object.normals;
+    const uint32_t extra = object.extra;
     // Lanes without a hit hold what the first has.
     const bool first = is_first;
     const uint32_t of_object = first ? 0xFFFF : same;
     is_first = false;
     const M mask = M::from_bits(of_object);
     const auto put = [&](const float* values, V3<S>& into) { put_in_lanes<Spu>(first, mask, values, into); };
-    const auto kind = static_cast<ObjectKind>(flags & object_flag::kind_mask);
+    const uint32_t kind = flags & object_flag::kind_mask;
+    const bool is_local = kind > static_cast<uint32_t>(ObjectKind::triangle) ||
+                          kind == static_cast<uint32_t>(ObjectKind::ellipsoid);
     put(object.geometry, objects.geometry[0]);
     put(object.geometry + 3, objects.geometry[1]);
-    if (kind != ObjectKind::sphere) put(object.geometry + 6, objects.geometry[2]);
-    if (kind == ObjectKind::ellipsoid) put(object.geometry + 9, objects.geometry[3]);
+    if (kind != static_cast<uint32_t>(ObjectKind::sphere)) put(object.geometry + 6, objects.geometry[2]);
+    if (is_local) put(object.geometry + 9, objects.geometry[3]);
     material = S::select(mask, I::splat(static_cast<int32_t>(object.material)), material);
     interior = S::select(mask, I::splat(static_cast<int32_t>(object.interior)), interior);
     for (uint32_t& of_kind : objects.of_kind)
       of_kind &= ~of_object;
-    objects.of_kind[static_cast<uint32_t>(kind)] |= of_object;
+    objects.of_kind[kind] |= of_object;
     objects.smooth &= ~of_object;
     if ((flags & object_flag::blended) != 0) points.blended |= same;
     if ((flags & object_flag::smooth) != 0) {
       objects.smooth |= of_object;
-      const float* const n = scene.normals(normals)->normal;
+      const float* const n = scene.extra(extra)->value;
       put(n, objects.normals[0]);
       put(n + 3, objects.normals[1]);
       put(n + 6, objects.normals[2]);
+    } else if (is_local && extra != kNoOffset) {
+      const F ratio(scene.extra(extra)->value[0]);
+      objects.parameters.ratio = first ? ratio : S::select(mask, ratio, objects.parameters.ratio);
     }
+    if ((flags & object_flag::open) != 0)
+      open |= of_object;
+    else
+      open &= ~of_object;
   });
   scene.spu().compute(scalar_work::kHitSurfaces);
   material.store(reinterpret_cast<int32_t*>(points.material.lane));
   interior.store(reinterpret_cast<int32_t*>(points.interior.lane));
+
+  objects.parameters.open = M::from_bits(open);
 
   const V3<S> direction = rays.direction.template load<S>();
   detail::surface_of(objects, rays.origin.template load<S>() + direction * F::load(hits.distance.lane), hits,

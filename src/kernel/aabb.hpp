@@ -1,0 +1,23 @@
+// Axis-aligned bounding boxes. Kernel dialect.
+#pragma once
+
+#include "kernel/scalar.hpp"
+
+namespace celltrace::kernel {
+
+struct Aabb {
+  float min[3];
+  float max[3];
+};
+
+/// The smallest box around both.
+inline Aabb united(const Aabb& a, const Aabb& b) {
+  Aabb both;
+  for (int i = 0; i < 3; ++i) {
+    both.min[i] = smaller(a.min[i], b.min[i]);
+    both.max[i] = larger(a.max[i], b.max[i]);
+  }
+  return both;
+}
+
+} // namespace celltrace::kernel

@@ -1,0 +1,35 @@
+// Where rays cross the surface of a shape. Kernel dialect.
+#pragma once
+
+#include "kernel/math.hpp"
+#include "kernel/packet.hpp"
+
+namespace celltrace::kernel {
+
+/// Hits nearer or farther than this are none, as in POV-Ray.
+constexpr float kMinHitDistance = 1e-4f;
+constexpr float kMaxHitDistance = 1e7f;
+
+/// Two crossings of each ray of a packet with a surface, by distance along the ray. Distances of lanes outside
+/// their mask are meaningless. Shapes with one crossing have `far_hit` empty; shapes with more fill several.
+template <class S> struct Crossings {
+  typename S::F near, far;
+  typename S::M near_hit, far_hit;
+  typename S::F u, v; ///< of triangles: barycentric coordinates, the weights of the second and third vertex
+
+  static Crossings none() {
+    const typename S::F zero(0.0f);
+    return {zero, zero, S::M::none(), S::M::none(), zero, zero};
+  }
+};
+/// No shape has more pairs of crossings: a torus has four crossings.
+constexpr uint32_t kMaxCrossingPairs = 2;
+
+/// The rays that start on an object.
+template <class S> typename S::M lanes_that_start_on(const RayPacket& rays, uint32_t self) {
+  using I = typename S::I;
+  return I::load(reinterpret_cast<const int32_t*>(rays.start_object.lane)) ==
+         I::splat(static_cast<int32_t>(self));
+}
+
+} // namespace celltrace::kernel

@@ -1,0 +1,54 @@
+// Constructive solid geometry: which crossings with a part's surface count. Kernel dialect.
+#pragma once
+
+#include "kernel/primitives/list.hpp"
+#include "kernel/scene_access.hpp"
+
+namespace celltrace::kernel {
+
+/// Which of the points in `lanes` are in a solid.
+template <class Spu>
+uint32_t inside_solid(SceneAccess<Spu>& scene, uint32_t solid, const V3<typename Spu::simd>& points,
+                      uint32_t lanes) {
+  using S = typename Spu::simd;
+  const SolidRecord& record = *scene.solid(solid);
+  uint32_t inside = 0;
+  Primitives::dispatch(record.object.kind_and_flags & object_flag::kind_mask, [&](auto shape) {
+    inside = decltype(shape)::template inside<S>(points, record.object, record.extra).bits();
+  });
+  return inside & lanes;
+}
+
+/// Which of the points in `lanes`, on the surface of a part, satisfy its condition and those of all levels
+/// above it. Each lane has a place in the program of its own, which only goes forward.
+template <class Spu>
+[[gnu::noinline]] uint32_t csg_accepted(SceneAccess<Spu>& scene, uint32_t condition,
+                                        const V3<typename Spu::simd>& points, uint32_t lanes) {
+  using S = typename Spu::simd;
+  using I = typename S::I;
+  const auto word = [](uint32_t value) { return I::splat(static_cast<int32_t>(value)); };
+  while (condition != kNoOffset && lanes != 0) {
+    const CsgRecord level = *scene.csg(condition);
+    const uint32_t first = level.skip_begin == 0 ? level.skip_end : 0;
+    I place = word(first == level.count ? kCsgAccept : first);
+    for (uint32_t i = first; i < level.count; ++i) {
+      if (i == level.skip_begin && i != level.skip_end) {
+        const uint32_t after = level.skip_end == level.count ? kCsgAccept : level.skip_end;
+        place = S::select(place == word(i), word(after), place);
+        i = level.skip_end - 1;
+        continue;
+      }
+      const uint32_t here = (place == word(i)).bits() & lanes;
+      if (here == 0) continue;
+      const CsgStep step = *scene.csg_step(level.steps + i * static_cast<uint32_t>(sizeof(CsgStep)));
+      const uint32_t inside = inside_solid(scene, step.solid, points, here);
+      place = S::select(S::M::from_bits(inside), word(step.if_inside), place);
+      place = S::select(S::M::from_bits(here & ~inside), word(step.if_outside), place);
+    }
+    lanes &= (place == word(kCsgAccept)).bits();
+    condition = level.next;
+  }
+  return lanes;
+}
+
+} // namespace celltrace::kernel

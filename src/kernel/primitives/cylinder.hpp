@@ -1,0 +1,62 @@
+// Cylinder: radius 1 around the z axis of its space, from z = 0 to z = 1; with or without caps. Kernel dialect.
+#pragma once
+
+#include "kernel/primitives/local_shape.hpp"
+
+namespace celltrace::kernel {
+
+struct CylinderPrimitive : LocalPrimitive<CylinderPrimitive> {
+  static constexpr const char* kName = "cylinder";
+  static constexpr uint32_t kCrossingPairs = 1;
+  static constexpr bool kHasParameters = false;
+
+  template <class S>
+  static void intersect_local(const LocalRays<S>& rays, const LocalParameters<S>& parameters,
+                        Crossings<S>* crossings) {
+    using F = typename S::F;
+    const V3<S>&o = rays.origin, &d = rays.direction;
+    const F zero(0.0f), one(1.0f);
+    // The infinite cylinder, about the point of the ray that is nearest to the axis.
+    const F square = d.x * d.x + d.y * d.y;
+    const auto along_axis = square <= F(1e-14f) * (square + d.z * d.z);
+    const F inverse = one / S::select(along_axis, one, square);
+    const F middle = -(o.x * d.x + o.y * d.y) * inverse;
+    const F x = o.x + d.x * S::select(along_axis, zero, middle);
+    const F y = o.y + d.y * S::select(along_axis, zero, middle);
+    const F left = one - (x * x + y * y);
+    const auto crosses = left >= zero;
+    const F half = S::sqrt(S::max(left, zero) * inverse);
+    const F far_away(1e20f);
+    const F enter = S::select(along_axis, -far_away, middle - half);
+    const F leave = S::select(along_axis, far_away, middle + half);
+    const SlabInterval<S> caps(o.z, d.z, zero, one);
+    Crossings<S>& c = *crossings;
+    c = Crossings<S>::none();
+    c.near = S::select(parameters.open, enter, S::max(enter, caps.enter));
+    c.far = S::select(parameters.open, leave, S::min(leave, caps.leave));
+    const auto solid = crosses & (c.near <= c.far);
+    const auto between = [&](const F& t) { return crosses & !along_axis & (t >= caps.enter) & (t <= caps.leave); };
+    c.near_hit = (parameters.open & between(enter)) | (solid & !parameters.open);
+    c.far_hit = (parameters.open & between(leave)) | (solid & !parameters.open);
+    drop_start<S>(rays.starts_here, S::sqrt(dot<S>(d, d)), c);
+  }
+
+  template <class S> static typename S::M inside_local(const V3<S>& p, const LocalParameters<S>&) {
+    using F = typename S::F;
+    return (p.x * p.x + p.y * p.y < F(1.0f)) & (p.z > F(0.0f)) & (p.z < F(1.0f));
+  }
+
+  template <class S> static V3<S> gradient(const V3<S>& p, const LocalParameters<S>& parameters) {
+    using F = typename S::F;
+    const F zero(0.0f), one(1.0f);
+    const F from_side = S::abs(one - S::sqrt(p.x * p.x + p.y * p.y));
+    const F from_bottom = S::abs(p.z), from_top = S::abs(one - p.z);
+    const auto cap = (S::min(from_bottom, from_top) < from_side) & !parameters.open;
+    const F up = S::select(from_top < from_bottom, one, -one);
+    return {S::select(cap, zero, p.x), S::select(cap, zero, p.y), S::select(cap, up, zero)};
+  }
+
+  static LocalBounds local_bounds(float) { return {0.0f, 1.0f, 1.0f, false}; }
+};
+
+} // namespace celltrace::kernel

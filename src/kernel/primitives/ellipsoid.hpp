@@ -1,0 +1,43 @@
+// Ellipsoid: what an affine transformation makes of a sphere; the unit sphere of its space. Kernel dialect.
+#pragma once
+
+#include "kernel/primitives/local_shape.hpp"
+#include "kernel/primitives/sphere.hpp"
+
+namespace celltrace::kernel {
+
+struct EllipsoidPrimitive : LocalPrimitive<EllipsoidPrimitive> {
+  static constexpr const char* kName = "ellipsoid";
+  static constexpr uint32_t kCrossingPairs = 1;
+  static constexpr bool kHasParameters = false;
+
+  template <class S>
+  static void intersect_local(const LocalRays<S>& rays, const LocalParameters<S>&, Crossings<S>* crossings) {
+    using F = typename S::F;
+    const V3<S>&o = rays.origin, &d = rays.direction;
+    const F inverse_square = F(1.0f) / S::max(dot<S>(d, d), F(1e-30f));
+    const F along = -dot<S>(o, d) * inverse_square;
+    const V3<S> nearest = o + d * along;
+    *crossings =
+        detail::chord<S>(along, (F(1.0f) - dot<S>(nearest, nearest)) * inverse_square, rays.starts_here);
+  }
+
+  template <class S> static typename S::M inside_local(const V3<S>& p, const LocalParameters<S>&) {
+    return dot<S>(p, p) < typename S::F(1.0f);
+  }
+
+  /// The point is moved to the sphere first: it may be far from it by what rounding does to long rays.
+  template <class S> static V3<S> gradient(const V3<S>& p, const LocalParameters<S>&) {
+    return normalise<S>(p);
+  }
+
+  static LocalBounds local_bounds(float) { return {-1.0f, 1.0f, 1.0f, false}; }
+
+  /// Tighter than those of a box around the sphere: half the extent along an axis is the length of that row
+  /// of the map from the unit sphere to the world.
+  static Aabb bounds(const ObjectRecord& object, const ExtraRecord&) {
+    return round_bounds_in_world(object.geometry);
+  }
+};
+
+} // namespace celltrace::kernel

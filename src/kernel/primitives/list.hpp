@@ -1,0 +1,63 @@
+// All shapes. The order gives each its kind, a number in its records. Kernel dialect.
+//
+// A shape P has
+//   kName            for statistics
+//   kCrossingPairs   what intersect() fills, at most kMaxCrossingPairs
+//   kHasParameters   whether it reads its ExtraRecord
+//   kIsBounded       whether it can be in the BVH by itself
+//   kIsLocal         whether its geometry is a map to a space of its own (local_shape.hpp)
+//   intersect(rays, object, extra, self, crossings), inside(point, object, extra)
+//   bounds(object, extra), overlaps(object, extra, box)
+#pragma once
+
+#include "kernel/primitives/box.hpp"
+#include "kernel/primitives/cone.hpp"
+#include "kernel/primitives/cylinder.hpp"
+#include "kernel/primitives/disc.hpp"
+#include "kernel/primitives/ellipsoid.hpp"
+#include "kernel/primitives/plane.hpp"
+#include "kernel/primitives/sphere.hpp"
+#include "kernel/primitives/torus.hpp"
+#include "kernel/primitives/triangle.hpp"
+
+namespace celltrace::kernel {
+
+template <class... P> struct PrimitiveList {
+  static constexpr uint32_t kCount = sizeof...(P);
+  static constexpr const char* kNames[] = {P::kName...};
+
+  /// The kind of a shape.
+  template <class Wanted> static constexpr uint32_t kind() {
+    constexpr bool found[] = {is_same<Wanted, P>()...};
+    uint32_t kind = 0;
+    while (!found[kind])
+      ++kind;
+    return kind;
+  }
+
+  /// Calls `visit(P())` for the shape of a kind; nothing if there is none.
+  template <class Visit> [[gnu::always_inline]] static inline void dispatch(uint32_t kind, Visit visit) {
+    uint32_t number = 0;
+    ((kind == number++ ? visit(P()) : void()), ...);
+  }
+  /// Calls `visit(P())` for every shape.
+  template <class Visit> [[gnu::always_inline]] static inline void for_each(Visit visit) { (visit(P()), ...); }
+
+private:
+  template <class A, class B> struct Same { static constexpr bool value = false; };
+  template <class A> struct Same<A, A> { static constexpr bool value = true; };
+  template <class A, class B> static constexpr bool is_same() { return Same<A, B>::value; }
+};
+
+using Primitives = PrimitiveList<SpherePrimitive, EllipsoidPrimitive, TrianglePrimitive, PlanePrimitive,
+                                 DiscPrimitive, BoxPrimitive, CylinderPrimitive, ConePrimitive, TorusPrimitive>;
+constexpr uint32_t kPrimitives = Primitives::kCount;
+static_assert(kPrimitives <= kMaxPrimitives, "a counter for each in ReportRecord");
+
+template <class P> constexpr uint32_t kPrimitiveKind = Primitives::kind<P>();
+static_assert(kPrimitiveKind<SpherePrimitive> == static_cast<uint32_t>(ObjectKind::sphere) &&
+                  kPrimitiveKind<EllipsoidPrimitive> == static_cast<uint32_t>(ObjectKind::ellipsoid) &&
+                  kPrimitiveKind<TrianglePrimitive> == static_cast<uint32_t>(ObjectKind::triangle),
+              "the kinds that have names");
+
+} // namespace celltrace::kernel

@@ -1,0 +1,188 @@
+// Shapes in a space of their own: what a box, a cylinder or a torus is under any affine transformation. Their
+// records hold the map from the world to that space. Kernel dialect.
+//
+// A shape derives from LocalPrimitive<itself> and has
+//   kName, kCrossingPairs, kHasParameters             as list.hpp says
+//   intersect_local(rays, parameters, crossings)      in the shape's space
+//   inside_local(point, parameters)                   lanes inside
+//   gradient(point, parameters)                       outward normal, of any length, at a point of the surface
+//   local_bounds(ratio)
+#pragma once
+
+#include "kernel/aabb.hpp"
+#include "kernel/primitives/crossings.hpp"
+#include "kernel/records.hpp"
+#include "kernel/scalar.hpp"
+
+namespace celltrace::kernel {
+
+/// What a shape has besides its map. One shape for all lanes, or in each lane another.
+template <class S> struct LocalParameters {
+  typename S::F ratio; ///< of a cone, a torus or a disc: see there
+  typename S::M open;  ///< cylinders and cones without caps
+};
+
+/// Rays in a shape's space. Directions have any length, so that distances are those of the world.
+template <class S> struct LocalRays {
+  V3<S> origin, direction;
+  typename S::M starts_here; ///< rays that start on this object
+};
+
+/// Around a shape: along the third axis from `low` to `high`; across it `radius` to all sides of a disc, or of
+/// a square.
+struct LocalBounds {
+  float low, high, radius;
+  bool square;
+};
+
+/// A point (w = 1) or a direction (w = 0) in the space of a shape.
+template <class S> V3<S> to_local(const float (&map)[12], const V3<S>& v, float w) {
+  using F = typename S::F;
+  const float* m = map;
+  return {F(m[0]) * v.x + F(m[1]) * v.y + F(m[2]) * v.z + F(m[3] * w),
+          F(m[4]) * v.x + F(m[5]) * v.y + F(m[6]) * v.z + F(m[7] * w),
+          F(m[8]) * v.x + F(m[9]) * v.y + F(m[10]) * v.z + F(m[11] * w)};
+}
+
+/// 1 / x, finite where x is 0.
+template <class S> typename S::F finite_inverse(const typename S::F& x) {
+  using F = typename S::F;
+  const F least(1e-20f);
+  return F(1.0f) / S::select(S::abs(x) > least, x, S::select(x < F(0.0f), -least, least));
+}
+
+/// A ray that starts on a surface crosses it there, at a distance that is 0 but for rounding: of two crossings
+/// of a curved surface, that is the nearer one to the origin. `scale`: length of the direction.
+template <class S>
+void drop_start(const typename S::M& starts_here, const typename S::F& scale, Crossings<S>& c) {
+  using F = typename S::F;
+  // In units of the shape's size; far above rounding, far below the way through a shape to its other side.
+  constexpr float kStartEpsilon = 1e-3f;
+  const F near = S::abs(c.near), far = S::abs(c.far);
+  const auto near_is_start = starts_here & c.near_hit & (near * scale < F(kStartEpsilon)) &
+                             ((near <= far) | !c.far_hit);
+  const auto far_is_start = starts_here & c.far_hit & (far * scale < F(kStartEpsilon)) &
+                            ((far < near) | !c.near_hit);
+  c.near_hit = c.near_hit & !near_is_start;
+  c.far_hit = c.far_hit & !far_is_start;
+}
+
+/// Where rays are between the planes z = low and z = high.
+template <class S> struct SlabInterval {
+  typename S::F enter, leave;
+
+  SlabInterval(const typename S::F& origin, const typename S::F& direction, const typename S::F& low,
+       const typename S::F& high) {
+    const typename S::F inverse = finite_inverse<S>(direction);
+    const typename S::F a = (low - origin) * inverse, b = (high - origin) * inverse;
+    enter = S::min(a, b);
+    leave = S::max(a, b);
+  }
+};
+
+/// The inverse of a map without its translation, and where the origin of the shape's space is in the world.
+struct LocalToWorld {
+  float row[3][3], origin[3];
+
+  explicit LocalToWorld(const float (&g)[12])
+      : row{{g[5] * g[10] - g[6] * g[9], g[2] * g[9] - g[1] * g[10], g[1] * g[6] - g[2] * g[5]},
+            {g[6] * g[8] - g[4] * g[10], g[0] * g[10] - g[2] * g[8], g[2] * g[4] - g[0] * g[6]},
+            {g[4] * g[9] - g[5] * g[8], g[1] * g[8] - g[0] * g[9], g[0] * g[5] - g[1] * g[4]}} {
+    const float inverse = 1.0f / (g[0] * row[0][0] + g[1] * row[1][0] + g[2] * row[2][0]);
+    for (int i = 0; i < 3; ++i) {
+      origin[i] = 0.0f;
+      for (int j = 0; j < 3; ++j) {
+        row[i][j] *= inverse;
+        origin[i] -= row[i][j] * g[j * 4 + 3];
+      }
+    }
+  }
+};
+
+/// The bounds of a shape in the world.
+inline Aabb bounds_in_world(const float (&map)[12], const LocalBounds& local) {
+  const LocalToWorld world(map);
+  Aabb box;
+  for (int i = 0; i < 3; ++i) {
+    const float* m = world.row[i];
+    const float across =
+        local.square ? magnitude(m[0]) + magnitude(m[1]) : square_root(m[0] * m[0] + m[1] * m[1]);
+    const float half =
+        (across * local.radius + magnitude(m[2]) * 0.5f * (local.high - local.low)) * 1.00001f;
+    const float centre = world.origin[i] + m[2] * 0.5f * (local.low + local.high);
+    box.min[i] = centre - half;
+    box.max[i] = centre + half;
+  }
+  return box;
+}
+
+/// Those of the unit sphere.
+inline Aabb round_bounds_in_world(const float (&map)[12]) {
+  const LocalToWorld world(map);
+  Aabb box;
+  for (int i = 0; i < 3; ++i) {
+    const float* m = world.row[i];
+    const float half = square_root(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]) * 1.00001f;
+    box.min[i] = world.origin[i] - half;
+    box.max[i] = world.origin[i] + half;
+  }
+  return box;
+}
+
+/// Conservative: the box, mapped to the space of the shape, against a ball around the shape.
+inline bool overlaps_in_world(const float (&g)[12], const LocalBounds& local, const Aabb& box) {
+  const float half_height = 0.5f * (local.high - local.low);
+  const float radius =
+      square_root(local.radius * local.radius * (local.square ? 2.0f : 1.0f) + half_height * half_height);
+  float distance = 0.0f;
+  float reach = 0.0f;
+  for (int row = 0; row < 3; ++row) {
+    float centre = g[row * 4 + 3] - (row == 2 ? 0.5f * (local.low + local.high) : 0.0f);
+    float extent = 0.0f;
+    for (int i = 0; i < 3; ++i) {
+      centre += g[row * 4 + i] * 0.5f * (box.min[i] + box.max[i]);
+      extent += magnitude(g[row * 4 + i]) * 0.5f * (box.max[i] - box.min[i]);
+    }
+    distance += centre * centre;
+    reach += extent * extent;
+  }
+  return square_root(distance) <= radius + square_root(reach) * 1.0001f;
+}
+
+/// What a shape in a space of its own is to the rest of the kernel.
+template <class Shape> struct LocalPrimitive {
+  static constexpr bool kIsLocal = true;
+  static constexpr bool kIsBounded = true;
+
+  template <class S>
+  static LocalParameters<S> parameters_of(const ObjectRecord& object, const ExtraRecord& extra) {
+    using F = typename S::F;
+    const bool open = (object.kind_and_flags & object_flag::open) != 0;
+    return {F(extra.value[0]), open ? S::M::all() : S::M::none()};
+  }
+
+  template <class S>
+  static void intersect(const RayPacket& rays, const ObjectRecord& object, const ExtraRecord& extra,
+                        uint32_t self, Crossings<S>* crossings) {
+    const LocalRays<S> local = {
+        to_local<S>(object.geometry, rays.origin.template load<S>(), 1.0f),
+        to_local<S>(object.geometry, rays.direction.template load<S>(), 0.0f),
+        lanes_that_start_on<S>(rays, self)};
+    Shape::template intersect_local<S>(local, parameters_of<S>(object, extra), crossings);
+  }
+
+  template <class S>
+  static typename S::M inside(const V3<S>& point, const ObjectRecord& object, const ExtraRecord& extra) {
+    return Shape::template inside_local<S>(to_local<S>(object.geometry, point, 1.0f),
+                                           parameters_of<S>(object, extra));
+  }
+
+  static Aabb bounds(const ObjectRecord& object, const ExtraRecord& extra) {
+    return bounds_in_world(object.geometry, Shape::local_bounds(extra.value[0]));
+  }
+  static bool overlaps(const ObjectRecord& object, const ExtraRecord& extra, const Aabb& box) {
+    return overlaps_in_world(object.geometry, Shape::local_bounds(extra.value[0]), box);
+  }
+};
+
+} // namespace celltrace::kernel

@@ -1,0 +1,38 @@
+// Plane: z = 0 of its space; the half-space z < 0 is inside. Kernel dialect.
+#pragma once
+
+#include "kernel/primitives/local_shape.hpp"
+
+namespace celltrace::kernel {
+
+struct PlanePrimitive : LocalPrimitive<PlanePrimitive> {
+  static constexpr const char* kName = "plane";
+  static constexpr uint32_t kCrossingPairs = 1;
+  static constexpr bool kHasParameters = false;
+  static constexpr bool kIsBounded = false;
+
+  template <class S>
+  static void intersect_local(const LocalRays<S>& rays, const LocalParameters<S>&, Crossings<S>* crossings) {
+    using F = typename S::F;
+    Crossings<S>& c = *crossings;
+    c = Crossings<S>::none();
+    c.near = -rays.origin.z * finite_inverse<S>(rays.direction.z);
+    // A ray that starts on a plane does not cross it again.
+    c.near_hit = (S::abs(rays.direction.z) > F(1e-10f)) & !rays.starts_here;
+  }
+
+  template <class S> static typename S::M inside_local(const V3<S>& p, const LocalParameters<S>&) {
+    return p.z < typename S::F(0.0f);
+  }
+
+  template <class S> static V3<S> gradient(const V3<S>&, const LocalParameters<S>&) {
+    using F = typename S::F;
+    return {F(0.0f), F(0.0f), F(1.0f)};
+  }
+
+  /// It has none: planes are not in the BVH, unless CSG bounds them.
+  static LocalBounds local_bounds(float) { return {0.0f, 0.0f, kUnboundedRadius, true}; }
+  static constexpr float kUnboundedRadius = 1e30f;
+};
+
+} // namespace celltrace::kernel

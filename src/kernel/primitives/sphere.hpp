@@ -1,0 +1,98 @@
+// Sphere: centre and radius in the world. Kernel dialect.
+#pragma once
+
+#include "kernel/aabb.hpp"
+#include "kernel/primitives/crossings.hpp"
+#include "kernel/records.hpp"
+#include "kernel/scalar.hpp"
+
+namespace celltrace::kernel {
+
+namespace detail {
+
+/// The crossings with a sphere around the point that is `half_chord_centre` along the ray, `square` = (half
+/// chord)^2. A ray that starts on the sphere leaves it at twice that distance, exactly, whatever the rounding
+/// of its origin.
+template <class S>
+Crossings<S> chord(const typename S::F& half_chord_centre, const typename S::F& square,
+                   const typename S::M& starts_here) {
+  using F = typename S::F;
+  const auto hits = square >= F(0.0f);
+  const F half = S::sqrt(S::max(square, F(0.0f)));
+  Crossings<S> c;
+  c.near = half_chord_centre - half;
+  c.far = S::select(starts_here, half_chord_centre + half_chord_centre, half_chord_centre + half);
+  c.near_hit = hits & !starts_here;
+  c.far_hit = hits | starts_here;
+  c.u = F(0.0f);
+  c.v = F(0.0f);
+  return c;
+}
+
+} // namespace detail
+
+/// The geometric test (Haines, in Glassner, An Introduction to Ray Tracing).
+template <class S>
+Crossings<S> intersect_sphere(const V3<S>& origin, const V3<S>& direction, const typename S::M& starts_here,
+                              const ObjectRecord& object) {
+  using F = typename S::F;
+  const V3<S> to_centre = splat3<S>(object.geometry) - origin;
+  const F along = dot<S>(to_centre, direction);
+  // The perpendicular itself, not |to_centre|^2 - along^2: the difference of two large squares loses small
+  // spheres that are far away.
+  const V3<S> perpendicular = to_centre - direction * along;
+  const F radius(object.geometry[3]);
+  return detail::chord<S>(along, radius * radius - dot<S>(perpendicular, perpendicular), starts_here);
+}
+
+struct SpherePrimitive {
+  static constexpr const char* kName = "sphere";
+  static constexpr uint32_t kCrossingPairs = 1;
+  static constexpr bool kHasParameters = false;
+  static constexpr bool kIsLocal = false;
+  static constexpr bool kIsBounded = true;
+
+  template <class S>
+  static void intersect(const RayPacket& rays, const ObjectRecord& object, const ExtraRecord&, uint32_t self,
+                        Crossings<S>* crossings) {
+    *crossings = intersect_sphere<S>(rays.origin.template load<S>(), rays.direction.template load<S>(),
+                                     lanes_that_start_on<S>(rays, self), object);
+  }
+
+  template <class S>
+  static typename S::M inside(const V3<S>& point, const ObjectRecord& object, const ExtraRecord&) {
+    using F = typename S::F;
+    const V3<S> from_centre = point - splat3<S>(object.geometry);
+    const F radius(object.geometry[3]);
+    return dot<S>(from_centre, from_centre) < radius * radius;
+  }
+
+  static Aabb bounds(const ObjectRecord& object, const ExtraRecord&) {
+    const float* g = object.geometry;
+    Aabb box;
+    for (int i = 0; i < 3; ++i) {
+      box.min[i] = g[i] - g[3];
+      box.max[i] = g[i] + g[3];
+    }
+    return box;
+  }
+
+  /// The surface touches a box whose nearest point is inside and whose farthest one is outside.
+  static bool overlaps(const ObjectRecord& object, const ExtraRecord&, const Aabb& box) {
+    const float* g = object.geometry;
+    float nearest = 0.0f;
+    float farthest = 0.0f;
+    for (int i = 0; i < 3; ++i) {
+      const float to_min = box.min[i] - g[i];
+      const float to_max = g[i] - box.max[i];
+      const float outside = larger(0.0f, larger(to_min, to_max));
+      const float across = larger(magnitude(to_min), magnitude(to_max));
+      nearest += outside * outside;
+      farthest += across * across;
+    }
+    const float square = g[3] * g[3];
+    return nearest <= square * 1.0001f && farthest >= square * 0.9999f;
+  }
+};
+
+} // namespace celltrace::kernel

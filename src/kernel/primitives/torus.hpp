@@ -1,0 +1,143 @@
+// Torus: around the z axis of its space, major radius 1, minor radius `ratio`. Kernel dialect.
+//
+// Measured from the point of the ray that is nearest to the centre, the quartic has no cubic term. The three
+// places where its slope is 0 part the ray into intervals with one crossing at most, each of which is found
+// by Newton's method between bounds: that stands the rounding of single precision, which closed formulas of
+// quartics do not.
+#pragma once
+
+#include "kernel/primitives/local_shape.hpp"
+
+namespace celltrace::kernel {
+
+struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
+  static constexpr const char* kName = "torus";
+  static constexpr uint32_t kCrossingPairs = 2;
+  static constexpr bool kHasParameters = true;
+
+  template <class S>
+  static void intersect_local(const LocalRays<S>& rays, const LocalParameters<S>& parameters,
+                        Crossings<S>* crossings) {
+    using F = typename S::F;
+    const F zero(0.0f), one(1.0f), two(2.0f), four(4.0f);
+    const F scale = S::sqrt(S::max(dot<S>(rays.direction, rays.direction), F(1e-30f)));
+    const V3<S> d = rays.direction * (one / scale);
+    const F shift = -dot<S>(rays.origin, d);
+    const V3<S> o = rays.origin + d * shift;
+    const F square = dot<S>(o, o);
+    const F g = square + one - parameters.ratio * parameters.ratio;
+    Quartic<S> f;
+    f.p = two * g - four * (d.x * d.x + d.y * d.y);
+    f.q = F(-8.0f) * (o.x * d.x + o.y * d.y);
+    f.r = g * g - four * (o.x * o.x + o.y * o.y);
+    const F outer = one + parameters.ratio;
+    const F left = outer * outer - square;
+    const auto near_enough = left > zero;
+    // A little farther, where the ray is outside for certain.
+    const F end = S::sqrt(S::max(left, zero)) * F(1.001f) + F(1e-4f);
+    F bounds[5] = {-end, zero, zero, zero, end};
+    f.stationary_points(bounds[1], bounds[2], bounds[3]);
+    for (int i = 1; i < 4; ++i)
+      bounds[i] = S::min(S::max(bounds[i], -end), end);
+    const F inverse_scale = one / scale;
+    F distance[4];
+    typename S::M hit[4];
+    F value = f.at(bounds[0]);
+    for (int i = 0; i < 4; ++i) {
+      const F next = f.at(bounds[i + 1]);
+      hit[i] = near_enough & (((value > zero) & (next <= zero)) | ((value <= zero) & (next > zero)));
+      distance[i] = (f.root_between(bounds[i], bounds[i + 1], value > zero) + shift) * inverse_scale;
+      value = next;
+    }
+    for (uint32_t pair = 0; pair < kCrossingPairs; ++pair) {
+      Crossings<S>& c = crossings[pair];
+      c = Crossings<S>::none();
+      c.near = distance[2 * pair];
+      c.far = distance[2 * pair + 1];
+      c.near_hit = hit[2 * pair];
+      c.far_hit = hit[2 * pair + 1];
+    }
+    // A ray starts where it enters or leaves; at most one of all four crossings is there.
+    F least(1e20f);
+    for (int i = 0; i < 4; ++i)
+      least = S::select(hit[i], S::min(least, S::abs(distance[i])), least);
+    for (uint32_t pair = 0; pair < kCrossingPairs; ++pair) {
+      Crossings<S>& c = crossings[pair];
+      drop_start<S>(rays.starts_here & ((c.near_hit & (S::abs(c.near) <= least)) |
+                                        (c.far_hit & (S::abs(c.far) <= least))),
+                    scale, c);
+    }
+  }
+
+  template <class S>
+  static typename S::M inside_local(const V3<S>& p, const LocalParameters<S>& parameters) {
+    using F = typename S::F;
+    const F around = F(1.0f) - S::sqrt(p.x * p.x + p.y * p.y);
+    return around * around + p.z * p.z < parameters.ratio * parameters.ratio;
+  }
+
+  template <class S> static V3<S> gradient(const V3<S>& p, const LocalParameters<S>&) {
+    using F = typename S::F;
+    // From the nearest point of the circle in the tube's middle.
+    const F inverse = F(1.0f) / S::max(S::sqrt(p.x * p.x + p.y * p.y), F(1e-20f));
+    return {p.x - p.x * inverse, p.y - p.y * inverse, p.z};
+  }
+
+  static LocalBounds local_bounds(float ratio) { return {-ratio, ratio, 1.0f + ratio, false}; }
+
+private:
+  /// t^4 + p t^2 + q t + r.
+  template <class S> struct Quartic {
+    using F = typename S::F;
+    F p, q, r;
+
+    F at(const F& t) const {
+      const F square = t * t;
+      return square * square + p * square + q * t + r;
+    }
+    F slope(const F& t) const { return (F(4.0f) * t * t + F(2.0f) * p) * t + q; }
+
+    /// In rising order; where there is only one, all are that.
+    void stationary_points(F& a, F& b, F& c) const {
+      // x^3 + (p/2) x - |q|/4 is convex for x > 0 and has its greatest zero there: Newton's method comes down
+      // to it. No torus reaches farther than 2 from its centre.
+      const F half(0.5f), zero(0.0f);
+      const F linear = p * half, constant = S::abs(q) * F(0.25f);
+      F x(2.5f);
+      for (int i = 0; i < 9; ++i) {
+        const F square = x * x;
+        const F slope = S::max(F(3.0f) * square + linear, F(1e-6f));
+        x = S::max(x - (square * x + linear * x - constant) / slope, zero);
+      }
+      const F greatest = S::select(q < zero, x, -x);
+      // The others are zeros of t^2 + greatest t + (greatest^2 + p/2).
+      const F discriminant = F(-3.0f) * greatest * greatest - F(2.0f) * p;
+      const auto three = discriminant > zero;
+      const F root = S::sqrt(S::max(discriminant, zero));
+      const F u = S::select(three, (-greatest - root) * half, greatest);
+      const F v = S::select(three, (-greatest + root) * half, greatest);
+      a = S::min(greatest, u);
+      c = S::max(greatest, v);
+      b = S::max(S::min(greatest, v), u);
+    }
+
+    /// The zero between `low` and `high`, between which the slope has one sign; `falls`: positive at `low`.
+    F root_between(F low, F high, const typename S::M& falls) const {
+      F t = (low + high) * F(0.5f);
+      for (int i = 0; i < 10; ++i) {
+        const F value = at(t);
+        const auto behind = (value > F(0.0f)) & falls;
+        const auto before = (value <= F(0.0f)) & !falls;
+        const auto root_is_above = behind | before;
+        low = S::select(root_is_above, t, low);
+        high = S::select(root_is_above, high, t);
+        const F newton = t - value * finite_inverse<S>(slope(t));
+        const auto sane = (newton > low) & (newton < high);
+        t = S::select(sane, newton, (low + high) * F(0.5f));
+      }
+      return t;
+    }
+  };
+};
+
+} // namespace celltrace::kernel

@@ -1,0 +1,156 @@
+// Triangle: three vertices in the world. The minimum-storage test of Moeller and Trumbore (1997). Kernel
+// dialect.
+#pragma once
+
+#include "kernel/aabb.hpp"
+#include "kernel/primitives/crossings.hpp"
+#include "kernel/records.hpp"
+#include "kernel/scalar.hpp"
+
+namespace celltrace::kernel {
+
+namespace detail {
+
+// What all tests of triangles have in common.
+constexpr float kUnitInLastPlace = 6e-8f;
+constexpr float kMaxOverlap = 1e-3f;        ///< of neighbours, in barycentric coordinates
+constexpr float kLeastDeterminant = 1e-30f; ///< rays along the plane have less
+
+} // namespace detail
+
+/// A triangle for a packet of rays, or one for each lane.
+template <class S> struct TriangleSides {
+  V3<S> v0, edge1, edge2;
+
+  static TriangleSides of(const ObjectRecord& object) {
+    const float* g = object.geometry;
+    const V3<S> corner = splat3<S>(g);
+    return {corner, splat3<S>(g + 3) - corner, splat3<S>(g + 6) - corner};
+  }
+};
+
+/// A triangle as seen from the origins of a packet's rays; what packets of one origin have in common.
+///
+/// Neighbours overlap by what the rounding of the barycentric coordinates may amount to, so that no ray slips
+/// between them: that grows with the distance over the triangle's size, and as the ray gets parallel to it.
+template <class S> class SeenTriangle {
+public:
+  using F = typename S::F;
+
+  [[gnu::always_inline]] SeenTriangle(const V3<S>& origin, const TriangleSides<S>& sides)
+      : edge1_(sides.edge1), edge2_(sides.edge2) {
+    from_v0_ = origin - sides.v0;
+    q_ = cross<S>(from_v0_, edge1_);
+    distance_ = dot<S>(edge2_, q_);
+    const F size = S::max(absolute_sum<S>(edge1_), absolute_sum<S>(edge2_));
+    overlap_ = absolute_sum<S>(from_v0_) * (F(detail::kUnitInLastPlace) * size);
+  }
+
+  /// By rays of these directions.
+  [[gnu::always_inline]] Crossings<S> crossed(const V3<S>& direction,
+                                              const typename S::M& starts_here) const {
+    const V3<S> p = cross<S>(direction, edge2_);
+    const F determinant = dot<S>(edge1_, p);
+    const auto crosses = S::abs(determinant) > F(detail::kLeastDeterminant);
+    const F inverse = F(1.0f) / S::select(crosses, determinant, F(1.0f));
+    const F overlap = S::min(overlap_ * S::abs(inverse), F(detail::kMaxOverlap));
+    Crossings<S> c;
+    c.u = dot<S>(from_v0_, p) * inverse;
+    c.v = dot<S>(direction, q_) * inverse;
+    c.near = distance_ * inverse;
+    c.far = c.near;
+    c.near_hit = crosses & (S::min(c.u, c.v) >= -overlap) & (c.u + c.v <= F(1.0f) + overlap) & !starts_here;
+    c.far_hit = S::M::none();
+    return c;
+  }
+
+  /// By the rays of a packet.
+  [[gnu::always_inline]] Crossings<S> crossed(const RayPacket& rays, uint32_t self) const {
+    return crossed(rays.direction.template load<S>(), lanes_that_start_on<S>(rays, self));
+  }
+
+private:
+  V3<S> edge1_, edge2_, from_v0_, q_;
+  F distance_, overlap_; ///< both times the determinant
+};
+
+template <class S>
+Crossings<S> intersect_triangle(const V3<S>& origin, const V3<S>& direction, const typename S::M& starts_here,
+                                const ObjectRecord& object) {
+  return SeenTriangle<S>(origin, TriangleSides<S>::of(object)).crossed(direction, starts_here);
+}
+
+/// Separating axes of a triangle and a box (Akenine-Moeller 2001): the box's axes are those of the candidate
+/// voxels already; left are the triangle's normal and the nine cross products of edges.
+inline bool triangle_overlaps(const ObjectRecord& object, const Aabb& box) {
+  float vertex[3][3];
+  float half[3];
+  for (int i = 0; i < 3; ++i) {
+    const float centre = 0.5f * (box.min[i] + box.max[i]);
+    half[i] = 0.5f * (box.max[i] - box.min[i]);
+    for (int v = 0; v < 3; ++v)
+      vertex[v][i] = object.geometry[v * 3 + i] - centre;
+  }
+  const auto separates = [&](float x, float y, float z) {
+    const float reach = half[0] * magnitude(x) + half[1] * magnitude(y) + half[2] * magnitude(z);
+    float low = 0.0f;
+    float high = 0.0f;
+    for (int v = 0; v < 3; ++v) {
+      const float along = vertex[v][0] * x + vertex[v][1] * y + vertex[v][2] * z;
+      low = v == 0 ? along : smaller(low, along);
+      high = v == 0 ? along : larger(high, along);
+    }
+    const float slack = reach * 1e-4f;
+    return low > reach + slack || high < -reach - slack;
+  };
+  float edge[3][3];
+  for (int e = 0; e < 3; ++e)
+    for (int i = 0; i < 3; ++i)
+      edge[e][i] = vertex[(e + 1) % 3][i] - vertex[e][i];
+  if (separates(edge[0][1] * edge[1][2] - edge[0][2] * edge[1][1],
+                edge[0][2] * edge[1][0] - edge[0][0] * edge[1][2],
+                edge[0][0] * edge[1][1] - edge[0][1] * edge[1][0]))
+    return false;
+  for (int e = 0; e < 3; ++e) {
+    const float* d = edge[e];
+    if (separates(0.0f, d[2], -d[1]) || separates(-d[2], 0.0f, d[0]) || separates(d[1], -d[0], 0.0f))
+      return false;
+  }
+  return true;
+}
+
+struct TrianglePrimitive {
+  static constexpr const char* kName = "triangle";
+  static constexpr uint32_t kCrossingPairs = 1;
+  static constexpr bool kHasParameters = false;
+  static constexpr bool kIsLocal = false;
+  static constexpr bool kIsBounded = true;
+
+  template <class S>
+  static void intersect(const RayPacket& rays, const ObjectRecord& object, const ExtraRecord&, uint32_t self,
+                        Crossings<S>* crossings) {
+    *crossings = intersect_triangle<S>(rays.origin.template load<S>(), rays.direction.template load<S>(),
+                                       lanes_that_start_on<S>(rays, self), object);
+  }
+
+  /// A triangle alone has no inside; that of a mesh is found by its inside_vector.
+  template <class S>
+  static typename S::M inside(const V3<S>&, const ObjectRecord&, const ExtraRecord&) {
+    return S::M::none();
+  }
+
+  static Aabb bounds(const ObjectRecord& object, const ExtraRecord&) {
+    const float* g = object.geometry;
+    Aabb box;
+    for (int i = 0; i < 3; ++i) {
+      box.min[i] = smaller(g[i], smaller(g[3 + i], g[6 + i]));
+      box.max[i] = larger(g[i], larger(g[3 + i], g[6 + i]));
+    }
+    return box;
+  }
+  static bool overlaps(const ObjectRecord& object, const ExtraRecord&, const Aabb& box) {
+    return triangle_overlaps(object, box);
+  }
+};
+
+} // namespace celltrace::kernel

@@ -1,0 +1,277 @@
+#include "scene/csg_parts.hpp"
+
+#include "celltrace/error.hpp"
+#include "kernel/accel/object_bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace celltrace {
+
+using namespace kernel;
+
+namespace {
+
+constexpr float kInfinite = std::numeric_limits<float>::max();
+constexpr Aabb kEverywhere = {{-kInfinite, -kInfinite, -kInfinite}, {kInfinite, kInfinite, kInfinite}};
+constexpr Aabb kNowhere = {{kInfinite, kInfinite, kInfinite}, {-kInfinite, -kInfinite, -kInfinite}};
+constexpr int kMaxDepth = 200;
+
+Aabb intersected(const Aabb& a, const Aabb& b) {
+  Aabb both;
+  for (int i = 0; i < 3; ++i) {
+    both.min[i] = std::max(a.min[i], b.min[i]);
+    both.max[i] = std::min(a.max[i], b.max[i]);
+  }
+  return both;
+}
+bool is_empty(const Aabb& box) {
+  return box.min[0] > box.max[0] || box.min[1] > box.max[1] || box.min[2] > box.max[2];
+}
+bool is_bounded(const Aabb& box) {
+  constexpr float kMost = 1e18f;
+  for (int i = 0; i < 3; ++i)
+    if (!(box.min[i] > -kMost && box.max[i] < kMost)) return false;
+  return true;
+}
+
+/// The half-space of a plane that is at right angles to an axis; else everywhere.
+Aabb half_space(const PlacedShape& plane, bool inverse) {
+  Aabb box = kEverywhere;
+  const float* n = plane.geometry + 8;
+  for (int i = 0; i < 3; ++i) {
+    if (std::abs(n[(i + 1) % 3]) > 1e-6f || std::abs(n[(i + 2) % 3]) > 1e-6f) continue;
+    // n x + d < 0.
+    const float at = -n[3] / n[i];
+    const float slack = 1e-4f * (1.0f + std::abs(at));
+    if ((n[i] > 0) != inverse)
+      box.max[i] = at + slack;
+    else
+      box.min[i] = at - slack;
+  }
+  return box;
+}
+
+/// A node of the tree of one object, in which only solids are inverse: the inverse of an intersection is the
+/// merge of the inverse parts, that of a union or merge the intersection, as POV-Ray has it.
+struct Node {
+  enum class Kind { solid, union_, merge, intersection };
+  Kind kind = Kind::solid;
+  bool inverse = false; ///< of a solid
+  bool shows = true;    ///< its surfaces are seen; not those of what clips
+  Object object;        ///< of a solid
+  PlacedShape shape;
+  std::uint32_t record = 0; ///< of a solid: index in CsgParts::solids
+  std::uint32_t leaves = 1; ///< solids in it
+  std::vector<Node> children;
+
+  void add(Node child) {
+    leaves = (children.empty() ? 0 : leaves) + child.leaves;
+    children.push_back(std::move(child));
+  }
+};
+
+/// What comes to an object from around it.
+struct Surroundings {
+  Transform transform;
+  bool no_shadow = false;
+  bool inverse = false;
+  bool shows = true;
+  int depth = 0;
+};
+
+class TreeBuilder {
+public:
+  explicit TreeBuilder(std::vector<SolidRecord>& solids) : solids_(solids) {}
+
+  Node build(const Object& object, Surroundings around) {
+    if (++around.depth > kMaxDepth) throw InputError("the scene has a CSG that nests too deeply");
+    if (!object.clipped_by || object.clipped_by->empty()) return build_unclipped(object, around);
+    // What clips is not inverted with what it clips.
+    Node clipped;
+    clipped.kind = Node::Kind::intersection;
+    clipped.shows = around.shows;
+    clipped.add(build_unclipped(object, around));
+    around.shows = false;
+    around.inverse = false;
+    for (const Object& clip : *object.clipped_by)
+      clipped.add(build(clip, around));
+    return clipped;
+  }
+
+private:
+  Node build_unclipped(const Object& object, Surroundings around) {
+    around.transform = object.transform.then(around.transform);
+    around.no_shadow = around.no_shadow || object.no_shadow;
+    around.inverse = around.inverse != object.inverse;
+    if (const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape)) {
+      if (!*csg) throw InputError("an object has no CSG");
+      return build_operation(**csg, around);
+    }
+    if (std::holds_alternative<std::shared_ptr<const Mesh>>(object.shape))
+      throw InputError("meshes in CSG are not supported");
+    return build_solid(object, around);
+  }
+
+  Node build_operation(const Csg& csg, Surroundings around) {
+    using Operation = Csg::Operation;
+    const bool joins = csg.operation == Operation::union_ || csg.operation == Operation::merge;
+    Node node;
+    node.shows = around.shows;
+    if (joins == around.inverse)
+      node.kind = Node::Kind::intersection;
+    else
+      node.kind = csg.operation == Operation::union_ ? Node::Kind::union_ : Node::Kind::merge;
+    const bool inverse = around.inverse;
+    for (std::size_t i = 0; i < csg.parts.size(); ++i) {
+      around.inverse = inverse != (csg.operation == Operation::difference && i > 0);
+      node.add(build(csg.parts[i], around));
+    }
+    return node;
+  }
+
+  Node build_solid(const Object& object, const Surroundings& around) {
+    Node node;
+    node.inverse = around.inverse;
+    node.shows = around.shows;
+    node.object = object;
+    node.object.transform = around.transform;
+    node.object.no_shadow = around.no_shadow;
+    node.object.clipped_by = nullptr;
+    node.shape = place_shape(node.object);
+    node.record = static_cast<std::uint32_t>(solids_.size());
+    SolidRecord solid{};
+    solid.object.kind_and_flags = node.shape.is_empty ? kEmptySolid : node.shape.kind_and_flags;
+    std::copy(node.shape.geometry, node.shape.geometry + 12, solid.object.geometry);
+    std::copy(node.shape.parameters, node.shape.parameters + 2, solid.extra.value);
+    solids_.push_back(solid);
+    return node;
+  }
+
+  std::vector<SolidRecord>& solids_;
+};
+
+/// What a node may fill.
+Aabb solid_bounds(const Node& node) {
+  Aabb all = node.kind == Node::Kind::intersection ? kEverywhere : kNowhere;
+  switch (node.kind) {
+  case Node::Kind::solid:
+    if (node.shape.is_empty) return node.inverse ? kEverywhere : kNowhere;
+    if (!node.shape.is_bounded) return half_space(node.shape, node.inverse);
+    // The inside of a disc is a half-space.
+    if (node.inverse || (node.shape.kind_and_flags & object_flag::kind_mask) == kPrimitiveKind<DiscPrimitive>)
+      return kEverywhere;
+    return node.shape.bounds();
+  case Node::Kind::intersection:
+    for (const Node& child : node.children)
+      all = intersected(all, solid_bounds(child));
+    return all;
+  default:
+    for (const Node& child : node.children)
+      all = united(all, solid_bounds(child));
+    return all;
+  }
+}
+
+/// Appends what a tree shows to the tables.
+class Flattener {
+public:
+  explicit Flattener(CsgParts& to) : to_(to) {}
+
+  /// The surfaces in `node` are there where the condition holds and inside `bounds`.
+  void show(const Node& node, std::uint32_t condition, const Aabb& bounds) {
+    if (!node.shows || is_empty(bounds)) return;
+    if (node.kind == Node::Kind::solid) return show_solid(node, condition, bounds);
+    if (node.kind == Node::Kind::union_ || node.children.size() < 2) {
+      for (const Node& child : node.children)
+        show(child, condition, bounds);
+      return;
+    }
+    const auto steps = static_cast<std::uint32_t>(to_.steps.size());
+    compile_siblings(node);
+    std::vector<Aabb> filled;
+    if (node.kind == Node::Kind::intersection)
+      for (const Node& child : node.children)
+        filled.push_back(solid_bounds(child));
+    std::uint32_t begin = 0;
+    for (std::size_t i = 0; i < node.children.size(); ++i) {
+      const Node& child = node.children[i];
+      CsgRecord record{};
+      record.next = condition;
+      record.steps = steps;
+      record.count = node.leaves;
+      record.skip_begin = begin;
+      record.skip_end = begin += child.leaves;
+      Aabb inside = bounds;
+      for (std::size_t other = 0; other < filled.size(); ++other)
+        if (other != i) inside = intersected(inside, filled[other]);
+      to_.conditions.push_back(record);
+      show(child, static_cast<std::uint32_t>(to_.conditions.size()) - 1, inside);
+    }
+  }
+
+private:
+  /// The program of which every child's condition leaves out the child itself: in an intersection all others
+  /// have to be filled, in a merge none.
+  void compile_siblings(const Node& node) {
+    const bool all = node.kind == Node::Kind::intersection;
+    std::uint32_t position = 0;
+    for (const Node& child : node.children) {
+      const std::uint32_t after = position + child.leaves;
+      const std::uint32_t go_on = after == node.leaves ? kCsgAccept : after;
+      compile(child, position, all ? go_on : kCsgReject, all ? kCsgReject : go_on);
+      position = after;
+    }
+  }
+  /// Goes on at step `if_inside` where a point is in the node, else at `if_outside`.
+  void compile(const Node& node, std::uint32_t position, std::uint32_t if_inside, std::uint32_t if_outside) {
+    if (node.kind == Node::Kind::solid) {
+      if (node.inverse) std::swap(if_inside, if_outside);
+      to_.steps.push_back({node.record, if_inside, if_outside, 0});
+      return;
+    }
+    const bool all = node.kind == Node::Kind::intersection;
+    for (std::size_t i = 0; i < node.children.size(); ++i) {
+      const Node& child = node.children[i];
+      const std::uint32_t after = position + child.leaves;
+      const bool last = i + 1 == node.children.size();
+      compile(child, position, all && !last ? after : if_inside, all || last ? if_outside : after);
+      position = after;
+    }
+  }
+
+  void show_solid(const Node& node, std::uint32_t condition, const Aabb& bounds) {
+    if (node.shape.is_empty) return;
+    CsgPart part;
+    part.object = node.object;
+    part.shape = node.shape;
+    part.condition = condition;
+    part.bounds = intersected(node.shape.is_bounded ? node.shape.bounds() : kEverywhere, bounds);
+    if (is_empty(part.bounds)) return;
+    part.is_bounded = is_bounded(part.bounds);
+    to_.parts.push_back(std::move(part));
+  }
+
+  CsgParts& to_;
+};
+
+} // namespace
+
+bool CsgParts::contains(const Object& object) {
+  return std::holds_alternative<std::shared_ptr<const Csg>>(object.shape) ||
+         (object.clipped_by && !object.clipped_by->empty());
+}
+
+CsgParts::CsgParts(const Scene& scene) {
+  TreeBuilder builder(solids);
+  Flattener flattener(*this);
+  for (const Object& object : scene.objects) {
+    if (!contains(object)) continue;
+    const Node tree = builder.build(object, {});
+    flattener.show(tree, kNoCondition, kEverywhere);
+  }
+}
+
+} // namespace celltrace

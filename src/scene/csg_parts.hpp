@@ -1,0 +1,48 @@
+// CSG taken apart: the shapes whose surfaces it shows, each with the condition under which a point of the
+// surface is there, and the tables that say so to the kernel.
+#pragma once
+
+#include "celltrace/scene.hpp"
+#include "kernel/records.hpp"
+#include "scene/shapes.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace celltrace {
+
+/// The surface of a shape that CSG limits.
+struct CsgPart {
+  Object object; ///< no CSG, no mesh; placed in the world
+  PlacedShape shape;
+  std::uint32_t condition; ///< index in CsgParts::conditions, or kNoCondition
+  kernel::Aabb bounds;     ///< of what may be there of it
+  bool is_bounded;         ///< false: `bounds` reach to infinity
+
+  /// Whether its record needs the CSG: parts of plain unions are objects like others.
+  bool is_limited() const;
+};
+constexpr std::uint32_t kNoCondition = 0xFFFFFFFF;
+inline bool CsgPart::is_limited() const {
+  return condition != kNoCondition;
+}
+
+/// Of all CSGs of a scene. Indices become offsets in the scene image.
+struct CsgParts {
+  std::vector<CsgPart> parts;
+  /// `next` and `steps` are indices.
+  std::vector<kernel::CsgRecord> conditions;
+  /// `solid` is an index.
+  std::vector<kernel::CsgStep> steps;
+  std::vector<kernel::SolidRecord> solids;
+
+  CsgParts() = default;
+  /// Takes every object of the scene apart that is a CSG, clipped or inverse. Throws InputError if one nests
+  /// too deeply or has a mesh in it where only solids make sense.
+  explicit CsgParts(const Scene& scene);
+
+  /// Whether an object is among them.
+  static bool contains(const Object& object);
+};
+
+} // namespace celltrace

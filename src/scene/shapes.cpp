@@ -1,0 +1,236 @@
+#include "scene/shapes.hpp"
+
+#include "celltrace/error.hpp"
+#include "kernel/accel/object_bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+#include <glm/geometric.hpp>
+
+namespace celltrace {
+
+namespace {
+
+using namespace kernel;
+
+void copy(const Vec3& from, float* to) {
+  for (int i = 0; i < 3; ++i)
+    to[i] = static_cast<float>(from[i]);
+}
+
+/// The factor by which a transformation scales everything, or 0 if it does not scale all directions alike.
+double uniform_scale(const Transform& t) {
+  const double x = glm::length(t.rows[0]);
+  const double y = glm::length(t.rows[1]);
+  const double z = glm::length(t.rows[2]);
+  const double tolerance = 1e-9 * x * x;
+  const bool round = std::abs(x - y) <= 1e-9 * x && std::abs(x - z) <= 1e-9 * x &&
+                     std::abs(glm::dot(t.rows[0], t.rows[1])) <= tolerance &&
+                     std::abs(glm::dot(t.rows[0], t.rows[2])) <= tolerance &&
+                     std::abs(glm::dot(t.rows[1], t.rows[2])) <= tolerance;
+  return round ? x : 0;
+}
+
+/// Two directions that are at right angles to `axis` and to each other, all of unit length.
+void complete_basis(const Vec3& axis, Vec3& first, Vec3& second) {
+  const Vec3 other = std::abs(axis.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
+  first = glm::normalize(glm::cross(axis, other));
+  second = glm::cross(axis, first);
+}
+
+Vec3 unit(const Vec3& v) {
+  const double length = glm::length(v);
+  return length > 0 ? v / length : Vec3(0, 1, 0);
+}
+
+/// The shape of kind P whose own space is mapped to the object's by `from_own`.
+template <class P> PlacedShape in_own_space(const Object& object, const Transform& from_own) {
+  PlacedShape shape;
+  shape.kind_and_flags = kPrimitiveKind<P>;
+  shape.has_parameters = P::kHasParameters;
+  shape.is_bounded = P::kIsBounded;
+  const Transform map = from_own.then(object.transform).inverse();
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 4; ++column)
+      shape.geometry[row * 4 + column] = static_cast<float>(map.rows[column][row]);
+  return shape;
+}
+
+PlacedShape nothing() {
+  PlacedShape shape;
+  shape.is_empty = true;
+  return shape;
+}
+
+/// An axis of its own space from `base` to `cap`; `radius` to the sides.
+Transform along_axis(const Vec3& base, const Vec3& cap, double radius) {
+  Transform t;
+  complete_basis(unit(cap - base), t.rows[0], t.rows[1]);
+  t.rows[0] *= radius;
+  t.rows[1] *= radius;
+  t.rows[2] = cap - base;
+  t.rows[3] = base;
+  return t;
+}
+
+// One of these for each shape. Spheres that a transformation leaves round stay spheres.
+
+PlacedShape place(const Object& object, const Sphere& sphere) {
+  const double radius = std::abs(sphere.radius);
+  if (radius == 0) return nothing();
+  const double scale = object.transform.is_identity() ? 1 : uniform_scale(object.transform);
+  if (scale > 0) {
+    PlacedShape shape;
+    shape.kind_and_flags = kPrimitiveKind<SpherePrimitive>;
+    copy(object.transform.point(sphere.centre), shape.geometry);
+    shape.geometry[3] = static_cast<float>(radius * scale);
+    return shape;
+  }
+  PlacedShape shape = in_own_space<EllipsoidPrimitive>(object, Transform());
+  const Transform inverse = object.transform.inverse();
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 4; ++column) {
+      const double value = inverse.rows[column][row] - (column == 3 ? sphere.centre[row] : 0);
+      shape.geometry[row * 4 + column] = static_cast<float>(value / radius);
+    }
+  return shape;
+}
+
+PlacedShape place(const Object& object, const Plane& plane) {
+  Transform own;
+  own.rows[2] = unit(plane.normal);
+  complete_basis(own.rows[2], own.rows[0], own.rows[1]);
+  own.rows[3] = own.rows[2] * plane.distance;
+  PlacedShape shape = in_own_space<PlanePrimitive>(object, own);
+  // Distances from the plane in the world's units, whatever the transformation scales.
+  const Vec3 normal = object.transform.normal(unit(plane.normal));
+  const double length = glm::length(normal);
+  if (length > 0) {
+    const Vec3 n = normal / length;
+    const double d = glm::dot(n, object.transform.point(own.rows[3]));
+    copy(n, shape.geometry + 8);
+    shape.geometry[11] = static_cast<float>(-d);
+  }
+  return shape;
+}
+
+PlacedShape place(const Object& object, const Disc& disc) {
+  const double radius = std::abs(disc.radius);
+  if (radius == 0 || std::abs(disc.hole_radius) >= radius) return nothing();
+  Transform own;
+  const Vec3 normal = unit(disc.normal);
+  complete_basis(normal, own.rows[0], own.rows[1]);
+  own.rows[0] *= radius;
+  own.rows[1] *= radius;
+  own.rows[2] = normal * radius;
+  own.rows[3] = disc.centre;
+  PlacedShape shape = in_own_space<DiscPrimitive>(object, own);
+  shape.parameters[0] = static_cast<float>(std::abs(disc.hole_radius) / radius);
+  return shape;
+}
+
+PlacedShape place(const Object& object, const Box& box) {
+  Transform own;
+  for (int i = 0; i < 3; ++i) {
+    const double half = 0.5 * std::abs(box.corner[1][i] - box.corner[0][i]);
+    if (half == 0) return nothing();
+    own.rows[i][i] = half;
+  }
+  own.rows[3] = 0.5 * (box.corner[0] + box.corner[1]);
+  return in_own_space<BoxPrimitive>(object, own);
+}
+
+PlacedShape place(const Object& object, const Cylinder& cylinder) {
+  if (cylinder.radius == 0 || cylinder.base == cylinder.cap) return nothing();
+  PlacedShape shape = in_own_space<CylinderPrimitive>(
+      object, along_axis(cylinder.base, cylinder.cap, std::abs(cylinder.radius)));
+  if (cylinder.open) shape.kind_and_flags |= object_flag::open;
+  return shape;
+}
+
+PlacedShape place(const Object& object, const Cone& cone) {
+  double small = std::abs(cone.base_radius), large = std::abs(cone.cap_radius);
+  Vec3 from = cone.base, to = cone.cap;
+  if (small > large) {
+    std::swap(small, large);
+    std::swap(from, to);
+  }
+  // Nearly a cylinder, its apex is too far away.
+  if (large - small <= 1e-6 * large)
+    return place(object, Cylinder{cone.base, cone.cap, 0.5 * (small + large), cone.open});
+  if (from == to) return nothing();
+  const double ratio = small / large;
+  // The apex is where the radius would be 0.
+  const Vec3 apex = to - (to - from) / (1 - ratio);
+  PlacedShape shape = in_own_space<ConePrimitive>(object, along_axis(apex, to, large));
+  shape.parameters[0] = static_cast<float>(ratio);
+  if (cone.open) shape.kind_and_flags |= object_flag::open;
+  return shape;
+}
+
+PlacedShape place(const Object& object, const Torus& torus) {
+  const double major = std::abs(torus.major_radius), minor = std::abs(torus.minor_radius);
+  if (minor == 0) return nothing();
+  if (major == 0) return place(object, Sphere{Vec3(0), minor});
+  Transform own;
+  own.rows[0] = Vec3(0, 0, major);
+  own.rows[1] = Vec3(major, 0, 0);
+  own.rows[2] = Vec3(0, major, 0);
+  PlacedShape shape = in_own_space<TorusPrimitive>(object, own);
+  shape.parameters[0] = static_cast<float>(minor / major);
+  return shape;
+}
+
+PlacedShape place(const Object&, const std::shared_ptr<const Mesh>&) {
+  return nothing();
+}
+PlacedShape place(const Object&, const std::shared_ptr<const Csg>&) {
+  return nothing();
+}
+
+// The numbers of each.
+
+std::vector<double> numbers(std::initializer_list<Vec3> vectors, std::initializer_list<double> scalars) {
+  std::vector<double> all(scalars);
+  for (const Vec3& v : vectors)
+    all.insert(all.end(), {v.x, v.y, v.z});
+  return all;
+}
+std::vector<double> numbers_of(const Sphere& s) { return numbers({s.centre}, {s.radius}); }
+std::vector<double> numbers_of(const Plane& p) { return numbers({p.normal}, {p.distance}); }
+std::vector<double> numbers_of(const Disc& d) {
+  return numbers({d.centre, d.normal}, {d.radius, d.hole_radius});
+}
+std::vector<double> numbers_of(const Box& b) { return numbers({b.corner[0], b.corner[1]}, {}); }
+std::vector<double> numbers_of(const Cylinder& c) { return numbers({c.base, c.cap}, {c.radius}); }
+std::vector<double> numbers_of(const Cone& c) {
+  return numbers({c.base, c.cap}, {c.base_radius, c.cap_radius});
+}
+std::vector<double> numbers_of(const Torus& t) { return numbers({}, {t.major_radius, t.minor_radius}); }
+std::vector<double> numbers_of(const std::shared_ptr<const Mesh>&) { return {}; }
+std::vector<double> numbers_of(const std::shared_ptr<const Csg>&) { return {}; }
+
+} // namespace
+
+kernel::Aabb PlacedShape::bounds() const {
+  ObjectRecord record{};
+  record.kind_and_flags = kind_and_flags;
+  std::copy(geometry, geometry + 12, record.geometry);
+  ExtraRecord extra{};
+  std::copy(parameters, parameters + 2, extra.value);
+  return bounding_box(record, extra);
+}
+
+PlacedShape place_shape(const Object& object) {
+  return std::visit([&](const auto& shape) { return place(object, shape); }, object.shape);
+}
+
+void validate_shape(const Object& object, const std::string& name) {
+  const std::vector<double> all = std::visit([](const auto& shape) { return numbers_of(shape); }, object.shape);
+  if (!std::all_of(all.begin(), all.end(), [](double x) { return std::isfinite(x); }))
+    throw InputError(name + " has a number that is not finite");
+}
+
+} // namespace celltrace

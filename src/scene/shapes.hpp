@@ -1,0 +1,29 @@
+// Shapes of a Scene as records: each in single precision, in the space that its primitive in the kernel wants.
+#pragma once
+
+#include "celltrace/scene.hpp"
+#include "kernel/aabb.hpp"
+#include "kernel/records.hpp"
+
+namespace celltrace {
+
+/// What of a record depends on the shape and its transformation alone.
+struct PlacedShape {
+  std::uint32_t kind_and_flags = 0;
+  float geometry[12] = {};
+  float parameters[2] = {0, 0}; ///< the first values of an ExtraRecord
+  bool has_parameters = false;
+  bool is_bounded = true;
+  /// Nothing can hit it: a sphere without a radius.
+  bool is_empty = false;
+
+  kernel::Aabb bounds() const;
+};
+
+/// Of a shape that is neither a mesh nor a CSG. Throws InputError if its transformation is singular.
+PlacedShape place_shape(const Object& object);
+
+/// Throws InputError, beginning with `name`, if a number of such a shape is not finite.
+void validate_shape(const Object& object, const std::string& name);
+
+} // namespace celltrace
