@@ -1,7 +1,7 @@
 # Compiles SPE programs for every SPU type of the build.
 #
 #   celltrace_spe_program(NAME SOURCE entry.cpp [CODE_BYTES n STACK_BYTES n]
-#     [SPU_HEADER kernel.hpp SPU_KERNEL qualified::function [SPU_ARENA bytes]] [LINK targets...])
+#     [SPU_HEADER kernel.hpp SPU_KERNEL qualified::function [SPU_ARENA bytes] [SPU_MODULES script.ld]] [LINK targets...])
 #
 # makes the static library celltrace_NAME_program. CODE_BYTES (with data) and STACK_BYTES are what the program takes of
 # a real SPE's local store; celltrace_spu_budget_test() of the same name holds them against the real build. The source says which kernel it is:
@@ -60,7 +60,7 @@ endif()
 celltrace_spu_type(cell_emu HEADER backends/cell_emu/spu.hpp KEY cell_emu TYPE "celltrace::cell_emu::Spu")
 
 function(celltrace_spe_program name)
-  cmake_parse_arguments(PROGRAM "" "SOURCE;CODE_BYTES;STACK_BYTES;SPU_HEADER;SPU_KERNEL;SPU_ARENA" "LINK" ${ARGN})
+  cmake_parse_arguments(PROGRAM "" "SOURCE;CODE_BYTES;STACK_BYTES;SPU_HEADER;SPU_KERNEL;SPU_ARENA;SPU_MODULES" "LINK" ${ARGN})
   set(local_store_use "")
   if(PROGRAM_CODE_BYTES)
     set(local_store_use "  program.takes({${PROGRAM_CODE_BYTES}, ${PROGRAM_STACK_BYTES}});\n")
@@ -86,7 +86,8 @@ function(celltrace_spe_program name)
   endforeach()
   set(image "")
   if(PROGRAM_SPU_KERNEL AND CELLTRACE_SPU_GXX)
-    celltrace_spu_elf(${name} HEADER ${PROGRAM_SPU_HEADER} KERNEL ${PROGRAM_SPU_KERNEL} ARENA ${PROGRAM_SPU_ARENA})
+    celltrace_spu_elf(${name} HEADER ${PROGRAM_SPU_HEADER} KERNEL ${PROGRAM_SPU_KERNEL} ARENA ${PROGRAM_SPU_ARENA}
+      MODULES ${PROGRAM_SPU_MODULES})
     celltrace_spu_elf_source(elf_source ${name})
     list(APPEND objects ${elf_source})
     string(APPEND declarations "std::span<const std::uint8_t> ${name}_elf();\n")

@@ -1,10 +1,11 @@
 # Compiles kernels for the real SPU with CELLTRACE_SPU_GXX.
 #
-#   celltrace_spu_elf(NAME HEADER kernel.hpp KERNEL qualified::function [ARENA bytes])
+#   celltrace_spu_elf(NAME HEADER kernel.hpp KERNEL qualified::function [ARENA bytes] [MODULES script.ld])
 #
 # makes the target celltrace_spu_NAME, part of `all`: NAME.elf, NAME.map (the linker's map, with the stack that every
 # function needs) and NAME.stack.txt in the current binary directory. The header is looked for in the current source
-# directory too. The ELF names functions and lines; that is no part of what is loaded.
+# directory too. The ELF names functions and lines; that is no part of what is loaded. MODULES puts functions into code
+# modules: a linker script with overlays, each in an output section .module.NAME, all of one region.
 #
 #   celltrace_spu_elf_source(VARIABLE NAME)
 #
@@ -21,7 +22,7 @@
 set(CELLTRACE_SPU_ARENA_BYTES 111744 CACHE STRING "Local store for the kernel's arena in programs for the real SPU")
 
 function(celltrace_spu_elf name)
-  cmake_parse_arguments(ELF "" "HEADER;KERNEL;ARENA" "" ${ARGN})
+  cmake_parse_arguments(ELF "" "HEADER;KERNEL;ARENA;MODULES" "" ${ARGN})
   if(NOT CELLTRACE_SPU_GXX)
     return()
   endif()
@@ -45,12 +46,16 @@ function(celltrace_spu_elf name)
       -c ${main} -o ${base}.o
     DEPENDS ${main} DEPFILE ${base}.d
     COMMENT "Compiling ${name} for the SPU" VERBATIM)
+  set(modules "")
+  if(ELF_MODULES)
+    set(modules ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../backends/spu/modules.S -Wl,-T,${ELF_MODULES})
+  endif()
   add_custom_command(
     OUTPUT ${base}.elf
     BYPRODUCTS ${base}.map ${base}.stack.txt
-    COMMAND ${CELLTRACE_SPU_GXX} -Wl,--gc-sections -Wl,--stack-analysis -Wl,-Map,${base}.map
+    COMMAND ${CELLTRACE_SPU_GXX} -Wl,--gc-sections -Wl,--stack-analysis -Wl,-Map,${base}.map ${modules}
       ${name}.o -o ${name}.elf > ${name}.stack.txt # whose name as given here becomes part of it
-    DEPENDS ${base}.o WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}
+    DEPENDS ${base}.o ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../backends/spu/modules.S ${ELF_MODULES} WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}
     COMMENT "Linking ${name} for the SPU" VERBATIM)
   add_custom_target(celltrace_spu_${name} ALL DEPENDS ${base}.elf)
   set_target_properties(celltrace_spu_${name} PROPERTIES CELLTRACE_BASE ${base} CELLTRACE_ARENA ${ELF_ARENA})

@@ -45,12 +45,21 @@ private:
 struct Counters {
   Counter dma_commands, dma_list_elements, dma_bytes_read, dma_bytes_written;
   Counter signals_sent, mailbox_words_sent, local_store_peak;
+  Counter module_fetches, module_bytes, module_cycles;
   CycleCounters cycles;
 
   SpeStatistics statistics() const {
-    return {
-        dma_commands.value(), dma_list_elements.value(),  dma_bytes_read.value(),   dma_bytes_written.value(),
-        signals_sent.value(), mailbox_words_sent.value(), local_store_peak.value(), cycles.value()};
+    return {dma_commands.value(),
+            dma_list_elements.value(),
+            dma_bytes_read.value(),
+            dma_bytes_written.value(),
+            signals_sent.value(),
+            mailbox_words_sent.value(),
+            local_store_peak.value(),
+            module_fetches.value(),
+            module_bytes.value(),
+            module_cycles.value(),
+            cycles.value()};
   }
 };
 

@@ -30,7 +30,8 @@ constexpr std::array<Entry, kRules> kTable = {{
     {Rule::quadword_alignment, "quadword-alignment", kStop,
      "a transfer of 16 bytes or more must be 16-byte aligned"},
     {Rule::mapped_address, "mapped-address", kStop,
-     "EA must be mapped, readable for a get and writable for a put, and the transfer stay in the storage it starts in"},
+     "EA must be mapped, readable for a get and writable for a put, and the transfer stay in the storage it "
+     "starts in"},
     {Rule::register_exists, "register-exists", kStop,
      "EA must be a problem-state register: signal 1, signal 2 or inbound mailbox"},
     {Rule::register_size, "register-size", kStop, "a problem-state register takes exactly 4 bytes"},
@@ -108,6 +109,8 @@ constexpr std::array<Entry, kRules> kTable = {{
     {Rule::invalid_instruction, "invalid-instruction", kStop, "the SPU has no such instruction"},
     {Rule::unwritten_code, "unwritten-code", kStop,
      "the SPU executed local store that was never written, or that a get in flight targets"},
+    {Rule::absent_module, "absent-module", kStop,
+     "code of a module runs while another one is in its region of local store"},
     {Rule::invalid_channel, "invalid-channel", kStop, "there is no such channel in this direction"},
     {Rule::stalls_for_ever, "stalls-for-ever", kStop, "the channel would stall for ever"},
     {Rule::phantom_event, "phantom-event", kStop,

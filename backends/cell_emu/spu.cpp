@@ -62,6 +62,23 @@ void Spu::stop(std::uint32_t code) {
   stop_with(code);
 }
 
+void Spu::fetch_module(const CodeModule& module) {
+  settle();
+  resident_modules_[module.region] = module.number;
+  const TimingParameters& timing = context_.mfc.config.timing;
+  const std::uint64_t lines = (module.bytes + kLineBytes - 1) / kLineBytes;
+  const Cycle begin = now();
+  waited(begin + timing.first_line_memory + lines * timing.memory_line, module.name);
+  counters_.module_fetches.add(1);
+  counters_.module_bytes.add(module.bytes);
+  counters_.module_cycles.add(now() - begin);
+}
+
+void Spu::report_absent_module(const CodeModule& module) {
+  fail(Rule::absent_module,
+       std::string("code of module '") + module.name + "': " + std::string(text_of(Rule::absent_module)));
+}
+
 void Spu::note(const char* what, std::uint32_t value) {
   if (context_.mfc.trace == nullptr) return;
   settle();

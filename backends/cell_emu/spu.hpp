@@ -67,6 +67,14 @@ public:
     if (SpeRecorder* recorder = context_.mfc.config.recorder) [[unlikely]]
       recorder->computed(spe_.id, work);
   }
+  /// Takes the time of the DMA command that fetches the module, if it is not there.
+  void enter_module(const CodeModule& module) {
+    if (resident_modules_[module.region] != module.number) fetch_module(module);
+  }
+  void run_in_module(const CodeModule& module) {
+    if (resident_modules_[module.region] != module.number) [[unlikely]]
+      report_absent_module(module);
+  }
   void note(const char* what, std::uint32_t value);
   void record(const void* source, std::uint32_t word) {
     if (SpeRecorder* recorder = context_.mfc.config.recorder) recorder->record(spe_.id, source, word);
@@ -107,6 +115,8 @@ public:
 
 private:
   void issue(const MfcCommand& command);
+  void fetch_module(const CodeModule& module);
+  void report_absent_module(const CodeModule& module);
   void stop(std::uint32_t code);
 
   /// Charges what has been computed since the last access to a channel.
@@ -115,6 +125,7 @@ private:
   void run_interrupts();
 
   ArenaState arena_;
+  std::uint32_t resident_modules_[kMaxModuleRegions] = {}; ///< by region, 0: none
   std::map<const void*, void*> statics_;
   bool in_handler_ = false;
   std::function<void(Spu&)> interrupt_handler_;

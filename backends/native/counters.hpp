@@ -34,8 +34,17 @@ struct Counters {
   Counter local_store_peak;
 
   SpeStatistics snapshot() const {
-    return {dma_commands.get(), dma_list_elements.get(),  dma_bytes_read.get(),   dma_bytes_written.get(),
-            signals_sent.get(), mailbox_words_sent.get(), local_store_peak.get(), {}};
+    return {dma_commands.get(),
+            dma_list_elements.get(),
+            dma_bytes_read.get(),
+            dma_bytes_written.get(),
+            signals_sent.get(),
+            mailbox_words_sent.get(),
+            local_store_peak.get(),
+            0,
+            0,
+            0,
+            {}};
   }
 };
 

@@ -15,6 +15,21 @@ endif()
 set(code ${CMAKE_MATCH_1})
 math(EXPR data "${CMAKE_MATCH_2} + ${CMAKE_MATCH_3} - ${ARENA}")
 
+# Code modules lie in the file, and in turn in one region.
+execute_process(COMMAND ${SIZE_TOOL} -A ${ELF} OUTPUT_VARIABLE sections)
+string(REGEX MATCHALL "\\.module\\.[a-z]+ +[0-9]+" modules "${sections}")
+set(region 0)
+set(lines "")
+foreach(module ${modules})
+  string(REGEX MATCH "[0-9]+" bytes ${module})
+  math(EXPR code "${code} - ${bytes}")
+  string(APPEND lines "    ${module}\n")
+  if(bytes GREATER region)
+    set(region ${bytes})
+  endif()
+endforeach()
+math(EXPR code "${code} + ${region}")
+
 file(READ ${STACK} analysis)
 if(NOT analysis MATCHES "Maximum stack required is (0x[0-9a-f]+)")
   message(FATAL_ERROR "${STACK} holds no stack analysis")
@@ -26,6 +41,7 @@ math(EXPR free "${local_store} - ${total}")
 get_filename_component(name ${ELF} NAME)
 message("local store of ${name}, bytes:\n"
   "  code and constants  ${code}\n"
+  "    of it, a region of modules  ${region}\n${lines}"
   "  data                ${data}\n"
   "  arena               ${ARENA}\n"
   "  stack               ${stack}\n"

@@ -13,9 +13,17 @@ alignas(celltrace::kLineBytes) uint8_t arena[CELLTRACE_SPU_ARENA_BYTES];
 
 } // namespace
 
+/// The effective address of this program's file, high word first: modules.S fetches code from there.
+extern "C" {
+extern uint32_t celltrace_program_image[4];
+alignas(16) uint32_t celltrace_program_image[4];
+}
+
 /// As crt0 calls it: the id that the PPE's library gave the SPE, and two arguments of spe_context_run().
 int main(unsigned long long, unsigned long long control_block, unsigned long long) {
   celltrace::spu::Spu spu(control_block, arena, sizeof arena);
+  celltrace_program_image[0] = static_cast<uint32_t>(spu.program_image() >> 32);
+  celltrace_program_image[1] = static_cast<uint32_t>(spu.program_image());
   CELLTRACE_SPU_KERNEL(spu, spu.argument());
   return 0;
 }

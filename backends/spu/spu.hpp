@@ -33,6 +33,8 @@ public:
   uint32_t count() const { return control_->count; }
   /// The argument of the kernel.
   ea_t argument() const { return control_->argument; }
+  /// Of the program's file, from which code modules are fetched.
+  ea_t program_image() const { return control_->image; }
   const SpeAddresses& addresses(uint32_t spe) const { return addresses_[spe]; }
 
   template <Channel c> uint32_t read_channel() {

@@ -30,7 +30,7 @@ enum class Balance {
 enum class Accelerator {
   automatic, ///< the BVH
   grid,      ///< a uniform grid of voxels, which an SPE builds
-  bvh        ///< a bounding volume hierarchy, four wide; where SPEs have no direct memory, the PPE's side builds it
+  bvh ///< a bounding volume hierarchy, four wide; where SPEs have no direct memory, the PPE's side builds it
 };
 
 /// Called now and then by the thread that renders, with the finished fraction of a job: starts at 0, never
@@ -124,13 +124,16 @@ struct RenderStatistics {
 
   Accelerator accelerator = Accelerator::grid; ///< never automatic
   std::uint32_t grid_cells[3] = {0, 0, 0};     ///< all 0 for a BVH
-  std::uint32_t bvh_nodes = 0;           ///< 0 for a grid
+  std::uint32_t bvh_nodes = 0;                 ///< 0 for a grid
   std::uint64_t accelerator_list_entries = 0;  ///< object numbers in all lists
   std::uint64_t accelerator_bytes = 0;
 
   Cache list_cache, object_cache, material_cache, light_cache; ///< all 0 where memory is direct
   std::uint64_t dma_commands = 0, dma_list_elements = 0, dma_bytes_read = 0, dma_bytes_written = 0;
   std::uint64_t signals = 0, mailbox_words = 0;
+  /// Code modules that SPEs fetched, and waited for. Only cell_emu says so.
+  std::uint64_t module_fetches = 0, module_bytes = 0, module_cycles = 0;
+  double module_share = 0; ///< of all cycles of all SPEs
 
   std::uint64_t balance_exchanges = 0;   ///< that moved units of work
   std::uint64_t balance_units_moved = 0; ///< runs of bundles of packets

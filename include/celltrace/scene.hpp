@@ -182,11 +182,11 @@ struct Object {
   bool inverse = false; ///< inside and outside change places
   /// Only what is inside all of these is there. They are placed as the object is, and their materials mean
   /// nothing. Null: all of it.
-  std::shared_ptr<const std::vector<Object>> clipped_by;
+  std::shared_ptr<const std::vector<Object>> clipped_by = nullptr;
 };
 
-/// Constructive solid geometry, as in POV-Ray: which parts of its parts' surfaces are there. A surface that is
-/// there has the material of the part that it belongs to.
+/// Constructive solid geometry, as in POV-Ray: which parts of its parts' surfaces are there. A surface that
+/// is there has the material of the part that it belongs to.
 struct Csg {
   enum class Operation {
     union_,       ///< all of them

@@ -9,7 +9,8 @@ namespace celltrace::pov {
 
 namespace {
 
-constexpr int kDeepestUnion = 200;
+/// Of objects inside one another.
+constexpr int kDeepestObject = 200;
 
 /// What `.grey` counts as, past the components.
 constexpr int kGrey = 5;
@@ -30,6 +31,12 @@ double list_count(Session& session, const std::vector<ListEntry>& list, const Lo
   if (!count.is_float) session.fail(where, "expected a float, found a vector");
   require_finite(session, count, where);
   return count.v.x;
+}
+
+/// Counts `part` as one that is inside `object`.
+void nest(Session& session, ObjectDefinition& object, const ObjectDefinition& part, const Location& where) {
+  object.depth = std::max(object.depth, part.depth + 1);
+  if (object.depth > kDeepestObject) session.fail(where, "objects are nested too deeply");
 }
 
 std::shared_ptr<ObjectDefinition> make_object(std::shared_ptr<MeshDefinition> mesh) {
@@ -125,10 +132,30 @@ const TexturePtr& texture_of(Session& session, const ObjectDefinition& object) {
   return object.texture ? object.texture : session.builder.default_texture;
 }
 
-std::shared_ptr<ObjectDefinition> sphere(const Vec3& centre, double radius) {
+std::shared_ptr<ObjectDefinition> shape(Session& session, const WrittenShape& written) {
   auto object = std::make_shared<ObjectDefinition>();
-  object->shape = Sphere{centre, radius};
+  object->shape = read_shape(session, written);
   return object;
+}
+
+std::shared_ptr<ObjectDefinition> csg(Session& session, Compound compound, const Location& where) {
+  auto object = std::make_shared<ObjectDefinition>();
+  for (const ObjectPtr& part : compound.parts)
+    nest(session, *object, *part, where);
+  object->shape = std::make_shared<const Compound>(std::move(compound));
+  return object;
+}
+
+ObjectPtr limiting(Session& session, const ObjectPtr& object, const Location& where) {
+  if (std::holds_alternative<Light>(object->shape)) session.fail(where, "a light source has no inside");
+  return object;
+}
+
+void limit(Session& session, ObjectDefinition& object, std::vector<Limit>& list,
+           const std::vector<Limit>& added, const Location& where) {
+  for (const Limit& limit : added)
+    nest(session, object, *limit.object, where);
+  list.insert(list.end(), added.begin(), added.end());
 }
 
 std::shared_ptr<ObjectDefinition> light(const Vec3& location, const Pigment& colour) {
@@ -141,16 +168,6 @@ void set_shadowless(Session& session, ObjectDefinition& object, const Location& 
   Light* light = std::get_if<Light>(&object.shape);
   if (!light) session.fail(where, "this is not a light source");
   light->shadowless = true;
-}
-
-std::shared_ptr<ObjectDefinition> make_union(Session& session, std::vector<ObjectPtr> parts,
-                                             const Location& where) {
-  auto object = std::make_shared<ObjectDefinition>();
-  for (const ObjectPtr& part : parts)
-    object->depth = std::max(object->depth, part->depth + 1);
-  if (object->depth > kDeepestUnion) session.fail(where, "unions are nested too deeply");
-  object->shape = std::make_shared<const std::vector<ObjectPtr>>(std::move(parts));
-  return object;
 }
 
 void apply(const std::shared_ptr<const MaterialDefinition>& material, ObjectDefinition& object,

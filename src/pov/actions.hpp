@@ -8,12 +8,13 @@
 #include "pov/mesh.hpp"
 #include "pov/object.hpp"
 #include "pov/session.hpp"
+#include "pov/shapes.hpp"
 #include "pov/value.hpp"
 
 namespace celltrace::pov {
 
 /// Adds to a list of the scene's, which a loop must not make endless.
-template <class T, class U>
+template <class T, class U = T>
 void append(Session& session, std::vector<T>& list, U&& element, const Location& where) {
   if (list.size() >= session.options.limits.list_entries) session.fail(where, "this list is too long");
   list.push_back(std::forward<U>(element));
@@ -73,11 +74,15 @@ double ior(Session& session, double value, const Location& where);
 
 /// The texture that an object's pigment or finish changes.
 const TexturePtr& texture_of(Session& session, const ObjectDefinition& object);
-std::shared_ptr<ObjectDefinition> sphere(const Vec3& centre, double radius);
+std::shared_ptr<ObjectDefinition> shape(Session& session, const WrittenShape& written);
+std::shared_ptr<ObjectDefinition> csg(Session& session, Compound compound, const Location& where);
 std::shared_ptr<ObjectDefinition> light(const Vec3& location, const Pigment& colour);
 void set_shadowless(Session& session, ObjectDefinition& object, const Location& where);
-std::shared_ptr<ObjectDefinition> make_union(Session& session, std::vector<ObjectPtr> parts,
-                                             const Location& where);
+/// An object that other ones can be limited by.
+ObjectPtr limiting(Session& session, const ObjectPtr& object, const Location& where);
+/// Adds to one of the object's own lists of limits.
+void limit(Session& session, ObjectDefinition& object, std::vector<Limit>& list,
+           const std::vector<Limit>& added, const Location& where);
 void apply(const std::shared_ptr<const MaterialDefinition>& material, ObjectDefinition& object,
            const Location& where);
 

@@ -16,13 +16,14 @@
 %locations
 %param { celltrace::pov::Session& session }
 // After a value both an operator and, since commas are optional, a sign or a colour's channel can follow: the
-// longer value is meant.
-%expect 52
+// longer value is meant. A name that CSG begins with is all it consists of, not its first part.
+%expect 57
 
 %code requires {
 #include "pov/actions.hpp"
 #include "pov/functions.hpp"
 #include "pov/session.hpp"
+#include "pov/shapes.hpp"
 }
 
 %code {
@@ -57,7 +58,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %token <UnsupportedPtr> UNSUPPORTED_ID
 %token UNDECLARED_ID
 
-%token <int> FUNCTION TEXT_FUNCTION COMPONENT COLOUR_MODEL CHANNEL
+%token <int> FUNCTION TEXT_FUNCTION COMPONENT COLOUR_MODEL CHANNEL SHAPE CSG
 %token <NameId> UNSUPPORTED UNSUPPORTED_OBJECT UNSUPPORTED_BLOCK
 %token BAD_CHARACTER DEFINED CONSTANT
 %token LESS_EQUAL GREATER_EQUAL NOT_EQUAL
@@ -66,14 +67,15 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %left '*' '/'
 
 %token ADC_BAILOUT AMBIENT AMBIENT_LIGHT ANGLE APERTURE ARRAY ASSUMED_GAMMA BACKGROUND BOUNDED_BY
-%token BRILLIANCE CAMERA CAUSTICS CHARSET COLOUR CONSERVE_ENERGY CRAND DIFFUSE DIMENSIONS DIMENSION_SIZE
-%token DIRECTION DISPERSION EMISSION EXPONENT FACE_INDICES FADE_DISTANCE FADE_POWER FALLOFF FINISH
-%token FRESNEL GLOBAL_SETTINGS HOLLOW IGNORED_FLAG IGNORED_NUMBER INSIDE_VECTOR INTERIOR INVERSE IOR IRID
-%token LIGHT_SOURCE LOCATION LOOK_AT MATERIAL MATRIX MAX_TRACE_LEVEL MESH MESH2 METALLIC NORMAL_INDICES
-%token NORMAL_VECTORS NO_SHADOW OBJECT ORTHOGRAPHIC PERSPECTIVE PHONG PHONG_SIZE PHOTONS PIGMENT
-%token QUICK_COLOUR REFLECTION REFLECTION_EXPONENT REFRACTION RIGHT ROTATE ROUGHNESS SCALE SHADOWLESS SKY
-%token SMOOTH_TRIANGLE SPECULAR SPHERE SRGB TEXTURE TEXTURE_LIST TRANSFORM TRANSLATE TRIANGLE UNION UP
-%token UV_INDICES UV_MAPPING UV_VECTORS VERTEX_VECTORS
+%token BRILLIANCE CAMERA CAUSTICS CHARSET CLIPPED_BY COLOUR CONSERVE_ENERGY CRAND CUTAWAY_TEXTURES
+%token DIFFUSE DIMENSIONS DIMENSION_SIZE DIRECTION DISPERSION EMISSION EXPONENT FACE_INDICES
+%token FADE_DISTANCE FADE_POWER FALLOFF FINISH FRESNEL GLOBAL_SETTINGS HOLLOW IGNORED_FLAG IGNORED_NUMBER
+%token INSIDE_VECTOR INTERIOR INVERSE IOR IRID LIGHT_SOURCE LOCATION LOOK_AT MATERIAL MATRIX
+%token MAX_TRACE_LEVEL MESH MESH2 METALLIC NORMAL_INDICES NORMAL_VECTORS NO_SHADOW OBJECT OPEN
+%token ORTHOGRAPHIC PERSPECTIVE PHONG PHONG_SIZE PHOTONS PIGMENT QUICK_COLOUR REFLECTION
+%token REFLECTION_EXPONENT REFRACTION RIGHT ROTATE ROUGHNESS SCALE SHADOWLESS SKY SMOOTH_TRIANGLE
+%token SPECULAR SRGB TEXTURE TEXTURE_LIST TRANSFORM TRANSLATE TRIANGLE UP UV_INDICES UV_MAPPING
+%token UV_VECTORS VERTEX_VECTORS
 
 %nterm <Quantity> quantity operand vector vector_items comparison logic value_in_brackets
 %nterm <Quantity> colour colour_value colour_base
@@ -97,7 +99,9 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %nterm <std::shared_ptr<CameraDefinition>> camera camera_body
 %nterm <ObjectPtr> object
 %nterm <std::shared_ptr<ObjectDefinition>> object_head object_body light_body
-%nterm <std::vector<ObjectPtr>> union_head
+%nterm <WrittenShape> shape_head
+%nterm <Compound> csg_head
+%nterm <std::vector<Limit>> limits
 %nterm <std::shared_ptr<MeshBuilder>> mesh_head
 %nterm <std::shared_ptr<Mesh2Definition>> mesh2_head
 %nterm <std::vector<TexturePtr>> texture_list
@@ -476,8 +480,8 @@ camera_body
 // ---- Objects ----
 
 object
-  : object_body '}'          { $$ = $1; }
-  | light_body '}'           { $$ = $1; }
+  : object_body '}'          { $1->where = @1; $$ = $1; }
+  | light_body '}'           { $1->where = @1; $$ = $1; }
   | OBJECT_ID
   | UNSUPPORTED_OBJECT {
       $$ = unsupported_object(quoted(session, $1), @1);
@@ -485,16 +489,29 @@ object
     }
   ;
 
-object_head
+object_head // a name instead of what an object consists of: whatever object it stands for
   : OBJECT '{' object        { $$ = std::make_shared<ObjectDefinition>(*$3); }
-  | SPHERE '{' quantity optional_comma number { $$ = sphere(session.vector($3, @3), $5); }
-  | SPHERE '{' OBJECT_ID     { $$ = std::make_shared<ObjectDefinition>(*$3); }
+  | SHAPE '{' OBJECT_ID      { $$ = std::make_shared<ObjectDefinition>(*$3); }
+  | CSG '{' OBJECT_ID        { $$ = std::make_shared<ObjectDefinition>(*$3); }
   | MESH '{' OBJECT_ID       { $$ = std::make_shared<ObjectDefinition>(*$3); }
   | MESH2 '{' OBJECT_ID      { $$ = std::make_shared<ObjectDefinition>(*$3); }
+  | shape_head               { $$ = shape(session, $1); }
+  | shape_head OPEN          { $1.is_open = true; $$ = shape(session, $1); }
+  | csg_head                 { $$ = csg(session, std::move($1), @1); }
   | triangle_vertices        { $$ = lone_triangle(session, $1, @1); }
-  | union_head               { $$ = make_union(session, std::move($1), @1); }
   | mesh_head                { $$ = mesh(session, *$1, @1); }
   | mesh2_head               { $$ = mesh2(session, *$1, @1); }
+  ;
+
+shape_head
+  : SHAPE '{' quantity       { $$.number = $1; $$.where = @1; $$.arguments.push_back({$3, @3}); }
+  | shape_head quantity      { $$ = std::move($1); append(session, $$.arguments, {$2, @2}, @2); }
+  | shape_head ',' quantity  { $$ = std::move($1); append(session, $$.arguments, {$3, @3}, @3); }
+  ;
+
+csg_head
+  : CSG '{'                  { $$.operation = Csg::Operation($1); }
+  | csg_head object          { $$ = std::move($1); append(session, $$.parts, $2, @2); }
   ;
 
 object_body
@@ -513,17 +530,31 @@ object_body
   | object_body material               { $$ = $1; apply($2, *$$, @2); }
   | object_body NO_SHADOW              { $$ = $1; $$->no_shadow = true; }
   | object_body HOLLOW flag            { $$ = $1; }
-  | object_body INVERSE                { $$ = $1; }
+  | object_body INVERSE                { $$ = $1; $$->inverse = !$$->inverse; }
   | object_body IGNORED_FLAG flag      { $$ = $1; }
   | object_body UV_MAPPING             { $$ = $1; }
-  | object_body BOUNDED_BY             { $$ = $1; session.tokens.skip_group(); }
+  | object_body CUTAWAY_TEXTURES flag {
+      $$ = $1;
+      mark($$->unsupported, unless_zero("'cutaway_textures'", $3, @2));
+    }
+  | object_body CLIPPED_BY '{' limits '}' { $$ = $1; limit(session, *$$, $$->clipped_by, $4, @2); }
+  | object_body CLIPPED_BY '{' BOUNDED_BY '}' {
+      $$ = $1;
+      limit(session, *$$, $$->clipped_by, $$->bounded_by, @2);
+    }
+  | object_body BOUNDED_BY '{' limits '}' { $$ = $1; limit(session, *$$, $$->bounded_by, $4, @2); }
+  | object_body BOUNDED_BY '{' CLIPPED_BY '}' {
+      $$ = $1;
+      limit(session, *$$, $$->bounded_by, $$->clipped_by, @2);
+    }
   | object_body PHOTONS                { $$ = $1; session.tokens.skip_group(); }
   | object_body unsupported_modifier   { $$ = $1; mark($$->unsupported, $2); }
   ;
 
-union_head
-  : UNION '{'         { }
-  | union_head object { $$ = std::move($1); append(session, $$, $2, @2); }
+limits // of where an object is; they can be moved together
+  : object                { $$.push_back({limiting(session, $1, @1), {}}); }
+  | limits object         { $$ = std::move($1); append(session, $$, {limiting(session, $2, @2), {}}, @2); }
+  | limits transformation { $$ = std::move($1); transform_limits($$, $2); }
   ;
 
 light_body
@@ -666,7 +697,7 @@ unsupported
   | OBJECT             { $$ = unsupported_rest(session, "an object pattern", @1); }
   ;
 
-unsupported_modifier // an object's: in a union an unsupported object is one of its parts
+unsupported_modifier // an object's: in CSG an unsupported object is one of its parts
   : UNSUPPORTED        { $$ = unsupported_rest(session, quoted(session, $1), @1); }
   | UNSUPPORTED_BLOCK  { $$ = unsupported_rest(session, quoted(session, $1), @1); }
   ;

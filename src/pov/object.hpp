@@ -1,4 +1,4 @@
-// Objects as declared: shapes, unions and light sources with their modifiers.
+// Objects as declared: shapes, CSG and light sources with their modifiers.
 #pragma once
 
 #include <array>
@@ -14,7 +14,22 @@ namespace celltrace::pov {
 
 struct ObjectDefinition;
 using ObjectPtr = std::shared_ptr<const ObjectDefinition>;
-using Children = std::shared_ptr<const std::vector<ObjectPtr>>;
+
+/// A shape as the Scene has it. Never a mesh or CSG here: those become the Scene's when they are placed.
+using Shape = decltype(Object::shape);
+
+/// CSG as written: a union and its like, over other objects.
+struct Compound {
+  Csg::Operation operation = Csg::Operation::union_;
+  std::vector<ObjectPtr> parts;
+};
+
+/// An object whose inside limits another one.
+struct Limit {
+  ObjectPtr object;
+  Transform transform; ///< after the object's own
+};
+void transform_limits(std::vector<Limit>& limits, const Transform& next);
 
 /// A mesh whose triangles refer to its own textures; it becomes the scene's when it is first placed.
 struct MeshDefinition {
@@ -34,16 +49,22 @@ struct TriangleDefinition {
 };
 
 struct ObjectDefinition {
-  std::variant<Sphere, std::shared_ptr<MeshDefinition>, std::shared_ptr<TriangleDefinition>, Children, Light>
+  std::variant<Shape, std::shared_ptr<MeshDefinition>, std::shared_ptr<TriangleDefinition>,
+               std::shared_ptr<const Compound>, Light>
       shape;
+  Location where; ///< where it is written, or referred to within other objects
   Transform transform;
   TexturePtr texture; ///< null: the parent's, then the default
   InteriorPtr interior;
   bool no_shadow = false;
+  bool inverse = false;
+  std::vector<Limit> clipped_by;
+  std::vector<Limit> bounded_by; ///< without effect, until something is clipped by it
   UnsupportedPtr unsupported;
-  int depth = 0; ///< of unions inside one another
+  int depth = 0; ///< of objects inside one another
 
-  void apply(const Transform& next) { transform = transform.then(next); }
+  /// Moves what limits it, too.
+  void apply(const Transform& next);
 };
 
 } // namespace celltrace::pov

@@ -41,6 +41,8 @@ struct Deliver {
     case token::T_COMPONENT:
     case token::T_COLOUR_MODEL:
     case token::T_CHANNEL:
+    case token::T_SHAPE:
+    case token::T_CSG:
       target.emplace<int>(terminal.detail);
       break;
     case token::T_UNSUPPORTED:

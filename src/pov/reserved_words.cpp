@@ -3,6 +3,7 @@
 #include "pov/constants.hpp"
 #include "pov/functions.hpp"
 #include "pov/grammar.hpp"
+#include "pov/shapes.hpp"
 
 namespace celltrace::pov {
 
@@ -35,12 +36,13 @@ const Word kWords[] = {
     {"camera", tokens::T_CAMERA},
     {"caustics", tokens::T_CAUSTICS},
     {"charset", tokens::T_CHARSET},
+    {"clipped_by", tokens::T_CLIPPED_BY},
     {"color", tokens::T_COLOUR},
     {"colour", tokens::T_COLOUR},
     {"confidence", tokens::T_IGNORED_NUMBER},
     {"conserve_energy", tokens::T_CONSERVE_ENERGY},
     {"crand", tokens::T_CRAND},
-    {"cutaway_textures", tokens::T_IGNORED_FLAG},
+    {"cutaway_textures", tokens::T_CUTAWAY_TEXTURES},
     {"defined", tokens::T_DEFINED},
     {"diffuse", tokens::T_DIFFUSE},
     {"dimension_size", tokens::T_DIMENSION_SIZE},
@@ -87,6 +89,7 @@ const Word kWords[] = {
     {"normal_vectors", tokens::T_NORMAL_VECTORS},
     {"number_of_waves", tokens::T_IGNORED_NUMBER},
     {"object", tokens::T_OBJECT},
+    {"open", tokens::T_OPEN},
     {"orthographic", tokens::T_ORTHOGRAPHIC},
     {"perspective", tokens::T_PERSPECTIVE},
     {"phong", tokens::T_PHONG},
@@ -106,7 +109,6 @@ const Word kWords[] = {
     {"sky", tokens::T_SKY},
     {"smooth_triangle", tokens::T_SMOOTH_TRIANGLE},
     {"specular", tokens::T_SPECULAR},
-    {"sphere", tokens::T_SPHERE},
     {"split_union", tokens::T_IGNORED_FLAG},
     {"srgb", tokens::T_SRGB},
     {"sturm", tokens::T_IGNORED_FLAG},
@@ -115,7 +117,6 @@ const Word kWords[] = {
     {"transform", tokens::T_TRANSFORM},
     {"translate", tokens::T_TRANSLATE},
     {"triangle", tokens::T_TRIANGLE},
-    {"union", tokens::T_UNION},
     {"up", tokens::T_UP},
     {"uv_indices", tokens::T_UV_INDICES},
     {"uv_mapping", tokens::T_UV_MAPPING},
@@ -132,6 +133,9 @@ constexpr int detail(ColourModel model) {
 }
 constexpr int detail(Channel channel) {
   return static_cast<int>(channel);
+}
+constexpr int detail(Csg::Operation operation) {
+  return static_cast<int>(operation);
 }
 
 const DetailedWord kDetailedWords[] = {
@@ -161,6 +165,10 @@ const DetailedWord kDetailedWords[] = {
     {"filter", tokens::T_CHANNEL, detail(Channel::filter)},
     {"alpha", tokens::T_CHANNEL, detail(Channel::filter)}, // its name before version 3
     {"transmit", tokens::T_CHANNEL, detail(Channel::transmit)},
+    {"union", tokens::T_CSG, detail(Csg::Operation::union_)},
+    {"merge", tokens::T_CSG, detail(Csg::Operation::merge)},
+    {"intersection", tokens::T_CSG, detail(Csg::Operation::intersection)},
+    {"difference", tokens::T_CSG, detail(Csg::Operation::difference)},
 };
 
 struct ComponentWord {
@@ -212,16 +220,13 @@ const DirectiveWord kDirectives[] = {
 // What POV-Ray 3.7 reserves for features that are not supported: things that are objects, things that have a
 // block in braces of their own, and the rest.
 const char* const kUnsupportedObjects[] = {
-    "bicubic_patch", "blob",           "box",          "cone",         "cubic",      "cylinder",
-    "difference",    "disc",           "height_field", "intersection", "isosurface", "julia_fractal",
-    "lathe",         "light_group",    "merge",        "ovus",         "parametric", "plane",
-    "poly",          "polygon",        "prism",        "quadric",      "quartic",    "sor",
-    "sphere_sweep",  "superellipsoid", "text",         "torus",
+    "bicubic_patch", "blob", "cubic",        "height_field",   "isosurface", "julia_fractal", "lathe",
+    "light_group",   "ovus", "parametric",   "poly",           "polygon",    "prism",         "quadric",
+    "quartic",       "sor",  "sphere_sweep", "superellipsoid", "text",
 };
 
 const char* const kUnsupportedBlocks[] = {
     "bump_map",
-    "clipped_by",
     "color_map",
     "colour_map",
     "contained_by",
@@ -374,7 +379,6 @@ const char* const kUnsupportedWords[] = {
     "omnimax",
     "once",
     "onion",
-    "open",
     "orient",
     "orientation",
     "panoramic",
@@ -478,6 +482,9 @@ std::vector<ReservedWord> reserved_words() {
   for (const FunctionName& function : function_names())
     words.push_back(
         {function.name, function.gives_text ? tokens::T_TEXT_FUNCTION : tokens::T_FUNCTION, number++, false});
+  number = 0;
+  for (const char* shape : shape_names())
+    words.push_back({shape, tokens::T_SHAPE, number++, false});
   return words;
 }
 

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -23,8 +24,9 @@ public:
   TexturePtr default_texture = std::make_shared<TextureDefinition>();
   CameraDefinition default_camera;
 
-  /// Puts an object into the scene: unions are taken apart, meshes shared between their instances. A light
-  /// source in a union shines on everything. Fails if any part of it is not supported.
+  /// Puts an object into the scene: unions are taken apart unless they are inverse or clipped, meshes shared
+  /// between their instances. A light source in CSG shines on everything and is no part of it. Fails if
+  /// anything about the object is not supported.
   void place(const ObjectPtr& object, const Location& where);
 
   /// The last camera is the scene's.
@@ -47,16 +49,31 @@ public:
   Scene finish(const std::string& name);
 
 private:
-  /// What a part of a union takes from the unions around it.
+  // placement.cpp: from objects as declared to the Scene's
+
+  /// What an object takes from the CSG around it.
   struct Inherited {
-    Transform transform;
+    Transform transform; ///< to the scene
     TexturePtr texture;
     Index interior = kNoIndex;
+    Index csg_interior = kNoIndex; ///< of the parts that have or inherit none
     bool no_shadow = false;
+    bool is_part = false;         ///< placed in the space of a CSG, not of the scene
+    bool clips = false;           ///< only its inside matters
+    int depth = 0;                ///< CSG and clipping around it
+    const char* inside = nullptr; ///< in what it must have an inside, for messages; null: it need not
   };
-  void place(const ObjectDefinition& object, const Inherited& inherited, const Location& where);
-  void place_light(Light light, const Transform& transform, const Location& where);
-  void place_shape(const ObjectDefinition& object, const Inherited& own, const Location& where);
+  void place(const ObjectDefinition& object, const Inherited& around, const Location& where);
+  Inherited inherit(const ObjectDefinition& object, const Inherited& around, const Location& where);
+  std::optional<Object> make(const ObjectDefinition& object, const Inherited& around, const Location& where);
+  bool make_shape(const ObjectDefinition& object, const Inherited& own, Object& made, const Location& where);
+  std::shared_ptr<const Csg> make_csg(const Compound& compound, Inherited own, const Location& where);
+  std::shared_ptr<const std::vector<Object>> make_clips(const ObjectDefinition& object,
+                                                        const Inherited& around, const Location& where);
+  void enter_solid(Inherited& own, const Location& where) const;
+  void place_light(Light light, const Inherited& own, const Location& where);
+  void refuse(const std::string& what, const ObjectDefinition& object, const Location& where) const;
+  Index interior_of(const Inherited& own);
   Index interior_index(const ObjectDefinition& object, Index inherited, const TextureDefinition& texture,
                        const Location& where);
   Index material_index(const TexturePtr& texture, const Location& where);
@@ -64,6 +81,7 @@ private:
                                               const Location& where);
   std::shared_ptr<const Mesh> placed_mesh(const std::shared_ptr<MeshDefinition>& definition,
                                           const Location& where);
+
   void settle_gamma();
 
   const ParseLimits& limits_;

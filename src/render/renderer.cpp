@@ -87,7 +87,8 @@ private:
     frame_.reports = reports_.ea();
     plan_ = std::make_unique<WorkPlan>(options_.balance, frame_.bundle_columns, frame_.bundle_rows, spes,
                                        machine_->byte_order());
-    team_ = std::make_unique<SpeTeam>(*machine_, frame_block_);
+    team_ =
+        std::make_unique<SpeTeam>(*machine_, frame_block_, static_cast<AcceleratorKind>(frame_.accelerator));
     builder_ = std::make_unique<AcceleratorBuilder>(*machine_, *team_, frame_, reports_, image_);
     if (options_.model != Model::shared)
       stages_ = std::make_unique<StageTeam>(*machine_, frame_block_, options_.model);

@@ -12,8 +12,8 @@ namespace celltrace {
 
 using namespace kernel;
 
-SpeTeam::SpeTeam(Machine& machine, SharedRecords<FrameBlock>& frame)
-    : machine_(machine), frame_(frame), members_(machine.spe_count()) {
+SpeTeam::SpeTeam(Machine& machine, SharedRecords<FrameBlock>& frame, AcceleratorKind accelerator)
+    : machine_(machine), frame_(frame), members_(machine.spe_count()), accelerator_(accelerator) {
   for (unsigned spe = 0; spe < members_.size(); ++spe)
     members_[spe].spe = spe;
   assemble();
@@ -30,7 +30,7 @@ SpeTeam::~SpeTeam() {
 
 void SpeTeam::assemble() {
   if (std::exchange(assembled_, true)) return;
-  const SpeProgram program = tracer_program();
+  const SpeProgram program = accelerator_ == AcceleratorKind::grid ? grid_tracer_program() : tracer_program();
   for (unsigned spe = 0; spe < members_.size(); ++spe)
     machine_.start(spe, program, frame_.ea());
 }

@@ -17,7 +17,8 @@ class SpeTeam {
 public:
   /// `frame` is one block, in the machine's byte order. It stays in place as long as the team lives; with
   /// every command the SPEs see what it says then.
-  SpeTeam(Machine& machine, SharedRecords<kernel::FrameBlock>& frame);
+  SpeTeam(Machine& machine, SharedRecords<kernel::FrameBlock>& frame,
+          kernel::AcceleratorKind accelerator = kernel::AcceleratorKind::bvh);
   /// Lets the SPEs leave their program; none may be inside a frame, unless it has failed.
   ~SpeTeam();
   SpeTeam(const SpeTeam&) = delete;
@@ -57,6 +58,7 @@ private:
   Machine& machine_;
   SharedRecords<kernel::FrameBlock>& frame_;
   std::vector<Member> members_;
+  const kernel::AcceleratorKind accelerator_;
   bool assembled_ = false;
 };
 

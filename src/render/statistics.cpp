@@ -38,6 +38,7 @@ double imbalance_of(const RenderStatistics& s) {
 constexpr std::uint64_t SpeStatistics::*kTrafficCounts[] = {
     &SpeStatistics::dma_commands,      &SpeStatistics::dma_list_elements, &SpeStatistics::dma_bytes_read,
     &SpeStatistics::dma_bytes_written, &SpeStatistics::signals_sent,      &SpeStatistics::mailbox_words_sent,
+    &SpeStatistics::module_fetches,    &SpeStatistics::module_bytes,      &SpeStatistics::module_cycles,
 };
 
 std::vector<SpeStatistics> count(const Machine& machine) {
@@ -129,6 +130,7 @@ void collect(RenderStatistics& s, const Machine& machine, const FrameBlock& fram
   s.objects = frame.object_count;
   collect_accelerator(s, frame);
   std::size_t index = 0;
+  std::uint64_t all_cycles = 0;
   for (const ReportRecord& r : reports) {
     s.primary_rays += r.primary_rays;
     s.shadow_rays += r.shadow_rays;
@@ -153,9 +155,15 @@ void collect(RenderStatistics& s, const Machine& machine, const FrameBlock& fram
     s.dma_bytes_written += spe.dma_bytes_written;
     s.signals += spe.signals_sent;
     s.mailbox_words += spe.mailbox_words_sent;
+    s.module_fetches += spe.module_fetches;
+    s.module_bytes += spe.module_bytes;
+    s.module_cycles += spe.module_cycles;
+    all_cycles += spe.cycles.total_cycle;
     s.spes.push_back({r.primary_rays + r.shadow_rays + r.reflection_rays + r.refraction_rays, r.packets,
                       r.exchanges, r.busy_ticks, spe.local_store_peak, spe.cycles});
   }
+  s.module_share =
+      all_cycles == 0 ? 0 : static_cast<double>(s.module_cycles) / static_cast<double>(all_cycles);
   s.render_cycles = elapsed_cycles(spes);
   s.imbalance = imbalance_of(s);
 }
@@ -212,6 +220,11 @@ std::string to_json(const RenderStatistics& s) {
         {"bytes_read", s.dma_bytes_read},
         {"bytes_written", s.dma_bytes_written}}},
       {"communication", {{"signals", s.signals}, {"mailbox_words", s.mailbox_words}}},
+      {"modules",
+       {{"fetches", s.module_fetches},
+        {"bytes", s.module_bytes},
+        {"cycles", s.module_cycles},
+        {"share_of_cycles", s.module_share}}},
       {"balance",
        {{"exchanges", s.balance_exchanges},
         {"units_moved", s.balance_units_moved},

@@ -1,11 +1,15 @@
-// The SPE program of the tracer as this build has it: one entry point per SPU type.
+// The SPE programs of the tracer as this build has them: one entry point per SPU type.
 #pragma once
 
 #include "celltrace/spe/program.hpp"
 
 namespace celltrace {
 
-/// Defined by the build (cmake/celltrace_spe_program.cmake).
+// Defined by the build (cmake/celltrace_spe_program.cmake).
+
+/// Finds objects by a BVH.
 SpeProgram tracer_program();
+/// By a uniform grid.
+SpeProgram grid_tracer_program();
 
 } // namespace celltrace

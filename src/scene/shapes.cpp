@@ -7,6 +7,7 @@
 #include <cmath>
 #include <initializer_list>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace celltrace {
@@ -133,11 +134,12 @@ PlacedShape place(const Object& object, const Disc& disc) {
 
 PlacedShape place(const Object& object, const Box& box) {
   Transform own;
-  for (int i = 0; i < 3; ++i) {
-    const double half = 0.5 * std::abs(box.corner[1][i] - box.corner[0][i]);
-    if (half == 0) return nothing();
-    own.rows[i][i] = half;
-  }
+  const Vec3 half = 0.5 * glm::abs(box.corner[1] - box.corner[0]);
+  const double largest = std::max({half.x, half.y, half.z});
+  if (largest == 0) return nothing();
+  // A flat box shows both of its sides.
+  for (int i = 0; i < 3; ++i)
+    own.rows[i][i] = std::max(half[i], 1e-6 * largest);
   own.rows[3] = 0.5 * (box.corner[0] + box.corner[1]);
   return in_own_space<BoxPrimitive>(object, own);
 }
@@ -198,19 +200,33 @@ std::vector<double> numbers(std::initializer_list<Vec3> vectors, std::initialize
     all.insert(all.end(), {v.x, v.y, v.z});
   return all;
 }
-std::vector<double> numbers_of(const Sphere& s) { return numbers({s.centre}, {s.radius}); }
-std::vector<double> numbers_of(const Plane& p) { return numbers({p.normal}, {p.distance}); }
+std::vector<double> numbers_of(const Sphere& s) {
+  return numbers({s.centre}, {s.radius});
+}
+std::vector<double> numbers_of(const Plane& p) {
+  return numbers({p.normal}, {p.distance});
+}
 std::vector<double> numbers_of(const Disc& d) {
   return numbers({d.centre, d.normal}, {d.radius, d.hole_radius});
 }
-std::vector<double> numbers_of(const Box& b) { return numbers({b.corner[0], b.corner[1]}, {}); }
-std::vector<double> numbers_of(const Cylinder& c) { return numbers({c.base, c.cap}, {c.radius}); }
+std::vector<double> numbers_of(const Box& b) {
+  return numbers({b.corner[0], b.corner[1]}, {});
+}
+std::vector<double> numbers_of(const Cylinder& c) {
+  return numbers({c.base, c.cap}, {c.radius});
+}
 std::vector<double> numbers_of(const Cone& c) {
   return numbers({c.base, c.cap}, {c.base_radius, c.cap_radius});
 }
-std::vector<double> numbers_of(const Torus& t) { return numbers({}, {t.major_radius, t.minor_radius}); }
-std::vector<double> numbers_of(const std::shared_ptr<const Mesh>&) { return {}; }
-std::vector<double> numbers_of(const std::shared_ptr<const Csg>&) { return {}; }
+std::vector<double> numbers_of(const Torus& t) {
+  return numbers({}, {t.major_radius, t.minor_radius});
+}
+std::vector<double> numbers_of(const std::shared_ptr<const Mesh>&) {
+  return {};
+}
+std::vector<double> numbers_of(const std::shared_ptr<const Csg>&) {
+  return {};
+}
 
 } // namespace
 
@@ -228,7 +244,8 @@ PlacedShape place_shape(const Object& object) {
 }
 
 void validate_shape(const Object& object, const std::string& name) {
-  const std::vector<double> all = std::visit([](const auto& shape) { return numbers_of(shape); }, object.shape);
+  const std::vector<double> all =
+      std::visit([](const auto& shape) { return numbers_of(shape); }, object.shape);
   if (!std::all_of(all.begin(), all.end(), [](double x) { return std::isfinite(x); }))
     throw InputError(name + " has a number that is not finite");
 }

@@ -1,4 +1,5 @@
-// Shapes of a Scene as records: each in single precision, in the space that its primitive in the kernel wants.
+// Shapes of a Scene as records: each in single precision, in the space that its primitive in the kernel
+// wants.
 #pragma once
 
 #include "celltrace/scene.hpp"

@@ -15,7 +15,8 @@ namespace {
 using namespace kernel;
 using S = EmulatedSpu::simd;
 
-// Counted in the SPU's code of scalar_intersection.hpp (spu-elf-g++ 9.3, -O2); what it waits for is estimated.
+// Counted in the SPU's code of scalar_intersection.hpp (spu-elf-g++ 9.3, -O2); what it waits for is
+// estimated.
 constexpr ScalarWork kScalarSphere = {19, 21, 14, 15, 1, 0, 88, 6};
 constexpr ScalarWork kScalarTriangle = {43, 43, 17, 18, 4, 0, 147, 26};
 
@@ -63,7 +64,11 @@ Measured in_lanes(ObjectKind kind) {
   const ObjectRecord object = make_object(kind);
   return measure([&](EmulatedSpu& spu) {
     spu.compute(scalar_work::kTest[static_cast<std::uint32_t>(kind)]);
-    return static_cast<std::uint32_t>(__builtin_popcount(intersect<S>(rays, object, 0).near_hit.bits()));
+    Crossings<S> crossings = Crossings<S>::none();
+    Primitives::dispatch(static_cast<std::uint32_t>(kind), [&](auto shape) {
+      decltype(shape)::template intersect<S>(rays, object, {}, 0, &crossings);
+    });
+    return static_cast<std::uint32_t>(__builtin_popcount(crossings.near_hit.bits()));
   });
 }
 

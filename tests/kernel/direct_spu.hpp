@@ -45,6 +45,8 @@ public:
     }
   }
   std::uint32_t wait_all(std::uint32_t mask) { return mask; }
+  void enter_module(const CodeModule&) {}
+  void run_in_module(const CodeModule&) {}
   void compute(const ScalarWork&) {}
   [[noreturn]] void halt(HaltCode) { throw std::length_error("the kernel halted"); }
 

@@ -78,7 +78,10 @@ void for_each_ray(const Subject& subject, Next next, bool start_here, Check chec
     set(rays.direction, l, ray.direction);
     rays.start_object.lane[l] = start_here ? 640 : kNoOffset;
   }
-  const Crossings<Simd> c = intersect<Simd>(rays, subject.record, 640);
+  Crossings<Simd> c = Crossings<Simd>::none();
+  Primitives::dispatch(subject.record.kind_and_flags & object_flag::kind_mask, [&](auto shape) {
+    decltype(shape)::template intersect<Simd>(rays, subject.record, {}, 640, &c);
+  });
   const FloatLanes near = lanes_of(c.near), far = lanes_of(c.far), u = lanes_of(c.u), v = lanes_of(c.v);
   for (unsigned l = 0; l < kSimdLanes; ++l)
     check(Lane{{at(rays.origin, l), at(rays.direction, l)},

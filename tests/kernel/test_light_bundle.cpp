@@ -1,9 +1,9 @@
 // Bundles of rays to a light: what they are bounded by, which triangles their packets see, and what light
 // comes to them.
-#include "kernel/direct/light_bundle.hpp"
-#include "kernel/direct/pluecker_triangles.hpp"
 #include "kernel/accel/traversal.hpp"
 #include "kernel/direct/edge_function_triangles.hpp"
+#include "kernel/direct/light_bundle.hpp"
+#include "kernel/direct/pluecker_triangles.hpp"
 #include "made_records.hpp"
 #include "prepared_scene.hpp"
 #include "soups.hpp"
@@ -101,9 +101,9 @@ TEST_CASE("The beams of rays to a light meet every box that one of them meets be
       put_box(box, centre - half, centre + half);
       const std::uint32_t child = random.below(4);
       INFO((bundle.turned ? "from the light" : "from afar") << ", packet " << packet << ", " << along);
-      REQUIRE((beams.meet(box, sides, child, limits) >> packet & 1) == 1);
+      REQUIRE((beams.intersect(box, sides, child, limits) >> packet & 1) == 1);
       alignas(16) float enter[4];
-      REQUIRE(around.meets(box, sides, farthest, enter) == 0xF);
+      REQUIRE(around.intersect(box, sides, farthest, enter) == 0xF);
       REQUIRE(enter[child] <= limits[packet]);
     }
   }
@@ -201,7 +201,7 @@ TEST_CASE("Light comes to a bundle as it comes to its packets") {
         DirectSpu spu;
         SceneAccess<DirectSpu> access(spu, CacheConfig(), frame.image);
         Traversal<DirectSpu> traversal(access, frame);
-        traversal.run(together.queries, kPackets, together.place);
+        traversal.intersect(together.queries, kPackets, together.place);
         for (std::uint32_t i = 0; i < kPackets; ++i) {
           traversal.transmittance(alone.rays[i], alone.queries[i].lanes, alone.distance[i], alone.light[i]);
           for_each_lane(alone.queries[i].lanes, [&](std::uint32_t lane) {

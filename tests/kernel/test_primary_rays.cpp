@@ -1,6 +1,6 @@
 // Bundles of primary rays that leave one point: what they are bounded by, and what is found by that.
-#include "kernel/cameras/primary_rays.hpp"
 #include "kernel/accel/traversal.hpp"
+#include "kernel/cameras/primary_rays.hpp"
 #include "made_records.hpp"
 #include "prepared_scene.hpp"
 #include "soups.hpp"
@@ -102,9 +102,9 @@ TEST_CASE("The beams of a pinhole bundle meet every box that one of its rays mee
       for (std::uint32_t i = 0; i < kPackets; ++i)
         limits[i] = static_cast<float>(distance * 1.00001) * shortening.lane[i];
       const int child = static_cast<int>(random.below(4));
-      REQUIRE((beams.meet(box, sides, static_cast<std::uint32_t>(child), limits) >> packet & 1) == 1);
+      REQUIRE((beams.intersect(box, sides, static_cast<std::uint32_t>(child), limits) >> packet & 1) == 1);
       alignas(16) float enter[4];
-      REQUIRE(around.meets(box, sides, limits[packet], enter) == 0xF);
+      REQUIRE(around.intersect(box, sides, limits[packet], enter) == 0xF);
       REQUIRE(enter[child] <= limits[packet]);
     }
   }
@@ -131,7 +131,7 @@ TEST_CASE("A bundle of primary rays hits what its packets hit, and nothing where
         const PinholeBundle<Simd> pinhole(frame, place.column, place.row);
         Bundle together(frame, place), alone(frame, place);
         const bool is_lost = !traversal.enter(pinhole);
-        traversal.run(together.queries, pinhole);
+        traversal.intersect(together.queries, pinhole);
         for (RayQuery& query : alone.queries)
           if (query.lanes != 0) traversal.find_closest(*query.rays, query.lanes, *query.hits);
         lost += is_lost;

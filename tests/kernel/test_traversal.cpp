@@ -153,8 +153,7 @@ void check(const PreparedScene& scene, const TraversalQuery& asked, const Traver
 
 void check_accelerator(PreparedScene& prepared, const std::vector<TraversalQuery>& first) {
   const auto packets = static_cast<unsigned>(first.size());
-  const bool bvh =
-      static_cast<AcceleratorKind>(prepared.frame().accelerator) == AcceleratorKind::bvh;
+  const bool bvh = static_cast<AcceleratorKind>(prepared.frame().accelerator) == AcceleratorKind::bvh;
   for (const auto& machine : machines()) {
     if (bvh && machine->backend() != "native") continue;
     INFO(machine->spu_key() << (bvh ? ", BVH" : ", grid"));
@@ -178,9 +177,7 @@ void check_accelerator(PreparedScene& prepared, const std::vector<TraversalQuery
 
 /// As they are for few objects, for many, and for more than that.
 void check_hierarchies(PreparedScene& prepared, const std::vector<TraversalQuery>& first) {
-  const struct {
-    bool wide_leaves, far_nodes;
-  } kinds[] = {{true, false}, {false, false}, {false, true}};
+  const struct { bool wide_leaves, far_nodes; } kinds[] = {{true, false}, {false, false}, {false, true}};
   for (const auto& kind : kinds) {
     INFO("wide leaves: " << kind.wide_leaves << ", far nodes: " << kind.far_nodes);
     prepared.use_bvh(kind.wide_leaves, kind.far_nodes);
@@ -208,7 +205,7 @@ TEST_CASE("Through soups of spheres, ellipsoids, triangles and all of them") {
 TEST_CASE("Through more objects than are at hand, so that leaves wait") {
   constexpr unsigned kTriangles = 21000;
   PreparedScene prepared(soup(9, {0, 0, kTriangles}, 10, 0.3));
-  REQUIRE(prepared.object_count() > PacketTraversal<DirectSpu>::kObjectsAtHand);
+  REQUIRE(prepared.object_count() > PacketTraversal<DirectSpu>::kObjectsInCoreCache);
   const std::vector<TraversalQuery> all = queries_for(prepared, 98, 32);
   // Some of them alone, some with much in common.
   constexpr int few = times(64) / 16 > 0 ? times(64) / 16 : 1;

@@ -1,8 +1,8 @@
 // A kernel that builds the grid and sends packets of rays through it.
 #pragma once
 
-#include "kernel/program/prepare_frame.hpp"
 #include "kernel/accel/traversal.hpp"
+#include "kernel/program/prepare_frame.hpp"
 
 namespace celltrace::test {
 
@@ -58,8 +58,8 @@ template <class Spu> void traversal(Spu& spu, ea_t argument) {
       closest[i] = {&q.rays, &q.hits, nullptr, nullptr, q.lanes};
       light[i] = {&q.rays, nullptr, &q.distance, &q.light, q.lanes};
     }
-    walker.run(closest, n);
-    walker.run(light, n);
+    walker.intersect(closest, n);
+    walker.intersect(light, n);
     for (uint32_t i = 0; i < n; ++i)
       spu.put(query + i, at + i * sizeof *query, sizeof *query, 0);
     spu.wait_all(1);

@@ -20,7 +20,8 @@ TEST_CASE("text that makes no sense") {
   CHECK(error_line("#debug 3") == "scene.pov:1:8: error: unexpected number, expected a string");
   CHECK(error_line("#declare A = x.w;") ==
         "scene.pov:1:15: error: '.w' is no component of a vector or colour");
-  CHECK(error_line("sphere { 0 @ }") == "scene.pov:1:12: error: unexpected character '@', expected a number");
+  CHECK(error_line("sphere { 0, @ }") ==
+        "scene.pov:1:13: error: unexpected character '@', expected a number");
   CHECK(error_line(std::string("sphere \0 { }", 12)) ==
         "scene.pov:1:8: error: unexpected character 0x00, expected '{'");
   CHECK(error_line("sphere { 0, \xC3\xA9 }") ==
@@ -37,8 +38,7 @@ TEST_CASE("things that never end") {
         "scene.pov:1:1: error: #end is missing for what starts here");
   CHECK(error_line("#macro M() sphere { 0, 1 }") ==
         "scene.pov:1:1: error: #end is missing for what starts here");
-  CHECK(error_line("cylinder { 0, x { ") ==
-        "scene.pov:1:10: error: the block that starts here is never closed");
+  CHECK(error_line("prism { 0, x { ") == "scene.pov:1:7: error: the block that starts here is never closed");
   CHECK(error_line("#macro M(A) #end M(1") ==
         "scene.pov:1:18: error: the arguments of macro 'M' are never closed");
 }

@@ -151,7 +151,8 @@ TEST_CASE("impossible calculations are errors") {
         "scene.pov:1:14: error: the logarithm of a number that is not positive");
   CHECK(error_line("#declare A = div(1, 0);") == "scene.pov:1:14: error: division by zero");
   CHECK(error_line("sphere { 1/0, 1 }") == "scene.pov:1:10: error: this number is not finite");
-  CHECK(error_line("sphere { 0, <1, 2> }") == "scene.pov:1:13: error: expected a float, found a vector");
+  CHECK(error_line("global_settings { adc_bailout <1, 2> }") ==
+        "scene.pov:1:31: error: expected a float, found a vector");
   CHECK(error_line("#declare A = sin(1, 2);") == "scene.pov:1:14: error: sin() takes 1 argument, not 2");
   CHECK(error_line("#declare A = sin(x);") ==
         "scene.pov:1:14: error: argument 1 of sin() must be a float, not a vector");

@@ -41,12 +41,24 @@ TEST_CASE("nesting has an end") {
   CHECK(contains(error_line("#declare A = " + repeated("<", 100000)), "nested more than 256 deep"));
   CHECK(contains(error_line("#declare A = (" + repeated("1?1:", 100000)), "nested more than 256 deep"));
   CHECK(contains(error_line(repeated("union { ", 100000)), "nested more than 256 deep"));
-  CHECK(contains(error_line("box " + repeated("{", 100000)), "nested more than 256 deep"));
+  CHECK(contains(error_line("prism " + repeated("{", 100000)), "nested more than 256 deep"));
   CHECK(error_line("#declare A = " + repeated("-", 100000) + "1;").empty());
   CHECK(error_line("#declare A = 1" + repeated("+1", 100000) + ";").empty());
   CHECK(contains(
       error_line("#declare U = sphere { 0, 1 } #for (I, 1, 1000) #declare U = union { object { U } } #end U"),
-      "unions are nested too deeply"));
+      "objects are nested too deeply"));
+  CHECK(contains(
+      error_line("#declare U = sphere { 0, 1 } "
+                 "#for (I, 1, 1000) #declare U = sphere { 0, 1 clipped_by { object { U } } } #end U"),
+      "objects are nested too deeply"));
+  const auto nested = [](int times, const char* modifier) {
+    return "#declare U = sphere { 0, 1 } #for (I, 1, " + std::to_string(times) +
+           ") #declare U = union { object { U } " + modifier + " } #end U";
+  };
+  CHECK(error_line(nested(199, "")).empty());
+  CHECK(error_line(nested(100, "inverse")).empty());
+  CHECK(contains(error_line(nested(101, "inverse")), "CSG is nested more than 100 deep"));
+  CHECK(error_line(nested(50, "clipped_by { box { -1, 1 } }")).empty());
   CHECK(contains(error_line("#declare A = array[1] {1} #for (I, 1, 1000) #declare A = array[1] {A} #end"),
                  "too large to be copied"));
 }
@@ -58,6 +70,12 @@ TEST_CASE("what a scene makes is bounded") {
   CHECK(contains(error_line("#declare U = union { sphere { 0, 1 } sphere { 0, 1 } } "
                             "#for (I, 1, 30) #declare U = union { object { U } object { U } } #end U"),
                  "objects"));
+  const auto doubled = [&](const std::string& both) {
+    return error_line("#declare U = sphere { 0, 1 } #for (I, 1, 30) #declare U = " + both + " #end U",
+                      options);
+  };
+  CHECK(contains(doubled("difference { object { U } object { U } }"), "objects"));
+  CHECK(contains(doubled("sphere { 0, 1 clipped_by { U U } translate x }"), "objects"));
   options.limits.triangles = 10;
   CHECK(contains(error_line("mesh { #for (I, 1, 11) triangle { 0, x, y } #end }", options),
                  "more than 10 triangles"));

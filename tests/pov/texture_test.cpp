@@ -172,17 +172,17 @@ TEST_CASE("what is not supported is an error where it is used") {
       "#declare T = texture { pigment { marble color_map { [0 rgb 1] [1 rgb 0] } turbulence 1 } normal { "
       "bumps 1 } }\n"
       "#declare N = normal { bumps 0.3 } #declare M = color_map { [0 rgb 1][1 rgb 0] }\n"
-      "#declare F = function (x, y) { x + y } #declare B = box { 0, 1 } #declare D = difference { object { B "
-      "} sphere { 0, 1 } }\n"
+      "#declare F = function (x, y) { x + y } #declare B = blob { threshold 1 } #declare D = difference { "
+      "sphere "
+      "{ 0, 1 } object { B } }\n"
       "#declare S = sphere { 0, 1 pigment { checker rgb 1, rgb 0 } }\n"
       "#declare I = finish { irid { 0.3 thickness 1 } } #declare C = finish { crand 0.2 }\n";
   CHECK(error_line(declarations).empty());
   CHECK(error_line(declarations + "sphere { 0, 1 texture { T } }") ==
         "scene.pov:1:34: error: 'marble' is not supported yet");
-  CHECK(error_line(declarations + "object { D }") ==
-        "scene.pov:3:79: error: 'difference' is not supported yet");
+  CHECK(error_line(declarations + "object { D }") == "scene.pov:3:53: error: 'blob' is not supported yet");
   CHECK(error_line(declarations + "union { sphere { 0, 1 } object { B } }") ==
-        "scene.pov:3:53: error: 'box' is not supported yet");
+        "scene.pov:3:53: error: 'blob' is not supported yet");
   CHECK(error_line(declarations + "object { S pigment { rgb 1 } }").empty());
   CHECK(error_line(declarations + "S") == "scene.pov:4:38: error: 'checker' is not supported yet");
   CHECK(error_line(declarations + "sphere { 0, 1 finish { I } }") ==
@@ -193,9 +193,9 @@ TEST_CASE("what is not supported is an error where it is used") {
         "scene.pov:3:14: error: 'function' is not supported yet");
   CHECK(test::error(declarations + "S") ==
         "scene.pov:4:38: error: 'checker' is not supported yet\n    used at scene.pov:6:1");
-  CHECK(error_line("cylinder { 0, x, 1 }") == "scene.pov:1:1: error: 'cylinder' is not supported yet");
-  CHECK(error_line("sphere { 0, 1 clipped_by { box { 0, 1 } } }") ==
-        "scene.pov:1:15: error: 'clipped_by' is not supported yet");
+  CHECK(error_line("quadric { 0, x, 1 }") == "scene.pov:1:1: error: 'quadric' is not supported yet");
+  CHECK(error_line("sphere { 0, 1 clipped_by { prism { 0, 1 } } }") ==
+        "scene.pov:1:28: error: 'prism' is not supported yet");
   CHECK(error_line("sphere { 0, 1 double_illuminate }") ==
         "scene.pov:1:15: error: 'double_illuminate' is not supported yet");
   CHECK(error_line("#declare A = min_extent(B);") ==

@@ -9,7 +9,7 @@
 namespace celltrace {
 
 FieldList<&ControlBlock::argument, &ControlBlock::addresses, &ControlBlock::id, &ControlBlock::count,
-          &ControlBlock::unused>
+          &ControlBlock::image>
 fields_of(const ControlBlock&);
 
 namespace cell_emu {
@@ -92,7 +92,7 @@ StartRegisters SimulatedPrograms::arguments(const SimulatedProgram& program, uns
     return StartRegisters::of(kFirstSpeId + spe, argp, local_store);
   }
   Block& block = blocks_[spe];
-  block.control = {argument, to_ea(block.addresses), spe, map_.spes(), {}};
+  block.control = {argument, to_ea(block.addresses), spe, map_.spes(), to_ea(program.elf().image().data())};
   reorder(block.control, std::endian::big);
   return StartRegisters::of(kFirstSpeId + spe, to_ea(&block.control), local_store);
 }

@@ -14,7 +14,7 @@ struct alignas(16) ControlBlock {
   ea_t addresses; ///< `count` records of SpeAddresses, 16-byte aligned
   uint32_t id;
   uint32_t count; ///< 1..256
-  uint32_t unused[2];
+  ea_t image;     ///< of the program's ELF file, 16-byte aligned, for programs with code modules
 };
 static_assert(sizeof(ControlBlock) == 32, "ControlBlock crosses DMA");
 

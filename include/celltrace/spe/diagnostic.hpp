@@ -82,6 +82,7 @@ enum class Rule : unsigned char {
   // run control
   invalid_instruction,
   unwritten_code,
+  absent_module,
   invalid_channel,
   stalls_for_ever,
   phantom_event,

@@ -59,7 +59,10 @@ struct SpeStatistics {
   std::uint64_t signals_sent = 0;
   std::uint64_t mailbox_words_sent = 0; ///< to other SPEs and to the PPE
   std::uint64_t local_store_peak = 0;   ///< bytes of the arena in use at most
-  SpuCycles cycles;                     ///< virtual time; all 0 on `native`
+  std::uint64_t module_fetches = 0;     ///< of code modules
+  std::uint64_t module_bytes = 0;
+  std::uint64_t module_cycles = 0; ///< of `cycles`, waiting for them; only cell_emu says so
+  SpuCycles cycles;                ///< virtual time; all 0 on `native`
 };
 
 /// A machine with n SPEs. Thread safety: one PPE thread at a time calls its members; interrupt() may be

@@ -35,6 +35,7 @@
 #pragma once
 
 #include "celltrace/spe/call_site.hpp"
+#include "celltrace/spe/code_module.hpp"
 #include "celltrace/spe/types.hpp"
 
 #include <new>
@@ -65,6 +66,14 @@ struct ScalarWork {
 
 template <class Derived> class SpuBase {
 public:
+  // --- code ---
+
+  /// Call it before functions of a code module are called, which from then on are there, until another module
+  /// of its region is entered. On backends whose code is not in local store it does nothing.
+  void enter_module(const CodeModule&) {}
+  /// Functions of a module say so: on cell_emu, running while the module is not there breaks a rule.
+  void run_in_module(const CodeModule&) {}
+
   // --- local store ---
 
   /// `count` value-initialised objects in local store, aligned to `alignment` (a power of two, at least 16).

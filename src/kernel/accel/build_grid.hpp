@@ -24,8 +24,12 @@ template <class Spu> uint32_t emit_pairs(Spu& spu, const FrameBlock& frame) {
       frame.image + frame.object_offset, frame.object_count, [&](const ObjectRecord& object, uint32_t index) {
         const uint32_t offset = frame.object_offset + index * static_cast<uint32_t>(sizeof(ObjectRecord));
         if (object.extra != kNoOffset && (object.kind_and_flags & object_flag::smooth) == 0) {
-          spu.get(&extra, frame.image + object.extra, sizeof extra, kExtraTag);
-          spu.wait_all(1u << kExtraTag);
+          if constexpr (Spu::direct_memory) {
+            extra = *reinterpret_cast<const ExtraRecord*>(static_cast<uintptr_t>(frame.image + object.extra));
+          } else {
+            spu.get(&extra, frame.image + object.extra, sizeof extra, kExtraTag);
+            spu.wait_all(1u << kExtraTag);
+          }
         }
         for_each_voxel(spu, frame.grid, object, extra, [&](uint32_t cell) {
           spu.compute(scalar_work::kEmitPair);

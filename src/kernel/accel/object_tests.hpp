@@ -12,7 +12,7 @@ namespace celltrace::kernel {
 /// Counters of a frame, for its report.
 struct TraversalCounters {
   uint64_t tests[kPrimitives] = {}; ///< by kind
-  uint64_t visits = 0;           ///< voxels entered by rays, or nodes of the BVH expanded
+  uint64_t visits = 0;              ///< voxels entered by rays, or nodes of the BVH expanded
 };
 
 /// Mailboxing (Amanatides and Woo 1987): remembers which objects have been tested against the current packet,
@@ -152,7 +152,8 @@ public:
 
   /// Whether an object is a triangle that is no part of a CSG.
   static bool is_plain_triangle(uint32_t flags) {
-    return (flags & (object_flag::kind_mask | object_flag::csg)) == static_cast<uint32_t>(ObjectKind::triangle);
+    return (flags & (object_flag::kind_mask | object_flag::csg)) ==
+           static_cast<uint32_t>(ObjectKind::triangle);
   }
   /// Whether the flags are those of a triangle that occludes all light.
   static bool is_opaque_triangle(uint32_t flags) {
@@ -182,9 +183,12 @@ private:
             (c.far_hit & (c.far > low) & (c.far < high)).bits()};
   }
 
-  /// Spheres, ellipsoids and triangles that are no parts of a CSG: their test reads no further record.
+  /// Spheres and triangles that are no parts of a CSG: their code is always there, and their test reads no
+  /// further record.
   static bool is_simple(uint32_t flags) {
-    return (flags & (object_flag::kind_mask | object_flag::csg)) <= static_cast<uint32_t>(ObjectKind::triangle);
+    static_assert(static_cast<uint32_t>(ObjectKind::sphere) == 0 &&
+                  static_cast<uint32_t>(ObjectKind::triangle) == 2);
+    return (flags & (object_flag::kind_mask | object_flag::csg) & ~2u) == 0;
   }
 
   /// As occluded(), for crossings with the object.
@@ -210,10 +214,11 @@ private:
     return dark;
   }
 
-  // Objects that are not simple: their crossings are several pairs, and count where the CSG's condition holds.
+  // Objects that are not simple: their crossings are several pairs, and count where the CSG's condition
+  // holds.
 
-  [[gnu::noinline]] void test_closest_of_other(const RayPacket& rays, const ObjectRecord& record, uint32_t self,
-                                               HitPacket& hits) {
+  [[gnu::noinline]] void test_closest_of_other(const RayPacket& rays, const ObjectRecord& record,
+                                               uint32_t self, HitPacket& hits) {
     const Other other(*this, rays, record, self);
     for (uint32_t pair = 0; pair < other.pairs; ++pair) {
       Crossings<S> c = other.crossings[pair];
@@ -226,9 +231,9 @@ private:
       keep_closest(c, self, hits);
     }
   }
-  [[gnu::noinline]] uint32_t occluded_by_other(const RayPacket& rays, const ObjectRecord& record, uint32_t self,
-                                               uint32_t lanes, const FloatLanes& distance, VectorLanes& light,
-                                               const RaySegment& segment) {
+  [[gnu::noinline]] uint32_t occluded_by_other(const RayPacket& rays, const ObjectRecord& record,
+                                               uint32_t self, uint32_t lanes, const FloatLanes& distance,
+                                               VectorLanes& light, const RaySegment& segment) {
     const uint32_t flags = record.kind_and_flags, material = record.material;
     const Other other(*this, rays, record, self);
     uint32_t dark = 0;
@@ -258,11 +263,10 @@ private:
       if ((object.kind_and_flags & object_flag::csg) != 0) csg = extra.csg;
       ++tests.counters_.tests[kind];
       tests.scene_.spu().compute(scalar_work::kTestEllipsoid);
-      Primitives::dispatch(kind, [&](auto shape) {
-        using Shape = decltype(shape);
-        pairs = Shape::kCrossingPairs;
-        Shape::template intersect<S>(rays, object, extra, self, crossings);
-      });
+      Spu& spu = tests.scene_.spu();
+      spu.enter_module(is_heavy(kind) ? modules::kHeavyShapes : modules::kShapes);
+      pairs = is_heavy(kind) ? module_heavy::intersect(spu, rays, object, extra, self, crossings)
+                             : module_shapes::intersect(spu, rays, object, extra, self, crossings);
     }
   };
 
@@ -299,10 +303,8 @@ private:
     Crossings<S> c;
     if (static_cast<ObjectKind>(kind) == ObjectKind::triangle)
       TrianglePrimitive::intersect<S>(rays, object, {}, self, &c);
-    else if (static_cast<ObjectKind>(kind) == ObjectKind::sphere)
-      SpherePrimitive::intersect<S>(rays, object, {}, self, &c);
     else
-      EllipsoidPrimitive::intersect<S>(rays, object, {}, self, &c);
+      SpherePrimitive::intersect<S>(rays, object, {}, self, &c);
     return c;
   }
 

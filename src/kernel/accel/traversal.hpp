@@ -8,7 +8,20 @@
 namespace celltrace::kernel {
 
 /// Answers ray queries with the uniform grid or the BVH.
-template <class Spu> class Traversal {
+/// Accelerators that a program can use: bits, so that what it never uses takes no local store.
+constexpr uint32_t kGridOnly = 1u << static_cast<uint32_t>(AcceleratorKind::grid);
+constexpr uint32_t kBvhOnly = 1u << static_cast<uint32_t>(AcceleratorKind::bvh);
+constexpr uint32_t kAnyAccelerator = kGridOnly | kBvhOnly;
+
+namespace detail {
+/// A T, or nothing.
+template <class T, bool kPresent> struct Present : T { using T::T; };
+template <class T> struct Present<T, false> {
+  template <class... Arguments> explicit Present(const Arguments&...) {}
+};
+} // namespace detail
+
+template <class Spu, uint32_t kAccelerators = kAnyAccelerator> class Traversal {
 public:
   using S = typename Spu::simd;
   using F = typename S::F;
@@ -35,23 +48,16 @@ public:
   void intersect(RayQuery* queries, uint32_t count) {
     reset_hits(queries, count);
     intersect_unbounded(queries, count);
-    if (uses_bvh()) {
-      bvh_.intersect(queries, count);
-    } else {
-      for (uint32_t i = 0; i < count; ++i) {
-        RayQuery& query = queries[i];
-        if (query.hits != nullptr)
-          grid_.find_closest(*query.rays, query.lanes, *query.hits);
-        else
-          query.lanes = grid_.transmittance(*query.rays, query.lanes, *query.distance, *query.light);
-      }
-    }
+    if constexpr (kHasBvh)
+      if (uses_bvh()) bvh_.intersect(queries, count);
+    if constexpr (kHasGrid)
+      if (!uses_bvh()) intersect_grid(queries, count);
     clear_occluded(queries, count);
   }
 
   /// The same for shadow rays toward one light, at the point `light`.
   void intersect(RayQuery* queries, uint32_t count, const float (&light)[3]) {
-    if constexpr (Spu::direct_memory) {
+    if constexpr (Spu::direct_memory && kHasBvh) {
       // Planes may leave packets without rays, which a bundle cannot have.
       if (uses_bvh() && frame_.unbounded_count == 0) {
         bvh_.intersect(queries, count, light);
@@ -63,20 +69,36 @@ public:
 
   /// Starts the traversal for a bundle of primary rays. False: certainly none of them hits anything.
   bool enter(const PinholeBundle<S>& bundle) {
-    return !uses_bvh() || bundle.packets == 0 || bvh_.enter(bundle) || frame_.unbounded_count != 0;
+    if constexpr (kHasBvh)
+      return !uses_bvh() || bundle.packets == 0 || bvh_.enter(bundle) || frame_.unbounded_count != 0;
+    else
+      return true;
   }
   /// Finds the closest hits of the bundle that was entered last; query i is that of its packet i.
   void intersect(RayQuery* queries, const PinholeBundle<S>& bundle) {
     if (!uses_bvh() || bundle.packets == 0) return intersect(queries, kBundlePackets<Spu>);
     reset_hits(queries, kBundlePackets<Spu>);
     intersect_unbounded(queries, kBundlePackets<Spu>);
-    bvh_.intersect(queries, bundle);
+    if constexpr (kHasBvh) bvh_.intersect(queries, bundle);
   }
 
   const TraversalCounters& counters() const { return objects_.counters(); }
   void reset_counters() { objects_.reset_counters(); }
 
 private:
+  static constexpr bool kHasGrid = (kAccelerators & kGridOnly) != 0,
+                        kHasBvh = (kAccelerators & kBvhOnly) != 0;
+
+  void intersect_grid(RayQuery* queries, uint32_t count) {
+    for (uint32_t i = 0; i < count; ++i) {
+      RayQuery& query = queries[i];
+      if (query.hits != nullptr)
+        grid_.find_closest(*query.rays, query.lanes, *query.hits);
+      else
+        query.lanes = grid_.transmittance(*query.rays, query.lanes, *query.distance, *query.light);
+    }
+  }
+
   static void reset_hits(const RayQuery* queries, uint32_t count) {
     for (uint32_t i = 0; i < count; ++i) {
       HitPacket* const hits = queries[i].hits;
@@ -100,8 +122,7 @@ private:
         if (query.hits != nullptr)
           objects_.test_closest(*query.rays, self, *query.hits);
         else
-          query.lanes &=
-              ~objects_.occluded(*query.rays, self, query.lanes, *query.distance, *query.light);
+          query.lanes &= ~objects_.occluded(*query.rays, self, query.lanes, *query.distance, *query.light);
       }
     }
   }
@@ -116,12 +137,15 @@ private:
           select<S>(S::M::from_bits(query.lanes), query.light->template load<S>(), dark));
     }
   }
-  bool uses_bvh() const { return static_cast<AcceleratorKind>(frame_.accelerator) == AcceleratorKind::bvh; }
+  bool uses_bvh() const {
+    if constexpr (kAccelerators != kAnyAccelerator) return kHasBvh;
+    return static_cast<AcceleratorKind>(frame_.accelerator) == AcceleratorKind::bvh;
+  }
 
   const FrameBlock& frame_;
   ObjectTests<Spu> objects_;
-  GridTraversal<Spu> grid_;
-  BvhTraversal<Spu> bvh_;
+  detail::Present<GridTraversal<Spu>, kHasGrid> grid_;
+  detail::Present<BvhTraversal<Spu>, kHasBvh> bvh_;
 };
 
 } // namespace celltrace::kernel

@@ -140,7 +140,7 @@ private:
     const TraversalCounters& counters = split() ? tests_.counters() : whole_.counters();
     for (uint32_t kind = 0; kind < kPrimitives; ++kind)
       report.tests[kind] = counters.tests[kind];
-    report.accelerator_visits = split() ? walk_.voxels() : counters.voxels;
+    report.accelerator_visits = split() ? walk_.voxels() : counters.visits;
     stage_.add_cache(scene_);
     stage_.send_reports();
   }

@@ -1,5 +1,5 @@
-// Cone: x^2 + y^2 = z^2 in its space, from z = `ratio` (the smaller radius over the larger one) to z = 1; with
-// or without caps. Kernel dialect.
+// Cone: x^2 + y^2 = z^2 in its space, from z = `ratio` (the smaller radius over the larger one) to z = 1;
+// with or without caps. Kernel dialect.
 #pragma once
 
 #include "kernel/primitives/local_shape.hpp"
@@ -13,9 +13,9 @@ struct ConePrimitive : LocalPrimitive<ConePrimitive> {
 
   template <class S>
   static void intersect_local(const LocalRays<S>& rays, const LocalParameters<S>& parameters,
-                        Crossings<S>* crossings) {
+                              Crossings<S>* crossings) {
     using F = typename S::F;
-    const V3<S>&d = rays.direction;
+    const V3<S>& d = rays.direction;
     const F zero(0.0f), one(1.0f);
     // About the point of the ray that is nearest to the middle, so that little cancels.
     const F length_square = S::max(dot<S>(d, d), F(1e-30f));
@@ -52,8 +52,7 @@ struct ConePrimitive : LocalPrimitive<ConePrimitive> {
     drop_start<S>(rays.starts_here, S::sqrt(length_square), c);
   }
 
-  template <class S>
-  static typename S::M inside_local(const V3<S>& p, const LocalParameters<S>& parameters) {
+  template <class S> static typename S::M inside_local(const V3<S>& p, const LocalParameters<S>& parameters) {
     using F = typename S::F;
     return (p.x * p.x + p.y * p.y < p.z * p.z) & (p.z > parameters.ratio) & (p.z < F(1.0f));
   }

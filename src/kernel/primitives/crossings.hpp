@@ -10,8 +10,9 @@ namespace celltrace::kernel {
 constexpr float kMinHitDistance = 1e-4f;
 constexpr float kMaxHitDistance = 1e7f;
 
-/// Two crossings of each ray of a packet with a surface, by distance along the ray. Distances of lanes outside
-/// their mask are meaningless. Shapes with one crossing have `far_hit` empty; shapes with more fill several.
+/// Two crossings of each ray of a packet with a surface, by distance along the ray. Distances of lanes
+/// outside their mask are meaningless. Shapes with one crossing have `far_hit` empty; shapes with more fill
+/// several.
 template <class S> struct Crossings {
   typename S::F near, far;
   typename S::M near_hit, far_hit;

@@ -1,7 +1,7 @@
 // Constructive solid geometry: which crossings with a part's surface count. Kernel dialect.
 #pragma once
 
-#include "kernel/primitives/list.hpp"
+#include "kernel/primitives/shapes_module.hpp"
 #include "kernel/scene_access.hpp"
 
 namespace celltrace::kernel {
@@ -10,13 +10,8 @@ namespace celltrace::kernel {
 template <class Spu>
 uint32_t inside_solid(SceneAccess<Spu>& scene, uint32_t solid, const V3<typename Spu::simd>& points,
                       uint32_t lanes) {
-  using S = typename Spu::simd;
-  const SolidRecord& record = *scene.solid(solid);
-  uint32_t inside = 0;
-  Primitives::dispatch(record.object.kind_and_flags & object_flag::kind_mask, [&](auto shape) {
-    inside = decltype(shape)::template inside<S>(points, record.object, record.extra).bits();
-  });
-  return inside & lanes;
+  scene.spu().enter_module(modules::kShapes);
+  return module_shapes::inside(scene.spu(), *scene.solid(solid), points) & lanes;
 }
 
 /// Which of the points in `lanes`, on the surface of a part, satisfy its condition and those of all levels

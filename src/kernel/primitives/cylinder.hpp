@@ -1,4 +1,5 @@
-// Cylinder: radius 1 around the z axis of its space, from z = 0 to z = 1; with or without caps. Kernel dialect.
+// Cylinder: radius 1 around the z axis of its space, from z = 0 to z = 1; with or without caps. Kernel
+// dialect.
 #pragma once
 
 #include "kernel/primitives/local_shape.hpp"
@@ -12,7 +13,7 @@ struct CylinderPrimitive : LocalPrimitive<CylinderPrimitive> {
 
   template <class S>
   static void intersect_local(const LocalRays<S>& rays, const LocalParameters<S>& parameters,
-                        Crossings<S>* crossings) {
+                              Crossings<S>* crossings) {
     using F = typename S::F;
     const V3<S>&o = rays.origin, &d = rays.direction;
     const F zero(0.0f), one(1.0f);
@@ -35,7 +36,9 @@ struct CylinderPrimitive : LocalPrimitive<CylinderPrimitive> {
     c.near = S::select(parameters.open, enter, S::max(enter, caps.enter));
     c.far = S::select(parameters.open, leave, S::min(leave, caps.leave));
     const auto solid = crosses & (c.near <= c.far);
-    const auto between = [&](const F& t) { return crosses & !along_axis & (t >= caps.enter) & (t <= caps.leave); };
+    const auto between = [&](const F& t) {
+      return crosses & !along_axis & (t >= caps.enter) & (t <= caps.leave);
+    };
     c.near_hit = (parameters.open & between(enter)) | (solid & !parameters.open);
     c.far_hit = (parameters.open & between(leave)) | (solid & !parameters.open);
     drop_start<S>(rays.starts_here, S::sqrt(dot<S>(d, d)), c);

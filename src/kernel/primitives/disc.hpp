@@ -13,7 +13,7 @@ struct DiscPrimitive : LocalPrimitive<DiscPrimitive> {
 
   template <class S>
   static void intersect_local(const LocalRays<S>& rays, const LocalParameters<S>& parameters,
-                        Crossings<S>* crossings) {
+                              Crossings<S>* crossings) {
     using F = typename S::F;
     Crossings<S>& c = *crossings;
     c = Crossings<S>::none();

@@ -5,6 +5,7 @@
 //   kCrossingPairs   what intersect() fills, at most kMaxCrossingPairs
 //   kHasParameters   whether it reads its ExtraRecord
 //   kIsBounded       whether it can be in the BVH by itself
+//   kIsHeavy         whether the code of its intersect() is large: it has a code module apart
 //   kIsLocal         whether its geometry is a map to a space of its own (local_shape.hpp)
 //   intersect(rays, object, extra, self, crossings), inside(point, object, extra)
 //   bounds(object, extra), overlaps(object, extra, box)
@@ -25,6 +26,7 @@ namespace celltrace::kernel {
 template <class... P> struct PrimitiveList {
   static constexpr uint32_t kCount = sizeof...(P);
   static constexpr const char* kNames[] = {P::kName...};
+  static constexpr bool kAreHeavy[] = {P::kIsHeavy...};
 
   /// The kind of a shape.
   template <class Wanted> static constexpr uint32_t kind() {
@@ -41,7 +43,9 @@ template <class... P> struct PrimitiveList {
     ((kind == number++ ? visit(P()) : void()), ...);
   }
   /// Calls `visit(P())` for every shape.
-  template <class Visit> [[gnu::always_inline]] static inline void for_each(Visit visit) { (visit(P()), ...); }
+  template <class Visit> [[gnu::always_inline]] static inline void for_each(Visit visit) {
+    (visit(P()), ...);
+  }
 
 private:
   template <class A, class B> struct Same { static constexpr bool value = false; };
@@ -49,8 +53,9 @@ private:
   template <class A, class B> static constexpr bool is_same() { return Same<A, B>::value; }
 };
 
-using Primitives = PrimitiveList<SpherePrimitive, EllipsoidPrimitive, TrianglePrimitive, PlanePrimitive,
-                                 DiscPrimitive, BoxPrimitive, CylinderPrimitive, ConePrimitive, TorusPrimitive>;
+using Primitives =
+    PrimitiveList<SpherePrimitive, EllipsoidPrimitive, TrianglePrimitive, PlanePrimitive, DiscPrimitive,
+                  BoxPrimitive, CylinderPrimitive, ConePrimitive, TorusPrimitive>;
 constexpr uint32_t kPrimitives = Primitives::kCount;
 static_assert(kPrimitives <= kMaxPrimitives, "a counter for each in ReportRecord");
 

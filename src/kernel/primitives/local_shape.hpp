@@ -5,8 +5,8 @@
 //   kName, kCrossingPairs, kHasParameters             as list.hpp says
 //   intersect_local(rays, parameters, crossings)      in the shape's space
 //   inside_local(point, parameters)                   lanes inside
-//   gradient(point, parameters)                       outward normal, of any length, at a point of the surface
-//   local_bounds(ratio)
+//   gradient(point, parameters)                       outward normal, of any length, at a point of the
+//   surface local_bounds(ratio)
 #pragma once
 
 #include "kernel/aabb.hpp"
@@ -28,8 +28,8 @@ template <class S> struct LocalRays {
   typename S::M starts_here; ///< rays that start on this object
 };
 
-/// Around a shape: along the third axis from `low` to `high`; across it `radius` to all sides of a disc, or of
-/// a square.
+/// Around a shape: along the third axis from `low` to `high`; across it `radius` to all sides of a disc, or
+/// of a square.
 struct LocalBounds {
   float low, high, radius;
   bool square;
@@ -51,18 +51,18 @@ template <class S> typename S::F finite_inverse(const typename S::F& x) {
   return F(1.0f) / S::select(S::abs(x) > least, x, S::select(x < F(0.0f), -least, least));
 }
 
-/// A ray that starts on a surface crosses it there, at a distance that is 0 but for rounding: of two crossings
-/// of a curved surface, that is the nearer one to the origin. `scale`: length of the direction.
+/// A ray that starts on a surface crosses it there, at a distance that is 0 but for rounding: of two
+/// crossings of a curved surface, that is the nearer one to the origin. `scale`: length of the direction.
 template <class S>
 void drop_start(const typename S::M& starts_here, const typename S::F& scale, Crossings<S>& c) {
   using F = typename S::F;
   // In units of the shape's size; far above rounding, far below the way through a shape to its other side.
   constexpr float kStartEpsilon = 1e-3f;
   const F near = S::abs(c.near), far = S::abs(c.far);
-  const auto near_is_start = starts_here & c.near_hit & (near * scale < F(kStartEpsilon)) &
-                             ((near <= far) | !c.far_hit);
-  const auto far_is_start = starts_here & c.far_hit & (far * scale < F(kStartEpsilon)) &
-                            ((far < near) | !c.near_hit);
+  const auto near_is_start =
+      starts_here & c.near_hit & (near * scale < F(kStartEpsilon)) & ((near <= far) | !c.far_hit);
+  const auto far_is_start =
+      starts_here & c.far_hit & (far * scale < F(kStartEpsilon)) & ((far < near) | !c.near_hit);
   c.near_hit = c.near_hit & !near_is_start;
   c.far_hit = c.far_hit & !far_is_start;
 }
@@ -72,7 +72,7 @@ template <class S> struct SlabInterval {
   typename S::F enter, leave;
 
   SlabInterval(const typename S::F& origin, const typename S::F& direction, const typename S::F& low,
-       const typename S::F& high) {
+               const typename S::F& high) {
     const typename S::F inverse = finite_inverse<S>(direction);
     const typename S::F a = (low - origin) * inverse, b = (high - origin) * inverse;
     enter = S::min(a, b);
@@ -107,8 +107,7 @@ inline Aabb bounds_in_world(const float (&map)[12], const LocalBounds& local) {
     const float* m = world.row[i];
     const float across =
         local.square ? magnitude(m[0]) + magnitude(m[1]) : square_root(m[0] * m[0] + m[1] * m[1]);
-    const float half =
-        (across * local.radius + magnitude(m[2]) * 0.5f * (local.high - local.low)) * 1.00001f;
+    const float half = (across * local.radius + magnitude(m[2]) * 0.5f * (local.high - local.low)) * 1.00001f;
     const float centre = world.origin[i] + m[2] * 0.5f * (local.low + local.high);
     box.min[i] = centre - half;
     box.max[i] = centre + half;
@@ -149,32 +148,35 @@ inline bool overlaps_in_world(const float (&g)[12], const LocalBounds& local, co
   return square_root(distance) <= radius + square_root(reach) * 1.0001f;
 }
 
+template <class S> LocalParameters<S> local_parameters(const ObjectRecord& object, const ExtraRecord& extra) {
+  const bool open = (object.kind_and_flags & object_flag::open) != 0;
+  return {typename S::F(extra.value[0]), open ? S::M::all() : S::M::none()};
+}
+
+/// A packet's rays in the space of an object, whose offset is `self`.
+template <class S> LocalRays<S> local_rays(const RayPacket& rays, const ObjectRecord& object, uint32_t self) {
+  return {to_local<S>(object.geometry, rays.origin.template load<S>(), 1.0f),
+          to_local<S>(object.geometry, rays.direction.template load<S>(), 0.0f),
+          lanes_that_start_on<S>(rays, self)};
+}
+
 /// What a shape in a space of its own is to the rest of the kernel.
 template <class Shape> struct LocalPrimitive {
   static constexpr bool kIsLocal = true;
   static constexpr bool kIsBounded = true;
-
-  template <class S>
-  static LocalParameters<S> parameters_of(const ObjectRecord& object, const ExtraRecord& extra) {
-    using F = typename S::F;
-    const bool open = (object.kind_and_flags & object_flag::open) != 0;
-    return {F(extra.value[0]), open ? S::M::all() : S::M::none()};
-  }
+  static constexpr bool kIsHeavy = false;
 
   template <class S>
   static void intersect(const RayPacket& rays, const ObjectRecord& object, const ExtraRecord& extra,
                         uint32_t self, Crossings<S>* crossings) {
-    const LocalRays<S> local = {
-        to_local<S>(object.geometry, rays.origin.template load<S>(), 1.0f),
-        to_local<S>(object.geometry, rays.direction.template load<S>(), 0.0f),
-        lanes_that_start_on<S>(rays, self)};
-    Shape::template intersect_local<S>(local, parameters_of<S>(object, extra), crossings);
+    Shape::template intersect_local<S>(local_rays<S>(rays, object, self), local_parameters<S>(object, extra),
+                                       crossings);
   }
 
   template <class S>
   static typename S::M inside(const V3<S>& point, const ObjectRecord& object, const ExtraRecord& extra) {
     return Shape::template inside_local<S>(to_local<S>(object.geometry, point, 1.0f),
-                                           parameters_of<S>(object, extra));
+                                           local_parameters<S>(object, extra));
   }
 
   static Aabb bounds(const ObjectRecord& object, const ExtraRecord& extra) {

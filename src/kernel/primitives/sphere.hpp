@@ -50,6 +50,7 @@ struct SpherePrimitive {
   static constexpr uint32_t kCrossingPairs = 1;
   static constexpr bool kHasParameters = false;
   static constexpr bool kIsLocal = false;
+  static constexpr bool kIsHeavy = false;
   static constexpr bool kIsBounded = true;
 
   template <class S>

@@ -14,10 +14,11 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
   static constexpr const char* kName = "torus";
   static constexpr uint32_t kCrossingPairs = 2;
   static constexpr bool kHasParameters = true;
+  static constexpr bool kIsHeavy = true;
 
   template <class S>
   static void intersect_local(const LocalRays<S>& rays, const LocalParameters<S>& parameters,
-                        Crossings<S>* crossings) {
+                              Crossings<S>* crossings) {
     using F = typename S::F;
     const F zero(0.0f), one(1.0f), two(2.0f), four(4.0f);
     const F scale = S::sqrt(S::max(dot<S>(rays.direction, rays.direction), F(1e-30f)));
@@ -63,14 +64,13 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
       least = S::select(hit[i], S::min(least, S::abs(distance[i])), least);
     for (uint32_t pair = 0; pair < kCrossingPairs; ++pair) {
       Crossings<S>& c = crossings[pair];
-      drop_start<S>(rays.starts_here & ((c.near_hit & (S::abs(c.near) <= least)) |
-                                        (c.far_hit & (S::abs(c.far) <= least))),
+      drop_start<S>(rays.starts_here &
+                        ((c.near_hit & (S::abs(c.near) <= least)) | (c.far_hit & (S::abs(c.far) <= least))),
                     scale, c);
     }
   }
 
-  template <class S>
-  static typename S::M inside_local(const V3<S>& p, const LocalParameters<S>& parameters) {
+  template <class S> static typename S::M inside_local(const V3<S>& p, const LocalParameters<S>& parameters) {
     using F = typename S::F;
     const F around = F(1.0f) - S::sqrt(p.x * p.x + p.y * p.y);
     return around * around + p.z * p.z < parameters.ratio * parameters.ratio;

@@ -124,6 +124,7 @@ struct TrianglePrimitive {
   static constexpr uint32_t kCrossingPairs = 1;
   static constexpr bool kHasParameters = false;
   static constexpr bool kIsLocal = false;
+  static constexpr bool kIsHeavy = false;
   static constexpr bool kIsBounded = true;
 
   template <class S>
@@ -134,8 +135,7 @@ struct TrianglePrimitive {
   }
 
   /// A triangle alone has no inside; that of a mesh is found by its inside_vector.
-  template <class S>
-  static typename S::M inside(const V3<S>&, const ObjectRecord&, const ExtraRecord&) {
+  template <class S> static typename S::M inside(const V3<S>&, const ObjectRecord&, const ExtraRecord&) {
     return S::M::none();
   }
 

@@ -7,11 +7,12 @@
 
 namespace celltrace::kernel {
 
-template <class Spu> class BundleTracer {
+template <class Spu, uint32_t kAccelerators = kAnyAccelerator> class BundleTracer {
 public:
   using S = typename Spu::simd;
+  using Rays = RayTracer<Spu, Intersector<Spu, kAccelerators>>;
 
-  BundleTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, RayTracer<Spu>& tracer)
+  BundleTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, Rays& tracer)
       : frame_(frame), scene_(scene), tracer_(tracer), members_(spu.template allocate<Member>(kPackets)) {}
 
   /// Calls `put(column, row, colours)` for each packet in the picture of the bundle at (column, row); that
@@ -113,14 +114,14 @@ private:
       make_shadow_rays(surfaces, bearing, member.shadow_rays, member.distance);
       member.light[number].template store<S>(splat3<S>(light.colour));
       queries[asked++] = {&member.shadow_rays, nullptr, &member.distance, &member.light[number],
-                           bearing.facing};
+                          bearing.facing};
     }
     if (asked != 0) tracer_.intersector().traversal().intersect(queries, asked, light.location);
   }
 
   const FrameBlock& frame_;
   SceneAccess<Spu>& scene_;
-  RayTracer<Spu>& tracer_;
+  Rays& tracer_;
   Member* members_;
 };
 

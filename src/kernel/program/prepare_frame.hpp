@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernel/accel/build_grid.hpp"
+#include "kernel/accel/traversal.hpp"
 #include "kernel/direct/build_bvh.hpp"
 
 namespace celltrace::kernel {
@@ -21,15 +22,20 @@ template <class Spu> PrepareResult take_step(Spu& spu, const FrameBlock& frame) 
 
 } // namespace detail
 
-/// The grid is built by one SPE. A BVH is built by one, or step by step by any number of them.
-template <class Spu> PrepareResult prepare_frame(Spu& spu, const FrameBlock& frame) {
-  if constexpr (Spu::direct_memory) {
+/// The grid is built by one SPE. A BVH is built by one, or step by step by any number of them; where memory
+/// is not direct, the PPE's side has it built elsewhere, and nothing is left to do here.
+template <class Spu, uint32_t kAccelerators = kAnyAccelerator>
+PrepareResult prepare_frame(Spu& spu, const FrameBlock& frame) {
+  if constexpr (Spu::direct_memory && (kAccelerators & kBvhOnly) != 0) {
     if (static_cast<AcceleratorKind>(frame.accelerator) == AcceleratorKind::bvh) {
       if (frame.prepare_spes != 0) return detail::take_step(spu, frame);
       return {build_bvh(spu, frame), true};
     }
   }
-  return build_grid(spu, frame);
+  if constexpr ((kAccelerators & kGridOnly) != 0)
+    return build_grid(spu, frame);
+  else
+    return {0, true};
 }
 
 } // namespace celltrace::kernel

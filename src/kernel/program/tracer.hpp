@@ -5,14 +5,14 @@
 #pragma once
 
 #include "kernel/program/bundle_tracer.hpp"
-#include "kernel/program/prepare_frame.hpp"
 #include "kernel/program/pixel_writer.hpp"
+#include "kernel/program/prepare_frame.hpp"
 #include "kernel/program/work_exchange.hpp"
 #include "kernel/program/work_units.hpp"
 
 namespace celltrace::kernel {
 
-template <class Spu> class Tracer {
+template <class Spu, uint32_t kAccelerators> class Tracer {
 public:
   /// `frame_block`: ea of the FrameBlock, which stays there as long as the program runs.
   Tracer(Spu& spu, ea_t frame_block)
@@ -53,8 +53,8 @@ private:
 
     ea_t image, ray_stack;
     SceneAccess<Spu> scene;
-    RayTracer<Spu> tracer;
-    BundleTracer<Spu> bundles;
+    typename BundleTracer<Spu, kAccelerators>::Rays tracer;
+    BundleTracer<Spu, kAccelerators> bundles;
     PixelWriter<Spu, kBundleEdge<Spu>> pixels;
   };
 
@@ -72,7 +72,8 @@ private:
 
   void prepare() {
     drop_phase();
-    const PrepareResult result = prepare_frame(spu_, frame_);
+    spu_.enter_module(modules::kStart);
+    const PrepareResult result = prepare_frame<Spu, kAccelerators>(spu_, frame_);
     report_ = ReportRecord();
     report_.list_entries = result.entries;
     send_report();
@@ -92,7 +93,10 @@ private:
   }
 
   void render() {
-    if (phase_ == nullptr) start_phase();
+    if (phase_ == nullptr) {
+      spu_.enter_module(modules::kStart);
+      start_phase();
+    }
     phase_->scene.cache().reset_counters();
     phase_->tracer.reset_counters();
     fetch(&strip_, frame_.strips + spu_.id() * sizeof(StripRecord), sizeof(StripRecord));
@@ -116,7 +120,7 @@ private:
     spu_.write_out_mailbox(make_report(ReportKind::finished, 0));
   }
 
-  void start_phase() {
+  [[gnu::noinline]] void start_phase() {
     struct alignas(128) Storage {
       uint8_t bytes[sizeof(Phase)];
     };
@@ -208,9 +212,15 @@ private:
   uint8_t* free_; ///< local store from here on belongs to PREPARE FRAME or to the rendering phase
 };
 
-/// The program as the PPE starts it; `argument` is the ea of the FrameBlock.
+// The programs as the PPE starts them; `argument` is the ea of the FrameBlock.
+
+/// Finds objects by a BVH.
 template <class Spu> void tracer(Spu& spu, ea_t argument) {
-  Tracer<Spu>(spu, argument).run();
+  Tracer<Spu, kBvhOnly>(spu, argument).run();
+}
+/// By a uniform grid, which it also builds.
+template <class Spu> void grid_tracer(Spu& spu, ea_t argument) {
+  Tracer<Spu, kGridOnly>(spu, argument).run();
 }
 
 } // namespace celltrace::kernel

@@ -1,7 +1,7 @@
 // Where rays hit, and the surface there. Kernel dialect.
 #pragma once
 
-#include "kernel/primitives/list.hpp"
+#include "kernel/primitives/shapes_module.hpp"
 #include "kernel/scalar_work.hpp"
 #include "kernel/scene_access.hpp"
 
@@ -17,42 +17,11 @@ template <class S> struct HitPoints {
 
 namespace detail {
 
-/// The objects that rays of a packet hit, side by side.
-template <class S> struct ObjectLanes {
-  V3<S> geometry[4];              ///< as ObjectRecord's
-  V3<S> normals[3];               ///< the values of ExtraRecords, of smooth triangles
-  LocalParameters<S> parameters;  ///< of shapes in a space of their own
-  uint32_t of_kind[kPrimitives];  ///< lanes by kind; each is of one
-  uint32_t smooth;
-};
-
 template <class S>
 void surface_of_spheres(const ObjectLanes<S>& o, const V3<S>& along_ray, V3<S>& point, V3<S>& normal) {
   const V3<S>& centre = o.geometry[0];
   normal = normalise<S>(along_ray - centre);
   point = centre + normal * o.geometry[1].x;
-}
-
-/// Of shapes in a space of their own: the gradient is transformed by the transposed map.
-template <class S>
-void surface_of_local_shapes(const ObjectLanes<S>& o, const V3<S>& along_ray, V3<S>& point, V3<S>& normal) {
-  // Three rows of four.
-  const V3<S>* const g = o.geometry;
-  const V3<S> rows[3] = {{g[0].x, g[0].y, g[0].z}, {g[1].y, g[1].z, g[2].x}, {g[2].z, g[3].x, g[3].y}};
-  const V3<S> local = {dot<S>(rows[0], along_ray) + g[1].x, dot<S>(rows[1], along_ray) + g[2].y,
-                       dot<S>(rows[2], along_ray) + g[3].z};
-  V3<S> gradient = local;
-  uint32_t kind = 0;
-  Primitives::for_each([&](auto shape) {
-    using Shape = decltype(shape);
-    if constexpr (Shape::kIsLocal)
-      if (o.of_kind[kind] != 0)
-        gradient = select<S>(S::M::from_bits(o.of_kind[kind]),
-                             Shape::template gradient<S>(local, o.parameters), gradient);
-    ++kind;
-  });
-  normal = normalise<S>(rows[0] * gradient.x + rows[1] * gradient.y + rows[2] * gradient.z);
-  point = along_ray;
 }
 
 template <class S>
@@ -73,9 +42,9 @@ void surface_of_triangles(const ObjectLanes<S>& o, const HitPacket& hits, V3<S>&
   normal = normalise<S>(normal);
 }
 
-template <class S>
-void surface_of(const ObjectLanes<S>& o, const V3<S>& along_ray, const HitPacket& hits, V3<S>& point,
-                V3<S>& normal) {
+template <class Spu, class S>
+void surface_of(Spu& spu, const ObjectLanes<S>& o, const V3<S>& along_ray, const HitPacket& hits,
+                V3<S>& point, V3<S>& normal) {
   const uint32_t spheres = o.of_kind[kPrimitiveKind<SpherePrimitive>],
                  triangles = o.of_kind[kPrimitiveKind<TrianglePrimitive>];
   uint32_t others = 0;
@@ -90,8 +59,8 @@ void surface_of(const ObjectLanes<S>& o, const V3<S>& along_ray, const HitPacket
   };
   V3<S> p, n;
   if (others != 0) {
-    surface_of_local_shapes<S>(o, along_ray, p, n);
-    add(others, p, n);
+    spu.enter_module(modules::kNormals);
+    add(others, along_ray, module_normals::normal(spu, o, along_ray));
   }
   if (triangles != 0) {
     surface_of_triangles<S>(o, hits, p, n);
@@ -117,7 +86,7 @@ void find_hit_points(SceneAccess<Spu>& scene, const RayPacket& rays, const HitPa
   using F = typename S::F;
   using I = typename S::I;
   using M = typename S::M;
-  detail::ObjectLanes<S> objects;
+  ObjectLanes<S> objects;
   for (uint32_t& of_kind : objects.of_kind)
     of_kind = 0;
   objects.smooth = 0;
@@ -173,7 +142,8 @@ void find_hit_points(SceneAccess<Spu>& scene, const RayPacket& rays, const HitPa
   objects.parameters.open = M::from_bits(open);
 
   const V3<S> direction = rays.direction.template load<S>();
-  detail::surface_of(objects, rays.origin.template load<S>() + direction * F::load(hits.distance.lane), hits,
+  detail::surface_of(scene.spu(), objects,
+                     rays.origin.template load<S>() + direction * F::load(hits.distance.lane), hits,
                      points.point, points.normal);
   const auto away = dot<S>(direction, points.normal) > F(0.0f);
   const V3<S> opposite = {-points.normal.x, -points.normal.y, -points.normal.z};

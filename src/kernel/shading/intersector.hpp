@@ -1,13 +1,13 @@
 // What a tree of rays asks of the scene. Kernel dialect.
 #pragma once
 
-#include "kernel/shading/lighting.hpp"
 #include "kernel/accel/traversal.hpp"
+#include "kernel/shading/lighting.hpp"
 
 namespace celltrace::kernel {
 
 /// Answers by a Traversal, but for light that is known.
-template <class Spu> class Intersector {
+template <class Spu, uint32_t kAccelerators = kAnyAccelerator> class Intersector {
 public:
   using S = typename Spu::simd;
 
@@ -19,7 +19,7 @@ public:
   }
   /// Multiplies the colour of light `number` by what comes through to the surfaces that face it.
   void transmittance(const Surfaces<S>& surfaces, const Bearing<S>& to_light, uint32_t number,
-                 VectorLanes& colour) {
+                     VectorLanes& colour) {
     if (number < known_lights_) {
       colour = known_[number];
       return;
@@ -37,12 +37,12 @@ public:
   }
   void forget_light() { known_lights_ = 0; }
 
-  Traversal<Spu>& traversal() { return traversal_; }
+  Traversal<Spu, kAccelerators>& traversal() { return traversal_; }
   const TraversalCounters& counters() const { return traversal_.counters(); }
   void reset_counters() { traversal_.reset_counters(); }
 
 private:
-  Traversal<Spu> traversal_;
+  Traversal<Spu, kAccelerators> traversal_;
   const VectorLanes* known_ = nullptr;
   uint32_t known_lights_ = 0;
 };

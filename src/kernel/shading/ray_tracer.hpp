@@ -2,6 +2,7 @@
 // level and by contribution (adaptive depth control, Hall and Greenberg 1983). Kernel dialect.
 #pragma once
 
+#include "kernel/modules.hpp"
 #include "kernel/shading/intersector.hpp"
 #include "kernel/shading/secondary_rays.hpp"
 
@@ -13,8 +14,8 @@ struct RayCounters {
 };
 
 /// The tree of one packet at a time. `Answers` says what rays hit and what light comes through to them: a
-/// Intersector, or where another SPE searches, what hands its answers on. With trace() the tree is worked off at
-/// once; whoever has to wait for answers takes its steps: begin(), then for each node() take_hits() and
+/// Intersector, or where another SPE searches, what hands its answers on. With trace() the tree is worked off
+/// at once; whoever has to wait for answers takes its steps: begin(), then for each node() take_hits() and
 /// shade_hits(), until advance() finds no more.
 template <class Spu, class Answers = Intersector<Spu>, uint32_t kResident = kResidentNodes> class RayTracer {
 public:
@@ -38,8 +39,8 @@ public:
       : frame_(frame), scene_(scene), intersector_(intersector), stack_(spu, spill, spill_nodes),
         node_(*spu.template allocate<RayNode>()), child_(scratch) {}
 
-  /// The colours of primary rays, which leave the camera. What they hit is known, and the intersector may know
-  /// what light comes there. Points of later hits replace the first ones'.
+  /// The colours of primary rays, which leave the camera. What they hit is known, and the intersector may
+  /// know what light comes there. Points of later hits replace the first ones'.
   [[gnu::always_inline]] V3<S> trace(const RayPacket& rays, uint32_t lanes, const HitPacket& hits,
                                      HitPoints<S>& points) {
     if constexpr (Spu::direct_memory) {
@@ -213,24 +214,26 @@ private:
   /// Adds the surface's own light, times `share`; returns what goes on. Not inlined, as spawn() is not:
   /// local store has no room for a copy at each call.
   [[gnu::noinline]] SecondaryRays<S> shade(const Surfaces<S>& surfaces, const WordLanes& interior,
-                                    const WordLanes& materials, uint32_t lanes, const F& share) {
+                                           const WordLanes& materials, uint32_t lanes, const F& share) {
     scene_.spu().compute(scalar_work::kShade);
     const MaterialLanes<S> m = gather_materials(scene_, materials, lanes);
     add(lanes, local_light(scene_, intersector_, frame_, surfaces, m, lanes, counters_.shadow) * share);
     if (!m.has_reflection && !m.has_transmission) return SecondaryRays<S>::nothing();
     scene_.spu().compute(scalar_work::kSecondaryRays);
+    scene_.spu().enter_module(modules::kSecondary);
     F fresnel_ratio(1.0f);
     if (m.fresnel != 0)
       fresnel_ratio = F::load(fresnel_ratios(scene_, interior, lanes & m.fresnel, node_).lane);
-    return secondary_rays_of<S>(m, -dot<S>(surfaces.direction, surfaces.normal), fresnel_ratio, frame_.adc_bailout,
-                      lanes, share);
+    return secondary_rays_of<S>(m, -dot<S>(surfaces.direction, surfaces.normal), fresnel_ratio,
+                                frame_.adc_bailout, lanes, share);
   }
 
   /// Pushes the rays that go on.
   [[gnu::noinline]] void spawn(const Surfaces<S>& surfaces, const WordLanes& interior,
-                                 const SecondaryRays<S>& onward) {
+                               const SecondaryRays<S>& onward) {
     if ((onward.mirrors | onward.clear) == 0) return;
     scene_.spu().compute(scalar_work::kSpawn);
+    scene_.spu().enter_module(modules::kSecondary);
     const F cosine = -dot<S>(surfaces.direction, surfaces.normal);
     const V3<S> mirrored = mirror<S>(surfaces.direction, surfaces.normal, cosine);
     const uint32_t total = onward.clear != 0 ? transmit(surfaces, interior, onward, cosine, mirrored) : 0;
@@ -261,7 +264,8 @@ private:
     return true;
   }
 
-  void reflect(const Surfaces<S>& surfaces, const SecondaryRays<S>& onward, uint32_t lanes, const V3<S>& mirrored) {
+  void reflect(const Surfaces<S>& surfaces, const SecondaryRays<S>& onward, uint32_t lanes,
+               const V3<S>& mirrored) {
     if (lanes == 0) return;
     inherit_interiors();
     if (!prepare_child(surfaces, mirrored, onward.mirror, F::load(node_.weight.lane) * onward.mirror_weight,
@@ -293,6 +297,7 @@ private:
   uint32_t transmit(const Surfaces<S>& surfaces, const WordLanes& interior, const SecondaryRays<S>& onward,
                     const F& cosine, const V3<S>& mirrored) {
     scene_.spu().compute(scalar_work::kTransmit);
+    scene_.spu().run_in_module(modules::kSecondary);
     inherit_interiors();
     const Refraction refraction = cross_surfaces(scene_, interior, onward.clear, child_, counters_.dropped);
     M beyond = M::none();

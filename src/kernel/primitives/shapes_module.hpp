@@ -1,0 +1,129 @@
+// The code modules of the shapes: what the rest of the kernel calls of them. Kernel dialect.
+//
+// Spheres and triangles that are no parts of CSG do not come here: their code is always resident.
+#pragma once
+
+#include "kernel/modules.hpp"
+#include "kernel/primitives/list.hpp"
+
+namespace celltrace::kernel {
+
+/// The objects that rays of a packet hit, side by side.
+template <class S> struct ObjectLanes {
+  V3<S> geometry[4];             ///< as ObjectRecord's
+  V3<S> normals[3];              ///< the values of ExtraRecords, of smooth triangles
+  LocalParameters<S> parameters; ///< of shapes in a space of their own
+  uint32_t of_kind[kPrimitives]; ///< lanes by kind; each is of one
+  uint32_t smooth;
+};
+
+/// Whether a kind's geometry is a map to a space of its own.
+constexpr bool is_local(uint32_t kind) {
+  return kind != kPrimitiveKind<SpherePrimitive> && kind != kPrimitiveKind<TrianglePrimitive>;
+}
+
+/// Whether a kind's intersections are in a module of their own.
+constexpr bool is_heavy(uint32_t kind) {
+  return Primitives::kAreHeavy[kind];
+}
+
+namespace module_heavy {
+
+/// As module_shapes::intersect(), of heavy shapes.
+template <class Spu>
+[[gnu::noinline]] uint32_t intersect(Spu& spu, const RayPacket& rays, const ObjectRecord& object,
+                                     const ExtraRecord& extra, uint32_t self,
+                                     Crossings<typename Spu::simd>* crossings) {
+  spu.run_in_module(modules::kHeavyShapes);
+  uint32_t pairs = 0;
+  Primitives::dispatch(object.kind_and_flags & object_flag::kind_mask, [&](auto shape) {
+    using Shape = decltype(shape);
+    pairs = Shape::kCrossingPairs;
+    if constexpr (Shape::kIsHeavy)
+      Shape::template intersect<typename Spu::simd>(rays, object, extra, self, crossings);
+  });
+  return pairs;
+}
+
+} // namespace module_heavy
+
+namespace module_shapes {
+
+/// The crossings of a packet with an object; returns how many pairs. Rays are transformed in one place for
+/// all shapes that want it: local store is short.
+template <class Spu>
+[[gnu::noinline]] uint32_t intersect(Spu& spu, const RayPacket& rays, const ObjectRecord& object,
+                                     const ExtraRecord& extra, uint32_t self,
+                                     Crossings<typename Spu::simd>* crossings) {
+  using S = typename Spu::simd;
+  spu.run_in_module(modules::kShapes);
+  const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
+  uint32_t pairs = 1;
+  if (!is_local(kind)) {
+    if (kind == kPrimitiveKind<SpherePrimitive>)
+      SpherePrimitive::intersect<S>(rays, object, extra, self, crossings);
+    else
+      TrianglePrimitive::intersect<S>(rays, object, extra, self, crossings);
+    return pairs;
+  }
+  const LocalRays<S> local = local_rays<S>(rays, object, self);
+  const LocalParameters<S> parameters = local_parameters<S>(object, extra);
+  Primitives::dispatch(kind, [&](auto shape) {
+    using Shape = decltype(shape);
+    pairs = Shape::kCrossingPairs;
+    if constexpr (Shape::kIsLocal && !Shape::kIsHeavy)
+      Shape::template intersect_local<S>(local, parameters, crossings);
+  });
+  return pairs;
+}
+
+/// Which of the points are in a solid.
+template <class Spu>
+[[gnu::noinline]] uint32_t inside(Spu& spu, const SolidRecord& solid, const V3<typename Spu::simd>& points) {
+  using S = typename Spu::simd;
+  spu.run_in_module(modules::kShapes);
+  const uint32_t kind = solid.object.kind_and_flags & object_flag::kind_mask;
+  if (kind == kPrimitiveKind<SpherePrimitive>)
+    return SpherePrimitive::inside<S>(points, solid.object, solid.extra).bits();
+  const V3<S> local = to_local<S>(solid.object.geometry, points, 1.0f);
+  const LocalParameters<S> parameters = local_parameters<S>(solid.object, solid.extra);
+  uint32_t lanes = 0;
+  Primitives::dispatch(kind, [&](auto shape) {
+    using Shape = decltype(shape);
+    if constexpr (Shape::kIsLocal) lanes = Shape::template inside_local<S>(local, parameters).bits();
+  });
+  return lanes;
+}
+
+} // namespace module_shapes
+
+namespace module_normals {
+
+/// The unit normals of shapes in a space of their own, at points of their surfaces: the gradient there is
+/// transformed by the transposed map.
+template <class Spu>
+[[gnu::noinline]] V3<typename Spu::simd> normal(Spu& spu, const ObjectLanes<typename Spu::simd>& o,
+                                                const V3<typename Spu::simd>& point) {
+  using S = typename Spu::simd;
+  spu.run_in_module(modules::kNormals);
+  // Three rows of four.
+  const V3<S>* const g = o.geometry;
+  const V3<S> rows[3] = {{g[0].x, g[0].y, g[0].z}, {g[1].y, g[1].z, g[2].x}, {g[2].z, g[3].x, g[3].y}};
+  const V3<S> local = {dot<S>(rows[0], point) + g[1].x, dot<S>(rows[1], point) + g[2].y,
+                       dot<S>(rows[2], point) + g[3].z};
+  V3<S> gradient = local;
+  uint32_t kind = 0;
+  Primitives::for_each([&](auto shape) {
+    using Shape = decltype(shape);
+    if constexpr (Shape::kIsLocal)
+      if (o.of_kind[kind] != 0)
+        gradient = select<S>(S::M::from_bits(o.of_kind[kind]),
+                             Shape::template gradient<S>(local, o.parameters), gradient);
+    ++kind;
+  });
+  return normalise<S>(rows[0] * gradient.x + rows[1] * gradient.y + rows[2] * gradient.z);
+}
+
+} // namespace module_normals
+
+} // namespace celltrace::kernel

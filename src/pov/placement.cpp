@@ -1,0 +1,254 @@
+// SceneBuilder: from objects as declared to the Scene's.
+#include "pov/scene_builder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "celltrace/error.hpp"
+#include "pov/mesh.hpp"
+#include "pov/shapes.hpp"
+
+namespace celltrace::pov {
+
+namespace {
+
+using Operation = Csg::Operation;
+
+/// As many levels of CSG and clipping as a Scene can have.
+constexpr int kDeepestCsg = 100;
+
+/// Writes scene-wide indices over a mesh's own.
+void replace_materials(Mesh& mesh, const std::vector<Index>& materials) {
+  for (Mesh::Triangle& triangle : mesh.triangles)
+    for (Index& material : triangle.material)
+      if (material != kNoIndex) material = materials[material];
+}
+
+bool is_singular(const Transform& transform) {
+  const double determinant = transform.determinant();
+  return determinant == 0 || !std::isfinite(determinant) || !std::isfinite(1 / determinant);
+}
+
+const Compound* compound(const ObjectDefinition& object) {
+  const auto* compound = std::get_if<std::shared_ptr<const Compound>>(&object.shape);
+  return compound ? compound->get() : nullptr;
+}
+
+/// Whether an object is no more than its parts.
+bool is_plain_union(const ObjectDefinition& object) {
+  const Compound* parts = compound(object);
+  return parts && parts->operation == Operation::union_ && !object.inverse && object.clipped_by.empty();
+}
+
+const char* name_of(const ObjectDefinition& csg) {
+  switch (compound(csg)->operation) {
+  case Operation::merge:
+    return "a merge";
+  case Operation::intersection:
+    return "an intersection";
+  case Operation::difference:
+    return "a difference";
+  case Operation::union_:
+    break;
+  }
+  return csg.inverse ? "an inverse union" : "a clipped union";
+}
+
+/// Whether there is any shape in it.
+bool has_shapes(const Object& object) {
+  const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape);
+  return !csg || std::any_of((*csg)->parts.begin(), (*csg)->parts.end(), has_shapes);
+}
+
+} // namespace
+
+void SceneBuilder::place(const ObjectPtr& object, const Location& where) {
+  place(*object, Inherited{}, where);
+}
+
+void SceneBuilder::place(const ObjectDefinition& object, const Inherited& around, const Location& where) {
+  if (is_plain_union(object)) {
+    const Inherited own = inherit(object, around, where);
+    for (const ObjectPtr& part : compound(object)->parts)
+      place(*part, own, where);
+  } else if (std::optional<Object> placed = make(object, around, where)) {
+    if (has_shapes(*placed)) scene_.objects.push_back(std::move(*placed));
+  }
+}
+
+/// What the object's own parts inherit from it.
+SceneBuilder::Inherited SceneBuilder::inherit(const ObjectDefinition& object, const Inherited& around,
+                                              const Location& where) {
+  diagnostics_.require_supported(object.unsupported, where);
+  if (++parts_placed_ > limits_.objects)
+    diagnostics_.fail(where, "the scene has more than " + std::to_string(limits_.objects) + " objects");
+  Inherited own = around;
+  own.transform = object.transform.then(around.transform);
+  own.no_shadow = object.no_shadow || around.no_shadow;
+  if (object.texture) own.texture = object.texture;
+  if (!own.texture) own.texture = default_texture;
+  if (!around.clips && !std::holds_alternative<Light>(object.shape))
+    own.interior = interior_index(object, around.interior, *own.texture, where);
+  return own;
+}
+
+/// Nothing if it is a light or no ray can hit it.
+std::optional<Object> SceneBuilder::make(const ObjectDefinition& object, const Inherited& around,
+                                         const Location& where) {
+  Inherited own = inherit(object, around, where);
+  if (const Light* light = std::get_if<Light>(&object.shape)) {
+    place_light(*light, own, where);
+    return std::nullopt;
+  }
+  Object made;
+  made.transform = around.is_part ? object.transform : own.transform;
+  made.no_shadow = own.no_shadow;
+  made.inverse = object.inverse;
+  if (const Compound* parts = compound(object)) {
+    if (!own.inside || parts->operation != Operation::union_) own.inside = name_of(object);
+    made.shape = make_csg(*parts, std::move(own), where);
+  } else {
+    if (is_singular(own.transform))
+      diagnostics_.fail(where, "this object's transformation is singular: it has no inverse");
+    if (!around.clips) made.material = material_index(own.texture, where);
+    if (!make_shape(object, own, made, where)) return std::nullopt;
+    if (!around.clips) made.interior = interior_of(own);
+  }
+  made.clipped_by = make_clips(object, around, where);
+  return made;
+}
+
+/// The interior of a shape: what it or an object around it has, what all parts of its CSG share, or its own.
+Index SceneBuilder::interior_of(const Inherited& own) {
+  if (own.interior != kNoIndex) return own.interior;
+  return own.csg_interior != kNoIndex ? own.csg_interior : scene_.add(Interior{});
+}
+
+std::shared_ptr<const Csg> SceneBuilder::make_csg(const Compound& compound, Inherited own,
+                                                  const Location& where) {
+  enter_solid(own, where);
+  if (own.csg_interior == kNoIndex && own.interior == kNoIndex && !own.clips)
+    own.csg_interior = scene_.add(Interior{});
+  own.is_part = true;
+  auto csg = std::make_shared<Csg>();
+  csg->operation = compound.operation;
+  for (const ObjectPtr& part : compound.parts)
+    if (std::optional<Object> made = make(*part, own, where))
+      csg->parts.push_back(std::move(*made));
+    else if (compound.operation == Operation::difference && part == compound.parts.front())
+      refuse("a light source that others are taken from", *part, where);
+  return csg;
+}
+
+std::shared_ptr<const std::vector<Object>>
+SceneBuilder::make_clips(const ObjectDefinition& object, const Inherited& around, const Location& where) {
+  if (object.clipped_by.empty()) return nullptr;
+  Inherited own = around;
+  enter_solid(own, where);
+  own.clips = true;
+  own.inside = "'clipped_by'";
+  auto clips = std::make_shared<std::vector<Object>>();
+  for (const Limit& limit : object.clipped_by) {
+    ObjectDefinition moved = *limit.object;
+    moved.apply(limit.transform);
+    if (std::optional<Object> made = make(moved, own, where)) clips->push_back(std::move(*made));
+  }
+  return clips;
+}
+
+void SceneBuilder::enter_solid(Inherited& own, const Location& where) const {
+  if (++own.depth > kDeepestCsg)
+    diagnostics_.fail(where, "CSG is nested more than " + std::to_string(kDeepestCsg) + " deep");
+}
+
+void SceneBuilder::place_light(Light light, const Inherited& own, const Location& where) {
+  light.location = own.transform.point(light.location);
+  if (!Quantity::vector(light.location).is_finite())
+    diagnostics_.fail(where, "this light is not at a finite place");
+  if (!own.clips) scene_.lights.push_back(light);
+}
+
+/// False if no ray can hit it.
+bool SceneBuilder::make_shape(const ObjectDefinition& object, const Inherited& own, Object& made,
+                              const Location& where) {
+  if (const Shape* shape = std::get_if<Shape>(&object.shape)) {
+    made.shape = *shape;
+    return own.inside || !is_invisible(*shape);
+  }
+  const auto* triangle = std::get_if<std::shared_ptr<TriangleDefinition>>(&object.shape);
+  const std::string what = triangle ? "triangle" : "mesh";
+  if (own.inside) refuse("a " + what + " in " + own.inside, object, where);
+  if (!object.clipped_by.empty()) refuse("a clipped " + what, object, where);
+  made.inverse = false; // it has no inside
+  std::shared_ptr<const Mesh> mesh;
+  if (triangle) {
+    mesh = placed_triangle(**triangle, own.transform, where);
+    made.transform = Transform();
+  } else {
+    mesh = placed_mesh(std::get<std::shared_ptr<MeshDefinition>>(object.shape), where);
+  }
+  const bool is_visible = !mesh->triangles.empty();
+  made.shape = std::move(mesh);
+  return is_visible;
+}
+
+void SceneBuilder::refuse(const std::string& what, const ObjectDefinition& object,
+                          const Location& where) const {
+  diagnostics_.require_supported(std::make_shared<Unsupported>(Unsupported{what, object.where}), where);
+}
+
+std::shared_ptr<const Mesh> SceneBuilder::placed_triangle(const TriangleDefinition& triangle,
+                                                          const Transform& transform, const Location& where) {
+  MeshBuilder builder;
+  try {
+    builder.add(triangle.transformed(transform));
+  } catch (const InputError& error) {
+    diagnostics_.fail(where, error.what());
+  }
+  return std::make_shared<const Mesh>(std::move(builder.finish()->mesh));
+}
+
+/// The object's own interior, else the inherited one. POV-Ray 3.1's ior of a finish makes one where there is
+/// none and changes the one there is, even if it is inherited.
+Index SceneBuilder::interior_index(const ObjectDefinition& object, Index inherited,
+                                   const TextureDefinition& texture, const Location& where) {
+  const std::optional<double>& ior = texture.finish.ior;
+  Index index = inherited;
+  if (object.interior) {
+    const InteriorDefinition& interior = *object.interior;
+    diagnostics_.require_supported(interior.unsupported, where);
+    if (interior.fade_distance != 0 && interior.fade_power != 0)
+      diagnostics_.fail(where, "'fade_distance' of an interior is not supported yet");
+    index = scene_.add(Interior{interior.ior});
+  } else if (index == kNoIndex && ior) {
+    index = scene_.add(Interior{});
+  }
+  if (ior) scene_.interiors[index].ior = *ior;
+  return index;
+}
+
+Index SceneBuilder::material_index(const TexturePtr& texture, const Location& where) {
+  if (const auto known = material_indices_.find(texture); known != material_indices_.end())
+    return known->second;
+  diagnostics_.require_supported(texture->first_unsupported(), where);
+  const Index index = scene_.add(Material{texture->pigment.value, texture->finish.value});
+  material_indices_.emplace(texture, index);
+  return index;
+}
+
+std::shared_ptr<const Mesh> SceneBuilder::placed_mesh(const std::shared_ptr<MeshDefinition>& definition,
+                                                      const Location& where) {
+  std::shared_ptr<const Mesh>& placed = meshes_[definition];
+  if (!placed) {
+    std::vector<Index> materials;
+    for (const TexturePtr& texture : definition->textures)
+      materials.push_back(material_index(texture, where));
+    auto mesh = std::make_shared<Mesh>(std::move(definition->mesh));
+    replace_materials(*mesh, materials);
+    placed = std::move(mesh);
+  }
+  return placed;
+}
+
+} // namespace celltrace::pov

@@ -1,0 +1,181 @@
+#include "pov/shapes.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <string>
+
+#include <glm/geometric.hpp>
+
+#include "pov/session.hpp"
+#include "pov/value.hpp"
+
+namespace celltrace::pov {
+
+namespace {
+
+/// Lengths below this are zero to POV-Ray.
+constexpr double kShortest = 1e-10;
+
+struct Parameter {
+  const char* name = nullptr;
+  bool is_vector = false;
+  bool is_optional = false;
+};
+
+constexpr Parameter vector(const char* name) {
+  return {name, true, false};
+}
+constexpr Parameter number(const char* name) {
+  return {name, false, false};
+}
+constexpr Parameter optional_number(const char* name) {
+  return {name, false, true};
+}
+
+/// The arguments of one shape, which are as many as it takes and of the right types.
+class Arguments {
+public:
+  Arguments(const Session& session, const WrittenShape& written) : session_(session), written_(written) {}
+
+  Vec3 vector(std::size_t i) const { return session_.vector(at(i).value, at(i).where); }
+  double number(std::size_t i) const { return session_.number(at(i).value, at(i).where); }
+  double number_or(std::size_t i, double otherwise) const {
+    return i < written_.arguments.size() ? number(i) : otherwise;
+  }
+  bool is_open() const { return written_.is_open; }
+  void require(bool condition, const char* what) const {
+    if (!condition) session_.fail(written_.where, what);
+  }
+
+private:
+  const WrittenShape::Argument& at(std::size_t i) const { return written_.arguments[i]; }
+
+  const Session& session_;
+  const WrittenShape& written_;
+};
+
+Shape read_box(const Arguments& a) {
+  return Box{{a.vector(0), a.vector(1)}};
+}
+
+Shape read_cone(const Arguments& a) {
+  const Cone cone{a.vector(0), a.vector(2), a.number(1), a.number(3), a.is_open()};
+  a.require(glm::distance(cone.base, cone.cap) >= kShortest, "this cone's ends are the same point");
+  a.require(cone.base_radius >= 0 && cone.cap_radius >= 0, "a cone's radii must not be negative");
+  return cone;
+}
+
+Shape read_cylinder(const Arguments& a) {
+  const Cylinder cylinder{a.vector(0), a.vector(1), a.number(2), a.is_open()};
+  a.require(glm::distance(cylinder.base, cylinder.cap) >= kShortest,
+            "this cylinder's ends are the same point");
+  return cylinder;
+}
+
+Shape read_disc(const Arguments& a) {
+  Disc disc{a.vector(0), a.vector(1), a.number(2), a.number_or(3, 0)};
+  if (glm::length(disc.normal) == 0) disc.radius = 0; // no ray hits it
+  return disc;
+}
+
+Shape read_plane(const Arguments& a) {
+  const Plane plane{a.vector(0), a.number(1)};
+  a.require(glm::length(plane.normal) >= kShortest, "this plane's normal has no direction");
+  return plane;
+}
+
+Shape read_sphere(const Arguments& a) {
+  return Sphere{a.vector(0), a.number(1)};
+}
+
+Shape read_torus(const Arguments& a) {
+  return Torus{a.number(0), a.number(1)};
+}
+
+constexpr std::size_t kMostParameters = 4;
+constexpr bool kCanBeOpen = true;
+
+struct Entry {
+  const char* name;
+  Parameter parameters[kMostParameters]; ///< those that may be left out come last
+  Shape (*read)(const Arguments&);
+  bool can_be_open = false;
+
+  std::size_t most() const {
+    return static_cast<std::size_t>(
+        std::count_if(parameters, parameters + kMostParameters, [](const Parameter& p) { return p.name; }));
+  }
+  std::size_t fewest() const {
+    return static_cast<std::size_t>(
+        std::count_if(parameters, parameters + kMostParameters,
+                      [](const Parameter& p) { return p.name && !p.is_optional; }));
+  }
+};
+
+constexpr Entry kShapes[] = {
+    {"box", {vector("corner"), vector("corner")}, read_box},
+    {"cone", {vector("base"), number("radius"), vector("cap"), number("radius")}, read_cone, kCanBeOpen},
+    {"cylinder", {vector("base"), vector("cap"), number("radius")}, read_cylinder, kCanBeOpen},
+    {"disc",
+     {vector("centre"), vector("normal"), number("radius"), optional_number("hole radius")},
+     read_disc},
+    {"plane", {vector("normal"), number("distance")}, read_plane},
+    {"sphere", {vector("centre"), number("radius")}, read_sphere},
+    {"torus", {number("major radius"), number("minor radius")}, read_torus},
+};
+
+/// How the shape is written.
+std::string form(const Entry& shape) {
+  std::string text = std::string(shape.name) + " { ";
+  for (std::size_t i = 0; i < shape.most(); ++i) {
+    const Parameter& parameter = shape.parameters[i];
+    const std::string name = parameter.is_vector ? '<' + std::string(parameter.name) + '>' : parameter.name;
+    const std::string item = (i > 0 ? ", " : "") + name;
+    text += parameter.is_optional ? '[' + item + ']' : item;
+  }
+  return text + (shape.can_be_open ? " [open] }" : " }");
+}
+
+[[noreturn]] void fail(const Session& session, const Location& where, const Entry& shape,
+                       const std::string& found) {
+  session.fail(where, "expected '" + form(shape) + "', found " + found);
+}
+
+void check_arguments(const Session& session, const Entry& shape, const WrittenShape& written) {
+  const std::size_t count = written.arguments.size();
+  if (count < shape.fewest() || count > shape.most())
+    fail(session, written.where, shape, std::to_string(count) + (count == 1 ? " argument" : " arguments"));
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& [value, where] = written.arguments[i];
+    const Parameter& parameter = shape.parameters[i];
+    if (!parameter.is_vector && !value.is_float())
+      fail(session, where, shape, std::string(kind_name(value)) + " as " + parameter.name);
+  }
+  if (written.is_open && !shape.can_be_open)
+    session.fail(written.where, std::string("a ") + shape.name + " cannot be open");
+}
+
+} // namespace
+
+std::vector<const char*> shape_names() {
+  std::vector<const char*> names;
+  std::transform(std::begin(kShapes), std::end(kShapes), std::back_inserter(names),
+                 [](const Entry& shape) { return shape.name; });
+  return names;
+}
+
+Shape read_shape(Session& session, const WrittenShape& written) {
+  const Entry& shape = kShapes[written.number];
+  check_arguments(session, shape, written);
+  return shape.read(Arguments(session, written));
+}
+
+bool is_invisible(const Shape& shape) {
+  if (const Sphere* sphere = std::get_if<Sphere>(&shape)) return sphere->radius <= 0;
+  if (const Torus* torus = std::get_if<Torus>(&shape))
+    return torus->major_radius <= 0 || torus->minor_radius <= 0;
+  return false;
+}
+
+} // namespace celltrace::pov

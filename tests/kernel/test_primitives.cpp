@@ -1,0 +1,237 @@
+// Every shape against what its inside says, in double precision: a ray crosses the surface where it changes
+// from inside to outside. Shapes are placed at random, as a Scene places them.
+#include "kernel/accel/object_bounds.hpp"
+#include "kernel/primitives/shapes_module.hpp"
+#include "lanes.hpp"
+#include "scene/shapes.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+using namespace celltrace;
+using namespace celltrace::kernel;
+using namespace celltrace::test;
+
+namespace {
+
+/// A shape in its own coordinates, by its inside.
+struct Subject {
+  std::string name;
+  Object object;
+  std::function<bool(const Vec3&)> inside;
+  /// Without caps: crossings with them do not count.
+  bool open = false;
+};
+
+double square(double x) {
+  return x * x;
+}
+
+std::vector<Subject> subjects() {
+  const auto named = [](const char* name, auto shape, std::function<bool(const Vec3&)> inside) {
+    Object object;
+    object.shape = shape;
+    return Subject{name, object, std::move(inside)};
+  };
+  std::vector<Subject> all = {
+      named("sphere", Sphere{{0.2, 0.1, -0.3}, 0.9},
+            [](const Vec3& p) { return glm::length(p - Vec3(0.2, 0.1, -0.3)) < 0.9; }),
+      named("plane", Plane{{1, 2, -1}, 0.3},
+            [](const Vec3& p) { return glm::dot(p, glm::normalize(Vec3(1, 2, -1))) < 0.3; }),
+      named("box", Box{{{1, -0.4, -0.7}, {-0.8, 0.9, 0.5}}},
+            [](const Vec3& p) {
+              return p.x > -0.8 && p.x < 1 && p.y > -0.4 && p.y < 0.9 && p.z > -0.7 && p.z < 0.5;
+            }),
+      named("cylinder", Cylinder{{0, -0.5, 0}, {0, 0.8, 0}, 0.6, false},
+            [](const Vec3& p) { return p.y > -0.5 && p.y < 0.8 && std::hypot(p.x, p.z) < 0.6; }),
+      named("cone", Cone{{0, -1, 0}, {0, 1, 0}, 0.9, 0, false},
+            [](const Vec3& p) { return p.y > -1 && p.y < 1 && std::hypot(p.x, p.z) < 0.45 * (1 - p.y); }),
+      named(
+          "cut cone", Cone{{0, 0, -1}, {0, 0, 1}, 0.3, 0.8, false},
+          [](const Vec3& p) { return p.z > -1 && p.z < 1 && std::hypot(p.x, p.y) < 0.3 + 0.25 * (p.z + 1); }),
+      named("torus", Torus{0.8, 0.25},
+            [](const Vec3& p) { return square(std::hypot(p.x, p.z) - 0.8) + square(p.y) < square(0.25); }),
+      named("thick torus", Torus{0.5, 0.45},
+            [](const Vec3& p) { return square(std::hypot(p.x, p.z) - 0.5) + square(p.y) < square(0.45); }),
+  };
+  return all;
+}
+
+struct Found {
+  double distance;
+  bool expected;
+};
+
+ObjectRecord record_of(const PlacedShape& shape, ExtraRecord& extra) {
+  ObjectRecord record{};
+  record.kind_and_flags = shape.kind_and_flags;
+  std::copy(shape.geometry, shape.geometry + 12, record.geometry);
+  extra = {};
+  std::copy(shape.parameters, shape.parameters + 2, extra.value);
+  return record;
+}
+
+Transform random_transform(Random& random) {
+  return Transform::scale({random.uniform(0.3, 3), random.uniform(0.3, 3), random.uniform(0.3, 3)})
+      .then(Transform::rotate(random.point(180)))
+      .then(Transform::translate(random.point(5)));
+}
+
+/// The distances at which a ray changes sides.
+std::vector<double> changes(const std::function<bool(double)>& inside, double from, double to) {
+  constexpr int kSteps = 4000;
+  std::vector<double> all;
+  bool before = inside(from);
+  for (int i = 1; i <= kSteps; ++i) {
+    const double t = from + (to - from) * i / kSteps;
+    const bool now = inside(t);
+    if (now == before) continue;
+    double low = t - (to - from) / kSteps, high = t;
+    for (int halving = 0; halving < 50; ++halving) {
+      const double middle = 0.5 * (low + high);
+      (inside(middle) == before ? low : high) = middle;
+    }
+    all.push_back(low);
+    before = now;
+  }
+  return all;
+}
+
+std::vector<double> crossings_of(const Crossings<Simd>* crossings, std::uint32_t pairs, unsigned lane) {
+  std::vector<double> all;
+  for (std::uint32_t pair = 0; pair < pairs; ++pair) {
+    const FloatLanes near = lanes_of(crossings[pair].near), far = lanes_of(crossings[pair].far);
+    if ((crossings[pair].near_hit.bits() >> lane & 1) != 0) all.push_back(near.lane[lane]);
+    if ((crossings[pair].far_hit.bits() >> lane & 1) != 0) all.push_back(far.lane[lane]);
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+} // namespace
+
+TEST_CASE("Rays cross every shape where they change sides") {
+  Random random(11);
+  for (const Subject& subject : subjects()) {
+    int compared = 0, crossed = 0;
+    for (int round = 0; round < times(160); ++round) {
+      Object object = subject.object;
+      object.transform = round == 0 ? Transform() : random_transform(random);
+      const Transform inverse = object.transform.inverse();
+      ExtraRecord extra;
+      const ObjectRecord record = record_of(place_shape(object), extra);
+      RayPacket rays;
+      for (unsigned lane = 0; lane < kSimdLanes; ++lane) {
+        const Vec3 target = object.transform.point(random.point(0.9));
+        const Vec3 direction = random.direction();
+        set(rays.origin, lane, target - direction * random.uniform(0, 8));
+        set(rays.direction, lane, direction);
+        rays.start_object.lane[lane] = kNoOffset;
+      }
+      Crossings<Simd> crossings[kMaxCrossingPairs];
+      std::uint32_t pairs = 0;
+      Primitives::dispatch(record.kind_and_flags & object_flag::kind_mask, [&](auto shape) {
+        using Shape = decltype(shape);
+        pairs = Shape::kCrossingPairs;
+        Shape::template intersect<Simd>(rays, record, extra, 640, crossings);
+      });
+      for (unsigned lane = 0; lane < kSimdLanes; ++lane) {
+        const Vec3 origin = at(rays.origin, lane), direction = at(rays.direction, lane);
+        const auto inside = [&](double t) { return subject.inside(inverse.point(origin + direction * t)); };
+        constexpr double kReach = 40;
+        const std::vector<double> expected = changes(inside, -kReach, kReach);
+        std::vector<double> found = crossings_of(crossings, pairs, lane);
+        found.erase(std::remove_if(found.begin(), found.end(),
+                                   [&](double t) { return std::abs(t) > kReach * 0.999; }),
+                    found.end());
+        // Grazing rays may or may not cross: of those that do not agree, few are left.
+        if (found.size() != expected.size()) continue;
+        ++compared;
+        for (std::size_t i = 0; i < found.size(); ++i) {
+          INFO(subject.name << ", crossing " << i << " at " << expected[i] << ", found " << found[i]);
+          // By how far the surface is from the point, not along the ray, which may graze it.
+          const bool changes_here = inside(found[i] - 2e-3) != inside(found[i] + 2e-3);
+          REQUIRE((changes_here || std::abs(found[i] - expected[i]) < 2e-2));
+          ++crossed;
+        }
+      }
+    }
+    INFO(subject.name);
+    CHECK(compared > 0.985 * times(160) * kSimdLanes);
+    CHECK(crossed > times(160) * kSimdLanes / 2);
+  }
+}
+
+TEST_CASE("Rays that start on a shape do not cross it there") {
+  Random random(12);
+  for (const Subject& subject : subjects()) {
+    int wrong = 0, all = 0;
+    for (int round = 0; round < times(160); ++round) {
+      Object object = subject.object;
+      object.transform = random_transform(random);
+      ExtraRecord extra;
+      const ObjectRecord record = record_of(place_shape(object), extra);
+      const Transform inverse = object.transform.inverse();
+      RayPacket rays;
+      std::vector<double> expected[kSimdLanes];
+      for (unsigned lane = 0; lane < kSimdLanes; ++lane) {
+        // A point of the surface, found along a ray.
+        for (;;) {
+          const Vec3 from = object.transform.point(random.point(1.2)), along = random.direction();
+          const auto here =
+              changes([&](double t) { return subject.inside(inverse.point(from + along * t)); }, 0, 10);
+          if (here.empty()) continue;
+          set(rays.origin, lane, from + along * here[0]);
+          break;
+        }
+        const Vec3 direction = random.direction();
+        set(rays.direction, lane, direction);
+        rays.start_object.lane[lane] = 640;
+        const Vec3 origin = at(rays.origin, lane);
+        expected[lane] = changes(
+            [&](double t) { return subject.inside(inverse.point(origin + direction * t)); }, 5e-3, 40);
+      }
+      Crossings<Simd> crossings[kMaxCrossingPairs];
+      std::uint32_t pairs = 0;
+      Primitives::dispatch(record.kind_and_flags & object_flag::kind_mask, [&](auto shape) {
+        using Shape = decltype(shape);
+        pairs = Shape::kCrossingPairs;
+        Shape::template intersect<Simd>(rays, record, extra, 640, crossings);
+      });
+      for (unsigned lane = 0; lane < kSimdLanes; ++lane) {
+        std::vector<double> found = crossings_of(crossings, pairs, lane);
+        found.erase(std::remove_if(found.begin(), found.end(), [](double t) { return t < 1e-4 || t > 40; }),
+                    found.end());
+        ++all;
+        wrong += found.size() != expected[lane].size();
+      }
+    }
+    INFO(subject.name << ": " << wrong << " of " << all);
+    CHECK(wrong < 0.02 * all);
+  }
+}
+
+TEST_CASE("Bounds hold what is inside") {
+  Random random(13);
+  for (const Subject& subject : subjects()) {
+    if (subject.name == "plane") continue;
+    INFO(subject.name);
+    for (int round = 0; round < times(200); ++round) {
+      Object object = subject.object;
+      object.transform = random_transform(random);
+      const Aabb box = place_shape(object).bounds();
+      for (int i = 0; i < 200; ++i) {
+        const Vec3 own = random.point(1.2);
+        if (!subject.inside(own)) continue;
+        const Vec3 p = object.transform.point(own);
+        for (int axis = 0; axis < 3; ++axis) {
+          REQUIRE(p[axis] >= box.min[axis] - 1e-4);
+          REQUIRE(p[axis] <= box.max[axis] + 1e-4);
+        }
+      }
+    }
+  }
+}

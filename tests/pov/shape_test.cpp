@@ -1,0 +1,105 @@
+// The shapes that are a name and a list of numbers.
+#include <catch2/catch.hpp>
+
+#include "pov/parsing.hpp"
+
+using namespace celltrace;
+using test::error_line;
+using test::parse;
+
+namespace {
+
+template <class T> T only(const std::string& text) {
+  const Scene scene = parse(text);
+  REQUIRE(scene.objects.size() == 1);
+  return std::get<T>(scene.objects[0].shape);
+}
+
+} // namespace
+
+TEST_CASE("boxes") {
+  const Box box = only<Box>("box { <1, 2, 3>, <-4, 5, 6> }");
+  CHECK(box.corner[0] == Vec3(1, 2, 3));
+  CHECK(box.corner[1] == Vec3(-4, 5, 6));
+  CHECK(only<Box>("box { 0, 1 }").corner[1] == Vec3(1, 1, 1));
+}
+
+TEST_CASE("planes") {
+  const Plane plane = only<Plane>("plane { <0, 3, 4>, -2 }");
+  CHECK(plane.normal == Vec3(0, 3, 4));
+  CHECK(plane.distance == -2);
+  CHECK(only<Plane>("plane { y, 0 }").normal == Vec3(0, 1, 0));
+}
+
+TEST_CASE("discs, with a hole or without") {
+  Disc disc = only<Disc>("disc { <1, 2, 3>, z, 4 }");
+  CHECK(disc.centre == Vec3(1, 2, 3));
+  CHECK(disc.normal == Vec3(0, 0, 1));
+  CHECK(disc.radius == 4);
+  CHECK(disc.hole_radius == 0);
+  CHECK(only<Disc>("disc { 0, z, 4, 2.5 }").hole_radius == 2.5);
+  CHECK(only<Disc>("disc { 0, 0, 4 }").radius == 0);
+}
+
+TEST_CASE("cylinders and cones, open or closed") {
+  const Cylinder cylinder = only<Cylinder>("cylinder { <1, 2, 3>, 2*y, 0.5 }");
+  CHECK(cylinder.base == Vec3(1, 2, 3));
+  CHECK(cylinder.cap == Vec3(0, 2, 0));
+  CHECK(cylinder.radius == 0.5);
+  CHECK_FALSE(cylinder.open);
+  CHECK(only<Cylinder>("cylinder { 0 y 1 open pigment { rgb 1 } }").open);
+  const Cone cone = only<Cone>("cone { x, 3, <1, 2, 3>, 0.25 }");
+  CHECK(cone.base == Vec3(1, 0, 0));
+  CHECK(cone.base_radius == 3);
+  CHECK(cone.cap == Vec3(1, 2, 3));
+  CHECK(cone.cap_radius == 0.25);
+  CHECK_FALSE(cone.open);
+  CHECK(only<Cone>("cone { 0, 1, y, 0 open scale 2 }").open);
+}
+
+TEST_CASE("tori") {
+  const Torus torus = only<Torus>("torus { 2, 0.5 sturm rotate 90*x }");
+  CHECK(torus.major_radius == 2);
+  CHECK(torus.minor_radius == 0.5);
+  CHECK(parse("torus { 1, 0 } torus { 0, 1 } torus { -1, 0.2 } torus { 1, -0.2 }").objects.empty());
+}
+
+TEST_CASE("every shape takes modifiers and can be declared") {
+  const Scene scene = parse("#declare B = box { 0, 1 pigment { rgb 1 } translate x } "
+                            "box { B translate y } object { B inverse } object { box { B inverse } inverse } "
+                            "cone { B no_shadow }");
+  REQUIRE(scene.objects.size() == 4);
+  CHECK(scene.objects[0].transform.point({0, 0, 0}) == Vec3(1, 1, 0));
+  CHECK_FALSE(scene.objects[0].inverse);
+  CHECK(scene.objects[1].inverse);
+  CHECK_FALSE(scene.objects[2].inverse);
+  CHECK(scene.objects[3].no_shadow);
+  CHECK(std::holds_alternative<Box>(scene.objects[3].shape));
+}
+
+TEST_CASE("wrong arguments name the shape and what it takes") {
+  CHECK(error_line("box { 0 }") ==
+        "scene.pov:1:1: error: expected 'box { <corner>, <corner> }', found 1 argument");
+  CHECK(error_line("torus { 1, 2, 3 }") ==
+        "scene.pov:1:1: error: expected 'torus { major radius, minor radius }', found 3 arguments");
+  CHECK(error_line("disc { 0, z }") ==
+        "scene.pov:1:1: error: expected 'disc { <centre>, <normal>, radius[, hole "
+        "radius] }', found 2 arguments");
+  CHECK(error_line("cone { 0, 1, y, z }") ==
+        "scene.pov:1:17: error: expected 'cone { <base>, radius, <cap>, radius "
+        "[open] }', found a vector as radius");
+  CHECK(error_line("cylinder { }") == "scene.pov:1:12: error: unexpected '}', expected a number");
+  CHECK(error_line("plane { y, 0, pigment { rgb 1 } }") ==
+        "scene.pov:1:15: error: unexpected 'pigment', expected a number");
+  CHECK(error_line("plane { y, 1/0 }") == "scene.pov:1:12: error: this number is not finite");
+  CHECK(error_line("box { 0, 1 open }") == "scene.pov:1:1: error: a box cannot be open");
+  CHECK(error_line("cylinder { 0, y, 1 scale 2 open }") == "scene.pov:1:28: error: unexpected 'open'");
+}
+
+TEST_CASE("degenerate shapes that POV-Ray refuses") {
+  CHECK(error_line("plane { 0, 1 }") == "scene.pov:1:1: error: this plane's normal has no direction");
+  CHECK(error_line("cylinder { y, y, 1 }") ==
+        "scene.pov:1:1: error: this cylinder's ends are the same point");
+  CHECK(error_line("cone { y, 1, y, 0 }") == "scene.pov:1:1: error: this cone's ends are the same point");
+  CHECK(error_line("cone { 0, 1, y, -1 }") == "scene.pov:1:1: error: a cone's radii must not be negative");
+}
