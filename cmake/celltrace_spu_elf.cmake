@@ -48,7 +48,9 @@ function(celltrace_spu_elf name)
     COMMENT "Compiling ${name} for the SPU" VERBATIM)
   set(modules "")
   if(ELF_MODULES)
-    set(modules ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../backends/spu/modules.S -Wl,-T,${ELF_MODULES})
+    set(modules ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../backends/spu/modules.S
+      -Wl,-T,${ELF_MODULES} -Wl,-u,__ovly_load -Wl,-u,__ovly_return
+      -Wl,--emit-stub-syms) # stubs are made when unused sections are gone
   endif()
   add_custom_command(
     OUTPUT ${base}.elf
@@ -83,7 +85,8 @@ function(celltrace_spu_budget_test test name)
   get_property(said_code GLOBAL PROPERTY CELLTRACE_${name}_CODE_BYTES)
   get_property(said_stack GLOBAL PROPERTY CELLTRACE_${name}_STACK_BYTES)
   string(REGEX REPLACE "g\\+\\+$" "size" size_tool ${CELLTRACE_SPU_GXX})
+  string(REGEX REPLACE "g\\+\\+$" "nm" nm_tool ${CELLTRACE_SPU_GXX})
   add_test(NAME ${test} COMMAND ${CMAKE_COMMAND}
     -DELF=${base}.elf -DSTACK=${base}.stack.txt -DARENA=${arena} -DSAID_CODE=${said_code}
-    -DSAID_STACK=${said_stack} -DSIZE_TOOL=${size_tool} -P ${check})
+    -DSAID_STACK=${said_stack} -DSIZE_TOOL=${size_tool} -DNM_TOOL=${nm_tool} -P ${check})
 endfunction()

@@ -1,7 +1,7 @@
 # Prints what a program takes of an SPE's local store, and fails if that is more than there is.
 #
 #   cmake -DELF=... -DSTACK=... -DARENA=bytes [-DSAID_CODE=bytes -DSAID_STACK=bytes] -DSIZE_TOOL=spu-elf-size
-#     -P check_budget.cmake
+#     -DNM_TOOL=spu-elf-nm     -P check_budget.cmake
 #
 # SAID_... is what the emulator takes the program's code with its data, and its stack, to be: they may not be more.
 # STACK is what the linker printed with --stack-analysis: the worst call chain from the entry, crt0 included.
@@ -29,6 +29,22 @@ foreach(module ${modules})
   endif()
 endforeach()
 math(EXPR code "${code} + ${region}")
+
+# A call from one module into another would return to where the first one no longer is. The linker's stubs for such
+# calls lie in the modules themselves.
+if(modules)
+  string(REGEX MATCH "\\.module\\.[a-z]+ +[0-9]+ +([0-9]+)" first "${sections}")
+  set(region_at ${CMAKE_MATCH_1})
+  execute_process(COMMAND ${NM_TOOL} ${ELF} OUTPUT_VARIABLE symbols)
+  string(REGEX MATCHALL "[0-9a-f]+ [a-zA-Z] [0-9a-f]+\\.ovl_call[^\n]*" stubs "${symbols}")
+  foreach(stub ${stubs})
+    string(REGEX MATCH "^[0-9a-f]+" at ${stub})
+    math(EXPR at "0x${at}")
+    if(NOT at LESS region_at)
+      message(FATAL_ERROR "a code module of ${ELF} calls another one: ${stub}")
+    endif()
+  endforeach()
+endif()
 
 file(READ ${STACK} analysis)
 if(NOT analysis MATCHES "Maximum stack required is (0x[0-9a-f]+)")

@@ -17,7 +17,7 @@ constexpr uint32_t kNoGroup = 0xFFFFFFFFu;
 
 /// What an object record describes; low byte of ObjectRecord::kind_and_flags: the place of a shape in the list
 /// of primitives/list.hpp, of which these are the first.
-enum class ObjectKind : uint32_t { sphere = 0, ellipsoid = 1, triangle = 2 };
+enum class ObjectKind : uint32_t { sphere = 0, triangle = 1, plane = 2, ellipsoid = 3 };
 constexpr uint32_t kMaxPrimitives = 16;
 
 namespace object_flag {

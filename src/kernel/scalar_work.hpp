@@ -39,7 +39,8 @@ constexpr ScalarWork kRayAlone = {51, 6, 44, 36, 6, 0, 83, 40, "kRayAlone"};
 constexpr ScalarWork kTestSphere = {76, 0, 244, 0, 4, 3, 0, 41, "kTestSphere"};
 constexpr ScalarWork kTestEllipsoid = {104, 14, 305, 20, 2, 0, 124, 13, "kTestEllipsoid"};
 constexpr ScalarWork kTestTriangle = {158, 0, 513, 4, 17, 7, 36, 36, "kTestTriangle"};
-constexpr ScalarWork kTest[3] = {kTestSphere, kTestEllipsoid, kTestTriangle};
+constexpr ScalarWork kTestPlane = {60, 0, 160, 0, 4, 3, 0, 30, "kTestPlane"};
+constexpr ScalarWork kTest[4] = {kTestSphere, kTestTriangle, kTestPlane, kTestEllipsoid};
 /// Merging its result into the closest hits.
 constexpr ScalarWork kClosest = {27, 0, 18, 0, 11, 5, 21, 46, "kClosest"};
 /// Merging its result into the occlusion of shadow rays.
@@ -80,11 +81,11 @@ constexpr ScalarWork kChild = {134, 0, 102, 60, 16, 0, 234, 105, "kChild"};
 constexpr ScalarWork kBoundsOfSphere = {127, 28, 70, 81, 12, 0, 358, 67, "kBoundsOfSphere"};
 constexpr ScalarWork kBoundsOfEllipsoid = {125, 54, 63, 76, 12, 0, 347, 78, "kBoundsOfEllipsoid"};
 constexpr ScalarWork kBoundsOfTriangle = {125, 54, 63, 77, 13, 1, 346, 84, "kBoundsOfTriangle"};
-constexpr ScalarWork kBounds[3] = {kBoundsOfSphere, kBoundsOfEllipsoid, kBoundsOfTriangle};
+constexpr ScalarWork kBounds[4] = {kBoundsOfSphere, kBoundsOfTriangle, kBoundsOfSphere, kBoundsOfEllipsoid};
 constexpr ScalarWork kOverlapOfSphere = {64, 28, 36, 32, 16, 0, 160, 183, "kOverlapOfSphere"};
 constexpr ScalarWork kOverlapOfEllipsoid = {190, 75, 62, 71, 24, 0, 403, 156, "kOverlapOfEllipsoid"};
 constexpr ScalarWork kOverlapOfTriangle = {461, 150, 174, 182, 85, 7, 802, 768, "kOverlapOfTriangle"};
-constexpr ScalarWork kOverlap[3] = {kOverlapOfSphere, kOverlapOfEllipsoid, kOverlapOfTriangle};
+constexpr ScalarWork kOverlap[4] = {kOverlapOfSphere, kOverlapOfTriangle, kOverlapOfSphere, kOverlapOfEllipsoid};
 /// A pair of voxel and object: written, counted and placed by a pass of the radix sort, entered into a list.
 constexpr ScalarWork kEmitPair = {19, 0, 14, 14, 4, 2, 54, 17, "kEmitPair"};
 constexpr ScalarWork kCountPair = {11, 0, 4, 4, 5, 3, 17, 9, "kCountPair"};

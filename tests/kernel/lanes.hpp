@@ -4,6 +4,7 @@
 #include "celltrace/scene.hpp"
 #include "direct_spu.hpp"
 #include "kernel/packet.hpp"
+#include "kernel/primitives/list.hpp"
 
 #include <random>
 
@@ -28,6 +29,15 @@ inline kernel::VectorLanes lanes_of(const Vec& values) {
   kernel::VectorLanes lanes;
   lanes.store<Simd>(values);
   return lanes;
+}
+/// The first two crossings of a packet with an object without further records.
+inline kernel::Crossings<Simd> intersect(const kernel::RayPacket& rays, const kernel::ObjectRecord& object,
+                                         std::uint32_t self) {
+  kernel::Crossings<Simd> crossings[kernel::kMaxCrossingPairs];
+  kernel::Primitives::dispatch(object.kind_and_flags & kernel::object_flag::kind_mask, [&](auto shape) {
+    decltype(shape)::template intersect<Simd>(rays, object, {}, self, crossings);
+  });
+  return crossings[0];
 }
 inline Vec3 at(const kernel::VectorLanes& v, unsigned lane) {
   return {v.x.lane[lane], v.y.lane[lane], v.z.lane[lane]};

@@ -78,10 +78,7 @@ void for_each_ray(const Subject& subject, Next next, bool start_here, Check chec
     set(rays.direction, l, ray.direction);
     rays.start_object.lane[l] = start_here ? 640 : kNoOffset;
   }
-  Crossings<Simd> c = Crossings<Simd>::none();
-  Primitives::dispatch(subject.record.kind_and_flags & object_flag::kind_mask, [&](auto shape) {
-    decltype(shape)::template intersect<Simd>(rays, subject.record, {}, 640, &c);
-  });
+  const Crossings<Simd> c = intersect(rays, subject.record, 640);
   const FloatLanes near = lanes_of(c.near), far = lanes_of(c.far), u = lanes_of(c.u), v = lanes_of(c.v);
   for (unsigned l = 0; l < kSimdLanes; ++l)
     check(Lane{{at(rays.origin, l), at(rays.direction, l)},
@@ -247,7 +244,7 @@ TEST_CASE("Neighbouring triangles leave no gap") {
       rays.start_object.lane[l] = kNoOffset;
     }
     for (const Subject& s : fan)
-      hit |= intersect<Simd>(rays, s.record, 64).near_hit.bits();
+      hit |= intersect(rays, s.record, 64).near_hit.bits();
     REQUIRE(hit == 0xFFFF);
   }
 }

@@ -140,7 +140,7 @@ TEST_CASE("Packets see the triangles that their rays to a light cross, and cross
       const std::uint32_t seen_by = viewed.seen_by(i, bundle.view);
       for_each_lane(bundle.packets, [&](std::uint32_t packet) {
         const RayPacket& rays = shadows.rays[packet];
-        const Crossings<Simd> c = intersect<Simd>(rays, records[i], 64 * (i + 1));
+        const Crossings<Simd> c = intersect(rays, records[i], 64 * (i + 1));
         const std::uint32_t lanes = shadows.queries[packet].lanes;
         const std::uint32_t hits = c.near_hit.bits() & between(c.near, shadows.distance[packet]) & lanes;
         INFO("triangle " << i << ", packet " << packet

@@ -160,8 +160,8 @@ TEST_CASE("Rays cross every shape where they change sides") {
       }
     }
     INFO(subject.name);
-    CHECK(compared > 0.985 * times(160) * kSimdLanes);
-    CHECK(crossed > times(160) * kSimdLanes / 2);
+    CHECK(compared > 0.985 * times(160) * int{kSimdLanes});
+    CHECK(crossed > times(160) * int{kSimdLanes} / 2);
   }
 }
 

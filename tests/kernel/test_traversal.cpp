@@ -90,7 +90,7 @@ void brute_closest(const PreparedScene& scene, TraversalQuery& q) {
     q.hits.object.lane[l] = kNoOffset;
   }
   for (std::uint32_t i = 0; i < scene.object_count(); ++i) {
-    const Crossings<Simd> c = intersect<Simd>(q.rays, scene.object(i), scene.object_offset(i));
+    const Crossings<Simd> c = intersect(q.rays, scene.object(i), scene.object_offset(i));
     const FloatLanes near = lanes_of(c.near), far = lanes_of(c.far);
     for_each_lane(q.lanes, [&](unsigned l) {
       const auto meet = [&](std::uint32_t hit, float t) {
@@ -121,7 +121,7 @@ Vec3 brute_light(const PreparedScene& scene, const TraversalQuery& q, unsigned l
   for (std::uint32_t i = 0; i < scene.object_count(); ++i) {
     const ObjectRecord& object = scene.object(i);
     if ((object.kind_and_flags & object_flag::no_shadow) != 0) continue;
-    const Crossings<Simd> c = intersect<Simd>(q.rays, object, scene.object_offset(i));
+    const Crossings<Simd> c = intersect(q.rays, object, scene.object_offset(i));
     const Vec3 filter = filter_of(scene, object, lanes_of(c.u).lane[l], lanes_of(c.v).lane[l]);
     const auto cross = [&](const M& hit, const F& t) {
       const float at = lanes_of(t).lane[l];

@@ -374,7 +374,7 @@ std::vector<std::vector<float>> contents(const SceneImage& image) {
     words.insert(words.end(), object.geometry, object.geometry + 12);
     if ((object.kind_and_flags & object_flag::smooth) != 0) {
       const auto& normals = *table<ExtraRecord>(image, object.extra);
-      words.insert(words.end(), normals.normal, normals.normal + 9);
+      words.insert(words.end(), normals.value, normals.value + 9);
     } else {
       CHECK(object.extra == kNoOffset);
     }

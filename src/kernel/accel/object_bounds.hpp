@@ -28,9 +28,10 @@ inline bool overlaps(const ObjectRecord& object, const Aabb& box, const ExtraRec
   return result;
 }
 
-/// Of shapes without charges of their own: that of the ellipsoid, which is most like them.
+/// Whose charges a kind has: shapes without any of their own have those of the ellipsoid, which is most like them.
 inline uint32_t charged_kind(uint32_t kind) {
-  return kind <= static_cast<uint32_t>(ObjectKind::triangle) ? kind : static_cast<uint32_t>(ObjectKind::ellipsoid);
+  constexpr auto kLast = static_cast<uint32_t>(ObjectKind::ellipsoid);
+  return kind < kLast ? kind : kLast;
 }
 
 /// Calls `visit(cell)` for each voxel that the object touches. Voxels count as a little larger than they are,

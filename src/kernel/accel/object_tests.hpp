@@ -183,12 +183,10 @@ private:
             (c.far_hit & (c.far > low) & (c.far < high)).bits()};
   }
 
-  /// Spheres and triangles that are no parts of a CSG: their code is always there, and their test reads no
-  /// further record.
+  /// Spheres, triangles and planes that are no parts of a CSG: their code is always there, and their test
+  /// reads no further record.
   static bool is_simple(uint32_t flags) {
-    static_assert(static_cast<uint32_t>(ObjectKind::sphere) == 0 &&
-                  static_cast<uint32_t>(ObjectKind::triangle) == 2);
-    return (flags & (object_flag::kind_mask | object_flag::csg) & ~2u) == 0;
+    return (flags & (object_flag::kind_mask | object_flag::csg)) <= static_cast<uint32_t>(ObjectKind::plane);
   }
 
   /// As occluded(), for crossings with the object.
@@ -303,8 +301,10 @@ private:
     Crossings<S> c;
     if (static_cast<ObjectKind>(kind) == ObjectKind::triangle)
       TrianglePrimitive::intersect<S>(rays, object, {}, self, &c);
-    else
+    else if (static_cast<ObjectKind>(kind) == ObjectKind::sphere)
       SpherePrimitive::intersect<S>(rays, object, {}, self, &c);
+    else
+      c = intersect_plane<S>(rays, object, self);
     return c;
   }
 

@@ -12,7 +12,8 @@ struct BoxPrimitive : LocalPrimitive<BoxPrimitive> {
 
   /// The slab test (Kay and Kajiya 1986).
   template <class S>
-  static void intersect_local(const LocalRays<S>& rays, const LocalParameters<S>&, Crossings<S>* crossings) {
+  static void intersect_local(const LocalRays<S>& rays, const LocalParameters<S>& parameters,
+                              Crossings<S>* crossings) {
     using F = typename S::F;
     const F low(-1.0f), high(1.0f);
     const V3<S>&o = rays.origin, &d = rays.direction;
@@ -22,7 +23,7 @@ struct BoxPrimitive : LocalPrimitive<BoxPrimitive> {
     c.near = S::max(S::max(x.enter, y.enter), z.enter);
     c.far = S::min(S::min(x.leave, y.leave), z.leave);
     c.near_hit = c.far_hit = c.near <= c.far;
-    drop_start<S>(rays.starts_here, S::sqrt(dot<S>(d, d)), c);
+    drop_start<BoxPrimitive, S>(rays, parameters, c);
   }
 
   template <class S> static typename S::M inside_local(const V3<S>& p, const LocalParameters<S>&) {
@@ -31,7 +32,7 @@ struct BoxPrimitive : LocalPrimitive<BoxPrimitive> {
   }
 
   /// The face is the one whose plane is nearest.
-  template <class S> static V3<S> gradient(const V3<S>& p, const LocalParameters<S>&) {
+  template <class S> [[gnu::always_inline]] static V3<S> gradient(const V3<S>& p, const LocalParameters<S>&) {
     using F = typename S::F;
     const F x = S::abs(p.x), y = S::abs(p.y), z = S::abs(p.z), zero(0.0f);
     const auto is_x = (x >= y) & (x >= z);

@@ -49,7 +49,7 @@ struct ConePrimitive : LocalPrimitive<ConePrimitive> {
     c.far_hit = (parameters.open & between(high)) | (solid & !parameters.open);
     c.near = near + shift;
     c.far = far + shift;
-    drop_start<S>(rays.starts_here, S::sqrt(length_square), c);
+    drop_start<ConePrimitive, S>(rays, parameters, c);
   }
 
   template <class S> static typename S::M inside_local(const V3<S>& p, const LocalParameters<S>& parameters) {
@@ -57,7 +57,8 @@ struct ConePrimitive : LocalPrimitive<ConePrimitive> {
     return (p.x * p.x + p.y * p.y < p.z * p.z) & (p.z > parameters.ratio) & (p.z < F(1.0f));
   }
 
-  template <class S> static V3<S> gradient(const V3<S>& p, const LocalParameters<S>& parameters) {
+  template <class S>
+  [[gnu::always_inline]] static V3<S> gradient(const V3<S>& p, const LocalParameters<S>& parameters) {
     using F = typename S::F;
     const F zero(0.0f), one(1.0f);
     const F from_side = S::abs(p.z - S::sqrt(p.x * p.x + p.y * p.y)) * F(0.70710678f);

@@ -41,7 +41,7 @@ struct CylinderPrimitive : LocalPrimitive<CylinderPrimitive> {
     };
     c.near_hit = (parameters.open & between(enter)) | (solid & !parameters.open);
     c.far_hit = (parameters.open & between(leave)) | (solid & !parameters.open);
-    drop_start<S>(rays.starts_here, S::sqrt(dot<S>(d, d)), c);
+    drop_start<CylinderPrimitive, S>(rays, parameters, c);
   }
 
   template <class S> static typename S::M inside_local(const V3<S>& p, const LocalParameters<S>&) {
@@ -49,7 +49,8 @@ struct CylinderPrimitive : LocalPrimitive<CylinderPrimitive> {
     return (p.x * p.x + p.y * p.y < F(1.0f)) & (p.z > F(0.0f)) & (p.z < F(1.0f));
   }
 
-  template <class S> static V3<S> gradient(const V3<S>& p, const LocalParameters<S>& parameters) {
+  template <class S>
+  [[gnu::always_inline]] static V3<S> gradient(const V3<S>& p, const LocalParameters<S>& parameters) {
     using F = typename S::F;
     const F zero(0.0f), one(1.0f);
     const F from_side = S::abs(one - S::sqrt(p.x * p.x + p.y * p.y));

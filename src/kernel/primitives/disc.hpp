@@ -28,7 +28,7 @@ struct DiscPrimitive : LocalPrimitive<DiscPrimitive> {
     return p.z < typename S::F(0.0f);
   }
 
-  template <class S> static V3<S> gradient(const V3<S>&, const LocalParameters<S>&) {
+  template <class S> [[gnu::always_inline]] static V3<S> gradient(const V3<S>&, const LocalParameters<S>&) {
     using F = typename S::F;
     return {F(0.0f), F(0.0f), F(1.0f)};
   }

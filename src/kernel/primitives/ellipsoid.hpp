@@ -27,7 +27,7 @@ struct EllipsoidPrimitive : LocalPrimitive<EllipsoidPrimitive> {
   }
 
   /// The point is moved to the sphere first: it may be far from it by what rounding does to long rays.
-  template <class S> static V3<S> gradient(const V3<S>& p, const LocalParameters<S>&) {
+  template <class S> [[gnu::always_inline]] static V3<S> gradient(const V3<S>& p, const LocalParameters<S>&) {
     return normalise<S>(p);
   }
 

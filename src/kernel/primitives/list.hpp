@@ -54,7 +54,7 @@ private:
 };
 
 using Primitives =
-    PrimitiveList<SpherePrimitive, EllipsoidPrimitive, TrianglePrimitive, PlanePrimitive, DiscPrimitive,
+    PrimitiveList<SpherePrimitive, TrianglePrimitive, PlanePrimitive, EllipsoidPrimitive, DiscPrimitive,
                   BoxPrimitive, CylinderPrimitive, ConePrimitive, TorusPrimitive>;
 constexpr uint32_t kPrimitives = Primitives::kCount;
 static_assert(kPrimitives <= kMaxPrimitives, "a counter for each in ReportRecord");
@@ -62,6 +62,7 @@ static_assert(kPrimitives <= kMaxPrimitives, "a counter for each in ReportRecord
 template <class P> constexpr uint32_t kPrimitiveKind = Primitives::kind<P>();
 static_assert(kPrimitiveKind<SpherePrimitive> == static_cast<uint32_t>(ObjectKind::sphere) &&
                   kPrimitiveKind<EllipsoidPrimitive> == static_cast<uint32_t>(ObjectKind::ellipsoid) &&
+                  kPrimitiveKind<PlanePrimitive> == static_cast<uint32_t>(ObjectKind::plane) &&
                   kPrimitiveKind<TrianglePrimitive> == static_cast<uint32_t>(ObjectKind::triangle),
               "the kinds that have names");
 

@@ -51,20 +51,20 @@ template <class S> typename S::F finite_inverse(const typename S::F& x) {
   return F(1.0f) / S::select(S::abs(x) > least, x, S::select(x < F(0.0f), -least, least));
 }
 
-/// A ray that starts on a surface crosses it there, at a distance that is 0 but for rounding: of two
-/// crossings of a curved surface, that is the nearer one to the origin. `scale`: length of the direction.
-template <class S>
-void drop_start(const typename S::M& starts_here, const typename S::F& scale, Crossings<S>& c) {
-  using F = typename S::F;
-  // In units of the shape's size; far above rounding, far below the way through a shape to its other side.
-  constexpr float kStartEpsilon = 1e-3f;
-  const F near = S::abs(c.near), far = S::abs(c.far);
-  const auto near_is_start =
-      starts_here & c.near_hit & (near * scale < F(kStartEpsilon)) & ((near <= far) | !c.far_hit);
-  const auto far_is_start =
-      starts_here & c.far_hit & (far * scale < F(kStartEpsilon)) & ((far < near) | !c.near_hit);
-  c.near_hit = c.near_hit & !near_is_start;
-  c.far_hit = c.far_hit & !far_is_start;
+/// The rays that go into a shape from a point of its surface.
+template <class Shape, class S>
+[[gnu::always_inline]] inline typename S::M go_inward(const LocalRays<S>& rays,
+                                                      const LocalParameters<S>& parameters) {
+  return dot<S>(Shape::template gradient<S>(rays.origin, parameters), rays.direction) < typename S::F(0.0f);
+}
+
+/// Of a convex shape: a ray that starts on it does not enter it again, and leaves it only if it goes inward.
+/// The crossing at the origin itself is none, wherever rounding puts it.
+template <class Shape, class S>
+void drop_start(const LocalRays<S>& rays, const LocalParameters<S>& parameters, Crossings<S>& c) {
+  if (rays.starts_here.bits() == 0) return;
+  c.near_hit = c.near_hit & !rays.starts_here;
+  c.far_hit = c.far_hit & !(rays.starts_here & !go_inward<Shape, S>(rays, parameters));
 }
 
 /// Where rays are between the planes z = low and z = high.

@@ -5,6 +5,21 @@
 
 namespace celltrace::kernel {
 
+/// Of the map, only the third row: the unit normal, and minus the distance.
+template <class S>
+[[gnu::noinline]] Crossings<S> intersect_plane(const RayPacket& rays, const ObjectRecord& object,
+                                               uint32_t self) {
+  using F = typename S::F;
+  const V3<S> normal = splat3<S>(object.geometry + 8);
+  const F height = dot<S>(normal, rays.origin.template load<S>()) + F(object.geometry[11]);
+  const F slope = dot<S>(normal, rays.direction.template load<S>());
+  Crossings<S> c = Crossings<S>::none();
+  c.near = -height * finite_inverse<S>(slope);
+  // A ray that starts on a plane does not cross it again.
+  c.near_hit = (S::abs(slope) > F(1e-10f)) & !lanes_that_start_on<S>(rays, self);
+  return c;
+}
+
 struct PlanePrimitive : LocalPrimitive<PlanePrimitive> {
   static constexpr const char* kName = "plane";
   static constexpr uint32_t kCrossingPairs = 1;
@@ -25,7 +40,7 @@ struct PlanePrimitive : LocalPrimitive<PlanePrimitive> {
     return p.z < typename S::F(0.0f);
   }
 
-  template <class S> static V3<S> gradient(const V3<S>&, const LocalParameters<S>&) {
+  template <class S> [[gnu::always_inline]] static V3<S> gradient(const V3<S>&, const LocalParameters<S>&) {
     using F = typename S::F;
     return {F(0.0f), F(0.0f), F(1.0f)};
   }

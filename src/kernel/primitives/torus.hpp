@@ -41,13 +41,21 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
     for (int i = 1; i < 4; ++i)
       bounds[i] = S::min(S::max(bounds[i], -end), end);
     const F inverse_scale = one / scale;
+    // A ray that starts here goes inward, and leaves the torus next, or outward, and enters it next; another
+    // crossing before that is the start itself.
+    const auto inward =
+        rays.starts_here.bits() != 0 ? go_inward<TorusPrimitive, S>(rays, parameters) : S::M::none();
+    auto starts = rays.starts_here;
     F distance[4];
     typename S::M hit[4];
     F value = f.at(bounds[0]);
     for (int i = 0; i < 4; ++i) {
       const F next = f.at(bounds[i + 1]);
-      hit[i] = near_enough & (((value > zero) & (next <= zero)) | ((value <= zero) & (next > zero)));
+      const auto enters = (value > zero) & (next <= zero), leaves = (value <= zero) & (next > zero);
       distance[i] = (f.root_between(bounds[i], bounds[i + 1], value > zero) + shift) * inverse_scale;
+      const auto first = (distance[i] > zero) & ((inward & leaves) | (enters & !inward));
+      hit[i] = near_enough & (enters | leaves) & !(starts & !first);
+      starts = starts & !hit[i];
       value = next;
     }
     for (uint32_t pair = 0; pair < kCrossingPairs; ++pair) {
@@ -58,16 +66,6 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
       c.near_hit = hit[2 * pair];
       c.far_hit = hit[2 * pair + 1];
     }
-    // A ray starts where it enters or leaves; at most one of all four crossings is there.
-    F least(1e20f);
-    for (int i = 0; i < 4; ++i)
-      least = S::select(hit[i], S::min(least, S::abs(distance[i])), least);
-    for (uint32_t pair = 0; pair < kCrossingPairs; ++pair) {
-      Crossings<S>& c = crossings[pair];
-      drop_start<S>(rays.starts_here &
-                        ((c.near_hit & (S::abs(c.near) <= least)) | (c.far_hit & (S::abs(c.far) <= least))),
-                    scale, c);
-    }
   }
 
   template <class S> static typename S::M inside_local(const V3<S>& p, const LocalParameters<S>& parameters) {
@@ -76,7 +74,7 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
     return around * around + p.z * p.z < parameters.ratio * parameters.ratio;
   }
 
-  template <class S> static V3<S> gradient(const V3<S>& p, const LocalParameters<S>&) {
+  template <class S> [[gnu::always_inline]] static V3<S> gradient(const V3<S>& p, const LocalParameters<S>&) {
     using F = typename S::F;
     // From the nearest point of the circle in the tube's middle.
     const F inverse = F(1.0f) / S::max(S::sqrt(p.x * p.x + p.y * p.y), F(1e-20f));

@@ -46,11 +46,11 @@ template <class Spu, class S>
 void surface_of(Spu& spu, const ObjectLanes<S>& o, const V3<S>& along_ray, const HitPacket& hits,
                 V3<S>& point, V3<S>& normal) {
   const uint32_t spheres = o.of_kind[kPrimitiveKind<SpherePrimitive>],
-                 triangles = o.of_kind[kPrimitiveKind<TrianglePrimitive>];
+                 triangles = o.of_kind[kPrimitiveKind<TrianglePrimitive>],
+                 planes = o.of_kind[kPrimitiveKind<PlanePrimitive>];
   uint32_t others = 0;
   for (uint32_t kind = 0; kind < kPrimitives; ++kind)
-    if (kind != kPrimitiveKind<SpherePrimitive> && kind != kPrimitiveKind<TrianglePrimitive>)
-      others |= o.of_kind[kind];
+    if (kind > kPrimitiveKind<PlanePrimitive>) others |= o.of_kind[kind];
   if (spheres != 0) surface_of_spheres<S>(o, along_ray, point, normal);
   const auto add = [&](uint32_t lanes, const V3<S>& p, const V3<S>& n) {
     const auto mask = S::M::from_bits(lanes);
@@ -62,6 +62,7 @@ void surface_of(Spu& spu, const ObjectLanes<S>& o, const V3<S>& along_ray, const
     spu.enter_module(modules::kNormals);
     add(others, along_ray, module_normals::normal(spu, o, along_ray));
   }
+  if (planes != 0) add(planes, along_ray, {o.geometry[2].z, o.geometry[3].x, o.geometry[3].y});
   if (triangles != 0) {
     surface_of_triangles<S>(o, hits, p, n);
     add(triangles, p, n);
@@ -107,8 +108,7 @@ void find_hit_points(SceneAccess<Spu>& scene, const RayPacket& rays, const HitPa
     const M mask = M::from_bits(of_object);
     const auto put = [&](const float* values, V3<S>& into) { put_in_lanes<Spu>(first, mask, values, into); };
     const uint32_t kind = flags & object_flag::kind_mask;
-    const bool is_local = kind > static_cast<uint32_t>(ObjectKind::triangle) ||
-                          kind == static_cast<uint32_t>(ObjectKind::ellipsoid);
+    const bool is_local = kernel::is_local(kind);
     put(object.geometry, objects.geometry[0]);
     put(object.geometry + 3, objects.geometry[1]);
     if (kind != static_cast<uint32_t>(ObjectKind::sphere)) put(object.geometry + 6, objects.geometry[2]);
