@@ -53,6 +53,20 @@ const Rows kHardware = {
         .configured(be_lenient),
     kept(Rule::drained_queue, "who looks at the room, but waits for the tag",
          HardwareRow::drained_and_waited),
+    broken(Rule::drained_queue,
+           "what is read before that wait relies on the room, as only machine code shows",
+           HardwareRow::drained_get_read_and_waited, {"get 128 bytes"})
+        .of_machine_code(),
+    kept(Rule::drained_queue, "which a lenient machine does not mind",
+         HardwareRow::drained_get_read_and_waited)
+        .configured(be_lenient),
+    broken(Rule::drained_queue, "so does what is written before it",
+           HardwareRow::drained_put_changed_and_waited, {"put 128 bytes"})
+        .after([](Stage& stage, std::endian order) {
+          stage.is(load_word(order, stage.to), 7);
+          stage.is(load_word(order, stage.to + 32), 8);
+        }),
+    kept(Rule::drained_queue, "nor that", HardwareRow::drained_put_changed_and_waited).configured(be_lenient),
     broken(Rule::in_flight_at_exit, "room that is not all of the queue says nothing",
            HardwareRow::room_is_not_all, {"get 128 bytes"}),
 
