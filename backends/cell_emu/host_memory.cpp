@@ -1,7 +1,6 @@
 #include "backends/cell_emu/host_memory.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cinttypes>
 #include <cstdio>
 #include <fstream>
@@ -35,7 +34,6 @@ private:
 struct Maps {
   Ranges accessible[2]; ///< for reads, for writes
   bool known = false;   ///< the host tells
-  std::chrono::steady_clock::time_point read = std::chrono::steady_clock::now();
 };
 
 Maps read_maps() {
@@ -67,11 +65,10 @@ Shared& shared() {
 
 } // namespace
 
-void forget_old_memory() {
-  constexpr std::chrono::milliseconds kOld(100);
+void forget_memory() {
   Shared& all = shared();
   const std::lock_guard lock(all.mutex);
-  if (std::chrono::steady_clock::now() - all.maps.read > kOld) all.maps = {};
+  all.maps = {};
 }
 
 std::optional<MemoryRange> accessible_memory(ea_t ea, std::uint32_t size, bool write) {

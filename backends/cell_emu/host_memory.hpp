@@ -1,10 +1,10 @@
 // What of the host's address space can be read and written: main memory, as far as the host tells.
 //
-// On Linux that is /proc/self/maps, read when an address is met that is not known to be accessible, and when
-// a program starts later than 0.1 s after the last time. In between what is known is kept, as to ask for
-// every command would take longer than the command: memory that the process gives back while the program
-// runs, or right before, still counts as accessible, and a command that touches it ends as an access by the
-// host would. On other hosts everything counts as accessible.
+// On Linux that is /proc/self/maps, read by each program for itself when it meets an address that is not known
+// to be accessible. What is known is kept while the program runs, as to ask for every command would take
+// longer than the command: memory that the process gives back meanwhile still counts as accessible, and a
+// command that touches it ends as an access by the host would. On other hosts everything counts as
+// accessible.
 #pragma once
 
 #include "celltrace/spe/types.hpp"
@@ -25,8 +25,8 @@ struct MemoryRange {
 /// is accessible. Thread-safe.
 std::optional<MemoryRange> accessible_memory(ea_t ea, std::uint32_t size, bool write);
 
-/// Forgets what is known if that is old. Thread-safe.
-void forget_old_memory();
+/// Forgets what is known. Thread-safe.
+void forget_memory();
 
 /// Remembers the ranges of the last answers. Thread safety: none.
 class HostMemory {
@@ -41,7 +41,7 @@ public:
 
   void forget() {
     last_[0] = last_[1] = {};
-    forget_old_memory();
+    forget_memory();
   }
 
 private:

@@ -95,7 +95,7 @@ void Mfc::finish(Cycle now) {
     Diagnostic diagnostic;
     if (!flight.drained)
       report_left({flight.transfer, flight.command, flight.site, false, 0});
-    else if (note_drained(flight, diagnostic, now) && diagnostic.action == Action::stop && !first)
+    else if (note_drained(FlightInfo(flight), diagnostic, now) && diagnostic.action == Action::stop && !first)
       first = diagnostic;
   }
   // A stopped list of which the program has seen all that was transferred has no flight, but is not done.

@@ -106,6 +106,11 @@ public:
     std::uint64_t command = 0;
     MfcCommand transfer{};
     CallSite site;
+    bool drained = false; ///< it is complete, and the program has seen that the queue is empty
+
+    FlightInfo() = default;
+    explicit FlightInfo(const Flight& flight)
+        : command(flight.command), transfer(flight.transfer), site(flight.site), drained(flight.drained) {}
   };
   /// A get in flight that targets all of the quadword at `lsa`. A load of which only a part is in flight may
   /// be meant for the other part.
@@ -191,8 +196,8 @@ private:
   void report_touched(const Flight& flight, Cycle now);
   void verify(const Flight& flight, Cycle now);
   /// The program relies on what only the count of the queue has told it. False if that is not reported.
-  bool note_drained(const Flight& flight, Diagnostic& diagnostic, Cycle now);
-  void report_drained(const Flight& flight, Cycle now);
+  bool note_drained(const FlightInfo& flight, Diagnostic& diagnostic, Cycle now);
+  void report_drained(const FlightInfo& flight, Cycle now);
   /// The program knows that the flights of which `seen(flight)` is true are complete.
   template <class Seen> void observe_if(Seen seen, Cycle now);
   /// What of a list has been transferred.

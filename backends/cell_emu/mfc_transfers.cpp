@@ -72,7 +72,7 @@ void Mfc::depart(const Entry& entry, const MfcCommand& transfer, Cycle now) {
     }
     if (other.drained) {
       other.shared = true;
-      report_drained(other, now);
+      report_drained(FlightInfo(other), now);
       continue;
     }
     report_conflict(entry, transfer, {spe_, other.command, other.transfer, other.site, overlap.local}, now);
@@ -121,14 +121,15 @@ void Mfc::report_access(const FlightInfo& flight, Rule rule, const std::string& 
 
 std::optional<Mfc::FlightInfo> Mfc::get_in_flight(std::uint32_t lsa) const {
   for (const Flight& flight : context_.flights.of(spe_))
-    if (!flight.proxy && !flight.drained && flight.writes_local_store() && flight.transfer.lsa <= lsa &&
+    if (!flight.proxy && flight.writes_local_store() && flight.transfer.lsa <= lsa &&
         flight.transfer.lsa + flight.bytes() >= lsa + 16)
-      return FlightInfo{flight.command, flight.transfer, flight.site};
+      return FlightInfo(flight);
   return std::nullopt;
 }
 
 void Mfc::report_early_load(const FlightInfo& flight, std::uint32_t lsa, CallSite load, CallSite use,
                             Cycle now) {
+  if (flight.drained) return report_drained(flight, now);
   report_access(flight, Rule::get_target_read,
                 "load of LS " + to_hex(lsa) + ", used at " + to_text(use) + ",", load, now);
 }
@@ -138,14 +139,16 @@ void Mfc::check_store(std::uint32_t lsa, const std::uint8_t* bytes, CallSite sit
     Flight& flight = context_.flights.at(spe_, i);
     const std::uint32_t begin = std::max(lsa, flight.transfer.lsa);
     const std::uint32_t end = std::min(lsa + 16, flight.transfer.lsa + flight.bytes());
-    if (flight.proxy || flight.drained || begin >= end) continue;
+    if (flight.proxy || begin >= end) continue;
     const bool get = flight.writes_local_store();
     if (!get && std::memcmp(bus_.map().local_store(spe_) + begin, bytes + (begin - lsa), end - begin) == 0)
       continue;
     flight.shared = true; // said once
-    report_access({flight.command, flight.transfer, flight.site},
-                  get ? Rule::get_target_touched : Rule::put_source_changed, "store to LS " + to_hex(lsa),
-                  site, now);
+    if (flight.drained)
+      report_drained(FlightInfo(flight), now);
+    else
+      report_access(FlightInfo(flight), get ? Rule::get_target_touched : Rule::put_source_changed,
+                    "store to LS " + to_hex(lsa), site, now);
   }
 }
 
@@ -173,7 +176,7 @@ void Mfc::verify(const Flight& flight, Cycle now) {
       checksum(local_store(flight.transfer), flight.bytes()) == flight.hash)
     return;
   if (flight.drained)
-    report_drained(flight, now);
+    report_drained(FlightInfo(flight), now);
   else
     report_touched(flight, now);
 }
@@ -276,7 +279,7 @@ void Mfc::observe_empty_queue(CallSite site, Cycle now) {
   });
 }
 
-bool Mfc::note_drained(const Flight& flight, Diagnostic& diagnostic, Cycle now) {
+bool Mfc::note_drained(const FlightInfo& flight, Diagnostic& diagnostic, Cycle now) {
   // What a program does once it does everywhere.
   if (drain_reported_) return false;
   drain_reported_ = true;
@@ -286,7 +289,7 @@ bool Mfc::note_drained(const Flight& flight, Diagnostic& diagnostic, Cycle now) 
   return context_.log.note(diagnostic, what + ": " + std::string(text_of(Rule::drained_queue)));
 }
 
-void Mfc::report_drained(const Flight& flight, Cycle now) {
+void Mfc::report_drained(const FlightInfo& flight, Cycle now) {
   Diagnostic diagnostic;
   if (note_drained(flight, diagnostic, now) && diagnostic.action == Action::stop)
     throw RuleViolation(diagnostic);

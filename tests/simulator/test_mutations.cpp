@@ -1,7 +1,8 @@
-// Programs damaged at random: the loader refuses each with a reason or keeps its promises. The sanitizers
-// watch.
+// Programs damaged at random: the loader refuses each with a reason or keeps its promises, and the SPU ends
+// each in some way that a report has words for. The sanitizers watch.
 #include "backends/cell_emu/simulator/code_places.hpp"
 #include "celltrace/error.hpp"
+#include "celltrace/simulator.hpp"
 #include "simulator/elf_image.hpp"
 
 #include <catch2/catch.hpp>
@@ -85,5 +86,41 @@ TEST_CASE("a hand-made program survives damage") {
 #ifdef CELLTRACE_SIMULATOR_PROGRAMS
 TEST_CASE("a compiled program survives damage") {
   survive_mutations(read_file(CELLTRACE_SIMULATOR_PROGRAMS "/lines.elf"));
+}
+
+namespace {
+
+/// Instructions and data are changed, and the program is run. Effective addresses are pointers of this
+/// process: the program must have no DMA of its own, so that a few damaged bytes cannot make up a whole
+/// command.
+void run_mutations(const Bytes& image, int count) {
+  std::mt19937 random(20060317);
+  const SpuElf elf(image);
+  MachineConfig config = simulated(1);
+  config.emulation.cycle_limit = 300000;
+  int ended = 0, broken = 0;
+  for (int i = 0; i < count; ++i) {
+    Bytes mutation = image;
+    for (std::size_t n = 1 + random() % 4; n > 0; --n) {
+      const auto content = elf.segments()[random() % 8 == 0 ? elf.segments().size() - 1 : 0].content;
+      const auto start = static_cast<std::size_t>(content.data() - elf.image().data());
+      mutation[start + random() % content.size()] = static_cast<std::uint8_t>(random());
+    }
+    const SimulatedRun run = simulate(config, mutation);
+    CHECK(run.errors.size() == 1);
+    ended += run.errors[0].empty() ? 1 : 0;
+    broken += run.diagnostics.empty() ? 0 : 1;
+    for (const Diagnostic& diagnostic : run.diagnostics)
+      CHECK_FALSE(diagnostic.text.empty());
+  }
+  // Not all of the code is executed.
+  CHECK(ended > count / 20);
+  CHECK(broken > count / 20);
+}
+
+} // namespace
+
+TEST_CASE("a compiled program that is damaged ends in some way") {
+  run_mutations(read_file(CELLTRACE_SIMULATOR_PROGRAMS "/lines.elf"), 1000);
 }
 #endif

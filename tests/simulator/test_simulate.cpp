@@ -1,6 +1,7 @@
 // Binaries of the SPU's compiler, run by one call.
 #include "celltrace/simulator.hpp"
 
+#include "backends/cell_emu/machine.hpp"
 #include "celltrace/error.hpp"
 #include "files.hpp"
 
@@ -20,6 +21,16 @@ TEST_CASE("what is no program for the SPU is refused") {
   CHECK_THROWS_AS(simulate(simulated(1), {}), InputError);
   CHECK_THROWS_WITH(simulate(lockstep(1), text), "machine code runs on cell_sim, not on cell_emu");
   CHECK_THROWS_AS(check_spu_program(text), InputError);
+}
+
+TEST_CASE("a program without machine code says in one line what the build lacks") {
+  const std::unique_ptr<Machine> machine = cell_emu::make_machine(simulated(1));
+  SpeProgram program("portable");
+  program.add<EmulatedSpu>([](EmulatedSpu&, ea_t) {});
+  CHECK_THROWS_AS(machine->start(0, program, 0), SpeError);
+  CHECK_THROWS_WITH(
+      machine->start(0, program, 0),
+      "program \"portable\" has no machine code for cell_sim: was it built without spu-elf-g++?");
 }
 
 #ifdef CELLTRACE_SIMULATOR_PROGRAMS
@@ -137,6 +148,22 @@ TEST_CASE("files are those of the folders that are allowed") {
   CHECK_THROWS_AS(simulate(config, program("cases")), InputError);
 }
 
+TEST_CASE("the C library's calls for help do what a program expects of them") {
+  const TemporaryFolder folder;
+  MachineConfig config = simulated(1);
+  config.simulation.allowed_folders = {folder.path()};
+  for (const auto& [name, last_words] :
+       {std::pair{"library", "all checks passed\n"}, std::pair{"main_memory", "all is well\n"}}) {
+    const SimulatedRun run = simulate(config, program(name));
+    CAPTURE(name);
+    INFO(run.report());
+    CHECK(run.ok());
+    CHECK(run.exit_codes[0] == 0);
+    CHECK(run.output == last_words);
+    CHECK(std::filesystem::is_empty(folder.path()));
+  }
+}
+
 TEST_CASE("what breaks a rule ends, with the place") {
   const auto error = [](const char* name, Rule rule) {
     const SimulatedRun run = run_case({name});
@@ -146,7 +173,7 @@ TEST_CASE("what breaks a rule ends, with the place") {
     return run.errors[0];
   };
   CHECK_THAT(error("dma", Rule::transfer_size), Contains("[transfer-size") && Contains("in main+0x"));
-  CHECK_THAT(error("invalid", Rule::invalid_instruction), Contains("0x00a00000") && Contains("cases.c:"));
+  CHECK_THAT(error("invalid", Rule::invalid_instruction), Contains("0x00800000") && Contains("cases.c:"));
   CHECK_THAT(error("recurse", Rule::stack_overflow), Contains("in recurse+0x"));
   CHECK_THAT(error("mailbox", Rule::deadlock), Contains("SPU_RdInMbox"));
   const SimulatedRun stopped = run_case({"stop"});

@@ -10,8 +10,9 @@
 //   };
 //   TEST_CASE("conformance: transfers") { run_rows(kRows); }
 //
-// A row runs in lockstep, on threads and exploring with faults, for each TransferTime. Rows of Rule::none are
-// facts that no rule speaks of. The rows of all files together cover all rules both ways:
+// A row runs in lockstep, on threads and exploring with faults, for each TransferTime; one whose program is a
+// kernel of hardware_rows.hpp, also as machine code where the build has a compiler for it. Rows of Rule::none
+// are facts that no rule speaks of. The rows of all files together cover all rules both ways:
 // emu_conformance.cpp.
 #pragma once
 
@@ -109,6 +110,7 @@ struct Row {
   /// Instead of `program`: a kernel that also exists as machine code.
   HardwareRow kernel = HardwareRow::none;
   unsigned more_seeds = 0;
+  bool machine_code_breaks_it = false; ///< and host code cannot be seen to
   std::function<Given(Stage&)> given_part{};
   std::function<void(Stage&, std::endian)> after_part{};
 
@@ -127,6 +129,8 @@ struct Row {
   /// Orders that few seeds bring about.
   Row&& seeds(unsigned more) && { return more_seeds = more, std::move(*this); }
   Row&& given(std::function<Given(Stage&)> make) && { return given_part = std::move(make), std::move(*this); }
+  /// Loads, which host code does unseen: there the row has to be a legal program.
+  Row&& of_machine_code() && { return machine_code_breaks_it = true, std::move(*this); }
   /// What main storage holds in the end.
   Row&& after(std::function<void(Stage&, std::endian)> check) && {
     return after_part = std::move(check), std::move(*this);

@@ -53,6 +53,20 @@ const Rows kHardware = {
         .configured(be_lenient),
     kept(Rule::drained_queue, "who looks at the room, but waits for the tag",
          HardwareRow::drained_and_waited),
+    broken(Rule::drained_queue,
+           "what is read before that wait relies on the room, as only machine code shows",
+           HardwareRow::drained_get_read_and_waited, {"get 128 bytes"})
+        .of_machine_code(),
+    kept(Rule::drained_queue, "which a lenient machine does not mind",
+         HardwareRow::drained_get_read_and_waited)
+        .configured(be_lenient),
+    broken(Rule::drained_queue, "so does what is written before it",
+           HardwareRow::drained_put_changed_and_waited, {"put 128 bytes"})
+        .after([](Stage& stage, std::endian order) {
+          stage.is(load_word(order, stage.to), 7);
+          stage.is(load_word(order, stage.to + 32), 8);
+        }),
+    kept(Rule::drained_queue, "nor that", HardwareRow::drained_put_changed_and_waited).configured(be_lenient),
     broken(Rule::in_flight_at_exit, "room that is not all of the queue says nothing",
            HardwareRow::room_is_not_all, {"get 128 bytes"}),
 
@@ -249,6 +263,37 @@ const Rows kPointers = {
         .by(1)
         .lockstep_only(),
 };
+
+constexpr CodeModule kOne = {"one", 1, 0, 4096};
+constexpr CodeModule kOther = {"other", 2, 0, 8192};
+constexpr CodeModule kElsewhere = {"elsewhere", 3, 1, 1024};
+
+// Of host code: what the machine code of cell_sim calls is fetched by the program itself.
+const Rows kModules = {
+    kept(Rule::absent_module, "a module is there when it has been entered, until another one of its region is",
+         [](Spu& spu, Stage& stage) {
+           const auto before = spu.cycles();
+           spu.enter_module(kOne);
+           stage.is(spu.cycles() - before > 500, true);
+           spu.enter_module(kElsewhere);
+           spu.run_in_module(kOne);
+           const auto after = spu.cycles();
+           spu.enter_module(kOne);
+           stage.is(spu.cycles(), after);
+         }),
+    broken(
+        Rule::absent_module, "then it is not",
+        [](Spu& spu, Stage&) {
+          spu.enter_module(kOne);
+          spu.enter_module(kOther);
+          spu.run_in_module(kOne);
+        },
+        {"code of module 'one'"}),
+};
+
+TEST_CASE("conformance: code modules") {
+  run_rows(kModules);
+}
 
 TEST_CASE("conformance: pointers") {
   run_rows(kPointers);

@@ -16,6 +16,8 @@ enum class HardwareRow : uint32_t {
   drained_put,
   drained_buffer_again,
   drained_and_waited,
+  drained_get_read_and_waited,
+  drained_put_changed_and_waited,
   room_is_not_all,
   // the tag status event
   immediate_is_event,
@@ -200,6 +202,31 @@ template <class Spu> void drained_and_waited(Spu& spu, RowBook<Spu>& book) {
   }
 }
 
+template <class Spu> void drained_get_read_and_waited(Spu& spu, RowBook<Spu>& book) {
+  uint32_t* line = lines_of(spu);
+  for (uint32_t i = 0; i < 2; ++i) {
+    spu.get(line, book.from(32 * i), 128, 1);
+    if (i == 0) book.next_line();
+    while (room(spu) != kMfcQueueEntries) {
+    }
+    book.is(line[0], 32 * i + 1);
+    spu.wait_all(1u << 1);
+  }
+}
+
+template <class Spu> void drained_put_changed_and_waited(Spu& spu, RowBook<Spu>& book) {
+  uint32_t* line = lines_of(spu);
+  for (uint32_t i = 0; i < 2; ++i) {
+    line[0] = 7 + i;
+    spu.put(line, book.to(32 * i), 128, 1);
+    if (i == 0) book.next_line();
+    while (room(spu) != kMfcQueueEntries) {
+    }
+    line[0] = 0;
+    spu.wait_all(1u << 1);
+  }
+}
+
 template <class Spu> void room_is_not_all(Spu& spu, RowBook<Spu>& book) {
   uint32_t* lines = lines_of(spu, 3);
   const ListElement* list = stopping_list(spu, book.from());
@@ -338,7 +365,8 @@ template <class Spu> void decrementer_written_negative(Spu& spu, RowBook<Spu>& b
   spu.write_event_mask(event::decrementer);
   spu.write_decrementer(0x7FFFFFFF);
   book.is(spu.event_count(), 0);
-  spu.write_decrementer(0x80000000);
+  // Not 0x80000000, whose top bit falls with the next tick, so that the next write would be an event again.
+  spu.write_decrementer(0x90000000);
   book.is(spu.event_count(), 1);
   book.is(spu.read_event_status(), event::decrementer);
   spu.acknowledge_events(event::decrementer);
@@ -467,6 +495,8 @@ template <class Spu> void hardware_rows(Spu& spu, ea_t argument) {
     CELLTRACE_ROW(drained_put);
     CELLTRACE_ROW(drained_buffer_again);
     CELLTRACE_ROW(drained_and_waited);
+    CELLTRACE_ROW(drained_get_read_and_waited);
+    CELLTRACE_ROW(drained_put_changed_and_waited);
     CELLTRACE_ROW(room_is_not_all);
     CELLTRACE_ROW(immediate_is_event);
     CELLTRACE_ROW(event_of_status_rises_once);

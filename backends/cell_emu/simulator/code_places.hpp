@@ -1,6 +1,8 @@
-// What a profile or a message says of an address in a program: function, file and line.
+// What a profile or a message says of an address in a program: function, file and line, and the calls that
+// were inlined there.
 #pragma once
 
+#include "backends/cell_emu/simulator/inlined_calls.hpp"
 #include "backends/cell_emu/simulator/line_table.hpp"
 #include "backends/cell_emu/simulator/spu_symbols.hpp"
 
@@ -16,10 +18,10 @@ struct CodePlace {
   std::uint32_t line = 0;         ///< from 1; 0: unknown
 };
 
-/// Symbols and lines of one program. Thread safety: all members are const.
+/// Symbols, lines and inlined calls of one program. Thread safety: all members are const.
 class CodePlaces {
 public:
-  explicit CodePlaces(const SpuElf& elf) : symbols_(elf), lines_(elf) {}
+  explicit CodePlaces(const SpuElf& elf) : symbols_(elf), lines_(elf), calls_(elf) {}
 
   /// Two binary searches.
   CodePlace at(std::uint32_t lsa) const {
@@ -36,10 +38,12 @@ public:
 
   const SpuSymbols& symbols() const { return symbols_; }
   const LineTable& lines() const { return lines_; }
+  const InlinedCalls& inlined_calls() const { return calls_; }
 
 private:
   SpuSymbols symbols_;
   LineTable lines_;
+  InlinedCalls calls_;
 };
 
 } // namespace celltrace::cell_emu

@@ -3,13 +3,11 @@
 // DWARF Debugging Information Format, versions 2 to 4, section 6.2.
 #pragma once
 
+#include "backends/cell_emu/simulator/line_files.hpp"
 #include "backends/cell_emu/simulator/spu_elf.hpp"
 
 #include <cstdint>
-#include <deque>
 #include <span>
-#include <string>
-#include <string_view>
 #include <vector>
 
 namespace celltrace::cell_emu {
@@ -51,7 +49,7 @@ private:
   void merge(std::vector<Sequence> sequences);
 
   std::vector<Row> rows_; // by rising address, no two with the same
-  std::deque<std::string> files_;
+  FileNames files_;
 };
 
 } // namespace celltrace::cell_emu

@@ -1,12 +1,16 @@
 #include "backends/cell_emu/simulator/simulated_program.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <cxxabi.h>
+#include <iterator>
 #include <memory>
 #include <mutex>
 #include <set>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace celltrace::cell_emu {
 namespace {
@@ -19,23 +23,65 @@ const char* keep(std::string text) {
   return kept.insert(std::move(text)).first->c_str();
 }
 
-/// A C++ function without its parameters and template arguments, which would fill a page.
+/// The name of a C++ function without its parameters and template arguments, which would fill a page.
+std::string without_arguments(std::string_view whole) {
+  constexpr std::size_t kLongestName = 1000; // whatever the file says
+  std::string name;
+  int depth = 0;
+  for (const char c : whole) {
+    if (c == '<') ++depth;
+    if (c == '(' && depth == 0) break;
+    if (depth == 0 && name.size() < kLongestName) name += c;
+    if (c == '>') --depth;
+  }
+  return name;
+}
+
 std::string short_name(const char* symbol) {
   int status = 0;
   const std::unique_ptr<char, void (*)(void*)> demangled(
       abi::__cxa_demangle(symbol, nullptr, nullptr, &status), std::free);
   if (status != 0) return symbol;
-  std::string name;
-  int depth = 0;
-  for (const char* c = demangled.get(); *c != 0; ++c) {
-    if (*c == '<') ++depth;
-    if (*c == '(' && depth == 0) break;
-    if (depth == 0) name += *c;
-    if (*c == '>') --depth;
-  }
+  const std::string name = without_arguments(demangled.get());
   // What is left in front is the type that a template returns.
   const std::size_t space = name.rfind(' ');
   return space == std::string::npos ? name : name.substr(space + 1);
+}
+
+std::string_view base_name(std::string_view file) {
+  return file.substr(file.find_last_of('/') + 1);
+}
+
+/// The compiler's own headers wrap its intrinsics: nobody looks for a mistake there.
+bool is_of_compiler(std::string_view file) {
+  for (const std::string_view name : {"spu_internals.h", "spu_intrinsics.h", "spu_mfcio.h"})
+    if (base_name(file) == name) return true;
+  return file.find("/lib/gcc/") != std::string_view::npos;
+}
+
+/// A line that is being executed, and the function that it belongs to.
+struct Frame {
+  const char* file = nullptr;
+  std::uint32_t line = 0;
+  std::string function;
+};
+
+/// The innermost first; there is one at least.
+std::vector<Frame> frames_at(const CodePlaces& places, std::uint32_t address) {
+  const CodePlace place = places.at(address);
+  std::vector<Frame> frames(1);
+  frames[0].file = place.file;
+  frames[0].line = place.line;
+  for (const InlinedCall& call : places.inlined_calls().at(address)) {
+    frames.back().function = without_arguments(call.callee);
+    frames.push_back({call.file, call.line, {}});
+  }
+  if (place.function != nullptr) {
+    char offset[16];
+    std::snprintf(offset, sizeof offset, "+0x%x", static_cast<unsigned>(place.offset));
+    frames.back().function = short_name(place.function) + offset;
+  }
+  return frames;
 }
 
 } // namespace
@@ -47,15 +93,34 @@ SimulatedProgram::SimulatedProgram(std::span<const std::uint8_t> image, Conventi
 }
 
 CallSite SimulatedProgram::site(std::uint32_t address) const {
-  const CodePlace place = places_.at(address);
+  const std::vector<Frame> frames = frames_at(places_, address);
+  auto frame = std::ranges::find_if(
+      frames, [](const Frame& each) { return each.line != 0 && !is_of_compiler(each.file); });
+  if (frame == frames.end()) frame = frames.begin();
   CallSite site;
-  if (place.line != 0) {
-    site.file = keep(place.file);
-    site.line = place.line;
+  if (frame->line != 0) {
+    site.file = keep(frame->file);
+    site.line = frame->line;
   }
-  char offset[16];
-  std::snprintf(offset, sizeof offset, "+0x%x", static_cast<unsigned>(place.offset));
-  if (place.function != nullptr) site.function = keep(short_name(place.function) + offset);
+  std::string function = frame->function;
+  if (function.empty() && std::next(frame) != frames.end()) function += '?';
+  // More would fill a page: the caller that is no body of another is the last one.
+  constexpr std::ptrdiff_t kMostCallers = 8;
+  for (++frame; frame != frames.end(); ++frame) {
+    if (frames.end() - frame > 1 && frame - frames.begin() > kMostCallers) {
+      function += ", ...";
+      frame = std::prev(frames.end());
+    }
+    // Piece by piece: GCC 12 takes sums of literals and temporaries for overlapping copies.
+    function += ", inlined from ";
+    if (frame->line != 0) {
+      function += base_name(frame->file);
+      function += ':';
+      function += std::to_string(frame->line);
+    }
+    if (!frame->function.empty()) function.append(" in ").append(frame->function);
+  }
+  if (!function.empty()) site.function = keep(function);
   return site;
 }
 

@@ -27,7 +27,8 @@ public:
   Convention convention() const { return convention_; }
   /// It keeps a stack as the ABI says: register 1 holds the stack pointer and the space that is left.
   bool has_abi_stack() const { return has_abi_stack_; }
-  /// For diagnostics: its strings stay valid for as long as the process runs.
+  /// For diagnostics: the innermost line that is in none of the compiler's own headers. Its strings stay
+  /// valid for as long as the process runs.
   CallSite site(std::uint32_t address) const;
 
 private:

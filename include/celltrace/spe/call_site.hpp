@@ -10,7 +10,9 @@ namespace celltrace {
 struct CallSite {
   const char* file = "";
   uint32_t line = 0; ///< from 1; 0: unknown
-  /// Of machine code: the function, as in its symbol table, and the offset in it; else "".
+  /// Of machine code: the function; where calls were inlined, from which line of which function each was
+  /// called, ", inlined from work.hpp:180 in half"; at last the offset in what the symbol table names. Else
+  /// "".
   const char* function = "";
 
   static constexpr CallSite here(const char* file = __builtin_FILE(), uint32_t line = __builtin_LINE()) {

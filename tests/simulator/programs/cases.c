@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
   if (strcmp(name, "dma") == 0) return get_too_much();
   if (strcmp(name, "mailbox") == 0) return (int)spu_read_in_mbox();
   if (strcmp(name, "stop") == 0) spu_stop(0x1234);
-  if (strcmp(name, "invalid") == 0) asm volatile(".long 0x00A00000");
+  if (strcmp(name, "invalid") == 0) asm volatile(".long 0x00800000");
   if (strcmp(name, "recurse") == 0) return recurse(0);
   if (strcmp(name, "warn") == 0) spu_mfcstat(MFC_TAG_UPDATE_IMMEDIATE), mfc_write_tag_update_immediate();
   if (strcmp(name, "abort") == 0) abort();
