@@ -74,7 +74,8 @@ void Spu::fetch_module(const CodeModule& module) {
   counters_.module_cycles.add(now() - begin);
 }
 
-void Spu::report_absent_module(const CodeModule& module) {
+void Spu::report_absent_module(const CodeModule& module, CallSite site) {
+  site_ = site;
   fail(Rule::absent_module,
        std::string("code of module '") + module.name + "': " + std::string(text_of(Rule::absent_module)));
 }

@@ -71,9 +71,9 @@ public:
   void enter_module(const CodeModule& module) {
     if (resident_modules_[module.region] != module.number) fetch_module(module);
   }
-  void run_in_module(const CodeModule& module) {
+  void run_in_module(const CodeModule& module, CallSite site = CallSite::here()) {
     if (resident_modules_[module.region] != module.number) [[unlikely]]
-      report_absent_module(module);
+      report_absent_module(module, site);
   }
   void note(const char* what, std::uint32_t value);
   void record(const void* source, std::uint32_t word) {
@@ -116,7 +116,7 @@ public:
 private:
   void issue(const MfcCommand& command);
   void fetch_module(const CodeModule& module);
-  void report_absent_module(const CodeModule& module);
+  void report_absent_module(const CodeModule& module, CallSite site);
   void stop(std::uint32_t code);
 
   /// Charges what has been computed since the last access to a channel.

@@ -283,9 +283,10 @@ const Rows kModules = {
          }),
     broken(
         Rule::absent_module, "then it is not",
-        [](Spu& spu, Stage&) {
+        [](Spu& spu, Stage& stage) {
           spu.enter_module(kOne);
           spu.enter_module(kOther);
+          stage.next_line();
           spu.run_in_module(kOne);
         },
         {"code of module 'one'"}),
