@@ -1,6 +1,6 @@
 # Compiles SPE programs for every SPU type of the build.
 #
-#   celltrace_spe_program(NAME SOURCE entry.cpp [CODE_BYTES n STACK_BYTES n]
+#   celltrace_spe_program(NAME SOURCE entry.cpp [SPUS types...] [CODE_BYTES n STACK_BYTES n]
 #     [SPU_HEADER kernel.hpp SPU_KERNEL qualified::function [SPU_ARENA bytes] [SPU_MODULES script.ld]] [LINK targets...])
 #
 # makes the static library celltrace_NAME_program. CODE_BYTES (with data) and STACK_BYTES are what the program takes of
@@ -10,7 +10,7 @@
 #   #include "backends/spe_entry.hpp"
 #   CELLTRACE_SPE_ENTRY(NAME, celltrace::kernel::tracer)
 #
-# and is compiled once per SPU type, each time with the flags of its CPU and with
+# and is compiled once per SPU type, or for those of SPUS only, each time with the flags of its CPU and with
 #
 #   CELLTRACE_SPU_HEADER   header of the SPU type, for #include
 #   CELLTRACE_SPU_TYPE     the type, qualified
@@ -60,7 +60,10 @@ endif()
 celltrace_spu_type(cell_emu HEADER backends/cell_emu/spu.hpp KEY cell_emu TYPE "celltrace::cell_emu::Spu")
 
 function(celltrace_spe_program name)
-  cmake_parse_arguments(PROGRAM "" "SOURCE;CODE_BYTES;STACK_BYTES;SPU_HEADER;SPU_KERNEL;SPU_ARENA;SPU_MODULES" "LINK" ${ARGN})
+  cmake_parse_arguments(PROGRAM "" "SOURCE;CODE_BYTES;STACK_BYTES;SPU_HEADER;SPU_KERNEL;SPU_ARENA;SPU_MODULES" "LINK;SPUS" ${ARGN})
+  if(NOT PROGRAM_SPUS)
+    set(PROGRAM_SPUS ${CELLTRACE_SPUS})
+  endif()
   set(local_store_use "")
   if(PROGRAM_CODE_BYTES)
     set(local_store_use "  program.takes({${PROGRAM_CODE_BYTES}, ${PROGRAM_STACK_BYTES}});\n")
@@ -71,7 +74,7 @@ function(celltrace_spe_program name)
   set(declarations "")
   set(entries "")
   set(objects "")
-  foreach(spu ${CELLTRACE_SPUS})
+  foreach(spu ${PROGRAM_SPUS})
     set(object ${library}_${spu})
     add_library(${object} OBJECT ${PROGRAM_SOURCE})
     target_link_libraries(${object} PUBLIC celltrace_options celltrace_native celltrace_cell_emu ${PROGRAM_LINK})

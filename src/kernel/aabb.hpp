@@ -1,4 +1,4 @@
-// Axis-aligned bounding boxes. Kernel dialect.
+// The axis-aligned bounding box, AABB. Kernel dialect.
 #pragma once
 
 #include "kernel/scalar.hpp"

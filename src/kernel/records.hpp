@@ -15,8 +15,8 @@ constexpr uint32_t kNoGroup = 0xFFFFFFFFu;
 
 // --- scene image ---
 
-/// What an object record describes; low byte of ObjectRecord::kind_and_flags: the place of a shape in the list
-/// of primitives/list.hpp, of which these are the first.
+/// What an object record describes; low byte of ObjectRecord::kind_and_flags: the place of a shape in the
+/// list of primitives/list.hpp, of which these are the first.
 enum class ObjectKind : uint32_t { sphere = 0, triangle = 1, plane = 2, ellipsoid = 3 };
 constexpr uint32_t kMaxPrimitives = 16;
 
@@ -30,8 +30,8 @@ constexpr uint32_t open = 0x1000;     ///< cylinder or cone without caps
 constexpr uint32_t csg = 0x2000;      ///< part of a CSG: crossings count where its condition holds
 } // namespace object_flag
 
-/// Geometry by kind: sphere: centre (0..2), radius (3). Triangle: its vertices (0..2, 3..5, 6..8). All others:
-/// the affine map from the world to the shape's own space, three rows of four (xyz | offset).
+/// Geometry by kind: sphere: centre (0..2), radius (3). Triangle: its vertices (0..2, 3..5, 6..8). All
+/// others: the affine map from the world to the shape's own space, three rows of four (xyz | offset).
 struct alignas(64) ObjectRecord {
   uint32_t kind_and_flags;
   uint32_t material; ///< offset of a MaterialRecord, or of a BlendRecord if `blended`
@@ -151,9 +151,9 @@ struct alignas(32) GroupRecord {
   float max[3];
   uint32_t count;
 };
-static_assert(sizeof(GroupRecord) == 32, "four runs a line");
-/// A run may be a copy of an earlier one, its prototype: it has as many objects, each of which lies among its
-/// neighbours as the one at the same place of the prototype does. Both have no more objects than this.
+static_assert(sizeof(GroupRecord) == 32, "four groups a line");
+/// A group may be a copy of an earlier one, its prototype: it has as many objects, each of which lies among
+/// its neighbours as the one at the same place of the prototype does. Both have no more objects than this.
 constexpr uint32_t kMaxCopiedObjects = 256;
 
 /// Head of a scene image.
@@ -170,10 +170,10 @@ struct alignas(128) ImageHeader {
   uint32_t blend_offset, blend_count;
   float bounds_min[3];
   float bounds_max[3];
-  uint32_t group_offset, group_count; ///< all objects by run, or nothing: there are few
-  uint32_t longest_group;           ///< objects
-  /// By run, the run that it is a copy of, its own index if it has copies, or kNoGroup; or nothing: there are
-  /// no copies.
+  uint32_t group_offset, group_count; ///< all objects by group, or nothing: there are few
+  uint32_t longest_group;             ///< objects
+  /// By group, the group that it is a copy of, its own index if it has copies, or kNoGroup; or nothing: there
+  /// are no copies.
   uint32_t prototype_offset, prototype_count;
   /// Objects without bounds, behind the others in their table; no accelerator has them.
   uint32_t unbounded_count;
@@ -211,12 +211,12 @@ struct alignas(16) GridRecord {
 };
 static_assert(sizeof(GridRecord) == 80, "crosses DMA");
 
-/// A node of the BVH, four children wide: their boxes, coordinate by coordinate, and what is
+/// A node of the BVH, four children wide: their bounds, coordinate by coordinate, and what is
 /// in them. A child without objects has a box that is empty (min > max).
 struct alignas(128) NodeRecord {
   float bounds[6][4]; ///< min x, max x, min y, max y, min z, max z of each child
-  uint32_t child[4]; ///< offset of its NodeRecord; of a leaf: of its first object, or of its list
-  uint32_t leaf[4];  ///< the objects of a leaf; 0: a node, or nothing if the box is empty
+  uint32_t child[4];  ///< offset of its NodeRecord; of a leaf: of its first object, or of its list
+  uint32_t leaf[4];   ///< the objects of a leaf; 0: a node, or nothing if the box is empty
 };
 static_assert(sizeof(NodeRecord) == 128, "one node a line");
 
@@ -308,12 +308,12 @@ struct alignas(128) FrameBlock {
   uint32_t camera_interiors[kMaxInteriorDepth]; ///< offsets, outermost first
 
   uint32_t group_offset, group_count; ///< RunRecords
-  uint32_t longest_group;           ///< objects
-  uint32_t prototype_offset;      ///< a word per run; 0: there are no copies
-  uint32_t units_per_word;        ///< that an SPE tells of its progress by; 0: it does not
-  uint32_t wide_leaves;           ///< 0 or 1: for SPEs that test many triangles of a leaf at once
-  uint32_t far_nodes;             ///< 0 or 1: for SPEs that wait long for a node of the BVH
-  uint32_t unbounded_count;       ///< objects behind the others in their table that no accelerator has
+  uint32_t longest_group;             ///< objects
+  uint32_t prototype_offset;          ///< a word per group; 0: there are no copies
+  uint32_t units_per_word;            ///< that an SPE tells of its progress by; 0: it does not
+  uint32_t wide_leaves;               ///< 0 or 1: for SPEs that test many triangles of a leaf at once
+  uint32_t far_nodes;                 ///< 0 or 1: for SPEs that wait long for a node of the BVH
+  uint32_t unbounded_count;           ///< objects behind the others in their table that no accelerator has
   uint32_t unused[22];
 };
 static_assert(sizeof(FrameBlock) % 128 == 0 && sizeof(FrameBlock) <= 512, "fetched by one DMA command");
@@ -335,12 +335,12 @@ static_assert(sizeof(StripRecord) == 16, "crosses DMA");
 /// What an SPE did in a frame.
 struct alignas(128) ReportRecord {
   uint64_t primary_rays, shadow_rays, reflection_rays, refraction_rays;
-  uint64_t tests[kMaxPrimitives];                         ///< packet against object, by kind
-  uint64_t accelerator_visits;                            ///< voxels by rays, or nodes by beams
-  uint64_t cache_hits[4], cache_misses[4];                ///< by DataKind
-  uint64_t dropped_rays;                                  ///< rays beyond the depth of the interior stack
-  uint32_t packets;                                       ///< rendered
-  uint32_t exchanges;                                     ///< balance exchanges that brought this SPE units
+  uint64_t tests[kMaxPrimitives];          ///< packet against object, by kind
+  uint64_t accelerator_visits;             ///< voxels by rays, or nodes by beams
+  uint64_t cache_hits[4], cache_misses[4]; ///< by DataKind
+  uint64_t dropped_rays;                   ///< rays beyond the depth of the interior stack
+  uint32_t packets;                        ///< rendered
+  uint32_t exchanges;                      ///< balance exchanges that brought this SPE units
   uint32_t units_received;
   uint32_t busy_ticks; ///< of the decrementer, in which the SPE did not wait for work
   uint32_t spilled_nodes;

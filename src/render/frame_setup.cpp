@@ -61,7 +61,7 @@ bool is_inside(const Medium& medium, const Vec3& point) {
   return local.x * local.x + local.y * local.y + local.z * local.z < sphere.radius * sphere.radius;
 }
 
-/// Whether what a ray is in makes a difference where it meets the material.
+/// Whether what a ray is in makes a difference where it hits the material.
 bool asks_for_interiors(const Material& material) {
   return !is_opaque(material) || material.finish.reflection_fresnel;
 }

@@ -30,7 +30,8 @@ SpeTeam::~SpeTeam() {
 
 void SpeTeam::assemble() {
   if (std::exchange(assembled_, true)) return;
-  const SpeProgram program = accelerator_ == AcceleratorKind::grid ? grid_tracer_program() : tracer_program();
+  const bool by_grid = accelerator_ == AcceleratorKind::grid && !machine_.direct_memory();
+  const SpeProgram program = by_grid ? grid_tracer_program() : tracer_program();
   for (unsigned spe = 0; spe < members_.size(); ++spe)
     machine_.start(spe, program, frame_.ea());
 }

@@ -7,9 +7,9 @@ namespace celltrace {
 
 // Defined by the build (cmake/celltrace_spe_program.cmake).
 
-/// Finds objects by a BVH.
+/// Finds objects by a BVH; on machines with direct memory, by any accelerator.
 SpeProgram tracer_program();
-/// By a uniform grid.
+/// By a uniform grid, on other machines.
 SpeProgram grid_tracer_program();
 
 } // namespace celltrace

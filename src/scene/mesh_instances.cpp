@@ -135,49 +135,49 @@ bool MeshInstances::keeps_areas(const Instance& instance) const {
   return std::all_of(prototype.triangles().begin(), prototype.triangles().end(), has_area_in_world);
 }
 
-/// Runs are not cut where those of other instances reach into them. Of n boxes that fill a space and do not
-/// overlap, a ray meets about the cube root of n, and it meets fewer where they lie on surfaces.
+/// Groups are not cut where those of other instances reach into them. Of n AABBs that fill a space and do not
+/// overlap, a ray hits about the cube root of n, and fewer where they lie on surfaces.
 bool MeshInstances::are_tangled() const {
   constexpr double kMost = 1.5;
   double areas = 0;
-  std::size_t runs = 0;
+  std::size_t groups = 0;
   WorldBox all;
   for (const Instance& instance : instances_) {
-    for (const Aabb& run : prototypes_[instance.prototype].run_boxes()) {
-      const WorldBox box(run, instance.object->transform);
+    for (const Aabb& group : prototypes_[instance.prototype].group_bounds()) {
+      const WorldBox box(group, instance.object->transform);
       areas += box.area();
       all.grow(box);
     }
-    runs += prototypes_[instance.prototype].group_count();
+    groups += prototypes_[instance.prototype].group_count();
   }
-  // Half the surface in both cases: by Crofton's formula their quotient is the number of boxes that a ray
-  // through all of it meets.
-  return runs != 0 && areas > kMost * std::cbrt(static_cast<double>(runs)) * all.area();
+  // Half the surface in both cases: by Crofton's formula their quotient is the number of AABBs that a ray
+  // through all of it hits.
+  return groups != 0 && areas > kMost * std::cbrt(static_cast<double>(groups)) * all.area();
 }
 
 /// Counts what there is, and tells the instances their places.
 void MeshInstances::number() {
   constexpr std::uint32_t kNone = 0xFFFFFFFF;
   is_instance_.resize(scene_.objects.size());
-  first_run_of_.resize(prototypes_.size(), kNone);
+  first_group_of_.resize(prototypes_.size(), kNone);
   for (Instance& instance : instances_) {
     const MeshPrototype& prototype = prototypes_[instance.prototype];
     is_instance_[static_cast<std::size_t>(instance.object - scene_.objects.data())] = true;
     instance.first_object = census_.objects;
     instance.first_normals = census_.extras;
-    instance.first_run = run_count_;
-    std::uint32_t& first_run = first_run_of_[instance.prototype];
-    if (first_run == kNone) {
-      first_run = run_count_;
-      for (std::uint32_t run = 0; run < prototype.group_count(); ++run)
-        longest_run_ = std::max(longest_run_, prototype.runs()[run + 1] - prototype.runs()[run]);
+    instance.first_group = group_count_;
+    std::uint32_t& first_group = first_group_of_[instance.prototype];
+    if (first_group == kNone) {
+      first_group = group_count_;
+      for (std::uint32_t group = 0; group < prototype.group_count(); ++group)
+        longest_group_ = std::max(longest_group_, prototype.groups()[group + 1] - prototype.groups()[group]);
     }
     const auto objects = static_cast<std::uint32_t>(prototype.triangles().size());
     if (objects > std::numeric_limits<std::uint32_t>::max() - census_.objects)
       throw InputError("the scene is too large: it has more objects than 32 bits can count");
     census_.objects += objects;
     census_.extras += prototype.smooth();
-    run_count_ += prototype.group_count();
+    group_count_ += prototype.group_count();
   }
 }
 
@@ -195,20 +195,21 @@ public:
     const MeshPrototype& prototype = instances_.prototypes_[instance.prototype];
     start(instance, prototype);
     ObjectRecord* to = tables_.objects + instance.first_object;
-    for (std::uint32_t run = 0; run < prototype.group_count(); ++run) {
-      const std::uint32_t begin = prototype.runs()[run], end = prototype.runs()[run + 1];
+    for (std::uint32_t group = 0; group < prototype.group_count(); ++group) {
+      const std::uint32_t begin = prototype.groups()[group], end = prototype.groups()[group + 1];
       LaneAabb around = LaneAabb::empty();
       for (std::uint32_t i = begin; i < end; ++i)
         write(prototype.triangles()[i], to[i], around);
-      const std::uint32_t number = instance.first_run + run;
+      const std::uint32_t number = instance.first_group + group;
       bvh::Reference box;
       around.min.store(box.min); // over the words beside
       around.max.store(box.max);
-      tables_.runs[number] = {{box.min[0], box.min[1], box.min[2]},
-                              tables_.first_object + instance.first_object + begin,
-                              {box.max[0], box.max[1], box.max[2]},
-                              end - begin};
-      tables_.prototypes[number] = tables_.first_run + instances_.first_run_of_[instance.prototype] + run;
+      tables_.groups[number] = {{box.min[0], box.min[1], box.min[2]},
+                                tables_.first_object + instance.first_object + begin,
+                                {box.max[0], box.max[1], box.max[2]},
+                                end - begin};
+      tables_.prototypes[number] =
+          tables_.first_group + instances_.first_group_of_[instance.prototype] + group;
     }
   }
 
@@ -232,7 +233,8 @@ private:
 
   void set_material(Index material) {
     material_ = material;
-    head_ = start_record(*object_, static_cast<std::uint32_t>(ObjectKind::triangle), tables_.records.interior_offset);
+    head_ = start_record(*object_, static_cast<std::uint32_t>(ObjectKind::triangle),
+                         tables_.records.interior_offset);
     tables_.records.set_material(head_, material != kNoIndex ? material : object_->material);
   }
 

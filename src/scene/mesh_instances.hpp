@@ -17,9 +17,9 @@ struct InstanceTables {
   kernel::ObjectRecord* objects; ///< of instances
   std::uint32_t first_object;    ///< in the table of all
   std::uint32_t first_normals;
-  kernel::GroupRecord* runs;   ///< of instances
-  std::uint32_t* prototypes; ///< a word per run of instances
-  std::uint32_t first_run;   ///< in the table of all
+  kernel::GroupRecord* groups; ///< of instances
+  std::uint32_t* prototypes;   ///< a word per group of instances
+  std::uint32_t first_group;   ///< in the table of all
 };
 
 class MeshInstances {
@@ -34,18 +34,18 @@ public:
   bool contains(std::size_t object) const { return !is_instance_.empty() && is_instance_[object]; }
   /// What all of them have, but for the box around.
   const ObjectCensus& census() const { return census_; }
-  std::uint32_t group_count() const { return run_count_; }
-  std::uint32_t longest_group() const { return longest_run_; }
+  std::uint32_t group_count() const { return group_count_; }
+  std::uint32_t longest_group() const { return longest_group_; }
 
-  /// Makes the records of all of them, instance by instance in the order of the scene, and run by run.
+  /// Makes the records of all of them, instance by instance in the order of the scene, and group by group.
   void write(const InstanceTables& tables, unsigned threads) const;
 
 private:
   struct Instance {
     const Object* object;
     std::uint32_t prototype;
-    bool is_sound;                                        ///< keeps_areas()
-    std::uint32_t first_object, first_normals, first_run; ///< among those of all instances
+    bool is_sound;                                          ///< keeps_areas()
+    std::uint32_t first_object, first_normals, first_group; ///< among those of all instances
   };
   class Writer;
 
@@ -57,11 +57,11 @@ private:
   const Scene& scene_;
   std::vector<MeshPrototype> prototypes_;
   std::vector<Instance> instances_;
-  std::vector<std::uint32_t> first_run_of_; ///< by prototype: of its first instance
-  std::vector<bool> is_instance_;           ///< by object
+  std::vector<std::uint32_t> first_group_of_; ///< by prototype: of its first instance
+  std::vector<bool> is_instance_;             ///< by object
   ObjectCensus census_;
-  std::uint32_t run_count_ = 0;
-  std::uint32_t longest_run_ = 0;
+  std::uint32_t group_count_ = 0;
+  std::uint32_t longest_group_ = 0;
 };
 
 } // namespace celltrace

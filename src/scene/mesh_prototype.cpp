@@ -20,7 +20,7 @@ namespace {
 using Simd = HostSimd<xsimd::sse2>;
 using Range = bvh::Range<Simd>;
 
-/// Below it, to place a run of each instance in the BVH takes longer than to build that anew.
+/// Below it, to place a group of each instance in the BVH takes longer than to build that anew.
 constexpr std::size_t kFewestTriangles = 32;
 constexpr std::uint32_t kTrianglesPerThread = 8192;
 constexpr std::uint32_t kTrianglesPerRun = 128;
@@ -81,7 +81,7 @@ std::vector<Reference> references_to_triangles(const Mesh& mesh) {
   return references;
 }
 
-/// A reference to each run of references that lie together along a curve, after they are ordered so.
+/// A reference to each group of references that lie together along a curve, after they are ordered so.
 std::vector<Reference> order_coarsely(std::vector<Reference>& references, unsigned threads) {
   const auto count = static_cast<std::uint32_t>(references.size());
   std::vector<PlacedObject> placed(count), spare(count);
@@ -130,7 +130,7 @@ std::vector<std::uint32_t> order_groups(std::vector<Reference>& references, unsi
   return begins;
 }
 
-Aabb box_around_references(const std::vector<Reference>& references, std::uint32_t begin, std::uint32_t end) {
+Aabb bounds_of_references(const std::vector<Reference>& references, std::uint32_t begin, std::uint32_t end) {
   const Range range = bvh::range_of<Simd>(references.data(), begin, end);
   Reference around;
   range.box.min.store(around.min); // over the words beside
@@ -138,23 +138,24 @@ Aabb box_around_references(const std::vector<Reference>& references, std::uint32
   return {{around.min[0], around.min[1], around.min[2]}, {around.max[0], around.max[1], around.max[2]}};
 }
 
-/// Orders references down to the leaves. Returns where the runs begin, and the number of references at last.
+/// Orders references down to the leaves. Returns where the groups begin, and the number of references at
+/// last.
 std::vector<std::uint32_t> order_by_run(std::vector<Reference>& references, unsigned threads) {
   const std::vector<std::uint32_t> parts = order_groups(references, threads);
-  std::vector<std::uint32_t> runs;
+  std::vector<std::uint32_t> groups;
   Divider divider(references);
   for (std::size_t part = 0; part + 1 < parts.size(); ++part) {
     std::uint32_t run_end = parts[part];
     divider.divide(parts[part], parts[part + 1], [&](const Range& range) {
       if (range.begin >= run_end && range.count() <= kTrianglesPerRun) {
-        runs.push_back(range.begin);
+        groups.push_back(range.begin);
         run_end = range.end;
       }
       return range.count() > kTrianglesPerLeaf;
     });
   }
-  runs.push_back(static_cast<std::uint32_t>(references.size()));
-  return runs;
+  groups.push_back(static_cast<std::uint32_t>(references.size()));
+  return groups;
 }
 
 /// Numbers points in the order in which they are asked for, and equal ones alike.
@@ -208,9 +209,9 @@ bool MeshPrototype::can_be_made(const Mesh& mesh) {
 
 MeshPrototype::MeshPrototype(const Mesh& mesh, unsigned threads) {
   std::vector<Reference> references = references_to_triangles(mesh);
-  runs_ = order_by_run(references, threads);
-  for (std::size_t run = 0; run + 1 < runs_.size(); ++run)
-    run_boxes_.push_back(box_around_references(references, runs_[run], runs_[run + 1]));
+  groups_ = order_by_run(references, threads);
+  for (std::size_t group = 0; group + 1 < groups_.size(); ++group)
+    group_bounds_.push_back(bounds_of_references(references, groups_[group], groups_[group + 1]));
   PointTable vertices(mesh.vertices, mesh.triangles.size());
   PointTable normals(mesh.normals, mesh.triangles.size());
   triangles_.reserve(references.size());

@@ -10,7 +10,7 @@
 namespace celltrace {
 
 /// The triangles of a mesh that have an area, ordered so that neighbours in space are neighbours in memory,
-/// in runs that the surface area heuristic would part; with the points they need, each of them once.
+/// in groups that the surface area heuristic would part; with the points they need, each of them once.
 class MeshPrototype {
 public:
   struct Triangle {
@@ -29,12 +29,12 @@ public:
   const std::vector<Vec3f>& vertices() const { return vertices_; }
   const std::vector<Vec3>& unit_normals() const { return unit_normals_; }
   const std::vector<Triangle>& triangles() const { return triangles_; }
-  /// Where the runs begin, and the number of triangles at last. Runs have at most
+  /// Where the groups begin, and the number of triangles at last. Groups have at most
   /// kernel::kMaxCopiedObjects triangles.
-  const std::vector<std::uint32_t>& runs() const { return runs_; }
-  /// Boxes around the runs.
-  const std::vector<kernel::Aabb>& run_boxes() const { return run_boxes_; }
-  std::uint32_t group_count() const { return static_cast<std::uint32_t>(runs_.size()) - 1; }
+  const std::vector<std::uint32_t>& groups() const { return groups_; }
+  /// Boxes around the groups.
+  const std::vector<kernel::Aabb>& group_bounds() const { return group_bounds_; }
+  std::uint32_t group_count() const { return static_cast<std::uint32_t>(groups_.size()) - 1; }
   /// Triangles that have normals.
   std::uint32_t smooth() const { return smooth_; }
   /// Whether it is certain, without a look at each of them, that the triangles still have areas in single
@@ -47,8 +47,8 @@ private:
   std::vector<Vec3f> vertices_;
   std::vector<Vec3> unit_normals_;
   std::vector<Triangle> triangles_;
-  std::vector<std::uint32_t> runs_;
-  std::vector<kernel::Aabb> run_boxes_;
+  std::vector<std::uint32_t> groups_;
+  std::vector<kernel::Aabb> group_bounds_;
   std::uint32_t smooth_ = 0;
   double least_height_ = 0; ///< of a triangle over one of its sides
   Vec3f min_{0, 0, 0}, max_{0, 0, 0};

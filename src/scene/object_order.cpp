@@ -143,19 +143,19 @@ public:
     });
 
     // The ordered objects of each cell go back to `objects_`.
-    std::vector<std::vector<std::uint32_t>> runs(threads);
+    std::vector<std::vector<std::uint32_t>> groups(threads);
     for_each_part(threads, [&](unsigned part) {
       const HostPart mine(count, part, threads);
       const auto first = std::lower_bound(begins.begin(), begins.end(), mine.begin);
       const auto last = std::lower_bound(begins.begin(), begins.end(), mine.end);
       std::copy(spare_ + *first, spare_ + *last, objects_ + *first);
       for (auto cell = first; cell != last; ++cell)
-        finish(cell[0], cell[1], 1, runs[part]);
+        finish(cell[0], cell[1], 1, groups[part]);
     });
     for (unsigned part = 1; part < threads; ++part)
-      runs[0].insert(runs[0].end(), runs[part].begin(), runs[part].end());
-    runs[0].push_back(count);
-    return std::move(runs[0]);
+      groups[0].insert(groups[0].end(), groups[part].begin(), groups[part].end());
+    groups[0].push_back(count);
+    return std::move(groups[0]);
   }
 
 private:
@@ -192,13 +192,13 @@ private:
   }
 
   /// Divides a cell with many objects.
-  void finish(std::uint32_t begin, std::uint32_t end, int level, std::vector<std::uint32_t>& runs) {
-    if (end - begin <= kMaxRun || level == kMaxLevels || !divide(begin, end, level, runs))
-      runs.push_back(begin);
+  void finish(std::uint32_t begin, std::uint32_t end, int level, std::vector<std::uint32_t>& groups) {
+    if (end - begin <= kMaxRun || level == kMaxLevels || !divide(begin, end, level, groups))
+      groups.push_back(begin);
   }
 
   /// False if all objects lie in one point.
-  bool divide(std::uint32_t begin, std::uint32_t end, int level, std::vector<std::uint32_t>& runs) {
+  bool divide(std::uint32_t begin, std::uint32_t end, int level, std::vector<std::uint32_t>& groups) {
     const CurveGrid grid(bounds_of(objects_, begin, end), end - begin);
     std::vector<std::vector<std::uint32_t>> next = {count_cells(grid, begin, end)};
     const std::vector<std::uint32_t> begins = add_up(next, begin);
@@ -206,7 +206,7 @@ private:
     send(next[0], begin, end);
     std::copy(spare_ + begin, spare_ + end, objects_ + begin);
     for (std::size_t cell = 0; cell + 1 < begins.size(); ++cell)
-      finish(begins[cell], begins[cell + 1], level + 1, runs);
+      finish(begins[cell], begins[cell + 1], level + 1, groups);
     return true;
   }
 

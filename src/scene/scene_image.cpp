@@ -97,9 +97,9 @@ private:
   std::size_t end_;
 };
 
-/// Of all objects, but for their bounds; `runs` are those of the objects that are no instances.
+/// Of all objects, but for their bounds; `groups` are those of the objects that are no instances.
 ImageHeader make_header(const Scene& scene, const SceneObjects& objects, const ObjectCensus& census,
-                        std::span<const std::uint32_t> runs, const MeshInstances& instances) {
+                        std::span<const std::uint32_t> groups, const MeshInstances& instances) {
   ImageHeader header{};
   header.magic = kImageMagic;
   header.version = kImageVersion;
@@ -118,14 +118,14 @@ ImageHeader make_header(const Scene& scene, const SceneObjects& objects, const O
                              header.object_count);
   header.object_count = census.objects;
   header.unbounded_count = objects.unbounded_count();
-  const std::size_t ordered = runs.empty() ? 0 : runs.size() - 1;
+  const std::size_t ordered = groups.empty() ? 0 : groups.size() - 1;
   layout.place<GroupRecord>(ordered + instances.group_count(), header.group_offset, header.group_count);
   layout.place<std::uint32_t>(instances.group_count() == 0 ? 0 : header.group_count, header.prototype_offset,
                               header.prototype_count);
   header.bytes = layout.end();
   header.longest_group = instances.longest_group();
-  for (std::size_t run = 0; run < ordered; ++run)
-    header.longest_group = std::max(header.longest_group, runs[run + 1] - runs[run]);
+  for (std::size_t group = 0; group < ordered; ++group)
+    header.longest_group = std::max(header.longest_group, groups[group + 1] - groups[group]);
   return header;
 }
 
@@ -133,14 +133,15 @@ ImageHeader make_header(const Scene& scene, const SceneObjects& objects, const O
 class TableWriter {
 public:
   TableWriter(std::byte* base, const ImageHeader& header, const Scene& scene, std::uint32_t unbounded_extras)
-      : base_(base), header_(header), scene_(scene), unbounded_extras_(unbounded_extras), tables_{header.material_offset,
-                                                             header.interior_offset,
-                                                             header.extra_offset,
-                                                             header.blend_offset,
-                                                             header.csg_offset,
-                                                             table<ExtraRecord>(header.extra_offset),
-                                                             table<BlendRecord>(header.blend_offset),
-                                                             {}} {
+      : base_(base), header_(header), scene_(scene),
+        unbounded_extras_(unbounded_extras), tables_{header.material_offset,
+                                                     header.interior_offset,
+                                                     header.extra_offset,
+                                                     header.blend_offset,
+                                                     header.csg_offset,
+                                                     table<ExtraRecord>(header.extra_offset),
+                                                     table<BlendRecord>(header.blend_offset),
+                                                     {}} {
     for (const Material& material : scene.materials)
       tables_.opaque.push_back(is_opaque(material));
     // What lies between the tables is always the same.
@@ -210,25 +211,25 @@ public:
   }
 
   /// Of objects that are no instances.
-  void write_runs(std::span<const std::uint32_t> runs, unsigned threads) {
-    if (runs.empty()) return;
+  void write_groups(std::span<const std::uint32_t> groups, unsigned threads) {
+    if (groups.empty()) return;
     const auto* objects = table<ObjectRecord>(header_.object_offset);
-    const auto count = static_cast<std::uint32_t>(runs.size()) - 1;
+    const auto count = static_cast<std::uint32_t>(groups.size()) - 1;
     if (header_.prototype_count != 0)
       std::fill_n(table<std::uint32_t>(header_.prototype_offset), count, kNoGroup);
     for_each_part(threads, [&](unsigned part) {
       const HostPart mine(count, part, threads);
-      for (std::uint32_t run = mine.begin; run < mine.end; ++run) {
+      for (std::uint32_t group = mine.begin; group < mine.end; ++group) {
         auto lanes = bvh::LaneAabb<Simd>::empty();
-        for (std::uint32_t i = runs[run]; i < runs[run + 1]; ++i)
+        for (std::uint32_t i = groups[group]; i < groups[group + 1]; ++i)
           lanes.grow(bvh::box_of<Simd>(objects[i], base_));
         bvh::Reference box;
         lanes.min.store(box.min); // over the words beside
         lanes.max.store(box.max);
-        table<GroupRecord>(header_.group_offset)[run] = {{box.min[0], box.min[1], box.min[2]},
-                                                     runs[run],
-                                                     {box.max[0], box.max[1], box.max[2]},
-                                                     runs[run + 1] - runs[run]};
+        table<GroupRecord>(header_.group_offset)[group] = {{box.min[0], box.min[1], box.min[2]},
+                                                           groups[group],
+                                                           {box.max[0], box.max[1], box.max[2]},
+                                                           groups[group + 1] - groups[group]};
       }
     });
   }
@@ -237,11 +238,10 @@ public:
   void write_instances(const MeshInstances& instances, unsigned threads) {
     if (instances.group_count() == 0) return;
     const std::uint32_t first_object = header_.object_count - instances.census().objects;
-    const std::uint32_t first_run = header_.group_count - instances.group_count();
+    const std::uint32_t first_group = header_.group_count - instances.group_count();
     instances.write({tables_, table<ObjectRecord>(header_.object_offset) + first_object, first_object,
-                     first_instance_extra(instances),
-                     table<GroupRecord>(header_.group_offset) + first_run,
-                     table<std::uint32_t>(header_.prototype_offset) + first_run, first_run},
+                     first_instance_extra(instances), table<GroupRecord>(header_.group_offset) + first_group,
+                     table<std::uint32_t>(header_.prototype_offset) + first_group, first_group},
                     threads);
   }
 
@@ -253,9 +253,10 @@ public:
   /// At last. `around`: objects that are no instances.
   void write_bounds(Aabb around) {
     if (header_.prototype_count != 0)
-      for (const GroupRecord& run : std::span(table<GroupRecord>(header_.group_offset), header_.group_count))
-        around =
-            united(around, {{run.min[0], run.min[1], run.min[2]}, {run.max[0], run.max[1], run.max[2]}});
+      for (const GroupRecord& group :
+           std::span(table<GroupRecord>(header_.group_offset), header_.group_count))
+        around = united(
+            around, {{group.min[0], group.min[1], group.min[2]}, {group.max[0], group.max[1], group.max[2]}});
     const Aabb bounds = bounds_of(around);
     auto& header = *reinterpret_cast<ImageHeader*>(base_);
     std::copy(bounds.min, bounds.min + 3, header.bounds_min);
@@ -306,19 +307,19 @@ void SceneImage::assign(const Scene& scene, AlignedBlock& work, unsigned threads
   threads = static_cast<unsigned>(std::clamp<std::uint64_t>(all / objects_a_thread, 1, threads));
   const OrderMemory memory(work, objects.count());
   const ObjectCensus loose = place_all(objects, memory.objects, threads);
-  std::vector<std::uint32_t> runs;
+  std::vector<std::uint32_t> groups;
   if (loose.objects != 0 && (loose.objects >= kMinObjectsToOrder || instances.group_count() != 0))
-    runs = order_along_curve(memory.objects, memory.spare, memory.cells, loose.objects, threads);
+    groups = order_along_curve(memory.objects, memory.spare, memory.cells, loose.objects, threads);
   ObjectCensus census = loose;
   census.add(instances.census());
-  const ImageHeader header = make_header(scene, objects, census, runs, instances);
+  const ImageHeader header = make_header(scene, objects, census, groups, instances);
 
   block_.reserve(header.bytes + bvh_bytes(header));
   TableWriter writer(block_.data(), header, scene, objects.unbounded_extras());
   writer.write_surfaces();
   writer.write_csg(objects.csg());
   writer.write_objects(objects, {memory.objects, loose.objects}, memory.cells, threads);
-  writer.write_runs(runs, threads);
+  writer.write_groups(groups, threads);
   writer.write_instances(instances, threads);
   writer.write_unbounded(objects, census);
   writer.write_bounds(loose.around);

@@ -92,32 +92,32 @@ bool csg_is_valid(const std::byte* base, const ImageHeader& h) {
   return true;
 }
 
-/// True if there are no runs, or each object is in one.
-bool runs_are_valid(const std::byte* base, const ImageHeader& h) {
-  const auto* runs = reinterpret_cast<const GroupRecord*>(base + h.group_offset);
+/// True if there are no groups, or each object is in one.
+bool groups_are_valid(const std::byte* base, const ImageHeader& h) {
+  const auto* groups = reinterpret_cast<const GroupRecord*>(base + h.group_offset);
   std::uint32_t objects = 0;
   std::uint32_t longest = 0;
   for (std::uint32_t i = 0; i < h.group_count; ++i) {
-    if (runs[i].first != objects || runs[i].count == 0 || runs[i].count > h.object_count - objects)
+    if (groups[i].first != objects || groups[i].count == 0 || groups[i].count > h.object_count - objects)
       return false;
-    objects += runs[i].count;
-    longest = std::max(longest, runs[i].count);
+    objects += groups[i].count;
+    longest = std::max(longest, groups[i].count);
   }
   return (h.group_count == 0 || objects == h.object_count) && longest == h.longest_group;
 }
 
 /// True if there are no copies, or each of them and its prototype are of one number of objects, and not many.
-/// The runs are valid.
+/// The groups are valid.
 bool prototypes_are_valid(const std::byte* base, const ImageHeader& h) {
   if (h.prototype_count == 0) return true;
   if (h.prototype_count != h.group_count) return false;
-  const auto* runs = reinterpret_cast<const GroupRecord*>(base + h.group_offset);
+  const auto* groups = reinterpret_cast<const GroupRecord*>(base + h.group_offset);
   const auto* prototypes = reinterpret_cast<const std::uint32_t*>(base + h.prototype_offset);
   for (std::uint32_t i = 0; i < h.group_count; ++i) {
     const std::uint32_t prototype = prototypes[i];
     if (prototype == kNoGroup) continue;
-    if (prototype > i || prototypes[prototype] != prototype || runs[prototype].count != runs[i].count ||
-        runs[i].count > kMaxCopiedObjects)
+    if (prototype > i || prototypes[prototype] != prototype || groups[prototype].count != groups[i].count ||
+        groups[i].count > kMaxCopiedObjects)
       return false;
   }
   return true;
@@ -157,8 +157,8 @@ SceneImage SceneImage::from_bytes(std::span<const std::byte> bytes) {
       !table_fits(h.solid_offset, h.solid_count, sizeof(SolidRecord), bytes.size()) ||
       !table_fits(h.group_offset, h.group_count, sizeof(GroupRecord), bytes.size()) ||
       !table_fits(h.prototype_offset, h.prototype_count, sizeof(std::uint32_t), bytes.size()) ||
-      !references_are_valid(image.base(), h) || !csg_is_valid(image.base(), h) || !runs_are_valid(image.base(), h) ||
-      !prototypes_are_valid(image.base(), h))
+      !references_are_valid(image.base(), h) || !csg_is_valid(image.base(), h) ||
+      !groups_are_valid(image.base(), h) || !prototypes_are_valid(image.base(), h))
     throw InputError("scene image: an offset is out of range");
   return image;
 }

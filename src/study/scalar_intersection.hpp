@@ -23,10 +23,10 @@ inline void cross(const float (&a)[3], const float (&b)[3], float (&out)[3]) {
 
 } // namespace detail
 
-/// True if the ray meets the sphere around geometry[0..2] with radius geometry[3]; the distances of both
+/// True if the ray hits the sphere around geometry[0..2] with radius geometry[3]; the distances of both
 /// crossings. `root` is of the machine.
 template <class Root>
-inline bool meets_sphere(const ScalarRay& ray, const float* geometry, float (&distance)[2], Root root) {
+inline bool hits_sphere(const ScalarRay& ray, const float* geometry, float (&distance)[2], Root root) {
   const float to_centre[3] = {geometry[0] - ray.origin[0], geometry[1] - ray.origin[1],
                               geometry[2] - ray.origin[2]};
   const float along = detail::dot(to_centre, ray.direction);
@@ -40,8 +40,8 @@ inline bool meets_sphere(const ScalarRay& ray, const float* geometry, float (&di
   return true;
 }
 
-/// True if the ray meets the triangle of geometry[0..8] (Moeller and Trumbore 1997).
-inline bool meets_triangle(const ScalarRay& ray, const float* geometry, float& distance) {
+/// True if the ray hits the triangle of geometry[0..8] (Moeller and Trumbore 1997).
+inline bool hits_triangle(const ScalarRay& ray, const float* geometry, float& distance) {
   const float edge1[3] = {geometry[3] - geometry[0], geometry[4] - geometry[1], geometry[5] - geometry[2]};
   const float edge2[3] = {geometry[6] - geometry[0], geometry[7] - geometry[1], geometry[8] - geometry[2]};
   float p[3], q[3];

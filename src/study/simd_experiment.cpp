@@ -82,9 +82,9 @@ Measured one_by_one(ObjectKind kind) {
           {rays.origin.x.lane[lane], rays.origin.y.lane[lane], rays.origin.z.lane[lane]},
           {rays.direction.x.lane[lane], rays.direction.y.lane[lane], rays.direction.z.lane[lane]}};
       float distance[2];
-      const bool hit = kind == ObjectKind::sphere ? meets_sphere(ray, object.geometry, distance,
-                                                                 [](float x) { return std::sqrt(x); })
-                                                  : meets_triangle(ray, object.geometry, distance[0]);
+      const bool hit = kind == ObjectKind::sphere
+                           ? hits_sphere(ray, object.geometry, distance, [](float x) { return std::sqrt(x); })
+                           : hits_triangle(ray, object.geometry, distance[0]);
       spu.compute(kind == ObjectKind::sphere ? kScalarSphere : kScalarTriangle);
       hits += hit ? 1 : 0;
     }

@@ -15,7 +15,8 @@
 
 namespace celltrace::test {
 
-/// A run of objects that is a copy of an earlier one, or the prototype itself, by the index among such runs.
+/// A group of objects that is a copy of an earlier one, or the prototype itself, by the index among such
+/// groups.
 struct CopiedRun {
   std::uint32_t prototype;
   std::vector<kernel::ObjectRecord> objects;
@@ -24,38 +25,38 @@ struct CopiedRun {
 class BuiltBvh {
 public:
   /// Orders the objects as a scene image does. Those of `copies` come behind them.
-  explicit BuiltBvh(std::vector<kernel::ObjectRecord> objects,
-                          const std::vector<CopiedRun>& copies = {})
+  explicit BuiltBvh(std::vector<kernel::ObjectRecord> objects, const std::vector<CopiedRun>& copies = {})
       : frame_memory_(sizeof(kernel::FrameBlock)), frame_(*new (frame_memory_.data()) kernel::FrameBlock()) {
-    std::vector<kernel::GroupRecord> runs = order(objects, copies.empty() ? kMinObjectsToOrder : 1);
-    const auto first_copy = static_cast<std::uint32_t>(runs.size());
-    std::vector<std::uint32_t> prototypes(runs.size(), kernel::kNoGroup);
+    std::vector<kernel::GroupRecord> groups = order(objects, copies.empty() ? kMinObjectsToOrder : 1);
+    const auto first_copy = static_cast<std::uint32_t>(groups.size());
+    std::vector<std::uint32_t> prototypes(groups.size(), kernel::kNoGroup);
     for (const CopiedRun& copy : copies) {
       prototypes.push_back(first_copy + copy.prototype);
       const auto first = static_cast<std::uint32_t>(objects.size());
       objects.insert(objects.end(), copy.objects.begin(), copy.objects.end());
-      runs.push_back(run_of(objects, first, static_cast<std::uint32_t>(objects.size())));
+      groups.push_back(group_of(objects, first, static_cast<std::uint32_t>(objects.size())));
     }
     const auto count = static_cast<std::uint32_t>(objects.size());
-    const auto group_count = static_cast<std::uint32_t>(runs.size());
+    const auto group_count = static_cast<std::uint32_t>(groups.size());
     capacity_ = kernel::bvh::most_nodes(count, group_count, !copies.empty());
-    const std::uint32_t first_run = kFirst + (count + 1) / 2 * 128;
-    const std::uint32_t first_prototype = first_run + (group_count + 3) / 4 * 128;
+    const std::uint32_t first_group = kFirst + (count + 1) / 2 * 128;
+    const std::uint32_t first_prototype = first_group + (group_count + 3) / 4 * 128;
     const std::uint32_t nodes = first_prototype + (group_count + 31) / 32 * 128;
     const std::uint32_t list = nodes + capacity_ * 128;
     image_ = AlignedBlock(list + std::size_t{count} * 4 + 4);
     if (count != 0) std::memcpy(image_.data() + kFirst, objects.data(), std::size_t{count} * 64);
-    if (group_count != 0) std::memcpy(image_.data() + first_run, runs.data(), std::size_t{group_count} * 32);
+    if (group_count != 0)
+      std::memcpy(image_.data() + first_group, groups.data(), std::size_t{group_count} * 32);
     if (group_count != 0)
       std::memcpy(image_.data() + first_prototype, prototypes.data(), std::size_t{group_count} * 4);
     frame_.image = reinterpret_cast<std::uintptr_t>(image_.data());
     frame_.object_offset = kFirst;
     frame_.object_count = count;
-    frame_.group_offset = first_run;
+    frame_.group_offset = first_group;
     frame_.group_count = group_count;
     frame_.prototype_offset = copies.empty() ? 0 : first_prototype;
-    for (const kernel::GroupRecord& run : runs)
-      frame_.longest_group = std::max(frame_.longest_group, run.count);
+    for (const kernel::GroupRecord& group : groups)
+      frame_.longest_group = std::max(frame_.longest_group, group.count);
     frame_.bvh = {nodes, capacity_, 0, list};
     const kernel::bvh::WorkSize work(count, group_count, frame_.longest_group);
     frame_.sort_capacity = static_cast<std::uint32_t>(work.pairs());
@@ -110,7 +111,7 @@ private:
 
   /// Nothing if there are fewer than `fewest`.
   static std::vector<kernel::GroupRecord> order(std::vector<kernel::ObjectRecord>& objects,
-                                              std::uint32_t fewest) {
+                                                std::uint32_t fewest) {
     const auto count = static_cast<std::uint32_t>(objects.size());
     if (count < fewest) return {};
     std::vector<PlacedObject> placed(count), spare(count);
@@ -122,15 +123,15 @@ private:
     const std::vector<std::uint32_t> begins =
         order_along_curve(placed.data(), spare.data(), cells.data(), count, 1);
     const std::vector<kernel::ObjectRecord> as_given = objects;
-    std::vector<kernel::GroupRecord> runs;
+    std::vector<kernel::GroupRecord> groups;
     for (std::uint32_t i = 0; i < count; ++i)
       objects[i] = as_given[placed[i].source];
-    for (std::size_t run = 0; run + 1 < begins.size(); ++run)
-      runs.push_back(run_of(objects, begins[run], begins[run + 1]));
-    return runs;
+    for (std::size_t group = 0; group + 1 < begins.size(); ++group)
+      groups.push_back(group_of(objects, begins[group], begins[group + 1]));
+    return groups;
   }
-  static kernel::GroupRecord run_of(const std::vector<kernel::ObjectRecord>& objects, std::uint32_t begin,
-                                  std::uint32_t end) {
+  static kernel::GroupRecord group_of(const std::vector<kernel::ObjectRecord>& objects, std::uint32_t begin,
+                                      std::uint32_t end) {
     kernel::Aabb around = bounding_box(objects[begin]);
     for (std::uint32_t i = begin + 1; i < end; ++i)
       around = united(around, bounding_box(objects[i]));

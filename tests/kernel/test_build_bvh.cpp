@@ -328,16 +328,16 @@ ObjectRecord moved(const ObjectRecord& from, const Vec3& by) {
 /// `copies` of each of the prototypes, in turn, anywhere.
 std::vector<CopiedRun> scattered(const std::vector<Objects>& prototypes, unsigned copies, double reach) {
   Random random(7);
-  std::vector<CopiedRun> runs;
+  std::vector<CopiedRun> groups;
   for (unsigned copy = 0; copy < copies; ++copy)
     for (std::uint32_t p = 0; p < prototypes.size(); ++p) {
-      CopiedRun run = {p, {}};
+      CopiedRun group = {p, {}};
       const Vec3 by = random.point(reach);
       for (const ObjectRecord& object : prototypes[p])
-        run.objects.push_back(moved(object, by));
-      runs.push_back(run);
+        group.objects.push_back(moved(object, by));
+      groups.push_back(group);
     }
-  return runs;
+  return groups;
 }
 
 Shape check(const Objects& objects, const std::vector<CopiedRun>& copies) {
@@ -356,7 +356,7 @@ Shape check(const Objects& objects, const std::vector<CopiedRun>& copies) {
 
 } // namespace
 
-TEST_CASE("A BVH over runs that are copies of others") {
+TEST_CASE("A BVH over groups that are copies of others") {
   for (unsigned loose : {0u, 1u, 2u, 3u, 5u, 300u, 20000u})
     for (unsigned copies : {1u, 2u, 3u, 50u, 700u}) {
       INFO(loose << " objects beside, " << copies << " of each");
@@ -375,18 +375,18 @@ TEST_CASE("Copies lie deeper than their prototypes, but not too deep") {
     const double at = std::pow(0.8, i);
     prototype.push_back(triangle({at, 0, 0}, {at, 0.1 * at, 0}, {at, 0, 0.1 * at}));
   }
-  std::vector<CopiedRun> runs;
+  std::vector<CopiedRun> groups;
   for (int i = 0; i < 120; ++i) {
-    CopiedRun run = {0, {}};
+    CopiedRun group = {0, {}};
     const auto scale = static_cast<float>(std::pow(0.5, i));
     for (ObjectRecord object : prototype) {
       for (float& coordinate : object.geometry)
         coordinate *= scale;
-      run.objects.push_back(object);
+      group.objects.push_back(object);
     }
-    runs.push_back(run);
+    groups.push_back(group);
   }
-  CHECK(check({}, runs).depth > 8);
-  std::reverse(runs.begin(), runs.end());
-  check({}, runs);
+  CHECK(check({}, groups).depth > 8);
+  std::reverse(groups.begin(), groups.end());
+  check({}, groups);
 }

@@ -248,7 +248,7 @@ Scene crowd(int triangles, double reach) {
 
 } // namespace
 
-TEST_CASE("An image of many objects has them by run, the same whoever makes it") {
+TEST_CASE("An image of many objects has them by group, the same whoever makes it") {
   for (const double reach : {0.0, 30.0, 1000.0}) {
     INFO(reach);
     Scene scene = crowd(9000, reach);
@@ -259,15 +259,15 @@ TEST_CASE("An image of many objects has them by run, the same whoever makes it")
     // Spheres around one point cannot be told apart.
     CHECK((h.longest_group <= 256) == (reach > 0));
     const auto* objects = table<ObjectRecord>(image, h.object_offset);
-    const auto* runs = table<GroupRecord>(image, h.group_offset);
+    const auto* groups = table<GroupRecord>(image, h.group_offset);
     std::uint32_t next = 0;
-    for (std::uint32_t run = 0; run < h.group_count; ++run) {
-      REQUIRE(runs[run].first == next);
-      for (; next < runs[run].first + runs[run].count; ++next) {
+    for (std::uint32_t group = 0; group < h.group_count; ++group) {
+      REQUIRE(groups[group].first == next);
+      for (; next < groups[group].first + groups[group].count; ++next) {
         const Aabb box = bounding_box(objects[next]);
         for (int axis = 0; axis < 3; ++axis) {
-          REQUIRE(box.min[axis] >= runs[run].min[axis]);
-          REQUIRE(box.max[axis] <= runs[run].max[axis]);
+          REQUIRE(box.min[axis] >= groups[group].min[axis]);
+          REQUIRE(box.max[axis] <= groups[group].max[axis]);
         }
       }
     }
@@ -290,7 +290,7 @@ TEST_CASE("An image of many objects has them by run, the same whoever makes it")
   }
 }
 
-TEST_CASE("A sealed scene image with a fault in its runs is refused") {
+TEST_CASE("A sealed scene image with a fault in its groups is refused") {
   const Bytes good = bytes_of(SceneImage(crowd(3000, 10)));
   const auto refused = [&](const std::function<void(ImageHeader&, GroupRecord*)>& change) {
     Bytes bytes = good;
@@ -298,9 +298,9 @@ TEST_CASE("A sealed scene image with a fault in its runs is refused") {
     seal(bytes);
     CHECK_THROWS_WITH(SceneImage::from_bytes(bytes), Catch::Contains("offset"));
   };
-  refused([](ImageHeader&, GroupRecord* runs) { ++runs[1].first; });
-  refused([](ImageHeader&, GroupRecord* runs) { runs[0].count = 0; });
-  refused([](ImageHeader& h, GroupRecord* runs) { runs[h.group_count - 1].count = 0xFFFFFFFF; });
+  refused([](ImageHeader&, GroupRecord* groups) { ++groups[1].first; });
+  refused([](ImageHeader&, GroupRecord* groups) { groups[0].count = 0; });
+  refused([](ImageHeader& h, GroupRecord* groups) { groups[h.group_count - 1].count = 0xFFFFFFFF; });
   refused([](ImageHeader& h, GroupRecord*) { --h.group_count; });
   refused([](ImageHeader& h, GroupRecord*) { --h.longest_group; });
   refused([](ImageHeader& h, GroupRecord*) { h.group_offset = 0xFFFFFF80; });
@@ -386,30 +386,30 @@ std::vector<std::vector<float>> contents(const SceneImage& image) {
 
 } // namespace
 
-TEST_CASE("Instances of a mesh are copies of runs") {
+TEST_CASE("Instances of a mesh are copies of groups") {
   const Scene scene = instances(30);
   const SceneImage image(scene);
   const ImageHeader& h = image.header();
   REQUIRE(h.prototype_count == h.group_count);
   CHECK(h.longest_group <= kMaxCopiedObjects);
   const auto* objects = table<ObjectRecord>(image, h.object_offset);
-  const auto* runs = table<GroupRecord>(image, h.group_offset);
+  const auto* groups = table<GroupRecord>(image, h.group_offset);
   const auto* prototypes = table<std::uint32_t>(image, h.prototype_offset);
   std::uint32_t next = 0, copies = 0, alone = 0;
-  for (std::uint32_t run = 0; run < h.group_count; ++run) {
-    REQUIRE(runs[run].first == next);
+  for (std::uint32_t group = 0; group < h.group_count; ++group) {
+    REQUIRE(groups[group].first == next);
     Aabb around = bounding_box(objects[next]);
-    for (const std::uint32_t end = next + runs[run].count; next < end; ++next)
+    for (const std::uint32_t end = next + groups[group].count; next < end; ++next)
       around = united(around, bounding_box(objects[next]));
-    CHECK(std::equal(around.min, around.min + 3, runs[run].min));
-    CHECK(std::equal(around.max, around.max + 3, runs[run].max));
-    if (prototypes[run] == kNoGroup)
+    CHECK(std::equal(around.min, around.min + 3, groups[group].min));
+    CHECK(std::equal(around.max, around.max + 3, groups[group].max));
+    if (prototypes[group] == kNoGroup)
       ++alone;
-    else if (prototypes[run] != run)
+    else if (prototypes[group] != group)
       ++copies;
-    if (prototypes[run] == kNoGroup) continue;
-    REQUIRE(prototypes[prototypes[run]] == prototypes[run]);
-    REQUIRE(runs[prototypes[run]].count == runs[run].count);
+    if (prototypes[group] == kNoGroup) continue;
+    REQUIRE(prototypes[prototypes[group]] == prototypes[group]);
+    REQUIRE(groups[prototypes[group]].count == groups[group].count);
   }
   CHECK(next == h.object_count);
   CHECK(alone > 0);
@@ -432,7 +432,7 @@ TEST_CASE("Instances of a mesh are copies of runs") {
   }
 }
 
-TEST_CASE("Instances of a large mesh are copies of short runs") {
+TEST_CASE("Instances of a large mesh are copies of short groups") {
   const Scene scene = instances(2, 60);
   const SceneImage image(scene);
   REQUIRE(image.header().prototype_count == image.header().group_count);
@@ -447,17 +447,17 @@ TEST_CASE("Instances of a large mesh are copies of short runs") {
   }
 }
 
-TEST_CASE("Runs of a prototype are short where nothing tells triangles apart") {
+TEST_CASE("Groups of a prototype are short where nothing tells triangles apart") {
   Mesh mesh;
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   mesh.triangles.resize(5000, {{0, 1, 2}});
   const MeshPrototype prototype(mesh, 2);
   CHECK(prototype.triangles().size() == 5000);
   CHECK(prototype.vertices().size() == 3);
-  REQUIRE(prototype.runs().back() == 5000);
-  for (std::uint32_t run = 0; run < prototype.group_count(); ++run) {
-    REQUIRE(prototype.runs()[run] < prototype.runs()[run + 1]);
-    REQUIRE(prototype.runs()[run + 1] - prototype.runs()[run] <= kMaxCopiedObjects);
+  REQUIRE(prototype.groups().back() == 5000);
+  for (std::uint32_t group = 0; group < prototype.group_count(); ++group) {
+    REQUIRE(prototype.groups()[group] < prototype.groups()[group + 1]);
+    REQUIRE(prototype.groups()[group + 1] - prototype.groups()[group] <= kMaxCopiedObjects);
   }
 }
 
@@ -474,7 +474,7 @@ TEST_CASE("Instances of a mesh without areas are nothing") {
   CHECK((bytes_of(SceneImage::from_bytes(bytes_of(with))) == bytes_of(with)));
 }
 
-TEST_CASE("Meshes that are not worth while to share have runs of their own") {
+TEST_CASE("Meshes that are not worth while to share have groups of their own") {
   // Too few triangles in all.
   CHECK(SceneImage(instances(2)).header().prototype_count == 0);
   // Everything in one another.
@@ -528,6 +528,7 @@ TEST_CASE("A sealed scene image with a fault in its copies is refused") {
   refused([](ImageHeader& h, std::uint32_t*) { --h.prototype_count; });
   refused([](ImageHeader& h, std::uint32_t*) { h.prototype_offset = 0xFFFFFF80; });
   refused([](ImageHeader& h, std::uint32_t* prototypes) { prototypes[h.group_count - 1] = h.group_count; });
-  refused([](ImageHeader& h, std::uint32_t* prototypes) { prototypes[h.group_count - 1] = h.group_count - 2; });
+  refused(
+      [](ImageHeader& h, std::uint32_t* prototypes) { prototypes[h.group_count - 1] = h.group_count - 2; });
   refused([](ImageHeader& h, std::uint32_t* prototypes) { prototypes[h.group_count - 1] = 0; });
 }

@@ -12,23 +12,22 @@ inline Aabb bounding_box(const ObjectRecord& object, const ExtraRecord& extra = 
   const float* limits = extra.bounds;
   Aabb box = {{limits[0], limits[1], limits[2]}, {limits[3], limits[4], limits[5]}};
   if ((object.kind_and_flags & object_flag::csg) != 0) return box;
-  Primitives::dispatch(object.kind_and_flags & object_flag::kind_mask, [&](auto shape) {
-    box = decltype(shape)::bounds(object, extra);
-  });
+  Primitives::dispatch(object.kind_and_flags & object_flag::kind_mask,
+                       [&](auto shape) { box = decltype(shape)::bounds(object, extra); });
   return box;
 }
 
-/// Whether the object may touch a box; some shapes say so of boxes near them, too.
+/// Whether the object may touch a box; some shapes say so of a box near them, too.
 inline bool overlaps(const ObjectRecord& object, const Aabb& box, const ExtraRecord& extra = {}) {
   bool result = false;
   if ((object.kind_and_flags & object_flag::csg) != 0) return true; // those within its bounds
-  Primitives::dispatch(object.kind_and_flags & object_flag::kind_mask, [&](auto shape) {
-    result = decltype(shape)::overlaps(object, extra, box);
-  });
+  Primitives::dispatch(object.kind_and_flags & object_flag::kind_mask,
+                       [&](auto shape) { result = decltype(shape)::overlaps(object, extra, box); });
   return result;
 }
 
-/// Whose charges a kind has: shapes without any of their own have those of the ellipsoid, which is most like them.
+/// Whose charges a kind has: shapes without any of their own have those of the ellipsoid, which is most like
+/// them.
 inline uint32_t charged_kind(uint32_t kind) {
   constexpr auto kLast = static_cast<uint32_t>(ObjectKind::ellipsoid);
   return kind < kLast ? kind : kLast;
