@@ -65,20 +65,32 @@ std::atomic<unsigned> checked_runs = 0;
 
 } // namespace
 
-SpeProgram tracer_program() {
-  SpeProgram program("tracer");
+namespace {
+
+/// `kernel(spu, argument)` on a watched or on a plain SPU.
+template <class Kernel> SpeProgram watched_program(const char* name, Kernel kernel) {
+  SpeProgram program(name);
   program.add(kHostKey, kHostEntry);
-  program.add(cell_emu::Spu::kKey, [](void* spu, ea_t argument) {
+  program.add(cell_emu::Spu::kKey, [kernel](void* spu, ea_t argument) {
     cell_emu::Spu& real = *static_cast<cell_emu::Spu*>(spu);
     if (checked) {
       ++checked_runs;
       CheckedSpu watched(real);
-      kernel::tracer(watched, argument);
+      kernel(watched, argument);
     } else {
-      kernel::tracer(real, argument);
+      kernel(real, argument);
     }
   });
   return program;
+}
+
+} // namespace
+
+SpeProgram tracer_program() {
+  return watched_program("tracer", [](auto& spu, ea_t argument) { kernel::tracer(spu, argument); });
+}
+SpeProgram grid_tracer_program() {
+  return watched_program("grid_tracer", [](auto& spu, ea_t argument) { kernel::grid_tracer(spu, argument); });
 }
 
 } // namespace celltrace

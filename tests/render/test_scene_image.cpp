@@ -122,12 +122,14 @@ TEST_CASE("A sealed scene image with a fault in it is refused") {
   refused([](Bytes& b) { header_of(b).interior_offset = 0x7FFFFF80; }, "offset");
   refused([](Bytes& b) { header_of(b).extra_count = 0; }, "offset");
   refused([](Bytes& b) { header_of(b).blend_count = 0; }, "offset");
-  refused([&](Bytes& b) { objects(b)->kind_and_flags = 3; }, "offset");
+  refused([&](Bytes& b) { objects(b)->kind_and_flags = 200; }, "offset");
   refused([&](Bytes& b) { objects(b)->material += 16; }, "offset");
   refused([&](Bytes& b) { objects(b)->material = 0; }, "offset");
   refused([&](Bytes& b) { objects(b)->interior = kNoOffset; }, "offset");
   refused([&](Bytes& b) { objects(b)->kind_and_flags |= object_flag::blended; }, "offset");
   refused([&](Bytes& b) { objects(b)->kind_and_flags |= object_flag::smooth; }, "offset");
+  refused([](Bytes& b) { header_of(b).unbounded_count = 0xFFFFFFFF; }, "offset");
+  refused([](Bytes& b) { header_of(b).csg_count = 0x10000000; }, "offset");
   refused([](Bytes& b) { table<BlendRecord>(b, header_of(b).blend_offset)->material[2] = 5; }, "offset");
 }
 
@@ -201,9 +203,9 @@ TEST_CASE("Faces and materials are flagged for what the kernel may skip") {
   const ImageHeader& h = image.header();
   const auto* objects = table<ObjectRecord>(image, h.object_offset);
   const auto material = [&](std::uint32_t index) { return h.material_offset + index * 128; };
-  CHECK(objects[0].kind_and_flags == (2u | object_flag::opaque | object_flag::no_shadow));
+  CHECK(objects[0].kind_and_flags == (1u | object_flag::opaque | object_flag::no_shadow));
   CHECK(objects[0].material == material(1));
-  CHECK(objects[1].kind_and_flags == (2u | object_flag::blended | object_flag::no_shadow));
+  CHECK(objects[1].kind_and_flags == (1u | object_flag::blended | object_flag::no_shadow));
   const auto* blend = table<BlendRecord>(image, objects[1].material);
   CHECK(blend->material[0] == material(0));
   CHECK(blend->material[1] == material(1));

@@ -131,6 +131,19 @@ public:
   }
 
   /// Merges the crossings with object `self` into the closest hits.
+  /// Tests the objects that no accelerator has, behind the others in their table.
+  void test_unbounded(const FrameBlock& frame, RayQuery& query) {
+    constexpr auto kBytes = static_cast<uint32_t>(sizeof(ObjectRecord));
+    uint32_t self = frame.object_offset + frame.object_count * kBytes;
+    hit_filter_.begin_packet();
+    for (uint32_t i = 0; i < frame.unbounded_count && query.lanes != 0; ++i, self += kBytes) {
+      if (query.hits != nullptr)
+        test_closest(*query.rays, self, *query.hits);
+      else
+        query.lanes &= ~occluded(*query.rays, self, query.lanes, *query.distance, *query.light);
+    }
+  }
+
   static void keep_closest(const Crossings<S>& c, uint32_t self, HitPacket& hits) {
     const M near_valid = c.near_hit & (c.near > F(kMinHitDistance));
     const M far_valid = c.far_hit & (c.far > F(kMinHitDistance));

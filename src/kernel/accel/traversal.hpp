@@ -112,19 +112,8 @@ private:
     if (frame_.unbounded_count != 0) test_unbounded(queries, count);
   }
   [[gnu::noinline]] void test_unbounded(RayQuery* queries, uint32_t count) {
-    constexpr auto kBytes = static_cast<uint32_t>(sizeof(ObjectRecord));
-    const uint32_t first = frame_.object_offset + frame_.object_count * kBytes;
-    for (uint32_t i = 0; i < count; ++i) {
-      RayQuery& query = queries[i];
-      objects_.hit_filter().begin_packet();
-      for (uint32_t object = 0; object < frame_.unbounded_count && query.lanes != 0; ++object) {
-        const uint32_t self = first + object * kBytes;
-        if (query.hits != nullptr)
-          objects_.test_closest(*query.rays, self, *query.hits);
-        else
-          query.lanes &= ~objects_.occluded(*query.rays, self, query.lanes, *query.distance, *query.light);
-      }
-    }
+    for (uint32_t i = 0; i < count; ++i)
+      objects_.test_unbounded(frame_, queries[i]);
   }
 
   /// Sets the light of a query to 0 in lanes that are occluded or that were not asked for.

@@ -4,10 +4,10 @@
 // rays back that hit nothing there: neither knows what the other does.
 #pragma once
 
+#include "kernel/accel/traversal.hpp"
 #include "kernel/models/model_work.hpp"
 #include "kernel/models/search_record.hpp"
 #include "kernel/models/stage_block.hpp"
-#include "kernel/accel/traversal.hpp"
 
 #include <type_traits>
 
@@ -61,10 +61,13 @@ public:
 
   GridWalk(SceneAccess<Spu>& scene, const FrameBlock& frame) : scene_(scene), grid_(frame.grid) {}
 
-  /// Rays that leave the grid are no longer pending.
-  void run(SearchRecord& search) {
+  /// Rays that leave the grid are no longer pending. Calls `on_begin(search)` before the first step of all.
+  template <class OnBegin> void run(SearchRecord& search, OnBegin on_begin) {
     const bool begins = search.walked == 0;
-    if (begins) begin(search);
+    if (begins) {
+      begin(search);
+      on_begin(search);
+    }
     VoxelWalk<S> walk = set_out(search, begins);
     F enter(-kFarAway);
     const auto step = [&](uint32_t lanes) {
@@ -133,7 +136,21 @@ public:
   using F = typename S::F;
 
   VoxelTests(SceneAccess<Spu>& scene, const FrameBlock& frame)
-      : objects_(scene), grid_(objects_, frame.grid) {}
+      : frame_(frame), objects_(scene), grid_(objects_, frame.grid) {}
+
+  /// Tests the objects that are in no voxel, before a search begins.
+  void test_unbounded(SearchRecord& search) {
+    if (frame_.unbounded_count == 0) return;
+    if (static_cast<SearchKind>(search.kind) == SearchKind::closest) {
+      RayQuery query = {&search.rays, &search.hits, nullptr, nullptr, search.lanes};
+      return objects_.test_unbounded(frame_, query);
+    }
+    RayQuery query = {&search.rays, nullptr, &search.light.distance, &search.light.colour, search.lit};
+    objects_.test_unbounded(frame_, query);
+    search.lit = query.lanes;
+    search.pending &= search.lit;
+    darken(search);
+  }
 
   /// Rays that need to go no farther are no longer pending.
   void run(SearchRecord& search) {
@@ -163,14 +180,19 @@ private:
   void transmittance(SearchRecord& search) {
     for_each_value<S>(search.cell, search.pending, [&](uint32_t cell, uint32_t lanes) {
       grid_.transmittance_in(cell, lanes, search.enter, search.leave, search.rays, search.light.distance,
-                         search.light.colour, search.lit);
+                             search.light.colour, search.lit);
     });
     search.pending &= search.lit;
+    darken(search);
+  }
+  /// Lanes to which no light comes.
+  static void darken(SearchRecord& search) {
     const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
     VectorLanes& colour = search.light.colour;
     colour.template store<S>(select<S>(S::M::from_bits(search.lit), colour.template load<S>(), dark));
   }
 
+  const FrameBlock& frame_;
   ObjectTests<Spu> objects_;
   GridTraversal<Spu> grid_;
   uint64_t returns_ = 0;

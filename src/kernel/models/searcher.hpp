@@ -35,7 +35,7 @@ public:
       if (ahead) fetch(item);
       current_ ^= 1;
       work(present, slot);
-      if (last) secondary_rays_of(present.context, slot);
+      if (last) hand_on(present.context, slot);
       current_ ^= 1;
     }
     spu_.wait_all(1u << kPutTag);
@@ -103,7 +103,7 @@ private:
     if (!split())
       whole_.run(search);
     else if (walking())
-      walk_.run(search);
+      walk_.run(search, [&](SearchRecord& first) { tests_.test_unbounded(first); });
     else
       tests_.run(search);
     const bool over = !split() || search.pending == 0;
@@ -119,7 +119,7 @@ private:
 
   /// To who is next: rays that are in voxels to be tested, those that hit nothing there back to be walked,
   /// and answers to who asked.
-  void secondary_rays_of(uint32_t context, Slot& slot) {
+  void hand_on(uint32_t context, Slot& slot) {
     ++stage_.stage_report().jobs;
     uint32_t to = orders_.shader[context];
     if (live_ != 0) {
