@@ -1,9 +1,10 @@
 // Reads scenes in the POV-Ray scene language (POV-Ray 3.7's) into a Scene.
 //
 // Supported: the language itself (directives, macros, loops, strings, arrays, expressions), perspective and
-// orthographic cameras, point lights, spheres, triangles, meshes, unions, and solid-colour textures with
-// every finish that Finish has. Whatever else POV-Ray knows may be declared; it is an error, "'cylinder' is
-// not supported yet", where an object of the scene uses it.
+// orthographic cameras, point lights, spheres, boxes, planes, discs, cylinders, cones, tori, triangles,
+// meshes, unions, CSG of all that have an inside, with inverse and clipped_by, and solid-colour textures with
+// every finish that Finish has. Whatever else POV-Ray knows may be declared; it is an error, "'blob' is not
+// supported yet", where an object of the scene uses it.
 #pragma once
 
 #include <cstdint>
