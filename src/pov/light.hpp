@@ -1,0 +1,33 @@
+// Light sources as they are written.
+#pragma once
+
+#include <memory>
+
+#include "pov/object.hpp"
+#include "pov/quantity.hpp"
+
+namespace celltrace::pov {
+
+struct Session;
+
+std::shared_ptr<ObjectDefinition> light(const Vec3& location, const Vec3& colour);
+/// A copy of one that was declared. Fails if that is something else.
+std::shared_ptr<ObjectDefinition> light(Session& session, const ObjectDefinition& declared,
+                                        const Location& where);
+
+// The modifiers of a light source.
+
+Light& light_of(ObjectDefinition& object);
+/// Sets what it has of its kind, too, back to what POV-Ray begins with.
+void set_kind(ObjectDefinition& object, Light::Kind kind);
+/// By the name of a shape, its place in shape_names().
+void set_kind(Session& session, ObjectDefinition& object, int shape, const Location& where);
+void set_point_at(Session& session, ObjectDefinition& object, const Quantity& point, const Location& where);
+/// A number that only spotlights and cylinders have.
+void set_beam(Session& session, ObjectDefinition& object, double Light::*number, double value,
+              const Location& where);
+void set_looks_like(Session& session, ObjectDefinition& object, const ObjectPtr& looks_like,
+                    const Location& where);
+void transform(ObjectDefinition& object, const Transform& next);
+
+} // namespace celltrace::pov
