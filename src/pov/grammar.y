@@ -568,7 +568,7 @@ light_body // what comes later applies to what is there by then
   | light_body SPOTLIGHT                                  { $$ = $1; set_kind(*$$, Light::Kind::spotlight); }
   | light_body SHAPE                                      { $$ = $1; set_kind(session, *$$, $2, @2); }
   | light_body PARALLEL                                   { $$ = $1; light_of(*$$).parallel = true; }
-  | light_body SHADOWLESS                                 { $$ = $1; light_of(*$$).shadowless = true; }
+  | light_body SHADOWLESS                                 { $$ = $1; set_shadowless(*$$); }
   | light_body POINT_AT quantity                          { $$ = $1; set_point_at(session, *$$, $3, @2); }
   | light_body beam_number number                         { $$ = $1; set_beam(session, *$$, $2, $3, @2); }
   | light_body FADE_DISTANCE number                       { $$ = $1; light_of(*$$).fade_distance = $3; }

@@ -43,11 +43,17 @@ void set_kind(ObjectDefinition& object, Light::Kind kind) {
   Light& light = light_of(object);
   const bool is_cylinder = kind == Light::Kind::cylinder;
   light.kind = kind;
+  light.shadowless = false;
   light.radius = is_cylinder ? 0.75 : 30;
   light.falloff = is_cylinder ? 1 : 45;
   light.tightness = 0;
   // It stays so if `spotlight` follows.
   if (is_cylinder) light.parallel = true;
+}
+
+void set_shadowless(ObjectDefinition& object) {
+  set_kind(object, Light::Kind::point);
+  light_of(object).shadowless = true;
 }
 
 void set_kind(Session& session, ObjectDefinition& object, int shape, const Location& where) {

@@ -18,7 +18,7 @@ std::shared_ptr<ObjectDefinition> light(Session& session, const ObjectDefinition
 // The modifiers of a light source.
 
 Light& light_of(ObjectDefinition& object);
-/// Sets what it has of its kind, too, back to what POV-Ray begins with.
+/// Also sets the numbers of that kind, to what POV-Ray begins with.
 void set_kind(ObjectDefinition& object, Light::Kind kind);
 /// By the name of a shape, its place in shape_names().
 void set_kind(Session& session, ObjectDefinition& object, int shape, const Location& where);
@@ -28,6 +28,9 @@ void set_beam(Session& session, ObjectDefinition& object, double Light::*number,
               const Location& where);
 void set_looks_like(Session& session, ObjectDefinition& object, const ObjectPtr& looks_like,
                     const Location& where);
+/// As in POV-Ray, this is a kind of its own: what is said of another one before or after it cancels the
+/// other.
+void set_shadowless(ObjectDefinition& object);
 void transform(ObjectDefinition& object, const Transform& next);
 
 } // namespace celltrace::pov

@@ -52,5 +52,5 @@ union {
 }
 light_source { <3, 3, 6> rgb <0.9, 0.7, 0.3> spotlight point_at <2, 2.5, 9> tightness 10 radius 0 falloff 70 }
 light_source { <-3, 6, 2> rgb <1, 0.3, 0.2> cylinder point_at <-3, 0, 2> tightness 1.5 radius 0 falloff 2 }
-light_source { <-3, 4, -9> rgb <0.2, 0.2, 0.25> spotlight point_at <2, 0, 0> shadowless fade_distance 9 fade_power 1 }
+light_source { <-3, 4, -9> rgb <0.2, 0.2, 0.25> spotlight shadowless fade_distance 9 fade_power 1 }
 light_source { <0, 1, 8> rgb <0.1, 0.07, 0.05> parallel point_at <2, 0.8, 9> }
