@@ -37,7 +37,8 @@ struct Incident {
   Incident(const Light& light, const Places& places, std::uint32_t lanes) {
     DirectSpu spu;
     const LightRecord record = make_record(light);
-    const IncidentLight<Simd> in = incident_light(spu, record, places.surfaces(), lanes);
+    IncidentLight<Simd> in(record.colour);
+    illuminate(spu, record, places.surfaces(), lanes, in);
     direction = lanes_of(in.direction);
     colour = lanes_of(in.colour);
     distance = lanes_of(in.distance);

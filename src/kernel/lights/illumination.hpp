@@ -48,18 +48,15 @@ template <class Spu>
 
 } // namespace module_lights
 
-/// What `light` sends to the surfaces of `lanes`.
+/// Makes of `incident`, which has the light's colour only, what comes to the surfaces of `lanes`. It is not
+/// returned: an SPU would copy it.
 template <class Spu>
-[[gnu::always_inline]] inline IncidentLight<typename Spu::simd>
-incident_light(Spu& spu, const LightRecord& light, const Surfaces<typename Spu::simd>& s, uint32_t lanes) {
-  using S = typename Spu::simd;
-  IncidentLight<S> incident;
+void illuminate(Spu& spu, const LightRecord& light, const Surfaces<typename Spu::simd>& s, uint32_t lanes,
+                IncidentLight<typename Spu::simd>& incident) {
   PointLight::illuminate(light, s, lanes, incident);
-  incident.colour = splat3<S>(light.colour);
-  if (is_plain(light) || (incident.facing == 0 && !is_parallel(light))) return incident;
+  if (is_plain(light) || (incident.facing == 0 && !is_parallel(light))) return;
   spu.enter_module(modules::kLights);
   module_lights::shape(spu, light, s, lanes, incident);
-  return incident;
 }
 
 } // namespace celltrace::kernel

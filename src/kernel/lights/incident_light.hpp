@@ -13,6 +13,9 @@ template <class S> struct IncidentLight {
   V3<S> colour;
   uint32_t facing; ///< lanes that it comes to
 
+  /// Of a colour; nothing else is set.
+  explicit IncidentLight(const float (&rgb)[3]) : colour(splat3<S>(rgb)) {}
+
   /// After the direction has been set.
   void face(const Surfaces<S>& s, uint32_t lanes) {
     cosine = dot<S>(direction, s.normal);

@@ -175,7 +175,8 @@ private:
     writer_.begin(number);
     for_each_light(scene_, frame_, kAllLights, [&](uint32_t i, const LightRecord& light) {
       if (is_shadowless(light)) return;
-      const IncidentLight<S> incident = incident_light(spu_, light, surfaces, context.hit);
+      IncidentLight<S> incident(light.colour);
+      illuminate(spu_, light, surfaces, context.hit, incident);
       if (incident.facing == 0) return;
       spu_.compute(model_work::kCopy);
       SearchRecord& search = writer_.next();

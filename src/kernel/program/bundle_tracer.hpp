@@ -109,7 +109,8 @@ private:
       scene_.spu().compute(scalar_work::kBundleLight);
       const Surfaces<S> surfaces = {member.points.point, member.points.normal,
                                     member.rays.direction.template load<S>(), &member.hits.object};
-      const IncidentLight<S> incident = incident_light(scene_.spu(), light, surfaces, member.hit);
+      IncidentLight<S> incident(light.colour);
+      illuminate(scene_.spu(), light, surfaces, member.hit, incident);
       if (incident.facing == 0) continue;
       make_shadow_rays(surfaces, incident, member.shadow_rays, member.distance);
       member.light[number].template store<S>(incident.colour);

@@ -58,7 +58,8 @@ V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, Intersector& interse
   using F = typename S::F;
   V3<S> sum = m.pigment * m.ambient * m.opacity;
   for_each_light(scene, frame, kAllLights, [&](uint32_t number, const LightRecord& light) {
-    IncidentLight<S> incident = incident_light(scene.spu(), light, s, lanes);
+    IncidentLight<S> incident(light.colour);
+    illuminate(scene.spu(), light, s, lanes, incident);
     const uint32_t facing = incident.facing;
     if (facing == 0) return;
     scene.spu().compute(scalar_work::kLight);
