@@ -104,10 +104,26 @@ struct Interior {
 using Index = std::uint32_t;
 inline constexpr Index kNoIndex = 0xFFFFFFFFu;
 
+/// A light source with POV-Ray's formulas and defaults.
 struct Light {
+  enum class Kind {
+    point,     ///< to all sides
+    spotlight, ///< in a cone
+    cylinder   ///< in a cylinder that begins at the location, with parallel rays
+  };
   Vec3 location{0, 0, 0};
   Vec3 colour{1, 1, 1};
   bool shadowless = false; ///< casts no shadows and makes no highlights
+  Kind kind = Kind::point;
+  /// Where the axis of all but points goes to, from the location. If it is the location there is no light.
+  Vec3 point_at{0, 0, 1};
+  /// Of all but points: where the edge begins and ends. Spotlights: angles to the axis in degrees; cylinders:
+  /// distances from it.
+  double radius = 30, falloff = 45;
+  double tightness = 0;  ///< the exponent by which light decreases off the axis, of all but points
+  bool parallel = false; ///< all rays along the axis, also behind the location; a spotlight has no edge then
+  double fade_distance = 0; ///< at which there is as much light as without fading; 0: it does not fade
+  double fade_power = 0;    ///< the exponent by which light decreases with distance; 0: it does not fade
 };
 
 /// Triangles with shared vertices; vertices and normals are single precision, as in POV-Ray.

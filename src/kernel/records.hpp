@@ -126,16 +126,26 @@ struct alignas(16) InteriorRecord {
 static_assert(sizeof(InteriorRecord) == 16, "crosses DMA");
 
 namespace light_flag {
-constexpr uint32_t shadowless = 0x1;
-}
+constexpr uint32_t kind_mask = 0xFF;   ///< the place of its kind in the list of lights/list.hpp
+constexpr uint32_t shadowless = 0x100; ///< neither shadows nor highlights
+constexpr uint32_t parallel = 0x200;   ///< all its rays go along its axis
+constexpr uint32_t fades = 0x400;
+} // namespace light_flag
 
-struct alignas(32) LightRecord {
+/// Beams have an axis, from which every point is some way off: 0 on it, 1 where there is no light any more.
+struct alignas(64) LightRecord {
   float location[3];
-  uint32_t flags;
+  uint32_t kind_and_flags;
   float colour[3];
-  uint32_t unused;
+  float tightness; ///< of a beam
+  float axis[3];   ///< of unit length, away from the light; of beams and parallel lights
+  float inverse_width;         ///< of a cylinder: of the distance from the axis that is 1 way off
+  float inner;                 ///< way off where a beam's edge begins
+  float inverse_edge;          ///< of the edge's width
+  float inverse_fade_distance; ///< where there is as much light as without fading
+  float fade_power;
 };
-static_assert(sizeof(LightRecord) == 32, "four lights a line");
+static_assert(sizeof(LightRecord) == 64, "two lights a line");
 
 /// A voxel: where its list of object offsets starts, and how many there are.
 struct alignas(8) CellRecord {

@@ -33,12 +33,6 @@ double list_count(Session& session, const std::vector<ListEntry>& list, const Lo
   return count.v.x;
 }
 
-/// Counts `part` as one that is inside `object`.
-void nest(Session& session, ObjectDefinition& object, const ObjectDefinition& part, const Location& where) {
-  object.depth = std::max(object.depth, part.depth + 1);
-  if (object.depth > kDeepestObject) session.fail(where, "objects are nested too deeply");
-}
-
 std::shared_ptr<ObjectDefinition> make_object(std::shared_ptr<MeshDefinition> mesh) {
   auto object = std::make_shared<ObjectDefinition>();
   object->shape = std::move(mesh);
@@ -128,6 +122,11 @@ double ior(Session& session, double value, const Location& where) {
   return positive(session, value, "ior", where);
 }
 
+void nest(Session& session, ObjectDefinition& object, const ObjectDefinition& part, const Location& where) {
+  object.depth = std::max(object.depth, part.depth + 1);
+  if (object.depth > kDeepestObject) session.fail(where, "objects are nested too deeply");
+}
+
 const TexturePtr& texture_of(Session& session, const ObjectDefinition& object) {
   return object.texture ? object.texture : session.builder.default_texture;
 }
@@ -147,7 +146,7 @@ std::shared_ptr<ObjectDefinition> csg(Session& session, Compound compound, const
 }
 
 ObjectPtr limiting(Session& session, const ObjectPtr& object, const Location& where) {
-  if (std::holds_alternative<Light>(object->shape)) session.fail(where, "a light source has no inside");
+  if (std::holds_alternative<LightDefinition>(object->shape)) session.fail(where, "a light source has no inside");
   return object;
 }
 
@@ -156,18 +155,6 @@ void limit(Session& session, ObjectDefinition& object, std::vector<Limit>& list,
   for (const Limit& limit : added)
     nest(session, object, *limit.object, where);
   list.insert(list.end(), added.begin(), added.end());
-}
-
-std::shared_ptr<ObjectDefinition> light(const Vec3& location, const Pigment& colour) {
-  auto object = std::make_shared<ObjectDefinition>();
-  object->shape = Light{location, colour.rgb, false};
-  return object;
-}
-
-void set_shadowless(Session& session, ObjectDefinition& object, const Location& where) {
-  Light* light = std::get_if<Light>(&object.shape);
-  if (!light) session.fail(where, "this is not a light source");
-  light->shadowless = true;
 }
 
 void apply(const std::shared_ptr<const MaterialDefinition>& material, ObjectDefinition& object,

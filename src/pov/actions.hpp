@@ -72,12 +72,12 @@ double ior(Session& session, double value, const Location& where);
 
 // ---- Objects ----
 
+/// Counts `part` as one that is inside `object`.
+void nest(Session& session, ObjectDefinition& object, const ObjectDefinition& part, const Location& where);
 /// The texture that an object's pigment or finish changes.
 const TexturePtr& texture_of(Session& session, const ObjectDefinition& object);
 std::shared_ptr<ObjectDefinition> shape(Session& session, const WrittenShape& written);
 std::shared_ptr<ObjectDefinition> csg(Session& session, Compound compound, const Location& where);
-std::shared_ptr<ObjectDefinition> light(const Vec3& location, const Pigment& colour);
-void set_shadowless(Session& session, ObjectDefinition& object, const Location& where);
 /// An object that other ones can be limited by.
 ObjectPtr limiting(Session& session, const ObjectPtr& object, const Location& where);
 /// Adds to one of the object's own lists of limits.

@@ -22,6 +22,7 @@
 %code requires {
 #include "pov/actions.hpp"
 #include "pov/functions.hpp"
+#include "pov/light.hpp"
 #include "pov/session.hpp"
 #include "pov/shapes.hpp"
 }
@@ -70,11 +71,12 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %token BRILLIANCE CAMERA CAUSTICS CHARSET CLIPPED_BY COLOUR CONSERVE_ENERGY CRAND CUTAWAY_TEXTURES
 %token DIFFUSE DIMENSIONS DIMENSION_SIZE DIRECTION DISPERSION EMISSION EXPONENT FACE_INDICES
 %token FADE_DISTANCE FADE_POWER FALLOFF FINISH FRESNEL GLOBAL_SETTINGS HOLLOW IGNORED_FLAG IGNORED_NUMBER
-%token INSIDE_VECTOR INTERIOR INVERSE IOR IRID LIGHT_SOURCE LOCATION LOOK_AT MATERIAL MATRIX
-%token MAX_TRACE_LEVEL MESH MESH2 METALLIC NORMAL_INDICES NORMAL_VECTORS NO_SHADOW OBJECT OPEN
-%token ORTHOGRAPHIC PERSPECTIVE PHONG PHONG_SIZE PHOTONS PIGMENT QUICK_COLOUR REFLECTION
+%token INSIDE_VECTOR INTERIOR INVERSE IOR IRID LIGHT_SOURCE LOCATION LOOKS_LIKE LOOK_AT
+%token MATERIAL MATRIX MAX_TRACE_LEVEL MESH MESH2 METALLIC NORMAL_INDICES NORMAL_VECTORS NO_SHADOW OBJECT OPEN
+%token ORTHOGRAPHIC PARALLEL PERSPECTIVE PHONG PHONG_SIZE PHOTONS PIGMENT POINT_AT QUICK_COLOUR RADIUS
+%token REFLECTION
 %token REFLECTION_EXPONENT REFRACTION RIGHT ROTATE ROUGHNESS SCALE SHADOWLESS SKY SMOOTH_TRIANGLE
-%token SPECULAR SRGB TEXTURE TEXTURE_LIST TRANSFORM TRANSLATE TRIANGLE UP UV_INDICES UV_MAPPING
+%token SPECULAR SPOTLIGHT SRGB TEXTURE TEXTURE_LIST TIGHTNESS TRANSFORM TRANSLATE TRIANGLE UP UV_INDICES UV_MAPPING
 %token UV_VECTORS VERTEX_VECTORS
 
 %nterm <Quantity> quantity operand vector vector_items comparison logic value_in_brackets
@@ -107,6 +109,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %nterm <std::vector<TexturePtr>> texture_list
 %nterm <std::shared_ptr<TriangleDefinition>> triangle triangle_vertices
 %nterm <double> number optional_number flag
+%nterm <double Light::*> beam_number
 %nterm <UnsupportedPtr> unsupported unsupported_modifier
 
 %start start
@@ -557,20 +560,30 @@ limits // of where an object is; they can be moved together
   | limits transformation { $$ = std::move($1); transform_limits($$, $2); }
   ;
 
-light_body
-  : LIGHT_SOURCE '{' OBJECT_ID                            { $$ = std::make_shared<ObjectDefinition>(*$3); }
+light_body // what comes later applies to what is there by then
+  : LIGHT_SOURCE '{' OBJECT_ID                            { $$ = light(session, *$3, @3); }
   | LIGHT_SOURCE '{' quantity optional_comma colour_value {
-      $$ = light(session.vector($3, @3), session.colour($5, @5));
+      $$ = light(session.vector($3, @3), session.colour($5, @5).rgb);
     }
-  | light_body SHADOWLESS                                 { $$ = $1; set_shadowless(session, *$$, @2); }
-  | light_body transformation                             { $$ = $1; $$->apply($2); }
+  | light_body SPOTLIGHT                                  { $$ = $1; set_kind(*$$, Light::Kind::spotlight); }
+  | light_body SHAPE                                      { $$ = $1; set_kind(session, *$$, $2, @2); }
+  | light_body PARALLEL                                   { $$ = $1; light_of(*$$).parallel = true; }
+  | light_body SHADOWLESS                                 { $$ = $1; set_shadowless(*$$); }
+  | light_body POINT_AT quantity                          { $$ = $1; set_point_at(session, *$$, $3, @2); }
+  | light_body beam_number number                         { $$ = $1; set_beam(session, *$$, $2, $3, @2); }
+  | light_body FADE_DISTANCE number                       { $$ = $1; light_of(*$$).fade_distance = $3; }
+  | light_body FADE_POWER number                          { $$ = $1; light_of(*$$).fade_power = $3; }
+  | light_body LOOKS_LIKE '{' object '}'                  { $$ = $1; set_looks_like(session, *$$, $4, @2); }
+  | light_body transformation                             { $$ = $1; transform(*$$, $2); }
   | light_body IGNORED_FLAG flag                          { $$ = $1; }
   | light_body unsupported                                { $$ = $1; mark($$->unsupported, $2); }
   | light_body PHOTONS                                    { $$ = $1; session.tokens.skip_group(); }
-  | light_body FADE_DISTANCE {
-      $$ = $1;
-      mark($$->unsupported, unsupported_rest(session, "'fade_distance'", @2));
-    }
+  ;
+
+beam_number
+  : RADIUS    { $$ = &Light::radius; }
+  | FALLOFF   { $$ = &Light::falloff; }
+  | TIGHTNESS { $$ = &Light::tightness; }
   ;
 
 // ---- Meshes ----

@@ -48,9 +48,15 @@ struct TriangleDefinition {
   TriangleDefinition transformed(const Transform& transform) const;
 };
 
+/// A light source, with what can be seen in its place.
+struct LightDefinition {
+  Light light;
+  ObjectPtr looks_like; ///< placed where the light is; null: nothing
+};
+
 struct ObjectDefinition {
   std::variant<Shape, std::shared_ptr<MeshDefinition>, std::shared_ptr<TriangleDefinition>,
-               std::shared_ptr<const Compound>, Light>
+               std::shared_ptr<const Compound>, LightDefinition>
       shape;
   Location where; ///< where it is written, or referred to within other objects
   Transform transform;

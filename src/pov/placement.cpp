@@ -88,7 +88,7 @@ SceneBuilder::Inherited SceneBuilder::inherit(const ObjectDefinition& object, co
   own.no_shadow = object.no_shadow || around.no_shadow;
   if (object.texture) own.texture = object.texture;
   if (!own.texture) own.texture = default_texture;
-  if (!around.clips && !std::holds_alternative<Light>(object.shape))
+  if (!around.clips && !std::holds_alternative<LightDefinition>(object.shape))
     own.interior = interior_index(object, around.interior, *own.texture, where);
   return own;
 }
@@ -97,8 +97,8 @@ SceneBuilder::Inherited SceneBuilder::inherit(const ObjectDefinition& object, co
 std::optional<Object> SceneBuilder::make(const ObjectDefinition& object, const Inherited& around,
                                          const Location& where) {
   Inherited own = inherit(object, around, where);
-  if (const Light* light = std::get_if<Light>(&object.shape)) {
-    place_light(*light, own, where);
+  if (const auto* light = std::get_if<LightDefinition>(&object.shape)) {
+    if (!own.clips) place_light(*light, std::move(own), where);
     return std::nullopt;
   }
   Object made;
@@ -162,11 +162,17 @@ void SceneBuilder::enter_solid(Inherited& own, const Location& where) const {
     diagnostics_.fail(where, "CSG is nested more than " + std::to_string(kDeepestCsg) + " deep");
 }
 
-void SceneBuilder::place_light(Light light, const Inherited& own, const Location& where) {
+/// What it looks like casts no shadows and, as in POV-Ray, is not there if the light is in CSG.
+void SceneBuilder::place_light(const LightDefinition& definition, Inherited own, const Location& where) {
+  Light light = definition.light;
   light.location = own.transform.point(light.location);
-  if (!Quantity::vector(light.location).is_finite())
+  light.point_at = own.transform.point(light.point_at);
+  if (!Quantity::vector(light.location).is_finite() || !Quantity::vector(light.point_at).is_finite())
     diagnostics_.fail(where, "this light is not at a finite place");
-  if (!own.clips) scene_.lights.push_back(light);
+  scene_.lights.push_back(light);
+  if (!definition.looks_like || own.is_part) return;
+  own.no_shadow = true;
+  place(*definition.looks_like, own, where);
 }
 
 /// False if no ray can hit it.

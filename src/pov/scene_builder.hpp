@@ -71,7 +71,7 @@ private:
   std::shared_ptr<const std::vector<Object>> make_clips(const ObjectDefinition& object,
                                                         const Inherited& around, const Location& where);
   void enter_solid(Inherited& own, const Location& where) const;
-  void place_light(Light light, const Inherited& own, const Location& where);
+  void place_light(const LightDefinition& definition, Inherited own, const Location& where);
   void refuse(const std::string& what, const ObjectDefinition& object, const Location& where) const;
   Index interior_of(const Inherited& own);
   Index interior_index(const ObjectDefinition& object, Index inherited, const TextureDefinition& texture,

@@ -47,7 +47,9 @@ fields_of(const MaterialRecord&);
 
 FieldList<&InteriorRecord::ior, &InteriorRecord::unused> fields_of(const InteriorRecord&);
 
-FieldList<&LightRecord::location, &LightRecord::flags, &LightRecord::colour, &LightRecord::unused>
+FieldList<&LightRecord::location, &LightRecord::kind_and_flags, &LightRecord::colour, &LightRecord::tightness,
+          &LightRecord::axis, &LightRecord::inverse_width, &LightRecord::inner, &LightRecord::inverse_edge,
+          &LightRecord::inverse_fade_distance, &LightRecord::fade_power>
 fields_of(const LightRecord&);
 
 FieldList<&GroupRecord::min, &GroupRecord::first, &GroupRecord::max, &GroupRecord::count> fields_of(const GroupRecord&);

@@ -67,6 +67,11 @@ void check(const Material& material, const Name& name) {
                name);
 }
 
+void check(const Light& light, const Name& name) {
+  check_vectors({light.location, light.colour, light.point_at}, name);
+  check_finite({light.radius, light.falloff, light.tightness, light.fade_distance, light.fade_power}, name);
+}
+
 void check_index(Index index, std::size_t count, const Name& name) {
   if (index >= count)
     throw InputError(name.text() + ": index " + std::to_string(index) + " is out of range, there are " +
@@ -160,7 +165,7 @@ void validate(const Scene& scene) {
       scene.interiors.size() > kMostEntries)
     throw InputError("the scene has more entries than 32 bits can count");
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
-    check_vectors({scene.lights[i].location, scene.lights[i].colour}, {"light", i});
+    check(scene.lights[i], {"light", i});
   for (std::size_t i = 0; i < scene.materials.size(); ++i)
     check(scene.materials[i], {"material", i});
   for (std::size_t i = 0; i < scene.interiors.size(); ++i)

@@ -21,7 +21,7 @@
 namespace celltrace {
 
 constexpr std::uint32_t kImageMagic = 0x43545349; // "CTSI"
-constexpr std::uint32_t kImageVersion = 4;
+constexpr std::uint32_t kImageVersion = 5;
 
 /// Thread safety: as a standard container.
 class SceneImage {

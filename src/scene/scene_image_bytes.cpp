@@ -2,6 +2,7 @@
 #include "scene/scene_image.hpp"
 
 #include "celltrace/error.hpp"
+#include "kernel/lights/list.hpp"
 #include "kernel/primitives/list.hpp"
 
 #include <algorithm>
@@ -69,6 +70,13 @@ bool references_are_valid(const std::byte* base, const ImageHeader& h) {
       return false;
   }
   return true;
+}
+
+bool lights_are_valid(const std::byte* base, const ImageHeader& h) {
+  const auto* lights = reinterpret_cast<const LightRecord*>(base + h.light_offset);
+  return std::all_of(lights, lights + h.light_count, [](const LightRecord& light) {
+    return (light.kind_and_flags & light_flag::kind_mask) < Lights::kCount;
+  });
 }
 
 /// True if conditions end, and so do their programs.
@@ -157,8 +165,9 @@ SceneImage SceneImage::from_bytes(std::span<const std::byte> bytes) {
       !table_fits(h.solid_offset, h.solid_count, sizeof(SolidRecord), bytes.size()) ||
       !table_fits(h.group_offset, h.group_count, sizeof(GroupRecord), bytes.size()) ||
       !table_fits(h.prototype_offset, h.prototype_count, sizeof(std::uint32_t), bytes.size()) ||
-      !references_are_valid(image.base(), h) || !csg_is_valid(image.base(), h) ||
-      !groups_are_valid(image.base(), h) || !prototypes_are_valid(image.base(), h))
+      !references_are_valid(image.base(), h) || !lights_are_valid(image.base(), h) ||
+      !csg_is_valid(image.base(), h) || !groups_are_valid(image.base(), h) ||
+      !prototypes_are_valid(image.base(), h))
     throw InputError("scene image: an offset is out of range");
   return image;
 }

@@ -1,6 +1,12 @@
 #include "scene/surface_records.hpp"
 
+#include "kernel/lights/list.hpp"
+
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
 
 namespace celltrace {
 
@@ -19,13 +25,73 @@ double opacity(const Pigment& p, double version) {
   return 1 - p.filter - p.transmit;
 }
 
+std::uint32_t kind_of(Light::Kind kind) {
+  switch (kind) {
+  case Light::Kind::point:
+    return kLightKind<PointLight>;
+  case Light::Kind::spotlight:
+    return kLightKind<SpotLight>;
+  case Light::Kind::cylinder:
+    return kLightKind<CylinderLight>;
+  }
+  return kLightKind<PointLight>;
+}
+
+void set_axis(const Light& light, LightRecord& r) {
+  const Vec3 axis = light.point_at - light.location;
+  const double length = glm::length(axis);
+  if (length > 0)
+    copy(axis / length, r.axis);
+  else
+    copy(Vec3(0), r.colour);
+}
+
+/// The edge of a beam, from one way off its axis to another. As in POV-Ray, one that ends before it begins
+/// is a step where it begins.
+void set_edge(double inner, double outer, LightRecord& r) {
+  constexpr double kStep = 1e30;
+  r.inner = static_cast<float>(inner);
+  r.inverse_edge = static_cast<float>(outer > inner ? std::min(1 / (outer - inner), kStep) : kStep);
+}
+
+/// 1 minus the cosine, of degrees.
+double versine(double angle) {
+  const double sine = std::sin(angle * std::numbers::pi / 360);
+  return 2 * sine * sine;
+}
+
+/// As in POV-Ray, a cylinder of no radius has no edge.
+void set_width(const Light& light, LightRecord& r) {
+  constexpr double kNoWidth = 1e-30;
+  const double width = std::max(light.falloff, kNoWidth);
+  r.inverse_width = static_cast<float>(1 / width);
+  set_edge(light.radius > 0 ? light.radius / width : 1, 1, r);
+}
+
 } // namespace
 
 LightRecord make_record(const Light& light) {
   LightRecord r{};
   copy(light.location, r.location);
   copy(light.colour, r.colour);
-  r.flags = light.shadowless ? light_flag::shadowless : 0;
+  r.kind_and_flags = kind_of(light.kind);
+  if (light.shadowless) r.kind_and_flags |= light_flag::shadowless;
+  bool has_axis = light.parallel;
+  bool parallel = light.parallel;
+  Lights::dispatch(kind_of(light.kind), [&](auto kind) {
+    has_axis |= decltype(kind)::kIsBeam;
+    parallel |= decltype(kind)::kIsParallel;
+  });
+  if (parallel) r.kind_and_flags |= light_flag::parallel;
+  if (has_axis) set_axis(light, r);
+  if (light.kind == Light::Kind::spotlight) set_edge(versine(light.radius), versine(light.falloff), r);
+  if (light.kind == Light::Kind::cylinder) set_width(light, r);
+  r.tightness = static_cast<float>(light.tightness);
+  if (light.fade_distance != 0 && light.fade_power > 0) {
+    r.kind_and_flags |= light_flag::fades;
+    r.inverse_fade_distance = static_cast<float>(1 / std::abs(light.fade_distance));
+    r.fade_power = static_cast<float>(light.fade_power);
+  }
   return r;
 }
 

@@ -138,7 +138,7 @@ TEST_CASE("Phong's highlight is cut off where POV-Ray cuts it off") {
       }
       const Surfaces<Simd> surfaces = {normal.load<Simd>(), normal.load<Simd>(), direction.load<Simd>(),
                                        nullptr};
-      detail::Arrival<Simd> arrival(LightRecord(), surfaces, 0);
+      IncidentLight<Simd> arrival(LightRecord().colour);
       arrival.direction = light.load<Simd>();
       const double term = lanes_of(detail::phong_term<Simd>(surfaces, lanes, arrival)).lane[3];
       const bool cut = cosine <= 0 || (size >= 60 && cosine <= 0.0008);

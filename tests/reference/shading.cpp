@@ -28,6 +28,54 @@ Vec3 metallic_tint(double metallic, double cosine, const Vec3& pigment) {
   return 1.0 + metallic * (1 - f) * (pigment - 1.0);
 }
 
+namespace {
+
+double smooth_step(double low, double high, double x) {
+  if (x >= high) return 1;
+  if (x <= low) return 0;
+  const double p = (x - low) / (high - low);
+  return (3 - 2 * p) * p * p;
+}
+
+double in_cone(const Light& light, double cosine) {
+  const auto cos_of = [](double degrees) { return std::cos(degrees * std::numbers::pi / 180); };
+  if (cosine <= 0) return 0;
+  return std::pow(cosine, light.tightness) * smooth_step(cos_of(light.falloff), cos_of(light.radius), cosine);
+}
+
+/// At `aside` of the axis.
+double in_cylinder(const Light& light, double depth, double aside) {
+  if (depth <= 0 || aside >= light.falloff) return 0;
+  const double rest = 1 - aside / light.falloff;
+  const double edge = light.radius > 0 ? smooth_step(0, 1 - light.radius / light.falloff, rest) : 1;
+  return std::pow(rest, light.tightness) * edge;
+}
+
+Incoming faded(const Light& light, Incoming in) {
+  if (light.fade_distance != 0 && light.fade_power > 0)
+    in.colour *= 2 / (1 + std::pow(std::abs(in.distance / light.fade_distance), light.fade_power));
+  return in;
+}
+
+} // namespace
+
+Incoming incoming(const Light& light, const Vec3& point) {
+  const Vec3 way = light.location - point;
+  Incoming in = {glm::normalize(way), glm::length(way), light.colour};
+  if (light.kind == Light::Kind::point && !light.parallel) return faded(light, in);
+  if (light.point_at == light.location) return {in.to_light, in.distance, Vec3(0)};
+  const Vec3 axis = glm::normalize(light.point_at - light.location);
+  const double depth = -glm::dot(way, axis);
+  if (light.parallel || light.kind == Light::Kind::cylinder) {
+    in.to_light = -axis;
+    in.distance = depth;
+  }
+  if (light.kind == Light::Kind::spotlight) in.colour *= in_cone(light, -glm::dot(in.to_light, axis));
+  if (light.kind == Light::Kind::cylinder)
+    in.colour *= in_cylinder(light, depth, glm::length(-way - depth * axis));
+  return faded(light, in);
+}
+
 Vec3 lit(const Material& material, double version, const Vec3& colour, const Vec3& to_light,
          const Vec3& direction, const Vec3& normal, bool highlights) {
   const Finish& f = material.finish;

@@ -20,6 +20,14 @@ Vec3 filter_colour(const Pigment& pigment);
 /// Tint of metallic highlights and reflections.
 Vec3 metallic_tint(double metallic, double cosine, const Vec3& pigment);
 
+/// A light as it comes to a point if nothing is in the way.
+struct Incoming {
+  Vec3 to_light;   ///< of unit length
+  double distance; ///< that shadows are looked for; not greater than 0: there are none
+  Vec3 colour;
+};
+Incoming incoming(const Light& light, const Vec3& point);
+
 /// What a light of `colour` in direction `to_light` adds to what is seen along `direction`.
 Vec3 lit(const Material& material, double version, const Vec3& colour, const Vec3& to_light,
          const Vec3& direction, const Vec3& normal, bool highlights);

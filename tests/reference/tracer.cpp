@@ -119,12 +119,10 @@ Vec3 Tracer::own_light(const Ray& ray, const Point& point, const Material& mater
   Vec3 sum = material.pigment.rgb * (f.ambient * scene_.ambient_light + f.emission) *
              opacity(material.pigment, scene_.version);
   for (const Light& light : scene_.lights) {
-    const Vec3 way = light.location - point.position;
-    const double distance = glm::length(way);
-    const Vec3 to_light = way / distance;
+    const auto [to_light, distance, unshadowed] = incoming(light, point.position);
     if (glm::dot(point.normal, to_light) < 1e-10) continue;
     const Vec3 colour =
-        light.shadowless ? light.colour : light.colour * attenuation({point.position, to_light}, distance);
+        light.shadowless ? unshadowed : unshadowed * attenuation({point.position, to_light}, distance);
     sum += lit(material, scene_.version, colour, to_light, ray.direction, point.normal, !light.shadowless);
   }
   return sum;

@@ -46,8 +46,8 @@ public:
   }
 
   /// As Intersector's.
-  template <class Surfaces, class Bearing>
-  void transmittance(const Surfaces&, const Bearing&, uint32_t number, VectorLanes& light) {
+  template <class Surfaces, class IncidentLight>
+  void transmittance(const Surfaces&, const IncidentLight&, uint32_t number, VectorLanes& light) {
     // Lights come in order, and from the beginning again for each of a face's materials.
     while (answer(cursor_).number != number)
       cursor_ = cursor_ + 1 == searches_ ? 0 : cursor_ + 1;

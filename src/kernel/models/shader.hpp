@@ -173,21 +173,21 @@ private:
     const Surfaces<S> surfaces = {context.points.point, context.points.normal,
                                   rays.direction.template load<S>(), &objects};
     writer_.begin(number);
-    for (uint32_t i = 0; i < frame_.light_count; ++i) {
-      const LightRecord light = light_at(scene_, frame_, i);
-      if ((light.flags & light_flag::shadowless) != 0) continue;
-      const Bearing<S> bearing(light, surfaces, context.hit);
-      if (bearing.facing == 0) continue;
+    for_each_light(scene_, frame_, kAllLights, [&](uint32_t i, const LightRecord& light) {
+      if (is_shadowless(light)) return;
+      IncidentLight<S> incident(light.colour);
+      illuminate(spu_, light, surfaces, context.hit, incident);
+      if (incident.facing == 0) return;
       spu_.compute(model_work::kCopy);
       SearchRecord& search = writer_.next();
-      make_shadow_rays(surfaces, bearing, search.rays, search.light.distance);
-      search.light.colour.template store<S>(splat3<S>(light.colour));
+      make_shadow_rays(surfaces, incident, search.rays, search.light.distance);
+      search.light.colour.template store<S>(incident.colour);
       search.kind = static_cast<uint32_t>(SearchKind::shadow);
-      search.lanes = bearing.facing;
+      search.lanes = incident.facing;
       search.primary = 0;
       search.number = i;
       writer_.put();
-    }
+    });
     context.searches = writer_.count();
     if (context.searches == 0) return false;
     context.awaits = Awaits::light;

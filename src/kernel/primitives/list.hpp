@@ -20,37 +20,12 @@
 #include "kernel/primitives/sphere.hpp"
 #include "kernel/primitives/torus.hpp"
 #include "kernel/primitives/triangle.hpp"
+#include "kernel/type_list.hpp"
 
 namespace celltrace::kernel {
 
-template <class... P> struct PrimitiveList {
-  static constexpr uint32_t kCount = sizeof...(P);
-  static constexpr const char* kNames[] = {P::kName...};
+template <class... P> struct PrimitiveList : TypeList<P...> {
   static constexpr bool kAreHeavy[] = {P::kIsHeavy...};
-
-  /// The kind of a shape.
-  template <class Wanted> static constexpr uint32_t kind() {
-    constexpr bool found[] = {is_same<Wanted, P>()...};
-    uint32_t kind = 0;
-    while (!found[kind])
-      ++kind;
-    return kind;
-  }
-
-  /// Calls `visit(P())` for the shape of a kind; nothing if there is none.
-  template <class Visit> [[gnu::always_inline]] static inline void dispatch(uint32_t kind, Visit visit) {
-    uint32_t number = 0;
-    ((kind == number++ ? visit(P()) : void()), ...);
-  }
-  /// Calls `visit(P())` for every shape.
-  template <class Visit> [[gnu::always_inline]] static inline void for_each(Visit visit) {
-    (visit(P()), ...);
-  }
-
-private:
-  template <class A, class B> struct Same { static constexpr bool value = false; };
-  template <class A> struct Same<A, A> { static constexpr bool value = true; };
-  template <class A, class B> static constexpr bool is_same() { return Same<A, B>::value; }
 };
 
 using Primitives =
@@ -59,7 +34,7 @@ using Primitives =
 constexpr uint32_t kPrimitives = Primitives::kCount;
 static_assert(kPrimitives <= kMaxPrimitives, "a counter for each in ReportRecord");
 
-template <class P> constexpr uint32_t kPrimitiveKind = Primitives::kind<P>();
+template <class P> constexpr uint32_t kPrimitiveKind = Primitives::number<P>();
 static_assert(kPrimitiveKind<SpherePrimitive> == static_cast<uint32_t>(ObjectKind::sphere) &&
                   kPrimitiveKind<EllipsoidPrimitive> == static_cast<uint32_t>(ObjectKind::ellipsoid) &&
                   kPrimitiveKind<PlanePrimitive> == static_cast<uint32_t>(ObjectKind::plane) &&

@@ -36,9 +36,11 @@ public:
       place(column, row);
       find_hits([&](RayQuery* queries) { tracer_.intersector().traversal().intersect(queries, kPackets); });
     }
-    const uint32_t lights = frame_.light_count < kKnownLights ? frame_.light_count : kKnownLights;
-    for (uint32_t light = 0; light < lights; ++light)
-      find_light(light);
+    uint32_t lights = 0;
+    for_each_light(scene_, frame_, kKnownLights, [&](uint32_t number, const LightRecord& light) {
+      if (!is_shadowless(light)) find_light(number, light);
+      lights = number + 1;
+    });
     for_each_member([&](Member& member) {
       tracer_.intersector().know_light(member.light, lights);
       put(member.column, member.row, tracer_.trace(member.rays, member.lanes, member.hits, member.points));
@@ -98,9 +100,7 @@ private:
     }
   }
 
-  void find_light(uint32_t number) {
-    const LightRecord light = light_at(scene_, frame_, number);
-    if ((light.flags & light_flag::shadowless) != 0) return;
+  void find_light(uint32_t number, const LightRecord& light) {
     RayQuery queries[kPackets];
     uint32_t asked = 0;
     for (uint32_t i = 0; i < kPackets; ++i) {
@@ -109,14 +109,19 @@ private:
       scene_.spu().compute(scalar_work::kBundleLight);
       const Surfaces<S> surfaces = {member.points.point, member.points.normal,
                                     member.rays.direction.template load<S>(), &member.hits.object};
-      const Bearing<S> bearing(light, surfaces, member.hit);
-      if (bearing.facing == 0) continue;
-      make_shadow_rays(surfaces, bearing, member.shadow_rays, member.distance);
-      member.light[number].template store<S>(splat3<S>(light.colour));
+      IncidentLight<S> incident(light.colour);
+      illuminate(scene_.spu(), light, surfaces, member.hit, incident);
+      if (incident.facing == 0) continue;
+      make_shadow_rays(surfaces, incident, member.shadow_rays, member.distance);
+      member.light[number].template store<S>(incident.colour);
       queries[asked++] = {&member.shadow_rays, nullptr, &member.distance, &member.light[number],
-                          bearing.facing};
+                          incident.facing};
     }
-    if (asked != 0) tracer_.intersector().traversal().intersect(queries, asked, light.location);
+    if (asked == 0) return;
+    if (is_parallel(light))
+      tracer_.intersector().traversal().intersect(queries, asked);
+    else
+      tracer_.intersector().traversal().intersect(queries, asked, light.location);
   }
 
   const FrameBlock& frame_;

@@ -18,7 +18,7 @@ public:
     traversal_.find_closest(rays, lanes, hits);
   }
   /// Multiplies the colour of light `number` by what comes through to the surfaces that face it.
-  void transmittance(const Surfaces<S>& surfaces, const Bearing<S>& to_light, uint32_t number,
+  void transmittance(const Surfaces<S>& surfaces, const IncidentLight<S>& light, uint32_t number,
                      VectorLanes& colour) {
     if (number < known_lights_) {
       colour = known_[number];
@@ -26,8 +26,8 @@ public:
     }
     RayPacket rays;
     FloatLanes distance;
-    make_shadow_rays(surfaces, to_light, rays, distance);
-    traversal_.transmittance(rays, to_light.facing, distance, colour);
+    make_shadow_rays(surfaces, light, rays, distance);
+    traversal_.transmittance(rays, light.facing, distance, colour);
   }
 
   /// `light[i]` is what comes from light i to the surfaces that are asked for from now on.

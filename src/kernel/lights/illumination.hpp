@@ -1,0 +1,62 @@
+// The lights of a frame, and what each sends to surfaces. Kernel dialect.
+#pragma once
+
+#include "kernel/lights/attenuation.hpp"
+#include "kernel/lights/list.hpp"
+#include "kernel/lights/parallel.hpp"
+#include "kernel/modules.hpp"
+#include "kernel/scene_access.hpp"
+
+namespace celltrace::kernel {
+
+/// All there are.
+constexpr uint32_t kAllLights = 0xFFFFFFFFu;
+
+/// Calls `visit(number, light)` for the frame's lights, the first `most` of them.
+template <class Spu, class Visit>
+void for_each_light(SceneAccess<Spu>& scene, const FrameBlock& frame, uint32_t most, Visit visit) {
+  const uint32_t lights = frame.light_count < most ? frame.light_count : most;
+  for (uint32_t i = 0; i < lights; ++i) {
+    // A copy: the next read may replace the record.
+    const LightRecord light =
+        *scene.light(frame.light_offset + i * static_cast<uint32_t>(sizeof(LightRecord)));
+    visit(i, light);
+  }
+}
+
+namespace module_lights {
+
+/// From the light of a point in the same place to that of a source that is not plain.
+template <class Spu>
+[[gnu::noinline]] void shape(Spu& spu, const LightRecord& light, const Surfaces<typename Spu::simd>& s,
+                             uint32_t lanes, IncidentLight<typename Spu::simd>& incident) {
+  using S = typename Spu::simd;
+  using F = typename S::F;
+  spu.run_in_module(modules::kLights);
+  if (is_parallel(light)) make_parallel(light, s, lanes, incident);
+  F share(1.0f);
+  Lights::dispatch(light.kind_and_flags & light_flag::kind_mask, [&](auto kind) {
+    using Kind = decltype(kind);
+    if constexpr (Kind::kIsBeam) share = beam_share<S>(light, Kind::template way_off<S>(light, s, incident));
+  });
+  if ((light.kind_and_flags & light_flag::fades) != 0)
+    share = share * fade_share<S>(light, incident.distance);
+  incident.distance = S::max(incident.distance, F(0.0f));
+  incident.colour = incident.colour * share;
+  incident.facing &= (share > F(0.0f)).bits();
+}
+
+} // namespace module_lights
+
+/// Makes of `incident`, which has the light's colour only, what comes to the surfaces of `lanes`. It is not
+/// returned: an SPU would copy it.
+template <class Spu>
+void illuminate(Spu& spu, const LightRecord& light, const Surfaces<typename Spu::simd>& s, uint32_t lanes,
+                IncidentLight<typename Spu::simd>& incident) {
+  PointLight::illuminate(light, s, lanes, incident);
+  if (is_plain(light) || (incident.facing == 0 && !is_parallel(light))) return;
+  spu.enter_module(modules::kLights);
+  module_lights::shape(spu, light, s, lanes, incident);
+}
+
+} // namespace celltrace::kernel

@@ -1,0 +1,36 @@
+// What a light source sends to surfaces. Kernel dialect.
+#pragma once
+
+#include "kernel/shading/surfaces.hpp"
+
+namespace celltrace::kernel {
+
+/// The light of one source as it comes to surfaces if nothing is in the way.
+template <class S> struct IncidentLight {
+  V3<S> direction;        ///< to where it comes from, of unit length
+  typename S::F distance; ///< that shadow rays go
+  typename S::F cosine;   ///< of the direction to the normal
+  V3<S> colour;
+  uint32_t facing; ///< lanes that it comes to
+
+  /// Of a colour; nothing else is set.
+  explicit IncidentLight(const float (&rgb)[3]) : colour(splat3<S>(rgb)) {}
+
+  /// After the direction has been set.
+  void face(const Surfaces<S>& s, uint32_t lanes) {
+    cosine = dot<S>(direction, s.normal);
+    facing = (cosine >= typename S::F(1e-10f)).bits() & lanes;
+  }
+};
+
+/// The rays from surfaces against the light, and how far each goes.
+template <class S>
+void make_shadow_rays(const Surfaces<S>& s, const IncidentLight<S>& light, RayPacket& rays,
+                      FloatLanes& distance) {
+  rays.origin.template store<S>(s.point);
+  rays.direction.template store<S>(light.direction);
+  rays.start_object = *s.objects;
+  light.distance.store(distance.lane);
+}
+
+} // namespace celltrace::kernel

@@ -1,0 +1,33 @@
+// All kinds of light sources. The order gives each its number in records. Kernel dialect.
+//
+// A kind L has
+//   kName
+//   kIsBeam       whether it has an edge and a tightness
+//   kIsParallel   whether all its rays go along its axis even if it is not said to be parallel
+// and if it is a beam
+//   way_off(light, surfaces, incident)
+#pragma once
+
+#include "kernel/lights/cylinder.hpp"
+#include "kernel/lights/point.hpp"
+#include "kernel/lights/spotlight.hpp"
+#include "kernel/type_list.hpp"
+
+namespace celltrace::kernel {
+
+using Lights = TypeList<PointLight, SpotLight, CylinderLight>;
+template <class L> constexpr uint32_t kLightKind = Lights::number<L>();
+
+/// Whether a light sends the same to all sides, however far.
+constexpr bool is_plain(const LightRecord& light) {
+  static_assert(kLightKind<PointLight> == 0);
+  return (light.kind_and_flags & ~light_flag::shadowless) == 0;
+}
+constexpr bool is_shadowless(const LightRecord& light) {
+  return (light.kind_and_flags & light_flag::shadowless) != 0;
+}
+constexpr bool is_parallel(const LightRecord& light) {
+  return (light.kind_and_flags & light_flag::parallel) != 0;
+}
+
+} // namespace celltrace::kernel

@@ -1,0 +1,95 @@
+#include "pov/light.hpp"
+
+#include <string_view>
+
+#include "pov/actions.hpp"
+#include "pov/session.hpp"
+#include "pov/shapes.hpp"
+
+namespace celltrace::pov {
+
+namespace {
+
+ObjectPtr moved(const ObjectPtr& object, const Transform& next) {
+  auto copy = std::make_shared<ObjectDefinition>(*object);
+  copy->apply(next);
+  return copy;
+}
+
+} // namespace
+
+std::shared_ptr<ObjectDefinition> light(const Vec3& location, const Vec3& colour) {
+  auto object = std::make_shared<ObjectDefinition>();
+  object->shape = LightDefinition{Light{location, colour}, nullptr};
+  return object;
+}
+
+std::shared_ptr<ObjectDefinition> light(Session& session, const ObjectDefinition& declared,
+                                        const Location& where) {
+  if (!std::holds_alternative<LightDefinition>(declared.shape))
+    session.fail(where, "this is not a light source");
+  auto object = std::make_shared<ObjectDefinition>(declared);
+  // Where it is by now; what follows, such as point_at, is not moved.
+  object->transform = Transform();
+  transform(*object, declared.transform);
+  return object;
+}
+
+Light& light_of(ObjectDefinition& object) {
+  return std::get<LightDefinition>(object.shape).light;
+}
+
+void set_kind(ObjectDefinition& object, Light::Kind kind) {
+  Light& light = light_of(object);
+  const bool is_cylinder = kind == Light::Kind::cylinder;
+  light.kind = kind;
+  light.shadowless = false;
+  light.radius = is_cylinder ? 0.75 : 30;
+  light.falloff = is_cylinder ? 1 : 45;
+  light.tightness = 0;
+  // It stays so if `spotlight` follows.
+  if (is_cylinder) light.parallel = true;
+}
+
+void set_shadowless(ObjectDefinition& object) {
+  set_kind(object, Light::Kind::point);
+  light_of(object).shadowless = true;
+}
+
+void set_kind(Session& session, ObjectDefinition& object, int shape, const Location& where) {
+  const std::string_view name = shape_names()[static_cast<std::size_t>(shape)];
+  if (name != "cylinder") session.fail(where, "there is no light source of this shape");
+  set_kind(object, Light::Kind::cylinder);
+}
+
+void set_point_at(Session& session, ObjectDefinition& object, const Quantity& point, const Location& where) {
+  Light& light = light_of(object);
+  if (light.kind == Light::Kind::point && !light.parallel)
+    session.fail(where, "only a spotlight, cylinder or parallel light points at something");
+  light.point_at = session.vector(point, where);
+}
+
+void set_beam(Session& session, ObjectDefinition& object, double Light::*number, double value,
+              const Location& where) {
+  Light& light = light_of(object);
+  if (light.kind == Light::Kind::point)
+    session.fail(where, "only a spotlight or cylinder has 'radius', 'falloff' and 'tightness'");
+  light.*number = value;
+}
+
+void set_looks_like(Session& session, ObjectDefinition& object, const ObjectPtr& looks_like,
+                    const Location& where) {
+  auto& definition = std::get<LightDefinition>(object.shape);
+  if (definition.looks_like) session.fail(where, "a light source looks like one object only");
+  nest(session, object, *looks_like, where);
+  definition.looks_like = moved(looks_like, Transform::translate(definition.light.location));
+}
+
+void transform(ObjectDefinition& object, const Transform& next) {
+  auto& [light, looks_like] = std::get<LightDefinition>(object.shape);
+  light.location = next.point(light.location);
+  light.point_at = next.point(light.point_at);
+  if (looks_like) looks_like = moved(looks_like, next);
+}
+
+} // namespace celltrace::pov

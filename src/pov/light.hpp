@@ -1,0 +1,36 @@
+// Light sources as they are written.
+#pragma once
+
+#include <memory>
+
+#include "pov/object.hpp"
+#include "pov/quantity.hpp"
+
+namespace celltrace::pov {
+
+struct Session;
+
+std::shared_ptr<ObjectDefinition> light(const Vec3& location, const Vec3& colour);
+/// A copy of one that was declared. Fails if that is something else.
+std::shared_ptr<ObjectDefinition> light(Session& session, const ObjectDefinition& declared,
+                                        const Location& where);
+
+// The modifiers of a light source.
+
+Light& light_of(ObjectDefinition& object);
+/// Also sets the numbers of that kind, to what POV-Ray begins with.
+void set_kind(ObjectDefinition& object, Light::Kind kind);
+/// By the name of a shape, its place in shape_names().
+void set_kind(Session& session, ObjectDefinition& object, int shape, const Location& where);
+void set_point_at(Session& session, ObjectDefinition& object, const Quantity& point, const Location& where);
+/// A number that only spotlights and cylinders have.
+void set_beam(Session& session, ObjectDefinition& object, double Light::*number, double value,
+              const Location& where);
+void set_looks_like(Session& session, ObjectDefinition& object, const ObjectPtr& looks_like,
+                    const Location& where);
+/// As in POV-Ray, this is a kind of its own: what is said of another one before or after it cancels the
+/// other.
+void set_shadowless(ObjectDefinition& object);
+void transform(ObjectDefinition& object, const Transform& next);
+
+} // namespace celltrace::pov
