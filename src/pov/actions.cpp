@@ -146,7 +146,8 @@ std::shared_ptr<ObjectDefinition> csg(Session& session, Compound compound, const
 }
 
 ObjectPtr limiting(Session& session, const ObjectPtr& object, const Location& where) {
-  if (std::holds_alternative<LightDefinition>(object->shape)) session.fail(where, "a light source has no inside");
+  if (std::holds_alternative<LightDefinition>(object->shape))
+    session.fail(where, "a light source has no inside");
   return object;
 }
 

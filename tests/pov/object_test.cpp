@@ -83,8 +83,8 @@ TEST_CASE("light sources") {
   CHECK(scene.lights[1].shadowless);
   CHECK(scene.lights[2].location == Vec3(0, 0, -1));
   CHECK(scene.lights[2].colour == Vec3(1, 0, 0));
-  CHECK(error_line("light_source { 0 rgb 1 spotlight radius 10 }") == "");
-  CHECK(error_line("light_source { 0 rgb 1 fade_distance 10 fade_power 2 }") == "");
+  CHECK(error_line("#declare S = sphere { 0, 1 } light_source { S shadowless }") ==
+        "scene.pov:1:45: error: this is not a light source");
 }
 
 TEST_CASE("hints and flags that change no picture are accepted") {

@@ -205,6 +205,51 @@ Scene flat_gamma() {
   return scene;
 }
 
+/// Lights of every kind over a floor, with translucent things in them.
+Scene kinds_of_lights() {
+  Scene scene = with_camera(camera_at({0.5, 2.5, -7}, {0, 0, 0}));
+  add_floor(scene, -1, {0.9, 0.85, 0.8}, {0.7, 0.8, 0.9});
+  for (int i = 0; i < 6; ++i)
+    add_sphere(scene, {1.4 * (i % 3) - 1.4, -0.4, 1.8 * (i / 3) - 0.9}, 0.55,
+               matte({0.8, 0.5 + 0.08 * i, 0.4}));
+  add_sphere(scene, {0.6, 0.9, -0.5}, 0.4, glass({0.9, 0.7, 0.6}), 1.2);
+  const auto add_light = [&](Light::Kind kind, const Vec3& location, const Vec3& point_at,
+                             const Vec3& colour) {
+    Light light{location, colour * 0.6};
+    light.kind = kind;
+    light.point_at = point_at;
+    scene.lights.push_back(light);
+    return &scene.lights.back();
+  };
+  scene.lights.clear();
+  Light* light = add_light(Light::Kind::spotlight, {-4, 5, -3}, {-1, -0.5, 0}, {1, 0.8, 0.5});
+  light->radius = 8;
+  light->falloff = 16;
+  add_light(Light::Kind::point, {6, 9, -8}, {0, 0, 0}, {0.5, 0.5, 0.6})->parallel = true;
+  light = add_light(Light::Kind::cylinder, {3, 5, 0}, {1, -1, 0.5}, {0.4, 0.7, 1.2});
+  light->radius = 0.5;
+  light->falloff = 1.2;
+  light = add_light(Light::Kind::point, {0, 1.6, -2}, {0, 0, 0}, {0.9, 0.4, 0.6});
+  light->fade_distance = 1.5;
+  light->fade_power = 2;
+  light = add_light(Light::Kind::spotlight, {0.6, 3, -0.5}, {0.6, 0, -0.5}, {0.6, 1, 0.6});
+  light->tightness = 5;
+  light->fade_distance = 3;
+  light->fade_power = 1.5;
+  light = add_light(Light::Kind::spotlight, {-1, 3, 4}, {-1, -1, 2}, {1, 1, 0.3});
+  light->radius = light->falloff = 20;
+  light->shadowless = true;
+  light = add_light(Light::Kind::cylinder, {-3, 4, -1}, {-2, -1, -2}, {1, 0.3, 0.3});
+  light->radius = 0;
+  light->falloff = 0.8;
+  light->tightness = 1.5;
+  light->fade_distance = 4;
+  light->fade_power = 1;
+  // Half of what there is lies behind it.
+  add_light(Light::Kind::point, {0, -0.4, 0}, {0.2, -1, 0.3}, {0.15, 0.1, 0.1})->parallel = true;
+  return scene;
+}
+
 } // namespace
 
 const std::vector<NamedScene>& scenes() {
@@ -212,6 +257,7 @@ const std::vector<NamedScene>& scenes() {
                                               {"glass and mirrors", glass_and_mirrors},
                                               {"ellipsoids", ellipsoids},
                                               {"meshes", meshes},
+                                              {"kinds of lights", kinds_of_lights},
                                               {"legacy orthographic", legacy_orthographic},
                                               {"half mirrors", half_mirrors},
                                               {"inside glass", inside_glass},

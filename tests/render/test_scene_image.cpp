@@ -1,6 +1,7 @@
 // SceneImage: what its tables hold, and that nothing else than its own bytes is taken for one.
 #include "celltrace/error.hpp"
 #include "kernel/accel/object_bounds.hpp"
+#include "kernel/lights/list.hpp"
 #include "render/scenes.hpp"
 #include "scene/mesh_prototype.hpp"
 #include "scene/scene_image.hpp"
@@ -106,6 +107,7 @@ TEST_CASE("A sealed scene image with a fault in it is refused") {
     CHECK_THROWS_WITH(SceneImage::from_bytes(bytes), Catch::Contains(word));
   };
   const auto objects = [](Bytes& b) { return table<ObjectRecord>(b, header_of(b).object_offset); };
+  const auto lights = [](Bytes& b) { return table<LightRecord>(b, header_of(b).light_offset); };
   Bytes sealed = good;
   seal(sealed);
   REQUIRE(sealed == good);
@@ -123,6 +125,7 @@ TEST_CASE("A sealed scene image with a fault in it is refused") {
   refused([](Bytes& b) { header_of(b).extra_count = 0; }, "offset");
   refused([](Bytes& b) { header_of(b).blend_count = 0; }, "offset");
   refused([&](Bytes& b) { objects(b)->kind_and_flags = 200; }, "offset");
+  refused([&](Bytes& b) { lights(b)->kind_and_flags = Lights::kCount; }, "offset");
   refused([&](Bytes& b) { objects(b)->material += 16; }, "offset");
   refused([&](Bytes& b) { objects(b)->material = 0; }, "offset");
   refused([&](Bytes& b) { objects(b)->interior = kNoOffset; }, "offset");

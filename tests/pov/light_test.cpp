@@ -1,0 +1,136 @@
+// Kinds of light sources. What is expected was seen in POV-Ray's pictures.
+#include "parsing.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <string>
+
+using namespace celltrace;
+using namespace celltrace::test;
+
+namespace {
+
+/// The only light of a scene.
+Light light(const std::string& modifiers, const std::string& behind = "") {
+  const Scene scene = parse("light_source { <0, 4, 0> rgb 1 " + modifiers + " } " + behind);
+  REQUIRE(scene.lights.size() == 1);
+  return scene.lights.front();
+}
+
+std::string refusal(const std::string& modifiers) {
+  const std::string line = error_line("light_source { 0 rgb 1 " + modifiers + " }");
+  const std::size_t words = line.find("error: ");
+  return words == std::string::npos ? line : line.substr(words + 7);
+}
+
+} // namespace
+
+TEST_CASE("spotlights") {
+  const Light plain = light("spotlight");
+  CHECK(plain.kind == Light::Kind::spotlight);
+  CHECK(plain.point_at == Vec3(0, 0, 1));
+  CHECK(plain.radius == 30);
+  CHECK(plain.falloff == 45);
+  CHECK(plain.tightness == 0);
+  CHECK_FALSE(plain.parallel);
+  const Light full = light("spotlight point_at <1, 2, 3> radius 10 falloff 20 tightness 5");
+  CHECK(full.point_at == Vec3(1, 2, 3));
+  CHECK(full.radius == 10);
+  CHECK(full.falloff == 20);
+  CHECK(full.tightness == 5);
+  // Said again, it begins anew.
+  CHECK(light("spotlight radius 10 tightness 2 spotlight").radius == 30);
+  CHECK(light("spotlight radius 10 tightness 2 spotlight").tightness == 0);
+}
+
+TEST_CASE("cylinders of light") {
+  const Light plain = light("cylinder point_at 0");
+  CHECK(plain.kind == Light::Kind::cylinder);
+  CHECK(plain.radius == 0.75);
+  CHECK(plain.falloff == 1);
+  CHECK(light("cylinder radius 2 falloff 3 tightness 4").falloff == 3);
+  const Light both = light("cylinder spotlight");
+  CHECK(both.kind == Light::Kind::spotlight);
+  CHECK(both.parallel);
+}
+
+TEST_CASE("parallel and fading light") {
+  const Light parallel = light("parallel point_at x");
+  CHECK(parallel.kind == Light::Kind::point);
+  CHECK(parallel.parallel);
+  CHECK(parallel.point_at == Vec3(1, 0, 0));
+  CHECK(light("spotlight parallel").parallel);
+  const Light fading = light("fade_distance 3 fade_power 1.5");
+  CHECK(fading.fade_distance == 3);
+  CHECK(fading.fade_power == 1.5);
+  CHECK(light("fade_distance 3").fade_power == 0);
+}
+
+TEST_CASE("a shadowless light has no other kind") {
+  CHECK(light("spotlight shadowless").kind == Light::Kind::point);
+  CHECK(light("spotlight shadowless").shadowless);
+  CHECK_FALSE(light("shadowless spotlight").shadowless);
+  CHECK(light("cylinder shadowless").parallel);
+  CHECK(light("shadowless fade_distance 2 fade_power 1").fade_power == 1);
+}
+
+TEST_CASE("a light moves with what it points at, as it is by then") {
+  const Light moved = light("spotlight point_at x translate 2*z");
+  CHECK(moved.location == Vec3(0, 4, 2));
+  CHECK(moved.point_at == Vec3(1, 0, 2));
+  CHECK(light("translate 2*z spotlight point_at x").point_at == Vec3(1, 0, 0));
+  CHECK(light("translate 2*z spotlight").point_at == Vec3(0, 0, 3));
+  CHECK(light("cylinder radius 2 falloff 3 scale 2").falloff == 3);
+  const Scene scene = parse("#declare L = light_source { 4*y rgb 1 spotlight point_at x }"
+                            "union { light_source { L translate y } object { L } translate 5*z }"
+                            "#declare M = object { L translate y } light_source { M point_at 0 }");
+  REQUIRE(scene.lights.size() == 3);
+  CHECK(scene.lights[0].location == Vec3(0, 5, 5));
+  CHECK(scene.lights[0].point_at == Vec3(1, 1, 5));
+  CHECK(scene.lights[1].point_at == Vec3(1, 0, 5));
+  CHECK(scene.lights[2].location == Vec3(0, 5, 0));
+  CHECK(scene.lights[2].point_at == Vec3(0, 0, 0));
+}
+
+TEST_CASE("what a light looks like") {
+  const Scene scene =
+      parse("light_source { <0, 4, 0> rgb 1 translate x looks_like { sphere { 0, 1 scale 2 } } "
+            "translate z }");
+  REQUIRE(scene.lights.size() == 1);
+  CHECK(scene.lights[0].location == Vec3(1, 4, 1));
+  REQUIRE(scene.objects.size() == 1);
+  CHECK(scene.objects[0].transform.point({1, 0, 0}) == Vec3(3, 4, 1));
+  CHECK(scene.objects[0].no_shadow);
+}
+
+TEST_CASE("what a light looks like belongs to unions, but to no other CSG") {
+  const std::string lamp = "#declare L = light_source { 0 rgb 1 looks_like { sphere { 0, 1 } } } ";
+  const Scene scene =
+      parse(lamp + "union { light_source { L } sphere { 0, 2 } pigment { rgb .5 } translate y }");
+  REQUIRE(scene.objects.size() == 2);
+  CHECK(scene.objects[0].material == scene.objects[1].material);
+  CHECK(scene.objects[0].no_shadow);
+  CHECK_FALSE(scene.objects[1].no_shadow);
+  CHECK(scene.objects[0].transform.point({0, 0, 0}) == Vec3(0, 1, 0));
+  const Scene cut = parse(lamp + "intersection { light_source { L } sphere { 0, 2 } box { 0, 1 } }");
+  CHECK(cut.lights.size() == 1);
+  CHECK(cut.objects.size() == 1);
+}
+
+TEST_CASE("what light sources cannot have") {
+  const std::string beam = "only a spotlight or cylinder has 'radius', 'falloff' and 'tightness'";
+  CHECK(refusal("radius 3") == beam);
+  CHECK(refusal("parallel tightness 3") == beam);
+  CHECK(refusal("shadowless falloff 3") == beam);
+  CHECK(refusal("point_at x") == "only a spotlight, cylinder or parallel light points at something");
+  CHECK(refusal("point_at x parallel") == "only a spotlight, cylinder or parallel light points at something");
+  CHECK(refusal("box") == "there is no light source of this shape");
+  CHECK(refusal("looks_like { sphere { 0, 1 } } looks_like { sphere { 0, 2 } }") ==
+        "a light source looks like one object only");
+  CHECK(error_line("light_source { 0 rgb 1 spotlight area_light x, y, 2, 2 jitter }") ==
+        "scene.pov:1:34: error: 'area_light' is not supported yet");
+  CHECK(error_line("light_source { 0 rgb 1 spotlight radius x }") ==
+        "scene.pov:1:41: error: expected a float, found a vector");
+  CHECK(error_line("light_source { 0 rgb 1 looks_like { blob { threshold 1 } } }") ==
+        "scene.pov:1:37: error: 'blob' is not supported yet");
+}
