@@ -93,8 +93,8 @@ struct Pattern {
 
   pattern::Kind kind = pattern::Gradient{};
   /// As written from the pattern outward: the last one is what a point in the scene meets first.
-  std::vector<SpaceStep> space;
-  Turbulence turbulence; ///< of points in the pattern's own space, after all steps
+  std::vector<SpaceStep> space = {};
+  Turbulence turbulence = {}; ///< of points in the pattern's own space, after all steps
   Wave wave = Wave::ramp;
   double wave_exponent = 1; ///< of Wave::poly
   double frequency = 1;     ///< 0: the number as it is, without phase
