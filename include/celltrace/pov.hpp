@@ -35,7 +35,9 @@ struct ParseLimits {
   std::uint64_t string_bytes = 1u << 20;      ///< of one string
   std::uint64_t text_bytes = 256u << 20;      ///< of all strings made or declared
   std::uint64_t objects = 4'000'000;          ///< placed in the scene
-  std::uint64_t triangles = 32'000'000;       ///< of all meshes, an instance not counted again
+  std::uint64_t triangles =
+      32'000'000; ///< of all meshes, an instance not counted again unless it has patterns
+  std::uint64_t map_entries = 16'000'000; ///< of all textures with patterns, as often as they are placed
 };
 
 struct ParseOptions {

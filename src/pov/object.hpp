@@ -60,7 +60,9 @@ struct ObjectDefinition {
       shape;
   Location where; ///< where it is written, or referred to within other objects
   Transform transform;
-  TexturePtr texture; ///< null: the parent's, then the default
+  TexturePtr texture;          ///< null: the parent's, then the default
+  Transform texture_transform; ///< what the object went through since it has the texture
+  UnsupportedPtr uv_mapping;
   InteriorPtr interior;
   bool no_shadow = false;
   bool inverse = false;
@@ -69,7 +71,7 @@ struct ObjectDefinition {
   UnsupportedPtr unsupported;
   int depth = 0; ///< of objects inside one another
 
-  /// Moves what limits it, too.
+  /// Moves its texture and what limits it, too.
   void apply(const Transform& next);
 };
 

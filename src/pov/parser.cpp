@@ -43,6 +43,12 @@ struct Deliver {
     case token::T_CHANNEL:
     case token::T_SHAPE:
     case token::T_CSG:
+    case token::T_PATTERN:
+    case token::T_ARGUED_PATTERN:
+    case token::T_LIST_PATTERN:
+    case token::T_PATTERN_OPTION:
+    case token::T_PATTERN_FLAG:
+    case token::T_WAVE:
       target.emplace<int>(terminal.detail);
       break;
     case token::T_UNSUPPORTED:

@@ -3,6 +3,7 @@
 #include "pov/constants.hpp"
 #include "pov/functions.hpp"
 #include "pov/grammar.hpp"
+#include "pov/patterns.hpp"
 #include "pov/shapes.hpp"
 
 namespace celltrace::pov {
@@ -23,6 +24,7 @@ struct DetailedWord {
 };
 
 const Word kWords[] = {
+    {"accuracy", tokens::T_ACCURACY},
     {"adc_bailout", tokens::T_ADC_BAILOUT},
     {"ambient", tokens::T_AMBIENT},
     {"ambient_light", tokens::T_AMBIENT_LIGHT},
@@ -33,12 +35,15 @@ const Word kWords[] = {
     {"background", tokens::T_BACKGROUND},
     {"bounded_by", tokens::T_BOUNDED_BY},
     {"brilliance", tokens::T_BRILLIANCE},
+    {"bump_size", tokens::T_BUMP_SIZE},
     {"camera", tokens::T_CAMERA},
     {"caustics", tokens::T_CAUSTICS},
     {"charset", tokens::T_CHARSET},
     {"clipped_by", tokens::T_CLIPPED_BY},
     {"color", tokens::T_COLOUR},
+    {"color_map", tokens::T_COLOUR_MAP},
     {"colour", tokens::T_COLOUR},
+    {"colour_map", tokens::T_COLOUR_MAP},
     {"confidence", tokens::T_IGNORED_NUMBER},
     {"conserve_energy", tokens::T_CONSERVE_ENERGY},
     {"crand", tokens::T_CRAND},
@@ -58,6 +63,7 @@ const Word kWords[] = {
     {"falloff", tokens::T_FALLOFF},
     {"finish", tokens::T_FINISH},
     {"focal_point", tokens::T_IGNORED_NUMBER},
+    {"frequency", tokens::T_FREQUENCY},
     {"fresnel", tokens::T_FRESNEL},
     {"global_settings", tokens::T_GLOBAL_SETTINGS},
     {"hf_gray_16", tokens::T_IGNORED_FLAG},
@@ -69,6 +75,7 @@ const Word kWords[] = {
     {"ior", tokens::T_IOR},
     {"irid", tokens::T_IRID},
     {"irid_wavelength", tokens::T_IGNORED_NUMBER},
+    {"lambda", tokens::T_LAMBDA},
     {"light_source", tokens::T_LIGHT_SOURCE},
     {"location", tokens::T_LOCATION},
     {"look_at", tokens::T_LOOK_AT},
@@ -85,20 +92,27 @@ const Word kWords[] = {
     {"mm_per_unit", tokens::T_IGNORED_NUMBER},
     {"no_radiosity", tokens::T_IGNORED_FLAG},
     {"no_shadow", tokens::T_NO_SHADOW},
-    {"noise_generator", tokens::T_IGNORED_NUMBER},
+    {"noise_generator", tokens::T_NOISE_GENERATOR},
+    {"normal", tokens::T_NORMAL},
     {"normal_indices", tokens::T_NORMAL_INDICES},
+    {"normal_map", tokens::T_NORMAL_MAP},
     {"normal_vectors", tokens::T_NORMAL_VECTORS},
-    {"number_of_waves", tokens::T_IGNORED_NUMBER},
+    {"number_of_waves", tokens::T_NUMBER_OF_WAVES},
     {"object", tokens::T_OBJECT},
+    {"octaves", tokens::T_OCTAVES},
+    {"omega", tokens::T_OMEGA},
     {"open", tokens::T_OPEN},
     {"orthographic", tokens::T_ORTHOGRAPHIC},
     {"parallel", tokens::T_PARALLEL},
     {"perspective", tokens::T_PERSPECTIVE},
+    {"phase", tokens::T_PHASE},
     {"phong", tokens::T_PHONG},
     {"phong_size", tokens::T_PHONG_SIZE},
     {"photons", tokens::T_PHOTONS},
     {"pigment", tokens::T_PIGMENT},
+    {"pigment_map", tokens::T_PIGMENT_MAP},
     {"point_at", tokens::T_POINT_AT},
+    {"poly_wave", tokens::T_POLY_WAVE},
     {"quick_color", tokens::T_QUICK_COLOUR},
     {"quick_colour", tokens::T_QUICK_COLOUR},
     {"radius", tokens::T_RADIUS},
@@ -113,22 +127,25 @@ const Word kWords[] = {
     {"sky", tokens::T_SKY},
     {"smooth_triangle", tokens::T_SMOOTH_TRIANGLE},
     {"specular", tokens::T_SPECULAR},
-    {"spotlight", tokens::T_SPOTLIGHT},
     {"split_union", tokens::T_IGNORED_FLAG},
+    {"spotlight", tokens::T_SPOTLIGHT},
     {"srgb", tokens::T_SRGB},
     {"sturm", tokens::T_IGNORED_FLAG},
     {"texture", tokens::T_TEXTURE},
     {"texture_list", tokens::T_TEXTURE_LIST},
+    {"texture_map", tokens::T_TEXTURE_MAP},
     {"tightness", tokens::T_TIGHTNESS},
     {"transform", tokens::T_TRANSFORM},
     {"translate", tokens::T_TRANSLATE},
     {"triangle", tokens::T_TRIANGLE},
+    {"turbulence", tokens::T_TURBULENCE},
     {"up", tokens::T_UP},
     {"uv_indices", tokens::T_UV_INDICES},
     {"uv_mapping", tokens::T_UV_MAPPING},
     {"uv_vectors", tokens::T_UV_VECTORS},
     {"variance", tokens::T_IGNORED_NUMBER},
     {"vertex_vectors", tokens::T_VERTEX_VECTORS},
+    {"warp", tokens::T_WARP},
 };
 
 constexpr int detail(Constant constant) {
@@ -139,6 +156,9 @@ constexpr int detail(ColourModel model) {
 }
 constexpr int detail(Channel channel) {
   return static_cast<int>(channel);
+}
+constexpr int detail(Pattern::Wave wave) {
+  return static_cast<int>(wave);
 }
 constexpr int detail(Csg::Operation operation) {
   return static_cast<int>(operation);
@@ -171,6 +191,11 @@ const DetailedWord kDetailedWords[] = {
     {"filter", tokens::T_CHANNEL, detail(Channel::filter)},
     {"alpha", tokens::T_CHANNEL, detail(Channel::filter)}, // its name before version 3
     {"transmit", tokens::T_CHANNEL, detail(Channel::transmit)},
+    {"ramp_wave", tokens::T_WAVE, detail(Pattern::Wave::ramp)},
+    {"triangle_wave", tokens::T_WAVE, detail(Pattern::Wave::triangle)},
+    {"sine_wave", tokens::T_WAVE, detail(Pattern::Wave::sine)},
+    {"scallop_wave", tokens::T_WAVE, detail(Pattern::Wave::scallop)},
+    {"cubic_wave", tokens::T_WAVE, detail(Pattern::Wave::cubic)},
     {"union", tokens::T_CSG, detail(Csg::Operation::union_)},
     {"merge", tokens::T_CSG, detail(Csg::Operation::merge)},
     {"intersection", tokens::T_CSG, detail(Csg::Operation::intersection)},
@@ -226,15 +251,13 @@ const DirectiveWord kDirectives[] = {
 // What POV-Ray 3.7 reserves for features that are not supported: things that are objects, things that have a
 // block in braces of their own, and the rest.
 const char* const kUnsupportedObjects[] = {
-    "bicubic_patch", "blob", "cubic",        "height_field",   "isosurface", "julia_fractal", "lathe",
-    "light_group",   "ovus", "parametric",   "poly",           "polygon",    "prism",         "quadric",
-    "quartic",       "sor",  "sphere_sweep", "superellipsoid", "text",
+    "bicubic_patch", "blob",    "height_field", "isosurface",   "julia_fractal",  "lathe",
+    "light_group",   "ovus",    "parametric",   "poly",         "polygon",        "prism",
+    "quadric",       "quartic", "sor",          "sphere_sweep", "superellipsoid", "text",
 };
 
 const char* const kUnsupportedBlocks[] = {
     "bump_map",
-    "color_map",
-    "colour_map",
     "contained_by",
     "density",
     "density_map",
@@ -246,9 +269,6 @@ const char* const kUnsupportedBlocks[] = {
     "material_map",
     "media",
     "mesh_camera",
-    "normal",
-    "normal_map",
-    "pigment_map",
     "pigment_pattern",
     "projected_through",
     "radiosity",
@@ -257,19 +277,14 @@ const char* const kUnsupportedBlocks[] = {
     "slope_map",
     "spline",
     "subsurface",
-    "texture_map",
     "tiles",
-    "warp",
 };
 
 const char* const kUnsupportedWords[] = {
     "aa_level",
     "aa_threshold",
     "absorption",
-    "accuracy",
     "adaptive",
-    "agate",
-    "agate_turb",
     "albedo",
     "all",
     "all_intersections",
@@ -281,7 +296,6 @@ const char* const kUnsupportedWords[] = {
     "area_light",
     "ascii",
     "autostop",
-    "average",
     "b_spline",
     "bezier_spline",
     "bitwise_and",
@@ -289,32 +303,18 @@ const char* const kUnsupportedWords[] = {
     "bitwise_xor",
     "black_hole",
     "blur_samples",
-    "boxed",
-    "bozo",
-    "brick",
-    "brick_size",
     "brightness",
-    "bump_size",
-    "bumps",
-    "cells",
-    "checker",
     "circular",
     "collect",
     "component",
     "composite",
     "conic_sweep",
-    "control0",
-    "control1",
     "coords",
     "count",
-    "crackle",
     "cube",
     "cubic_spline",
-    "cubic_wave",
-    "cylindrical",
     "datetime",
     "density_file",
-    "dents",
     "df3",
     "dist_exp",
     "distance",
@@ -334,15 +334,10 @@ const char* const kUnsupportedWords[] = {
     "fog_alt",
     "fog_offset",
     "fog_type",
-    "form",
-    "frequency",
     "gather",
     "gif",
     "global_lights",
-    "gradient",
-    "granite",
     "gray_threshold",
-    "hexagon",
     "hypercomplex",
     "iff",
     "importance",
@@ -352,8 +347,6 @@ const char* const kUnsupportedWords[] = {
     "jitter",
     "jpeg",
     "julia",
-    "lambda",
-    "leopard",
     "linear_spline",
     "linear_sweep",
     "load_file",
@@ -362,38 +355,28 @@ const char* const kUnsupportedWords[] = {
     "major_radius",
     "mandel",
     "map_type",
-    "marble",
     "max_extent",
     "max_gradient",
     "max_iteration",
     "max_sample",
     "max_trace",
-    "metric",
     "min_extent",
     "minimum_reuse",
-    "mortar",
     "natural_spline",
     "nearest_count",
     "no_bump_scale",
     "no_image",
     "no_reflection",
     "now",
-    "octaves",
-    "offset",
-    "omega",
     "omnimax",
     "once",
-    "onion",
     "orient",
     "orientation",
     "panoramic",
     "pass_through",
     "pattern",
     "pgm",
-    "phase",
-    "planar",
     "png",
-    "poly_wave",
     "pot",
     "ppm",
     "precision",
@@ -404,29 +387,17 @@ const char* const kUnsupportedWords[] = {
     "pwr",
     "quadratic_spline",
     "quaternion",
-    "quilted",
-    "radial",
-    "ramp_wave",
     "ratio",
     "recursion_limit",
     "repeat",
-    "ripples",
     "samples",
     "save_file",
-    "scallop_wave",
     "scattering",
-    "sine_wave",
     "size",
     "slice",
     "slope",
     "smooth",
-    "solid",
     "spacing",
-    "spherical",
-    "spiral1",
-    "spiral2",
-    "spotted",
-    "square",
     "srgbf",
     "srgbft",
     "srgbt",
@@ -443,10 +414,8 @@ const char* const kUnsupportedWords[] = {
     "toroidal",
     "trace",
     "translucency",
-    "triangle_wave",
     "ttf",
     "turb_depth",
-    "turbulence",
     "type",
     "u_steps",
     "ultra_wide_angle",
@@ -458,11 +427,20 @@ const char* const kUnsupportedWords[] = {
     "v_steps",
     "vturbulence",
     "water_level",
-    "waves",
     "width",
-    "wood",
-    "wrinkles",
 };
+
+int token_of(PatternForm form) {
+  switch (form) {
+  case PatternForm::plain:
+    return tokens::T_PATTERN;
+  case PatternForm::argument:
+    return tokens::T_ARGUED_PATTERN;
+  case PatternForm::list:
+    return tokens::T_LIST_PATTERN;
+  }
+  return tokens::T_PATTERN;
+}
 
 } // namespace
 
@@ -485,6 +463,13 @@ std::vector<ReservedWord> reserved_words() {
   number = 0;
   for (const char* shape : shape_names())
     words.push_back({shape, tokens::T_SHAPE, number++, false});
+  number = 0;
+  for (const PatternWord& pattern : pattern_words())
+    words.push_back({pattern.word, token_of(pattern.form), number++, false});
+  number = 0;
+  for (const PatternOption& option : pattern_options())
+    words.push_back(
+        {option.word, option.has_value ? tokens::T_PATTERN_OPTION : tokens::T_PATTERN_FLAG, number++, false});
   return words;
 }
 

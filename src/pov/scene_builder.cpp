@@ -9,6 +9,7 @@ namespace {
 /// What a scene without any #version counts as (3.2 of POV-Ray's gamma rules).
 constexpr double kVersionIfNoneGiven = 3.62;
 constexpr double kVersionOfGamma = 3.7; // and of transparent backgrounds
+constexpr double kVersionOfNoise = 3.5; // that is in range
 
 } // namespace
 
@@ -38,6 +39,7 @@ void SceneBuilder::settle_gamma() {
 Scene SceneBuilder::finish(const std::string& name) {
   scene_.name = name;
   settle_gamma();
+  scene_.noise_generator = noise_generator_.value_or(scene_.version < kVersionOfNoise ? 1 : 2);
   const CameraDefinition& camera = camera_ ? *camera_ : default_camera;
   diagnostics_.require_supported(camera.unsupported, camera.where);
   try {
