@@ -16,8 +16,9 @@
 %locations
 %param { celltrace::pov::Session& session }
 // After a value both an operator and, since commas are optional, a sign or a colour's channel can follow: the
-// longer value is meant. A name that CSG begins with is all it consists of, not its first part.
-%expect 57
+// longer value is meant. A number at the front of an entry of a pigment_map is its weight. A name that CSG begins
+// with is all it consists of, not its first part.
+%expect 64
 
 %code requires {
 #include "pov/actions.hpp"
@@ -97,7 +98,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %nterm <std::shared_ptr<Array>> elements
 %nterm <Transform> transformation transform_items
 %nterm <PigmentDefinition> pigment_base pigment_parts pigment_body
-%nterm <std::shared_ptr<NormalDefinition>> normal_base normal_parts normal_body
+%nterm <std::shared_ptr<NormalDefinition>> normal_base declared_normal normal_parts normal_body
 %nterm <PatternChange> pattern pattern_change
 %nterm <Turbulence> turbulent_warp
 %nterm <PigmentMap> colours pigments colour_entry colour_entries pigment_entries colour_map pigment_map
@@ -120,7 +121,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %nterm <std::shared_ptr<Mesh2Definition>> mesh2_head
 %nterm <std::vector<TexturePtr>> texture_list
 %nterm <std::shared_ptr<TriangleDefinition>> triangle triangle_vertices
-%nterm <double> number optional_number flag
+%nterm <double> number optional_number flag entry_start
 %nterm <double Light::*> beam_number
 %nterm <UnsupportedPtr> unsupported unsupported_pattern unsupported_modifier
 
@@ -379,13 +380,17 @@ normal_base
       const NormalPtr& base = session.base_texture->normal;
       $$ = base ? std::make_shared<NormalDefinition>(*base) : std::make_shared<NormalDefinition>();
     }
-  | normal_base NORMAL_ID  { $$ = std::make_shared<NormalDefinition>(*$2); }
+  | declared_normal
   | normal_base UV_MAPPING { $$ = $1; mark($$->uv_mapping, make_unsupported("'uv_mapping'", @2)); }
+  ;
+
+declared_normal
+  : NORMAL_ID              { $$ = std::make_shared<NormalDefinition>(*$1); }
   ;
 
 normal_parts
   : normal_base
-  | normal_base optional_comma number          { $$ = $1; $$->amount = $3; }
+  | declared_normal optional_comma number      { $$ = $1; $$->amount = $3; }
   | normal_base pattern                        { $$ = $1; $2(session, $$->pattern); }
   | normal_base pattern optional_comma number  { $$ = $1; $2(session, $$->pattern); $$->amount = $4; }
   | normal_base LIST_PATTERN                   { $$ = $1; choose($$->pattern, $2); }
@@ -483,10 +488,10 @@ pigment_map
   ;
 
 pigment_entries
-  : '[' number optional_comma from_default pigment_body ']' { add(session, $$, $2, $5, @5); }
-  | pigment_entries '[' number optional_comma from_default pigment_body ']' {
+  : entry_start from_default pigment_body ']' { add(session, $$, $1, $3, @3); }
+  | pigment_entries entry_start from_default pigment_body ']' {
       $$ = std::move($1);
-      add(session, $$, $3, $6, @6);
+      add(session, $$, $2, $4, @4);
     }
   ;
 
@@ -496,10 +501,10 @@ normal_map
   ;
 
 normal_entries
-  : '[' number optional_comma from_default normal_body ']' { add(session, $$, $2, *$5, @5); }
-  | normal_entries '[' number optional_comma from_default normal_body ']' {
+  : entry_start from_default normal_body ']' { add(session, $$, $1, *$3, @3); }
+  | normal_entries entry_start from_default normal_body ']' {
       $$ = std::move($1);
-      add(session, $$, $3, *$6, @6);
+      add(session, $$, $2, *$4, @4);
     }
   ;
 
@@ -509,11 +514,13 @@ texture_map
   ;
 
 texture_entries
-  : '[' number optional_comma texture_body ']' { add(session, $$, $2, $4, @4); }
-  | texture_entries '[' number optional_comma texture_body ']' {
-      $$ = std::move($1);
-      add(session, $$, $3, $5, @5);
-    }
+  : entry_start texture_body ']'                 { add(session, $$, $1, $2, @2); }
+  | texture_entries entry_start texture_body ']' { $$ = std::move($1); add(session, $$, $2, $3, @3); }
+  ;
+
+entry_start // an average's entries need no weight; a number is one, not a colour
+  : '['                       { $$ = 1; }
+  | '[' number optional_comma { $$ = $2; }
   ;
 
 // ---- Finishes and textures ----

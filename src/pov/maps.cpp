@@ -130,10 +130,8 @@ void set_list(Session& session, PigmentDefinition& pigment, int pattern, Pigment
 void set_list(Session& session, NormalDefinition& normal, int pattern, NormalMap list,
               const Location& where) {
   choose(normal.pattern, pattern);
-  NormalDefinition smooth;
-  smooth.amount = 0;
   while (list.entries.size() < normal.pattern.list_length())
-    add(session, list, 0, smooth, where);
+    add(session, list, 0, NormalDefinition(), where);
   normal.map = list_for(session, normal.pattern, std::move(list), where);
 }
 
@@ -159,9 +157,8 @@ void check(Session& session, const PigmentDefinition& pigment, const Location& w
 }
 
 void check(Session& session, const NormalDefinition& normal, const Location& where) {
-  if (normal.first_unsupported()) return;
-  if (!normal.pattern.exists()) session.fail(where, "a normal needs a pattern");
-  if (normal.pattern.is_average() && !normal.map) session.fail(where, "an average needs a map");
+  if (normal.pattern.is_average() && !normal.map && !normal.first_unsupported())
+    session.fail(where, "an average needs a map");
 }
 
 void check(Session& session, const TexturePtr& texture, const Location& where) {

@@ -54,7 +54,7 @@ UnsupportedPtr NormalDefinition::first_unsupported() const {
 Normal NormalDefinition::finish() const {
   Normal normal;
   normal.pattern = pattern.value;
-  normal.amount = amount;
+  normal.amount = pattern.exists() ? amount : 0;
   normal.accuracy = accuracy;
   if (map) normal.map = finish_map<Normal>(pattern, map->entries);
   return normal;
@@ -93,7 +93,7 @@ TexturePtr with_pigment(const TexturePtr& texture, const PigmentDefinition& pigm
 
 TexturePtr with_normal(const TexturePtr& texture, const NormalPtr& normal) {
   auto changed = copy(texture);
-  changed->normal = normal;
+  changed->normal = normal->pattern.exists() || normal->first_unsupported() ? normal : nullptr;
   return changed;
 }
 

@@ -49,7 +49,7 @@ struct PigmentDefinition {
 };
 
 struct NormalDefinition {
-  PatternDefinition pattern;
+  PatternDefinition pattern; ///< without one it is smooth
   double amount = 0.5;
   double accuracy = 0.02;
   NormalMapPtr map; ///< null: the pattern's own slopes
