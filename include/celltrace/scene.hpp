@@ -159,6 +159,9 @@ struct Scene {
   std::string name; ///< for messages: the file it came from
   Camera camera;
   Vec3 background{0, 0, 0};
+  /// Layers over the background, the last one on top: what rays meet that hit nothing. Their patterns are
+  /// asked at the ray's direction, of length 1.
+  std::vector<Pigment> sky_sphere;
   Vec3 ambient_light{1, 1, 1};
   std::vector<Light> lights;
   std::vector<Material> materials; ///< objects refer to these by index

@@ -168,6 +168,11 @@ TexturePtr transformed(Session& session, const TexturePtr& texture, const Transf
   return transformed(texture, next);
 }
 
+void transform(Session& session, SkySphereDefinition& sky, const Transform& next, const Location& where) {
+  for (PigmentDefinition& pigment : sky.pigments)
+    move(session, pigment.pattern, next, where);
+}
+
 void set_colour(PigmentDefinition& pigment, const Pigment& colour) {
   pigment.value = colour;
   pigment.pattern.number = kNoPattern;

@@ -85,6 +85,9 @@ TexturePtr transformed(Session& session, const TexturePtr& texture, const Transf
 
 void set_colour(PigmentDefinition& pigment, const Pigment& colour);
 
+/// Moves the pigments that it has got.
+void transform(Session& session, SkySphereDefinition& sky, const Transform& next, const Location& where);
+
 // Maps and lists (maps.cpp)
 
 void add(Session& session, PigmentMap& map, double position, const PigmentDefinition& pigment,

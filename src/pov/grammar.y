@@ -53,6 +53,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %token <PigmentMapPtr> PIGMENT_MAP_ID
 %token <NormalMapPtr> NORMAL_MAP_ID
 %token <TextureMapPtr> TEXTURE_MAP_ID
+%token <SkySpherePtr> SKY_SPHERE_ID
 %token <FinishPtr> FINISH_ID
 %token <TexturePtr> TEXTURE_ID
 %token <InteriorPtr> INTERIOR_ID
@@ -82,7 +83,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %token NORMAL_VECTORS NO_SHADOW NUMBER_OF_WAVES OBJECT OCTAVES OMEGA OPEN
 %token ORTHOGRAPHIC PARALLEL PERSPECTIVE PHASE PHONG PHONG_SIZE PHOTONS PIGMENT PIGMENT_MAP POINT_AT POLY_WAVE QUICK_COLOUR RADIUS
 %token REFLECTION
-%token REFLECTION_EXPONENT REFRACTION RIGHT ROTATE ROUGHNESS SCALE SHADOWLESS SKY SMOOTH_TRIANGLE
+%token REFLECTION_EXPONENT REFRACTION RIGHT ROTATE ROUGHNESS SCALE SHADOWLESS SKY SKY_SPHERE SMOOTH_TRIANGLE
 %token SPECULAR SPOTLIGHT SRGB TEXTURE TEXTURE_LIST TEXTURE_MAP TIGHTNESS TRANSFORM TRANSLATE TRIANGLE TURBULENCE UP
 %token UV_INDICES UV_MAPPING UV_VECTORS VERTEX_VECTORS WARP
 
@@ -107,6 +108,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %nterm <std::shared_ptr<FinishDefinition>> finish_body
 %nterm <ReflectionDefinition> reflection_body
 %nterm <TexturePtr> texture texture_parts texture_body layers
+%nterm <std::shared_ptr<SkySphereDefinition>> sky_sphere sky_sphere_body
 %nterm <InteriorDefinition> interior_body
 %nterm <InteriorPtr> interior
 %nterm <MaterialDefinition> material_body
@@ -151,6 +153,7 @@ scene
   | scene object                    { session.builder.place($2, @2); }
   | scene camera                    { session.builder.set_camera($2); }
   | scene BACKGROUND '{' colour_value '}' { session.builder.set_background(session.colour($4, @4)); }
+  | scene sky_sphere                { session.builder.set_sky_sphere(*$2, @2); }
   | scene GLOBAL_SETTINGS '{' settings '}'
   | scene UNSUPPORTED_BLOCK         { refuse(session, quoted(session, $2), @2); }
   ;
@@ -628,6 +631,22 @@ layers
   | layers texture { $$ = layer(session, $1, $2, @2); }
   ;
 
+sky_sphere
+  : SKY_SPHERE '{' sky_sphere_body '}' {
+      $$ = $3;
+      if ($$->pigments.empty() && !$$->unsupported) session.fail(@1, "a sky_sphere needs a pigment");
+    }
+  ;
+
+sky_sphere_body
+  : %empty                          { $$ = std::make_shared<SkySphereDefinition>(); }
+  | sky_sphere_body SKY_SPHERE_ID   { $$ = std::make_shared<SkySphereDefinition>(*$2); }
+  | sky_sphere_body PIGMENT '{' from_default pigment_body '}' { $$ = $1; append(session, $$->pigments, $5, @2); }
+  | sky_sphere_body transformation  { $$ = $1; transform(session, *$$, $2, @2); }
+  | sky_sphere_body EMISSION colour_value { $$ = $1; mark($$->unsupported, make_unsupported("a sky_sphere's 'emission'", @2)); }
+  | sky_sphere_body unsupported     { $$ = $1; mark($$->unsupported, $2); }
+  ;
+
 interior
   : INTERIOR '{' interior_body '}' { $$ = std::make_shared<InteriorDefinition>($3); }
   ;
@@ -886,6 +905,8 @@ declarable
   | NORMAL_MAP normal_map   { $$ = std::make_shared<const NormalMap>($2); }
   | TEXTURE_MAP texture_map { $$ = std::make_shared<const TextureMap>($2); }
   | FINISH '{' from_default finish_body '}'   { $$ = FinishPtr($4); }
+  | sky_sphere        { $$ = SkySpherePtr($1); }
+  | SKY_SPHERE_ID     { $$ = $1; }
   | layers            { $$ = $1; }
   | TEXTURE_ID        { $$ = $1; }
   | PIGMENT_ID        { $$ = $1; }

@@ -125,6 +125,7 @@ const Word kWords[] = {
     {"scale", tokens::T_SCALE},
     {"shadowless", tokens::T_SHADOWLESS},
     {"sky", tokens::T_SKY},
+    {"sky_sphere", tokens::T_SKY_SPHERE},
     {"smooth_triangle", tokens::T_SMOOTH_TRIANGLE},
     {"specular", tokens::T_SPECULAR},
     {"split_union", tokens::T_IGNORED_FLAG},
@@ -257,27 +258,10 @@ const char* const kUnsupportedObjects[] = {
 };
 
 const char* const kUnsupportedBlocks[] = {
-    "bump_map",
-    "contained_by",
-    "density",
-    "density_map",
-    "fog",
-    "function",
-    "image_map",
-    "image_pattern",
-    "interior_texture",
-    "material_map",
-    "media",
-    "mesh_camera",
-    "pigment_pattern",
-    "projected_through",
-    "radiosity",
-    "rainbow",
-    "sky_sphere",
-    "slope_map",
-    "spline",
-    "subsurface",
-    "tiles",
+    "bump_map", "contained_by", "density",         "density_map",       "fog",
+    "function", "image_map",    "image_pattern",   "interior_texture",  "material_map",
+    "media",    "mesh_camera",  "pigment_pattern", "projected_through", "radiosity",
+    "rainbow",  "slope_map",    "spline",          "subsurface",        "tiles",
 };
 
 const char* const kUnsupportedWords[] = {

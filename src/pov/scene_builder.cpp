@@ -24,6 +24,15 @@ void SceneBuilder::set_background(const Pigment& colour) {
   scene_.background = has_alpha ? colour.rgb * (1 - colour.transmit) : colour.rgb;
 }
 
+void SceneBuilder::set_sky_sphere(const SkySphereDefinition& sky, const Location& where) {
+  diagnostics_.require_supported(sky.unsupported, where);
+  scene_.sky_sphere.clear();
+  for (const PigmentDefinition& pigment : sky.pigments) {
+    diagnostics_.require_supported(pigment.first_unsupported(), where);
+    scene_.sky_sphere.push_back(pigment.finish());
+  }
+}
+
 void SceneBuilder::set_assumed_gamma(std::optional<double> gamma) {
   gamma_given_ = true;
   scene_.gamma_mode = gamma ? GammaMode::assumed : GammaMode::srgb;

@@ -34,6 +34,8 @@ public:
   void set_camera(std::shared_ptr<const CameraDefinition> camera) { camera_ = std::move(camera); }
   /// As if over black, for what it transmits, from version 3.7 on; before, without regard to that.
   void set_background(const Pigment& colour);
+  /// The last one is the scene's.
+  void set_sky_sphere(const SkySphereDefinition& sky, const Location& where);
   void set_ambient_light(const Vec3& rgb) { scene_.ambient_light = rgb; }
   void set_max_trace_level(int level) { scene_.max_trace_level = level; }
   void set_noise_generator(int number) { noise_generator_ = number; }

@@ -99,6 +99,12 @@ TexturePtr transformed(const TexturePtr& texture, const Transform& next);
 /// opaque.
 TexturePtr layered(const TexturePtr& below, const TexturePtr& top);
 
+struct SkySphereDefinition {
+  std::vector<PigmentDefinition> pigments; ///< the last one is on top
+  UnsupportedPtr unsupported;
+};
+using SkySpherePtr = std::shared_ptr<const SkySphereDefinition>;
+
 struct InteriorDefinition {
   double ior = 1;
   double fade_distance = 0;

@@ -43,6 +43,7 @@ bool ends_operand(int terminal) {
   case tokens::T_PIGMENT_MAP_ID:
   case tokens::T_NORMAL_MAP_ID:
   case tokens::T_TEXTURE_MAP_ID:
+  case tokens::T_SKY_SPHERE_ID:
   case tokens::T_FINISH_ID:
   case tokens::T_TEXTURE_ID:
   case tokens::T_OBJECT_ID:
@@ -98,6 +99,7 @@ struct TokenOf {
   int operator()(const PigmentMapPtr&) const { return tokens::T_PIGMENT_MAP_ID; }
   int operator()(const NormalMapPtr&) const { return tokens::T_NORMAL_MAP_ID; }
   int operator()(const TextureMapPtr&) const { return tokens::T_TEXTURE_MAP_ID; }
+  int operator()(const SkySpherePtr&) const { return tokens::T_SKY_SPHERE_ID; }
   int operator()(const FinishPtr&) const { return tokens::T_FINISH_ID; }
   int operator()(const TexturePtr&) const { return tokens::T_TEXTURE_ID; }
   int operator()(const InteriorPtr&) const { return tokens::T_INTERIOR_ID; }

@@ -458,6 +458,22 @@ TEST_CASE("global settings of patterns") {
         "scene.pov:1:35: error: there are at most 1000 waves");
 }
 
+TEST_CASE("sky spheres") {
+  const Scene scene = parse("#declare S = sky_sphere { pigment { gradient y } rotate x*90 } "
+                            "sky_sphere { S pigment { rgbt 0.5 } pigment { bozo } translate y }");
+  REQUIRE(scene.sky_sphere.size() == 3);
+  CHECK(transform(scene.sky_sphere[0].map->pattern.space).point({0, 1, 0}).z == Approx(1));
+  CHECK(scene.sky_sphere[1].transmit == 0.5);
+  CHECK(origin(scene.sky_sphere[2].map->pattern.space) == Vec3(0, 1, 0));
+  CHECK(parse("sky_sphere { pigment { rgb 1 } } sky_sphere { pigment { rgb 0.5 } }").sky_sphere.at(0).rgb ==
+        Vec3(0.5));
+  CHECK(error_line("sky_sphere { }") == "scene.pov:1:1: error: a sky_sphere needs a pigment");
+  CHECK(error_line("sky_sphere { pigment { mandel 9 } }") ==
+        "scene.pov:1:24: error: 'mandel' is not supported yet");
+  CHECK(error_line("sky_sphere { pigment { rgb 1 } emission 2 }") ==
+        "scene.pov:1:32: error: a sky_sphere's 'emission' is not supported yet");
+}
+
 TEST_CASE("what patterns lack is an error where it is used") {
   const auto refused = [](const std::string& pigment) {
     const std::string declared = "#declare P = pigment { " + pigment + " } ";
