@@ -105,6 +105,10 @@ struct Pattern {
 /// What a pattern's numbers stand for. Between two entries values are blended, before the first and after the
 /// last they are theirs; lists take the entry of the number. No more than 256 entries, at least one; nested
 /// no deeper than kDeepestMap.
+///
+/// Patterns inside an entry are in the space of the map's pattern: they are asked at the point that this one
+/// is asked at, after its steps and its turbulence (marble and wood use theirs inside, it moves no points).
+/// So is everything inside an average.
 template <class T> struct PatternMap {
   struct Entry {
     double position; ///< ascending; of lists it means nothing; of an average, the entry's weight

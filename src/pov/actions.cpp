@@ -76,6 +76,15 @@ Transform inverse(Session& session, const Transform& transform, const Location& 
   }
 }
 
+Quantity decoded(Session& session, const Quantity& colour, const Location& where) {
+  if (!session.builder.gamma_is_given())
+    session.fail(where, "colours in sRGB need an 'assumed_gamma' in front of them");
+  Quantity result = colour;
+  for (std::size_t i = 0; i < 3; ++i)
+    result.v[i] = session.builder.from_srgb(colour.v[i]);
+  return result;
+}
+
 void set_assumed_gamma(Session& session, double gamma, const Location& where) {
   session.builder.set_assumed_gamma(positive(session, gamma, "assumed_gamma", where));
 }

@@ -30,6 +30,9 @@ void append_component(Session& session, Quantity& vector, double component, cons
 Transform matrix(Session& session, const std::vector<ListEntry>& numbers, const Location& where);
 Transform inverse(Session& session, const Transform& transform, const Location& where);
 
+/// From sRGB to what the scene's colours mean, as its assumed_gamma, which must be known by now, says.
+Quantity decoded(Session& session, const Quantity& colour, const Location& where);
+
 // ---- Arrays (arrays.cpp) ----
 
 /// A deep copy: arrays are values.

@@ -18,7 +18,7 @@
 // After a value both an operator and, since commas are optional, a sign or a colour's channel can follow: the
 // longer value is meant. A number at the front of an entry of a pigment_map is its weight. A name that CSG begins
 // with is all it consists of, not its first part.
-%expect 64
+%expect 68
 
 %code requires {
 #include "pov/actions.hpp"
@@ -65,7 +65,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %token <UnsupportedPtr> UNSUPPORTED_ID
 %token UNDECLARED_ID
 
-%token <int> FUNCTION TEXT_FUNCTION COMPONENT COLOUR_MODEL CHANNEL SHAPE CSG
+%token <int> FUNCTION TEXT_FUNCTION COMPONENT COLOUR_MODEL SRGB_MODEL CHANNEL SHAPE CSG
 %token <int> PATTERN ARGUED_PATTERN LIST_PATTERN PATTERN_OPTION PATTERN_FLAG WAVE
 %token <NameId> UNSUPPORTED UNSUPPORTED_OBJECT UNSUPPORTED_BLOCK
 %token BAD_CHARACTER DEFINED CONSTANT
@@ -89,6 +89,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 
 %nterm <Quantity> quantity operand vector vector_items comparison logic value_in_brackets
 %nterm <Quantity> colour colour_value colour_base
+%nterm <ColourModel> srgb_model
 %nterm <Signs> signs
 %nterm <std::string> text
 %nterm <std::vector<Value>> arguments
@@ -313,11 +314,16 @@ colour // with a keyword: distinct from a mere number
   : COLOUR quantity              { $$ = $2.promoted(5); $$.is_colour = true; }
   | COLOUR COLOUR_MODEL quantity { $$ = make_colour(ColourModel($2), $3); }
   | COLOUR_MODEL quantity        { $$ = make_colour(ColourModel($1), $2); }
-  | COLOUR SRGB                  { refuse(session, "'srgb'", @2); }
-  | SRGB                         { refuse(session, "'srgb'", @1); }
+  | COLOUR srgb_model quantity   { $$ = decoded(session, make_colour($2, $3), @2); }
+  | srgb_model quantity          { $$ = decoded(session, make_colour($1, $2), @1); }
   | COLOUR CHANNEL number        { $$ = with_channel(Quantity::colour({0, 0, 0}), Channel($2), $3); }
   | CHANNEL number               { $$ = with_channel(Quantity::colour({0, 0, 0}), Channel($1), $2); }
   | colour CHANNEL number        { $$ = with_channel($1, Channel($2), $3); }
+  ;
+
+srgb_model
+  : SRGB       { $$ = ColourModel::rgb; }
+  | SRGB_MODEL { $$ = ColourModel($1); }
   ;
 
 colour_base

@@ -40,6 +40,7 @@ struct Deliver {
     case token::T_TEXT_FUNCTION:
     case token::T_COMPONENT:
     case token::T_COLOUR_MODEL:
+    case token::T_SRGB_MODEL:
     case token::T_CHANNEL:
     case token::T_SHAPE:
     case token::T_CSG:

@@ -1,5 +1,7 @@
 #include "pov/scene_builder.hpp"
 
+#include <cmath>
+
 #include "celltrace/error.hpp"
 
 namespace celltrace::pov {
@@ -37,6 +39,12 @@ void SceneBuilder::set_assumed_gamma(std::optional<double> gamma) {
   gamma_given_ = true;
   scene_.gamma_mode = gamma ? GammaMode::assumed : GammaMode::srgb;
   scene_.assumed_gamma = gamma.value_or(1);
+}
+
+double SceneBuilder::from_srgb(double channel) const {
+  if (scene_.gamma_mode != GammaMode::assumed) return channel;
+  const double linear = channel <= 0.04045 ? channel / 12.92 : std::pow((channel + 0.055) / 1.055, 2.4);
+  return std::copysign(std::pow(std::fabs(linear), 1 / scene_.assumed_gamma), linear);
 }
 
 void SceneBuilder::settle_gamma() {

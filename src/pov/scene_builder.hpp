@@ -43,6 +43,9 @@ public:
   void set_adc_bailout(double weight) { scene_.adc_bailout = weight; }
   /// Without a value: `assumed_gamma srgb`.
   void set_assumed_gamma(std::optional<double> gamma);
+  bool gamma_is_given() const { return gamma_given_; }
+  /// A channel of a colour in sRGB as the scene's colours have it.
+  double from_srgb(double channel) const;
   void set_version(double version) { version_ = version; }
   /// What `version` says: 3.7 until #version changes it.
   double version() const { return version_.value_or(3.7); }

@@ -48,6 +48,29 @@ TEST_CASE("pigments") {
   CHECK(named.materials.at(1).pigment.filter == 0.5);
 }
 
+TEST_CASE("colours in sRGB") {
+  const auto colour = [](const std::string& gamma, const std::string& written) {
+    return parse("global_settings { assumed_gamma " + gamma + " } sphere { 0, 1 pigment { " + written +
+                 " } }")
+        .materials.at(0)
+        .pigment;
+  };
+  const Pigment linear = colour("1", "srgb <.5, .25, .75>");
+  CHECK(linear.rgb.x == Approx(0.214041).epsilon(1e-5));
+  CHECK(linear.rgb.y == Approx(0.050876).epsilon(1e-5));
+  CHECK(linear.rgb.z == Approx(0.522522).epsilon(1e-5));
+  CHECK(colour("2.2", "color srgb 0.5").rgb.x == Approx(0.496227).epsilon(1e-5));
+  CHECK(colour("srgb", "srgb 0.5").rgb.x == 0.5);
+  CHECK(colour("1", "srgb <-.5, 0, 0>").rgb.x == Approx(-0.0387).epsilon(1e-4));
+  const Pigment both = colour("1", "srgbft <.5, .5, .5, .25, .75>");
+  CHECK(both.filter == 0.25);
+  CHECK(both.transmit == 0.75);
+  CHECK(colour("1", "srgbt <.5, .5, .5, .25>").transmit == 0.25);
+  CHECK(colour("1", "srgbf <.5, .5, .5, .25> transmit 0.5").filter == 0.25);
+  CHECK(error_line("sphere { 0, 1 pigment { srgb 1 } }") ==
+        "scene.pov:1:25: error: colours in sRGB need an 'assumed_gamma' in front of them");
+}
+
 TEST_CASE("every item of a finish") {
   const Finish f = finish(
       "ambient rgb <.1, .2, .3> emission 0.5 diffuse 0.7 brilliance 2 phong 0.8 phong_size 60 "
