@@ -253,11 +253,7 @@ Index SceneBuilder::material_index(const TexturePtr& texture, const Transform& t
     return known->second;
   }
   const auto [known, is_new] = placed_material_indices_.try_emplace(PlacedTexture{texture, transform});
-  if (is_new) {
-    if (is_singular(transform))
-      diagnostics_.fail(where, "the transformation of this object's texture is singular: it has no inverse");
-    known->second = scene_.add(make_material(*transformed(texture, transform), where));
-  }
+  if (is_new) known->second = scene_.add(make_material(*transformed(texture, transform), where));
   return known->second;
 }
 
@@ -270,16 +266,17 @@ Material SceneBuilder::make_material(const TextureDefinition& texture, const Loc
     map->is_average = texture.pattern.is_average();
     for (const auto& [position, entry] : texture.map->entries)
       map->entries.push_back({position, *shared_material(entry, where)});
-    count_entries(map->entries.size(), where);
+    check_pattern(map->pattern, map->entries.size(), where);
     material.map = std::move(map);
     return material;
   }
   material.pigment = texture.pigment.finish();
-  if (material.pigment.map) count_entries(material.pigment.map->entries.size(), where);
+  if (const auto& map = material.pigment.map) check_pattern(map->pattern, map->entries.size(), where);
   material.finish = texture.finish.value;
   if (texture.normal) {
     material.normal = std::make_shared<const Normal>(texture.normal->finish());
-    if (material.normal->map) count_entries(material.normal->map->entries.size(), where);
+    const auto& map = material.normal->map;
+    check_pattern(map ? map->pattern : material.normal->pattern, map ? map->entries.size() : 0, where);
   }
   if (texture.below) material.below = shared_material(texture.below, where);
   return material;
@@ -292,9 +289,12 @@ std::shared_ptr<const Material> SceneBuilder::shared_material(const TexturePtr& 
   return shared_materials_[texture] = std::make_shared<const Material>(make_material(*texture, where));
 }
 
-/// Every place of a texture with maps has its own copy of them.
-void SceneBuilder::count_entries(std::size_t count, const Location& where) {
-  map_entries_ += count;
+/// Every place of a texture with maps has its own copy of them, and its own transformations.
+void SceneBuilder::check_pattern(const Pattern& pattern, std::size_t entries, const Location& where) {
+  for (const SpaceStep& step : pattern.space)
+    if (const auto* transform = std::get_if<Transform>(&step); transform && is_singular(*transform))
+      diagnostics_.fail(where, "the transformation of this object's texture is singular: it has no inverse");
+  map_entries_ += entries;
   if (map_entries_ > limits_.map_entries)
     diagnostics_.fail(where, "the maps of all textures have more than " +
                                  std::to_string(limits_.map_entries) + " entries");

@@ -89,7 +89,7 @@ private:
   Index material_index(const TexturePtr& texture, const Transform& transform, const Location& where);
   Material make_material(const TextureDefinition& texture, const Location& where);
   std::shared_ptr<const Material> shared_material(const TexturePtr& texture, const Location& where);
-  void count_entries(std::size_t count, const Location& where);
+  void check_pattern(const Pattern& pattern, std::size_t entries, const Location& where);
   std::shared_ptr<const Mesh> placed_triangle(const TriangleDefinition& triangle, const Transform& transform,
                                               const Location& where);
   std::shared_ptr<const Mesh> placed_mesh(const std::shared_ptr<MeshDefinition>& definition,
