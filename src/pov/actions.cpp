@@ -118,8 +118,8 @@ PatternChange chosen(int number, const Quantity& argument, const Location& where
 
 PatternChange poly_wave(double exponent) {
   return [=](Session&, PatternDefinition& pattern) {
-    pattern.value.wave = Pattern::Wave::poly;
-    pattern.value.wave_exponent = exponent;
+    pattern.own().wave = Pattern::Wave::poly;
+    pattern.own().wave_exponent = exponent;
   };
 }
 

@@ -63,10 +63,10 @@ using PatternChange = std::function<void(Session&, PatternDefinition&)>;
 PatternChange chosen(int number);
 PatternChange chosen(int number, const Quantity& argument, const Location& where);
 template <class T> PatternChange set(T Pattern::*member, T value) {
-  return [=](Session&, PatternDefinition& pattern) { pattern.value.*member = value; };
+  return [=](Session&, PatternDefinition& pattern) { pattern.own().*member = value; };
 }
 template <class T> PatternChange set(T Turbulence::*member, T value) {
-  return [=](Session&, PatternDefinition& pattern) { pattern.value.turbulence.*member = value; };
+  return [=](Session&, PatternDefinition& pattern) { pattern.own().turbulence.*member = value; };
 }
 PatternChange poly_wave(double exponent);
 PatternChange option(int number, const Quantity& value, const Location& where);

@@ -48,7 +48,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 
 %token <Quantity> QUANTITY
 %token <std::string> TEXT
-%token <PigmentDefinition> PIGMENT_ID
+%token <PigmentPtr> PIGMENT_ID
 %token <NormalPtr> NORMAL_ID
 %token <PigmentMapPtr> PIGMENT_MAP_ID
 %token <NormalMapPtr> NORMAL_MAP_ID
@@ -101,7 +101,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %nterm <std::vector<std::size_t>> dimensions
 %nterm <std::shared_ptr<Array>> elements
 %nterm <Transform> transformation transform_items
-%nterm <PigmentDefinition> pigment_base pigment_parts pigment_body
+%nterm <std::shared_ptr<PigmentDefinition>> pigment_base pigment_parts pigment_body
 %nterm <std::shared_ptr<NormalDefinition>> normal_base declared_normal normal_parts normal_body
 %nterm <PatternChange> pattern pattern_change
 %nterm <Turbulence> turbulent_warp
@@ -183,7 +183,7 @@ defaults
   | defaults texture  { session.builder.default_texture = $2; }
   | defaults PIGMENT '{' from_default pigment_body '}' {
       require_plain(session, session.builder.default_texture, @2);
-      session.builder.default_texture = with_pigment(session.builder.default_texture, $5);
+      session.builder.default_texture = with_pigment(session.builder.default_texture, *$5);
     }
   | defaults NORMAL '{' from_default normal_body '}' {
       require_plain(session, session.builder.default_texture, @2);
@@ -363,27 +363,27 @@ from_default // where a pigment, normal or finish of its own starts; any other s
   ;
 
 pigment_base
-  : %empty                   { $$ = session.base_texture->pigment; }
-  | pigment_base PIGMENT_ID  { $$ = $2; }
-  | pigment_base UV_MAPPING  { $$ = std::move($1); mark($$.uv_mapping, make_unsupported("'uv_mapping'", @2)); }
+  : %empty                   { $$ = std::make_shared<PigmentDefinition>(session.base_texture->pigment); }
+  | pigment_base PIGMENT_ID  { $$ = std::make_shared<PigmentDefinition>(*$2); }
+  | pigment_base UV_MAPPING  { $$ = $1; mark($$->uv_mapping, make_unsupported("'uv_mapping'", @2)); }
   ;
 
 pigment_parts // what it is, and then what changes that
   : pigment_base
-  | pigment_base colour_value              { $$ = std::move($1); set_colour($$, session.colour($2, @2)); }
-  | pigment_base pattern                   { $$ = std::move($1); $2(session, $$.pattern); }
-  | pigment_base LIST_PATTERN colours      { $$ = std::move($1); set_colours(session, $$, $2, $3, @2); }
-  | pigment_base LIST_PATTERN pigments     { $$ = std::move($1); set_list(session, $$, $2, $3, @2); }
-  | pigment_parts COLOUR_MAP colour_map    { $$ = std::move($1); set_map(session, $$, $3, @2); }
-  | pigment_parts PIGMENT_MAP pigment_map  { $$ = std::move($1); set_map(session, $$, $3, @2); }
-  | pigment_parts pattern_change           { $$ = std::move($1); $2(session, $$.pattern); }
-  | pigment_parts transformation           { $$ = std::move($1); move(session, $$.pattern, $2, @2); }
-  | pigment_parts QUICK_COLOUR colour_value { $$ = std::move($1); }
-  | pigment_parts unsupported_pattern      { $$ = std::move($1); mark($$.unsupported, $2); }
+  | pigment_base colour_value              { $$ = $1; set_colour(*$$, session.colour($2, @2)); }
+  | pigment_base pattern                   { $$ = $1; $2(session, $$->pattern); }
+  | pigment_base LIST_PATTERN colours      { $$ = $1; set_colours(session, *$$, $2, $3, @2); }
+  | pigment_base LIST_PATTERN pigments     { $$ = $1; set_list(session, *$$, $2, $3, @2); }
+  | pigment_parts COLOUR_MAP colour_map    { $$ = $1; set_map(session, *$$, $3, @2); }
+  | pigment_parts PIGMENT_MAP pigment_map  { $$ = $1; set_map(session, *$$, $3, @2); }
+  | pigment_parts pattern_change           { $$ = $1; $2(session, $$->pattern); }
+  | pigment_parts transformation           { $$ = $1; move(session, $$->pattern, $2, @2); }
+  | pigment_parts QUICK_COLOUR colour_value { $$ = $1; }
+  | pigment_parts unsupported_pattern      { $$ = $1; mark($$->unsupported, $2); }
   ;
 
 pigment_body
-  : pigment_parts { $$ = std::move($1); check(session, $$, @1); }
+  : pigment_parts { $$ = $1; check(session, *$$, @1); }
   ;
 
 normal_base
@@ -455,10 +455,10 @@ colours
   ;
 
 pigments
-  : PIGMENT '{' from_default pigment_body '}' { add(session, $$, 0, $4, @1); }
+  : PIGMENT '{' from_default pigment_body '}' { add(session, $$, 0, *$4, @1); }
   | pigments optional_comma PIGMENT '{' from_default pigment_body '}' {
       $$ = std::move($1);
-      add(session, $$, 0, $6, @3);
+      add(session, $$, 0, *$6, @3);
     }
   ;
 
@@ -499,10 +499,10 @@ pigment_map
   ;
 
 pigment_entries
-  : entry_start from_default pigment_body ']' { add(session, $$, $1, $3, @3); }
+  : entry_start from_default pigment_body ']' { add(session, $$, $1, *$3, @3); }
   | pigment_entries entry_start from_default pigment_body ']' {
       $$ = std::move($1);
-      add(session, $$, $2, $4, @4);
+      add(session, $$, $2, *$4, @4);
     }
   ;
 
@@ -607,7 +607,7 @@ texture_parts
   | texture_parts TEXTURE_ID     { $$ = $2; }
   | texture_parts PIGMENT '{' { session.base_texture = $1; } pigment_body '}' {
       require_plain(session, $1, @2);
-      $$ = with_pigment($1, $5);
+      $$ = with_pigment($1, *$5);
     }
   | texture_parts NORMAL '{' { session.base_texture = $1; } normal_body '}' {
       require_plain(session, $1, @2);
@@ -617,7 +617,7 @@ texture_parts
       require_plain(session, $1, @2);
       $$ = with_finish($1, *$5);
     }
-  | texture_parts PIGMENT_ID     { require_plain(session, $1, @2); $$ = with_pigment($1, $2); }
+  | texture_parts PIGMENT_ID     { require_plain(session, $1, @2); $$ = with_pigment($1, *$2); }
   | texture_parts NORMAL_ID      { require_plain(session, $1, @2); $$ = with_normal($1, $2); }
   | texture_parts FINISH_ID      { require_plain(session, $1, @2); $$ = with_finish($1, *$2); }
   | texture_parts pattern        { $$ = with_pattern(session, $1, $2); }
@@ -649,7 +649,7 @@ sky_sphere
 sky_sphere_body
   : %empty                          { $$ = std::make_shared<SkySphereDefinition>(); }
   | sky_sphere_body SKY_SPHERE_ID   { $$ = std::make_shared<SkySphereDefinition>(*$2); }
-  | sky_sphere_body PIGMENT '{' from_default pigment_body '}' { $$ = $1; append(session, $$->pigments, $5, @2); }
+  | sky_sphere_body PIGMENT '{' from_default pigment_body '}' { $$ = $1; append(session, $$->pigments, *$5, @2); }
   | sky_sphere_body transformation  { $$ = $1; transform(session, *$$, $2, @2); }
   | sky_sphere_body EMISSION colour_value {
       $$ = $1;
@@ -766,7 +766,7 @@ object_body
   | object_body texture                { $$ = $1; add_layer(session, *$$, $2, @2); }
   | object_body PIGMENT '{' { session.base_texture = plain_texture_of(session, *$1, @2); } pigment_body '}' {
       $$ = $1;
-      set_texture(*$$, with_pigment(texture_of(session, *$$), $5));
+      set_texture(*$$, with_pigment(texture_of(session, *$$), *$5));
     }
   | object_body NORMAL '{' { session.base_texture = plain_texture_of(session, *$1, @2); } normal_body '}' {
       $$ = $1;
@@ -909,7 +909,7 @@ declarable
   : quantity          { $$ = $1; }
   | colour            { $$ = $1; }
   | text              { $$ = $1; }
-  | PIGMENT '{' from_default pigment_body '}' { $$ = $4; }
+  | PIGMENT '{' from_default pigment_body '}' { $$ = PigmentPtr($4); }
   | NORMAL '{' from_default normal_body '}'   { $$ = NormalPtr($4); }
   | COLOUR_MAP colour_map   { $$ = std::make_shared<const PigmentMap>($2); }
   | PIGMENT_MAP pigment_map { $$ = std::make_shared<const PigmentMap>($2); }

@@ -207,8 +207,8 @@ const Option* find_option(const Entry& entry, const char* word) {
   return found == entry.options.end() ? nullptr : &*found;
 }
 
-void add_step(Session& session, PatternDefinition& pattern, const Location& where) {
-  if (pattern.value.space.size() >= kMostSpaceSteps)
+void check_steps(Session& session, const PatternDefinition& pattern, const Location& where) {
+  if (pattern.value().space.size() >= kMostSpaceSteps)
     session.fail(where, "a pattern has no more than " + std::to_string(kMostSpaceSteps) +
                             " warps and transformations between them");
 }
@@ -232,6 +232,16 @@ std::vector<PatternOption> pattern_options() {
   return options;
 }
 
+const Pattern& PatternDefinition::value() const {
+  static const Pattern kNew;
+  return value_ ? *value_ : kNew;
+}
+
+Pattern& PatternDefinition::own() {
+  if (!value_ || value_.use_count() > 1) value_ = std::make_shared<Pattern>(value());
+  return *value_;
+}
+
 bool PatternDefinition::is_average() const {
   return exists() && std::string(entry_of(*this).word) == "average";
 }
@@ -250,13 +260,13 @@ std::vector<PatternMap<Pigment>::Entry> PatternDefinition::default_colours() con
 void choose(PatternDefinition& pattern, int number) {
   pattern.number = number;
   const Entry& entry = entry_of(pattern);
-  pattern.value.kind = entry.make();
-  if (entry.wave != Wave::ramp) pattern.value.wave = entry.wave;
+  pattern.own().kind = entry.make();
+  if (entry.wave != Wave::ramp) pattern.own().wave = entry.wave;
 }
 
 void set_argument(Session& session, PatternDefinition& pattern, const Quantity& argument,
                   const Location& where) {
-  entry_of(pattern).set_argument(pattern.value.kind, Argument(session, argument, where));
+  entry_of(pattern).set_argument(pattern.own().kind, Argument(session, argument, where));
 }
 
 void set_option(Session& session, PatternDefinition& pattern, int option, const Quantity& value,
@@ -264,7 +274,7 @@ void set_option(Session& session, PatternDefinition& pattern, int option, const 
   const char* word = pattern_options()[static_cast<std::size_t>(option)].word;
   const Option* found = pattern.exists() ? find_option(entry_of(pattern), word) : nullptr;
   if (!found) session.fail(where, '\'' + std::string(word) + "' means nothing to this pattern");
-  found->set(pattern.value.kind, Argument(session, value, where));
+  found->set(pattern.own().kind, Argument(session, value, where));
 }
 
 void append(std::vector<SpaceStep>& space, const Transform& next) {
@@ -280,16 +290,16 @@ bool is_singular(const Transform& transform) {
 }
 
 void move(Session& session, PatternDefinition& pattern, const Transform& next, const Location& where) {
-  if (pattern.value.space.empty() || std::holds_alternative<Turbulence>(pattern.value.space.back()))
-    add_step(session, pattern, where);
-  append(pattern.value.space, next);
-  if (is_singular(std::get<Transform>(pattern.value.space.back())))
+  std::vector<SpaceStep>& space = pattern.own().space;
+  if (space.empty() || std::holds_alternative<Turbulence>(space.back())) check_steps(session, pattern, where);
+  append(space, next);
+  if (is_singular(std::get<Transform>(space.back())))
     session.fail(where, "this transformation is singular: it has no inverse");
 }
 
 void bend(Session& session, PatternDefinition& pattern, const Turbulence& turbulence, const Location& where) {
-  add_step(session, pattern, where);
-  pattern.value.space.push_back(turbulence);
+  check_steps(session, pattern, where);
+  pattern.own().space.push_back(turbulence);
 }
 
 } // namespace celltrace::pov

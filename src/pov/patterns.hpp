@@ -3,6 +3,7 @@
 // where the scene gives none. The language's words come from there too.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "celltrace/texture.hpp"
@@ -40,15 +41,20 @@ inline constexpr int kNoPattern = -1;
 /// A pattern and its modifiers.
 struct PatternDefinition {
   int number = kNoPattern; ///< its place in pattern_words()
-  Pattern value;
   UnsupportedPtr unsupported;
 
+  const Pattern& value() const;
+  /// To change it.
+  Pattern& own();
   bool exists() const { return number != kNoPattern; }
   bool is_average() const;
   /// How many entries its list has; 0 of others.
   std::size_t list_length() const;
   /// The colours it has without a map.
   std::vector<PatternMap<Pigment>::Entry> default_colours() const;
+
+private:
+  std::shared_ptr<Pattern> value_; ///< shared by copies until one of them changes; null: as patterns are made
 };
 
 /// Makes `pattern` the one with this number. What modifiers have done to it stays, but for the wave if the

@@ -262,7 +262,7 @@ Material SceneBuilder::make_material(const TextureDefinition& texture, const Loc
   Material material;
   if (texture.map) {
     auto map = std::make_shared<PatternMap<Material>>();
-    map->pattern = texture.pattern.value;
+    map->pattern = texture.pattern.value();
     map->is_average = texture.pattern.is_average();
     for (const auto& [position, entry] : texture.map->entries)
       map->entries.push_back({position, *shared_material(entry, where)});

@@ -12,7 +12,7 @@ template <class T>
 std::shared_ptr<const PatternMap<T>> finish_map(const PatternDefinition& pattern,
                                                 const std::vector<typename PatternMap<T>::Entry>& entries) {
   auto map = std::make_shared<PatternMap<T>>();
-  map->pattern = pattern.value;
+  map->pattern = pattern.value();
   map->is_average = pattern.is_average();
   map->entries = entries;
   return map;
@@ -53,7 +53,7 @@ UnsupportedPtr NormalDefinition::first_unsupported() const {
 
 Normal NormalDefinition::finish() const {
   Normal normal;
-  normal.pattern = pattern.value;
+  normal.pattern = pattern.value();
   normal.amount = pattern.exists() ? amount : 0;
   normal.accuracy = accuracy;
   if (map) normal.map = finish_map<Normal>(pattern, map->entries);
@@ -118,11 +118,11 @@ TexturePtr with_uv_mapping(const TexturePtr& texture, const UnsupportedPtr& uv_m
 TexturePtr transformed(const TexturePtr& texture, const Transform& next) {
   if (texture->is_constant() || next.is_identity()) return texture;
   auto changed = copy(texture);
-  if (changed->map) append(changed->pattern.value.space, next);
-  if (changed->pigment.pattern.exists()) append(changed->pigment.pattern.value.space, next);
+  if (changed->map) append(changed->pattern.own().space, next);
+  if (changed->pigment.pattern.exists()) append(changed->pigment.pattern.own().space, next);
   if (changed->normal) {
     auto normal = std::make_shared<NormalDefinition>(*changed->normal);
-    append(normal->pattern.value.space, next);
+    append(normal->pattern.own().space, next);
     changed->normal = std::move(normal);
   }
   if (changed->below) changed->below = transformed(changed->below, next);

@@ -47,6 +47,7 @@ struct PigmentDefinition {
   bool is_opaque() const;
   Pigment finish() const;
 };
+using PigmentPtr = std::shared_ptr<const PigmentDefinition>;
 
 struct NormalDefinition {
   PatternDefinition pattern; ///< without one it is smooth

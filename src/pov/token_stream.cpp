@@ -94,7 +94,7 @@ struct TokenOf {
   int operator()(std::monostate) const { return tokens::T_UNDECLARED_ID; }
   int operator()(const Quantity&) const { return tokens::T_QUANTITY; }
   int operator()(const std::string&) const { return tokens::T_TEXT; }
-  int operator()(const PigmentDefinition&) const { return tokens::T_PIGMENT_ID; }
+  int operator()(const PigmentPtr&) const { return tokens::T_PIGMENT_ID; }
   int operator()(const NormalPtr&) const { return tokens::T_NORMAL_ID; }
   int operator()(const PigmentMapPtr&) const { return tokens::T_PIGMENT_MAP_ID; }
   int operator()(const NormalMapPtr&) const { return tokens::T_NORMAL_MAP_ID; }
