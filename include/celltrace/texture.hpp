@@ -93,8 +93,8 @@ struct Pattern {
 
   pattern::Kind kind = pattern::Gradient{};
   /// As written from the pattern outward: the last one is what a point in the scene meets first.
-  std::vector<SpaceStep> space;
-  Turbulence turbulence; ///< of points in the pattern's own space, after all steps
+  std::vector<SpaceStep> space = {};
+  Turbulence turbulence = {}; ///< of points in the pattern's own space, after all steps
   Wave wave = Wave::ramp;
   double wave_exponent = 1; ///< of Wave::poly
   double frequency = 1;     ///< 0: the number as it is, without phase
@@ -114,7 +114,7 @@ template <class T> struct PatternMap {
   std::vector<Entry> entries;
   bool is_average = false; ///< all entries by their weights, and the pattern means nothing
 };
-inline constexpr int kDeepestMap = 8;
+inline constexpr int kDeepestMap = 5;
 inline constexpr int kMostMapEntries = 256;
 
 /// Colour with POV-Ray's two transparency channels; neither is limited to 0..1.
