@@ -145,7 +145,7 @@ void validate_texture(const Material& material, const std::string& name) {
 
 void TextureTables::Traits::add(const Traits& other) {
   opaque = opaque && other.opaque;
-  mapped = mapped || other.mapped;
+  textured = textured || other.textured;
   disturbed = disturbed || other.disturbed;
 }
 
@@ -155,7 +155,7 @@ TextureTables::TextureTables(const Scene& scene) : scene_(scene) {
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const Traits traits = fill_material(static_cast<std::uint32_t>(i), scene.materials[i]);
     object_flags.push_back((traits.opaque ? object_flag::opaque : 0) |
-                           (traits.mapped ? object_flag::mapped : 0) |
+                           (traits.textured ? object_flag::textured : 0) |
                            (traits.disturbed ? object_flag::disturbed : 0));
   }
 }
@@ -169,7 +169,7 @@ TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Ma
     r.flags = material_flag::mapped;
     r.pattern = map.index;
     traits = map.traits;
-    traits.mapped = true;
+    traits.textured = true;
   } else {
     r = make_record(material, scene_);
     if (material.pigment.map) {
@@ -177,13 +177,14 @@ TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Ma
       r.flags |= material_flag::patterned;
       r.pattern = map.index;
       traits = map.traits;
+      traits.textured = true;
     } else {
       traits.opaque = is_opaque(material.pigment);
     }
     if (material.normal) {
       r.flags |= material_flag::disturbed;
       r.normal = add_normal(*material.normal);
-      traits.disturbed = true;
+      traits.disturbed = traits.textured = true;
     }
     if (material.below) {
       const Known below = add_material(*material.below);
@@ -191,6 +192,7 @@ TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Ma
       r.below = below.index;
       traits.opaque = traits.opaque || below.traits.opaque;
       traits.disturbed = traits.disturbed || below.traits.disturbed;
+      traits.textured = true;
     }
   }
   materials[index] = r;

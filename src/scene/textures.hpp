@@ -38,7 +38,7 @@ public:
 private:
   /// What the textures of a tree have in common.
   struct Traits {
-    bool opaque = true, mapped = false, disturbed = false;
+    bool opaque = true, textured = false, disturbed = false;
     void add(const Traits& other);
   };
   struct Known {
