@@ -118,7 +118,7 @@ template <class T> struct PatternMap {
   std::vector<Entry> entries;
   bool is_average = false; ///< all entries by their weights, and the pattern means nothing
 };
-inline constexpr int kDeepestMap = 8;
+inline constexpr int kDeepestMap = 5;
 inline constexpr int kMostMapEntries = 256;
 
 /// Colour with POV-Ray's two transparency channels; neither is limited to 0..1.

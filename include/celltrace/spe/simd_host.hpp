@@ -113,6 +113,23 @@ template <class Batch> void transpose_quads(Batch& a, Batch& b, Batch& c, Batch&
   d = zip_high(ac_high, bd_high);
 }
 
+/// The 16-bit numbers at some places of a table, which goes on for 2 bytes behind the last of them.
+template <class Batch> Batch gather_halves(const uint16_t* table, const Batch& index) {
+  const Batch low(0xFFFF);
+#if defined(__AVX512F__)
+  if constexpr (Batch::size == 16) return Batch(_mm512_i32gather_epi32(index, table, 2)) & low;
+#endif
+#if defined(__AVX2__)
+  if constexpr (Batch::size == 8)
+    return Batch(_mm256_i32gather_epi32(reinterpret_cast<const int*>(table), index, 2)) & low;
+#endif
+  alignas(64) int32_t lanes[Batch::size];
+  index.store_aligned(lanes);
+  for (int32_t& lane : lanes)
+    lane = table[lane];
+  return Batch::load_aligned(lanes);
+}
+
 } // namespace simd_host
 
 /// Instructions of an SPU, by the unit that executes them. What is missing is 0.
@@ -343,6 +360,10 @@ template <class Arch, class Counter = CountNothing> struct HostSimd {
       Counter::packet({.fx2 = 1});
       return zip(a, b, [](auto x, auto y) { return x | y; });
     }
+    friend I operator^(const I& a, const I& b) {
+      Counter::packet({.fx2 = 1});
+      return zip(a, b, [](auto x, auto y) { return x ^ y; });
+    }
     friend M operator==(const I& a, const I& b) {
       Counter::packet({.fx2 = 1});
       M r;
@@ -358,6 +379,22 @@ template <class Arch, class Counter = CountNothing> struct HostSimd {
       return r;
     }
   };
+
+  /// Of each lane a load and a rotation, besides having its address.
+  static F gather(const float* table, const I& index) {
+    Counter::packet({.fx3 = 1, .ls = 4, .shuf = 10});
+    F r;
+    for (uint32_t i = 0; i < kParts; ++i)
+      r.part[i] = FloatBatch::gather(table, index.part[i]);
+    return r;
+  }
+  static I gather(const uint16_t* table, const I& index) {
+    Counter::packet({.fx2 = 1, .fx3 = 1, .ls = 4, .shuf = 10});
+    I r;
+    for (uint32_t i = 0; i < kParts; ++i)
+      r.part[i] = simd_host::gather_halves(table, index.part[i]);
+    return r;
+  }
 
   static F min(const F& a, const F& b) {
     Counter::packet({.fx2 = 2});

@@ -45,13 +45,17 @@ public:
     cursor_ = 0;
   }
 
-  /// As Intersector's.
-  template <class Surfaces, class IncidentLight>
-  void transmittance(const Surfaces&, const IncidentLight&, uint32_t number, VectorLanes& light) {
-    // Lights come in order, and from the beginning again for each of a face's materials.
-    while (answer(cursor_).number != number)
-      cursor_ = cursor_ + 1 == searches_ ? 0 : cursor_ + 1;
-    light = answer(cursor_).light.colour;
+  /// No light was asked for.
+  void arrive_nothing() { searches_ = cursor_ = 0; }
+
+  /// Puts what has arrived from the `count` lights from `first` on where it belongs. Lights come in order; of
+  /// those that no surface faces nothing was asked.
+  void take(uint32_t first, uint32_t count, VectorLanes* colours) {
+    for (; cursor_ < searches_; ++cursor_) {
+      const AnsweredSearch& next = answer(cursor_);
+      if (next.number >= first + count) return;
+      colours[next.number - first] = next.light.colour;
+    }
   }
 
 private:

@@ -2,9 +2,9 @@
 // complete. Kernel dialect.
 #pragma once
 
+#include "kernel/cameras/primary_rays.hpp"
 #include "kernel/models/job_sender.hpp"
 #include "kernel/models/model_work.hpp"
-#include "kernel/cameras/primary_rays.hpp"
 
 namespace celltrace::kernel::models {
 

@@ -2,6 +2,7 @@
 // together; from there on each packet's tree of rays is worked off by itself. Kernel dialect.
 #pragma once
 
+#include "kernel/accel/traversal.hpp"
 #include "kernel/cameras/primary_rays.hpp"
 #include "kernel/shading/ray_tracer.hpp"
 
@@ -10,10 +11,12 @@ namespace celltrace::kernel {
 template <class Spu, uint32_t kAccelerators = kAnyAccelerator> class BundleTracer {
 public:
   using S = typename Spu::simd;
-  using Rays = RayTracer<Spu, Intersector<Spu, kAccelerators>>;
 
-  BundleTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, Rays& tracer)
-      : frame_(frame), scene_(scene), tracer_(tracer), members_(spu.template allocate<Member>(kPackets)) {}
+  /// `spill`: room for FrameBlock::ray_stack_nodes nodes.
+  BundleTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, ea_t spill)
+      : frame_(frame), scene_(scene), traversal_(scene, frame),
+        tracer_(spu, frame, scene, spill, frame.ray_stack_nodes, *spu.template allocate<RayNode>()),
+        members_(spu.template allocate<Member>(kPackets)) {}
 
   /// Calls `put(column, row, colours)` for each packet in the picture of the bundle at (column, row); that
   /// counts bundles, `put` packets. Or `fill(column, row, colour)` where all of the bundle has one colour and
@@ -22,7 +25,7 @@ public:
   void trace(uint32_t column, uint32_t row, Put put, [[maybe_unused]] Fill fill) {
     if constexpr (Spu::direct_memory) {
       const PinholeBundle<S> bundle(frame_, column, row);
-      const bool missed = !tracer_.intersector().traversal().enter(bundle);
+      const bool missed = !traversal_.enter(bundle);
       if (missed && is_whole(column, row))
         return fill(column * kEdge, row * kEdge, tracer_.background(kPackets * kSimdLanes));
       place(column, row);
@@ -31,27 +34,29 @@ public:
           const auto rays = static_cast<uint32_t>(__builtin_popcount(member.lanes));
           put(member.column, member.row, tracer_.background(rays));
         });
-      find_hits([&](RayQuery* queries) { tracer_.intersector().traversal().intersect(queries, bundle); });
+      find_hits([&](RayQuery* queries) { traversal_.intersect(queries, bundle); });
     } else {
       place(column, row);
-      find_hits([&](RayQuery* queries) { tracer_.intersector().traversal().intersect(queries, kPackets); });
+      find_hits([&](RayQuery* queries) { traversal_.intersect(queries, kPackets); });
     }
-    uint32_t lights = 0;
-    for_each_light(scene_, frame_, kKnownLights, [&](uint32_t number, const LightRecord& light) {
+    const LightRound lights = LightRound::from(frame_, 0, nullptr);
+    for_each_light(scene_, frame_, 0, lights.count, [&](uint32_t number, const LightRecord& light) {
       if (!is_shadowless(light)) find_light(number, light);
-      lights = number + 1;
     });
-    for_each_member([&](Member& member) {
-      tracer_.intersector().know_light(member.light, lights);
-      put(member.column, member.row, tracer_.trace(member.rays, member.lanes, member.hits, member.points));
-    });
+    for_each_member([&](Member& member) { put(member.column, member.row, trace(member)); });
   }
+
+  void reset_counters() {
+    tracer_.reset_counters();
+    traversal_.reset_counters();
+  }
+  const RayCounters& ray_counters() const { return tracer_.counters(); }
+  const TraversalCounters& traversal_counters() const { return traversal_.counters(); }
+  uint32_t spilled_nodes() const { return tracer_.spilled_nodes(); }
 
 private:
   static constexpr uint32_t kEdge = kBundleEdge<Spu>;
   static constexpr uint32_t kPackets = kBundlePackets<Spu>;
-  /// Of further lights each packet asks by itself.
-  static constexpr uint32_t kKnownLights = 4;
 
   struct Member {
     RayPacket rays;
@@ -59,7 +64,7 @@ private:
     HitPoints<S> points;
     RayPacket shadow_rays; ///< toward the light that is asked of
     FloatLanes distance;
-    VectorLanes light[kKnownLights]; ///< that comes to the points
+    VectorLanes light[kLightsARound]; ///< that comes to the points, of a round
     uint32_t column, row;
     uint32_t lanes, hit; ///< in the picture; of them, those that hit something
   };
@@ -107,8 +112,8 @@ private:
       Member& member = members_[i];
       if (member.hit == 0) continue;
       scene_.spu().compute(scalar_work::kBundleLight);
-      const Surfaces<S> surfaces = {member.points.point, member.points.normal,
-                                    member.rays.direction.template load<S>(), &member.hits.object};
+      const Surfaces<S> surfaces =
+          member.points.lit_surfaces(member.rays.direction.template load<S>(), member.hits.object);
       IncidentLight<S> incident(light.colour);
       illuminate(scene_.spu(), light, surfaces, member.hit, incident);
       if (incident.facing == 0) continue;
@@ -119,14 +124,61 @@ private:
     }
     if (asked == 0) return;
     if (is_parallel(light))
-      tracer_.intersector().traversal().intersect(queries, asked);
+      traversal_.intersect(queries, asked);
     else
-      tracer_.intersector().traversal().intersect(queries, asked, light.location);
+      traversal_.intersect(queries, asked, light.location);
+  }
+
+  /// The colours of a packet, of which the hits are known and the light of the first round.
+  V3<S> trace(Member& member) {
+    const LightRound first = LightRound::from(frame_, 0, member.light);
+    if constexpr (Spu::direct_memory) {
+      V3<S> colour;
+      if (tracer_.ends_at_once(member.rays, member.lanes, member.hits, member.points, first, colour))
+        return colour;
+    }
+    tracer_.begin(member.rays, member.lanes);
+    tracer_.hits() = member.hits;
+    for (bool is_first = true;; is_first = false) {
+      const uint32_t hit = tracer_.take_hits();
+      if (hit != 0) {
+        const RayNode& node = tracer_.node();
+        if (!is_first) {
+          find_hit_points(scene_, node.rays, tracer_.hits(), hit, member.points);
+          light_packet(member, hit, first);
+        }
+        tracer_.shade_hits(member.points, hit, first);
+        for (LightRound round = first; round.next() < frame_.light_count;) {
+          round = LightRound::from(frame_, round.next(), member.light);
+          light_packet(member, hit, round);
+          tracer_.shade_hits(member.points, hit, round);
+        }
+      }
+      if (!tracer_.advance()) return tracer_.light();
+      traversal_.find_closest(tracer_.node().rays, tracer_.node().lanes, tracer_.hits());
+    }
+  }
+
+  /// The light of a round at the hits of the node that is being traced.
+  [[gnu::noinline]] void light_packet(Member& member, uint32_t hit, const LightRound& round) {
+    const Surfaces<S> surfaces =
+        member.points.lit_surfaces(tracer_.node().rays.direction.template load<S>(), tracer_.hits().object);
+    for_each_light(scene_, frame_, round.first, round.count, [&](uint32_t number, const LightRecord& light) {
+      if (is_shadowless(light)) return;
+      IncidentLight<S> incident(light.colour);
+      illuminate(scene_.spu(), light, surfaces, hit, incident);
+      if (incident.facing == 0) return;
+      VectorLanes& colour = member.light[number - round.first];
+      make_shadow_rays(surfaces, incident, member.shadow_rays, member.distance);
+      colour.template store<S>(incident.colour);
+      traversal_.transmittance(member.shadow_rays, incident.facing, member.distance, colour);
+    });
   }
 
   const FrameBlock& frame_;
   SceneAccess<Spu>& scene_;
-  Rays& tracer_;
+  Traversal<Spu, kAccelerators> traversal_;
+  RayTracer<Spu> tracer_;
   Member* members_;
 };
 

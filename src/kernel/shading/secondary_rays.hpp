@@ -190,8 +190,9 @@ template <class S> struct SecondaryRays {
 
 /// For surfaces of the materials `m` in `lanes`, `share` of which counts.
 template <class S>
-SecondaryRays<S> secondary_rays_of(const MaterialLanes<S>& m, const typename S::F& cosine, const typename S::F& fresnel_ratio,
-                  float adc_bailout, uint32_t lanes, const typename S::F& share) {
+SecondaryRays<S> secondary_rays_of(const MaterialLanes<S>& m, const typename S::F& cosine,
+                                   const typename S::F& fresnel_ratio, float adc_bailout, uint32_t lanes,
+                                   const typename S::F& share) {
   using F = typename S::F;
   const V3<S> mirrored = reflectivity<S>(m, cosine, fresnel_ratio);
   const F strength = max_component<S>(mirrored);
