@@ -9,6 +9,8 @@
 #include <cmath>
 #include <functional>
 
+#include <glm/geometric.hpp>
+
 namespace celltrace {
 
 using namespace kernel;
@@ -61,9 +63,13 @@ bool is_inside(const Medium& medium, const Vec3& point) {
   return local.x * local.x + local.y * local.y + local.z * local.z < sphere.radius * sphere.radius;
 }
 
-/// Whether what a ray is in makes a difference where it hits the material.
+/// Whether what a ray is in can make a difference where it hits the material. Maps are taken for ones with
+/// such entries.
 bool asks_for_interiors(const Material& material) {
-  return !is_opaque(material) || material.finish.reflection_fresnel;
+  if (material.map) return true;
+  for (const Material* layer = &material; layer != nullptr; layer = layer->below.get())
+    if (layer->pigment.map || !is_opaque(layer->pigment) || layer->finish.reflection_fresnel) return true;
+  return false;
 }
 
 } // namespace
