@@ -116,7 +116,7 @@ template <class T> struct PatternMap {
   };
   Pattern pattern;
   std::vector<Entry> entries;
-  bool is_average = false; ///< all entries by their weights, and the pattern means nothing
+  bool is_average = false; ///< all entries by their weights; of the pattern only steps and turbulence count
 };
 inline constexpr int kDeepestMap = 5;
 inline constexpr int kMostMapEntries = 256;

@@ -281,7 +281,8 @@ struct alignas(128) ImageHeader {
   uint32_t space_step_offset, space_step_count;
   uint32_t map_entry_offset, map_entry_count;
   uint32_t normal_offset, normal_count;
-  uint32_t unused[20];
+  uint32_t sky; ///< offset of the uppermost layer's MaterialRecord, whose pigments count; kNoOffset: none
+  uint32_t unused[19];
 };
 static_assert(sizeof(ImageHeader) == 256, "two lines");
 
@@ -415,7 +416,8 @@ struct alignas(128) FrameBlock {
   uint32_t wide_leaves;               ///< 0 or 1: for SPEs that test many triangles of a leaf at once
   uint32_t far_nodes;                 ///< 0 or 1: for SPEs that wait long for a node of the BVH
   uint32_t unbounded_count;           ///< objects behind the others in their table that no accelerator has
-  uint32_t unused[22];
+  uint32_t sky; ///< as in ImageHeader
+  uint32_t unused[21];
 };
 static_assert(sizeof(FrameBlock) % 128 == 0 && sizeof(FrameBlock) <= 512, "fetched by one DMA command");
 

@@ -81,7 +81,7 @@ bool TextureDefinition::is_opaque() const {
 
 bool TextureDefinition::is_constant() const {
   for (const TextureDefinition* layer = this; layer; layer = layer->below.get())
-    if (layer->map || layer->normal || layer->pigment.pattern.exists()) return false;
+    if (layer->pattern.exists() || layer->normal || layer->pigment.pattern.exists()) return false;
   return true;
 }
 
@@ -118,7 +118,7 @@ TexturePtr with_uv_mapping(const TexturePtr& texture, const UnsupportedPtr& uv_m
 TexturePtr transformed(const TexturePtr& texture, const Transform& next) {
   if (texture->is_constant() || next.is_identity()) return texture;
   auto changed = copy(texture);
-  if (changed->map) append(changed->pattern.own().space, next);
+  if (changed->pattern.exists()) append(changed->pattern.own().space, next);
   if (changed->pigment.pattern.exists()) append(changed->pigment.pattern.own().space, next);
   if (changed->normal) {
     auto normal = std::make_shared<NormalDefinition>(*changed->normal);

@@ -134,6 +134,7 @@ void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& optio
       scene.gamma_mode == GammaMode::assumed ? GammaEncoding::assumed : GammaEncoding::none);
   frame.assumed_gamma = static_cast<float>(scene.assumed_gamma);
   store(scene.background, frame.background);
+  frame.sky = header.sky;
 }
 
 std::vector<Medium> media_of(const Scene& scene) {

@@ -19,7 +19,7 @@ FieldList<&ImageHeader::magic, &ImageHeader::version, &ImageHeader::bytes, &Imag
           &ImageHeader::solid_offset, &ImageHeader::solid_count, &ImageHeader::pattern_offset,
           &ImageHeader::pattern_count, &ImageHeader::space_step_offset, &ImageHeader::space_step_count,
           &ImageHeader::map_entry_offset, &ImageHeader::map_entry_count, &ImageHeader::normal_offset,
-          &ImageHeader::normal_count, &ImageHeader::unused>
+          &ImageHeader::normal_count, &ImageHeader::sky, &ImageHeader::unused>
 fields_of(const ImageHeader&);
 
 FieldList<&ObjectRecord::kind_and_flags, &ObjectRecord::material, &ObjectRecord::interior,

@@ -162,6 +162,7 @@ void validate(const Scene& scene) {
     check(scene.lights[i], {"light", i});
   for (std::size_t i = 0; i < scene.materials.size(); ++i)
     validate_texture(scene.materials[i], Name{"material", i}.text());
+  validate_sky(scene);
   for (std::size_t i = 0; i < scene.interiors.size(); ++i)
     check_finite({scene.interiors[i].ior}, {"interior", i});
   for (std::size_t i = 0; i < scene.objects.size(); ++i)

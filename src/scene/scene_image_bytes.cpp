@@ -100,7 +100,9 @@ public:
     // Materials refer to later ones only.
     for (std::uint32_t i = h_.material_count; i-- > 0;)
       if (!material_is_sound(i)) return false;
-    return true;
+    if (h_.sky == kNoOffset) return true;
+    const std::uint32_t sky = materials_.find(h_.sky);
+    return sky != materials_.count && (materials_[sky].flags & material_flag::mapped) == 0;
   }
 
 private:

@@ -70,7 +70,7 @@ private:
     if (map.entries.empty()) fail("has a map without entries");
     if (map.entries.size() > kMostMapEntries)
       fail("has a map of more than " + std::to_string(kMostMapEntries) + " entries");
-    if (!map.is_average) pattern(map.pattern);
+    pattern(map.pattern);
     double weights = 0;
     for (const auto& entry : map.entries) {
       numbers({entry.position});
@@ -125,10 +125,35 @@ bool is_still(const Turbulence& t) {
   return t.amount == Vec3(0);
 }
 
-/// From the world to the pattern's space, without displacements.
-Transform whole_map(const Pattern& pattern) {
+/// Of all maps together: entries that several maps share are written once for each space that they are in.
+constexpr std::size_t kMostEntries = std::size_t{1} << 22;
+
+/// Whether the turbulence of such a pattern moves the points that it is asked at.
+bool is_moved_by_turbulence(const pattern::Kind& kind) {
+  return !std::holds_alternative<pattern::Marble>(kind) && !std::holds_alternative<pattern::Wood>(kind);
+}
+
+/// From the pattern's own space to the scene, for a pattern inside maps whose patterns are in `outer`.
+std::vector<SpaceStep> steps_of(const Pattern& pattern, const std::vector<SpaceStep>& outer) {
+  std::vector<SpaceStep> all = pattern.space;
+  all.insert(all.end(), outer.begin(), outer.end());
+  return all;
+}
+
+/// What the patterns inside a map are in, whose pattern is in `outer` itself.
+std::vector<SpaceStep> space_inside(const Pattern& pattern, const std::vector<SpaceStep>& outer) {
+  std::vector<SpaceStep> inside;
+  if (is_moved_by_turbulence(pattern.kind) && !is_still(pattern.turbulence))
+    inside.emplace_back(pattern.turbulence);
+  const std::vector<SpaceStep> all = steps_of(pattern, outer);
+  inside.insert(inside.end(), all.begin(), all.end());
+  return inside;
+}
+
+/// From the scene through all steps, without displacements.
+Transform whole_map(const std::vector<SpaceStep>& steps) {
   Transform map;
-  for (auto step = pattern.space.rbegin(); step != pattern.space.rend(); ++step)
+  for (auto step = steps.rbegin(); step != steps.rend(); ++step)
     if (const auto* transform = std::get_if<Transform>(&*step)) map = map.then(transform->inverse());
   return map;
 }
@@ -137,10 +162,26 @@ template <class Record> void to_offset(std::uint32_t& index, std::uint32_t table
   if (index != kNoOffset) index = table + index * static_cast<std::uint32_t>(sizeof(Record));
 }
 
+/// The sky as a texture of layers; there is one.
+Material sky_of(const Scene& scene) {
+  Material top;
+  for (const Pigment& pigment : scene.sky_sphere) {
+    const bool is_lowest = &pigment == &scene.sky_sphere.front();
+    top = Material{pigment, {}, nullptr, is_lowest ? nullptr : std::make_shared<const Material>(top)};
+  }
+  return top;
+}
+
 } // namespace
 
 void validate_texture(const Material& material, const std::string& name) {
   Check(name).material(material, 0, 0);
+}
+
+void validate_sky(const Scene& scene) {
+  if (scene.sky_sphere.size() > kMostLayers)
+    throw InputError("the sky sphere has more than " + std::to_string(kMostLayers) + " layers");
+  validate_texture(sky_of(scene), "the sky sphere");
 }
 
 void TextureTables::Traits::add(const Traits& other) {
@@ -153,19 +194,21 @@ TextureTables::TextureTables(const Scene& scene) : scene_(scene) {
   materials.resize(scene.materials.size());
   object_flags.reserve(scene.materials.size());
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-    const Traits traits = fill_material(static_cast<std::uint32_t>(i), scene.materials[i]);
+    const Traits traits = fill_material(static_cast<std::uint32_t>(i), scene.materials[i], {});
     object_flags.push_back((traits.opaque ? object_flag::opaque : 0) |
                            (traits.textured ? object_flag::textured : 0) |
                            (traits.disturbed ? object_flag::disturbed : 0));
   }
+  sky = scene.sky_sphere.empty() ? kNoOffset : add_material(sky_of(scene), {}).index;
 }
 
-TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Material& material) {
+TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Material& material,
+                                                   const Space& outer) {
   MaterialRecord r{};
   r.pattern = r.normal = r.below = kNoOffset;
   Traits traits;
   if (material.map) {
-    const Known map = add_map(material.map);
+    const Known map = add_map(material.map, outer);
     r.flags = material_flag::mapped;
     r.pattern = map.index;
     traits = map.traits;
@@ -173,7 +216,7 @@ TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Ma
   } else {
     r = make_record(material, scene_);
     if (material.pigment.map) {
-      const Known map = add_map(material.pigment.map);
+      const Known map = add_map(material.pigment.map, outer);
       r.flags |= material_flag::patterned;
       r.pattern = map.index;
       traits = map.traits;
@@ -183,11 +226,11 @@ TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Ma
     }
     if (material.normal) {
       r.flags |= material_flag::disturbed;
-      r.normal = add_normal(*material.normal);
+      r.normal = add_normal(*material.normal, outer);
       traits.disturbed = traits.textured = true;
     }
     if (material.below) {
-      const Known below = add_material(*material.below);
+      const Known below = add_material(*material.below, outer);
       r.flags |= material_flag::layered;
       r.below = below.index;
       traits.opaque = traits.opaque || below.traits.opaque;
@@ -199,10 +242,10 @@ TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Ma
   return traits;
 }
 
-TextureTables::Known TextureTables::add_material(const Material& material) {
+TextureTables::Known TextureTables::add_material(const Material& material, const Space& outer) {
   const auto index = static_cast<std::uint32_t>(materials.size());
   materials.emplace_back();
-  const Traits traits = fill_material(index, material);
+  const Traits traits = fill_material(index, material, outer);
   return {index, traits};
 }
 
@@ -217,9 +260,15 @@ TextureTables::Traits TextureTables::fill(MapEntryRecord& entry, const Pigment& 
 }
 
 template <class T>
-TextureTables::Known TextureTables::add_map(const std::shared_ptr<const PatternMap<T>>& map) {
-  if (const auto known = known_.find(map.get()); known != known_.end()) return known->second;
+TextureTables::Known TextureTables::add_map(const std::shared_ptr<const PatternMap<T>>& map,
+                                            const Space& outer) {
+  const bool is_shared = outer.empty();
+  if (is_shared)
+    if (const auto known = known_.find(map.get()); known != known_.end()) return known->second;
+  const Space inside = space_inside(map->pattern, outer);
   const std::size_t count = map->entries.size();
+  if (entries.size() + count > kMostEntries)
+    throw InputError("the maps of all textures have more than " + std::to_string(kMostEntries) + " entries");
   const auto first = static_cast<std::uint32_t>(entries.size());
   entries.resize(entries.size() + count);
   children_.resize(entries.size());
@@ -239,38 +288,38 @@ TextureTables::Known TextureTables::add_map(const std::shared_ptr<const PatternM
       children_[first + i] = Child::pattern;
       Traits own = fill(entry, from.value);
       if (from.value.map) {
-        const Known nested = add_map(from.value.map);
+        const Known nested = add_map(from.value.map, inside);
         entry.child = nested.index;
         own = nested.traits;
       }
       traits.add(own);
     } else if constexpr (std::is_same_v<T, Normal>) {
       children_[first + i] = Child::normal;
-      entry.child = add_normal(from.value);
+      entry.child = add_normal(from.value, inside);
     } else {
       children_[first + i] = Child::material;
-      const Known material = add_material(from.value);
+      const Known material = add_material(from.value, inside);
       entry.child = material.index;
       traits.add(material.traits);
     }
     entries[first + i] = entry;
   }
-  const std::uint32_t pattern = add_pattern(map->pattern, map->is_average, count);
+  const std::uint32_t pattern = add_pattern(map->pattern, outer, map->is_average, count);
   patterns[pattern].entries = first;
-  known_[map.get()] = {pattern, traits};
+  if (is_shared) known_[map.get()] = {pattern, traits};
   return {pattern, traits};
 }
 
-std::uint32_t TextureTables::add_normal(const Normal& normal) {
+std::uint32_t TextureTables::add_normal(const Normal& normal, const Space& outer) {
   NormalRecord r{};
   if (normal.map) {
     r.is_mapped = 1;
-    r.pattern = add_map(normal.map).index;
+    r.pattern = add_map(normal.map, outer).index;
   } else {
-    r.pattern = add_pattern(normal.pattern, false, 0);
+    r.pattern = add_pattern(normal.pattern, outer, false, 0);
     r.amount = static_cast<float>(normal.amount);
     r.accuracy = static_cast<float>(normal.accuracy);
-    const Transform map = whole_map(normal.pattern);
+    const Transform map = whole_map(steps_of(normal.pattern, outer));
     for (int row = 0; row < 3; ++row)
       for (int column = 0; column < 3; ++column)
         r.linear[row * 3 + column] = static_cast<float>(map.rows[column][row]);
@@ -279,7 +328,8 @@ std::uint32_t TextureTables::add_normal(const Normal& normal) {
   return static_cast<std::uint32_t>(normals.size() - 1);
 }
 
-std::uint32_t TextureTables::add_pattern(const Pattern& pattern, bool is_average, std::size_t entry_count) {
+std::uint32_t TextureTables::add_pattern(const Pattern& pattern, const Space& outer, bool is_average,
+                                         std::size_t entry_count) {
   PatternRecord r{};
   r.entries = r.steps = 0;
   r.entry_count = static_cast<std::uint32_t>(entry_count);
@@ -308,7 +358,8 @@ std::uint32_t TextureTables::add_pattern(const Pattern& pattern, bool is_average
     set(map, steps.size() == first_step ? r.to_space : steps.back().to_space);
     map = Transform();
   };
-  for (auto step = pattern.space.rbegin(); step != pattern.space.rend(); ++step) {
+  const Space space = steps_of(pattern, outer);
+  for (auto step = space.rbegin(); step != space.rend(); ++step) {
     if (const auto* transform = std::get_if<Transform>(&*step)) {
       map = map.then(transform->inverse());
     } else if (const auto& moved = std::get<Turbulence>(*step); !is_still(moved)) {
@@ -342,6 +393,7 @@ void TextureTables::relocate(const ImageHeader& header) {
     }
   for (NormalRecord& r : normals)
     to_offset<PatternRecord>(r.pattern, header.pattern_offset);
+  to_offset<MaterialRecord>(sky, header.material_offset);
   for (MaterialRecord& r : materials) {
     to_offset<PatternRecord>(r.pattern, header.pattern_offset);
     to_offset<NormalRecord>(r.normal, header.normal_offset);

@@ -16,6 +16,9 @@ namespace celltrace {
 /// layer too deeply, and every pattern is one that there is.
 void validate_texture(const Material& material, const std::string& name);
 
+/// Likewise of the scene's sky sphere.
+void validate_sky(const Scene& scene);
+
 /// References among the tables are indices until relocate() makes offsets of them; kNoOffset stays.
 class TextureTables {
 public:
@@ -31,6 +34,7 @@ public:
   std::vector<kernel::SpaceStepRecord> steps;
   std::vector<kernel::MapEntryRecord> entries;
   std::vector<kernel::NormalRecord> normals;
+  std::uint32_t sky; ///< index of the uppermost layer's material, then its offset
   /// By material of the scene: what an object has that consists of it, of object_flag's opaque, mapped,
   /// disturbed.
   std::vector<std::uint32_t> object_flags;
@@ -47,11 +51,15 @@ private:
   };
   enum class Child : std::uint8_t { pattern, normal, material };
 
-  std::uint32_t add_pattern(const Pattern& pattern, bool is_average, std::size_t entry_count);
-  Traits fill_material(std::uint32_t index, const Material& material);
-  template <class T> Known add_map(const std::shared_ptr<const PatternMap<T>>& map);
-  Known add_material(const Material& material);
-  std::uint32_t add_normal(const Normal& normal);
+  /// Of the maps around a pattern: what comes between its own space and the scene. In no map it is empty.
+  using Space = std::vector<SpaceStep>;
+
+  std::uint32_t add_pattern(const Pattern& pattern, const Space& outer, bool is_average,
+                            std::size_t entry_count);
+  Traits fill_material(std::uint32_t index, const Material& material, const Space& outer);
+  template <class T> Known add_map(const std::shared_ptr<const PatternMap<T>>& map, const Space& outer);
+  Known add_material(const Material& material, const Space& outer);
+  std::uint32_t add_normal(const Normal& normal, const Space& outer);
   Traits fill(kernel::MapEntryRecord& entry, const Pigment& pigment);
 
   const Scene& scene_;

@@ -515,8 +515,10 @@ TEST_CASE("maps are bounded") {
   const std::string normals = "#declare N = normal { gradient x normal_map { [0 N] [1 N] } }";
   const std::string textures = "#declare T = texture { checker texture { T } texture { T } }";
   for (const std::string& kind : {pigments, normals, textures}) {
-    CHECK(nested(8, kind).empty());
-    CHECK(nested(9, kind).find("maps are nested more than 8 deep") != std::string::npos);
+    CHECK(nested(kDeepestMap, kind).empty());
+    CHECK(nested(kDeepestMap + 1, kind)
+              .find("maps are nested more than " + std::to_string(kDeepestMap) + " deep") !=
+          std::string::npos);
   }
   ParseOptions options;
   options.limits.map_entries = 20;

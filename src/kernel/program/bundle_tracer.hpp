@@ -26,13 +26,14 @@ public:
     if constexpr (Spu::direct_memory) {
       const PinholeBundle<S> bundle(frame_, column, row);
       const bool missed = !traversal_.enter(bundle);
-      if (missed && is_whole(column, row))
+      const bool plain = frame_.sky == kNoOffset;
+      if (missed && plain && is_whole(column, row))
         return fill(column * kEdge, row * kEdge, tracer_.background(kPackets * kSimdLanes));
       place(column, row);
       if (missed)
-        return for_each_member([&](const Member& member) {
-          const auto rays = static_cast<uint32_t>(__builtin_popcount(member.lanes));
-          put(member.column, member.row, tracer_.background(rays));
+        return for_each_member([&](Member& member) {
+          if (!plain) make_primary_rays<S>(frame_, member.column, member.row, member.rays);
+          put(member.column, member.row, tracer_.background(member.rays, member.lanes));
         });
       find_hits([&](RayQuery* queries) { traversal_.intersect(queries, bundle); });
     } else {

@@ -5,6 +5,7 @@
 #include "kernel/modules.hpp"
 #include "kernel/shading/lighting.hpp"
 #include "kernel/shading/secondary_rays.hpp"
+#include "kernel/textures/sky.hpp"
 
 namespace celltrace::kernel {
 
@@ -41,12 +42,17 @@ public:
       const Surfaces<S> surfaces = points.surfaces(rays.direction.template load<S>(), hits.object);
       colour = local_light(scene_, frame_, round, surfaces, m, hit, counters_.shadow);
     }
-    const V3<S> behind = background(count(lanes));
+    const V3<S> behind = background(rays, lanes);
     colour = hit != 0 ? select<S>(M::from_bits(hit), colour, behind) : behind;
     return true;
   }
 
-  /// Those of `rays` primary rays that hit nothing.
+  /// The colours of primary rays that hit nothing.
+  V3<S> background(const RayPacket& rays, uint32_t lanes) {
+    counters_.primary += count(lanes);
+    return behind(rays, lanes);
+  }
+  /// Likewise of so many rays where there is no sky.
   V3<S> background(uint32_t rays) {
     counters_.primary += rays;
     return splat3<S>(frame_.background);
@@ -67,7 +73,7 @@ public:
     scene_.spu().compute(scalar_work::kNode);
     const uint32_t hit = hit_lanes<S>(hits_, node_.lanes);
     const uint32_t missed = node_.lanes & ~hit;
-    if (missed != 0) add(missed, splat3<S>(frame_.background));
+    if (missed != 0) add(missed, behind(node_.rays, missed));
     return hit;
   }
   /// The light of the surfaces that take_hits() told of, from a round of lights. With the first round rays go
@@ -100,6 +106,13 @@ public:
 
 private:
   static uint32_t count(uint32_t lanes) { return static_cast<uint32_t>(__builtin_popcount(lanes)); }
+
+  V3<S> behind(const RayPacket& rays, uint32_t lanes) {
+    V3<S> colour = splat3<S>(frame_.background);
+    if (frame_.sky != kNoOffset)
+      add_sky(scene_, frame_.sky, rays.direction.template load<S>(), lanes, colour);
+    return colour;
+  }
 
   /// The root of the tree: the rays as they leave the camera.
   void start(const RayPacket& rays, uint32_t lanes) {
