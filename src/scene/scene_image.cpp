@@ -129,7 +129,9 @@ ImageHeader make_header(const Scene& scene, const TextureTables& textures, const
   layout.place<std::uint32_t>(instances.group_count() == 0 ? 0 : header.group_count, header.prototype_offset,
                               header.prototype_count);
   header.bytes = layout.end();
-  header.sky = textures.sky;
+  header.sky = textures.sky == kNoOffset
+                   ? kNoOffset
+                   : header.material_offset + textures.sky * std::uint32_t{sizeof(MaterialRecord)};
   header.longest_group = instances.longest_group();
   for (std::size_t group = 0; group < ordered; ++group)
     header.longest_group = std::max(header.longest_group, groups[group + 1] - groups[group]);

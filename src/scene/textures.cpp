@@ -393,7 +393,6 @@ void TextureTables::relocate(const ImageHeader& header) {
     }
   for (NormalRecord& r : normals)
     to_offset<PatternRecord>(r.pattern, header.pattern_offset);
-  to_offset<MaterialRecord>(sky, header.material_offset);
   for (MaterialRecord& r : materials) {
     to_offset<PatternRecord>(r.pattern, header.pattern_offset);
     to_offset<NormalRecord>(r.normal, header.normal_offset);

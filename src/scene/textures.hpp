@@ -34,7 +34,7 @@ public:
   std::vector<kernel::SpaceStepRecord> steps;
   std::vector<kernel::MapEntryRecord> entries;
   std::vector<kernel::NormalRecord> normals;
-  std::uint32_t sky; ///< index of the uppermost layer's material, then its offset
+  std::uint32_t sky; ///< index of the uppermost layer's material, or kNoOffset
   /// By material of the scene: what an object has that consists of it, of object_flag's opaque, mapped,
   /// disturbed.
   std::vector<std::uint32_t> object_flags;

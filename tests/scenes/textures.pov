@@ -23,8 +23,8 @@ sky_sphere {
 #declare Plain = texture { pigment { rgb <0.85, 0.7, 0.4> } finish { ambient 0.1 diffuse 0.7 phong 0.6 } }
 #declare Shine = texture { pigment { rgb <0.2, 0.25, 0.3> } finish { ambient 0.05 diffuse 0.4 specular 0.7 reflection 0.4 } }
 
-plane {
-  y, 0
+box {
+  <-8, -1, -6>, <8, 0, 6>
   pigment { checker pigment { Stripes rotate 30*y scale 2 }, pigment { rgb <0.5, 0.55, 0.5> } scale 1.7 }
   finish { ambient 0.1 diffuse 0.8 }
 }

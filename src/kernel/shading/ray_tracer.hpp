@@ -83,7 +83,8 @@ public:
     const Surfaces<S> surfaces = points.surfaces(node_.rays.direction.template load<S>(), hits_.object);
     const uint32_t plain = points.plain(hit);
     if (plain != 0)
-      spawn(surfaces, points.interior, shade(surfaces, points.interior, points.material, plain, F(1.0f)));
+      spawn(surfaces, surfaces.normal, points.interior,
+            shade(surfaces, points.interior, points.material, plain, F(1.0f)));
     if (plain != hit) shade_composed(surfaces, points, hit & ~plain);
   }
   /// Goes on to the next node() of the tree. False: there is none, light() is complete.
@@ -173,7 +174,7 @@ private:
     }
     if (const uint32_t textured = lanes & ~points.blended; textured != 0)
       shade_share(surfaces, points, points.material, textured, F(1.0f), all);
-    spawn(surfaces, points.interior, all);
+    spawn(surfaces, surfaces.normal, points.interior, all);
   }
   /// The share of materials that may be texture maps.
   [[gnu::noinline]] void shade_share(const Surfaces<S>& surfaces, const HitPoints<S>& points,
@@ -214,7 +215,7 @@ private:
     else if (all.weighs_like(one))
       all.add(one);
     else
-      spawn(surfaces, interior, one);
+      spawn(surfaces, surfaces.normal, interior, one);
   }
 
   /// Adds the surface's own light, times `share`; returns what goes on. Not inlined, as spawn() is not:
@@ -269,7 +270,7 @@ private:
         // POV-Ray does not ask what the layers above leave of it.
         SecondaryRays<S> reflected = rays;
         reflected.clear = 0;
-        spawn(own, interior, reflected);
+        spawn(own, surfaces.normal, interior, reflected);
       }
       // Transmitted through all layers, by those that were the last.
       const uint32_t bright = (grey<S>(above) > F(frame_.adc_bailout)).bits() & rays.clear;
@@ -285,18 +286,18 @@ private:
     onward.through_weight = S::select(S::M::from_bits(onward.clear), max_component<S>(above), F(0.0f));
     onward.clear_share = through;
     if (!is_disturbed) return onward;
-    spawn(outermost, interior, onward);
+    spawn(outermost, surfaces.normal, interior, onward);
     return SecondaryRays<S>::nothing();
   }
 
-  /// Pushes the rays that go on.
-  [[gnu::noinline]] void spawn(const Surfaces<S>& surfaces, const WordLanes& interior,
+  /// Pushes the rays that go on; `smooth` is the normal before it was disturbed.
+  [[gnu::noinline]] void spawn(const Surfaces<S>& surfaces, const V3<S>& smooth, const WordLanes& interior,
                                const SecondaryRays<S>& onward) {
     if ((onward.mirrors | onward.clear) == 0 || !round_.is_first()) return;
     scene_.spu().compute(scalar_work::kSpawn);
     scene_.spu().enter_module(modules::kSecondary);
     const F cosine = -dot<S>(surfaces.direction, surfaces.normal);
-    const V3<S> mirrored = mirror<S>(surfaces.direction, surfaces.normal, cosine);
+    const V3<S> mirrored = mirror<S>(surfaces.direction, surfaces.normal, smooth);
     const uint32_t total = onward.clear != 0 ? transmit(surfaces, interior, onward, cosine, mirrored) : 0;
     reflect(surfaces, onward, onward.mirrors & ~total, mirrored);
   }
