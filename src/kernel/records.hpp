@@ -137,8 +137,8 @@ struct alignas(64) LightRecord {
   float location[3];
   uint32_t kind_and_flags;
   float colour[3];
-  float tightness; ///< of a beam
-  float axis[3];   ///< of unit length, away from the light; of beams and parallel lights
+  float tightness;             ///< of a beam
+  float axis[3];               ///< of unit length, away from the light; of beams and parallel lights
   float inverse_width;         ///< of a cylinder: of the distance from the axis that is 1 way off
   float inner;                 ///< way off where a beam's edge begins
   float inverse_edge;          ///< of the edge's width
@@ -196,15 +196,23 @@ static_assert(sizeof(ImageHeader) == 256, "two lines");
 
 // --- frame ---
 
-/// Rays: through pixel (x, y) goes base + x*dx + y*dy, as a direction from `origin` (perspective, not
-/// normalised) or as an origin with direction `origin` (orthographic).
+/// Flat cameras: through pixel (x, y) goes base + x*dx + y*dy, as a direction from `origin` (not normalised)
+/// or as an origin with direction `origin`. Curved ones: `origin` is their location, and `base`, `dx` and
+/// `dy` are their axes forward, right and up; pixel (x, y) is at ((x - middle_x) * step_x, (middle_y - y) *
+/// step_y) of their picture, which the kind turns into a ray.
 struct alignas(16) CameraRecord {
-  float origin[4];
-  float base[4];
-  float dx[4];
-  float dy[4];
+  float origin[3];
+  uint32_t kind; ///< its place in the list of cameras/list.hpp
+  float base[3];
+  float bend; ///< curved: what else the kind needs
+  float dx[3];
+  float middle_x;
+  float dy[3];
+  float middle_y;
+  float step_x, step_y;
+  uint32_t unused[2];
 };
-static_assert(sizeof(CameraRecord) == 64, "crosses DMA");
+static_assert(sizeof(CameraRecord) == 80, "crosses DMA");
 
 /// The uniform grid. Voxel (x, y, z) has index x + y*cells[0] + z*cells[0]*cells[1].
 struct alignas(16) GridRecord {
@@ -297,7 +305,6 @@ struct alignas(128) FrameBlock {
   uint32_t surface_pitch;
   uint32_t sort_capacity;
   uint32_t ray_stack_nodes;
-  uint32_t orthographic; ///< 0 or 1
 
   uint32_t object_offset, object_count;
   uint32_t light_offset, light_count;
@@ -324,7 +331,7 @@ struct alignas(128) FrameBlock {
   uint32_t wide_leaves;               ///< 0 or 1: for SPEs that test many triangles of a leaf at once
   uint32_t far_nodes;                 ///< 0 or 1: for SPEs that wait long for a node of the BVH
   uint32_t unbounded_count;           ///< objects behind the others in their table that no accelerator has
-  uint32_t unused[22];
+  uint32_t unused[19];
 };
 static_assert(sizeof(FrameBlock) % 128 == 0 && sizeof(FrameBlock) <= 512, "fetched by one DMA command");
 

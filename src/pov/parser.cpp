@@ -43,6 +43,7 @@ struct Deliver {
     case token::T_CHANNEL:
     case token::T_SHAPE:
     case token::T_CSG:
+    case token::T_CAMERA_KIND:
       target.emplace<int>(terminal.detail);
       break;
     case token::T_UNSUPPORTED:

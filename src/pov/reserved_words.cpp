@@ -1,5 +1,6 @@
 #include "pov/reserved_words.hpp"
 
+#include "pov/camera.hpp"
 #include "pov/constants.hpp"
 #include "pov/functions.hpp"
 #include "pov/grammar.hpp"
@@ -91,9 +92,7 @@ const Word kWords[] = {
     {"number_of_waves", tokens::T_IGNORED_NUMBER},
     {"object", tokens::T_OBJECT},
     {"open", tokens::T_OPEN},
-    {"orthographic", tokens::T_ORTHOGRAPHIC},
     {"parallel", tokens::T_PARALLEL},
-    {"perspective", tokens::T_PERSPECTIVE},
     {"phong", tokens::T_PHONG},
     {"phong_size", tokens::T_PHONG_SIZE},
     {"photons", tokens::T_PHOTONS},
@@ -381,12 +380,10 @@ const char* const kUnsupportedWords[] = {
     "octaves",
     "offset",
     "omega",
-    "omnimax",
     "once",
     "onion",
     "orient",
     "orientation",
-    "panoramic",
     "pass_through",
     "pattern",
     "pgm",
@@ -422,7 +419,6 @@ const char* const kUnsupportedWords[] = {
     "smooth",
     "solid",
     "spacing",
-    "spherical",
     "spiral1",
     "spiral2",
     "spotted",
@@ -449,7 +445,6 @@ const char* const kUnsupportedWords[] = {
     "turbulence",
     "type",
     "u_steps",
-    "ultra_wide_angle",
     "use_alpha",
     "use_color",
     "use_colour",
@@ -485,6 +480,9 @@ std::vector<ReservedWord> reserved_words() {
   number = 0;
   for (const char* shape : shape_names())
     words.push_back({shape, tokens::T_SHAPE, number++, false});
+  number = 0;
+  for (const char* kind : camera_kind_names())
+    words.push_back({kind, tokens::T_CAMERA_KIND, number++, false});
   return words;
 }
 

@@ -250,6 +250,16 @@ Scene kinds_of_lights() {
   return scene;
 }
 
+/// Seen by a camera that has no ray in some of the pixels, and in some packets none at all.
+Scene dome() {
+  Scene scene = scene_named("kinds of lights");
+  scene.background = {0.3, 0.4, 0.9};
+  scene.camera.kind = Camera::Kind::omnimax;
+  scene.camera.right = glm::normalize(scene.camera.right) * 0.8;
+  scene.camera.up = glm::normalize(scene.camera.up);
+  return scene;
+}
+
 } // namespace
 
 const std::vector<NamedScene>& scenes() {
@@ -258,6 +268,7 @@ const std::vector<NamedScene>& scenes() {
                                               {"ellipsoids", ellipsoids},
                                               {"meshes", meshes},
                                               {"kinds of lights", kinds_of_lights},
+                                              {"dome", dome},
                                               {"legacy orthographic", legacy_orthographic},
                                               {"half mirrors", half_mirrors},
                                               {"inside glass", inside_glass},

@@ -1,6 +1,7 @@
 // The pictures: the same from every backend with any number of SPEs, and close to those of the reference
 // tracer.
 #include "celltrace/image.hpp"
+#include "kernel/cameras/list.hpp"
 #include "reference/tracer.hpp"
 #include "render/backends.hpp"
 #include "render/scenes.hpp"
@@ -37,6 +38,25 @@ TEST_CASE("Pictures come close to the reference tracer's") {
     const Comparison comparison = compare_images(expected, picture);
     INFO(to_text(comparison));
     CHECK(comparison.psnr >= 60);
+  }
+}
+
+TEST_CASE("Every kind of camera") {
+  Scene scene = scene_named("glass and mirrors");
+  const Camera perspective = scene.camera;
+  for (std::uint32_t kind = 0; kind < kernel::Cameras::kCount; ++kind) {
+    INFO(kernel::Cameras::kNames[kind]);
+    scene.camera = perspective;
+    scene.camera.kind = static_cast<Camera::Kind>(kind);
+    scene.camera.angle = 150;
+    scene.camera.vertical_angle = 120;
+    if (scene.camera.kind == Camera::Kind::orthographic) scene.camera.right *= 4, scene.camera.up *= 4;
+    const Image expected = reference::Tracer(scene).render(kWidth, kHeight);
+    for (const Backend& backend : {backends().front(), backends().back()}) {
+      const Comparison comparison = compare_images(expected, render_on(backend, 2, scene));
+      INFO(backend.spu() << ": " << to_text(comparison));
+      CHECK(comparison.psnr >= 55);
+    }
   }
 }
 

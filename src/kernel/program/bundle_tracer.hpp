@@ -10,6 +10,7 @@ namespace celltrace::kernel {
 template <class Spu, uint32_t kAccelerators = kAnyAccelerator> class BundleTracer {
 public:
   using S = typename Spu::simd;
+  using F = typename S::F;
   using Rays = RayTracer<Spu, Intersector<Spu, kAccelerators>>;
 
   BundleTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, Rays& tracer)
@@ -43,7 +44,12 @@ public:
     });
     for_each_member([&](Member& member) {
       tracer_.intersector().know_light(member.light, lights);
-      put(member.column, member.row, tracer_.trace(member.rays, member.lanes, member.hits, member.points));
+      V3<S> seen = tracer_.trace(member.rays, member.lanes, member.hits, member.points);
+      if (member.lanes != member.pixels) {
+        const V3<S> black = {F(0.0f), F(0.0f), F(0.0f)};
+        seen = select<S>(S::M::from_bits(member.lanes), seen, black);
+      }
+      put(member.column, member.row, seen);
     });
   }
 
@@ -61,13 +67,14 @@ private:
     FloatLanes distance;
     VectorLanes light[kKnownLights]; ///< that comes to the points
     uint32_t column, row;
-    uint32_t lanes, hit; ///< in the picture; of them, those that hit something
+    uint32_t pixels;     ///< lanes in the picture
+    uint32_t lanes, hit; ///< of them, those that have a ray; of these, those that hit something
   };
 
   /// Calls `visit` with each packet in the picture.
   template <class Visit> void for_each_member(Visit visit) {
     for (uint32_t i = 0; i < kPackets; ++i)
-      if (members_[i].lanes != 0) visit(members_[i]);
+      if (members_[i].pixels != 0) visit(members_[i]);
   }
 
   bool is_whole(uint32_t column, uint32_t row) const {
@@ -80,7 +87,8 @@ private:
       member.column = column * kEdge + i % kEdge;
       member.row = row * kEdge + i / kEdge;
       const bool inside = member.column < frame_.packet_columns && member.row < frame_.packet_rows;
-      member.lanes = inside ? lanes_in_picture(frame_, member.column, member.row) : 0;
+      member.pixels = inside ? lanes_in_picture(frame_, member.column, member.row) : 0;
+      member.lanes = member.pixels;
     }
   }
 
@@ -89,8 +97,9 @@ private:
     RayQuery queries[kPackets];
     for (uint32_t i = 0; i < kPackets; ++i) {
       Member& member = members_[i];
+      if (member.pixels != 0)
+        member.lanes &= make_primary_rays(scene_.spu(), frame_, member.column, member.row, member.rays);
       queries[i] = {&member.rays, &member.hits, nullptr, nullptr, member.lanes};
-      if (member.lanes != 0) make_primary_rays<S>(frame_, member.column, member.row, member.rays);
     }
     run(queries);
     for (uint32_t i = 0; i < kPackets; ++i) {
