@@ -52,7 +52,7 @@ unsigned check(const Camera& camera, const FrameBlock& frame, Random& random) {
                         row = random.below((frame.height + 3) / 4);
     RayPacket packet;
     const std::uint32_t lanes = make_primary_rays(spu, frame, column, row, packet);
-    for (unsigned l = 0; l < kSimdLanes; ++l) {
+    for_each_lane(lanes_in_picture(frame, column, row), [&](unsigned l) {
       const double x = column * 4 + l % 4 + 0.5, y = row * 4 + l / 4 + 0.5;
       const auto expected = reference::camera_ray(camera, x / frame.width, y / frame.height);
       const auto seen_near = [&](double size) {
@@ -62,12 +62,12 @@ unsigned check(const Camera& camera, const FrameBlock& frame, Random& random) {
       const bool is_ray = (lanes >> l & 1) != 0;
       // At the edge of what it sees, rounding decides.
       if (is_ray != expected.has_value()) REQUIRE(seen_near(0.999) != seen_near(1.001));
-      if (!is_ray || !expected) continue;
+      if (!is_ray || !expected) return;
       ++rays;
       REQUIRE(glm::length(at(packet.direction, l) - expected->direction) < 2e-6);
       REQUIRE(glm::length(at(packet.origin, l) - expected->origin) < 4e-6);
       REQUIRE(packet.start_object.lane[l] == kNoOffset);
-    }
+    });
   }
   return rays;
 }
@@ -84,7 +84,7 @@ TEST_CASE("The rays of every kind of camera") {
       const auto frame = frame_of(camera, 1 + random.below(700), 1 + random.below(700));
       rays += check(camera, *frame, random);
     }
-    CHECK(rays > unsigned(times(2000)) * 16);
+    CHECK(rays > unsigned(times(2000)) * 8);
   }
 }
 
