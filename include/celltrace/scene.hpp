@@ -57,7 +57,8 @@ struct Camera {
     cylinder_1,       ///< columns are angles, angle*u; rows are heights, up*v; on a cylinder of radius 1
     cylinder_2,       ///< columns are widths, right*u; rows are angles, angle*v
     cylinder_3,       ///< as 1, but each row is seen from its height on the cylinder's axis
-    cylinder_4        ///< as 2, but each column is seen from its place there
+    cylinder_4,       ///< as 2, but each column is seen from its place there
+    fisheye ///< angle/2 off direction at a length of 1 of 2*|right|*u, 2*|up|*v; farther out it is black
   };
   Kind kind = Kind::perspective;
   // The finished camera, after sky, look_at and transformations, and for perspective and orthographic cameras

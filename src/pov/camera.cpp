@@ -24,6 +24,7 @@ constexpr CameraKind kKinds[] = {
     {"perspective", Camera::Kind::perspective}, {"orthographic", Camera::Kind::orthographic},
     {"spherical", Camera::Kind::spherical},     {"ultra_wide_angle", Camera::Kind::ultra_wide_angle},
     {"omnimax", Camera::Kind::omnimax},         {"panoramic", Camera::Kind::panoramic},
+    {"fisheye", Camera::Kind::fisheye},
 };
 constexpr Camera::Kind kCylinders[] = {Camera::Kind::cylinder_1, Camera::Kind::cylinder_2,
                                        Camera::Kind::cylinder_3, Camera::Kind::cylinder_4};

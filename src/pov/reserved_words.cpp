@@ -327,7 +327,6 @@ const char* const kUnsupportedWords[] = {
     "facets",
     "fade_color",
     "fade_colour",
-    "fisheye",
     "flatness",
     "flip",
     "fog_alt",

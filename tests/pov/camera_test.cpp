@@ -114,6 +114,7 @@ TEST_CASE("kinds of cameras by their words") {
   CHECK(camera("cylinder 2").kind == Kind::cylinder_2);
   CHECK(camera("cylinder 3.9 angle 20").kind == Kind::cylinder_3);
   CHECK(camera("cylinder 4").kind == Kind::cylinder_4);
+  CHECK(camera("fisheye").kind == Kind::fisheye);
   CHECK(camera("spherical perspective").kind == Kind::perspective);
 }
 
@@ -139,7 +140,7 @@ TEST_CASE("the angles of cameras whose pictures are not flat") {
 TEST_CASE("what cameras of other kinds cannot have") {
   const auto refusal = [](const std::string& fields) { return error_line("camera { " + fields + " }"); };
   CHECK(refusal("ultra_wide_angle angle 100, 50") ==
-        "scene.pov:1:39: error: only a spherical camera has a second angle");
+        "scene.pov:1:38: error: only a spherical camera has a second angle");
   CHECK(refusal("cylinder 5") == "scene.pov:1:10: error: cameras on a cylinder are of type 1, 2, 3 or 4");
   CHECK(refusal("cylinder 0") == "scene.pov:1:10: error: cameras on a cylinder are of type 1, 2, 3 or 4");
   CHECK(refusal("sphere 1") == "scene.pov:1:10: error: there is no camera of this shape");

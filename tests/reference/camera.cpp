@@ -83,6 +83,12 @@ std::optional<Ray> camera_ray(const Camera& camera, double x, double y) {
     return Ray{eye + camera.up * v, glm::normalize(right * std::sin(across) + forward * std::cos(across))};
   case Camera::Kind::cylinder_4:
     return Ray{eye + camera.right * u, glm::normalize(up * std::sin(along) + forward * std::cos(along))};
+  case Camera::Kind::fisheye: {
+    const double right_of = 2 * u * width, above = 2 * v * height;
+    const double radius = std::hypot(right_of, above);
+    if (radius <= 1) direction = off_forward(right, up, forward, right_of, above, radius * angle / 2);
+    break;
+  }
   }
   if (!direction) return std::nullopt;
   return Ray{eye, glm::normalize(*direction)};

@@ -15,6 +15,7 @@
 #pragma once
 
 #include "kernel/cameras/cylinder.hpp"
+#include "kernel/cameras/fisheye.hpp"
 #include "kernel/cameras/omnimax.hpp"
 #include "kernel/cameras/orthographic.hpp"
 #include "kernel/cameras/panoramic.hpp"
@@ -25,9 +26,9 @@
 
 namespace celltrace::kernel {
 
-using Cameras =
-    TypeList<PerspectiveCamera, OrthographicCamera, SphericalCamera, UltraWideAngleCamera, OmnimaxCamera,
-             PanoramicCamera, Cylinder1Camera, Cylinder2Camera, Cylinder3Camera, Cylinder4Camera>;
+using Cameras = TypeList<PerspectiveCamera, OrthographicCamera, SphericalCamera, UltraWideAngleCamera,
+                         OmnimaxCamera, PanoramicCamera, Cylinder1Camera, Cylinder2Camera, Cylinder3Camera,
+                         Cylinder4Camera, FisheyeCamera>;
 template <class C> constexpr uint32_t kCameraKind = Cameras::number<C>();
 
 /// Whether all rays leave one point through a plane.
