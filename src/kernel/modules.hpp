@@ -21,6 +21,6 @@ constexpr CodeModule kLights = {"lights", 6, 0, 5120};
 /// The rays of cameras whose pictures are not flat.
 constexpr CodeModule kCameras = {"cameras", 7, 0, 8192};
 /// What a program does once for many frames: it makes its objects, and builds the grid.
-constexpr CodeModule kStart = {"start", 3, 0, 20480};
+constexpr CodeModule kStart = {"start", 3, 0, 24576};
 
 } // namespace celltrace::kernel::modules
