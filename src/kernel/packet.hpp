@@ -33,6 +33,11 @@ struct VectorLanes {
     using F = typename S::F;
     return {F::load(x.lane), F::load(y.lane), F::load(z.lane)};
   }
+  /// The vector of lane `i`, in all lanes.
+  template <class S> V3<S> of(uint32_t i) const {
+    using F = typename S::F;
+    return {F(x.lane[i]), F(y.lane[i]), F(z.lane[i])};
+  }
   template <class S> void store(const V3<S>& v) {
     v.x.store(x.lane);
     v.y.store(y.lane);
