@@ -2,6 +2,7 @@
 
 #include "celltrace/balance.hpp"
 #include "celltrace/error.hpp"
+#include "kernel/direct/door.hpp"
 #include "scene/surface_records.hpp"
 
 #include <algorithm>

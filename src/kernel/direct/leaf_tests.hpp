@@ -13,12 +13,6 @@ public:
   using M = typename S::M;
   using Tests = ObjectTests<Spu>;
 
-  /// A leaf is tested like this with at most so many rays and at least so many triangles. More rays would
-  /// need more passes, and fewer triangles would leave lanes empty: then each triangle is tested against all
-  /// rays at once. Measured.
-  static constexpr int kMostRays = 4;
-  static constexpr uint32_t kLeastTriangles = 4;
-
   explicit LeafTests(Tests& tests) : tests_(tests) {}
 
   /// Tests the objects of a leaf against `rays` of a packet.
