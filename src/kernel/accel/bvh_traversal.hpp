@@ -51,8 +51,8 @@ public:
     bundle_frustum_.set(bundle.all, bundle.octant);
     begin(bundle.packets);
     Entering walk = {*this, SlabOrder(bundle.octant), bundle.packets};
-    NodeRef ref;
-    if (walk.next(ref)) traverse_nodes(walk, ref);
+    NodeRef ref = {};
+    traverse_nodes(walk, ref, false);
     return walk.found_leaf;
   }
 
@@ -185,8 +185,8 @@ private:
     known_rays_ = known_frusta_ = 0;
     BundleLeafTests<Spu> leaves(objects_);
     Together walk = {*this, leaves, queries, order, ray_order, bundled};
-    NodeRef ref;
-    if (walk.next(ref)) traverse_nodes(walk, ref);
+    NodeRef ref = {};
+    traverse_nodes(walk, ref, false);
   }
 
   /// The traversal of a bundle's frustum, for traverse_nodes(). It ends where it comes to a leaf or has
@@ -247,7 +247,7 @@ private:
     [[gnu::always_inline]] bool next(NodeRef& ref) {
       Stack& stack = traversal.packet_traversal_.stack();
       for (;;) {
-        if (!traversal.defers_more(leaves)) traversal.test_deferred(leaves, queries, bundled);
+        traversal.test_deferred(leaves, queries, bundled);
         if (stack.size() == 0) return false;
         const typename Stack::Entry& next = stack.pop();
         packets = next.lanes & traversal.within_tfar(next.enter);
@@ -389,26 +389,27 @@ private:
 
   void intersect_leaf(BundleLeafTests<Spu>& leaves, const NodeRef& leaf, uint32_t packets,
                       RayQuery* queries) {
-    uint32_t changed = packets;
-    if (kHasBundleViews<Spu> && view_ != nullptr && !is_single(packets))
-      changed = leaves.add(queries, packets, leaf);
-    else
-      objects_.scene().for_each_object(leaf, [&](uint32_t self) {
-        test_object(self, packets, queries);
-        return false;
-      });
-    update_tfar(changed, queries);
+    if constexpr (kHasBundleViews<Spu>)
+      if (view_ != nullptr && !is_single(packets))
+        return update_tfar(leaves.add(queries, packets, leaf), queries);
+    objects_.scene().for_each_object(leaf, [&](uint32_t self) {
+      test_object(self, packets, queries);
+      return false;
+    });
+    update_tfar(packets, queries);
   }
-  /// Whether deferred triangles can wait for those of the next leaf. If the next entry is a node they cannot:
-  /// their hits should shorten tfar before it is expanded.
-  bool defers_more(const BundleLeafTests<Spu>& leaves) {
-    if (!kHasBundleViews<Spu> || !leaves.has_deferred()) return true;
-    const Stack& stack = packet_traversal_.stack();
-    return stack.size() != 0 && stack.top().ref.is_leaf() && leaves.has_room_for(stack.top().ref);
-  }
-  void test_deferred(BundleLeafTests<Spu>& leaves, RayQuery* queries, uint32_t bundled) {
-    update_tfar(leaves.test(queries, *view_), queries);
-    max_tfar_ = Lanes::greatest_of(bundled, tfar_);
+  /// Tests deferred triangles, unless they can wait for those of the next leaf. If the next entry is a node
+  /// they cannot: their hits should shorten tfar before it is expanded.
+  [[gnu::always_inline]] void test_deferred([[maybe_unused]] BundleLeafTests<Spu>& leaves,
+                                            [[maybe_unused]] RayQuery* queries,
+                                            [[maybe_unused]] uint32_t bundled) {
+    if constexpr (kHasBundleViews<Spu>) {
+      if (!leaves.has_deferred()) return;
+      const Stack& stack = packet_traversal_.stack();
+      if (stack.size() != 0 && stack.top().ref.is_leaf() && leaves.has_room_for(stack.top().ref)) return;
+      update_tfar(leaves.test(queries, *view_), queries);
+      max_tfar_ = Lanes::greatest_of(bundled, tfar_);
+    }
   }
   void test_object(uint32_t self, uint32_t packets, RayQuery* queries) {
     if constexpr (kTestsWholeLeaves<Spu>) {

@@ -55,7 +55,8 @@ public:
   void traverse(const Task& task, const SlabOrder& order) {
     Slot& slot = slots_[0];
     const uint32_t floor = slot.stack.size();
-    Walk<false> walk = {*this, slot, order, task, begin(slot, task, floor), floor};
+    Walk<false> walk = {*this,      slot, order, *task.group, *task.query, begin(slot, task, floor),
+                        task.lanes, floor};
     NodeRef ref = task.ref;
     traverse_nodes(walk, ref);
     walk.end();
@@ -79,7 +80,9 @@ public:
         Interleaved& traversal = interleaved[i];
         objects_.hit_filter().resume_packet(traversal.packet);
         // A copy of the state, which can stay in registers until the traversal is suspended.
-        Walk<true> walk = {*this, slots_[i], order, tasks[i], traversal.state, traversal.floor};
+        const Task& task = tasks[i];
+        Walk<true> walk = {*this,       slots_[i],       order,      *task.group,
+                           *task.query, traversal.state, task.lanes, traversal.floor};
         if (traverse_nodes(walk, traversal.ref)) {
           traversal.state = walk.state;
         } else {
@@ -95,12 +98,10 @@ public:
   }
   /// The greatest tfar of the rays in `group`, with kTfarSlack. Distances are positive.
   static float tfar_of(const RayQuery& query, uint32_t group) {
-    if (is_single(group)) {
-      const uint32_t lane = static_cast<uint32_t>(__builtin_ctz(group));
-      return kTfarSlack *
-             (query.hits != nullptr ? query.hits->distance.lane[lane] : query.distance->lane[lane]);
-    }
-    return kTfarSlack * interval_of<S>(S::select(M::from_bits(group), tfar(query), F(0.0f))).high;
+    if constexpr (kHasRoomForCode<Spu>)
+      return greatest_tfar(query, group);
+    else
+      return tfar_out_of_line(query, group);
   }
 
 private:
@@ -132,35 +133,48 @@ private:
     PacketTraversal& traversal;
     Slot& slot;
     const SlabOrder& order;
-    const Task& task;
+    const RayGroup<S>& group;
+    RayQuery& query;
     TraversalState state;
-    const uint32_t floor;
+    const uint32_t lanes, floor;
     bool hinted = false; ///< the last node was expanded, and one of its children is to be traversed next
 
     [[gnu::always_inline]] bool expand(NodeRef& ref) {
       [[maybe_unused]] const uint32_t size = slot.stack.size();
-      const bool descends = traversal.expand(slot, state, task.group->rays, order, *task.query, ref);
+      const bool descends = traversal.expand(slot, state, group.rays, order, query, ref);
       if constexpr (kInterleaved) {
         if (descends) traversal.objects_.scene().hint(ref);
         hinted = descends || slot.stack.size() > size;
       }
-      if (!descends && slot.deferred.are_enough()) traversal.test_deferred(slot, state, *task.query);
+      if (!descends && slot.deferred.are_enough()) traversal.test_deferred(slot, state, query);
       return descends;
     }
     [[gnu::always_inline]] void test(const NodeRef& leaf) {
       hinted = false;
-      traversal.intersect_leaf(slot, state, leaf, *task.query);
+      traversal.intersect_leaf(slot, state, leaf, query);
     }
     [[gnu::always_inline]] bool next(NodeRef& ref) {
-      return traversal.pop_next(slot, state, {&task.group->frustum, task.lanes, floor, 0.0f}, *task.query,
-                                ref);
+      return traversal.pop_next(slot, state, {&group.frustum, lanes, floor, 0.0f}, query, ref);
     }
     bool pauses() const { return kInterleaved && hinted; }
     [[gnu::always_inline]] void end() {
-      traversal.test_deferred(slot, state, *task.query);
+      traversal.test_deferred(slot, state, query);
       slot.stack.shrink(floor);
     }
   };
+
+  static float greatest_tfar(const RayQuery& query, uint32_t group) {
+    if (is_single(group)) {
+      const uint32_t lane = static_cast<uint32_t>(__builtin_ctz(group));
+      return kTfarSlack *
+             (query.hits != nullptr ? query.hits->distance.lane[lane] : query.distance->lane[lane]);
+    }
+    return kTfarSlack * interval_of<S>(S::select(M::from_bits(group), tfar(query), F(0.0f))).high;
+  }
+  /// Not inlined on an SPE: one copy of the code saves local store.
+  [[gnu::noinline]] static float tfar_out_of_line(const RayQuery& query, uint32_t group) {
+    return greatest_tfar(query, group);
+  }
 
   TraversalState begin(Slot& slot, const Task& task, uint32_t floor) {
     TraversalState state = {&task.group->frustum, task.lanes, floor, tfar_of(*task.query, task.lanes)};

@@ -6,7 +6,8 @@
 
 namespace celltrace::kernel {
 
-/// Traverses what is below `ref` and on the stack. A Walk says what is traversed:
+/// Traverses what is on the stack, and before that, if it `has_ref`, what is below `ref`. A Walk says what is
+/// traversed:
 ///
 ///   bool expand(NodeRef& ref)     pushes the children of a node that are hit. If that is one child only, it
 ///                                 may become `ref` instead, and the result is true.
@@ -15,15 +16,21 @@ namespace celltrace::kernel {
 ///   bool pauses()                 whether the traversal is suspended before `ref`
 ///
 /// Returns whether it was suspended; called again with the same `ref`, it goes on.
-template <class Walk> [[gnu::always_inline]] inline bool traverse_nodes(Walk& walk, NodeRef& ref) {
-  do {
-    if (ref.is_leaf())
-      walk.test(ref);
-    else if (walk.expand(ref))
-      continue;
+template <class Walk>
+[[gnu::always_inline]] inline bool traverse_nodes(Walk& walk, NodeRef& ref, bool has_ref = true) {
+  // One call of next(): on an SPE it is inlined, and code takes local store.
+  for (bool pops = !has_ref;; pops = false) {
+    if (!pops) {
+      if (ref.is_leaf()) {
+        walk.test(ref);
+      } else if (walk.expand(ref)) {
+        if (walk.pauses()) return true;
+        continue;
+      }
+    }
     if (!walk.next(ref)) return false;
-  } while (!walk.pauses());
-  return true;
+    if (walk.pauses()) return true;
+  }
 }
 
 } // namespace celltrace::kernel

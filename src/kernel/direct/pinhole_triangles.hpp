@@ -26,7 +26,7 @@ public:
     from_v0_.template store<S>(from_v0);
     q_.template store<S>(q * sign);
     (distance * sign).store(distance_.lane);
-    triangle_overlap<S>(from_v0, sides).store(overlap_.lane);
+    triangle_overlap<S>(from_v0, sides.edge1, sides.edge2).store(overlap_.lane);
   }
 
   /// Where rays from the point cross triangle `i` in front of it.

@@ -33,10 +33,10 @@ template <class S> struct TriangleSides {
 /// between them: that grows with the distance over the triangle's size, and as the ray gets parallel to it.
 /// Returns this overlap, times the determinant.
 template <class S>
-[[gnu::always_inline]] inline typename S::F triangle_overlap(const V3<S>& from_v0,
-                                                             const TriangleSides<S>& sides) {
+[[gnu::always_inline]] inline typename S::F triangle_overlap(const V3<S>& from_v0, const V3<S>& edge1,
+                                                             const V3<S>& edge2) {
   using F = typename S::F;
-  const F size = S::max(absolute_sum<S>(sides.edge1), absolute_sum<S>(sides.edge2));
+  const F size = S::max(absolute_sum<S>(edge1), absolute_sum<S>(edge2));
   return absolute_sum<S>(from_v0) * (F(detail::kUnitInLastPlace) * size);
 }
 
@@ -50,7 +50,7 @@ public:
     from_v0_ = origin - sides.v0;
     q_ = cross<S>(from_v0_, edge1_);
     distance_ = dot<S>(edge2_, q_);
-    overlap_ = triangle_overlap<S>(from_v0_, sides);
+    overlap_ = triangle_overlap<S>(from_v0_, edge1_, edge2_);
   }
 
   /// By rays of these directions.
