@@ -30,8 +30,6 @@ private:
 /// In place of DeferredLeaves where every leaf is tested at once.
 class NoDeferredLeaves {
 public:
-  static constexpr uint32_t count() { return 0; }
-  static constexpr bool is_full() { return false; }
   static constexpr bool are_enough() { return false; }
 };
 
