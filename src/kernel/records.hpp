@@ -276,10 +276,6 @@ enum class GammaEncoding : uint32_t { none = 0, assumed = 1 };
 
 constexpr uint32_t kMaxInteriorDepth = 8;
 constexpr uint32_t kPacketEdge = 4; ///< a packet is 4x4 rays
-/// Packets a side of a bundle, which one SPE takes as a whole: as many as local store has room for.
-constexpr uint32_t bundle_edge(bool direct_memory) {
-  return direct_memory ? 4 : 2;
-}
 
 /// Everything an SPE needs for a frame. Lies in main memory at a place that does not change while the SPEs
 /// run.

@@ -3,6 +3,7 @@
 
 #include "celltrace/cache.hpp"
 #include "kernel/accel/traversal_stack.hpp"
+#include "kernel/direct/door.hpp"
 #include "kernel/records.hpp"
 #include "kernel/scalar_work.hpp"
 
@@ -88,7 +89,7 @@ private:
   }
   /// The offset of one of them; of those after the first one, on its way.
   uint32_t member(const Sequence& objects, uint32_t i) {
-    if constexpr (!Spu::direct_memory) return member_through_cache(objects, i);
+    if constexpr (!kHasRoomForCode<Spu>) return member_through_cache(objects, i);
     const uint32_t object = offset_of(objects, i);
     if (i != 0) cache_.hint(object);
     return object;

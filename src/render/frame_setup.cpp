@@ -3,6 +3,7 @@
 #include "celltrace/balance.hpp"
 #include "celltrace/error.hpp"
 #include "kernel/cameras/list.hpp"
+#include "kernel/direct/door.hpp"
 #include "scene/surface_records.hpp"
 
 #include <algorithm>

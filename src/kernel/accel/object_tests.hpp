@@ -130,7 +130,6 @@ public:
     }
   }
 
-  /// Merges the crossings with object `self` into the closest hits.
   /// Tests the objects that no accelerator has, behind the others in their table.
   void test_unbounded(const FrameBlock& frame, RayQuery& query) {
     constexpr auto kBytes = static_cast<uint32_t>(sizeof(ObjectRecord));
@@ -144,6 +143,7 @@ public:
     }
   }
 
+  /// Merges the crossings with object `self` into the closest hits.
   static void keep_closest(const Crossings<S>& c, uint32_t self, HitPacket& hits) {
     const M near_valid = c.near_hit & (c.near > F(kMinHitDistance));
     const M far_valid = c.far_hit & (c.far > F(kMinHitDistance));
@@ -161,6 +161,17 @@ public:
     S::select(closer, c.u, F::load(hits.u.lane)).store(hits.u.lane);
     S::select(closer, c.v, F::load(hits.v.lane)).store(hits.v.lane);
     S::select(closer, candidate, present).store(objects);
+  }
+
+  /// Lanes whose near or far crossing lies between their origin and the light.
+  struct ShadowHits {
+    uint32_t near, far;
+  };
+  static ShadowHits shadow_hits(const Crossings<S>& c, const FloatLanes& distance) {
+    const F low(kShadowEpsilon);
+    const F high = F::load(distance.lane) - low;
+    return {(c.near_hit & (c.near > low) & (c.near < high)).bits(),
+            (c.far_hit & (c.far > low) & (c.far < high)).bits()};
   }
 
   /// Whether an object is a triangle that is no part of a CSG.
@@ -185,17 +196,6 @@ public:
   void reset_counters() { counters_ = TraversalCounters(); }
 
 private:
-  /// Lanes whose near or far crossing lies between their origin and the light.
-  struct ShadowHits {
-    uint32_t near, far;
-  };
-  static ShadowHits shadow_hits(const Crossings<S>& c, const FloatLanes& distance) {
-    const F low(kShadowEpsilon);
-    const F high = F::load(distance.lane) - low;
-    return {(c.near_hit & (c.near > low) & (c.near < high)).bits(),
-            (c.far_hit & (c.far > low) & (c.far < high)).bits()};
-  }
-
   /// Spheres, triangles and planes that are no parts of a CSG: their code is always there, and their test
   /// reads no further record.
   static bool is_simple(uint32_t flags) {

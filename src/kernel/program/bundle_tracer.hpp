@@ -21,7 +21,7 @@ public:
   /// is in the picture.
   template <class Put, class Fill>
   void trace(uint32_t column, uint32_t row, Put put, [[maybe_unused]] Fill fill) {
-    if constexpr (Spu::direct_memory) {
+    if constexpr (kHasBundleViews<Spu>) {
       const PinholeBundle<S> bundle(frame_, column, row);
       const bool missed = !tracer_.intersector().traversal().enter(bundle);
       if (missed && is_whole(column, row))

@@ -43,7 +43,7 @@ public:
   /// know what light comes there. Points of later hits replace the first ones'.
   [[gnu::always_inline]] V3<S> trace(const RayPacket& rays, uint32_t lanes, const HitPacket& hits,
                                      HitPoints<S>& points) {
-    if constexpr (Spu::direct_memory) {
+    if constexpr (kHasRoomForCode<Spu>) {
       V3<S> colour;
       if (ends_at_once(rays, lanes, hits, points, colour)) return colour;
     }
