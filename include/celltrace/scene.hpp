@@ -17,15 +17,31 @@
 namespace celltrace {
 
 struct Camera {
-  enum class Kind { perspective, orthographic };
+  /// POV-Ray's kinds, by the ray through pixel (x, y) of a W x H picture: with u = (x+.5)/W-.5 from -.5 at
+  /// the left to .5 at the right, and v = .5-(y+.5)/H from -.5 at the bottom to .5 at the top.
+  enum class Kind {
+    perspective,      ///< from the location along direction + right*u + up*v
+    orthographic,     ///< from location + right*u + up*v along direction
+    spherical,        ///< columns are longitudes, angle*u; rows are latitudes, vertical_angle*v
+    ultra_wide_angle, ///< as perspective, but with angle*u, and angle*v times the ratio of up's length to
+                      ///< right's
+    omnimax,          ///< a fisheye of 180 degrees cut off below; outside it is black
+    panoramic,        ///< along direction*cos(180*u) + right*sin(180*u) + up*tan(180*v)
+    cylinder_1,       ///< columns are angles, angle*u; rows are heights, up*v; on a cylinder of radius 1
+    cylinder_2,       ///< columns are widths, right*u; rows are angles, angle*v
+    cylinder_3,       ///< as 1, but each row is seen from its height on the cylinder's axis
+    cylinder_4,       ///< as 2, but each column is seen from its place there
+    fisheye ///< angle/2 off direction at a length of 1 of 2*|right|*u, 2*|up|*v; farther out it is black
+  };
   Kind kind = Kind::perspective;
-  // The finished camera, after angle, sky, look_at and transformations. The ray through pixel
-  // (x, y) of a W x H picture goes along direction + right*((x+.5)/W-.5) + up*(.5-(y+.5)/H); orthographic
-  // cameras offset the location by the same right and up terms instead.
+  // The finished camera, after sky, look_at and transformations, and for perspective and orthographic cameras
+  // after the angle, too. Only these and panoramic ones look at the length of direction.
   Vec3 location{0, 0, 0};
   Vec3 direction{0, 0, 1};
   Vec3 right{1.33, 0, 0};
   Vec3 up{0, 1, 0};
+  double angle = 90;           ///< that a picture is wide, in degrees, not negative; of kinds that mention it
+  double vertical_angle = 180; ///< that it is high, likewise
 };
 
 /// What colour values mean and how they become 8 bits.
@@ -183,7 +199,7 @@ struct Scene {
   Index add(const Interior& interior);
 };
 
-/// Throws InputError if a number is not finite.
+/// Throws InputError if a number is not finite, or an angle negative.
 void validate(const Camera& camera);
 /// Throws InputError, naming the first fault, if an index is out of range, a number is not finite, or there
 /// are more triangles or vertices than 32-bit offsets can address.

@@ -144,4 +144,29 @@ template <class S> typename S::F acos_unit(const typename S::F& x) {
   return S::sqrt(S::max(F(1.0f) - x, F(0.0f))) * p;
 }
 
+/// Sine and cosine of x; absolute error below 2e-7 for |x| <= 100, and for larger x that of a rounding of x.
+/// Beyond 8192 x counts as that. Not inlined: local store has room for one copy.
+template <class S>
+[[gnu::noinline]] void sin_cos(const typename S::F& x, typename S::F& sine, typename S::F& cosine) {
+  using F = typename S::F;
+  using I = typename S::I;
+  const F angle = S::min(S::max(x, F(-8192.0f)), F(8192.0f));
+  const F turns = angle * F(0.636619772f);
+  const I quadrant = S::to_int(turns + S::select(turns < F(0.0f), F(-0.5f), F(0.5f)));
+  const F n = S::to_float(quadrant);
+  // Half of pi in parts: the products with the first two are exact.
+  const F r = ((angle - n * F(1.5703125f)) - n * F(4.837513e-4f)) - n * F(7.549789954891882e-8f);
+  const F r2 = r * r;
+  const F s =
+      r + r * r2 * (F(-1.0f / 6) + r2 * (F(1.0f / 120) + r2 * (F(-1.0f / 5040) + r2 * F(1.0f / 362880))));
+  const F c = F(1.0f) + r2 * (F(-0.5f) + r2 * (F(1.0f / 24) + r2 * (F(-1.0f / 720) + r2 * F(1.0f / 40320))));
+  const I one = I::splat(1);
+  const auto swapped = (quadrant & one) == one;
+  const F first = S::select(swapped, c, s), second = S::select(swapped, s, c);
+  const I two = I::splat(2);
+  const F zero(0.0f);
+  sine = S::select((quadrant & two) == two, zero - first, first);
+  cosine = S::select(((quadrant + one) & two) == two, zero - second, second);
+}
+
 } // namespace celltrace::kernel

@@ -17,7 +17,7 @@ constexpr CodeModule kHeavyShapes = {"heavy", 4, 0, 8192};
 /// Where hits lie on objects, and the normals there.
 constexpr CodeModule kHits = {"hits", 5, 0, 14336};
 /// What a program does once for many frames: it makes its objects, and builds the grid.
-constexpr CodeModule kStart = {"start", 3, 0, 20480};
+constexpr CodeModule kStart = {"start", 3, 0, 24576};
 /// Patterns without noise, and those of noise with its tables.
 constexpr CodeModule kPatterns = {"patterns", 7, 0, 5120};
 constexpr CodeModule kNoise = {"noise", 8, 0, 14336};
@@ -28,6 +28,8 @@ constexpr CodeModule kNoise = {"noise", 8, 0, 14336};
 constexpr CodeModule kSecondary = {"secondary", 2, 1, 14336};
 /// Light that is not simply a point's.
 constexpr CodeModule kLights = {"lights", 6, 1, 5120};
+/// The rays of cameras whose pictures are not flat.
+constexpr CodeModule kCameras = {"cameras", 10, 1, 8192};
 /// Pigments and normals, but for the patterns themselves.
 constexpr CodeModule kTextures = {"textures", 9, 1, 14336};
 

@@ -288,15 +288,23 @@ static_assert(sizeof(ImageHeader) == 256, "two lines");
 
 // --- frame ---
 
-/// Rays: through pixel (x, y) goes base + x*dx + y*dy, as a direction from `origin` (perspective, not
-/// normalised) or as an origin with direction `origin` (orthographic).
+/// Flat cameras: through pixel (x, y) goes base + x*dx + y*dy, as a direction from `origin` (not normalised)
+/// or as an origin with direction `origin`. Curved ones: `origin` is their location, and `base`, `dx` and
+/// `dy` are their axes forward, right and up; pixel (x, y) is at ((x - middle_x) * step_x, (middle_y - y) *
+/// step_y) of their picture, which the kind turns into a ray.
 struct alignas(16) CameraRecord {
-  float origin[4];
-  float base[4];
-  float dx[4];
-  float dy[4];
+  float origin[3];
+  uint32_t kind; ///< its place in the list of cameras/list.hpp
+  float base[3];
+  float bend; ///< curved: what else the kind needs
+  float dx[3];
+  float middle_x;
+  float dy[3];
+  float middle_y;
+  float step_x, step_y;
+  uint32_t unused[2];
 };
-static_assert(sizeof(CameraRecord) == 64, "crosses DMA");
+static_assert(sizeof(CameraRecord) == 80, "crosses DMA");
 
 /// The uniform grid. Voxel (x, y, z) has index x + y*cells[0] + z*cells[0]*cells[1].
 struct alignas(16) GridRecord {
@@ -360,10 +368,6 @@ enum class GammaEncoding : uint32_t { none = 0, assumed = 1 };
 
 constexpr uint32_t kMaxInteriorDepth = 8;
 constexpr uint32_t kPacketEdge = 4; ///< a packet is 4x4 rays
-/// Packets a side of a bundle, which one SPE takes as a whole: as many as local store has room for.
-constexpr uint32_t bundle_edge(bool direct_memory) {
-  return direct_memory ? 4 : 2;
-}
 
 /// Everything an SPE needs for a frame. Lies in main memory at a place that does not change while the SPEs
 /// run.
@@ -389,7 +393,6 @@ struct alignas(128) FrameBlock {
   uint32_t surface_pitch;
   uint32_t sort_capacity;
   uint32_t ray_stack_nodes;
-  uint32_t orthographic; ///< 0 or 1
 
   uint32_t object_offset, object_count;
   uint32_t light_offset, light_count;
@@ -417,7 +420,7 @@ struct alignas(128) FrameBlock {
   uint32_t far_nodes;                 ///< 0 or 1: for SPEs that wait long for a node of the BVH
   uint32_t unbounded_count;           ///< objects behind the others in their table that no accelerator has
   uint32_t sky; ///< as in ImageHeader
-  uint32_t unused[21];
+  uint32_t unused[18];
 };
 static_assert(sizeof(FrameBlock) % 128 == 0 && sizeof(FrameBlock) <= 512, "fetched by one DMA command");
 

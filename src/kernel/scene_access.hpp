@@ -3,6 +3,7 @@
 
 #include "celltrace/cache.hpp"
 #include "kernel/accel/traversal_stack.hpp"
+#include "kernel/direct/door.hpp"
 #include "kernel/records.hpp"
 #include "kernel/scalar_work.hpp"
 
@@ -102,7 +103,7 @@ private:
   }
   /// The offset of one of them; of those after the first one, on its way.
   uint32_t member(const Sequence& objects, uint32_t i) {
-    if constexpr (!Spu::direct_memory) return member_through_cache(objects, i);
+    if constexpr (!kHasRoomForCode<Spu>) return member_through_cache(objects, i);
     const uint32_t object = offset_of(objects, i);
     if (i != 0) cache_.hint(object);
     return object;
@@ -123,7 +124,7 @@ private:
   /// What is not read in the innermost loops: one copy of the code for all records of a size, as local store
   /// is short.
   template <class T> const T* read_apart(uint32_t offset, DataKind kind) {
-    if constexpr (Spu::direct_memory)
+    if constexpr (kReadsInPlace<Spu>)
       return read<T>(offset, kind);
     else
       return reinterpret_cast<const T*>(read_bytes<sizeof(T)>(offset, kind));

@@ -1,14 +1,33 @@
 #include "pov/camera.hpp"
 
 #include <cmath>
+#include <iterator>
+#include <string_view>
 
 #include <glm/geometric.hpp>
 
 #include "celltrace/error.hpp"
+#include "pov/session.hpp"
+#include "pov/shapes.hpp"
 
 namespace celltrace::pov {
 
 namespace {
+
+struct CameraKind {
+  const char* name;
+  Camera::Kind kind;
+};
+
+/// But for cylinders, whose word is a shape's.
+constexpr CameraKind kKinds[] = {
+    {"perspective", Camera::Kind::perspective}, {"orthographic", Camera::Kind::orthographic},
+    {"spherical", Camera::Kind::spherical},     {"ultra_wide_angle", Camera::Kind::ultra_wide_angle},
+    {"omnimax", Camera::Kind::omnimax},         {"panoramic", Camera::Kind::panoramic},
+    {"fisheye", Camera::Kind::fisheye},
+};
+constexpr Camera::Kind kCylinders[] = {Camera::Kind::cylinder_1, Camera::Kind::cylinder_2,
+                                       Camera::Kind::cylinder_3, Camera::Kind::cylinder_4};
 
 constexpr Vec3 kDefaultRight{1.33, 0, 0};
 constexpr Vec3 kDefaultUp{0, 1, 0};
@@ -21,6 +40,11 @@ void set_angle(Camera& camera, double degrees) {
   const double width = glm::length(camera.right);
   if (length == 0) throw InputError("the camera has no direction");
   camera.direction *= width / (2 * std::tan(degrees * kRadiansPerDegree / 2)) / length;
+}
+
+/// Of these the angle is that of a picture at the distance of direction's length.
+bool is_flat(Camera::Kind kind) {
+  return kind == Camera::Kind::perspective || kind == Camera::Kind::orthographic;
 }
 
 /// Turns the camera towards a point; the sky says which way is up, and lengths and handedness stay as they
@@ -60,15 +84,47 @@ bool is_finite(const Vec3& v) {
 
 } // namespace
 
+std::vector<const char*> camera_kind_names() {
+  std::vector<const char*> names;
+  for (const CameraKind& kind : kKinds)
+    names.push_back(kind.name);
+  return names;
+}
+
+void set_kind(CameraDefinition& camera, int name) {
+  camera.kind = kKinds[name].kind;
+}
+
+void set_kind(Session& session, CameraDefinition& camera, int shape, double number, const Location& where) {
+  const std::string_view name = shape_names()[static_cast<std::size_t>(shape)];
+  if (name != "cylinder") session.fail(where, "there is no camera of this shape");
+  if (!(number >= 1 && number < 1 + std::size(kCylinders)))
+    session.fail(where, "cameras on a cylinder are of type 1, 2, 3 or 4");
+  camera.kind = kCylinders[static_cast<int>(number) - 1];
+}
+
+void set_angles(Session& session, CameraDefinition& camera, double angle, double vertical_angle,
+                const Location& where) {
+  if (camera.kind != Camera::Kind::spherical)
+    session.fail(where, "only a spherical camera has a second angle");
+  camera.angle = angle;
+  camera.vertical_angle = vertical_angle;
+}
+
 Camera CameraDefinition::finish(double version) const {
   Camera camera;
   camera.kind = kind;
   camera.right = right.value_or(kDefaultRight);
   camera.direction = direction;
-  const bool has_angle = angle && *angle != 0;
-  if (has_angle) {
-    if (*angle < 0 || *angle >= 180) throw InputError("a camera's angle must lie between 0 and 180 degrees");
-    set_angle(camera, *angle);
+  if (is_flat(kind)) {
+    if (angle && (*angle < 0 || *angle >= 180))
+      throw InputError("a camera's angle must lie between 0 and 180 degrees");
+    if (angle && *angle != 0) set_angle(camera, *angle);
+  } else {
+    camera.angle = angle.value_or(kind == Camera::Kind::spherical ? 360 : 90);
+    camera.vertical_angle = vertical_angle.value_or(camera.angle / 2);
+    if (camera.angle < 0 || camera.vertical_angle < 0)
+      throw InputError("a camera's angle must not be negative");
   }
   camera.up = up.value_or(kDefaultUp);
   camera.location = location;

@@ -2,12 +2,18 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "celltrace/scene.hpp"
 #include "pov/location.hpp"
 #include "pov/texture.hpp"
 
 namespace celltrace::pov {
+
+struct Session;
+
+/// The words for kinds of cameras that are no words of something else.
+std::vector<const char*> camera_kind_names();
 
 /// Fields in any order; finish() applies them in the fixed one of that version of POV-Ray's language.
 struct CameraDefinition {
@@ -18,7 +24,8 @@ struct CameraDefinition {
   std::optional<Vec3> right;
   std::optional<Vec3> up;
   std::optional<Vec3> look_at;
-  std::optional<double> angle; ///< horizontal, in degrees
+  std::optional<double> angle;          ///< horizontal, in degrees
+  std::optional<double> vertical_angle; ///< in degrees
   Transform transform;
   UnsupportedPtr unsupported;
   Location where;
@@ -27,5 +34,13 @@ struct CameraDefinition {
   /// direction.
   Camera finish(double version) const;
 };
+
+/// By its place in camera_kind_names().
+void set_kind(CameraDefinition& camera, int name);
+/// By the name of a shape, its place in shape_names(), and the number behind it. Fails if there is none such.
+void set_kind(Session& session, CameraDefinition& camera, int shape, double number, const Location& where);
+/// A camera that is seen with the angle from left to right, and from bottom to top. Fails if it has no such.
+void set_angles(Session& session, CameraDefinition& camera, double angle, double vertical_angle,
+                const Location& where);
 
 } // namespace celltrace::pov

@@ -65,7 +65,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %token <UnsupportedPtr> UNSUPPORTED_ID
 %token UNDECLARED_ID
 
-%token <int> FUNCTION TEXT_FUNCTION COMPONENT COLOUR_MODEL SRGB_MODEL CHANNEL SHAPE CSG
+%token <int> FUNCTION TEXT_FUNCTION COMPONENT COLOUR_MODEL SRGB_MODEL CHANNEL SHAPE CSG CAMERA_KIND
 %token <int> PATTERN ARGUED_PATTERN LIST_PATTERN PATTERN_OPTION PATTERN_FLAG WAVE
 %token <NameId> UNSUPPORTED UNSUPPORTED_OBJECT UNSUPPORTED_BLOCK
 %token BAD_CHARACTER DEFINED CONSTANT
@@ -82,8 +82,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %token INSIDE_VECTOR INTERIOR INVERSE IOR IRID LAMBDA LIGHT_SOURCE LOCATION LOOKS_LIKE LOOK_AT
 %token MATERIAL MATRIX MAX_TRACE_LEVEL MESH MESH2 METALLIC NOISE_GENERATOR NORMAL NORMAL_INDICES NORMAL_MAP
 %token NORMAL_VECTORS NO_SHADOW NUMBER_OF_WAVES OBJECT OCTAVES OMEGA OPEN
-%token ORTHOGRAPHIC PARALLEL PERSPECTIVE PHASE PHONG PHONG_SIZE PHOTONS PIGMENT PIGMENT_MAP POINT_AT POLY_WAVE
-%token QUICK_COLOUR RADIUS
+%token PARALLEL PHASE PHONG PHONG_SIZE PHOTONS PIGMENT PIGMENT_MAP POINT_AT POLY_WAVE QUICK_COLOUR RADIUS
 %token REFLECTION
 %token REFLECTION_EXPONENT REFRACTION RIGHT ROTATE ROUGHNESS SCALE SHADOWLESS SKY SKY_SPHERE SMOOTH_TRIANGLE
 %token SPECULAR SPOTLIGHT SRGB TEXTURE TEXTURE_LIST TEXTURE_MAP TIGHTNESS TRANSFORM TRANSLATE TRIANGLE TURBULENCE UP
@@ -704,19 +703,20 @@ camera_body
       $$ = std::make_shared<CameraDefinition>(session.builder.default_camera);
     }
   | camera_body CAMERA_ID          { $$ = std::make_shared<CameraDefinition>(*$2); }
-  | camera_body PERSPECTIVE        { $$ = $1; $$->kind = Camera::Kind::perspective; }
-  | camera_body ORTHOGRAPHIC       { $$ = $1; $$->kind = Camera::Kind::orthographic; }
+  | camera_body CAMERA_KIND        { $$ = $1; set_kind(*$$, $2); }
+  | camera_body SHAPE number       { $$ = $1; set_kind(session, *$$, $2, $3, @2); }
   | camera_body LOCATION quantity  { $$ = $1; $$->location = session.vector($3, @3); }
   | camera_body DIRECTION quantity { $$ = $1; $$->direction = session.vector($3, @3); }
   | camera_body RIGHT quantity     { $$ = $1; $$->right = session.vector($3, @3); }
   | camera_body UP quantity        { $$ = $1; $$->up = session.vector($3, @3); }
   | camera_body SKY quantity       { $$ = $1; $$->sky = session.vector($3, @3); }
   | camera_body LOOK_AT quantity   { $$ = $1; $$->look_at = session.vector($3, @3); }
-  | camera_body ANGLE number       { $$ = $1; $$->angle = $3; }
+  | camera_body ANGLE number       { $$ = $1; $$->angle = $3; $$->vertical_angle.reset(); }
+  | camera_body ANGLE number optional_comma number { $$ = $1; set_angles(session, *$$, $3, $5, @5); }
   | camera_body APERTURE number    { $$ = $1; mark($$->unsupported, unless_zero("'aperture'", $3, @2)); }
   | camera_body IGNORED_NUMBER quantity { $$ = $1; }
   | camera_body transformation     { $$ = $1; $$->transform = $$->transform.then($2); }
-  | camera_body unsupported        { $$ = $1; mark($$->unsupported, $2); }
+  | camera_body unsupported_modifier { $$ = $1; mark($$->unsupported, $2); }
   ;
 
 // ---- Objects ----
@@ -972,6 +972,9 @@ unsupported_pattern // a pigment's, normal's or texture's
   : unsupported_modifier
   | UNSUPPORTED_OBJECT { $$ = unsupported_rest(session, quoted(session, $1), @1); }
   | OBJECT             { $$ = unsupported_rest(session, "an object pattern", @1); }
+  | CAMERA_KIND { // that of a pattern
+      $$ = unsupported_rest(session, '\'' + std::string(camera_kind_names()[std::size_t($1)]) + '\'', @1);
+    }
   ;
 
 unsupported_modifier // an object's: in CSG an unsupported object is one of its parts

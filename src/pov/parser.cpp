@@ -50,6 +50,7 @@ struct Deliver {
     case token::T_PATTERN_OPTION:
     case token::T_PATTERN_FLAG:
     case token::T_WAVE:
+    case token::T_CAMERA_KIND:
       target.emplace<int>(terminal.detail);
       break;
     case token::T_UNSUPPORTED:

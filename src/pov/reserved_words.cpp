@@ -1,5 +1,6 @@
 #include "pov/reserved_words.hpp"
 
+#include "pov/camera.hpp"
 #include "pov/constants.hpp"
 #include "pov/functions.hpp"
 #include "pov/grammar.hpp"
@@ -102,9 +103,7 @@ const Word kWords[] = {
     {"octaves", tokens::T_OCTAVES},
     {"omega", tokens::T_OMEGA},
     {"open", tokens::T_OPEN},
-    {"orthographic", tokens::T_ORTHOGRAPHIC},
     {"parallel", tokens::T_PARALLEL},
-    {"perspective", tokens::T_PERSPECTIVE},
     {"phase", tokens::T_PHASE},
     {"phong", tokens::T_PHONG},
     {"phong_size", tokens::T_PHONG_SIZE},
@@ -315,7 +314,6 @@ const char* const kUnsupportedWords[] = {
     "facets",
     "fade_color",
     "fade_colour",
-    "fisheye",
     "flatness",
     "flip",
     "fog_alt",
@@ -355,11 +353,9 @@ const char* const kUnsupportedWords[] = {
     "no_image",
     "no_reflection",
     "now",
-    "omnimax",
     "once",
     "orient",
     "orientation",
-    "panoramic",
     "pass_through",
     "pattern",
     "pgm",
@@ -402,7 +398,6 @@ const char* const kUnsupportedWords[] = {
     "turb_depth",
     "type",
     "u_steps",
-    "ultra_wide_angle",
     "use_alpha",
     "use_color",
     "use_colour",
@@ -454,6 +449,8 @@ std::vector<ReservedWord> reserved_words() {
   for (const PatternOption& option : pattern_options())
     words.push_back(
         {option.word, option.has_value ? tokens::T_PATTERN_OPTION : tokens::T_PATTERN_FLAG, number++, false});
+  for (const char* kind : camera_kind_names())
+    words.push_back({kind, tokens::T_CAMERA_KIND, number++, false});
   return words;
 }
 

@@ -7,7 +7,9 @@
 
 namespace celltrace::kernel {
 
-FieldList<&CameraRecord::origin, &CameraRecord::base, &CameraRecord::dx, &CameraRecord::dy>
+FieldList<&CameraRecord::origin, &CameraRecord::kind, &CameraRecord::base, &CameraRecord::bend,
+          &CameraRecord::dx, &CameraRecord::middle_x, &CameraRecord::dy, &CameraRecord::middle_y,
+          &CameraRecord::step_x, &CameraRecord::step_y, &CameraRecord::unused>
 fields_of(const CameraRecord&);
 
 FieldList<&GridRecord::min, &GridRecord::cell_offset, &GridRecord::max, &GridRecord::list_offset,
@@ -15,26 +17,25 @@ FieldList<&GridRecord::min, &GridRecord::cell_offset, &GridRecord::max, &GridRec
           &GridRecord::list_count, &GridRecord::cells, &GridRecord::row_of_cells>
 fields_of(const GridRecord&);
 
-FieldList<&BvhRecord::node_offset, &BvhRecord::node_capacity, &BvhRecord::node_count,
-          &BvhRecord::list_offset>
+FieldList<&BvhRecord::node_offset, &BvhRecord::node_capacity, &BvhRecord::node_count, &BvhRecord::list_offset>
 fields_of(const BvhRecord&);
 
-FieldList<&FrameBlock::camera, &FrameBlock::grid, &FrameBlock::bvh, &FrameBlock::image,
-          &FrameBlock::surface, &FrameBlock::units, &FrameBlock::costs, &FrameBlock::strips,
-          &FrameBlock::reports, &FrameBlock::ray_stack, &FrameBlock::sort_buffer, &FrameBlock::prepare_spes,
+FieldList<&FrameBlock::camera, &FrameBlock::grid, &FrameBlock::bvh, &FrameBlock::image, &FrameBlock::surface,
+          &FrameBlock::units, &FrameBlock::costs, &FrameBlock::strips, &FrameBlock::reports,
+          &FrameBlock::ray_stack, &FrameBlock::sort_buffer, &FrameBlock::prepare_spes,
           &FrameBlock::prepare_step, &FrameBlock::width, &FrameBlock::height, &FrameBlock::packet_columns,
           &FrameBlock::packet_rows, &FrameBlock::bundle_columns, &FrameBlock::bundle_rows,
           &FrameBlock::surface_pitch, &FrameBlock::sort_capacity, &FrameBlock::ray_stack_nodes,
-          &FrameBlock::orthographic, &FrameBlock::object_offset, &FrameBlock::object_count,
-          &FrameBlock::light_offset, &FrameBlock::light_count, &FrameBlock::max_trace_level,
-          &FrameBlock::adc_bailout, &FrameBlock::gamma_encoding, &FrameBlock::assumed_gamma,
-          &FrameBlock::background, &FrameBlock::epoch, &FrameBlock::cache_ways, &FrameBlock::cache_sets,
+          &FrameBlock::object_offset, &FrameBlock::object_count, &FrameBlock::light_offset,
+          &FrameBlock::light_count, &FrameBlock::max_trace_level, &FrameBlock::adc_bailout,
+          &FrameBlock::gamma_encoding, &FrameBlock::assumed_gamma, &FrameBlock::background,
+          &FrameBlock::epoch, &FrameBlock::cache_ways, &FrameBlock::cache_sets,
           &FrameBlock::cache_replacement, &FrameBlock::cache_enabled, &FrameBlock::unit_count,
           &FrameBlock::exchange_parameter, &FrameBlock::camera_interior_count, &FrameBlock::accelerator,
           &FrameBlock::camera_interiors, &FrameBlock::group_offset, &FrameBlock::group_count,
           &FrameBlock::longest_group, &FrameBlock::prototype_offset, &FrameBlock::units_per_word,
-          &FrameBlock::wide_leaves, &FrameBlock::far_nodes,
-          &FrameBlock::unbounded_count, &FrameBlock::sky, &FrameBlock::unused>
+          &FrameBlock::wide_leaves, &FrameBlock::far_nodes, &FrameBlock::unbounded_count, &FrameBlock::sky,
+          &FrameBlock::unused>
 fields_of(const FrameBlock&);
 
 FieldList<&UnitRecord::column, &UnitRecord::row, &UnitRecord::bundles> fields_of(const UnitRecord&);
@@ -42,10 +43,11 @@ FieldList<&UnitRecord::column, &UnitRecord::row, &UnitRecord::bundles> fields_of
 FieldList<&StripRecord::begin, &StripRecord::end, &StripRecord::unused> fields_of(const StripRecord&);
 
 FieldList<&ReportRecord::primary_rays, &ReportRecord::shadow_rays, &ReportRecord::reflection_rays,
-          &ReportRecord::refraction_rays, &ReportRecord::tests, &ReportRecord::accelerator_visits, &ReportRecord::cache_hits,
-          &ReportRecord::cache_misses, &ReportRecord::dropped_rays, &ReportRecord::packets,
-          &ReportRecord::exchanges, &ReportRecord::units_received, &ReportRecord::busy_ticks,
-          &ReportRecord::spilled_nodes, &ReportRecord::list_entries, &ReportRecord::unused>
+          &ReportRecord::refraction_rays, &ReportRecord::tests, &ReportRecord::accelerator_visits,
+          &ReportRecord::cache_hits, &ReportRecord::cache_misses, &ReportRecord::dropped_rays,
+          &ReportRecord::packets, &ReportRecord::exchanges, &ReportRecord::units_received,
+          &ReportRecord::busy_ticks, &ReportRecord::spilled_nodes, &ReportRecord::list_entries,
+          &ReportRecord::unused>
 fields_of(const ReportRecord&);
 
 } // namespace celltrace::kernel

@@ -2,12 +2,15 @@
 
 #include "celltrace/balance.hpp"
 #include "celltrace/error.hpp"
+#include "kernel/cameras/list.hpp"
+#include "kernel/direct/door.hpp"
 #include "scene/surface_records.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include <glm/geometric.hpp>
 
@@ -61,6 +64,42 @@ bool is_inside(const Medium& medium, const Vec3& point) {
   }
   const Vec3 local = transform.inverse().point(point) - sphere.centre;
   return local.x * local.x + local.y * local.y + local.z * local.z < sphere.radius * sphere.radius;
+}
+
+void set_flat(FrameBlock& frame, const Camera& camera, bool parallel) {
+  const double w = frame.width;
+  const double h = frame.height;
+  const Vec3 corner = camera.right * (0.5 / w - 0.5) + camera.up * (0.5 - 0.5 / h);
+  store(parallel ? camera.direction : camera.location, frame.camera.origin);
+  store((parallel ? camera.location : camera.direction) + corner, frame.camera.base);
+  store(camera.right / w, frame.camera.dx);
+  store(-camera.up / h, frame.camera.dy);
+}
+
+/// A vector of no length stays that.
+Vec3 unit(const Vec3& v) {
+  const double length = glm::length(v);
+  return length > 0 ? v / length : v;
+}
+
+template <class Kind> void set_curved(FrameBlock& frame, const Camera& camera) {
+  constexpr double kRadiansPerDegree = std::numbers::pi / 180;
+  const CameraPicture picture =
+      Kind::picture({camera.angle * kRadiansPerDegree, camera.vertical_angle * kRadiansPerDegree,
+                     glm::length(camera.right), glm::length(camera.up)});
+  const auto axis = [](const Vec3& v) { return Kind::kHasUnitAxes ? unit(v) : v; };
+  CameraRecord& record = frame.camera;
+  store(camera.location, record.origin);
+  store(axis(camera.direction), record.base);
+  store(axis(camera.right), record.dx);
+  store(axis(camera.up), record.dy);
+  const double step_x = 2 * picture.half_width / frame.width;
+  const double step_y = 2 * picture.half_height / frame.height;
+  record.middle_x = static_cast<float>(0.5 * frame.width - 0.5);
+  record.middle_y = static_cast<float>(0.5 * frame.height - 0.5 + (step_y > 0 ? picture.middle / step_y : 0));
+  record.step_x = static_cast<float>(step_x);
+  record.step_y = static_cast<float>(step_y);
+  record.bend = static_cast<float>(picture.bend);
 }
 
 /// Whether what a ray is in can make a difference where it hits the material. Maps are taken for ones with
@@ -148,15 +187,15 @@ std::vector<Medium> media_of(const Scene& scene) {
 
 void set_camera(FrameBlock& frame, const Camera& camera, const std::vector<Medium>& media,
                 const SceneImage& image) {
-  const double w = frame.width;
-  const double h = frame.height;
-  const bool orthographic = camera.kind == Camera::Kind::orthographic;
-  const Vec3 corner = camera.right * (0.5 / w - 0.5) + camera.up * (0.5 - 0.5 / h);
-  frame.orthographic = orthographic ? 1 : 0;
-  store(orthographic ? camera.direction : camera.location, frame.camera.origin);
-  store((orthographic ? camera.location : camera.direction) + corner, frame.camera.base);
-  store(camera.right / w, frame.camera.dx);
-  store(-camera.up / h, frame.camera.dy);
+  frame.camera = CameraRecord{};
+  frame.camera.kind = static_cast<std::uint32_t>(camera.kind);
+  Cameras::dispatch(frame.camera.kind, [&](auto kind) {
+    using Kind = decltype(kind);
+    if constexpr (Kind::kIsFlat)
+      set_flat(frame, camera, Kind::kShared == SharedByRays::direction);
+    else
+      set_curved<Kind>(frame, camera);
+  });
 
   std::vector<std::pair<double, std::uint32_t>> around;
   for (const Medium& medium : media) {

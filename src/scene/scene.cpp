@@ -146,6 +146,8 @@ Index Scene::add(const Interior& interior) {
 
 void validate(const Camera& camera) {
   check_vectors({camera.location, camera.direction, camera.right, camera.up}, {"the camera"});
+  check_finite({camera.angle, camera.vertical_angle}, {"the camera"});
+  if (camera.angle < 0 || camera.vertical_angle < 0) throw InputError("the camera has a negative angle");
 }
 
 void validate(const Scene& scene) {

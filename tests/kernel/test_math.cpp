@@ -100,6 +100,33 @@ TEST_CASE("acos_unit") {
             1, [] { return 1; }, function, error) == 0);
 }
 
+TEST_CASE("sin_cos") {
+  Random random(12);
+  const auto sine = [](const F& x) {
+    F s, c;
+    sin_cos<Simd>(x, s, c);
+    return s;
+  };
+  const auto cosine = [](const F& x) {
+    F s, c;
+    sin_cos<Simd>(x, s, c);
+    return c;
+  };
+  const auto sine_error = [](double x, double y) { return y - std::sin(x); };
+  const auto cosine_error = [](double x, double y) { return y - std::cos(x); };
+  const auto small = [&] { return random.uniform(-100, 100); };
+  CHECK(worst(50000, small, sine, sine_error) < 2e-7);
+  CHECK(worst(50000, small, cosine, cosine_error) < 2e-7);
+  const auto near_zero = [&] { return random.uniform(-1e-3, 1e-3); };
+  CHECK(worst(1000, near_zero, sine, sine_error) < 1e-10);
+  CHECK(worst(1000, near_zero, cosine, cosine_error) < 1e-7);
+  const auto large = [&] { return random.uniform(-8000, 8000); };
+  CHECK(worst(50000, large, sine, sine_error) < 5e-4);
+  CHECK(worst(50000, large, cosine, cosine_error) < 5e-4);
+  CHECK(worst(
+            1, [] { return 0; }, cosine, cosine_error) == 0);
+}
+
 TEST_CASE("normalise") {
   Random random(6);
   for (int k = 0; k < 5000; ++k) {

@@ -84,7 +84,7 @@ TEST_CASE("transformations come last") {
 
 TEST_CASE("the last camera is the scene's") {
   const auto scene =
-      parse("camera { fisheye angle 90 } #declare C = camera { location x } camera { C location 2*x }");
+      parse("camera { mesh_camera { 1, 0 } } #declare C = camera { location x } camera { C location 2*x }");
   CHECK(near(scene.camera.location, {2, 0, 0}));
 }
 
@@ -92,7 +92,6 @@ TEST_CASE("cameras that cannot be") {
   CHECK(error_line("camera { angle 180 }") ==
         "scene.pov:1:1: error: a camera's angle must lie between 0 and 180 degrees");
   CHECK(error_line("camera { direction 0 }") == "scene.pov:1:1: error: the camera has no direction");
-  CHECK(error_line("camera { fisheye }") == "scene.pov:1:10: error: 'fisheye' is not supported yet");
   CHECK(error_line("camera { aperture 0.4 blur_samples 10 }") ==
         "scene.pov:1:10: error: 'aperture' is not supported yet");
 }
@@ -101,4 +100,52 @@ TEST_CASE("an orthographic camera has the size of right and up before version 3.
   const std::string scene = "camera { orthographic location -5 * z look_at 0 angle 30 }";
   CHECK(parse("#version 3.1; " + scene).camera.right.x == Approx(1.33));
   CHECK(parse("#version 3.5; " + scene).camera.right.x > 2);
+}
+
+TEST_CASE("kinds of cameras by their words") {
+  using Kind = Camera::Kind;
+  CHECK(camera("perspective").kind == Kind::perspective);
+  CHECK(camera("spherical").kind == Kind::spherical);
+  CHECK(camera("ultra_wide_angle").kind == Kind::ultra_wide_angle);
+  CHECK(camera("omnimax").kind == Kind::omnimax);
+  CHECK(camera("panoramic").kind == Kind::panoramic);
+  CHECK(camera("cylinder 1").kind == Kind::cylinder_1);
+  CHECK(camera("cylinder 2").kind == Kind::cylinder_2);
+  CHECK(camera("cylinder 3.9 angle 20").kind == Kind::cylinder_3);
+  CHECK(camera("cylinder 4").kind == Kind::cylinder_4);
+  CHECK(camera("fisheye").kind == Kind::fisheye);
+  CHECK(camera("spherical perspective").kind == Kind::perspective);
+}
+
+TEST_CASE("the angles of cameras whose pictures are not flat") {
+  CHECK(camera("ultra_wide_angle").angle == 90);
+  const Camera wide = camera("ultra_wide_angle angle 300 direction 2*z");
+  CHECK(wide.angle == 300);
+  CHECK(near(wide.direction, {0, 0, 2}));
+  CHECK(camera("cylinder 1 angle 0").angle == 0);
+  const Camera all_round = camera("spherical");
+  CHECK(all_round.angle == 360);
+  CHECK(all_round.vertical_angle == 180);
+  CHECK(camera("spherical angle 120").vertical_angle == 60);
+  const Camera both = camera("spherical angle 120 90 location x");
+  CHECK(both.angle == 120);
+  CHECK(both.vertical_angle == 90);
+  CHECK(both.location == Vec3(1, 0, 0));
+  CHECK(camera("spherical angle 120, 90").vertical_angle == 90);
+  CHECK(camera("spherical angle 120, 90 angle 100").vertical_angle == 50);
+  CHECK(near(camera("spherical right -x look_at x").right, {0, 0, 1}));
+}
+
+TEST_CASE("what cameras of other kinds cannot have") {
+  const auto refusal = [](const std::string& fields) { return error_line("camera { " + fields + " }"); };
+  CHECK(refusal("ultra_wide_angle angle 100, 50") ==
+        "scene.pov:1:38: error: only a spherical camera has a second angle");
+  CHECK(refusal("cylinder 5") == "scene.pov:1:10: error: cameras on a cylinder are of type 1, 2, 3 or 4");
+  CHECK(refusal("cylinder 0") == "scene.pov:1:10: error: cameras on a cylinder are of type 1, 2, 3 or 4");
+  CHECK(refusal("sphere 1") == "scene.pov:1:10: error: there is no camera of this shape");
+  CHECK(refusal("spherical angle -5") == "scene.pov:1:1: error: a camera's angle must not be negative");
+  CHECK(refusal("spherical angle 5, -5") == "scene.pov:1:1: error: a camera's angle must not be negative");
+  CHECK(refusal("mesh_camera { 1, 0 }") == "scene.pov:1:10: error: 'mesh_camera' is not supported yet");
+  CHECK(error_line("sphere { 0, 1 pigment { spherical } }") ==
+        "scene.pov:1:25: error: 'spherical' is not supported yet");
 }

@@ -6,6 +6,8 @@
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 
+#include "reference/camera.hpp"
+
 namespace celltrace::reference {
 
 namespace {
@@ -16,13 +18,6 @@ constexpr double kShadowTolerance = 1e-3;
 
 double max_component(const Vec3& v) {
   return std::max({v.x, v.y, v.z});
-}
-
-Ray camera_ray(const Camera& camera, double x, double y) {
-  const Vec3 offset = camera.right * (x - 0.5) + camera.up * (0.5 - y);
-  if (camera.kind == Camera::Kind::orthographic)
-    return {camera.location + offset, glm::normalize(camera.direction)};
-  return {camera.location, glm::normalize(camera.direction + offset)};
 }
 
 /// What adaptive depth control takes for the strength of a reflection.
@@ -58,7 +53,8 @@ Image Tracer::render(int width, int height) const {
   Image image(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
-      const Vec3 colour = see(camera_ray(scene_.camera, (x + 0.5) / width, (y + 0.5) / height));
+      const std::optional<Ray> ray = camera_ray(scene_.camera, (x + 0.5) / width, (y + 0.5) / height);
+      const Vec3 colour = ray ? see(*ray) : Vec3(0);
       for (int i = 0; i < 3; ++i)
         image.pixel(x, y)[i] = encode(colour[i], scene_.gamma_mode, scene_.assumed_gamma);
     }

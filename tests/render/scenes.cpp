@@ -250,6 +250,16 @@ Scene kinds_of_lights() {
   return scene;
 }
 
+/// Seen by a camera that has no ray in some of the pixels, and in some packets none at all.
+Scene dome() {
+  Scene scene = scene_named("kinds of lights");
+  scene.background = {0.3, 0.4, 0.9};
+  scene.camera.kind = Camera::Kind::omnimax;
+  scene.camera.right = glm::normalize(scene.camera.right) * 0.8;
+  scene.camera.up = glm::normalize(scene.camera.up);
+  return scene;
+}
+
 } // namespace
 
 const std::vector<NamedScene>& scenes() {
@@ -258,6 +268,7 @@ const std::vector<NamedScene>& scenes() {
                                               {"ellipsoids", ellipsoids},
                                               {"meshes", meshes},
                                               {"kinds of lights", kinds_of_lights},
+                                              {"dome", dome},
                                               {"legacy orthographic", legacy_orthographic},
                                               {"half mirrors", half_mirrors},
                                               {"inside glass", inside_glass},
@@ -265,6 +276,22 @@ const std::vector<NamedScene>& scenes() {
                                               {"dark", dark},
                                               {"flat, gamma 2.2", flat_gamma}};
   return all;
+}
+
+Scene overlapping_triangles() {
+  Scene scene = with_camera(camera_at({0, 3, -9}, {0, 0, 0}));
+  const std::vector<Vec3f> corners[2] = {{{-9, 0, -9}, {9, 0, -9}, {0, 0, 9}},
+                                         {{-8, 0, -8}, {8, 0, -9}, {1, 0, 9}}};
+  for (int i = 0; i < 2; ++i) {
+    Mesh mesh;
+    mesh.vertices = corners[i];
+    mesh.triangles.resize(1);
+    for (Index corner = 0; corner < 3; ++corner)
+      mesh.triangles[0].vertex[corner] = corner;
+    scene.objects.push_back(
+        mesh_object(mesh, scene.add(matte({1.0 * (i == 0), 1.0 * (i == 1), 0})), new_interior(scene)));
+  }
+  return scene;
 }
 
 Scene scene_named(const std::string& name) {

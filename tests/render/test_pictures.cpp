@@ -1,6 +1,7 @@
 // The pictures: the same from every backend with any number of SPEs, and close to those of the reference
 // tracer.
 #include "celltrace/image.hpp"
+#include "kernel/cameras/list.hpp"
 #include "reference/tracer.hpp"
 #include "render/backends.hpp"
 #include "render/scenes.hpp"
@@ -40,6 +41,25 @@ TEST_CASE("Pictures come close to the reference tracer's") {
   }
 }
 
+TEST_CASE("Every kind of camera") {
+  Scene scene = scene_named("glass and mirrors");
+  const Camera perspective = scene.camera;
+  for (std::uint32_t kind = 0; kind < kernel::Cameras::kCount; ++kind) {
+    INFO(kernel::Cameras::kNames[kind]);
+    scene.camera = perspective;
+    scene.camera.kind = static_cast<Camera::Kind>(kind);
+    scene.camera.angle = 150;
+    scene.camera.vertical_angle = 120;
+    if (scene.camera.kind == Camera::Kind::orthographic) scene.camera.right *= 4, scene.camera.up *= 4;
+    const Image expected = reference::Tracer(scene).render(kWidth, kHeight);
+    for (const Backend& backend : {backends().front(), backends().back()}) {
+      const Comparison comparison = compare_images(expected, render_on(backend, 2, scene));
+      INFO(backend.spu() << ": " << to_text(comparison));
+      CHECK(comparison.psnr >= 55);
+    }
+  }
+}
+
 TEST_CASE("More lights than a bundle of packets searches for, some of them shadowless") {
   Scene scene = scene_named("glass and mirrors");
   for (int i = 0; i < 6; ++i) {
@@ -68,6 +88,18 @@ TEST_CASE("Every backend with any number of SPEs renders the same picture") {
         CHECK(render_on(backend, spes, scene) == expected);
       }
   }
+}
+
+TEST_CASE("Triangles of one plane that overlap look the same everywhere") {
+  const Scene scene = overlapping_triangles();
+  const Image expected = render_on(backends().front(), 1, scene);
+  for (const Accelerator accelerator : {Accelerator::bvh, Accelerator::grid})
+    for (const Backend& backend : backends()) {
+      INFO(backend.spu());
+      RenderOptions options = backend.options(kWidth, kHeight, 2);
+      options.accelerator = accelerator;
+      CHECK(render(scene, options).image == expected);
+    }
 }
 
 namespace {

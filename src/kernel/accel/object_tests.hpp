@@ -167,6 +167,17 @@ public:
     S::select(closer, candidate, present).store(objects);
   }
 
+  /// Lanes whose near or far crossing lies between their origin and the light.
+  struct ShadowHits {
+    uint32_t near, far;
+  };
+  static ShadowHits shadow_hits(const Crossings<S>& c, const FloatLanes& distance) {
+    const F low(kShadowEpsilon);
+    const F high = F::load(distance.lane) - low;
+    return {(c.near_hit & (c.near > low) & (c.near < high)).bits(),
+            (c.far_hit & (c.far > low) & (c.far < high)).bits()};
+  }
+
   /// Whether an object is a triangle that is no part of a CSG.
   static bool is_plain_triangle(uint32_t flags) {
     return (flags & (object_flag::kind_mask | object_flag::csg)) ==
@@ -189,17 +200,6 @@ public:
   void reset_counters() { counters_ = TraversalCounters(); }
 
 private:
-  /// Lanes whose near or far crossing lies between their origin and the light.
-  struct ShadowHits {
-    uint32_t near, far;
-  };
-  static ShadowHits shadow_hits(const Crossings<S>& c, const FloatLanes& distance) {
-    const F low(kShadowEpsilon);
-    const F high = F::load(distance.lane) - low;
-    return {(c.near_hit & (c.near > low) & (c.near < high)).bits(),
-            (c.far_hit & (c.far > low) & (c.far < high)).bits()};
-  }
-
   /// Spheres, triangles and planes that are no parts of a CSG: their code is always there, and their test
   /// reads no further record.
   static bool is_simple(uint32_t flags) {

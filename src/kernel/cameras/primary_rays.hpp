@@ -1,7 +1,9 @@
 // Render ray packet: the sixteen rays through a 4x4 block of pixels. Kernel dialect.
 #pragma once
 
+#include "kernel/cameras/list.hpp"
 #include "kernel/direct/bundle_view.hpp"
+#include "kernel/modules.hpp"
 
 namespace celltrace::kernel {
 
@@ -10,22 +12,62 @@ alignas(64) constexpr float kLaneX[kSimdLanes] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 
 alignas(64) constexpr float kLaneY[kSimdLanes] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
 } // namespace detail
 
-/// Rays of the packet at (column, row), both counted in packets.
-template <class S>
-void make_primary_rays(const FrameBlock& frame, uint32_t column, uint32_t row, RayPacket& rays) {
+namespace module_cameras {
+
+/// The rays of a curved camera; returns the lanes that have one.
+template <class Spu>
+[[gnu::noinline]] uint32_t bend(Spu& spu, const CameraRecord& camera, uint32_t column, uint32_t row,
+                                RayPacket& packet) {
+  using S = typename Spu::simd;
+  using F = typename S::F;
+  spu.run_in_module(modules::kCameras);
+  CameraRays<S> rays;
+  rays.origin = splat3<S>(camera.origin);
+  rays.x = (F::load(detail::kLaneX) + F(static_cast<float>(column * kPacketEdge) - camera.middle_x)) *
+           F(camera.step_x);
+  rays.y = (F(camera.middle_y - static_cast<float>(row * kPacketEdge)) - F::load(detail::kLaneY)) *
+           F(camera.step_y);
+  uint32_t lanes = 0xFFFF;
+  Cameras::dispatch(camera.kind, [&](auto kind) {
+    if constexpr (!decltype(kind)::kIsFlat) lanes = decltype(kind)::template bend<S>(camera, rays);
+  });
+  packet.origin.template store<S>(rays.origin);
+  packet.direction.template store<S>(normalise<S>(rays.direction));
+  return lanes;
+}
+
+} // namespace module_cameras
+
+/// Rays of the packet at (column, row), both counted in packets. Returns the lanes that have one: not all
+/// cameras see something in every pixel. What those do not see is black.
+template <class Spu>
+uint32_t make_primary_rays(Spu& spu, const FrameBlock& frame, uint32_t column, uint32_t row,
+                           RayPacket& packet) {
+  using S = typename Spu::simd;
   using F = typename S::F;
   const CameraRecord& camera = frame.camera;
+  for (uint32_t lane = 0; lane < kSimdLanes; ++lane)
+    packet.start_object.lane[lane] = kNoOffset;
+  bool flat = false, parallel = false;
+  Cameras::dispatch(camera.kind, [&](auto kind) {
+    flat = decltype(kind)::kIsFlat;
+    parallel = decltype(kind)::kShared == SharedByRays::direction;
+  });
+  if (!flat) {
+    spu.enter_module(modules::kCameras);
+    return module_cameras::bend(spu, camera, column, row, packet);
+  }
   const F x = F::load(detail::kLaneX) + F(static_cast<float>(column * kPacketEdge));
   const F y = F::load(detail::kLaneY) + F(static_cast<float>(row * kPacketEdge));
   const V3<S> through = splat3<S>(camera.base) + splat3<S>(camera.dx) * x + splat3<S>(camera.dy) * y;
   const V3<S> fixed = splat3<S>(camera.origin);
-  rays.origin.template store<S>(frame.orthographic != 0 ? through : fixed);
-  rays.direction.template store<S>(normalise<S>(frame.orthographic != 0 ? fixed : through));
-  for (uint32_t lane = 0; lane < kSimdLanes; ++lane)
-    rays.start_object.lane[lane] = kNoOffset;
+  packet.origin.template store<S>(parallel ? through : fixed);
+  packet.direction.template store<S>(normalise<S>(parallel ? fixed : through));
+  return 0xFFFF;
 }
 
-/// The primary rays of a bundle of 4x4 packets, if they leave one point into one octant; else of no packets.
+/// The primary rays of a bundle of 4x4 packets, if they leave one point through a plane into one octant; else
+/// of no packets.
 template <class S> class PinholeBundle : public ViewBundle<S> {
 public:
   using F = typename S::F;
@@ -35,7 +77,7 @@ public:
   F shortening; ///< of unit directions: none is longer on the major axis
 
   PinholeBundle(const FrameBlock& frame, uint32_t column, uint32_t row) {
-    if (frame.orthographic != 0) return;
+    if (!is_pinhole(frame.camera)) return;
     const CameraRecord& camera = frame.camera;
     constexpr float kBundle = kPacketEdge * kPacketEdge; // pixels
     const float middle_x = (static_cast<float>(column) + 0.5f) * kBundle;

@@ -59,9 +59,9 @@ private:
     slot.job.live = 1;
     slot.job.column = column_;
     slot.job.row = row_;
-    make_primary_rays<S>(frame_, column_, row_, slot.search.rays);
+    slot.search.lanes = lanes_in_picture(frame_, column_, row_) &
+                        make_primary_rays(spu_, frame_, column_, row_, slot.search.rays);
     slot.search.kind = static_cast<uint32_t>(SearchKind::closest);
-    slot.search.lanes = lanes_in_picture(frame_, column_, row_);
     slot.search.primary = 1;
     spu_.put(&slot.job, sender_.job(context), sizeof(JobRecord) + search_part::question, tag);
     sender_.send(context, slot.word, tag);

@@ -11,6 +11,7 @@ namespace celltrace::kernel {
 template <class Spu, uint32_t kAccelerators = kAnyAccelerator> class BundleTracer {
 public:
   using S = typename Spu::simd;
+  using F = typename S::F;
 
   /// `spill`: room for FrameBlock::ray_stack_nodes nodes.
   BundleTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, ea_t spill)
@@ -23,7 +24,7 @@ public:
   /// is in the picture.
   template <class Put, class Fill>
   void trace(uint32_t column, uint32_t row, Put put, [[maybe_unused]] Fill fill) {
-    if constexpr (Spu::direct_memory) {
+    if constexpr (kHasBundleViews<Spu>) {
       const PinholeBundle<S> bundle(frame_, column, row);
       const bool missed = !traversal_.enter(bundle);
       const bool plain = frame_.sky == kNoOffset;
@@ -32,7 +33,7 @@ public:
       place(column, row);
       if (missed)
         return for_each_member([&](Member& member) {
-          if (!plain) make_primary_rays<S>(frame_, member.column, member.row, member.rays);
+          if (!plain) make_primary_rays(scene_.spu(), frame_, member.column, member.row, member.rays);
           put(member.column, member.row, tracer_.background(member.rays, member.lanes));
         });
       find_hits([&](RayQuery* queries) { traversal_.intersect(queries, bundle); });
@@ -44,7 +45,14 @@ public:
     for_each_light(scene_, frame_, 0, lights.count, [&](uint32_t number, const LightRecord& light) {
       if (!is_shadowless(light)) find_light(number, light);
     });
-    for_each_member([&](Member& member) { put(member.column, member.row, trace(member)); });
+    for_each_member([&](Member& member) {
+      V3<S> seen = trace(member);
+      if (member.lanes != member.pixels) {
+        const F black(0.0f);
+        seen = select<S>(S::M::from_bits(member.lanes), seen, {black, black, black});
+      }
+      put(member.column, member.row, seen);
+    });
   }
 
   void reset_counters() {
@@ -67,13 +75,14 @@ private:
     FloatLanes distance;
     VectorLanes light[kLightsARound]; ///< that comes to the points, of a round
     uint32_t column, row;
-    uint32_t lanes, hit; ///< in the picture; of them, those that hit something
+    uint32_t pixels;     ///< lanes in the picture
+    uint32_t lanes, hit; ///< of them, those that have a ray; of these, those that hit something
   };
 
   /// Calls `visit` with each packet in the picture.
   template <class Visit> void for_each_member(Visit visit) {
     for (uint32_t i = 0; i < kPackets; ++i)
-      if (members_[i].lanes != 0) visit(members_[i]);
+      if (members_[i].pixels != 0) visit(members_[i]);
   }
 
   bool is_whole(uint32_t column, uint32_t row) const {
@@ -86,7 +95,8 @@ private:
       member.column = column * kEdge + i % kEdge;
       member.row = row * kEdge + i / kEdge;
       const bool inside = member.column < frame_.packet_columns && member.row < frame_.packet_rows;
-      member.lanes = inside ? lanes_in_picture(frame_, member.column, member.row) : 0;
+      member.pixels = inside ? lanes_in_picture(frame_, member.column, member.row) : 0;
+      member.lanes = member.pixels;
     }
   }
 
@@ -95,8 +105,9 @@ private:
     RayQuery queries[kPackets];
     for (uint32_t i = 0; i < kPackets; ++i) {
       Member& member = members_[i];
+      if (member.pixels != 0)
+        member.lanes &= make_primary_rays(scene_.spu(), frame_, member.column, member.row, member.rays);
       queries[i] = {&member.rays, &member.hits, nullptr, nullptr, member.lanes};
-      if (member.lanes != 0) make_primary_rays<S>(frame_, member.column, member.row, member.rays);
     }
     run(queries);
     for (uint32_t i = 0; i < kPackets; ++i) {
@@ -133,7 +144,7 @@ private:
   /// The colours of a packet, of which the hits are known and the light of the first round.
   V3<S> trace(Member& member) {
     const LightRound first = LightRound::from(frame_, 0, member.light);
-    if constexpr (Spu::direct_memory) {
+    if constexpr (kHasRoomForCode<Spu>) {
       V3<S> colour;
       if (tracer_.ends_at_once(member.rays, member.lanes, member.hits, member.points, first, colour))
         return colour;

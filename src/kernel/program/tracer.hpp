@@ -215,7 +215,7 @@ private:
 
 /// Finds objects by a BVH; where memory is direct and code takes no local store, by what the frame asks for.
 template <class Spu> void tracer(Spu& spu, ea_t argument) {
-  Tracer<Spu, Spu::direct_memory ? kAnyAccelerator : kBvhOnly>(spu, argument).run();
+  Tracer<Spu, kHasRoomForCode<Spu> ? kAnyAccelerator : kBvhOnly>(spu, argument).run();
 }
 /// By a uniform grid, which it also builds.
 template <class Spu> void grid_tracer(Spu& spu, ea_t argument) {

@@ -1,0 +1,79 @@
+// Pictures on a cylinder, which stands or lies, seen from its middle or from its axis. Kernel dialect.
+#pragma once
+
+#include "kernel/cameras/camera_view.hpp"
+
+namespace celltrace::kernel {
+
+namespace detail {
+
+/// Columns are angles, rows heights.
+struct StandingCylinder {
+  static constexpr bool kIsFlat = false;
+  static constexpr bool kHasUnitAxes = true;
+  static constexpr CameraPicture picture(const CameraView& view) { return {view.angle / 2, view.height / 2}; }
+};
+/// Rows are angles, columns widths.
+struct LyingCylinder {
+  static constexpr bool kIsFlat = false;
+  static constexpr bool kHasUnitAxes = true;
+  static constexpr CameraPicture picture(const CameraView& view) { return {view.width / 2, view.angle / 2}; }
+};
+
+} // namespace detail
+
+/// POV-Ray's `cylinder 1`: standing, seen from a point.
+struct Cylinder1Camera : detail::StandingCylinder {
+  static constexpr const char* kName = "cylinder 1";
+  static constexpr SharedByRays kShared = SharedByRays::origin;
+
+  template <class S> static uint32_t bend(const CameraRecord& camera, CameraRays<S>& rays) {
+    typename S::F sine, cosine;
+    sin_cos<S>(rays.x, sine, cosine);
+    rays.direction = along_axes<S>(camera, sine, rays.y, cosine);
+    return 0xFFFF;
+  }
+};
+
+/// `cylinder 2`: lying, seen from a point.
+struct Cylinder2Camera : detail::LyingCylinder {
+  static constexpr const char* kName = "cylinder 2";
+  static constexpr SharedByRays kShared = SharedByRays::origin;
+
+  template <class S> static uint32_t bend(const CameraRecord& camera, CameraRays<S>& rays) {
+    typename S::F sine, cosine;
+    sin_cos<S>(rays.y, sine, cosine);
+    rays.direction = along_axes<S>(camera, rays.x, sine, cosine);
+    return 0xFFFF;
+  }
+};
+
+/// `cylinder 3`: standing, each row seen from its height.
+struct Cylinder3Camera : detail::StandingCylinder {
+  static constexpr const char* kName = "cylinder 3";
+  static constexpr SharedByRays kShared = SharedByRays::nothing;
+
+  template <class S> static uint32_t bend(const CameraRecord& camera, CameraRays<S>& rays) {
+    typename S::F sine, cosine;
+    sin_cos<S>(rays.x, sine, cosine);
+    rays.origin = rays.origin + splat3<S>(camera.dy) * rays.y;
+    rays.direction = along_axes<S>(camera, sine, typename S::F(0.0f), cosine);
+    return 0xFFFF;
+  }
+};
+
+/// `cylinder 4`: lying, each column seen from its place.
+struct Cylinder4Camera : detail::LyingCylinder {
+  static constexpr const char* kName = "cylinder 4";
+  static constexpr SharedByRays kShared = SharedByRays::nothing;
+
+  template <class S> static uint32_t bend(const CameraRecord& camera, CameraRays<S>& rays) {
+    typename S::F sine, cosine;
+    sin_cos<S>(rays.y, sine, cosine);
+    rays.origin = rays.origin + splat3<S>(camera.dx) * rays.x;
+    rays.direction = along_axes<S>(camera, typename S::F(0.0f), sine, cosine);
+    return 0xFFFF;
+  }
+};
+
+} // namespace celltrace::kernel

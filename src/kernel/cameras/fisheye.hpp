@@ -1,0 +1,28 @@
+// A round picture: what is so far from its middle is in a direction so far from the middle's. Kernel dialect.
+#pragma once
+
+#include "kernel/cameras/round_picture.hpp"
+
+namespace celltrace::kernel {
+
+struct FisheyeCamera {
+  static constexpr const char* kName = "fisheye";
+  static constexpr bool kIsFlat = false;
+  static constexpr bool kHasUnitAxes = true;
+  static constexpr SharedByRays kShared = SharedByRays::origin;
+
+  static constexpr CameraPicture picture(const CameraView& view) {
+    return {view.width, view.height, 0, view.angle / 2};
+  }
+
+  template <class S> static uint32_t bend(const CameraRecord& camera, CameraRays<S>& rays) {
+    using F = typename S::F;
+    const RoundPicture<S> at(rays);
+    F sine, cosine;
+    sin_cos<S>(at.radius * F(camera.bend), sine, cosine);
+    rays.direction = along_axes<S>(camera, at.right * sine, at.up * sine, cosine);
+    return at.lanes;
+  }
+};
+
+} // namespace celltrace::kernel

@@ -1,0 +1,36 @@
+// A fisheye's half dome as Omnimax projectors show it, cut off below. Kernel dialect.
+#pragma once
+
+#include "kernel/cameras/round_picture.hpp"
+
+namespace celltrace::kernel {
+
+struct OmnimaxCamera {
+  static constexpr const char* kName = "omnimax";
+  static constexpr bool kIsFlat = false;
+  static constexpr bool kHasUnitAxes = true;
+  static constexpr SharedByRays kShared = SharedByRays::origin;
+
+  /// The circle of radius 1 fits the width, and from an aspect ratio of 1 on its top is the picture's.
+  static constexpr CameraPicture picture(const CameraView& view) {
+    constexpr double kWidest = 1.283458; // at which the circle touches the sides
+    const double aspect = view.height > 0 ? view.width / view.height : 1;
+    if (aspect <= 1) return {1, aspect > 0 ? 1 / aspect : 0};
+    const double squeezed = aspect < kWidest ? aspect : kWidest;
+    return {aspect > kWidest ? aspect / kWidest : 1, 1 / squeezed, 1 - 1 / squeezed};
+  }
+
+  template <class S> static uint32_t bend(const CameraRecord& camera, CameraRays<S>& rays) {
+    using F = typename S::F;
+    const RoundPicture<S> at(rays);
+    const F r2 = at.radius * at.radius;
+    F sine, cosine;
+    sin_cos<S>(at.radius * (F(1.411269f) + r2 * (F(-0.09439f) + r2 * F(0.25674f))), sine, cosine);
+    const F up = at.up * sine;
+    rays.direction = along_axes<S>(camera, at.right * sine, up, cosine);
+    // Nothing more than 45 degrees below the horizon.
+    return at.lanes & (up + cosine >= F(0.0f)).bits();
+  }
+};
+
+} // namespace celltrace::kernel

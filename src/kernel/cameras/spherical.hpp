@@ -1,0 +1,37 @@
+// All around: columns are longitudes, rows latitudes. Kernel dialect.
+#pragma once
+
+#include "kernel/cameras/camera_view.hpp"
+
+namespace celltrace::kernel {
+
+struct SphericalCamera {
+  static constexpr const char* kName = "spherical";
+  static constexpr bool kIsFlat = false;
+  static constexpr bool kHasUnitAxes = true;
+  static constexpr SharedByRays kShared = SharedByRays::origin;
+
+  static constexpr CameraPicture picture(const CameraView& view) {
+    return {view.angle / 2, view.vertical_angle / 2};
+  }
+
+  /// As in POV-Ray, forward turns about right and then about up, whatever their angle is: a camera with the
+  /// other hand sees upside down.
+  template <class S> static uint32_t bend(const CameraRecord& camera, CameraRays<S>& rays) {
+    const typename S::F zero(0.0f);
+    rays.direction = turned<S>(splat3<S>(camera.base), splat3<S>(camera.dx), zero - rays.y);
+    rays.direction = turned<S>(rays.direction, splat3<S>(camera.dy), rays.x);
+    return 0xFFFF;
+  }
+
+private:
+  /// By Rodrigues's formula.
+  template <class S>
+  [[gnu::noinline]] static V3<S> turned(const V3<S>& v, const V3<S>& axis, const typename S::F& angle) {
+    typename S::F sine, cosine;
+    sin_cos<S>(angle, sine, cosine);
+    return v * cosine + cross<S>(axis, v) * sine + axis * (dot<S>(axis, v) * (typename S::F(1.0f) - cosine));
+  }
+};
+
+} // namespace celltrace::kernel
