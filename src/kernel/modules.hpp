@@ -34,4 +34,13 @@ constexpr CodeModule kCameras = {"cameras", 10, 1, 8192};
 constexpr CodeModule kTextures = {"textures", 9, 1, 12288};
 constexpr CodeModule kNormals = {"normals", 11, 1, 12288};
 
+// Of the third region: stages of which only one is under way. Rays are not traced while surfaces are shaded.
+
+/// Tests of objects that have a shape of the first region, or are parts of a CSG.
+constexpr CodeModule kObjects = {"objects", 12, 2, 10240};
+/// Shading of surfaces with textures, or of several materials.
+constexpr CodeModule kComposed = {"composed", 13, 2, 10240};
+/// Exchange of units of work with other SPEs.
+constexpr CodeModule kExchange = {"exchange", 14, 2, 6144};
+
 } // namespace celltrace::kernel::modules

@@ -72,6 +72,7 @@ public:
     scene_.spu().compute(scalar_work::kClosest);
     const ObjectRecord& object = *scene_.object(self);
     if (is_simple(object.kind_and_flags)) return keep_closest(test(rays, object, self), self, hits);
+    scene_.spu().enter_module(modules::kObjects);
     test_closest_of_other(rays, object, self, hits);
   }
 
@@ -106,7 +107,10 @@ public:
     const uint32_t material = object.material;
     if ((flags & object_flag::no_shadow) != 0) return 0;
     if ((flags & object_flag::opaque) != 0 && !hit_filter_.first_test(self)) return 0;
-    if (!is_simple(flags)) return occluded_by_other(rays, object, self, lanes, distance, light, segment);
+    if (!is_simple(flags)) {
+      scene_.spu().enter_module(modules::kObjects);
+      return occluded_by_other(rays, object, self, lanes, distance, light, segment);
+    }
     return occluded_by(rays, test(rays, object, self), flags, material, lanes, distance, light, segment);
   }
 
@@ -225,6 +229,7 @@ private:
 
   [[gnu::noinline]] void test_closest_of_other(const RayPacket& rays, const ObjectRecord& record,
                                                uint32_t self, HitPacket& hits) {
+    scene_.spu().run_in_module(modules::kObjects);
     const Other other(*this, rays, record, self);
     for (uint32_t pair = 0; pair < other.pairs; ++pair) {
       Crossings<S> c = other.crossings[pair];
@@ -240,6 +245,7 @@ private:
   [[gnu::noinline]] uint32_t occluded_by_other(const RayPacket& rays, const ObjectRecord& record,
                                                uint32_t self, uint32_t lanes, const FloatLanes& distance,
                                                VectorLanes& light, const RaySegment& segment) {
+    scene_.spu().run_in_module(modules::kObjects);
     const uint32_t flags = record.kind_and_flags, material = record.material;
     const Other other(*this, rays, record, self);
     uint32_t dark = 0;

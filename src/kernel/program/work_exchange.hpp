@@ -3,6 +3,7 @@
 #pragma once
 
 #include "celltrace/balance/strip.hpp"
+#include "kernel/modules.hpp"
 #include "kernel/records.hpp"
 
 namespace celltrace::kernel {
@@ -20,6 +21,7 @@ public:
     received_ = 0;
     until_report_ = units_per_report_ = frame.units_per_word;
     // Words that outlived their frame make room; those of a neighbour that is a frame ahead are kept.
+    spu_.enter_module(modules::kExchange);
     drain_mailbox();
     node_.begin_frame(frame.epoch, units, frame.exchange_parameter);
     spu_.write_event_mask(kDomain);
@@ -30,7 +32,10 @@ public:
   /// With the last one a node is dry and asks for more, so that answers come while it is at work.
   bool take_unit(uint32_t& unit) {
     if (!node_.take_unit(unit)) return false;
-    if (node_.remaining().empty()) act();
+    if (node_.remaining().empty()) {
+      spu_.enter_module(modules::kExchange);
+      act();
+    }
     return true;
   }
   void complete_unit() {
@@ -43,10 +48,13 @@ public:
 
   /// Handles what has arrived, without stalling. Cheap when nothing has.
   void poll() {
-    if (spu_.event_count() != 0) handle();
+    if (spu_.event_count() == 0) return;
+    spu_.enter_module(modules::kExchange);
+    handle();
   }
   /// Does what a dry node has to do, then stalls until something arrives.
   void wait() {
+    spu_.enter_module(modules::kExchange);
     act();
     if (node_.remaining().empty() && !over_) handle();
   }
@@ -63,6 +71,7 @@ private:
   /// The safe order of an event handler: mask, read, acknowledge, drain, unmask. A phantom event finds
   /// nothing to drain.
   [[gnu::noinline]] void handle() {
+    spu_.run_in_module(modules::kExchange);
     const uint32_t events = spu_.read_event_status();
     spu_.write_event_mask(0);
     spu_.acknowledge_events(events);

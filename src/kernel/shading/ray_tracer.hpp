@@ -85,7 +85,9 @@ public:
     if (plain != 0)
       spawn(surfaces, surfaces.normal, points.interior,
             shade(surfaces, points.interior, points.material, plain, F(1.0f)));
-    if (plain != hit) shade_composed(surfaces, points, hit & ~plain);
+    if (plain == hit) return;
+    scene_.spu().enter_module(modules::kComposed);
+    shade_composed(surfaces, points, hit & ~plain);
   }
   /// Goes on to the next node() of the tree. False: there is none, light() is complete.
   bool advance() {
@@ -161,6 +163,7 @@ private:
   /// surface would multiply the rays behind it.
   [[gnu::noinline]] void shade_composed(const Surfaces<S>& surfaces, const HitPoints<S>& points,
                                         uint32_t lanes) {
+    scene_.spu().run_in_module(modules::kComposed);
     const F u = F::load(hits_.u.lane);
     const F v = F::load(hits_.v.lane);
     const F weights[3] = {F(1.0f) - u - v, u, v};
