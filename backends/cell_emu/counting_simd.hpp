@@ -12,6 +12,7 @@ namespace celltrace::cell_emu {
 /// Decorates `Uncounted`, which computes.
 template <class Uncounted> struct CountingSimd {
   static constexpr std::uint32_t kWidth = Uncounted::kWidth;
+  static constexpr std::uint32_t kLanes = Uncounted::kLanes;
 
   struct M {
     typename Uncounted::M value;

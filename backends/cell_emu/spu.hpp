@@ -21,6 +21,7 @@ public:
   static constexpr const char* kKey = "cell_emu";
   static constexpr bool direct_memory = false;
   using simd = CountingSimd<HostSimd<xsimd::sse2>>;
+  using rare_simd = simd;
 
   /// `arena` is the part of the SPE's local store that is the kernel's.
   Spu(Spe& spe, const SpuContext& context, const ArenaState& arena);

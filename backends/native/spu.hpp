@@ -27,6 +27,7 @@ public:
   static constexpr bool direct_memory = true;
   static constexpr const char* kKey = kSpuKey<Arch>;
   using simd = HostSimd<Arch>;
+  using rare_simd = simd;
 
   explicit Spu(Spe& spe) : spe_(spe) { this->initialise_base(); }
 

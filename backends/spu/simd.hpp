@@ -207,32 +207,33 @@ struct Simd {
     return spu_shuffle(spu_shuffle(quad_of(0), quad_of(1), first_two),
                        spu_shuffle(quad_of(2), quad_of(3), first_two), halves);
   }
-  /// Not inlined: local store is short.
-  [[gnu::noinline]] static F gather(const float* table, const I& index) {
+  // Not inlined: local store is short.
+  [[gnu::noinline]] static vec_int4 gather_floats(const float* table, vec_int4 index) {
+    const vec_int4 at = spu_sl(index, 2u);
+    return join_words([&](int lane) {
+      const int address = spu_extract(at, lane) + si_to_int(si_from_ptr(table));
+      const qword quad = si_lqd(si_from_int(address), 0);
+      return (vec_int4)si_rotqby(quad, si_from_int(address));
+    });
+  }
+  [[gnu::noinline]] static vec_int4 gather_halves(const uint16_t* table, vec_int4 index) {
+    const vec_int4 at = spu_add(index, index);
+    const vec_int4 words = join_words([&](int lane) {
+      // The number becomes the lower half of the first word.
+      const int address = spu_extract(at, lane) + si_to_int(si_from_ptr(table));
+      const qword quad = si_lqd(si_from_int(address), 0);
+      return (vec_int4)si_rotqby(quad, si_from_int(address - 2));
+    });
+    return spu_and(words, 0xFFFF);
+  }
+  static F gather(const float* table, const I& index) {
     F r;
-    for (int q = 0; q < kQuads; ++q) {
-      const vec_int4 at = spu_sl(index.quad[q], 2u);
-      r.quad[q] = (vec_float4)join_words([&](int lane) {
-        const int address = spu_extract(at, lane) + si_to_int(si_from_ptr(table));
-        const qword quad = si_lqd(si_from_int(address), 0);
-        return (vec_int4)si_rotqby(quad, si_from_int(address));
-      });
-    }
+    for (int q = 0; q < kQuads; ++q)
+      r.quad[q] = (vec_float4)gather_floats(table, index.quad[q]);
     return r;
   }
-  [[gnu::noinline]] static I gather(const uint16_t* table, const I& index) {
-    I r;
-    for (int q = 0; q < kQuads; ++q) {
-      const vec_int4 at = spu_add(index.quad[q], index.quad[q]);
-      r.quad[q] = spu_and(join_words([&](int lane) {
-                            // The number becomes the lower half of the first word.
-                            const int address = spu_extract(at, lane) + si_to_int(si_from_ptr(table));
-                            const qword quad = si_lqd(si_from_int(address), 0);
-                            return (vec_int4)si_rotqby(quad, si_from_int(address - 2));
-                          }),
-                          0xFFFF);
-    }
-    return r;
+  static I gather(const uint16_t* table, const I& index) {
+    return I::map(index, [&](vec_int4 four) { return gather_halves(table, four); });
   }
 
   static F min(const F& a, const F& b) {

@@ -2,7 +2,7 @@
 // over the channel intrinsics of spu-elf-g++.
 #pragma once
 
-#include "backends/spu/simd.hpp"
+#include "backends/spu/quad_simd.hpp"
 #include "celltrace/spe/control_block.hpp"
 #include "celltrace/spe/spu.hpp"
 
@@ -19,6 +19,7 @@ public:
   static constexpr bool direct_memory = false;
   static constexpr const char* kKey = "spu";
   using simd = Simd;
+  using rare_simd = QuadSimd;
 
   /// `arena` is `bytes` of local store; `control_block` the ea of the ControlBlock.
   Spu(ea_t control_block, uint8_t* arena, uint32_t bytes) : arena_{arena, arena + bytes, arena} {

@@ -30,6 +30,16 @@ struct VectorLanes {
     using F = typename S::F;
     return {F::load(x.lane), F::load(y.lane), F::load(z.lane)};
   }
+  /// As many lanes as S has, from `first` on.
+  template <class S> V3<S> load_from(uint32_t first) const {
+    using F = typename S::F;
+    return {F::load(x.lane + first), F::load(y.lane + first), F::load(z.lane + first)};
+  }
+  template <class S> void store_from(uint32_t first, const V3<S>& v) {
+    v.x.store(x.lane + first);
+    v.y.store(y.lane + first);
+    v.z.store(z.lane + first);
+  }
   /// The vector of lane `i`, in all lanes.
   template <class S> V3<S> of(uint32_t i) const {
     using F = typename S::F;
@@ -51,6 +61,12 @@ template <class S>
 }
 
 } // namespace detail
+
+/// Calls `visit(first)` for each part of a packet's lanes that rare code takes at a time.
+template <class Spu, class Visit> void for_each_part(Visit visit) {
+  for (uint32_t first = 0; first < kSimdLanes; first += Spu::rare_simd::kLanes)
+    visit(first);
+}
 
 /// Sets some lanes of a vector to the same three values. If these are `all` lanes that matter, `into` need
 /// not be initialised.

@@ -30,6 +30,7 @@ class CheckedSpu : public SpuBase<CheckedSpu> {
 public:
   using cache_options = CheckedCacheOptions;
   using simd = cell_emu::Spu::simd;
+  using rare_simd = simd;
   static constexpr bool direct_memory = cell_emu::Spu::direct_memory;
 
   explicit CheckedSpu(cell_emu::Spu& spu) : spu_(spu) { initialise_base(); }

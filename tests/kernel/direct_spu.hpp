@@ -19,6 +19,7 @@ public:
   static constexpr bool direct_memory = true;
   std::uint32_t id() const { return 0; }
   using simd = HostSimd<xsimd::sse2>;
+  using rare_simd = simd;
 
   template <class T> T* allocate(std::uint32_t count = 1, std::uint32_t alignment = kLineBytes) {
     next_ = (next_ + alignment - 1) & ~(std::size_t{alignment} - 1);

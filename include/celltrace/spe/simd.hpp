@@ -25,6 +25,10 @@
 //   gather(const float* table, I) -> F and gather(const uint16_t* table, I) -> I: for each lane the entry of
 //   its number, which is not negative; behind the last one 2 bytes more may be read
 //
+// `Spu::rare_simd` is the facade for code that runs rarely. It has kLanes lanes, 16 or where local store is
+// short the 4 of one quadword, and F, I and M with all of the above but from_bits, load_words, extremes,
+// join, transpose_quads and the types of four: rare code works on the lanes of a packet part by part.
+//
 // On the host every float operation is IEEE single precision, never fused, so that all widths and backends
 // give the same bits. On the SPU division and sqrt are estimates refined to within 2 units in the last place,
 // rounding is toward zero, and there are no infinities, NaNs and denormals: kernels may not depend on any of

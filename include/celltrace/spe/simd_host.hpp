@@ -135,6 +135,7 @@ template <class Arch> struct HostSimd {
   using FloatMask = xsimd::batch_bool<float, Arch>;
   static constexpr uint32_t kWidth = static_cast<uint32_t>(FloatBatch::size);
   static constexpr uint32_t kParts = kSimdLanes / kWidth;
+  static constexpr uint32_t kLanes = kSimdLanes;
 
   struct I;
 

@@ -10,19 +10,33 @@
 
 namespace celltrace::kernel {
 
+/// The values of the patterns with noise, or of the others.
+template <bool kWithNoise, class Spu>
+[[gnu::always_inline]] inline typename Spu::simd::F value_of(const PatternRecord& r,
+                                                             const V3<typename Spu::simd>& p) {
+  using R = typename Spu::rare_simd;
+  VectorLanes at;
+  at.template store<typename Spu::simd>(p);
+  FloatLanes values;
+  for_each_part<Spu>([&](uint32_t first) {
+    const V3<R> point = at.template load_from<R>(first);
+    typename R::F value(0.0f);
+    Patterns::dispatch(r.kind_and_flags & pattern_flag::kind_mask, [&](auto pattern) {
+      using Pattern = decltype(pattern);
+      if constexpr (Pattern::kNeedsNoise == kWithNoise) value = Pattern::template value<R>(point, r);
+    });
+    value.store(values.lane + first);
+  });
+  return Spu::simd::F::load(values.lane);
+}
+
 namespace module_patterns {
 
 template <class Spu>
 [[gnu::noinline]] typename Spu::simd::F value(Spu& spu, const PatternRecord& r,
                                               const V3<typename Spu::simd>& p) {
-  using F = typename Spu::simd::F;
   spu.run_in_module(modules::kPatterns);
-  F v(0.0f);
-  Patterns::dispatch(r.kind_and_flags & pattern_flag::kind_mask, [&](auto pattern) {
-    using Pattern = decltype(pattern);
-    if constexpr (!Pattern::kNeedsNoise) v = Pattern::template value<typename Spu::simd>(p, r);
-  });
-  return v;
+  return value_of<false, Spu>(r, p);
 }
 
 } // namespace module_patterns
@@ -32,36 +46,43 @@ namespace module_noise {
 template <class Spu>
 [[gnu::noinline]] typename Spu::simd::F value(Spu& spu, const PatternRecord& r,
                                               const V3<typename Spu::simd>& p) {
-  using F = typename Spu::simd::F;
   spu.run_in_module(modules::kNoise);
-  F v(0.0f);
-  Patterns::dispatch(r.kind_and_flags & pattern_flag::kind_mask, [&](auto pattern) {
-    using Pattern = decltype(pattern);
-    if constexpr (Pattern::kNeedsNoise) v = Pattern::template value<typename Spu::simd>(p, r);
-  });
-  return v;
+  return value_of<true, Spu>(r, p);
 }
 
 template <class Spu>
 [[gnu::noinline]] V3<typename Spu::simd> displaced(Spu& spu, const TurbulenceWords& t,
                                                    const V3<typename Spu::simd>& p) {
+  using R = typename Spu::rare_simd;
   spu.run_in_module(modules::kNoise);
-  using S = typename Spu::simd;
-  return p + noise::turbulence<S>(p, t.octaves, t.lambda, t.omega) * splat3<S>(t.amount);
+  VectorLanes at;
+  at.template store<typename Spu::simd>(p);
+  for_each_part<Spu>([&](uint32_t first) {
+    const V3<R> point = at.template load_from<R>(first);
+    at.template store_from<R>(first, point + noise::turbulence<R>(point, t.octaves, t.lambda, t.omega) *
+                                                 splat3<R>(t.amount));
+  });
+  return at.template load<typename Spu::simd>();
 }
 
 /// What a pattern of which disturbs() is true adds to a normal, in its own space.
 template <class Spu>
 [[gnu::noinline]] V3<typename Spu::simd> disturbance(Spu& spu, const PatternRecord& r,
                                                      const V3<typename Spu::simd>& p) {
-  using F = typename Spu::simd::F;
+  using R = typename Spu::rare_simd;
   spu.run_in_module(modules::kNoise);
-  V3<typename Spu::simd> d = {F(0.0f), F(0.0f), F(0.0f)};
-  Patterns::dispatch(r.kind_and_flags & pattern_flag::kind_mask, [&](auto pattern) {
-    using Pattern = decltype(pattern);
-    if constexpr (Pattern::kDisturbs) d = Pattern::template disturbance<typename Spu::simd>(p, r);
+  VectorLanes at;
+  at.template store<typename Spu::simd>(p);
+  for_each_part<Spu>([&](uint32_t first) {
+    const V3<R> point = at.template load_from<R>(first);
+    V3<R> d = {typename R::F(0.0f), typename R::F(0.0f), typename R::F(0.0f)};
+    Patterns::dispatch(r.kind_and_flags & pattern_flag::kind_mask, [&](auto pattern) {
+      using Pattern = decltype(pattern);
+      if constexpr (Pattern::kDisturbs) d = Pattern::template disturbance<R>(point, r);
+    });
+    at.template store_from<R>(first, d);
   });
-  return d;
+  return at.template load<typename Spu::simd>();
 }
 
 } // namespace module_noise
