@@ -252,31 +252,30 @@ private:
     WordLanes materials = top;
     uint32_t lanes = all_lanes;
     SecondaryRays<S> onward = SecondaryRays<S>::nothing();
-    Surfaces<S> outermost = surfaces;
+    V3<S> outermost = surfaces.normal; // of the uppermost layer
     bool is_disturbed = false;
+    Surfaces<S> own = surfaces;
     for (bool is_top = true; lanes != 0; is_top = false) {
       MaterialLanes<S> m = gather_materials(scene_, materials, lanes);
       if (m.patterned != 0) add_pigments(scene_, materials, surfaces.point, m);
-      Surfaces<S> own = surfaces;
+      own.normal = surfaces.normal;
       if (m.disturbed != 0) disturb_normals(scene_, materials, m, own);
       add(lanes, local_light(scene_, frame_, round_, own, m, lanes, counters_.shadow) * above * share);
       SecondaryRays<S> rays = onward_rays(own, interior, m, lanes, one);
-      const auto clear = S::M::from_bits(rays.clear);
-      above = select<S>(clear, above * rays.through, above);
+      const uint32_t clear = rays.clear;
+      rays.clear = 0;
+      above = select<S>(S::M::from_bits(clear), above * rays.through, above);
       rays.mirror = rays.mirror * share;
       if (is_top) {
         onward = rays;
-        outermost = own;
+        outermost = own.normal;
         is_disturbed = m.disturbed != 0;
-        onward.clear = 0;
       } else if (rays.mirrors != 0) {
         // POV-Ray does not ask what the layers above leave of it.
-        SecondaryRays<S> reflected = rays;
-        reflected.clear = 0;
-        spawn(own, surfaces.normal, interior, reflected);
+        spawn(own, surfaces.normal, interior, rays);
       }
       // Transmitted through all layers, by those that were the last.
-      const uint32_t bright = (grey<S>(above) > F(frame_.adc_bailout)).bits() & rays.clear;
+      const uint32_t bright = (grey<S>(above) > F(frame_.adc_bailout)).bits() & clear;
       onward.clear |= bright & ~m.layered;
       lanes = bright & m.layered;
       for_each_value<S>(materials, lanes, [&](uint32_t offset, uint32_t same) {
@@ -289,7 +288,8 @@ private:
     onward.through_weight = S::select(S::M::from_bits(onward.clear), max_component<S>(above), F(0.0f));
     onward.clear_share = through;
     if (!is_disturbed) return onward;
-    spawn(outermost, surfaces.normal, interior, onward);
+    own.normal = outermost;
+    spawn(own, surfaces.normal, interior, onward);
     return SecondaryRays<S>::nothing();
   }
 
