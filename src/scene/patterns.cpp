@@ -32,6 +32,76 @@ std::uint32_t put(const pattern::Bumps&, Parameters) {
   return kPatternKind<BumpsPattern>;
 }
 
+std::uint32_t put(const pattern::Boxed&, Parameters) {
+  return kPatternKind<BoxedPattern>;
+}
+std::uint32_t put(const pattern::Spherical&, Parameters) {
+  return kPatternKind<SphericalPattern>;
+}
+std::uint32_t put(const pattern::Cylindrical&, Parameters) {
+  return kPatternKind<CylindricalPattern>;
+}
+std::uint32_t put(const pattern::Planar&, Parameters) {
+  return kPatternKind<PlanarPattern>;
+}
+std::uint32_t put(const pattern::Onion&, Parameters) {
+  return kPatternKind<OnionPattern>;
+}
+std::uint32_t put(const pattern::Leopard&, Parameters) {
+  return kPatternKind<LeopardPattern>;
+}
+std::uint32_t put(const pattern::Radial&, Parameters) {
+  return kPatternKind<RadialPattern>;
+}
+std::uint32_t put(const pattern::Square&, Parameters) {
+  return kPatternKind<SquarePattern>;
+}
+std::uint32_t put(const pattern::Triangular&, Parameters) {
+  return kPatternKind<TriangularPattern>;
+}
+std::uint32_t put(const pattern::Hexagon&, Parameters) {
+  return kPatternKind<HexagonPattern>;
+}
+std::uint32_t put(const pattern::Cubic&, Parameters) {
+  return kPatternKind<CubicPattern>;
+}
+std::uint32_t put(const pattern::Dents&, Parameters) {
+  return kPatternKind<DentsPattern>;
+}
+std::uint32_t put(const pattern::Granite&, Parameters) {
+  return kPatternKind<GranitePattern>;
+}
+std::uint32_t put(const pattern::Wrinkles&, Parameters) {
+  return kPatternKind<WrinklesPattern>;
+}
+std::uint32_t put(const pattern::Marble&, Parameters) {
+  return kPatternKind<MarblePattern>;
+}
+std::uint32_t put(const pattern::Wood&, Parameters) {
+  return kPatternKind<WoodPattern>;
+}
+std::uint32_t put(const pattern::Spiral& spiral, Parameters parameter) {
+  parameter[0] = static_cast<float>(spiral.arms);
+  return spiral.is_crossed ? kPatternKind<Spiral2Pattern> : kPatternKind<Spiral1Pattern>;
+}
+std::uint32_t put(const pattern::Quilted& quilted, Parameters parameter) {
+  for (int i = 0; i < 2; ++i)
+    parameter[i] = static_cast<float>(quilted.control[i]);
+  return kPatternKind<QuiltedPattern>;
+}
+std::uint32_t put(const pattern::Brick& brick, Parameters parameter) {
+  for (int i = 0; i < 3; ++i) {
+    if (brick.size[i] == 0) throw InputError("a brick has no size");
+    parameter[i] = static_cast<float>(1 / brick.size[i]);
+    parameter[3 + i] = static_cast<float>(1 - brick.mortar / brick.size[i]);
+  }
+  return kPatternKind<BrickPattern>;
+}
+std::uint32_t put(const pattern::Agate& agate, Parameters parameter) {
+  parameter[0] = static_cast<float>(agate.turbulence);
+  return kPatternKind<AgatePattern>;
+}
+
 template <class Kind> std::uint32_t put(const Kind&, Parameters) {
   throw InputError("a pattern is not supported yet");
 }

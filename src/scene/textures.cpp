@@ -344,7 +344,8 @@ std::uint32_t TextureTables::add_pattern(const Pattern& pattern, const Space& ou
     if (generator == 1) r.kind_and_flags |= pattern_flag::first_generator;
     if (generator == 3 && Patterns::kNeedNoise[r.kind_and_flags & pattern_flag::kind_mask])
       throw InputError("noise generator 3 is not supported yet");
-    if (!is_still(pattern.turbulence)) r.kind_and_flags |= pattern_flag::turbulent;
+    if (!is_still(pattern.turbulence) && is_moved_by_turbulence(pattern.kind))
+      r.kind_and_flags |= pattern_flag::turbulent;
   }
   r.frequency = static_cast<float>(pattern.frequency);
   r.phase = static_cast<float>(pattern.phase);

@@ -10,7 +10,7 @@ struct BumpsPattern : BozoPattern {
   static constexpr bool kDisturbs = true;
 
   /// What is added to a unit normal, in the pattern's space.
-  template <class S> static V3<S> disturbance(const V3<S>& p, const PatternRecord&) {
+  template <class S> [[gnu::always_inline]] static V3<S> disturbance(const V3<S>& p, const PatternRecord&) {
     return noise::vector<S>(p);
   }
 };

@@ -1,16 +1,13 @@
 // Unit cubes by turns. Kernel dialect.
 #pragma once
 
-#include "kernel/records.hpp"
 #include "kernel/textures/lattice.hpp"
+#include "kernel/textures/pattern_traits.hpp"
 
 namespace celltrace::kernel {
 
-struct CheckerPattern {
+struct CheckerPattern : ListPattern {
   static constexpr const char* kName = "checker";
-  static constexpr bool kIsList = true;
-  static constexpr bool kNeedsNoise = false;
-  static constexpr bool kDisturbs = false;
 
   template <class S> static typename S::F value(const V3<S>& p, const PatternRecord&) {
     using I = typename S::I;

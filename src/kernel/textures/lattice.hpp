@@ -15,4 +15,11 @@ template <class S> typename S::F snap(const typename S::F& x) {
   return S::select(off < F(kEpsilon) + S::abs(x) * F(1e-6f), nearest, x);
 }
 
+/// What division by `divisor` leaves of a whole number, from 0 up to the divisor.
+template <class S> typename S::F remainder(const typename S::F& x, float divisor) {
+  using F = typename S::F;
+  // Half of a unit more keeps the quotient clear of the rounding of 1 / divisor.
+  return x - whole_below<S>((x + F(0.5f)) * F(1.0f / divisor)) * F(divisor);
+}
+
 } // namespace celltrace::kernel

@@ -1,17 +1,39 @@
 // All patterns. The order gives each its kind, a number in its records. Kernel dialect.
 //
-// A pattern P has
+// A pattern P has, from pattern_traits.hpp or of its own,
 //   kName
 //   kIsList        whether its value is the number of a map's entry
 //   kNeedsNoise    whether its code is in the module that has the noise
-//   kDisturbs      whether a normal of it is something else than the slope of its value; its code is with the
-//   noise's value(p, record), and if it disturbs, disturbance(p, record)
+//   kDisturbs      whether a normal of it is something else than the slope of its value; the code of that is
+//                  with the noise's
+// value(p, record), and if it disturbs, disturbance(p, record)
 #pragma once
 
+#include "kernel/textures/agate.hpp"
+#include "kernel/textures/boxed.hpp"
 #include "kernel/textures/bozo.hpp"
+#include "kernel/textures/brick.hpp"
 #include "kernel/textures/bumps.hpp"
 #include "kernel/textures/checker.hpp"
+#include "kernel/textures/cubic.hpp"
+#include "kernel/textures/cylindrical.hpp"
+#include "kernel/textures/dents.hpp"
 #include "kernel/textures/gradient.hpp"
+#include "kernel/textures/granite.hpp"
+#include "kernel/textures/hexagon.hpp"
+#include "kernel/textures/leopard.hpp"
+#include "kernel/textures/marble.hpp"
+#include "kernel/textures/onion.hpp"
+#include "kernel/textures/planar.hpp"
+#include "kernel/textures/quilted.hpp"
+#include "kernel/textures/radial.hpp"
+#include "kernel/textures/spherical.hpp"
+#include "kernel/textures/spiral1.hpp"
+#include "kernel/textures/spiral2.hpp"
+#include "kernel/textures/square.hpp"
+#include "kernel/textures/triangular.hpp"
+#include "kernel/textures/wood.hpp"
+#include "kernel/textures/wrinkles.hpp"
 #include "kernel/type_list.hpp"
 
 namespace celltrace::kernel {
@@ -22,7 +44,12 @@ template <class... P> struct PatternList : TypeList<P...> {
   static constexpr bool kDisturb[] = {P::kDisturbs...};
 };
 
-using Patterns = PatternList<CheckerPattern, GradientPattern, BozoPattern, BumpsPattern>;
+using Patterns =
+    PatternList<CheckerPattern, GradientPattern, BozoPattern, BumpsPattern, BoxedPattern, SphericalPattern,
+                CylindricalPattern, PlanarPattern, OnionPattern, LeopardPattern, RadialPattern,
+                Spiral1Pattern, Spiral2Pattern, QuiltedPattern, SquarePattern, TriangularPattern,
+                HexagonPattern, CubicPattern, BrickPattern, DentsPattern, GranitePattern, WrinklesPattern,
+                AgatePattern, MarblePattern, WoodPattern>;
 constexpr bool disturbs(uint32_t kind) {
   return Patterns::kDisturb[kind];
 }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "kernel/math.hpp"
+#include "kernel/records.hpp"
 #include "kernel/textures/noise_tables.hpp"
 
 namespace celltrace::kernel::noise {
@@ -65,6 +66,30 @@ template <class S> typename S::F value(const V3<S>& p, bool first_generator) {
   add_noise<S>(p, 1.0f, sum);
   const F scaled = first_generator ? sum[0] + F(0.5f) : (sum[0] + F(1.05242f)) * F(0.48985582f);
   return S::min(S::max(scaled, F(0.0f)), F(1.0f));
+}
+
+/// The same, spread about 0.5 by generator 2: what sums of octaves are made of.
+template <class S> typename S::F spread(const typename S::F& value, bool first_generator) {
+  using F = typename S::F;
+  return first_generator ? value : value + value - F(0.5f);
+}
+template <class S> typename S::F spread_value(const V3<S>& p, bool first_generator) {
+  using F = typename S::F;
+  const F spread_out = spread<S>(value<S>(p, first_generator), first_generator);
+  return S::min(S::max(spread_out, F(0.0f)), F(1.0f));
+}
+/// Octaves of value(). As in POV-Ray, only the first one is clipped.
+template <class S>
+typename S::F turbulence_value(const V3<S>& p, const TurbulenceWords& t, bool first_generator) {
+  using F = typename S::F;
+  F sum = spread_value<S>(p, first_generator);
+  float scale = t.lambda, strength = t.omega;
+  for (uint32_t octave = 1; octave < t.octaves; ++octave) {
+    sum = sum + spread<S>(value<S>(p * F(scale), first_generator), first_generator) * F(strength);
+    scale *= t.lambda;
+    strength *= t.omega;
+  }
+  return sum;
 }
 
 /// Three coordinates, about 0.

@@ -1,0 +1,24 @@
+// The cube of smooth noise. Kernel dialect.
+#pragma once
+
+#include "kernel/textures/noise.hpp"
+#include "kernel/textures/pattern_traits.hpp"
+
+namespace celltrace::kernel {
+
+struct DentsPattern : NoisePattern {
+  static constexpr const char* kName = "dents";
+
+  static constexpr bool kDisturbs = true;
+
+  template <class S>
+  [[gnu::always_inline]] static typename S::F value(const V3<S>& p, const PatternRecord& r) {
+    const typename S::F noise = noise::value<S>(p, has_first_generator(r));
+    return noise * noise * noise;
+  }
+  template <class S> [[gnu::always_inline]] static V3<S> disturbance(const V3<S>& p, const PatternRecord& r) {
+    return noise::vector<S>(p) * value<S>(p, r);
+  }
+};
+
+} // namespace celltrace::kernel

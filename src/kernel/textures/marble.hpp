@@ -1,0 +1,20 @@
+// Veins across x, which turbulence bends. Kernel dialect.
+#pragma once
+
+#include "kernel/textures/noise.hpp"
+#include "kernel/textures/pattern_traits.hpp"
+
+namespace celltrace::kernel {
+
+struct MarblePattern : NoisePattern {
+  static constexpr const char* kName = "marble";
+
+  template <class S>
+  [[gnu::always_inline]] static typename S::F value(const V3<S>& p, const PatternRecord& r) {
+    const float amount = r.turbulence.amount[0];
+    if (amount == 0.0f) return p.x;
+    return p.x + noise::turbulence_value<S>(p, r.turbulence, has_first_generator(r)) * typename S::F(amount);
+  }
+};
+
+} // namespace celltrace::kernel

@@ -1,0 +1,21 @@
+// Once around the y axis, from the side of -z on. Kernel dialect.
+#pragma once
+
+#include "kernel/textures/angles.hpp"
+#include "kernel/textures/pattern_traits.hpp"
+
+namespace celltrace::kernel {
+
+struct RadialPattern : BlendPattern {
+  static constexpr const char* kName = "radial";
+
+  /// On the axis it is as at +z, as POV-Ray has it.
+  template <class S> static typename S::F value(const V3<S>& p, const PatternRecord&) {
+    using F = typename S::F;
+    constexpr float kOnAxis = 0.001f;
+    const auto on_axis = (S::abs(p.x) < F(kOnAxis)) & (S::abs(p.z) < F(kOnAxis));
+    return S::select(on_axis, F(0.25f), F(0.75f) + turns_of<S>(p.x, p.z));
+  }
+};
+
+} // namespace celltrace::kernel

@@ -1,0 +1,24 @@
+// Arms that wind around the z axis. Kernel dialect.
+#pragma once
+
+#include "kernel/textures/angles.hpp"
+#include "kernel/textures/pattern_traits.hpp"
+
+namespace celltrace::kernel {
+
+struct Spiral1Pattern : BlendPattern {
+  static constexpr const char* kName = "spiral1";
+
+  /// Its parameter: the number of arms.
+  template <class S> static typename S::F value(const V3<S>& p, const PatternRecord& r) {
+    return p.z + S::sqrt(p.x * p.x + p.y * p.y) + wound<S>(p, r);
+  }
+
+  template <class S> static typename S::F wound(const V3<S>& p, const PatternRecord& r) {
+    using F = typename S::F;
+    const F turns = turns_of<S>(p.y, p.x) + F(0.25f); // from -y on
+    return (turns - whole_below<S>(turns)) * F(r.parameter[0]);
+  }
+};
+
+} // namespace celltrace::kernel
