@@ -5,15 +5,16 @@
 #include "kernel/textures/sky.hpp"
 #include "kernel/textures/transmittance.hpp"
 #include "lanes.hpp"
+#include "reference/shading.hpp"
+#include "reference/textures.hpp"
 #include "scene/scene_image.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
-#include <numbers>
-#include <string>
 
 using namespace celltrace;
 using namespace celltrace::kernel;
@@ -75,96 +76,15 @@ FloatLanes values(const Pattern& pattern, const VectorLanes& points) {
   return lanes_of(pattern_value(spu, textures.pattern(), points.load<Simd>()));
 }
 
-// --- the formulas ---
-
-double fraction_of(double x) {
-  return x - std::floor(x);
-}
-double checker_value(const Vec3& p) {
-  const double sum = std::floor(p.x) + std::floor(p.y) + std::floor(p.z);
-  return sum - 2 * std::floor(sum / 2);
-}
-double gradient_value(const Vec3& p, const Vec3& direction) {
-  const double along = glm::dot(p, direction) / glm::length(direction);
-  return along > 1 ? std::fmod(along, 1) : along;
-}
-double wave_value(const Pattern& p, double value) {
-  if (p.frequency == 0) return value;
-  double v = std::fmod(value * p.frequency + p.phase, 1.00001);
-  if (v < 0) v -= std::floor(v);
-  const double u = fraction_of(v);
-  switch (p.wave) {
-  case Pattern::Wave::ramp:
-    return v;
-  case Pattern::Wave::triangle:
-    return u <= 0.5 ? 2 * u : 2 * (1 - u);
-  case Pattern::Wave::sine:
-    return (1 + std::sin(2 * std::numbers::pi * u)) / 2;
-  case Pattern::Wave::scallop:
-    return std::abs(std::sin(std::numbers::pi * v));
-  case Pattern::Wave::cubic:
-    return v * v * (3 - 2 * v);
-  case Pattern::Wave::poly:
-    return std::pow(v, p.wave_exponent);
-  }
-  return 0;
-}
-/// Of patterns without noise, at a point of its own space.
-double own_value(const Pattern& pattern, const Vec3& p) {
-  if (std::holds_alternative<pattern::Checker>(pattern.kind)) return wave_value(pattern, checker_value(p));
-  return wave_value(pattern, gradient_value(p, std::get<pattern::Gradient>(pattern.kind).direction));
-}
-/// Of patterns without turbulence: from the last step to the first.
-Vec3 own_point(const Pattern& pattern, Vec3 p) {
-  for (auto step = pattern.space.rbegin(); step != pattern.space.rend(); ++step)
-    p = std::get<Transform>(*step).inverse().point(p);
-  return p;
-}
-
-/// All numbers of a pigment.
-struct Colour {
-  double value[5];
-};
-Colour mixed(const Colour& a, double weight, const Colour& b) {
-  Colour c{};
-  for (int i = 0; i < 5; ++i)
-    c.value[i] = a.value[i] + weight * b.value[i];
-  return c;
-}
-/// Nested maps are asked in the space of the map around them.
-Colour colour_at(const Pigment& pigment, const Vec3& point) {
-  if (!pigment.map) return {{pigment.rgb.r, pigment.rgb.g, pigment.rgb.b, pigment.filter, pigment.transmit}};
-  const PatternMap<Pigment>& map = *pigment.map;
-  const auto& entries = map.entries;
-  const Vec3 p = own_point(map.pattern, point);
-  Colour sum{};
-  if (map.is_average) {
-    double weights = 0;
-    for (const auto& entry : entries)
-      weights += entry.position;
-    for (const auto& entry : entries)
-      sum = mixed(sum, entry.position / weights, colour_at(entry.value, p));
-    return sum;
-  }
-  double value = own_value(map.pattern, p);
-  if (std::holds_alternative<pattern::Checker>(map.pattern.kind))
-    return colour_at(entries[std::min<std::size_t>(std::size_t(value), entries.size() - 1)].value, p);
-  if (value < 0 || value > 1) value = fraction_of(value);
-  if (value >= entries.back().position) return colour_at(entries.back().value, p);
-  std::size_t above = 0;
-  while (value > entries[above].position)
-    ++above;
-  if (above == 0) return colour_at(entries[0].value, p);
-  const double from = entries[above - 1].position;
-  const double share = (value - from) / (entries[above].position - from);
-  return mixed(mixed({}, share, colour_at(entries[above].value, p)), 1 - share,
-               colour_at(entries[above - 1].value, p));
-}
-
 /// Compares a pigment at sixteen points. Where a step of it is so near that rounding decides on which side a
 /// point lies, it may be either. Returns how many points were clear of steps.
 unsigned check_pigment(Textures& textures, const Pigment& pigment, const VectorLanes& points,
                        std::uint32_t lanes = kAll) {
+  using Numbers = std::array<double, 5>;
+  const auto numbers_at = [&](const Vec3& p) {
+    const Pigment at = reference::pigment_at(pigment, p);
+    return Numbers{at.rgb.r, at.rgb.g, at.rgb.b, at.filter, at.transmit};
+  };
   PigmentLanes<Simd> at;
   pigment_at(textures.access(), textures.material().pattern, points.load<Simd>(), lanes, at);
   const VectorLanes rgb = lanes_of(at.rgb);
@@ -172,22 +92,22 @@ unsigned check_pigment(Textures& textures, const Pigment& pigment, const VectorL
   unsigned clear = 0;
   for_each_lane(lanes, [&](unsigned l) {
     const Vec3 p = test::at(points, l);
-    Colour low = colour_at(pigment, p), high = low;
+    Numbers low = numbers_at(p), high = low;
     const double reach = 1e-5 * (1 + glm::length(p));
     for (int corner = 0; corner < 8; ++corner) {
-      const Vec3 near = p + reach * Vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-      const Colour c = colour_at(pigment, near);
-      for (int i = 0; i < 5; ++i) {
-        low.value[i] = std::min(low.value[i], c.value[i]);
-        high.value[i] = std::max(high.value[i], c.value[i]);
+      const Vec3 aside((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
+      const Numbers there = numbers_at(p + reach * aside);
+      for (std::size_t i = 0; i < 5; ++i) {
+        low[i] = std::min(low[i], there[i]);
+        high[i] = std::max(high[i], there[i]);
       }
     }
     const float found[5] = {rgb.x.lane[l], rgb.y.lane[l], rgb.z.lane[l], filter.lane[l], transmit.lane[l]};
     bool is_clear = true;
-    for (int i = 0; i < 5; ++i) {
-      REQUIRE(found[i] >= low.value[i] - 1e-4);
-      REQUIRE(found[i] <= high.value[i] + 1e-4);
-      is_clear = is_clear && high.value[i] - low.value[i] < 0.02;
+    for (std::size_t i = 0; i < 5; ++i) {
+      REQUIRE(found[i] >= low[i] - 1e-4);
+      REQUIRE(found[i] <= high[i] + 1e-4);
+      is_clear = is_clear && high[i] - low[i] < 0.02;
     }
     clear += is_clear ? 1 : 0;
   });
@@ -349,7 +269,8 @@ TEST_CASE("Checker") {
       for (unsigned l = 0; l < kSimdLanes; ++l) {
         const Vec3 p = test::at(points, l);
         const auto is_near = [&](double x) { return std::abs(x - std::round(x)) < 2e-5 + 2e-6 * reach; };
-        if (!is_near(p.x) && !is_near(p.y) && !is_near(p.z)) REQUIRE(found.lane[l] == checker_value(p));
+        if (!is_near(p.x) && !is_near(p.y) && !is_near(p.z))
+          REQUIRE(found.lane[l] == reference::number_of(pattern::Checker{}, p));
       }
     }
 }
@@ -368,7 +289,7 @@ TEST_CASE("Checker at whole numbers, and where rounding has moved them") {
       });
       const FloatLanes found = values(pattern, points);
       for (unsigned l = 0; l < kSimdLanes; ++l)
-        REQUIRE(found.lane[l] == checker_value(whole[l]));
+        REQUIRE(found.lane[l] == reference::number_of(pattern::Checker{}, whole[l]));
     }
 }
 
@@ -382,7 +303,7 @@ TEST_CASE("Gradient") {
       const VectorLanes points = points_of([&](unsigned) { return random.point(reach); });
       const FloatLanes found = values(pattern, points);
       for (unsigned l = 0; l < kSimdLanes; ++l) {
-        const double expected = gradient_value(test::at(points, l), direction);
+        const double expected = reference::number_of(pattern::Gradient{direction}, test::at(points, l));
         if (std::abs(expected - std::round(expected)) > 1e-4)
           REQUIRE(found.lane[l] == Approx(expected).margin(2e-7 * (1 + 2 * reach)));
       }
@@ -475,11 +396,11 @@ TEST_CASE("Waves") {
       const VectorLanes points = points_of([&](unsigned) { return random.point(3); });
       const FloatLanes found = values(pattern, points);
       for (unsigned l = 0; l < kSimdLanes; ++l) {
-        const double x = gradient_value(test::at(points, l), {1, 0, 0});
+        const double x = reference::number_of(pattern::Gradient{{1, 0, 0}}, test::at(points, l));
         const double turns = x * pattern.frequency + pattern.phase;
         const double near = std::abs(turns - std::round(turns));
         if (near < 2e-4) continue; // a step, or a steep root
-        REQUIRE(found.lane[l] == Approx(wave_value(pattern, x)).margin(3e-5));
+        REQUIRE(found.lane[l] == Approx(reference::wave(pattern, x)).margin(3e-5));
       }
     }
 }
@@ -587,7 +508,8 @@ TEST_CASE("A nested map moves with the map around it, its turbulence included") 
   for (unsigned l = 0; l < kSimdLanes; ++l) {
     if (glm::length(kMeasured[l].point) > 200) continue; // single precision has few digits left
     const double y = kMeasured[l].point.y + kMeasured[l].vector.y;
-    const double value = wave_value(inner.pattern, gradient_value({0, y, 0}, {0, 1, 0}));
+    const double value =
+        reference::wave(inner.pattern, reference::number_of(pattern::Gradient{{0, 1, 0}}, {0, y, 0}));
     CHECK(rgb.x.lane[l] == Approx(value).margin(5e-5));
   }
 }
@@ -598,9 +520,7 @@ namespace {
 
 /// As POV-Ray's, of a normal that is no map.
 Vec3 disturbed(const Normal& normal, const Vec3& point, const Vec3& unit) {
-  Transform to_space;
-  for (auto step = normal.pattern.space.rbegin(); step != normal.pattern.space.rend(); ++step)
-    to_space = to_space.then(std::get<Transform>(*step).inverse());
+  const Transform to_space = reference::to_own_space(normal.pattern);
   const Vec3 p = to_space.point(point);
   static const Vec3 corners[4] = {{0.942809041, -1 / 3.0, 0},
                                   {-0.471404521, -1 / 3.0, 0.816496581},
@@ -608,7 +528,7 @@ Vec3 disturbed(const Normal& normal, const Vec3& point, const Vec3& unit) {
                                   {0, 1, 0}};
   Vec3 sum(0);
   for (const Vec3& corner : corners)
-    sum += corner * own_value(normal.pattern, p + normal.accuracy * corner);
+    sum += corner * reference::value_of(normal.pattern, p + normal.accuracy * corner);
   const Vec3 local = glm::normalize(to_space.normal(unit));
   return glm::normalize(to_space.inverse().normal(local - sum * (0.1 * normal.amount / normal.accuracy)));
 }
@@ -696,12 +616,6 @@ TEST_CASE("A map of normals blends them when they are of unit length") {
 
 namespace {
 
-/// Of what a pigment lets through.
-Vec3 filtered(const Pigment& pigment, const Vec3& point) {
-  const Colour c = colour_at(pigment, point);
-  return Vec3(c.value[0], c.value[1], c.value[2]) * c.value[3] + c.value[4];
-}
-
 std::shared_ptr<const Material> layers_of(const std::vector<Pigment>& pigments) {
   std::shared_ptr<const Material> below;
   for (const Pigment& pigment : pigments)
@@ -745,7 +659,7 @@ TEST_CASE("Layers let through the product, maps of textures the blend") {
       Vec3 product[2] = {Vec3(1), Vec3(1)};
       for (int i = 0; i < 2; ++i)
         for (const Pigment& pigment : pigments[i])
-          product[i] *= filtered(pigment, p);
+          product[i] *= reference::filter_colour(reference::pigment_at(pigment, p));
       REQUIRE(glm::length(test::at(by_layers, l) - product[0]) < 1e-5);
       REQUIRE(glm::length(test::at(by_map, l) - (product[0] * (1 - p.x) + product[1] * p.x)) < 1e-5);
     }

@@ -12,6 +12,7 @@ namespace celltrace::test {
 struct NamedScene {
   std::string name;
   std::function<Scene()> make;
+  std::string not_in_reference = ""; ///< why the reference tracer cannot render it
 };
 
 /// Every scene of the folder.
