@@ -262,12 +262,6 @@ Scene dome() {
   return scene;
 }
 
-template <class T>
-std::shared_ptr<const PatternMap<T>>
-map_of(const Pattern& pattern, std::vector<typename PatternMap<T>::Entry> entries, bool is_average = false) {
-  return std::make_shared<const PatternMap<T>>(PatternMap<T>{pattern, std::move(entries), is_average});
-}
-
 Pigment mapped(const Pattern& pattern, std::vector<PatternMap<Pigment>::Entry> entries,
                bool is_average = false) {
   Pigment pigment;
