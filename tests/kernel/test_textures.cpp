@@ -73,7 +73,7 @@ VectorLanes points_of(const std::function<Vec3(unsigned)>& point) {
 FloatLanes values(const Pattern& pattern, const VectorLanes& points) {
   Textures textures(pattern);
   DirectSpu spu;
-  return lanes_of(pattern_value(spu, textures.pattern(), points.load<Simd>()));
+  return lanes_of(pattern_value<TextureStage::colours>(spu, textures.pattern(), points.load<Simd>()));
 }
 
 /// Compares a pigment at sixteen points. Where a step of it is so near that rounding decides on which side a
@@ -347,7 +347,8 @@ TEST_CASE("The scene's noise generator is that of patterns without one") {
     scene.materials = {Textures::plain(Textures::grey(noise_of_generator(0)))};
     Textures textures(scene);
     DirectSpu spu;
-    const FloatLanes found = lanes_of(pattern_value(spu, textures.pattern(), points.load<Simd>()));
+    const FloatLanes found =
+        lanes_of(pattern_value<TextureStage::colours>(spu, textures.pattern(), points.load<Simd>()));
     const FloatLanes expected = values(noise_of_generator(generator), points);
     for (unsigned l = 0; l < kSimdLanes; ++l)
       CHECK(found.lane[l] == expected.lane[l]);
@@ -364,8 +365,8 @@ TEST_CASE("Turbulence displaces points as POV-Ray's") {
   warped.space = {Transform::scale({2, 4, 8}), turbulence, Transform::translate({1, 2, 3})};
   const auto in_space_of = [](const Pattern& pattern, const VectorLanes& from) {
     Textures textures(pattern);
-    return lanes_of(
-        to_pattern_space(textures.access(), PatternRecord(textures.pattern()), from.load<Simd>()));
+    return lanes_of(to_pattern_space<TextureStage::colours>(
+        textures.access(), PatternRecord(textures.pattern()), from.load<Simd>()));
   };
   const VectorLanes displaced = in_space_of(own, points);
   const VectorLanes stepped =
