@@ -20,7 +20,7 @@ constexpr CodeModule kHits = {"hits", 5, 0, 14336};
 constexpr CodeModule kStart = {"start", 3, 0, 24576};
 /// Patterns without noise, and those of noise with its tables.
 constexpr CodeModule kPatterns = {"patterns", 7, 0, 5120};
-constexpr CodeModule kNoise = {"noise", 8, 0, 14336};
+constexpr CodeModule kNoise = {"noise", 8, 0, 16384};
 
 // Of the second region: what shades, and asks patterns.
 

@@ -20,7 +20,7 @@ using namespace kernel;
 
 namespace {
 
-/// Of the 109 KB that a program of this size leaves of a local store, 39 KB are the ray stack's and the
+/// Of the 112 KB that a program of this size leaves of a local store, 39 KB are the ray stack's and the
 /// packets'.
 constexpr std::uint32_t kMaxCacheBytes = 70 * 1024;
 constexpr int kMaxEdge = 65520; // rows of packets fit the balancer's words
