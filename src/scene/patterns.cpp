@@ -31,6 +31,9 @@ std::uint32_t put(const pattern::Bozo&, Parameters) {
 std::uint32_t put(const pattern::Bumps&, Parameters) {
   return kPatternKind<BumpsPattern>;
 }
+std::uint32_t put(const pattern::Onion&, Parameters) {
+  return kPatternKind<OnionPattern>;
+}
 
 template <class Kind> std::uint32_t put(const Kind&, Parameters) {
   throw InputError("a pattern is not supported yet");

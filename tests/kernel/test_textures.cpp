@@ -322,6 +322,27 @@ TEST_CASE("A gradient is 1 at 1, begins again after it, and goes on below 0") {
     CHECK(found.lane[l] == Approx(expected[l]).margin(1e-7));
 }
 
+TEST_CASE("Patterns without noise or parameters, at random points") {
+  const pattern::Kind kinds[] = {pattern::Onion{}};
+  Random random(90);
+  for (const pattern::Kind& kind : kinds) {
+    INFO("kind " << kind.index());
+    for (const double reach : {1.0, 100.0})
+      for (int k = 0; k < 200; ++k) {
+        Pattern pattern;
+        pattern.kind = kind;
+        pattern.frequency = 0; // the number itself
+        const VectorLanes points = points_of([&](unsigned) { return random.point(reach); });
+        const FloatLanes found = values(pattern, points);
+        for (unsigned l = 0; l < kSimdLanes; ++l) {
+          const double expected = reference::number_of(kind, test::at(points, l));
+          if (std::abs(expected - std::round(expected)) > 1e-4) // not at a step
+            REQUIRE(found.lane[l] == Approx(expected).margin(2e-7 * (1 + 2 * reach)));
+        }
+      }
+  }
+}
+
 TEST_CASE("Noise is POV-Ray's") {
   const VectorLanes points = measured_points();
   const FloatLanes first = values(noise_of_generator(1), points),

@@ -12,6 +12,7 @@
 #include "kernel/textures/bumps.hpp"
 #include "kernel/textures/checker.hpp"
 #include "kernel/textures/gradient.hpp"
+#include "kernel/textures/onion.hpp"
 #include "kernel/type_list.hpp"
 
 namespace celltrace::kernel {
@@ -22,7 +23,7 @@ template <class... P> struct PatternList : TypeList<P...> {
   static constexpr bool kDisturb[] = {P::kDisturbs...};
 };
 
-using Patterns = PatternList<CheckerPattern, GradientPattern, BozoPattern, BumpsPattern>;
+using Patterns = PatternList<CheckerPattern, GradientPattern, BozoPattern, BumpsPattern, OnionPattern>;
 constexpr bool disturbs(uint32_t kind) {
   return Patterns::kDisturb[kind];
 }
