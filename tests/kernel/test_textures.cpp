@@ -512,6 +512,31 @@ TEST_CASE("Trees of maps, lists and averages") {
   CHECK(clear > all - all / 20);
 }
 
+TEST_CASE("A walk through maps has lanes that were asked for, and weights that add up to 1") {
+  Random random(91);
+  for (int k = 0; k < 200; ++k) {
+    Pigment pigment;
+    while (!pigment.map)
+      pigment = any_pigment(random, 3);
+    Textures textures(pigment);
+    const VectorLanes points = points_of([&](unsigned) { return random.point(5); });
+    const std::uint32_t lanes = random.word() & kAll;
+    MapWalk<DirectSpu, TextureStage::colours> walk(textures.access(), MapOf::pigments, points.load<Simd>());
+    walk.enter(textures.material().pattern, F(1.0f), lanes);
+    F sum(0.0f), weight;
+    MapEntryRecord leaf;
+    std::uint32_t some;
+    while (walk.next(leaf, weight, some)) {
+      REQUIRE(some != 0);
+      REQUIRE((some & ~lanes) == 0);
+      REQUIRE(leaf.child == kNoOffset);
+      sum = sum + weight;
+    }
+    const FloatLanes sums = lanes_of(sum);
+    for_each_lane(lanes, [&](unsigned l) { REQUIRE(sums.lane[l] == Approx(1)); });
+  }
+}
+
 TEST_CASE("A nested map moves with the map around it, its turbulence included") {
   // Of a gradient in a gradient whose turbulence is 0 along the inner direction: only steps count.
   PatternMap<Pigment> inner{gradient({0, 1, 0}), {{0, Pigment{Vec3(0)}}, {1, Pigment{Vec3(1)}}}};
