@@ -322,6 +322,27 @@ TEST_CASE("A gradient is 1 at 1, begins again after it, and goes on below 0") {
     CHECK(found.lane[l] == Approx(expected[l]).margin(1e-7));
 }
 
+TEST_CASE("Patterns without noise or parameters, at random points") {
+  const pattern::Kind kinds[] = {pattern::Onion{}};
+  Random random(90);
+  for (const pattern::Kind& kind : kinds) {
+    INFO("kind " << kind.index());
+    for (const double reach : {1.0, 100.0})
+      for (int k = 0; k < 200; ++k) {
+        Pattern pattern;
+        pattern.kind = kind;
+        pattern.frequency = 0; // the number itself
+        const VectorLanes points = points_of([&](unsigned) { return random.point(reach); });
+        const FloatLanes found = values(pattern, points);
+        for (unsigned l = 0; l < kSimdLanes; ++l) {
+          const double expected = reference::number_of(kind, test::at(points, l));
+          if (std::abs(expected - std::round(expected)) > 1e-4) // not at a step
+            REQUIRE(found.lane[l] == Approx(expected).margin(2e-7 * (1 + 2 * reach)));
+        }
+      }
+  }
+}
+
 TEST_CASE("Noise is POV-Ray's") {
   const VectorLanes points = measured_points();
   const FloatLanes first = values(noise_of_generator(1), points),
@@ -489,6 +510,31 @@ TEST_CASE("Trees of maps, lists and averages") {
     }
   }
   CHECK(clear > all - all / 20);
+}
+
+TEST_CASE("A walk through maps has lanes that were asked for, and weights that add up to 1") {
+  Random random(91);
+  for (int k = 0; k < 200; ++k) {
+    Pigment pigment;
+    while (!pigment.map)
+      pigment = any_pigment(random, 3);
+    Textures textures(pigment);
+    const VectorLanes points = points_of([&](unsigned) { return random.point(5); });
+    const std::uint32_t lanes = random.word() & kAll;
+    MapWalk<DirectSpu, TextureStage::colours> walk(textures.access(), MapOf::pigments, points.load<Simd>());
+    walk.enter(textures.material().pattern, F(1.0f), lanes);
+    F sum(0.0f), weight;
+    MapEntryRecord leaf;
+    std::uint32_t some;
+    while (walk.next(leaf, weight, some)) {
+      REQUIRE(some != 0);
+      REQUIRE((some & ~lanes) == 0);
+      REQUIRE(leaf.child == kNoOffset);
+      sum = sum + weight;
+    }
+    const FloatLanes sums = lanes_of(sum);
+    for_each_lane(lanes, [&](unsigned l) { REQUIRE(sums.lane[l] == Approx(1)); });
+  }
 }
 
 TEST_CASE("A nested map moves with the map around it, its turbulence included") {

@@ -23,6 +23,9 @@ double number(const pattern::Gradient& gradient, const Vec3& p) {
   const double along = glm::dot(p, gradient.direction) / glm::length(gradient.direction);
   return along > 1 ? std::fmod(along, 1) : along;
 }
+double number(const pattern::Onion&, const Vec3& p) {
+  return std::fmod(glm::length(p), 1);
+}
 template <class Kind> double number(const Kind&, const Vec3&) {
   throw std::logic_error("the reference has no such pattern");
 }
