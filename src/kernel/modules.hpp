@@ -17,7 +17,7 @@ constexpr CodeModule kNormals = {"normals", 5, 0, 8192};
 /// Rays that go on from surfaces.
 constexpr CodeModule kSecondary = {"secondary", 2, 0, 14336};
 /// Light that is not simply a point's.
-constexpr CodeModule kLights = {"lights", 6, 0, 5120};
+constexpr CodeModule kLights = {"lights", 6, 0, 12288};
 /// The rays of cameras whose pictures are not flat.
 constexpr CodeModule kCameras = {"cameras", 7, 0, 8192};
 /// What a program does once for many frames: it makes its objects, and builds the grid.

@@ -17,7 +17,7 @@
 %param { celltrace::pov::Session& session }
 // After a value both an operator and, since commas are optional, a sign or a colour's channel can follow: the
 // longer value is meant. A name that CSG begins with is all it consists of, not its first part.
-%expect 57
+%expect 61
 
 %code requires {
 #include "pov/actions.hpp"
@@ -67,12 +67,12 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %left '+' '-'
 %left '*' '/'
 
-%token ADC_BAILOUT AMBIENT AMBIENT_LIGHT ANGLE APERTURE ARRAY ASSUMED_GAMMA BACKGROUND BOUNDED_BY
-%token BRILLIANCE CAMERA CAUSTICS CHARSET CLIPPED_BY COLOUR CONSERVE_ENERGY CRAND CUTAWAY_TEXTURES
+%token ADAPTIVE ADC_BAILOUT AMBIENT AMBIENT_LIGHT ANGLE APERTURE AREA_ILLUMINATION AREA_LIGHT ARRAY ASSUMED_GAMMA BACKGROUND BOUNDED_BY
+%token BRILLIANCE CAMERA CAUSTICS CHARSET CIRCULAR CLIPPED_BY COLOUR CONSERVE_ENERGY CRAND CUTAWAY_TEXTURES
 %token DIFFUSE DIMENSIONS DIMENSION_SIZE DIRECTION DISPERSION EMISSION EXPONENT FACE_INDICES
 %token FADE_DISTANCE FADE_POWER FALLOFF FINISH FRESNEL GLOBAL_SETTINGS HOLLOW IGNORED_FLAG IGNORED_NUMBER
-%token INSIDE_VECTOR INTERIOR INVERSE IOR IRID LIGHT_SOURCE LOCATION LOOKS_LIKE LOOK_AT
-%token MATERIAL MATRIX MAX_TRACE_LEVEL MESH MESH2 METALLIC NORMAL_INDICES NORMAL_VECTORS NO_SHADOW OBJECT OPEN
+%token INSIDE_VECTOR INTERIOR INVERSE IOR IRID JITTER LIGHT_SOURCE LOCATION LOOKS_LIKE LOOK_AT
+%token MATERIAL MATRIX MAX_TRACE_LEVEL MESH MESH2 METALLIC NORMAL_INDICES NORMAL_VECTORS NO_SHADOW OBJECT OPEN ORIENT
 %token PARALLEL PHONG PHONG_SIZE PHOTONS PIGMENT POINT_AT QUICK_COLOUR RADIUS
 %token REFLECTION
 %token REFLECTION_EXPONENT REFRACTION RIGHT ROTATE ROUGHNESS SCALE SHADOWLESS SKY SMOOTH_TRIANGLE
@@ -575,6 +575,18 @@ light_body // what comes later applies to what is there by then
   | light_body FADE_DISTANCE number                       { $$ = $1; light_of(*$$).fade_distance = $3; }
   | light_body FADE_POWER number                          { $$ = $1; light_of(*$$).fade_power = $3; }
   | light_body LOOKS_LIKE '{' object '}'                  { $$ = $1; set_looks_like(session, *$$, $4, @2); }
+  | light_body AREA_LIGHT quantity optional_comma quantity optional_comma number optional_comma number {
+      $$ = $1;
+      set_area(session, *$$, session.vector($3, @3), session.vector($5, @5), {$7, $9}, @2);
+    }
+  | light_body ADAPTIVE number                            { $$ = $1; set_adaptive(*$$, $3); }
+  | light_body AREA_ILLUMINATION flag {
+      $$ = $1;
+      mark($$->unsupported, unless_zero("'area_illumination'", $3, @2));
+    }
+  | light_body JITTER                                     { $$ = $1; area_of(*$$).jitter = true; }
+  | light_body CIRCULAR                                   { $$ = $1; area_of(*$$).circular = true; }
+  | light_body ORIENT                                     { $$ = $1; area_of(*$$).orient = true; }
   | light_body transformation                             { $$ = $1; transform(*$$, $2); }
   | light_body IGNORED_FLAG flag                          { $$ = $1; }
   | light_body unsupported                                { $$ = $1; mark($$->unsupported, $2); }

@@ -1,6 +1,7 @@
 // Light sources as they are written.
 #pragma once
 
+#include <array>
 #include <memory>
 
 #include "pov/object.hpp"
@@ -15,6 +16,9 @@ std::shared_ptr<ObjectDefinition> light(const Vec3& location, const Vec3& colour
 std::shared_ptr<ObjectDefinition> light(Session& session, const ObjectDefinition& declared,
                                         const Location& where);
 
+Light moved(Light light, const Transform& next);
+LightArea moved(LightArea area, const Transform& next);
+
 // The modifiers of a light source.
 
 Light& light_of(ObjectDefinition& object);
@@ -26,6 +30,12 @@ void set_point_at(Session& session, ObjectDefinition& object, const Quantity& po
 /// A number that only spotlights and cylinders have.
 void set_beam(Session& session, ObjectDefinition& object, double Light::*number, double value,
               const Location& where);
+/// Shadows are those of an area: two sides of it, and how many places there are along each.
+void set_area(Session& session, ObjectDefinition& object, const Vec3& across, const Vec3& along,
+              const std::array<double, 2>& places, const Location& where);
+/// What is said of its area, before or after that is given.
+LightArea& area_of(ObjectDefinition& object);
+void set_adaptive(ObjectDefinition& object, double level);
 void set_looks_like(Session& session, ObjectDefinition& object, const ObjectPtr& looks_like,
                     const Location& where);
 /// As in POV-Ray, this is a kind of its own: what is said of another one before or after it cancels the

@@ -52,6 +52,8 @@ struct TriangleDefinition {
 struct LightDefinition {
   Light light;
   ObjectPtr looks_like; ///< placed where the light is; null: nothing
+  LightArea area;       ///< what is said of it, before or after it is there
+  bool has_area = false;
 };
 
 struct ObjectDefinition {

@@ -5,6 +5,8 @@
 
 #include <string>
 
+#include <glm/geometric.hpp>
+
 using namespace celltrace;
 using namespace celltrace::test;
 
@@ -64,6 +66,36 @@ TEST_CASE("parallel and fading light") {
   CHECK(fading.fade_distance == 3);
   CHECK(fading.fade_power == 1.5);
   CHECK(light("fade_distance 3").fade_power == 0);
+}
+
+TEST_CASE("lights with an area") {
+  CHECK_FALSE(light("jitter adaptive 2").area);
+  const Light plain = light("area_light <4, 1, 0>, <0, 0, 2>, 5, 3.9");
+  REQUIRE(plain.area);
+  CHECK(plain.area->across == Vec3(4, 1, 0));
+  CHECK(plain.area->along == Vec3(0, 0, 2));
+  CHECK(plain.area->columns == 5);
+  CHECK(plain.area->rows == 3);
+  CHECK(plain.area->adaptive == 100);
+  CHECK_FALSE(plain.area->jitter);
+  CHECK_FALSE(plain.area->circular);
+  CHECK_FALSE(plain.area->orient);
+  // In any order, and beside every kind.
+  const Light full =
+      light("jitter adaptive 1.7 area_light x y 2 3 spotlight circular orient area_illumination off");
+  CHECK(full.kind == Light::Kind::spotlight);
+  REQUIRE(full.area);
+  CHECK(full.area->adaptive == 1);
+  CHECK(full.area->jitter);
+  CHECK(full.area->circular);
+  CHECK(full.area->orient);
+  CHECK(light("area_light x, y, 2, 2 adaptive -1").area->adaptive == 0);
+  const Light moved = light("area_light 2*x, y, 2, 2 rotate 90*z translate x");
+  CHECK(glm::length(moved.area->across - Vec3(0, 2, 0)) < 1e-12);
+  CHECK(glm::length(moved.area->along - Vec3(-1, 0, 0)) < 1e-12);
+  const Scene scene = parse("#declare L = light_source { 0 rgb 1 area_light x, y, 2, 2 scale 2 }"
+                            "union { light_source { L scale 3 } scale 2 }");
+  CHECK(scene.lights[0].area->across == Vec3(12, 0, 0));
 }
 
 TEST_CASE("a shadowless light has no other kind") {
@@ -127,8 +159,11 @@ TEST_CASE("what light sources cannot have") {
   CHECK(refusal("box") == "there is no light source of this shape");
   CHECK(refusal("looks_like { sphere { 0, 1 } } looks_like { sphere { 0, 2 } }") ==
         "a light source looks like one object only");
-  CHECK(error_line("light_source { 0 rgb 1 spotlight area_light x, y, 2, 2 jitter }") ==
-        "scene.pov:1:34: error: 'area_light' is not supported yet");
+  CHECK(refusal("area_light x, y, 0, 2") == "an area light has 1 to 256 places along each side");
+  CHECK(refusal("area_light x, y, 2, 257") == "an area light has 1 to 256 places along each side");
+  CHECK(refusal("area_light x, y, 1, 3 circular") ==
+        "a circular area light has more than one place along each side");
+  CHECK(refusal("area_light x, y, 2, 3 area_illumination") == "'area_illumination' is not supported yet");
   CHECK(error_line("light_source { 0 rgb 1 spotlight radius x }") ==
         "scene.pov:1:41: error: expected a float, found a vector");
   CHECK(error_line("light_source { 0 rgb 1 looks_like { blob { threshold 1 } } }") ==

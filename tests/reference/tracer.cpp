@@ -6,6 +6,7 @@
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 
+#include "reference/area_light.hpp"
 #include "reference/camera.hpp"
 
 namespace celltrace::reference {
@@ -117,8 +118,15 @@ Vec3 Tracer::own_light(const Ray& ray, const Point& point, const Material& mater
   for (const Light& light : scene_.lights) {
     const auto [to_light, distance, unshadowed] = incoming(light, point.position);
     if (glm::dot(point.normal, to_light) < 1e-10) continue;
-    const Vec3 colour =
-        light.shadowless ? unshadowed : unshadowed * attenuation({point.position, to_light}, distance);
+    const auto from_place = [&](int column, int row) {
+      const Vec3 way = to_light * distance + area_offset(*light.area, to_light, column, row);
+      return unshadowed * attenuation({point.position, glm::normalize(way)}, glm::length(way));
+    };
+    Vec3 colour = unshadowed;
+    if (light.area && !light.shadowless)
+      colour = area_mean(*light.area, from_place);
+    else if (!light.shadowless)
+      colour *= attenuation({point.position, to_light}, distance);
     sum += lit(material, scene_.version, colour, to_light, ray.direction, point.normal, !light.shadowless);
   }
   return sum;

@@ -21,10 +21,15 @@ template <class L> constexpr uint32_t kLightKind = Lights::number<L>();
 /// Whether a light sends the same to all sides, however far.
 constexpr bool is_plain(const LightRecord& light) {
   static_assert(kLightKind<PointLight> == 0);
-  return (light.kind_and_flags & ~light_flag::shadowless) == 0;
+  constexpr uint32_t of_shadows = light_flag::shadowless | light_flag::area | light_flag::circular |
+                                  light_flag::orient | light_flag::jitter;
+  return (light.kind_and_flags & ~of_shadows) == 0;
 }
 constexpr bool is_shadowless(const LightRecord& light) {
   return (light.kind_and_flags & light_flag::shadowless) != 0;
+}
+constexpr bool has_area(const LightRecord& light) {
+  return (light.kind_and_flags & light_flag::area) != 0;
 }
 constexpr bool is_parallel(const LightRecord& light) {
   return (light.kind_and_flags & light_flag::parallel) != 0;

@@ -2,6 +2,7 @@
 // Traversal. Kernel dialect.
 #pragma once
 
+#include "kernel/lights/area_shadow.hpp"
 #include "kernel/models/search_record.hpp"
 
 namespace celltrace::kernel::models {
@@ -33,7 +34,9 @@ void fetch_answers(Spu& spu, ea_t first_search, uint32_t first, uint32_t searche
 
 template <class Spu> class ArrivedLight {
 public:
-  explicit ArrivedLight(Spu& spu) : spu_(spu) {}
+  using S = typename Spu::simd;
+
+  ArrivedLight(Spu& spu, const FrameBlock& frame) : spu_(spu), area_(allocate_area_shadow(spu, frame)) {}
 
   /// Answers to `searches` searches, the first of which `block` holds already. More are fetched under `tag`.
   void arrive(ea_t first_search, uint32_t searches, AnswerBlock& block, uint32_t tag) {
@@ -46,12 +49,21 @@ public:
   }
 
   /// As Intersector's.
-  template <class Surfaces, class IncidentLight>
-  void transmittance(const Surfaces&, const IncidentLight&, uint32_t number, VectorLanes& light) {
+  uint32_t transmittance(const LightRecord& source, const Surfaces<S>& surfaces,
+                         const IncidentLight<S>& incident, uint32_t number, VectorLanes& light) {
     // Lights come in order, and from the beginning again for each of a face's materials.
     while (answer(cursor_).number != number)
       cursor_ = cursor_ + 1 == searches_ ? 0 : cursor_ + 1;
+    if (has_area(source)) {
+      // All its places were asked for, row by row.
+      const uint32_t first = cursor_;
+      cursor_ += source.columns * source.rows - 1;
+      return sample_area(spu_, source, surfaces, incident, *area_, light, [&](AreaShadow<S>& shadow) {
+        shadow.light = answer(first + shadow.place.row * source.columns + shadow.place.column).light.colour;
+      });
+    }
     light = answer(cursor_).light.colour;
+    return static_cast<uint32_t>(__builtin_popcount(incident.facing));
   }
 
 private:
@@ -66,6 +78,7 @@ private:
   }
 
   Spu& spu_;
+  AreaShadow<S>* area_; ///< null if no light has an area
   ea_t first_search_ = 0;
   uint32_t searches_ = 0;
   AnswerBlock* block_ = nullptr;

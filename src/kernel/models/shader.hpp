@@ -6,8 +6,8 @@
 #include "kernel/models/primary_feed.hpp"
 #include "kernel/models/search_writer.hpp"
 #include "kernel/models/stage.hpp"
-#include "kernel/shading/ray_tracer.hpp"
 #include "kernel/program/pixel_writer.hpp"
+#include "kernel/shading/ray_tracer.hpp"
 
 namespace celltrace::kernel::models {
 
@@ -19,7 +19,7 @@ public:
       : spu_(spu), stage_(spu, block), orders_(stage_.orders()), frame_(stage_.frame()),
         doorbell_(spu, orders_), sender_(spu, orders_), feed_(spu, orders_, frame_, sender_),
         scene_(spu, cache_config(stage_.frame()), frame_.image), writer_(spu, sender_), pixels_(spu, frame_),
-        light_(spu), scratch_(*spu.template allocate<RayNode>()),
+        light_(spu, frame_), scratch_(*spu.template allocate<RayNode>()),
         arrivals_(spu.template allocate<Arrival>(2)) {
     place_contexts();
   }
@@ -178,21 +178,35 @@ private:
       IncidentLight<S> incident(light.colour);
       illuminate(spu_, light, surfaces, context.hit, incident);
       if (incident.facing == 0) return;
-      spu_.compute(model_work::kCopy);
-      SearchRecord& search = writer_.next();
-      make_shadow_rays(surfaces, incident, search.rays, search.light.distance);
-      search.light.colour.template store<S>(incident.colour);
-      search.kind = static_cast<uint32_t>(SearchKind::shadow);
-      search.lanes = incident.facing;
-      search.primary = 0;
-      search.number = i;
-      writer_.put();
+      if (!has_area(light)) {
+        ask_for_light_of(i, surfaces, incident);
+        return;
+      }
+      for (uint32_t row = 0; row < light.rows; ++row)
+        for (uint32_t column = 0; column < light.columns; ++column) {
+          IncidentLight<S> from_place(light.colour);
+          spu_.enter_module(modules::kLights);
+          module_lights::aim_shadow_rays(spu_, light, {column, row}, incident, from_place);
+          ask_for_light_of(i, surfaces, from_place);
+        }
     });
     context.searches = writer_.count();
     if (context.searches == 0) return false;
     context.awaits = Awaits::light;
     writer_.send();
     return true;
+  }
+
+  void ask_for_light_of(uint32_t number, const Surfaces<S>& surfaces, const IncidentLight<S>& incident) {
+    spu_.compute(model_work::kCopy);
+    SearchRecord& search = writer_.next();
+    make_shadow_rays(surfaces, incident, search.rays, search.light.distance);
+    search.light.colour.template store<S>(incident.colour);
+    search.kind = static_cast<uint32_t>(SearchKind::shadow);
+    search.lanes = incident.facing;
+    search.primary = 0;
+    search.number = number;
+    writer_.put();
   }
 
   void shade(uint32_t number) {

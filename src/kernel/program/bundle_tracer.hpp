@@ -39,8 +39,10 @@ public:
     }
     uint32_t lights = 0;
     for_each_light(scene_, frame_, kKnownLights, [&](uint32_t number, const LightRecord& light) {
-      if (!is_shadowless(light)) find_light(number, light);
-      lights = number + 1;
+      // One with an area each packet asks by itself, too.
+      if (is_shadowless(light) || has_area(light)) return;
+      find_light(number, light);
+      lights |= 1u << number;
     });
     for_each_member([&](Member& member) {
       tracer_.intersector().know_light(member.light, lights);

@@ -46,9 +46,9 @@ V3<S> reflected_light(const Surfaces<S>& s, const MaterialLanes<S>& m, const Inc
 
 } // namespace detail
 
-/// Ambient light, and what all lights contribute, at the surfaces of `lanes`. Counts a shadow ray per light
-/// and lane that faces it. `intersector.transmittance(surfaces, incident, number, colour)` multiplies the
-/// light of that number by what comes through.
+/// Ambient light, and what all lights contribute, at the surfaces of `lanes`. Counts shadow rays.
+/// `intersector.transmittance(light, surfaces, incident, number, colour)` multiplies the light of that number
+/// by what comes through, and returns how many rays that took.
 template <class Spu, class Intersector>
 V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, Intersector& intersector, const FrameBlock& frame,
                                    const Surfaces<typename Spu::simd>& s,
@@ -68,9 +68,8 @@ V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, Intersector& interse
     if (!is_shadowless(light)) {
       VectorLanes colour;
       colour.template store<S>(incident.colour);
-      intersector.transmittance(s, incident, number, colour);
+      shadow_rays += intersector.transmittance(light, s, incident, number, colour);
       incident.colour = colour.template load<S>();
-      shadow_rays += static_cast<uint32_t>(__builtin_popcount(facing));
     }
     const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
     sum = sum + select<S>(S::M::from_bits(facing),
