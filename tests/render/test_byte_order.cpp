@@ -70,14 +70,14 @@ TEST_CASE("Numbers of every width are converted in their places") {
   CHECK(foreign<std::uint32_t>(&unit, 4) == 0x05060708);
 
   FrameBlock frame{};
-  frame.camera.dy[3] = 1.5f;
+  frame.camera.dy[2] = 1.5f;
   frame.grid.cells[2] = 77;
   frame.image = 0x0102030405060708;
   frame.sort_buffer[1] = 0x1112131415161718;
   frame.adc_bailout = 0.25f;
   frame.camera_interiors[7] = 0x21222324;
   reverse_bytes(frame);
-  CHECK(foreign<float>(&frame, offsetof(FrameBlock, camera) + offsetof(CameraRecord, dy) + 12) == 1.5f);
+  CHECK(foreign<float>(&frame, offsetof(FrameBlock, camera) + offsetof(CameraRecord, dy) + 8) == 1.5f);
   CHECK(foreign<std::uint32_t>(&frame, offsetof(FrameBlock, grid) + offsetof(GridRecord, cells) + 8) == 77);
   CHECK(foreign<ea_t>(&frame, offsetof(FrameBlock, image)) == 0x0102030405060708);
   CHECK(foreign<ea_t>(&frame, offsetof(FrameBlock, sort_buffer) + 8) == 0x1112131415161718);
