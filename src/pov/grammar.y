@@ -484,8 +484,8 @@ camera_body
 // ---- Objects ----
 
 object
-  : object_body '}'          { $1->where = @1; $$ = $1; }
-  | light_body '}'           { $1->where = @1; $$ = $1; }
+  : object_body '}'          { $1->where = @1; $$ = own_object(session, $1, @1); }
+  | light_body '}'           { $1->where = @1; $$ = $1; session.lights.pop_back(); }
   | OBJECT_ID
   | UNSUPPORTED_OBJECT {
       $$ = unsupported_object(quoted(session, $1), @1);
@@ -501,6 +501,7 @@ object_head // a name instead of what an object consists of: whatever object it 
   | MESH2 '{' OBJECT_ID      { $$ = std::make_shared<ObjectDefinition>(*$3); }
   | shape_head               { $$ = shape(session, $1); }
   | shape_head OPEN          { $1.is_open = true; $$ = shape(session, $1); }
+  | LOOKS_LIKE '{' object    { $$ = look(session, *$3, @1); } // modifiers may follow, as everywhere
   | csg_head                 { $$ = csg(session, std::move($1), @1); }
   | triangle_vertices        { $$ = lone_triangle(session, $1, @1); }
   | mesh_head                { $$ = mesh(session, *$1, @1); }
@@ -564,7 +565,7 @@ limits // of where an object is; they can be moved together
 light_body // what comes later applies to what is there by then
   : LIGHT_SOURCE '{' OBJECT_ID                            { $$ = light(session, *$3, @3); }
   | LIGHT_SOURCE '{' quantity optional_comma colour_value {
-      $$ = light(session.vector($3, @3), session.colour($5, @5).rgb);
+      $$ = light(session, session.vector($3, @3), session.colour($5, @5).rgb);
     }
   | light_body SPOTLIGHT                                  { $$ = $1; set_kind(*$$, Light::Kind::spotlight); }
   | light_body SHAPE                                      { $$ = $1; set_kind(session, *$$, $2, @2); }
@@ -574,7 +575,7 @@ light_body // what comes later applies to what is there by then
   | light_body beam_number number                         { $$ = $1; set_beam(session, *$$, $2, $3, @2); }
   | light_body FADE_DISTANCE number                       { $$ = $1; light_of(*$$).fade_distance = $3; }
   | light_body FADE_POWER number                          { $$ = $1; light_of(*$$).fade_power = $3; }
-  | light_body LOOKS_LIKE '{' object '}'                  { $$ = $1; set_looks_like(session, *$$, $4, @2); }
+  | light_body object_body '}'                            { $$ = $1; set_looks_like(session, *$$, $2, @2); }
   | light_body AREA_LIGHT quantity optional_comma quantity optional_comma number optional_comma number {
       $$ = $1;
       set_area(session, *$$, session.vector($3, @3), session.vector($5, @5), {$7, $9}, @2);

@@ -33,9 +33,10 @@ LightArea moved(LightArea area, const Transform& next) {
   return area;
 }
 
-std::shared_ptr<ObjectDefinition> light(const Vec3& location, const Vec3& colour) {
+std::shared_ptr<ObjectDefinition> light(Session& session, const Vec3& location, const Vec3& colour) {
   auto object = std::make_shared<ObjectDefinition>();
   object->shape = LightDefinition{Light{location, colour}, nullptr, {}, false};
+  session.lights.push_back(object);
   return object;
 }
 
@@ -47,6 +48,7 @@ std::shared_ptr<ObjectDefinition> light(Session& session, const ObjectDefinition
   // Where it is by now; what follows, such as point_at, is not moved.
   object->transform = Transform();
   transform(*object, declared.transform);
+  session.lights.push_back(object);
   return object;
 }
 
@@ -116,12 +118,29 @@ void set_adaptive(ObjectDefinition& object, double level) {
   area_of(object).adaptive = static_cast<int>(std::clamp(level, 0.0, kAlways));
 }
 
-void set_looks_like(Session& session, ObjectDefinition& object, const ObjectPtr& looks_like,
-                    const Location& where) {
+std::shared_ptr<ObjectDefinition> look(Session& session, const ObjectDefinition& object,
+                                       const Location& where) {
+  if (session.lights.empty()) session.fail(where, "only a light source looks like something");
+  auto moved_object = std::make_shared<ObjectDefinition>(object);
+  moved_object->apply(Transform::translate(light_of(*session.lights.back()).location));
+  moved_object->is_look = true;
+  return moved_object;
+}
+
+void set_looks_like(Session& session, ObjectDefinition& object,
+                    const std::shared_ptr<ObjectDefinition>& looks_like, const Location& where) {
+  if (!looks_like->is_look) session.fail(where, "a light source consists of no objects");
   auto& definition = std::get<LightDefinition>(object.shape);
   if (definition.looks_like) session.fail(where, "a light source looks like one object only");
   nest(session, object, *looks_like, where);
-  definition.looks_like = moved(looks_like, Transform::translate(definition.light.location));
+  looks_like->is_look = false;
+  looks_like->where = where;
+  definition.looks_like = looks_like;
+}
+
+ObjectPtr own_object(Session& session, const ObjectPtr& object, const Location& where) {
+  if (object->is_look) session.fail(where, "only a light source looks like something");
+  return object;
 }
 
 void transform(ObjectDefinition& object, const Transform& next) {

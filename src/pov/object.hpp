@@ -69,7 +69,8 @@ struct ObjectDefinition {
   std::vector<Limit> clipped_by;
   std::vector<Limit> bounded_by; ///< without effect, until something is clipped by it
   UnsupportedPtr unsupported;
-  int depth = 0; ///< of objects inside one another
+  bool is_look = false; ///< being read as what a light looks like
+  int depth = 0;        ///< of objects inside one another
 
   /// Moves what limits it, too.
   void apply(const Transform& next);

@@ -11,6 +11,8 @@
 #include <functional>
 #include <numbers>
 
+#include <glm/geometric.hpp>
+
 namespace celltrace {
 
 using namespace kernel;

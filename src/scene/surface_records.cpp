@@ -74,6 +74,7 @@ float inverse_of_steps(int places) {
 
 /// As in POV-Ray, a single place is the middle, and what turns to surfaces is round.
 void set_area(const LightArea& area, LightRecord& r) {
+  if (area.columns == 1 && area.rows == 1) return;
   copy(area.across, r.across);
   copy(area.along, r.along);
   r.columns = static_cast<std::uint32_t>(area.columns);

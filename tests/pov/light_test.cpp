@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include <string>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -135,6 +136,31 @@ TEST_CASE("what a light looks like") {
   CHECK(scene.objects[0].no_shadow);
 }
 
+TEST_CASE("modifiers of what a light looks like apply to it where the light is") {
+  const auto look = [](const std::string& modifiers) {
+    const Scene scene = parse(
+        "light_source { <2, 3, 0> rgb 1 looks_like { sphere { 0, 1 pigment { rgb x } } " + modifiers + " }");
+    REQUIRE(scene.objects.size() == 1);
+    CHECK(scene.lights.size() == 1);
+    return std::pair{scene.objects[0], scene.materials[scene.objects[0].material]};
+  };
+  const auto middle = [&](const std::string& modifiers) {
+    return look(modifiers).first.transform.point({0, 0, 0});
+  };
+  CHECK(middle("}") == Vec3(2, 3, 0));
+  CHECK(middle("translate 2*x }") == Vec3(4, 3, 0));
+  CHECK(middle("scale 2 }") == Vec3(4, 6, 0));
+  CHECK(glm::length(middle("rotate 90*z }") - Vec3(-3, 2, 0)) < 1e-12);
+  CHECK(middle("scale 2 } translate 2*x") == Vec3(6, 6, 0));
+  CHECK(middle("scale 2 } scale .5") == Vec3(2, 3, 0));
+  CHECK(look("pigment { rgb y } }").second.pigment.rgb == Vec3(0, 1, 0));
+  CHECK(look("clipped_by { plane { x, 2 } } no_shadow }").first.clipped_by);
+  const Scene before =
+      parse("light_source { <2, 3, 0> rgb 1 translate -4*x looks_like { sphere { 0, 1 } scale 2 } "
+            "rotate 90*z }");
+  CHECK(glm::length(before.objects[0].transform.point({0, 0, 0}) - Vec3(-6, -4, 0)) < 1e-12);
+}
+
 TEST_CASE("what a light looks like belongs to unions, but to no other CSG") {
   const std::string lamp = "#declare L = light_source { 0 rgb 1 looks_like { sphere { 0, 1 } } } ";
   const Scene scene =
@@ -159,6 +185,12 @@ TEST_CASE("what light sources cannot have") {
   CHECK(refusal("box") == "there is no light source of this shape");
   CHECK(refusal("looks_like { sphere { 0, 1 } } looks_like { sphere { 0, 2 } }") ==
         "a light source looks like one object only");
+  CHECK(refusal("sphere { 0, 1 }") == "a light source consists of no objects");
+  CHECK(refusal("looks_like { sphere { 0, 1 } sphere { 0, 2 } }") != "");
+  CHECK(error_line("looks_like { sphere { 0, 1 } }") ==
+        "scene.pov:1:1: error: only a light source looks like something");
+  CHECK(refusal("looks_like { union { looks_like { sphere { 0, 1 } } } }") ==
+        "only a light source looks like something");
   CHECK(refusal("area_light x, y, 0, 2") == "an area light has 1 to 256 places along each side");
   CHECK(refusal("area_light x, y, 2, 257") == "an area light has 1 to 256 places along each side");
   CHECK(refusal("area_light x, y, 1, 3 circular") ==

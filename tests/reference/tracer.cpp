@@ -119,8 +119,11 @@ Vec3 Tracer::own_light(const Ray& ray, const Point& point, const Material& mater
     const auto [to_light, distance, unshadowed] = incoming(light, point.position);
     if (glm::dot(point.normal, to_light) < 1e-10) continue;
     const auto from_place = [&](int column, int row) {
-      const Vec3 way = to_light * distance + area_offset(*light.area, to_light, column, row);
-      return unshadowed * attenuation({point.position, glm::normalize(way)}, glm::length(way));
+      const Vec3 offset = area_offset(*light.area, to_light, column, row);
+      const Vec3 way = glm::normalize(to_light * distance + offset);
+      // Parallel light ends beside the place itself, and has no shadows behind it.
+      const double end = distance > 0 ? glm::dot(light.location + offset - point.position, way) : 0;
+      return unshadowed * attenuation({point.position, way}, end);
     };
     Vec3 colour = unshadowed;
     if (light.area && !light.shadowless)

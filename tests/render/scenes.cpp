@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include <glm/geometric.hpp>
+
 namespace celltrace::test {
 
 namespace {

@@ -37,4 +37,4 @@ light_source {
   rotate 5*z
 }
 light_source { <-20, 30, 10> rgb 0.15 parallel point_at 0 area_light 6*x, 6*z, 4, 4 adaptive 1 }
-light_source { <6, 3, 2> rgb 0.2 area_light x, 4*z, 1, 7 }
+light_source { <6, 3, 2> rgb 0.2 area_light x, 3.7*z, 1, 7 }

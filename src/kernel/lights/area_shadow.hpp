@@ -44,9 +44,9 @@ struct LightPlace {
 
 namespace module_lights {
 
-/// The vectors from surfaces to a place on a light, to whose middle it is `to_middle`.
+/// From the middle of a light to a place on it, which is seen from where it is `to_middle` to the middle.
 template <class S>
-[[gnu::noinline]] V3<S> aim(const LightRecord& light, const V3<S>& to_middle, const LightPlace& place) {
+[[gnu::noinline]] V3<S> offset_of(const LightRecord& light, const V3<S>& to_middle, const LightPlace& place) {
   using F = typename S::F;
   const uint32_t flags = light.kind_and_flags;
   F u(static_cast<float>(place.column)), v(static_cast<float>(place.row));
@@ -76,17 +76,33 @@ template <class S>
     across = first * length;
     along = cross<S>(toward, first) * length;
   }
-  return to_middle + across * u + along * v;
+  return across * u + along * v;
+}
+
+/// The ray from surfaces to a place on a light, and how far it goes. Parallel light comes from a middle on
+/// each surface's own axis; as in POV-Ray, its rays end beside the place itself. Behind the light nothing is
+/// in the way.
+template <class S>
+void aim(const LightRecord& light, const V3<S>& points, const V3<S>& to_middle, const LightPlace& place,
+         IncidentLight<S>& from_place) {
+  using F = typename S::F;
+  const V3<S> offset = offset_of<S>(light, to_middle, place);
+  from_place.set_ray(to_middle + offset);
+  if (!is_parallel(light)) return;
+  const F beside = dot<S>(splat3<S>(light.location) + offset - points, from_place.direction);
+  const F zero(0.0f);
+  from_place.distance = S::select(dot<S>(to_middle, to_middle) > zero, S::max(beside, zero), zero);
 }
 
 /// Makes of the light of the middle, of the same colour, that of a place.
 template <class Spu>
-[[gnu::noinline]] void aim_shadow_rays(Spu& spu, const LightRecord& light, const LightPlace& place,
+[[gnu::noinline]] void aim_shadow_rays(Spu& spu, const LightRecord& light,
+                                       const Surfaces<typename Spu::simd>& s, const LightPlace& place,
                                        const IncidentLight<typename Spu::simd>& middle,
                                        IncidentLight<typename Spu::simd>& from_place) {
   using S = typename Spu::simd;
   spu.run_in_module(modules::kLights);
-  from_place.set_ray(aim<S>(light, middle.direction * middle.distance, place));
+  aim<S>(light, s.point, middle.direction * middle.distance, place, from_place);
   from_place.colour = middle.colour;
   from_place.facing = middle.facing;
 }
@@ -254,7 +270,7 @@ template <class Spu>
       const uint32_t lanes = a.quad.lanes & ~uint32_t(known.lit | known.dark);
       if (lanes == 0) continue;
       IncidentLight<S> from_place(light.colour);
-      from_place.set_ray(aim<S>(light, a.to_middle.template load<S>(), place));
+      aim<S>(light, a.rays.origin.template load<S>(), a.to_middle.template load<S>(), place, from_place);
       a.rays.direction.template store<S>(from_place.direction);
       from_place.distance.store(a.distance.lane);
       a.light = a.whole;

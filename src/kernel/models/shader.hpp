@@ -186,7 +186,7 @@ private:
         for (uint32_t column = 0; column < light.columns; ++column) {
           IncidentLight<S> from_place(light.colour);
           spu_.enter_module(modules::kLights);
-          module_lights::aim_shadow_rays(spu_, light, {column, row}, incident, from_place);
+          module_lights::aim_shadow_rays(spu_, light, surfaces, {column, row}, incident, from_place);
           ask_for_light_of(i, surfaces, from_place);
         }
     });
