@@ -2,7 +2,6 @@
 // operations of the SIMD facade, and those that the kernel declares by compute().
 #pragma once
 
-#include "celltrace/spe/simd_host.hpp"
 #include "celltrace/spe/spu.hpp"
 
 #include <cstdint>
@@ -11,8 +10,16 @@ namespace celltrace::cell_emu {
 
 /// Instructions by the unit that executes them.
 struct UnitCounts {
-  std::uint64_t fx2 = 0, fx3 = 0, fxb = 0, fp6 = 0, fp7 = 0; ///< even pipe
-  std::uint64_t ls = 0, shuf = 0, br = 0;                    ///< odd pipe
+  // even pipe
+  std::uint64_t fx2 = 0; ///< add, logic, compare, select, load immediate
+  std::uint64_t fx3 = 0; ///< word shift
+  std::uint64_t fxb = 0; ///< byte operation
+  std::uint64_t fp6 = 0; ///< single precision arithmetic
+  std::uint64_t fp7 = 0; ///< conversion, interpolation, integer multiply
+  // odd pipe
+  std::uint64_t ls = 0;   ///< load, store
+  std::uint64_t shuf = 0; ///< shuffle, quadword rotate, estimate
+  std::uint64_t br = 0;   ///< branch, orx
 };
 
 /// What was computed since the last look; see cycles_of() in pipeline.hpp.
@@ -39,31 +46,33 @@ inline OperationCounts take_operation_counts() {
   return taken;
 }
 
-/// The policy of HostSimd that counts. Most of the numbers are 0, which is known when this is compiled. The
-/// fields are named one by one, as GCC 12's undefined-behaviour sanitizer takes a reference to part of a
-/// thread-local for null.
-struct CountOperations {
-  [[gnu::always_inline]] static void packet(const SpuInstructions& n) {
-    if (n.fx2 != 0) operation_counts.packet.fx2 += n.fx2;
-    if (n.fx3 != 0) operation_counts.packet.fx3 += n.fx3;
-    if (n.fxb != 0) operation_counts.packet.fxb += n.fxb;
-    if (n.fp6 != 0) operation_counts.packet.fp6 += n.fp6;
-    if (n.fp7 != 0) operation_counts.packet.fp7 += n.fp7;
-    if (n.ls != 0) operation_counts.packet.ls += n.ls;
-    if (n.shuf != 0) operation_counts.packet.shuf += n.shuf;
-    if (n.br != 0) operation_counts.packet.br += n.br;
-  }
-  [[gnu::always_inline]] static void chain(const SpuInstructions& n) {
-    if (n.fx2 != 0) operation_counts.chain.fx2 += n.fx2;
-    if (n.fx3 != 0) operation_counts.chain.fx3 += n.fx3;
-    if (n.fxb != 0) operation_counts.chain.fxb += n.fxb;
-    if (n.fp6 != 0) operation_counts.chain.fp6 += n.fp6;
-    if (n.fp7 != 0) operation_counts.chain.fp7 += n.fp7;
-    if (n.ls != 0) operation_counts.chain.ls += n.ls;
-    if (n.shuf != 0) operation_counts.chain.shuf += n.shuf;
-    if (n.br != 0) operation_counts.chain.br += n.br;
-  }
-};
+// Counting the instructions of one operation. Most of the numbers are 0, which is known when this is
+// compiled. The fields are named one by one, as GCC 12's undefined-behaviour sanitizer takes a reference to
+// part of a thread-local for null.
+
+/// Each of the instructions is issued once for each of the four quadwords of a packet; the four are
+/// independent of each other, the instructions are a chain.
+[[gnu::always_inline]] inline void count_packet(const UnitCounts& n) {
+  if (n.fx2 != 0) operation_counts.packet.fx2 += n.fx2;
+  if (n.fx3 != 0) operation_counts.packet.fx3 += n.fx3;
+  if (n.fxb != 0) operation_counts.packet.fxb += n.fxb;
+  if (n.fp6 != 0) operation_counts.packet.fp6 += n.fp6;
+  if (n.fp7 != 0) operation_counts.packet.fp7 += n.fp7;
+  if (n.ls != 0) operation_counts.packet.ls += n.ls;
+  if (n.shuf != 0) operation_counts.packet.shuf += n.shuf;
+  if (n.br != 0) operation_counts.packet.br += n.br;
+}
+/// Each of the instructions is issued once, and needs the result of the one before.
+[[gnu::always_inline]] inline void count_chain(const UnitCounts& n) {
+  if (n.fx2 != 0) operation_counts.chain.fx2 += n.fx2;
+  if (n.fx3 != 0) operation_counts.chain.fx3 += n.fx3;
+  if (n.fxb != 0) operation_counts.chain.fxb += n.fxb;
+  if (n.fp6 != 0) operation_counts.chain.fp6 += n.fp6;
+  if (n.fp7 != 0) operation_counts.chain.fp7 += n.fp7;
+  if (n.ls != 0) operation_counts.chain.ls += n.ls;
+  if (n.shuf != 0) operation_counts.chain.shuf += n.shuf;
+  if (n.br != 0) operation_counts.chain.br += n.br;
+}
 
 /// Scalar work that a kernel declares. A scalar load or store comes with a shuffle; those without one move
 /// quadwords from one place to another.

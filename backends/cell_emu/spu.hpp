@@ -2,7 +2,7 @@
 // channels and MFC commands, and charges the SPE's virtual clock for the operations it counts.
 #pragma once
 
-#include "backends/cell_emu/operation_counter.hpp"
+#include "backends/cell_emu/counting_simd.hpp"
 #include "backends/cell_emu/spu_core.hpp"
 #include "celltrace/spe/simd_host.hpp"
 #include "celltrace/spe/spu.hpp"
@@ -20,7 +20,7 @@ class Spu : public SpuCore, public SpuBase<Spu> {
 public:
   static constexpr const char* kKey = "cell_emu";
   static constexpr bool direct_memory = false;
-  using simd = HostSimd<xsimd::sse2, CountOperations>;
+  using simd = CountingSimd<HostSimd<xsimd::sse2>>;
 
   /// `arena` is the part of the SPE's local store that is the kernel's.
   Spu(Spe& spe, const SpuContext& context, const ArenaState& arena);

@@ -15,33 +15,59 @@ endif()
 set(code ${CMAKE_MATCH_1})
 math(EXPR data "${CMAKE_MATCH_2} + ${CMAKE_MATCH_3} - ${ARENA}")
 
-# Code modules lie in the file, and in turn in one region.
+# Code modules lie in the file, and in turn in one of some regions.
 execute_process(COMMAND ${SIZE_TOOL} -A ${ELF} OUTPUT_VARIABLE sections)
-string(REGEX MATCHALL "\\.module\\.[a-z]+ +[0-9]+" modules "${sections}")
-set(region 0)
+string(REGEX MATCHALL "\\.module\\.[a-z]+ +[0-9]+ +[0-9]+" modules "${sections}")
+set(regions "")
 set(lines "")
 foreach(module ${modules})
-  string(REGEX MATCH "[0-9]+" bytes ${module})
+  string(REGEX MATCH "^([^ ]+) +([0-9]+) +([0-9]+)$" all ${module})
+  set(bytes ${CMAKE_MATCH_2})
+  set(at ${CMAKE_MATCH_3})
   math(EXPR code "${code} - ${bytes}")
-  string(APPEND lines "    ${module}\n")
-  if(bytes GREATER region)
-    set(region ${bytes})
+  string(APPEND lines "    ${CMAKE_MATCH_1} ${bytes}\n")
+  list(APPEND regions ${at})
+  if(NOT DEFINED region_${at} OR bytes GREATER region_${at})
+    set(region_${at} ${bytes})
   endif()
+endforeach()
+list(REMOVE_DUPLICATES regions)
+set(region 0)
+foreach(at ${regions})
+  math(EXPR region "${region} + ${region_${at}}")
 endforeach()
 math(EXPR code "${code} + ${region}")
 
-# A call from one module into another would return to where the first one no longer is. The linker's stubs for such
-# calls lie in the modules themselves.
+# The region that an address is in, or nothing.
+function(region_of address result)
+  set(${result} "" PARENT_SCOPE)
+  foreach(at ${regions})
+    math(EXPR end "${at} + ${region_${at}}")
+    if(NOT address LESS at AND address LESS end)
+      set(${result} ${at} PARENT_SCOPE)
+    endif()
+  endforeach()
+endfunction()
+
+# A call from one module into another of its region would return to where the first one no longer is. The linker's stubs
+# for such calls lie in the modules themselves.
 if(modules)
-  string(REGEX MATCH "\\.module\\.[a-z]+ +[0-9]+ +([0-9]+)" first "${sections}")
-  set(region_at ${CMAKE_MATCH_1})
   execute_process(COMMAND ${NM_TOOL} ${ELF} OUTPUT_VARIABLE symbols)
   string(REGEX MATCHALL "[0-9a-f]+ [a-zA-Z] [0-9a-f]+\\.ovl_call[^\n]*" stubs "${symbols}")
   foreach(stub ${stubs})
-    string(REGEX MATCH "^[0-9a-f]+" at ${stub})
-    math(EXPR at "0x${at}")
-    if(NOT at LESS region_at)
-      message(FATAL_ERROR "a code module of ${ELF} calls another one: ${stub}")
+    string(REGEX MATCH "^([0-9a-f]+) [a-zA-Z] [0-9a-f]+\\.ovl_call\\.([^\n]*)" all "${stub}")
+    set(called ${CMAKE_MATCH_2})
+    math(EXPR at "0x${CMAKE_MATCH_1}")
+    region_of(${at} from)
+    if(from STREQUAL "")
+      continue()
+    endif()
+    string(REGEX REPLACE "([][+.*()^$?\\\\])" "\\\\\\1" pattern "${called}")
+    string(REGEX MATCH "([0-9a-f]+) [tTwW] ${pattern}\n" all "${symbols}")
+    math(EXPR at "0x${CMAKE_MATCH_1}")
+    region_of(${at} to)
+    if(from STREQUAL to)
+      message(FATAL_ERROR "a code module of ${ELF} calls another one of its region: ${called}")
     endif()
   endforeach()
 endif()
@@ -57,7 +83,7 @@ math(EXPR free "${local_store} - ${total}")
 get_filename_component(name ${ELF} NAME)
 message("local store of ${name}, bytes:\n"
   "  code and constants  ${code}\n"
-  "    of it, a region of modules  ${region}\n${lines}"
+  "    of it, regions of modules  ${region}\n${lines}"
   "  data                ${data}\n"
   "  arena               ${ARENA}\n"
   "  stack               ${stack}\n"

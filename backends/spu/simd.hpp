@@ -145,18 +145,14 @@ struct Simd {
       return {{q, q, q, q}};
     }
     static I load_words(const void* line, const I& offsets) {
-      const vec_uchar16 first_two = {0, 1, 2, 3, 16, 17, 18, 19, 0, 0, 0, 0, 0, 0, 0, 0};
-      const vec_uchar16 halves = {0, 1, 2, 3, 4, 5, 6, 7, 16, 17, 18, 19, 20, 21, 22, 23};
       return map(offsets, [&](vec_int4 four) {
         const vec_int4 at = spu_and(four, 124);
-        const auto word = [&](int lane) {
+        return join_words([&](int lane) {
           const int offset = spu_extract(at, lane);
           // Loads take the quadword that an address is in.
           const qword quad = si_lqx(si_from_ptr(line), si_from_int(offset));
           return (vec_int4)si_rotqby(quad, si_from_int(offset));
-        };
-        return spu_shuffle(spu_shuffle(word(0), word(1), first_two), spu_shuffle(word(2), word(3), first_two),
-                           halves);
+        });
       });
     }
     static I load(const int32_t* lanes) {
@@ -193,6 +189,9 @@ struct Simd {
     friend I operator|(const I& a, const I& b) {
       return zip(a, b, [](vec_int4 x, vec_int4 y) { return spu_or(x, y); });
     }
+    friend I operator^(const I& a, const I& b) {
+      return zip(a, b, [](vec_int4 x, vec_int4 y) { return spu_xor(x, y); });
+    }
     friend M operator==(const I& a, const I& b) {
       return test(a, b, [](vec_int4 x, vec_int4 y) { return spu_cmpeq(x, y); });
     }
@@ -200,6 +199,41 @@ struct Simd {
       return test(a, b, [](vec_int4 x, vec_int4 y) { return spu_cmpgt(y, x); });
     }
   };
+
+  /// Joins what is in the first words of four quadwords, `quad_of(lane)`.
+  template <class QuadOf> static vec_int4 join_words(QuadOf quad_of) {
+    const vec_uchar16 first_two = {0, 1, 2, 3, 16, 17, 18, 19, 0, 0, 0, 0, 0, 0, 0, 0};
+    const vec_uchar16 halves = {0, 1, 2, 3, 4, 5, 6, 7, 16, 17, 18, 19, 20, 21, 22, 23};
+    return spu_shuffle(spu_shuffle(quad_of(0), quad_of(1), first_two),
+                       spu_shuffle(quad_of(2), quad_of(3), first_two), halves);
+  }
+  /// Not inlined: local store is short.
+  [[gnu::noinline]] static F gather(const float* table, const I& index) {
+    F r;
+    for (int q = 0; q < kQuads; ++q) {
+      const vec_int4 at = spu_sl(index.quad[q], 2u);
+      r.quad[q] = (vec_float4)join_words([&](int lane) {
+        const int address = spu_extract(at, lane) + si_to_int(si_from_ptr(table));
+        const qword quad = si_lqd(si_from_int(address), 0);
+        return (vec_int4)si_rotqby(quad, si_from_int(address));
+      });
+    }
+    return r;
+  }
+  [[gnu::noinline]] static I gather(const uint16_t* table, const I& index) {
+    I r;
+    for (int q = 0; q < kQuads; ++q) {
+      const vec_int4 at = spu_add(index.quad[q], index.quad[q]);
+      r.quad[q] = spu_and(join_words([&](int lane) {
+                            // The number becomes the lower half of the first word.
+                            const int address = spu_extract(at, lane) + si_to_int(si_from_ptr(table));
+                            const qword quad = si_lqd(si_from_int(address), 0);
+                            return (vec_int4)si_rotqby(quad, si_from_int(address - 2));
+                          }),
+                          0xFFFF);
+    }
+    return r;
+  }
 
   static F min(const F& a, const F& b) {
     return F::zip(a, b, [](vec_float4 x, vec_float4 y) { return spu_sel(x, y, spu_cmpgt(x, y)); });

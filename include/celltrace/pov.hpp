@@ -2,9 +2,10 @@
 //
 // Supported: the language itself (directives, macros, loops, strings, arrays, expressions), perspective and
 // orthographic cameras, point lights, spheres, boxes, planes, discs, cylinders, cones, tori, triangles,
-// meshes, unions, CSG of all that have an inside, with inverse and clipped_by, and solid-colour textures with
-// every finish that Finish has. Whatever else POV-Ray knows may be declared; it is an error, "'blob' is not
-// supported yet", where an object of the scene uses it.
+// meshes, unions, CSG of all that have an inside, with inverse and clipped_by, sky spheres, and textures of
+// everything that texture.hpp has: patterns with maps and lists, normals, layers, and the finish. Whatever
+// else POV-Ray knows may be declared; it is an error, "'blob' is not supported yet", where an object of the
+// scene uses it.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +36,9 @@ struct ParseLimits {
   std::uint64_t string_bytes = 1u << 20;      ///< of one string
   std::uint64_t text_bytes = 256u << 20;      ///< of all strings made or declared
   std::uint64_t objects = 4'000'000;          ///< placed in the scene
-  std::uint64_t triangles = 32'000'000;       ///< of all meshes, an instance not counted again
+  std::uint64_t triangles =
+      32'000'000; ///< of all meshes, an instance not counted again unless it has patterns
+  std::uint64_t map_entries = 16'000'000; ///< of all textures with patterns, as often as they are placed
 };
 
 struct ParseOptions {

@@ -6,6 +6,8 @@
 // it.
 #pragma once
 
+#include "celltrace/texture.hpp"
+
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -13,36 +15,7 @@
 #include <variant>
 #include <vector>
 
-#include <glm/mat4x4.hpp>
-#include <glm/vec3.hpp>
-
 namespace celltrace {
-
-using Vec3 = glm::dvec3;
-using Vec3f = glm::vec3;
-
-/// An affine transformation as POV-Ray writes it: row vectors, p' = p * rows[0..2] + rows[3].
-struct Transform {
-  Vec3 rows[4] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}};
-
-  static Transform translate(const Vec3& offset);
-  /// About x, then y, then z, in degrees, left-handed.
-  static Transform rotate(const Vec3& degrees);
-  /// A factor of 0 counts as 1, as in POV-Ray.
-  static Transform scale(const Vec3& factors);
-  static Transform matrix(const double (&values)[12]);
-
-  Vec3 point(const Vec3& p) const { return p.x * rows[0] + p.y * rows[1] + p.z * rows[2] + rows[3]; }
-  Vec3 direction(const Vec3& d) const { return d.x * rows[0] + d.y * rows[1] + d.z * rows[2]; }
-  /// A normal transforms by the inverse transpose; not normalised.
-  Vec3 normal(const Vec3& n) const;
-  double determinant() const;
-  /// Throws InputError if the transformation is singular.
-  Transform inverse() const;
-  /// First this, then `next`.
-  Transform then(const Transform& next) const;
-  bool is_identity() const;
-};
 
 struct Camera {
   /// POV-Ray's kinds, by the ray through pixel (x, y) of a W x H picture: with u = (x+.5)/W-.5 from -.5 at
@@ -77,38 +50,6 @@ enum class GammaMode {
   none,   ///< legacy: pixel values are written as they are
   srgb,   ///< working space is already encoded: written as they are (`assumed_gamma srgb`)
   assumed ///< working space has exponent Scene::assumed_gamma: sRGB-encoded on output
-};
-
-/// Colour with POV-Ray's two transparency channels; neither is limited to 0..1.
-struct Pigment {
-  Vec3 rgb{0, 0, 0};
-  double filter = 0;
-  double transmit = 0;
-};
-
-/// POV-Ray's finish with POV-Ray's defaults.
-struct Finish {
-  Vec3 ambient{0.1, 0.1, 0.1};
-  Vec3 emission{0, 0, 0};
-  double diffuse = 0.6;
-  double brilliance = 1;
-  double phong = 0;
-  double phong_size = 40;
-  double specular = 0;
-  double roughness = 0.05;
-  double metallic = 0; ///< of the highlights
-  Vec3 reflection_min{0, 0, 0};
-  Vec3 reflection_max{0, 0, 0};
-  double reflection_falloff = 1;
-  double reflection_exponent = 1;
-  double reflection_metallic = 0;
-  bool reflection_fresnel = false;
-  bool conserve_energy = false;
-};
-
-struct Material {
-  Pigment pigment;
-  Finish finish;
 };
 
 /// The inside of an object. Every object owns one; the children of a union share the union's if they have
@@ -250,6 +191,9 @@ struct Scene {
   std::string name; ///< for messages: the file it came from
   Camera camera;
   Vec3 background{0, 0, 0};
+  /// Layers over the background, the last one on top: what rays meet that hit nothing. Their patterns are
+  /// asked at the ray's direction, of length 1.
+  std::vector<Pigment> sky_sphere;
   Vec3 ambient_light{1, 1, 1};
   std::vector<Light> lights;
   std::vector<Material> materials; ///< objects refer to these by index
@@ -263,6 +207,8 @@ struct Scene {
   double version = 3.7;
   int max_trace_level = 5;
   double adc_bailout = 1.0 / 255;
+  int noise_generator = 2;  ///< of patterns that do not say: 1 to 3 as POV-Ray counts them
+  int number_of_waves = 10; ///< of ripples and waves
 
   /// Appends and returns the index.
   Index add(const Material& material);

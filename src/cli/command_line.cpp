@@ -65,7 +65,7 @@ void add_picture_options(CLI::App& command, RenderRequest& request, RenderTexts&
   command.add_option("-H,--height", options.height, "Rows")->check(side)->capture_default_str();
   command
       .add_option("-L,--library", request.library_paths,
-                  "RayQuery this folder for included files; may be repeated")
+                  "Search this folder for included files; may be repeated")
       ->type_name("DIR")
       ->allow_extra_args(false);
   command.add_option("--declare", texts.declares, "Declare a number or string before the scene begins")

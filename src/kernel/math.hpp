@@ -28,6 +28,13 @@ template <class S> typename S::F4 four(float a, float b, float c, float d) {
 template <class S> V3<S> splat3(const float* v) {
   return {typename S::F(v[0]), typename S::F(v[1]), typename S::F(v[2])};
 }
+/// An affine map, three rows of four (xyz | offset).
+template <class S> V3<S> map_point(const float (&m)[12], const V3<S>& p) {
+  using F = typename S::F;
+  return {F(m[0]) * p.x + F(m[1]) * p.y + F(m[2]) * p.z + F(m[3]),
+          F(m[4]) * p.x + F(m[5]) * p.y + F(m[6]) * p.z + F(m[7]),
+          F(m[8]) * p.x + F(m[9]) * p.y + F(m[10]) * p.z + F(m[11])};
+}
 template <class S> typename S::F dot(const V3<S>& a, const V3<S>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
@@ -52,6 +59,19 @@ template <class S> typename S::F max_component(const V3<S>& v) {
 /// Luminance with POV-Ray's weights.
 template <class S> typename S::F grey(const V3<S>& v) {
   return v.x * typename S::F(0.297f) + v.y * typename S::F(0.589f) + v.z * typename S::F(0.114f);
+}
+
+/// The greatest whole number that is not above x; |x| < 2^31.
+template <class S> typename S::F whole_below(const typename S::F& x) {
+  using F = typename S::F;
+  const F toward_zero = S::to_float(S::to_int(x));
+  return toward_zero - S::select(x < toward_zero, F(1.0f), F(0.0f));
+}
+/// x without that number, which goes to `whole`. May be 1 where a negative x is close to 0.
+template <class S> typename S::F fraction(const typename S::F& x, typename S::I& whole) {
+  const typename S::F below = whole_below<S>(x);
+  whole = S::to_int(below);
+  return x - below;
 }
 
 /// Binary logarithm of x > 0 (normal numbers); absolute error below 2e-7 near 1, relative elsewhere.
@@ -92,6 +112,24 @@ template <class S> typename S::F pow(const typename S::F& x, const typename S::F
   using F = typename S::F;
   const F positive = S::max(x, F(1e-37f));
   return S::select(x > F(1e-37f), exp2<S>(y * log2<S>(positive)), F(0.0f));
+}
+
+/// The sine of an angle in turns, in [0, 1]; absolute error below 3e-7.
+template <class S> typename S::F sine_of_turns(const typename S::F& turns) {
+  using F = typename S::F;
+  // About the middle, where the sine falls; beyond a quarter of a turn from there it is the same on the way
+  // back.
+  const F from_middle = turns - F(0.5f);
+  const F fold = S::select(from_middle < F(0.0f), F(-0.5f), F(0.5f)) - from_middle;
+  const F x = F(6.28318531f) * S::select(S::abs(from_middle) > F(0.25f), fold, from_middle);
+  const F square = x * x;
+  const F series =
+      F(1.0f) -
+      square *
+          (F(1.0f / 6) -
+           square * (F(1.0f / 120) -
+                     square * (F(1.0f / 5040) - square * (F(1.0f / 362880) - square * F(1.0f / 39916800)))));
+  return -(x * series);
 }
 
 /// Arc cosine of x in [0, 1]; absolute error below 3e-7 (Abramowitz and Stegun 4.4.46).

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "celltrace/spe/simd.hpp"
+#include "kernel/direct/door.hpp"
 #include "kernel/math.hpp"
 #include "kernel/records.hpp"
 #include "kernel/scalar.hpp"
@@ -10,10 +11,6 @@
 #include <stdint.h>
 
 namespace celltrace::kernel {
-
-/// A bundle is a square of packets that are traversed together: this many on a side.
-template <class Spu> constexpr uint32_t kBundleEdge = bundle_edge(Spu::direct_memory);
-template <class Spu> constexpr uint32_t kBundlePackets = kBundleEdge<Spu>* kBundleEdge<Spu>;
 
 /// One value for each lane, in local store.
 struct alignas(64) FloatLanes {
@@ -32,6 +29,11 @@ struct VectorLanes {
   template <class S> V3<S> load() const {
     using F = typename S::F;
     return {F::load(x.lane), F::load(y.lane), F::load(z.lane)};
+  }
+  /// The vector of lane `i`, in all lanes.
+  template <class S> V3<S> of(uint32_t i) const {
+    using F = typename S::F;
+    return {F(x.lane[i]), F(y.lane[i]), F(z.lane[i])};
   }
   template <class S> void store(const V3<S>& v) {
     v.x.store(x.lane);
@@ -56,7 +58,7 @@ template <class Spu>
 void put_in_lanes([[maybe_unused]] bool all, const typename Spu::simd::M& lanes, const float* values,
                   V3<typename Spu::simd>& into) {
   using S = typename Spu::simd;
-  if constexpr (Spu::direct_memory)
+  if constexpr (kHasRoomForCode<Spu>)
     into = all ? splat3<S>(values) : select<S>(lanes, splat3<S>(values), into);
   else
     detail::put_elsewhere<S>(lanes, values, into);

@@ -22,12 +22,14 @@ constexpr uint32_t kMaxPrimitives = 16;
 
 namespace object_flag {
 constexpr uint32_t kind_mask = 0xFF;
-constexpr uint32_t smooth = 0x100;    ///< triangle with vertex normals
-constexpr uint32_t no_shadow = 0x200; ///< shadow rays pass
-constexpr uint32_t opaque = 0x400;    ///< shadow rays stop
-constexpr uint32_t blended = 0x800;   ///< `material` is the offset of a BlendRecord
-constexpr uint32_t open = 0x1000;     ///< cylinder or cone without caps
-constexpr uint32_t csg = 0x2000;      ///< part of a CSG: crossings count where its condition holds
+constexpr uint32_t smooth = 0x100;     ///< triangle with vertex normals
+constexpr uint32_t no_shadow = 0x200;  ///< shadow rays pass
+constexpr uint32_t opaque = 0x400;     ///< shadow rays stop
+constexpr uint32_t blended = 0x800;    ///< `material` is the offset of a BlendRecord
+constexpr uint32_t open = 0x1000;      ///< cylinder or cone without caps
+constexpr uint32_t csg = 0x2000;       ///< part of a CSG: crossings count where its condition holds
+constexpr uint32_t textured = 0x4000;  ///< some materials of it are not the constants of their records alone
+constexpr uint32_t disturbed = 0x8000; ///< some of its materials disturb normals
 } // namespace object_flag
 
 /// Geometry by kind: sphere: centre (0..2), radius (3). Triangle: its vertices (0..2, 3..5, 6..8). All
@@ -90,12 +92,94 @@ struct alignas(16) BlendRecord {
 };
 static_assert(sizeof(BlendRecord) == 16, "crosses DMA");
 
+// Textures. What a pattern's values stand for is said by entries of a map, and an entry may be a map again.
+
+namespace pattern_flag {
+constexpr uint32_t kind_mask = 0xFF; ///< the place of its kind in the list of textures/list.hpp
+constexpr uint32_t wave_shift = 8;   ///< a PatternWave
+constexpr uint32_t wave_mask = 0x7;
+constexpr uint32_t turbulent = 0x800;        ///< `turbulence` displaces points
+constexpr uint32_t average = 0x1000;         ///< all entries, by weights that are their positions
+constexpr uint32_t first_generator = 0x2000; ///< of noise: scaled as POV-Ray's generator 1 does
+} // namespace pattern_flag
+/// What becomes of a pattern's values: POV-Ray's wave forms. `none`: they stay, frequency and phase mean
+/// nothing.
+enum class PatternWave : uint32_t {
+  ramp = 0,
+  triangle = 1,
+  sine = 2,
+  scallop = 3,
+  cubic = 4,
+  poly = 5,
+  none = 6
+};
+
+/// Displacement by noise.
+struct TurbulenceWords {
+  float amount[3];
+  float lambda, omega;
+  uint32_t octaves;
+};
+
+/// Points go through `to_space`, then the steps, then the turbulence if there is any.
+struct alignas(128) PatternRecord {
+  uint32_t kind_and_flags;
+  uint32_t entries; ///< offset of the first MapEntryRecord
+  uint32_t entry_count;
+  uint32_t steps; ///< offset of the first SpaceStepRecord
+  uint32_t step_count;
+  float to_space[12]; ///< three rows of four (xyz | offset)
+  float frequency, phase, wave_exponent;
+  TurbulenceWords turbulence;
+  float parameter[6]; ///< by kind
+};
+static_assert(sizeof(PatternRecord) == 128, "one a line");
+
+/// Between the world and a pattern's space: turbulence, then a map.
+struct alignas(128) SpaceStepRecord {
+  TurbulenceWords turbulence;
+  float to_space[12];
+  uint32_t unused[14];
+};
+static_assert(sizeof(SpaceStepRecord) == 128, "one a line");
+
+/// What stands for a value of a pattern.
+struct alignas(32) MapEntryRecord {
+  float position;      ///< the pattern's value, or an average's weight
+  float inverse_width; ///< of the interval from the entry before, 0 where there is none
+  float rgb[3];        ///< of a pigment without a map
+  float filter, transmit;
+  /// Pigments: offset of a PatternRecord, whose map it is, or kNoOffset. Normals: of a NormalRecord.
+  /// Textures: of a MaterialRecord.
+  uint32_t child;
+};
+static_assert(sizeof(MapEntryRecord) == 32, "four a line");
+
+/// A normal: adds a disturbance to the normals of surfaces, which the linear map takes to the pattern's
+/// space.
+struct alignas(64) NormalRecord {
+  uint32_t pattern;   ///< offset of a PatternRecord
+  uint32_t is_mapped; ///< 0 or 1: the pattern's entries are NormalRecords, and what follows means nothing
+  float amount;
+  float accuracy;  ///< distance at which slopes are measured
+  float linear[9]; ///< three rows
+  uint32_t unused[3];
+};
+static_assert(sizeof(NormalRecord) == 64, "two a line");
+
 namespace material_flag {
 constexpr uint32_t fresnel = 0x1;
 constexpr uint32_t conserve_energy = 0x2;
+constexpr uint32_t patterned = 0x4; ///< `pattern` says what the pigment is
+constexpr uint32_t disturbed = 0x8; ///< has a normal
+constexpr uint32_t layered = 0x10;  ///< has a layer below
+constexpr uint32_t mapped = 0x20;   ///< a texture map: `pattern` has MaterialRecords, all else means nothing
+constexpr uint32_t old_opacity =
+    0x40; ///< filtered light is counted by the brightest channel, as before version 3.7
 } // namespace material_flag
 
-/// Pigment and finish, with what is constant per frame computed beforehand.
+/// A texture or one layer of it: pigment, normal and finish, with what is constant per frame computed
+/// beforehand.
 struct alignas(128) MaterialRecord {
   float pigment[3];
   float filter;
@@ -115,7 +199,10 @@ struct alignas(128) MaterialRecord {
   float reflection_metallic;
   float inverse_reflection_exponent;
   uint32_t flags;
-  uint32_t unused[6];
+  uint32_t pattern; ///< offset of a PatternRecord
+  uint32_t normal;  ///< offset of a NormalRecord
+  uint32_t below;   ///< offset of the layer's MaterialRecord
+  uint32_t unused[3];
 };
 static_assert(sizeof(MaterialRecord) == 128, "one material a line");
 
@@ -206,7 +293,12 @@ struct alignas(128) ImageHeader {
   uint32_t csg_offset, csg_count;           ///< CsgRecords
   uint32_t csg_step_offset, csg_step_count; ///< CsgSteps
   uint32_t solid_offset, solid_count;       ///< SolidRecords
-  uint32_t unused[28];
+  uint32_t pattern_offset, pattern_count;
+  uint32_t space_step_offset, space_step_count;
+  uint32_t map_entry_offset, map_entry_count;
+  uint32_t normal_offset, normal_count;
+  uint32_t sky; ///< offset of the uppermost layer's MaterialRecord, whose pigments count; kNoOffset: none
+  uint32_t unused[19];
 };
 static_assert(sizeof(ImageHeader) == 256, "two lines");
 
@@ -292,10 +384,6 @@ enum class GammaEncoding : uint32_t { none = 0, assumed = 1 };
 
 constexpr uint32_t kMaxInteriorDepth = 8;
 constexpr uint32_t kPacketEdge = 4; ///< a packet is 4x4 rays
-/// Packets a side of a bundle, which one SPE takes as a whole: as many as local store has room for.
-constexpr uint32_t bundle_edge(bool direct_memory) {
-  return direct_memory ? 4 : 2;
-}
 
 /// Everything an SPE needs for a frame. Lies in main memory at a place that does not change while the SPEs
 /// run.
@@ -347,8 +435,9 @@ struct alignas(128) FrameBlock {
   uint32_t wide_leaves;               ///< 0 or 1: for SPEs that test many triangles of a leaf at once
   uint32_t far_nodes;                 ///< 0 or 1: for SPEs that wait long for a node of the BVH
   uint32_t unbounded_count;           ///< objects behind the others in their table that no accelerator has
+  uint32_t sky; ///< as in ImageHeader
   uint32_t light_places; ///< that shadows are looked for at; as many as lights if none has an area
-  uint32_t unused[18];
+  uint32_t unused[17];
 };
 static_assert(sizeof(FrameBlock) % 128 == 0 && sizeof(FrameBlock) <= 512, "fetched by one DMA command");
 

@@ -48,6 +48,11 @@ constexpr ScalarWork kShadow = {37, 0, 92, 6, 5, 3, 12, 25, "kShadow"};
 /// The attenuation of one shadow ray by a translucent surface.
 constexpr ScalarWork kFilter = {100, 10, 90, 50, 15, 0, 204, 97, "kFilter"};
 
+// --- textures ---
+/// A pattern's value: finding its code and its wave. Counted by hand, as it is not in the scenes that are
+/// fitted.
+constexpr ScalarWork kPattern = {40, 0, 60, 10, 10, 4, 40, 40, "kPattern"};
+
 // --- shading/ray_tracer.hpp and what it calls ---
 /// Making a packet of primary rays.
 constexpr ScalarWork kPrimaryPacket = {379, 10, 744, 147, 72, 4, 706, 552, "kPrimaryPacket"};
@@ -85,7 +90,8 @@ constexpr ScalarWork kBounds[4] = {kBoundsOfSphere, kBoundsOfTriangle, kBoundsOf
 constexpr ScalarWork kOverlapOfSphere = {64, 28, 36, 32, 16, 0, 160, 183, "kOverlapOfSphere"};
 constexpr ScalarWork kOverlapOfEllipsoid = {190, 75, 62, 71, 24, 0, 403, 156, "kOverlapOfEllipsoid"};
 constexpr ScalarWork kOverlapOfTriangle = {461, 150, 174, 182, 85, 7, 802, 768, "kOverlapOfTriangle"};
-constexpr ScalarWork kOverlap[4] = {kOverlapOfSphere, kOverlapOfTriangle, kOverlapOfSphere, kOverlapOfEllipsoid};
+constexpr ScalarWork kOverlap[4] = {kOverlapOfSphere, kOverlapOfTriangle, kOverlapOfSphere,
+                                    kOverlapOfEllipsoid};
 /// A pair of voxel and object: written, counted and placed by a pass of the radix sort, entered into a list.
 constexpr ScalarWork kEmitPair = {19, 0, 14, 14, 4, 2, 54, 17, "kEmitPair"};
 constexpr ScalarWork kCountPair = {11, 0, 4, 4, 5, 3, 17, 9, "kCountPair"};

@@ -3,6 +3,7 @@
 
 #include "celltrace/cache.hpp"
 #include "kernel/accel/traversal_stack.hpp"
+#include "kernel/direct/door.hpp"
 #include "kernel/records.hpp"
 #include "kernel/scalar_work.hpp"
 
@@ -23,14 +24,28 @@ public:
   SceneAccess(Spu& spu, const CacheConfig& config, ea_t image) : cache_(spu, config, image) {}
 
   const ObjectRecord* object(uint32_t offset) { return read<ObjectRecord>(offset, DataKind::object); }
-  const ExtraRecord* extra(uint32_t offset) { return read<ExtraRecord>(offset, DataKind::object); }
-  const CsgRecord* csg(uint32_t offset) { return read<CsgRecord>(offset, DataKind::object); }
-  const CsgStep* csg_step(uint32_t offset) { return read<CsgStep>(offset, DataKind::object); }
-  const SolidRecord* solid(uint32_t offset) { return read<SolidRecord>(offset, DataKind::object); }
-  const MaterialRecord* material(uint32_t offset) { return read<MaterialRecord>(offset, DataKind::material); }
-  const BlendRecord* blend(uint32_t offset) { return read<BlendRecord>(offset, DataKind::material); }
-  const InteriorRecord* interior(uint32_t offset) { return read<InteriorRecord>(offset, DataKind::material); }
-  const LightRecord* light(uint32_t offset) { return read<LightRecord>(offset, DataKind::light); }
+  const ExtraRecord* extra(uint32_t offset) { return read_apart<ExtraRecord>(offset, DataKind::object); }
+  const CsgRecord* csg(uint32_t offset) { return read_apart<CsgRecord>(offset, DataKind::object); }
+  const CsgStep* csg_step(uint32_t offset) { return read_apart<CsgStep>(offset, DataKind::object); }
+  const SolidRecord* solid(uint32_t offset) { return read_apart<SolidRecord>(offset, DataKind::object); }
+  const MaterialRecord* material(uint32_t offset) {
+    return read_apart<MaterialRecord>(offset, DataKind::material);
+  }
+  const BlendRecord* blend(uint32_t offset) { return read_apart<BlendRecord>(offset, DataKind::material); }
+  const InteriorRecord* interior(uint32_t offset) {
+    return read_apart<InteriorRecord>(offset, DataKind::material);
+  }
+  const PatternRecord* pattern(uint32_t offset) {
+    return read_apart<PatternRecord>(offset, DataKind::material);
+  }
+  const SpaceStepRecord* space_step(uint32_t offset) {
+    return read_apart<SpaceStepRecord>(offset, DataKind::material);
+  }
+  const MapEntryRecord* map_entry(uint32_t offset) {
+    return read_apart<MapEntryRecord>(offset, DataKind::material);
+  }
+  const NormalRecord* normal(uint32_t offset) { return read_apart<NormalRecord>(offset, DataKind::material); }
+  const LightRecord* light(uint32_t offset) { return read_apart<LightRecord>(offset, DataKind::light); }
   /// By value: a voxel's list is read while its record would have to stay.
   CellRecord cell(const GridRecord& grid, uint32_t index) {
     return *read<CellRecord>(grid.cell_offset + index * static_cast<uint32_t>(sizeof(CellRecord)),
@@ -88,7 +103,7 @@ private:
   }
   /// The offset of one of them; of those after the first one, on its way.
   uint32_t member(const Sequence& objects, uint32_t i) {
-    if constexpr (!Spu::direct_memory) return member_through_cache(objects, i);
+    if constexpr (!kHasRoomForCode<Spu>) return member_through_cache(objects, i);
     const uint32_t object = offset_of(objects, i);
     if (i != 0) cache_.hint(object);
     return object;
@@ -105,6 +120,19 @@ private:
 
   template <class T> const T* read(uint32_t offset, DataKind kind) {
     return cache_.template get<T>(offset, kind);
+  }
+  /// What is not read in the innermost loops: one copy of the code for all records of a size, as local store
+  /// is short.
+  template <class T> const T* read_apart(uint32_t offset, DataKind kind) {
+    if constexpr (kReadsInPlace<Spu>)
+      return read<T>(offset, kind);
+    else
+      return reinterpret_cast<const T*>(read_bytes<sizeof(T)>(offset, kind));
+  }
+  template <uint32_t kBytes> struct Bytes { alignas(16) uint8_t byte[kBytes]; };
+  template <uint32_t kBytes>
+  [[gnu::noinline]] const Bytes<kBytes>* read_bytes(uint32_t offset, DataKind kind) {
+    return cache_.template get<Bytes<kBytes>>(offset, kind);
   }
 
   SoftwareCache<Spu, DataKind> cache_;

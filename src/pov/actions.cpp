@@ -76,6 +76,15 @@ Transform inverse(Session& session, const Transform& transform, const Location& 
   }
 }
 
+Quantity decoded(Session& session, const Quantity& colour, const Location& where) {
+  if (!session.builder.gamma_is_given())
+    session.fail(where, "colours in sRGB need an 'assumed_gamma' in front of them");
+  Quantity result = colour;
+  for (std::size_t i = 0; i < 3; ++i)
+    result.v[i] = session.builder.from_srgb(colour.v[i]);
+  return result;
+}
+
 void set_assumed_gamma(Session& session, double gamma, const Location& where) {
   session.builder.set_assumed_gamma(positive(session, gamma, "assumed_gamma", where));
 }
@@ -83,6 +92,102 @@ void set_assumed_gamma(Session& session, double gamma, const Location& where) {
 void set_max_trace_level(Session& session, double level, const Location& where) {
   if (!(level >= 1 && level <= 256)) session.fail(where, "max_trace_level must lie between 1 and 256");
   session.builder.set_max_trace_level(static_cast<int>(level));
+}
+
+void set_noise_generator(Session& session, double number, const Location& where) {
+  if (!(number >= 1 && number < 4)) session.fail(where, "there are noise generators 1, 2 and 3");
+  session.builder.set_noise_generator(static_cast<int>(number));
+}
+
+void set_number_of_waves(Session& session, double number, const Location& where) {
+  constexpr double kMost = 1000;
+  if (!(number < kMost + 1)) session.fail(where, "there are at most 1000 waves");
+  session.builder.set_number_of_waves(static_cast<int>(std::max(number, 1.0)));
+}
+
+PatternChange chosen(int number) {
+  return [=](Session&, PatternDefinition& pattern) { choose(pattern, number); };
+}
+
+PatternChange chosen(int number, const Quantity& argument, const Location& where) {
+  return [=](Session& session, PatternDefinition& pattern) {
+    choose(pattern, number);
+    set_argument(session, pattern, argument, where);
+  };
+}
+
+PatternChange poly_wave(double exponent) {
+  return [=](Session&, PatternDefinition& pattern) {
+    pattern.own().wave = Pattern::Wave::poly;
+    pattern.own().wave_exponent = exponent;
+  };
+}
+
+PatternChange option(int number, const Quantity& value, const Location& where) {
+  return [=](Session& session, PatternDefinition& pattern) {
+    set_option(session, pattern, number, value, where);
+  };
+}
+
+PatternChange warp(const Turbulence& turbulence, const Location& where) {
+  return [=](Session& session, PatternDefinition& pattern) { bend(session, pattern, turbulence, where); };
+}
+
+PatternChange unsupported_change(const UnsupportedPtr& unsupported) {
+  return [=](Session&, PatternDefinition& pattern) { mark(pattern.unsupported, unsupported); };
+}
+
+int octaves(double number) {
+  constexpr double kMostOctaves = 10;
+  return static_cast<int>(std::clamp(number, 1.0, kMostOctaves));
+}
+
+int noise_generator(Session& session, double number, const Location& where) {
+  if (!(number >= 0 && number < 4)) session.fail(where, "there are noise generators 1, 2 and 3");
+  return static_cast<int>(number);
+}
+
+TexturePtr changed(Session& session, const TexturePtr& texture, const PatternChange& change,
+                   const Location& where) {
+  if (!texture->pattern.exists()) session.fail(where, "this texture has no pattern of textures");
+  auto result = std::make_shared<TextureDefinition>(*texture);
+  change(session, result->pattern);
+  return result;
+}
+
+void require_plain(Session& session, const TexturePtr& texture, const Location& where) {
+  if (texture->pattern.exists())
+    session.fail(where,
+                 "a texture that is a pattern of textures has no pigment, normal or finish of its own");
+}
+
+TexturePtr layer(Session& session, const TexturePtr& below, const TexturePtr& top, const Location& where) {
+  if (!below) return top;
+  if (below->pattern.exists() || top->pattern.exists())
+    session.fail(where, "a pattern of textures cannot be one of several layers");
+  const TexturePtr both = layered(below, top);
+  if (both->layers > kMostLayers)
+    session.fail(where, "a texture has at most " + std::to_string(kMostLayers) + " layers");
+  return both;
+}
+
+TexturePtr transformed(Session& session, const TexturePtr& texture, const Transform& next,
+                       const Location& where) {
+  if (is_singular(next)) session.fail(where, "this transformation is singular: it has no inverse");
+  return transformed(texture, next);
+}
+
+void transform(Session& session, SkySphereDefinition& sky, const Transform& next, const Location& where) {
+  for (PigmentDefinition& pigment : sky.pigments)
+    move(session, pigment.pattern, next, where);
+}
+
+void set_colour(PigmentDefinition& pigment, const Pigment& colour) {
+  pigment.value = colour;
+  pigment.pattern.number = kNoPattern;
+  pigment.pattern.unsupported = nullptr;
+  pigment.map = nullptr;
+  pigment.unsupported = nullptr;
 }
 
 void ReflectionDefinition::set(const Vec3& only) {
@@ -118,6 +223,11 @@ double exponent(Session& session, double value, const Location& where) {
   return positive(session, value, "the reflection's exponent", where);
 }
 
+double accuracy(Session& session, double value, const Location& where) {
+  if (value == 0) session.fail(where, "accuracy must not be 0");
+  return value;
+}
+
 double ior(Session& session, double value, const Location& where) {
   return positive(session, value, "ior", where);
 }
@@ -127,8 +237,25 @@ void nest(Session& session, ObjectDefinition& object, const ObjectDefinition& pa
   if (object.depth > kDeepestObject) session.fail(where, "objects are nested too deeply");
 }
 
-const TexturePtr& texture_of(Session& session, const ObjectDefinition& object) {
-  return object.texture ? object.texture : session.builder.default_texture;
+TexturePtr texture_of(Session& session, const ObjectDefinition& object) {
+  if (!object.texture) return session.builder.default_texture;
+  return transformed(object.texture, object.texture_transform);
+}
+
+TexturePtr plain_texture_of(Session& session, const ObjectDefinition& object, const Location& where) {
+  TexturePtr texture = texture_of(session, object);
+  require_plain(session, texture, where);
+  return texture;
+}
+
+void set_texture(ObjectDefinition& object, const TexturePtr& texture) {
+  object.texture = texture;
+  object.texture_transform = Transform();
+}
+
+void add_layer(Session& session, ObjectDefinition& object, const TexturePtr& top, const Location& where) {
+  const TexturePtr below = object.texture ? texture_of(session, object) : nullptr;
+  set_texture(object, layer(session, below, top, where));
 }
 
 std::shared_ptr<ObjectDefinition> shape(Session& session, const WrittenShape& written) {
@@ -158,10 +285,10 @@ void limit(Session& session, ObjectDefinition& object, std::vector<Limit>& list,
   list.insert(list.end(), added.begin(), added.end());
 }
 
-void apply(const std::shared_ptr<const MaterialDefinition>& material, ObjectDefinition& object,
-           const Location& where) {
+void apply(Session& session, const std::shared_ptr<const MaterialDefinition>& material,
+           ObjectDefinition& object, const Location& where) {
   mark(object.unsupported, material->unsupported);
-  if (material->texture) object.texture = layered(object.texture, material->texture, where);
+  if (material->texture) add_layer(session, object, material->texture, where);
   if (material->interior) object.interior = material->interior;
 }
 
@@ -232,6 +359,10 @@ std::vector<ListEntry> vectors(Session& session, std::vector<ListEntry>& list, c
 
 std::string quoted(Session& session, NameId name) {
   return '\'' + session.names.text(name) + '\'';
+}
+
+std::string quoted_pattern(int pattern) {
+  return '\'' + std::string(pattern_words()[static_cast<std::size_t>(pattern)].word) + '\'';
 }
 
 UnsupportedPtr make_unsupported(const std::string& what, const Location& where) {

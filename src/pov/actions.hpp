@@ -1,6 +1,7 @@
 // What the grammar's rules do, where it takes more than a line.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,6 +30,9 @@ void append_component(Session& session, Quantity& vector, double component, cons
 Transform matrix(Session& session, const std::vector<ListEntry>& numbers, const Location& where);
 Transform inverse(Session& session, const Transform& transform, const Location& where);
 
+/// From sRGB to what the scene's colours mean, as its assumed_gamma, which must be known by now, says.
+Quantity decoded(Session& session, const Quantity& colour, const Location& where);
+
 // ---- Arrays (arrays.cpp) ----
 
 /// A deep copy: arrays are values.
@@ -48,8 +52,77 @@ double dimension_size(Session& session, const Array& array, double dimension, co
 
 void set_assumed_gamma(Session& session, double gamma, const Location& where);
 void set_max_trace_level(Session& session, double level, const Location& where);
+void set_noise_generator(Session& session, double number, const Location& where);
+void set_number_of_waves(Session& session, double number, const Location& where);
 
 // ---- Textures ----
+
+/// What a pattern's word or a modifier such as `frequency 2` does to a pattern.
+using PatternChange = std::function<void(Session&, PatternDefinition&)>;
+
+PatternChange chosen(int number);
+PatternChange chosen(int number, const Quantity& argument, const Location& where);
+template <class T> PatternChange set(T Pattern::*member, T value) {
+  return [=](Session&, PatternDefinition& pattern) { pattern.own().*member = value; };
+}
+template <class T> PatternChange set(T Turbulence::*member, T value) {
+  return [=](Session&, PatternDefinition& pattern) { pattern.own().turbulence.*member = value; };
+}
+PatternChange poly_wave(double exponent);
+PatternChange option(int number, const Quantity& value, const Location& where);
+PatternChange warp(const Turbulence& turbulence, const Location& where);
+PatternChange unsupported_change(const UnsupportedPtr& unsupported);
+int octaves(double number);
+/// 0: the scene's.
+int noise_generator(Session& session, double number, const Location& where);
+
+/// The texture with a change to its pattern, which it must have.
+TexturePtr changed(Session& session, const TexturePtr& texture, const PatternChange& change,
+                   const Location& where);
+/// Fails for a texture whose pattern is one of textures: it has no pigment, normal or finish of its own.
+void require_plain(Session& session, const TexturePtr& texture, const Location& where);
+/// `top` on `below`, which may be null. Fails for textures that cannot be layers.
+TexturePtr layer(Session& session, const TexturePtr& below, const TexturePtr& top, const Location& where);
+TexturePtr transformed(Session& session, const TexturePtr& texture, const Transform& next,
+                       const Location& where);
+
+void set_colour(PigmentDefinition& pigment, const Pigment& colour);
+
+/// Moves the pigments that it has got.
+void transform(Session& session, SkySphereDefinition& sky, const Transform& next, const Location& where);
+
+// Maps and lists (maps.cpp)
+
+void add(Session& session, PigmentMap& map, double position, const PigmentDefinition& pigment,
+         const Location& where);
+void add(Session& session, NormalMap& map, double position, const NormalDefinition& normal,
+         const Location& where);
+void add(Session& session, TextureMap& map, double position, const TexturePtr& texture,
+         const Location& where);
+void add(Session& session, PigmentMap& map, double position, const Pigment& colour, const Location& where);
+void add_colour(Session& session, PigmentMap& map, double position, const Quantity& colour,
+                const Location& where);
+/// The entries of another one, behind its own.
+void add(Session& session, PigmentMap& map, const PigmentMap& entries, const Location& where);
+
+void set_map(Session& session, PigmentDefinition& pigment, const PigmentMap& map, const Location& where);
+void set_map(Session& session, NormalDefinition& normal, const NormalMap& map, const Location& where);
+TexturePtr with_map(Session& session, const TexturePtr& texture, const TextureMap& map,
+                    const Location& where);
+/// Gives a list to a pattern that takes one. Where it is too short, POV-Ray's colours or the defaults follow.
+void set_colours(Session& session, PigmentDefinition& pigment, int pattern, PigmentMap list,
+                 const Location& where);
+void set_list(Session& session, PigmentDefinition& pigment, int pattern, PigmentMap list,
+              const Location& where);
+void set_list(Session& session, NormalDefinition& normal, int pattern, NormalMap list, const Location& where);
+TexturePtr with_pattern(Session& session, const TexturePtr& texture, const PatternChange& pattern);
+TexturePtr with_list(Session& session, const TexturePtr& texture, int pattern, TextureMap list,
+                     const Location& where);
+
+// Fail if a pattern lacks what it needs.
+void check(Session& session, const PigmentDefinition& pigment, const Location& where);
+void check(Session& session, const NormalDefinition& normal, const Location& where);
+void check(Session& session, const TexturePtr& texture, const Location& where);
 
 /// The inside of reflection { }. What it does not say stays as the finish has it.
 struct ReflectionDefinition {
@@ -68,14 +141,19 @@ struct ReflectionDefinition {
 void set_reflection(Finish& finish, const Vec3& colour);
 double roughness(Session& session, double value, const Location& where);
 double exponent(Session& session, double value, const Location& where);
+double accuracy(Session& session, double value, const Location& where);
 double ior(Session& session, double value, const Location& where);
 
 // ---- Objects ----
 
 /// Counts `part` as one that is inside `object`.
 void nest(Session& session, ObjectDefinition& object, const ObjectDefinition& part, const Location& where);
-/// The texture that an object's pigment or finish changes.
-const TexturePtr& texture_of(Session& session, const ObjectDefinition& object);
+/// The texture that an object's pigment, normal or finish changes.
+TexturePtr texture_of(Session& session, const ObjectDefinition& object);
+/// The same, for one that has a pigment, normal and finish of its own.
+TexturePtr plain_texture_of(Session& session, const ObjectDefinition& object, const Location& where);
+void set_texture(ObjectDefinition& object, const TexturePtr& texture);
+void add_layer(Session& session, ObjectDefinition& object, const TexturePtr& top, const Location& where);
 std::shared_ptr<ObjectDefinition> shape(Session& session, const WrittenShape& written);
 std::shared_ptr<ObjectDefinition> csg(Session& session, Compound compound, const Location& where);
 /// An object that other ones can be limited by.
@@ -83,8 +161,8 @@ ObjectPtr limiting(Session& session, const ObjectPtr& object, const Location& wh
 /// Adds to one of the object's own lists of limits.
 void limit(Session& session, ObjectDefinition& object, std::vector<Limit>& list,
            const std::vector<Limit>& added, const Location& where);
-void apply(const std::shared_ptr<const MaterialDefinition>& material, ObjectDefinition& object,
-           const Location& where);
+void apply(Session& session, const std::shared_ptr<const MaterialDefinition>& material,
+           ObjectDefinition& object, const Location& where);
 
 // ---- Meshes ----
 
@@ -106,6 +184,7 @@ std::vector<ListEntry> vectors(Session& session, std::vector<ListEntry>& list, c
 // ---- What is not supported ----
 
 std::string quoted(Session& session, NameId name);
+std::string quoted_pattern(int pattern);
 UnsupportedPtr make_unsupported(const std::string& what, const Location& where);
 /// Passes over the rest of the block too.
 UnsupportedPtr unsupported_rest(Session& session, const std::string& what, const Location& where);

@@ -16,8 +16,9 @@
 %locations
 %param { celltrace::pov::Session& session }
 // After a value both an operator and, since commas are optional, a sign or a colour's channel can follow: the
-// longer value is meant. A name that CSG begins with is all it consists of, not its first part.
-%expect 61
+// longer value is meant. A number at the front of an entry of a pigment_map is its weight. A name that CSG begins
+// with is all it consists of, not its first part.
+%expect 72
 
 %code requires {
 #include "pov/actions.hpp"
@@ -47,7 +48,12 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 
 %token <Quantity> QUANTITY
 %token <std::string> TEXT
-%token <PigmentDefinition> PIGMENT_ID
+%token <PigmentPtr> PIGMENT_ID
+%token <NormalPtr> NORMAL_ID
+%token <PigmentMapPtr> PIGMENT_MAP_ID
+%token <NormalMapPtr> NORMAL_MAP_ID
+%token <TextureMapPtr> TEXTURE_MAP_ID
+%token <SkySpherePtr> SKY_SPHERE_ID
 %token <FinishPtr> FINISH_ID
 %token <TexturePtr> TEXTURE_ID
 %token <InteriorPtr> INTERIOR_ID
@@ -59,7 +65,8 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %token <UnsupportedPtr> UNSUPPORTED_ID
 %token UNDECLARED_ID
 
-%token <int> FUNCTION TEXT_FUNCTION COMPONENT COLOUR_MODEL CHANNEL SHAPE CSG CAMERA_KIND
+%token <int> FUNCTION TEXT_FUNCTION COMPONENT COLOUR_MODEL SRGB_MODEL CHANNEL SHAPE CSG CAMERA_KIND
+%token <int> PATTERN ARGUED_PATTERN LIST_PATTERN PATTERN_OPTION PATTERN_FLAG WAVE
 %token <NameId> UNSUPPORTED UNSUPPORTED_OBJECT UNSUPPORTED_BLOCK
 %token BAD_CHARACTER DEFINED CONSTANT
 %token LESS_EQUAL GREATER_EQUAL NOT_EQUAL
@@ -67,20 +74,24 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %left '+' '-'
 %left '*' '/'
 
-%token ADAPTIVE ADC_BAILOUT AMBIENT AMBIENT_LIGHT ANGLE APERTURE AREA_ILLUMINATION AREA_LIGHT ARRAY ASSUMED_GAMMA BACKGROUND BOUNDED_BY
-%token BRILLIANCE CAMERA CAUSTICS CHARSET CIRCULAR CLIPPED_BY COLOUR CONSERVE_ENERGY CRAND CUTAWAY_TEXTURES
+%token ACCURACY ADC_BAILOUT AMBIENT AMBIENT_LIGHT ANGLE APERTURE ARRAY ASSUMED_GAMMA BACKGROUND BOUNDED_BY
+%token BRILLIANCE BUMP_SIZE CAMERA CAUSTICS CHARSET CLIPPED_BY COLOUR COLOUR_MAP CONSERVE_ENERGY CRAND
+%token CUTAWAY_TEXTURES
 %token DIFFUSE DIMENSIONS DIMENSION_SIZE DIRECTION DISPERSION EMISSION EXPONENT FACE_INDICES
-%token FADE_DISTANCE FADE_POWER FALLOFF FINISH FRESNEL GLOBAL_SETTINGS HOLLOW IGNORED_FLAG IGNORED_NUMBER
-%token INSIDE_VECTOR INTERIOR INVERSE IOR IRID JITTER LIGHT_SOURCE LOCATION LOOKS_LIKE LOOK_AT
-%token MATERIAL MATRIX MAX_TRACE_LEVEL MESH MESH2 METALLIC NORMAL_INDICES NORMAL_VECTORS NO_SHADOW OBJECT OPEN ORIENT
-%token PARALLEL PHONG PHONG_SIZE PHOTONS PIGMENT POINT_AT QUICK_COLOUR RADIUS
+%token FADE_DISTANCE FADE_POWER FALLOFF FINISH FREQUENCY FRESNEL GLOBAL_SETTINGS HOLLOW IGNORED_FLAG IGNORED_NUMBER
+%token INSIDE_VECTOR INTERIOR INVERSE IOR IRID LAMBDA LIGHT_SOURCE LOCATION LOOKS_LIKE LOOK_AT
+%token MATERIAL MATRIX MAX_TRACE_LEVEL MESH MESH2 METALLIC NOISE_GENERATOR NORMAL NORMAL_INDICES NORMAL_MAP
+%token NORMAL_VECTORS NO_SHADOW NUMBER_OF_WAVES OBJECT OCTAVES OMEGA OPEN
+%token PARALLEL PHASE PHONG PHONG_SIZE PHOTONS PIGMENT PIGMENT_MAP POINT_AT POLY_WAVE QUICK_COLOUR RADIUS
+%token ADAPTIVE AREA_ILLUMINATION AREA_LIGHT CIRCULAR JITTER ORIENT
 %token REFLECTION
-%token REFLECTION_EXPONENT REFRACTION RIGHT ROTATE ROUGHNESS SCALE SHADOWLESS SKY SMOOTH_TRIANGLE
-%token SPECULAR SPOTLIGHT SRGB TEXTURE TEXTURE_LIST TIGHTNESS TRANSFORM TRANSLATE TRIANGLE UP
-%token UV_INDICES UV_MAPPING UV_VECTORS VERTEX_VECTORS
+%token REFLECTION_EXPONENT REFRACTION RIGHT ROTATE ROUGHNESS SCALE SHADOWLESS SKY SKY_SPHERE SMOOTH_TRIANGLE
+%token SPECULAR SPOTLIGHT SRGB TEXTURE TEXTURE_LIST TEXTURE_MAP TIGHTNESS TRANSFORM TRANSLATE TRIANGLE TURBULENCE UP
+%token UV_INDICES UV_MAPPING UV_VECTORS VERTEX_VECTORS WARP
 
 %nterm <Quantity> quantity operand vector vector_items comparison logic value_in_brackets
 %nterm <Quantity> colour colour_value colour_base
+%nterm <ColourModel> srgb_model
 %nterm <Signs> signs
 %nterm <std::string> text
 %nterm <std::vector<Value>> arguments
@@ -90,10 +101,17 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %nterm <std::vector<std::size_t>> dimensions
 %nterm <std::shared_ptr<Array>> elements
 %nterm <Transform> transformation transform_items
-%nterm <PigmentDefinition> pigment_body
+%nterm <std::shared_ptr<PigmentDefinition>> pigment_base pigment_parts pigment_body
+%nterm <std::shared_ptr<NormalDefinition>> normal_base declared_normal normal_parts normal_body
+%nterm <PatternChange> pattern pattern_change
+%nterm <Turbulence> turbulent_warp
+%nterm <PigmentMap> colours pigments colour_entry colour_entries pigment_entries colour_map pigment_map
+%nterm <NormalMap> normals normal_entries normal_map
+%nterm <TextureMap> textures texture_entries texture_map
 %nterm <std::shared_ptr<FinishDefinition>> finish_body
 %nterm <ReflectionDefinition> reflection_body
-%nterm <TexturePtr> texture texture_body layers
+%nterm <TexturePtr> texture texture_parts texture_body layers
+%nterm <std::shared_ptr<SkySphereDefinition>> sky_sphere sky_sphere_body
 %nterm <InteriorDefinition> interior_body
 %nterm <InteriorPtr> interior
 %nterm <MaterialDefinition> material_body
@@ -108,9 +126,9 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %nterm <std::shared_ptr<Mesh2Definition>> mesh2_head
 %nterm <std::vector<TexturePtr>> texture_list
 %nterm <std::shared_ptr<TriangleDefinition>> triangle triangle_vertices
-%nterm <double> number optional_number flag
+%nterm <double> number optional_number flag entry_start
 %nterm <double Light::*> beam_number
-%nterm <UnsupportedPtr> unsupported unsupported_modifier
+%nterm <UnsupportedPtr> unsupported unsupported_pattern unsupported_modifier
 
 %start start
 
@@ -138,6 +156,7 @@ scene
   | scene object                    { session.builder.place($2, @2); }
   | scene camera                    { session.builder.set_camera($2); }
   | scene BACKGROUND '{' colour_value '}' { session.builder.set_background(session.colour($4, @4)); }
+  | scene sky_sphere                { session.builder.set_sky_sphere(*$2, @2); }
   | scene GLOBAL_SETTINGS '{' settings '}'
   | scene UNSUPPORTED_BLOCK         { refuse(session, quoted(session, $2), @2); }
   ;
@@ -149,6 +168,8 @@ settings
   | settings MAX_TRACE_LEVEL number { set_max_trace_level(session, $3, @3); }
   | settings ADC_BAILOUT number     { session.builder.set_adc_bailout($3); }
   | settings AMBIENT_LIGHT colour_value { session.builder.set_ambient_light(session.colour($3, @3).rgb); }
+  | settings NOISE_GENERATOR number { set_noise_generator(session, $3, @3); }
+  | settings NUMBER_OF_WAVES number { set_number_of_waves(session, $3, @3); }
   | settings IGNORED_NUMBER colour_value
   | settings IGNORED_FLAG flag
   | settings CHARSET UNSUPPORTED
@@ -161,9 +182,15 @@ defaults
   : %empty
   | defaults texture  { session.builder.default_texture = $2; }
   | defaults PIGMENT '{' from_default pigment_body '}' {
-      session.builder.default_texture = with_pigment(session.builder.default_texture, $5);
+      require_plain(session, session.builder.default_texture, @2);
+      session.builder.default_texture = with_pigment(session.builder.default_texture, *$5);
+    }
+  | defaults NORMAL '{' from_default normal_body '}' {
+      require_plain(session, session.builder.default_texture, @2);
+      session.builder.default_texture = with_normal(session.builder.default_texture, $5);
     }
   | defaults FINISH '{' from_default finish_body '}' {
+      require_plain(session, session.builder.default_texture, @2);
       session.builder.default_texture = with_finish(session.builder.default_texture, *$5);
     }
   | defaults camera   { session.builder.default_camera = *$2; }
@@ -289,11 +316,16 @@ colour // with a keyword: distinct from a mere number
   : COLOUR quantity              { $$ = $2.promoted(5); $$.is_colour = true; }
   | COLOUR COLOUR_MODEL quantity { $$ = make_colour(ColourModel($2), $3); }
   | COLOUR_MODEL quantity        { $$ = make_colour(ColourModel($1), $2); }
-  | COLOUR SRGB                  { refuse(session, "'srgb'", @2); }
-  | SRGB                         { refuse(session, "'srgb'", @1); }
+  | COLOUR srgb_model quantity   { $$ = decoded(session, make_colour($2, $3), @2); }
+  | srgb_model quantity          { $$ = decoded(session, make_colour($1, $2), @1); }
   | COLOUR CHANNEL number        { $$ = with_channel(Quantity::colour({0, 0, 0}), Channel($2), $3); }
   | CHANNEL number               { $$ = with_channel(Quantity::colour({0, 0, 0}), Channel($1), $2); }
   | colour CHANNEL number        { $$ = with_channel($1, Channel($2), $3); }
+  ;
+
+srgb_model
+  : SRGB       { $$ = ColourModel::rgb; }
+  | SRGB_MODEL { $$ = ColourModel($1); }
   ;
 
 colour_base
@@ -326,19 +358,183 @@ transform_items
 
 // ---- Textures ----
 
-from_default // where a pigment or finish of its own starts; any other starts from what it changes
+from_default // where a pigment, normal or finish of its own starts; any other starts from what it changes
   : %empty { session.base_texture = session.builder.default_texture; }
   ;
 
-pigment_body
-  : %empty                           { $$ = session.base_texture->pigment; }
-  | pigment_body PIGMENT_ID          { $$ = $2; }
-  | pigment_body colour_value        { $$ = $1; $$.value = session.colour($2, @2); $$.unsupported = nullptr; }
-  | pigment_body QUICK_COLOUR colour_value { $$ = $1; }
-  | pigment_body transformation      { $$ = $1; }
-  | pigment_body UV_MAPPING          { $$ = $1; }
-  | pigment_body unsupported         { $$ = $1; mark($$.unsupported, $2); }
+pigment_base
+  : %empty                   { $$ = std::make_shared<PigmentDefinition>(session.base_texture->pigment); }
+  | pigment_base PIGMENT_ID  { $$ = std::make_shared<PigmentDefinition>(*$2); }
+  | pigment_base UV_MAPPING  { $$ = $1; mark($$->uv_mapping, make_unsupported("'uv_mapping'", @2)); }
   ;
+
+pigment_parts // what it is, and then what changes that
+  : pigment_base
+  | pigment_base colour_value              { $$ = $1; set_colour(*$$, session.colour($2, @2)); }
+  | pigment_base pattern                   { $$ = $1; $2(session, $$->pattern); }
+  | pigment_base LIST_PATTERN colours      { $$ = $1; set_colours(session, *$$, $2, $3, @2); }
+  | pigment_base LIST_PATTERN pigments     { $$ = $1; set_list(session, *$$, $2, $3, @2); }
+  | pigment_parts COLOUR_MAP colour_map    { $$ = $1; set_map(session, *$$, $3, @2); }
+  | pigment_parts PIGMENT_MAP pigment_map  { $$ = $1; set_map(session, *$$, $3, @2); }
+  | pigment_parts pattern_change           { $$ = $1; $2(session, $$->pattern); }
+  | pigment_parts transformation           { $$ = $1; move(session, $$->pattern, $2, @2); }
+  | pigment_parts QUICK_COLOUR colour_value { $$ = $1; }
+  | pigment_parts unsupported_pattern      { $$ = $1; mark($$->unsupported, $2); }
+  ;
+
+pigment_body
+  : pigment_parts { $$ = $1; check(session, *$$, @1); }
+  ;
+
+normal_base
+  : %empty {
+      const NormalPtr& base = session.base_texture->normal;
+      $$ = base ? std::make_shared<NormalDefinition>(*base) : std::make_shared<NormalDefinition>();
+    }
+  | declared_normal
+  | normal_base UV_MAPPING { $$ = $1; mark($$->uv_mapping, make_unsupported("'uv_mapping'", @2)); }
+  ;
+
+declared_normal
+  : NORMAL_ID              { $$ = std::make_shared<NormalDefinition>(*$1); }
+  ;
+
+normal_parts
+  : normal_base
+  | declared_normal optional_comma number      { $$ = $1; $$->amount = $3; }
+  | normal_base pattern                        { $$ = $1; $2(session, $$->pattern); }
+  | normal_base pattern optional_comma number  { $$ = $1; $2(session, $$->pattern); $$->amount = $4; }
+  | normal_base LIST_PATTERN                   { $$ = $1; choose($$->pattern, $2); }
+  | normal_base LIST_PATTERN optional_comma number { $$ = $1; choose($$->pattern, $2); $$->amount = $4; }
+  | normal_base LIST_PATTERN normals           { $$ = $1; set_list(session, *$$, $2, $3, @2); }
+  | normal_parts BUMP_SIZE number              { $$ = $1; $$->amount = $3; }
+  | normal_parts ACCURACY number               { $$ = $1; $$->accuracy = accuracy(session, $3, @3); }
+  | normal_parts NORMAL_MAP normal_map         { $$ = $1; set_map(session, *$$, $3, @2); }
+  | normal_parts pattern_change                { $$ = $1; $2(session, $$->pattern); }
+  | normal_parts transformation                { $$ = $1; move(session, $$->pattern, $2, @2); }
+  | normal_parts unsupported_pattern           { $$ = $1; mark($$->unsupported, $2); }
+  ;
+
+normal_body
+  : normal_parts { $$ = $1; check(session, *$$, @1); }
+  ;
+
+// ---- Patterns, and the maps and lists that belong to them ----
+
+pattern
+  : PATTERN                 { $$ = chosen($1); }
+  | ARGUED_PATTERN quantity { $$ = chosen($1, $2, @2); }
+  ;
+
+pattern_change
+  : TURBULENCE quantity     { $$ = set(&Turbulence::amount, session.vector($2, @2)); }
+  | OCTAVES number          { $$ = set(&Turbulence::octaves, octaves($2)); }
+  | OMEGA number            { $$ = set(&Turbulence::omega, $2); }
+  | LAMBDA number           { $$ = set(&Turbulence::lambda, $2); }
+  | FREQUENCY number        { $$ = set(&Pattern::frequency, $2); }
+  | PHASE number            { $$ = set(&Pattern::phase, $2); }
+  | WAVE                    { $$ = set(&Pattern::wave, Pattern::Wave($1)); }
+  | POLY_WAVE optional_number { $$ = poly_wave($2); }
+  | NOISE_GENERATOR number  { $$ = set(&Pattern::noise_generator, noise_generator(session, $2, @2)); }
+  | PATTERN_OPTION quantity { $$ = option($1, $2, @1); }
+  | PATTERN_FLAG            { $$ = option($1, 0, @1); }
+  | WARP '{' turbulent_warp '}' { $$ = warp($3, @1); }
+  | WARP '{' unsupported '}'    { $$ = unsupported_change(make_unsupported("this kind of warp", @1)); }
+  ;
+
+turbulent_warp
+  : TURBULENCE quantity    { $$.amount = session.vector($2, @2); }
+  | turbulent_warp OCTAVES number { $$ = $1; $$.octaves = octaves($3); }
+  | turbulent_warp OMEGA number   { $$ = $1; $$.omega = $3; }
+  | turbulent_warp LAMBDA number  { $$ = $1; $$.lambda = $3; }
+  ;
+
+colours
+  : %empty                           { }
+  | colours optional_comma colour_value { $$ = std::move($1); add(session, $$, 0, session.colour($3, @3), @3); }
+  ;
+
+pigments
+  : PIGMENT '{' from_default pigment_body '}' { add(session, $$, 0, *$4, @1); }
+  | pigments optional_comma PIGMENT '{' from_default pigment_body '}' {
+      $$ = std::move($1);
+      add(session, $$, 0, *$6, @3);
+    }
+  ;
+
+normals
+  : NORMAL '{' from_default normal_body '}' { add(session, $$, 0, *$4, @1); }
+  | normals optional_comma NORMAL '{' from_default normal_body '}' {
+      $$ = std::move($1);
+      add(session, $$, 0, *$6, @3);
+    }
+  ;
+
+textures
+  : texture                         { add(session, $$, 0, $1, @1); }
+  | textures optional_comma texture { $$ = std::move($1); add(session, $$, 0, $3, @3); }
+  ;
+
+colour_map
+  : '{' PIGMENT_MAP_ID '}' { $$ = *$2; }
+  | '{' colour_entries '}' { $$ = std::move($2); }
+  ;
+
+colour_entries
+  : colour_entry                { $$ = std::move($1); }
+  | colour_entries colour_entry { $$ = std::move($1); add(session, $$, $2, @2); }
+  ;
+
+colour_entry // the old form has both ends of a blend
+  : '[' number optional_comma colour_value ']' { add_colour(session, $$, $2, $4, @4); }
+  | '[' number optional_comma colour_base optional_comma colour optional_comma colour ']' {
+      add_colour(session, $$, $2, $6, @6);
+      add_colour(session, $$, session.number($4, @4), $8, @8);
+    }
+  ;
+
+pigment_map
+  : '{' PIGMENT_MAP_ID '}'  { $$ = *$2; }
+  | '{' pigment_entries '}' { $$ = std::move($2); }
+  ;
+
+pigment_entries
+  : entry_start from_default pigment_body ']' { add(session, $$, $1, *$3, @3); }
+  | pigment_entries entry_start from_default pigment_body ']' {
+      $$ = std::move($1);
+      add(session, $$, $2, *$4, @4);
+    }
+  ;
+
+normal_map
+  : '{' NORMAL_MAP_ID '}'  { $$ = *$2; }
+  | '{' normal_entries '}' { $$ = std::move($2); }
+  ;
+
+normal_entries
+  : entry_start from_default normal_body ']' { add(session, $$, $1, *$3, @3); }
+  | normal_entries entry_start from_default normal_body ']' {
+      $$ = std::move($1);
+      add(session, $$, $2, *$4, @4);
+    }
+  ;
+
+texture_map
+  : '{' TEXTURE_MAP_ID '}'  { $$ = *$2; }
+  | '{' texture_entries '}' { $$ = std::move($2); }
+  ;
+
+texture_entries
+  : entry_start texture_body ']'                 { add(session, $$, $1, $2, @2); }
+  | texture_entries entry_start texture_body ']' { $$ = std::move($1); add(session, $$, $2, $3, @3); }
+  ;
+
+entry_start // an average's entries need no weight; a number is one, not a colour
+  : '['                       { $$ = 1; }
+  | '[' number optional_comma { $$ = $2; }
+  ;
+
+// ---- Finishes and textures ----
 
 finish_body
   : %empty {
@@ -388,6 +584,7 @@ finish_body
 irid_items
   : %empty
   | irid_items UNSUPPORTED number
+  | irid_items TURBULENCE quantity
   ;
 
 reflection_body
@@ -405,21 +602,60 @@ texture
   : TEXTURE '{' texture_body '}' { $$ = $3; }
   ;
 
+texture_parts
+  : %empty                       { $$ = session.builder.default_texture; }
+  | texture_parts TEXTURE_ID     { $$ = $2; }
+  | texture_parts PIGMENT '{' { session.base_texture = $1; } pigment_body '}' {
+      require_plain(session, $1, @2);
+      $$ = with_pigment($1, *$5);
+    }
+  | texture_parts NORMAL '{' { session.base_texture = $1; } normal_body '}' {
+      require_plain(session, $1, @2);
+      $$ = with_normal($1, $5);
+    }
+  | texture_parts FINISH '{' { session.base_texture = $1; } finish_body '}' {
+      require_plain(session, $1, @2);
+      $$ = with_finish($1, *$5);
+    }
+  | texture_parts PIGMENT_ID     { require_plain(session, $1, @2); $$ = with_pigment($1, *$2); }
+  | texture_parts NORMAL_ID      { require_plain(session, $1, @2); $$ = with_normal($1, $2); }
+  | texture_parts FINISH_ID      { require_plain(session, $1, @2); $$ = with_finish($1, *$2); }
+  | texture_parts pattern        { $$ = with_pattern(session, $1, $2); }
+  | texture_parts LIST_PATTERN textures { $$ = with_list(session, $1, $2, $3, @2); }
+  | texture_parts TEXTURE_MAP texture_map { $$ = with_map(session, $1, $3, @2); }
+  | texture_parts LIST_PATTERN   { $$ = with_list(session, $1, $2, {}, @2); }
+  | texture_parts pattern_change { $$ = changed(session, $1, $2, @2); }
+  | texture_parts transformation { $$ = transformed(session, $1, $2, @2); }
+  | texture_parts UV_MAPPING     { $$ = with_uv_mapping($1, make_unsupported("'uv_mapping'", @2)); }
+  | texture_parts unsupported_pattern { $$ = with_unsupported($1, $2); }
+  ;
+
 texture_body
-  : %empty                      { $$ = session.builder.default_texture; }
-  | texture_body TEXTURE_ID     { $$ = $2; }
-  | texture_body PIGMENT '{' { session.base_texture = $1; } pigment_body '}' { $$ = with_pigment($1, $5); }
-  | texture_body FINISH '{' { session.base_texture = $1; } finish_body '}'   { $$ = with_finish($1, *$5); }
-  | texture_body PIGMENT_ID     { $$ = with_pigment($1, $2); }
-  | texture_body FINISH_ID      { $$ = with_finish($1, *$2); }
-  | texture_body transformation { $$ = $1; }
-  | texture_body UV_MAPPING     { $$ = $1; }
-  | texture_body unsupported    { $$ = with_unsupported($1, $2); }
+  : texture_parts { $$ = $1; check(session, $$, @1); }
   ;
 
 layers
   : texture
-  | layers texture { $$ = layered($1, $2, @2); }
+  | layers texture { $$ = layer(session, $1, $2, @2); }
+  ;
+
+sky_sphere
+  : SKY_SPHERE '{' sky_sphere_body '}' {
+      $$ = $3;
+      if ($$->pigments.empty() && !$$->unsupported) session.fail(@1, "a sky_sphere needs a pigment");
+    }
+  ;
+
+sky_sphere_body
+  : %empty                          { $$ = std::make_shared<SkySphereDefinition>(); }
+  | sky_sphere_body SKY_SPHERE_ID   { $$ = std::make_shared<SkySphereDefinition>(*$2); }
+  | sky_sphere_body PIGMENT '{' from_default pigment_body '}' { $$ = $1; append(session, $$->pigments, *$5, @2); }
+  | sky_sphere_body transformation  { $$ = $1; transform(session, *$$, $2, @2); }
+  | sky_sphere_body EMISSION colour_value {
+      $$ = $1;
+      mark($$->unsupported, make_unsupported("a sky_sphere's 'emission'", @2));
+    }
+  | sky_sphere_body unsupported     { $$ = $1; mark($$->unsupported, $2); }
   ;
 
 interior
@@ -448,9 +684,12 @@ material
 material_body
   : %empty                       { }
   | material_body MATERIAL_ID    { $$ = *$2; }
-  | material_body texture        { $$ = $1; $$.texture = layered($$.texture, $2, @2); }
+  | material_body texture        { $$ = $1; $$.texture = layer(session, $$.texture, $2, @2); }
   | material_body interior       { $$ = $1; $$.interior = $2; }
-  | material_body transformation { $$ = $1; }
+  | material_body transformation {
+      $$ = $1;
+      if ($$.texture) $$.texture = transformed(session, $$.texture, $2, @2);
+    }
   | material_body unsupported    { $$ = $1; mark($$.unsupported, $2); }
   ;
 
@@ -491,6 +730,10 @@ object
       $$ = unsupported_object(quoted(session, $1), @1);
       session.tokens.skip_group();
     }
+  | LIST_PATTERN { // `cubic` is also an object
+      $$ = unsupported_object(quoted_pattern($1), @1);
+      session.tokens.skip_group();
+    }
   ;
 
 object_head // a name instead of what an object consists of: whatever object it stands for
@@ -522,22 +765,26 @@ csg_head
 object_body
   : object_head
   | object_body transformation         { $$ = $1; $$->apply($2); }
-  | object_body texture                { $$ = $1; $$->texture = layered($$->texture, $2, @2); }
-  | object_body PIGMENT '{' { session.base_texture = texture_of(session, *$1); } pigment_body '}' {
+  | object_body texture                { $$ = $1; add_layer(session, *$$, $2, @2); }
+  | object_body PIGMENT '{' { session.base_texture = plain_texture_of(session, *$1, @2); } pigment_body '}' {
       $$ = $1;
-      $$->texture = with_pigment(texture_of(session, *$$), $5);
+      set_texture(*$$, with_pigment(texture_of(session, *$$), *$5));
     }
-  | object_body FINISH '{' { session.base_texture = texture_of(session, *$1); } finish_body '}' {
+  | object_body NORMAL '{' { session.base_texture = plain_texture_of(session, *$1, @2); } normal_body '}' {
       $$ = $1;
-      $$->texture = with_finish(texture_of(session, *$$), *$5);
+      set_texture(*$$, with_normal(texture_of(session, *$$), $5));
+    }
+  | object_body FINISH '{' { session.base_texture = plain_texture_of(session, *$1, @2); } finish_body '}' {
+      $$ = $1;
+      set_texture(*$$, with_finish(texture_of(session, *$$), *$5));
     }
   | object_body interior               { $$ = $1; $$->interior = $2; }
-  | object_body material               { $$ = $1; apply($2, *$$, @2); }
+  | object_body material               { $$ = $1; apply(session, $2, *$$, @2); }
   | object_body NO_SHADOW              { $$ = $1; $$->no_shadow = true; }
   | object_body HOLLOW flag            { $$ = $1; }
   | object_body INVERSE                { $$ = $1; $$->inverse = !$$->inverse; }
   | object_body IGNORED_FLAG flag      { $$ = $1; }
-  | object_body UV_MAPPING             { $$ = $1; }
+  | object_body UV_MAPPING             { $$ = $1; mark($$->uv_mapping, make_unsupported("'uv_mapping'", @2)); }
   | object_body CUTAWAY_TEXTURES flag {
       $$ = $1;
       mark($$->unsupported, unless_zero("'cutaway_textures'", $3, @2));
@@ -676,11 +923,22 @@ declarable
   : quantity          { $$ = $1; }
   | colour            { $$ = $1; }
   | text              { $$ = $1; }
-  | PIGMENT '{' from_default pigment_body '}' { $$ = $4; }
+  | PIGMENT '{' from_default pigment_body '}' { $$ = PigmentPtr($4); }
+  | NORMAL '{' from_default normal_body '}'   { $$ = NormalPtr($4); }
+  | COLOUR_MAP colour_map   { $$ = std::make_shared<const PigmentMap>($2); }
+  | PIGMENT_MAP pigment_map { $$ = std::make_shared<const PigmentMap>($2); }
+  | NORMAL_MAP normal_map   { $$ = std::make_shared<const NormalMap>($2); }
+  | TEXTURE_MAP texture_map { $$ = std::make_shared<const TextureMap>($2); }
   | FINISH '{' from_default finish_body '}'   { $$ = FinishPtr($4); }
+  | sky_sphere        { $$ = SkySpherePtr($1); }
+  | SKY_SPHERE_ID     { $$ = $1; }
   | layers            { $$ = $1; }
   | TEXTURE_ID        { $$ = $1; }
   | PIGMENT_ID        { $$ = $1; }
+  | NORMAL_ID         { $$ = $1; }
+  | PIGMENT_MAP_ID    { $$ = $1; }
+  | NORMAL_MAP_ID     { $$ = $1; }
+  | TEXTURE_MAP_ID    { $$ = $1; }
   | FINISH_ID         { $$ = $1; }
   | INTERIOR_ID       { $$ = $1; }
   | MATERIAL_ID       { $$ = $1; }
@@ -719,6 +977,12 @@ element
 // ---- What is not supported: the rest of the block is passed over ----
 
 unsupported
+  : unsupported_pattern
+  | NORMAL             { $$ = unsupported_rest(session, "'normal'", @1); }
+  | PATTERN            { $$ = unsupported_rest(session, quoted_pattern($1), @1); }
+  ;
+
+unsupported_pattern // a pigment's, normal's or texture's
   : unsupported_modifier
   | UNSUPPORTED_OBJECT { $$ = unsupported_rest(session, quoted(session, $1), @1); }
   | OBJECT             { $$ = unsupported_rest(session, "an object pattern", @1); }

@@ -62,7 +62,9 @@ struct ObjectDefinition {
       shape;
   Location where; ///< where it is written, or referred to within other objects
   Transform transform;
-  TexturePtr texture; ///< null: the parent's, then the default
+  TexturePtr texture;          ///< null: the parent's, then the default
+  Transform texture_transform; ///< what the object went through since it has the texture
+  UnsupportedPtr uv_mapping;
   InteriorPtr interior;
   bool no_shadow = false;
   bool inverse = false;
@@ -72,7 +74,7 @@ struct ObjectDefinition {
   bool is_look = false; ///< being read as what a light looks like
   int depth = 0;        ///< of objects inside one another
 
-  /// Moves what limits it, too.
+  /// Moves its texture and what limits it, too.
   void apply(const Transform& next);
 };
 

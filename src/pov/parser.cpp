@@ -40,9 +40,16 @@ struct Deliver {
     case token::T_TEXT_FUNCTION:
     case token::T_COMPONENT:
     case token::T_COLOUR_MODEL:
+    case token::T_SRGB_MODEL:
     case token::T_CHANNEL:
     case token::T_SHAPE:
     case token::T_CSG:
+    case token::T_PATTERN:
+    case token::T_ARGUED_PATTERN:
+    case token::T_LIST_PATTERN:
+    case token::T_PATTERN_OPTION:
+    case token::T_PATTERN_FLAG:
+    case token::T_WAVE:
     case token::T_CAMERA_KIND:
       target.emplace<int>(terminal.detail);
       break;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <string>
 
 #include "celltrace/error.hpp"
@@ -24,11 +25,6 @@ void replace_materials(Mesh& mesh, const std::vector<Index>& materials) {
   for (Mesh::Triangle& triangle : mesh.triangles)
     for (Index& material : triangle.material)
       if (material != kNoIndex) material = materials[material];
-}
-
-bool is_singular(const Transform& transform) {
-  const double determinant = transform.determinant();
-  return determinant == 0 || !std::isfinite(determinant) || !std::isfinite(1 / determinant);
 }
 
 const Compound* compound(const ObjectDefinition& object) {
@@ -87,8 +83,15 @@ SceneBuilder::Inherited SceneBuilder::inherit(const ObjectDefinition& object, co
   Inherited own = around;
   own.transform = object.transform.then(around.transform);
   own.no_shadow = object.no_shadow || around.no_shadow;
-  if (object.texture) own.texture = object.texture;
-  if (!own.texture) own.texture = default_texture;
+  if (object.texture) {
+    own.texture = object.texture;
+    own.texture_transform = object.texture_transform.then(around.transform);
+    own.uv_mapping = nullptr;
+  } else if (!own.texture) {
+    own.texture = default_texture;
+    own.texture_transform = Transform();
+  }
+  mark(own.uv_mapping, object.uv_mapping);
   if (!around.clips && !std::holds_alternative<LightDefinition>(object.shape))
     own.interior = interior_index(object, around.interior, *own.texture, where);
   return own;
@@ -112,7 +115,10 @@ std::optional<Object> SceneBuilder::make(const ObjectDefinition& object, const I
   } else {
     if (is_singular(own.transform))
       diagnostics_.fail(where, "this object's transformation is singular: it has no inverse");
-    if (!around.clips) made.material = material_index(own.texture, where);
+    if (!around.clips) {
+      if (!own.texture->is_constant()) diagnostics_.require_supported(own.uv_mapping, where);
+      made.material = material_index(own.texture, own.texture_transform, where);
+    }
     if (!make_shape(object, own, made, where)) return std::nullopt;
     if (!around.clips) made.interior = interior_of(own);
   }
@@ -195,7 +201,7 @@ bool SceneBuilder::make_shape(const ObjectDefinition& object, const Inherited& o
     mesh = placed_triangle(**triangle, own.transform, where);
     made.transform = Transform();
   } else {
-    mesh = placed_mesh(std::get<std::shared_ptr<MeshDefinition>>(object.shape), where);
+    mesh = placed_mesh(std::get<std::shared_ptr<MeshDefinition>>(object.shape), own.transform, where);
   }
   const bool is_visible = !mesh->triangles.empty();
   made.shape = std::move(mesh);
@@ -237,27 +243,83 @@ Index SceneBuilder::interior_index(const ObjectDefinition& object, Index inherit
   return index;
 }
 
-Index SceneBuilder::material_index(const TexturePtr& texture, const Location& where) {
-  if (const auto known = material_indices_.find(texture); known != material_indices_.end())
-    return known->second;
-  diagnostics_.require_supported(texture->first_unsupported(), where);
-  const Index index = scene_.add(Material{texture->pigment.value, texture->finish.value});
-  material_indices_.emplace(texture, index);
-  return index;
+bool SceneBuilder::PlacedTexture::operator<(const PlacedTexture& other) const {
+  if (texture != other.texture) return texture < other.texture;
+  return std::memcmp(&transform, &other.transform, sizeof transform) < 0;
 }
 
-std::shared_ptr<const Mesh> SceneBuilder::placed_mesh(const std::shared_ptr<MeshDefinition>& definition,
-                                                      const Location& where) {
-  std::shared_ptr<const Mesh>& placed = meshes_[definition];
-  if (!placed) {
-    std::vector<Index> materials;
-    for (const TexturePtr& texture : definition->textures)
-      materials.push_back(material_index(texture, where));
-    auto mesh = std::make_shared<Mesh>(std::move(definition->mesh));
-    replace_materials(*mesh, materials);
-    placed = std::move(mesh);
+Index SceneBuilder::material_index(const TexturePtr& texture, const Transform& transform,
+                                   const Location& where) {
+  if (texture->is_constant()) {
+    const auto [known, is_new] = material_indices_.try_emplace(texture);
+    if (is_new) known->second = scene_.add(make_material(*texture, where));
+    return known->second;
   }
-  return placed;
+  const auto [known, is_new] = placed_material_indices_.try_emplace(PlacedTexture{texture, transform});
+  if (is_new) known->second = scene_.add(make_material(*transformed(texture, transform), where));
+  return known->second;
+}
+
+Material SceneBuilder::make_material(const TextureDefinition& texture, const Location& where) {
+  diagnostics_.require_supported(texture.first_unsupported(), where);
+  Material material;
+  if (texture.map) {
+    auto map = std::make_shared<PatternMap<Material>>();
+    map->pattern = texture.pattern.value();
+    map->is_average = texture.pattern.is_average();
+    for (const auto& [position, entry] : texture.map->entries)
+      map->entries.push_back({position, *shared_material(entry, where)});
+    check_pattern(map->pattern, map->entries.size(), where);
+    material.map = std::move(map);
+    return material;
+  }
+  material.pigment = texture.pigment.finish();
+  if (const auto& map = material.pigment.map) check_pattern(map->pattern, map->entries.size(), where);
+  material.finish = texture.finish.value;
+  if (texture.normal) {
+    material.normal = std::make_shared<const Normal>(texture.normal->finish());
+    const auto& map = material.normal->map;
+    check_pattern(map ? map->pattern : material.normal->pattern, map ? map->entries.size() : 0, where);
+  }
+  if (texture.below) material.below = shared_material(texture.below, where);
+  return material;
+}
+
+std::shared_ptr<const Material> SceneBuilder::shared_material(const TexturePtr& texture,
+                                                              const Location& where) {
+  if (const auto known = shared_materials_.find(texture); known != shared_materials_.end())
+    return known->second;
+  return shared_materials_[texture] = std::make_shared<const Material>(make_material(*texture, where));
+}
+
+/// Every place of a texture with maps has its own copy of them, and its own transformations.
+void SceneBuilder::check_pattern(const Pattern& pattern, std::size_t entries, const Location& where) {
+  for (const SpaceStep& step : pattern.space)
+    if (const auto* transform = std::get_if<Transform>(&step); transform && is_singular(*transform))
+      diagnostics_.fail(where, "the transformation of this object's texture is singular: it has no inverse");
+  map_entries_ += entries;
+  if (map_entries_ > limits_.map_entries)
+    diagnostics_.fail(where, "the maps of all textures have more than " +
+                                 std::to_string(limits_.map_entries) + " entries");
+}
+
+/// Meshes are shared by their instances, unless their own textures depend on where they are.
+std::shared_ptr<const Mesh> SceneBuilder::placed_mesh(const std::shared_ptr<MeshDefinition>& definition,
+                                                      const Transform& transform, const Location& where) {
+  const std::vector<TexturePtr>& textures = definition->textures;
+  const bool is_constant = std::all_of(textures.begin(), textures.end(),
+                                       [](const TexturePtr& texture) { return texture->is_constant(); });
+  if (is_constant)
+    if (const auto known = meshes_.find(definition); known != meshes_.end()) return known->second;
+  std::vector<Index> materials;
+  for (const TexturePtr& texture : textures)
+    materials.push_back(material_index(texture, transform, where));
+  if (!is_constant) count_triangles(definition->mesh.triangles.size(), where);
+  auto mesh = is_constant ? std::make_shared<Mesh>(std::move(definition->mesh))
+                          : std::make_shared<Mesh>(definition->mesh);
+  replace_materials(*mesh, materials);
+  if (is_constant) meshes_[definition] = mesh;
+  return mesh;
 }
 
 } // namespace celltrace::pov

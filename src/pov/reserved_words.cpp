@@ -4,6 +4,7 @@
 #include "pov/constants.hpp"
 #include "pov/functions.hpp"
 #include "pov/grammar.hpp"
+#include "pov/patterns.hpp"
 #include "pov/shapes.hpp"
 
 namespace celltrace::pov {
@@ -24,6 +25,7 @@ struct DetailedWord {
 };
 
 const Word kWords[] = {
+    {"accuracy", tokens::T_ACCURACY},
     {"adaptive", tokens::T_ADAPTIVE},
     {"adc_bailout", tokens::T_ADC_BAILOUT},
     {"ambient", tokens::T_AMBIENT},
@@ -37,13 +39,16 @@ const Word kWords[] = {
     {"background", tokens::T_BACKGROUND},
     {"bounded_by", tokens::T_BOUNDED_BY},
     {"brilliance", tokens::T_BRILLIANCE},
+    {"bump_size", tokens::T_BUMP_SIZE},
     {"camera", tokens::T_CAMERA},
     {"caustics", tokens::T_CAUSTICS},
     {"charset", tokens::T_CHARSET},
     {"circular", tokens::T_CIRCULAR},
     {"clipped_by", tokens::T_CLIPPED_BY},
     {"color", tokens::T_COLOUR},
+    {"color_map", tokens::T_COLOUR_MAP},
     {"colour", tokens::T_COLOUR},
+    {"colour_map", tokens::T_COLOUR_MAP},
     {"confidence", tokens::T_IGNORED_NUMBER},
     {"conserve_energy", tokens::T_CONSERVE_ENERGY},
     {"crand", tokens::T_CRAND},
@@ -63,6 +68,7 @@ const Word kWords[] = {
     {"falloff", tokens::T_FALLOFF},
     {"finish", tokens::T_FINISH},
     {"focal_point", tokens::T_IGNORED_NUMBER},
+    {"frequency", tokens::T_FREQUENCY},
     {"fresnel", tokens::T_FRESNEL},
     {"global_settings", tokens::T_GLOBAL_SETTINGS},
     {"hf_gray_16", tokens::T_IGNORED_FLAG},
@@ -75,6 +81,7 @@ const Word kWords[] = {
     {"irid", tokens::T_IRID},
     {"irid_wavelength", tokens::T_IGNORED_NUMBER},
     {"jitter", tokens::T_JITTER},
+    {"lambda", tokens::T_LAMBDA},
     {"light_source", tokens::T_LIGHT_SOURCE},
     {"location", tokens::T_LOCATION},
     {"look_at", tokens::T_LOOK_AT},
@@ -91,19 +98,26 @@ const Word kWords[] = {
     {"mm_per_unit", tokens::T_IGNORED_NUMBER},
     {"no_radiosity", tokens::T_IGNORED_FLAG},
     {"no_shadow", tokens::T_NO_SHADOW},
-    {"noise_generator", tokens::T_IGNORED_NUMBER},
+    {"noise_generator", tokens::T_NOISE_GENERATOR},
+    {"normal", tokens::T_NORMAL},
     {"normal_indices", tokens::T_NORMAL_INDICES},
+    {"normal_map", tokens::T_NORMAL_MAP},
     {"normal_vectors", tokens::T_NORMAL_VECTORS},
-    {"number_of_waves", tokens::T_IGNORED_NUMBER},
+    {"number_of_waves", tokens::T_NUMBER_OF_WAVES},
     {"object", tokens::T_OBJECT},
+    {"octaves", tokens::T_OCTAVES},
+    {"omega", tokens::T_OMEGA},
     {"open", tokens::T_OPEN},
     {"orient", tokens::T_ORIENT},
     {"parallel", tokens::T_PARALLEL},
+    {"phase", tokens::T_PHASE},
     {"phong", tokens::T_PHONG},
     {"phong_size", tokens::T_PHONG_SIZE},
     {"photons", tokens::T_PHOTONS},
     {"pigment", tokens::T_PIGMENT},
+    {"pigment_map", tokens::T_PIGMENT_MAP},
     {"point_at", tokens::T_POINT_AT},
+    {"poly_wave", tokens::T_POLY_WAVE},
     {"quick_color", tokens::T_QUICK_COLOUR},
     {"quick_colour", tokens::T_QUICK_COLOUR},
     {"radius", tokens::T_RADIUS},
@@ -116,24 +130,28 @@ const Word kWords[] = {
     {"scale", tokens::T_SCALE},
     {"shadowless", tokens::T_SHADOWLESS},
     {"sky", tokens::T_SKY},
+    {"sky_sphere", tokens::T_SKY_SPHERE},
     {"smooth_triangle", tokens::T_SMOOTH_TRIANGLE},
     {"specular", tokens::T_SPECULAR},
-    {"spotlight", tokens::T_SPOTLIGHT},
     {"split_union", tokens::T_IGNORED_FLAG},
+    {"spotlight", tokens::T_SPOTLIGHT},
     {"srgb", tokens::T_SRGB},
     {"sturm", tokens::T_IGNORED_FLAG},
     {"texture", tokens::T_TEXTURE},
     {"texture_list", tokens::T_TEXTURE_LIST},
+    {"texture_map", tokens::T_TEXTURE_MAP},
     {"tightness", tokens::T_TIGHTNESS},
     {"transform", tokens::T_TRANSFORM},
     {"translate", tokens::T_TRANSLATE},
     {"triangle", tokens::T_TRIANGLE},
+    {"turbulence", tokens::T_TURBULENCE},
     {"up", tokens::T_UP},
     {"uv_indices", tokens::T_UV_INDICES},
     {"uv_mapping", tokens::T_UV_MAPPING},
     {"uv_vectors", tokens::T_UV_VECTORS},
     {"variance", tokens::T_IGNORED_NUMBER},
     {"vertex_vectors", tokens::T_VERTEX_VECTORS},
+    {"warp", tokens::T_WARP},
 };
 
 constexpr int detail(Constant constant) {
@@ -144,6 +162,9 @@ constexpr int detail(ColourModel model) {
 }
 constexpr int detail(Channel channel) {
   return static_cast<int>(channel);
+}
+constexpr int detail(Pattern::Wave wave) {
+  return static_cast<int>(wave);
 }
 constexpr int detail(Csg::Operation operation) {
   return static_cast<int>(operation);
@@ -170,12 +191,20 @@ const DetailedWord kDetailedWords[] = {
     {"rgbf", tokens::T_COLOUR_MODEL, detail(ColourModel::rgbf)},
     {"rgbt", tokens::T_COLOUR_MODEL, detail(ColourModel::rgbt)},
     {"rgbft", tokens::T_COLOUR_MODEL, detail(ColourModel::rgbft)},
+    {"srgbf", tokens::T_SRGB_MODEL, detail(ColourModel::rgbf)},
+    {"srgbt", tokens::T_SRGB_MODEL, detail(ColourModel::rgbt)},
+    {"srgbft", tokens::T_SRGB_MODEL, detail(ColourModel::rgbft)},
     {"red", tokens::T_CHANNEL, detail(Channel::red)},
     {"green", tokens::T_CHANNEL, detail(Channel::green)},
     {"blue", tokens::T_CHANNEL, detail(Channel::blue)},
     {"filter", tokens::T_CHANNEL, detail(Channel::filter)},
     {"alpha", tokens::T_CHANNEL, detail(Channel::filter)}, // its name before version 3
     {"transmit", tokens::T_CHANNEL, detail(Channel::transmit)},
+    {"ramp_wave", tokens::T_WAVE, detail(Pattern::Wave::ramp)},
+    {"triangle_wave", tokens::T_WAVE, detail(Pattern::Wave::triangle)},
+    {"sine_wave", tokens::T_WAVE, detail(Pattern::Wave::sine)},
+    {"scallop_wave", tokens::T_WAVE, detail(Pattern::Wave::scallop)},
+    {"cubic_wave", tokens::T_WAVE, detail(Pattern::Wave::cubic)},
     {"union", tokens::T_CSG, detail(Csg::Operation::union_)},
     {"merge", tokens::T_CSG, detail(Csg::Operation::merge)},
     {"intersection", tokens::T_CSG, detail(Csg::Operation::intersection)},
@@ -231,49 +260,22 @@ const DirectiveWord kDirectives[] = {
 // What POV-Ray 3.7 reserves for features that are not supported: things that are objects, things that have a
 // block in braces of their own, and the rest.
 const char* const kUnsupportedObjects[] = {
-    "bicubic_patch", "blob", "cubic",        "height_field",   "isosurface", "julia_fractal", "lathe",
-    "light_group",   "ovus", "parametric",   "poly",           "polygon",    "prism",         "quadric",
-    "quartic",       "sor",  "sphere_sweep", "superellipsoid", "text",
+    "bicubic_patch", "blob",    "height_field", "isosurface",   "julia_fractal",  "lathe",
+    "light_group",   "ovus",    "parametric",   "poly",         "polygon",        "prism",
+    "quadric",       "quartic", "sor",          "sphere_sweep", "superellipsoid", "text",
 };
 
 const char* const kUnsupportedBlocks[] = {
-    "bump_map",
-    "color_map",
-    "colour_map",
-    "contained_by",
-    "density",
-    "density_map",
-    "fog",
-    "function",
-    "image_map",
-    "image_pattern",
-    "interior_texture",
-    "material_map",
-    "media",
-    "mesh_camera",
-    "normal",
-    "normal_map",
-    "pigment_map",
-    "pigment_pattern",
-    "projected_through",
-    "radiosity",
-    "rainbow",
-    "sky_sphere",
-    "slope_map",
-    "spline",
-    "subsurface",
-    "texture_map",
-    "tiles",
-    "warp",
+    "bump_map", "contained_by", "density",         "density_map",       "fog",
+    "function", "image_map",    "image_pattern",   "interior_texture",  "material_map",
+    "media",    "mesh_camera",  "pigment_pattern", "projected_through", "radiosity",
+    "rainbow",  "slope_map",    "spline",          "subsurface",        "tiles",
 };
 
 const char* const kUnsupportedWords[] = {
     "aa_level",
     "aa_threshold",
     "absorption",
-    "accuracy",
-    "agate",
-    "agate_turb",
     "albedo",
     "all",
     "all_intersections",
@@ -283,7 +285,6 @@ const char* const kUnsupportedWords[] = {
     "arc_angle",
     "ascii",
     "autostop",
-    "average",
     "b_spline",
     "bezier_spline",
     "bitwise_and",
@@ -291,31 +292,17 @@ const char* const kUnsupportedWords[] = {
     "bitwise_xor",
     "black_hole",
     "blur_samples",
-    "boxed",
-    "bozo",
-    "brick",
-    "brick_size",
     "brightness",
-    "bump_size",
-    "bumps",
-    "cells",
-    "checker",
     "collect",
     "component",
     "composite",
     "conic_sweep",
-    "control0",
-    "control1",
     "coords",
     "count",
-    "crackle",
     "cube",
     "cubic_spline",
-    "cubic_wave",
-    "cylindrical",
     "datetime",
     "density_file",
-    "dents",
     "df3",
     "dist_exp",
     "distance",
@@ -334,15 +321,10 @@ const char* const kUnsupportedWords[] = {
     "fog_alt",
     "fog_offset",
     "fog_type",
-    "form",
-    "frequency",
     "gather",
     "gif",
     "global_lights",
-    "gradient",
-    "granite",
     "gray_threshold",
-    "hexagon",
     "hypercomplex",
     "iff",
     "importance",
@@ -351,8 +333,6 @@ const char* const kUnsupportedWords[] = {
     "intervals",
     "jpeg",
     "julia",
-    "lambda",
-    "leopard",
     "linear_spline",
     "linear_sweep",
     "load_file",
@@ -361,35 +341,25 @@ const char* const kUnsupportedWords[] = {
     "major_radius",
     "mandel",
     "map_type",
-    "marble",
     "max_extent",
     "max_gradient",
     "max_iteration",
     "max_sample",
     "max_trace",
-    "metric",
     "min_extent",
     "minimum_reuse",
-    "mortar",
     "natural_spline",
     "nearest_count",
     "no_bump_scale",
     "no_image",
     "no_reflection",
     "now",
-    "octaves",
-    "offset",
-    "omega",
     "once",
-    "onion",
     "orientation",
     "pass_through",
     "pattern",
     "pgm",
-    "phase",
-    "planar",
     "png",
-    "poly_wave",
     "pot",
     "ppm",
     "precision",
@@ -400,31 +370,17 @@ const char* const kUnsupportedWords[] = {
     "pwr",
     "quadratic_spline",
     "quaternion",
-    "quilted",
-    "radial",
-    "ramp_wave",
     "ratio",
     "recursion_limit",
     "repeat",
-    "ripples",
     "samples",
     "save_file",
-    "scallop_wave",
     "scattering",
-    "sine_wave",
     "size",
     "slice",
     "slope",
     "smooth",
-    "solid",
     "spacing",
-    "spiral1",
-    "spiral2",
-    "spotted",
-    "square",
-    "srgbf",
-    "srgbft",
-    "srgbt",
     "sum",
     "sys",
     "target",
@@ -438,10 +394,8 @@ const char* const kUnsupportedWords[] = {
     "toroidal",
     "trace",
     "translucency",
-    "triangle_wave",
     "ttf",
     "turb_depth",
-    "turbulence",
     "type",
     "u_steps",
     "use_alpha",
@@ -452,11 +406,20 @@ const char* const kUnsupportedWords[] = {
     "v_steps",
     "vturbulence",
     "water_level",
-    "waves",
     "width",
-    "wood",
-    "wrinkles",
 };
+
+int token_of(PatternForm form) {
+  switch (form) {
+  case PatternForm::plain:
+    return tokens::T_PATTERN;
+  case PatternForm::argument:
+    return tokens::T_ARGUED_PATTERN;
+  case PatternForm::list:
+    return tokens::T_LIST_PATTERN;
+  }
+  return tokens::T_PATTERN;
+}
 
 } // namespace
 
@@ -480,6 +443,12 @@ std::vector<ReservedWord> reserved_words() {
   for (const char* shape : shape_names())
     words.push_back({shape, tokens::T_SHAPE, number++, false});
   number = 0;
+  for (const PatternWord& pattern : pattern_words())
+    words.push_back({pattern.word, token_of(pattern.form), number++, false});
+  number = 0;
+  for (const PatternOption& option : pattern_options())
+    words.push_back(
+        {option.word, option.has_value ? tokens::T_PATTERN_OPTION : tokens::T_PATTERN_FLAG, number++, false});
   for (const char* kind : camera_kind_names())
     words.push_back({kind, tokens::T_CAMERA_KIND, number++, false});
   return words;

@@ -1,5 +1,7 @@
 #include "pov/scene_builder.hpp"
 
+#include <cmath>
+
 #include "celltrace/error.hpp"
 
 namespace celltrace::pov {
@@ -9,6 +11,7 @@ namespace {
 /// What a scene without any #version counts as (3.2 of POV-Ray's gamma rules).
 constexpr double kVersionIfNoneGiven = 3.62;
 constexpr double kVersionOfGamma = 3.7; // and of transparent backgrounds
+constexpr double kVersionOfNoise = 3.5; // that is in range
 
 } // namespace
 
@@ -23,10 +26,25 @@ void SceneBuilder::set_background(const Pigment& colour) {
   scene_.background = has_alpha ? colour.rgb * (1 - colour.transmit) : colour.rgb;
 }
 
+void SceneBuilder::set_sky_sphere(const SkySphereDefinition& sky, const Location& where) {
+  diagnostics_.require_supported(sky.unsupported, where);
+  scene_.sky_sphere.clear();
+  for (const PigmentDefinition& pigment : sky.pigments) {
+    diagnostics_.require_supported(pigment.first_unsupported(), where);
+    scene_.sky_sphere.push_back(pigment.finish());
+  }
+}
+
 void SceneBuilder::set_assumed_gamma(std::optional<double> gamma) {
   gamma_given_ = true;
   scene_.gamma_mode = gamma ? GammaMode::assumed : GammaMode::srgb;
   scene_.assumed_gamma = gamma.value_or(1);
+}
+
+double SceneBuilder::from_srgb(double channel) const {
+  if (scene_.gamma_mode != GammaMode::assumed) return channel;
+  const double linear = channel <= 0.04045 ? channel / 12.92 : std::pow((channel + 0.055) / 1.055, 2.4);
+  return std::copysign(std::pow(std::fabs(linear), 1 / scene_.assumed_gamma), linear);
 }
 
 void SceneBuilder::settle_gamma() {
@@ -38,6 +56,7 @@ void SceneBuilder::settle_gamma() {
 Scene SceneBuilder::finish(const std::string& name) {
   scene_.name = name;
   settle_gamma();
+  scene_.noise_generator = noise_generator_.value_or(scene_.version < kVersionOfNoise ? 1 : 2);
   const CameraDefinition& camera = camera_ ? *camera_ : default_camera;
   diagnostics_.require_supported(camera.unsupported, camera.where);
   try {

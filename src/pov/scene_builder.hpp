@@ -1,6 +1,7 @@
 // Collects what a scene places and sets, and makes the Scene of it.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,7 +21,7 @@ public:
       : limits_(limits), diagnostics_(diagnostics) {}
 
   /// What textures start from and objects without one get: black, with the default finish, until #default
-  /// changes it.
+  /// changes it. It does not move with the objects that get it.
   TexturePtr default_texture = std::make_shared<TextureDefinition>();
   CameraDefinition default_camera;
 
@@ -33,11 +34,18 @@ public:
   void set_camera(std::shared_ptr<const CameraDefinition> camera) { camera_ = std::move(camera); }
   /// As if over black, for what it transmits, from version 3.7 on; before, without regard to that.
   void set_background(const Pigment& colour);
+  /// The last one is the scene's.
+  void set_sky_sphere(const SkySphereDefinition& sky, const Location& where);
   void set_ambient_light(const Vec3& rgb) { scene_.ambient_light = rgb; }
   void set_max_trace_level(int level) { scene_.max_trace_level = level; }
+  void set_noise_generator(int number) { noise_generator_ = number; }
+  void set_number_of_waves(int number) { scene_.number_of_waves = number; }
   void set_adc_bailout(double weight) { scene_.adc_bailout = weight; }
   /// Without a value: `assumed_gamma srgb`.
   void set_assumed_gamma(std::optional<double> gamma);
+  bool gamma_is_given() const { return gamma_given_; }
+  /// A channel of a colour in sRGB as the scene's colours have it.
+  double from_srgb(double channel) const;
   void set_version(double version) { version_ = version; }
   /// What `version` says: 3.7 until #version changes it.
   double version() const { return version_.value_or(3.7); }
@@ -55,6 +63,8 @@ private:
   struct Inherited {
     Transform transform; ///< to the scene
     TexturePtr texture;
+    Transform texture_transform; ///< to the scene
+    UnsupportedPtr uv_mapping;   ///< of the texture
     Index interior = kNoIndex;
     Index csg_interior = kNoIndex; ///< of the parts that have or inherit none
     bool no_shadow = false;
@@ -76,11 +86,21 @@ private:
   Index interior_of(const Inherited& own);
   Index interior_index(const ObjectDefinition& object, Index inherited, const TextureDefinition& texture,
                        const Location& where);
-  Index material_index(const TexturePtr& texture, const Location& where);
+  Index material_index(const TexturePtr& texture, const Transform& transform, const Location& where);
+  Material make_material(const TextureDefinition& texture, const Location& where);
+  std::shared_ptr<const Material> shared_material(const TexturePtr& texture, const Location& where);
+  void check_pattern(const Pattern& pattern, std::size_t entries, const Location& where);
   std::shared_ptr<const Mesh> placed_triangle(const TriangleDefinition& triangle, const Transform& transform,
                                               const Location& where);
   std::shared_ptr<const Mesh> placed_mesh(const std::shared_ptr<MeshDefinition>& definition,
-                                          const Location& where);
+                                          const Transform& transform, const Location& where);
+
+  /// A texture that depends on where it is.
+  struct PlacedTexture {
+    TexturePtr texture;
+    Transform transform;
+    bool operator<(const PlacedTexture& other) const;
+  };
 
   void settle_gamma();
 
@@ -92,7 +112,11 @@ private:
   bool gamma_given_ = false;
   std::uint64_t parts_placed_ = 0;
   std::uint64_t triangles_ = 0;
-  std::unordered_map<TexturePtr, Index> material_indices_;
+  std::optional<int> noise_generator_;
+  std::uint64_t map_entries_ = 0;
+  std::unordered_map<TexturePtr, Index> material_indices_; ///< of those that are the same everywhere
+  std::map<PlacedTexture, Index> placed_material_indices_;
+  std::unordered_map<TexturePtr, std::shared_ptr<const Material>> shared_materials_; ///< layers and entries
   std::unordered_map<std::shared_ptr<MeshDefinition>, std::shared_ptr<const Mesh>> meshes_;
 };
 

@@ -1,33 +1,140 @@
 #include "pov/texture.hpp"
 
+#include <algorithm>
+#include <initializer_list>
+
 namespace celltrace::pov {
 
-const UnsupportedPtr& TextureDefinition::first_unsupported() const {
-  if (pigment.unsupported) return pigment.unsupported;
-  return finish.unsupported ? finish.unsupported : unsupported;
+namespace {
+
+/// The map as a Scene has it.
+template <class T>
+std::shared_ptr<const PatternMap<T>> finish_map(const PatternDefinition& pattern,
+                                                const std::vector<typename PatternMap<T>::Entry>& entries) {
+  auto map = std::make_shared<PatternMap<T>>();
+  map->pattern = pattern.value();
+  map->is_average = pattern.is_average();
+  map->entries = entries;
+  return map;
+}
+
+UnsupportedPtr first(std::initializer_list<UnsupportedPtr> marks) {
+  const auto* found =
+      std::find_if(marks.begin(), marks.end(), [](const auto& mark) { return mark != nullptr; });
+  return found == marks.end() ? nullptr : *found;
+}
+
+std::shared_ptr<TextureDefinition> copy(const TexturePtr& texture) {
+  return std::make_shared<TextureDefinition>(*texture);
+}
+
+} // namespace
+
+UnsupportedPtr PigmentDefinition::first_unsupported() const {
+  return first({pattern.unsupported, unsupported, map ? map->unsupported : nullptr,
+                pattern.exists() ? uv_mapping : nullptr});
+}
+
+bool PigmentDefinition::is_opaque() const {
+  if (pattern.exists()) return !map || map->is_opaque;
+  return value.filter == 0 && value.transmit == 0;
+}
+
+Pigment PigmentDefinition::finish() const {
+  Pigment pigment = value;
+  if (pattern.exists())
+    pigment.map = finish_map<Pigment>(pattern, map ? map->entries : pattern.default_colours());
+  return pigment;
+}
+
+UnsupportedPtr NormalDefinition::first_unsupported() const {
+  return first({pattern.unsupported, unsupported, map ? map->unsupported : nullptr, uv_mapping});
+}
+
+Normal NormalDefinition::finish() const {
+  Normal normal;
+  normal.pattern = pattern.value();
+  normal.amount = pattern.exists() ? amount : 0;
+  normal.accuracy = accuracy;
+  if (map) normal.map = finish_map<Normal>(pattern, map->entries);
+  return normal;
+}
+
+UnsupportedPtr TextureDefinition::first_unsupported() const {
+  for (const TextureDefinition* layer = this; layer; layer = layer->below.get())
+    if (const UnsupportedPtr found =
+            first({layer->map ? nullptr : layer->pigment.first_unsupported(),
+                   layer->map || !layer->normal ? nullptr : layer->normal->first_unsupported(),
+                   layer->map ? nullptr : layer->finish.unsupported, layer->pattern.unsupported,
+                   layer->unsupported, layer->map ? layer->map->unsupported : nullptr,
+                   layer->is_constant() ? nullptr : layer->uv_mapping}))
+      return found;
+  return nullptr;
+}
+
+bool TextureDefinition::is_opaque() const {
+  if (map) return map->is_opaque;
+  for (const TextureDefinition* layer = this; layer; layer = layer->below.get())
+    if (layer->pigment.is_opaque()) return true;
+  return false;
+}
+
+bool TextureDefinition::is_constant() const {
+  for (const TextureDefinition* layer = this; layer; layer = layer->below.get())
+    if (layer->pattern.exists() || layer->normal || layer->pigment.pattern.exists()) return false;
+  return true;
 }
 
 TexturePtr with_pigment(const TexturePtr& texture, const PigmentDefinition& pigment) {
-  auto changed = std::make_shared<TextureDefinition>(*texture);
+  auto changed = copy(texture);
   changed->pigment = pigment;
   return changed;
 }
 
+TexturePtr with_normal(const TexturePtr& texture, const NormalPtr& normal) {
+  auto changed = copy(texture);
+  changed->normal = normal->pattern.exists() || normal->first_unsupported() ? normal : nullptr;
+  return changed;
+}
+
 TexturePtr with_finish(const TexturePtr& texture, const FinishDefinition& finish) {
-  auto changed = std::make_shared<TextureDefinition>(*texture);
+  auto changed = copy(texture);
   changed->finish = finish;
   return changed;
 }
 
 TexturePtr with_unsupported(const TexturePtr& texture, const UnsupportedPtr& unsupported) {
-  auto changed = std::make_shared<TextureDefinition>(*texture);
+  auto changed = copy(texture);
   mark(changed->unsupported, unsupported);
   return changed;
 }
 
-TexturePtr layered(const TexturePtr& below, const TexturePtr& top, const Location& where) {
+TexturePtr with_uv_mapping(const TexturePtr& texture, const UnsupportedPtr& uv_mapping) {
+  auto changed = copy(texture);
+  mark(changed->uv_mapping, uv_mapping);
+  return changed;
+}
+
+TexturePtr transformed(const TexturePtr& texture, const Transform& next) {
+  if (texture->is_constant() || next.is_identity()) return texture;
+  auto changed = copy(texture);
+  if (changed->pattern.exists()) append(changed->pattern.own().space, next);
+  if (changed->pigment.pattern.exists()) append(changed->pigment.pattern.own().space, next);
+  if (changed->normal) {
+    auto normal = std::make_shared<NormalDefinition>(*changed->normal);
+    append(normal->pattern.own().space, next);
+    changed->normal = std::move(normal);
+  }
+  if (changed->below) changed->below = transformed(changed->below, next);
+  return changed;
+}
+
+TexturePtr layered(const TexturePtr& below, const TexturePtr& top) {
   if (!below || (top->is_opaque() && !top->first_unsupported())) return top;
-  return with_unsupported(top, std::make_shared<Unsupported>(Unsupported{"a layered texture", where}));
+  auto changed = copy(top);
+  changed->below = top->below ? layered(below, top->below) : below;
+  changed->layers = 1 + changed->below->layers;
+  return changed;
 }
 
 } // namespace celltrace::pov

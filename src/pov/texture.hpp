@@ -1,5 +1,5 @@
-// What a scene says about surfaces and insides, as declared: pigments, finishes, textures, interiors,
-// materials.
+// What a scene says about surfaces and insides, as declared: pigments, normals, finishes, textures,
+// interiors, materials, and the maps that patterns make of them.
 //
 // What POV-Ray has and this program lacks is kept, marked as unsupported, and only an error where an object
 // uses it.
@@ -7,56 +7,104 @@
 
 #include <memory>
 #include <optional>
-#include <string>
+#include <vector>
 
 #include "celltrace/scene.hpp"
 #include "pov/location.hpp"
+#include "pov/patterns.hpp"
+#include "pov/unsupported.hpp"
 
 namespace celltrace::pov {
 
-/// A construct this program does not support, and where it stands.
-struct Unsupported {
-  std::string what;
-  Location where;
-};
-using UnsupportedPtr = std::shared_ptr<const Unsupported>;
+struct TextureDefinition;
+/// Equal pointers make equal materials: a texture that is only referred to is not copied.
+using TexturePtr = std::shared_ptr<const TextureDefinition>;
 
-/// Keeps the first of several.
-inline void mark(UnsupportedPtr& mark, const UnsupportedPtr& unsupported) {
-  if (!mark) mark = unsupported;
-}
+/// The entries of a map or of a pattern's list, of colours, pigments, normals or textures.
+template <class T> struct MapDefinition {
+  std::vector<typename PatternMap<T>::Entry> entries;
+  int depth = 1;              ///< of maps inside one another
+  bool is_opaque = true;      ///< nothing shines through any entry
+  UnsupportedPtr unsupported; ///< the first in any entry
+};
+using PigmentMap = MapDefinition<Pigment>;
+using NormalMap = MapDefinition<Normal>;
+using TextureMap = MapDefinition<TexturePtr>;
+using PigmentMapPtr = std::shared_ptr<const PigmentMap>;
+using NormalMapPtr = std::shared_ptr<const NormalMap>;
+using TextureMapPtr = std::shared_ptr<const TextureMap>;
 
 struct PigmentDefinition {
-  Pigment value;
+  Pigment value; ///< of one without a pattern; it has no map
+  PatternDefinition pattern;
+  PigmentMapPtr map; ///< null: the pattern's own colours
+  UnsupportedPtr uv_mapping;
   UnsupportedPtr unsupported;
+
+  UnsupportedPtr first_unsupported() const;
+  int depth() const { return !pattern.exists() ? 0 : map ? map->depth : 1; }
+  /// Nothing shines through.
+  bool is_opaque() const;
+  Pigment finish() const;
 };
+using PigmentPtr = std::shared_ptr<const PigmentDefinition>;
+
+struct NormalDefinition {
+  PatternDefinition pattern; ///< without one it is smooth
+  double amount = 0.5;
+  double accuracy = 0.02;
+  NormalMapPtr map; ///< null: the pattern's own slopes
+  UnsupportedPtr uv_mapping;
+  UnsupportedPtr unsupported;
+
+  UnsupportedPtr first_unsupported() const;
+  int depth() const { return map ? map->depth : 0; }
+  Normal finish() const;
+};
+using NormalPtr = std::shared_ptr<const NormalDefinition>;
 
 struct FinishDefinition {
   Finish value;
   std::optional<double> ior; ///< POV-Ray 3.1 had it here: it becomes the interior's
   UnsupportedPtr unsupported;
 };
-
 using FinishPtr = std::shared_ptr<const FinishDefinition>;
 
 struct TextureDefinition {
   PigmentDefinition pigment;
+  NormalPtr normal; ///< null: smooth
   FinishDefinition finish;
+  TexturePtr below;          ///< the layer under this one
+  int layers = 1;            ///< with those below
+  PatternDefinition pattern; ///< if there is one, the map is instead of all of the above
+  TextureMapPtr map;
+  UnsupportedPtr uv_mapping;
   UnsupportedPtr unsupported;
 
-  const UnsupportedPtr& first_unsupported() const;
+  UnsupportedPtr first_unsupported() const;
+  int depth() const { return map ? map->depth : 0; }
   /// Nothing shines through, so that a layer below does not matter.
-  bool is_opaque() const { return pigment.value.filter == 0 && pigment.value.transmit == 0; }
+  bool is_opaque() const;
+  /// Whether it matters where in space it is.
+  bool is_constant() const;
 };
 
-/// Equal pointers make equal materials: a texture that is only referred to is not copied.
-using TexturePtr = std::shared_ptr<const TextureDefinition>;
-
 TexturePtr with_pigment(const TexturePtr& texture, const PigmentDefinition& pigment);
+TexturePtr with_normal(const TexturePtr& texture, const NormalPtr& normal);
 TexturePtr with_finish(const TexturePtr& texture, const FinishDefinition& finish);
 TexturePtr with_unsupported(const TexturePtr& texture, const UnsupportedPtr& unsupported);
-/// `top` on `below`: the top alone if it is opaque, otherwise marked unsupported at `where`.
-TexturePtr layered(const TexturePtr& below, const TexturePtr& top, const Location& where);
+TexturePtr with_uv_mapping(const TexturePtr& texture, const UnsupportedPtr& uv_mapping);
+/// The texture with all its layers moved: itself if it is the same everywhere.
+TexturePtr transformed(const TexturePtr& texture, const Transform& next);
+/// `top` on `below` (null: nothing), neither of them with a pattern of textures: the top alone if it is
+/// opaque.
+TexturePtr layered(const TexturePtr& below, const TexturePtr& top);
+
+struct SkySphereDefinition {
+  std::vector<PigmentDefinition> pigments; ///< the last one is on top
+  UnsupportedPtr unsupported;
+};
+using SkySpherePtr = std::shared_ptr<const SkySphereDefinition>;
 
 struct InteriorDefinition {
   double ior = 1;

@@ -39,6 +39,11 @@ bool ends_operand(int terminal) {
   case tokens::T_QUANTITY:
   case tokens::T_TEXT:
   case tokens::T_PIGMENT_ID:
+  case tokens::T_NORMAL_ID:
+  case tokens::T_PIGMENT_MAP_ID:
+  case tokens::T_NORMAL_MAP_ID:
+  case tokens::T_TEXTURE_MAP_ID:
+  case tokens::T_SKY_SPHERE_ID:
   case tokens::T_FINISH_ID:
   case tokens::T_TEXTURE_ID:
   case tokens::T_OBJECT_ID:
@@ -89,7 +94,12 @@ struct TokenOf {
   int operator()(std::monostate) const { return tokens::T_UNDECLARED_ID; }
   int operator()(const Quantity&) const { return tokens::T_QUANTITY; }
   int operator()(const std::string&) const { return tokens::T_TEXT; }
-  int operator()(const PigmentDefinition&) const { return tokens::T_PIGMENT_ID; }
+  int operator()(const PigmentPtr&) const { return tokens::T_PIGMENT_ID; }
+  int operator()(const NormalPtr&) const { return tokens::T_NORMAL_ID; }
+  int operator()(const PigmentMapPtr&) const { return tokens::T_PIGMENT_MAP_ID; }
+  int operator()(const NormalMapPtr&) const { return tokens::T_NORMAL_MAP_ID; }
+  int operator()(const TextureMapPtr&) const { return tokens::T_TEXTURE_MAP_ID; }
+  int operator()(const SkySpherePtr&) const { return tokens::T_SKY_SPHERE_ID; }
   int operator()(const FinishPtr&) const { return tokens::T_FINISH_ID; }
   int operator()(const TexturePtr&) const { return tokens::T_TEXTURE_ID; }
   int operator()(const InteriorPtr&) const { return tokens::T_INTERIOR_ID; }

@@ -24,7 +24,8 @@ struct Macro {
 };
 
 using Value =
-    std::variant<std::monostate, Quantity, std::string, PigmentDefinition, FinishPtr, TexturePtr, InteriorPtr,
+    std::variant<std::monostate, Quantity, std::string, PigmentPtr, NormalPtr, FinishPtr, TexturePtr,
+                 PigmentMapPtr, NormalMapPtr, TextureMapPtr, SkySpherePtr, InteriorPtr,
                  std::shared_ptr<const MaterialDefinition>, std::shared_ptr<const CameraDefinition>,
                  ObjectPtr, Transform, std::shared_ptr<Array>, std::shared_ptr<const Macro>, UnsupportedPtr>;
 

@@ -2,6 +2,7 @@
 
 #include "celltrace/error.hpp"
 #include "kernel/direct/build_bvh_plan.hpp"
+#include "kernel/tuning.hpp"
 #include "render/frame_setup.hpp"
 #include "render/held_progress.hpp"
 
@@ -17,11 +18,6 @@ namespace {
 
 /// What of building a BVH is over before the first treelet: making the image, and the nodes above.
 constexpr double kBeforeTreelets = 0.3;
-/// Leaves are wide where all objects, so many, are in the cache that a PC's cores share.
-constexpr std::uint32_t kMostOfWideLeaves = 500000;
-/// With more objects, whose nodes lie in main memory, packets take turns. Measured; where objects lie at
-/// random, that begins to pay at ten million.
-constexpr std::uint32_t kMostOfNearNodes = 4000000;
 /// Larger work memory goes back to the system between frames.
 constexpr std::size_t kKeptBytes = std::size_t{256} << 20;
 
@@ -96,8 +92,8 @@ bool AcceleratorBuilder::build_bvh(const Progress& go_on) {
   const std::uint32_t nodes = bvh::most_nodes(objects, header.group_count, header.prototype_count != 0);
   image_.reserve_accelerator(std::uint64_t{nodes} * sizeof(NodeRecord), objects);
   frame_.bvh = {image_.table_offset(), nodes, 0, image_.list_offset()};
-  frame_.wide_leaves = machine_.direct_memory() && objects <= kMostOfWideLeaves;
-  frame_.far_nodes = machine_.direct_memory() && objects > kMostOfNearNodes;
+  frame_.wide_leaves = machine_.direct_memory() && objects <= tuning::kMostObjectsOfWideLeaves;
+  frame_.far_nodes = machine_.direct_memory() && objects > tuning::kMostObjectsOfNearNodes;
   enter_work_memory(work.pairs());
   frame_.image = to_ea(image_.base());
   // The builder follows pointers through main memory: work for the PPE's side where SPEs cannot.
@@ -125,7 +121,7 @@ bool AcceleratorBuilder::build_bvh_for_spes(const Progress& go_on) {
 }
 
 bool AcceleratorBuilder::build_bvh_on(SpeTeam& team, FrameBlock& frame, unsigned spes,
-                                            const Progress& go_on) {
+                                      const Progress& go_on) {
   BvhWatch watch(work_[0], go_on);
   // What a few objects take is not worth while to share.
   const unsigned builders = frame_.group_count == 0 ? 1 : std::min(spes, bvh::kMaxBuilders);

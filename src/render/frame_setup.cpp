@@ -3,6 +3,7 @@
 #include "celltrace/balance.hpp"
 #include "celltrace/error.hpp"
 #include "kernel/cameras/list.hpp"
+#include "kernel/direct/door.hpp"
 #include "scene/surface_records.hpp"
 
 #include <algorithm>
@@ -101,9 +102,13 @@ template <class Kind> void set_curved(FrameBlock& frame, const Camera& camera) {
   record.bend = static_cast<float>(picture.bend);
 }
 
-/// Whether what a ray is in makes a difference where it hits the material.
+/// Whether what a ray is in can make a difference where it hits the material. Maps are taken for ones with
+/// such entries.
 bool asks_for_interiors(const Material& material) {
-  return !is_opaque(material) || material.finish.reflection_fresnel;
+  if (material.map) return true;
+  for (const Material* layer = &material; layer != nullptr; layer = layer->below.get())
+    if (layer->pigment.map || !is_opaque(layer->pigment) || layer->finish.reflection_fresnel) return true;
+  return false;
 }
 
 } // namespace
@@ -171,6 +176,7 @@ void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& optio
       scene.gamma_mode == GammaMode::assumed ? GammaEncoding::assumed : GammaEncoding::none);
   frame.assumed_gamma = static_cast<float>(scene.assumed_gamma);
   store(scene.background, frame.background);
+  frame.sky = header.sky;
 }
 
 std::vector<Medium> media_of(const Scene& scene) {

@@ -16,7 +16,10 @@ FieldList<&ImageHeader::magic, &ImageHeader::version, &ImageHeader::bytes, &Imag
           &ImageHeader::group_count, &ImageHeader::longest_group, &ImageHeader::prototype_offset,
           &ImageHeader::prototype_count, &ImageHeader::unbounded_count, &ImageHeader::csg_offset,
           &ImageHeader::csg_count, &ImageHeader::csg_step_offset, &ImageHeader::csg_step_count,
-          &ImageHeader::solid_offset, &ImageHeader::solid_count, &ImageHeader::unused>
+          &ImageHeader::solid_offset, &ImageHeader::solid_count, &ImageHeader::pattern_offset,
+          &ImageHeader::pattern_count, &ImageHeader::space_step_offset, &ImageHeader::space_step_count,
+          &ImageHeader::map_entry_offset, &ImageHeader::map_entry_count, &ImageHeader::normal_offset,
+          &ImageHeader::normal_count, &ImageHeader::sky, &ImageHeader::unused>
 fields_of(const ImageHeader&);
 
 FieldList<&ObjectRecord::kind_and_flags, &ObjectRecord::material, &ObjectRecord::interior,
@@ -42,8 +45,30 @@ FieldList<&MaterialRecord::pigment, &MaterialRecord::filter, &MaterialRecord::tr
           &MaterialRecord::specular, &MaterialRecord::inverse_roughness, &MaterialRecord::metallic,
           &MaterialRecord::reflection_min, &MaterialRecord::reflection_max,
           &MaterialRecord::reflection_falloff, &MaterialRecord::reflection_metallic,
-          &MaterialRecord::inverse_reflection_exponent, &MaterialRecord::flags, &MaterialRecord::unused>
+          &MaterialRecord::inverse_reflection_exponent, &MaterialRecord::flags, &MaterialRecord::pattern,
+          &MaterialRecord::normal, &MaterialRecord::below, &MaterialRecord::unused>
 fields_of(const MaterialRecord&);
+
+FieldList<&TurbulenceWords::amount, &TurbulenceWords::lambda, &TurbulenceWords::omega,
+          &TurbulenceWords::octaves>
+fields_of(const TurbulenceWords&);
+
+FieldList<&PatternRecord::kind_and_flags, &PatternRecord::entries, &PatternRecord::entry_count,
+          &PatternRecord::steps, &PatternRecord::step_count, &PatternRecord::to_space,
+          &PatternRecord::frequency, &PatternRecord::phase, &PatternRecord::wave_exponent,
+          &PatternRecord::turbulence, &PatternRecord::parameter>
+fields_of(const PatternRecord&);
+
+FieldList<&SpaceStepRecord::turbulence, &SpaceStepRecord::to_space, &SpaceStepRecord::unused>
+fields_of(const SpaceStepRecord&);
+
+FieldList<&MapEntryRecord::position, &MapEntryRecord::inverse_width, &MapEntryRecord::rgb,
+          &MapEntryRecord::filter, &MapEntryRecord::transmit, &MapEntryRecord::child>
+fields_of(const MapEntryRecord&);
+
+FieldList<&NormalRecord::pattern, &NormalRecord::is_mapped, &NormalRecord::amount, &NormalRecord::accuracy,
+          &NormalRecord::linear, &NormalRecord::unused>
+fields_of(const NormalRecord&);
 
 FieldList<&InteriorRecord::ior, &InteriorRecord::unused> fields_of(const InteriorRecord&);
 

@@ -12,7 +12,7 @@ namespace celltrace {
 
 /// What there is in a range of objects.
 struct ObjectCensus {
-  std::uint32_t objects = 0; ///< that can be hit
+  std::uint32_t objects = 0;             ///< that can be hit
   std::uint32_t extras = 0, blended = 0; ///< of them, those with such records
   kernel::Aabb around = {{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
 
@@ -24,9 +24,9 @@ struct ObjectCensus {
 struct RecordTables {
   std::uint32_t material_offset, interior_offset, extra_offset, blend_offset;
   std::uint32_t csg_offset;
-  kernel::ExtraRecord* extras; ///< table
-  kernel::BlendRecord* blends;    ///< table
-  std::vector<bool> opaque;       ///< by material
+  kernel::ExtraRecord* extras;                      ///< table
+  kernel::BlendRecord* blends;                      ///< table
+  const std::vector<std::uint32_t>& material_flags; ///< object_flags by material
 
   std::uint32_t offset_of_material(Index index) const {
     return material_offset + index * static_cast<std::uint32_t>(sizeof(kernel::MaterialRecord));
@@ -34,7 +34,7 @@ struct RecordTables {
   /// Not blended.
   void set_material(kernel::ObjectRecord& record, Index material) const {
     record.material = offset_of_material(material);
-    if (opaque[material]) record.kind_and_flags |= kernel::object_flag::opaque;
+    record.kind_and_flags |= material_flags[material];
   }
   std::uint32_t offset_of_extra(std::uint32_t index) const {
     return extra_offset + index * static_cast<std::uint32_t>(sizeof(kernel::ExtraRecord));

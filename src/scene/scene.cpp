@@ -11,6 +11,7 @@
 #include "celltrace/error.hpp"
 #include "kernel/records.hpp"
 #include "scene/shapes.hpp"
+#include "scene/textures.hpp"
 
 namespace celltrace {
 
@@ -57,15 +58,6 @@ template <class Number> void check_finite(std::initializer_list<Number> values, 
 template <class Vector> void check_vectors(std::initializer_list<Vector> values, const Name& name) {
   for (const Vector& value : values)
     if (!is_finite(value)) throw InputError(name.text() + " has a number that is not finite");
-}
-
-void check(const Material& material, const Name& name) {
-  const Finish& f = material.finish;
-  check_vectors({material.pigment.rgb, f.ambient, f.emission, f.reflection_min, f.reflection_max}, name);
-  check_finite({material.pigment.filter, material.pigment.transmit, f.diffuse, f.brilliance, f.phong,
-                f.phong_size, f.specular, f.roughness, f.metallic, f.reflection_falloff,
-                f.reflection_exponent, f.reflection_metallic},
-               name);
 }
 
 void check(const Light& light, const Name& name) {
@@ -175,10 +167,13 @@ void validate(const Scene& scene) {
   if (scene.objects.size() > kMostEntries || scene.materials.size() > kMostEntries ||
       scene.interiors.size() > kMostEntries)
     throw InputError("the scene has more entries than 32 bits can count");
+  if (scene.noise_generator < 1 || scene.noise_generator > 3)
+    throw InputError("the scene has a noise generator that is not 1 to 3");
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     check(scene.lights[i], {"light", i});
   for (std::size_t i = 0; i < scene.materials.size(); ++i)
-    check(scene.materials[i], {"material", i});
+    validate_texture(scene.materials[i], Name{"material", i}.text());
+  validate_sky(scene);
   for (std::size_t i = 0; i < scene.interiors.size(); ++i)
     check_finite({scene.interiors[i].ior}, {"interior", i});
   for (std::size_t i = 0; i < scene.objects.size(); ++i)

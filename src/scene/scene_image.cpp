@@ -9,6 +9,7 @@
 #include "scene/parallel.hpp"
 #include "scene/scene_objects.hpp"
 #include "scene/surface_records.hpp"
+#include "scene/textures.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -98,14 +99,19 @@ private:
 };
 
 /// Of all objects, but for their bounds; `groups` are those of the objects that are no instances.
-ImageHeader make_header(const Scene& scene, const SceneObjects& objects, const ObjectCensus& census,
-                        std::span<const std::uint32_t> groups, const MeshInstances& instances) {
+ImageHeader make_header(const Scene& scene, const TextureTables& textures, const SceneObjects& objects,
+                        const ObjectCensus& census, std::span<const std::uint32_t> groups,
+                        const MeshInstances& instances) {
   ImageHeader header{};
   header.magic = kImageMagic;
   header.version = kImageVersion;
   Layout layout(sizeof(ImageHeader));
   layout.place<LightRecord>(scene.lights.size(), header.light_offset, header.light_count);
-  layout.place<MaterialRecord>(scene.materials.size(), header.material_offset, header.material_count);
+  layout.place<MaterialRecord>(textures.materials.size(), header.material_offset, header.material_count);
+  layout.place<PatternRecord>(textures.patterns.size(), header.pattern_offset, header.pattern_count);
+  layout.place<SpaceStepRecord>(textures.steps.size(), header.space_step_offset, header.space_step_count);
+  layout.place<MapEntryRecord>(textures.entries.size(), header.map_entry_offset, header.map_entry_count);
+  layout.place<NormalRecord>(textures.normals.size(), header.normal_offset, header.normal_count);
   layout.place<BlendRecord>(census.blended, header.blend_offset, header.blend_count);
   layout.place<InteriorRecord>(scene.interiors.size(), header.interior_offset, header.interior_count);
   const CsgParts& csg = objects.csg();
@@ -123,6 +129,9 @@ ImageHeader make_header(const Scene& scene, const SceneObjects& objects, const O
   layout.place<std::uint32_t>(instances.group_count() == 0 ? 0 : header.group_count, header.prototype_offset,
                               header.prototype_count);
   header.bytes = layout.end();
+  header.sky = textures.sky == kNoOffset
+                   ? kNoOffset
+                   : header.material_offset + textures.sky * std::uint32_t{sizeof(MaterialRecord)};
   header.longest_group = instances.longest_group();
   for (std::size_t group = 0; group < ordered; ++group)
     header.longest_group = std::max(header.longest_group, groups[group + 1] - groups[group]);
@@ -132,7 +141,8 @@ ImageHeader make_header(const Scene& scene, const SceneObjects& objects, const O
 /// Puts the records of a scene where the header says.
 class TableWriter {
 public:
-  TableWriter(std::byte* base, const ImageHeader& header, const Scene& scene, std::uint32_t unbounded_extras)
+  TableWriter(std::byte* base, const ImageHeader& header, const Scene& scene, const TextureTables& textures,
+              std::uint32_t unbounded_extras)
       : base_(base), header_(header), scene_(scene),
         unbounded_extras_(unbounded_extras), tables_{header.material_offset,
                                                      header.interior_offset,
@@ -141,9 +151,7 @@ public:
                                                      header.csg_offset,
                                                      table<ExtraRecord>(header.extra_offset),
                                                      table<BlendRecord>(header.blend_offset),
-                                                     {}} {
-    for (const Material& material : scene.materials)
-      tables_.opaque.push_back(is_opaque(material));
+                                                     textures.object_flags} {
     // What lies between the tables is always the same.
     std::memset(base, 0, header.extra_offset);
     std::memset(base + header.object_offset - kLineBytes, 0, kLineBytes);
@@ -154,11 +162,19 @@ public:
     std::memcpy(base, &header, sizeof header);
   }
 
-  void write_surfaces() {
+  void write_surfaces(TextureTables& textures) {
+    textures.relocate(header_);
+    const auto copy = [&](const auto& records, std::uint32_t offset) {
+      std::copy(records.begin(), records.end(),
+                table<typename std::decay_t<decltype(records)>::value_type>(offset));
+    };
+    copy(textures.materials, header_.material_offset);
+    copy(textures.patterns, header_.pattern_offset);
+    copy(textures.steps, header_.space_step_offset);
+    copy(textures.entries, header_.map_entry_offset);
+    copy(textures.normals, header_.normal_offset);
     for (std::size_t i = 0; i < scene_.lights.size(); ++i)
       table<LightRecord>(header_.light_offset)[i] = make_record(scene_.lights[i]);
-    for (std::size_t i = 0; i < scene_.materials.size(); ++i)
-      table<MaterialRecord>(header_.material_offset)[i] = make_record(scene_.materials[i], scene_);
     for (std::size_t i = 0; i < scene_.interiors.size(); ++i)
       table<InteriorRecord>(header_.interior_offset)[i].ior = static_cast<float>(scene_.interiors[i].ior);
   }
@@ -303,6 +319,7 @@ void SceneImage::assign(const Scene& scene, AlignedBlock& work, unsigned threads
   validate(scene);
   const MeshInstances instances(scene, threads);
   const SceneObjects objects(scene, instances, threads);
+  TextureTables textures(scene);
   const std::uint64_t all = std::uint64_t{objects.count()} + instances.census().objects;
   threads = static_cast<unsigned>(std::clamp<std::uint64_t>(all / objects_a_thread, 1, threads));
   const OrderMemory memory(work, objects.count());
@@ -312,11 +329,11 @@ void SceneImage::assign(const Scene& scene, AlignedBlock& work, unsigned threads
     groups = order_along_curve(memory.objects, memory.spare, memory.cells, loose.objects, threads);
   ObjectCensus census = loose;
   census.add(instances.census());
-  const ImageHeader header = make_header(scene, objects, census, groups, instances);
+  const ImageHeader header = make_header(scene, textures, objects, census, groups, instances);
 
   block_.reserve(header.bytes + bvh_bytes(header));
-  TableWriter writer(block_.data(), header, scene, objects.unbounded_extras());
-  writer.write_surfaces();
+  TableWriter writer(block_.data(), header, scene, textures, objects.unbounded_extras());
+  writer.write_surfaces(textures);
   writer.write_csg(objects.csg());
   writer.write_objects(objects, {memory.objects, loose.objects}, memory.cells, threads);
   writer.write_groups(groups, threads);

@@ -4,6 +4,8 @@
 #include "celltrace/error.hpp"
 #include "kernel/lights/list.hpp"
 #include "kernel/primitives/list.hpp"
+#include "kernel/textures/list.hpp"
+#include "kernel/textures/map_walk.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -82,6 +84,138 @@ bool lights_are_valid(const std::byte* base, const ImageHeader& h) {
   });
 }
 
+/// Looks at the tables of textures.
+class TextureCheck {
+public:
+  TextureCheck(const std::byte* base, const ImageHeader& h)
+      : h_(h), materials_(base, h.material_offset, h.material_count),
+        patterns_(base, h.pattern_offset, h.pattern_count),
+        entries_(base, h.map_entry_offset, h.map_entry_count),
+        normals_(base, h.normal_offset, h.normal_count) {}
+
+  /// True if every reference is to a record of its table, and no walk through maps and layers is too long.
+  bool holds() {
+    for (std::uint32_t i = 0; i < h_.pattern_count; ++i)
+      if (!is_sound(patterns_[i])) return false;
+    find_pigment_depths();
+    for (std::uint32_t i = 0; i < h_.normal_count; ++i)
+      if (!normal_is_sound(i)) return false;
+    // Materials refer to later ones only.
+    for (std::uint32_t i = h_.material_count; i-- > 0;)
+      if (!material_is_sound(i)) return false;
+    if (h_.sky == kNoOffset) return true;
+    const std::uint32_t sky = materials_.find(h_.sky);
+    return sky != materials_.count && (materials_[sky].flags & material_flag::mapped) == 0;
+  }
+
+private:
+  template <class Record> struct Table {
+    const Record* records;
+    std::uint32_t offset, count;
+    Table(const std::byte* base, std::uint32_t at, std::uint32_t n)
+        : records(reinterpret_cast<const Record*>(base + at)), offset(at), count(n) {}
+    const Record& operator[](std::uint32_t i) const { return records[i]; }
+    /// The index of the record at an offset; `count` if there is none.
+    std::uint32_t find(std::uint32_t at) const {
+      return refers_to(at, offset, count, sizeof(Record)) ? (at - offset) / std::uint32_t{sizeof(Record)}
+                                                          : count;
+    }
+  };
+
+  static bool turbulence_is_sound(const TurbulenceWords& t) { return t.octaves <= 10; }
+
+  bool is_sound(const PatternRecord& r) const {
+    const bool average = (r.kind_and_flags & pattern_flag::average) != 0;
+    if (!average && (r.kind_and_flags & pattern_flag::kind_mask) >= Patterns::kCount) return false;
+    if (!turbulence_is_sound(r.turbulence)) return false;
+    if (r.entry_count != 0) {
+      const std::uint32_t first = entries_.find(r.entries);
+      if (first == entries_.count || r.entry_count > entries_.count - first) return false;
+    }
+    for (std::uint32_t i = 0; i < r.step_count; ++i)
+      if (!refers_to(r.steps + i * std::uint32_t{sizeof(SpaceStepRecord)}, h_.space_step_offset,
+                     h_.space_step_count, sizeof(SpaceStepRecord)))
+        return false;
+    return true;
+  }
+
+  /// How deep the maps of pigments nest, by pattern; 0: it has none, or they are not sound. Patterns refer to
+  /// earlier ones only.
+  void find_pigment_depths() {
+    pigment_depth_.assign(h_.pattern_count, 0);
+    for (std::uint32_t i = 0; i < h_.pattern_count; ++i)
+      pigment_depth_[i] = depth_of(i);
+  }
+  std::uint32_t depth_of(std::uint32_t pattern) const {
+    const PatternRecord& r = patterns_[pattern];
+    if (r.entry_count == 0) return 0;
+    std::uint32_t deepest = 0;
+    for (std::uint32_t i = 0; i < r.entry_count; ++i) {
+      const std::uint32_t child = child_of(r, i);
+      if (child == kNoOffset) continue;
+      const std::uint32_t nested = patterns_.find(child);
+      if (nested >= pattern || pigment_depth_[nested] == 0 || pigment_depth_[nested] == kDeepestMapWalk)
+        return 0;
+      deepest = std::max(deepest, pigment_depth_[nested]);
+    }
+    return deepest + 1;
+  }
+  std::uint32_t child_of(const PatternRecord& r, std::uint32_t entry) const {
+    return entries_[entries_.find(r.entries) + entry].child;
+  }
+
+  /// Normals refer to earlier ones only.
+  bool normal_is_sound(std::uint32_t normal) {
+    const NormalRecord& r = normals_[normal];
+    const std::uint32_t pattern = patterns_.find(r.pattern);
+    std::uint32_t depth = 0;
+    if (pattern == patterns_.count) return false;
+    if (r.is_mapped != 0)
+      for (std::uint32_t i = 0; i < patterns_[pattern].entry_count; ++i) {
+        const std::uint32_t child = normals_.find(child_of(patterns_[pattern], i));
+        if (child >= normal) return false;
+        depth = std::max(depth, normal_depth_[child]);
+      }
+    normal_depth_.push_back(r.is_mapped != 0 ? depth + 1 : 0);
+    return normal_depth_.back() <= kDeepestMapWalk &&
+           (r.is_mapped == 0 || patterns_[pattern].entry_count != 0);
+  }
+
+  bool material_is_sound(std::uint32_t material) {
+    const MaterialRecord& r = materials_[material];
+    const auto has = [&](std::uint32_t flag) { return (r.flags & flag) != 0; };
+    if (material_depth_.empty()) material_depth_.assign(h_.material_count, 0), layers_ = material_depth_;
+    const bool mapped = has(material_flag::mapped);
+    if (mapped || has(material_flag::patterned)) {
+      const std::uint32_t pattern = patterns_.find(r.pattern);
+      if (pattern == patterns_.count) return false;
+      if (!mapped && pigment_depth_[pattern] == 0) return false;
+      for (std::uint32_t i = 0; mapped && i < patterns_[pattern].entry_count; ++i) {
+        const std::uint32_t child = materials_.find(child_of(patterns_[pattern], i));
+        if (child == materials_.count || child <= material) return false;
+        material_depth_[material] = std::max(material_depth_[material], material_depth_[child] + 1);
+      }
+      if (mapped && (patterns_[pattern].entry_count == 0 || material_depth_[material] > kDeepestMapWalk))
+        return false;
+    }
+    if (has(material_flag::disturbed) && normals_.find(r.normal) == normals_.count) return false;
+    if (!has(material_flag::layered)) return true;
+    const std::uint32_t below = materials_.find(r.below);
+    if (below == materials_.count || below <= material || mapped ||
+        (materials_[below].flags & material_flag::mapped) != 0)
+      return false;
+    layers_[material] = layers_[below] + 1;
+    return layers_[material] <= kMostLayers;
+  }
+
+  const ImageHeader& h_;
+  Table<MaterialRecord> materials_;
+  Table<PatternRecord> patterns_;
+  Table<MapEntryRecord> entries_;
+  Table<NormalRecord> normals_;
+  std::vector<std::uint32_t> pigment_depth_, normal_depth_, material_depth_, layers_;
+};
+
 /// True if conditions end, and so do their programs.
 bool csg_is_valid(const std::byte* base, const ImageHeader& h) {
   const auto* records = reinterpret_cast<const CsgRecord*>(base + h.csg_offset);
@@ -158,6 +292,10 @@ SceneImage SceneImage::from_bytes(std::span<const std::byte> bytes) {
   if (h.checksum != checksum(bytes)) throw InputError("scene image: its checksum is wrong");
   if (!table_fits(h.light_offset, h.light_count, sizeof(LightRecord), bytes.size()) ||
       !table_fits(h.material_offset, h.material_count, sizeof(MaterialRecord), bytes.size()) ||
+      !table_fits(h.pattern_offset, h.pattern_count, sizeof(PatternRecord), bytes.size()) ||
+      !table_fits(h.space_step_offset, h.space_step_count, sizeof(SpaceStepRecord), bytes.size()) ||
+      !table_fits(h.map_entry_offset, h.map_entry_count, sizeof(MapEntryRecord), bytes.size()) ||
+      !table_fits(h.normal_offset, h.normal_count, sizeof(NormalRecord), bytes.size()) ||
       !table_fits(h.blend_offset, h.blend_count, sizeof(BlendRecord), bytes.size()) ||
       !table_fits(h.interior_offset, h.interior_count, sizeof(InteriorRecord), bytes.size()) ||
       !table_fits(h.extra_offset, h.extra_count, sizeof(ExtraRecord), bytes.size()) ||
@@ -169,8 +307,8 @@ SceneImage SceneImage::from_bytes(std::span<const std::byte> bytes) {
       !table_fits(h.group_offset, h.group_count, sizeof(GroupRecord), bytes.size()) ||
       !table_fits(h.prototype_offset, h.prototype_count, sizeof(std::uint32_t), bytes.size()) ||
       !references_are_valid(image.base(), h) || !lights_are_valid(image.base(), h) ||
-      !csg_is_valid(image.base(), h) || !groups_are_valid(image.base(), h) ||
-      !prototypes_are_valid(image.base(), h))
+      !TextureCheck(image.base(), h).holds() || !csg_is_valid(image.base(), h) ||
+      !groups_are_valid(image.base(), h) || !prototypes_are_valid(image.base(), h))
     throw InputError("scene image: an offset is out of range");
   return image;
 }

@@ -294,14 +294,15 @@ private:
 
   void blend(ObjectRecord& r, const Object& object, const Mesh::Triangle& triangle) {
     BlendRecord record{};
-    bool opaque = true;
+    std::uint32_t all = ~0u, any = 0;
     for (int i = 0; i < 3; ++i) {
       const Index material = triangle.material[i] != kNoIndex ? triangle.material[i] : object.material;
       record.material[i] = tables_.offset_of_material(material);
-      opaque = opaque && tables_.opaque[material];
+      all &= tables_.material_flags[material];
+      any |= tables_.material_flags[material];
     }
     r.kind_and_flags &= ~object_flag::opaque;
-    r.kind_and_flags |= object_flag::blended | (opaque ? object_flag::opaque : 0);
+    r.kind_and_flags |= object_flag::blended | (all & object_flag::opaque) | (any & ~object_flag::opaque);
     r.material = tables_.blend_offset + blended_ * static_cast<std::uint32_t>(sizeof(BlendRecord));
     tables_.blends[blended_++] = record;
   }

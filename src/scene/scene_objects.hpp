@@ -69,7 +69,7 @@ private:
   static Placed placed_at(const Piece& piece, std::uint32_t number);
   static bool has_extra(const Placed& placed);
   void place_shapes(const Piece& piece, std::uint32_t begin, std::uint32_t end, ObjectCensus& census,
-                     PlacedObject* to) const;
+                    PlacedObject* to) const;
   void place_triangles(const Piece& piece, std::uint32_t begin, std::uint32_t end, ObjectCensus& census,
                        PlacedObject* to) const;
   void add_shape(const Object& object);

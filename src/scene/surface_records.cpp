@@ -139,12 +139,14 @@ MaterialRecord make_record(const Material& material, const Scene& scene) {
   r.inverse_reflection_exponent =
       static_cast<float>(f.reflection_exponent != 0 ? 1 / f.reflection_exponent : 1);
   r.flags = (f.reflection_fresnel ? material_flag::fresnel : 0) |
-            (f.conserve_energy ? material_flag::conserve_energy : 0);
+            (f.conserve_energy ? material_flag::conserve_energy : 0) |
+            (scene.version < 3.7 ? material_flag::old_opacity : 0);
+  r.pattern = r.normal = r.below = kNoOffset;
   return r;
 }
 
-bool is_opaque(const Material& material) {
-  return material.pigment.filter == 0 && material.pigment.transmit == 0;
+bool is_opaque(const Pigment& pigment) {
+  return pigment.filter == 0 && pigment.transmit == 0;
 }
 
 } // namespace celltrace

@@ -6,7 +6,7 @@
 
 namespace celltrace::test {
 
-inline Image pattern(int width, int height) {
+inline Image asymmetric_image(int width, int height) {
   Image image(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)

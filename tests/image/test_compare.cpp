@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 
 using namespace celltrace;
-using celltrace::test::pattern;
+using celltrace::test::asymmetric_image;
 using celltrace::test::uniform;
 
 TEST_CASE("identical pictures have an infinite PSNR") {
-  const Comparison c = compare_images(pattern(17, 9), pattern(17, 9));
+  const Comparison c = compare_images(asymmetric_image(17, 9), asymmetric_image(17, 9));
   CHECK(std::isinf(c.psnr));
   CHECK(c.worst_ssim == 1);
   CHECK(c.differing_pixels == 0);
@@ -55,7 +55,7 @@ TEST_CASE("SSIM of opposite checks is nearly minus one") {
 }
 
 TEST_CASE("the worst block is found, also at an edge that is no multiple of eight") {
-  const Image a = pattern(20, 19);
+  const Image a = asymmetric_image(20, 19);
   Image b = a;
   b.pixel(19, 18)[0] ^= 0x80;
   const Comparison c = compare_images(a, b);

@@ -72,7 +72,7 @@ std::vector<int> first_pixels(const Image& image, int count) {
 
 TEST_CASE("a picture survives PNG, with and without alpha") {
   const TemporaryFolder folder;
-  Image image = pattern(37, 23);
+  Image image = asymmetric_image(37, 23);
   save_image(folder / "a.png", image);
   CHECK(load_image(folder / "a.png") == image);
   CHECK(read_bytes(folder / "a.png")[25] == PNG_COLOR_TYPE_RGB);
@@ -110,7 +110,7 @@ TEST_CASE("a palette with transparency becomes RGBA") {
 
 TEST_CASE("an interlaced picture is put together") {
   const TemporaryFolder folder;
-  const Image image = pattern(13, 11);
+  const Image image = asymmetric_image(13, 11);
   std::vector<std::vector<png_byte>> rows;
   for (int y = 0; y < image.height; ++y)
     rows.emplace_back(image.pixel(0, y), image.pixel(0, y) + 4 * image.width);
@@ -120,7 +120,7 @@ TEST_CASE("an interlaced picture is put together") {
 
 TEST_CASE("a PNG cut off anywhere is an error that names the file") {
   const TemporaryFolder folder;
-  save_image(folder / "whole.png", pattern(19, 7));
+  save_image(folder / "whole.png", asymmetric_image(19, 7));
   const std::string whole = read_bytes(folder / "whole.png");
   for (std::size_t size = 0; size < whole.size(); ++size) {
     write_bytes(folder / "cut.png", whole.substr(0, size));
@@ -131,7 +131,7 @@ TEST_CASE("a PNG cut off anywhere is an error that names the file") {
 
 TEST_CASE("a damaged byte is an error or a picture, nothing worse") {
   const TemporaryFolder folder;
-  save_image(folder / "whole.png", pattern(19, 7));
+  save_image(folder / "whole.png", asymmetric_image(19, 7));
   const std::string whole = read_bytes(folder / "whole.png");
   int errors = 0;
   for (std::size_t i = 0; i < whole.size(); ++i) {

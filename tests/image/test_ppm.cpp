@@ -18,7 +18,7 @@ Image load_ppm(const std::string& bytes) {
 
 TEST_CASE("a picture survives PPM") {
   const TemporaryFolder folder;
-  const Image image = pattern(11, 5);
+  const Image image = asymmetric_image(11, 5);
   save_image(folder / "a.ppm", image);
   CHECK(load_image(folder / "a.ppm") == image);
   CHECK(read_bytes(folder / "a.ppm").substr(0, 12) == "P6\n11 5\n255\n");

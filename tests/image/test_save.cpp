@@ -27,17 +27,17 @@ TEST_CASE("a new picture is opaque black and within the limits") {
 
 TEST_CASE("saving replaces a file and leaves nothing else behind") {
   const TemporaryFolder folder;
-  save_image(folder / "a.PNG", pattern(4, 4));
-  save_image(folder / "a.PNG", pattern(5, 5));
+  save_image(folder / "a.PNG", asymmetric_image(4, 4));
+  save_image(folder / "a.PNG", asymmetric_image(5, 5));
   CHECK(load_image(folder / "a.PNG").width == 5);
   CHECK(files_in(folder) == 1);
 }
 
 TEST_CASE("a link stays a link when its picture is replaced") {
   const TemporaryFolder folder;
-  save_image(folder / "a.png", pattern(4, 4));
+  save_image(folder / "a.png", asymmetric_image(4, 4));
   fs::create_symlink("a.png", folder / "link.png");
-  save_image(folder / "link.png", pattern(6, 6));
+  save_image(folder / "link.png", asymmetric_image(6, 6));
   CHECK(fs::is_symlink(folder / "link.png"));
   CHECK(load_image(folder / "a.png").width == 6);
 }
@@ -45,7 +45,7 @@ TEST_CASE("a link stays a link when its picture is replaced") {
 TEST_CASE("a device is written to, not replaced") {
   const TemporaryFolder folder;
   fs::create_symlink("/dev/null", folder / "null.png");
-  save_image(folder / "null.png", pattern(4, 4));
+  save_image(folder / "null.png", asymmetric_image(4, 4));
   CHECK(fs::is_character_file("/dev/null"));
 }
 
@@ -54,8 +54,10 @@ TEST_CASE("a full device is an error") {
   if (!fs::exists("/dev/full")) return;
   fs::create_symlink("/dev/full", folder / "full.png");
   fs::create_symlink("/dev/full", folder / "full.ppm");
-  CHECK_THROWS_WITH(save_image(folder / "full.png", pattern(200, 200)), Contains("cannot be written"));
-  CHECK_THROWS_WITH(save_image(folder / "full.ppm", pattern(200, 200)), Contains("cannot be written"));
+  CHECK_THROWS_WITH(save_image(folder / "full.png", asymmetric_image(200, 200)),
+                    Contains("cannot be written"));
+  CHECK_THROWS_WITH(save_image(folder / "full.ppm", asymmetric_image(200, 200)),
+                    Contains("cannot be written"));
 }
 
 TEST_CASE("where nothing can be written the error says so, before and after") {
@@ -64,7 +66,7 @@ TEST_CASE("where nothing can be written the error says so, before and after") {
   for (const std::string name : {"a.gif", "a", "missing/a.png", "folder.png"}) {
     CAPTURE(name);
     CHECK_THROWS_WITH(check_image_path(folder / name), Contains(name));
-    CHECK_THROWS_WITH(save_image(folder / name, pattern(2, 2)), Contains(name));
+    CHECK_THROWS_WITH(save_image(folder / name, asymmetric_image(2, 2)), Contains(name));
   }
   CHECK_NOTHROW(check_image_path(folder / "a.png"));
   CHECK_NOTHROW(check_image_path("a.ppm"));
@@ -73,7 +75,7 @@ TEST_CASE("where nothing can be written the error says so, before and after") {
 
 TEST_CASE("a picture whose pixels do not match its size is refused") {
   const TemporaryFolder folder;
-  Image image = pattern(4, 4);
+  Image image = asymmetric_image(4, 4);
   image.width = 5;
   CHECK_THROWS_WITH(save_image(folder / "a.png", image), Contains("do not match"));
   CHECK_THROWS_WITH(save_image(folder / "a.png", Image()), Contains("is empty"));

@@ -3,6 +3,7 @@
 // Tolerances are stated in units of what single precision can tell apart: kUnit times the numbers that went
 // in, divided by how steeply the ray meets the surface. Within that distance of a silhouette or edge either
 // answer is right; everywhere else the masks have to agree both ways.
+#include "kernel/direct/pinhole_triangles.hpp"
 #include "kernel/primitives/list.hpp"
 #include "lanes.hpp"
 #include "reference/geometry.hpp"
@@ -247,6 +248,45 @@ TEST_CASE("Neighbouring triangles leave no gap") {
       hit |= intersect(rays, s.record, 64).near_hit.bits();
     REQUIRE(hit == 0xFFFF);
   }
+}
+
+TEST_CASE("Triangles seen from one point are crossed where a single triangle is, to the last bit") {
+  Random random(15);
+  int crossed = 0;
+  for (int k = 0; k < times(4000); ++k) {
+    const double size = std::pow(10.0, random.uniform(-3, 2));
+    RayPacket rays{};
+    const Vec3 eye = random.point(k % 3 == 0 ? 1000 * size : 3 * size);
+    Subject subjects[kSimdLanes];
+    LeafTriangles<Simd> leaf;
+    for (std::uint32_t i = 0; i < kSimdLanes; ++i) {
+      const Vec3 corner = random.point(size), edge = random.point(size);
+      // Some without area, some through the eye.
+      const Vec3 last = i == 5 ? corner + edge * 2.0 : i == 6 ? eye : corner + random.point(size);
+      subjects[i] = triangle({corner, corner + edge, last});
+      leaf.add(64 * i, subjects[i].record);
+    }
+    for (unsigned lane = 0; lane < kSimdLanes; ++lane) {
+      set(rays.origin, lane, eye);
+      set(rays.direction, lane, glm::normalize(random.point(size) - eye));
+      rays.start_object.lane[lane] = kNoOffset;
+    }
+    const float point[3] = {rays.origin.x.lane[0], rays.origin.y.lane[0], rays.origin.z.lane[0]};
+    const PinholeTriangles<Simd> seen(leaf.sides(), point);
+    for (std::uint32_t i = 0; i < kSimdLanes; ++i) {
+      const Crossings<Simd> one = intersect(rays, subjects[i].record, 64 * i);
+      const Crossings<Simd> other = seen.crossed(i, rays.direction.load<Simd>());
+      // Behind the point there are no hits.
+      const M in_front = F(0.0f) < one.near;
+      const std::uint32_t hit = (one.near_hit & in_front).bits();
+      REQUIRE((other.near_hit & (F(0.0f) < other.near)).bits() == hit);
+      REQUIRE(((other.near == one.near).bits() & hit) == hit);
+      REQUIRE(((other.u == one.u).bits() & hit) == hit);
+      REQUIRE(((other.v == one.v).bits() & hit) == hit);
+      crossed += __builtin_popcount(hit);
+    }
+  }
+  CHECK(crossed > times(20000));
 }
 
 TEST_CASE("Degenerate rays and triangles hit nothing and make no nonsense") {

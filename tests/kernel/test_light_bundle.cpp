@@ -1,9 +1,9 @@
 // Bundles of rays to a light: what they are bounded by, which triangles their packets see, and what light
 // comes to them.
 #include "kernel/accel/traversal.hpp"
-#include "kernel/direct/edge_function_triangles.hpp"
 #include "kernel/direct/light_bundle.hpp"
 #include "kernel/direct/pluecker_triangles.hpp"
+#include "kernel/direct/triangle_culling.hpp"
 #include "made_records.hpp"
 #include "prepared_scene.hpp"
 #include "soups.hpp"
@@ -134,7 +134,7 @@ TEST_CASE("Packets see the triangles that their rays to a light cross, and cross
           triangle(point + random.point(side), point + random.point(side), point + random.point(side));
       leaf.add(64 * (i + 1), records[i]);
     }
-    const EdgeFunctionTriangles<Simd> viewed(leaf.sides(), bundle.view);
+    const TriangleCulling<Simd> viewed(leaf.sides(), bundle.view);
     const PlueckerTriangles<Simd> by_moment(leaf.sides(), *bundle.view.moments);
     for (unsigned i = 0; i < count; ++i) {
       const std::uint32_t seen_by = viewed.seen_by(i, bundle.view);

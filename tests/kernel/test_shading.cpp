@@ -1,5 +1,6 @@
 // The light of a hit in single precision against the formulas of the reference.
-#include "kernel/shading/intersector.hpp"
+#include "kernel/accel/traversal.hpp"
+#include "kernel/shading/lighting.hpp"
 #include "kernel/shading/secondary_rays.hpp"
 #include "lanes.hpp"
 #include "prepared_scene.hpp"
@@ -87,19 +88,38 @@ double difference(const Vec3& a, const Vec3& b) {
 TEST_CASE("Ambient light, diffuse light and highlights of mixed materials") {
   Random random(60);
   for (int k = 0; k < 300; ++k) {
-    const unsigned lights = random.below(5);
+    const unsigned lights = random.below(7);
     const Scene source = empty_scene(random, k % 2 == 0 ? 3.7 : 3.62, lights);
     PreparedScene scene(source);
     REQUIRE(scene.prepare().built);
     DirectSpu spu;
     SceneAccess<DirectSpu> access(spu, CacheConfig(), scene.frame().image);
-    Intersector<DirectSpu> intersector(access, scene.frame());
+    Traversal<DirectSpu> traversal(access, scene.frame());
     const Hits hits(random, scene, 12);
     const std::uint32_t lanes = random.below(3) == 0 ? random.word() & 0xFFFF : 0xFFFF;
     const auto materials = gather_materials(access, hits.material, lanes);
     std::uint64_t shadow_rays = 0;
-    const VectorLanes light =
-        lanes_of(local_light(access, intersector, scene.frame(), hits.surfaces(), materials, lanes, shadow_rays));
+    VectorLanes light;
+    light.store<Simd>({0.0f, 0.0f, 0.0f});
+    VectorLanes colours[kLightsARound];
+    for (std::uint32_t first = 0; first == 0 || first < lights;) {
+      const LightRound round = LightRound::from(scene.frame(), first, colours);
+      for_each_light(access, scene.frame(), round.first, round.count,
+                     [&](unsigned number, const LightRecord& record) {
+                       IncidentLight<Simd> incident(record.colour);
+                       illuminate(spu, record, hits.surfaces(), lanes, incident);
+                       RayPacket rays;
+                       FloatLanes distance;
+                       make_shadow_rays(hits.surfaces(), incident, rays, distance);
+                       colours[number - first].store<Simd>(incident.colour);
+                       traversal.transmittance(rays, incident.facing, distance, colours[number - first]);
+                     });
+      const auto more =
+          local_light(access, scene.frame(), round, hits.surfaces(), materials, lanes, shadow_rays);
+      light.store<Simd>(light.load<Simd>() + more);
+      if (first == round.next()) break;
+      first = round.next();
+    }
 
     std::uint64_t expected_rays = 0;
     for_each_lane(lanes, [&](unsigned l) {

@@ -81,6 +81,10 @@ TEST_CASE("More lights than a job has bits look the same under every model") {
   check_models(scene);
 }
 
+TEST_CASE("Triangles of one plane that overlap look the same under every model") {
+  check_models(overlapping_triangles());
+}
+
 TEST_CASE("Joined pipeline and offload find objects by the BVH as well") {
   const Scene scene = scene_named("meshes");
   for (const Model model : {Model::pipeline, Model::offload}) {

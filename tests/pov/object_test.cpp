@@ -111,8 +111,6 @@ TEST_CASE("the environment") {
   CHECK(error_line("global_settings { max_trace_level 0 }") ==
         "scene.pov:1:35: error: max_trace_level must lie between 1 and 256");
   CHECK(error_line("fog { distance 10 }") == "scene.pov:1:1: error: 'fog' is not supported yet");
-  CHECK(error_line("sky_sphere { pigment { rgb 1 } }") ==
-        "scene.pov:1:1: error: 'sky_sphere' is not supported yet");
 }
 
 TEST_CASE("a transparent background is one over black, from version 3.7 on") {

@@ -48,6 +48,29 @@ TEST_CASE("pigments") {
   CHECK(named.materials.at(1).pigment.filter == 0.5);
 }
 
+TEST_CASE("colours in sRGB") {
+  const auto colour = [](const std::string& gamma, const std::string& written) {
+    return parse("global_settings { assumed_gamma " + gamma + " } sphere { 0, 1 pigment { " + written +
+                 " } }")
+        .materials.at(0)
+        .pigment;
+  };
+  const Pigment linear = colour("1", "srgb <.5, .25, .75>");
+  CHECK(linear.rgb.x == Approx(0.214041).epsilon(1e-5));
+  CHECK(linear.rgb.y == Approx(0.050876).epsilon(1e-5));
+  CHECK(linear.rgb.z == Approx(0.522522).epsilon(1e-5));
+  CHECK(colour("2.2", "color srgb 0.5").rgb.x == Approx(0.496227).epsilon(1e-5));
+  CHECK(colour("srgb", "srgb 0.5").rgb.x == 0.5);
+  CHECK(colour("1", "srgb <-.5, 0, 0>").rgb.x == Approx(-0.0387).epsilon(1e-4));
+  const Pigment both = colour("1", "srgbft <.5, .5, .5, .25, .75>");
+  CHECK(both.filter == 0.25);
+  CHECK(both.transmit == 0.75);
+  CHECK(colour("1", "srgbt <.5, .5, .5, .25>").transmit == 0.25);
+  CHECK(colour("1", "srgbf <.5, .5, .5, .25> transmit 0.5").filter == 0.25);
+  CHECK(error_line("sphere { 0, 1 pigment { srgb 1 } }") ==
+        "scene.pov:1:25: error: colours in sRGB need an 'assumed_gamma' in front of them");
+}
+
 TEST_CASE("every item of a finish") {
   const Finish f = finish(
       "ambient rgb <.1, .2, .3> emission 0.5 diffuse 0.7 brilliance 2 phong 0.8 phong_size 60 "
@@ -144,10 +167,8 @@ TEST_CASE("ior in a finish changes the interior, as in POV-Ray 3.1") {
   CHECK(scene.interiors[scene.objects[1].interior].ior == 1.5);
 }
 
-TEST_CASE("an opaque layer hides those below, others are not supported") {
+TEST_CASE("an opaque layer hides those below") {
   CHECK(material("texture { pigment { rgb 1 } } texture { pigment { rgb 0.5 } }").pigment.rgb.x == 0.5);
-  CHECK(error_line("sphere { 0, 1 texture { pigment { rgb 1 } } texture { pigment { rgbt 0.5 } } }") ==
-        "scene.pov:1:45: error: a layered texture is not supported yet");
 }
 
 TEST_CASE("interiors and materials") {
@@ -169,22 +190,22 @@ TEST_CASE("interiors and materials") {
 
 TEST_CASE("what is not supported is an error where it is used") {
   const std::string declarations =
-      "#declare T = texture { pigment { marble color_map { [0 rgb 1] [1 rgb 0] } turbulence 1 } normal { "
+      "#declare T = texture { pigment { mandel 9 color_map { [0 rgb 1] [1 rgb 0] } turbulence 1 } normal { "
       "bumps 1 } }\n"
       "#declare N = normal { bumps 0.3 } #declare M = color_map { [0 rgb 1][1 rgb 0] }\n"
       "#declare F = function (x, y) { x + y } #declare B = blob { threshold 1 } #declare D = difference { "
       "sphere "
       "{ 0, 1 } object { B } }\n"
-      "#declare S = sphere { 0, 1 pigment { checker rgb 1, rgb 0 } }\n"
+      "#declare S = sphere { 0, 1 pigment { facets size 1 } }\n"
       "#declare I = finish { irid { 0.3 thickness 1 } } #declare C = finish { crand 0.2 }\n";
   CHECK(error_line(declarations).empty());
   CHECK(error_line(declarations + "sphere { 0, 1 texture { T } }") ==
-        "scene.pov:1:34: error: 'marble' is not supported yet");
+        "scene.pov:1:34: error: 'mandel' is not supported yet");
   CHECK(error_line(declarations + "object { D }") == "scene.pov:3:53: error: 'blob' is not supported yet");
   CHECK(error_line(declarations + "union { sphere { 0, 1 } object { B } }") ==
         "scene.pov:3:53: error: 'blob' is not supported yet");
   CHECK(error_line(declarations + "object { S pigment { rgb 1 } }").empty());
-  CHECK(error_line(declarations + "S") == "scene.pov:4:38: error: 'checker' is not supported yet");
+  CHECK(error_line(declarations + "S") == "scene.pov:4:38: error: 'facets' is not supported yet");
   CHECK(error_line(declarations + "sphere { 0, 1 finish { I } }") ==
         "scene.pov:5:23: error: 'irid' is not supported yet");
   CHECK(error_line(declarations + "sphere { 0, 1 finish { C } }") ==
@@ -192,7 +213,7 @@ TEST_CASE("what is not supported is an error where it is used") {
   CHECK(error_line(declarations + "#declare Q = F(1, 2);") ==
         "scene.pov:3:14: error: 'function' is not supported yet");
   CHECK(test::error(declarations + "S") ==
-        "scene.pov:4:38: error: 'checker' is not supported yet\n    used at scene.pov:6:1");
+        "scene.pov:4:38: error: 'facets' is not supported yet\n    used at scene.pov:6:1");
   CHECK(error_line("quadric { 0, x, 1 }") == "scene.pov:1:1: error: 'quadric' is not supported yet");
   CHECK(error_line("sphere { 0, 1 clipped_by { prism { 0, 1 } } }") ==
         "scene.pov:1:28: error: 'prism' is not supported yet");

@@ -301,6 +301,22 @@ const std::vector<NamedScene>& scenes() {
   return all;
 }
 
+Scene overlapping_triangles() {
+  Scene scene = with_camera(camera_at({0, 3, -9}, {0, 0, 0}));
+  const std::vector<Vec3f> corners[2] = {{{-9, 0, -9}, {9, 0, -9}, {0, 0, 9}},
+                                         {{-8, 0, -8}, {8, 0, -9}, {1, 0, 9}}};
+  for (int i = 0; i < 2; ++i) {
+    Mesh mesh;
+    mesh.vertices = corners[i];
+    mesh.triangles.resize(1);
+    for (Index corner = 0; corner < 3; ++corner)
+      mesh.triangles[0].vertex[corner] = corner;
+    scene.objects.push_back(
+        mesh_object(mesh, scene.add(matte({1.0 * (i == 0), 1.0 * (i == 1), 0})), new_interior(scene)));
+  }
+  return scene;
+}
+
 Scene scene_named(const std::string& name) {
   for (const NamedScene& scene : scenes())
     if (scene.name == name) return scene.make();

@@ -17,6 +17,9 @@ struct NamedScene {
 /// Every scene of the folder.
 const std::vector<NamedScene>& scenes();
 Scene scene_named(const std::string& name);
+/// Two triangles of one plane that share most of it. Rounding decides which of them a ray hits, so that it is
+/// another one in double precision.
+Scene overlapping_triangles();
 
 // --- parts ---
 

@@ -105,6 +105,18 @@ TEST_CASE("Every backend with any number of SPEs renders the same picture") {
   }
 }
 
+TEST_CASE("Triangles of one plane that overlap look the same everywhere") {
+  const Scene scene = overlapping_triangles();
+  const Image expected = render_on(backends().front(), 1, scene);
+  for (const Accelerator accelerator : {Accelerator::bvh, Accelerator::grid})
+    for (const Backend& backend : backends()) {
+      INFO(backend.spu());
+      RenderOptions options = backend.options(kWidth, kHeight, 2);
+      options.accelerator = accelerator;
+      CHECK(render(scene, options).image == expected);
+    }
+}
+
 namespace {
 
 /// Balls of one mesh, in one another.

@@ -1,6 +1,7 @@
 // Cycles of computation: what the SIMD facade and compute() count, and what the pipeline model makes of it.
-#include "backends/cell_emu/operation_counter.hpp"
+#include "backends/cell_emu/counting_simd.hpp"
 #include "backends/cell_emu/pipeline.hpp"
+#include "celltrace/spe/simd_host.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -9,7 +10,7 @@
 namespace celltrace::cell_emu {
 namespace {
 
-using S = HostSimd<xsimd::sse2, CountOperations>;
+using S = CountingSimd<HostSimd<xsimd::sse2>>;
 
 /// What `work` counts.
 template <class Work> OperationCounts counted(Work work) {

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdio>
 #include <cstring>
+#include <new>
 #include <string>
 
 namespace celltrace::cell_emu {
@@ -74,6 +75,14 @@ ElfSegment read_segment(std::span<const std::uint8_t> file, std::span<const std:
           .overlay = (flags & kFlagOverlay) != 0};
 }
 
+std::shared_ptr<const std::uint8_t[]> copy_at_page(std::span<const std::uint8_t> bytes) {
+  constexpr std::align_val_t kPage{4096};
+  std::shared_ptr<std::uint8_t[]> copy(new (kPage) std::uint8_t[bytes.size()],
+                                       [](std::uint8_t* block) { ::operator delete[](block, kPage); });
+  std::copy(bytes.begin(), bytes.end(), copy.get());
+  return copy;
+}
+
 } // namespace
 
 std::string_view string_at(std::span<const std::uint8_t> strings, std::size_t offset) {
@@ -85,7 +94,7 @@ std::string_view string_at(std::span<const std::uint8_t> strings, std::size_t of
 }
 
 SpuElf::SpuElf(std::span<const std::uint8_t> image)
-    : image_(std::make_shared<const std::vector<std::uint8_t>>(image.begin(), image.end())) {
+    : image_(copy_at_page(image)), image_bytes_(image.size()) {
   read_header();
   read_segments();
   check_overlaps();
@@ -93,7 +102,7 @@ SpuElf::SpuElf(std::span<const std::uint8_t> image)
 }
 
 void SpuElf::read_header() {
-  const std::span<const std::uint8_t> file = *image_;
+  const std::span<const std::uint8_t> file = image();
   static constexpr std::uint8_t kMagic[4] = {0x7F, 'E', 'L', 'F'};
   if (file.size() < sizeof kMagic || std::memcmp(file.data(), kMagic, sizeof kMagic) != 0)
     refuse("not an ELF file");
@@ -111,7 +120,7 @@ void SpuElf::read_header() {
 }
 
 void SpuElf::read_segments() {
-  const std::span<const std::uint8_t> file = *image_;
+  const std::span<const std::uint8_t> file = image();
   const std::size_t table = word_at(file, kProgramHeaders), count = half_at(file, kProgramHeaderCount);
   if (count == 0) refuse("it has no program headers");
   if (half_at(file, kProgramHeaderSize) != kProgramHeaderBytes) refuse("program headers of a wrong size");
@@ -145,7 +154,7 @@ void SpuElf::check_overlaps() {
 }
 
 void SpuElf::read_sections() {
-  const std::span<const std::uint8_t> file = *image_;
+  const std::span<const std::uint8_t> file = image();
   const std::size_t table = word_at(file, kSectionHeaders), count = half_at(file, kSectionHeaderCount);
   if (count == 0) return;
   if (half_at(file, kSectionHeaderSize) != kSectionHeaderBytes) refuse("section headers of a wrong size");
@@ -169,7 +178,7 @@ void SpuElf::read_sections() {
 
 void SpuElf::name_sections(std::uint32_t names) {
   if (names >= sections_.size()) return;
-  const std::span<const std::uint8_t> file = *image_;
+  const std::span<const std::uint8_t> file = image();
   const std::size_t table = word_at(file, kSectionHeaders);
   for (std::size_t i = 0; i < sections_.size(); ++i)
     sections_[i].name =

@@ -63,8 +63,9 @@ public:
   /// The first section of this name, or null.
   const ElfSection* section(std::string_view name) const;
 
-  /// The whole file.
-  std::span<const std::uint8_t> image() const { return *image_; }
+  /// The whole file. It starts at a page, as a file that a system maps does: code that programs fetch from
+  /// it takes the same time in every run.
+  std::span<const std::uint8_t> image() const { return {image_.get(), image_bytes_}; }
 
 private:
   void read_header();
@@ -73,7 +74,8 @@ private:
   void name_sections(std::uint32_t names);
   void check_overlaps();
 
-  std::shared_ptr<const std::vector<std::uint8_t>> image_;
+  std::shared_ptr<const std::uint8_t[]> image_;
+  std::size_t image_bytes_ = 0;
   std::uint32_t entry_ = 0;
   std::uint32_t program_end_ = 0;
   std::vector<ElfSegment> segments_;

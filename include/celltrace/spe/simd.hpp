@@ -8,7 +8,8 @@
 //   F    16 floats, implicitly from one float (splat); default construction leaves it indeterminate
 //        F::load(const float*) / store(float*), 64-byte aligned; + - * / and unary -; < <= > >= == give M
 //   I    16 int32: I::splat, load, store; + - & |; == < give M; I::load_words(line, offsets): for each
-//        lane the word at its offset, a multiple of 4 and taken modulo 128, of the 128 bytes at `line`
+//        lane the word at its offset, a multiple of 4 and taken modulo 128, of the 128 bytes at `line`;
+//        ^ (exclusive or)
 //   M    16 truth values: M::none(), all(), from_bits(uint32), bits() (lane l in bit l); & | !
 //   F4   4 floats, one SPU quadword: splat, load, store (16-byte aligned); + - *; not_above_bits(a, b):
 //        4 bits, lane 0 in bit 0, of a <= b; min max
@@ -20,7 +21,9 @@
 //   transpose_quads(F& a, b, c, d): of each four lanes 4q to 4q + 3, the 4x4 numbers with rows a to d,
 //   select(M, a, b) = m ? a : b for F and I,
 //   to_int (truncates; |x| < 2^31), to_float, bits_of / float_of (reinterpret),
-//   shift_left<n>, shift_right<n> (arithmetic)
+//   shift_left<n>, shift_right<n> (arithmetic),
+//   gather(const float* table, I) -> F and gather(const uint16_t* table, I) -> I: for each lane the entry of
+//   its number, which is not negative; behind the last one 2 bytes more may be read
 //
 // On the host every float operation is IEEE single precision, never fused, so that all widths and backends
 // give the same bits. On the SPU division and sqrt are estimates refined to within 2 units in the last place,

@@ -3,9 +3,6 @@
 //
 // `Arch` is an xsimd architecture ("xsimd::sse2", "xsimd::avx2", "xsimd::avx512dq"); it is part of every
 // type's name, so that translation units compiled for different CPUs share no inline function.
-//
-// `Counter` is told with every operation what the facade of the spu backend issues for it, for whoever models
-// the time that a real SPU would take. By default nobody listens, and nothing is left of it.
 #pragma once
 
 #include "celltrace/spe/simd.hpp"
@@ -113,30 +110,26 @@ template <class Batch> void transpose_quads(Batch& a, Batch& b, Batch& c, Batch&
   d = zip_high(ac_high, bd_high);
 }
 
+/// The 16-bit numbers at some places of a table, which goes on for 2 bytes behind the last of them.
+template <class Batch> Batch gather_halves(const uint16_t* table, const Batch& index) {
+  const Batch low(0xFFFF);
+#if defined(__AVX512F__)
+  if constexpr (Batch::size == 16) return Batch(_mm512_i32gather_epi32(index, table, 2)) & low;
+#endif
+#if defined(__AVX2__)
+  if constexpr (Batch::size == 8)
+    return Batch(_mm256_i32gather_epi32(reinterpret_cast<const int*>(table), index, 2)) & low;
+#endif
+  alignas(64) int32_t lanes[Batch::size];
+  index.store_aligned(lanes);
+  for (int32_t& lane : lanes)
+    lane = table[lane];
+  return Batch::load_aligned(lanes);
+}
+
 } // namespace simd_host
 
-/// Instructions of an SPU, by the unit that executes them. What is missing is 0.
-struct SpuInstructions {
-  uint32_t fx2 = 0;  ///< add, logic, compare, select, load immediate
-  uint32_t fx3 = 0;  ///< word shift
-  uint32_t fxb = 0;  ///< byte operation
-  uint32_t fp6 = 0;  ///< single precision arithmetic
-  uint32_t fp7 = 0;  ///< conversion, interpolation, integer multiply
-  uint32_t ls = 0;   ///< load, store
-  uint32_t shuf = 0; ///< shuffle, quadword rotate, estimate
-  uint32_t br = 0;   ///< branch, orx
-};
-
-/// The counting policy of HostSimd that does not count. One that does replaces all of it.
-struct CountNothing {
-  /// Each of the instructions is issued once for each of the four quadwords of a packet; the four are
-  /// independent of each other, the instructions are a chain.
-  static constexpr void packet(const SpuInstructions&) {}
-  /// Each of the instructions is issued once, and needs the result of the one before.
-  static constexpr void chain(const SpuInstructions&) {}
-};
-
-template <class Arch, class Counter = CountNothing> struct HostSimd {
+template <class Arch> struct HostSimd {
   using FloatBatch = xsimd::batch<float, Arch>;
   using IntBatch = xsimd::batch<int32_t, Arch>;
   using FloatMask = xsimd::batch_bool<float, Arch>;
@@ -149,50 +142,6 @@ template <class Arch, class Counter = CountNothing> struct HostSimd {
     FloatMask part[kParts];
 
     static M from_bits(uint32_t bits) {
-      Counter::chain({.shuf = 1});
-      Counter::packet({.fx2 = 2, .ls = 1});
-      return spread(bits);
-    }
-    static M none() {
-      Counter::chain({.fx2 = 1});
-      return spread(0);
-    }
-    static M all() {
-      Counter::chain({.fx2 = 1});
-      return spread(0xFFFF);
-    }
-    uint32_t bits() const {
-      Counter::packet({.fx2 = 1, .ls = 1});
-      Counter::chain({.fx2 = 3, .br = 1});
-      uint32_t result = 0;
-      for (uint32_t i = 0; i < kParts; ++i)
-        result |= simd_host::lane_bits<FloatBatch>(part[i]) << (i * kWidth);
-      return result;
-    }
-    friend M operator&(const M& a, const M& b) {
-      Counter::packet({.fx2 = 1});
-      M r;
-      for (uint32_t i = 0; i < kParts; ++i)
-        r.part[i] = a.part[i] & b.part[i];
-      return r;
-    }
-    friend M operator|(const M& a, const M& b) {
-      Counter::packet({.fx2 = 1});
-      M r;
-      for (uint32_t i = 0; i < kParts; ++i)
-        r.part[i] = a.part[i] | b.part[i];
-      return r;
-    }
-    /// Costs nothing: becomes part of the operation that follows, as andc, orc or exchanged operands of selb.
-    friend M operator!(const M& a) {
-      M r;
-      for (uint32_t i = 0; i < kParts; ++i)
-        r.part[i] = !a.part[i];
-      return r;
-    }
-
-  private:
-    static M spread(uint32_t bits) {
       M result;
 #if defined(__AVX512F__)
       if constexpr (kWidth == kSimdLanes) {
@@ -206,27 +155,53 @@ template <class Arch, class Counter = CountNothing> struct HostSimd {
             xsimd::bool_cast((all & IntBatch::load_aligned(simd_lane_bits + i * kWidth)) != IntBatch(0));
       return result;
     }
+    static M none() {
+      return from_bits(0);
+    }
+    static M all() {
+      return from_bits(0xFFFF);
+    }
+    uint32_t bits() const {
+      uint32_t result = 0;
+      for (uint32_t i = 0; i < kParts; ++i)
+        result |= simd_host::lane_bits<FloatBatch>(part[i]) << (i * kWidth);
+      return result;
+    }
+    friend M operator&(const M& a, const M& b) {
+      M r;
+      for (uint32_t i = 0; i < kParts; ++i)
+        r.part[i] = a.part[i] & b.part[i];
+      return r;
+    }
+    friend M operator|(const M& a, const M& b) {
+      M r;
+      for (uint32_t i = 0; i < kParts; ++i)
+        r.part[i] = a.part[i] | b.part[i];
+      return r;
+    }
+    friend M operator!(const M& a) {
+      M r;
+      for (uint32_t i = 0; i < kParts; ++i)
+        r.part[i] = !a.part[i];
+      return r;
+    }
   };
 
   struct F {
     FloatBatch part[kParts];
 
     F() = default;
-    /// A constant takes two immediates, or a load; a number from memory a load, a rotation and a shuffle.
     F(float value) {
-      Counter::chain({.fx2 = 1, .ls = 1, .shuf = 1});
       for (uint32_t i = 0; i < kParts; ++i)
         part[i] = FloatBatch(value);
     }
     static F load(const float* lanes) {
-      Counter::packet({.ls = 1});
       F r;
       for (uint32_t i = 0; i < kParts; ++i)
         r.part[i] = FloatBatch::load_aligned(lanes + i * kWidth);
       return r;
     }
     void store(float* lanes) const {
-      Counter::packet({.ls = 1});
       for (uint32_t i = 0; i < kParts; ++i)
         part[i].store_aligned(lanes + i * kWidth);
     }
@@ -249,38 +224,30 @@ template <class Arch, class Counter = CountNothing> struct HostSimd {
       return r;
     }
     friend F operator+(const F& a, const F& b) {
-      Counter::packet({.fp6 = 1});
       return zip(a, b, [](auto x, auto y) { return x + y; });
     }
     friend F operator-(const F& a, const F& b) {
-      Counter::packet({.fp6 = 1});
       return zip(a, b, [](auto x, auto y) { return x - y; });
     }
     friend F operator*(const F& a, const F& b) {
-      Counter::packet({.fp6 = 1});
       return zip(a, b, [](auto x, auto y) { return x * y; });
     }
     friend F operator/(const F& a, const F& b) {
-      Counter::packet({.fp6 = 5, .fp7 = 1, .shuf = 1});
       return zip(a, b, [](auto x, auto y) { return x / y; });
     }
     friend F operator-(const F& a) {
-      Counter::packet({.fx2 = 1});
       // Not 0 - x, which is what some architectures make of -x: that of a zero would have another sign.
       return map(a, [](auto x) { return x ^ FloatBatch(-0.0f); });
     }
     friend M operator<(const F& a, const F& b) {
-      Counter::packet({.fx2 = 1});
       return test(a, b, [](auto x, auto y) { return x < y; });
     }
     friend M operator<=(const F& a, const F& b) {
-      Counter::packet({.fx2 = 1});
       return test(a, b, [](auto x, auto y) { return x <= y; });
     }
     friend M operator>(const F& a, const F& b) { return b < a; }
     friend M operator>=(const F& a, const F& b) { return b <= a; }
     friend M operator==(const F& a, const F& b) {
-      Counter::packet({.fx2 = 1});
       return test(a, b, [](auto x, auto y) { return x == y; });
     }
   };
@@ -289,16 +256,12 @@ template <class Arch, class Counter = CountNothing> struct HostSimd {
     IntBatch part[kParts];
 
     static I splat(int32_t value) {
-      Counter::chain({.shuf = 1});
       I r;
       for (uint32_t i = 0; i < kParts; ++i)
         r.part[i] = IntBatch(value);
       return r;
     }
-    /// For each lane a load and a rotation, and for four of them three rotations more to have their offsets,
-    /// and three shuffles.
     static I load_words(const void* line, const I& offsets) {
-      Counter::packet({.fx2 = 1, .ls = 4, .shuf = 10});
       alignas(64) int32_t lanes[kSimdLanes];
       for (uint32_t i = 0; i < kParts; ++i)
         (offsets.part[i] & IntBatch(124)).store_aligned(lanes + i * kWidth);
@@ -310,14 +273,12 @@ template <class Arch, class Counter = CountNothing> struct HostSimd {
       return r;
     }
     static I load(const int32_t* lanes) {
-      Counter::packet({.ls = 1});
       I r;
       for (uint32_t i = 0; i < kParts; ++i)
         r.part[i] = IntBatch::load_aligned(lanes + i * kWidth);
       return r;
     }
     void store(int32_t* lanes) const {
-      Counter::packet({.ls = 1});
       for (uint32_t i = 0; i < kParts; ++i)
         part[i].store_aligned(lanes + i * kWidth);
     }
@@ -328,30 +289,27 @@ template <class Arch, class Counter = CountNothing> struct HostSimd {
       return r;
     }
     friend I operator+(const I& a, const I& b) {
-      Counter::packet({.fx2 = 1});
       return zip(a, b, [](auto x, auto y) { return x + y; });
     }
     friend I operator-(const I& a, const I& b) {
-      Counter::packet({.fx2 = 1});
       return zip(a, b, [](auto x, auto y) { return x - y; });
     }
     friend I operator&(const I& a, const I& b) {
-      Counter::packet({.fx2 = 1});
       return zip(a, b, [](auto x, auto y) { return x & y; });
     }
     friend I operator|(const I& a, const I& b) {
-      Counter::packet({.fx2 = 1});
       return zip(a, b, [](auto x, auto y) { return x | y; });
     }
+    friend I operator^(const I& a, const I& b) {
+      return zip(a, b, [](auto x, auto y) { return x ^ y; });
+    }
     friend M operator==(const I& a, const I& b) {
-      Counter::packet({.fx2 = 1});
       M r;
       for (uint32_t i = 0; i < kParts; ++i)
         r.part[i] = xsimd::bool_cast(a.part[i] == b.part[i]);
       return r;
     }
     friend M operator<(const I& a, const I& b) {
-      Counter::packet({.fx2 = 1});
       M r;
       for (uint32_t i = 0; i < kParts; ++i)
         r.part[i] = xsimd::bool_cast(a.part[i] < b.part[i]);
@@ -359,18 +317,27 @@ template <class Arch, class Counter = CountNothing> struct HostSimd {
     }
   };
 
+  static F gather(const float* table, const I& index) {
+    F r;
+    for (uint32_t i = 0; i < kParts; ++i)
+      r.part[i] = FloatBatch::gather(table, index.part[i]);
+    return r;
+  }
+  static I gather(const uint16_t* table, const I& index) {
+    I r;
+    for (uint32_t i = 0; i < kParts; ++i)
+      r.part[i] = simd_host::gather_halves(table, index.part[i]);
+    return r;
+  }
+
   static F min(const F& a, const F& b) {
-    Counter::packet({.fx2 = 2});
     return F::zip(a, b, [](auto x, auto y) { return xsimd::min(x, y); });
   }
   static F max(const F& a, const F& b) {
-    Counter::packet({.fx2 = 2});
     return F::zip(a, b, [](auto x, auto y) { return xsimd::max(x, y); });
   }
   /// The least and the greatest of all lanes.
   static void extremes(const F& a, float& least, float& greatest) {
-    Counter::packet({.fx2 = 2});
-    Counter::chain({.fx2 = 12, .shuf = 4});
     FloatBatch low = a.part[0], high = a.part[0];
     for (uint32_t i = 1; i < kParts; ++i) {
       low = xsimd::min(low, a.part[i]);
@@ -379,36 +346,30 @@ template <class Arch, class Counter = CountNothing> struct HostSimd {
     simd_host::extremes(low, high, least, greatest);
   }
   static F abs(const F& a) {
-    Counter::packet({.fx2 = 1});
     return F::map(a, [](auto x) { return xsimd::abs(x); });
   }
   static F sqrt(const F& a) {
-    Counter::packet({.fp6 = 7, .fp7 = 1, .shuf = 1});
     return F::map(a, [](auto x) { return xsimd::sqrt(x); });
   }
   static F select(const M& m, const F& a, const F& b) {
-    Counter::packet({.fx2 = 1});
     F r;
     for (uint32_t i = 0; i < kParts; ++i)
       r.part[i] = xsimd::select(m.part[i], a.part[i], b.part[i]);
     return r;
   }
   static I select(const M& m, const I& a, const I& b) {
-    Counter::packet({.fx2 = 1});
     I r;
     for (uint32_t i = 0; i < kParts; ++i)
       r.part[i] = xsimd::select(xsimd::bool_cast(m.part[i]), a.part[i], b.part[i]);
     return r;
   }
   static I to_int(const F& a) {
-    Counter::packet({.fp7 = 1});
     I r;
     for (uint32_t i = 0; i < kParts; ++i)
       r.part[i] = xsimd::to_int(a.part[i]);
     return r;
   }
   static F to_float(const I& a) {
-    Counter::packet({.fp7 = 1});
     F r;
     for (uint32_t i = 0; i < kParts; ++i)
       r.part[i] = xsimd::to_float(a.part[i]);
@@ -427,14 +388,12 @@ template <class Arch, class Counter = CountNothing> struct HostSimd {
     return r;
   }
   template <int bits> static I shift_left(const I& a) {
-    Counter::packet({.fx3 = 1});
     I r;
     for (uint32_t i = 0; i < kParts; ++i)
       r.part[i] = a.part[i] << bits;
     return r;
   }
   template <int bits> static I shift_right(const I& a) {
-    Counter::packet({.fx3 = 1});
     I r;
     for (uint32_t i = 0; i < kParts; ++i)
       r.part[i] = a.part[i] >> bits;
@@ -445,36 +404,16 @@ template <class Arch, class Counter = CountNothing> struct HostSimd {
     using Batch = xsimd::batch<float, xsimd::make_sized_batch_t<float, 4>::arch_type>;
     Batch lanes;
 
-    static F4 splat(float value) {
-      Counter::chain({.shuf = 1});
-      return {Batch(value)};
-    }
-    static F4 load(const float* words) {
-      Counter::chain({.ls = 1});
-      return {Batch::load_aligned(words)};
-    }
-    void store(float* words) const {
-      Counter::chain({.ls = 1});
-      lanes.store_aligned(words);
-    }
-    friend F4 operator+(const F4& a, const F4& b) {
-      Counter::chain({.fp6 = 1});
-      return {a.lanes + b.lanes};
-    }
-    friend F4 operator-(const F4& a, const F4& b) {
-      Counter::chain({.fp6 = 1});
-      return {a.lanes - b.lanes};
-    }
-    friend F4 operator*(const F4& a, const F4& b) {
-      Counter::chain({.fp6 = 1});
-      return {a.lanes * b.lanes};
-    }
+    static F4 splat(float value) { return {Batch(value)}; }
+    static F4 load(const float* words) { return {Batch::load_aligned(words)}; }
+    void store(float* words) const { lanes.store_aligned(words); }
+    friend F4 operator+(const F4& a, const F4& b) { return {a.lanes + b.lanes}; }
+    friend F4 operator-(const F4& a, const F4& b) { return {a.lanes - b.lanes}; }
+    friend F4 operator*(const F4& a, const F4& b) { return {a.lanes * b.lanes}; }
     friend uint32_t not_above_bits(const F4& a, const F4& b) {
-      Counter::chain({.fx2 = 2, .shuf = 2});
       return simd_host::lane_bits<Batch>(a.lanes <= b.lanes);
     }
   };
-  /// Costs nothing: the quadwords are where they are.
   static F join(const F4& a, const F4& b, const F4& c, const F4& d) {
     const auto all = simd_host::join<FloatBatch>(a.lanes, b.lanes, c.lanes, d.lanes);
     F r;
@@ -483,16 +422,13 @@ template <class Arch, class Counter = CountNothing> struct HostSimd {
     return r;
   }
   static void transpose_quads(F& a, F& b, F& c, F& d) {
-    Counter::packet({.shuf = 8});
     for (uint32_t i = 0; i < kParts; ++i)
       simd_host::transpose_quads(a.part[i], b.part[i], c.part[i], d.part[i]);
   }
   static F4 min(const F4& a, const F4& b) {
-    Counter::chain({.fx2 = 2});
     return {xsimd::min(a.lanes, b.lanes)};
   }
   static F4 max(const F4& a, const F4& b) {
-    Counter::chain({.fx2 = 2});
     return {xsimd::max(a.lanes, b.lanes)};
   }
 
@@ -500,28 +436,12 @@ template <class Arch, class Counter = CountNothing> struct HostSimd {
     using Batch = xsimd::batch<uint32_t, xsimd::make_sized_batch_t<uint32_t, 4>::arch_type>;
     Batch lanes;
 
-    static U4 splat(uint32_t value) {
-      Counter::chain({.shuf = 1});
-      return {Batch(value)};
-    }
-    static U4 load(const uint32_t* words) {
-      Counter::chain({.ls = 1});
-      return {Batch::load_aligned(words)};
-    }
-    void store(uint32_t* words) const {
-      Counter::chain({.ls = 1});
-      lanes.store_aligned(words);
-    }
-    friend U4 operator&(const U4& a, const U4& b) {
-      Counter::chain({.fx2 = 1});
-      return {a.lanes & b.lanes};
-    }
-    friend U4 operator|(const U4& a, const U4& b) {
-      Counter::chain({.fx2 = 1});
-      return {a.lanes | b.lanes};
-    }
+    static U4 splat(uint32_t value) { return {Batch(value)}; }
+    static U4 load(const uint32_t* words) { return {Batch::load_aligned(words)}; }
+    void store(uint32_t* words) const { lanes.store_aligned(words); }
+    friend U4 operator&(const U4& a, const U4& b) { return {a.lanes & b.lanes}; }
+    friend U4 operator|(const U4& a, const U4& b) { return {a.lanes | b.lanes}; }
     friend uint32_t equal_bits(const U4& a, const U4& b) {
-      Counter::chain({.fx2 = 2, .ls = 1, .br = 1});
       return simd_host::lane_bits<Batch>(a.lanes == b.lanes);
     }
   };

@@ -24,7 +24,7 @@ template <class Spu> uint32_t emit_pairs(Spu& spu, const FrameBlock& frame) {
       frame.image + frame.object_offset, frame.object_count, [&](const ObjectRecord& object, uint32_t index) {
         const uint32_t offset = frame.object_offset + index * static_cast<uint32_t>(sizeof(ObjectRecord));
         if (object.extra != kNoOffset && (object.kind_and_flags & object_flag::smooth) == 0) {
-          if constexpr (Spu::direct_memory) {
+          if constexpr (kReadsInPlace<Spu>) {
             extra = *reinterpret_cast<const ExtraRecord*>(static_cast<uintptr_t>(frame.image + object.extra));
           } else {
             spu.get(&extra, frame.image + object.extra, sizeof extra, kExtraTag);

@@ -48,40 +48,17 @@ public:
   /// hits a leaf or a few nodes have been expanded. False: it hits no leaf, and no ray hits anything.
   /// Otherwise intersect() continues from there.
   bool enter(const PinholeBundle<S>& bundle) {
-    // Larger: more of the bundles that hit nothing are found; smaller: the tighter frusta of the packets are
-    // tested from an earlier node on.
-    constexpr uint32_t kMaxNodes = 24;
-    const SlabOrder order(bundle.octant);
     bundle_frustum_.set(bundle.all, bundle.octant);
-    Stack& stack = begin(bundle.packets);
-    for (uint32_t nodes = 0; stack.size() != 0; ++nodes) {
-      const typename Stack::Entry next = stack.pop();
-      if (next.ref.is_leaf() || nodes == kMaxNodes) {
-        stack.push(stack.size(), next);
-        return true;
-      }
-      ++objects_.counters().visits;
-      const NodeRecord& node = *objects_.scene().node(next.ref.child);
-      alignas(16) float distance[4];
-      const uint32_t first = stack.size();
-      for_each_lane(bundle_frustum_.intersect(node.bounds, order, kMaxHitDistance, distance),
-                    [&](uint32_t i) {
-                      const NodeRef child = {node.child[i], node.leaf[i]};
-                      objects_.scene().hint(child);
-                      stack.push(first, {child, bundle.packets, distance[i], 0});
-                    });
-    }
-    return false;
+    begin(bundle.packets);
+    Entering walk = {*this, SlabOrder(bundle.octant), bundle.packets};
+    NodeRef ref = {};
+    traverse_nodes(walk, ref, false);
+    return walk.found_leaf;
   }
 
 private:
   using Lanes = BundleLanes<S, kBundlePackets<Spu>>;
   using Stack = typename PacketTraversal<Spu>::Stack;
-
-  /// A packet's frustum is loose once it has hit this many nodes that none of the packet's rays hit. From
-  /// then on its rays are tested as well. This occurs at silhouettes, where the origins of shadow rays lie
-  /// far apart.
-  static constexpr uint32_t kMissesOfLoose = 2;
 
   NodeRef root() const { return {bvh_.node_offset, 0}; }
 
@@ -112,7 +89,7 @@ private:
         const uint32_t subset = same & subset_of(level, static_cast<uint32_t>(__builtin_ctz(same)));
         objects_.scene().spu().compute(scalar_work::kFrustum);
         const RayBounds bounds = bounds_of<S>(rays, subset);
-        if (bounds.direction_spread() > kMaxDirectionSpread) {
+        if (bounds.direction_spread() > tuning::kMaxDirectionSpread) {
           ++level;
           continue;
         }
@@ -170,7 +147,7 @@ private:
       if (!bounds.is_in(octant)) return;
       RayBounds extended = bounds;
       if (bundled != 0) extended.include(all);
-      if (extended.direction_spread() > kMaxDirectionSpread) return;
+      if (extended.direction_spread() > tuning::kMaxDirectionSpread) return;
       all = extended;
       bundled |= 1u << packet;
       misses_[packet] = 0;
@@ -206,26 +183,85 @@ private:
     max_tfar_ = PacketTraversal<Spu>::kTfarSlack * kMaxHitDistance; // until the first leaf has been tested
     loose_ = 0;
     known_rays_ = known_frusta_ = 0;
-    Stack& stack = packet_traversal_.stack();
     BundleLeafTests<Spu> leaves(objects_);
-    for (;;) {
-      if (!defers_more(leaves)) test_deferred(leaves, queries, bundled);
-      if (stack.size() == 0) break;
-      const typename Stack::Entry& next = stack.pop();
-      const uint32_t packets = next.lanes & within_tfar(next.enter);
-      if (packets == 0) continue;
-      if (next.rays != 0) {
-        traverse_split(queries, ray_order, next);
-      } else {
-        NodeRef ref = next.ref;
-        while (!ref.is_leaf() && expand(queries, order, ray_order, packets, ref)) {
-        }
-        if (!ref.is_leaf()) continue;
-        intersect_leaf(leaves, ref, packets, queries);
-      }
-      max_tfar_ = Lanes::greatest_of(bundled, tfar_);
-    }
+    Together walk = {*this, leaves, queries, order, ray_order, bundled};
+    NodeRef ref = {};
+    traverse_nodes(walk, ref, false);
   }
+
+  /// The traversal of a bundle's frustum, for traverse_nodes(). It ends where it comes to a leaf or has
+  /// expanded some nodes, and leaves what is next on the stack.
+  struct Entering {
+    BvhTraversal& traversal;
+    const SlabOrder order;
+    const uint32_t packets;
+    uint32_t nodes = 0;      ///< that have been expanded
+    bool found_leaf = false; ///< or there are too many nodes
+
+    bool expand(NodeRef& ref) {
+      ++nodes;
+      ++traversal.objects_.counters().visits;
+      SceneAccess<Spu>& scene = traversal.objects_.scene();
+      Stack& stack = traversal.packet_traversal_.stack();
+      const NodeRecord& node = *scene.node(ref.child);
+      alignas(16) float distance[4];
+      const uint32_t first = stack.size();
+      for_each_lane(traversal.bundle_frustum_.intersect(node.bounds, order, kMaxHitDistance, distance),
+                    [&](uint32_t i) {
+                      const NodeRef child = {node.child[i], node.leaf[i]};
+                      scene.hint(child);
+                      stack.push(first, {child, packets, distance[i], 0});
+                    });
+      return false;
+    }
+    void test(const NodeRef&) {}
+    bool next(NodeRef& ref) {
+      Stack& stack = traversal.packet_traversal_.stack();
+      if (stack.size() == 0) return false;
+      ref = stack.top().ref;
+      found_leaf = ref.is_leaf() || nodes == tuning::kMaxEnteredNodes;
+      if (found_leaf) return false;
+      stack.pop();
+      return true;
+    }
+    static constexpr bool pauses() { return false; }
+  };
+
+  /// The traversal of a bundle, for traverse_nodes(). Nodes that few packets hit are traversed by each of
+  /// them separately.
+  struct Together {
+    BvhTraversal& traversal;
+    BundleLeafTests<Spu>& leaves;
+    RayQuery* const queries;
+    const SlabOrder &order, &ray_order;
+    const uint32_t bundled;
+    uint32_t packets = 0; ///< that hit the node or leaf
+
+    [[gnu::always_inline]] bool expand(NodeRef& ref) {
+      return traversal.expand(queries, order, ray_order, packets, ref);
+    }
+    [[gnu::always_inline]] void test(const NodeRef& leaf) {
+      traversal.intersect_leaf(leaves, leaf, packets, queries);
+      traversal.max_tfar_ = Lanes::greatest_of(bundled, traversal.tfar_);
+    }
+    [[gnu::always_inline]] bool next(NodeRef& ref) {
+      Stack& stack = traversal.packet_traversal_.stack();
+      for (;;) {
+        traversal.test_deferred(leaves, queries, bundled);
+        if (stack.size() == 0) return false;
+        const typename Stack::Entry& next = stack.pop();
+        packets = next.lanes & traversal.within_tfar(next.enter);
+        if (packets == 0) continue;
+        if (next.rays == 0) {
+          ref = next.ref;
+          return true;
+        }
+        traversal.traverse_split(queries, ray_order, next);
+        traversal.max_tfar_ = Lanes::greatest_of(bundled, traversal.tfar_);
+      }
+    }
+    static constexpr bool pauses() { return false; }
+  };
 
   /// Traverses a node separately with one packet, by its entry `first`. Where interleaving pays, the next
   /// entries on the stack are traversed at the same time if they are of other single packets.
@@ -235,7 +271,7 @@ private:
     typename PacketTraversal<Spu>::Task tasks[PacketTraversal<Spu>::kMaxInterleaved];
     tasks[0] = task_of(queries, first);
     uint32_t count = 1, packets = first.lanes;
-    if (Spu::direct_memory && packet_traversal_.interleaves()) {
+    if (kPrefetchesLines<Spu> && packet_traversal_.interleaves()) {
       Stack& stack = packet_traversal_.stack();
       while (count < PacketTraversal<Spu>::kMaxInterleaved && stack.size() != 0) {
         const typename Stack::Entry& next = stack.top();
@@ -259,7 +295,7 @@ private:
     const auto packet = static_cast<uint32_t>(__builtin_ctz(entry.lanes));
     RayQuery& query = queries[packet];
     if ((known_frusta_ & entry.lanes) == 0) {
-      if (Spu::direct_memory && reversed_)
+      if (kHasBundleViews<Spu> && reversed_)
         ray_groups_[packet].frustum.set(bounds_of<S>(*query.rays, query.lanes), octant_);
       else
         frusta_.get(packet, ray_groups_[packet].frustum);
@@ -319,12 +355,13 @@ private:
 
   /// Whether leaves are hit by frusta only, without slab tests of rays. Frusta of rays through one point are
   /// tight. On an SPE the rays are tested all the same, because fetching an object by DMA costs more.
-  bool trusts_frusta() const { return Spu::direct_memory && view_ != nullptr; }
-  /// Packets split early where triangles are smaller than pixels, because each then hits other nodes than its
-  /// neighbours. With more than half as many objects as pixels this is assumed.
+  bool trusts_frusta() const { return kHasBundleViews<Spu> && view_ != nullptr; }
+  /// Packets split early where triangles are assumed to be smaller than pixels.
   static uint32_t max_split_packets(const FrameBlock& frame) {
     constexpr uint32_t kMost = PacketTraversal<Spu>::kMaxSplitPackets;
-    return kMost == 1 || frame.object_count <= frame.width * frame.height / 2 ? 1 : kMost;
+    return kMost == 1 || frame.object_count <= frame.width * frame.height / tuning::kPixelsOfSmallObject
+               ? 1
+               : kMost;
   }
   /// Whether the packets that hit a node traverse it separately.
   bool should_split(uint32_t packets) const {
@@ -345,36 +382,37 @@ private:
       const uint32_t missed = static_cast<uint32_t>(rays == 0);
       missing |= missed << packet;
       misses_[packet] += missed;
-      loose_ |= static_cast<uint32_t>(misses_[packet] >= kMissesOfLoose) << packet;
+      loose_ |= static_cast<uint32_t>(misses_[packet] >= tuning::kMissesOfLoose) << packet;
     });
     return missing;
   }
 
   void intersect_leaf(BundleLeafTests<Spu>& leaves, const NodeRef& leaf, uint32_t packets,
                       RayQuery* queries) {
-    uint32_t changed = packets;
-    if (Spu::direct_memory && view_ != nullptr && !is_single(packets))
-      changed = leaves.add(queries, packets, leaf);
-    else
-      objects_.scene().for_each_object(leaf, [&](uint32_t self) {
-        test_object(self, packets, queries);
-        return false;
-      });
-    update_tfar(changed, queries);
+    if constexpr (kHasBundleViews<Spu>)
+      if (view_ != nullptr && !is_single(packets))
+        return update_tfar(leaves.add(queries, packets, leaf), queries);
+    objects_.scene().for_each_object(leaf, [&](uint32_t self) {
+      test_object(self, packets, queries);
+      return false;
+    });
+    update_tfar(packets, queries);
   }
-  /// Whether deferred triangles can wait for those of the next leaf. If the next entry is a node they cannot:
-  /// their hits should shorten tfar before it is expanded.
-  bool defers_more(const BundleLeafTests<Spu>& leaves) {
-    if (!Spu::direct_memory || !leaves.has_deferred()) return true;
-    const Stack& stack = packet_traversal_.stack();
-    return stack.size() != 0 && stack.top().ref.is_leaf() && leaves.has_room_for(stack.top().ref);
-  }
-  void test_deferred(BundleLeafTests<Spu>& leaves, RayQuery* queries, uint32_t bundled) {
-    update_tfar(leaves.test(queries, *view_), queries);
-    max_tfar_ = Lanes::greatest_of(bundled, tfar_);
+  /// Tests deferred triangles, unless they can wait for those of the next leaf. If the next entry is a node
+  /// they cannot: their hits should shorten tfar before it is expanded.
+  [[gnu::always_inline]] void test_deferred([[maybe_unused]] BundleLeafTests<Spu>& leaves,
+                                            [[maybe_unused]] RayQuery* queries,
+                                            [[maybe_unused]] uint32_t bundled) {
+    if constexpr (kHasBundleViews<Spu>) {
+      if (!leaves.has_deferred()) return;
+      const Stack& stack = packet_traversal_.stack();
+      if (stack.size() != 0 && stack.top().ref.is_leaf() && leaves.has_room_for(stack.top().ref)) return;
+      update_tfar(leaves.test(queries, *view_), queries);
+      max_tfar_ = Lanes::greatest_of(bundled, tfar_);
+    }
   }
   void test_object(uint32_t self, uint32_t packets, RayQuery* queries) {
-    if constexpr (Spu::direct_memory) {
+    if constexpr (kTestsWholeLeaves<Spu>) {
       if (queries[__builtin_ctz(packets)].hits != nullptr)
         objects_.test_closest_of_all(queries, packets, self);
       else
@@ -405,7 +443,7 @@ private:
   /// The factor from distances along a packet's rays, of unit directions, to distances in its frustum, whose
   /// directions have length 1 on the major axis.
   float shortening([[maybe_unused]] uint32_t packet) const {
-    if constexpr (Spu::direct_memory) return view_ != nullptr ? shortening_[packet] : 1.0f;
+    if constexpr (kHasBundleViews<Spu>) return view_ != nullptr ? shortening_[packet] : 1.0f;
     return 1.0f;
   }
   uint32_t within_tfar(float distance) const {
@@ -430,7 +468,7 @@ private:
   /// By packet, in distances of its frustum. Negative: the packet hits nothing.
   alignas(64) float tfar_[kBundlePackets<Spu>] = {};
   /// By packet; see shortening(). Undefined for rays that do not pass through one point.
-  alignas(64) float shortening_[Spu::direct_memory ? kBundlePackets<Spu> : 1] = {};
+  alignas(64) float shortening_[kHasBundleViews<Spu> ? kBundlePackets<Spu> : 1] = {};
 };
 
 } // namespace celltrace::kernel

@@ -24,10 +24,6 @@ constexpr float kRoundedUp = 1.000001f;
 
 } // namespace detail
 
-/// Rays whose directions differ by more do not share a frustum. Larger: fewer traversals, with looser frusta;
-/// smaller: more traversals, with tighter ones. Measured on scenes with mirrors and glass.
-constexpr float kMaxDirectionSpread = 1.0f;
-
 /// The octant of a ray's direction: bit a is set if it is negative on axis a.
 inline uint32_t octant_of(const RayPacket& rays, uint32_t lane) {
   return (rays.direction.x.lane[lane] < 0.0f ? 1u : 0u) | (rays.direction.y.lane[lane] < 0.0f ? 2u : 0u) |

@@ -6,6 +6,7 @@
 #include "kernel/primitives/list.hpp"
 #include "kernel/scalar_work.hpp"
 #include "kernel/scene_access.hpp"
+#include "kernel/textures/transmittance.hpp"
 
 namespace celltrace::kernel {
 
@@ -46,8 +47,11 @@ struct RaySegment {
   const FloatLanes* enter;
   const FloatLanes* leave;
 
-  bool contains(uint32_t lane, float distance) const {
-    return enter == nullptr || (distance > enter->lane[lane] && distance <= leave->lane[lane]);
+  /// The lanes whose `distance` is within.
+  template <class S> uint32_t contains(const typename S::F& distance) const {
+    using F = typename S::F;
+    if (enter == nullptr) return 0xFFFF;
+    return ((distance > F::load(enter->lane)) & (distance <= F::load(leave->lane))).bits();
   }
 };
 
@@ -103,7 +107,7 @@ public:
     if ((flags & object_flag::no_shadow) != 0) return 0;
     if ((flags & object_flag::opaque) != 0 && !hit_filter_.first_test(self)) return 0;
     if (!is_simple(flags)) return occluded_by_other(rays, object, self, lanes, distance, light, segment);
-    return occluded_by(test(rays, object, self), flags, material, lanes, distance, light, segment);
+    return occluded_by(rays, test(rays, object, self), flags, material, lanes, distance, light, segment);
   }
 
   /// The same for the whole rays of several packets: removes occluded lanes from their queries. The object
@@ -130,7 +134,6 @@ public:
     }
   }
 
-  /// Merges the crossings with object `self` into the closest hits.
   /// Tests the objects that no accelerator has, behind the others in their table.
   void test_unbounded(const FrameBlock& frame, RayQuery& query) {
     constexpr auto kBytes = static_cast<uint32_t>(sizeof(ObjectRecord));
@@ -144,6 +147,7 @@ public:
     }
   }
 
+  /// Merges the crossings with object `self` into the closest hits.
   static void keep_closest(const Crossings<S>& c, uint32_t self, HitPacket& hits) {
     const M near_valid = c.near_hit & (c.near > F(kMinHitDistance));
     const M far_valid = c.far_hit & (c.far > F(kMinHitDistance));
@@ -161,6 +165,17 @@ public:
     S::select(closer, c.u, F::load(hits.u.lane)).store(hits.u.lane);
     S::select(closer, c.v, F::load(hits.v.lane)).store(hits.v.lane);
     S::select(closer, candidate, present).store(objects);
+  }
+
+  /// Lanes whose near or far crossing lies between their origin and the light.
+  struct ShadowHits {
+    uint32_t near, far;
+  };
+  static ShadowHits shadow_hits(const Crossings<S>& c, const FloatLanes& distance) {
+    const F low(kShadowEpsilon);
+    const F high = F::load(distance.lane) - low;
+    return {(c.near_hit & (c.near > low) & (c.near < high)).bits(),
+            (c.far_hit & (c.far > low) & (c.far < high)).bits()};
   }
 
   /// Whether an object is a triangle that is no part of a CSG.
@@ -185,17 +200,6 @@ public:
   void reset_counters() { counters_ = TraversalCounters(); }
 
 private:
-  /// Lanes whose near or far crossing lies between their origin and the light.
-  struct ShadowHits {
-    uint32_t near, far;
-  };
-  static ShadowHits shadow_hits(const Crossings<S>& c, const FloatLanes& distance) {
-    const F low(kShadowEpsilon);
-    const F high = F::load(distance.lane) - low;
-    return {(c.near_hit & (c.near > low) & (c.near < high)).bits(),
-            (c.far_hit & (c.far > low) & (c.far < high)).bits()};
-  }
-
   /// Spheres, triangles and planes that are no parts of a CSG: their code is always there, and their test
   /// reads no further record.
   static bool is_simple(uint32_t flags) {
@@ -203,25 +207,16 @@ private:
   }
 
   /// As occluded(), for crossings with the object.
-  uint32_t occluded_by(const Crossings<S>& c, uint32_t flags, uint32_t material, uint32_t lanes,
-                       const FloatLanes& distance, VectorLanes& light, const RaySegment& segment) {
+  uint32_t occluded_by(const RayPacket& rays, const Crossings<S>& c, uint32_t flags, uint32_t material,
+                       uint32_t lanes, const FloatLanes& distance, VectorLanes& light,
+                       const RaySegment& segment) {
     const ShadowHits shadow = shadow_hits(c, distance);
-    const uint32_t near_hit = shadow.near, far_hit = shadow.far;
-    if ((flags & object_flag::opaque) != 0) return near_hit | far_hit;
-    FloatLanes near, far, u, v;
-    c.near.store(near.lane);
-    c.far.store(far.lane);
-    c.u.store(u.lane);
-    c.v.store(v.lane);
+    if ((flags & object_flag::opaque) != 0) return shadow.near | shadow.far;
+    const uint32_t near = lanes & shadow.near & segment.template contains<S>(c.near);
+    const uint32_t far = lanes & shadow.far & segment.template contains<S>(c.far);
     uint32_t dark = 0;
-    for_each_lane(lanes & (near_hit | far_hit), [&](uint32_t lane) {
-      const auto counts = [&](uint32_t hit, const FloatLanes& at) {
-        return static_cast<uint32_t>(((hit >> lane) & 1) != 0 && segment.contains(lane, at.lane[lane]));
-      };
-      const uint32_t crossings = counts(near_hit, near) + counts(far_hit, far);
-      if (crossings != 0 && attenuate(flags, material, u.lane[lane], v.lane[lane], crossings, lane, light))
-        dark |= 1u << lane;
-    });
+    if (near != 0) dark |= attenuate(rays, c.near, c, flags, material, near, light);
+    if (far != 0) dark |= attenuate(rays, c.far, c, flags, material, far, light);
     return dark;
   }
 
@@ -254,7 +249,7 @@ private:
         const ShadowHits shadow = shadow_hits(c, distance);
         accept(rays, other.csg, M::from_bits(shadow.near), M::from_bits(shadow.far), c);
       }
-      dark |= occluded_by(c, flags, material, lanes & ~dark, distance, light, segment);
+      dark |= occluded_by(rays, c, flags, material, lanes & ~dark, distance, light, segment);
     }
     return dark;
   }
@@ -288,22 +283,30 @@ private:
     c.far_hit = M::from_bits(csg_accepted(scene_, condition, origin + direction * c.far, far.bits()));
   }
 
-  /// Multiplies the light of one lane by the transmittance of `crossings` crossings of a translucent object.
-  /// True if hardly any is left: a ray with less than 1e-10 of it in each channel can stop.
-  bool attenuate(uint32_t flags, uint32_t material, float u, float v, uint32_t crossings, uint32_t lane,
-                 VectorLanes& light) {
+  /// Multiplies the light of `lanes` by the transmittance of a translucent surface that they cross at `at`.
+  /// Returns those of which hardly any is left: a ray with less than 1e-10 of it in each channel can stop.
+  [[gnu::noinline]] uint32_t attenuate(const RayPacket& rays, const F& at, const Crossings<S>& c,
+                                       uint32_t flags, uint32_t material, uint32_t lanes,
+                                       VectorLanes& light) {
     scene_.spu().compute(scalar_work::kFilter);
-    float transmitted[3];
-    transmission(flags, material, u, v, transmitted);
-    FloatLanes* channels[3] = {&light.x, &light.y, &light.z};
-    bool dark = true;
-    for (int i = 0; i < 3; ++i) {
-      const float factor = crossings == 2 ? transmitted[i] * transmitted[i] : transmitted[i];
-      float& value = channels[i]->lane[lane];
-      value *= factor;
-      dark = dark && value < 1e-10f && value > -1e-10f;
+    const V3<S> point = rays.origin.template load<S>() + rays.direction.template load<S>() * at;
+    V3<S> transmittance;
+    if ((flags & object_flag::blended) == 0) {
+      transmittance_at(scene_, material, point, lanes, transmittance);
+    } else {
+      const BlendRecord blend = *scene_.blend(material);
+      const F weights[3] = {F(1.0f) - c.u - c.v, c.u, c.v};
+      transmittance = {F(0.0f), F(0.0f), F(0.0f)};
+      V3<S> corner;
+      for (uint32_t i = 0; i < 3; ++i) {
+        transmittance_at(scene_, blend.material[i], point, lanes, corner);
+        transmittance = transmittance + corner * weights[i];
+      }
     }
-    return dark;
+    const V3<S> before = light.template load<S>(), after = before * transmittance;
+    light.template store<S>(select<S>(M::from_bits(lanes), after, before));
+    const F most = S::max(S::abs(after.x), S::max(S::abs(after.y), S::abs(after.z)));
+    return (most < F(1e-10f)).bits() & lanes;
   }
 
   /// Of a simple object.
@@ -319,28 +322,6 @@ private:
     else
       c = intersect_plane<S>(rays, object, self);
     return c;
-  }
-
-  /// The transmittance of a surface in each colour channel.
-  void transmission(uint32_t flags, uint32_t material, float u, float v, float (&transmitted)[3]) {
-    uint32_t corners[3] = {material, material, material};
-    float weights[3] = {1.0f, 0.0f, 0.0f};
-    const bool blended = (flags & object_flag::blended) != 0;
-    if (blended) {
-      const BlendRecord blend = *scene_.blend(material);
-      for (int i = 0; i < 3; ++i)
-        corners[i] = blend.material[i];
-      weights[0] = 1.0f - u - v;
-      weights[1] = u;
-      weights[2] = v;
-    }
-    for (int i = 0; i < 3; ++i)
-      transmitted[i] = 0.0f;
-    for (int corner = 0; corner < (blended ? 3 : 1); ++corner) {
-      const MaterialRecord& m = *scene_.material(corners[corner]);
-      for (int i = 0; i < 3; ++i)
-        transmitted[i] += weights[corner] * (m.pigment[i] * m.filter + m.transmit);
-    }
   }
 
   SceneAccess<Spu>& scene_;

@@ -7,7 +7,8 @@
 #pragma once
 
 #include "kernel/accel/frustum.hpp"
-#include "kernel/accel/traversal_stack.hpp"
+#include "kernel/accel/traversal_loop.hpp"
+#include "kernel/direct/deferred_leaves.hpp"
 #include "kernel/direct/leaf_tests.hpp"
 
 namespace celltrace::kernel {
@@ -28,14 +29,7 @@ public:
   /// hit must still be traversed, because it may hold an object at the same distance that precedes in the
   /// scene.
   static constexpr float kTfarSlack = 1.00001f;
-  /// Up to this many objects, the caches of one core hold them with their nodes, and leaves are tested at
-  /// once. With more objects, leaves are deferred while their objects are prefetched. Smaller: leaves are
-  /// deferred although nothing has to be waited for; larger: tests wait for memory. Measured.
-  static constexpr uint32_t kObjectsInCoreCache = 20000;
-  /// A node that this many packets of a bundle hit, or fewer, may be traversed by each of them separately.
-  /// Larger: packets share fewer nodes; smaller: more nodes are tested for packets that do not hit them.
-  /// Measured.
-  static constexpr uint32_t kMaxSplitPackets = kBundlePackets<Spu> >= 16 ? 4 : 1;
+  static constexpr uint32_t kMaxSplitPackets = kBundlePackets<Spu> >= 16 ? tuning::kMaxSplitPackets : 1;
   using Stack = TraversalStack<kMaxSplitPackets>;
 
   /// A node to traverse with a packet. `lanes` are the rays of the packet that `group` consists of, `hit`
@@ -46,13 +40,12 @@ public:
     uint32_t lanes, hit;
     NodeRef ref;
   };
-  /// Traversals that are interleaved. Larger: more time to fetch a node; smaller: less state to keep in
-  /// cache. Measured.
-  static constexpr uint32_t kMaxInterleaved = Spu::direct_memory ? 4 : 1;
+  static constexpr uint32_t kMaxInterleaved = kPrefetchesLines<Spu> ? tuning::kMaxInterleaved : 1;
 
   PacketTraversal(ObjectTests<Spu>& objects, const FrameBlock& frame)
-      : objects_(objects), defers_leaves_(Spu::direct_memory && frame.object_count > kObjectsInCoreCache),
-        interleaves_(Spu::direct_memory && frame.far_nodes != 0) {}
+      : objects_(objects),
+        defers_leaves_(kPrefetchesLines<Spu> && frame.object_count > tuning::kObjectsInCoreCache),
+        interleaves_(kPrefetchesLines<Spu> && frame.far_nodes != 0) {}
 
   Stack& stack() { return slots_[0].stack; }
   /// Whether traverse_interleaved() is faster than one traversal after the other.
@@ -60,24 +53,13 @@ public:
 
   /// Traverses the subtree below a task's node.
   void traverse(const Task& task, const SlabOrder& order) {
-    const RayGroup<S>& group = *task.group;
-    RayQuery& query = *task.query;
-    const uint32_t lanes = task.lanes;
-    NodeRef ref = task.ref;
     Slot& slot = slots_[0];
     const uint32_t floor = slot.stack.size();
-    TraversalState state = begin(slot, task, floor);
-    for (;;) {
-      if (ref.is_leaf()) {
-        intersect_leaf(slot, state, ref, query);
-      } else {
-        if (expand(slot, state, group.rays, order, query, ref)) continue;
-        if (slot.deferred_count >= kEnoughDeferred) test_deferred(slot, state, query);
-      }
-      if (!pop_next(slot, state, {&group.frustum, lanes, floor, 0.0f}, query, ref)) break;
-    }
-    test_deferred(slot, state, query);
-    slot.stack.shrink(floor);
+    Walk<false> walk = {*this,      slot, order, *task.group, *task.query, begin(slot, task, floor),
+                        task.lanes, floor};
+    NodeRef ref = task.ref;
+    traverse_nodes(walk, ref);
+    walk.end();
   }
 
   /// The same for several tasks, each of a different packet, interleaved: while the node that one traversal
@@ -89,14 +71,24 @@ public:
       if (i != 0) slot.stack.shrink(0);
       const uint32_t floor = slot.stack.size();
       const uint32_t packet = objects_.hit_filter().begin_packet();
-      interleaved[i] = {tasks[i], begin(slot, tasks[i], floor), floor, packet};
+      interleaved[i] = {tasks[i].ref, begin(slot, tasks[i], floor), floor, packet};
     }
     uint32_t active = (1u << count) - 1;
     while (active != 0)
       for (uint32_t left = active; left != 0; left &= left - 1) {
         const auto i = static_cast<uint32_t>(__builtin_ctz(left));
-        objects_.hit_filter().resume_packet(interleaved[i].packet);
-        if (!advance(slots_[i], interleaved[i], order)) active &= ~(1u << i);
+        Interleaved& traversal = interleaved[i];
+        objects_.hit_filter().resume_packet(traversal.packet);
+        // A copy of the state, which can stay in registers until the traversal is suspended.
+        const Task& task = tasks[i];
+        Walk<true> walk = {*this,       slots_[i],       order,      *task.group,
+                           *task.query, traversal.state, task.lanes, traversal.floor};
+        if (traverse_nodes(walk, traversal.ref)) {
+          traversal.state = walk.state;
+        } else {
+          walk.end();
+          active &= ~(1u << i);
+        }
       }
   }
 
@@ -106,12 +98,10 @@ public:
   }
   /// The greatest tfar of the rays in `group`, with kTfarSlack. Distances are positive.
   static float tfar_of(const RayQuery& query, uint32_t group) {
-    if (is_single(group)) {
-      const uint32_t lane = static_cast<uint32_t>(__builtin_ctz(group));
-      return kTfarSlack *
-             (query.hits != nullptr ? query.hits->distance.lane[lane] : query.distance->lane[lane]);
-    }
-    return kTfarSlack * interval_of<S>(S::select(M::from_bits(group), tfar(query), F(0.0f))).high;
+    if constexpr (kHasRoomForCode<Spu>)
+      return greatest_tfar(query, group);
+    else
+      return tfar_out_of_line(query, group);
   }
 
 private:
@@ -123,62 +113,73 @@ private:
     float tfar;
   };
 
-  /// A leaf that the rays in `group` hit, whose objects have not been tested yet.
-  struct DeferredLeaf {
-    NodeRef leaf;
-    uint32_t group;
-  };
-  static constexpr uint32_t kMaxDeferred = Spu::direct_memory ? 8 : 1;
-  /// With this many deferred leaves, their objects are tested after the next node is expanded. Larger: more
-  /// time to fetch them; smaller: hits shorten tfar sooner. Measured.
-  static constexpr uint32_t kEnoughDeferred = kMaxDeferred / 2;
-
   /// The storage of one of several interleaved traversals.
   struct Slot {
     Stack stack;
-    DeferredLeaf deferred[kMaxDeferred];
-    uint32_t deferred_count = 0;
+    typename LeavesToDefer<Spu>::Type deferred;
     Frustum<S> single; ///< of the ray that has been split off
   };
 
-  /// An interleaved traversal that has not ended.
+  /// An interleaved traversal that is suspended.
   struct Interleaved {
-    Task task; ///< `ref`: the next node to traverse
+    NodeRef ref; ///< the next node to traverse
     TraversalState state;
     uint32_t floor, packet; ///< `packet` identifies it for the hit filter
   };
+
+  /// A traversal for traverse_nodes(). If it is one of several, it is suspended where it needs a node that
+  /// was prefetched only just now.
+  template <bool kInterleaved> struct Walk {
+    PacketTraversal& traversal;
+    Slot& slot;
+    const SlabOrder& order;
+    const RayGroup<S>& group;
+    RayQuery& query;
+    TraversalState state;
+    const uint32_t lanes, floor;
+    bool hinted = false; ///< the last node was expanded, and one of its children is to be traversed next
+
+    [[gnu::always_inline]] bool expand(NodeRef& ref) {
+      [[maybe_unused]] const uint32_t size = slot.stack.size();
+      const bool descends = traversal.expand(slot, state, group.rays, order, query, ref);
+      if constexpr (kInterleaved) {
+        if (descends) traversal.objects_.scene().hint(ref);
+        hinted = descends || slot.stack.size() > size;
+      }
+      if (!descends && slot.deferred.are_enough()) traversal.test_deferred(slot, state, query);
+      return descends;
+    }
+    [[gnu::always_inline]] void test(const NodeRef& leaf) {
+      hinted = false;
+      traversal.intersect_leaf(slot, state, leaf, query);
+    }
+    [[gnu::always_inline]] bool next(NodeRef& ref) {
+      return traversal.pop_next(slot, state, {&group.frustum, lanes, floor, 0.0f}, query, ref);
+    }
+    bool pauses() const { return kInterleaved && hinted; }
+    [[gnu::always_inline]] void end() {
+      traversal.test_deferred(slot, state, query);
+      slot.stack.shrink(floor);
+    }
+  };
+
+  static float greatest_tfar(const RayQuery& query, uint32_t group) {
+    if (is_single(group)) {
+      const uint32_t lane = static_cast<uint32_t>(__builtin_ctz(group));
+      return kTfarSlack *
+             (query.hits != nullptr ? query.hits->distance.lane[lane] : query.distance->lane[lane]);
+    }
+    return kTfarSlack * interval_of<S>(S::select(M::from_bits(group), tfar(query), F(0.0f))).high;
+  }
+  /// Not inlined on an SPE: one copy of the code saves local store.
+  [[gnu::noinline]] static float tfar_out_of_line(const RayQuery& query, uint32_t group) {
+    return greatest_tfar(query, group);
+  }
 
   TraversalState begin(Slot& slot, const Task& task, uint32_t floor) {
     TraversalState state = {&task.group->frustum, task.lanes, floor, tfar_of(*task.query, task.lanes)};
     if (is_single(task.hit) && !is_single(task.lanes)) split_off(slot, state, task.hit, *task.query);
     return state;
-  }
-
-  /// Advances a traversal until it needs a node that was prefetched only just now. Returns false at its end.
-  /// This repeats the loop of traverse(), whose state would not stay in registers if it could be suspended.
-  bool advance(Slot& slot, Interleaved& traversal, const SlabOrder& order) {
-    Task& task = traversal.task;
-    TraversalState& state = traversal.state;
-    RayQuery& query = *task.query;
-    for (;;) {
-      const uint32_t size = slot.stack.size();
-      if (task.ref.is_leaf()) {
-        intersect_leaf(slot, state, task.ref, query);
-      } else {
-        if (expand(slot, state, task.group->rays, order, query, task.ref)) {
-          objects_.scene().hint(task.ref);
-          return true;
-        }
-        if (slot.deferred_count >= kEnoughDeferred) test_deferred(slot, state, query);
-      }
-      const bool pushed = slot.stack.size() > size;
-      if (!pop_next(slot, state, {&task.group->frustum, task.lanes, traversal.floor, 0.0f}, query, task.ref))
-        break;
-      if (pushed) return true;
-    }
-    test_deferred(slot, state, query);
-    slot.stack.shrink(traversal.floor);
-    return false;
   }
 
   /// Pops the next node or leaf; false if there is none. A node that only one ray of the group `whole` hits
@@ -208,7 +209,7 @@ private:
   /// Continues with one ray of the group.
   void split_off(Slot& slot, TraversalState& state, uint32_t ray, const RayQuery& query) {
     objects_.scene().spu().compute(scalar_work::kRayAlone);
-    if constexpr (Spu::direct_memory)
+    if constexpr (kHasRoomForCode<Spu>)
       set_single(slot, state, ray, query);
     else
       set_single_out_of_line(slot, state, ray, query);
@@ -228,21 +229,26 @@ private:
   /// Tests the objects of a leaf, or defers it with a few others until after a node is expanded. Meanwhile
   /// its objects are prefetched; and while they are tested, the children of that node are.
   void intersect_leaf(Slot& slot, TraversalState& state, const NodeRef& leaf, RayQuery& query) {
-    if (!Spu::direct_memory || !defers_leaves_) {
-      test_objects(leaf, state.group, query);
-      update_state(slot, state, query);
-    } else {
-      if (slot.deferred_count == kMaxDeferred) test_deferred(slot, state, query);
-      objects_.scene().hint(leaf);
-      slot.deferred[slot.deferred_count++] = {leaf, state.group};
+    if constexpr (kPrefetchesLines<Spu>) {
+      if (defers_leaves_) {
+        if (slot.deferred.is_full()) test_deferred(slot, state, query);
+        objects_.scene().hint(leaf);
+        slot.deferred.add(leaf, state.group);
+        return;
+      }
     }
-  }
-  void test_deferred(Slot& slot, TraversalState& state, RayQuery& query) {
-    if (!Spu::direct_memory || slot.deferred_count == 0) return;
-    for (uint32_t i = 0; i < slot.deferred_count; ++i)
-      test_objects(slot.deferred[i].leaf, slot.deferred[i].group, query);
-    slot.deferred_count = 0;
+    test_objects(leaf, state.group, query);
     update_state(slot, state, query);
+  }
+  void test_deferred([[maybe_unused]] Slot& slot, [[maybe_unused]] TraversalState& state,
+                     [[maybe_unused]] RayQuery& query) {
+    if constexpr (kPrefetchesLines<Spu>) {
+      if (slot.deferred.count() == 0) return;
+      for (uint32_t i = 0; i < slot.deferred.count(); ++i)
+        test_objects(slot.deferred[i].ref, slot.deferred[i].group, query);
+      slot.deferred.clear();
+      update_state(slot, state, query);
+    }
   }
   /// Shortens tfar after hits, or ends the traversal of a group that is wholly occluded.
   void update_state(Slot& slot, TraversalState& state, const RayQuery& query) {
@@ -253,11 +259,10 @@ private:
   }
 
   void test_objects(const NodeRef& leaf, uint32_t group, RayQuery& query) {
-    if constexpr (Spu::direct_memory) {
-      using Tests = LeafTests<Spu>;
-      if (leaf_word::count(leaf.leaf) >= Tests::kLeastTriangles &&
-          __builtin_popcount(group) <= Tests::kMostRays)
-        return Tests(objects_).test(query, group, leaf);
+    if constexpr (kTestsWholeLeaves<Spu>) {
+      if (leaf_word::count(leaf.leaf) >= tuning::kLeastTrianglesByLeaf &&
+          __builtin_popcount(group) <= tuning::kMostRaysByLeaf)
+        return LeafTests<Spu>(objects_).test(query, group, leaf);
     }
     objects_.scene().for_each_object(leaf, [&](uint32_t self) {
       if (query.hits != nullptr) {

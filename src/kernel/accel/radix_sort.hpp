@@ -19,7 +19,7 @@ public:
   RadixSort(Spu& spu, StreamReader<Spu, SortPair>& reader)
       : spu_(spu), reader_(reader), next_(spu.template allocate<uint32_t>(kBuckets)),
         begin_(spu.template allocate<uint32_t>(kBuckets)) {
-    if constexpr (!Spu::direct_memory) {
+    if constexpr (!kReadsInPlace<Spu>) {
       lines_ = spu.template allocate<Line>(kBuckets);
       staged_ = spu.template allocate<Line>(kStaged);
     }
@@ -61,7 +61,7 @@ private:
     }
     reader_.for_each(source, count,
                      [&](const SortPair& pair, uint32_t) { append(target, digit(pair, shift), pair); });
-    if constexpr (!Spu::direct_memory) {
+    if constexpr (!kReadsInPlace<Spu>) {
       for (uint32_t b = 0; b < kBuckets; ++b)
         if ((next_[b] & (kPairsPerLine - 1)) != 0 && next_[b] != begin_[b]) send(target, b);
       spu_.wait_all(((1u << kStaged) - 1) << kFirstTag);
@@ -73,7 +73,7 @@ private:
   void append(ea_t target, uint32_t bucket, const SortPair& pair) {
     spu_.compute(scalar_work::kPlacePair);
     const uint32_t at = next_[bucket]++;
-    if constexpr (Spu::direct_memory) {
+    if constexpr (kReadsInPlace<Spu>) {
       reinterpret_cast<SortPair*>(static_cast<uintptr_t>(target))[at] = pair;
     } else {
       lines_[bucket].pairs[at & (kPairsPerLine - 1)] = pair;

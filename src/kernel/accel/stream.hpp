@@ -3,6 +3,7 @@
 #pragma once
 
 #include "celltrace/spe/types.hpp"
+#include "kernel/direct/door.hpp"
 
 #include <stdint.h>
 
@@ -17,14 +18,14 @@ public:
 
   StreamReader(Spu& spu, uint32_t tag) : spu_(spu), tag_(tag) {
     static_assert(kMaxDmaBytes % sizeof(T) == 0, "records may not straddle chunks");
-    if constexpr (!Spu::direct_memory)
+    if constexpr (!kReadsInPlace<Spu>)
       for (uint32_t i = 0; i < 2; ++i)
         buffer_[i] = spu.template allocate<T>(kChunk);
   }
 
   /// Calls `visit(record, index)` for every record in order.
   template <class Visit> void for_each(ea_t source, uint32_t count, Visit visit) {
-    if constexpr (Spu::direct_memory) {
+    if constexpr (kReadsInPlace<Spu>) {
       const T* records = reinterpret_cast<const T*>(static_cast<uintptr_t>(source));
       for (uint32_t i = 0; i < count; ++i)
         visit(records[i], i);
@@ -61,13 +62,13 @@ public:
   static constexpr uint32_t kChunk = 4096 / sizeof(T);
 
   StreamWriter(Spu& spu, uint32_t tag, ea_t target) : spu_(spu), tag_(tag), target_(target) {
-    if constexpr (!Spu::direct_memory)
+    if constexpr (!kReadsInPlace<Spu>)
       for (uint32_t i = 0; i < 2; ++i)
         buffer_[i] = spu.template allocate<T>(kChunk);
   }
 
   void write(const T& record) {
-    if constexpr (Spu::direct_memory) {
+    if constexpr (kReadsInPlace<Spu>) {
       reinterpret_cast<T*>(static_cast<uintptr_t>(target_))[count_++] = record;
     } else {
       buffer_[current_][count_++ & (kChunk - 1)] = record;
@@ -77,7 +78,7 @@ public:
 
   /// Sends what is left and waits for all of it.
   void flush() {
-    if constexpr (!Spu::direct_memory) {
+    if constexpr (!kReadsInPlace<Spu>) {
       if ((count_ & (kChunk - 1)) != 0) send(count_ & (kChunk - 1));
       spu_.wait_all(3u << tag_);
     }

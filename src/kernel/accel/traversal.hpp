@@ -57,7 +57,7 @@ public:
 
   /// The same for shadow rays toward one light, at the point `light`.
   void intersect(RayQuery* queries, uint32_t count, const float (&light)[3]) {
-    if constexpr (Spu::direct_memory && kHasBvh) {
+    if constexpr (kHasBundleViews<Spu> && kHasBvh) {
       // Planes may leave packets without rays, which a bundle cannot have.
       if (uses_bvh() && frame_.unbounded_count == 0) {
         bvh_.intersect(queries, count, light);

@@ -21,22 +21,17 @@ struct CameraPicture {
   double bend = 0;   ///< of the record
 };
 
-/// Where the rays of a packet are on their camera's picture, and what becomes of them.
+/// Where the rays of a packet are on the picture of a curved camera, and what becomes of them.
 template <class S> struct CameraRays {
   V3<S> origin, direction; ///< of any length
-  typename S::F x, y;      ///< flat cameras: pixels. Curved ones: in the units of their CameraPicture
+  typename S::F x, y;      ///< from the middle, in the units of the CameraPicture
 };
 
-/// Of a curved camera: a vector of so much to the right, up and forward.
+/// A vector of so much to the right, up and forward.
 template <class S>
 V3<S> along_axes(const CameraRecord& camera, const typename S::F& right, const typename S::F& up,
                  const typename S::F& forward) {
   return splat3<S>(camera.dx) * right + splat3<S>(camera.dy) * up + splat3<S>(camera.base) * forward;
-}
-
-/// Of a flat camera.
-template <class S> V3<S> at_pixel(const CameraRecord& camera, const CameraRays<S>& rays) {
-  return splat3<S>(camera.base) + splat3<S>(camera.dx) * rays.x + splat3<S>(camera.dy) * rays.y;
 }
 
 } // namespace celltrace::kernel

@@ -3,11 +3,10 @@
 //
 // A kind C has
 //   kName
-//   kIsFlat       whether pixels are in a plane, evenly; these are always resident
-//   kShared       what all its rays have in common
-// and if it is flat
-//   aim(record, rays)     from the pixels, all of the rays
-// else
+//   kIsFlat       whether pixels are in a plane, evenly
+//   kShared       what all its rays have in common; if it is flat, origin or direction, and the plane gives
+//                 the other
+// and if it is not flat
 //   kHasUnitAxes          whether its axes are of unit length
 //   picture(view)         where its pixels are
 //   bend(record, rays)    from the places on the picture the directions, and the origins if they are not the

@@ -16,17 +16,23 @@ namespace module_cameras {
 
 /// The rays of a curved camera; returns the lanes that have one.
 template <class Spu>
-[[gnu::noinline]] uint32_t bend(Spu& spu, const CameraRecord& camera, CameraRays<typename Spu::simd>& rays) {
+[[gnu::noinline]] uint32_t bend(Spu& spu, const CameraRecord& camera, uint32_t column, uint32_t row,
+                                RayPacket& packet) {
   using S = typename Spu::simd;
   using F = typename S::F;
   spu.run_in_module(modules::kCameras);
-  rays.x = (rays.x - F(camera.middle_x)) * F(camera.step_x);
-  rays.y = (F(camera.middle_y) - rays.y) * F(camera.step_y);
+  CameraRays<S> rays;
   rays.origin = splat3<S>(camera.origin);
+  rays.x = (F::load(detail::kLaneX) + F(static_cast<float>(column * kPacketEdge) - camera.middle_x)) *
+           F(camera.step_x);
+  rays.y = (F(camera.middle_y - static_cast<float>(row * kPacketEdge)) - F::load(detail::kLaneY)) *
+           F(camera.step_y);
   uint32_t lanes = 0xFFFF;
   Cameras::dispatch(camera.kind, [&](auto kind) {
     if constexpr (!decltype(kind)::kIsFlat) lanes = decltype(kind)::template bend<S>(camera, rays);
   });
+  packet.origin.template store<S>(rays.origin);
+  packet.direction.template store<S>(normalise<S>(rays.direction));
   return lanes;
 }
 
@@ -40,26 +46,24 @@ uint32_t make_primary_rays(Spu& spu, const FrameBlock& frame, uint32_t column, u
   using S = typename Spu::simd;
   using F = typename S::F;
   const CameraRecord& camera = frame.camera;
-  CameraRays<S> rays;
-  rays.x = F::load(detail::kLaneX) + F(static_cast<float>(column * kPacketEdge));
-  rays.y = F::load(detail::kLaneY) + F(static_cast<float>(row * kPacketEdge));
-  uint32_t lanes = 0xFFFF;
-  bool flat = false;
+  for (uint32_t lane = 0; lane < kSimdLanes; ++lane)
+    packet.start_object.lane[lane] = kNoOffset;
+  bool flat = false, parallel = false;
   Cameras::dispatch(camera.kind, [&](auto kind) {
-    if constexpr (decltype(kind)::kIsFlat) {
-      flat = true;
-      decltype(kind)::template aim<S>(camera, rays);
-    }
+    flat = decltype(kind)::kIsFlat;
+    parallel = decltype(kind)::kShared == SharedByRays::direction;
   });
   if (!flat) {
     spu.enter_module(modules::kCameras);
-    lanes = module_cameras::bend(spu, camera, rays);
+    return module_cameras::bend(spu, camera, column, row, packet);
   }
-  packet.origin.template store<S>(rays.origin);
-  packet.direction.template store<S>(normalise<S>(rays.direction));
-  for (uint32_t lane = 0; lane < kSimdLanes; ++lane)
-    packet.start_object.lane[lane] = kNoOffset;
-  return lanes;
+  const F x = F::load(detail::kLaneX) + F(static_cast<float>(column * kPacketEdge));
+  const F y = F::load(detail::kLaneY) + F(static_cast<float>(row * kPacketEdge));
+  const V3<S> through = splat3<S>(camera.base) + splat3<S>(camera.dx) * x + splat3<S>(camera.dy) * y;
+  const V3<S> fixed = splat3<S>(camera.origin);
+  packet.origin.template store<S>(parallel ? through : fixed);
+  packet.direction.template store<S>(normalise<S>(parallel ? fixed : through));
+  return 0xFFFF;
 }
 
 /// The primary rays of a bundle of 4x4 packets, if they leave one point through a plane into one octant; else

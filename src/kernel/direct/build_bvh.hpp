@@ -4,6 +4,7 @@
 #include "kernel/accel/object_bounds.hpp"
 #include "kernel/direct/build_bvh_leaves.hpp"
 #include "kernel/direct/build_bvh_memory.hpp"
+#include "kernel/direct/door.hpp"
 
 namespace celltrace::kernel {
 
@@ -38,9 +39,7 @@ private:
   using TopBuilder = SubtreeBuilder<S, Treelets<S>>;
   using TreeletBuilder = SubtreeBuilder<S, Leaves<S>>;
   using F4 = typename S::F4;
-  /// Treelets that an SPE takes at a time. Larger: fewer atomic operations; smaller: a more even
-  /// distribution.
-  static constexpr uint32_t kBatch = 8;
+  static constexpr uint32_t kBatch = tuning::kTreeletsAtATime;
 
   /// Step 0: builds the top levels, which end at treelets.
   void build_top() {
@@ -285,7 +284,7 @@ private:
 /// All SPEs of a team call this at the same time. `team` provides its size(), the index() of this SPE, and a
 /// barrier wait(), which also makes the writes of all of them visible.
 template <class Spu, class Team> uint32_t build_bvh(Spu& spu, const FrameBlock& frame, Team&& team) {
-  static_assert(Spu::direct_memory, "the builder follows pointers to main memory");
+  static_assert(kBuildsBvh<Spu>, "the builder follows pointers to main memory");
   using Builder = bvh::Builder<Spu>;
   const uint32_t builders = team.size() < bvh::kMaxBuilders ? team.size() : bvh::kMaxBuilders;
   uint8_t* const marked = spu.mark();

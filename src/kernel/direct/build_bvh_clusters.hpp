@@ -4,6 +4,7 @@
 #pragma once
 
 #include "kernel/direct/build_bvh_bounds.hpp"
+#include "kernel/tuning.hpp"
 
 namespace celltrace::kernel::bvh {
 
@@ -12,7 +13,7 @@ constexpr uint32_t kChildren = 4;
 /// A cluster is a set of references. For so few of them the cost of every pair of clusters is kept.
 template <class S> class Clusters {
 public:
-  static constexpr uint32_t kMaxReferences = 8;
+  static constexpr uint32_t kMaxReferences = tuning::kMostClusteredReferences;
 
   /// Reorders the references of `range` by cluster, and describes the clusters. The range has more than
   /// kChildren references, and at most kMaxReferences.

@@ -4,10 +4,11 @@
 
 #include "celltrace/spe/simd.hpp"
 #include "kernel/direct/build_bvh_bounds.hpp"
+#include "kernel/tuning.hpp"
 
 namespace celltrace::kernel::bvh {
 
-constexpr uint32_t kFewReferences = 32;
+constexpr uint32_t kFewReferences = tuning::kFewReferences;
 
 /// The split plane of each lane. Of two with the same cost, that in the lower lane is taken.
 template <uint32_t kBins> struct CutLanes {

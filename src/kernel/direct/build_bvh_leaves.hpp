@@ -2,28 +2,21 @@
 #pragma once
 
 #include "kernel/direct/build_bvh_subtree.hpp"
+#include "kernel/tuning.hpp"
 
 namespace celltrace::kernel::bvh {
 
-/// When the objects of a range share a leaf. A triangle has weight 1.
-struct LeafRule {
-  uint32_t certain;      ///< up to this weight always
-  uint32_t most;         ///< above this weight never; between the two, the SAH decides
-  float cost;            ///< of testing an object of weight 1, relative to expanding a node
-  uint32_t other_weight; ///< the weight of an object that is no triangle
-};
+using tuning::LeafRule;
 /// The most objects in a leaf.
 constexpr uint32_t kMaxLeaf = 16;
 
-/// Wide leaves are for SPEs that test many triangles of a leaf at once. Larger: fewer nodes are built and
-/// expanded; smaller: fewer triangles are tested in vain. Narrow leaves are for tests one by one: up to three
-/// objects always share one, because they would not fill a node. In copied treelets four do: a node for them
-/// would take memory in every copy, and rays would wait for it longer than the tests take. All numbers are
-/// measured.
 inline LeafRule leaf_rule(bool wide, bool copied) {
-  if (wide) return {12, 32, 0.5f, 4};
-  return {copied ? kChildren : kChildren - 1, 8, 2.0f, 1};
+  if (wide) return tuning::kWideLeaves;
+  return copied ? tuning::kCopiedLeaves : tuning::kNarrowLeaves;
 }
+static_assert(tuning::kNarrowLeaves.certain >= kChildren - 1 &&
+                  tuning::kCopiedLeaves.certain >= kChildren - 1,
+              "fewer objects do not fill a node");
 
 /// The ends of a SubtreeBuilder over objects. The list of a leaf has the same place in the BVH's list as its
 /// range has in the references.

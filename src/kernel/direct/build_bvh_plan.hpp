@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernel/records.hpp"
+#include "kernel/tuning.hpp"
 
 #include <stdint.h>
 
@@ -14,7 +15,7 @@ constexpr uint32_t kSteps = 3;
 
 /// A treelet is a subtree that is built by one SPE. It has at most this many objects, unless these are in
 /// fewer than four groups.
-constexpr uint32_t kTreeletObjects = 64;
+constexpr uint32_t kTreeletObjects = tuning::kTreeletObjects;
 /// References that fit into local store.
 constexpr uint32_t kLocalReferences = 768;
 

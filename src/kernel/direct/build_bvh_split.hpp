@@ -22,9 +22,7 @@ template <class S> LaneAabb<S> centres_of(const Reference* references, const Ran
   return centres;
 }
 
-/// Bins on each axis for ranges of at most kFewReferences: their nine split planes fit the lanes of a
-/// register.
-constexpr uint32_t kFewBins = 4;
+constexpr uint32_t kFewBins = tuning::kFewBins;
 
 /// Splits ranges with `kBins` bins on each axis, a power of two.
 template <class S, uint32_t kBins> class BinnedSplitter {
@@ -179,12 +177,12 @@ private:
   }
 };
 
-/// Splits a range. More bins find better splits but cost more, which pays only for many references.
+/// Splits a range.
 template <class S>
 void split_range(Reference* references, Reference* spare, const Range<S>& range, Range<S>& left,
                  Range<S>& right) {
   if (range.count() > kFewReferences)
-    BinnedSplitter<S, 8>::split(references, spare, range, left, right);
+    BinnedSplitter<S, tuning::kManyBins>::split(references, spare, range, left, right);
   else
     BinnedSplitter<S, kFewBins>::split(references, spare, range, left, right);
 }

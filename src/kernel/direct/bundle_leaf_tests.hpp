@@ -2,9 +2,10 @@
 // several leaves together. Kernel dialect.
 #pragma once
 
-#include "kernel/direct/edge_function_triangles.hpp"
 #include "kernel/direct/leaf_triangles.hpp"
+#include "kernel/direct/pinhole_triangles.hpp"
 #include "kernel/direct/pluecker_triangles.hpp"
+#include "kernel/direct/triangle_culling.hpp"
 
 namespace celltrace::kernel {
 
@@ -48,7 +49,7 @@ public:
   /// changed.
   uint32_t test(RayQuery* queries, const BundleView<S>& view) {
     const TriangleSides<S> sides = triangles_.sides();
-    const EdgeFunctionTriangles<S> edge_functions(sides, view);
+    const TriangleCulling<S> culling(sides, view);
     // Packets are culled for all triangles before the first test: no triangle waits for the tests of another.
     Pairs pairs;
     const uint32_t count = triangles_.count();
@@ -57,7 +58,7 @@ public:
       uint64_t& word = pairs.word[first / kTrianglesPerWord];
       word = 0;
       for (uint32_t i = first; i < count && i < first + kTrianglesPerWord; ++i) {
-        const uint32_t packets = packets_of_[i] & edge_functions.seen_by(i, view);
+        const uint32_t packets = packets_of_[i] & culling.seen_by(i, view);
         changed |= packets;
         word |= static_cast<uint64_t>(packets) << (i % kTrianglesPerWord * kSimdLanes);
       }
@@ -66,7 +67,7 @@ public:
       if (is_shadow_query(queries, changed))
         test_shadows(queries, sides, *view.moments, pairs);
       else
-        keep_closest(queries, edge_functions, view, pairs);
+        keep_closest(queries, sides, view, pairs);
     }
     triangles_.clear();
     return changed;
@@ -99,13 +100,13 @@ private:
     return queries[__builtin_ctz(packets)].hits == nullptr;
   }
 
-  [[gnu::always_inline]] void keep_closest(const RayQuery* queries,
-                                           const EdgeFunctionTriangles<S>& edge_functions,
+  [[gnu::always_inline]] void keep_closest(const RayQuery* queries, const TriangleSides<S>& sides,
                                            const BundleView<S>& view, const Pairs& pairs) {
+    const PinholeTriangles<S> triangles(sides, view.origin);
     for_each_pair(pairs, [&](uint32_t i, uint32_t packet) {
       const RayQuery& query = queries[packet];
-      const V3<S> direction = view.mapped(query.rays->direction);
-      Tests::keep_closest(edge_functions.crossed(i, direction), triangles_.offset(i), *query.hits);
+      const V3<S> direction = query.rays->direction.template load<S>();
+      Tests::keep_closest(triangles.crossed(i, direction), triangles_.offset(i), *query.hits);
     });
   }
 

@@ -53,10 +53,6 @@ template <class S> struct BundleView {
     v.z = v.z - F(depth_offset);
     return v;
   }
-  /// Maps directions, if coordinates are relative to the common point.
-  V3<S> mapped(const VectorLanes& v) const {
-    return {F::load(v[axes[0]].lane), F::load(v[axes[1]].lane), F::load(v[axes[2]].lane) * F(forth)};
-  }
 };
 
 /// Packets whose rays all pass through one point and have directions of one octant.

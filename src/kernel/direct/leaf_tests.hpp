@@ -13,12 +13,6 @@ public:
   using M = typename S::M;
   using Tests = ObjectTests<Spu>;
 
-  /// A leaf is tested like this with at most so many rays and at least so many triangles. More rays would
-  /// need more passes, and fewer triangles would leave lanes empty: then each triangle is tested against all
-  /// rays at once. Measured.
-  static constexpr int kMostRays = 4;
-  static constexpr uint32_t kLeastTriangles = 4;
-
   explicit LeafTests(Tests& tests) : tests_(tests) {}
 
   /// Tests the objects of a leaf against `rays` of a packet.
@@ -45,7 +39,6 @@ public:
     tests_.counters().tests[static_cast<uint32_t>(ObjectKind::triangle)] += triangles.count();
   }
 
-private:
   /// The crossings of one ray with the triangles in all lanes.
   static Crossings<S> crossed(const RayPacket& rays, uint32_t lane, const TriangleSides<S>& sides,
                               const LeafTriangles<S>& triangles) {
@@ -55,12 +48,6 @@ private:
     const I start = I::splat(static_cast<int32_t>(rays.start_object.lane[lane]));
     const M starts_here = I::load(reinterpret_cast<const int32_t*>(triangles.offsets().lane)) == start;
     return SeenTriangle<S>(of_ray(rays.origin), sides).crossed(of_ray(rays.direction), starts_here);
-  }
-
-  static void occlude(const Crossings<S>& c, uint32_t triangles, uint32_t lane, RayQuery& query) {
-    const F low(Tests::kShadowEpsilon);
-    const M occluding = c.near_hit & (c.near > low) & (c.near < F(query.distance->lane[lane]) - low);
-    if ((occluding.bits() & triangles) != 0) query.lanes &= ~(1u << lane);
   }
 
   /// As ObjectTests::keep_closest(), with the triangles in lanes and a single ray.
@@ -83,6 +70,13 @@ private:
       hits.v.lane[lane] = v.lane[i];
       hits.object.lane[lane] = triangles.offset(i);
     });
+  }
+
+private:
+  static void occlude(const Crossings<S>& c, uint32_t triangles, uint32_t lane, RayQuery& query) {
+    const F low(Tests::kShadowEpsilon);
+    const M occluding = c.near_hit & (c.near > low) & (c.near < F(query.distance->lane[lane]) - low);
+    if ((occluding.bits() & triangles) != 0) query.lanes &= ~(1u << lane);
   }
 
   Tests& tests_;

@@ -63,9 +63,8 @@ collect_triangles(SceneAccess<Spu>& scene, const NodeRef& leaf, bool shadows,
   scene.for_each_object(leaf, [&](uint32_t self) {
     const ObjectRecord& object = *scene.object(self);
     const uint32_t flags = object.kind_and_flags;
-    const bool fits = shadows
-                          ? ObjectTests<Spu>::is_opaque_triangle(flags)
-                          : ObjectTests<Spu>::is_plain_triangle(flags);
+    const bool fits =
+        shadows ? ObjectTests<Spu>::is_opaque_triangle(flags) : ObjectTests<Spu>::is_plain_triangle(flags);
     if (fits && triangles.count() < LeafTriangles<typename Spu::simd>::kMost)
       triangles.add(self, object);
     else

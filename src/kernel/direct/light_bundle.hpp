@@ -85,7 +85,8 @@ private:
       set_lane(slopes.high, packet, highs_[i]);
       extents[i] = packets == 0 ? slopes : united(slopes, slopes_[i]);
     }
-    if (extents[0].high - extents[0].low + extents[1].high - extents[1].low > kMaxDirectionSpread) return;
+    if (extents[0].high - extents[0].low + extents[1].high - extents[1].low > tuning::kMaxDirectionSpread)
+      return;
     spread_count_ += spread >= kLeastSpread ? 1 : 0;
     slopes_[0] = extents[0];
     slopes_[1] = extents[1];

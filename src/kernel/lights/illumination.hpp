@@ -9,14 +9,11 @@
 
 namespace celltrace::kernel {
 
-/// All there are.
-constexpr uint32_t kAllLights = 0xFFFFFFFFu;
-
-/// Calls `visit(number, light)` for the frame's lights, the first `most` of them.
+/// Calls `visit(number, light)` for lights [first, first + count) of the frame.
 template <class Spu, class Visit>
-void for_each_light(SceneAccess<Spu>& scene, const FrameBlock& frame, uint32_t most, Visit visit) {
-  const uint32_t lights = frame.light_count < most ? frame.light_count : most;
-  for (uint32_t i = 0; i < lights; ++i) {
+void for_each_light(SceneAccess<Spu>& scene, const FrameBlock& frame, uint32_t first, uint32_t count,
+                    Visit visit) {
+  for (uint32_t i = first; i < first + count; ++i) {
     // A copy: the next read may replace the record.
     const LightRecord light =
         *scene.light(frame.light_offset + i * static_cast<uint32_t>(sizeof(LightRecord)));

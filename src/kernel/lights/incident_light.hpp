@@ -25,7 +25,7 @@ template <class S> struct IncidentLight {
   /// After the direction has been set.
   void face(const Surfaces<S>& s, uint32_t lanes) {
     cosine = dot<S>(direction, s.normal);
-    facing = (cosine >= typename S::F(1e-10f)).bits() & lanes;
+    facing = ((cosine >= typename S::F(1e-10f)).bits() | s.any_side) & lanes;
   }
 };
 

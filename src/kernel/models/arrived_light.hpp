@@ -4,6 +4,7 @@
 
 #include "kernel/lights/area_shadow.hpp"
 #include "kernel/models/search_record.hpp"
+#include "kernel/shading/lighting.hpp"
 
 namespace celltrace::kernel::models {
 
@@ -38,6 +39,9 @@ public:
 
   ArrivedLight(Spu& spu, const FrameBlock& frame) : spu_(spu), area_(allocate_area_shadow(spu, frame)) {}
 
+  /// Whether some lights of the frame have areas.
+  bool has_areas() const { return area_ != nullptr; }
+
   /// Answers to `searches` searches, the first of which `block` holds already. More are fetched under `tag`.
   void arrive(ea_t first_search, uint32_t searches, AnswerBlock& block, uint32_t tag) {
     first_search_ = first_search;
@@ -48,22 +52,39 @@ public:
     cursor_ = 0;
   }
 
-  /// As Intersector's.
-  uint32_t transmittance(const LightRecord& source, const Surfaces<S>& surfaces,
-                         const IncidentLight<S>& incident, uint32_t number, VectorLanes& light) {
-    // Lights come in order, and from the beginning again for each of a face's materials.
-    while (answer(cursor_).number != number)
-      cursor_ = cursor_ + 1 == searches_ ? 0 : cursor_ + 1;
-    if (has_area(source)) {
-      // All its places were asked for, row by row.
-      const uint32_t first = cursor_;
-      cursor_ += source.columns * source.rows - 1;
-      return sample_area(spu_, source, surfaces, incident, *area_, light, [&](AreaShadow<S>& shadow) {
-        shadow.light = answer(first + shadow.place.row * source.columns + shadow.place.column).light.colour;
-      });
+  /// No light was asked for.
+  void arrive_nothing() { searches_ = cursor_ = 0; }
+
+  /// Puts what has arrived from the `count` lights from `first` on where it belongs. Lights come in order; of
+  /// those that no surface faces nothing was asked.
+  void take(uint32_t first, uint32_t count, VectorLanes* colours) {
+    for (; cursor_ < searches_; ++cursor_) {
+      const AnsweredSearch& next = answer(cursor_);
+      if (next.number >= first + count) return;
+      colours[next.number - first] = next.light.colour;
     }
-    light = answer(cursor_).light.colour;
-    return static_cast<uint32_t>(__builtin_popcount(incident.facing));
+  }
+  /// The same in a frame some of whose lights have areas, for the surfaces of `lanes` that they were asked
+  /// for. Returns how many rays a sampling of these lights would have traced.
+  uint32_t take(SceneAccess<Spu>& scene, const FrameBlock& frame, const LightRound& round,
+                const Surfaces<S>& surfaces, uint32_t lanes, VectorLanes* colours) {
+    uint32_t rays = 0;
+    for_each_light(scene, frame, round.first, round.count, [&](uint32_t number, const LightRecord& light) {
+      if (cursor_ == searches_ || answer(cursor_).number != number) return;
+      VectorLanes& colour = colours[number - round.first];
+      if (!has_area(light)) {
+        colour = answer(cursor_++).light.colour;
+        return;
+      }
+      IncidentLight<S> incident(light.colour);
+      illuminate(spu_, light, surfaces, lanes, incident);
+      // All its places were asked for, row by row.
+      rays += sample_area(spu_, light, surfaces, incident, *area_, colour, [&](AreaShadow<S>& shadow) {
+        shadow.light = answer(cursor_ + shadow.place.row * light.columns + shadow.place.column).light.colour;
+      });
+      cursor_ += light.columns * light.rows;
+    });
+    return rays;
   }
 
 private:

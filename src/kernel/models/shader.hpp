@@ -52,12 +52,12 @@ private:
   /// What a context waits for.
   enum class Awaits : uint32_t { packet, hits, light };
 
-  using Tracer = RayTracer<Spu, ArrivedLight<Spu>, kResident>;
+  using Tracer = RayTracer<Spu, kResident>;
 
   struct Context {
     Context(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, ea_t spill, uint32_t spill_nodes,
-            ArrivedLight<Spu>& light, RayNode& scratch)
-        : tracer(spu, frame, scene, spill, spill_nodes, light, scratch) {}
+            RayNode& scratch)
+        : tracer(spu, frame, scene, spill, spill_nodes, scratch) {}
 
     Tracer tracer;
     HitPoints<S> points;
@@ -86,8 +86,7 @@ private:
       if (placed_ != 0 && spu_.available() < bytes + kLineBytes) return;
       const ea_t spill = orders_.ray_stack + static_cast<ea_t>(context * orders_.stack_nodes) * kRayNodeBytes;
       void* const storage = spu_.template allocate<ContextStorage>();
-      contexts_[context] =
-          new (storage) Context(spu_, frame_, scene_, spill, orders_.stack_nodes, light_, scratch_);
+      contexts_[context] = new (storage) Context(spu_, frame_, scene_, spill, orders_.stack_nodes, scratch_);
       placed_ |= 1u << context;
     }
   }
@@ -162,7 +161,9 @@ private:
       return;
     }
     find_hit_points(scene_, context.tracer.node().rays, hits, context.hit, context.points);
-    if (!ask_for_light(number)) shade(number);
+    if (ask_for_light(number)) return;
+    light_.arrive_nothing();
+    shade(number);
   }
 
   /// Sends a shadow search for every light that some of the surfaces face; false if there is none.
@@ -170,10 +171,9 @@ private:
     Context& context = *contexts_[number];
     const RayPacket& rays = context.tracer.node().rays;
     const WordLanes& objects = context.tracer.hits().object;
-    const Surfaces<S> surfaces = {context.points.point, context.points.normal,
-                                  rays.direction.template load<S>(), &objects};
+    const Surfaces<S> surfaces = context.points.lit_surfaces(rays.direction.template load<S>(), objects);
     writer_.begin(number);
-    for_each_light(scene_, frame_, kAllLights, [&](uint32_t i, const LightRecord& light) {
+    for_each_light(scene_, frame_, 0, frame_.light_count, [&](uint32_t i, const LightRecord& light) {
       if (is_shadowless(light)) return;
       IncidentLight<S> incident(light.colour);
       illuminate(spu_, light, surfaces, context.hit, incident);
@@ -211,8 +211,22 @@ private:
 
   void shade(uint32_t number) {
     Context& context = *contexts_[number];
-    context.tracer.shade_hits(context.points, context.hit);
+    for (LightRound round = LightRound::from(frame_, 0, colours_);;
+         round = LightRound::from(frame_, round.next(), colours_)) {
+      take_light(context, round);
+      context.tracer.shade_hits(context.points, context.hit, round);
+      if (round.next() == frame_.light_count) break;
+    }
     go_on(number);
+  }
+
+  void take_light(Context& context, const LightRound& round) {
+    if (!light_.has_areas()) return light_.take(round.first, round.count, colours_);
+    const RayPacket& rays = context.tracer.node().rays;
+    const WordLanes& objects = context.tracer.hits().object;
+    const Surfaces<S> surfaces = context.points.lit_surfaces(rays.direction.template load<S>(), objects);
+    context.tracer.count_shadow_rays(
+        light_.take(scene_, frame_, round, surfaces, context.hit, colours_));
   }
 
   /// To the next node of the tree, or the next packet.
@@ -273,6 +287,7 @@ private:
   SearchWriter<Spu> writer_;
   PixelWriter<Spu> pixels_;
   ArrivedLight<Spu> light_;
+  VectorLanes colours_[kLightsARound];
   RayNode& scratch_;
   Arrival* arrivals_;
   uint32_t current_ = 0;

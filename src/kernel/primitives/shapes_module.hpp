@@ -97,15 +97,9 @@ template <class Spu>
 
 } // namespace module_shapes
 
-namespace module_normals {
-
 /// The unit normals of shapes in a space of their own, at points of their surfaces: the gradient there is
 /// transformed by the transposed map.
-template <class Spu>
-[[gnu::noinline]] V3<typename Spu::simd> normal(Spu& spu, const ObjectLanes<typename Spu::simd>& o,
-                                                const V3<typename Spu::simd>& point) {
-  using S = typename Spu::simd;
-  spu.run_in_module(modules::kNormals);
+template <class S> [[gnu::noinline]] V3<S> local_normal(const ObjectLanes<S>& o, const V3<S>& point) {
   // Three rows of four.
   const V3<S>* const g = o.geometry;
   const V3<S> rows[3] = {{g[0].x, g[0].y, g[0].z}, {g[1].y, g[1].z, g[2].x}, {g[2].z, g[3].x, g[3].y}};
@@ -123,7 +117,5 @@ template <class Spu>
   });
   return normalise<S>(rows[0] * gradient.x + rows[1] * gradient.y + rows[2] * gradient.z);
 }
-
-} // namespace module_normals
 
 } // namespace celltrace::kernel

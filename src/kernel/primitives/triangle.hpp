@@ -29,10 +29,18 @@ template <class S> struct TriangleSides {
   }
 };
 
-/// A triangle as seen from the origins of a packet's rays; what packets of one origin have in common.
-///
 /// Neighbours overlap by what the rounding of the barycentric coordinates may amount to, so that no ray slips
 /// between them: that grows with the distance over the triangle's size, and as the ray gets parallel to it.
+/// Returns this overlap, times the determinant.
+template <class S>
+[[gnu::always_inline]] inline typename S::F triangle_overlap(const V3<S>& from_v0, const V3<S>& edge1,
+                                                             const V3<S>& edge2) {
+  using F = typename S::F;
+  const F size = S::max(absolute_sum<S>(edge1), absolute_sum<S>(edge2));
+  return absolute_sum<S>(from_v0) * (F(detail::kUnitInLastPlace) * size);
+}
+
+/// A triangle as seen from the origins of a packet's rays; what packets of one origin have in common.
 template <class S> class SeenTriangle {
 public:
   using F = typename S::F;
@@ -42,8 +50,7 @@ public:
     from_v0_ = origin - sides.v0;
     q_ = cross<S>(from_v0_, edge1_);
     distance_ = dot<S>(edge2_, q_);
-    const F size = S::max(absolute_sum<S>(edge1_), absolute_sum<S>(edge2_));
-    overlap_ = absolute_sum<S>(from_v0_) * (F(detail::kUnitInLastPlace) * size);
+    overlap_ = triangle_overlap<S>(from_v0_, edge1_, edge2_);
   }
 
   /// By rays of these directions.

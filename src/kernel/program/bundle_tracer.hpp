@@ -2,7 +2,9 @@
 // together; from there on each packet's tree of rays is worked off by itself. Kernel dialect.
 #pragma once
 
+#include "kernel/accel/traversal.hpp"
 #include "kernel/cameras/primary_rays.hpp"
+#include "kernel/lights/area_shadow.hpp"
 #include "kernel/shading/ray_tracer.hpp"
 
 namespace celltrace::kernel {
@@ -11,55 +13,60 @@ template <class Spu, uint32_t kAccelerators = kAnyAccelerator> class BundleTrace
 public:
   using S = typename Spu::simd;
   using F = typename S::F;
-  using Rays = RayTracer<Spu, Intersector<Spu, kAccelerators>>;
 
-  BundleTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, Rays& tracer)
-      : frame_(frame), scene_(scene), tracer_(tracer), members_(spu.template allocate<Member>(kPackets)) {}
+  /// `spill`: room for FrameBlock::ray_stack_nodes nodes.
+  BundleTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, ea_t spill)
+      : frame_(frame), scene_(scene), traversal_(scene, frame),
+        tracer_(spu, frame, scene, spill, frame.ray_stack_nodes, *spu.template allocate<RayNode>()),
+        members_(spu.template allocate<Member>(kPackets)), area_(allocate_area_shadow(spu, frame)) {}
 
   /// Calls `put(column, row, colours)` for each packet in the picture of the bundle at (column, row); that
   /// counts bundles, `put` packets. Or `fill(column, row, colour)` where all of the bundle has one colour and
   /// is in the picture.
   template <class Put, class Fill>
   void trace(uint32_t column, uint32_t row, Put put, [[maybe_unused]] Fill fill) {
-    if constexpr (Spu::direct_memory) {
+    if constexpr (kHasBundleViews<Spu>) {
       const PinholeBundle<S> bundle(frame_, column, row);
-      const bool missed = !tracer_.intersector().traversal().enter(bundle);
-      if (missed && is_whole(column, row))
+      const bool missed = !traversal_.enter(bundle);
+      const bool plain = frame_.sky == kNoOffset;
+      if (missed && plain && is_whole(column, row))
         return fill(column * kEdge, row * kEdge, tracer_.background(kPackets * kSimdLanes));
       place(column, row);
       if (missed)
-        return for_each_member([&](const Member& member) {
-          const auto rays = static_cast<uint32_t>(__builtin_popcount(member.lanes));
-          put(member.column, member.row, tracer_.background(rays));
+        return for_each_member([&](Member& member) {
+          if (!plain) make_primary_rays(scene_.spu(), frame_, member.column, member.row, member.rays);
+          put(member.column, member.row, tracer_.background(member.rays, member.lanes));
         });
-      find_hits([&](RayQuery* queries) { tracer_.intersector().traversal().intersect(queries, bundle); });
+      find_hits([&](RayQuery* queries) { traversal_.intersect(queries, bundle); });
     } else {
       place(column, row);
-      find_hits([&](RayQuery* queries) { tracer_.intersector().traversal().intersect(queries, kPackets); });
+      find_hits([&](RayQuery* queries) { traversal_.intersect(queries, kPackets); });
     }
-    uint32_t lights = 0;
-    for_each_light(scene_, frame_, kKnownLights, [&](uint32_t number, const LightRecord& light) {
-      // One with an area each packet asks by itself, too.
-      if (is_shadowless(light) || has_area(light)) return;
-      find_light(number, light);
-      lights |= 1u << number;
+    const LightRound lights = LightRound::from(frame_, 0, nullptr);
+    for_each_light(scene_, frame_, 0, lights.count, [&](uint32_t number, const LightRecord& light) {
+      if (!is_shadowless(light)) find_light(number, light);
     });
     for_each_member([&](Member& member) {
-      tracer_.intersector().know_light(member.light, lights);
-      V3<S> seen = tracer_.trace(member.rays, member.lanes, member.hits, member.points);
+      V3<S> seen = trace(member);
       if (member.lanes != member.pixels) {
-        const V3<S> black = {F(0.0f), F(0.0f), F(0.0f)};
-        seen = select<S>(S::M::from_bits(member.lanes), seen, black);
+        const F black(0.0f);
+        seen = select<S>(S::M::from_bits(member.lanes), seen, {black, black, black});
       }
       put(member.column, member.row, seen);
     });
   }
 
+  void reset_counters() {
+    tracer_.reset_counters();
+    traversal_.reset_counters();
+  }
+  const RayCounters& ray_counters() const { return tracer_.counters(); }
+  const TraversalCounters& traversal_counters() const { return traversal_.counters(); }
+  uint32_t spilled_nodes() const { return tracer_.spilled_nodes(); }
+
 private:
   static constexpr uint32_t kEdge = kBundleEdge<Spu>;
   static constexpr uint32_t kPackets = kBundlePackets<Spu>;
-  /// Of further lights each packet asks by itself.
-  static constexpr uint32_t kKnownLights = 4;
 
   struct Member {
     RayPacket rays;
@@ -67,7 +74,7 @@ private:
     HitPoints<S> points;
     RayPacket shadow_rays; ///< toward the light that is asked of
     FloatLanes distance;
-    VectorLanes light[kKnownLights]; ///< that comes to the points
+    VectorLanes light[kLightsARound]; ///< that comes to the points, of a round
     uint32_t column, row;
     uint32_t pixels;     ///< lanes in the picture
     uint32_t lanes, hit; ///< of them, those that have a ray; of these, those that hit something
@@ -118,11 +125,15 @@ private:
       Member& member = members_[i];
       if (member.hit == 0) continue;
       scene_.spu().compute(scalar_work::kBundleLight);
-      const Surfaces<S> surfaces = {member.points.point, member.points.normal,
-                                    member.rays.direction.template load<S>(), &member.hits.object};
+      const Surfaces<S> surfaces =
+          member.points.lit_surfaces(member.rays.direction.template load<S>(), member.hits.object);
       IncidentLight<S> incident(light.colour);
       illuminate(scene_.spu(), light, surfaces, member.hit, incident);
       if (incident.facing == 0) continue;
+      if (has_area(light)) {
+        look_at_area(light, surfaces, incident, member.light[number]);
+        continue;
+      }
       make_shadow_rays(surfaces, incident, member.shadow_rays, member.distance);
       member.light[number].template store<S>(incident.colour);
       queries[asked++] = {&member.shadow_rays, nullptr, &member.distance, &member.light[number],
@@ -130,15 +141,74 @@ private:
     }
     if (asked == 0) return;
     if (is_parallel(light))
-      tracer_.intersector().traversal().intersect(queries, asked);
+      traversal_.intersect(queries, asked);
     else
-      tracer_.intersector().traversal().intersect(queries, asked, light.location);
+      traversal_.intersect(queries, asked, light.location);
+  }
+
+  /// The colours of a packet, of which the hits are known and the light of the first round.
+  V3<S> trace(Member& member) {
+    const LightRound first = LightRound::from(frame_, 0, member.light);
+    if constexpr (kHasRoomForCode<Spu>) {
+      V3<S> colour;
+      if (tracer_.ends_at_once(member.rays, member.lanes, member.hits, member.points, first, colour))
+        return colour;
+    }
+    tracer_.begin(member.rays, member.lanes);
+    tracer_.hits() = member.hits;
+    for (bool is_first = true;; is_first = false) {
+      const uint32_t hit = tracer_.take_hits();
+      if (hit != 0) {
+        const RayNode& node = tracer_.node();
+        if (!is_first) {
+          find_hit_points(scene_, node.rays, tracer_.hits(), hit, member.points);
+          light_packet(member, hit, first);
+        }
+        tracer_.shade_hits(member.points, hit, first);
+        for (LightRound round = first; round.next() < frame_.light_count;) {
+          round = LightRound::from(frame_, round.next(), member.light);
+          light_packet(member, hit, round);
+          tracer_.shade_hits(member.points, hit, round);
+        }
+      }
+      if (!tracer_.advance()) return tracer_.light();
+      traversal_.find_closest(tracer_.node().rays, tracer_.node().lanes, tracer_.hits());
+    }
+  }
+
+  /// The light of a round at the hits of the node that is being traced.
+  [[gnu::noinline]] void light_packet(Member& member, uint32_t hit, const LightRound& round) {
+    const Surfaces<S> surfaces =
+        member.points.lit_surfaces(tracer_.node().rays.direction.template load<S>(), tracer_.hits().object);
+    for_each_light(scene_, frame_, round.first, round.count, [&](uint32_t number, const LightRecord& light) {
+      if (is_shadowless(light)) return;
+      IncidentLight<S> incident(light.colour);
+      illuminate(scene_.spu(), light, surfaces, hit, incident);
+      if (incident.facing == 0) return;
+      VectorLanes& colour = member.light[number - round.first];
+      if (has_area(light)) return look_at_area(light, surfaces, incident, colour);
+      make_shadow_rays(surfaces, incident, member.shadow_rays, member.distance);
+      colour.template store<S>(incident.colour);
+      traversal_.transmittance(member.shadow_rays, incident.facing, member.distance, colour);
+    });
+  }
+
+  /// The light of an area, whose places each packet asks by itself. Not inlined: few scenes have such lights.
+  [[gnu::noinline]] void look_at_area(const LightRecord& light, const Surfaces<S>& surfaces,
+                                      const IncidentLight<S>& incident, VectorLanes& colour) {
+    const auto look = [&](AreaShadow<S>& shadow) {
+      scene_.spu().compute(scalar_work::kBundleLight);
+      traversal_.transmittance(shadow.rays, shadow.lanes, shadow.distance, shadow.light);
+    };
+    tracer_.count_shadow_rays(sample_area(scene_.spu(), light, surfaces, incident, *area_, colour, look));
   }
 
   const FrameBlock& frame_;
   SceneAccess<Spu>& scene_;
-  Rays& tracer_;
+  Traversal<Spu, kAccelerators> traversal_;
+  RayTracer<Spu> tracer_;
   Member* members_;
+  AreaShadow<S>* area_; ///< null if no light has an area
 };
 
 } // namespace celltrace::kernel

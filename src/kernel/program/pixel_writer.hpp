@@ -88,7 +88,7 @@ private:
       spu_.wait_all(1u << (kFirstTag + current_));
       column_ = column;
       row_ = row;
-      if constexpr (Spu::direct_memory) claim_run();
+      if constexpr (kPrefetchesLines<Spu>) claim_run();
     }
     return runs_[current_];
   }

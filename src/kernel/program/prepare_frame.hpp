@@ -26,7 +26,7 @@ template <class Spu> PrepareResult take_step(Spu& spu, const FrameBlock& frame) 
 /// is not direct, the PPE's side has it built elsewhere, and nothing is left to do here.
 template <class Spu, uint32_t kAccelerators = kAnyAccelerator>
 PrepareResult prepare_frame(Spu& spu, const FrameBlock& frame) {
-  if constexpr (Spu::direct_memory && (kAccelerators & kBvhOnly) != 0) {
+  if constexpr (kBuildsBvh<Spu> && (kAccelerators & kBvhOnly) != 0) {
     if (static_cast<AcceleratorKind>(frame.accelerator) == AcceleratorKind::bvh) {
       if (frame.prepare_spes != 0) return detail::take_step(spu, frame);
       return {build_bvh(spu, frame), true};

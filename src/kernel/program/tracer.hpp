@@ -47,13 +47,12 @@ private:
   struct Phase {
     Phase(Spu& spu, const FrameBlock& frame, const CacheConfig& config)
         : image(frame.image), ray_stack(frame.ray_stack), scene(spu, config, frame.image),
-          tracer(spu, frame, scene,
-                 frame.ray_stack + static_cast<ea_t>(spu.id() * frame.ray_stack_nodes) * kRayNodeBytes),
-          bundles(spu, frame, scene, tracer), pixels(spu, frame) {}
+          bundles(spu, frame, scene,
+                  frame.ray_stack + static_cast<ea_t>(spu.id() * frame.ray_stack_nodes) * kRayNodeBytes),
+          pixels(spu, frame) {}
 
     ea_t image, ray_stack;
     SceneAccess<Spu> scene;
-    typename BundleTracer<Spu, kAccelerators>::Rays tracer;
     BundleTracer<Spu, kAccelerators> bundles;
     PixelWriter<Spu, kBundleEdge<Spu>> pixels;
   };
@@ -98,7 +97,7 @@ private:
       start_phase();
     }
     phase_->scene.cache().reset_counters();
-    phase_->tracer.reset_counters();
+    phase_->bundles.reset_counters();
     fetch(&strip_, frame_.strips + spu_.id() * sizeof(StripRecord), sizeof(StripRecord));
     const uint32_t start = spu_.read_decrementer();
     uint32_t idle = 0;
@@ -172,13 +171,13 @@ private:
 
   void report(uint32_t busy_ticks) {
     report_ = ReportRecord();
-    const RayCounters& rays = phase_->tracer.counters();
+    const RayCounters& rays = phase_->bundles.ray_counters();
     report_.primary_rays = rays.primary;
     report_.shadow_rays = rays.shadow;
     report_.reflection_rays = rays.reflection;
     report_.refraction_rays = rays.refraction;
     report_.dropped_rays = rays.dropped;
-    const TraversalCounters& traversal = phase_->tracer.traversal_counters();
+    const TraversalCounters& traversal = phase_->bundles.traversal_counters();
     for (uint32_t kind = 0; kind < kPrimitives; ++kind)
       report_.tests[kind] = traversal.tests[kind];
     report_.accelerator_visits = traversal.visits;
@@ -191,7 +190,7 @@ private:
     report_.exchanges = exchange_.exchanges();
     report_.units_received = exchange_.units_received();
     report_.busy_ticks = busy_ticks;
-    report_.spilled_nodes = phase_->tracer.spilled_nodes();
+    report_.spilled_nodes = phase_->bundles.spilled_nodes();
     send_report();
   }
 
@@ -216,7 +215,7 @@ private:
 
 /// Finds objects by a BVH; where memory is direct and code takes no local store, by what the frame asks for.
 template <class Spu> void tracer(Spu& spu, ea_t argument) {
-  Tracer<Spu, Spu::direct_memory ? kAnyAccelerator : kBvhOnly>(spu, argument).run();
+  Tracer<Spu, kHasRoomForCode<Spu> ? kAnyAccelerator : kBvhOnly>(spu, argument).run();
 }
 /// By a uniform grid, which it also builds.
 template <class Spu> void grid_tracer(Spu& spu, ea_t argument) {

@@ -4,6 +4,7 @@
 #include "kernel/primitives/shapes_module.hpp"
 #include "kernel/scalar_work.hpp"
 #include "kernel/scene_access.hpp"
+#include "kernel/shading/surfaces.hpp"
 
 namespace celltrace::kernel {
 
@@ -13,6 +14,19 @@ template <class S> struct HitPoints {
   WordLanes material; ///< offset of a MaterialRecord, or of a BlendRecord in lanes of `blended`
   WordLanes interior;
   uint32_t blended = 0;
+  uint32_t textured = 0;  ///< lanes some of whose materials are not the constants of their records alone
+  uint32_t disturbed = 0; ///< of them, those some of whose materials disturb normals
+
+  uint32_t plain(uint32_t lanes) const { return lanes & ~(blended | textured); }
+
+  /// As rays along `direction` see them that hit `objects`.
+  Surfaces<S> surfaces(const V3<S>& direction, const WordLanes& objects) const {
+    return {point, normal, direction, &objects, 0};
+  }
+  /// The same for lights whose shadow rays are asked for before normals are disturbed.
+  Surfaces<S> lit_surfaces(const V3<S>& direction, const WordLanes& objects) const {
+    return {point, normal, direction, &objects, disturbed};
+  }
 };
 
 namespace detail {
@@ -42,9 +56,9 @@ void surface_of_triangles(const ObjectLanes<S>& o, const HitPacket& hits, V3<S>&
   normal = normalise<S>(normal);
 }
 
-template <class Spu, class S>
-void surface_of(Spu& spu, const ObjectLanes<S>& o, const V3<S>& along_ray, const HitPacket& hits,
-                V3<S>& point, V3<S>& normal) {
+template <class S>
+void surface_of(const ObjectLanes<S>& o, const V3<S>& along_ray, const HitPacket& hits, V3<S>& point,
+                V3<S>& normal) {
   const uint32_t spheres = o.of_kind[kPrimitiveKind<SpherePrimitive>],
                  triangles = o.of_kind[kPrimitiveKind<TrianglePrimitive>],
                  planes = o.of_kind[kPrimitiveKind<PlanePrimitive>];
@@ -58,11 +72,13 @@ void surface_of(Spu& spu, const ObjectLanes<S>& o, const V3<S>& along_ray, const
     normal = select<S>(mask, n, normal);
   };
   V3<S> p, n;
-  if (others != 0) {
-    spu.enter_module(modules::kNormals);
-    add(others, along_ray, module_normals::normal(spu, o, along_ray));
+  if (others != 0) add(others, along_ray, local_normal<S>(o, along_ray));
+  if (planes != 0) {
+    // On the plane to the precision of the point: a pattern may have a step there.
+    const V3<S> n_of_plane = {o.geometry[2].z, o.geometry[3].x, o.geometry[3].y};
+    const typename S::F off = dot<S>(n_of_plane, along_ray) + o.geometry[3].z;
+    add(planes, along_ray - n_of_plane * off, n_of_plane);
   }
-  if (planes != 0) add(planes, along_ray, {o.geometry[2].z, o.geometry[3].x, o.geometry[3].y});
   if (triangles != 0) {
     surface_of_triangles<S>(o, hits, p, n);
     add(triangles, p, n);
@@ -81,12 +97,13 @@ template <class S> uint32_t hit_lanes(const HitPacket& hits, uint32_t lanes) {
 /// Of the hits of `lanes`, all of which hit something. Points are computed from the object, not along the
 /// ray: they lie on the surface to its own precision, however far away the ray began.
 template <class Spu>
-void find_hit_points(SceneAccess<Spu>& scene, const RayPacket& rays, const HitPacket& hits, uint32_t lanes,
-                     HitPoints<typename Spu::simd>& points) {
+[[gnu::noinline]] void find_hit_points(SceneAccess<Spu>& scene, const RayPacket& rays, const HitPacket& hits,
+                                       uint32_t lanes, HitPoints<typename Spu::simd>& points) {
   using S = typename Spu::simd;
   using F = typename S::F;
   using I = typename S::I;
   using M = typename S::M;
+  scene.spu().enter_module(modules::kHits);
   ObjectLanes<S> objects;
   for (uint32_t& of_kind : objects.of_kind)
     of_kind = 0;
@@ -95,7 +112,7 @@ void find_hit_points(SceneAccess<Spu>& scene, const RayPacket& rays, const HitPa
   bool is_first = true;
   uint32_t open = 0;
   objects.parameters.ratio = F(0.0f);
-  points.blended = 0;
+  points.blended = points.textured = points.disturbed = 0;
   for_each_value<S>(hits.object, lanes, [&](uint32_t offset, uint32_t same) {
     scene.spu().compute(scalar_work::kHitObject);
     const ObjectRecord& object = *scene.object(offset);
@@ -120,6 +137,8 @@ void find_hit_points(SceneAccess<Spu>& scene, const RayPacket& rays, const HitPa
     objects.of_kind[kind] |= of_object;
     objects.smooth &= ~of_object;
     if ((flags & object_flag::blended) != 0) points.blended |= same;
+    if ((flags & object_flag::textured) != 0) points.textured |= same;
+    if ((flags & object_flag::disturbed) != 0) points.disturbed |= same;
     if ((flags & object_flag::smooth) != 0) {
       objects.smooth |= of_object;
       const float* const n = scene.extra(extra)->value;
@@ -142,9 +161,8 @@ void find_hit_points(SceneAccess<Spu>& scene, const RayPacket& rays, const HitPa
   objects.parameters.open = M::from_bits(open);
 
   const V3<S> direction = rays.direction.template load<S>();
-  detail::surface_of(scene.spu(), objects,
-                     rays.origin.template load<S>() + direction * F::load(hits.distance.lane), hits,
-                     points.point, points.normal);
+  detail::surface_of<S>(objects, rays.origin.template load<S>() + direction * F::load(hits.distance.lane),
+                        hits, points.point, points.normal);
   const auto away = dot<S>(direction, points.normal) > F(0.0f);
   const V3<S> opposite = {-points.normal.x, -points.normal.y, -points.normal.z};
   points.normal = select<S>(away, opposite, points.normal);

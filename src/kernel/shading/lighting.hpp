@@ -46,18 +46,37 @@ V3<S> reflected_light(const Surfaces<S>& s, const MaterialLanes<S>& m, const Inc
 
 } // namespace detail
 
-/// Ambient light, and what all lights contribute, at the surfaces of `lanes`. Counts shadow rays.
-/// `intersector.transmittance(light, surfaces, incident, number, colour)` multiplies the light of that number
-/// by what comes through, and returns how many rays that took.
-template <class Spu, class Intersector>
-V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, Intersector& intersector, const FrameBlock& frame,
+/// Lights that surfaces are lit by at a time: what comes to them is known for so many.
+constexpr uint32_t kLightsARound = 4;
+
+/// Lights [first, first + count) of a frame, and what comes from each of them to the surfaces that face it.
+/// The first round adds what surfaces send without light.
+struct LightRound {
+  uint32_t first, count;
+  const VectorLanes* colour; ///< by light of the round; that of lights without shadows is not read
+
+  /// The round of a frame that begins with a light.
+  static LightRound from(const FrameBlock& frame, uint32_t first, const VectorLanes* colour) {
+    const uint32_t left = frame.light_count - first;
+    return {first, left < kLightsARound ? left : kLightsARound, colour};
+  }
+  bool is_first() const { return first == 0; }
+  /// The light that the next round begins with; none is left if there are no more.
+  uint32_t next() const { return first + count; }
+};
+
+/// Ambient light, and what the lights of a round contribute, at the surfaces of `lanes`. Counts a shadow ray
+/// per light and lane that faces it, but for lights with areas, of which only who samples them knows.
+template <class Spu>
+V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, const FrameBlock& frame, const LightRound& round,
                                    const Surfaces<typename Spu::simd>& s,
                                    const MaterialLanes<typename Spu::simd>& m, uint32_t lanes,
                                    uint64_t& shadow_rays) {
   using S = typename Spu::simd;
   using F = typename S::F;
-  V3<S> sum = m.pigment * m.ambient * m.opacity;
-  for_each_light(scene, frame, kAllLights, [&](uint32_t number, const LightRecord& light) {
+  const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
+  V3<S> sum = round.is_first() ? m.pigment * m.ambient * m.opacity : dark;
+  for_each_light(scene, frame, round.first, round.count, [&](uint32_t number, const LightRecord& light) {
     IncidentLight<S> incident(light.colour);
     illuminate(scene.spu(), light, s, lanes, incident);
     const uint32_t facing = incident.facing;
@@ -66,12 +85,9 @@ V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, Intersector& interse
     incident.cosine = S::max(incident.cosine, F(0.0f));
 
     if (!is_shadowless(light)) {
-      VectorLanes colour;
-      colour.template store<S>(incident.colour);
-      shadow_rays += intersector.transmittance(light, s, incident, number, colour);
-      incident.colour = colour.template load<S>();
+      incident.colour = round.colour[number - round.first].template load<S>();
+      if (!has_area(light)) shadow_rays += static_cast<uint32_t>(__builtin_popcount(facing));
     }
-    const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
     sum = sum + select<S>(S::M::from_bits(facing),
                           detail::reflected_light<S>(s, m, incident, !is_shadowless(light)), dark);
   });

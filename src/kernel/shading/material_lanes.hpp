@@ -3,6 +3,9 @@
 
 #include "kernel/scalar_work.hpp"
 #include "kernel/scene_access.hpp"
+#include "kernel/shading/surfaces.hpp"
+#include "kernel/textures/normals.hpp"
+#include "kernel/textures/pigments.hpp"
 
 namespace celltrace::kernel {
 
@@ -12,8 +15,9 @@ template <class S> struct MaterialLanes {
   V3<S> pigment, ambient, reflection_min, reflection_max;
   F filter, transmit, opacity, diffuse, brilliance, phong, phong_size, specular, inverse_roughness, metallic;
   F reflection_falloff, reflection_metallic, inverse_reflection_exponent;
-  uint32_t fresnel = 0, conserve_energy = 0; ///< lanes
-  bool bends_diffuse = false;                ///< some brilliance is not 1
+  uint32_t fresnel = 0, conserve_energy = 0;          ///< lanes
+  uint32_t patterned = 0, disturbed = 0, layered = 0; ///< likewise, as MaterialRecord::flags
+  bool bends_diffuse = false;                         ///< some brilliance is not 1
   bool has_phong = false, has_specular = false, has_metallic = false, has_reflection = false;
   bool has_falloff = false;
   bool bends_reflection = false; ///< some reflection exponent is not 1
@@ -56,6 +60,9 @@ MaterialLanes<typename Spu::simd> gather_materials(SceneAccess<Spu>& scene, cons
     put(m.inverse_reflection_exponent, r.inverse_reflection_exponent);
     if ((r.flags & material_flag::fresnel) != 0) m.fresnel |= same;
     if ((r.flags & material_flag::conserve_energy) != 0) m.conserve_energy |= same;
+    if ((r.flags & material_flag::patterned) != 0) m.patterned |= same;
+    if ((r.flags & material_flag::disturbed) != 0) m.disturbed |= same;
+    if ((r.flags & material_flag::layered) != 0) m.layered |= same;
     const auto any = [](const float(&v)[3]) { return v[0] != 0.0f || v[1] != 0.0f || v[2] != 0.0f; };
     m.bends_diffuse |= r.brilliance != 1.0f;
     m.has_phong |= r.phong > 0.0f;
@@ -67,6 +74,41 @@ MaterialLanes<typename Spu::simd> gather_materials(SceneAccess<Spu>& scene, cons
     m.has_transmission |= r.filter != 0.0f || r.transmit != 0.0f;
   });
   return m;
+}
+
+/// The pigments of patterned materials at points, which gather_materials() leaves open.
+template <class Spu>
+[[gnu::noinline]] void add_pigments(SceneAccess<Spu>& scene, const WordLanes& offsets,
+                                    const V3<typename Spu::simd>& point,
+                                    MaterialLanes<typename Spu::simd>& m) {
+  using S = typename Spu::simd;
+  using F = typename S::F;
+  scene.spu().enter_module(modules::kTextures);
+  for_each_value<S>(offsets, m.patterned, [&](uint32_t offset, uint32_t same) {
+    const MaterialRecord& r = *scene.material(offset);
+    const bool old_opacity = (r.flags & material_flag::old_opacity) != 0;
+    PigmentLanes<S> pigment;
+    pigment_at(scene, r.pattern, point, same, pigment);
+    const auto take = S::M::from_bits(same);
+    const F filtered = old_opacity ? pigment.filter * max_component<S>(pigment.rgb) : pigment.filter;
+    m.pigment = select<S>(take, pigment.rgb, m.pigment);
+    m.filter = S::select(take, pigment.filter, m.filter);
+    m.transmit = S::select(take, pigment.transmit, m.transmit);
+    m.opacity = S::select(take, F(1.0f) - filtered - pigment.transmit, m.opacity);
+    const auto clear = !((pigment.filter == F(0.0f)) & (pigment.transmit == F(0.0f)));
+    m.has_transmission |= (clear.bits() & same) != 0;
+  });
+}
+
+/// Disturbs the normals of surfaces in the lanes of `m.disturbed`.
+template <class Spu>
+[[gnu::noinline]] void disturb_normals(SceneAccess<Spu>& scene, const WordLanes& offsets,
+                                       const MaterialLanes<typename Spu::simd>& m,
+                                       Surfaces<typename Spu::simd>& surfaces) {
+  scene.spu().enter_module(modules::kTextures);
+  for_each_value<typename Spu::simd>(offsets, m.disturbed, [&](uint32_t offset, uint32_t same) {
+    disturb_normal(scene, scene.material(offset)->normal, surfaces.point, same, surfaces.normal);
+  });
 }
 
 /// POV-Ray's tint of metallic highlights and reflections: 1 + m (1 - F(x)) (pigment - 1), where x is the

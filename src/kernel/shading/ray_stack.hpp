@@ -29,7 +29,7 @@ constexpr uint32_t kRayNodeBytes = sizeof(RayNode);
 static_assert(kRayNodeBytes % 128 == 0 && kRayNodeBytes <= kMaxDmaBytes, "spilled by one DMA command");
 
 /// Nodes of a stack that stay in local store, unless its owner has many stacks.
-constexpr uint32_t kResidentNodes = 8;
+constexpr uint32_t kResidentNodes = 3;
 
 /// A stack whose first `kResident` nodes are in local store; deeper ones are spilled to main memory, at most
 /// `spill_nodes` of them. Depth-first order makes a tree of level n need n + 1 nodes at most.

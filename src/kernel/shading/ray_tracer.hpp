@@ -3,8 +3,9 @@
 #pragma once
 
 #include "kernel/modules.hpp"
-#include "kernel/shading/intersector.hpp"
+#include "kernel/shading/lighting.hpp"
 #include "kernel/shading/secondary_rays.hpp"
+#include "kernel/textures/sky.hpp"
 
 namespace celltrace::kernel {
 
@@ -13,54 +14,45 @@ struct RayCounters {
   uint64_t dropped = 0; ///< beyond what the stacks hold
 };
 
-/// The tree of one packet at a time. `Answers` says what rays hit and what light comes through to them: a
-/// Intersector, or where another SPE searches, what hands its answers on. With trace() the tree is worked off
-/// at once; whoever has to wait for answers takes its steps: begin(), then for each node() take_hits() and
-/// shade_hits(), until advance() finds no more.
-template <class Spu, class Answers = Intersector<Spu>, uint32_t kResident = kResidentNodes> class RayTracer {
+/// The tree of one packet at a time, in steps between which its rays are traced: begin(), then for each
+/// node() take_hits() and, if any, shade_hits() for each round of lights, until advance() finds no more.
+template <class Spu, uint32_t kResident = kResidentNodes> class RayTracer {
 public:
   using S = typename Spu::simd;
   using F = typename S::F;
   using I = typename S::I;
   using M = typename S::M;
 
-  RayTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, ea_t spill)
-      // In braces, so that every compiler allocates in this order.
-      : RayTracer{spu,
-                  frame,
-                  scene,
-                  spill,
-                  frame.ray_stack_nodes,
-                  *place_intersector(spu, frame, scene),
-                  *spu.template allocate<RayNode>()} {}
   /// `spill` has room for `spill_nodes`. `scratch` may be shared by tracers.
   RayTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, ea_t spill, uint32_t spill_nodes,
-            Answers& intersector, RayNode& scratch)
-      : frame_(frame), scene_(scene), intersector_(intersector), stack_(spu, spill, spill_nodes),
+            RayNode& scratch)
+      : frame_(frame), scene_(scene), stack_(spu, spill, spill_nodes),
         node_(*spu.template allocate<RayNode>()), child_(scratch) {}
 
-  /// The colours of primary rays, which leave the camera. What they hit is known, and the intersector may
-  /// know what light comes there. Points of later hits replace the first ones'.
-  [[gnu::always_inline]] V3<S> trace(const RayPacket& rays, uint32_t lanes, const HitPacket& hits,
-                                     HitPoints<S>& points) {
-    if constexpr (Spu::direct_memory) {
-      V3<S> colour;
-      if (ends_at_once(rays, lanes, hits, points, colour)) return colour;
+  /// The colours of primary rays whose hits are known, if all of them end there; false: they do not, or there
+  /// are more lights than in one round.
+  bool ends_at_once(const RayPacket& rays, uint32_t lanes, const HitPacket& hits, const HitPoints<S>& points,
+                    const LightRound& round, V3<S>& colour) {
+    if (round.next() != frame_.light_count) return false;
+    const uint32_t hit = hit_lanes<S>(hits, lanes);
+    if (hit != 0) {
+      if (points.plain(hit) != hit) return false;
+      const MaterialLanes<S> m = gather_materials(scene_, points.material, hit);
+      if (m.has_reflection || m.has_transmission) return false;
+      const Surfaces<S> surfaces = points.surfaces(rays.direction.template load<S>(), hits.object);
+      colour = local_light(scene_, frame_, round, surfaces, m, hit, counters_.shadow);
     }
-    begin(rays, lanes);
-    hits_ = hits;
-    uint32_t hit = take_hits();
-    for (;;) {
-      if (hit != 0) shade_hits(points, hit);
-      intersector_.forget_light();
-      if (!advance()) return light();
-      intersector_.find_closest(node_.rays, node_.lanes, hits_);
-      hit = take_hits();
-      if (hit != 0) find_hit_points(scene_, node_.rays, hits_, hit, points);
-    }
+    const V3<S> behind = background(rays, lanes);
+    colour = hit != 0 ? select<S>(M::from_bits(hit), colour, behind) : behind;
+    return true;
   }
 
-  /// Those of `rays` primary rays that hit nothing.
+  /// The colours of primary rays that hit nothing.
+  V3<S> background(const RayPacket& rays, uint32_t lanes) {
+    counters_.primary += count(lanes);
+    return behind(rays, lanes);
+  }
+  /// Likewise of so many rays where there is no sky.
   V3<S> background(uint32_t rays) {
     counters_.primary += rays;
     return splat3<S>(frame_.background);
@@ -81,16 +73,19 @@ public:
     scene_.spu().compute(scalar_work::kNode);
     const uint32_t hit = hit_lanes<S>(hits_, node_.lanes);
     const uint32_t missed = node_.lanes & ~hit;
-    if (missed != 0) add(missed, splat3<S>(frame_.background));
+    if (missed != 0) add(missed, behind(node_.rays, missed));
     return hit;
   }
-  /// The light of the surfaces that take_hits() told of, and the rays that go on from there.
-  [[gnu::always_inline]] void shade_hits(const HitPoints<S>& points, uint32_t hit) {
-    const Surfaces<S> surfaces = {points.point, points.normal, node_.rays.direction.template load<S>(),
-                                  &hits_.object};
-    if (const uint32_t plain = hit & ~points.blended; plain != 0)
-      spawn(surfaces, points.interior, shade(surfaces, points.interior, points.material, plain, F(1.0f)));
-    if (points.blended != 0) shade_blended(surfaces, points);
+  /// The light of the surfaces that take_hits() told of, from a round of lights. With the first round rays go
+  /// on from there.
+  [[gnu::always_inline]] void shade_hits(const HitPoints<S>& points, uint32_t hit, const LightRound& round) {
+    round_ = round;
+    const Surfaces<S> surfaces = points.surfaces(node_.rays.direction.template load<S>(), hits_.object);
+    const uint32_t plain = points.plain(hit);
+    if (plain != 0)
+      spawn(surfaces, surfaces.normal, points.interior,
+            shade(surfaces, points.interior, points.material, plain, F(1.0f)));
+    if (plain != hit) shade_composed(surfaces, points, hit & ~plain);
   }
   /// Goes on to the next node() of the tree. False: there is none, light() is complete.
   bool advance() {
@@ -103,43 +98,23 @@ public:
   }
   V3<S> light() const { return light_[0].template load<S>(); }
 
-  Answers& intersector() { return intersector_; }
-
+  /// Rays that were traced for a round of lights beyond those that shading counts.
+  void count_shadow_rays(uint32_t rays) { counters_.shadow += rays; }
   void reset_counters() {
     counters_ = RayCounters();
-    intersector_.reset_counters();
     stack_.reset_counters();
   }
   const RayCounters& counters() const { return counters_; }
-  const TraversalCounters& traversal_counters() const { return intersector_.counters(); }
   uint32_t spilled_nodes() const { return stack_.spilled(); }
 
 private:
-  static Answers* place_intersector(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene) {
-    struct Storage {
-      alignas(16) uint8_t bytes[sizeof(Answers)];
-    };
-    return new (static_cast<void*>(spu.template allocate<Storage>())) Answers(scene, frame);
-  }
-
   static uint32_t count(uint32_t lanes) { return static_cast<uint32_t>(__builtin_popcount(lanes)); }
 
-  /// As trace(), of rays that go on nowhere; false if some do.
-  bool ends_at_once(const RayPacket& rays, uint32_t lanes, const HitPacket& hits, const HitPoints<S>& points,
-                    V3<S>& colour) {
-    const uint32_t hit = hit_lanes<S>(hits, lanes);
-    if (hit != 0) {
-      if (points.blended != 0) return false;
-      const MaterialLanes<S> m = gather_materials(scene_, points.material, hit);
-      if (m.has_reflection || m.has_transmission) return false;
-      const Surfaces<S> surfaces = {points.point, points.normal, rays.direction.template load<S>(),
-                                    &hits.object};
-      colour = local_light(scene_, intersector_, frame_, surfaces, m, hit, counters_.shadow);
-    }
-    intersector_.forget_light();
-    const V3<S> behind = background(count(lanes));
-    colour = hit != 0 ? select<S>(M::from_bits(hit), colour, behind) : behind;
-    return true;
+  V3<S> behind(const RayPacket& rays, uint32_t lanes) {
+    V3<S> colour = splat3<S>(frame_.background);
+    if (frame_.sky != kNoOffset)
+      add_sky(scene_, frame_.sky, rays.direction.template load<S>(), lanes, colour);
+    return colour;
   }
 
   /// The root of the tree: the rays as they leave the camera.
@@ -183,32 +158,66 @@ private:
     add(node_.lanes, {pow<S>(sum.x, power), pow<S>(sum.y, power), pow<S>(sum.z, power)});
   }
 
-  /// Faces with three materials: each is shaded whole, and the results are blended by the vertices' weights.
-  /// Adaptive depth control drops a material by its weight alone, as POV-Ray does. What goes on goes the same
-  /// ways for all three: as one ray each where it weighs the same, or every such face would multiply the rays
-  /// behind it.
-  void shade_blended(const Surfaces<S>& surfaces, const HitPoints<S>& points) {
+  /// Surfaces with several materials: each is shaded whole, and the results are blended by their weights.
+  /// What goes on goes the same ways for all of them: as one ray each where it weighs the same, or every such
+  /// surface would multiply the rays behind it.
+  [[gnu::noinline]] void shade_composed(const Surfaces<S>& surfaces, const HitPoints<S>& points,
+                                        uint32_t lanes) {
     const F u = F::load(hits_.u.lane);
     const F v = F::load(hits_.v.lane);
     const F weights[3] = {F(1.0f) - u - v, u, v};
     SecondaryRays<S> all = SecondaryRays<S>::nothing();
-    for (uint32_t corner = 0; corner < 3; ++corner) {
-      const F w = weights[corner];
-      const uint32_t lanes = points.blended & (w >= F(frame_.adc_bailout)).bits();
-      if (lanes == 0) continue;
+    for (uint32_t corner = 0; corner < 3 && points.blended != 0; ++corner) {
       WordLanes materials = points.material;
-      for_each_lane(lanes, [&](uint32_t lane) {
+      for_each_lane(points.blended, [&](uint32_t lane) {
         materials.lane[lane] = scene_.blend(points.material.lane[lane])->material[corner];
       });
-      const SecondaryRays<S> one = shade(surfaces, points.interior, materials, lanes, w);
-      if (all.is_nothing())
-        all = one;
-      else if (all.weighs_like(one))
-        all.add(one);
-      else
-        spawn(surfaces, points.interior, one);
+      shade_share(surfaces, points, materials, points.blended, weights[corner], all);
     }
-    spawn(surfaces, points.interior, all);
+    if (const uint32_t textured = lanes & ~points.blended; textured != 0)
+      shade_share(surfaces, points, points.material, textured, F(1.0f), all);
+    spawn(surfaces, surfaces.normal, points.interior, all);
+  }
+  /// The share of materials that may be texture maps.
+  [[gnu::noinline]] void shade_share(const Surfaces<S>& surfaces, const HitPoints<S>& points,
+                                     const WordLanes& materials, uint32_t lanes, const F& weight,
+                                     SecondaryRays<S>& all) {
+    uint32_t plain = lanes;
+    for_each_value<S>(materials, lanes & points.textured, [&](uint32_t material, uint32_t same) {
+      const uint32_t map = map_of(*scene_.material(material));
+      if (map == kNoOffset) return;
+      plain &= ~same;
+      scene_.spu().enter_module(modules::kTextures);
+      MapWalk<Spu> walk(scene_, MapOf::textures, surfaces.point);
+      walk.enter(map, weight, same);
+      MapEntryRecord entry;
+      F share;
+      uint32_t some;
+      WordLanes leaf;
+      while (walk.next(entry, share, some)) {
+        fill(leaf, entry.child);
+        shade_whole(surfaces, points, leaf, some, share, all);
+        scene_.spu().enter_module(modules::kTextures);
+      }
+    });
+    if (plain != 0) shade_whole(surfaces, points, materials, plain, weight, all);
+  }
+  /// Adaptive depth control drops a material by its weight alone, as POV-Ray does.
+  [[gnu::noinline]] void shade_whole(const Surfaces<S>& surfaces, const HitPoints<S>& points,
+                                     const WordLanes& materials, uint32_t lanes, const F& weight,
+                                     SecondaryRays<S>& all) {
+    lanes &= (weight >= F(frame_.adc_bailout)).bits();
+    if (lanes == 0) return;
+    const WordLanes& interior = points.interior;
+    const SecondaryRays<S> one = (lanes & points.textured) != 0
+                                     ? shade_layers(surfaces, interior, materials, lanes, weight)
+                                     : shade(surfaces, interior, materials, lanes, weight);
+    if (all.is_nothing())
+      all = one;
+    else if (all.weighs_like(one))
+      all.add(one);
+    else
+      spawn(surfaces, surfaces.normal, interior, one);
   }
 
   /// Adds the surface's own light, times `share`; returns what goes on. Not inlined, as spawn() is not:
@@ -217,7 +226,11 @@ private:
                                            const WordLanes& materials, uint32_t lanes, const F& share) {
     scene_.spu().compute(scalar_work::kShade);
     const MaterialLanes<S> m = gather_materials(scene_, materials, lanes);
-    add(lanes, local_light(scene_, intersector_, frame_, surfaces, m, lanes, counters_.shadow) * share);
+    add(lanes, local_light(scene_, frame_, round_, surfaces, m, lanes, counters_.shadow) * share);
+    return round_.is_first() ? onward_rays(surfaces, interior, m, lanes, share) : SecondaryRays<S>::nothing();
+  }
+  [[gnu::noinline]] SecondaryRays<S> onward_rays(const Surfaces<S>& surfaces, const WordLanes& interior,
+                                                 const MaterialLanes<S>& m, uint32_t lanes, const F& share) {
     if (!m.has_reflection && !m.has_transmission) return SecondaryRays<S>::nothing();
     scene_.spu().compute(scalar_work::kSecondaryRays);
     scene_.spu().enter_module(modules::kSecondary);
@@ -228,14 +241,65 @@ private:
                                 frame_.adc_bailout, lanes, share);
   }
 
-  /// Pushes the rays that go on.
-  [[gnu::noinline]] void spawn(const Surfaces<S>& surfaces, const WordLanes& interior,
+  /// As shade(), of textures with patterns, normals or layers. The light of a layer comes through those
+  /// above, but not what it reflects: that is POV-Ray's model. Where normals are disturbed, rays go on by
+  /// themselves.
+  [[gnu::noinline]] SecondaryRays<S> shade_layers(const Surfaces<S>& surfaces, const WordLanes& interior,
+                                                  const WordLanes& top, uint32_t all_lanes, const F& share) {
+    const F one(1.0f);
+    V3<S> above = {one, one, one}; // what comes through the layers above
+    WordLanes materials = top;
+    uint32_t lanes = all_lanes;
+    SecondaryRays<S> onward = SecondaryRays<S>::nothing();
+    Surfaces<S> outermost = surfaces;
+    bool is_disturbed = false;
+    for (bool is_top = true; lanes != 0; is_top = false) {
+      MaterialLanes<S> m = gather_materials(scene_, materials, lanes);
+      if (m.patterned != 0) add_pigments(scene_, materials, surfaces.point, m);
+      Surfaces<S> own = surfaces;
+      if (m.disturbed != 0) disturb_normals(scene_, materials, m, own);
+      add(lanes, local_light(scene_, frame_, round_, own, m, lanes, counters_.shadow) * above * share);
+      SecondaryRays<S> rays = onward_rays(own, interior, m, lanes, one);
+      const auto clear = S::M::from_bits(rays.clear);
+      above = select<S>(clear, above * rays.through, above);
+      rays.mirror = rays.mirror * share;
+      if (is_top) {
+        onward = rays;
+        outermost = own;
+        is_disturbed = m.disturbed != 0;
+        onward.clear = 0;
+      } else if (rays.mirrors != 0) {
+        // POV-Ray does not ask what the layers above leave of it.
+        SecondaryRays<S> reflected = rays;
+        reflected.clear = 0;
+        spawn(own, surfaces.normal, interior, reflected);
+      }
+      // Transmitted through all layers, by those that were the last.
+      const uint32_t bright = (grey<S>(above) > F(frame_.adc_bailout)).bits() & rays.clear;
+      onward.clear |= bright & ~m.layered;
+      lanes = bright & m.layered;
+      for_each_value<S>(materials, lanes, [&](uint32_t offset, uint32_t same) {
+        const uint32_t below = scene_.material(offset)->below;
+        for_each_lane(same, [&](uint32_t lane) { materials.lane[lane] = below; });
+      });
+    }
+    const F through = S::select(S::M::from_bits(onward.clear), share, F(0.0f));
+    onward.through = above * through;
+    onward.through_weight = S::select(S::M::from_bits(onward.clear), max_component<S>(above), F(0.0f));
+    onward.clear_share = through;
+    if (!is_disturbed) return onward;
+    spawn(outermost, surfaces.normal, interior, onward);
+    return SecondaryRays<S>::nothing();
+  }
+
+  /// Pushes the rays that go on; `smooth` is the normal before it was disturbed.
+  [[gnu::noinline]] void spawn(const Surfaces<S>& surfaces, const V3<S>& smooth, const WordLanes& interior,
                                const SecondaryRays<S>& onward) {
-    if ((onward.mirrors | onward.clear) == 0) return;
+    if ((onward.mirrors | onward.clear) == 0 || !round_.is_first()) return;
     scene_.spu().compute(scalar_work::kSpawn);
     scene_.spu().enter_module(modules::kSecondary);
     const F cosine = -dot<S>(surfaces.direction, surfaces.normal);
-    const V3<S> mirrored = mirror<S>(surfaces.direction, surfaces.normal, cosine);
+    const V3<S> mirrored = mirror<S>(surfaces.direction, surfaces.normal, smooth);
     const uint32_t total = onward.clear != 0 ? transmit(surfaces, interior, onward, cosine, mirrored) : 0;
     reflect(surfaces, onward, onward.mirrors & ~total, mirrored);
   }
@@ -326,7 +390,6 @@ private:
 
   const FrameBlock& frame_;
   SceneAccess<Spu>& scene_;
-  Answers& intersector_;
   RayStack<Spu, kResident> stack_;
   RayNode& node_;  ///< being traced
   RayNode& child_; ///< being made
@@ -335,6 +398,7 @@ private:
   static constexpr uint32_t kAccumulators = 8;
   VectorLanes light_[kAccumulators];
   uint32_t accumulators_in_use_ = 1;
+  LightRound round_ = {}; ///< of lights, that is being shaded
   RayCounters counters_;
 };
 

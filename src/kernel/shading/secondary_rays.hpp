@@ -110,8 +110,17 @@ V3<S> refract(const V3<S>& direction, const V3<S>& normal, const typename S::F& 
   return normalise<S>(direction * ratio + normal * along_normal);
 }
 
-template <class S> V3<S> mirror(const V3<S>& direction, const V3<S>& normal, const typename S::F& cosine) {
-  return normalise<S>(direction + normal * (cosine + cosine));
+/// Of a surface whose disturbed normal is `normal`. As in POV-Ray, a normal that is turned away from the ray
+/// is as if it were smooth, and what would go below the smooth surface is mirrored there again.
+template <class S> V3<S> mirror(const V3<S>& direction, const V3<S>& normal, const V3<S>& smooth) {
+  using F = typename S::F;
+  const F zero(0.0f);
+  const F disturbed_cosine = -dot<S>(direction, normal);
+  const auto away = disturbed_cosine < zero;
+  const F cosine = S::select(away, -dot<S>(direction, smooth), disturbed_cosine);
+  const V3<S> mirrored = normalise<S>(direction + select<S>(away, smooth, normal) * (cosine + cosine));
+  const F below = S::min(dot<S>(mirrored, smooth), zero);
+  return mirrored - smooth * (below + below);
 }
 
 /// Fresnel reflectance of unpolarised light, going from index `from` to `to` at `cosine` to the normal; 1
@@ -190,8 +199,9 @@ template <class S> struct SecondaryRays {
 
 /// For surfaces of the materials `m` in `lanes`, `share` of which counts.
 template <class S>
-SecondaryRays<S> secondary_rays_of(const MaterialLanes<S>& m, const typename S::F& cosine, const typename S::F& fresnel_ratio,
-                  float adc_bailout, uint32_t lanes, const typename S::F& share) {
+SecondaryRays<S> secondary_rays_of(const MaterialLanes<S>& m, const typename S::F& cosine,
+                                   const typename S::F& fresnel_ratio, float adc_bailout, uint32_t lanes,
+                                   const typename S::F& share) {
   using F = typename S::F;
   const V3<S> mirrored = reflectivity<S>(m, cosine, fresnel_ratio);
   const F strength = max_component<S>(mirrored);

@@ -1,0 +1,41 @@
+// Leaves whose objects are prefetched before they are tested. Kernel dialect.
+#pragma once
+
+#include "kernel/accel/traversal_stack.hpp"
+#include "kernel/direct/door.hpp"
+
+namespace celltrace::kernel {
+
+/// Leaves that rays of a packet hit, and whose objects have not been tested yet.
+class DeferredLeaves {
+public:
+  struct Leaf {
+    NodeRef ref;
+    uint32_t group; ///< the rays of the packet that hit it
+  };
+
+  uint32_t count() const { return count_; }
+  const Leaf& operator[](uint32_t i) const { return leaves_[i]; }
+  bool is_full() const { return count_ == tuning::kMaxDeferredLeaves; }
+  /// Whether the leaves are tested after the next node has been expanded.
+  bool are_enough() const { return count_ >= tuning::kEnoughDeferredLeaves; }
+  void add(const NodeRef& ref, uint32_t group) { leaves_[count_++] = {ref, group}; }
+  void clear() { count_ = 0; }
+
+private:
+  Leaf leaves_[tuning::kMaxDeferredLeaves];
+  uint32_t count_ = 0;
+};
+
+/// In place of DeferredLeaves where every leaf is tested at once.
+class NoDeferredLeaves {
+public:
+  static constexpr bool are_enough() { return false; }
+};
+
+template <class Spu, bool kPrefetches = kPrefetchesLines<Spu>> struct LeavesToDefer {
+  using Type = DeferredLeaves;
+};
+template <class Spu> struct LeavesToDefer<Spu, false> { using Type = NoDeferredLeaves; };
+
+} // namespace celltrace::kernel

@@ -1,0 +1,24 @@
+// A ramp along a direction, once every unit. Kernel dialect.
+#pragma once
+
+#include "kernel/records.hpp"
+#include "kernel/textures/lattice.hpp"
+
+namespace celltrace::kernel {
+
+/// Its parameters: the direction, of unit length.
+struct GradientPattern {
+  static constexpr const char* kName = "gradient";
+  static constexpr bool kIsList = false;
+  static constexpr bool kNeedsNoise = false;
+  static constexpr bool kDisturbs = false;
+
+  /// As in POV-Ray 1 stays 1, and negative numbers are left to the wave.
+  template <class S> static typename S::F value(const V3<S>& p, const PatternRecord& r) {
+    using F = typename S::F;
+    const F along = snap<S>(dot<S>(p, splat3<S>(r.parameter)));
+    return S::select(along > F(1.0f), along - whole_below<S>(along), along);
+  }
+};
+
+} // namespace celltrace::kernel

@@ -1,0 +1,137 @@
+// From a pattern to what its values stand for: an entry of its map, or a blend of two, each of which may be a
+// map again. Kernel dialect.
+#pragma once
+
+#include "kernel/packet.hpp"
+#include "kernel/textures/pattern_value.hpp"
+
+namespace celltrace::kernel {
+
+/// How deep maps may lie in each other.
+constexpr uint32_t kDeepestMapWalk = 5;
+
+/// What the entries of a tree of maps are.
+enum class MapOf : uint32_t { pigments, normals, textures };
+
+/// The pattern of a texture map; kNoOffset: it is no map.
+inline uint32_t map_of(const MaterialRecord& material) {
+  return (material.flags & material_flag::mapped) != 0 ? material.pattern : kNoOffset;
+}
+
+/// Visits the leaves of a tree of maps that count at sixteen points, with their weights, which add up to 1 in
+/// each lane. Without recursion: one level of the tree is one of `levels_`. `Tree::pattern_of(scene, entry)`
+/// is the offset of the pattern whose map an entry is, or kNoOffset if it is a leaf.
+template <class Spu> class MapWalk {
+public:
+  using S = typename Spu::simd;
+  using F = typename S::F;
+  using I = typename S::I;
+  using M = typename S::M;
+
+  MapWalk(SceneAccess<Spu>& scene, MapOf of, const V3<S>& point) : scene_(scene), of_(of) {
+    point_.template store<S>(point);
+  }
+
+  /// Starts at a pattern, whose leaves share `weight`.
+  [[gnu::noinline]] void enter(uint32_t pattern, const F& weight, uint32_t lanes) {
+    scene_.spu().run_in_module(modules::kTextures);
+    const PatternRecord r = *scene_.pattern(pattern);
+    Level& level = levels_[depth_++];
+    weight.store(level.weight.lane);
+    level.entries = r.entries;
+    level.count = r.entry_count;
+    level.next = 0;
+    level.lanes = lanes;
+    level.average = (r.kind_and_flags & pattern_flag::average) != 0;
+    if (level.average) return;
+    const V3<S> p = to_pattern_space(scene_, r, point_.template load<S>());
+    const F value = pattern_value(scene_.spu(), r, p);
+    F upper(0.0f), share(1.0f);
+    if (Patterns::kAreLists[r.kind_and_flags & pattern_flag::kind_mask])
+      upper = S::min(value, F(static_cast<float>(r.entry_count - 1)));
+    else
+      find_interval(r, value, upper, share);
+    upper.store(level.upper.lane);
+    share.store(level.share.lane);
+  }
+
+  /// The next leaf, with its weight in those of `lanes`; false: there are no more.
+  [[gnu::noinline]] bool next(MapEntryRecord& leaf, F& weight, uint32_t& lanes) {
+    scene_.spu().run_in_module(modules::kTextures);
+    while (depth_ != 0) {
+      Level& level = levels_[depth_ - 1];
+      if (level.next == level.count) {
+        --depth_;
+        continue;
+      }
+      const uint32_t number = level.next++;
+      leaf = *scene_.map_entry(offset_of(level.entries, number));
+      weight = F::load(level.weight.lane) * (level.average ? F(leaf.position) : weight_of(level, number));
+      lanes = level.lanes & (weight > F(0.0f)).bits();
+      if (lanes == 0) continue;
+      const uint32_t pattern = pattern_of(leaf);
+      if (pattern == kNoOffset) return true;
+      enter(pattern, weight, lanes);
+    }
+    return false;
+  }
+
+private:
+  struct Level {
+    FloatLanes weight;
+    FloatLanes upper; ///< by lane, number of the entry above the value
+    FloatLanes share; ///< of that entry; the rest is the one's before
+    uint32_t entries, count, next, lanes;
+    bool average;
+  };
+
+  /// The pattern whose map an entry is; kNoOffset: it is a leaf.
+  uint32_t pattern_of(const MapEntryRecord& entry) {
+    if (of_ == MapOf::pigments) return entry.child;
+    if (of_ == MapOf::textures) return map_of(*scene_.material(entry.child));
+    const NormalRecord& normal = *scene_.normal(entry.child);
+    return normal.is_mapped != 0 ? normal.pattern : kNoOffset;
+  }
+
+  static uint32_t offset_of(uint32_t entries, uint32_t number) {
+    return entries + number * static_cast<uint32_t>(sizeof(MapEntryRecord));
+  }
+
+  /// Of equal positions the first counts below and the last above, as in POV-Ray.
+  void find_interval(const PatternRecord& r, const F& pattern_value, F& upper, F& share) {
+    // Outside of 0..1 a map begins again.
+    const auto outside = (pattern_value > F(1.0f)) | (pattern_value < F(0.0f));
+    const F value = S::select(outside, pattern_value - whole_below<S>(pattern_value), pattern_value);
+    const uint32_t last = r.entry_count - 1;
+    M within = M::all();
+    for (uint32_t number = r.entry_count; number-- > 0;) {
+      const MapEntryRecord& entry = *scene_.map_entry(offset_of(r.entries, number));
+      const float position = entry.position;
+      if (number == last) {
+        upper = F(static_cast<float>(last));
+        within = value < F(position);
+        if (within.bits() == 0) return;
+        if (number == 0) return;
+      }
+      const M below = within & (value <= F(position));
+      const float inverse = entry.inverse_width;
+      const float before =
+          number == 0 ? position : scene_.map_entry(offset_of(r.entries, number - 1))->position;
+      upper = S::select(below, F(static_cast<float>(number)), upper);
+      share = S::select(below, number == 0 ? F(1.0f) : (value - F(before)) * F(inverse), share);
+    }
+  }
+  static F weight_of(const Level& level, uint32_t number) {
+    const F upper = F::load(level.upper.lane), share = F::load(level.share.lane);
+    const F own = S::select(upper == F(static_cast<float>(number)), share, F(0.0f));
+    return S::select(upper == F(static_cast<float>(number + 1)), F(1.0f) - share, own);
+  }
+
+  SceneAccess<Spu>& scene_;
+  MapOf of_;
+  VectorLanes point_;
+  uint32_t depth_ = 0;
+  Level levels_[kDeepestMapWalk];
+};
+
+} // namespace celltrace::kernel

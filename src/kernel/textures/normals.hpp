@@ -1,0 +1,101 @@
+// Normals that patterns disturb. Kernel dialect.
+#pragma once
+
+#include "kernel/textures/map_walk.hpp"
+
+namespace celltrace::kernel {
+
+namespace detail {
+
+/// Less the slope of the pattern's values, from four points around each.
+template <class Spu>
+V3<typename Spu::simd> slope_disturbance(Spu& spu, const PatternRecord& r, const V3<typename Spu::simd>& p,
+                                         float accuracy) {
+  using S = typename Spu::simd;
+  using F = typename S::F;
+  // The corners of a tetrahedron.
+  static constexpr float kCorners[4][3] = {{0.942809041f, -1.0f / 3, 0.0f},
+                                           {-0.471404521f, -1.0f / 3, 0.816496581f},
+                                           {-0.471404521f, -1.0f / 3, -0.816496581f},
+                                           {0.0f, 1.0f, 0.0f}};
+  V3<S> sum = {F(0.0f), F(0.0f), F(0.0f)};
+  for (const float(&corner)[3] : kCorners) {
+    const V3<S> to = splat3<S>(corner);
+    sum = sum + to * pattern_value(spu, r, p + to * F(accuracy));
+  }
+  return sum * F(-0.1f / accuracy);
+}
+
+/// The transposed inverse of a linear map, times any positive factor.
+inline void cofactors(const float (&m)[9], float (&c)[9]) {
+  for (uint32_t row = 0; row < 3; ++row) {
+    const float* const a = m + (row + 1) % 3 * 3;
+    const float* const b = m + (row + 2) % 3 * 3;
+    c[row * 3] = a[1] * b[2] - a[2] * b[1];
+    c[row * 3 + 1] = a[2] * b[0] - a[0] * b[2];
+    c[row * 3 + 2] = a[0] * b[1] - a[1] * b[0];
+  }
+  const float determinant = m[0] * c[0] + m[1] * c[1] + m[2] * c[2];
+  if (determinant < 0.0f)
+    for (float& number : c)
+      number = -number;
+}
+
+/// A unit normal as the pattern of `normal`, no map, disturbs it.
+template <class Spu>
+[[gnu::noinline]] void disturb_by(SceneAccess<Spu>& scene, const NormalRecord& normal,
+                                  const V3<typename Spu::simd>& point, const V3<typename Spu::simd>& unit,
+                                  V3<typename Spu::simd>& disturbed) {
+  using S = typename Spu::simd;
+  using F = typename S::F;
+  Spu& spu = scene.spu();
+  const PatternRecord r = *scene.pattern(normal.pattern);
+  const V3<S> p = to_pattern_space(scene, r, point);
+  float c[9];
+  cofactors(normal.linear, c);
+  const V3<S> local = normalise<S>(
+      {dot<S>(splat3<S>(c), unit), dot<S>(splat3<S>(c + 3), unit), dot<S>(splat3<S>(c + 6), unit)});
+  V3<S> change;
+  if (disturbs(r.kind_and_flags & pattern_flag::kind_mask)) {
+    spu.enter_module(modules::kNoise);
+    change = module_noise::disturbance(spu, r, p);
+  } else {
+    change = slope_disturbance(spu, r, p, normal.accuracy);
+  }
+  const V3<S> n = local + change * F(normal.amount);
+  const float* const m = normal.linear;
+  disturbed = normalise<S>(splat3<S>(m) * n.x + splat3<S>(m + 3) * n.y + splat3<S>(m + 6) * n.z);
+}
+
+} // namespace detail
+
+/// The normals at `point`, unit vectors on the viewer's side, as the record at `offset` disturbs them.
+template <class Spu>
+[[gnu::noinline]] void disturb_normal(SceneAccess<Spu>& scene, uint32_t offset,
+                                      const V3<typename Spu::simd>& point, uint32_t lanes,
+                                      V3<typename Spu::simd>& unit) {
+  using S = typename Spu::simd;
+  using F = typename S::F;
+  const NormalRecord record = *scene.normal(offset);
+  const auto take = S::M::from_bits(lanes);
+  V3<S> disturbed;
+  if (record.is_mapped == 0) {
+    detail::disturb_by(scene, record, point, unit, disturbed);
+    unit = select<S>(take, disturbed, unit);
+    return;
+  }
+  V3<S> sum = {F(0.0f), F(0.0f), F(0.0f)};
+  MapWalk<Spu> walk(scene, MapOf::normals, point);
+  walk.enter(record.pattern, F(1.0f), lanes);
+  MapEntryRecord entry;
+  F weight;
+  uint32_t some;
+  while (walk.next(entry, weight, some)) {
+    const NormalRecord leaf = *scene.normal(entry.child);
+    detail::disturb_by(scene, leaf, point, unit, disturbed);
+    sum = sum + disturbed * weight;
+  }
+  unit = select<S>(take, normalise<S>(sum), unit);
+}
+
+} // namespace celltrace::kernel

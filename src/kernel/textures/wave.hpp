@@ -1,0 +1,41 @@
+// Wave forms: what becomes of a pattern's values before its map is asked. Kernel dialect.
+#pragma once
+
+#include "kernel/math.hpp"
+#include "kernel/records.hpp"
+
+namespace celltrace::kernel {
+
+/// As POV-Ray: values repeat after slightly more than 1, so that 1 itself is the end and not the beginning. A
+/// result may be as much above 1. One copy, which is always there: every module of patterns is followed by
+/// it.
+template <class S>
+[[gnu::noinline]] typename S::F wave_of(const PatternRecord& r, const typename S::F& value) {
+  using F = typename S::F;
+  constexpr float kRepeat = 1.00001f;
+  const auto wave =
+      static_cast<PatternWave>(r.kind_and_flags >> pattern_flag::wave_shift & pattern_flag::wave_mask);
+  if (wave == PatternWave::none) return value;
+  F v = value * F(r.frequency) + F(r.phase);
+  v = v - S::to_float(S::to_int(v * F(1.0f / kRepeat))) * F(kRepeat);
+  v = v - S::select(v < F(0.0f), whole_below<S>(v), F(0.0f));
+  const F turn = v - whole_below<S>(v);
+  switch (wave) {
+  case PatternWave::triangle:
+    return S::select(turn <= F(0.5f), turn + turn, F(2.0f) - turn - turn);
+  case PatternWave::sine:
+    return (F(1.0f) + sine_of_turns<S>(turn)) * F(0.5f);
+  case PatternWave::scallop:
+    return S::abs(sine_of_turns<S>(v * F(0.5f)));
+  case PatternWave::cubic:
+    return v * v * (F(3.0f) - v - v);
+  case PatternWave::poly:
+    return pow<S>(v, F(r.wave_exponent));
+  case PatternWave::ramp:
+  case PatternWave::none:
+    break;
+  }
+  return v;
+}
+
+} // namespace celltrace::kernel

@@ -1,0 +1,120 @@
+// The thresholds of the tracer that were found by measuring. Kernel dialect.
+//
+// Each trades one cost for another; none of them decides what is in a picture. To measure one again, change
+// it, build bench/compare twice, and run both programs in turn, several times:
+//
+//   celltrace_compare --only 'MEASURE/SCENE$' --threads 1 --clock processor --runs 5
+//
+// MEASURE and SCENE are said with each number; "rays of the models" is 'rays/(bunny|head|legocar|suzanne)$'.
+// A number stays as it is unless another is better by more than the runs of one program differ. The numbers
+// are for memory that is direct, where they do not say otherwise.
+#pragma once
+
+#include <stdint.h>
+
+namespace celltrace::kernel::tuning {
+
+// --- bundles of rays ---
+
+/// Packets a side of a bundle, which one SPE takes as a whole. Larger: more packets share the traversal of a
+/// node; smaller: less memory for their state. Four is what the SIMD lanes of a frustum test have room for;
+/// two is what local store has room for. Rays of the models; for an SPE `celltrace render --backend cell_emu
+/// --schedule lockstep --stats -`, whose cycles count.
+constexpr uint32_t kBundleEdge = 4;
+constexpr uint32_t kBundleEdgeInLocalStore = 2;
+
+/// Rays whose directions differ by more do not share a frustum. Larger: fewer traversals, with looser frusta;
+/// smaller: more traversals, with tighter ones. 'trace time' of scenes with mirrors and glass; also for SPEs.
+constexpr float kMaxDirectionSpread = 1.0f;
+
+/// Nodes that a bundle's frustum alone is tested against before its rays are made. Larger: more of the
+/// bundles that hit nothing are found; smaller: the tighter frusta of packets are tested from an earlier node
+/// on. Rays of the models, and of legocar most of all, which leaves much of its picture empty.
+constexpr uint32_t kMaxEnteredNodes = 24;
+
+/// A packet's frustum is loose once it has hit this many nodes that none of the packet's rays hit. From then
+/// on its rays are tested as well. Larger: more nodes are hit in vain; smaller: rays are tested where frusta
+/// would do. It matters at silhouettes, where the origins of shadow rays lie far apart. Rays of the models;
+/// also for SPEs.
+constexpr uint32_t kMissesOfLoose = 2;
+
+// --- when packets of a bundle part ---
+
+/// A node that this many packets of a bundle hit, or fewer, may be traversed by each of them separately.
+/// Larger: packets share fewer nodes; smaller: more nodes are tested for packets that do not hit them. Rays
+/// of the bunny, whose triangles are smaller than pixels.
+constexpr uint32_t kMaxSplitPackets = 4;
+/// Packets split that early where there are more objects than one for so many pixels: each then hits other
+/// nodes than its neighbours. Larger: models with larger triangles split too. Rays of the models.
+constexpr uint32_t kPixelsOfSmallObject = 2;
+
+// --- waiting for memory ---
+
+/// Up to this many objects, the caches of one core hold them with their nodes, and leaves are tested at once.
+/// With more objects, leaves are deferred while their objects are prefetched. Smaller: leaves are deferred
+/// although nothing has to be waited for; larger: tests wait for memory. Rays of head (17,684 objects) and
+/// bunny (69,630).
+constexpr uint32_t kObjectsInCoreCache = 20000;
+/// The most leaves that are deferred. With kEnoughDeferredLeaves of them their objects are tested after the
+/// next node is expanded. Larger: more time to fetch them; smaller: hits shorten tfar sooner. Rays of the
+/// bunny and of generated models: '--primitives 1000000'.
+constexpr uint32_t kMaxDeferredLeaves = 8;
+constexpr uint32_t kEnoughDeferredLeaves = kMaxDeferredLeaves / 2;
+/// With more objects, whose nodes lie in main memory, the traversals of packets are interleaved. Smaller:
+/// state is saved and restored although no node has to be waited for. Where objects lie at random, it begins
+/// to pay at ten million. Rays of generated models, '--primitives 1000000 4000000 10000000'.
+constexpr uint32_t kMostObjectsOfNearNodes = 4000000;
+/// Traversals that are interleaved. Larger: more time to fetch a node; smaller: less state to keep in cache.
+/// Rays of generated models, '--primitives 10000000'.
+constexpr uint32_t kMaxInterleaved = 4;
+
+// --- tests of triangles ---
+
+/// A leaf is tested ray by ray, with its triangles in lanes, with at most so many rays and at least so many
+/// triangles. More rays would need more passes, and fewer triangles would leave lanes empty: then each
+/// triangle is tested against all rays at once. Rays of bunny and legocar; `bench_triangles`.
+constexpr int kMostRaysByLeaf = 4;
+constexpr uint32_t kLeastTrianglesByLeaf = 4;
+
+// --- building the BVH ---
+
+/// When the objects of a range share a leaf. A triangle has weight 1.
+struct LeafRule {
+  uint32_t certain;      ///< up to this weight always
+  uint32_t most;         ///< above this weight never; between the two, the SAH decides
+  float cost;            ///< of testing an object of weight 1, relative to expanding a node
+  uint32_t other_weight; ///< the weight of an object that is no triangle
+};
+/// Wide leaves are for SPEs that test many triangles of a leaf at once. Larger: fewer nodes are built and
+/// expanded; smaller: fewer triangles are tested in vain. 'rebuilt every frame' and rays of the models.
+constexpr LeafRule kWideLeaves = {12, 32, 0.5f, 4};
+/// Narrow leaves are for tests one by one: up to three objects always share one, because they would not fill
+/// a node. `celltrace render --backend cell_emu --schedule lockstep --stats -`, whose cycles count.
+constexpr LeafRule kNarrowLeaves = {3, 8, 2.0f, 1};
+/// In copied treelets four objects do: a node for them would take memory in every copy, and rays would wait
+/// for it longer than the tests take. 'first frame' of a scene with many instances of one mesh.
+constexpr LeafRule kCopiedLeaves = {4, 8, 2.0f, 1};
+/// Leaves are wide in scenes of at most so many objects, all of which are in the cache that a PC's cores
+/// share. Larger: objects that no ray hits are fetched from main memory; smaller: more nodes are built and
+/// expanded. Rays of generated models, '--primitives 100000 1000000'.
+constexpr uint32_t kMostObjectsOfWideLeaves = 500000;
+
+/// Treelets that an SPE takes at a time. Larger: fewer atomic operations; smaller: a more even distribution.
+/// 'rebuilt every frame' of the models, with '--threads' of all CPUs.
+constexpr uint32_t kTreeletsAtATime = 8;
+/// The most objects of a treelet, a subtree that one SPE builds, unless they are in fewer than four groups.
+/// Larger: fewer top levels, which one SPE builds alone, and better splits; smaller: a more even
+/// distribution. 'rebuilt every frame' of the models, and their rays.
+constexpr uint32_t kTreeletObjects = 64;
+/// Ranges of more references are split with kManyBins on each axis, others with kFewBins, whose nine split
+/// planes fit the lanes of a register. More bins find better splits but cost more, which pays only for many
+/// references. 'rebuilt every frame' of the models, and their rays.
+constexpr uint32_t kFewReferences = 32;
+constexpr uint32_t kFewBins = 4;
+constexpr uint32_t kManyBins = 8;
+/// Up to so many references become the children of a node by clustering in place of splits. Larger: better
+/// nodes near the leaves; the time grows with the square. 'rebuilt every frame' of the models, and their
+/// rays.
+constexpr uint32_t kMostClusteredReferences = 8;
+
+} // namespace celltrace::kernel::tuning

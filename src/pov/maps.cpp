@@ -1,0 +1,169 @@
+// The maps and lists that patterns make pigments, normals and textures of.
+#include "pov/actions.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace celltrace::pov {
+
+namespace {
+
+/// What every entry adds to its map.
+template <class T>
+void add(Session& session, MapDefinition<T>& map, double position, const T& value, int depth, bool is_opaque,
+         const UnsupportedPtr& unsupported, const Location& where) {
+  if (map.entries.size() >= static_cast<std::size_t>(kMostMapEntries))
+    session.fail(where, "a map has at most " + std::to_string(kMostMapEntries) + " entries");
+  map.entries.push_back({position, value});
+  map.depth = std::max(map.depth, depth + 1);
+  if (map.depth > kDeepestMap)
+    session.fail(where, "maps are nested more than " + std::to_string(kDeepestMap) + " deep");
+  map.is_opaque = map.is_opaque && is_opaque;
+  mark(map.unsupported, unsupported);
+}
+
+/// Positions ascend in a Scene's maps. POV-Ray looks for the first entry that a number has not passed, after
+/// it has looked whether it has passed the last one.
+template <class T> std::shared_ptr<const MapDefinition<T>> ascending(MapDefinition<T> map) {
+  const double last = map.entries.back().position;
+  double reached = map.entries.front().position;
+  for (auto& entry : map.entries) {
+    reached = std::max(reached, entry.position);
+    entry.position = std::min(reached, last);
+  }
+  return std::make_shared<const MapDefinition<T>>(std::move(map));
+}
+
+/// The map as `pattern` needs it.
+template <class T>
+std::shared_ptr<const MapDefinition<T>> map_for(Session& session, const PatternDefinition& pattern,
+                                                const MapDefinition<T>& map, const Location& where) {
+  if (!pattern.exists()) session.fail(where, "a map needs a pattern in front of it");
+  if (pattern.list_length() > 0) session.fail(where, "this pattern takes a list, not a map");
+  if (!pattern.is_average()) return ascending(map);
+  const double total = std::accumulate(map.entries.begin(), map.entries.end(), 0.0,
+                                       [](double sum, const auto& entry) { return sum + entry.position; });
+  if (total == 0) session.fail(where, "the weights of this average add up to 0");
+  return std::make_shared<const MapDefinition<T>>(map);
+}
+
+/// Numbers the entries of a list.
+template <class T>
+std::shared_ptr<const MapDefinition<T>> list_for(Session& session, const PatternDefinition& pattern,
+                                                 MapDefinition<T> list, const Location& where) {
+  if (list.entries.size() > pattern.list_length())
+    session.fail(where, "this pattern takes a list of " + std::to_string(pattern.list_length()) +
+                            ", but it has " + std::to_string(list.entries.size()) + " entries");
+  for (std::size_t i = 0; i < list.entries.size(); ++i)
+    list.entries[i].position = static_cast<double>(i);
+  return std::make_shared<const MapDefinition<T>>(std::move(list));
+}
+
+} // namespace
+
+void add(Session& session, PigmentMap& map, double position, const PigmentDefinition& pigment,
+         const Location& where) {
+  add(session, map, position, pigment.finish(), pigment.depth(), pigment.is_opaque(),
+      pigment.first_unsupported(), where);
+}
+
+void add(Session& session, NormalMap& map, double position, const NormalDefinition& normal,
+         const Location& where) {
+  add(session, map, position, normal.finish(), normal.depth(), true, normal.first_unsupported(), where);
+}
+
+void add(Session& session, TextureMap& map, double position, const TexturePtr& texture,
+         const Location& where) {
+  add(session, map, position, texture, texture->depth(), texture->is_opaque(), texture->first_unsupported(),
+      where);
+}
+
+void add(Session& session, PigmentMap& map, double position, const Pigment& colour, const Location& where) {
+  PigmentDefinition pigment;
+  pigment.value = colour;
+  add(session, map, position, pigment, where);
+}
+
+void add_colour(Session& session, PigmentMap& map, double position, const Quantity& colour,
+                const Location& where) {
+  if (colour.is_float()) session.fail(where, "expected a colour, found a float");
+  add(session, map, position, session.colour(colour, where), where);
+}
+
+void add(Session& session, PigmentMap& map, const PigmentMap& entries, const Location& where) {
+  for (const auto& [position, pigment] : entries.entries)
+    add(session, map, position, pigment, entries.depth - 1, entries.is_opaque, entries.unsupported, where);
+}
+
+void set_map(Session& session, PigmentDefinition& pigment, const PigmentMap& map, const Location& where) {
+  pigment.map = map_for(session, pigment.pattern, map, where);
+}
+
+void set_map(Session& session, NormalDefinition& normal, const NormalMap& map, const Location& where) {
+  normal.map = map_for(session, normal.pattern, map, where);
+}
+
+TexturePtr with_map(Session& session, const TexturePtr& texture, const TextureMap& map,
+                    const Location& where) {
+  auto changed = std::make_shared<TextureDefinition>(*texture);
+  changed->map = map_for(session, texture->pattern, map, where);
+  return changed;
+}
+
+void set_colours(Session& session, PigmentDefinition& pigment, int pattern, PigmentMap list,
+                 const Location& where) {
+  choose(pigment.pattern, pattern);
+  const auto colours = pigment.pattern.default_colours();
+  for (std::size_t i = list.entries.size(); i < colours.size(); ++i)
+    list.entries.push_back(colours[i]);
+  pigment.map = list_for(session, pigment.pattern, std::move(list), where);
+}
+
+void set_list(Session& session, PigmentDefinition& pigment, int pattern, PigmentMap list,
+              const Location& where) {
+  choose(pigment.pattern, pattern);
+  while (list.entries.size() < pigment.pattern.list_length())
+    add(session, list, 0, session.builder.default_texture->pigment, where);
+  pigment.map = list_for(session, pigment.pattern, std::move(list), where);
+}
+
+void set_list(Session& session, NormalDefinition& normal, int pattern, NormalMap list,
+              const Location& where) {
+  choose(normal.pattern, pattern);
+  while (list.entries.size() < normal.pattern.list_length())
+    add(session, list, 0, NormalDefinition(), where);
+  normal.map = list_for(session, normal.pattern, std::move(list), where);
+}
+
+TexturePtr with_pattern(Session& session, const TexturePtr& texture, const PatternChange& pattern) {
+  auto changed = std::make_shared<TextureDefinition>(*texture);
+  pattern(session, changed->pattern);
+  return changed;
+}
+
+TexturePtr with_list(Session& session, const TexturePtr& texture, int pattern, TextureMap list,
+                     const Location& where) {
+  auto changed = std::make_shared<TextureDefinition>(*texture);
+  choose(changed->pattern, pattern);
+  while (list.entries.size() < changed->pattern.list_length())
+    add(session, list, 0, session.builder.default_texture, where);
+  changed->map = list_for(session, changed->pattern, std::move(list), where);
+  return changed;
+}
+
+void check(Session& session, const PigmentDefinition& pigment, const Location& where) {
+  if (pigment.pattern.is_average() && !pigment.map && !pigment.first_unsupported())
+    session.fail(where, "an average needs a map");
+}
+
+void check(Session& session, const NormalDefinition& normal, const Location& where) {
+  if (normal.pattern.is_average() && !normal.map && !normal.first_unsupported())
+    session.fail(where, "an average needs a map");
+}
+
+void check(Session& session, const TexturePtr& texture, const Location& where) {
+  if (texture->pattern.exists() && !texture->map && !texture->first_unsupported())
+    session.fail(where, "a pattern of textures needs a 'texture_map'");
+}
+
+} // namespace celltrace::pov

@@ -1,0 +1,305 @@
+#include "pov/patterns.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <string>
+
+#include <glm/geometric.hpp>
+
+#include "pov/session.hpp"
+
+namespace celltrace::pov {
+
+namespace {
+
+using Wave = Pattern::Wave;
+using namespace pattern;
+
+/// As many steps of space as a pattern can have: transformations between warps are one.
+constexpr std::size_t kMostSpaceSteps = 64;
+constexpr double kMostArms = 1e6;
+
+struct Colour {
+  double position; ///< in the default map; the number itself in lists
+  Vec3 rgb;
+};
+
+/// What is behind an option's or a pattern's word, checked and put into the pattern's kind.
+class Argument {
+public:
+  Argument(const Session& session, const Quantity& value, const Location& where)
+      : session_(session), value_(value), where_(where) {}
+
+  double number() const { return session_.number(value_, where_); }
+  Vec3 vector() const { return session_.vector(value_, where_); }
+  void require(bool condition, const char* what) const {
+    if (!condition) session_.fail(where_, what);
+  }
+
+private:
+  const Session& session_;
+  const Quantity& value_;
+  const Location& where_;
+};
+
+using Setter = void (*)(Kind&, const Argument&);
+
+struct Option {
+  const char* word = nullptr;
+  Setter set = nullptr;
+  bool has_value = true;
+};
+
+constexpr std::size_t kMostOptions = 4;
+constexpr std::size_t kMostDefaults = 6;
+
+struct Entry {
+  const char* word;
+  Kind (*make)();
+  PatternForm form = PatternForm::plain;
+  Wave wave = Wave::ramp;
+  std::vector<Colour> colours = {{0, {0, 0, 0}}, {1, {1, 1, 1}}};
+  Setter set_argument = nullptr;
+  std::vector<Option> options = {};
+};
+
+template <class T> Kind make() {
+  return T{};
+}
+
+void set_direction(Kind& kind, const Argument& a) {
+  const Vec3 direction = a.vector();
+  a.require(glm::length(direction) > 0, "this gradient has no direction");
+  std::get<Gradient>(kind).direction = direction;
+}
+
+void set_arms(Kind& kind, const Argument& a) {
+  const double arms = std::trunc(a.number());
+  a.require(std::fabs(arms) <= kMostArms, "a spiral has no more than a million arms");
+  std::get<Spiral>(kind).arms = static_cast<int>(arms);
+}
+
+void set_brick_size(Kind& kind, const Argument& a) {
+  const Vec3 size = a.vector();
+  a.require(size.x != 0 && size.y != 0 && size.z != 0, "a brick has a size in all directions");
+  std::get<Brick>(kind).size = size;
+}
+
+void set_metric(Kind& kind, const Argument& a) {
+  const double metric = a.number();
+  a.require(metric > 0, "the metric must be greater than 0");
+  std::get<Crackle>(kind).metric = metric;
+}
+
+void set_form(Kind& kind, const Argument& a) {
+  const Vec3 form = a.vector();
+  double(&factors)[3] = std::get<Crackle>(kind).form;
+  factors[0] = form.x;
+  factors[1] = form.y;
+  factors[2] = form.z;
+}
+
+constexpr auto kList = PatternForm::list;
+constexpr auto kPlain = PatternForm::plain;
+constexpr auto kArgument = PatternForm::argument;
+
+const Vec3 kRed{1, 0, 0}, kGreen{0, 1, 0}, kBlue{0, 0, 1}, kYellow{1, 1, 0}, kCyan{0, 1, 1},
+    kMagenta{1, 0, 1};
+const Vec3 kBlack{0, 0, 0}, kWhite{1, 1, 1};
+
+const std::vector<Colour> kGrey{{0, kBlack}, {1, kWhite}};
+const std::vector<Colour> kSix{{0, kRed}, {1, kGreen}, {2, kBlue}, {3, kYellow}, {4, kCyan}, {5, kMagenta}};
+
+/// The word, the pattern, what stands behind the word, the wave and the colours it has by itself, the setter
+/// of its argument, its options.
+const Entry kPatterns[] = {
+    {"agate",
+     make<Agate>,
+     kPlain,
+     Wave::ramp,
+     {{0, kWhite},
+      {0.5, {0.95, 0.75, 0.5}},
+      {0.5, {0.9, 0.7, 0.5}},
+      {0.6, {0.9, 0.7, 0.4}},
+      {0.6, {1, 0.7, 0.4}},
+      {1, {0.6, 0.3, 0}}},
+     nullptr,
+     {{"agate_turb", [](Kind& kind, const Argument& a) { std::get<Agate>(kind).turbulence = a.number(); }}}},
+    {"average", make<Bozo>}, // of its entries: the pattern means nothing
+    {"boxed", make<Boxed>},
+    {"bozo",
+     make<Bozo>,
+     kPlain,
+     Wave::ramp,
+     {{0.4, kWhite}, {0.4, kGreen}, {0.6, kGreen}, {0.6, kBlue}, {0.8, kBlue}, {0.8, kRed}}},
+    {"brick",
+     make<Brick>,
+     kList,
+     Wave::ramp,
+     {{0, {0.5, 0.5, 0.5}}, {1, {0.6, 0.15, 0.15}}},
+     nullptr,
+     {{"brick_size", set_brick_size},
+      {"mortar", [](Kind& kind, const Argument& a) { std::get<Brick>(kind).mortar = a.number(); }}}},
+    {"bumps", make<Bumps>},
+    {"cells", make<Cells>},
+    {"checker", make<Checker>, kList, Wave::ramp, {{0, kBlue}, {1, kGreen}}},
+    {"crackle",
+     make<Crackle>,
+     kPlain,
+     Wave::ramp,
+     kGrey,
+     nullptr,
+     {{"form", set_form},
+      {"metric", set_metric},
+      {"offset", [](Kind& kind, const Argument& a) { std::get<Crackle>(kind).offset = a.number(); }},
+      {"solid", [](Kind& kind, const Argument&) { std::get<Crackle>(kind).is_solid = true; }, false}}},
+    {"cubic", make<Cubic>, kList, Wave::ramp, kSix},
+    {"cylindrical", make<Cylindrical>},
+    {"dents", make<Dents>},
+    {"gradient", make<Gradient>, kArgument, Wave::ramp, kGrey, set_direction},
+    {"granite", make<Granite>},
+    {"hexagon", make<Hexagon>, kList, Wave::ramp, {{0, kBlue}, {1, kGreen}, {2, kRed}}},
+    {"leopard", make<Leopard>},
+    {"marble",
+     make<Marble>,
+     kPlain,
+     Wave::triangle,
+     {{0, {0.9, 0.8, 0.8}}, {0.9, {0.9, 0.08, 0.08}}, {0.9, kBlack}, {1, kBlack}}},
+    {"onion", make<Onion>},
+    {"planar", make<Planar>},
+    {"quilted",
+     make<Quilted>,
+     kPlain,
+     Wave::ramp,
+     kGrey,
+     nullptr,
+     {{"control0", [](Kind& kind, const Argument& a) { std::get<Quilted>(kind).control[0] = a.number(); }},
+      {"control1", [](Kind& kind, const Argument& a) { std::get<Quilted>(kind).control[1] = a.number(); }}}},
+    {"radial",
+     make<Radial>,
+     kPlain,
+     Wave::ramp,
+     {{0, kCyan}, {0.333, kYellow}, {0.666, kMagenta}, {1, kCyan}}},
+    {"ripples", make<Ripples>},
+    {"spherical", make<Spherical>},
+    {"spiral1", make<Spiral>, kArgument, Wave::triangle, kGrey, set_arms},
+    {"spiral2",
+     [] {
+       return Kind{Spiral{1, true}};
+     },
+     kArgument, Wave::triangle, kGrey, set_arms},
+    {"spotted", make<Bozo>},
+    {"square", make<Square>, kList, Wave::ramp, {{0, kRed}, {1, kGreen}, {2, kBlue}, {3, kYellow}}},
+    {"triangular", make<Triangular>, kList, Wave::ramp, kSix},
+    {"waves", make<Waves>},
+    {"wood", make<Wood>, kPlain, Wave::triangle, {{0.6, {0.666, 0.312, 0.2}}, {0.6, {0.4, 0.1333, 0.066}}}},
+    {"wrinkles", make<Wrinkles>},
+};
+
+const Entry& entry_of(const PatternDefinition& pattern) {
+  return kPatterns[static_cast<std::size_t>(pattern.number)];
+}
+
+const Option* find_option(const Entry& entry, const char* word) {
+  const auto found = std::find_if(entry.options.begin(), entry.options.end(),
+                                  [&](const Option& option) { return std::string(option.word) == word; });
+  return found == entry.options.end() ? nullptr : &*found;
+}
+
+void check_steps(Session& session, const PatternDefinition& pattern, const Location& where) {
+  if (pattern.value().space.size() >= kMostSpaceSteps)
+    session.fail(where, "a pattern has no more than " + std::to_string(kMostSpaceSteps) +
+                            " warps and transformations between them");
+}
+
+} // namespace
+
+std::vector<PatternWord> pattern_words() {
+  std::vector<PatternWord> words;
+  std::transform(std::begin(kPatterns), std::end(kPatterns), std::back_inserter(words),
+                 [](const Entry& entry) {
+                   return PatternWord{entry.word, entry.form};
+                 });
+  return words;
+}
+
+std::vector<PatternOption> pattern_options() {
+  std::vector<PatternOption> options;
+  for (const Entry& entry : kPatterns)
+    for (const Option& option : entry.options)
+      options.push_back({option.word, option.has_value});
+  return options;
+}
+
+const Pattern& PatternDefinition::value() const {
+  static const Pattern kNew;
+  return value_ ? *value_ : kNew;
+}
+
+Pattern& PatternDefinition::own() {
+  if (!value_ || value_.use_count() > 1) value_ = std::make_shared<Pattern>(value());
+  return *value_;
+}
+
+bool PatternDefinition::is_average() const {
+  return exists() && std::string(entry_of(*this).word) == "average";
+}
+
+std::size_t PatternDefinition::list_length() const {
+  return exists() && entry_of(*this).form == kList ? entry_of(*this).colours.size() : 0;
+}
+
+std::vector<PatternMap<Pigment>::Entry> PatternDefinition::default_colours() const {
+  std::vector<PatternMap<Pigment>::Entry> entries;
+  for (const Colour& colour : entry_of(*this).colours)
+    entries.push_back({colour.position, Pigment{colour.rgb}});
+  return entries;
+}
+
+void choose(PatternDefinition& pattern, int number) {
+  pattern.number = number;
+  const Entry& entry = entry_of(pattern);
+  pattern.own().kind = entry.make();
+  if (entry.wave != Wave::ramp) pattern.own().wave = entry.wave;
+}
+
+void set_argument(Session& session, PatternDefinition& pattern, const Quantity& argument,
+                  const Location& where) {
+  entry_of(pattern).set_argument(pattern.own().kind, Argument(session, argument, where));
+}
+
+void set_option(Session& session, PatternDefinition& pattern, int option, const Quantity& value,
+                const Location& where) {
+  const char* word = pattern_options()[static_cast<std::size_t>(option)].word;
+  const Option* found = pattern.exists() ? find_option(entry_of(pattern), word) : nullptr;
+  if (!found) session.fail(where, '\'' + std::string(word) + "' means nothing to this pattern");
+  found->set(pattern.own().kind, Argument(session, value, where));
+}
+
+void append(std::vector<SpaceStep>& space, const Transform& next) {
+  if (!space.empty() && std::holds_alternative<Transform>(space.back()))
+    space.back() = std::get<Transform>(space.back()).then(next);
+  else
+    space.push_back(next);
+}
+
+bool is_singular(const Transform& transform) {
+  const double determinant = transform.determinant();
+  return determinant == 0 || !std::isfinite(determinant) || !std::isfinite(1 / determinant);
+}
+
+void move(Session& session, PatternDefinition& pattern, const Transform& next, const Location& where) {
+  std::vector<SpaceStep>& space = pattern.own().space;
+  if (space.empty() || std::holds_alternative<Turbulence>(space.back())) check_steps(session, pattern, where);
+  append(space, next);
+  if (is_singular(std::get<Transform>(space.back())))
+    session.fail(where, "this transformation is singular: it has no inverse");
+}
+
+void bend(Session& session, PatternDefinition& pattern, const Turbulence& turbulence, const Location& where) {
+  check_steps(session, pattern, where);
+  pattern.own().space.push_back(turbulence);
+}
+
+} // namespace celltrace::pov

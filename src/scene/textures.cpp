@@ -1,0 +1,403 @@
+#include "scene/textures.hpp"
+
+#include "celltrace/error.hpp"
+#include "kernel/textures/list.hpp"
+#include "kernel/textures/map_walk.hpp"
+#include "scene/patterns.hpp"
+#include "scene/surface_records.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <type_traits>
+
+namespace celltrace {
+
+using namespace kernel;
+
+namespace {
+
+static_assert(kDeepestMap == kDeepestMapWalk);
+
+// --- checks ---
+
+class Check {
+public:
+  explicit Check(const std::string& name) : name_(name) {}
+
+  void material(const Material& m, int depth, int layers) {
+    if (m.map) return map(*m.map, depth, [&](const Material& entry) { material(entry, depth + 1, 0); });
+    pigment(m.pigment, 0);
+    const Finish& f = m.finish;
+    vectors({f.ambient, f.emission, f.reflection_min, f.reflection_max});
+    numbers({f.diffuse, f.brilliance, f.phong, f.phong_size, f.specular, f.roughness, f.metallic,
+             f.reflection_falloff, f.reflection_exponent, f.reflection_metallic});
+    if (m.normal) normal(*m.normal, 0);
+    if (!m.below) return;
+    if (layers == kMostLayers) fail("has more than " + std::to_string(kMostLayers) + " layers");
+    if (m.below->map) fail("has a texture map for a layer");
+    material(*m.below, depth, layers + 1);
+  }
+
+private:
+  [[noreturn]] void fail(const std::string& what) const { throw InputError(name_ + " " + what); }
+  void numbers(std::initializer_list<double> values) const {
+    for (const double value : values)
+      if (!std::isfinite(value)) fail("has a number that is not finite");
+  }
+  void vectors(std::initializer_list<Vec3> values) const {
+    for (const Vec3& v : values)
+      numbers({v.x, v.y, v.z});
+  }
+
+  void pigment(const Pigment& p, int depth) {
+    if (p.map) return map(*p.map, depth, [&](const Pigment& entry) { pigment(entry, depth + 1); });
+    vectors({p.rgb});
+    numbers({p.filter, p.transmit});
+  }
+  void normal(const Normal& n, int depth) {
+    if (n.map) return map(*n.map, depth, [&](const Normal& entry) { normal(entry, depth + 1); });
+    numbers({n.amount, n.accuracy});
+    if (!(n.accuracy > 0)) fail("has a normal whose accuracy is not greater than 0");
+    pattern(n.pattern);
+  }
+  /// A map that several share is looked at once, or such trees would take for ever.
+  template <class T, class Visit> void map(const PatternMap<T>& map, int depth, Visit visit) {
+    if (depth == kDeepestMap) fail("has maps that nest more than " + std::to_string(kDeepestMap) + " deep");
+    int& deepest = seen_.try_emplace(&map, -1).first->second;
+    if (deepest >= depth) return;
+    deepest = depth;
+    if (map.entries.empty()) fail("has a map without entries");
+    if (map.entries.size() > kMostMapEntries)
+      fail("has a map of more than " + std::to_string(kMostMapEntries) + " entries");
+    pattern(map.pattern);
+    double weights = 0;
+    for (const auto& entry : map.entries) {
+      numbers({entry.position});
+      weights += entry.position;
+      visit(entry.value);
+    }
+    if (map.is_average && !(weights > 0)) fail("has an average whose weights are not greater than 0");
+  }
+  void turbulence(const Turbulence& t) const {
+    vectors({t.amount});
+    numbers({t.omega, t.lambda});
+    if (t.octaves < 1 || t.octaves > 10) fail("has turbulence whose octaves are not 1 to 10");
+  }
+  void pattern(const Pattern& p) const {
+    turbulence(p.turbulence);
+    numbers({p.wave_exponent, p.frequency, p.phase});
+    if (p.noise_generator < 0 || p.noise_generator > 3) fail("has a noise generator that is not 0 to 3");
+    for (const SpaceStep& step : p.space)
+      if (const auto* moved = std::get_if<Turbulence>(&step)) {
+        turbulence(*moved);
+      } else {
+        const Transform& t = std::get<Transform>(step);
+        vectors({t.rows[0], t.rows[1], t.rows[2], t.rows[3]});
+        t.inverse();
+      }
+    float parameter[6] = {};
+    pattern_parameters(p.kind, parameter);
+    for (const float number : parameter)
+      numbers({number});
+  }
+
+  const std::string& name_;
+  std::map<const void*, int> seen_; ///< maps, with the depth at which they were looked at
+};
+
+// --- records ---
+
+void set(const Transform& to_space, float (&m)[12]) {
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 4; ++column)
+      m[row * 4 + column] = static_cast<float>(to_space.rows[column][row]);
+}
+
+TurbulenceWords words_of(const Turbulence& t) {
+  return {{static_cast<float>(t.amount.x), static_cast<float>(t.amount.y), static_cast<float>(t.amount.z)},
+          static_cast<float>(t.lambda),
+          static_cast<float>(t.omega),
+          static_cast<std::uint32_t>(t.octaves)};
+}
+
+bool is_still(const Turbulence& t) {
+  return t.amount == Vec3(0);
+}
+
+/// Of all maps together: entries that several maps share are written once for each space that they are in.
+constexpr std::size_t kMostEntries = std::size_t{1} << 22;
+
+/// Whether the turbulence of such a pattern moves the points that it is asked at.
+bool is_moved_by_turbulence(const pattern::Kind& kind) {
+  return !std::holds_alternative<pattern::Marble>(kind) && !std::holds_alternative<pattern::Wood>(kind);
+}
+
+/// From the pattern's own space to the scene, for a pattern inside maps whose patterns are in `outer`.
+std::vector<SpaceStep> steps_of(const Pattern& pattern, const std::vector<SpaceStep>& outer) {
+  std::vector<SpaceStep> all = pattern.space;
+  all.insert(all.end(), outer.begin(), outer.end());
+  return all;
+}
+
+/// What the patterns inside a map are in, whose pattern is in `outer` itself.
+std::vector<SpaceStep> space_inside(const Pattern& pattern, const std::vector<SpaceStep>& outer) {
+  std::vector<SpaceStep> inside;
+  if (is_moved_by_turbulence(pattern.kind) && !is_still(pattern.turbulence))
+    inside.emplace_back(pattern.turbulence);
+  const std::vector<SpaceStep> all = steps_of(pattern, outer);
+  inside.insert(inside.end(), all.begin(), all.end());
+  return inside;
+}
+
+/// From the scene through all steps, without displacements.
+Transform whole_map(const std::vector<SpaceStep>& steps) {
+  Transform map;
+  for (auto step = steps.rbegin(); step != steps.rend(); ++step)
+    if (const auto* transform = std::get_if<Transform>(&*step)) map = map.then(transform->inverse());
+  return map;
+}
+
+template <class Record> void to_offset(std::uint32_t& index, std::uint32_t table) {
+  if (index != kNoOffset) index = table + index * static_cast<std::uint32_t>(sizeof(Record));
+}
+
+/// The sky as a texture of layers; there is one.
+Material sky_of(const Scene& scene) {
+  Material top;
+  for (const Pigment& pigment : scene.sky_sphere) {
+    const bool is_lowest = &pigment == &scene.sky_sphere.front();
+    top = Material{pigment, {}, nullptr, is_lowest ? nullptr : std::make_shared<const Material>(top)};
+  }
+  return top;
+}
+
+} // namespace
+
+void validate_texture(const Material& material, const std::string& name) {
+  Check(name).material(material, 0, 0);
+}
+
+void validate_sky(const Scene& scene) {
+  if (scene.sky_sphere.size() > kMostLayers)
+    throw InputError("the sky sphere has more than " + std::to_string(kMostLayers) + " layers");
+  validate_texture(sky_of(scene), "the sky sphere");
+}
+
+void TextureTables::Traits::add(const Traits& other) {
+  opaque = opaque && other.opaque;
+  textured = textured || other.textured;
+  disturbed = disturbed || other.disturbed;
+}
+
+TextureTables::TextureTables(const Scene& scene) : scene_(scene) {
+  materials.resize(scene.materials.size());
+  object_flags.reserve(scene.materials.size());
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    const Traits traits = fill_material(static_cast<std::uint32_t>(i), scene.materials[i], {});
+    object_flags.push_back((traits.opaque ? object_flag::opaque : 0) |
+                           (traits.textured ? object_flag::textured : 0) |
+                           (traits.disturbed ? object_flag::disturbed : 0));
+  }
+  sky = scene.sky_sphere.empty() ? kNoOffset : add_material(sky_of(scene), {}).index;
+}
+
+TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Material& material,
+                                                   const Space& outer) {
+  MaterialRecord r{};
+  r.pattern = r.normal = r.below = kNoOffset;
+  Traits traits;
+  if (material.map) {
+    const Known map = add_map(material.map, outer);
+    r.flags = material_flag::mapped;
+    r.pattern = map.index;
+    traits = map.traits;
+    traits.textured = true;
+  } else {
+    r = make_record(material, scene_);
+    if (material.pigment.map) {
+      const Known map = add_map(material.pigment.map, outer);
+      r.flags |= material_flag::patterned;
+      r.pattern = map.index;
+      traits = map.traits;
+      traits.textured = true;
+    } else {
+      traits.opaque = is_opaque(material.pigment);
+    }
+    if (material.normal) {
+      r.flags |= material_flag::disturbed;
+      r.normal = add_normal(*material.normal, outer);
+      traits.disturbed = traits.textured = true;
+    }
+    if (material.below) {
+      const Known below = add_material(*material.below, outer);
+      r.flags |= material_flag::layered;
+      r.below = below.index;
+      traits.opaque = traits.opaque || below.traits.opaque;
+      traits.disturbed = traits.disturbed || below.traits.disturbed;
+      traits.textured = true;
+    }
+  }
+  materials[index] = r;
+  return traits;
+}
+
+TextureTables::Known TextureTables::add_material(const Material& material, const Space& outer) {
+  const auto index = static_cast<std::uint32_t>(materials.size());
+  materials.emplace_back();
+  const Traits traits = fill_material(index, material, outer);
+  return {index, traits};
+}
+
+TextureTables::Traits TextureTables::fill(MapEntryRecord& entry, const Pigment& pigment) {
+  for (int i = 0; i < 3; ++i)
+    entry.rgb[i] = static_cast<float>(pigment.rgb[i]);
+  entry.filter = static_cast<float>(pigment.filter);
+  entry.transmit = static_cast<float>(pigment.transmit);
+  Traits traits;
+  traits.opaque = is_opaque(pigment);
+  return traits;
+}
+
+template <class T>
+TextureTables::Known TextureTables::add_map(const std::shared_ptr<const PatternMap<T>>& map,
+                                            const Space& outer) {
+  const bool is_shared = outer.empty();
+  if (is_shared)
+    if (const auto known = known_.find(map.get()); known != known_.end()) return known->second;
+  const Space inside = space_inside(map->pattern, outer);
+  const std::size_t count = map->entries.size();
+  if (entries.size() + count > kMostEntries)
+    throw InputError("the maps of all textures have more than " + std::to_string(kMostEntries) + " entries");
+  const auto first = static_cast<std::uint32_t>(entries.size());
+  entries.resize(entries.size() + count);
+  children_.resize(entries.size());
+  double weights = 0;
+  for (const auto& entry : map->entries)
+    weights += entry.position;
+  Traits traits;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& from = map->entries[i];
+    MapEntryRecord entry{};
+    entry.position = static_cast<float>(map->is_average ? from.position / weights : from.position);
+    const double width = i == 0 ? 0 : from.position - map->entries[i - 1].position;
+    entry.inverse_width = width > 0 ? static_cast<float>(1 / width) : 0;
+    if (!std::isfinite(entry.inverse_width)) entry.inverse_width = 0;
+    entry.child = kNoOffset;
+    if constexpr (std::is_same_v<T, Pigment>) {
+      children_[first + i] = Child::pattern;
+      Traits own = fill(entry, from.value);
+      if (from.value.map) {
+        const Known nested = add_map(from.value.map, inside);
+        entry.child = nested.index;
+        own = nested.traits;
+      }
+      traits.add(own);
+    } else if constexpr (std::is_same_v<T, Normal>) {
+      children_[first + i] = Child::normal;
+      entry.child = add_normal(from.value, inside);
+    } else {
+      children_[first + i] = Child::material;
+      const Known material = add_material(from.value, inside);
+      entry.child = material.index;
+      traits.add(material.traits);
+    }
+    entries[first + i] = entry;
+  }
+  const std::uint32_t pattern = add_pattern(map->pattern, outer, map->is_average, count);
+  patterns[pattern].entries = first;
+  if (is_shared) known_[map.get()] = {pattern, traits};
+  return {pattern, traits};
+}
+
+std::uint32_t TextureTables::add_normal(const Normal& normal, const Space& outer) {
+  NormalRecord r{};
+  if (normal.map) {
+    r.is_mapped = 1;
+    r.pattern = add_map(normal.map, outer).index;
+  } else {
+    r.pattern = add_pattern(normal.pattern, outer, false, 0);
+    r.amount = static_cast<float>(normal.amount);
+    r.accuracy = static_cast<float>(normal.accuracy);
+    const Transform map = whole_map(steps_of(normal.pattern, outer));
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 3; ++column)
+        r.linear[row * 3 + column] = static_cast<float>(map.rows[column][row]);
+  }
+  normals.push_back(r);
+  return static_cast<std::uint32_t>(normals.size() - 1);
+}
+
+std::uint32_t TextureTables::add_pattern(const Pattern& pattern, const Space& outer, bool is_average,
+                                         std::size_t entry_count) {
+  PatternRecord r{};
+  r.entries = r.steps = 0;
+  r.entry_count = static_cast<std::uint32_t>(entry_count);
+  if (is_average) {
+    r.kind_and_flags = pattern_flag::average;
+  } else {
+    r.kind_and_flags = pattern_parameters(pattern.kind, r.parameter);
+    const PatternWave wave =
+        pattern.frequency == 0 ? PatternWave::none : static_cast<PatternWave>(pattern.wave);
+    r.kind_and_flags |= static_cast<std::uint32_t>(wave) << pattern_flag::wave_shift;
+    const int generator = pattern.noise_generator == 0 ? scene_.noise_generator : pattern.noise_generator;
+    if (generator == 1) r.kind_and_flags |= pattern_flag::first_generator;
+    if (generator == 3 && Patterns::kNeedNoise[r.kind_and_flags & pattern_flag::kind_mask])
+      throw InputError("noise generator 3 is not supported yet");
+    if (!is_still(pattern.turbulence)) r.kind_and_flags |= pattern_flag::turbulent;
+  }
+  r.frequency = static_cast<float>(pattern.frequency);
+  r.phase = static_cast<float>(pattern.phase);
+  r.wave_exponent = static_cast<float>(pattern.wave_exponent);
+  r.turbulence = words_of(pattern.turbulence);
+  // What is met first is written last.
+  const auto first_step = static_cast<std::uint32_t>(steps.size());
+  r.steps = first_step;
+  Transform map;
+  const auto end_map = [&] {
+    set(map, steps.size() == first_step ? r.to_space : steps.back().to_space);
+    map = Transform();
+  };
+  const Space space = steps_of(pattern, outer);
+  for (auto step = space.rbegin(); step != space.rend(); ++step) {
+    if (const auto* transform = std::get_if<Transform>(&*step)) {
+      map = map.then(transform->inverse());
+    } else if (const auto& moved = std::get<Turbulence>(*step); !is_still(moved)) {
+      end_map();
+      steps.emplace_back();
+      steps.back().turbulence = words_of(moved);
+    }
+  }
+  end_map();
+  r.step_count = static_cast<std::uint32_t>(steps.size()) - first_step;
+  patterns.push_back(r);
+  return static_cast<std::uint32_t>(patterns.size() - 1);
+}
+
+void TextureTables::relocate(const ImageHeader& header) {
+  for (PatternRecord& r : patterns) {
+    to_offset<MapEntryRecord>(r.entries, header.map_entry_offset);
+    to_offset<SpaceStepRecord>(r.steps, header.space_step_offset);
+  }
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    switch (children_[i]) {
+    case Child::pattern:
+      to_offset<PatternRecord>(entries[i].child, header.pattern_offset);
+      break;
+    case Child::normal:
+      to_offset<NormalRecord>(entries[i].child, header.normal_offset);
+      break;
+    case Child::material:
+      to_offset<MaterialRecord>(entries[i].child, header.material_offset);
+      break;
+    }
+  for (NormalRecord& r : normals)
+    to_offset<PatternRecord>(r.pattern, header.pattern_offset);
+  for (MaterialRecord& r : materials) {
+    to_offset<PatternRecord>(r.pattern, header.pattern_offset);
+    to_offset<NormalRecord>(r.normal, header.normal_offset);
+    to_offset<MaterialRecord>(r.below, header.material_offset);
+  }
+}
+
+} // namespace celltrace

@@ -1,0 +1,70 @@
+// The records of textures: materials with the layers below them, patterns and their maps, normals.
+#pragma once
+
+#include "celltrace/scene.hpp"
+#include "kernel/records.hpp"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace celltrace {
+
+/// Throws InputError, with `name`, unless all numbers are finite, maps have entries and neither nest nor
+/// layer too deeply, and every pattern is one that there is.
+void validate_texture(const Material& material, const std::string& name);
+
+/// Likewise of the scene's sky sphere.
+void validate_sky(const Scene& scene);
+
+/// References among the tables are indices until relocate() makes offsets of them; kNoOffset stays.
+class TextureTables {
+public:
+  /// The first materials are the scene's, by index. The scene is valid. Throws InputError if a pattern is
+  /// none that the kernel has.
+  explicit TextureTables(const Scene& scene);
+
+  /// Makes offsets in the image of all references.
+  void relocate(const kernel::ImageHeader& header);
+
+  std::vector<kernel::MaterialRecord> materials;
+  std::vector<kernel::PatternRecord> patterns;
+  std::vector<kernel::SpaceStepRecord> steps;
+  std::vector<kernel::MapEntryRecord> entries;
+  std::vector<kernel::NormalRecord> normals;
+  std::uint32_t sky; ///< index of the uppermost layer's material, or kNoOffset
+  /// By material of the scene: what an object has that consists of it, of object_flag's opaque, mapped,
+  /// disturbed.
+  std::vector<std::uint32_t> object_flags;
+
+private:
+  /// What the textures of a tree have in common.
+  struct Traits {
+    bool opaque = true, textured = false, disturbed = false;
+    void add(const Traits& other);
+  };
+  struct Known {
+    std::uint32_t index; ///< of a material, or of the pattern whose map it is
+    Traits traits;
+  };
+  enum class Child : std::uint8_t { pattern, normal, material };
+
+  /// Of the maps around a pattern: what comes between its own space and the scene. In no map it is empty.
+  using Space = std::vector<SpaceStep>;
+
+  std::uint32_t add_pattern(const Pattern& pattern, const Space& outer, bool is_average,
+                            std::size_t entry_count);
+  Traits fill_material(std::uint32_t index, const Material& material, const Space& outer);
+  template <class T> Known add_map(const std::shared_ptr<const PatternMap<T>>& map, const Space& outer);
+  Known add_material(const Material& material, const Space& outer);
+  std::uint32_t add_normal(const Normal& normal, const Space& outer);
+  Traits fill(kernel::MapEntryRecord& entry, const Pigment& pigment);
+
+  const Scene& scene_;
+  std::vector<Child> children_;        ///< by entry, what its child is
+  std::map<const void*, Known> known_; ///< maps that several share, by address
+};
+
+} // namespace celltrace
