@@ -31,6 +31,7 @@ constexpr CodeModule kLights = {"lights", 6, 1, 12288};
 /// The rays of cameras whose pictures are not flat.
 constexpr CodeModule kCameras = {"cameras", 10, 1, 8192};
 /// Pigments and normals, but for the patterns themselves.
-constexpr CodeModule kTextures = {"textures", 9, 1, 14336};
+constexpr CodeModule kTextures = {"textures", 9, 1, 12288};
+constexpr CodeModule kNormals = {"normals", 11, 1, 12288};
 
 } // namespace celltrace::kernel::modules

@@ -105,7 +105,7 @@ template <class Spu>
 [[gnu::noinline]] void disturb_normals(SceneAccess<Spu>& scene, const WordLanes& offsets,
                                        const MaterialLanes<typename Spu::simd>& m,
                                        Surfaces<typename Spu::simd>& surfaces) {
-  scene.spu().enter_module(modules::kTextures);
+  scene.spu().enter_module(modules::kNormals);
   for_each_value<typename Spu::simd>(offsets, m.disturbed, [&](uint32_t offset, uint32_t same) {
     disturb_normal(scene, scene.material(offset)->normal, surfaces.point, same, surfaces.normal);
   });

@@ -188,7 +188,7 @@ private:
       if (map == kNoOffset) return;
       plain &= ~same;
       scene_.spu().enter_module(modules::kTextures);
-      MapWalk<Spu> walk(scene_, MapOf::textures, surfaces.point);
+      MapWalk<Spu, TextureStage::colours> walk(scene_, MapOf::textures, surfaces.point);
       walk.enter(map, weight, same);
       MapEntryRecord entry;
       F share;

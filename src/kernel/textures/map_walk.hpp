@@ -21,12 +21,15 @@ inline uint32_t map_of(const MaterialRecord& material) {
 /// Visits the leaves of a tree of maps that count at sixteen points, with their weights, which add up to 1 in
 /// each lane. Without recursion: one level of the tree is one of `levels_`. `Tree::pattern_of(scene, entry)`
 /// is the offset of the pattern whose map an entry is, or kNoOffset if it is a leaf.
-template <class Spu> class MapWalk {
+template <class Spu, TextureStage kStage> class MapWalk {
 public:
   using S = typename Spu::simd;
   using F = typename S::F;
   using I = typename S::I;
   using M = typename S::M;
+
+  static constexpr CodeModule kModule =
+      kStage == TextureStage::normals ? modules::kNormals : modules::kTextures;
 
   MapWalk(SceneAccess<Spu>& scene, MapOf of, const V3<S>& point) : scene_(scene), of_(of) {
     point_.template store<S>(point);
@@ -34,7 +37,7 @@ public:
 
   /// Starts at a pattern, whose leaves share `weight`.
   [[gnu::noinline]] void enter(uint32_t pattern, const F& weight, uint32_t lanes) {
-    scene_.spu().run_in_module(modules::kTextures);
+    scene_.spu().run_in_module(kModule);
     const PatternRecord r = *scene_.pattern(pattern);
     Level& level = levels_[depth_++];
     weight.store(level.weight.lane);
@@ -44,8 +47,8 @@ public:
     level.lanes = lanes;
     level.average = (r.kind_and_flags & pattern_flag::average) != 0;
     if (level.average) return;
-    const V3<S> p = to_pattern_space(scene_, r, point_.template load<S>());
-    const F value = pattern_value(scene_.spu(), r, p);
+    const V3<S> p = to_pattern_space<kStage>(scene_, r, point_.template load<S>());
+    const F value = pattern_value<kStage>(scene_.spu(), r, p);
     F upper(0.0f), share(1.0f);
     if (Patterns::kAreLists[r.kind_and_flags & pattern_flag::kind_mask])
       upper = S::min(value, F(static_cast<float>(r.entry_count - 1)));
@@ -57,7 +60,7 @@ public:
 
   /// The next leaf, with its weight in those of `lanes`; false: there are no more.
   [[gnu::noinline]] bool next(MapEntryRecord& leaf, F& weight, uint32_t& lanes) {
-    scene_.spu().run_in_module(modules::kTextures);
+    scene_.spu().run_in_module(kModule);
     while (depth_ != 0) {
       Level& level = levels_[depth_ - 1];
       if (level.next == level.count) {

@@ -21,7 +21,7 @@ V3<typename Spu::simd> slope_disturbance(Spu& spu, const PatternRecord& r, const
   V3<S> sum = {F(0.0f), F(0.0f), F(0.0f)};
   for (const float(&corner)[3] : kCorners) {
     const V3<S> to = splat3<S>(corner);
-    sum = sum + to * pattern_value(spu, r, p + to * F(accuracy));
+    sum = sum + to * pattern_value<TextureStage::normals>(spu, r, p + to * F(accuracy));
   }
   return sum * F(-0.1f / accuracy);
 }
@@ -50,7 +50,7 @@ template <class Spu>
   using F = typename S::F;
   Spu& spu = scene.spu();
   const PatternRecord r = *scene.pattern(normal.pattern);
-  const V3<S> p = to_pattern_space(scene, r, point);
+  const V3<S> p = to_pattern_space<TextureStage::normals>(scene, r, point);
   float c[9];
   cofactors(normal.linear, c);
   const V3<S> local = normalise<S>(
@@ -85,7 +85,7 @@ template <class Spu>
     return;
   }
   V3<S> sum = {F(0.0f), F(0.0f), F(0.0f)};
-  MapWalk<Spu> walk(scene, MapOf::normals, point);
+  MapWalk<Spu, TextureStage::normals> walk(scene, MapOf::normals, point);
   walk.enter(record.pattern, F(1.0f), lanes);
   MapEntryRecord entry;
   F weight;

@@ -67,7 +67,7 @@ template <class Spu>
 } // namespace module_noise
 
 /// Points in the space of a pattern.
-template <class Spu>
+template <TextureStage kStage, class Spu>
 [[gnu::noinline]] V3<typename Spu::simd> to_pattern_space(SceneAccess<Spu>& scene, const PatternRecord& r,
                                                           const V3<typename Spu::simd>& point) {
   using S = typename Spu::simd;
@@ -88,13 +88,13 @@ template <class Spu>
 }
 
 /// At points in the pattern's own space, wave included.
-template <class Spu>
+template <TextureStage kStage, class Spu>
 typename Spu::simd::F pattern_value(Spu& spu, const PatternRecord& r, const V3<typename Spu::simd>& p) {
   spu.compute(scalar_work::kPattern);
   const bool needs_noise = Patterns::kNeedNoise[r.kind_and_flags & pattern_flag::kind_mask];
   spu.enter_module(needs_noise ? modules::kNoise : modules::kPatterns);
   const auto value = needs_noise ? module_noise::value(spu, r, p) : module_patterns::value(spu, r, p);
-  return wave_of<typename Spu::simd>(r, value);
+  return wave_of<typename Spu::simd, kStage>(r, value);
 }
 
 } // namespace celltrace::kernel
