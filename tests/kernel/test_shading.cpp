@@ -250,7 +250,7 @@ TEST_CASE("Mirrored and refracted directions, and total reflection") {
     const F cosine = -dot<Simd>(d, n);
     M total = M::none();
     const VectorLanes bent = lanes_of(refract<Simd>(d, n, cosine, load(ratio), total));
-    const VectorLanes mirrored = lanes_of(mirror<Simd>(d, n, cosine));
+    const VectorLanes mirrored = lanes_of(mirror<Simd>(d, n, n));
     for (unsigned l = 0; l < kSimdLanes; ++l) {
       const Vec3 from = test::at(direction, l);
       const Vec3 normal_here = test::at(normal, l);

@@ -20,6 +20,14 @@ alignas(64) constexpr float kJitterX[kSimdLanes] = {
 alignas(64) constexpr float kJitterY[kSimdLanes] = {
     0.0f,       0.5698403f, 0.1396806f, 0.7095209f, 0.2793612f, 0.8492015f, 0.4190417f, 0.9888820f,
     0.5587223f, 0.1285626f, 0.6984029f, 0.2682432f, 0.8380835f, 0.4079238f, 0.9777641f, 0.5476044f};
+} // namespace detail
+
+/// A place on the grid of a light.
+struct LightPlace {
+  uint32_t column, row;
+};
+
+namespace module_areas {
 
 /// A number from 0 up to 1 that follows from the place alone, so that pictures do not depend on who renders
 /// them or how often.
@@ -35,14 +43,6 @@ template <class S> typename S::F jitter(uint32_t place, const float* lanes) {
   const F sum = F::load(lanes) + F(scattered(place));
   return S::select(sum >= F(1.0f), sum - F(1.5f), sum - F(0.5f));
 }
-} // namespace detail
-
-/// A place on the grid of a light.
-struct LightPlace {
-  uint32_t column, row;
-};
-
-namespace module_lights {
 
 /// From the middle of a light to a place on it, which is seen from where it is `to_middle` to the middle.
 template <class S>
@@ -52,8 +52,8 @@ template <class S>
   F u(static_cast<float>(place.column)), v(static_cast<float>(place.row));
   if ((flags & light_flag::jitter) != 0) {
     const uint32_t number = place.row * kMaxLightPlaces + place.column;
-    u = u + detail::jitter<S>(2 * number + 1, detail::kJitterX);
-    v = v + detail::jitter<S>(2 * number + 2, detail::kJitterY);
+    u = u + jitter<S>(2 * number + 1, detail::kJitterX);
+    v = v + jitter<S>(2 * number + 2, detail::kJitterY);
   }
   u = light.columns > 1 ? u * F(light.inverse_columns) - F(0.5f) : F(0.0f);
   v = light.rows > 1 ? v * F(light.inverse_rows) - F(0.5f) : F(0.0f);
@@ -101,13 +101,13 @@ template <class Spu>
                                        const IncidentLight<typename Spu::simd>& middle,
                                        IncidentLight<typename Spu::simd>& from_place) {
   using S = typename Spu::simd;
-  spu.run_in_module(modules::kLights);
+  spu.run_in_module(modules::kAreas);
   aim<S>(light, s.point, middle.direction * middle.distance, place, from_place);
   from_place.colour = middle.colour;
   from_place.facing = middle.facing;
 }
 
-} // namespace module_lights
+} // namespace module_areas
 
 /// Where the sampling of a light stands that surfaces of a packet face. Whoever looks at places asks next()
 /// for them, one after the other, and leaves in `light` what comes from there; then it is over, and `sum` is
@@ -170,7 +170,7 @@ template <class S> struct AreaShadow {
   }
 };
 
-namespace module_lights {
+namespace module_areas {
 
 template <class S>
 [[gnu::noinline]] void begin_area(const LightRecord& light, const Surfaces<S>& s,
@@ -258,7 +258,7 @@ template <class Spu>
 [[gnu::noinline]] bool next_sample(Spu& spu, const LightRecord& light, AreaShadow<typename Spu::simd>& a) {
   using S = typename Spu::simd;
   using F = typename S::F;
-  spu.run_in_module(modules::kLights);
+  spu.run_in_module(modules::kAreas);
   if (a.lanes != 0) take_sample<S>(a);
   for (;;) {
     for (; a.corner_count < AreaShadow<S>::kCorners; ++a.corner_count) {
@@ -286,12 +286,28 @@ template <class Spu>
   }
 }
 
-} // namespace module_lights
+} // namespace module_areas
 
 /// Local store for the sampling of lights, in a program whose scene has such.
 template <class Spu> AreaShadow<typename Spu::simd>* allocate_area_shadow(Spu& spu, const FrameBlock& frame) {
   if (frame.light_places == frame.light_count) return nullptr;
   return spu.template allocate<AreaShadow<typename Spu::simd>>();
+}
+
+/// Starts the sampling of a light for the surfaces that face it.
+template <class Spu>
+void begin_sampling(Spu& spu, const LightRecord& light, const Surfaces<typename Spu::simd>& s,
+                    const IncidentLight<typename Spu::simd>& incident,
+                    AreaShadow<typename Spu::simd>& shadow) {
+  spu.enter_module(modules::kAreas);
+  module_areas::begin_area<typename Spu::simd>(light, s, incident, shadow);
+}
+
+/// Goes on to the next place that is asked for. False: there is none.
+template <class Spu>
+bool next_place(Spu& spu, const LightRecord& light, AreaShadow<typename Spu::simd>& shadow) {
+  spu.enter_module(modules::kAreas);
+  return module_areas::next_sample(spu, light, shadow);
 }
 
 /// The light that comes to the surfaces from all of a light's area. `look(shadow)` leaves in `shadow.light`
@@ -300,14 +316,9 @@ template <class Spu, class Look>
 uint32_t sample_area(Spu& spu, const LightRecord& light, const Surfaces<typename Spu::simd>& s,
                      const IncidentLight<typename Spu::simd>& incident,
                      AreaShadow<typename Spu::simd>& shadow, VectorLanes& colour, Look look) {
-  using S = typename Spu::simd;
-  spu.enter_module(modules::kLights);
-  module_lights::begin_area<S>(light, s, incident, shadow);
-  for (;;) {
-    spu.enter_module(modules::kLights);
-    if (!module_lights::next_sample(spu, light, shadow)) break;
+  begin_sampling(spu, light, s, incident, shadow);
+  while (next_place(spu, light, shadow))
     look(shadow);
-  }
   colour = shadow.sum;
   return shadow.rays_asked;
 }

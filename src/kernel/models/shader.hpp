@@ -185,8 +185,8 @@ private:
       for (uint32_t row = 0; row < light.rows; ++row)
         for (uint32_t column = 0; column < light.columns; ++column) {
           IncidentLight<S> from_place(light.colour);
-          spu_.enter_module(modules::kLights);
-          module_lights::aim_shadow_rays(spu_, light, surfaces, {column, row}, incident, from_place);
+          spu_.enter_module(modules::kAreas);
+          module_areas::aim_shadow_rays(spu_, light, surfaces, {column, row}, incident, from_place);
           ask_for_light_of(i, surfaces, from_place);
         }
     });
@@ -225,8 +225,7 @@ private:
     const RayPacket& rays = context.tracer.node().rays;
     const WordLanes& objects = context.tracer.hits().object;
     const Surfaces<S> surfaces = context.points.lit_surfaces(rays.direction.template load<S>(), objects);
-    context.tracer.count_shadow_rays(
-        light_.take(scene_, frame_, round, surfaces, context.hit, colours_));
+    context.tracer.count_shadow_rays(light_.take(scene_, frame_, round, surfaces, context.hit, colours_));
   }
 
   /// To the next node of the tree, or the next packet.

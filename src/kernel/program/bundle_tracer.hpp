@@ -42,10 +42,7 @@ public:
       place(column, row);
       find_hits([&](RayQuery* queries) { traversal_.intersect(queries, kPackets); });
     }
-    const LightRound lights = LightRound::from(frame_, 0, nullptr);
-    for_each_light(scene_, frame_, 0, lights.count, [&](uint32_t number, const LightRecord& light) {
-      if (!is_shadowless(light)) find_light(number, light);
-    });
+    find_lights();
     for_each_member([&](Member& member) {
       V3<S> seen = trace(member);
       if (member.lanes != member.pixels) {
@@ -118,6 +115,14 @@ private:
     }
   }
 
+  /// The light of the first round at what the primary rays hit. Not inlined: records of lights are not on the
+  /// stack while rays are shaded.
+  [[gnu::noinline]] void find_lights() {
+    const LightRound lights = LightRound::from(frame_, 0, nullptr);
+    for_each_light(scene_, frame_, 0, lights.count, [&](uint32_t number, const LightRecord& light) {
+      if (!is_shadowless(light)) find_light(number, light);
+    });
+  }
   void find_light(uint32_t number, const LightRecord& light) {
     RayQuery queries[kPackets];
     uint32_t asked = 0;
@@ -125,25 +130,53 @@ private:
       Member& member = members_[i];
       if (member.hit == 0) continue;
       scene_.spu().compute(scalar_work::kBundleLight);
-      const Surfaces<S> surfaces =
-          member.points.lit_surfaces(member.rays.direction.template load<S>(), member.hits.object);
-      IncidentLight<S> incident(light.colour);
-      illuminate(scene_.spu(), light, surfaces, member.hit, incident);
-      if (incident.facing == 0) continue;
-      if (has_area(light)) {
-        look_at_area(light, surfaces, incident, member.light[number]);
-        continue;
-      }
-      make_shadow_rays(surfaces, incident, member.shadow_rays, member.distance);
-      member.light[number].template store<S>(incident.colour);
-      queries[asked++] = {&member.shadow_rays, nullptr, &member.distance, &member.light[number],
-                          incident.facing};
+      VectorLanes& colour = member.light[number];
+      const uint32_t facing = aim_at(light, member, member.rays, member.hits, member.hit, colour);
+      if (facing == 0) continue;
+      if (has_area(light))
+        look_at_area(light, colour);
+      else
+        queries[asked++] = {&member.shadow_rays, nullptr, &member.distance, &colour, facing};
     }
     if (asked == 0) return;
     if (is_parallel(light))
       traversal_.intersect(queries, asked);
     else
       traversal_.intersect(queries, asked, light.location);
+  }
+
+  /// Makes a member's shadow rays from what `rays` hit in `lanes`, or starts the sampling of the light if it
+  /// has an area; `colour` is what comes if nothing is in the way. Returns the lanes that face the light. Not
+  /// inlined: its surfaces are not on the stack while rays are traced.
+  [[gnu::noinline]] uint32_t aim_at(const LightRecord& light, Member& member, const RayPacket& rays,
+                                    const HitPacket& hits, uint32_t lanes, VectorLanes& colour) {
+    const Surfaces<S> surfaces = member.points.lit_surfaces(rays.direction.template load<S>(), hits.object);
+    IncidentLight<S> incident(light.colour);
+    illuminate(scene_.spu(), light, surfaces, lanes, incident);
+    if (incident.facing == 0) return 0;
+    if (has_area(light)) {
+      begin_sampling(scene_.spu(), light, surfaces, incident, *area_);
+    } else {
+      make_shadow_rays(surfaces, incident, member.shadow_rays, member.distance);
+      colour.template store<S>(incident.colour);
+    }
+    return incident.facing;
+  }
+
+  /// As Traversal's transmittance(). Not inlined: once in local store is enough.
+  [[gnu::noinline]] void trace_shadows(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance,
+                                       VectorLanes& light) {
+    traversal_.transmittance(rays, lanes, distance, light);
+  }
+
+  /// The light of an area, whose places each packet asks by itself. Not inlined: few scenes have such lights.
+  [[gnu::noinline]] void look_at_area(const LightRecord& light, VectorLanes& colour) {
+    while (next_place(scene_.spu(), light, *area_)) {
+      scene_.spu().compute(scalar_work::kBundleLight);
+      trace_shadows(area_->rays, area_->lanes, area_->distance, area_->light);
+    }
+    colour = area_->sum;
+    tracer_.count_shadow_rays(area_->rays_asked);
   }
 
   /// The colours of a packet, of which the hits are known and the light of the first round.
@@ -178,29 +211,16 @@ private:
 
   /// The light of a round at the hits of the node that is being traced.
   [[gnu::noinline]] void light_packet(Member& member, uint32_t hit, const LightRound& round) {
-    const Surfaces<S> surfaces =
-        member.points.lit_surfaces(tracer_.node().rays.direction.template load<S>(), tracer_.hits().object);
     for_each_light(scene_, frame_, round.first, round.count, [&](uint32_t number, const LightRecord& light) {
       if (is_shadowless(light)) return;
-      IncidentLight<S> incident(light.colour);
-      illuminate(scene_.spu(), light, surfaces, hit, incident);
-      if (incident.facing == 0) return;
       VectorLanes& colour = member.light[number - round.first];
-      if (has_area(light)) return look_at_area(light, surfaces, incident, colour);
-      make_shadow_rays(surfaces, incident, member.shadow_rays, member.distance);
-      colour.template store<S>(incident.colour);
-      traversal_.transmittance(member.shadow_rays, incident.facing, member.distance, colour);
+      const uint32_t facing = aim_at(light, member, tracer_.node().rays, tracer_.hits(), hit, colour);
+      if (facing == 0) return;
+      if (has_area(light))
+        look_at_area(light, colour);
+      else
+        trace_shadows(member.shadow_rays, facing, member.distance, colour);
     });
-  }
-
-  /// The light of an area, whose places each packet asks by itself. Not inlined: few scenes have such lights.
-  [[gnu::noinline]] void look_at_area(const LightRecord& light, const Surfaces<S>& surfaces,
-                                      const IncidentLight<S>& incident, VectorLanes& colour) {
-    const auto look = [&](AreaShadow<S>& shadow) {
-      scene_.spu().compute(scalar_work::kBundleLight);
-      traversal_.transmittance(shadow.rays, shadow.lanes, shadow.distance, shadow.light);
-    };
-    tracer_.count_shadow_rays(sample_area(scene_.spu(), light, surfaces, incident, *area_, colour, look));
   }
 
   const FrameBlock& frame_;
