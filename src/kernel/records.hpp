@@ -246,7 +246,8 @@ struct alignas(128) LightRecord {
   uint32_t rows;
   float inverse_columns, inverse_rows; ///< of columns - 1, rows - 1
   uint32_t adaptive;                   ///< times that the grid is divided in any case
-  uint32_t unused[5];
+  float axis_length;                   ///< from the location to where the light points
+  uint32_t unused[4];
 };
 static_assert(sizeof(LightRecord) == 128, "one light a line");
 
@@ -435,7 +436,7 @@ struct alignas(128) FrameBlock {
   uint32_t wide_leaves;               ///< 0 or 1: for SPEs that test many triangles of a leaf at once
   uint32_t far_nodes;                 ///< 0 or 1: for SPEs that wait long for a node of the BVH
   uint32_t unbounded_count;           ///< objects behind the others in their table that no accelerator has
-  uint32_t sky; ///< as in ImageHeader
+  uint32_t sky;                       ///< as in ImageHeader
   uint32_t light_places; ///< that shadows are looked for at; as many as lights if none has an area
   uint32_t unused[17];
 };

@@ -113,6 +113,7 @@ LightRecord make_record(const Light& light) {
     r.fade_power = static_cast<float>(light.fade_power);
   }
   if (light.area) set_area(*light.area, r);
+  r.axis_length = static_cast<float>(glm::distance(light.location, light.point_at));
   return r;
 }
 

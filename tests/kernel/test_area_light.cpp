@@ -137,10 +137,7 @@ TEST_CASE("Where the places of a light are") {
       for_each_lane(shadow.lanes, [&](unsigned l) {
         const Vec3 point = test::at(sampling.point, l);
         Vec3 middle = light.location - point;
-        if (light.parallel) {
-          const Vec3 axis = glm::normalize(light.point_at - light.location);
-          middle = axis * glm::dot(middle, axis);
-        }
+        if (light.parallel) middle = light.location - light.point_at;
         const Vec3 toward = glm::normalize(middle);
         if (std::abs(std::abs(toward.z) - 0.99) < 1e-5) return;
         const Vec3 offset = reference::area_offset(*light.area, toward, static_cast<int>(shadow.place.column),

@@ -118,9 +118,11 @@ Vec3 Tracer::own_light(const Ray& ray, const Point& point, const Material& mater
   for (const Light& light : scene_.lights) {
     const auto [to_light, distance, unshadowed] = incoming(light, point.position);
     if (glm::dot(point.normal, to_light) < 1e-10) continue;
+    const bool is_parallel = light.parallel || light.kind == Light::Kind::cylinder;
     const auto from_place = [&](int column, int row) {
       const Vec3 offset = area_offset(*light.area, to_light, column, row);
-      const Vec3 way = glm::normalize(to_light * distance + offset);
+      const Vec3 middle = is_parallel ? light.location - light.point_at : to_light * distance;
+      const Vec3 way = glm::normalize(middle + offset);
       // Parallel light ends beside the place itself, and has no shadows behind it.
       const double end = distance > 0 ? glm::dot(light.location + offset - point.position, way) : 0;
       return unshadowed * attenuation({point.position, way}, end);

@@ -79,16 +79,18 @@ template <class S>
   return across * u + along * v;
 }
 
-/// The ray from surfaces to a place on a light, and how far it goes. Parallel light comes from a middle on
-/// each surface's own axis; as in POV-Ray, its rays end beside the place itself. Behind the light nothing is
+/// The ray from surfaces to a place on a light, and how far it goes. As in POV-Ray, parallel light from a
+/// place goes to where the whole light points, and its rays end beside the place. Behind the light nothing is
 /// in the way.
 template <class S>
 void aim(const LightRecord& light, const V3<S>& points, const V3<S>& to_middle, const LightPlace& place,
          IncidentLight<S>& from_place) {
   using F = typename S::F;
-  const V3<S> offset = offset_of<S>(light, to_middle, place);
-  from_place.set_ray(to_middle + offset);
-  if (!is_parallel(light)) return;
+  const bool parallel = is_parallel(light);
+  const V3<S> toward = parallel ? splat3<S>(light.axis) * F(-light.axis_length) : to_middle;
+  const V3<S> offset = offset_of<S>(light, toward, place);
+  from_place.set_ray(toward + offset);
+  if (!parallel) return;
   const F beside = dot<S>(splat3<S>(light.location) + offset - points, from_place.direction);
   const F zero(0.0f);
   from_place.distance = S::select(dot<S>(to_middle, to_middle) > zero, S::max(beside, zero), zero);
@@ -115,15 +117,12 @@ template <class Spu>
 template <class S> struct AreaShadow {
   using F = typename S::F;
 
-  // The place that is asked for.
+  // Of the place that is asked for.
   RayPacket rays;
   FloatLanes distance;
   VectorLanes light; ///< before, that of the whole light; after, what comes through
-  LightPlace place;
-  uint32_t lanes;
 
   VectorLanes sum;
-  uint32_t rays_asked; ///< so far
 
   // Its own.
   static constexpr uint32_t kCorners = 4;
@@ -139,9 +138,9 @@ template <class S> struct AreaShadow {
   };
   /// Lanes in which all light comes from a place, or none.
   struct Known {
-    uint32_t place;
-    uint16_t lit, dark;
+    uint16_t place, lit, dark;
   };
+  static_assert(kMaxLightPlaces * kMaxLightPlaces <= 1u << 16);
 
   VectorLanes to_middle, whole, corner[kCorners];
   Known known[kPlaces];
@@ -150,11 +149,15 @@ template <class S> struct AreaShadow {
   uint32_t corner_count; ///< that are complete
   Quad quad;             ///< the one that they are of
 
+  LightPlace place; ///< that is asked for
+  uint32_t lanes;
+  uint32_t rays_asked; ///< so far
+
   LightPlace place_of(uint32_t number) const {
     return {(number & 1) == 0 ? quad.left : quad.right, (number & 2) == 0 ? quad.top : quad.bottom};
   }
   Known& known_at(const LightPlace& at) {
-    const uint32_t name = at.row * kMaxLightPlaces + at.column;
+    const auto name = static_cast<uint16_t>(at.row * kMaxLightPlaces + at.column);
     Known& entry = known[(at.row * 17 + at.column) % kPlaces];
     if (entry.place != name) entry = {name, 0, 0};
     return entry;
@@ -182,7 +185,7 @@ template <class S>
   a.whole.template store<S>(incident.colour);
   a.sum.template store<S>({F(0.0f), F(0.0f), F(0.0f)});
   for (typename AreaShadow<S>::Known& entry : a.known)
-    entry.place = ~0u;
+    entry = {0, 0, 0}; // of the first place nothing is known either
   a.rays_asked = 0;
   a.quad_count = 0;
   a.lanes = 0;
@@ -288,9 +291,9 @@ template <class Spu>
 
 } // namespace module_areas
 
-/// Local store for the sampling of lights, in a program whose scene has such.
+/// Local store for the sampling of lights, if the scene has such.
 template <class Spu> AreaShadow<typename Spu::simd>* allocate_area_shadow(Spu& spu, const FrameBlock& frame) {
-  if (frame.light_places == frame.light_count) return nullptr;
+  if (!has_areas(frame)) return nullptr;
   return spu.template allocate<AreaShadow<typename Spu::simd>>();
 }
 

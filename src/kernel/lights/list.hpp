@@ -31,6 +31,10 @@ constexpr bool is_shadowless(const LightRecord& light) {
 constexpr bool has_area(const LightRecord& light) {
   return (light.kind_and_flags & light_flag::area) != 0;
 }
+/// Whether some light of a frame has an area. Its sampling takes the local store of resident ray nodes.
+constexpr bool has_areas(const FrameBlock& frame) {
+  return frame.light_places != frame.light_count;
+}
 constexpr bool is_parallel(const LightRecord& light) {
   return (light.kind_and_flags & light_flag::parallel) != 0;
 }

@@ -18,7 +18,9 @@ public:
   BundleTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, ea_t spill)
       : frame_(frame), scene_(scene), traversal_(scene, frame),
         tracer_(spu, frame, scene, spill, frame.ray_stack_nodes, *spu.template allocate<RayNode>()),
-        members_(spu.template allocate<Member>(kPackets)), area_(allocate_area_shadow(spu, frame)) {}
+        members_(spu.template allocate<Member>(kPackets)), area_(allocate_area_shadow(spu, frame)) {
+    static_assert(sizeof(AreaShadow<S>) <= kResidentNodes * sizeof(RayNode), "lies where nodes would");
+  }
 
   /// Calls `put(column, row, colours)` for each packet in the picture of the bundle at (column, row); that
   /// counts bundles, `put` packets. Or `fill(column, row, colour)` where all of the bundle has one colour and
@@ -131,12 +133,13 @@ private:
       if (member.hit == 0) continue;
       scene_.spu().compute(scalar_work::kBundleLight);
       VectorLanes& colour = member.light[number];
-      const uint32_t facing = aim_at(light, member, member.rays, member.hits, member.hit, colour);
+      if (has_area(light)) {
+        look_at_area(light, member, member.rays, member.hits, member.hit, colour);
+        continue;
+      }
+      const uint32_t facing = aim_at(light, member, member.rays, member.hits, member.hit, colour, nullptr);
       if (facing == 0) continue;
-      if (has_area(light))
-        look_at_area(light, colour);
-      else
-        queries[asked++] = {&member.shadow_rays, nullptr, &member.distance, &colour, facing};
+      queries[asked++] = {&member.shadow_rays, nullptr, &member.distance, &colour, facing};
     }
     if (asked == 0) return;
     if (is_parallel(light))
@@ -145,21 +148,21 @@ private:
       traversal_.intersect(queries, asked, light.location);
   }
 
-  /// Makes a member's shadow rays from what `rays` hit in `lanes`, or starts the sampling of the light if it
-  /// has an area; `colour` is what comes if nothing is in the way. Returns the lanes that face the light. Not
-  /// inlined: its surfaces are not on the stack while rays are traced.
+  /// Makes a member's shadow rays from what `rays` hit in `lanes`, or starts the sampling of a light that has
+  /// an area; else `area` is null. `colour` becomes what comes if nothing is in the way. Returns the lanes
+  /// that face the light. Not inlined: its surfaces are not on the stack while rays are traced.
   [[gnu::noinline]] uint32_t aim_at(const LightRecord& light, Member& member, const RayPacket& rays,
-                                    const HitPacket& hits, uint32_t lanes, VectorLanes& colour) {
+                                    const HitPacket& hits, uint32_t lanes, VectorLanes& colour,
+                                    AreaShadow<S>* area) {
     const Surfaces<S> surfaces = member.points.lit_surfaces(rays.direction.template load<S>(), hits.object);
     IncidentLight<S> incident(light.colour);
     illuminate(scene_.spu(), light, surfaces, lanes, incident);
     if (incident.facing == 0) return 0;
-    if (has_area(light)) {
-      begin_sampling(scene_.spu(), light, surfaces, incident, *area_);
-    } else {
+    colour.template store<S>(incident.colour);
+    if (area != nullptr)
+      begin_sampling(scene_.spu(), light, surfaces, incident, *area);
+    else
       make_shadow_rays(surfaces, incident, member.shadow_rays, member.distance);
-      colour.template store<S>(incident.colour);
-    }
     return incident.facing;
   }
 
@@ -170,13 +173,16 @@ private:
   }
 
   /// The light of an area, whose places each packet asks by itself. Not inlined: few scenes have such lights.
-  [[gnu::noinline]] void look_at_area(const LightRecord& light, VectorLanes& colour) {
-    while (next_place(scene_.spu(), light, *area_)) {
+  [[gnu::noinline]] void look_at_area(const LightRecord& light, Member& member, const RayPacket& rays,
+                                      const HitPacket& hits, uint32_t lanes, VectorLanes& colour) {
+    AreaShadow<S>& area = *area_;
+    if (aim_at(light, member, rays, hits, lanes, colour, &area) == 0) return;
+    while (next_place(scene_.spu(), light, area)) {
       scene_.spu().compute(scalar_work::kBundleLight);
-      trace_shadows(area_->rays, area_->lanes, area_->distance, area_->light);
+      trace_shadows(area.rays, area.lanes, area.distance, area.light);
     }
-    colour = area_->sum;
-    tracer_.count_shadow_rays(area_->rays_asked);
+    colour = area.sum;
+    tracer_.count_shadow_rays(area.rays_asked);
   }
 
   /// The colours of a packet, of which the hits are known and the light of the first round.
@@ -214,12 +220,10 @@ private:
     for_each_light(scene_, frame_, round.first, round.count, [&](uint32_t number, const LightRecord& light) {
       if (is_shadowless(light)) return;
       VectorLanes& colour = member.light[number - round.first];
-      const uint32_t facing = aim_at(light, member, tracer_.node().rays, tracer_.hits(), hit, colour);
-      if (facing == 0) return;
-      if (has_area(light))
-        look_at_area(light, colour);
-      else
-        trace_shadows(member.shadow_rays, facing, member.distance, colour);
+      const RayPacket& rays = tracer_.node().rays;
+      if (has_area(light)) return look_at_area(light, member, rays, tracer_.hits(), hit, colour);
+      const uint32_t facing = aim_at(light, member, rays, tracer_.hits(), hit, colour, nullptr);
+      if (facing != 0) trace_shadows(member.shadow_rays, facing, member.distance, colour);
     });
   }
 
