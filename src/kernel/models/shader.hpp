@@ -221,7 +221,13 @@ private:
   }
 
   void take_light(Context& context, const LightRound& round) {
-    if (!light_.has_areas()) return light_.take(round.first, round.count, colours_);
+    if (light_.has_areas())
+      take_areas(context, round);
+    else
+      light_.take(round.first, round.count, colours_);
+  }
+  /// Not inlined: its surfaces are not on the stack while hits are shaded.
+  [[gnu::noinline]] void take_areas(Context& context, const LightRound& round) {
     const RayPacket& rays = context.tracer.node().rays;
     const WordLanes& objects = context.tracer.hits().object;
     const Surfaces<S> surfaces = context.points.lit_surfaces(rays.direction.template load<S>(), objects);
