@@ -1,5 +1,6 @@
 #include "pov/camera.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <string_view>
@@ -7,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "celltrace/error.hpp"
+#include "pov/patterns.hpp"
 #include "pov/session.hpp"
 #include "pov/shapes.hpp"
 
@@ -93,6 +95,14 @@ std::vector<const char*> camera_kind_names() {
 
 void set_kind(CameraDefinition& camera, int name) {
   camera.kind = kKinds[name].kind;
+}
+
+void set_kind_by_pattern(Session& session, CameraDefinition& camera, int pattern, const Location& where) {
+  const std::string_view word = pattern_words()[static_cast<std::size_t>(pattern)].word;
+  const auto* found = std::find_if(std::begin(kKinds), std::end(kKinds),
+                                   [&](const CameraKind& kind) { return kind.name == word; });
+  if (found == std::end(kKinds)) session.fail(where, "there is no camera of this kind");
+  camera.kind = found->kind;
 }
 
 void set_kind(Session& session, CameraDefinition& camera, int shape, double number, const Location& where) {

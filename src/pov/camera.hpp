@@ -37,6 +37,8 @@ struct CameraDefinition {
 
 /// By its place in camera_kind_names().
 void set_kind(CameraDefinition& camera, int name);
+/// By a pattern's word, `spherical`.
+void set_kind_by_pattern(Session& session, CameraDefinition& camera, int pattern, const Location& where);
 /// By the name of a shape, its place in shape_names(), and the number behind it. Fails if there is none such.
 void set_kind(Session& session, CameraDefinition& camera, int shape, double number, const Location& where);
 /// A camera that is seen with the angle from left to right, and from bottom to top. Fails if it has no such.

@@ -705,6 +705,7 @@ camera_body
     }
   | camera_body CAMERA_ID          { $$ = std::make_shared<CameraDefinition>(*$2); }
   | camera_body CAMERA_KIND        { $$ = $1; set_kind(*$$, $2); }
+  | camera_body PATTERN            { $$ = $1; set_kind_by_pattern(session, *$$, $2, @2); }
   | camera_body SHAPE number       { $$ = $1; set_kind(session, *$$, $2, $3, @2); }
   | camera_body LOCATION quantity  { $$ = $1; $$->location = session.vector($3, @3); }
   | camera_body DIRECTION quantity { $$ = $1; $$->direction = session.vector($3, @3); }
@@ -717,6 +718,7 @@ camera_body
   | camera_body APERTURE number    { $$ = $1; mark($$->unsupported, unless_zero("'aperture'", $3, @2)); }
   | camera_body IGNORED_NUMBER quantity { $$ = $1; }
   | camera_body transformation     { $$ = $1; $$->transform = $$->transform.then($2); }
+  | camera_body NORMAL { $$ = $1; mark($$->unsupported, unsupported_rest(session, "'normal'", @2)); }
   | camera_body unsupported_modifier { $$ = $1; mark($$->unsupported, $2); }
   ;
 
@@ -986,9 +988,6 @@ unsupported_pattern // a pigment's, normal's or texture's
   : unsupported_modifier
   | UNSUPPORTED_OBJECT { $$ = unsupported_rest(session, quoted(session, $1), @1); }
   | OBJECT             { $$ = unsupported_rest(session, "an object pattern", @1); }
-  | CAMERA_KIND { // that of a pattern
-      $$ = unsupported_rest(session, '\'' + std::string(camera_kind_names()[std::size_t($1)]) + '\'', @1);
-    }
   ;
 
 unsupported_modifier // an object's: in CSG an unsupported object is one of its parts

@@ -1,5 +1,8 @@
 #include "pov/reserved_words.hpp"
 
+#include <algorithm>
+#include <string_view>
+
 #include "pov/camera.hpp"
 #include "pov/constants.hpp"
 #include "pov/functions.hpp"
@@ -443,14 +446,21 @@ std::vector<ReservedWord> reserved_words() {
   for (const char* shape : shape_names())
     words.push_back({shape, tokens::T_SHAPE, number++, false});
   number = 0;
-  for (const PatternWord& pattern : pattern_words())
+  const std::vector<PatternWord> patterns = pattern_words();
+  for (const PatternWord& pattern : patterns)
     words.push_back({pattern.word, token_of(pattern.form), number++, false});
   number = 0;
   for (const PatternOption& option : pattern_options())
     words.push_back(
         {option.word, option.has_value ? tokens::T_PATTERN_OPTION : tokens::T_PATTERN_FLAG, number++, false});
-  for (const char* kind : camera_kind_names())
-    words.push_back({kind, tokens::T_CAMERA_KIND, number++, false});
+  number = 0;
+  for (const char* kind : camera_kind_names()) {
+    // A word that is a pattern's too is that one's token.
+    const auto is_kind = [&](const PatternWord& pattern) { return std::string_view(pattern.word) == kind; };
+    if (std::none_of(patterns.begin(), patterns.end(), is_kind))
+      words.push_back({kind, tokens::T_CAMERA_KIND, number, false});
+    ++number;
+  }
   return words;
 }
 

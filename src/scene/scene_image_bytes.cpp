@@ -90,6 +90,7 @@ public:
   TextureCheck(const std::byte* base, const ImageHeader& h)
       : h_(h), materials_(base, h.material_offset, h.material_count),
         patterns_(base, h.pattern_offset, h.pattern_count),
+        steps_(base, h.space_step_offset, h.space_step_count),
         entries_(base, h.map_entry_offset, h.map_entry_count),
         normals_(base, h.normal_offset, h.normal_count) {}
 
@@ -97,6 +98,8 @@ public:
   bool holds() {
     for (std::uint32_t i = 0; i < h_.pattern_count; ++i)
       if (!is_sound(patterns_[i])) return false;
+    for (std::uint32_t i = 0; i < h_.space_step_count; ++i)
+      if (!turbulence_is_sound(steps_[i].turbulence)) return false;
     find_pigment_depths();
     for (std::uint32_t i = 0; i < h_.normal_count; ++i)
       if (!normal_is_sound(i)) return false;
@@ -125,8 +128,7 @@ private:
   static bool turbulence_is_sound(const TurbulenceWords& t) { return t.octaves <= 10; }
 
   bool is_sound(const PatternRecord& r) const {
-    const bool average = (r.kind_and_flags & pattern_flag::average) != 0;
-    if (!average && (r.kind_and_flags & pattern_flag::kind_mask) >= Patterns::kCount) return false;
+    if ((r.kind_and_flags & pattern_flag::kind_mask) >= Patterns::kCount) return false;
     if (!turbulence_is_sound(r.turbulence)) return false;
     if (r.entry_count != 0) {
       const std::uint32_t first = entries_.find(r.entries);
@@ -199,7 +201,7 @@ private:
         return false;
     }
     if (has(material_flag::disturbed) && normals_.find(r.normal) == normals_.count) return false;
-    if (!has(material_flag::layered)) return true;
+    if (!has(material_flag::layered)) return r.below == kNoOffset;
     const std::uint32_t below = materials_.find(r.below);
     if (below == materials_.count || below <= material || mapped ||
         (materials_[below].flags & material_flag::mapped) != 0)
@@ -211,6 +213,7 @@ private:
   const ImageHeader& h_;
   Table<MaterialRecord> materials_;
   Table<PatternRecord> patterns_;
+  Table<SpaceStepRecord> steps_;
   Table<MapEntryRecord> entries_;
   Table<NormalRecord> normals_;
   std::vector<std::uint32_t> pigment_depth_, normal_depth_, material_depth_, layers_;

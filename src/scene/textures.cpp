@@ -26,7 +26,7 @@ public:
   explicit Check(const std::string& name) : name_(name) {}
 
   void material(const Material& m, int depth, int layers) {
-    if (m.map) return map(*m.map, depth, [&](const Material& entry) { material(entry, depth + 1, 0); });
+    if (m.map) return map(*m.map, depth, [&](const Material& entry) { material(entry, depth + 1, 1); });
     pigment(m.pigment, 0);
     const Finish& f = m.finish;
     vectors({f.ambient, f.emission, f.reflection_min, f.reflection_max});
@@ -125,8 +125,15 @@ bool is_still(const Turbulence& t) {
   return t.amount == Vec3(0);
 }
 
-/// Of all maps together: entries that several maps share are written once for each space that they are in.
-constexpr std::size_t kMostEntries = std::size_t{1} << 22;
+/// Of all textures together, in each of the tables: what several maps share is written once for each space
+/// that it is in.
+constexpr std::size_t kMostRecords = std::size_t{1} << 22;
+
+template <class Record>
+void make_room(const std::vector<Record>& table, std::size_t count, const char* what) {
+  if (table.size() + count > kMostRecords)
+    throw InputError("all textures together have more than " + std::to_string(kMostRecords) + ' ' + what);
+}
 
 /// Whether the turbulence of such a pattern moves the points that it is asked at.
 bool is_moved_by_turbulence(const pattern::Kind& kind) {
@@ -175,7 +182,7 @@ Material sky_of(const Scene& scene) {
 } // namespace
 
 void validate_texture(const Material& material, const std::string& name) {
-  Check(name).material(material, 0, 0);
+  Check(name).material(material, 0, 1);
 }
 
 void validate_sky(const Scene& scene) {
@@ -244,6 +251,7 @@ TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Ma
 
 TextureTables::Known TextureTables::add_material(const Material& material, const Space& outer) {
   const auto index = static_cast<std::uint32_t>(materials.size());
+  make_room(materials, 1, "layers");
   materials.emplace_back();
   const Traits traits = fill_material(index, material, outer);
   return {index, traits};
@@ -267,8 +275,7 @@ TextureTables::Known TextureTables::add_map(const std::shared_ptr<const PatternM
     if (const auto known = known_.find(map.get()); known != known_.end()) return known->second;
   const Space inside = space_inside(map->pattern, outer);
   const std::size_t count = map->entries.size();
-  if (entries.size() + count > kMostEntries)
-    throw InputError("the maps of all textures have more than " + std::to_string(kMostEntries) + " entries");
+  make_room(entries, count, "entries of maps");
   const auto first = static_cast<std::uint32_t>(entries.size());
   entries.resize(entries.size() + count);
   children_.resize(entries.size());
@@ -324,6 +331,7 @@ std::uint32_t TextureTables::add_normal(const Normal& normal, const Space& outer
       for (int column = 0; column < 3; ++column)
         r.linear[row * 3 + column] = static_cast<float>(map.rows[column][row]);
   }
+  make_room(normals, 1, "normals");
   normals.push_back(r);
   return static_cast<std::uint32_t>(normals.size() - 1);
 }
@@ -364,12 +372,14 @@ std::uint32_t TextureTables::add_pattern(const Pattern& pattern, const Space& ou
       map = map.then(transform->inverse());
     } else if (const auto& moved = std::get<Turbulence>(*step); !is_still(moved)) {
       end_map();
+      make_room(steps, 1, "warps of patterns");
       steps.emplace_back();
       steps.back().turbulence = words_of(moved);
     }
   }
   end_map();
   r.step_count = static_cast<std::uint32_t>(steps.size()) - first_step;
+  make_room(patterns, 1, "patterns");
   patterns.push_back(r);
   return static_cast<std::uint32_t>(patterns.size() - 1);
 }

@@ -268,6 +268,38 @@ TEST_CASE("Mirrored and refracted directions, and total reflection") {
   CHECK(beyond > 1000);
 }
 
+TEST_CASE("Mirrored by disturbed normals no ray goes below its surface") {
+  Random random(66);
+  unsigned away = 0, below = 0;
+  for (int k = 0; k < 2000; ++k) {
+    VectorLanes direction, normal, smooth;
+    for (unsigned l = 0; l < kSimdLanes; ++l) {
+      const Vec3 n = random.direction();
+      const Vec3 d = random.direction();
+      set(smooth, l, n);
+      set(normal, l, glm::normalize(n + random.point(1)));
+      set(direction, l, glm::dot(n, d) > 0 ? -d : d);
+    }
+    const VectorLanes mirrored =
+        lanes_of(mirror<Simd>(direction.load<Simd>(), normal.load<Simd>(), smooth.load<Simd>()));
+    for (unsigned l = 0; l < kSimdLanes; ++l) {
+      const Vec3 from = test::at(direction, l), unit = test::at(smooth, l), disturbed = test::at(normal, l);
+      const double cosine = -glm::dot(from, disturbed);
+      if (std::abs(cosine) < 1e-5) continue;
+      if (cosine < 0) ++away;
+      Vec3 expected = reference::mirror(from, cosine < 0 ? unit : disturbed);
+      const double height = glm::dot(expected, unit);
+      if (height < 0) {
+        ++below;
+        expected = reference::mirror(expected, unit);
+      }
+      REQUIRE(glm::length(test::at(mirrored, l) - expected) < 2e-6);
+    }
+  }
+  CHECK(away > 500);
+  CHECK(below > 500);
+}
+
 TEST_CASE("The interiors that a ray is inside of") {
   Random random(65);
   Scene source;

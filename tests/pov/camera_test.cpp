@@ -146,6 +146,5 @@ TEST_CASE("what cameras of other kinds cannot have") {
   CHECK(refusal("spherical angle -5") == "scene.pov:1:1: error: a camera's angle must not be negative");
   CHECK(refusal("spherical angle 5, -5") == "scene.pov:1:1: error: a camera's angle must not be negative");
   CHECK(refusal("mesh_camera { 1, 0 }") == "scene.pov:1:10: error: 'mesh_camera' is not supported yet");
-  CHECK(error_line("sphere { 0, 1 pigment { spherical } }") ==
-        "scene.pov:1:25: error: 'spherical' is not supported yet");
+  CHECK(refusal("onion") == "scene.pov:1:10: error: there is no camera of this kind");
 }

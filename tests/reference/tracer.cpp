@@ -8,6 +8,7 @@
 
 #include "reference/area_light.hpp"
 #include "reference/camera.hpp"
+#include "reference/textures.hpp"
 
 namespace celltrace::reference {
 
@@ -85,11 +86,19 @@ Vec3 Tracer::attenuation(const Ray& ray, double distance) const {
       const double weights[3] = {1 - c.u - c.v, c.u, c.v};
       Vec3 filter(0);
       for (int i = 0; i < 3; ++i)
-        filter += weights[i] * filter_colour(scene_.materials[shape.material[i]].pigment);
+        filter +=
+            weights[i] *
+            filter_colour(material_at(shape.material[i], ray.origin + c.distance * ray.direction).pigment);
       passed *= filter;
     }
   }
   return passed;
+}
+
+Material Tracer::material_at(Index index, const Vec3& point) const {
+  Material material = scene_.materials[index];
+  material.pigment = pigment_at(material.pigment, point);
+  return material;
 }
 
 Vec3 Tracer::trace(const Branch& branch) const {
@@ -101,13 +110,13 @@ Vec3 Tracer::trace(const Branch& branch) const {
   point.position = branch.ray.origin + branch.ray.direction * hit.crossing.distance;
   point.normal = normal_at(*hit.shape, point.position, hit.crossing);
   if (glm::dot(point.normal, branch.ray.direction) > 0) point.normal = -point.normal;
-  if (!hit.shape->blended) return shade(branch, point, scene_.materials[hit.shape->material[0]]);
+  if (!hit.shape->blended) return shade(branch, point, material_at(hit.shape->material[0], point.position));
 
   const double weights[3] = {1 - hit.crossing.u - hit.crossing.v, hit.crossing.u, hit.crossing.v};
   Vec3 sum(0);
   for (int i = 0; i < 3; ++i)
     if (weights[i] >= scene_.adc_bailout)
-      sum += weights[i] * shade(branch, point, scene_.materials[hit.shape->material[i]]);
+      sum += weights[i] * shade(branch, point, material_at(hit.shape->material[i], point.position));
   return sum;
 }
 

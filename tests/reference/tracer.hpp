@@ -1,5 +1,5 @@
 // A ray tracer to compare with: Whitted's, in double precision and by brute force, with POV-Ray 3.7's
-// formulas. Slow.
+// formulas. Slow. Of textures it has pigments of patterns without noise.
 #pragma once
 
 #include "celltrace/image.hpp"
@@ -38,6 +38,8 @@ private:
     const Shape* shape;
   };
 
+  /// With the pigment that it has there.
+  Material material_at(Index index, const Vec3& point) const;
   Vec3 trace(const Branch& branch) const;
   Vec3 shade(const Branch& branch, const Point& point, const Material& material) const;
   Vec3 own_light(const Ray& ray, const Point& point, const Material& material) const;

@@ -282,22 +282,132 @@ Scene dome() {
   return scene;
 }
 
+Pigment mapped(const Pattern& pattern, std::vector<PatternMap<Pigment>::Entry> entries,
+               bool is_average = false) {
+  Pigment pigment;
+  pigment.map = map_of<Pigment>(pattern, std::move(entries), is_average);
+  return pigment;
+}
+
+Pattern pattern_of(const pattern::Kind& kind, const Transform& transform = {}) {
+  Pattern pattern;
+  pattern.kind = kind;
+  if (!transform.is_identity()) pattern.space = {transform};
+  return pattern;
+}
+
+Material painted(const Pigment& pigment) {
+  Material material;
+  material.pigment = pigment;
+  return material;
+}
+
+/// Pigments of patterns without noise: lists, blends and waves, nested, averaged, filtering.
+Scene patterns() {
+  Scene scene = with_camera(camera_at({0.4, 2.1, -6.3}, {0.1, 0.1, 0}));
+  const Transform turned = Transform::scale(Vec3(0.43)).then(Transform::rotate({20, 30, 40}));
+  const Pigment stripes =
+      mapped(pattern_of(pattern::Gradient{{1, 0.2, 0}}, turned),
+             {{0.3, {{0.9, 0.3, 0.1}}}, {0.5, {{0.9, 0.8, 0.3}}}, {0.9, {{0.2, 0.3, 0.8}}}});
+  const Pigment cubes =
+      mapped(pattern_of(pattern::Checker{}, Transform::scale(Vec3(0.61)).then(Transform::rotate({0, 37, 0}))),
+             {{0, stripes}, {1, {{0.6, 0.7, 0.6}}}});
+  scene.objects.push_back(mesh_object(floor_mesh(-1.03f, 8), scene.add(painted(cubes)), new_interior(scene)));
+  for (int i = 0; i < 6; ++i) {
+    Pattern waves = pattern_of(pattern::Gradient{{0, 1, 0.3}}, Transform::translate({0, 0.11, 0}));
+    waves.wave = static_cast<Pattern::Wave>(i);
+    waves.wave_exponent = 2.5;
+    waves.frequency = 1 + 0.25 * i;
+    waves.phase = 0.13 * i;
+    Material m =
+        painted(mapped(waves, {{0, {{0.2, 0.1, 0.5}, 0.1 * i, 0}}, {1, {{1, 0.9, 0.4}, 0.1, 0.1 * i}}}));
+    m.finish.phong = 0.4;
+    add_sphere(scene, {1.3 * (i % 3) - 1.3, -0.35 + 1.2 * (i / 3), 0.6 * (i / 3)}, 0.6, m);
+  }
+  const Pigment average = mapped({}, {{1, stripes}, {2, cubes}, {0.5, {{0, 0.5, 1}}}}, true);
+  add_sphere(scene, {-0.7, -0.6, -1.5}, 0.4, painted(average));
+  Material mirror = painted(stripes);
+  mirror.finish.reflection_min = mirror.finish.reflection_max = Vec3(0.5);
+  add_sphere(scene, {0.8, -0.6, -1.5}, 0.4, mirror);
+  return scene;
+}
+
+/// What else textures are made of: noise, turbulence, normals, layers, maps of textures, a sky.
+Scene textures() {
+  Scene scene = with_camera(camera_at({0.3, 1.9, -6.4}, {0, 0.2, 0}));
+  const Transform small = Transform::scale(Vec3(0.37));
+  Pattern clouds = pattern_of(pattern::Bozo{}, small);
+  clouds.turbulence = {{0.4, 0.6, 0.4}, 4, 0.6, 2.2};
+  clouds.noise_generator = 1;
+  const Pigment marbled =
+      mapped(clouds, {{0.2, {{0.2, 0.3, 0.7}}}, {0.5, {{0.8, 0.8, 0.6}}}, {0.8, {{0.9, 0.4, 0.2}}}});
+  const Pigment veil = mapped(pattern_of(pattern::Gradient{{1, 0.1, 0}}, small),
+                              {{0, {{0.9, 0.2, 0.2}, 0, 0.1}}, {0.6, {{0.8, 1, 0.9}, 0.6, 0.3}}});
+  scene.sky_sphere = {
+      mapped(pattern_of(pattern::Gradient{{0, 1, 0}}), {{0, {{0.9, 0.7, 0.5}}}, {1, {{0.1, 0.3, 0.8}}}}),
+      mapped(clouds, {{0.4, {{1, 1, 1}, 0, 1}}, {0.9, {{1, 1, 1}, 0, 0.1}}})};
+
+  Normal bumps;
+  bumps.pattern = pattern_of(pattern::Bumps{}, Transform::scale(Vec3(0.21)));
+  bumps.amount = 0.7;
+  Normal waves;
+  waves.pattern = pattern_of(pattern::Gradient{{0.2, 1, 0}}, Transform::scale(Vec3(0.3)));
+  waves.pattern.wave = Pattern::Wave::sine;
+  waves.amount = 0.6;
+  Normal both;
+  both.map = map_of<Normal>(pattern_of(pattern::Gradient{{0, 0, 1}}), {{0.2, bumps}, {0.8, waves}});
+
+  Material rough = painted(marbled);
+  rough.normal = std::make_shared<const Normal>(both);
+  rough.finish.phong = 0.5;
+  Material layered = painted(veil);
+  layered.below = std::make_shared<const Material>(rough);
+  layered.finish.reflection_min = layered.finish.reflection_max = Vec3(0.2);
+  Material steel = matte({0.4, 0.45, 0.5});
+  steel.normal = std::make_shared<const Normal>(waves);
+  steel.finish.reflection_min = steel.finish.reflection_max = Vec3(0.5);
+  Pattern warped = pattern_of(pattern::Bozo{}, small);
+  warped.space.insert(warped.space.begin(), Turbulence{{0.7, 0.2, 0.5}, 6, 0.5, 2});
+  Material blend;
+  blend.map = map_of<Material>(warped, {{0.35, layered}, {0.5, rough}, {0.65, steel}});
+  Material squares;
+  squares.map = map_of<Material>(pattern_of(pattern::Checker{}, Transform::scale(Vec3(0.83))),
+                                 {{0, matte({0.7, 0.7, 0.6})}, {1, blend}});
+  Material window = painted(veil);
+  window.normal = std::make_shared<const Normal>(bumps);
+  const Material all[] = {rough, layered, steel, blend, squares, window};
+  scene.objects.push_back(mesh_object(floor_mesh(-1.03f, 8), scene.add(squares), new_interior(scene)));
+  for (int i = 0; i < 6; ++i)
+    add_sphere(scene, {1.3 * (i % 3) - 1.3, -0.35 + 1.2 * (i / 3), 0.6 * (i / 3)}, 0.6, all[i],
+               i == 5 ? 1.2 : 1);
+  // A mesh whose corners blend three of them.
+  Mesh ball = ball_mesh(4);
+  for (std::size_t t = 0; t < ball.triangles.size(); ++t)
+    for (std::size_t corner = 0; corner < 3; ++corner)
+      ball.triangles[t].material[corner] = static_cast<Index>(1 + (t + corner * (t % 2)) % 3);
+  scene.objects.push_back(mesh_object(ball, 1, new_interior(scene)));
+  scene.objects.back().transform = Transform::scale(Vec3(0.45)).then(Transform::translate({0.6, -0.5, -1.6}));
+  return scene;
+}
+
 } // namespace
 
 const std::vector<NamedScene>& scenes() {
-  static const std::vector<NamedScene> all = {{"highlights", highlights},
-                                              {"glass and mirrors", glass_and_mirrors},
-                                              {"ellipsoids", ellipsoids},
-                                              {"meshes", meshes},
-                                              {"kinds of lights", kinds_of_lights},
-                                              {"dome", dome},
-                                              {"soft shadows", soft_shadows},
-                                              {"legacy orthographic", legacy_orthographic},
-                                              {"half mirrors", half_mirrors},
-                                              {"inside glass", inside_glass},
-                                              {"empty", empty},
-                                              {"dark", dark},
-                                              {"flat, gamma 2.2", flat_gamma}};
+  static const std::vector<NamedScene> all = {
+      {"highlights", highlights},
+      {"glass and mirrors", glass_and_mirrors},
+      {"ellipsoids", ellipsoids},
+      {"meshes", meshes},
+      {"kinds of lights", kinds_of_lights},
+      {"dome", dome},
+      {"legacy orthographic", legacy_orthographic},
+      {"half mirrors", half_mirrors},
+      {"inside glass", inside_glass},
+      {"empty", empty},
+      {"dark", dark},
+      {"flat, gamma 2.2", flat_gamma},
+      {"patterns", patterns},
+      {"textures", textures, "the reference has no noise, layers or normals"}};
   return all;
 }
 

@@ -4,7 +4,9 @@
 #include "celltrace/scene.hpp"
 
 #include <functional>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace celltrace::test {
@@ -12,6 +14,7 @@ namespace celltrace::test {
 struct NamedScene {
   std::string name;
   std::function<Scene()> make;
+  std::string not_in_reference = ""; ///< why the reference tracer cannot render it
 };
 
 /// Every scene of the folder.
@@ -27,6 +30,12 @@ Scene overlapping_triangles();
 Material matte(const Vec3& rgb);
 /// Clear, filtering by `rgb`, and mirroring a little.
 Material glass(const Vec3& rgb);
+
+template <class T>
+std::shared_ptr<const PatternMap<T>>
+map_of(const Pattern& pattern, std::vector<typename PatternMap<T>::Entry> entries, bool is_average = false) {
+  return std::make_shared<const PatternMap<T>>(PatternMap<T>{pattern, std::move(entries), is_average});
+}
 
 Object sphere_at(const Vec3& centre, double radius, Index material, Index interior);
 /// Two triangles in the plane y = `height`, from -`half` to `half`.

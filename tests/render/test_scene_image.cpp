@@ -2,6 +2,7 @@
 #include "celltrace/error.hpp"
 #include "kernel/accel/object_bounds.hpp"
 #include "kernel/lights/list.hpp"
+#include "kernel/textures/list.hpp"
 #include "render/scenes.hpp"
 #include "scene/mesh_prototype.hpp"
 #include "scene/scene_image.hpp"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cstring>
 #include <functional>
+#include <limits>
 
 using namespace celltrace;
 using namespace celltrace::kernel;
@@ -536,4 +538,282 @@ TEST_CASE("A sealed scene image with a fault in its copies is refused") {
   refused(
       [](ImageHeader& h, std::uint32_t* prototypes) { prototypes[h.group_count - 1] = h.group_count - 2; });
   refused([](ImageHeader& h, std::uint32_t* prototypes) { prototypes[h.group_count - 1] = 0; });
+}
+
+namespace {
+
+/// Finds records of an image by what they say.
+struct TextureRecords {
+  explicit TextureRecords(Bytes& bytes) : b(bytes), h(header_of(bytes)) {}
+
+  MaterialRecord& material(std::uint32_t flags) {
+    auto* all = table<MaterialRecord>(b, h.material_offset);
+    auto* found = std::find_if(all, all + h.material_count,
+                               [&](const MaterialRecord& r) { return (r.flags & flags) == flags; });
+    REQUIRE(found != all + h.material_count);
+    return *found;
+  }
+  PatternRecord& pattern(std::uint32_t offset) { return *table<PatternRecord>(b, offset); }
+  PatternRecord& stepped() {
+    auto* all = table<PatternRecord>(b, h.pattern_offset);
+    auto* found =
+        std::find_if(all, all + h.pattern_count, [&](const PatternRecord& r) { return r.step_count != 0; });
+    REQUIRE(found != all + h.pattern_count);
+    return *found;
+  }
+  NormalRecord& normal(bool is_mapped) {
+    auto* all = table<NormalRecord>(b, h.normal_offset);
+    auto* found = std::find_if(all, all + h.normal_count,
+                               [&](const NormalRecord& r) { return (r.is_mapped != 0) == is_mapped; });
+    REQUIRE(found != all + h.normal_count);
+    return *found;
+  }
+  MapEntryRecord& entry_of(std::uint32_t pattern_offset) {
+    return *table<MapEntryRecord>(b, pattern(pattern_offset).entries);
+  }
+  template <class Record> std::uint32_t offset_of(const Record& record) const {
+    return static_cast<std::uint32_t>(reinterpret_cast<const std::byte*>(&record) - b.data());
+  }
+
+  Bytes& b;
+  ImageHeader& h;
+};
+
+/// A pigment of a map whose only entry is `inner`.
+Pigment around(const Pigment& inner, const Pattern& pattern = {}) {
+  Pigment outer;
+  outer.map = map_of<Pigment>(pattern, {{0, inner}});
+  return outer;
+}
+Pigment nested_pigment(int maps) {
+  Pigment pigment;
+  for (int i = 0; i < maps; ++i)
+    pigment = around(pigment);
+  return pigment;
+}
+Scene scene_of(const Material& material) {
+  Scene scene;
+  scene.materials = {material};
+  return scene;
+}
+Scene scene_of(const Pigment& pigment) {
+  Material material;
+  material.pigment = pigment;
+  return scene_of(material);
+}
+
+} // namespace
+
+TEST_CASE("A sealed scene image with a fault in its textures is refused") {
+  const Bytes good = bytes_of(SceneImage(scene_named("textures")));
+  const auto refused = [&](const std::function<void(TextureRecords&)>& change) {
+    Bytes bytes = good;
+    TextureRecords records(bytes);
+    change(records);
+    REQUIRE(bytes != good);
+    seal(bytes);
+    CHECK_THROWS_WITH(SceneImage::from_bytes(bytes), Catch::Contains("offset"));
+  };
+  using R = TextureRecords;
+  SECTION("tables") {
+    refused([](R& r) { r.h.pattern_count = 0x10000000; });
+    refused([](R& r) { r.h.pattern_offset = 0xFFFFFF80; });
+    refused([](R& r) { r.h.space_step_count = 0x10000000; });
+    refused([](R& r) { r.h.map_entry_count = 0x10000000; });
+    refused([](R& r) { r.h.normal_count = 0x10000000; });
+    refused([](R& r) { r.h.pattern_count = 0; });
+    refused([](R& r) { r.h.space_step_count = 0; });
+    refused([](R& r) { r.h.map_entry_count = 0; });
+    refused([](R& r) { r.h.normal_count = 0; });
+  }
+  SECTION("patterns") {
+    refused([](R& r) { r.pattern(r.h.pattern_offset).kind_and_flags |= pattern_flag::kind_mask; });
+    refused([](R& r) {
+      r.pattern(r.h.pattern_offset).kind_and_flags = pattern_flag::average | Patterns::kCount;
+    });
+    refused([](R& r) { r.pattern(r.h.pattern_offset).turbulence.octaves = 11; });
+    refused([](R& r) { r.pattern(r.material(material_flag::patterned).pattern).entries += 16; });
+    refused([](R& r) { r.pattern(r.material(material_flag::patterned).pattern).entries = kNoOffset; });
+    refused([](R& r) { r.pattern(r.material(material_flag::patterned).pattern).entry_count = 0xFFFFFFFF; });
+    refused([](R& r) { r.pattern(r.material(material_flag::patterned).pattern).entry_count = 0; });
+    refused([](R& r) { r.pattern(r.material(material_flag::mapped).pattern).entry_count = 0; });
+  }
+  SECTION("steps") {
+    refused([](R& r) { r.stepped().steps += 64; });
+    refused([](R& r) { r.stepped().steps = 0; });
+    refused([](R& r) { r.stepped().step_count = 0xFFFFFFFF; });
+    refused(
+        [](R& r) { table<SpaceStepRecord>(r.b, r.h.space_step_offset)->turbulence.octaves = 0xFFFFFFFF; });
+  }
+  SECTION("entries, and maps that contain themselves") {
+    refused([](R& r) { r.entry_of(r.material(material_flag::patterned).pattern).child = 0; });
+    refused([](R& r) { r.entry_of(r.material(material_flag::mapped).pattern).child = kNoOffset; });
+    refused([](R& r) { r.entry_of(r.normal(true).pattern).child += 32; });
+    refused([](R& r) {
+      const std::uint32_t pattern = r.material(material_flag::patterned).pattern;
+      r.entry_of(pattern).child = pattern;
+    });
+    refused([](R& r) {
+      const MaterialRecord& material = r.material(material_flag::mapped);
+      r.entry_of(material.pattern).child = r.offset_of(material);
+    });
+    refused([](R& r) {
+      const NormalRecord& normal = r.normal(true);
+      r.entry_of(normal.pattern).child = r.offset_of(normal);
+    });
+  }
+  SECTION("normals") {
+    refused([](R& r) { r.normal(false).pattern = kNoOffset; });
+    refused([](R& r) { r.normal(true).pattern += 64; });
+    refused([](R& r) { r.pattern(r.normal(true).pattern).entry_count = 0; });
+  }
+  SECTION("materials, and layers that go round") {
+    refused([](R& r) { r.material(material_flag::patterned).pattern += 64; });
+    refused([](R& r) { r.material(material_flag::mapped).pattern = kNoOffset; });
+    refused([](R& r) { r.material(material_flag::disturbed).normal = kNoOffset; });
+    refused([](R& r) { r.material(material_flag::layered).below += 64; });
+    refused([](R& r) { r.material(material_flag::layered).below = kNoOffset; });
+    refused([](R& r) {
+      MaterialRecord& material = r.material(material_flag::layered);
+      material.below = r.offset_of(material);
+    });
+    refused([](R& r) {
+      const std::uint32_t top = r.offset_of(r.material(material_flag::layered));
+      MaterialRecord& below = *table<MaterialRecord>(r.b, r.material(material_flag::layered).below);
+      below.flags |= material_flag::layered;
+      below.below = top;
+    });
+    refused([](R& r) { // a texture map is no layer
+      MaterialRecord& material = r.material(material_flag::mapped);
+      material.flags |= material_flag::layered;
+      material.below = r.offset_of(material) + std::uint32_t{sizeof(MaterialRecord)};
+    });
+  }
+  SECTION("sky") {
+    refused([](R& r) { r.h.sky += 64; });
+    refused([](R& r) { r.h.sky = 0; });
+    refused([](R& r) { r.h.sky = r.offset_of(r.material(material_flag::mapped)); });
+    refused([](R& r) {
+      MaterialRecord& top = *table<MaterialRecord>(r.b, r.h.sky);
+      table<MaterialRecord>(r.b, top.below)->below = r.h.sky;
+    });
+    refused([](R& r) {
+      MaterialRecord& top = *table<MaterialRecord>(r.b, r.h.sky);
+      top.flags &= ~material_flag::layered;
+      top.below = r.h.sky;
+    });
+  }
+}
+
+TEST_CASE("Textures that are too deep or too long are refused by name") {
+  const auto refused = [](const Scene& scene, const std::string& message) {
+    CHECK_THROWS_WITH(validate(scene), message);
+    CHECK_THROWS_WITH(SceneImage(scene), message);
+  };
+  SECTION("maps in maps") {
+    CHECK_NOTHROW(SceneImage::from_bytes(bytes_of(SceneImage(scene_of(nested_pigment(kDeepestMap))))));
+    refused(scene_of(nested_pigment(kDeepestMap + 1)), "material 0 has maps that nest more than 5 deep");
+    Normal normal;
+    Material material;
+    for (int i = 0; i <= kDeepestMap; ++i) {
+      normal.map = map_of<Normal>({}, {{0, normal}});
+      material.map = map_of<Material>({}, {{0, material}});
+    }
+    refused(scene_of(material), "material 0 has maps that nest more than 5 deep");
+    Material disturbed;
+    disturbed.normal = std::make_shared<const Normal>(normal);
+    refused(scene_of(disturbed), "material 0 has maps that nest more than 5 deep");
+    Scene scene;
+    scene.sky_sphere = {nested_pigment(kDeepestMap + 1)};
+    refused(scene, "the sky sphere has maps that nest more than 5 deep");
+  }
+  SECTION("a map that is known to be sound, deeper inside another one") {
+    Scene scene = scene_of(nested_pigment(kDeepestMap));
+    const Pigment deep = scene.materials[0].pigment;
+    scene.materials[0].pigment.map = map_of<Pigment>({}, {{0, deep.map->entries[0].value}, {1, deep}});
+    refused(scene, "material 0 has maps that nest more than 5 deep");
+  }
+  SECTION("entries") {
+    PatternMap<Pigment> map;
+    Pigment pigment;
+    map.entries.resize(kMostMapEntries, {0.5, Pigment{}});
+    pigment.map = std::make_shared<const PatternMap<Pigment>>(map);
+    CHECK_NOTHROW(SceneImage(scene_of(pigment)));
+    map.entries.push_back({0.5, Pigment{}});
+    pigment.map = std::make_shared<const PatternMap<Pigment>>(map);
+    refused(scene_of(pigment), "material 0 has a map of more than 256 entries");
+    map.entries.clear();
+    pigment.map = std::make_shared<const PatternMap<Pigment>>(map);
+    refused(scene_of(pigment), "material 0 has a map without entries");
+  }
+  SECTION("layers") {
+    Material material;
+    for (int i = 1; i < kMostLayers; ++i)
+      material.below = std::make_shared<const Material>(material);
+    CHECK_NOTHROW(SceneImage::from_bytes(bytes_of(SceneImage(scene_of(material)))));
+    material.below = std::make_shared<const Material>(material);
+    refused(scene_of(material), "material 0 has more than 64 layers");
+    Scene scene;
+    scene.sky_sphere.resize(kMostLayers);
+    CHECK_NOTHROW(SceneImage::from_bytes(bytes_of(SceneImage(scene))));
+    scene.sky_sphere.emplace_back();
+    refused(scene, "the sky sphere has more than 64 layers");
+    Material mapped, top;
+    mapped.map = map_of<Material>({}, {{0, top}});
+    top.below = std::make_shared<const Material>(mapped);
+    refused(scene_of(top), "material 0 has a texture map for a layer");
+  }
+  SECTION("numbers") {
+    Pigment pigment = around(Pigment{});
+    const auto with = [&](const std::function<void(PatternMap<Pigment>&)>& change) {
+      PatternMap<Pigment> map = *pigment.map;
+      change(map);
+      Pigment changed;
+      changed.map = std::make_shared<const PatternMap<Pigment>>(map);
+      return scene_of(changed);
+    };
+    const auto no_number = std::numeric_limits<double>::quiet_NaN();
+    refused(with([&](auto& map) { map.entries[0].position = no_number; }),
+            "material 0 has a number that is not finite");
+    refused(with([&](auto& map) { map.entries[0].value.filter = no_number; }),
+            "material 0 has a number that is not finite");
+    refused(with([&](auto& map) { map.pattern.phase = no_number; }),
+            "material 0 has a number that is not finite");
+    refused(with([&](auto& map) { map.is_average = true; }),
+            "material 0 has an average whose weights are not greater than 0");
+    refused(with([&](auto& map) { map.pattern.turbulence.octaves = 11; }),
+            "material 0 has turbulence whose octaves are not 1 to 10");
+    refused(with([&](auto& map) { map.pattern.noise_generator = 4; }),
+            "material 0 has a noise generator that is not 0 to 3");
+  }
+}
+
+TEST_CASE("A map that several share is written once, and maps in several spaces end") {
+  // Each level has the one below many times: in one space there is one of each.
+  const auto pyramid = [](const Pattern& pattern) {
+    Pigment pigment;
+    for (int level = 0; level < kDeepestMap; ++level) {
+      PatternMap<Pigment> map;
+      map.pattern = pattern;
+      for (int i = 0; i < kMostMapEntries; ++i)
+        map.entries.push_back({i / 256.0, pigment});
+      pigment.map = std::make_shared<const PatternMap<Pigment>>(map);
+    }
+    return scene_of(pigment);
+  };
+  const SceneImage image(pyramid({}));
+  CHECK(image.header().pattern_count == std::uint32_t{kDeepestMap});
+  CHECK(image.header().map_entry_count == std::uint32_t{kDeepestMap * kMostMapEntries});
+  CHECK_NOTHROW(SceneImage::from_bytes(bytes_of(image)));
+
+  Pattern moved;
+  moved.space = {Transform::scale({1, 2, 3})};
+  CHECK_NOTHROW(validate(pyramid(moved)));
+  CHECK_THROWS_WITH(SceneImage(pyramid(moved)),
+                    "all textures together have more than 4194304 entries of maps");
+  moved.space.clear();
+  for (int i = 0; i < 64; ++i)
+    moved.space.emplace_back(Turbulence{{0.1, 0.1, 0.1}});
+  CHECK_THROWS_WITH(SceneImage(pyramid(moved)),
+                    "all textures together have more than 4194304 warps of patterns");
 }

@@ -1,0 +1,706 @@
+// Patterns, waves, maps, normals, layers and the sky in single precision, against formulas in double
+// precision and numbers that POV-Ray 3.7 has for them.
+#include "celltrace/texture.hpp"
+#include "kernel/textures/normals.hpp"
+#include "kernel/textures/sky.hpp"
+#include "kernel/textures/transmittance.hpp"
+#include "lanes.hpp"
+#include "reference/shading.hpp"
+#include "reference/textures.hpp"
+#include "scene/scene_image.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+using namespace celltrace;
+using namespace celltrace::kernel;
+using namespace celltrace::test;
+
+namespace {
+
+constexpr std::uint32_t kAll = 0xFFFF;
+
+/// A scene of textures only, as the kernel reads it.
+class Textures {
+public:
+  explicit Textures(const Scene& scene) : image_(scene) {}
+  explicit Textures(const Material& material) : Textures(scene_of(material)) {}
+  explicit Textures(const Pigment& pigment) : Textures(plain(pigment)) {}
+  explicit Textures(const Pattern& pattern) : Textures(grey(pattern)) {}
+
+  const ImageHeader& header() const { return image_.header(); }
+  SceneAccess<DirectSpu>& access() { return access_; }
+  const MaterialRecord& material() { return *access_.material(header().material_offset); }
+  /// Of the first material's pigment.
+  const PatternRecord& pattern() { return *access_.pattern(material().pattern); }
+
+  static Material plain(const Pigment& pigment) {
+    Material material;
+    material.pigment = pigment;
+    return material;
+  }
+  static Pigment grey(const Pattern& pattern) {
+    Pigment pigment;
+    pigment.map = std::make_shared<const PatternMap<Pigment>>(
+        PatternMap<Pigment>{pattern, {{0, Pigment{Vec3(0)}}, {1, Pigment{Vec3(1)}}}});
+    return pigment;
+  }
+
+private:
+  static Scene scene_of(const Material& material) {
+    Scene scene;
+    scene.materials = {material};
+    return scene;
+  }
+
+  SceneImage image_;
+  DirectSpu spu_;
+  SceneAccess<DirectSpu> access_{spu_, CacheConfig(), reinterpret_cast<std::uintptr_t>(image_.base())};
+};
+
+VectorLanes points_of(const std::function<Vec3(unsigned)>& point) {
+  VectorLanes points;
+  for (unsigned l = 0; l < kSimdLanes; ++l)
+    set(points, l, point(l));
+  return points;
+}
+
+/// Values of a pattern at points of its own space, wave included.
+FloatLanes values(const Pattern& pattern, const VectorLanes& points) {
+  Textures textures(pattern);
+  DirectSpu spu;
+  return lanes_of(pattern_value<TextureStage::colours>(spu, textures.pattern(), points.load<Simd>()));
+}
+
+/// Compares a pigment at sixteen points. Where a step of it is so near that rounding decides on which side a
+/// point lies, it may be either. Returns how many points were clear of steps.
+unsigned check_pigment(Textures& textures, const Pigment& pigment, const VectorLanes& points,
+                       std::uint32_t lanes = kAll) {
+  using Numbers = std::array<double, 5>;
+  const auto numbers_at = [&](const Vec3& p) {
+    const Pigment at = reference::pigment_at(pigment, p);
+    return Numbers{at.rgb.r, at.rgb.g, at.rgb.b, at.filter, at.transmit};
+  };
+  PigmentLanes<Simd> at;
+  pigment_at(textures.access(), textures.material().pattern, points.load<Simd>(), lanes, at);
+  const VectorLanes rgb = lanes_of(at.rgb);
+  const FloatLanes filter = lanes_of(at.filter), transmit = lanes_of(at.transmit);
+  unsigned clear = 0;
+  for_each_lane(lanes, [&](unsigned l) {
+    const Vec3 p = test::at(points, l);
+    Numbers low = numbers_at(p), high = low;
+    const double reach = 1e-5 * (1 + glm::length(p));
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 aside((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
+      const Numbers there = numbers_at(p + reach * aside);
+      for (std::size_t i = 0; i < 5; ++i) {
+        low[i] = std::min(low[i], there[i]);
+        high[i] = std::max(high[i], there[i]);
+      }
+    }
+    const float found[5] = {rgb.x.lane[l], rgb.y.lane[l], rgb.z.lane[l], filter.lane[l], transmit.lane[l]};
+    bool is_clear = true;
+    for (std::size_t i = 0; i < 5; ++i) {
+      REQUIRE(found[i] >= low[i] - 1e-4);
+      REQUIRE(found[i] <= high[i] + 1e-4);
+      is_clear = is_clear && high[i] - low[i] < 0.02;
+    }
+    clear += is_clear ? 1 : 0;
+  });
+  return clear;
+}
+unsigned check_pigment(const Pigment& pigment, const VectorLanes& points) {
+  Textures textures(pigment);
+  return check_pigment(textures, pigment, points);
+}
+
+Pigment any_colour(Random& random) {
+  return {{random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1)},
+          random.below(2) * random.uniform(0, 1),
+          random.below(2) * random.uniform(0, 1)};
+}
+
+Pattern any_pattern(Random& random) {
+  Pattern pattern;
+  if (random.below(2) == 0)
+    pattern.kind = pattern::Checker{};
+  else
+    pattern.kind = pattern::Gradient{random.direction() * random.uniform(0.5, 3)};
+  if (random.below(2) == 0)
+    pattern.space = {Transform::scale({random.uniform(0.5, 2), random.uniform(0.5, 2), 1})
+                         .then(Transform::rotate(random.point(180)))
+                         .then(Transform::translate(random.point(2)))};
+  return pattern;
+}
+
+/// A tree of maps, no deeper than `depth`.
+Pigment any_pigment(Random& random, unsigned depth) {
+  if (depth == 0 || random.below(4) == 0) return any_colour(random);
+  PatternMap<Pigment> map;
+  map.pattern = any_pattern(random);
+  map.is_average = random.below(4) == 0;
+  const bool is_list = std::holds_alternative<pattern::Checker>(map.pattern.kind);
+  const unsigned count = is_list && !map.is_average ? 2 : 1 + random.below(5);
+  double position = random.uniform(0, 0.4);
+  for (unsigned i = 0; i < count; ++i) {
+    map.entries.push_back({position + (map.is_average ? 0.1 : 0), any_pigment(random, depth - 1)});
+    position += random.below(3) * 0.15;
+  }
+  Pigment pigment;
+  pigment.map = std::make_shared<const PatternMap<Pigment>>(map);
+  return pigment;
+}
+
+/// What POV-Ray 3.7 has at a point: f_noise_generator 1 and 2, vturbulence(2, 0.5, 1, p) and
+/// vturbulence(2.3, 0.7, 4, p), to nine decimals.
+struct Measured {
+  Vec3 point;
+  double first, second;
+  Vec3 vector, turbulence;
+};
+constexpr Measured kMeasured[kSimdLanes] = {
+    {{0, 0, 0},
+     0.0565805,
+     0.298322439,
+     {-0.4434195, 0.3610055, -0.459716},
+     {-1.123181573, 0.914426915, -1.164460607}},
+    {{0.5, 0.25, 0.75},
+     0.229814691,
+     0.383182216,
+     {-0.270185309, -0.497926325, 0.332525255},
+     {-0.272718763, -0.470404662, 0.567349635}},
+    {{-0.5, -0.25, -0.75},
+     0.604671367,
+     0.56680794,
+     {0.104671367, 0.089640339, -0.007910775},
+     {0.771303719, -0.104499934, -0.182046826}},
+    {{1.5, 2.5, 3.5},
+     0.445319369,
+     0.488748437,
+     {-0.054680631, -0.004251437, 0.002180225},
+     {0.028943051, -0.107113659, 0.021987546}},
+    {{-3.25, 7.125, -1.875},
+     0.288130172,
+     0.411748394,
+     {-0.211869828, 0.081637729, 0.052170216},
+     {0.023806304, 0.414513503, -0.101258253}},
+    {{0.125, 0, 0.875},
+     0.41641019,
+     0.474587107,
+     {-0.08358981, -0.492647391, 0.172313766},
+     {-0.106584216, -0.420008271, -0.029334629}},
+    {{10.75, -20.375, 30.625},
+     0.700087697,
+     0.613548185,
+     {0.200087697, 0.151176178, -0.311092083},
+     {0.355930272, -0.116774602, -0.702680042}},
+    {{-100.5, 50.25, -75.125},
+     0.485405081,
+     0.508384656,
+     {-0.014594919, 0.205454652, -0.753889803},
+     {-0.013827369, -0.29766214, -1.071709326}},
+    {{999.5, -1000.25, 500.75},
+     0.216256937,
+     0.376540871,
+     {-0.283743063, -0.125647252, -0.025769624},
+     {-0.119389657, -0.34955151, -0.22837273}},
+    {{4095.5, 4096.25, 4097.75},
+     0.657352412,
+     0.592614057,
+     {0.157352412, 0.309392428, -0.19856589},
+     {0.217547045, 0.327431188, 0.009924635}},
+    {{-4097.5, -4095.25, -8191.75},
+     0,
+     0.167466242,
+     {-0.710551566, 0.003113872, 0.185752223},
+     {-0.636550346, 0.342486042, 0.493707688}},
+    {{2, 3, 4}, 0.3084, 0.421677687, {-0.1916, 0.1391545, 0.219539}, {0.00637353, 0.140989718, 0.56568207}},
+    {{-2, -3, -4},
+     0.2314185,
+     0.383967851,
+     {-0.2685815, 0.2499655, 0.2224995},
+     {-0.561687274, 0.025015247, 0.134204789}},
+    {{0.9375, -0.0625, 0.5},
+     0.059433484,
+     0.29971999,
+     {-0.440566516, -0.60716104, 0.279824825},
+     {-0.483067819, -0.681248959, 0.160574524}},
+    {{12345.5, -23456.25, 34567.75},
+     0,
+     0.214094586,
+     {-0.615363673, -0.159040229, 0.214713506},
+     {-0.645534229, -0.234935871, 0.47922753}},
+    {{3.625, -4.375, 5.0625},
+     0.749586527,
+     0.637795475,
+     {0.249586527, -0.412988479, -0.148927661},
+     {0.164990307, -0.213151041, -0.465783186}},
+};
+VectorLanes measured_points() {
+  return points_of([](unsigned l) { return kMeasured[l].point; });
+}
+
+Pattern gradient(const Vec3& direction) {
+  Pattern pattern;
+  pattern.kind = pattern::Gradient{direction};
+  return pattern;
+}
+Pattern noise_of_generator(int generator) {
+  Pattern pattern;
+  pattern.kind = pattern::Bozo{};
+  pattern.noise_generator = generator;
+  return pattern;
+}
+
+} // namespace
+
+TEST_CASE("Checker") {
+  Pattern pattern;
+  pattern.kind = pattern::Checker{};
+  Random random(80);
+  for (const double reach : {2.0, 50.0, 5000.0})
+    for (int k = 0; k < 100; ++k) {
+      const VectorLanes points = points_of([&](unsigned) { return random.point(reach); });
+      const FloatLanes found = values(pattern, points);
+      for (unsigned l = 0; l < kSimdLanes; ++l) {
+        const Vec3 p = test::at(points, l);
+        const auto is_near = [&](double x) { return std::abs(x - std::round(x)) < 2e-5 + 2e-6 * reach; };
+        if (!is_near(p.x) && !is_near(p.y) && !is_near(p.z))
+          REQUIRE(found.lane[l] == reference::number_of(pattern::Checker{}, p));
+      }
+    }
+}
+
+TEST_CASE("Checker at whole numbers, and where rounding has moved them") {
+  Pattern pattern;
+  pattern.kind = pattern::Checker{};
+  Random random(81);
+  for (const double off : {0.0, 3e-6, -3e-6})
+    for (int k = 0; k < 100; ++k) {
+      Vec3 whole[kSimdLanes];
+      const VectorLanes points = points_of([&](unsigned l) {
+        const Vec3 p = random.point(8);
+        whole[l] = {std::floor(p.x), std::floor(p.y), std::floor(p.z)};
+        return whole[l] + Vec3(off);
+      });
+      const FloatLanes found = values(pattern, points);
+      for (unsigned l = 0; l < kSimdLanes; ++l)
+        REQUIRE(found.lane[l] == reference::number_of(pattern::Checker{}, whole[l]));
+    }
+}
+
+TEST_CASE("Gradient") {
+  Random random(82);
+  for (const double reach : {1.5, 100.0})
+    for (int k = 0; k < 200; ++k) {
+      const Vec3 direction = random.direction() * random.uniform(0.1, 9);
+      Pattern pattern = gradient(direction);
+      pattern.frequency = 0; // the number itself
+      const VectorLanes points = points_of([&](unsigned) { return random.point(reach); });
+      const FloatLanes found = values(pattern, points);
+      for (unsigned l = 0; l < kSimdLanes; ++l) {
+        const double expected = reference::number_of(pattern::Gradient{direction}, test::at(points, l));
+        if (std::abs(expected - std::round(expected)) > 1e-4)
+          REQUIRE(found.lane[l] == Approx(expected).margin(2e-7 * (1 + 2 * reach)));
+      }
+    }
+}
+
+TEST_CASE("A gradient is 1 at 1, begins again after it, and goes on below 0") {
+  Pattern pattern = gradient({1, 0, 0});
+  pattern.frequency = 0;
+  const double x[kSimdLanes] = {0,  0.5,  1,     1.5, 2,  2.25,     1000.75,  -0.25,
+                                -1, -1.5, -1000, 3,   -7, 1 + 2e-6, 1 - 2e-6, 0.999};
+  const double expected[kSimdLanes] = {0,  0.5,  1,     0.5, 0,  0.25, 0.75, -0.25,
+                                       -1, -1.5, -1000, 0,   -7, 1,    1,    0.999};
+  const FloatLanes found = values(pattern, points_of([&](unsigned l) { return Vec3(x[l], 9, -9); }));
+  for (unsigned l = 0; l < kSimdLanes; ++l)
+    CHECK(found.lane[l] == Approx(expected[l]).margin(1e-7));
+}
+
+TEST_CASE("Noise is POV-Ray's") {
+  const VectorLanes points = measured_points();
+  const FloatLanes first = values(noise_of_generator(1), points),
+                   second = values(noise_of_generator(2), points);
+  Pattern bumps = noise_of_generator(2);
+  bumps.kind = pattern::Bumps{};
+  const FloatLanes of_bumps = values(bumps, points);
+  const VectorLanes vector = lanes_of(noise::vector<Simd>(points.load<Simd>()));
+  for (unsigned l = 0; l < kSimdLanes; ++l) {
+    INFO("lane " << l);
+    CHECK(first.lane[l] == Approx(kMeasured[l].first).margin(4e-7));
+    CHECK(second.lane[l] == Approx(kMeasured[l].second).margin(4e-7));
+    CHECK(of_bumps.lane[l] == second.lane[l]);
+    CHECK(glm::length(test::at(vector, l) - kMeasured[l].vector) < 8e-7);
+  }
+}
+
+TEST_CASE("The scene's noise generator is that of patterns without one") {
+  const VectorLanes points = measured_points();
+  for (const int generator : {1, 2}) {
+    Scene scene;
+    scene.noise_generator = generator;
+    scene.materials = {Textures::plain(Textures::grey(noise_of_generator(0)))};
+    Textures textures(scene);
+    DirectSpu spu;
+    const FloatLanes found =
+        lanes_of(pattern_value<TextureStage::colours>(spu, textures.pattern(), points.load<Simd>()));
+    const FloatLanes expected = values(noise_of_generator(generator), points);
+    for (unsigned l = 0; l < kSimdLanes; ++l)
+      CHECK(found.lane[l] == expected.lane[l]);
+  }
+}
+
+TEST_CASE("Turbulence displaces points as POV-Ray's") {
+  const VectorLanes points = measured_points();
+  const Turbulence turbulence{{1, -2, 0.5}, 4, 0.7, 2.3};
+  Pattern own = gradient({1, 0, 0});
+  own.turbulence = turbulence;
+  Pattern warped = own;
+  warped.turbulence = {};
+  warped.space = {Transform::scale({2, 4, 8}), turbulence, Transform::translate({1, 2, 3})};
+  const auto in_space_of = [](const Pattern& pattern, const VectorLanes& from) {
+    Textures textures(pattern);
+    return lanes_of(to_pattern_space<TextureStage::colours>(
+        textures.access(), PatternRecord(textures.pattern()), from.load<Simd>()));
+  };
+  const VectorLanes displaced = in_space_of(own, points);
+  const VectorLanes stepped =
+      in_space_of(warped, points_of([](unsigned l) { return kMeasured[l].point + Vec3(1, 2, 3); }));
+  for (unsigned l = 0; l < kSimdLanes; ++l) {
+    INFO("lane " << l);
+    const Vec3 p = kMeasured[l].point;
+    const Vec3 expected = p + turbulence.amount * kMeasured[l].turbulence;
+    // The finest octave is at 12 times the coordinates.
+    const double largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    const double margin = 2e-6 * (1 + 4 * largest);
+    CHECK(glm::length(test::at(displaced, l) - expected) < margin);
+    CHECK(glm::length(test::at(stepped, l) - expected / Vec3(2, 4, 8)) < margin);
+  }
+}
+
+TEST_CASE("Waves") {
+  using Wave = Pattern::Wave;
+  Random random(83);
+  for (const Wave wave : {Wave::ramp, Wave::triangle, Wave::sine, Wave::scallop, Wave::cubic, Wave::poly})
+    for (int k = 0; k < 200; ++k) {
+      INFO("wave " << static_cast<int>(wave));
+      Pattern pattern = gradient({1, 0, 0});
+      pattern.wave = wave;
+      pattern.wave_exponent = random.uniform(0.3, 4);
+      pattern.frequency = random.below(4) == 0 ? 1 : random.uniform(-3, 5);
+      pattern.phase = random.below(2) * random.uniform(-2, 2);
+      const VectorLanes points = points_of([&](unsigned) { return random.point(3); });
+      const FloatLanes found = values(pattern, points);
+      for (unsigned l = 0; l < kSimdLanes; ++l) {
+        const double x = reference::number_of(pattern::Gradient{{1, 0, 0}}, test::at(points, l));
+        const double turns = x * pattern.frequency + pattern.phase;
+        const double near = std::abs(turns - std::round(turns));
+        if (near < 2e-4) continue; // a step, or a steep root
+        REQUIRE(found.lane[l] == Approx(reference::wave(pattern, x)).margin(3e-5));
+      }
+    }
+}
+
+TEST_CASE("Waves at the ends of their period") {
+  using Wave = Pattern::Wave;
+  const std::pair<Wave, double> at_one[] = {{Wave::ramp, 1},    {Wave::triangle, 0}, {Wave::sine, 0.5},
+                                            {Wave::scallop, 0}, {Wave::cubic, 1},    {Wave::poly, 1}};
+  for (const auto& [wave, expected] : at_one) {
+    INFO("wave " << static_cast<int>(wave));
+    Pattern pattern = gradient({1, 0, 0});
+    pattern.wave = wave;
+    pattern.wave_exponent = 3;
+    const FloatLanes found = values(pattern, points_of([](unsigned l) { return Vec3(l % 2, 0, 0); }));
+    CHECK(found.lane[1] == Approx(expected).margin(1e-6));
+    CHECK(found.lane[0] == Approx(wave == Wave::sine ? 0.5 : 0).margin(1e-6));
+  }
+}
+
+TEST_CASE("Frequency 0 leaves the number, whatever phase and wave") {
+  Pattern pattern = gradient({0, 1, 0});
+  pattern.wave = Pattern::Wave::sine;
+  pattern.frequency = 0;
+  pattern.phase = 0.3;
+  const FloatLanes found = values(pattern, points_of([](unsigned l) { return Vec3(0, 0.06 * l, 0); }));
+  for (unsigned l = 0; l < kSimdLanes; ++l)
+    CHECK(found.lane[l] == Approx(0.06 * l).margin(1e-6));
+}
+
+TEST_CASE("A map before its first entry, between, at equal positions, and after the last") {
+  Pattern pattern = gradient({1, 0, 0});
+  pattern.frequency = 0;
+  PatternMap<Pigment> map{pattern, {}};
+  const double positions[] = {0.25, 0.5, 0.5, 0.5, 0.75};
+  for (int i = 0; i < 5; ++i)
+    map.entries.push_back({positions[i], Pigment{{0.1 + 0.2 * i, 1 - 0.2 * i, 0.5}, 0.1 * i, 0.2}});
+  Pigment pigment;
+  pigment.map = std::make_shared<const PatternMap<Pigment>>(map);
+  const double x[kSimdLanes] = {0,    0.1, 0.25, 0.3,   0.375, 0.5,   0.5001, 0.6,
+                                0.75, 0.9, 1,    -0.75, -0.1,  -1.25, 0.625,  0.4999};
+  check_pigment(pigment, points_of([&](unsigned l) { return Vec3(x[l], 0, 0); }));
+
+  Textures textures(pigment);
+  PigmentLanes<Simd> at;
+  const auto red = [&](double value) {
+    const VectorLanes points = points_of([&](unsigned) { return Vec3(value, 0, 0); });
+    pigment_at(textures.access(), textures.material().pattern, points.load<Simd>(), kAll, at);
+    return lanes_of(at.rgb).x.lane[5];
+  };
+  CHECK(red(0) == Approx(0.1));
+  CHECK(red(0.25) == Approx(0.1));
+  CHECK(red(0.5) == Approx(0.3));                     // the first of them
+  CHECK(red(0.5 + 1e-6) == Approx(0.7).margin(1e-4)); // the last of them
+  CHECK(red(0.625) == Approx(0.8));
+  CHECK(red(1) == Approx(0.9));
+  CHECK(red(-0.625) == Approx(0.2)); // begins again
+}
+
+TEST_CASE("A map whose last position comes twice has the very last entry there") {
+  Pattern pattern = gradient({1, 0, 0});
+  Pigment pigment;
+  pigment.map = std::make_shared<const PatternMap<Pigment>>(PatternMap<Pigment>{
+      pattern, {{0, Pigment{Vec3(0)}}, {0.5, Pigment{Vec3(0.25)}}, {0.5, Pigment{Vec3(1)}}}});
+  Textures textures(pigment);
+  PigmentLanes<Simd> at;
+  const VectorLanes points = points_of([](unsigned l) { return Vec3(l % 2 == 0 ? 0.5 : 0.25, 0, 0); });
+  pigment_at(textures.access(), textures.material().pattern, points.load<Simd>(), kAll, at);
+  CHECK(lanes_of(at.rgb).x.lane[0] == 1);
+  CHECK(lanes_of(at.rgb).x.lane[1] == Approx(0.125));
+}
+
+TEST_CASE("Trees of maps, lists and averages") {
+  Random random(84);
+  unsigned clear = 0, all = 0;
+  for (int k = 0; k < times(800); ++k) {
+    Pigment pigment;
+    while (!pigment.map)
+      pigment = any_pigment(random, 1 + static_cast<unsigned>(k) % kDeepestMap);
+    Textures textures(pigment);
+    const std::uint32_t lanes = k % 3 == 0 ? random.word() & kAll : kAll;
+    for (const double reach : {2.0, 20.0}) {
+      clear +=
+          check_pigment(textures, pigment, points_of([&](unsigned) { return random.point(reach); }), lanes);
+      for_each_lane(lanes, [&](unsigned) { ++all; });
+    }
+  }
+  CHECK(clear > all - all / 20);
+}
+
+TEST_CASE("A nested map moves with the map around it, its turbulence included") {
+  // Of a gradient in a gradient whose turbulence is 0 along the inner direction: only steps count.
+  PatternMap<Pigment> inner{gradient({0, 1, 0}), {{0, Pigment{Vec3(0)}}, {1, Pigment{Vec3(1)}}}};
+  Pigment nested;
+  nested.map = std::make_shared<const PatternMap<Pigment>>(inner);
+  PatternMap<Pigment> outer{gradient({1, 0, 0}), {{0, nested}, {1, nested}}};
+  outer.pattern.space = {Transform::translate({0, 0.25, 0})};
+  outer.pattern.turbulence = {{0, 1, 0}, 1, 0.5, 2};
+  Pigment pigment;
+  pigment.map = std::make_shared<const PatternMap<Pigment>>(outer);
+  Textures textures(pigment);
+  const VectorLanes points = points_of([](unsigned l) { return kMeasured[l].point + Vec3(0, 0.25, 0); });
+  PigmentLanes<Simd> at;
+  pigment_at(textures.access(), textures.material().pattern, points.load<Simd>(), kAll, at);
+  const VectorLanes rgb = lanes_of(at.rgb);
+  for (unsigned l = 0; l < kSimdLanes; ++l) {
+    if (glm::length(kMeasured[l].point) > 200) continue; // single precision has few digits left
+    const double y = kMeasured[l].point.y + kMeasured[l].vector.y;
+    const double value =
+        reference::wave(inner.pattern, reference::number_of(pattern::Gradient{{0, 1, 0}}, {0, y, 0}));
+    CHECK(rgb.x.lane[l] == Approx(value).margin(5e-5));
+  }
+}
+
+// --- normals ---
+
+namespace {
+
+/// As POV-Ray's, of a normal that is no map.
+Vec3 disturbed(const Normal& normal, const Vec3& point, const Vec3& unit) {
+  const Transform to_space = reference::to_own_space(normal.pattern);
+  const Vec3 p = to_space.point(point);
+  static const Vec3 corners[4] = {{0.942809041, -1 / 3.0, 0},
+                                  {-0.471404521, -1 / 3.0, 0.816496581},
+                                  {-0.471404521, -1 / 3.0, -0.816496581},
+                                  {0, 1, 0}};
+  Vec3 sum(0);
+  for (const Vec3& corner : corners)
+    sum += corner * reference::value_of(normal.pattern, p + normal.accuracy * corner);
+  const Vec3 local = glm::normalize(to_space.normal(unit));
+  return glm::normalize(to_space.inverse().normal(local - sum * (0.1 * normal.amount / normal.accuracy)));
+}
+
+VectorLanes disturbed_by(const Normal& normal, const VectorLanes& points, const VectorLanes& units,
+                         std::uint32_t lanes = kAll) {
+  Material material;
+  material.normal = std::make_shared<const Normal>(normal);
+  Textures textures(material);
+  Vec unit = units.load<Simd>();
+  disturb_normal(textures.access(), textures.material().normal, points.load<Simd>(), lanes, unit);
+  return lanes_of(unit);
+}
+
+/// Smooth everywhere.
+Normal smooth_slope(Random& random) {
+  Normal normal;
+  normal.pattern = gradient(random.direction());
+  normal.pattern.wave = Pattern::Wave::sine;
+  normal.amount = random.uniform(-2, 2);
+  normal.accuracy = random.uniform(0.01, 0.05);
+  return normal;
+}
+
+} // namespace
+
+TEST_CASE("Normals by the slope of a pattern") {
+  Random random(85);
+  for (int k = 0; k < 300; ++k) {
+    Normal normal = smooth_slope(random);
+    if (k % 2 == 0)
+      normal.pattern.space = {Transform::scale({random.uniform(0.3, 2), random.uniform(0.3, 2), -1.5})
+                                  .then(Transform::rotate(random.point(180)))
+                                  .then(Transform::translate(random.point(2)))};
+    const VectorLanes points = points_of([&](unsigned) { return random.point(3); });
+    const VectorLanes units = points_of([&](unsigned) { return random.direction(); });
+    const std::uint32_t lanes = k % 3 == 0 ? random.word() & kAll : kAll;
+    const VectorLanes found = disturbed_by(normal, points, units, lanes);
+    for (unsigned l = 0; l < kSimdLanes; ++l) {
+      const Vec3 before = test::at(units, l);
+      const Vec3 expected = (lanes >> l & 1) != 0 ? disturbed(normal, test::at(points, l), before) : before;
+      REQUIRE(glm::length(test::at(found, l) - expected) < 5e-4);
+    }
+  }
+}
+
+TEST_CASE("Bumps add noise in each coordinate") {
+  Random random(86);
+  const VectorLanes points = measured_points();
+  const VectorLanes units = points_of([&](unsigned) { return random.direction(); });
+  Normal normal;
+  normal.pattern.kind = pattern::Bumps{};
+  normal.pattern.wave = Pattern::Wave::sine; // means nothing to it
+  normal.amount = 0.8;
+  const VectorLanes found = disturbed_by(normal, points, units);
+  for (unsigned l = 0; l < kSimdLanes; ++l)
+    CHECK(glm::length(test::at(found, l) - glm::normalize(test::at(units, l) + 0.8 * kMeasured[l].vector)) <
+          3e-6);
+}
+
+TEST_CASE("A map of normals blends them when they are of unit length") {
+  Random random(87);
+  for (int k = 0; k < 100; ++k) {
+    const Normal first = smooth_slope(random), second = smooth_slope(random);
+    PatternMap<Normal> map{gradient({0, 0, 1}), {{0, first}, {1, second}}};
+    map.is_average = k % 2 == 0;
+    if (map.is_average) map.entries[0].position = 3;
+    Normal normal;
+    normal.map = std::make_shared<const PatternMap<Normal>>(map);
+    const VectorLanes points =
+        points_of([&](unsigned) { return Vec3(random.uniform(-2, 2), 1, random.uniform(0.01, 0.99)); });
+    const VectorLanes units = points_of([&](unsigned) { return random.direction(); });
+    const VectorLanes found = disturbed_by(normal, points, units);
+    for (unsigned l = 0; l < kSimdLanes; ++l) {
+      const Vec3 p = test::at(points, l);
+      const double share = map.is_average ? 0.25 : p.z;
+      const Vec3 expected = glm::normalize((1 - share) * disturbed(first, p, test::at(units, l)) +
+                                           share * disturbed(second, p, test::at(units, l)));
+      REQUIRE(glm::length(test::at(found, l) - expected) < 2e-3);
+    }
+  }
+}
+
+// --- layers, texture maps and the sky ---
+
+namespace {
+
+std::shared_ptr<const Material> layers_of(const std::vector<Pigment>& pigments) {
+  std::shared_ptr<const Material> below;
+  for (const Pigment& pigment : pigments)
+    below = std::make_shared<const Material>(Material{pigment, {}, nullptr, below});
+  return below;
+}
+
+/// A gradient along z between two colours, which lies from 0 to 1 without a step.
+Pigment blend_along_z(Random& random) {
+  Pigment pigment;
+  pigment.map = std::make_shared<const PatternMap<Pigment>>(
+      PatternMap<Pigment>{gradient({0, 0, 1}), {{0, any_colour(random)}, {1, any_colour(random)}}});
+  return pigment;
+}
+
+} // namespace
+
+TEST_CASE("Layers let through the product, maps of textures the blend") {
+  Random random(88);
+  for (int k = 0; k < 200; ++k) {
+    std::vector<Pigment> pigments[2];
+    for (auto& list : pigments)
+      for (unsigned i = random.below(4); i < 4; ++i)
+        list.push_back(random.below(2) == 0 ? any_colour(random) : blend_along_z(random));
+    const auto first = layers_of(pigments[0]), second = layers_of(pigments[1]);
+    Material mapped;
+    mapped.map = std::make_shared<const PatternMap<Material>>(
+        PatternMap<Material>{gradient({1, 0, 0}), {{0, *first}, {1, *second}}});
+    const VectorLanes points =
+        points_of([&](unsigned) { return Vec3(random.uniform(0.01, 0.99), 2, random.uniform(0.01, 0.99)); });
+    const auto transmitted = [&](const Material& material) {
+      Textures textures(material);
+      Vec through;
+      transmittance_at(textures.access(), textures.header().material_offset, points.load<Simd>(), kAll,
+                       through);
+      return lanes_of(through);
+    };
+    const VectorLanes by_layers = transmitted(*first), by_map = transmitted(mapped);
+    for (unsigned l = 0; l < kSimdLanes; ++l) {
+      const Vec3 p = test::at(points, l);
+      Vec3 product[2] = {Vec3(1), Vec3(1)};
+      for (int i = 0; i < 2; ++i)
+        for (const Pigment& pigment : pigments[i])
+          product[i] *= reference::filter_colour(reference::pigment_at(pigment, p));
+      REQUIRE(glm::length(test::at(by_layers, l) - product[0]) < 1e-5);
+      REQUIRE(glm::length(test::at(by_map, l) - (product[0] * (1 - p.x) + product[1] * p.x)) < 1e-5);
+    }
+  }
+}
+
+TEST_CASE("Two layers of sky over a background are POV-Ray's, before and from version 3.7") {
+  // Measured to 16 bits.
+  const std::pair<double, Vec3> versions[] = {{3.6, {0.450599, 0.547906, 0.548196}},
+                                              {3.7, {0.415122, 0.592981, 0.60737}}};
+  for (const auto& [version, expected] : versions) {
+    INFO(version);
+    Scene scene;
+    scene.version = version;
+    scene.background = {0.3, 0.5, 0.9};
+    scene.sky_sphere = {Pigment{{0.8, 0.4, 0.6}, 0.3, 0.25}, Pigment{{0.5, 0.9, 0.7}, 0.35, 0.2}};
+    Textures textures(scene);
+    const VectorLanes up = points_of([](unsigned) { return Vec3(0, 1, 0); });
+    VectorLanes colours = points_of([&](unsigned) { return scene.background; });
+    Vec colour = colours.load<Simd>();
+    add_sky(textures.access(), textures.header().sky, up.load<Simd>(), kAll, colour);
+    colours = lanes_of(colour);
+    for (unsigned l = 0; l < kSimdLanes; ++l)
+      CHECK(glm::length(test::at(colours, l) - expected) < 3e-5);
+  }
+}
+
+TEST_CASE("The sky is a pattern of directions") {
+  Random random(89);
+  Scene scene;
+  scene.background = {0.9, 0.1, 0.4};
+  scene.sky_sphere = {Textures::grey(gradient({0, 0, 1}))};
+  Textures textures(scene);
+  const VectorLanes directions = points_of([&](unsigned) {
+    const Vec3 d = random.direction();
+    return Vec3(d.x, d.y, std::abs(d.z));
+  });
+  Vec colour = points_of([&](unsigned) { return scene.background; }).load<Simd>();
+  add_sky(textures.access(), textures.header().sky, directions.load<Simd>(), kAll, colour);
+  const VectorLanes colours = lanes_of(colour);
+  for (unsigned l = 0; l < kSimdLanes; ++l)
+    CHECK(glm::length(test::at(colours, l) - Vec3(directions.z.lane[l])) < 1e-5);
+}
