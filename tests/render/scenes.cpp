@@ -400,6 +400,7 @@ const std::vector<NamedScene>& scenes() {
       {"meshes", meshes},
       {"kinds of lights", kinds_of_lights},
       {"dome", dome},
+      {"soft shadows", soft_shadows},
       {"legacy orthographic", legacy_orthographic},
       {"half mirrors", half_mirrors},
       {"inside glass", inside_glass},
