@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -61,6 +62,19 @@ struct Interior {
 using Index = std::uint32_t;
 inline constexpr Index kNoIndex = 0xFFFFFFFFu;
 
+/// The area of a light that casts soft shadows: a grid of places in a parallelogram around its location, from
+/// each of which shadows are cast as from a point. POV-Ray looks at the corners, and at what lies between
+/// them where they differ.
+struct LightArea {
+  Vec3 across{1, 0, 0}, along{0, 1, 0}; ///< from the first column to the last, from the first row to the last
+  int columns = 2, rows = 2;            ///< 1 to 256 each
+  int adaptive = 100;    ///< times, from 0 on, that the grid is divided even if its corners do not differ
+  bool jitter = false;   ///< places are moved by up to half of the way to the next, always in the same manner
+  bool circular = false; ///< the grid is pulled into an ellipse
+  /// It turns to each surface, with both sides as long as `across`, and is circular, too.
+  bool orient = false;
+};
+
 /// A light source with POV-Ray's formulas and defaults.
 struct Light {
   enum class Kind {
@@ -81,6 +95,8 @@ struct Light {
   bool parallel = false; ///< all rays along the axis, also behind the location; a spotlight has no edge then
   double fade_distance = 0; ///< at which there is as much light as without fading; 0: it does not fade
   double fade_power = 0;    ///< the exponent by which light decreases with distance; 0: it does not fade
+  /// Of what its shadows are; else of a point.
+  std::optional<LightArea> area = std::nullopt;
 };
 
 /// Triangles with shared vertices; vertices and normals are single precision, as in POV-Ray.
@@ -202,7 +218,7 @@ struct Scene {
 /// Throws InputError if a number is not finite, or an angle negative.
 void validate(const Camera& camera);
 /// Throws InputError, naming the first fault, if an index is out of range, a number is not finite, or there
-/// are more triangles or vertices than 32-bit offsets can address.
+/// are more triangles or vertices than 32-bit offsets can address, or a light's area has no places.
 void validate(const Scene& scene);
 
 } // namespace celltrace

@@ -35,7 +35,8 @@ template <class S> V3<S> map_point(const float (&m)[12], const V3<S>& p) {
           F(m[4]) * p.x + F(m[5]) * p.y + F(m[6]) * p.z + F(m[7]),
           F(m[8]) * p.x + F(m[9]) * p.y + F(m[10]) * p.z + F(m[11])};
 }
-template <class S> typename S::F dot(const V3<S>& a, const V3<S>& b) {
+/// `inline`, as GCC otherwise calls it where vectors take two registers.
+template <class S> inline typename S::F dot(const V3<S>& a, const V3<S>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 template <class S> V3<S> cross(const V3<S>& a, const V3<S>& b) {

@@ -217,10 +217,17 @@ constexpr uint32_t kind_mask = 0xFF;   ///< the place of its kind in the list of
 constexpr uint32_t shadowless = 0x100; ///< neither shadows nor highlights
 constexpr uint32_t parallel = 0x200;   ///< all its rays go along its axis
 constexpr uint32_t fades = 0x400;
+constexpr uint32_t area = 0x800;      ///< has an area, which shadows are looked for on
+constexpr uint32_t circular = 0x1000; ///< that is round,
+constexpr uint32_t orient = 0x2000;   ///< turns to surfaces,
+constexpr uint32_t jitter = 0x4000;   ///< and whose places are moved at random
 } // namespace light_flag
 
+/// Columns or rows of places on a light.
+constexpr uint32_t kMaxLightPlaces = 256;
+
 /// Beams have an axis, from which every point is some way off: 0 on it, 1 where there is no light any more.
-struct alignas(64) LightRecord {
+struct alignas(128) LightRecord {
   float location[3];
   uint32_t kind_and_flags;
   float colour[3];
@@ -231,8 +238,18 @@ struct alignas(64) LightRecord {
   float inverse_edge;          ///< of the edge's width
   float inverse_fade_distance; ///< where there is as much light as without fading
   float fade_power;
+
+  // Of a light with an area.
+  float across[3]; ///< from the first column of places to the last
+  uint32_t columns;
+  float along[3]; ///< from the first row to the last
+  uint32_t rows;
+  float inverse_columns, inverse_rows; ///< of columns - 1, rows - 1
+  uint32_t adaptive;                   ///< times that the grid is divided in any case
+  float axis_length;                   ///< from the location to where the light points
+  uint32_t unused[4];
 };
-static_assert(sizeof(LightRecord) == 64, "two lights a line");
+static_assert(sizeof(LightRecord) == 128, "one light a line");
 
 /// A voxel: where its list of object offsets starts, and how many there are.
 struct alignas(8) CellRecord {
@@ -419,8 +436,9 @@ struct alignas(128) FrameBlock {
   uint32_t wide_leaves;               ///< 0 or 1: for SPEs that test many triangles of a leaf at once
   uint32_t far_nodes;                 ///< 0 or 1: for SPEs that wait long for a node of the BVH
   uint32_t unbounded_count;           ///< objects behind the others in their table that no accelerator has
-  uint32_t sky; ///< as in ImageHeader
-  uint32_t unused[18];
+  uint32_t sky;                       ///< as in ImageHeader
+  uint32_t light_places; ///< that shadows are looked for at; as many as lights if none has an area
+  uint32_t unused[17];
 };
 static_assert(sizeof(FrameBlock) % 128 == 0 && sizeof(FrameBlock) <= 512, "fetched by one DMA command");
 

@@ -18,7 +18,7 @@
 // After a value both an operator and, since commas are optional, a sign or a colour's channel can follow: the
 // longer value is meant. A number at the front of an entry of a pigment_map is its weight. A name that CSG begins
 // with is all it consists of, not its first part.
-%expect 68
+%expect 72
 
 %code requires {
 #include "pov/actions.hpp"
@@ -83,6 +83,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %token MATERIAL MATRIX MAX_TRACE_LEVEL MESH MESH2 METALLIC NOISE_GENERATOR NORMAL NORMAL_INDICES NORMAL_MAP
 %token NORMAL_VECTORS NO_SHADOW NUMBER_OF_WAVES OBJECT OCTAVES OMEGA OPEN
 %token PARALLEL PHASE PHONG PHONG_SIZE PHOTONS PIGMENT PIGMENT_MAP POINT_AT POLY_WAVE QUICK_COLOUR RADIUS
+%token ADAPTIVE AREA_ILLUMINATION AREA_LIGHT CIRCULAR JITTER ORIENT
 %token REFLECTION
 %token REFLECTION_EXPONENT REFRACTION RIGHT ROTATE ROUGHNESS SCALE SHADOWLESS SKY SKY_SPHERE SMOOTH_TRIANGLE
 %token SPECULAR SPOTLIGHT SRGB TEXTURE TEXTURE_LIST TEXTURE_MAP TIGHTNESS TRANSFORM TRANSLATE TRIANGLE TURBULENCE UP
@@ -724,8 +725,8 @@ camera_body
 // ---- Objects ----
 
 object
-  : object_body '}'          { $1->where = @1; $$ = $1; }
-  | light_body '}'           { $1->where = @1; $$ = $1; }
+  : object_body '}'          { $1->where = @1; $$ = own_object(session, $1, @1); }
+  | light_body '}'           { $1->where = @1; $$ = $1; session.lights.pop_back(); }
   | OBJECT_ID
   | UNSUPPORTED_OBJECT {
       $$ = unsupported_object(quoted(session, $1), @1);
@@ -745,6 +746,7 @@ object_head // a name instead of what an object consists of: whatever object it 
   | MESH2 '{' OBJECT_ID      { $$ = std::make_shared<ObjectDefinition>(*$3); }
   | shape_head               { $$ = shape(session, $1); }
   | shape_head OPEN          { $1.is_open = true; $$ = shape(session, $1); }
+  | LOOKS_LIKE '{' object    { $$ = look(session, *$3, @1); } // modifiers may follow, as everywhere
   | csg_head                 { $$ = csg(session, std::move($1), @1); }
   | triangle_vertices        { $$ = lone_triangle(session, $1, @1); }
   | mesh_head                { $$ = mesh(session, *$1, @1); }
@@ -812,7 +814,7 @@ limits // of where an object is; they can be moved together
 light_body // what comes later applies to what is there by then
   : LIGHT_SOURCE '{' OBJECT_ID                            { $$ = light(session, *$3, @3); }
   | LIGHT_SOURCE '{' quantity optional_comma colour_value {
-      $$ = light(session.vector($3, @3), session.colour($5, @5).rgb);
+      $$ = light(session, session.vector($3, @3), session.colour($5, @5).rgb);
     }
   | light_body SPOTLIGHT                                  { $$ = $1; set_kind(*$$, Light::Kind::spotlight); }
   | light_body SHAPE                                      { $$ = $1; set_kind(session, *$$, $2, @2); }
@@ -822,7 +824,19 @@ light_body // what comes later applies to what is there by then
   | light_body beam_number number                         { $$ = $1; set_beam(session, *$$, $2, $3, @2); }
   | light_body FADE_DISTANCE number                       { $$ = $1; light_of(*$$).fade_distance = $3; }
   | light_body FADE_POWER number                          { $$ = $1; light_of(*$$).fade_power = $3; }
-  | light_body LOOKS_LIKE '{' object '}'                  { $$ = $1; set_looks_like(session, *$$, $4, @2); }
+  | light_body object_body '}'                            { $$ = $1; set_looks_like(session, *$$, $2, @2); }
+  | light_body AREA_LIGHT quantity optional_comma quantity optional_comma number optional_comma number {
+      $$ = $1;
+      set_area(session, *$$, session.vector($3, @3), session.vector($5, @5), {$7, $9}, @2);
+    }
+  | light_body ADAPTIVE number                            { $$ = $1; set_adaptive(*$$, $3); }
+  | light_body AREA_ILLUMINATION flag {
+      $$ = $1;
+      mark($$->unsupported, unless_zero("'area_illumination'", $3, @2));
+    }
+  | light_body JITTER                                     { $$ = $1; area_of(*$$).jitter = true; }
+  | light_body CIRCULAR                                   { $$ = $1; area_of(*$$).circular = true; }
+  | light_body ORIENT                                     { $$ = $1; area_of(*$$).orient = true; }
   | light_body transformation                             { $$ = $1; transform(*$$, $2); }
   | light_body IGNORED_FLAG flag                          { $$ = $1; }
   | light_body unsupported                                { $$ = $1; mark($$->unsupported, $2); }

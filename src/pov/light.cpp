@@ -1,5 +1,7 @@
 #include "pov/light.hpp"
 
+#include <algorithm>
+#include <string>
 #include <string_view>
 
 #include "pov/actions.hpp"
@@ -18,9 +20,23 @@ ObjectPtr moved(const ObjectPtr& object, const Transform& next) {
 
 } // namespace
 
-std::shared_ptr<ObjectDefinition> light(const Vec3& location, const Vec3& colour) {
+Light moved(Light light, const Transform& next) {
+  light.location = next.point(light.location);
+  light.point_at = next.point(light.point_at);
+  if (light.area) light.area = moved(*light.area, next);
+  return light;
+}
+
+LightArea moved(LightArea area, const Transform& next) {
+  area.across = next.direction(area.across);
+  area.along = next.direction(area.along);
+  return area;
+}
+
+std::shared_ptr<ObjectDefinition> light(Session& session, const Vec3& location, const Vec3& colour) {
   auto object = std::make_shared<ObjectDefinition>();
-  object->shape = LightDefinition{Light{location, colour}, nullptr};
+  object->shape = LightDefinition{Light{location, colour}, nullptr, {}, false};
+  session.lights.push_back(object);
   return object;
 }
 
@@ -32,6 +48,7 @@ std::shared_ptr<ObjectDefinition> light(Session& session, const ObjectDefinition
   // Where it is by now; what follows, such as point_at, is not moved.
   object->transform = Transform();
   transform(*object, declared.transform);
+  session.lights.push_back(object);
   return object;
 }
 
@@ -77,18 +94,59 @@ void set_beam(Session& session, ObjectDefinition& object, double Light::*number,
   light.*number = value;
 }
 
-void set_looks_like(Session& session, ObjectDefinition& object, const ObjectPtr& looks_like,
-                    const Location& where) {
+void set_area(Session& session, ObjectDefinition& object, const Vec3& across, const Vec3& along,
+              const std::array<double, 2>& places, const Location& where) {
+  constexpr int kMostPlaces = 256;
+  auto& definition = std::get<LightDefinition>(object.shape);
+  for (const double count : places)
+    if (!(count >= 1 && count < kMostPlaces + 1))
+      session.fail(where,
+                   "an area light has 1 to " + std::to_string(kMostPlaces) + " places along each side");
+  definition.has_area = true;
+  definition.area.across = across;
+  definition.area.along = along;
+  definition.area.columns = static_cast<int>(places[0]);
+  definition.area.rows = static_cast<int>(places[1]);
+}
+
+LightArea& area_of(ObjectDefinition& object) {
+  return std::get<LightDefinition>(object.shape).area;
+}
+
+void set_adaptive(ObjectDefinition& object, double level) {
+  constexpr double kAlways = 100; // more than any grid can be divided
+  area_of(object).adaptive = static_cast<int>(std::clamp(level, 0.0, kAlways));
+}
+
+std::shared_ptr<ObjectDefinition> look(Session& session, const ObjectDefinition& object,
+                                       const Location& where) {
+  if (session.lights.empty()) session.fail(where, "only a light source looks like something");
+  auto moved_object = std::make_shared<ObjectDefinition>(object);
+  moved_object->apply(Transform::translate(light_of(*session.lights.back()).location));
+  moved_object->is_look = true;
+  return moved_object;
+}
+
+void set_looks_like(Session& session, ObjectDefinition& object,
+                    const std::shared_ptr<ObjectDefinition>& looks_like, const Location& where) {
+  if (!looks_like->is_look) session.fail(where, "a light source consists of no objects");
   auto& definition = std::get<LightDefinition>(object.shape);
   if (definition.looks_like) session.fail(where, "a light source looks like one object only");
   nest(session, object, *looks_like, where);
-  definition.looks_like = moved(looks_like, Transform::translate(definition.light.location));
+  looks_like->is_look = false;
+  looks_like->where = where;
+  definition.looks_like = looks_like;
+}
+
+ObjectPtr own_object(Session& session, const ObjectPtr& object, const Location& where) {
+  if (object->is_look) session.fail(where, "only a light source looks like something");
+  return object;
 }
 
 void transform(ObjectDefinition& object, const Transform& next) {
-  auto& [light, looks_like] = std::get<LightDefinition>(object.shape);
-  light.location = next.point(light.location);
-  light.point_at = next.point(light.point_at);
+  auto& [light, looks_like, area, has_area] = std::get<LightDefinition>(object.shape);
+  light = moved(light, next);
+  if (has_area) area = moved(area, next);
   if (looks_like) looks_like = moved(looks_like, next);
 }
 

@@ -1,6 +1,7 @@
 // Light sources as they are written.
 #pragma once
 
+#include <array>
 #include <memory>
 
 #include "pov/object.hpp"
@@ -10,10 +11,14 @@ namespace celltrace::pov {
 
 struct Session;
 
-std::shared_ptr<ObjectDefinition> light(const Vec3& location, const Vec3& colour);
+// The one that is being read is session.lights.back() until its end.
+std::shared_ptr<ObjectDefinition> light(Session& session, const Vec3& location, const Vec3& colour);
 /// A copy of one that was declared. Fails if that is something else.
 std::shared_ptr<ObjectDefinition> light(Session& session, const ObjectDefinition& declared,
                                         const Location& where);
+
+Light moved(Light light, const Transform& next);
+LightArea moved(LightArea area, const Transform& next);
 
 // The modifiers of a light source.
 
@@ -26,8 +31,21 @@ void set_point_at(Session& session, ObjectDefinition& object, const Quantity& po
 /// A number that only spotlights and cylinders have.
 void set_beam(Session& session, ObjectDefinition& object, double Light::*number, double value,
               const Location& where);
-void set_looks_like(Session& session, ObjectDefinition& object, const ObjectPtr& looks_like,
-                    const Location& where);
+/// Shadows are those of an area: two sides of it, and how many places there are along each.
+void set_area(Session& session, ObjectDefinition& object, const Vec3& across, const Vec3& along,
+              const std::array<double, 2>& places, const Location& where);
+/// What is said of its area, before or after that is given.
+LightArea& area_of(ObjectDefinition& object);
+void set_adaptive(ObjectDefinition& object, double level);
+/// What the light that is being read looks like, moved to where that is by now. As in POV-Ray, modifiers
+/// behind it apply to it there.
+std::shared_ptr<ObjectDefinition> look(Session& session, const ObjectDefinition& object,
+                                       const Location& where);
+/// Fails if the object is another one.
+void set_looks_like(Session& session, ObjectDefinition& object,
+                    const std::shared_ptr<ObjectDefinition>& looks_like, const Location& where);
+/// The object, unless it is what a light looks like: that is an error.
+ObjectPtr own_object(Session& session, const ObjectPtr& object, const Location& where);
 /// As in POV-Ray, this is a kind of its own: what is said of another one before or after it cancels the
 /// other.
 void set_shadowless(ObjectDefinition& object);

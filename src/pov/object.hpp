@@ -52,6 +52,8 @@ struct TriangleDefinition {
 struct LightDefinition {
   Light light;
   ObjectPtr looks_like; ///< placed where the light is; null: nothing
+  LightArea area;       ///< what is said of it, before or after it is there
+  bool has_area = false;
 };
 
 struct ObjectDefinition {
@@ -69,7 +71,8 @@ struct ObjectDefinition {
   std::vector<Limit> clipped_by;
   std::vector<Limit> bounded_by; ///< without effect, until something is clipped by it
   UnsupportedPtr unsupported;
-  int depth = 0; ///< of objects inside one another
+  bool is_look = false; ///< being read as what a light looks like
+  int depth = 0;        ///< of objects inside one another
 
   /// Moves its texture and what limits it, too.
   void apply(const Transform& next);

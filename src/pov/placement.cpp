@@ -7,6 +7,7 @@
 #include <string>
 
 #include "celltrace/error.hpp"
+#include "pov/light.hpp"
 #include "pov/mesh.hpp"
 #include "pov/shapes.hpp"
 
@@ -171,8 +172,10 @@ void SceneBuilder::enter_solid(Inherited& own, const Location& where) const {
 /// What it looks like casts no shadows and, as in POV-Ray, is not there if the light is in CSG.
 void SceneBuilder::place_light(const LightDefinition& definition, Inherited own, const Location& where) {
   Light light = definition.light;
-  light.location = own.transform.point(light.location);
-  light.point_at = own.transform.point(light.point_at);
+  if (definition.has_area) light.area = definition.area;
+  light = moved(light, own.transform);
+  if (light.area && light.area->circular && (light.area->columns == 1 || light.area->rows == 1))
+    diagnostics_.fail(where, "a circular area light has more than one place along each side");
   if (!Quantity::vector(light.location).is_finite() || !Quantity::vector(light.point_at).is_finite())
     diagnostics_.fail(where, "this light is not at a finite place");
   scene_.lights.push_back(light);

@@ -33,7 +33,8 @@ struct Session {
   SceneBuilder builder;
   std::vector<std::uint32_t> random_streams; ///< what seed() handed out
   std::uint64_t text_bytes = 0;
-  TexturePtr base_texture;                      ///< what the pigment or finish being read starts from
+  TexturePtr base_texture; ///< what the pigment or finish being read starts from
+  std::vector<std::shared_ptr<ObjectDefinition>> lights; ///< being read, in each other
   std::vector<std::shared_ptr<Parser>> parsers; ///< one for each entry of the grammar, made when first needed
 
   [[noreturn]] void fail(const Location& where, const std::string& what) const {

@@ -35,7 +35,7 @@ FieldList<&FrameBlock::camera, &FrameBlock::grid, &FrameBlock::bvh, &FrameBlock:
           &FrameBlock::camera_interiors, &FrameBlock::group_offset, &FrameBlock::group_count,
           &FrameBlock::longest_group, &FrameBlock::prototype_offset, &FrameBlock::units_per_word,
           &FrameBlock::wide_leaves, &FrameBlock::far_nodes, &FrameBlock::unbounded_count, &FrameBlock::sky,
-          &FrameBlock::unused>
+          &FrameBlock::light_places, &FrameBlock::unused>
 fields_of(const FrameBlock&);
 
 FieldList<&UnitRecord::column, &UnitRecord::row, &UnitRecord::bundles> fields_of(const UnitRecord&);

@@ -166,6 +166,9 @@ void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& optio
   frame.prototype_offset = header.prototype_count != 0 ? header.prototype_offset : 0;
   frame.light_offset = header.light_offset;
   frame.light_count = header.light_count;
+  frame.light_places = 0;
+  for (const Light& light : scene.lights)
+    frame.light_places += light.area ? static_cast<std::uint32_t>(light.area->columns * light.area->rows) : 1;
   frame.max_trace_level =
       static_cast<std::uint32_t>(std::clamp(options.max_trace_level.value_or(scene.max_trace_level), 1, 256));
   frame.adc_bailout = static_cast<float>(options.adc_bailout.value_or(scene.adc_bailout));

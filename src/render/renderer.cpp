@@ -1,6 +1,7 @@
 #include "celltrace/render.hpp"
 
 #include "celltrace/error.hpp"
+#include "kernel/lights/list.hpp"
 #include "kernel/shading/ray_stack.hpp"
 #include "render/accelerator_builder.hpp"
 #include "render/frame_setup.hpp"
@@ -158,7 +159,8 @@ private:
   void enter_scene(const Scene& scene) {
     set_scene(frame_, scene, options_, image_);
     // A tree of n levels needs n + 1 nodes; straight transmission may add some that cost no level.
-    const std::uint32_t nodes = frame_.max_trace_level + 32;
+    // Where lights have areas, none of them stays in local store.
+    const std::uint32_t nodes = frame_.max_trace_level + 32 + (has_areas(frame_) ? kResidentNodes : 0);
     if (nodes == frame_.ray_stack_nodes) return;
     frame_.ray_stack_nodes = nodes;
     ray_stack_ = AlignedBlock(std::size_t{machine_->spe_count()} * nodes * kRayNodeBytes);

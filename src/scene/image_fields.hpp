@@ -74,7 +74,9 @@ FieldList<&InteriorRecord::ior, &InteriorRecord::unused> fields_of(const Interio
 
 FieldList<&LightRecord::location, &LightRecord::kind_and_flags, &LightRecord::colour, &LightRecord::tightness,
           &LightRecord::axis, &LightRecord::inverse_width, &LightRecord::inner, &LightRecord::inverse_edge,
-          &LightRecord::inverse_fade_distance, &LightRecord::fade_power>
+          &LightRecord::inverse_fade_distance, &LightRecord::fade_power, &LightRecord::across,
+          &LightRecord::columns, &LightRecord::along, &LightRecord::rows, &LightRecord::inverse_columns,
+          &LightRecord::inverse_rows, &LightRecord::adaptive, &LightRecord::axis_length, &LightRecord::unused>
 fields_of(const LightRecord&);
 
 FieldList<&GroupRecord::min, &GroupRecord::first, &GroupRecord::max, &GroupRecord::count>

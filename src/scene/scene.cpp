@@ -9,6 +9,7 @@
 #include <unordered_set>
 
 #include "celltrace/error.hpp"
+#include "kernel/records.hpp"
 #include "scene/shapes.hpp"
 #include "scene/textures.hpp"
 
@@ -62,6 +63,14 @@ template <class Vector> void check_vectors(std::initializer_list<Vector> values,
 void check(const Light& light, const Name& name) {
   check_vectors({light.location, light.colour, light.point_at}, name);
   check_finite({light.radius, light.falloff, light.tightness, light.fade_distance, light.fade_power}, name);
+  if (!light.area) return;
+  const LightArea& area = *light.area;
+  check_vectors({area.across, area.along}, name);
+  const auto is_count = [](int places) { return places >= 1 && places <= int{kernel::kMaxLightPlaces}; };
+  if (!is_count(area.columns) || !is_count(area.rows))
+    throw InputError(name.text() + " has to have an area of 1 to " + std::to_string(kernel::kMaxLightPlaces) +
+                     " columns and rows");
+  if (area.adaptive < 0) throw InputError(name.text() + " has a negative adaptive level");
 }
 
 void check_index(Index index, std::size_t count, const Name& name) {

@@ -77,7 +77,10 @@ bool references_are_valid(const std::byte* base, const ImageHeader& h) {
 bool lights_are_valid(const std::byte* base, const ImageHeader& h) {
   const auto* lights = reinterpret_cast<const LightRecord*>(base + h.light_offset);
   return std::all_of(lights, lights + h.light_count, [](const LightRecord& light) {
-    return (light.kind_and_flags & light_flag::kind_mask) < Lights::kCount;
+    const auto is_count = [](std::uint32_t places) { return places - 1 < kMaxLightPlaces; };
+    return (light.kind_and_flags & light_flag::kind_mask) < Lights::kCount &&
+           (!has_area(light) ||
+            (is_count(light.columns) && is_count(light.rows) && light.columns * light.rows > 1));
   });
 }
 

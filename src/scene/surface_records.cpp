@@ -68,6 +68,26 @@ void set_width(const Light& light, LightRecord& r) {
   set_edge(light.radius > 0 ? light.radius / width : 1, 1, r);
 }
 
+float inverse_of_steps(int places) {
+  return places > 1 ? 1.0f / static_cast<float>(places - 1) : 0;
+}
+
+/// As in POV-Ray, a single place is the middle, and what turns to surfaces is round.
+void set_area(const LightArea& area, LightRecord& r) {
+  if (area.columns == 1 && area.rows == 1) return;
+  copy(area.across, r.across);
+  copy(area.along, r.along);
+  r.columns = static_cast<std::uint32_t>(area.columns);
+  r.rows = static_cast<std::uint32_t>(area.rows);
+  r.inverse_columns = inverse_of_steps(area.columns);
+  r.inverse_rows = inverse_of_steps(area.rows);
+  r.adaptive = static_cast<std::uint32_t>(area.adaptive);
+  r.kind_and_flags |= light_flag::area;
+  if (area.jitter) r.kind_and_flags |= light_flag::jitter;
+  if (area.circular || area.orient) r.kind_and_flags |= light_flag::circular;
+  if (area.orient) r.kind_and_flags |= light_flag::orient;
+}
+
 } // namespace
 
 LightRecord make_record(const Light& light) {
@@ -92,6 +112,8 @@ LightRecord make_record(const Light& light) {
     r.inverse_fade_distance = static_cast<float>(1 / std::abs(light.fade_distance));
     r.fade_power = static_cast<float>(light.fade_power);
   }
+  if (light.area) set_area(*light.area, r);
+  r.axis_length = static_cast<float>(glm::distance(light.location, light.point_at));
   return r;
 }
 

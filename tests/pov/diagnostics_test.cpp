@@ -17,7 +17,7 @@ TEST_CASE("text that makes no sense") {
   CHECK(error_line("sphere { }") == "scene.pov:1:10: error: unexpected '}', expected a number");
   CHECK(error_line("sphere { 0, 1") == "scene.pov:1:14: error: unexpected end of the scene");
   CHECK(error_line("sphere { 0, 1 radius }") == "scene.pov:1:15: error: unexpected 'radius'");
-  CHECK(error_line("sphere { 0, 1 jitter }") == "scene.pov:1:15: error: 'jitter' is not supported yet");
+  CHECK(error_line("sphere { 0, 1 autostop }") == "scene.pov:1:15: error: 'autostop' is not supported yet");
   CHECK(error_line("#debug 3") == "scene.pov:1:8: error: unexpected number, expected a string");
   CHECK(error_line("#declare A = x.w;") ==
         "scene.pov:1:15: error: '.w' is no component of a vector or colour");

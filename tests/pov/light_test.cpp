@@ -4,6 +4,9 @@
 #include <catch2/catch.hpp>
 
 #include <string>
+#include <utility>
+
+#include <glm/geometric.hpp>
 
 using namespace celltrace;
 using namespace celltrace::test;
@@ -66,6 +69,36 @@ TEST_CASE("parallel and fading light") {
   CHECK(light("fade_distance 3").fade_power == 0);
 }
 
+TEST_CASE("lights with an area") {
+  CHECK_FALSE(light("jitter adaptive 2").area);
+  const Light plain = light("area_light <4, 1, 0>, <0, 0, 2>, 5, 3.9");
+  REQUIRE(plain.area);
+  CHECK(plain.area->across == Vec3(4, 1, 0));
+  CHECK(plain.area->along == Vec3(0, 0, 2));
+  CHECK(plain.area->columns == 5);
+  CHECK(plain.area->rows == 3);
+  CHECK(plain.area->adaptive == 100);
+  CHECK_FALSE(plain.area->jitter);
+  CHECK_FALSE(plain.area->circular);
+  CHECK_FALSE(plain.area->orient);
+  // In any order, and beside every kind.
+  const Light full =
+      light("jitter adaptive 1.7 area_light x y 2 3 spotlight circular orient area_illumination off");
+  CHECK(full.kind == Light::Kind::spotlight);
+  REQUIRE(full.area);
+  CHECK(full.area->adaptive == 1);
+  CHECK(full.area->jitter);
+  CHECK(full.area->circular);
+  CHECK(full.area->orient);
+  CHECK(light("area_light x, y, 2, 2 adaptive -1").area->adaptive == 0);
+  const Light moved = light("area_light 2*x, y, 2, 2 rotate 90*z translate x");
+  CHECK(glm::length(moved.area->across - Vec3(0, 2, 0)) < 1e-12);
+  CHECK(glm::length(moved.area->along - Vec3(-1, 0, 0)) < 1e-12);
+  const Scene scene = parse("#declare L = light_source { 0 rgb 1 area_light x, y, 2, 2 scale 2 }"
+                            "union { light_source { L scale 3 } scale 2 }");
+  CHECK(scene.lights[0].area->across == Vec3(12, 0, 0));
+}
+
 TEST_CASE("a shadowless light has no other kind") {
   CHECK(light("spotlight shadowless").kind == Light::Kind::point);
   CHECK(light("spotlight shadowless").shadowless);
@@ -103,6 +136,31 @@ TEST_CASE("what a light looks like") {
   CHECK(scene.objects[0].no_shadow);
 }
 
+TEST_CASE("modifiers of what a light looks like apply to it where the light is") {
+  const auto look = [](const std::string& modifiers) {
+    const Scene scene = parse(
+        "light_source { <2, 3, 0> rgb 1 looks_like { sphere { 0, 1 pigment { rgb x } } " + modifiers + " }");
+    REQUIRE(scene.objects.size() == 1);
+    CHECK(scene.lights.size() == 1);
+    return std::pair{scene.objects[0], scene.materials[scene.objects[0].material]};
+  };
+  const auto middle = [&](const std::string& modifiers) {
+    return look(modifiers).first.transform.point({0, 0, 0});
+  };
+  CHECK(middle("}") == Vec3(2, 3, 0));
+  CHECK(middle("translate 2*x }") == Vec3(4, 3, 0));
+  CHECK(middle("scale 2 }") == Vec3(4, 6, 0));
+  CHECK(glm::length(middle("rotate 90*z }") - Vec3(-3, 2, 0)) < 1e-12);
+  CHECK(middle("scale 2 } translate 2*x") == Vec3(6, 6, 0));
+  CHECK(middle("scale 2 } scale .5") == Vec3(2, 3, 0));
+  CHECK(look("pigment { rgb y } }").second.pigment.rgb == Vec3(0, 1, 0));
+  CHECK(look("clipped_by { plane { x, 2 } } no_shadow }").first.clipped_by);
+  const Scene before =
+      parse("light_source { <2, 3, 0> rgb 1 translate -4*x looks_like { sphere { 0, 1 } scale 2 } "
+            "rotate 90*z }");
+  CHECK(glm::length(before.objects[0].transform.point({0, 0, 0}) - Vec3(-6, -4, 0)) < 1e-12);
+}
+
 TEST_CASE("what a light looks like belongs to unions, but to no other CSG") {
   const std::string lamp = "#declare L = light_source { 0 rgb 1 looks_like { sphere { 0, 1 } } } ";
   const Scene scene =
@@ -127,8 +185,17 @@ TEST_CASE("what light sources cannot have") {
   CHECK(refusal("box") == "there is no light source of this shape");
   CHECK(refusal("looks_like { sphere { 0, 1 } } looks_like { sphere { 0, 2 } }") ==
         "a light source looks like one object only");
-  CHECK(error_line("light_source { 0 rgb 1 spotlight area_light x, y, 2, 2 jitter }") ==
-        "scene.pov:1:34: error: 'area_light' is not supported yet");
+  CHECK(refusal("sphere { 0, 1 }") == "a light source consists of no objects");
+  CHECK(refusal("looks_like { sphere { 0, 1 } sphere { 0, 2 } }") != "");
+  CHECK(error_line("looks_like { sphere { 0, 1 } }") ==
+        "scene.pov:1:1: error: only a light source looks like something");
+  CHECK(refusal("looks_like { union { looks_like { sphere { 0, 1 } } } }") ==
+        "only a light source looks like something");
+  CHECK(refusal("area_light x, y, 0, 2") == "an area light has 1 to 256 places along each side");
+  CHECK(refusal("area_light x, y, 2, 257") == "an area light has 1 to 256 places along each side");
+  CHECK(refusal("area_light x, y, 1, 3 circular") ==
+        "a circular area light has more than one place along each side");
+  CHECK(refusal("area_light x, y, 2, 3 area_illumination") == "'area_illumination' is not supported yet");
   CHECK(error_line("light_source { 0 rgb 1 spotlight radius x }") ==
         "scene.pov:1:41: error: expected a float, found a vector");
   CHECK(error_line("light_source { 0 rgb 1 looks_like { blob { threshold 1 } } }") ==

@@ -6,6 +6,7 @@
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 
+#include "reference/area_light.hpp"
 #include "reference/camera.hpp"
 #include "reference/textures.hpp"
 
@@ -126,8 +127,20 @@ Vec3 Tracer::own_light(const Ray& ray, const Point& point, const Material& mater
   for (const Light& light : scene_.lights) {
     const auto [to_light, distance, unshadowed] = incoming(light, point.position);
     if (glm::dot(point.normal, to_light) < 1e-10) continue;
-    const Vec3 colour =
-        light.shadowless ? unshadowed : unshadowed * attenuation({point.position, to_light}, distance);
+    const bool is_parallel = light.parallel || light.kind == Light::Kind::cylinder;
+    const auto from_place = [&](int column, int row) {
+      const Vec3 offset = area_offset(*light.area, to_light, column, row);
+      const Vec3 middle = is_parallel ? light.location - light.point_at : to_light * distance;
+      const Vec3 way = glm::normalize(middle + offset);
+      // Parallel light ends beside the place itself, and has no shadows behind it.
+      const double end = distance > 0 ? glm::dot(light.location + offset - point.position, way) : 0;
+      return unshadowed * attenuation({point.position, way}, end);
+    };
+    Vec3 colour = unshadowed;
+    if (light.area && !light.shadowless)
+      colour = area_mean(*light.area, from_place);
+    else if (!light.shadowless)
+      colour *= attenuation({point.position, to_light}, distance);
     sum += lit(material, scene_.version, colour, to_light, ray.direction, point.normal, !light.shadowless);
   }
   return sum;

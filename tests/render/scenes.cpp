@@ -252,6 +252,26 @@ Scene kinds_of_lights() {
   return scene;
 }
 
+/// Shadows of areas, with a grid that is divided where it has to be, and others.
+Scene soft_shadows() {
+  Scene scene = scene_named("kinds of lights");
+  LightArea area;
+  area.across = {1.2, 0, 0};
+  area.along = {0, 0.2, 1};
+  area.columns = 5;
+  area.rows = 4;
+  scene.lights[0].area = area;
+  area.columns = area.rows = 9;
+  area.adaptive = 1;
+  area.circular = true;
+  scene.lights[1].area = area;
+  area.orient = true;
+  area.adaptive = 0;
+  scene.lights[2].area = area;
+  scene.lights.resize(4);
+  return scene;
+}
+
 /// Seen by a camera that has no ray in some of the pixels, and in some packets none at all.
 Scene dome() {
   Scene scene = scene_named("kinds of lights");
@@ -380,6 +400,7 @@ const std::vector<NamedScene>& scenes() {
       {"meshes", meshes},
       {"kinds of lights", kinds_of_lights},
       {"dome", dome},
+      {"soft shadows", soft_shadows},
       {"legacy orthographic", legacy_orthographic},
       {"half mirrors", half_mirrors},
       {"inside glass", inside_glass},

@@ -81,6 +81,21 @@ TEST_CASE("More lights than a bundle of packets searches for, some of them shado
   }
 }
 
+TEST_CASE("Jittered lights are the same each time and on every backend") {
+  Scene scene = scene_named("soft shadows");
+  const Image still = render_on(backends().front(), 1, scene);
+  for (Light& light : scene.lights)
+    if (light.area) light.area->jitter = true;
+  const Image expected = render_on(backends().front(), 1, scene);
+  CHECK_FALSE(expected == still);
+  CHECK(compare_images(expected, still).psnr > 25);
+  for (const Backend& backend : backends())
+    for (unsigned spes : {1u, 3u}) {
+      INFO(backend.spu() << " with " << spes);
+      CHECK(render_on(backend, spes, scene) == expected);
+    }
+}
+
 TEST_CASE("Every backend with any number of SPEs renders the same picture") {
   for (const NamedScene& named : scenes()) {
     INFO(named.name);

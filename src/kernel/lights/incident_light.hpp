@@ -16,6 +16,12 @@ template <class S> struct IncidentLight {
   /// Of a colour; nothing else is set.
   explicit IncidentLight(const float (&rgb)[3]) : colour(splat3<S>(rgb)) {}
 
+  /// Where the light comes from, as seen from the surfaces.
+  void set_ray(const V3<S>& to_light) {
+    using F = typename S::F;
+    distance = S::sqrt(dot<S>(to_light, to_light));
+    direction = to_light * (F(1.0f) / S::max(distance, F(1e-30f)));
+  }
   /// After the direction has been set.
   void face(const Surfaces<S>& s, uint32_t lanes) {
     cosine = dot<S>(direction, s.normal);

@@ -21,10 +21,19 @@ template <class L> constexpr uint32_t kLightKind = Lights::number<L>();
 /// Whether a light sends the same to all sides, however far.
 constexpr bool is_plain(const LightRecord& light) {
   static_assert(kLightKind<PointLight> == 0);
-  return (light.kind_and_flags & ~light_flag::shadowless) == 0;
+  constexpr uint32_t of_shadows = light_flag::shadowless | light_flag::area | light_flag::circular |
+                                  light_flag::orient | light_flag::jitter;
+  return (light.kind_and_flags & ~of_shadows) == 0;
 }
 constexpr bool is_shadowless(const LightRecord& light) {
   return (light.kind_and_flags & light_flag::shadowless) != 0;
+}
+constexpr bool has_area(const LightRecord& light) {
+  return (light.kind_and_flags & light_flag::area) != 0;
+}
+/// Whether some light of a frame has an area. Its sampling takes the local store of resident ray nodes.
+constexpr bool has_areas(const FrameBlock& frame) {
+  return frame.light_places != frame.light_count;
 }
 constexpr bool is_parallel(const LightRecord& light) {
   return (light.kind_and_flags & light_flag::parallel) != 0;

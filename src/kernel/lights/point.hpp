@@ -14,10 +14,7 @@ struct PointLight {
   template <class S>
   [[gnu::noinline]] static void illuminate(const LightRecord& light, const Surfaces<S>& s, uint32_t lanes,
                                            IncidentLight<S>& incident) {
-    using F = typename S::F;
-    const V3<S> to_light = splat3<S>(light.location) - s.point;
-    incident.distance = S::sqrt(dot<S>(to_light, to_light));
-    incident.direction = to_light * (F(1.0f) / S::max(incident.distance, F(1e-30f)));
+    incident.set_ray(splat3<S>(light.location) - s.point);
     incident.face(s, lanes);
   }
 };

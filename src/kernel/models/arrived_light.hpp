@@ -2,7 +2,9 @@
 // Traversal. Kernel dialect.
 #pragma once
 
+#include "kernel/lights/area_shadow.hpp"
 #include "kernel/models/search_record.hpp"
+#include "kernel/shading/lighting.hpp"
 
 namespace celltrace::kernel::models {
 
@@ -33,7 +35,12 @@ void fetch_answers(Spu& spu, ea_t first_search, uint32_t first, uint32_t searche
 
 template <class Spu> class ArrivedLight {
 public:
-  explicit ArrivedLight(Spu& spu) : spu_(spu) {}
+  using S = typename Spu::simd;
+
+  ArrivedLight(Spu& spu, const FrameBlock& frame) : spu_(spu), area_(allocate_area_shadow(spu, frame)) {}
+
+  /// Whether some lights of the frame have areas.
+  bool has_areas() const { return area_ != nullptr; }
 
   /// Answers to `searches` searches, the first of which `block` holds already. More are fetched under `tag`.
   void arrive(ea_t first_search, uint32_t searches, AnswerBlock& block, uint32_t tag) {
@@ -57,6 +64,28 @@ public:
       colours[next.number - first] = next.light.colour;
     }
   }
+  /// The same in a frame some of whose lights have areas, for the surfaces of `lanes` that they were asked
+  /// for. Returns how many rays a sampling of these lights would have traced.
+  uint32_t take(SceneAccess<Spu>& scene, const FrameBlock& frame, const LightRound& round,
+                const Surfaces<S>& surfaces, uint32_t lanes, VectorLanes* colours) {
+    uint32_t rays = 0;
+    for_each_light(scene, frame, round.first, round.count, [&](uint32_t number, const LightRecord& light) {
+      if (cursor_ == searches_ || answer(cursor_).number != number) return;
+      VectorLanes& colour = colours[number - round.first];
+      if (!has_area(light)) {
+        colour = answer(cursor_++).light.colour;
+        return;
+      }
+      IncidentLight<S> incident(light.colour);
+      illuminate(spu_, light, surfaces, lanes, incident);
+      // All its places were asked for, row by row.
+      rays += sample_area(spu_, light, surfaces, incident, *area_, colour, [&](AreaShadow<S>& shadow) {
+        shadow.light = answer(cursor_ + shadow.place.row * light.columns + shadow.place.column).light.colour;
+      });
+      cursor_ += light.columns * light.rows;
+    });
+    return rays;
+  }
 
 private:
   const AnsweredSearch& answer(uint32_t index) {
@@ -70,6 +99,7 @@ private:
   }
 
   Spu& spu_;
+  AreaShadow<S>* area_; ///< null if no light has an area
   ea_t first_search_ = 0;
   uint32_t searches_ = 0;
   AnswerBlock* block_ = nullptr;

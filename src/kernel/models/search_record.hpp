@@ -2,7 +2,8 @@
 // one or more. Kernel dialect.
 //
 // A job belongs to a context: the tree of one packet of primary rays, which has one job at a time under way.
-// In main memory a context has a JobRecord and behind it as many SearchRecords as the scene has lights.
+// In main memory a context has a JobRecord and behind it as many SearchRecords as the scene has lights, or
+// places on them.
 #pragma once
 
 #include "kernel/packet.hpp"

@@ -19,7 +19,7 @@ public:
       : spu_(spu), stage_(spu, block), orders_(stage_.orders()), frame_(stage_.frame()),
         doorbell_(spu, orders_), sender_(spu, orders_), feed_(spu, orders_, frame_, sender_),
         scene_(spu, cache_config(stage_.frame()), frame_.image), writer_(spu, sender_), pixels_(spu, frame_),
-        light_(spu), scratch_(*spu.template allocate<RayNode>()),
+        light_(spu, frame_), scratch_(*spu.template allocate<RayNode>()),
         arrivals_(spu.template allocate<Arrival>(2)) {
     place_contexts();
   }
@@ -178,15 +178,17 @@ private:
       IncidentLight<S> incident(light.colour);
       illuminate(spu_, light, surfaces, context.hit, incident);
       if (incident.facing == 0) return;
-      spu_.compute(model_work::kCopy);
-      SearchRecord& search = writer_.next();
-      make_shadow_rays(surfaces, incident, search.rays, search.light.distance);
-      search.light.colour.template store<S>(incident.colour);
-      search.kind = static_cast<uint32_t>(SearchKind::shadow);
-      search.lanes = incident.facing;
-      search.primary = 0;
-      search.number = i;
-      writer_.put();
+      if (!has_area(light)) {
+        ask_for_light_of(i, surfaces, incident);
+        return;
+      }
+      for (uint32_t row = 0; row < light.rows; ++row)
+        for (uint32_t column = 0; column < light.columns; ++column) {
+          IncidentLight<S> from_place(light.colour);
+          spu_.enter_module(modules::kAreas);
+          module_areas::aim_shadow_rays(spu_, light, surfaces, {column, row}, incident, from_place);
+          ask_for_light_of(i, surfaces, from_place);
+        }
     });
     context.searches = writer_.count();
     if (context.searches == 0) return false;
@@ -195,15 +197,41 @@ private:
     return true;
   }
 
+  void ask_for_light_of(uint32_t number, const Surfaces<S>& surfaces, const IncidentLight<S>& incident) {
+    spu_.compute(model_work::kCopy);
+    SearchRecord& search = writer_.next();
+    make_shadow_rays(surfaces, incident, search.rays, search.light.distance);
+    search.light.colour.template store<S>(incident.colour);
+    search.kind = static_cast<uint32_t>(SearchKind::shadow);
+    search.lanes = incident.facing;
+    search.primary = 0;
+    search.number = number;
+    writer_.put();
+  }
+
   void shade(uint32_t number) {
     Context& context = *contexts_[number];
     for (LightRound round = LightRound::from(frame_, 0, colours_);;
          round = LightRound::from(frame_, round.next(), colours_)) {
-      light_.take(round.first, round.count, colours_);
+      take_light(context, round);
       context.tracer.shade_hits(context.points, context.hit, round);
       if (round.next() == frame_.light_count) break;
     }
     go_on(number);
+  }
+
+  void take_light(Context& context, const LightRound& round) {
+    if (light_.has_areas())
+      take_areas(context, round);
+    else
+      light_.take(round.first, round.count, colours_);
+  }
+  /// Not inlined: its surfaces are not on the stack while hits are shaded.
+  [[gnu::noinline]] void take_areas(Context& context, const LightRound& round) {
+    const RayPacket& rays = context.tracer.node().rays;
+    const WordLanes& objects = context.tracer.hits().object;
+    const Surfaces<S> surfaces = context.points.lit_surfaces(rays.direction.template load<S>(), objects);
+    context.tracer.count_shadow_rays(light_.take(scene_, frame_, round, surfaces, context.hit, colours_));
   }
 
   /// To the next node of the tree, or the next packet.

@@ -4,6 +4,7 @@
 
 #include "kernel/accel/traversal.hpp"
 #include "kernel/cameras/primary_rays.hpp"
+#include "kernel/lights/area_shadow.hpp"
 #include "kernel/shading/ray_tracer.hpp"
 
 namespace celltrace::kernel {
@@ -17,7 +18,9 @@ public:
   BundleTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, ea_t spill)
       : frame_(frame), scene_(scene), traversal_(scene, frame),
         tracer_(spu, frame, scene, spill, frame.ray_stack_nodes, *spu.template allocate<RayNode>()),
-        members_(spu.template allocate<Member>(kPackets)) {}
+        members_(spu.template allocate<Member>(kPackets)), area_(allocate_area_shadow(spu, frame)) {
+    static_assert(sizeof(AreaShadow<S>) <= kResidentNodes * sizeof(RayNode), "lies where nodes would");
+  }
 
   /// Calls `put(column, row, colours)` for each packet in the picture of the bundle at (column, row); that
   /// counts bundles, `put` packets. Or `fill(column, row, colour)` where all of the bundle has one colour and
@@ -41,10 +44,7 @@ public:
       place(column, row);
       find_hits([&](RayQuery* queries) { traversal_.intersect(queries, kPackets); });
     }
-    const LightRound lights = LightRound::from(frame_, 0, nullptr);
-    for_each_light(scene_, frame_, 0, lights.count, [&](uint32_t number, const LightRecord& light) {
-      if (!is_shadowless(light)) find_light(number, light);
-    });
+    find_lights();
     for_each_member([&](Member& member) {
       V3<S> seen = trace(member);
       if (member.lanes != member.pixels) {
@@ -117,6 +117,14 @@ private:
     }
   }
 
+  /// The light of the first round at what the primary rays hit. Not inlined: records of lights are not on the
+  /// stack while rays are shaded.
+  [[gnu::noinline]] void find_lights() {
+    const LightRound lights = LightRound::from(frame_, 0, nullptr);
+    for_each_light(scene_, frame_, 0, lights.count, [&](uint32_t number, const LightRecord& light) {
+      if (!is_shadowless(light)) find_light(number, light);
+    });
+  }
   void find_light(uint32_t number, const LightRecord& light) {
     RayQuery queries[kPackets];
     uint32_t asked = 0;
@@ -124,21 +132,57 @@ private:
       Member& member = members_[i];
       if (member.hit == 0) continue;
       scene_.spu().compute(scalar_work::kBundleLight);
-      const Surfaces<S> surfaces =
-          member.points.lit_surfaces(member.rays.direction.template load<S>(), member.hits.object);
-      IncidentLight<S> incident(light.colour);
-      illuminate(scene_.spu(), light, surfaces, member.hit, incident);
-      if (incident.facing == 0) continue;
-      make_shadow_rays(surfaces, incident, member.shadow_rays, member.distance);
-      member.light[number].template store<S>(incident.colour);
-      queries[asked++] = {&member.shadow_rays, nullptr, &member.distance, &member.light[number],
-                          incident.facing};
+      VectorLanes& colour = member.light[number];
+      if (has_area(light)) {
+        look_at_area(light, member, member.rays, member.hits, member.hit, colour);
+        continue;
+      }
+      const uint32_t facing = aim_at(light, member, member.rays, member.hits, member.hit, colour, nullptr);
+      if (facing == 0) continue;
+      queries[asked++] = {&member.shadow_rays, nullptr, &member.distance, &colour, facing};
     }
     if (asked == 0) return;
     if (is_parallel(light))
       traversal_.intersect(queries, asked);
     else
       traversal_.intersect(queries, asked, light.location);
+  }
+
+  /// Makes a member's shadow rays from what `rays` hit in `lanes`, or starts the sampling of a light that has
+  /// an area; else `area` is null. `colour` becomes what comes if nothing is in the way. Returns the lanes
+  /// that face the light. Not inlined: its surfaces are not on the stack while rays are traced.
+  [[gnu::noinline]] uint32_t aim_at(const LightRecord& light, Member& member, const RayPacket& rays,
+                                    const HitPacket& hits, uint32_t lanes, VectorLanes& colour,
+                                    AreaShadow<S>* area) {
+    const Surfaces<S> surfaces = member.points.lit_surfaces(rays.direction.template load<S>(), hits.object);
+    IncidentLight<S> incident(light.colour);
+    illuminate(scene_.spu(), light, surfaces, lanes, incident);
+    if (incident.facing == 0) return 0;
+    colour.template store<S>(incident.colour);
+    if (area != nullptr)
+      begin_sampling(scene_.spu(), light, surfaces, incident, *area);
+    else
+      make_shadow_rays(surfaces, incident, member.shadow_rays, member.distance);
+    return incident.facing;
+  }
+
+  /// As Traversal's transmittance(). Not inlined: once in local store is enough.
+  [[gnu::noinline]] void trace_shadows(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance,
+                                       VectorLanes& light) {
+    traversal_.transmittance(rays, lanes, distance, light);
+  }
+
+  /// The light of an area, whose places each packet asks by itself. Not inlined: few scenes have such lights.
+  [[gnu::noinline]] void look_at_area(const LightRecord& light, Member& member, const RayPacket& rays,
+                                      const HitPacket& hits, uint32_t lanes, VectorLanes& colour) {
+    AreaShadow<S>& area = *area_;
+    if (aim_at(light, member, rays, hits, lanes, colour, &area) == 0) return;
+    while (next_place(scene_.spu(), light, area)) {
+      scene_.spu().compute(scalar_work::kBundleLight);
+      trace_shadows(area.rays, area.lanes, area.distance, area.light);
+    }
+    colour = area.sum;
+    tracer_.count_shadow_rays(area.rays_asked);
   }
 
   /// The colours of a packet, of which the hits are known and the light of the first round.
@@ -173,17 +217,13 @@ private:
 
   /// The light of a round at the hits of the node that is being traced.
   [[gnu::noinline]] void light_packet(Member& member, uint32_t hit, const LightRound& round) {
-    const Surfaces<S> surfaces =
-        member.points.lit_surfaces(tracer_.node().rays.direction.template load<S>(), tracer_.hits().object);
     for_each_light(scene_, frame_, round.first, round.count, [&](uint32_t number, const LightRecord& light) {
       if (is_shadowless(light)) return;
-      IncidentLight<S> incident(light.colour);
-      illuminate(scene_.spu(), light, surfaces, hit, incident);
-      if (incident.facing == 0) return;
       VectorLanes& colour = member.light[number - round.first];
-      make_shadow_rays(surfaces, incident, member.shadow_rays, member.distance);
-      colour.template store<S>(incident.colour);
-      traversal_.transmittance(member.shadow_rays, incident.facing, member.distance, colour);
+      const RayPacket& rays = tracer_.node().rays;
+      if (has_area(light)) return look_at_area(light, member, rays, tracer_.hits(), hit, colour);
+      const uint32_t facing = aim_at(light, member, rays, tracer_.hits(), hit, colour, nullptr);
+      if (facing != 0) trace_shadows(member.shadow_rays, facing, member.distance, colour);
     });
   }
 
@@ -192,6 +232,7 @@ private:
   Traversal<Spu, kAccelerators> traversal_;
   RayTracer<Spu> tracer_;
   Member* members_;
+  AreaShadow<S>* area_; ///< null if no light has an area
 };
 
 } // namespace celltrace::kernel

@@ -66,7 +66,7 @@ struct LightRound {
 };
 
 /// Ambient light, and what the lights of a round contribute, at the surfaces of `lanes`. Counts a shadow ray
-/// per light and lane that faces it.
+/// per light and lane that faces it, but for lights with areas, of which only who samples them knows.
 template <class Spu>
 V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, const FrameBlock& frame, const LightRound& round,
                                    const Surfaces<typename Spu::simd>& s,
@@ -86,7 +86,7 @@ V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, const FrameBlock& fr
 
     if (!is_shadowless(light)) {
       incident.colour = round.colour[number - round.first].template load<S>();
-      shadow_rays += static_cast<uint32_t>(__builtin_popcount(facing));
+      if (!has_area(light)) shadow_rays += static_cast<uint32_t>(__builtin_popcount(facing));
     }
     sum = sum + select<S>(S::M::from_bits(facing),
                           detail::reflected_light<S>(s, m, incident, !is_shadowless(light)), dark);

@@ -35,16 +35,18 @@ constexpr uint32_t kResidentNodes = 3;
 /// `spill_nodes` of them. Depth-first order makes a tree of level n need n + 1 nodes at most.
 template <class Spu, uint32_t kResident = kResidentNodes> class RayStack {
 public:
-  RayStack(Spu& spu, ea_t spill, uint32_t spill_nodes)
-      : spu_(spu), resident_(spu.template allocate<RayNode>(kResident)), spill_(spill),
-        capacity_(kResident + spill_nodes) {}
+  /// `has_resident` is false if local store has no room even for kResident nodes.
+  RayStack(Spu& spu, ea_t spill, uint32_t spill_nodes, bool has_resident = true)
+      : spu_(spu), resident_nodes_(has_resident ? kResident : 0),
+        resident_(has_resident ? spu.template allocate<RayNode>(kResident) : nullptr), spill_(spill),
+        capacity_(resident_nodes_ + spill_nodes) {}
 
   bool empty() const { return size_ == 0; }
 
   /// False if the stack is full.
   bool push(const RayNode& node) {
     if (size_ == capacity_) return false;
-    if (size_ < kResident) {
+    if (size_ < resident_nodes_) {
       spu_.compute(scalar_work::kNodeCopy);
       resident_[size_] = node;
     } else {
@@ -59,7 +61,7 @@ public:
   /// `node` lies in local store.
   void pop(RayNode& node) {
     --size_;
-    if (size_ < kResident) {
+    if (size_ < resident_nodes_) {
       spu_.compute(scalar_work::kNodeCopy);
       node = resident_[size_];
       return;
@@ -75,9 +77,10 @@ public:
 private:
   static constexpr uint32_t kTag = 6;
 
-  ea_t place(uint32_t index) const { return spill_ + (index - kResident) * kRayNodeBytes; }
+  ea_t place(uint32_t index) const { return spill_ + (index - resident_nodes_) * kRayNodeBytes; }
 
   Spu& spu_;
+  uint32_t resident_nodes_;
   RayNode* resident_;
   ea_t spill_;
   uint32_t capacity_;

@@ -26,7 +26,7 @@ public:
   /// `spill` has room for `spill_nodes`. `scratch` may be shared by tracers.
   RayTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, ea_t spill, uint32_t spill_nodes,
             RayNode& scratch)
-      : frame_(frame), scene_(scene), stack_(spu, spill, spill_nodes),
+      : frame_(frame), scene_(scene), stack_(spu, spill, spill_nodes, !has_areas(frame)),
         node_(*spu.template allocate<RayNode>()), child_(scratch) {}
 
   /// The colours of primary rays whose hits are known, if all of them end there; false: they do not, or there
@@ -100,6 +100,8 @@ public:
   }
   V3<S> light() const { return light_[0].template load<S>(); }
 
+  /// Rays that were traced for a round of lights beyond those that shading counts.
+  void count_shadow_rays(uint32_t rays) { counters_.shadow += rays; }
   void reset_counters() {
     counters_ = RayCounters();
     stack_.reset_counters();

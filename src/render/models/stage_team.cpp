@@ -70,7 +70,7 @@ bool StageTeam::render_frame_while(HeldProgress& held) {
 }
 
 void StageTeam::prepare() {
-  const std::size_t searches = std::max(frame_[0].light_count, 1u);
+  const std::size_t searches = std::max(frame_[0].light_places, 1u);
   const std::size_t job_bytes = sizeof(JobRecord) + searches * sizeof(SearchRecord);
   // Of its stack a context keeps fewer nodes in local store than the tracer does.
   const std::uint32_t stack_nodes = frame_[0].ray_stack_nodes + kResidentNodes;

@@ -1,0 +1,329 @@
+// The shadows of a light with an area, as POV-Ray samples them: a grid of places on it, of which only those
+// are looked at that the ones around them do not agree about. Kernel dialect.
+//
+// A quad of the grid is worth the mean of its corners, or of its quarters if it is divided; so it is done
+// with a stack of quads, each with the weight of its mean. What is known of places stays in a small table, as
+// quads share corners.
+#pragma once
+
+#include "kernel/lights/incident_light.hpp"
+#include "kernel/lights/list.hpp"
+#include "kernel/modules.hpp"
+
+namespace celltrace::kernel {
+
+namespace detail {
+// Lanes by the plastic number's additive recurrence: neighbours are far from each other.
+alignas(64) constexpr float kJitterX[kSimdLanes] = {
+    0.0f,       0.7548777f, 0.5097553f, 0.2646330f, 0.0195107f, 0.7743883f, 0.5292660f, 0.2841436f,
+    0.0390213f, 0.7938990f, 0.5487767f, 0.3036543f, 0.0585320f, 0.8134097f, 0.5682873f, 0.3231650f};
+alignas(64) constexpr float kJitterY[kSimdLanes] = {
+    0.0f,       0.5698403f, 0.1396806f, 0.7095209f, 0.2793612f, 0.8492015f, 0.4190417f, 0.9888820f,
+    0.5587223f, 0.1285626f, 0.6984029f, 0.2682432f, 0.8380835f, 0.4079238f, 0.9777641f, 0.5476044f};
+} // namespace detail
+
+/// A place on the grid of a light.
+struct LightPlace {
+  uint32_t column, row;
+};
+
+namespace module_areas {
+
+/// A number from 0 up to 1 that follows from the place alone, so that pictures do not depend on who renders
+/// them or how often.
+inline float scattered(uint32_t place) {
+  uint32_t bits = (place ^ (place >> 16)) * 0x45D9F3Bu;
+  bits = (bits ^ (bits >> 16)) * 0x45D9F3Bu;
+  return static_cast<float>((bits ^ (bits >> 16)) >> 8) * (1.0f / 16777216.0f);
+}
+
+/// From -1/2 to 1/2, another number in each lane.
+template <class S> typename S::F jitter(uint32_t place, const float* lanes) {
+  using F = typename S::F;
+  const F sum = F::load(lanes) + F(scattered(place));
+  return S::select(sum >= F(1.0f), sum - F(1.5f), sum - F(0.5f));
+}
+
+/// From the middle of a light to a place on it, which is seen from where it is `to_middle` to the middle.
+template <class S>
+[[gnu::noinline]] V3<S> offset_of(const LightRecord& light, const V3<S>& to_middle, const LightPlace& place) {
+  using F = typename S::F;
+  const uint32_t flags = light.kind_and_flags;
+  F u(static_cast<float>(place.column)), v(static_cast<float>(place.row));
+  if ((flags & light_flag::jitter) != 0) {
+    const uint32_t number = place.row * kMaxLightPlaces + place.column;
+    u = u + jitter<S>(2 * number + 1, detail::kJitterX);
+    v = v + jitter<S>(2 * number + 2, detail::kJitterY);
+  }
+  u = light.columns > 1 ? u * F(light.inverse_columns) - F(0.5f) : F(0.0f);
+  v = light.rows > 1 ? v * F(light.inverse_rows) - F(0.5f) : F(0.0f);
+  if ((flags & light_flag::circular) != 0) {
+    // The square around each circle goes to that circle. POV-Ray's are off the middle by this much.
+    u = u + F(0.001f);
+    v = v + F(0.001f);
+    const F shrunk = S::max(S::abs(u), S::abs(v)) / S::max(S::sqrt(u * u + v * v), F(1e-30f));
+    u = u * shrunk;
+    v = v * shrunk;
+  }
+  V3<S> across = splat3<S>(light.across), along = splat3<S>(light.along);
+  if ((flags & light_flag::orient) != 0) {
+    // Both axes turn to the surface, and have the length of the first.
+    const F zero(0.0f), one(1.0f), length = S::sqrt(dot<S>(across, across));
+    const V3<S> toward = normalise<S>(to_middle);
+    const auto near_z = S::abs(toward.z) > F(0.99f);
+    const V3<S> beside = {zero, S::select(near_z, one, zero), S::select(near_z, zero, one)};
+    const V3<S> first = normalise<S>(cross<S>(toward, beside));
+    across = first * length;
+    along = cross<S>(toward, first) * length;
+  }
+  return across * u + along * v;
+}
+
+/// The ray from surfaces to a place on a light, and how far it goes. As in POV-Ray, parallel light from a
+/// place goes to where the whole light points, and its rays end beside the place. Behind the light nothing is
+/// in the way.
+template <class S>
+void aim(const LightRecord& light, const V3<S>& points, const V3<S>& to_middle, const LightPlace& place,
+         IncidentLight<S>& from_place) {
+  using F = typename S::F;
+  const bool parallel = is_parallel(light);
+  const V3<S> toward = parallel ? splat3<S>(light.axis) * F(-light.axis_length) : to_middle;
+  const V3<S> offset = offset_of<S>(light, toward, place);
+  from_place.set_ray(toward + offset);
+  if (!parallel) return;
+  const F beside = dot<S>(splat3<S>(light.location) + offset - points, from_place.direction);
+  const F zero(0.0f);
+  from_place.distance = S::select(dot<S>(to_middle, to_middle) > zero, S::max(beside, zero), zero);
+}
+
+/// Makes of the light of the middle, of the same colour, that of a place.
+template <class Spu>
+[[gnu::noinline]] void aim_shadow_rays(Spu& spu, const LightRecord& light,
+                                       const Surfaces<typename Spu::simd>& s, const LightPlace& place,
+                                       const IncidentLight<typename Spu::simd>& middle,
+                                       IncidentLight<typename Spu::simd>& from_place) {
+  using S = typename Spu::simd;
+  spu.run_in_module(modules::kAreas);
+  aim<S>(light, s.point, middle.direction * middle.distance, place, from_place);
+  from_place.colour = middle.colour;
+  from_place.facing = middle.facing;
+}
+
+} // namespace module_areas
+
+/// Where the sampling of a light stands that surfaces of a packet face. Whoever looks at places asks next()
+/// for them, one after the other, and leaves in `light` what comes from there; then it is over, and `sum` is
+/// the light.
+template <class S> struct AreaShadow {
+  using F = typename S::F;
+
+  // Of the place that is asked for.
+  RayPacket rays;
+  FloatLanes distance;
+  VectorLanes light; ///< before, that of the whole light; after, what comes through
+
+  VectorLanes sum;
+
+  // Its own.
+  static constexpr uint32_t kCorners = 4;
+  static constexpr uint32_t kDivisions = 9; ///< of the longest grid
+  static constexpr uint32_t kMaxQuads = 3 * kDivisions + 1;
+  static constexpr uint32_t kPlaces = 256; ///< in the table
+  static_assert((1u << (kDivisions - 1)) >= kMaxLightPlaces);
+
+  struct Quad {
+    uint8_t left, top, right, bottom;
+    uint16_t lanes, level;
+    float weight;
+  };
+  /// Lanes in which all light comes from a place, or none.
+  struct Known {
+    uint16_t place, lit, dark;
+  };
+  static_assert(kMaxLightPlaces * kMaxLightPlaces <= 1u << 16);
+
+  VectorLanes to_middle, whole, corner[kCorners];
+  Known known[kPlaces];
+  Quad quads[kMaxQuads];
+  uint32_t quad_count;
+  uint32_t corner_count; ///< that are complete
+  Quad quad;             ///< the one that they are of
+
+  LightPlace place; ///< that is asked for
+  uint32_t lanes;
+  uint32_t rays_asked; ///< so far
+
+  LightPlace place_of(uint32_t number) const {
+    return {(number & 1) == 0 ? quad.left : quad.right, (number & 2) == 0 ? quad.top : quad.bottom};
+  }
+  Known& known_at(const LightPlace& at) {
+    const auto name = static_cast<uint16_t>(at.row * kMaxLightPlaces + at.column);
+    Known& entry = known[(at.row * 17 + at.column) % kPlaces];
+    if (entry.place != name) entry = {name, 0, 0};
+    return entry;
+  }
+  void push(uint32_t left, uint32_t top, uint32_t right, uint32_t bottom, uint32_t of, float weight) {
+    quads[quad_count++] = {static_cast<uint8_t>(left),
+                           static_cast<uint8_t>(top),
+                           static_cast<uint8_t>(right),
+                           static_cast<uint8_t>(bottom),
+                           static_cast<uint16_t>(of),
+                           static_cast<uint16_t>(quad.level + 1),
+                           weight};
+  }
+};
+
+namespace module_areas {
+
+template <class S>
+[[gnu::noinline]] void begin_area(const LightRecord& light, const Surfaces<S>& s,
+                                  const IncidentLight<S>& incident, AreaShadow<S>& a) {
+  using F = typename S::F;
+  a.rays.origin.template store<S>(s.point);
+  a.rays.start_object = *s.objects;
+  a.to_middle.template store<S>(incident.direction * incident.distance);
+  a.whole.template store<S>(incident.colour);
+  a.sum.template store<S>({F(0.0f), F(0.0f), F(0.0f)});
+  for (typename AreaShadow<S>::Known& entry : a.known)
+    entry = {0, 0, 0}; // of the first place nothing is known either
+  a.rays_asked = 0;
+  a.quad_count = 0;
+  a.lanes = 0;
+  a.corner_count = 0;
+  a.quad = {0,
+            0,
+            static_cast<uint8_t>(light.columns - 1),
+            static_cast<uint8_t>(light.rows - 1),
+            static_cast<uint16_t>(incident.facing),
+            0,
+            1.0f};
+}
+
+/// Of the place that was asked for, what came of it.
+template <class S> void take_sample(AreaShadow<S>& a) {
+  using F = typename S::F;
+  const V3<S> came = a.light.template load<S>(), whole = a.whole.template load<S>();
+  VectorLanes& corner = a.corner[a.corner_count];
+  corner.template store<S>(select<S>(S::M::from_bits(a.lanes), came, corner.template load<S>()));
+  const F zero(0.0f);
+  const auto lit = (came.x == whole.x) & (came.y == whole.y) & (came.z == whole.z);
+  const auto dark = (came.x == zero) & (came.y == zero) & (came.z == zero);
+  typename AreaShadow<S>::Known& known = a.known_at(a.place);
+  known.lit |= static_cast<uint16_t>(lit.bits() & a.lanes);
+  known.dark |= static_cast<uint16_t>(dark.bits() & a.lanes & ~lit.bits());
+  a.lanes = 0;
+  ++a.corner_count;
+}
+
+/// The lanes in which neighbouring corners differ so much that the quad is looked at closer.
+template <class S> uint32_t disagreement(const AreaShadow<S>& a) {
+  using F = typename S::F;
+  constexpr float kTolerance = 0.1f;
+  constexpr uint32_t kRound[] = {0, 1, 3, 2, 0};
+  uint32_t differ = 0;
+  for (uint32_t i = 0; i < 4; ++i) {
+    const V3<S> one = a.corner[kRound[i]].template load<S>(),
+                next = a.corner[kRound[i + 1]].template load<S>();
+    differ |= (absolute_sum<S>(one - next) > F(kTolerance)).bits();
+  }
+  return differ;
+}
+
+/// All corners are known: adds their mean where they agree, and divides the quad where not.
+template <class S> void finish_quad(const LightRecord& light, AreaShadow<S>& a) {
+  using F = typename S::F;
+  const typename AreaShadow<S>::Quad q = a.quad;
+  uint32_t divided = 0;
+  if (q.right > q.left + 1 || q.bottom > q.top + 1)
+    divided = q.level < light.adaptive ? q.lanes : q.lanes & disagreement<S>(a);
+  const uint32_t agreed = q.lanes & ~divided;
+  if (agreed != 0) {
+    V3<S> mean = a.corner[0].template load<S>();
+    for (uint32_t i = 1; i < 4; ++i)
+      mean = mean + a.corner[i].template load<S>();
+    const V3<S> sum = a.sum.template load<S>();
+    a.sum.template store<S>(select<S>(S::M::from_bits(agreed), sum + mean * F(0.25f * q.weight), sum));
+  }
+  if (divided == 0) return;
+  // Quarters share the middle, or lie on both sides of it; of a line two are the same.
+  const uint32_t x0 = (q.left + q.right) / 2u, x1 = (q.left + q.right + 1u) / 2u;
+  const uint32_t y0 = (q.top + q.bottom) / 2u, y1 = (q.top + q.bottom + 1u) / 2u;
+  const bool column = q.left == q.right, row = q.top == q.bottom;
+  const float weight = q.weight * (column || row ? 0.5f : 0.25f);
+  a.push(q.left, q.top, x0, y0, divided, weight);
+  if (!column) a.push(x1, q.top, q.right, y0, divided, weight);
+  if (!row) a.push(q.left, y1, x0, q.bottom, divided, weight);
+  if (!column && !row) a.push(x1, y1, q.right, q.bottom, divided, weight);
+}
+
+/// False: there is nothing more to look at.
+template <class Spu>
+[[gnu::noinline]] bool next_sample(Spu& spu, const LightRecord& light, AreaShadow<typename Spu::simd>& a) {
+  using S = typename Spu::simd;
+  using F = typename S::F;
+  spu.run_in_module(modules::kAreas);
+  if (a.lanes != 0) take_sample<S>(a);
+  for (;;) {
+    for (; a.corner_count < AreaShadow<S>::kCorners; ++a.corner_count) {
+      const LightPlace place = a.place_of(a.corner_count);
+      const typename AreaShadow<S>::Known& known = a.known_at(place);
+      const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
+      a.corner[a.corner_count].template store<S>(
+          select<S>(S::M::from_bits(known.lit), a.whole.template load<S>(), dark));
+      const uint32_t lanes = a.quad.lanes & ~uint32_t(known.lit | known.dark);
+      if (lanes == 0) continue;
+      IncidentLight<S> from_place(light.colour);
+      aim<S>(light, a.rays.origin.template load<S>(), a.to_middle.template load<S>(), place, from_place);
+      a.rays.direction.template store<S>(from_place.direction);
+      from_place.distance.store(a.distance.lane);
+      a.light = a.whole;
+      a.place = place;
+      a.lanes = lanes;
+      a.rays_asked += static_cast<uint32_t>(__builtin_popcount(lanes));
+      return true;
+    }
+    finish_quad<S>(light, a);
+    if (a.quad_count == 0) return false;
+    a.quad = a.quads[--a.quad_count];
+    a.corner_count = 0;
+  }
+}
+
+} // namespace module_areas
+
+/// Local store for the sampling of lights, if the scene has such.
+template <class Spu> AreaShadow<typename Spu::simd>* allocate_area_shadow(Spu& spu, const FrameBlock& frame) {
+  if (!has_areas(frame)) return nullptr;
+  return spu.template allocate<AreaShadow<typename Spu::simd>>();
+}
+
+/// Starts the sampling of a light for the surfaces that face it.
+template <class Spu>
+void begin_sampling(Spu& spu, const LightRecord& light, const Surfaces<typename Spu::simd>& s,
+                    const IncidentLight<typename Spu::simd>& incident,
+                    AreaShadow<typename Spu::simd>& shadow) {
+  spu.enter_module(modules::kAreas);
+  module_areas::begin_area<typename Spu::simd>(light, s, incident, shadow);
+}
+
+/// Goes on to the next place that is asked for. False: there is none.
+template <class Spu>
+bool next_place(Spu& spu, const LightRecord& light, AreaShadow<typename Spu::simd>& shadow) {
+  spu.enter_module(modules::kAreas);
+  return module_areas::next_sample(spu, light, shadow);
+}
+
+/// The light that comes to the surfaces from all of a light's area. `look(shadow)` leaves in `shadow.light`
+/// what comes from `shadow.place`. Returns how many rays that took.
+template <class Spu, class Look>
+uint32_t sample_area(Spu& spu, const LightRecord& light, const Surfaces<typename Spu::simd>& s,
+                     const IncidentLight<typename Spu::simd>& incident,
+                     AreaShadow<typename Spu::simd>& shadow, VectorLanes& colour, Look look) {
+  begin_sampling(spu, light, s, incident, shadow);
+  while (next_place(spu, light, shadow))
+    look(shadow);
+  colour = shadow.sum;
+  return shadow.rays_asked;
+}
+
+} // namespace celltrace::kernel

@@ -1,0 +1,194 @@
+// The sampling of lights that have an area: which places are looked at, what comes of them, and where they
+// are.
+#include "kernel/lights/area_shadow.hpp"
+#include "kernel/lights/illumination.hpp"
+#include "lanes.hpp"
+#include "reference/area_light.hpp"
+#include "scene/surface_records.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <map>
+#include <memory>
+#include <utility>
+
+using namespace celltrace;
+using namespace celltrace::kernel;
+using namespace celltrace::test;
+
+namespace {
+
+using Place = std::pair<int, int>;
+
+/// What comes from each place of a light to one lane.
+using Grid = std::map<Place, Vec3>;
+
+Light area_light(Random& random) {
+  Light light;
+  light.location = random.point(2) + Vec3(0, 6, 0);
+  light.colour = {0.75, 0.5, 1};
+  LightArea area;
+  area.across = random.point(3);
+  area.along = random.point(3);
+  area.columns = 1 + static_cast<int>(random.below(12));
+  area.rows = 1 + static_cast<int>(random.below(12));
+  if (area.columns == 1) area.rows += 1; // a single place is none
+  area.adaptive = static_cast<int>(random.below(5));
+  area.circular = random.below(2) == 0;
+  area.orient = random.below(3) == 0;
+  light.area = area;
+  return light;
+}
+
+/// Surfaces that face the light, and the sampling of it.
+struct Sampling {
+  DirectSpu spu;
+  VectorLanes point, normal;
+  WordLanes objects{};
+  std::unique_ptr<AreaShadow<Simd>> shadow = std::make_unique<AreaShadow<Simd>>();
+  LightRecord record;
+  std::uint32_t facing = 0;
+
+  Sampling(const Light& light, Random& random) : record(make_record(light)) {
+    for (unsigned l = 0; l < kSimdLanes; ++l) {
+      set(point, l, random.point(2));
+      set(normal, l, {0, 1, 0});
+    }
+  }
+  /// Calls look(shadow) for each place.
+  template <class Look> VectorLanes run(std::uint32_t lanes, Look look) {
+    const Surfaces<Simd> surfaces = {point.load<Simd>(), normal.load<Simd>(), {}, &objects};
+    IncidentLight<Simd> incident(record.colour);
+    illuminate(spu, record, surfaces, lanes, incident);
+    facing = incident.facing;
+    VectorLanes sum;
+    const std::uint32_t rays = sample_area(spu, record, surfaces, incident, *shadow, sum, look);
+    CHECK(rays == shadow->rays_asked);
+    return sum;
+  }
+};
+
+} // namespace
+
+TEST_CASE("A light with an area is the mean of its quads") {
+  Random random(140);
+  for (int k = 0; k < times(600); ++k) {
+    const Light light = area_light(random);
+    Sampling sampling(light, random);
+    // A place is lit, dark or shines through glass; often its neighbours do the same.
+    std::vector<Grid> grids(kSimdLanes);
+    for (Grid& grid : grids) {
+      const std::uint32_t kind = random.below(3);
+      const double edge = random.uniform(0, 12);
+      for (int row = 0; row < light.area->rows; ++row)
+        for (int column = 0; column < light.area->columns; ++column) {
+          const bool is_dark = kind == 0 ? random.below(2) == 0 : column + 0.4 * row < edge;
+          const Vec3 through = kind == 1 ? Vec3(0.9, 0.3, 0.5) : Vec3(0);
+          grid[{column, row}] = is_dark ? light.colour * through : light.colour;
+        }
+    }
+    const std::uint32_t lanes = random.word() & 0xFFFF;
+    const VectorLanes sum = sampling.run(lanes, [&](AreaShadow<Simd>& shadow) {
+      REQUIRE((shadow.lanes & ~lanes) == 0);
+      const Place place = {static_cast<int>(shadow.place.column), static_cast<int>(shadow.place.row)};
+      for (unsigned l = 0; l < kSimdLanes; ++l) {
+        CHECK(test::at(shadow.light, l) == Vec3(Vec3f(light.colour)));
+        const Vec3 none(0);
+        set(shadow.light, l, (shadow.lanes >> l & 1) != 0 ? grids[l].at(place) : none);
+      }
+    });
+    for_each_lane(sampling.facing, [&](unsigned l) {
+      const Vec3 expected = reference::area_mean(*light.area, [&](int column, int row) {
+        return grids[l].at({column, row});
+      });
+      REQUIRE(glm::length(test::at(sum, l) - expected) < 1e-5);
+    });
+  }
+}
+
+TEST_CASE("No place is looked at twice if all light comes from it, or none") {
+  Random random(141);
+  for (int k = 0; k < times(200); ++k) {
+    Light light = area_light(random);
+    light.area->adaptive = 100;
+    Sampling sampling(light, random);
+    std::map<Place, std::uint32_t> seen;
+    sampling.run(0xFFFF, [&](AreaShadow<Simd>& shadow) {
+      std::uint32_t& lanes = seen[{shadow.place.column, shadow.place.row}];
+      REQUIRE((lanes & shadow.lanes) == 0);
+      lanes |= shadow.lanes;
+      if (shadow.place.column % 2 == 0) shadow.light = VectorLanes{};
+    });
+    CHECK(seen.size() == std::size_t(light.area->columns * light.area->rows));
+    for (const auto& [place, lanes] : seen)
+      CHECK(lanes == sampling.facing);
+  }
+}
+
+TEST_CASE("Where the places of a light are") {
+  Random random(142);
+  for (int k = 0; k < times(400); ++k) {
+    Light light = area_light(random);
+    light.parallel = random.below(4) == 0;
+    light.point_at = light.location + Vec3(0.3, -1, 0.2);
+    Sampling sampling(light, random);
+    sampling.run(0xFFFF, [&](AreaShadow<Simd>& shadow) {
+      for_each_lane(shadow.lanes, [&](unsigned l) {
+        const Vec3 point = test::at(sampling.point, l);
+        Vec3 middle = light.location - point;
+        if (light.parallel) middle = light.location - light.point_at;
+        const Vec3 toward = glm::normalize(middle);
+        if (std::abs(std::abs(toward.z) - 0.99) < 1e-5) return;
+        const Vec3 offset = reference::area_offset(*light.area, toward, static_cast<int>(shadow.place.column),
+                                                   static_cast<int>(shadow.place.row));
+        const Vec3 way = glm::normalize(middle + offset);
+        double end = glm::length(middle + offset);
+        if (light.parallel) end = std::max(glm::dot(light.location + offset - point, way), 0.0);
+        REQUIRE(test::at(shadow.rays.origin, l) == point);
+        REQUIRE(glm::length(test::at(shadow.rays.direction, l) - way) < 5e-6);
+        REQUIRE(shadow.distance.lane[l] == Approx(end).margin(2e-5));
+      });
+    });
+  }
+}
+
+TEST_CASE("Jitter is the same each time, other in each lane, and stays near the place") {
+  Random random(143);
+  Light light;
+  light.location = {0, 6, 0};
+  LightArea area;
+  area.across = {4, 0, 0};
+  area.along = {0, 0, 3};
+  area.columns = 5;
+  area.rows = 4;
+  area.jitter = true;
+  light.area = area;
+  Sampling sampling(light, random);
+  for (unsigned l = 0; l < kSimdLanes; ++l)
+    set(sampling.point, l, {0, 0, 0});
+  Vec3 sum(0), squares(0);
+  std::map<Place, VectorLanes> first;
+  int samples = 0;
+  for (const bool again : {false, true}) {
+    sampling.run(0xFFFF, [&](AreaShadow<Simd>& shadow) {
+      const Place place = {static_cast<int>(shadow.place.column), static_cast<int>(shadow.place.row)};
+      if (!again) first[place] = shadow.rays.direction;
+      for (unsigned l = 0; l < kSimdLanes; ++l) {
+        CHECK(test::at(first[place], l) == test::at(shadow.rays.direction, l));
+        const Vec3 ray = test::at(shadow.rays.direction, l) * double(shadow.distance.lane[l]);
+        const Vec3 off = {ray.x - (place.first - 2.0), ray.y - 6, ray.z - (place.second - 1.5)};
+        CHECK(std::abs(off.x) <= 0.500001);
+        CHECK(std::abs(off.y) <= 1e-5);
+        CHECK(std::abs(off.z) <= 0.500001);
+        sum += off;
+        squares += off * off;
+        ++samples;
+      }
+    });
+  }
+  REQUIRE(samples == 2 * 20 * 16);
+  CHECK(glm::length(sum) / samples < 0.03);
+  CHECK(squares.x / samples == Approx(1.0 / 12).margin(0.01));
+  CHECK(squares.z / samples == Approx(1.0 / 12).margin(0.01));
+}
