@@ -29,7 +29,7 @@ constexpr CodeModule kSecondary = {"secondary", 2, 1, 14336};
 /// Light that is not simply a point's.
 constexpr CodeModule kLights = {"lights", 6, 1, 5120};
 /// The sampling of lights that have an area.
-constexpr CodeModule kAreas = {"areas", 12, 1, 12288};
+constexpr CodeModule kAreas = {"areas", 15, 1, 12288};
 /// The rays of cameras whose pictures are not flat.
 constexpr CodeModule kCameras = {"cameras", 10, 1, 8192};
 /// Pigments and normals, but for the patterns themselves.
