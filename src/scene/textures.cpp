@@ -345,8 +345,9 @@ std::uint32_t TextureTables::add_pattern(const Pattern& pattern, const Space& ou
     r.kind_and_flags = pattern_flag::average;
   } else {
     r.kind_and_flags = pattern_parameters(pattern.kind, r.parameter);
+    const bool is_list = Patterns::kAreLists[r.kind_and_flags & pattern_flag::kind_mask];
     const PatternWave wave =
-        pattern.frequency == 0 ? PatternWave::none : static_cast<PatternWave>(pattern.wave);
+        pattern.frequency == 0 || is_list ? PatternWave::none : static_cast<PatternWave>(pattern.wave);
     r.kind_and_flags |= static_cast<std::uint32_t>(wave) << pattern_flag::wave_shift;
     const int generator = pattern.noise_generator == 0 ? scene_.noise_generator : pattern.noise_generator;
     if (generator == 1) r.kind_and_flags |= pattern_flag::first_generator;
