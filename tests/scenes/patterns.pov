@@ -17,9 +17,9 @@ light_source { <30, 10, -30> rgb 0.3 shadowless }
 #end
 #macro Both(Number, Coloured, Bumpy)
   union {
-    sphere { <-0.5, 0.6, 0>, 0.55 texture { pigment { Coloured scale 0.35 transform Turn } } }
+    sphere { <-0.5, 0.6, 0>, 0.543 texture { pigment { Coloured scale 0.35 transform Turn } } }
     box { <-1.053, -0.917, -0.2>, <0.047, -0.063, 0.2> texture { pigment { Coloured scale 0.3 } } rotate 15*y }
-    sphere { <0.6, 0, 0>, 0.5 texture { Stone normal { Bumpy scale 0.3 transform Turn } } }
+    sphere { <0.6, 0, 0>, 0.493 texture { Stone normal { Bumpy scale 0.3 transform Turn } } }
     Place(Number)
   }
 #end
