@@ -69,11 +69,12 @@ bool is_inside(const Medium& medium, const Vec3& point) {
 void set_flat(FrameBlock& frame, const Camera& camera, bool parallel) {
   const double w = frame.width;
   const double h = frame.height;
-  const Vec3 corner = camera.right * (0.5 / w - 0.5) + camera.up * (0.5 - 0.5 / h);
   store(parallel ? camera.direction : camera.location, frame.camera.origin);
-  store((parallel ? camera.location : camera.direction) + corner, frame.camera.base);
+  store(parallel ? camera.location : camera.direction, frame.camera.base);
   store(camera.right / w, frame.camera.dx);
   store(-camera.up / h, frame.camera.dy);
+  frame.camera.middle_x = static_cast<float>(0.5 * w - 0.5);
+  frame.camera.middle_y = static_cast<float>(0.5 * h - 0.5);
 }
 
 /// A vector of no length stays that.

@@ -35,9 +35,10 @@ void point_camera(FrameBlock& frame, Random& random, const Vec3& eye, const Vec3
   const Vec3 right = glm::normalize(glm::cross(forward, random.direction())) * wide;
   const Vec3 up = glm::normalize(glm::cross(right, forward)) * wide;
   set(frame.camera.origin, eye);
-  set(frame.camera.base, (forward - right * 0.5 + up * 0.5) * std::pow(10.0, random.uniform(-3, 3)));
-  const double scale = glm::length(Vec3(frame.camera.base[0], frame.camera.base[1], frame.camera.base[2])) /
-                       glm::length(forward - right * 0.5 + up * 0.5);
+  const double scale = std::pow(10.0, random.uniform(-3, 3));
+  set(frame.camera.base, forward * scale);
+  frame.camera.middle_x = 0.5f * static_cast<float>(frame.width) - 0.5f;
+  frame.camera.middle_y = 0.5f * static_cast<float>(frame.height) - 0.5f;
   set(frame.camera.dx, right * (scale / frame.width));
   set(frame.camera.dy, -up * (scale / frame.height));
 }

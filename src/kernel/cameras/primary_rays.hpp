@@ -57,8 +57,9 @@ uint32_t make_primary_rays(Spu& spu, const FrameBlock& frame, uint32_t column, u
     spu.enter_module(modules::kCameras);
     return module_cameras::bend(spu, camera, column, row, packet);
   }
-  const F x = F::load(detail::kLaneX) + F(static_cast<float>(column * kPacketEdge));
-  const F y = F::load(detail::kLaneY) + F(static_cast<float>(row * kPacketEdge));
+  // From the middle: about it, where people put horizons, nothing cancels.
+  const F x = F::load(detail::kLaneX) + F(static_cast<float>(column * kPacketEdge) - camera.middle_x);
+  const F y = F::load(detail::kLaneY) + F(static_cast<float>(row * kPacketEdge) - camera.middle_y);
   const V3<S> through = splat3<S>(camera.base) + splat3<S>(camera.dx) * x + splat3<S>(camera.dy) * y;
   const V3<S> fixed = splat3<S>(camera.origin);
   packet.origin.template store<S>(parallel ? through : fixed);
@@ -80,8 +81,8 @@ public:
     if (!is_pinhole(frame.camera)) return;
     const CameraRecord& camera = frame.camera;
     constexpr float kBundle = kPacketEdge * kPacketEdge; // pixels
-    const float middle_x = (static_cast<float>(column) + 0.5f) * kBundle;
-    const float middle_y = (static_cast<float>(row) + 0.5f) * kBundle;
+    const float middle_x = (static_cast<float>(column) + 0.5f) * kBundle - camera.middle_x;
+    const float middle_y = (static_cast<float>(row) + 0.5f) * kBundle - camera.middle_y;
     uint32_t major = 0;
     float middle[3];
     for (uint32_t axis = 0; axis < 3; ++axis) {
@@ -109,8 +110,8 @@ private:
     const F x = (F::load(detail::kLaneX) + F(column * kEdge)) * F(kEdge);
     const F y = (F::load(detail::kLaneY) + F(row * kEdge)) * F(kEdge);
     for (uint32_t corner = 0; corner < 4; ++corner) {
-      const F right = x + F((corner & 1) != 0 ? kEdge - 1 : 0.0f);
-      const F down = y + F((corner & 2) != 0 ? kEdge - 1 : 0.0f);
+      const F right = x + F(((corner & 1) != 0 ? kEdge - 1 : 0.0f) - camera.middle_x);
+      const F down = y + F(((corner & 2) != 0 ? kEdge - 1 : 0.0f) - camera.middle_y);
       const auto through = [&](uint32_t axis) {
         return F(camera.base[axis]) + F(camera.dx[axis]) * right + F(camera.dy[axis]) * down;
       };
