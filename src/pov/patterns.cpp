@@ -51,9 +51,6 @@ struct Option {
   bool has_value = true;
 };
 
-constexpr std::size_t kMostOptions = 4;
-constexpr std::size_t kMostDefaults = 6;
-
 struct Entry {
   const char* word;
   Kind (*make)();
