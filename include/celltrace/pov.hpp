@@ -1,11 +1,11 @@
 // Reads scenes in the POV-Ray scene language (POV-Ray 3.7's) into a Scene.
 //
-// Supported: the language itself (directives, macros, loops, strings, arrays, expressions), perspective and
-// orthographic cameras, point lights, spheres, boxes, planes, discs, cylinders, cones, tori, triangles,
-// meshes, unions, CSG of all that have an inside, with inverse and clipped_by, sky spheres, and textures of
-// everything that texture.hpp has: patterns with maps and lists, normals, layers, and the finish. Whatever
-// else POV-Ray knows may be declared; it is an error, "'blob' is not supported yet", where an object of the
-// scene uses it.
+// Supported: the language itself (directives, macros, loops, strings, arrays, expressions), all cameras but
+// mesh cameras, light sources but light groups, spheres, boxes, planes, discs, cylinders, cones, tori,
+// triangles, meshes, unions, CSG of all that have an inside, with inverse and clipped_by, sky spheres, and
+// textures of everything that texture.hpp has: patterns with maps and lists, normals, layers, and the finish.
+// Whatever else POV-Ray knows may be declared; it is an error, "'blob' is not supported yet", where an object
+// of the scene uses it.
 #pragma once
 
 #include <cstdint>

@@ -20,8 +20,8 @@ struct Turbulence {
   double lambda = 2;
 };
 
-/// The kinds of patterns. Numbers are those at a point p = (x, y, z) of the pattern's own space; most are in
-/// 0..1.
+/// The kinds of patterns; of ripples, waves, cells and crackle nothing is rendered yet. Numbers are those at
+/// a point p = (x, y, z) of the pattern's own space; most are in 0..1.
 namespace pattern {
 
 // Lists: the number is the index of the entry that is there.
@@ -92,7 +92,7 @@ struct Pattern {
   enum class Wave { ramp, triangle, sine, scallop, cubic, poly };
 
   pattern::Kind kind = pattern::Gradient{};
-  /// As written from the pattern outward: the last one is what a point in the scene meets first.
+  /// As written from the pattern outward: to a point in the scene the last one is done first.
   std::vector<SpaceStep> space = {};
   Turbulence turbulence = {}; ///< of points in the pattern's own space, after all steps
   Wave wave = Wave::ramp;

@@ -3,6 +3,8 @@
 #include "celltrace/error.hpp"
 #include "kernel/textures/list.hpp"
 
+#include <string>
+
 #include <glm/geometric.hpp>
 
 namespace celltrace {
@@ -102,8 +104,22 @@ std::uint32_t put(const pattern::Agate& agate, Parameters parameter) {
   return kPatternKind<AgatePattern>;
 }
 
-template <class Kind> std::uint32_t put(const Kind&, Parameters) {
-  throw InputError("a pattern is not supported yet");
+// Those that the kernel lacks.
+
+const char* name_of(const pattern::Ripples&) {
+  return "ripples";
+}
+const char* name_of(const pattern::Waves&) {
+  return "waves";
+}
+const char* name_of(const pattern::Cells&) {
+  return "cells";
+}
+const char* name_of(const pattern::Crackle&) {
+  return "crackle";
+}
+template <class Kind> std::uint32_t put(const Kind& kind, Parameters) {
+  throw InputError("the pattern '" + std::string(name_of(kind)) + "' is not supported yet");
 }
 
 } // namespace

@@ -73,7 +73,7 @@ VectorLanes points_of(const std::function<Vec3(unsigned)>& point) {
 FloatLanes values(const Pattern& pattern, const VectorLanes& points) {
   Textures textures(pattern);
   DirectSpu spu;
-  return lanes_of(pattern_value<TextureStage::colours>(spu, textures.pattern(), points.load<Simd>()));
+  return lanes_of(pattern_value(spu, textures.pattern(), points.load<Simd>()));
 }
 
 /// Compares a pigment at sixteen points. Where a step of it is so near that rounding decides on which side a
@@ -369,8 +369,7 @@ TEST_CASE("The scene's noise generator is that of patterns without one") {
     scene.materials = {Textures::plain(Textures::grey(noise_of_generator(0)))};
     Textures textures(scene);
     DirectSpu spu;
-    const FloatLanes found =
-        lanes_of(pattern_value<TextureStage::colours>(spu, textures.pattern(), points.load<Simd>()));
+    const FloatLanes found = lanes_of(pattern_value(spu, textures.pattern(), points.load<Simd>()));
     const FloatLanes expected = values(noise_of_generator(generator), points);
     for (unsigned l = 0; l < kSimdLanes; ++l)
       CHECK(found.lane[l] == expected.lane[l]);
@@ -522,7 +521,7 @@ TEST_CASE("A walk through maps has lanes that were asked for, and weights that a
     Textures textures(pigment);
     const VectorLanes points = points_of([&](unsigned) { return random.point(5); });
     const std::uint32_t lanes = random.word() & kAll;
-    MapWalk<DirectSpu, TextureStage::colours> walk(textures.access(), MapOf::pigments, points.load<Simd>());
+    MapWalk<DirectSpu, TextureStage::colours> walk(textures.access(), points.load<Simd>());
     walk.enter(textures.material().pattern, F(1.0f), lanes);
     F sum(0.0f), weight;
     MapEntryRecord leaf;

@@ -50,10 +50,10 @@ public:
   bool enter(const PinholeBundle<S>& bundle) {
     bundle_frustum_.set(bundle.all, bundle.octant);
     begin(bundle.packets);
-    Entering walk = {*this, SlabOrder(bundle.octant), bundle.packets};
+    FrustumVisitor visitor = {*this, SlabOrder(bundle.octant), bundle.packets};
     NodeRef ref = {};
-    traverse_nodes(walk, ref, false);
-    return walk.found_leaf;
+    traverse_nodes(visitor, ref, false);
+    return visitor.found_leaf;
   }
 
 private:
@@ -184,14 +184,14 @@ private:
     loose_ = 0;
     known_rays_ = known_frusta_ = 0;
     BundleLeafTests<Spu> leaves(objects_);
-    Together walk = {*this, leaves, queries, order, ray_order, bundled};
+    BundleVisitor visitor = {*this, leaves, queries, order, ray_order, bundled};
     NodeRef ref = {};
-    traverse_nodes(walk, ref, false);
+    traverse_nodes(visitor, ref, false);
   }
 
   /// The traversal of a bundle's frustum, for traverse_nodes(). It ends where it comes to a leaf or has
   /// expanded some nodes, and leaves what is next on the stack.
-  struct Entering {
+  struct FrustumVisitor {
     BvhTraversal& traversal;
     const SlabOrder order;
     const uint32_t packets;
@@ -229,7 +229,7 @@ private:
 
   /// The traversal of a bundle, for traverse_nodes(). Nodes that few packets hit are traversed by each of
   /// them separately.
-  struct Together {
+  struct BundleVisitor {
     BvhTraversal& traversal;
     BundleLeafTests<Spu>& leaves;
     RayQuery* const queries;

@@ -55,11 +55,11 @@ public:
   void traverse(const Task& task, const SlabOrder& order) {
     Slot& slot = slots_[0];
     const uint32_t floor = slot.stack.size();
-    Walk<false> walk = {*this,      slot, order, *task.group, *task.query, begin(slot, task, floor),
-                        task.lanes, floor};
+    PacketVisitor<false> visitor = {
+        *this, slot, order, *task.group, *task.query, begin(slot, task, floor), task.lanes, floor};
     NodeRef ref = task.ref;
-    traverse_nodes(walk, ref);
-    walk.end();
+    traverse_nodes(visitor, ref);
+    visitor.end();
   }
 
   /// The same for several tasks, each of a different packet, interleaved: while the node that one traversal
@@ -81,12 +81,12 @@ public:
         objects_.hit_filter().resume_packet(traversal.packet);
         // A copy of the state, which can stay in registers until the traversal is suspended.
         const Task& task = tasks[i];
-        Walk<true> walk = {*this,       slots_[i],       order,      *task.group,
-                           *task.query, traversal.state, task.lanes, traversal.floor};
-        if (traverse_nodes(walk, traversal.ref)) {
-          traversal.state = walk.state;
+        PacketVisitor<true> visitor = {*this,       slots_[i],       order,      *task.group,
+                                       *task.query, traversal.state, task.lanes, traversal.floor};
+        if (traverse_nodes(visitor, traversal.ref)) {
+          traversal.state = visitor.state;
         } else {
-          walk.end();
+          visitor.end();
           active &= ~(1u << i);
         }
       }
@@ -129,7 +129,7 @@ private:
 
   /// A traversal for traverse_nodes(). If it is one of several, it is suspended where it needs a node that
   /// was prefetched only just now.
-  template <bool kInterleaved> struct Walk {
+  template <bool kInterleaved> struct PacketVisitor {
     PacketTraversal& traversal;
     Slot& slot;
     const SlabOrder& order;

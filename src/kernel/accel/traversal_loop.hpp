@@ -6,8 +6,8 @@
 
 namespace celltrace::kernel {
 
-/// Traverses what is on the stack, and before that, if it `has_ref`, what is below `ref`. A Walk says what is
-/// traversed:
+/// Traverses what is on the stack, and before that, if it `has_ref`, what is below `ref`. A Visitor says what
+/// is traversed:
 ///
 ///   bool expand(NodeRef& ref)     pushes the children of a node that are hit. If that is one child only, it
 ///                                 may become `ref` instead, and the result is true.
@@ -16,20 +16,20 @@ namespace celltrace::kernel {
 ///   bool pauses()                 whether the traversal is suspended before `ref`
 ///
 /// Returns whether it was suspended; called again with the same `ref`, it goes on.
-template <class Walk>
-[[gnu::always_inline]] inline bool traverse_nodes(Walk& walk, NodeRef& ref, bool has_ref = true) {
+template <class Visitor>
+[[gnu::always_inline]] inline bool traverse_nodes(Visitor& visitor, NodeRef& ref, bool has_ref = true) {
   // One call of next(): on an SPE it is inlined, and code takes local store.
   for (bool pops = !has_ref;; pops = false) {
     if (!pops) {
       if (ref.is_leaf()) {
-        walk.test(ref);
-      } else if (walk.expand(ref)) {
-        if (walk.pauses()) return true;
+        visitor.test(ref);
+      } else if (visitor.expand(ref)) {
+        if (visitor.pauses()) return true;
         continue;
       }
     }
-    if (!walk.next(ref)) return false;
-    if (walk.pauses()) return true;
+    if (!visitor.next(ref)) return false;
+    if (visitor.pauses()) return true;
   }
 }
 

@@ -191,7 +191,7 @@ private:
       if (map == kNoOffset) return;
       plain &= ~same;
       scene_.spu().enter_module(modules::kTextures);
-      MapWalk<Spu, TextureStage::colours> walk(scene_, MapOf::textures, surfaces.point);
+      MapWalk<Spu, TextureStage::colours> walk(scene_, surfaces.point, MapOf::textures);
       walk.enter(map, weight, same);
       MapEntryRecord entry;
       F share;

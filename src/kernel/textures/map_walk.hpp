@@ -10,8 +10,8 @@ namespace celltrace::kernel {
 /// How deep maps may lie in each other.
 constexpr uint32_t kDeepestMapWalk = 5;
 
-/// What the entries of a tree of maps are.
-enum class MapOf : uint32_t { pigments, normals, textures };
+/// What the entries of a tree of maps are where colours are asked; where normals are, they are normals.
+enum class MapOf : uint32_t { pigments, textures };
 
 /// The pattern of a texture map; kNoOffset: it is no map.
 inline uint32_t map_of(const MaterialRecord& material) {
@@ -31,7 +31,7 @@ public:
   static constexpr CodeModule kModule =
       kStage == TextureStage::normals ? modules::kNormals : modules::kTextures;
 
-  MapWalk(SceneAccess<Spu>& scene, MapOf of, const V3<S>& point) : scene_(scene), of_(of) {
+  MapWalk(SceneAccess<Spu>& scene, const V3<S>& point, MapOf of = MapOf::pigments) : scene_(scene), of_(of) {
     point_.template store<S>(point);
   }
 
@@ -48,7 +48,7 @@ public:
     level.average = (r.kind_and_flags & pattern_flag::average) != 0;
     if (level.average) return;
     const V3<S> p = to_pattern_space<kStage>(scene_, r, point_.template load<S>());
-    const F value = pattern_value<kStage>(scene_.spu(), r, p);
+    const F value = pattern_value(scene_.spu(), r, p);
     F upper(0.0f), share(1.0f);
     if (Patterns::kAreLists[r.kind_and_flags & pattern_flag::kind_mask])
       upper = S::min(value, F(static_cast<float>(r.entry_count - 1)));
@@ -90,10 +90,11 @@ private:
 
   /// The pattern whose map an entry is; kNoOffset: it is a leaf.
   uint32_t pattern_of(const MapEntryRecord& entry) {
-    if (of_ == MapOf::pigments) return entry.child;
-    if (of_ == MapOf::textures) return map_of(*scene_.material(entry.child));
-    const NormalRecord& normal = *scene_.normal(entry.child);
-    return normal.is_mapped != 0 ? normal.pattern : kNoOffset;
+    if constexpr (kStage == TextureStage::normals) {
+      const NormalRecord& normal = *scene_.normal(entry.child);
+      return normal.is_mapped != 0 ? normal.pattern : kNoOffset;
+    }
+    return of_ == MapOf::pigments ? entry.child : map_of(*scene_.material(entry.child));
   }
 
   static uint32_t offset_of(uint32_t entries, uint32_t number) {

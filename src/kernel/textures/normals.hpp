@@ -21,7 +21,7 @@ V3<typename Spu::simd> slope_disturbance(Spu& spu, const PatternRecord& r, const
   V3<S> sum = {F(0.0f), F(0.0f), F(0.0f)};
   for (const float(&corner)[3] : kCorners) {
     const V3<S> to = splat3<S>(corner);
-    sum = sum + to * pattern_value<TextureStage::normals>(spu, r, p + to * F(accuracy));
+    sum = sum + to * pattern_value(spu, r, p + to * F(accuracy));
   }
   return sum * F(-0.1f / accuracy);
 }
@@ -85,7 +85,7 @@ template <class Spu>
     return;
   }
   V3<S> sum = {F(0.0f), F(0.0f), F(0.0f)};
-  MapWalk<Spu, TextureStage::normals> walk(scene, MapOf::normals, point);
+  MapWalk<Spu, TextureStage::normals> walk(scene, point);
   walk.enter(record.pattern, F(1.0f), lanes);
   MapEntryRecord entry;
   F weight;

@@ -10,7 +10,23 @@
 
 namespace celltrace::kernel {
 
-/// The values of the patterns with noise, or of the others.
+/// Who asks patterns. Each has a code module with its own copies of what asks them.
+enum class TextureStage : uint32_t { colours, normals };
+
+/// What `change` makes of vectors, so many lanes at a time as rare code takes.
+template <class Spu, class Change>
+[[gnu::always_inline]] inline V3<typename Spu::simd> map_parts(const V3<typename Spu::simd>& vectors,
+                                                               Change change) {
+  using R = typename Spu::rare_simd;
+  VectorLanes lanes;
+  lanes.template store<typename Spu::simd>(vectors);
+  for_each_part<Spu>([&](uint32_t first) {
+    lanes.template store_from<R>(first, change(lanes.template load_from<R>(first)));
+  });
+  return lanes.template load<typename Spu::simd>();
+}
+
+/// The values of the patterns with noise, or of the others, waves included.
 template <bool kWithNoise, class Spu>
 [[gnu::always_inline]] inline typename Spu::simd::F value_of(const PatternRecord& r,
                                                              const V3<typename Spu::simd>& p) {
@@ -25,7 +41,7 @@ template <bool kWithNoise, class Spu>
       using Pattern = decltype(pattern);
       if constexpr (Pattern::kNeedsNoise == kWithNoise) value = Pattern::template value<R>(point, r);
     });
-    value.store(values.lane + first);
+    wave_of<R>(r, value).store(values.lane + first);
   });
   return Spu::simd::F::load(values.lane);
 }
@@ -55,14 +71,9 @@ template <class Spu>
                                                    const V3<typename Spu::simd>& p) {
   using R = typename Spu::rare_simd;
   spu.run_in_module(modules::kNoise);
-  VectorLanes at;
-  at.template store<typename Spu::simd>(p);
-  for_each_part<Spu>([&](uint32_t first) {
-    const V3<R> point = at.template load_from<R>(first);
-    at.template store_from<R>(first, point + noise::turbulence<R>(point, t.octaves, t.lambda, t.omega) *
-                                                 splat3<R>(t.amount));
+  return map_parts<Spu>(p, [&](const V3<R>& point) {
+    return point + noise::turbulence<R>(point, t.octaves, t.lambda, t.omega) * splat3<R>(t.amount);
   });
-  return at.template load<typename Spu::simd>();
 }
 
 /// What a pattern of which disturbs() is true adds to a normal, in its own space.
@@ -71,18 +82,15 @@ template <class Spu>
                                                      const V3<typename Spu::simd>& p) {
   using R = typename Spu::rare_simd;
   spu.run_in_module(modules::kNoise);
-  VectorLanes at;
-  at.template store<typename Spu::simd>(p);
-  for_each_part<Spu>([&](uint32_t first) {
-    const V3<R> point = at.template load_from<R>(first);
-    V3<R> d = {typename R::F(0.0f), typename R::F(0.0f), typename R::F(0.0f)};
+  return map_parts<Spu>(p, [&](const V3<R>& point) {
+    const typename R::F zero(0.0f);
+    V3<R> added = {zero, zero, zero};
     Patterns::dispatch(r.kind_and_flags & pattern_flag::kind_mask, [&](auto pattern) {
       using Pattern = decltype(pattern);
-      if constexpr (Pattern::kDisturbs) d = Pattern::template disturbance<R>(point, r);
+      if constexpr (Pattern::kDisturbs) added = Pattern::template disturbance<R>(point, r);
     });
-    at.template store_from<R>(first, d);
+    return added;
   });
-  return at.template load<typename Spu::simd>();
 }
 
 } // namespace module_noise
@@ -109,13 +117,12 @@ template <TextureStage kStage, class Spu>
 }
 
 /// At points in the pattern's own space, wave included.
-template <TextureStage kStage, class Spu>
+template <class Spu>
 typename Spu::simd::F pattern_value(Spu& spu, const PatternRecord& r, const V3<typename Spu::simd>& p) {
   spu.compute(scalar_work::kPattern);
   const bool needs_noise = Patterns::kNeedNoise[r.kind_and_flags & pattern_flag::kind_mask];
   spu.enter_module(needs_noise ? modules::kNoise : modules::kPatterns);
-  const auto value = needs_noise ? module_noise::value(spu, r, p) : module_patterns::value(spu, r, p);
-  return wave_of<typename Spu::simd, kStage>(r, value);
+  return needs_noise ? module_noise::value(spu, r, p) : module_patterns::value(spu, r, p);
 }
 
 } // namespace celltrace::kernel

@@ -20,7 +20,7 @@ template <class Spu>
   using F = typename S::F;
   const F zero(0.0f);
   sum = {{zero, zero, zero}, zero, zero};
-  MapWalk<Spu, TextureStage::colours> walk(scene, MapOf::pigments, point);
+  MapWalk<Spu, TextureStage::colours> walk(scene, point);
   walk.enter(pattern, F(1.0f), lanes);
   MapEntryRecord entry;
   F weight;

@@ -40,7 +40,7 @@ template <class Spu>
   const uint32_t map = map_of(*scene.material(material));
   if (map == kNoOffset) return detail::filter_of_layers(scene, material, point, lanes, transmittance);
   transmittance = {F(0.0f), F(0.0f), F(0.0f)};
-  MapWalk<Spu, TextureStage::colours> walk(scene, MapOf::textures, point);
+  MapWalk<Spu, TextureStage::colours> walk(scene, point, MapOf::textures);
   walk.enter(map, F(1.0f), lanes);
   MapEntryRecord entry;
   F weight;

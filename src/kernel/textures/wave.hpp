@@ -6,12 +6,9 @@
 
 namespace celltrace::kernel {
 
-/// Who asks patterns. Each has a code module with its own copies of what asks them.
-enum class TextureStage : uint32_t { colours, normals };
-
 /// As POV-Ray: values repeat after slightly more than 1, so that 1 itself is the end and not the beginning. A
-/// result may be as much above 1.
-template <class S, TextureStage kStage>
+/// result may be as much above 1. One copy, which is always there: both modules of patterns end with it.
+template <class S>
 [[gnu::noinline]] typename S::F wave_of(const PatternRecord& r, const typename S::F& value) {
   using F = typename S::F;
   constexpr float kRepeat = 1.00001f;
