@@ -14,6 +14,10 @@ struct QuadSimd {
 
     static M none() { return {spu_splats(0u)}; }
     static M all() { return {spu_splats(~0u)}; }
+    static M from_bits(uint32_t bits) {
+      const vec_uint4 own = Simd::lane_bits(0);
+      return {spu_cmpeq(spu_and(spu_splats(bits), own), own)};
+    }
     uint32_t bits() const { return spu_extract(spu_orx(spu_and(quad, Simd::lane_bits(0))), 0); }
     friend M operator&(const M& a, const M& b) { return {spu_and(a.quad, b.quad)}; }
     friend M operator|(const M& a, const M& b) { return {spu_or(a.quad, b.quad)}; }
@@ -56,6 +60,11 @@ struct QuadSimd {
     friend M operator==(const I& a, const I& b) { return {spu_cmpeq(a.quad, b.quad)}; }
     friend M operator<(const I& a, const I& b) { return {spu_cmpgt(b.quad, a.quad)}; }
   };
+
+  static F part(const Simd::F& numbers, uint32_t first) { return numbers.quad[first / kLanes]; }
+  static void set_part(Simd::F& numbers, uint32_t first, const F& part) {
+    numbers.quad[first / kLanes] = part.quad;
+  }
 
   static F gather(const float* table, const I& index) {
     return (vec_float4)Simd::gather_floats(table, index.quad);

@@ -10,6 +10,7 @@
 namespace celltrace::spu {
 
 struct Simd {
+  static constexpr uint32_t kLanes = kSimdLanes;
   static constexpr int kQuads = 4;
 
   /// Lane l of a quad holds 1 << (4 * quad + l).

@@ -5,6 +5,7 @@
 #include "celltrace/spe/simd.hpp"
 #include "kernel/direct/door.hpp"
 #include "kernel/math.hpp"
+#include "kernel/parts.hpp"
 #include "kernel/records.hpp"
 #include "kernel/scalar.hpp"
 
@@ -61,12 +62,6 @@ template <class S>
 }
 
 } // namespace detail
-
-/// Calls `visit(first)` for each part of a packet's lanes that rare code takes at a time.
-template <class Spu, class Visit> void for_each_part(Visit visit) {
-  for (uint32_t first = 0; first < kSimdLanes; first += Spu::rare_simd::kLanes)
-    visit(first);
-}
 
 /// Sets some lanes of a vector to the same three values. If these are `all` lanes that matter, `into` need
 /// not be initialised.

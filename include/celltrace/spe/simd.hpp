@@ -26,8 +26,9 @@
 //   its number, which is not negative; behind the last one 2 bytes more may be read
 //
 // `Spu::rare_simd` is the facade for code that runs rarely. It has kLanes lanes, 16 or where local store is
-// short the 4 of one quadword, and F, I and M with all of the above but from_bits, load_words, extremes,
-// join, transpose_quads and the types of four: rare code works on the lanes of a packet part by part.
+// short the 4 of one quadword, and F, I and M with all of the above but load_words, extremes, join,
+// transpose_quads and the types of four: rare code works on the lanes of a packet part by part. One of 4
+// lanes has part(F of Spu::simd, first) and set_part(F& of Spu::simd, first, F), `first` a multiple of 4.
 //
 // On the host every float operation is IEEE single precision, never fused, so that all widths and backends
 // give the same bits. On the SPU division and sqrt are estimates refined to within 2 units in the last place,

@@ -294,25 +294,37 @@ private:
   [[gnu::noinline]] uint32_t attenuate(const RayPacket& rays, const F& at, const Crossings<S>& c,
                                        uint32_t flags, uint32_t material, uint32_t lanes,
                                        VectorLanes& light) {
+    using R = typename Spu::rare_simd;
+    using RF = typename R::F;
     scene_.spu().compute(scalar_work::kFilter);
-    const V3<S> point = rays.origin.template load<S>() + rays.direction.template load<S>() * at;
-    V3<S> transmittance;
-    if ((flags & object_flag::blended) == 0) {
-      transmittance_at(scene_, material, point, lanes, transmittance);
-    } else {
-      const BlendRecord blend = *scene_.blend(material);
-      const F weights[3] = {F(1.0f) - c.u - c.v, c.u, c.v};
-      transmittance = {F(0.0f), F(0.0f), F(0.0f)};
-      V3<S> corner;
-      for (uint32_t i = 0; i < 3; ++i) {
-        transmittance_at(scene_, blend.material[i], point, lanes, corner);
-        transmittance = transmittance + corner * weights[i];
+    const V3<S> points = rays.origin.template load<S>() + rays.direction.template load<S>() * at;
+    // Copies: by reference the crossings would be copied, where nothing is translucent too.
+    const F all_u = c.u, all_v = c.v;
+    uint32_t dark = 0;
+    for_each_part<Spu>([&](uint32_t first) {
+      const uint32_t some = part_of<Spu>(lanes, first);
+      if (some == 0) return;
+      const V3<R> point = part_of<Spu>(points, first);
+      V3<R> transmittance;
+      if ((flags & object_flag::blended) == 0) {
+        transmittance_at(scene_, material, point, some, transmittance);
+      } else {
+        const BlendRecord blend = *scene_.blend(material);
+        const RF u = part_of<Spu>(all_u, first), v = part_of<Spu>(all_v, first);
+        const RF weights[3] = {RF(1.0f) - u - v, u, v};
+        transmittance = {RF(0.0f), RF(0.0f), RF(0.0f)};
+        V3<R> corner;
+        for (uint32_t i = 0; i < 3; ++i) {
+          transmittance_at(scene_, blend.material[i], point, some, corner);
+          transmittance = transmittance + corner * weights[i];
+        }
       }
-    }
-    const V3<S> before = light.template load<S>(), after = before * transmittance;
-    light.template store<S>(select<S>(M::from_bits(lanes), after, before));
-    const F most = S::max(S::abs(after.x), S::max(S::abs(after.y), S::abs(after.z)));
-    return (most < F(1e-10f)).bits() & lanes;
+      const V3<R> before = light.template load_from<R>(first), after = before * transmittance;
+      light.template store_from<R>(first, select<R>(R::M::from_bits(some), after, before));
+      const RF most = R::max(R::abs(after.x), R::max(R::abs(after.y), R::abs(after.z)));
+      dark |= ((most < RF(1e-10f)).bits() & some) << first;
+    });
+    return dark;
   }
 
   /// Of a simple object.

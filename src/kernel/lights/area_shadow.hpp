@@ -44,16 +44,18 @@ template <class S> typename S::F jitter(uint32_t place, const float* lanes) {
   return S::select(sum >= F(1.0f), sum - F(1.5f), sum - F(0.5f));
 }
 
-/// From the middle of a light to a place on it, which is seen from where it is `to_middle` to the middle.
+/// From the middle of a light to a place on it, which is seen from where it is `to_middle` to the middle. Of
+/// a packet's part from lane `first` on.
 template <class S>
-[[gnu::noinline]] V3<S> offset_of(const LightRecord& light, const V3<S>& to_middle, const LightPlace& place) {
+[[gnu::noinline]] V3<S> offset_of(const LightRecord& light, const V3<S>& to_middle, const LightPlace& place,
+                                  uint32_t first) {
   using F = typename S::F;
   const uint32_t flags = light.kind_and_flags;
   F u(static_cast<float>(place.column)), v(static_cast<float>(place.row));
   if ((flags & light_flag::jitter) != 0) {
     const uint32_t number = place.row * kMaxLightPlaces + place.column;
-    u = u + jitter<S>(2 * number + 1, detail::kJitterX);
-    v = v + jitter<S>(2 * number + 2, detail::kJitterY);
+    u = u + jitter<S>(2 * number + 1, detail::kJitterX + first);
+    v = v + jitter<S>(2 * number + 2, detail::kJitterY + first);
   }
   u = light.columns > 1 ? u * F(light.inverse_columns) - F(0.5f) : F(0.0f);
   v = light.rows > 1 ? v * F(light.inverse_rows) - F(0.5f) : F(0.0f);
@@ -72,9 +74,9 @@ template <class S>
     const V3<S> toward = normalise<S>(to_middle);
     const auto near_z = S::abs(toward.z) > F(0.99f);
     const V3<S> beside = {zero, S::select(near_z, one, zero), S::select(near_z, zero, one)};
-    const V3<S> first = normalise<S>(cross<S>(toward, beside));
-    across = first * length;
-    along = cross<S>(toward, first) * length;
+    const V3<S> sideways = normalise<S>(cross<S>(toward, beside));
+    across = sideways * length;
+    along = cross<S>(toward, sideways) * length;
   }
   return across * u + along * v;
 }
@@ -83,17 +85,29 @@ template <class S>
 /// place goes to where the whole light points, and its rays end beside the place. Behind the light nothing is
 /// in the way.
 template <class S>
-void aim(const LightRecord& light, const V3<S>& points, const V3<S>& to_middle, const LightPlace& place,
-         IncidentLight<S>& from_place) {
+void aim_part(const LightRecord& light, const V3<S>& points, const V3<S>& to_middle, const LightPlace& place,
+              uint32_t first, IncidentLight<S>& from_place) {
   using F = typename S::F;
   const bool parallel = is_parallel(light);
   const V3<S> toward = parallel ? splat3<S>(light.axis) * F(-light.axis_length) : to_middle;
-  const V3<S> offset = offset_of<S>(light, toward, place);
+  const V3<S> offset = offset_of<S>(light, toward, place, first);
   from_place.set_ray(toward + offset);
   if (!parallel) return;
   const F beside = dot<S>(splat3<S>(light.location) + offset - points, from_place.direction);
   const F zero(0.0f);
   from_place.distance = S::select(dot<S>(to_middle, to_middle) > zero, S::max(beside, zero), zero);
+}
+template <class Spu>
+[[gnu::noinline]] void aim(const LightRecord& light, const V3<typename Spu::simd>& points,
+                           const V3<typename Spu::simd>& to_middle, const LightPlace& place,
+                           V3<typename Spu::simd>& direction, typename Spu::simd::F& distance) {
+  using R = typename Spu::rare_simd;
+  for_each_part<Spu>([&](uint32_t first) {
+    IncidentLight<R> from_place;
+    aim_part<R>(light, part_of<Spu>(points, first), part_of<Spu>(to_middle, first), place, first, from_place);
+    set_part<Spu>(direction, first, from_place.direction);
+    set_part<Spu>(distance, first, from_place.distance);
+  });
 }
 
 /// Makes of the light of the middle, of the same colour, that of a place.
@@ -102,9 +116,9 @@ template <class Spu>
                                        const Surfaces<typename Spu::simd>& s, const LightPlace& place,
                                        const IncidentLight<typename Spu::simd>& middle,
                                        IncidentLight<typename Spu::simd>& from_place) {
-  using S = typename Spu::simd;
   spu.run_in_module(modules::kAreas);
-  aim<S>(light, s.point, middle.direction * middle.distance, place, from_place);
+  aim<Spu>(light, s.point, middle.direction * middle.distance, place, from_place.direction,
+           from_place.distance);
   from_place.colour = middle.colour;
   from_place.facing = middle.facing;
 }
@@ -272,10 +286,12 @@ template <class Spu>
           select<S>(S::M::from_bits(known.lit), a.whole.template load<S>(), dark));
       const uint32_t lanes = a.quad.lanes & ~uint32_t(known.lit | known.dark);
       if (lanes == 0) continue;
-      IncidentLight<S> from_place(light.colour);
-      aim<S>(light, a.rays.origin.template load<S>(), a.to_middle.template load<S>(), place, from_place);
-      a.rays.direction.template store<S>(from_place.direction);
-      from_place.distance.store(a.distance.lane);
+      V3<S> direction;
+      F distance;
+      aim<Spu>(light, a.rays.origin.template load<S>(), a.to_middle.template load<S>(), place, direction,
+               distance);
+      a.rays.direction.template store<S>(direction);
+      distance.store(a.distance.lane);
       a.light = a.whole;
       a.place = place;
       a.lanes = lanes;

@@ -13,6 +13,7 @@ template <class S> struct IncidentLight {
   V3<S> colour;
   uint32_t facing; ///< lanes that it comes to
 
+  IncidentLight() = default;
   /// Of a colour; nothing else is set.
   explicit IncidentLight(const float (&rgb)[3]) : colour(splat3<S>(rgb)) {}
 
@@ -28,6 +29,23 @@ template <class S> struct IncidentLight {
     facing = ((cosine >= typename S::F(1e-10f)).bits() | s.any_side) & lanes;
   }
 };
+
+/// A part of what comes to them.
+template <class Spu>
+[[gnu::always_inline]] inline decltype(auto) part_of(const IncidentLight<typename Spu::simd>& light,
+                                                     [[maybe_unused]] uint32_t first) {
+  if constexpr (kOnePart<Spu>) {
+    return (light);
+  } else {
+    IncidentLight<typename Spu::rare_simd> part;
+    part.direction = part_of<Spu>(light.direction, first);
+    part.distance = part_of<Spu>(light.distance, first);
+    part.cosine = part_of<Spu>(light.cosine, first);
+    part.colour = part_of<Spu>(light.colour, first);
+    part.facing = part_of<Spu>(light.facing, first);
+    return part;
+  }
+}
 
 /// The rays from surfaces against the light, and how far each goes.
 template <class S>

@@ -17,6 +17,27 @@ template <class S> struct ObjectLanes {
   uint32_t smooth;
 };
 
+/// The objects of a part of the rays.
+template <class Spu>
+[[gnu::always_inline]] inline decltype(auto) part_of(const ObjectLanes<typename Spu::simd>& o,
+                                                     [[maybe_unused]] uint32_t first) {
+  if constexpr (kOnePart<Spu>) {
+    return (o);
+  } else {
+    ObjectLanes<typename Spu::rare_simd> part;
+    for (uint32_t i = 0; i < 4; ++i)
+      part.geometry[i] = part_of<Spu>(o.geometry[i], first);
+    for (uint32_t i = 0; i < 3; ++i)
+      part.normals[i] = part_of<Spu>(o.normals[i], first);
+    part.parameters.ratio = part_of<Spu>(o.parameters.ratio, first);
+    part.parameters.open = Spu::rare_simd::M::from_bits(part_of<Spu>(o.parameters.open.bits(), first));
+    for (uint32_t kind = 0; kind < kPrimitives; ++kind)
+      part.of_kind[kind] = part_of<Spu>(o.of_kind[kind], first);
+    part.smooth = part_of<Spu>(o.smooth, first);
+    return part;
+  }
+}
+
 /// Whether a kind's geometry is a map to a space of its own.
 constexpr bool is_local(uint32_t kind) {
   return kind != kPrimitiveKind<SpherePrimitive> && kind != kPrimitiveKind<TrianglePrimitive>;

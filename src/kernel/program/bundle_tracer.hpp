@@ -203,11 +203,11 @@ private:
           find_hit_points(scene_, node.rays, tracer_.hits(), hit, member.points);
           light_packet(member, hit, first);
         }
-        tracer_.shade_hits(member.points, hit, first);
-        for (LightRound round = first; round.next() < frame_.light_count;) {
+        for (LightRound round = first;;) {
+          tracer_.shade_hits(member.points, hit, round);
+          if (round.next() >= frame_.light_count) break;
           round = LightRound::from(frame_, round.next(), member.light);
           light_packet(member, hit, round);
-          tracer_.shade_hits(member.points, hit, round);
         }
       }
       if (!tracer_.advance()) return tracer_.light();

@@ -59,8 +59,14 @@ private:
 
   void obey(uint32_t commands) {
     fetch(&frame_, frame_block_, sizeof(FrameBlock));
-    if ((commands & command::prepare_frame) != 0) prepare();
-    if ((commands & command::synchronize) != 0) synchronize();
+    if ((commands & command::prepare_frame) != 0) {
+      spu_.enter_module(modules::kBuild);
+      prepare();
+    }
+    if ((commands & command::synchronize) != 0) {
+      spu_.enter_module(modules::kStart);
+      synchronize();
+    }
     if ((commands & command::render_frame) != 0) render();
   }
 
@@ -69,9 +75,9 @@ private:
     spu_.wait_all(1u << kTag);
   }
 
-  void prepare() {
+  [[gnu::noinline]] void prepare() {
+    spu_.run_in_module(modules::kBuild);
     drop_phase();
-    spu_.enter_module(modules::kStart);
     const PrepareResult result = prepare_frame<Spu, kAccelerators>(spu_, frame_);
     report_ = ReportRecord();
     report_.list_entries = result.entries;
@@ -80,8 +86,9 @@ private:
   }
 
   /// Data has changed in main memory, or a frame was broken off: nothing cached and no word of it is valid
-  /// any more. It happens rarely: compiled for size, as local store is short.
-  [[gnu::cold]] void synchronize() {
+  /// any more.
+  [[gnu::noinline]] void synchronize() {
+    spu_.run_in_module(modules::kStart);
     while (spu_.in_mailbox_count() != 0)
       spu_.read_in_mailbox();
     if (phase_ != nullptr && phase_->image == frame_.image && phase_->ray_stack == frame_.ray_stack)
@@ -92,17 +99,10 @@ private:
   }
 
   void render() {
-    if (phase_ == nullptr) {
-      spu_.enter_module(modules::kStart);
-      start_phase();
-    }
-    phase_->scene.cache().reset_counters();
-    phase_->bundles.reset_counters();
-    fetch(&strip_, frame_.strips + spu_.id() * sizeof(StripRecord), sizeof(StripRecord));
+    spu_.enter_module(modules::kStart);
+    begin_frame();
     const uint32_t start = spu_.read_decrementer();
     uint32_t idle = 0;
-    packets_ = 0;
-    units_.begin_frame(frame_);
     exchange_.begin_frame(frame_, UnitRange{strip_.begin, strip_.end - strip_.begin});
     while (!exchange_.over()) {
       uint32_t unit = 0;
@@ -111,6 +111,21 @@ private:
       else
         idle += wait();
     }
+    spu_.enter_module(modules::kStart);
+    end_frame(start, idle);
+  }
+  [[gnu::noinline]] void begin_frame() {
+    spu_.run_in_module(modules::kStart);
+    if (phase_ == nullptr) start_phase();
+    phase_->scene.cache().reset_counters();
+    phase_->bundles.reset_counters();
+    fetch(&strip_, frame_.strips + spu_.id() * sizeof(StripRecord), sizeof(StripRecord));
+    packets_ = 0;
+    units_.begin_frame(frame_);
+  }
+  /// `start`: the decrementer when the frame began. `idle`: ticks without work since then.
+  [[gnu::noinline]] void end_frame(uint32_t start, uint32_t idle) {
+    spu_.run_in_module(modules::kStart);
     phase_->pixels.flush();
     units_.flush();
     phase_->scene.cache().settle();

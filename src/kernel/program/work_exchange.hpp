@@ -15,17 +15,8 @@ public:
 
   /// Enters the frame's event domain: only signal 2 and the mailbox.
   void begin_frame(const FrameBlock& frame, UnitRange units) {
-    over_ = false;
-    epoch_ = frame.epoch & (strip_word::kEpochs - 1);
-    exchanges_ = 0;
-    received_ = 0;
-    until_report_ = units_per_report_ = frame.units_per_word;
-    // Words that outlived their frame make room; those of a neighbour that is a frame ahead are kept.
     spu_.enter_module(modules::kExchange);
-    drain_mailbox();
-    node_.begin_frame(frame.epoch, units, frame.exchange_parameter);
-    spu_.write_event_mask(kDomain);
-    act();
+    enter_domain(frame, units);
   }
   void end_frame() { node_.end_frame(); }
 
@@ -55,8 +46,7 @@ public:
   /// Does what a dry node has to do, then stalls until something arrives.
   void wait() {
     spu_.enter_module(modules::kExchange);
-    act();
-    if (node_.remaining().empty() && !over_) handle();
+    wait_for_work();
   }
   /// The PPE has declared the frame finished.
   bool over() const { return over_; }
@@ -67,6 +57,25 @@ public:
 
 private:
   static constexpr uint32_t kDomain = event::signal_2 | event::in_mailbox;
+
+  [[gnu::noinline]] void enter_domain(const FrameBlock& frame, UnitRange units) {
+    spu_.run_in_module(modules::kExchange);
+    over_ = false;
+    epoch_ = frame.epoch & (strip_word::kEpochs - 1);
+    exchanges_ = 0;
+    received_ = 0;
+    until_report_ = units_per_report_ = frame.units_per_word;
+    // Words that outlived their frame make room; those of a neighbour that is a frame ahead are kept.
+    drain_mailbox();
+    node_.begin_frame(frame.epoch, units, frame.exchange_parameter);
+    spu_.write_event_mask(kDomain);
+    act();
+  }
+  [[gnu::noinline]] void wait_for_work() {
+    spu_.run_in_module(modules::kExchange);
+    act();
+    if (node_.remaining().empty() && !over_) handle();
+  }
 
   /// The safe order of an event handler: mask, read, acknowledge, drain, unmask. A phantom event finds
   /// nothing to drain.

@@ -56,9 +56,10 @@ void surface_of_triangles(const ObjectLanes<S>& o, const HitPacket& hits, V3<S>&
   normal = normalise<S>(normal);
 }
 
-template <class S>
-void surface_of(const ObjectLanes<S>& o, const V3<S>& along_ray, const HitPacket& hits, V3<S>& point,
-                V3<S>& normal) {
+template <class Spu>
+void surface_of(const ObjectLanes<typename Spu::simd>& o, const V3<typename Spu::simd>& along_ray,
+                const HitPacket& hits, V3<typename Spu::simd>& point, V3<typename Spu::simd>& normal) {
+  using S = typename Spu::simd;
   const uint32_t spheres = o.of_kind[kPrimitiveKind<SpherePrimitive>],
                  triangles = o.of_kind[kPrimitiveKind<TrianglePrimitive>],
                  planes = o.of_kind[kPrimitiveKind<PlanePrimitive>];
@@ -72,7 +73,14 @@ void surface_of(const ObjectLanes<S>& o, const V3<S>& along_ray, const HitPacket
     normal = select<S>(mask, n, normal);
   };
   V3<S> p, n;
-  if (others != 0) add(others, along_ray, local_normal<S>(o, along_ray));
+  if (others != 0) {
+    for_each_part<Spu>([&](uint32_t first) {
+      set_part<Spu>(
+          n, first,
+          local_normal<typename Spu::rare_simd>(part_of<Spu>(o, first), part_of<Spu>(along_ray, first)));
+    });
+    add(others, along_ray, n);
+  }
   if (planes != 0) {
     // On the plane to the precision of the point: a pattern may have a step there.
     const V3<S> n_of_plane = {o.geometry[2].z, o.geometry[3].x, o.geometry[3].y};
@@ -161,8 +169,8 @@ template <class Spu>
   objects.parameters.open = M::from_bits(open);
 
   const V3<S> direction = rays.direction.template load<S>();
-  detail::surface_of<S>(objects, rays.origin.template load<S>() + direction * F::load(hits.distance.lane),
-                        hits, points.point, points.normal);
+  const V3<S> along_ray = rays.origin.template load<S>() + direction * F::load(hits.distance.lane);
+  detail::surface_of<Spu>(objects, along_ray, hits, points.point, points.normal);
   const auto away = dot<S>(direction, points.normal) > F(0.0f);
   const V3<S> opposite = {-points.normal.x, -points.normal.y, -points.normal.z};
   points.normal = select<S>(away, opposite, points.normal);

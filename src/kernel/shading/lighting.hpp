@@ -30,18 +30,35 @@ typename S::F specular_term(const Surfaces<S>& s, const MaterialLanes<S>& m, con
 }
 
 template <class S>
-V3<S> reflected_light(const Surfaces<S>& s, const MaterialLanes<S>& m, const IncidentLight<S>& light,
-                      bool highlights) {
+V3<S> highlight(const Surfaces<S>& s, const MaterialLanes<S>& m, const IncidentLight<S>& light) {
   using F = typename S::F;
-  const F bent = m.bends_diffuse ? pow<S>(light.cosine, m.brilliance) : light.cosine;
-  V3<S> sum = m.pigment * light.colour * (m.diffuse * m.opacity * bent);
-  if (!highlights || !(m.has_phong || m.has_specular)) return sum;
   F strength(0.0f);
   if (m.has_phong) strength = strength + phong_term<S>(s, m, light);
   if (m.has_specular) strength = strength + specular_term<S>(s, m, light);
-  V3<S> highlight = light.colour * strength;
-  if (m.has_metallic) highlight = highlight * metallic_tint<S>(m.metallic, light.cosine, m.pigment);
-  return sum + highlight;
+  const V3<S> white = light.colour * strength;
+  return m.has_metallic ? white * metallic_tint<S>(m.metallic, light.cosine, m.pigment) : white;
+}
+
+/// What surfaces reflect. What few materials have is done by parts, as its code takes much local store.
+template <class Spu>
+V3<typename Spu::simd> reflected_light(const Surfaces<typename Spu::simd>& s,
+                                       const MaterialLanes<typename Spu::simd>& m,
+                                       const IncidentLight<typename Spu::simd>& light, bool highlights) {
+  using R = typename Spu::rare_simd;
+  using RF = typename R::F;
+  typename Spu::simd::F bent = light.cosine;
+  if (m.bends_diffuse)
+    by_parts<Spu>(
+        bent, [](const RF& cosine, const RF& brilliance) { return pow<R>(cosine, brilliance); }, light.cosine,
+        m.brilliance);
+  V3<typename Spu::simd> sum = m.pigment * light.colour * (m.diffuse * m.opacity * bent);
+  if (highlights && (m.has_phong || m.has_specular))
+    for_each_part<Spu>([&](uint32_t first) {
+      set_part<Spu>(sum, first,
+                    part_of<Spu>(sum, first) + highlight<R>(part_of<Spu>(s, first), part_of<Spu>(m, first),
+                                                            part_of<Spu>(light, first)));
+    });
+  return sum;
 }
 
 } // namespace detail
@@ -89,7 +106,7 @@ V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, const FrameBlock& fr
       if (!has_area(light)) shadow_rays += static_cast<uint32_t>(__builtin_popcount(facing));
     }
     sum = sum + select<S>(S::M::from_bits(facing),
-                          detail::reflected_light<S>(s, m, incident, !is_shadowless(light)), dark);
+                          detail::reflected_light<Spu>(s, m, incident, !is_shadowless(light)), dark);
   });
   return sum;
 }

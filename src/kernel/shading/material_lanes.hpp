@@ -24,54 +24,107 @@ template <class S> struct MaterialLanes {
   bool has_transmission = false;
 };
 
+/// The materials of a part of a packet's lanes.
+template <class Spu>
+[[gnu::always_inline]] inline decltype(auto) part_of(const MaterialLanes<typename Spu::simd>& m,
+                                                     [[maybe_unused]] uint32_t first) {
+  if constexpr (kOnePart<Spu>) {
+    return (m);
+  } else {
+    const auto part = [first](const auto& field) { return part_of<Spu>(field, first); };
+    MaterialLanes<typename Spu::rare_simd> o;
+    o.pigment = part(m.pigment);
+    o.ambient = part(m.ambient);
+    o.reflection_min = part(m.reflection_min);
+    o.reflection_max = part(m.reflection_max);
+    o.filter = part(m.filter);
+    o.transmit = part(m.transmit);
+    o.opacity = part(m.opacity);
+    o.diffuse = part(m.diffuse);
+    o.brilliance = part(m.brilliance);
+    o.phong = part(m.phong);
+    o.phong_size = part(m.phong_size);
+    o.specular = part(m.specular);
+    o.inverse_roughness = part(m.inverse_roughness);
+    o.metallic = part(m.metallic);
+    o.reflection_falloff = part(m.reflection_falloff);
+    o.reflection_metallic = part(m.reflection_metallic);
+    o.inverse_reflection_exponent = part(m.inverse_reflection_exponent);
+    o.fresnel = part(m.fresnel);
+    o.conserve_energy = part(m.conserve_energy);
+    o.patterned = part(m.patterned);
+    o.disturbed = part(m.disturbed);
+    o.layered = part(m.layered);
+    o.bends_diffuse = m.bends_diffuse;
+    o.has_phong = m.has_phong;
+    o.has_specular = m.has_specular;
+    o.has_metallic = m.has_metallic;
+    o.has_reflection = m.has_reflection;
+    o.has_falloff = m.has_falloff;
+    o.bends_reflection = m.bends_reflection;
+    o.has_transmission = m.has_transmission;
+    return o;
+  }
+}
+
+namespace detail {
+
+/// Gives `taken` lanes a material; `lanes` are those of them that have it.
+template <class Spu>
+[[gnu::noinline]] void gather_material(const MaterialRecord& r, uint32_t taken, uint32_t lanes,
+                                       MaterialLanes<typename Spu::simd>& m) {
+  using S = typename Spu::simd;
+  using F = typename S::F;
+  const auto take = S::M::from_bits(taken);
+  const auto put = [&](F& field, float value) { field = S::select(take, F(value), field); };
+  const auto put3 = [&](V3<S>& field, const float(&value)[3]) {
+    put_in_lanes<Spu>(false, take, value, field);
+  };
+  put3(m.pigment, r.pigment);
+  put3(m.ambient, r.ambient);
+  put3(m.reflection_min, r.reflection_min);
+  put3(m.reflection_max, r.reflection_max);
+  put(m.filter, r.filter);
+  put(m.transmit, r.transmit);
+  put(m.opacity, r.opacity);
+  put(m.diffuse, r.diffuse);
+  put(m.brilliance, r.brilliance);
+  put(m.phong, r.phong);
+  put(m.phong_size, r.phong_size);
+  put(m.specular, r.specular);
+  put(m.inverse_roughness, r.inverse_roughness);
+  put(m.metallic, r.metallic);
+  put(m.reflection_falloff, r.reflection_falloff);
+  put(m.reflection_metallic, r.reflection_metallic);
+  put(m.inverse_reflection_exponent, r.inverse_reflection_exponent);
+  if ((r.flags & material_flag::fresnel) != 0) m.fresnel |= lanes;
+  if ((r.flags & material_flag::conserve_energy) != 0) m.conserve_energy |= lanes;
+  if ((r.flags & material_flag::patterned) != 0) m.patterned |= lanes;
+  if ((r.flags & material_flag::disturbed) != 0) m.disturbed |= lanes;
+  if ((r.flags & material_flag::layered) != 0) m.layered |= lanes;
+  const auto any = [](const float(&v)[3]) { return v[0] != 0.0f || v[1] != 0.0f || v[2] != 0.0f; };
+  m.bends_diffuse |= r.brilliance != 1.0f;
+  m.has_phong |= r.phong > 0.0f;
+  m.has_specular |= r.specular > 0.0f;
+  m.has_metallic |= r.metallic != 0.0f;
+  m.has_reflection |= any(r.reflection_min) || any(r.reflection_max);
+  m.has_falloff |= r.reflection_falloff != 1.0f;
+  m.bends_reflection |= r.inverse_reflection_exponent != 1.0f;
+  m.has_transmission |= r.filter != 0.0f || r.transmit != 0.0f;
+}
+
+} // namespace detail
+
 /// The materials at `offsets` of the lanes in `lanes`; other lanes get that of one of them.
 template <class Spu>
 MaterialLanes<typename Spu::simd> gather_materials(SceneAccess<Spu>& scene, const WordLanes& offsets,
                                                    uint32_t lanes) {
-  using S = typename Spu::simd;
-  using F = typename S::F;
-  MaterialLanes<S> m = {};
+  MaterialLanes<typename Spu::simd> m = {};
   bool first = true;
-  for_each_value<S>(offsets, lanes, [&](uint32_t offset, uint32_t same) {
+  for_each_value<typename Spu::simd>(offsets, lanes, [&](uint32_t offset, uint32_t same) {
     scene.spu().compute(scalar_work::kMaterial);
-    const MaterialRecord& r = *scene.material(offset);
-    const auto take = S::M::from_bits(first ? 0xFFFF : same);
+    detail::gather_material<Spu>(*scene.material(offset), first ? 0xFFFF : same, same, m);
     first = false;
-    const auto put = [&](F& field, float value) { field = S::select(take, F(value), field); };
-    const auto put3 = [&](V3<S>& field, const float(&value)[3]) {
-      put_in_lanes<Spu>(false, take, value, field);
-    };
-    put3(m.pigment, r.pigment);
-    put3(m.ambient, r.ambient);
-    put3(m.reflection_min, r.reflection_min);
-    put3(m.reflection_max, r.reflection_max);
-    put(m.filter, r.filter);
-    put(m.transmit, r.transmit);
-    put(m.opacity, r.opacity);
-    put(m.diffuse, r.diffuse);
-    put(m.brilliance, r.brilliance);
-    put(m.phong, r.phong);
-    put(m.phong_size, r.phong_size);
-    put(m.specular, r.specular);
-    put(m.inverse_roughness, r.inverse_roughness);
-    put(m.metallic, r.metallic);
-    put(m.reflection_falloff, r.reflection_falloff);
-    put(m.reflection_metallic, r.reflection_metallic);
-    put(m.inverse_reflection_exponent, r.inverse_reflection_exponent);
-    if ((r.flags & material_flag::fresnel) != 0) m.fresnel |= same;
-    if ((r.flags & material_flag::conserve_energy) != 0) m.conserve_energy |= same;
-    if ((r.flags & material_flag::patterned) != 0) m.patterned |= same;
-    if ((r.flags & material_flag::disturbed) != 0) m.disturbed |= same;
-    if ((r.flags & material_flag::layered) != 0) m.layered |= same;
-    const auto any = [](const float(&v)[3]) { return v[0] != 0.0f || v[1] != 0.0f || v[2] != 0.0f; };
-    m.bends_diffuse |= r.brilliance != 1.0f;
-    m.has_phong |= r.phong > 0.0f;
-    m.has_specular |= r.specular > 0.0f;
-    m.has_metallic |= r.metallic != 0.0f;
-    m.has_reflection |= any(r.reflection_min) || any(r.reflection_max);
-    m.has_falloff |= r.reflection_falloff != 1.0f;
-    m.bends_reflection |= r.inverse_reflection_exponent != 1.0f;
-    m.has_transmission |= r.filter != 0.0f || r.transmit != 0.0f;
   });
   return m;
 }
@@ -82,21 +135,32 @@ template <class Spu>
                                     const V3<typename Spu::simd>& point,
                                     MaterialLanes<typename Spu::simd>& m) {
   using S = typename Spu::simd;
-  using F = typename S::F;
   scene.spu().enter_module(modules::kTextures);
   for_each_value<S>(offsets, m.patterned, [&](uint32_t offset, uint32_t same) {
     const MaterialRecord& r = *scene.material(offset);
+    const uint32_t pattern = r.pattern;
     const bool old_opacity = (r.flags & material_flag::old_opacity) != 0;
-    PigmentLanes<S> pigment;
-    pigment_at(scene, r.pattern, point, same, pigment);
-    const auto take = S::M::from_bits(same);
-    const F filtered = old_opacity ? pigment.filter * max_component<S>(pigment.rgb) : pigment.filter;
-    m.pigment = select<S>(take, pigment.rgb, m.pigment);
-    m.filter = S::select(take, pigment.filter, m.filter);
-    m.transmit = S::select(take, pigment.transmit, m.transmit);
-    m.opacity = S::select(take, F(1.0f) - filtered - pigment.transmit, m.opacity);
-    const auto clear = !((pigment.filter == F(0.0f)) & (pigment.transmit == F(0.0f)));
-    m.has_transmission |= (clear.bits() & same) != 0;
+    for_each_part<Spu>([&](uint32_t first) {
+      using R = typename Spu::rare_simd;
+      using F = typename R::F;
+      const uint32_t some = part_of<Spu>(same, first);
+      if (some == 0) return;
+      PigmentLanes<R> pigment;
+      pigment_at(scene, pattern, part_of<Spu>(point, first), some, pigment);
+      const auto take = R::M::from_bits(some);
+      const auto put = [&](typename S::F& field, const F& value) {
+        set_part<Spu>(field, first, R::select(take, value, part_of<Spu>(field, first)));
+      };
+      const F filtered = old_opacity ? pigment.filter * max_component<R>(pigment.rgb) : pigment.filter;
+      put(m.pigment.x, pigment.rgb.x);
+      put(m.pigment.y, pigment.rgb.y);
+      put(m.pigment.z, pigment.rgb.z);
+      put(m.filter, pigment.filter);
+      put(m.transmit, pigment.transmit);
+      put(m.opacity, F(1.0f) - filtered - pigment.transmit);
+      const auto clear = !((pigment.filter == F(0.0f)) & (pigment.transmit == F(0.0f)));
+      m.has_transmission |= (clear.bits() & some) != 0;
+    });
   });
 }
 

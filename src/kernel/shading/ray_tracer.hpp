@@ -19,6 +19,7 @@ struct RayCounters {
 template <class Spu, uint32_t kResident = kResidentNodes> class RayTracer {
 public:
   using S = typename Spu::simd;
+  using R = typename Spu::rare_simd;
   using F = typename S::F;
   using I = typename S::I;
   using M = typename S::M;
@@ -157,7 +158,14 @@ private:
     const V3<S> sum = light_[node_.gathers].template load<S>();
     const F power = F::load(node_.power.lane);
     --accumulators_in_use_;
-    add(node_.lanes, {pow<S>(sum.x, power), pow<S>(sum.y, power), pow<S>(sum.z, power)});
+    V3<S> raised;
+    for_each_part<Spu>([&](uint32_t first) {
+      const V3<R> base = part_of<Spu>(sum, first);
+      const typename R::F exponent = part_of<Spu>(power, first);
+      set_part<Spu>(raised, first,
+                    V3<R>{pow<R>(base.x, exponent), pow<R>(base.y, exponent), pow<R>(base.z, exponent)});
+    });
+    add(node_.lanes, raised);
   }
 
   /// Surfaces with several materials: each is shaded whole, and the results are blended by their weights.
@@ -191,7 +199,7 @@ private:
       if (map == kNoOffset) return;
       plain &= ~same;
       scene_.spu().enter_module(modules::kTextures);
-      MapWalk<Spu, TextureStage::colours> walk(scene_, surfaces.point, MapOf::textures);
+      MapWalk<Spu, TextureStage::colours, S> walk(scene_, surfaces.point, MapOf::textures);
       walk.enter(map, weight, same);
       MapEntryRecord entry;
       F share;
@@ -240,8 +248,8 @@ private:
     F fresnel_ratio(1.0f);
     if (m.fresnel != 0)
       fresnel_ratio = F::load(fresnel_ratios(scene_, interior, lanes & m.fresnel, node_).lane);
-    return secondary_rays_of<S>(m, -dot<S>(surfaces.direction, surfaces.normal), fresnel_ratio,
-                                frame_.adc_bailout, lanes, share);
+    return secondary_rays_of<Spu>(m, -dot<S>(surfaces.direction, surfaces.normal), fresnel_ratio,
+                                  frame_.adc_bailout, lanes, share);
   }
 
   /// As shade(), of textures with patterns, normals or layers. The light of a layer comes through those
@@ -302,7 +310,13 @@ private:
     scene_.spu().compute(scalar_work::kSpawn);
     scene_.spu().enter_module(modules::kSecondary);
     const F cosine = -dot<S>(surfaces.direction, surfaces.normal);
-    const V3<S> mirrored = mirror<S>(surfaces.direction, surfaces.normal, smooth);
+    V3<S> mirrored;
+    by_parts<Spu>(
+        mirrored,
+        [](const V3<R>& direction, const V3<R>& normal, const V3<R>& undisturbed) {
+          return mirror<R>(direction, normal, undisturbed);
+        },
+        surfaces.direction, surfaces.normal, smooth);
     const uint32_t total = onward.clear != 0 ? transmit(surfaces, interior, onward, cosine, mirrored) : 0;
     reflect(surfaces, onward, onward.mirrors & ~total, mirrored);
   }
@@ -367,10 +381,18 @@ private:
     scene_.spu().run_in_module(modules::kSecondary);
     inherit_interiors();
     const Refraction refraction = cross_surfaces(scene_, interior, onward.clear, child_, counters_.dropped);
-    M beyond = M::none();
-    const V3<S> bent =
-        refract<S>(surfaces.direction, surfaces.normal, cosine, F::load(refraction.ratio.lane), beyond);
-    const uint32_t total = beyond.bits() & onward.clear & ~refraction.straight;
+    const F ratio = F::load(refraction.ratio.lane);
+    V3<S> bent;
+    uint32_t beyond = 0;
+    for_each_part<Spu>([&](uint32_t first) {
+      const auto part = [first](const auto& values) { return part_of<Spu>(values, first); };
+      auto is_total = R::M::none();
+      set_part<Spu>(
+          bent, first,
+          refract<R>(part(surfaces.direction), part(surfaces.normal), part(cosine), part(ratio), is_total));
+      beyond |= is_total.bits() << first;
+    });
+    const uint32_t total = beyond & onward.clear & ~refraction.straight;
     const M total_mask = M::from_bits(total);
     V3<S> direction = select<S>(M::from_bits(refraction.straight), surfaces.direction, bent);
     direction = select<S>(total_mask, mirrored, direction);

@@ -178,6 +178,18 @@ template <class S> struct SecondaryRays {
     o.reflection_power = F(1.0f);
     return o;
   }
+  /// Of lanes that have none yet.
+  template <class Spu> void set_part(uint32_t first, const SecondaryRays<typename Spu::rare_simd>& part) {
+    kernel::set_part<Spu>(mirror, first, part.mirror);
+    kernel::set_part<Spu>(through, first, part.through);
+    kernel::set_part<Spu>(mirror_weight, first, part.mirror_weight);
+    kernel::set_part<Spu>(through_weight, first, part.through_weight);
+    kernel::set_part<Spu>(clear_share, first, part.clear_share);
+    kernel::set_part<Spu>(reflection_power, first, part.reflection_power);
+    mirrors |= part.mirrors << first;
+    clear |= part.clear << first;
+    bends_reflection = part.bends_reflection;
+  }
   bool is_nothing() const { return (mirrors | clear) == 0; }
   /// True if adaptive depth control would treat the rays of both alike, and neither bends reflections.
   bool weighs_like(const SecondaryRays& other) const {
@@ -197,7 +209,8 @@ template <class S> struct SecondaryRays {
   }
 };
 
-/// For surfaces of the materials `m` in `lanes`, `share` of which counts.
+namespace detail {
+
 template <class S>
 SecondaryRays<S> secondary_rays_of(const MaterialLanes<S>& m, const typename S::F& cosine,
                                    const typename S::F& fresnel_ratio, float adc_bailout, uint32_t lanes,
@@ -227,6 +240,29 @@ SecondaryRays<S> secondary_rays_of(const MaterialLanes<S>& m, const typename S::
   onward.through_weight = S::select(clear, max_component<S>(filter), zero);
   onward.clear_share = counted;
   return onward;
+}
+
+} // namespace detail
+
+/// For surfaces of the materials `m` in `lanes`, `share` of which counts.
+template <class Spu>
+[[gnu::noinline]] SecondaryRays<typename Spu::simd>
+secondary_rays_of(const MaterialLanes<typename Spu::simd>& m, const typename Spu::simd::F& cosine,
+                  const typename Spu::simd::F& fresnel_ratio, float adc_bailout, uint32_t lanes,
+                  const typename Spu::simd::F& share) {
+  using S = typename Spu::simd;
+  if constexpr (kOnePart<Spu>) {
+    return detail::secondary_rays_of<S>(m, cosine, fresnel_ratio, adc_bailout, lanes, share);
+  } else {
+    SecondaryRays<S> all = SecondaryRays<S>::nothing();
+    for_each_part<Spu>([&](uint32_t first) {
+      const auto part = [first](const auto& values) { return part_of<Spu>(values, first); };
+      all.template set_part<Spu>(
+          first, detail::secondary_rays_of<typename Spu::rare_simd>(
+                     part(m), part(cosine), part(fresnel_ratio), adc_bailout, part(lanes), part(share)));
+    });
+    return all;
+  }
 }
 
 } // namespace celltrace::kernel

@@ -18,12 +18,12 @@ inline uint32_t map_of(const MaterialRecord& material) {
   return (material.flags & material_flag::mapped) != 0 ? material.pattern : kNoOffset;
 }
 
-/// Visits the leaves of a tree of maps that count at sixteen points, with their weights, which add up to 1 in
-/// each lane. Without recursion: one level of the tree is one of `levels_`. `Tree::pattern_of(scene, entry)`
-/// is the offset of the pattern whose map an entry is, or kNoOffset if it is a leaf.
-template <class Spu, TextureStage kStage> class MapWalk {
+/// Visits the leaves of a tree of maps that count at the points of a packet (`S` is Spu::simd) or of a part
+/// of it (Spu::rare_simd), with their weights, which add up to 1 in each lane. Without recursion: one level
+/// of the tree is one of `levels_`. `Tree::pattern_of(scene, entry)` is the offset of the pattern whose map
+/// an entry is, or kNoOffset if it is a leaf.
+template <class Spu, TextureStage kStage, class S = typename Spu::rare_simd> class MapWalk {
 public:
-  using S = typename Spu::simd;
   using F = typename S::F;
   using I = typename S::I;
   using M = typename S::M;
@@ -31,31 +31,27 @@ public:
   static constexpr CodeModule kModule =
       kStage == TextureStage::normals ? modules::kNormals : modules::kTextures;
 
-  MapWalk(SceneAccess<Spu>& scene, const V3<S>& point, MapOf of = MapOf::pigments) : scene_(scene), of_(of) {
-    point_.template store<S>(point);
-  }
+  MapWalk(SceneAccess<Spu>& scene, const V3<S>& point, MapOf of = MapOf::pigments)
+      : scene_(scene), of_(of), point_(point) {}
 
   /// Starts at a pattern, whose leaves share `weight`.
   [[gnu::noinline]] void enter(uint32_t pattern, const F& weight, uint32_t lanes) {
     scene_.spu().run_in_module(kModule);
     const PatternRecord r = *scene_.pattern(pattern);
     Level& level = levels_[depth_++];
-    weight.store(level.weight.lane);
+    level.weight = weight;
     level.entries = r.entries;
     level.count = r.entry_count;
     level.next = 0;
     level.lanes = lanes;
     level.average = (r.kind_and_flags & pattern_flag::average) != 0;
     if (level.average) return;
-    const V3<S> p = to_pattern_space<kStage>(scene_, r, point_.template load<S>());
-    const F value = pattern_value(scene_.spu(), r, p);
-    F upper(0.0f), share(1.0f);
+    const F value = value_of(r);
+    level.share = F(1.0f);
     if (Patterns::kAreLists[r.kind_and_flags & pattern_flag::kind_mask])
-      upper = S::min(value, F(static_cast<float>(r.entry_count - 1)));
+      level.upper = S::min(value, F(static_cast<float>(r.entry_count - 1)));
     else
-      find_interval(r, value, upper, share);
-    upper.store(level.upper.lane);
-    share.store(level.share.lane);
+      find_interval(r, value, level.upper, level.share);
   }
 
   /// The next leaf, with its weight in those of `lanes`; false: there are no more.
@@ -69,7 +65,7 @@ public:
       }
       const uint32_t number = level.next++;
       leaf = *scene_.map_entry(offset_of(level.entries, number));
-      weight = F::load(level.weight.lane) * (level.average ? F(leaf.position) : weight_of(level, number));
+      weight = level.weight * (level.average ? F(leaf.position) : weight_of(level, number));
       lanes = level.lanes & (weight > F(0.0f)).bits();
       if (lanes == 0) continue;
       const uint32_t pattern = pattern_of(leaf);
@@ -81,12 +77,25 @@ public:
 
 private:
   struct Level {
-    FloatLanes weight;
-    FloatLanes upper; ///< by lane, number of the entry above the value
-    FloatLanes share; ///< of that entry; the rest is the one's before
+    F weight;
+    F upper; ///< by lane, number of the entry above the value
+    F share; ///< of that entry; the rest is the one's before
     uint32_t entries, count, next, lanes;
     bool average;
   };
+
+  F value_of(const PatternRecord& r) {
+    const auto at = [&](const V3<typename Spu::rare_simd>& point) {
+      return pattern_value(scene_.spu(), r, to_pattern_space<kStage>(scene_, r, point));
+    };
+    if constexpr (S::kLanes == Spu::rare_simd::kLanes) {
+      return at(point_);
+    } else {
+      F value;
+      by_parts<Spu>(value, at, point_);
+      return value;
+    }
+  }
 
   /// The pattern whose map an entry is; kNoOffset: it is a leaf.
   uint32_t pattern_of(const MapEntryRecord& entry) {
@@ -126,14 +135,13 @@ private:
     }
   }
   static F weight_of(const Level& level, uint32_t number) {
-    const F upper = F::load(level.upper.lane), share = F::load(level.share.lane);
-    const F own = S::select(upper == F(static_cast<float>(number)), share, F(0.0f));
-    return S::select(upper == F(static_cast<float>(number + 1)), F(1.0f) - share, own);
+    const F own = S::select(level.upper == F(static_cast<float>(number)), level.share, F(0.0f));
+    return S::select(level.upper == F(static_cast<float>(number + 1)), F(1.0f) - level.share, own);
   }
 
   SceneAccess<Spu>& scene_;
   MapOf of_;
-  VectorLanes point_;
+  V3<S> point_;
   uint32_t depth_ = 0;
   Level levels_[kDeepestMapWalk];
 };

@@ -9,9 +9,9 @@ namespace detail {
 
 /// Less the slope of the pattern's values, from four points around each.
 template <class Spu>
-V3<typename Spu::simd> slope_disturbance(Spu& spu, const PatternRecord& r, const V3<typename Spu::simd>& p,
-                                         float accuracy) {
-  using S = typename Spu::simd;
+V3<typename Spu::rare_simd> slope_disturbance(Spu& spu, const PatternRecord& r,
+                                              const V3<typename Spu::rare_simd>& p, float accuracy) {
+  using S = typename Spu::rare_simd;
   using F = typename S::F;
   // The corners of a tetrahedron.
   static constexpr float kCorners[4][3] = {{0.942809041f, -1.0f / 3, 0.0f},
@@ -43,10 +43,10 @@ inline void cofactors(const float (&m)[9], float (&c)[9]) {
 
 /// A unit normal as the pattern of `normal`, no map, disturbs it.
 template <class Spu>
-[[gnu::noinline]] void disturb_by(SceneAccess<Spu>& scene, const NormalRecord& normal,
-                                  const V3<typename Spu::simd>& point, const V3<typename Spu::simd>& unit,
-                                  V3<typename Spu::simd>& disturbed) {
-  using S = typename Spu::simd;
+[[gnu::noinline]] void
+disturb_by(SceneAccess<Spu>& scene, const NormalRecord& normal, const V3<typename Spu::rare_simd>& point,
+           const V3<typename Spu::rare_simd>& unit, V3<typename Spu::rare_simd>& disturbed) {
+  using S = typename Spu::rare_simd;
   using F = typename S::F;
   Spu& spu = scene.spu();
   const PatternRecord r = *scene.pattern(normal.pattern);
@@ -67,20 +67,17 @@ template <class Spu>
   disturbed = normalise<S>(splat3<S>(m) * n.x + splat3<S>(m + 3) * n.y + splat3<S>(m + 6) * n.z);
 }
 
-} // namespace detail
-
-/// The normals at `point`, unit vectors on the viewer's side, as the record at `offset` disturbs them.
+/// As disturb_normal(), for a part of a packet.
 template <class Spu>
-[[gnu::noinline]] void disturb_normal(SceneAccess<Spu>& scene, uint32_t offset,
-                                      const V3<typename Spu::simd>& point, uint32_t lanes,
-                                      V3<typename Spu::simd>& unit) {
-  using S = typename Spu::simd;
+void disturb_part(SceneAccess<Spu>& scene, const NormalRecord& record,
+                  const V3<typename Spu::rare_simd>& point, uint32_t lanes,
+                  V3<typename Spu::rare_simd>& unit) {
+  using S = typename Spu::rare_simd;
   using F = typename S::F;
-  const NormalRecord record = *scene.normal(offset);
   const auto take = S::M::from_bits(lanes);
   V3<S> disturbed;
   if (record.is_mapped == 0) {
-    detail::disturb_by(scene, record, point, unit, disturbed);
+    disturb_by(scene, record, point, unit, disturbed);
     unit = select<S>(take, disturbed, unit);
     return;
   }
@@ -92,10 +89,27 @@ template <class Spu>
   uint32_t some;
   while (walk.next(entry, weight, some)) {
     const NormalRecord leaf = *scene.normal(entry.child);
-    detail::disturb_by(scene, leaf, point, unit, disturbed);
+    disturb_by(scene, leaf, point, unit, disturbed);
     sum = sum + disturbed * weight;
   }
   unit = select<S>(take, normalise<S>(sum), unit);
+}
+
+} // namespace detail
+
+/// The normals at `point`, unit vectors on the viewer's side, as the record at `offset` disturbs them.
+template <class Spu>
+[[gnu::noinline]] void disturb_normal(SceneAccess<Spu>& scene, uint32_t offset,
+                                      const V3<typename Spu::simd>& point, uint32_t lanes,
+                                      V3<typename Spu::simd>& unit) {
+  const NormalRecord record = *scene.normal(offset);
+  for_each_part<Spu>([&](uint32_t first) {
+    const uint32_t some = part_of<Spu>(lanes, first);
+    if (some == 0) return;
+    V3<typename Spu::rare_simd> normal = part_of<Spu>(unit, first);
+    detail::disturb_part(scene, record, part_of<Spu>(point, first), some, normal);
+    set_part<Spu>(unit, first, normal);
+  });
 }
 
 } // namespace celltrace::kernel

@@ -9,14 +9,16 @@ namespace celltrace::kernel {
 template <class S> struct PigmentLanes {
   V3<S> rgb;
   typename S::F filter, transmit;
+
+  V3<S> transmittance() const { return rgb * filter + V3<S>{transmit, transmit, transmit}; }
 };
 
-/// The pigment of a pattern at the points of `lanes`.
+/// The pigment of a pattern at the points of `lanes`, of a part of a packet.
 template <class Spu>
 [[gnu::noinline]] void pigment_at(SceneAccess<Spu>& scene, uint32_t pattern,
-                                  const V3<typename Spu::simd>& point, uint32_t lanes,
-                                  PigmentLanes<typename Spu::simd>& sum) {
-  using S = typename Spu::simd;
+                                  const V3<typename Spu::rare_simd>& point, uint32_t lanes,
+                                  PigmentLanes<typename Spu::rare_simd>& sum) {
+  using S = typename Spu::rare_simd;
   using F = typename S::F;
   const F zero(0.0f);
   sum = {{zero, zero, zero}, zero, zero};

@@ -5,15 +5,14 @@
 
 namespace celltrace::kernel {
 
-/// What rays of `lanes` see that hit nothing, of unit `direction`. The background comes in `colour`. Layers
-/// before language version 3.7 dim those below them by filter and transmit alone, whatever their colours, but
-/// the background by the product of all colours.
+namespace detail {
+
+/// As add_sky(), for a part of a packet.
 template <class Spu>
-[[gnu::noinline]] void add_sky(SceneAccess<Spu>& scene, uint32_t sky, const V3<typename Spu::simd>& direction,
-                               uint32_t lanes, V3<typename Spu::simd>& colour) {
-  using S = typename Spu::simd;
+void add_sky_layers(SceneAccess<Spu>& scene, uint32_t sky, const V3<typename Spu::rare_simd>& direction,
+                    uint32_t lanes, V3<typename Spu::rare_simd>& colour) {
+  using S = typename Spu::rare_simd;
   using F = typename S::F;
-  scene.spu().enter_module(modules::kTextures);
   const F zero(0.0f), one(1.0f);
   V3<S> sum = {zero, zero, zero}, through = {one, one, one}, tint = through;
   F filter = one, transmit = one;
@@ -31,12 +30,30 @@ template <class Spu>
       filter = filter * layer.filter;
       transmit = transmit * layer.transmit;
     } else {
-      through = through * (layer.rgb * layer.filter + V3<S>{layer.transmit, layer.transmit, layer.transmit});
+      through = through * layer.transmittance();
       tint = through;
       transmit = zero;
     }
   }
   colour = sum + colour * (tint * filter + V3<S>{transmit, transmit, transmit});
+}
+
+} // namespace detail
+
+/// What rays of `lanes` see that hit nothing, of unit `direction`. The background comes in `colour`. Layers
+/// before language version 3.7 dim those below them by filter and transmit alone, whatever their colours, but
+/// the background by the product of all colours.
+template <class Spu>
+[[gnu::noinline]] void add_sky(SceneAccess<Spu>& scene, uint32_t sky, const V3<typename Spu::simd>& direction,
+                               uint32_t lanes, V3<typename Spu::simd>& colour) {
+  scene.spu().enter_module(modules::kTextures);
+  for_each_part<Spu>([&](uint32_t first) {
+    const uint32_t some = part_of<Spu>(lanes, first);
+    if (some == 0) return;
+    V3<typename Spu::rare_simd> seen = part_of<Spu>(colour, first);
+    detail::add_sky_layers(scene, sky, part_of<Spu>(direction, first), some, seen);
+    set_part<Spu>(colour, first, seen);
+  });
 }
 
 } // namespace celltrace::kernel

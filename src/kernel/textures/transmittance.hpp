@@ -10,9 +10,9 @@ namespace detail {
 /// Of a texture that is no map: the product of its layers.
 template <class Spu>
 [[gnu::noinline]] void filter_of_layers(SceneAccess<Spu>& scene, uint32_t material,
-                                        const V3<typename Spu::simd>& point, uint32_t lanes,
-                                        V3<typename Spu::simd>& product) {
-  using S = typename Spu::simd;
+                                        const V3<typename Spu::rare_simd>& point, uint32_t lanes,
+                                        V3<typename Spu::rare_simd>& product) {
+  using S = typename Spu::rare_simd;
   using F = typename S::F;
   product = {F(1.0f), F(1.0f), F(1.0f)};
   for (;;) {
@@ -20,26 +20,23 @@ template <class Spu>
     const uint32_t flags = r.flags, pattern = r.pattern, below = r.below;
     PigmentLanes<S> pigment = {splat3<S>(r.pigment), F(r.filter), F(r.transmit)};
     if ((flags & material_flag::patterned) != 0) pigment_at(scene, pattern, point, lanes, pigment);
-    product = product *
-              (pigment.rgb * pigment.filter + V3<S>{pigment.transmit, pigment.transmit, pigment.transmit});
+    product = product * pigment.transmittance();
     if ((flags & material_flag::layered) == 0) return;
     material = below;
   }
 }
 
-} // namespace detail
-
-/// The transmittance of the texture at `material` at the points of `lanes`.
+/// Of any texture.
 template <class Spu>
-[[gnu::noinline]] void transmittance_at(SceneAccess<Spu>& scene, uint32_t material,
-                                        const V3<typename Spu::simd>& point, uint32_t lanes,
-                                        V3<typename Spu::simd>& transmittance) {
-  using S = typename Spu::simd;
+[[gnu::noinline]] void filter_of_texture(SceneAccess<Spu>& scene, uint32_t material,
+                                         const V3<typename Spu::rare_simd>& point, uint32_t lanes,
+                                         V3<typename Spu::rare_simd>& filter) {
+  using S = typename Spu::rare_simd;
   using F = typename S::F;
-  scene.spu().enter_module(modules::kTextures);
+  scene.spu().run_in_module(modules::kTextures);
   const uint32_t map = map_of(*scene.material(material));
-  if (map == kNoOffset) return detail::filter_of_layers(scene, material, point, lanes, transmittance);
-  transmittance = {F(0.0f), F(0.0f), F(0.0f)};
+  if (map == kNoOffset) return filter_of_layers(scene, material, point, lanes, filter);
+  filter = {F(0.0f), F(0.0f), F(0.0f)};
   MapWalk<Spu, TextureStage::colours> walk(scene, point, MapOf::textures);
   walk.enter(map, F(1.0f), lanes);
   MapEntryRecord entry;
@@ -47,9 +44,28 @@ template <class Spu>
   uint32_t some;
   V3<S> one;
   while (walk.next(entry, weight, some)) {
-    detail::filter_of_layers(scene, entry.child, point, some, one);
-    transmittance = transmittance + one * weight;
+    filter_of_layers(scene, entry.child, point, some, one);
+    filter = filter + one * weight;
   }
+}
+
+} // namespace detail
+
+/// The transmittance of the texture at `material` at the points of `lanes`, of a part of a packet. That of
+/// one colour does without a code module: it is what most shadow rays meet that something translucent is in
+/// the way of.
+template <class Spu>
+void transmittance_at(SceneAccess<Spu>& scene, uint32_t material, const V3<typename Spu::rare_simd>& point,
+                      uint32_t lanes, V3<typename Spu::rare_simd>& transmittance) {
+  using S = typename Spu::rare_simd;
+  using F = typename S::F;
+  const MaterialRecord& r = *scene.material(material);
+  if ((r.flags & (material_flag::mapped | material_flag::patterned | material_flag::layered)) == 0) {
+    transmittance = PigmentLanes<S>{splat3<S>(r.pigment), F(r.filter), F(r.transmit)}.transmittance();
+    return;
+  }
+  scene.spu().enter_module(modules::kTextures);
+  detail::filter_of_texture(scene, material, point, lanes, transmittance);
 }
 
 } // namespace celltrace::kernel

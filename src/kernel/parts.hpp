@@ -1,0 +1,57 @@
+// Rare code works on a packet's lanes part by part: as many at a time as Spu::rare_simd has, all of them
+// where code takes no local store. Kernel dialect.
+#pragma once
+
+#include "celltrace/spe/simd.hpp"
+#include "kernel/math.hpp"
+
+namespace celltrace::kernel {
+
+/// A packet's lanes are one part.
+template <class Spu> constexpr bool kOnePart = Spu::rare_simd::kLanes == kSimdLanes;
+
+/// Calls `visit(first)` for the first lane of each part.
+template <class Spu, class Visit> [[gnu::always_inline]] inline void for_each_part(Visit visit) {
+  for (uint32_t first = 0; first < kSimdLanes; first += Spu::rare_simd::kLanes)
+    visit(first);
+}
+
+/// Of the lanes in a bit mask, those of the part from `first` on.
+template <class Spu> uint32_t part_of(uint32_t lanes, uint32_t first) {
+  return lanes >> first & ((1u << Spu::rare_simd::kLanes) - 1);
+}
+template <class Spu>
+typename Spu::rare_simd::F part_of(const typename Spu::simd::F& numbers, [[maybe_unused]] uint32_t first) {
+  if constexpr (kOnePart<Spu>)
+    return numbers;
+  else
+    return Spu::rare_simd::part(numbers, first);
+}
+template <class Spu>
+V3<typename Spu::rare_simd> part_of(const V3<typename Spu::simd>& vectors, uint32_t first) {
+  return {part_of<Spu>(vectors.x, first), part_of<Spu>(vectors.y, first), part_of<Spu>(vectors.z, first)};
+}
+
+template <class Spu>
+void set_part(typename Spu::simd::F& numbers, [[maybe_unused]] uint32_t first,
+              const typename Spu::rare_simd::F& part) {
+  if constexpr (kOnePart<Spu>)
+    numbers = part;
+  else
+    Spu::rare_simd::set_part(numbers, first, part);
+}
+template <class Spu>
+void set_part(V3<typename Spu::simd>& vectors, uint32_t first, const V3<typename Spu::rare_simd>& part) {
+  set_part<Spu>(vectors.x, first, part.x);
+  set_part<Spu>(vectors.y, first, part.y);
+  set_part<Spu>(vectors.z, first, part.z);
+}
+
+/// Sets `result` to what `compute` makes of each part of `values`: all are numbers or vectors.
+template <class Spu, class Result, class Compute, class... Values>
+[[gnu::always_inline]] inline void by_parts(Result& result, Compute compute, const Values&... values) {
+  for_each_part<Spu>(
+      [&](uint32_t first) { set_part<Spu>(result, first, compute(part_of<Spu>(values, first)...)); });
+}
+
+} // namespace celltrace::kernel
