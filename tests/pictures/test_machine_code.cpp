@@ -6,6 +6,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <array>
+#include <cstdint>
+#include <set>
 #include <sstream>
 
 using namespace celltrace;
@@ -83,6 +86,32 @@ TEST_CASE("The SPU's machine code renders all published scenes", "[.all]") {
   REQUIRE(scenes.size() == 10);
   for (const auto& path : scenes)
     check_scene(path);
+}
+
+// One of the two exceptions from "the same picture everywhere" in docs/architecture.md.
+TEST_CASE("The SPU's rounding picks one or the other of two surfaces in one place") {
+  if (!has_machine_code()) return;
+  const Scene scene = parse_string(R"(
+    camera { location <0, 3, -9> look_at 0 angle 48 }
+    #default { finish { ambient 1 diffuse 0 } }
+    triangle { <-9, 0, -9>, <9, 0, -9>, <0, 0, 9> pigment { color rgb x } }
+    triangle { <-8, 0, -8>, <8, 0, -9>, <1, 0, 9> pigment { color rgb y } })");
+  const Image expected = native_picture(scene), picture = render(scene, simulated(2)).image;
+  const auto pixel = [](const Image& image, std::size_t i) {
+    return std::array{image.rgba[4 * i], image.rgba[4 * i + 1], image.rgba[4 * i + 2]};
+  };
+  std::set<std::array<std::uint8_t, 3>> colours;
+  const std::size_t pixels = picture.rgba.size() / 4;
+  for (std::size_t i = 0; i < pixels; ++i)
+    colours.insert(pixel(expected, i));
+  REQUIRE(colours.size() == 3); // of both triangles and the background
+  std::size_t others = 0;
+  for (std::size_t i = 0; i < pixels; ++i) {
+    CHECK(colours.count(pixel(picture, i)) == 1);
+    others += pixel(picture, i) != pixel(expected, i);
+  }
+  CHECK(others > pixels / 20);
+  CHECK(others < pixels / 3);
 }
 
 TEST_CASE("Runs of machine code repeat to the last cycle") {

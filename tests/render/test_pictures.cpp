@@ -9,6 +9,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+
 using namespace celltrace;
 using namespace celltrace::test;
 
@@ -119,6 +121,35 @@ TEST_CASE("Triangles of one plane that overlap look the same everywhere") {
       options.accelerator = accelerator;
       CHECK(render(scene, options).image == expected);
     }
+}
+
+// The other exception from "the same picture everywhere" in docs/architecture.md; the SPU's rounding is the
+// one of the pictures of machine code.
+TEST_CASE("Bundled shadow rays see what single ones do, but for the sides of triangles") {
+  Scene scene = scene_named("meshes");
+  const Object ball = mesh_object(ball_mesh(40), 0, 0);
+  for (int i = 0; i < 12; ++i) {
+    scene.objects.push_back(ball);
+    scene.objects.back().transform =
+        Transform::scale({0.5, 0.5, 0.5})
+            .then(Transform::rotate({37.0 * i, 11.0 * i, 5.0 * i}))
+            .then(Transform::translate({0.8 * (i % 4) - 1.2, 0.7 * (i / 4) - 0.6, -1 + 0.1 * i}));
+  }
+  const std::vector<Backend> all = backends();
+  const auto packets = std::find_if(all.begin(), all.end(),
+                                    [](const Backend& backend) { return backend.backend == "cell_emu"; });
+  REQUIRE(packets != all.end());
+  const Image expected = render_on(*packets, 2, scene);
+  for (const Backend& backend : all) {
+    INFO(backend.spu());
+    const Image picture = render_on(backend, 2, scene);
+    std::size_t others = 0;
+    for (std::size_t i = 0; i < picture.rgba.size(); i += 4)
+      others += !std::equal(picture.rgba.begin() + static_cast<std::ptrdiff_t>(i),
+                            picture.rgba.begin() + static_cast<std::ptrdiff_t>(i + 4),
+                            expected.rgba.begin() + static_cast<std::ptrdiff_t>(i));
+    CHECK(others <= 2);
+  }
 }
 
 namespace {
