@@ -150,14 +150,23 @@ template <class Uncounted> struct CountingSimd {
     }
   };
 
-  /// Of each lane a load and a rotation, besides having its address.
-  static F gather(const float* table, const I& index) {
-    count_packet({.fx3 = 1, .ls = 4, .shuf = 10});
-    return F([&] { return Uncounted::gather(table, index.value); });
-  }
-  static I gather(const std::uint16_t* table, const I& index) {
-    count_packet({.fx2 = 1, .fx3 = 1, .ls = 4, .shuf = 10});
-    return {Uncounted::gather(table, index.value)};
+  /// Of each lane and row a load and a rotation for its start, its factors' load, and for each channel
+  /// another load and a shuffle, besides the sums. Transposing the factors and the sums is shuffles.
+  template <std::uint32_t kRows, std::uint32_t kChannels, class StartsOf>
+  static void sum_rows(const float* table, const StartsOf& starts_of, const F (&factors)[kRows][4],
+                       F (&sums)[kChannels]) {
+    constexpr std::uint32_t kPairs = 4 * kRows;
+    count_packet({.fx2 = kPairs,
+                  .fp6 = kPairs * kChannels + 3 * kChannels,
+                  .ls = kPairs * (3 + kChannels) + 4 * kRows,
+                  .shuf = kPairs * (2 + kChannels) + 8 * kRows + 8 * kChannels});
+    typename Uncounted::F plain_factors[kRows][4], plain_sums[kChannels];
+    for (std::uint32_t row = 0; row < kRows; ++row)
+      for (std::uint32_t i = 0; i < 4; ++i)
+        plain_factors[row][i] = factors[row][i].value;
+    Uncounted::sum_rows(table, starts_of, plain_factors, plain_sums);
+    for (std::uint32_t channel = 0; channel < kChannels; ++channel)
+      sums[channel].value = plain_sums[channel];
   }
 
   static F min(const F& a, const F& b) {

@@ -66,10 +66,42 @@ struct QuadSimd {
     numbers.quad[first / kLanes] = part.quad;
   }
 
-  static F gather(const float* table, const I& index) {
-    return (vec_float4)Simd::gather_floats(table, index.quad);
+  template <uint32_t kRows, uint32_t kChannels, class StartsOf>
+  static void sum_rows(const float* table, const StartsOf& starts_of, const F (&factors)[kRows][4],
+                       F (&sums)[kChannels]) {
+    uint32_t starts[kLanes][kRows];
+    for (uint32_t lane = 0; lane < kLanes; ++lane)
+      starts_of(lane, starts[lane]);
+    vec_float4 totals[kChannels][kLanes];
+    for (uint32_t i = 0; i < kChannels * kLanes; ++i)
+      totals[i / kLanes][i % kLanes] = spu_splats(0.0f);
+    for (uint32_t row = 0; row < kRows; ++row) {
+      vec_float4 four[kLanes];
+      for (uint32_t i = 0; i < 4; ++i)
+        four[i] = factors[row][i].quad;
+      Simd::transpose(four[0], four[1], four[2], four[3]);
+      for (uint32_t lane = 0; lane < kLanes; ++lane) {
+        // A row lies across one quadword more than it has channels.
+        const float* const numbers = table + starts[lane][row];
+        const qword address = si_from_ptr(numbers);
+        const vec_uchar16 bytes = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+        const vec_uint4 offset = spu_splats(static_cast<unsigned>(si_to_uint(address) & 15) * 0x01010101u);
+        const vec_uchar16 pattern = (vec_uchar16)spu_add((vec_uint4)bytes, offset);
+        vec_float4 quad = (vec_float4)si_lqd(address, 0);
+        for (uint32_t channel = 0; channel < kChannels; ++channel) {
+          const vec_float4 next = *reinterpret_cast<const vec_float4*>(numbers + 4 * (channel + 1));
+          totals[channel][lane] =
+              spu_madd(spu_shuffle(quad, next, pattern), four[lane], totals[channel][lane]);
+          quad = next;
+        }
+      }
+    }
+    for (uint32_t channel = 0; channel < kChannels; ++channel) {
+      vec_float4(&four)[kLanes] = totals[channel];
+      Simd::transpose(four[0], four[1], four[2], four[3]);
+      sums[channel] = spu_add(spu_add(four[0], four[1]), spu_add(four[2], four[3]));
+    }
   }
-  static I gather(const uint16_t* table, const I& index) { return {Simd::gather_halves(table, index.quad)}; }
 
   static F min(const F& a, const F& b) { return spu_sel(a.quad, b.quad, spu_cmpgt(a.quad, b.quad)); }
   static F max(const F& a, const F& b) { return spu_sel(b.quad, a.quad, spu_cmpgt(a.quad, b.quad)); }

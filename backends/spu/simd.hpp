@@ -208,34 +208,6 @@ struct Simd {
     return spu_shuffle(spu_shuffle(quad_of(0), quad_of(1), first_two),
                        spu_shuffle(quad_of(2), quad_of(3), first_two), halves);
   }
-  // Not inlined: local store is short.
-  [[gnu::noinline]] static vec_int4 gather_floats(const float* table, vec_int4 index) {
-    const vec_int4 at = spu_sl(index, 2u);
-    return join_words([&](int lane) {
-      const int address = spu_extract(at, lane) + si_to_int(si_from_ptr(table));
-      const qword quad = si_lqd(si_from_int(address), 0);
-      return (vec_int4)si_rotqby(quad, si_from_int(address));
-    });
-  }
-  [[gnu::noinline]] static vec_int4 gather_halves(const uint16_t* table, vec_int4 index) {
-    const vec_int4 at = spu_add(index, index);
-    const vec_int4 words = join_words([&](int lane) {
-      // The number becomes the lower half of the first word.
-      const int address = spu_extract(at, lane) + si_to_int(si_from_ptr(table));
-      const qword quad = si_lqd(si_from_int(address), 0);
-      return (vec_int4)si_rotqby(quad, si_from_int(address - 2));
-    });
-    return spu_and(words, 0xFFFF);
-  }
-  static F gather(const float* table, const I& index) {
-    F r;
-    for (int q = 0; q < kQuads; ++q)
-      r.quad[q] = (vec_float4)gather_floats(table, index.quad[q]);
-    return r;
-  }
-  static I gather(const uint16_t* table, const I& index) {
-    return I::map(index, [&](vec_int4 four) { return gather_halves(table, four); });
-  }
 
   static F min(const F& a, const F& b) {
     return F::zip(a, b, [](vec_float4 x, vec_float4 y) { return spu_sel(x, y, spu_cmpgt(x, y)); });
@@ -297,20 +269,20 @@ struct Simd {
   static F join(const F4& a, const F4& b, const F4& c, const F4& d) {
     return F(a.lanes, b.lanes, c.lanes, d.lanes);
   }
-  static void transpose_quads(F& a, F& b, F& c, F& d) {
+  static void transpose(vec_float4& a, vec_float4& b, vec_float4& c, vec_float4& d) {
     const vec_uchar16 low = {0, 1, 2, 3, 16, 17, 18, 19, 4, 5, 6, 7, 20, 21, 22, 23};
     const vec_uchar16 high = {8, 9, 10, 11, 24, 25, 26, 27, 12, 13, 14, 15, 28, 29, 30, 31};
-    for (int q = 0; q < kQuads; ++q) {
-      // Numbers of every other row come to lie side by side, twice.
-      const vec_float4 ac_low = spu_shuffle(a.quad[q], c.quad[q], low);
-      const vec_float4 ac_high = spu_shuffle(a.quad[q], c.quad[q], high);
-      const vec_float4 bd_low = spu_shuffle(b.quad[q], d.quad[q], low);
-      const vec_float4 bd_high = spu_shuffle(b.quad[q], d.quad[q], high);
-      a.quad[q] = spu_shuffle(ac_low, bd_low, low);
-      b.quad[q] = spu_shuffle(ac_low, bd_low, high);
-      c.quad[q] = spu_shuffle(ac_high, bd_high, low);
-      d.quad[q] = spu_shuffle(ac_high, bd_high, high);
-    }
+    // Numbers of every other row come to lie side by side, twice.
+    const vec_float4 ac_low = spu_shuffle(a, c, low), ac_high = spu_shuffle(a, c, high);
+    const vec_float4 bd_low = spu_shuffle(b, d, low), bd_high = spu_shuffle(b, d, high);
+    a = spu_shuffle(ac_low, bd_low, low);
+    b = spu_shuffle(ac_low, bd_low, high);
+    c = spu_shuffle(ac_high, bd_high, low);
+    d = spu_shuffle(ac_high, bd_high, high);
+  }
+  static void transpose_quads(F& a, F& b, F& c, F& d) {
+    for (int q = 0; q < kQuads; ++q)
+      transpose(a.quad[q], b.quad[q], c.quad[q], d.quad[q]);
   }
   static void extremes(const F& a, float& least, float& greatest) {
     const auto pick = [](const vec_float4& x, const vec_float4& y, bool wants_greater) {

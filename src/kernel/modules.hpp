@@ -12,9 +12,9 @@ namespace celltrace::kernel::modules {
 
 /// Intersections with the shapes that are no spheres, triangles and planes, but for heavy ones, and what is
 /// inside of shapes, which CSG asks.
-constexpr CodeModule kShapes = {"shapes", 1, 0, 12544};
+constexpr CodeModule kShapes = {"shapes", 1, 0, 12800};
 /// Intersections with heavy shapes.
-constexpr CodeModule kHeavyShapes = {"heavy", 4, 0, 6656};
+constexpr CodeModule kHeavyShapes = {"heavy", 4, 0, 3328};
 /// Where hits lie on objects, and the normals there.
 constexpr CodeModule kHits = {"hits", 5, 0, 6912};
 /// What a program does once a frame or once for many: it makes its objects, and reports.
@@ -23,7 +23,7 @@ constexpr CodeModule kStart = {"start", 3, 0, 8192};
 constexpr CodeModule kBuild = {"build", 16, 0, 25600};
 /// Patterns without noise, and those of noise with its tables.
 constexpr CodeModule kPatterns = {"patterns", 7, 0, 3712};
-constexpr CodeModule kNoise = {"noise", 8, 0, 13952};
+constexpr CodeModule kNoise = {"noise", 8, 0, 13696};
 
 // Of the second region: what shades, and asks patterns.
 
@@ -36,7 +36,7 @@ constexpr CodeModule kAreas = {"areas", 15, 1, 9088};
 /// The rays of cameras whose pictures are not flat.
 constexpr CodeModule kCameras = {"cameras", 10, 1, 6656};
 /// Pigments and normals, but for the patterns themselves.
-constexpr CodeModule kTextures = {"textures", 9, 1, 8448};
+constexpr CodeModule kTextures = {"textures", 9, 1, 8320};
 constexpr CodeModule kNormals = {"normals", 11, 1, 5504};
 
 // Of the third region: stages of which only one is under way. Rays are not traced while surfaces are shaded.

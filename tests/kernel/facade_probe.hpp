@@ -19,6 +19,7 @@ struct alignas(128) FacadeBlock {
   float least[16], most[16], magnitude[16], root[16], chosen[16];
   float splat[16], from_int[16], reinterpreted[16], joined[16];
   float transposed[4][16];
+  float row_sums[2][16], equal_row_sums[2][16];
   int32_t int_sum[16], int_difference[16], int_and[16], int_or[16], int_chosen[16];
   int32_t to_int[16], bits[16], left_1[16], left_23[16], right_1[16], right_23[16], int_splat[16];
   int32_t of_line[16];
@@ -108,6 +109,34 @@ template <class S> void apply_facade(FacadeBlock& x) {
   x.u4_equal_self = equal_bits(p, p);
 }
 
+/// Where the rows of each lane start in the 32 numbers a and b, or those of lane 0 for all.
+struct RowStarts {
+  const int32_t* of_lane;
+  bool equal;
+
+  bool are_equal() const { return equal; }
+  void operator()(uint32_t lane, uint32_t (&starts)[2]) const {
+    const uint32_t start = static_cast<uint32_t>(of_lane[equal ? 0 : lane]) & 15;
+    starts[0] = start;
+    starts[1] = (start * 7 + 3) & 15;
+  }
+};
+
+template <class S> void apply_rare_facade(FacadeBlock& x) {
+  using F = typename S::F;
+  for (uint32_t first = 0; first < kSimdLanes; first += S::kLanes) {
+    const F a = F::load(x.a + first), b = F::load(x.b + first);
+    const F factors[2][4] = {{a, b, a + b, F(2.0f)}, {b, F(-3.0f), a - b, a}};
+    F sums[2];
+    S::sum_rows(x.a, RowStarts{x.i + first, false}, factors, sums);
+    for (uint32_t channel = 0; channel < 2; ++channel)
+      sums[channel].store(x.row_sums[channel] + first);
+    S::sum_rows(x.a, RowStarts{x.i, true}, factors, sums);
+    for (uint32_t channel = 0; channel < 2; ++channel)
+      sums[channel].store(x.equal_row_sums[channel] + first);
+  }
+}
+
 template <class Spu> void facade(Spu& spu, ea_t argument) {
   FacadeTask* task = spu.template allocate<FacadeTask>();
   FacadeBlock* block = spu.template allocate<FacadeBlock>();
@@ -118,6 +147,7 @@ template <class Spu> void facade(Spu& spu, ea_t argument) {
     spu.get(block, at, sizeof *block, 0);
     spu.wait_all(1);
     apply_facade<typename Spu::simd>(*block);
+    apply_rare_facade<typename Spu::rare_simd>(*block);
     spu.put(block, at, sizeof *block, 0);
     spu.wait_all(1);
   }

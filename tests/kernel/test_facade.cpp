@@ -108,6 +108,26 @@ void check_floats(const FacadeBlock& x) {
     }));
 }
 
+void check_row_sums(const FacadeBlock& x) {
+  const auto sum = [&](int channel, int l, int lane_of_starts) {
+    std::uint32_t starts[2];
+    RowStarts{x.i, false}(static_cast<std::uint32_t>(lane_of_starts), starts);
+    const float a = x.a[l], b = x.b[l];
+    const float factors[2][4] = {{a, b, a + b, 2.0f}, {b, -3.0f, a - b, a}};
+    const auto number = [&](std::uint32_t at) { return at < 16 ? x.a[at] : x.b[at - 16]; };
+    float four[4];
+    for (unsigned k = 0; k < 4; ++k) {
+      const std::uint32_t at = 4 * static_cast<unsigned>(channel) + k;
+      four[k] = number(starts[0] + at) * factors[0][k] + number(starts[1] + at) * factors[1][k];
+    }
+    return (four[0] + four[1]) + (four[2] + four[3]);
+  };
+  for (int channel = 0; channel < 2; ++channel) {
+    CHECK(same_floats(x.row_sums[channel], [&](int l) { return sum(channel, l, l); }));
+    CHECK(same_floats(x.equal_row_sums[channel], [&](int l) { return sum(channel, l, 0); }));
+  }
+}
+
 void check_ints(const FacadeBlock& x) {
   CHECK(same_ints(x.int_sum, [&](int l) { return word(x.i[l]) + word(x.j[l]); }));
   CHECK(same_ints(x.int_difference, [&](int l) { return word(x.i[l]) - word(x.j[l]); }));
@@ -167,6 +187,7 @@ TEST_CASE("The SIMD facade computes on every SPU type what plain C++ does") {
     INFO(machine->spu_key());
     for (const FacadeBlock& x : blocks) {
       check_floats(x);
+      check_row_sums(x);
       check_ints(x);
       check_masks(x);
       check_quadwords(x);

@@ -183,8 +183,16 @@ TEST_CASE("Packets see the triangles that their rays to a light cross, and cross
 TEST_CASE("Light comes to a bundle as it comes to its packets") {
   Random random(122);
   int dark = 0, bright = 0;
-  for (const Scene& scene :
-       {soup(40, {0, 0, 400}, 10, 1), soup(41, {60, 60, 60}, 10, 1), soup(42, {0, 0, 30}, 10, 4)})
+  // An opaque plane leaves some packets without rays, and a translucent one dims others.
+  Scene with_planes = soup(43, {0, 0, 400}, 10, 1);
+  with_planes.objects.push_back(with_planes.objects.front());
+  with_planes.objects.back().shape = Plane{{1, 2, 0}, -5};
+  with_planes.objects.back().material = 0;
+  with_planes.objects.push_back(with_planes.objects.back());
+  with_planes.objects.back().shape = Plane{{0, 0, 1}, 7};
+  with_planes.objects.back().material = 5;
+  for (const Scene& scene : {soup(40, {0, 0, 400}, 10, 1), soup(41, {60, 60, 60}, 10, 1),
+                             soup(42, {0, 0, 30}, 10, 4), with_planes})
     for (const bool wide_leaves : {false, true}) {
       PreparedScene prepared(scene);
       prepared.use_bvh(wide_leaves, !wide_leaves);

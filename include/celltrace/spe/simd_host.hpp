@@ -9,6 +9,8 @@
 
 #include <stdint.h>
 
+#include <utility>
+
 #include <xsimd/xsimd.hpp>
 
 namespace celltrace {
@@ -110,21 +112,10 @@ template <class Batch> void transpose_quads(Batch& a, Batch& b, Batch& c, Batch&
   d = zip_high(ac_high, bd_high);
 }
 
-/// The 16-bit numbers at some places of a table, which goes on for 2 bytes behind the last of them.
-template <class Batch> Batch gather_halves(const uint16_t* table, const Batch& index) {
-  const Batch low(0xFFFF);
-#if defined(__AVX512F__)
-  if constexpr (Batch::size == 16) return Batch(_mm512_i32gather_epi32(index, table, 2)) & low;
-#endif
-#if defined(__AVX2__)
-  if constexpr (Batch::size == 8)
-    return Batch(_mm256_i32gather_epi32(reinterpret_cast<const int*>(table), index, 2)) & low;
-#endif
-  alignas(64) int32_t lanes[Batch::size];
-  index.store_aligned(lanes);
-  for (int32_t& lane : lanes)
-    lane = table[lane];
-  return Batch::load_aligned(lanes);
+/// Calls `body` with each of the numbers, without a loop: what it keeps in arrays stays in registers.
+template <std::size_t... i, class Body>
+[[gnu::always_inline]] inline void unroll(std::index_sequence<i...>, const Body& body) {
+  (body(i), ...);
 }
 
 } // namespace simd_host
@@ -318,19 +309,6 @@ template <class Arch> struct HostSimd {
     }
   };
 
-  static F gather(const float* table, const I& index) {
-    F r;
-    for (uint32_t i = 0; i < kParts; ++i)
-      r.part[i] = FloatBatch::gather(table, index.part[i]);
-    return r;
-  }
-  static I gather(const uint16_t* table, const I& index) {
-    I r;
-    for (uint32_t i = 0; i < kParts; ++i)
-      r.part[i] = simd_host::gather_halves(table, index.part[i]);
-    return r;
-  }
-
   static F min(const F& a, const F& b) {
     return F::zip(a, b, [](auto x, auto y) { return xsimd::min(x, y); });
   }
@@ -425,6 +403,64 @@ template <class Arch> struct HostSimd {
   static void transpose_quads(F& a, F& b, F& c, F& d) {
     for (uint32_t i = 0; i < kParts; ++i)
       simd_host::transpose_quads(a.part[i], b.part[i], c.part[i], d.part[i]);
+  }
+  /// Where the rows of all lanes are the same; the same operations in the same order.
+  template <uint32_t kRows, uint32_t kChannels, class StartsOf>
+  [[gnu::always_inline]] static void sum_equal_rows(const float* table, const StartsOf& starts_of,
+                                                    const F (&factors)[kRows][4], F (&sums)[kChannels]) {
+    uint32_t starts[kRows];
+    starts_of(0, starts);
+    for (uint32_t channel = 0; channel < kChannels; ++channel) {
+      F four[4];
+      simd_host::unroll(
+          std::make_index_sequence<kRows>(), [&](std::size_t row) __attribute__((always_inline)) {
+            for (uint32_t i = 0; i < 4; ++i) {
+              const F product = F(table[starts[row] + 4 * channel + i]) * factors[row][i];
+              four[i] = row == 0 ? product : four[i] + product;
+            }
+          });
+      sums[channel] = (four[0] + four[1]) + (four[2] + four[3]);
+    }
+  }
+  /// Lane by lane, as a row is one unaligned load a channel: gathering its numbers takes a load for each.
+  template <uint32_t kRows, uint32_t kChannels, class StartsOf>
+  [[gnu::always_inline]] static void sum_rows(const float* table, const StartsOf& starts_of,
+                                              const F (&factors)[kRows][4], F (&sums)[kChannels]) {
+    if (starts_of.are_equal()) return sum_equal_rows(table, starts_of, factors, sums);
+    // The four factors of lane 4q + i are side by side at [i][4q].
+    alignas(64) float factors_of[kRows][4][kSimdLanes];
+    for (uint32_t row = 0; row < kRows; ++row) {
+      F four[4] = {factors[row][0], factors[row][1], factors[row][2], factors[row][3]};
+      transpose_quads(four[0], four[1], four[2], four[3]);
+      for (uint32_t i = 0; i < 4; ++i)
+        four[i].store(factors_of[row][i]);
+    }
+    F totals[kChannels][4];
+    for (uint32_t i = 0; i < 4; ++i) {
+      F4 total[kChannels][4];
+      for (uint32_t quad = 0; quad < 4; ++quad) {
+        uint32_t starts[kRows];
+        starts_of(4 * quad + i, starts);
+        F4 sum[kChannels];
+        simd_host::unroll(
+            std::make_index_sequence<kRows>(), [&](std::size_t row) __attribute__((always_inline)) {
+              const F4 four = F4::load(factors_of[row][i] + 4 * quad);
+              for (uint32_t channel = 0; channel < kChannels; ++channel) {
+                const F4 product = F4{F4::Batch::load_unaligned(table + starts[row] + 4 * channel)} * four;
+                sum[channel] = row == 0 ? product : sum[channel] + product;
+              }
+            });
+        for (uint32_t channel = 0; channel < kChannels; ++channel)
+          total[channel][quad] = sum[channel];
+      }
+      for (uint32_t channel = 0; channel < kChannels; ++channel)
+        totals[channel][i] = join(total[channel][0], total[channel][1], total[channel][2], total[channel][3]);
+    }
+    for (uint32_t channel = 0; channel < kChannels; ++channel) {
+      F(&four)[4] = totals[channel];
+      transpose_quads(four[0], four[1], four[2], four[3]);
+      sums[channel] = (four[0] + four[1]) + (four[2] + four[3]);
+    }
   }
   static F4 min(const F4& a, const F4& b) {
     return {xsimd::min(a.lanes, b.lanes)};

@@ -55,12 +55,14 @@ public:
     clear_occluded(queries, count);
   }
 
-  /// The same for shadow rays toward one light, at the point `light`.
+  /// The same for shadow rays toward one light, at the point `light`. May change the order of the queries.
   void intersect(RayQuery* queries, uint32_t count, const float (&light)[3]) {
     if constexpr (kHasBundleViews<Spu> && kHasBvh) {
-      // Planes may leave packets without rays, which a bundle cannot have.
-      if (uses_bvh() && frame_.unbounded_count == 0) {
-        bvh_.intersect(queries, count, light);
+      if (uses_bvh()) {
+        intersect_unbounded(queries, count);
+        // Planes may leave packets without rays, which a bundle cannot have.
+        const uint32_t with_rays = frame_.unbounded_count == 0 ? count : queries_with_rays(queries, count);
+        if (with_rays != 0) bvh_.intersect(queries, with_rays, light);
         return clear_occluded(queries, count);
       }
     }
@@ -97,6 +99,18 @@ private:
       else
         query.lanes = grid_.transmittance(*query.rays, query.lanes, *query.distance, *query.light);
     }
+  }
+
+  /// Moves queries that have rays in front of those that have none; returns how many they are.
+  static uint32_t queries_with_rays(RayQuery* queries, uint32_t count) {
+    uint32_t with_rays = 0;
+    for (uint32_t i = 0; i < count; ++i) {
+      if (queries[i].lanes == 0) continue;
+      const RayQuery query = queries[i];
+      queries[i] = queries[with_rays];
+      queries[with_rays++] = query;
+    }
+    return with_rays;
   }
 
   static void reset_hits(const RayQuery* queries, uint32_t count) {

@@ -26,10 +26,11 @@ template <class S> struct Crossings {
 /// No shape has more pairs of crossings: a torus has four crossings.
 constexpr uint32_t kMaxCrossingPairs = 2;
 
-/// The rays that start on an object.
-template <class S> typename S::M lanes_that_start_on(const RayPacket& rays, uint32_t self) {
+/// The rays that start on an object, of as many lanes as S has, from `first` on.
+template <class S>
+typename S::M lanes_that_start_on(const RayPacket& rays, uint32_t self, uint32_t first = 0) {
   using I = typename S::I;
-  return I::load(reinterpret_cast<const int32_t*>(rays.start_object.lane)) ==
+  return I::load(reinterpret_cast<const int32_t*>(rays.start_object.lane + first)) ==
          I::splat(static_cast<int32_t>(self));
 }
 

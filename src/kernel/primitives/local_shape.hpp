@@ -153,11 +153,14 @@ template <class S> LocalParameters<S> local_parameters(const ObjectRecord& objec
   return {typename S::F(extra.value[0]), open ? S::M::all() : S::M::none()};
 }
 
-/// A packet's rays in the space of an object, whose offset is `self`.
-template <class S> LocalRays<S> local_rays(const RayPacket& rays, const ObjectRecord& object, uint32_t self) {
-  return {to_local<S>(object.geometry, rays.origin.template load<S>(), 1.0f),
-          to_local<S>(object.geometry, rays.direction.template load<S>(), 0.0f),
-          lanes_that_start_on<S>(rays, self)};
+/// A packet's rays in the space of an object, whose offset is `self`: as many as S has lanes, from `first`
+/// on.
+template <class S>
+LocalRays<S> local_rays(const RayPacket& rays, const ObjectRecord& object, uint32_t self,
+                        uint32_t first = 0) {
+  return {to_local<S>(object.geometry, rays.origin.template load_from<S>(first), 1.0f),
+          to_local<S>(object.geometry, rays.direction.template load_from<S>(first), 0.0f),
+          lanes_that_start_on<S>(rays, self, first)};
 }
 
 /// What a shape in a space of its own is to the rest of the kernel.

@@ -50,19 +50,42 @@ constexpr bool is_heavy(uint32_t kind) {
 
 namespace module_heavy {
 
-/// As module_shapes::intersect(), of heavy shapes.
+/// As module_shapes::intersect(), of heavy shapes, which take so many lanes at a time as rare code does.
 template <class Spu>
 [[gnu::noinline]] uint32_t intersect(Spu& spu, const RayPacket& rays, const ObjectRecord& object,
                                      const ExtraRecord& extra, uint32_t self,
                                      Crossings<typename Spu::simd>* crossings) {
+  using R = typename Spu::rare_simd;
   spu.run_in_module(modules::kHeavyShapes);
   uint32_t pairs = 0;
-  Primitives::dispatch(object.kind_and_flags & object_flag::kind_mask, [&](auto shape) {
-    using Shape = decltype(shape);
-    pairs = Shape::kCrossingPairs;
-    if constexpr (Shape::kIsHeavy)
-      Shape::template intersect<typename Spu::simd>(rays, object, extra, self, crossings);
-  });
+  const auto intersect_part = [&](const auto& local, const auto& parameters, auto* of_part) {
+    Primitives::dispatch(object.kind_and_flags & object_flag::kind_mask, [&](auto shape) {
+      using Shape = decltype(shape);
+      pairs = Shape::kCrossingPairs;
+      if constexpr (Shape::kIsHeavy) Shape::template intersect_local<R>(local, parameters, of_part);
+    });
+  };
+  if constexpr (kOnePart<Spu>) {
+    intersect_part(local_rays<R>(rays, object, self), local_parameters<R>(object, extra), crossings);
+  } else {
+    uint32_t near_hit[kMaxCrossingPairs] = {}, far_hit[kMaxCrossingPairs] = {};
+    for (uint32_t pair = 0; pair < kMaxCrossingPairs; ++pair)
+      crossings[pair] = Crossings<typename Spu::simd>::none();
+    for_each_part<Spu>([&](uint32_t first) {
+      Crossings<R> part[kMaxCrossingPairs];
+      intersect_part(local_rays<R>(rays, object, self, first), local_parameters<R>(object, extra), part);
+      for (uint32_t pair = 0; pair < pairs; ++pair) {
+        set_part<Spu>(crossings[pair].near, first, part[pair].near);
+        set_part<Spu>(crossings[pair].far, first, part[pair].far);
+        near_hit[pair] |= part[pair].near_hit.bits() << first;
+        far_hit[pair] |= part[pair].far_hit.bits() << first;
+      }
+    });
+    for (uint32_t pair = 0; pair < pairs; ++pair) {
+      crossings[pair].near_hit = Spu::simd::M::from_bits(near_hit[pair]);
+      crossings[pair].far_hit = Spu::simd::M::from_bits(far_hit[pair]);
+    }
+  }
   return pairs;
 }
 

@@ -33,11 +33,27 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
     f.r = g * g - four * (o.x * o.x + o.y * o.y);
     const F outer = one + parameters.ratio;
     const F left = outer * outer - square;
-    const auto near_enough = left > zero;
     // A little farther, where the ray is outside for certain.
     const F end = S::sqrt(S::max(left, zero)) * F(1.001f) + F(1e-4f);
+    // Rays that miss the torus: where they are in its ball and as near to its plane as its tube, they are
+    // behind the start, or do not leave the hole.
+    const F slack(1e-4f), height = parameters.ratio * F(1.001f) + slack;
+    const SlabInterval<S> slab(o.z, d.z, -height, height);
+    const F enter = S::max(slab.enter, -end), leave = S::min(slab.leave, end);
+    const F hole = S::max((one - parameters.ratio) * F(0.999f) - slack, zero);
+    const auto in_hole = [&](const F& t) {
+      const F x = o.x + d.x * t, y = o.y + d.y * t;
+      return x * x + y * y < hole * hole;
+    };
+    const auto near_enough =
+        (left > zero) & (enter <= leave) & (leave + shift >= zero) & !(in_hole(enter) & in_hole(leave));
+    if (near_enough.bits() == 0) {
+      for (uint32_t pair = 0; pair < kCrossingPairs; ++pair)
+        crossings[pair] = Crossings<S>::none();
+      return;
+    }
     F bounds[5] = {-end, zero, zero, zero, end};
-    f.stationary_points(bounds[1], bounds[2], bounds[3]);
+    f.stationary_points(near_enough, bounds[1], bounds[2], bounds[3]);
     for (int i = 1; i < 4; ++i)
       bounds[i] = S::min(S::max(bounds[i], -end), end);
     const F inverse_scale = one / scale;
@@ -47,15 +63,20 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
         rays.starts_here.bits() != 0 ? go_inward<TorusPrimitive, S>(rays, parameters) : S::M::none();
     auto starts = rays.starts_here;
     F distance[4];
-    typename S::M hit[4];
+    typename S::M hit[4] = {S::M::none(), S::M::none(), S::M::none(), S::M::none()};
     F value = f.at(bounds[0]);
     for (int i = 0; i < 4; ++i) {
       const F next = f.at(bounds[i + 1]);
-      const auto enters = (value > zero) & (next <= zero), leaves = (value <= zero) & (next > zero);
-      distance[i] = (f.root_between(bounds[i], bounds[i + 1], value > zero) + shift) * inverse_scale;
-      const auto first = (distance[i] > zero) & ((inward & leaves) | (enters & !inward));
-      hit[i] = near_enough & (enters | leaves) & !(starts & !first);
-      starts = starts & !hit[i];
+      const auto falls = value > zero;
+      const auto enters = falls & (next <= zero), leaves = (next > zero) & !falls;
+      const auto crosses = near_enough & (enters | leaves);
+      distance[i] = zero;
+      if (crosses.bits() != 0) {
+        distance[i] = (f.root_between(bounds[i], bounds[i + 1], falls, crosses) + shift) * inverse_scale;
+        const auto first = (distance[i] > zero) & ((inward & leaves) | (enters & !inward));
+        hit[i] = crosses & !(starts & !first);
+        starts = starts & !hit[i];
+      }
       value = next;
     }
     for (uint32_t pair = 0; pair < kCrossingPairs; ++pair) {
@@ -84,6 +105,9 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
   static LocalBounds local_bounds(float ratio) { return {-ratio, ratio, 1.0f + ratio, false}; }
 
 private:
+  /// Newton's method ends where it moves less than this: the next step would be in the order of its square.
+  static constexpr float kConverged = 1e-5f;
+
   /// t^4 + p t^2 + q t + r.
   template <class S> struct Quartic {
     using F = typename S::F;
@@ -95,17 +119,20 @@ private:
     }
     F slope(const F& t) const { return (F(4.0f) * t * t + F(2.0f) * p) * t + q; }
 
-    /// In rising order; where there is only one, all are that.
-    void stationary_points(F& a, F& b, F& c) const {
+    /// Of the rays `wanted`, in rising order; where there is only one, all are that.
+    void stationary_points(typename S::M wanted, F& a, F& b, F& c) const {
       // x^3 + (p/2) x - |q|/4 is convex for x > 0 and has its greatest zero there: Newton's method comes down
-      // to it. No torus reaches farther than 2 from its centre.
+      // to it from any bound. No torus reaches farther than 2 from its centre.
       const F half(0.5f), zero(0.0f);
       const F linear = p * half, constant = S::abs(q) * F(0.25f);
       F x(2.5f);
-      for (int i = 0; i < 9; ++i) {
+      for (int i = 0; i < 9 && wanted.bits() != 0; ++i) {
         const F square = x * x;
         const F slope = S::max(F(3.0f) * square + linear, F(1e-6f));
-        x = S::max(x - (square * x + linear * x - constant) / slope, zero);
+        const F next = S::max(x - (square * x + linear * x - constant) / slope, zero);
+        const auto moves = S::abs(next - x) > F(kConverged);
+        x = S::select(wanted, next, x);
+        wanted = wanted & moves;
       }
       const F greatest = S::select(q < zero, x, -x);
       // The others are zeros of t^2 + greatest t + (greatest^2 + p/2).
@@ -119,19 +146,22 @@ private:
       b = S::max(S::min(greatest, v), u);
     }
 
-    /// The zero between `low` and `high`, between which the slope has one sign; `falls`: positive at `low`.
-    F root_between(F low, F high, const typename S::M& falls) const {
-      F t = (low + high) * F(0.5f);
-      for (int i = 0; i < 10; ++i) {
-        const F value = at(t);
-        const auto behind = (value > F(0.0f)) & falls;
-        const auto before = (value <= F(0.0f)) & !falls;
-        const auto root_is_above = behind | before;
+    /// Of the rays `wanted`, the zero between `low` and `high`, between which the slope has one sign;
+    /// `falls`: positive at `low`. The result of a ray depends on no other ray.
+    F root_between(F low, F high, const typename S::M& falls, typename S::M wanted) const {
+      const F sign = S::select(falls, F(-1.0f), F(1.0f)), half(0.5f);
+      F t = (low + high) * half;
+      for (int i = 0; i < 10 && wanted.bits() != 0; ++i) {
+        const F value = at(t) * sign;
+        const auto root_is_above = value <= F(0.0f);
         low = S::select(root_is_above, t, low);
         high = S::select(root_is_above, high, t);
-        const F newton = t - value * finite_inverse<S>(slope(t));
-        const auto sane = (newton > low) & (newton < high);
-        t = S::select(sane, newton, (low + high) * F(0.5f));
+        const F newton = t - value / S::max(slope(t) * sign, F(1e-20f));
+        const auto sane = (newton >= low) & (newton <= high);
+        const F next = S::select(sane, newton, (low + high) * half);
+        const auto moves = S::abs(next - t) > F(kConverged);
+        t = S::select(wanted, next, t);
+        wanted = wanted & moves;
       }
       return t;
     }

@@ -4,18 +4,20 @@
 // The octaves, weights and tables are as measured from POV-Ray 3.7; in single precision.
 #pragma once
 
+#include "celltrace/spe/simd.hpp"
 #include "kernel/math.hpp"
 #include "kernel/records.hpp"
 #include "kernel/textures/noise_tables.hpp"
 
 namespace celltrace::kernel::noise {
 
-/// The cells that sixteen points are in, by axis.
+/// The lattice points around the points of all lanes.
 template <class S> struct LatticeCells {
   using F = typename S::F;
   using I = typename S::I;
-  I lattice[3][2]; ///< numbers of the lattice planes on both sides
-  F from[3][2];    ///< distance from them, signed
+  /// Numbers of the lattice planes on both sides, by axis.
+  alignas(64) int32_t lattice[3][2][S::kLanes];
+  F from[3][2]; ///< distance from them, signed
   F weight[3][2];
 
   explicit LatticeCells(const V3<S>& p) {
@@ -24,12 +26,30 @@ template <class S> struct LatticeCells {
     for (uint32_t axis = 0; axis < 3; ++axis) {
       I whole;
       const F a = fraction<S>(*coordinate[axis], whole);
-      lattice[axis][0] = (whole + I::splat(10000)) & mask;
-      lattice[axis][1] = (lattice[axis][0] + I::splat(1)) & mask;
+      const I below = (whole + I::splat(10000)) & mask;
+      below.store(lattice[axis][0]);
+      ((below + I::splat(1)) & mask).store(lattice[axis][1]);
       from[axis][0] = a;
       from[axis][1] = a - F(1.0f);
       weight[axis][1] = a * a * (F(3.0f) - a - a);
       weight[axis][0] = F(1.0f) - weight[axis][1];
+    }
+  }
+  /// Whether all points are in the same cell.
+  bool are_equal() const {
+    int32_t difference = 0;
+    for (uint32_t axis = 0; axis < 3; ++axis)
+      for (uint32_t lane = 0; lane < S::kLanes; ++lane)
+        difference |= lattice[axis][0][lane] ^ lattice[axis][0][0];
+    return difference == 0;
+  }
+  /// Where in kLattice the numbers of the eight points around a lane are: in the order of z, x, y.
+  void operator()(uint32_t lane, uint32_t (&starts)[8]) const {
+    for (uint32_t column = 0; column < 4; ++column) {
+      const uint32_t in_row = kHash.entry[lattice[0][column & 1][lane]] ^ lattice[1][column >> 1][lane];
+      const uint32_t in_column = kHash.entry[in_row];
+      for (uint32_t z = 0; z < 2; ++z)
+        starts[2 * column + z] = kHash.entry[in_column ^ lattice[2][z][lane]] & 255;
     }
   }
 };
@@ -38,31 +58,35 @@ template <class S> struct LatticeCells {
 template <class S, uint32_t kChannels>
 [[gnu::noinline]] void add_noise(const V3<S>& p, float factor, typename S::F (&sum)[kChannels]) {
   using F = typename S::F;
-  using I = typename S::I;
   const LatticeCells<S> cells(p);
+  F factors[8][4], noise[kChannels];
   for (uint32_t column = 0; column < 4; ++column) {
     const uint32_t x = column & 1, y = column >> 1;
-    const I in_row = S::gather(kHash.entry, cells.lattice[0][x]) ^ cells.lattice[1][y];
-    const I in_column = S::gather(kHash.entry, in_row);
     const F weight = cells.weight[0][x] * cells.weight[1][y] * F(factor);
     for (uint32_t z = 0; z < 2; ++z) {
-      const I point = S::gather(kHash.entry, in_column ^ cells.lattice[2][z]) & I::splat(255);
       const F share = weight * cells.weight[2][z];
-      for (uint32_t channel = 0; channel < kChannels; ++channel) {
-        const float* const table = kLattice + 4 * channel;
-        const F value = S::gather(table, point) * F(0.5f) + S::gather(table + 1, point) * cells.from[0][x] +
-                        S::gather(table + 2, point) * cells.from[1][y] +
-                        S::gather(table + 3, point) * cells.from[2][z];
-        sum[channel] = sum[channel] + share * value;
-      }
+      F(&row)[4] = factors[2 * column + z];
+      row[0] = share * F(0.5f);
+      row[1] = share * cells.from[0][x];
+      row[2] = share * cells.from[1][y];
+      row[3] = share * cells.from[2][z];
     }
   }
+  S::sum_rows(kLattice, cells, factors, noise);
+  for (uint32_t channel = 0; channel < kChannels; ++channel)
+    sum[channel] = sum[channel] + noise[channel];
 }
+
+/// Where rare code takes fewer lanes than a packet has, local store is short: one copy of the code does for
+/// values and vectors.
+template <class S> constexpr uint32_t kValueChannels = S::kLanes < kSimdLanes ? 3 : 1;
 
 /// In 0..1. `first_generator`: as POV-Ray's generator 1 scales it, otherwise as generator 2 does.
 template <class S> typename S::F value(const V3<S>& p, bool first_generator) {
   using F = typename S::F;
-  F sum[1] = {F(0.0f)};
+  F sum[kValueChannels<S>];
+  for (F& channel : sum)
+    channel = F(0.0f);
   add_noise<S>(p, 1.0f, sum);
   const F scaled = first_generator ? sum[0] + F(0.5f) : (sum[0] + F(1.05242f)) * F(0.48985582f);
   return S::min(S::max(scaled, F(0.0f)), F(1.0f));

@@ -9,7 +9,7 @@ namespace celltrace::kernel::noise {
 constexpr uint32_t kPeriod = 4096;
 
 struct HashTable {
-  uint16_t entry[kPeriod + 1]; ///< a permutation, and what gather() may read behind it
+  uint16_t entry[kPeriod]; ///< a permutation
 };
 
 /// Shuffled from the last entry down to the first, by a linear congruential generator that begins with 0.
