@@ -153,7 +153,7 @@ template <class Uncounted> struct CountingSimd {
   /// Of each lane and row a load and a rotation for its start, its factors' load, and for each channel
   /// another load and a shuffle, besides the sums. Transposing the factors and the sums is shuffles.
   template <std::uint32_t kRows, std::uint32_t kChannels, class StartsOf>
-  static void sum_rows(const float* table, const StartsOf& starts_of, const F (&factors)[kRows][4],
+  static void sum_rows(const float* table, const StartsOf& starts_of, F (&factors)[kRows][4],
                        F (&sums)[kChannels]) {
     constexpr std::uint32_t kPairs = 4 * kRows;
     count_packet({.fx2 = kPairs,

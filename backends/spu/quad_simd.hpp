@@ -66,35 +66,41 @@ struct QuadSimd {
     numbers.quad[first / kLanes] = part.quad;
   }
 
+  /// Without a loop over the rows of a lane: an SPU executes in order, and waits for each number that it
+  /// looks up unless it has others to look up meanwhile.
   template <uint32_t kRows, uint32_t kChannels, class StartsOf>
-  static void sum_rows(const float* table, const StartsOf& starts_of, const F (&factors)[kRows][4],
+  static void sum_rows(const float* table, const StartsOf& starts_of, F (&factors)[kRows][4],
                        F (&sums)[kChannels]) {
-    uint32_t starts[kLanes][kRows];
-    for (uint32_t lane = 0; lane < kLanes; ++lane)
-      starts_of(lane, starts[lane]);
+    for (F(&four)[4] : factors)
+      Simd::transpose(four[0].quad, four[1].quad, four[2].quad, four[3].quad);
     vec_float4 totals[kChannels][kLanes];
-    for (uint32_t i = 0; i < kChannels * kLanes; ++i)
-      totals[i / kLanes][i % kLanes] = spu_splats(0.0f);
-    for (uint32_t row = 0; row < kRows; ++row) {
-      vec_float4 four[kLanes];
-      for (uint32_t i = 0; i < 4; ++i)
-        four[i] = factors[row][i].quad;
-      Simd::transpose(four[0], four[1], four[2], four[3]);
-      for (uint32_t lane = 0; lane < kLanes; ++lane) {
+    for (uint32_t lane = 0; lane < kLanes; ++lane) {
+      uint32_t starts[kRows];
+      starts_of(lane, starts);
+      vec_float4 total[kChannels];
+#pragma GCC unroll 4
+      for (uint32_t channel = 0; channel < kChannels; ++channel)
+        total[channel] = spu_splats(0.0f);
+#pragma GCC unroll 8
+      for (uint32_t row = 0; row < kRows; ++row) {
         // A row lies across one quadword more than it has channels.
-        const float* const numbers = table + starts[lane][row];
+        const float* const numbers = table + starts[row];
         const qword address = si_from_ptr(numbers);
         const vec_uchar16 bytes = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-        const vec_uint4 offset = spu_splats(static_cast<unsigned>(si_to_uint(address) & 15) * 0x01010101u);
-        const vec_uchar16 pattern = (vec_uchar16)spu_add((vec_uint4)bytes, offset);
+        const vec_uchar16 offset = spu_splats(static_cast<unsigned char>(si_to_uint(address) & 15));
+        const vec_uchar16 pattern = (vec_uchar16)spu_add((vec_uint4)bytes, (vec_uint4)offset);
         vec_float4 quad = (vec_float4)si_lqd(address, 0);
+#pragma GCC unroll 4
         for (uint32_t channel = 0; channel < kChannels; ++channel) {
           const vec_float4 next = *reinterpret_cast<const vec_float4*>(numbers + 4 * (channel + 1));
-          totals[channel][lane] =
-              spu_madd(spu_shuffle(quad, next, pattern), four[lane], totals[channel][lane]);
+          total[channel] =
+              spu_madd(spu_shuffle(quad, next, pattern), factors[row][lane].quad, total[channel]);
           quad = next;
         }
       }
+#pragma GCC unroll 4
+      for (uint32_t channel = 0; channel < kChannels; ++channel)
+        totals[channel][lane] = total[channel];
     }
     for (uint32_t channel = 0; channel < kChannels; ++channel) {
       vec_float4(&four)[kLanes] = totals[channel];
@@ -103,20 +109,42 @@ struct QuadSimd {
     }
   }
 
-  static F min(const F& a, const F& b) { return spu_sel(a.quad, b.quad, spu_cmpgt(a.quad, b.quad)); }
-  static F max(const F& a, const F& b) { return spu_sel(b.quad, a.quad, spu_cmpgt(a.quad, b.quad)); }
-  static F abs(const F& a) { return (vec_float4)spu_and((vec_uint4)a.quad, spu_splats(0x7FFFFFFFu)); }
-  static F sqrt(const F& a) { return Simd::square_root(a.quad); }
-  static F select(const M& m, const F& a, const F& b) { return spu_sel(b.quad, a.quad, m.quad); }
-  static I select(const M& m, const I& a, const I& b) { return {spu_sel(b.quad, a.quad, m.quad)}; }
-  static I to_int(const F& a) { return {spu_convts(a.quad, 0)}; }
-  static F to_float(const I& a) { return spu_convtf(a.quad, 0); }
-  static I bits_of(const F& a) { return {(vec_int4)a.quad}; }
-  static F float_of(const I& a) { return (vec_float4)a.quad; }
+  static F min(const F& a, const F& b) {
+    return spu_sel(a.quad, b.quad, spu_cmpgt(a.quad, b.quad));
+  }
+  static F max(const F& a, const F& b) {
+    return spu_sel(b.quad, a.quad, spu_cmpgt(a.quad, b.quad));
+  }
+  static F abs(const F& a) {
+    return (vec_float4)spu_and((vec_uint4)a.quad, spu_splats(0x7FFFFFFFu));
+  }
+  static F sqrt(const F& a) {
+    return Simd::square_root(a.quad);
+  }
+  static F select(const M& m, const F& a, const F& b) {
+    return spu_sel(b.quad, a.quad, m.quad);
+  }
+  static I select(const M& m, const I& a, const I& b) {
+    return {spu_sel(b.quad, a.quad, m.quad)};
+  }
+  static I to_int(const F& a) {
+    return {spu_convts(a.quad, 0)};
+  }
+  static F to_float(const I& a) {
+    return spu_convtf(a.quad, 0);
+  }
+  static I bits_of(const F& a) {
+    return {(vec_int4)a.quad};
+  }
+  static F float_of(const I& a) {
+    return (vec_float4)a.quad;
+  }
   template <int bits> static I shift_left(const I& a) {
     return {spu_sl(a.quad, static_cast<unsigned>(bits))};
   }
-  template <int bits> static I shift_right(const I& a) { return {spu_rlmaska(a.quad, -bits)}; }
+  template <int bits> static I shift_right(const I& a) {
+    return {spu_rlmaska(a.quad, -bits)};
+  }
 };
 
 } // namespace celltrace::spu

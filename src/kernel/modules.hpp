@@ -23,7 +23,7 @@ constexpr CodeModule kStart = {"start", 3, 0, 8192};
 constexpr CodeModule kBuild = {"build", 16, 0, 25600};
 /// Patterns without noise, and those of noise with its tables.
 constexpr CodeModule kPatterns = {"patterns", 7, 0, 3712};
-constexpr CodeModule kNoise = {"noise", 8, 0, 13696};
+constexpr CodeModule kNoise = {"noise", 8, 0, 14208};
 
 // Of the second region: what shades, and asks patterns.
 

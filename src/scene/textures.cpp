@@ -351,7 +351,7 @@ std::uint32_t TextureTables::add_pattern(const Pattern& pattern, const Space& ou
     r.kind_and_flags |= static_cast<std::uint32_t>(wave) << pattern_flag::wave_shift;
     const int generator = pattern.noise_generator == 0 ? scene_.noise_generator : pattern.noise_generator;
     if (generator == 1) r.kind_and_flags |= pattern_flag::first_generator;
-    if (generator == 3 && Patterns::kNeedNoise[r.kind_and_flags & pattern_flag::kind_mask])
+    if (generator == 3 && Patterns::kCode[r.kind_and_flags & pattern_flag::kind_mask] == PatternCode::noise)
       throw InputError("noise generator 3 is not supported yet");
     if (!is_still(pattern.turbulence) && is_moved_by_turbulence(pattern.kind))
       r.kind_and_flags |= pattern_flag::turbulent;

@@ -126,14 +126,15 @@ template <class S> void apply_rare_facade(FacadeBlock& x) {
   using F = typename S::F;
   for (uint32_t first = 0; first < kSimdLanes; first += S::kLanes) {
     const F a = F::load(x.a + first), b = F::load(x.b + first);
-    const F factors[2][4] = {{a, b, a + b, F(2.0f)}, {b, F(-3.0f), a - b, a}};
-    F sums[2];
-    S::sum_rows(x.a, RowStarts{x.i + first, false}, factors, sums);
-    for (uint32_t channel = 0; channel < 2; ++channel)
-      sums[channel].store(x.row_sums[channel] + first);
-    S::sum_rows(x.a, RowStarts{x.i, true}, factors, sums);
-    for (uint32_t channel = 0; channel < 2; ++channel)
-      sums[channel].store(x.equal_row_sums[channel] + first);
+    const auto sum = [&](const RowStarts& starts, float(&results)[2][16]) {
+      F factors[2][4] = {{a, b, a + b, F(2.0f)}, {b, F(-3.0f), a - b, a}};
+      F sums[2];
+      S::sum_rows(x.a, starts, factors, sums);
+      for (uint32_t channel = 0; channel < 2; ++channel)
+        sums[channel].store(results[channel] + first);
+    };
+    sum({x.i + first, false}, x.row_sums);
+    sum({x.i, true}, x.equal_row_sums);
   }
 }
 

@@ -28,8 +28,8 @@
 // transpose_quads and the types of four: rare code works on the lanes of a packet part by part. One of 4 lanes
 // has part(F of Spu::simd, first) and set_part(F& of Spu::simd, first, F), `first` a multiple of 4. All have
 //
-//   sum_rows(const float* table, starts_of, const F (&factors)[rows][4], F (&sums)[channels]): for each lane,
-//   the sum of some rows of the table, times factors. starts_of(lane, uint32_t (&starts)[rows]) says where in
+//   sum_rows(const float* table, starts_of, F (&factors)[rows][4], F (&sums)[channels]): for each lane, the
+//   sum of some rows of the table, times factors, which are lost. starts_of(lane, uint32_t (&starts)[rows]) says where in
 //   the table the rows of a lane start, anywhere; starts_of.are_equal() whether they are the same for all
 //   lanes, which some implementations ask. A row has four numbers for each channel, one after the other:
 //   those of channel c are multiplied by the four factors of the row, and added up to sums[c]. The rows are

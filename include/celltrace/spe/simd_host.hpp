@@ -425,7 +425,7 @@ template <class Arch> struct HostSimd {
   /// Lane by lane, as a row is one unaligned load a channel: gathering its numbers takes a load for each.
   template <uint32_t kRows, uint32_t kChannels, class StartsOf>
   [[gnu::always_inline]] static void sum_rows(const float* table, const StartsOf& starts_of,
-                                              const F (&factors)[kRows][4], F (&sums)[kChannels]) {
+                                              F (&factors)[kRows][4], F (&sums)[kChannels]) {
     if (starts_of.are_equal()) return sum_equal_rows(table, starts_of, factors, sums);
     // The four factors of lane 4q + i are side by side at [i][4q].
     alignas(64) float factors_of[kRows][4][kSimdLanes];

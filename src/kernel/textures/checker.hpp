@@ -8,8 +8,9 @@ namespace celltrace::kernel {
 
 struct CheckerPattern : ListPattern {
   static constexpr const char* kName = "checker";
+  static constexpr PatternCode kCode = PatternCode::resident;
 
-  template <class S> static typename S::F value(const V3<S>& p, const PatternRecord&) {
+  template <class S> [[gnu::always_inline]] static typename S::F value(const V3<S>& p, const PatternRecord&) {
     using I = typename S::I;
     I x, y, z;
     fraction<S>(snap<S>(p.x), x);

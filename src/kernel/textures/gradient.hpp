@@ -9,9 +9,11 @@ namespace celltrace::kernel {
 /// Its parameters: the direction, of unit length.
 struct GradientPattern : BlendPattern {
   static constexpr const char* kName = "gradient";
+  static constexpr PatternCode kCode = PatternCode::resident;
 
   /// As in POV-Ray 1 stays 1, and negative numbers are left to the wave.
-  template <class S> static typename S::F value(const V3<S>& p, const PatternRecord& r) {
+  template <class S>
+  [[gnu::always_inline]] static typename S::F value(const V3<S>& p, const PatternRecord& r) {
     using F = typename S::F;
     const F along = snap<S>(dot<S>(p, splat3<S>(r.parameter)));
     return S::select(along > F(1.0f), along - whole_below<S>(along), along);

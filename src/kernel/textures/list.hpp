@@ -3,7 +3,7 @@
 // A pattern P has, from pattern_traits.hpp or of its own,
 //   kName
 //   kIsList        whether its value is the number of a map's entry
-//   kNeedsNoise    whether its code is in the module that has the noise
+//   kCode          where its code is
 //   kDisturbs      whether a normal of it is something else than the slope of its value; the code of that is
 //                  with the noise's
 // value(p, record), and if it disturbs, disturbance(p, record)
@@ -39,7 +39,7 @@
 namespace celltrace::kernel {
 
 template <class... P> struct PatternList : TypeList<P...> {
-  static constexpr bool kNeedNoise[] = {P::kNeedsNoise...};
+  static constexpr PatternCode kCode[] = {P::kCode...};
   static constexpr bool kAreLists[] = {P::kIsList...};
   static constexpr bool kDisturb[] = {P::kDisturbs...};
 };

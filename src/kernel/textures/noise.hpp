@@ -45,24 +45,29 @@ template <class S> struct LatticeCells {
   }
   /// Where in kLattice the numbers of the eight points around a lane are: in the order of z, x, y.
   void operator()(uint32_t lane, uint32_t (&starts)[8]) const {
-    for (uint32_t column = 0; column < 4; ++column) {
-      const uint32_t in_row = kHash.entry[lattice[0][column & 1][lane]] ^ lattice[1][column >> 1][lane];
-      const uint32_t in_column = kHash.entry[in_row];
-      for (uint32_t z = 0; z < 2; ++z)
-        starts[2 * column + z] = kHash.entry[in_column ^ lattice[2][z][lane]] & 255;
-    }
+    const uint32_t in_row[2] = {kHash.entry[lattice[0][0][lane]], kHash.entry[lattice[0][1][lane]]};
+    const auto look_up = [&](uint32_t x, uint32_t y) __attribute__((always_inline)) {
+      const uint32_t in_column = kHash.entry[in_row[x] ^ lattice[1][y][lane]];
+      const uint32_t first = 2 * x + 4 * y;
+      starts[first] = kHash.entry[in_column ^ lattice[2][0][lane]] & 255;
+      starts[first + 1] = kHash.entry[in_column ^ lattice[2][1][lane]] & 255;
+    };
+    look_up(0, 0);
+    look_up(1, 0);
+    look_up(0, 1);
+    look_up(1, 1);
   }
 };
 
-/// Adds noise in `kChannels` coordinates to `sum`, times `factor`.
+/// Noise in `kChannels` coordinates, about 0.
 template <class S, uint32_t kChannels>
-[[gnu::noinline]] void add_noise(const V3<S>& p, float factor, typename S::F (&sum)[kChannels]) {
+[[gnu::noinline]] void make_noise(const V3<S>& p, typename S::F (&noise)[kChannels]) {
   using F = typename S::F;
   const LatticeCells<S> cells(p);
-  F factors[8][4], noise[kChannels];
+  F factors[8][4];
   for (uint32_t column = 0; column < 4; ++column) {
     const uint32_t x = column & 1, y = column >> 1;
-    const F weight = cells.weight[0][x] * cells.weight[1][y] * F(factor);
+    const F weight = cells.weight[0][x] * cells.weight[1][y];
     for (uint32_t z = 0; z < 2; ++z) {
       const F share = weight * cells.weight[2][z];
       F(&row)[4] = factors[2 * column + z];
@@ -73,8 +78,6 @@ template <class S, uint32_t kChannels>
     }
   }
   S::sum_rows(kLattice, cells, factors, noise);
-  for (uint32_t channel = 0; channel < kChannels; ++channel)
-    sum[channel] = sum[channel] + noise[channel];
 }
 
 /// Where rare code takes fewer lanes than a packet has, local store is short: one copy of the code does for
@@ -84,11 +87,9 @@ template <class S> constexpr uint32_t kValueChannels = S::kLanes < kSimdLanes ? 
 /// In 0..1. `first_generator`: as POV-Ray's generator 1 scales it, otherwise as generator 2 does.
 template <class S> typename S::F value(const V3<S>& p, bool first_generator) {
   using F = typename S::F;
-  F sum[kValueChannels<S>];
-  for (F& channel : sum)
-    channel = F(0.0f);
-  add_noise<S>(p, 1.0f, sum);
-  const F scaled = first_generator ? sum[0] + F(0.5f) : (sum[0] + F(1.05242f)) * F(0.48985582f);
+  F noise[kValueChannels<S>];
+  make_noise<S>(p, noise);
+  const F scaled = first_generator ? noise[0] + F(0.5f) : (noise[0] + F(1.05242f)) * F(0.48985582f);
   return S::min(S::max(scaled, F(0.0f)), F(1.0f));
 }
 
@@ -118,23 +119,23 @@ typename S::F turbulence_value(const V3<S>& p, const TurbulenceWords& t, bool fi
 
 /// Three coordinates, about 0.
 template <class S> V3<S> vector(const V3<S>& p) {
-  using F = typename S::F;
-  F sum[3] = {F(0.0f), F(0.0f), F(0.0f)};
-  add_noise<S>(p, 1.0f, sum);
-  return {sum[0], sum[1], sum[2]};
+  typename S::F noise[3];
+  make_noise<S>(p, noise);
+  return {noise[0], noise[1], noise[2]};
 }
 
 /// Octaves of vector(), each `lambda` times finer and `omega` times weaker than the one before.
 template <class S> V3<S> turbulence(const V3<S>& p, uint32_t octaves, float lambda, float omega) {
   using F = typename S::F;
-  F sum[3] = {F(0.0f), F(0.0f), F(0.0f)};
+  const F zero(0.0f);
+  V3<S> sum = {zero, zero, zero};
   float scale = 1.0f, strength = 1.0f;
   for (uint32_t octave = 0; octave < octaves; ++octave) {
-    add_noise<S>(p * F(scale), strength, sum);
+    sum = sum + vector<S>(p * F(scale)) * F(strength);
     scale *= lambda;
     strength *= omega;
   }
-  return {sum[0], sum[1], sum[2]};
+  return sum;
 }
 
 } // namespace celltrace::kernel::noise

@@ -1,6 +1,7 @@
 // The value of a pattern at points, a part of a packet's lanes at a time. Kernel dialect.
 //
-// Patterns have two code modules: those of noise, which brings its tables along, and all others.
+// Patterns have two code modules: those of noise, which brings its tables along, and the others, but for few
+// whose code is always there.
 #pragma once
 
 #include "kernel/modules.hpp"
@@ -13,13 +14,13 @@ namespace celltrace::kernel {
 /// Who asks patterns. Each has a code module with its own copies of what asks them.
 enum class TextureStage : uint32_t { colours, normals };
 
-/// The values of the patterns with noise, or of the others, waves included.
-template <bool kWithNoise, class S>
+/// The values of the patterns whose code is in one place, waves included.
+template <PatternCode kCode, class S>
 [[gnu::always_inline]] inline typename S::F value_of(const PatternRecord& r, const V3<S>& p) {
   typename S::F value(0.0f);
   Patterns::dispatch(r.kind_and_flags & pattern_flag::kind_mask, [&](auto pattern) {
     using Pattern = decltype(pattern);
-    if constexpr (Pattern::kNeedsNoise == kWithNoise) value = Pattern::template value<S>(p, r);
+    if constexpr (Pattern::kCode == kCode) value = Pattern::template value<S>(p, r);
   });
   return wave_of<S>(r, value);
 }
@@ -30,7 +31,7 @@ template <class Spu>
 [[gnu::noinline]] typename Spu::rare_simd::F value(Spu& spu, const PatternRecord& r,
                                                    const V3<typename Spu::rare_simd>& p) {
   spu.run_in_module(modules::kPatterns);
-  return value_of<false>(r, p);
+  return value_of<PatternCode::plain>(r, p);
 }
 
 } // namespace module_patterns
@@ -41,7 +42,7 @@ template <class Spu>
 [[gnu::noinline]] typename Spu::rare_simd::F value(Spu& spu, const PatternRecord& r,
                                                    const V3<typename Spu::rare_simd>& p) {
   spu.run_in_module(modules::kNoise);
-  return value_of<true>(r, p);
+  return value_of<PatternCode::noise>(r, p);
 }
 
 template <class Spu>
@@ -95,9 +96,17 @@ template <class Spu>
 typename Spu::rare_simd::F pattern_value(Spu& spu, const PatternRecord& r,
                                          const V3<typename Spu::rare_simd>& p) {
   spu.compute(scalar_work::kPattern);
-  const bool needs_noise = Patterns::kNeedNoise[r.kind_and_flags & pattern_flag::kind_mask];
-  spu.enter_module(needs_noise ? modules::kNoise : modules::kPatterns);
-  return needs_noise ? module_noise::value(spu, r, p) : module_patterns::value(spu, r, p);
+  switch (Patterns::kCode[r.kind_and_flags & pattern_flag::kind_mask]) {
+  case PatternCode::resident:
+    break;
+  case PatternCode::plain:
+    spu.enter_module(modules::kPatterns);
+    return module_patterns::value(spu, r, p);
+  case PatternCode::noise:
+    spu.enter_module(modules::kNoise);
+    return module_noise::value(spu, r, p);
+  }
+  return value_of<PatternCode::resident>(r, p);
 }
 
 } // namespace celltrace::kernel

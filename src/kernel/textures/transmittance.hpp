@@ -51,9 +51,8 @@ template <class Spu>
 
 } // namespace detail
 
-/// The transmittance of the texture at `material` at the points of `lanes`, of a part of a packet. That of
-/// one colour does without a code module: it is what most shadow rays meet that something translucent is in
-/// the way of.
+/// The transmittance of the texture at `material` at the points of `lanes`, of a part of a packet. One colour
+/// takes no code module: shadow rays through plain glass are many.
 template <class Spu>
 void transmittance_at(SceneAccess<Spu>& scene, uint32_t material, const V3<typename Spu::rare_simd>& point,
                       uint32_t lanes, V3<typename Spu::rare_simd>& transmittance) {
