@@ -8,15 +8,11 @@
 
 namespace celltrace::kernel::modules {
 
-// Of the first region: what finds hits, and what asks nobody else.
+// Of the first region: what asks no other module.
 
 /// Intersections with the shapes that are no spheres, triangles and planes, but for heavy ones, and what is
 /// inside of shapes, which CSG asks.
 constexpr CodeModule kShapes = {"shapes", 1, 0, 12800};
-/// Intersections with heavy shapes.
-constexpr CodeModule kHeavyShapes = {"heavy", 4, 0, 3328};
-/// Where hits lie on objects, and the normals there.
-constexpr CodeModule kHits = {"hits", 5, 0, 6912};
 /// What a program does once a frame or once for many: it makes its objects, and reports.
 constexpr CodeModule kStart = {"start", 3, 0, 8192};
 /// The building of accelerators.
@@ -27,6 +23,8 @@ constexpr CodeModule kNoise = {"noise", 8, 0, 14208};
 
 // Of the second region: what shades, and asks patterns.
 
+/// Intersections with heavy shapes. Not of the region of the other shapes: rays test both by turns.
+constexpr CodeModule kHeavyShapes = {"heavy", 4, 1, 3328};
 /// Rays that go on from surfaces.
 constexpr CodeModule kSecondary = {"secondary", 2, 1, 9856};
 /// Light that is not simply a point's.
@@ -43,6 +41,8 @@ constexpr CodeModule kNormals = {"normals", 11, 1, 5504};
 
 /// Tests of objects that have a shape of the first region, or are parts of a CSG.
 constexpr CodeModule kObjects = {"objects", 12, 2, 6912};
+/// Where hits lie on objects, and the normals there.
+constexpr CodeModule kHits = {"hits", 5, 2, 6912};
 /// Shading of surfaces with textures, or of several materials.
 constexpr CodeModule kComposed = {"composed", 13, 2, 8064};
 /// Exchange of units of work with other SPEs.
