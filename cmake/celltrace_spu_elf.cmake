@@ -93,10 +93,9 @@ function(celltrace_spu_budget_test test name)
   get_property(said_code GLOBAL PROPERTY CELLTRACE_${name}_CODE_BYTES)
   get_property(said_stack GLOBAL PROPERTY CELLTRACE_${name}_STACK_BYTES)
   string(REGEX REPLACE "g\\+\\+$" "size" size_tool ${CELLTRACE_SPU_GXX})
-  string(REGEX REPLACE "g\\+\\+$" "nm" nm_tool ${CELLTRACE_SPU_GXX})
   string(REGEX REPLACE "g\\+\\+$" "objdump" objdump_tool ${CELLTRACE_SPU_GXX})
   add_test(NAME ${test} COMMAND ${CMAKE_COMMAND}
     -DELF=${base}.elf -DSTACK=${base}.stack.txt -DARENA=${arena} -DSAID_CODE=${said_code}
-    -DSAID_STACK=${said_stack} -DMODULES=${modules} -DFREE=${TEST_FREE} -DSIZE_TOOL=${size_tool} -DNM_TOOL=${nm_tool}
-    -DOBJDUMP_TOOL=${objdump_tool} -P ${check})
+    -DSAID_STACK=${said_stack} -DMODULES=${modules} -DFREE=${TEST_FREE} -DSIZE_TOOL=${size_tool}
+    -DMAP=${base}.map -DOBJDUMP_TOOL=${objdump_tool} -P ${check})
 endfunction()

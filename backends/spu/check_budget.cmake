@@ -1,12 +1,12 @@
 # Prints what a program takes of an SPE's local store, and fails if that is more than there is.
 #
-#   cmake -DELF=... -DSTACK=... -DARENA=bytes [-DSAID_CODE=bytes -DSAID_STACK=bytes] [-DMODULES=modules.hpp]
-#     [-DFREE=bytes] -DSIZE_TOOL=spu-elf-size -DNM_TOOL=spu-elf-nm
-#     -DOBJDUMP_TOOL=spu-elf-objdump -P check_budget.cmake
+#   cmake -DELF=... -DSTACK=... -DMAP=... -DARENA=bytes [-DSAID_CODE=bytes -DSAID_STACK=bytes] [-DMODULES=modules.hpp]
+#     [-DFREE=bytes] -DSIZE_TOOL=spu-elf-size -DOBJDUMP_TOOL=spu-elf-objdump -P check_budget.cmake
 #
 # SAID_... is what the emulator takes the program's code with its data, and its stack, to be: they may not be more. The
 # same is true of the code modules in MODULES. FREE is what the program has to leave.
-# STACK is what the linker printed with --stack-analysis: the worst call chain from the entry, crt0 included.
+# MAP is the linker's map. STACK is what it printed with --stack-analysis: the worst call chain from the entry, crt0
+# included.
 
 cmake_minimum_required(VERSION 3.25)
 
@@ -63,52 +63,15 @@ if(MODULES)
   endforeach()
 endif()
 
-# The region that an address is in, or nothing.
-function(region_of address result)
-  set(${result} "" PARENT_SCOPE)
-  foreach(at ${regions})
-    math(EXPR end "${at} + ${region_${at}}")
-    if(NOT address LESS at AND address LESS end)
-      set(${result} ${at} PARENT_SCOPE)
-    endif()
-  endforeach()
-endfunction()
-
-# A call from one module into another of its region would return to where the first one no longer is. The linker's stubs
-# for such calls lie in the modules themselves.
+# A module that is called while another one of its region is under way takes its place, and there is no way back.
 if(modules)
-  execute_process(COMMAND ${NM_TOOL} ${ELF} OUTPUT_VARIABLE symbols)
-  string(REGEX MATCHALL "[0-9a-f]+ [a-zA-Z] [0-9a-f]+\\.ovl_call[^\n]*" stubs "${symbols}")
-  foreach(stub ${stubs})
-    string(REGEX MATCH "^([0-9a-f]+) [a-zA-Z] ([0-9a-f]+)\\.ovl_call\\.([^\n]*)" all "${stub}")
-    set(number ${CMAKE_MATCH_2})
-    set(called ${CMAKE_MATCH_3})
-    math(EXPR at "0x${CMAKE_MATCH_1}")
-    region_of(${at} from)
-    if(from STREQUAL "")
-      continue()
-    endif()
-    string(REGEX REPLACE "([][+.*()^$?\\\\])" "\\\\\\1" pattern "${called}")
-    if(symbols MATCHES "([0-9a-f]+) [tTwW] ${pattern}\n")
-      math(EXPR at "0x${CMAKE_MATCH_1}")
-    else()
-      # Of a function without a name of its own the stub tells the address, in its own module, by number from 1 on.
-      math(EXPR number "0x${number} - 1")
-      list(GET modules ${number} module)
-      string(REGEX MATCH "^[^ ]+" section ${module})
-      math(EXPR end "${at} + 16")
-      execute_process(COMMAND ${OBJDUMP_TOOL} -d -j ${section} --start-address=${at} --stop-address=${end} ${ELF}
-        OUTPUT_VARIABLE instructions)
-      if(NOT instructions MATCHES "ila[ \t]+\\$79,([0-9]+)")
-        message(FATAL_ERROR "${ELF}: cannot tell what the stub at ${at} in ${section} calls: ${instructions}")
-      endif()
-      set(at ${CMAKE_MATCH_1})
-    endif()
-    region_of(${at} to)
-    if(from STREQUAL to)
-      message(FATAL_ERROR "a code module of ${ELF} calls another one of its region: ${called}")
-    endif()
-  endforeach()
+  execute_process(COMMAND ${OBJDUMP_TOOL} -t ${ELF} OUTPUT_FILE ${STACK}.symbols)
+  execute_process(COMMAND ${SIZE_TOOL} -A ${ELF} OUTPUT_FILE ${STACK}.sections)
+  execute_process(COMMAND awk -f ${CMAKE_CURRENT_LIST_DIR}/module_calls.awk ${STACK}.sections ${STACK}.symbols ${MAP}
+    OUTPUT_VARIABLE calls ERROR_VARIABLE calls RESULT_VARIABLE failed)
+  if(failed)
+    message(FATAL_ERROR "${ELF}: ${calls}")
+  endif()
 endif()
 
 file(READ ${STACK} analysis)
