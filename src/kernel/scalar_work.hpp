@@ -16,37 +16,37 @@ namespace scalar_work {
 
 // --- accel/traversal.hpp and what it includes ---
 /// Setting up the traversal of the grid with a packet.
-constexpr ScalarWork kVoxelWalk = {82, 0, 450, 38, 8, 1, 72, 14, "kVoxelWalk"};
+constexpr ScalarWork kVoxelWalk = {264, 0, 568, 68, 24, 5, 373, 31, "kVoxelWalk"};
 /// A step to the next voxels. Most of it loads and stores the state of the walk, which exceeds the registers.
-constexpr ScalarWork kPacketStep = {19, 0, 100, 3, 7, 1, 23, 32, "kPacketStep"};
+constexpr ScalarWork kPacketStep = {9, 0, 67, 2, 3, 0, 0, 15, "kPacketStep"};
 /// Selecting the rays of a packet that are in the same voxel.
-constexpr ScalarWork kVoxelOfPacket = {13, 0, 0, 20, 3, 0, 46, 16, "kVoxelOfPacket"};
+constexpr ScalarWork kVoxelOfPacket = {0, 0, 0, 0, 0, 3, 6, 38, "kVoxelOfPacket"};
 /// The loop over the objects of a voxel or leaf, with the hit filter.
-constexpr ScalarWork kListedObject = {22, 0, 13, 16, 10, 2, 52, 69, "kListedObject"};
+constexpr ScalarWork kListedObject = {11, 0, 5, 14, 0, 0, 21, 6, "kListedObject"};
 /// The frustum of some rays: the intervals of their origins and directions.
-constexpr ScalarWork kFrustum = {126, 17, 110, 50, 30, 5, 344, 199, "kFrustum"};
+constexpr ScalarWork kFrustum = {424, 12, 275, 124, 67, 14, 692, 492, "kFrustum"};
 /// Expanding a node of the BVH: the children that a frustum hits, pushed in order of distance.
-constexpr ScalarWork kBvhNode = {62, 1, 48, 30, 14, 8, 116, 88, "kBvhNode"};
+constexpr ScalarWork kBvhNode = {0, 2, 3, 19, 6, 6, 58, 0, "kBvhNode"};
 /// A child of it that is tested against the frusta of packets or the rays of a packet.
-constexpr ScalarWork kBvhChild = {44, 0, 30, 24, 11, 14, 81, 72, "kBvhChild"};
+constexpr ScalarWork kBvhChild = {97, 0, 62, 41, 15, 14, 0, 123, "kBvhChild"};
 /// Preparing the rays of a packet for slab tests, and one such test.
-constexpr ScalarWork kRaysOfPacket = {9, 0, 28, 3, 4, 2, 15, 10, "kRaysOfPacket"};
-constexpr ScalarWork kRaysAgainstBounds = {46, 0, 68, 20, 17, 15, 68, 92, "kRaysAgainstBounds"};
+constexpr ScalarWork kRaysOfPacket = {21, 0, 50, 11, 12, 8, 22, 13, "kRaysOfPacket"};
+constexpr ScalarWork kRaysAgainstBounds = {77, 0, 51, 19, 13, 23, 0, 120, "kRaysAgainstBounds"};
 /// A packet that traverses a node separately from its bundle, and a ray that does so from its packet.
-constexpr ScalarWork kPacketAlone = {45, 0, 44, 32, 5, 1, 103, 36, "kPacketAlone"};
-constexpr ScalarWork kRayAlone = {51, 6, 44, 36, 6, 0, 83, 40, "kRayAlone"};
+constexpr ScalarWork kPacketAlone = {55, 1, 45, 33, 5, 1, 35, 54, "kPacketAlone"};
+constexpr ScalarWork kRayAlone = {63, 7, 46, 35, 6, 0, 59, 47, "kRayAlone"};
 /// The intersection test of a packet and an object, by ObjectKind.
-constexpr ScalarWork kTestSphere = {76, 0, 244, 0, 4, 3, 0, 41, "kTestSphere"};
-constexpr ScalarWork kTestEllipsoid = {104, 14, 305, 20, 2, 0, 124, 13, "kTestEllipsoid"};
-constexpr ScalarWork kTestTriangle = {158, 0, 513, 4, 17, 7, 36, 36, "kTestTriangle"};
-constexpr ScalarWork kTestPlane = {60, 0, 160, 0, 4, 3, 0, 30, "kTestPlane"};
+constexpr ScalarWork kTestSphere = {41, 0, 128, 0, 0, 0, 14, 0, "kTestSphere"};
+constexpr ScalarWork kTestEllipsoid = {281, 0, 659, 68, 33, 10, 280, 140, "kTestEllipsoid"};
+constexpr ScalarWork kTestTriangle = {94, 0, 399, 2, 11, 2, 0, 0, "kTestTriangle"};
+constexpr ScalarWork kTestPlane = {80, 0, 73, 9, 22, 7, 21, 146, "kTestPlane"};
 constexpr ScalarWork kTest[4] = {kTestSphere, kTestTriangle, kTestPlane, kTestEllipsoid};
 /// Merging its result into the closest hits.
-constexpr ScalarWork kClosest = {27, 0, 18, 0, 11, 5, 21, 46, "kClosest"};
+constexpr ScalarWork kClosest = {47, 0, 15, 9, 19, 6, 35, 92, "kClosest"};
 /// Merging its result into the occlusion of shadow rays.
-constexpr ScalarWork kShadow = {37, 0, 92, 6, 5, 3, 12, 25, "kShadow"};
+constexpr ScalarWork kShadow = {14, 0, 17, 10, 17, 6, 36, 85, "kShadow"};
 /// The attenuation of one shadow ray by a translucent surface.
-constexpr ScalarWork kFilter = {100, 10, 90, 50, 15, 0, 204, 97, "kFilter"};
+constexpr ScalarWork kFilter = {139, 0, 129, 47, 25, 2, 58, 242, "kFilter"};
 
 // --- textures ---
 /// A pattern's value: finding its code and its wave. Counted by hand, as it is not in the scenes that are
@@ -55,50 +55,50 @@ constexpr ScalarWork kPattern = {40, 0, 60, 10, 10, 4, 40, 40, "kPattern"};
 
 // --- shading/ray_tracer.hpp and what it calls ---
 /// Making a packet of primary rays.
-constexpr ScalarWork kPrimaryPacket = {379, 10, 744, 147, 72, 4, 706, 552, "kPrimaryPacket"};
+constexpr ScalarWork kPrimaryPacket = {282, 5, 554, 73, 44, 7, 0, 118, "kPrimaryPacket"};
 /// Making the shadow rays of a packet in a bundle toward a light.
-constexpr ScalarWork kBundleLight = {37, 0, 88, 16, 7, 1, 58, 45, "kBundleLight"};
+constexpr ScalarWork kBundleLight = {66, 0, 152, 22, 12, 2, 115, 60, "kBundleLight"};
 /// A node of the ray tree: sorting its hits from its misses.
-constexpr ScalarWork kNode = {240, 0, 208, 54, 46, 4, 279, 299, "kNode"};
+constexpr ScalarWork kNode = {286, 0, 166, 51, 60, 9, 0, 436, "kNode"};
 /// A node copied to or from the stack.
-constexpr ScalarWork kNodeCopy = {63, 0, 125, 0, 3, 0, 23, 14, "kNodeCopy"};
+constexpr ScalarWork kNodeCopy = {171, 0, 207, 4, 12, 3, 77, 25, "kNodeCopy"};
 /// Loading an object that rays of a packet hit into their lanes.
-constexpr ScalarWork kHitObject = {168, 0, 324, 47, 13, 3, 213, 73, "kHitObject"};
+constexpr ScalarWork kHitObject = {329, 0, 452, 74, 24, 7, 249, 148, "kHitObject"};
 /// Computing the surfaces at the hit points.
-constexpr ScalarWork kHitSurfaces = {130, 0, 671, 9, 9, 1, 75, 38, "kHitSurfaces"};
+constexpr ScalarWork kHitSurfaces = {161, 0, 772, 10, 14, 4, 61, 44, "kHitSurfaces"};
 /// Loading a material into the lanes that have it.
-constexpr ScalarWork kMaterial = {385, 0, 468, 226, 104, 1, 722, 708, "kMaterial"};
+constexpr ScalarWork kMaterial = {553, 0, 724, 246, 209, 5, 825, 1085, "kMaterial"};
 /// Shading a packet, apart from its lights.
-constexpr ScalarWork kShade = {150, 0, 429, 44, 13, 1, 189, 61, "kShade"};
+constexpr ScalarWork kShade = {113, 0, 250, 45, 18, 4, 22, 60, "kShade"};
 /// Shading by a light that some of its surfaces face.
-constexpr ScalarWork kLight = {206, 0, 734, 67, 21, 1, 279, 112, "kLight"};
+constexpr ScalarWork kLight = {281, 0, 446, 90, 42, 6, 337, 270, "kLight"};
 /// Deciding which secondary rays the surfaces need, and making reflected and transmitted ones.
-constexpr ScalarWork kSecondaryRays = {134, 0, 256, 25, 9, 0, 125, 55, "kSecondaryRays"};
-constexpr ScalarWork kSpawn = {145, 0, 156, 60, 12, 0, 238, 76, "kSpawn"};
-constexpr ScalarWork kTransmit = {155, 0, 300, 50, 9, 0, 205, 58, "kTransmit"};
+constexpr ScalarWork kSecondaryRays = {174, 0, 276, 30, 14, 2, 273, 73, "kSecondaryRays"};
+constexpr ScalarWork kSpawn = {190, 0, 164, 76, 18, 2, 708, 105, "kSpawn"};
+constexpr ScalarWork kTransmit = {151, 0, 375, 49, 11, 1, 201, 74, "kTransmit"};
 /// A ray that enters or leaves an interior.
-constexpr ScalarWork kCrossing = {130, 0, 70, 60, 10, 0, 226, 65, "kCrossing"};
+constexpr ScalarWork kCrossing = {31, 0, 20, 23, 22, 9, 3, 98, "kCrossing"};
 /// A packet of secondary rays.
-constexpr ScalarWork kChild = {134, 0, 102, 60, 16, 0, 234, 105, "kChild"};
+constexpr ScalarWork kChild = {150, 0, 96, 74, 25, 2, 799, 149, "kChild"};
 
 // --- accel/build_grid.hpp ---
 /// The range of voxels that an object's AABB overlaps, and the overlap test of one of them.
-constexpr ScalarWork kBoundsOfSphere = {127, 28, 70, 81, 12, 0, 358, 67, "kBoundsOfSphere"};
-constexpr ScalarWork kBoundsOfEllipsoid = {125, 54, 63, 76, 12, 0, 347, 78, "kBoundsOfEllipsoid"};
-constexpr ScalarWork kBoundsOfTriangle = {125, 54, 63, 77, 13, 1, 346, 84, "kBoundsOfTriangle"};
+constexpr ScalarWork kBoundsOfSphere = {72, 25, 80, 76, 11, 0, 49, 67, "kBoundsOfSphere"};
+constexpr ScalarWork kBoundsOfEllipsoid = {137, 50, 67, 79, 13, 0, 468, 87, "kBoundsOfEllipsoid"};
+constexpr ScalarWork kBoundsOfTriangle = {67, 55, 24, 66, 11, 1, 204, 48, "kBoundsOfTriangle"};
 constexpr ScalarWork kBounds[4] = {kBoundsOfSphere, kBoundsOfTriangle, kBoundsOfSphere, kBoundsOfEllipsoid};
-constexpr ScalarWork kOverlapOfSphere = {64, 28, 36, 32, 16, 0, 160, 183, "kOverlapOfSphere"};
-constexpr ScalarWork kOverlapOfEllipsoid = {190, 75, 62, 71, 24, 0, 403, 156, "kOverlapOfEllipsoid"};
-constexpr ScalarWork kOverlapOfTriangle = {461, 150, 174, 182, 85, 7, 802, 768, "kOverlapOfTriangle"};
+constexpr ScalarWork kOverlapOfSphere = {85, 26, 26, 36, 14, 0, 179, 166, "kOverlapOfSphere"};
+constexpr ScalarWork kOverlapOfEllipsoid = {118, 15, 95, 83, 34, 1, 504, 291, "kOverlapOfEllipsoid"};
+constexpr ScalarWork kOverlapOfTriangle = {638, 154, 193, 200, 93, 9, 898, 782, "kOverlapOfTriangle"};
 constexpr ScalarWork kOverlap[4] = {kOverlapOfSphere, kOverlapOfTriangle, kOverlapOfSphere,
                                     kOverlapOfEllipsoid};
 /// A pair of voxel and object: written, counted and placed by a pass of the radix sort, entered into a list.
-constexpr ScalarWork kEmitPair = {19, 0, 14, 14, 4, 2, 54, 17, "kEmitPair"};
-constexpr ScalarWork kCountPair = {11, 0, 4, 4, 5, 3, 17, 9, "kCountPair"};
-constexpr ScalarWork kPlacePair = {23, 0, 9, 13, 6, 3, 44, 17, "kPlacePair"};
-constexpr ScalarWork kListPair = {29, 0, 14, 16, 4, 1, 57, 21, "kListPair"};
+constexpr ScalarWork kEmitPair = {29, 0, 25, 19, 7, 1, 65, 24, "kEmitPair"};
+constexpr ScalarWork kCountPair = {2, 0, 0, 2, 2, 3, 2, 3, "kCountPair"};
+constexpr ScalarWork kPlacePair = {6, 0, 0, 8, 2, 3, 0, 7, "kPlacePair"};
+constexpr ScalarWork kListPair = {118, 1, 53, 30, 12, 2, 163, 59, "kListPair"};
 /// Writing the record of a voxel.
-constexpr ScalarWork kCloseVoxel = {21, 0, 19, 20, 5, 2, 55, 4, "kCloseVoxel"};
+constexpr ScalarWork kCloseVoxel = {18, 0, 9, 18, 2, 3, 64, 6, "kCloseVoxel"};
 
 } // namespace scalar_work
 

@@ -214,14 +214,14 @@ private:
 
   // Scalar work besides the comparison of tags: fixed, floating, memory, shuffle, branches, shift, waits,
   // misses. Written by tools/calibrate-charges.sh; see src/kernel/scalar_work.hpp.
-  static constexpr ScalarWork kLookup = {5, 0, 7, 0, 4, 5, 3, 22, "kLookup"};
-  static constexpr ScalarWork kReadThrough = {25, 0, 5, 5, 1, 0, 42, 56, "kReadThrough"};
-  static constexpr ScalarWork kWords = {11, 0, 0, 6, 5, 3, 11, 8, "kWords"};
-  static constexpr ScalarWork kLineOfLanes = {16, 0, 4, 0, 3, 8, 40, 18, "kLineOfLanes"};
-  static constexpr ScalarWork kWordOfLane = {10, 0, 1, 9, 0, 0, 30, 0, "kWordOfLane"};
-  static constexpr ScalarWork kStamp = {11, 0, 13, 12, 3, 3, 42, 5, "kStamp"};
-  static constexpr ScalarWork kSlowLookup = {52, 0, 36, 29, 11, 7, 126, 101, "kSlowLookup"};
-  static constexpr ScalarWork kFetch = {71, 0, 41, 33, 9, 7, 153, 72, "kFetch"};
+  static constexpr ScalarWork kLookup = {21, 0, 14, 4, 5, 6, 0, 35, "kLookup"};
+  static constexpr ScalarWork kReadThrough = {24, 0, 4, 6, 3, 0, 29, 52, "kReadThrough"};
+  static constexpr ScalarWork kWords = {3, 0, 3, 4, 5, 8, 0, 17, "kWords"};
+  static constexpr ScalarWork kLineOfLanes = {22, 0, 16, 5, 2, 6, 14, 23, "kLineOfLanes"};
+  static constexpr ScalarWork kWordOfLane = {0, 0, 0, 7, 0, 0, 24, 0, "kWordOfLane"};
+  static constexpr ScalarWork kStamp = {5, 0, 8, 8, 2, 3, 22, 11, "kStamp"};
+  static constexpr ScalarWork kSlowLookup = {47, 0, 23, 23, 8, 10, 77, 108, "kSlowLookup"};
+  static constexpr ScalarWork kFetch = {63, 0, 25, 25, 6, 10, 84, 76, "kFetch"};
 
   // --- the way of a hit ---
 

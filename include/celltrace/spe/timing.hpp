@@ -61,17 +61,17 @@ struct TimingParameters {
   // --- counted operations: `cell_emu`; 0 to 1 each ---
   // Calibrated by cell_sim with tools/calibrate-charges.sh.
   /// Part of the latency beyond the issue of an operation's own four quadwords that the code cannot fill.
-  double exposed_latency = 0.251;
+  double exposed_latency = 0.613;
   /// Part of the cycles in which both pipes have something to issue that really pair up.
-  double paired_issue = 0.393;
+  double paired_issue = 0.376;
   /// Hints for each branch.
-  double hints = 0.986;
+  double hints = 0.936;
   /// Cycles that each branch waits for a hint that comes too late.
-  double late_hint = 0.283;
+  double late_hint = 0.23;
   /// Cycles of nothing but no-ops for each branch.
-  double no_ops = 0.282;
+  double no_ops = 0.102;
   /// Cycles that instructions come late for each quadword that code moves about.
-  double late_fetch = 0.11;
+  double late_fetch = 0.039;
 
   /// A Cell at 3.2 GHz with 8 SPEs.
   static constexpr TimingParameters cell() { return {}; }

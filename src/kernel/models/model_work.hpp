@@ -11,13 +11,13 @@ namespace model_work {
 // Each is {fixed, floating, memory, shuffle, branches, shift, waits, misses}.
 
 /// A job taken, and one sent: doorbell, addresses, commands.
-constexpr ScalarWork kJob = {528, 0, 341, 318, 87, 5, 1772, 179, "kJob"};
+constexpr ScalarWork kJob = {0, 0, 0, 23, 21, 17, 0, 163, "kJob"};
 /// A search of a job, fetched and put.
-constexpr ScalarWork kSearch = {169, 0, 121, 74, 34, 4, 228, 75, "kSearch"};
+constexpr ScalarWork kSearch = {503, 0, 269, 187, 78, 13, 1049, 222, "kSearch"};
 /// A packet's rays or answers, copied within local store.
-constexpr ScalarWork kCopy = {13, 0, 94, 5, 8, 1, 9, 7, "kCopy"};
+constexpr ScalarWork kCopy = {0, 0, 0, 0, 0, 3, 0, 0, "kCopy"};
 /// Rays that are handed over with their voxels.
-constexpr ScalarWork kHandOver = {35, 0, 25, 6, 8, 1, 24, 22, "kHandOver"};
+constexpr ScalarWork kHandOver = {189, 0, 90, 22, 28, 3, 150, 60, "kHandOver"};
 
 } // namespace model_work
 
