@@ -112,6 +112,12 @@ struct Mesh {
   std::vector<Vec3f> vertices;
   std::vector<Vec3f> normals;
   std::vector<Triangle> triangles;
+  /// A direction of any length, in the mesh's space. For CSG a point is in the mesh if the ray from there
+  /// along it crosses an odd number of triangles. Zero: nothing is in the mesh, and nothing in its inverse
+  /// either.
+  Vec3 inside_vector{0, 0, 0};
+
+  bool has_inside() const { return inside_vector != Vec3(0); }
 };
 
 struct Sphere {
@@ -184,7 +190,7 @@ struct Csg {
     difference    ///< the first part without the others
   };
   Operation operation = Operation::union_;
-  std::vector<Object> parts; ///< placed in the space of the CSG; no meshes, unless in plain unions
+  std::vector<Object> parts; ///< placed in the space of the CSG
 };
 
 struct Scene {

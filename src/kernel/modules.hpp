@@ -25,6 +25,8 @@ constexpr CodeModule kNoise = {"noise", 8, 0, 14208};
 
 /// Intersections with heavy shapes. Not of the region of the other shapes: rays test both by turns.
 constexpr CodeModule kHeavyShapes = {"heavy", 4, 1, 3328};
+/// What is inside of meshes. Likewise: where CSG has meshes, it asks both by turns.
+constexpr CodeModule kMeshes = {"meshes", 17, 1, 2688};
 /// Rays that go on from surfaces.
 constexpr CodeModule kSecondary = {"secondary", 2, 1, 9856};
 /// Light that is not simply a point's.

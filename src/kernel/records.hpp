@@ -85,6 +85,39 @@ struct alignas(128) SolidRecord {
 static_assert(sizeof(SolidRecord) == 128, "one a line");
 constexpr uint32_t kEmptySolid = object_flag::kind_mask;
 
+// The inside of a mesh: a point is in it if the ray from there along the mesh's inside vector crosses an odd
+// number of triangles. So that few of them need be looked at, a grid lies across that vector: coordinates
+// (column, row, height) are those of a space whose third axis is along the vector, and in which cell (i, j)
+// reaches from (i, j) to (i + 1, j + 1).
+
+/// SolidRecord: a mesh. `geometry` is the map from the world to the coordinates of the grid whose
+/// MeshGridRecord is at `extra`.
+constexpr uint32_t kMeshSolid = kEmptySolid - 1;
+
+/// Cell (i, j) has number j * columns + i. Its list is a word a triangle, the offset of its
+/// MeshTriangleRecord. It lies between two offsets that follow each other in the words at `starts`: the one
+/// that has the cell's number, and the next one.
+struct alignas(16) MeshGridRecord {
+  uint32_t starts; ///< offset of the first of columns * rows + 1 words
+  uint32_t columns, rows;
+  uint32_t unused;
+};
+static_assert(sizeof(MeshGridRecord) == 16, "eight a line");
+constexpr uint32_t kMaxMeshGridSide = 1024; ///< columns or rows: single precision counts the cells exactly
+
+/// A triangle of a mesh, in the coordinates of the grid. Its corners 0, 1, 2 are in the order of their rows;
+/// an edge is the same numbers in all triangles that have it.
+struct alignas(64) MeshTriangleRecord {
+  float row[3];
+  float column[2];   ///< of corners 0 and 1
+  float slope[3];    ///< columns a row, of the edges 0-1, 1-2, 0-2
+  float height;      ///< of corner 0
+  float gradient[2]; ///< of the height, by column and row
+  float least_height, greatest_height;
+  uint32_t unused[3];
+};
+static_assert(sizeof(MeshTriangleRecord) == 64, "two a line");
+
 /// A face whose vertices have different materials, blended by barycentric coordinates.
 struct alignas(16) BlendRecord {
   uint32_t material[3];
@@ -299,7 +332,10 @@ struct alignas(128) ImageHeader {
   uint32_t map_entry_offset, map_entry_count;
   uint32_t normal_offset, normal_count;
   uint32_t sky; ///< offset of the uppermost layer's MaterialRecord, whose pigments count; kNoOffset: none
-  uint32_t unused[19];
+  uint32_t mesh_grid_offset, mesh_grid_count;         ///< MeshGridRecords
+  uint32_t mesh_word_offset, mesh_word_count;         ///< words of theirs
+  uint32_t mesh_triangle_offset, mesh_triangle_count; ///< MeshTriangleRecords
+  uint32_t unused[13];
 };
 static_assert(sizeof(ImageHeader) == 256, "two lines");
 

@@ -28,6 +28,12 @@ public:
   const CsgRecord* csg(uint32_t offset) { return read_apart<CsgRecord>(offset, DataKind::object); }
   const CsgStep* csg_step(uint32_t offset) { return read_apart<CsgStep>(offset, DataKind::object); }
   const SolidRecord* solid(uint32_t offset) { return read_apart<SolidRecord>(offset, DataKind::object); }
+  const MeshGridRecord* mesh_grid(uint32_t offset) {
+    return read_apart<MeshGridRecord>(offset, DataKind::object);
+  }
+  const MeshTriangleRecord* mesh_triangle(uint32_t offset) {
+    return read_apart<MeshTriangleRecord>(offset, DataKind::object);
+  }
   const MaterialRecord* material(uint32_t offset) {
     return read_apart<MaterialRecord>(offset, DataKind::material);
   }

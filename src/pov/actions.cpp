@@ -310,6 +310,11 @@ void add_triangle(Session& session, MeshBuilder& builder, const TriangleDefiniti
   }
 }
 
+Vec3 inside_vector(const Session& session, const Quantity& vector, const Location& where) {
+  if (!vector.is_finite()) session.fail(where, "this inside_vector is not finite");
+  return session.vector(vector, where);
+}
+
 std::shared_ptr<ObjectDefinition> mesh(Session& session, MeshBuilder& builder, const Location& where) {
   auto definition = builder.finish();
   if (definition->mesh.triangles.empty()) session.fail(where, "this mesh has no triangles");

@@ -170,6 +170,8 @@ std::shared_ptr<ObjectDefinition>
 lone_triangle(Session& session, std::shared_ptr<TriangleDefinition> triangle, const Location& where);
 void add_triangle(Session& session, MeshBuilder& builder, const TriangleDefinition& triangle,
                   const Location& where);
+/// Fails unless it is finite.
+Vec3 inside_vector(const Session& session, const Quantity& vector, const Location& where);
 std::shared_ptr<ObjectDefinition> mesh(Session& session, MeshBuilder& builder, const Location& where);
 std::shared_ptr<ObjectDefinition> mesh2(Session& session, Mesh2Definition& definition, const Location& where);
 /// Checks the count that leads a list of mesh2.

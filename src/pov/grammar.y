@@ -878,7 +878,7 @@ triangle_vertices
 mesh_head
   : MESH '{'           { $$ = std::make_shared<MeshBuilder>(); }
   | mesh_head triangle { $$ = $1; add_triangle(session, *$$, *$2, @2); }
-  | mesh_head INSIDE_VECTOR quantity { $$ = $1; }
+  | mesh_head INSIDE_VECTOR quantity { $$ = $1; $$->set_inside_vector(inside_vector(session, $3, @3)); }
   ;
 
 mesh2_head
@@ -894,7 +894,7 @@ mesh2_head
   | mesh2_head FACE_INDICES counted_list     { $$ = $1; $$->face_indices = faces(session, $3, @3); }
   | mesh2_head NORMAL_INDICES counted_list   { $$ = $1; $$->normal_indices = counted(session, $3, @3); }
   | mesh2_head UV_INDICES counted_list       { $$ = $1; counted(session, $3, @3); }
-  | mesh2_head INSIDE_VECTOR quantity        { $$ = $1; }
+  | mesh2_head INSIDE_VECTOR quantity        { $$ = $1; $$->inside_vector = inside_vector(session, $3, @3); }
   ;
 
 texture_list

@@ -134,6 +134,7 @@ std::shared_ptr<MeshDefinition> make_mesh(Mesh2Definition definition) {
     normal.v = unit(normal.v);
   auto result = std::make_shared<MeshDefinition>();
   Mesh& mesh = result->mesh;
+  mesh.inside_vector = definition.inside_vector;
   const std::vector<ListEntry>& faces = definition.face_indices;
   const auto is_face = [](const ListEntry& entry) { return !entry.is_float; };
   mesh.triangles.reserve(static_cast<std::size_t>(std::count_if(faces.begin(), faces.end(), is_face)));

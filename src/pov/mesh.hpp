@@ -14,6 +14,7 @@ namespace celltrace::pov {
 class MeshBuilder {
 public:
   void add(const TriangleDefinition& triangle);
+  void set_inside_vector(const Vec3& direction) { mesh_->mesh.inside_vector = direction; }
   std::shared_ptr<MeshDefinition> finish() { return std::move(mesh_); }
 
 private:
@@ -30,6 +31,7 @@ struct Mesh2Definition {
   std::vector<TexturePtr> textures;
   std::vector<ListEntry> face_indices; ///< a vector for a face, floats for its textures behind it
   std::vector<ListEntry> normal_indices;
+  Vec3 inside_vector{0, 0, 0};
 };
 
 /// Throws InputError, without a position, for indices that are out of range or do not belong to a face.

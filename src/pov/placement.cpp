@@ -192,20 +192,25 @@ bool SceneBuilder::make_shape(const ObjectDefinition& object, const Inherited& o
     return own.inside || !is_invisible(*shape);
   }
   const auto* triangle = std::get_if<std::shared_ptr<TriangleDefinition>>(&object.shape);
-  const std::string what = triangle ? "triangle" : "mesh";
-  if (own.inside) refuse("a " + what + " in " + own.inside, object, where);
-  if (!object.clipped_by.empty()) refuse("a clipped " + what, object, where);
-  made.inverse = false; // it has no inside
   std::shared_ptr<const Mesh> mesh;
   if (triangle) {
     mesh = placed_triangle(**triangle, own.transform, where);
-    made.transform = Transform();
+    // In a CSG, back from the scene to its space.
+    made.transform = own.is_part ? own.transform.inverse().then(object.transform) : Transform();
   } else {
     mesh = placed_mesh(std::get<std::shared_ptr<MeshDefinition>>(object.shape), own.transform, where);
   }
+  if (!mesh->has_inside()) {
+    // Of a mesh without an inside POV-Ray's CSG takes what a ray crosses first, and nothing behind it.
+    const bool is_crossed_once = mesh->triangles.size() < 2;
+    if (own.inside && (own.clips || !is_crossed_once))
+      refuse((triangle ? "a triangle in " : "a mesh without 'inside_vector' in ") + std::string(own.inside),
+             object, where);
+    made.inverse = false;
+  }
   const bool is_visible = !mesh->triangles.empty();
   made.shape = std::move(mesh);
-  return is_visible;
+  return own.inside || is_visible;
 }
 
 void SceneBuilder::refuse(const std::string& what, const ObjectDefinition& object,

@@ -71,7 +71,7 @@ private:
     bool is_part = false;         ///< placed in the space of a CSG, not of the scene
     bool clips = false;           ///< only its inside matters
     int depth = 0;                ///< CSG and clipping around it
-    const char* inside = nullptr; ///< in what it must have an inside, for messages; null: it need not
+    const char* inside = nullptr; ///< in what its inside counts, for messages; null: it does not
   };
   void place(const ObjectDefinition& object, const Inherited& around, const Location& where);
   Inherited inherit(const ObjectDefinition& object, const Inherited& around, const Location& where);

@@ -54,18 +54,42 @@ Aabb half_space(const PlacedShape& plane, bool inverse) {
   return box;
 }
 
+/// Around all triangles in the world, and a little more.
+Aabb bounds_of(const Mesh& mesh, const Transform& transform) {
+  Aabb box = kNowhere;
+  for (const Mesh::Triangle& triangle : mesh.triangles)
+    for (const Index vertex : triangle.vertex) {
+      const Vec3 at = transform.point(Vec3(mesh.vertices[vertex]));
+      for (int i = 0; i < 3; ++i) {
+        const float slack = 1e-5f * (1.0f + static_cast<float>(std::abs(at[i])));
+        box.min[i] = std::min(box.min[i], static_cast<float>(at[i]) - slack);
+        box.max[i] = std::max(box.max[i], static_cast<float>(at[i]) + slack);
+      }
+    }
+  return box;
+}
+
 /// A node of the tree of one object, in which only solids are inverse: the inverse of an intersection is the
 /// merge of the inverse parts, that of a union or merge the intersection, as POV-Ray has it.
 struct Node {
   enum class Kind { solid, union_, merge, intersection };
   Kind kind = Kind::solid;
-  bool inverse = false; ///< of a solid
-  bool shows = true;    ///< its surfaces are seen; not those of what clips
-  Object object;        ///< of a solid
-  PlacedShape shape;
+  bool inverse = false;     ///< of a solid
+  bool shows = true;        ///< its surfaces are seen; not those of what clips
+  Object object;            ///< of a solid
+  PlacedShape shape;        ///< of a solid that is no mesh
+  Aabb mesh_bounds;         ///< of a mesh
   std::uint32_t record = 0; ///< of a solid: index in CsgParts::solids
   std::uint32_t leaves = 1; ///< solids in it
   std::vector<Node> children;
+
+  /// Of a solid; null: no mesh.
+  const Mesh* mesh() const {
+    const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape);
+    return mesh != nullptr ? mesh->get() : nullptr;
+  }
+  /// A mesh in which no point is, nor in its inverse.
+  bool has_no_inside() const { return mesh() != nullptr && !mesh()->has_inside(); }
 
   void add(Node child) {
     leaves = (children.empty() ? 0 : leaves) + child.leaves;
@@ -84,7 +108,7 @@ struct Surroundings {
 
 class TreeBuilder {
 public:
-  explicit TreeBuilder(std::vector<SolidRecord>& solids) : solids_(solids) {}
+  TreeBuilder(std::vector<SolidRecord>& solids, MeshInsides& meshes) : solids_(solids), meshes_(meshes) {}
 
   Node build(const Object& object, Surroundings around) {
     if (++around.depth > kMaxDepth) throw InputError("the scene has a CSG that nests too deeply");
@@ -110,8 +134,6 @@ private:
       if (!*csg) throw InputError("an object has no CSG");
       return build_operation(**csg, around);
     }
-    if (std::holds_alternative<std::shared_ptr<const Mesh>>(object.shape))
-      throw InputError("meshes in CSG are not supported");
     return build_solid(object, around);
   }
 
@@ -140,17 +162,35 @@ private:
     node.object.transform = around.transform;
     node.object.no_shadow = around.no_shadow;
     node.object.clipped_by = nullptr;
-    node.shape = place_shape(node.object);
     node.record = static_cast<std::uint32_t>(solids_.size());
+    solids_.push_back(node.mesh() != nullptr ? place_mesh(node) : place_solid(node));
+    return node;
+  }
+
+  static SolidRecord place_solid(Node& node) {
+    node.shape = place_shape(node.object);
     SolidRecord solid{};
     solid.object.kind_and_flags = node.shape.is_empty ? kEmptySolid : node.shape.kind_and_flags;
     std::copy(node.shape.geometry, node.shape.geometry + 12, solid.object.geometry);
     std::copy(node.shape.parameters, node.shape.parameters + 2, solid.extra.value);
-    solids_.push_back(solid);
-    return node;
+    return solid;
+  }
+
+  SolidRecord place_mesh(Node& node) {
+    const Mesh& mesh = *node.mesh();
+    node.mesh_bounds = bounds_of(mesh, node.object.transform);
+    SolidRecord solid{};
+    solid.object.kind_and_flags = kEmptySolid;
+    if (!mesh.has_inside()) return solid;
+    const MeshInsides::Inside& inside = meshes_.of(mesh);
+    solid.object.kind_and_flags = kMeshSolid;
+    solid.object.extra = inside.grid;
+    write_map(node.object.transform.inverse().then(inside.to_grid_space), solid.object.geometry);
+    return solid;
   }
 
   std::vector<SolidRecord>& solids_;
+  MeshInsides& meshes_;
 };
 
 /// What a node may fill.
@@ -158,6 +198,8 @@ Aabb solid_bounds(const Node& node) {
   Aabb all = node.kind == Node::Kind::intersection ? kEverywhere : kNowhere;
   switch (node.kind) {
   case Node::Kind::solid:
+    if (node.has_no_inside()) return kNowhere;
+    if (node.mesh() != nullptr) return node.inverse ? kEverywhere : node.mesh_bounds;
     if (node.shape.is_empty) return node.inverse ? kEverywhere : kNowhere;
     if (!node.shape.is_bounded) return half_space(node.shape, node.inverse);
     // The inside of a disc is a half-space.
@@ -228,7 +270,7 @@ private:
   /// Goes on at step `if_inside` where a point is in the node, else at `if_outside`.
   void compile(const Node& node, std::uint32_t position, std::uint32_t if_inside, std::uint32_t if_outside) {
     if (node.kind == Node::Kind::solid) {
-      if (node.inverse) std::swap(if_inside, if_outside);
+      if (node.inverse && !node.has_no_inside()) std::swap(if_inside, if_outside);
       to_.steps.push_back({node.record, if_inside, if_outside, 0});
       return;
     }
@@ -248,9 +290,15 @@ private:
     part.object = node.object;
     part.shape = node.shape;
     part.condition = condition;
-    part.bounds = intersected(node.shape.is_bounded ? node.shape.bounds() : kEverywhere, bounds);
+    Aabb around = kEverywhere;
+    if (node.mesh() != nullptr)
+      around = node.mesh_bounds;
+    else if (node.shape.is_bounded)
+      around = node.shape.bounds();
+    part.bounds = intersected(around, bounds);
     if (is_empty(part.bounds)) return;
-    part.is_bounded = is_bounded(part.bounds);
+    // Meshes that are too large are refused with their triangles.
+    part.is_bounded = node.mesh() != nullptr || is_bounded(part.bounds);
     to_.parts.push_back(std::move(part));
   }
 
@@ -265,7 +313,7 @@ bool CsgParts::contains(const Object& object) {
 }
 
 CsgParts::CsgParts(const Scene& scene) {
-  TreeBuilder builder(solids);
+  TreeBuilder builder(solids, meshes);
   Flattener flattener(*this);
   for (const Object& object : scene.objects) {
     if (!contains(object)) continue;

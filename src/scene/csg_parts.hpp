@@ -4,6 +4,7 @@
 
 #include "celltrace/scene.hpp"
 #include "kernel/records.hpp"
+#include "scene/mesh_insides.hpp"
 #include "scene/shapes.hpp"
 
 #include <cstdint>
@@ -13,8 +14,8 @@ namespace celltrace {
 
 /// The surface of a shape that CSG limits.
 struct CsgPart {
-  Object object; ///< no CSG, no mesh; placed in the world
-  PlacedShape shape;
+  Object object;           ///< no CSG; placed in the world
+  PlacedShape shape;       ///< of no mesh
   std::uint32_t condition; ///< index in CsgParts::conditions, or kNoCondition
   kernel::Aabb bounds;     ///< of what may be there of it
   bool is_bounded;         ///< false: `bounds` reach to infinity
@@ -34,11 +35,13 @@ struct CsgParts {
   std::vector<kernel::CsgRecord> conditions;
   /// `solid` is an index.
   std::vector<kernel::CsgStep> steps;
+  /// `extra` of a mesh is an index in meshes.grids().
   std::vector<kernel::SolidRecord> solids;
+  MeshInsides meshes;
 
   CsgParts() = default;
-  /// Takes every object of the scene apart that is a CSG, clipped or inverse. Throws InputError if one nests
-  /// too deeply or has a mesh in it where only solids make sense.
+  /// Takes every object of the scene apart that is a CSG or clipped. Throws InputError if one nests too
+  /// deeply or a transformation is singular.
   explicit CsgParts(const Scene& scene);
 
   /// Whether an object is among them.

@@ -19,7 +19,9 @@ FieldList<&ImageHeader::magic, &ImageHeader::version, &ImageHeader::bytes, &Imag
           &ImageHeader::solid_offset, &ImageHeader::solid_count, &ImageHeader::pattern_offset,
           &ImageHeader::pattern_count, &ImageHeader::space_step_offset, &ImageHeader::space_step_count,
           &ImageHeader::map_entry_offset, &ImageHeader::map_entry_count, &ImageHeader::normal_offset,
-          &ImageHeader::normal_count, &ImageHeader::sky, &ImageHeader::unused>
+          &ImageHeader::normal_count, &ImageHeader::sky, &ImageHeader::mesh_grid_offset,
+          &ImageHeader::mesh_grid_count, &ImageHeader::mesh_word_offset, &ImageHeader::mesh_word_count,
+          &ImageHeader::mesh_triangle_offset, &ImageHeader::mesh_triangle_count, &ImageHeader::unused>
 fields_of(const ImageHeader&);
 
 FieldList<&ObjectRecord::kind_and_flags, &ObjectRecord::material, &ObjectRecord::interior,
@@ -36,6 +38,14 @@ FieldList<&CsgStep::solid, &CsgStep::if_inside, &CsgStep::if_outside, &CsgStep::
 fields_of(const CsgStep&);
 
 FieldList<&SolidRecord::object, &SolidRecord::extra> fields_of(const SolidRecord&);
+
+FieldList<&MeshGridRecord::starts, &MeshGridRecord::columns, &MeshGridRecord::rows, &MeshGridRecord::unused>
+fields_of(const MeshGridRecord&);
+
+FieldList<&MeshTriangleRecord::row, &MeshTriangleRecord::column, &MeshTriangleRecord::slope,
+          &MeshTriangleRecord::height, &MeshTriangleRecord::gradient, &MeshTriangleRecord::least_height,
+          &MeshTriangleRecord::greatest_height, &MeshTriangleRecord::unused>
+fields_of(const MeshTriangleRecord&);
 
 FieldList<&BlendRecord::material, &BlendRecord::unused> fields_of(const BlendRecord&);
 

@@ -3,6 +3,7 @@
 #include "celltrace/error.hpp"
 #include "celltrace/spe/simd_host.hpp"
 #include "kernel/direct/build_bvh_bounds.hpp"
+#include "scene/csg_parts.hpp"
 #include "scene/object_order.hpp"
 #include "scene/parallel.hpp"
 #include "scene/triangles.hpp"
@@ -26,7 +27,9 @@ using LaneAabb = bvh::LaneAabb<Simd>;
 
 constexpr std::uint32_t kInstancesPerThread = 64;
 
+/// Of an object that is a mesh, all of it.
 const Mesh* mesh_of(const Object& object) {
+  if (CsgParts::contains(object)) return nullptr;
   const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape);
   return mesh != nullptr ? mesh->get() : nullptr;
 }

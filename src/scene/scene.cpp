@@ -99,6 +99,8 @@ void check_mesh(const Mesh& mesh, std::size_t materials, const Name& name) {
     throw InputError(name.text() + " has more entries than 32 bits can count");
   if (!all_finite(mesh.vertices) || !all_finite(mesh.normals))
     throw InputError(name.text() + " has a number that is not finite");
+  if (!is_finite(mesh.inside_vector))
+    throw InputError(name.text() + " has an inside vector that is not finite");
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
     if (!is_sound(mesh, mesh.triangles[i], materials))
       throw InputError(name.text() + Name{", triangle", i}.text() + " has an index that is out of range");
@@ -132,13 +134,19 @@ void check_object(const Scene& scene, const Object& object, std::size_t index, i
     check_object(scene, clip, index, depth + 1);
 }
 
-/// Instances share their mesh: each mesh is looked at once.
-void check_meshes(const Scene& scene) {
-  std::unordered_set<const Mesh*> seen;
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&scene.objects[i].shape);
-    if (mesh && seen.insert(mesh->get()).second) check_mesh(**mesh, scene.materials.size(), {"object", i});
+/// Instances share their mesh: each mesh is looked at once. `object` is number `index` of the scene, or a
+/// part of it.
+void check_meshes(const Object& object, std::size_t materials, std::size_t index,
+                  std::unordered_set<const Mesh*>& seen) {
+  if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape)) {
+    if (seen.insert(mesh->get()).second) check_mesh(**mesh, materials, {"object", index});
+  } else if (const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape)) {
+    for (const Object& part : (*csg)->parts)
+      check_meshes(part, materials, index, seen);
   }
+  if (!object.clipped_by) return;
+  for (const Object& clip : *object.clipped_by)
+    check_meshes(clip, materials, index, seen);
 }
 
 } // namespace
@@ -178,7 +186,9 @@ void validate(const Scene& scene) {
     check_finite({scene.interiors[i].ior}, {"interior", i});
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
     check_object(scene, scene.objects[i], i, 0);
-  check_meshes(scene);
+  std::unordered_set<const Mesh*> meshes;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    check_meshes(scene.objects[i], scene.materials.size(), i, meshes);
 }
 
 } // namespace celltrace

@@ -118,6 +118,11 @@ ImageHeader make_header(const Scene& scene, const TextureTables& textures, const
   layout.place<CsgRecord>(csg.conditions.size(), header.csg_offset, header.csg_count);
   layout.place<CsgStep>(csg.steps.size(), header.csg_step_offset, header.csg_step_count);
   layout.place<SolidRecord>(csg.solids.size(), header.solid_offset, header.solid_count);
+  const MeshInsides& meshes = csg.meshes;
+  layout.place<MeshGridRecord>(meshes.grids().size(), header.mesh_grid_offset, header.mesh_grid_count);
+  layout.place<std::uint32_t>(meshes.words().size(), header.mesh_word_offset, header.mesh_word_count);
+  layout.place<MeshTriangleRecord>(meshes.triangles().size(), header.mesh_triangle_offset,
+                                   header.mesh_triangle_count);
   layout.place<ExtraRecord>(census.extras + objects.unbounded_extras(), header.extra_offset,
                             header.extra_count);
   layout.place<ObjectRecord>(std::size_t{census.objects} + objects.unbounded_count(), header.object_offset,
@@ -196,7 +201,32 @@ public:
       step.solid = offset(header_.solid_offset, step.solid, sizeof(SolidRecord));
       table<CsgStep>(header_.csg_step_offset)[i] = step;
     }
-    std::copy(csg.solids.begin(), csg.solids.end(), table<SolidRecord>(header_.solid_offset));
+    for (std::size_t i = 0; i < csg.solids.size(); ++i) {
+      SolidRecord solid = csg.solids[i];
+      if (solid.object.kind_and_flags == kMeshSolid)
+        solid.object.extra = offset(header_.mesh_grid_offset, solid.object.extra, sizeof(MeshGridRecord));
+      table<SolidRecord>(header_.solid_offset)[i] = solid;
+    }
+    write_meshes(csg.meshes);
+  }
+
+  void write_meshes(const MeshInsides& meshes) {
+    constexpr auto kWord = static_cast<std::uint32_t>(sizeof(std::uint32_t));
+    auto* words = table<std::uint32_t>(header_.mesh_word_offset);
+    for (std::size_t i = 0; i < meshes.grids().size(); ++i) {
+      MeshGridRecord grid = meshes.grids()[i];
+      const std::uint32_t lists = grid.starts + grid.columns * grid.rows + 1;
+      const std::uint32_t end = meshes.words()[lists - 1];
+      for (std::uint32_t at = grid.starts; at < lists; ++at)
+        words[at] = header_.mesh_word_offset + meshes.words()[at] * kWord;
+      for (std::uint32_t at = lists; at < end; ++at)
+        words[at] = header_.mesh_triangle_offset +
+                    meshes.words()[at] * static_cast<std::uint32_t>(sizeof(MeshTriangleRecord));
+      grid.starts = header_.mesh_word_offset + grid.starts * kWord;
+      table<MeshGridRecord>(header_.mesh_grid_offset)[i] = grid;
+    }
+    std::copy(meshes.triangles().begin(), meshes.triangles().end(),
+              table<MeshTriangleRecord>(header_.mesh_triangle_offset));
   }
 
   /// Behind all others. `before`: what the others have in tables.

@@ -1,13 +1,13 @@
 // SceneImage: a Scene in the flat binary form that the SPEs read.
 //
 // One contiguous, 128-byte aligned block: header, lights, materials, patterns and their maps, normals,
-// blends, interiors, conditions of CSG, extra records, objects, groups of objects and which of them are
-// copies (the static part, written here), then the voxels or nodes and the object lists of the accelerator
-// (PREPARE FRAME's). From kMinObjectsToOrder on, objects lie in the order of a Morton curve, and behind them
-// instances of meshes, each in the order of its mesh's prototype. All positions are 32-bit offsets from its
-// base, so that the static part can be saved, mapped elsewhere and sent to another process of the same byte
-// order; it carries a version and a checksum. Words are in the host's order: SharedImage is what SPEs of
-// another order read.
+// blends, interiors, conditions of CSG, insides of meshes, extra records, objects, groups of objects and
+// which of them are copies (the static part, written here), then the voxels or nodes and the object lists of
+// the accelerator (PREPARE FRAME's). From kMinObjectsToOrder on, objects lie in the order of a Morton curve,
+// and behind them instances of meshes, each in the order of its mesh's prototype. All positions are 32-bit
+// offsets from its base, so that the static part can be saved, mapped elsewhere and sent to another process
+// of the same byte order; it carries a version and a checksum. Words are in the host's order: SharedImage is
+// what SPEs of another order read.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -22,7 +22,7 @@
 namespace celltrace {
 
 constexpr std::uint32_t kImageMagic = 0x43545349; // "CTSI"
-constexpr std::uint32_t kImageVersion = 6;
+constexpr std::uint32_t kImageVersion = 7;
 
 /// Thread safety: as a standard container.
 class SceneImage {

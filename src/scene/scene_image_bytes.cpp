@@ -240,6 +240,38 @@ bool csg_is_valid(const std::byte* base, const ImageHeader& h) {
   return true;
 }
 
+/// True if the insides of meshes have grids, and their cells lists of triangles.
+bool meshes_are_valid(const std::byte* base, const ImageHeader& h) {
+  constexpr auto kWord = static_cast<std::uint32_t>(sizeof(std::uint32_t));
+  const auto* solids = reinterpret_cast<const SolidRecord*>(base + h.solid_offset);
+  for (std::uint32_t i = 0; i < h.solid_count; ++i)
+    if (solids[i].object.kind_and_flags == kMeshSolid &&
+        !refers_to(solids[i].object.extra, h.mesh_grid_offset, h.mesh_grid_count, sizeof(MeshGridRecord)))
+      return false;
+  const auto* words = reinterpret_cast<const std::uint32_t*>(base + h.mesh_word_offset);
+  const auto index_of = [&](std::uint32_t offset) { return (offset - h.mesh_word_offset) / kWord; };
+  const auto* grids = reinterpret_cast<const MeshGridRecord*>(base + h.mesh_grid_offset);
+  for (std::uint32_t i = 0; i < h.mesh_grid_count; ++i) {
+    const MeshGridRecord& grid = grids[i];
+    if (grid.columns - 1 >= kMaxMeshGridSide || grid.rows - 1 >= kMaxMeshGridSide ||
+        !refers_to(grid.starts, h.mesh_word_offset, h.mesh_word_count, kWord))
+      return false;
+    const std::uint32_t starts = index_of(grid.starts), lists = starts + grid.columns * grid.rows + 1;
+    if (lists > h.mesh_word_count || lists < starts) return false;
+    std::uint32_t at = lists;
+    for (std::uint32_t cell = starts; cell < lists; ++cell) {
+      // Behind the last list there may be no more words.
+      if (words[cell] < h.mesh_word_offset || (words[cell] - h.mesh_word_offset) % kWord != 0 ||
+          index_of(words[cell]) < at || index_of(words[cell]) > h.mesh_word_count)
+        return false;
+      for (const std::uint32_t end = index_of(words[cell]); at < end; ++at)
+        if (!refers_to(words[at], h.mesh_triangle_offset, h.mesh_triangle_count, sizeof(MeshTriangleRecord)))
+          return false;
+    }
+  }
+  return true;
+}
+
 /// True if there are no groups, or each object is in one.
 bool groups_are_valid(const std::byte* base, const ImageHeader& h) {
   const auto* groups = reinterpret_cast<const GroupRecord*>(base + h.group_offset);
@@ -307,11 +339,15 @@ SceneImage SceneImage::from_bytes(std::span<const std::byte> bytes) {
       !table_fits(h.csg_offset, h.csg_count, sizeof(CsgRecord), bytes.size()) ||
       !table_fits(h.csg_step_offset, h.csg_step_count, sizeof(CsgStep), bytes.size()) ||
       !table_fits(h.solid_offset, h.solid_count, sizeof(SolidRecord), bytes.size()) ||
+      !table_fits(h.mesh_grid_offset, h.mesh_grid_count, sizeof(MeshGridRecord), bytes.size()) ||
+      !table_fits(h.mesh_word_offset, h.mesh_word_count, sizeof(std::uint32_t), bytes.size()) ||
+      !table_fits(h.mesh_triangle_offset, h.mesh_triangle_count, sizeof(MeshTriangleRecord), bytes.size()) ||
       !table_fits(h.group_offset, h.group_count, sizeof(GroupRecord), bytes.size()) ||
       !table_fits(h.prototype_offset, h.prototype_count, sizeof(std::uint32_t), bytes.size()) ||
       !references_are_valid(image.base(), h) || !lights_are_valid(image.base(), h) ||
       !TextureCheck(image.base(), h).holds() || !csg_is_valid(image.base(), h) ||
-      !groups_are_valid(image.base(), h) || !prototypes_are_valid(image.base(), h))
+      !meshes_are_valid(image.base(), h) || !groups_are_valid(image.base(), h) ||
+      !prototypes_are_valid(image.base(), h))
     throw InputError("scene image: an offset is out of range");
   return image;
 }

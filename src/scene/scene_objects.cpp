@@ -41,6 +41,20 @@ Aabb box_of(const LaneAabb& lanes) {
   return {{around.min[0], around.min[1], around.min[2]}, {around.max[0], around.max[1], around.max[2]}};
 }
 
+LaneAabb box_around(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
+  LaneAabb box = {lanes_of(a), lanes_of(a)};
+  box.grow(lanes_of(b));
+  box.grow(lanes_of(c));
+  return box;
+}
+
+/// Leaves what is within `bounds` too; false if that is nothing.
+bool limit(LaneAabb& box, const Aabb& bounds) {
+  box.min = Simd::max(box.min, four<Simd>(bounds.min[0], bounds.min[1], bounds.min[2], 0.0f));
+  box.max = Simd::min(box.max, four<Simd>(bounds.max[0], bounds.max[1], bounds.max[2], 0.0f));
+  return (not_above_bits(box.min, box.max) & 7) == 7;
+}
+
 /// Whether check_size() surely accepts it.
 bool has_size(const LaneAabb& box) {
   constexpr float kSmall = 0.99e18f;
@@ -70,11 +84,11 @@ SceneObjects::SceneObjects(const Scene& scene, const MeshInstances& instances, u
     const Object& object = scene.objects[i];
     if (instances.contains(i) || CsgParts::contains(object)) continue;
     if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape))
-      add_mesh(object, **mesh, threads);
+      add_mesh(object, **mesh, nullptr, threads);
     else
       add_shape(object);
   }
-  add_parts();
+  add_parts(threads);
 }
 
 void SceneObjects::grow(std::size_t objects) {
@@ -96,9 +110,14 @@ void SceneObjects::add_shape(const Object& object) {
   grow(1);
 }
 
-void SceneObjects::add_parts() {
+void SceneObjects::add_parts(unsigned threads) {
   const CsgPart* previous = nullptr;
   for (const CsgPart& part : csg_.parts) {
+    if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&part.object.shape)) {
+      add_mesh(part.object, **mesh, &part, threads);
+      previous = nullptr;
+      continue;
+    }
     if (!part.is_bounded) {
       unbounded_.push_back({&part.object, &part});
       continue;
@@ -125,9 +144,9 @@ std::uint32_t SceneObjects::unbounded_extras() const {
   return static_cast<std::uint32_t>(std::count_if(unbounded_.begin(), unbounded_.end(), has_extra));
 }
 
-void SceneObjects::add_mesh(const Object& object, const Mesh& mesh, unsigned threads) {
+void SceneObjects::add_mesh(const Object& object, const Mesh& mesh, const CsgPart* part, unsigned threads) {
   if (mesh.triangles.empty()) return;
-  Piece piece = {count_, &object, &mesh, mesh.vertices, mesh.normals};
+  Piece piece = {count_, &object, &mesh, mesh.vertices, mesh.normals, part};
   if (!object.transform.is_identity()) {
     transformed_.push_back(changed(mesh.vertices, threads, [&](const Vec3f& vertex) {
       return Vec3f(object.transform.point(Vec3(vertex)));
@@ -200,6 +219,7 @@ void SceneObjects::place_shapes(const Piece& piece, std::uint32_t begin, std::ui
 void SceneObjects::place_triangles(const Piece& piece, std::uint32_t begin, std::uint32_t end,
                                    ObjectCensus& census, PlacedObject* to) const {
   const Mesh& mesh = *piece.mesh;
+  const bool is_limited = piece.is_limited_mesh();
   LaneAabb around = LaneAabb::empty();
   PlacedObject* next = to + census.objects;
   for (std::uint32_t number = begin; number < end; ++number) {
@@ -207,12 +227,11 @@ void SceneObjects::place_triangles(const Piece& piece, std::uint32_t begin, std:
     const Vec3f &a = piece.vertices[triangle.vertex[0]], &b = piece.vertices[triangle.vertex[1]],
                 &c = piece.vertices[triangle.vertex[2]];
     if (!has_area(a, b, c)) continue;
-    census.extras += is_smooth(triangle);
-    census.blended += is_blended(piece, triangle);
-    LaneAabb box = {lanes_of(a), lanes_of(a)};
-    box.grow(lanes_of(b));
-    box.grow(lanes_of(c));
+    LaneAabb box = box_around(a, b, c);
     if (!has_size(box)) check_size(box_of(box));
+    if (is_limited && !limit(box, piece.part->bounds)) continue;
+    census.extras += is_limited || is_smooth(triangle);
+    census.blended += is_blended(piece, triangle);
     around.grow(box);
     box.centre().store(next->centre); // over the word behind
     next++->source = number;
@@ -232,7 +251,7 @@ ObjectCensus SceneObjects::count_tables(std::span<const PlacedObject> objects) c
       continue;
     }
     const Mesh::Triangle& triangle = piece.mesh->triangles[object.source - piece.first];
-    census.extras += is_smooth(triangle);
+    census.extras += piece.is_limited_mesh() || is_smooth(triangle);
     census.blended += is_blended(piece, triangle);
   }
   return census;
@@ -254,14 +273,8 @@ public:
     ExtraRecord extra{};
     std::copy(shape.parameters, shape.parameters + 2, extra.value);
     extra.csg = kNoOffset;
-    if (limited) {
-      r.kind_and_flags |= object_flag::csg;
-      extra.csg = tables_.csg_offset + placed.part->condition * static_cast<std::uint32_t>(sizeof(CsgRecord));
-      std::copy(placed.part->bounds.min, placed.part->bounds.min + 3, extra.bounds);
-      std::copy(placed.part->bounds.max, placed.part->bounds.max + 3, extra.bounds + 3);
-    }
-    r.extra = tables_.offset_of_extra(extras_);
-    tables_.extras[extras_++] = extra;
+    if (limited) limit_by_csg(*placed.part, placed.part->bounds, r, extra);
+    set_extra(r, extra);
     return r;
   }
 
@@ -272,18 +285,37 @@ public:
     for (int v = 0; v < 3; ++v)
       std::memcpy(r.geometry + 3 * v, &piece.vertices[triangle.vertex[v]], sizeof(Vec3f));
     if (objects_.is_blended(piece, triangle)) blend(r, *piece.object, triangle);
-    if (is_smooth(triangle)) {
+    const bool smooth = is_smooth(triangle), limited = piece.is_limited_mesh();
+    if (!smooth && !limited) return;
+    ExtraRecord record{};
+    if (smooth) {
       r.kind_and_flags |= object_flag::smooth;
-      r.extra = tables_.offset_of_extra(extras_);
-      ExtraRecord record{};
       for (int v = 0; v < 3; ++v)
         for (int i = 0; i < 3; ++i)
           record.value[v * 3 + i] = piece.normals[triangle.normal[v]][i];
-      tables_.extras[extras_++] = record;
     }
+    if (limited) {
+      LaneAabb box = box_around(piece.vertices[triangle.vertex[0]], piece.vertices[triangle.vertex[1]],
+                                piece.vertices[triangle.vertex[2]]);
+      limit(box, piece.part->bounds);
+      limit_by_csg(*piece.part, box_of(box), r, record);
+    }
+    set_extra(r, record);
   }
 
 private:
+  void limit_by_csg(const CsgPart& part, const Aabb& bounds, ObjectRecord& r, ExtraRecord& extra) const {
+    r.kind_and_flags |= object_flag::csg;
+    extra.csg = tables_.csg_offset + part.condition * static_cast<std::uint32_t>(sizeof(CsgRecord));
+    std::copy(bounds.min, bounds.min + 3, extra.bounds);
+    std::copy(bounds.max, bounds.max + 3, extra.bounds + 3);
+  }
+
+  void set_extra(ObjectRecord& r, const ExtraRecord& extra) {
+    r.extra = tables_.offset_of_extra(extras_);
+    tables_.extras[extras_++] = extra;
+  }
+
   /// What triangles of one material have in common.
   void start(const Object& object, Index material) {
     object_ = &object;

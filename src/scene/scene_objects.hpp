@@ -57,7 +57,10 @@ private:
     const Mesh* mesh;                ///< null: shapes or parts
     std::span<const Vec3f> vertices; ///< in the world
     std::span<const Vec3f> normals;
-    const CsgPart* part = nullptr; ///< first of the parts
+    const CsgPart* part = nullptr; ///< first of the parts, or the one that the mesh is
+
+    /// Whether it is a mesh that CSG limits.
+    bool is_limited_mesh() const { return mesh != nullptr && part != nullptr && part->is_limited(); }
   };
   /// A shape by itself or a part of a CSG.
   struct Placed {
@@ -73,8 +76,9 @@ private:
   void place_triangles(const Piece& piece, std::uint32_t begin, std::uint32_t end, ObjectCensus& census,
                        PlacedObject* to) const;
   void add_shape(const Object& object);
-  void add_parts();
-  void add_mesh(const Object& object, const Mesh& mesh, unsigned threads);
+  void add_parts(unsigned threads);
+  /// `part`: that it is of a CSG, or null.
+  void add_mesh(const Object& object, const Mesh& mesh, const CsgPart* part, unsigned threads);
   void grow(std::size_t objects);
   std::uint32_t end_of(const Piece& piece) const;
   /// `near`: a piece that is likely to be it, or null.

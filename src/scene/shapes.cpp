@@ -12,6 +12,18 @@
 
 namespace celltrace {
 
+void complete_basis(const Vec3& axis, Vec3& first, Vec3& second) {
+  const Vec3 other = std::abs(axis.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
+  first = glm::normalize(glm::cross(axis, other));
+  second = glm::cross(axis, first);
+}
+
+void write_map(const Transform& map, float (&to)[12]) {
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 4; ++column)
+      to[row * 4 + column] = static_cast<float>(map.rows[column][row]);
+}
+
 namespace {
 
 using namespace kernel;
@@ -34,13 +46,6 @@ double uniform_scale(const Transform& t) {
   return round ? x : 0;
 }
 
-/// Two directions that are at right angles to `axis` and to each other, all of unit length.
-void complete_basis(const Vec3& axis, Vec3& first, Vec3& second) {
-  const Vec3 other = std::abs(axis.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
-  first = glm::normalize(glm::cross(axis, other));
-  second = glm::cross(axis, first);
-}
-
 Vec3 unit(const Vec3& v) {
   const double length = glm::length(v);
   return length > 0 ? v / length : Vec3(0, 1, 0);
@@ -52,10 +57,7 @@ template <class P> PlacedShape in_own_space(const Object& object, const Transfor
   shape.kind_and_flags = kPrimitiveKind<P>;
   shape.has_parameters = P::kHasParameters;
   shape.is_bounded = P::kIsBounded;
-  const Transform map = from_own.then(object.transform).inverse();
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 4; ++column)
-      shape.geometry[row * 4 + column] = static_cast<float>(map.rows[column][row]);
+  write_map(from_own.then(object.transform).inverse(), shape.geometry);
   return shape;
 }
 

@@ -21,6 +21,12 @@ struct PlacedShape {
   kernel::Aabb bounds() const;
 };
 
+/// Two directions that are at right angles to `axis` and to each other, all of unit length.
+void complete_basis(const Vec3& axis, Vec3& first, Vec3& second);
+
+/// Writes an affine map as records have it: three rows of four.
+void write_map(const Transform& map, float (&to)[12]);
+
 /// Of a shape that is neither a mesh nor a CSG. Throws InputError if its transformation is singular.
 PlacedShape place_shape(const Object& object);
 

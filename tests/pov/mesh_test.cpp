@@ -97,8 +97,18 @@ TEST_CASE("mesh2") {
         parse(kSquare + "uv_vectors { 1, <0, 0> } face_indices { 2, <0, 1, 2>, <0, 0, 3> } "
                         "uv_indices { 2, <0, 0, 0>, <0, 0, 0> } inside_vector z no_shadow scale 2 }");
     CHECK(mesh_of(scene).triangles.size() == 1); // one is degenerate
+    CHECK(mesh_of(scene).inside_vector == Vec3(0, 0, 1));
     CHECK(scene.objects[0].no_shadow);
   }
+}
+
+TEST_CASE("a mesh has the last of its inside vectors") {
+  CHECK_FALSE(mesh_of(parse("mesh { triangle { 0, x, y } }")).has_inside());
+  CHECK_FALSE(mesh_of(parse("mesh { triangle { 0, x, y } inside_vector 0 }")).has_inside());
+  CHECK(mesh_of(parse("mesh { inside_vector x triangle { 0, x, y } inside_vector <1, 2> }")).inside_vector ==
+        Vec3(1, 2, 0));
+  CHECK(error_line("mesh { triangle { 0, x, y } inside_vector 1e300 * 1e300 * x }") ==
+        "scene.pov:1:43: error: this inside_vector is not finite");
 }
 
 TEST_CASE("meshes that cannot be") {

@@ -138,6 +138,70 @@ TEST_CASE("A sealed scene image with a fault in it is refused") {
   refused([](Bytes& b) { table<BlendRecord>(b, header_of(b).blend_offset)->material[2] = 5; }, "offset");
 }
 
+TEST_CASE("A sealed scene image with a fault in the inside of a mesh is refused") {
+  const Bytes good = bytes_of(SceneImage(scene_named("cut meshes")));
+  const auto refused = [&](const std::function<void(Bytes&, const ImageHeader&)>& change) {
+    Bytes bytes = good;
+    change(bytes, *reinterpret_cast<const ImageHeader*>(good.data()));
+    seal(bytes);
+    CHECK_THROWS_WITH(SceneImage::from_bytes(bytes), Catch::Contains("offset"));
+  };
+  const auto grids = [](Bytes& b, const ImageHeader& h) {
+    return table<MeshGridRecord>(b, h.mesh_grid_offset);
+  };
+  const auto words = [](Bytes& b, const ImageHeader& h) {
+    return table<std::uint32_t>(b, h.mesh_word_offset);
+  };
+  const ImageHeader header = *reinterpret_cast<const ImageHeader*>(good.data());
+  REQUIRE(header.mesh_grid_count == 3);
+  const auto first = [&](Bytes& b) { return *grids(b, header); };
+  refused([](Bytes& b, const ImageHeader&) { header_of(b).mesh_triangle_count = 0x10000000; });
+  refused([](Bytes& b, const ImageHeader&) { header_of(b).mesh_word_offset += 4; });
+  refused([](Bytes& b, const ImageHeader&) { header_of(b).mesh_grid_count = 0; });
+  refused([](Bytes& b, const ImageHeader&) { header_of(b).mesh_word_count = 5; });
+  refused([&](Bytes& b, const ImageHeader& h) { grids(b, h)->columns = 0; });
+  refused([&](Bytes& b, const ImageHeader& h) { grids(b, h)->rows = kMaxMeshGridSide + 1; });
+  refused([&](Bytes& b, const ImageHeader& h) { grids(b, h)->starts += 2; });
+  refused([&](Bytes& b, const ImageHeader& h) { grids(b, h)->starts = h.mesh_triangle_offset; });
+  refused([&](Bytes& b, const ImageHeader& h) { words(b, h)[0] -= 4; });
+  refused([&](Bytes& b, const ImageHeader& h) { words(b, h)[1] = h.mesh_triangle_offset + 4; });
+  refused([&](Bytes& b, const ImageHeader& h) { ++words(b, h)[1]; });
+  refused([&](Bytes& b, const ImageHeader& h) {
+    words(b, h)[first(b).columns * first(b).rows + 1] += sizeof(ObjectRecord) / 2;
+  });
+  refused([](Bytes& b, const ImageHeader& h) {
+    auto* solids = table<SolidRecord>(b, h.solid_offset);
+    for (std::uint32_t i = 0; i < h.solid_count; ++i)
+      if (solids[i].object.kind_and_flags == kMeshSolid) solids[i].object.extra += 8;
+  });
+}
+
+TEST_CASE("What is wrong with a mesh in CSG is said") {
+  Scene scene = scene_named("cut meshes");
+  const auto refused = [&](const std::function<void(Mesh&)>& change, const std::string& message) {
+    Mesh mesh = floor_mesh(0, 1);
+    change(mesh);
+    Object clipped = sphere_at({0, 0, 0}, 1, 0, 0);
+    clipped.clipped_by = std::make_shared<const std::vector<Object>>(std::vector{mesh_object(mesh, 0, 0)});
+    const Object part = mesh_object(mesh, 0, 0);
+    for (const Object& object :
+         {part, clipped, [&] {
+            Object csg;
+            csg.shape = std::make_shared<const Csg>(Csg{Csg::Operation::merge, {clipped, part}});
+            return csg;
+          }()}) {
+      scene.objects = {object};
+      CHECK_THROWS_WITH(SceneImage(scene), message);
+    }
+  };
+  refused([](Mesh& mesh) { mesh.inside_vector.y = std::numeric_limits<double>::infinity(); },
+          "object 0 has an inside vector that is not finite");
+  refused([](Mesh& mesh) { mesh.inside_vector.z = std::numeric_limits<double>::quiet_NaN(); },
+          "object 0 has an inside vector that is not finite");
+  refused([](Mesh& mesh) { mesh.triangles[1].vertex[2] = 4; },
+          "object 0, triangle 1 has an index that is out of range");
+}
+
 TEST_CASE("Spheres that a transformation leaves round stay spheres") {
   Scene scene;
   scene.add(matte({1, 1, 1}));

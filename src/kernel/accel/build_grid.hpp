@@ -23,7 +23,9 @@ template <class Spu> uint32_t emit_pairs(Spu& spu, const FrameBlock& frame) {
   objects.for_each(
       frame.image + frame.object_offset, frame.object_count, [&](const ObjectRecord& object, uint32_t index) {
         const uint32_t offset = frame.object_offset + index * static_cast<uint32_t>(sizeof(ObjectRecord));
-        if (object.extra != kNoOffset && (object.kind_and_flags & object_flag::smooth) == 0) {
+        // The normals of a smooth triangle do not matter, but what CSG leaves of it does.
+        constexpr uint32_t kSmoothAndWhole = object_flag::smooth | object_flag::csg;
+        if (object.extra != kNoOffset && (object.kind_and_flags & kSmoothAndWhole) != object_flag::smooth) {
           if constexpr (kReadsInPlace<Spu>) {
             extra = *reinterpret_cast<const ExtraRecord*>(static_cast<uintptr_t>(frame.image + object.extra));
           } else {

@@ -1,6 +1,7 @@
 // Constructive solid geometry: which crossings with a part's surface count. Kernel dialect.
 #pragma once
 
+#include "kernel/primitives/meshes_module.hpp"
 #include "kernel/primitives/shapes_module.hpp"
 #include "kernel/scene_access.hpp"
 
@@ -10,8 +11,13 @@ namespace celltrace::kernel {
 template <class Spu>
 uint32_t inside_solid(SceneAccess<Spu>& scene, uint32_t solid, const V3<typename Spu::simd>& points,
                       uint32_t lanes) {
+  const SolidRecord& record = *scene.solid(solid);
+  if (record.object.kind_and_flags == kMeshSolid) {
+    scene.spu().enter_module(modules::kMeshes);
+    return module_meshes::inside(scene, record.object, points, lanes);
+  }
   scene.spu().enter_module(modules::kShapes);
-  return module_shapes::inside(scene.spu(), *scene.solid(solid), points) & lanes;
+  return module_shapes::inside(scene.spu(), record, points) & lanes;
 }
 
 /// Which of the points in `lanes`, on the surface of a part, satisfy its condition and those of all levels
