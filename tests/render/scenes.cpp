@@ -396,24 +396,25 @@ Scene cut_meshes() {
   add_floor(scene, -1.2f, {0.5, 0.6, 0.5}, {0.8, 0.8, 0.8});
   const Index colours[3] = {scene.add(matte({1, 0.3, 0.2})), scene.add(matte({0.2, 0.9, 0.3})),
                             scene.add(glass({0.8, 0.9, 1}))};
-  Mesh smooth = ball_mesh(6);
-  smooth.inside_vector = {0.2, 1, 0.1};
-  Mesh blended = ball_mesh(5);
-  blended.inside_vector = {0, 0, -3};
-  for (std::size_t t = 0; t < blended.triangles.size(); ++t)
+  Mesh ball = ball_mesh(6);
+  ball.inside_vector = {0.2, 1, 0.1};
+  const auto smooth = std::make_shared<const Mesh>(ball);
+  ball = ball_mesh(5);
+  ball.inside_vector = {0, 0, -3};
+  for (std::size_t t = 0; t < ball.triangles.size(); ++t)
     for (std::size_t corner = 0; corner < 3; ++corner) {
-      blended.triangles[t].normal[corner] = kNoIndex;
-      blended.triangles[t].material[corner] = colours[(t + corner * (t % 2)) % 2];
+      ball.triangles[t].normal[corner] = kNoIndex;
+      ball.triangles[t].material[corner] = colours[(t + corner * (t % 2)) % 2];
     }
+  const auto blended = std::make_shared<const Mesh>(ball);
+  ball.inside_vector = Vec3(0);
+  const auto open = std::make_shared<const Mesh>(ball);
   const auto solid = [&](auto shape, Index material, const Transform& transform = {}) {
     Object object;
     object.shape = std::move(shape);
     object.material = material;
     object.transform = transform;
     return object;
-  };
-  const auto mesh = [&](const Mesh& from, Index material, const Transform& transform = {}) {
-    return solid(std::make_shared<const Mesh>(from), material, transform);
   };
   const auto add = [&](Csg::Operation operation, std::vector<Object> parts, const Transform& transform) {
     const Index interior = new_interior(scene, 1.1);
@@ -424,24 +425,22 @@ Scene cut_meshes() {
   };
   const Transform turned = Transform::rotate({20, 30, 10});
   add(Csg::Operation::difference,
-      {mesh(smooth, colours[0]), mesh(blended, colours[1], Transform::translate({0.3, 0.4, -0.8})),
+      {solid(smooth, colours[0]), solid(blended, colours[1], Transform::translate({0.3, 0.4, -0.8})),
        solid(Cylinder{{0, -2, 0}, {0, 2, 0}, 0.3}, colours[1])},
       turned.then(Transform::translate({-1.5, 0, 0})));
-  Object outside = mesh(smooth, colours[1], Transform::scale({0.8, 1.3, 0.8}));
+  Object outside = solid(smooth, colours[1], Transform::scale({0.8, 1.3, 0.8}));
   outside.inverse = true;
   add(Csg::Operation::intersection, {solid(Box{}, colours[0], Transform::scale(Vec3(0.8))), outside},
       turned.then(Transform::translate({1, 0.1, 1.5})));
   add(Csg::Operation::merge,
-      {mesh(smooth, colours[2]), mesh(smooth, colours[2], Transform::translate({0.9, 0, 0}))},
+      {solid(smooth, colours[2]), solid(smooth, colours[2], Transform::translate({0.9, 0, 0}))},
       Transform::scale(Vec3(0.6)).then(Transform::translate({0.9, -0.4, -1.2})));
-  scene.objects.push_back(mesh(blended, colours[0], Transform::translate({-0.2, 0.9, 2})));
+  scene.objects.push_back(solid(blended, colours[0], Transform::translate({-0.2, 0.9, 2})));
   scene.objects.back().interior = new_interior(scene);
   scene.objects.back().clipped_by = std::make_shared<const std::vector<Object>>(std::vector<Object>{
       solid(Plane{{0, 0.3, 1}, 0.1}, 0, Transform::translate({-0.2, 0.9, 2})),
-      mesh(smooth, 0, Transform::scale({1, 0.7, 1}).then(Transform::translate({-0.4, 0.8, 2})))});
-  Mesh open = blended;
-  open.inside_vector = Vec3(0);
-  add(Csg::Operation::difference, {mesh(open, colours[0]), solid(Sphere{{0, 0.5, -0.5}, 0.8}, colours[1])},
+      solid(smooth, 0, Transform::scale({1, 0.7, 1}).then(Transform::translate({-0.4, 0.8, 2})))});
+  add(Csg::Operation::difference, {solid(open, colours[0]), solid(Sphere{{0, 0.5, -0.5}, 0.8}, colours[1])},
       Transform::scale(Vec3(0.5)).then(Transform::translate({2.2, 0.2, 0})));
   return scene;
 }
