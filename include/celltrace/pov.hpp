@@ -2,11 +2,10 @@
 //
 // Supported: the language itself (directives, macros, loops, strings, arrays, expressions), all cameras but
 // mesh cameras, light sources but light groups, spheres, boxes, planes, discs, cylinders, cones, tori,
-// triangles, meshes, unions, CSG of triangles and of all that have an inside, as meshes with inside_vector do,
-// with inverse and clipped_by, sky spheres, and textures of everything that texture.hpp has: patterns with
-// maps and lists, normals, layers, and the finish.
-// Whatever else POV-Ray knows may be declared; it is an error, "'blob' is not supported yet", where an object
-// of the scene uses it.
+// triangles, meshes, unions, CSG of triangles and of all that have an inside, as meshes with inside_vector
+// do, with inverse and clipped_by, sky spheres, and textures of everything that texture.hpp has: patterns
+// with maps and lists, normals, layers, and the finish. Whatever else POV-Ray knows may be declared; it is an
+// error, "'blob' is not supported yet", where an object of the scene uses it.
 #pragma once
 
 #include <cstdint>

@@ -25,16 +25,17 @@
 //
 // `Spu::rare_simd` is the facade for code that runs rarely. It has kLanes lanes, 16 or where local store is
 // short the 4 of one quadword, and F, I and M with all of the above but load_words, extremes, join,
-// transpose_quads and the types of four: rare code works on the lanes of a packet part by part. One of 4 lanes
-// has part(F of Spu::simd, first) and set_part(F& of Spu::simd, first, F), `first` a multiple of 4. All have
+// transpose_quads and the types of four: rare code works on the lanes of a packet part by part. One of 4
+// lanes has part(F of Spu::simd, first) and set_part(F& of Spu::simd, first, F), `first` a multiple of 4. All
+// have
 //
 //   sum_rows(const float* table, starts_of, F (&factors)[rows][4], F (&sums)[channels]): for each lane, the
-//   sum of some rows of the table, times factors, which are lost. starts_of(lane, uint32_t (&starts)[rows]) says where in
-//   the table the rows of a lane start, anywhere; starts_of.are_equal() whether they are the same for all
-//   lanes, which some implementations ask. A row has four numbers for each channel, one after the other:
-//   those of channel c are multiplied by the four factors of the row, and added up to sums[c]. The rows are
-//   added up in their order, then the four numbers as (0 + 1) + (2 + 3). Behind the last row 16 bytes more
-//   may be read.
+//   sum of some rows of the table, times factors, which are lost. starts_of(lane, uint32_t (&starts)[rows])
+//   says where in the table the rows of a lane start, anywhere; starts_of.are_equal() whether they are the
+//   same for all lanes, which some implementations ask. A row has four numbers for each channel, one after
+//   the other: those of channel c are multiplied by the four factors of the row, and added up to sums[c]. The
+//   rows are added up in their order, then the four numbers as (0 + 1) + (2 + 3). Behind the last row 16
+//   bytes more may be read.
 //
 // On the host every float operation is IEEE single precision, never fused, so that all widths and backends
 // give the same bits. On the SPU division and sqrt are estimates refined to within 2 units in the last place,

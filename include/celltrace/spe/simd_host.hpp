@@ -422,6 +422,44 @@ template <class Arch> struct HostSimd {
       sums[channel] = (four[0] + four[1]) + (four[2] + four[3]);
     }
   }
+#if defined(__AVX512F__)
+  /// The rows of three channels, each one load; the same operations in the same order.
+  template <uint32_t kRows, class StartsOf>
+  [[gnu::always_inline]] static void sum_wide_rows(const float* table, const StartsOf& starts_of,
+                                                   const float (&factors_of)[kRows][4][kSimdLanes],
+                                                   F (&sums)[3]) {
+    alignas(64) float lanes[3][kSimdLanes];
+    for (uint32_t quad = 0; quad < 4; ++quad) {
+      // Of a lane, the four numbers of each channel side by side.
+      __m512 four[4];
+      simd_host::unroll(
+          std::make_index_sequence<4>(), [&](std::size_t i) __attribute__((always_inline)) {
+            uint32_t starts[kRows];
+            starts_of(4 * quad + static_cast<uint32_t>(i), starts);
+            simd_host::unroll(
+                std::make_index_sequence<kRows>(), [&](std::size_t row) __attribute__((always_inline)) {
+                  const __m512 factors = _mm512_broadcast_f32x4(_mm_load_ps(factors_of[row][i] + 4 * quad));
+                  const __m512 product = _mm512_mul_ps(_mm512_loadu_ps(table + starts[row]), factors);
+                  four[i] = row == 0 ? product : _mm512_add_ps(four[i], product);
+                });
+          });
+      const __m512 ab_low = _mm512_unpacklo_ps(four[0], four[1]),
+                   ab_high = _mm512_unpackhi_ps(four[0], four[1]);
+      const __m512 cd_low = _mm512_unpacklo_ps(four[2], four[3]),
+                   cd_high = _mm512_unpackhi_ps(four[2], four[3]);
+      const __m512 first = _mm512_shuffle_ps(ab_low, cd_low, 0x44),
+                   second = _mm512_shuffle_ps(ab_low, cd_low, 0xEE);
+      const __m512 third = _mm512_shuffle_ps(ab_high, cd_high, 0x44),
+                   fourth = _mm512_shuffle_ps(ab_high, cd_high, 0xEE);
+      const __m512 sum = _mm512_add_ps(_mm512_add_ps(first, second), _mm512_add_ps(third, fourth));
+      _mm_store_ps(lanes[0] + 4 * quad, _mm512_castps512_ps128(sum));
+      _mm_store_ps(lanes[1] + 4 * quad, _mm512_extractf32x4_ps(sum, 1));
+      _mm_store_ps(lanes[2] + 4 * quad, _mm512_extractf32x4_ps(sum, 2));
+    }
+    for (uint32_t channel = 0; channel < 3; ++channel)
+      sums[channel] = F::load(lanes[channel]);
+  }
+#endif
   /// Lane by lane, as a row is one unaligned load a channel: gathering its numbers takes a load for each.
   template <uint32_t kRows, uint32_t kChannels, class StartsOf>
   [[gnu::always_inline]] static void sum_rows(const float* table, const StartsOf& starts_of,
@@ -435,6 +473,9 @@ template <class Arch> struct HostSimd {
       for (uint32_t i = 0; i < 4; ++i)
         four[i].store(factors_of[row][i]);
     }
+#if defined(__AVX512F__)
+    if constexpr (kChannels == 3) return sum_wide_rows(table, starts_of, factors_of, sums);
+#endif
     F totals[kChannels][4];
     for (uint32_t i = 0; i < 4; ++i) {
       F4 total[kChannels][4];
