@@ -63,6 +63,8 @@ void surface_of(const ObjectLanes<typename Spu::simd>& o, const V3<typename Spu:
   const uint32_t spheres = o.of_kind[kPrimitiveKind<SpherePrimitive>],
                  triangles = o.of_kind[kPrimitiveKind<TrianglePrimitive>],
                  planes = o.of_kind[kPrimitiveKind<PlanePrimitive>];
+  if constexpr (kHasRoomForCode<Spu>)
+    if (triangles == 0xFFFF) return surface_of_triangles<S>(o, hits, point, normal);
   uint32_t others = 0;
   for (uint32_t kind = 0; kind < kPrimitives; ++kind)
     if (kind > kPrimitiveKind<PlanePrimitive>) others |= o.of_kind[kind];

@@ -69,16 +69,24 @@ template <class Spu>
 
 namespace detail {
 
-/// Gives `taken` lanes a material; `lanes` are those of them that have it.
-template <class Spu>
+/// Gives `taken` lanes a material, which may be said to be `kAll`; `lanes` are those of them that have it.
+template <class Spu, bool kAll = false>
 [[gnu::noinline]] void gather_material(const MaterialRecord& r, uint32_t taken, uint32_t lanes,
                                        MaterialLanes<typename Spu::simd>& m) {
   using S = typename Spu::simd;
   using F = typename S::F;
   const auto take = S::M::from_bits(taken);
-  const auto put = [&](F& field, float value) { field = S::select(take, F(value), field); };
+  const auto put = [&](F& field, float value) {
+    if constexpr (kAll)
+      field = F(value);
+    else
+      field = S::select(take, F(value), field);
+  };
   const auto put3 = [&](V3<S>& field, const float(&value)[3]) {
-    put_in_lanes<Spu>(false, take, value, field);
+    if constexpr (kAll)
+      field = splat3<S>(value);
+    else
+      put_in_lanes<Spu>(false, take, value, field);
   };
   put3(m.pigment, r.pigment);
   put3(m.ambient, r.ambient);
@@ -123,7 +131,10 @@ MaterialLanes<typename Spu::simd> gather_materials(SceneAccess<Spu>& scene, cons
   bool first = true;
   for_each_value<typename Spu::simd>(offsets, lanes, [&](uint32_t offset, uint32_t same) {
     scene.spu().compute(scalar_work::kMaterial);
-    detail::gather_material<Spu>(*scene.material(offset), first ? 0xFFFF : same, same, m);
+    if (kHasRoomForCode<Spu> && first)
+      detail::gather_material<Spu, kHasRoomForCode<Spu>>(*scene.material(offset), 0xFFFF, same, m);
+    else
+      detail::gather_material<Spu>(*scene.material(offset), first ? 0xFFFF : same, same, m);
     first = false;
   });
   return m;
