@@ -63,11 +63,11 @@ void surface_of(const ObjectLanes<typename Spu::simd>& o, const V3<typename Spu:
   const uint32_t spheres = o.of_kind[kPrimitiveKind<SpherePrimitive>],
                  triangles = o.of_kind[kPrimitiveKind<TrianglePrimitive>],
                  planes = o.of_kind[kPrimitiveKind<PlanePrimitive>];
-  if constexpr (kHasRoomForCode<Spu>)
-    if (triangles == 0xFFFF) return surface_of_triangles<S>(o, hits, point, normal);
+  // Where there is room for the code, all at once what hits triangles alone.
+  const bool only_triangles = kHasRoomForCode<Spu> && triangles == 0xFFFF;
   uint32_t others = 0;
   for (uint32_t kind = 0; kind < kPrimitives; ++kind)
-    if (kind > kPrimitiveKind<PlanePrimitive>) others |= o.of_kind[kind];
+    if (!only_triangles && kind > kPrimitiveKind<PlanePrimitive>) others |= o.of_kind[kind];
   if (spheres != 0) surface_of_spheres<S>(o, along_ray, point, normal);
   const auto add = [&](uint32_t lanes, const V3<S>& p, const V3<S>& n) {
     const auto mask = S::M::from_bits(lanes);
@@ -91,7 +91,12 @@ void surface_of(const ObjectLanes<typename Spu::simd>& o, const V3<typename Spu:
   }
   if (triangles != 0) {
     surface_of_triangles<S>(o, hits, p, n);
-    add(triangles, p, n);
+    if (only_triangles) {
+      point = p;
+      normal = n;
+    } else {
+      add(triangles, p, n);
+    }
   }
 }
 

@@ -127,7 +127,7 @@ template <class Spu, bool kAll = false>
 template <class Spu>
 MaterialLanes<typename Spu::simd> gather_materials(SceneAccess<Spu>& scene, const WordLanes& offsets,
                                                    uint32_t lanes) {
-  MaterialLanes<typename Spu::simd> m = {};
+  MaterialLanes<typename Spu::simd> m; // the first material fills all lanes
   bool first = true;
   for_each_value<typename Spu::simd>(offsets, lanes, [&](uint32_t offset, uint32_t same) {
     scene.spu().compute(scalar_work::kMaterial);
