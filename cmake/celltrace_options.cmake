@@ -18,6 +18,13 @@ if(CELLTRACE_SANITIZE)
   endif()
 endif()
 
+if(CELLTRACE_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    message(FATAL_ERROR "celltrace: CELLTRACE_FUZZ needs clang, whose libFuzzer it uses")
+  endif()
+  target_compile_options(celltrace_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()
+
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
 endif()

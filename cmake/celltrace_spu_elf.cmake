@@ -20,7 +20,7 @@
 # that is skipped.
 
 # What stays of the 256 KB for code, data and stack is 144 KB.
-set(CELLTRACE_SPU_ARENA_BYTES 104064 CACHE STRING "Local store for the kernel's arena in programs for the real SPU")
+set(CELLTRACE_SPU_ARENA_BYTES 105088 CACHE STRING "Local store for the kernel's arena in programs for the real SPU")
 
 function(celltrace_spu_elf name)
   cmake_parse_arguments(ELF "" "HEADER;KERNEL;ARENA;MODULES" "" ${ARGN})

@@ -152,19 +152,26 @@ template <class Uncounted> struct CountingSimd {
 
   /// Of each lane and row a load and a rotation for its start, its factors' load, and for each channel
   /// another load and a shuffle, besides the sums. Transposing the factors and the sums is shuffles.
-  template <std::uint32_t kRows, std::uint32_t kChannels, class StartsOf>
-  static void sum_rows(const float* table, const StartsOf& starts_of, F (&factors)[kRows][4],
+  template <std::uint32_t kRows, std::uint32_t kChannels, class StartsOf, class FactorsOf>
+  static void sum_rows(const float* table, const StartsOf& starts_of, const FactorsOf& factors_of,
                        F (&sums)[kChannels]) {
     constexpr std::uint32_t kPairs = 4 * kRows;
     count_packet({.fx2 = kPairs,
                   .fp6 = kPairs * kChannels + 3 * kChannels,
                   .ls = kPairs * (3 + kChannels) + 4 * kRows,
                   .shuf = kPairs * (2 + kChannels) + 8 * kRows + 8 * kChannels});
-    typename Uncounted::F plain_factors[kRows][4], plain_sums[kChannels];
-    for (std::uint32_t row = 0; row < kRows; ++row)
+    typename Uncounted::F factors[kRows][4], plain_sums[kChannels];
+    for (std::uint32_t row = 0; row < kRows; ++row) {
+      F counted[4];
+      factors_of(row, counted);
       for (std::uint32_t i = 0; i < 4; ++i)
-        plain_factors[row][i] = factors[row][i].value;
-    Uncounted::sum_rows(table, starts_of, plain_factors, plain_sums);
+        factors[row][i] = counted[i].value;
+    }
+    const auto plain_factors_of = [&](std::uint32_t row, typename Uncounted::F(&four)[4]) {
+      for (std::uint32_t i = 0; i < 4; ++i)
+        four[i] = factors[row][i];
+    };
+    Uncounted::template sum_rows<kRows>(table, starts_of, plain_factors_of, plain_sums);
     for (std::uint32_t channel = 0; channel < kChannels; ++channel)
       sums[channel].value = plain_sums[channel];
   }
@@ -197,6 +204,11 @@ template <class Uncounted> struct CountingSimd {
   static I select(const M& m, const I& a, const I& b) {
     count_packet({.fx2 = 1});
     return {Uncounted::select(m.value, a.value, b.value)};
+  }
+  /// There and back, less 1 where that is above.
+  static F floor(const F& a) {
+    count_packet({.fx2 = 2, .fp6 = 1, .fp7 = 2});
+    return F([&] { return Uncounted::floor(a.value); });
   }
   static I to_int(const F& a) {
     count_packet({.fp7 = 1});

@@ -68,11 +68,15 @@ struct QuadSimd {
 
   /// Without a loop over the rows of a lane: an SPU executes in order, and waits for each number that it
   /// looks up unless it has others to look up meanwhile.
-  template <uint32_t kRows, uint32_t kChannels, class StartsOf>
-  static void sum_rows(const float* table, const StartsOf& starts_of, F (&factors)[kRows][4],
+  template <uint32_t kRows, uint32_t kChannels, class StartsOf, class FactorsOf>
+  static void sum_rows(const float* table, const StartsOf& starts_of, const FactorsOf& factors_of,
                        F (&sums)[kChannels]) {
-    for (F(&four)[4] : factors)
+    F factors[kRows][4];
+    for (uint32_t row = 0; row < kRows; ++row) {
+      F(&four)[4] = factors[row];
+      factors_of(row, four);
       Simd::transpose(four[0].quad, four[1].quad, four[2].quad, four[3].quad);
+    }
     vec_float4 totals[kChannels][kLanes];
     for (uint32_t lane = 0; lane < kLanes; ++lane) {
       uint32_t starts[kRows];
@@ -126,6 +130,9 @@ struct QuadSimd {
   }
   static I select(const M& m, const I& a, const I& b) {
     return {spu_sel(b.quad, a.quad, m.quad)};
+  }
+  static F floor(const F& a) {
+    return Simd::floor(a.quad);
   }
   static I to_int(const F& a) {
     return {spu_convts(a.quad, 0)};

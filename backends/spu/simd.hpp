@@ -229,6 +229,14 @@ struct Simd {
     return {{spu_sel(b.quad[0], a.quad[0], m.quad[0]), spu_sel(b.quad[1], a.quad[1], m.quad[1]),
              spu_sel(b.quad[2], a.quad[2], m.quad[2]), spu_sel(b.quad[3], a.quad[3], m.quad[3])}};
   }
+  static vec_float4 floor(vec_float4 a) {
+    const vec_float4 toward_zero = spu_convtf(spu_convts(a, 0), 0);
+    const vec_uint4 above = spu_cmpgt(toward_zero, a);
+    return spu_sub(toward_zero, (vec_float4)spu_and(above, (vec_uint4)spu_splats(1.0f)));
+  }
+  static F floor(const F& a) {
+    return {floor(a.quad[0]), floor(a.quad[1]), floor(a.quad[2]), floor(a.quad[3])};
+  }
   static I to_int(const F& a) {
     return {{spu_convts(a.quad[0], 0), spu_convts(a.quad[1], 0), spu_convts(a.quad[2], 0),
              spu_convts(a.quad[3], 0)}};

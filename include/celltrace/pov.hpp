@@ -2,10 +2,11 @@
 //
 // Supported: the language itself (directives, macros, loops, strings, arrays, expressions), all cameras but
 // mesh cameras, light sources but light groups, spheres, boxes, planes, discs, cylinders, cones, tori,
-// triangles, meshes, unions, CSG of triangles and of all that have an inside, as meshes with inside_vector
-// do, with inverse and clipped_by, sky spheres, and textures of everything that texture.hpp has: patterns
-// with maps and lists, normals, layers, and the finish. Whatever else POV-Ray knows may be declared; it is an
-// error, "'blob' is not supported yet", where an object of the scene uses it.
+// quadrics, triangles, meshes, unions, CSG of triangles and of all that have an inside, as meshes with
+// inside_vector do, with inverse and clipped_by, sky spheres, and textures of everything that texture.hpp
+// has: patterns with maps and lists, normals, layers, and the finish. Whatever else POV-Ray knows may be
+// declared; where an object of the scene uses it, it is an error, "'blob' is not supported yet": one for each
+// feature, all in one message. Or they are left out: ParseOptions::lenient.
 #pragma once
 
 #include <cstdint>
@@ -22,36 +23,59 @@
 
 namespace celltrace {
 
-/// Bounds on what a scene may cost; passing one is a SceneError.
+/// Bounds on what a scene may cost; passing one is a SceneError. Any may be raised: what has to end for other
+/// reasons, such as objects inside objects, has limits of its own.
 struct ParseLimits {
-  std::uint64_t file_bytes = 1u << 30;        ///< of one file, at most 2^31 - 16
-  unsigned include_depth = 64;                ///< files open at once
-  unsigned macro_depth = 1000;                ///< macro calls open at once
-  unsigned nesting = 256;                     ///< brackets open at once
-  std::uint64_t loop_iterations = 10'000'000; ///< of all #while and #for loops together
-  std::uint64_t recorded_tokens = 4'000'000;  ///< in macro and loop bodies, 48 bytes each
-  std::uint64_t tokens = 2'000'000'000;       ///< read in all, replays included
-  std::uint64_t array_elements = 1'000'000;   ///< of one array
-  std::uint64_t list_entries = 32'000'000;    ///< of one list, such as a mesh's vertices
-  std::uint64_t string_bytes = 1u << 20;      ///< of one string
-  std::uint64_t text_bytes = 256u << 20;      ///< of all strings made or declared
-  std::uint64_t objects = 4'000'000;          ///< placed in the scene
+  std::uint64_t file_bytes = 1u << 30;         ///< of one file, at most 2^31 - 16
+  std::uint64_t include_depth = 64;            ///< files open at once
+  std::uint64_t macro_depth = 1000;            ///< macro calls open at once
+  std::uint64_t nesting = 256;                 ///< brackets open at once
+  std::uint64_t loop_iterations = 10'000'000;  ///< of all #while and #for loops together
+  std::uint64_t recorded_tokens = 4'000'000;   ///< in macro and loop bodies, 56 bytes each
+  std::uint64_t tokens = 2'000'000'000;        ///< read in all, replays included
+  std::uint64_t array_elements = 1'200'000;    ///< of all arrays that there are at a time, about 100 bytes each
+  std::uint64_t list_entries = 32'000'000;     ///< of one list, such as a mesh's vertices
+  std::uint64_t string_bytes = 1u << 20;       ///< of one string
+  std::uint64_t text_bytes = 256u << 20;       ///< of all strings made or declared
+  std::uint64_t memory = std::uint64_t{2} << 30; ///< bytes of all objects and textures declared, not placed
+  std::uint64_t seconds = 60;                  ///< of the parsing thread's processor time
+  std::uint64_t open_files = 64;               ///< by #fopen, at a time
+  std::uint64_t written_bytes = 256u << 20;    ///< by #write, to all files
+  std::uint64_t objects = 4'000'000;           ///< placed in the scene
   std::uint64_t triangles =
       32'000'000; ///< of all meshes, an instance not counted again unless it has patterns
   std::uint64_t map_entries = 16'000'000; ///< of all textures with patterns, as often as they are placed
 };
 
+/// A limit by the name that messages give it.
+struct NamedLimit {
+  const char* name; ///< as "loop-steps"
+  std::uint64_t ParseLimits::* limit;
+};
+/// All of them.
+const std::vector<NamedLimit>& parse_limits();
+
 struct ParseOptions {
   /// Searched for include files after the including file's folder and the scene's; POV-Ray's installed
   /// include folder comes last by itself.
   std::vector<std::filesystem::path> library_paths;
+  /// A scene reads files only from its own folder, those above and these, and what is below them, wherever
+  /// links lead.
+  std::vector<std::filesystem::path> readable_folders;
+  /// It writes files (#fopen) only in these and below. Names that are not absolute begin in the first one,
+  /// which is also the first place where files are looked for. None: it writes nothing.
+  std::vector<std::filesystem::path> writable_folders;
   int width = 640;  ///< image_width
   int height = 480; ///< image_height
   double clock = 0;
+  /// Leaves out what is not supported, objects as a whole and else the feature, with one warning for each
+  /// feature, instead of refusing the scene.
+  bool lenient = false;
   /// Identifiers declared before the scene starts, as POV-Ray's Declare=name=value does.
   std::vector<std::pair<std::string, std::variant<double, std::string>>> declares;
   /// Receives the text of #debug, #render and #statistics as it is, and "file:line:column: warning: text\n"
-  /// for #warning. Called by the parsing thread. If empty, warnings go to stderr and the rest nowhere.
+  /// for #warning, for what lenient reading leaves out and, with "note", for files found by another case of their
+  /// names. Called by the parsing thread. If empty, warnings go to stderr and the rest nowhere.
   std::function<void(std::string_view)> message;
   /// Hears again and again, from the parsing thread, how many bytes of the scene's own file have been read,
   /// and of how many. Neither included files nor loops move it on, but it is called while they are read. If
@@ -68,5 +92,19 @@ Scene parse_file(const std::filesystem::path& path, const ParseOptions& options 
 /// The same for a scene in memory. `name` stands in messages; includes are looked for from the current
 /// folder.
 Scene parse_string(std::string_view text, const ParseOptions& options = {}, std::string name = "<string>");
+
+/// A word that the language reserves; directives with their #.
+struct Keyword {
+  enum class Support {
+    full,
+    ignored, ///< read, and without effect on the picture
+    none     ///< an error where an object or the scene uses it
+  };
+  std::string word;
+  Support support;
+};
+
+/// All of them, in alphabetical order.
+std::vector<Keyword> keywords();
 
 } // namespace celltrace

@@ -46,6 +46,30 @@ enum class Model {
           ///< part
 };
 
+/// Antialiasing by POV-Ray's methods: pixels are sampled by more rays where colours differ. They are compared
+/// by the sum over the channels of the differences of their powers of 1 / gamma.
+struct Antialiasing {
+  enum class Method {
+    fixed,   ///< a pixel that differs from its left or upper neighbour, and that neighbour, get depth x depth
+             ///< samples and keep the ray through their middle; POV-Ray's method 1
+    adaptive ///< a pixel has rays at its corners, and is divided into four as long as the corners of a part
+             ///< differ, depth - 1 times at most; POV-Ray's method 2
+  };
+  Method method = Method::fixed;
+  double threshold = 0.3; ///< of differences that count, 0 or more
+  int depth = 3;          ///< 1..9
+  /// How far samples are moved, from a hash of where they are: 0 (not at all) to 1 (as far as to their
+  /// neighbours' places). Another picture than POV-Ray's, whose jitter comes from random numbers.
+  double jitter = 0;
+  double gamma = 2.5; ///< above 0
+};
+
+/// Columns [left, right) and rows [top, bottom) of pixels.
+struct PictureRegion {
+  int left = 0, right = 0;
+  int top = 0, bottom = 0;
+};
+
 struct RenderOptions {
   int width = 640;  ///< pixels, 1..65520
   int height = 480; ///< pixels, 1..65520
@@ -67,6 +91,15 @@ struct RenderOptions {
   /// In place of the scene's own settings.
   std::optional<int> max_trace_level;
   std::optional<double> adc_bailout;
+  /// POV-Ray's levels, 0 to 11. 0 and 1: colours of pigments alone; from 2 on light falls on surfaces; from 4
+  /// on they have shadows; from 5 on those of lights with an area are soft; from 6 on rays go through
+  /// transparent surfaces; from 8 on there are reflections and disturbed normals, and nothing is left out.
+  int quality = 9;
+  /// The part of the picture that is rendered: at least a pixel, and all within the picture. The rest is
+  /// opaque black.
+  std::optional<PictureRegion> region;
+  /// Model `shared` only. Takes 12 bytes of memory a pixel.
+  std::optional<Antialiasing> antialiasing;
   /// Of cell_emu and cell_sim; native knows none of it, and nothing is recorded on cell_sim. The trace is
   /// complete when the renderer is gone.
   EmulationConfig emulation;
@@ -113,9 +146,10 @@ struct RenderStatistics {
   std::string spu; ///< SPU type, e.g. "native.avx512"
   Schedule schedule = Schedule::free;
   std::uint64_t seed = 0;
-  int width = 0, height = 0;
+  int width = 0, height = 0; ///< of the region that is rendered
   std::uint64_t objects = 0; ///< after unions and instances are taken apart
 
+  /// Primary rays are also those of antialiasing.
   std::uint64_t primary_rays = 0, shadow_rays = 0, reflection_rays = 0, refraction_rays = 0;
   std::uint64_t dropped_rays = 0; ///< cut off by the limits of the SPE program; 0 in any but extreme scenes
   std::uint64_t spilled_packets = 0; ///< that the ray stacks put to main memory for want of local store

@@ -56,6 +56,31 @@ enum class GammaMode {
 /// none.
 struct Interior {
   double ior = 1;
+  /// Light that leaves it after `fade_distance` is halfway to `fade_colour`: of the rest 1/(1 +
+  /// (d/distance)^power) is left, or with a power from 1000 on an exponential. A distance of 0: it does not
+  /// fade. With a power of 0 shadows do not, either.
+  double fade_distance = 0;
+  double fade_power = 0;
+  Vec3 fade_colour{0, 0, 0};
+  double caustics = 0; ///< shadows get lighter where light falls through it straight; more is less wide
+  bool hollow = false; ///< there is fog in it, too
+};
+
+/// What light passes through on its way between surfaces, but for rays that are in an object whose interior
+/// is not hollow.
+struct Fog {
+  Vec3 colour{0, 0, 0};
+  double filter = 0;   ///< how much of what is seen through it takes its colour
+  double transmit = 0; ///< the share of light that passes it however far, 0 to 1
+  double distance = 0; ///< after which 1/e of the light is left; 0: there is no fog
+  /// It lies on the ground and thins out above `offset`, as 1/(1 + y^2) at y times `altitude` above that.
+  /// Heights are along `up`, of length 1.
+  bool is_ground = false;
+  double offset = 0;
+  double altitude = 0; ///< 0: there is no fog above the offset
+  Vec3 up{0, 1, 0};
+  Turbulence turbulence;         ///< clears it here and there, where an amount is not 0
+  double turbulence_depth = 0.5; ///< how much
 };
 
 /// Index into Scene::materials or Scene::interiors.
@@ -163,17 +188,28 @@ struct Torus {
   double minor_radius = 0.25;
 };
 
+/// Where dot(square, (xx, yy, zz)) + dot(mixed, (xy, xz, yz)) + dot(linear, (x, y, z)) + constant = 0. Below
+/// 0 is inside.
+struct Quadric {
+  Vec3 square{1, 1, 1};
+  Vec3 mixed{0, 0, 0};
+  Vec3 linear{0, 0, 0};
+  double constant = -1;
+};
+
 struct Csg;
 
 /// One thing to hit: a shape, placed. Plain unions are already taken apart.
 struct Object {
-  std::variant<Sphere, std::shared_ptr<const Mesh>, Plane, Disc, Box, Cylinder, Cone, Torus,
+  std::variant<Sphere, std::shared_ptr<const Mesh>, Plane, Disc, Box, Cylinder, Cone, Torus, Quadric,
                std::shared_ptr<const Csg>>
       shape;
   Transform transform;
   Index material = 0; ///< of a CSG: means nothing, its parts have their own
   Index interior = 0; ///< likewise
   bool no_shadow = false;
+  bool no_image = false;      ///< seen in mirrors alone
+  bool no_reflection = false; ///< seen in no mirror
   bool inverse = false; ///< inside and outside change places
   /// Only what is inside all of these is there. They are placed as the object is, and their materials mean
   /// nothing. Null: all of it.
@@ -201,6 +237,7 @@ struct Scene {
   /// asked at the ray's direction, of length 1.
   std::vector<Pigment> sky_sphere;
   Vec3 ambient_light{1, 1, 1};
+  std::vector<Fog> fogs;
   std::vector<Light> lights;
   std::vector<Material> materials; ///< objects refer to these by index
   std::vector<Interior> interiors; ///< one per object (or union); its identity matters, not only its values
@@ -213,6 +250,7 @@ struct Scene {
   double version = 3.7;
   int max_trace_level = 5;
   double adc_bailout = 1.0 / 255;
+  Vec3 irid_wavelength{0.7, 0.52, 0.48}; ///< of red, green and blue, where films are thin
   int noise_generator = 2;  ///< of patterns that do not say: 1 to 3 as POV-Ray counts them
   int number_of_waves = 10; ///< of ripples and waves
 

@@ -20,7 +20,7 @@ struct Turbulence {
   double lambda = 2;
 };
 
-/// The kinds of patterns; of ripples, waves, cells and crackle nothing is rendered yet. Numbers are those at
+/// The kinds of patterns. Numbers are those at
 /// a point p = (x, y, z) of the pattern's own space; most are in 0..1.
 namespace pattern {
 
@@ -78,15 +78,66 @@ struct Crackle {
   double offset = 0;
   bool is_solid = false; ///< one number for each of the points
 };
+/// How long a point of the xy plane takes to leave when it is iterated: the Mandelbrot set, and what is like
+/// it. POV-Ray's numbers of what is counted outside and inside of the set.
+struct Fractal {
+  bool is_julia = false; ///< of `c`; otherwise each point is its own c
+  double c[2] = {0, 0};
+  int iterations = 1; ///< 1 to 65535
+  int exponent = 2;   ///< 2 to 33, of z^n + c
+  int magnet = 0;     ///< 1 or 2: formulas of magnetism, without exponent
+  int exterior = 1;   ///< 0 to 6
+  double exterior_factor = 1;
+  int interior = 0; ///< 0 to 6
+  double interior_factor = 1;
+};
+/// Only as a normal: the same direction all over each cell of crackle's points.
+struct Facets {
+  double coords = 0; ///< how far that may be from the surface's own; instead of the normal's amount
+  double size = 0;   ///< the other way to say it, which is not rendered yet
+  double metric = 2; ///< as crackle's
+};
 
 using Kind = std::variant<Checker, Square, Hexagon, Triangular, Cubic, Brick, Gradient, Boxed, Spherical,
                           Cylindrical, Planar, Leopard, Onion, Radial, Spiral, Quilted, Bozo, Bumps, Dents,
-                          Granite, Wrinkles, Agate, Marble, Wood, Ripples, Waves, Cells, Crackle>;
+                          Granite, Wrinkles, Agate, Marble, Wood, Ripples, Waves, Cells, Crackle, Fractal, Facets>;
 
 } // namespace pattern
 
+/// How else space is bent.
+namespace warp {
+
+/// The slice of space from 0 to `width` along an axis, again and again.
+struct Repeat {
+  int axis = 0;       ///< 0 to 2
+  double width = 1;   ///< not 0
+  Vec3 flip{0, 0, 0}; ///< every other slice is mirrored along axes of which this is not 0
+  Vec3 offset{0, 0, 0}; ///< of each slice from the one before
+};
+/// Draws points in a sphere to its centre.
+struct BlackHole {
+  Vec3 centre{0, 0, 0};
+  double radius = 1;
+  double strength = 1;
+  double falloff = 2;
+  bool is_inverse = false; ///< pushes them away
+  Vec3 repeat{0, 0, 0};    ///< distances of its copies, 0 along axes without
+  Vec3 turbulence{0, 0, 0}; ///< of the copies
+};
+/// Wraps the unit square of the xy plane around a shape; z is the distance.
+struct Mapping {
+  enum class Shape { planar, cylindrical, spherical, toroidal };
+  Shape shape = Shape::planar;
+  Vec3 orientation{0, 0, 1};
+  double distance = 0;          ///< of planar: what z is
+  double distance_exponent = 0; ///< of the others: the square grows with the distance to this power
+  double major_radius = 1;      ///< of toroidal
+};
+
+} // namespace warp
+
 /// What is done to space before the pattern is asked.
-using SpaceStep = std::variant<Transform, Turbulence>;
+using SpaceStep = std::variant<Transform, Turbulence, warp::Repeat, warp::BlackHole, warp::Mapping>;
 
 struct Pattern {
   enum class Wave { ramp, triangle, sine, scallop, cubic, poly };
@@ -129,11 +180,21 @@ struct Pigment {
   std::shared_ptr<const PatternMap<Pigment>> map = nullptr; ///< instead of the above
 };
 
+/// A point of a curve over a pattern's numbers.
+struct SlopePoint {
+  double position; ///< ascending, as those of maps
+  double height;
+  double slope; ///< of the curve, from one point to the next
+};
+
 /// Disturbs the direction of a surface, as if it were not smooth.
 struct Normal {
   Pattern pattern = {pattern::Bumps{}};
   double amount = 0.5;    ///< how deep
   double accuracy = 0.02; ///< distance of the points that slopes are taken of, in the pattern's space
+  /// Heights instead of the pattern's numbers; no more than 256. Empty: the numbers. Patterns that disturb by
+  /// another rule than their slope ignore it: bumps, dents, wrinkles, quilted, ripples, waves, facets.
+  std::vector<SlopePoint> slopes = {};
   std::shared_ptr<const PatternMap<Normal>> map = nullptr; ///< instead of the above
 };
 
@@ -155,6 +216,10 @@ struct Finish {
   double reflection_metallic = 0;
   bool reflection_fresnel = false;
   bool conserve_energy = false;
+  double crand = 0; ///< diffuse light is less by up to so much, at random
+  double irid = 0;  ///< a film on the surface makes light stronger or weaker by up to this share of it,
+  double irid_thickness = 0;  ///< of this thickness,
+  double irid_turbulence = 0; ///< which noise changes
 };
 
 /// A texture, in the space of the scene: patterns do not move with the objects that have it.
@@ -165,6 +230,8 @@ struct Material {
   std::shared_ptr<const Material> below = nullptr; ///< the layer that shines through this one
   std::shared_ptr<const PatternMap<Material>> map =
       nullptr; ///< instead of all of the above; no entry is a layer over others' map
+  /// Of an object's material: what it looks like from inside, itself without one. Null: the same.
+  std::shared_ptr<const Material> inside = nullptr;
 };
 inline constexpr int kMostLayers = 64;
 

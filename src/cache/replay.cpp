@@ -24,10 +24,11 @@ public:
 
   template <class T> T* allocate(std::uint32_t count = 1, std::uint32_t alignment = kLineBytes) {
     next_ = (next_ + alignment - 1) & ~(std::size_t{alignment} - 1);
-    std::byte* at = store_.data()->bytes + next_;
+    const std::size_t at = next_;
     next_ += count * sizeof(T);
     if (next_ > store_.size() * kLineBytes) halt(HaltCode::local_store_exhausted);
-    T* objects = reinterpret_cast<T*>(at);
+    // Of all lines: an object may be longer than one.
+    T* objects = reinterpret_cast<T*>(reinterpret_cast<std::byte*>(store_.data()) + at);
     for (std::uint32_t i = 0; i < count; ++i)
       new (static_cast<void*>(objects + i)) T();
     return objects;

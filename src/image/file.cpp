@@ -18,8 +18,15 @@ std::string reason(int error) {
   return std::generic_category().message(error);
 }
 
-fs::path follow_links(const fs::path& path) {
+/// Also where they lead to what is not there yet.
+fs::path follow_links(fs::path path) {
+  constexpr int kMostLinks = 40;
   std::error_code error;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(path, error)); ++i) {
+    const fs::path target = fs::read_symlink(path, error);
+    if (error) break;
+    path = path.parent_path() / target;
+  }
   const fs::path followed = fs::weakly_canonical(path, error);
   return error ? path : followed;
 }
@@ -80,7 +87,8 @@ void OutputFile::commit() {
 
   std::error_code ignored;
   if (!temporary_.empty()) fs::remove(temporary_, ignored);
-  throw InputError("cannot be written: " + (error ? error.message() : reason(closed ? EIO : close_error)));
+  if (failed) throw InputError("cannot be written to its end"); // why, the write that failed has known
+  throw InputError("cannot be written: " + (error ? error.message() : reason(close_error)));
 }
 
 } // namespace celltrace::image

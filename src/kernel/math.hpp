@@ -62,15 +62,10 @@ template <class S> typename S::F grey(const V3<S>& v) {
   return v.x * typename S::F(0.297f) + v.y * typename S::F(0.589f) + v.z * typename S::F(0.114f);
 }
 
-/// The greatest whole number that is not above x; |x| < 2^31.
-template <class S> typename S::F whole_below(const typename S::F& x) {
-  using F = typename S::F;
-  const F toward_zero = S::to_float(S::to_int(x));
-  return toward_zero - S::select(x < toward_zero, F(1.0f), F(0.0f));
-}
-/// x without that number, which goes to `whole`. May be 1 where a negative x is close to 0.
+/// x without the greatest whole number below, which goes to `whole`. May be 1 where a negative x is close to
+/// 0.
 template <class S> typename S::F fraction(const typename S::F& x, typename S::I& whole) {
-  const typename S::F below = whole_below<S>(x);
+  const typename S::F below = S::floor(x);
   whole = S::to_int(below);
   return x - below;
 }

@@ -12,19 +12,28 @@ namespace celltrace::kernel::modules {
 
 /// Intersections with the shapes that are no spheres, triangles and planes, but for heavy ones, and what is
 /// inside of shapes, which CSG asks.
-constexpr CodeModule kShapes = {"shapes", 1, 0, 12800};
+constexpr CodeModule kShapes = {"shapes", 1, 0, 14080};
 /// What a program does once a frame or once for many: it makes its objects, and reports.
-constexpr CodeModule kStart = {"start", 3, 0, 8192};
+constexpr CodeModule kStart = {"start", 3, 0, 9088};
 /// The building of accelerators.
 constexpr CodeModule kBuild = {"build", 16, 0, 25600};
 /// Patterns without noise, and those of noise with its tables.
 constexpr CodeModule kPatterns = {"patterns", 7, 0, 3712};
-constexpr CodeModule kNoise = {"noise", 8, 0, 14208};
+constexpr CodeModule kNoise = {"noise", 8, 0, 14336};
+/// What becomes of the points of antialiased pictures, and which samples they need besides.
+constexpr CodeModule kSampling = {"sampling", 18, 0, 14336};
+
+/// What insides take of light; and the start of mirrors that bend it.
+constexpr CodeModule kFading = {"fading", 20, 0, 2048};
+/// Patterns that few scenes have, many of which read tables of the scene image.
+constexpr CodeModule kRarePatterns = {"rare", 22, 0, 10752};
+/// Warps but for turbulence.
+constexpr CodeModule kWarps = {"warps", 23, 0, 3456};
 
 // Of the second region: what shades, and asks patterns.
 
 /// Intersections with heavy shapes. Not of the region of the other shapes: rays test both by turns.
-constexpr CodeModule kHeavyShapes = {"heavy", 4, 1, 3328};
+constexpr CodeModule kHeavyShapes = {"heavy", 4, 1, 4224};
 /// What is inside of meshes. Likewise: where CSG has meshes, it asks both by turns.
 constexpr CodeModule kMeshes = {"meshes", 17, 1, 2688};
 /// Rays that go on from surfaces.
@@ -36,17 +45,24 @@ constexpr CodeModule kAreas = {"areas", 15, 1, 9088};
 /// The rays of cameras whose pictures are not flat.
 constexpr CodeModule kCameras = {"cameras", 10, 1, 6656};
 /// Pigments and normals, but for the patterns themselves.
-constexpr CodeModule kTextures = {"textures", 9, 1, 8320};
-constexpr CodeModule kNormals = {"normals", 11, 1, 5504};
+constexpr CodeModule kTextures = {"textures", 9, 1, 9728};
+constexpr CodeModule kNormals = {"normals", 11, 1, 6784};
+
+/// What few finishes do with light.
+constexpr CodeModule kFinishes = {"finishes", 19, 1, 1792};
 
 // Of the third region: stages of which only one is under way. Rays are not traced while surfaces are shaded.
 
 /// Tests of objects that have a shape of the first region, or are parts of a CSG.
-constexpr CodeModule kObjects = {"objects", 12, 2, 6912};
+constexpr CodeModule kObjects = {"objects", 12, 2, 7168};
 /// Where hits lie on objects, and the normals there.
-constexpr CodeModule kHits = {"hits", 5, 2, 6912};
+constexpr CodeModule kHits = {"hits", 5, 2, 7296};
 /// Shading of surfaces with textures, or of several materials.
-constexpr CodeModule kComposed = {"composed", 13, 2, 8064};
+constexpr CodeModule kComposed = {"composed", 13, 2, 8192};
+/// What rays pass through on their way, and the light that mirrors bend.
+constexpr CodeModule kAtmosphere = {"atmosphere", 24, 2, 3456};
+/// Shadow rays that go from surface to surface.
+constexpr CodeModule kShadowWalk = {"walk", 21, 2, 5248};
 /// Exchange of units of work with other SPEs.
 constexpr CodeModule kExchange = {"exchange", 14, 2, 5120};
 

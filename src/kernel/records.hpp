@@ -30,6 +30,11 @@ constexpr uint32_t open = 0x1000;      ///< cylinder or cone without caps
 constexpr uint32_t csg = 0x2000;       ///< part of a CSG: crossings count where its condition holds
 constexpr uint32_t textured = 0x4000;  ///< some materials of it are not the constants of their records alone
 constexpr uint32_t disturbed = 0x8000; ///< some of its materials disturb normals
+constexpr uint32_t no_image = 0x10000; ///< only rays that came by a mirror see it
+constexpr uint32_t no_reflection = 0x20000; ///< and these do not
+constexpr uint32_t selective = no_image | no_reflection;
+constexpr uint32_t two_sided = 0x40000; ///< another material where it is seen from inside,
+constexpr uint32_t inverse = 0x80000;   ///< which is what else is outside
 } // namespace object_flag
 
 /// Geometry by kind: sphere: centre (0..2), radius (3). Triangle: its vertices (0..2, 3..5, 6..8). All
@@ -134,6 +139,9 @@ constexpr uint32_t wave_mask = 0x7;
 constexpr uint32_t turbulent = 0x800;        ///< `turbulence` displaces points
 constexpr uint32_t average = 0x1000;         ///< all entries, by weights that are their positions
 constexpr uint32_t first_generator = 0x2000; ///< of noise: scaled as POV-Ray's generator 1 does
+constexpr uint32_t nested = 0x4000;          ///< of a pigment: an entry is a map
+constexpr uint32_t gradient_noise = 0x8000;  ///< of noise: POV-Ray's generator 3
+constexpr uint32_t at_features = 0x10000;    ///< of noise: at the nearest of the random points
 } // namespace pattern_flag
 /// What becomes of a pattern's values: POV-Ray's wave forms. `none`: they stay, frequency and phase mean
 /// nothing.
@@ -164,17 +172,81 @@ struct alignas(128) PatternRecord {
   float to_space[12]; ///< three rows of four (xyz | offset)
   float frequency, phase, wave_exponent;
   TurbulenceWords turbulence;
-  float parameter[6]; ///< by kind
+  float parameter[5]; ///< by kind
+  /// Offset of the table that its kind reads: FeatureRecords, WaveRecords, or with `gradient_noise`
+  /// GradientRecords, before which there are the FeatureRecords if it reads both. Of
+  /// fractals: fractal_word.
+  uint32_t table;
 };
 static_assert(sizeof(PatternRecord) == 128, "one a line");
 
-/// Between the world and a pattern's space: turbulence, then a map.
+/// What points go through between the world and a pattern's space.
+enum class WarpKind : uint32_t {
+  turbulence = 0,
+  repeat = 1,
+  black_hole = 2,
+  planar = 3,
+  cylindrical = 4,
+  spherical = 5,
+  toroidal = 6
+};
+constexpr uint32_t kWarpKinds = 7;
+namespace warp_flag {
+constexpr uint32_t kind_mask = 0xFF;
+constexpr uint32_t axis_shift = 8; ///< of a repeat: 0 to 2
+constexpr uint32_t inverse = 0x400;
+} // namespace warp_flag
+
+/// PatternRecord::table of a fractal.
+namespace fractal_word {
+constexpr uint32_t exponent_mask = 0xFF;
+constexpr uint32_t exterior_shift = 8; ///< POV-Ray's number of what is counted, 0 to 6
+constexpr uint32_t interior_shift = 12;
+constexpr uint32_t type_mask = 0xF;
+constexpr uint32_t magnet_shift = 16; ///< 0 to 2
+constexpr uint32_t magnet_mask = 0x3;
+constexpr uint32_t julia = 0x40000;
+} // namespace fractal_word
+
+/// A warp, then a map. `value`: of a repeat, its width, 1 or -1 by axis as it flips, and the offset; of a
+/// black hole, its centre, radius, strength and falloff, and the distances at which it repeats, by axis, 0
+/// where it does not, while `turbulence` is that of the copies; of the others, their orientation, a unit
+/// vector, the distance's exponent, and the major radius.
 struct alignas(128) SpaceStepRecord {
   TurbulenceWords turbulence;
   float to_space[12];
-  uint32_t unused[14];
+  uint32_t kind_and_flags; ///< WarpKind and warp_flag
+  uint32_t table;          ///< of a black hole: offset of the FeatureRecords
+  float value[12];
 };
 static_assert(sizeof(SpaceStepRecord) == 128, "one a line");
+
+// Tables of random numbers, which the image has if a pattern reads them. All are POV-Ray's.
+
+/// A random point in each of the unit cells of space, whose corner (x, y, z) gives the number
+/// h(h(h(x) ^ y) ^ z), each coordinate modulo kFeatures, where h() is `hash` of the record of a number.
+struct alignas(16) FeatureRecord {
+  float place[3]; ///< in its cell, 0 to 1
+  uint32_t hash;
+};
+static_assert(sizeof(FeatureRecord) == 16, "eight a line");
+constexpr uint32_t kFeatures = 4096;
+
+/// Of the noise of generator 3. The corner (x, y, z) of a cell has the gradient of record
+/// next(next(x) + y) + z, all modulo kGradients.
+struct alignas(16) GradientRecord {
+  float gradient[3];
+  uint32_t next;
+};
+static_assert(sizeof(GradientRecord) == 16, "eight a line");
+constexpr uint32_t kGradients = 2048;
+
+/// Of ripples and waves: where one comes from, and how often it comes.
+struct alignas(16) WaveRecord {
+  float source[3];
+  float frequency; ///< of waves; ripples are all of 1
+};
+static_assert(sizeof(WaveRecord) == 16, "eight a line");
 
 /// What stands for a value of a pattern.
 struct alignas(32) MapEntryRecord {
@@ -183,7 +255,7 @@ struct alignas(32) MapEntryRecord {
   float rgb[3];        ///< of a pigment without a map
   float filter, transmit;
   /// Pigments: offset of a PatternRecord, whose map it is, or kNoOffset. Normals: of a NormalRecord.
-  /// Textures: of a MaterialRecord.
+  /// Textures: of a MaterialRecord. Slope maps: means nothing; rgb[0] is the height there, rgb[1] the slope.
   uint32_t child;
 };
 static_assert(sizeof(MapEntryRecord) == 32, "four a line");
@@ -192,7 +264,9 @@ static_assert(sizeof(MapEntryRecord) == 32, "four a line");
 /// space.
 struct alignas(64) NormalRecord {
   uint32_t pattern;   ///< offset of a PatternRecord
-  uint32_t is_mapped; ///< 0 or 1: the pattern's entries are NormalRecords, and what follows means nothing
+  /// 0 or 1: the pattern's entries are NormalRecords, and what follows means nothing. 0: if the pattern has
+  /// entries, they are a slope map.
+  uint32_t is_mapped;
   float amount;
   float accuracy;  ///< distance at which slopes are measured
   float linear[9]; ///< three rows
@@ -235,15 +309,53 @@ struct alignas(128) MaterialRecord {
   uint32_t pattern; ///< offset of a PatternRecord
   uint32_t normal;  ///< offset of a NormalRecord
   uint32_t below;   ///< offset of the layer's MaterialRecord
-  uint32_t unused[3];
+  uint32_t finish;  ///< offset of a FinishRecord, or kNoOffset
+  uint32_t inside;  ///< two_sided objects: offset of the MaterialRecord that is seen from inside
+  uint32_t unused[1];
 };
 static_assert(sizeof(MaterialRecord) == 128, "one material a line");
 
-struct alignas(16) InteriorRecord {
-  float ior;
-  uint32_t unused[3];
+/// What few finishes have.
+struct alignas(32) FinishRecord {
+  float crand;
+  float irid;
+  float irid_thickness;
+  float irid_turbulence;
+  float inverse_wavelength[3];
+  uint32_t first_generator; ///< 0 or 1: of noise, as pattern_flag's
 };
-static_assert(sizeof(InteriorRecord) == 16, "crosses DMA");
+static_assert(sizeof(FinishRecord) == 32, "four a line");
+
+struct alignas(32) InteriorRecord {
+  float ior;
+  uint32_t is_hollow;          ///< 0 or 1: there is fog in it
+  float inverse_fade_distance; ///< 0: it does not fade
+  float fade_power;            ///< from 1000 on: exponentially
+  float fade_colour[3];
+  float caustics; ///< exponent; 0: none
+};
+static_assert(sizeof(InteriorRecord) == 32, "four a line");
+
+namespace fog_flag {
+constexpr uint32_t ground = 0x1;          ///< thins out with the height
+constexpr uint32_t turbulent = 0x2;       ///< `turbulence` clears it
+constexpr uint32_t first_generator = 0x4; ///< of noise, as pattern_flag's
+} // namespace fog_flag
+
+/// Heights are along `up`, in units of the altitude, and 0 where the fog begins to thin out.
+struct alignas(128) FogRecord {
+  float colour[3]; ///< of what it adds
+  float least;     ///< share of light that passes in any case
+  float tint[3];   ///< of what passes
+  float inverse_distance;
+  float up[3]; ///< over the altitude
+  float offset;
+  uint32_t flags;
+  float turbulence_depth;
+  TurbulenceWords turbulence;
+  uint32_t unused[12];
+};
+static_assert(sizeof(FogRecord) == 128, "one a line");
 
 namespace light_flag {
 constexpr uint32_t kind_mask = 0xFF;   ///< the place of its kind in the list of lights/list.hpp
@@ -303,6 +415,14 @@ static_assert(sizeof(GroupRecord) == 32, "four groups a line");
 /// its neighbours as the one at the same place of the prototype does. Both have no more objects than this.
 constexpr uint32_t kMaxCopiedObjects = 256;
 
+/// What light may meet on its way that few scenes have.
+namespace light_way {
+constexpr uint32_t fog = 0x1;
+constexpr uint32_t fading = 0x2; ///< interiors that fade
+/// Shadow rays go from surface to surface: what these let through depends on more than the surface.
+constexpr uint32_t stepwise = 0x4;
+} // namespace light_way
+
 /// Head of a scene image.
 struct alignas(128) ImageHeader {
   uint32_t magic;
@@ -322,7 +442,7 @@ struct alignas(128) ImageHeader {
   /// By group, the group that it is a copy of, its own index if it has copies, or kNoGroup; or nothing: there
   /// are no copies.
   uint32_t prototype_offset, prototype_count;
-  /// Objects without bounds, behind the others in their table; no accelerator has them.
+  /// Objects without bounds, just before the others; no accelerator has them.
   uint32_t unbounded_count;
   uint32_t csg_offset, csg_count;           ///< CsgRecords
   uint32_t csg_step_offset, csg_step_count; ///< CsgSteps
@@ -335,7 +455,13 @@ struct alignas(128) ImageHeader {
   uint32_t mesh_grid_offset, mesh_grid_count;         ///< MeshGridRecords
   uint32_t mesh_word_offset, mesh_word_count;         ///< words of theirs
   uint32_t mesh_triangle_offset, mesh_triangle_count; ///< MeshTriangleRecords
-  uint32_t unused[13];
+  uint32_t fog_offset, fog_count;                     ///< FogRecords
+  uint32_t finish_offset, finish_count;               ///< FinishRecords
+  uint32_t light_ways;                                ///< bits of light_way
+  uint32_t feature_offset, feature_count;             ///< FeatureRecords: kFeatures of them, or none
+  uint32_t gradient_offset, gradient_count;           ///< GradientRecords: likewise
+  uint32_t wave_offset, wave_count;                   ///< WaveRecords
+  uint32_t unused[2];
 };
 static_assert(sizeof(ImageHeader) == 256, "two lines");
 
@@ -422,6 +548,32 @@ enum class GammaEncoding : uint32_t { none = 0, assumed = 1 };
 constexpr uint32_t kMaxInteriorDepth = 8;
 constexpr uint32_t kPacketEdge = 4; ///< a packet is 4x4 rays
 
+/// What a frame is for. With antialiasing a picture takes two: the points of a grid, one more than pixels
+/// each way, then the samples that some pixels need besides.
+enum class FramePurpose : uint32_t { picture = 0, grid = 1, samples = 2 };
+
+/// POV-Ray's. `fixed`: grid points are the middles of pixels, from the one to the upper left of the picture
+/// on, and pixels that differ from their neighbours get a number of samples. `adaptive`: they are the corners
+/// of pixels, which are divided as long as theirs differ.
+enum class SamplingMethod : uint32_t { fixed = 1, adaptive = 2 };
+
+/// Pixels a side of the blocks that are sampled by themselves. POV-Ray's, where its fixed method does not
+/// look from one to the next.
+constexpr uint32_t kSampledEdge = 32;
+constexpr uint32_t kMaxSamplingDepth = 9;
+/// Colours of a packet of grid points, red of all first, then green, then blue.
+constexpr uint32_t kGridPacketBytes = 3 * 4 * kPacketEdge * kPacketEdge;
+
+/// How pixels are sampled.
+struct SamplingRecord {
+  uint32_t method; ///< SamplingMethod
+  uint32_t depth;  ///< fixed: samples a row, and rows; adaptive: levels of squares, the pixel the first one
+  float threshold; ///< of the difference of two colours, summed over the channels
+  float jitter;    ///< pixels that a sample may be moved by, all in all
+  float inverse_gamma; ///< power that colours are raised to before they are compared
+  uint32_t unused;
+};
+
 /// Everything an SPE needs for a frame. Lies in main memory at a place that does not change while the SPEs
 /// run.
 struct alignas(128) FrameBlock {
@@ -436,11 +588,13 @@ struct alignas(128) FrameBlock {
   ea_t strips;           ///< StripRecord per SPE: the units it starts the frame with
   ea_t reports;          ///< ReportRecord per SPE
   ea_t ray_stack;        ///< spill area: ray_stack_nodes nodes of kRayNodeBytes per SPE
+  ea_t grid_points;      ///< kGridPacketBytes per packet, row by row; none if all frames are pictures
+  ea_t sample_store;     ///< kSampleStoreBytes per SPE, its own; likewise
   ea_t sort_buffer[2];   ///< work memory of PREPARE FRAME: `sort_capacity` pairs of 8 bytes each
   uint32_t prepare_spes; ///< that build the accelerator step by step; 0: one takes all steps
   uint32_t prepare_step; ///< the step that is to be taken
 
-  uint32_t width, height; ///< pixels
+  uint32_t width, height; ///< pixels, or points of the grid
   uint32_t packet_columns, packet_rows;
   uint32_t bundle_columns, bundle_rows;
   uint32_t surface_pitch;
@@ -471,10 +625,14 @@ struct alignas(128) FrameBlock {
   uint32_t units_per_word;            ///< that an SPE tells of its progress by; 0: it does not
   uint32_t wide_leaves;               ///< 0 or 1: for SPEs that test many triangles of a leaf at once
   uint32_t far_nodes;                 ///< 0 or 1: for SPEs that wait long for a node of the BVH
-  uint32_t unbounded_count;           ///< objects behind the others in their table that no accelerator has
+  uint32_t unbounded_count;           ///< objects just before the others that no accelerator has
   uint32_t sky;                       ///< as in ImageHeader
-  uint32_t light_places; ///< that shadows are looked for at; as many as lights if none has an area
-  uint32_t unused[17];
+  uint32_t light_places;   ///< that shadows are looked for at; as many as lights if none has an area
+  uint32_t purpose;        ///< FramePurpose
+  SamplingRecord sampling; ///< of frames that are no picture
+  uint32_t fog_offset, fog_count;
+  uint32_t light_ways; ///< bits of light_way
+  uint32_t unused[3];
 };
 static_assert(sizeof(FrameBlock) % 128 == 0 && sizeof(FrameBlock) <= 512, "fetched by one DMA command");
 

@@ -41,6 +41,8 @@ public:
   const InteriorRecord* interior(uint32_t offset) {
     return read_apart<InteriorRecord>(offset, DataKind::material);
   }
+  const FinishRecord* finish(uint32_t offset) { return read_apart<FinishRecord>(offset, DataKind::material); }
+  const FogRecord* fog(uint32_t offset) { return read_apart<FogRecord>(offset, DataKind::material); }
   const PatternRecord* pattern(uint32_t offset) {
     return read_apart<PatternRecord>(offset, DataKind::material);
   }
@@ -49,6 +51,10 @@ public:
   }
   const MapEntryRecord* map_entry(uint32_t offset) {
     return read_apart<MapEntryRecord>(offset, DataKind::material);
+  }
+  /// A record of one of the tables of patterns.
+  template <class Record> const Record* pattern_table(uint32_t offset) {
+    return read_apart<Record>(offset, DataKind::material);
   }
   const NormalRecord* normal(uint32_t offset) { return read_apart<NormalRecord>(offset, DataKind::material); }
   const LightRecord* light(uint32_t offset) { return read_apart<LightRecord>(offset, DataKind::light); }

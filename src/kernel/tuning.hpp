@@ -76,6 +76,13 @@ constexpr uint32_t kMaxInterleaved = 4;
 constexpr int kMostRaysByLeaf = 4;
 constexpr uint32_t kLeastTrianglesByLeaf = 4;
 
+// --- lights with an area ---
+
+/// Objects that are remembered to be between a packet and such a light; with more, rays toward its places
+/// traverse the accelerator. Larger: each ray is tested against objects that are nowhere near it; smaller:
+/// more rays traverse. 'trace time/area-light'.
+constexpr uint32_t kMostAreaOccluders = 16;
+
 // --- building the BVH ---
 
 /// When the objects of a range share a leaf. A triangle has weight 1.

@@ -4,6 +4,7 @@
 #include "celltrace/error.hpp"
 #include "kernel/cameras/list.hpp"
 #include "kernel/direct/door.hpp"
+#include "render/quality.hpp"
 #include "scene/surface_records.hpp"
 
 #include <algorithm>
@@ -51,30 +52,20 @@ AcceleratorKind accelerator_of(const RenderOptions& options) {
   return options.accelerator == Accelerator::grid ? AcceleratorKind::grid : AcceleratorKind::bvh;
 }
 
-bool is_inside(const Medium& medium, const Vec3& point) {
-  // Hardly any of a million spheres is worth an inverse: most do not even have the point in their box.
-  const Sphere& sphere = medium.sphere;
-  const Transform& transform = medium.transform;
-  const Vec3 away = point - transform.point(sphere.centre);
-  constexpr double kRoundedUp = 1.000001;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Vec3 reach(transform.rows[0][axis], transform.rows[1][axis], transform.rows[2][axis]);
-    if (away[axis] * away[axis] > glm::dot(reach, reach) * sphere.radius * sphere.radius * kRoundedUp)
-      return false;
-  }
-  const Vec3 local = transform.inverse().point(point) - sphere.centre;
-  return local.x * local.x + local.y * local.y + local.z * local.z < sphere.radius * sphere.radius;
+double middle_x(const PictureOnGrid& picture) {
+  return picture.left + 0.5 * picture.width - 0.5;
+}
+double middle_y(const PictureOnGrid& picture) {
+  return picture.top + 0.5 * picture.height - 0.5;
 }
 
-void set_flat(FrameBlock& frame, const Camera& camera, bool parallel) {
-  const double w = frame.width;
-  const double h = frame.height;
+void set_flat(FrameBlock& frame, const Camera& camera, const PictureOnGrid& picture, bool parallel) {
   store(parallel ? camera.direction : camera.location, frame.camera.origin);
   store(parallel ? camera.location : camera.direction, frame.camera.base);
-  store(camera.right / w, frame.camera.dx);
-  store(-camera.up / h, frame.camera.dy);
-  frame.camera.middle_x = static_cast<float>(0.5 * w - 0.5);
-  frame.camera.middle_y = static_cast<float>(0.5 * h - 0.5);
+  store(camera.right / picture.width, frame.camera.dx);
+  store(-camera.up / picture.height, frame.camera.dy);
+  frame.camera.middle_x = static_cast<float>(middle_x(picture));
+  frame.camera.middle_y = static_cast<float>(middle_y(picture));
 }
 
 /// A vector of no length stays that.
@@ -83,7 +74,7 @@ Vec3 unit(const Vec3& v) {
   return length > 0 ? v / length : v;
 }
 
-template <class Kind> void set_curved(FrameBlock& frame, const Camera& camera) {
+template <class Kind> void set_curved(FrameBlock& frame, const Camera& camera, const PictureOnGrid& on_grid) {
   constexpr double kRadiansPerDegree = std::numbers::pi / 180;
   const CameraPicture picture =
       Kind::picture({camera.angle * kRadiansPerDegree, camera.vertical_angle * kRadiansPerDegree,
@@ -94,22 +85,31 @@ template <class Kind> void set_curved(FrameBlock& frame, const Camera& camera) {
   store(axis(camera.direction), record.base);
   store(axis(camera.right), record.dx);
   store(axis(camera.up), record.dy);
-  const double step_x = 2 * picture.half_width / frame.width;
-  const double step_y = 2 * picture.half_height / frame.height;
-  record.middle_x = static_cast<float>(0.5 * frame.width - 0.5);
-  record.middle_y = static_cast<float>(0.5 * frame.height - 0.5 + (step_y > 0 ? picture.middle / step_y : 0));
+  const double step_x = 2 * picture.half_width / on_grid.width;
+  const double step_y = 2 * picture.half_height / on_grid.height;
+  record.middle_x = static_cast<float>(middle_x(on_grid));
+  record.middle_y = static_cast<float>(middle_y(on_grid) + (step_y > 0 ? picture.middle / step_y : 0));
   record.step_x = static_cast<float>(step_x);
   record.step_y = static_cast<float>(step_y);
   record.bend = static_cast<float>(picture.bend);
 }
 
-/// Whether what a ray is in can make a difference where it hits the material. Maps are taken for ones with
-/// such entries.
-bool asks_for_interiors(const Material& material) {
-  if (material.map) return true;
-  for (const Material* layer = &material; layer != nullptr; layer = layer->below.get())
-    if (layer->pigment.map || !is_opaque(layer->pigment) || layer->finish.reflection_fresnel) return true;
-  return false;
+void check(const Antialiasing& antialiasing, Model model) {
+  if (model != Model::shared) throw InputError("antialiasing is for the shared programming model");
+  if (antialiasing.depth < 1 || antialiasing.depth > static_cast<int>(kMaxSamplingDepth))
+    throw InputError("the depth of antialiasing has to be 1 to " + std::to_string(kMaxSamplingDepth));
+  if (!(antialiasing.threshold >= 0) || !std::isfinite(antialiasing.threshold))
+    throw InputError("the threshold of antialiasing must not be negative");
+  if (!(antialiasing.jitter >= 0 && antialiasing.jitter <= 1))
+    throw InputError("the jitter of antialiasing has to be 0 to 1");
+  if (!(antialiasing.gamma > 0) || !std::isfinite(antialiasing.gamma))
+    throw InputError("the gamma of antialiasing has to be above 0");
+}
+
+/// How far samples are moved, in pixels.
+double jitter_of(const Antialiasing& antialiasing) {
+  const bool fixed = antialiasing.method == Antialiasing::Method::fixed;
+  return antialiasing.jitter / (fixed ? antialiasing.depth : (1 << antialiasing.depth) + 1);
 }
 
 } // namespace
@@ -133,13 +133,32 @@ void check(const RenderOptions& options) {
     throw InputError("the maximum trace level has to be 1 to 256");
   if (options.adc_bailout && !(*options.adc_bailout >= 0))
     throw InputError("the adaptive depth control's bailout must not be negative");
+  if (options.quality < 0 || options.quality > 11) throw InputError("the quality has to be 0 to 11");
+  const PictureRegion region = region_of(options);
+  if (region.left < 0 || region.left >= region.right || region.right > options.width || region.top < 0 ||
+      region.top >= region.bottom || region.bottom > options.height)
+    throw InputError("the region to render has no pixels, or some that are not in the picture");
+  if (options.antialiasing) check(*options.antialiasing, options.model);
 }
 
 void set_options(FrameBlock& frame, const RenderOptions& options, const Machine& machine) {
   const auto blocks = [](std::uint32_t count, std::uint32_t edge) { return (count + edge - 1) / edge; };
   const std::uint32_t edge = bundle_edge(machine.direct_memory());
-  frame.width = static_cast<std::uint32_t>(options.width);
-  frame.height = static_cast<std::uint32_t>(options.height);
+  const PictureRegion region = region_of(options);
+  frame.width = static_cast<std::uint32_t>(region.right - region.left);
+  frame.height = static_cast<std::uint32_t>(region.bottom - region.top);
+  if (const auto& antialiasing = options.antialiasing) {
+    frame.purpose = static_cast<std::uint32_t>(FramePurpose::grid);
+    ++frame.width;
+    ++frame.height;
+    frame.sampling.method = static_cast<std::uint32_t>(antialiasing->method == Antialiasing::Method::fixed
+                                                           ? SamplingMethod::fixed
+                                                           : SamplingMethod::adaptive);
+    frame.sampling.depth = static_cast<std::uint32_t>(antialiasing->depth);
+    frame.sampling.threshold = static_cast<float>(antialiasing->threshold);
+    frame.sampling.jitter = static_cast<float>(jitter_of(*antialiasing));
+    frame.sampling.inverse_gamma = static_cast<float>(1 / antialiasing->gamma);
+  }
   frame.packet_columns = blocks(frame.width, kPacketEdge);
   frame.packet_rows = blocks(frame.height, kPacketEdge);
   frame.bundle_columns = blocks(frame.packet_columns, edge);
@@ -167,11 +186,18 @@ void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& optio
   frame.prototype_offset = header.prototype_count != 0 ? header.prototype_offset : 0;
   frame.light_offset = header.light_offset;
   frame.light_count = header.light_count;
+  frame.fog_offset = header.fog_offset;
+  frame.fog_count = header.fog_count;
+  frame.light_ways = header.light_ways;
+  if (options.model != Model::shared && (header.light_ways & light_way::stepwise) != 0)
+    throw InputError(
+        "interiors that fade, throw caustics or look different from inside need the shared model");
   frame.light_places = 0;
   for (const Light& light : scene.lights)
     frame.light_places += light.area ? static_cast<std::uint32_t>(light.area->columns * light.area->rows) : 1;
   frame.max_trace_level =
       static_cast<std::uint32_t>(std::clamp(options.max_trace_level.value_or(scene.max_trace_level), 1, 256));
+  if (options.quality < kRaysGoOn) frame.max_trace_level = 1;
   frame.adc_bailout = static_cast<float>(options.adc_bailout.value_or(scene.adc_bailout));
   frame.gamma_encoding = static_cast<std::uint32_t>(
       scene.gamma_mode == GammaMode::assumed ? GammaEncoding::assumed : GammaEncoding::none);
@@ -180,32 +206,37 @@ void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& optio
   frame.sky = header.sky;
 }
 
-std::vector<Medium> media_of(const Scene& scene) {
-  if (std::none_of(scene.materials.begin(), scene.materials.end(), asks_for_interiors)) return {};
-  std::vector<Medium> media;
-  for (const Object& object : scene.objects)
-    if (const auto* sphere = std::get_if<Sphere>(&object.shape); sphere != nullptr && sphere->radius != 0)
-      media.push_back({*sphere, object.transform, object.interior});
-  return media;
+PictureRegion region_of(const RenderOptions& options) {
+  return options.region.value_or(PictureRegion{0, options.width, 0, options.height});
 }
 
-void set_camera(FrameBlock& frame, const Camera& camera, const std::vector<Medium>& media,
-                const SceneImage& image) {
+PictureOnGrid picture_on_grid(const RenderOptions& options) {
+  const PictureRegion region = region_of(options);
+  // One more point than pixels each way: the pixels' corners, or their middles from those before the first
+  // one on.
+  const auto& antialiasing = options.antialiasing;
+  const bool fixed = antialiasing && antialiasing->method == Antialiasing::Method::fixed;
+  const double first = !antialiasing ? 0.0 : fixed ? 1.0 : 0.5;
+  return {static_cast<double>(options.width), static_cast<double>(options.height), first - region.left,
+          first - region.top};
+}
+
+void set_camera(FrameBlock& frame, const Camera& camera, const PictureOnGrid& picture,
+                const std::vector<Medium>& media, const SceneImage& image) {
   frame.camera = CameraRecord{};
   frame.camera.kind = static_cast<std::uint32_t>(camera.kind);
   Cameras::dispatch(frame.camera.kind, [&](auto kind) {
     using Kind = decltype(kind);
     if constexpr (Kind::kIsFlat)
-      set_flat(frame, camera, Kind::kShared == SharedByRays::direction);
+      set_flat(frame, camera, picture, Kind::kShared == SharedByRays::direction);
     else
-      set_curved<Kind>(frame, camera);
+      set_curved<Kind>(frame, camera, picture);
   });
 
   std::vector<std::pair<double, std::uint32_t>> around;
   for (const Medium& medium : media) {
-    if (!is_inside(medium, camera.location)) continue;
-    const double radius = std::abs(medium.sphere.radius);
-    around.emplace_back(std::abs(medium.transform.determinant()) * radius * radius * radius,
+    if (!medium.contains(camera.location)) continue;
+    around.emplace_back(medium.volume(),
                         image.header().interior_offset +
                             medium.interior * static_cast<std::uint32_t>(sizeof(InteriorRecord)));
   }

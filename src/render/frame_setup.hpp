@@ -4,6 +4,7 @@
 #include "celltrace/render.hpp"
 #include "celltrace/spe/machine.hpp"
 #include "kernel/records.hpp"
+#include "scene/insides.hpp"
 #include "scene/scene_image.hpp"
 
 #include <vector>
@@ -18,17 +19,17 @@ void set_options(kernel::FrameBlock& frame, const RenderOptions& options, const 
 /// Fills what depends on the scene but not on its camera.
 void set_scene(kernel::FrameBlock& frame, const Scene& scene, const RenderOptions& options,
                const SceneImage& image);
-/// A sphere of a scene that a camera may be in, and the interior that rays then begin in.
-struct Medium {
-  Sphere sphere;
-  Transform transform;
-  Index interior;
+/// Where a picture lies on the grid of points that its rays go through, which need not be all of it.
+struct PictureOnGrid {
+  double width, height;         ///< of the whole picture
+  double left = 0.0, top = 0.0; ///< the middle of its upper left pixel: a column and a row of the grid
 };
-/// All of a scene's; none where no material asks what a ray is in.
-std::vector<Medium> media_of(const Scene& scene);
+PictureOnGrid picture_on_grid(const RenderOptions& options);
+/// The part of the picture that is rendered.
+PictureRegion region_of(const RenderOptions& options);
 /// Fills the camera, and the interiors of the media of the scene that it is inside of.
-void set_camera(kernel::FrameBlock& frame, const Camera& camera, const std::vector<Medium>& media,
-                const SceneImage& image);
+void set_camera(kernel::FrameBlock& frame, const Camera& camera, const PictureOnGrid& picture,
+                const std::vector<Medium>& media, const SceneImage& image);
 /// Chooses the grid's resolution for a number of objects in a box; offsets and counts stay 0.
 kernel::GridRecord choose_grid(const kernel::ImageHeader& header);
 

@@ -2,10 +2,12 @@
 
 #include "celltrace/error.hpp"
 #include "kernel/lights/list.hpp"
+#include "kernel/program/pixel_sampler.hpp"
 #include "kernel/shading/ray_stack.hpp"
 #include "render/accelerator_builder.hpp"
 #include "render/frame_setup.hpp"
 #include "render/models/stage_team.hpp"
+#include "render/quality.hpp"
 #include "render/spe_team.hpp"
 #include "render/statistics.hpp"
 #include "render/work_plan.hpp"
@@ -66,7 +68,11 @@ public:
   }
 
   RenderResult render(const Scene& scene, const Progress& progress) {
-    return reporting_failures([&] { return render_scene(scene, progress); });
+    return reporting_failures([&] {
+      if (options_.quality >= kFullQuality) return render_scene(scene, progress);
+      validate(scene);
+      return render_scene(at_quality(scene, options_.quality), progress);
+    });
   }
   RenderResult render(const Camera& camera, const Progress& progress) {
     return reporting_failures([&] { return render_camera(camera, progress); });
@@ -86,6 +92,7 @@ private:
     surface_ = make_list_target(std::size_t{frame_.surface_pitch} * frame_.packet_rows * kPacketEdge);
     frame_.surface = to_ea(surface_.data());
     frame_.reports = reports_.ea();
+    if (options_.antialiasing) make_room_for_samples();
     plan_ = std::make_unique<WorkPlan>(options_.balance, frame_.bundle_columns, frame_.bundle_rows, spes,
                                        machine_->byte_order());
     team_ =
@@ -93,6 +100,22 @@ private:
     builder_ = std::make_unique<AcceleratorBuilder>(*machine_, *team_, frame_, reports_, image_);
     if (options_.model != Model::shared)
       stages_ = std::make_unique<StageTeam>(*machine_, frame_block_, options_.model);
+  }
+
+  void make_room_for_samples() {
+    const auto blocks = [](int pixels) {
+      return (static_cast<std::uint32_t>(pixels) + kSampledEdge - 1) / kSampledEdge;
+    };
+    grid_points_ = AlignedBlock::uninitialised(std::size_t{frame_.packet_columns} * frame_.packet_rows *
+                                               kGridPacketBytes);
+    sample_store_ = AlignedBlock::uninitialised(std::size_t{machine_->spe_count()} *
+                                                sample_store_bytes(bundle_edge(machine_->direct_memory())));
+    frame_.grid_points = to_ea(grid_points_.data());
+    frame_.sample_store = to_ea(sample_store_.data());
+    const PictureRegion region = region_of(options_);
+    sample_plan_ = std::make_unique<WorkPlan>(options_.balance, blocks(region.right - region.left),
+                                              blocks(region.bottom - region.top), machine_->spe_count(),
+                                              machine_->byte_order());
   }
 
   template <class Work> RenderResult reporting_failures(Work work) {
@@ -159,8 +182,9 @@ private:
   void enter_scene(const Scene& scene) {
     set_scene(frame_, scene, options_, image_);
     // A tree of n levels needs n + 1 nodes; straight transmission may add some that cost no level.
-    // Where lights have areas, none of them stays in local store.
-    const std::uint32_t nodes = frame_.max_trace_level + 32 + (has_areas(frame_) ? kResidentNodes : 0);
+    // Where lights have areas or shadow rays go step by step, none of them stays in local store.
+    const bool has_resident = !has_areas(frame_) && (frame_.light_ways & light_way::stepwise) == 0;
+    const std::uint32_t nodes = frame_.max_trace_level + 32 + (has_resident ? 0 : kResidentNodes);
     if (nodes == frame_.ray_stack_nodes) return;
     frame_.ray_stack_nodes = nodes;
     ray_stack_ = AlignedBlock(std::size_t{machine_->spe_count()} * nodes * kRayNodeBytes);
@@ -168,29 +192,30 @@ private:
   }
 
   RenderResult render_frame(const Camera& camera, RenderStatistics& statistics, const Progress& progress) {
-    set_camera(frame_, camera, media_, image_);
-    ++frame_.epoch;
+    set_camera(frame_, camera, picture_on_grid(options_), media_, image_);
     // A frame that nobody can break off leaves no pixel out.
     if (progress) std::memset(surface_.data(), 0, surface_.size());
-    reports_.clear();
     const Stopwatch render;
     const SpeMeter meter(*machine_);
     RenderResult result;
-    plan_->place(frame_);
-    // Every word wakes the PPE: about 64 of them will do, and none where nobody asks and each costs a
-    // thread's sleep.
-    const bool silent = !progress && machine_->direct_memory();
-    frame_.units_per_word = silent ? 0 : plan_->units() / 64 + 1;
-    StripTally tally(machine_->spe_count(), plan_->units());
-    result.complete = stages_ ? stages_->render_frame(progress) : team_->render_frame(tally, progress);
-    reports_.fetch();
+    std::vector<ReportRecord> reports(machine_->spe_count());
+    if (options_.antialiasing) {
+      // Half of the progress is the grid's.
+      frame_.purpose = static_cast<std::uint32_t>(FramePurpose::grid);
+      result.complete = render_pass(*plan_, part_of(progress, 0, 0.5), reports);
+      if (result.complete) {
+        frame_.purpose = static_cast<std::uint32_t>(FramePurpose::samples);
+        result.complete = render_pass(*sample_plan_, part_of(progress, 0.5, 1), reports);
+      }
+    } else {
+      result.complete = render_pass(*plan_, progress, reports);
+    }
     statistics.render_seconds = render.seconds();
-    if (result.complete && !stages_) plan_->learn();
     if (machine_->backend() != "native") {
       statistics.schedule = options_.emulation.schedule;
       statistics.seed = options_.emulation.seed;
     }
-    collect(statistics, *machine_, frame_, reports_.all(), meter.read());
+    collect(statistics, *machine_, frame_, reports, meter.read());
     statistics.model = options_.model;
     if (stages_) statistics.stages = stages_->counts();
     statistics.diagnostics = new_diagnostics();
@@ -201,13 +226,45 @@ private:
     return result;
   }
 
+  static Progress part_of(const Progress& progress, double begin, double end) {
+    if (!progress) return progress;
+    return [&progress, begin, end](double fraction) { return progress(begin + fraction * (end - begin)); };
+  }
+
+  /// A frame of the SPEs. False: `progress` broke it off. Adds to `reports`, by SPE.
+  bool render_pass(WorkPlan& plan, const Progress& progress, std::span<ReportRecord> reports) {
+    reports_.clear();
+    ++frame_.epoch;
+    plan.place(frame_);
+    // Every word wakes the PPE: about 64 of them will do, and none where nobody asks and each costs a
+    // thread's sleep.
+    const bool silent = !progress && machine_->direct_memory();
+    frame_.units_per_word = silent ? 0 : plan.units() / 64 + 1;
+    StripTally tally(machine_->spe_count(), plan.units());
+    const bool complete = stages_ ? stages_->render_frame(progress) : team_->render_frame(tally, progress);
+    reports_.fetch();
+    add(reports, reports_.all());
+    if (complete && !stages_) plan.learn();
+    return complete;
+  }
+
   Image copy_picture() const {
+    const auto* from = reinterpret_cast<const std::uint8_t*>(surface_.data());
+    // The grid of the fixed method begins to the upper left of the picture.
+    const auto& antialiasing = options_.antialiasing;
+    if (antialiasing && antialiasing->method == Antialiasing::Method::fixed) from += frame_.surface_pitch + 4;
+    const PictureRegion region = region_of(options_);
+    const std::size_t row = std::size_t{4} * static_cast<std::size_t>(region.right - region.left);
+    if (options_.region) {
+      Image image(options_.width, options_.height);
+      for (int y = region.top; y < region.bottom; ++y, from += frame_.surface_pitch)
+        std::memcpy(image.pixel(region.left, y), from, row);
+      return image;
+    }
     Image image;
     image.width = options_.width;
     image.height = options_.height;
-    const std::size_t row = std::size_t{4} * static_cast<std::size_t>(options_.width);
     image.rgba.reserve(row * static_cast<std::size_t>(options_.height));
-    const auto* from = reinterpret_cast<const std::uint8_t*>(surface_.data());
     for (int y = 0; y < options_.height; ++y, from += frame_.surface_pitch)
       image.rgba.insert(image.rgba.end(), from, from + row);
     return image;
@@ -218,11 +275,11 @@ private:
   std::vector<Medium> media_;
   bool has_scene_ = false; ///< and an accelerator for it
   // Everything from here to the machine is read and written by the SPEs.
-  AlignedBlock surface_, ray_stack_; // bytes, and the SPEs' own
+  AlignedBlock surface_, ray_stack_, grid_points_, sample_store_; // bytes, and the SPEs' own
   SharedRecords<ReportRecord> reports_;
   SharedRecords<FrameBlock> frame_block_;
-  FrameBlock& frame_; ///< the PPE's
-  std::unique_ptr<WorkPlan> plan_;
+  FrameBlock& frame_;                            ///< the PPE's
+  std::unique_ptr<WorkPlan> plan_, sample_plan_; ///< the second one of blocks of pixels that are sampled
   std::unique_ptr<Machine> machine_;
   std::unique_ptr<SpeTeam> team_;
   std::unique_ptr<AcceleratorBuilder> builder_;

@@ -121,12 +121,37 @@ std::uint64_t elapsed_cycles(std::span<const SpeStatistics> spes) {
   return most;
 }
 
+void add(std::span<ReportRecord> sum, std::span<const ReportRecord> reports) {
+  for (std::size_t spe = 0; spe < sum.size(); ++spe) {
+    ReportRecord& all = sum[spe];
+    const ReportRecord& one = reports[spe];
+    all.primary_rays += one.primary_rays;
+    all.shadow_rays += one.shadow_rays;
+    all.reflection_rays += one.reflection_rays;
+    all.refraction_rays += one.refraction_rays;
+    for (std::uint32_t kind = 0; kind < kPrimitives; ++kind)
+      all.tests[kind] += one.tests[kind];
+    all.accelerator_visits += one.accelerator_visits;
+    for (std::uint32_t kind = 0; kind < kDataKinds; ++kind) {
+      all.cache_hits[kind] += one.cache_hits[kind];
+      all.cache_misses[kind] += one.cache_misses[kind];
+    }
+    all.dropped_rays += one.dropped_rays;
+    all.packets += one.packets;
+    all.exchanges += one.exchanges;
+    all.units_received += one.units_received;
+    all.busy_ticks += one.busy_ticks;
+    all.spilled_nodes += one.spilled_nodes;
+  }
+}
+
 void collect(RenderStatistics& s, const Machine& machine, const FrameBlock& frame,
              std::span<const ReportRecord> reports, std::span<const SpeStatistics> spes) {
   s.backend = machine.backend();
   s.spu = machine.spu_key();
-  s.width = static_cast<int>(frame.width);
-  s.height = static_cast<int>(frame.height);
+  const bool is_grid = static_cast<FramePurpose>(frame.purpose) != FramePurpose::picture;
+  s.width = static_cast<int>(frame.width) - (is_grid ? 1 : 0);
+  s.height = static_cast<int>(frame.height) - (is_grid ? 1 : 0);
   s.objects = frame.object_count;
   collect_accelerator(s, frame);
   std::size_t index = 0;

@@ -27,6 +27,9 @@ private:
 /// The greatest total_cycle.
 std::uint64_t elapsed_cycles(std::span<const SpeStatistics> spes);
 
+/// Adds up what each SPE says of several frames.
+void add(std::span<kernel::ReportRecord> sum, std::span<const kernel::ReportRecord> reports);
+
 /// Adds what the frame, the reports and `spes` (what the machine's SPEs did in the frame) say. The schedule,
 /// which has to be there already, decides what the imbalance is of; the rest is the caller's.
 void collect(RenderStatistics& statistics, const Machine& machine, const kernel::FrameBlock& frame,

@@ -54,6 +54,7 @@ void WorkPlan::place(FrameBlock& frame) const {
   frame.strips = strip_records_.ea();
   frame.costs = cost_records_.ea();
   frame.unit_count = units();
+  frame.bundle_columns = columns_;
 }
 
 void WorkPlan::learn() {

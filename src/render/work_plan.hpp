@@ -20,7 +20,7 @@ public:
   WorkPlan(Balance balance, std::uint32_t columns, std::uint32_t rows, std::uint32_t spes,
            std::endian spe_order = std::endian::native);
 
-  /// Writes where everything lies. Call it before every frame: plans may move.
+  /// Writes where everything lies, and how wide the picture is. Call it before every frame: plans may move.
   void place(kernel::FrameBlock& frame) const;
   std::uint32_t units() const { return static_cast<std::uint32_t>(units_.size()); }
   /// Plans the next frame by what the units of the one that is complete have cost.

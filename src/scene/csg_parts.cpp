@@ -2,10 +2,12 @@
 
 #include "celltrace/error.hpp"
 #include "kernel/accel/object_bounds.hpp"
+#include "scene/polytope.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace celltrace {
@@ -100,7 +102,7 @@ struct Node {
 /// What comes to an object from around it.
 struct Surroundings {
   Transform transform;
-  bool no_shadow = false;
+  bool no_shadow = false, no_image = false, no_reflection = false;
   bool inverse = false;
   bool shows = true;
   int depth = 0;
@@ -129,6 +131,8 @@ private:
   Node build_unclipped(const Object& object, Surroundings around) {
     around.transform = object.transform.then(around.transform);
     around.no_shadow = around.no_shadow || object.no_shadow;
+    around.no_image = around.no_image || object.no_image;
+    around.no_reflection = around.no_reflection || object.no_reflection;
     around.inverse = around.inverse != object.inverse;
     if (const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape)) {
       if (!*csg) throw InputError("an object has no CSG");
@@ -160,7 +164,10 @@ private:
     node.shows = around.shows;
     node.object = object;
     node.object.transform = around.transform;
+    node.object.inverse = around.inverse;
     node.object.no_shadow = around.no_shadow;
+    node.object.no_image = around.no_image;
+    node.object.no_reflection = around.no_reflection;
     node.object.clipped_by = nullptr;
     node.record = static_cast<std::uint32_t>(solids_.size());
     solids_.push_back(node.mesh() != nullptr ? place_mesh(node) : place_solid(node));
@@ -193,6 +200,48 @@ private:
   MeshInsides& meshes_;
 };
 
+bool is_plane(const Node& node) {
+  return node.kind == Node::Kind::solid && node.mesh() == nullptr && !node.shape.is_empty &&
+         (node.shape.kind_and_flags & object_flag::kind_mask) == kPrimitiveKind<PlanePrimitive>;
+}
+
+/// The half-spaces of an intersection, of intersections in it too.
+class HalfSpaces {
+public:
+  explicit HalfSpaces(const Node& intersection) { collect(intersection); }
+
+  /// Whether they say more than half_space() of each does.
+  bool limit_more() const { return has_slanted_; }
+
+  /// What they leave of a box. Each is the source of its face by its number among the solids.
+  Polytope cut_out_of(const Aabb& box) const {
+    Polytope polytope(box);
+    for (const Node* plane : planes_) {
+      const float* n = plane->shape.geometry + 8;
+      const double sign = plane->inverse ? -1 : 1;
+      polytope.cut(sign * Vec3(n[0], n[1], n[2]), -sign * n[3], plane->record);
+    }
+    return polytope;
+  }
+
+private:
+  /// Of more planes than this the others are left out: the time grows with the square.
+  static constexpr std::size_t kMost = 1000;
+
+  void collect(const Node& intersection) {
+    for (const Node& child : intersection.children) {
+      if (child.kind == Node::Kind::intersection) collect(child);
+      if (!is_plane(child) || planes_.size() == kMost) continue;
+      planes_.push_back(&child);
+      const float* n = child.shape.geometry + 8;
+      has_slanted_ = has_slanted_ || (n[0] != 0) + (n[1] != 0) + (n[2] != 0) > 1;
+    }
+  }
+
+  std::vector<const Node*> planes_;
+  bool has_slanted_ = false;
+};
+
 /// What a node may fill.
 Aabb solid_bounds(const Node& node) {
   Aabb all = node.kind == Node::Kind::intersection ? kEverywhere : kNowhere;
@@ -201,14 +250,16 @@ Aabb solid_bounds(const Node& node) {
     if (node.has_no_inside()) return kNowhere;
     if (node.mesh() != nullptr) return node.inverse ? kEverywhere : node.mesh_bounds;
     if (node.shape.is_empty) return node.inverse ? kEverywhere : kNowhere;
-    if (!node.shape.is_bounded) return half_space(node.shape, node.inverse);
+    if (is_plane(node)) return half_space(node.shape, node.inverse);
     // The inside of a disc is a half-space.
-    if (node.inverse || (node.shape.kind_and_flags & object_flag::kind_mask) == kPrimitiveKind<DiscPrimitive>)
+    if (node.inverse || !node.shape.is_bounded || (node.shape.kind_and_flags & object_flag::kind_mask) == kPrimitiveKind<DiscPrimitive>)
       return kEverywhere;
     return node.shape.bounds();
   case Node::Kind::intersection:
     for (const Node& child : node.children)
       all = intersected(all, solid_bounds(child));
+    if (const HalfSpaces planes(node); planes.limit_more() && !is_empty(all))
+      all = intersected(all, planes.cut_out_of(all).bounds());
     return all;
   default:
     for (const Node& child : node.children)
@@ -234,9 +285,17 @@ public:
     const auto steps = static_cast<std::uint32_t>(to_.steps.size());
     compile_siblings(node);
     std::vector<Aabb> filled;
-    if (node.kind == Node::Kind::intersection)
-      for (const Node& child : node.children)
+    std::optional<Polytope> polytope;
+    if (node.kind == Node::Kind::intersection) {
+      Aabb all = bounds;
+      for (const Node& child : node.children) {
         filled.push_back(solid_bounds(child));
+        // A mesh without an inside shows what is in all others.
+        if (!child.has_no_inside()) all = intersected(all, filled.back());
+      }
+      if (const HalfSpaces planes(node); planes.limit_more() && !is_empty(all))
+        polytope = planes.cut_out_of(all);
+    }
     std::uint32_t begin = 0;
     for (std::size_t i = 0; i < node.children.size(); ++i) {
       const Node& child = node.children[i];
@@ -249,6 +308,8 @@ public:
       Aabb inside = bounds;
       for (std::size_t other = 0; other < filled.size(); ++other)
         if (other != i) inside = intersected(inside, filled[other]);
+      if (polytope)
+        inside = intersected(inside, is_plane(child) ? polytope->bounds_of_face(child.record) : polytope->bounds());
       to_.conditions.push_back(record);
       show(child, static_cast<std::uint32_t>(to_.conditions.size()) - 1, inside);
     }

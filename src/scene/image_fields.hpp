@@ -21,7 +21,11 @@ FieldList<&ImageHeader::magic, &ImageHeader::version, &ImageHeader::bytes, &Imag
           &ImageHeader::map_entry_offset, &ImageHeader::map_entry_count, &ImageHeader::normal_offset,
           &ImageHeader::normal_count, &ImageHeader::sky, &ImageHeader::mesh_grid_offset,
           &ImageHeader::mesh_grid_count, &ImageHeader::mesh_word_offset, &ImageHeader::mesh_word_count,
-          &ImageHeader::mesh_triangle_offset, &ImageHeader::mesh_triangle_count, &ImageHeader::unused>
+          &ImageHeader::mesh_triangle_offset, &ImageHeader::mesh_triangle_count, &ImageHeader::fog_offset,
+          &ImageHeader::fog_count, &ImageHeader::finish_offset, &ImageHeader::finish_count,
+          &ImageHeader::light_ways, &ImageHeader::feature_offset, &ImageHeader::feature_count,
+          &ImageHeader::gradient_offset, &ImageHeader::gradient_count, &ImageHeader::wave_offset,
+          &ImageHeader::wave_count, &ImageHeader::unused>
 fields_of(const ImageHeader&);
 
 FieldList<&ObjectRecord::kind_and_flags, &ObjectRecord::material, &ObjectRecord::interior,
@@ -56,7 +60,8 @@ FieldList<&MaterialRecord::pigment, &MaterialRecord::filter, &MaterialRecord::tr
           &MaterialRecord::reflection_min, &MaterialRecord::reflection_max,
           &MaterialRecord::reflection_falloff, &MaterialRecord::reflection_metallic,
           &MaterialRecord::inverse_reflection_exponent, &MaterialRecord::flags, &MaterialRecord::pattern,
-          &MaterialRecord::normal, &MaterialRecord::below, &MaterialRecord::unused>
+          &MaterialRecord::normal, &MaterialRecord::below, &MaterialRecord::finish, &MaterialRecord::inside,
+          &MaterialRecord::unused>
 fields_of(const MaterialRecord&);
 
 FieldList<&TurbulenceWords::amount, &TurbulenceWords::lambda, &TurbulenceWords::omega,
@@ -66,11 +71,18 @@ fields_of(const TurbulenceWords&);
 FieldList<&PatternRecord::kind_and_flags, &PatternRecord::entries, &PatternRecord::entry_count,
           &PatternRecord::steps, &PatternRecord::step_count, &PatternRecord::to_space,
           &PatternRecord::frequency, &PatternRecord::phase, &PatternRecord::wave_exponent,
-          &PatternRecord::turbulence, &PatternRecord::parameter>
+          &PatternRecord::turbulence, &PatternRecord::parameter, &PatternRecord::table>
 fields_of(const PatternRecord&);
 
-FieldList<&SpaceStepRecord::turbulence, &SpaceStepRecord::to_space, &SpaceStepRecord::unused>
+FieldList<&SpaceStepRecord::turbulence, &SpaceStepRecord::to_space, &SpaceStepRecord::kind_and_flags,
+          &SpaceStepRecord::table, &SpaceStepRecord::value>
 fields_of(const SpaceStepRecord&);
+
+FieldList<&FeatureRecord::place, &FeatureRecord::hash> fields_of(const FeatureRecord&);
+
+FieldList<&GradientRecord::gradient, &GradientRecord::next> fields_of(const GradientRecord&);
+
+FieldList<&WaveRecord::source, &WaveRecord::frequency> fields_of(const WaveRecord&);
 
 FieldList<&MapEntryRecord::position, &MapEntryRecord::inverse_width, &MapEntryRecord::rgb,
           &MapEntryRecord::filter, &MapEntryRecord::transmit, &MapEntryRecord::child>
@@ -80,7 +92,18 @@ FieldList<&NormalRecord::pattern, &NormalRecord::is_mapped, &NormalRecord::amoun
           &NormalRecord::linear, &NormalRecord::unused>
 fields_of(const NormalRecord&);
 
-FieldList<&InteriorRecord::ior, &InteriorRecord::unused> fields_of(const InteriorRecord&);
+FieldList<&FinishRecord::crand, &FinishRecord::irid, &FinishRecord::irid_thickness,
+          &FinishRecord::irid_turbulence, &FinishRecord::inverse_wavelength, &FinishRecord::first_generator>
+fields_of(const FinishRecord&);
+
+FieldList<&InteriorRecord::ior, &InteriorRecord::is_hollow, &InteriorRecord::inverse_fade_distance,
+          &InteriorRecord::fade_power, &InteriorRecord::fade_colour, &InteriorRecord::caustics>
+fields_of(const InteriorRecord&);
+
+FieldList<&FogRecord::colour, &FogRecord::least, &FogRecord::tint, &FogRecord::inverse_distance,
+          &FogRecord::up, &FogRecord::offset, &FogRecord::flags, &FogRecord::turbulence_depth,
+          &FogRecord::turbulence, &FogRecord::unused>
+fields_of(const FogRecord&);
 
 FieldList<&LightRecord::location, &LightRecord::kind_and_flags, &LightRecord::colour, &LightRecord::tightness,
           &LightRecord::axis, &LightRecord::inverse_width, &LightRecord::inner, &LightRecord::inverse_edge,

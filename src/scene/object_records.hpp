@@ -45,7 +45,10 @@ struct RecordTables {
 inline kernel::ObjectRecord start_record(const Object& object, std::uint32_t kind_and_flags,
                                          std::uint32_t interior_offset) {
   kernel::ObjectRecord r{};
-  r.kind_and_flags = kind_and_flags | (object.no_shadow ? kernel::object_flag::no_shadow : 0);
+  r.kind_and_flags = kind_and_flags | (object.no_shadow ? kernel::object_flag::no_shadow : 0) |
+                     (object.no_image ? kernel::object_flag::no_image : 0) |
+                     (object.no_reflection ? kernel::object_flag::no_reflection : 0) |
+                     (object.inverse ? kernel::object_flag::inverse : 0);
   r.interior = interior_offset + object.interior * static_cast<std::uint32_t>(sizeof(kernel::InteriorRecord));
   r.extra = kernel::kNoOffset;
   return r;

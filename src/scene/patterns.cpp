@@ -3,7 +3,7 @@
 #include "celltrace/error.hpp"
 #include "kernel/textures/list.hpp"
 
-#include <string>
+#include <cmath>
 
 #include <glm/geometric.hpp>
 
@@ -13,7 +13,7 @@ using namespace kernel;
 
 namespace {
 
-using Parameters = float (&)[6];
+using Parameters = float (&)[5];
 
 // One for each kind that the kernel has: its number, and its parameters.
 
@@ -95,8 +95,8 @@ std::uint32_t put(const pattern::Brick& brick, Parameters parameter) {
   for (int i = 0; i < 3; ++i) {
     if (brick.size[i] == 0) throw InputError("a brick has no size");
     parameter[i] = static_cast<float>(1 / brick.size[i]);
-    parameter[3 + i] = static_cast<float>(1 - brick.mortar / brick.size[i]);
   }
+  parameter[3] = static_cast<float>(brick.mortar);
   return kPatternKind<BrickPattern>;
 }
 std::uint32_t put(const pattern::Agate& agate, Parameters parameter) {
@@ -104,30 +104,81 @@ std::uint32_t put(const pattern::Agate& agate, Parameters parameter) {
   return kPatternKind<AgatePattern>;
 }
 
-// Those that the kernel lacks.
+std::uint32_t put(const pattern::Cells&, Parameters) {
+  return kPatternKind<CellsPattern>;
+}
+/// As noise at the nearest points, it has the kind of the noise.
+std::uint32_t put(const pattern::Crackle& crackle, Parameters parameter) {
+  if (!(crackle.metric > 0)) throw InputError("a crackle's metric is not greater than 0");
+  for (int i = 0; i < 3; ++i)
+    parameter[i] = static_cast<float>(crackle.form[i]);
+  parameter[3] = static_cast<float>(crackle.metric);
+  const double offset = std::abs(crackle.offset);
+  parameter[4] = static_cast<float>(crackle.metric == 2   ? offset * offset
+                                    : crackle.metric == 1 ? crackle.offset
+                                                          : std::pow(offset, crackle.metric));
+  return crackle.is_solid ? kPatternKind<BozoPattern> | pattern_flag::at_features
+                          : kPatternKind<CracklePattern>;
+}
+std::uint32_t put(const pattern::Facets& facets, Parameters parameter) {
+  if (facets.size != 0) throw InputError("'size' of facets is not supported yet");
+  if (!(facets.metric > 0)) throw InputError("the metric of facets is not greater than 0");
+  parameter[3] = static_cast<float>(facets.metric);
+  return kPatternKind<BumpsPattern> | pattern_flag::at_features;
+}
+std::uint32_t put(const pattern::Fractal& fractal, Parameters parameter) {
+  constexpr int kMostIterations = 65535;
+  if (fractal.iterations < 1 || fractal.iterations > kMostIterations)
+    throw InputError("a fractal's iterations are not 1 to " + std::to_string(kMostIterations));
+  if (fractal.exponent < 2 || fractal.exponent > 33 || fractal.magnet < 0 || fractal.magnet > 2 ||
+      fractal.exterior < 0 || fractal.exterior > 6 || fractal.interior < 0 || fractal.interior > 6)
+    throw InputError("a fractal is of no kind that there is");
+  parameter[0] = static_cast<float>(fractal.c[0]);
+  parameter[1] = static_cast<float>(fractal.c[1]);
+  parameter[2] = static_cast<float>(fractal.iterations);
+  parameter[3] = static_cast<float>(fractal.exterior_factor);
+  parameter[4] = static_cast<float>(fractal.interior_factor);
+  return kPatternKind<FractalPattern>;
+}
+std::uint32_t put(const pattern::Ripples&, Parameters) {
+  return kPatternKind<RipplesPattern>;
+}
+std::uint32_t put(const pattern::Waves&, Parameters) {
+  return kPatternKind<WavesPattern>;
+}
 
-const char* name_of(const pattern::Ripples&) {
-  return "ripples";
-}
-const char* name_of(const pattern::Waves&) {
-  return "waves";
-}
-const char* name_of(const pattern::Cells&) {
-  return "cells";
-}
-const char* name_of(const pattern::Crackle&) {
-  return "crackle";
-}
-template <class Kind> std::uint32_t put(const Kind& kind, Parameters) {
-  throw InputError("the pattern '" + std::string(name_of(kind)) + "' is not supported yet");
+std::uint32_t word_of(const pattern::Fractal& fractal) {
+  return static_cast<std::uint32_t>(fractal.exponent) |
+         static_cast<std::uint32_t>(fractal.exterior) << fractal_word::exterior_shift |
+         static_cast<std::uint32_t>(fractal.interior) << fractal_word::interior_shift |
+         static_cast<std::uint32_t>(fractal.magnet) << fractal_word::magnet_shift |
+         (fractal.is_julia ? fractal_word::julia : 0);
 }
 
 } // namespace
 
-std::uint32_t pattern_parameters(const pattern::Kind& kind, float (&parameter)[6]) {
-  for (float& number : parameter)
-    number = 0;
-  return std::visit([&](const auto& one) { return put(one, parameter); }, kind);
+PatternTable pattern_table(std::uint32_t kind_and_flags) {
+  if ((kind_and_flags & pattern_flag::gradient_noise) != 0) return PatternTable::gradients;
+  if ((kind_and_flags & pattern_flag::at_features) != 0) return PatternTable::features;
+  switch (kind_and_flags & pattern_flag::kind_mask) {
+  case kPatternKind<CellsPattern>:
+  case kPatternKind<CracklePattern>:
+    return PatternTable::features;
+  case kPatternKind<RipplesPattern>:
+  case kPatternKind<WavesPattern>:
+    return PatternTable::waves;
+  default:
+    return PatternTable::none;
+  }
+}
+
+PatternWords pattern_words(const pattern::Kind& kind, int number_of_waves) {
+  PatternWords words;
+  words.kind_and_flags = std::visit([&](const auto& one) { return put(one, words.parameter); }, kind);
+  words.table = pattern_table(words.kind_and_flags);
+  if (const auto* fractal = std::get_if<pattern::Fractal>(&kind)) words.fractal = word_of(*fractal);
+  if (words.table == PatternTable::waves) words.parameter[0] = static_cast<float>(number_of_waves);
+  return words;
 }
 
 } // namespace celltrace

@@ -7,8 +7,20 @@
 
 namespace celltrace {
 
-/// The kind's number in PatternRecords; its parameters go to `parameter`. Throws InputError if the kernel has
-/// no such pattern.
-std::uint32_t pattern_parameters(const pattern::Kind& kind, float (&parameter)[6]);
+/// Which table a pattern reads.
+enum class PatternTable : std::uint8_t { none, features, gradients, waves };
+
+/// What a kind is in PatternRecords.
+struct PatternWords {
+  std::uint32_t kind_and_flags = 0; ///< its number; of flags, those that follow from the kind
+  float parameter[5] = {};
+  PatternTable table = PatternTable::none;
+  std::uint32_t fractal = 0; ///< a fractal_word
+};
+/// The table of a PatternRecord with these flags.
+PatternTable pattern_table(std::uint32_t kind_and_flags);
+
+/// Throws InputError if numbers of the kind mean nothing. `number_of_waves`: the scene's.
+PatternWords pattern_words(const pattern::Kind& kind, int number_of_waves);
 
 } // namespace celltrace

@@ -73,6 +73,20 @@ void check(const Light& light, const Name& name) {
   if (area.adaptive < 0) throw InputError(name.text() + " has a negative adaptive level");
 }
 
+void check(const Fog& fog, const Name& name) {
+  check_vectors({fog.colour, fog.up, fog.turbulence.amount}, name);
+  check_finite({fog.filter, fog.transmit, fog.distance, fog.offset, fog.altitude, fog.turbulence.omega,
+                fog.turbulence.lambda, fog.turbulence_depth},
+               name);
+  if (fog.turbulence.octaves < 1 || fog.turbulence.octaves > 10)
+    throw InputError(name.text() + " has turbulence whose octaves are not 1 to 10");
+}
+
+void check(const Interior& interior, const Name& name) {
+  check_finite({interior.ior, interior.fade_distance, interior.fade_power, interior.caustics}, name);
+  check_vectors({interior.fade_colour}, name);
+}
+
 void check_index(Index index, std::size_t count, const Name& name) {
   if (index >= count)
     throw InputError(name.text() + ": index " + std::to_string(index) + " is out of range, there are " +
@@ -170,6 +184,7 @@ void validate(const Camera& camera) {
 void validate(const Scene& scene) {
   validate(scene.camera);
   check_vectors({scene.background}, {"the background"});
+  check_vectors({scene.irid_wavelength}, {"the wavelengths"});
   check_vectors({scene.ambient_light}, {"the ambient light"});
   check_finite({scene.assumed_gamma, scene.version, scene.adc_bailout}, {"the scene"});
   if (scene.objects.size() > kMostEntries || scene.materials.size() > kMostEntries ||
@@ -177,13 +192,15 @@ void validate(const Scene& scene) {
     throw InputError("the scene has more entries than 32 bits can count");
   if (scene.noise_generator < 1 || scene.noise_generator > 3)
     throw InputError("the scene has a noise generator that is not 1 to 3");
+  for (std::size_t i = 0; i < scene.fogs.size(); ++i)
+    check(scene.fogs[i], {"fog", i});
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     check(scene.lights[i], {"light", i});
   for (std::size_t i = 0; i < scene.materials.size(); ++i)
     validate_texture(scene.materials[i], Name{"material", i}.text());
   validate_sky(scene);
   for (std::size_t i = 0; i < scene.interiors.size(); ++i)
-    check_finite({scene.interiors[i].ior}, {"interior", i});
+    check(scene.interiors[i], {"interior", i});
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
     check_object(scene, scene.objects[i], i, 0);
   std::unordered_set<const Mesh*> meshes;

@@ -98,6 +98,23 @@ private:
   std::size_t end_;
 };
 
+/// How many records are before those of other objects for ones without bounds: whole lines.
+std::uint32_t room_of_unbounded(std::uint32_t count) {
+  constexpr std::uint32_t kPerLine = kLineBytes / sizeof(ObjectRecord);
+  return (count + kPerLine - 1) / kPerLine * kPerLine;
+}
+
+std::uint32_t light_ways_of(const Scene& scene, const TextureTables& textures) {
+  std::uint32_t ways = scene.fogs.empty() ? 0 : light_way::fog;
+  for (const Interior& interior : scene.interiors) {
+    const InteriorRecord r = make_record(interior);
+    if (r.inverse_fade_distance != 0) ways |= light_way::fading | light_way::stepwise;
+    if (r.caustics != 0) ways |= light_way::stepwise;
+  }
+  if (textures.has_clear_side) ways |= light_way::stepwise;
+  return ways;
+}
+
 /// Of all objects, but for their bounds; `groups` are those of the objects that are no instances.
 ImageHeader make_header(const Scene& scene, const TextureTables& textures, const SceneObjects& objects,
                         const ObjectCensus& census, std::span<const std::uint32_t> groups,
@@ -112,8 +129,14 @@ ImageHeader make_header(const Scene& scene, const TextureTables& textures, const
   layout.place<SpaceStepRecord>(textures.steps.size(), header.space_step_offset, header.space_step_count);
   layout.place<MapEntryRecord>(textures.entries.size(), header.map_entry_offset, header.map_entry_count);
   layout.place<NormalRecord>(textures.normals.size(), header.normal_offset, header.normal_count);
+  layout.place<FeatureRecord>(textures.features.size(), header.feature_offset, header.feature_count);
+  layout.place<GradientRecord>(textures.gradients.size(), header.gradient_offset, header.gradient_count);
+  layout.place<WaveRecord>(textures.waves.size(), header.wave_offset, header.wave_count);
   layout.place<BlendRecord>(census.blended, header.blend_offset, header.blend_count);
   layout.place<InteriorRecord>(scene.interiors.size(), header.interior_offset, header.interior_count);
+  layout.place<FinishRecord>(textures.finishes.size(), header.finish_offset, header.finish_count);
+  header.light_ways = light_ways_of(scene, textures);
+  layout.place<FogRecord>(scene.fogs.size(), header.fog_offset, header.fog_count);
   const CsgParts& csg = objects.csg();
   layout.place<CsgRecord>(csg.conditions.size(), header.csg_offset, header.csg_count);
   layout.place<CsgStep>(csg.steps.size(), header.csg_step_offset, header.csg_step_count);
@@ -125,8 +148,9 @@ ImageHeader make_header(const Scene& scene, const TextureTables& textures, const
                                    header.mesh_triangle_count);
   layout.place<ExtraRecord>(census.extras + objects.unbounded_extras(), header.extra_offset,
                             header.extra_count);
-  layout.place<ObjectRecord>(std::size_t{census.objects} + objects.unbounded_count(), header.object_offset,
-                             header.object_count);
+  const std::uint32_t room = room_of_unbounded(objects.unbounded_count());
+  layout.place<ObjectRecord>(std::size_t{census.objects} + room, header.object_offset, header.object_count);
+  header.object_offset += room * std::uint32_t{sizeof(ObjectRecord)};
   header.object_count = census.objects;
   header.unbounded_count = objects.unbounded_count();
   const std::size_t ordered = groups.empty() ? 0 : groups.size() - 1;
@@ -159,10 +183,11 @@ public:
                                                      textures.object_flags} {
     // What lies between the tables is always the same.
     std::memset(base, 0, header.extra_offset);
-    std::memset(base + header.object_offset - kLineBytes, 0, kLineBytes);
+    const std::size_t before_objects =
+        kLineBytes + room_of_unbounded(header.unbounded_count) * sizeof(ObjectRecord);
+    std::memset(base + header.object_offset - before_objects, 0, before_objects);
     const std::size_t objects_end =
-        header.object_offset +
-        (std::size_t{header.object_count} + header.unbounded_count) * sizeof(ObjectRecord);
+        header.object_offset + std::size_t{header.object_count} * sizeof(ObjectRecord);
     std::memset(base + objects_end, 0, header.bytes - objects_end);
     std::memcpy(base, &header, sizeof header);
   }
@@ -178,10 +203,16 @@ public:
     copy(textures.steps, header_.space_step_offset);
     copy(textures.entries, header_.map_entry_offset);
     copy(textures.normals, header_.normal_offset);
+    copy(textures.finishes, header_.finish_offset);
+    copy(textures.features, header_.feature_offset);
+    copy(textures.gradients, header_.gradient_offset);
+    copy(textures.waves, header_.wave_offset);
     for (std::size_t i = 0; i < scene_.lights.size(); ++i)
       table<LightRecord>(header_.light_offset)[i] = make_record(scene_.lights[i]);
     for (std::size_t i = 0; i < scene_.interiors.size(); ++i)
-      table<InteriorRecord>(header_.interior_offset)[i].ior = static_cast<float>(scene_.interiors[i].ior);
+      table<InteriorRecord>(header_.interior_offset)[i] = make_record(scene_.interiors[i]);
+    for (std::size_t i = 0; i < scene_.fogs.size(); ++i)
+      table<FogRecord>(header_.fog_offset)[i] = make_record(scene_.fogs[i], scene_);
   }
 
   /// Indices become offsets.
@@ -229,10 +260,10 @@ public:
               table<MeshTriangleRecord>(header_.mesh_triangle_offset));
   }
 
-  /// Behind all others. `before`: what the others have in tables.
+  /// `before`: what the others have in tables.
   void write_unbounded(const SceneObjects& objects, const ObjectCensus& before) {
     objects.write_unbounded(tables_, before,
-                            table<ObjectRecord>(header_.object_offset) + header_.object_count);
+                            table<ObjectRecord>(header_.object_offset) - header_.unbounded_count);
   }
 
   /// `places` has room for a word per object.

@@ -6,6 +6,7 @@
 #include "kernel/primitives/list.hpp"
 #include "kernel/textures/list.hpp"
 #include "kernel/textures/map_walk.hpp"
+#include "scene/patterns.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -46,7 +47,7 @@ bool needs_extra(std::uint32_t flags) {
 }
 
 bool references_are_valid(const std::byte* base, const ImageHeader& h) {
-  const auto* objects = reinterpret_cast<const ObjectRecord*>(base + h.object_offset);
+  const auto* objects = reinterpret_cast<const ObjectRecord*>(base + h.object_offset) - h.unbounded_count;
   const auto is_material = [&](std::uint32_t offset) {
     return refers_to(offset, h.material_offset, h.material_count, sizeof(MaterialRecord));
   };
@@ -61,6 +62,9 @@ bool references_are_valid(const std::byte* base, const ImageHeader& h) {
     if ((flags & object_flag::kind_mask) >= kPrimitives) return false;
     if (blended ? !refers_to(object.material, h.blend_offset, h.blend_count, sizeof(BlendRecord))
                 : !is_material(object.material))
+      return false;
+    if ((flags & object_flag::two_sided) != 0 && !blended &&
+        !is_material(reinterpret_cast<const MaterialRecord*>(base + object.material)->inside))
       return false;
     if (!refers_to(object.interior, h.interior_offset, h.interior_count, sizeof(InteriorRecord)))
       return false;
@@ -88,7 +92,7 @@ bool lights_are_valid(const std::byte* base, const ImageHeader& h) {
 class TextureCheck {
 public:
   TextureCheck(const std::byte* base, const ImageHeader& h)
-      : h_(h), materials_(base, h.material_offset, h.material_count),
+      : base_(base), h_(h), materials_(base, h.material_offset, h.material_count),
         patterns_(base, h.pattern_offset, h.pattern_count),
         steps_(base, h.space_step_offset, h.space_step_count),
         entries_(base, h.map_entry_offset, h.map_entry_count),
@@ -98,8 +102,13 @@ public:
   bool holds() {
     for (std::uint32_t i = 0; i < h_.pattern_count; ++i)
       if (!is_sound(patterns_[i])) return false;
+    const Table<FogRecord> fogs(base_, h_.fog_offset, h_.fog_count);
+    for (std::uint32_t i = 0; i < h_.fog_count; ++i)
+      if (!turbulence_is_sound(fogs[i].turbulence)) return false;
     for (std::uint32_t i = 0; i < h_.space_step_count; ++i)
-      if (!turbulence_is_sound(steps_[i].turbulence)) return false;
+      if (!is_sound(steps_[i])) return false;
+    if (h_.feature_count != 0 && h_.feature_count != kFeatures) return false;
+    if (h_.gradient_count != 0 && h_.gradient_count != kGradients) return false;
     find_pigment_depths();
     for (std::uint32_t i = 0; i < h_.normal_count; ++i)
       if (!normal_is_sound(i)) return false;
@@ -138,7 +147,36 @@ private:
       if (!refers_to(r.steps + i * std::uint32_t{sizeof(SpaceStepRecord)}, h_.space_step_offset,
                      h_.space_step_count, sizeof(SpaceStepRecord)))
         return false;
-    return true;
+    return table_is_sound(r);
+  }
+  /// A black hole may do without the table, but not read it anywhere else.
+  bool is_sound(const SpaceStepRecord& r) const {
+    const std::uint32_t kind = r.kind_and_flags & warp_flag::kind_mask;
+    if (kind >= kWarpKinds || !turbulence_is_sound(r.turbulence)) return false;
+    if ((r.kind_and_flags >> warp_flag::axis_shift & 3) == 3) return false;
+    const float(&amount)[3] = r.turbulence.amount;
+    const bool is_moved = !(amount[0] == 0 && amount[1] == 0 && amount[2] == 0);
+    return kind != static_cast<std::uint32_t>(WarpKind::black_hole) || !is_moved || features_are_at(r.table);
+  }
+  bool features_are_at(std::uint32_t offset) const {
+    return h_.feature_count == kFeatures && offset == h_.feature_offset;
+  }
+  /// The table that a pattern reads is there, and whole; hashes lead to no other place.
+  bool table_is_sound(const PatternRecord& r) const {
+    switch (pattern_table(r.kind_and_flags)) {
+    case PatternTable::none:
+      return (r.kind_and_flags & pattern_flag::kind_mask) != kPatternKind<FractalPattern> ||
+             (r.parameter[2] >= 1 && r.parameter[2] <= 65535);
+    case PatternTable::features:
+      return features_are_at(r.table);
+    case PatternTable::gradients:
+      return h_.gradient_count == kGradients && r.table == h_.gradient_offset &&
+             features_are_at(r.table - kFeatures * std::uint32_t{sizeof(FeatureRecord)});
+    case PatternTable::waves:
+      return r.parameter[0] >= 1 && r.parameter[0] <= static_cast<float>(h_.wave_count) &&
+             r.table == h_.wave_offset;
+    }
+    return false;
   }
 
   /// How deep the maps of pigments nest, by pattern; 0: it has none, or they are not sound. Patterns refer to
@@ -155,6 +193,7 @@ private:
     for (std::uint32_t i = 0; i < r.entry_count; ++i) {
       const std::uint32_t child = child_of(r, i);
       if (child == kNoOffset) continue;
+      if ((r.kind_and_flags & pattern_flag::nested) == 0) return 0;
       const std::uint32_t nested = patterns_.find(child);
       if (nested >= pattern || pigment_depth_[nested] == 0 || pigment_depth_[nested] == kDeepestMapWalk)
         return 0;
@@ -200,6 +239,9 @@ private:
       if (mapped && (patterns_[pattern].entry_count == 0 || material_depth_[material] > kDeepestMapWalk))
         return false;
     }
+    if (r.finish != kNoOffset &&
+        !refers_to(r.finish, h_.finish_offset, h_.finish_count, sizeof(FinishRecord)))
+      return false;
     if (has(material_flag::disturbed) && normals_.find(r.normal) == normals_.count) return false;
     if (!has(material_flag::layered)) return r.below == kNoOffset;
     const std::uint32_t below = materials_.find(r.below);
@@ -210,6 +252,7 @@ private:
     return layers_[material] <= kMostLayers;
   }
 
+  const std::byte* base_;
   const ImageHeader& h_;
   Table<MaterialRecord> materials_;
   Table<PatternRecord> patterns_;
@@ -331,11 +374,16 @@ SceneImage SceneImage::from_bytes(std::span<const std::byte> bytes) {
       !table_fits(h.space_step_offset, h.space_step_count, sizeof(SpaceStepRecord), bytes.size()) ||
       !table_fits(h.map_entry_offset, h.map_entry_count, sizeof(MapEntryRecord), bytes.size()) ||
       !table_fits(h.normal_offset, h.normal_count, sizeof(NormalRecord), bytes.size()) ||
+      !table_fits(h.feature_offset, h.feature_count, sizeof(FeatureRecord), bytes.size()) ||
+      !table_fits(h.gradient_offset, h.gradient_count, sizeof(GradientRecord), bytes.size()) ||
+      !table_fits(h.wave_offset, h.wave_count, sizeof(WaveRecord), bytes.size()) ||
       !table_fits(h.blend_offset, h.blend_count, sizeof(BlendRecord), bytes.size()) ||
       !table_fits(h.interior_offset, h.interior_count, sizeof(InteriorRecord), bytes.size()) ||
+      !table_fits(h.finish_offset, h.finish_count, sizeof(FinishRecord), bytes.size()) ||
+      !table_fits(h.fog_offset, h.fog_count, sizeof(FogRecord), bytes.size()) ||
       !table_fits(h.extra_offset, h.extra_count, sizeof(ExtraRecord), bytes.size()) ||
-      h.unbounded_count > 0xFFFFFFFFu - h.object_count ||
-      !table_fits(h.object_offset, h.object_count + h.unbounded_count, sizeof(ObjectRecord), bytes.size()) ||
+      !table_fits(h.object_offset, h.object_count, sizeof(ObjectRecord), bytes.size()) ||
+      h.unbounded_count > (h.object_offset - sizeof(ImageHeader)) / sizeof(ObjectRecord) ||
       !table_fits(h.csg_offset, h.csg_count, sizeof(CsgRecord), bytes.size()) ||
       !table_fits(h.csg_step_offset, h.csg_step_count, sizeof(CsgStep), bytes.size()) ||
       !table_fits(h.solid_offset, h.solid_count, sizeof(SolidRecord), bytes.size()) ||

@@ -99,7 +99,7 @@ void SceneObjects::grow(std::size_t objects) {
 }
 
 void SceneObjects::add_shape(const Object& object) {
-  if (std::holds_alternative<Plane>(object.shape)) {
+  if (!has_bounds(object)) {
     unbounded_.push_back({&object, nullptr});
     return;
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -187,6 +188,88 @@ PlacedShape place(const Object& object, const Torus& torus) {
   return shape;
 }
 
+/// Turns a symmetric matrix until it is diagonal, by Jacobi's rotations: what is left on its diagonal are the
+/// factors of squares along the axes.
+void diagonalise(double (&m)[3][3], Vec3 (&axes)[3]) {
+  for (int i = 0; i < 3; ++i)
+    axes[i] = Vec3(i == 0, i == 1, i == 2);
+  for (int turn = 0; turn < 48; ++turn) {
+    const int p = turn % 3 == 2 ? 1 : 0, q = turn % 3 == 0 ? 1 : 2;
+    if (m[p][q] == 0) continue;
+    const double angle = 0.5 * std::atan2(2 * m[p][q], m[q][q] - m[p][p]);
+    const double c = std::cos(angle), s = std::sin(angle);
+    for (int i = 0; i < 3; ++i) {
+      const double a = m[i][p], b = m[i][q];
+      m[i][p] = c * a - s * b;
+      m[i][q] = s * a + c * b;
+    }
+    for (int i = 0; i < 3; ++i) {
+      const double a = m[p][i], b = m[q][i];
+      m[p][i] = c * a - s * b;
+      m[q][i] = s * a + c * b;
+    }
+    const Vec3 first = axes[p];
+    axes[p] = c * first - s * axes[q];
+    axes[q] = s * first + c * axes[q];
+  }
+}
+
+/// In its own space a quadric has its axes along the coordinates', and its factors are 1, 0 or -1.
+PlacedShape place(const Object& object, const Quadric& quadric) {
+  double m[3][3] = {{quadric.square.x, quadric.mixed.x / 2, quadric.mixed.y / 2},
+                    {quadric.mixed.x / 2, quadric.square.y, quadric.mixed.z / 2},
+                    {quadric.mixed.y / 2, quadric.mixed.z / 2, quadric.square.z}};
+  Vec3 axes[3];
+  diagonalise(m, axes);
+  const double largest = std::max({std::abs(m[0][0]), std::abs(m[1][1]), std::abs(m[2][2])});
+  // Curved axes come first. Each has its middle where the linear term along it ends.
+  struct Axis {
+    Vec3 direction;
+    double square;
+  };
+  std::vector<Axis> curved, straight;
+  for (int i = 0; i < 3; ++i)
+    (std::abs(m[i][i]) > 1e-9 * largest ? curved : straight).push_back({axes[i], m[i][i]});
+  Vec3 middle(0), linear = quadric.linear;
+  double constant = quadric.constant;
+  for (const Axis& axis : curved) {
+    const double along = glm::dot(quadric.linear, axis.direction);
+    middle -= axis.direction * (along / (2 * axis.square));
+    constant -= along * along / (4 * axis.square);
+    linear -= axis.direction * along;
+  }
+  const double slope = straight.empty() ? 0 : glm::length(linear);
+  const bool has_slope = slope > 1e-9 * std::max(largest, glm::length(quadric.linear));
+  if (has_slope) {
+    const Vec3 up = linear / slope;
+    if (straight.size() == 3) complete_basis(up, straight[0].direction, straight[1].direction);
+    if (straight.size() == 2) straight[0].direction = glm::cross(curved[0].direction, up);
+    straight.back().direction = up;
+    middle -= up * (constant / slope);
+    constant = 0;
+  } else if (curved.empty() || std::abs(constant) <= 1e-12 * largest) {
+    if (curved.empty()) return nothing();
+    constant = 0;
+  }
+  const double unit = has_slope ? slope : constant != 0 ? std::abs(constant) : largest;
+  Transform own;
+  int factors[3] = {0, 0, 0};
+  int next = 0;
+  for (const Axis& axis : curved) {
+    own.rows[next] = axis.direction * std::sqrt(unit / std::abs(axis.square));
+    factors[next++] = axis.square > 0 ? 1 : -1;
+  }
+  for (const Axis& axis : straight)
+    own.rows[next++] = axis.direction;
+  own.rows[3] = middle;
+  const int sign = constant > 0 ? 1 : constant < 0 ? -1 : 0;
+  if (factors[0] + factors[1] + factors[2] == 3 && sign < 0)
+    return in_own_space<EllipsoidPrimitive>(object, own);
+  PlacedShape shape = in_own_space<QuadricPrimitive>(object, own);
+  shape.parameters[0] = QuadricPrimitive::code(factors[0], factors[1], factors[2], has_slope, sign);
+  return shape;
+}
+
 PlacedShape place(const Object&, const std::shared_ptr<const Mesh>&) {
   return nothing();
 }
@@ -223,6 +306,9 @@ std::vector<double> numbers_of(const Cone& c) {
 std::vector<double> numbers_of(const Torus& t) {
   return numbers({}, {t.major_radius, t.minor_radius});
 }
+std::vector<double> numbers_of(const Quadric& q) {
+  return numbers({q.square, q.mixed, q.linear}, {q.constant});
+}
 std::vector<double> numbers_of(const std::shared_ptr<const Mesh>&) {
   return {};
 }
@@ -243,6 +329,12 @@ kernel::Aabb PlacedShape::bounds() const {
 
 PlacedShape place_shape(const Object& object) {
   return std::visit([&](const auto& shape) { return place(object, shape); }, object.shape);
+}
+
+bool has_bounds(const Object& object) {
+  // Most shapes always have: they are not placed to find out.
+  if (std::holds_alternative<Plane>(object.shape)) return false;
+  return !std::holds_alternative<Quadric>(object.shape) || place_shape(object).is_bounded;
 }
 
 void validate_shape(const Object& object, const std::string& name) {

@@ -30,6 +30,9 @@ void write_map(const Transform& map, float (&to)[12]);
 /// Of a shape that is neither a mesh nor a CSG. Throws InputError if its transformation is singular.
 PlacedShape place_shape(const Object& object);
 
+/// Whether the bounds of such a shape are finite, without those that CSG may give it.
+bool has_bounds(const Object& object);
+
 /// Throws InputError, beginning with `name`, if a number of such a shape is not finite.
 void validate_shape(const Object& object, const std::string& name);
 

@@ -1,6 +1,7 @@
 #include "scene/surface_records.hpp"
 
 #include "kernel/lights/list.hpp"
+#include "scene/textures.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -142,7 +143,59 @@ MaterialRecord make_record(const Material& material, const Scene& scene) {
   r.flags = (f.reflection_fresnel ? material_flag::fresnel : 0) |
             (f.conserve_energy ? material_flag::conserve_energy : 0) |
             (scene.version < 3.7 ? material_flag::old_opacity : 0);
-  r.pattern = r.normal = r.below = kNoOffset;
+  r.pattern = r.normal = r.below = r.finish = r.inside = kNoOffset;
+  return r;
+}
+
+bool has_record(const Finish& finish) {
+  return finish.diffuse != 0 && (finish.crand != 0 || finish.irid != 0);
+}
+
+FinishRecord make_record(const Finish& finish, const Scene& scene) {
+  FinishRecord r{};
+  r.crand = static_cast<float>(finish.crand);
+  r.irid = static_cast<float>(finish.irid);
+  r.irid_thickness = static_cast<float>(finish.irid_thickness);
+  r.irid_turbulence = static_cast<float>(finish.irid_turbulence);
+  r.first_generator = scene.noise_generator == 1 ? 1 : 0;
+  for (int i = 0; i < 3; ++i)
+    r.inverse_wavelength[i] =
+        static_cast<float>(scene.irid_wavelength[i] != 0 ? 1 / scene.irid_wavelength[i] : 0);
+  return r;
+}
+
+InteriorRecord make_record(const Interior& interior) {
+  // As in POV-Ray.
+  constexpr double kCausticsUnit = 45;
+  InteriorRecord r{};
+  r.ior = static_cast<float>(interior.ior);
+  r.is_hollow = interior.hollow ? 1 : 0;
+  if (interior.fade_distance != 0) {
+    r.inverse_fade_distance = static_cast<float>(1 / std::abs(interior.fade_distance));
+    r.fade_power = static_cast<float>(interior.fade_power);
+    copy(interior.fade_colour, r.fade_colour);
+  }
+  r.caustics = static_cast<float>(interior.caustics * kCausticsUnit);
+  return r;
+}
+
+FogRecord make_record(const Fog& fog, const Scene& scene) {
+  constexpr double kNoAltitude = 1e-6;
+  FogRecord r{};
+  copy(fog.colour, r.colour);
+  r.least = static_cast<float>(fog.transmit);
+  copy(Vec3(1 - fog.filter) + fog.filter * fog.colour, r.tint);
+  r.inverse_distance = static_cast<float>(fog.distance != 0 ? 1 / fog.distance : 0);
+  if (fog.is_ground) {
+    const double altitude = fog.altitude != 0 ? fog.altitude : kNoAltitude;
+    r.flags |= fog_flag::ground;
+    copy(fog.up / altitude, r.up);
+    r.offset = static_cast<float>(fog.offset / altitude);
+  }
+  if (fog.turbulence.amount != Vec3(0)) r.flags |= fog_flag::turbulent;
+  if (scene.noise_generator == 1) r.flags |= fog_flag::first_generator;
+  r.turbulence = words_of(fog.turbulence);
+  r.turbulence_depth = static_cast<float>(fog.turbulence_depth);
   return r;
 }
 

@@ -1,4 +1,4 @@
-// The records of materials and lights.
+// The records of materials, interiors, fogs and lights.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -8,6 +8,11 @@ namespace celltrace {
 
 kernel::LightRecord make_record(const Light& light);
 kernel::MaterialRecord make_record(const Material& material, const Scene& scene);
+/// Whether it has more than a material's record says.
+bool has_record(const Finish& finish);
+kernel::FinishRecord make_record(const Finish& finish, const Scene& scene);
+kernel::InteriorRecord make_record(const Interior& interior);
+kernel::FogRecord make_record(const Fog& fog, const Scene& scene);
 /// Whether shadow rays stop at it. Without a map.
 bool is_opaque(const Pigment& pigment);
 

@@ -3,13 +3,15 @@
 #include "celltrace/error.hpp"
 #include "kernel/textures/list.hpp"
 #include "kernel/textures/map_walk.hpp"
-#include "scene/patterns.hpp"
+#include "scene/pattern_tables.hpp"
 #include "scene/surface_records.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <type_traits>
+
+#include <glm/geometric.hpp>
 
 namespace celltrace {
 
@@ -26,12 +28,17 @@ public:
   explicit Check(const std::string& name) : name_(name) {}
 
   void material(const Material& m, int depth, int layers) {
+    if (m.inside) {
+      if (m.inside->inside) fail("looks different from inside, and there again");
+      material(*m.inside, 0, 1);
+    }
     if (m.map) return map(*m.map, depth, [&](const Material& entry) { material(entry, depth + 1, 1); });
     pigment(m.pigment, 0);
     const Finish& f = m.finish;
     vectors({f.ambient, f.emission, f.reflection_min, f.reflection_max});
     numbers({f.diffuse, f.brilliance, f.phong, f.phong_size, f.specular, f.roughness, f.metallic,
-             f.reflection_falloff, f.reflection_exponent, f.reflection_metallic});
+             f.reflection_falloff, f.reflection_exponent, f.reflection_metallic, f.crand, f.irid,
+             f.irid_thickness, f.irid_turbulence});
     if (m.normal) normal(*m.normal, 0);
     if (!m.below) return;
     if (layers == kMostLayers) fail("has more than " + std::to_string(kMostLayers) + " layers");
@@ -59,6 +66,10 @@ private:
     if (n.map) return map(*n.map, depth, [&](const Normal& entry) { normal(entry, depth + 1); });
     numbers({n.amount, n.accuracy});
     if (!(n.accuracy > 0)) fail("has a normal whose accuracy is not greater than 0");
+    if (n.slopes.size() > kMostMapEntries)
+      fail("has a slope map of more than " + std::to_string(kMostMapEntries) + " entries");
+    for (const SlopePoint& point : n.slopes)
+      numbers({point.position, point.height, point.slope});
     pattern(n.pattern);
   }
   /// A map that several share is looked at once, or such trees would take for ever.
@@ -84,21 +95,33 @@ private:
     numbers({t.omega, t.lambda});
     if (t.octaves < 1 || t.octaves > 10) fail("has turbulence whose octaves are not 1 to 10");
   }
+  void space_step(const Turbulence& t) const { turbulence(t); }
+  void space_step(const Transform& t) const {
+    vectors({t.rows[0], t.rows[1], t.rows[2], t.rows[3]});
+    t.inverse();
+  }
+  void space_step(const warp::Repeat& w) const {
+    numbers({w.width});
+    vectors({w.flip, w.offset});
+    if (w.axis < 0 || w.axis > 2 || w.width == 0) fail("has a warp that repeats without axis or width");
+  }
+  void space_step(const warp::BlackHole& w) const {
+    vectors({w.centre, w.repeat, w.turbulence});
+    numbers({w.radius, w.strength, w.falloff});
+    if (!(w.radius > 0)) fail("has a black hole whose radius is not greater than 0");
+  }
+  void space_step(const warp::Mapping& w) const {
+    vectors({w.orientation});
+    numbers({w.distance, w.distance_exponent, w.major_radius});
+    if (w.orientation == Vec3(0)) fail("has a warp without orientation");
+  }
   void pattern(const Pattern& p) const {
     turbulence(p.turbulence);
     numbers({p.wave_exponent, p.frequency, p.phase});
     if (p.noise_generator < 0 || p.noise_generator > 3) fail("has a noise generator that is not 0 to 3");
     for (const SpaceStep& step : p.space)
-      if (const auto* moved = std::get_if<Turbulence>(&step)) {
-        turbulence(*moved);
-      } else {
-        const Transform& t = std::get<Transform>(step);
-        vectors({t.rows[0], t.rows[1], t.rows[2], t.rows[3]});
-        t.inverse();
-      }
-    float parameter[6] = {};
-    pattern_parameters(p.kind, parameter);
-    for (const float number : parameter)
+      std::visit([&](const auto& one) { space_step(one); }, step);
+    for (const float number : pattern_words(p.kind, 1).parameter)
       numbers({number});
   }
 
@@ -114,15 +137,60 @@ void set(const Transform& to_space, float (&m)[12]) {
       m[row * 4 + column] = static_cast<float>(to_space.rows[column][row]);
 }
 
-TurbulenceWords words_of(const Turbulence& t) {
-  return {{static_cast<float>(t.amount.x), static_cast<float>(t.amount.y), static_cast<float>(t.amount.z)},
-          static_cast<float>(t.lambda),
-          static_cast<float>(t.omega),
-          static_cast<std::uint32_t>(t.octaves)};
-}
-
 bool is_still(const Turbulence& t) {
   return t.amount == Vec3(0);
+}
+
+void copy(const Vec3& from, float* to) {
+  for (int i = 0; i < 3; ++i)
+    to[i] = static_cast<float>(from[i]);
+}
+
+void fill(SpaceStepRecord& r, const Turbulence& t) {
+  r.kind_and_flags = static_cast<std::uint32_t>(WarpKind::turbulence);
+  r.turbulence = words_of(t);
+}
+void fill(SpaceStepRecord& r, const warp::Repeat& w) {
+  r.kind_and_flags = static_cast<std::uint32_t>(WarpKind::repeat) |
+                     static_cast<std::uint32_t>(w.axis) << warp_flag::axis_shift;
+  r.value[0] = static_cast<float>(w.width);
+  for (int i = 0; i < 3; ++i)
+    r.value[1 + i] = w.flip[i] != 0 ? -1.0f : 1.0f;
+  copy(w.offset, r.value + 4);
+}
+void fill(SpaceStepRecord& r, const warp::BlackHole& w) {
+  r.kind_and_flags =
+      static_cast<std::uint32_t>(WarpKind::black_hole) | (w.is_inverse ? warp_flag::inverse : 0);
+  copy(w.centre, r.value);
+  r.value[3] = static_cast<float>(w.radius);
+  r.value[4] = static_cast<float>(w.strength);
+  r.value[5] = static_cast<float>(w.falloff);
+  copy(w.repeat, r.value + 6);
+  copy(w.turbulence, r.turbulence.amount);
+}
+void fill(SpaceStepRecord& r, const warp::Mapping& w) {
+  using Shape = warp::Mapping::Shape;
+  const WarpKind kind = w.shape == Shape::planar        ? WarpKind::planar
+                        : w.shape == Shape::cylindrical ? WarpKind::cylindrical
+                        : w.shape == Shape::spherical   ? WarpKind::spherical
+                                                        : WarpKind::toroidal;
+  r.kind_and_flags = static_cast<std::uint32_t>(kind);
+  copy(glm::normalize(w.orientation), r.value);
+  r.value[3] = static_cast<float>(w.shape == Shape::planar ? w.distance : w.distance_exponent);
+  r.value[4] = static_cast<float>(w.major_radius);
+}
+void fill(SpaceStepRecord&, const Transform&) {} // is what its record's neighbours have
+
+SpaceStepRecord record_of(const SpaceStep& step) {
+  SpaceStepRecord r{};
+  std::visit([&](const auto& one) { fill(r, one); }, step);
+  return r;
+}
+
+bool reads_features(const SpaceStepRecord& r) {
+  const float(&amount)[3] = r.turbulence.amount;
+  return (r.kind_and_flags & warp_flag::kind_mask) == static_cast<std::uint32_t>(WarpKind::black_hole) &&
+         (amount[0] != 0 || amount[1] != 0 || amount[2] != 0);
 }
 
 /// Of all textures together, in each of the tables: what several maps share is written once for each space
@@ -169,6 +237,12 @@ template <class Record> void to_offset(std::uint32_t& index, std::uint32_t table
   if (index != kNoOffset) index = table + index * static_cast<std::uint32_t>(sizeof(Record));
 }
 
+/// Of an interval of a map; 0 if it has none.
+float inverse_width(double from, double to) {
+  const float inverse = to > from ? static_cast<float>(1 / (to - from)) : 0;
+  return std::isfinite(inverse) ? inverse : 0;
+}
+
 /// The sky as a texture of layers; there is one.
 Material sky_of(const Scene& scene) {
   Material top;
@@ -180,6 +254,13 @@ Material sky_of(const Scene& scene) {
 }
 
 } // namespace
+
+TurbulenceWords words_of(const Turbulence& t) {
+  return {{static_cast<float>(t.amount.x), static_cast<float>(t.amount.y), static_cast<float>(t.amount.z)},
+          static_cast<float>(t.lambda),
+          static_cast<float>(t.omega),
+          static_cast<std::uint32_t>(t.octaves)};
+}
 
 void validate_texture(const Material& material, const std::string& name) {
   Check(name).material(material, 0, 1);
@@ -202,9 +283,9 @@ TextureTables::TextureTables(const Scene& scene) : scene_(scene) {
   object_flags.reserve(scene.materials.size());
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const Traits traits = fill_material(static_cast<std::uint32_t>(i), scene.materials[i], {});
-    object_flags.push_back((traits.opaque ? object_flag::opaque : 0) |
-                           (traits.textured ? object_flag::textured : 0) |
-                           (traits.disturbed ? object_flag::disturbed : 0));
+    object_flags.push_back(
+        (traits.opaque ? object_flag::opaque : 0) | (traits.textured ? object_flag::textured : 0) |
+        (traits.disturbed ? object_flag::disturbed : 0) | (traits.two_sided ? object_flag::two_sided : 0));
   }
   sky = scene.sky_sphere.empty() ? kNoOffset : add_material(sky_of(scene), {}).index;
 }
@@ -212,8 +293,15 @@ TextureTables::TextureTables(const Scene& scene) : scene_(scene) {
 TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Material& material,
                                                    const Space& outer) {
   MaterialRecord r{};
-  r.pattern = r.normal = r.below = kNoOffset;
+  r.pattern = r.normal = r.below = r.finish = r.inside = kNoOffset;
   Traits traits;
+  std::uint32_t inside = kNoOffset;
+  Traits inside_traits;
+  if (material.inside) {
+    const Known known = add_material(*material.inside, outer);
+    inside = known.index;
+    inside_traits = known.traits;
+  }
   if (material.map) {
     const Known map = add_map(material.map, outer);
     r.flags = material_flag::mapped;
@@ -222,6 +310,10 @@ TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Ma
     traits.textured = true;
   } else {
     r = make_record(material, scene_);
+    if (has_record(material.finish)) {
+      r.finish = static_cast<std::uint32_t>(finishes.size());
+      finishes.push_back(make_record(material.finish, scene_));
+    }
     if (material.pigment.map) {
       const Known map = add_map(material.pigment.map, outer);
       r.flags |= material_flag::patterned;
@@ -244,6 +336,12 @@ TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Ma
       traits.disturbed = traits.disturbed || below.traits.disturbed;
       traits.textured = true;
     }
+  }
+  if (material.inside) {
+    r.inside = inside;
+    traits.add(inside_traits);
+    traits.two_sided = true;
+    has_clear_side = has_clear_side || !traits.opaque;
   }
   materials[index] = r;
   return traits;
@@ -279,6 +377,7 @@ TextureTables::Known TextureTables::add_map(const std::shared_ptr<const PatternM
   const auto first = static_cast<std::uint32_t>(entries.size());
   entries.resize(entries.size() + count);
   children_.resize(entries.size());
+  bool is_nested = false;
   double weights = 0;
   for (const auto& entry : map->entries)
     weights += entry.position;
@@ -287,9 +386,7 @@ TextureTables::Known TextureTables::add_map(const std::shared_ptr<const PatternM
     const auto& from = map->entries[i];
     MapEntryRecord entry{};
     entry.position = static_cast<float>(map->is_average ? from.position / weights : from.position);
-    const double width = i == 0 ? 0 : from.position - map->entries[i - 1].position;
-    entry.inverse_width = width > 0 ? static_cast<float>(1 / width) : 0;
-    if (!std::isfinite(entry.inverse_width)) entry.inverse_width = 0;
+    entry.inverse_width = i == 0 ? 0 : inverse_width(map->entries[i - 1].position, from.position);
     entry.child = kNoOffset;
     if constexpr (std::is_same_v<T, Pigment>) {
       children_[first + i] = Child::pattern;
@@ -297,6 +394,7 @@ TextureTables::Known TextureTables::add_map(const std::shared_ptr<const PatternM
       if (from.value.map) {
         const Known nested = add_map(from.value.map, inside);
         entry.child = nested.index;
+        is_nested = true;
         own = nested.traits;
       }
       traits.add(own);
@@ -313,6 +411,7 @@ TextureTables::Known TextureTables::add_map(const std::shared_ptr<const PatternM
   }
   const std::uint32_t pattern = add_pattern(map->pattern, outer, map->is_average, count);
   patterns[pattern].entries = first;
+  if (is_nested) patterns[pattern].kind_and_flags |= pattern_flag::nested;
   if (is_shared) known_[map.get()] = {pattern, traits};
   return {pattern, traits};
 }
@@ -323,8 +422,14 @@ std::uint32_t TextureTables::add_normal(const Normal& normal, const Space& outer
     r.is_mapped = 1;
     r.pattern = add_map(normal.map, outer).index;
   } else {
-    r.pattern = add_pattern(normal.pattern, outer, false, 0);
-    r.amount = static_cast<float>(normal.amount);
+    const bool has_slopes =
+        !normal.slopes.empty() && !disturbs(pattern_words(normal.pattern.kind, 1).kind_and_flags &
+                                            pattern_flag::kind_mask);
+    const std::uint32_t slopes = has_slopes ? add_slopes(normal.slopes) : 0;
+    r.pattern = add_pattern(normal.pattern, outer, false, has_slopes ? normal.slopes.size() : 0);
+    patterns[r.pattern].entries = slopes;
+    const auto* facets = std::get_if<pattern::Facets>(&normal.pattern.kind);
+    r.amount = static_cast<float>(facets ? facets->coords : normal.amount);
     r.accuracy = static_cast<float>(normal.accuracy);
     const Transform map = whole_map(steps_of(normal.pattern, outer));
     for (int row = 0; row < 3; ++row)
@@ -336,31 +441,68 @@ std::uint32_t TextureTables::add_normal(const Normal& normal, const Space& outer
   return static_cast<std::uint32_t>(normals.size() - 1);
 }
 
+std::uint32_t TextureTables::add_slopes(const std::vector<SlopePoint>& slopes) {
+  make_room(entries, slopes.size(), "entries of maps");
+  const auto first = static_cast<std::uint32_t>(entries.size());
+  for (std::size_t i = 0; i < slopes.size(); ++i) {
+    MapEntryRecord entry{};
+    entry.position = static_cast<float>(slopes[i].position);
+    entry.inverse_width = i == 0 ? 0 : inverse_width(slopes[i - 1].position, slopes[i].position);
+    entry.rgb[0] = static_cast<float>(slopes[i].height);
+    entry.rgb[1] = static_cast<float>(slopes[i].slope);
+    entry.child = kNoOffset;
+    entries.push_back(entry);
+  }
+  children_.resize(entries.size(), Child::none);
+  return first;
+}
+
 std::uint32_t TextureTables::add_pattern(const Pattern& pattern, const Space& outer, bool is_average,
                                          std::size_t entry_count) {
   PatternRecord r{};
   r.entries = r.steps = 0;
   r.entry_count = static_cast<std::uint32_t>(entry_count);
+  tables_.push_back(PatternTable::none);
   if (is_average) {
     r.kind_and_flags = pattern_flag::average;
   } else {
-    r.kind_and_flags = pattern_parameters(pattern.kind, r.parameter);
-    const bool is_list = Patterns::kAreLists[r.kind_and_flags & pattern_flag::kind_mask];
-    const PatternWave wave =
-        pattern.frequency == 0 || is_list ? PatternWave::none : static_cast<PatternWave>(pattern.wave);
+    const PatternWords words = pattern_words(pattern.kind, scene_.number_of_waves);
+    r.kind_and_flags = words.kind_and_flags;
+    std::copy(std::begin(words.parameter), std::end(words.parameter), r.parameter);
+    const std::uint32_t kind = r.kind_and_flags & pattern_flag::kind_mask;
+    const PatternWave wave = pattern.frequency == 0 || Patterns::kAreLists[kind]
+                                 ? PatternWave::none
+                                 : static_cast<PatternWave>(pattern.wave);
     r.kind_and_flags |= static_cast<std::uint32_t>(wave) << pattern_flag::wave_shift;
     const int generator = pattern.noise_generator == 0 ? scene_.noise_generator : pattern.noise_generator;
     if (generator == 1) r.kind_and_flags |= pattern_flag::first_generator;
-    if (generator == 3 && Patterns::kCode[r.kind_and_flags & pattern_flag::kind_mask] == PatternCode::noise)
-      throw InputError("noise generator 3 is not supported yet");
+    const bool is_gradient_noise = generator == 3 && Patterns::kReadNoise[kind];
+    if (is_gradient_noise) r.kind_and_flags |= pattern_flag::gradient_noise;
     if (!is_still(pattern.turbulence) && is_moved_by_turbulence(pattern.kind))
       r.kind_and_flags |= pattern_flag::turbulent;
+    r.table = words.fractal;
+    tables_.back() = pattern_table(r.kind_and_flags);
+    add_table(tables_.back());
   }
   r.frequency = static_cast<float>(pattern.frequency);
   r.phase = static_cast<float>(pattern.phase);
   r.wave_exponent = static_cast<float>(pattern.wave_exponent);
   r.turbulence = words_of(pattern.turbulence);
-  // What is met first is written last.
+  add_steps(r, steps_of(pattern, outer));
+  make_room(patterns, 1, "patterns");
+  patterns.push_back(r);
+  return static_cast<std::uint32_t>(patterns.size() - 1);
+}
+
+void TextureTables::add_table(PatternTable table) {
+  if (table == PatternTable::waves && waves.empty()) waves = make_waves(scene_.number_of_waves);
+  if (table == PatternTable::gradients && gradients.empty()) gradients = make_gradients();
+  if (table != PatternTable::waves && table != PatternTable::none && features.empty())
+    features = make_features();
+}
+
+/// What is met first is written last.
+void TextureTables::add_steps(PatternRecord& r, const Space& space) {
   const auto first_step = static_cast<std::uint32_t>(steps.size());
   r.steps = first_step;
   Transform map;
@@ -368,28 +510,41 @@ std::uint32_t TextureTables::add_pattern(const Pattern& pattern, const Space& ou
     set(map, steps.size() == first_step ? r.to_space : steps.back().to_space);
     map = Transform();
   };
-  const Space space = steps_of(pattern, outer);
   for (auto step = space.rbegin(); step != space.rend(); ++step) {
     if (const auto* transform = std::get_if<Transform>(&*step)) {
       map = map.then(transform->inverse());
-    } else if (const auto& moved = std::get<Turbulence>(*step); !is_still(moved)) {
-      end_map();
-      make_room(steps, 1, "warps of patterns");
-      steps.emplace_back();
-      steps.back().turbulence = words_of(moved);
+      continue;
     }
+    if (const auto* moved = std::get_if<Turbulence>(&*step); moved && is_still(*moved)) continue;
+    end_map();
+    make_room(steps, 1, "warps of patterns");
+    steps.push_back(record_of(*step));
+    if (reads_features(steps.back())) add_table(PatternTable::features);
   }
   end_map();
   r.step_count = static_cast<std::uint32_t>(steps.size()) - first_step;
-  make_room(patterns, 1, "patterns");
-  patterns.push_back(r);
-  return static_cast<std::uint32_t>(patterns.size() - 1);
 }
 
 void TextureTables::relocate(const ImageHeader& header) {
-  for (PatternRecord& r : patterns) {
+  for (SpaceStepRecord& r : steps)
+    if (reads_features(r)) r.table = header.feature_offset;
+  for (std::size_t i = 0; i < patterns.size(); ++i) {
+    PatternRecord& r = patterns[i];
     to_offset<MapEntryRecord>(r.entries, header.map_entry_offset);
     to_offset<SpaceStepRecord>(r.steps, header.space_step_offset);
+    switch (tables_[i]) {
+    case PatternTable::features:
+      r.table = header.feature_offset;
+      break;
+    case PatternTable::gradients:
+      r.table = header.gradient_offset;
+      break;
+    case PatternTable::waves:
+      r.table = header.wave_offset;
+      break;
+    case PatternTable::none:
+      break;
+    }
   }
   for (std::size_t i = 0; i < entries.size(); ++i)
     switch (children_[i]) {
@@ -402,6 +557,8 @@ void TextureTables::relocate(const ImageHeader& header) {
     case Child::material:
       to_offset<MaterialRecord>(entries[i].child, header.material_offset);
       break;
+    case Child::none:
+      break;
     }
   for (NormalRecord& r : normals)
     to_offset<PatternRecord>(r.pattern, header.pattern_offset);
@@ -409,6 +566,8 @@ void TextureTables::relocate(const ImageHeader& header) {
     to_offset<PatternRecord>(r.pattern, header.pattern_offset);
     to_offset<NormalRecord>(r.normal, header.normal_offset);
     to_offset<MaterialRecord>(r.below, header.material_offset);
+    to_offset<MaterialRecord>(r.inside, header.material_offset);
+    to_offset<FinishRecord>(r.finish, header.finish_offset);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include "celltrace/scene.hpp"
 #include "kernel/records.hpp"
+#include "scene/patterns.hpp"
 
 #include <cstdint>
 #include <map>
@@ -19,6 +20,8 @@ void validate_texture(const Material& material, const std::string& name);
 /// Likewise of the scene's sky sphere.
 void validate_sky(const Scene& scene);
 
+kernel::TurbulenceWords words_of(const Turbulence& turbulence);
+
 /// References among the tables are indices until relocate() makes offsets of them; kNoOffset stays.
 class TextureTables {
 public:
@@ -34,6 +37,11 @@ public:
   std::vector<kernel::SpaceStepRecord> steps;
   std::vector<kernel::MapEntryRecord> entries;
   std::vector<kernel::NormalRecord> normals;
+  std::vector<kernel::FinishRecord> finishes;
+  bool has_clear_side = false; ///< some of what looks different from inside lets light through
+  std::vector<kernel::FeatureRecord> features;   ///< these three only if a pattern or a warp reads them
+  std::vector<kernel::GradientRecord> gradients; ///< never without the features
+  std::vector<kernel::WaveRecord> waves;
   std::uint32_t sky; ///< index of the uppermost layer's material, or kNoOffset
   /// By material of the scene: what an object has that consists of it, of object_flag's opaque, mapped,
   /// disturbed.
@@ -42,14 +50,14 @@ public:
 private:
   /// What the textures of a tree have in common.
   struct Traits {
-    bool opaque = true, textured = false, disturbed = false;
+    bool opaque = true, textured = false, disturbed = false, two_sided = false;
     void add(const Traits& other);
   };
   struct Known {
     std::uint32_t index; ///< of a material, or of the pattern whose map it is
     Traits traits;
   };
-  enum class Child : std::uint8_t { pattern, normal, material };
+  enum class Child : std::uint8_t { pattern, normal, material, none };
 
   /// Of the maps around a pattern: what comes between its own space and the scene. In no map it is empty.
   using Space = std::vector<SpaceStep>;
@@ -60,10 +68,14 @@ private:
   template <class T> Known add_map(const std::shared_ptr<const PatternMap<T>>& map, const Space& outer);
   Known add_material(const Material& material, const Space& outer);
   std::uint32_t add_normal(const Normal& normal, const Space& outer);
+  void add_table(PatternTable table);
+  void add_steps(kernel::PatternRecord& r, const Space& space);
+  std::uint32_t add_slopes(const std::vector<SlopePoint>& slopes);
   Traits fill(kernel::MapEntryRecord& entry, const Pigment& pigment);
 
   const Scene& scene_;
   std::vector<Child> children_;        ///< by entry, what its child is
+  std::vector<PatternTable> tables_;   ///< by pattern, what it reads
   std::map<const void*, Known> known_; ///< maps that several share, by address
 };
 

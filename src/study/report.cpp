@@ -1,10 +1,11 @@
 // A study as text, JSON, CSV files and pictures.
 #include "celltrace/error.hpp"
+#include "image/file.hpp"
 #include "study/chart.hpp"
 #include "study/study.hpp"
 
 #include <algorithm>
-#include <fstream>
+#include <cstdio>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
@@ -149,9 +150,13 @@ std::string to_csv(const Table& table) {
 }
 
 void write_file(const fs::path& path, const std::string& content) {
-  std::ofstream file(path, std::ios::binary);
-  file << content << std::flush;
-  if (!file) throw InputError("cannot write '" + path.string() + "'");
+  try {
+    image::OutputFile file(path);
+    std::fwrite(content.data(), 1, content.size(), file.get()); // commit() knows if it failed
+    file.commit();
+  } catch (const InputError& error) {
+    throw InputError(path.string() + ": " + error.what());
+  }
 }
 
 } // namespace

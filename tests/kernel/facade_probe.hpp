@@ -21,6 +21,7 @@ struct alignas(128) FacadeBlock {
   float transposed[4][16];
   float row_sums[2][16], equal_row_sums[2][16];
   int32_t int_sum[16], int_difference[16], int_and[16], int_or[16], int_chosen[16];
+  float floor[16];
   int32_t to_int[16], bits[16], left_1[16], left_23[16], right_1[16], right_23[16], int_splat[16];
   int32_t of_line[16];
   uint32_t u4_and[4], u4_or[4], u4_splat[4];
@@ -68,6 +69,7 @@ template <class S> void apply_facade(FacadeBlock& x) {
   x.greater = (a > b).bits();
   x.greater_equal = (a >= b).bits();
   x.equal = (a == b).bits();
+  S::floor(a).store(x.floor);
   S::to_int(a).store(x.to_int);
   S::bits_of(a).store(x.bits);
 
@@ -114,7 +116,11 @@ struct RowStarts {
   const int32_t* of_lane;
   bool equal;
 
-  bool are_equal() const { return equal; }
+  static constexpr uint32_t kKeys = 1;
+  const int32_t* keys(uint32_t) const {
+    alignas(64) static constexpr int32_t kSame[16] = {};
+    return equal ? kSame : of_lane;
+  }
   void operator()(uint32_t lane, uint32_t (&starts)[2]) const {
     const uint32_t start = static_cast<uint32_t>(of_lane[equal ? 0 : lane]) & 15;
     starts[0] = start;
@@ -127,9 +133,13 @@ template <class S> void apply_rare_facade(FacadeBlock& x) {
   for (uint32_t first = 0; first < kSimdLanes; first += S::kLanes) {
     const F a = F::load(x.a + first), b = F::load(x.b + first);
     const auto sum = [&](const RowStarts& starts, float(&results)[2][16]) {
-      F factors[2][4] = {{a, b, a + b, F(2.0f)}, {b, F(-3.0f), a - b, a}};
+      const auto factors_of = [&](uint32_t row, F(&factors)[4]) {
+        const F all[2][4] = {{a, b, a + b, F(2.0f)}, {b, F(-3.0f), a - b, a}};
+        for (uint32_t i = 0; i < 4; ++i)
+          factors[i] = all[row][i];
+      };
       F sums[2];
-      S::sum_rows(x.a, starts, factors, sums);
+      S::template sum_rows<2>(x.a, starts, factors_of, sums);
       for (uint32_t channel = 0; channel < 2; ++channel)
         sums[channel].store(results[channel] + first);
     };

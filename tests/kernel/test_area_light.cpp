@@ -1,5 +1,6 @@
 // The sampling of lights that have an area: which places are looked at, what comes of them, and where they
 // are.
+#include "kernel/direct/area_occluders.hpp"
 #include "kernel/lights/area_shadow.hpp"
 #include "kernel/lights/illumination.hpp"
 #include "lanes.hpp"
@@ -191,4 +192,52 @@ TEST_CASE("Jitter is the same each time, other in each lane, and stays near the 
   CHECK(glm::length(sum) / samples < 0.03);
   CHECK(squares.x / samples == Approx(1.0 / 12).margin(0.01));
   CHECK(squares.z / samples == Approx(1.0 / 12).margin(0.01));
+}
+
+TEST_CASE("A shaft touches every node that is between surfaces and a place of the light") {
+  Random random(147);
+  int crossed = 0, touched = 0, all = 0;
+  for (int k = 0; k < times(400); ++k) {
+    Light light = area_light(random);
+    light.area->adaptive = 100;
+    light.area->jitter = random.below(2) == 0;
+    Sampling sampling(light, random);
+    alignas(16) float bounds[6][4];
+    for (int child = 0; child < 4; ++child) {
+      const Vec3 middle = random.point(4) + Vec3(0, 3, 0);
+      for (int axis = 0; axis < 3; ++axis) {
+        const double half = random.uniform(0.01, 0.6);
+        bounds[2 * axis][child] = static_cast<float>(middle[axis] - half);
+        bounds[2 * axis + 1][child] = static_cast<float>(middle[axis] + half);
+      }
+    }
+    const std::uint32_t lanes = (random.word() & 0xFFFF) | 1;
+    std::uint32_t between = 0, found = 0;
+    bool is_known = false;
+    sampling.run(lanes, [&](AreaShadow<Simd>& shadow) {
+      if (!is_known) found = Shaft<Simd>(shadow.rays, lanes, sampling.record).intersect(bounds);
+      is_known = true;
+      for_each_lane(shadow.lanes, [&](unsigned l) {
+        const Vec3 origin = test::at(shadow.rays.origin, l), direction = test::at(shadow.rays.direction, l);
+        for (int child = 0; child < 4; ++child) {
+          double enter = 0, leave = shadow.distance.lane[l];
+          for (int axis = 0; axis < 3; ++axis) {
+            const double a = (bounds[2 * axis][child] - origin[axis]) / direction[axis];
+            const double b = (bounds[2 * axis + 1][child] - origin[axis]) / direction[axis];
+            enter = std::max(enter, std::min(a, b));
+            leave = std::min(leave, std::max(a, b));
+          }
+          if (enter < leave) between |= 1u << child;
+        }
+      });
+    });
+    REQUIRE((between & ~found) == 0);
+    if (!is_known) continue;
+    all += 4;
+    crossed += __builtin_popcount(between);
+    touched += __builtin_popcount(found);
+  }
+  // Some nodes are crossed, and not all are touched.
+  CHECK(crossed > all / 20);
+  CHECK(touched < all / 2);
 }

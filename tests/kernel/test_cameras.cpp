@@ -39,7 +39,8 @@ std::unique_ptr<FrameBlock> frame_of(const Camera& camera, std::uint32_t width, 
   auto frame = std::make_unique<FrameBlock>();
   frame->width = width;
   frame->height = height;
-  set_camera(*frame, camera, {}, SceneImage(Scene()));
+  set_camera(*frame, camera, {static_cast<double>(width), static_cast<double>(height)}, {},
+             SceneImage(Scene()));
   return frame;
 }
 

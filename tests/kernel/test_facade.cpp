@@ -135,6 +135,13 @@ void check_ints(const FacadeBlock& x) {
   CHECK(same_ints(x.int_or, [&](int l) { return word(x.i[l]) | word(x.j[l]); }));
   CHECK(same_ints(x.int_chosen, [&](int l) { return (x.n >> l & 1) != 0 ? x.i[l] : x.j[l]; }));
   CHECK(same_ints(x.int_splat, [&](int) { return x.i[5]; }));
+  // The sign of 0 may be any.
+  float floors[16];
+  std::transform(x.floor, x.floor + 16, floors, [](float f) { return f + 0.0f; });
+  CHECK(same_floats(floors, [&](int l) {
+    const bool fits = std::fabs(x.a[l]) < 2147483648.0f;
+    return fits ? std::floor(x.a[l]) + 0.0f : floors[l];
+  }));
   CHECK(same_ints(x.to_int, [&](int l) {
     const bool fits = std::fabs(x.a[l]) < 2147483648.0f;
     return fits ? static_cast<int32_t>(x.a[l]) : x.to_int[l];

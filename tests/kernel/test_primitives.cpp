@@ -57,6 +57,24 @@ std::vector<Subject> subjects() {
       named("thick torus", Torus{0.5, 0.45},
             [](const Vec3& p) { return square(std::hypot(p.x, p.z) - 0.5) + square(p.y) < square(0.45); }),
   };
+  const auto quadric = [&](const char* name, const Quadric& q) {
+    all.push_back(named(name, q, [q](const Vec3& p) {
+      return glm::dot(q.square, p * p) + glm::dot(q.mixed, Vec3(p.x * p.y, p.x * p.z, p.y * p.z)) +
+                 glm::dot(q.linear, p) + q.constant <
+             0;
+    }));
+  };
+  quadric("ellipsoid", {{2, 3, 1.5}, {0.4, -0.3, 0.2}, {0.1, 0.2, -0.3}, -0.9});
+  quadric("space around an ellipsoid", {{-2, -3, -1.5}, {0.4, 0, 0.2}, {0, 0, 0}, 0.9});
+  quadric("hyperboloid", {{1, -1, 1}, {0, 0, 0}, {0, 0, 0}, -0.2});
+  quadric("hyperboloid of two sheets", {{1, -2, 1}, {0.5, 0, 0}, {0, 0.3, 0}, 0.1});
+  quadric("double cone", {{1, -1, 1}, {0, 0, 0}, {0, 0, 0}, 0});
+  quadric("paraboloid", {{1, 0, 2}, {0, 0, 0}, {0.2, -1, 0}, -0.1});
+  quadric("saddle", {{1, -1, 0}, {0.3, 0, 0}, {0, 0, 1}, 0.1});
+  quadric("elliptic cylinder", {{1, 0, 3}, {0, 1, 0}, {0.1, 0, 0}, -0.3});
+  quadric("parabolic cylinder", {{1, 0, 0}, {0, 0, 0}, {0, 0.3, -1}, 0.1});
+  quadric("pair of planes", {{0, 1, 0}, {0, 0, 0}, {0, 0, 0}, -0.2});
+  quadric("plane by linear terms", {{0, 0, 0}, {0, 0, 0}, {1, 2, -1}, -0.3});
   return all;
 }
 

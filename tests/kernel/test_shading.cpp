@@ -43,6 +43,10 @@ Material any_material(Random& random) {
   return m;
 }
 
+std::uint32_t offset_of_interior(const PreparedScene& scene, Index interior) {
+  return scene.header().interior_offset + interior * std::uint32_t{sizeof(InteriorRecord)};
+}
+
 /// Sixteen hits with a material each, without anything around.
 struct Hits {
   VectorLanes point, normal, direction;
@@ -308,7 +312,7 @@ TEST_CASE("The interiors that a ray is inside of") {
   const PreparedScene scene(source);
   DirectSpu spu;
   SceneAccess<DirectSpu> access(spu, CacheConfig(), scene.frame().image);
-  const auto offset = [&](Index interior) { return scene.header().interior_offset + interior * 16; };
+  const auto offset = [&](Index interior) { return offset_of_interior(scene, interior); };
   // Random crossings: into, out of the innermost, out of another one, in any lanes.
   for (int k = 0; k < 200; ++k) {
     RayNode node{};
@@ -355,12 +359,12 @@ TEST_CASE("More interiors than a ray remembers lose the outermost, and are count
   std::uint64_t overflows = 0;
   for (unsigned i = 0; i < kMaxInteriorDepth + 2; ++i) {
     WordLanes interior{};
-    interior.lane[5] = scene.header().interior_offset + i * 16;
+    interior.lane[5] = offset_of_interior(scene, i);
     const Refraction r = cross_surfaces(access, interior, 1u << 5, node, overflows);
     CHECK(r.ratio.lane[5] == Approx(i == 0 ? 1.0 : (1 + 0.1 * (i - 1)) / (1 + 0.1 * i)));
     CHECK(overflows == (i < kMaxInteriorDepth ? 0 : i - kMaxInteriorDepth + 1));
   }
   CHECK(node.interior_depth.lane[5] == kMaxInteriorDepth);
-  CHECK(node.interiors[0].lane[5] == scene.header().interior_offset + 2 * 16);
+  CHECK(node.interiors[0].lane[5] == offset_of_interior(scene, 2));
   CHECK(node.interior_depth.lane[4] == 0);
 }

@@ -3,6 +3,8 @@
 
 #include "celltrace/scene.hpp"
 
+#include <functional>
+#include <memory>
 #include <vector>
 
 namespace celltrace::reference {
@@ -18,20 +20,26 @@ struct Crossing {
   double u = 0, v = 0; ///< barycentric weights of a triangle's second and third vertex
 };
 
-/// At most two, nearest first.
+/// At most four, nearest first.
 struct Crossings {
   int count = 0;
-  Crossing at[2];
+  Crossing at[4];
 
   const Crossing* begin() const { return at; }
   const Crossing* end() const { return at + count; }
 };
 
-/// A sphere under an affine transformation, or a triangle; an object of a scene or a part of one.
+/// A sphere under an affine transformation, a triangle, or another shape; an object of a scene or a part of
+/// one.
 struct Shape {
-  const Object* object = nullptr;
+  /// The scene's or, of a part of a CSG, an own one that is placed in the world.
+  std::shared_ptr<const Object> object;
+  /// CSG and clipping: where a point of the surface is there; null: everywhere.
+  std::function<bool(const Vec3&)> condition;
   bool triangle = false;
-  /// Sphere: the sphere, and the way to the space where it is one.
+  /// None of what follows is meant: solids.hpp knows.
+  bool solid = false;
+  /// Sphere: the sphere, and the way to the space where it is one, which other shapes have too.
   Sphere sphere;
   Transform to_sphere;
   /// Triangle: in the world; normals only if it is smooth. They are of unit length in the mesh's own space.
@@ -43,7 +51,7 @@ struct Shape {
   bool blended = false;
 };
 
-/// All objects of the scene, meshes taken apart. The scene must outlive the shapes.
+/// All objects of the scene, meshes and CSG taken apart. The scene must outlive the shapes.
 std::vector<Shape> shapes_of(const Scene& scene);
 
 Crossings cross(const Shape& shape, const Ray& ray);
@@ -51,7 +59,7 @@ Crossings cross(const Shape& shape, const Ray& ray);
 /// Unit normal, with the direction that the geometry gives it.
 Vec3 normal_at(const Shape& shape, const Vec3& point, const Crossing& crossing);
 
-/// True inside a sphere; triangles have no inside.
+/// True inside a sphere or another shape that is no part of a CSG; triangles have no inside.
 bool contains(const Shape& shape, const Vec3& point);
 
 } // namespace celltrace::reference

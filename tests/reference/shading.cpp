@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include <glm/common.hpp>
+#include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
 
 namespace celltrace::reference {
@@ -93,6 +94,38 @@ Vec3 lit(const Material& material, double version, const Vec3& colour, const Vec
   const double half = glm::dot(glm::normalize(to_light - direction), normal);
   if (f.specular > 0 && half > 0) strength += f.specular * std::pow(half, 1 / f.roughness);
   return sum + colour * strength * metallic_tint(f.metallic, cosine, pigment);
+}
+
+Vec3 film(const Finish& finish, const Vec3& wavelength, double cosine_of_light, double cosine_of_ray) {
+  const double way = finish.irid_thickness * (cosine_of_light + cosine_of_ray);
+  Vec3 factors(1);
+  for (int i = 0; i < 3; ++i)
+    factors[i] += finish.irid * std::cos(2 * std::numbers::pi * way / wavelength[i]);
+  return factors;
+}
+
+Vec3 faded(const Interior& interior, double distance) {
+  if (interior.fade_distance == 0) return Vec3(1);
+  const double way = distance / interior.fade_distance;
+  if (interior.fade_power >= 1000) return glm::exp((interior.fade_colour - 1.0) * way);
+  const double share = 1 / (1 + std::pow(way, interior.fade_power));
+  return interior.fade_colour + (1.0 - interior.fade_colour) * share;
+}
+
+Fogged through(const Fog& fog, const Vec3& origin, const Vec3& direction, double distance) {
+  double density = 1;
+  if (fog.is_ground) {
+    // The integral of the density from the offset up: its own height below, an arc tangent above.
+    const auto filled = [](double y) { return y <= 0 ? y : std::atan(y); };
+    const double start = (glm::dot(origin, fog.up) - fog.offset) / fog.altitude;
+    const double end = start + glm::dot(direction, fog.up) * distance / fog.altitude;
+    if (std::abs(end - start) > 1e-9)
+      density = (filled(end) - filled(start)) / (end - start);
+    else
+      density = start <= 0 ? 1 : 1 / (1 + start * start);
+  }
+  const double pass = std::max(std::exp(-density * distance / fog.distance), fog.transmit);
+  return {((1 - fog.filter) + fog.filter * fog.colour) * pass, fog.colour * (1 - pass)};
 }
 
 double fresnel_reflectance(double ratio, double cosine) {

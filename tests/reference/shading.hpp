@@ -32,6 +32,18 @@ Incoming incoming(const Light& light, const Vec3& point);
 Vec3 lit(const Material& material, double version, const Vec3& colour, const Vec3& to_light,
          const Vec3& direction, const Vec3& normal, bool highlights);
 
+/// The factors that irid gives what is sent on of one light.
+Vec3 film(const Finish& finish, const Vec3& wavelength, double cosine_of_light, double cosine_of_ray);
+
+/// What is left of light of each colour after a distance in an interior.
+Vec3 faded(const Interior& interior, double distance);
+
+/// What a fog, without turbulence, lets through along a ray, and what it adds.
+struct Fogged {
+  Vec3 pass, add;
+};
+Fogged through(const Fog& fog, const Vec3& origin, const Vec3& direction, double distance);
+
 /// The reflectance of unpolarised light by Fresnel's equations; `ratio` is the index on this side over that
 /// on the other; 1 beyond the critical angle.
 double fresnel_reflectance(double ratio, double cosine);

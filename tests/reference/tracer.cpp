@@ -67,32 +67,59 @@ Vec3 Tracer::see(const Ray& ray) const {
   return trace({ray, 0, 1, camera_inside_});
 }
 
-Tracer::Hit Tracer::closest(const Ray& ray) const {
+Tracer::Hit Tracer::closest(const Ray& ray, bool mirrored) const {
   Hit hit;
   hit.crossing.distance = kMaxHitDistance;
-  for (const Shape& shape : shapes_)
+  for (const Shape& shape : shapes_) {
+    if (mirrored ? shape.object->no_reflection : shape.object->no_image) continue;
     for (const Crossing& crossing : cross(shape, ray))
       if (crossing.distance > kMinHitDistance && crossing.distance < hit.crossing.distance)
         hit = {&shape, crossing};
+  }
   return hit;
 }
 
-Vec3 Tracer::attenuation(const Ray& ray, double distance) const {
+Vec3 Tracer::attenuation(const Ray& ray, double distance, InteriorStack inside) const {
+  std::vector<Hit> surfaces;
+  for (const Shape& shape : shapes_)
+    for (const Crossing& c : cross(shape, ray))
+      if (!shape.object->no_shadow && c.distance > kShadowTolerance &&
+          c.distance < distance - kShadowTolerance)
+        surfaces.push_back({&shape, c});
+  std::sort(surfaces.begin(), surfaces.end(),
+            [](const Hit& a, const Hit& b) { return a.crossing.distance < b.crossing.distance; });
   Vec3 passed(1);
-  for (const Shape& shape : shapes_) {
-    if (shape.object->no_shadow) continue;
-    for (const Crossing& c : cross(shape, ray)) {
-      if (c.distance <= kShadowTolerance || c.distance >= distance - kShadowTolerance) continue;
-      const double weights[3] = {1 - c.u - c.v, c.u, c.v};
-      Vec3 filter(0);
-      for (int i = 0; i < 3; ++i)
-        filter +=
-            weights[i] *
-            filter_colour(material_at(shape.material[i], ray.origin + c.distance * ray.direction).pigment);
-      passed *= filter;
+  double last = 0;
+  for (const auto& [shape, c] : surfaces) {
+    const Vec3 point = ray.origin + c.distance * ray.direction;
+    const double weights[3] = {1 - c.u - c.v, c.u, c.v};
+    Vec3 filter(0);
+    for (int i = 0; i < 3; ++i)
+      filter += weights[i] * filter_colour(material_at(shape->material[i], point).pigment);
+    const Interior& interior = scene_.interiors[shape->object->interior];
+    const bool leaves = std::find(inside.begin(), inside.end(), shape->object->interior) != inside.end();
+    if (leaves && interior.fade_power != 0) filter *= faded(interior, c.distance - last);
+    if (interior.caustics != 0) {
+      const double cosine = std::abs(glm::dot(ray.direction, normal_at(*shape, point, c)));
+      filter *= 1 + std::pow(cosine, 45 * interior.caustics);
     }
+    cross_surface(inside, shape->object->interior, scene_.interiors);
+    passed *= filter;
+    last = c.distance;
   }
   return passed;
+}
+
+Vec3 Tracer::in_fog(const Branch& branch, double distance, const Vec3& behind) const {
+  for (const Index interior : branch.inside)
+    if (!scene_.interiors[interior].hollow) return behind;
+  Vec3 added(0), passed(1);
+  for (const Fog& fog : scene_.fogs) {
+    const Fogged one = through(fog, branch.ray.origin, branch.ray.direction, distance);
+    added += one.add;
+    passed *= one.pass;
+  }
+  return added + passed * behind;
 }
 
 Material Tracer::material_at(Index index, const Vec3& point) const {
@@ -103,24 +130,29 @@ Material Tracer::material_at(Index index, const Vec3& point) const {
 
 Vec3 Tracer::trace(const Branch& branch) const {
   if (branch.level >= scene_.max_trace_level || branch.weight < scene_.adc_bailout) return Vec3(0);
-  const Hit hit = closest(branch.ray);
-  if (hit.shape == nullptr) return scene_.background;
+  const Hit hit = closest(branch.ray, branch.mirrored);
+  constexpr double kNowhere = 1e10;
+  if (hit.shape == nullptr) return in_fog(branch, kNowhere, scene_.background);
   Point point;
   point.shape = hit.shape;
+  point.distance = hit.crossing.distance;
   point.position = branch.ray.origin + branch.ray.direction * hit.crossing.distance;
   point.normal = normal_at(*hit.shape, point.position, hit.crossing);
   if (glm::dot(point.normal, branch.ray.direction) > 0) point.normal = -point.normal;
-  if (!hit.shape->blended) return shade(branch, point, material_at(hit.shape->material[0], point.position));
+  if (!hit.shape->blended)
+    return in_fog(branch, point.distance,
+                  shade(branch, point, material_at(hit.shape->material[0], point.position)));
 
   const double weights[3] = {1 - hit.crossing.u - hit.crossing.v, hit.crossing.u, hit.crossing.v};
   Vec3 sum(0);
   for (int i = 0; i < 3; ++i)
     if (weights[i] >= scene_.adc_bailout)
       sum += weights[i] * shade(branch, point, material_at(hit.shape->material[i], point.position));
-  return sum;
+  return in_fog(branch, point.distance, sum);
 }
 
-Vec3 Tracer::own_light(const Ray& ray, const Point& point, const Material& material) const {
+Vec3 Tracer::own_light(const Branch& branch, const Point& point, const Material& material) const {
+  const Vec3& direction = branch.ray.direction;
   const Finish& f = material.finish;
   Vec3 sum = material.pigment.rgb * (f.ambient * scene_.ambient_light + f.emission) *
              opacity(material.pigment, scene_.version);
@@ -134,21 +166,23 @@ Vec3 Tracer::own_light(const Ray& ray, const Point& point, const Material& mater
       const Vec3 way = glm::normalize(middle + offset);
       // Parallel light ends beside the place itself, and has no shadows behind it.
       const double end = distance > 0 ? glm::dot(light.location + offset - point.position, way) : 0;
-      return unshadowed * attenuation({point.position, way}, end);
+      return unshadowed * attenuation({point.position, way}, end, branch.inside);
     };
     Vec3 colour = unshadowed;
     if (light.area && !light.shadowless)
       colour = area_mean(*light.area, from_place);
     else if (!light.shadowless)
-      colour *= attenuation({point.position, to_light}, distance);
-    sum += lit(material, scene_.version, colour, to_light, ray.direction, point.normal, !light.shadowless);
+      colour *= attenuation({point.position, to_light}, distance, branch.inside);
+    sum +=
+        lit(material, scene_.version, colour, to_light, direction, point.normal, !light.shadowless) *
+        film(f, scene_.irid_wavelength, glm::dot(point.normal, to_light), -glm::dot(direction, point.normal));
   }
   return sum;
 }
 
 Vec3 Tracer::shade(const Branch& branch, const Point& point, const Material& material) const {
   const Vec3& direction = branch.ray.direction;
-  Vec3 sum = own_light(branch.ray, point, material);
+  Vec3 sum = own_light(branch, point, material);
 
   InteriorStack inside = branch.inside;
   const double ratio = cross_surface(inside, point.shape->object->interior, scene_.interiors);
@@ -157,18 +191,23 @@ Vec3 Tracer::shade(const Branch& branch, const Point& point, const Material& mat
       material, cosine, fresnel_ratio(branch.inside, point.shape->object->interior, scene_.interiors));
   Vec3 filter = filter_colour(material.pigment);
   if (material.finish.conserve_energy) filter *= 1.0 - mirrored;
+  const Index own = point.shape->object->interior;
+  const bool leaves = std::find(branch.inside.begin(), branch.inside.end(), own) != branch.inside.end();
+  const Vec3 left = leaves ? faded(scene_.interiors[own], point.distance) : Vec3(1);
 
   if (grey(filter) > scene_.adc_bailout) {
     const double weight = branch.weight * max_component(filter);
     if (std::abs(ratio - 1) < 1e-6) {
       // Goes on at the same level, although only if there is one more.
       if (branch.level + 1 < scene_.max_trace_level)
-        sum += filter * trace({{point.position, direction}, branch.level, weight, inside});
+        sum += left * filter *
+               trace({{point.position, direction}, branch.level, weight, inside, branch.mirrored});
     } else if (const auto bent = refract(direction, point.normal, ratio)) {
-      sum += filter * trace({{point.position, *bent}, branch.level + 1, weight, inside});
+      sum +=
+          left * filter * trace({{point.position, *bent}, branch.level + 1, weight, inside, branch.mirrored});
     } else {
       const Ray back{point.position, mirror(direction, point.normal)};
-      return sum + trace({back, branch.level + 1, weight, branch.inside});
+      return sum + left * trace({back, branch.level + 1, weight, branch.inside, branch.mirrored});
     }
   }
   const double strength = reflected_weight(material.finish, mirrored);
@@ -176,7 +215,8 @@ Vec3 Tracer::shade(const Branch& branch, const Point& point, const Material& mat
   const Vec3 seen = trace({{point.position, mirror(direction, point.normal)},
                            branch.level + 1,
                            branch.weight * strength,
-                           branch.inside});
+                           branch.inside,
+                           true});
   return sum + mirrored * glm::pow(seen, Vec3(1 / material.finish.reflection_exponent));
 }
 

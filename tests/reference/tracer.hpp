@@ -17,13 +17,15 @@ public:
   /// What a ray from the camera sees.
   Vec3 see(const Ray& ray) const;
   /// Multiplier of a light's colour at the end of `distance` along a shadow ray.
-  Vec3 attenuation(const Ray& ray, double distance) const;
+  /// `inside`: what the ray begins in; nothing if it is not given.
+  Vec3 attenuation(const Ray& ray, double distance, InteriorStack inside = {}) const;
 
   struct Hit {
     const Shape* shape = nullptr; ///< none: the background
     Crossing crossing{};
   };
-  Hit closest(const Ray& ray) const;
+  /// `mirrored`: the ray comes from a mirror.
+  Hit closest(const Ray& ray, bool mirrored = false) const;
 
 private:
   /// A ray on its way down the tree.
@@ -32,17 +34,21 @@ private:
     int level;
     double weight;
     InteriorStack inside;
+    bool mirrored = false;
   };
   struct Point {
     Vec3 position, normal;
     const Shape* shape;
+    double distance; ///< from where the ray began
   };
 
   /// With the pigment that it has there.
   Material material_at(Index index, const Vec3& point) const;
   Vec3 trace(const Branch& branch) const;
   Vec3 shade(const Branch& branch, const Point& point, const Material& material) const;
-  Vec3 own_light(const Ray& ray, const Point& point, const Material& material) const;
+  Vec3 own_light(const Branch& branch, const Point& point, const Material& material) const;
+  /// What is seen of `behind` through the fogs.
+  Vec3 in_fog(const Branch& branch, double distance, const Vec3& behind) const;
 
   const Scene& scene_;
   std::vector<Shape> shapes_;

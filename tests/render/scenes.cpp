@@ -445,6 +445,39 @@ Scene cut_meshes() {
   return scene;
 }
 
+/// Fog, insides that fade and throw caustics, films, and what only some rays see.
+Scene fog_and_insides() {
+  Scene scene = glass_and_mirrors();
+  Fog everywhere;
+  everywhere.colour = {0.7, 0.8, 0.9};
+  everywhere.filter = 0.3;
+  everywhere.transmit = 0.1;
+  everywhere.distance = 12;
+  Fog ground;
+  ground.colour = {0.9, 0.7, 0.6};
+  ground.distance = 5;
+  ground.is_ground = true;
+  ground.offset = -0.8;
+  ground.altitude = 0.4;
+  ground.up = {0.1, 1, 0};
+  scene.fogs = {everywhere, ground};
+  for (std::size_t i = 0; i < scene.interiors.size(); ++i) {
+    Interior& interior = scene.interiors[i];
+    interior.hollow = i % 2 == 0;
+    interior.fade_distance = 0.8;
+    interior.fade_power = i % 3 == 0 ? 1000 : 1.5;
+    interior.fade_colour = {0.2, 0.5, 0.8};
+    interior.caustics = 0.2;
+  }
+  for (Material& material : scene.materials) {
+    material.finish.irid = 0.3;
+    material.finish.irid_thickness = 0.6;
+  }
+  scene.objects.back().no_image = true;
+  scene.objects[scene.objects.size() - 2].no_reflection = true;
+  return scene;
+}
+
 } // namespace
 
 const std::vector<NamedScene>& scenes() {
@@ -453,6 +486,7 @@ const std::vector<NamedScene>& scenes() {
       {"glass and mirrors", glass_and_mirrors},
       {"ellipsoids", ellipsoids},
       {"meshes", meshes},
+      {"fog and insides", fog_and_insides},
       {"kinds of lights", kinds_of_lights},
       {"dome", dome},
       {"soft shadows", soft_shadows},
@@ -463,7 +497,7 @@ const std::vector<NamedScene>& scenes() {
       {"dark", dark},
       {"flat, gamma 2.2", flat_gamma},
       {"patterns", patterns},
-      {"cut meshes", cut_meshes, "the reference has no CSG"},
+      {"cut meshes", cut_meshes},
       {"textures", textures, "the reference has no noise, layers or normals"}};
   return all;
 }
@@ -481,6 +515,26 @@ Scene overlapping_triangles() {
     scene.objects.push_back(
         mesh_object(mesh, scene.add(matte({1.0 * (i == 0), 1.0 * (i == 1), 0})), new_interior(scene)));
   }
+  return scene;
+}
+
+Scene ground(bool with_bowl) {
+  Scene scene = with_camera(camera_at({0, 3, -9}, {0, 0, 0}));
+  const auto object = [&scene](auto shape, Index material) {
+    Object o;
+    o.shape = std::move(shape);
+    o.material = material;
+    o.interior = new_interior(scene);
+    return o;
+  };
+  const Plane plane{{0, 1, 0}, 0};
+  const Index red = scene.add(matte({1, 0, 0})), green = scene.add(matte({0, 1, 0}));
+  if (with_bowl) {
+    std::vector<Object> parts = {object(plane, red), object(Sphere{{0, 0, 0}, 2}, red)};
+    auto bowl = std::make_shared<const Csg>(Csg{Csg::Operation::intersection, std::move(parts)});
+    scene.objects.push_back(object(std::move(bowl), red));
+  }
+  scene.objects.push_back(object(plane, green));
   return scene;
 }
 

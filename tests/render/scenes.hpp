@@ -23,6 +23,8 @@ Scene scene_named(const std::string& name);
 /// Two triangles of one plane that share most of it. Rounding decides which of them a ray hits, so that it is
 /// another one in double precision.
 Scene overlapping_triangles();
+/// A plane, and if asked for the lower half of a ball, which ends in that plane.
+Scene ground(bool with_bowl);
 
 // --- parts ---
 

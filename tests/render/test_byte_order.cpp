@@ -50,9 +50,9 @@ template <class Record> bool same_bytes(const Record& a, const Record& b) {
 } // namespace
 
 TEMPLATE_TEST_CASE("Records survive the way to another byte order and back", "", ImageHeader, ObjectRecord,
-                   ExtraRecord, BlendRecord, MaterialRecord, InteriorRecord, LightRecord, GroupRecord,
-                   CellRecord, NodeRecord, CameraRecord, GridRecord, BvhRecord, FrameBlock, UnitRecord,
-                   StripRecord, ReportRecord, StageBlock, StageReport, SpeAddresses) {
+                   ExtraRecord, BlendRecord, MaterialRecord, FinishRecord, InteriorRecord, FogRecord,
+                   LightRecord, GroupRecord, CellRecord, NodeRecord, CameraRecord, GridRecord, BvhRecord,
+                   FrameBlock, UnitRecord, StripRecord, ReportRecord, StageBlock, StageReport, SpeAddresses) {
   STATIC_REQUIRE(HasFields<TestType>);
   const auto record = random_record<TestType>();
   TestType there = record;

@@ -10,6 +10,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 using namespace celltrace;
 using namespace celltrace::test;
@@ -45,6 +46,39 @@ TEST_CASE("Pictures come close to the reference tracer's") {
     INFO(to_text(comparison));
     CHECK(comparison.psnr >= 60);
   }
+}
+
+TEST_CASE("crand takes a random part of diffuse light, the same on every backend") {
+  Scene scene;
+  scene.gamma_mode = GammaMode::none;
+  scene.camera = orthographic_camera({0, 5, 0.01}, {0, 0, 0}, 4);
+  Light light;
+  light.location = {0, 10, 0};
+  light.point_at = {0, 0, 0};
+  light.parallel = true;
+  scene.lights = {light};
+  Material material = matte(Vec3(0.5));
+  material.finish.ambient = Vec3(0);
+  material.finish.diffuse = 0.6;
+  material.finish.crand = 0.3;
+  scene.objects = {mesh_object(floor_mesh(0, 10), scene.add(material), scene.add(Interior{}))};
+  // 0.5 (0.6 - [0, 0.3))
+  const Image picture = render_on(backends().front(), 1, scene);
+  double sum = 0, squares = 0;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      const double value = picture.pixel(x, y)[0] / 255.0;
+      REQUIRE(value >= 0.15 - 0.003);
+      REQUIRE(value <= 0.3 + 0.003);
+      sum += value;
+      squares += value * value;
+    }
+  const double count = double{kWidth} * kHeight, mean = sum / count;
+  const double error = 5 * 0.0433 / std::sqrt(count); // five standard errors of the mean
+  CHECK(mean == Approx(0.225).margin(error + 0.001));
+  CHECK(std::sqrt(squares / count - mean * mean) == Approx(0.15 / std::sqrt(12)).epsilon(0.15));
+  for (const Backend& backend : backends())
+    CHECK(render_on(backend, 3, scene) == picture);
 }
 
 TEST_CASE("Every kind of camera") {
@@ -121,6 +155,13 @@ TEST_CASE("Triangles of one plane that overlap look the same everywhere") {
       options.accelerator = accelerator;
       CHECK(render(scene, options).image == expected);
     }
+}
+
+TEST_CASE("What has no bounds is seen where something else is at the same distance") {
+  for (const Backend& backend : backends()) {
+    INFO(backend.spu());
+    CHECK(render_on(backend, 1, ground(true)) == render_on(backend, 1, ground(false)));
+  }
 }
 
 // The other exception from "the same picture everywhere" in docs/architecture.md; the SPU's rounding is the

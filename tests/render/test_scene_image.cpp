@@ -64,6 +64,19 @@ TEST_CASE("A scene image survives as bytes") {
   }
 }
 
+TEST_CASE("Quadrics that are no ellipsoids have no bounds") {
+  Scene scene = ground(false);
+  scene.objects.push_back(scene.objects[0]);
+  scene.objects[1].shape = Quadric{};
+  const ImageHeader ball = SceneImage(scene).header();
+  CHECK(ball.object_count == 1);
+  CHECK(ball.unbounded_count == 1);
+  scene.objects[1].shape = Quadric{{1, -1, 1}, {}, {}, -1};
+  const ImageHeader hyperboloid = SceneImage(scene).header();
+  CHECK(hyperboloid.object_count == 0);
+  CHECK(hyperboloid.unbounded_count == 2);
+}
+
 TEST_CASE("The same scene makes the same bytes") {
   CHECK(bytes_of(SceneImage(scene_named("meshes"))) == bytes_of(SceneImage(scene_named("meshes"))));
 }
@@ -625,6 +638,11 @@ struct TextureRecords {
     REQUIRE(found != all + h.pattern_count);
     return *found;
   }
+  /// Makes a pattern's first entry a map.
+  void nest(std::uint32_t pattern_offset, std::uint32_t child) {
+    pattern(pattern_offset).kind_and_flags |= pattern_flag::nested;
+    entry_of(pattern_offset).child = child;
+  }
   NormalRecord& normal(bool is_mapped) {
     auto* all = table<NormalRecord>(b, h.normal_offset);
     auto* found = std::find_if(all, all + h.normal_count,
@@ -668,6 +686,51 @@ Scene scene_of(const Pigment& pigment) {
 
 } // namespace
 
+TEST_CASE("A sealed scene image with a fault in its tables of random numbers is refused") {
+  const auto bytes_with = [](const pattern::Kind& kind, int generator, const std::vector<SpaceStep>& space) {
+    Scene scene;
+    Pattern pattern;
+    pattern.kind = kind;
+    pattern.noise_generator = generator;
+    pattern.space = space;
+    Material material;
+    material.pigment.map = std::make_shared<const PatternMap<Pigment>>(
+        PatternMap<Pigment>{pattern, {{0, Pigment{Vec3(0)}}, {1, Pigment{Vec3(1)}}}});
+    scene.materials = {material};
+    return bytes_of(SceneImage(scene));
+  };
+  const auto refused = [](const Bytes& good, const std::function<void(ImageHeader&, PatternRecord&)>& change) {
+    Bytes bytes = good;
+    CHECK_NOTHROW(SceneImage::from_bytes(bytes));
+    ImageHeader& header = header_of(bytes);
+    change(header, *table<PatternRecord>(bytes, header.pattern_offset));
+    seal(bytes);
+    CHECK_THROWS_WITH(SceneImage::from_bytes(bytes), Catch::Contains("offset"));
+  };
+  using H = ImageHeader;
+  using P = PatternRecord;
+  const Bytes crackle = bytes_with(pattern::Crackle{}, 0, {});
+  refused(crackle, [](H& h, P&) { h.feature_count = 0; });
+  refused(crackle, [](H& h, P&) { --h.feature_count; });
+  refused(crackle, [](H& h, P&) { h.feature_offset = 0xFFFFFF80; });
+  refused(crackle, [](H&, P& p) { p.table += 16; });
+  const Bytes gradients = bytes_with(pattern::Crackle{{-1, 1, 0}, 2, 0, true}, 3, {});
+  refused(gradients, [](H& h, P&) { h.gradient_count = 0; });
+  refused(gradients, [](H& h, P&) { h.feature_count = 0; });
+  refused(gradients, [](H&, P& p) { p.table -= 128; });
+  const Bytes waves = bytes_with(pattern::Waves{}, 0, {});
+  refused(waves, [](H& h, P&) { h.wave_count = 5; });
+  refused(waves, [](H&, P& p) { p.parameter[0] = 1e9f; });
+  refused(waves, [](H&, P& p) { p.parameter[0] = 0; });
+  refused(waves, [](H&, P& p) { p.table = kNoOffset; });
+  refused(bytes_with(pattern::Fractal{}, 0, {}), [](H&, P& p) { p.parameter[2] = 1e9f; });
+  warp::BlackHole hole;
+  hole.repeat = Vec3(2);
+  hole.turbulence = Vec3(1);
+  const Bytes holes = bytes_with(pattern::Bozo{}, 0, {hole});
+  refused(holes, [](H& h, P&) { h.feature_count = 0; });
+}
+
 TEST_CASE("A sealed scene image with a fault in its textures is refused") {
   const Bytes good = bytes_of(SceneImage(scene_named("textures")));
   const auto refused = [&](const std::function<void(TextureRecords&)>& change) {
@@ -710,12 +773,12 @@ TEST_CASE("A sealed scene image with a fault in its textures is refused") {
         [](R& r) { table<SpaceStepRecord>(r.b, r.h.space_step_offset)->turbulence.octaves = 0xFFFFFFFF; });
   }
   SECTION("entries, and maps that contain themselves") {
-    refused([](R& r) { r.entry_of(r.material(material_flag::patterned).pattern).child = 0; });
+    refused([](R& r) { r.nest(r.material(material_flag::patterned).pattern, 0); });
     refused([](R& r) { r.entry_of(r.material(material_flag::mapped).pattern).child = kNoOffset; });
     refused([](R& r) { r.entry_of(r.normal(true).pattern).child += 32; });
     refused([](R& r) {
       const std::uint32_t pattern = r.material(material_flag::patterned).pattern;
-      r.entry_of(pattern).child = pattern;
+      r.nest(pattern, pattern);
     });
     refused([](R& r) {
       const MaterialRecord& material = r.material(material_flag::mapped);
@@ -767,6 +830,19 @@ TEST_CASE("A sealed scene image with a fault in its textures is refused") {
       top.below = r.h.sky;
     });
   }
+}
+
+TEST_CASE("Pigments say of themselves whether an entry is a map") {
+  const SceneImage image(scene_of(nested_pigment(2)));
+  Bytes bytes = bytes_of(image);
+  TextureRecords records(bytes);
+  PatternRecord& outer = records.pattern(records.material(material_flag::patterned).pattern);
+  CHECK((outer.kind_and_flags & pattern_flag::nested) != 0);
+  CHECK((records.pattern(records.entry_of(records.offset_of(outer)).child).kind_and_flags &
+         pattern_flag::nested) == 0);
+  outer.kind_and_flags &= ~pattern_flag::nested;
+  seal(bytes);
+  CHECK_THROWS_WITH(SceneImage::from_bytes(bytes), Catch::Contains("offset"));
 }
 
 TEST_CASE("Textures that are too deep or too long are refused by name") {

@@ -27,4 +27,14 @@ disc { <0, 1.4, 0>, <0.3, 0.2, -1>, 1.1 texture { Mirror } translate <4.6, 0, 3>
 torus { 0.8, 0.3 texture { Red } rotate <70, 0, 20> translate <4.4, 1, -0.8> }
 torus { 1, 0.18 sturm texture { Blue } scale <1, 1.4, 0.6> translate <-0.4, 0.3, 4> }
 torus { 0.5, 0.22 texture { Glass } rotate x*30 translate <-0.1, 0.7, -3.4> }
+quadric {
+  <1, -0.5, 1.3>, <0.2, 0, 0>, <0, 0.1, 0>, -0.06
+  clipped_by { box { -0.7, 0.7 } } texture { Green } rotate z*15 translate <-3.9, 0.75, 0.2>
+}
+quadric { <1, 0, 1.2>, <0, 0, 0>, <0, 0, 0>, -0.02 texture { Blue } translate <-6.3, 0, 4.5> }
+intersection {
+  quadric { <1, 0, 1.5>, <0, 0, 0>, <0, -0.8, 0>, 0 texture { Red } }
+  plane { y, 0.7 texture { Blue } }
+  rotate <-25, 0, -10> translate <5.6, 0.1, -2>
+}
 sphere { 0, 0.6 texture { Mirror } scale <1, 0.8, 1.2> translate <-4.8, 2, 2.8> no_shadow }

@@ -66,7 +66,7 @@ __attribute__((noinline)) void every_simd_operation(const float* in, const int32
   const M whole = (i == I::splat(3)) | (i < Simd::to_int(a)) | M::from_bits(static_cast<uint32_t>(bits[0]));
   const F mean = Simd::sqrt(Simd::abs(a * b)) + (a - b) / (Simd::max(a, b) - Simd::min(-a, F(2.0f)));
   const I mixed = (Simd::bits_of(mean) & i) + (i | I::splat(1)) - Simd::template shift_left<3>(i);
-  Simd::select(less & M::all(), mean, Simd::to_float(mixed)).store(out);
+  Simd::select(less & M::all(), mean, Simd::floor(Simd::to_float(mixed))).store(out);
   Simd::select(more | M::none(), Simd::template shift_right<5>(mixed), i).store(bits + 16);
   Simd::float_of(mixed).store(out + 16);
   bits[1] = static_cast<int32_t>(whole.bits());

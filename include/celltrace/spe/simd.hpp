@@ -20,8 +20,8 @@
 //   join(F4, F4, F4, F4) -> F, lanes 0 to 3 first,
 //   transpose_quads(F& a, b, c, d): of each four lanes 4q to 4q + 3, the 4x4 numbers with rows a to d,
 //   select(M, a, b) = m ? a : b for F and I,
-//   to_int (truncates; |x| < 2^31), to_float, bits_of / float_of (reinterpret),
-//   shift_left<n>, shift_right<n> (arithmetic)
+//   to_int (truncates), to_float, floor (all of |x| < 2^31; floor may give a 0 any sign),
+//   bits_of / float_of (reinterpret), shift_left<n>, shift_right<n> (arithmetic)
 //
 // `Spu::rare_simd` is the facade for code that runs rarely. It has kLanes lanes, 16 or where local store is
 // short the 4 of one quadword, and F, I and M with all of the above but load_words, extremes, join,
@@ -29,13 +29,14 @@
 // lanes has part(F of Spu::simd, first) and set_part(F& of Spu::simd, first, F), `first` a multiple of 4. All
 // have
 //
-//   sum_rows(const float* table, starts_of, F (&factors)[rows][4], F (&sums)[channels]): for each lane, the
-//   sum of some rows of the table, times factors, which are lost. starts_of(lane, uint32_t (&starts)[rows])
-//   says where in the table the rows of a lane start, anywhere; starts_of.are_equal() whether they are the
-//   same for all lanes, which some implementations ask. A row has four numbers for each channel, one after
-//   the other: those of channel c are multiplied by the four factors of the row, and added up to sums[c]. The
-//   rows are added up in their order, then the four numbers as (0 + 1) + (2 + 3). Behind the last row 16
-//   bytes more may be read.
+//   sum_rows<rows>(const float* table, starts_of, factors_of, F (&sums)[channels]): for each lane, the sum of
+//   some rows of the table, times factors. starts_of(lane, uint32_t (&starts)[rows]) says where in the table
+//   the rows of a lane start, anywhere. Those of two lanes are the same if starts_of.keys(i), an aligned
+//   const int32_t[kLanes], has the same number for both, for each i below StartsOf::kKeys: some
+//   implementations ask. factors_of(row, F (&factors)[4]) gives a row's four factors, more than once if asked
+//   again. A row has four numbers for each channel, one after the other: those of channel c are multiplied by
+//   the four factors of the row, and added up to sums[c]. The rows are added up in their order, then the four
+//   numbers as (0 + 1) + (2 + 3). Behind the last row 16 bytes more may be read.
 //
 // On the host every float operation is IEEE single precision, never fused, so that all widths and backends
 // give the same bits. On the SPU division and sqrt are estimates refined to within 2 units in the last place,

@@ -6,10 +6,9 @@
 #pragma once
 
 #include "celltrace/spe/simd.hpp"
+#include "celltrace/spe/simd_host_rows.hpp"
 
 #include <stdint.h>
-
-#include <utility>
 
 #include <xsimd/xsimd.hpp>
 
@@ -82,40 +81,6 @@ Joined<Batch> join(const Four& a, const Four& b, const Four& c, const Four& d) {
   for (uint32_t i = 0; i < kSimdLanes / Batch::size; ++i)
     all.part[i] = Batch::load_aligned(lanes + i * Batch::size);
   return all;
-}
-
-/// In each 128 bits, the two lower or the two higher numbers of `a` and `b` in turn.
-template <class Batch> Batch zip_low(const Batch& a, const Batch& b) {
-#if defined(__AVX512F__)
-  if constexpr (Batch::size == 16) return _mm512_unpacklo_ps(a, b);
-#endif
-#if defined(__AVX__)
-  if constexpr (Batch::size == 8) return _mm256_unpacklo_ps(a, b);
-#endif
-  if constexpr (Batch::size == 4) return xsimd::zip_lo(a, b);
-}
-template <class Batch> Batch zip_high(const Batch& a, const Batch& b) {
-#if defined(__AVX512F__)
-  if constexpr (Batch::size == 16) return _mm512_unpackhi_ps(a, b);
-#endif
-#if defined(__AVX__)
-  if constexpr (Batch::size == 8) return _mm256_unpackhi_ps(a, b);
-#endif
-  if constexpr (Batch::size == 4) return xsimd::zip_hi(a, b);
-}
-template <class Batch> void transpose_quads(Batch& a, Batch& b, Batch& c, Batch& d) {
-  const Batch ac_low = zip_low(a, c), ac_high = zip_high(a, c);
-  const Batch bd_low = zip_low(b, d), bd_high = zip_high(b, d);
-  a = zip_low(ac_low, bd_low);
-  b = zip_high(ac_low, bd_low);
-  c = zip_low(ac_high, bd_high);
-  d = zip_high(ac_high, bd_high);
-}
-
-/// Calls `body` with each of the numbers, without a loop: what it keeps in arrays stays in registers.
-template <std::size_t... i, class Body>
-[[gnu::always_inline]] inline void unroll(std::index_sequence<i...>, const Body& body) {
-  (body(i), ...);
 }
 
 } // namespace simd_host
@@ -342,6 +307,12 @@ template <class Arch> struct HostSimd {
       r.part[i] = xsimd::select(xsimd::bool_cast(m.part[i]), a.part[i], b.part[i]);
     return r;
   }
+  static F floor(const F& a) {
+    F r;
+    for (uint32_t i = 0; i < kParts; ++i)
+      r.part[i] = xsimd::floor(a.part[i]);
+    return r;
+  }
   static I to_int(const F& a) {
     I r;
     for (uint32_t i = 0; i < kParts; ++i)
@@ -404,104 +375,10 @@ template <class Arch> struct HostSimd {
     for (uint32_t i = 0; i < kParts; ++i)
       simd_host::transpose_quads(a.part[i], b.part[i], c.part[i], d.part[i]);
   }
-  /// Where the rows of all lanes are the same; the same operations in the same order.
-  template <uint32_t kRows, uint32_t kChannels, class StartsOf>
-  [[gnu::always_inline]] static void sum_equal_rows(const float* table, const StartsOf& starts_of,
-                                                    const F (&factors)[kRows][4], F (&sums)[kChannels]) {
-    uint32_t starts[kRows];
-    starts_of(0, starts);
-    for (uint32_t channel = 0; channel < kChannels; ++channel) {
-      F four[4];
-      simd_host::unroll(
-          std::make_index_sequence<kRows>(), [&](std::size_t row) __attribute__((always_inline)) {
-            for (uint32_t i = 0; i < 4; ++i) {
-              const F product = F(table[starts[row] + 4 * channel + i]) * factors[row][i];
-              four[i] = row == 0 ? product : four[i] + product;
-            }
-          });
-      sums[channel] = (four[0] + four[1]) + (four[2] + four[3]);
-    }
-  }
-#if defined(__AVX512F__)
-  /// The rows of three channels, each one load; the same operations in the same order.
-  template <uint32_t kRows, class StartsOf>
-  [[gnu::always_inline]] static void sum_wide_rows(const float* table, const StartsOf& starts_of,
-                                                   const float (&factors_of)[kRows][4][kSimdLanes],
-                                                   F (&sums)[3]) {
-    alignas(64) float lanes[3][kSimdLanes];
-    for (uint32_t quad = 0; quad < 4; ++quad) {
-      // Of a lane, the four numbers of each channel side by side.
-      __m512 four[4];
-      simd_host::unroll(
-          std::make_index_sequence<4>(), [&](std::size_t i) __attribute__((always_inline)) {
-            uint32_t starts[kRows];
-            starts_of(4 * quad + static_cast<uint32_t>(i), starts);
-            simd_host::unroll(
-                std::make_index_sequence<kRows>(), [&](std::size_t row) __attribute__((always_inline)) {
-                  const __m512 factors = _mm512_broadcast_f32x4(_mm_load_ps(factors_of[row][i] + 4 * quad));
-                  const __m512 product = _mm512_mul_ps(_mm512_loadu_ps(table + starts[row]), factors);
-                  four[i] = row == 0 ? product : _mm512_add_ps(four[i], product);
-                });
-          });
-      const __m512 ab_low = _mm512_unpacklo_ps(four[0], four[1]),
-                   ab_high = _mm512_unpackhi_ps(four[0], four[1]);
-      const __m512 cd_low = _mm512_unpacklo_ps(four[2], four[3]),
-                   cd_high = _mm512_unpackhi_ps(four[2], four[3]);
-      const __m512 first = _mm512_shuffle_ps(ab_low, cd_low, 0x44),
-                   second = _mm512_shuffle_ps(ab_low, cd_low, 0xEE);
-      const __m512 third = _mm512_shuffle_ps(ab_high, cd_high, 0x44),
-                   fourth = _mm512_shuffle_ps(ab_high, cd_high, 0xEE);
-      const __m512 sum = _mm512_add_ps(_mm512_add_ps(first, second), _mm512_add_ps(third, fourth));
-      _mm_store_ps(lanes[0] + 4 * quad, _mm512_castps512_ps128(sum));
-      _mm_store_ps(lanes[1] + 4 * quad, _mm512_extractf32x4_ps(sum, 1));
-      _mm_store_ps(lanes[2] + 4 * quad, _mm512_extractf32x4_ps(sum, 2));
-    }
-    for (uint32_t channel = 0; channel < 3; ++channel)
-      sums[channel] = F::load(lanes[channel]);
-  }
-#endif
-  /// Lane by lane, as a row is one unaligned load a channel: gathering its numbers takes a load for each.
-  template <uint32_t kRows, uint32_t kChannels, class StartsOf>
+  template <uint32_t kRows, uint32_t kChannels, class StartsOf, class FactorsOf>
   [[gnu::always_inline]] static void sum_rows(const float* table, const StartsOf& starts_of,
-                                              F (&factors)[kRows][4], F (&sums)[kChannels]) {
-    if (starts_of.are_equal()) return sum_equal_rows(table, starts_of, factors, sums);
-    // The four factors of lane 4q + i are side by side at [i][4q].
-    alignas(64) float factors_of[kRows][4][kSimdLanes];
-    for (uint32_t row = 0; row < kRows; ++row) {
-      F four[4] = {factors[row][0], factors[row][1], factors[row][2], factors[row][3]};
-      transpose_quads(four[0], four[1], four[2], four[3]);
-      for (uint32_t i = 0; i < 4; ++i)
-        four[i].store(factors_of[row][i]);
-    }
-#if defined(__AVX512F__)
-    if constexpr (kChannels == 3) return sum_wide_rows(table, starts_of, factors_of, sums);
-#endif
-    F totals[kChannels][4];
-    for (uint32_t i = 0; i < 4; ++i) {
-      F4 total[kChannels][4];
-      for (uint32_t quad = 0; quad < 4; ++quad) {
-        uint32_t starts[kRows];
-        starts_of(4 * quad + i, starts);
-        F4 sum[kChannels];
-        simd_host::unroll(
-            std::make_index_sequence<kRows>(), [&](std::size_t row) __attribute__((always_inline)) {
-              const F4 four = F4::load(factors_of[row][i] + 4 * quad);
-              for (uint32_t channel = 0; channel < kChannels; ++channel) {
-                const F4 product = F4{F4::Batch::load_unaligned(table + starts[row] + 4 * channel)} * four;
-                sum[channel] = row == 0 ? product : sum[channel] + product;
-              }
-            });
-        for (uint32_t channel = 0; channel < kChannels; ++channel)
-          total[channel][quad] = sum[channel];
-      }
-      for (uint32_t channel = 0; channel < kChannels; ++channel)
-        totals[channel][i] = join(total[channel][0], total[channel][1], total[channel][2], total[channel][3]);
-    }
-    for (uint32_t channel = 0; channel < kChannels; ++channel) {
-      F(&four)[4] = totals[channel];
-      transpose_quads(four[0], four[1], four[2], four[3]);
-      sums[channel] = (four[0] + four[1]) + (four[2] + four[3]);
-    }
+                                              const FactorsOf& factors_of, F (&sums)[kChannels]) {
+    simd_host::RowSums<HostSimd, kRows, kChannels>::sum(table, starts_of, factors_of, sums);
   }
   static F4 min(const F4& a, const F4& b) {
     return {xsimd::min(a.lanes, b.lanes)};

@@ -55,6 +55,9 @@ struct RaySegment {
   }
 };
 
+/// In place of lanes that come from a mirror: the rays see everything.
+constexpr uint32_t kSeesAll = 0x80000000u;
+
 /// Intersection tests of packets with objects of the scene, and the merging of their results.
 template <class Spu> class ObjectTests {
 public:
@@ -138,10 +141,11 @@ public:
     }
   }
 
-  /// Tests the objects that no accelerator has, behind the others in their table.
+  /// Tests the objects that no accelerator has. They lie before the others: as in POV-Ray, where one is at
+  /// the same distance as another object, it is what is seen.
   void test_unbounded(const FrameBlock& frame, RayQuery& query) {
     constexpr auto kBytes = static_cast<uint32_t>(sizeof(ObjectRecord));
-    uint32_t self = frame.object_offset + frame.object_count * kBytes;
+    uint32_t self = frame.object_offset - frame.unbounded_count * kBytes;
     hit_filter_.begin_packet();
     for (uint32_t i = 0; i < frame.unbounded_count && query.lanes != 0; ++i, self += kBytes) {
       if (query.hits != nullptr)
@@ -184,7 +188,7 @@ public:
 
   /// Whether an object is a triangle that is no part of a CSG.
   static bool is_plain_triangle(uint32_t flags) {
-    return (flags & (object_flag::kind_mask | object_flag::csg)) ==
+    return (flags & (object_flag::kind_mask | object_flag::csg | object_flag::selective)) ==
            static_cast<uint32_t>(ObjectKind::triangle);
   }
   /// Whether the flags are those of a triangle that occludes all light.
@@ -197,6 +201,9 @@ public:
   /// surface does not shadow itself.
   static constexpr float kShadowEpsilon = 1e-3f;
 
+  /// The lanes of the rays to be tested that come from a mirror, as no others see or do not see some objects.
+  void set_reflected(uint32_t lanes) { reflected_ = lanes; }
+
   SceneAccess<Spu>& scene() { return scene_; }
   HitFilter& hit_filter() { return hit_filter_; }
   TraversalCounters& counters() { return counters_; }
@@ -204,10 +211,11 @@ public:
   void reset_counters() { counters_ = TraversalCounters(); }
 
 private:
-  /// Spheres, triangles and planes that are no parts of a CSG: their code is always there, and their test
-  /// reads no further record.
+  /// Spheres, triangles and planes that are no parts of a CSG, and seen by all rays: their code is always
+  /// there, and their test reads no further record.
   static bool is_simple(uint32_t flags) {
-    return (flags & (object_flag::kind_mask | object_flag::csg)) <= static_cast<uint32_t>(ObjectKind::plane);
+    return (flags & (object_flag::kind_mask | object_flag::csg | object_flag::selective)) <=
+           static_cast<uint32_t>(ObjectKind::plane);
   }
 
   /// As occluded(), for crossings with the object.
@@ -230,9 +238,18 @@ private:
   [[gnu::noinline]] void test_closest_of_other(const RayPacket& rays, const ObjectRecord& record,
                                                uint32_t self, HitPacket& hits) {
     scene_.spu().run_in_module(modules::kObjects);
+    const uint32_t flags = record.kind_and_flags;
+    uint32_t blind = ((flags & object_flag::no_image) != 0 ? ~reflected_ : 0) |
+                     ((flags & object_flag::no_reflection) != 0 ? reflected_ : 0);
+    if (reflected_ == kSeesAll) blind = 0;
     const Other other(*this, rays, record, self);
     for (uint32_t pair = 0; pair < other.pairs; ++pair) {
       Crossings<S> c = other.crossings[pair];
+      if ((flags & object_flag::selective) != 0) {
+        const M sees = M::from_bits(~blind & 0xFFFF);
+        c.near_hit = c.near_hit & sees;
+        c.far_hit = c.far_hit & sees;
+      }
       if (other.csg != kNoOffset) {
         const F nearest = F::load(hits.distance.lane);
         const auto near = c.near_hit & (c.near > F(kMinHitDistance)) & (c.near <= nearest);
@@ -345,6 +362,7 @@ private:
   SceneAccess<Spu>& scene_;
   HitFilter hit_filter_;
   TraversalCounters counters_;
+  uint32_t reflected_ = 0;
 };
 
 } // namespace celltrace::kernel

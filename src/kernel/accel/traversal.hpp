@@ -4,6 +4,7 @@
 
 #include "kernel/accel/bvh_traversal.hpp"
 #include "kernel/accel/grid_traversal.hpp"
+#include "kernel/direct/area_occluders.hpp"
 
 namespace celltrace::kernel {
 
@@ -29,10 +30,13 @@ public:
   Traversal(SceneAccess<Spu>& scene, const FrameBlock& frame)
       : frame_(frame), objects_(scene), grid_(objects_, frame.grid), bvh_(objects_, frame) {}
 
-  /// Finds the closest hit of each ray in `lanes`. The results of other lanes are undefined.
-  void find_closest(const RayPacket& rays, uint32_t lanes, HitPacket& hits) {
+  /// Finds the closest hit of each ray in `lanes`, of which `reflected` come from a mirror. The results of
+  /// other lanes are undefined.
+  void find_closest(const RayPacket& rays, uint32_t lanes, HitPacket& hits, uint32_t reflected = 0) {
     RayQuery query = {&rays, &hits, nullptr, nullptr, lanes};
+    objects_.set_reflected(reflected);
     intersect(&query, 1);
+    objects_.set_reflected(0);
   }
 
   /// Multiplies `light` of each ray in `lanes` by the transmittance between its origin and `distance` along
@@ -41,6 +45,19 @@ public:
   void transmittance(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance, VectorLanes& light) {
     RayQuery query = {&rays, nullptr, &distance, &light, lanes};
     intersect(&query, 1);
+  }
+
+  /// Gathers what may be between a packet's surfaces and a light with an area. False: that is not known.
+  bool gather_occluders(const RayPacket& rays, uint32_t lanes, const LightRecord& light,
+                        AreaOccluders<Spu>& occluders) {
+    return uses_bvh() && occluders.gather(objects_, frame_, rays, lanes, light);
+  }
+  /// As above, where nothing else may be in the way.
+  void transmittance(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance, VectorLanes& light,
+                     const AreaOccluders<Spu>& occluders) {
+    RayQuery query = {&rays, nullptr, &distance, &light, lanes};
+    occluders.test(objects_, query);
+    clear_occluded(&query, 1);
   }
 
   /// Answers all queries, at most one for each packet of a bundle, either all for hits or all for light. If

@@ -16,17 +16,15 @@ namespace module_cameras {
 
 /// The rays of a curved camera; returns the lanes that have one.
 template <class Spu>
-[[gnu::noinline]] uint32_t bend(Spu& spu, const CameraRecord& camera, uint32_t column, uint32_t row,
-                                RayPacket& packet) {
+[[gnu::noinline]] uint32_t bend(Spu& spu, const CameraRecord& camera, const typename Spu::simd::F& x,
+                                const typename Spu::simd::F& y, RayPacket& packet) {
   using S = typename Spu::simd;
   using F = typename S::F;
   spu.run_in_module(modules::kCameras);
   CameraRays<S> rays;
   rays.origin = splat3<S>(camera.origin);
-  rays.x = (F::load(detail::kLaneX) + F(static_cast<float>(column * kPacketEdge) - camera.middle_x)) *
-           F(camera.step_x);
-  rays.y = (F(camera.middle_y - static_cast<float>(row * kPacketEdge)) - F::load(detail::kLaneY)) *
-           F(camera.step_y);
+  rays.x = x * F(camera.step_x);
+  rays.y = (F(0.0f) - y) * F(camera.step_y);
   uint32_t lanes = 0xFFFF;
   Cameras::dispatch(camera.kind, [&](auto kind) {
     if constexpr (!decltype(kind)::kIsFlat) lanes = decltype(kind)::template bend<S>(camera, rays);
@@ -38,14 +36,12 @@ template <class Spu>
 
 } // namespace module_cameras
 
-/// Rays of the packet at (column, row), both counted in packets. Returns the lanes that have one: not all
-/// cameras see something in every pixel. What those do not see is black.
+/// Rays through points of the picture, `x` to the right of its middle and `y` below it, in pixels. Returns
+/// the lanes that have one: not all cameras see something in every pixel. What those do not see is black.
 template <class Spu>
-uint32_t make_primary_rays(Spu& spu, const FrameBlock& frame, uint32_t column, uint32_t row,
-                           RayPacket& packet) {
+uint32_t make_rays_through(Spu& spu, const CameraRecord& camera, const typename Spu::simd::F& x,
+                           const typename Spu::simd::F& y, RayPacket& packet) {
   using S = typename Spu::simd;
-  using F = typename S::F;
-  const CameraRecord& camera = frame.camera;
   for (uint32_t lane = 0; lane < kSimdLanes; ++lane)
     packet.start_object.lane[lane] = kNoOffset;
   bool flat = false, parallel = false;
@@ -55,16 +51,33 @@ uint32_t make_primary_rays(Spu& spu, const FrameBlock& frame, uint32_t column, u
   });
   if (!flat) {
     spu.enter_module(modules::kCameras);
-    return module_cameras::bend(spu, camera, column, row, packet);
+    return module_cameras::bend(spu, camera, x, y, packet);
   }
-  // From the middle: about it, where people put horizons, nothing cancels.
-  const F x = F::load(detail::kLaneX) + F(static_cast<float>(column * kPacketEdge) - camera.middle_x);
-  const F y = F::load(detail::kLaneY) + F(static_cast<float>(row * kPacketEdge) - camera.middle_y);
   const V3<S> through = splat3<S>(camera.base) + splat3<S>(camera.dx) * x + splat3<S>(camera.dy) * y;
   const V3<S> fixed = splat3<S>(camera.origin);
   packet.origin.template store<S>(parallel ? through : fixed);
   packet.direction.template store<S>(normalise<S>(parallel ? fixed : through));
   return 0xFFFF;
+}
+
+/// Where the pixels of the packet at (column, row) are, both counted in packets. From the middle: about it,
+/// where people put horizons, nothing cancels.
+template <class S> typename S::F pixels_across(const FrameBlock& frame, uint32_t column) {
+  using F = typename S::F;
+  return F::load(detail::kLaneX) + F(static_cast<float>(column * kPacketEdge) - frame.camera.middle_x);
+}
+template <class S> typename S::F pixels_down(const FrameBlock& frame, uint32_t row) {
+  using F = typename S::F;
+  return F::load(detail::kLaneY) + F(static_cast<float>(row * kPacketEdge) - frame.camera.middle_y);
+}
+
+/// Rays of the packet at (column, row), as make_rays_through().
+template <class Spu>
+uint32_t make_primary_rays(Spu& spu, const FrameBlock& frame, uint32_t column, uint32_t row,
+                           RayPacket& packet) {
+  using S = typename Spu::simd;
+  return make_rays_through(spu, frame.camera, pixels_across<S>(frame, column), pixels_down<S>(frame, row),
+                           packet);
 }
 
 /// The primary rays of a bundle of 4x4 packets, if they leave one point through a plane into one octant; else

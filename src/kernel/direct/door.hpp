@@ -28,6 +28,10 @@ template <class Spu> constexpr bool kTestsWholeLeaves = Spu::direct_memory;
 /// which leaves are tested against all its packets (BundleLeafTests).
 template <class Spu> constexpr bool kHasBundleViews = Spu::direct_memory;
 
+/// Before the places of a light with an area are looked at one by one, the objects that may be in the way are
+/// gathered (AreaOccluders).
+template <class Spu> constexpr bool kGathersOccluders = Spu::direct_memory;
+
 /// The SPEs build the BVH (build_bvh.hpp). Otherwise the PPE's side has it built before it starts them.
 template <class Spu> constexpr bool kBuildsBvh = Spu::direct_memory;
 

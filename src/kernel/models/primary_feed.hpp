@@ -63,6 +63,7 @@ private:
                         make_primary_rays(spu_, frame_, column_, row_, slot.search.rays);
     slot.search.kind = static_cast<uint32_t>(SearchKind::closest);
     slot.search.primary = 1;
+    slot.search.reflected = 0;
     spu_.put(&slot.job, sender_.job(context), sizeof(JobRecord) + search_part::question, tag);
     sender_.send(context, slot.word, tag);
     if (++column_ == frame_.packet_columns) {

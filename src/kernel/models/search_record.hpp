@@ -48,7 +48,8 @@ struct alignas(128) SearchRecord {
   uint32_t pending;  ///< rays whose search is not over
   uint32_t lit;      ///< shadow: rays that are not shut off
   uint32_t returned; ///< rays that came back from the tests without a hit in their voxel
-  uint32_t unused[8];
+  uint32_t reflected; ///< closest: rays that came by a mirror
+  uint32_t unused[7];
   WordLanes cell;   ///< the voxel that each pending ray is in: its index,
   WordLanes place;  ///< its coordinates (VoxelWalk::place()),
   FloatLanes enter; ///< and where the ray enters

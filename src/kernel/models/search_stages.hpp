@@ -22,7 +22,7 @@ public:
 
   void run(SearchRecord& search) {
     if (static_cast<SearchKind>(search.kind) == SearchKind::closest)
-      traversal_.find_closest(search.rays, search.lanes, search.hits);
+      traversal_.find_closest(search.rays, search.lanes, search.hits, search.reflected);
     else
       traversal_.transmittance(search.rays, search.lanes, search.light.distance, search.light.colour);
   }
@@ -141,6 +141,7 @@ public:
   /// Tests the objects that are in no voxel, before a search begins.
   void test_unbounded(SearchRecord& search) {
     if (frame_.unbounded_count == 0) return;
+    objects_.set_reflected(search.reflected);
     if (static_cast<SearchKind>(search.kind) == SearchKind::closest) {
       RayQuery query = {&search.rays, &search.hits, nullptr, nullptr, search.lanes};
       return objects_.test_unbounded(frame_, query);
@@ -155,6 +156,7 @@ public:
   /// Rays that need to go no farther are no longer pending.
   void run(SearchRecord& search) {
     objects_.hit_filter().begin_packet();
+    objects_.set_reflected(search.reflected);
     if (static_cast<SearchKind>(search.kind) == SearchKind::closest)
       find_closest(search);
     else

@@ -33,6 +33,7 @@ public:
       const uint32_t present = context;
       current_ ^= 1;
       doorbell_.look();
+      if (doorbell_.take(bell::stop)) stop();
       ahead = doorbell_.take_context(context);
       if (ahead) fetch(context);
       current_ ^= 1;
@@ -103,13 +104,19 @@ private:
     doorbell_.look();
     while (!doorbell_.take_context(context)) {
       if (doorbell_.take(bell::stop))
-        feed_.stop();
+        stop();
       else if (doorbell_.take(bell::quit))
         return false;
       else
         doorbell_.wait();
     }
     return true;
+  }
+
+  /// Trees that are under way are given up: they may take minutes.
+  void stop() {
+    stopped_ = true;
+    if (stage_.has(task::generate)) feed_.stop();
   }
 
   void fetch(uint32_t context) {
@@ -204,6 +211,7 @@ private:
     search.light.colour.template store<S>(incident.colour);
     search.kind = static_cast<uint32_t>(SearchKind::shadow);
     search.lanes = incident.facing;
+    search.reflected = 0;
     search.primary = 0;
     search.number = number;
     writer_.put();
@@ -237,11 +245,12 @@ private:
   /// To the next node of the tree, or the next packet.
   void go_on(uint32_t number) {
     Context& context = *contexts_[number];
-    if (context.tracer.advance()) {
+    const bool more = context.tracer.advance();
+    if (more && !stopped_) {
       ask_for_hits(number);
       return;
     }
-    pixels_.put(context.column, context.row, context.tracer.light());
+    if (!more) pixels_.put(context.column, context.row, context.tracer.light());
     context.awaits = Awaits::packet;
     if (stage_.has(task::generate))
       feed_.give_back(number);
@@ -258,6 +267,7 @@ private:
     search.rays = node.rays;
     search.kind = static_cast<uint32_t>(SearchKind::closest);
     search.lanes = node.lanes;
+    search.reflected = node.reflected;
     search.primary = 0;
     writer_.put();
     context.awaits = Awaits::hits;
@@ -297,6 +307,7 @@ private:
   Arrival* arrivals_;
   uint32_t current_ = 0;
   Context* contexts_[kMaxContexts] = {};
+  bool stopped_ = false;
   uint32_t placed_ = 0; ///< contexts
 };
 

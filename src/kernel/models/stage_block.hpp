@@ -12,7 +12,7 @@ constexpr uint32_t kMaxContexts = 28;
 /// Bits of signal 2 besides the contexts. A context's bit says that its job is the receiver's now.
 namespace bell {
 constexpr uint32_t contexts = (1u << kMaxContexts) - 1;
-constexpr uint32_t stop = 1u << 30; ///< from the PPE to who generates: no new packets
+constexpr uint32_t stop = 1u << 30; ///< from the PPE to who generates or shades: no new packets, nor rays
 constexpr uint32_t quit = 1u << 31; ///< from the PPE: the frame is over
 } // namespace bell
 

@@ -17,6 +17,7 @@
 #include "kernel/primitives/disc.hpp"
 #include "kernel/primitives/ellipsoid.hpp"
 #include "kernel/primitives/plane.hpp"
+#include "kernel/primitives/quadric.hpp"
 #include "kernel/primitives/sphere.hpp"
 #include "kernel/primitives/torus.hpp"
 #include "kernel/primitives/triangle.hpp"
@@ -30,7 +31,7 @@ template <class... P> struct PrimitiveList : TypeList<P...> {
 
 using Primitives =
     PrimitiveList<SpherePrimitive, TrianglePrimitive, PlanePrimitive, EllipsoidPrimitive, DiscPrimitive,
-                  BoxPrimitive, CylinderPrimitive, ConePrimitive, TorusPrimitive>;
+                  BoxPrimitive, CylinderPrimitive, ConePrimitive, TorusPrimitive, QuadricPrimitive>;
 constexpr uint32_t kPrimitives = Primitives::kCount;
 static_assert(kPrimitives <= kMaxPrimitives, "a counter for each in ReportRecord");
 

@@ -5,7 +5,9 @@
 #include "kernel/accel/traversal.hpp"
 #include "kernel/cameras/primary_rays.hpp"
 #include "kernel/lights/area_shadow.hpp"
+#include "kernel/program/pixel_sampler.hpp"
 #include "kernel/shading/ray_tracer.hpp"
+#include "kernel/shading/shadow_walk.hpp"
 
 namespace celltrace::kernel {
 
@@ -14,45 +16,60 @@ public:
   using S = typename Spu::simd;
   using F = typename S::F;
 
-  /// `spill`: room for FrameBlock::ray_stack_nodes nodes.
-  BundleTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, ea_t spill)
-      : frame_(frame), scene_(scene), traversal_(scene, frame),
+  /// `spill`: room for FrameBlock::ray_stack_nodes nodes. `samples` says where the rays of frames of samples
+  /// go through; null: there are no such frames.
+  BundleTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, ea_t spill,
+               const SampleBundle<Spu>* samples)
+      : frame_(frame), scene_(scene), samples_(samples), traversal_(scene, frame),
         tracer_(spu, frame, scene, spill, frame.ray_stack_nodes, *spu.template allocate<RayNode>()),
-        members_(spu.template allocate<Member>(kPackets)), area_(allocate_area_shadow(spu, frame)) {
+        members_(spu.template allocate<Member>(kPackets)), area_(allocate_area_shadow(spu, frame)),
+        walk_(allocate_shadow_walk(spu, frame)) {
+    static_assert(sizeof(ShadowWalk<S>) <= kResidentNodes * sizeof(RayNode), "lies where nodes would");
     static_assert(sizeof(AreaShadow<S>) <= kResidentNodes * sizeof(RayNode), "lies where nodes would");
   }
 
   /// Calls `put(column, row, colours)` for each packet in the picture of the bundle at (column, row); that
   /// counts bundles, `put` packets. Or `fill(column, row, colour)` where all of the bundle has one colour and
-  /// is in the picture.
-  template <class Put, class Fill>
-  void trace(uint32_t column, uint32_t row, Put put, [[maybe_unused]] Fill fill) {
+  /// is in the picture. In a frame of samples the bundle is theirs, and at (0, 0). Asks `stopped()` before each
+  /// further node of a ray tree, of which there may be as many as take minutes; once that is true the rest of
+  /// the bundle is left out.
+  template <class Put, class Fill, class Stopped>
+  void trace(uint32_t column, uint32_t row, Put put, [[maybe_unused]] Fill fill, Stopped stopped) {
+    if (takes_samples()) column = row = 0;
     if constexpr (kHasBundleViews<Spu>) {
-      const PinholeBundle<S> bundle(frame_, column, row);
-      const bool missed = !traversal_.enter(bundle);
-      const bool plain = frame_.sky == kNoOffset;
-      if (missed && plain && is_whole(column, row))
-        return fill(column * kEdge, row * kEdge, tracer_.background(kPackets * kSimdLanes));
-      place(column, row);
-      if (missed)
-        return for_each_member([&](Member& member) {
-          if (!plain) make_primary_rays(scene_.spu(), frame_, member.column, member.row, member.rays);
-          put(member.column, member.row, tracer_.background(member.rays, member.lanes));
-        });
-      find_hits([&](RayQuery* queries) { traversal_.intersect(queries, bundle); });
+      if (takes_samples()) {
+        place(0, 0);
+        find_hits([&](RayQuery* queries) { traversal_.intersect(queries, kPackets); });
+      } else {
+        const PinholeBundle<S> bundle(frame_, column, row);
+        const bool missed = !traversal_.enter(bundle);
+        const bool plain = frame_.sky == kNoOffset && !has_fog(frame_);
+        if (missed && plain && is_whole(column, row))
+          return fill(column * kEdge, row * kEdge, tracer_.background(kPackets * kSimdLanes));
+        place(column, row);
+        if (missed && !has_fog(frame_))
+          return for_each_member([&](Member& member) {
+            if (!plain) make_primary_rays(scene_.spu(), frame_, member.column, member.row, member.rays);
+            put(member.column, member.row, tracer_.background(member.rays, member.lanes));
+          });
+        find_hits([&](RayQuery* queries) { traversal_.intersect(queries, bundle); });
+      }
     } else {
       place(column, row);
       find_hits([&](RayQuery* queries) { traversal_.intersect(queries, kPackets); });
     }
     find_lights();
-    for_each_member([&](Member& member) {
-      V3<S> seen = trace(member);
+    for (uint32_t i = 0; i < kPackets; ++i) {
+      Member& member = members_[i];
+      if (member.pixels == 0) continue;
+      V3<S> seen;
+      if (!trace(member, seen, stopped)) return;
       if (member.lanes != member.pixels) {
         const F black(0.0f);
         seen = select<S>(S::M::from_bits(member.lanes), seen, {black, black, black});
       }
       put(member.column, member.row, seen);
-    });
+    }
   }
 
   void reset_counters() {
@@ -62,6 +79,10 @@ public:
   const RayCounters& ray_counters() const { return tracer_.counters(); }
   const TraversalCounters& traversal_counters() const { return traversal_.counters(); }
   uint32_t spilled_nodes() const { return tracer_.spilled_nodes(); }
+
+  /// Local store that nothing is in between two calls of trace().
+  uint8_t* scratch() { return reinterpret_cast<uint8_t*>(members_); }
+  static constexpr uint32_t scratch_bytes() { return kPackets * static_cast<uint32_t>(sizeof(Member)); }
 
 private:
   static constexpr uint32_t kEdge = kBundleEdge<Spu>;
@@ -96,8 +117,21 @@ private:
       member.row = row * kEdge + i / kEdge;
       const bool inside = member.column < frame_.packet_columns && member.row < frame_.packet_rows;
       member.pixels = inside ? lanes_in_picture(frame_, member.column, member.row) : 0;
+      if (takes_samples()) member.pixels = samples_->lanes[i];
       member.lanes = member.pixels;
     }
+  }
+
+  bool takes_samples() const { return static_cast<FramePurpose>(frame_.purpose) == FramePurpose::samples; }
+  /// Those of a member; returns the lanes that have one.
+  uint32_t make_rays(uint32_t number) {
+    Member& member = members_[number];
+    F x = pixels_across<S>(frame_, member.column), y = pixels_down<S>(frame_, member.row);
+    if (takes_samples()) {
+      x = F::load(samples_->at[number].x.lane);
+      y = F::load(samples_->at[number].y.lane);
+    }
+    return make_rays_through(scene_.spu(), frame_.camera, x, y, member.rays);
   }
 
   /// `run` answers the queries of all packets; those of packets outside are for nothing.
@@ -105,8 +139,7 @@ private:
     RayQuery queries[kPackets];
     for (uint32_t i = 0; i < kPackets; ++i) {
       Member& member = members_[i];
-      if (member.pixels != 0)
-        member.lanes &= make_primary_rays(scene_.spu(), frame_, member.column, member.row, member.rays);
+      if (member.pixels != 0) member.lanes &= make_rays(i);
       queries[i] = {&member.rays, &member.hits, nullptr, nullptr, member.lanes};
     }
     run(queries);
@@ -121,6 +154,7 @@ private:
   /// stack while rays are shaded.
   [[gnu::noinline]] void find_lights() {
     const LightRound lights = LightRound::from(frame_, 0, nullptr);
+    lit_ = nullptr;
     for_each_light(scene_, frame_, 0, lights.count, [&](uint32_t number, const LightRecord& light) {
       if (!is_shadowless(light)) find_light(number, light);
     });
@@ -139,6 +173,10 @@ private:
       }
       const uint32_t facing = aim_at(light, member, member.rays, member.hits, member.hit, colour, nullptr);
       if (facing == 0) continue;
+      if (walk_ != nullptr) {
+        trace_shadows(member.shadow_rays, facing, member.distance, colour);
+        continue;
+      }
       queries[asked++] = {&member.shadow_rays, nullptr, &member.distance, &colour, facing};
     }
     if (asked == 0) return;
@@ -169,14 +207,46 @@ private:
   /// As Traversal's transmittance(). Not inlined: once in local store is enough.
   [[gnu::noinline]] void trace_shadows(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance,
                                        VectorLanes& light) {
-    traversal_.transmittance(rays, lanes, distance, light);
+    if (walk_ != nullptr)
+      walk_shadows(rays, lanes, distance, light);
+    else
+      traversal_.transmittance(rays, lanes, distance, light);
+  }
+  [[gnu::noinline]] void walk_shadows(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance,
+                                      VectorLanes& light) {
+    ShadowWalk<S>& walk = *walk_;
+    scene_.spu().enter_module(modules::kShadowWalk);
+    begin_shadow_walk(scene_.spu(), frame_, lit_, rays, lanes, distance, light, walk);
+    while (walk.ray.lanes != 0) {
+      traversal_.find_closest(walk.ray.rays, walk.ray.lanes, walk.hits, kSeesAll);
+      scene_.spu().enter_module(modules::kShadowWalk);
+      const uint32_t hit = hits_of_walk(scene_.spu(), walk);
+      if (hit == 0) return;
+      find_hit_points(scene_, walk.ray.rays, walk.hits, hit, walk.points);
+      scene_.spu().enter_module(modules::kShadowWalk);
+      step_shadow_walk(scene_, walk, tracer_.dropped());
+    }
   }
 
   /// The light of an area, whose places each packet asks by itself. Not inlined: few scenes have such lights.
   [[gnu::noinline]] void look_at_area(const LightRecord& light, Member& member, const RayPacket& rays,
                                       const HitPacket& hits, uint32_t lanes, VectorLanes& colour) {
     AreaShadow<S>& area = *area_;
-    if (aim_at(light, member, rays, hits, lanes, colour, &area) == 0) return;
+    const uint32_t facing = aim_at(light, member, rays, hits, lanes, colour, &area);
+    if (facing == 0) return;
+    if constexpr (kGathersOccluders<Spu>) {
+      AreaOccluders<Spu> occluders;
+      if (traversal_.gather_occluders(area.rays, facing, light, occluders)) {
+        if (occluders.are_none())
+          return colour.template store<S>(select<S>(S::M::from_bits(facing), colour.template load<S>(),
+                                                    {F(0.0f), F(0.0f), F(0.0f)}));
+        while (next_place(scene_.spu(), light, area))
+          traversal_.transmittance(area.rays, area.lanes, area.distance, area.light, occluders);
+        colour = area.sum;
+        tracer_.count_shadow_rays(area.rays_asked);
+        return;
+      }
+    }
     while (next_place(scene_.spu(), light, area)) {
       scene_.spu().compute(scalar_work::kBundleLight);
       trace_shadows(area.rays, area.lanes, area.distance, area.light);
@@ -185,13 +255,13 @@ private:
     tracer_.count_shadow_rays(area.rays_asked);
   }
 
-  /// The colours of a packet, of which the hits are known and the light of the first round.
-  V3<S> trace(Member& member) {
+  /// The colours of a packet, of which the hits are known and the light of the first round. False: it was
+  /// stopped on the way.
+  template <class Stopped> bool trace(Member& member, V3<S>& colour, Stopped stopped) {
     const LightRound first = LightRound::from(frame_, 0, member.light);
     if constexpr (kHasRoomForCode<Spu>) {
-      V3<S> colour;
       if (tracer_.ends_at_once(member.rays, member.lanes, member.hits, member.points, first, colour))
-        return colour;
+        return true;
     }
     tracer_.begin(member.rays, member.lanes);
     tracer_.hits() = member.hits;
@@ -210,13 +280,18 @@ private:
           light_packet(member, hit, round);
         }
       }
-      if (!tracer_.advance()) return tracer_.light();
-      traversal_.find_closest(tracer_.node().rays, tracer_.node().lanes, tracer_.hits());
+      if (!tracer_.advance()) break;
+      if (stopped()) return false;
+      traversal_.find_closest(tracer_.node().rays, tracer_.node().lanes, tracer_.hits(),
+                              tracer_.node().reflected);
     }
+    colour = tracer_.light();
+    return true;
   }
 
   /// The light of a round at the hits of the node that is being traced.
   [[gnu::noinline]] void light_packet(Member& member, uint32_t hit, const LightRound& round) {
+    lit_ = &tracer_.node();
     for_each_light(scene_, frame_, round.first, round.count, [&](uint32_t number, const LightRecord& light) {
       if (is_shadowless(light)) return;
       VectorLanes& colour = member.light[number - round.first];
@@ -229,10 +304,13 @@ private:
 
   const FrameBlock& frame_;
   SceneAccess<Spu>& scene_;
+  const SampleBundle<Spu>* samples_;
   Traversal<Spu, kAccelerators> traversal_;
   RayTracer<Spu> tracer_;
   Member* members_;
-  AreaShadow<S>* area_; ///< null if no light has an area
+  AreaShadow<S>* area_;          ///< null if no light has an area
+  ShadowWalk<S>* walk_;          ///< null if shadow rays need none
+  const RayNode* lit_ = nullptr; ///< whose hits lights are looked for at; null: those of primary rays
 };
 
 } // namespace celltrace::kernel

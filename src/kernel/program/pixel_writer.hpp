@@ -24,6 +24,53 @@ template <class S> typename S::F encode_srgb(const typename S::F& linear) {
   return S::select(linear <= F(0.0031308f), linear * F(12.92f), power);
 }
 
+namespace detail {
+
+/// Normalises to 0..255 without branches.
+template <class S>
+[[gnu::always_inline]] inline typename S::I quantise(const FrameBlock& frame, const typename S::F& value) {
+  using F = typename S::F;
+  const auto round_up = [](const F& unit) { return S::to_int(S::min(unit, F(1.0f)) * F(255.0f) + F(0.5f)); };
+  const F clipped = S::min(S::max(value, F(0.0f)), F(1.0f));
+  if (static_cast<GammaEncoding>(frame.gamma_encoding) == GammaEncoding::none) return round_up(clipped);
+  const F linear = frame.assumed_gamma == 1.0f ? clipped : pow<S>(clipped, F(frame.assumed_gamma));
+  return round_up(encode_srgb<S>(linear));
+}
+/// One copy for all channels: local store is short.
+template <class S>
+[[gnu::noinline]] typename S::I quantise_elsewhere(const FrameBlock& frame, const typename S::F& value) {
+  return quantise<S>(frame, value);
+}
+
+/// Bytes R, G, B, A in the order of memory.
+template <class S>
+typename S::I pack(const typename S::I& r, const typename S::I& g, const typename S::I& b) {
+  using I = typename S::I;
+  const I opaque = I::splat(0xFF);
+  if constexpr (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__)
+    return S::template shift_left<24>(r) | S::template shift_left<16>(g) | S::template shift_left<8>(b) |
+           opaque;
+  else
+    return r | S::template shift_left<8>(g) | S::template shift_left<16>(b) |
+           S::template shift_left<24>(opaque);
+}
+
+} // namespace detail
+
+/// The pixels of sixteen colours.
+template <class Spu>
+[[gnu::always_inline]] inline typename Spu::simd::I encode_pixels(const FrameBlock& frame,
+                                                                  const V3<typename Spu::simd>& colour) {
+  using S = typename Spu::simd;
+  const auto channel = [&](const typename S::F& value) {
+    if constexpr (kHasRoomForCode<Spu>)
+      return detail::quantise<S>(frame, value);
+    else
+      return detail::quantise_elsewhere<S>(frame, value);
+  };
+  return detail::pack<S>(channel(colour.x), channel(colour.y), channel(colour.z));
+}
+
 /// Writes `kRows` rows of packets at once. Whoever puts one packet puts all of its block of kRows x kRows
 /// that are in the picture before one of another block, and before flush().
 template <class Spu, uint32_t kRows = 1> class PixelWriter {
@@ -57,6 +104,11 @@ public:
     for (uint32_t y = 0; y < kRows * kPacketEdge; ++y)
       pixels.store(reinterpret_cast<int32_t*>(run.pixels[y] + x * kPacketEdge));
     columns_ = x + kRows;
+  }
+
+  /// Forgets the block at (column, row) if it is the last one of which a packet was put.
+  void drop(uint32_t column, uint32_t row) {
+    if (row == row_ && column - column_ < columns_) columns_ = column - column_;
   }
 
   /// Waits until all pixels have arrived.
@@ -127,28 +179,7 @@ private:
     current_ ^= 1;
   }
 
-  [[gnu::always_inline]] I encode(const V3<S>& colour) const {
-    return pack(quantise(colour.x), quantise(colour.y), quantise(colour.z));
-  }
-  /// Normalises to 0..255 without branches.
-  I quantise(const F& value) const {
-    const F clipped = S::min(S::max(value, F(0.0f)), F(1.0f));
-    if (static_cast<GammaEncoding>(frame_.gamma_encoding) == GammaEncoding::none) return round_up(clipped);
-    const F linear = frame_.assumed_gamma == 1.0f ? clipped : pow<S>(clipped, F(frame_.assumed_gamma));
-    return round_up(encode_srgb<S>(linear));
-  }
-  static I round_up(const F& unit) { return S::to_int(S::min(unit, F(1.0f)) * F(255.0f) + F(0.5f)); }
-
-  /// Bytes R, G, B, A in the order of memory.
-  static I pack(const I& r, const I& g, const I& b) {
-    const I opaque = I::splat(0xFF);
-    if constexpr (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__)
-      return S::template shift_left<24>(r) | S::template shift_left<16>(g) | S::template shift_left<8>(b) |
-             opaque;
-    else
-      return r | S::template shift_left<8>(g) | S::template shift_left<16>(b) |
-             S::template shift_left<24>(opaque);
-  }
+  [[gnu::always_inline]] I encode(const V3<S>& colour) const { return encode_pixels<Spu>(frame_, colour); }
 
   Spu& spu_;
   const FrameBlock& frame_;

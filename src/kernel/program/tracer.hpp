@@ -5,7 +5,7 @@
 #pragma once
 
 #include "kernel/program/bundle_tracer.hpp"
-#include "kernel/program/pixel_writer.hpp"
+#include "kernel/program/pixel_sampler.hpp"
 #include "kernel/program/prepare_frame.hpp"
 #include "kernel/program/work_exchange.hpp"
 #include "kernel/program/work_units.hpp"
@@ -43,18 +43,35 @@ private:
   static constexpr uint32_t kDomain = event::signal_1;
   static constexpr uint32_t kTag = 0;
 
+  template <class Object> struct alignas(128) Storage { uint8_t bytes[sizeof(Object)]; };
+  static bool is_picture(const FrameBlock& frame) {
+    return static_cast<FramePurpose>(frame.purpose) == FramePurpose::picture;
+  }
+
   /// What rendering needs in local store; kept from frame to frame, so that the cache stays warm.
   struct Phase {
+    using Sampler = PixelSampler<Spu>;
+
     Phase(Spu& spu, const FrameBlock& frame, const CacheConfig& config)
         : image(frame.image), ray_stack(frame.ray_stack), scene(spu, config, frame.image),
+          samples(is_picture(frame) ? nullptr : spu.template allocate<SampleBundle<Spu>>()),
           bundles(spu, frame, scene,
-                  frame.ray_stack + static_cast<ea_t>(spu.id() * frame.ray_stack_nodes) * kRayNodeBytes),
-          pixels(spu, frame) {}
+                  frame.ray_stack + static_cast<ea_t>(spu.id() * frame.ray_stack_nodes) * kRayNodeBytes,
+                  samples),
+          pixels(spu, frame) {
+      static_assert(Sampler::kScratchBytes <= BundleTracer<Spu, kAccelerators>::scratch_bytes(),
+                    "lies where packets would");
+      if (samples != nullptr)
+        sampler = new (static_cast<void*>(spu.template allocate<Storage<Sampler>>()))
+            Sampler(spu, frame, *samples, bundles.scratch());
+    }
 
     ea_t image, ray_stack;
     SceneAccess<Spu> scene;
+    SampleBundle<Spu>* samples; ///< null, as is the sampler, if all frames are pictures
     BundleTracer<Spu, kAccelerators> bundles;
     PixelWriter<Spu, kBundleEdge<Spu>> pixels;
+    Sampler* sampler = nullptr;
   };
 
   void obey(uint32_t commands) {
@@ -119,6 +136,7 @@ private:
     if (phase_ == nullptr) start_phase();
     phase_->scene.cache().reset_counters();
     phase_->bundles.reset_counters();
+    if (phase_->sampler != nullptr) phase_->sampler->begin_frame();
     fetch(&strip_, frame_.strips + spu_.id() * sizeof(StripRecord), sizeof(StripRecord));
     packets_ = 0;
     units_.begin_frame(frame_);
@@ -135,15 +153,27 @@ private:
   }
 
   [[gnu::noinline]] void start_phase() {
-    struct alignas(128) Storage {
-      uint8_t bytes[sizeof(Phase)];
-    };
-    phase_ =
-        new (static_cast<void*>(spu_.template allocate<Storage>())) Phase(spu_, frame_, cache_config(frame_));
+    phase_ = new (static_cast<void*>(spu_.template allocate<Storage<Phase>>()))
+        Phase(spu_, frame_, cache_config(frame_));
   }
   void drop_phase() {
     phase_ = nullptr;
     spu_.release(free_);
+  }
+
+  /// The colours of the packet at (x, y).
+  void put(uint32_t x, uint32_t y, const Colours& colours) {
+    if (!is_picture(frame_)) {
+      constexpr uint32_t kEdge = kBundleEdge<Spu>;
+      phase_->samples->at[y % kEdge * kEdge + x % kEdge].store(colours);
+      if (static_cast<FramePurpose>(frame_.purpose) == FramePurpose::samples) return;
+    }
+    phase_->pixels.put(x, y, colours);
+  }
+  /// What was traced becomes part of what a picture is sampled by. True: there are samples to trace.
+  bool sample(uint32_t column, uint32_t row) {
+    spu_.enter_module(modules::kSampling);
+    return phase_->sampler->advance(column, row);
   }
 
   /// Breaks off if the frame is declared over on the way.
@@ -153,19 +183,27 @@ private:
     uint32_t column = run.column;
     uint32_t row = run.row;
     for (uint32_t bundle = 0; bundle < run.bundles; ++bundle) {
-      phase_->bundles.trace(
-          column, row,
-          [&](uint32_t x, uint32_t y, const Colours& colours) {
-            phase_->pixels.put(x, y, colours);
-            ++packets_;
-            exchange_.poll();
-          },
-          [&](uint32_t x, uint32_t y, const auto& colour) {
-            phase_->pixels.fill(x, y, colour);
-            packets_ += kBundlePackets<Spu>;
-            exchange_.poll();
-          });
-      if (exchange_.over()) return;
+      bool more = static_cast<FramePurpose>(frame_.purpose) != FramePurpose::samples || sample(column, row);
+      while (more) {
+        phase_->bundles.trace(
+            column, row,
+            [&](uint32_t x, uint32_t y, const Colours& colours) {
+              put(x, y, colours);
+              ++packets_;
+              exchange_.poll();
+            },
+            [&](uint32_t x, uint32_t y, const auto& colour) {
+              if (!is_picture(frame_))
+                for (VectorLanes& packet : phase_->samples->at)
+                  packet.store(colour);
+              phase_->pixels.fill(x, y, colour);
+              packets_ += kBundlePackets<Spu>;
+              exchange_.poll();
+            },
+            [this] { return exchange_.poll(); });
+        if (exchange_.over()) return phase_->pixels.drop(column * kBundleEdge<Spu>, row * kBundleEdge<Spu>);
+        more = !is_picture(frame_) && sample(column, row);
+      }
       if (++column == frame_.bundle_columns) {
         column = 0;
         ++row;

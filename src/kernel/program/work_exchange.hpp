@@ -37,11 +37,11 @@ public:
       spu_.write_out_mailbox(make_report(ReportKind::progress, node_.completed()));
   }
 
-  /// Handles what has arrived, without stalling. Cheap when nothing has.
-  void poll() {
-    if (spu_.event_count() == 0) return;
+  /// Handles what has arrived, without stalling. Cheap when nothing has. True if that was the end of the frame.
+  bool poll() {
+    if (spu_.event_count() == 0) return false;
     spu_.enter_module(modules::kExchange);
-    handle();
+    return handle();
   }
   /// Does what a dry node has to do, then stalls until something arrives.
   void wait() {
@@ -79,7 +79,7 @@ private:
 
   /// The safe order of an event handler: mask, read, acknowledge, drain, unmask. A phantom event finds
   /// nothing to drain.
-  [[gnu::noinline]] void handle() {
+  [[gnu::noinline]] bool handle() {
     spu_.run_in_module(modules::kExchange);
     const uint32_t events = spu_.read_event_status();
     spu_.write_event_mask(0);
@@ -88,6 +88,7 @@ private:
     drain_doorbell();
     spu_.write_event_mask(kDomain);
     act();
+    return over_;
   }
   [[gnu::noinline]] void drain_mailbox() {
     while (spu_.in_mailbox_count() != 0) {

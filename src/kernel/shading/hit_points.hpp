@@ -125,7 +125,7 @@ template <class Spu>
   objects.smooth = 0;
   I material = I::splat(0), interior = I::splat(0);
   bool is_first = true;
-  uint32_t open = 0;
+  uint32_t open = 0, two_sided = 0, inverse = 0;
   objects.parameters.ratio = F(0.0f);
   points.blended = points.textured = points.disturbed = 0;
   for_each_value<S>(hits.object, lanes, [&](uint32_t offset, uint32_t same) {
@@ -164,6 +164,8 @@ template <class Spu>
       const F ratio(scene.extra(extra)->value[0]);
       objects.parameters.ratio = first ? ratio : S::select(mask, ratio, objects.parameters.ratio);
     }
+    if ((flags & object_flag::two_sided) != 0) two_sided |= same;
+    if ((flags & object_flag::inverse) != 0) inverse |= same;
     if ((flags & object_flag::open) != 0)
       open |= of_object;
     else
@@ -179,6 +181,11 @@ template <class Spu>
   const V3<S> along_ray = rays.origin.template load<S>() + direction * F::load(hits.distance.lane);
   detail::surface_of<Spu>(objects, along_ray, hits, points.point, points.normal);
   const auto away = dot<S>(direction, points.normal) > F(0.0f);
+  for_each_value<S>(points.material, two_sided & (away.bits() ^ inverse) & ~points.blended,
+                    [&](uint32_t outside, uint32_t same) {
+                      const uint32_t inside = scene.material(outside)->inside;
+                      for_each_lane(same, [&](uint32_t lane) { points.material.lane[lane] = inside; });
+                    });
   const V3<S> opposite = {-points.normal.x, -points.normal.y, -points.normal.z};
   points.normal = select<S>(away, opposite, points.normal);
 }

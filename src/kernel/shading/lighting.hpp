@@ -3,6 +3,7 @@
 #pragma once
 
 #include "kernel/lights/illumination.hpp"
+#include "kernel/shading/finishes.hpp"
 #include "kernel/shading/hit_points.hpp"
 #include "kernel/shading/material_lanes.hpp"
 
@@ -105,8 +106,12 @@ V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, const FrameBlock& fr
       incident.colour = round.colour[number - round.first].template load<S>();
       if (!has_area(light)) shadow_rays += static_cast<uint32_t>(__builtin_popcount(facing));
     }
-    sum = sum + select<S>(S::M::from_bits(facing),
-                          detail::reflected_light<Spu>(s, m, incident, !is_shadowless(light)), dark);
+    V3<S> sent = detail::reflected_light<Spu>(s, m, incident, !is_shadowless(light));
+    if (m.special != 0) {
+      scene.spu().enter_module(modules::kFinishes);
+      change_special_light(scene, s, m, incident, number, sent);
+    }
+    sum = sum + select<S>(S::M::from_bits(facing), sent, dark);
   });
   return sum;
 }

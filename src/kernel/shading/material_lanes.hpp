@@ -17,6 +17,8 @@ template <class S> struct MaterialLanes {
   F reflection_falloff, reflection_metallic, inverse_reflection_exponent;
   uint32_t fresnel = 0, conserve_energy = 0;          ///< lanes
   uint32_t patterned = 0, disturbed = 0, layered = 0; ///< likewise, as MaterialRecord::flags
+  uint32_t special = 0;                               ///< likewise, with a FinishRecord
+  const WordLanes* offsets;                           ///< of the records, of the whole packet
   bool bends_diffuse = false;                         ///< some brilliance is not 1
   bool has_phong = false, has_specular = false, has_metallic = false, has_reflection = false;
   bool has_falloff = false;
@@ -33,6 +35,7 @@ template <class Spu>
   } else {
     const auto part = [first](const auto& field) { return part_of<Spu>(field, first); };
     MaterialLanes<typename Spu::rare_simd> o;
+    o.offsets = m.offsets;
     o.pigment = part(m.pigment);
     o.ambient = part(m.ambient);
     o.reflection_min = part(m.reflection_min);
@@ -110,6 +113,7 @@ template <class Spu, bool kAll = false>
   if ((r.flags & material_flag::patterned) != 0) m.patterned |= lanes;
   if ((r.flags & material_flag::disturbed) != 0) m.disturbed |= lanes;
   if ((r.flags & material_flag::layered) != 0) m.layered |= lanes;
+  if (r.finish != kNoOffset) m.special |= lanes;
   const auto any = [](const float(&v)[3]) { return v[0] != 0.0f || v[1] != 0.0f || v[2] != 0.0f; };
   m.bends_diffuse |= r.brilliance != 1.0f;
   m.has_phong |= r.phong > 0.0f;
@@ -128,6 +132,7 @@ template <class Spu>
 MaterialLanes<typename Spu::simd> gather_materials(SceneAccess<Spu>& scene, const WordLanes& offsets,
                                                    uint32_t lanes) {
   MaterialLanes<typename Spu::simd> m; // the first material fills all lanes
+  m.offsets = &offsets;
   bool first = true;
   for_each_value<typename Spu::simd>(offsets, lanes, [&](uint32_t offset, uint32_t same) {
     scene.spu().compute(scalar_work::kMaterial);

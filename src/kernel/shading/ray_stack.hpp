@@ -20,6 +20,7 @@ struct alignas(128) RayNode {
   WordLanes interiors[kMaxInteriorDepth];
   FloatLanes power; ///< of a node that gathers
   uint32_t lanes;   ///< bit l: lane l is a ray
+  uint32_t reflected; ///< of them, those that came by a mirror
   uint32_t target;  ///< number of the accumulator that the rays' light goes to
   uint32_t gathers; ///< 0: rays to trace. Otherwise the number of an accumulator whose light, raised to
                     ///< `power`, is complete when this node comes up, and goes to `target`
@@ -42,6 +43,7 @@ public:
         capacity_(resident_nodes_ + spill_nodes) {}
 
   bool empty() const { return size_ == 0; }
+  void clear() { size_ = 0; }
 
   /// False if the stack is full.
   bool push(const RayNode& node) {

@@ -3,8 +3,11 @@
 #pragma once
 
 #include "kernel/modules.hpp"
+#include "kernel/shading/atmosphere.hpp"
+#include "kernel/shading/fading.hpp"
 #include "kernel/shading/lighting.hpp"
 #include "kernel/shading/secondary_rays.hpp"
+#include "kernel/shading/shadow_walk.hpp"
 #include "kernel/textures/sky.hpp"
 
 namespace celltrace::kernel {
@@ -27,14 +30,15 @@ public:
   /// `spill` has room for `spill_nodes`. `scratch` may be shared by tracers.
   RayTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, ea_t spill, uint32_t spill_nodes,
             RayNode& scratch)
-      : frame_(frame), scene_(scene), stack_(spu, spill, spill_nodes, !has_areas(frame)),
+      : frame_(frame), scene_(scene),
+        stack_(spu, spill, spill_nodes, !has_areas(frame) && !walks_shadows(frame)),
         node_(*spu.template allocate<RayNode>()), child_(scratch) {}
 
   /// The colours of primary rays whose hits are known, if all of them end there; false: they do not, or there
   /// are more lights than in one round.
   bool ends_at_once(const RayPacket& rays, uint32_t lanes, const HitPacket& hits, const HitPoints<S>& points,
                     const LightRound& round, V3<S>& colour) {
-    if (round.next() != frame_.light_count) return false;
+    if (round.next() != frame_.light_count || has_fog(frame_)) return false;
     const uint32_t hit = hit_lanes<S>(hits, lanes);
     if (hit != 0) {
       if (points.plain(hit) != hit) return false;
@@ -64,6 +68,7 @@ public:
     scene_.spu().compute(scalar_work::kPrimaryPacket);
     clear(0);
     accumulators_in_use_ = 1;
+    stack_.clear(); // the tree before may have been broken off
     start(rays, lanes);
   }
   /// The rays whose closest hits are wanted next, and where to put them.
@@ -72,6 +77,10 @@ public:
   /// The lanes of node() that hit something; the others see the background.
   uint32_t take_hits() {
     scene_.spu().compute(scalar_work::kNode);
+    if (has_fog(frame_)) {
+      scene_.spu().enter_module(modules::kAtmosphere);
+      cross_atmosphere(scene_, frame_, hits_, node_, light_[node_.target]);
+    }
     const uint32_t hit = hit_lanes<S>(hits_, node_.lanes);
     const uint32_t missed = node_.lanes & ~hit;
     if (missed != 0) add(missed, behind(node_.rays, missed));
@@ -95,6 +104,7 @@ public:
     while (!stack_.empty()) {
       stack_.pop(node_);
       if (node_.gathers == 0) return true;
+      scene_.spu().enter_module(modules::kAtmosphere);
       gather();
     }
     return false;
@@ -108,6 +118,8 @@ public:
     stack_.reset_counters();
   }
   const RayCounters& counters() const { return counters_; }
+  /// Counts rays that are in more interiors than can be told.
+  uint64_t& dropped() { return counters_.dropped; }
   uint32_t spilled_nodes() const { return stack_.spilled(); }
 
 private:
@@ -130,6 +142,7 @@ private:
     for (uint32_t d = 0; d < frame_.camera_interior_count; ++d)
       fill(node_.interiors[d], frame_.camera_interiors[d]);
     node_.lanes = lanes;
+    node_.reflected = 0;
     node_.target = 0;
     node_.gathers = 0;
     counters_.primary += count(lanes);
@@ -153,8 +166,9 @@ private:
     target.template store<S>(select<S>(M::from_bits(lanes), sum + weighted, sum));
   }
 
-  /// The light of a reflection is complete.
-  void gather() {
+  /// The light of a reflection is complete. Not of the atmosphere, but as rare.
+  [[gnu::noinline]] void gather() {
+    scene_.spu().run_in_module(modules::kAtmosphere);
     const V3<S> sum = light_[node_.gathers].template load<S>();
     const F power = F::load(node_.power.lane);
     --accumulators_in_use_;
@@ -264,14 +278,18 @@ private:
     SecondaryRays<S> onward = SecondaryRays<S>::nothing();
     V3<S> outermost = surfaces.normal; // of the uppermost layer
     bool is_disturbed = false;
-    Surfaces<S> own = surfaces;
+    Surfaces<S> disturbed;
     for (bool is_top = true; lanes != 0; is_top = false) {
       MaterialLanes<S> m = gather_materials(scene_, materials, lanes);
       if (m.patterned != 0) add_pigments(scene_, materials, surfaces.point, m);
-      own.normal = surfaces.normal;
-      if (m.disturbed != 0) disturb_normals(scene_, materials, m, own);
+      if (m.disturbed != 0) {
+        disturbed = surfaces;
+        disturb_normals(scene_, materials, m, disturbed);
+      }
+      const Surfaces<S>& own = m.disturbed != 0 ? disturbed : surfaces;
       add(lanes, local_light(scene_, frame_, round_, own, m, lanes, counters_.shadow) * above * share);
       SecondaryRays<S> rays = onward_rays(own, interior, m, lanes, one);
+      if (rays.is_nothing()) break;
       const uint32_t clear = rays.clear;
       rays.clear = 0;
       above = select<S>(S::M::from_bits(clear), above * rays.through, above);
@@ -298,8 +316,8 @@ private:
     onward.through_weight = S::select(S::M::from_bits(onward.clear), max_component<S>(above), F(0.0f));
     onward.clear_share = through;
     if (!is_disturbed) return onward;
-    own.normal = outermost;
-    spawn(own, surfaces.normal, interior, onward);
+    disturbed.normal = outermost;
+    spawn(disturbed, surfaces.normal, interior, onward);
     return SecondaryRays<S>::nothing();
   }
 
@@ -340,9 +358,16 @@ private:
     child_.throughput.template store<S>(node_.throughput.template load<S>() * throughput);
     weight.store(child_.weight.lane);
     child_.lanes = go;
+    child_.reflected = node_.reflected;
     child_.target = node_.target;
     child_.gathers = 0;
     return true;
+  }
+
+  /// What is left of the light that `lanes` of child_ bring out of an interior.
+  [[gnu::noinline]] void fade_child(const WordLanes& interior, uint32_t lanes) {
+    scene_.spu().run_in_module(modules::kFading);
+    fade(scene_, node_, interior, hits_.distance, lanes, child_.throughput, false);
   }
 
   void reflect(const Surfaces<S>& surfaces, const SecondaryRays<S>& onward, uint32_t lanes,
@@ -352,8 +377,12 @@ private:
     if (!prepare_child(surfaces, mirrored, onward.mirror, F::load(node_.weight.lane) * onward.mirror_weight,
                        lanes, lanes))
       return;
+    child_.reflected = child_.lanes;
     counters_.reflection += count(child_.lanes);
-    if (onward.bends_reflection && accumulators_in_use_ < kAccumulators) redirect(onward.reflection_power);
+    if (onward.bends_reflection && accumulators_in_use_ < kAccumulators) {
+      scene_.spu().enter_module(modules::kFading);
+      redirect(onward.reflection_power);
+    }
     push();
   }
 
@@ -364,7 +393,9 @@ private:
   }
 
   /// Sends the light of child_ to an accumulator of its own, from which a node pushed below it gathers it.
-  void redirect(const F& power) {
+  /// Not in the module of what calls it, which has no room.
+  [[gnu::noinline]] void redirect(const F& power) {
+    scene_.spu().run_in_module(modules::kFading);
     child_.gathers = accumulators_in_use_;
     power.store(child_.power.lane);
     if (!push()) return;
@@ -407,6 +438,10 @@ private:
     if (prepare_child(surfaces, direction, select<S>(total_mask, unfiltered, onward.through),
                       F::load(node_.weight.lane) * onward.through_weight, onward.clear & ~refraction.straight,
                       onward.clear)) {
+      if ((frame_.light_ways & light_way::fading) != 0) {
+        scene_.spu().enter_module(modules::kFading);
+        fade_child(interior, onward.clear);
+      }
       counters_.refraction += count(child_.lanes);
       push();
     }

@@ -10,13 +10,14 @@ struct AgatePattern : NoisePattern {
   static constexpr const char* kName = "agate";
 
   /// Its parameter: by how much.
-  template <class S>
-  [[gnu::always_inline]] static typename S::F value(const V3<S>& p, const PatternRecord& r) {
+  template <class S, class Source>
+  [[gnu::always_inline]] static typename S::F value(const V3<S>& p, const PatternRecord& r,
+                                                    const Source& source) {
     using F = typename S::F;
     const F turns =
-        noise::turbulence_value<S>(p, r.turbulence, has_first_generator(r)) * F(1.3f * r.parameter[0]) +
+        source.turbulence_value(p, r.turbulence) * F(1.3f * r.parameter[0]) +
         p.z * F(1.1f);
-    const F wave = (sine_of_turns<S>(turns - whole_below<S>(turns)) + F(1.0f)) * F(0.5f);
+    const F wave = (sine_of_turns<S>(turns - S::floor(turns)) + F(1.0f)) * F(0.5f);
     return pow<S>(wave, F(0.77f));
   }
 };

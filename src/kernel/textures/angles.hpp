@@ -7,7 +7,8 @@ namespace celltrace::kernel {
 
 /// The angle of the point (x, y) to the x axis, toward the y axis, in turns of -0.5 to 0.5; absolute error
 /// below 1e-7 (Abramowitz and Stegun 4.4.49). Of the origin 0.
-template <class S> [[gnu::noinline]] typename S::F turns_of(const typename S::F& y, const typename S::F& x) {
+template <class S>
+[[gnu::always_inline]] inline typename S::F turns_inline(const typename S::F& y, const typename S::F& x) {
   using F = typename S::F;
   const F zero(0.0f);
   const F ax = S::abs(x), ay = S::abs(y);
@@ -26,6 +27,10 @@ template <class S> [[gnu::noinline]] typename S::F turns_of(const typename S::F&
   const F quadrant = S::select(steep, F(0.25f) - small, small);
   const F half = S::select(x < zero, F(0.5f) - quadrant, quadrant);
   return S::select(y < zero, -half, half);
+}
+/// The same in one copy, of the module of patterns.
+template <class S> [[gnu::noinline]] typename S::F turns_of(const typename S::F& y, const typename S::F& x) {
+  return turns_inline<S>(y, x);
 }
 
 } // namespace celltrace::kernel

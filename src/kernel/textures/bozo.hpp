@@ -9,9 +9,10 @@ namespace celltrace::kernel {
 struct BozoPattern : NoisePattern {
   static constexpr const char* kName = "bozo";
 
-  template <class S>
-  [[gnu::always_inline]] static typename S::F value(const V3<S>& p, const PatternRecord& r) {
-    return noise::value<S>(p, has_first_generator(r));
+  template <class S, class Source>
+  [[gnu::always_inline]] static typename S::F value(const V3<S>& p, const PatternRecord&,
+                                                    const Source& source) {
+    return source.value(p);
   }
 };
 

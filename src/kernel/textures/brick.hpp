@@ -9,15 +9,16 @@ namespace celltrace::kernel {
 struct BrickPattern : ListPattern {
   static constexpr const char* kName = "brick";
 
-  /// Its parameters: the inverse of the size, and what of the size by axis is brick.
+  /// Its parameters: the inverse of the size, and how thick the mortar is.
   template <class S> static typename S::F value(const V3<S>& p, const PatternRecord& r) {
     using F = typename S::F;
     const V3<S> q = p * splat3<S>(r.parameter);
-    const F y = snap<S>(q.y), course = whole_below<S>(y);
+    const F y = snap<S>(q.y), course = S::floor(y);
     const F shift = remainder<S>(course, 2.0f) * F(0.5f); // of x in odd courses, of z in even ones
     const F x = snap<S>(q.x - shift), z = snap<S>(q.z + shift - F(0.5f));
-    const auto brick = ((x - whole_below<S>(x)) < F(r.parameter[3])) & ((y - course) < F(r.parameter[4])) &
-                       ((z - whole_below<S>(z)) < F(r.parameter[5]));
+    const auto share = [&](uint32_t axis) { return F(1.0f - r.parameter[3] * r.parameter[axis]); };
+    const auto brick =
+        ((x - S::floor(x)) < share(0)) & ((y - course) < share(1)) & ((z - S::floor(z)) < share(2));
     return S::select(brick, F(1.0f), F(0.0f));
   }
 };

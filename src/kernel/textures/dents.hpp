@@ -11,13 +11,14 @@ struct DentsPattern : NoisePattern {
 
   static constexpr bool kDisturbs = true;
 
-  template <class S>
-  [[gnu::always_inline]] static typename S::F value(const V3<S>& p, const PatternRecord& r) {
-    const typename S::F noise = noise::value<S>(p, has_first_generator(r));
+  template <class S, class Source>
+  [[gnu::always_inline]] static typename S::F value(const V3<S>& p, const PatternRecord&,
+                                                    const Source& source) {
+    const typename S::F noise = source.value(p);
     return noise * noise * noise;
   }
   template <class S> [[gnu::always_inline]] static V3<S> disturbance(const V3<S>& p, const PatternRecord& r) {
-    return noise::vector<S>(p) * value<S>(p, r);
+    return noise::vector<S>(p) * value<S>(p, r, noise::LatticeNoise<S>{r});
   }
 };
 

@@ -16,7 +16,7 @@ struct GradientPattern : BlendPattern {
   [[gnu::always_inline]] static typename S::F value(const V3<S>& p, const PatternRecord& r) {
     using F = typename S::F;
     const F along = snap<S>(dot<S>(p, splat3<S>(r.parameter)));
-    return S::select(along > F(1.0f), along - whole_below<S>(along), along);
+    return S::select(along > F(1.0f), along - S::floor(along), along);
   }
 };
 

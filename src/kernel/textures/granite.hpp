@@ -9,14 +9,15 @@ namespace celltrace::kernel {
 struct GranitePattern : NoisePattern {
   static constexpr const char* kName = "granite";
 
-  template <class S>
-  [[gnu::always_inline]] static typename S::F value(const V3<S>& p, const PatternRecord& r) {
+  template <class S, class Source>
+  [[gnu::always_inline]] static typename S::F value(const V3<S>& p, const PatternRecord&,
+                                                    const Source& source) {
     using F = typename S::F;
     F sum(0.0f);
     float scale = 4.0f, strength = 1.0f;
     for (uint32_t octave = 0; octave < 6; ++octave, scale *= 2.0f, strength *= 0.5f)
       sum =
-          sum + S::abs(F(0.5f) - noise::spread_value<S>(p * F(scale), has_first_generator(r))) * F(strength);
+          sum + S::abs(F(0.5f) - source.spread_value(p * F(scale))) * F(strength);
     return sum;
   }
 };

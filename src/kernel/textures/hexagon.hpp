@@ -13,7 +13,7 @@ struct HexagonPattern : ListPattern {
     using F = typename S::F;
     constexpr float kWidth = 1.5f, kHeight = 0.866025404f;
     const F u = p.x * F(1 / kWidth), v = p.z * F(1 / kHeight);
-    const F column = whole_below<S>(u), row = whole_below<S>(v);
+    const F column = S::floor(u), row = S::floor(v);
     // Centres are at the corners of the rectangle whose column and row have an even sum: two of the four.
     const F odd = remainder<S>(column + row, 2.0f);
     const auto square = [](const F& x) { return x * x; };

@@ -10,7 +10,7 @@ namespace celltrace::kernel {
 template <class S> typename S::F snap(const typename S::F& x) {
   using F = typename S::F;
   constexpr float kEpsilon = 1e-5f; // many times the rounding of coordinates about 1
-  const F nearest = whole_below<S>(x + F(0.5f));
+  const F nearest = S::floor(x + F(0.5f));
   const F off = S::abs(x - nearest);
   return S::select(off < F(kEpsilon) + S::abs(x) * F(1e-6f), nearest, x);
 }
@@ -19,7 +19,7 @@ template <class S> typename S::F snap(const typename S::F& x) {
 template <class S> typename S::F remainder(const typename S::F& x, float divisor) {
   using F = typename S::F;
   // Half of a unit more keeps the quotient clear of the rounding of 1 / divisor.
-  return x - whole_below<S>((x + F(0.5f)) * F(1.0f / divisor)) * F(divisor);
+  return x - S::floor((x + F(0.5f)) * F(1.0f / divisor)) * F(divisor);
 }
 
 } // namespace celltrace::kernel

@@ -13,7 +13,7 @@ struct LeopardPattern : BlendPattern {
     using F = typename S::F;
     const auto sine = [](const F& radians) {
       const F turns = radians * F(0.159154943f);
-      return sine_of_turns<S>(turns - whole_below<S>(turns));
+      return sine_of_turns<S>(turns - S::floor(turns));
     };
     const F sum = (sine(p.x) + sine(p.y) + sine(p.z)) * F(1.0f / 3);
     return sum * sum;

@@ -5,8 +5,9 @@
 //   kIsList        whether its value is the number of a map's entry
 //   kCode          where its code is
 //   kDisturbs      whether a normal of it is something else than the slope of its value; the code of that is
-//                  with the noise's
-// value(p, record), and if it disturbs, disturbance(p, record)
+//                  with the rare patterns' if its value is, else with the noise's
+// value(p, record), and if it disturbs, disturbance(p, record); of rare ones, the scene stands before these.
+// Values of patterns of noise get the source of it besides.
 #pragma once
 
 #include "kernel/textures/agate.hpp"
@@ -14,10 +15,13 @@
 #include "kernel/textures/bozo.hpp"
 #include "kernel/textures/brick.hpp"
 #include "kernel/textures/bumps.hpp"
+#include "kernel/textures/cells.hpp"
 #include "kernel/textures/checker.hpp"
+#include "kernel/textures/crackle.hpp"
 #include "kernel/textures/cubic.hpp"
 #include "kernel/textures/cylindrical.hpp"
 #include "kernel/textures/dents.hpp"
+#include "kernel/textures/fractal.hpp"
 #include "kernel/textures/gradient.hpp"
 #include "kernel/textures/granite.hpp"
 #include "kernel/textures/hexagon.hpp"
@@ -27,11 +31,13 @@
 #include "kernel/textures/planar.hpp"
 #include "kernel/textures/quilted.hpp"
 #include "kernel/textures/radial.hpp"
+#include "kernel/textures/ripples.hpp"
 #include "kernel/textures/spherical.hpp"
 #include "kernel/textures/spiral1.hpp"
 #include "kernel/textures/spiral2.hpp"
 #include "kernel/textures/square.hpp"
 #include "kernel/textures/triangular.hpp"
+#include "kernel/textures/waves.hpp"
 #include "kernel/textures/wood.hpp"
 #include "kernel/textures/wrinkles.hpp"
 #include "kernel/type_list.hpp"
@@ -42,6 +48,7 @@ template <class... P> struct PatternList : TypeList<P...> {
   static constexpr PatternCode kCode[] = {P::kCode...};
   static constexpr bool kAreLists[] = {P::kIsList...};
   static constexpr bool kDisturb[] = {P::kDisturbs...};
+  static constexpr bool kReadNoise[] = {P::kReadsNoise...};
 };
 
 using Patterns =
@@ -49,7 +56,8 @@ using Patterns =
                 CylindricalPattern, PlanarPattern, OnionPattern, LeopardPattern, RadialPattern,
                 Spiral1Pattern, Spiral2Pattern, QuiltedPattern, SquarePattern, TriangularPattern,
                 HexagonPattern, CubicPattern, BrickPattern, DentsPattern, GranitePattern, WrinklesPattern,
-                AgatePattern, MarblePattern, WoodPattern>;
+                AgatePattern, MarblePattern, WoodPattern, CellsPattern, CracklePattern,
+                RipplesPattern, WavesPattern, FractalPattern>;
 constexpr bool disturbs(uint32_t kind) {
   return Patterns::kDisturb[kind];
 }

@@ -18,6 +18,36 @@ inline uint32_t map_of(const MaterialRecord& material) {
   return (material.flags & material_flag::mapped) != 0 ? material.pattern : kNoOffset;
 }
 
+inline uint32_t map_entry_at(uint32_t entries, uint32_t number) {
+  return entries + number * static_cast<uint32_t>(sizeof(MapEntryRecord));
+}
+
+/// Where values of a pattern lie in its map: calls `at(lanes, number, entry)` where an entry counts alone,
+/// and `between(lanes, number, below, above, share)` where two do, `number` and `share` being the upper
+/// one's. Later calls go before earlier ones: they may be for lanes that have been visited. Of equal
+/// positions the first counts below and the last above, as in POV-Ray.
+template <class S, class Spu, class At, class Between>
+[[gnu::always_inline]] inline void find_interval(SceneAccess<Spu>& scene, const PatternRecord& r,
+                                                 const typename S::F& pattern_value, At at, Between between) {
+  using F = typename S::F;
+  using M = typename S::M;
+  // Outside of 0..1 a map begins again.
+  const M outside = (pattern_value > F(1.0f)) | (pattern_value < F(0.0f));
+  const F value = S::select(outside, pattern_value - S::floor(pattern_value), pattern_value);
+  uint32_t number = r.entry_count - 1;
+  MapEntryRecord above = *scene.map_entry(map_entry_at(r.entries, number));
+  at(M::all(), number, above);
+  const M within = value < F(above.position);
+  if (within.bits() == 0) return;
+  for (; number != 0; --number) {
+    const MapEntryRecord below = *scene.map_entry(map_entry_at(r.entries, number - 1));
+    between(within & (value <= F(above.position)), number, below, above,
+            (value - F(below.position)) * F(above.inverse_width));
+    above = below;
+  }
+  at(within & (value <= F(above.position)), 0, above);
+}
+
 /// Visits the leaves of a tree of maps that count at the points of a packet (`S` is Spu::simd) or of a part
 /// of it (Spu::rare_simd), with their weights, which add up to 1 in each lane. Without recursion: one level
 /// of the tree is one of `levels_`. `Tree::pattern_of(scene, entry)` is the offset of the pattern whose map
@@ -46,12 +76,22 @@ public:
     level.lanes = lanes;
     level.average = (r.kind_and_flags & pattern_flag::average) != 0;
     if (level.average) return;
-    const F value = value_of(r);
-    level.share = F(1.0f);
-    if (Patterns::kAreLists[r.kind_and_flags & pattern_flag::kind_mask])
+    const F value = value_of(r, lanes);
+    const auto set = [&](const M& some, uint32_t number, const F& share) {
+      level.upper = S::select(some, F(static_cast<float>(number)), level.upper);
+      level.share = S::select(some, share, level.share);
+    };
+    if (Patterns::kAreLists[r.kind_and_flags & pattern_flag::kind_mask]) {
       level.upper = S::min(value, F(static_cast<float>(r.entry_count - 1)));
-    else
-      find_interval(r, value, level.upper, level.share);
+      level.share = F(1.0f);
+    } else {
+      find_interval<S>(
+          scene_, r, value,
+          [&](const M& some, uint32_t number, const MapEntryRecord&) { set(some, number, F(1.0f)); },
+          [&](const M& some, uint32_t number, const MapEntryRecord&, const MapEntryRecord&, const F& share) {
+            set(some, number, share);
+          });
+    }
   }
 
   /// The next leaf, with its weight in those of `lanes`; false: there are no more.
@@ -64,7 +104,7 @@ public:
         continue;
       }
       const uint32_t number = level.next++;
-      leaf = *scene_.map_entry(offset_of(level.entries, number));
+      leaf = *scene_.map_entry(map_entry_at(level.entries, number));
       weight = level.weight * (level.average ? F(leaf.position) : weight_of(level, number));
       lanes = level.lanes & (weight > F(0.0f)).bits();
       if (lanes == 0) continue;
@@ -84,9 +124,9 @@ private:
     bool average;
   };
 
-  F value_of(const PatternRecord& r) {
+  F value_of(const PatternRecord& r, uint32_t lanes) {
     const auto at = [&](const V3<typename Spu::rare_simd>& point) {
-      return pattern_value(scene_.spu(), r, to_pattern_space<kStage>(scene_, r, point));
+      return pattern_value(scene_, r, to_pattern_space<kStage>(scene_, r, point, lanes));
     };
     if constexpr (S::kLanes == Spu::rare_simd::kLanes) {
       return at(point_);
@@ -106,34 +146,6 @@ private:
     return of_ == MapOf::pigments ? entry.child : map_of(*scene_.material(entry.child));
   }
 
-  static uint32_t offset_of(uint32_t entries, uint32_t number) {
-    return entries + number * static_cast<uint32_t>(sizeof(MapEntryRecord));
-  }
-
-  /// Of equal positions the first counts below and the last above, as in POV-Ray.
-  void find_interval(const PatternRecord& r, const F& pattern_value, F& upper, F& share) {
-    // Outside of 0..1 a map begins again.
-    const auto outside = (pattern_value > F(1.0f)) | (pattern_value < F(0.0f));
-    const F value = S::select(outside, pattern_value - whole_below<S>(pattern_value), pattern_value);
-    const uint32_t last = r.entry_count - 1;
-    M within = M::all();
-    for (uint32_t number = r.entry_count; number-- > 0;) {
-      const MapEntryRecord& entry = *scene_.map_entry(offset_of(r.entries, number));
-      const float position = entry.position;
-      if (number == last) {
-        upper = F(static_cast<float>(last));
-        within = value < F(position);
-        if (within.bits() == 0) return;
-        if (number == 0) return;
-      }
-      const M below = within & (value <= F(position));
-      const float inverse = entry.inverse_width;
-      const float before =
-          number == 0 ? position : scene_.map_entry(offset_of(r.entries, number - 1))->position;
-      upper = S::select(below, F(static_cast<float>(number)), upper);
-      share = S::select(below, number == 0 ? F(1.0f) : (value - F(before)) * F(inverse), share);
-    }
-  }
   static F weight_of(const Level& level, uint32_t number) {
     const F own = S::select(level.upper == F(static_cast<float>(number)), level.share, F(0.0f));
     return S::select(level.upper == F(static_cast<float>(number + 1)), F(1.0f) - level.share, own);

@@ -9,11 +9,12 @@ namespace celltrace::kernel {
 struct MarblePattern : NoisePattern {
   static constexpr const char* kName = "marble";
 
-  template <class S>
-  [[gnu::always_inline]] static typename S::F value(const V3<S>& p, const PatternRecord& r) {
+  template <class S, class Source>
+  [[gnu::always_inline]] static typename S::F value(const V3<S>& p, const PatternRecord& r,
+                                                    const Source& source) {
     const float amount = r.turbulence.amount[0];
     if (amount == 0.0f) return p.x;
-    return p.x + noise::turbulence_value<S>(p, r.turbulence, has_first_generator(r)) * typename S::F(amount);
+    return p.x + source.turbulence_value(p, r.turbulence) * typename S::F(amount);
   }
 };
 

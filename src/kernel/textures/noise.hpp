@@ -15,10 +15,10 @@ namespace celltrace::kernel::noise {
 template <class S> struct LatticeCells {
   using F = typename S::F;
   using I = typename S::I;
-  /// Numbers of the lattice planes on both sides, by axis.
-  alignas(64) int32_t lattice[3][2][S::kLanes];
-  F from[3][2]; ///< distance from them, signed
-  F weight[3][2];
+  /// Numbers of the lattice planes below, by axis.
+  alignas(64) int32_t lattice[3][S::kLanes];
+  F from[3];   ///< distance from them, in 0..1
+  F weight[3]; ///< of the lattice planes above
 
   explicit LatticeCells(const V3<S>& p) {
     const F* const coordinate[3] = {&p.x, &p.y, &p.z};
@@ -26,31 +26,27 @@ template <class S> struct LatticeCells {
     for (uint32_t axis = 0; axis < 3; ++axis) {
       I whole;
       const F a = fraction<S>(*coordinate[axis], whole);
-      const I below = (whole + I::splat(10000)) & mask;
-      below.store(lattice[axis][0]);
-      ((below + I::splat(1)) & mask).store(lattice[axis][1]);
-      from[axis][0] = a;
-      from[axis][1] = a - F(1.0f);
-      weight[axis][1] = a * a * (F(3.0f) - a - a);
-      weight[axis][0] = F(1.0f) - weight[axis][1];
+      ((whole + I::splat(10000)) & mask).store(lattice[axis]);
+      from[axis] = a;
+      weight[axis] = a * a * (F(3.0f) - a - a);
     }
   }
-  /// Whether all points are in the same cell.
-  bool are_equal() const {
-    int32_t difference = 0;
-    for (uint32_t axis = 0; axis < 3; ++axis)
-      for (uint32_t lane = 0; lane < S::kLanes; ++lane)
-        difference |= lattice[axis][0][lane] ^ lattice[axis][0][0];
-    return difference == 0;
-  }
+  /// Lanes are in one cell if the lattice points below are the same.
+  static constexpr uint32_t kKeys = 3;
+  const int32_t* keys(uint32_t axis) const { return lattice[axis]; }
   /// Where in kLattice the numbers of the eight points around a lane are: in the order of z, x, y.
   void operator()(uint32_t lane, uint32_t (&starts)[8]) const {
-    const uint32_t in_row[2] = {kHash.entry[lattice[0][0][lane]], kHash.entry[lattice[0][1][lane]]};
+    uint32_t plane[3][2];
+    for (uint32_t axis = 0; axis < 3; ++axis) {
+      plane[axis][0] = static_cast<uint32_t>(lattice[axis][lane]);
+      plane[axis][1] = (plane[axis][0] + 1) & (kPeriod - 1);
+    }
+    const uint32_t in_row[2] = {kHash.entry[plane[0][0]], kHash.entry[plane[0][1]]};
     const auto look_up = [&](uint32_t x, uint32_t y) __attribute__((always_inline)) {
-      const uint32_t in_column = kHash.entry[in_row[x] ^ lattice[1][y][lane]];
+      const uint32_t in_column = kHash.entry[in_row[x] ^ plane[1][y]];
       const uint32_t first = 2 * x + 4 * y;
-      starts[first] = kHash.entry[in_column ^ lattice[2][0][lane]] & 255;
-      starts[first + 1] = kHash.entry[in_column ^ lattice[2][1][lane]] & 255;
+      starts[first] = kHash.entry[in_column ^ plane[2][0]] & 255;
+      starts[first + 1] = kHash.entry[in_column ^ plane[2][1]] & 255;
     };
     look_up(0, 0);
     look_up(1, 0);
@@ -59,30 +55,43 @@ template <class S> struct LatticeCells {
   }
 };
 
+/// Where rare code takes fewer lanes than a packet has, local store is short: one copy of the code does for
+/// all that ask.
+template <class S> constexpr bool kOneCopy = S::kLanes < kSimdLanes;
+/// And for values as well as for vectors.
+template <class S> constexpr uint32_t kValueChannels = kOneCopy<S> ? 3 : 1;
+
 /// Noise in `kChannels` coordinates, about 0.
 template <class S, uint32_t kChannels>
-[[gnu::noinline]] void make_noise(const V3<S>& p, typename S::F (&noise)[kChannels]) {
+[[gnu::always_inline]] inline void make_noise_inline(const V3<S>& p, typename S::F (&noise)[kChannels]) {
   using F = typename S::F;
   const LatticeCells<S> cells(p);
-  F factors[8][4];
-  for (uint32_t column = 0; column < 4; ++column) {
-    const uint32_t x = column & 1, y = column >> 1;
-    const F weight = cells.weight[0][x] * cells.weight[1][y];
-    for (uint32_t z = 0; z < 2; ++z) {
-      const F share = weight * cells.weight[2][z];
-      F(&row)[4] = factors[2 * column + z];
-      row[0] = share * F(0.5f);
-      row[1] = share * cells.from[0][x];
-      row[2] = share * cells.from[1][y];
-      row[3] = share * cells.from[2][z];
+  // Half the weights of the cell's edges along x, by y and z. What an upper corner leaves of an edge's weight
+  // is the lower one's, and so on: differences instead of products.
+  const F(&weight)[3] = cells.weight;
+  F edge[2][2];
+  const F upper_z = weight[2] * F(0.5f), lower_z = F(0.5f) - upper_z;
+  edge[1][1] = weight[1] * upper_z;
+  edge[0][1] = upper_z - edge[1][1];
+  edge[1][0] = weight[1] * lower_z;
+  edge[0][0] = lower_z - edge[1][0];
+  const auto factors_of = [&](uint32_t row, F(&factors)[4]) __attribute__((always_inline)) {
+    const bool is_upper[3] = {(row & 2) != 0, (row & 4) != 0, (row & 1) != 0};
+    const F both = edge[is_upper[1]][is_upper[2]], upper = weight[0] * both;
+    factors[0] = is_upper[0] ? upper : both - upper;
+    const F share = factors[0] + factors[0];
+    for (uint32_t axis = 0; axis < 3; ++axis) {
+      const F product = share * cells.from[axis];
+      factors[1 + axis] = is_upper[axis] ? product - share : product;
     }
-  }
-  S::sum_rows(kLattice, cells, factors, noise);
+  };
+  S::template sum_rows<8>(kLattice, cells, factors_of, noise);
 }
 
-/// Where rare code takes fewer lanes than a packet has, local store is short: one copy of the code does for
-/// values and vectors.
-template <class S> constexpr uint32_t kValueChannels = S::kLanes < kSimdLanes ? 3 : 1;
+template <class S, uint32_t kChannels>
+[[gnu::noinline]] void make_noise(const V3<S>& p, typename S::F (&noise)[kChannels]) {
+  make_noise_inline<S>(p, noise);
+}
 
 /// In 0..1. `first_generator`: as POV-Ray's generator 1 scales it, otherwise as generator 2 does.
 template <class S> typename S::F value(const V3<S>& p, bool first_generator) {
@@ -103,9 +112,10 @@ template <class S> typename S::F spread_value(const V3<S>& p, bool first_generat
   const F spread_out = spread<S>(value<S>(p, first_generator), first_generator);
   return S::min(S::max(spread_out, F(0.0f)), F(1.0f));
 }
-/// Octaves of value(). As in POV-Ray, only the first one is clipped.
+/// Octaves of value(). As in POV-Ray, only the first one is clipped. Not inlined: one copy does for all.
 template <class S>
-typename S::F turbulence_value(const V3<S>& p, const TurbulenceWords& t, bool first_generator) {
+[[gnu::noinline]] typename S::F turbulence_value(const V3<S>& p, const TurbulenceWords& t,
+                                                 bool first_generator) {
   using F = typename S::F;
   F sum = spread_value<S>(p, first_generator);
   float scale = t.lambda, strength = t.omega;
@@ -116,6 +126,23 @@ typename S::F turbulence_value(const V3<S>& p, const TurbulenceWords& t, bool fi
   }
   return sum;
 }
+
+/// What patterns of noise get their values from: generators 1 and 2. The other source is GradientNoise.
+template <class S> struct LatticeNoise {
+  using F = typename S::F;
+  const PatternRecord& record;
+
+  [[gnu::always_inline]] F value(const V3<S>& p) const { return noise::value<S>(p, first_generator()); }
+  [[gnu::always_inline]] F spread_value(const V3<S>& p) const {
+    return noise::spread_value<S>(p, first_generator());
+  }
+  [[gnu::always_inline]] F turbulence_value(const V3<S>& p, const TurbulenceWords& t) const {
+    return noise::turbulence_value<S>(p, t, first_generator());
+  }
+  [[gnu::always_inline]] bool first_generator() const {
+    return (record.kind_and_flags & pattern_flag::first_generator) != 0;
+  }
+};
 
 /// Three coordinates, about 0.
 template <class S> V3<S> vector(const V3<S>& p) {
@@ -131,7 +158,12 @@ template <class S> V3<S> turbulence(const V3<S>& p, uint32_t octaves, float lamb
   V3<S> sum = {zero, zero, zero};
   float scale = 1.0f, strength = 1.0f;
   for (uint32_t octave = 0; octave < octaves; ++octave) {
-    sum = sum + vector<S>(p * F(scale)) * F(strength);
+    F noise[3];
+    if constexpr (kOneCopy<S>)
+      make_noise<S>(p * F(scale), noise);
+    else
+      make_noise_inline<S>(p * F(scale), noise);
+    sum = sum + V3<S>{noise[0], noise[1], noise[2]} * F(strength);
     scale *= lambda;
     strength *= omega;
   }

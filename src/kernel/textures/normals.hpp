@@ -7,9 +7,31 @@ namespace celltrace::kernel {
 
 namespace detail {
 
+/// What a slope map makes of a pattern's value: the height that curves through its entries have there, each
+/// with the entry's slope (Hermite).
+template <class Spu>
+typename Spu::rare_simd::F height_of(SceneAccess<Spu>& scene, const PatternRecord& r,
+                                     const typename Spu::rare_simd::F& value) {
+  using S = typename Spu::rare_simd;
+  using F = typename S::F;
+  using M = typename S::M;
+  F height(0.0f);
+  find_interval<S>(
+      scene, r, value,
+      [&](const M& some, uint32_t, const MapEntryRecord& entry) {
+        height = S::select(some, F(entry.rgb[0]), height);
+      },
+      [&](const M& some, uint32_t, const MapEntryRecord& below, const MapEntryRecord& above, const F& t) {
+        const F one(1.0f), rest = one - t, rise = t * t * (F(3.0f) - t - t);
+        const F bend = t * rest * (F(below.rgb[1]) * rest - F(above.rgb[1]) * t);
+        height = S::select(some, F(below.rgb[0]) * (one - rise) + F(above.rgb[0]) * rise + bend, height);
+      });
+  return height;
+}
+
 /// Less the slope of the pattern's values, from four points around each.
 template <class Spu>
-V3<typename Spu::rare_simd> slope_disturbance(Spu& spu, const PatternRecord& r,
+V3<typename Spu::rare_simd> slope_disturbance(SceneAccess<Spu>& scene, const PatternRecord& r,
                                               const V3<typename Spu::rare_simd>& p, float accuracy) {
   using S = typename Spu::rare_simd;
   using F = typename S::F;
@@ -21,7 +43,9 @@ V3<typename Spu::rare_simd> slope_disturbance(Spu& spu, const PatternRecord& r,
   V3<S> sum = {F(0.0f), F(0.0f), F(0.0f)};
   for (const float(&corner)[3] : kCorners) {
     const V3<S> to = splat3<S>(corner);
-    sum = sum + to * pattern_value(spu, r, p + to * F(accuracy));
+    F value = pattern_value(scene, r, p + to * F(accuracy));
+    if (r.entry_count != 0) value = height_of(scene, r, value);
+    sum = sum + to * value;
   }
   return sum * F(-0.1f / accuracy);
 }
@@ -45,22 +69,42 @@ inline void cofactors(const float (&m)[9], float (&c)[9]) {
 template <class Spu>
 [[gnu::noinline]] void
 disturb_by(SceneAccess<Spu>& scene, const NormalRecord& normal, const V3<typename Spu::rare_simd>& point,
-           const V3<typename Spu::rare_simd>& unit, V3<typename Spu::rare_simd>& disturbed) {
+           uint32_t lanes, const V3<typename Spu::rare_simd>& unit, V3<typename Spu::rare_simd>& disturbed) {
   using S = typename Spu::rare_simd;
   using F = typename S::F;
   Spu& spu = scene.spu();
   const PatternRecord r = *scene.pattern(normal.pattern);
-  const V3<S> p = to_pattern_space<TextureStage::normals>(scene, r, point);
+  const V3<S> p = to_pattern_space<TextureStage::normals>(scene, r, point, lanes);
   float c[9];
   cofactors(normal.linear, c);
   const V3<S> local = normalise<S>(
       {dot<S>(splat3<S>(c), unit), dot<S>(splat3<S>(c + 3), unit), dot<S>(splat3<S>(c + 6), unit)});
   V3<S> change;
-  if (disturbs(r.kind_and_flags & pattern_flag::kind_mask)) {
+  const uint32_t kind = r.kind_and_flags & pattern_flag::kind_mask;
+  if (kind == kPatternKind<BumpsPattern> && (r.kind_and_flags & pattern_flag::at_features) != 0) {
+    // Facets: along the surface, by the noise of the point of their cell.
+    spu.enter_module(modules::kRarePatterns);
+    const V3<S> facet = module_rare::nearest_feature(scene, r, p * F(10.0f));
+    spu.enter_module(modules::kNoise);
+    change = module_noise::disturbance(spu, r, facet);
+    change = change - local * dot<S>(change, local);
+  } else if (kind == kPatternKind<DentsPattern> && (r.kind_and_flags & pattern_flag::gradient_noise) != 0) {
+    // The depth is of generator 3, which has no vectors.
+    PatternRecord part = r;
+    constexpr auto kNoWave = static_cast<uint32_t>(PatternWave::none) << pattern_flag::wave_shift;
+    part.kind_and_flags = kind | kNoWave | pattern_flag::gradient_noise;
+    const F depth = pattern_value(scene, part, p);
+    part.kind_and_flags = kPatternKind<BumpsPattern>;
+    spu.enter_module(modules::kNoise);
+    change = module_noise::disturbance(spu, part, p) * depth;
+  } else if (!disturbs(kind)) {
+    change = slope_disturbance(scene, r, p, normal.accuracy);
+  } else if (Patterns::kCode[kind] == PatternCode::rare) {
+    spu.enter_module(modules::kRarePatterns);
+    change = module_rare::disturbance(scene, r, p);
+  } else {
     spu.enter_module(modules::kNoise);
     change = module_noise::disturbance(spu, r, p);
-  } else {
-    change = slope_disturbance(spu, r, p, normal.accuracy);
   }
   const V3<S> n = local + change * F(normal.amount);
   const float* const m = normal.linear;
@@ -77,7 +121,7 @@ void disturb_part(SceneAccess<Spu>& scene, const NormalRecord& record,
   const auto take = S::M::from_bits(lanes);
   V3<S> disturbed;
   if (record.is_mapped == 0) {
-    disturb_by(scene, record, point, unit, disturbed);
+    disturb_by(scene, record, point, lanes, unit, disturbed);
     unit = select<S>(take, disturbed, unit);
     return;
   }
@@ -89,7 +133,7 @@ void disturb_part(SceneAccess<Spu>& scene, const NormalRecord& record,
   uint32_t some;
   while (walk.next(entry, weight, some)) {
     const NormalRecord leaf = *scene.normal(entry.child);
-    disturb_by(scene, leaf, point, unit, disturbed);
+    disturb_by(scene, leaf, point, some, unit, disturbed);
     sum = sum + disturbed * weight;
   }
   unit = select<S>(take, normalise<S>(sum), unit);

@@ -12,7 +12,7 @@ struct OnionPattern : BlendPattern {
   template <class S> static typename S::F value(const V3<S>& p, const PatternRecord&) {
     using F = typename S::F;
     const F distance = snap<S>(S::sqrt(dot<S>(p, p)));
-    return distance - whole_below<S>(distance);
+    return distance - S::floor(distance);
   }
 };
 

@@ -6,14 +6,15 @@
 namespace celltrace::kernel {
 
 /// Where in local store a pattern's code is: always there, for little code that scenes are full of; in the
-/// module of patterns; or in that of the noise.
-enum class PatternCode : uint32_t { resident, plain, noise };
+/// module of patterns; in that of the noise; or in that of rare patterns.
+enum class PatternCode : uint32_t { resident, plain, noise, rare };
 
 /// A number at every point, which a map blends by.
 struct BlendPattern {
   static constexpr bool kIsList = false;
   static constexpr PatternCode kCode = PatternCode::plain;
   static constexpr bool kDisturbs = false;
+  static constexpr bool kReadsNoise = false;
 };
 
 /// The number of a map's entry at every point.
@@ -24,10 +25,12 @@ struct ListPattern : BlendPattern {
 /// Its code is with the noise's, into which it is inlined always.
 struct NoisePattern : BlendPattern {
   static constexpr PatternCode kCode = PatternCode::noise;
+  static constexpr bool kReadsNoise = true; ///< its value depends on the generator
+};
 
-  static bool has_first_generator(const PatternRecord& r) {
-    return (r.kind_and_flags & pattern_flag::first_generator) != 0;
-  }
+/// Few scenes have it; it may read a table of the scene image. Its functions are inlined always.
+struct RarePattern : BlendPattern {
+  static constexpr PatternCode kCode = PatternCode::rare;
 };
 
 } // namespace celltrace::kernel

@@ -1,12 +1,15 @@
 // The value of a pattern at points, a part of a packet's lanes at a time. Kernel dialect.
 //
-// Patterns have two code modules: those of noise, which brings its tables along, and the others, but for few
-// whose code is always there.
+// Patterns have code modules: those of noise, which brings its tables along, those that are rare, many of
+// which read tables of the scene image, and the others, but for few whose code is always there.
 #pragma once
 
 #include "kernel/modules.hpp"
+#include "kernel/parts.hpp"
 #include "kernel/scene_access.hpp"
+#include "kernel/textures/gradient_noise.hpp"
 #include "kernel/textures/list.hpp"
+#include "kernel/textures/warps.hpp"
 #include "kernel/textures/wave.hpp"
 
 namespace celltrace::kernel {
@@ -20,9 +23,14 @@ template <PatternCode kCode, class S>
   typename S::F value(0.0f);
   Patterns::dispatch(r.kind_and_flags & pattern_flag::kind_mask, [&](auto pattern) {
     using Pattern = decltype(pattern);
-    if constexpr (Pattern::kCode == kCode) value = Pattern::template value<S>(p, r);
+    if constexpr (Pattern::kCode == kCode) {
+      if constexpr (kCode == PatternCode::noise)
+        value = Pattern::template value<S>(p, r, noise::LatticeNoise<S>{r});
+      else
+        value = Pattern::template value<S>(p, r);
+    }
   });
-  return wave_of<S>(r, value);
+  return wave_of(r) == PatternWave::none ? value : in_wave_form<S>(r, value);
 }
 
 namespace module_patterns {
@@ -63,26 +71,102 @@ template <class Spu>
   V3<S> added = {zero, zero, zero};
   Patterns::dispatch(r.kind_and_flags & pattern_flag::kind_mask, [&](auto pattern) {
     using Pattern = decltype(pattern);
-    if constexpr (Pattern::kDisturbs) added = Pattern::template disturbance<S>(p, r);
+    if constexpr (Pattern::kDisturbs && Pattern::kCode != PatternCode::rare)
+      added = Pattern::template disturbance<S>(p, r);
   });
   return added;
 }
 
 } // namespace module_noise
 
-/// Points in the space of a pattern.
+namespace module_warps {
+
+template <class Spu>
+[[gnu::noinline]] V3<typename Spu::rare_simd> bent(SceneAccess<Spu>& scene, const SpaceStepRecord& step,
+                                                   const V3<typename Spu::rare_simd>& p) {
+  using S = typename Spu::rare_simd;
+  scene.spu().run_in_module(modules::kWarps);
+  const auto kind = static_cast<WarpKind>(step.kind_and_flags & warp_flag::kind_mask);
+  switch (kind) {
+  case WarpKind::repeat:
+    return warps::repeated<S>(step, p);
+  case WarpKind::black_hole:
+    return warps::attracted(scene, step, p);
+  default:
+    return warps::unwrapped<S>(kind, step, p);
+  }
+}
+
+} // namespace module_warps
+
+namespace module_rare {
+
+
+/// The random points that are nearest to points.
+template <class Spu>
+[[gnu::noinline]] V3<typename Spu::rare_simd> nearest_feature(SceneAccess<Spu>& scene, const PatternRecord& r,
+                                                              const V3<typename Spu::rare_simd>& p) {
+  scene.spu().run_in_module(modules::kRarePatterns);
+  return CracklePattern::nearest_of<Spu>(scene, p, r, 0).point;
+}
+
+/// Of rare patterns, and of those of noise with generator 3.
+template <class Spu>
+[[gnu::noinline]] typename Spu::rare_simd::F value(SceneAccess<Spu>& scene, const PatternRecord& r,
+                                                   const V3<typename Spu::rare_simd>& p) {
+  using S = typename Spu::rare_simd;
+  scene.spu().run_in_module(modules::kRarePatterns);
+  const noise::GradientNoise<Spu> source(scene, r.table);
+  V3<S> q = p;
+  if ((r.kind_and_flags & pattern_flag::at_features) != 0) q = nearest_feature(scene, r, p);
+  typename S::F value(0.0f);
+  Patterns::dispatch(r.kind_and_flags & pattern_flag::kind_mask, [&](auto pattern) {
+    using Pattern = decltype(pattern);
+    if constexpr (Pattern::kCode == PatternCode::rare) value = Pattern::template value<Spu>(scene, p, r);
+    if constexpr (Pattern::kReadsNoise) value = Pattern::template value<S>(q, r, source);
+  });
+  return wave_of(r) == PatternWave::none ? value : in_wave_form<S>(r, value);
+}
+
+/// As that of the noise.
+template <class Spu>
+[[gnu::noinline]] V3<typename Spu::rare_simd> disturbance(SceneAccess<Spu>& scene, const PatternRecord& r,
+                                                          const V3<typename Spu::rare_simd>& p) {
+  using S = typename Spu::rare_simd;
+  scene.spu().run_in_module(modules::kRarePatterns);
+  const typename S::F zero(0.0f);
+  V3<S> added = {zero, zero, zero};
+  Patterns::dispatch(r.kind_and_flags & pattern_flag::kind_mask, [&](auto pattern) {
+    using Pattern = decltype(pattern);
+    if constexpr (Pattern::kDisturbs && Pattern::kCode == PatternCode::rare)
+      added = Pattern::template disturbance<Spu>(scene, p, r);
+  });
+  return added;
+}
+
+} // namespace module_rare
+
+/// Points of `lanes` in the space of a pattern. Other lanes get any points.
 template <TextureStage kStage, class Spu>
 [[gnu::noinline]] V3<typename Spu::rare_simd>
-to_pattern_space(SceneAccess<Spu>& scene, const PatternRecord& r, const V3<typename Spu::rare_simd>& point) {
+to_pattern_space(SceneAccess<Spu>& scene, const PatternRecord& r, const V3<typename Spu::rare_simd>& point,
+                 uint32_t lanes) {
   using S = typename Spu::rare_simd;
   Spu& spu = scene.spu();
   V3<S> p = map_point<S>(r.to_space, point);
+  move_idle_lanes<Spu>(p, lanes);
   for (uint32_t i = 0; i < r.step_count; ++i) {
     // A copy: the next read may replace the record.
     const SpaceStepRecord step =
         *scene.space_step(r.steps + i * static_cast<uint32_t>(sizeof(SpaceStepRecord)));
-    spu.enter_module(modules::kNoise);
-    p = map_point<S>(step.to_space, module_noise::displaced(spu, step.turbulence, p));
+    if ((step.kind_and_flags & warp_flag::kind_mask) == static_cast<uint32_t>(WarpKind::turbulence)) {
+      spu.enter_module(modules::kNoise);
+      p = module_noise::displaced(spu, step.turbulence, p);
+    } else {
+      spu.enter_module(modules::kWarps);
+      p = module_warps::bent(scene, step, p);
+    }
+    p = map_point<S>(step.to_space, p);
   }
   if ((r.kind_and_flags & pattern_flag::turbulent) != 0) {
     spu.enter_module(modules::kNoise);
@@ -91,20 +175,33 @@ to_pattern_space(SceneAccess<Spu>& scene, const PatternRecord& r, const V3<typen
   return p;
 }
 
-/// At points in the pattern's own space, wave included.
+/// At points in the pattern's own space, wave included. One copy, which is always there.
 template <class Spu>
-typename Spu::rare_simd::F pattern_value(Spu& spu, const PatternRecord& r,
+typename Spu::rare_simd::F pattern_value(SceneAccess<Spu>& scene, const PatternRecord& r,
                                          const V3<typename Spu::rare_simd>& p) {
+  Spu& spu = scene.spu();
   spu.compute(scalar_work::kPattern);
-  switch (Patterns::kCode[r.kind_and_flags & pattern_flag::kind_mask]) {
+  const bool is_gradient_noise = (r.kind_and_flags & pattern_flag::gradient_noise) != 0;
+  switch (is_gradient_noise ? PatternCode::rare : Patterns::kCode[r.kind_and_flags & pattern_flag::kind_mask]) {
   case PatternCode::resident:
     break;
   case PatternCode::plain:
     spu.enter_module(modules::kPatterns);
     return module_patterns::value(spu, r, p);
-  case PatternCode::noise:
+  case PatternCode::noise: {
+    const V3<typename Spu::rare_simd>* at = &p;
+    V3<typename Spu::rare_simd> nearest;
+    if ((r.kind_and_flags & pattern_flag::at_features) != 0) {
+      spu.enter_module(modules::kRarePatterns);
+      nearest = module_rare::nearest_feature(scene, r, p);
+      at = &nearest;
+    }
     spu.enter_module(modules::kNoise);
-    return module_noise::value(spu, r, p);
+    return module_noise::value(spu, r, *at);
+  }
+  case PatternCode::rare:
+    spu.enter_module(modules::kRarePatterns);
+    return module_rare::value(scene, r, p);
   }
   return value_of<PatternCode::resident>(r, p);
 }

@@ -13,25 +13,77 @@ template <class S> struct PigmentLanes {
   V3<S> transmittance() const { return rgb * filter + V3<S>{transmit, transmit, transmit}; }
 };
 
-/// The pigment of a pattern at the points of `lanes`, of a part of a packet.
+template <class S> PigmentLanes<S> pigment_of(const MapEntryRecord& entry) {
+  using F = typename S::F;
+  return {splat3<S>(entry.rgb), F(entry.filter), F(entry.transmit)};
+}
+template <class S> PigmentLanes<S> operator*(const PigmentLanes<S>& pigment, const typename S::F& weight) {
+  return {pigment.rgb * weight, pigment.filter * weight, pigment.transmit * weight};
+}
+template <class S> PigmentLanes<S> operator+(const PigmentLanes<S>& a, const PigmentLanes<S>& b) {
+  return {a.rgb + b.rgb, a.filter + b.filter, a.transmit + b.transmit};
+}
+template <class S>
+PigmentLanes<S> select(const typename S::M& lanes, const PigmentLanes<S>& a, const PigmentLanes<S>& b) {
+  return {select<S>(lanes, a.rgb, b.rgb), S::select(lanes, a.filter, b.filter),
+          S::select(lanes, a.transmit, b.transmit)};
+}
+
+namespace detail {
+
+/// Of a pattern whose map has colours only: the entries on both sides of its values, blended.
 template <class Spu>
-[[gnu::noinline]] void pigment_at(SceneAccess<Spu>& scene, uint32_t pattern,
-                                  const V3<typename Spu::rare_simd>& point, uint32_t lanes,
-                                  PigmentLanes<typename Spu::rare_simd>& sum) {
+[[gnu::noinline]] void blend_colours(SceneAccess<Spu>& scene, uint32_t pattern,
+                                     const V3<typename Spu::rare_simd>& point, uint32_t lanes,
+                                     PigmentLanes<typename Spu::rare_simd>& pigment) {
+  using S = typename Spu::rare_simd;
+  using F = typename S::F;
+  using M = typename S::M;
+  const PatternRecord r = *scene.pattern(pattern);
+  const F value = pattern_value(scene, r, to_pattern_space<TextureStage::colours>(scene, r, point, lanes));
+  const F zero(0.0f);
+  pigment = {{zero, zero, zero}, zero, zero};
+  find_interval<S>(
+      scene, r, value,
+      [&](const M& some, uint32_t, const MapEntryRecord& entry) {
+        pigment = select<S>(some, pigment_of<S>(entry), pigment);
+      },
+      [&](const M& some, uint32_t, const MapEntryRecord& below, const MapEntryRecord& above, const F& share) {
+        const PigmentLanes<S> blend = pigment_of<S>(below) * (F(1.0f) - share) + pigment_of<S>(above) * share;
+        pigment = select<S>(some, blend, pigment);
+      });
+}
+
+/// Of any pattern: the leaves of its tree of maps, by their weights.
+template <class Spu>
+[[gnu::noinline]] void add_up_leaves(SceneAccess<Spu>& scene, uint32_t pattern,
+                                     const V3<typename Spu::rare_simd>& point, uint32_t lanes,
+                                     PigmentLanes<typename Spu::rare_simd>& pigment) {
   using S = typename Spu::rare_simd;
   using F = typename S::F;
   const F zero(0.0f);
-  sum = {{zero, zero, zero}, zero, zero};
+  pigment = {{zero, zero, zero}, zero, zero};
   MapWalk<Spu, TextureStage::colours> walk(scene, point);
   walk.enter(pattern, F(1.0f), lanes);
   MapEntryRecord entry;
   F weight;
   uint32_t some;
-  while (walk.next(entry, weight, some)) {
-    sum.rgb = sum.rgb + splat3<S>(entry.rgb) * weight;
-    sum.filter = sum.filter + weight * F(entry.filter);
-    sum.transmit = sum.transmit + weight * F(entry.transmit);
-  }
+  while (walk.next(entry, weight, some))
+    pigment = pigment + pigment_of<S>(entry) * weight;
+}
+
+} // namespace detail
+
+/// The pigment of a pattern at the points of `lanes`, of a part of a packet.
+template <class Spu>
+void pigment_at(SceneAccess<Spu>& scene, uint32_t pattern, const V3<typename Spu::rare_simd>& point,
+                uint32_t lanes, PigmentLanes<typename Spu::rare_simd>& pigment) {
+  const uint32_t flags = scene.pattern(pattern)->kind_and_flags;
+  if ((flags & (pattern_flag::nested | pattern_flag::average)) == 0 &&
+      !Patterns::kAreLists[flags & pattern_flag::kind_mask])
+    detail::blend_colours(scene, pattern, point, lanes, pigment);
+  else
+    detail::add_up_leaves(scene, pattern, point, lanes, pigment);
 }
 
 } // namespace celltrace::kernel

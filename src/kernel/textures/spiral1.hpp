@@ -17,7 +17,7 @@ struct Spiral1Pattern : BlendPattern {
   template <class S> static typename S::F wound(const V3<S>& p, const PatternRecord& r) {
     using F = typename S::F;
     const F turns = turns_of<S>(p.y, p.x) + F(0.25f); // from -y on
-    return (turns - whole_below<S>(turns)) * F(r.parameter[0]);
+    return (turns - S::floor(turns)) * F(r.parameter[0]);
   }
 };
 

@@ -16,7 +16,7 @@ struct Spiral2Pattern : BlendPattern {
 
   template <class S> static typename S::F triangle(const typename S::F& x) {
     using F = typename S::F;
-    const F part = x - whole_below<S>(x);
+    const F part = x - S::floor(x);
     return S::min(part + part, F(2.0f) - part - part);
   }
 };

@@ -13,9 +13,9 @@ struct TriangularPattern : ListPattern {
     using F = typename S::F;
     constexpr float kInverseRoot = 0.577350269f; // of 3
     const F row = p.z * F(kInverseRoot);
-    const F a = whole_below<S>(snap<S>(row + row));
-    const F b = -whole_below<S>(snap<S>(row - p.x)) - F(1.0f);
-    const F c = whole_below<S>(snap<S>(p.x + row));
+    const F a = S::floor(snap<S>(row + row));
+    const F b = -S::floor(snap<S>(row - p.x)) - F(1.0f);
+    const F c = S::floor(snap<S>(p.x + row));
     const F third = remainder<S>(b + c, 3.0f), half = remainder<S>(c - b - a, 2.0f);
     // (0, 0) is 0, (0, 1) 5, (1, 0) 2, (1, 1) 3, (2, 0) 4, (2, 1) 1.
     const F odd = S::select(third == F(0.0f), F(5.0f), S::select(third == F(1.0f), F(3.0f), F(1.0f)));

@@ -6,20 +6,24 @@
 
 namespace celltrace::kernel {
 
+inline PatternWave wave_of(const PatternRecord& r) {
+  return static_cast<PatternWave>(r.kind_and_flags >> pattern_flag::wave_shift & pattern_flag::wave_mask);
+}
+
 /// As POV-Ray: values repeat after slightly more than 1, so that 1 itself is the end and not the beginning. A
 /// result may be as much above 1. One copy, which is always there: both modules of patterns end with it.
 template <class S>
-[[gnu::noinline]] typename S::F wave_of(const PatternRecord& r, const typename S::F& value) {
+[[gnu::noinline]] typename S::F in_wave_form(const PatternRecord& r, const typename S::F& value) {
   using F = typename S::F;
   constexpr float kRepeat = 1.00001f;
-  const auto wave =
-      static_cast<PatternWave>(r.kind_and_flags >> pattern_flag::wave_shift & pattern_flag::wave_mask);
-  if (wave == PatternWave::none) return value;
   F v = value * F(r.frequency) + F(r.phase);
-  v = v - S::to_float(S::to_int(v * F(1.0f / kRepeat))) * F(kRepeat);
-  v = v - S::select(v < F(0.0f), whole_below<S>(v), F(0.0f));
-  const F turn = v - whole_below<S>(v);
-  switch (wave) {
+  if (((v < F(0.0f)) | (v > F(1.0f))).bits() != 0) {
+    v = v - S::to_float(S::to_int(v * F(1.0f / kRepeat))) * F(kRepeat);
+    v = v - S::select(v < F(0.0f), S::floor(v), F(0.0f));
+  }
+  if (wave_of(r) == PatternWave::ramp) return v;
+  const F turn = v - S::floor(v);
+  switch (wave_of(r)) {
   case PatternWave::triangle:
     return S::select(turn <= F(0.5f), turn + turn, F(2.0f) - turn - turn);
   case PatternWave::sine:

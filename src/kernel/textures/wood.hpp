@@ -8,15 +8,17 @@ namespace celltrace::kernel {
 
 struct WoodPattern : NoisePattern {
   static constexpr const char* kName = "wood";
+  static constexpr bool kReadsNoise = false; // but vectors of it
 
-  template <class S>
-  [[gnu::always_inline]] static typename S::F value(const V3<S>& p, const PatternRecord& r) {
+  template <class S, class Source>
+  [[gnu::always_inline]] static typename S::F value(const V3<S>& p, const PatternRecord& r,
+                                                    const Source&) {
     using F = typename S::F;
     const TurbulenceWords& t = r.turbulence;
     F x = p.x, y = p.y;
     if (t.amount[0] != 0.0f || t.amount[1] != 0.0f) {
       const V3<S> noise = noise::turbulence<S>(p, t.octaves, t.lambda, t.omega);
-      const auto bend = [](const F& turns) { return sine_of_turns<S>(turns - whole_below<S>(turns)); };
+      const auto bend = [](const F& turns) { return sine_of_turns<S>(turns - S::floor(turns)); };
       x = x + bend((x + noise.x) * F(t.amount[0]));
       y = y + bend((y + noise.y) * F(t.amount[1]));
     }

@@ -11,13 +11,14 @@ struct WrinklesPattern : NoisePattern {
 
   static constexpr bool kDisturbs = true;
 
-  template <class S>
-  [[gnu::always_inline]] static typename S::F value(const V3<S>& p, const PatternRecord& r) {
+  template <class S, class Source>
+  [[gnu::always_inline]] static typename S::F value(const V3<S>& p, const PatternRecord&,
+                                                    const Source& source) {
     using F = typename S::F;
     F sum(0.0f);
     float scale = 1.0f, strength = 0.5f;
     for (uint32_t octave = 0; octave < 10; ++octave, scale *= 2.0f, strength *= 0.5f)
-      sum = sum + noise::spread_value<S>(p * F(scale), has_first_generator(r)) * F(strength);
+      sum = sum + source.spread_value(p * F(scale)) * F(strength);
     return sum;
   }
   template <class S> [[gnu::always_inline]] static V3<S> disturbance(const V3<S>& p, const PatternRecord&) {

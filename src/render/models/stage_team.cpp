@@ -120,8 +120,11 @@ bool StageTeam::finished() const {
 }
 
 void StageTeam::stop() {
-  for (const Pipeline& pipeline : pipelines_)
-    if (!pipeline.finished) machine_.write_signal(pipeline.head, Signal::two, bell::stop);
+  for (unsigned spe = 0; spe < plan_.spes.size(); ++spe) {
+    const StagePlan::Spe& planned = plan_.spes[spe];
+    if ((planned.orders.tasks & (task::generate | task::shade)) != 0 && !pipelines_[planned.pipeline].finished)
+      machine_.write_signal(spe, Signal::two, bell::stop);
+  }
 }
 
 /// No job is under way anywhere: the programs may end.

@@ -1,0 +1,222 @@
+// Sums of rows of a table, as Spu::simd's sum_rows() promises them, on the host: all lanes at once where
+// their rows are the same, otherwise lane by lane. Both do the same operations in the same order.
+#pragma once
+
+#include <stdint.h>
+
+#include <utility>
+#include <xsimd/xsimd.hpp>
+
+namespace celltrace::simd_host {
+
+/// In each 128 bits, the two lower or the two higher numbers of `a` and `b` in turn.
+template <class Batch> [[gnu::always_inline]] inline Batch zip_low(const Batch& a, const Batch& b) {
+#if defined(__AVX512F__)
+  if constexpr (Batch::size == 16) return _mm512_unpacklo_ps(a, b);
+#endif
+#if defined(__AVX__)
+  if constexpr (Batch::size == 8) return _mm256_unpacklo_ps(a, b);
+#endif
+  if constexpr (Batch::size == 4) return xsimd::zip_lo(a, b);
+}
+template <class Batch> [[gnu::always_inline]] inline Batch zip_high(const Batch& a, const Batch& b) {
+#if defined(__AVX512F__)
+  if constexpr (Batch::size == 16) return _mm512_unpackhi_ps(a, b);
+#endif
+#if defined(__AVX__)
+  if constexpr (Batch::size == 8) return _mm256_unpackhi_ps(a, b);
+#endif
+  if constexpr (Batch::size == 4) return xsimd::zip_hi(a, b);
+}
+template <class Batch>
+[[gnu::always_inline]] inline void transpose_quads(Batch& a, Batch& b, Batch& c, Batch& d) {
+  const Batch ac_low = zip_low(a, c), ac_high = zip_high(a, c);
+  const Batch bd_low = zip_low(b, d), bd_high = zip_high(b, d);
+  a = zip_low(ac_low, bd_low);
+  b = zip_high(ac_low, bd_low);
+  c = zip_low(ac_high, bd_high);
+  d = zip_high(ac_high, bd_high);
+}
+
+/// Where compilers may not move the computation of `batch` down to where it is used.
+template <class Batch> [[gnu::always_inline]] inline void keep_in_order([[maybe_unused]] Batch& batch) {
+#if defined(__AVX__)
+  asm("" : "+v"(batch.data));
+#endif
+}
+
+/// Calls `body` with each of the numbers, without a loop: what it keeps in arrays stays in registers.
+template <std::size_t... i, class Body>
+[[gnu::always_inline]] inline void unroll(std::index_sequence<i...>, const Body& body) {
+  (body(i), ...);
+}
+template <std::size_t kCount, class Body> [[gnu::always_inline]] inline void unroll(const Body& body) {
+  unroll(std::make_index_sequence<kCount>(), body);
+}
+
+/// `S` is a HostSimd.
+template <class S, uint32_t kRows, uint32_t kChannels> struct RowSums {
+  using F = typename S::F;
+  using F4 = typename S::F4;
+  using Batch = typename S::FloatBatch;
+  static constexpr uint32_t kLanes = S::kLanes;
+
+  template <class StartsOf, class FactorsOf>
+  [[gnu::always_inline]] static void sum(const float* table, const StartsOf& starts_of,
+                                         const FactorsOf& factors_of, F (&sums)[kChannels]) {
+    const uint32_t others = ~lanes_like(starts_of, 0) & ((1u << kLanes) - 1);
+    uint32_t second = 0;
+    if (others != 0) {
+      // Twice all lanes takes less than each by itself where one register holds them.
+      if constexpr (S::kParts == 1) second = lanes_like(starts_of, first_of(others));
+      if ((others & ~second) != 0) return sum_by_lane(table, starts_of, factors_of, sums);
+    }
+    sum_like(table, starts_of, 0, factors_of, sums);
+    if (second != 0) replace_lanes(table, starts_of, second, factors_of, sums);
+  }
+
+private:
+  static uint32_t first_of(uint32_t lanes) { return static_cast<uint32_t>(__builtin_ctz(lanes)); }
+
+  /// The lanes whose keys are those of `lane`.
+  template <class StartsOf>
+  [[gnu::always_inline]] static uint32_t lanes_like(const StartsOf& starts_of, uint32_t lane) {
+    using I = typename S::I;
+    auto same = S::M::all();
+    for (uint32_t i = 0; i < StartsOf::kKeys; ++i) {
+      const int32_t* const keys = starts_of.keys(i);
+      same = same & (I::load(keys) == I::splat(keys[lane]));
+    }
+    return same.bits();
+  }
+
+  /// All lanes with the rows of one. Row by row and part by part, so that the sums and a row's factors are in
+  /// registers.
+  template <class StartsOf, class FactorsOf>
+  [[gnu::always_inline]] static void sum_like(const float* table, const StartsOf& starts_of, uint32_t lane,
+                                              const FactorsOf& factors_of, F (&sums)[kChannels]) {
+    uint32_t starts[kRows];
+    starts_of(lane, starts);
+    unroll<S::kParts>([&](std::size_t part) __attribute__((always_inline)) {
+      Batch four[kChannels][4];
+      unroll<kRows>([&](std::size_t row) __attribute__((always_inline)) {
+        const float* const numbers = table + starts[row];
+        F factors[4];
+        factors_of(static_cast<uint32_t>(row), factors);
+        for (uint32_t channel = 0; channel < kChannels; ++channel)
+          for (uint32_t i = 0; i < 4; ++i) {
+            Batch& total = four[channel][i];
+            const Batch product = Batch(numbers[4 * channel + i]) * factors[i].part[part];
+            total = row == 0 ? product : total + product;
+            keep_in_order(total);
+          }
+      });
+      for (uint32_t channel = 0; channel < kChannels; ++channel)
+        sums[channel].part[part] =
+            (four[channel][0] + four[channel][1]) + (four[channel][2] + four[channel][3]);
+    });
+  }
+  /// Of some lanes, whose rows are the same. Not inlined: compilers would compute all factors before.
+  template <class StartsOf, class FactorsOf>
+  [[gnu::noinline]] static void replace_lanes(const float* table, const StartsOf& starts_of, uint32_t lanes,
+                                              const FactorsOf& factors_of, F (&sums)[kChannels]) {
+    F some[kChannels];
+    sum_like(table, starts_of, first_of(lanes), factors_of, some);
+    const auto chosen = S::M::from_bits(lanes);
+    for (uint32_t channel = 0; channel < kChannels; ++channel)
+      sums[channel] = S::select(chosen, some[channel], sums[channel]);
+  }
+
+  /// A row is one unaligned load a channel: gathering its numbers takes a load for each.
+  template <class StartsOf, class FactorsOf>
+  [[gnu::noinline]] static void sum_by_lane(const float* table, const StartsOf& starts_of,
+                                            const FactorsOf& factors_of, F (&sums)[kChannels]) {
+    // The four factors of lane 4q + i are side by side at [i][4q].
+    alignas(64) float factors_by_lane[kRows][4][kLanes];
+    for (uint32_t row = 0; row < kRows; ++row) {
+      F four[4];
+      factors_of(row, four);
+      S::transpose_quads(four[0], four[1], four[2], four[3]);
+      for (uint32_t i = 0; i < 4; ++i)
+        four[i].store(factors_by_lane[row][i]);
+    }
+    alignas(64) float of_lane[kChannels][kLanes];
+    for (uint32_t quad = 0; quad < kLanes / 4; ++quad) {
+      // By channel or pair of channels, of each of four lanes the four sums.
+      Pair pairs[kPairs + 1][4];
+      F4 singles[kChannels][4];
+      unroll<4>([&](std::size_t i) __attribute__((always_inline)) {
+        uint32_t starts[kRows];
+        starts_of(4 * quad + static_cast<uint32_t>(i), starts);
+        unroll<kRows>([&](std::size_t row) __attribute__((always_inline)) {
+          const float* const numbers = table + starts[row];
+          const Factors factors(factors_by_lane[row][i] + 4 * quad);
+          for (uint32_t pair = 0; pair < kPairs; ++pair)
+            pairs[pair][i].add(row == 0, numbers + 8 * pair, factors);
+          for (uint32_t channel = 2 * kPairs; channel < kChannels; ++channel) {
+            const F4 product = F4{F4::Batch::load_unaligned(numbers + 4 * channel)} * factors.once();
+            singles[channel][i] = row == 0 ? product : singles[channel][i] + product;
+          }
+        });
+      });
+      for (uint32_t pair = 0; pair < kPairs; ++pair)
+        Pair::store_total(pairs[pair], of_lane[2 * pair] + 4 * quad, of_lane[2 * pair + 1] + 4 * quad);
+      for (uint32_t channel = 2 * kPairs; channel < kChannels; ++channel) {
+        F4(&four)[4] = singles[channel];
+        transpose_quads(four[0].lanes, four[1].lanes, four[2].lanes, four[3].lanes);
+        ((four[0] + four[1]) + (four[2] + four[3])).store(of_lane[channel] + 4 * quad);
+      }
+    }
+    for (uint32_t channel = 0; channel < kChannels; ++channel)
+      sums[channel] = F::load(of_lane[channel]);
+  }
+
+#if defined(__AVX__)
+  /// Four factors, twice side by side.
+  struct Factors {
+    __m256 twice;
+
+    [[gnu::always_inline]] explicit Factors(const float* four)
+        : twice(_mm256_broadcast_ps(reinterpret_cast<const __m128*>(four))) {}
+    [[gnu::always_inline]] F4 once() const { return {typename F4::Batch(_mm256_castps256_ps128(twice))}; }
+  };
+  /// The four sums of two channels side by side: one load and one product for both.
+  struct Pair {
+    __m256 eight;
+
+    [[gnu::always_inline]] void add(bool is_first, const float* numbers, const Factors& factors) {
+      const __m256 product = _mm256_mul_ps(_mm256_loadu_ps(numbers), factors.twice);
+      eight = is_first ? product : _mm256_add_ps(eight, product);
+    }
+    /// Of four lanes.
+    [[gnu::always_inline]] static void store_total(Pair (&of)[4], float* first, float* second) {
+      const __m256 ab_low = _mm256_unpacklo_ps(of[0].eight, of[1].eight),
+                   ab_high = _mm256_unpackhi_ps(of[0].eight, of[1].eight);
+      const __m256 cd_low = _mm256_unpacklo_ps(of[2].eight, of[3].eight),
+                   cd_high = _mm256_unpackhi_ps(of[2].eight, of[3].eight);
+      const __m256 low =
+          _mm256_add_ps(_mm256_shuffle_ps(ab_low, cd_low, 0x44), _mm256_shuffle_ps(ab_low, cd_low, 0xEE));
+      const __m256 high =
+          _mm256_add_ps(_mm256_shuffle_ps(ab_high, cd_high, 0x44), _mm256_shuffle_ps(ab_high, cd_high, 0xEE));
+      const __m256 both = _mm256_add_ps(low, high);
+      _mm_store_ps(first, _mm256_castps256_ps128(both));
+      _mm_store_ps(second, _mm256_extractf128_ps(both, 1));
+    }
+  };
+  static constexpr uint32_t kPairs = kChannels / 2;
+#else
+  struct Factors {
+    F4 four;
+
+    explicit Factors(const float* numbers) : four(F4::load(numbers)) {}
+    F4 once() const { return four; }
+  };
+  struct Pair {
+    void add(bool, const float*, const Factors&) {}
+    static void store_total(Pair (&)[4], float*, float*) {}
+  };
+  static constexpr uint32_t kPairs = 0;
+#endif
+};
+
+} // namespace celltrace::simd_host

@@ -1,0 +1,181 @@
+// What may be in the way between surfaces and a light that has an area. Kernel dialect.
+//
+// The points of a packet and the places of the light are in a box each. What is between them is where a box
+// is that changes from the one to the other as time t goes from 0 to 1: on each axis, both of its planes move
+// evenly, so that a node is touched while two linear inequalities hold (shaft culling: Haines and Wallace,
+// Shaft culling for efficient ray-traced radiosity, 1991).
+#pragma once
+
+#include "kernel/accel/frustum.hpp"
+#include "kernel/accel/object_tests.hpp"
+#include "kernel/lights/list.hpp"
+
+namespace celltrace::kernel {
+
+/// A box that moves from where surfaces are to where a light is.
+template <class S> class Shaft {
+public:
+  using F = typename S::F;
+  using F4 = typename S::F4;
+
+  Shaft(const RayPacket& rays, uint32_t lanes, const LightRecord& light) {
+    const auto active = S::M::from_bits(lanes);
+    const auto any = static_cast<uint32_t>(__builtin_ctz(lanes));
+    const float half[2] = {half_extent(light.columns, light.inverse_columns),
+                           half_extent(light.rows, light.inverse_rows)};
+    const bool turns = (light.kind_and_flags & light_flag::orient) != 0;
+    FloatLanes length;
+    const V3<S> across = splat3<S>(light.across);
+    S::sqrt(dot<S>(across, across)).store(length.lane);
+    for (uint32_t axis = 0; axis < 3; ++axis) {
+      const FloatLanes& origin = rays.origin[axis];
+      from_[axis] = interval_of<S>(S::select(active, F::load(origin.lane), F(origin.lane[any])));
+      const float reach =
+          turns ? length.lane[0] * (half[0] + half[1])
+                : half[0] * magnitude(light.across[axis]) + half[1] * magnitude(light.along[axis]);
+      to_[axis] = {light.location[axis] - reach, light.location[axis] + reach};
+      const float size = larger(larger(magnitude(from_[axis].low), magnitude(from_[axis].high)),
+                                larger(magnitude(to_[axis].low), magnitude(to_[axis].high)));
+      const float epsilon = kRelativeEpsilon * size + kEpsilon;
+      from_[axis] = {from_[axis].low - epsilon, from_[axis].high + epsilon};
+      to_[axis] = {to_[axis].low - epsilon, to_[axis].high + epsilon};
+      set(2 * axis, from_[axis].low, to_[axis].low, 2 * axis + 1, true);
+      set(2 * axis + 1, from_[axis].high, to_[axis].high, 2 * axis, false);
+    }
+  }
+
+  /// Which children of a node it touches, bit i for child i.
+  uint32_t intersect(const float (&bounds)[6][4]) const {
+    F4 enter = F4::splat(0.0f), leave = F4::splat(1.0f);
+    for (const Side& side : sides_) {
+      const F4 t = (F4::load(bounds[side.row]) - F4::splat(side.begin)) * F4::splat(side.inverse);
+      if (side.ends)
+        leave = S::min(leave, t);
+      else
+        enter = S::max(enter, t);
+    }
+    return not_above_bits(enter, leave);
+  }
+
+  /// Whether all of it is on one side of the plane normal * p + offset = 0, given as four numbers.
+  bool is_beside(const float* plane) const {
+    Interval both = {plane[3], plane[3]}, other = both;
+    for (uint32_t axis = 0; axis < 3; ++axis) {
+      add(both, plane[axis], from_[axis]);
+      add(other, plane[axis], to_[axis]);
+    }
+    return (both.low > 0.0f && other.low > 0.0f) || (both.high < 0.0f && other.high < 0.0f);
+  }
+
+private:
+  /// Far more than rounding moves the planes of nodes and rays.
+  static constexpr float kRelativeEpsilon = 1e-5f;
+  static constexpr float kEpsilon = 1e-6f;
+  static constexpr float kTiny = 1e-30f;
+
+  /// One of the box's planes, and the plane of a node that it has to be before or behind: from or until when.
+  struct Side {
+    float begin, inverse;
+    uint32_t row; ///< of NodeRecord::bounds
+    bool ends;
+  };
+
+  void set(uint32_t number, float begin, float end, uint32_t row, bool is_low) {
+    const float way = end - begin;
+    const bool backward = way < 0.0f;
+    const float moved = backward ? smaller(way, -kTiny) : larger(way, kTiny);
+    sides_[number] = {begin, 1.0f / moved, row, is_low != backward};
+  }
+  /// Places are jittered by half the distance between them, and circles are a little off the middle.
+  static float half_extent(uint32_t places, float inverse) {
+    return places > 1 ? 0.502f + 0.5f * inverse : 0.002f;
+  }
+  static void add(Interval& sum, float factor, const Interval& values) {
+    const float low = factor * values.low, high = factor * values.high;
+    sum = {sum.low + smaller(low, high), sum.high + larger(low, high)};
+  }
+
+  Interval from_[3], to_[3];
+  Side sides_[6];
+};
+
+/// The objects that may be between a packet's surfaces and a light.
+template <class Spu> class AreaOccluders {
+public:
+  using S = typename Spu::simd;
+
+  /// False: there are more than it remembers, or some that light passes through, or the light is parallel.
+  bool gather(ObjectTests<Spu>& tests, const FrameBlock& frame, const RayPacket& rays, uint32_t lanes,
+              const LightRecord& light) {
+    count_ = 0;
+    if (is_parallel(light)) return false;
+    const Shaft<S> shaft(rays, lanes, light);
+    return gather_unbounded(tests, frame, rays, lanes, shaft) && gather_bounded(tests, frame, shaft);
+  }
+  bool are_none() const { return count_ == 0; }
+
+  /// Removes occluded lanes from a query for the light of a place.
+  void test(ObjectTests<Spu>& tests, RayQuery& query) const {
+    tests.hit_filter().begin_packet();
+    for (uint32_t i = 0; i < count_ && query.lanes != 0; ++i)
+      query.lanes &= ~tests.occluded(*query.rays, objects_[i], query.lanes, *query.distance, *query.light);
+  }
+
+private:
+  bool add(const ObjectRecord& object, uint32_t self) {
+    const uint32_t flags = object.kind_and_flags;
+    if ((flags & object_flag::no_shadow) != 0) return true;
+    if ((flags & object_flag::opaque) == 0 || count_ == tuning::kMostAreaOccluders) return false;
+    objects_[count_++] = self;
+    return true;
+  }
+
+  /// Of planes, those that the points and the light are on both sides of.
+  bool gather_unbounded(ObjectTests<Spu>& tests, const FrameBlock& frame, const RayPacket& rays,
+                        uint32_t lanes, const Shaft<S>& shaft) {
+    constexpr auto kBytes = static_cast<uint32_t>(sizeof(ObjectRecord));
+    uint32_t self = frame.object_offset - frame.unbounded_count * kBytes;
+    for (uint32_t i = 0; i < frame.unbounded_count; ++i, self += kBytes) {
+      const ObjectRecord& object = *tests.scene().object(self);
+      const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
+      if (kind == static_cast<uint32_t>(ObjectKind::plane)) {
+        // A ray that starts on a plane does not cross it again.
+        if ((lanes & ~lanes_that_start_on<S>(rays, self).bits()) == 0 || shaft.is_beside(object.geometry + 8))
+          continue;
+      }
+      if (!add(object, self)) return false;
+    }
+    return true;
+  }
+
+  bool gather_bounded(ObjectTests<Spu>& tests, const FrameBlock& frame, const Shaft<S>& shaft) {
+    SceneAccess<Spu>& scene = tests.scene();
+    uint32_t nodes[kMostNodes], size = 0;
+    bool complete = true;
+    nodes[size++] = frame.bvh.node_offset;
+    while (size != 0 && complete) {
+      const NodeRecord& node = *scene.node(nodes[--size]);
+      ++tests.counters().visits;
+      for_each_lane(shaft.intersect(node.bounds), [&](uint32_t i) {
+        const NodeRef child = {node.child[i], node.leaf[i]};
+        if (!child.is_leaf()) {
+          nodes[size++] = child.child;
+          return;
+        }
+        scene.for_each_object(child, [&](uint32_t self) {
+          complete = complete && add(*scene.object(self), self);
+          return !complete;
+        });
+      });
+    }
+    return complete;
+  }
+
+  /// The builder keeps a BVH within 48 levels, with four children a node.
+  static constexpr uint32_t kMostNodes = 3 * 48 + 4;
+
+  uint32_t objects_[tuning::kMostAreaOccluders];
+  uint32_t count_ = 0;
+};
+
+} // namespace celltrace::kernel

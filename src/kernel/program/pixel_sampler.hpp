@@ -1,0 +1,654 @@
+// Antialiasing by POV-Ray's methods: pixels that differ from their neighbours, or whose corners differ, are
+// sampled by more rays (the second after Whitted 1980). Kernel dialect.
+//
+// A picture takes two frames. In the first the points of a grid are traced as pixels are, and their colours
+// kept in main memory. In the second a unit of work is a run of blocks of kSampledEdge x kSampledEdge pixels.
+// Samples of any pixels of a block are traced together, as many as a bundle has room for.
+//
+// Of the fixed method each comparison is with what a neighbour has become by then, pixel after pixel. All
+// pixels that seem to need samples get them at once; then the comparisons are made again with what is known,
+// until no pixel is missing.
+#pragma once
+
+#include "kernel/modules.hpp"
+#include "kernel/program/pixel_writer.hpp"
+
+namespace celltrace::kernel {
+
+/// The samples of a bundle.
+template <class Spu> struct SampleBundle {
+  /// x and y: where they are, in pixels from the middle of the picture; then their colours.
+  VectorLanes at[kBundlePackets<Spu>];
+  uint32_t lanes[kBundlePackets<Spu>]; ///< that are some
+};
+
+/// A square of a pixel, of which the colours at the corners are known: upper left, upper right, lower left,
+/// lower right.
+struct alignas(16) SampleSquare {
+  float corner[4][3];
+  float x, y;     ///< upper left, in points of the grid
+  uint32_t pixel; ///< number among those whose colours are being summed up
+  uint32_t level; ///< 0: the whole pixel
+};
+static_assert(sizeof(SampleSquare) == 64, "a power of two");
+
+constexpr uint32_t kSamplesOfSquare = 5;
+
+/// Squares that are divided together. The more packets a bundle has, of `edge` x `edge`, the more room there is.
+constexpr uint32_t squares_at_once(uint32_t edge) {
+  return edge * edge * kSimdLanes / kSamplesOfSquare;
+}
+/// Rows of pixels of a block that are worked off together by the adaptive method.
+constexpr uint32_t sampled_rows(uint32_t edge) {
+  return edge > tuning::kBundleEdgeInLocalStore ? kSampledEdge : 1;
+}
+/// Squares that wait to be divided: those of the first level, and of each other one less than what a bundle
+/// leaves and what it adds.
+constexpr uint32_t max_squares(uint32_t edge) {
+  return sampled_rows(edge) * kSampledEdge + 5 * squares_at_once(edge) * kMaxSamplingDepth;
+}
+/// What an SPE needs in main memory: squares, or the colours of a block's pixels.
+constexpr uint32_t sample_store_bytes(uint32_t edge) {
+  constexpr uint32_t kPixels = kSampledEdge * kSampledEdge * 16;
+  const uint32_t squares = max_squares(edge) * static_cast<uint32_t>(sizeof(SampleSquare));
+  return squares > kPixels ? squares : kPixels;
+}
+
+/// All but tracing: code of a module, which works on lanes part by part.
+template <class Spu> class PixelSampler {
+public:
+  using S = typename Spu::simd;
+  using R = typename Spu::rare_simd;
+  using F = typename R::F;
+
+  /// `scratch`: room for kScratchBytes that belongs to the sampler while advance() runs.
+  PixelSampler(Spu& spu, const FrameBlock& frame, SampleBundle<Spu>& samples, uint8_t* scratch)
+      : spu_(spu), frame_(frame), samples_(samples), work_(*spu.template allocate<Work>()),
+        scratch_(*reinterpret_cast<Scratch*>(scratch)),
+        store_(frame.sample_store + spu.id() * sample_store_bytes(kBundleEdge<Spu>)) {}
+
+  void begin_frame() { under_way_ = false; }
+
+  /// Takes the colours of the bundle or block at (column, row); those of samples were asked for by the call
+  /// before. True: the block needs those that `samples` now has, too.
+  [[gnu::noinline]] bool advance(uint32_t column, uint32_t row) {
+    spu_.run_in_module(modules::kSampling);
+    if (static_cast<FramePurpose>(frame_.purpose) == FramePurpose::grid) {
+      store_points(column, row);
+      return false;
+    }
+    const bool fixed = static_cast<SamplingMethod>(frame_.sampling.method) == SamplingMethod::fixed;
+    if (!under_way_)
+      begin_block(column, row, fixed);
+    else if (fixed)
+      take_samples();
+    else
+      divide_squares();
+    under_way_ = fixed ? ask_for_pixels() : ask_for_squares();
+    return under_way_;
+  }
+
+private:
+  static constexpr uint32_t kEdge = kBundleEdge<Spu>;
+  static constexpr uint32_t kPackets = kBundlePackets<Spu>;
+  static constexpr uint32_t kSquares = squares_at_once(kEdge);
+  static constexpr uint32_t kRows = sampled_rows(kEdge);
+  static constexpr uint32_t kTag = 7;
+  /// Packets that a row of points of a block is in: one more of them than pixels.
+  static constexpr uint32_t kRowPackets = kSampledEdge / kPacketEdge + 1;
+  static constexpr uint32_t kRowPoints = kSampledEdge + kSimdLanes; ///< and some more, for whole vectors
+
+  /// A pixel's colour as it crosses DMA.
+  struct alignas(16) Colour {
+    float channel[3];
+    uint32_t unused;
+  };
+  /// The channels of a row of points, of which the first is that at the block's left edge.
+  struct alignas(64) PointRow {
+    float channel[3][kRowPoints];
+  };
+  /// Goes over the samples of pixels that are asked for.
+  struct Cursor {
+    uint32_t row = 0, pixels = 0;  ///< bits of the row that are still to come, the lowest first
+    uint32_t across = 0, down = 0; ///< the sample
+  };
+  /// A bit for each pixel of the block, by row.
+  struct BlockMask {
+    uint32_t row[kSampledEdge];
+  };
+
+  /// What is kept from call to call.
+  union alignas(128) Work {
+    struct {
+      BlockMask left, above; ///< differ from the pixel's left or upper neighbour, before any is sampled
+      BlockMask sampled;     ///< as far as is known, is sampled
+      BlockMask known;       ///< has a colour in the store
+    } fixed;
+    struct {
+      alignas(64) float sums[kRows][3][kSampledEdge];
+    } adaptive;
+  };
+
+  /// What is not.
+  struct Scratch {
+    VectorLanes packets[kRowPackets];
+    PointRow points[2], encoded[2]; ///< of two rows, by turns
+    SampleSquare squares[kSquares]; ///< that are being divided
+    alignas(64) float encoding[2 * kSimdLanes];
+    alignas(64) float channels[3][kSampledEdge]; ///< of pixels to be written
+    alignas(64) uint32_t words[kSampledEdge];    ///< these
+    Colour colours[kSampledEdge];
+    alignas(16) uint32_t leaving[kSampledEdge][4];
+  };
+
+public:
+  static constexpr uint32_t kScratchBytes = sizeof(Scratch);
+
+private:
+  [[gnu::noinline]] void fetch(void* ls, ea_t ea, uint32_t bytes) {
+    spu_.get(ls, ea, bytes, kTag);
+    spu_.wait_all(1u << kTag);
+  }
+  void arrive() { spu_.wait_all(1u << kTag); }
+
+  // --- the grid ---
+
+  ea_t packet_of_points(uint32_t column, uint32_t row) const {
+    return frame_.grid_points + (row * frame_.packet_columns + column) * kGridPacketBytes;
+  }
+
+  void store_points(uint32_t column, uint32_t row) {
+    static_assert(sizeof(VectorLanes) == kGridPacketBytes, "as in main memory");
+    const uint32_t left = frame_.packet_columns - column * kEdge;
+    const uint32_t packets = left < kEdge ? left : kEdge;
+    for (uint32_t y = 0; y < kEdge && row * kEdge + y < frame_.packet_rows; ++y)
+      spu_.put(&samples_.at[y * kEdge], packet_of_points(column * kEdge, row * kEdge + y),
+               packets * kGridPacketBytes, kTag);
+    arrive();
+  }
+
+  /// Row `row` of the grid's points at the block, of which the first is that to its upper left.
+  [[gnu::noinline]] void fetch_points(uint32_t row, PointRow& points) {
+    const uint32_t first = column_ * kSampledEdge / kPacketEdge;
+    const uint32_t left = frame_.packet_columns - first;
+    const uint32_t packets = left < kRowPackets ? left : kRowPackets;
+    const uint32_t line = row_ * kSampledEdge + row;
+    fetch(scratch_.packets, packet_of_points(first, line / kPacketEdge), packets * kGridPacketBytes);
+    for (uint32_t packet = 0; packet < packets; ++packet)
+      for (uint32_t axis = 0; axis < 3; ++axis)
+        S::F4::load(scratch_.packets[packet][axis].lane + line % kPacketEdge * kPacketEdge)
+            .store(points.channel[axis] + packet * kPacketEdge);
+    for (uint32_t axis = 0; axis < 3; ++axis)
+      for (uint32_t x = packets * kPacketEdge; x < kRowPoints; ++x)
+        points.channel[axis][x] = 0.0f;
+  }
+
+  /// Numbers become what colours are compared by; whole vectors of sixteen.
+  [[gnu::noinline]] void encode(float* values, uint32_t count) const {
+    for (uint32_t i = 0; i < count; i += R::kLanes)
+      pow<R>(F::load(values + i), F(frame_.sampling.inverse_gamma)).store(values + i);
+  }
+  [[gnu::noinline]] void encode_points(const PointRow& points, PointRow& encoded) const {
+    encoded = points;
+    encode(encoded.channel[0], 3 * kRowPoints);
+  }
+  /// Points of a row, from any one on.
+  static V3<R> points_from(const PointRow& row, uint32_t first) {
+    alignas(64) float lane[3][R::kLanes];
+    for (uint32_t axis = 0; axis < 3; ++axis)
+      for (uint32_t i = 0; i < R::kLanes; ++i)
+        lane[axis][i] = row.channel[axis][first + i];
+    return {F::load(lane[0]), F::load(lane[1]), F::load(lane[2])};
+  }
+  /// Where the points of a block's row differ from those of another, each counted from any one on.
+  [[gnu::noinline]] uint32_t differing(const PointRow& a, uint32_t first_a, const PointRow& b,
+                                       uint32_t first_b) const {
+    uint32_t bits = 0;
+    for (uint32_t x = 0; x < kSampledEdge; x += R::kLanes) {
+      const V3<R> difference = points_from(a, first_a + x) - points_from(b, first_b + x);
+      bits |= (absolute_sum<R>(difference) >= F(frame_.sampling.threshold)).bits() << x;
+    }
+    return bits;
+  }
+
+  static uint32_t smaller_of(uint32_t a, uint32_t b) { return a < b ? a : b; }
+
+  [[gnu::noinline]] void begin_block(uint32_t column, uint32_t row, bool fixed) {
+    column_ = column;
+    row_ = row;
+    width_ = smaller_of(frame_.width - 1 - column * kSampledEdge, kSampledEdge);
+    height_ = smaller_of(frame_.height - 1 - row * kSampledEdge, kSampledEdge);
+    if (!fixed) {
+      next_row_ = 0;
+      rows_ = 0;
+      waiting_ = 0;
+      return;
+    }
+    compare_pixels();
+    compare_again();
+  }
+  /// Bits of the pixels of a row that are in the picture.
+  uint32_t row_mask() const { return width_ == kSampledEdge ? ~0u : (1u << width_) - 1; }
+
+  /// Where a sample is moved to, in pixels: of a hash of its place, so that it is the same in every run.
+  /// Wellons' lowbias32.
+  static uint32_t hash(uint32_t x) {
+    x = (x ^ x >> 16) * 0x7FEB352Du;
+    x = (x ^ x >> 15) * 0x846CA68Bu;
+    return x ^ x >> 16;
+  }
+  void jitter(float& x, float& y) const {
+    const float amount = frame_.sampling.jitter;
+    if (amount == 0.0f) return;
+    uint32_t bits[2];
+    __builtin_memcpy(&bits[0], &x, sizeof x);
+    __builtin_memcpy(&bits[1], &y, sizeof y);
+    const uint32_t random = hash(bits[0] + hash(bits[1]));
+    constexpr float kUnit = 1.0f / 65536;
+    x += (static_cast<float>(random & 0xFFFF) * kUnit - 0.5f) * amount;
+    y += (static_cast<float>(random >> 16) * kUnit - 0.5f) * amount;
+  }
+  /// Puts a sample, in points of the grid, into the next lane.
+  [[gnu::noinline]] void ask(uint32_t number, float x, float y) {
+    jitter(x, y);
+    VectorLanes& packet = samples_.at[number / kSimdLanes];
+    packet.x.lane[number % kSimdLanes] = x - frame_.camera.middle_x;
+    packet.y.lane[number % kSimdLanes] = y - frame_.camera.middle_y;
+  }
+  /// After the last sample. Lanes that are none get its place.
+  [[gnu::noinline]] void end_asking(uint32_t count) {
+    for (uint32_t packet = 0; packet < kPackets; ++packet) {
+      const uint32_t first = packet * kSimdLanes;
+      const uint32_t lanes = count <= first ? 0 : smaller_of(count - first, kSimdLanes);
+      samples_.lanes[packet] = (1u << lanes) - 1;
+      if (lanes == 0) continue;
+      for (uint32_t lane = lanes; lane < kSimdLanes; ++lane) {
+        samples_.at[packet].x.lane[lane] = samples_.at[packet].x.lane[lanes - 1];
+        samples_.at[packet].y.lane[lane] = samples_.at[packet].y.lane[lanes - 1];
+      }
+    }
+  }
+  float channel(uint32_t sample, uint32_t axis) const {
+    return samples_.at[sample / kSimdLanes][axis].lane[sample % kSimdLanes];
+  }
+
+  /// Pixels of colours, as many as two packets.
+  [[gnu::noinline]] void encode_pixels_of(const float (&colours)[3][kSampledEdge], uint32_t* words) const {
+    using W = typename S::F;
+    for (uint32_t i = 0; i < kSampledEdge; i += kSimdLanes)
+      encode_pixels<Spu>(frame_, {W::load(colours[0] + i), W::load(colours[1] + i), W::load(colours[2] + i)})
+          .store(reinterpret_cast<int32_t*>(words + i));
+  }
+
+  // --- the fixed method ---
+
+  /// The neighbours that pixels differ from, before any of them is sampled.
+  [[gnu::noinline]] void compare_pixels() {
+    auto& masks = work_.fixed;
+    fetch_points(0, scratch_.points[0]);
+    encode_points(scratch_.points[0], scratch_.encoded[0]);
+    for (uint32_t y = 0; y < height_; ++y) {
+      const PointRow& above = scratch_.encoded[y % 2];
+      PointRow& own = scratch_.encoded[(y + 1) % 2];
+      fetch_points(y + 1, scratch_.points[0]);
+      encode_points(scratch_.points[0], own);
+      masks.left.row[y] = differing(own, 1, own, 0) & row_mask();
+      masks.above.row[y] = differing(own, 1, above, 1) & row_mask();
+      masks.known.row[y] = 0;
+    }
+  }
+
+  /// Compares all pixels in POV-Ray's order, each with what the ones before it have become. Of pixels that
+  /// are to be sampled and are not yet, the colour counts that they have.
+  [[gnu::noinline]] void compare_again() {
+    auto& masks = work_.fixed;
+    uint32_t none = 0;
+    for (uint32_t y = 0; y < height_; ++y) {
+      masks.sampled.row[y] = 0;
+      uint32_t* const over = y == 0 ? &none : &masks.sampled.row[y - 1];
+      uint32_t& own = masks.sampled.row[y];
+      const uint32_t left = masks.left.row[y], above = masks.above.row[y];
+      uint32_t candidates = left | above | *over;
+      while (candidates != 0) {
+        const uint32_t x = static_cast<uint32_t>(__builtin_ctz(candidates));
+        const uint32_t bit = 1u << x;
+        candidates &= ~bit;
+        const uint32_t before = bit >> 1;
+        bool differs_left = (left & bit) != 0, differs_above = (above & bit) != 0;
+        if (((own & masks.known.row[y] & before) | (*over & (y == 0 ? 0 : masks.known.row[y - 1]) & bit)) !=
+            0)
+          compare_pixel(x, y, differs_left, differs_above);
+        if (differs_left) own |= before;
+        if (differs_above && y != 0) *over |= bit;
+        if (!differs_left && !differs_above) continue;
+        own |= bit;
+        candidates |= bit << 1 & row_mask();
+      }
+    }
+    cursor_ = begin_cursor();
+    taken_ = cursor_;
+  }
+
+  ea_t stored_colour(uint32_t x, uint32_t y) const {
+    return store_ + (y * kSampledEdge + x) * static_cast<uint32_t>(sizeof(Colour));
+  }
+  /// The colour of a point, x and y from the block's first one on.
+  [[gnu::noinline]] void fetch_point(uint32_t x, uint32_t y, Colour& colour) {
+    const uint32_t column = column_ * kSampledEdge + x;
+    const uint32_t line = row_ * kSampledEdge + y;
+    VectorLanes& packet = scratch_.packets[0];
+    fetch(&packet, packet_of_points(column / kPacketEdge, line / kPacketEdge), kGridPacketBytes);
+    const uint32_t lane = line % kPacketEdge * kPacketEdge + column % kPacketEdge;
+    for (uint32_t axis = 0; axis < 3; ++axis)
+      colour.channel[axis] = packet[axis].lane[lane];
+  }
+  /// What a pixel of the block has become: of those that are sampled, the store knows.
+  [[gnu::noinline]] void fetch_pixel(uint32_t x, uint32_t y, Colour& colour) {
+    const auto& masks = work_.fixed;
+    if ((masks.sampled.row[y] & masks.known.row[y] & 1u << x) != 0)
+      fetch(&colour, stored_colour(x, y), sizeof colour);
+    else
+      fetch_point(x + 1, y + 1, colour);
+  }
+  /// Whether a pixel differs from its neighbours as they are now.
+  [[gnu::noinline]] void compare_pixel(uint32_t x, uint32_t y, bool& left, bool& above) {
+    Colour* const colours = scratch_.colours;
+    fetch_point(x + 1, y + 1, colours[0]);
+    if (x != 0)
+      fetch_pixel(x - 1, y, colours[1]);
+    else
+      fetch_point(0, y + 1, colours[1]);
+    if (y != 0)
+      fetch_pixel(x, y - 1, colours[2]);
+    else
+      fetch_point(x + 1, 0, colours[2]);
+    float* const lanes = scratch_.encoding;
+    for (uint32_t i = 0; i < 3; ++i)
+      for (uint32_t axis = 0; axis < 3; ++axis)
+        lanes[3 * i + axis] = colours[i].channel[axis];
+    for (uint32_t i = 9; i < kSimdLanes; ++i)
+      lanes[i] = 0.0f;
+    encode(lanes, kSimdLanes);
+    left = distance(lanes, lanes + 3) >= frame_.sampling.threshold;
+    above = distance(lanes, lanes + 6) >= frame_.sampling.threshold;
+  }
+  static float distance(const float* a, const float* b) {
+    return magnitude(a[0] - b[0]) + magnitude(a[1] - b[1]) + magnitude(a[2] - b[2]);
+  }
+
+  /// The pixels of a row that still need samples.
+  uint32_t wanted(uint32_t y) const { return work_.fixed.sampled.row[y] & ~work_.fixed.known.row[y]; }
+  Cursor begin_cursor() const {
+    Cursor cursor;
+    cursor.pixels = wanted(0);
+    return cursor;
+  }
+  /// Goes to the next pixel that needs samples if it is at none. False: there is no other.
+  bool find_pixel(Cursor& cursor) const {
+    while (cursor.pixels == 0) {
+      if (++cursor.row >= height_) {
+        cursor.row = height_ - 1;
+        return false;
+      }
+      cursor.pixels = wanted(cursor.row);
+    }
+    return true;
+  }
+
+  /// Makes as many samples as there is room for. False: the block is done.
+  [[gnu::noinline]] bool ask_for_pixels() {
+    const uint32_t depth = frame_.sampling.depth;
+    const float step = 1.0f / static_cast<float>(depth);
+    uint32_t count = 0;
+    for (;;) {
+      while (count < kPackets * kSimdLanes && find_pixel(cursor_)) {
+        const uint32_t x = column_ * kSampledEdge + static_cast<uint32_t>(__builtin_ctz(cursor_.pixels));
+        const uint32_t y = row_ * kSampledEdge + cursor_.row;
+        ask(count++, static_cast<float>(x) + 0.5f + (static_cast<float>(cursor_.across) + 0.5f) * step,
+            static_cast<float>(y) + 0.5f + (static_cast<float>(cursor_.down) + 0.5f) * step);
+        next_sample(cursor_);
+      }
+      if (count != 0) {
+        end_asking(count);
+        asked_ = count;
+        return true;
+      }
+      bool any = false;
+      for (uint32_t y = 0; y < height_; ++y) {
+        any = any || wanted(y) != 0;
+        work_.fixed.known.row[y] |= work_.fixed.sampled.row[y];
+      }
+      if (!any) break;
+      compare_again();
+    }
+    write_sampled();
+    return false;
+  }
+  /// True: it was the last one of its pixel.
+  bool next_sample(Cursor& cursor) const {
+    const uint32_t depth = frame_.sampling.depth;
+    if (++cursor.across < depth) return false;
+    cursor.across = 0;
+    if (++cursor.down < depth) return false;
+    cursor.down = 0;
+    cursor.pixels &= cursor.pixels - 1;
+    return true;
+  }
+
+  [[gnu::noinline]] void take_samples() {
+    const uint32_t depth = frame_.sampling.depth;
+    for (uint32_t i = 0; i < asked_; ++i) {
+      find_pixel(taken_);
+      const uint32_t x = static_cast<uint32_t>(__builtin_ctz(taken_.pixels));
+      const uint32_t y = taken_.row;
+      // The middle of the pixel counts as one sample more.
+      if ((taken_.across | taken_.down) == 0) fetch_point(x + 1, y + 1, sum_);
+      for (uint32_t axis = 0; axis < 3; ++axis)
+        sum_.channel[axis] += channel(i, axis);
+      if (!next_sample(taken_)) continue;
+      const float share = 1.0f / static_cast<float>(depth * depth + 1);
+      Colour& mean = scratch_.colours[0];
+      for (uint32_t axis = 0; axis < 3; ++axis)
+        mean.channel[axis] = sum_.channel[axis] * share;
+      spu_.put(&mean, stored_colour(x, y), sizeof mean, kTag);
+      arrive();
+    }
+  }
+
+  /// Pixels that are sampled replace those of the grid in the picture.
+  [[gnu::noinline]] void write_sampled() {
+    for (uint32_t y = 0; y < height_; ++y) {
+      const uint32_t sampled = work_.fixed.sampled.row[y];
+      if (sampled == 0) continue;
+      fetch(scratch_.colours, stored_colour(0, y), sizeof scratch_.colours);
+      for (uint32_t x = 0; x < kSampledEdge; ++x)
+        for (uint32_t axis = 0; axis < 3; ++axis)
+          scratch_.channels[axis][x] = (sampled >> x & 1) != 0 ? scratch_.colours[x].channel[axis] : 0.0f;
+      encode_pixels_of(scratch_.channels, scratch_.words);
+      const ea_t row = frame_.surface + (row_ * kSampledEdge + y + 1) * frame_.surface_pitch +
+                       (column_ * kSampledEdge + 1) * static_cast<uint32_t>(sizeof(uint32_t));
+      for_each_lane(sampled, [&](uint32_t x) {
+        // A word has the same place in its quadword on both sides of a transfer.
+        uint32_t* const word = &scratch_.leaving[x][(x + 1) % 4];
+        *word = scratch_.words[x];
+        spu_.put(word, row + x * static_cast<uint32_t>(sizeof(uint32_t)), sizeof(uint32_t), kTag);
+      });
+      arrive();
+    }
+  }
+
+  // --- the adaptive method ---
+
+  ea_t stored_square(uint32_t number) const {
+    return store_ + number * static_cast<uint32_t>(sizeof(SampleSquare));
+  }
+
+  /// Makes the samples of as many squares as there is room for, the last ones first. False: the block is
+  /// done.
+  [[gnu::noinline]] bool ask_for_squares() {
+    while (waiting_ == 0) {
+      if (rows_ != 0) write_rows();
+      if (next_row_ == height_) return false;
+      compare_corners();
+    }
+    asked_ = smaller_of(waiting_, kSquares);
+    waiting_ -= asked_;
+    fetch_squares();
+    for (uint32_t i = 0; i < asked_; ++i) {
+      const SampleSquare& square = scratch_.squares[i];
+      const float size = edge_of(square), half = 0.5f * size;
+      const uint32_t first = i * kSamplesOfSquare;
+      ask(first, square.x + half, square.y);
+      ask(first + 1, square.x, square.y + half);
+      ask(first + 2, square.x + half, square.y + half);
+      ask(first + 3, square.x + size, square.y + half);
+      ask(first + 4, square.x + half, square.y + size);
+    }
+    end_asking(asked_ * kSamplesOfSquare);
+    return true;
+  }
+  /// Those that are being divided: behind the waiting ones.
+  void fetch_squares() {
+    fetch(scratch_.squares, stored_square(waiting_), asked_ * static_cast<uint32_t>(sizeof(SampleSquare)));
+  }
+  static float edge_of(const SampleSquare& square) { return 1.0f / static_cast<float>(1u << square.level); }
+
+  /// The next rows of pixels: those whose corners are alike are done, of the others the squares wait.
+  [[gnu::noinline]] void compare_corners() {
+    first_row_ = next_row_;
+    rows_ = smaller_of(height_ - next_row_, kRows);
+    next_row_ += rows_;
+    fetch_points(first_row_, scratch_.points[0]);
+    encode_points(scratch_.points[0], scratch_.encoded[0]);
+    for (uint32_t y = 0; y < rows_; ++y) {
+      const uint32_t upper = y % 2, lower = 1 - upper;
+      fetch_points(first_row_ + y + 1, scratch_.points[lower]);
+      encode_points(scratch_.points[lower], scratch_.encoded[lower]);
+      uint32_t divided =
+          frame_.sampling.depth > 1
+              ? differing_corners(scratch_.encoded[upper], scratch_.encoded[lower]) & row_mask()
+              : 0;
+      sum_corners(scratch_.points[upper], scratch_.points[lower], divided, work_.adaptive.sums[y]);
+      for_each_lane(divided, [&](uint32_t x) { divide_pixel(x, y, upper); });
+    }
+  }
+  uint32_t differing_corners(const PointRow& upper, const PointRow& lower) const {
+    return differing(upper, 0, upper, 1) | differing(upper, 0, lower, 0) | differing(upper, 0, lower, 1) |
+           differing(upper, 1, lower, 0) | differing(upper, 1, lower, 1) | differing(lower, 0, lower, 1);
+  }
+  /// The means of the corners of pixels, or 0 where they are divided.
+  static void sum_corners(const PointRow& upper, const PointRow& lower, uint32_t divided,
+                          float (&sums)[3][kSampledEdge]) {
+    const V3<R> zero = {F(0.0f), F(0.0f), F(0.0f)};
+    for (uint32_t x = 0; x < kSampledEdge; x += R::kLanes) {
+      V3<R> sum = zero;
+      for (uint32_t corner = 0; corner < 4; ++corner)
+        sum = sum + points_from(corner < 2 ? upper : lower, x + corner % 2);
+      const V3<R> mean =
+          select<R>(R::M::from_bits(divided >> x & ((1u << R::kLanes) - 1)), zero, sum * F(0.25f));
+      mean.x.store(sums[0] + x);
+      mean.y.store(sums[1] + x);
+      mean.z.store(sums[2] + x);
+    }
+  }
+  void divide_pixel(uint32_t x, uint32_t y, uint32_t upper) {
+    SampleSquare& square = scratch_.squares[0];
+    for (uint32_t corner = 0; corner < 4; ++corner)
+      for (uint32_t axis = 0; axis < 3; ++axis)
+        square.corner[corner][axis] =
+            scratch_.points[corner < 2 ? upper : 1 - upper].channel[axis][x + corner % 2];
+    square.x = static_cast<float>(column_ * kSampledEdge + x);
+    square.y = static_cast<float>(row_ * kSampledEdge + first_row_ + y);
+    square.pixel = y * kSampledEdge + x;
+    square.level = 0;
+    push(square);
+  }
+  /// `square` lies in local store.
+  [[gnu::noinline]] void push(const SampleSquare& square) {
+    spu_.put(&square, stored_square(waiting_++), sizeof square, kTag);
+    arrive();
+  }
+
+  /// Makes four of each square that was asked for: those whose corners are alike are done, the others wait.
+  [[gnu::noinline]] void divide_squares() {
+    fetch_squares();
+    for (uint32_t i = 0; i < asked_; ++i)
+      divide(scratch_.squares[i], i * kSamplesOfSquare);
+  }
+  [[gnu::noinline]] void divide(SampleSquare& square, uint32_t first) {
+    // Nine points, row by row: corners are known, what is between them are samples.
+    float points[9][3];
+    for (uint32_t axis = 0; axis < 3; ++axis)
+      for (uint32_t i = 0; i < 9; ++i)
+        points[i][axis] = i % 2 == 0 && i != 4 ? square.corner[i / 6 * 2 + i % 3 / 2][axis]
+                                               : channel(first + i / 2 + (i > 4 ? 1 : 0), axis);
+    float* const encoded = scratch_.encoding;
+    for (uint32_t i = 0; i < 9; ++i)
+      for (uint32_t axis = 0; axis < 3; ++axis)
+        encoded[3 * i + axis] = points[i][axis];
+    for (uint32_t i = 27; i < 2 * kSimdLanes; ++i)
+      encoded[i] = 0.0f;
+    encode(encoded, 2 * kSimdLanes);
+
+    const uint32_t level = square.level + 1;
+    const float half = 0.5f * edge_of(square);
+    const float share = 1.0f / static_cast<float>(4u << 2 * level);
+    const uint32_t pixel = square.pixel;
+    const float x = square.x, y = square.y;
+    for (uint32_t child = 0; child < 4; ++child) {
+      const uint32_t upper_left = child % 2 + child / 2 * 3;
+      const uint32_t corners[4] = {upper_left, upper_left + 1, upper_left + 3, upper_left + 4};
+      if (level + 1 < frame_.sampling.depth && differ(encoded, corners)) {
+        for (uint32_t corner = 0; corner < 4; ++corner)
+          for (uint32_t axis = 0; axis < 3; ++axis)
+            square.corner[corner][axis] = points[corners[corner]][axis];
+        square.x = x + static_cast<float>(child % 2) * half;
+        square.y = y + static_cast<float>(child / 2) * half;
+        square.level = level;
+        push(square);
+        continue;
+      }
+      float(*const sums)[kSampledEdge] = work_.adaptive.sums[pixel / kSampledEdge];
+      for (uint32_t axis = 0; axis < 3; ++axis)
+        sums[axis][pixel % kSampledEdge] += share * (points[corners[0]][axis] + points[corners[1]][axis] +
+                                                     points[corners[2]][axis] + points[corners[3]][axis]);
+    }
+  }
+  bool differ(const float* encoded, const uint32_t (&corners)[4]) const {
+    for (uint32_t i = 1; i < 4; ++i)
+      for (uint32_t j = 0; j < i; ++j)
+        if (distance(encoded + 3 * corners[i], encoded + 3 * corners[j]) >= frame_.sampling.threshold)
+          return true;
+    return false;
+  }
+
+  /// Pixels take the place of the corners in the picture.
+  [[gnu::noinline]] void write_rows() {
+    for (uint32_t y = 0; y < rows_; ++y) {
+      encode_pixels_of(work_.adaptive.sums[y], scratch_.words);
+      const ea_t to = frame_.surface + (row_ * kSampledEdge + first_row_ + y) * frame_.surface_pitch +
+                      column_ * kSampledEdge * static_cast<uint32_t>(sizeof(uint32_t));
+      spu_.put(scratch_.words, to, (width_ + 3) / 4 * 16, kTag);
+      arrive();
+    }
+    rows_ = 0;
+  }
+
+  Spu& spu_;
+  const FrameBlock& frame_;
+  SampleBundle<Spu>& samples_;
+  Work& work_;
+  Scratch& scratch_;
+  ea_t store_;
+  bool under_way_ = false;
+  uint32_t column_ = 0, row_ = 0;     ///< of the block
+  uint32_t width_ = 0, height_ = 0;   ///< pixels of it that are in the picture
+  uint32_t asked_ = 0;                ///< samples, or squares
+  Cursor cursor_, taken_;             ///< fixed: the next sample to be asked for, and to be taken
+  Colour sum_ = {};                   ///< of the samples of a pixel that are there
+  uint32_t first_row_ = 0, rows_ = 0; ///< adaptive: the rows that are being summed up
+  uint32_t next_row_ = 0;
+  uint32_t waiting_ = 0; ///< squares in the store
+};
+
+} // namespace celltrace::kernel

@@ -1,0 +1,54 @@
+// What the insides of objects take of the light that goes through them. Kernel dialect.
+#pragma once
+
+#include "kernel/modules.hpp"
+#include "kernel/packet.hpp"
+#include "kernel/scene_access.hpp"
+#include "kernel/shading/ray_stack.hpp"
+
+namespace celltrace::kernel {
+
+/// Whether a ray is inside of an interior.
+inline bool is_inside(const RayNode& ray, uint32_t lane, uint32_t interior) {
+  for (uint32_t d = 0; d < ray.interior_depth.lane[lane]; ++d)
+    if (ray.interiors[d].lane[lane] == interior) return true;
+  return false;
+}
+
+/// What is left of the light of `lanes` that comes out of what it hits, after `distance` in there. As in
+/// POV-Ray only rays fade that hit the surface of an interior that they are in, whatever else they are in,
+/// and shadow rays only where the power is not 0.
+template <class Spu>
+[[gnu::noinline]] void fade(SceneAccess<Spu>& scene, const RayNode& ray, const WordLanes& interior,
+                            const FloatLanes& distance, uint32_t lanes, VectorLanes& light, bool is_shadow) {
+  using S = typename Spu::rare_simd;
+  using F = typename S::F;
+  constexpr float kToBinary = 1.44269504f, kExponential = 1000.0f;
+  scene.spu().run_in_module(modules::kFading);
+  for_each_value<typename Spu::simd>(interior, lanes, [&](uint32_t offset, uint32_t same) {
+    const InteriorRecord r = *scene.interior(offset);
+    if (r.inverse_fade_distance == 0.0f || (is_shadow && r.fade_power == 0.0f)) return;
+    uint32_t inside = 0;
+    for_each_lane(
+        same, [&](uint32_t lane) { inside |= static_cast<uint32_t>(is_inside(ray, lane, offset)) << lane; });
+    for_each_part<Spu>([&](uint32_t first) {
+      const uint32_t some = part_of<Spu>(inside, first);
+      if (some == 0) return;
+      const F way = F::load(distance.lane + first) * F(r.inverse_fade_distance);
+      const F one(1.0f);
+      V3<S> left;
+      if (r.fade_power >= kExponential) {
+        const auto of = [&](float colour) { return exp2<S>(way * F((colour - 1.0f) * kToBinary)); };
+        left = {of(r.fade_colour[0]), of(r.fade_colour[1]), of(r.fade_colour[2])};
+      } else {
+        const F share = one / (one + pow<S>(way, F(r.fade_power)));
+        const V3<S> colour = splat3<S>(r.fade_colour);
+        left = colour + (V3<S>{one, one, one} - colour) * share;
+      }
+      const V3<S> before = light.template load_from<S>(first);
+      light.template store_from<S>(first, select<S>(S::M::from_bits(some), before * left, before));
+    });
+  });
+}
+
+} // namespace celltrace::kernel

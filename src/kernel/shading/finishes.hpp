@@ -1,0 +1,98 @@
+// What few finishes do with light: crand and irid. Kernel dialect.
+#pragma once
+
+#include "kernel/lights/incident_light.hpp"
+#include "kernel/modules.hpp"
+#include "kernel/shading/material_lanes.hpp"
+#include "kernel/textures/noise.hpp"
+
+#include <string.h>
+
+namespace celltrace::kernel {
+
+namespace detail {
+
+/// Numbers in [0, 1) that look random, each of a point and of `salt` alone: the same however work is shared.
+/// The last bits of points do not count, in which backends may differ.
+template <class S> typename S::F random_at(const V3<S>& point, uint32_t salt) {
+  constexpr uint32_t kCertain = ~0x1Fu;
+  alignas(64) float lane[3][S::kLanes];
+  point.x.store(lane[0]);
+  point.y.store(lane[1]);
+  point.z.store(lane[2]);
+  for (uint32_t i = 0; i < S::kLanes; ++i) {
+    uint32_t hash = salt;
+    for (const auto& coordinate : lane) {
+      uint32_t bits;
+      memcpy(&bits, &coordinate[i], sizeof bits);
+      hash = (hash ^ (bits & kCertain)) * 0x9E3779B1u;
+      hash ^= hash >> 15;
+    }
+    hash = (hash ^ hash >> 13) * 0x85EBCA6Bu;
+    lane[0][i] = static_cast<float>(static_cast<int32_t>(hash >> 8)) * (1.0f / 16777216.0f);
+  }
+  return S::F::load(lane[0]);
+}
+
+/// The cosine of an angle in turns.
+template <class S> typename S::F cosine_of_turns(const typename S::F& turns) {
+  const typename S::F shifted = turns + typename S::F(0.25f);
+  return sine_of_turns<S>(shifted - S::floor(shifted));
+}
+
+/// The factors that a thin film gives light, as POV-Ray's irid: by how much the way through the film differs
+/// from a whole number of each wavelength. `cosines`: that of the light's angle plus that of the ray's.
+template <class Spu>
+V3<typename Spu::rare_simd> film_factors(Spu& spu, const FinishRecord& f,
+                                         const V3<typename Spu::rare_simd>& point,
+                                         const typename Spu::rare_simd::F& cosines) {
+  using S = typename Spu::rare_simd;
+  using F = typename S::F;
+  F way = cosines * F(f.irid_thickness);
+  if (f.irid_turbulence != 0.0f) {
+    constexpr TurbulenceWords kFilm = {{1.0f, 1.0f, 1.0f}, 2.0f, 0.5f, 5};
+    spu.enter_module(modules::kNoise);
+    const F noise = noise::turbulence_value<S>(point, kFilm, f.first_generator != 0);
+    way = way * (F(1.0f) + F(f.irid_turbulence) * (noise + noise - F(1.0f)));
+  }
+  const auto factor = [&](float inverse_wavelength) {
+    return F(1.0f) + F(f.irid) * cosine_of_turns<S>(way * F(inverse_wavelength));
+  };
+  return {factor(f.inverse_wavelength[0]), factor(f.inverse_wavelength[1]), factor(f.inverse_wavelength[2])};
+}
+
+} // namespace detail
+
+/// Changes what surfaces send on of the light with this number, in the lanes of `m.special`.
+template <class Spu>
+[[gnu::noinline]] void change_special_light(SceneAccess<Spu>& scene, const Surfaces<typename Spu::simd>& s,
+                                            const MaterialLanes<typename Spu::simd>& m,
+                                            const IncidentLight<typename Spu::simd>& light, uint32_t number,
+                                            V3<typename Spu::simd>& sent) {
+  using S = typename Spu::simd;
+  using R = typename Spu::rare_simd;
+  using F = typename R::F;
+  scene.spu().run_in_module(modules::kFinishes);
+  for_each_value<S>(*m.offsets, m.special & light.facing, [&](uint32_t offset, uint32_t same) {
+    const FinishRecord f = *scene.finish(scene.material(offset)->finish);
+    for_each_part<Spu>([&](uint32_t first) {
+      const uint32_t some = part_of<Spu>(same, first);
+      if (some == 0) return;
+      const V3<R> point = part_of<Spu>(s.point, first);
+      const V3<R> before = part_of<Spu>(sent, first);
+      V3<R> after = before;
+      if (f.crand != 0.0f) {
+        const F less = detail::random_at<R>(point, number + 1) * F(f.crand);
+        after = after - part_of<Spu>(m.pigment, first) * part_of<Spu>(light.colour, first) * less;
+      }
+      if (f.irid != 0.0f) {
+        const F cosines = part_of<Spu>(light.cosine, first) -
+                          dot<R>(part_of<Spu>(s.direction, first), part_of<Spu>(s.normal, first));
+        after = after * detail::film_factors(scene.spu(), f, point, cosines);
+      }
+      set_part<Spu>(sent, first, select<R>(R::M::from_bits(some), after, before));
+    });
+  });
+}
+
+} // namespace celltrace::kernel

@@ -1,0 +1,61 @@
+// The random points of space, of which there is one in each unit cell. Kernel dialect.
+#pragma once
+
+#include "kernel/math.hpp"
+#include "kernel/scene_access.hpp"
+
+namespace celltrace::kernel {
+
+/// Calls `visit(lanes, cell, from)` for each of the unit cells that points are in: the lanes that have their
+/// point in it, its coordinates modulo 2^32, and where in the cell the points of all lanes are (of other lanes: in theirs).
+template <class S, class Visit>
+[[gnu::always_inline]] inline void for_each_cell_of(const V3<S>& p, Visit visit) {
+  typename S::I whole[3];
+  const V3<S> from = {fraction<S>(p.x, whole[0]), fraction<S>(p.y, whole[1]), fraction<S>(p.z, whole[2])};
+  alignas(64) int32_t of_lane[3][S::kLanes];
+  for (uint32_t axis = 0; axis < 3; ++axis)
+    whole[axis].store(of_lane[axis]);
+  for (uint32_t left = (1u << S::kLanes) - 1; left != 0;) {
+    const uint32_t first = static_cast<uint32_t>(__builtin_ctz(left));
+    uint32_t cell[3];
+    auto same = S::M::all();
+    for (uint32_t axis = 0; axis < 3; ++axis) {
+      same = same & (whole[axis] == S::I::splat(of_lane[axis][first]));
+      cell[axis] = static_cast<uint32_t>(of_lane[axis][first]);
+    }
+    const uint32_t lanes = same.bits() | 1u << first;
+    left &= ~lanes;
+    visit(lanes, cell, from);
+  }
+}
+
+/// The offset of the FeatureRecords that a pattern reads.
+inline uint32_t features_of(const PatternRecord& r) {
+  constexpr uint32_t kBytes = kFeatures * static_cast<uint32_t>(sizeof(FeatureRecord));
+  return (r.kind_and_flags & pattern_flag::gradient_noise) != 0 ? r.table - kBytes : r.table;
+}
+
+/// Numbers of cells and the points in them.
+template <class Spu> class Features {
+public:
+  /// `table`: offset of the FeatureRecords.
+  Features(SceneAccess<Spu>& scene, uint32_t table) : scene_(scene), table_(table) {}
+
+  /// The number after `number` of a coordinate: begins with 0 and x, then y, then z.
+  uint32_t number_after(uint32_t number, uint32_t coordinate) {
+    return at(number ^ (coordinate & (kFeatures - 1))).hash;
+  }
+  uint32_t number_of(const uint32_t (&cell)[3]) {
+    return number_after(number_after(number_after(0, cell[0]), cell[1]), cell[2]);
+  }
+  FeatureRecord at(uint32_t number) {
+    return *scene_.template pattern_table<FeatureRecord>(
+        table_ + (number & (kFeatures - 1)) * static_cast<uint32_t>(sizeof(FeatureRecord)));
+  }
+
+private:
+  SceneAccess<Spu>& scene_;
+  uint32_t table_;
+};
+
+} // namespace celltrace::kernel

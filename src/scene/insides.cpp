@@ -1,0 +1,182 @@
+#include "scene/insides.hpp"
+
+#include "celltrace/spe/simd_host.hpp"
+#include "kernel/primitives/list.hpp"
+#include "scene/shapes.hpp"
+#include "scene/surface_records.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include <glm/geometric.hpp>
+
+namespace celltrace {
+
+using namespace kernel;
+
+namespace {
+
+using Simd = HostSimd<xsimd::sse2>;
+
+constexpr float kFar = std::numeric_limits<float>::max();
+constexpr Aabb kEverywhere = {{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}};
+
+bool is_inside(const Sphere& sphere, const Transform& transform, const Vec3& point) {
+  // Hardly any of a million spheres is worth an inverse: most do not even have the point in their box.
+  const Vec3 away = point - transform.point(sphere.centre);
+  constexpr double kRoundedUp = 1.000001;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3 reach(transform.rows[0][axis], transform.rows[1][axis], transform.rows[2][axis]);
+    if (away[axis] * away[axis] > glm::dot(reach, reach) * sphere.radius * sphere.radius * kRoundedUp)
+      return false;
+  }
+  const Vec3 local = transform.inverse().point(point) - sphere.centre;
+  return local.x * local.x + local.y * local.y + local.z * local.z < sphere.radius * sphere.radius;
+}
+
+/// Whether the ray from a point along the mesh's inside vector crosses an odd number of triangles.
+bool is_inside(const Mesh& mesh, const Transform& transform, const Vec3& point) {
+  const Vec3 origin = transform.inverse().point(point);
+  bool inside = false;
+  for (const Mesh::Triangle& triangle : mesh.triangles) {
+    const Vec3 corner(mesh.vertices[triangle.vertex[0]]);
+    const Vec3 edge1 = Vec3(mesh.vertices[triangle.vertex[1]]) - corner;
+    const Vec3 edge2 = Vec3(mesh.vertices[triangle.vertex[2]]) - corner;
+    const Vec3 p = glm::cross(mesh.inside_vector, edge2);
+    const double determinant = glm::dot(edge1, p);
+    if (determinant == 0) continue;
+    const Vec3 from = origin - corner;
+    const Vec3 q = glm::cross(from, edge1);
+    const double u = glm::dot(from, p) / determinant, v = glm::dot(mesh.inside_vector, q) / determinant;
+    if (u >= 0 && v >= 0 && u + v < 1 && glm::dot(edge2, q) / determinant > 0) inside = !inside;
+  }
+  return inside;
+}
+
+/// Of a shape that is neither a mesh nor a CSG.
+bool is_inside(const PlacedShape& shape, const Vec3& point) {
+  if (shape.is_empty) return false;
+  ObjectRecord record{};
+  record.kind_and_flags = shape.kind_and_flags;
+  std::copy(shape.geometry, shape.geometry + 12, record.geometry);
+  ExtraRecord extra{};
+  std::copy(shape.parameters, shape.parameters + 2, extra.value);
+  using F = Simd::F;
+  const V3<Simd> at = {F(static_cast<float>(point.x)), F(static_cast<float>(point.y)),
+                       F(static_cast<float>(point.z))};
+  bool inside = false;
+  Primitives::dispatch(shape.kind_and_flags & object_flag::kind_mask, [&](auto primitive) {
+    inside = (decltype(primitive)::template inside<Simd>(at, record, extra).bits() & 1) != 0;
+  });
+  return inside;
+}
+
+bool is_inside(const Object& object, const Transform& around, const Vec3& point);
+
+bool is_inside(const Csg& csg, const Transform& transform, const Vec3& point) {
+  const auto in = [&](const Object& part) { return is_inside(part, transform, point); };
+  switch (csg.operation) {
+  case Csg::Operation::union_:
+  case Csg::Operation::merge:
+    return std::any_of(csg.parts.begin(), csg.parts.end(), in);
+  case Csg::Operation::intersection:
+    return std::all_of(csg.parts.begin(), csg.parts.end(), in);
+  case Csg::Operation::difference:
+    break;
+  }
+  return !csg.parts.empty() && in(csg.parts.front()) &&
+         std::none_of(csg.parts.begin() + 1, csg.parts.end(), in);
+}
+
+/// `around`: the transformation of the CSG that it is a part of.
+bool is_inside(const Object& object, const Transform& around, const Vec3& point) {
+  const Transform transform = object.transform.then(around);
+  if (object.clipped_by)
+    for (const Object& clip : *object.clipped_by)
+      if (!is_inside(clip, around, point)) return false;
+  bool inside = false;
+  if (const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape)) {
+    inside = is_inside(**csg, transform, point);
+  } else if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape)) {
+    if (!(*mesh)->has_inside()) return false;
+    inside = is_inside(**mesh, transform, point);
+  } else if (const auto* sphere = std::get_if<Sphere>(&object.shape)) {
+    inside = sphere->radius != 0 && is_inside(*sphere, transform, point);
+  } else {
+    Object placed = object;
+    placed.transform = transform;
+    inside = is_inside(place_shape(placed), point);
+  }
+  return inside != object.inverse;
+}
+
+/// Whether what a ray is in can make a difference where it hits the material. Maps are taken for ones with
+/// such entries.
+bool asks_for_interiors(const Material& material) {
+  if (material.map) return true;
+  for (const Material* layer = &material; layer != nullptr; layer = layer->below.get())
+    if (layer->pigment.map || !is_opaque(layer->pigment) || layer->finish.reflection_fresnel) return true;
+  return false;
+}
+
+/// What the parts of a CSG have that have no interior of their own, or else the first one's.
+std::optional<Index> interior_of(const Object& object) {
+  const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape);
+  if (csg == nullptr) return object.interior;
+  for (const Object& part : (*csg)->parts)
+    if (const std::optional<Index> interior = interior_of(part)) return interior;
+  return std::nullopt;
+}
+
+bool may_have_inside(const Object& object) {
+  if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape))
+    return (*mesh)->has_inside();
+  const auto* sphere = std::get_if<Sphere>(&object.shape);
+  return sphere == nullptr || sphere->radius != 0;
+}
+
+/// As far as it is worth finding out.
+Aabb box_of(const Object& object) {
+  const bool is_shape = !std::holds_alternative<std::shared_ptr<const Csg>>(object.shape) &&
+                        !std::holds_alternative<std::shared_ptr<const Mesh>>(object.shape) &&
+                        !std::holds_alternative<Sphere>(object.shape);
+  if (!is_shape || object.inverse || !has_bounds(object)) return kEverywhere;
+  const PlacedShape shape = place_shape(object);
+  return shape.is_empty || !shape.is_bounded ? kEverywhere : shape.bounds();
+}
+
+} // namespace
+
+bool Medium::contains(const Vec3& point) const {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double slack = 1e-4 * (1 + std::abs(point[axis]));
+    if (point[axis] < box.min[axis] - slack || point[axis] > box.max[axis] + slack) return false;
+  }
+  return is_inside(object, Transform(), point);
+}
+
+double Medium::volume() const {
+  if (const auto* sphere = std::get_if<Sphere>(&object.shape); sphere != nullptr && !object.inverse)
+    return std::abs(object.transform.determinant()) * std::pow(std::abs(sphere->radius), 3) *
+           (4 * std::numbers::pi / 3);
+  double product = 1;
+  for (int axis = 0; axis < 3; ++axis)
+    product *= double{box.max[axis]} - double{box.min[axis]};
+  return product;
+}
+
+std::vector<Medium> media_of(const Scene& scene) {
+  if (scene.fogs.empty() && std::none_of(scene.materials.begin(), scene.materials.end(), asks_for_interiors))
+    return {};
+  std::vector<Medium> media;
+  for (const Object& object : scene.objects) {
+    const std::optional<Index> interior = interior_of(object);
+    if (interior && may_have_inside(object)) media.push_back({object, *interior, box_of(object)});
+  }
+  return media;
+}
+
+} // namespace celltrace

@@ -1,0 +1,149 @@
+// Bounds of what CSG shows: tight enough for a BVH, and around all that can be seen.
+#include "scene/csg_parts.hpp"
+#include "scene/polytope.hpp"
+
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <random>
+
+using namespace celltrace;
+
+namespace {
+
+Object plane(const Vec3& normal, double distance, bool inverse = false) {
+  Object object;
+  object.shape = Plane{normal, distance};
+  object.inverse = inverse;
+  return object;
+}
+
+Object csg(Csg::Operation operation, std::vector<Object> parts) {
+  auto made = std::make_shared<Csg>();
+  made->operation = operation;
+  made->parts = std::move(parts);
+  Object object;
+  object.shape = std::shared_ptr<const Csg>(made);
+  return object;
+}
+
+CsgParts parts_of(Object object) {
+  Scene scene;
+  scene.objects.push_back(std::move(object));
+  return CsgParts(scene);
+}
+
+void check_bounds(const kernel::Aabb& box, const Vec3& min, const Vec3& max) {
+  for (int i = 0; i < 3; ++i) {
+    CHECK(box.min[i] == Approx(min[i]).margin(4e-3));
+    CHECK(box.max[i] == Approx(max[i]).margin(4e-3));
+  }
+}
+
+bool contains(const kernel::Aabb& box, const Vec3& point) {
+  for (int i = 0; i < 3; ++i)
+    if (point[i] < box.min[i] || point[i] > box.max[i]) return false;
+  return true;
+}
+
+/// The eight planes of an octahedron with corners 1 from its centre.
+std::vector<Object> octahedron() {
+  std::vector<Object> planes;
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 normal((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);
+    // Every other one as the complement of the opposite half-space.
+    planes.push_back(i % 2 == 0 ? plane(normal, std::sqrt(1.0 / 3))
+                                : plane(-normal, -std::sqrt(1.0 / 3), true));
+  }
+  return planes;
+}
+
+} // namespace
+
+TEST_CASE("Slanted planes bound their intersection, and each its own face") {
+  const CsgParts parts = parts_of(csg(Csg::Operation::intersection, octahedron()));
+  REQUIRE(parts.parts.size() == 8);
+  for (std::size_t i = 0; i < 8; ++i) {
+    CHECK(parts.parts[i].is_bounded);
+    const Vec3 side((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);
+    check_bounds(parts.parts[i].bounds, glm::min(side, Vec3(0)), glm::max(side, Vec3(0)));
+  }
+}
+
+TEST_CASE("Planes bound what they cut, through differences, transformations and nested intersections") {
+  Object inner = csg(Csg::Operation::intersection, octahedron());
+  inner.transform = Transform::scale({2, 2, 2}).then(Transform::translate({10, 0, 0}));
+  Object cone = plane({0, 1, 0}, 0);
+  cone.shape = Quadric{{1, -1, 1}, {}, {}, 0};
+  const CsgParts parts =
+      parts_of(csg(Csg::Operation::difference, {inner, plane({1, 1, 0}, std::sqrt(50.0)), cone}));
+  REQUIRE(parts.parts.size() == 10);
+  for (const CsgPart& part : parts.parts)
+    CHECK(part.is_bounded);
+  // What x + y > 10 leaves of it.
+  check_bounds(parts.parts[8].bounds, {9, -1, -2}, {11, 1, 2});
+  check_bounds(parts.parts[9].bounds, {9, -1, -2}, {12, 2, 2});
+}
+
+TEST_CASE("Planes that leave space open are without bounds") {
+  for (const int count : {1, 2, 3, 4}) {
+    std::vector<Object> some = octahedron();
+    some.resize(static_cast<std::size_t>(count));
+    const CsgParts parts = parts_of(csg(Csg::Operation::intersection, some));
+    bool all = true;
+    for (const CsgPart& part : parts.parts)
+      all = all && part.is_bounded;
+    CHECK_FALSE(all);
+  }
+}
+
+TEST_CASE("Planes that leave nothing show nothing") {
+  std::vector<Object> planes = octahedron();
+  planes.push_back(plane({1, 2, 3}, -2));
+  CHECK(parts_of(csg(Csg::Operation::intersection, planes)).parts.empty());
+}
+
+TEST_CASE("Every point that is seen of planes is in the bounds of its plane") {
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  const auto direction = [&] { return glm::normalize(Vec3(normal(random), normal(random), normal(random))); };
+  for (int round = 0; round < 40; ++round) {
+    const Vec3 centre = 10.0 * direction();
+    std::vector<Vec3> normals;
+    std::vector<Object> planes;
+    // Doubled planes and planes that only touch an edge or a corner are among them.
+    for (int i = 0; i < 4 + 3 * round; ++i) {
+      normals.push_back(i % 7 == 6 ? normals.back() : direction());
+      planes.push_back(plane(normals.back(), 1 + glm::dot(centre, normals.back())));
+    }
+    const CsgParts parts = parts_of(csg(Csg::Operation::intersection, planes));
+    REQUIRE(parts.parts.size() == planes.size());
+    int seen = 0;
+    for (int ray = 0; ray < 400; ++ray) {
+      const Vec3 toward = direction();
+      double nearest = 1e6;
+      std::size_t hit = normals.size();
+      for (std::size_t i = 0; i < normals.size(); ++i) {
+        const double slope = glm::dot(normals[i], toward);
+        if (slope > 0 && 1 / slope < nearest) {
+          nearest = 1 / slope;
+          hit = i;
+        }
+      }
+      if (hit == normals.size()) continue;
+      ++seen;
+      CHECK(contains(parts.parts[hit].bounds, centre + toward * nearest));
+    }
+    CHECK(seen > 100);
+  }
+}
+
+TEST_CASE("An intersection of very many planes is soon taken apart") {
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  std::vector<Object> planes;
+  for (int i = 0; i < 3000; ++i)
+    planes.push_back(plane({normal(random), normal(random), normal(random)}, 1));
+  CHECK(parts_of(csg(Csg::Operation::intersection, planes)).parts.size() == 3000);
+}

@@ -1,0 +1,20 @@
+// Objects that only mirrors show, or that no mirror shows; films on surfaces.
+#version 3.7;
+global_settings { assumed_gamma 1.0 max_trace_level 8 }
+background { color rgb <0.2, 0.3, 0.6> }
+camera { location <0, 2.5, -9> look_at <0, 1, 0> angle 55 }
+light_source { <3, 10, -10> color rgb 1 }
+light_source { <-6, 5, -6> color rgb <0.3, 0.35, 0.4> }
+plane { y, 0 pigment { checker color rgb 1 color rgb 0.5 } finish { reflection 0.5 } }
+sphere { <-2, 1, 0>, 1 pigment { color rgb <1, 0.2, 0.2> } no_reflection }
+sphere { <0, 1, 0>, 1 pigment { color rgb <0.2, 1, 0.2> } no_image }
+sphere { <2, 1, 0>, 1 pigment { color rgbt 0.9 } interior { ior 1.5 } finish { reflection 0.1 } }
+difference {
+  cylinder { <3.2, 0, 3>, <3.2, 4, 3>, 0.5 } plane { -z, -3 }
+  pigment { color rgb <1, 0, 1> } no_reflection
+}
+cylinder { <1.6, 0, 3>, <1.6, 4, 3>, 0.3 pigment { color rgb <0, 1, 1> } no_image }
+triangle { <-5, 0, 4>, <-1, 0, 4>, <-3, 4, 4> pigment { color rgb <0.9, 0.8, 0.2> } no_image }
+triangle { <-6, 0, 5>, <-2, 0, 5>, <-4, 4, 5> pigment { color rgb <0.5, 0.3, 0.7> } no_reflection }
+sphere { <-1, 0.6, -2.5>, 0.6 pigment { color rgb <0.6, 0.6, 0.7> } finish { diffuse 0.5 specular 0.5 roughness 0.05 irid { 0.4 thickness 0.9 turbulence 0.3 } } }
+sphere { <0.8, 0.6, -2.8>, 0.6 pigment { gradient y color_map { [0 color rgb 0.4] [1 color rgb 0.9] } scale 0.3 } finish { irid { 0.35 thickness 0.5 } } }
