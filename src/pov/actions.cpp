@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/geometric.hpp>
+
 #include "celltrace/error.hpp"
+#include "pov/object_queries.hpp"
 
 namespace celltrace::pov {
 
@@ -15,10 +18,7 @@ constexpr int kDeepestObject = 200;
 /// What `.grey` counts as, past the components.
 constexpr int kGrey = 5;
 
-double positive(Session& session, double value, const char* what, const Location& where) {
-  if (!(value > 0)) session.fail(where, std::string(what) + " must be greater than 0");
-  return value;
-}
+constexpr std::size_t kMostKnots = 20000; // of a spline
 
 void require_finite(Session& session, const ListEntry& entry, const Location& where) {
   if (!std::isfinite(entry.v.x) || !std::isfinite(entry.v.y) || !std::isfinite(entry.v.z))
@@ -40,6 +40,11 @@ std::shared_ptr<ObjectDefinition> make_object(std::shared_ptr<MeshDefinition> me
 }
 
 } // namespace
+
+double positive(Session& session, double value, const char* what, const Location& where) {
+  if (!(value > 0)) session.fail(where, std::string(what) + " must be greater than 0");
+  return value;
+}
 
 double component(Session& session, const Quantity& quantity, int which, const Location& where) {
   if (which == kGrey) {
@@ -83,6 +88,37 @@ Quantity decoded(Session& session, const Quantity& colour, const Location& where
   for (std::size_t i = 0; i < 3; ++i)
     result.v[i] = session.builder.from_srgb(colour.v[i]);
   return result;
+}
+
+Quantity call(Session& session, const UserFunction& function, const std::vector<Value>& arguments,
+              const Location& where) {
+  std::vector<double> numbers;
+  for (const Value& argument : arguments) {
+    const auto* quantity = std::get_if<Quantity>(&argument);
+    if (!quantity)
+      session.fail(where, std::string("the arguments of a function are floats, not ") + kind_name(argument));
+    numbers.push_back(session.number(*quantity, where));
+  }
+  return call_function(session, function, numbers, where);
+}
+
+Quantity trace(Session& session, const ObjectDefinition& object, const Quantity& origin,
+               const Quantity& direction, std::optional<NameId> normal, const Location& where) {
+  const ObjectHit hit =
+      trace(session, object, session.vector(origin, where), session.vector(direction, where), where)
+          .value_or(ObjectHit{Vec3(0), Vec3(0)});
+  if (normal) session.symbols.declare(*normal, Quantity::vector(hit.normal));
+  return Quantity::vector(hit.point);
+}
+
+void add(Session& session, Spline& spline, double at, const Quantity& value, const Location& where) {
+  if (spline.size() >= kMostKnots) session.fail(where, "this spline is too long");
+  spline.add(at, value);
+}
+
+SplinePtr finished(Session& session, const std::shared_ptr<Spline>& spline, const Location& where) {
+  if (spline->size() == 0) session.fail(where, "this spline has no vectors");
+  return spline;
 }
 
 void set_assumed_gamma(Session& session, double gamma, const Location& where) {
@@ -129,12 +165,96 @@ PatternChange option(int number, const Quantity& value, const Location& where) {
   };
 }
 
-PatternChange warp(const Turbulence& turbulence, const Location& where) {
-  return [=](Session& session, PatternDefinition& pattern) { bend(session, pattern, turbulence, where); };
+PatternChange fractal(Session& session, double magnet, const Quantity* constant, double iterations,
+                      const Location& where) {
+  pattern::Fractal fractal;
+  if (magnet != 0 && magnet != 1 && magnet != 2) session.fail(where, "a magnet is of kind 1 or 2");
+  fractal.magnet = static_cast<int>(magnet);
+  if (constant) {
+    const Vec3 c = session.vector(*constant, where);
+    fractal.is_julia = true;
+    fractal.c[0] = c.x;
+    fractal.c[1] = c.y;
+  }
+  constexpr double kMostIterations = 65535;
+  if (!(iterations >= 1 && iterations < kMostIterations + 1))
+    session.fail(where, "a fractal has 1 to 65535 iterations");
+  fractal.iterations = static_cast<int>(iterations);
+  return [=](Session&, PatternDefinition& pattern) { choose(pattern, fractal); };
+}
+
+PatternChange magnet(Session& session, double kind, int pattern, const Quantity& iterations,
+                     const Location& where) {
+  if (std::string(pattern_words()[static_cast<std::size_t>(pattern)].word) != "mandel")
+    session.fail(where, "expected 'mandel' or 'julia'");
+  return fractal(session, kind, nullptr, session.number(iterations, where), where);
+}
+
+PatternChange set_fractal(int pattern::Fractal::*member, double value, int least, int most,
+                          const Location& where) {
+  return [=](Session& session, PatternDefinition& pattern) {
+    if (!std::holds_alternative<pattern::Fractal>(pattern.value().kind))
+      session.fail(where, "this word means something to fractals only");
+    if (!(value >= least && value < most + 1))
+      session.fail(where, "this number must lie between " + std::to_string(least) + " and " +
+                              std::to_string(most));
+    std::get<pattern::Fractal>(pattern.own().kind).*member = static_cast<int>(value);
+  };
+}
+
+PatternChange exterior(double type, double factor, const Location& where) {
+  return [=](Session& session, PatternDefinition& pattern) {
+    set_fractal(&pattern::Fractal::exterior, type, 0, 6, where)(session, pattern);
+    std::get<pattern::Fractal>(pattern.own().kind).exterior_factor = factor;
+  };
+}
+
+PatternChange interior(double type, double factor, const Location& where) {
+  return [=](Session& session, PatternDefinition& pattern) {
+    set_fractal(&pattern::Fractal::interior, type, 0, 6, where)(session, pattern);
+    std::get<pattern::Fractal>(pattern.own().kind).interior_factor = factor;
+  };
 }
 
 PatternChange unsupported_change(const UnsupportedPtr& unsupported) {
   return [=](Session&, PatternDefinition& pattern) { mark(pattern.unsupported, unsupported); };
+}
+
+PatternChange warp(const SpaceStep& warp, const Location& where) {
+  return [=](Session& session, PatternDefinition& pattern) { bend(session, pattern, warp, where); };
+}
+
+warp::Repeat repeat(Session& session, const Vec3& width, const Location& where) {
+  warp::Repeat repeat;
+  int axes = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    if (width[axis] != 0) {
+      repeat.axis = axis;
+      repeat.width = width[axis];
+      ++axes;
+    }
+  if (axes != 1) session.fail(where, "a warp repeats along one axis");
+  return repeat;
+}
+
+Vec3 offset(Session& session, int option, const Quantity& value, const Location& where) {
+  const std::string word = pattern_options()[static_cast<std::size_t>(option)].word;
+  if (word != "offset") session.fail(where, '\'' + word + "' means nothing to this warp");
+  return session.vector(value, where);
+}
+
+warp::Mapping mapping(Session& session, int pattern, const Location& where) {
+  const auto shape = mapping_shape(pattern);
+  if (!shape) session.fail(where, quoted_pattern(pattern) + " is no warp");
+  warp::Mapping mapping;
+  mapping.shape = *shape;
+  return mapping;
+}
+
+Vec3 orientation(Session& session, const Quantity& value, const Location& where) {
+  const Vec3 vector = session.vector(value, where);
+  if (vector == Vec3(0)) session.fail(where, "this orientation has no direction");
+  return vector;
 }
 
 int octaves(double number) {
@@ -149,7 +269,8 @@ int noise_generator(Session& session, double number, const Location& where) {
 
 TexturePtr changed(Session& session, const TexturePtr& texture, const PatternChange& change,
                    const Location& where) {
-  if (!texture->pattern.exists()) session.fail(where, "this texture has no pattern of textures");
+  if (!texture->pattern.exists() && !texture->pattern.unsupported)
+    session.fail(where, "this texture has no pattern of textures");
   auto result = std::make_shared<TextureDefinition>(*texture);
   change(session, result->pattern);
   return result;
@@ -188,6 +309,29 @@ void set_colour(PigmentDefinition& pigment, const Pigment& colour) {
   pigment.pattern.unsupported = nullptr;
   pigment.map = nullptr;
   pigment.unsupported = nullptr;
+}
+
+bool is_ground_fog(Session& session, double type, const Location& where) {
+  if (type != 1 && type != 2) session.fail(where, "there are fogs of type 1 and 2");
+  return type == 2;
+}
+
+void set_colour(Fog& fog, const Pigment& colour) {
+  fog.colour = colour.rgb;
+  fog.filter = colour.filter;
+  fog.transmit = colour.transmit;
+}
+
+void transform(Fog& fog, const Transform& next) {
+  const Vec3 turned = next.direction(fog.up);
+  if (const double length = glm::length(turned); length > 0) fog.up = turned / length;
+}
+
+Vec3 direction(Session& session, const Quantity& vector, const Location& where) {
+  const Vec3 v = session.vector(vector, where);
+  const double length = glm::length(v);
+  if (!(length > 0)) session.fail(where, "this vector has no direction");
+  return v / length;
 }
 
 void ReflectionDefinition::set(const Vec3& only) {
@@ -258,6 +402,10 @@ void add_layer(Session& session, ObjectDefinition& object, const TexturePtr& top
   set_texture(object, layer(session, below, top, where));
 }
 
+void set_inside(Session& session, ObjectDefinition& object, const TexturePtr& top, const Location& where) {
+  object.inside = layer(session, object.inside, top, where);
+}
+
 std::shared_ptr<ObjectDefinition> shape(Session& session, const WrittenShape& written) {
   auto object = std::make_shared<ObjectDefinition>();
   object->shape = read_shape(session, written);
@@ -289,6 +437,7 @@ void apply(Session& session, const std::shared_ptr<const MaterialDefinition>& ma
            ObjectDefinition& object, const Location& where) {
   mark(object.unsupported, material->unsupported);
   if (material->texture) add_layer(session, object, material->texture, where);
+  if (material->inside) set_inside(session, object, material->inside, where);
   if (material->interior) object.interior = material->interior;
 }
 
@@ -374,8 +523,8 @@ UnsupportedPtr make_unsupported(const std::string& what, const Location& where) 
   return std::make_shared<Unsupported>(Unsupported{what, where});
 }
 
-UnsupportedPtr unsupported_rest(Session& session, const std::string& what, const Location& where) {
-  session.tokens.skip_to_close();
+UnsupportedPtr unsupported_feature(Session& session, const std::string& what, const Location& where) {
+  session.tokens.skip_arguments();
   return make_unsupported(what, where);
 }
 
@@ -385,12 +534,8 @@ UnsupportedPtr unless_zero(const std::string& what, double value, const Location
 
 ObjectPtr unsupported_object(const std::string& what, const Location& where) {
   auto object = std::make_shared<ObjectDefinition>();
-  object->unsupported = make_unsupported(what, where);
+  object->missing = make_unsupported(what, where);
   return object;
-}
-
-void refuse(Session& session, const std::string& what, const Location& where) {
-  session.fail(where, what + " is not supported yet");
 }
 
 } // namespace celltrace::pov

@@ -15,9 +15,10 @@
 namespace celltrace::pov {
 
 /// Adds to a list of the scene's, which a loop must not make endless.
-template <class T, class U = T>
-void append(Session& session, std::vector<T>& list, U&& element, const Location& where) {
-  if (list.size() >= session.options.limits.list_entries) session.fail(where, "this list is too long");
+template <class T, class A, class U = T>
+void append(Session& session, std::vector<T, A>& list, U&& element, const Location& where) {
+  if (list.size() >= session.options.limits.list_entries)
+    session.exceed(where, &ParseLimits::list_entries, "this list has", "entries");
   list.push_back(std::forward<U>(element));
 }
 
@@ -48,6 +49,17 @@ std::shared_ptr<Array> filled_array(Session& session, const std::vector<std::siz
 int dimensions(const Array& array);
 double dimension_size(Session& session, const Array& array, double dimension, const Location& where);
 
+// ---- Functions and splines ----
+
+Quantity call(Session& session, const UserFunction& function, const std::vector<Value>& arguments,
+              const Location& where);
+/// The point, or 0; also writes the normal there, or 0, to a name.
+Quantity trace(Session& session, const ObjectDefinition& object, const Quantity& origin,
+               const Quantity& direction, std::optional<NameId> normal, const Location& where);
+void add(Session& session, Spline& spline, double at, const Quantity& value, const Location& where);
+/// Fails if the spline has no knots.
+SplinePtr finished(Session& session, const std::shared_ptr<Spline>& spline, const Location& where);
+
 // ---- Scene ----
 
 void set_assumed_gamma(Session& session, double gamma, const Location& where);
@@ -70,8 +82,28 @@ template <class T> PatternChange set(T Turbulence::*member, T value) {
 }
 PatternChange poly_wave(double exponent);
 PatternChange option(int number, const Quantity& value, const Location& where);
-PatternChange warp(const Turbulence& turbulence, const Location& where);
+/// `constant`: Julia's, or null for the Mandelbrot set. `magnet`: 0, 1 or 2.
+PatternChange fractal(Session& session, double magnet, const Quantity* constant, double iterations,
+                      const Location& where);
+/// Of the magnet's kind, `pattern` being the Mandelbrot set.
+PatternChange magnet(Session& session, double kind, int pattern, const Quantity& iterations,
+                     const Location& where);
+/// What only fractals understand; fails unless the number is one of `least` to `most`.
+PatternChange set_fractal(int pattern::Fractal::*member, double value, int least, int most,
+                          const Location& where);
+PatternChange exterior(double type, double factor, const Location& where);
+PatternChange interior(double type, double factor, const Location& where);
 PatternChange unsupported_change(const UnsupportedPtr& unsupported);
+PatternChange warp(const SpaceStep& warp, const Location& where);
+/// Along the only axis of which `width` is not 0.
+warp::Repeat repeat(Session& session, const Vec3& width, const Location& where);
+/// `option`: the word, which has to be "offset".
+Vec3 offset(Session& session, int option, const Quantity& value, const Location& where);
+/// Of a pattern's word.
+warp::Mapping mapping(Session& session, int pattern, const Location& where);
+/// Fails unless it has a length.
+Vec3 orientation(Session& session, const Quantity& value, const Location& where);
+double positive(Session& session, double value, const char* what, const Location& where);
 int octaves(double number);
 /// 0: the scene's.
 int noise_generator(Session& session, double number, const Location& where);
@@ -91,6 +123,14 @@ void set_colour(PigmentDefinition& pigment, const Pigment& colour);
 /// Moves the pigments that it has got.
 void transform(Session& session, SkySphereDefinition& sky, const Transform& next, const Location& where);
 
+/// Whether a fog of this type is one that lies on the ground.
+bool is_ground_fog(Session& session, double type, const Location& where);
+void set_colour(Fog& fog, const Pigment& colour);
+/// As in POV-Ray, only the direction of its heights turns.
+void transform(Fog& fog, const Transform& next);
+/// Of length 1.
+Vec3 direction(Session& session, const Quantity& vector, const Location& where);
+
 // Maps and lists (maps.cpp)
 
 void add(Session& session, PigmentMap& map, double position, const PigmentDefinition& pigment,
@@ -104,6 +144,11 @@ void add_colour(Session& session, PigmentMap& map, double position, const Quanti
                 const Location& where);
 /// The entries of another one, behind its own.
 void add(Session& session, PigmentMap& map, const PigmentMap& entries, const Location& where);
+
+void add(Session& session, std::vector<SlopePoint>& map, double position, const Vec3& height_and_slope,
+         const Location& where);
+/// With positions as maps have them.
+std::vector<SlopePoint> ascending(std::vector<SlopePoint> map);
 
 void set_map(Session& session, PigmentDefinition& pigment, const PigmentMap& map, const Location& where);
 void set_map(Session& session, NormalDefinition& normal, const NormalMap& map, const Location& where);
@@ -154,6 +199,8 @@ TexturePtr texture_of(Session& session, const ObjectDefinition& object);
 TexturePtr plain_texture_of(Session& session, const ObjectDefinition& object, const Location& where);
 void set_texture(ObjectDefinition& object, const TexturePtr& texture);
 void add_layer(Session& session, ObjectDefinition& object, const TexturePtr& top, const Location& where);
+/// Adds a layer to what the object looks like from inside.
+void set_inside(Session& session, ObjectDefinition& object, const TexturePtr& top, const Location& where);
 std::shared_ptr<ObjectDefinition> shape(Session& session, const WrittenShape& written);
 std::shared_ptr<ObjectDefinition> csg(Session& session, Compound compound, const Location& where);
 /// An object that other ones can be limited by.
@@ -188,11 +235,11 @@ std::vector<ListEntry> vectors(Session& session, std::vector<ListEntry>& list, c
 std::string quoted(Session& session, NameId name);
 std::string quoted_pattern(int pattern);
 UnsupportedPtr make_unsupported(const std::string& what, const Location& where);
-/// Passes over the rest of the block too.
-UnsupportedPtr unsupported_rest(Session& session, const std::string& what, const Location& where);
+/// Passes over what belongs to it, too.
+UnsupportedPtr unsupported_feature(Session& session, const std::string& what, const Location& where);
 /// Null for zero.
 UnsupportedPtr unless_zero(const std::string& what, double value, const Location& where);
+/// An object that is left out, or refused, where it is placed.
 ObjectPtr unsupported_object(const std::string& what, const Location& where);
-[[noreturn]] void refuse(Session& session, const std::string& what, const Location& where);
 
 } // namespace celltrace::pov

@@ -22,6 +22,7 @@ std::shared_ptr<Array> copy(Session& session, const Array& array, const Location
   if (--budget.depth < 0 || array.elements.size() > budget.elements)
     session.fail(where, "this array is too large to be copied");
   budget.elements -= array.elements.size();
+  session.tokens.spend(array.elements.size() / 8);
   auto result = std::make_shared<Array>(array);
   for (Value& element : result->elements) {
     if (const Array* inner = as_array(element))
@@ -47,8 +48,7 @@ Array to_array(const std::vector<Quantity>& numbers) {
 std::size_t array_size(Session& session, double size, const Location& where) {
   if (!(size >= 1)) session.fail(where, "an array has at least one element");
   if (size > static_cast<double>(session.options.limits.array_elements))
-    session.fail(where, "an array has at most " + std::to_string(session.options.limits.array_elements) +
-                            " elements");
+    session.exceed(where, &ParseLimits::array_elements, "an array has", "elements");
   return static_cast<std::size_t>(size);
 }
 
@@ -62,6 +62,7 @@ std::shared_ptr<Array> make_array(Session& session, const std::vector<std::size_
     array_size(session, total, where);
   }
   auto array = std::make_shared<Array>();
+  session.tokens.spend(dimensions[level] / 8);
   array->elements.resize(dimensions[level]);
   if (level + 1 < dimensions.size())
     for (Value& element : array->elements)

@@ -1,8 +1,12 @@
 // How a fault of the scene is reported.
 #pragma once
 
+#include <set>
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include "celltrace/pov.hpp"
 #include "pov/input.hpp"
 #include "pov/names.hpp"
 #include "pov/sources.hpp"
@@ -10,26 +14,46 @@
 
 namespace celltrace::pov {
 
+/// What a scene calls a file or the like, in quotes, as a message can show it: not too long, and in one line.
+std::string quoted_name(std::string_view name);
+
 class Diagnostics {
 public:
-  Diagnostics(const Sources& sources, const Names& names, const Input& input)
-      : sources_(sources), names_(names), input_(input) {}
+  Diagnostics(const Sources& sources, const Names& names, const Input& input, const ParseOptions& options)
+      : sources_(sources), names_(names), input_(input), options_(options) {}
 
   /// "file:line:column"
   std::string place(const Location& where) const;
 
-  /// Throws SceneError: the place, the text and how it was reached.
+  /// Throws SceneError: what was not supported so far, then the place, the text and how it was reached.
   [[noreturn]] void fail(const Location& where, const std::string& what) const;
 
-  /// Throws SceneError if `unsupported` is not null: something at `used_at` needs it.
-  void require_supported(const UnsupportedPtr& unsupported, const Location& used_at) const;
+  /// Throws SceneError: `who`, such as "the loops run", passes a limit, counted in `unit`.
+  [[noreturn]] void exceed(const Location& where, std::uint64_t ParseLimits::* limit, const std::string& who,
+                           const std::string& unit) const;
+
+  /// Says "place: warning: text", or another kind of message.
+  void warn(const Location& where, const std::string& what) const { say(where, "warning", what); }
+  void note(const Location& where, const std::string& what) const { say(where, "note", what); }
+
+  /// Whether all is supported that something at `used_at` needs; nothing at all for null. What is not has to
+  /// be left out: each feature is noted for the error at the end, or warned of in lenient reading, once.
+  bool supports(const UnsupportedPtr& unsupported, const Location& used_at);
+  /// Throws SceneError if anything was noted.
+  void require_supported() const;
 
 private:
+  void say(const Location& where, const char* kind, const std::string& what) const;
+  void note_unsupported(const Unsupported& unsupported, const Location& used_at);
+  std::string unsupported_lines() const;
   std::string stack() const;
 
   const Sources& sources_;
   const Names& names_;
   const Input& input_;
+  const ParseOptions& options_;
+  std::set<std::string> unsupported_;        ///< the features noted or warned of
+  std::vector<std::string> unsupported_errors_; ///< the first ones of them
 };
 
 } // namespace celltrace::pov

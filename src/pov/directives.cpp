@@ -1,6 +1,6 @@
 // TokenStream: the directives that define, include and say something.
+#include <algorithm>
 #include <cmath>
-#include <iostream>
 
 #include "celltrace/error.hpp"
 #include "pov/actions.hpp"
@@ -8,6 +8,17 @@
 #include "pov/token_stream.hpp"
 
 namespace celltrace::pov {
+
+namespace {
+
+/// Whether a file's path ends with the name it was asked for, but for what separates folders.
+bool is_spelled(const std::string& path, std::string wanted) {
+  std::replace(wanted.begin(), wanted.end(), '\\', '/');
+  const std::string name = std::filesystem::path(wanted).filename().string();
+  return path.ends_with(name);
+}
+
+} // namespace
 
 void TokenStream::obey(const Token& directive) {
   const Directive kind = session_.names[directive.name].directive;
@@ -54,6 +65,14 @@ void TokenStream::obey(const Token& directive) {
     return start_while(directive);
   case Directive::for_:
     return start_for(directive);
+  case Directive::fopen_:
+    return open_data_file();
+  case Directive::fclose_:
+    return close_data_file();
+  case Directive::read_:
+    return read_data();
+  case Directive::write_:
+    return write_data();
   case Directive::unsupported:
     session_.fail(directive.where, "'#" + session_.names.text(directive.name) + "' is not supported yet");
   case Directive::none:
@@ -76,9 +95,12 @@ void TokenStream::expect(char punctuation, const char* purpose) {
     session_.fail(token.where, std::string("expected '") + punctuation + "' " + purpose);
 }
 
+/// Also where the one that includes a file has it behind the file's last declaration: people write
+/// #include "file.inc";
 void TokenStream::skip_semicolon() {
   const Token token = read();
-  if (!token.is(';') && token.kind != Token::Kind::end) session_.input.unread(token);
+  skips_semicolon_ = token.kind == Token::Kind::end;
+  if (!skips_semicolon_ && !token.is(';')) session_.input.unread(token);
 }
 
 std::vector<std::size_t> TokenStream::read_subscripts() {
@@ -128,8 +150,11 @@ void TokenStream::declare(bool is_local) {
   const Token name = expect_name("to declare");
   const std::vector<std::size_t> subscripts = read_subscripts();
   expect('=', "after the name to declare");
+  const std::size_t depth = session_.input.depth();
   Value value = evaluate(Start::value);
   skip_semicolon();
+  leave_finished_macros(depth); // the semicolon may be a macro's
+  if (std::holds_alternative<Quantity>(value)) skip_semicolon(); // POV-Ray takes two behind numbers
   if (const auto* text = std::get_if<std::string>(&value)) session_.count_text(text->size(), name.where);
   if (!subscripts.empty()) {
     const std::shared_ptr<Slot> slot = session_.symbols.find(name.name);
@@ -165,32 +190,46 @@ void TokenStream::set_version() {
   session_.builder.set_version(version);
 }
 
-void TokenStream::include(const Token& directive) {
-  Token name = read();
-  std::string wanted;
-  if (name.kind == Token::Kind::string) {
-    wanted = session_.names.text(name.name); // backslashes of Windows paths are no escapes
-  } else {
-    session_.input.unread(name);
-    wanted = std::get<std::string>(evaluate(Start::text));
+/// A string behind a directive.
+std::string TokenStream::read_file_name(Location& where) {
+  const Token name = read();
+  where = name.where;
+  if (name.kind == Token::Kind::string)
+    return session_.names.text(name.name); // backslashes of Windows paths are no escapes
+  session_.input.unread(name);
+  return std::get<std::string>(evaluate(Start::text));
+}
+
+/// The file that the scene calls `wanted`: where it is, and its text.
+std::pair<std::filesystem::path, std::string>
+TokenStream::read_file(const std::string& what, const std::string& wanted, const Location& where) {
+  const auto file = session_.sources.find_file(wanted, current_folder());
+  if (!file) session_.fail(where, "cannot find the " + what + ' ' + quoted_name(wanted));
+  if (!file->may_be_read)
+    session_.fail(where, what + ' ' + quoted_name(wanted) +
+                             " lies outside of the scene's folder and the library path: --allow DIR lets the "
+                             "scene read what is in a folder");
+  try {
+    return {file->path, read_text(file->path, session_.options.limits.file_bytes)};
+  } catch (const InputError& error) {
+    session_.fail(where, what + ' ' + quoted_name(wanted) + ": " + error.what());
   }
+}
+
+void TokenStream::include(const Token& directive) {
+  Location where;
+  const std::string wanted = read_file_name(where);
   const auto& frames = session_.input.frames();
   const auto open_files =
       std::count_if(frames.begin(), frames.end(), [](const Frame& f) { return f.scanner != nullptr; });
-  if (open_files >= session_.options.limits.include_depth)
-    session_.fail(name.where, "files are included more than " +
-                                  std::to_string(session_.options.limits.include_depth) + " deep: does '" +
-                                  wanted + "' include itself?");
-  const auto path = session_.sources.find_include(wanted, current_folder());
-  if (!path) session_.fail(name.where, "cannot find the include file '" + wanted + "'");
-  std::string text;
-  try {
-    text = read_text(*path, session_.options.limits.file_bytes);
-  } catch (const InputError& error) {
-    session_.fail(name.where, "include file '" + wanted + "': " + error.what());
-  }
+  if (static_cast<std::uint64_t>(open_files) >= session_.options.limits.include_depth)
+    session_.exceed(where, &ParseLimits::include_depth,
+                    "does " + quoted_name(wanted) + " include itself? Files are included", "deep");
+  auto [path, text] = read_file("include file", wanted, where);
+  if (!is_spelled(path.string(), wanted))
+    session_.diagnostics.note(where, "'" + wanted + "' is found as '" + path.string() + "'");
   session_.symbols.enter_scope();
-  open(std::move(text), path->lexically_normal().string(), path->parent_path());
+  open(std::move(text), path.lexically_normal().string(), path.parent_path());
   session_.input.top().opened_at = directive.where;
 }
 
@@ -198,15 +237,8 @@ void TokenStream::show(const Token& directive, Directive kind) {
   const std::string text = std::get<std::string>(evaluate(Start::text));
   if (kind == Directive::error) session_.fail(directive.where, text);
   const auto& message = session_.options.message;
-  if (kind != Directive::warning) {
-    if (message) message(text);
-    return;
-  }
-  const std::string warning = session_.diagnostics.place(directive.where) + ": warning: " + text + '\n';
-  if (message)
-    message(warning);
-  else
-    std::cerr << warning;
+  if (kind == Directive::warning) return session_.diagnostics.warn(directive.where, text);
+  if (message) message(text);
 }
 
 } // namespace celltrace::pov

@@ -5,9 +5,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <iterator>
 
 #include <glm/geometric.hpp>
+
+#include "pov/noise.hpp"
 
 namespace celltrace::pov {
 
@@ -162,10 +165,41 @@ std::string in_case(std::string text, bool upper) {
   return text;
 }
 
+Quantity turbulence(const Call& call) {
+  constexpr double kMostOctaves = 10;
+  const auto octaves = static_cast<int>(std::clamp(call.number(2), 1.0, kMostOctaves));
+  // As in POV-Ray, whose precision here is single.
+  const auto lambda = static_cast<float>(call.number(0)), omega = static_cast<float>(call.number(1));
+  return Quantity::vector(turbulence_vector(call.vector(3), octaves, lambda, omega));
+}
+
+/// Since the year 2000, in universal time.
+constexpr double kSecondsTo2000 = 946684800;
+constexpr double kSecondsPerDay = 86400;
+
+double days_now(const Call&) {
+  return (static_cast<double>(std::time(nullptr)) - kSecondsTo2000) / kSecondsPerDay;
+}
+
+/// As strftime() has it.
+std::string date_text(const Call& call) {
+  const double seconds = call.number(0) * kSecondsPerDay + kSecondsTo2000;
+  call.require(std::fabs(seconds) < 1e11, "this date is out of range");
+  const auto time = static_cast<std::time_t>(std::floor(seconds + 0.5));
+  std::tm parts{};
+  call.require(gmtime_r(&time, &parts) != nullptr, "this date is out of range");
+  const std::string format = call.count() > 1 ? call.text(1) : "%Y-%m-%d %H:%M:%SZ";
+  if (format.empty()) return {};
+  char text[1024];
+  const std::size_t size = std::strftime(text, sizeof text, format.c_str(), &parts);
+  call.require(size > 0, "this date's text is empty or too long");
+  return {text, size};
+}
+
 bool file_exists(const Call& call) {
-  return call.session()
-      .sources.find_include(call.text(0), call.session().tokens.current_folder())
-      .has_value();
+  const auto file =
+      call.session().sources.find_file(call.text(0), call.session().tokens.current_folder());
+  return file && file->may_be_read;
 }
 
 double logarithm(const Call& call, double (*function)(double)) {
@@ -212,6 +246,7 @@ const Function kFunctions[] = {
     {"log", "n", CELLTRACE_NUMERIC(logarithm(c, std::log10))},
     {"max", "n+", CELLTRACE_NUMERIC(best(c, std::greater<>()))},
     {"min", "n+", CELLTRACE_NUMERIC(best(c, std::less<>()))},
+    {"now", "", CELLTRACE_NUMERIC(days_now(c))},
     {"mod", "nn", CELLTRACE_NUMERIC(std::fmod(c.number(0), c.number(1)))},
     {"pow", "nn", CELLTRACE_NUMERIC(std::pow(c.number(0), c.number(1)))},
     {"radians", "n", CELLTRACE_NUMERIC(c.number(0) / kDegreesPerRadian)},
@@ -227,6 +262,7 @@ const Function kFunctions[] = {
     {"tanh", "n", CELLTRACE_NUMERIC(std::tanh(c.number(0)))},
     {"val", "s", CELLTRACE_NUMERIC(value_of(c))},
     {"vaxis_rotate", "vvn", CELLTRACE_NUMERIC(rotate_about(c))},
+    {"vturbulence", "nnnv", CELLTRACE_NUMERIC(turbulence(c))},
     {"vcross", "vv", CELLTRACE_NUMERIC(Quantity::vector(glm::cross(c.vector(0), c.vector(1))))},
     {"vdot", "vv", CELLTRACE_NUMERIC(glm::dot(c.vector(0), c.vector(1)))},
     {"vlength", "v", CELLTRACE_NUMERIC(glm::length(c.vector(0)))},
@@ -235,6 +271,7 @@ const Function kFunctions[] = {
      CELLTRACE_NUMERIC(Quantity::vector(Transform::rotate(c.vector(1)).direction(c.vector(0))))},
     {"chr", "n", CELLTRACE_TEXT(1, static_cast<char>(c.whole(0, 0, 255)))},
     {"concat", "s+", CELLTRACE_TEXT(concatenate(c))},
+    {"datetime", "ns?", CELLTRACE_TEXT(date_text(c))},
     {"str", "nnn", CELLTRACE_TEXT(number_text(c))},
     {"strlwr", "s", CELLTRACE_TEXT(in_case(c.text(0), false))},
     {"strupr", "s", CELLTRACE_TEXT(in_case(c.text(0), true))},
@@ -257,18 +294,26 @@ const char* type_name(char type) {
   return type == 's' ? "a string" : type == 'v' ? "a vector" : "a float";
 }
 
-Value evaluate(Session& session, int number, const std::vector<Value>& arguments, const Location& where) {
-  const Function& function = kFunctions[number];
+/// The types of so many arguments. Fails if the function does not take them.
+std::string argument_types(Session& session, const Function& function, std::size_t count,
+                           const Location& where) {
   std::string types = function.signature;
-  const bool repeats = types.back() == '+';
-  const bool is_optional = types.back() == '?';
+  const char last = types.empty() ? '\0' : types.back();
+  const bool repeats = last == '+';
+  const bool is_optional = last == '?';
   if (repeats || is_optional) types.pop_back();
-  if (is_optional && arguments.size() + 1 == types.size()) types.pop_back();
-  if (repeats && arguments.size() > types.size()) types.resize(arguments.size(), types.back());
-  if (arguments.size() != types.size())
+  if (is_optional && count + 1 == types.size()) types.pop_back();
+  if (repeats && count > types.size()) types.resize(count, types.back());
+  if (count != types.size())
     session.fail(where, std::string(function.name) + "() takes " + std::to_string(types.size()) +
                             (types.size() == 1 ? " argument" : " arguments") + ", not " +
-                            std::to_string(arguments.size()));
+                            std::to_string(count));
+  return types;
+}
+
+Value evaluate(Session& session, int number, const std::vector<Value>& arguments, const Location& where) {
+  const Function& function = kFunctions[number];
+  const std::string types = argument_types(session, function, arguments.size(), where);
   for (std::size_t i = 0; i < types.size(); ++i)
     if (!fits(arguments[i], types[i]))
       session.fail(where, "argument " + std::to_string(i + 1) + " of " + function.name + "() must be " +
@@ -286,6 +331,13 @@ std::vector<FunctionName> function_names() {
     names.push_back({function.name, gives_text});
   }
   return names;
+}
+
+void check_numeric_call(Session& session, int function, std::size_t arguments, const Location& where) {
+  const Function& called = kFunctions[function];
+  const std::string types = argument_types(session, called, arguments, where);
+  if (called.name[0] == 'v' || types.find_first_not_of('n') != std::string::npos)
+    session.fail(where, std::string(called.name) + "() is no function of floats");
 }
 
 Quantity call_numeric(Session& session, int function, const std::vector<Value>& arguments,

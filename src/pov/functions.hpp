@@ -16,6 +16,8 @@ struct FunctionName {
 };
 std::vector<FunctionName> function_names();
 
+/// Fails unless the function is one of floats only, of so many, that gives a float.
+void check_numeric_call(Session& session, int function, std::size_t arguments, const Location& where);
 /// Checks the arguments and calls function number `function`.
 Quantity call_numeric(Session& session, int function, const std::vector<Value>& arguments,
                       const Location& where);

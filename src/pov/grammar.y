@@ -2,7 +2,7 @@
 // already obeyed the directives. It can be entered for a whole scene or for one value (see Start):
 // entered for a value it finishes as soon as the value is complete, whatever follows, because every state
 // that could end a value reduces by default. Actions that move on in the token stream themselves
-// (take_literals, skip_group, skip_to_close) belong to rules that are reduced without looking ahead.
+// (take_literals, take_name, skip_group, skip_arguments) belong to rules that are reduced without looking ahead.
 
 %require "3.8"
 %language "c++"
@@ -18,12 +18,13 @@
 // After a value both an operator and, since commas are optional, a sign or a colour's channel can follow: the
 // longer value is meant. A number at the front of an entry of a pigment_map is its weight. A name that CSG begins
 // with is all it consists of, not its first part.
-%expect 72
+%expect 98
 
 %code requires {
 #include "pov/actions.hpp"
 #include "pov/functions.hpp"
 #include "pov/light.hpp"
+#include "pov/object_queries.hpp"
 #include "pov/session.hpp"
 #include "pov/shapes.hpp"
 }
@@ -53,7 +54,9 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %token <PigmentMapPtr> PIGMENT_MAP_ID
 %token <NormalMapPtr> NORMAL_MAP_ID
 %token <TextureMapPtr> TEXTURE_MAP_ID
+%token <SlopeMapPtr> SLOPE_MAP_ID
 %token <SkySpherePtr> SKY_SPHERE_ID
+%token <FogPtr> FOG_ID
 %token <FinishPtr> FINISH_ID
 %token <TexturePtr> TEXTURE_ID
 %token <InteriorPtr> INTERIOR_ID
@@ -63,11 +66,13 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %token <Transform> TRANSFORM_ID
 %token <std::shared_ptr<Array>> ARRAY_ID
 %token <UnsupportedPtr> UNSUPPORTED_ID
+%token <FunctionPtr> FUNCTION_ID
+%token <SplinePtr> SPLINE_ID
 %token UNDECLARED_ID
 
-%token <int> FUNCTION TEXT_FUNCTION COMPONENT COLOUR_MODEL SRGB_MODEL CHANNEL SHAPE CSG CAMERA_KIND
+%token <int> SPLINE_KIND FUNCTION TEXT_FUNCTION COMPONENT COLOUR_MODEL SRGB_MODEL CHANNEL SHAPE CSG CAMERA_KIND
 %token <int> PATTERN ARGUED_PATTERN LIST_PATTERN PATTERN_OPTION PATTERN_FLAG WAVE
-%token <NameId> UNSUPPORTED UNSUPPORTED_OBJECT UNSUPPORTED_BLOCK
+%token <NameId> UNSUPPORTED UNSUPPORTED_ARGUMENT UNSUPPORTED_OBJECT UNSUPPORTED_BLOCK
 %token BAD_CHARACTER DEFINED CONSTANT
 %token LESS_EQUAL GREATER_EQUAL NOT_EQUAL
 
@@ -84,10 +89,13 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %token NORMAL_VECTORS NO_SHADOW NUMBER_OF_WAVES OBJECT OCTAVES OMEGA OPEN
 %token PARALLEL PHASE PHONG PHONG_SIZE PHOTONS PIGMENT PIGMENT_MAP POINT_AT POLY_WAVE QUICK_COLOUR RADIUS
 %token ADAPTIVE AREA_ILLUMINATION AREA_LIGHT CIRCULAR JITTER ORIENT
-%token REFLECTION
+%token USER_FUNCTION SPLINE TRACE INSIDE MIN_EXTENT MAX_EXTENT
+%token REFLECTION COLLECT PASS_THROUGH TARGET
 %token REFLECTION_EXPONENT REFRACTION RIGHT ROTATE ROUGHNESS SCALE SHADOWLESS SKY SKY_SPHERE SMOOTH_TRIANGLE
 %token SPECULAR SPOTLIGHT SRGB TEXTURE TEXTURE_LIST TEXTURE_MAP TIGHTNESS TRANSFORM TRANSLATE TRIANGLE TURBULENCE UP
+%token DISTANCE FADE_COLOUR INTERIOR_TEXTURE IRID_WAVELENGTH NO_IMAGE NO_REFLECTION THICKNESS FOG FOG_ALT FOG_OFFSET FOG_TYPE TURB_DEPTH
 %token UV_INDICES UV_MAPPING UV_VECTORS VERTEX_VECTORS WARP
+%token BLACK_HOLE DIST_EXP EXTERIOR FLIP JULIA MAGNET MAJOR_RADIUS ORIENTATION REPEAT SLOPE_MAP STRENGTH TOROIDAL
 
 %nterm <Quantity> quantity operand vector vector_items comparison logic value_in_brackets
 %nterm <Quantity> colour colour_value colour_base
@@ -105,6 +113,11 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %nterm <std::shared_ptr<NormalDefinition>> normal_base declared_normal normal_parts normal_body
 %nterm <PatternChange> pattern pattern_change
 %nterm <Turbulence> turbulent_warp
+%nterm <SpaceStep> bend
+%nterm <warp::Repeat> repeat_warp
+%nterm <warp::BlackHole> hole_warp
+%nterm <warp::Mapping> mapping_warp
+%nterm <std::vector<SlopePoint>> slope_map slope_entries
 %nterm <PigmentMap> colours pigments colour_entry colour_entries pigment_entries colour_map pigment_map
 %nterm <NormalMap> normals normal_entries normal_map
 %nterm <TextureMap> textures texture_entries texture_map
@@ -112,6 +125,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %nterm <ReflectionDefinition> reflection_body
 %nterm <TexturePtr> texture texture_parts texture_body layers
 %nterm <std::shared_ptr<SkySphereDefinition>> sky_sphere sky_sphere_body
+%nterm <std::shared_ptr<FogDefinition>> fog fog_body
 %nterm <InteriorDefinition> interior_body
 %nterm <InteriorPtr> interior
 %nterm <MaterialDefinition> material_body
@@ -126,7 +140,10 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %nterm <std::shared_ptr<Mesh2Definition>> mesh2_head
 %nterm <std::vector<TexturePtr>> texture_list
 %nterm <std::shared_ptr<TriangleDefinition>> triangle triangle_vertices
+%nterm <bool> photons photon_items
+%nterm <NameId> variable
 %nterm <double> number optional_number flag entry_start
+%nterm <std::shared_ptr<Spline>> spline_head spline
 %nterm <double Light::*> beam_number
 %nterm <UnsupportedPtr> unsupported unsupported_pattern unsupported_modifier
 
@@ -157,8 +174,12 @@ scene
   | scene camera                    { session.builder.set_camera($2); }
   | scene BACKGROUND '{' colour_value '}' { session.builder.set_background(session.colour($4, @4)); }
   | scene sky_sphere                { session.builder.set_sky_sphere(*$2, @2); }
+  | scene fog                       { session.builder.add_fog(*$2, @2); }
   | scene GLOBAL_SETTINGS '{' settings '}'
-  | scene UNSUPPORTED_BLOCK         { refuse(session, quoted(session, $2), @2); }
+  | scene UNSUPPORTED_BLOCK         {
+      session.diagnostics.supports(make_unsupported(quoted(session, $2), @2), @2);
+      session.tokens.skip_group();
+    }
   ;
 
 settings
@@ -169,13 +190,14 @@ settings
   | settings ADC_BAILOUT number     { session.builder.set_adc_bailout($3); }
   | settings AMBIENT_LIGHT colour_value { session.builder.set_ambient_light(session.colour($3, @3).rgb); }
   | settings NOISE_GENERATOR number { set_noise_generator(session, $3, @3); }
+  | settings IRID_WAVELENGTH colour_value { session.builder.set_irid_wavelength(session.colour($3, @3).rgb); }
   | settings NUMBER_OF_WAVES number { set_number_of_waves(session, $3, @3); }
   | settings IGNORED_NUMBER colour_value
   | settings IGNORED_FLAG flag
-  | settings CHARSET UNSUPPORTED
+  | settings CHARSET UNSUPPORTED_ARGUMENT
   | settings CHARSET UNDECLARED_ID
-  | settings PHOTONS                { refuse(session, "'photons'", @2); }
-  | settings unsupported            { session.diagnostics.require_supported($2, @2); }
+  | settings PHOTONS { session.builder.set_photons(make_unsupported("'photons'", @2)); session.tokens.skip_group(); }
+  | settings unsupported            { session.diagnostics.supports($2, @2); }
   ;
 
 defaults
@@ -219,8 +241,24 @@ operand
   | '(' value_in_brackets ')'      { $$ = $2; }
   | operand COMPONENT              { $$ = component(session, $1, $2, @2); }
   | FUNCTION '(' arguments ')'     { $$ = call_numeric(session, $1, $3, @1); }
+  | FUNCTION_ID '(' arguments ')'  { $$ = call(session, *$1, $3, @1); }
+  | SPLINE_ID '(' number ')'       { $$ = $1->value($3); }
+  | SPLINE_ID '(' number ',' SPLINE_KIND ')' { $$ = $1->value($3, Spline::Kind($5)); }
+  | TRACE '(' object ',' quantity ',' quantity ')' { $$ = trace(session, *$3, $5, $7, std::nullopt, @1); }
+  | TRACE '(' object ',' quantity ',' quantity ',' variable ')' {
+      $$ = trace(session, *$3, $5, $7, $9, @1);
+    }
+  | INSIDE '(' object ',' quantity ')' {
+      $$ = double(contains(session, *$3, session.vector($5, @5), @1));
+    }
+  | MIN_EXTENT '(' object ')'      { $$ = Quantity::vector(extent_of(session, *$3, @1).min); }
+  | MAX_EXTENT '(' object ')'      { $$ = Quantity::vector(extent_of(session, *$3, @1).max); }
   | DIMENSIONS '(' ARRAY_ID ')'    { $$ = double(dimensions(*$3)); }
   | DIMENSION_SIZE '(' ARRAY_ID ',' number ')' { $$ = dimension_size(session, *$3, $5, @5); }
+  ;
+
+variable // to write to, whatever it is by now
+  : %empty { $$ = session.tokens.take_name(); }
   ;
 
 signs
@@ -233,7 +271,7 @@ signs
   ;
 
 vector
-  : '<' vector_items '>' {
+  : '<' vector_items optional_comma '>' {
       if ($2.is_float()) session.fail(@1, "a vector has at least two components");
       $$ = $2;
     }
@@ -379,7 +417,7 @@ pigment_parts // what it is, and then what changes that
   | pigment_parts pattern_change           { $$ = $1; $2(session, $$->pattern); }
   | pigment_parts transformation           { $$ = $1; move(session, $$->pattern, $2, @2); }
   | pigment_parts QUICK_COLOUR colour_value { $$ = $1; }
-  | pigment_parts unsupported_pattern      { $$ = $1; mark($$->unsupported, $2); }
+  | pigment_parts unsupported_pattern      { $$ = $1; mark($$->pattern.unsupported, $2); }
   ;
 
 pigment_body
@@ -410,9 +448,10 @@ normal_parts
   | normal_parts BUMP_SIZE number              { $$ = $1; $$->amount = $3; }
   | normal_parts ACCURACY number               { $$ = $1; $$->accuracy = accuracy(session, $3, @3); }
   | normal_parts NORMAL_MAP normal_map         { $$ = $1; set_map(session, *$$, $3, @2); }
+  | normal_parts SLOPE_MAP slope_map           { $$ = $1; $$->slopes = ascending(std::move($3)); }
   | normal_parts pattern_change                { $$ = $1; $2(session, $$->pattern); }
   | normal_parts transformation                { $$ = $1; move(session, $$->pattern, $2, @2); }
-  | normal_parts unsupported_pattern           { $$ = $1; mark($$->unsupported, $2); }
+  | normal_parts unsupported_pattern           { $$ = $1; mark($$->pattern.unsupported, $2); }
   ;
 
 normal_body
@@ -424,6 +463,9 @@ normal_body
 pattern
   : PATTERN                 { $$ = chosen($1); }
   | ARGUED_PATTERN quantity { $$ = chosen($1, $2, @2); }
+  | JULIA quantity optional_comma number { $$ = fractal(session, 0, &$2, $4, @1); }
+  | MAGNET number ARGUED_PATTERN quantity { $$ = magnet(session, $2, $3, $4, @3); }
+  | MAGNET number JULIA quantity optional_comma number { $$ = fractal(session, $2, &$4, $6, @1); }
   ;
 
 pattern_change
@@ -438,8 +480,41 @@ pattern_change
   | NOISE_GENERATOR number  { $$ = set(&Pattern::noise_generator, noise_generator(session, $2, @2)); }
   | PATTERN_OPTION quantity { $$ = option($1, $2, @1); }
   | PATTERN_FLAG            { $$ = option($1, 0, @1); }
-  | WARP '{' turbulent_warp '}' { $$ = warp($3, @1); }
-  | WARP '{' unsupported '}'    { $$ = unsupported_change(make_unsupported("this kind of warp", @1)); }
+  | EXPONENT number         { $$ = set_fractal(&pattern::Fractal::exponent, $2, 2, 33, @1); }
+  | EXTERIOR number optional_comma number { $$ = exterior($2, $4, @1); }
+  | INTERIOR number optional_comma number { $$ = interior($2, $4, @1); }
+  | WARP '{' bend '}'       { $$ = warp($3, @1); }
+  ;
+
+bend
+  : turbulent_warp { $$ = $1; }
+  | repeat_warp    { $$ = $1; }
+  | hole_warp      { $$ = $1; }
+  | mapping_warp   { $$ = $1; }
+  ;
+
+repeat_warp
+  : REPEAT quantity                     { $$ = repeat(session, session.vector($2, @2), @2); }
+  | repeat_warp FLIP quantity           { $$ = $1; $$.flip = session.vector($3, @3); }
+  | repeat_warp PATTERN_OPTION quantity { $$ = $1; $$.offset = offset(session, $2, $3, @2); }
+  ;
+
+hole_warp
+  : BLACK_HOLE quantity ',' number { $$.centre = session.vector($2, @2); $$.radius = positive(session, $4, "the radius", @4); }
+  | hole_warp FALLOFF number       { $$ = $1; $$.falloff = $3; }
+  | hole_warp STRENGTH number      { $$ = $1; $$.strength = $3; }
+  | hole_warp INVERSE              { $$ = $1; $$.is_inverse = true; }
+  | hole_warp REPEAT quantity      { $$ = $1; $$.repeat = session.vector($3, @3); }
+  | hole_warp TURBULENCE quantity  { $$ = $1; $$.turbulence = session.vector($3, @3); }
+  ;
+
+mapping_warp
+  : PATTERN                           { $$ = mapping(session, $1, @1); }
+  | PATTERN quantity ',' number       { $$ = mapping(session, $1, @1); $$.orientation = orientation(session, $2, @2); $$.distance = $4; }
+  | TOROIDAL                          { $$.shape = warp::Mapping::Shape::toroidal; }
+  | mapping_warp ORIENTATION quantity { $$ = $1; $$.orientation = orientation(session, $3, @3); }
+  | mapping_warp DIST_EXP number      { $$ = $1; $$.distance_exponent = $3; }
+  | mapping_warp MAJOR_RADIUS number  { $$ = $1; $$.major_radius = $3; }
   ;
 
 turbulent_warp
@@ -519,6 +594,19 @@ normal_entries
     }
   ;
 
+slope_map
+  : '{' SLOPE_MAP_ID '}'  { $$ = *$2; }
+  | '{' slope_entries '}' { $$ = std::move($2); }
+  ;
+
+slope_entries
+  : '[' number optional_comma quantity ']' { add(session, $$, $2, session.vector($4, @4), @2); }
+  | slope_entries '[' number optional_comma quantity ']' {
+      $$ = std::move($1);
+      add(session, $$, $3, session.vector($5, @5), @3);
+    }
+  ;
+
 texture_map
   : '{' TEXTURE_MAP_ID '}'  { $$ = *$2; }
   | '{' texture_entries '}' { $$ = std::move($2); }
@@ -564,27 +652,19 @@ finish_body
     }
   | finish_body IOR number                 { $$ = $1; $$->ior = ior(session, $3, @3); }
   | finish_body REFRACTION number          { $$ = $1; }
-  | finish_body CRAND number               { $$ = $1; mark($$->unsupported, unless_zero("'crand'", $3, @2)); }
-  | finish_body CAUSTICS number {
-      $$ = $1;
-      mark($$->unsupported, unless_zero("'caustics'", $3, @2));
-    }
-  | finish_body FADE_DISTANCE number {
-      $$ = $1;
-      mark($$->unsupported, unless_zero("'fade_distance'", $3, @2));
-    }
-  | finish_body FADE_POWER number          { $$ = $1; }
-  | finish_body IRID '{' number irid_items '}' {
-      $$ = $1;
-      mark($$->unsupported, unless_zero("'irid'", $4, @2));
-    }
+  | finish_body CRAND number               { $$ = $1; $$->value.crand = $3; }
+  | finish_body CAUSTICS number            { $$ = $1; $$->caustics = $3; }
+  | finish_body FADE_DISTANCE number       { $$ = $1; $$->fade_distance = $3; }
+  | finish_body FADE_POWER number          { $$ = $1; $$->fade_power = $3; }
+  | finish_body IRID '{' number            { $1->value.irid = $4; session.irid = &$1->value; }
+                          irid_items '}'   { $$ = $1; }
   | finish_body unsupported                { $$ = $1; mark($$->unsupported, $2); }
   ;
 
-irid_items
+irid_items // of the finish that is being read
   : %empty
-  | irid_items UNSUPPORTED number
-  | irid_items TURBULENCE quantity
+  | irid_items THICKNESS number  { session.irid->irid_thickness = $3; }
+  | irid_items TURBULENCE number { session.irid->irid_turbulence = $3; }
   ;
 
 reflection_body
@@ -627,7 +707,7 @@ texture_parts
   | texture_parts pattern_change { $$ = changed(session, $1, $2, @2); }
   | texture_parts transformation { $$ = transformed(session, $1, $2, @2); }
   | texture_parts UV_MAPPING     { $$ = with_uv_mapping($1, make_unsupported("'uv_mapping'", @2)); }
-  | texture_parts unsupported_pattern { $$ = with_unsupported($1, $2); }
+  | texture_parts unsupported_pattern { $$ = with_pattern(session, $1, unsupported_change($2)); }
   ;
 
 texture_body
@@ -658,6 +738,28 @@ sky_sphere_body
   | sky_sphere_body unsupported     { $$ = $1; mark($$->unsupported, $2); }
   ;
 
+fog
+  : FOG '{' fog_body '}' { $$ = $3; }
+  ;
+
+fog_body
+  : %empty                      { $$ = std::make_shared<FogDefinition>(); }
+  | fog_body FOG_ID             { $$ = std::make_shared<FogDefinition>(*$2); }
+  | fog_body FOG_TYPE number    { $$ = $1; $$->value.is_ground = is_ground_fog(session, $3, @3); }
+  | fog_body DISTANCE number    { $$ = $1; $$->value.distance = $3; }
+  | fog_body colour_value       { $$ = $1; set_colour($$->value, session.colour($2, @2)); }
+  | fog_body FOG_OFFSET number  { $$ = $1; $$->value.offset = $3; }
+  | fog_body FOG_ALT number     { $$ = $1; $$->value.altitude = $3; }
+  | fog_body UP quantity        { $$ = $1; $$->value.up = direction(session, $3, @3); }
+  | fog_body TURBULENCE quantity { $$ = $1; $$->value.turbulence.amount = session.vector($3, @3); }
+  | fog_body TURB_DEPTH number  { $$ = $1; $$->value.turbulence_depth = $3; }
+  | fog_body OCTAVES number     { $$ = $1; $$->value.turbulence.octaves = octaves($3); }
+  | fog_body OMEGA number       { $$ = $1; $$->value.turbulence.omega = $3; }
+  | fog_body LAMBDA number      { $$ = $1; $$->value.turbulence.lambda = $3; }
+  | fog_body transformation     { $$ = $1; transform($$->value, $2); }
+  | fog_body unsupported        { $$ = $1; mark($$->unsupported, $2); }
+  ;
+
 interior
   : INTERIOR '{' interior_body '}' { $$ = std::make_shared<InteriorDefinition>($3); }
   ;
@@ -666,9 +768,10 @@ interior_body
   : %empty                           { }
   | interior_body INTERIOR_ID        { $$ = *$2; }
   | interior_body IOR number         { $$ = $1; $$.ior = ior(session, $3, @3); }
-  | interior_body CAUSTICS number    { $$ = $1; mark($$.unsupported, unless_zero("'caustics'", $3, @2)); }
+  | interior_body CAUSTICS number    { $$ = $1; $$.caustics = $3; }
   | interior_body FADE_DISTANCE number { $$ = $1; $$.fade_distance = $3; }
   | interior_body FADE_POWER number  { $$ = $1; $$.fade_power = $3; }
+  | interior_body FADE_COLOUR colour_value { $$ = $1; $$.fade_colour = session.colour($3, @3).rgb; }
   | interior_body DISPERSION number {
       $$ = $1;
       mark($$.unsupported, unless_zero("'dispersion'", $3 - 1, @2));
@@ -685,10 +788,15 @@ material_body
   : %empty                       { }
   | material_body MATERIAL_ID    { $$ = *$2; }
   | material_body texture        { $$ = $1; $$.texture = layer(session, $$.texture, $2, @2); }
+  | material_body INTERIOR_TEXTURE '{' texture_body '}' {
+      $$ = $1;
+      $$.inside = layer(session, $$.inside, $4, @2);
+    }
   | material_body interior       { $$ = $1; $$.interior = $2; }
   | material_body transformation {
       $$ = $1;
       if ($$.texture) $$.texture = transformed(session, $$.texture, $2, @2);
+      if ($$.inside) $$.inside = transformed(session, $$.inside, $2, @2);
     }
   | material_body unsupported    { $$ = $1; mark($$.unsupported, $2); }
   ;
@@ -718,7 +826,7 @@ camera_body
   | camera_body APERTURE number    { $$ = $1; mark($$->unsupported, unless_zero("'aperture'", $3, @2)); }
   | camera_body IGNORED_NUMBER quantity { $$ = $1; }
   | camera_body transformation     { $$ = $1; $$->transform = $$->transform.then($2); }
-  | camera_body NORMAL { $$ = $1; mark($$->unsupported, unsupported_rest(session, "'normal'", @2)); }
+  | camera_body NORMAL { $$ = $1; mark($$->unsupported, unsupported_feature(session, "'normal'", @2)); }
   | camera_body unsupported_modifier { $$ = $1; mark($$->unsupported, $2); }
   ;
 
@@ -782,8 +890,14 @@ object_body
     }
   | object_body interior               { $$ = $1; $$->interior = $2; }
   | object_body material               { $$ = $1; apply(session, $2, *$$, @2); }
+  | object_body INTERIOR_TEXTURE '{' texture_body '}' {
+      $$ = $1;
+      set_inside(session, *$$, $4, @2);
+    }
+  | object_body NO_IMAGE               { $$ = $1; $$->no_image = true; }
+  | object_body NO_REFLECTION          { $$ = $1; $$->no_reflection = true; }
   | object_body NO_SHADOW              { $$ = $1; $$->no_shadow = true; }
-  | object_body HOLLOW flag            { $$ = $1; }
+  | object_body HOLLOW flag            { $$ = $1; $$->hollow = $3 != 0; }
   | object_body INVERSE                { $$ = $1; $$->inverse = !$$->inverse; }
   | object_body IGNORED_FLAG flag      { $$ = $1; }
   | object_body UV_MAPPING             { $$ = $1; mark($$->uv_mapping, make_unsupported("'uv_mapping'", @2)); }
@@ -801,8 +915,27 @@ object_body
       $$ = $1;
       limit(session, *$$, $$->bounded_by, $$->clipped_by, @2);
     }
-  | object_body PHOTONS                { $$ = $1; session.tokens.skip_group(); }
+  | object_body photons                { $$ = $1; $$->is_photon_target = $2; }
   | object_body unsupported_modifier   { $$ = $1; mark($$->unsupported, $2); }
+  ;
+
+photons // whether any are to be aimed at this
+  : PHOTONS '{' photon_items '}' { $$ = $3; }
+  ;
+
+photon_items
+  : %empty                              { $$ = false; }
+  | photon_items ','                    { $$ = $1; }
+  | photon_items TARGET optional_number { $$ = $3 != 0; }
+  | photon_items photon_flag flag       { $$ = $1; }
+  ;
+
+photon_flag
+  : REFRACTION
+  | REFLECTION
+  | COLLECT
+  | PASS_THROUGH
+  | AREA_LIGHT
   ;
 
 limits // of where an object is; they can be moved together
@@ -840,7 +973,7 @@ light_body // what comes later applies to what is there by then
   | light_body transformation                             { $$ = $1; transform(*$$, $2); }
   | light_body IGNORED_FLAG flag                          { $$ = $1; }
   | light_body unsupported                                { $$ = $1; mark($$->unsupported, $2); }
-  | light_body PHOTONS                                    { $$ = $1; session.tokens.skip_group(); }
+  | light_body photons                                    { $$ = $1; }
   ;
 
 beam_number
@@ -930,10 +1063,13 @@ declarable
   | COLOUR_MAP colour_map   { $$ = std::make_shared<const PigmentMap>($2); }
   | PIGMENT_MAP pigment_map { $$ = std::make_shared<const PigmentMap>($2); }
   | NORMAL_MAP normal_map   { $$ = std::make_shared<const NormalMap>($2); }
+  | SLOPE_MAP slope_map     { $$ = std::make_shared<const std::vector<SlopePoint>>($2); }
   | TEXTURE_MAP texture_map { $$ = std::make_shared<const TextureMap>($2); }
   | FINISH '{' from_default finish_body '}'   { $$ = FinishPtr($4); }
   | sky_sphere        { $$ = SkySpherePtr($1); }
   | SKY_SPHERE_ID     { $$ = $1; }
+  | fog               { $$ = FogPtr($1); }
+  | FOG_ID            { $$ = $1; }
   | layers            { $$ = $1; }
   | TEXTURE_ID        { $$ = $1; }
   | PIGMENT_ID        { $$ = $1; }
@@ -941,13 +1077,17 @@ declarable
   | PIGMENT_MAP_ID    { $$ = $1; }
   | NORMAL_MAP_ID     { $$ = $1; }
   | TEXTURE_MAP_ID    { $$ = $1; }
+  | SLOPE_MAP_ID      { $$ = $1; }
   | FINISH_ID         { $$ = $1; }
   | INTERIOR_ID       { $$ = $1; }
   | MATERIAL_ID       { $$ = $1; }
   | CAMERA_ID         { $$ = $1; }
   | TRANSFORM_ID      { $$ = $1; }
   | UNSUPPORTED_ID    { $$ = $1; }
-  | UNSUPPORTED_ID '(' { session.diagnostics.require_supported($1, @1); }
+  | USER_FUNCTION     { $$ = read_function(session, @1); }
+  | FUNCTION_ID       { $$ = $1; }
+  | SPLINE '{' spline '}' { $$ = finished(session, $3, @1); }
+  | SPLINE_ID         { $$ = $1; }
   | ARRAY_ID          { $$ = copy(session, *$1, @1); }
   | interior          { $$ = $1; }
   | material          { $$ = $1; }
@@ -958,6 +1098,17 @@ declarable
   | ARRAY dimensions  { $$ = make_array(session, $2, 0, @1); }
   | ARRAY dimensions '{' elements '}' { $$ = filled_array(session, $2, $4, @3); }
   | ARRAY dimensions '{' elements ',' '}' { $$ = filled_array(session, $2, $4, @3); }
+  ;
+
+spline
+  : spline_head
+  | spline number optional_comma quantity optional_comma { $$ = $1; add(session, *$$, $2, $4, @2); }
+  ;
+
+spline_head
+  : %empty                   { $$ = std::make_shared<Spline>(); }
+  | spline_head SPLINE_ID    { $$ = std::make_shared<Spline>(*$2); }
+  | spline_head SPLINE_KIND  { $$ = $1; $$->kind = Spline::Kind($2); }
   ;
 
 dimensions
@@ -976,21 +1127,23 @@ element
   | '{' elements '}'          { $$ = $2; }
   ;
 
-// ---- What is not supported: the rest of the block is passed over ----
+// ---- What is not supported: what belongs to it is passed over ----
 
 unsupported
   : unsupported_pattern
-  | NORMAL             { $$ = unsupported_rest(session, "'normal'", @1); }
-  | PATTERN            { $$ = unsupported_rest(session, quoted_pattern($1), @1); }
+  | NORMAL             { $$ = unsupported_feature(session, "'normal'", @1); }
+  | PATTERN            { $$ = unsupported_feature(session, quoted_pattern($1), @1); }
   ;
 
 unsupported_pattern // a pigment's, normal's or texture's
   : unsupported_modifier
-  | UNSUPPORTED_OBJECT { $$ = unsupported_rest(session, quoted(session, $1), @1); }
-  | OBJECT             { $$ = unsupported_rest(session, "an object pattern", @1); }
+  | UNSUPPORTED_OBJECT { $$ = unsupported_feature(session, quoted(session, $1), @1); }
+  | OBJECT             { $$ = unsupported_feature(session, "an object pattern", @1); }
+  | USER_FUNCTION      { $$ = unsupported_feature(session, "'function'", @1); }
   ;
 
 unsupported_modifier // an object's: in CSG an unsupported object is one of its parts
-  : UNSUPPORTED        { $$ = unsupported_rest(session, quoted(session, $1), @1); }
-  | UNSUPPORTED_BLOCK  { $$ = unsupported_rest(session, quoted(session, $1), @1); }
+  : UNSUPPORTED        { $$ = unsupported_feature(session, quoted(session, $1), @1); }
+  | UNSUPPORTED_ARGUMENT { $$ = unsupported_feature(session, quoted(session, $1), @1); }
+  | UNSUPPORTED_BLOCK  { $$ = unsupported_feature(session, quoted(session, $1), @1); }
   ;

@@ -48,6 +48,7 @@ public:
   void push(Frame frame) { frames_.push_back(std::move(frame)); }
   void pop() { frames_.pop_back(); }
   Frame& top() { return frames_.back(); }
+  const Frame& top() const { return frames_.back(); }
   const std::vector<Frame>& frames() const { return frames_; }
   std::size_t depth() const { return frames_.size(); }
 

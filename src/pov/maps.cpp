@@ -24,13 +24,16 @@ void add(Session& session, MapDefinition<T>& map, double position, const T& valu
 
 /// Positions ascend in a Scene's maps. POV-Ray looks for the first entry that a number has not passed, after
 /// it has looked whether it has passed the last one.
-template <class T> std::shared_ptr<const MapDefinition<T>> ascending(MapDefinition<T> map) {
-  const double last = map.entries.back().position;
-  double reached = map.entries.front().position;
-  for (auto& entry : map.entries) {
+template <class Entries> void make_ascending(Entries& entries) {
+  const double last = entries.back().position;
+  double reached = entries.front().position;
+  for (auto& entry : entries) {
     reached = std::max(reached, entry.position);
     entry.position = std::min(reached, last);
   }
+}
+template <class T> std::shared_ptr<const MapDefinition<T>> ascending(MapDefinition<T> map) {
+  make_ascending(map.entries);
   return std::make_shared<const MapDefinition<T>>(std::move(map));
 }
 
@@ -38,6 +41,7 @@ template <class T> std::shared_ptr<const MapDefinition<T>> ascending(MapDefiniti
 template <class T>
 std::shared_ptr<const MapDefinition<T>> map_for(Session& session, const PatternDefinition& pattern,
                                                 const MapDefinition<T>& map, const Location& where) {
+  if (!pattern.exists() && pattern.unsupported) return nullptr;
   if (!pattern.exists()) session.fail(where, "a map needs a pattern in front of it");
   if (pattern.list_length() > 0) session.fail(where, "this pattern takes a list, not a map");
   if (!pattern.is_average()) return ascending(map);
@@ -95,8 +99,21 @@ void add(Session& session, PigmentMap& map, const PigmentMap& entries, const Loc
     add(session, map, position, pigment, entries.depth - 1, entries.is_opaque, entries.unsupported, where);
 }
 
+void add(Session& session, std::vector<SlopePoint>& map, double position, const Vec3& height_and_slope,
+         const Location& where) {
+  if (map.size() >= static_cast<std::size_t>(kMostMapEntries))
+    session.fail(where, "a map has at most " + std::to_string(kMostMapEntries) + " entries");
+  map.push_back({position, height_and_slope.x, height_and_slope.y});
+}
+
+std::vector<SlopePoint> ascending(std::vector<SlopePoint> map) {
+  make_ascending(map);
+  return map;
+}
+
 void set_map(Session& session, PigmentDefinition& pigment, const PigmentMap& map, const Location& where) {
   pigment.map = map_for(session, pigment.pattern, map, where);
+  if (!pigment.map) pigment.value = map.entries.front().value; // of a pattern that is left out
 }
 
 void set_map(Session& session, NormalDefinition& normal, const NormalMap& map, const Location& where) {
@@ -107,6 +124,10 @@ TexturePtr with_map(Session& session, const TexturePtr& texture, const TextureMa
                     const Location& where) {
   auto changed = std::make_shared<TextureDefinition>(*texture);
   changed->map = map_for(session, texture->pattern, map, where);
+  if (!changed->map) { // of a pattern that is left out
+    *changed = *map.entries.front().value;
+    mark(changed->unsupported, texture->pattern.unsupported);
+  }
   return changed;
 }
 
@@ -151,8 +172,17 @@ TexturePtr with_list(Session& session, const TexturePtr& texture, int pattern, T
   return changed;
 }
 
+namespace {
+
+void refuse_in_colours(Session& session, const PatternDefinition& pattern, const Location& where) {
+  if (pattern.is_for_normals_alone()) session.fail(where, "'facets' is a pattern of normals alone");
+}
+
+} // namespace
+
 void check(Session& session, const PigmentDefinition& pigment, const Location& where) {
-  if (pigment.pattern.is_average() && !pigment.map && !pigment.first_unsupported())
+  refuse_in_colours(session, pigment.pattern, where);
+  if (pigment.pattern.is_average() && !pigment.map && !pigment.pattern.unsupported)
     session.fail(where, "an average needs a map");
 }
 
@@ -162,6 +192,7 @@ void check(Session& session, const NormalDefinition& normal, const Location& whe
 }
 
 void check(Session& session, const TexturePtr& texture, const Location& where) {
+  refuse_in_colours(session, texture->pattern, where);
   if (texture->pattern.exists() && !texture->map && !texture->first_unsupported())
     session.fail(where, "a pattern of textures needs a 'texture_map'");
 }

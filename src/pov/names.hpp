@@ -23,6 +23,8 @@ enum class Directive : std::uint8_t {
   elseif,
   end,
   error,
+  fclose_,
+  fopen_,
   for_,
   if_,
   ifdef,
@@ -31,6 +33,7 @@ enum class Directive : std::uint8_t {
   local,
   macro,
   range,
+  read_,
   render,
   statistics,
   switch_,
@@ -38,6 +41,7 @@ enum class Directive : std::uint8_t {
   version,
   warning,
   while_,
+  write_,
   unsupported, ///< known to POV-Ray only
 };
 

@@ -3,11 +3,13 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <variant>
 #include <vector>
 
 #include "celltrace/scene.hpp"
 #include "pov/location.hpp"
+#include "pov/memory.hpp"
 #include "pov/texture.hpp"
 
 namespace celltrace::pov {
@@ -62,17 +64,24 @@ struct ObjectDefinition {
       shape;
   Location where; ///< where it is written, or referred to within other objects
   Transform transform;
+  TexturePtr inside;           ///< what it looks like from inside; null: the same, or the parent's
   TexturePtr texture;          ///< null: the parent's, then the default
   Transform texture_transform; ///< what the object went through since it has the texture
   UnsupportedPtr uv_mapping;
   InteriorPtr interior;
   bool no_shadow = false;
+  bool no_image = false;
+  bool no_reflection = false;
+  std::optional<bool> hollow; ///< not given: as what it is part of
   bool inverse = false;
   std::vector<Limit> clipped_by;
   std::vector<Limit> bounded_by; ///< without effect, until something is clipped by it
   UnsupportedPtr unsupported;
+  UnsupportedPtr missing;        ///< instead of a shape, one that this program lacks
+  bool is_photon_target = false; ///< not of lights
   bool is_look = false; ///< being read as what a light looks like
   int depth = 0;        ///< of objects inside one another
+  [[no_unique_address]] Counted<ObjectDefinition> counted;
 
   /// Moves its texture and what limits it, too.
   void apply(const Transform& next);

@@ -14,9 +14,16 @@ Scene parse(std::string text, const ParseOptions& options, const std::string& na
   session.sources.set_scene_folder(folder);
   session.tokens.open(std::move(text), name, folder);
   pov::declare_predefined(session);
-  session.tokens.evaluate(pov::Start::scene);
+  try {
+    session.tokens.evaluate(pov::Start::scene);
+    session.tokens.close_data_files();
+  } catch (const pov::LimitPassed& passed) {
+    session.exceed(session.tokens.last_place(), passed.limit, passed.who, passed.unit);
+  }
   if (session.tokens.is_empty()) throw SceneError(name + ":1:1: error: the scene is empty");
-  return session.builder.finish(name);
+  Scene scene = session.builder.finish(name);
+  session.diagnostics.require_supported();
+  return scene;
 }
 
 } // namespace

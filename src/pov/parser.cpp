@@ -36,6 +36,7 @@ struct Deliver {
   void operator()(std::monostate) const {
     using token = Parser::token;
     switch (terminal.token) {
+    case token::T_SPLINE_KIND:
     case token::T_FUNCTION:
     case token::T_TEXT_FUNCTION:
     case token::T_COMPONENT:
@@ -54,6 +55,7 @@ struct Deliver {
       target.emplace<int>(terminal.detail);
       break;
     case token::T_UNSUPPORTED:
+    case token::T_UNSUPPORTED_ARGUMENT:
     case token::T_UNSUPPORTED_OBJECT:
     case token::T_UNSUPPORTED_BLOCK:
       target.emplace<NameId>(static_cast<NameId>(terminal.detail));
@@ -63,6 +65,7 @@ struct Deliver {
     }
   }
   void operator()(std::shared_ptr<const Macro>&) const {}
+  void operator()(std::shared_ptr<DataFile>&) const {}
   template <class T> void operator()(T& value) const { target.emplace<T>(std::move(value)); }
 };
 
@@ -93,12 +96,12 @@ void Parser::report_syntax_error(const context& ctx) const {
   const std::string found = session.tokens.describe_last();
   switch (ctx.token()) {
   case symbol_kind::S_UNSUPPORTED:
+  case symbol_kind::S_UNSUPPORTED_ARGUMENT:
   case symbol_kind::S_UNSUPPORTED_OBJECT:
   case symbol_kind::S_UNSUPPORTED_BLOCK:
     session.fail(where, found + " is not supported yet");
   case symbol_kind::S_UNSUPPORTED_ID:
-    session.diagnostics.require_supported(ctx.lookahead().value.as<UnsupportedPtr>(), where);
-    break;
+    session.fail(where, found + " is not supported yet");
   case symbol_kind::S_UNDECLARED_ID:
     session.fail(where, found + " is not declared");
   default:

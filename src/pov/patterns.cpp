@@ -89,6 +89,13 @@ void set_metric(Kind& kind, const Argument& a) {
   std::get<Crackle>(kind).metric = metric;
 }
 
+void set_iterations(Kind& kind, const Argument& a) {
+  constexpr double kMostIterations = 65535;
+  const double iterations = std::trunc(a.number());
+  a.require(iterations >= 1 && iterations <= kMostIterations, "a fractal has 1 to 65535 iterations");
+  std::get<Fractal>(kind).iterations = static_cast<int>(iterations);
+}
+
 void set_form(Kind& kind, const Argument& a) {
   const Vec3 form = a.vector();
   double(&factors)[3] = std::get<Crackle>(kind).form;
@@ -154,10 +161,19 @@ const Entry kPatterns[] = {
     {"cubic", make<Cubic>, kList, Wave::ramp, kSix},
     {"cylindrical", make<Cylindrical>},
     {"dents", make<Dents>},
+    {"facets",
+     make<Facets>,
+     kPlain,
+     Wave::ramp,
+     kGrey,
+     nullptr,
+     {{"coords", [](Kind& kind, const Argument& a) { std::get<Facets>(kind).coords = a.number(); }},
+      {"size", [](Kind& kind, const Argument& a) { std::get<Facets>(kind).size = a.number(); }}}},
     {"gradient", make<Gradient>, kArgument, Wave::ramp, kGrey, set_direction},
     {"granite", make<Granite>},
     {"hexagon", make<Hexagon>, kList, Wave::ramp, {{0, kBlue}, {1, kGreen}, {2, kRed}}},
     {"leopard", make<Leopard>},
+    {"mandel", make<Fractal>, kArgument, Wave::ramp, kGrey, set_iterations},
     {"marble",
      make<Marble>,
      kPlain,
@@ -243,6 +259,10 @@ bool PatternDefinition::is_average() const {
   return exists() && std::string(entry_of(*this).word) == "average";
 }
 
+bool PatternDefinition::is_for_normals_alone() const {
+  return exists() && std::string(entry_of(*this).word) == "facets";
+}
+
 std::size_t PatternDefinition::list_length() const {
   return exists() && entry_of(*this).form == kList ? entry_of(*this).colours.size() : 0;
 }
@@ -268,6 +288,7 @@ void set_argument(Session& session, PatternDefinition& pattern, const Quantity& 
 
 void set_option(Session& session, PatternDefinition& pattern, int option, const Quantity& value,
                 const Location& where) {
+  if (!pattern.exists() && pattern.unsupported) return;
   const char* word = pattern_options()[static_cast<std::size_t>(option)].word;
   const Option* found = pattern.exists() ? find_option(entry_of(pattern), word) : nullptr;
   if (!found) session.fail(where, '\'' + std::string(word) + "' means nothing to this pattern");
@@ -288,15 +309,30 @@ bool is_singular(const Transform& transform) {
 
 void move(Session& session, PatternDefinition& pattern, const Transform& next, const Location& where) {
   std::vector<SpaceStep>& space = pattern.own().space;
-  if (space.empty() || std::holds_alternative<Turbulence>(space.back())) check_steps(session, pattern, where);
+  if (space.empty() || !std::holds_alternative<Transform>(space.back())) check_steps(session, pattern, where);
   append(space, next);
   if (is_singular(std::get<Transform>(space.back())))
     session.fail(where, "this transformation is singular: it has no inverse");
 }
 
-void bend(Session& session, PatternDefinition& pattern, const Turbulence& turbulence, const Location& where) {
+void bend(Session& session, PatternDefinition& pattern, const SpaceStep& warp, const Location& where) {
   check_steps(session, pattern, where);
-  pattern.own().space.push_back(turbulence);
+  pattern.own().space.push_back(warp);
+}
+
+void choose(PatternDefinition& pattern, const Fractal& fractal) {
+  const auto* entry = std::find_if(std::begin(kPatterns), std::end(kPatterns),
+                                   [](const Entry& one) { return std::string(one.word) == "mandel"; });
+  choose(pattern, static_cast<int>(entry - std::begin(kPatterns)));
+  pattern.own().kind = fractal;
+}
+
+std::optional<warp::Mapping::Shape> mapping_shape(int number) {
+  const Kind kind = kPatterns[static_cast<std::size_t>(number)].make();
+  if (std::holds_alternative<Planar>(kind)) return warp::Mapping::Shape::planar;
+  if (std::holds_alternative<Cylindrical>(kind)) return warp::Mapping::Shape::cylindrical;
+  if (std::holds_alternative<Spherical>(kind)) return warp::Mapping::Shape::spherical;
+  return std::nullopt;
 }
 
 } // namespace celltrace::pov

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "celltrace/texture.hpp"
@@ -48,6 +49,7 @@ struct PatternDefinition {
   Pattern& own();
   bool exists() const { return number != kNoPattern; }
   bool is_average() const;
+  bool is_for_normals_alone() const;
   /// How many entries its list has; 0 of others.
   std::size_t list_length() const;
   /// The colours it has without a map.
@@ -68,7 +70,11 @@ void set_option(Session& session, PatternDefinition& pattern, int option, const 
 
 /// Moves the pattern, after everything that was done to its space before. Fails if there is no way back.
 void move(Session& session, PatternDefinition& pattern, const Transform& next, const Location& where);
-void bend(Session& session, PatternDefinition& pattern, const Turbulence& turbulence, const Location& where);
+void bend(Session& session, PatternDefinition& pattern, const SpaceStep& warp, const Location& where);
+/// Makes it a fractal.
+void choose(PatternDefinition& pattern, const pattern::Fractal& fractal);
+/// What a pattern makes of space as a warp; nothing if it makes none.
+std::optional<warp::Mapping::Shape> mapping_shape(int number);
 
 /// Adds a transformation to what is done to a space.
 void append(std::vector<SpaceStep>& space, const Transform& next);

@@ -1,5 +1,6 @@
 // SceneBuilder: from objects as declared to the Scene's.
 #include "pov/scene_builder.hpp"
+#include "pov/token_stream.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -65,6 +66,7 @@ void SceneBuilder::place(const ObjectPtr& object, const Location& where) {
 }
 
 void SceneBuilder::place(const ObjectDefinition& object, const Inherited& around, const Location& where) {
+  if (!diagnostics_.supports(object.missing, where)) return;
   if (is_plain_union(object)) {
     const Inherited own = inherit(object, around, where);
     for (const ObjectPtr& part : compound(object)->parts)
@@ -77,12 +79,17 @@ void SceneBuilder::place(const ObjectDefinition& object, const Inherited& around
 /// What the object's own parts inherit from it.
 SceneBuilder::Inherited SceneBuilder::inherit(const ObjectDefinition& object, const Inherited& around,
                                               const Location& where) {
-  diagnostics_.require_supported(object.unsupported, where);
+  diagnostics_.supports(object.unsupported, where);
+  has_photon_targets_ = has_photon_targets_ || object.is_photon_target;
+  tokens_.spend(1); // an object that is placed may have many parts
   if (++parts_placed_ > limits_.objects)
-    diagnostics_.fail(where, "the scene has more than " + std::to_string(limits_.objects) + " objects");
+    diagnostics_.exceed(where, &ParseLimits::objects, "the scene has", "objects");
   Inherited own = around;
   own.transform = object.transform.then(around.transform);
   own.no_shadow = object.no_shadow || around.no_shadow;
+  own.no_image = object.no_image || around.no_image;
+  own.no_reflection = object.no_reflection || around.no_reflection;
+  own.hollow = object.hollow.value_or(around.hollow);
   if (object.texture) {
     own.texture = object.texture;
     own.texture_transform = object.texture_transform.then(around.transform);
@@ -91,15 +98,20 @@ SceneBuilder::Inherited SceneBuilder::inherit(const ObjectDefinition& object, co
     own.texture = default_texture;
     own.texture_transform = Transform();
   }
+  if (object.inside) {
+    own.inner_texture = object.inside;
+    own.inner_transform = around.transform;
+  }
   mark(own.uv_mapping, object.uv_mapping);
   if (!around.clips && !std::holds_alternative<LightDefinition>(object.shape))
     own.interior = interior_index(object, around.interior, *own.texture, where);
   return own;
 }
 
-/// Nothing if it is a light or no ray can hit it.
+/// Nothing if it is a light, is left out, or no ray can hit it.
 std::optional<Object> SceneBuilder::make(const ObjectDefinition& object, const Inherited& around,
                                          const Location& where) {
+  if (!diagnostics_.supports(object.missing, where)) return std::nullopt;
   Inherited own = inherit(object, around, where);
   if (const auto* light = std::get_if<LightDefinition>(&object.shape)) {
     if (!own.clips) place_light(*light, std::move(own), where);
@@ -108,16 +120,25 @@ std::optional<Object> SceneBuilder::make(const ObjectDefinition& object, const I
   Object made;
   made.transform = around.is_part ? object.transform : own.transform;
   made.no_shadow = own.no_shadow;
+  made.no_image = own.no_image;
+  made.no_reflection = own.no_reflection;
   made.inverse = object.inverse;
   if (const Compound* parts = compound(object)) {
     if (!own.inside || parts->operation != Operation::union_) own.inside = name_of(object);
-    made.shape = make_csg(*parts, std::move(own), where);
+    const auto csg = make_csg(*parts, std::move(own), where);
+    if (!csg) return std::nullopt;
+    made.shape = csg;
   } else {
     if (is_singular(own.transform))
       diagnostics_.fail(where, "this object's transformation is singular: it has no inverse");
     if (!around.clips) {
-      if (!own.texture->is_constant()) diagnostics_.require_supported(own.uv_mapping, where);
+      if (!own.texture->is_constant()) diagnostics_.supports(own.uv_mapping, where);
       made.material = material_index(own.texture, own.texture_transform, where);
+      if (own.inner_texture) {
+        Material material = scene_.materials[made.material];
+        material.inside = shared_material(transformed(own.inner_texture, own.inner_transform), where);
+        made.material = scene_.add(material);
+      }
     }
     if (!make_shape(object, own, made, where)) return std::nullopt;
     if (!around.clips) made.interior = interior_of(own);
@@ -128,10 +149,13 @@ std::optional<Object> SceneBuilder::make(const ObjectDefinition& object, const I
 
 /// The interior of a shape: what it or an object around it has, what all parts of its CSG share, or its own.
 Index SceneBuilder::interior_of(const Inherited& own) {
-  if (own.interior != kNoIndex) return own.interior;
-  return own.csg_interior != kNoIndex ? own.csg_interior : scene_.add(Interior{});
+  Index index = own.interior != kNoIndex ? own.interior : own.csg_interior;
+  if (index == kNoIndex) index = scene_.add(Interior{});
+  scene_.interiors[index].hollow = own.hollow;
+  return index;
 }
 
+/// Null if what others are taken from is left out.
 std::shared_ptr<const Csg> SceneBuilder::make_csg(const Compound& compound, Inherited own,
                                                   const Location& where) {
   enter_solid(own, where);
@@ -143,8 +167,11 @@ std::shared_ptr<const Csg> SceneBuilder::make_csg(const Compound& compound, Inhe
   for (const ObjectPtr& part : compound.parts)
     if (std::optional<Object> made = make(*part, own, where))
       csg->parts.push_back(std::move(*made));
-    else if (compound.operation == Operation::difference && part == compound.parts.front())
-      refuse("a light source that others are taken from", *part, where);
+    else if (compound.operation == Operation::difference && part == compound.parts.front()) {
+      if (std::holds_alternative<LightDefinition>(part->shape))
+        refuse("a light source that others are taken from", *part, where);
+      return nullptr;
+    }
   return csg;
 }
 
@@ -184,7 +211,7 @@ void SceneBuilder::place_light(const LightDefinition& definition, Inherited own,
   place(*definition.looks_like, own, where);
 }
 
-/// False if no ray can hit it.
+/// False if no ray can hit it, or it is left out.
 bool SceneBuilder::make_shape(const ObjectDefinition& object, const Inherited& own, Object& made,
                               const Location& where) {
   if (const Shape* shape = std::get_if<Shape>(&object.shape)) {
@@ -203,9 +230,11 @@ bool SceneBuilder::make_shape(const ObjectDefinition& object, const Inherited& o
   if (!mesh->has_inside()) {
     // Of a mesh without an inside POV-Ray's CSG takes what a ray crosses first, and nothing behind it.
     const bool is_crossed_once = mesh->triangles.size() < 2;
-    if (own.inside && (own.clips || !is_crossed_once))
+    if (own.inside && (own.clips || !is_crossed_once)) {
       refuse((triangle ? "a triangle in " : "a mesh without 'inside_vector' in ") + std::string(own.inside),
              object, where);
+      return false;
+    }
     made.inverse = false;
   }
   const bool is_visible = !mesh->triangles.empty();
@@ -214,8 +243,8 @@ bool SceneBuilder::make_shape(const ObjectDefinition& object, const Inherited& o
 }
 
 void SceneBuilder::refuse(const std::string& what, const ObjectDefinition& object,
-                          const Location& where) const {
-  diagnostics_.require_supported(std::make_shared<Unsupported>(Unsupported{what, object.where}), where);
+                          const Location& where) {
+  diagnostics_.supports(std::make_shared<Unsupported>(Unsupported{what, object.where}), where);
 }
 
 std::shared_ptr<const Mesh> SceneBuilder::placed_triangle(const TriangleDefinition& triangle,
@@ -233,18 +262,27 @@ std::shared_ptr<const Mesh> SceneBuilder::placed_triangle(const TriangleDefiniti
 /// none and changes the one there is, even if it is inherited.
 Index SceneBuilder::interior_index(const ObjectDefinition& object, Index inherited,
                                    const TextureDefinition& texture, const Location& where) {
-  const std::optional<double>& ior = texture.finish.ior;
+  const FinishDefinition& finish = texture.finish;
   Index index = inherited;
   if (object.interior) {
     const InteriorDefinition& interior = *object.interior;
-    diagnostics_.require_supported(interior.unsupported, where);
-    if (interior.fade_distance != 0 && interior.fade_power != 0)
-      diagnostics_.fail(where, "'fade_distance' of an interior is not supported yet");
-    index = scene_.add(Interior{interior.ior});
-  } else if (index == kNoIndex && ior) {
-    index = scene_.add(Interior{});
+    diagnostics_.supports(interior.unsupported, where);
+    Interior made;
+    made.ior = interior.ior;
+    made.fade_distance = interior.fade_distance;
+    made.fade_power = interior.fade_power;
+    made.fade_colour = interior.fade_colour;
+    made.caustics = interior.caustics;
+    index = scene_.add(made);
   }
-  if (ior) scene_.interiors[index].ior = *ior;
+  if (finish.ior || finish.caustics || finish.fade_distance || finish.fade_power) {
+    if (index == kNoIndex) index = scene_.add(Interior{});
+    Interior& made = scene_.interiors[index];
+    made.ior = finish.ior.value_or(made.ior);
+    made.caustics = finish.caustics.value_or(made.caustics);
+    made.fade_distance = finish.fade_distance.value_or(made.fade_distance);
+    made.fade_power = finish.fade_power.value_or(made.fade_power);
+  }
   return index;
 }
 
@@ -266,7 +304,7 @@ Index SceneBuilder::material_index(const TexturePtr& texture, const Transform& t
 }
 
 Material SceneBuilder::make_material(const TextureDefinition& texture, const Location& where) {
-  diagnostics_.require_supported(texture.first_unsupported(), where);
+  diagnostics_.supports(texture.first_unsupported(), where);
   Material material;
   if (texture.map) {
     auto map = std::make_shared<PatternMap<Material>>();
@@ -281,7 +319,7 @@ Material SceneBuilder::make_material(const TextureDefinition& texture, const Loc
   material.pigment = texture.pigment.finish();
   if (const auto& map = material.pigment.map) check_pattern(map->pattern, map->entries.size(), where);
   material.finish = texture.finish.value;
-  if (texture.normal) {
+  if (texture.normal && !texture.normal->is_smooth()) {
     material.normal = std::make_shared<const Normal>(texture.normal->finish());
     const auto& map = material.normal->map;
     check_pattern(map ? map->pattern : material.normal->pattern, map ? map->entries.size() : 0, where);
@@ -304,8 +342,7 @@ void SceneBuilder::check_pattern(const Pattern& pattern, std::size_t entries, co
       diagnostics_.fail(where, "the transformation of this object's texture is singular: it has no inverse");
   map_entries_ += entries;
   if (map_entries_ > limits_.map_entries)
-    diagnostics_.fail(where, "the maps of all textures have more than " +
-                                 std::to_string(limits_.map_entries) + " entries");
+    diagnostics_.exceed(where, &ParseLimits::map_entries, "the maps of all textures have", "entries");
 }
 
 /// Meshes are shared by their instances, unless their own textures depend on where they are.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "pov/token.hpp"
+
 namespace celltrace::pov {
 
 namespace {
@@ -74,6 +76,13 @@ Vec3 Quantity::vec3() const {
 Pigment Quantity::pigment() const {
   const Quantity five = promoted(5);
   return {{five.v[0], five.v[1], five.v[2]}, five.v[3], five.v[4]};
+}
+
+Quantity literal_of(const Token& token) {
+  Quantity literal;
+  literal.count = token.kind == Token::Kind::vector ? token.symbol : 1;
+  std::copy_n(token.number, literal.count, literal.v.begin());
+  return literal;
 }
 
 Quantity make_colour(ColourModel model, const Quantity& value) {

@@ -34,6 +34,10 @@ struct Quantity {
   Pigment pigment() const;
 };
 
+struct Token;
+/// Of a number or a vector.
+Quantity literal_of(const Token& token);
+
 /// What stands behind rgb, rgbf, rgbt and rgbft.
 enum class ColourModel { rgb, rgbf, rgbt, rgbft };
 Quantity make_colour(ColourModel model, const Quantity& value);

@@ -20,7 +20,8 @@ TokenRange TokenStream::take_block(const Token& opening) {
     }
     if (is_replay) continue;
     if (++tokens_recorded_ > session_.options.limits.recorded_tokens)
-      session_.fail(opening.where, "the macros and loops of the scene are too long");
+      session_.exceed(opening.where, &ParseLimits::recorded_tokens, "the macros and loops of the scene have",
+                      "tokens");
     recorded->push_back(token);
   }
   if (is_replay) return {frame.range.tokens, begin, frame.position - 1};
@@ -91,8 +92,7 @@ void TokenStream::call(const Token& name, const std::shared_ptr<const Macro>& ma
     session_.fail(name.where, call + " takes " + std::to_string(macro->parameters.size()) +
                                   " arguments, not " + std::to_string(arguments.size()));
   if (++macro_calls_ > session_.options.limits.macro_depth)
-    session_.fail(name.where, "macros call one another more than " +
-                                  std::to_string(session_.options.limits.macro_depth) + " deep");
+    session_.exceed(name.where, &ParseLimits::macro_depth, "macros call one another", "deep");
 
   session_.symbols.enter_scope();
   for (std::size_t i = 0; i < arguments.size(); ++i)
@@ -117,6 +117,12 @@ std::shared_ptr<Slot> TokenStream::read_argument(const std::string& call) {
       session_.fail(first.where,
                     "'" + session_.names.text(first.name) + "' is not declared, " + call + " cannot take it");
     if (second.is(',') || second.is(')')) return slot;
+  }
+  // Most arguments need no grammar.
+  if (first.kind == Token::Kind::number || first.kind == Token::Kind::vector) {
+    const Token second = read();
+    if (second.kind != Token::Kind::end) session_.input.unread(second);
+    if (second.is(',') || second.is(')')) return std::make_shared<Slot>(Slot{literal_of(first)});
   }
   session_.input.unread(first);
   return std::make_shared<Slot>(Slot{evaluate(Start::value)});
@@ -172,8 +178,7 @@ bool advance(Counter& counter, bool is_first) {
 void TokenStream::start_iteration(bool is_first) {
   Frame& frame = session_.input.top();
   if (++iterations_ > session_.options.limits.loop_iterations)
-    session_.fail(frame.opened_at, "the loops of the scene run more than " +
-                                       std::to_string(session_.options.limits.loop_iterations) + " times");
+    session_.exceed(frame.opened_at, &ParseLimits::loop_iterations, "the loops of the scene run", "times");
   frame.position = frame.range.begin;
   const bool goes_on = frame.counter ? advance(*frame.counter, is_first) : condition();
   if (!goes_on) leave_frame();

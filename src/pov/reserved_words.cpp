@@ -1,8 +1,10 @@
 #include "pov/reserved_words.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <string_view>
 
+#include "celltrace/pov.hpp"
 #include "pov/camera.hpp"
 #include "pov/constants.hpp"
 #include "pov/functions.hpp"
@@ -40,6 +42,7 @@ const Word kWords[] = {
     {"array", tokens::T_ARRAY},
     {"assumed_gamma", tokens::T_ASSUMED_GAMMA},
     {"background", tokens::T_BACKGROUND},
+    {"black_hole", tokens::T_BLACK_HOLE},
     {"bounded_by", tokens::T_BOUNDED_BY},
     {"brilliance", tokens::T_BRILLIANCE},
     {"bump_size", tokens::T_BUMP_SIZE},
@@ -48,6 +51,7 @@ const Word kWords[] = {
     {"charset", tokens::T_CHARSET},
     {"circular", tokens::T_CIRCULAR},
     {"clipped_by", tokens::T_CLIPPED_BY},
+    {"collect", tokens::T_COLLECT},
     {"color", tokens::T_COLOUR},
     {"color_map", tokens::T_COLOUR_MAP},
     {"colour", tokens::T_COLOUR},
@@ -63,34 +67,51 @@ const Word kWords[] = {
     {"direction", tokens::T_DIRECTION},
     {"dispersion", tokens::T_DISPERSION},
     {"dispersion_samples", tokens::T_IGNORED_NUMBER},
+    {"distance", tokens::T_DISTANCE},
+    {"dist_exp", tokens::T_DIST_EXP},
     {"emission", tokens::T_EMISSION},
     {"exponent", tokens::T_EXPONENT},
+    {"exterior", tokens::T_EXTERIOR},
     {"face_indices", tokens::T_FACE_INDICES},
+    {"fade_color", tokens::T_FADE_COLOUR},
+    {"fade_colour", tokens::T_FADE_COLOUR},
     {"fade_distance", tokens::T_FADE_DISTANCE},
     {"fade_power", tokens::T_FADE_POWER},
     {"falloff", tokens::T_FALLOFF},
     {"finish", tokens::T_FINISH},
+    {"flip", tokens::T_FLIP},
     {"focal_point", tokens::T_IGNORED_NUMBER},
+    {"fog", tokens::T_FOG},
+    {"fog_alt", tokens::T_FOG_ALT},
+    {"fog_offset", tokens::T_FOG_OFFSET},
+    {"fog_type", tokens::T_FOG_TYPE},
     {"frequency", tokens::T_FREQUENCY},
     {"fresnel", tokens::T_FRESNEL},
+    {"function", tokens::T_USER_FUNCTION},
     {"global_settings", tokens::T_GLOBAL_SETTINGS},
     {"hf_gray_16", tokens::T_IGNORED_FLAG},
     {"hierarchy", tokens::T_IGNORED_FLAG},
     {"hollow", tokens::T_HOLLOW},
+    {"inside", tokens::T_INSIDE},
     {"inside_vector", tokens::T_INSIDE_VECTOR},
     {"interior", tokens::T_INTERIOR},
+    {"interior_texture", tokens::T_INTERIOR_TEXTURE},
     {"inverse", tokens::T_INVERSE},
     {"ior", tokens::T_IOR},
     {"irid", tokens::T_IRID},
-    {"irid_wavelength", tokens::T_IGNORED_NUMBER},
+    {"irid_wavelength", tokens::T_IRID_WAVELENGTH},
     {"jitter", tokens::T_JITTER},
+    {"julia", tokens::T_JULIA},
     {"lambda", tokens::T_LAMBDA},
     {"light_source", tokens::T_LIGHT_SOURCE},
     {"location", tokens::T_LOCATION},
     {"look_at", tokens::T_LOOK_AT},
     {"looks_like", tokens::T_LOOKS_LIKE},
+    {"magnet", tokens::T_MAGNET},
+    {"major_radius", tokens::T_MAJOR_RADIUS},
     {"material", tokens::T_MATERIAL},
     {"matrix", tokens::T_MATRIX},
+    {"max_extent", tokens::T_MAX_EXTENT},
     {"max_intersections", tokens::T_IGNORED_NUMBER},
     {"max_trace_level", tokens::T_MAX_TRACE_LEVEL},
     {"media_attenuation", tokens::T_IGNORED_FLAG},
@@ -98,8 +119,11 @@ const Word kWords[] = {
     {"mesh", tokens::T_MESH},
     {"mesh2", tokens::T_MESH2},
     {"metallic", tokens::T_METALLIC},
+    {"min_extent", tokens::T_MIN_EXTENT},
     {"mm_per_unit", tokens::T_IGNORED_NUMBER},
+    {"no_image", tokens::T_NO_IMAGE},
     {"no_radiosity", tokens::T_IGNORED_FLAG},
+    {"no_reflection", tokens::T_NO_REFLECTION},
     {"no_shadow", tokens::T_NO_SHADOW},
     {"noise_generator", tokens::T_NOISE_GENERATOR},
     {"normal", tokens::T_NORMAL},
@@ -112,7 +136,9 @@ const Word kWords[] = {
     {"omega", tokens::T_OMEGA},
     {"open", tokens::T_OPEN},
     {"orient", tokens::T_ORIENT},
+    {"orientation", tokens::T_ORIENTATION},
     {"parallel", tokens::T_PARALLEL},
+    {"pass_through", tokens::T_PASS_THROUGH},
     {"phase", tokens::T_PHASE},
     {"phong", tokens::T_PHONG},
     {"phong_size", tokens::T_PHONG_SIZE},
@@ -127,6 +153,7 @@ const Word kWords[] = {
     {"reflection", tokens::T_REFLECTION},
     {"reflection_exponent", tokens::T_REFLECTION_EXPONENT},
     {"refraction", tokens::T_REFRACTION},
+    {"repeat", tokens::T_REPEAT},
     {"right", tokens::T_RIGHT},
     {"rotate", tokens::T_ROTATE},
     {"roughness", tokens::T_ROUGHNESS},
@@ -134,19 +161,27 @@ const Word kWords[] = {
     {"shadowless", tokens::T_SHADOWLESS},
     {"sky", tokens::T_SKY},
     {"sky_sphere", tokens::T_SKY_SPHERE},
+    {"slope_map", tokens::T_SLOPE_MAP},
     {"smooth_triangle", tokens::T_SMOOTH_TRIANGLE},
     {"specular", tokens::T_SPECULAR},
+    {"spline", tokens::T_SPLINE},
     {"split_union", tokens::T_IGNORED_FLAG},
     {"spotlight", tokens::T_SPOTLIGHT},
     {"srgb", tokens::T_SRGB},
+    {"strength", tokens::T_STRENGTH},
     {"sturm", tokens::T_IGNORED_FLAG},
+    {"target", tokens::T_TARGET},
     {"texture", tokens::T_TEXTURE},
     {"texture_list", tokens::T_TEXTURE_LIST},
     {"texture_map", tokens::T_TEXTURE_MAP},
+    {"thickness", tokens::T_THICKNESS},
     {"tightness", tokens::T_TIGHTNESS},
+    {"trace", tokens::T_TRACE},
+    {"toroidal", tokens::T_TOROIDAL},
     {"transform", tokens::T_TRANSFORM},
     {"translate", tokens::T_TRANSLATE},
     {"triangle", tokens::T_TRIANGLE},
+    {"turb_depth", tokens::T_TURB_DEPTH},
     {"turbulence", tokens::T_TURBULENCE},
     {"up", tokens::T_UP},
     {"uv_indices", tokens::T_UV_INDICES},
@@ -208,6 +243,10 @@ const DetailedWord kDetailedWords[] = {
     {"sine_wave", tokens::T_WAVE, detail(Pattern::Wave::sine)},
     {"scallop_wave", tokens::T_WAVE, detail(Pattern::Wave::scallop)},
     {"cubic_wave", tokens::T_WAVE, detail(Pattern::Wave::cubic)},
+    {"linear_spline", tokens::T_SPLINE_KIND, static_cast<int>(Spline::Kind::linear)},
+    {"quadratic_spline", tokens::T_SPLINE_KIND, static_cast<int>(Spline::Kind::quadratic)},
+    {"cubic_spline", tokens::T_SPLINE_KIND, static_cast<int>(Spline::Kind::cubic)},
+    {"natural_spline", tokens::T_SPLINE_KIND, static_cast<int>(Spline::Kind::natural)},
     {"union", tokens::T_CSG, detail(Csg::Operation::union_)},
     {"merge", tokens::T_CSG, detail(Csg::Operation::merge)},
     {"intersection", tokens::T_CSG, detail(Csg::Operation::intersection)},
@@ -254,162 +293,50 @@ const DirectiveWord kDirectives[] = {
     {"version", Directive::version},
     {"warning", Directive::warning},
     {"while", Directive::while_},
-    {"fopen", Directive::unsupported},
-    {"fclose", Directive::unsupported},
-    {"read", Directive::unsupported},
-    {"write", Directive::unsupported},
+    {"fopen", Directive::fopen_},
+    {"fclose", Directive::fclose_},
+    {"read", Directive::read_},
+    {"write", Directive::write_},
 };
 
 // What POV-Ray 3.7 reserves for features that are not supported: things that are objects, things that have a
 // block in braces of their own, and the rest.
 const char* const kUnsupportedObjects[] = {
-    "bicubic_patch", "blob",    "height_field", "isosurface",   "julia_fractal",  "lathe",
-    "light_group",   "ovus",    "parametric",   "poly",         "polygon",        "prism",
-    "quadric",       "quartic", "sor",          "sphere_sweep", "superellipsoid", "text",
+    "bicubic_patch", "blob", "height_field", "isosurface",     "julia_fractal", "lathe",
+    "light_group",   "ovus", "parametric",   "poly",           "polygon",       "prism",
+    "quartic",       "sor",  "sphere_sweep", "superellipsoid", "text",
 };
 
 const char* const kUnsupportedBlocks[] = {
-    "bump_map", "contained_by", "density",         "density_map",       "fog",
-    "function", "image_map",    "image_pattern",   "interior_texture",  "material_map",
-    "media",    "mesh_camera",  "pigment_pattern", "projected_through", "radiosity",
-    "rainbow",  "slope_map",    "spline",          "subsurface",        "tiles",
+    "bump_map", "contained_by", "density", "density_map", "image_map", "image_pattern", "material_map",
+    "media", "mesh_camera", "pigment_pattern", "projected_through", "radiosity", "rainbow", "subsurface",
+    "tiles",
 };
 
-const char* const kUnsupportedWords[] = {
-    "aa_level",
-    "aa_threshold",
-    "absorption",
-    "albedo",
-    "all",
-    "all_intersections",
-    "altitude",
-    "always_sample",
-    "append",
-    "arc_angle",
-    "ascii",
-    "autostop",
-    "b_spline",
-    "bezier_spline",
-    "bitwise_and",
-    "bitwise_or",
-    "bitwise_xor",
-    "black_hole",
-    "blur_samples",
-    "brightness",
-    "collect",
-    "component",
-    "composite",
-    "conic_sweep",
-    "coords",
-    "count",
-    "cube",
-    "cubic_spline",
-    "datetime",
-    "density_file",
-    "df3",
-    "dist_exp",
-    "distance",
-    "double_illuminate",
-    "eccentricity",
-    "error_bound",
-    "evaluate",
-    "expand_thresholds",
-    "exterior",
-    "extinction",
-    "facets",
-    "fade_color",
-    "fade_colour",
-    "flatness",
-    "flip",
-    "fog_alt",
-    "fog_offset",
-    "fog_type",
-    "gather",
-    "gif",
-    "global_lights",
-    "gray_threshold",
-    "hypercomplex",
-    "iff",
-    "importance",
-    "inside",
-    "interpolate",
-    "intervals",
-    "jpeg",
-    "julia",
-    "linear_spline",
-    "linear_sweep",
-    "load_file",
-    "low_error_factor",
-    "magnet",
-    "major_radius",
-    "mandel",
-    "map_type",
-    "max_extent",
-    "max_gradient",
-    "max_iteration",
-    "max_sample",
-    "max_trace",
-    "min_extent",
-    "minimum_reuse",
-    "natural_spline",
-    "nearest_count",
-    "no_bump_scale",
-    "no_image",
-    "no_reflection",
-    "now",
-    "once",
-    "orientation",
-    "pass_through",
-    "pattern",
-    "pgm",
-    "png",
-    "pot",
-    "ppm",
-    "precision",
-    "precompute",
-    "pretrace_end",
-    "pretrace_start",
-    "prod",
-    "pwr",
-    "quadratic_spline",
-    "quaternion",
-    "ratio",
-    "recursion_limit",
-    "repeat",
-    "samples",
-    "save_file",
-    "scattering",
-    "size",
-    "slice",
-    "slope",
-    "smooth",
-    "spacing",
-    "sum",
-    "sys",
-    "target",
-    "tga",
-    "thickness",
-    "threshold",
-    "tiff",
-    "tile2",
-    "tiling",
-    "tolerance",
-    "toroidal",
-    "trace",
-    "translucency",
-    "ttf",
-    "turb_depth",
-    "type",
-    "u_steps",
-    "use_alpha",
-    "use_color",
-    "use_colour",
-    "use_index",
-    "utf8",
-    "v_steps",
-    "vturbulence",
-    "water_level",
-    "width",
+const char* const kUnsupportedFeatures[] = {
+    "absorption", "albedo", "all_intersections", "autostop", "b_spline", "blur_samples", "cube",
+    "density_file", "double_illuminate", "global_lights", "importance", "load_file", "max_trace",
+    "no_bump_scale", "pattern", "precision", "quaternion", "save_file", "scattering", "slope", "spacing",
+    "tiling", "translucency",
+};
+
+// What stands behind others of these words.
+const char* const kUnsupportedArguments[] = {
+    "aa_level", "aa_threshold", "all", "altitude", "always_sample", "append", "arc_angle", "ascii",
+    "bezier_spline", "bitwise_and", "bitwise_or", "bitwise_xor", "brightness", "component", "composite",
+    "conic_sweep", "count", "df3", "eccentricity", "error_bound", "evaluate", "expand_thresholds",
+    "extinction", "flatness", "gather", "gif", "gray_threshold", "hypercomplex", "iff", "interpolate",
+    "intervals", "jpeg", "linear_sweep", "low_error_factor", "map_type", "max_gradient", "max_iteration",
+    "max_sample", "minimum_reuse", "nearest_count", "once", "pgm", "png", "pot", "ppm", "precompute",
+    "pretrace_end", "pretrace_start", "prod", "pwr", "ratio", "recursion_limit", "samples", "slice", "smooth",
+    "sum", "sys", "tga", "threshold", "tiff", "tile2", "tolerance", "ttf", "type", "u_steps", "use_alpha",
+    "use_color", "use_colour", "use_index", "utf8", "v_steps", "water_level", "width",
+};
+
+/// Words with rules of their own by which what they stand for is not supported.
+constexpr int kRefused[] = {
+    tokens::T_APERTURE,   tokens::T_AREA_ILLUMINATION, tokens::T_CUTAWAY_TEXTURES,
+    tokens::T_DISPERSION, tokens::T_PHOTONS,  tokens::T_UV_MAPPING,
 };
 
 int token_of(PatternForm form) {
@@ -436,8 +363,10 @@ std::vector<ReservedWord> reserved_words() {
     words.push_back({text, tokens::T_UNSUPPORTED_OBJECT, 0, true});
   for (const char* text : kUnsupportedBlocks)
     words.push_back({text, tokens::T_UNSUPPORTED_BLOCK, 0, true});
-  for (const char* text : kUnsupportedWords)
+  for (const char* text : kUnsupportedFeatures)
     words.push_back({text, tokens::T_UNSUPPORTED, 0, true});
+  for (const char* text : kUnsupportedArguments)
+    words.push_back({text, tokens::T_UNSUPPORTED_ARGUMENT, 0, true});
   int number = 0;
   for (const FunctionName& function : function_names())
     words.push_back(
@@ -477,3 +406,26 @@ Directive directive_of(std::string_view word) {
 }
 
 } // namespace celltrace::pov
+
+namespace celltrace {
+
+std::vector<Keyword> keywords() {
+  using namespace pov;
+  std::vector<Keyword> result;
+  for (const ReservedWord& word : reserved_words()) {
+    const bool is_ignored = word.token == tokens::T_IGNORED_FLAG || word.token == tokens::T_IGNORED_NUMBER ||
+                            word.token == tokens::T_QUICK_COLOUR;
+    const bool is_refused = std::find(std::begin(kRefused), std::end(kRefused), word.token) != std::end(kRefused);
+    const auto support = is_ignored ? Keyword::Support::ignored : Keyword::Support::full;
+    result.push_back({word.text, word.is_unsupported || is_refused ? Keyword::Support::none : support});
+  }
+  for (const DirectiveWord& word : kDirectives)
+    result.push_back({std::string("#") + word.text, word.directive == Directive::unsupported
+                                                        ? Keyword::Support::none
+                                                        : Keyword::Support::full});
+  std::sort(result.begin(), result.end(),
+            [](const Keyword& a, const Keyword& b) { return a.word < b.word; });
+  return result;
+}
+
+} // namespace celltrace

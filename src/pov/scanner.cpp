@@ -106,14 +106,15 @@ Token Scanner::number(std::string_view lexeme) const {
   return token;
 }
 
-Token Scanner::vector(std::string_view lexeme) const {
+Token Scanner::vector(std::string_view lexeme, unsigned count) const {
   if (lexeme.size() > kLongestNumber) fail(where_, "this vector is too long");
   Token token;
   token.kind = Token::Kind::vector;
   token.where = where_;
-  for (double& component : token.number) {
+  token.symbol = static_cast<std::uint16_t>(count);
+  for (unsigned i = 0; i < count; ++i) {
     lexeme.remove_prefix(lexeme.find_first_not_of("<, \t"));
-    component = take_number(lexeme);
+    token.number[i] = take_number(lexeme);
   }
   return token;
 }

@@ -48,7 +48,8 @@ public:
   Token punctuation(unsigned symbol) const;
   Token bad_character(unsigned char character) const;
   Token number(std::string_view lexeme) const;
-  Token vector(std::string_view lexeme) const;
+  /// Of 3 or 4 numbers.
+  Token vector(std::string_view lexeme, unsigned count) const;
   Token named(Token::Kind kind, std::string_view text);
   Token end() const;
 

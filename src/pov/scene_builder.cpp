@@ -18,7 +18,12 @@ constexpr double kVersionOfNoise = 3.5; // that is in range
 void SceneBuilder::count_triangles(std::size_t count, const Location& where) {
   triangles_ += count;
   if (triangles_ > limits_.triangles)
-    diagnostics_.fail(where, "the scene has more than " + std::to_string(limits_.triangles) + " triangles");
+    diagnostics_.exceed(where, &ParseLimits::triangles, "the scene has", "triangles");
+}
+
+const Mesh& SceneBuilder::mesh_of(const std::shared_ptr<MeshDefinition>& definition) const {
+  const auto placed = meshes_.find(definition);
+  return placed != meshes_.end() ? *placed->second : definition->mesh;
 }
 
 void SceneBuilder::set_background(const Pigment& colour) {
@@ -27,12 +32,19 @@ void SceneBuilder::set_background(const Pigment& colour) {
 }
 
 void SceneBuilder::set_sky_sphere(const SkySphereDefinition& sky, const Location& where) {
-  diagnostics_.require_supported(sky.unsupported, where);
+  diagnostics_.supports(sky.unsupported, where);
   scene_.sky_sphere.clear();
   for (const PigmentDefinition& pigment : sky.pigments) {
-    diagnostics_.require_supported(pigment.first_unsupported(), where);
+    diagnostics_.supports(pigment.first_unsupported(), where);
     scene_.sky_sphere.push_back(pigment.finish());
   }
+}
+
+void SceneBuilder::add_fog(const FogDefinition& fog, const Location& where) {
+  diagnostics_.supports(fog.unsupported, where);
+  if (scene_.fogs.size() >= limits_.objects)
+    diagnostics_.fail(where, "the scene has more than " + std::to_string(limits_.objects) + " fogs");
+  scene_.fogs.push_back(fog.value);
 }
 
 void SceneBuilder::set_assumed_gamma(std::optional<double> gamma) {
@@ -53,12 +65,17 @@ void SceneBuilder::settle_gamma() {
     scene_.gamma_mode = scene_.version < kVersionOfGamma ? GammaMode::none : GammaMode::assumed;
 }
 
+int SceneBuilder::noise_generator() const {
+  return noise_generator_.value_or(version_.value_or(kVersionIfNoneGiven) < kVersionOfNoise ? 1 : 2);
+}
+
 Scene SceneBuilder::finish(const std::string& name) {
   scene_.name = name;
   settle_gamma();
-  scene_.noise_generator = noise_generator_.value_or(scene_.version < kVersionOfNoise ? 1 : 2);
+  scene_.noise_generator = noise_generator();
   const CameraDefinition& camera = camera_ ? *camera_ : default_camera;
-  diagnostics_.require_supported(camera.unsupported, camera.where);
+  diagnostics_.supports(camera.unsupported, camera.where);
+  if (has_photon_targets_ && photons_) diagnostics_.supports(photons_, photons_->where);
   try {
     scene_.camera = camera.finish(scene_.version);
   } catch (const InputError& error) {

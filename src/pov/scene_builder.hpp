@@ -15,10 +15,12 @@
 
 namespace celltrace::pov {
 
+class TokenStream;
+
 class SceneBuilder {
 public:
-  SceneBuilder(const ParseLimits& limits, const Diagnostics& diagnostics)
-      : limits_(limits), diagnostics_(diagnostics) {}
+  SceneBuilder(const ParseLimits& limits, Diagnostics& diagnostics, TokenStream& tokens)
+      : limits_(limits), diagnostics_(diagnostics), tokens_(tokens) {}
 
   /// What textures start from and objects without one get: black, with the default finish, until #default
   /// changes it. It does not move with the objects that get it.
@@ -26,8 +28,8 @@ public:
   CameraDefinition default_camera;
 
   /// Puts an object into the scene: unions are taken apart unless they are inverse or clipped, meshes shared
-  /// between their instances. A light source in CSG shines on everything and is no part of it. Fails if
-  /// anything about the object is not supported.
+  /// between their instances. A light source in CSG shines on everything and is no part of it. What is not
+  /// supported is left out.
   void place(const ObjectPtr& object, const Location& where);
 
   /// The last camera is the scene's.
@@ -36,20 +38,29 @@ public:
   void set_background(const Pigment& colour);
   /// The last one is the scene's.
   void set_sky_sphere(const SkySphereDefinition& sky, const Location& where);
+  /// They add up.
+  void add_fog(const FogDefinition& fog, const Location& where);
   void set_ambient_light(const Vec3& rgb) { scene_.ambient_light = rgb; }
   void set_max_trace_level(int level) { scene_.max_trace_level = level; }
   void set_noise_generator(int number) { noise_generator_ = number; }
+  /// As it is by now.
+  int noise_generator() const;
   void set_number_of_waves(int number) { scene_.number_of_waves = number; }
+  void set_irid_wavelength(const Vec3& rgb) { scene_.irid_wavelength = rgb; }
   void set_adc_bailout(double weight) { scene_.adc_bailout = weight; }
   /// Without a value: `assumed_gamma srgb`.
   void set_assumed_gamma(std::optional<double> gamma);
   bool gamma_is_given() const { return gamma_given_; }
   /// A channel of a colour in sRGB as the scene's colours have it.
   double from_srgb(double channel) const;
+  /// What there is to say about photons. They matter if any object is a target.
+  void set_photons(UnsupportedPtr photons) { photons_ = std::move(photons); }
   void set_version(double version) { version_ = version; }
   /// What `version` says: 3.7 until #version changes it.
   double version() const { return version_.value_or(3.7); }
 
+  /// As it was declared, whether it has been placed or not.
+  const Mesh& mesh_of(const std::shared_ptr<MeshDefinition>& definition) const;
   /// Counts towards the limit on triangles.
   void count_triangles(std::size_t count, const Location& where);
 
@@ -68,6 +79,11 @@ private:
     Index interior = kNoIndex;
     Index csg_interior = kNoIndex; ///< of the parts that have or inherit none
     bool no_shadow = false;
+    bool no_image = false;
+    bool no_reflection = false;
+    bool hollow = false;
+    TexturePtr inner_texture;     ///< what it looks like from inside; null: the same
+    Transform inner_transform;    ///< to the scene
     bool is_part = false;         ///< placed in the space of a CSG, not of the scene
     bool clips = false;           ///< only its inside matters
     int depth = 0;                ///< CSG and clipping around it
@@ -82,7 +98,7 @@ private:
                                                         const Inherited& around, const Location& where);
   void enter_solid(Inherited& own, const Location& where) const;
   void place_light(const LightDefinition& definition, Inherited own, const Location& where);
-  void refuse(const std::string& what, const ObjectDefinition& object, const Location& where) const;
+  void refuse(const std::string& what, const ObjectDefinition& object, const Location& where);
   Index interior_of(const Inherited& own);
   Index interior_index(const ObjectDefinition& object, Index inherited, const TextureDefinition& texture,
                        const Location& where);
@@ -105,11 +121,14 @@ private:
   void settle_gamma();
 
   const ParseLimits& limits_;
-  const Diagnostics& diagnostics_;
+  Diagnostics& diagnostics_;
+  TokenStream& tokens_;
   Scene scene_;
   std::shared_ptr<const CameraDefinition> camera_;
   std::optional<double> version_;
   bool gamma_given_ = false;
+  UnsupportedPtr photons_;
+  bool has_photon_targets_ = false;
   std::uint64_t parts_placed_ = 0;
   std::uint64_t triangles_ = 0;
   std::optional<int> noise_generator_;

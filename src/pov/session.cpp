@@ -36,7 +36,9 @@ Pigment Session::colour(const Quantity& quantity, const Location& where) const {
 
 void Session::count_text(std::size_t bytes, const Location& where) {
   text_bytes += bytes;
-  if (text_bytes > options.limits.text_bytes) fail(where, "the scene makes too much text");
+  tokens.spend(bytes / 64);
+  if (text_bytes > options.limits.text_bytes)
+    exceed(where, &ParseLimits::text_bytes, "the scene makes", "bytes of text");
 }
 
 } // namespace celltrace::pov

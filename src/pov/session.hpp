@@ -8,6 +8,7 @@
 #include "celltrace/pov.hpp"
 #include "pov/diagnostics.hpp"
 #include "pov/input.hpp"
+#include "pov/memory.hpp"
 #include "pov/names.hpp"
 #include "pov/scene_builder.hpp"
 #include "pov/sources.hpp"
@@ -20,10 +21,11 @@ class Parser;
 
 struct Session {
   explicit Session(const ParseOptions& parse_options)
-      : options(parse_options), sources(parse_options.library_paths), diagnostics(sources, names, input),
-        tokens(*this), builder(parse_options.limits, diagnostics) {}
+      : options(parse_options), sources(parse_options), diagnostics(sources, names, input, parse_options),
+        tokens(*this), builder(parse_options.limits, diagnostics, tokens) {}
 
   const ParseOptions& options;
+  MemoryCount memory{options.limits}; ///< before all that it counts
   Names names;
   Sources sources;
   Input input;
@@ -33,7 +35,11 @@ struct Session {
   SceneBuilder builder;
   std::vector<std::uint32_t> random_streams; ///< what seed() handed out
   std::uint64_t text_bytes = 0;
+  std::uint64_t written_bytes = 0; ///< by #write
+  std::vector<std::shared_ptr<DataFile>> data_files; ///< that #fopen has opened and nothing closed
+  std::uint64_t shape_tests = 0; ///< of trace() and the like
   TexturePtr base_texture; ///< what the pigment or finish being read starts from
+  Finish* irid = nullptr;  ///< the finish whose irid { } is being read
   std::vector<std::shared_ptr<ObjectDefinition>> lights; ///< being read, in each other
   std::vector<std::shared_ptr<Parser>> parsers; ///< one for each entry of the grammar, made when first needed
 
@@ -46,6 +52,11 @@ struct Session {
   std::int64_t whole(const Quantity& quantity, const Location& where) const;
   Vec3 vector(const Quantity& quantity, const Location& where) const;
   Pigment colour(const Quantity& quantity, const Location& where) const;
+
+  [[noreturn]] void exceed(const Location& where, std::uint64_t ParseLimits::* limit, const std::string& who,
+                           const std::string& unit) const {
+    diagnostics.exceed(where, limit, who, unit);
+  }
 
   /// Counts towards the limit on text that is made or kept.
   void count_text(std::size_t bytes, const Location& where);

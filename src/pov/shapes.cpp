@@ -85,6 +85,10 @@ Shape read_plane(const Arguments& a) {
   return plane;
 }
 
+Shape read_quadric(const Arguments& a) {
+  return Quadric{a.vector(0), a.vector(1), a.vector(2), a.number(3)};
+}
+
 Shape read_sphere(const Arguments& a) {
   return Sphere{a.vector(0), a.number(1)};
 }
@@ -121,6 +125,7 @@ constexpr Entry kShapes[] = {
      {vector("centre"), vector("normal"), number("radius"), optional_number("hole radius")},
      read_disc},
     {"plane", {vector("normal"), number("distance")}, read_plane},
+    {"quadric", {vector("squares"), vector("products"), vector("linear"), number("constant")}, read_quadric},
     {"sphere", {vector("centre"), number("radius")}, read_sphere},
     {"torus", {number("major radius"), number("minor radius")}, read_torus},
 };

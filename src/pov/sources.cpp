@@ -2,7 +2,13 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
+#include <cerrno>
+#include <string>
+#include <system_error>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "celltrace/error.hpp"
 
@@ -47,13 +53,67 @@ std::optional<fs::path> find_without_case(const fs::path& folder, const fs::path
   return found;
 }
 
+/// Scenes written on Windows name their folders with backslashes.
+fs::path portable(std::string_view name) {
+  std::string path(name);
+  std::replace(path.begin(), path.end(), '\\', '/');
+  return path;
+}
+
+bool is_below(const fs::path& file, const fs::path& folder) {
+  return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
+}
+
+/// Whether a file lies in a folder or below it, wherever links lead.
+bool lies_in(const fs::path& canonical_file, const fs::path& folder) {
+  std::error_code error;
+  const fs::path canonical_folder = fs::canonical(folder.empty() ? fs::path(".") : folder, error);
+  return !error && is_below(canonical_file, canonical_folder);
+}
+
+std::vector<fs::path> canonical_folders(const std::vector<fs::path>& folders) {
+  std::vector<fs::path> result;
+  for (const fs::path& folder : folders) {
+    std::error_code error;
+    const fs::path canonical = fs::canonical(folder, error);
+    if (error || !fs::is_directory(canonical, error))
+      throw InputError("'" + folder.string() + "' is no folder that scenes could be allowed to use");
+    result.push_back(canonical);
+  }
+  return result;
+}
+
+std::string reason(int error) {
+  return std::generic_category().message(error);
+}
+
+/// Closes itself.
+struct Descriptor {
+  int number;
+  explicit Descriptor(int opened) : number(opened) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (number >= 0) ::close(number);
+  }
+};
+
+constexpr std::size_t kWriteAtOnce = 1u << 16;
+
 } // namespace
 
-Sources::Sources(std::vector<fs::path> library_paths) : library_paths_(std::move(library_paths)) {
+Sources::Sources(const ParseOptions& options)
+    : library_paths_(options.library_paths), readable_(canonical_folders(options.readable_folders)),
+      writable_(canonical_folders(options.writable_folders)) {
+  readable_.insert(readable_.end(), writable_.begin(), writable_.end());
   for (const char* folder : kInstalledIncludes) {
     std::error_code ignored;
     if (fs::is_directory(folder, ignored)) library_paths_.emplace_back(folder);
   }
+}
+
+void Sources::set_scene_folder(fs::path folder) {
+  scene_folder_ = std::move(folder);
 }
 
 std::uint32_t Sources::number_of(const std::string& name) {
@@ -62,20 +122,51 @@ std::uint32_t Sources::number_of(const std::string& name) {
   return entry->second;
 }
 
-std::optional<fs::path> Sources::find_include(std::string_view name, const fs::path& including_folder) const {
-  // Scenes written on Windows name their folders with backslashes.
-  std::string portable(name);
-  std::replace(portable.begin(), portable.end(), '\\', '/');
-  const fs::path wanted(portable);
-
-  std::vector<fs::path> folders = {including_folder, scene_folder_};
+std::optional<FoundFile> Sources::find_file(std::string_view name, const fs::path& naming_folder) const {
+  if (name.find('\0') != name.npos) return std::nullopt;
+  const fs::path wanted = portable(name);
+  std::vector<fs::path> folders;
+  if (!writable_.empty()) folders.push_back(writable_.front());
+  folders.insert(folders.end(), {naming_folder, scene_folder_});
   folders.insert(folders.end(), library_paths_.begin(), library_paths_.end());
+
+  const auto found = [&](const fs::path& path) {
+    std::error_code error;
+    const fs::path file = fs::canonical(path, error);
+    const auto has_it = [&](const fs::path& folder) { return lies_in(file, folder); };
+    const bool may_be_read = !error && (has_it(scene_folder_) ||
+                                        std::any_of(library_paths_.begin(), library_paths_.end(), has_it) ||
+                                        std::any_of(readable_.begin(), readable_.end(), has_it));
+    return FoundFile{path, may_be_read};
+  };
   for (const fs::path& folder : folders)
-    if (is_file(folder / wanted)) return folder / wanted;
+    if (is_file(folder / wanted)) return found(folder / wanted);
   if (wanted.is_absolute()) return std::nullopt;
   for (const fs::path& folder : folders)
-    if (auto found = find_without_case(folder, wanted)) return found;
+    if (const auto path = find_without_case(folder, wanted)) return found(*path);
   return std::nullopt;
+}
+
+fs::path Sources::writable_file(std::string_view name) const {
+  if (writable_.empty())
+    throw InputError("scenes write no files unless --allow-write DIR says in which folder they may");
+  const fs::path wanted = portable(name);
+  if (name.find('\0') != name.npos || !wanted.has_filename() || wanted.filename() == "." ||
+      wanted.filename() == "..")
+    throw InputError("this is no name of a file");
+  std::error_code error;
+  const fs::path named = wanted.is_absolute() ? wanted : writable_.front() / wanted;
+  fs::path file = fs::canonical(named.parent_path(), error);
+  if (error) throw InputError("its folder is not there: " + error.message());
+  file /= wanted.filename();
+  if (fs::is_symlink(fs::symlink_status(file, error))) {
+    file = fs::canonical(file, error);
+    if (error) throw InputError("it is a link that leads to no file");
+  }
+  if (std::none_of(writable_.begin(), writable_.end(),
+                   [&](const fs::path& folder) { return is_below(file, folder); }))
+    throw InputError("it lies outside of the folders that --allow-write lets scenes write in");
+  return file;
 }
 
 std::string read_text(const fs::path& path, std::uint64_t limit) {
@@ -86,16 +177,75 @@ std::string read_text(const fs::path& path, std::uint64_t limit) {
   if (!fs::is_regular_file(status)) throw InputError("this is not a regular file");
   const std::uint64_t size = fs::file_size(path, error);
   if (error) throw InputError("this file cannot be read: " + error.message());
-  if (size > limit) throw InputError("this file is larger than " + std::to_string(limit) + " bytes");
 
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError("this file cannot be opened");
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (file.number < 0) throw InputError("this file cannot be opened: " + reason(errno));
+  // The size is a hint: the system's own files have none, and others may be written to meanwhile.
+  constexpr std::size_t kPadding = 2; // the scanner adds two NULs
   std::string text;
-  text.reserve(size + 2); // the scanner adds two NULs
-  text.resize(size);
-  file.read(text.data(), static_cast<std::streamsize>(size));
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  return text;
+  text.reserve(static_cast<std::size_t>(std::min(size, limit)) + 1 + kPadding);
+  for (;;) {
+    const std::size_t read = text.size();
+    if (read > limit) throw InputError("this file is larger than " + std::to_string(limit) + " bytes");
+    constexpr std::size_t kReadAtOnce = 1u << 20;
+    const std::size_t room = text.capacity() - read;
+    text.resize(read + (room > kPadding ? std::min(room - kPadding, kReadAtOnce) : kReadAtOnce));
+    const ssize_t count = ::read(file.number, text.data() + read, text.size() - read);
+    if (count < 0 && errno != EINTR) throw InputError("this file cannot be read: " + reason(errno));
+    text.resize(read + (count > 0 ? static_cast<std::size_t>(count) : 0));
+    if (count == 0) return text;
+  }
+}
+
+TextWriter::TextWriter(const fs::path& path, bool append)
+    : file_(::open(path.c_str(),
+                   O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | (append ? O_APPEND : O_TRUNC),
+                   0666)) {
+  if (file_ < 0) throw InputError("it cannot be written: " + reason(errno));
+  struct stat status {};
+  if (::fstat(file_, &status) == 0 && S_ISREG(status.st_mode)) return;
+  ::close(file_);
+  throw InputError("it is not a regular file");
+}
+
+TextWriter::~TextWriter() {
+  try {
+    close();
+  } catch (const InputError&) {
+    // Whoever wants to know closes it.
+  }
+}
+
+void TextWriter::write(std::string_view text) {
+  buffer_ += text;
+  if (buffer_.size() >= kWriteAtOnce) flush();
+}
+
+void TextWriter::flush() {
+  std::string_view rest = buffer_;
+  while (!rest.empty()) {
+    const ssize_t count = ::write(file_, rest.data(), rest.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) {
+      const int error = errno;
+      buffer_.clear();
+      throw InputError("it cannot be written: " + reason(error));
+    }
+    rest.remove_prefix(static_cast<std::size_t>(count));
+  }
+  buffer_.clear();
+}
+
+void TextWriter::close() {
+  if (file_ < 0) return;
+  const Descriptor closing(file_);
+  try {
+    flush();
+  } catch (...) {
+    file_ = -1;
+    throw;
+  }
+  file_ = -1;
 }
 
 } // namespace celltrace::pov

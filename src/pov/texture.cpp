@@ -1,6 +1,5 @@
 #include "pov/texture.hpp"
 
-#include <algorithm>
 #include <initializer_list>
 
 namespace celltrace::pov {
@@ -18,10 +17,11 @@ std::shared_ptr<const PatternMap<T>> finish_map(const PatternDefinition& pattern
   return map;
 }
 
-UnsupportedPtr first(std::initializer_list<UnsupportedPtr> marks) {
-  const auto* found =
-      std::find_if(marks.begin(), marks.end(), [](const auto& mark) { return mark != nullptr; });
-  return found == marks.end() ? nullptr : *found;
+UnsupportedPtr all(std::initializer_list<UnsupportedPtr> marks) {
+  UnsupportedPtr result;
+  for (const UnsupportedPtr& one : marks)
+    mark(result, one);
+  return result;
 }
 
 std::shared_ptr<TextureDefinition> copy(const TexturePtr& texture) {
@@ -31,7 +31,7 @@ std::shared_ptr<TextureDefinition> copy(const TexturePtr& texture) {
 } // namespace
 
 UnsupportedPtr PigmentDefinition::first_unsupported() const {
-  return first({pattern.unsupported, unsupported, map ? map->unsupported : nullptr,
+  return all({pattern.unsupported, unsupported, map ? map->unsupported : nullptr,
                 pattern.exists() ? uv_mapping : nullptr});
 }
 
@@ -48,28 +48,28 @@ Pigment PigmentDefinition::finish() const {
 }
 
 UnsupportedPtr NormalDefinition::first_unsupported() const {
-  return first({pattern.unsupported, unsupported, map ? map->unsupported : nullptr, uv_mapping});
+  return all({pattern.unsupported, unsupported, map ? map->unsupported : nullptr, uv_mapping});
 }
 
 Normal NormalDefinition::finish() const {
   Normal normal;
   normal.pattern = pattern.value();
-  normal.amount = pattern.exists() ? amount : 0;
+  normal.amount = is_smooth() ? 0 : amount;
   normal.accuracy = accuracy;
+  normal.slopes = slopes;
   if (map) normal.map = finish_map<Normal>(pattern, map->entries);
   return normal;
 }
 
 UnsupportedPtr TextureDefinition::first_unsupported() const {
+  UnsupportedPtr result;
   for (const TextureDefinition* layer = this; layer; layer = layer->below.get())
-    if (const UnsupportedPtr found =
-            first({layer->map ? nullptr : layer->pigment.first_unsupported(),
+    mark(result, all({layer->map ? nullptr : layer->pigment.first_unsupported(),
                    layer->map || !layer->normal ? nullptr : layer->normal->first_unsupported(),
                    layer->map ? nullptr : layer->finish.unsupported, layer->pattern.unsupported,
                    layer->unsupported, layer->map ? layer->map->unsupported : nullptr,
-                   layer->is_constant() ? nullptr : layer->uv_mapping}))
-      return found;
-  return nullptr;
+                   layer->is_constant() ? nullptr : layer->uv_mapping}));
+  return result;
 }
 
 bool TextureDefinition::is_opaque() const {
@@ -81,7 +81,9 @@ bool TextureDefinition::is_opaque() const {
 
 bool TextureDefinition::is_constant() const {
   for (const TextureDefinition* layer = this; layer; layer = layer->below.get())
-    if (layer->pattern.exists() || layer->normal || layer->pigment.pattern.exists()) return false;
+    if (layer->pattern.exists() || (layer->normal && !layer->normal->is_smooth()) ||
+        layer->pigment.pattern.exists())
+      return false;
   return true;
 }
 
@@ -93,7 +95,7 @@ TexturePtr with_pigment(const TexturePtr& texture, const PigmentDefinition& pigm
 
 TexturePtr with_normal(const TexturePtr& texture, const NormalPtr& normal) {
   auto changed = copy(texture);
-  changed->normal = normal->pattern.exists() || normal->first_unsupported() ? normal : nullptr;
+  changed->normal = normal;
   return changed;
 }
 

@@ -11,6 +11,7 @@
 
 #include "celltrace/scene.hpp"
 #include "pov/location.hpp"
+#include "pov/memory.hpp"
 #include "pov/patterns.hpp"
 #include "pov/unsupported.hpp"
 
@@ -33,6 +34,7 @@ using TextureMap = MapDefinition<TexturePtr>;
 using PigmentMapPtr = std::shared_ptr<const PigmentMap>;
 using NormalMapPtr = std::shared_ptr<const NormalMap>;
 using TextureMapPtr = std::shared_ptr<const TextureMap>;
+using SlopeMapPtr = std::shared_ptr<const std::vector<SlopePoint>>;
 
 struct PigmentDefinition {
   Pigment value; ///< of one without a pattern; it has no map
@@ -40,6 +42,7 @@ struct PigmentDefinition {
   PigmentMapPtr map; ///< null: the pattern's own colours
   UnsupportedPtr uv_mapping;
   UnsupportedPtr unsupported;
+  [[no_unique_address]] Counted<PigmentDefinition> counted;
 
   UnsupportedPtr first_unsupported() const;
   int depth() const { return !pattern.exists() ? 0 : map ? map->depth : 1; }
@@ -53,26 +56,31 @@ struct NormalDefinition {
   PatternDefinition pattern; ///< without one it is smooth
   double amount = 0.5;
   double accuracy = 0.02;
+  std::vector<SlopePoint> slopes; ///< empty: the pattern's numbers
   NormalMapPtr map; ///< null: the pattern's own slopes
   UnsupportedPtr uv_mapping;
   UnsupportedPtr unsupported;
+  [[no_unique_address]] Counted<NormalDefinition> counted;
 
   UnsupportedPtr first_unsupported() const;
   int depth() const { return map ? map->depth : 0; }
+  bool is_smooth() const { return !pattern.exists(); }
   Normal finish() const;
 };
 using NormalPtr = std::shared_ptr<const NormalDefinition>;
 
 struct FinishDefinition {
   Finish value;
-  std::optional<double> ior; ///< POV-Ray 3.1 had it here: it becomes the interior's
+  // POV-Ray 3.1 had these here: they become the interior's.
+  std::optional<double> ior, caustics, fade_distance, fade_power;
   UnsupportedPtr unsupported;
+  [[no_unique_address]] Counted<FinishDefinition> counted;
 };
 using FinishPtr = std::shared_ptr<const FinishDefinition>;
 
 struct TextureDefinition {
   PigmentDefinition pigment;
-  NormalPtr normal; ///< null: smooth
+  NormalPtr normal; ///< null: smooth; a smooth one is what later normals start from
   FinishDefinition finish;
   TexturePtr below;          ///< the layer under this one
   int layers = 1;            ///< with those below
@@ -80,6 +88,7 @@ struct TextureDefinition {
   TextureMapPtr map;
   UnsupportedPtr uv_mapping;
   UnsupportedPtr unsupported;
+  [[no_unique_address]] Counted<TextureDefinition> counted;
 
   UnsupportedPtr first_unsupported() const;
   int depth() const { return map ? map->depth : 0; }
@@ -106,16 +115,25 @@ struct SkySphereDefinition {
 };
 using SkySpherePtr = std::shared_ptr<const SkySphereDefinition>;
 
+struct FogDefinition {
+  Fog value;
+  UnsupportedPtr unsupported;
+};
+using FogPtr = std::shared_ptr<const FogDefinition>;
+
 struct InteriorDefinition {
   double ior = 1;
   double fade_distance = 0;
   double fade_power = 0;
+  Vec3 fade_colour{0, 0, 0};
+  double caustics = 0;
   UnsupportedPtr unsupported;
 };
 using InteriorPtr = std::shared_ptr<const InteriorDefinition>;
 
 struct MaterialDefinition {
   TexturePtr texture; ///< null: none given
+  TexturePtr inside;  ///< likewise
   InteriorPtr interior;
   UnsupportedPtr unsupported;
 };

@@ -20,7 +20,7 @@ struct Token {
     string,        ///< name: the text between the quotes, escapes untouched
     component,     ///< name, without the leading dot
     number,        ///< number[0]
-    vector,        ///< number[0..2], a literal <1, 2, 3>
+    vector,        ///< number[0..2] or [0..3], a literal <1, 2, 3>; symbol says how many
     punctuation,   ///< symbol
     bad_character, ///< symbol: no part of the language
   };
@@ -28,7 +28,7 @@ struct Token {
   std::uint16_t symbol = 0; ///< the character; two-character operators have the numbers below
   NameId name = 0;
   Location where;
-  double number[3] = {0, 0, 0};
+  double number[4] = {0, 0, 0, 0};
 
   static constexpr std::uint16_t kLessEqual = 256;
   static constexpr std::uint16_t kGreaterEqual = 257;

@@ -1,6 +1,7 @@
 #include "pov/token_stream.hpp"
 
 #include <algorithm>
+#include <ctime>
 
 #include "celltrace/error.hpp"
 #include "pov/constants.hpp"
@@ -43,12 +44,19 @@ bool ends_operand(int terminal) {
   case tokens::T_PIGMENT_MAP_ID:
   case tokens::T_NORMAL_MAP_ID:
   case tokens::T_TEXTURE_MAP_ID:
+  case tokens::T_SLOPE_MAP_ID:
   case tokens::T_SKY_SPHERE_ID:
+  case tokens::T_FOG_ID:
   case tokens::T_FINISH_ID:
   case tokens::T_TEXTURE_ID:
   case tokens::T_OBJECT_ID:
   case tokens::T_TRANSFORM_ID:
   case tokens::T_ARRAY_ID:
+  case tokens::T_INTERIOR_ID:
+  case tokens::T_MATERIAL_ID:
+  case tokens::T_CAMERA_ID:
+  case tokens::T_FUNCTION_ID:
+  case tokens::T_SPLINE_ID:
   case tokens::T_UNSUPPORTED_ID:
   case tokens::T_COMPONENT:
   case ')':
@@ -59,6 +67,38 @@ bool ends_operand(int terminal) {
   default:
     return false;
   }
+}
+
+/// Whether a terminal can be part of what stands behind a keyword; brackets aside.
+bool is_argument(int terminal) {
+  switch (terminal) {
+  case tokens::T_QUANTITY:
+  case tokens::T_TEXT:
+  case tokens::T_COMPONENT:
+  case tokens::T_FUNCTION:
+  case tokens::T_TEXT_FUNCTION:
+  case tokens::T_DIMENSIONS:
+  case tokens::T_DIMENSION_SIZE:
+  case tokens::T_COLOUR:
+  case tokens::T_COLOUR_MODEL:
+  case tokens::T_SRGB:
+  case tokens::T_SRGB_MODEL:
+  case tokens::T_CHANNEL:
+  case tokens::T_LESS_EQUAL:
+  case tokens::T_GREATER_EQUAL:
+  case tokens::T_NOT_EQUAL:
+  case tokens::T_UNSUPPORTED_ARGUMENT:
+    return true;
+  default:
+    return terminal > 0 && terminal < 256; // punctuation
+  }
+}
+
+/// Of this thread, since whenever.
+double processor_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
 std::string describe_character(unsigned code) {
@@ -99,7 +139,9 @@ struct TokenOf {
   int operator()(const PigmentMapPtr&) const { return tokens::T_PIGMENT_MAP_ID; }
   int operator()(const NormalMapPtr&) const { return tokens::T_NORMAL_MAP_ID; }
   int operator()(const TextureMapPtr&) const { return tokens::T_TEXTURE_MAP_ID; }
+  int operator()(const SlopeMapPtr&) const { return tokens::T_SLOPE_MAP_ID; }
   int operator()(const SkySpherePtr&) const { return tokens::T_SKY_SPHERE_ID; }
+  int operator()(const FogPtr&) const { return tokens::T_FOG_ID; }
   int operator()(const FinishPtr&) const { return tokens::T_FINISH_ID; }
   int operator()(const TexturePtr&) const { return tokens::T_TEXTURE_ID; }
   int operator()(const InteriorPtr&) const { return tokens::T_INTERIOR_ID; }
@@ -109,10 +151,16 @@ struct TokenOf {
   int operator()(const Transform&) const { return tokens::T_TRANSFORM_ID; }
   int operator()(const std::shared_ptr<Array>&) const { return tokens::T_ARRAY_ID; }
   int operator()(const std::shared_ptr<const Macro>&) const { return tokens::T_UNDECLARED_ID; }
+  int operator()(const std::shared_ptr<DataFile>&) const { return tokens::T_UNDECLARED_ID; }
   int operator()(const UnsupportedPtr&) const { return tokens::T_UNSUPPORTED_ID; }
+  int operator()(const FunctionPtr&) const { return tokens::T_FUNCTION_ID; }
+  int operator()(const SplinePtr&) const { return tokens::T_SPLINE_ID; }
 };
 
 } // namespace
+
+TokenStream::TokenStream(Session& session) : session_(session), started_(processor_seconds()) {
+}
 
 void TokenStream::open(std::string text, const std::string& name, std::filesystem::path folder) {
   const std::uint32_t file = session_.sources.number_of(name);
@@ -134,23 +182,31 @@ const std::filesystem::path& TokenStream::current_folder() const {
 
 Value TokenStream::evaluate(Start start) {
   if (levels_.size() >= kMostLevels)
-    session_.fail(last_place(), "macros and directives are nested too deeply");
+    session_.fail(here(), "macros and directives are nested too deeply");
   Level& level = levels_.emplace_back();
   level.start = start;
   level.base_depth = session_.input.depth();
   run_grammar(session_, levels_.size() - 1);
-  leave_finished_macros();
   Level finished = std::move(levels_.back());
   levels_.pop_back();
   if (finished.hands_back && !finished.at_end) session_.input.unread(finished.last_token);
+  leave_finished_macros(finished.base_depth);
   return std::move(finished.result);
 }
 
-/// After a value that needed no look ahead: what follows it is read from where the value began.
-void TokenStream::leave_finished_macros() {
-  const Level& level = levels_.back();
-  while (!level.hands_back && session_.input.depth() > level.base_depth && session_.input.is_exhausted())
-    leave_frame();
+/// Goes on after a value that a macro ends with: nothing but directives can follow there, such as the other
+/// branches of an #if, and what follows the call is read where the value began.
+void TokenStream::leave_finished_macros(std::size_t depth) {
+  while (session_.input.depth() > depth) {
+    const Token token = read();
+    if (token.kind == Token::Kind::directive) {
+      obey(token);
+    } else if (token.kind != Token::Kind::end) {
+      return session_.input.unread(token);
+    } else if (!leave_frame_at_end()) {
+      return;
+    }
+  }
 }
 
 void TokenStream::finish(Value value, bool has_lookahead) {
@@ -167,34 +223,49 @@ std::optional<Start> TokenStream::take_start() {
 
 bool TokenStream::is_inside_value() const {
   const Level& level = levels_.back();
-  return level.start != Start::scene && level.any_delivered && level.enclosing.empty();
+  return level.start != Start::scene && level.any_delivered && level.enclosing.empty() && level.nesting == 0;
 }
 
 Token TokenStream::read() {
-  if (++tokens_read_ > next_pause_) pause();
+  if (++tokens_read_ + work_ > next_pause_) pause();
   return session_.input.read();
+}
+
+/// Where what is read now stands, for faults of no single token.
+const Location& TokenStream::here() const {
+  const Frame& frame = session_.input.top();
+  return frame.scanner ? last_place() : frame.opened_at;
 }
 
 /// What is seen to once in a while.
 void TokenStream::pause() {
-  const std::uint64_t most = session_.options.limits.tokens;
-  if (tokens_read_ > most) session_.fail(last_place(), "the scene is too long");
-  next_pause_ = std::min(tokens_read_ + kTokensWithoutPause, most);
+  const ParseLimits& limits = session_.options.limits;
+  if (tokens_read_ > limits.tokens)
+    session_.exceed(here(), &ParseLimits::tokens, "the scene has", "tokens, with those that are repeated");
+  if (processor_seconds() - started_ > static_cast<double>(limits.seconds))
+    session_.exceed(here(), &ParseLimits::seconds, "reading the scene takes", "seconds");
+  next_pause_ = std::min(tokens_read_ + kTokensWithoutPause, limits.tokens) + work_;
   const Scanner& scene = *session_.input.frames().front().scanner;
   const auto& progress = session_.options.progress;
   if (progress && !progress(scene.offset(), scene.size())) throw Cancelled();
 }
 
 void TokenStream::next(Terminal& terminal) {
+  if (std::optional<Terminal>& put_back = levels_.back().put_back) {
+    terminal = std::move(*put_back);
+    put_back.reset();
+    return;
+  }
   for (;;) {
     const Token token = read();
     switch (token.kind) {
     case Token::Kind::end:
       if (!leave_frame_at_end()) return end_at(token, terminal);
+      if (skips_semicolon_) skip_semicolon();
       continue;
     case Token::Kind::directive:
-      // In the middle of a value a directive ends it, as in POV-Ray.
-      if (is_inside_value()) {
+      // A directive ends a value that can be complete, as in POV-Ray.
+      if (is_inside_value() && levels_.back().after_operand) {
         session_.input.unread(token);
         return end_at(token, terminal);
       }
@@ -245,8 +316,7 @@ void TokenStream::count_brackets(const Token& token) {
     level.enclosing.pop_back();
   }
   if (level.nesting > session_.options.limits.nesting)
-    session_.fail(token.where, "brackets are nested more than " +
-                                   std::to_string(session_.options.limits.nesting) + " deep");
+    session_.exceed(token.where, &ParseLimits::nesting, "brackets are nested", "deep");
 }
 
 /// What a token means that needs no table.
@@ -254,15 +324,15 @@ void TokenStream::interpret(const Token& token, Terminal& terminal) const {
   switch (token.kind) {
   case Token::Kind::number:
     terminal.token = tokens::T_QUANTITY;
-    terminal.value = Quantity(token.number[0]);
+    terminal.value = literal_of(token);
     break;
   case Token::Kind::vector:
     terminal.token = tokens::T_QUANTITY;
-    terminal.value = Quantity::vector({token.number[0], token.number[1], token.number[2]});
+    terminal.value = literal_of(token);
     break;
   case Token::Kind::string:
     terminal.token = tokens::T_TEXT;
-    terminal.value = without_escapes(session_.names.text(token.name));
+    terminal.value = text_of(token);
     break;
   case Token::Kind::punctuation:
     terminal.token = number_of(token);
@@ -342,14 +412,26 @@ void TokenStream::skip_to_depth(std::size_t depth) {
   }
 }
 
-void TokenStream::skip_to_close() {
-  const std::size_t depth = levels_.back().enclosing.size() - 1;
+void TokenStream::skip_arguments() {
+  const std::size_t depth = levels_.back().enclosing.size();
   const unsigned nesting = levels_.back().enclosing.back();
-  skip_to_depth(depth);
-  // The closing brace is the grammar's: as if it had not been read.
-  session_.input.unread(levels_.back().last_token);
-  levels_.back().enclosing.push_back(nesting);
-  levels_.back().nesting = nesting + 1;
+  for (;;) {
+    Terminal terminal;
+    next(terminal);
+    Level& level = levels_.back();
+    if (level.enclosing.size() > depth) {
+      skip_to_depth(depth);
+    } else if (level.enclosing.size() < depth) {
+      // The closing brace is the grammar's: as if it had not been read.
+      session_.input.unread(level.last_token);
+      level.enclosing.push_back(nesting);
+      level.nesting = nesting + 1;
+      return;
+    } else if (!is_argument(terminal.token)) {
+      level.put_back = std::move(terminal);
+      return;
+    }
+  }
 }
 
 void TokenStream::skip_group() {
@@ -364,6 +446,14 @@ void TokenStream::skip_group() {
   }
   if (terminal.token != '{') session_.fail(terminal.where, "expected '{' after " + keyword);
   skip_to_depth(depth);
+}
+
+std::string TokenStream::text_of(const Token& string) const {
+  return without_escapes(session_.names.text(string.name));
+}
+
+void TokenStream::unread_last() {
+  session_.input.unread(last_token());
 }
 
 std::string TokenStream::describe_last() const {

@@ -40,7 +40,7 @@ struct Terminal {
 
 class TokenStream {
 public:
-  explicit TokenStream(Session& session) : session_(session) {}
+  explicit TokenStream(Session& session);
 
   void open(std::string text, const std::string& name, std::filesystem::path folder);
 
@@ -58,14 +58,32 @@ public:
   /// For the grammar, at the front of a list: takes the entries that can be read straight from the file, if
   /// that is what is being read.
   void take_literals(std::vector<ListEntry>& list);
-  /// For the grammar, inside { }: passes over everything up to, not including, the closing brace.
-  void skip_to_close();
+  /// For the grammar: a name, whatever it stands for.
+  NameId take_name() { return expect_name("to write to").name; }
+  /// For the grammar, inside { }, after a keyword: passes over what can belong to it, values and { }, up to, not
+  /// including, the next keyword or the closing brace.
+  void skip_arguments();
   /// For the grammar, after a keyword: passes over ( ) if there, and { }.
   void skip_group();
+  /// Counts work besides reading tokens, about as much as so many of them are, so that a parse can be
+  /// cancelled in the middle of it. Throws Cancelled, or SceneError for a limit.
+  void spend(std::uint64_t work) {
+    work_ += work;
+    if (tokens_read_ + work_ > next_pause_) pause();
+  }
+
+  /// At the end of the scene: the files that #write still has to finish.
+  void close_data_files();
 
   /// How a message names what next() returned last.
   std::string describe_last() const;
+  /// A string, its escapes replaced.
+  std::string text_of(const Token& string) const;
   const Location& last_place() const { return levels_.back().last_token.where; }
+  /// What next() made its last terminal of.
+  const Token& last_token() const { return levels_.back().last_token; }
+  /// The word that next() returned last is read again.
+  void unread_last();
   /// The folder of the file being read.
   const std::filesystem::path& current_folder() const;
   /// Whether any token was found at all.
@@ -82,16 +100,18 @@ private:
     unsigned nesting = 0;            ///< open brackets, and < and ? which may or may not be brackets
     std::vector<unsigned> enclosing; ///< nesting outside each open bracket
     Token last_token;
+    std::optional<Terminal> put_back; ///< made of last_token; to be delivered again
     bool after_operand = false; ///< the last terminal can end a value
     Value result;
     bool hands_back = false;
   };
 
   // token_stream.cpp: from tokens to terminals
-  void leave_finished_macros();
+  void leave_finished_macros(std::size_t depth);
   bool is_inside_value() const;
   Token read();
   void pause();
+  const Location& here() const;
   void deliver(const Token& token, Terminal& terminal);
   void count_brackets(const Token& token);
   void end_at(const Token& token, Terminal& terminal);
@@ -106,6 +126,9 @@ private:
   void undefine();
   void set_version();
   void include(const Token& directive);
+  std::string read_file_name(Location& where);
+  std::pair<std::filesystem::path, std::string> read_file(const std::string& what, const std::string& wanted,
+                                                          const Location& where);
   void show(const Token& directive, Directive kind);
   void skip_semicolon();
   Token expect_name(const char* purpose);
@@ -113,6 +136,15 @@ private:
   bool is_defined();
   std::vector<std::size_t> read_subscripts();
   Value& element(Value& array, const std::vector<std::size_t>& subscripts, const Location& where);
+
+  // data_files.cpp
+  void open_data_file();
+  void close_data_file();
+  void read_data();
+  void write_data();
+  std::shared_ptr<DataFile> expect_data_file(Token& name);
+  void forget_data_file(const std::shared_ptr<DataFile>& file, NameId name);
+  std::string data_text(const Value& value, const Location& where) const;
 
   // conditionals.cpp
   double condition_value();
@@ -140,9 +172,12 @@ private:
   std::vector<double> read_numbers(const Location& where);
 
   Session& session_;
+  double started_; ///< of the thread's processor time
   std::vector<Level> levels_;
   std::uint64_t tokens_read_ = 0;
-  std::uint64_t next_pause_ = 0; ///< after so many tokens
+  bool skips_semicolon_ = false; ///< once, behind the frame that ends
+  std::uint64_t work_ = 0;       ///< besides
+  std::uint64_t next_pause_ = 0; ///< after so many tokens and so much work
   std::uint64_t tokens_recorded_ = 0;
   std::uint64_t iterations_ = 0;
   unsigned macro_calls_ = 0;

@@ -1,5 +1,5 @@
 // Constructs of POV-Ray that this program lacks: they may be declared, and are an error where an object uses
-// them.
+// them, or left out (ParseOptions::lenient).
 #pragma once
 
 #include <memory>
@@ -9,16 +9,31 @@
 
 namespace celltrace::pov {
 
-/// A construct this program does not support, and where it stands.
+struct Unsupported;
+using UnsupportedPtr = std::shared_ptr<const Unsupported>;
+
+/// A construct this program does not support, and where it stands; with others that belong to the same thing.
 struct Unsupported {
   std::string what;
   Location where;
+  UnsupportedPtr others = nullptr; ///< from the last to the first
 };
-using UnsupportedPtr = std::shared_ptr<const Unsupported>;
 
-/// Keeps the first of several.
+/// Adds what is not mentioned yet. A scene does not have many different ones.
 inline void mark(UnsupportedPtr& mark, const UnsupportedPtr& unsupported) {
-  if (!mark) mark = unsupported;
+  if (!mark) {
+    mark = unsupported;
+    return;
+  }
+  const auto mentions = [](const UnsupportedPtr& all, const std::string& what) {
+    const Unsupported* one = all.get();
+    while (one && one->what != what)
+      one = one->others.get();
+    return one != nullptr;
+  };
+  for (const Unsupported* one = unsupported.get(); one; one = one->others.get())
+    if (!mentions(mark, one->what))
+      mark = std::make_shared<const Unsupported>(Unsupported{one->what, one->where, mark});
 }
 
 } // namespace celltrace::pov

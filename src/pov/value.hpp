@@ -7,14 +7,17 @@
 #include <vector>
 
 #include "pov/camera.hpp"
+#include "pov/memory.hpp"
 #include "pov/object.hpp"
 #include "pov/quantity.hpp"
 #include "pov/texture.hpp"
 #include "pov/token.hpp"
+#include "pov/user_function.hpp"
 
 namespace celltrace::pov {
 
 struct Array;
+class DataFile;
 
 struct Macro {
   NameId name = 0;
@@ -25,13 +28,14 @@ struct Macro {
 
 using Value =
     std::variant<std::monostate, Quantity, std::string, PigmentPtr, NormalPtr, FinishPtr, TexturePtr,
-                 PigmentMapPtr, NormalMapPtr, TextureMapPtr, SkySpherePtr, InteriorPtr,
+                 PigmentMapPtr, NormalMapPtr, TextureMapPtr, SlopeMapPtr, SkySpherePtr, FogPtr, InteriorPtr,
                  std::shared_ptr<const MaterialDefinition>, std::shared_ptr<const CameraDefinition>,
-                 ObjectPtr, Transform, std::shared_ptr<Array>, std::shared_ptr<const Macro>, UnsupportedPtr>;
+                 ObjectPtr, Transform, std::shared_ptr<Array>, std::shared_ptr<const Macro>, UnsupportedPtr,
+                 std::shared_ptr<DataFile>, FunctionPtr, SplinePtr>;
 
 /// Elements without a value hold std::monostate. Assigning an array copies it.
 struct Array {
-  std::vector<Value> elements;
+  std::vector<Value, ElementAllocator<Value>> elements;
 };
 
 /// What a name is bound to; macro parameters may share the caller's.

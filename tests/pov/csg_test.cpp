@@ -282,8 +282,8 @@ TEST_CASE("what CSG lacks is an error") {
   CHECK(error_line("difference { sphere { 0, 1 } box { 0, 1 } cutaway_textures }") ==
         "scene.pov:1:43: error: 'cutaway_textures' is not supported yet");
   CHECK(error_line("difference { sphere { 0, 1 } box { 0, 1 } cutaway_textures off }").empty());
-  CHECK(error_line("difference { sphere { 0, 1 } quadric { x, y, z, 1 } }") ==
-        "scene.pov:1:30: error: 'quadric' is not supported yet");
+  CHECK(error_line("difference { sphere { 0, 1 } quartic { x, y, z, 1 } }") ==
+        "scene.pov:1:30: error: 'quartic' is not supported yet");
   CHECK(error_line("merge { sphere { 0, 1 } box { 0, 1 scale 1e-200 } }") ==
         "scene.pov:1:1: error: this object's transformation is singular: it has no inverse");
   CHECK(error_line("sphere { 0, 1 clipped_by { } }") == "scene.pov:1:28: error: unexpected '}'");

@@ -21,6 +21,17 @@ TEST_CASE("#declare, #local and #undef") {
         "scene.pov:1:10: error: 'x' is a reserved word, not a name to declare");
 }
 
+TEST_CASE("semicolons behind declarations") {
+  CHECK(output("#declare A = 1;; #declare B = <1, 2, 3>; ; #debug str(A, 0, 0)") == "1");
+  CHECK(output("#macro M() #local A = 2; #end M(); #debug \"on\"") == "on");
+  CHECK(output("#declare I = 0; #while (I < 3) #declare I = I + 1;; #end #debug str(I, 0, 0)") == "3");
+  for (const char* text : {"#declare A = 1;;;", "#declare A = \"a\";;", "#declare A = sphere { 0, 1 };;",
+                           "#if (1) #declare A = 1; #end;", ";"}) {
+    INFO(text);
+    CHECK(error_line(text).find("unexpected ';'") != std::string::npos);
+  }
+}
+
 TEST_CASE("conditions") {
   CHECK(output("#if (0) #debug \"1\" #elseif (1) #debug \"2\" #else #debug \"3\" #end") == "2");
   CHECK(output("#if (0) #if (1) #debug \"1\" #else #end #else #debug \"2\" #end") == "2");
@@ -159,4 +170,14 @@ TEST_CASE("#default changes what textures start from") {
   CHECK(scene.materials[1].pigment.rgb.x == 1);
   CHECK(scene.materials[1].finish.ambient.x == 1);
   CHECK(scene.materials[1].finish.phong == 1);
+}
+
+TEST_CASE("what a macro has left behind its value belongs to the macro") {
+  const std::string choose = "#macro F(X) #if (X < 1) 5 + 1 #else 7 #end #end ";
+  CHECK(output(choose + "#declare V = <F(0), F(2), 1 #if (1) + 3 #end,>; #debug vstr(3, V, \" \", 0, 0)") == "6 7 4");
+  CHECK(output(choose + "#macro G(A, B) #debug str(A - B, 0, 0) #end G(F(2), F(0))") == "1");
+  CHECK(output(choose + "#macro H() #local V = F(0) #debug str(V, 0, 0) #end H()") == "6");
+  CHECK(output("#macro T(A) #if (vlength(A)) transform { translate A } #else transform { scale 2 } #end #end "
+               "#declare U = T(x); #declare F = function { transform { U } } "
+               "#debug vstr(3, F(1, 1, 1), \" \", 0, 0)") == "2 1 1");
 }

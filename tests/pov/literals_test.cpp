@@ -148,7 +148,8 @@ TEST_CASE("a literal list may not be longer than any other") {
   };
   CHECK(fault("%3, <0, 1, 2>, <0, 1, 2>, <0, 1, 2>", kByLiterals).empty());
   const std::string five = "%4, <0, 1, 2>, <0, 1, 2>, <0, 1, 2>, <0, 1, 2>";
-  CHECK(fault(five, kByLiterals) == "scene.pov:6:54: error: this list is too long");
+  CHECK(fault(five, kByLiterals) ==
+        "scene.pov:6:54: error: this list has more than 4 entries (--max list-entries=N allows more)");
   CHECK(fault(five, kByGrammar) == fault(five, kByLiterals));
 }
 

@@ -130,7 +130,7 @@ TEST_CASE("meshes that cannot be") {
                  "normal_vectors { 1, z } face_indices { 1, <0, 1, 2> } normal_indices { 1, <0, 0, 1> } }") ==
       "scene.pov:1:1: error: mesh2 has no normal 1, there are 1");
   CHECK(error_line(kSquare + "face_indices { 1, <0, 1") ==
-        "scene.pov:1:67: error: unexpected end of the scene, expected a number");
+        "scene.pov:1:67: error: unexpected end of the scene, expected '>'");
   CHECK(error_line("triangle { 0, 1e300*x, y }") ==
         "scene.pov:1:1: error: a mesh has a coordinate that is too large");
 }

@@ -106,11 +106,16 @@ TEST_CASE("the environment") {
   CHECK(scene.name == "scene.pov");
   CHECK(error_line("global_settings { radiosity { count 10 } }") ==
         "scene.pov:1:19: error: 'radiosity' is not supported yet");
-  CHECK(error_line("global_settings { photons { count 10 } }") ==
+  const std::string photons = "global_settings { photons { count 10 } } sphere { 0, 1 photons { ";
+  CHECK(error_line(photons + "reflection on target } }") ==
         "scene.pov:1:19: error: 'photons' is not supported yet");
+  CHECK(error_line(photons + "reflection on target off pass_through } }").empty());
+  CHECK(error_line("sphere { 0, 1 photons { target refraction on collect off } }").empty());
   CHECK(error_line("global_settings { max_trace_level 0 }") ==
         "scene.pov:1:35: error: max_trace_level must lie between 1 and 256");
-  CHECK(error_line("fog { distance 10 }") == "scene.pov:1:1: error: 'fog' is not supported yet");
+  CHECK(scene.irid_wavelength == Vec3(1));
+  CHECK(parse("sphere { 0, 1 }").irid_wavelength == Vec3(0.7, 0.52, 0.48));
+  CHECK(error_line("rainbow { width 10 }") == "scene.pov:1:1: error: 'rainbow' is not supported yet");
 }
 
 TEST_CASE("a transparent background is one over black, from version 3.7 on") {

@@ -72,6 +72,8 @@ TEST_CASE("every pattern has its word") {
       {"spotted", Bozo{}},        {"cylindrical", Cylindrical{}},
       {"waves", Waves{}},         {"wood", Wood{}},
       {"wrinkles", Wrinkles{}},   {"spiral2 3", Spiral{}},
+      {"mandel 5", Fractal{}},    {"julia <0, 1>, 5", Fractal{}},
+      {"julia u 5", Fractal{}},   {"magnet 1 mandel 5", Fractal{}},
   };
   for (const auto& [word, kind] : words) {
     INFO(word);
@@ -100,6 +102,27 @@ TEST_CASE("what stands behind a pattern's word") {
   CHECK(crackle.metric == 1);
   CHECK(crackle.offset == 0.5);
   CHECK(crackle.is_solid);
+  const Fractal julia = kind<Fractal>("julia <0.25, 0.5>, 30 exponent 3 exterior 2, 0.1 interior 3 0.7");
+  CHECK(julia.is_julia);
+  CHECK(julia.c[1] == 0.5);
+  CHECK(julia.iterations == 30);
+  CHECK(julia.exponent == 3);
+  CHECK(julia.exterior == 2);
+  CHECK(julia.exterior_factor == 0.1);
+  CHECK(julia.interior == 3);
+  CHECK(julia.interior_factor == 0.7);
+  CHECK(kind<Fractal>("magnet 2 mandel 7").magnet == 2);
+  CHECK_FALSE(kind<Fractal>("magnet 2 mandel 7").is_julia);
+  CHECK(kind<Fractal>("magnet 1 julia <1, 2>, 7").c[0] == 1);
+  CHECK(std::get<Facets>(normal("facets coords 0.3").pattern.kind).coords == 0.3);
+  CHECK(error_line("sphere { 0, 1 pigment { bozo exterior 1, 2 } }") ==
+        "scene.pov:1:30: error: this word means something to fractals only");
+  CHECK(error_line("sphere { 0, 1 pigment { mandel 5 exterior 9, 2 } }") ==
+        "scene.pov:1:34: error: this number must lie between 0 and 6");
+  CHECK(error_line("sphere { 0, 1 pigment { mandel 0 } }") ==
+        "scene.pov:1:32: error: a fractal has 1 to 65535 iterations");
+  CHECK(error_line("sphere { 0, 1 pigment { magnet 3 mandel 5 } }") ==
+        "scene.pov:1:34: error: a magnet is of kind 1 or 2");
   CHECK(error_line("sphere { 0, 1 pigment { bozo mortar 1 } }") ==
         "scene.pov:1:30: error: 'mortar' means nothing to this pattern");
   CHECK(error_line("sphere { 0, 1 pigment { gradient 0 } }") ==
@@ -153,6 +176,41 @@ TEST_CASE("what is done to space keeps its order") {
   CHECK(error_line("sphere { 0, 1 pigment { bozo #for (I, 1, 65) warp { turbulence 1 } #end } }") ==
         "scene.pov:1:46: error: a pattern has no more than 64 warps and transformations between them");
   CHECK(error_line("sphere { 0, 1 pigment { bozo #for (I, 1, 9999) rotate 1 #end } }").empty());
+}
+
+TEST_CASE("warps") {
+  const auto space = pattern_of("bozo warp { repeat -2*y flip x offset <1, 2, 3> } "
+                                "warp { black_hole <1, 2, 3>, 0.5 strength 2 falloff 3 inverse repeat x turbulence 0.1 } "
+                                "warp { planar z, 0.7 } warp { toroidal orientation y dist_exp 2 major_radius 3 }")
+                         .space;
+  REQUIRE(space.size() == 4);
+  const auto& repeat = std::get<warp::Repeat>(space[0]);
+  CHECK(repeat.axis == 1);
+  CHECK(repeat.width == -2);
+  CHECK(repeat.flip == Vec3(1, 0, 0));
+  CHECK(repeat.offset == Vec3(1, 2, 3));
+  const auto& hole = std::get<warp::BlackHole>(space[1]);
+  CHECK(hole.centre == Vec3(1, 2, 3));
+  CHECK(hole.radius == 0.5);
+  CHECK(hole.strength == 2);
+  CHECK(hole.falloff == 3);
+  CHECK(hole.is_inverse);
+  CHECK(hole.repeat == Vec3(1, 0, 0));
+  CHECK(hole.turbulence == Vec3(0.1));
+  CHECK(std::get<warp::Mapping>(space[2]).distance == 0.7);
+  const auto& torus = std::get<warp::Mapping>(space[3]);
+  CHECK(torus.shape == warp::Mapping::Shape::toroidal);
+  CHECK(torus.orientation == Vec3(0, 1, 0));
+  CHECK(torus.distance_exponent == 2);
+  CHECK(torus.major_radius == 3);
+  CHECK(error_line("sphere { 0, 1 pigment { bozo warp { repeat <1, 1, 0> } } }") ==
+        "scene.pov:1:44: error: a warp repeats along one axis");
+  CHECK(error_line("sphere { 0, 1 pigment { bozo warp { repeat x metric 2 } } }") ==
+        "scene.pov:1:46: error: 'metric' means nothing to this warp");
+  CHECK(error_line("sphere { 0, 1 pigment { bozo warp { marble } } }") ==
+        "scene.pov:1:37: error: 'marble' is no warp");
+  CHECK(error_line("sphere { 0, 1 pigment { bozo warp { black_hole 0, 0 } } }") ==
+        "scene.pov:1:51: error: the radius must be greater than 0");
 }
 
 TEST_CASE("colour maps") {
@@ -263,6 +321,12 @@ TEST_CASE("a pigment builds on another one") {
   CHECK(pigment_map("scale 2", "#default { pigment { checker } } ").pattern.space.size() == 1);
 }
 
+TEST_CASE("facets are for normals alone") {
+  CHECK(error_line("sphere { 0, 1 normal { facets coords 1 } }").empty());
+  CHECK(error_line("sphere { 0, 1 pigment { facets coords 1 } }") ==
+        "scene.pov:1:23: error: 'facets' is a pattern of normals alone");
+}
+
 TEST_CASE("normals") {
   const Normal n = normal("bumps 0.4 scale 2 accuracy 0.01 turbulence 0.5");
   CHECK(n.amount == 0.4);
@@ -286,8 +350,19 @@ TEST_CASE("normals") {
   CHECK_FALSE(material("normal { bump_size 2 }").normal);
   CHECK(material("texture { pigment { rgb 1 } }", "#default { normal { bumps 0.3 } } ").normal->amount ==
         0.3);
-  CHECK(error_line("sphere { 0, 1 normal { bumps slope_map { [0 <0, 1>] } } }") ==
-        "scene.pov:1:30: error: 'slope_map' is not supported yet");
+  // A default without a pattern says what the normals to come start from, those of maps too.
+  CHECK(normal("bumps", "#default { normal { bump_size 1.5 } } ").amount == 1.5);
+  CHECK(normal("bumps", "#default { normal { scale 2 } } ").pattern.space.size() == 1);
+  CHECK(normal("wood normal_map { [0 bumps] [1 dents] }", "#default { normal { bump_size 1.5 } } ")
+            .map->entries.at(1)
+            .value.amount == 1.5);
+  CHECK(material("texture { normal { bump_size 1.5 } normal { bumps } }").normal->amount == 1.5);
+  const Normal sloped = normal("bozo 1 slope_map { S }",
+                               "#declare S = slope_map { [0.5 <0.25, 1>] [0.2, <1, -1>] [1 <0, 0>] } ");
+  REQUIRE(sloped.slopes.size() == 3);
+  CHECK(sloped.slopes[0].height == 0.25);
+  CHECK(sloped.slopes[1].slope == -1);
+  CHECK(sloped.slopes[1].position == 0.5);
   CHECK(error_line(
             "#declare S = slope_map { [0 <0, 1>] [1 <1, 0>] } #declare N = normal { bumps accuracy 0 }") ==
         "scene.pov:1:87: error: accuracy must not be 0");
@@ -468,8 +543,8 @@ TEST_CASE("sky spheres") {
   CHECK(parse("sky_sphere { pigment { rgb 1 } } sky_sphere { pigment { rgb 0.5 } }").sky_sphere.at(0).rgb ==
         Vec3(0.5));
   CHECK(error_line("sky_sphere { }") == "scene.pov:1:1: error: a sky_sphere needs a pigment");
-  CHECK(error_line("sky_sphere { pigment { mandel 9 } }") ==
-        "scene.pov:1:24: error: 'mandel' is not supported yet");
+  CHECK(error_line("sky_sphere { pigment { tiling 9 } }") ==
+        "scene.pov:1:24: error: 'tiling' is not supported yet");
   CHECK(error_line("sky_sphere { pigment { rgb 1 } emission 2 }") ==
         "scene.pov:1:32: error: a sky_sphere's 'emission' is not supported yet");
 }
@@ -482,15 +557,12 @@ TEST_CASE("what patterns lack is an error where it is used") {
   };
   CHECK(refused("uv_mapping checker") == "scene.pov:1:24: error: 'uv_mapping' is not supported yet");
   CHECK(refused("uv_mapping rgb 1").empty());
-  CHECK(refused("mandel 20 scale 2") == "scene.pov:1:24: error: 'mandel' is not supported yet");
+  CHECK(refused("tiling 20 scale 2") == "scene.pov:1:24: error: 'tiling' is not supported yet");
   CHECK(refused("image_map { png \"x\" }") == "scene.pov:1:24: error: 'image_map' is not supported yet");
   CHECK(refused("object { sphere { 0, 1 } rgb 1 rgb 0 }") ==
         "scene.pov:1:24: error: an object pattern is not supported yet");
-  CHECK(refused("bozo warp { repeat x }") == "scene.pov:1:29: error: this kind of warp is not supported yet");
-  CHECK(refused("bozo warp { planar y, 1 }") ==
-        "scene.pov:1:29: error: this kind of warp is not supported yet");
-  CHECK(refused("gradient x pigment_map { [0 rgb 1] [1 julia <0, 1>, 3] }") ==
-        "scene.pov:1:62: error: 'julia' is not supported yet");
+  CHECK(refused("gradient x pigment_map { [0 rgb 1] [1 tiling 3] }") ==
+        "scene.pov:1:62: error: 'tiling' is not supported yet");
   CHECK(error_line("sphere { 0, 1 pigment { checker } uv_mapping }") ==
         "scene.pov:1:35: error: 'uv_mapping' is not supported yet");
   CHECK(error_line("sphere { 0, 1 pigment { rgb 1 } uv_mapping }").empty());

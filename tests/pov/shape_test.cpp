@@ -31,6 +31,16 @@ TEST_CASE("planes") {
   CHECK(only<Plane>("plane { y, 0 }").normal == Vec3(0, 1, 0));
 }
 
+TEST_CASE("quadrics") {
+  const Quadric quadric = only<Quadric>("quadric { <1, 2, 3>, <4, 5, 6>, <7, 8, 9>, 10 }");
+  CHECK(quadric.square == Vec3(1, 2, 3));
+  CHECK(quadric.mixed == Vec3(4, 5, 6));
+  CHECK(quadric.linear == Vec3(7, 8, 9));
+  CHECK(quadric.constant == 10);
+  CHECK(error_line("quadric { x, y, z }") == "scene.pov:1:1: error: expected 'quadric { <squares>, "
+                                             "<products>, <linear>, constant }', found 3 arguments");
+}
+
 TEST_CASE("discs, with a hole or without") {
   Disc disc = only<Disc>("disc { <1, 2, 3>, z, 4 }");
   CHECK(disc.centre == Vec3(1, 2, 3));

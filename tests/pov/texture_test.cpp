@@ -72,9 +72,10 @@ TEST_CASE("colours in sRGB") {
 }
 
 TEST_CASE("every item of a finish") {
-  const Finish f = finish(
-      "ambient rgb <.1, .2, .3> emission 0.5 diffuse 0.7 brilliance 2 phong 0.8 phong_size 60 "
-      "specular 0.4 roughness 0.01 metallic conserve_energy crand 0 irid { 0 thickness 1 turbulence 1 }");
+  const Finish f =
+      finish("ambient rgb <.1, .2, .3> emission 0.5 diffuse 0.7 brilliance 2 phong 0.8 phong_size 60 "
+             "specular 0.4 roughness 0.01 metallic conserve_energy crand 0.2 irid { 0.3 thickness 1.5 "
+             "turbulence 0.4 }");
   CHECK(f.ambient == Vec3(.1, .2, .3));
   CHECK(f.emission == Vec3(.5, .5, .5));
   CHECK(f.diffuse == 0.7);
@@ -85,6 +86,10 @@ TEST_CASE("every item of a finish") {
   CHECK(f.roughness == 0.01);
   CHECK(f.metallic == 1);
   CHECK(f.conserve_energy);
+  CHECK(f.crand == 0.2);
+  CHECK(f.irid == 0.3);
+  CHECK(f.irid_thickness == 1.5);
+  CHECK(f.irid_turbulence == 0.4);
   CHECK(finish("metallic 0.3").metallic == 0.3);
   CHECK_FALSE(finish("conserve_energy off").conserve_energy);
   CHECK(error_line("sphere { 0, 1 finish { roughness 0 } }") ==
@@ -180,8 +185,13 @@ TEST_CASE("interiors and materials") {
   const Scene named = parse("#declare I = interior { ior 2 } #declare M = material { interior { I } } "
                             "sphere { 0, 1 material { M } }");
   CHECK(named.interiors.at(0).ior == 2);
-  CHECK(error_line("sphere { 0, 1 interior { fade_distance 1 fade_power 2 } }") ==
-        "scene.pov:1:1: error: 'fade_distance' of an interior is not supported yet");
+  const Scene fading =
+      parse("sphere { 0, 1 interior { fade_distance 3 fade_power 2 fade_color rgb <.1, .2, .3> "
+            "caustics 0.5 } finish { fade_power 1 } }");
+  CHECK(fading.interiors.at(0).fade_distance == 3);
+  CHECK(fading.interiors.at(0).fade_power == 1); // POV-Ray 3.1's finish changes it
+  CHECK(fading.interiors.at(0).fade_colour == Vec3(.1, .2, .3));
+  CHECK(fading.interiors.at(0).caustics == 0.5);
   CHECK(error_line("sphere { 0, 1 interior { ior 1.5 media { scattering { 1, 1 } } } }") ==
         "scene.pov:1:34: error: 'media' is not supported yet");
   CHECK(error_line("sphere { 0, 1 interior { dispersion 1.02 } }") ==
@@ -190,36 +200,74 @@ TEST_CASE("interiors and materials") {
 
 TEST_CASE("what is not supported is an error where it is used") {
   const std::string declarations =
-      "#declare T = texture { pigment { mandel 9 color_map { [0 rgb 1] [1 rgb 0] } turbulence 1 } normal { "
+      "#declare T = texture { pigment { tiling 9 color_map { [0 rgb 1] [1 rgb 0] } turbulence 1 } normal { "
       "bumps 1 } }\n"
       "#declare N = normal { bumps 0.3 } #declare M = color_map { [0 rgb 1][1 rgb 0] }\n"
       "#declare F = function (x, y) { x + y } #declare B = blob { threshold 1 } #declare D = difference { "
       "sphere "
       "{ 0, 1 } object { B } }\n"
-      "#declare S = sphere { 0, 1 pigment { facets size 1 } }\n"
-      "#declare I = finish { irid { 0.3 thickness 1 } } #declare C = finish { crand 0.2 }\n";
+      "#declare S = sphere { 0, 1 pigment { slope <0, 1, 0> } }\n"
+      "#declare I = interior { dispersion 1.1 } #declare C = interior { media { intervals 1 } }\n";
   CHECK(error_line(declarations).empty());
   CHECK(error_line(declarations + "sphere { 0, 1 texture { T } }") ==
-        "scene.pov:1:34: error: 'mandel' is not supported yet");
+        "scene.pov:1:34: error: 'tiling' is not supported yet");
   CHECK(error_line(declarations + "object { D }") == "scene.pov:3:53: error: 'blob' is not supported yet");
   CHECK(error_line(declarations + "union { sphere { 0, 1 } object { B } }") ==
         "scene.pov:3:53: error: 'blob' is not supported yet");
   CHECK(error_line(declarations + "object { S pigment { rgb 1 } }").empty());
-  CHECK(error_line(declarations + "S") == "scene.pov:4:38: error: 'facets' is not supported yet");
-  CHECK(error_line(declarations + "sphere { 0, 1 finish { I } }") ==
-        "scene.pov:5:23: error: 'irid' is not supported yet");
-  CHECK(error_line(declarations + "sphere { 0, 1 finish { C } }") ==
-        "scene.pov:5:72: error: 'crand' is not supported yet");
-  CHECK(error_line(declarations + "#declare Q = F(1, 2);") ==
-        "scene.pov:3:14: error: 'function' is not supported yet");
+  CHECK(error_line(declarations + "S") == "scene.pov:4:38: error: 'slope' is not supported yet");
+  CHECK(error_line(declarations + "sphere { 0, 1 interior { I } }") ==
+        "scene.pov:5:25: error: 'dispersion' is not supported yet");
+  CHECK(error_line(declarations + "sphere { 0, 1 interior { C } }") ==
+        "scene.pov:5:66: error: 'media' is not supported yet");
   CHECK(test::error(declarations + "S") ==
-        "scene.pov:4:38: error: 'facets' is not supported yet\n    used at scene.pov:6:1");
-  CHECK(error_line("quadric { 0, x, 1 }") == "scene.pov:1:1: error: 'quadric' is not supported yet");
+        "scene.pov:4:38: error: 'slope' is not supported yet\n    used at scene.pov:6:1");
+  CHECK(error_line("quartic { 0, x, 1 }") == "scene.pov:1:1: error: 'quartic' is not supported yet");
   CHECK(error_line("sphere { 0, 1 clipped_by { prism { 0, 1 } } }") ==
         "scene.pov:1:28: error: 'prism' is not supported yet");
   CHECK(error_line("sphere { 0, 1 double_illuminate }") ==
         "scene.pov:1:15: error: 'double_illuminate' is not supported yet");
-  CHECK(error_line("#declare A = min_extent(B);") ==
-        "scene.pov:1:14: error: 'min_extent' is not supported yet");
-  CHECK(error_line("#fopen F \"x\" read") == "scene.pov:1:1: error: '#fopen' is not supported yet");
+}
+
+TEST_CASE("all that is not supported is reported at once, each feature once") {
+  const std::string scene = "sphere { 0, 1 pigment { slope <0, 1, 0> scale 2 } double_illuminate }\n"
+                            "text { ttf \"x\" \"y\" 1, 0 }\n"
+                            "union { sphere { 0, 1 double_illuminate finish { phong 0.5 subsurface { translucency 1 } diffuse 0.2 } } blob { threshold 1 } }\n";
+  CHECK(test::error(scene) == "scene.pov:1:51: error: 'double_illuminate' is not supported yet\n"
+                              "    used at scene.pov:1:1\n"
+                              "scene.pov:1:25: error: 'slope' is not supported yet\n"
+                              "    used at scene.pov:1:1\n"
+                              "scene.pov:2:1: error: 'text' is not supported yet\n"
+                              "scene.pov:3:60: error: 'subsurface' is not supported yet\n"
+                              "    used at scene.pov:3:1\n"
+                              "scene.pov:3:106: error: 'blob' is not supported yet\n"
+                              "    used at scene.pov:3:1");
+  CHECK(test::error(scene + "sphere { }").ends_with("'blob' is not supported yet\n    used at scene.pov:3:1\n"
+                                                    "scene.pov:4:10: error: unexpected '}', expected a number"));
+
+  ParseOptions lenient;
+  lenient.lenient = true;
+  std::string said;
+  lenient.message = [&said](std::string_view message) { said += message; };
+  const Scene read = test::parse(scene, lenient);
+  CHECK(said == "scene.pov:1:51: warning: 'double_illuminate' is not supported yet and left out\n"
+                "scene.pov:1:25: warning: 'slope' is not supported yet and left out\n"
+                "scene.pov:2:1: warning: 'text' is not supported yet and left out\n"
+                "scene.pov:3:60: warning: 'subsurface' is not supported yet and left out\n"
+                "scene.pov:3:106: warning: 'blob' is not supported yet and left out\n");
+  REQUIRE(read.objects.size() == 2);
+  const Material& material = read.materials[read.objects[1].material];
+  CHECK(material.finish.phong == 0.5);
+  CHECK(material.finish.diffuse == 0.2);
+}
+
+TEST_CASE("what is left out of CSG and patterns") {
+  ParseOptions lenient;
+  lenient.lenient = true;
+  lenient.message = [](std::string_view) {};
+  CHECK(test::parse("difference { blob { threshold 1 } sphere { 0, 1 } }", lenient).objects.empty());
+  CHECK(test::parse("difference { sphere { 0, 1 } blob { threshold 1 } }", lenient).objects.size() == 1);
+  const Scene scene = test::parse(
+      "sphere { 0, 1 pigment { slope <0, 1, 0> turbulence 1 color_map { [0 rgb 0.25] [1 rgb 1] } } }", lenient);
+  CHECK(scene.materials.at(scene.objects.at(0).material).pigment.rgb == Vec3(0.25));
 }

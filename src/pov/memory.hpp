@@ -1,0 +1,98 @@
+// What a parse holds in memory, counted as it is made and dropped, so that no scene can make more than its limit.
+//
+// A parse and all that it counts belong to one thread.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include "celltrace/pov.hpp"
+
+namespace celltrace::pov {
+
+/// A limit of the scene has been passed; parse() says where.
+struct LimitPassed {
+  std::uint64_t ParseLimits::* limit;
+  const char* who; ///< "the scene's declarations need"
+  const char* unit;
+};
+
+/// Counts for the calling thread's innermost parse while it lives.
+class MemoryCount {
+public:
+  explicit MemoryCount(const ParseLimits& limits) : limits_(limits), outer_(current_) { current_ = this; }
+  MemoryCount(const MemoryCount&) = delete;
+  MemoryCount& operator=(const MemoryCount&) = delete;
+  ~MemoryCount() { current_ = outer_; }
+
+  /// Throws LimitPassed.
+  static void take(std::size_t bytes) {
+    if (current_) current_->take_bytes(bytes);
+  }
+  /// For what cannot fail; the next that can does.
+  static void take_unchecked(std::size_t bytes) noexcept {
+    if (current_) current_->bytes_ += bytes;
+  }
+  static void give_back(std::size_t bytes) noexcept {
+    if (current_) current_->bytes_ -= bytes;
+  }
+  static void take_elements(std::size_t count) {
+    if (current_) current_->take_array_elements(count);
+  }
+  static void give_elements_back(std::size_t count) noexcept {
+    if (current_) current_->elements_ -= count;
+  }
+
+private:
+  void take_bytes(std::size_t bytes) {
+    if (bytes > limits_.memory || bytes_ + bytes > limits_.memory)
+      throw LimitPassed{&ParseLimits::memory, "the declarations of the scene need", "bytes of memory"};
+    bytes_ += bytes;
+  }
+  void take_array_elements(std::size_t count) {
+    if (count > limits_.array_elements || elements_ + count > limits_.array_elements)
+      throw LimitPassed{&ParseLimits::array_elements, "the arrays of the scene have", "elements"};
+    elements_ += count;
+  }
+
+  const ParseLimits& limits_;
+  MemoryCount* outer_;
+  std::uint64_t bytes_ = 0, elements_ = 0;
+  static inline thread_local MemoryCount* current_ = nullptr;
+};
+
+/// As a member: each object of type T counts.
+template <class T> class Counted {
+public:
+  Counted() { MemoryCount::take(sizeof(T)); }
+  Counted(const Counted&) : Counted() {}
+  Counted(Counted&&) noexcept { MemoryCount::take_unchecked(sizeof(T)); }
+  Counted& operator=(const Counted&) { return *this; }
+  ~Counted() { MemoryCount::give_back(sizeof(T)); }
+};
+
+/// For the elements of arrays.
+template <class T> struct ElementAllocator {
+  using value_type = T;
+
+  ElementAllocator() = default;
+  template <class U> ElementAllocator(const ElementAllocator<U>&) {}
+
+  T* allocate(std::size_t count) {
+    MemoryCount::take_elements(count);
+    try {
+      return std::allocator<T>().allocate(count);
+    } catch (...) {
+      MemoryCount::give_elements_back(count);
+      throw;
+    }
+  }
+  void deallocate(T* elements, std::size_t count) noexcept {
+    std::allocator<T>().deallocate(elements, count);
+    MemoryCount::give_elements_back(count);
+  }
+  template <class U> bool operator==(const ElementAllocator<U>&) const { return true; }
+};
+
+} // namespace celltrace::pov

@@ -1,0 +1,50 @@
+// Splines as they are declared: vectors at numbers, and what lies between them.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "pov/location.hpp"
+#include "pov/quantity.hpp"
+
+namespace celltrace::pov {
+
+struct Session;
+
+class Spline {
+public:
+  enum class Kind { linear, quadratic, cubic, natural };
+
+  Kind kind = Kind::linear;
+
+  /// Takes the place of what is there at the same number.
+  void add(double at, const Quantity& value);
+  std::size_t size() const { return knots_.size(); }
+
+  /// A vector of as many components as the longest that it is made of. There must be a knot. Beyond the ends a
+  /// spline stays as it is there; a cubic one goes from its second knot to its last but one only.
+  Quantity value(double at) const { return value(at, kind); }
+  /// As if it were of another kind.
+  Quantity value(double at, Kind other) const;
+
+private:
+  struct Knot {
+    double at;
+    Quantity value;
+  };
+  Quantity linear(std::size_t left, double at) const;
+  Quantity quadratic(std::size_t left, double at) const;
+  Quantity cubic(std::size_t left, double at) const;
+  Quantity natural(std::size_t left, double at) const;
+  /// Second derivatives at the knots, 0 at both ends.
+  std::vector<Quantity> curvatures() const;
+  Quantity slope(std::size_t left) const;
+
+  std::vector<Knot> knots_; // ascending
+  int count_ = 2;           // of components
+  mutable std::vector<Quantity> curvatures_;
+};
+using SplinePtr = std::shared_ptr<const Spline>;
+
+} // namespace celltrace::pov

@@ -1,0 +1,98 @@
+// Functions and splines that a scene declares. Expected numbers are POV-Ray 3.7's.
+#include <catch2/catch.hpp>
+
+#include "pov/parsing.hpp"
+
+using namespace celltrace;
+using test::error_line;
+using test::output;
+
+namespace {
+
+const std::string kF = "#declare f = function(x, y, z) { sin(x)*2 + y*-z + (x < y & y != 3) } ";
+
+std::string number(const std::string& declarations, const std::string& expression) {
+  return output(declarations + "#debug str(" + expression + ", 0, 6)");
+}
+
+std::string vector(const std::string& declarations, int count, const std::string& expression) {
+  return output(declarations + "#debug vstr(" + std::to_string(count) + ", " + expression + ", \" \", 0, 6)");
+}
+
+} // namespace
+
+TEST_CASE("declared functions of floats") {
+  CHECK(number(kF, "f(1, 2, 3)") == "-3.317058");
+  const std::string g = kF + "#declare g = function(a, b) { select(a, -1, sqrt(b), f(a, b, 1)) + max(a, b, 3) } ";
+  CHECK(number(g, "g(1, 2)") == "3.682942");
+  CHECK(number(g, "g(0, 2)") == "4.414214");
+  CHECK(number(g, "g(-1, -2)") == "2.000000"); // the root is not taken
+  CHECK(number("#declare F = function { x + 10*y + 100*z } ", "F(1, 2, 3)") == "321.000000");
+  CHECK(number("#declare K = 3; #declare V = <1, 2>; #declare F = function(K) { !(K - 1) + V.y*K } ", "F(1)") ==
+        "3.000000");
+  CHECK(number("#macro twice(A) (2*A) #end #declare F = function(a) { twice(3) + a } ", "F(4)") == "10.000000");
+  const std::string s = "#declare s = function(n) { sum(i, 1, n, i*i) + prod(i, 1, n, i) } ";
+  CHECK(number(s, "s(4)") == "54.000000");
+  CHECK(number(s, "s(0)") == "1.000000");
+  // What a name stands for is settled when the function is declared.
+  CHECK(number("#declare A = function(x) { x } #declare B = function(x) { A(x) + 1 } "
+               "#declare A = function(x) { 100 } ",
+               "B(1)") == "2.000000");
+}
+
+TEST_CASE("functions of transformations and splines, and POV-Ray's own") {
+  CHECK(vector("#declare F = function { transform { rotate y*30 translate z } } ", 3, "F(1, 2, 0)") ==
+        "0.866025 2.000000 0.500000");
+  CHECK(vector("#declare F = function { spline { 0, x 1, y } } ", 2, "F(0.25)") == "0.750000 0.250000");
+  CHECK(number("#declare F = function { transform { scale 3 } } #declare G = function(a) { F(a, 1, 1).x } ",
+               "G(2)") == "6.000000");
+  CHECK(number("#declare F = function { internal(61) } ", "F(1, 2, 3, 1)") == "2.741657");
+  CHECK(number("#declare F = function { internal(76) } ", "F(1.2, 3.4, 5.6)") == "0.535667");
+  CHECK(number("#declare F = function { internal(78) } ", "F(1.2, 3.4, 5.6, 3)") == "0.525027");
+  CHECK(vector("", 3, "vturbulence(2, 0.5, 6, <1.1, 2.2, 3.3>)") == "-0.492049 -0.251254 0.422431");
+}
+
+TEST_CASE("faults of functions") {
+  CHECK(error_line(kF + "#debug str(f(1, 2), 0, 0)") ==
+        "scene.pov:1:82: error: this function takes 3 arguments, not 2");
+  CHECK(error_line("#declare F = function(a) { a + b }") == "scene.pov:1:32: error: 'b' is not declared");
+  CHECK(error_line("#declare F = function(a) { a + }") ==
+        "scene.pov:1:32: error: unexpected '}', expected a number");
+  CHECK(error_line("#declare F = function(a) { F(a) }") == "scene.pov:1:28: error: 'F' is not declared");
+  CHECK(error_line("#declare F = function { internal(77) }") ==
+        "scene.pov:1:33: error: there is no internal function of this number");
+  CHECK(error_line("#declare F = function(n) { sum(i, 1, n, 1) } #declare A = F(1e15);") ==
+        "scene.pov:1:42: error: this function takes too long");
+  std::string nested = "#declare F = function(x) { x } #for (I, 1, 1000) #declare F = function(x) { F(x) } #end";
+  CHECK(error_line(nested) == "scene.pov:1:77: error: functions call one another too deeply");
+}
+
+TEST_CASE("functions of what is not supported are an error where they are called") {
+  const std::string declaration = "#declare F = function { pattern { bozo scale 2 } } ";
+  CHECK(error_line(declaration).empty());
+  CHECK(error_line(declaration + "#declare A = F(1, 2, 3);") ==
+        "scene.pov:1:65: error: a pattern as a function is not supported yet");
+}
+
+TEST_CASE("splines") {
+  const auto spline = [](const std::string& kind, const std::string& at) {
+    return vector("#declare S = spline { " + kind +
+                      " -1, <0,0,1> 0, <0,0,0> 1, <1,2,3> 2, <3,1,0> 3.5, <4,4,1> 4, <0,1,0> } ",
+                  3, "S(" + at + ")");
+  };
+  CHECK(spline("linear_spline", "0.5") == "0.500000 1.000000 1.500000");
+  CHECK(spline("linear_spline", "9") == "0.000000 1.000000 0.000000");
+  CHECK(spline("quadratic_spline", "2.5") == "3.600000 1.400000 -0.400000");
+  CHECK(spline("cubic_spline", "-0.5") == "0.000000 0.000000 0.000000");
+  CHECK(spline("cubic_spline", "1.5") == "2.020833 1.500000 1.645833");
+  CHECK(spline("cubic_spline", "2.75") == "4.437500 2.968750 0.406250");
+  CHECK(spline("cubic_spline", "4") == "4.000000 4.000000 1.000000");
+  CHECK(spline("natural_spline", "-0.75") == "-0.053306 -0.197849 0.381774");
+  CHECK(spline("natural_spline", "2.5") == "4.537685 2.363636 -0.135975");
+  const std::string mixed = "#declare S = spline { natural_spline 3.5, 4 1, <1, 2> 2, x + t*5 } ";
+  CHECK(vector(mixed, 5, "S(1.7)") == "0.857200 0.266800 0.000000 4.095000 0.000000");
+  CHECK(vector(mixed, 5, "S(1.7, linear_spline)") == "1.000000 0.600000 0.000000 3.500000 0.000000");
+  CHECK(vector(mixed, 5, "S(1.7, quadratic_spline)") == "0.832000 0.208000 0.000000 4.200000 0.000000");
+  CHECK(vector(mixed + "#declare S = spline { S linear_spline 7, 5 } ", 2, "S(6)") == "4.714286 4.714286");
+  CHECK(error_line("#declare S = spline { }") == "scene.pov:1:14: error: this spline has no vectors");
+}
