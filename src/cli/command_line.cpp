@@ -4,10 +4,13 @@
 #include "celltrace/image.hpp"
 #include "cli/choice.hpp"
 #include "cli/emulation_options.hpp"
+#include "cli/keyword_page.hpp"
 #include "cli/version.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
+#include <cmath>
 #include <sstream>
 
 #include <CLI/CLI.hpp>
@@ -45,6 +48,34 @@ std::pair<std::string, std::string> parse_declare(const std::string& text) {
   return declare;
 }
 
+/// NAME=VALUE, where K, M and G behind the value stand for 2^10, 2^20 and 2^30.
+void set_limit(ParseLimits& limits, const std::string& text) {
+  const auto [wanted_name, value] = split(text, '=');
+  const std::string& wanted = wanted_name;
+  const auto& known = parse_limits();
+  const auto limit =
+      std::find_if(known.begin(), known.end(), [&wanted](const NamedLimit& each) { return each.name == wanted; });
+  if (limit == known.end()) {
+    std::string names;
+    for (const NamedLimit& each : known)
+      names += (names.empty() ? "" : ", ") + std::string(each.name);
+    throw InputError("--max: '" + text + "' is not NAME=VALUE with a name of " + names);
+  }
+  double number = 0;
+  const char* const last = value.data() + value.size();
+  const char* end = std::from_chars(value.data(), last, number).ptr;
+  if (end + 1 == last && end != value.data()) {
+    const std::string_view units = "KMG";
+    if (const std::size_t unit = units.find(*end); unit != units.npos) {
+      number = std::ldexp(number, 10 * (static_cast<int>(unit) + 1));
+      ++end;
+    }
+  }
+  if (end != last || value.empty() || !(number >= 0 && number <= 1e18))
+    throw InputError("--max: '" + value + "' is not a number from 0 to 1e18, perhaps with K, M or G behind it");
+  limits.*limit->limit = static_cast<std::uint64_t>(number);
+}
+
 /// What CLI11 fills in besides the request.
 struct RenderTexts {
   std::string cache = "4x128:fifo";
@@ -53,12 +84,22 @@ struct RenderTexts {
   std::string model = "shared";
   EmulationTexts emulation;
   std::vector<std::string> declares;
+  std::vector<std::string> limits;
+  std::optional<double> antialias; ///< the threshold
+  int antialias_method = 1;
+  Antialiasing antialiasing; ///< all but method and threshold
+  double start_column = 0, end_column = 1, start_row = 0, end_row = 1;
+  std::string file_type; ///< empty: by the name
+  std::string picture = "on";
 };
 
 void add_picture_options(CLI::App& command, RenderRequest& request, RenderTexts& texts) {
   command.add_option("scene", request.scene, "The scene, a POV-Ray file")->required()->type_name("SCENE.pov");
   command.add_option("-o,--output", request.output, "The picture; default: the scene's name, here")
       ->type_name("OUT.png|OUT.ppm");
+  add_choice(command, "--file-type", texts.file_type, {{"png", "ppm"}, {}},
+             "What the picture is if its name does not say; default: png");
+  add_choice(command, "--picture", texts.picture, {{"on", "off"}, {}}, "Whether the picture is written");
   RenderOptions& options = request.options;
   const CLI::Range side(1, kMaxImageSide);
   command.add_option("-W,--width", options.width, "Pixels a row")->check(side)->capture_default_str();
@@ -68,9 +109,23 @@ void add_picture_options(CLI::App& command, RenderRequest& request, RenderTexts&
                   "Search this folder for included files; may be repeated")
       ->type_name("DIR")
       ->allow_extra_args(false);
+  command
+      .add_option("--allow", request.readable_folders,
+                  "The scene may read what is in this folder, too; may be repeated")
+      ->type_name("DIR")
+      ->allow_extra_args(false);
+  command
+      .add_option("--allow-write", request.writable_folders,
+                  "The scene may write files into this folder, and read them; may be repeated")
+      ->type_name("DIR")
+      ->allow_extra_args(false);
+  command.add_option("--max", texts.limits, "Change a limit on what reading the scene may cost; may be repeated")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
   command.add_option("--declare", texts.declares, "Declare a number or string before the scene begins")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
+  command.add_option("--clock", request.clock, "The scene's clock")->capture_default_str();
   command
       .add_option("--max-level", options.max_trace_level,
                   "Depth of the ray tree; default: the scene's max_trace_level")
@@ -79,6 +134,42 @@ void add_picture_options(CLI::App& command, RenderRequest& request, RenderTexts&
       .add_option("--adc", options.adc_bailout,
                   "Contribution below which a ray is cut; default: the scene's adc_bailout")
       ->check(CLI::Range(0.0, 1.0));
+}
+
+void add_region_options(CLI::App& command, RenderTexts& texts) {
+  const auto add = [&](const std::string& name, double& value, const std::string& what) {
+    command.add_option(name, value, what)->check(CLI::NonNegativeNumber)->type_name("N|FRACTION");
+  };
+  add("--start-column", texts.start_column, "The first column to render, from 1 on, or a part of the width");
+  add("--end-column", texts.end_column, "The last column to render; 1 and less is a part of the width");
+  add("--start-row", texts.start_row, "The first row to render, from 1 on, or a part of the height");
+  add("--end-row", texts.end_row, "The last row to render; 1 and less is a part of the height");
+}
+
+void add_antialiasing_options(CLI::App& command, RenderTexts& texts) {
+  command
+      .add_option("--antialias", texts.antialias,
+                  "Sample pixels by more rays where colours differ by so much or more")
+      ->check(CLI::Range(0.0, 3.0))
+      ->type_name("THRESHOLD");
+  command
+      .add_option("--antialias-method", texts.antialias_method,
+                  "1: as many samples for each such pixel; 2: more where colours differ more")
+      ->check(CLI::Range(1, 2))
+      ->capture_default_str();
+  command
+      .add_option("--antialias-depth", texts.antialiasing.depth,
+                  "Samples a row and rows of a pixel, or how often it is divided")
+      ->check(CLI::Range(1, 9))
+      ->capture_default_str();
+  command
+      .add_option("--antialias-jitter", texts.antialiasing.jitter,
+                  "Move samples at random: 0 not at all, 1 as far as to the next one's place")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  command.add_option("--antialias-gamma", texts.antialiasing.gamma, "Of the colours when they are compared")
+      ->check(CLI::Range(0.01, 100.0))
+      ->capture_default_str();
 }
 
 void add_machine_options(CLI::App& command, RenderOptions& options, RenderTexts& texts) {
@@ -205,19 +296,80 @@ Accelerator accelerator_of(const std::string& text) {
   return text == "bvh" ? Accelerator::bvh : Accelerator::automatic;
 }
 
+/// As POV-Ray counts: columns and rows from 1 on, below that parts of the whole.
+int first_of(double start, int size) {
+  return static_cast<int>(std::min(start < 1 ? std::floor(start * size) : std::floor(start) - 1, 1e9));
+}
+int end_of(double end, int size) {
+  return static_cast<int>(std::min(end <= 1 ? std::floor(end * size) : std::floor(end), 1e9));
+}
+void check_number(double value, const char* option) {
+  if (!std::isfinite(value)) throw InputError(std::string(option) + " has to be a number");
+}
+void check_part(int first, int end, int size, const char* what) {
+  if (end > size || first >= size)
+    throw InputError(std::string("the ") + what + " to render are not all in the picture, which has " +
+                     std::to_string(size));
+  if (first >= end) throw InputError(std::string("there are no ") + what + " to render");
+}
+std::optional<PictureRegion> region_of(const RenderTexts& texts, const RenderOptions& options) {
+  check_number(texts.start_column, "--start-column");
+  check_number(texts.end_column, "--end-column");
+  check_number(texts.start_row, "--start-row");
+  check_number(texts.end_row, "--end-row");
+  const PictureRegion region = {
+      first_of(texts.start_column, options.width), end_of(texts.end_column, options.width),
+      first_of(texts.start_row, options.height), end_of(texts.end_row, options.height)};
+  check_part(region.left, region.right, options.width, "columns");
+  check_part(region.top, region.bottom, options.height, "rows");
+  if (region.right - region.left == options.width && region.bottom - region.top == options.height)
+    return std::nullopt;
+  return region;
+}
+
+/// POV-Ray adds the extension where a file name has none.
+std::filesystem::path output_of(const RenderRequest& request, const RenderTexts& texts) {
+  if (texts.picture == "off") return {};
+  const std::string extension = texts.file_type == "ppm" ? ".ppm" : ".png";
+  std::filesystem::path output = request.output;
+  if (output.empty()) return request.scene.stem().string() + extension;
+  if (!output.has_filename()) return output;
+  if (!output.has_extension()) return output += extension;
+  std::string own = output.extension().string();
+  std::transform(own.begin(), own.end(), own.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (!texts.file_type.empty() && own != extension)
+    throw InputError(output.string() + ": the name does not say that the picture is to be a " +
+                     texts.file_type);
+  return output;
+}
+
+std::optional<Antialiasing> antialiasing_of(const RenderTexts& texts) {
+  if (!texts.antialias) return std::nullopt;
+  Antialiasing antialiasing = texts.antialiasing;
+  antialiasing.threshold = *texts.antialias;
+  antialiasing.method =
+      texts.antialias_method == 1 ? Antialiasing::Method::fixed : Antialiasing::Method::adaptive;
+  return antialiasing;
+}
+
 void finish(RenderRequest& request, const RenderTexts& texts) {
-  if (request.scene.extension() == ".ini")
-    throw InputError(request.scene.string() + ": INI files are not supported");
   request.options.cache = parse_cache(texts.cache);
   request.options.emulation = emulation_config(texts.emulation, request.options.backend, Schedule::free);
+  request.lenient = texts.emulation.lenient;
   request.trace = texts.emulation.trace;
   request.cache_trace = texts.emulation.cache_trace;
+  request.options.region = region_of(texts, request.options);
+  request.options.antialiasing = antialiasing_of(texts);
   request.options.accelerator = accelerator_of(texts.accelerator);
   request.options.model = model_of(texts.model);
   request.options.balance = balance_of(texts.balance);
   for (const std::string& text : texts.declares)
     request.declares.push_back(parse_declare(text));
-  if (request.output.empty()) request.output = request.scene.stem().string() + ".png";
+  for (const std::string& text : texts.limits)
+    set_limit(request.limits, text);
+  request.output = output_of(request, texts);
+  check_number(request.clock, "--clock");
 }
 
 /// Takes what follows the first "--" away: CLI11 gives it to a command only before its positional arguments.
@@ -269,6 +421,9 @@ Request parse_command_line(std::vector<std::string> arguments) {
                "celltrace");
   app.require_subcommand(1);
   app.set_version_flag("--version", version_text());
+  app.add_flag_callback(
+      "--list-keywords", [] { throw CLI::CallForVersion(keyword_page(), 0); },
+      "Say which words of POV-Ray's language are supported");
   app.footer(
       "`celltrace SCENE.pov` means render. POV-Ray's switches (+W640 +H480 +Iscene.pov ...) are understood.\n"
       "Exit codes: 0 done, 1 error or past a bar, 2 interrupted.");
@@ -277,6 +432,13 @@ Request parse_command_line(std::vector<std::string> arguments) {
   RenderTexts texts;
   CLI::App& render_command = *app.add_subcommand("render", "Render a scene into a picture");
   add_picture_options(render_command, render, texts);
+  render_command
+      .add_option("--quality", render.options.quality,
+                  "What is left out: 0 all but colours, up to 8 and more nothing")
+      ->check(CLI::Range(0, 11))
+      ->capture_default_str();
+  add_region_options(render_command, texts);
+  add_antialiasing_options(render_command, texts);
   add_machine_options(render_command, render.options, texts);
   add_report_options(render_command, render);
 

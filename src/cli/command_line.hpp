@@ -1,6 +1,7 @@
 // What the user asked for: the command line as values.
 #pragma once
 
+#include "celltrace/pov.hpp"
 #include "celltrace/render.hpp"
 #include "celltrace/spe/machine.hpp"
 #include "study/study.hpp"
@@ -20,13 +21,18 @@ CacheConfig parse_cache(const std::string& text);
 
 struct RenderRequest {
   std::filesystem::path scene;
-  std::filesystem::path output; ///< by default the scene's name with .png, in the current folder
+  /// By default the scene's name with .png, in the current folder. Empty: no picture is written.
+  std::filesystem::path output;
   RenderOptions options;
   std::vector<std::filesystem::path> library_paths;
+  std::vector<std::filesystem::path> readable_folders, writable_folders; ///< of the scene
+  ParseLimits limits;
   std::vector<std::pair<std::string, std::string>> declares; ///< name and value
-  std::string stats;                                         ///< file, "-" for stdout, empty for none
-  std::filesystem::path trace;                               ///< empty: none
-  std::filesystem::path cache_trace;                         ///< empty: none
+  bool lenient = false; ///< leave out what of the scene is not supported
+  double clock = 0;
+  std::string stats;                 ///< file, "-" for stdout, empty for none
+  std::filesystem::path trace;       ///< empty: none
+  std::filesystem::path cache_trace; ///< empty: none
   bool quiet = false;
 };
 

@@ -1,6 +1,8 @@
 #include "cli/interrupt.hpp"
 
 #include <atomic>
+#include <cstdint>
+#include <ctime>
 
 #include <signal.h>
 
@@ -8,11 +10,20 @@ namespace celltrace::cli {
 
 namespace {
 
-std::atomic<bool> flag{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler must not take a lock");
+/// Signals that come so close together are one: timeout(1) sends its signal to the program and to its group.
+constexpr std::int64_t kTogether = 300'000'000; // ns
 
-extern "C" void on_signal(int) {
-  flag = true;
+std::atomic<std::int64_t> first{0}; ///< when the first signal came, in ns; 0: none has
+static_assert(std::atomic<std::int64_t>::is_always_lock_free, "a signal handler must not take a lock");
+
+extern "C" void on_signal(int number) {
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  const std::int64_t now = time.tv_sec * std::int64_t{1'000'000'000} + time.tv_nsec + 1;
+  std::int64_t before = 0;
+  if (first.compare_exchange_strong(before, now) || now - before < kTogether) return;
+  signal(number, SIG_DFL);
+  raise(number); // takes effect when this handler returns
 }
 
 } // namespace
@@ -20,14 +31,14 @@ extern "C" void on_signal(int) {
 void catch_interrupts() {
   struct sigaction action = {};
   action.sa_handler = on_signal;
-  action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
+  action.sa_flags = SA_RESTART;
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
 }
 
 bool interrupted() noexcept {
-  return flag;
+  return first != 0;
 }
 
 } // namespace celltrace::cli

@@ -3,7 +3,7 @@
 
 namespace celltrace::cli {
 
-/// From now on the first SIGINT or SIGTERM only makes interrupted() true; the second one ends the process.
+/// From now on the first SIGINT or SIGTERM only makes interrupted() true; a later one ends the process.
 void catch_interrupts();
 
 /// Async-signal-safe and safe from any thread.

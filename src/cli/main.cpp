@@ -1,6 +1,7 @@
 #include "celltrace/error.hpp"
 #include "cli/command_line.hpp"
 #include "cli/compare_command.hpp"
+#include "cli/output_files.hpp"
 #include "cli/pov_switches.hpp"
 #include "cli/render_command.hpp"
 #include "cli/replay_command.hpp"
@@ -60,8 +61,11 @@ int error_code(const std::vector<std::string>& arguments) {
 int main(int argc, char** argv) {
   keep_freed_memory();
   const std::vector<std::string> arguments(argv + 1, argv + argc);
+  occupy_standard_streams();
   try {
-    return run(arguments);
+    const int code = run(arguments);
+    check_standard_output();
+    return code;
   } catch (const celltrace::SceneError& error) {
     std::cerr << error.what() << '\n'; // says where, and "error:", itself
   } catch (const std::bad_alloc&) {

@@ -2,6 +2,8 @@
 // words.
 #pragma once
 
+#include "cli/ini_file.hpp"
+
 #include <string>
 #include <vector>
 
@@ -14,11 +16,13 @@ struct Translation {
   std::vector<std::string> notes;
 };
 
-/// Translates switches such as +W640, -D and +Iscene.pov, in either case, and settings such as Width=640 in
-/// the arguments of `render`; everything else passes through unchanged, also whatever follows "--" or is the
-/// value of one of celltrace's own options. Arguments that begin with another command or ask for help or the
+/// Translates switches such as +W640, -D and +Iscene.pov, in either case, settings such as Width=640 and INI
+/// files, FILE.ini or FILE.ini[SECTION], in the arguments of `render`; everything else passes through
+/// unchanged, also whatever follows "--" or is the value of one of celltrace's own options. Of a switch or
+/// setting that is repeated the last counts. Arguments that begin with another command or ask for help or the
 /// version are returned as they are. Throws InputError for a switch or setting that is unknown, lacks its
-/// value, or would change the picture in a way that is not supported yet. A pure function.
-Translation translate_pov_switches(const std::vector<std::string>& arguments);
+/// value, or would change the picture in a way that is not supported yet; in an INI file with its line.
+Translation translate_pov_switches(const std::vector<std::string>& arguments,
+                                   const TextReader& read = read_ini_text);
 
 } // namespace celltrace::cli

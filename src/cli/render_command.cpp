@@ -25,8 +25,13 @@ using Clock = std::chrono::steady_clock;
 ParseOptions parse_options(const RenderRequest& request) {
   ParseOptions options;
   options.library_paths = request.library_paths;
+  options.readable_folders = request.readable_folders;
+  options.writable_folders = request.writable_folders;
+  options.limits = request.limits;
   options.width = request.options.width;
   options.height = request.options.height;
+  options.lenient = request.lenient;
+  options.clock = request.clock;
   for (const auto& [name, text] : request.declares) {
     double number = 0;
     const char* const last = text.data() + text.size();
@@ -115,8 +120,9 @@ void print_summary(const RenderRequest& request, const RenderResult& result, dou
   const double rate = s.render_seconds > 0 ? static_cast<double>(s.total_rays()) / s.render_seconds : 0;
   std::fprintf(stderr,
                "%s: %s%dx%d, %s, %zu SPEs; parse %.2f s, build %.2f s, render %.2f s; %.2f million rays/s",
-               request.output.c_str(), result.complete ? "" : "interrupted, partial, ", s.width, s.height,
-               s.spu.c_str(), s.spes.size(), parse_seconds, build_seconds, s.render_seconds, rate / 1e6);
+               request.output.empty() ? "no picture" : request.output.c_str(),
+               result.complete ? "" : "interrupted, partial, ", s.width, s.height, s.spu.c_str(),
+               s.spes.size(), parse_seconds, build_seconds, s.render_seconds, rate / 1e6);
   if (s.render_cycles != 0)
     std::fprintf(stderr, "; %.2f million virtual cycles", static_cast<double>(s.render_cycles) / 1e6);
   std::fputc('\n', stderr);
@@ -125,7 +131,7 @@ void print_summary(const RenderRequest& request, const RenderResult& result, dou
 } // namespace
 
 int run_render(const RenderRequest& request) {
-  check_image_path(request.output);
+  if (!request.output.empty()) check_image_path(request.output);
   catch_interrupts();
   const Clock::time_point start = Clock::now();
   const std::optional<Scene> scene = parse_with_progress(request);
@@ -135,10 +141,10 @@ int run_render(const RenderRequest& request) {
     std::cerr << "interrupted before the first pixel\n";
     return 2;
   }
-  OutputFile trace(request.trace);
+  OutputFile trace(request.trace, true);
   OutputFile cache_trace(request.cache_trace);
   const RenderResult result = render_with_progress(*scene, request, {trace.stream(), cache_trace.stream()});
-  save_image(request.output, result.image);
+  if (!request.output.empty()) save_image(request.output, result.image);
   trace.finish();
   cache_trace.finish();
   if (!request.stats.empty()) write_statistics(request.stats, result.statistics, parsing.count());

@@ -142,7 +142,7 @@ int exit_code_of(const SimulatedRun& run) {
 
 int run_spu(const SpuRequest& request) {
   const Bytes elf = read_program(request.program);
-  OutputFile trace(request.trace);
+  OutputFile trace(request.trace, true);
   SpuProfile profile;
   const Clock::time_point start = Clock::now();
   const SimulatedRun run =

@@ -49,11 +49,12 @@ public:
     REQUIRE(error == 0);
   }
 
-  /// Waits until the program catches SIGINT and its threads run, then sends it.
-  void interrupt() {
+  /// Waits until the program catches SIGINT and its threads run, then sends it or another signal.
+  void interrupt(int signal = SIGINT, int times = 1) {
     while (!runs())
       std::this_thread::yield();
-    kill(pid_, SIGINT);
+    for (int i = 0; i < times; ++i)
+      kill(pid_, signal);
   }
 
   Outcome finish() {

@@ -139,8 +139,7 @@ TEST_CASE("options of cell_emu that make no sense are refused") {
                                                           {"--timing", "cell"},
                                                           {"--trace", "t.json"},
                                                           {"--limit", "5"},
-                                                          {"--seconds-limit", "1"},
-                                                          {"--lenient"}};
+                                                          {"--seconds-limit", "1"}};
   for (const auto& arguments : emulated)
     CHECK_THAT(render_error(arguments), StartsWith(arguments[0] + " needs --backend cell_emu"));
 
@@ -317,9 +316,76 @@ TEST_CASE("errors of the command line are one line that names the option") {
   CHECK_THAT(render_error({"--nonsense"}), Contains("--nonsense"));
   CHECK_THAT(render_error({"second.pov"}), Contains("second.pov"));
   CHECK_THAT(error_of({"render"}), Contains("scene"));
-  CHECK_THAT(error_of({"render", "a.ini"}), Contains("INI files are not supported"));
   CHECK_FALSE(error_of({}).empty());
   CHECK_FALSE(error_of({"compare", "a.png"}).empty());
+}
+
+TEST_CASE("antialiasing is off unless asked for") {
+  CHECK_FALSE(render_request({"a.pov"}).options.antialiasing);
+  CHECK_FALSE(render_request({"a.pov", "--antialias-depth", "2"}).options.antialiasing);
+  const auto fixed = render_request({"a.pov", "--antialias", "0.3"}).options.antialiasing.value();
+  CHECK(fixed.method == Antialiasing::Method::fixed);
+  CHECK(fixed.threshold == 0.3);
+  CHECK(fixed.depth == 3);
+  CHECK(fixed.jitter == 0);
+  CHECK(fixed.gamma == 2.5);
+  const auto adaptive =
+      render_request({"a.pov", "--antialias", "0", "--antialias-method", "2", "--antialias-depth", "5",
+                      "--antialias-jitter", "0.5", "--antialias-gamma", "1"})
+          .options.antialiasing.value();
+  CHECK(adaptive.method == Antialiasing::Method::adaptive);
+  CHECK(adaptive.threshold == 0);
+  CHECK(adaptive.depth == 5);
+  CHECK(adaptive.jitter == 0.5);
+  CHECK(adaptive.gamma == 1);
+  CHECK_THAT(render_error({"--antialias", "4"}), Contains("--antialias"));
+  CHECK_THAT(render_error({"--antialias-method", "3"}), Contains("--antialias-method"));
+  CHECK_THAT(render_error({"--antialias-depth", "10"}), Contains("--antialias-depth"));
+}
+
+TEST_CASE("regions count as POV-Ray does") {
+  const auto columns = [](const std::string& start, const std::string& end) {
+    const auto region = render_request({"a.pov", "-W", "40", "-H", "20", "--start-column", start,
+                                        "--end-column", end, "--end-row", "9"})
+                            .options.region.value();
+    CHECK(region.top == 0);
+    CHECK(region.bottom == 9);
+    return std::make_pair(region.left, region.right);
+  };
+  // As found with POV-Ray 3.7.
+  CHECK(columns("11", "20") == std::make_pair(10, 20));
+  CHECK(columns("0.25", "0.5") == std::make_pair(10, 20));
+  CHECK(columns("0.3", "0.52") == std::make_pair(12, 20));
+  CHECK(columns("0", "1") == std::make_pair(0, 40));
+  CHECK(columns("1", "1") == std::make_pair(0, 40));
+  CHECK(columns("1.5", "5.7") == std::make_pair(0, 5));
+  CHECK(columns("0.999", "40") == std::make_pair(39, 40));
+  CHECK_FALSE(render_request({"a.pov", "--start-row", "1", "--end-row", "480"}).options.region);
+  CHECK_THAT(render_error({"--end-column", "641"}), Contains("columns") && Contains("640"));
+  CHECK_THAT(render_error({"--start-row", "481"}), Contains("rows") && Contains("480"));
+  CHECK_THAT(render_error({"--start-row", "20", "--end-row", "10"}), Contains("no rows"));
+  CHECK_THAT(render_error({"--end-row", "0"}), Contains("no rows"));
+  CHECK_THAT(render_error({"--end-row", "1e300"}), Contains("rows"));
+  CHECK_THAT(render_error({"--start-row", "-1"}), Contains("--start-row"));
+  CHECK_THAT(render_error({"--end-row", "nan"}), Contains("--end-row"));
+  CHECK_THAT(render_error({"--clock", "inf"}), Contains("--clock"));
+}
+
+TEST_CASE("the picture's name and type") {
+  const auto output = [](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "b/a.pov");
+    return render_request(std::move(arguments)).output;
+  };
+  CHECK(output({"--file-type", "ppm"}) == "a.ppm");
+  CHECK(output({"-o", "x"}) == "x.png");
+  CHECK(output({"-o", "x", "--file-type", "ppm"}) == "x.ppm");
+  CHECK(output({"-o", "x.PPM", "--file-type", "ppm"}) == "x.PPM");
+  CHECK(output({"-o", "x/"}) == "x/");
+  CHECK(output({"--picture", "off"}).empty());
+  CHECK_THAT(render_error({"-o", "x.png", "--file-type", "ppm"}), Contains("x.png") && Contains("ppm"));
+  CHECK(render_request({"a.pov", "--clock", "0.5"}).clock == 0.5);
+  CHECK(render_request({"a.pov", "--quality", "4"}).options.quality == 4);
+  CHECK_THAT(render_error({"--quality", "12"}), Contains("--quality"));
 }
 
 TEST_CASE("compare") {

@@ -2,6 +2,9 @@
 #include "cli/program_run.hpp"
 #include "image/picture_files.hpp"
 
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <set>
 
@@ -106,6 +109,11 @@ TEST_CASE("every key of the statistics is documented") {
   }
 }
 
+TEST_CASE("the page about keywords is what the program prints") {
+  const TemporaryFolder folder;
+  CHECK(celltrace_run(folder, {"--list-keywords"}).out == read_bytes(CELLTRACE_SOURCE_DIR "/docs/keywords.md"));
+}
+
 TEST_CASE("two runs in lockstep are the same to the bit") {
   const TemporaryFolder folder;
   struct Products {
@@ -177,6 +185,25 @@ TEST_CASE("replay of a recorded trace counts what the statistics of the run coun
   CHECK(lines(table.out) == 3);
 }
 
+TEST_CASE("an INI file says what to render and how") {
+  const TemporaryFolder folder;
+  write_bytes(folder / "a.ini", "Input_File_Name=" + kScene +
+                                    "\n+W32 +H24 +A0.3 -J ; small\n"
+                                    "[Part]\nStart_Row=13\nOutput_File_Name=part\n");
+  CHECK(celltrace_run(folder, {"a.ini", "+Owhole", "--quiet"}).exit_code == 0);
+  CHECK(celltrace_run(folder, {"a.ini[part]", "--quiet"}).exit_code == 0);
+  CHECK(celltrace_run(folder, {"a.ini", "-A", "+Oplain", "--quiet"}).exit_code == 0);
+  const Image whole = load_image(folder / "whole.png"), part = load_image(folder / "part.png");
+  CHECK(whole.width == 32);
+  CHECK(whole.height == 24);
+  CHECK(part.height == 24);
+  CHECK(std::all_of(part.pixel(0, 0), part.pixel(31, 11), [](int byte) { return byte == 0 || byte == 255; }));
+  CHECK_FALSE(load_image(folder / "plain.png") == whole);
+
+  CHECK(celltrace_run(folder, {"a.ini", "-F", "+Onone"}).exit_code == 0);
+  CHECK_FALSE(std::filesystem::exists(folder / "none.png"));
+}
+
 TEST_CASE("errors are one line and exit code 1") {
   const TemporaryFolder folder;
   write_bytes(folder / "bad.pov", "sphere { <0, 0, 0>, 1 }\ncylinder_ { }\n");
@@ -185,7 +212,10 @@ TEST_CASE("errors are one line and exit code 1") {
       {"bad.pov"},
       {kScene, "-o", "a.gif"},
       {kScene, "-o", "no/a.png"},
-      {kScene, "+A0.3"},
+      {kScene, "+UA"},
+      {kScene, "+A4"},
+      {kScene, "+SC641"},
+      {"missing.ini"},
       {"+Z", kScene},
       {kScene, "--cache", "3x3"},
       {"compare", "a.png", "b.png"},
@@ -205,6 +235,107 @@ TEST_CASE("errors are one line and exit code 1") {
     CHECK_THAT(outcome.err, Contains("error: "));
   }
   CHECK_THAT(celltrace_run(folder, {"bad.pov"}).err, StartsWith("bad.pov:2:1: error: "));
+}
+
+TEST_CASE("what cannot be written is an error, and what fails leaves nothing empty behind") {
+  const TemporaryFolder folder;
+  if (!std::filesystem::exists("/dev/full")) {
+    WARN("there is no /dev/full: skipped");
+    return;
+  }
+  const std::vector<std::string> small = {kScene, "-W", "8", "-H", "8", "--quiet"};
+  const auto fails = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), small.begin(), small.end());
+    const Outcome outcome = celltrace_run(folder, more);
+    CAPTURE(more, outcome.err);
+    CHECK(outcome.exit_code == 1);
+    CHECK(lines(outcome.err) == 1);
+    CHECK_THAT(outcome.err, Contains("error: ") && Contains("full") && Contains("cannot be written"));
+  };
+  std::filesystem::create_symlink("/dev/full", folder / "full.ppm");
+  fails({"-o", "full.ppm"});
+  fails({"--stats", "/dev/full"});
+  fails({"--backend", "cell_emu", "--trace", "/dev/full"});
+  fails({"--backend", "cell_emu", "--cache-trace", "/dev/full"});
+
+  // A render that cannot start has traced nothing.
+  write_bytes(folder / "old.json", "old");
+  std::vector<std::string> too_small = small;
+  too_small.insert(too_small.end(), {"--backend", "cell_emu", "--cache", "64x32", "--trace", "new.json",
+                                     "--cache-trace", "old.json"});
+  CHECK(celltrace_run(folder, too_small).exit_code == 1);
+  CHECK_FALSE(std::filesystem::exists(folder / "new.json"));
+  CHECK(read_bytes(folder / "old.json") == "old");
+}
+
+TEST_CASE("standard output that is full or closed is an error, and no file takes its place") {
+  const TemporaryFolder folder;
+  for (const char* where : {">/dev/full", ">&-"})
+    for (const char* arguments : {"--help", "--version", "compare a.ppm a.ppm", "SCENE --stats - -o b.ppm"}) {
+      REQUIRE(celltrace_run(folder, {kScene, "-W", "8", "-H", "8", "-o", "a.ppm"}).exit_code == 0);
+      std::string command = arguments;
+      if (const auto at = command.find("SCENE"); at != std::string::npos)
+        command.replace(at, 5, "'" + kScene + "' -W 8 -H 8 --quiet");
+      command = "cd '" + folder.path().string() + "' && '" CELLTRACE_PROGRAM "' " + command + " 2>err.txt " + where;
+      CAPTURE(command);
+      CHECK(WEXITSTATUS(std::system(command.c_str())) == 1);
+      const std::string error = read_bytes(folder / "err.txt");
+      CHECK_THAT(error, StartsWith("celltrace: error: standard output cannot be written"));
+      CHECK(lines(error) == 1);
+    }
+  CHECK(read_bytes(folder / "b.ppm") == read_bytes(folder / "a.ppm"));
+}
+
+TEST_CASE("links are written through") {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "other");
+  std::filesystem::create_symlink("other/picture.ppm", folder / "link.ppm");
+  std::filesystem::create_symlink("other/s.json", folder / "s.json");
+  for (int i = 0; i < 2; ++i) { // what the links lead to is not there at first
+    REQUIRE(celltrace_run(folder, {kScene, "-W", "8", "-H", "8", "-o", "link.ppm", "--stats", "s.json"}).exit_code ==
+            0);
+    CHECK(std::filesystem::is_symlink(folder / "link.ppm"));
+    CHECK(std::filesystem::is_symlink(folder / "s.json"));
+    CHECK(load_image(folder / "other/picture.ppm").width == 8);
+    CHECK(std::filesystem::file_size(folder / "other/s.json") > 100);
+  }
+}
+
+TEST_CASE("a ray tree that takes minutes is broken off") {
+  const TemporaryFolder folder;
+  write_bytes(folder / "glass.pov", "global_settings { max_trace_level 20 adc_bailout 0 }\n"
+                                    "camera { location -6*z look_at 0 angle 30 }\n"
+                                    "light_source { <5, 5, -9>, 1 }\n"
+                                    "#declare R = seed(3);\n"
+                                    "#for (I, 1, 40)\n"
+                                    "  sphere { (<rand(R), rand(R), rand(R)> - 0.5) * 1.6, 0.5\n"
+                                    "    pigment { rgbt <1, 1, 1, 0.9> } finish { reflection 0.3 } interior { ior 1.3 } }\n"
+                                    "#end\n");
+  for (const std::vector<std::string>& machine :
+       {std::vector<std::string>{"--backend", "native"},
+        {"--backend", "cell_emu"},
+        {"--backend", "cell_emu", "--model", "pipeline"},
+        {"--backend", "cell_emu", "--model", "offload"}}) {
+    std::vector<std::string> arguments = {"glass.pov", "--quiet", "-W", "160", "-H", "120", "--spes", "4", "-o", "glass.ppm"};
+    arguments.insert(arguments.end(), machine.begin(), machine.end());
+    Run run(folder, arguments);
+    std::this_thread::sleep_for(std::chrono::milliseconds(700)); // until it is deep in trees
+    const auto start = std::chrono::steady_clock::now();
+    run.interrupt();
+    const Outcome outcome = run.finish();
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    CAPTURE(machine, outcome.err);
+    CHECK(outcome.exit_code == 2);
+    CHECK(seconds.count() < 5); // a tenth of a second, where nothing else runs
+  }
+}
+
+TEST_CASE("signals that come together are one") {
+  const TemporaryFolder folder;
+  Run run(folder, {kScene, "-W", "3000", "-H", "2000", "--spes", "1", "-o", "partial.ppm", "--quiet"});
+  run.interrupt(SIGTERM, 2);
+  CHECK(run.finish().exit_code == 2);
+  CHECK(load_image(folder / "partial.ppm").width == 3000);
 }
 
 TEST_CASE("an interrupted render keeps what it has and exits with 2") {
