@@ -1,0 +1,1 @@
+// expect: carriage-returns.pov:4:3: error: 'oops' is not declaredsphere { 0, 1 }  oops

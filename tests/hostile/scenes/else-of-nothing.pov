@@ -1,0 +1,2 @@
+// expect: else-of-nothing.pov:2:1: error: #else without #if
+#else

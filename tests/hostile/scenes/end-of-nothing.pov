@@ -1,0 +1,2 @@
+// expect: end-of-nothing.pov:2:1: error: #end without anything to end
+#end

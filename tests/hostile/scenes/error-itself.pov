@@ -1,0 +1,2 @@
+// expect: error-itself.pov:2:1: error: stop here
+#error "stop here"

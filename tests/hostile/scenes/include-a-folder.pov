@@ -1,0 +1,2 @@
+// expect: include-a-folder.pov:2:10: error: cannot find the include file '.'
+#include "."

@@ -1,0 +1,3 @@
+// expect: negative-subscript.pov:3:11: error: this subscript is out of range
+#declare A = array[3];
+#declare A[-1] = 1;

@@ -1,0 +1,2 @@
+// expect: nothing.pov:1:1: error: the scene is empty
+
