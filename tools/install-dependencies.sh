@@ -11,7 +11,7 @@ set -euo pipefail
 
 declare -A packages=(
   [build]="g++ cmake ninja-build flex bison libboost-context-dev libcli11-dev libdeflate-dev libglm-dev libpng-dev libxsimd-dev nlohmann-json3-dev"
-  [tests]="catch2 libbenchmark-dev xz-utils"
+  [tests]="catch2 libbenchmark-dev python3 xz-utils"
   [bench]="libembree-dev povray povray-includes"
   [extras]="ccache clang povray povray-includes"
 )
