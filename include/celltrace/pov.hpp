@@ -26,22 +26,22 @@ namespace celltrace {
 /// Bounds on what a scene may cost; passing one is a SceneError. Any may be raised: what has to end for other
 /// reasons, such as objects inside objects, has limits of its own.
 struct ParseLimits {
-  std::uint64_t file_bytes = 1u << 30;         ///< of one file, at most 2^31 - 16
-  std::uint64_t include_depth = 64;            ///< files open at once
-  std::uint64_t macro_depth = 1000;            ///< macro calls open at once
-  std::uint64_t nesting = 256;                 ///< brackets open at once
-  std::uint64_t loop_iterations = 10'000'000;  ///< of all #while and #for loops together
-  std::uint64_t recorded_tokens = 4'000'000;   ///< in macro and loop bodies, 56 bytes each
-  std::uint64_t tokens = 2'000'000'000;        ///< read in all, replays included
-  std::uint64_t array_elements = 1'200'000;    ///< of all arrays that there are at a time, about 100 bytes each
-  std::uint64_t list_entries = 32'000'000;     ///< of one list, such as a mesh's vertices
-  std::uint64_t string_bytes = 1u << 20;       ///< of one string
-  std::uint64_t text_bytes = 256u << 20;       ///< of all strings made or declared
+  std::uint64_t file_bytes = 1u << 30;        ///< of one file, at most 2^31 - 16
+  std::uint64_t include_depth = 64;           ///< files open at once
+  std::uint64_t macro_depth = 1000;           ///< macro calls open at once
+  std::uint64_t nesting = 256;                ///< brackets open at once
+  std::uint64_t loop_iterations = 10'000'000; ///< of all #while and #for loops together
+  std::uint64_t recorded_tokens = 4'000'000;  ///< in macro and loop bodies, 56 bytes each
+  std::uint64_t tokens = 2'000'000'000;       ///< read in all, replays included
+  std::uint64_t array_elements = 1'200'000; ///< of all arrays that there are at a time, about 100 bytes each
+  std::uint64_t list_entries = 32'000'000;  ///< of one list, such as a mesh's vertices
+  std::uint64_t string_bytes = 1u << 20;    ///< of one string
+  std::uint64_t text_bytes = 256u << 20;    ///< of all strings made or declared
   std::uint64_t memory = std::uint64_t{2} << 30; ///< bytes of all objects and textures declared, not placed
-  std::uint64_t seconds = 60;                  ///< of the parsing thread's processor time
-  std::uint64_t open_files = 64;               ///< by #fopen, at a time
-  std::uint64_t written_bytes = 256u << 20;    ///< by #write, to all files
-  std::uint64_t objects = 4'000'000;           ///< placed in the scene
+  std::uint64_t seconds = 60;                    ///< of the parsing thread's processor time
+  std::uint64_t open_files = 64;                 ///< by #fopen, at a time
+  std::uint64_t written_bytes = 256u << 20;      ///< by #write, to all files
+  std::uint64_t objects = 4'000'000;             ///< placed in the scene
   std::uint64_t triangles =
       32'000'000; ///< of all meshes, an instance not counted again unless it has patterns
   std::uint64_t map_entries = 16'000'000; ///< of all textures with patterns, as often as they are placed
@@ -50,7 +50,7 @@ struct ParseLimits {
 /// A limit by the name that messages give it.
 struct NamedLimit {
   const char* name; ///< as "loop-steps"
-  std::uint64_t ParseLimits::* limit;
+  std::uint64_t ParseLimits::*limit;
 };
 /// All of them.
 const std::vector<NamedLimit>& parse_limits();
@@ -74,8 +74,8 @@ struct ParseOptions {
   /// Identifiers declared before the scene starts, as POV-Ray's Declare=name=value does.
   std::vector<std::pair<std::string, std::variant<double, std::string>>> declares;
   /// Receives the text of #debug, #render and #statistics as it is, and "file:line:column: warning: text\n"
-  /// for #warning, for what lenient reading leaves out and, with "note", for files found by another case of their
-  /// names. Called by the parsing thread. If empty, warnings go to stderr and the rest nowhere.
+  /// for #warning, for what lenient reading leaves out and, with "note", for files found by another case of
+  /// their names. Called by the parsing thread. If empty, warnings go to stderr and the rest nowhere.
   std::function<void(std::string_view)> message;
   /// Hears again and again, from the parsing thread, how many bytes of the scene's own file have been read,
   /// and of how many. Neither included files nor loops move it on, but it is called while they are read. If

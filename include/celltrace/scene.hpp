@@ -210,7 +210,7 @@ struct Object {
   bool no_shadow = false;
   bool no_image = false;      ///< seen in mirrors alone
   bool no_reflection = false; ///< seen in no mirror
-  bool inverse = false; ///< inside and outside change places
+  bool inverse = false;       ///< inside and outside change places
   /// Only what is inside all of these is there. They are placed as the object is, and their materials mean
   /// nothing. Null: all of it.
   std::shared_ptr<const std::vector<Object>> clipped_by = nullptr;
@@ -251,8 +251,8 @@ struct Scene {
   int max_trace_level = 5;
   double adc_bailout = 1.0 / 255;
   Vec3 irid_wavelength{0.7, 0.52, 0.48}; ///< of red, green and blue, where films are thin
-  int noise_generator = 2;  ///< of patterns that do not say: 1 to 3 as POV-Ray counts them
-  int number_of_waves = 10; ///< of ripples and waves
+  int noise_generator = 2;               ///< of patterns that do not say: 1 to 3 as POV-Ray counts them
+  int number_of_waves = 10;              ///< of ripples and waves
 
   /// Appends and returns the index.
   Index add(const Material& material);

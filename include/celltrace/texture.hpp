@@ -98,9 +98,10 @@ struct Facets {
   double metric = 2; ///< as crackle's
 };
 
-using Kind = std::variant<Checker, Square, Hexagon, Triangular, Cubic, Brick, Gradient, Boxed, Spherical,
-                          Cylindrical, Planar, Leopard, Onion, Radial, Spiral, Quilted, Bozo, Bumps, Dents,
-                          Granite, Wrinkles, Agate, Marble, Wood, Ripples, Waves, Cells, Crackle, Fractal, Facets>;
+using Kind =
+    std::variant<Checker, Square, Hexagon, Triangular, Cubic, Brick, Gradient, Boxed, Spherical, Cylindrical,
+                 Planar, Leopard, Onion, Radial, Spiral, Quilted, Bozo, Bumps, Dents, Granite, Wrinkles,
+                 Agate, Marble, Wood, Ripples, Waves, Cells, Crackle, Fractal, Facets>;
 
 } // namespace pattern
 
@@ -109,9 +110,9 @@ namespace warp {
 
 /// The slice of space from 0 to `width` along an axis, again and again.
 struct Repeat {
-  int axis = 0;       ///< 0 to 2
-  double width = 1;   ///< not 0
-  Vec3 flip{0, 0, 0}; ///< every other slice is mirrored along axes of which this is not 0
+  int axis = 0;         ///< 0 to 2
+  double width = 1;     ///< not 0
+  Vec3 flip{0, 0, 0};   ///< every other slice is mirrored along axes of which this is not 0
   Vec3 offset{0, 0, 0}; ///< of each slice from the one before
 };
 /// Draws points in a sphere to its centre.
@@ -120,8 +121,8 @@ struct BlackHole {
   double radius = 1;
   double strength = 1;
   double falloff = 2;
-  bool is_inverse = false; ///< pushes them away
-  Vec3 repeat{0, 0, 0};    ///< distances of its copies, 0 along axes without
+  bool is_inverse = false;  ///< pushes them away
+  Vec3 repeat{0, 0, 0};     ///< distances of its copies, 0 along axes without
   Vec3 turbulence{0, 0, 0}; ///< of the copies
 };
 /// Wraps the unit square of the xy plane around a shape; z is the distance.

@@ -71,7 +71,8 @@ private:
     const bool can_be_repeated = last.operation == Operation::read || last.operation == Operation::write;
     if (!can_be_repeated || last.count != 1) refuse("nothing comes before a repetition");
     repetitions_ += times;
-    if (repetitions_ > kMaxRepetitions || times > ~std::uint32_t{0} - last.count) refuse("it has too many repetitions");
+    if (repetitions_ > kMaxRepetitions || times > ~std::uint32_t{0} - last.count)
+      refuse("it has too many repetitions");
     last.count += times;
   }
   static CacheRequest request_of(std::uint32_t word, std::uint32_t lines) {

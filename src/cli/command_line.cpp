@@ -53,8 +53,8 @@ void set_limit(ParseLimits& limits, const std::string& text) {
   const auto [wanted_name, value] = split(text, '=');
   const std::string& wanted = wanted_name;
   const auto& known = parse_limits();
-  const auto limit =
-      std::find_if(known.begin(), known.end(), [&wanted](const NamedLimit& each) { return each.name == wanted; });
+  const auto limit = std::find_if(known.begin(), known.end(),
+                                  [&wanted](const NamedLimit& each) { return each.name == wanted; });
   if (limit == known.end()) {
     std::string names;
     for (const NamedLimit& each : known)
@@ -72,7 +72,8 @@ void set_limit(ParseLimits& limits, const std::string& text) {
     }
   }
   if (end != last || value.empty() || !(number >= 0 && number <= 1e18))
-    throw InputError("--max: '" + value + "' is not a number from 0 to 1e18, perhaps with K, M or G behind it");
+    throw InputError("--max: '" + value +
+                     "' is not a number from 0 to 1e18, perhaps with K, M or G behind it");
   limits.*limit->limit = static_cast<std::uint64_t>(number);
 }
 
@@ -119,7 +120,8 @@ void add_picture_options(CLI::App& command, RenderRequest& request, RenderTexts&
                   "The scene may write files into this folder, and read them; may be repeated")
       ->type_name("DIR")
       ->allow_extra_args(false);
-  command.add_option("--max", texts.limits, "Change a limit on what reading the scene may cost; may be repeated")
+  command
+      .add_option("--max", texts.limits, "Change a limit on what reading the scene may cost; may be repeated")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
   command.add_option("--declare", texts.declares, "Declare a number or string before the scene begins")

@@ -28,7 +28,7 @@ struct RenderRequest {
   std::vector<std::filesystem::path> readable_folders, writable_folders; ///< of the scene
   ParseLimits limits;
   std::vector<std::pair<std::string, std::string>> declares; ///< name and value
-  bool lenient = false; ///< leave out what of the scene is not supported
+  bool lenient = false;                                      ///< leave out what of the scene is not supported
   double clock = 0;
   std::string stats;                 ///< file, "-" for stdout, empty for none
   std::filesystem::path trace;       ///< empty: none

@@ -13,9 +13,9 @@
 
 namespace celltrace::cli {
 
-/// A file that is written while a command works, such as a trace; or none. It takes its name when it is finished.
-/// Of a command that fails in between, what says how it came to that stays: it is `useful_in_part`, unless it is
-/// empty.
+/// A file that is written while a command works, such as a trace; or none. It takes its name when it is
+/// finished. Of a command that fails in between, what says how it came to that stays: it is `useful_in_part`,
+/// unless it is empty.
 class OutputFile {
 public:
   /// Throws InputError if the file cannot be written. `path` empty: there is none.

@@ -237,7 +237,8 @@ bool is_own_option(std::string_view argument) {
 }
 
 bool takes_the_next_argument(std::string_view argument) {
-  for (const std::string_view alone : {"-h", "--help", "--version", "--quiet", "--faults", "--lenient", "--list-keywords"})
+  for (const std::string_view alone :
+       {"-h", "--help", "--version", "--quiet", "--faults", "--lenient", "--list-keywords"})
     if (argument == alone) return false;
   return is_own_option(argument) && argument.find('=') == std::string_view::npos;
 }

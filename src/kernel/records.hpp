@@ -263,7 +263,7 @@ static_assert(sizeof(MapEntryRecord) == 32, "four a line");
 /// A normal: adds a disturbance to the normals of surfaces, which the linear map takes to the pattern's
 /// space.
 struct alignas(64) NormalRecord {
-  uint32_t pattern;   ///< offset of a PatternRecord
+  uint32_t pattern; ///< offset of a PatternRecord
   /// 0 or 1: the pattern's entries are NormalRecords, and what follows means nothing. 0: if the pattern has
   /// entries, they are a slope map.
   uint32_t is_mapped;

@@ -196,8 +196,8 @@ PatternChange set_fractal(int pattern::Fractal::*member, double value, int least
     if (!std::holds_alternative<pattern::Fractal>(pattern.value().kind))
       session.fail(where, "this word means something to fractals only");
     if (!(value >= least && value < most + 1))
-      session.fail(where, "this number must lie between " + std::to_string(least) + " and " +
-                              std::to_string(most));
+      session.fail(where,
+                   "this number must lie between " + std::to_string(least) + " and " + std::to_string(most));
     std::get<pattern::Fractal>(pattern.own().kind).*member = static_cast<int>(value);
   };
 }

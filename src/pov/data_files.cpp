@@ -106,8 +106,8 @@ void TokenStream::open_data_file() {
   const Token name = expect_name("for a file");
   const std::shared_ptr<Slot> known = session_.symbols.find(name.name);
   if (known && !std::holds_alternative<std::monostate>(known->value))
-    session_.fail(name.where, "'" + session_.names.text(name.name) + "' is " + kind_name(known->value) +
-                                  " already");
+    session_.fail(name.where,
+                  "'" + session_.names.text(name.name) + "' is " + kind_name(known->value) + " already");
   Location where;
   const std::string wanted = read_file_name(where);
   const Token mode = read();
@@ -166,7 +166,8 @@ void TokenStream::read_data() {
   Token name;
   const std::shared_ptr<DataFile> file = expect_data_file(name);
   if (!file->is_read())
-    session_.fail(name.where, "'" + session_.names.text(name.name) + "' is open for writing, not for reading");
+    session_.fail(name.where,
+                  "'" + session_.names.text(name.name) + "' is open for writing, not for reading");
   bool at_end = false;
   for (Token token = read(); !token.is(')'); token = read()) {
     if (token.is(',')) continue;
@@ -216,7 +217,8 @@ void TokenStream::write_data() {
   Token name;
   const std::shared_ptr<DataFile> file = expect_data_file(name);
   if (file->is_read())
-    session_.fail(name.where, "'" + session_.names.text(name.name) + "' is open for reading, not for writing");
+    session_.fail(name.where,
+                  "'" + session_.names.text(name.name) + "' is open for reading, not for writing");
   for (Token token = read(); !token.is(')'); token = read()) {
     if (token.is(',')) continue;
     session_.input.unread(token);

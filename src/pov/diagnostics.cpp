@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kMostStackLines = 8;
 constexpr std::size_t kMostUnsupported = 50;
 
-}
+} // namespace
 
 std::string quoted_name(std::string_view name) {
   constexpr std::size_t kMost = 200;
@@ -36,13 +36,13 @@ void Diagnostics::fail(const Location& where, const std::string& what) const {
   throw SceneError(before + place(where) + ": error: " + what + stack());
 }
 
-void Diagnostics::exceed(const Location& where, std::uint64_t ParseLimits::* limit, const std::string& who,
+void Diagnostics::exceed(const Location& where, std::uint64_t ParseLimits::*limit, const std::string& who,
                          const std::string& unit) const {
   const auto& limits = parse_limits();
   const auto named =
       std::find_if(limits.begin(), limits.end(), [&](const NamedLimit& each) { return each.limit == limit; });
-  fail(where, who + " more than " + std::to_string(options_.limits.*limit) + ' ' + unit + " (--max " + named->name +
-                  "=N allows more)");
+  fail(where, who + " more than " + std::to_string(options_.limits.*limit) + ' ' + unit + " (--max " +
+                  named->name + "=N allows more)");
 }
 
 void Diagnostics::say(const Location& where, const char* kind, const std::string& what) const {
@@ -64,7 +64,8 @@ bool Diagnostics::supports(const UnsupportedPtr& unsupported, const Location& us
 }
 
 void Diagnostics::note_unsupported(const Unsupported& unsupported, const Location& used_at) {
-  if (options_.lenient) return warn(unsupported.where, unsupported.what + " is not supported yet and left out");
+  if (options_.lenient)
+    return warn(unsupported.where, unsupported.what + " is not supported yet and left out");
   if (unsupported_errors_.size() >= kMostUnsupported) return;
   std::string message = place(unsupported.where) + ": error: " + unsupported.what + " is not supported yet";
   if (unsupported.where != used_at) message += "\n    used at " + place(used_at);

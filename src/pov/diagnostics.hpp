@@ -29,7 +29,7 @@ public:
   [[noreturn]] void fail(const Location& where, const std::string& what) const;
 
   /// Throws SceneError: `who`, such as "the loops run", passes a limit, counted in `unit`.
-  [[noreturn]] void exceed(const Location& where, std::uint64_t ParseLimits::* limit, const std::string& who,
+  [[noreturn]] void exceed(const Location& where, std::uint64_t ParseLimits::*limit, const std::string& who,
                            const std::string& unit) const;
 
   /// Says "place: warning: text", or another kind of message.
@@ -52,7 +52,7 @@ private:
   const Names& names_;
   const Input& input_;
   const ParseOptions& options_;
-  std::set<std::string> unsupported_;        ///< the features noted or warned of
+  std::set<std::string> unsupported_;           ///< the features noted or warned of
   std::vector<std::string> unsupported_errors_; ///< the first ones of them
 };
 

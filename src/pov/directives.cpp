@@ -153,7 +153,7 @@ void TokenStream::declare(bool is_local) {
   const std::size_t depth = session_.input.depth();
   Value value = evaluate(Start::value);
   skip_semicolon();
-  leave_finished_macros(depth); // the semicolon may be a macro's
+  leave_finished_macros(depth);                                  // the semicolon may be a macro's
   if (std::holds_alternative<Quantity>(value)) skip_semicolon(); // POV-Ray takes two behind numbers
   if (const auto* text = std::get_if<std::string>(&value)) session_.count_text(text->size(), name.where);
   if (!subscripts.empty()) {

@@ -1,5 +1,5 @@
-// Reads functions of the scene: their expressions are of floats only, and not values yet, so that the grammar's
-// rules for numbers are of no use.
+// Reads functions of the scene: their expressions are of floats only, and not values yet, so that the
+// grammar's rules for numbers are of no use.
 #include <algorithm>
 #include <optional>
 
@@ -22,9 +22,7 @@ constexpr std::size_t kMostSteps = 1'000'000;
 
 class Reader {
 public:
-  Reader(Session& session, const Location& where) : session_(session) {
-    function_->where = where;
-  }
+  Reader(Session& session, const Location& where) : session_(session) { function_->where = where; }
 
   FunctionPtr read() {
     advance();
@@ -55,11 +53,11 @@ private:
     return true;
   }
   [[noreturn]] void fail_unexpected(const char* expected) const {
-    session_.fail(terminal_.where, "unexpected " + session_.tokens.describe_last() + ", expected " + expected);
+    session_.fail(terminal_.where,
+                  "unexpected " + session_.tokens.describe_last() + ", expected " + expected);
   }
   void require(char punctuation, const char* purpose) const {
-    if (!is(punctuation))
-      fail_unexpected((std::string("'") + punctuation + "' " + purpose).c_str());
+    if (!is(punctuation)) fail_unexpected((std::string("'") + punctuation + "' " + purpose).c_str());
   }
   void expect(char punctuation, const char* purpose) {
     require(punctuation, purpose);
@@ -154,7 +152,8 @@ private:
 
   void read_expression_body() {
     read_logic();
-    program_.variables = static_cast<std::uint32_t>(most_variables_ = std::max(most_variables_, variables_.size()));
+    program_.variables =
+        static_cast<std::uint32_t>(most_variables_ = std::max(most_variables_, variables_.size()));
     function_->body = std::move(program_);
   }
   bool is_variable(NameId name) const {
@@ -356,7 +355,8 @@ private:
     advance();
     expect('(', is_sum ? "after 'sum'" : "after 'prod'");
     const std::optional<NameId> name = word();
-    if (!name || (session_.names[*name].token != 0 && !is_coordinate(*name))) fail_unexpected("a name to count with");
+    if (!name || (session_.names[*name].token != 0 && !is_coordinate(*name)))
+      fail_unexpected("a name to count with");
     session_.symbols.enter_scope();
     if (session_.names[*name].token == 0) session_.symbols.bind(*name, std::make_shared<Slot>());
     advance();

@@ -197,8 +197,7 @@ std::string date_text(const Call& call) {
 }
 
 bool file_exists(const Call& call) {
-  const auto file =
-      call.session().sources.find_file(call.text(0), call.session().tokens.current_folder());
+  const auto file = call.session().sources.find_file(call.text(0), call.session().tokens.current_folder());
   return file && file->may_be_read;
 }
 

@@ -64,7 +64,8 @@ constexpr Internal kInternals[] = {
     // f_ellipsoid
     {3,
      [](const Call& c) {
-       return std::sqrt(c.x * c.x * c.p[0] * c.p[0] + c.y * c.y * c.p[1] * c.p[1] + c.z * c.z * c.p[2] * c.p[2]);
+       return std::sqrt(c.x * c.x * c.p[0] * c.p[0] + c.y * c.y * c.p[1] * c.p[1] +
+                        c.z * c.z * c.p[2] * c.p[2]);
      }},
     {1, nullptr},  // f_enneper
     {4, nullptr},  // f_flange_cover
@@ -130,17 +131,17 @@ constexpr Internal kInternals[] = {
     // f_th
     {0, [](const Call& c) { return std::atan2(c.x, c.z); }},
     // f_torus
-    {2,
-     [](const Call& c) {
-       return std::hypot(std::hypot(c.x, c.z) - c.p[0], c.y) - c.p[1];
-     }},
+    {2, [](const Call& c) { return std::hypot(std::hypot(c.x, c.z) - c.p[0], c.y) - c.p[1]; }},
     {3, nullptr}, // f_torus2
     {1, nullptr}, // f_torus_gumdrop
     {1, nullptr}, // f_umbrella
     {2, nullptr}, // f_witch_of_agnesi
     {6, nullptr}, // f_witch_of_agnesi_2d
     // f_noise3d
-    {0, [](const Call& c) { return noise_value({c.x, c.y, c.z}, c.session.builder.noise_generator()); }},
+    {0,
+     [](const Call& c) {
+       return noise_value({c.x, c.y, c.z}, c.session.builder.noise_generator());
+     }},
     {-1, nullptr},
     // f_noise_generator
     {1,

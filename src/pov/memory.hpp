@@ -1,4 +1,5 @@
-// What a parse holds in memory, counted as it is made and dropped, so that no scene can make more than its limit.
+// What a parse holds in memory, counted as it is made and dropped, so that no scene can make more than its
+// limit.
 //
 // A parse and all that it counts belong to one thread.
 #pragma once
@@ -13,7 +14,7 @@ namespace celltrace::pov {
 
 /// A limit of the scene has been passed; parse() says where.
 struct LimitPassed {
-  std::uint64_t ParseLimits::* limit;
+  std::uint64_t ParseLimits::*limit;
   const char* who; ///< "the scene's declarations need"
   const char* unit;
 };

@@ -79,8 +79,8 @@ struct ObjectDefinition {
   UnsupportedPtr unsupported;
   UnsupportedPtr missing;        ///< instead of a shape, one that this program lacks
   bool is_photon_target = false; ///< not of lights
-  bool is_look = false; ///< being read as what a light looks like
-  int depth = 0;        ///< of objects inside one another
+  bool is_look = false;          ///< being read as what a light looks like
+  int depth = 0;                 ///< of objects inside one another
   [[no_unique_address]] Counted<ObjectDefinition> counted;
 
   /// Moves its texture and what limits it, too.

@@ -110,9 +110,9 @@ Extent moved(const Extent& extent, const Transform& transform) {
   if (is_everywhere(extent)) return extent;
   std::vector<Vec3> corners;
   for (int corner = 0; corner < 8; ++corner)
-    corners.push_back(transform.point({corner & 1 ? extent.max.x : extent.min.x,
-                                       corner & 2 ? extent.max.y : extent.min.y,
-                                       corner & 4 ? extent.max.z : extent.min.z}));
+    corners.push_back(
+        transform.point({corner & 1 ? extent.max.x : extent.min.x, corner & 2 ? extent.max.y : extent.min.y,
+                         corner & 4 ? extent.max.z : extent.min.z}));
   return around(corners);
 }
 
@@ -371,9 +371,9 @@ void cross(const Corners& triangle, const Ray& ray, Crossings& found) {
   const Vec3 moment = glm::cross(offset, ray.direction);
   const double u = glm::dot(e2, moment) / volume, v = -glm::dot(e1, moment) / volume;
   if (u < 0 || v < 0 || u + v > 1) return;
-  const Vec3 normal = triangle.is_smooth ? triangle.normal[0] * (1 - u - v) + triangle.normal[1] * u +
-                                               triangle.normal[2] * v
-                                         : -plane;
+  const Vec3 normal = triangle.is_smooth
+                          ? triangle.normal[0] * (1 - u - v) + triangle.normal[1] * u + triangle.normal[2] * v
+                          : -plane;
   found.push_back({glm::dot(offset, plane) / volume, normal});
 }
 
@@ -450,9 +450,7 @@ Transform back(const Query& query, const ObjectDefinition& object) {
 bool contains(const Query& query, const ObjectDefinition& object, const Vec3& point);
 
 bool contains(const Query& query, const Compound& compound, const Vec3& p) {
-  const auto has = [&](const ObjectPtr& part) {
-    return is_solid(query, *part) && contains(query, *part, p);
-  };
+  const auto has = [&](const ObjectPtr& part) { return is_solid(query, *part) && contains(query, *part, p); };
   const auto& parts = compound.parts;
   if (compound.operation == Operation::intersection)
     return std::all_of(parts.begin(), parts.end(),
@@ -497,7 +495,8 @@ void cross(const Query& query, const Compound& compound, const Ray& ray, Crossin
     for (Crossing& crossing : own) {
       if (is_taken_away) crossing.normal = -crossing.normal;
       bool is_surface = true;
-      for (std::size_t j = 0; j < parts.size() && is_surface && compound.operation != Operation::union_; ++j) {
+      for (std::size_t j = 0; j < parts.size() && is_surface && compound.operation != Operation::union_;
+           ++j) {
         if (j == i || !is_solid(query, *parts[j])) continue;
         const bool is_inside = contains(query, *parts[j], ray.at(crossing.t));
         const bool must_be_inside = compound.operation == Operation::intersection ||

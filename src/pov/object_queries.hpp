@@ -1,5 +1,5 @@
-// What the scene can ask about objects that it has declared: trace(), inside(), min_extent() and max_extent(),
-// in double precision.
+// What the scene can ask about objects that it has declared: trace(), inside(), min_extent() and
+// max_extent(), in double precision.
 #pragma once
 
 #include <optional>

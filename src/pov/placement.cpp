@@ -242,8 +242,7 @@ bool SceneBuilder::make_shape(const ObjectDefinition& object, const Inherited& o
   return own.inside || is_visible;
 }
 
-void SceneBuilder::refuse(const std::string& what, const ObjectDefinition& object,
-                          const Location& where) {
+void SceneBuilder::refuse(const std::string& what, const ObjectDefinition& object, const Location& where) {
   diagnostics_.supports(std::make_shared<Unsupported>(Unsupported{what, object.where}), where);
 }
 

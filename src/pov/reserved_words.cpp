@@ -308,35 +308,99 @@ const char* const kUnsupportedObjects[] = {
 };
 
 const char* const kUnsupportedBlocks[] = {
-    "bump_map", "contained_by", "density", "density_map", "image_map", "image_pattern", "material_map",
-    "media", "mesh_camera", "pigment_pattern", "projected_through", "radiosity", "rainbow", "subsurface",
-    "tiles",
+    "bump_map",          "contained_by", "density", "density_map", "image_map",
+    "image_pattern",     "material_map", "media",   "mesh_camera", "pigment_pattern",
+    "projected_through", "radiosity",    "rainbow", "subsurface",  "tiles",
 };
 
 const char* const kUnsupportedFeatures[] = {
-    "absorption", "albedo", "all_intersections", "autostop", "b_spline", "blur_samples", "cube",
-    "density_file", "double_illuminate", "global_lights", "importance", "load_file", "max_trace",
-    "no_bump_scale", "pattern", "precision", "quaternion", "save_file", "scattering", "slope", "spacing",
-    "tiling", "translucency",
+    "absorption", "albedo",        "all_intersections", "autostop",      "b_spline",     "blur_samples",
+    "cube",       "density_file",  "double_illuminate", "global_lights", "importance",   "load_file",
+    "max_trace",  "no_bump_scale", "pattern",           "precision",     "quaternion",   "save_file",
+    "scattering", "slope",         "spacing",           "tiling",        "translucency",
 };
 
 // What stands behind others of these words.
 const char* const kUnsupportedArguments[] = {
-    "aa_level", "aa_threshold", "all", "altitude", "always_sample", "append", "arc_angle", "ascii",
-    "bezier_spline", "bitwise_and", "bitwise_or", "bitwise_xor", "brightness", "component", "composite",
-    "conic_sweep", "count", "df3", "eccentricity", "error_bound", "evaluate", "expand_thresholds",
-    "extinction", "flatness", "gather", "gif", "gray_threshold", "hypercomplex", "iff", "interpolate",
-    "intervals", "jpeg", "linear_sweep", "low_error_factor", "map_type", "max_gradient", "max_iteration",
-    "max_sample", "minimum_reuse", "nearest_count", "once", "pgm", "png", "pot", "ppm", "precompute",
-    "pretrace_end", "pretrace_start", "prod", "pwr", "ratio", "recursion_limit", "samples", "slice", "smooth",
-    "sum", "sys", "tga", "threshold", "tiff", "tile2", "tolerance", "ttf", "type", "u_steps", "use_alpha",
-    "use_color", "use_colour", "use_index", "utf8", "v_steps", "water_level", "width",
+    "aa_level",
+    "aa_threshold",
+    "all",
+    "altitude",
+    "always_sample",
+    "append",
+    "arc_angle",
+    "ascii",
+    "bezier_spline",
+    "bitwise_and",
+    "bitwise_or",
+    "bitwise_xor",
+    "brightness",
+    "component",
+    "composite",
+    "conic_sweep",
+    "count",
+    "df3",
+    "eccentricity",
+    "error_bound",
+    "evaluate",
+    "expand_thresholds",
+    "extinction",
+    "flatness",
+    "gather",
+    "gif",
+    "gray_threshold",
+    "hypercomplex",
+    "iff",
+    "interpolate",
+    "intervals",
+    "jpeg",
+    "linear_sweep",
+    "low_error_factor",
+    "map_type",
+    "max_gradient",
+    "max_iteration",
+    "max_sample",
+    "minimum_reuse",
+    "nearest_count",
+    "once",
+    "pgm",
+    "png",
+    "pot",
+    "ppm",
+    "precompute",
+    "pretrace_end",
+    "pretrace_start",
+    "prod",
+    "pwr",
+    "ratio",
+    "recursion_limit",
+    "samples",
+    "slice",
+    "smooth",
+    "sum",
+    "sys",
+    "tga",
+    "threshold",
+    "tiff",
+    "tile2",
+    "tolerance",
+    "ttf",
+    "type",
+    "u_steps",
+    "use_alpha",
+    "use_color",
+    "use_colour",
+    "use_index",
+    "utf8",
+    "v_steps",
+    "water_level",
+    "width",
 };
 
 /// Words with rules of their own by which what they stand for is not supported.
 constexpr int kRefused[] = {
     tokens::T_APERTURE,   tokens::T_AREA_ILLUMINATION, tokens::T_CUTAWAY_TEXTURES,
-    tokens::T_DISPERSION, tokens::T_PHOTONS,  tokens::T_UV_MAPPING,
+    tokens::T_DISPERSION, tokens::T_PHOTONS,           tokens::T_UV_MAPPING,
 };
 
 int token_of(PatternForm form) {
@@ -415,7 +479,8 @@ std::vector<Keyword> keywords() {
   for (const ReservedWord& word : reserved_words()) {
     const bool is_ignored = word.token == tokens::T_IGNORED_FLAG || word.token == tokens::T_IGNORED_NUMBER ||
                             word.token == tokens::T_QUICK_COLOUR;
-    const bool is_refused = std::find(std::begin(kRefused), std::end(kRefused), word.token) != std::end(kRefused);
+    const bool is_refused =
+        std::find(std::begin(kRefused), std::end(kRefused), word.token) != std::end(kRefused);
     const auto support = is_ignored ? Keyword::Support::ignored : Keyword::Support::full;
     result.push_back({word.text, word.is_unsupported || is_refused ? Keyword::Support::none : support});
   }
@@ -423,8 +488,7 @@ std::vector<Keyword> keywords() {
     result.push_back({std::string("#") + word.text, word.directive == Directive::unsupported
                                                         ? Keyword::Support::none
                                                         : Keyword::Support::full});
-  std::sort(result.begin(), result.end(),
-            [](const Keyword& a, const Keyword& b) { return a.word < b.word; });
+  std::sort(result.begin(), result.end(), [](const Keyword& a, const Keyword& b) { return a.word < b.word; });
   return result;
 }
 

@@ -35,11 +35,11 @@ struct Session {
   SceneBuilder builder;
   std::vector<std::uint32_t> random_streams; ///< what seed() handed out
   std::uint64_t text_bytes = 0;
-  std::uint64_t written_bytes = 0; ///< by #write
+  std::uint64_t written_bytes = 0;                   ///< by #write
   std::vector<std::shared_ptr<DataFile>> data_files; ///< that #fopen has opened and nothing closed
-  std::uint64_t shape_tests = 0; ///< of trace() and the like
-  TexturePtr base_texture; ///< what the pigment or finish being read starts from
-  Finish* irid = nullptr;  ///< the finish whose irid { } is being read
+  std::uint64_t shape_tests = 0;                     ///< of trace() and the like
+  TexturePtr base_texture;                           ///< what the pigment or finish being read starts from
+  Finish* irid = nullptr;                            ///< the finish whose irid { } is being read
   std::vector<std::shared_ptr<ObjectDefinition>> lights; ///< being read, in each other
   std::vector<std::shared_ptr<Parser>> parsers; ///< one for each entry of the grammar, made when first needed
 
@@ -53,7 +53,7 @@ struct Session {
   Vec3 vector(const Quantity& quantity, const Location& where) const;
   Pigment colour(const Quantity& quantity, const Location& where) const;
 
-  [[noreturn]] void exceed(const Location& where, std::uint64_t ParseLimits::* limit, const std::string& who,
+  [[noreturn]] void exceed(const Location& where, std::uint64_t ParseLimits::*limit, const std::string& who,
                            const std::string& unit) const {
     diagnostics.exceed(where, limit, who, unit);
   }

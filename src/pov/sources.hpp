@@ -1,4 +1,5 @@
-// The files a scene is read from, and those that it writes: finding, reading and naming them, and where it may.
+// The files a scene is read from, and those that it writes: finding, reading and naming them, and where it
+// may.
 #pragma once
 
 #include <cstdint>
@@ -35,8 +36,8 @@ public:
 
   std::optional<FoundFile> find_file(std::string_view name, const std::filesystem::path& naming_folder) const;
 
-  /// Where a scene writes the file that it calls `name`, no link. Throws InputError, without a position, if it
-  /// may not.
+  /// Where a scene writes the file that it calls `name`, no link. Throws InputError, without a position, if
+  /// it may not.
   std::filesystem::path writable_file(std::string_view name) const;
 
 private:

@@ -96,7 +96,8 @@ std::vector<Quantity> Spline::curvatures() const {
     const double before = knots_[i].at - knots_[i - 1].at, behind = knots_[i + 1].at - knots_[i].at;
     const double pivot = 2 * (before + behind) - before * ratio[i - 1];
     ratio[i] = behind / pivot;
-    result[i] = ((slope(i) - slope(i - 1)) * Quantity(6) - result[i - 1] * Quantity(before)) * Quantity(1 / pivot);
+    result[i] =
+        ((slope(i) - slope(i - 1)) * Quantity(6) - result[i - 1] * Quantity(before)) * Quantity(1 / pivot);
   }
   for (std::size_t i = count - 1; i-- > 1;)
     result[i] = result[i] - result[i + 1] * Quantity(ratio[i]);

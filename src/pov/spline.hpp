@@ -22,8 +22,8 @@ public:
   void add(double at, const Quantity& value);
   std::size_t size() const { return knots_.size(); }
 
-  /// A vector of as many components as the longest that it is made of. There must be a knot. Beyond the ends a
-  /// spline stays as it is there; a cubic one goes from its second knot to its last but one only.
+  /// A vector of as many components as the longest that it is made of. There must be a knot. Beyond the ends
+  /// a spline stays as it is there; a cubic one goes from its second knot to its last but one only.
   Quantity value(double at) const { return value(at, kind); }
   /// As if it were of another kind.
   Quantity value(double at, Kind other) const;

@@ -32,7 +32,7 @@ std::shared_ptr<TextureDefinition> copy(const TexturePtr& texture) {
 
 UnsupportedPtr PigmentDefinition::first_unsupported() const {
   return all({pattern.unsupported, unsupported, map ? map->unsupported : nullptr,
-                pattern.exists() ? uv_mapping : nullptr});
+              pattern.exists() ? uv_mapping : nullptr});
 }
 
 bool PigmentDefinition::is_opaque() const {
@@ -65,10 +65,10 @@ UnsupportedPtr TextureDefinition::first_unsupported() const {
   UnsupportedPtr result;
   for (const TextureDefinition* layer = this; layer; layer = layer->below.get())
     mark(result, all({layer->map ? nullptr : layer->pigment.first_unsupported(),
-                   layer->map || !layer->normal ? nullptr : layer->normal->first_unsupported(),
-                   layer->map ? nullptr : layer->finish.unsupported, layer->pattern.unsupported,
-                   layer->unsupported, layer->map ? layer->map->unsupported : nullptr,
-                   layer->is_constant() ? nullptr : layer->uv_mapping}));
+                      layer->map || !layer->normal ? nullptr : layer->normal->first_unsupported(),
+                      layer->map ? nullptr : layer->finish.unsupported, layer->pattern.unsupported,
+                      layer->unsupported, layer->map ? layer->map->unsupported : nullptr,
+                      layer->is_constant() ? nullptr : layer->uv_mapping}));
   return result;
 }
 

@@ -57,7 +57,7 @@ struct NormalDefinition {
   double amount = 0.5;
   double accuracy = 0.02;
   std::vector<SlopePoint> slopes; ///< empty: the pattern's numbers
-  NormalMapPtr map; ///< null: the pattern's own slopes
+  NormalMapPtr map;               ///< null: the pattern's own slopes
   UnsupportedPtr uv_mapping;
   UnsupportedPtr unsupported;
   [[no_unique_address]] Counted<NormalDefinition> counted;

@@ -181,8 +181,7 @@ const std::filesystem::path& TokenStream::current_folder() const {
 }
 
 Value TokenStream::evaluate(Start start) {
-  if (levels_.size() >= kMostLevels)
-    session_.fail(here(), "macros and directives are nested too deeply");
+  if (levels_.size() >= kMostLevels) session_.fail(here(), "macros and directives are nested too deeply");
   Level& level = levels_.emplace_back();
   level.start = start;
   level.base_depth = session_.input.depth();

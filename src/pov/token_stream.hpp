@@ -60,8 +60,8 @@ public:
   void take_literals(std::vector<ListEntry>& list);
   /// For the grammar: a name, whatever it stands for.
   NameId take_name() { return expect_name("to write to").name; }
-  /// For the grammar, inside { }, after a keyword: passes over what can belong to it, values and { }, up to, not
-  /// including, the next keyword or the closing brace.
+  /// For the grammar, inside { }, after a keyword: passes over what can belong to it, values and { }, up to,
+  /// not including, the next keyword or the closing brace.
   void skip_arguments();
   /// For the grammar, after a keyword: passes over ( ) if there, and { }.
   void skip_group();
@@ -101,7 +101,7 @@ private:
     std::vector<unsigned> enclosing; ///< nesting outside each open bracket
     Token last_token;
     std::optional<Terminal> put_back; ///< made of last_token; to be delivered again
-    bool after_operand = false; ///< the last terminal can end a value
+    bool after_operand = false;       ///< the last terminal can end a value
     Value result;
     bool hands_back = false;
   };

@@ -22,23 +22,23 @@ using FunctionPtr = std::shared_ptr<const UserFunction>;
 /// One step of a function: it takes its operands from the stack and leaves its result there.
 struct FunctionStep {
   enum class Kind : std::uint8_t {
-    constant,   ///< value
-    load,       ///< of variable `a`
-    store,      ///< to variable `a`
+    constant, ///< value
+    load,     ///< of variable `a`
+    store,    ///< to variable `a`
     negate,
-    invert,     ///< 1 for 0, else 0
+    invert, ///< 1 for 0, else 0
     add,
     subtract,
     multiply,
     divide,
-    compare,    ///< Relation(a)
-    both,       ///< 1 if neither is 0
+    compare, ///< Relation(a)
+    both,    ///< 1 if neither is 0
     either,
-    builtin,    ///< the language's function `a` of `b` arguments
-    call,       ///< function `a` of UserFunction::callees, component `b` of its result, with `c` arguments
-    choose,     ///< goes on at `a` if below 0, at `b` if 0, at `c` if above
-    jump,       ///< goes on at `a`
-    jump_past   ///< goes on at `a` if the first operand is greater than the second
+    builtin,  ///< the language's function `a` of `b` arguments
+    call,     ///< function `a` of UserFunction::callees, component `b` of its result, with `c` arguments
+    choose,   ///< goes on at `a` if below 0, at `b` if 0, at `c` if above
+    jump,     ///< goes on at `a`
+    jump_past ///< goes on at `a` if the first operand is greater than the second
   };
   Kind kind = Kind::constant;
   std::uint32_t a = 0, b = 0, c = 0;
@@ -65,8 +65,8 @@ struct UserFunction {
   Location where = {};
 };
 
-/// Reads what stands behind `function`, from the token stream. What it may be called with is settled by then, so
-/// that no function calls itself.
+/// Reads what stands behind `function`, from the token stream. What it may be called with is settled by then,
+/// so that no function calls itself.
 FunctionPtr read_function(Session& session, const Location& where);
 
 /// Its value. Fails if the arguments are not as many as it takes, or if it takes too long.

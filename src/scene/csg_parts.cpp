@@ -252,7 +252,8 @@ Aabb solid_bounds(const Node& node) {
     if (node.shape.is_empty) return node.inverse ? kEverywhere : kNowhere;
     if (is_plane(node)) return half_space(node.shape, node.inverse);
     // The inside of a disc is a half-space.
-    if (node.inverse || !node.shape.is_bounded || (node.shape.kind_and_flags & object_flag::kind_mask) == kPrimitiveKind<DiscPrimitive>)
+    if (node.inverse || !node.shape.is_bounded ||
+        (node.shape.kind_and_flags & object_flag::kind_mask) == kPrimitiveKind<DiscPrimitive>)
       return kEverywhere;
     return node.shape.bounds();
   case Node::Kind::intersection:
@@ -309,7 +310,8 @@ public:
       for (std::size_t other = 0; other < filled.size(); ++other)
         if (other != i) inside = intersected(inside, filled[other]);
       if (polytope)
-        inside = intersected(inside, is_plane(child) ? polytope->bounds_of_face(child.record) : polytope->bounds());
+        inside = intersected(inside,
+                             is_plane(child) ? polytope->bounds_of_face(child.record) : polytope->bounds());
       to_.conditions.push_back(record);
       show(child, static_cast<std::uint32_t>(to_.conditions.size()) - 1, inside);
     }

@@ -151,8 +151,8 @@ void fill(SpaceStepRecord& r, const Turbulence& t) {
   r.turbulence = words_of(t);
 }
 void fill(SpaceStepRecord& r, const warp::Repeat& w) {
-  r.kind_and_flags = static_cast<std::uint32_t>(WarpKind::repeat) |
-                     static_cast<std::uint32_t>(w.axis) << warp_flag::axis_shift;
+  r.kind_and_flags = static_cast<std::uint32_t>(WarpKind::repeat) | static_cast<std::uint32_t>(w.axis)
+                                                                        << warp_flag::axis_shift;
   r.value[0] = static_cast<float>(w.width);
   for (int i = 0; i < 3; ++i)
     r.value[1 + i] = w.flip[i] != 0 ? -1.0f : 1.0f;
@@ -179,7 +179,8 @@ void fill(SpaceStepRecord& r, const warp::Mapping& w) {
   r.value[3] = static_cast<float>(w.shape == Shape::planar ? w.distance : w.distance_exponent);
   r.value[4] = static_cast<float>(w.major_radius);
 }
-void fill(SpaceStepRecord&, const Transform&) {} // is what its record's neighbours have
+void fill(SpaceStepRecord&, const Transform&) {
+} // is what its record's neighbours have
 
 SpaceStepRecord record_of(const SpaceStep& step) {
   SpaceStepRecord r{};
@@ -423,8 +424,8 @@ std::uint32_t TextureTables::add_normal(const Normal& normal, const Space& outer
     r.pattern = add_map(normal.map, outer).index;
   } else {
     const bool has_slopes =
-        !normal.slopes.empty() && !disturbs(pattern_words(normal.pattern.kind, 1).kind_and_flags &
-                                            pattern_flag::kind_mask);
+        !normal.slopes.empty() &&
+        !disturbs(pattern_words(normal.pattern.kind, 1).kind_and_flags & pattern_flag::kind_mask);
     const std::uint32_t slopes = has_slopes ? add_slopes(normal.slopes) : 0;
     r.pattern = add_pattern(normal.pattern, outer, false, has_slopes ? normal.slopes.size() : 0);
     patterns[r.pattern].entries = slopes;

@@ -111,7 +111,8 @@ TEST_CASE("every key of the statistics is documented") {
 
 TEST_CASE("the page about keywords is what the program prints") {
   const TemporaryFolder folder;
-  CHECK(celltrace_run(folder, {"--list-keywords"}).out == read_bytes(CELLTRACE_SOURCE_DIR "/docs/keywords.md"));
+  CHECK(celltrace_run(folder, {"--list-keywords"}).out ==
+        read_bytes(CELLTRACE_SOURCE_DIR "/docs/keywords.md"));
 }
 
 TEST_CASE("two runs in lockstep are the same to the bit") {
@@ -276,7 +277,8 @@ TEST_CASE("standard output that is full or closed is an error, and no file takes
       std::string command = arguments;
       if (const auto at = command.find("SCENE"); at != std::string::npos)
         command.replace(at, 5, "'" + kScene + "' -W 8 -H 8 --quiet");
-      command = "cd '" + folder.path().string() + "' && '" CELLTRACE_PROGRAM "' " + command + " 2>err.txt " + where;
+      command =
+          "cd '" + folder.path().string() + "' && '" CELLTRACE_PROGRAM "' " + command + " 2>err.txt " + where;
       CAPTURE(command);
       CHECK(WEXITSTATUS(std::system(command.c_str())) == 1);
       const std::string error = read_bytes(folder / "err.txt");
@@ -292,8 +294,8 @@ TEST_CASE("links are written through") {
   std::filesystem::create_symlink("other/picture.ppm", folder / "link.ppm");
   std::filesystem::create_symlink("other/s.json", folder / "s.json");
   for (int i = 0; i < 2; ++i) { // what the links lead to is not there at first
-    REQUIRE(celltrace_run(folder, {kScene, "-W", "8", "-H", "8", "-o", "link.ppm", "--stats", "s.json"}).exit_code ==
-            0);
+    REQUIRE(celltrace_run(folder, {kScene, "-W", "8", "-H", "8", "-o", "link.ppm", "--stats", "s.json"})
+                .exit_code == 0);
     CHECK(std::filesystem::is_symlink(folder / "link.ppm"));
     CHECK(std::filesystem::is_symlink(folder / "s.json"));
     CHECK(load_image(folder / "other/picture.ppm").width == 8);
@@ -303,20 +305,21 @@ TEST_CASE("links are written through") {
 
 TEST_CASE("a ray tree that takes minutes is broken off") {
   const TemporaryFolder folder;
-  write_bytes(folder / "glass.pov", "global_settings { max_trace_level 20 adc_bailout 0 }\n"
-                                    "camera { location -6*z look_at 0 angle 30 }\n"
-                                    "light_source { <5, 5, -9>, 1 }\n"
-                                    "#declare R = seed(3);\n"
-                                    "#for (I, 1, 40)\n"
-                                    "  sphere { (<rand(R), rand(R), rand(R)> - 0.5) * 1.6, 0.5\n"
-                                    "    pigment { rgbt <1, 1, 1, 0.9> } finish { reflection 0.3 } interior { ior 1.3 } }\n"
-                                    "#end\n");
-  for (const std::vector<std::string>& machine :
-       {std::vector<std::string>{"--backend", "native"},
-        {"--backend", "cell_emu"},
-        {"--backend", "cell_emu", "--model", "pipeline"},
-        {"--backend", "cell_emu", "--model", "offload"}}) {
-    std::vector<std::string> arguments = {"glass.pov", "--quiet", "-W", "160", "-H", "120", "--spes", "4", "-o", "glass.ppm"};
+  write_bytes(folder / "glass.pov",
+              "global_settings { max_trace_level 20 adc_bailout 0 }\n"
+              "camera { location -6*z look_at 0 angle 30 }\n"
+              "light_source { <5, 5, -9>, 1 }\n"
+              "#declare R = seed(3);\n"
+              "#for (I, 1, 40)\n"
+              "  sphere { (<rand(R), rand(R), rand(R)> - 0.5) * 1.6, 0.5\n"
+              "    pigment { rgbt <1, 1, 1, 0.9> } finish { reflection 0.3 } interior { ior 1.3 } }\n"
+              "#end\n");
+  for (const std::vector<std::string>& machine : {std::vector<std::string>{"--backend", "native"},
+                                                  {"--backend", "cell_emu"},
+                                                  {"--backend", "cell_emu", "--model", "pipeline"},
+                                                  {"--backend", "cell_emu", "--model", "offload"}}) {
+    std::vector<std::string> arguments = {"glass.pov", "--quiet", "-W", "160", "-H",
+                                          "120",       "--spes",  "4",  "-o",  "glass.ppm"};
     arguments.insert(arguments.end(), machine.begin(), machine.end());
     Run run(folder, arguments);
     std::this_thread::sleep_for(std::chrono::milliseconds(700)); // until it is deep in trees

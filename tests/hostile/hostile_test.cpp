@@ -1,5 +1,5 @@
-// Scenes made to exhaust, confuse or break out of the program. Each begins with the first line of the error that it
-// is to end with, and perhaps with arguments:
+// Scenes made to exhaust, confuse or break out of the program. Each begins with the first line of the error
+// that it is to end with, and perhaps with arguments:
 //
 //   // expect: NAME.pov:3:1: error: ...
 //   // arguments: --max loop-steps=1000
@@ -52,8 +52,8 @@ struct Ending {
 };
 
 Ending run(const fs::path& scene, const std::string& more, const TemporaryFolder& out) {
-  std::vector<std::string> arguments = {"celltrace", scene.filename().string(), "-W", "8", "-H", "8", "-o",
-                                        (out / "picture.ppm").string()};
+  std::vector<std::string> arguments = {"celltrace", scene.filename().string(),     "-W", "8", "-H", "8",
+                                        "-o",        (out / "picture.ppm").string()};
   std::istringstream words(more);
   for (std::string word; words >> word;)
     arguments.push_back(word == "OUT" ? out.path().string() : word);

@@ -1,5 +1,5 @@
-// Every scene file renders on every backend, to the same picture for any number of SPEs. Whether it is POV-Ray's picture
-// is for tools/compare-with-povray to say, which CTest runs.
+// Every scene file renders on every backend, to the same picture for any number of SPEs. Whether it is
+// POV-Ray's picture is for tools/compare-with-povray to say, which CTest runs.
 #include "picture_files.hpp"
 
 #include "celltrace/pov.hpp"

@@ -44,10 +44,10 @@ std::string said(const std::string& file, const std::string& text) {
 } // namespace
 
 TEST_CASE("#write writes as POV-Ray does") {
-  CHECK(written("#write (F, 1, \",\", <1, 2, 3>, \" \", \"a\\\"b\\n\", 0.1, \"|\", 1e20, \"|\", 1/3, \"|\", 123456789)") ==
-        "1,<1,2,3>  a\"b\n0.1|1e+20|0.333333|1.23457e+08");
-  CHECK(written("#write (F, <1,2>, <1,2,3,4>, <1,2,3,4,5>, \"\", -1.5, 1e-300 * 1e-300, \" \", 123456, \" \", 1e15)") ==
-        "<1,2> <1,2,3,4> <1,2,3,4,5> -1.50 123456 1e+15");
+  CHECK(written("#write (F, 1, \",\", <1, 2, 3>, \" \", \"a\\\"b\\n\", 0.1, \"|\", 1e20, \"|\", 1/3, \"|\", "
+                "123456789)") == "1,<1,2,3>  a\"b\n0.1|1e+20|0.333333|1.23457e+08");
+  CHECK(written("#write (F, <1,2>, <1,2,3,4>, <1,2,3,4,5>, \"\", -1.5, 1e-300 * 1e-300, \" \", 123456, \" "
+                "\", 1e15)") == "<1,2> <1,2,3,4> <1,2,3,4,5> -1.50 123456 1e+15");
   CHECK(written("#write (F 1 2 \"x\") #write (F)") == "12x");
   CHECK(written("#write (F, 1) #fclose F #fopen F \"out.txt\" append #write (F, 2)") == "12");
   CHECK(written("#write (F, 1) #fclose F #fopen F \"out.txt\" write #write (F, 2)") == "2");
@@ -63,7 +63,8 @@ TEST_CASE("#read reads as POV-Ray does") {
   CHECK(said("1+1, 2*3", numbers) == "1.0 1.0"); // whatever is behind a value counts as its comma
   CHECK(said("1 2", numbers) == "error: 'B' is not declared");
   CHECK(said("<1,2,3> <4,5,6>", "#read (F, A, B) #debug str(B, 0, 0)") == "4");
-  CHECK(said("<1,2>,<1, 2 3,4,-5>", "#read (F, A, B) #debug concat(vstr(2, A, \" \", 0, 0), \", \", vstr(5, B, \" \", 0, 0))") ==
+  CHECK(said("<1,2>,<1, 2 3,4,-5>",
+             "#read (F, A, B) #debug concat(vstr(2, A, \" \", 0, 0), \", \", vstr(5, B, \" \", 0, 0))") ==
         "1 2, 1 2 3 4 -5");
   CHECK(said("\"a\", \"b\\\"c\"", "#read (F, A, B) #debug concat(A, B)") == "ab\"c");
   CHECK(said("1, 2", "#declare A = array[2] {0, 0} #read (F, A[0], A[1]) #debug str(A[1], 0, 0)") == "2");
@@ -143,8 +144,9 @@ TEST_CASE("a scene writes only where it may") {
 
 TEST_CASE("what a scene has written it can include, and what it writes is bounded") {
   const TemporaryFolder folder;
-  CHECK(test::output("#fopen F \"a.inc\" write #write (F, \"#debug \\\"hello\\\"\") #fclose F #include \"a.inc\"",
-                     writing_to(folder)) == "hello");
+  CHECK(test::output(
+            "#fopen F \"a.inc\" write #write (F, \"#debug \\\"hello\\\"\") #fclose F #include \"a.inc\"",
+            writing_to(folder)) == "hello");
   ParseOptions options = writing_to(folder);
   options.limits.written_bytes = 1000;
   CHECK(error_line("#fopen F \"x\" write #while (1) #write (F, \"0123456789\") #end", options) ==
@@ -152,7 +154,8 @@ TEST_CASE("what a scene has written it can include, and what it writes is bounde
         "more)");
   CHECK(test::read_bytes(folder / "x").size() == 1000);
   options.limits.open_files = 3;
-  CHECK(error_line("#fopen A \"a\" write #fopen B \"b\" write #fopen C \"c\" write #fopen D \"d\" write", options)
+  CHECK(error_line("#fopen A \"a\" write #fopen B \"b\" write #fopen C \"c\" write #fopen D \"d\" write",
+                   options)
             .find("#fopen keeps more than 3 files open") != std::string::npos);
   if (fs::exists("/dev/full")) {
     options.writable_folders = {"/dev"};

@@ -99,7 +99,8 @@ TEST_CASE("include files are searched for in order") {
 
 TEST_CASE("a semicolon may follow the name of a file that ends with a declaration") {
   Folder folder;
-  for (const char* text : {"#declare A = 1;", "#declare A = 1; // a comment\n", "#declare A = sphere { 0, 1 }"}) {
+  for (const char* text :
+       {"#declare A = 1;", "#declare A = 1; // a comment\n", "#declare A = sphere { 0, 1 }"}) {
     INFO(text);
     folder.write("a.inc", text);
     CHECK(file_output(folder.write("scene.pov", "#include \"a.inc\"; #debug \"on\"")) == "on");
@@ -128,14 +129,15 @@ TEST_CASE("include files that cannot be read") {
 TEST_CASE("a scene reads only where it may") {
   const Folder folder, elsewhere;
   const std::string secret = elsewhere.write("secret.inc", "#debug \"secret \"");
-  const std::string refused = " lies outside of the scene's folder and the library path: --allow DIR lets the "
-                              "scene read what is in a folder";
+  const std::string refused =
+      " lies outside of the scene's folder and the library path: --allow DIR lets the "
+      "scene read what is in a folder";
   fs::create_symlink(secret, folder.path("link.inc"));
   fs::create_directory_symlink(elsewhere.path(""), folder.path("linked"));
   const std::string around =
       "../" + fs::path(elsewhere.path("")).parent_path().filename().string() + "/secret.inc";
-  for (const std::string& name : {secret, std::string("link.inc"), std::string("linked/secret.inc"),
-                                  std::string("LINK.INC"), around}) {
+  for (const std::string& name :
+       {secret, std::string("link.inc"), std::string("linked/secret.inc"), std::string("LINK.INC"), around}) {
     INFO(name);
     const std::string scene = folder.write("scene.pov", "#include \"" + name + "\"");
     CHECK(file_error(scene) == scene + ":1:10: error: include file '" + name + "'" + refused);

@@ -23,14 +23,16 @@ std::string vector(const std::string& declarations, int count, const std::string
 
 TEST_CASE("declared functions of floats") {
   CHECK(number(kF, "f(1, 2, 3)") == "-3.317058");
-  const std::string g = kF + "#declare g = function(a, b) { select(a, -1, sqrt(b), f(a, b, 1)) + max(a, b, 3) } ";
+  const std::string g =
+      kF + "#declare g = function(a, b) { select(a, -1, sqrt(b), f(a, b, 1)) + max(a, b, 3) } ";
   CHECK(number(g, "g(1, 2)") == "3.682942");
   CHECK(number(g, "g(0, 2)") == "4.414214");
   CHECK(number(g, "g(-1, -2)") == "2.000000"); // the root is not taken
   CHECK(number("#declare F = function { x + 10*y + 100*z } ", "F(1, 2, 3)") == "321.000000");
-  CHECK(number("#declare K = 3; #declare V = <1, 2>; #declare F = function(K) { !(K - 1) + V.y*K } ", "F(1)") ==
-        "3.000000");
-  CHECK(number("#macro twice(A) (2*A) #end #declare F = function(a) { twice(3) + a } ", "F(4)") == "10.000000");
+  CHECK(number("#declare K = 3; #declare V = <1, 2>; #declare F = function(K) { !(K - 1) + V.y*K } ",
+               "F(1)") == "3.000000");
+  CHECK(number("#macro twice(A) (2*A) #end #declare F = function(a) { twice(3) + a } ", "F(4)") ==
+        "10.000000");
   const std::string s = "#declare s = function(n) { sum(i, 1, n, i*i) + prod(i, 1, n, i) } ";
   CHECK(number(s, "s(4)") == "54.000000");
   CHECK(number(s, "s(0)") == "1.000000");
@@ -63,7 +65,8 @@ TEST_CASE("faults of functions") {
         "scene.pov:1:33: error: there is no internal function of this number");
   CHECK(error_line("#declare F = function(n) { sum(i, 1, n, 1) } #declare A = F(1e15);") ==
         "scene.pov:1:42: error: this function takes too long");
-  std::string nested = "#declare F = function(x) { x } #for (I, 1, 1000) #declare F = function(x) { F(x) } #end";
+  std::string nested =
+      "#declare F = function(x) { x } #for (I, 1, 1000) #declare F = function(x) { F(x) } #end";
   CHECK(error_line(nested) == "scene.pov:1:77: error: functions call one another too deeply");
 }
 

@@ -174,7 +174,8 @@ TEST_CASE("#default changes what textures start from") {
 
 TEST_CASE("what a macro has left behind its value belongs to the macro") {
   const std::string choose = "#macro F(X) #if (X < 1) 5 + 1 #else 7 #end #end ";
-  CHECK(output(choose + "#declare V = <F(0), F(2), 1 #if (1) + 3 #end,>; #debug vstr(3, V, \" \", 0, 0)") == "6 7 4");
+  CHECK(output(choose + "#declare V = <F(0), F(2), 1 #if (1) + 3 #end,>; #debug vstr(3, V, \" \", 0, 0)") ==
+        "6 7 4");
   CHECK(output(choose + "#macro G(A, B) #debug str(A - B, 0, 0) #end G(F(2), F(0))") == "1");
   CHECK(output(choose + "#macro H() #local V = F(0) #debug str(V, 0, 0) #end H()") == "6");
   CHECK(output("#macro T(A) #if (vlength(A)) transform { translate A } #else transform { scale 2 } #end #end "

@@ -24,12 +24,14 @@ bool contains(const std::string& text, const char* part) {
 TEST_CASE("loops and macros end") {
   ParseOptions options;
   options.limits.loop_iterations = 1000;
-  CHECK(error_line("#while (1) #end", options) ==
-        "scene.pov:1:1: error: the loops of the scene run more than 1000 times (--max loop-steps=N allows more)");
+  CHECK(error_line("#while (1) #end", options) == "scene.pov:1:1: error: the loops of the scene run more "
+                                                  "than 1000 times (--max loop-steps=N allows more)");
   CHECK(error_line("#for (I, 1, 10, 1e-9) #end", options) ==
-        "scene.pov:1:1: error: the loops of the scene run more than 1000 times (--max loop-steps=N allows more)");
-  CHECK(error_line("#macro M() M() #end M()") ==
-        "scene.pov:1:12: error: macros call one another more than 1000 deep (--max macro-depth=N allows more)");
+        "scene.pov:1:1: error: the loops of the scene run more than 1000 times (--max loop-steps=N allows "
+        "more)");
+  CHECK(
+      error_line("#macro M() M() #end M()") ==
+      "scene.pov:1:12: error: macros call one another more than 1000 deep (--max macro-depth=N allows more)");
   CHECK(contains(error_line("#macro M() #declare A = M(); #end M()"), "nested too deeply"));
   CHECK(contains(error_line("#macro M(A) M(M(A)) #end M(1)"), "nested too deeply"));
   options.limits.tokens = 100;
@@ -91,19 +93,22 @@ TEST_CASE("what a scene makes is bounded") {
       error_line("#declare A = array[2] {1, 1} #for (I, 1, 40) #declare A = array[2] {A, A} #end", options),
       "the arrays of the scene have more than 100 elements"));
   options.limits.array_elements = 1000;
-  CHECK(contains(error_line("#declare B = array[20]; #for (I, 0, 19) #declare B[I] = array[100]; #end", options),
-                 "the arrays of the scene have more than 1000 elements (--max array-elements=N allows more)"));
+  CHECK(contains(
+      error_line("#declare B = array[20]; #for (I, 0, 19) #declare B[I] = array[100]; #end", options),
+      "the arrays of the scene have more than 1000 elements (--max array-elements=N allows more)"));
   CHECK(error_line("#for (I, 0, 99) #declare B = array[100]; #end", options).empty());
   options.limits.memory = 1 << 20;
-  CHECK(contains(error_line("#declare B = array[800]; #for (I, 0, 799) #declare B[I] = sphere { 0, 1 "
-                            "texture { pigment { rgb 1 } } texture { pigment { rgbt 1 } } } #end",
-                            options),
-                 "error: the declarations of the scene need more than 1048576 bytes of memory (--max memory=N"));
+  CHECK(contains(
+      error_line("#declare B = array[800]; #for (I, 0, 799) #declare B[I] = sphere { 0, 1 "
+                 "texture { pigment { rgb 1 } } texture { pigment { rgbt 1 } } } #end",
+                 options),
+      "error: the declarations of the scene need more than 1048576 bytes of memory (--max memory=N"));
   CHECK(error_line("#for (I, 0, 9999) #declare B = sphere { 0, 1 pigment { rgb 1 } } #end", options).empty());
   CHECK(contains(error_line("#declare S = \"abc\"; #for (I, 1, 40) #declare S = concat(S, S); #end"),
                  "this string is too long"));
   options.limits.text_bytes = 1000;
-  CHECK(contains(error_line("#for (I, 1, 400) #declare S = str(I, 5, 0); #end", options), "makes more than 1000 bytes of text"));
+  CHECK(contains(error_line("#for (I, 1, 400) #declare S = str(I, 5, 0); #end", options),
+                 "makes more than 1000 bytes of text"));
 }
 
 TEST_CASE("reading a scene takes no longer than it may") {

@@ -11,8 +11,9 @@ namespace {
 const std::string kObjects = "#declare S = sphere { <1,2,3>, 2 } #declare B = box { <1,2,3>, <0,5,1> } ";
 
 std::string extents(const std::string& object) {
-  return output(kObjects + "#declare O = " + object +
-                " #debug concat(vstr(3, min_extent(O), \" \", 0, 4), \" to \", vstr(3, max_extent(O), \" \", 0, 4))");
+  return output(
+      kObjects + "#declare O = " + object +
+      " #debug concat(vstr(3, min_extent(O), \" \", 0, 4), \" to \", vstr(3, max_extent(O), \" \", 0, 4))");
 }
 
 /// Where a ray hits and the normal there.
@@ -26,7 +27,8 @@ std::string hit(const std::string& object, const std::string& ray) {
 TEST_CASE("the extents of shapes") {
   CHECK(extents("S") == "-1.0000 0.0000 1.0000 to 3.0000 4.0000 5.0000");
   CHECK(extents("object { S rotate 30 scale <1,2,3> }") == "0.1920 -0.9330 1.8481 to 4.1920 7.0670 13.8481");
-  CHECK(extents("object { S scale <1,2,3> rotate 30 }") == "-0.6071 -3.6806 0.7500 to 11.6250 7.6495 15.2141");
+  CHECK(extents("object { S scale <1,2,3> rotate 30 }") ==
+        "-0.6071 -3.6806 0.7500 to 11.6250 7.6495 15.2141");
   CHECK(extents("object { B rotate <10,20,30> }") == "-1.8263 1.7832 0.9097 to 1.0674 4.9368 3.5921");
   CHECK(extents("cylinder { 0, <1,2,3>, .5 }") == "-0.6802 -0.5811 -0.4009 to 1.6802 2.5811 3.4009");
   CHECK(extents("cone { 0, 1, <1,2,3>, .5 }") == "-1.3604 -1.1621 -0.8018 to 2.3604 3.1621 3.8018");
@@ -43,7 +45,8 @@ TEST_CASE("the extents of CSG") {
   CHECK(extents("union { object { S } object { B } }") == "-1.0000 0.0000 1.0000 to 3.0000 5.0000 5.0000");
   CHECK(extents("intersection { object { S } object { B } rotate 45 }") ==
         "0.2678 1.2678 0.7929 to 2.7678 3.7678 3.5000");
-  CHECK(extents("difference { object { S } object { B } }") == "-1.0000 0.0000 1.0000 to 3.0000 4.0000 5.0000");
+  CHECK(extents("difference { object { S } object { B } }") ==
+        "-1.0000 0.0000 1.0000 to 3.0000 4.0000 5.0000");
   CHECK(extents("intersection { object { S } plane { y, 2 } }") ==
         "-1.0000 0.0000 1.0000 to 3.0000 2.0000 5.0000");
   CHECK(extents("difference { object { S } plane { y, 2 inverse } }") ==

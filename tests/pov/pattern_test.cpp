@@ -179,10 +179,11 @@ TEST_CASE("what is done to space keeps its order") {
 }
 
 TEST_CASE("warps") {
-  const auto space = pattern_of("bozo warp { repeat -2*y flip x offset <1, 2, 3> } "
-                                "warp { black_hole <1, 2, 3>, 0.5 strength 2 falloff 3 inverse repeat x turbulence 0.1 } "
-                                "warp { planar z, 0.7 } warp { toroidal orientation y dist_exp 2 major_radius 3 }")
-                         .space;
+  const auto space =
+      pattern_of("bozo warp { repeat -2*y flip x offset <1, 2, 3> } "
+                 "warp { black_hole <1, 2, 3>, 0.5 strength 2 falloff 3 inverse repeat x turbulence 0.1 } "
+                 "warp { planar z, 0.7 } warp { toroidal orientation y dist_exp 2 major_radius 3 }")
+          .space;
   REQUIRE(space.size() == 4);
   const auto& repeat = std::get<warp::Repeat>(space[0]);
   CHECK(repeat.axis == 1);

@@ -232,7 +232,8 @@ TEST_CASE("what is not supported is an error where it is used") {
 TEST_CASE("all that is not supported is reported at once, each feature once") {
   const std::string scene = "sphere { 0, 1 pigment { slope <0, 1, 0> scale 2 } double_illuminate }\n"
                             "text { ttf \"x\" \"y\" 1, 0 }\n"
-                            "union { sphere { 0, 1 double_illuminate finish { phong 0.5 subsurface { translucency 1 } diffuse 0.2 } } blob { threshold 1 } }\n";
+                            "union { sphere { 0, 1 double_illuminate finish { phong 0.5 subsurface { "
+                            "translucency 1 } diffuse 0.2 } } blob { threshold 1 } }\n";
   CHECK(test::error(scene) == "scene.pov:1:51: error: 'double_illuminate' is not supported yet\n"
                               "    used at scene.pov:1:1\n"
                               "scene.pov:1:25: error: 'slope' is not supported yet\n"
@@ -242,8 +243,9 @@ TEST_CASE("all that is not supported is reported at once, each feature once") {
                               "    used at scene.pov:3:1\n"
                               "scene.pov:3:106: error: 'blob' is not supported yet\n"
                               "    used at scene.pov:3:1");
-  CHECK(test::error(scene + "sphere { }").ends_with("'blob' is not supported yet\n    used at scene.pov:3:1\n"
-                                                    "scene.pov:4:10: error: unexpected '}', expected a number"));
+  CHECK(test::error(scene + "sphere { }")
+            .ends_with("'blob' is not supported yet\n    used at scene.pov:3:1\n"
+                       "scene.pov:4:10: error: unexpected '}', expected a number"));
 
   ParseOptions lenient;
   lenient.lenient = true;
@@ -268,6 +270,7 @@ TEST_CASE("what is left out of CSG and patterns") {
   CHECK(test::parse("difference { blob { threshold 1 } sphere { 0, 1 } }", lenient).objects.empty());
   CHECK(test::parse("difference { sphere { 0, 1 } blob { threshold 1 } }", lenient).objects.size() == 1);
   const Scene scene = test::parse(
-      "sphere { 0, 1 pigment { slope <0, 1, 0> turbulence 1 color_map { [0 rgb 0.25] [1 rgb 1] } } }", lenient);
+      "sphere { 0, 1 pigment { slope <0, 1, 0> turbulence 1 color_map { [0 rgb 0.25] [1 rgb 1] } } }",
+      lenient);
   CHECK(scene.materials.at(scene.objects.at(0).material).pigment.rgb == Vec3(0.25));
 }

@@ -699,7 +699,8 @@ TEST_CASE("A sealed scene image with a fault in its tables of random numbers is 
     scene.materials = {material};
     return bytes_of(SceneImage(scene));
   };
-  const auto refused = [](const Bytes& good, const std::function<void(ImageHeader&, PatternRecord&)>& change) {
+  const auto refused = [](const Bytes& good,
+                          const std::function<void(ImageHeader&, PatternRecord&)>& change) {
     Bytes bytes = good;
     CHECK_NOTHROW(SceneImage::from_bytes(bytes));
     ImageHeader& header = header_of(bytes);

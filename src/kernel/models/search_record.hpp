@@ -44,10 +44,10 @@ struct alignas(128) SearchRecord {
   uint32_t number;  ///< shadow: of the light
 
   // Split pipeline.
-  uint32_t walked;   ///< 1: the walk has begun
-  uint32_t pending;  ///< rays whose search is not over
-  uint32_t lit;      ///< shadow: rays that are not shut off
-  uint32_t returned; ///< rays that came back from the tests without a hit in their voxel
+  uint32_t walked;    ///< 1: the walk has begun
+  uint32_t pending;   ///< rays whose search is not over
+  uint32_t lit;       ///< shadow: rays that are not shut off
+  uint32_t returned;  ///< rays that came back from the tests without a hit in their voxel
   uint32_t reflected; ///< closest: rays that came by a mirror
   uint32_t unused[7];
   WordLanes cell;   ///< the voxel that each pending ray is in: its index,

@@ -30,9 +30,9 @@ public:
 
   /// Calls `put(column, row, colours)` for each packet in the picture of the bundle at (column, row); that
   /// counts bundles, `put` packets. Or `fill(column, row, colour)` where all of the bundle has one colour and
-  /// is in the picture. In a frame of samples the bundle is theirs, and at (0, 0). Asks `stopped()` before each
-  /// further node of a ray tree, of which there may be as many as take minutes; once that is true the rest of
-  /// the bundle is left out.
+  /// is in the picture. In a frame of samples the bundle is theirs, and at (0, 0). Asks `stopped()` before
+  /// each further node of a ray tree, of which there may be as many as take minutes; once that is true the
+  /// rest of the bundle is left out.
   template <class Put, class Fill, class Stopped>
   void trace(uint32_t column, uint32_t row, Put put, [[maybe_unused]] Fill fill, Stopped stopped) {
     if (takes_samples()) column = row = 0;
@@ -236,10 +236,11 @@ private:
     if (facing == 0) return;
     if constexpr (kGathersOccluders<Spu>) {
       AreaOccluders<Spu> occluders;
-      if (traversal_.gather_occluders(area.rays, facing, light, occluders)) {
+      // Where shadow rays are walked, what they pass through is asked for surface by surface.
+      if (walk_ == nullptr && traversal_.gather_occluders(area.rays, facing, light, occluders)) {
         if (occluders.are_none())
-          return colour.template store<S>(select<S>(S::M::from_bits(facing), colour.template load<S>(),
-                                                    {F(0.0f), F(0.0f), F(0.0f)}));
+          return colour.template store<S>(
+              select<S>(S::M::from_bits(facing), colour.template load<S>(), {F(0.0f), F(0.0f), F(0.0f)}));
         while (next_place(scene_.spu(), light, area))
           traversal_.transmittance(area.rays, area.lanes, area.distance, area.light, occluders);
         colour = area.sum;

@@ -34,7 +34,8 @@ static_assert(sizeof(SampleSquare) == 64, "a power of two");
 
 constexpr uint32_t kSamplesOfSquare = 5;
 
-/// Squares that are divided together. The more packets a bundle has, of `edge` x `edge`, the more room there is.
+/// Squares that are divided together. The more packets a bundle has, of `edge` x `edge`, the more room there
+/// is.
 constexpr uint32_t squares_at_once(uint32_t edge) {
   return edge * edge * kSimdLanes / kSamplesOfSquare;
 }

@@ -37,7 +37,8 @@ public:
       spu_.write_out_mailbox(make_report(ReportKind::progress, node_.completed()));
   }
 
-  /// Handles what has arrived, without stalling. Cheap when nothing has. True if that was the end of the frame.
+  /// Handles what has arrived, without stalling. Cheap when nothing has. True if that was the end of the
+  /// frame.
   bool poll() {
     if (spu_.event_count() == 0) return false;
     spu_.enter_module(modules::kExchange);

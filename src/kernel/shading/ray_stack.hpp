@@ -18,12 +18,12 @@ struct alignas(128) RayNode {
   WordLanes level;        ///< trace level, 0 for primary rays
   WordLanes interior_depth;
   WordLanes interiors[kMaxInteriorDepth];
-  FloatLanes power; ///< of a node that gathers
-  uint32_t lanes;   ///< bit l: lane l is a ray
+  FloatLanes power;   ///< of a node that gathers
+  uint32_t lanes;     ///< bit l: lane l is a ray
   uint32_t reflected; ///< of them, those that came by a mirror
-  uint32_t target;  ///< number of the accumulator that the rays' light goes to
-  uint32_t gathers; ///< 0: rays to trace. Otherwise the number of an accumulator whose light, raised to
-                    ///< `power`, is complete when this node comes up, and goes to `target`
+  uint32_t target;    ///< number of the accumulator that the rays' light goes to
+  uint32_t gathers;   ///< 0: rays to trace. Otherwise the number of an accumulator whose light, raised to
+                      ///< `power`, is complete when this node comes up, and goes to `target`
 };
 
 constexpr uint32_t kRayNodeBytes = sizeof(RayNode);

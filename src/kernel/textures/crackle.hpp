@@ -56,8 +56,10 @@ struct CracklePattern : RarePattern {
             const int32_t step = reach == 1 || is_outer ? 1 : 4;
             for (int32_t z = -reach; z <= reach; z += step) {
               const F gap_z = gap<S>(from.z, z);
-              if (reach == 2 && is_too_far<S>(gap_xy + gap_z * gap_z, nearest.power[last], here, metric)) continue;
-              const FeatureRecord feature = features.at(features.number_after(column, cell[2] + static_cast<uint32_t>(z)));
+              if (reach == 2 && is_too_far<S>(gap_xy + gap_z * gap_z, nearest.power[last], here, metric))
+                continue;
+              const FeatureRecord feature =
+                  features.at(features.number_after(column, cell[2] + static_cast<uint32_t>(z)));
               const V3<S> d = {F(feature.place[0] + static_cast<float>(x)) - from.x,
                                F(feature.place[1] + static_cast<float>(y)) - from.y,
                                F(feature.place[2] + static_cast<float>(z)) - from.z};
@@ -71,15 +73,17 @@ struct CracklePattern : RarePattern {
 
 private:
   /// How far a coordinate in a cell is from those of the cell that is `steps` further.
-  template <class S> [[gnu::always_inline]] static typename S::F gap(const typename S::F& from, int32_t steps) {
+  template <class S>
+  [[gnu::always_inline]] static typename S::F gap(const typename S::F& from, int32_t steps) {
     using F = typename S::F;
     if (steps == 0) return F(0.0f);
     return steps > 0 ? F(static_cast<float>(steps)) - from : from - F(static_cast<float>(steps + 1));
   }
-  /// Whether no point that has this square of the distance as the crow flies is nearer, in any lane of `here`. Metrics of a number above 2 find points nearer than the crow does.
+  /// Whether no point that has this square of the distance as the crow flies is nearer, in any lane of
+  /// `here`. Metrics of a number above 2 find points nearer than the crow does.
   template <class S>
-  [[gnu::always_inline]] static bool is_too_far(const typename S::F& square, const typename S::F& power, const typename S::M& here,
-                         float metric) {
+  [[gnu::always_inline]] static bool is_too_far(const typename S::F& square, const typename S::F& power,
+                                                const typename S::M& here, float metric) {
     if (metric == 2.0f) return (here & (square < power)).bits() == 0;
     return metric == 1.0f && (here & (square < power * power)).bits() == 0;
   }
@@ -94,14 +98,16 @@ private:
       sum = sum + (metric == 1.0f ? along : pow<S>(along, F(metric)));
     return sum;
   }
-  template <class S> [[gnu::always_inline]] static typename S::F distance(const typename S::F& power, float metric) {
+  template <class S>
+  [[gnu::always_inline]] static typename S::F distance(const typename S::F& power, float metric) {
     using F = typename S::F;
     if (metric == 2.0f) return S::sqrt(power);
     return metric == 1.0f ? power : pow<S>(power, F(1.0f / metric));
   }
 
   template <class S>
-  [[gnu::always_inline]] static void take(const typename S::F& power, const V3<S>& d, const V3<S>& p, Nearest<S>& nearest) {
+  [[gnu::always_inline]] static void take(const typename S::F& power, const V3<S>& d, const V3<S>& p,
+                                          Nearest<S>& nearest) {
     using F = typename S::F;
     F(&least)[3] = nearest.power;
     nearest.point = select<S>(power < least[0], p + d, nearest.point);

@@ -7,7 +7,8 @@
 namespace celltrace::kernel {
 
 /// Calls `visit(lanes, cell, from)` for each of the unit cells that points are in: the lanes that have their
-/// point in it, its coordinates modulo 2^32, and where in the cell the points of all lanes are (of other lanes: in theirs).
+/// point in it, its coordinates modulo 2^32, and where in the cell the points of all lanes are (of other
+/// lanes: in theirs).
 template <class S, class Visit>
 [[gnu::always_inline]] inline void for_each_cell_of(const V3<S>& p, Visit visit) {
   typename S::I whole[3];

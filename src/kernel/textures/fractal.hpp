@@ -21,8 +21,7 @@ struct FractalPattern : RarePattern {
     using M = typename S::M;
     const uint32_t magnet = r.table >> fractal_word::magnet_shift & fractal_word::magnet_mask;
     const bool is_julia = (r.table & fractal_word::julia) != 0;
-    const Complex<S> c =
-        is_julia ? Complex<S>{F(r.parameter[0]), F(r.parameter[1])} : Complex<S>{p.x, p.y};
+    const Complex<S> c = is_julia ? Complex<S>{F(r.parameter[0]), F(r.parameter[1])} : Complex<S>{p.x, p.y};
     Complex<S> z = {p.x, p.y};
     F least = square<S>(z), rounds(0.0f);
     if (magnet != 0 && !is_julia) {
@@ -32,8 +31,8 @@ struct FractalPattern : RarePattern {
     M stays = M::all();
     const uint32_t most = static_cast<uint32_t>(r.parameter[2]);
     for (uint32_t i = 0; i < most; ++i) {
-      const Complex<S> next =
-          magnet == 0 ? plus<S>(power<S>(z, r.table & fractal_word::exponent_mask), c) : magnetic<S>(z, c, magnet);
+      const Complex<S> next = magnet == 0 ? plus<S>(power<S>(z, r.table & fractal_word::exponent_mask), c)
+                                          : magnetic<S>(z, c, magnet);
       z = {S::select(stays, next.a, z.a), S::select(stays, next.b, z.b)};
       const F size = square<S>(z);
       M leaves = size > F(magnet == 0 ? 4.0f : 10000.0f);
@@ -68,8 +67,7 @@ private:
   [[gnu::always_inline]] static Complex<S> times(const Complex<S>& z, const Complex<S>& w) {
     return {z.a * w.a - z.b * w.b, z.a * w.b + z.b * w.a};
   }
-  template <class S>
-  [[gnu::always_inline]] static Complex<S> power(const Complex<S>& z, uint32_t exponent) {
+  template <class S> [[gnu::always_inline]] static Complex<S> power(const Complex<S>& z, uint32_t exponent) {
     Complex<S> result = z;
     for (uint32_t i = 1; i < exponent; ++i)
       result = times<S>(result, z);

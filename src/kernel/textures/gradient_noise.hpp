@@ -16,7 +16,7 @@ public:
 
   [[gnu::noinline]] F value(const V3<S>& p) const {
     constexpr float kShift = 0.023157213f; // POV-Ray's shift of 10,000,000.023, whose cells are
-    constexpr uint32_t kCells = 10000000;   // these numbers further
+    constexpr uint32_t kCells = 10000000;  // these numbers further
     F sum(0.0f);
     const V3<S> shifted = {p.x + F(kShift), p.y + F(kShift), p.z + F(kShift)};
     for_each_cell_of<S>(shifted, [&](uint32_t lanes, const uint32_t(&cell)[3], const V3<S>& from) {

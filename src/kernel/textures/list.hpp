@@ -56,8 +56,8 @@ using Patterns =
                 CylindricalPattern, PlanarPattern, OnionPattern, LeopardPattern, RadialPattern,
                 Spiral1Pattern, Spiral2Pattern, QuiltedPattern, SquarePattern, TriangularPattern,
                 HexagonPattern, CubicPattern, BrickPattern, DentsPattern, GranitePattern, WrinklesPattern,
-                AgatePattern, MarblePattern, WoodPattern, CellsPattern, CracklePattern,
-                RipplesPattern, WavesPattern, FractalPattern>;
+                AgatePattern, MarblePattern, WoodPattern, CellsPattern, CracklePattern, RipplesPattern,
+                WavesPattern, FractalPattern>;
 constexpr bool disturbs(uint32_t kind) {
   return Patterns::kDisturb[kind];
 }

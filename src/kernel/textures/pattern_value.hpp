@@ -101,7 +101,6 @@ template <class Spu>
 
 namespace module_rare {
 
-
 /// The random points that are nearest to points.
 template <class Spu>
 [[gnu::noinline]] V3<typename Spu::rare_simd> nearest_feature(SceneAccess<Spu>& scene, const PatternRecord& r,
@@ -182,7 +181,8 @@ typename Spu::rare_simd::F pattern_value(SceneAccess<Spu>& scene, const PatternR
   Spu& spu = scene.spu();
   spu.compute(scalar_work::kPattern);
   const bool is_gradient_noise = (r.kind_and_flags & pattern_flag::gradient_noise) != 0;
-  switch (is_gradient_noise ? PatternCode::rare : Patterns::kCode[r.kind_and_flags & pattern_flag::kind_mask]) {
+  switch (is_gradient_noise ? PatternCode::rare
+                            : Patterns::kCode[r.kind_and_flags & pattern_flag::kind_mask]) {
   case PatternCode::resident:
     break;
   case PatternCode::plain:

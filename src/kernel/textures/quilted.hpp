@@ -27,8 +27,7 @@ private:
   template <class S> static V3<S> from_centre(const V3<S>& p) {
     using F = typename S::F;
     const F half(0.5f);
-    return {p.x - S::floor(p.x) - half, p.y - S::floor(p.y) - half,
-            p.z - S::floor(p.z) - half};
+    return {p.x - S::floor(p.x) - half, p.y - S::floor(p.y) - half, p.z - S::floor(p.z) - half};
   }
   template <class S> static typename S::F bulge(const V3<S>& d, const PatternRecord& r) {
     using F = typename S::F;

@@ -11,14 +11,14 @@ namespace celltrace::kernel {
 /// to the points. The pattern's parameter is their number.
 template <class Spu, class Visit>
 [[gnu::always_inline]] inline void for_each_wave(SceneAccess<Spu>& scene,
-                                                 const V3<typename Spu::rare_simd>& p,
-                                                 const PatternRecord& r, Visit visit) {
+                                                 const V3<typename Spu::rare_simd>& p, const PatternRecord& r,
+                                                 Visit visit) {
   using S = typename Spu::rare_simd;
   using F = typename S::F;
   const uint32_t count = static_cast<uint32_t>(r.parameter[0]);
   for (uint32_t i = 0; i < count; ++i) {
-    const WaveRecord wave = *scene.template pattern_table<WaveRecord>(
-        r.table + i * static_cast<uint32_t>(sizeof(WaveRecord)));
+    const WaveRecord wave =
+        *scene.template pattern_table<WaveRecord>(r.table + i * static_cast<uint32_t>(sizeof(WaveRecord)));
     const V3<S> from = p - splat3<S>(wave.source);
     const F distance = S::sqrt(dot<S>(from, from));
     visit(wave, from, S::select(distance > F(0.0f), distance, F(1.0f)));

@@ -33,9 +33,8 @@ template <class S> [[gnu::always_inline]] inline V3<S> repeated(const SpaceStepR
 
 /// The centres of the copies that points are near. Each copy has a cell; turbulence moves it there.
 template <class Spu>
-[[gnu::always_inline]] inline V3<typename Spu::rare_simd> centres_of(SceneAccess<Spu>& scene,
-                                                                     const SpaceStepRecord& step,
-                                                                     const V3<typename Spu::rare_simd>& p) {
+[[gnu::always_inline]] inline V3<typename Spu::rare_simd>
+centres_of(SceneAccess<Spu>& scene, const SpaceStepRecord& step, const V3<typename Spu::rare_simd>& p) {
   using S = typename Spu::rare_simd;
   using F = typename S::F;
   const F coordinate[3] = {p.x, p.y, p.z};
@@ -53,21 +52,20 @@ template <class Spu>
   V3<S> moved = {centre[0], centre[1], centre[2]};
   if (amount[0] != 0.0f || amount[1] != 0.0f || amount[2] != 0.0f) {
     Features<Spu> features(scene, step.table);
-    for_each_cell_of<S>({cell[0], cell[1], cell[2]},
-                        [&](uint32_t lanes, const uint32_t(&at)[3], const V3<S>&) {
-                          const FeatureRecord feature = features.at(features.number_of(at));
-                          const V3<S> aside = {F(feature.place[0] * amount[0]), F(feature.place[1] * amount[1]),
-                                               F(feature.place[2] * amount[2])};
-                          moved = select<S>(S::M::from_bits(lanes), moved + aside, moved);
-                        });
+    for_each_cell_of<S>(
+        {cell[0], cell[1], cell[2]}, [&](uint32_t lanes, const uint32_t(&at)[3], const V3<S>&) {
+          const FeatureRecord feature = features.at(features.number_of(at));
+          const V3<S> aside = {F(feature.place[0] * amount[0]), F(feature.place[1] * amount[1]),
+                               F(feature.place[2] * amount[2])};
+          moved = select<S>(S::M::from_bits(lanes), moved + aside, moved);
+        });
   }
   return moved;
 }
 
 template <class Spu>
-[[gnu::always_inline]] inline V3<typename Spu::rare_simd> attracted(SceneAccess<Spu>& scene,
-                                                                    const SpaceStepRecord& step,
-                                                                    const V3<typename Spu::rare_simd>& p) {
+[[gnu::always_inline]] inline V3<typename Spu::rare_simd>
+attracted(SceneAccess<Spu>& scene, const SpaceStepRecord& step, const V3<typename Spu::rare_simd>& p) {
   using S = typename Spu::rare_simd;
   using F = typename S::F;
   const V3<S> centre = centres_of(scene, step, p), from = p - centre;
@@ -104,8 +102,7 @@ template <class S>
     }
   }
   const F x(step.value[0]), y(step.value[1]), z(step.value[2]);
-  const V3<S> turned = {x * at.z + (y + z) * at.x, (x + z) * at.y - y * at.z,
-                        z * at.z - x * at.x + y * at.y};
+  const V3<S> turned = {x * at.z + (y + z) * at.x, (x + z) * at.y - y * at.z, z * at.z - x * at.x + y * at.y};
   return select<S>(is_off, turned, p);
 }
 

@@ -34,7 +34,8 @@ struct WavesPattern : RarePattern {
 
 private:
   template <class S>
-  [[gnu::always_inline]] static typename S::F height(const WaveRecord& wave, const typename S::F& distance, const PatternRecord& r) {
+  [[gnu::always_inline]] static typename S::F height(const WaveRecord& wave, const typename S::F& distance,
+                                                     const PatternRecord& r) {
     using F = typename S::F;
     return RipplesPattern::height<S>(distance * F(r.frequency * wave.frequency) + F(r.phase)) *
            F(1.0f / wave.frequency);

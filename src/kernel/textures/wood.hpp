@@ -11,8 +11,7 @@ struct WoodPattern : NoisePattern {
   static constexpr bool kReadsNoise = false; // but vectors of it
 
   template <class S, class Source>
-  [[gnu::always_inline]] static typename S::F value(const V3<S>& p, const PatternRecord& r,
-                                                    const Source&) {
+  [[gnu::always_inline]] static typename S::F value(const V3<S>& p, const PatternRecord& r, const Source&) {
     using F = typename S::F;
     const TurbulenceWords& t = r.turbulence;
     F x = p.x, y = p.y;

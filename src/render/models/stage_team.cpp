@@ -122,7 +122,8 @@ bool StageTeam::finished() const {
 void StageTeam::stop() {
   for (unsigned spe = 0; spe < plan_.spes.size(); ++spe) {
     const StagePlan::Spe& planned = plan_.spes[spe];
-    if ((planned.orders.tasks & (task::generate | task::shade)) != 0 && !pipelines_[planned.pipeline].finished)
+    if ((planned.orders.tasks & (task::generate | task::shade)) != 0 &&
+        !pipelines_[planned.pipeline].finished)
       machine_.write_signal(spe, Signal::two, bell::stop);
   }
 }
