@@ -5,7 +5,7 @@ background { color rgb <0.3, 0.4, 0.6> }
 camera { location <0, 3, -9> look_at <0, 0.9, 0> angle 50 }
 light_source { <3, 10, -8> color rgb 1 }
 light_source { <-8, 6, -3> color rgb 0.3 area_light x, y, 2, 2 }
-plane { y, 0 pigment { checker color rgb 1 color rgb 0.5 } finish { reflection 0.1 } }
+plane { y, 0 pigment { checker color rgb 0.9 color rgb 0.65 } finish { reflection 0.1 } }
 sphere {
   <0, 1.3, 0>, 1.3 pigment { color rgbf <1, 1, 1, 0.9> } finish { reflection { 0, 1 fresnel } conserve_energy }
   interior { ior 1.4 fade_distance 1 fade_power 1 fade_color <0.1, 0.5, 0.9> caustics 0.3 }
