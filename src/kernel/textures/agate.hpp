@@ -14,7 +14,8 @@ struct AgatePattern : NoisePattern {
   [[gnu::always_inline]] static typename S::F value(const V3<S>& p, const PatternRecord& r,
                                                     const Source& source) {
     using F = typename S::F;
-    const F turns = source.turbulence_value(p, r.turbulence) * F(1.3f * r.parameter[0]) + p.z * F(1.1f);
+    const F turbulence = source.turbulence_value(p, r.turbulence);
+    const F turns = turbulence * F(1.3f * r.parameter[0]) + p.z * F(1.1f);
     const F wave = (sine_of_turns<S>(turns - S::floor(turns)) + F(1.0f)) * F(0.5f);
     return pow<S>(wave, F(0.77f));
   }

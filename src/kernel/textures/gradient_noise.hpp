@@ -43,7 +43,8 @@ public:
     F sum = spread_value(p);
     float scale = t.lambda, strength = t.omega;
     for (uint32_t octave = 1; octave < t.octaves; ++octave) {
-      sum = sum + spread<S>(value(p * F(scale)), false) * F(strength);
+      const F noise = value(p * F(scale));
+      sum = sum + spread<S>(noise, false) * F(strength);
       scale *= t.lambda;
       strength *= t.omega;
     }

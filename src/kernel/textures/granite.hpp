@@ -15,8 +15,10 @@ struct GranitePattern : NoisePattern {
     using F = typename S::F;
     F sum(0.0f);
     float scale = 4.0f, strength = 1.0f;
-    for (uint32_t octave = 0; octave < 6; ++octave, scale *= 2.0f, strength *= 0.5f)
-      sum = sum + S::abs(F(0.5f) - source.spread_value(p * F(scale))) * F(strength);
+    for (uint32_t octave = 0; octave < 6; ++octave, scale *= 2.0f, strength *= 0.5f) {
+      const F noise = source.spread_value(p * F(scale));
+      sum = sum + S::abs(F(0.5f) - noise) * F(strength);
+    }
     return sum;
   }
 };

@@ -14,7 +14,8 @@ struct MarblePattern : NoisePattern {
                                                     const Source& source) {
     const float amount = r.turbulence.amount[0];
     if (amount == 0.0f) return p.x;
-    return p.x + source.turbulence_value(p, r.turbulence) * typename S::F(amount);
+    const typename S::F turbulence = source.turbulence_value(p, r.turbulence);
+    return p.x + turbulence * typename S::F(amount);
   }
 };
 

@@ -22,7 +22,8 @@ struct ListPattern : BlendPattern {
   static constexpr bool kIsList = true;
 };
 
-/// Its code is with the noise's, into which it is inlined always.
+/// Its code is with the noise's, into which it is inlined always. Noise of a table reads the scene: it stands
+/// in a statement of its own, or compilers' orders of evaluation would show in modelled cycles.
 struct NoisePattern : BlendPattern {
   static constexpr PatternCode kCode = PatternCode::noise;
   static constexpr bool kReadsNoise = true; ///< its value depends on the generator

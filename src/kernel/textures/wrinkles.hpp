@@ -17,8 +17,10 @@ struct WrinklesPattern : NoisePattern {
     using F = typename S::F;
     F sum(0.0f);
     float scale = 1.0f, strength = 0.5f;
-    for (uint32_t octave = 0; octave < 10; ++octave, scale *= 2.0f, strength *= 0.5f)
-      sum = sum + source.spread_value(p * F(scale)) * F(strength);
+    for (uint32_t octave = 0; octave < 10; ++octave, scale *= 2.0f, strength *= 0.5f) {
+      const F noise = source.spread_value(p * F(scale));
+      sum = sum + noise * F(strength);
+    }
     return sum;
   }
   template <class S> [[gnu::always_inline]] static V3<S> disturbance(const V3<S>& p, const PatternRecord&) {
