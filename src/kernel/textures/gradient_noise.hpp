@@ -37,7 +37,8 @@ public:
   }
 
   [[gnu::noinline]] F spread_value(const V3<S>& p) const {
-    return S::min(S::max(spread<S>(value(p), false), F(0.0f)), F(1.0f));
+    const F noise = value(p);
+    return S::min(S::max(spread<S>(noise, false), F(0.0f)), F(1.0f));
   }
   [[gnu::noinline]] F turbulence_value(const V3<S>& p, const TurbulenceWords& t) const {
     F sum = spread_value(p);
