@@ -10,7 +10,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "pov/noise.hpp"
+#include "scene/noise.hpp"
 
 namespace celltrace::pov {
 

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <iterator>
 
-#include "pov/noise.hpp"
 #include "pov/session.hpp"
 #include "pov/user_function.hpp"
+#include "scene/noise.hpp"
 
 namespace celltrace::pov {
 

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <random>
 
+#include <glm/geometric.hpp>
+
 namespace celltrace {
 
 using namespace kernel;
@@ -26,6 +28,29 @@ public:
 private:
   std::uint32_t state_;
 };
+
+GradientTables make_gradient_tables() {
+  GradientTables tables;
+  ShortRandom random(1);
+  for (Vec3& gradient : tables.gradient) {
+    double square;
+    do {
+      for (int axis = 0; axis < 3; ++axis)
+        gradient[axis] = (static_cast<double>(random() % 4096) - 2048) / 2048;
+      square = glm::dot(gradient, gradient);
+    } while (square > 1 || square == 0);
+    gradient /= std::sqrt(square);
+  }
+  // Not quite a permutation: there is one number more, which is 0, every second one is moved, and then the
+  // last one is dropped.
+  std::array<std::uint32_t, kGradients + 1> next{};
+  for (std::uint32_t i = 0; i < kGradients; ++i)
+    next[i] = i;
+  for (std::uint32_t i = kGradients; i != 0; i -= 2)
+    std::swap(next[i], next[random() % kGradients]);
+  std::copy_n(next.begin(), kGradients, tables.next.begin());
+  return tables;
+}
 
 /// The vector of noise at the lattice point (x, 0, 0), twice as long.
 void lattice_noise(std::uint32_t x, double (&v)[3]) {
@@ -51,31 +76,19 @@ std::vector<FeatureRecord> make_features() {
   return features;
 }
 
+const GradientTables& gradient_tables() {
+  static const GradientTables tables = make_gradient_tables();
+  return tables;
+}
+
 std::vector<GradientRecord> make_gradients() {
-  constexpr double kStrength = 0.795;
-  ShortRandom random(1);
+  const GradientTables& tables = gradient_tables();
   std::vector<GradientRecord> gradients(kGradients);
-  for (GradientRecord& r : gradients) {
-    double v[3], square;
-    do {
-      square = 0;
-      for (double& coordinate : v) {
-        coordinate = (static_cast<double>(random() % 4096) - 2048) / 2048;
-        square += coordinate * coordinate;
-      }
-    } while (square > 1 || square == 0);
-    for (int i = 0; i < 3; ++i)
-      r.gradient[i] = static_cast<float>(v[i] / std::sqrt(square) * kStrength);
+  for (std::uint32_t i = 0; i < kGradients; ++i) {
+    for (int axis = 0; axis < 3; ++axis)
+      gradients[i].gradient[axis] = static_cast<float>(tables.gradient[i][axis] * kGradientStrength);
+    gradients[i].next = tables.next[i];
   }
-  // Not quite a permutation: there is one number more, which is 0, every second one is moved, and then the
-  // last one is dropped.
-  std::vector<std::uint32_t> next(kGradients + 1);
-  for (std::uint32_t i = 0; i < kGradients; ++i)
-    next[i] = i;
-  for (std::uint32_t i = kGradients; i != 0; i -= 2)
-    std::swap(next[i], next[random() % kGradients]);
-  for (std::uint32_t i = 0; i < kGradients; ++i)
-    gradients[i].next = next[i];
   return gradients;
 }
 

@@ -1,13 +1,25 @@
 // The tables of random numbers that patterns read, as measured from POV-Ray 3.7.
 #pragma once
 
+#include "celltrace/transform.hpp"
 #include "kernel/records.hpp"
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 namespace celltrace {
 
+/// Of noise generator 3: by how much its vectors count, and these.
+constexpr double kGradientStrength = 0.795;
+struct GradientTables {
+  std::array<Vec3, kernel::kGradients> gradient; ///< of unit length
+  std::array<std::uint32_t, kernel::kGradients> next;
+};
+const GradientTables& gradient_tables();
+
 std::vector<kernel::FeatureRecord> make_features();
+/// gradient_tables() times their strength.
 std::vector<kernel::GradientRecord> make_gradients();
 std::vector<kernel::WaveRecord> make_waves(int count);
 

@@ -1,15 +1,14 @@
-#include "pov/noise.hpp"
+#include "scene/noise.hpp"
+
+#include "kernel/textures/noise_tables.hpp"
+#include "scene/pattern_tables.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 
-#include <glm/geometric.hpp>
-
-#include "kernel/textures/noise_tables.hpp"
-
-namespace celltrace::pov {
+namespace celltrace {
 
 namespace {
 
@@ -86,55 +85,19 @@ constexpr double kLatticeOffset = 10000;
 
 // ---- Generator 3: gradient noise ----
 
-constexpr std::uint32_t kGradients = 2048;
-
-struct GradientTables {
-  std::array<Vec3, kGradients> gradient;
-  std::array<std::uint32_t, kGradients + 1> permutation;
-};
-
-const GradientTables& gradient_tables() {
-  static const GradientTables tables = [] {
-    GradientTables result;
-    std::uint32_t state = 1;
-    const auto random = [&state] {
-      state = state * 1812433253u + 12345u;
-      return (state >> 16) & 0x7FFFu;
-    };
-    const auto coordinate = [&] { return (static_cast<double>(random() % 4096) - 2048) / 2048; };
-    for (Vec3& gradient : result.gradient) {
-      double length;
-      do {
-        gradient.x = coordinate();
-        gradient.y = coordinate();
-        gradient.z = coordinate();
-        length = glm::dot(gradient, gradient);
-      } while (length > 1 || length == 0);
-      gradient /= std::sqrt(length);
-    }
-    for (std::uint32_t i = 0; i < kGradients; ++i)
-      result.permutation[i] = i;
-    result.permutation[kGradients] = 0;
-    for (std::uint32_t i = kGradients; i > 0; i -= 2)
-      std::swap(result.permutation[i], result.permutation[random() % kGradients]);
-    return result;
-  }();
-  return tables;
-}
-
 double gradient_noise(const Vec3& p) {
   constexpr double kOffset = 10000000.023157213;
-  const Cell cell(p, kOffset, kGradients);
+  const Cell cell(p, kOffset, kernel::kGradients);
   const GradientTables& tables = gradient_tables();
   double sum = 0;
   for (const auto& [x, y, z] : kScalarOrder) {
-    const std::uint32_t column =
-        tables.permutation[(tables.permutation[cell.lattice[0][x]] + cell.lattice[1][y]) % kGradients];
-    const Vec3& gradient = tables.gradient[(column + cell.lattice[2][z]) % kGradients];
+    const std::uint32_t row = tables.next[cell.lattice[0][x]];
+    const std::uint32_t column = tables.next[(row + cell.lattice[1][y]) % kernel::kGradients];
+    const Vec3& gradient = tables.gradient[(column + cell.lattice[2][z]) % kernel::kGradients];
     sum += cell.weight[0][x] * cell.weight[1][y] * cell.weight[2][z] *
            (gradient.x * cell.from[0][x] + gradient.y * cell.from[1][y] + gradient.z * cell.from[2][z]);
   }
-  return std::clamp(0.4925 + 0.795 * sum, 0.0, 1.0);
+  return std::clamp(0.4925 + kGradientStrength * sum, 0.0, 1.0);
 }
 
 } // namespace
@@ -168,4 +131,4 @@ double noise_value(const Vec3& p, int generator) {
   return std::clamp(generator == 1 ? sum + 0.5 : (sum + 1.05242) * 0.48985582, 0.0, 1.0);
 }
 
-} // namespace celltrace::pov
+} // namespace celltrace
