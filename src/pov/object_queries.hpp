@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "pov/object.hpp"
+#include "scene/extent.hpp"
 
 namespace celltrace::pov {
 
@@ -21,10 +22,7 @@ std::optional<ObjectHit> trace(Session& session, const ObjectDefinition& object,
 
 bool contains(Session& session, const ObjectDefinition& object, const Vec3& point, const Location& where);
 
-/// POV-Ray's bounding box, which is not always the tightest: 1e10 to all sides where there is none.
-struct Extent {
-  Vec3 min{0, 0, 0}, max{0, 0, 0};
-};
+/// POV-Ray's bounding box.
 Extent extent_of(Session& session, const ObjectDefinition& object, const Location& where);
 
 } // namespace celltrace::pov

@@ -1,0 +1,23 @@
+// Triangles and meshes in double precision, as other shapes are in shape_geometry.hpp.
+#pragma once
+
+#include "scene/shape_geometry.hpp"
+
+#include <array>
+
+namespace celltrace::geometry {
+
+/// `normals`: those of its corners, which are blended, or null for that of its plane.
+void cross_triangle(const std::array<Vec3, 3>& corners, const Vec3* normals, const Ray& ray,
+                    Crossings& found);
+
+void find_crossings(const Mesh& mesh, const Ray& ray, Crossings& found);
+
+/// Whether the ray from there along the mesh's inside vector, if it has one, crosses an odd number of
+/// triangles.
+bool is_inside(const Mesh& mesh, const Vec3& point);
+
+/// A point where there are no vertices.
+Extent extent_of(const Mesh& mesh);
+
+} // namespace celltrace::geometry
