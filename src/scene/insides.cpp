@@ -1,7 +1,6 @@
 #include "scene/insides.hpp"
 
-#include "celltrace/spe/simd_host.hpp"
-#include "kernel/primitives/list.hpp"
+#include "scene/shape_geometry.hpp"
 #include "scene/shapes.hpp"
 #include "scene/surface_records.hpp"
 
@@ -19,13 +18,11 @@ using namespace kernel;
 
 namespace {
 
-using Simd = HostSimd<xsimd::sse2>;
-
 constexpr float kFar = std::numeric_limits<float>::max();
 constexpr Aabb kEverywhere = {{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}};
 
-bool is_inside(const Sphere& sphere, const Transform& transform, const Vec3& point) {
-  // Hardly any of a million spheres is worth an inverse: most do not even have the point in their box.
+/// Whether a point is in the box of a sphere: hardly any of a million spheres is worth an inverse.
+bool is_near(const Sphere& sphere, const Transform& transform, const Vec3& point) {
   const Vec3 away = point - transform.point(sphere.centre);
   constexpr double kRoundedUp = 1.000001;
   for (int axis = 0; axis < 3; ++axis) {
@@ -33,45 +30,7 @@ bool is_inside(const Sphere& sphere, const Transform& transform, const Vec3& poi
     if (away[axis] * away[axis] > glm::dot(reach, reach) * sphere.radius * sphere.radius * kRoundedUp)
       return false;
   }
-  const Vec3 local = transform.inverse().point(point) - sphere.centre;
-  return local.x * local.x + local.y * local.y + local.z * local.z < sphere.radius * sphere.radius;
-}
-
-/// Whether the ray from a point along the mesh's inside vector crosses an odd number of triangles.
-bool is_inside(const Mesh& mesh, const Transform& transform, const Vec3& point) {
-  const Vec3 origin = transform.inverse().point(point);
-  bool inside = false;
-  for (const Mesh::Triangle& triangle : mesh.triangles) {
-    const Vec3 corner(mesh.vertices[triangle.vertex[0]]);
-    const Vec3 edge1 = Vec3(mesh.vertices[triangle.vertex[1]]) - corner;
-    const Vec3 edge2 = Vec3(mesh.vertices[triangle.vertex[2]]) - corner;
-    const Vec3 p = glm::cross(mesh.inside_vector, edge2);
-    const double determinant = glm::dot(edge1, p);
-    if (determinant == 0) continue;
-    const Vec3 from = origin - corner;
-    const Vec3 q = glm::cross(from, edge1);
-    const double u = glm::dot(from, p) / determinant, v = glm::dot(mesh.inside_vector, q) / determinant;
-    if (u >= 0 && v >= 0 && u + v < 1 && glm::dot(edge2, q) / determinant > 0) inside = !inside;
-  }
-  return inside;
-}
-
-/// Of a shape that is neither a mesh nor a CSG.
-bool is_inside(const PlacedShape& shape, const Vec3& point) {
-  if (shape.is_empty) return false;
-  ObjectRecord record{};
-  record.kind_and_flags = shape.kind_and_flags;
-  std::copy(shape.geometry, shape.geometry + 12, record.geometry);
-  ExtraRecord extra{};
-  std::copy(shape.parameters, shape.parameters + 2, extra.value);
-  using F = Simd::F;
-  const V3<Simd> at = {F(static_cast<float>(point.x)), F(static_cast<float>(point.y)),
-                       F(static_cast<float>(point.z))};
-  bool inside = false;
-  Primitives::dispatch(shape.kind_and_flags & object_flag::kind_mask, [&](auto primitive) {
-    inside = (decltype(primitive)::template inside<Simd>(at, record, extra).bits() & 1) != 0;
-  });
-  return inside;
+  return true;
 }
 
 bool is_inside(const Object& object, const Transform& around, const Vec3& point);
@@ -98,18 +57,13 @@ bool is_inside(const Object& object, const Transform& around, const Vec3& point)
     for (const Object& clip : *object.clipped_by)
       if (!is_inside(clip, around, point)) return false;
   bool inside = false;
-  if (const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape)) {
+  const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape);
+  const auto* sphere = std::get_if<Sphere>(&object.shape);
+  if (mesh != nullptr && !(*mesh)->has_inside()) return false;
+  if (const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape))
     inside = is_inside(**csg, transform, point);
-  } else if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape)) {
-    if (!(*mesh)->has_inside()) return false;
-    inside = is_inside(**mesh, transform, point);
-  } else if (const auto* sphere = std::get_if<Sphere>(&object.shape)) {
-    inside = sphere->radius != 0 && is_inside(*sphere, transform, point);
-  } else {
-    Object placed = object;
-    placed.transform = transform;
-    inside = is_inside(place_shape(placed), point);
-  }
+  else if (sphere == nullptr || is_near(*sphere, transform, point))
+    inside = geometry::is_inside(object.shape, transform.inverse().point(point));
   return inside != object.inverse;
 }
 
