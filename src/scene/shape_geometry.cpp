@@ -20,7 +20,7 @@ namespace {
 
 /// Round things have POV-Ray's box of the box around them on their own axes: which way these are turned about
 /// the round one's axis.
-Extent round_extent(const Vec3& base, const Vec3& cap, double radius, double margin) {
+Extent round_extent(const Vec3& base, const Vec3& cap, double radius) {
   const Vec3 d = glm::normalize(cap - base);
   const double square = d.x * d.x + d.y * d.y;
   Vec3 across{1, 0, 0}, along{0, 1, 0};
@@ -34,8 +34,8 @@ Extent round_extent(const Vec3& base, const Vec3& cap, double radius, double mar
   }
   std::vector<Vec3> corners;
   for (int corner = 0; corner < 8; ++corner)
-    corners.push_back((corner & 1 ? cap + d * margin : base - d * margin) +
-                      across * (corner & 2 ? radius : -radius) + along * (corner & 4 ? radius : -radius));
+    corners.push_back((corner & 1 ? cap : base) + across * (corner & 2 ? radius : -radius) +
+                      along * (corner & 4 ? radius : -radius));
   return Extent::around(corners);
 }
 
@@ -78,7 +78,7 @@ void cross(const Disc& disc, const Ray& ray, Crossings& found) {
   if (slope == 0) return;
   const double t = glm::dot(n, disc.centre - ray.origin) / slope;
   const double distance = glm::length(ray.at(t) - disc.centre);
-  if (distance <= disc.radius && distance >= disc.hole_radius) found.push_back({t, n});
+  if (distance <= std::fabs(disc.radius) && distance >= std::fabs(disc.hole_radius)) found.push_back({t, n});
 }
 bool contains(const Disc& disc, const Vec3& p) {
   return glm::dot(disc.normal, p - disc.centre) < 0;
@@ -87,7 +87,7 @@ Extent extent(const Disc& disc) {
   constexpr double kThickness = 0.001;
   if (glm::length(disc.normal) == 0) return {disc.centre, disc.centre};
   const Vec3 n = glm::normalize(disc.normal) * kThickness;
-  return round_extent(disc.centre - n, disc.centre + n, disc.radius, 0);
+  return round_extent(disc.centre - n, disc.centre + n, disc.radius);
 }
 
 Box ordered(const Box& box) {
@@ -123,8 +123,13 @@ Extent extent(const Box& box) {
   return {b.corner[0], b.corner[1]};
 }
 
-/// A cylinder is a cone, too.
-void cross(const Cone& cone, const Ray& ray, Crossings& found) {
+Cone with_positive_radii(Cone cone) {
+  cone.base_radius = std::fabs(cone.base_radius);
+  cone.cap_radius = std::fabs(cone.cap_radius);
+  return cone;
+}
+void cross(const Cone& any_cone, const Ray& ray, Crossings& found) {
+  const Cone cone = with_positive_radii(any_cone);
   const Vec3 axis = cone.cap - cone.base;
   const double length = glm::length(axis);
   const Vec3 n = axis / length;
@@ -156,17 +161,20 @@ void cross(const Cone& cone, const Ray& ray, Crossings& found) {
     if (glm::length(side + run * t) <= r) found.push_back({t, is_cap ? n : -n});
   }
 }
-bool contains(const Cone& cone, const Vec3& p) {
+bool contains(const Cone& any_cone, const Vec3& p) {
+  const Cone cone = with_positive_radii(any_cone);
   const Vec3 axis = cone.cap - cone.base;
   const double length = glm::length(axis), height = glm::dot(p - cone.base, axis) / length;
   if (height < 0 || height > length) return false;
   const double radius = cone.base_radius + (cone.cap_radius - cone.base_radius) * height / length;
   return glm::length(p - cone.base - axis * (height / length)) < radius;
 }
-Extent extent(const Cone& cone) {
-  return round_extent(cone.base, cone.cap, std::max(cone.base_radius, cone.cap_radius), 0);
+Extent extent(const Cone& any_cone) {
+  const Cone cone = with_positive_radii(any_cone);
+  return round_extent(cone.base, cone.cap, std::max(cone.base_radius, cone.cap_radius));
 }
 
+/// A cylinder is a cone, too.
 Cone as_cone(const Cylinder& c) {
   return {c.base, c.cap, c.radius, c.radius, c.open};
 }

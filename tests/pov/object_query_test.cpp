@@ -75,6 +75,9 @@ TEST_CASE("tracing shapes") {
   CHECK(hit("torus { 2, .5 }", "<2,0,0>, -y") == "2.0000 -0.5000 0.0000 facing 0.0000 -1.0000 0.0000");
   CHECK(hit("quadric { 1, 0, 0, -1 }", "-z*3, z + x*.1") ==
         "0.2021 0.0000 -0.9794 facing 0.2021 0.0000 -0.9794");
+  CHECK(hit("cylinder { -y, y, -1 }", "<.3,10,.2>, -y") ==
+        "0.3000 1.0000 0.2000 facing 0.0000 1.0000 0.0000");
+  CHECK(hit("disc { 0, y, -1, .2 }", "<.3,10,.2>, -y") == "0.3000 0.0000 0.2000 facing 0.0000 1.0000 0.0000");
   CHECK(hit("triangle { 0, x, y }", "<.2,.2,1>, -z") == "0.2000 0.2000 0.0000 facing 0.0000 0.0000 -1.0000");
 }
 
@@ -97,6 +100,7 @@ TEST_CASE("what is inside") {
   };
   CHECK(inside("S, <1,2,3>") == "1");
   CHECK(inside("S, <1,2,5.1>") == "0");
+  CHECK(inside("cylinder { -y, y, -1 }, <.3,.4,.1>") == "1");
   CHECK(inside("object { B inverse }, 0") == "1");
   CHECK(inside("difference { object { S } object { B } }, <0.5,3,2>") == "0");
 }
