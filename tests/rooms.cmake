@@ -1,0 +1,48 @@
+# Fails if a file includes what its room may not, by the table in docs/architecture.md:
+#
+#   cmake -DSOURCE=src -P rooms.cmake
+cmake_minimum_required(VERSION 3.25)
+
+# Of src/scene, for the language: what computes in double precision and knows no records.
+set(computing "scene/(extent|mesh_geometry|noise|shape_geometry)\\.hpp")
+
+# Of each room, what it may include besides itself and public headers.
+set(allowed_cli "study/|pov/|render/|image/|cache/")
+set(allowed_study "render/|image/|cache/|kernel/|scene/parallel\\.hpp")
+set(allowed_pov "${computing}")
+set(allowed_render "scene/|image/|kernel/|backends/spe_entry\\.hpp")
+set(allowed_scene "kernel/")
+set(allowed_image "")
+set(allowed_cache "")
+set(allowed_kernel "")
+
+# Complains about each include of a file that is of a room, or a backend, and that `allowed` does not begin.
+function(check_includes file allowed)
+  file(STRINGS ${file} lines REGEX "^#include \"(backends|cache|cli|image|kernel|pov|render|scene|study)/")
+  foreach(line IN LISTS lines)
+    string(REGEX REPLACE "^#include \"([^\"]*)\".*" "\\1" included ${line})
+    if(NOT included MATCHES "^(${allowed})")
+      message(SEND_ERROR "${file}: may not include ${included}")
+    endif()
+  endforeach()
+endfunction()
+
+foreach(room cli study pov render scene image cache kernel)
+  file(GLOB_RECURSE files ${SOURCE}/${room}/*.[ch]pp ${SOURCE}/${room}/*.[ly])
+  if(NOT files)
+    message(FATAL_ERROR "there is no ${SOURCE}/${room}")
+  endif()
+  set(allowed "${room}/")
+  if(allowed_${room})
+    string(APPEND allowed "|${allowed_${room}}")
+  endif()
+  foreach(file IN LISTS files)
+    check_includes(${file} "${allowed}")
+  endforeach()
+endforeach()
+
+file(GLOB headers ${SOURCE}/scene/*.hpp)
+list(FILTER headers INCLUDE REGEX "${computing}$")
+foreach(header IN LISTS headers)
+  check_includes(${header} "${computing}")
+endforeach()
