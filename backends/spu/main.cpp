@@ -7,6 +7,8 @@
 
 #include "backends/spu/spu.hpp"
 
+#include <unistd.h>
+
 namespace {
 
 alignas(celltrace::kLineBytes) uint8_t arena[CELLTRACE_SPU_ARENA_BYTES];
@@ -17,6 +19,14 @@ alignas(celltrace::kLineBytes) uint8_t arena[CELLTRACE_SPU_ARENA_BYTES];
 extern "C" {
 extern uint32_t celltrace_program_image[4];
 alignas(16) uint32_t celltrace_program_image[4];
+}
+
+// Nothing is to be done at the end: what newlib keeps lists of functions for that would take 2 KB of local store.
+extern "C" int atexit(void (*)()) {
+  return 0;
+}
+extern "C" void exit(int status) {
+  _exit(status);
 }
 
 /// As crt0 calls it: the id that the PPE's library gave the SPE, and two arguments of spe_context_run().

@@ -142,6 +142,7 @@ constexpr uint32_t first_generator = 0x2000; ///< of noise: scaled as POV-Ray's 
 constexpr uint32_t nested = 0x4000;          ///< of a pigment: an entry is a map
 constexpr uint32_t gradient_noise = 0x8000;  ///< of noise: POV-Ray's generator 3
 constexpr uint32_t at_features = 0x10000;    ///< of noise: at the nearest of the random points
+constexpr uint32_t shifted = 0x20000;        ///< a ShiftedPattern that has turbulence
 } // namespace pattern_flag
 /// What becomes of a pattern's values: POV-Ray's wave forms. `none`: they stay, frequency and phase mean
 /// nothing.

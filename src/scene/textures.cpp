@@ -479,8 +479,10 @@ std::uint32_t TextureTables::add_pattern(const Pattern& pattern, const Space& ou
     if (generator == 1) r.kind_and_flags |= pattern_flag::first_generator;
     const bool is_gradient_noise = generator == 3 && Patterns::kReadNoise[kind];
     if (is_gradient_noise) r.kind_and_flags |= pattern_flag::gradient_noise;
-    if (!is_still(pattern.turbulence) && is_moved_by_turbulence(pattern.kind))
-      r.kind_and_flags |= pattern_flag::turbulent;
+    if (!is_still(pattern.turbulence)) {
+      if (is_moved_by_turbulence(pattern.kind)) r.kind_and_flags |= pattern_flag::turbulent;
+      if (Patterns::kAreShifted[kind]) r.kind_and_flags |= pattern_flag::shifted;
+    }
     r.table = words.fractal;
     tables_.back() = pattern_table(r.kind_and_flags);
     add_table(tables_.back());

@@ -49,6 +49,7 @@ template <class... P> struct PatternList : TypeList<P...> {
   static constexpr bool kAreLists[] = {P::kIsList...};
   static constexpr bool kDisturb[] = {P::kDisturbs...};
   static constexpr bool kReadNoise[] = {P::kReadsNoise...};
+  static constexpr bool kAreShifted[] = {P::kIsShifted...};
 };
 
 using Patterns =

@@ -15,6 +15,7 @@ struct BlendPattern {
   static constexpr PatternCode kCode = PatternCode::plain;
   static constexpr bool kDisturbs = false;
   static constexpr bool kReadsNoise = false;
+  static constexpr bool kIsShifted = false;
 };
 
 /// The number of a map's entry at every point.
@@ -27,6 +28,13 @@ struct ListPattern : BlendPattern {
 struct NoisePattern : BlendPattern {
   static constexpr PatternCode kCode = PatternCode::noise;
   static constexpr bool kReadsNoise = true; ///< its value depends on the generator
+};
+
+/// Has no noise of its own, but turbulent values, times the first number of its turbulence, are added to z,
+/// or to x of marble, wherever the pattern is asked.
+struct ShiftedPattern : BlendPattern {
+  static constexpr bool kReadsNoise = true;
+  static constexpr bool kIsShifted = true;
 };
 
 /// Few scenes have it; it may read a table of the scene image. Its functions are inlined always.

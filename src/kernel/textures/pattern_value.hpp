@@ -33,6 +33,16 @@ template <PatternCode kCode, class S>
   return wave_of(r) == PatternWave::none ? value : in_wave_form<S>(r, value);
 }
 
+/// Moves points to where a ShiftedPattern has its value.
+template <class S, class Source>
+[[gnu::always_inline]] inline void shift_points(V3<S>& p, const PatternRecord& r, const Source& source) {
+  using F = typename S::F;
+  const F turbulence = source.turbulence_value(p, r.turbulence);
+  const bool is_marble = (r.kind_and_flags & pattern_flag::kind_mask) == kPatternKind<MarblePattern>;
+  F& coordinate = is_marble ? p.x : p.z;
+  coordinate = coordinate + turbulence * F(r.turbulence.amount[0]);
+}
+
 namespace module_patterns {
 
 template <class Spu>
@@ -59,6 +69,14 @@ template <class Spu>
   using S = typename Spu::rare_simd;
   spu.run_in_module(modules::kNoise);
   return p + noise::turbulence<S>(p, t.octaves, t.lambda, t.omega) * splat3<S>(t.amount);
+}
+
+/// By noise of generators 1 and 2.
+template <class Spu>
+[[gnu::noinline]] void shift(Spu& spu, const PatternRecord& r, V3<typename Spu::rare_simd>& p) {
+  using S = typename Spu::rare_simd;
+  spu.run_in_module(modules::kNoise);
+  shift_points<S>(p, r, noise::LatticeNoise<S>{r});
 }
 
 /// What a pattern of which disturbs() is true adds to a normal, in its own space.
@@ -118,11 +136,15 @@ template <class Spu>
   const noise::GradientNoise<Spu> source(scene, r.table);
   V3<S> q = p;
   if ((r.kind_and_flags & pattern_flag::at_features) != 0) q = nearest_feature(scene, r, p);
+  if ((r.kind_and_flags & pattern_flag::shifted) != 0) shift_points<S>(q, r, source);
   typename S::F value(0.0f);
   Patterns::dispatch(r.kind_and_flags & pattern_flag::kind_mask, [&](auto pattern) {
     using Pattern = decltype(pattern);
     if constexpr (Pattern::kCode == PatternCode::rare) value = Pattern::template value<Spu>(scene, p, r);
-    if constexpr (Pattern::kReadsNoise) value = Pattern::template value<S>(q, r, source);
+    if constexpr (Pattern::kIsShifted)
+      value = Pattern::template value<S>(q, r);
+    else if constexpr (Pattern::kReadsNoise)
+      value = Pattern::template value<S>(q, r, source);
   });
   return wave_of(r) == PatternWave::none ? value : in_wave_form<S>(r, value);
 }
@@ -185,9 +207,18 @@ typename Spu::rare_simd::F pattern_value(SceneAccess<Spu>& scene, const PatternR
                             : Patterns::kCode[r.kind_and_flags & pattern_flag::kind_mask]) {
   case PatternCode::resident:
     break;
-  case PatternCode::plain:
+  case PatternCode::plain: {
+    const V3<typename Spu::rare_simd>* at = &p;
+    V3<typename Spu::rare_simd> moved;
+    if ((r.kind_and_flags & pattern_flag::shifted) != 0) {
+      moved = p;
+      at = &moved;
+      spu.enter_module(modules::kNoise);
+      module_noise::shift(spu, r, moved);
+    }
     spu.enter_module(modules::kPatterns);
-    return module_patterns::value(spu, r, p);
+    return module_patterns::value(spu, r, *at);
+  }
   case PatternCode::noise: {
     const V3<typename Spu::rare_simd>* at = &p;
     V3<typename Spu::rare_simd> nearest;

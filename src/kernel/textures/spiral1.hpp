@@ -6,7 +6,7 @@
 
 namespace celltrace::kernel {
 
-struct Spiral1Pattern : BlendPattern {
+struct Spiral1Pattern : ShiftedPattern {
   static constexpr const char* kName = "spiral1";
 
   /// Its parameter: the number of arms.

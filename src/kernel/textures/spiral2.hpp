@@ -5,7 +5,7 @@
 
 namespace celltrace::kernel {
 
-struct Spiral2Pattern : BlendPattern {
+struct Spiral2Pattern : ShiftedPattern {
   static constexpr const char* kName = "spiral2";
 
   /// Its parameter: the number of arms.
