@@ -207,6 +207,7 @@ struct Object {
   Transform transform;
   Index material = 0; ///< of a CSG: means nothing, its parts have their own
   Index interior = 0; ///< likewise
+  // These three of parts of a CSG count in unions alone.
   bool no_shadow = false;
   bool no_image = false;      ///< seen in mirrors alone
   bool no_reflection = false; ///< seen in no mirror

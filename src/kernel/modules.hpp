@@ -49,7 +49,7 @@ constexpr CodeModule kTextures = {"textures", 9, 1, 9728};
 constexpr CodeModule kNormals = {"normals", 11, 1, 6784};
 
 /// What few finishes do with light.
-constexpr CodeModule kFinishes = {"finishes", 19, 1, 1792};
+constexpr CodeModule kFinishes = {"finishes", 19, 1, 2560};
 
 // Of the third region: stages of which only one is under way. Rays are not traced while surfaces are shaded.
 

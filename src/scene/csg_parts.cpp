@@ -103,6 +103,7 @@ struct Node {
 struct Surroundings {
   Transform transform;
   bool no_shadow = false, no_image = false, no_reflection = false;
+  bool hides_nothing = false; ///< what the parts say of these does not count
   bool inverse = false;
   bool shows = true;
   int depth = 0;
@@ -130,9 +131,11 @@ public:
 private:
   Node build_unclipped(const Object& object, Surroundings around) {
     around.transform = object.transform.then(around.transform);
-    around.no_shadow = around.no_shadow || object.no_shadow;
-    around.no_image = around.no_image || object.no_image;
-    around.no_reflection = around.no_reflection || object.no_reflection;
+    if (!around.hides_nothing) {
+      around.no_shadow = around.no_shadow || object.no_shadow;
+      around.no_image = around.no_image || object.no_image;
+      around.no_reflection = around.no_reflection || object.no_reflection;
+    }
     around.inverse = around.inverse != object.inverse;
     if (const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape)) {
       if (!*csg) throw InputError("an object has no CSG");
@@ -150,6 +153,7 @@ private:
       node.kind = Node::Kind::intersection;
     else
       node.kind = csg.operation == Operation::union_ ? Node::Kind::union_ : Node::Kind::merge;
+    around.hides_nothing = around.hides_nothing || csg.operation != Operation::union_;
     const bool inverse = around.inverse;
     for (std::size_t i = 0; i < csg.parts.size(); ++i) {
       around.inverse = inverse != (csg.operation == Operation::difference && i > 0);

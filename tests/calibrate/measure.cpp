@@ -139,11 +139,11 @@ void measure(const std::vector<std::string>& paths, unsigned threads, std::ostre
       o.accelerator = Accelerator::grid;
       o.cache.enabled = false;
     });
-    for (const auto& [word, model] : {std::pair("/pipeline", Model::pipeline),
-                                      {"/split", Model::pipeline_split},
-                                      {"/offload", Model::offload}})
-      add(scene, word, 64, [&](RenderOptions& o) {
-        o.model = model;
+    for (const auto& model : {std::pair("/pipeline", Model::pipeline),
+                              {"/split", Model::pipeline_split},
+                              {"/offload", Model::offload}})
+      add(scene, model.first, 64, [&](RenderOptions& o) {
+        o.model = model.second;
         o.accelerator = Accelerator::grid;
         o.spes = 4;
       });

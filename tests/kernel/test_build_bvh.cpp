@@ -248,11 +248,11 @@ TEST_CASE("A BVH over objects at the end of the numbers") {
 }
 
 TEST_CASE("A lane for each cut makes the same of few references as bins do") {
-  using Simd = HostSimd<xsimd::sse2>;
+  using Narrow = HostSimd<xsimd::sse2>;
   using bvh::Reference;
-  static_assert(Simd::kWidth < kSimdLanes, "splits by bins");
+  static_assert(Narrow::kWidth < kSimdLanes, "splits by bins");
   Random random(5);
-  const auto same = [](const bvh::LaneAabb<Simd>& a, const bvh::LaneAabb<Simd>& b) {
+  const auto same = [](const bvh::LaneAabb<Narrow>& a, const bvh::LaneAabb<Narrow>& b) {
     Reference first, second;
     a.min.store(first.min);
     a.max.store(first.max);
@@ -278,17 +278,17 @@ TEST_CASE("A lane for each cut makes the same of few references as bins do") {
         references.push_back(reference);
       }
       INFO(count << " in round " << round);
-      const auto range = bvh::range_of<Simd>(references.data(), 0, count);
+      const auto range = bvh::range_of<Narrow>(references.data(), 0, count);
       if (range.box.area() == 0.0f) continue; // halved
-      const bvh::LaneCuts<Simd, bvh::kFewBins> cuts(references.data(), range);
+      const bvh::LaneCuts<Narrow, bvh::kFewBins> cuts(references.data(), range);
       const std::uint32_t lane = cuts.best();
-      bvh::Range<Simd> left, right;
+      bvh::Range<Narrow> left, right;
       bvh::split_range(references.data(), spare.data(), range, left, right);
       if (lane == cuts.kNone) {
         CHECK(left.count() == count / 2);
         continue;
       }
-      bvh::Range<Simd> left_of, right_of;
+      bvh::Range<Narrow> left_of, right_of;
       cuts.sides_of(lane, range.weight, left_of, right_of);
       CHECK(same(left_of.box, left.box));
       CHECK(same(right_of.box, right.box));

@@ -157,7 +157,9 @@ Vec3 Tracer::own_light(const Branch& branch, const Point& point, const Material&
   Vec3 sum = material.pigment.rgb * (f.ambient * scene_.ambient_light + f.emission) *
              opacity(material.pigment, scene_.version);
   for (const Light& light : scene_.lights) {
-    const auto [to_light, distance, unshadowed] = incoming(light, point.position);
+    const Incoming arriving = incoming(light, point.position);
+    const Vec3 &to_light = arriving.to_light, &unshadowed = arriving.colour;
+    const double distance = arriving.distance;
     if (glm::dot(point.normal, to_light) < 1e-10) continue;
     const bool is_parallel = light.parallel || light.kind == Light::Kind::cylinder;
     const auto from_place = [&](int column, int row) {
@@ -217,7 +219,8 @@ Vec3 Tracer::shade(const Branch& branch, const Point& point, const Material& mat
                            branch.weight * strength,
                            branch.inside,
                            true});
-  return sum + mirrored * glm::pow(seen, Vec3(1 / material.finish.reflection_exponent));
+  return sum + mirrored * film(material.finish, scene_.irid_wavelength, cosine, cosine) *
+                   glm::pow(seen, Vec3(1 / material.finish.reflection_exponent));
 }
 
 } // namespace celltrace::reference

@@ -95,4 +95,29 @@ template <class Spu>
   });
 }
 
+/// Changes what surfaces mirror, in those of `lanes` that are of `m.special`: films are passed as light from
+/// there would pass them.
+template <class Spu>
+[[gnu::noinline]] void change_special_mirror(SceneAccess<Spu>& scene, const Surfaces<typename Spu::simd>& s,
+                                             const MaterialLanes<typename Spu::simd>& m, uint32_t lanes,
+                                             V3<typename Spu::simd>& mirror) {
+  using S = typename Spu::simd;
+  using R = typename Spu::rare_simd;
+  using F = typename R::F;
+  scene.spu().run_in_module(modules::kFinishes);
+  for_each_value<S>(*m.offsets, m.special & lanes, [&](uint32_t offset, uint32_t same) {
+    const FinishRecord f = *scene.finish(scene.material(offset)->finish);
+    if (f.irid == 0.0f) return;
+    for_each_part<Spu>([&](uint32_t first) {
+      const uint32_t some = part_of<Spu>(same, first);
+      if (some == 0) return;
+      const F cosine = -dot<R>(part_of<Spu>(s.direction, first), part_of<Spu>(s.normal, first));
+      const V3<R> before = part_of<Spu>(mirror, first);
+      const V3<R> factors =
+          detail::film_factors(scene.spu(), f, part_of<Spu>(s.point, first), cosine + cosine);
+      set_part<Spu>(mirror, first, select<R>(R::M::from_bits(some), before * factors, before));
+    });
+  });
+}
+
 } // namespace celltrace::kernel

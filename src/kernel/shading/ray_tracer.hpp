@@ -262,8 +262,13 @@ private:
     F fresnel_ratio(1.0f);
     if (m.fresnel != 0)
       fresnel_ratio = F::load(fresnel_ratios(scene_, interior, lanes & m.fresnel, node_).lane);
-    return secondary_rays_of<Spu>(m, -dot<S>(surfaces.direction, surfaces.normal), fresnel_ratio,
-                                  frame_.adc_bailout, lanes, share);
+    SecondaryRays<S> rays = secondary_rays_of<Spu>(m, -dot<S>(surfaces.direction, surfaces.normal),
+                                                   fresnel_ratio, frame_.adc_bailout, lanes, share);
+    if ((m.special & rays.mirrors) != 0) {
+      scene_.spu().enter_module(modules::kFinishes);
+      change_special_mirror(scene_, surfaces, m, rays.mirrors, rays.mirror);
+    }
+    return rays;
   }
 
   /// As shade(), of textures with patterns, normals or layers. The light of a layer comes through those
