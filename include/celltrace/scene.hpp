@@ -122,7 +122,16 @@ struct Light {
   double fade_power = 0;    ///< the exponent by which light decreases with distance; 0: it does not fade
   /// Of what its shadows are; else of a point.
   std::optional<LightArea> area = std::nullopt;
+  bool is_global = true; ///< shines on all objects but those of light groups that leave global lights out
 };
+
+/// Which lights shine on the objects that refer to it. Shadows are cast by all objects, whatever group they
+/// or the light are in.
+struct LightGroup {
+  std::vector<Index> lights;  ///< into Scene::lights
+  bool global_lights = false; ///< those of Light::is_global, too
+};
+inline constexpr int kMostLightGroups = 1023;
 
 /// Triangles with shared vertices; vertices and normals are single precision, as in POV-Ray.
 struct Mesh {
@@ -211,6 +220,9 @@ struct Object {
   bool no_image = false;      ///< seen in mirrors alone
   bool no_reflection = false; ///< seen in no mirror
   bool inverse = false;       ///< inside and outside change places
+  /// Index into Scene::light_groups: its lights shine on it. kNoIndex: all global ones. Of a CSG: means
+  /// nothing.
+  Index light_group = kNoIndex;
   /// Only what is inside all of these is there. They are placed as the object is, and their materials mean
   /// nothing. Null: all of it.
   std::shared_ptr<const std::vector<Object>> clipped_by = nullptr;
@@ -239,7 +251,8 @@ struct Scene {
   Vec3 ambient_light{1, 1, 1};
   std::vector<Fog> fogs;
   std::vector<Light> lights;
-  std::vector<Material> materials; ///< objects refer to these by index
+  std::vector<LightGroup> light_groups; ///< at most kMostLightGroups
+  std::vector<Material> materials;      ///< objects refer to these by index
   std::vector<Interior> interiors; ///< one per object (or union); its identity matters, not only its values
   std::vector<Object> objects;
 

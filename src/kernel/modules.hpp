@@ -39,7 +39,7 @@ constexpr CodeModule kMeshes = {"meshes", 17, 1, 2688};
 /// Rays that go on from surfaces.
 constexpr CodeModule kSecondary = {"secondary", 2, 1, 9856};
 /// Light that is not simply a point's.
-constexpr CodeModule kLights = {"lights", 6, 1, 3584};
+constexpr CodeModule kLights = {"lights", 6, 1, 4352};
 /// The sampling of lights that have an area.
 constexpr CodeModule kAreas = {"areas", 15, 1, 9088};
 /// The rays of cameras whose pictures are not flat.

@@ -33,9 +33,11 @@ constexpr uint32_t disturbed = 0x8000; ///< some of its materials disturb normal
 constexpr uint32_t no_image = 0x10000; ///< only rays that came by a mirror see it
 constexpr uint32_t no_reflection = 0x20000; ///< and these do not
 constexpr uint32_t selective = no_image | no_reflection;
-constexpr uint32_t two_sided = 0x40000; ///< another material where it is seen from inside,
-constexpr uint32_t inverse = 0x80000;   ///< which is what else is outside
+constexpr uint32_t two_sided = 0x40000;  ///< another material where it is seen from inside,
+constexpr uint32_t inverse = 0x80000;    ///< which is what else is outside
+constexpr uint32_t light_set_shift = 22; ///< number of the set of lights that shine on it; 0: all global ones
 } // namespace object_flag
+constexpr uint32_t kMaxLightSets = 1u << (32 - object_flag::light_set_shift);
 
 /// Geometry by kind: sphere: centre (0..2), radius (3). Triangle: its vertices (0..2, 3..5, 6..8). All
 /// others: the affine map from the world to the shape's own space, three rows of four (xyz | offset).
@@ -362,10 +364,11 @@ constexpr uint32_t kind_mask = 0xFF;   ///< the place of its kind in the list of
 constexpr uint32_t shadowless = 0x100; ///< neither shadows nor highlights
 constexpr uint32_t parallel = 0x200;   ///< all its rays go along its axis
 constexpr uint32_t fades = 0x400;
-constexpr uint32_t area = 0x800;      ///< has an area, which shadows are looked for on
-constexpr uint32_t circular = 0x1000; ///< that is round,
-constexpr uint32_t orient = 0x2000;   ///< turns to surfaces,
-constexpr uint32_t jitter = 0x4000;   ///< and whose places are moved at random
+constexpr uint32_t area = 0x800;       ///< has an area, which shadows are looked for on
+constexpr uint32_t circular = 0x1000;  ///< that is round,
+constexpr uint32_t orient = 0x2000;    ///< turns to surfaces,
+constexpr uint32_t jitter = 0x4000;    ///< and whose places are moved at random
+constexpr uint32_t selective = 0x8000; ///< there are objects that it does not shine on
 } // namespace light_flag
 
 /// Columns or rows of places on a light.
@@ -392,7 +395,10 @@ struct alignas(128) LightRecord {
   float inverse_columns, inverse_rows; ///< of columns - 1, rows - 1
   uint32_t adaptive;                   ///< times that the grid is divided in any case
   float axis_length;                   ///< from the location to where the light points
-  uint32_t unused[4];
+
+  uint32_t
+      lit_sets; ///< selective: offset of words with a bit for each set of lights, whether it has this one
+  uint32_t unused[3];
 };
 static_assert(sizeof(LightRecord) == 128, "one light a line");
 
@@ -461,9 +467,11 @@ struct alignas(128) ImageHeader {
   uint32_t feature_offset, feature_count;             ///< FeatureRecords: kFeatures of them, or none
   uint32_t gradient_offset, gradient_count;           ///< GradientRecords: likewise
   uint32_t wave_offset, wave_count;                   ///< WaveRecords
-  uint32_t unused[2];
+  uint32_t light_set_count;                           ///< sets of lights, of which object_flag has numbers
+  uint32_t light_word_offset, light_word_count;       ///< words of LightRecord::lit_sets
+  uint32_t unused[31];
 };
-static_assert(sizeof(ImageHeader) == 256, "two lines");
+static_assert(sizeof(ImageHeader) == 384, "three lines");
 
 // --- frame ---
 

@@ -133,18 +133,16 @@ private:
   template <class T> const T* read(uint32_t offset, DataKind kind) {
     return cache_.template get<T>(offset, kind);
   }
-  /// What is not read in the innermost loops: one copy of the code for all records of a size, as local store
-  /// is short.
+  /// What is not read in the innermost loops: one copy of the code for all records, as local store is
+  /// short.
   template <class T> const T* read_apart(uint32_t offset, DataKind kind) {
     if constexpr (kReadsInPlace<Spu>)
       return read<T>(offset, kind);
     else
-      return reinterpret_cast<const T*>(read_bytes<sizeof(T)>(offset, kind));
+      return reinterpret_cast<const T*>(read_bytes(offset, sizeof(T), kind));
   }
-  template <uint32_t kBytes> struct Bytes { alignas(16) uint8_t byte[kBytes]; };
-  template <uint32_t kBytes>
-  [[gnu::noinline]] const Bytes<kBytes>* read_bytes(uint32_t offset, DataKind kind) {
-    return cache_.template get<Bytes<kBytes>>(offset, kind);
+  [[gnu::noinline]] const uint8_t* read_bytes(uint32_t offset, uint32_t size, DataKind kind) {
+    return cache_.bytes(offset, size, kind);
   }
 
   SoftwareCache<Spu, DataKind> cache_;

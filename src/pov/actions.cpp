@@ -420,6 +420,21 @@ std::shared_ptr<ObjectDefinition> csg(Session& session, Compound compound, const
   return object;
 }
 
+void set_global_lights(ObjectDefinition& object, bool are_on) {
+  auto& compound = std::get<std::shared_ptr<const Compound>>(object.shape);
+  auto changed = std::make_shared<Compound>(*compound);
+  changed->global_lights = are_on;
+  compound = std::move(changed);
+}
+
+ObjectPtr declared(const ObjectPtr& object) {
+  if (object->is_declared || !std::holds_alternative<std::shared_ptr<const Compound>>(object->shape))
+    return object;
+  auto named = std::make_shared<ObjectDefinition>(*object);
+  named->is_declared = true;
+  return named;
+}
+
 ObjectPtr limiting(Session& session, const ObjectPtr& object, const Location& where) {
   if (std::holds_alternative<LightDefinition>(object->shape))
     session.fail(where, "a light source has no inside");

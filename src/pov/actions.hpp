@@ -203,6 +203,10 @@ void add_layer(Session& session, ObjectDefinition& object, const TexturePtr& top
 void set_inside(Session& session, ObjectDefinition& object, const TexturePtr& top, const Location& where);
 std::shared_ptr<ObjectDefinition> shape(Session& session, const WrittenShape& written);
 std::shared_ptr<ObjectDefinition> csg(Session& session, Compound compound, const Location& where);
+/// Of a light group.
+void set_global_lights(ObjectDefinition& object, bool are_on);
+/// What a name stands for that is given to an object.
+ObjectPtr declared(const ObjectPtr& object);
 /// An object that other ones can be limited by.
 ObjectPtr limiting(Session& session, const ObjectPtr& object, const Location& where);
 /// Adds to one of the object's own lists of limits.

@@ -88,6 +88,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %token MATERIAL MATRIX MAX_TRACE_LEVEL MESH MESH2 METALLIC NOISE_GENERATOR NORMAL NORMAL_INDICES NORMAL_MAP
 %token NORMAL_VECTORS NO_SHADOW NUMBER_OF_WAVES OBJECT OCTAVES OMEGA OPEN
 %token PARALLEL PHASE PHONG PHONG_SIZE PHOTONS PIGMENT PIGMENT_MAP POINT_AT POLY_WAVE QUICK_COLOUR RADIUS
+%token GLOBAL_LIGHTS LIGHT_GROUP
 %token ADAPTIVE AREA_ILLUMINATION AREA_LIGHT CIRCULAR JITTER ORIENT
 %token USER_FUNCTION SPLINE TRACE INSIDE MIN_EXTENT MAX_EXTENT
 %token REFLECTION COLLECT PASS_THROUGH TARGET
@@ -132,9 +133,9 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %nterm <std::shared_ptr<const MaterialDefinition>> material
 %nterm <std::shared_ptr<CameraDefinition>> camera camera_body
 %nterm <ObjectPtr> object
-%nterm <std::shared_ptr<ObjectDefinition>> object_head object_body light_body
+%nterm <std::shared_ptr<ObjectDefinition>> object_head object_body light_body light_group
 %nterm <WrittenShape> shape_head
-%nterm <Compound> csg_head
+%nterm <Compound> csg_head light_group_head
 %nterm <std::vector<Limit>> limits
 %nterm <std::shared_ptr<MeshBuilder>> mesh_head
 %nterm <std::shared_ptr<Mesh2Definition>> mesh2_head
@@ -835,6 +836,7 @@ camera_body
 object
   : object_body '}'          { $1->where = @1; $$ = own_object(session, $1, @1); }
   | light_body '}'           { $1->where = @1; $$ = $1; session.lights.pop_back(); }
+  | light_group '}'          { $1->where = @1; $$ = $1; }
   | OBJECT_ID
   | UNSUPPORTED_OBJECT {
       $$ = unsupported_object(quoted(session, $1), @1);
@@ -870,6 +872,17 @@ shape_head
 csg_head
   : CSG '{'                  { $$.operation = Csg::Operation($1); }
   | csg_head object          { $$ = std::move($1); append(session, $$.parts, $2, @2); }
+  ;
+
+light_group_head
+  : LIGHT_GROUP '{'          { $$.is_light_group = true; }
+  | light_group_head object  { $$ = std::move($1); append(session, $$.parts, $2, @2); }
+  ;
+
+light_group // which is no more than its parts: it has no texture and the like of its own
+  : light_group_head                { $$ = csg(session, std::move($1), @1); }
+  | light_group transformation      { $$ = $1; $$->apply($2); }
+  | light_group GLOBAL_LIGHTS flag  { $$ = $1; set_global_lights(*$$, $3 != 0); }
   ;
 
 object_body
@@ -1092,7 +1105,7 @@ declarable
   | interior          { $$ = $1; }
   | material          { $$ = $1; }
   | camera            { $$ = std::shared_ptr<const CameraDefinition>($1); }
-  | object            { $$ = $1; }
+  | object            { $$ = declared($1); }
   | TRANSFORM '{' transform_items '}' { $$ = $3; }
   | UNSUPPORTED_BLOCK { $$ = make_unsupported(quoted(session, $1), @1); session.tokens.skip_group(); }
   | ARRAY dimensions  { $$ = make_array(session, $2, 0, @1); }

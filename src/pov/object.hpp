@@ -24,6 +24,8 @@ using Shape = decltype(Object::shape);
 struct Compound {
   Csg::Operation operation = Csg::Operation::union_;
   std::vector<ObjectPtr> parts;
+  bool is_light_group = false; ///< light sources among its parts shine on the others alone
+  bool global_lights = false;  ///< of a light group: all others shine on them, too
 };
 
 /// An object whose inside limits another one.
@@ -80,6 +82,7 @@ struct ObjectDefinition {
   UnsupportedPtr missing;        ///< instead of a shape, one that this program lacks
   bool is_photon_target = false; ///< not of lights
   bool is_look = false;          ///< being read as what a light looks like
+  bool is_declared = false;      ///< has a name: what is placed is a copy
   int depth = 0;                 ///< of objects inside one another
   [[no_unique_address]] Counted<ObjectDefinition> counted;
 

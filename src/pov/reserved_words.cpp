@@ -88,6 +88,7 @@ const Word kWords[] = {
     {"frequency", tokens::T_FREQUENCY},
     {"fresnel", tokens::T_FRESNEL},
     {"function", tokens::T_USER_FUNCTION},
+    {"global_lights", tokens::T_GLOBAL_LIGHTS},
     {"global_settings", tokens::T_GLOBAL_SETTINGS},
     {"hf_gray_16", tokens::T_IGNORED_FLAG},
     {"hierarchy", tokens::T_IGNORED_FLAG},
@@ -103,6 +104,7 @@ const Word kWords[] = {
     {"jitter", tokens::T_JITTER},
     {"julia", tokens::T_JULIA},
     {"lambda", tokens::T_LAMBDA},
+    {"light_group", tokens::T_LIGHT_GROUP},
     {"light_source", tokens::T_LIGHT_SOURCE},
     {"location", tokens::T_LOCATION},
     {"look_at", tokens::T_LOOK_AT},
@@ -302,9 +304,9 @@ const DirectiveWord kDirectives[] = {
 // What POV-Ray 3.7 reserves for features that are not supported: things that are objects, things that have a
 // block in braces of their own, and the rest.
 const char* const kUnsupportedObjects[] = {
-    "bicubic_patch", "blob", "height_field", "isosurface",     "julia_fractal", "lathe",
-    "light_group",   "ovus", "parametric",   "poly",           "polygon",       "prism",
-    "quartic",       "sor",  "sphere_sweep", "superellipsoid", "text",
+    "bicubic_patch", "blob",         "height_field",   "isosurface", "julia_fractal", "lathe",
+    "ovus",          "parametric",   "poly",           "polygon",    "prism",         "quartic",
+    "sor",           "sphere_sweep", "superellipsoid", "text",
 };
 
 const char* const kUnsupportedBlocks[] = {
@@ -314,10 +316,14 @@ const char* const kUnsupportedBlocks[] = {
 };
 
 const char* const kUnsupportedFeatures[] = {
-    "absorption", "albedo",        "all_intersections", "autostop",      "b_spline",     "blur_samples",
-    "cube",       "density_file",  "double_illuminate", "global_lights", "importance",   "load_file",
-    "max_trace",  "no_bump_scale", "pattern",           "precision",     "quaternion",   "save_file",
-    "scattering", "slope",         "spacing",           "tiling",        "translucency",
+    "absorption",    "albedo",       "all_intersections",
+    "autostop",      "b_spline",     "blur_samples",
+    "cube",          "density_file", "double_illuminate",
+    "importance",    "load_file",    "max_trace",
+    "no_bump_scale", "pattern",      "precision",
+    "quaternion",    "save_file",    "scattering",
+    "slope",         "spacing",      "tiling",
+    "translucency",
 };
 
 // What stands behind others of these words.

@@ -87,6 +87,8 @@ private:
     bool is_part = false;         ///< placed in the space of a CSG, not of the scene
     bool clips = false;           ///< only its inside matters
     int depth = 0;                ///< CSG and clipping around it
+    Index light_group = kNoIndex; ///< whose lights shine on it
+    bool is_copy = false;         ///< it is part of an object that has a name
     const char* inside = nullptr; ///< in what its inside counts, for messages; null: it does not
   };
   void place(const ObjectDefinition& object, const Inherited& around, const Location& where);
@@ -97,7 +99,10 @@ private:
   std::shared_ptr<const std::vector<Object>> make_clips(const ObjectDefinition& object,
                                                         const Inherited& around, const Location& where);
   void enter_solid(Inherited& own, const Location& where) const;
-  void place_light(const LightDefinition& definition, Inherited own, const Location& where);
+  void enter_light_group(const Compound& group, Inherited& own, const Location& where);
+  Index add_light_group(const LightGroup& group, const Location& where);
+  Index add_light(const LightDefinition& definition, const Inherited& own, const Location& where);
+  void place_look(const LightDefinition& definition, Inherited own, const Location& where);
   void refuse(const std::string& what, const ObjectDefinition& object, const Location& where);
   Index interior_of(const Inherited& own);
   Index interior_index(const ObjectDefinition& object, Index inherited, const TextureDefinition& texture,

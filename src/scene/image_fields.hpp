@@ -25,7 +25,8 @@ FieldList<&ImageHeader::magic, &ImageHeader::version, &ImageHeader::bytes, &Imag
           &ImageHeader::fog_count, &ImageHeader::finish_offset, &ImageHeader::finish_count,
           &ImageHeader::light_ways, &ImageHeader::feature_offset, &ImageHeader::feature_count,
           &ImageHeader::gradient_offset, &ImageHeader::gradient_count, &ImageHeader::wave_offset,
-          &ImageHeader::wave_count, &ImageHeader::unused>
+          &ImageHeader::wave_count, &ImageHeader::light_set_count, &ImageHeader::light_word_offset,
+          &ImageHeader::light_word_count, &ImageHeader::unused>
 fields_of(const ImageHeader&);
 
 FieldList<&ObjectRecord::kind_and_flags, &ObjectRecord::material, &ObjectRecord::interior,
@@ -109,7 +110,8 @@ FieldList<&LightRecord::location, &LightRecord::kind_and_flags, &LightRecord::co
           &LightRecord::axis, &LightRecord::inverse_width, &LightRecord::inner, &LightRecord::inverse_edge,
           &LightRecord::inverse_fade_distance, &LightRecord::fade_power, &LightRecord::across,
           &LightRecord::columns, &LightRecord::along, &LightRecord::rows, &LightRecord::inverse_columns,
-          &LightRecord::inverse_rows, &LightRecord::adaptive, &LightRecord::axis_length, &LightRecord::unused>
+          &LightRecord::inverse_rows, &LightRecord::adaptive, &LightRecord::axis_length,
+          &LightRecord::lit_sets, &LightRecord::unused>
 fields_of(const LightRecord&);
 
 FieldList<&GroupRecord::min, &GroupRecord::first, &GroupRecord::max, &GroupRecord::count>

@@ -10,6 +10,7 @@
 
 #include "celltrace/error.hpp"
 #include "kernel/records.hpp"
+#include "scene/light_sets.hpp"
 #include "scene/shapes.hpp"
 #include "scene/textures.hpp"
 
@@ -127,6 +128,8 @@ void check_object(const Scene& scene, const Object& object, std::size_t index, i
   const Name name = {"object", index};
   check_index(object.material, scene.materials.size(), {"object", index, ", material"});
   check_index(object.interior, scene.interiors.size(), {"object", index, ", interior"});
+  if (object.light_group != kNoIndex)
+    check_index(object.light_group, scene.light_groups.size(), {"object", index, ", light group"});
   const Vec3(&rows)[4] = object.transform.rows;
   check_vectors({rows[0], rows[1], rows[2], rows[3]}, name);
   if (const Sphere* sphere = std::get_if<Sphere>(&object.shape)) {
@@ -196,6 +199,7 @@ void validate(const Scene& scene) {
     check(scene.fogs[i], {"fog", i});
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     check(scene.lights[i], {"light", i});
+  validate_light_groups(scene);
   for (std::size_t i = 0; i < scene.materials.size(); ++i)
     validate_texture(scene.materials[i], Name{"material", i}.text());
   validate_sky(scene);

@@ -60,6 +60,7 @@ bool references_are_valid(const std::byte* base, const ImageHeader& h) {
     const std::uint32_t flags = object.kind_and_flags;
     const bool blended = (flags & object_flag::blended) != 0;
     if ((flags & object_flag::kind_mask) >= kPrimitives) return false;
+    if (flags >> object_flag::light_set_shift >= h.light_set_count) return false;
     if (blended ? !refers_to(object.material, h.blend_offset, h.blend_count, sizeof(BlendRecord))
                 : !is_material(object.material))
       return false;
@@ -80,11 +81,19 @@ bool references_are_valid(const std::byte* base, const ImageHeader& h) {
 
 bool lights_are_valid(const std::byte* base, const ImageHeader& h) {
   const auto* lights = reinterpret_cast<const LightRecord*>(base + h.light_offset);
-  return std::all_of(lights, lights + h.light_count, [](const LightRecord& light) {
+  constexpr std::uint32_t kWord = sizeof(std::uint32_t), kBits = 32;
+  if (h.light_set_count == 0 || h.light_set_count > kMaxLightSets) return false;
+  const std::uint32_t words_a_light = (h.light_set_count + kBits - 1) / kBits;
+  const auto knows_its_sets = [&](const LightRecord& light) {
+    return refers_to(light.lit_sets, h.light_word_offset, h.light_word_count, kWord) &&
+           h.light_word_count - (light.lit_sets - h.light_word_offset) / kWord >= words_a_light;
+  };
+  return std::all_of(lights, lights + h.light_count, [&](const LightRecord& light) {
     const auto is_count = [](std::uint32_t places) { return places - 1 < kMaxLightPlaces; };
     return (light.kind_and_flags & light_flag::kind_mask) < Lights::kCount &&
            (!has_area(light) ||
-            (is_count(light.columns) && is_count(light.rows) && light.columns * light.rows > 1));
+            (is_count(light.columns) && is_count(light.rows) && light.columns * light.rows > 1)) &&
+           ((light.kind_and_flags & light_flag::selective) == 0 || knows_its_sets(light));
   });
 }
 
@@ -369,6 +378,7 @@ SceneImage SceneImage::from_bytes(std::span<const std::byte> bytes) {
     throw InputError("scene image: its size is wrong");
   if (h.checksum != checksum(bytes)) throw InputError("scene image: its checksum is wrong");
   if (!table_fits(h.light_offset, h.light_count, sizeof(LightRecord), bytes.size()) ||
+      !table_fits(h.light_word_offset, h.light_word_count, sizeof(std::uint32_t), bytes.size()) ||
       !table_fits(h.material_offset, h.material_count, sizeof(MaterialRecord), bytes.size()) ||
       !table_fits(h.pattern_offset, h.pattern_count, sizeof(PatternRecord), bytes.size()) ||
       !table_fits(h.space_step_offset, h.space_step_count, sizeof(SpaceStepRecord), bytes.size()) ||

@@ -151,12 +151,22 @@ Vec3 Tracer::trace(const Branch& branch) const {
   return in_fog(branch, point.distance, sum);
 }
 
+bool Tracer::shines_on(const Light& light, Index group) const {
+  if (group == kNoIndex) return light.is_global;
+  const LightGroup& own = scene_.light_groups[group];
+  const auto index = static_cast<Index>(&light - scene_.lights.data());
+  return (own.global_lights && light.is_global) ||
+         std::find(own.lights.begin(), own.lights.end(), index) != own.lights.end();
+}
+
 Vec3 Tracer::own_light(const Branch& branch, const Point& point, const Material& material) const {
   const Vec3& direction = branch.ray.direction;
   const Finish& f = material.finish;
   Vec3 sum = material.pigment.rgb * (f.ambient * scene_.ambient_light + f.emission) *
              opacity(material.pigment, scene_.version);
+  const Index group = point.shape->object->light_group;
   for (const Light& light : scene_.lights) {
+    if (!shines_on(light, group)) continue;
     const auto [to_light, distance, unshadowed] = incoming(light, point.position);
     if (glm::dot(point.normal, to_light) < 1e-10) continue;
     const bool is_parallel = light.parallel || light.kind == Light::Kind::cylinder;

@@ -1,5 +1,6 @@
 #include "render/scenes.hpp"
 
+#include <cmath>
 #include <stdexcept>
 
 #include <glm/geometric.hpp>
@@ -478,6 +479,42 @@ Scene fog_and_insides() {
   return scene;
 }
 
+/// So many groups that they take more than one word of bits, of spheres, a mesh and CSG.
+Scene light_groups() {
+  Scene scene = with_camera(camera_at({0, 4, -8}, {0, 0, 0}));
+  add_floor(scene, -0.5, {0.5, 0.6, 0.5}, {0.8, 0.8, 0.8});
+  const Index white = scene.add(matte({1, 1, 1}));
+  for (int i = 0; i < 40; ++i) {
+    const double angle = 0.3 * i;
+    const Vec3 at = {0.09 * i * std::cos(angle), -0.2, 0.09 * i * std::sin(angle)};
+    Light light;
+    light.location = at + Vec3(0.5, 2, -1.5);
+    light.colour = {0.3 + 0.3 * (i % 3), 0.3 + 0.2 * (i % 4), 0.3 + 0.1 * (i % 5)};
+    light.is_global = i % 8 == 7;
+    if (i % 3 == 1) light.area = LightArea{{0.3, 0, 0}, {0, 0, 0.3}, 2, 2, 1};
+    light.shadowless = i % 5 == 4;
+    scene.lights.push_back(light);
+    LightGroup group;
+    group.global_lights = i % 4 == 2;
+    if (!light.is_global) group.lights.push_back(static_cast<Index>(scene.lights.size() - 1));
+    if (i % 6 == 5) group.lights.push_back(2);
+    scene.light_groups.push_back(group);
+    Object object = sphere_at(at, 0.25, white, new_interior(scene));
+    if (i % 7 == 3) object = mesh_object(ball_mesh(3), white, new_interior(scene));
+    if (i % 7 == 3) object.transform = Transform::scale(Vec3(0.3)).then(Transform::translate(at));
+    object.light_group = static_cast<Index>(i);
+    if (i % 7 == 5) {
+      Object box = object;
+      box.shape = Box{{at - 0.2, at + 0.2}};
+      object.light_group = static_cast<Index>(i - 1);
+      auto csg = std::make_shared<const Csg>(Csg{Csg::Operation::intersection, {object, box}});
+      object = Object{csg, {}, white, object.interior};
+    }
+    scene.objects.push_back(object);
+  }
+  return scene;
+}
+
 } // namespace
 
 const std::vector<NamedScene>& scenes() {
@@ -498,6 +535,7 @@ const std::vector<NamedScene>& scenes() {
       {"flat, gamma 2.2", flat_gamma},
       {"patterns", patterns},
       {"cut meshes", cut_meshes},
+      {"light groups", light_groups},
       {"textures", textures, "the reference has no noise, layers or normals"}};
   return all;
 }

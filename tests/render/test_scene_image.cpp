@@ -151,6 +151,43 @@ TEST_CASE("A sealed scene image with a fault in it is refused") {
   refused([](Bytes& b) { table<BlendRecord>(b, header_of(b).blend_offset)->material[2] = 5; }, "offset");
 }
 
+TEST_CASE("A sealed scene image with a fault in its light groups is refused") {
+  const Bytes good = bytes_of(SceneImage(scene_named("light groups")));
+  const auto refused = [&](const std::function<void(Bytes&)>& change) {
+    Bytes bytes = good;
+    change(bytes);
+    seal(bytes);
+    CHECK_THROWS_WITH(SceneImage::from_bytes(bytes), Catch::Contains("offset"));
+  };
+  const auto lights = [](Bytes& b) { return table<LightRecord>(b, header_of(b).light_offset); };
+  const ImageHeader header = *reinterpret_cast<const ImageHeader*>(good.data());
+  REQUIRE(header.light_set_count == 41);
+  REQUIRE(header.light_word_count == 2 * header.light_count); // no light shines on everything
+  refused([](Bytes& b) { header_of(b).light_set_count = 0; });
+  refused([](Bytes& b) { header_of(b).light_set_count = 40; }); // an object has a later one
+  refused([](Bytes& b) { header_of(b).light_set_count = kMaxLightSets + 1; });
+  refused([](Bytes& b) { header_of(b).light_word_count = 0x40000000; });
+  refused([](Bytes& b) { header_of(b).light_word_count -= 1; });
+  refused([](Bytes& b) { header_of(b).light_word_offset += 4; });
+  refused([&](Bytes& b) { lights(b)[3].lit_sets += 2; });
+  refused([&](Bytes& b) { lights(b)[header.light_count - 1].lit_sets += 4; });
+  refused([&](Bytes& b) { lights(b)->lit_sets = header.light_offset; });
+}
+
+TEST_CASE("Light groups that are not sound are refused") {
+  Scene scene = scene_named("light groups");
+  scene.light_groups[1].lights.push_back(static_cast<Index>(scene.lights.size()));
+  CHECK_THROWS_WITH(SceneImage(scene), Catch::Contains("light group 1"));
+  scene = scene_named("light groups");
+  scene.objects[3].light_group = 40;
+  CHECK_THROWS_WITH(SceneImage(scene), Catch::Contains("object 3, light group"));
+  scene = scene_named("light groups");
+  scene.light_groups.resize(kMostLightGroups);
+  CHECK_NOTHROW(SceneImage(scene));
+  scene.light_groups.resize(kMostLightGroups + 1);
+  CHECK_THROWS_WITH(SceneImage(scene), Catch::Contains("1023 light groups"));
+}
+
 TEST_CASE("A sealed scene image with a fault in the inside of a mesh is refused") {
   const Bytes good = bytes_of(SceneImage(scene_named("cut meshes")));
   const auto refused = [&](const std::function<void(Bytes&, const ImageHeader&)>& change) {

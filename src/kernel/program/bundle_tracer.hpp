@@ -194,7 +194,7 @@ private:
                                     AreaShadow<S>* area) {
     const Surfaces<S> surfaces = member.points.lit_surfaces(rays.direction.template load<S>(), hits.object);
     IncidentLight<S> incident(light.colour);
-    illuminate(scene_.spu(), light, surfaces, lanes, incident);
+    illuminate(scene_, light, surfaces, lanes, incident);
     if (incident.facing == 0) return 0;
     colour.template store<S>(incident.colour);
     if (area != nullptr)

@@ -96,7 +96,7 @@ V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, const FrameBlock& fr
   V3<S> sum = round.is_first() ? m.pigment * m.ambient * m.opacity : dark;
   for_each_light(scene, frame, round.first, round.count, [&](uint32_t number, const LightRecord& light) {
     IncidentLight<S> incident(light.colour);
-    illuminate(scene.spu(), light, s, lanes, incident);
+    illuminate(scene, light, s, lanes, incident);
     const uint32_t facing = incident.facing;
     if (facing == 0) return;
     scene.spu().compute(scalar_work::kLight);
