@@ -206,12 +206,19 @@ struct Quadric {
   double constant = -1;
 };
 
+/// Flat: loops of points in one plane, each of them closed from its last point to its first. It is there
+/// where an odd number of lines of theirs lies to one side: a loop inside another one is a hole. For CSG
+/// nothing is inside of it, and nothing of its inverse either.
+struct Polygon {
+  std::vector<std::vector<Vec3>> loops;
+};
+
 struct Csg;
 
 /// One thing to hit: a shape, placed. Plain unions are already taken apart.
 struct Object {
   std::variant<Sphere, std::shared_ptr<const Mesh>, Plane, Disc, Box, Cylinder, Cone, Torus, Quadric,
-               std::shared_ptr<const Csg>>
+               std::shared_ptr<const Polygon>, std::shared_ptr<const Csg>>
       shape;
   Transform transform;
   Index material = 0; ///< of a CSG: means nothing, its parts have their own

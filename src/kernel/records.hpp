@@ -51,13 +51,21 @@ struct alignas(64) ObjectRecord {
 static_assert(sizeof(ObjectRecord) == 64, "two objects a line");
 
 /// What few objects have. `value`: of a smooth triangle, the normals at its three vertices, xyz each, which
-/// interpolate linearly and have any common length; of a shape in its own space, its parameters.
+/// interpolate linearly and have any common length; of a shape in its own space, its parameters, of a polygon
+/// those of PolygonEdges.
 struct alignas(64) ExtraRecord {
   float value[9];
   uint32_t csg;    ///< of objects with object_flag::csg: offset of a CsgRecord
   float bounds[6]; ///< of such objects: what may be there of them; least x, y, z, greatest x, y, z
 };
 static_assert(sizeof(ExtraRecord) == 64, "two records a line");
+
+/// An edge of a polygon, in the plane of its space, from its lower end up. It is beside points that are from
+/// `low` on and below `high`: there it is at `column`, and `slope` more for each unit above `low`.
+struct alignas(16) PolygonEdgeRecord {
+  float low, high, column, slope;
+};
+static_assert(sizeof(PolygonEdgeRecord) == 16, "eight a line");
 
 // Constructive solid geometry. Surfaces of its parts are objects; a crossing with one counts where the
 // condition of the part holds: in all other parts of an intersection, in no other part of a merge, at each
@@ -469,7 +477,8 @@ struct alignas(128) ImageHeader {
   uint32_t wave_offset, wave_count;                   ///< WaveRecords
   uint32_t light_set_count;                           ///< sets of lights, of which object_flag has numbers
   uint32_t light_word_offset, light_word_count;       ///< words of LightRecord::lit_sets
-  uint32_t unused[31];
+  uint32_t polygon_edge_offset, polygon_edge_count;   ///< PolygonEdgeRecords
+  uint32_t unused[29];
 };
 static_assert(sizeof(ImageHeader) == 384, "three lines");
 

@@ -276,6 +276,7 @@ bool SceneBuilder::make_shape(const ObjectDefinition& object, const Inherited& o
                               const Location& where) {
   if (const Shape* shape = std::get_if<Shape>(&object.shape)) {
     made.shape = *shape;
+    if (std::holds_alternative<std::shared_ptr<const Polygon>>(*shape)) made.inverse = false;
     return own.inside || !is_invisible(*shape);
   }
   const auto* triangle = std::get_if<std::shared_ptr<TriangleDefinition>>(&object.shape);

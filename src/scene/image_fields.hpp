@@ -26,7 +26,8 @@ FieldList<&ImageHeader::magic, &ImageHeader::version, &ImageHeader::bytes, &Imag
           &ImageHeader::light_ways, &ImageHeader::feature_offset, &ImageHeader::feature_count,
           &ImageHeader::gradient_offset, &ImageHeader::gradient_count, &ImageHeader::wave_offset,
           &ImageHeader::wave_count, &ImageHeader::light_set_count, &ImageHeader::light_word_offset,
-          &ImageHeader::light_word_count, &ImageHeader::unused>
+          &ImageHeader::light_word_count, &ImageHeader::polygon_edge_offset, &ImageHeader::polygon_edge_count,
+          &ImageHeader::unused>
 fields_of(const ImageHeader&);
 
 FieldList<&ObjectRecord::kind_and_flags, &ObjectRecord::material, &ObjectRecord::interior,
@@ -34,6 +35,10 @@ FieldList<&ObjectRecord::kind_and_flags, &ObjectRecord::material, &ObjectRecord:
 fields_of(const ObjectRecord&);
 
 FieldList<&ExtraRecord::value, &ExtraRecord::csg, &ExtraRecord::bounds> fields_of(const ExtraRecord&);
+
+FieldList<&PolygonEdgeRecord::low, &PolygonEdgeRecord::high, &PolygonEdgeRecord::column,
+          &PolygonEdgeRecord::slope>
+fields_of(const PolygonEdgeRecord&);
 
 FieldList<&CsgRecord::next, &CsgRecord::steps, &CsgRecord::count, &CsgRecord::skip_begin,
           &CsgRecord::skip_end, &CsgRecord::unused>

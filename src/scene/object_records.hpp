@@ -23,7 +23,7 @@ struct ObjectCensus {
 /// Where records go that objects refer to, and where the tables lie in the image.
 struct RecordTables {
   std::uint32_t material_offset, interior_offset, extra_offset, blend_offset;
-  std::uint32_t csg_offset;
+  std::uint32_t csg_offset, polygon_edge_offset;
   kernel::ExtraRecord* extras;                      ///< table
   kernel::BlendRecord* blends;                      ///< table
   const std::vector<std::uint32_t>& material_flags; ///< object_flags by material

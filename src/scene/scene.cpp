@@ -143,6 +143,8 @@ void check_object(const Scene& scene, const Object& object, std::size_t index, i
     for (const Object& part : (*csg)->parts)
       check_object(scene, part, index, depth + 1);
   } else {
+    const auto* polygon = std::get_if<std::shared_ptr<const Polygon>>(&object.shape);
+    if (polygon != nullptr && !*polygon) throw InputError(name.text() + " has no polygon");
     validate_shape(object, name.text());
   }
   if (!object.clipped_by) return;

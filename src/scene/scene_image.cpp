@@ -149,6 +149,8 @@ ImageHeader make_header(const Scene& scene, const LightSets& light_sets, const T
   layout.place<std::uint32_t>(meshes.words().size(), header.mesh_word_offset, header.mesh_word_count);
   layout.place<MeshTriangleRecord>(meshes.triangles().size(), header.mesh_triangle_offset,
                                    header.mesh_triangle_count);
+  layout.place<PolygonEdgeRecord>(objects.polygons().edges().size(), header.polygon_edge_offset,
+                                  header.polygon_edge_count);
   layout.place<ExtraRecord>(census.extras + objects.unbounded_extras(), header.extra_offset,
                             header.extra_count);
   const std::uint32_t room = room_of_unbounded(objects.unbounded_count());
@@ -181,6 +183,7 @@ public:
                                                      header.extra_offset,
                                                      header.blend_offset,
                                                      header.csg_offset,
+                                                     header.polygon_edge_offset,
                                                      table<ExtraRecord>(header.extra_offset),
                                                      table<BlendRecord>(header.blend_offset),
                                                      textures.object_flags} {
@@ -252,6 +255,11 @@ public:
       table<SolidRecord>(header_.solid_offset)[i] = solid;
     }
     write_meshes(csg.meshes);
+  }
+
+  void write_polygons(const PolygonTable& polygons) {
+    std::copy(polygons.edges().begin(), polygons.edges().end(),
+              table<PolygonEdgeRecord>(header_.polygon_edge_offset));
   }
 
   void write_meshes(const MeshInsides& meshes) {
@@ -411,6 +419,7 @@ void SceneImage::assign(const Scene& scene, AlignedBlock& work, unsigned threads
   writer.write_lights(light_sets);
   writer.write_surfaces(textures);
   writer.write_csg(objects.csg());
+  writer.write_polygons(objects.polygons());
   writer.write_objects(objects, {memory.objects, loose.objects}, memory.cells, threads);
   writer.write_groups(groups, threads);
   writer.write_instances(instances, threads);

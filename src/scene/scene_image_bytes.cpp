@@ -71,9 +71,17 @@ bool references_are_valid(const std::byte* base, const ImageHeader& h) {
       return false;
     if (needs_extra(flags) && !refers_to(object.extra, h.extra_offset, h.extra_count, sizeof(ExtraRecord)))
       return false;
+    const auto extra = [&] { return reinterpret_cast<const ExtraRecord*>(base + object.extra); };
+    if ((flags & object_flag::kind_mask) == kPrimitiveKind<PolygonPrimitive>) {
+      const PolygonEdges edges = PolygonEdges::of(*extra());
+      if (edges.count != 0 &&
+          (!refers_to(edges.first, h.polygon_edge_offset, h.polygon_edge_count, sizeof(PolygonEdgeRecord)) ||
+           edges.count >
+               h.polygon_edge_count - (edges.first - h.polygon_edge_offset) / sizeof(PolygonEdgeRecord)))
+        return false;
+    }
     if ((flags & object_flag::csg) != 0 &&
-        !refers_to(reinterpret_cast<const ExtraRecord*>(base + object.extra)->csg, h.csg_offset, h.csg_count,
-                   sizeof(CsgRecord)))
+        !refers_to(extra()->csg, h.csg_offset, h.csg_count, sizeof(CsgRecord)))
       return false;
   }
   return true;
@@ -391,6 +399,7 @@ SceneImage SceneImage::from_bytes(std::span<const std::byte> bytes) {
       !table_fits(h.interior_offset, h.interior_count, sizeof(InteriorRecord), bytes.size()) ||
       !table_fits(h.finish_offset, h.finish_count, sizeof(FinishRecord), bytes.size()) ||
       !table_fits(h.fog_offset, h.fog_count, sizeof(FogRecord), bytes.size()) ||
+      !table_fits(h.polygon_edge_offset, h.polygon_edge_count, sizeof(PolygonEdgeRecord), bytes.size()) ||
       !table_fits(h.extra_offset, h.extra_count, sizeof(ExtraRecord), bytes.size()) ||
       !table_fits(h.object_offset, h.object_count, sizeof(ObjectRecord), bytes.size()) ||
       h.unbounded_count > (h.object_offset - sizeof(ImageHeader)) / sizeof(ObjectRecord) ||

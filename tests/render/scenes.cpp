@@ -479,6 +479,54 @@ Scene fog_and_insides() {
   return scene;
 }
 
+/// Polygons with holes, with lines that cross, shared by objects, clear, cut and in CSG.
+Scene polygons() {
+  Scene scene = with_camera(camera_at({0, 1, -6}, {0, 0, 0}));
+  add_floor(scene, -1.5, {0.5, 0.6, 0.5}, {0.8, 0.8, 0.8});
+  auto star = std::make_shared<Polygon>();
+  auto frame = std::make_shared<Polygon>();
+  star->loops.resize(1);
+  frame->loops.resize(2);
+  for (int i = 0; i < 7; ++i) {
+    const double angle = 2 * 3.14159265358979 * (3 * i % 7) / 7;
+    star->loops[0].push_back({std::cos(angle), std::sin(angle), 0.2});
+  }
+  for (int i = 0; i < 40; ++i) {
+    const double angle = 2 * 3.14159265358979 * i / 40, r = i % 2 == 0 ? 1 : 0.8;
+    // In a slanted plane, and the hole the other way around.
+    frame->loops[0].push_back({r * std::cos(angle), r * std::sin(angle), 0.5 * r * std::cos(angle)});
+    frame->loops[1].push_back({0.5 * std::cos(angle), -0.4 * std::sin(angle), 0.25 * std::cos(angle)});
+  }
+  const auto add = [&](const std::shared_ptr<const Polygon>& polygon, const Material& material,
+                       const Transform& transform) {
+    Object object;
+    object.shape = polygon;
+    object.transform = transform;
+    object.material = scene.add(material);
+    object.interior = new_interior(scene);
+    scene.objects.push_back(object);
+  };
+  add(star, matte({0.9, 0.3, 0.2}), Transform::translate({-1.5, 0.3, 0}));
+  add(star, glass({0.9, 0.9, 0.3}),
+      Transform::scale({1, 0.5, 1})
+          .then(Transform::rotate({60, 20, 10}))
+          .then(Transform::translate({0.4, -1, -1})));
+  add(frame, matte({0.3, 0.8, 0.3}), Transform::rotate({0, 30, 0}).then(Transform::translate({1.4, 0.2, 0})));
+  add(frame, matte({0.4, 0.5, 0.9}),
+      Transform::rotate({80, 0, 0}).then(Transform::translate({-0.2, 1.1, 1})));
+  scene.objects.back().clipped_by = std::make_shared<const std::vector<Object>>(
+      std::vector<Object>{sphere_at({0.3, 1, 1}, 0.9, 0, scene.objects.back().interior)});
+  Object part = scene.objects[1];
+  part.transform = Transform();
+  const Object ball = sphere_at({0, 0, 0}, 0.7, scene.objects[3].material, part.interior);
+  auto csg = std::make_shared<const Csg>(Csg{Csg::Operation::intersection, {part, ball}});
+  Object cut = part;
+  cut.shape = csg;
+  cut.transform = Transform::translate({0, 0.2, -1.5});
+  scene.objects.push_back(cut);
+  return scene;
+}
+
 /// So many groups that they take more than one word of bits, of spheres, a mesh and CSG.
 Scene light_groups() {
   Scene scene = with_camera(camera_at({0, 4, -8}, {0, 0, 0}));
@@ -536,6 +584,7 @@ const std::vector<NamedScene>& scenes() {
       {"patterns", patterns},
       {"cut meshes", cut_meshes},
       {"light groups", light_groups},
+      {"polygons", polygons},
       {"textures", textures, "the reference has no noise, layers or normals"}};
   return all;
 }

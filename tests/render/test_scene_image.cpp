@@ -174,6 +174,43 @@ TEST_CASE("A sealed scene image with a fault in its light groups is refused") {
   refused([&](Bytes& b) { lights(b)->lit_sets = header.light_offset; });
 }
 
+TEST_CASE("A sealed scene image with a fault in its polygons is refused") {
+  const Bytes good = bytes_of(SceneImage(scene_named("polygons")));
+  const auto refused = [&](const std::function<void(Bytes&)>& change) {
+    Bytes bytes = good;
+    change(bytes);
+    seal(bytes);
+    CHECK_THROWS_WITH(SceneImage::from_bytes(bytes), Catch::Contains("offset"));
+  };
+  const ImageHeader header = *reinterpret_cast<const ImageHeader*>(good.data());
+  REQUIRE(header.polygon_edge_count == 7 + 80); // shared, and none of them level
+  const auto change_edges = [&](Bytes& b, const std::function<void(PolygonEdges&)>& change) {
+    auto* objects = table<ObjectRecord>(b, header.object_offset);
+    for (std::uint32_t i = 0; i < header.object_count; ++i) {
+      if ((objects[i].kind_and_flags & object_flag::kind_mask) != kPrimitiveKind<PolygonPrimitive>) continue;
+      auto* extra = table<ExtraRecord>(b, objects[i].extra);
+      PolygonEdges edges = PolygonEdges::of(*extra);
+      change(edges);
+      return edges.put_in(*extra);
+    }
+  };
+  refused([](Bytes& b) { header_of(b).polygon_edge_count = 0x10000000; });
+  refused([](Bytes& b) { header_of(b).polygon_edge_count = 7; });
+  refused([&](Bytes& b) { change_edges(b, [](PolygonEdges& edges) { edges.count = 88; }); });
+  refused([&](Bytes& b) { change_edges(b, [](PolygonEdges& edges) { edges.first += 8; }); });
+  refused([&](Bytes& b) { change_edges(b, [&](PolygonEdges& e) { e.first = header.extra_offset; }); });
+}
+
+TEST_CASE("Polygons that are not sound are refused") {
+  Scene scene = scene_named("polygons");
+  scene.objects[1].shape = std::shared_ptr<const Polygon>();
+  CHECK_THROWS_WITH(SceneImage(scene), Catch::Contains("object 1 has no polygon"));
+  auto polygon = std::make_shared<Polygon>();
+  polygon->loops = {{{0, 0, 0}, {1, 0, 0}, {0, HUGE_VAL, 0}}};
+  scene.objects[1].shape = std::shared_ptr<const Polygon>(polygon);
+  CHECK_THROWS_WITH(SceneImage(scene), Catch::Contains("not finite"));
+}
+
 TEST_CASE("Light groups that are not sound are refused") {
   Scene scene = scene_named("light groups");
   scene.light_groups[1].lights.push_back(static_cast<Index>(scene.lights.size()));
