@@ -83,6 +83,28 @@ struct Fog {
   double turbulence_depth = 0.5; ///< how much
 };
 
+/// A bow of colours, with POV-Ray's formulas: it is seen before whatever rays meet there, the more the
+/// farther away that is, also before nothing at all; not by rays that are in an object whose interior is not
+/// hollow. Where several are seen they count the same. Fog is before all of them.
+struct Rainbow {
+  struct Colour {
+    double position; ///< ascending, 0 at the inner edge of the bow to 1 at the outer one
+    Vec3 rgb{0, 0, 0};
+    double filter = 0;   ///< how much of what is seen through it takes the colour
+    double transmit = 0; ///< the share of it that is seen in any case
+  };
+  Vec3 direction{0, 0,
+                 1};      ///< in which light falls, of any length but 0: the bow is around what is seen there
+  double angle = 0;       ///< to that, of the middle of the bow, in degrees
+  double width = 0;       ///< of the bow, in degrees; 0: there is none
+  double distance = 0;    ///< of what is seen by 1/e; not above 0: there is no bow
+  double jitter = 0;      ///< by so much of the width colours lie elsewhere, at random
+  Vec3 up{0, 1, 0};       ///< where the middle of its arc is; not along the direction
+  double arc_angle = 360; ///< of the arc, in degrees
+  double falloff_angle = 360;  ///< of the part of the arc that does not fade toward the ends
+  std::vector<Colour> colours; ///< 1 to 256, blended in between
+};
+
 /// Index into Scene::materials or Scene::interiors.
 using Index = std::uint32_t;
 inline constexpr Index kNoIndex = 0xFFFFFFFFu;
@@ -257,6 +279,7 @@ struct Scene {
   std::vector<Pigment> sky_sphere;
   Vec3 ambient_light{1, 1, 1};
   std::vector<Fog> fogs;
+  std::vector<Rainbow> rainbows;
   std::vector<Light> lights;
   std::vector<LightGroup> light_groups; ///< at most kMostLightGroups
   std::vector<Material> materials;      ///< objects refer to these by index

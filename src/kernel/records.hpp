@@ -367,6 +367,24 @@ struct alignas(128) FogRecord {
 };
 static_assert(sizeof(FogRecord) == 128, "one a line");
 
+/// A bow around the axis `direction`, in the plane of `up` and `right`; all three of unit length and at right
+/// angles. Angles are in turns.
+struct alignas(128) RainbowRecord {
+  float direction[3];
+  float angle; ///< from the axis to the middle of the bow
+  float up[3];
+  float inverse_width;
+  float right[3];
+  float inverse_distance;
+  float jitter;       ///< of the place across the bow, by which the colours are chosen
+  float falloff, arc; ///< along the bow from `up`: where it begins to fade and where it ends
+  float inverse_fade; ///< of the way in between; 0: it does not fade
+  uint32_t entries;   ///< offset of the first MapEntryRecord, of colours
+  uint32_t entry_count;
+  uint32_t unused[14];
+};
+static_assert(sizeof(RainbowRecord) == 128, "one a line");
+
 namespace light_flag {
 constexpr uint32_t kind_mask = 0xFF;   ///< the place of its kind in the list of lights/list.hpp
 constexpr uint32_t shadowless = 0x100; ///< neither shadows nor highlights
@@ -431,8 +449,8 @@ constexpr uint32_t kMaxCopiedObjects = 256;
 
 /// What light may meet on its way that few scenes have.
 namespace light_way {
-constexpr uint32_t fog = 0x1;
-constexpr uint32_t fading = 0x2; ///< interiors that fade
+constexpr uint32_t atmosphere = 0x1; ///< fogs or rainbows
+constexpr uint32_t fading = 0x2;     ///< interiors that fade
 /// Shadow rays go from surface to surface: what these let through depends on more than the surface.
 constexpr uint32_t stepwise = 0x4;
 } // namespace light_way
@@ -478,7 +496,8 @@ struct alignas(128) ImageHeader {
   uint32_t light_set_count;                           ///< sets of lights, of which object_flag has numbers
   uint32_t light_word_offset, light_word_count;       ///< words of LightRecord::lit_sets
   uint32_t polygon_edge_offset, polygon_edge_count;   ///< PolygonEdgeRecords
-  uint32_t unused[29];
+  uint32_t rainbow_offset, rainbow_count;             ///< RainbowRecords
+  uint32_t unused[27];
 };
 static_assert(sizeof(ImageHeader) == 384, "three lines");
 
@@ -649,7 +668,8 @@ struct alignas(128) FrameBlock {
   SamplingRecord sampling; ///< of frames that are no picture
   uint32_t fog_offset, fog_count;
   uint32_t light_ways; ///< bits of light_way
-  uint32_t unused[3];
+  uint32_t rainbow_offset, rainbow_count;
+  uint32_t unused[1];
 };
 static_assert(sizeof(FrameBlock) % 128 == 0 && sizeof(FrameBlock) <= 512, "fetched by one DMA command");
 

@@ -46,6 +46,9 @@ public:
   }
   const FinishRecord* finish(uint32_t offset) { return read_apart<FinishRecord>(offset, DataKind::material); }
   const FogRecord* fog(uint32_t offset) { return read_apart<FogRecord>(offset, DataKind::material); }
+  const RainbowRecord* rainbow(uint32_t offset) {
+    return read_apart<RainbowRecord>(offset, DataKind::material);
+  }
   const PatternRecord* pattern(uint32_t offset) {
     return read_apart<PatternRecord>(offset, DataKind::material);
   }

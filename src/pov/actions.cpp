@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <glm/geometric.hpp>
 
@@ -332,6 +333,33 @@ Vec3 direction(Session& session, const Quantity& vector, const Location& where) 
   const double length = glm::length(v);
   if (!(length > 0)) session.fail(where, "this vector has no direction");
   return v / length;
+}
+
+std::shared_ptr<RainbowDefinition> new_rainbow() {
+  // POV-Ray takes its default for radians.
+  constexpr double kEndless = 360 * 180 / std::numbers::pi;
+  auto rainbow = std::make_shared<RainbowDefinition>();
+  rainbow->value.direction = Vec3(0);
+  rainbow->value.arc_angle = rainbow->value.falloff_angle = kEndless;
+  return rainbow;
+}
+
+void set_colours(Rainbow& rainbow, const PigmentMap& map) {
+  rainbow.colours.clear();
+  for (const auto& [position, pigment] : map.entries)
+    rainbow.colours.push_back({position, pigment.rgb, pigment.filter, pigment.transmit});
+}
+
+void check(Session& session, const Rainbow& rainbow, const Location& where) {
+  constexpr double kLeast = 1e-10;
+  const double length = glm::length(rainbow.direction);
+  if (length < kLeast) session.fail(where, "this rainbow's direction has no length");
+  const Vec3 across = glm::cross(rainbow.direction, rainbow.up);
+  if (glm::length(across) < kLeast * length)
+    session.fail(where, "this rainbow's direction and 'up' are one line");
+  const bool is_given = rainbow.falloff_angle < new_rainbow()->value.falloff_angle;
+  if (is_given && rainbow.arc_angle < rainbow.falloff_angle)
+    session.fail(where, "this rainbow's 'arc_angle' is less than its 'falloff_angle'");
 }
 
 void ReflectionDefinition::set(const Vec3& only) {

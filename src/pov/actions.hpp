@@ -202,6 +202,11 @@ void add_layer(Session& session, ObjectDefinition& object, const TexturePtr& top
 /// Adds a layer to what the object looks like from inside.
 void set_inside(Session& session, ObjectDefinition& object, const TexturePtr& top, const Location& where);
 std::shared_ptr<ObjectDefinition> shape(Session& session, const WrittenShape& written);
+/// With POV-Ray's defaults: no direction, and an arc without an end.
+std::shared_ptr<RainbowDefinition> new_rainbow();
+void set_colours(Rainbow& rainbow, const PigmentMap& map);
+/// What a rainbow has to have.
+void check(Session& session, const Rainbow& rainbow, const Location& where);
 std::shared_ptr<ObjectDefinition> csg(Session& session, Compound compound, const Location& where);
 /// Of a light group.
 void set_global_lights(ObjectDefinition& object, bool are_on);

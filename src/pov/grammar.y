@@ -57,6 +57,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %token <SlopeMapPtr> SLOPE_MAP_ID
 %token <SkySpherePtr> SKY_SPHERE_ID
 %token <FogPtr> FOG_ID
+%token <RainbowPtr> RAINBOW_ID
 %token <FinishPtr> FINISH_ID
 %token <TexturePtr> TEXTURE_ID
 %token <InteriorPtr> INTERIOR_ID
@@ -88,7 +89,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %token MATERIAL MATRIX MAX_TRACE_LEVEL MESH MESH2 METALLIC NOISE_GENERATOR NORMAL NORMAL_INDICES NORMAL_MAP
 %token NORMAL_VECTORS NO_SHADOW NUMBER_OF_WAVES OBJECT OCTAVES OMEGA OPEN
 %token PARALLEL PHASE PHONG PHONG_SIZE PHOTONS PIGMENT PIGMENT_MAP POINT_AT POLY_WAVE QUICK_COLOUR RADIUS
-%token GLOBAL_LIGHTS LIGHT_GROUP
+%token ARC_ANGLE FALLOFF_ANGLE GLOBAL_LIGHTS LIGHT_GROUP RAINBOW WIDTH
 %token ADAPTIVE AREA_ILLUMINATION AREA_LIGHT CIRCULAR JITTER ORIENT
 %token USER_FUNCTION SPLINE TRACE INSIDE MIN_EXTENT MAX_EXTENT
 %token REFLECTION COLLECT PASS_THROUGH TARGET
@@ -127,6 +128,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %nterm <TexturePtr> texture texture_parts texture_body layers
 %nterm <std::shared_ptr<SkySphereDefinition>> sky_sphere sky_sphere_body
 %nterm <std::shared_ptr<FogDefinition>> fog fog_body
+%nterm <std::shared_ptr<RainbowDefinition>> rainbow rainbow_body
 %nterm <InteriorDefinition> interior_body
 %nterm <InteriorPtr> interior
 %nterm <MaterialDefinition> material_body
@@ -176,6 +178,7 @@ scene
   | scene BACKGROUND '{' colour_value '}' { session.builder.set_background(session.colour($4, @4)); }
   | scene sky_sphere                { session.builder.set_sky_sphere(*$2, @2); }
   | scene fog                       { session.builder.add_fog(*$2, @2); }
+  | scene rainbow                   { session.builder.add_rainbow(*$2, @2); }
   | scene GLOBAL_SETTINGS '{' settings '}'
   | scene UNSUPPORTED_BLOCK         {
       session.diagnostics.supports(make_unsupported(quoted(session, $2), @2), @2);
@@ -761,6 +764,25 @@ fog_body
   | fog_body unsupported        { $$ = $1; mark($$->unsupported, $2); }
   ;
 
+rainbow
+  : RAINBOW '{' rainbow_body '}' { $$ = $3; check(session, $$->value, @1); }
+  ;
+
+rainbow_body
+  : %empty                          { $$ = new_rainbow(); }
+  | rainbow_body RAINBOW_ID         { $$ = std::make_shared<RainbowDefinition>(*$2); }
+  | rainbow_body DIRECTION quantity { $$ = $1; $$->value.direction = session.vector($3, @3); }
+  | rainbow_body ANGLE number       { $$ = $1; $$->value.angle = $3; }
+  | rainbow_body WIDTH number       { $$ = $1; $$->value.width = $3; }
+  | rainbow_body DISTANCE number    { $$ = $1; $$->value.distance = $3; }
+  | rainbow_body JITTER number      { $$ = $1; $$->value.jitter = $3; }
+  | rainbow_body UP quantity        { $$ = $1; $$->value.up = session.vector($3, @3); }
+  | rainbow_body ARC_ANGLE number   { $$ = $1; $$->value.arc_angle = $3; }
+  | rainbow_body FALLOFF_ANGLE number { $$ = $1; $$->value.falloff_angle = $3; }
+  | rainbow_body COLOUR_MAP colour_map { $$ = $1; set_colours($$->value, $3); }
+  | rainbow_body unsupported        { $$ = $1; mark($$->unsupported, $2); }
+  ;
+
 interior
   : INTERIOR '{' interior_body '}' { $$ = std::make_shared<InteriorDefinition>($3); }
   ;
@@ -1083,6 +1105,8 @@ declarable
   | SKY_SPHERE_ID     { $$ = $1; }
   | fog               { $$ = FogPtr($1); }
   | FOG_ID            { $$ = $1; }
+  | rainbow           { $$ = RainbowPtr($1); }
+  | RAINBOW_ID        { $$ = $1; }
   | layers            { $$ = $1; }
   | TEXTURE_ID        { $$ = $1; }
   | PIGMENT_ID        { $$ = $1; }

@@ -37,6 +37,7 @@ const Word kWords[] = {
     {"ambient_light", tokens::T_AMBIENT_LIGHT},
     {"angle", tokens::T_ANGLE},
     {"aperture", tokens::T_APERTURE},
+    {"arc_angle", tokens::T_ARC_ANGLE},
     {"area_illumination", tokens::T_AREA_ILLUMINATION},
     {"area_light", tokens::T_AREA_LIGHT},
     {"array", tokens::T_ARRAY},
@@ -81,6 +82,7 @@ const Word kWords[] = {
     {"finish", tokens::T_FINISH},
     {"flip", tokens::T_FLIP},
     {"focal_point", tokens::T_IGNORED_NUMBER},
+    {"falloff_angle", tokens::T_FALLOFF_ANGLE},
     {"fog", tokens::T_FOG},
     {"fog_alt", tokens::T_FOG_ALT},
     {"fog_offset", tokens::T_FOG_OFFSET},
@@ -152,6 +154,7 @@ const Word kWords[] = {
     {"quick_color", tokens::T_QUICK_COLOUR},
     {"quick_colour", tokens::T_QUICK_COLOUR},
     {"radius", tokens::T_RADIUS},
+    {"rainbow", tokens::T_RAINBOW},
     {"reflection", tokens::T_REFLECTION},
     {"reflection_exponent", tokens::T_REFLECTION_EXPONENT},
     {"refraction", tokens::T_REFRACTION},
@@ -192,6 +195,7 @@ const Word kWords[] = {
     {"variance", tokens::T_IGNORED_NUMBER},
     {"vertex_vectors", tokens::T_VERTEX_VECTORS},
     {"warp", tokens::T_WARP},
+    {"width", tokens::T_WIDTH},
 };
 
 constexpr int detail(Constant constant) {
@@ -310,9 +314,9 @@ const char* const kUnsupportedObjects[] = {
 };
 
 const char* const kUnsupportedBlocks[] = {
-    "bump_map",          "contained_by", "density", "density_map", "image_map",
-    "image_pattern",     "material_map", "media",   "mesh_camera", "pigment_pattern",
-    "projected_through", "radiosity",    "rainbow", "subsurface",  "tiles",
+    "bump_map",          "contained_by", "density",    "density_map", "image_map",
+    "image_pattern",     "material_map", "media",      "mesh_camera", "pigment_pattern",
+    "projected_through", "radiosity",    "subsurface", "tiles",
 };
 
 const char* const kUnsupportedFeatures[] = {
@@ -334,7 +338,6 @@ const char* const kUnsupportedArguments[] = {
     "altitude",
     "always_sample",
     "append",
-    "arc_angle",
     "ascii",
     "bezier_spline",
     "bitwise_and",
@@ -400,7 +403,6 @@ const char* const kUnsupportedArguments[] = {
     "utf8",
     "v_steps",
     "water_level",
-    "width",
 };
 
 /// Words with rules of their own by which what they stand for is not supported.

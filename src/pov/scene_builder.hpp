@@ -40,6 +40,8 @@ public:
   void set_sky_sphere(const SkySphereDefinition& sky, const Location& where);
   /// They add up.
   void add_fog(const FogDefinition& fog, const Location& where);
+  /// As many are seen at once as there are.
+  void add_rainbow(const RainbowDefinition& rainbow, const Location& where);
   void set_ambient_light(const Vec3& rgb) { scene_.ambient_light = rgb; }
   void set_max_trace_level(int level) { scene_.max_trace_level = level; }
   void set_noise_generator(int number) { noise_generator_ = number; }

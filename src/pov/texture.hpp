@@ -121,6 +121,12 @@ struct FogDefinition {
 };
 using FogPtr = std::shared_ptr<const FogDefinition>;
 
+struct RainbowDefinition {
+  Rainbow value;
+  UnsupportedPtr unsupported;
+};
+using RainbowPtr = std::shared_ptr<const RainbowDefinition>;
+
 struct InteriorDefinition {
   double ior = 1;
   double fade_distance = 0;

@@ -27,7 +27,7 @@ FieldList<&ImageHeader::magic, &ImageHeader::version, &ImageHeader::bytes, &Imag
           &ImageHeader::gradient_offset, &ImageHeader::gradient_count, &ImageHeader::wave_offset,
           &ImageHeader::wave_count, &ImageHeader::light_set_count, &ImageHeader::light_word_offset,
           &ImageHeader::light_word_count, &ImageHeader::polygon_edge_offset, &ImageHeader::polygon_edge_count,
-          &ImageHeader::unused>
+          &ImageHeader::rainbow_offset, &ImageHeader::rainbow_count, &ImageHeader::unused>
 fields_of(const ImageHeader&);
 
 FieldList<&ObjectRecord::kind_and_flags, &ObjectRecord::material, &ObjectRecord::interior,
@@ -110,6 +110,12 @@ FieldList<&FogRecord::colour, &FogRecord::least, &FogRecord::tint, &FogRecord::i
           &FogRecord::up, &FogRecord::offset, &FogRecord::flags, &FogRecord::turbulence_depth,
           &FogRecord::turbulence, &FogRecord::unused>
 fields_of(const FogRecord&);
+
+FieldList<&RainbowRecord::direction, &RainbowRecord::angle, &RainbowRecord::up, &RainbowRecord::inverse_width,
+          &RainbowRecord::right, &RainbowRecord::inverse_distance, &RainbowRecord::jitter,
+          &RainbowRecord::falloff, &RainbowRecord::arc, &RainbowRecord::inverse_fade, &RainbowRecord::entries,
+          &RainbowRecord::entry_count, &RainbowRecord::unused>
+fields_of(const RainbowRecord&);
 
 FieldList<&LightRecord::location, &LightRecord::kind_and_flags, &LightRecord::colour, &LightRecord::tightness,
           &LightRecord::axis, &LightRecord::inverse_width, &LightRecord::inner, &LightRecord::inverse_edge,

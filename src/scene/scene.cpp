@@ -8,6 +8,8 @@
 #include <limits>
 #include <unordered_set>
 
+#include <glm/geometric.hpp>
+
 #include "celltrace/error.hpp"
 #include "kernel/records.hpp"
 #include "scene/light_sets.hpp"
@@ -81,6 +83,19 @@ void check(const Fog& fog, const Name& name) {
                name);
   if (fog.turbulence.octaves < 1 || fog.turbulence.octaves > 10)
     throw InputError(name.text() + " has turbulence whose octaves are not 1 to 10");
+}
+
+void check(const Rainbow& bow, const Name& name) {
+  check_vectors({bow.direction, bow.up}, name);
+  check_finite({bow.angle, bow.width, bow.distance, bow.jitter, bow.arc_angle, bow.falloff_angle}, name);
+  const Vec3 across = glm::cross(bow.direction, bow.up);
+  if (!(glm::dot(across, across) > 0)) throw InputError(name.text() + " has no direction, or is up along it");
+  if (bow.colours.empty() || bow.colours.size() > kMostMapEntries)
+    throw InputError(name.text() + " has to have 1 to " + std::to_string(kMostMapEntries) + " colours");
+  for (const Rainbow::Colour& colour : bow.colours) {
+    check_vectors({colour.rgb}, name);
+    check_finite({colour.position, colour.filter, colour.transmit}, name);
+  }
 }
 
 void check(const Interior& interior, const Name& name) {
@@ -199,6 +214,8 @@ void validate(const Scene& scene) {
     throw InputError("the scene has a noise generator that is not 1 to 3");
   for (std::size_t i = 0; i < scene.fogs.size(); ++i)
     check(scene.fogs[i], {"fog", i});
+  for (std::size_t i = 0; i < scene.rainbows.size(); ++i)
+    check(scene.rainbows[i], {"rainbow", i});
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     check(scene.lights[i], {"light", i});
   validate_light_groups(scene);

@@ -106,7 +106,7 @@ std::uint32_t room_of_unbounded(std::uint32_t count) {
 }
 
 std::uint32_t light_ways_of(const Scene& scene, const TextureTables& textures) {
-  std::uint32_t ways = scene.fogs.empty() ? 0 : light_way::fog;
+  std::uint32_t ways = scene.fogs.empty() && textures.rainbows.empty() ? 0 : light_way::atmosphere;
   for (const Interior& interior : scene.interiors) {
     const InteriorRecord r = make_record(interior);
     if (r.inverse_fade_distance != 0) ways |= light_way::fading | light_way::stepwise;
@@ -140,6 +140,7 @@ ImageHeader make_header(const Scene& scene, const LightSets& light_sets, const T
   layout.place<FinishRecord>(textures.finishes.size(), header.finish_offset, header.finish_count);
   header.light_ways = light_ways_of(scene, textures);
   layout.place<FogRecord>(scene.fogs.size(), header.fog_offset, header.fog_count);
+  layout.place<RainbowRecord>(textures.rainbows.size(), header.rainbow_offset, header.rainbow_count);
   const CsgParts& csg = objects.csg();
   layout.place<CsgRecord>(csg.conditions.size(), header.csg_offset, header.csg_count);
   layout.place<CsgStep>(csg.steps.size(), header.csg_step_offset, header.csg_step_count);
@@ -222,6 +223,7 @@ public:
     copy(textures.entries, header_.map_entry_offset);
     copy(textures.normals, header_.normal_offset);
     copy(textures.finishes, header_.finish_offset);
+    copy(textures.rainbows, header_.rainbow_offset);
     copy(textures.features, header_.feature_offset);
     copy(textures.gradients, header_.gradient_offset);
     copy(textures.waves, header_.wave_offset);

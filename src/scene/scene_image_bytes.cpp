@@ -122,6 +122,11 @@ public:
     const Table<FogRecord> fogs(base_, h_.fog_offset, h_.fog_count);
     for (std::uint32_t i = 0; i < h_.fog_count; ++i)
       if (!turbulence_is_sound(fogs[i].turbulence)) return false;
+    const Table<RainbowRecord> rainbows(base_, h_.rainbow_offset, h_.rainbow_count);
+    for (std::uint32_t i = 0; i < h_.rainbow_count; ++i) {
+      const std::uint32_t first = entries_.find(rainbows[i].entries), count = rainbows[i].entry_count;
+      if (first == entries_.count || count == 0 || count > entries_.count - first) return false;
+    }
     for (std::uint32_t i = 0; i < h_.space_step_count; ++i)
       if (!is_sound(steps_[i])) return false;
     if (h_.feature_count != 0 && h_.feature_count != kFeatures) return false;
@@ -399,6 +404,7 @@ SceneImage SceneImage::from_bytes(std::span<const std::byte> bytes) {
       !table_fits(h.interior_offset, h.interior_count, sizeof(InteriorRecord), bytes.size()) ||
       !table_fits(h.finish_offset, h.finish_count, sizeof(FinishRecord), bytes.size()) ||
       !table_fits(h.fog_offset, h.fog_count, sizeof(FogRecord), bytes.size()) ||
+      !table_fits(h.rainbow_offset, h.rainbow_count, sizeof(RainbowRecord), bytes.size()) ||
       !table_fits(h.polygon_edge_offset, h.polygon_edge_count, sizeof(PolygonEdgeRecord), bytes.size()) ||
       !table_fits(h.extra_offset, h.extra_count, sizeof(ExtraRecord), bytes.size()) ||
       !table_fits(h.object_offset, h.object_count, sizeof(ObjectRecord), bytes.size()) ||

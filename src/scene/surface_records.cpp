@@ -199,6 +199,29 @@ FogRecord make_record(const Fog& fog, const Scene& scene) {
   return r;
 }
 
+bool is_visible(const Rainbow& rainbow) {
+  return rainbow.width != 0 && rainbow.distance > 0;
+}
+
+RainbowRecord make_record(const Rainbow& rainbow) {
+  constexpr double kTurn = 360;
+  RainbowRecord r{};
+  const Vec3 direction = glm::normalize(rainbow.direction);
+  const Vec3 right = glm::normalize(glm::cross(direction, rainbow.up));
+  copy(direction, r.direction);
+  copy(right, r.right);
+  copy(glm::cross(right, direction), r.up);
+  r.angle = static_cast<float>(rainbow.angle / kTurn);
+  r.inverse_width = static_cast<float>(kTurn / rainbow.width);
+  r.inverse_distance = static_cast<float>(1 / rainbow.distance);
+  r.jitter = static_cast<float>(rainbow.jitter);
+  const double arc = rainbow.arc_angle / 2, falloff = rainbow.falloff_angle / 2;
+  r.arc = static_cast<float>(arc / kTurn);
+  r.falloff = static_cast<float>(falloff / kTurn);
+  r.inverse_fade = static_cast<float>(falloff < arc ? kTurn / (arc - falloff) : 0);
+  return r;
+}
+
 bool is_opaque(const Pigment& pigment) {
   return pigment.filter == 0 && pigment.transmit == 0;
 }

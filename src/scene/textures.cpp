@@ -289,6 +289,8 @@ TextureTables::TextureTables(const Scene& scene) : scene_(scene) {
         (traits.disturbed ? object_flag::disturbed : 0) | (traits.two_sided ? object_flag::two_sided : 0));
   }
   sky = scene.sky_sphere.empty() ? kNoOffset : add_material(sky_of(scene), {}).index;
+  for (const Rainbow& rainbow : scene.rainbows)
+    if (is_visible(rainbow)) add_rainbow(rainbow);
 }
 
 TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Material& material,
@@ -458,6 +460,26 @@ std::uint32_t TextureTables::add_slopes(const std::vector<SlopePoint>& slopes) {
   return first;
 }
 
+void TextureTables::add_rainbow(const Rainbow& rainbow) {
+  const std::vector<Rainbow::Colour>& colours = rainbow.colours;
+  make_room(entries, colours.size(), "entries of maps");
+  RainbowRecord r = make_record(rainbow);
+  r.entries = static_cast<std::uint32_t>(entries.size());
+  r.entry_count = static_cast<std::uint32_t>(colours.size());
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    MapEntryRecord entry{};
+    entry.position = static_cast<float>(colours[i].position);
+    entry.inverse_width = i == 0 ? 0 : inverse_width(colours[i - 1].position, colours[i].position);
+    copy(colours[i].rgb, entry.rgb);
+    entry.filter = static_cast<float>(colours[i].filter);
+    entry.transmit = static_cast<float>(colours[i].transmit);
+    entry.child = kNoOffset;
+    entries.push_back(entry);
+  }
+  children_.resize(entries.size(), Child::none);
+  rainbows.push_back(r);
+}
+
 std::uint32_t TextureTables::add_pattern(const Pattern& pattern, const Space& outer, bool is_average,
                                          std::size_t entry_count) {
   PatternRecord r{};
@@ -561,6 +583,8 @@ void TextureTables::relocate(const ImageHeader& header) {
     case Child::none:
       break;
     }
+  for (RainbowRecord& r : rainbows)
+    to_offset<MapEntryRecord>(r.entries, header.map_entry_offset);
   for (NormalRecord& r : normals)
     to_offset<PatternRecord>(r.pattern, header.pattern_offset);
   for (MaterialRecord& r : materials) {

@@ -128,6 +128,31 @@ Fogged through(const Fog& fog, const Vec3& origin, const Vec3& direction, double
   return {((1 - fog.filter) + fog.filter * fog.colour) * pass, fog.colour * (1 - pass)};
 }
 
+std::optional<Fogged> through(const Rainbow& rainbow, const Vec3& direction, double distance) {
+  const auto degrees = [](double cosine) {
+    return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
+  };
+  const Vec3 axis = glm::normalize(rainbow.direction);
+  const double across = (degrees(glm::dot(axis, direction)) - rainbow.angle) / rainbow.width + 0.5;
+  const Vec3 up = glm::normalize(rainbow.up - glm::dot(rainbow.up, axis) * axis);
+  const double along = degrees(glm::dot(up, glm::normalize(direction - glm::dot(direction, axis) * axis)));
+  if (across < 0 || across > 1 || along > rainbow.arc_angle / 2) return std::nullopt;
+  const auto& colours = rainbow.colours;
+  const auto after = std::find_if(colours.begin(), colours.end(),
+                                  [&](const Rainbow::Colour& colour) { return across <= colour.position; });
+  Rainbow::Colour colour = after == colours.end() ? colours.back() : *after;
+  if (after != colours.end() && after != colours.begin()) {
+    const Rainbow::Colour& before = *(after - 1);
+    const double t = (across - before.position) / (colour.position - before.position);
+    colour.rgb = glm::mix(before.rgb, colour.rgb, t);
+    colour.filter = glm::mix(before.filter, colour.filter, t);
+    colour.transmit = glm::mix(before.transmit, colour.transmit, t);
+  }
+  const double strength = 1 - smooth_step(rainbow.falloff_angle / 2, rainbow.arc_angle / 2, along);
+  const double pass = std::max(std::exp(-distance / rainbow.distance), 1 - strength * (1 - colour.transmit));
+  return Fogged{(1.0 + colour.filter * (1 - pass) * (colour.rgb - 1.0)) * pass, colour.rgb * (1 - pass)};
+}
+
 double fresnel_reflectance(double ratio, double cosine) {
   const double sine = ratio * std::sqrt(1 - cosine * cosine);
   if (sine >= 1) return 1;

@@ -44,6 +44,9 @@ struct Fogged {
 };
 Fogged through(const Fog& fog, const Vec3& origin, const Vec3& direction, double distance);
 
+/// The same of a rainbow; nothing if the ray does not look at it. Without jitter.
+std::optional<Fogged> through(const Rainbow& rainbow, const Vec3& direction, double distance);
+
 /// The reflectance of unpolarised light by Fresnel's equations; `ratio` is the index on this side over that
 /// on the other; 1 beyond the critical angle.
 double fresnel_reflectance(double ratio, double cosine);

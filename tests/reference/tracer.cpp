@@ -119,7 +119,16 @@ Vec3 Tracer::in_fog(const Branch& branch, double distance, const Vec3& behind) c
     added += one.add;
     passed *= one.pass;
   }
-  return added + passed * behind;
+  Vec3 bow_added(0), bow_passed(0);
+  int bows = 0;
+  for (const Rainbow& rainbow : scene_.rainbows)
+    if (const auto one = through(rainbow, branch.ray.direction, distance)) {
+      bow_added += one->add;
+      bow_passed += one->pass;
+      ++bows;
+    }
+  const Vec3 seen = bows == 0 ? behind : (bow_added + bow_passed * behind) / double(bows);
+  return added + passed * seen;
 }
 
 Material Tracer::material_at(Index index, const Vec3& point) const {

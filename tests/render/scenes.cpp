@@ -527,6 +527,43 @@ Scene polygons() {
   return scene;
 }
 
+/// Two bows that share a part of the sky, one of them an arc that fades, behind thin fog and in a mirror.
+Scene rainbows() {
+  Scene scene = with_camera(camera_at({0, 1, -7}, {0, 1, 0}));
+  add_floor(scene, -1, {0.5, 0.6, 0.5}, {0.8, 0.8, 0.8});
+  Material steel = matte({0.3, 0.3, 0.3});
+  steel.finish.reflection_min = steel.finish.reflection_max = Vec3(0.6);
+  add_sphere(scene, {1.2, 0, 0}, 1, steel);
+  add_sphere(scene, {-1.6, -0.3, 1}, 0.7, matte({0.9, 0.8, 0.3}));
+  Material clear = glass({0.9, 0.9, 0.9});
+  add_sphere(scene, {0, 0.4, -2.5}, 0.4, clear, 1.2);
+  Rainbow bow;
+  bow.direction = {-0.1, -0.2, 1};
+  bow.angle = 22;
+  bow.width = 8;
+  bow.distance = 15;
+  bow.colours = {{0, {0.8, 0.4, 1}, 0.9, 0.2},
+                 {0.4, {0.2, 0.9, 1}, 0.8, 0.1},
+                 {0.5, {0.9, 1, 0.1}, 0.8, 0.2},
+                 {0.9, {1, 0.2, 0.1}, 0.9, 0.5}};
+  scene.rainbows.push_back(bow);
+  bow.angle = 25;
+  bow.up = {0.5, 1, 0};
+  bow.arc_angle = 200;
+  bow.falloff_angle = 60;
+  bow.colours[1].rgb = {1, 0.5, 0.2};
+  scene.rainbows.push_back(bow);
+  bow.direction = {0.2, -0.5, -1};
+  bow.up = {0, 1, 0};
+  bow.arc_angle = bow.falloff_angle = 180;
+  scene.rainbows.push_back(bow);
+  Fog fog;
+  fog.distance = 60;
+  fog.colour = {0.6, 0.7, 0.8};
+  scene.fogs.push_back(fog);
+  return scene;
+}
+
 /// So many groups that they take more than one word of bits, of spheres, a mesh and CSG.
 Scene light_groups() {
   Scene scene = with_camera(camera_at({0, 4, -8}, {0, 0, 0}));
@@ -585,6 +622,7 @@ const std::vector<NamedScene>& scenes() {
       {"cut meshes", cut_meshes},
       {"light groups", light_groups},
       {"polygons", polygons},
+      {"rainbows", rainbows},
       {"textures", textures, "the reference has no noise, layers or normals"}};
   return all;
 }

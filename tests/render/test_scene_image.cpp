@@ -201,6 +201,38 @@ TEST_CASE("A sealed scene image with a fault in its polygons is refused") {
   refused([&](Bytes& b) { change_edges(b, [&](PolygonEdges& e) { e.first = header.extra_offset; }); });
 }
 
+TEST_CASE("A sealed scene image with a fault in its rainbows is refused") {
+  const Bytes good = bytes_of(SceneImage(scene_named("rainbows")));
+  const auto refused = [&](const std::function<void(Bytes&)>& change) {
+    Bytes bytes = good;
+    change(bytes);
+    seal(bytes);
+    CHECK_THROWS_WITH(SceneImage::from_bytes(bytes), Catch::Contains("offset"));
+  };
+  const auto bows = [](Bytes& b) { return table<RainbowRecord>(b, header_of(b).rainbow_offset); };
+  REQUIRE(reinterpret_cast<const ImageHeader*>(good.data())->rainbow_count == 3);
+  refused([](Bytes& b) { header_of(b).rainbow_count = 0x10000000; });
+  refused([&](Bytes& b) { bows(b)[1].entry_count = 0; });
+  refused([&](Bytes& b) { bows(b)[2].entry_count = 5; });
+  refused([&](Bytes& b) { bows(b)[0].entries += 16; });
+  refused([&](Bytes& b) { bows(b)[0].entries = header_of(b).material_offset; });
+}
+
+TEST_CASE("Rainbows that are not sound are refused, and those that are not seen left out") {
+  const auto with = [](const std::function<void(Rainbow&)>& change) {
+    Scene scene = scene_named("rainbows");
+    change(scene.rainbows[1]);
+    return scene;
+  };
+  CHECK_THROWS_WITH(SceneImage(with([](Rainbow& r) { r.up = r.direction * 2.0; })),
+                    Catch::Contains("rainbow 1"));
+  CHECK_THROWS_WITH(SceneImage(with([](Rainbow& r) { r.angle = HUGE_VAL; })), Catch::Contains("not finite"));
+  CHECK_THROWS_WITH(SceneImage(with([](Rainbow& r) { r.colours.clear(); })), Catch::Contains("colours"));
+  CHECK_THROWS_WITH(SceneImage(with([](Rainbow& r) { r.colours.resize(257); })), Catch::Contains("colours"));
+  CHECK(SceneImage(with([](Rainbow& r) { r.width = 0; })).header().rainbow_count == 2);
+  CHECK(SceneImage(with([](Rainbow& r) { r.distance = -1; })).header().rainbow_count == 2);
+}
+
 TEST_CASE("Polygons that are not sound are refused") {
   Scene scene = scene_named("polygons");
   scene.objects[1].shape = std::shared_ptr<const Polygon>();
