@@ -249,6 +249,9 @@ struct Object {
   bool no_image = false;      ///< seen in mirrors alone
   bool no_reflection = false; ///< seen in no mirror
   bool inverse = false;       ///< inside and outside change places
+  /// Light that falls on the other side counts as if it fell on this one: POV-Ray's double_illuminate. Of a
+  /// CSG: means nothing.
+  bool is_lit_through = false;
   /// Index into Scene::light_groups: its lights shine on it. kNoIndex: all global ones. Of a CSG: means
   /// nothing.
   Index light_group = kNoIndex;

@@ -33,8 +33,11 @@ constexpr uint32_t disturbed = 0x8000; ///< some of its materials disturb normal
 constexpr uint32_t no_image = 0x10000; ///< only rays that came by a mirror see it
 constexpr uint32_t no_reflection = 0x20000; ///< and these do not
 constexpr uint32_t selective = no_image | no_reflection;
-constexpr uint32_t two_sided = 0x40000;  ///< another material where it is seen from inside,
-constexpr uint32_t inverse = 0x80000;    ///< which is what else is outside
+constexpr uint32_t two_sided = 0x40000; ///< another material where it is seen from inside,
+constexpr uint32_t inverse = 0x80000;   ///< which is what else is outside
+constexpr uint32_t lit_behind =
+    0x100000; ///< some of its materials send on light that falls on the other side
+constexpr uint32_t lit_through = 0x200000; ///< as if it fell on this side; also lit_behind then
 constexpr uint32_t light_set_shift = 22; ///< number of the set of lights that shine on it; 0: all global ones
 } // namespace object_flag
 constexpr uint32_t kMaxLightSets = 1u << (32 - object_flag::light_set_shift);
@@ -316,12 +319,12 @@ struct alignas(128) MaterialRecord {
   float reflection_metallic;
   float inverse_reflection_exponent;
   uint32_t flags;
-  uint32_t pattern; ///< offset of a PatternRecord
-  uint32_t normal;  ///< offset of a NormalRecord
-  uint32_t below;   ///< offset of the layer's MaterialRecord
-  uint32_t finish;  ///< offset of a FinishRecord, or kNoOffset
-  uint32_t inside;  ///< two_sided objects: offset of the MaterialRecord that is seen from inside
-  uint32_t unused[1];
+  uint32_t pattern;     ///< offset of a PatternRecord
+  uint32_t normal;      ///< offset of a NormalRecord
+  uint32_t below;       ///< offset of the layer's MaterialRecord
+  uint32_t finish;      ///< offset of a FinishRecord, or kNoOffset
+  uint32_t inside;      ///< two_sided objects: offset of the MaterialRecord that is seen from inside
+  float diffuse_behind; ///< of light that falls on the other side
 };
 static_assert(sizeof(MaterialRecord) == 128, "one material a line");
 

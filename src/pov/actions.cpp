@@ -382,6 +382,27 @@ void ReflectionDefinition::apply(Finish& finish) const {
   finish.reflection_fresnel = is_fresnel.value_or(finish.reflection_fresnel);
 }
 
+void set_diffuse(FinishDefinition& finish, bool is_albedo, double before, double behind) {
+  finish.value.diffuse = before;
+  finish.value.diffuse_behind = behind;
+  finish.diffuse_is_albedo |= is_albedo; // as POV-Ray has it, also if it is said again without
+}
+
+/// The formulas are POV-Ray's.
+void settle_albedos(FinishDefinition& finish) {
+  Finish& value = finish.value;
+  if (finish.diffuse_is_albedo) {
+    value.diffuse *= (value.brilliance + 1) / 2;
+    value.diffuse_behind *= (value.brilliance + 1) / 2;
+  }
+  if (finish.phong_is_albedo) value.phong *= (value.phong_size + 1) / 2;
+  if (finish.specular_is_albedo) {
+    const double exponent = 1 / value.roughness;
+    value.specular *= (exponent + 2) / (4 * (2 - std::exp2(-exponent / 2)));
+  }
+  finish.diffuse_is_albedo = finish.phong_is_albedo = finish.specular_is_albedo = false;
+}
+
 void set_reflection(Finish& finish, const Vec3& colour) {
   finish.reflection_min = colour;
   finish.reflection_max = colour;
@@ -569,6 +590,15 @@ UnsupportedPtr make_unsupported(const std::string& what, const Location& where) 
 UnsupportedPtr unsupported_feature(Session& session, const std::string& what, const Location& where) {
   session.tokens.skip_arguments();
   return make_unsupported(what, where);
+}
+
+bool renders_media(const Session& session) {
+  return session.options.quality >= 9;
+}
+
+UnsupportedPtr unsupported_block(Session& session, NameId word, const Location& where) {
+  if (session.names.text(word) == "media" && !renders_media(session)) return nullptr;
+  return make_unsupported(quoted(session, word), where);
 }
 
 UnsupportedPtr unless_zero(const std::string& what, double value, const Location& where) {

@@ -89,7 +89,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %token MATERIAL MATRIX MAX_TRACE_LEVEL MESH MESH2 METALLIC NOISE_GENERATOR NORMAL NORMAL_INDICES NORMAL_MAP
 %token NORMAL_VECTORS NO_SHADOW NUMBER_OF_WAVES OBJECT OCTAVES OMEGA OPEN
 %token PARALLEL PHASE PHONG PHONG_SIZE PHOTONS PIGMENT PIGMENT_MAP POINT_AT POLY_WAVE QUICK_COLOUR RADIUS
-%token ARC_ANGLE FALLOFF_ANGLE GLOBAL_LIGHTS LIGHT_GROUP RAINBOW WIDTH
+%token ALBEDO ARC_ANGLE DOUBLE_ILLUMINATE FALLOFF_ANGLE GLOBAL_LIGHTS LIGHT_GROUP RADIOSITY RAINBOW WIDTH
 %token ADAPTIVE AREA_ILLUMINATION AREA_LIGHT CIRCULAR JITTER ORIENT
 %token USER_FUNCTION SPLINE TRACE INSIDE MIN_EXTENT MAX_EXTENT
 %token REFLECTION COLLECT PASS_THROUGH TARGET
@@ -123,7 +123,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %nterm <PigmentMap> colours pigments colour_entry colour_entries pigment_entries colour_map pigment_map
 %nterm <NormalMap> normals normal_entries normal_map
 %nterm <TextureMap> textures texture_entries texture_map
-%nterm <std::shared_ptr<FinishDefinition>> finish_body
+%nterm <std::shared_ptr<FinishDefinition>> finish_parts finish_body
 %nterm <ReflectionDefinition> reflection_body
 %nterm <TexturePtr> texture texture_parts texture_body layers
 %nterm <std::shared_ptr<SkySphereDefinition>> sky_sphere sky_sphere_body
@@ -143,7 +143,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %nterm <std::shared_ptr<Mesh2Definition>> mesh2_head
 %nterm <std::vector<TexturePtr>> texture_list
 %nterm <std::shared_ptr<TriangleDefinition>> triangle triangle_vertices
-%nterm <bool> photons photon_items
+%nterm <bool> albedo photons photon_items
 %nterm <NameId> variable
 %nterm <double> number optional_number flag entry_start
 %nterm <std::shared_ptr<Spline>> spline_head spline
@@ -181,7 +181,7 @@ scene
   | scene rainbow                   { session.builder.add_rainbow(*$2, @2); }
   | scene GLOBAL_SETTINGS '{' settings '}'
   | scene UNSUPPORTED_BLOCK         {
-      session.diagnostics.supports(make_unsupported(quoted(session, $2), @2), @2);
+      session.diagnostics.supports(unsupported_block(session, $2, @2), @2);
       session.tokens.skip_group();
     }
   ;
@@ -200,7 +200,14 @@ settings
   | settings IGNORED_FLAG flag
   | settings CHARSET UNSUPPORTED_ARGUMENT
   | settings CHARSET UNDECLARED_ID
-  | settings PHOTONS { session.builder.set_photons(make_unsupported("'photons'", @2)); session.tokens.skip_group(); }
+  | settings PHOTONS {
+      if (renders_media(session)) session.builder.set_photons(make_unsupported("'photons'", @2));
+      session.tokens.skip_group();
+    }
+  | settings RADIOSITY {
+      if (renders_media(session)) session.diagnostics.supports(make_unsupported("'radiosity'", @2), @2);
+      session.tokens.skip_group();
+    }
   | settings unsupported            { session.diagnostics.supports($2, @2); }
   ;
 
@@ -220,9 +227,10 @@ defaults
       session.builder.default_texture = with_finish(session.builder.default_texture, *$5);
     }
   | defaults camera   { session.builder.default_camera = *$2; }
+  | defaults RADIOSITY { session.tokens.skip_group(); }
   | defaults UNSUPPORTED_BLOCK {
       session.builder.default_texture =
-          with_unsupported(session.builder.default_texture, make_unsupported(quoted(session, $2), @2));
+          with_unsupported(session.builder.default_texture, unsupported_block(session, $2, @2));
       session.tokens.skip_group();
     }
   ;
@@ -629,40 +637,45 @@ entry_start // an average's entries need no weight; a number is one, not a colou
 // ---- Finishes and textures ----
 
 finish_body
+  : finish_parts { $$ = $1; settle_albedos(*$$); }
+  ;
+
+finish_parts
   : %empty {
       $$ = std::make_shared<FinishDefinition>(session.base_texture->finish);
     }
-  | finish_body FINISH_ID                  { $$ = std::make_shared<FinishDefinition>(*$2); }
-  | finish_body AMBIENT colour_value       { $$ = $1; $$->value.ambient = session.colour($3, @3).rgb; }
-  | finish_body EMISSION colour_value      { $$ = $1; $$->value.emission = session.colour($3, @3).rgb; }
-  | finish_body DIFFUSE number             { $$ = $1; $$->value.diffuse = $3; }
-  | finish_body DIFFUSE number ',' number {
-      $$ = $1;
-      $$->value.diffuse = $3;
-      mark($$->unsupported, unless_zero("light from behind", $5, @5));
-    }
-  | finish_body BRILLIANCE number          { $$ = $1; $$->value.brilliance = $3; }
-  | finish_body PHONG number               { $$ = $1; $$->value.phong = $3; }
-  | finish_body PHONG_SIZE number          { $$ = $1; $$->value.phong_size = $3; }
-  | finish_body SPECULAR number            { $$ = $1; $$->value.specular = $3; }
-  | finish_body ROUGHNESS number           { $$ = $1; $$->value.roughness = roughness(session, $3, @3); }
-  | finish_body METALLIC optional_number   { $$ = $1; $$->value.metallic = $3; }
-  | finish_body CONSERVE_ENERGY flag       { $$ = $1; $$->value.conserve_energy = $3 != 0; }
-  | finish_body REFLECTION colour_value    { $$ = $1; set_reflection($$->value, session.colour($3, @3).rgb); }
-  | finish_body REFLECTION '{' reflection_body '}' { $$ = $1; $4.apply($$->value); }
-  | finish_body REFLECTION_EXPONENT number {
+  | finish_parts FINISH_ID                  { $$ = std::make_shared<FinishDefinition>(*$2); }
+  | finish_parts AMBIENT colour_value       { $$ = $1; $$->value.ambient = session.colour($3, @3).rgb; }
+  | finish_parts EMISSION colour_value      { $$ = $1; $$->value.emission = session.colour($3, @3).rgb; }
+  | finish_parts DIFFUSE albedo number      { $$ = $1; set_diffuse(*$$, $3, $4, 0); }
+  | finish_parts DIFFUSE albedo number optional_comma number { $$ = $1; set_diffuse(*$$, $3, $4, $6); }
+  | finish_parts BRILLIANCE number          { $$ = $1; $$->value.brilliance = $3; }
+  | finish_parts PHONG albedo number        { $$ = $1; $$->value.phong = $4; $$->phong_is_albedo |= $3; }
+  | finish_parts PHONG_SIZE number          { $$ = $1; $$->value.phong_size = $3; }
+  | finish_parts SPECULAR albedo number     { $$ = $1; $$->value.specular = $4; $$->specular_is_albedo |= $3; }
+  | finish_parts ROUGHNESS number           { $$ = $1; $$->value.roughness = roughness(session, $3, @3); }
+  | finish_parts METALLIC optional_number   { $$ = $1; $$->value.metallic = $3; }
+  | finish_parts CONSERVE_ENERGY flag       { $$ = $1; $$->value.conserve_energy = $3 != 0; }
+  | finish_parts REFLECTION colour_value    { $$ = $1; set_reflection($$->value, session.colour($3, @3).rgb); }
+  | finish_parts REFLECTION '{' reflection_body '}' { $$ = $1; $4.apply($$->value); }
+  | finish_parts REFLECTION_EXPONENT number {
       $$ = $1;
       $$->value.reflection_exponent = exponent(session, $3, @3);
     }
-  | finish_body IOR number                 { $$ = $1; $$->ior = ior(session, $3, @3); }
-  | finish_body REFRACTION number          { $$ = $1; }
-  | finish_body CRAND number               { $$ = $1; $$->value.crand = $3; }
-  | finish_body CAUSTICS number            { $$ = $1; $$->caustics = $3; }
-  | finish_body FADE_DISTANCE number       { $$ = $1; $$->fade_distance = $3; }
-  | finish_body FADE_POWER number          { $$ = $1; $$->fade_power = $3; }
-  | finish_body IRID '{' number            { $1->value.irid = $4; session.irid = &$1->value; }
+  | finish_parts IOR number                 { $$ = $1; $$->ior = ior(session, $3, @3); }
+  | finish_parts REFRACTION number          { $$ = $1; }
+  | finish_parts CRAND number               { $$ = $1; $$->value.crand = $3; }
+  | finish_parts CAUSTICS number            { $$ = $1; $$->caustics = $3; }
+  | finish_parts FADE_DISTANCE number       { $$ = $1; $$->fade_distance = $3; }
+  | finish_parts FADE_POWER number          { $$ = $1; $$->fade_power = $3; }
+  | finish_parts IRID '{' number            { $1->value.irid = $4; session.irid = &$1->value; }
                           irid_items '}'   { $$ = $1; }
-  | finish_body unsupported                { $$ = $1; mark($$->unsupported, $2); }
+  | finish_parts unsupported                { $$ = $1; mark($$->unsupported, $2); }
+  ;
+
+albedo // the number is the share of light that is sent on in all
+  : %empty { $$ = false; }
+  | ALBEDO { $$ = true; }
   ;
 
 irid_items // of the finish that is being read
@@ -770,7 +783,8 @@ rainbow
 
 rainbow_body
   : %empty                          { $$ = new_rainbow(); }
-  | rainbow_body RAINBOW_ID         { $$ = std::make_shared<RainbowDefinition>(*$2); }
+  | rainbow_body RAINBOW_ID         { // the same again, where POV-Ray 3.7 turns angles twice and forgets the colours
+      $$ = std::make_shared<RainbowDefinition>(*$2); }
   | rainbow_body DIRECTION quantity { $$ = $1; $$->value.direction = session.vector($3, @3); }
   | rainbow_body ANGLE number       { $$ = $1; $$->value.angle = $3; }
   | rainbow_body WIDTH number       { $$ = $1; $$->value.width = $3; }
@@ -933,6 +947,7 @@ object_body
   | object_body NO_REFLECTION          { $$ = $1; $$->no_reflection = true; }
   | object_body NO_SHADOW              { $$ = $1; $$->no_shadow = true; }
   | object_body HOLLOW flag            { $$ = $1; $$->hollow = $3 != 0; }
+  | object_body DOUBLE_ILLUMINATE flag { $$ = $1; $$->is_lit_through = $3 != 0; }
   | object_body INVERSE                { $$ = $1; $$->inverse = !$$->inverse; }
   | object_body IGNORED_FLAG flag      { $$ = $1; }
   | object_body UV_MAPPING             { $$ = $1; mark($$->uv_mapping, make_unsupported("'uv_mapping'", @2)); }
@@ -951,6 +966,7 @@ object_body
       limit(session, *$$, $$->bounded_by, $$->clipped_by, @2);
     }
   | object_body photons                { $$ = $1; $$->is_photon_target = $2; }
+  | object_body RADIOSITY              { $$ = $1; session.tokens.skip_group(); } // says something of radiosity's
   | object_body unsupported_modifier   { $$ = $1; mark($$->unsupported, $2); }
   ;
 
@@ -1182,5 +1198,5 @@ unsupported_pattern // a pigment's, normal's or texture's
 unsupported_modifier // an object's: in CSG an unsupported object is one of its parts
   : UNSUPPORTED        { $$ = unsupported_feature(session, quoted(session, $1), @1); }
   | UNSUPPORTED_ARGUMENT { $$ = unsupported_feature(session, quoted(session, $1), @1); }
-  | UNSUPPORTED_BLOCK  { $$ = unsupported_feature(session, quoted(session, $1), @1); }
+  | UNSUPPORTED_BLOCK  { $$ = unsupported_block(session, $1, @1); session.tokens.skip_arguments(); }
   ;

@@ -74,6 +74,7 @@ struct ObjectDefinition {
   bool no_shadow = false;
   bool no_image = false;
   bool no_reflection = false;
+  bool is_lit_through = false;
   std::optional<bool> hollow; ///< not given: as what it is part of
   bool inverse = false;
   std::vector<Limit> clipped_by;

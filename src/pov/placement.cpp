@@ -96,6 +96,7 @@ SceneBuilder::Inherited SceneBuilder::inherit(const ObjectDefinition& object, co
   own.no_shadow = object.no_shadow || around.no_shadow;
   own.no_image = object.no_image || around.no_image;
   own.no_reflection = object.no_reflection || around.no_reflection;
+  own.is_lit_through = object.is_lit_through || around.is_lit_through;
   own.hollow = object.hollow.value_or(around.hollow);
   own.is_copy = object.is_declared || around.is_copy;
   if (object.texture) {
@@ -133,6 +134,7 @@ std::optional<Object> SceneBuilder::make(const ObjectDefinition& object, const I
   made.no_image = own.no_image;
   made.no_reflection = own.no_reflection;
   made.inverse = object.inverse;
+  made.is_lit_through = own.is_lit_through;
   made.light_group = own.light_group;
   if (const Compound* parts = compound(object)) {
     if (!own.inside || parts->operation != Operation::union_) own.inside = name_of(object);

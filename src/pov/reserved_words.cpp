@@ -33,6 +33,7 @@ const Word kWords[] = {
     {"accuracy", tokens::T_ACCURACY},
     {"adaptive", tokens::T_ADAPTIVE},
     {"adc_bailout", tokens::T_ADC_BAILOUT},
+    {"albedo", tokens::T_ALBEDO},
     {"ambient", tokens::T_AMBIENT},
     {"ambient_light", tokens::T_AMBIENT_LIGHT},
     {"angle", tokens::T_ANGLE},
@@ -70,6 +71,7 @@ const Word kWords[] = {
     {"dispersion_samples", tokens::T_IGNORED_NUMBER},
     {"distance", tokens::T_DISTANCE},
     {"dist_exp", tokens::T_DIST_EXP},
+    {"double_illuminate", tokens::T_DOUBLE_ILLUMINATE},
     {"emission", tokens::T_EMISSION},
     {"exponent", tokens::T_EXPONENT},
     {"exterior", tokens::T_EXTERIOR},
@@ -153,6 +155,7 @@ const Word kWords[] = {
     {"poly_wave", tokens::T_POLY_WAVE},
     {"quick_color", tokens::T_QUICK_COLOUR},
     {"quick_colour", tokens::T_QUICK_COLOUR},
+    {"radiosity", tokens::T_RADIOSITY},
     {"radius", tokens::T_RADIUS},
     {"rainbow", tokens::T_RAINBOW},
     {"reflection", tokens::T_REFLECTION},
@@ -314,20 +317,16 @@ const char* const kUnsupportedObjects[] = {
 };
 
 const char* const kUnsupportedBlocks[] = {
-    "bump_map",          "contained_by", "density",    "density_map", "image_map",
-    "image_pattern",     "material_map", "media",      "mesh_camera", "pigment_pattern",
-    "projected_through", "radiosity",    "subsurface", "tiles",
+    "bump_map",          "contained_by", "density", "density_map", "image_map",
+    "image_pattern",     "material_map", "media",   "mesh_camera", "pigment_pattern",
+    "projected_through", "subsurface",   "tiles",
 };
 
 const char* const kUnsupportedFeatures[] = {
-    "absorption",    "albedo",       "all_intersections",
-    "autostop",      "b_spline",     "blur_samples",
-    "cube",          "density_file", "double_illuminate",
-    "importance",    "load_file",    "max_trace",
-    "no_bump_scale", "pattern",      "precision",
-    "quaternion",    "save_file",    "scattering",
-    "slope",         "spacing",      "tiling",
-    "translucency",
+    "absorption",   "all_intersections", "autostop",  "b_spline",   "blur_samples",  "cube",
+    "density_file", "importance",        "load_file", "max_trace",  "no_bump_scale", "pattern",
+    "precision",    "quaternion",        "save_file", "scattering", "slope",         "spacing",
+    "tiling",       "translucency",
 };
 
 // What stands behind others of these words.
@@ -407,8 +406,8 @@ const char* const kUnsupportedArguments[] = {
 
 /// Words with rules of their own by which what they stand for is not supported.
 constexpr int kRefused[] = {
-    tokens::T_APERTURE,   tokens::T_AREA_ILLUMINATION, tokens::T_CUTAWAY_TEXTURES,
-    tokens::T_DISPERSION, tokens::T_PHOTONS,           tokens::T_UV_MAPPING,
+    tokens::T_APERTURE, tokens::T_AREA_ILLUMINATION, tokens::T_CUTAWAY_TEXTURES, tokens::T_DISPERSION,
+    tokens::T_PHOTONS,  tokens::T_RADIOSITY,         tokens::T_UV_MAPPING,
 };
 
 int token_of(PatternForm form) {

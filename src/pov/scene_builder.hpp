@@ -83,6 +83,7 @@ private:
     bool no_shadow = false;
     bool no_image = false;
     bool no_reflection = false;
+    bool is_lit_through = false;
     bool hollow = false;
     TexturePtr inner_texture;     ///< what it looks like from inside; null: the same
     Transform inner_transform;    ///< to the scene

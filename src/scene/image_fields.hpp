@@ -67,7 +67,7 @@ FieldList<&MaterialRecord::pigment, &MaterialRecord::filter, &MaterialRecord::tr
           &MaterialRecord::reflection_falloff, &MaterialRecord::reflection_metallic,
           &MaterialRecord::inverse_reflection_exponent, &MaterialRecord::flags, &MaterialRecord::pattern,
           &MaterialRecord::normal, &MaterialRecord::below, &MaterialRecord::finish, &MaterialRecord::inside,
-          &MaterialRecord::unused>
+          &MaterialRecord::diffuse_behind>
 fields_of(const MaterialRecord&);
 
 FieldList<&TurbulenceWords::amount, &TurbulenceWords::lambda, &TurbulenceWords::omega,

@@ -50,11 +50,13 @@ inline std::uint32_t light_set_of(const Object& object) {
 inline kernel::ObjectRecord start_record(const Object& object, std::uint32_t kind_and_flags,
                                          std::uint32_t interior_offset) {
   kernel::ObjectRecord r{};
-  r.kind_and_flags = kind_and_flags | (object.no_shadow ? kernel::object_flag::no_shadow : 0) |
-                     (object.no_image ? kernel::object_flag::no_image : 0) |
-                     (object.no_reflection ? kernel::object_flag::no_reflection : 0) |
-                     (object.inverse ? kernel::object_flag::inverse : 0) |
-                     light_set_of(object) << kernel::object_flag::light_set_shift;
+  r.kind_and_flags =
+      kind_and_flags | (object.no_shadow ? kernel::object_flag::no_shadow : 0) |
+      (object.no_image ? kernel::object_flag::no_image : 0) |
+      (object.no_reflection ? kernel::object_flag::no_reflection : 0) |
+      (object.inverse ? kernel::object_flag::inverse : 0) |
+      (object.is_lit_through ? kernel::object_flag::lit_behind | kernel::object_flag::lit_through : 0) |
+      light_set_of(object) << kernel::object_flag::light_set_shift;
   r.interior = interior_offset + object.interior * static_cast<std::uint32_t>(sizeof(kernel::InteriorRecord));
   r.extra = kernel::kNoOffset;
   return r;

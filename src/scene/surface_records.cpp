@@ -128,6 +128,7 @@ MaterialRecord make_record(const Material& material, const Scene& scene) {
   r.opacity = static_cast<float>(opacity(p, scene.version));
   copy(f.ambient * scene.ambient_light + f.emission, r.ambient);
   r.diffuse = static_cast<float>(f.diffuse);
+  r.diffuse_behind = static_cast<float>(f.diffuse_behind);
   r.brilliance = static_cast<float>(f.brilliance);
   r.phong = static_cast<float>(f.phong);
   r.phong_size = static_cast<float>(f.phong_size);
@@ -148,7 +149,7 @@ MaterialRecord make_record(const Material& material, const Scene& scene) {
 }
 
 bool has_record(const Finish& finish) {
-  return finish.diffuse != 0 && (finish.crand != 0 || finish.irid != 0);
+  return (finish.diffuse != 0 || finish.diffuse_behind != 0) && (finish.crand != 0 || finish.irid != 0);
 }
 
 FinishRecord make_record(const Finish& finish, const Scene& scene) {

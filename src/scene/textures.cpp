@@ -36,8 +36,8 @@ public:
     pigment(m.pigment, 0);
     const Finish& f = m.finish;
     vectors({f.ambient, f.emission, f.reflection_min, f.reflection_max});
-    numbers({f.diffuse, f.brilliance, f.phong, f.phong_size, f.specular, f.roughness, f.metallic,
-             f.reflection_falloff, f.reflection_exponent, f.reflection_metallic, f.crand, f.irid,
+    numbers({f.diffuse, f.diffuse_behind, f.brilliance, f.phong, f.phong_size, f.specular, f.roughness,
+             f.metallic, f.reflection_falloff, f.reflection_exponent, f.reflection_metallic, f.crand, f.irid,
              f.irid_thickness, f.irid_turbulence});
     if (m.normal) normal(*m.normal, 0);
     if (!m.below) return;
@@ -277,6 +277,7 @@ void TextureTables::Traits::add(const Traits& other) {
   opaque = opaque && other.opaque;
   textured = textured || other.textured;
   disturbed = disturbed || other.disturbed;
+  lit_behind = lit_behind || other.lit_behind;
 }
 
 TextureTables::TextureTables(const Scene& scene) : scene_(scene) {
@@ -286,7 +287,8 @@ TextureTables::TextureTables(const Scene& scene) : scene_(scene) {
     const Traits traits = fill_material(static_cast<std::uint32_t>(i), scene.materials[i], {});
     object_flags.push_back(
         (traits.opaque ? object_flag::opaque : 0) | (traits.textured ? object_flag::textured : 0) |
-        (traits.disturbed ? object_flag::disturbed : 0) | (traits.two_sided ? object_flag::two_sided : 0));
+        (traits.disturbed ? object_flag::disturbed : 0) | (traits.two_sided ? object_flag::two_sided : 0) |
+        (traits.lit_behind ? object_flag::lit_behind : 0));
   }
   sky = scene.sky_sphere.empty() ? kNoOffset : add_material(sky_of(scene), {}).index;
   for (const Rainbow& rainbow : scene.rainbows)
@@ -313,6 +315,7 @@ TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Ma
     traits.textured = true;
   } else {
     r = make_record(material, scene_);
+    traits.lit_behind = material.finish.diffuse_behind != 0;
     if (has_record(material.finish)) {
       r.finish = static_cast<std::uint32_t>(finishes.size());
       finishes.push_back(make_record(material.finish, scene_));
@@ -321,7 +324,7 @@ TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Ma
       const Known map = add_map(material.pigment.map, outer);
       r.flags |= material_flag::patterned;
       r.pattern = map.index;
-      traits = map.traits;
+      traits.add(map.traits);
       traits.textured = true;
     } else {
       traits.opaque = is_opaque(material.pigment);
@@ -337,6 +340,7 @@ TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Ma
       r.below = below.index;
       traits.opaque = traits.opaque || below.traits.opaque;
       traits.disturbed = traits.disturbed || below.traits.disturbed;
+      traits.lit_behind = traits.lit_behind || below.traits.lit_behind;
       traits.textured = true;
     }
   }

@@ -51,7 +51,7 @@ public:
 private:
   /// What the textures of a tree have in common.
   struct Traits {
-    bool opaque = true, textured = false, disturbed = false, two_sided = false;
+    bool opaque = true, textured = false, disturbed = false, two_sided = false, lit_behind = false;
     void add(const Traits& other);
   };
   struct Known {

@@ -78,14 +78,15 @@ Incoming incoming(const Light& light, const Vec3& point) {
 }
 
 Vec3 lit(const Material& material, double version, const Vec3& colour, const Vec3& to_light,
-         const Vec3& direction, const Vec3& normal, bool highlights) {
+         const Vec3& direction, const Vec3& normal, bool highlights, bool is_lit_through) {
   const Finish& f = material.finish;
   const Vec3& pigment = material.pigment.rgb;
   const double cosine = glm::dot(normal, to_light);
-  if (cosine < 1e-10) return Vec3(0);
-  Vec3 sum =
-      pigment * colour * f.diffuse * opacity(material.pigment, version) * std::pow(cosine, f.brilliance);
-  if (!highlights) return sum;
+  const bool is_behind = cosine < 1e-10 && !is_lit_through;
+  const double diffuse = is_behind ? f.diffuse_behind : f.diffuse;
+  Vec3 sum = pigment * colour * diffuse * opacity(material.pigment, version) *
+             std::pow(std::abs(cosine), f.brilliance);
+  if (!highlights || is_behind) return sum;
 
   double strength = 0;
   const double mirrored = glm::dot(mirror(direction, normal), to_light);

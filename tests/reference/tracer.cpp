@@ -177,7 +177,9 @@ Vec3 Tracer::own_light(const Branch& branch, const Point& point, const Material&
   for (const Light& light : scene_.lights) {
     if (!shines_on(light, group)) continue;
     const auto [to_light, distance, unshadowed] = incoming(light, point.position);
-    if (glm::dot(point.normal, to_light) < 1e-10) continue;
+    const bool is_lit_through = point.shape->object->is_lit_through;
+    const double cosine = glm::dot(point.normal, to_light);
+    if (cosine < 1e-10 && !is_lit_through && f.diffuse_behind == 0) continue;
     const bool is_parallel = light.parallel || light.kind == Light::Kind::cylinder;
     const auto from_place = [&](int column, int row) {
       const Vec3 offset = area_offset(*light.area, to_light, column, row);
@@ -192,9 +194,9 @@ Vec3 Tracer::own_light(const Branch& branch, const Point& point, const Material&
       colour = area_mean(*light.area, from_place);
     else if (!light.shadowless)
       colour *= attenuation({point.position, to_light}, distance, branch.inside);
-    sum +=
-        lit(material, scene_.version, colour, to_light, direction, point.normal, !light.shadowless) *
-        film(f, scene_.irid_wavelength, glm::dot(point.normal, to_light), -glm::dot(direction, point.normal));
+    sum += lit(material, scene_.version, colour, to_light, direction, point.normal, !light.shadowless,
+               is_lit_through) *
+           film(f, scene_.irid_wavelength, std::abs(cosine), -glm::dot(direction, point.normal));
   }
   return sum;
 }

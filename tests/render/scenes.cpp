@@ -527,6 +527,43 @@ Scene polygons() {
   return scene;
 }
 
+/// Thin things of every kind before lights that are in front and behind.
+Scene lit_from_behind() {
+  Scene scene = with_camera(camera_at({0, 1, -7}, {0, 0, 0}));
+  scene.lights.push_back({{1, 5, 6}, {0.8, 0.7, 0.6}});
+  scene.lights.back().area = LightArea{{1, 0, 0}, {0, 1, 0}, 3, 3, 1};
+  scene.lights.push_back({{-3, 0.5, 3}, {0.3, 0.5, 0.6}, true});
+  scene.lights.push_back({{0, -6, 2}, {0.4, 0.3, 0.3}});
+  add_floor(scene, -1.4f, {0.5, 0.6, 0.5}, {0.8, 0.8, 0.8});
+  scene.materials[0].finish.diffuse_behind = 0.5; // half of the floor
+  for (int i = 0; i < 12; ++i) {
+    Material m = matte({0.4 + 0.05 * i, 0.9 - 0.05 * i, 0.4});
+    m.finish.diffuse_behind = i % 3 == 0 ? 0 : 0.2 * (i % 4);
+    m.finish.brilliance = i % 5 == 2 ? 2 : 1;
+    m.finish.phong = 0.5 * (i % 2);
+    m.finish.specular = i % 4 == 1 ? 0.6 : 0;
+    m.finish.irid = i == 8 ? 0.3 : 0;
+    m.finish.irid_thickness = 0.5;
+    if (i == 5) m.pigment.transmit = 0.3;
+    if (i == 7)
+      m.pigment.map = map_of<Pigment>({pattern::Checker{}}, {{0, {{1, 0, 0}}}, {1, {{0.9, 0.9, 1}}}});
+    Object object;
+    object.material = scene.add(m);
+    object.interior = new_interior(scene);
+    object.is_lit_through = i % 3 == 1;
+    const Vec3 at = {1.1 * (i % 4) - 1.7, 1.0 * (i / 4) - 0.8, 0.3 * (i % 3)};
+    object.shape = Disc{{0, 0, 0}, {0, 0.1 * i, 1}, 0.45, 0.1 * (i % 2)};
+    if (i % 4 == 2) object = mesh_object(ball_mesh(4), object.material, object.interior);
+    if (i % 4 == 2) object.transform = Transform::scale(Vec3(0.4));
+    if (i % 4 == 3) object.shape = Box{{{-0.4, -0.4, 0}, {0.4, 0.4, 0.001}}};
+    object.is_lit_through = i % 3 == 1;
+    object.transform =
+        object.transform.then(Transform::rotate({0, 23.0 * i, 0})).then(Transform::translate(at));
+    scene.objects.push_back(object);
+  }
+  return scene;
+}
+
 /// Two bows that share a part of the sky, one of them an arc that fades, behind thin fog and in a mirror.
 Scene rainbows() {
   Scene scene = with_camera(camera_at({0, 1, -7}, {0, 1, 0}));
@@ -621,6 +658,7 @@ const std::vector<NamedScene>& scenes() {
       {"patterns", patterns},
       {"cut meshes", cut_meshes},
       {"light groups", light_groups},
+      {"lit from behind", lit_from_behind},
       {"polygons", polygons},
       {"rainbows", rainbows},
       {"textures", textures, "the reference has no noise, layers or normals"}};
