@@ -68,6 +68,9 @@ struct ParseOptions {
   int width = 640;  ///< image_width
   int height = 480; ///< image_height
   double clock = 0;
+  /// POV-Ray's level of quality at which the picture will be rendered (RenderOptions::quality): below 9
+  /// media, photons and radiosity mean nothing.
+  int quality = 9;
   /// Leaves out what is not supported, objects as a whole and else the feature, with one warning for each
   /// feature, instead of refusing the scene.
   bool lenient = false;

@@ -83,6 +83,28 @@ struct Fog {
   double turbulence_depth = 0.5; ///< how much
 };
 
+/// A bow of colours, with POV-Ray's formulas: it is seen before whatever rays meet there, the more the
+/// farther away that is, also before nothing at all; not by rays that are in an object whose interior is not
+/// hollow. Where several are seen they count the same. Fog is before all of them.
+struct Rainbow {
+  struct Colour {
+    double position; ///< ascending, 0 at the inner edge of the bow to 1 at the outer one
+    Vec3 rgb{0, 0, 0};
+    double filter = 0;   ///< how much of what is seen through it takes the colour
+    double transmit = 0; ///< the share of it that is seen in any case
+  };
+  Vec3 direction{0, 0,
+                 1};      ///< in which light falls, of any length but 0: the bow is around what is seen there
+  double angle = 0;       ///< to that, of the middle of the bow, in degrees
+  double width = 0;       ///< of the bow, in degrees; 0: there is none
+  double distance = 0;    ///< of what is seen by 1/e; not above 0: there is no bow
+  double jitter = 0;      ///< by so much of the width colours lie elsewhere, at random
+  Vec3 up{0, 1, 0};       ///< where the middle of its arc is; not along the direction
+  double arc_angle = 360; ///< of the arc, in degrees
+  double falloff_angle = 360;  ///< of the part of the arc that does not fade toward the ends
+  std::vector<Colour> colours; ///< 1 to 256, blended in between
+};
+
 /// Index into Scene::materials or Scene::interiors.
 using Index = std::uint32_t;
 inline constexpr Index kNoIndex = 0xFFFFFFFFu;
@@ -122,7 +144,16 @@ struct Light {
   double fade_power = 0;    ///< the exponent by which light decreases with distance; 0: it does not fade
   /// Of what its shadows are; else of a point.
   std::optional<LightArea> area = std::nullopt;
+  bool is_global = true; ///< shines on all objects but those of light groups that leave global lights out
 };
+
+/// Which lights shine on the objects that refer to it. Shadows are cast by all objects, whatever group they
+/// or the light are in.
+struct LightGroup {
+  std::vector<Index> lights;  ///< into Scene::lights
+  bool global_lights = false; ///< those of Light::is_global, too
+};
+inline constexpr int kMostLightGroups = 1023;
 
 /// Triangles with shared vertices; vertices and normals are single precision, as in POV-Ray.
 struct Mesh {
@@ -197,12 +228,19 @@ struct Quadric {
   double constant = -1;
 };
 
+/// Flat: loops of points in one plane, each of them closed from its last point to its first. It is there
+/// where an odd number of lines of theirs lies to one side: a loop inside another one is a hole. For CSG
+/// nothing is inside of it, and nothing of its inverse either.
+struct Polygon {
+  std::vector<std::vector<Vec3>> loops;
+};
+
 struct Csg;
 
 /// One thing to hit: a shape, placed. Plain unions are already taken apart.
 struct Object {
   std::variant<Sphere, std::shared_ptr<const Mesh>, Plane, Disc, Box, Cylinder, Cone, Torus, Quadric,
-               std::shared_ptr<const Csg>>
+               std::shared_ptr<const Polygon>, std::shared_ptr<const Csg>>
       shape;
   Transform transform;
   Index material = 0; ///< of a CSG: means nothing, its parts have their own
@@ -212,6 +250,12 @@ struct Object {
   bool no_image = false;      ///< seen in mirrors alone
   bool no_reflection = false; ///< seen in no mirror
   bool inverse = false;       ///< inside and outside change places
+  /// Light that falls on the other side counts as if it fell on this one: POV-Ray's double_illuminate. Of a
+  /// CSG: means nothing.
+  bool is_lit_through = false;
+  /// Index into Scene::light_groups: its lights shine on it. kNoIndex: all global ones. Of a CSG: means
+  /// nothing.
+  Index light_group = kNoIndex;
   /// Only what is inside all of these is there. They are placed as the object is, and their materials mean
   /// nothing. Null: all of it.
   std::shared_ptr<const std::vector<Object>> clipped_by = nullptr;
@@ -239,8 +283,10 @@ struct Scene {
   std::vector<Pigment> sky_sphere;
   Vec3 ambient_light{1, 1, 1};
   std::vector<Fog> fogs;
+  std::vector<Rainbow> rainbows;
   std::vector<Light> lights;
-  std::vector<Material> materials; ///< objects refer to these by index
+  std::vector<LightGroup> light_groups; ///< at most kMostLightGroups
+  std::vector<Material> materials;      ///< objects refer to these by index
   std::vector<Interior> interiors; ///< one per object (or union); its identity matters, not only its values
   std::vector<Object> objects;
 

@@ -204,6 +204,7 @@ struct Finish {
   Vec3 ambient{0.1, 0.1, 0.1};
   Vec3 emission{0, 0, 0};
   double diffuse = 0.6;
+  double diffuse_behind = 0; ///< of light that falls on the other side, which makes no highlights
   double brilliance = 1;
   double phong = 0;
   double phong_size = 40;

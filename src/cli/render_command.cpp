@@ -32,6 +32,7 @@ ParseOptions parse_options(const RenderRequest& request) {
   options.height = request.options.height;
   options.lenient = request.lenient;
   options.clock = request.clock;
+  options.quality = request.options.quality;
   for (const auto& [name, text] : request.declares) {
     double number = 0;
     const char* const last = text.data() + text.size();

@@ -36,10 +36,12 @@ constexpr CodeModule kWarps = {"warps", 23, 0, 3456};
 constexpr CodeModule kHeavyShapes = {"heavy", 4, 1, 4224};
 /// What is inside of meshes. Likewise: where CSG has meshes, it asks both by turns.
 constexpr CodeModule kMeshes = {"meshes", 17, 1, 2688};
+/// Where crossings are in polygons. Likewise, beside the shapes.
+constexpr CodeModule kPolygons = {"polygons", 25, 1, 1024};
 /// Rays that go on from surfaces.
 constexpr CodeModule kSecondary = {"secondary", 2, 1, 9856};
 /// Light that is not simply a point's.
-constexpr CodeModule kLights = {"lights", 6, 1, 3584};
+constexpr CodeModule kLights = {"lights", 6, 1, 4352};
 /// The sampling of lights that have an area.
 constexpr CodeModule kAreas = {"areas", 15, 1, 9088};
 /// The rays of cameras whose pictures are not flat.

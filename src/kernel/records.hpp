@@ -35,7 +35,12 @@ constexpr uint32_t no_reflection = 0x20000; ///< and these do not
 constexpr uint32_t selective = no_image | no_reflection;
 constexpr uint32_t two_sided = 0x40000; ///< another material where it is seen from inside,
 constexpr uint32_t inverse = 0x80000;   ///< which is what else is outside
+constexpr uint32_t lit_behind =
+    0x100000; ///< some of its materials send on light that falls on the other side
+constexpr uint32_t lit_through = 0x200000; ///< as if it fell on this side; also lit_behind then
+constexpr uint32_t light_set_shift = 22; ///< number of the set of lights that shine on it; 0: all global ones
 } // namespace object_flag
+constexpr uint32_t kMaxLightSets = 1u << (32 - object_flag::light_set_shift);
 
 /// Geometry by kind: sphere: centre (0..2), radius (3). Triangle: its vertices (0..2, 3..5, 6..8). All
 /// others: the affine map from the world to the shape's own space, three rows of four (xyz | offset).
@@ -49,13 +54,21 @@ struct alignas(64) ObjectRecord {
 static_assert(sizeof(ObjectRecord) == 64, "two objects a line");
 
 /// What few objects have. `value`: of a smooth triangle, the normals at its three vertices, xyz each, which
-/// interpolate linearly and have any common length; of a shape in its own space, its parameters.
+/// interpolate linearly and have any common length; of a shape in its own space, its parameters, of a polygon
+/// those of PolygonEdges.
 struct alignas(64) ExtraRecord {
   float value[9];
   uint32_t csg;    ///< of objects with object_flag::csg: offset of a CsgRecord
   float bounds[6]; ///< of such objects: what may be there of them; least x, y, z, greatest x, y, z
 };
 static_assert(sizeof(ExtraRecord) == 64, "two records a line");
+
+/// An edge of a polygon, in the plane of its space, from its lower end up. It is beside points that are from
+/// `low` on and below `high`: there it is at `column`, and `slope` more for each unit above `low`.
+struct alignas(16) PolygonEdgeRecord {
+  float low, high, column, slope;
+};
+static_assert(sizeof(PolygonEdgeRecord) == 16, "eight a line");
 
 // Constructive solid geometry. Surfaces of its parts are objects; a crossing with one counts where the
 // condition of the part holds: in all other parts of an intersection, in no other part of a merge, at each
@@ -307,12 +320,12 @@ struct alignas(128) MaterialRecord {
   float reflection_metallic;
   float inverse_reflection_exponent;
   uint32_t flags;
-  uint32_t pattern; ///< offset of a PatternRecord
-  uint32_t normal;  ///< offset of a NormalRecord
-  uint32_t below;   ///< offset of the layer's MaterialRecord
-  uint32_t finish;  ///< offset of a FinishRecord, or kNoOffset
-  uint32_t inside;  ///< two_sided objects: offset of the MaterialRecord that is seen from inside
-  uint32_t unused[1];
+  uint32_t pattern;     ///< offset of a PatternRecord
+  uint32_t normal;      ///< offset of a NormalRecord
+  uint32_t below;       ///< offset of the layer's MaterialRecord
+  uint32_t finish;      ///< offset of a FinishRecord, or kNoOffset
+  uint32_t inside;      ///< two_sided objects: offset of the MaterialRecord that is seen from inside
+  float diffuse_behind; ///< of light that falls on the other side
 };
 static_assert(sizeof(MaterialRecord) == 128, "one material a line");
 
@@ -358,15 +371,34 @@ struct alignas(128) FogRecord {
 };
 static_assert(sizeof(FogRecord) == 128, "one a line");
 
+/// A bow around the axis `direction`, in the plane of `up` and `right`; all three of unit length and at right
+/// angles. Angles are in turns.
+struct alignas(128) RainbowRecord {
+  float direction[3];
+  float angle; ///< from the axis to the middle of the bow
+  float up[3];
+  float inverse_width;
+  float right[3];
+  float inverse_distance;
+  float jitter;       ///< of the place across the bow, by which the colours are chosen
+  float falloff, arc; ///< along the bow from `up`: where it begins to fade and where it ends
+  float inverse_fade; ///< of the way in between; 0: it does not fade
+  uint32_t entries;   ///< offset of the first MapEntryRecord, of colours
+  uint32_t entry_count;
+  uint32_t unused[14];
+};
+static_assert(sizeof(RainbowRecord) == 128, "one a line");
+
 namespace light_flag {
 constexpr uint32_t kind_mask = 0xFF;   ///< the place of its kind in the list of lights/list.hpp
 constexpr uint32_t shadowless = 0x100; ///< neither shadows nor highlights
 constexpr uint32_t parallel = 0x200;   ///< all its rays go along its axis
 constexpr uint32_t fades = 0x400;
-constexpr uint32_t area = 0x800;      ///< has an area, which shadows are looked for on
-constexpr uint32_t circular = 0x1000; ///< that is round,
-constexpr uint32_t orient = 0x2000;   ///< turns to surfaces,
-constexpr uint32_t jitter = 0x4000;   ///< and whose places are moved at random
+constexpr uint32_t area = 0x800;       ///< has an area, which shadows are looked for on
+constexpr uint32_t circular = 0x1000;  ///< that is round,
+constexpr uint32_t orient = 0x2000;    ///< turns to surfaces,
+constexpr uint32_t jitter = 0x4000;    ///< and whose places are moved at random
+constexpr uint32_t selective = 0x8000; ///< there are objects that it does not shine on
 } // namespace light_flag
 
 /// Columns or rows of places on a light.
@@ -393,7 +425,10 @@ struct alignas(128) LightRecord {
   float inverse_columns, inverse_rows; ///< of columns - 1, rows - 1
   uint32_t adaptive;                   ///< times that the grid is divided in any case
   float axis_length;                   ///< from the location to where the light points
-  uint32_t unused[4];
+
+  uint32_t
+      lit_sets; ///< selective: offset of words with a bit for each set of lights, whether it has this one
+  uint32_t unused[3];
 };
 static_assert(sizeof(LightRecord) == 128, "one light a line");
 
@@ -418,8 +453,8 @@ constexpr uint32_t kMaxCopiedObjects = 256;
 
 /// What light may meet on its way that few scenes have.
 namespace light_way {
-constexpr uint32_t fog = 0x1;
-constexpr uint32_t fading = 0x2; ///< interiors that fade
+constexpr uint32_t atmosphere = 0x1; ///< fogs or rainbows
+constexpr uint32_t fading = 0x2;     ///< interiors that fade
 /// Shadow rays go from surface to surface: what these let through depends on more than the surface.
 constexpr uint32_t stepwise = 0x4;
 } // namespace light_way
@@ -462,9 +497,13 @@ struct alignas(128) ImageHeader {
   uint32_t feature_offset, feature_count;             ///< FeatureRecords: kFeatures of them, or none
   uint32_t gradient_offset, gradient_count;           ///< GradientRecords: likewise
   uint32_t wave_offset, wave_count;                   ///< WaveRecords
-  uint32_t unused[2];
+  uint32_t light_set_count;                           ///< sets of lights, of which object_flag has numbers
+  uint32_t light_word_offset, light_word_count;       ///< words of LightRecord::lit_sets
+  uint32_t polygon_edge_offset, polygon_edge_count;   ///< PolygonEdgeRecords
+  uint32_t rainbow_offset, rainbow_count;             ///< RainbowRecords
+  uint32_t unused[27];
 };
-static_assert(sizeof(ImageHeader) == 256, "two lines");
+static_assert(sizeof(ImageHeader) == 384, "three lines");
 
 // --- frame ---
 
@@ -633,7 +672,8 @@ struct alignas(128) FrameBlock {
   SamplingRecord sampling; ///< of frames that are no picture
   uint32_t fog_offset, fog_count;
   uint32_t light_ways; ///< bits of light_way
-  uint32_t unused[3];
+  uint32_t rainbow_offset, rainbow_count;
+  uint32_t unused[1];
 };
 static_assert(sizeof(FrameBlock) % 128 == 0 && sizeof(FrameBlock) <= 512, "fetched by one DMA command");
 

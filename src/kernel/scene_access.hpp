@@ -25,6 +25,9 @@ public:
 
   const ObjectRecord* object(uint32_t offset) { return read<ObjectRecord>(offset, DataKind::object); }
   const ExtraRecord* extra(uint32_t offset) { return read_apart<ExtraRecord>(offset, DataKind::object); }
+  const PolygonEdgeRecord* polygon_edge(uint32_t offset) {
+    return read_apart<PolygonEdgeRecord>(offset, DataKind::object);
+  }
   const CsgRecord* csg(uint32_t offset) { return read_apart<CsgRecord>(offset, DataKind::object); }
   const CsgStep* csg_step(uint32_t offset) { return read_apart<CsgStep>(offset, DataKind::object); }
   const SolidRecord* solid(uint32_t offset) { return read_apart<SolidRecord>(offset, DataKind::object); }
@@ -43,6 +46,9 @@ public:
   }
   const FinishRecord* finish(uint32_t offset) { return read_apart<FinishRecord>(offset, DataKind::material); }
   const FogRecord* fog(uint32_t offset) { return read_apart<FogRecord>(offset, DataKind::material); }
+  const RainbowRecord* rainbow(uint32_t offset) {
+    return read_apart<RainbowRecord>(offset, DataKind::material);
+  }
   const PatternRecord* pattern(uint32_t offset) {
     return read_apart<PatternRecord>(offset, DataKind::material);
   }
@@ -133,18 +139,16 @@ private:
   template <class T> const T* read(uint32_t offset, DataKind kind) {
     return cache_.template get<T>(offset, kind);
   }
-  /// What is not read in the innermost loops: one copy of the code for all records of a size, as local store
-  /// is short.
+  /// What is not read in the innermost loops: one copy of the code for all records, as local store is
+  /// short.
   template <class T> const T* read_apart(uint32_t offset, DataKind kind) {
     if constexpr (kReadsInPlace<Spu>)
       return read<T>(offset, kind);
     else
-      return reinterpret_cast<const T*>(read_bytes<sizeof(T)>(offset, kind));
+      return reinterpret_cast<const T*>(read_bytes(offset, sizeof(T), kind));
   }
-  template <uint32_t kBytes> struct Bytes { alignas(16) uint8_t byte[kBytes]; };
-  template <uint32_t kBytes>
-  [[gnu::noinline]] const Bytes<kBytes>* read_bytes(uint32_t offset, DataKind kind) {
-    return cache_.template get<Bytes<kBytes>>(offset, kind);
+  [[gnu::noinline]] const uint8_t* read_bytes(uint32_t offset, uint32_t size, DataKind kind) {
+    return cache_.bytes(offset, size, kind);
   }
 
   SoftwareCache<Spu, DataKind> cache_;

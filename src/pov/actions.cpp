@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <glm/geometric.hpp>
 
@@ -334,6 +335,33 @@ Vec3 direction(Session& session, const Quantity& vector, const Location& where) 
   return v / length;
 }
 
+std::shared_ptr<RainbowDefinition> new_rainbow() {
+  // POV-Ray takes its default for radians.
+  constexpr double kEndless = 360 * 180 / std::numbers::pi;
+  auto rainbow = std::make_shared<RainbowDefinition>();
+  rainbow->value.direction = Vec3(0);
+  rainbow->value.arc_angle = rainbow->value.falloff_angle = kEndless;
+  return rainbow;
+}
+
+void set_colours(Rainbow& rainbow, const PigmentMap& map) {
+  rainbow.colours.clear();
+  for (const auto& [position, pigment] : map.entries)
+    rainbow.colours.push_back({position, pigment.rgb, pigment.filter, pigment.transmit});
+}
+
+void check(Session& session, const Rainbow& rainbow, const Location& where) {
+  constexpr double kLeast = 1e-10;
+  const double length = glm::length(rainbow.direction);
+  if (length < kLeast) session.fail(where, "this rainbow's direction has no length");
+  const Vec3 across = glm::cross(rainbow.direction, rainbow.up);
+  if (glm::length(across) < kLeast * length)
+    session.fail(where, "this rainbow's direction and 'up' are one line");
+  const bool is_given = rainbow.falloff_angle < new_rainbow()->value.falloff_angle;
+  if (is_given && rainbow.arc_angle < rainbow.falloff_angle)
+    session.fail(where, "this rainbow's 'arc_angle' is less than its 'falloff_angle'");
+}
+
 void ReflectionDefinition::set(const Vec3& only) {
   max = only;
 }
@@ -352,6 +380,27 @@ void ReflectionDefinition::apply(Finish& finish) const {
   finish.reflection_exponent = exponent.value_or(finish.reflection_exponent);
   finish.reflection_metallic = metallic.value_or(finish.reflection_metallic);
   finish.reflection_fresnel = is_fresnel.value_or(finish.reflection_fresnel);
+}
+
+void set_diffuse(FinishDefinition& finish, bool is_albedo, double before, double behind) {
+  finish.value.diffuse = before;
+  finish.value.diffuse_behind = behind;
+  finish.diffuse_is_albedo |= is_albedo; // as POV-Ray has it, also if it is said again without
+}
+
+/// The formulas are POV-Ray's.
+void settle_albedos(FinishDefinition& finish) {
+  Finish& value = finish.value;
+  if (finish.diffuse_is_albedo) {
+    value.diffuse *= (value.brilliance + 1) / 2;
+    value.diffuse_behind *= (value.brilliance + 1) / 2;
+  }
+  if (finish.phong_is_albedo) value.phong *= (value.phong_size + 1) / 2;
+  if (finish.specular_is_albedo) {
+    const double exponent = 1 / value.roughness;
+    value.specular *= (exponent + 2) / (4 * (2 - std::exp2(-exponent / 2)));
+  }
+  finish.diffuse_is_albedo = finish.phong_is_albedo = finish.specular_is_albedo = false;
 }
 
 void set_reflection(Finish& finish, const Vec3& colour) {
@@ -418,6 +467,21 @@ std::shared_ptr<ObjectDefinition> csg(Session& session, Compound compound, const
     nest(session, *object, *part, where);
   object->shape = std::make_shared<const Compound>(std::move(compound));
   return object;
+}
+
+void set_global_lights(ObjectDefinition& object, bool are_on) {
+  auto& compound = std::get<std::shared_ptr<const Compound>>(object.shape);
+  auto changed = std::make_shared<Compound>(*compound);
+  changed->global_lights = are_on;
+  compound = std::move(changed);
+}
+
+ObjectPtr declared(const ObjectPtr& object) {
+  if (object->is_declared || !std::holds_alternative<std::shared_ptr<const Compound>>(object->shape))
+    return object;
+  auto named = std::make_shared<ObjectDefinition>(*object);
+  named->is_declared = true;
+  return named;
 }
 
 ObjectPtr limiting(Session& session, const ObjectPtr& object, const Location& where) {
@@ -526,6 +590,15 @@ UnsupportedPtr make_unsupported(const std::string& what, const Location& where) 
 UnsupportedPtr unsupported_feature(Session& session, const std::string& what, const Location& where) {
   session.tokens.skip_arguments();
   return make_unsupported(what, where);
+}
+
+bool renders_media(const Session& session) {
+  return session.options.quality >= 9;
+}
+
+UnsupportedPtr unsupported_block(Session& session, NameId word, const Location& where) {
+  if (session.names.text(word) == "media" && !renders_media(session)) return nullptr;
+  return make_unsupported(quoted(session, word), where);
 }
 
 UnsupportedPtr unless_zero(const std::string& what, double value, const Location& where) {

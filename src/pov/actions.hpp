@@ -183,6 +183,9 @@ struct ReflectionDefinition {
 };
 
 /// The old form, one colour.
+void set_diffuse(FinishDefinition& finish, bool is_albedo, double before, double behind);
+/// Makes of albedos, the shares of light that are sent on to all sides together, what the formulas take.
+void settle_albedos(FinishDefinition& finish);
 void set_reflection(Finish& finish, const Vec3& colour);
 double roughness(Session& session, double value, const Location& where);
 double exponent(Session& session, double value, const Location& where);
@@ -202,7 +205,16 @@ void add_layer(Session& session, ObjectDefinition& object, const TexturePtr& top
 /// Adds a layer to what the object looks like from inside.
 void set_inside(Session& session, ObjectDefinition& object, const TexturePtr& top, const Location& where);
 std::shared_ptr<ObjectDefinition> shape(Session& session, const WrittenShape& written);
+/// With POV-Ray's defaults: no direction, and an arc without an end.
+std::shared_ptr<RainbowDefinition> new_rainbow();
+void set_colours(Rainbow& rainbow, const PigmentMap& map);
+/// What a rainbow has to have.
+void check(Session& session, const Rainbow& rainbow, const Location& where);
 std::shared_ptr<ObjectDefinition> csg(Session& session, Compound compound, const Location& where);
+/// Of a light group.
+void set_global_lights(ObjectDefinition& object, bool are_on);
+/// What a name stands for that is given to an object.
+ObjectPtr declared(const ObjectPtr& object);
 /// An object that other ones can be limited by.
 ObjectPtr limiting(Session& session, const ObjectPtr& object, const Location& where);
 /// Adds to one of the object's own lists of limits.
@@ -238,6 +250,11 @@ UnsupportedPtr make_unsupported(const std::string& what, const Location& where);
 /// Passes over what belongs to it, too.
 UnsupportedPtr unsupported_feature(Session& session, const std::string& what, const Location& where);
 /// Null for zero.
+/// Whether the picture will have what POV-Ray renders from quality 9 on: media, photons and radiosity.
+bool renders_media(const Session& session);
+/// A word with a block in braces, which is not passed over; nothing if it means nothing at the picture's
+/// quality.
+UnsupportedPtr unsupported_block(Session& session, NameId word, const Location& where);
 UnsupportedPtr unless_zero(const std::string& what, double value, const Location& where);
 /// An object that is left out, or refused, where it is placed.
 ObjectPtr unsupported_object(const std::string& what, const Location& where);

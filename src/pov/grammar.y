@@ -57,6 +57,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %token <SlopeMapPtr> SLOPE_MAP_ID
 %token <SkySpherePtr> SKY_SPHERE_ID
 %token <FogPtr> FOG_ID
+%token <RainbowPtr> RAINBOW_ID
 %token <FinishPtr> FINISH_ID
 %token <TexturePtr> TEXTURE_ID
 %token <InteriorPtr> INTERIOR_ID
@@ -88,6 +89,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %token MATERIAL MATRIX MAX_TRACE_LEVEL MESH MESH2 METALLIC NOISE_GENERATOR NORMAL NORMAL_INDICES NORMAL_MAP
 %token NORMAL_VECTORS NO_SHADOW NUMBER_OF_WAVES OBJECT OCTAVES OMEGA OPEN
 %token PARALLEL PHASE PHONG PHONG_SIZE PHOTONS PIGMENT PIGMENT_MAP POINT_AT POLY_WAVE QUICK_COLOUR RADIUS
+%token ALBEDO ARC_ANGLE DOUBLE_ILLUMINATE FALLOFF_ANGLE GLOBAL_LIGHTS LIGHT_GROUP RADIOSITY RAINBOW WIDTH
 %token ADAPTIVE AREA_ILLUMINATION AREA_LIGHT CIRCULAR JITTER ORIENT
 %token USER_FUNCTION SPLINE TRACE INSIDE MIN_EXTENT MAX_EXTENT
 %token REFLECTION COLLECT PASS_THROUGH TARGET
@@ -121,26 +123,27 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %nterm <PigmentMap> colours pigments colour_entry colour_entries pigment_entries colour_map pigment_map
 %nterm <NormalMap> normals normal_entries normal_map
 %nterm <TextureMap> textures texture_entries texture_map
-%nterm <std::shared_ptr<FinishDefinition>> finish_body
+%nterm <std::shared_ptr<FinishDefinition>> finish_parts finish_body
 %nterm <ReflectionDefinition> reflection_body
 %nterm <TexturePtr> texture texture_parts texture_body layers
 %nterm <std::shared_ptr<SkySphereDefinition>> sky_sphere sky_sphere_body
 %nterm <std::shared_ptr<FogDefinition>> fog fog_body
+%nterm <std::shared_ptr<RainbowDefinition>> rainbow rainbow_body
 %nterm <InteriorDefinition> interior_body
 %nterm <InteriorPtr> interior
 %nterm <MaterialDefinition> material_body
 %nterm <std::shared_ptr<const MaterialDefinition>> material
 %nterm <std::shared_ptr<CameraDefinition>> camera camera_body
 %nterm <ObjectPtr> object
-%nterm <std::shared_ptr<ObjectDefinition>> object_head object_body light_body
+%nterm <std::shared_ptr<ObjectDefinition>> object_head object_body light_body light_group
 %nterm <WrittenShape> shape_head
-%nterm <Compound> csg_head
+%nterm <Compound> csg_head light_group_head
 %nterm <std::vector<Limit>> limits
 %nterm <std::shared_ptr<MeshBuilder>> mesh_head
 %nterm <std::shared_ptr<Mesh2Definition>> mesh2_head
 %nterm <std::vector<TexturePtr>> texture_list
 %nterm <std::shared_ptr<TriangleDefinition>> triangle triangle_vertices
-%nterm <bool> photons photon_items
+%nterm <bool> albedo photons photon_items
 %nterm <NameId> variable
 %nterm <double> number optional_number flag entry_start
 %nterm <std::shared_ptr<Spline>> spline_head spline
@@ -175,9 +178,10 @@ scene
   | scene BACKGROUND '{' colour_value '}' { session.builder.set_background(session.colour($4, @4)); }
   | scene sky_sphere                { session.builder.set_sky_sphere(*$2, @2); }
   | scene fog                       { session.builder.add_fog(*$2, @2); }
+  | scene rainbow                   { session.builder.add_rainbow(*$2, @2); }
   | scene GLOBAL_SETTINGS '{' settings '}'
   | scene UNSUPPORTED_BLOCK         {
-      session.diagnostics.supports(make_unsupported(quoted(session, $2), @2), @2);
+      session.diagnostics.supports(unsupported_block(session, $2, @2), @2);
       session.tokens.skip_group();
     }
   ;
@@ -196,7 +200,14 @@ settings
   | settings IGNORED_FLAG flag
   | settings CHARSET UNSUPPORTED_ARGUMENT
   | settings CHARSET UNDECLARED_ID
-  | settings PHOTONS { session.builder.set_photons(make_unsupported("'photons'", @2)); session.tokens.skip_group(); }
+  | settings PHOTONS {
+      if (renders_media(session)) session.builder.set_photons(make_unsupported("'photons'", @2));
+      session.tokens.skip_group();
+    }
+  | settings RADIOSITY {
+      if (renders_media(session)) session.diagnostics.supports(make_unsupported("'radiosity'", @2), @2);
+      session.tokens.skip_group();
+    }
   | settings unsupported            { session.diagnostics.supports($2, @2); }
   ;
 
@@ -216,9 +227,10 @@ defaults
       session.builder.default_texture = with_finish(session.builder.default_texture, *$5);
     }
   | defaults camera   { session.builder.default_camera = *$2; }
+  | defaults RADIOSITY { session.tokens.skip_group(); }
   | defaults UNSUPPORTED_BLOCK {
       session.builder.default_texture =
-          with_unsupported(session.builder.default_texture, make_unsupported(quoted(session, $2), @2));
+          with_unsupported(session.builder.default_texture, unsupported_block(session, $2, @2));
       session.tokens.skip_group();
     }
   ;
@@ -625,40 +637,45 @@ entry_start // an average's entries need no weight; a number is one, not a colou
 // ---- Finishes and textures ----
 
 finish_body
+  : finish_parts { $$ = $1; settle_albedos(*$$); }
+  ;
+
+finish_parts
   : %empty {
       $$ = std::make_shared<FinishDefinition>(session.base_texture->finish);
     }
-  | finish_body FINISH_ID                  { $$ = std::make_shared<FinishDefinition>(*$2); }
-  | finish_body AMBIENT colour_value       { $$ = $1; $$->value.ambient = session.colour($3, @3).rgb; }
-  | finish_body EMISSION colour_value      { $$ = $1; $$->value.emission = session.colour($3, @3).rgb; }
-  | finish_body DIFFUSE number             { $$ = $1; $$->value.diffuse = $3; }
-  | finish_body DIFFUSE number ',' number {
-      $$ = $1;
-      $$->value.diffuse = $3;
-      mark($$->unsupported, unless_zero("light from behind", $5, @5));
-    }
-  | finish_body BRILLIANCE number          { $$ = $1; $$->value.brilliance = $3; }
-  | finish_body PHONG number               { $$ = $1; $$->value.phong = $3; }
-  | finish_body PHONG_SIZE number          { $$ = $1; $$->value.phong_size = $3; }
-  | finish_body SPECULAR number            { $$ = $1; $$->value.specular = $3; }
-  | finish_body ROUGHNESS number           { $$ = $1; $$->value.roughness = roughness(session, $3, @3); }
-  | finish_body METALLIC optional_number   { $$ = $1; $$->value.metallic = $3; }
-  | finish_body CONSERVE_ENERGY flag       { $$ = $1; $$->value.conserve_energy = $3 != 0; }
-  | finish_body REFLECTION colour_value    { $$ = $1; set_reflection($$->value, session.colour($3, @3).rgb); }
-  | finish_body REFLECTION '{' reflection_body '}' { $$ = $1; $4.apply($$->value); }
-  | finish_body REFLECTION_EXPONENT number {
+  | finish_parts FINISH_ID                  { $$ = std::make_shared<FinishDefinition>(*$2); }
+  | finish_parts AMBIENT colour_value       { $$ = $1; $$->value.ambient = session.colour($3, @3).rgb; }
+  | finish_parts EMISSION colour_value      { $$ = $1; $$->value.emission = session.colour($3, @3).rgb; }
+  | finish_parts DIFFUSE albedo number      { $$ = $1; set_diffuse(*$$, $3, $4, 0); }
+  | finish_parts DIFFUSE albedo number optional_comma number { $$ = $1; set_diffuse(*$$, $3, $4, $6); }
+  | finish_parts BRILLIANCE number          { $$ = $1; $$->value.brilliance = $3; }
+  | finish_parts PHONG albedo number        { $$ = $1; $$->value.phong = $4; $$->phong_is_albedo |= $3; }
+  | finish_parts PHONG_SIZE number          { $$ = $1; $$->value.phong_size = $3; }
+  | finish_parts SPECULAR albedo number     { $$ = $1; $$->value.specular = $4; $$->specular_is_albedo |= $3; }
+  | finish_parts ROUGHNESS number           { $$ = $1; $$->value.roughness = roughness(session, $3, @3); }
+  | finish_parts METALLIC optional_number   { $$ = $1; $$->value.metallic = $3; }
+  | finish_parts CONSERVE_ENERGY flag       { $$ = $1; $$->value.conserve_energy = $3 != 0; }
+  | finish_parts REFLECTION colour_value    { $$ = $1; set_reflection($$->value, session.colour($3, @3).rgb); }
+  | finish_parts REFLECTION '{' reflection_body '}' { $$ = $1; $4.apply($$->value); }
+  | finish_parts REFLECTION_EXPONENT number {
       $$ = $1;
       $$->value.reflection_exponent = exponent(session, $3, @3);
     }
-  | finish_body IOR number                 { $$ = $1; $$->ior = ior(session, $3, @3); }
-  | finish_body REFRACTION number          { $$ = $1; }
-  | finish_body CRAND number               { $$ = $1; $$->value.crand = $3; }
-  | finish_body CAUSTICS number            { $$ = $1; $$->caustics = $3; }
-  | finish_body FADE_DISTANCE number       { $$ = $1; $$->fade_distance = $3; }
-  | finish_body FADE_POWER number          { $$ = $1; $$->fade_power = $3; }
-  | finish_body IRID '{' number            { $1->value.irid = $4; session.irid = &$1->value; }
+  | finish_parts IOR number                 { $$ = $1; $$->ior = ior(session, $3, @3); }
+  | finish_parts REFRACTION number          { $$ = $1; }
+  | finish_parts CRAND number               { $$ = $1; $$->value.crand = $3; }
+  | finish_parts CAUSTICS number            { $$ = $1; $$->caustics = $3; }
+  | finish_parts FADE_DISTANCE number       { $$ = $1; $$->fade_distance = $3; }
+  | finish_parts FADE_POWER number          { $$ = $1; $$->fade_power = $3; }
+  | finish_parts IRID '{' number            { $1->value.irid = $4; session.irid = &$1->value; }
                           irid_items '}'   { $$ = $1; }
-  | finish_body unsupported                { $$ = $1; mark($$->unsupported, $2); }
+  | finish_parts unsupported                { $$ = $1; mark($$->unsupported, $2); }
+  ;
+
+albedo // the number is the share of light that is sent on in all
+  : %empty { $$ = false; }
+  | ALBEDO { $$ = true; }
   ;
 
 irid_items // of the finish that is being read
@@ -760,6 +777,26 @@ fog_body
   | fog_body unsupported        { $$ = $1; mark($$->unsupported, $2); }
   ;
 
+rainbow
+  : RAINBOW '{' rainbow_body '}' { $$ = $3; check(session, $$->value, @1); }
+  ;
+
+rainbow_body
+  : %empty                          { $$ = new_rainbow(); }
+  | rainbow_body RAINBOW_ID         { // the same again, where POV-Ray 3.7 turns angles twice and forgets the colours
+      $$ = std::make_shared<RainbowDefinition>(*$2); }
+  | rainbow_body DIRECTION quantity { $$ = $1; $$->value.direction = session.vector($3, @3); }
+  | rainbow_body ANGLE number       { $$ = $1; $$->value.angle = $3; }
+  | rainbow_body WIDTH number       { $$ = $1; $$->value.width = $3; }
+  | rainbow_body DISTANCE number    { $$ = $1; $$->value.distance = $3; }
+  | rainbow_body JITTER number      { $$ = $1; $$->value.jitter = $3; }
+  | rainbow_body UP quantity        { $$ = $1; $$->value.up = session.vector($3, @3); }
+  | rainbow_body ARC_ANGLE number   { $$ = $1; $$->value.arc_angle = $3; }
+  | rainbow_body FALLOFF_ANGLE number { $$ = $1; $$->value.falloff_angle = $3; }
+  | rainbow_body COLOUR_MAP colour_map { $$ = $1; set_colours($$->value, $3); }
+  | rainbow_body unsupported        { $$ = $1; mark($$->unsupported, $2); }
+  ;
+
 interior
   : INTERIOR '{' interior_body '}' { $$ = std::make_shared<InteriorDefinition>($3); }
   ;
@@ -835,6 +872,7 @@ camera_body
 object
   : object_body '}'          { $1->where = @1; $$ = own_object(session, $1, @1); }
   | light_body '}'           { $1->where = @1; $$ = $1; session.lights.pop_back(); }
+  | light_group '}'          { $1->where = @1; $$ = $1; }
   | OBJECT_ID
   | UNSUPPORTED_OBJECT {
       $$ = unsupported_object(quoted(session, $1), @1);
@@ -872,6 +910,17 @@ csg_head
   | csg_head object          { $$ = std::move($1); append(session, $$.parts, $2, @2); }
   ;
 
+light_group_head
+  : LIGHT_GROUP '{'          { $$.is_light_group = true; }
+  | light_group_head object  { $$ = std::move($1); append(session, $$.parts, $2, @2); }
+  ;
+
+light_group // which is no more than its parts: it has no texture and the like of its own
+  : light_group_head                { $$ = csg(session, std::move($1), @1); }
+  | light_group transformation      { $$ = $1; $$->apply($2); }
+  | light_group GLOBAL_LIGHTS flag  { $$ = $1; set_global_lights(*$$, $3 != 0); }
+  ;
+
 object_body
   : object_head
   | object_body transformation         { $$ = $1; $$->apply($2); }
@@ -898,6 +947,7 @@ object_body
   | object_body NO_REFLECTION          { $$ = $1; $$->no_reflection = true; }
   | object_body NO_SHADOW              { $$ = $1; $$->no_shadow = true; }
   | object_body HOLLOW flag            { $$ = $1; $$->hollow = $3 != 0; }
+  | object_body DOUBLE_ILLUMINATE flag { $$ = $1; $$->is_lit_through = $3 != 0; }
   | object_body INVERSE                { $$ = $1; $$->inverse = !$$->inverse; }
   | object_body IGNORED_FLAG flag      { $$ = $1; }
   | object_body UV_MAPPING             { $$ = $1; mark($$->uv_mapping, make_unsupported("'uv_mapping'", @2)); }
@@ -916,6 +966,7 @@ object_body
       limit(session, *$$, $$->bounded_by, $$->clipped_by, @2);
     }
   | object_body photons                { $$ = $1; $$->is_photon_target = $2; }
+  | object_body RADIOSITY              { $$ = $1; session.tokens.skip_group(); } // says something of radiosity's
   | object_body unsupported_modifier   { $$ = $1; mark($$->unsupported, $2); }
   ;
 
@@ -1070,6 +1121,8 @@ declarable
   | SKY_SPHERE_ID     { $$ = $1; }
   | fog               { $$ = FogPtr($1); }
   | FOG_ID            { $$ = $1; }
+  | rainbow           { $$ = RainbowPtr($1); }
+  | RAINBOW_ID        { $$ = $1; }
   | layers            { $$ = $1; }
   | TEXTURE_ID        { $$ = $1; }
   | PIGMENT_ID        { $$ = $1; }
@@ -1092,7 +1145,7 @@ declarable
   | interior          { $$ = $1; }
   | material          { $$ = $1; }
   | camera            { $$ = std::shared_ptr<const CameraDefinition>($1); }
-  | object            { $$ = $1; }
+  | object            { $$ = declared($1); }
   | TRANSFORM '{' transform_items '}' { $$ = $3; }
   | UNSUPPORTED_BLOCK { $$ = make_unsupported(quoted(session, $1), @1); session.tokens.skip_group(); }
   | ARRAY dimensions  { $$ = make_array(session, $2, 0, @1); }
@@ -1145,5 +1198,5 @@ unsupported_pattern // a pigment's, normal's or texture's
 unsupported_modifier // an object's: in CSG an unsupported object is one of its parts
   : UNSUPPORTED        { $$ = unsupported_feature(session, quoted(session, $1), @1); }
   | UNSUPPORTED_ARGUMENT { $$ = unsupported_feature(session, quoted(session, $1), @1); }
-  | UNSUPPORTED_BLOCK  { $$ = unsupported_feature(session, quoted(session, $1), @1); }
+  | UNSUPPORTED_BLOCK  { $$ = unsupported_block(session, $1, @1); session.tokens.skip_arguments(); }
   ;

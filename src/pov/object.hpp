@@ -24,6 +24,8 @@ using Shape = decltype(Object::shape);
 struct Compound {
   Csg::Operation operation = Csg::Operation::union_;
   std::vector<ObjectPtr> parts;
+  bool is_light_group = false; ///< light sources among its parts shine on the others alone
+  bool global_lights = false;  ///< of a light group: all others shine on them, too
 };
 
 /// An object whose inside limits another one.
@@ -72,6 +74,7 @@ struct ObjectDefinition {
   bool no_shadow = false;
   bool no_image = false;
   bool no_reflection = false;
+  bool is_lit_through = false;
   std::optional<bool> hollow; ///< not given: as what it is part of
   bool inverse = false;
   std::vector<Limit> clipped_by;
@@ -80,6 +83,7 @@ struct ObjectDefinition {
   UnsupportedPtr missing;        ///< instead of a shape, one that this program lacks
   bool is_photon_target = false; ///< not of lights
   bool is_look = false;          ///< being read as what a light looks like
+  bool is_declared = false;      ///< has a name: what is placed is a copy
   int depth = 0;                 ///< of objects inside one another
   [[no_unique_address]] Counted<ObjectDefinition> counted;
 

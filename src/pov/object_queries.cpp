@@ -94,6 +94,7 @@ bool contains(const Query& query, const ObjectDefinition& object, const Vec3& po
     if (mesh->has_inside()) query.count(mesh->triangles.size());
     is_inside = geometry::is_inside(*mesh, p);
   } else if (const auto* shape = std::get_if<Shape>(&object.shape)) {
+    if (std::holds_alternative<std::shared_ptr<const Polygon>>(*shape)) return false;
     is_inside = geometry::is_inside(*shape, p);
   }
   return is_inside != object.inverse;

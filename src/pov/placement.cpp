@@ -39,6 +39,11 @@ bool is_plain_union(const ObjectDefinition& object) {
   return parts && parts->operation == Operation::union_ && !object.inverse && object.clipped_by.empty();
 }
 
+/// Whether a part shines on the other parts alone.
+bool is_group_light(const Compound& compound, const ObjectDefinition& part) {
+  return compound.is_light_group && std::holds_alternative<LightDefinition>(part.shape);
+}
+
 const char* name_of(const ObjectDefinition& csg) {
   switch (compound(csg)->operation) {
   case Operation::merge:
@@ -68,9 +73,11 @@ void SceneBuilder::place(const ObjectPtr& object, const Location& where) {
 void SceneBuilder::place(const ObjectDefinition& object, const Inherited& around, const Location& where) {
   if (!diagnostics_.supports(object.missing, where)) return;
   if (is_plain_union(object)) {
-    const Inherited own = inherit(object, around, where);
-    for (const ObjectPtr& part : compound(object)->parts)
-      place(*part, own, where);
+    Inherited own = inherit(object, around, where);
+    const Compound& parts = *compound(object);
+    if (parts.is_light_group) enter_light_group(parts, own, where);
+    for (const ObjectPtr& part : parts.parts)
+      if (!is_group_light(parts, *part)) place(*part, own, where);
   } else if (std::optional<Object> placed = make(object, around, where)) {
     if (has_shapes(*placed)) scene_.objects.push_back(std::move(*placed));
   }
@@ -89,7 +96,9 @@ SceneBuilder::Inherited SceneBuilder::inherit(const ObjectDefinition& object, co
   own.no_shadow = object.no_shadow || around.no_shadow;
   own.no_image = object.no_image || around.no_image;
   own.no_reflection = object.no_reflection || around.no_reflection;
+  own.is_lit_through = object.is_lit_through || around.is_lit_through;
   own.hollow = object.hollow.value_or(around.hollow);
+  own.is_copy = object.is_declared || around.is_copy;
   if (object.texture) {
     own.texture = object.texture;
     own.texture_transform = object.texture_transform.then(around.transform);
@@ -114,7 +123,9 @@ std::optional<Object> SceneBuilder::make(const ObjectDefinition& object, const I
   if (!diagnostics_.supports(object.missing, where)) return std::nullopt;
   Inherited own = inherit(object, around, where);
   if (const auto* light = std::get_if<LightDefinition>(&object.shape)) {
-    if (!own.clips) place_light(*light, std::move(own), where);
+    if (own.clips) return std::nullopt;
+    add_light(*light, own, where);
+    place_look(*light, std::move(own), where);
     return std::nullopt;
   }
   Object made;
@@ -123,6 +134,8 @@ std::optional<Object> SceneBuilder::make(const ObjectDefinition& object, const I
   made.no_image = own.no_image;
   made.no_reflection = own.no_reflection;
   made.inverse = object.inverse;
+  made.is_lit_through = own.is_lit_through;
+  made.light_group = own.light_group;
   if (const Compound* parts = compound(object)) {
     if (!own.inside || parts->operation != Operation::union_) own.inside = name_of(object);
     const auto csg = make_csg(*parts, std::move(own), where);
@@ -162,10 +175,13 @@ std::shared_ptr<const Csg> SceneBuilder::make_csg(const Compound& compound, Inhe
   if (own.csg_interior == kNoIndex && own.interior == kNoIndex && !own.clips)
     own.csg_interior = scene_.add(Interior{});
   own.is_part = true;
+  if (compound.is_light_group) enter_light_group(compound, own, where);
   auto csg = std::make_shared<Csg>();
   csg->operation = compound.operation;
   for (const ObjectPtr& part : compound.parts)
-    if (std::optional<Object> made = make(*part, own, where))
+    if (is_group_light(compound, *part))
+      continue;
+    else if (std::optional<Object> made = make(*part, own, where))
       csg->parts.push_back(std::move(*made));
     else if (compound.operation == Operation::difference && part == compound.parts.front()) {
       if (std::holds_alternative<LightDefinition>(part->shape))
@@ -196,8 +212,49 @@ void SceneBuilder::enter_solid(Inherited& own, const Location& where) const {
     diagnostics_.fail(where, "CSG is nested more than " + std::to_string(kDeepestCsg) + " deep");
 }
 
-/// What it looks like casts no shadows and, as in POV-Ray, is not there if the light is in CSG.
-void SceneBuilder::place_light(const LightDefinition& definition, Inherited own, const Location& where) {
+/// Which lights shine on the parts of a light group, as POV-Ray 3.7 has it. Lights of the group itself, not
+/// of unions in it, shine on its objects alone. Objects of a group in a group are lit by those of the
+/// innermost one that has any; if that or something around it has a name, which POV-Ray copies, by those of
+/// the outer ones, too. Whether global lights shine on them the outermost group says. What a light of the
+/// group looks like is lit by global lights and those of this group in any case. All objects cast shadows in
+/// all lights.
+void SceneBuilder::enter_light_group(const Compound& group, Inherited& own, const Location& where) {
+  if (own.clips) return;
+  LightGroup entered;
+  const LightGroup* outer = own.light_group == kNoIndex ? nullptr : &scene_.light_groups[own.light_group];
+  entered.global_lights = outer ? outer->global_lights : group.global_lights;
+  std::vector<std::pair<const LightDefinition*, Inherited>> lights;
+  for (const ObjectPtr& part : group.parts) {
+    if (!is_group_light(group, *part)) continue;
+    const auto* light = &std::get<LightDefinition>(part->shape);
+    lights.emplace_back(light, inherit(*part, own, where));
+    const Index index = add_light(*light, lights.back().second, where);
+    scene_.lights[index].is_global = false;
+    entered.lights.push_back(index);
+  }
+  const std::vector<Index> own_lights = entered.lights;
+  if (outer && (own.is_copy || lights.empty()))
+    entered.lights.insert(entered.lights.end(), outer->lights.begin(), outer->lights.end());
+  own.light_group = add_light_group(entered, where);
+  const bool has_looks = std::any_of(lights.begin(), lights.end(),
+                                     [](const auto& light) { return light.first->looks_like != nullptr; });
+  if (!has_looks) return;
+  const Index of_looks = add_light_group({own_lights, true}, where);
+  for (auto& [light, inherited] : lights) {
+    inherited.light_group = of_looks;
+    place_look(*light, inherited, where);
+  }
+}
+
+Index SceneBuilder::add_light_group(const LightGroup& group, const Location& where) {
+  if (scene_.light_groups.size() >= kMostLightGroups)
+    diagnostics_.fail(where, "the scene has more than " + std::to_string(kMostLightGroups) + " light groups");
+  scene_.light_groups.push_back(group);
+  return static_cast<Index>(scene_.light_groups.size() - 1);
+}
+
+Index SceneBuilder::add_light(const LightDefinition& definition, const Inherited& own,
+                              const Location& where) {
   Light light = definition.light;
   if (definition.has_area) light.area = definition.area;
   light = moved(light, own.transform);
@@ -206,6 +263,11 @@ void SceneBuilder::place_light(const LightDefinition& definition, Inherited own,
   if (!Quantity::vector(light.location).is_finite() || !Quantity::vector(light.point_at).is_finite())
     diagnostics_.fail(where, "this light is not at a finite place");
   scene_.lights.push_back(light);
+  return static_cast<Index>(scene_.lights.size() - 1);
+}
+
+/// What a light looks like casts no shadows and, as in POV-Ray, is not there if the light is in CSG.
+void SceneBuilder::place_look(const LightDefinition& definition, Inherited own, const Location& where) {
   if (!definition.looks_like || own.is_part) return;
   own.no_shadow = true;
   place(*definition.looks_like, own, where);
@@ -216,6 +278,7 @@ bool SceneBuilder::make_shape(const ObjectDefinition& object, const Inherited& o
                               const Location& where) {
   if (const Shape* shape = std::get_if<Shape>(&object.shape)) {
     made.shape = *shape;
+    if (std::holds_alternative<std::shared_ptr<const Polygon>>(*shape)) made.inverse = false;
     return own.inside || !is_invisible(*shape);
   }
   const auto* triangle = std::get_if<std::shared_ptr<TriangleDefinition>>(&object.shape);

@@ -33,10 +33,12 @@ const Word kWords[] = {
     {"accuracy", tokens::T_ACCURACY},
     {"adaptive", tokens::T_ADAPTIVE},
     {"adc_bailout", tokens::T_ADC_BAILOUT},
+    {"albedo", tokens::T_ALBEDO},
     {"ambient", tokens::T_AMBIENT},
     {"ambient_light", tokens::T_AMBIENT_LIGHT},
     {"angle", tokens::T_ANGLE},
     {"aperture", tokens::T_APERTURE},
+    {"arc_angle", tokens::T_ARC_ANGLE},
     {"area_illumination", tokens::T_AREA_ILLUMINATION},
     {"area_light", tokens::T_AREA_LIGHT},
     {"array", tokens::T_ARRAY},
@@ -69,6 +71,7 @@ const Word kWords[] = {
     {"dispersion_samples", tokens::T_IGNORED_NUMBER},
     {"distance", tokens::T_DISTANCE},
     {"dist_exp", tokens::T_DIST_EXP},
+    {"double_illuminate", tokens::T_DOUBLE_ILLUMINATE},
     {"emission", tokens::T_EMISSION},
     {"exponent", tokens::T_EXPONENT},
     {"exterior", tokens::T_EXTERIOR},
@@ -81,6 +84,7 @@ const Word kWords[] = {
     {"finish", tokens::T_FINISH},
     {"flip", tokens::T_FLIP},
     {"focal_point", tokens::T_IGNORED_NUMBER},
+    {"falloff_angle", tokens::T_FALLOFF_ANGLE},
     {"fog", tokens::T_FOG},
     {"fog_alt", tokens::T_FOG_ALT},
     {"fog_offset", tokens::T_FOG_OFFSET},
@@ -88,6 +92,7 @@ const Word kWords[] = {
     {"frequency", tokens::T_FREQUENCY},
     {"fresnel", tokens::T_FRESNEL},
     {"function", tokens::T_USER_FUNCTION},
+    {"global_lights", tokens::T_GLOBAL_LIGHTS},
     {"global_settings", tokens::T_GLOBAL_SETTINGS},
     {"hf_gray_16", tokens::T_IGNORED_FLAG},
     {"hierarchy", tokens::T_IGNORED_FLAG},
@@ -103,6 +108,7 @@ const Word kWords[] = {
     {"jitter", tokens::T_JITTER},
     {"julia", tokens::T_JULIA},
     {"lambda", tokens::T_LAMBDA},
+    {"light_group", tokens::T_LIGHT_GROUP},
     {"light_source", tokens::T_LIGHT_SOURCE},
     {"location", tokens::T_LOCATION},
     {"look_at", tokens::T_LOOK_AT},
@@ -149,7 +155,9 @@ const Word kWords[] = {
     {"poly_wave", tokens::T_POLY_WAVE},
     {"quick_color", tokens::T_QUICK_COLOUR},
     {"quick_colour", tokens::T_QUICK_COLOUR},
+    {"radiosity", tokens::T_RADIOSITY},
     {"radius", tokens::T_RADIUS},
+    {"rainbow", tokens::T_RAINBOW},
     {"reflection", tokens::T_REFLECTION},
     {"reflection_exponent", tokens::T_REFLECTION_EXPONENT},
     {"refraction", tokens::T_REFRACTION},
@@ -190,6 +198,7 @@ const Word kWords[] = {
     {"variance", tokens::T_IGNORED_NUMBER},
     {"vertex_vectors", tokens::T_VERTEX_VECTORS},
     {"warp", tokens::T_WARP},
+    {"width", tokens::T_WIDTH},
 };
 
 constexpr int detail(Constant constant) {
@@ -302,22 +311,22 @@ const DirectiveWord kDirectives[] = {
 // What POV-Ray 3.7 reserves for features that are not supported: things that are objects, things that have a
 // block in braces of their own, and the rest.
 const char* const kUnsupportedObjects[] = {
-    "bicubic_patch", "blob", "height_field", "isosurface",     "julia_fractal", "lathe",
-    "light_group",   "ovus", "parametric",   "poly",           "polygon",       "prism",
+    "bicubic_patch", "blob", "height_field", "isosurface",     "julia_fractal",
+    "lathe",         "ovus", "parametric",   "poly",           "prism",
     "quartic",       "sor",  "sphere_sweep", "superellipsoid", "text",
 };
 
 const char* const kUnsupportedBlocks[] = {
     "bump_map",          "contained_by", "density", "density_map", "image_map",
     "image_pattern",     "material_map", "media",   "mesh_camera", "pigment_pattern",
-    "projected_through", "radiosity",    "rainbow", "subsurface",  "tiles",
+    "projected_through", "subsurface",   "tiles",
 };
 
 const char* const kUnsupportedFeatures[] = {
-    "absorption", "albedo",        "all_intersections", "autostop",      "b_spline",     "blur_samples",
-    "cube",       "density_file",  "double_illuminate", "global_lights", "importance",   "load_file",
-    "max_trace",  "no_bump_scale", "pattern",           "precision",     "quaternion",   "save_file",
-    "scattering", "slope",         "spacing",           "tiling",        "translucency",
+    "absorption",   "all_intersections", "autostop",  "b_spline",   "blur_samples",  "cube",
+    "density_file", "importance",        "load_file", "max_trace",  "no_bump_scale", "pattern",
+    "precision",    "quaternion",        "save_file", "scattering", "slope",         "spacing",
+    "tiling",       "translucency",
 };
 
 // What stands behind others of these words.
@@ -328,7 +337,6 @@ const char* const kUnsupportedArguments[] = {
     "altitude",
     "always_sample",
     "append",
-    "arc_angle",
     "ascii",
     "bezier_spline",
     "bitwise_and",
@@ -394,13 +402,12 @@ const char* const kUnsupportedArguments[] = {
     "utf8",
     "v_steps",
     "water_level",
-    "width",
 };
 
 /// Words with rules of their own by which what they stand for is not supported.
 constexpr int kRefused[] = {
-    tokens::T_APERTURE,   tokens::T_AREA_ILLUMINATION, tokens::T_CUTAWAY_TEXTURES,
-    tokens::T_DISPERSION, tokens::T_PHOTONS,           tokens::T_UV_MAPPING,
+    tokens::T_APERTURE, tokens::T_AREA_ILLUMINATION, tokens::T_CUTAWAY_TEXTURES, tokens::T_DISPERSION,
+    tokens::T_PHOTONS,  tokens::T_RADIOSITY,         tokens::T_UV_MAPPING,
 };
 
 int token_of(PatternForm form) {

@@ -47,6 +47,13 @@ void SceneBuilder::add_fog(const FogDefinition& fog, const Location& where) {
   scene_.fogs.push_back(fog.value);
 }
 
+void SceneBuilder::add_rainbow(const RainbowDefinition& rainbow, const Location& where) {
+  diagnostics_.supports(rainbow.unsupported, where);
+  if (scene_.rainbows.size() >= limits_.objects)
+    diagnostics_.fail(where, "the scene has more than " + std::to_string(limits_.objects) + " rainbows");
+  if (!rainbow.value.colours.empty()) scene_.rainbows.push_back(rainbow.value);
+}
+
 void SceneBuilder::set_assumed_gamma(std::optional<double> gamma) {
   gamma_given_ = true;
   scene_.gamma_mode = gamma ? GammaMode::assumed : GammaMode::srgb;

@@ -40,6 +40,8 @@ public:
   void set_sky_sphere(const SkySphereDefinition& sky, const Location& where);
   /// They add up.
   void add_fog(const FogDefinition& fog, const Location& where);
+  /// As many are seen at once as there are.
+  void add_rainbow(const RainbowDefinition& rainbow, const Location& where);
   void set_ambient_light(const Vec3& rgb) { scene_.ambient_light = rgb; }
   void set_max_trace_level(int level) { scene_.max_trace_level = level; }
   void set_noise_generator(int number) { noise_generator_ = number; }
@@ -81,12 +83,15 @@ private:
     bool no_shadow = false;
     bool no_image = false;
     bool no_reflection = false;
+    bool is_lit_through = false;
     bool hollow = false;
     TexturePtr inner_texture;     ///< what it looks like from inside; null: the same
     Transform inner_transform;    ///< to the scene
     bool is_part = false;         ///< placed in the space of a CSG, not of the scene
     bool clips = false;           ///< only its inside matters
     int depth = 0;                ///< CSG and clipping around it
+    Index light_group = kNoIndex; ///< whose lights shine on it
+    bool is_copy = false;         ///< it is part of an object that has a name
     const char* inside = nullptr; ///< in what its inside counts, for messages; null: it does not
   };
   void place(const ObjectDefinition& object, const Inherited& around, const Location& where);
@@ -97,7 +102,10 @@ private:
   std::shared_ptr<const std::vector<Object>> make_clips(const ObjectDefinition& object,
                                                         const Inherited& around, const Location& where);
   void enter_solid(Inherited& own, const Location& where) const;
-  void place_light(const LightDefinition& definition, Inherited own, const Location& where);
+  void enter_light_group(const Compound& group, Inherited& own, const Location& where);
+  Index add_light_group(const LightGroup& group, const Location& where);
+  Index add_light(const LightDefinition& definition, const Inherited& own, const Location& where);
+  void place_look(const LightDefinition& definition, Inherited own, const Location& where);
   void refuse(const std::string& what, const ObjectDefinition& object, const Location& where);
   Index interior_of(const Inherited& own);
   Index interior_index(const ObjectDefinition& object, Index inherited, const TextureDefinition& texture,

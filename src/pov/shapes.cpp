@@ -1,10 +1,14 @@
 #include "pov/shapes.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <memory>
 #include <string>
+#include <vector>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "pov/session.hpp"
@@ -43,6 +47,7 @@ public:
   double number_or(std::size_t i, double otherwise) const {
     return i < written_.arguments.size() ? number(i) : otherwise;
   }
+  std::size_t count() const { return written_.arguments.size(); }
   bool is_open() const { return written_.is_open; }
   void require(bool condition, const char* what) const {
     if (!condition) session_.fail(written_.where, what);
@@ -85,6 +90,57 @@ Shape read_plane(const Arguments& a) {
   return plane;
 }
 
+/// Off the plane of a polygon, or apart as ends of a loop, points are not what POV-Ray takes them for.
+constexpr double kNearPoint = 1e-10;
+
+/// Whether POV-Ray shows a polygon of these points: it shows none whose corners are nearly on a line, or that
+/// is not flat.
+bool is_shown(const std::vector<Vec3>& points) {
+  constexpr double kLeastCorner = 1e-10;
+  const Vec3 start = points.front();
+  const Vec3 side = *std::max_element(points.begin(), points.end(), [&](const Vec3& a, const Vec3& b) {
+    return glm::distance(a, start) < glm::distance(b, start);
+  }) - start;
+  for (const Vec3& point : points) {
+    const Vec3 across = glm::cross(side, point - start);
+    if (glm::dot(across, across) < kLeastCorner) continue;
+    const Vec3 normal = glm::normalize(across);
+    return std::all_of(points.begin(), points.end(), [&](const Vec3& p) {
+      // Beyond what rounding may be.
+      return std::abs(glm::dot(p - start, normal)) <= kNearPoint + 1e-15 * glm::length(p - start);
+    });
+  }
+  return false;
+}
+
+/// A loop ends where it comes back to its first point.
+Shape read_polygon(const Arguments& a) {
+  a.require(a.number(0) >= 3, "a polygon has at least three points");
+  a.require(static_cast<double>(a.count() - 1) == std::floor(a.number(0)),
+            "this polygon does not have as many points as it says");
+  std::vector<Vec3> points;
+  for (std::size_t i = 1; i < a.count(); ++i)
+    points.push_back(a.vector(i));
+  auto polygon = std::make_shared<Polygon>();
+  if (!is_shown(points)) return std::shared_ptr<const Polygon>(polygon);
+  const auto is_same = [](const Vec3& p, const Vec3& q) {
+    const Vec3 apart = glm::abs(p - q);
+    return apart.x < kNearPoint && apart.y < kNearPoint && apart.z < kNearPoint;
+  };
+  bool is_closed = true;
+  for (const Vec3& point : points) {
+    if (is_closed) {
+      polygon->loops.push_back({point});
+      is_closed = false;
+    } else if (is_same(point, polygon->loops.back().front())) {
+      is_closed = true;
+    } else {
+      polygon->loops.back().push_back(point);
+    }
+  }
+  return std::shared_ptr<const Polygon>(polygon);
+}
+
 Shape read_quadric(const Arguments& a) {
   return Quadric{a.vector(0), a.vector(1), a.vector(2), a.number(3)};
 }
@@ -105,6 +161,7 @@ struct Entry {
   Parameter parameters[kMostParameters]; ///< those that may be left out come last
   Shape (*read)(const Arguments&);
   bool can_be_open = false;
+  const char* vectors = nullptr; ///< what so many of follow as there are
 
   std::size_t most() const {
     return static_cast<std::size_t>(
@@ -125,6 +182,7 @@ constexpr Entry kShapes[] = {
      {vector("centre"), vector("normal"), number("radius"), optional_number("hole radius")},
      read_disc},
     {"plane", {vector("normal"), number("distance")}, read_plane},
+    {"polygon", {number("count")}, read_polygon, false, "point"},
     {"quadric", {vector("squares"), vector("products"), vector("linear"), number("constant")}, read_quadric},
     {"sphere", {vector("centre"), number("radius")}, read_sphere},
     {"torus", {number("major radius"), number("minor radius")}, read_torus},
@@ -139,6 +197,7 @@ std::string form(const Entry& shape) {
     const std::string item = (i > 0 ? ", " : "") + name;
     text += parameter.is_optional ? '[' + item + ']' : item;
   }
+  if (shape.vectors) text += ", <" + std::string(shape.vectors) + ">, ...";
   return text + (shape.can_be_open ? " [open] }" : " }");
 }
 
@@ -149,9 +208,9 @@ std::string form(const Entry& shape) {
 
 void check_arguments(const Session& session, const Entry& shape, const WrittenShape& written) {
   const std::size_t count = written.arguments.size();
-  if (count < shape.fewest() || count > shape.most())
+  if (count < shape.fewest() || (count > shape.most() && !shape.vectors))
     fail(session, written.where, shape, std::to_string(count) + (count == 1 ? " argument" : " arguments"));
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < std::min(count, shape.most()); ++i) {
     const auto& [value, where] = written.arguments[i];
     const Parameter& parameter = shape.parameters[i];
     if (!parameter.is_vector && !value.is_float())

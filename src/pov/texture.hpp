@@ -73,6 +73,8 @@ struct FinishDefinition {
   Finish value;
   // POV-Ray 3.1 had these here: they become the interior's.
   std::optional<double> ior, caustics, fade_distance, fade_power;
+  bool diffuse_is_albedo = false, phong_is_albedo = false,
+       specular_is_albedo = false; ///< until it is complete
   UnsupportedPtr unsupported;
   [[no_unique_address]] Counted<FinishDefinition> counted;
 };
@@ -120,6 +122,12 @@ struct FogDefinition {
   UnsupportedPtr unsupported;
 };
 using FogPtr = std::shared_ptr<const FogDefinition>;
+
+struct RainbowDefinition {
+  Rainbow value;
+  UnsupportedPtr unsupported;
+};
+using RainbowPtr = std::shared_ptr<const RainbowDefinition>;
 
 struct InteriorDefinition {
   double ior = 1;

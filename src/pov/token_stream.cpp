@@ -47,6 +47,7 @@ bool ends_operand(int terminal) {
   case tokens::T_SLOPE_MAP_ID:
   case tokens::T_SKY_SPHERE_ID:
   case tokens::T_FOG_ID:
+  case tokens::T_RAINBOW_ID:
   case tokens::T_FINISH_ID:
   case tokens::T_TEXTURE_ID:
   case tokens::T_OBJECT_ID:
@@ -142,6 +143,7 @@ struct TokenOf {
   int operator()(const SlopeMapPtr&) const { return tokens::T_SLOPE_MAP_ID; }
   int operator()(const SkySpherePtr&) const { return tokens::T_SKY_SPHERE_ID; }
   int operator()(const FogPtr&) const { return tokens::T_FOG_ID; }
+  int operator()(const RainbowPtr&) const { return tokens::T_RAINBOW_ID; }
   int operator()(const FinishPtr&) const { return tokens::T_FINISH_ID; }
   int operator()(const TexturePtr&) const { return tokens::T_TEXTURE_ID; }
   int operator()(const InteriorPtr&) const { return tokens::T_INTERIOR_ID; }

@@ -26,12 +26,12 @@ struct Macro {
   TokenRange body;
 };
 
-using Value =
-    std::variant<std::monostate, Quantity, std::string, PigmentPtr, NormalPtr, FinishPtr, TexturePtr,
-                 PigmentMapPtr, NormalMapPtr, TextureMapPtr, SlopeMapPtr, SkySpherePtr, FogPtr, InteriorPtr,
-                 std::shared_ptr<const MaterialDefinition>, std::shared_ptr<const CameraDefinition>,
-                 ObjectPtr, Transform, std::shared_ptr<Array>, std::shared_ptr<const Macro>, UnsupportedPtr,
-                 std::shared_ptr<DataFile>, FunctionPtr, SplinePtr>;
+using Value = std::variant<std::monostate, Quantity, std::string, PigmentPtr, NormalPtr, FinishPtr,
+                           TexturePtr, PigmentMapPtr, NormalMapPtr, TextureMapPtr, SlopeMapPtr, SkySpherePtr,
+                           FogPtr, RainbowPtr, InteriorPtr, std::shared_ptr<const MaterialDefinition>,
+                           std::shared_ptr<const CameraDefinition>, ObjectPtr, Transform,
+                           std::shared_ptr<Array>, std::shared_ptr<const Macro>, UnsupportedPtr,
+                           std::shared_ptr<DataFile>, FunctionPtr, SplinePtr>;
 
 /// Elements without a value hold std::monostate. Assigning an array copies it.
 struct Array {

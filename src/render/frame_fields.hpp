@@ -41,7 +41,7 @@ FieldList<&FrameBlock::camera, &FrameBlock::grid, &FrameBlock::bvh, &FrameBlock:
           &FrameBlock::units_per_word, &FrameBlock::wide_leaves, &FrameBlock::far_nodes,
           &FrameBlock::unbounded_count, &FrameBlock::sky, &FrameBlock::light_places, &FrameBlock::purpose,
           &FrameBlock::sampling, &FrameBlock::fog_offset, &FrameBlock::fog_count, &FrameBlock::light_ways,
-          &FrameBlock::unused>
+          &FrameBlock::rainbow_offset, &FrameBlock::rainbow_count, &FrameBlock::unused>
 fields_of(const FrameBlock&);
 
 FieldList<&UnitRecord::column, &UnitRecord::row, &UnitRecord::bundles> fields_of(const UnitRecord&);

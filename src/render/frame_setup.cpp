@@ -189,6 +189,8 @@ void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& optio
   frame.fog_offset = header.fog_offset;
   frame.fog_count = header.fog_count;
   frame.light_ways = header.light_ways;
+  frame.rainbow_offset = header.rainbow_offset;
+  frame.rainbow_count = header.rainbow_count;
   if (options.model != Model::shared && (header.light_ways & light_way::stepwise) != 0)
     throw InputError(
         "interiors that fade, throw caustics or look different from inside need the shared model");

@@ -72,7 +72,11 @@ Scene at_quality(const Scene& scene, int quality) {
   Reducer reducer(quality);
   for (Material& material : result.materials)
     material = reducer.reduced(material);
-  if (quality <= kColoursOnly) result.lights.clear();
+  if (quality <= kColoursOnly) {
+    result.lights.clear();
+    for (LightGroup& group : result.light_groups)
+      group.lights.clear();
+  }
   if (quality <= kNoShadows)
     for (Object& object : result.objects)
       object.no_shadow = true;

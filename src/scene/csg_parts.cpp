@@ -90,8 +90,11 @@ struct Node {
     const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape);
     return mesh != nullptr ? mesh->get() : nullptr;
   }
-  /// A mesh in which no point is, nor in its inverse.
-  bool has_no_inside() const { return mesh() != nullptr && !mesh()->has_inside(); }
+  /// No point is in it, nor in its inverse: a polygon, or a mesh without an inside vector.
+  bool has_no_inside() const {
+    return mesh() != nullptr ? !mesh()->has_inside()
+                             : std::holds_alternative<std::shared_ptr<const Polygon>>(object.shape);
+  }
 
   void add(Node child) {
     leaves = (children.empty() ? 0 : leaves) + child.leaves;
@@ -181,7 +184,8 @@ private:
   static SolidRecord place_solid(Node& node) {
     node.shape = place_shape(node.object);
     SolidRecord solid{};
-    solid.object.kind_and_flags = node.shape.is_empty ? kEmptySolid : node.shape.kind_and_flags;
+    solid.object.kind_and_flags =
+        node.shape.is_empty || node.has_no_inside() ? kEmptySolid : node.shape.kind_and_flags;
     std::copy(node.shape.geometry, node.shape.geometry + 12, solid.object.geometry);
     std::copy(node.shape.parameters, node.shape.parameters + 2, solid.extra.value);
     return solid;
@@ -295,7 +299,7 @@ public:
       Aabb all = bounds;
       for (const Node& child : node.children) {
         filled.push_back(solid_bounds(child));
-        // A mesh without an inside shows what is in all others.
+        // What has no inside shows what is in all others.
         if (!child.has_no_inside()) all = intersected(all, filled.back());
       }
       if (const HalfSpaces planes(node); planes.limit_more() && !is_empty(all))

@@ -25,7 +25,9 @@ FieldList<&ImageHeader::magic, &ImageHeader::version, &ImageHeader::bytes, &Imag
           &ImageHeader::fog_count, &ImageHeader::finish_offset, &ImageHeader::finish_count,
           &ImageHeader::light_ways, &ImageHeader::feature_offset, &ImageHeader::feature_count,
           &ImageHeader::gradient_offset, &ImageHeader::gradient_count, &ImageHeader::wave_offset,
-          &ImageHeader::wave_count, &ImageHeader::unused>
+          &ImageHeader::wave_count, &ImageHeader::light_set_count, &ImageHeader::light_word_offset,
+          &ImageHeader::light_word_count, &ImageHeader::polygon_edge_offset, &ImageHeader::polygon_edge_count,
+          &ImageHeader::rainbow_offset, &ImageHeader::rainbow_count, &ImageHeader::unused>
 fields_of(const ImageHeader&);
 
 FieldList<&ObjectRecord::kind_and_flags, &ObjectRecord::material, &ObjectRecord::interior,
@@ -33,6 +35,10 @@ FieldList<&ObjectRecord::kind_and_flags, &ObjectRecord::material, &ObjectRecord:
 fields_of(const ObjectRecord&);
 
 FieldList<&ExtraRecord::value, &ExtraRecord::csg, &ExtraRecord::bounds> fields_of(const ExtraRecord&);
+
+FieldList<&PolygonEdgeRecord::low, &PolygonEdgeRecord::high, &PolygonEdgeRecord::column,
+          &PolygonEdgeRecord::slope>
+fields_of(const PolygonEdgeRecord&);
 
 FieldList<&CsgRecord::next, &CsgRecord::steps, &CsgRecord::count, &CsgRecord::skip_begin,
           &CsgRecord::skip_end, &CsgRecord::unused>
@@ -61,7 +67,7 @@ FieldList<&MaterialRecord::pigment, &MaterialRecord::filter, &MaterialRecord::tr
           &MaterialRecord::reflection_falloff, &MaterialRecord::reflection_metallic,
           &MaterialRecord::inverse_reflection_exponent, &MaterialRecord::flags, &MaterialRecord::pattern,
           &MaterialRecord::normal, &MaterialRecord::below, &MaterialRecord::finish, &MaterialRecord::inside,
-          &MaterialRecord::unused>
+          &MaterialRecord::diffuse_behind>
 fields_of(const MaterialRecord&);
 
 FieldList<&TurbulenceWords::amount, &TurbulenceWords::lambda, &TurbulenceWords::omega,
@@ -105,11 +111,18 @@ FieldList<&FogRecord::colour, &FogRecord::least, &FogRecord::tint, &FogRecord::i
           &FogRecord::turbulence, &FogRecord::unused>
 fields_of(const FogRecord&);
 
+FieldList<&RainbowRecord::direction, &RainbowRecord::angle, &RainbowRecord::up, &RainbowRecord::inverse_width,
+          &RainbowRecord::right, &RainbowRecord::inverse_distance, &RainbowRecord::jitter,
+          &RainbowRecord::falloff, &RainbowRecord::arc, &RainbowRecord::inverse_fade, &RainbowRecord::entries,
+          &RainbowRecord::entry_count, &RainbowRecord::unused>
+fields_of(const RainbowRecord&);
+
 FieldList<&LightRecord::location, &LightRecord::kind_and_flags, &LightRecord::colour, &LightRecord::tightness,
           &LightRecord::axis, &LightRecord::inverse_width, &LightRecord::inner, &LightRecord::inverse_edge,
           &LightRecord::inverse_fade_distance, &LightRecord::fade_power, &LightRecord::across,
           &LightRecord::columns, &LightRecord::along, &LightRecord::rows, &LightRecord::inverse_columns,
-          &LightRecord::inverse_rows, &LightRecord::adaptive, &LightRecord::axis_length, &LightRecord::unused>
+          &LightRecord::inverse_rows, &LightRecord::adaptive, &LightRecord::axis_length,
+          &LightRecord::lit_sets, &LightRecord::unused>
 fields_of(const LightRecord&);
 
 FieldList<&GroupRecord::min, &GroupRecord::first, &GroupRecord::max, &GroupRecord::count>

@@ -60,6 +60,7 @@ bool is_inside(const Object& object, const Transform& around, const Vec3& point)
   const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape);
   const auto* sphere = std::get_if<Sphere>(&object.shape);
   if (mesh != nullptr && !(*mesh)->has_inside()) return false;
+  if (std::holds_alternative<std::shared_ptr<const Polygon>>(object.shape)) return false;
   if (const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape))
     inside = is_inside(**csg, transform, point);
   else if (sphere == nullptr || is_near(*sphere, transform, point))
@@ -86,6 +87,7 @@ std::optional<Index> interior_of(const Object& object) {
 }
 
 bool may_have_inside(const Object& object) {
+  if (std::holds_alternative<std::shared_ptr<const Polygon>>(object.shape)) return false;
   if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape))
     return (*mesh)->has_inside();
   const auto* sphere = std::get_if<Sphere>(&object.shape);

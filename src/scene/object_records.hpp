@@ -23,7 +23,7 @@ struct ObjectCensus {
 /// Where records go that objects refer to, and where the tables lie in the image.
 struct RecordTables {
   std::uint32_t material_offset, interior_offset, extra_offset, blend_offset;
-  std::uint32_t csg_offset;
+  std::uint32_t csg_offset, polygon_edge_offset;
   kernel::ExtraRecord* extras;                      ///< table
   kernel::BlendRecord* blends;                      ///< table
   const std::vector<std::uint32_t>& material_flags; ///< object_flags by material
@@ -41,14 +41,22 @@ struct RecordTables {
   }
 };
 
+/// The number of the set of lights that shine on an object: 0 of all that are global, then those of groups.
+inline std::uint32_t light_set_of(const Object& object) {
+  return object.light_group == kNoIndex ? 0 : object.light_group + 1;
+}
+
 /// A record without a material, without extras and without geometry.
 inline kernel::ObjectRecord start_record(const Object& object, std::uint32_t kind_and_flags,
                                          std::uint32_t interior_offset) {
   kernel::ObjectRecord r{};
-  r.kind_and_flags = kind_and_flags | (object.no_shadow ? kernel::object_flag::no_shadow : 0) |
-                     (object.no_image ? kernel::object_flag::no_image : 0) |
-                     (object.no_reflection ? kernel::object_flag::no_reflection : 0) |
-                     (object.inverse ? kernel::object_flag::inverse : 0);
+  r.kind_and_flags =
+      kind_and_flags | (object.no_shadow ? kernel::object_flag::no_shadow : 0) |
+      (object.no_image ? kernel::object_flag::no_image : 0) |
+      (object.no_reflection ? kernel::object_flag::no_reflection : 0) |
+      (object.inverse ? kernel::object_flag::inverse : 0) |
+      (object.is_lit_through ? kernel::object_flag::lit_behind | kernel::object_flag::lit_through : 0) |
+      light_set_of(object) << kernel::object_flag::light_set_shift;
   r.interior = interior_offset + object.interior * static_cast<std::uint32_t>(sizeof(kernel::InteriorRecord));
   r.extra = kernel::kNoOffset;
   return r;

@@ -8,8 +8,11 @@
 #include <limits>
 #include <unordered_set>
 
+#include <glm/geometric.hpp>
+
 #include "celltrace/error.hpp"
 #include "kernel/records.hpp"
+#include "scene/light_sets.hpp"
 #include "scene/shapes.hpp"
 #include "scene/textures.hpp"
 
@@ -82,6 +85,19 @@ void check(const Fog& fog, const Name& name) {
     throw InputError(name.text() + " has turbulence whose octaves are not 1 to 10");
 }
 
+void check(const Rainbow& bow, const Name& name) {
+  check_vectors({bow.direction, bow.up}, name);
+  check_finite({bow.angle, bow.width, bow.distance, bow.jitter, bow.arc_angle, bow.falloff_angle}, name);
+  const Vec3 across = glm::cross(bow.direction, bow.up);
+  if (!(glm::dot(across, across) > 0)) throw InputError(name.text() + " has no direction, or is up along it");
+  if (bow.colours.empty() || bow.colours.size() > kMostMapEntries)
+    throw InputError(name.text() + " has to have 1 to " + std::to_string(kMostMapEntries) + " colours");
+  for (const Rainbow::Colour& colour : bow.colours) {
+    check_vectors({colour.rgb}, name);
+    check_finite({colour.position, colour.filter, colour.transmit}, name);
+  }
+}
+
 void check(const Interior& interior, const Name& name) {
   check_finite({interior.ior, interior.fade_distance, interior.fade_power, interior.caustics}, name);
   check_vectors({interior.fade_colour}, name);
@@ -127,6 +143,8 @@ void check_object(const Scene& scene, const Object& object, std::size_t index, i
   const Name name = {"object", index};
   check_index(object.material, scene.materials.size(), {"object", index, ", material"});
   check_index(object.interior, scene.interiors.size(), {"object", index, ", interior"});
+  if (object.light_group != kNoIndex)
+    check_index(object.light_group, scene.light_groups.size(), {"object", index, ", light group"});
   const Vec3(&rows)[4] = object.transform.rows;
   check_vectors({rows[0], rows[1], rows[2], rows[3]}, name);
   if (const Sphere* sphere = std::get_if<Sphere>(&object.shape)) {
@@ -140,6 +158,8 @@ void check_object(const Scene& scene, const Object& object, std::size_t index, i
     for (const Object& part : (*csg)->parts)
       check_object(scene, part, index, depth + 1);
   } else {
+    const auto* polygon = std::get_if<std::shared_ptr<const Polygon>>(&object.shape);
+    if (polygon != nullptr && !*polygon) throw InputError(name.text() + " has no polygon");
     validate_shape(object, name.text());
   }
   if (!object.clipped_by) return;
@@ -194,8 +214,11 @@ void validate(const Scene& scene) {
     throw InputError("the scene has a noise generator that is not 1 to 3");
   for (std::size_t i = 0; i < scene.fogs.size(); ++i)
     check(scene.fogs[i], {"fog", i});
+  for (std::size_t i = 0; i < scene.rainbows.size(); ++i)
+    check(scene.rainbows[i], {"rainbow", i});
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     check(scene.lights[i], {"light", i});
+  validate_light_groups(scene);
   for (std::size_t i = 0; i < scene.materials.size(); ++i)
     validate_texture(scene.materials[i], Name{"material", i}.text());
   validate_sky(scene);

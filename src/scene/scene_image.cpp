@@ -5,6 +5,7 @@
 #include "kernel/direct/build_bvh_bounds.hpp"
 #include "kernel/direct/build_bvh_plan.hpp"
 #include "scene/image_fields.hpp"
+#include "scene/light_sets.hpp"
 #include "scene/mesh_instances.hpp"
 #include "scene/parallel.hpp"
 #include "scene/scene_objects.hpp"
@@ -105,7 +106,7 @@ std::uint32_t room_of_unbounded(std::uint32_t count) {
 }
 
 std::uint32_t light_ways_of(const Scene& scene, const TextureTables& textures) {
-  std::uint32_t ways = scene.fogs.empty() ? 0 : light_way::fog;
+  std::uint32_t ways = scene.fogs.empty() && textures.rainbows.empty() ? 0 : light_way::atmosphere;
   for (const Interior& interior : scene.interiors) {
     const InteriorRecord r = make_record(interior);
     if (r.inverse_fade_distance != 0) ways |= light_way::fading | light_way::stepwise;
@@ -116,14 +117,16 @@ std::uint32_t light_ways_of(const Scene& scene, const TextureTables& textures) {
 }
 
 /// Of all objects, but for their bounds; `groups` are those of the objects that are no instances.
-ImageHeader make_header(const Scene& scene, const TextureTables& textures, const SceneObjects& objects,
-                        const ObjectCensus& census, std::span<const std::uint32_t> groups,
-                        const MeshInstances& instances) {
+ImageHeader make_header(const Scene& scene, const LightSets& light_sets, const TextureTables& textures,
+                        const SceneObjects& objects, const ObjectCensus& census,
+                        std::span<const std::uint32_t> groups, const MeshInstances& instances) {
   ImageHeader header{};
   header.magic = kImageMagic;
   header.version = kImageVersion;
   Layout layout(sizeof(ImageHeader));
   layout.place<LightRecord>(scene.lights.size(), header.light_offset, header.light_count);
+  header.light_set_count = light_sets.count();
+  layout.place<std::uint32_t>(light_sets.words().size(), header.light_word_offset, header.light_word_count);
   layout.place<MaterialRecord>(textures.materials.size(), header.material_offset, header.material_count);
   layout.place<PatternRecord>(textures.patterns.size(), header.pattern_offset, header.pattern_count);
   layout.place<SpaceStepRecord>(textures.steps.size(), header.space_step_offset, header.space_step_count);
@@ -137,6 +140,7 @@ ImageHeader make_header(const Scene& scene, const TextureTables& textures, const
   layout.place<FinishRecord>(textures.finishes.size(), header.finish_offset, header.finish_count);
   header.light_ways = light_ways_of(scene, textures);
   layout.place<FogRecord>(scene.fogs.size(), header.fog_offset, header.fog_count);
+  layout.place<RainbowRecord>(textures.rainbows.size(), header.rainbow_offset, header.rainbow_count);
   const CsgParts& csg = objects.csg();
   layout.place<CsgRecord>(csg.conditions.size(), header.csg_offset, header.csg_count);
   layout.place<CsgStep>(csg.steps.size(), header.csg_step_offset, header.csg_step_count);
@@ -146,6 +150,8 @@ ImageHeader make_header(const Scene& scene, const TextureTables& textures, const
   layout.place<std::uint32_t>(meshes.words().size(), header.mesh_word_offset, header.mesh_word_count);
   layout.place<MeshTriangleRecord>(meshes.triangles().size(), header.mesh_triangle_offset,
                                    header.mesh_triangle_count);
+  layout.place<PolygonEdgeRecord>(objects.polygons().edges().size(), header.polygon_edge_offset,
+                                  header.polygon_edge_count);
   layout.place<ExtraRecord>(census.extras + objects.unbounded_extras(), header.extra_offset,
                             header.extra_count);
   const std::uint32_t room = room_of_unbounded(objects.unbounded_count());
@@ -178,6 +184,7 @@ public:
                                                      header.extra_offset,
                                                      header.blend_offset,
                                                      header.csg_offset,
+                                                     header.polygon_edge_offset,
                                                      table<ExtraRecord>(header.extra_offset),
                                                      table<BlendRecord>(header.blend_offset),
                                                      textures.object_flags} {
@@ -192,6 +199,18 @@ public:
     std::memcpy(base, &header, sizeof header);
   }
 
+  void write_lights(const LightSets& sets) {
+    std::copy(sets.words().begin(), sets.words().end(), table<std::uint32_t>(header_.light_word_offset));
+    for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
+      LightRecord record = make_record(scene_.lights[i]);
+      if (const Index word = sets.first_words()[i]; word != kNoIndex) {
+        record.kind_and_flags |= light_flag::selective;
+        record.lit_sets = header_.light_word_offset + word * std::uint32_t{sizeof(std::uint32_t)};
+      }
+      table<LightRecord>(header_.light_offset)[i] = record;
+    }
+  }
+
   void write_surfaces(TextureTables& textures) {
     textures.relocate(header_);
     const auto copy = [&](const auto& records, std::uint32_t offset) {
@@ -204,11 +223,10 @@ public:
     copy(textures.entries, header_.map_entry_offset);
     copy(textures.normals, header_.normal_offset);
     copy(textures.finishes, header_.finish_offset);
+    copy(textures.rainbows, header_.rainbow_offset);
     copy(textures.features, header_.feature_offset);
     copy(textures.gradients, header_.gradient_offset);
     copy(textures.waves, header_.wave_offset);
-    for (std::size_t i = 0; i < scene_.lights.size(); ++i)
-      table<LightRecord>(header_.light_offset)[i] = make_record(scene_.lights[i]);
     for (std::size_t i = 0; i < scene_.interiors.size(); ++i)
       table<InteriorRecord>(header_.interior_offset)[i] = make_record(scene_.interiors[i]);
     for (std::size_t i = 0; i < scene_.fogs.size(); ++i)
@@ -239,6 +257,11 @@ public:
       table<SolidRecord>(header_.solid_offset)[i] = solid;
     }
     write_meshes(csg.meshes);
+  }
+
+  void write_polygons(const PolygonTable& polygons) {
+    std::copy(polygons.edges().begin(), polygons.edges().end(),
+              table<PolygonEdgeRecord>(header_.polygon_edge_offset));
   }
 
   void write_meshes(const MeshInsides& meshes) {
@@ -390,12 +413,15 @@ void SceneImage::assign(const Scene& scene, AlignedBlock& work, unsigned threads
     groups = order_along_curve(memory.objects, memory.spare, memory.cells, loose.objects, threads);
   ObjectCensus census = loose;
   census.add(instances.census());
-  const ImageHeader header = make_header(scene, textures, objects, census, groups, instances);
+  const LightSets light_sets(scene);
+  const ImageHeader header = make_header(scene, light_sets, textures, objects, census, groups, instances);
 
   block_.reserve(header.bytes + bvh_bytes(header));
   TableWriter writer(block_.data(), header, scene, textures, objects.unbounded_extras());
+  writer.write_lights(light_sets);
   writer.write_surfaces(textures);
   writer.write_csg(objects.csg());
+  writer.write_polygons(objects.polygons());
   writer.write_objects(objects, {memory.objects, loose.objects}, memory.cells, threads);
   writer.write_groups(groups, threads);
   writer.write_instances(instances, threads);

@@ -60,6 +60,7 @@ bool references_are_valid(const std::byte* base, const ImageHeader& h) {
     const std::uint32_t flags = object.kind_and_flags;
     const bool blended = (flags & object_flag::blended) != 0;
     if ((flags & object_flag::kind_mask) >= kPrimitives) return false;
+    if (flags >> object_flag::light_set_shift >= h.light_set_count) return false;
     if (blended ? !refers_to(object.material, h.blend_offset, h.blend_count, sizeof(BlendRecord))
                 : !is_material(object.material))
       return false;
@@ -70,9 +71,17 @@ bool references_are_valid(const std::byte* base, const ImageHeader& h) {
       return false;
     if (needs_extra(flags) && !refers_to(object.extra, h.extra_offset, h.extra_count, sizeof(ExtraRecord)))
       return false;
+    const auto extra = [&] { return reinterpret_cast<const ExtraRecord*>(base + object.extra); };
+    if ((flags & object_flag::kind_mask) == kPrimitiveKind<PolygonPrimitive>) {
+      const PolygonEdges edges = PolygonEdges::of(*extra());
+      if (edges.count != 0 &&
+          (!refers_to(edges.first, h.polygon_edge_offset, h.polygon_edge_count, sizeof(PolygonEdgeRecord)) ||
+           edges.count >
+               h.polygon_edge_count - (edges.first - h.polygon_edge_offset) / sizeof(PolygonEdgeRecord)))
+        return false;
+    }
     if ((flags & object_flag::csg) != 0 &&
-        !refers_to(reinterpret_cast<const ExtraRecord*>(base + object.extra)->csg, h.csg_offset, h.csg_count,
-                   sizeof(CsgRecord)))
+        !refers_to(extra()->csg, h.csg_offset, h.csg_count, sizeof(CsgRecord)))
       return false;
   }
   return true;
@@ -80,11 +89,19 @@ bool references_are_valid(const std::byte* base, const ImageHeader& h) {
 
 bool lights_are_valid(const std::byte* base, const ImageHeader& h) {
   const auto* lights = reinterpret_cast<const LightRecord*>(base + h.light_offset);
-  return std::all_of(lights, lights + h.light_count, [](const LightRecord& light) {
+  constexpr std::uint32_t kWord = sizeof(std::uint32_t), kBits = 32;
+  if (h.light_set_count == 0 || h.light_set_count > kMaxLightSets) return false;
+  const std::uint32_t words_a_light = (h.light_set_count + kBits - 1) / kBits;
+  const auto knows_its_sets = [&](const LightRecord& light) {
+    return refers_to(light.lit_sets, h.light_word_offset, h.light_word_count, kWord) &&
+           h.light_word_count - (light.lit_sets - h.light_word_offset) / kWord >= words_a_light;
+  };
+  return std::all_of(lights, lights + h.light_count, [&](const LightRecord& light) {
     const auto is_count = [](std::uint32_t places) { return places - 1 < kMaxLightPlaces; };
     return (light.kind_and_flags & light_flag::kind_mask) < Lights::kCount &&
            (!has_area(light) ||
-            (is_count(light.columns) && is_count(light.rows) && light.columns * light.rows > 1));
+            (is_count(light.columns) && is_count(light.rows) && light.columns * light.rows > 1)) &&
+           ((light.kind_and_flags & light_flag::selective) == 0 || knows_its_sets(light));
   });
 }
 
@@ -105,6 +122,11 @@ public:
     const Table<FogRecord> fogs(base_, h_.fog_offset, h_.fog_count);
     for (std::uint32_t i = 0; i < h_.fog_count; ++i)
       if (!turbulence_is_sound(fogs[i].turbulence)) return false;
+    const Table<RainbowRecord> rainbows(base_, h_.rainbow_offset, h_.rainbow_count);
+    for (std::uint32_t i = 0; i < h_.rainbow_count; ++i) {
+      const std::uint32_t first = entries_.find(rainbows[i].entries), count = rainbows[i].entry_count;
+      if (first == entries_.count || count == 0 || count > entries_.count - first) return false;
+    }
     for (std::uint32_t i = 0; i < h_.space_step_count; ++i)
       if (!is_sound(steps_[i])) return false;
     if (h_.feature_count != 0 && h_.feature_count != kFeatures) return false;
@@ -369,6 +391,7 @@ SceneImage SceneImage::from_bytes(std::span<const std::byte> bytes) {
     throw InputError("scene image: its size is wrong");
   if (h.checksum != checksum(bytes)) throw InputError("scene image: its checksum is wrong");
   if (!table_fits(h.light_offset, h.light_count, sizeof(LightRecord), bytes.size()) ||
+      !table_fits(h.light_word_offset, h.light_word_count, sizeof(std::uint32_t), bytes.size()) ||
       !table_fits(h.material_offset, h.material_count, sizeof(MaterialRecord), bytes.size()) ||
       !table_fits(h.pattern_offset, h.pattern_count, sizeof(PatternRecord), bytes.size()) ||
       !table_fits(h.space_step_offset, h.space_step_count, sizeof(SpaceStepRecord), bytes.size()) ||
@@ -381,6 +404,8 @@ SceneImage SceneImage::from_bytes(std::span<const std::byte> bytes) {
       !table_fits(h.interior_offset, h.interior_count, sizeof(InteriorRecord), bytes.size()) ||
       !table_fits(h.finish_offset, h.finish_count, sizeof(FinishRecord), bytes.size()) ||
       !table_fits(h.fog_offset, h.fog_count, sizeof(FogRecord), bytes.size()) ||
+      !table_fits(h.rainbow_offset, h.rainbow_count, sizeof(RainbowRecord), bytes.size()) ||
+      !table_fits(h.polygon_edge_offset, h.polygon_edge_count, sizeof(PolygonEdgeRecord), bytes.size()) ||
       !table_fits(h.extra_offset, h.extra_count, sizeof(ExtraRecord), bytes.size()) ||
       !table_fits(h.object_offset, h.object_count, sizeof(ObjectRecord), bytes.size()) ||
       h.unbounded_count > (h.object_offset - sizeof(ImageHeader)) / sizeof(ObjectRecord) ||

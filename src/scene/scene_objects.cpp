@@ -79,7 +79,7 @@ std::vector<Vec3f> changed(const std::vector<Vec3f>& from, unsigned threads, Cha
 } // namespace
 
 SceneObjects::SceneObjects(const Scene& scene, const MeshInstances& instances, unsigned threads)
-    : csg_(scene) {
+    : csg_(scene), polygons_(scene) {
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
     if (instances.contains(i) || CsgParts::contains(object)) continue;
@@ -273,6 +273,8 @@ public:
     ExtraRecord extra{};
     std::copy(shape.parameters, shape.parameters + 2, extra.value);
     extra.csg = kNoOffset;
+    if (const auto* polygon = std::get_if<std::shared_ptr<const Polygon>>(&object.shape))
+      edges_of(**polygon).put_in(extra);
     if (limited) limit_by_csg(*placed.part, placed.part->bounds, r, extra);
     set_extra(r, extra);
     return r;
@@ -304,6 +306,12 @@ public:
   }
 
 private:
+  PolygonEdges edges_of(const Polygon& polygon) const {
+    PolygonEdges edges = objects_.polygons_.of(polygon);
+    edges.first = tables_.polygon_edge_offset + edges.first * std::uint32_t{sizeof(PolygonEdgeRecord)};
+    return edges;
+  }
+
   void limit_by_csg(const CsgPart& part, const Aabb& bounds, ObjectRecord& r, ExtraRecord& extra) const {
     r.kind_and_flags |= object_flag::csg;
     extra.csg = tables_.csg_offset + part.condition * static_cast<std::uint32_t>(sizeof(CsgRecord));

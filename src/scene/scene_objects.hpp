@@ -8,6 +8,7 @@
 #include "scene/mesh_instances.hpp"
 #include "scene/object_order.hpp"
 #include "scene/object_records.hpp"
+#include "scene/polygons.hpp"
 
 #include <span>
 #include <vector>
@@ -28,6 +29,7 @@ public:
   /// Their ExtraRecords.
   std::uint32_t unbounded_extras() const;
   const CsgParts& csg() const { return csg_; }
+  const PolygonTable& polygons() const { return polygons_; }
 
   /// Writes those of [begin, end) that can be hit to `to`, in order. Throws InputError if an object's
   /// coordinates leave what single precision can hold.
@@ -86,6 +88,7 @@ private:
   bool is_blended(const Piece& piece, const Mesh::Triangle& triangle) const;
 
   CsgParts csg_;
+  PolygonTable polygons_;
   std::vector<Piece> pieces_;
   std::vector<Placed> unbounded_;
   std::vector<std::vector<Vec3f>> transformed_;

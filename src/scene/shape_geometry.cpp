@@ -1,6 +1,7 @@
 #include "scene/shape_geometry.hpp"
 
 #include "scene/mesh_geometry.hpp"
+#include "scene/polygons.hpp"
 #include "scene/polynomial.hpp"
 
 #include <algorithm>
@@ -267,6 +268,42 @@ Extent extent(const std::shared_ptr<const Mesh>& mesh) {
   return extent_of(*mesh);
 }
 
+void cross(const std::shared_ptr<const Polygon>& polygon, const Ray& ray, Crossings& found) {
+  const std::optional<Transform> frame = frame_of(*polygon);
+  if (!frame) return;
+  const Transform to_frame = frame->inverse();
+  const Vec3 origin = to_frame.point(ray.origin), direction = to_frame.direction(ray.direction);
+  if (direction.z == 0) return;
+  const double t = -origin.z / direction.z;
+  const Vec3 p = origin + direction * t;
+  bool is_in = false;
+  for (const std::vector<Vec3>& loop : polygon->loops)
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Vec3 a = to_frame.point(loop[i]), b = to_frame.point(loop[i + 1 == loop.size() ? 0 : i + 1]);
+      if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) * (b.x - a.x) / (b.y - a.y)) is_in = !is_in;
+    }
+  if (is_in) found.push_back({t, frame->rows[2]});
+}
+bool contains(const std::shared_ptr<const Polygon>&, const Vec3&) {
+  return false;
+}
+Extent extent(const std::shared_ptr<const Polygon>& polygon) {
+  std::vector<Vec3> points;
+  for (const std::vector<Vec3>& loop : polygon->loops)
+    points.insert(points.end(), loop.begin(), loop.end());
+  return Extent::around(points);
+}
+/// As POV-Ray has flat ones.
+Extent thickened(Extent extent) {
+  constexpr double kFlat = 1e-6, kThickness = 0.001;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (extent.max[axis] - extent.min[axis] >= kFlat) continue;
+    extent.min[axis] -= kThickness;
+    extent.max[axis] += kThickness;
+  }
+  return extent;
+}
+
 void cross(const std::shared_ptr<const Csg>&, const Ray&, Crossings&) {
 }
 bool contains(const std::shared_ptr<const Csg>&, const Vec3&) {
@@ -306,7 +343,8 @@ bool is_inside(const Shape& shape, const Vec3& point) {
 Extent extent_of(const Shape& shape, const Transform& transform) {
   if (const auto* sphere = std::get_if<Sphere>(&shape))
     if (const std::optional<Extent> tight = ellipsoid_extent(*sphere, transform)) return *tight;
-  return std::visit([](const auto& s) { return extent(s); }, shape).moved(transform);
+  const Extent all = std::visit([](const auto& s) { return extent(s); }, shape).moved(transform);
+  return std::holds_alternative<std::shared_ptr<const Polygon>>(shape) ? thickened(all) : all;
 }
 
 Extent half_space(const Plane& plane, const Transform& transform, bool is_inverse) {

@@ -2,6 +2,7 @@
 
 #include "celltrace/error.hpp"
 #include "kernel/accel/object_bounds.hpp"
+#include "scene/polygons.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -270,6 +271,11 @@ PlacedShape place(const Object& object, const Quadric& quadric) {
   return shape;
 }
 
+PlacedShape place(const Object& object, const std::shared_ptr<const Polygon>& polygon) {
+  const std::optional<Transform> frame = frame_of(*polygon);
+  return frame ? in_own_space<PolygonPrimitive>(object, *frame) : nothing();
+}
+
 PlacedShape place(const Object&, const std::shared_ptr<const Mesh>&) {
   return nothing();
 }
@@ -308,6 +314,13 @@ std::vector<double> numbers_of(const Torus& t) {
 }
 std::vector<double> numbers_of(const Quadric& q) {
   return numbers({q.square, q.mixed, q.linear}, {q.constant});
+}
+std::vector<double> numbers_of(const std::shared_ptr<const Polygon>& polygon) {
+  std::vector<double> all;
+  for (const std::vector<Vec3>& loop : polygon->loops)
+    for (const Vec3& point : loop)
+      all.insert(all.end(), {point.x, point.y, point.z});
+  return all;
 }
 std::vector<double> numbers_of(const std::shared_ptr<const Mesh>&) {
   return {};

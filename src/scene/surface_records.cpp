@@ -128,6 +128,7 @@ MaterialRecord make_record(const Material& material, const Scene& scene) {
   r.opacity = static_cast<float>(opacity(p, scene.version));
   copy(f.ambient * scene.ambient_light + f.emission, r.ambient);
   r.diffuse = static_cast<float>(f.diffuse);
+  r.diffuse_behind = static_cast<float>(f.diffuse_behind);
   r.brilliance = static_cast<float>(f.brilliance);
   r.phong = static_cast<float>(f.phong);
   r.phong_size = static_cast<float>(f.phong_size);
@@ -148,7 +149,7 @@ MaterialRecord make_record(const Material& material, const Scene& scene) {
 }
 
 bool has_record(const Finish& finish) {
-  return finish.diffuse != 0 && (finish.crand != 0 || finish.irid != 0);
+  return (finish.diffuse != 0 || finish.diffuse_behind != 0) && (finish.crand != 0 || finish.irid != 0);
 }
 
 FinishRecord make_record(const Finish& finish, const Scene& scene) {
@@ -196,6 +197,29 @@ FogRecord make_record(const Fog& fog, const Scene& scene) {
   if (scene.noise_generator == 1) r.flags |= fog_flag::first_generator;
   r.turbulence = words_of(fog.turbulence);
   r.turbulence_depth = static_cast<float>(fog.turbulence_depth);
+  return r;
+}
+
+bool is_visible(const Rainbow& rainbow) {
+  return rainbow.width != 0 && rainbow.distance > 0;
+}
+
+RainbowRecord make_record(const Rainbow& rainbow) {
+  constexpr double kTurn = 360;
+  RainbowRecord r{};
+  const Vec3 direction = glm::normalize(rainbow.direction);
+  const Vec3 right = glm::normalize(glm::cross(direction, rainbow.up));
+  copy(direction, r.direction);
+  copy(right, r.right);
+  copy(glm::cross(right, direction), r.up);
+  r.angle = static_cast<float>(rainbow.angle / kTurn);
+  r.inverse_width = static_cast<float>(kTurn / rainbow.width);
+  r.inverse_distance = static_cast<float>(1 / rainbow.distance);
+  r.jitter = static_cast<float>(rainbow.jitter);
+  const double arc = rainbow.arc_angle / 2, falloff = rainbow.falloff_angle / 2;
+  r.arc = static_cast<float>(arc / kTurn);
+  r.falloff = static_cast<float>(falloff / kTurn);
+  r.inverse_fade = static_cast<float>(falloff < arc ? kTurn / (arc - falloff) : 0);
   return r;
 }
 

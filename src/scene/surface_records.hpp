@@ -1,4 +1,4 @@
-// The records of materials, interiors, fogs and lights.
+// The records of materials, interiors, fogs, rainbows and lights.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -13,6 +13,10 @@ bool has_record(const Finish& finish);
 kernel::FinishRecord make_record(const Finish& finish, const Scene& scene);
 kernel::InteriorRecord make_record(const Interior& interior);
 kernel::FogRecord make_record(const Fog& fog, const Scene& scene);
+/// Whether anything of it is seen.
+bool is_visible(const Rainbow& rainbow);
+/// Without its colours.
+kernel::RainbowRecord make_record(const Rainbow& rainbow);
 /// Whether shadow rays stop at it. Without a map.
 bool is_opaque(const Pigment& pigment);
 

@@ -36,8 +36,8 @@ public:
     pigment(m.pigment, 0);
     const Finish& f = m.finish;
     vectors({f.ambient, f.emission, f.reflection_min, f.reflection_max});
-    numbers({f.diffuse, f.brilliance, f.phong, f.phong_size, f.specular, f.roughness, f.metallic,
-             f.reflection_falloff, f.reflection_exponent, f.reflection_metallic, f.crand, f.irid,
+    numbers({f.diffuse, f.diffuse_behind, f.brilliance, f.phong, f.phong_size, f.specular, f.roughness,
+             f.metallic, f.reflection_falloff, f.reflection_exponent, f.reflection_metallic, f.crand, f.irid,
              f.irid_thickness, f.irid_turbulence});
     if (m.normal) normal(*m.normal, 0);
     if (!m.below) return;
@@ -277,6 +277,7 @@ void TextureTables::Traits::add(const Traits& other) {
   opaque = opaque && other.opaque;
   textured = textured || other.textured;
   disturbed = disturbed || other.disturbed;
+  lit_behind = lit_behind || other.lit_behind;
 }
 
 TextureTables::TextureTables(const Scene& scene) : scene_(scene) {
@@ -286,9 +287,12 @@ TextureTables::TextureTables(const Scene& scene) : scene_(scene) {
     const Traits traits = fill_material(static_cast<std::uint32_t>(i), scene.materials[i], {});
     object_flags.push_back(
         (traits.opaque ? object_flag::opaque : 0) | (traits.textured ? object_flag::textured : 0) |
-        (traits.disturbed ? object_flag::disturbed : 0) | (traits.two_sided ? object_flag::two_sided : 0));
+        (traits.disturbed ? object_flag::disturbed : 0) | (traits.two_sided ? object_flag::two_sided : 0) |
+        (traits.lit_behind ? object_flag::lit_behind : 0));
   }
   sky = scene.sky_sphere.empty() ? kNoOffset : add_material(sky_of(scene), {}).index;
+  for (const Rainbow& rainbow : scene.rainbows)
+    if (is_visible(rainbow)) add_rainbow(rainbow);
 }
 
 TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Material& material,
@@ -311,6 +315,7 @@ TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Ma
     traits.textured = true;
   } else {
     r = make_record(material, scene_);
+    traits.lit_behind = material.finish.diffuse_behind != 0;
     if (has_record(material.finish)) {
       r.finish = static_cast<std::uint32_t>(finishes.size());
       finishes.push_back(make_record(material.finish, scene_));
@@ -319,7 +324,7 @@ TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Ma
       const Known map = add_map(material.pigment.map, outer);
       r.flags |= material_flag::patterned;
       r.pattern = map.index;
-      traits = map.traits;
+      traits.add(map.traits);
       traits.textured = true;
     } else {
       traits.opaque = is_opaque(material.pigment);
@@ -335,6 +340,7 @@ TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Ma
       r.below = below.index;
       traits.opaque = traits.opaque || below.traits.opaque;
       traits.disturbed = traits.disturbed || below.traits.disturbed;
+      traits.lit_behind = traits.lit_behind || below.traits.lit_behind;
       traits.textured = true;
     }
   }
@@ -458,6 +464,26 @@ std::uint32_t TextureTables::add_slopes(const std::vector<SlopePoint>& slopes) {
   return first;
 }
 
+void TextureTables::add_rainbow(const Rainbow& rainbow) {
+  const std::vector<Rainbow::Colour>& colours = rainbow.colours;
+  make_room(entries, colours.size(), "entries of maps");
+  RainbowRecord r = make_record(rainbow);
+  r.entries = static_cast<std::uint32_t>(entries.size());
+  r.entry_count = static_cast<std::uint32_t>(colours.size());
+  for (std::size_t i = 0; i < colours.size(); ++i) {
+    MapEntryRecord entry{};
+    entry.position = static_cast<float>(colours[i].position);
+    entry.inverse_width = i == 0 ? 0 : inverse_width(colours[i - 1].position, colours[i].position);
+    copy(colours[i].rgb, entry.rgb);
+    entry.filter = static_cast<float>(colours[i].filter);
+    entry.transmit = static_cast<float>(colours[i].transmit);
+    entry.child = kNoOffset;
+    entries.push_back(entry);
+  }
+  children_.resize(entries.size(), Child::none);
+  rainbows.push_back(r);
+}
+
 std::uint32_t TextureTables::add_pattern(const Pattern& pattern, const Space& outer, bool is_average,
                                          std::size_t entry_count) {
   PatternRecord r{};
@@ -563,6 +589,8 @@ void TextureTables::relocate(const ImageHeader& header) {
     case Child::none:
       break;
     }
+  for (RainbowRecord& r : rainbows)
+    to_offset<MapEntryRecord>(r.entries, header.map_entry_offset);
   for (NormalRecord& r : normals)
     to_offset<PatternRecord>(r.pattern, header.pattern_offset);
   for (MaterialRecord& r : materials) {

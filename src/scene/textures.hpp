@@ -42,7 +42,8 @@ public:
   std::vector<kernel::FeatureRecord> features;   ///< these three only if a pattern or a warp reads them
   std::vector<kernel::GradientRecord> gradients; ///< never without the features
   std::vector<kernel::WaveRecord> waves;
-  std::uint32_t sky; ///< index of the uppermost layer's material, or kNoOffset
+  std::vector<kernel::RainbowRecord> rainbows; ///< those that are visible
+  std::uint32_t sky;                           ///< index of the uppermost layer's material, or kNoOffset
   /// By material of the scene: what an object has that consists of it, of object_flag's opaque, mapped,
   /// disturbed.
   std::vector<std::uint32_t> object_flags;
@@ -50,7 +51,7 @@ public:
 private:
   /// What the textures of a tree have in common.
   struct Traits {
-    bool opaque = true, textured = false, disturbed = false, two_sided = false;
+    bool opaque = true, textured = false, disturbed = false, two_sided = false, lit_behind = false;
     void add(const Traits& other);
   };
   struct Known {
@@ -71,6 +72,7 @@ private:
   void add_table(PatternTable table);
   void add_steps(kernel::PatternRecord& r, const Space& space);
   std::uint32_t add_slopes(const std::vector<SlopePoint>& slopes);
+  void add_rainbow(const Rainbow& rainbow);
   Traits fill(kernel::MapEntryRecord& entry, const Pigment& pigment);
 
   const Scene& scene_;

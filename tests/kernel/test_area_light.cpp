@@ -60,8 +60,9 @@ struct Sampling {
   /// Calls look(shadow) for each place.
   template <class Look> VectorLanes run(std::uint32_t lanes, Look look) {
     const Surfaces<Simd> surfaces = {point.load<Simd>(), normal.load<Simd>(), {}, &objects};
+    SceneAccess<DirectSpu> scene(spu, CacheConfig(), 0);
     IncidentLight<Simd> incident(record.colour);
-    illuminate(spu, record, surfaces, lanes, incident);
+    illuminate(scene, record, surfaces, lanes, incident);
     facing = incident.facing;
     VectorLanes sum;
     const std::uint32_t rays = sample_area(spu, record, surfaces, incident, *shadow, sum, look);

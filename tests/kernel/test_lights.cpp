@@ -36,9 +36,10 @@ struct Incident {
 
   Incident(const Light& light, const Places& places, std::uint32_t lanes) {
     DirectSpu spu;
+    SceneAccess<DirectSpu> scene(spu, CacheConfig(), 0);
     const LightRecord record = make_record(light);
     IncidentLight<Simd> in(record.colour);
-    illuminate(spu, record, places.surfaces(), lanes, in);
+    illuminate(scene, record, places.surfaces(), lanes, in);
     direction = lanes_of(in.direction);
     colour = lanes_of(in.colour);
     distance = lanes_of(in.distance);

@@ -111,7 +111,7 @@ TEST_CASE("Ambient light, diffuse light and highlights of mixed materials") {
       for_each_light(access, scene.frame(), round.first, round.count,
                      [&](unsigned number, const LightRecord& record) {
                        IncidentLight<Simd> incident(record.colour);
-                       illuminate(spu, record, hits.surfaces(), lanes, incident);
+                       illuminate(access, record, hits.surfaces(), lanes, incident);
                        RayPacket rays;
                        FloatLanes distance;
                        make_shadow_rays(hits.surfaces(), incident, rays, distance);

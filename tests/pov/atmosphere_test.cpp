@@ -54,6 +54,50 @@ TEST_CASE("fog") {
   CHECK(error_line("fog { fog_type 3 }") == "scene.pov:1:16: error: there are fogs of type 1 and 2");
 }
 
+TEST_CASE("rainbows") {
+  const std::string map = " color_map { [0 rgb x] [1 rgbft <0, 1, 0, .5, .25>] }";
+  const auto rainbow = [&](const std::string& body) {
+    const Scene scene = parse("rainbow { " + body + map + " }");
+    REQUIRE(scene.rainbows.size() == 1);
+    return scene.rainbows.front();
+  };
+  const Rainbow plain = rainbow("direction z");
+  CHECK(plain.angle == 0);
+  CHECK(plain.width == 0);
+  CHECK(plain.distance == 0);
+  CHECK(plain.jitter == 0);
+  CHECK(plain.up == Vec3(0, 1, 0));
+  CHECK(plain.arc_angle > 20000); // that is none: POV-Ray's default is in radians
+  CHECK(plain.falloff_angle > 20000);
+  REQUIRE(plain.colours.size() == 2);
+  CHECK(plain.colours[1].position == 1);
+  CHECK(plain.colours[1].rgb == Vec3(0, 1, 0));
+  CHECK(plain.colours[1].filter == .5);
+  CHECK(plain.colours[1].transmit == .25);
+  const Rainbow full = rainbow("direction <1, 2, 3> angle 42 width 5 distance 1e7 jitter .01 up <0, 0, 2> "
+                               "arc_angle 120 falloff_angle 30");
+  CHECK(full.direction == Vec3(1, 2, 3));
+  CHECK(full.angle == 42);
+  CHECK(full.width == 5);
+  CHECK(full.distance == 1e7);
+  CHECK(full.jitter == .01);
+  CHECK(full.up == Vec3(0, 0, 2));
+  CHECK(full.arc_angle == 120);
+  CHECK(full.falloff_angle == 30);
+  CHECK(parse("rainbow { direction z width 3 }").rainbows.empty()); // without colours there is none
+  const Scene two =
+      parse("#declare R = rainbow { direction z width 3" + map + " } rainbow { R width 4 } rainbow { R }");
+  CHECK(two.rainbows.at(0).width == 4);
+  CHECK(two.rainbows.at(1).width == 3);
+  CHECK(error_line("rainbow { }") == "scene.pov:1:1: error: this rainbow's direction has no length");
+  CHECK(error_line("rainbow { direction y }") ==
+        "scene.pov:1:1: error: this rainbow's direction and 'up' are one line");
+  CHECK(error_line("rainbow { direction z arc_angle 30 falloff_angle 40 }") ==
+        "scene.pov:1:1: error: this rainbow's 'arc_angle' is less than its 'falloff_angle'");
+  CHECK_NOTHROW(parse("rainbow { direction z arc_angle 30 }"));
+  CHECK_THAT(error_line("rainbow { direction z rotate x }"), Catch::Contains("unexpected"));
+}
+
 TEST_CASE("hollow objects") {
   const Scene scene = parse("sphere { 0, 1 } sphere { 0, 1 hollow } sphere { 0, 1 hollow off } "
                             "union { sphere { 0, 1 } sphere { 0, 1 hollow off } hollow }");

@@ -115,7 +115,33 @@ TEST_CASE("the environment") {
         "scene.pov:1:35: error: max_trace_level must lie between 1 and 256");
   CHECK(scene.irid_wavelength == Vec3(1));
   CHECK(parse("sphere { 0, 1 }").irid_wavelength == Vec3(0.7, 0.52, 0.48));
-  CHECK(error_line("rainbow { width 10 }") == "scene.pov:1:1: error: 'rainbow' is not supported yet");
+}
+
+TEST_CASE("what POV-Ray does not render at a low quality is no matter") {
+  const std::string scene =
+      "global_settings { radiosity { count 10 } photons { count 10 } } media { emission 1 } "
+      "sphere { 0, 1 photons { target } interior { media { emission 1 } } }";
+  ParseOptions options;
+  options.quality = 8;
+  CHECK(parse_string(scene, options).objects.size() == 1);
+  for (const char* const word : {"radiosity", "photons", "media"})
+    CHECK_THAT(test::error(scene), Catch::Contains('\'' + std::string(word) + "' is not supported yet"));
+}
+
+TEST_CASE("objects that light shines through") {
+  const Scene scene =
+      parse("sphere { 0, 1 double_illuminate } sphere { 0, 1 double_illuminate off } "
+            "union { sphere { 0, 1 } intersection { sphere { 0, 1 } box { 0, 1 } } double_illuminate }");
+  REQUIRE(scene.objects.size() == 4);
+  CHECK(scene.objects[0].is_lit_through);
+  CHECK_FALSE(scene.objects[1].is_lit_through);
+  CHECK(scene.objects[2].is_lit_through);
+  CHECK(std::get<std::shared_ptr<const Csg>>(scene.objects[3].shape)->parts.at(1).is_lit_through);
+}
+
+TEST_CASE("what objects say of radiosity matters only if there is any") {
+  CHECK(error_line("#default { radiosity { importance 2 } } sphere { 0, 1 radiosity { importance 0.5 } }")
+            .empty());
 }
 
 TEST_CASE("a transparent background is one over black, from version 3.7 on") {

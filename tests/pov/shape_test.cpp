@@ -74,6 +74,44 @@ TEST_CASE("tori") {
   CHECK(parse("torus { 1, 0 } torus { 0, 1 } torus { -1, 0.2 } torus { 1, -0.2 }").objects.empty());
 }
 
+TEST_CASE("polygons") {
+  using Loops = std::vector<std::vector<Vec3>>;
+  const auto loops = [](const std::string& text) {
+    const Scene scene = parse("polygon { " + text + " }");
+    REQUIRE(scene.objects.size() == 1);
+    return std::get<std::shared_ptr<const Polygon>>(scene.objects[0].shape)->loops;
+  };
+  const Loops square = {{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}};
+  CHECK(loops("4, <-1, -1>, <1, -1>, <1, 1>, <-1, 1>") == square);
+  CHECK(loops("5 <-1, -1> <1, -1> <1, 1> <-1, 1> <-1, -1> pigment { rgb 1 }") == square);
+  CHECK(loops("5.7 <-1, -1> <1, -1> <1, 1> <-1, 1> <-1, -1, 1e-11> pigment { rgb 1 }") == square);
+  const Loops two = loops("8, 0, x, y, 0, <.1, .1>, <.2, .1>, <.1, .2>, <.1, .1>");
+  CHECK(two == Loops{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{.1, .1, 0}, {.2, .1, 0}, {.1, .2, 0}}});
+  // What is on a line, nearly a point or not flat is not there.
+  CHECK(loops("3, 0, x, 2*x").empty());
+  CHECK(loops("3, 0, x/1000, y/1000").empty());
+  CHECK(loops("4, 0, x, <1, 1, 1e-9>, y").empty());
+  CHECK(loops("4, 0, x, <1, 1, 1e-11>, y").size() == 1);
+  CHECK(loops("5, 0, x/2, x, y, 0").size() == 1);
+  CHECK(error_line("polygon { 2, 0, x }") == "scene.pov:1:1: error: a polygon has at least three points");
+  CHECK(error_line("polygon { 5, 0, x, y, 0 }") ==
+        "scene.pov:1:1: error: this polygon does not have as many points as it says");
+  CHECK(error_line("polygon { x, y, z }") ==
+        "scene.pov:1:11: error: expected 'polygon { count, <point>, ... }', "
+        "found a vector as count");
+  CHECK_THAT(error_line("polygon { 3, 0, x, y open }"), Catch::Contains("open"));
+}
+
+TEST_CASE("polygons in CSG have no inside") {
+  const Scene scene = parse("intersection { polygon { 3, 0, x, y inverse } sphere { 0, 1 } }");
+  const auto& parts = std::get<std::shared_ptr<const Csg>>(scene.objects.at(0).shape)->parts;
+  REQUIRE(parts.size() == 2);
+  CHECK_FALSE(parts[0].inverse);
+  const std::string asked = "#declare P = polygon { 3, 0, x, y }; #declare Q = object { P inverse };";
+  CHECK(parse(asked + "#if (inside(P, -z) | inside(Q, -z) | inside(Q, z)) sphere { 0, 1 } #end")
+            .objects.empty());
+}
+
 TEST_CASE("every shape takes modifiers and can be declared") {
   const Scene scene = parse("#declare B = box { 0, 1 pigment { rgb 1 } translate x } "
                             "box { B translate y } object { B inverse } object { box { B inverse } inverse } "

@@ -96,6 +96,27 @@ TEST_CASE("every item of a finish") {
         "scene.pov:1:34: error: roughness must be greater than 0");
 }
 
+TEST_CASE("light that falls on the other side, and albedos") {
+  CHECK(finish("diffuse 0.5").diffuse_behind == 0);
+  CHECK(finish("diffuse 0.5, 0.3").diffuse_behind == 0.3);
+  CHECK(finish("diffuse 0.5 0.3 brilliance 2").diffuse_behind == 0.3);
+  CHECK(finish("diffuse 0.5, 0.3 diffuse 0.4").diffuse_behind == 0);
+  // In whatever order they are said.
+  const Finish f =
+      finish("diffuse albedo 0.5, 0.2 brilliance 3 phong albedo 0.01 phong_size 19 specular albedo 0.1 "
+             "roughness 0.1");
+  CHECK(f.diffuse == 1);
+  CHECK(f.diffuse_behind == 0.4);
+  CHECK(f.phong == Approx(0.1));
+  CHECK(f.specular == Approx(0.1 * 12 / 7.875));
+  CHECK(finish("roughness 1 specular albedo 0.01").specular == Approx(0.0058).epsilon(1e-3));
+  CHECK(finish("brilliance 3 diffuse albedo 0.2 diffuse 0.5").diffuse == 1);
+  // What has a name is settled.
+  const Scene scene =
+      parse("#declare F = finish { diffuse albedo 0.5 } sphere { 0, 1 finish { F brilliance 3 } }");
+  CHECK(scene.materials.at(scene.objects.at(0).material).finish.diffuse == 0.5);
+}
+
 TEST_CASE("reflection, old and new form") {
   Finish f = finish("reflection 0.3 reflection_exponent 2");
   CHECK(f.reflection_min == Vec3(.3, .3, .3));
@@ -225,23 +246,23 @@ TEST_CASE("what is not supported is an error where it is used") {
   CHECK(error_line("quartic { 0, x, 1 }") == "scene.pov:1:1: error: 'quartic' is not supported yet");
   CHECK(error_line("sphere { 0, 1 clipped_by { prism { 0, 1 } } }") ==
         "scene.pov:1:28: error: 'prism' is not supported yet");
-  CHECK(error_line("sphere { 0, 1 double_illuminate }") ==
-        "scene.pov:1:15: error: 'double_illuminate' is not supported yet");
+  CHECK(error_line("sphere { 0, 1 cutaway_textures }") ==
+        "scene.pov:1:15: error: 'cutaway_textures' is not supported yet");
 }
 
 TEST_CASE("all that is not supported is reported at once, each feature once") {
-  const std::string scene = "sphere { 0, 1 pigment { slope <0, 1, 0> scale 2 } double_illuminate }\n"
+  const std::string scene = "sphere { 0, 1 pigment { slope <0, 1, 0> scale 2 } cutaway_textures }\n"
                             "text { ttf \"x\" \"y\" 1, 0 }\n"
-                            "union { sphere { 0, 1 double_illuminate finish { phong 0.5 subsurface { "
+                            "union { sphere { 0, 1 cutaway_textures finish { phong 0.5 subsurface { "
                             "translucency 1 } diffuse 0.2 } } blob { threshold 1 } }\n";
-  CHECK(test::error(scene) == "scene.pov:1:51: error: 'double_illuminate' is not supported yet\n"
+  CHECK(test::error(scene) == "scene.pov:1:51: error: 'cutaway_textures' is not supported yet\n"
                               "    used at scene.pov:1:1\n"
                               "scene.pov:1:25: error: 'slope' is not supported yet\n"
                               "    used at scene.pov:1:1\n"
                               "scene.pov:2:1: error: 'text' is not supported yet\n"
-                              "scene.pov:3:60: error: 'subsurface' is not supported yet\n"
+                              "scene.pov:3:59: error: 'subsurface' is not supported yet\n"
                               "    used at scene.pov:3:1\n"
-                              "scene.pov:3:106: error: 'blob' is not supported yet\n"
+                              "scene.pov:3:105: error: 'blob' is not supported yet\n"
                               "    used at scene.pov:3:1");
   CHECK(test::error(scene + "sphere { }")
             .ends_with("'blob' is not supported yet\n    used at scene.pov:3:1\n"
@@ -252,11 +273,11 @@ TEST_CASE("all that is not supported is reported at once, each feature once") {
   std::string said;
   lenient.message = [&said](std::string_view message) { said += message; };
   const Scene read = test::parse(scene, lenient);
-  CHECK(said == "scene.pov:1:51: warning: 'double_illuminate' is not supported yet and left out\n"
+  CHECK(said == "scene.pov:1:51: warning: 'cutaway_textures' is not supported yet and left out\n"
                 "scene.pov:1:25: warning: 'slope' is not supported yet and left out\n"
                 "scene.pov:2:1: warning: 'text' is not supported yet and left out\n"
-                "scene.pov:3:60: warning: 'subsurface' is not supported yet and left out\n"
-                "scene.pov:3:106: warning: 'blob' is not supported yet and left out\n");
+                "scene.pov:3:59: warning: 'subsurface' is not supported yet and left out\n"
+                "scene.pov:3:105: warning: 'blob' is not supported yet and left out\n");
   REQUIRE(read.objects.size() == 2);
   const Material& material = read.materials[read.objects[1].material];
   CHECK(material.finish.phong == 0.5);

@@ -78,14 +78,15 @@ Incoming incoming(const Light& light, const Vec3& point) {
 }
 
 Vec3 lit(const Material& material, double version, const Vec3& colour, const Vec3& to_light,
-         const Vec3& direction, const Vec3& normal, bool highlights) {
+         const Vec3& direction, const Vec3& normal, bool highlights, bool is_lit_through) {
   const Finish& f = material.finish;
   const Vec3& pigment = material.pigment.rgb;
   const double cosine = glm::dot(normal, to_light);
-  if (cosine < 1e-10) return Vec3(0);
-  Vec3 sum =
-      pigment * colour * f.diffuse * opacity(material.pigment, version) * std::pow(cosine, f.brilliance);
-  if (!highlights) return sum;
+  const bool is_behind = cosine < 1e-10 && !is_lit_through;
+  const double diffuse = is_behind ? f.diffuse_behind : f.diffuse;
+  Vec3 sum = pigment * colour * diffuse * opacity(material.pigment, version) *
+             std::pow(std::abs(cosine), f.brilliance);
+  if (!highlights || is_behind) return sum;
 
   double strength = 0;
   const double mirrored = glm::dot(mirror(direction, normal), to_light);
@@ -126,6 +127,31 @@ Fogged through(const Fog& fog, const Vec3& origin, const Vec3& direction, double
   }
   const double pass = std::max(std::exp(-density * distance / fog.distance), fog.transmit);
   return {((1 - fog.filter) + fog.filter * fog.colour) * pass, fog.colour * (1 - pass)};
+}
+
+std::optional<Fogged> through(const Rainbow& rainbow, const Vec3& direction, double distance) {
+  const auto degrees = [](double cosine) {
+    return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
+  };
+  const Vec3 axis = glm::normalize(rainbow.direction);
+  const double across = (degrees(glm::dot(axis, direction)) - rainbow.angle) / rainbow.width + 0.5;
+  const Vec3 up = glm::normalize(rainbow.up - glm::dot(rainbow.up, axis) * axis);
+  const double along = degrees(glm::dot(up, glm::normalize(direction - glm::dot(direction, axis) * axis)));
+  if (across < 0 || across > 1 || along > rainbow.arc_angle / 2) return std::nullopt;
+  const auto& colours = rainbow.colours;
+  const auto after = std::find_if(colours.begin(), colours.end(),
+                                  [&](const Rainbow::Colour& colour) { return across <= colour.position; });
+  Rainbow::Colour colour = after == colours.end() ? colours.back() : *after;
+  if (after != colours.end() && after != colours.begin()) {
+    const Rainbow::Colour& before = *(after - 1);
+    const double t = (across - before.position) / (colour.position - before.position);
+    colour.rgb = glm::mix(before.rgb, colour.rgb, t);
+    colour.filter = glm::mix(before.filter, colour.filter, t);
+    colour.transmit = glm::mix(before.transmit, colour.transmit, t);
+  }
+  const double strength = 1 - smooth_step(rainbow.falloff_angle / 2, rainbow.arc_angle / 2, along);
+  const double pass = std::max(std::exp(-distance / rainbow.distance), 1 - strength * (1 - colour.transmit));
+  return Fogged{(1.0 + colour.filter * (1 - pass) * (colour.rgb - 1.0)) * pass, colour.rgb * (1 - pass)};
 }
 
 double fresnel_reflectance(double ratio, double cosine) {

@@ -28,9 +28,10 @@ struct Incoming {
 };
 Incoming incoming(const Light& light, const Vec3& point);
 
-/// What a light of `colour` in direction `to_light` adds to what is seen along `direction`.
+/// What a light of `colour` in direction `to_light` adds to what is seen along `direction`. `is_lit_through`:
+/// also from behind.
 Vec3 lit(const Material& material, double version, const Vec3& colour, const Vec3& to_light,
-         const Vec3& direction, const Vec3& normal, bool highlights);
+         const Vec3& direction, const Vec3& normal, bool highlights, bool is_lit_through = false);
 
 /// The factors that irid gives what is sent on of one light.
 Vec3 film(const Finish& finish, const Vec3& wavelength, double cosine_of_light, double cosine_of_ray);
@@ -43,6 +44,9 @@ struct Fogged {
   Vec3 pass, add;
 };
 Fogged through(const Fog& fog, const Vec3& origin, const Vec3& direction, double distance);
+
+/// The same of a rainbow; nothing if the ray does not look at it. Without jitter.
+std::optional<Fogged> through(const Rainbow& rainbow, const Vec3& direction, double distance);
 
 /// The reflectance of unpolarised light by Fresnel's equations; `ratio` is the index on this side over that
 /// on the other; 1 beyond the critical angle.

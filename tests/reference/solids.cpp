@@ -113,6 +113,26 @@ std::vector<double> cross(const Disc& disc, const Vec3& origin, const Vec3& dire
   return found;
 }
 
+/// Where a line from a point of the plane to one side of it crosses the loops an odd number of times.
+std::vector<double> cross(const std::shared_ptr<const Polygon>& polygon, const Vec3& origin,
+                          const Vec3& direction) {
+  const auto& first = polygon->loops.at(0);
+  const Vec3 normal = glm::normalize(glm::cross(first.at(1) - first.at(0), first.at(2) - first.at(0)));
+  const std::vector<double> found = cross(Plane{normal, glm::dot(normal, first[0])}, origin, direction);
+  if (found.empty()) return {};
+  const Vec3 side = glm::normalize(first[1] - first[0]), up = glm::cross(normal, side);
+  const Vec3 p = origin + found[0] * direction;
+  bool is_in = false;
+  for (const auto& loop : polygon->loops)
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Vec3 a = loop[i] - p, b = loop[(i + 1) % loop.size()] - p;
+      const double ay = glm::dot(a, up), by = glm::dot(b, up);
+      if ((ay > 0) == (by > 0)) continue;
+      is_in ^= glm::dot(a, side) + (glm::dot(b, side) - glm::dot(a, side)) * ay / (ay - by) > 0;
+    }
+  return is_in ? found : std::vector<double>();
+}
+
 std::vector<double> cross(const Box& box, const Vec3& origin, const Vec3& direction) {
   double enter = -HUGE_VAL, leave = HUGE_VAL;
   for (int i = 0; i < 3; ++i) {
@@ -214,6 +234,7 @@ bool is_in_shape(const Object& object, const Vec3& p) {
                           return std::hypot(std::hypot(p.x, p.z) - s.major_radius, p.y) < s.minor_radius;
                         },
                         [&](const Quadric& s) { return function(s, p) < 0; },
+                        [&](const std::shared_ptr<const Polygon>&) { return false; },
                         [&](const std::shared_ptr<const Csg>& csg) { return is_in_csg(*csg, p); },
                     },
                     object.shape);
@@ -277,6 +298,10 @@ Vec3 local_normal(const Object& object, const Vec3& p) {
                           return p - flat * (s.major_radius / glm::length(flat));
                         },
                         [&](const Quadric& s) { return gradient(s, p); },
+                        [&](const std::shared_ptr<const Polygon>& s) {
+                          const auto& loop = s->loops.at(0);
+                          return glm::cross(loop.at(1) - loop.at(0), loop.at(2) - loop.at(0));
+                        },
                         [&](const auto&) { return Vec3(0); },
                     },
                     object.shape);

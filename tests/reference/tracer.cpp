@@ -119,7 +119,16 @@ Vec3 Tracer::in_fog(const Branch& branch, double distance, const Vec3& behind) c
     added += one.add;
     passed *= one.pass;
   }
-  return added + passed * behind;
+  Vec3 bow_added(0), bow_passed(0);
+  int bows = 0;
+  for (const Rainbow& rainbow : scene_.rainbows)
+    if (const auto one = through(rainbow, branch.ray.direction, distance)) {
+      bow_added += one->add;
+      bow_passed += one->pass;
+      ++bows;
+    }
+  const Vec3 seen = bows == 0 ? behind : (bow_added + bow_passed * behind) / double(bows);
+  return added + passed * seen;
 }
 
 Material Tracer::material_at(Index index, const Vec3& point) const {
@@ -151,16 +160,28 @@ Vec3 Tracer::trace(const Branch& branch) const {
   return in_fog(branch, point.distance, sum);
 }
 
+bool Tracer::shines_on(const Light& light, Index group) const {
+  if (group == kNoIndex) return light.is_global;
+  const LightGroup& own = scene_.light_groups[group];
+  const auto index = static_cast<Index>(&light - scene_.lights.data());
+  return (own.global_lights && light.is_global) ||
+         std::find(own.lights.begin(), own.lights.end(), index) != own.lights.end();
+}
+
 Vec3 Tracer::own_light(const Branch& branch, const Point& point, const Material& material) const {
   const Vec3& direction = branch.ray.direction;
   const Finish& f = material.finish;
   Vec3 sum = material.pigment.rgb * (f.ambient * scene_.ambient_light + f.emission) *
              opacity(material.pigment, scene_.version);
+  const Index group = point.shape->object->light_group;
   for (const Light& light : scene_.lights) {
+    if (!shines_on(light, group)) continue;
     const Incoming arriving = incoming(light, point.position);
     const Vec3 &to_light = arriving.to_light, &unshadowed = arriving.colour;
     const double distance = arriving.distance;
-    if (glm::dot(point.normal, to_light) < 1e-10) continue;
+    const bool is_lit_through = point.shape->object->is_lit_through;
+    const double cosine = glm::dot(point.normal, to_light);
+    if (cosine < 1e-10 && !is_lit_through && f.diffuse_behind == 0) continue;
     const bool is_parallel = light.parallel || light.kind == Light::Kind::cylinder;
     const auto from_place = [&](int column, int row) {
       const Vec3 offset = area_offset(*light.area, to_light, column, row);
@@ -175,9 +196,9 @@ Vec3 Tracer::own_light(const Branch& branch, const Point& point, const Material&
       colour = area_mean(*light.area, from_place);
     else if (!light.shadowless)
       colour *= attenuation({point.position, to_light}, distance, branch.inside);
-    sum +=
-        lit(material, scene_.version, colour, to_light, direction, point.normal, !light.shadowless) *
-        film(f, scene_.irid_wavelength, glm::dot(point.normal, to_light), -glm::dot(direction, point.normal));
+    sum += lit(material, scene_.version, colour, to_light, direction, point.normal, !light.shadowless,
+               is_lit_through) *
+           film(f, scene_.irid_wavelength, std::abs(cosine), -glm::dot(direction, point.normal));
   }
   return sum;
 }

@@ -46,6 +46,8 @@ private:
   Material material_at(Index index, const Vec3& point) const;
   Vec3 trace(const Branch& branch) const;
   Vec3 shade(const Branch& branch, const Point& point, const Material& material) const;
+  /// `group`: that of an object.
+  bool shines_on(const Light& light, Index group) const;
   Vec3 own_light(const Branch& branch, const Point& point, const Material& material) const;
   /// What is seen of `behind` through the fogs.
   Vec3 in_fog(const Branch& branch, double distance, const Vec3& behind) const;

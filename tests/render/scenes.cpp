@@ -1,5 +1,6 @@
 #include "render/scenes.hpp"
 
+#include <cmath>
 #include <stdexcept>
 
 #include <glm/geometric.hpp>
@@ -478,6 +479,164 @@ Scene fog_and_insides() {
   return scene;
 }
 
+/// Polygons with holes, with lines that cross, shared by objects, clear, cut and in CSG.
+Scene polygons() {
+  Scene scene = with_camera(camera_at({0, 1, -6}, {0, 0, 0}));
+  add_floor(scene, -1.5, {0.5, 0.6, 0.5}, {0.8, 0.8, 0.8});
+  auto star = std::make_shared<Polygon>();
+  auto frame = std::make_shared<Polygon>();
+  star->loops.resize(1);
+  frame->loops.resize(2);
+  for (int i = 0; i < 7; ++i) {
+    const double angle = 2 * 3.14159265358979 * (3 * i % 7) / 7;
+    star->loops[0].push_back({std::cos(angle), std::sin(angle), 0.2});
+  }
+  for (int i = 0; i < 40; ++i) {
+    const double angle = 2 * 3.14159265358979 * i / 40, r = i % 2 == 0 ? 1 : 0.8;
+    // In a slanted plane, and the hole the other way around.
+    frame->loops[0].push_back({r * std::cos(angle), r * std::sin(angle), 0.5 * r * std::cos(angle)});
+    frame->loops[1].push_back({0.5 * std::cos(angle), -0.4 * std::sin(angle), 0.25 * std::cos(angle)});
+  }
+  const auto add = [&](const std::shared_ptr<const Polygon>& polygon, const Material& material,
+                       const Transform& transform) {
+    Object object;
+    object.shape = polygon;
+    object.transform = transform;
+    object.material = scene.add(material);
+    object.interior = new_interior(scene);
+    scene.objects.push_back(object);
+  };
+  add(star, matte({0.9, 0.3, 0.2}), Transform::translate({-1.5, 0.3, 0}));
+  add(star, glass({0.9, 0.9, 0.3}),
+      Transform::scale({1, 0.5, 1})
+          .then(Transform::rotate({60, 20, 10}))
+          .then(Transform::translate({0.4, -1, -1})));
+  add(frame, matte({0.3, 0.8, 0.3}), Transform::rotate({0, 30, 0}).then(Transform::translate({1.4, 0.2, 0})));
+  add(frame, matte({0.4, 0.5, 0.9}),
+      Transform::rotate({80, 0, 0}).then(Transform::translate({-0.2, 1.1, 1})));
+  scene.objects.back().clipped_by = std::make_shared<const std::vector<Object>>(
+      std::vector<Object>{sphere_at({0.3, 1, 1}, 0.9, 0, scene.objects.back().interior)});
+  Object part = scene.objects[1];
+  part.transform = Transform();
+  const Object ball = sphere_at({0, 0, 0}, 0.7, scene.objects[3].material, part.interior);
+  auto csg = std::make_shared<const Csg>(Csg{Csg::Operation::intersection, {part, ball}});
+  Object cut = part;
+  cut.shape = csg;
+  cut.transform = Transform::translate({0, 0.2, -1.5});
+  scene.objects.push_back(cut);
+  return scene;
+}
+
+/// Thin things of every kind before lights that are in front and behind.
+Scene lit_from_behind() {
+  Scene scene = with_camera(camera_at({0, 1, -7}, {0, 0, 0}));
+  scene.lights.push_back({{1, 5, 6}, {0.8, 0.7, 0.6}});
+  scene.lights.back().area = LightArea{{1, 0, 0}, {0, 1, 0}, 3, 3, 1};
+  scene.lights.push_back({{-3, 0.5, 3}, {0.3, 0.5, 0.6}, true});
+  scene.lights.push_back({{0, -6, 2}, {0.4, 0.3, 0.3}});
+  add_floor(scene, -1.4f, {0.5, 0.6, 0.5}, {0.8, 0.8, 0.8});
+  scene.materials[0].finish.diffuse_behind = 0.5; // half of the floor
+  for (int i = 0; i < 12; ++i) {
+    Material m = matte({0.4 + 0.05 * i, 0.9 - 0.05 * i, 0.4});
+    m.finish.diffuse_behind = i % 3 == 0 ? 0 : 0.2 * (i % 4);
+    m.finish.brilliance = i % 5 == 2 ? 2 : 1;
+    m.finish.phong = 0.5 * (i % 2);
+    m.finish.specular = i % 4 == 1 ? 0.6 : 0;
+    m.finish.irid = i == 8 ? 0.3 : 0;
+    m.finish.irid_thickness = 0.5;
+    if (i == 5) m.pigment.transmit = 0.3;
+    if (i == 7)
+      m.pigment.map = map_of<Pigment>({pattern::Checker{}}, {{0, {{1, 0, 0}}}, {1, {{0.9, 0.9, 1}}}});
+    Object object;
+    object.material = scene.add(m);
+    object.interior = new_interior(scene);
+    object.is_lit_through = i % 3 == 1;
+    const Vec3 at = {1.1 * (i % 4) - 1.7, 1.0 * (i / 4) - 0.8, 0.3 * (i % 3)};
+    object.shape = Disc{{0, 0, 0}, {0, 0.1 * i, 1}, 0.45, 0.1 * (i % 2)};
+    if (i % 4 == 2) object = mesh_object(ball_mesh(4), object.material, object.interior);
+    if (i % 4 == 2) object.transform = Transform::scale(Vec3(0.4));
+    if (i % 4 == 3) object.shape = Box{{{-0.4, -0.4, 0}, {0.4, 0.4, 0.001}}};
+    object.is_lit_through = i % 3 == 1;
+    object.transform =
+        object.transform.then(Transform::rotate({0, 23.0 * i, 0})).then(Transform::translate(at));
+    scene.objects.push_back(object);
+  }
+  return scene;
+}
+
+/// Two bows that share a part of the sky, one of them an arc that fades, behind thin fog and in a mirror.
+Scene rainbows() {
+  Scene scene = with_camera(camera_at({0, 1, -7}, {0, 1, 0}));
+  add_floor(scene, -1, {0.5, 0.6, 0.5}, {0.8, 0.8, 0.8});
+  Material steel = matte({0.3, 0.3, 0.3});
+  steel.finish.reflection_min = steel.finish.reflection_max = Vec3(0.6);
+  add_sphere(scene, {1.2, 0, 0}, 1, steel);
+  add_sphere(scene, {-1.6, -0.3, 1}, 0.7, matte({0.9, 0.8, 0.3}));
+  Material clear = glass({0.9, 0.9, 0.9});
+  add_sphere(scene, {0, 0.4, -2.5}, 0.4, clear, 1.2);
+  Rainbow bow;
+  bow.direction = {-0.1, -0.2, 1};
+  bow.angle = 22;
+  bow.width = 8;
+  bow.distance = 15;
+  bow.colours = {{0, {0.8, 0.4, 1}, 0.9, 0.2},
+                 {0.4, {0.2, 0.9, 1}, 0.8, 0.1},
+                 {0.5, {0.9, 1, 0.1}, 0.8, 0.2},
+                 {0.9, {1, 0.2, 0.1}, 0.9, 0.5}};
+  scene.rainbows.push_back(bow);
+  bow.angle = 25;
+  bow.up = {0.5, 1, 0};
+  bow.arc_angle = 200;
+  bow.falloff_angle = 60;
+  bow.colours[1].rgb = {1, 0.5, 0.2};
+  scene.rainbows.push_back(bow);
+  bow.direction = {0.2, -0.5, -1};
+  bow.up = {0, 1, 0};
+  bow.arc_angle = bow.falloff_angle = 180;
+  scene.rainbows.push_back(bow);
+  Fog fog;
+  fog.distance = 60;
+  fog.colour = {0.6, 0.7, 0.8};
+  scene.fogs.push_back(fog);
+  return scene;
+}
+
+/// So many groups that they take more than one word of bits, of spheres, a mesh and CSG.
+Scene light_groups() {
+  Scene scene = with_camera(camera_at({0, 4, -8}, {0, 0, 0}));
+  add_floor(scene, -0.5, {0.5, 0.6, 0.5}, {0.8, 0.8, 0.8});
+  const Index white = scene.add(matte({1, 1, 1}));
+  for (int i = 0; i < 40; ++i) {
+    const double angle = 0.3 * i;
+    const Vec3 at = {0.09 * i * std::cos(angle), -0.2, 0.09 * i * std::sin(angle)};
+    Light light;
+    light.location = at + Vec3(0.5, 2, -1.5);
+    light.colour = {0.3 + 0.3 * (i % 3), 0.3 + 0.2 * (i % 4), 0.3 + 0.1 * (i % 5)};
+    light.is_global = i % 8 == 7;
+    if (i % 3 == 1) light.area = LightArea{{0.3, 0, 0}, {0, 0, 0.3}, 2, 2, 1};
+    light.shadowless = i % 5 == 4;
+    scene.lights.push_back(light);
+    LightGroup group;
+    group.global_lights = i % 4 == 2;
+    if (!light.is_global) group.lights.push_back(static_cast<Index>(scene.lights.size() - 1));
+    if (i % 6 == 5) group.lights.push_back(2);
+    scene.light_groups.push_back(group);
+    Object object = sphere_at(at, 0.25, white, new_interior(scene));
+    if (i % 7 == 3) object = mesh_object(ball_mesh(3), white, new_interior(scene));
+    if (i % 7 == 3) object.transform = Transform::scale(Vec3(0.3)).then(Transform::translate(at));
+    object.light_group = static_cast<Index>(i);
+    if (i % 7 == 5) {
+      Object box = object;
+      box.shape = Box{{at - 0.2, at + 0.2}};
+      object.light_group = static_cast<Index>(i - 1);
+      auto csg = std::make_shared<const Csg>(Csg{Csg::Operation::intersection, {object, box}});
+      object = Object{csg, {}, white, object.interior};
+    }
+    scene.objects.push_back(object);
+  }
+  return scene;
+}
+
 } // namespace
 
 const std::vector<NamedScene>& scenes() {
@@ -498,6 +657,10 @@ const std::vector<NamedScene>& scenes() {
       {"flat, gamma 2.2", flat_gamma},
       {"patterns", patterns},
       {"cut meshes", cut_meshes},
+      {"light groups", light_groups},
+      {"lit from behind", lit_from_behind},
+      {"polygons", polygons},
+      {"rainbows", rainbows},
       {"textures", textures, "the reference has no noise, layers or normals"}};
   return all;
 }

@@ -151,6 +151,113 @@ TEST_CASE("A sealed scene image with a fault in it is refused") {
   refused([](Bytes& b) { table<BlendRecord>(b, header_of(b).blend_offset)->material[2] = 5; }, "offset");
 }
 
+TEST_CASE("A sealed scene image with a fault in its light groups is refused") {
+  const Bytes good = bytes_of(SceneImage(scene_named("light groups")));
+  const auto refused = [&](const std::function<void(Bytes&)>& change) {
+    Bytes bytes = good;
+    change(bytes);
+    seal(bytes);
+    CHECK_THROWS_WITH(SceneImage::from_bytes(bytes), Catch::Contains("offset"));
+  };
+  const auto lights = [](Bytes& b) { return table<LightRecord>(b, header_of(b).light_offset); };
+  const ImageHeader header = *reinterpret_cast<const ImageHeader*>(good.data());
+  REQUIRE(header.light_set_count == 41);
+  REQUIRE(header.light_word_count == 2 * header.light_count); // no light shines on everything
+  refused([](Bytes& b) { header_of(b).light_set_count = 0; });
+  refused([](Bytes& b) { header_of(b).light_set_count = 40; }); // an object has a later one
+  refused([](Bytes& b) { header_of(b).light_set_count = kMaxLightSets + 1; });
+  refused([](Bytes& b) { header_of(b).light_word_count = 0x40000000; });
+  refused([](Bytes& b) { header_of(b).light_word_count -= 1; });
+  refused([](Bytes& b) { header_of(b).light_word_offset += 4; });
+  refused([&](Bytes& b) { lights(b)[3].lit_sets += 2; });
+  refused([&](Bytes& b) { lights(b)[header.light_count - 1].lit_sets += 4; });
+  refused([&](Bytes& b) { lights(b)->lit_sets = header.light_offset; });
+}
+
+TEST_CASE("A sealed scene image with a fault in its polygons is refused") {
+  const Bytes good = bytes_of(SceneImage(scene_named("polygons")));
+  const auto refused = [&](const std::function<void(Bytes&)>& change) {
+    Bytes bytes = good;
+    change(bytes);
+    seal(bytes);
+    CHECK_THROWS_WITH(SceneImage::from_bytes(bytes), Catch::Contains("offset"));
+  };
+  const ImageHeader header = *reinterpret_cast<const ImageHeader*>(good.data());
+  REQUIRE(header.polygon_edge_count <= 7 + 80); // shared, and none of them level
+  REQUIRE(header.polygon_edge_count > 80);
+  const auto change_edges = [&](Bytes& b, const std::function<void(PolygonEdges&)>& change) {
+    auto* objects = table<ObjectRecord>(b, header.object_offset);
+    for (std::uint32_t i = 0; i < header.object_count; ++i) {
+      if ((objects[i].kind_and_flags & object_flag::kind_mask) != kPrimitiveKind<PolygonPrimitive>) continue;
+      auto* extra = table<ExtraRecord>(b, objects[i].extra);
+      PolygonEdges edges = PolygonEdges::of(*extra);
+      change(edges);
+      return edges.put_in(*extra);
+    }
+  };
+  refused([](Bytes& b) { header_of(b).polygon_edge_count = 0x10000000; });
+  refused([](Bytes& b) { header_of(b).polygon_edge_count = 7; });
+  refused([&](Bytes& b) { change_edges(b, [](PolygonEdges& edges) { edges.count = 88; }); });
+  refused([&](Bytes& b) { change_edges(b, [](PolygonEdges& edges) { edges.first += 8; }); });
+  refused([&](Bytes& b) { change_edges(b, [&](PolygonEdges& e) { e.first = header.extra_offset; }); });
+}
+
+TEST_CASE("A sealed scene image with a fault in its rainbows is refused") {
+  const Bytes good = bytes_of(SceneImage(scene_named("rainbows")));
+  const auto refused = [&](const std::function<void(Bytes&)>& change) {
+    Bytes bytes = good;
+    change(bytes);
+    seal(bytes);
+    CHECK_THROWS_WITH(SceneImage::from_bytes(bytes), Catch::Contains("offset"));
+  };
+  const auto bows = [](Bytes& b) { return table<RainbowRecord>(b, header_of(b).rainbow_offset); };
+  REQUIRE(reinterpret_cast<const ImageHeader*>(good.data())->rainbow_count == 3);
+  refused([](Bytes& b) { header_of(b).rainbow_count = 0x10000000; });
+  refused([&](Bytes& b) { bows(b)[1].entry_count = 0; });
+  refused([&](Bytes& b) { bows(b)[2].entry_count = 5; });
+  refused([&](Bytes& b) { bows(b)[0].entries += 16; });
+  refused([&](Bytes& b) { bows(b)[0].entries = header_of(b).material_offset; });
+}
+
+TEST_CASE("Rainbows that are not sound are refused, and those that are not seen left out") {
+  const auto with = [](const std::function<void(Rainbow&)>& change) {
+    Scene scene = scene_named("rainbows");
+    change(scene.rainbows[1]);
+    return scene;
+  };
+  CHECK_THROWS_WITH(SceneImage(with([](Rainbow& r) { r.up = r.direction * 2.0; })),
+                    Catch::Contains("rainbow 1"));
+  CHECK_THROWS_WITH(SceneImage(with([](Rainbow& r) { r.angle = HUGE_VAL; })), Catch::Contains("not finite"));
+  CHECK_THROWS_WITH(SceneImage(with([](Rainbow& r) { r.colours.clear(); })), Catch::Contains("colours"));
+  CHECK_THROWS_WITH(SceneImage(with([](Rainbow& r) { r.colours.resize(257); })), Catch::Contains("colours"));
+  CHECK(SceneImage(with([](Rainbow& r) { r.width = 0; })).header().rainbow_count == 2);
+  CHECK(SceneImage(with([](Rainbow& r) { r.distance = -1; })).header().rainbow_count == 2);
+}
+
+TEST_CASE("Polygons that are not sound are refused") {
+  Scene scene = scene_named("polygons");
+  scene.objects[1].shape = std::shared_ptr<const Polygon>();
+  CHECK_THROWS_WITH(SceneImage(scene), Catch::Contains("object 1 has no polygon"));
+  auto polygon = std::make_shared<Polygon>();
+  polygon->loops = {{{0, 0, 0}, {1, 0, 0}, {0, HUGE_VAL, 0}}};
+  scene.objects[1].shape = std::shared_ptr<const Polygon>(polygon);
+  CHECK_THROWS_WITH(SceneImage(scene), Catch::Contains("not finite"));
+}
+
+TEST_CASE("Light groups that are not sound are refused") {
+  Scene scene = scene_named("light groups");
+  scene.light_groups[1].lights.push_back(static_cast<Index>(scene.lights.size()));
+  CHECK_THROWS_WITH(SceneImage(scene), Catch::Contains("light group 1"));
+  scene = scene_named("light groups");
+  scene.objects[3].light_group = 40;
+  CHECK_THROWS_WITH(SceneImage(scene), Catch::Contains("object 3, light group"));
+  scene = scene_named("light groups");
+  scene.light_groups.resize(kMostLightGroups);
+  CHECK_NOTHROW(SceneImage(scene));
+  scene.light_groups.resize(kMostLightGroups + 1);
+  CHECK_THROWS_WITH(SceneImage(scene), Catch::Contains("1023 light groups"));
+}
+
 TEST_CASE("A sealed scene image with a fault in the inside of a mesh is refused") {
   const Bytes good = bytes_of(SceneImage(scene_named("cut meshes")));
   const auto refused = [&](const std::function<void(Bytes&, const ImageHeader&)>& change) {

@@ -64,13 +64,11 @@ public:
   /// The object at `offset`, which must not cross a line. Waits for it if need be.
   template <class T> Pointer<T> get(uint32_t offset, Kind kind) {
     static_assert(sizeof(T) <= kLineBytes, "an object must fit into a line");
-    if constexpr (Spu::direct_memory) {
-      return reinterpret_cast<const T*>(base_ + offset);
-    } else {
-      this->begin_call();
-      record(cache_trace::Operation::read, offset, kind);
-      return this->template shown<T>(find(offset, sizeof(T), kind), offset & kLineMask);
-    }
+    return shown_at<T>(offset, sizeof(T), kind);
+  }
+  /// Likewise of `size` bytes, whatever they are.
+  Pointer<uint8_t> bytes(uint32_t offset, uint32_t size, Kind kind) {
+    return shown_at<uint8_t>(offset, size, kind);
   }
   /// The object by value.
   template <class T> T copy(uint32_t offset, Kind kind) { return *get<T>(offset, kind); }
@@ -225,6 +223,15 @@ private:
 
   // --- the way of a hit ---
 
+  template <class T> Pointer<T> shown_at(uint32_t offset, uint32_t size, Kind kind) {
+    if constexpr (Spu::direct_memory) {
+      return reinterpret_cast<const T*>(base_ + offset);
+    } else {
+      this->begin_call();
+      record(cache_trace::Operation::read, offset, kind);
+      return this->template shown<T>(find(offset, size, kind), offset & kLineMask);
+    }
+  }
   uint8_t* find(uint32_t offset, uint32_t size, Kind kind) {
     spu_.compute(kLookup);
     return look_up(offset, size, kind);

@@ -4,6 +4,7 @@
 
 #include "kernel/primitives/csg.hpp"
 #include "kernel/primitives/list.hpp"
+#include "kernel/primitives/polygons_module.hpp"
 #include "kernel/scalar_work.hpp"
 #include "kernel/scene_access.hpp"
 #include "kernel/textures/transmittance.hpp"
@@ -296,6 +297,9 @@ private:
       spu.enter_module(is_heavy(kind) ? modules::kHeavyShapes : modules::kShapes);
       pairs = is_heavy(kind) ? module_heavy::intersect(spu, rays, object, extra, self, crossings)
                              : module_shapes::intersect(spu, rays, object, extra, self, crossings);
+      if (kind != kPrimitiveKind<PolygonPrimitive>) return;
+      spu.enter_module(modules::kPolygons);
+      module_polygons::cut_out(tests.scene_, extra, crossings[0]);
     }
   };
 

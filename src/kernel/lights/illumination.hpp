@@ -23,13 +23,32 @@ void for_each_light(SceneAccess<Spu>& scene, const FrameBlock& frame, uint32_t f
 
 namespace module_lights {
 
+/// Those of `lanes` on whose objects a selective light shines. As in POV-Ray that says nothing about shadows:
+/// all objects cast them, in the light of a group too.
+template <class Spu>
+uint32_t lanes_of_its_objects(SceneAccess<Spu>& scene, const LightRecord& light, const WordLanes& objects,
+                              uint32_t lanes) {
+  uint32_t lit = 0;
+  for_each_value<typename Spu::simd>(objects, lanes, [&](uint32_t object, uint32_t same) {
+    const uint32_t set = scene.object(object)->kind_and_flags >> object_flag::light_set_shift;
+    const uint32_t word = scene.list_word(light.lit_sets + set / 32 * 4);
+    if ((word >> set % 32 & 1) != 0) lit |= same;
+  });
+  return lit;
+}
+
 /// From the light of a point in the same place to that of a source that is not plain.
 template <class Spu>
-[[gnu::noinline]] void shape(Spu& spu, const LightRecord& light, const Surfaces<typename Spu::simd>& s,
-                             uint32_t lanes, IncidentLight<typename Spu::simd>& incident) {
+[[gnu::noinline]] void shape(SceneAccess<Spu>& scene, const LightRecord& light,
+                             const Surfaces<typename Spu::simd>& s, uint32_t lanes,
+                             IncidentLight<typename Spu::simd>& incident) {
   using S = typename Spu::simd;
   using F = typename S::F;
-  spu.run_in_module(modules::kLights);
+  scene.spu().run_in_module(modules::kLights);
+  if ((light.kind_and_flags & light_flag::selective) != 0) {
+    lanes = lanes_of_its_objects(scene, light, *s.objects, lanes);
+    incident.facing &= lanes;
+  }
   if (is_parallel(light)) make_parallel(light, s, lanes, incident);
   F share(1.0f);
   Lights::dispatch(light.kind_and_flags & light_flag::kind_mask, [&](auto kind) {
@@ -48,12 +67,12 @@ template <class Spu>
 /// Makes of `incident`, which has the light's colour only, what comes to the surfaces of `lanes`. It is not
 /// returned: an SPU would copy it.
 template <class Spu>
-void illuminate(Spu& spu, const LightRecord& light, const Surfaces<typename Spu::simd>& s, uint32_t lanes,
-                IncidentLight<typename Spu::simd>& incident) {
+void illuminate(SceneAccess<Spu>& scene, const LightRecord& light, const Surfaces<typename Spu::simd>& s,
+                uint32_t lanes, IncidentLight<typename Spu::simd>& incident) {
   PointLight::illuminate(light, s, lanes, incident);
   if (is_plain(light) || (incident.facing == 0 && !is_parallel(light))) return;
-  spu.enter_module(modules::kLights);
-  module_lights::shape(spu, light, s, lanes, incident);
+  scene.spu().enter_module(modules::kLights);
+  module_lights::shape(scene, light, s, lanes, incident);
 }
 
 } // namespace celltrace::kernel

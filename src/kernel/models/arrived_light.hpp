@@ -77,7 +77,7 @@ public:
         return;
       }
       IncidentLight<S> incident(light.colour);
-      illuminate(spu_, light, surfaces, lanes, incident);
+      illuminate(scene, light, surfaces, lanes, incident);
       // All its places were asked for, row by row.
       rays += sample_area(spu_, light, surfaces, incident, *area_, colour, [&](AreaShadow<S>& shadow) {
         shadow.light = answer(cursor_ + shadow.place.row * light.columns + shadow.place.column).light.colour;

@@ -183,7 +183,7 @@ private:
     for_each_light(scene_, frame_, 0, frame_.light_count, [&](uint32_t i, const LightRecord& light) {
       if (is_shadowless(light)) return;
       IncidentLight<S> incident(light.colour);
-      illuminate(spu_, light, surfaces, context.hit, incident);
+      illuminate(scene_, light, surfaces, context.hit, incident);
       if (incident.facing == 0) return;
       if (!has_area(light)) {
         ask_for_light_of(i, surfaces, incident);

@@ -17,6 +17,7 @@
 #include "kernel/primitives/disc.hpp"
 #include "kernel/primitives/ellipsoid.hpp"
 #include "kernel/primitives/plane.hpp"
+#include "kernel/primitives/polygon.hpp"
 #include "kernel/primitives/quadric.hpp"
 #include "kernel/primitives/sphere.hpp"
 #include "kernel/primitives/torus.hpp"
@@ -29,9 +30,9 @@ template <class... P> struct PrimitiveList : TypeList<P...> {
   static constexpr bool kAreHeavy[] = {P::kIsHeavy...};
 };
 
-using Primitives =
-    PrimitiveList<SpherePrimitive, TrianglePrimitive, PlanePrimitive, EllipsoidPrimitive, DiscPrimitive,
-                  BoxPrimitive, CylinderPrimitive, ConePrimitive, TorusPrimitive, QuadricPrimitive>;
+using Primitives = PrimitiveList<SpherePrimitive, TrianglePrimitive, PlanePrimitive, EllipsoidPrimitive,
+                                 DiscPrimitive, BoxPrimitive, CylinderPrimitive, ConePrimitive,
+                                 TorusPrimitive, QuadricPrimitive, PolygonPrimitive>;
 constexpr uint32_t kPrimitives = Primitives::kCount;
 static_assert(kPrimitives <= kMaxPrimitives, "a counter for each in ReportRecord");
 

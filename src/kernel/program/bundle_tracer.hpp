@@ -43,11 +43,11 @@ public:
       } else {
         const PinholeBundle<S> bundle(frame_, column, row);
         const bool missed = !traversal_.enter(bundle);
-        const bool plain = frame_.sky == kNoOffset && !has_fog(frame_);
+        const bool plain = frame_.sky == kNoOffset && !has_atmosphere(frame_);
         if (missed && plain && is_whole(column, row))
           return fill(column * kEdge, row * kEdge, tracer_.background(kPackets * kSimdLanes));
         place(column, row);
-        if (missed && !has_fog(frame_))
+        if (missed && !has_atmosphere(frame_))
           return for_each_member([&](Member& member) {
             if (!plain) make_primary_rays(scene_.spu(), frame_, member.column, member.row, member.rays);
             put(member.column, member.row, tracer_.background(member.rays, member.lanes));
@@ -194,7 +194,7 @@ private:
                                     AreaShadow<S>* area) {
     const Surfaces<S> surfaces = member.points.lit_surfaces(rays.direction.template load<S>(), hits.object);
     IncidentLight<S> incident(light.colour);
-    illuminate(scene_.spu(), light, surfaces, lanes, incident);
+    illuminate(scene_, light, surfaces, lanes, incident);
     if (incident.facing == 0) return 0;
     colour.template store<S>(incident.colour);
     if (area != nullptr)

@@ -1,18 +1,19 @@
-// What rays pass through on their way from surface to surface: fog. Kernel dialect.
+// What rays pass through on their way from surface to surface: fog, and rainbows behind it. Kernel dialect.
 #pragma once
 
 #include "kernel/modules.hpp"
 #include "kernel/packet.hpp"
 #include "kernel/scene_access.hpp"
+#include "kernel/shading/finishes.hpp"
 #include "kernel/shading/ray_stack.hpp"
 #include "kernel/textures/angles.hpp"
 #include "kernel/textures/noise.hpp"
 
 namespace celltrace::kernel {
 
-/// Whether a frame's rays go through fog.
-constexpr bool has_fog(const FrameBlock& frame) {
-  return (frame.light_ways & light_way::fog) != 0;
+/// Whether a frame's rays go through fog, or rainbows may be seen.
+constexpr bool has_atmosphere(const FrameBlock& frame) {
+  return (frame.light_ways & light_way::atmosphere) != 0;
 }
 
 /// What comes through: `add` + `pass` times what is behind.
@@ -76,6 +77,76 @@ through_fog(Spu& spu, const FogRecord& fog, const V3<typename Spu::rare_simd>& o
   return {splat3<S>(fog.tint) * pass, splat3<S>(fog.colour) * (one - pass)};
 }
 
+/// A colour of a rainbow.
+template <class S> struct BowColour {
+  V3<S> rgb;
+  typename S::F filter, transmit;
+};
+
+/// The colours that a map has for `value`, as other maps of colours have them.
+template <class Spu>
+void bow_colour(SceneAccess<Spu>& scene, const RainbowRecord& bow, const typename Spu::rare_simd::F& value,
+                BowColour<typename Spu::rare_simd>& colour) {
+  using S = typename Spu::rare_simd;
+  using F = typename S::F;
+  constexpr auto kBytes = static_cast<uint32_t>(sizeof(MapEntryRecord));
+  MapEntryRecord before = *scene.map_entry(bow.entries);
+  colour = {splat3<S>(before.rgb), F(before.filter), F(before.transmit)};
+  for (uint32_t i = 1; i < bow.entry_count; ++i) {
+    const MapEntryRecord entry = *scene.map_entry(bow.entries + i * kBytes);
+    const auto beyond = value > F(before.position);
+    F share(1.0f);
+    if (entry.inverse_width != 0.0f)
+      share = S::min((value - F(before.position)) * F(entry.inverse_width), share);
+    const auto take = [&](F& field, float from, float to) {
+      field = S::select(beyond, F(from) + share * F(to - from), field);
+    };
+    take(colour.rgb.x, before.rgb[0], entry.rgb[0]);
+    take(colour.rgb.y, before.rgb[1], entry.rgb[1]);
+    take(colour.rgb.z, before.rgb[2], entry.rgb[2]);
+    take(colour.filter, before.filter, entry.filter);
+    take(colour.transmit, before.transmit, entry.transmit);
+    before = entry;
+  }
+}
+
+/// Of rays of `length` that look at a rainbow: what it adds and lets through. `seen` says in which lanes it
+/// is seen. The formulas are POV-Ray's.
+template <class Spu>
+[[gnu::noinline]] void
+see_rainbow(SceneAccess<Spu>& scene, const RainbowRecord& bow, uint32_t number,
+            const V3<typename Spu::rare_simd>& direction, const typename Spu::rare_simd::F& length,
+            Passage<typename Spu::rare_simd>& through, typename Spu::rare_simd::M& seen) {
+  using S = typename Spu::rare_simd;
+  using F = typename S::F;
+  constexpr float kToBinary = -1.44269504f;
+  const F zero(0.0f), one(1.0f);
+  const F x = dot<S>(direction, splat3<S>(bow.right)), y = dot<S>(direction, splat3<S>(bow.up)),
+          z = dot<S>(direction, splat3<S>(bow.direction));
+  scene.spu().enter_module(modules::kPatterns);
+  const F off_axis = turns_of<S>(S::sqrt(x * x + y * y), z);
+  const F along = S::abs(turns_of<S>(x, y));
+  F across = (off_axis - F(bow.angle)) * F(bow.inverse_width) + F(0.5f);
+  if (bow.jitter != 0.0f) {
+    scene.spu().enter_module(modules::kFinishes);
+    const F random = random_at<S>(direction, number + 1);
+    across = across + (random + random - one) * F(bow.jitter);
+  }
+  seen = (across >= zero) & (across <= one) & (along <= F(bow.arc));
+  if (seen.bits() == 0) return;
+  BowColour<S> colour;
+  bow_colour(scene, bow, across, colour);
+  const F faded = S::min(S::max((along - F(bow.falloff)) * F(bow.inverse_fade), zero), one);
+  const F strength = one - faded * faded * (F(3.0f) - (faded + faded));
+  const F least = one - strength * (one - colour.transmit);
+  const F pass = S::max(exp2<S>(length * F(bow.inverse_distance * kToBinary)), least);
+  const F opaque = one - pass;
+  const F tinted = colour.filter * opaque;
+  const V3<S> white = {one, one, one};
+  through.pass = (white + (colour.rgb - white) * tinted) * pass;
+  through.add = colour.rgb * opaque;
+}
+
 /// Those of `lanes` that are in no object without fog in it.
 template <class Spu> uint32_t lanes_in_the_open(SceneAccess<Spu>& scene, const RayNode& ray, uint32_t lanes) {
   uint32_t open = lanes;
@@ -88,6 +159,55 @@ template <class Spu> uint32_t lanes_in_the_open(SceneAccess<Spu>& scene, const R
 
 } // namespace detail
 
+namespace detail {
+
+/// How far rays go to what they have hit. POV-Ray's distance to where there is nothing is 1e10.
+template <class S> typename S::F length_of(const HitPacket& hits, uint32_t first) {
+  using I = typename S::I;
+  const I object = I::load(reinterpret_cast<const int32_t*>(hits.object.lane + first));
+  const auto missed = object == I::splat(static_cast<int32_t>(kNoOffset));
+  return S::select(missed, typename S::F(1e10f), S::F::load(hits.distance.lane + first));
+}
+
+/// The rainbows, whose light fog dims. Of those that a ray sees all count the same: what it sees is their
+/// mean.
+template <class Spu>
+[[gnu::noinline]] void cross_rainbows(SceneAccess<Spu>& scene, const FrameBlock& frame, const HitPacket& hits,
+                                      uint32_t lanes, RayNode& ray, VectorLanes& light) {
+  using S = typename Spu::rare_simd;
+  using F = typename S::F;
+  for_each_part<Spu>([&](uint32_t first) {
+    const uint32_t some = part_of<Spu>(lanes, first);
+    if (some == 0) return;
+    const F zero(0.0f), one(1.0f);
+    const V3<S> nothing = {zero, zero, zero};
+    Passage<S> sum = {nothing, nothing};
+    F count = zero;
+    for (uint32_t i = 0; i < frame.rainbow_count; ++i) {
+      // A copy: the next read may replace the record.
+      const RainbowRecord bow =
+          *scene.rainbow(frame.rainbow_offset + i * static_cast<uint32_t>(sizeof(RainbowRecord)));
+      Passage<S> through;
+      auto seen = S::M::none();
+      see_rainbow(scene, bow, i, ray.rays.direction.template load_from<S>(first), length_of<S>(hits, first),
+                  through, seen);
+      if (seen.bits() == 0) continue;
+      sum.pass = sum.pass + select<S>(seen, through.pass, nothing);
+      sum.add = sum.add + select<S>(seen, through.add, nothing);
+      count = count + S::select(seen, one, zero);
+    }
+    const auto take = S::M::from_bits(some) & (count > zero);
+    const F share = one / S::max(count, one);
+    const V3<S> throughput = ray.throughput.template load_from<S>(first);
+    const V3<S> before = light.template load_from<S>(first);
+    light.template store_from<S>(first, select<S>(take, before + throughput * (sum.add * share), before));
+    ray.throughput.template store_from<S>(first,
+                                          select<S>(take, throughput * (sum.pass * share), throughput));
+  });
+}
+
+} // namespace detail
+
 /// Takes the rays of a node to what they hit: adds what is on the way to `light`, and leaves the node with
 /// the throughput that is left for what is there.
 template <class Spu>
@@ -95,9 +215,6 @@ template <class Spu>
                                         const HitPacket& hits, RayNode& ray, VectorLanes& light) {
   using S = typename Spu::rare_simd;
   using F = typename S::F;
-  using I = typename S::I;
-  /// POV-Ray's distance to where there is nothing.
-  constexpr float kNowhere = 1e10f;
   scene.spu().run_in_module(modules::kAtmosphere);
   const uint32_t lanes = detail::lanes_in_the_open(scene, ray, ray.lanes);
   // As in POV-Ray, no fog dims what another one adds.
@@ -110,9 +227,7 @@ template <class Spu>
       if (some == 0) return;
       const V3<S> origin = ray.rays.origin.template load_from<S>(first);
       const V3<S> direction = ray.rays.direction.template load_from<S>(first);
-      const I object = I::load(reinterpret_cast<const int32_t*>(hits.object.lane + first));
-      const auto missed = object == I::splat(static_cast<int32_t>(kNoOffset));
-      const F length = S::select(missed, F(kNowhere), F::load(hits.distance.lane + first));
+      const F length = detail::length_of<S>(hits, first);
       const Passage<S> fogged = detail::through_fog(scene.spu(), fog, origin, direction, length);
       const auto take = S::M::from_bits(some);
       const V3<S> throughput = ray.throughput.template load_from<S>(first);
@@ -122,6 +237,7 @@ template <class Spu>
       ray.throughput.template store_from<S>(first, select<S>(take, throughput * fogged.pass, throughput));
     });
   }
+  if (frame.rainbow_count != 0) detail::cross_rainbows(scene, frame, hits, lanes, ray, light);
 }
 
 } // namespace celltrace::kernel

@@ -14,7 +14,7 @@ namespace detail {
 
 /// Numbers in [0, 1) that look random, each of a point and of `salt` alone: the same however work is shared.
 /// The last bits of points do not count, in which backends may differ.
-template <class S> typename S::F random_at(const V3<S>& point, uint32_t salt) {
+template <class S> [[gnu::noinline]] typename S::F random_at(const V3<S>& point, uint32_t salt) {
   constexpr uint32_t kCertain = ~0x1Fu;
   alignas(64) float lane[3][S::kLanes];
   point.x.store(lane[0]);

@@ -16,16 +16,17 @@ template <class S> struct HitPoints {
   uint32_t blended = 0;
   uint32_t textured = 0;  ///< lanes some of whose materials are not the constants of their records alone
   uint32_t disturbed = 0; ///< of them, those some of whose materials disturb normals
+  uint32_t lit_behind = 0, lit_through = 0; ///< as object_flag's
 
   uint32_t plain(uint32_t lanes) const { return lanes & ~(blended | textured); }
 
   /// As rays along `direction` see them that hit `objects`.
   Surfaces<S> surfaces(const V3<S>& direction, const WordLanes& objects) const {
-    return {point, normal, direction, &objects, 0};
+    return {point, normal, direction, &objects, lit_behind, lit_through};
   }
   /// The same for lights whose shadow rays are asked for before normals are disturbed.
   Surfaces<S> lit_surfaces(const V3<S>& direction, const WordLanes& objects) const {
-    return {point, normal, direction, &objects, disturbed};
+    return {point, normal, direction, &objects, disturbed | lit_behind};
   }
 };
 
@@ -128,6 +129,7 @@ template <class Spu>
   uint32_t open = 0, two_sided = 0, inverse = 0;
   objects.parameters.ratio = F(0.0f);
   points.blended = points.textured = points.disturbed = 0;
+  points.lit_behind = points.lit_through = 0;
   for_each_value<S>(hits.object, lanes, [&](uint32_t offset, uint32_t same) {
     scene.spu().compute(scalar_work::kHitObject);
     const ObjectRecord& object = *scene.object(offset);
@@ -164,8 +166,13 @@ template <class Spu>
       const F ratio(scene.extra(extra)->value[0]);
       objects.parameters.ratio = first ? ratio : S::select(mask, ratio, objects.parameters.ratio);
     }
-    if ((flags & object_flag::two_sided) != 0) two_sided |= same;
-    if ((flags & object_flag::inverse) != 0) inverse |= same;
+    constexpr uint32_t kOfSides = object_flag::two_sided | object_flag::inverse | object_flag::lit_behind;
+    if ((flags & kOfSides) != 0) {
+      if ((flags & object_flag::two_sided) != 0) two_sided |= same;
+      if ((flags & object_flag::inverse) != 0) inverse |= same;
+      if ((flags & object_flag::lit_behind) != 0) points.lit_behind |= same;
+      if ((flags & object_flag::lit_through) != 0) points.lit_through |= same;
+    }
     if ((flags & object_flag::open) != 0)
       open |= of_object;
     else

@@ -62,6 +62,37 @@ V3<typename Spu::simd> reflected_light(const Surfaces<typename Spu::simd>& s,
   return sum;
 }
 
+/// The same of surfaces some of which light reaches from behind, too: there it has a share of its own and no
+/// highlights, or counts as if it came from before. Leaves no light where none counts.
+template <class Spu>
+[[gnu::noinline]] void light_of_both_sides(SceneAccess<Spu>& scene, const Surfaces<typename Spu::simd>& s,
+                                           const MaterialLanes<typename Spu::simd>& m, bool highlights,
+                                           IncidentLight<typename Spu::simd>& light,
+                                           V3<typename Spu::simd>& sent) {
+  using S = typename Spu::simd;
+  using F = typename S::F;
+  using R = typename Spu::rare_simd;
+  using RF = typename R::F;
+  scene.spu().run_in_module(modules::kFinishes);
+  const uint32_t behind = (light.cosine < F(0.0f)).bits() & light.facing & ~s.lit_through;
+  light.cosine = S::abs(light.cosine);
+  sent = reflected_light<Spu>(s, m, light, highlights);
+  if (behind == 0) return;
+  F share(0.0f);
+  for_each_value<S>(*m.offsets, behind, [&](uint32_t offset, uint32_t same) {
+    share = S::select(S::M::from_bits(same), F(scene.material(offset)->diffuse_behind), share);
+  });
+  F bent = light.cosine;
+  if (m.bends_diffuse)
+    by_parts<Spu>(
+        bent, [](const RF& cosine, const RF& brilliance) { return pow<R>(cosine, brilliance); }, light.cosine,
+        m.brilliance);
+  const auto is_behind = S::M::from_bits(behind);
+  const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
+  light.colour = select<S>(is_behind & (share == F(0.0f)), dark, light.colour);
+  sent = select<S>(is_behind, m.pigment * light.colour * (share * m.opacity * bent), sent);
+}
+
 } // namespace detail
 
 /// Lights that surfaces are lit by at a time: what comes to them is known for so many.
@@ -96,17 +127,22 @@ V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, const FrameBlock& fr
   V3<S> sum = round.is_first() ? m.pigment * m.ambient * m.opacity : dark;
   for_each_light(scene, frame, round.first, round.count, [&](uint32_t number, const LightRecord& light) {
     IncidentLight<S> incident(light.colour);
-    illuminate(scene.spu(), light, s, lanes, incident);
+    illuminate(scene, light, s, lanes, incident);
     const uint32_t facing = incident.facing;
     if (facing == 0) return;
     scene.spu().compute(scalar_work::kLight);
-    incident.cosine = S::max(incident.cosine, F(0.0f));
-
     if (!is_shadowless(light)) {
       incident.colour = round.colour[number - round.first].template load<S>();
       if (!has_area(light)) shadow_rays += static_cast<uint32_t>(__builtin_popcount(facing));
     }
-    V3<S> sent = detail::reflected_light<Spu>(s, m, incident, !is_shadowless(light));
+    V3<S> sent;
+    if (s.any_side != 0) {
+      scene.spu().enter_module(modules::kFinishes);
+      detail::light_of_both_sides(scene, s, m, !is_shadowless(light), incident, sent);
+    } else {
+      incident.cosine = S::max(incident.cosine, F(0.0f));
+      sent = detail::reflected_light<Spu>(s, m, incident, !is_shadowless(light));
+    }
     if (m.special != 0) {
       scene.spu().enter_module(modules::kFinishes);
       change_special_light(scene, s, m, incident, number, sent);

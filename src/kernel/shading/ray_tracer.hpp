@@ -38,7 +38,7 @@ public:
   /// are more lights than in one round.
   bool ends_at_once(const RayPacket& rays, uint32_t lanes, const HitPacket& hits, const HitPoints<S>& points,
                     const LightRound& round, V3<S>& colour) {
-    if (round.next() != frame_.light_count || has_fog(frame_)) return false;
+    if (round.next() != frame_.light_count || has_atmosphere(frame_)) return false;
     const uint32_t hit = hit_lanes<S>(hits, lanes);
     if (hit != 0) {
       if (points.plain(hit) != hit) return false;
@@ -77,7 +77,7 @@ public:
   /// The lanes of node() that hit something; the others see the background.
   uint32_t take_hits() {
     scene_.spu().compute(scalar_work::kNode);
-    if (has_fog(frame_)) {
+    if (has_atmosphere(frame_)) {
       scene_.spu().enter_module(modules::kAtmosphere);
       cross_atmosphere(scene_, frame_, hits_, node_, light_[node_.target]);
     }

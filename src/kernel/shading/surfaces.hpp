@@ -10,7 +10,9 @@ template <class S> struct Surfaces {
   V3<S> point, normal;      ///< normal flipped toward the viewer
   V3<S> direction;          ///< of the rays that arrive
   const WordLanes* objects; ///< what the points lie on
-  uint32_t any_side = 0; ///< lanes to which light may come from all sides, as their normals are not known yet
+  uint32_t any_side = 0; ///< lanes that light may come to from all sides: some counts from behind, or their
+                         ///< normals are not known yet
+  uint32_t lit_through = 0; ///< lanes in which light from behind counts as if it came from before
 };
 
 /// A part of them.
@@ -20,9 +22,10 @@ template <class Spu>
   if constexpr (kOnePart<Spu>)
     return (s);
   else
-    return Surfaces<typename Spu::rare_simd>{part_of<Spu>(s.point, first), part_of<Spu>(s.normal, first),
-                                             part_of<Spu>(s.direction, first), s.objects,
-                                             part_of<Spu>(s.any_side, first)};
+    return Surfaces<typename Spu::rare_simd>{
+        part_of<Spu>(s.point, first),     part_of<Spu>(s.normal, first),
+        part_of<Spu>(s.direction, first), s.objects,
+        part_of<Spu>(s.any_side, first),  part_of<Spu>(s.lit_through, first)};
 }
 
 } // namespace celltrace::kernel

@@ -1,0 +1,37 @@
+// The code module of polygons. Kernel dialect.
+#pragma once
+
+#include "kernel/modules.hpp"
+#include "kernel/primitives/polygon.hpp"
+#include "kernel/scene_access.hpp"
+
+namespace celltrace::kernel {
+
+namespace module_polygons {
+
+/// Leaves the crossings that are in a polygon: an odd number of its edges is to one side of them. An end that
+/// two edges share counts as part of one of them, as rows are half-open intervals.
+template <class Spu>
+[[gnu::noinline]] void cut_out(SceneAccess<Spu>& scene, const ExtraRecord& extra,
+                               Crossings<typename Spu::simd>& c) {
+  using S = typename Spu::simd;
+  using F = typename S::F;
+  scene.spu().run_in_module(modules::kPolygons);
+  const uint32_t lanes = c.near_hit.bits();
+  if (lanes == 0) return;
+  const PolygonEdges edges = PolygonEdges::of(extra);
+  uint32_t odd = 0;
+  for (uint32_t i = 0; i < edges.count; ++i) {
+    const PolygonEdgeRecord& edge =
+        *scene.polygon_edge(edges.first + i * static_cast<uint32_t>(sizeof(PolygonEdgeRecord)));
+    const F low(edge.low);
+    const auto beside =
+        (c.v >= low) & (c.v < F(edge.high)) & (c.u < F(edge.column) + (c.v - low) * F(edge.slope));
+    odd ^= beside.bits();
+  }
+  c.near_hit = S::M::from_bits(lanes & odd);
+}
+
+} // namespace module_polygons
+
+} // namespace celltrace::kernel

@@ -1,0 +1,110 @@
+#include "scene/polygons.hpp"
+
+#include "scene/shapes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <variant>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+namespace celltrace {
+
+using namespace kernel;
+
+namespace {
+
+template <class Visit> void for_each_point(const Polygon& polygon, Visit visit) {
+  for (const std::vector<Vec3>& loop : polygon.loops)
+    for (const Vec3& point : loop)
+      visit(point);
+}
+
+/// The normal of the first corner that is not flat, for the size of all. Zero: there is none.
+Vec3 normal_of(const Polygon& polygon) {
+  constexpr double kFlat = 1e-12;
+  std::optional<Vec3> start;
+  double reach = 0;
+  for_each_point(polygon, [&](const Vec3& point) {
+    if (!start) start = point;
+    reach = std::max(reach, glm::distance(*start, point));
+  });
+  if (reach == 0) return Vec3(0);
+  std::optional<Vec3> side;
+  Vec3 normal(0);
+  for_each_point(polygon, [&](const Vec3& point) {
+    if (normal != Vec3(0)) return;
+    const Vec3 to = (point - *start) / reach;
+    if (!side) {
+      if (glm::dot(to, to) > kFlat) side = to;
+      return;
+    }
+    const Vec3 across = glm::cross(*side, to);
+    if (glm::dot(across, across) > kFlat * glm::dot(*side, *side)) normal = glm::normalize(across);
+  });
+  return normal;
+}
+
+} // namespace
+
+std::optional<Transform> frame_of(const Polygon& polygon) {
+  const Vec3 normal = normal_of(polygon);
+  if (normal == Vec3(0)) return std::nullopt;
+  Transform frame;
+  Vec3 x, y;
+  complete_basis(normal, x, y);
+  const double height = glm::dot(polygon.loops.front().front(), normal);
+  glm::dvec2 least(std::numeric_limits<double>::infinity()), greatest = -least;
+  for_each_point(polygon, [&](const Vec3& point) {
+    const glm::dvec2 at(glm::dot(point, x), glm::dot(point, y));
+    least = glm::min(least, at);
+    greatest = glm::max(greatest, at);
+  });
+  const glm::dvec2 half = 0.5 * (greatest - least), middle = 0.5 * (greatest + least);
+  if (!(half.x > 0 && half.y > 0)) return std::nullopt;
+  frame.rows[0] = x * half.x;
+  frame.rows[1] = y * half.y;
+  frame.rows[2] = normal * std::max(half.x, half.y);
+  frame.rows[3] = x * middle.x + y * middle.y + normal * height;
+  return frame;
+}
+
+PolygonTable::PolygonTable(const Scene& scene) {
+  for (const Object& object : scene.objects)
+    add(object);
+}
+
+void PolygonTable::add(const Object& object) {
+  if (const auto* polygon = std::get_if<std::shared_ptr<const Polygon>>(&object.shape)) {
+    if (!known_.contains(polygon->get())) add(**polygon);
+  } else if (const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape)) {
+    for (const Object& part : (*csg)->parts)
+      add(part);
+  }
+}
+
+void PolygonTable::add(const Polygon& polygon) {
+  PolygonEdges& own = known_[&polygon];
+  own = {static_cast<std::uint32_t>(edges_.size()), 0};
+  const std::optional<Transform> frame = frame_of(polygon);
+  if (!frame) return;
+  const Transform to_frame = frame->inverse();
+  for (const std::vector<Vec3>& loop : polygon.loops)
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      Vec3 low = to_frame.point(loop[i]), high = to_frame.point(loop[i + 1 == loop.size() ? 0 : i + 1]);
+      if (low.y > high.y) std::swap(low, high);
+      const PolygonEdgeRecord edge = {static_cast<float>(low.y), static_cast<float>(high.y),
+                                      static_cast<float>(low.x),
+                                      static_cast<float>((high.x - low.x) / (high.y - low.y))};
+      if (edge.low < edge.high) edges_.push_back(edge);
+    }
+  // A table that is longer is refused where the image is laid out.
+  own.count = static_cast<std::uint32_t>(edges_.size()) - own.first;
+}
+
+} // namespace celltrace

@@ -1,0 +1,35 @@
+// Polygons in the planes that they lie in, and the table of their edges.
+#pragma once
+
+#include "celltrace/scene.hpp"
+#include "kernel/primitives/polygon.hpp"
+
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+namespace celltrace {
+
+/// From the space of the kernel's polygon to this one: its square from -1 to 1 in x and y is just around the
+/// points, its z axis is the normal, which is that of the first corner that is one: (b - a) x (c - a).
+/// Nothing if the polygon has no area.
+std::optional<Transform> frame_of(const Polygon& polygon);
+
+/// The edges of all polygons of a scene, in the frames of these; polygons that objects share have them once.
+class PolygonTable {
+public:
+  explicit PolygonTable(const Scene& scene);
+
+  const std::vector<kernel::PolygonEdgeRecord>& edges() const { return edges_; }
+  /// Those of a polygon of the scene: `first` is an index.
+  kernel::PolygonEdges of(const Polygon& polygon) const { return known_.at(&polygon); }
+
+private:
+  void add(const Object& object);
+  void add(const Polygon& polygon);
+
+  std::vector<kernel::PolygonEdgeRecord> edges_;
+  std::unordered_map<const Polygon*, kernel::PolygonEdges> known_;
+};
+
+} // namespace celltrace
