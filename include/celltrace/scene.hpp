@@ -153,9 +153,10 @@ struct LightGroup {
   std::vector<Index> lights;  ///< into Scene::lights
   bool global_lights = false; ///< those of Light::is_global, too
 };
-inline constexpr int kMostLightGroups = 1023;
+inline constexpr int kMostLightGroups = 255;
 
-/// Triangles with shared vertices; vertices and normals are single precision, as in POV-Ray.
+/// Triangles with shared vertices; vertices, normals and surface coordinates are single precision, as in
+/// POV-Ray.
 struct Mesh {
   struct Triangle {
     Index vertex[3];
@@ -168,6 +169,11 @@ struct Mesh {
   std::vector<Vec3f> vertices;
   std::vector<Vec3f> normals;
   std::vector<Triangle> triangles;
+  /// Surface coordinates at the corners of a triangle, between which they are interpolated.
+  struct Coordinates {
+    Vec2f corner[3] = {{0, 0}, {0, 0}, {0, 0}};
+  };
+  std::vector<Coordinates> coordinates; ///< by triangle; empty: 0 all over
   /// A direction of any length, in the mesh's space. For CSG a point is in the mesh if the ray from there
   /// along it crosses an odd number of triangles. Zero: nothing is in the mesh, and nothing in its inverse
   /// either.

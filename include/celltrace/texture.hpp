@@ -152,6 +152,13 @@ struct Pattern {
   double frequency = 1;     ///< 0: the number as it is, without phase
   double phase = 0;
   int noise_generator = 0; ///< 1 to 3 as POV-Ray counts them; 0: the scene's
+  /// Its space is that of (u, v, 0), the surface's coordinates, wherever in the scene the surface is and
+  /// whatever maps are around. They are 0 to 1 around a sphere, from pole to pole; over an unfolded box;
+  /// around a torus, and its tube; a Mesh says its own; of all other shapes they are x and y of the point in
+  /// the scene.
+  bool uv_mapping = false;
+  /// With uv_mapping: what normals go through from there to the scene. Points do not.
+  Transform normal_space = {};
 };
 
 /// What a pattern's numbers stand for. Between two entries values are blended, before the first and after the

@@ -1,12 +1,14 @@
 // Vectors and affine transformations, as POV-Ray has them.
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 namespace celltrace {
 
 using Vec3 = glm::dvec3;
 using Vec3f = glm::vec3;
+using Vec2f = glm::vec2;
 
 /// An affine transformation as POV-Ray writes it: row vectors, p' = p * rows[0..2] + rows[3].
 struct Transform {

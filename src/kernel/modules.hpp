@@ -14,7 +14,7 @@ namespace celltrace::kernel::modules {
 /// inside of shapes, which CSG asks.
 constexpr CodeModule kShapes = {"shapes", 1, 0, 14080};
 /// What a program does once a frame or once for many: it makes its objects, and reports.
-constexpr CodeModule kStart = {"start", 3, 0, 9088};
+constexpr CodeModule kStart = {"start", 3, 0, 9472};
 /// The building of accelerators.
 constexpr CodeModule kBuild = {"build", 16, 0, 25600};
 /// Patterns without noise, and those of noise with its tables.
@@ -27,6 +27,8 @@ constexpr CodeModule kSampling = {"sampling", 18, 0, 14336};
 constexpr CodeModule kFading = {"fading", 20, 0, 2048};
 /// Patterns that few scenes have, many of which read tables of the scene image.
 constexpr CodeModule kRarePatterns = {"rare", 22, 0, 10752};
+/// What patterns ask of surfaces besides points.
+constexpr CodeModule kSurfaces = {"surfaces", 25, 0, 3840};
 /// Warps but for turbulence.
 constexpr CodeModule kWarps = {"warps", 23, 0, 3456};
 
@@ -48,7 +50,7 @@ constexpr CodeModule kAreas = {"areas", 15, 1, 9088};
 constexpr CodeModule kCameras = {"cameras", 10, 1, 6656};
 /// Pigments and normals, but for the patterns themselves.
 constexpr CodeModule kTextures = {"textures", 9, 1, 9728};
-constexpr CodeModule kNormals = {"normals", 11, 1, 6784};
+constexpr CodeModule kNormals = {"normals", 11, 1, 7040};
 
 /// What few finishes do with light.
 constexpr CodeModule kFinishes = {"finishes", 19, 1, 2560};
@@ -64,7 +66,7 @@ constexpr CodeModule kComposed = {"composed", 13, 2, 8192};
 /// What rays pass through on their way, and the light that mirrors bend.
 constexpr CodeModule kAtmosphere = {"atmosphere", 24, 2, 3456};
 /// Shadow rays that go from surface to surface.
-constexpr CodeModule kShadowWalk = {"walk", 21, 2, 5248};
+constexpr CodeModule kShadowWalk = {"walk", 21, 2, 5504};
 /// Exchange of units of work with other SPEs.
 constexpr CodeModule kExchange = {"exchange", 14, 2, 5120};
 

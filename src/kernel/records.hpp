@@ -33,17 +33,21 @@ constexpr uint32_t disturbed = 0x8000; ///< some of its materials disturb normal
 constexpr uint32_t no_image = 0x10000; ///< only rays that came by a mirror see it
 constexpr uint32_t no_reflection = 0x20000; ///< and these do not
 constexpr uint32_t selective = no_image | no_reflection;
-constexpr uint32_t two_sided = 0x40000; ///< another material where it is seen from inside,
-constexpr uint32_t inverse = 0x80000;   ///< which is what else is outside
-constexpr uint32_t lit_behind =
-    0x100000; ///< some of its materials send on light that falls on the other side
-constexpr uint32_t lit_through = 0x200000; ///< as if it fell on this side; also lit_behind then
-constexpr uint32_t light_set_shift = 22; ///< number of the set of lights that shine on it; 0: all global ones
+constexpr uint32_t two_sided = 0x40000;   ///< another material where it is seen from inside,
+constexpr uint32_t inverse = 0x80000;     ///< which is what else is outside
+constexpr uint32_t by_surface = 0x100000; ///< some patterns of it ask for more of it than points
+constexpr uint32_t flat_map = 0x200000;   ///< an ellipsoid whose surface coordinates are x and y
+/// Some of its materials send on light that falls on the other side.
+constexpr uint32_t lit_behind = 0x400000;
+constexpr uint32_t lit_through = 0x800000; ///< as if it fell on this side; also lit_behind then
+constexpr uint32_t light_set_shift = 24; ///< number of the set of lights that shine on it; 0: all global ones
 } // namespace object_flag
 constexpr uint32_t kMaxLightSets = 1u << (32 - object_flag::light_set_shift);
 
-/// Geometry by kind: sphere: centre (0..2), radius (3). Triangle: its vertices (0..2, 3..5, 6..8). All
-/// others: the affine map from the world to the shape's own space, three rows of four (xyz | offset).
+/// Geometry by kind: sphere: centre (0..2), radius (3), the directions of its x axis (4..6) and y axis (7..9)
+/// and 1 or, if it is mirrored, -1 (10), which are for its surface coordinates. Triangle: its vertices (0..2,
+/// 3..5, 6..8). All others: the affine map from the world to the shape's own space, three rows of four (xyz |
+/// offset).
 struct alignas(64) ObjectRecord {
   uint32_t kind_and_flags;
   uint32_t material; ///< offset of a MaterialRecord, or of a BlendRecord if `blended`
@@ -58,8 +62,10 @@ static_assert(sizeof(ObjectRecord) == 64, "two objects a line");
 /// those of PolygonEdges.
 struct alignas(64) ExtraRecord {
   float value[9];
-  uint32_t csg;    ///< of objects with object_flag::csg: offset of a CsgRecord
-  float bounds[6]; ///< of such objects: what may be there of them; least x, y, z, greatest x, y, z
+  uint32_t csg; ///< of objects with object_flag::csg: offset of a CsgRecord
+  /// Of such objects: what may be there of them; least x, y, z, greatest x, y, z. But of triangles with
+  /// object_flag::by_surface the surface coordinates u, v of their vertices, 0 if they have no such record.
+  float bounds[6];
 };
 static_assert(sizeof(ExtraRecord) == 64, "two records a line");
 
@@ -156,6 +162,7 @@ constexpr uint32_t nested = 0x4000;          ///< of a pigment: an entry is a ma
 constexpr uint32_t gradient_noise = 0x8000;  ///< of noise: POV-Ray's generator 3
 constexpr uint32_t at_features = 0x10000;    ///< of noise: at the nearest of the random points
 constexpr uint32_t shifted = 0x20000;        ///< a ShiftedPattern that has turbulence
+constexpr uint32_t uv_mapping = 0x40000;     ///< `to_space` is from surface coordinates (u, v, 0)
 } // namespace pattern_flag
 /// What becomes of a pattern's values: POV-Ray's wave forms. `none`: they stay, frequency and phase mean
 /// nothing.
@@ -455,8 +462,9 @@ constexpr uint32_t kMaxCopiedObjects = 256;
 namespace light_way {
 constexpr uint32_t atmosphere = 0x1; ///< fogs or rainbows
 constexpr uint32_t fading = 0x2;     ///< interiors that fade
-/// Shadow rays go from surface to surface: what these let through depends on more than the surface.
+/// Shadow rays go from surface to surface: what these let through depends on more than points of them.
 constexpr uint32_t stepwise = 0x4;
+constexpr uint32_t by_surface = 0x8; ///< some objects are object_flag::by_surface
 } // namespace light_way
 
 /// Head of a scene image.

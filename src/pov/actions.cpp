@@ -268,6 +268,10 @@ int noise_generator(Session& session, double number, const Location& where) {
   return static_cast<int>(number);
 }
 
+void change(Session& session, PatternDefinition& pattern, const PatternChange& change) {
+  if (!is_on_surface(pattern)) change(session, pattern);
+}
+
 TexturePtr changed(Session& session, const TexturePtr& texture, const PatternChange& change,
                    const Location& where) {
   if (!texture->pattern.exists() && !texture->pattern.unsupported)
@@ -281,12 +285,16 @@ void require_plain(Session& session, const TexturePtr& texture, const Location& 
   if (texture->pattern.exists())
     session.fail(where,
                  "a texture that is a pattern of textures has no pigment, normal or finish of its own");
+  if (!texture->is_plain())
+    session.fail(where, "the pigment, normal and finish of a texture with 'uv_mapping' stay as they are");
 }
 
 TexturePtr layer(Session& session, const TexturePtr& below, const TexturePtr& top, const Location& where) {
   if (!below) return top;
   if (below->pattern.exists() || top->pattern.exists())
     session.fail(where, "a pattern of textures cannot be one of several layers");
+  if (!below->is_plain() || !top->is_plain())
+    session.fail(where, "a texture with 'uv_mapping' cannot be one of several layers");
   const TexturePtr both = layered(below, top);
   if (both->layers > kMostLayers)
     session.fail(where, "a texture has at most " + std::to_string(kMostLayers) + " layers");
@@ -297,6 +305,12 @@ TexturePtr transformed(Session& session, const TexturePtr& texture, const Transf
                        const Location& where) {
   if (is_singular(next)) session.fail(where, "this transformation is singular: it has no inverse");
   return transformed(texture, next);
+}
+
+void add_layer(Session& session, SkySphereDefinition& sky, const PigmentDefinition& pigment,
+               const Location& where) {
+  if (pigment.is_on_surface()) session.fail(where, "a sky_sphere has no surface for 'uv_mapping'");
+  append(session, sky.pigments, pigment, where);
 }
 
 void transform(Session& session, SkySphereDefinition& sky, const Transform& next, const Location& where) {
@@ -451,6 +465,12 @@ void add_layer(Session& session, ObjectDefinition& object, const TexturePtr& top
   set_texture(object, layer(session, below, top, where));
 }
 
+void set_uv_mapping(Session& session, ObjectDefinition& object, const Location& where) {
+  if (object.texture) session.fail(where, "'uv_mapping' comes in front of the textures of an object");
+  if (!object.uv_mapping) object.transform_before_uv = object.transform;
+  object.uv_mapping = true;
+}
+
 void set_inside(Session& session, ObjectDefinition& object, const TexturePtr& top, const Location& where) {
   object.inside = layer(session, object.inside, top, where);
 }
@@ -520,6 +540,16 @@ void add_triangle(Session& session, MeshBuilder& builder, const TriangleDefiniti
     builder.add(triangle);
   } catch (const InputError& error) {
     session.fail(where, error.what());
+  }
+}
+
+void set_coordinates(Session& session, TriangleDefinition& triangle, const std::array<Vec3, 3>& uv,
+                     const Location& where) {
+  triangle.is_mapped = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    triangle.coordinates[i] = Vec2f(uv[i]);
+    if (!std::isfinite(triangle.coordinates[i].x) || !std::isfinite(triangle.coordinates[i].y))
+      session.fail(where, "this number is not finite");
   }
 }
 

@@ -108,10 +108,13 @@ int octaves(double number);
 /// 0: the scene's.
 int noise_generator(Session& session, double number, const Location& where);
 
+/// Makes a change, unless the pattern is on surface coordinates.
+void change(Session& session, PatternDefinition& pattern, const PatternChange& change);
 /// The texture with a change to its pattern, which it must have.
 TexturePtr changed(Session& session, const TexturePtr& texture, const PatternChange& change,
                    const Location& where);
-/// Fails for a texture whose pattern is one of textures: it has no pigment, normal or finish of its own.
+/// Fails for a texture whose pattern is one of textures, or which is on surface coordinates: it has no
+/// pigment, normal or finish of its own.
 void require_plain(Session& session, const TexturePtr& texture, const Location& where);
 /// `top` on `below`, which may be null. Fails for textures that cannot be layers.
 TexturePtr layer(Session& session, const TexturePtr& below, const TexturePtr& top, const Location& where);
@@ -120,6 +123,9 @@ TexturePtr transformed(Session& session, const TexturePtr& texture, const Transf
 
 void set_colour(PigmentDefinition& pigment, const Pigment& colour);
 
+/// Fails if the pigment is on surface coordinates: a sky has none.
+void add_layer(Session& session, SkySphereDefinition& sky, const PigmentDefinition& pigment,
+               const Location& where);
 /// Moves the pigments that it has got.
 void transform(Session& session, SkySphereDefinition& sky, const Transform& next, const Location& where);
 
@@ -202,6 +208,8 @@ TexturePtr texture_of(Session& session, const ObjectDefinition& object);
 TexturePtr plain_texture_of(Session& session, const ObjectDefinition& object, const Location& where);
 void set_texture(ObjectDefinition& object, const TexturePtr& texture);
 void add_layer(Session& session, ObjectDefinition& object, const TexturePtr& top, const Location& where);
+/// Puts an object's textures on its surface coordinates. Fails if it has one already.
+void set_uv_mapping(Session& session, ObjectDefinition& object, const Location& where);
 /// Adds a layer to what the object looks like from inside.
 void set_inside(Session& session, ObjectDefinition& object, const TexturePtr& top, const Location& where);
 std::shared_ptr<ObjectDefinition> shape(Session& session, const WrittenShape& written);
@@ -229,6 +237,9 @@ std::shared_ptr<ObjectDefinition>
 lone_triangle(Session& session, std::shared_ptr<TriangleDefinition> triangle, const Location& where);
 void add_triangle(Session& session, MeshBuilder& builder, const TriangleDefinition& triangle,
                   const Location& where);
+/// Fails unless they are finite.
+void set_coordinates(Session& session, TriangleDefinition& triangle, const std::array<Vec3, 3>& uv,
+                     const Location& where);
 /// Fails unless it is finite.
 Vec3 inside_vector(const Session& session, const Quantity& vector, const Location& where);
 std::shared_ptr<ObjectDefinition> mesh(Session& session, MeshBuilder& builder, const Location& where);

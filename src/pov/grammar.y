@@ -112,7 +112,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %nterm <std::shared_ptr<Array>> elements
 %nterm <Transform> transformation transform_items
 %nterm <std::shared_ptr<PigmentDefinition>> pigment_base pigment_parts pigment_body
-%nterm <std::shared_ptr<NormalDefinition>> normal_base declared_normal normal_parts normal_body
+%nterm <std::shared_ptr<NormalDefinition>> normal_start normal_base declared_normal normal_parts normal_body
 %nterm <PatternChange> pattern pattern_change
 %nterm <Turbulence> turbulent_warp
 %nterm <SpaceStep> bend
@@ -142,7 +142,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %nterm <std::shared_ptr<MeshBuilder>> mesh_head
 %nterm <std::shared_ptr<Mesh2Definition>> mesh2_head
 %nterm <std::vector<TexturePtr>> texture_list
-%nterm <std::shared_ptr<TriangleDefinition>> triangle triangle_vertices
+%nterm <std::shared_ptr<TriangleDefinition>> triangle triangle_vertices mapped_triangle
 %nterm <bool> albedo photons photon_items
 %nterm <NameId> variable
 %nterm <double> number optional_number flag entry_start
@@ -414,8 +414,11 @@ from_default // where a pigment, normal or finish of its own starts; any other s
 
 pigment_base
   : %empty                   { $$ = std::make_shared<PigmentDefinition>(session.base_texture->pigment); }
-  | pigment_base PIGMENT_ID  { $$ = std::make_shared<PigmentDefinition>(*$2); }
-  | pigment_base UV_MAPPING  { $$ = $1; mark($$->uv_mapping, make_unsupported("'uv_mapping'", @2)); }
+  | pigment_base PIGMENT_ID  {
+      $$ = std::make_shared<PigmentDefinition>(*$2);
+      $$->uv_mapping = $1->uv_mapping;
+    }
+  | pigment_base UV_MAPPING  { $$ = $1; $$->uv_mapping = true; }
   ;
 
 pigment_parts // what it is, and then what changes that
@@ -426,27 +429,34 @@ pigment_parts // what it is, and then what changes that
   | pigment_base LIST_PATTERN pigments     { $$ = $1; set_list(session, *$$, $2, $3, @2); }
   | pigment_parts COLOUR_MAP colour_map    { $$ = $1; set_map(session, *$$, $3, @2); }
   | pigment_parts PIGMENT_MAP pigment_map  { $$ = $1; set_map(session, *$$, $3, @2); }
-  | pigment_parts pattern_change           { $$ = $1; $2(session, $$->pattern); }
+  | pigment_parts pattern_change           { $$ = $1; change(session, $$->pattern, $2); }
   | pigment_parts transformation           { $$ = $1; move(session, $$->pattern, $2, @2); }
   | pigment_parts QUICK_COLOUR colour_value { $$ = $1; }
   | pigment_parts unsupported_pattern      { $$ = $1; mark($$->pattern.unsupported, $2); }
   ;
 
 pigment_body
-  : pigment_parts { $$ = $1; check(session, *$$, @1); }
+  : pigment_parts { $$ = $1; check(session, *$$, @1); finish_uv_mapping(*$$); }
   ;
 
-normal_base
+normal_start
   : %empty {
       const NormalPtr& base = session.base_texture->normal;
       $$ = base ? std::make_shared<NormalDefinition>(*base) : std::make_shared<NormalDefinition>();
     }
+  | normal_start UV_MAPPING { $$ = $1; $$->uv_mapping = true; }
+  ;
+
+normal_base
+  : normal_start
   | declared_normal
-  | normal_base UV_MAPPING { $$ = $1; mark($$->uv_mapping, make_unsupported("'uv_mapping'", @2)); }
   ;
 
 declared_normal
-  : NORMAL_ID              { $$ = std::make_shared<NormalDefinition>(*$1); }
+  : normal_start NORMAL_ID {
+      $$ = std::make_shared<NormalDefinition>(*$2);
+      $$->uv_mapping = $1->uv_mapping;
+    }
   ;
 
 normal_parts
@@ -461,13 +471,13 @@ normal_parts
   | normal_parts ACCURACY number               { $$ = $1; $$->accuracy = accuracy(session, $3, @3); }
   | normal_parts NORMAL_MAP normal_map         { $$ = $1; set_map(session, *$$, $3, @2); }
   | normal_parts SLOPE_MAP slope_map           { $$ = $1; $$->slopes = ascending(std::move($3)); }
-  | normal_parts pattern_change                { $$ = $1; $2(session, $$->pattern); }
+  | normal_parts pattern_change                { $$ = $1; change(session, $$->pattern, $2); }
   | normal_parts transformation                { $$ = $1; move(session, $$->pattern, $2, @2); }
   | normal_parts unsupported_pattern           { $$ = $1; mark($$->pattern.unsupported, $2); }
   ;
 
 normal_body
-  : normal_parts { $$ = $1; check(session, *$$, @1); }
+  : normal_parts { $$ = $1; check(session, *$$, @1); finish_uv_mapping(*$$); }
   ;
 
 // ---- Patterns, and the maps and lists that belong to them ----
@@ -701,7 +711,7 @@ texture
 
 texture_parts
   : %empty                       { $$ = session.builder.default_texture; }
-  | texture_parts TEXTURE_ID     { $$ = $2; }
+  | texture_parts TEXTURE_ID     { $$ = $1->uv_mapping ? with_uv_mapping($2) : $2; }
   | texture_parts PIGMENT '{' { session.base_texture = $1; } pigment_body '}' {
       require_plain(session, $1, @2);
       $$ = with_pigment($1, *$5);
@@ -723,12 +733,12 @@ texture_parts
   | texture_parts LIST_PATTERN   { $$ = with_list(session, $1, $2, {}, @2); }
   | texture_parts pattern_change { $$ = changed(session, $1, $2, @2); }
   | texture_parts transformation { $$ = transformed(session, $1, $2, @2); }
-  | texture_parts UV_MAPPING     { $$ = with_uv_mapping($1, make_unsupported("'uv_mapping'", @2)); }
+  | texture_parts UV_MAPPING     { $$ = with_uv_mapping($1); }
   | texture_parts unsupported_pattern { $$ = with_pattern(session, $1, unsupported_change($2)); }
   ;
 
 texture_body
-  : texture_parts { $$ = $1; check(session, $$, @1); }
+  : texture_parts { check(session, $1, @1); $$ = with_finished_uv_mapping($1); }
   ;
 
 layers
@@ -746,7 +756,7 @@ sky_sphere
 sky_sphere_body
   : %empty                          { $$ = std::make_shared<SkySphereDefinition>(); }
   | sky_sphere_body SKY_SPHERE_ID   { $$ = std::make_shared<SkySphereDefinition>(*$2); }
-  | sky_sphere_body PIGMENT '{' from_default pigment_body '}' { $$ = $1; append(session, $$->pigments, *$5, @2); }
+  | sky_sphere_body PIGMENT '{' from_default pigment_body '}' { $$ = $1; add_layer(session, *$$, *$5, @2); }
   | sky_sphere_body transformation  { $$ = $1; transform(session, *$$, $2, @2); }
   | sky_sphere_body EMISSION colour_value {
       $$ = $1;
@@ -950,7 +960,7 @@ object_body
   | object_body DOUBLE_ILLUMINATE flag { $$ = $1; $$->is_lit_through = $3 != 0; }
   | object_body INVERSE                { $$ = $1; $$->inverse = !$$->inverse; }
   | object_body IGNORED_FLAG flag      { $$ = $1; }
-  | object_body UV_MAPPING             { $$ = $1; mark($$->uv_mapping, make_unsupported("'uv_mapping'", @2)); }
+  | object_body UV_MAPPING             { $$ = $1; set_uv_mapping(session, *$$, @2); }
   | object_body CUTAWAY_TEXTURES flag {
       $$ = $1;
       mark($$->unsupported, unless_zero("'cutaway_textures'", $3, @2));
@@ -1038,10 +1048,14 @@ beam_number
 triangle
   : triangle_vertices '}'         { $$ = $1; }
   | triangle_vertices texture '}' { $$ = $1; $$->texture = $2; }
-  | triangle_vertices UV_VECTORS quantity optional_comma quantity optional_comma quantity '}' { $$ = $1; }
-  | triangle_vertices UV_VECTORS quantity optional_comma quantity optional_comma quantity texture '}' {
+  | mapped_triangle '}'           { $$ = $1; }
+  | mapped_triangle texture '}'   { $$ = $1; $$->texture = $2; }
+  ;
+
+mapped_triangle
+  : triangle_vertices UV_VECTORS quantity optional_comma quantity optional_comma quantity {
       $$ = $1;
-      $$->texture = $8;
+      set_coordinates(session, *$$, {session.vector($3, @3), session.vector($5, @5), session.vector($7, @7)}, @2);
     }
   ;
 
@@ -1069,7 +1083,7 @@ mesh2_head
   : MESH2 '{'                                { $$ = std::make_shared<Mesh2Definition>(); }
   | mesh2_head VERTEX_VECTORS counted_list   { $$ = $1; $$->vertex_vectors = vectors(session, $3, @3); }
   | mesh2_head NORMAL_VECTORS counted_list   { $$ = $1; $$->normal_vectors = vectors(session, $3, @3); }
-  | mesh2_head UV_VECTORS counted_list       { $$ = $1; counted(session, $3, @3); }
+  | mesh2_head UV_VECTORS counted_list       { $$ = $1; $$->uv_vectors = vectors(session, $3, @3); }
   | mesh2_head TEXTURE_LIST '{' number texture_list '}' {
       $$ = $1;
       check_count(session, $4, $5.size(), @2);
@@ -1077,7 +1091,7 @@ mesh2_head
     }
   | mesh2_head FACE_INDICES counted_list     { $$ = $1; $$->face_indices = faces(session, $3, @3); }
   | mesh2_head NORMAL_INDICES counted_list   { $$ = $1; $$->normal_indices = counted(session, $3, @3); }
-  | mesh2_head UV_INDICES counted_list       { $$ = $1; counted(session, $3, @3); }
+  | mesh2_head UV_INDICES counted_list       { $$ = $1; $$->uv_indices = counted(session, $3, @3); }
   | mesh2_head INSIDE_VECTOR quantity        { $$ = $1; $$->inside_vector = inside_vector(session, $3, @3); }
   ;
 

@@ -76,6 +76,32 @@ Face take_face(const Mesh2Definition& definition, std::vector<ListEntry>::const_
   return face;
 }
 
+/// Puts the surface coordinates of face number `face` behind the others: those of its indices or, without
+/// any, those with its vertices' numbers.
+void add_coordinates(const Mesh2Definition& definition, std::size_t face, const Face& of, Mesh& mesh) {
+  if (definition.uv_vectors.empty()) return;
+  Index indices[3];
+  if (definition.uv_indices.empty())
+    std::copy(of.vertex, of.vertex + 3, indices);
+  else
+    to_indices(definition.uv_indices[face], definition.uv_vectors.size(), "uv vector", indices);
+  Mesh::Coordinates& coordinates = mesh.coordinates.emplace_back();
+  for (int corner = 0; corner < 3; ++corner) {
+    const Vec3f single = to_single(definition.uv_vectors[indices[corner]].v);
+    coordinates.corner[corner] = {single.x, single.y};
+  }
+}
+
+/// POV-Ray has as many uv_indices as faces, or none where each vertex has its own coordinates.
+void check_coordinates(const Mesh2Definition& definition, std::size_t faces) {
+  if (definition.uv_vectors.empty()) return;
+  if (definition.uv_indices.empty() && definition.uv_vectors.size() != definition.vertex_vectors.size())
+    throw InputError("mesh2 needs uv_indices, as it has not as many uv_vectors as vertices");
+  if (!definition.uv_indices.empty() && definition.uv_indices.size() != faces)
+    throw InputError("mesh2 has " + std::to_string(definition.uv_indices.size()) + " uv_indices for " +
+                     std::to_string(faces) + " faces");
+}
+
 /// The normals of face number `face`: those of its indices or, without any, those with its vertices' numbers.
 bool find_normals(const Mesh2Definition& definition, std::size_t face, const Face& of, Index (&normal)[3]) {
   if (definition.normal_vectors.empty()) return false;
@@ -119,6 +145,9 @@ void MeshBuilder::add(const TriangleDefinition& triangle) {
     if (triangle.texture) result.material[i] = texture_index(triangle.texture);
   }
   mesh.triangles.push_back(result);
+  if (!triangle.is_mapped && mesh.coordinates.empty()) return;
+  mesh.coordinates.resize(mesh.triangles.size()); // of those before it 0, as in POV-Ray
+  std::copy(triangle.coordinates.begin(), triangle.coordinates.end(), mesh.coordinates.back().corner);
 }
 
 Index MeshBuilder::texture_index(const TexturePtr& texture) {
@@ -137,7 +166,9 @@ std::shared_ptr<MeshDefinition> make_mesh(Mesh2Definition definition) {
   mesh.inside_vector = definition.inside_vector;
   const std::vector<ListEntry>& faces = definition.face_indices;
   const auto is_face = [](const ListEntry& entry) { return !entry.is_float; };
-  mesh.triangles.reserve(static_cast<std::size_t>(std::count_if(faces.begin(), faces.end(), is_face)));
+  const auto face_count = static_cast<std::size_t>(std::count_if(faces.begin(), faces.end(), is_face));
+  check_coordinates(definition, face_count);
+  mesh.triangles.reserve(face_count);
   auto entry = faces.begin();
   for (std::size_t i = 0; entry != faces.end(); ++i) {
     const Face face = take_face(definition, entry);
@@ -150,6 +181,7 @@ std::shared_ptr<MeshDefinition> make_mesh(Mesh2Definition definition) {
     for (int corner = 0; corner < 3 && face.texture_count > 0; ++corner)
       triangle.material[corner] = face.texture[face.texture_count == 3 ? corner : 0];
     mesh.triangles.push_back(triangle);
+    add_coordinates(definition, i, face, mesh);
   }
   mesh.vertices.reserve(vertices.size());
   for (const ListEntry& vertex : vertices)

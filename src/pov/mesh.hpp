@@ -31,6 +31,8 @@ struct Mesh2Definition {
   std::vector<TexturePtr> textures;
   std::vector<ListEntry> face_indices; ///< a vector for a face, floats for its textures behind it
   std::vector<ListEntry> normal_indices;
+  std::vector<ListEntry> uv_vectors;
+  std::vector<ListEntry> uv_indices;
   Vec3 inside_vector{0, 0, 0};
 };
 

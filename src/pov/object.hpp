@@ -46,7 +46,9 @@ struct TriangleDefinition {
   std::array<Vec3, 3> vertices{};
   std::array<Vec3, 3> normals{};
   bool is_smooth = false;
-  TexturePtr texture; ///< null: the mesh's
+  std::array<Vec2f, 3> coordinates{}; ///< of the surface
+  bool is_mapped = false;             ///< it has such
+  TexturePtr texture;                 ///< null: the mesh's
 
   /// As POV-Ray moves a triangle that stands alone: its normals, too, corner by corner.
   TriangleDefinition transformed(const Transform& transform) const;
@@ -66,10 +68,11 @@ struct ObjectDefinition {
       shape;
   Location where; ///< where it is written, or referred to within other objects
   Transform transform;
-  TexturePtr inside;           ///< what it looks like from inside; null: the same, or the parent's
-  TexturePtr texture;          ///< null: the parent's, then the default
-  Transform texture_transform; ///< what the object went through since it has the texture
-  UnsupportedPtr uv_mapping;
+  TexturePtr inside;             ///< what it looks like from inside; null: the same, or the parent's
+  TexturePtr texture;            ///< null: the parent's, then the default
+  Transform texture_transform;   ///< what the object went through since it has the texture
+  bool uv_mapping = false;       ///< its textures are on its surface coordinates,
+  Transform transform_before_uv; ///< and only what it went through before moves them
   InteriorPtr interior;
   bool no_shadow = false;
   bool no_image = false;

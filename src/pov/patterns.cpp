@@ -274,8 +274,17 @@ std::vector<PatternMap<Pigment>::Entry> PatternDefinition::default_colours() con
   return entries;
 }
 
+void put_on_surface(PatternDefinition& pattern) {
+  if (pattern.exists()) pattern.own().uv_mapping = true;
+}
+
+bool is_on_surface(const PatternDefinition& pattern) {
+  return pattern.exists() && pattern.value().uv_mapping;
+}
+
 void choose(PatternDefinition& pattern, int number) {
   pattern.number = number;
+  if (pattern.value().uv_mapping) pattern.own() = Pattern();
   const Entry& entry = entry_of(pattern);
   pattern.own().kind = entry.make();
   if (entry.wave != Wave::ramp) pattern.own().wave = entry.wave;
@@ -308,6 +317,7 @@ bool is_singular(const Transform& transform) {
 }
 
 void move(Session& session, PatternDefinition& pattern, const Transform& next, const Location& where) {
+  if (is_on_surface(pattern)) return;
   std::vector<SpaceStep>& space = pattern.own().space;
   if (space.empty() || !std::holds_alternative<Transform>(space.back())) check_steps(session, pattern, where);
   append(space, next);

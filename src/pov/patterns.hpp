@@ -59,8 +59,12 @@ private:
   std::shared_ptr<Pattern> value_; ///< shared by copies until one of them changes; null: as patterns are made
 };
 
+/// Puts a pattern, if there is one, on surface coordinates. As it is done when all of it is said, nothing
+/// moves or changes it any more.
+void put_on_surface(PatternDefinition& pattern);
+bool is_on_surface(const PatternDefinition& pattern);
 /// Makes `pattern` the one with this number. What modifiers have done to it stays, but for the wave if the
-/// new pattern has one of its own.
+/// new pattern has one of its own, and unless it was on surface coordinates.
 void choose(PatternDefinition& pattern, int number);
 void set_argument(Session& session, PatternDefinition& pattern, const Quantity& argument,
                   const Location& where);

@@ -101,17 +101,17 @@ SceneBuilder::Inherited SceneBuilder::inherit(const ObjectDefinition& object, co
   own.is_copy = object.is_declared || around.is_copy;
   if (object.texture) {
     own.texture = object.texture;
-    own.texture_transform = object.texture_transform.then(around.transform);
-    own.uv_mapping = nullptr;
+    own.texture_transform = object.texture_transform;
+    if (!object.uv_mapping) own.texture_transform = own.texture_transform.then(around.transform);
   } else if (!own.texture) {
     own.texture = default_texture;
     own.texture_transform = Transform();
   }
   if (object.inside) {
     own.inner_texture = object.inside;
-    own.inner_transform = around.transform;
+    own.inner_transform = object.uv_mapping ? Transform() : around.transform;
   }
-  mark(own.uv_mapping, object.uv_mapping);
+  own.uv_mapping = object.uv_mapping || around.uv_mapping;
   if (!around.clips && !std::holds_alternative<LightDefinition>(object.shape))
     own.interior = interior_index(object, around.interior, *own.texture, where);
   return own;
@@ -145,11 +145,15 @@ std::optional<Object> SceneBuilder::make(const ObjectDefinition& object, const I
     if (is_singular(own.transform))
       diagnostics_.fail(where, "this object's transformation is singular: it has no inverse");
     if (!around.clips) {
-      if (!own.texture->is_constant()) diagnostics_.supports(own.uv_mapping, where);
-      made.material = material_index(own.texture, own.texture_transform, where);
+      made.material = own.uv_mapping
+                          ? material_index(mapped_texture(own.texture, own.texture_transform), {}, where)
+                          : material_index(own.texture, own.texture_transform, where);
       if (own.inner_texture) {
         Material material = scene_.materials[made.material];
-        material.inside = shared_material(transformed(own.inner_texture, own.inner_transform), where);
+        material.inside =
+            shared_material(own.uv_mapping ? mapped_texture(own.inner_texture, own.inner_transform)
+                                           : transformed(own.inner_texture, own.inner_transform),
+                            where);
         made.material = scene_.add(material);
       }
     }
@@ -284,11 +288,12 @@ bool SceneBuilder::make_shape(const ObjectDefinition& object, const Inherited& o
   const auto* triangle = std::get_if<std::shared_ptr<TriangleDefinition>>(&object.shape);
   std::shared_ptr<const Mesh> mesh;
   if (triangle) {
-    mesh = placed_triangle(**triangle, own.transform, where);
+    mesh = placed_triangle(**triangle, own, where);
     // In a CSG, back from the scene to its space.
     made.transform = own.is_part ? own.transform.inverse().then(object.transform) : Transform();
   } else {
-    mesh = placed_mesh(std::get<std::shared_ptr<MeshDefinition>>(object.shape), own.transform, where);
+    mesh = placed_mesh(std::get<std::shared_ptr<MeshDefinition>>(object.shape),
+                       object.uv_mapping ? object.transform_before_uv : own.transform, own.uv_mapping, where);
   }
   if (!mesh->has_inside()) {
     // Of a mesh without an inside POV-Ray's CSG takes what a ray crosses first, and nothing behind it.
@@ -310,10 +315,17 @@ void SceneBuilder::refuse(const std::string& what, const ObjectDefinition& objec
 }
 
 std::shared_ptr<const Mesh> SceneBuilder::placed_triangle(const TriangleDefinition& triangle,
-                                                          const Transform& transform, const Location& where) {
+                                                          const Inherited& own, const Location& where) {
   MeshBuilder builder;
+  TriangleDefinition placed = triangle.transformed(own.transform);
+  // As all shapes without surface coordinates of their own.
+  if (own.texture && (own.uv_mapping || own.texture->has_surface())) {
+    placed.is_mapped = true;
+    for (std::size_t i = 0; i < 3; ++i)
+      placed.coordinates[i] = Vec2f(placed.vertices[i]);
+  }
   try {
-    builder.add(triangle.transformed(transform));
+    builder.add(placed);
   } catch (const InputError& error) {
     diagnostics_.fail(where, error.what());
   }
@@ -351,6 +363,13 @@ Index SceneBuilder::interior_index(const ObjectDefinition& object, Index inherit
 bool SceneBuilder::PlacedTexture::operator<(const PlacedTexture& other) const {
   if (texture != other.texture) return texture < other.texture;
   return std::memcmp(&transform, &other.transform, sizeof transform) < 0;
+}
+
+/// A texture on surface coordinates, after it has been moved.
+TexturePtr SceneBuilder::mapped_texture(const TexturePtr& texture, const Transform& transform) {
+  const auto [known, is_new] = mapped_textures_.try_emplace(PlacedTexture{texture, transform});
+  if (is_new) known->second = on_surface(transformed(texture, transform));
+  return known->second;
 }
 
 Index SceneBuilder::material_index(const TexturePtr& texture, const Transform& transform,
@@ -409,7 +428,8 @@ void SceneBuilder::check_pattern(const Pattern& pattern, std::size_t entries, co
 
 /// Meshes are shared by their instances, unless their own textures depend on where they are.
 std::shared_ptr<const Mesh> SceneBuilder::placed_mesh(const std::shared_ptr<MeshDefinition>& definition,
-                                                      const Transform& transform, const Location& where) {
+                                                      const Transform& transform, bool uv_mapping,
+                                                      const Location& where) {
   const std::vector<TexturePtr>& textures = definition->textures;
   const bool is_constant = std::all_of(textures.begin(), textures.end(),
                                        [](const TexturePtr& texture) { return texture->is_constant(); });
@@ -417,7 +437,9 @@ std::shared_ptr<const Mesh> SceneBuilder::placed_mesh(const std::shared_ptr<Mesh
     if (const auto known = meshes_.find(definition); known != meshes_.end()) return known->second;
   std::vector<Index> materials;
   for (const TexturePtr& texture : textures)
-    materials.push_back(material_index(texture, transform, where));
+    materials.push_back(uv_mapping && !is_constant
+                            ? material_index(mapped_texture(texture, transform), {}, where)
+                            : material_index(texture, transform, where));
   if (!is_constant) count_triangles(definition->mesh.triangles.size(), where);
   auto mesh = is_constant ? std::make_shared<Mesh>(std::move(definition->mesh))
                           : std::make_shared<Mesh>(definition->mesh);

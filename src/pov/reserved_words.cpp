@@ -406,8 +406,8 @@ const char* const kUnsupportedArguments[] = {
 
 /// Words with rules of their own by which what they stand for is not supported.
 constexpr int kRefused[] = {
-    tokens::T_APERTURE, tokens::T_AREA_ILLUMINATION, tokens::T_CUTAWAY_TEXTURES, tokens::T_DISPERSION,
-    tokens::T_PHOTONS,  tokens::T_RADIOSITY,         tokens::T_UV_MAPPING,
+    tokens::T_APERTURE,   tokens::T_AREA_ILLUMINATION, tokens::T_CUTAWAY_TEXTURES,
+    tokens::T_DISPERSION, tokens::T_PHOTONS,           tokens::T_RADIOSITY,
 };
 
 int token_of(PatternForm form) {

@@ -77,7 +77,7 @@ private:
     Transform transform; ///< to the scene
     TexturePtr texture;
     Transform texture_transform; ///< to the scene
-    UnsupportedPtr uv_mapping;   ///< of the texture
+    bool uv_mapping = false;     ///< all textures are on surface coordinates
     Index interior = kNoIndex;
     Index csg_interior = kNoIndex; ///< of the parts that have or inherit none
     bool no_shadow = false;
@@ -110,14 +110,15 @@ private:
   Index interior_of(const Inherited& own);
   Index interior_index(const ObjectDefinition& object, Index inherited, const TextureDefinition& texture,
                        const Location& where);
+  TexturePtr mapped_texture(const TexturePtr& texture, const Transform& transform);
   Index material_index(const TexturePtr& texture, const Transform& transform, const Location& where);
   Material make_material(const TextureDefinition& texture, const Location& where);
   std::shared_ptr<const Material> shared_material(const TexturePtr& texture, const Location& where);
   void check_pattern(const Pattern& pattern, std::size_t entries, const Location& where);
-  std::shared_ptr<const Mesh> placed_triangle(const TriangleDefinition& triangle, const Transform& transform,
+  std::shared_ptr<const Mesh> placed_triangle(const TriangleDefinition& triangle, const Inherited& own,
                                               const Location& where);
   std::shared_ptr<const Mesh> placed_mesh(const std::shared_ptr<MeshDefinition>& definition,
-                                          const Transform& transform, const Location& where);
+                                          const Transform& transform, bool uv_mapping, const Location& where);
 
   /// A texture that depends on where it is.
   struct PlacedTexture {
@@ -143,6 +144,7 @@ private:
   std::uint64_t map_entries_ = 0;
   std::unordered_map<TexturePtr, Index> material_indices_; ///< of those that are the same everywhere
   std::map<PlacedTexture, Index> placed_material_indices_;
+  std::map<PlacedTexture, TexturePtr> mapped_textures_; ///< on surface coordinates
   std::unordered_map<TexturePtr, std::shared_ptr<const Material>> shared_materials_; ///< layers and entries
   std::unordered_map<std::shared_ptr<MeshDefinition>, std::shared_ptr<const Mesh>> meshes_;
 };

@@ -31,8 +31,23 @@ std::shared_ptr<TextureDefinition> copy(const TexturePtr& texture) {
 } // namespace
 
 UnsupportedPtr PigmentDefinition::first_unsupported() const {
-  return all({pattern.unsupported, unsupported, map ? map->unsupported : nullptr,
-              pattern.exists() ? uv_mapping : nullptr});
+  return all({pattern.unsupported, unsupported, map ? map->unsupported : nullptr});
+}
+
+bool NormalDefinition::is_on_surface() const {
+  return pattern.exists() && (pattern.value().uv_mapping || (map && map->is_on_surface));
+}
+
+bool TextureDefinition::has_surface() const {
+  for (const TextureDefinition* layer = this; layer; layer = layer->below.get())
+    if (layer->is_on_surface || layer->pigment.is_on_surface() ||
+        (layer->normal && layer->normal->is_on_surface()) || (layer->map && layer->map->is_on_surface))
+      return true;
+  return false;
+}
+
+bool PigmentDefinition::is_on_surface() const {
+  return pattern.exists() && (pattern.value().uv_mapping || (map && map->is_on_surface));
 }
 
 bool PigmentDefinition::is_opaque() const {
@@ -48,7 +63,7 @@ Pigment PigmentDefinition::finish() const {
 }
 
 UnsupportedPtr NormalDefinition::first_unsupported() const {
-  return all({pattern.unsupported, unsupported, map ? map->unsupported : nullptr, uv_mapping});
+  return all({pattern.unsupported, unsupported, map ? map->unsupported : nullptr});
 }
 
 Normal NormalDefinition::finish() const {
@@ -67,8 +82,7 @@ UnsupportedPtr TextureDefinition::first_unsupported() const {
     mark(result, all({layer->map ? nullptr : layer->pigment.first_unsupported(),
                       layer->map || !layer->normal ? nullptr : layer->normal->first_unsupported(),
                       layer->map ? nullptr : layer->finish.unsupported, layer->pattern.unsupported,
-                      layer->unsupported, layer->map ? layer->map->unsupported : nullptr,
-                      layer->is_constant() ? nullptr : layer->uv_mapping}));
+                      layer->unsupported, layer->map ? layer->map->unsupported : nullptr}));
   return result;
 }
 
@@ -80,10 +94,13 @@ bool TextureDefinition::is_opaque() const {
 }
 
 bool TextureDefinition::is_constant() const {
-  for (const TextureDefinition* layer = this; layer; layer = layer->below.get())
-    if (layer->pattern.exists() || (layer->normal && !layer->normal->is_smooth()) ||
-        layer->pigment.pattern.exists())
+  const auto moves = [](const PatternDefinition& own) { return own.exists() && !own.value().uv_mapping; };
+  for (const TextureDefinition* layer = this; layer; layer = layer->below.get()) {
+    const bool has_normal = layer->normal && !layer->normal->is_smooth();
+    if (moves(layer->pattern) || (layer->normal && moves(layer->normal->pattern)) ||
+        moves(layer->pigment.pattern) || (layer->is_on_surface && (layer->map || has_normal)))
       return false;
+  }
   return true;
 }
 
@@ -111,20 +128,55 @@ TexturePtr with_unsupported(const TexturePtr& texture, const UnsupportedPtr& uns
   return changed;
 }
 
-TexturePtr with_uv_mapping(const TexturePtr& texture, const UnsupportedPtr& uv_mapping) {
+TexturePtr with_uv_mapping(const TexturePtr& texture) {
   auto changed = copy(texture);
-  mark(changed->uv_mapping, uv_mapping);
+  changed->uv_mapping = true;
   return changed;
+}
+
+void finish_uv_mapping(PigmentDefinition& pigment) {
+  if (pigment.uv_mapping) put_on_surface(pigment.pattern);
+  pigment.uv_mapping = false;
+}
+
+void finish_uv_mapping(NormalDefinition& normal) {
+  if (normal.uv_mapping) put_on_surface(normal.pattern);
+  normal.uv_mapping = false;
+}
+
+TexturePtr on_surface(const TexturePtr& texture) {
+  auto changed = copy(texture);
+  changed->uv_mapping = false;
+  changed->is_on_surface = true;
+  put_on_surface(changed->pattern);
+  put_on_surface(changed->pigment.pattern);
+  if (changed->normal) {
+    auto normal = std::make_shared<NormalDefinition>(*changed->normal);
+    put_on_surface(normal->pattern);
+    changed->normal = std::move(normal);
+  }
+  if (changed->below) changed->below = on_surface(changed->below);
+  return changed;
+}
+
+TexturePtr with_finished_uv_mapping(const TexturePtr& texture) {
+  return texture->uv_mapping ? on_surface(texture) : texture;
 }
 
 TexturePtr transformed(const TexturePtr& texture, const Transform& next) {
   if (texture->is_constant() || next.is_identity()) return texture;
   auto changed = copy(texture);
-  if (changed->pattern.exists()) append(changed->pattern.own().space, next);
-  if (changed->pigment.pattern.exists()) append(changed->pigment.pattern.own().space, next);
+  const auto move = [&](PatternDefinition& pattern) {
+    if (texture->is_on_surface)
+      pattern.own().normal_space = pattern.value().normal_space.then(next);
+    else if (!pattern.value().uv_mapping)
+      append(pattern.own().space, next);
+  };
+  if (changed->pattern.exists()) move(changed->pattern);
+  if (changed->pigment.pattern.exists()) move(changed->pigment.pattern);
   if (changed->normal) {
     auto normal = std::make_shared<NormalDefinition>(*changed->normal);
-    append(normal->pattern.own().space, next);
+    move(normal->pattern);
     changed->normal = std::move(normal);
   }
   if (changed->below) changed->below = transformed(changed->below, next);

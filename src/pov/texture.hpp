@@ -26,6 +26,7 @@ template <class T> struct MapDefinition {
   std::vector<typename PatternMap<T>::Entry> entries;
   int depth = 1;              ///< of maps inside one another
   bool is_opaque = true;      ///< nothing shines through any entry
+  bool is_on_surface = false; ///< some entry is on surface coordinates
   UnsupportedPtr unsupported; ///< the first in any entry
 };
 using PigmentMap = MapDefinition<Pigment>;
@@ -39,8 +40,8 @@ using SlopeMapPtr = std::shared_ptr<const std::vector<SlopePoint>>;
 struct PigmentDefinition {
   Pigment value; ///< of one without a pattern; it has no map
   PatternDefinition pattern;
-  PigmentMapPtr map; ///< null: the pattern's own colours
-  UnsupportedPtr uv_mapping;
+  PigmentMapPtr map;       ///< null: the pattern's own colours
+  bool uv_mapping = false; ///< while it is read: it will be put on surface coordinates
   UnsupportedPtr unsupported;
   [[no_unique_address]] Counted<PigmentDefinition> counted;
 
@@ -48,6 +49,8 @@ struct PigmentDefinition {
   int depth() const { return !pattern.exists() ? 0 : map ? map->depth : 1; }
   /// Nothing shines through.
   bool is_opaque() const;
+  /// It, or something in its map, is on surface coordinates.
+  bool is_on_surface() const;
   Pigment finish() const;
 };
 using PigmentPtr = std::shared_ptr<const PigmentDefinition>;
@@ -58,11 +61,12 @@ struct NormalDefinition {
   double accuracy = 0.02;
   std::vector<SlopePoint> slopes; ///< empty: the pattern's numbers
   NormalMapPtr map;               ///< null: the pattern's own slopes
-  UnsupportedPtr uv_mapping;
+  bool uv_mapping = false;        ///< as a pigment's
   UnsupportedPtr unsupported;
   [[no_unique_address]] Counted<NormalDefinition> counted;
 
   UnsupportedPtr first_unsupported() const;
+  bool is_on_surface() const;
   int depth() const { return map ? map->depth : 0; }
   bool is_smooth() const { return !pattern.exists(); }
   Normal finish() const;
@@ -88,7 +92,8 @@ struct TextureDefinition {
   int layers = 1;            ///< with those below
   PatternDefinition pattern; ///< if there is one, the map is instead of all of the above
   TextureMapPtr map;
-  UnsupportedPtr uv_mapping;
+  bool uv_mapping = false;    ///< as a pigment's
+  bool is_on_surface = false; ///< all of it is on surface coordinates, and only its normals turn any more
   UnsupportedPtr unsupported;
   [[no_unique_address]] Counted<TextureDefinition> counted;
 
@@ -96,15 +101,25 @@ struct TextureDefinition {
   int depth() const { return map ? map->depth : 0; }
   /// Nothing shines through, so that a layer below does not matter.
   bool is_opaque() const;
+  /// Something in it is on surface coordinates.
+  bool has_surface() const;
   /// Whether it matters where in space it is.
   bool is_constant() const;
+  /// Whether it has a pigment, normal and finish that can be changed, and can be a layer.
+  bool is_plain() const { return !pattern.exists() && !is_on_surface; }
 };
 
 TexturePtr with_pigment(const TexturePtr& texture, const PigmentDefinition& pigment);
 TexturePtr with_normal(const TexturePtr& texture, const NormalPtr& normal);
 TexturePtr with_finish(const TexturePtr& texture, const FinishDefinition& finish);
 TexturePtr with_unsupported(const TexturePtr& texture, const UnsupportedPtr& unsupported);
-TexturePtr with_uv_mapping(const TexturePtr& texture, const UnsupportedPtr& uv_mapping);
+TexturePtr with_uv_mapping(const TexturePtr& texture);
+/// Puts what is read on surface coordinates if it is to be.
+void finish_uv_mapping(PigmentDefinition& pigment);
+void finish_uv_mapping(NormalDefinition& normal);
+TexturePtr with_finished_uv_mapping(const TexturePtr& texture);
+/// The texture with all its layers on surface coordinates.
+TexturePtr on_surface(const TexturePtr& texture);
 /// The texture with all its layers moved: itself if it is the same everywhere.
 TexturePtr transformed(const TexturePtr& texture, const Transform& next);
 /// `top` on `below` (null: nothing), neither of them with a pattern of textures: the top alone if it is

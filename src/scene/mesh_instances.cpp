@@ -34,6 +34,16 @@ const Mesh* mesh_of(const Object& object) {
   return mesh != nullptr ? mesh->get() : nullptr;
 }
 
+/// Whether a material of a mesh asks for the surface coordinates that the mesh has.
+bool has_mapped_triangles(const Mesh& mesh, Index material, const std::vector<std::uint32_t>& flags) {
+  const auto asks = [&](Index index) {
+    return (flags[index == kNoIndex ? material : index] & object_flag::by_surface) != 0;
+  };
+  return !mesh.coordinates.empty() &&
+         std::any_of(mesh.triangles.begin(), mesh.triangles.end(),
+                     [&](const Mesh::Triangle& triangle) { return asks(triangle.material[0]); });
+}
+
 Vec3f in_world(const Transform& transform, const Vec3f& vertex) {
   return Vec3f(transform.point(Vec3(vertex)));
 }
@@ -79,9 +89,11 @@ std::uint64_t objects_of(const Scene& scene) {
 
 } // namespace
 
-MeshInstances::MeshInstances(const Scene& scene, unsigned threads) : scene_(scene) {
+MeshInstances::MeshInstances(const Scene& scene, const std::vector<std::uint32_t>& material_flags,
+                             unsigned threads)
+    : scene_(scene) {
   if (objects_of(scene) < kMinObjectsToOrder) return;
-  find(scene, threads);
+  find(scene, material_flags, threads);
   const auto count = static_cast<std::uint32_t>(instances_.size());
   const unsigned parts = std::clamp(count / kInstancesPerThread, 1u, threads);
   for_each_part(parts, [&](unsigned part) {
@@ -95,7 +107,8 @@ MeshInstances::MeshInstances(const Scene& scene, unsigned threads) : scene_(scen
   number();
 }
 
-void MeshInstances::find(const Scene& scene, unsigned threads) {
+void MeshInstances::find(const Scene& scene, const std::vector<std::uint32_t>& material_flags,
+                         unsigned threads) {
   constexpr std::uint32_t kUnknown = 0xFFFFFFFF, kNone = 0xFFFFFFFE;
   struct Uses {
     std::uint32_t count = 0;
@@ -109,6 +122,7 @@ void MeshInstances::find(const Scene& scene, unsigned threads) {
     const auto found = uses.find(mesh_of(object));
     if (found == uses.end() || found->second.count < 2) continue;
     const Mesh& mesh = *found->first;
+    if (has_mapped_triangles(mesh, object.material, material_flags)) continue;
     std::uint32_t& prototype = found->second.prototype;
     if (prototype == kUnknown) {
       prototype = kNone;

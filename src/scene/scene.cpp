@@ -129,6 +129,11 @@ void check_mesh(const Mesh& mesh, std::size_t materials, const Name& name) {
     throw InputError(name.text() + " has more entries than 32 bits can count");
   if (!all_finite(mesh.vertices) || !all_finite(mesh.normals))
     throw InputError(name.text() + " has a number that is not finite");
+  if (!mesh.coordinates.empty() && mesh.coordinates.size() != mesh.triangles.size())
+    throw InputError(name.text() + " has surface coordinates for other triangles than it has");
+  for (const Mesh::Coordinates& coordinates : mesh.coordinates)
+    for (const Vec2f& at : coordinates.corner)
+      check_finite({at.x, at.y}, name);
   if (!is_finite(mesh.inside_vector))
     throw InputError(name.text() + " has an inside vector that is not finite");
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)

@@ -105,14 +105,17 @@ std::uint32_t room_of_unbounded(std::uint32_t count) {
   return (count + kPerLine - 1) / kPerLine * kPerLine;
 }
 
-std::uint32_t light_ways_of(const Scene& scene, const TextureTables& textures) {
+/// `has_blends`: some surfaces are of several materials.
+std::uint32_t light_ways_of(const Scene& scene, const TextureTables& textures, bool has_blends) {
   std::uint32_t ways = scene.fogs.empty() && textures.rainbows.empty() ? 0 : light_way::atmosphere;
   for (const Interior& interior : scene.interiors) {
     const InteriorRecord r = make_record(interior);
     if (r.inverse_fade_distance != 0) ways |= light_way::fading | light_way::stepwise;
     if (r.caustics != 0) ways |= light_way::stepwise;
   }
-  if (textures.has_clear_side) ways |= light_way::stepwise;
+  if (textures.has_clear_side || textures.filters_by_surface) ways |= light_way::stepwise;
+  if (has_blends && textures.by_surface && textures.filters) ways |= light_way::stepwise;
+  if (textures.by_surface) ways |= light_way::by_surface;
   return ways;
 }
 
@@ -138,7 +141,7 @@ ImageHeader make_header(const Scene& scene, const LightSets& light_sets, const T
   layout.place<BlendRecord>(census.blended, header.blend_offset, header.blend_count);
   layout.place<InteriorRecord>(scene.interiors.size(), header.interior_offset, header.interior_count);
   layout.place<FinishRecord>(textures.finishes.size(), header.finish_offset, header.finish_count);
-  header.light_ways = light_ways_of(scene, textures);
+  header.light_ways = light_ways_of(scene, textures, census.blended != 0);
   layout.place<FogRecord>(scene.fogs.size(), header.fog_offset, header.fog_count);
   layout.place<RainbowRecord>(textures.rainbows.size(), header.rainbow_offset, header.rainbow_count);
   const CsgParts& csg = objects.csg();
@@ -401,9 +404,9 @@ SceneImage::SceneImage(const Scene& scene) {
 void SceneImage::assign(const Scene& scene, AlignedBlock& work, unsigned threads,
                         std::uint32_t objects_a_thread) {
   validate(scene);
-  const MeshInstances instances(scene, threads);
-  const SceneObjects objects(scene, instances, threads);
   TextureTables textures(scene);
+  const MeshInstances instances(scene, textures.object_flags, threads);
+  const SceneObjects objects(scene, textures.object_flags, instances, threads);
   const std::uint64_t all = std::uint64_t{objects.count()} + instances.census().objects;
   threads = static_cast<unsigned>(std::clamp<std::uint64_t>(all / objects_a_thread, 1, threads));
   const OrderMemory memory(work, objects.count());

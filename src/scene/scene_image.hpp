@@ -22,7 +22,7 @@
 namespace celltrace {
 
 constexpr std::uint32_t kImageMagic = 0x43545349; // "CTSI"
-constexpr std::uint32_t kImageVersion = 9;
+constexpr std::uint32_t kImageVersion = 10;
 
 /// Thread safety: as a standard container.
 class SceneImage {

@@ -69,7 +69,9 @@ bool references_are_valid(const std::byte* base, const ImageHeader& h) {
       return false;
     if (!refers_to(object.interior, h.interior_offset, h.interior_count, sizeof(InteriorRecord)))
       return false;
-    if (needs_extra(flags) && !refers_to(object.extra, h.extra_offset, h.extra_count, sizeof(ExtraRecord)))
+    const bool has_coordinates = (flags & object_flag::by_surface) != 0 && object.extra != kNoOffset;
+    if ((needs_extra(flags) || has_coordinates) &&
+        !refers_to(object.extra, h.extra_offset, h.extra_count, sizeof(ExtraRecord)))
       return false;
     const auto extra = [&] { return reinterpret_cast<const ExtraRecord*>(base + object.extra); };
     if ((flags & object_flag::kind_mask) == kPrimitiveKind<PolygonPrimitive>) {
@@ -137,9 +139,11 @@ public:
     // Materials refer to later ones only.
     for (std::uint32_t i = h_.material_count; i-- > 0;)
       if (!material_is_sound(i)) return false;
+    if (!surfaces_are_told_of()) return false;
     if (h_.sky == kNoOffset) return true;
     const std::uint32_t sky = materials_.find(h_.sky);
-    return sky != materials_.count && (materials_[sky].flags & material_flag::mapped) == 0;
+    return sky != materials_.count && (materials_[sky].flags & material_flag::mapped) == 0 &&
+           !material_asks_[sky];
   }
 
 private:
@@ -205,8 +209,20 @@ private:
   /// earlier ones only.
   void find_pigment_depths() {
     pigment_depth_.assign(h_.pattern_count, 0);
-    for (std::uint32_t i = 0; i < h_.pattern_count; ++i)
+    pattern_asks_.assign(h_.pattern_count, false);
+    for (std::uint32_t i = 0; i < h_.pattern_count; ++i) {
       pigment_depth_[i] = depth_of(i);
+      const PatternRecord& r = patterns_[i];
+      bool asks = asks_by_itself(r);
+      for (std::uint32_t entry = 0; pigment_depth_[i] > 1 && entry < r.entry_count; ++entry)
+        if (const std::uint32_t child = child_of(r, entry); child != kNoOffset)
+          asks = asks || pattern_asks_[patterns_.find(child)];
+      pattern_asks_[i] = asks;
+    }
+  }
+  /// Whether it is asked at more than points.
+  static bool asks_by_itself(const PatternRecord& r) {
+    return (r.kind_and_flags & pattern_flag::uv_mapping) != 0;
   }
   std::uint32_t depth_of(std::uint32_t pattern) const {
     const PatternRecord& r = patterns_[pattern];
@@ -233,13 +249,16 @@ private:
     const std::uint32_t pattern = patterns_.find(r.pattern);
     std::uint32_t depth = 0;
     if (pattern == patterns_.count) return false;
+    bool asks = asks_by_itself(patterns_[pattern]);
     if (r.is_mapped != 0)
       for (std::uint32_t i = 0; i < patterns_[pattern].entry_count; ++i) {
         const std::uint32_t child = normals_.find(child_of(patterns_[pattern], i));
         if (child >= normal) return false;
         depth = std::max(depth, normal_depth_[child]);
+        asks = asks || normal_asks_[child];
       }
     normal_depth_.push_back(r.is_mapped != 0 ? depth + 1 : 0);
+    normal_asks_.push_back(asks);
     return normal_depth_.back() <= kDeepestMapWalk &&
            (r.is_mapped == 0 || patterns_[pattern].entry_count != 0);
   }
@@ -247,16 +266,22 @@ private:
   bool material_is_sound(std::uint32_t material) {
     const MaterialRecord& r = materials_[material];
     const auto has = [&](std::uint32_t flag) { return (r.flags & flag) != 0; };
-    if (material_depth_.empty()) material_depth_.assign(h_.material_count, 0), layers_ = material_depth_;
+    if (material_depth_.empty()) {
+      layers_ = material_depth_ = std::vector<std::uint32_t>(h_.material_count, 0);
+      material_asks_.assign(h_.material_count, false);
+    }
     const bool mapped = has(material_flag::mapped);
+    bool asks = false;
     if (mapped || has(material_flag::patterned)) {
       const std::uint32_t pattern = patterns_.find(r.pattern);
       if (pattern == patterns_.count) return false;
       if (!mapped && pigment_depth_[pattern] == 0) return false;
+      asks = mapped ? asks_by_itself(patterns_[pattern]) : pattern_asks_[pattern];
       for (std::uint32_t i = 0; mapped && i < patterns_[pattern].entry_count; ++i) {
         const std::uint32_t child = materials_.find(child_of(patterns_[pattern], i));
         if (child == materials_.count || child <= material) return false;
         material_depth_[material] = std::max(material_depth_[material], material_depth_[child] + 1);
+        asks = asks || material_asks_[child];
       }
       if (mapped && (patterns_[pattern].entry_count == 0 || material_depth_[material] > kDeepestMapWalk))
         return false;
@@ -264,14 +289,49 @@ private:
     if (r.finish != kNoOffset &&
         !refers_to(r.finish, h_.finish_offset, h_.finish_count, sizeof(FinishRecord)))
       return false;
-    if (has(material_flag::disturbed) && normals_.find(r.normal) == normals_.count) return false;
+    if (has(material_flag::disturbed)) {
+      const std::uint32_t normal = normals_.find(r.normal);
+      if (normal == normals_.count) return false;
+      asks = asks || normal_asks_[normal];
+    }
+    material_asks_[material] = asks;
     if (!has(material_flag::layered)) return r.below == kNoOffset;
     const std::uint32_t below = materials_.find(r.below);
     if (below == materials_.count || below <= material || mapped ||
         (materials_[below].flags & material_flag::mapped) != 0)
       return false;
     layers_[material] = layers_[below] + 1;
+    material_asks_[material] = asks || material_asks_[below];
     return layers_[material] <= kMostLayers;
+  }
+
+  /// Patterns are asked at more than points only where this is found out: on objects that say so, and in
+  /// shadows of those that let light through, of scenes that say so.
+  bool surfaces_are_told_of() const {
+    const auto* objects =
+        reinterpret_cast<const ObjectRecord*>(base_ + h_.object_offset) - h_.unbounded_count;
+    const auto asks = [&](std::uint32_t offset, bool two_sided) {
+      const std::uint32_t material = materials_.find(offset);
+      return material_asks_[material] ||
+             (two_sided && material_asks_[materials_.find(materials_[material].inside)]);
+    };
+    for (std::uint32_t i = 0; i < h_.object_count + h_.unbounded_count; ++i) {
+      const ObjectRecord& object = objects[i];
+      const auto has = [&](std::uint32_t flag) { return (object.kind_and_flags & flag) != 0; };
+      bool object_asks = false;
+      if (has(object_flag::blended)) {
+        for (const std::uint32_t material :
+             reinterpret_cast<const BlendRecord*>(base_ + object.material)->material)
+          object_asks = object_asks || asks(material, false);
+      } else {
+        object_asks = asks(object.material, has(object_flag::two_sided));
+      }
+      if (!object_asks) continue;
+      const std::uint32_t ways =
+          light_way::by_surface | (has(object_flag::opaque) ? 0 : std::uint32_t{light_way::stepwise});
+      if (!has(object_flag::by_surface) || (h_.light_ways & ways) != ways) return false;
+    }
+    return true;
   }
 
   const std::byte* base_;
@@ -282,6 +342,7 @@ private:
   Table<MapEntryRecord> entries_;
   Table<NormalRecord> normals_;
   std::vector<std::uint32_t> pigment_depth_, normal_depth_, material_depth_, layers_;
+  std::vector<bool> pattern_asks_, normal_asks_, material_asks_; ///< by record, if at more than points
 };
 
 /// True if conditions end, and so do their programs.

@@ -78,8 +78,9 @@ std::vector<Vec3f> changed(const std::vector<Vec3f>& from, unsigned threads, Cha
 
 } // namespace
 
-SceneObjects::SceneObjects(const Scene& scene, const MeshInstances& instances, unsigned threads)
-    : csg_(scene), polygons_(scene) {
+SceneObjects::SceneObjects(const Scene& scene, const std::vector<std::uint32_t>& material_flags,
+                           const MeshInstances& instances, unsigned threads)
+    : material_flags_(material_flags), csg_(scene), polygons_(scene) {
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
     if (instances.contains(i) || CsgParts::contains(object)) continue;
@@ -182,6 +183,15 @@ bool SceneObjects::is_blended(const Piece& piece, const Mesh::Triangle& triangle
          material(triangle.material[0]) != material(triangle.material[2]);
 }
 
+/// Whether its record has surface coordinates.
+bool SceneObjects::is_mapped(const Piece& piece, const Mesh::Triangle& triangle) const {
+  if (piece.mesh->coordinates.empty()) return false;
+  return std::any_of(std::begin(triangle.material), std::end(triangle.material), [&](Index index) {
+    return (material_flags_[index == kNoIndex ? piece.object->material : index] & object_flag::by_surface) !=
+           0;
+  });
+}
+
 ObjectCensus SceneObjects::place(std::uint32_t begin, std::uint32_t end, PlacedObject* to) const {
   ObjectCensus census;
   while (begin < end) {
@@ -230,7 +240,7 @@ void SceneObjects::place_triangles(const Piece& piece, std::uint32_t begin, std:
     LaneAabb box = box_around(a, b, c);
     if (!has_size(box)) check_size(box_of(box));
     if (is_limited && !limit(box, piece.part->bounds)) continue;
-    census.extras += is_limited || is_smooth(triangle);
+    census.extras += is_limited || is_smooth(triangle) || is_mapped(piece, triangle);
     census.blended += is_blended(piece, triangle);
     around.grow(box);
     box.centre().store(next->centre); // over the word behind
@@ -251,7 +261,7 @@ ObjectCensus SceneObjects::count_tables(std::span<const PlacedObject> objects) c
       continue;
     }
     const Mesh::Triangle& triangle = piece.mesh->triangles[object.source - piece.first];
-    census.extras += piece.is_limited_mesh() || is_smooth(triangle);
+    census.extras += piece.is_limited_mesh() || is_smooth(triangle) || is_mapped(piece, triangle);
     census.blended += is_blended(piece, triangle);
   }
   return census;
@@ -280,7 +290,8 @@ public:
     return r;
   }
 
-  void triangle(const Piece& piece, const Mesh::Triangle& triangle, ObjectRecord& r) {
+  void triangle(const Piece& piece, std::uint32_t number, ObjectRecord& r) {
+    const Mesh::Triangle& triangle = piece.mesh->triangles[number];
     if (piece.object != object_ || triangle.material[0] != material_)
       start(*piece.object, triangle.material[0]);
     r = head_;
@@ -288,7 +299,8 @@ public:
       std::memcpy(r.geometry + 3 * v, &piece.vertices[triangle.vertex[v]], sizeof(Vec3f));
     if (objects_.is_blended(piece, triangle)) blend(r, *piece.object, triangle);
     const bool smooth = is_smooth(triangle), limited = piece.is_limited_mesh();
-    if (!smooth && !limited) return;
+    const bool mapped = objects_.is_mapped(piece, triangle);
+    if (!smooth && !limited && !mapped) return;
     ExtraRecord record{};
     if (smooth) {
       r.kind_and_flags |= object_flag::smooth;
@@ -302,6 +314,12 @@ public:
       limit(box, piece.part->bounds);
       limit_by_csg(*piece.part, box_of(box), r, record);
     }
+    if ((r.kind_and_flags & object_flag::by_surface) != 0)
+      for (int v = 0; v < 3; ++v) {
+        const Vec2f at = mapped ? piece.mesh->coordinates[number].corner[v] : Vec2f(0);
+        record.bounds[v * 2] = at.x;
+        record.bounds[v * 2 + 1] = at.y;
+      }
     set_extra(r, record);
   }
 
@@ -366,7 +384,7 @@ void SceneObjects::write(std::span<const PlacedObject> objects, const RecordTabl
     if (piece.mesh == nullptr)
       to[i] = writer.shape(placed_at(piece, number));
     else
-      writer.triangle(piece, piece.mesh->triangles[number - piece.first], to[i]);
+      writer.triangle(piece, number - piece.first, to[i]);
   }
 }
 
@@ -382,7 +400,7 @@ void SceneObjects::write_apart(std::uint32_t begin, std::uint32_t end, const std
       if (places[number] == kNoPlace) continue;
       ObjectRecord& record = to[places[number]];
       if (piece.mesh != nullptr)
-        writer.triangle(piece, piece.mesh->triangles[number - piece.first], record);
+        writer.triangle(piece, number - piece.first, record);
       else
         record = writer.shape(placed_at(piece, number));
     }

@@ -17,9 +17,11 @@ namespace celltrace {
 
 class SceneObjects {
 public:
-  /// Those that are not among `instances`. `scene` stays as it is as long as this lives. Throws InputError if
+  /// Those that are not among `instances`. `scene` and `material_flags`, what objects have that consist of a
+  /// material, stay as they are as long as this lives. Throws InputError if
   /// there are too many objects.
-  SceneObjects(const Scene& scene, const MeshInstances& instances, unsigned threads);
+  SceneObjects(const Scene& scene, const std::vector<std::uint32_t>& material_flags,
+               const MeshInstances& instances, unsigned threads);
 
   /// All that have bounds, those that cannot be hit included: spheres without a radius and triangles without
   /// an area.
@@ -86,7 +88,9 @@ private:
   /// `near`: a piece that is likely to be it, or null.
   const Piece& piece_of(std::uint32_t number, const Piece* near) const;
   bool is_blended(const Piece& piece, const Mesh::Triangle& triangle) const;
+  bool is_mapped(const Piece& piece, const Mesh::Triangle& triangle) const;
 
+  const std::vector<std::uint32_t>& material_flags_;
   CsgParts csg_;
   PolygonTable polygons_;
   std::vector<Piece> pieces_;

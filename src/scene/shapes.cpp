@@ -91,6 +91,10 @@ PlacedShape place(const Object& object, const Sphere& sphere) {
     shape.kind_and_flags = kPrimitiveKind<SpherePrimitive>;
     copy(object.transform.point(sphere.centre), shape.geometry);
     shape.geometry[3] = static_cast<float>(radius * scale);
+    const Vec3(&axes)[4] = object.transform.rows;
+    copy(axes[0] / scale, shape.geometry + 4);
+    copy(axes[1] / scale, shape.geometry + 7);
+    shape.geometry[10] = glm::dot(glm::cross(axes[0], axes[1]), axes[2]) > 0 ? 1.0f : -1.0f;
     return shape;
   }
   PlacedShape shape = in_own_space<EllipsoidPrimitive>(object, Transform());
@@ -264,8 +268,11 @@ PlacedShape place(const Object& object, const Quadric& quadric) {
     own.rows[next++] = axis.direction;
   own.rows[3] = middle;
   const int sign = constant > 0 ? 1 : constant < 0 ? -1 : 0;
-  if (factors[0] + factors[1] + factors[2] == 3 && sign < 0)
-    return in_own_space<EllipsoidPrimitive>(object, own);
+  if (factors[0] + factors[1] + factors[2] == 3 && sign < 0) {
+    PlacedShape ellipsoid = in_own_space<EllipsoidPrimitive>(object, own);
+    ellipsoid.kind_and_flags |= object_flag::flat_map;
+    return ellipsoid;
+  }
   PlacedShape shape = in_own_space<QuadricPrimitive>(object, own);
   shape.parameters[0] = QuadricPrimitive::code(factors[0], factors[1], factors[2], has_slope, sign);
   return shape;

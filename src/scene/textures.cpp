@@ -25,7 +25,8 @@ static_assert(kDeepestMap == kDeepestMapWalk);
 
 class Check {
 public:
-  explicit Check(const std::string& name) : name_(name) {}
+  /// `has_surface`: of something in the scene.
+  explicit Check(const std::string& name, bool has_surface = true) : name_(name), has_surface_(has_surface) {}
 
   void material(const Material& m, int depth, int layers) {
     if (m.inside) {
@@ -116,6 +117,8 @@ private:
     if (w.orientation == Vec3(0)) fail("has a warp without orientation");
   }
   void pattern(const Pattern& p) const {
+    if (p.uv_mapping && !has_surface_) fail("has a pattern on a surface, but no surface");
+    space_step(p.normal_space);
     turbulence(p.turbulence);
     numbers({p.wave_exponent, p.frequency, p.phase});
     if (p.noise_generator < 0 || p.noise_generator > 3) fail("has a noise generator that is not 0 to 3");
@@ -125,7 +128,8 @@ private:
       numbers({number});
   }
 
-  const std::string& name_;
+  const std::string name_;
+  bool has_surface_;
   std::map<const void*, int> seen_; ///< maps, with the depth at which they were looked at
 };
 
@@ -209,29 +213,29 @@ bool is_moved_by_turbulence(const pattern::Kind& kind) {
   return !std::holds_alternative<pattern::Marble>(kind) && !std::holds_alternative<pattern::Wood>(kind);
 }
 
-/// From the pattern's own space to the scene, for a pattern inside maps whose patterns are in `outer`.
-std::vector<SpaceStep> steps_of(const Pattern& pattern, const std::vector<SpaceStep>& outer) {
-  std::vector<SpaceStep> all = pattern.space;
-  all.insert(all.end(), outer.begin(), outer.end());
+/// From a pattern's space to the scene, without displacements, as normals go through it.
+Transform whole_map(const PatternSpace& space) {
+  Transform map;
+  for (const SpaceStep& step : space.steps)
+    if (const auto* transform = std::get_if<Transform>(&step)) map = map.then(*transform);
+  return map.then(space.of_normals);
+}
+
+/// From the pattern's own space to the scene or the surface, for a pattern inside maps whose patterns are in
+/// `outer`.
+PatternSpace space_of(const Pattern& pattern, const PatternSpace& outer) {
+  if (pattern.uv_mapping) return {pattern.space, true, pattern.normal_space.then(whole_map(outer))};
+  PatternSpace all = outer;
+  all.steps.insert(all.steps.begin(), pattern.space.begin(), pattern.space.end());
   return all;
 }
 
 /// What the patterns inside a map are in, whose pattern is in `outer` itself.
-std::vector<SpaceStep> space_inside(const Pattern& pattern, const std::vector<SpaceStep>& outer) {
-  std::vector<SpaceStep> inside;
+PatternSpace space_inside(const Pattern& pattern, const PatternSpace& outer) {
+  PatternSpace inside = space_of(pattern, outer);
   if (is_moved_by_turbulence(pattern.kind) && !is_still(pattern.turbulence))
-    inside.emplace_back(pattern.turbulence);
-  const std::vector<SpaceStep> all = steps_of(pattern, outer);
-  inside.insert(inside.end(), all.begin(), all.end());
+    inside.steps.insert(inside.steps.begin(), pattern.turbulence);
   return inside;
-}
-
-/// From the scene through all steps, without displacements.
-Transform whole_map(const std::vector<SpaceStep>& steps) {
-  Transform map;
-  for (auto step = steps.rbegin(); step != steps.rend(); ++step)
-    if (const auto* transform = std::get_if<Transform>(&*step)) map = map.then(transform->inverse());
-  return map;
 }
 
 template <class Record> void to_offset(std::uint32_t& index, std::uint32_t table) {
@@ -242,6 +246,11 @@ template <class Record> void to_offset(std::uint32_t& index, std::uint32_t table
 float inverse_width(double from, double to) {
   const float inverse = to > from ? static_cast<float>(1 / (to - from)) : 0;
   return std::isfinite(inverse) ? inverse : 0;
+}
+
+/// Whether points do not tell a pattern's values.
+bool asks_for_surface(const PatternRecord& r) {
+  return (r.kind_and_flags & pattern_flag::uv_mapping) != 0;
 }
 
 /// The sky as a texture of layers; there is one.
@@ -270,7 +279,7 @@ void validate_texture(const Material& material, const std::string& name) {
 void validate_sky(const Scene& scene) {
   if (scene.sky_sphere.size() > kMostLayers)
     throw InputError("the sky sphere has more than " + std::to_string(kMostLayers) + " layers");
-  validate_texture(sky_of(scene), "the sky sphere");
+  Check("the sky sphere", false).material(sky_of(scene), 0, 1);
 }
 
 void TextureTables::Traits::add(const Traits& other) {
@@ -278,6 +287,7 @@ void TextureTables::Traits::add(const Traits& other) {
   textured = textured || other.textured;
   disturbed = disturbed || other.disturbed;
   lit_behind = lit_behind || other.lit_behind;
+  by_surface = by_surface || other.by_surface;
 }
 
 TextureTables::TextureTables(const Scene& scene) : scene_(scene) {
@@ -288,7 +298,11 @@ TextureTables::TextureTables(const Scene& scene) : scene_(scene) {
     object_flags.push_back(
         (traits.opaque ? object_flag::opaque : 0) | (traits.textured ? object_flag::textured : 0) |
         (traits.disturbed ? object_flag::disturbed : 0) | (traits.two_sided ? object_flag::two_sided : 0) |
-        (traits.lit_behind ? object_flag::lit_behind : 0));
+        (traits.lit_behind ? object_flag::lit_behind : 0) |
+        (traits.by_surface ? object_flag::by_surface : 0));
+    by_surface = by_surface || traits.by_surface;
+    filters = filters || !traits.opaque;
+    filters_by_surface = filters_by_surface || (traits.by_surface && !traits.opaque);
   }
   sky = scene.sky_sphere.empty() ? kNoOffset : add_material(sky_of(scene), {}).index;
   for (const Rainbow& rainbow : scene.rainbows)
@@ -296,7 +310,7 @@ TextureTables::TextureTables(const Scene& scene) : scene_(scene) {
 }
 
 TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Material& material,
-                                                   const Space& outer) {
+                                                   const PatternSpace& outer) {
   MaterialRecord r{};
   r.pattern = r.normal = r.below = r.finish = r.inside = kNoOffset;
   Traits traits;
@@ -331,8 +345,10 @@ TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Ma
     }
     if (material.normal) {
       r.flags |= material_flag::disturbed;
-      r.normal = add_normal(*material.normal, outer);
+      const Known normal = add_normal(*material.normal, outer);
+      r.normal = normal.index;
       traits.disturbed = traits.textured = true;
+      traits.by_surface = traits.by_surface || normal.traits.by_surface;
     }
     if (material.below) {
       const Known below = add_material(*material.below, outer);
@@ -341,6 +357,7 @@ TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Ma
       traits.opaque = traits.opaque || below.traits.opaque;
       traits.disturbed = traits.disturbed || below.traits.disturbed;
       traits.lit_behind = traits.lit_behind || below.traits.lit_behind;
+      traits.by_surface = traits.by_surface || below.traits.by_surface;
       traits.textured = true;
     }
   }
@@ -354,7 +371,7 @@ TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Ma
   return traits;
 }
 
-TextureTables::Known TextureTables::add_material(const Material& material, const Space& outer) {
+TextureTables::Known TextureTables::add_material(const Material& material, const PatternSpace& outer) {
   const auto index = static_cast<std::uint32_t>(materials.size());
   make_room(materials, 1, "layers");
   materials.emplace_back();
@@ -374,11 +391,11 @@ TextureTables::Traits TextureTables::fill(MapEntryRecord& entry, const Pigment& 
 
 template <class T>
 TextureTables::Known TextureTables::add_map(const std::shared_ptr<const PatternMap<T>>& map,
-                                            const Space& outer) {
-  const bool is_shared = outer.empty();
+                                            const PatternSpace& outer) {
+  const bool is_shared = outer.is_scene() || (std::is_same_v<T, Pigment> && map->pattern.uv_mapping);
   if (is_shared)
     if (const auto known = known_.find(map.get()); known != known_.end()) return known->second;
-  const Space inside = space_inside(map->pattern, outer);
+  const PatternSpace inside = space_inside(map->pattern, outer);
   const std::size_t count = map->entries.size();
   make_room(entries, count, "entries of maps");
   const auto first = static_cast<std::uint32_t>(entries.size());
@@ -407,7 +424,9 @@ TextureTables::Known TextureTables::add_map(const std::shared_ptr<const PatternM
       traits.add(own);
     } else if constexpr (std::is_same_v<T, Normal>) {
       children_[first + i] = Child::normal;
-      entry.child = add_normal(from.value, inside);
+      const Known normal = add_normal(from.value, inside);
+      entry.child = normal.index;
+      traits.add(normal.traits);
     } else {
       children_[first + i] = Child::material;
       const Known material = add_material(from.value, inside);
@@ -419,15 +438,19 @@ TextureTables::Known TextureTables::add_map(const std::shared_ptr<const PatternM
   const std::uint32_t pattern = add_pattern(map->pattern, outer, map->is_average, count);
   patterns[pattern].entries = first;
   if (is_nested) patterns[pattern].kind_and_flags |= pattern_flag::nested;
+  traits.by_surface = traits.by_surface || asks_for_surface(patterns[pattern]);
   if (is_shared) known_[map.get()] = {pattern, traits};
   return {pattern, traits};
 }
 
-std::uint32_t TextureTables::add_normal(const Normal& normal, const Space& outer) {
+TextureTables::Known TextureTables::add_normal(const Normal& normal, const PatternSpace& outer) {
   NormalRecord r{};
+  Traits traits;
   if (normal.map) {
+    const Known map = add_map(normal.map, outer);
     r.is_mapped = 1;
-    r.pattern = add_map(normal.map, outer).index;
+    r.pattern = map.index;
+    traits = map.traits;
   } else {
     const bool has_slopes =
         !normal.slopes.empty() &&
@@ -438,14 +461,16 @@ std::uint32_t TextureTables::add_normal(const Normal& normal, const Space& outer
     const auto* facets = std::get_if<pattern::Facets>(&normal.pattern.kind);
     r.amount = static_cast<float>(facets ? facets->coords : normal.amount);
     r.accuracy = static_cast<float>(normal.accuracy);
-    const Transform map = whole_map(steps_of(normal.pattern, outer));
+    const Transform map = whole_map(space_of(normal.pattern, outer)).inverse();
     for (int row = 0; row < 3; ++row)
       for (int column = 0; column < 3; ++column)
         r.linear[row * 3 + column] = static_cast<float>(map.rows[column][row]);
+    traits.by_surface = asks_for_surface(patterns[r.pattern]);
   }
+  traits.disturbed = traits.textured = true;
   make_room(normals, 1, "normals");
   normals.push_back(r);
-  return static_cast<std::uint32_t>(normals.size() - 1);
+  return {static_cast<std::uint32_t>(normals.size() - 1), traits};
 }
 
 std::uint32_t TextureTables::add_slopes(const std::vector<SlopePoint>& slopes) {
@@ -484,7 +509,7 @@ void TextureTables::add_rainbow(const Rainbow& rainbow) {
   rainbows.push_back(r);
 }
 
-std::uint32_t TextureTables::add_pattern(const Pattern& pattern, const Space& outer, bool is_average,
+std::uint32_t TextureTables::add_pattern(const Pattern& pattern, const PatternSpace& outer, bool is_average,
                                          std::size_t entry_count) {
   PatternRecord r{};
   r.entries = r.steps = 0;
@@ -517,7 +542,9 @@ std::uint32_t TextureTables::add_pattern(const Pattern& pattern, const Space& ou
   r.phase = static_cast<float>(pattern.phase);
   r.wave_exponent = static_cast<float>(pattern.wave_exponent);
   r.turbulence = words_of(pattern.turbulence);
-  add_steps(r, steps_of(pattern, outer));
+  const PatternSpace space = space_of(pattern, outer);
+  if (space.uv_mapping) r.kind_and_flags |= pattern_flag::uv_mapping;
+  add_steps(r, space.steps);
   make_room(patterns, 1, "patterns");
   patterns.push_back(r);
   return static_cast<std::uint32_t>(patterns.size() - 1);
@@ -531,7 +558,7 @@ void TextureTables::add_table(PatternTable table) {
 }
 
 /// What is met first is written last.
-void TextureTables::add_steps(PatternRecord& r, const Space& space) {
+void TextureTables::add_steps(PatternRecord& r, const std::vector<SpaceStep>& space) {
   const auto first_step = static_cast<std::uint32_t>(steps.size());
   r.steps = first_step;
   Transform map;

@@ -22,6 +22,16 @@ void validate_sky(const Scene& scene);
 
 kernel::TurbulenceWords words_of(const Turbulence& turbulence);
 
+/// Of the maps around a pattern: what comes between its own space and the scene, or the surface. In no map
+/// there is nothing.
+struct PatternSpace {
+  std::vector<SpaceStep> steps;
+  bool uv_mapping = false;
+  Transform of_normals; ///< with uv_mapping: from there to the scene
+
+  bool is_scene() const { return steps.empty() && !uv_mapping; }
+};
+
 /// References among the tables are indices until relocate() makes offsets of them; kNoOffset stays.
 class TextureTables {
 public:
@@ -38,20 +48,24 @@ public:
   std::vector<kernel::MapEntryRecord> entries;
   std::vector<kernel::NormalRecord> normals;
   std::vector<kernel::FinishRecord> finishes;
-  bool has_clear_side = false; ///< some of what looks different from inside lets light through
+  bool has_clear_side = false;     ///< some of what looks different from inside lets light through
+  bool by_surface = false;         ///< some materials are object_flag::by_surface,
+  bool filters = false;            ///< some let light through,
+  bool filters_by_surface = false; ///< and some do both
   std::vector<kernel::FeatureRecord> features;   ///< these three only if a pattern or a warp reads them
   std::vector<kernel::GradientRecord> gradients; ///< never without the features
   std::vector<kernel::WaveRecord> waves;
   std::vector<kernel::RainbowRecord> rainbows; ///< those that are visible
   std::uint32_t sky;                           ///< index of the uppermost layer's material, or kNoOffset
   /// By material of the scene: what an object has that consists of it, of object_flag's opaque, mapped,
-  /// disturbed.
+  /// disturbed, two_sided, by_surface.
   std::vector<std::uint32_t> object_flags;
 
 private:
   /// What the textures of a tree have in common.
   struct Traits {
-    bool opaque = true, textured = false, disturbed = false, two_sided = false, lit_behind = false;
+    bool opaque = true, textured = false, disturbed = false, two_sided = false, lit_behind = false,
+         by_surface = false;
     void add(const Traits& other);
   };
   struct Known {
@@ -60,17 +74,15 @@ private:
   };
   enum class Child : std::uint8_t { pattern, normal, material, none };
 
-  /// Of the maps around a pattern: what comes between its own space and the scene. In no map it is empty.
-  using Space = std::vector<SpaceStep>;
-
-  std::uint32_t add_pattern(const Pattern& pattern, const Space& outer, bool is_average,
+  std::uint32_t add_pattern(const Pattern& pattern, const PatternSpace& outer, bool is_average,
                             std::size_t entry_count);
-  Traits fill_material(std::uint32_t index, const Material& material, const Space& outer);
-  template <class T> Known add_map(const std::shared_ptr<const PatternMap<T>>& map, const Space& outer);
-  Known add_material(const Material& material, const Space& outer);
-  std::uint32_t add_normal(const Normal& normal, const Space& outer);
+  Traits fill_material(std::uint32_t index, const Material& material, const PatternSpace& outer);
+  template <class T>
+  Known add_map(const std::shared_ptr<const PatternMap<T>>& map, const PatternSpace& outer);
+  Known add_material(const Material& material, const PatternSpace& outer);
+  Known add_normal(const Normal& normal, const PatternSpace& outer);
   void add_table(PatternTable table);
-  void add_steps(kernel::PatternRecord& r, const Space& space);
+  void add_steps(kernel::PatternRecord& r, const std::vector<SpaceStep>& space);
   std::uint32_t add_slopes(const std::vector<SlopePoint>& slopes);
   void add_rainbow(const Rainbow& rainbow);
   Traits fill(kernel::MapEntryRecord& entry, const Pigment& pigment);

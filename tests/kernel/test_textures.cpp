@@ -81,11 +81,11 @@ unsigned check_pigment(Textures& textures, const Pigment& pigment, const VectorL
                        std::uint32_t lanes = kAll) {
   using Numbers = std::array<double, 5>;
   const auto numbers_at = [&](const Vec3& p) {
-    const Pigment at = reference::pigment_at(pigment, p);
+    const Pigment at = reference::pigment_at(pigment, {p});
     return Numbers{at.rgb.r, at.rgb.g, at.rgb.b, at.filter, at.transmit};
   };
   PigmentLanes<Simd> at;
-  pigment_at(textures.access(), textures.material().pattern, points.load<Simd>(), lanes, at);
+  pigment_at(textures.access(), textures.material().pattern, {points.load<Simd>()}, lanes, at);
   const VectorLanes rgb = lanes_of(at.rgb);
   const FloatLanes filter = lanes_of(at.filter), transmit = lanes_of(at.transmit);
   unsigned clear = 0;
@@ -465,7 +465,7 @@ TEST_CASE("Turbulence displaces points as POV-Ray's") {
   const auto in_space_of = [](const Pattern& pattern, const VectorLanes& from) {
     Textures textures(pattern);
     return lanes_of(to_pattern_space<TextureStage::colours>(
-        textures.access(), PatternRecord(textures.pattern()), from.load<Simd>(), 0xFFFF));
+        textures.access(), PatternRecord(textures.pattern()), {from.load<Simd>()}, 0xFFFF));
   };
   const VectorLanes displaced = in_space_of(own, points);
   const VectorLanes stepped =
@@ -547,7 +547,7 @@ TEST_CASE("A map before its first entry, between, at equal positions, and after 
   PigmentLanes<Simd> at;
   const auto red = [&](double value) {
     const VectorLanes points = points_of([&](unsigned) { return Vec3(value, 0, 0); });
-    pigment_at(textures.access(), textures.material().pattern, points.load<Simd>(), kAll, at);
+    pigment_at(textures.access(), textures.material().pattern, {points.load<Simd>()}, kAll, at);
     return lanes_of(at.rgb).x.lane[5];
   };
   CHECK(red(0) == Approx(0.1));
@@ -567,7 +567,7 @@ TEST_CASE("A map whose last position comes twice has the very last entry there")
   Textures textures(pigment);
   PigmentLanes<Simd> at;
   const VectorLanes points = points_of([](unsigned l) { return Vec3(l % 2 == 0 ? 0.5 : 0.25, 0, 0); });
-  pigment_at(textures.access(), textures.material().pattern, points.load<Simd>(), kAll, at);
+  pigment_at(textures.access(), textures.material().pattern, {points.load<Simd>()}, kAll, at);
   CHECK(lanes_of(at.rgb).x.lane[0] == 1);
   CHECK(lanes_of(at.rgb).x.lane[1] == Approx(0.125));
 }
@@ -599,7 +599,7 @@ TEST_CASE("A walk through maps has lanes that were asked for, and weights that a
     Textures textures(pigment);
     const VectorLanes points = points_of([&](unsigned) { return random.point(5); });
     const std::uint32_t lanes = random.word() & kAll;
-    MapWalk<DirectSpu, TextureStage::colours> walk(textures.access(), points.load<Simd>());
+    MapWalk<DirectSpu, TextureStage::colours> walk(textures.access(), {points.load<Simd>()});
     walk.enter(textures.material().pattern, F(1.0f), lanes);
     F sum(0.0f), weight;
     MapEntryRecord leaf;
@@ -628,7 +628,7 @@ TEST_CASE("A nested map moves with the map around it, its turbulence included") 
   Textures textures(pigment);
   const VectorLanes points = points_of([](unsigned l) { return kMeasured[l].point + Vec3(0, 0.25, 0); });
   PigmentLanes<Simd> at;
-  pigment_at(textures.access(), textures.material().pattern, points.load<Simd>(), kAll, at);
+  pigment_at(textures.access(), textures.material().pattern, {points.load<Simd>()}, kAll, at);
   const VectorLanes rgb = lanes_of(at.rgb);
   for (unsigned l = 0; l < kSimdLanes; ++l) {
     if (glm::length(kMeasured[l].point) > 200) continue; // single precision has few digits left
@@ -664,7 +664,7 @@ VectorLanes disturbed_by(const Normal& normal, const VectorLanes& points, const 
   material.normal = std::make_shared<const Normal>(normal);
   Textures textures(material);
   Vec unit = units.load<Simd>();
-  disturb_normal(textures.access(), textures.material().normal, points.load<Simd>(), lanes, unit);
+  disturb_normal(textures.access(), textures.material().normal, {points.load<Simd>()}, lanes, unit);
   return lanes_of(unit);
 }
 
@@ -774,7 +774,7 @@ TEST_CASE("Layers let through the product, maps of textures the blend") {
     const auto transmitted = [&](const Material& material) {
       Textures textures(material);
       Vec through;
-      transmittance_at(textures.access(), textures.header().material_offset, points.load<Simd>(), kAll,
+      transmittance_at(textures.access(), textures.header().material_offset, {points.load<Simd>()}, kAll,
                        through);
       return lanes_of(through);
     };
@@ -784,7 +784,7 @@ TEST_CASE("Layers let through the product, maps of textures the blend") {
       Vec3 product[2] = {Vec3(1), Vec3(1)};
       for (int i = 0; i < 2; ++i)
         for (const Pigment& pigment : pigments[i])
-          product[i] *= reference::filter_colour(reference::pigment_at(pigment, p));
+          product[i] *= reference::filter_colour(reference::pigment_at(pigment, {p}));
       REQUIRE(glm::length(test::at(by_layers, l) - product[0]) < 1e-5);
       REQUIRE(glm::length(test::at(by_map, l) - (product[0] * (1 - p.x) + product[1] * p.x)) < 1e-5);
     }

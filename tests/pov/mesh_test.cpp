@@ -45,6 +45,25 @@ TEST_CASE("a mesh keeps its triangles' own textures") {
   CHECK(scene.materials[scene.objects[0].material].pigment.rgb.x == 0.5);
 }
 
+TEST_CASE("surface coordinates of triangles") {
+  const Scene scene =
+      parse("mesh { triangle { 0, x, y } triangle { 0, x, x uv_vectors <9, 9>, <9, 9>, <9, 9> } "
+            "triangle { 0, x, y uv_vectors <0.5, 1>, <2, 3>, <4, 5> } smooth_triangle { 0, y, x, z, y, z } } "
+            "mesh { triangle { 0, x, y } } triangle { <1, 2, 0>, x, y translate 2*x pigment { uv_mapping "
+            "checker } }");
+  const Mesh& mesh = mesh_of(scene);
+  REQUIRE(mesh.triangles.size() == 3);
+  REQUIRE(mesh.coordinates.size() == 3);
+  CHECK(mesh.coordinates[0].corner[2] == Vec2f(0, 0)); // without, they are 0
+  CHECK(mesh.coordinates[1].corner[0] == Vec2f(0.5, 1));
+  CHECK(mesh.coordinates[1].corner[2] == Vec2f(4, 5));
+  CHECK(mesh.coordinates[2].corner[1] == Vec2f(0, 0));
+  CHECK(mesh_of(scene, 1).coordinates.empty());
+  REQUIRE(mesh_of(scene, 2).coordinates.size() == 1); // alone it has those of all other shapes
+  CHECK(mesh_of(scene, 2).coordinates[0].corner[0] == Vec2f(3, 2));
+  CHECK_THAT(error_line("triangle { 0, x, y uv_vectors 0, x, y }"), Catch::Contains("uv_vectors"));
+}
+
 TEST_CASE("instances share their mesh") {
   const Scene scene =
       parse("#declare M = mesh { triangle { 0, x, y } } #for (I, 1, 5) object { M translate I*x } #end "
@@ -100,6 +119,30 @@ TEST_CASE("mesh2") {
     CHECK(mesh_of(scene).inside_vector == Vec3(0, 0, 1));
     CHECK(scene.objects[0].no_shadow);
   }
+}
+
+TEST_CASE("surface coordinates of mesh2") {
+  const std::string faces = "face_indices { 3, <0, 1, 2>, <0, 1, 1>, <0, 2, 3> } ";
+  const auto coordinates = [&](const std::string& lists) {
+    return mesh_of(parse(kSquare + faces + lists + "}")).coordinates;
+  };
+  CHECK(coordinates("").empty());
+  const auto by_vertex = coordinates("uv_vectors { 4, 0, <1, 0>, <1, 2>, <0, 2> } ");
+  REQUIRE(by_vertex.size() == 2); // the second face is none
+  CHECK(by_vertex[0].corner[2] == Vec2f(1, 2));
+  CHECK(by_vertex[1].corner[2] == Vec2f(0, 2));
+  const auto by_index = coordinates("uv_indices { 3, <2, 1, 0>, <0, 0, 0>, <1, 1, 2> } "
+                                    "uv_vectors { 3, 0, <1, 0>, <1, 2> } ");
+  REQUIRE(by_index.size() == 2);
+  CHECK(by_index[0].corner[0] == Vec2f(1, 2));
+  CHECK(by_index[1].corner[1] == Vec2f(1, 0));
+  const auto error = [&](const std::string& lists) { return error_line(kSquare + faces + lists + "}"); };
+  CHECK_THAT(error("uv_vectors { 2, 0, x } "), Catch::Contains("needs uv_indices"));
+  CHECK_THAT(error("uv_vectors { 2, 0, x } uv_indices { 1, <0, 0, 1> } "),
+             Catch::Contains("1 uv_indices for 3 faces"));
+  CHECK_THAT(error("uv_vectors { 1, x } uv_indices { 3, 0, 0, <0, 0, 1> } "),
+             Catch::Contains("no uv vector 1"));
+  CHECK_THAT(error("uv_vectors { 4, 0, x, y, 1e300 } "), Catch::Contains("too large"));
 }
 
 TEST_CASE("a mesh has the last of its inside vectors") {

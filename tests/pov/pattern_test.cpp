@@ -486,6 +486,99 @@ TEST_CASE("all that a texture has moves together") {
         std::string::npos);
 }
 
+TEST_CASE("pigments, normals and textures on surface coordinates") {
+  const auto pattern = [](const std::string& modifiers, const std::string& before = "") {
+    return material(modifiers, before).pigment.map->pattern;
+  };
+  const std::string declared = "#declare P = pigment { uv_mapping gradient x scale 2 } ";
+  for (const std::string items :
+       {"pigment { uv_mapping gradient x scale 2 } scale 3", "pigment { P scale 5 } scale 3",
+        "pigment { P scale 5 turbulence 1 frequency 3 }", "pigment { uv_mapping P scale 5 }",
+        "texture { pigment { P } scale 3 }", "texture { uv_mapping pigment { gradient x } scale 2 } scale 3",
+        "texture { T scale 3 }", "texture { uv_mapping T scale 3 }",
+        "uv_mapping pigment { gradient x scale 2 } scale 3",
+        "uv_mapping texture { pigment { gradient x } scale 2 } scale 3",
+        "uv_mapping texture { T } scale 3"}) {
+    INFO(items);
+    const Pattern found = pattern(items, declared + "#declare T = texture { uv_mapping pigment { P } }");
+    CHECK(found.uv_mapping);
+    CHECK(found.turbulence.amount == Vec3(0));
+    CHECK(found.frequency == 1);
+    REQUIRE(found.space.size() == 1);
+    CHECK(transform(found.space).rows[0].x == 2);
+  }
+  // Another pattern is none of that.
+  const Pattern other = pattern("pigment { P checker }", declared);
+  CHECK_FALSE(other.uv_mapping);
+  CHECK(other.space.empty());
+  CHECK_FALSE(material("pigment { uv_mapping rgb x }").pigment.map);
+  // Everything in a map on the surface is there; what is there by itself keeps its place.
+  const Material mapped =
+      material("texture { uv_mapping gradient y texture_map { [0 pigment { P }] [1 pigment { gradient x }] } "
+               "scale 4 } scale 3",
+               declared);
+  CHECK(mapped.map->pattern.uv_mapping);
+  CHECK(transform(mapped.map->pattern.space).rows[0].x == 4);
+  CHECK(mapped.map->entries[0].value.pigment.map->pattern.uv_mapping);
+  CHECK_FALSE(mapped.map->entries[1].value.pigment.map->pattern.uv_mapping);
+  const Material both = material("uv_mapping pigment { gradient x } normal { bumps scale 2 } scale 3");
+  CHECK(both.normal->pattern.uv_mapping);
+  CHECK(transform(both.normal->pattern.space).rows[0].x == 2);
+  CHECK(material("normal { uv_mapping N 2 }", "#declare N = normal { bumps }").normal->amount == 2);
+  CHECK(material("normal { uv_mapping bumps }").normal->pattern.uv_mapping);
+  // What moves a texture that is on the surface turns its normals.
+  const auto turned = [](const std::string& modifiers) {
+    return material(modifiers).normal->pattern.normal_space.rows[0].x;
+  };
+  const std::string rough = "pigment { rgb 1 } normal { bumps scale 2 } ";
+  CHECK(turned("texture { uv_mapping " + rough + "scale 3 } scale 4") == 4);
+  CHECK(turned("texture { " + rough + "scale 3 } scale 4") == 1);
+  CHECK(turned("uv_mapping texture { " + rough + "scale 3 } scale 4") == 1);
+  CHECK(turned("texture { pigment { rgb 1 } normal { uv_mapping bumps scale 2 } scale 3 } scale 4") == 1);
+  const Material layers = material("uv_mapping texture { pigment { checker } } texture { pigment { bozo "
+                                   "color_map { [0 rgbt 1] [1 rgbt 1] } } }");
+  CHECK(layers.pigment.map->pattern.uv_mapping);
+  CHECK(layers.below->pigment.map->pattern.uv_mapping);
+}
+
+TEST_CASE("parts of unions on surface coordinates") {
+  const auto space = [](const std::string& object) {
+    const Scene scene = parse(object);
+    const Pattern& pattern = scene.materials.at(scene.objects.at(0).material).pigment.map->pattern;
+    CHECK(pattern.uv_mapping);
+    return pattern.space.empty() ? 1 : transform(pattern.space).rows[0].x;
+  };
+  CHECK(space("union { sphere { 0, 1 pigment { checker } } uv_mapping scale 2 }") == 2);
+  CHECK(space("union { sphere { 0, 1 uv_mapping pigment { checker } } scale 2 }") == 1);
+  CHECK(space("union { sphere { 0, 1 uv_mapping } pigment { checker } scale 2 }") == 2);
+  CHECK(space("union { sphere { 0, 1 } uv_mapping pigment { checker } scale 2 }") == 1);
+  const std::string mesh =
+      "#declare T = texture { pigment { checker } } mesh { triangle { 0, x, y texture { T } } ";
+  const auto of_mesh = [&](const std::string& modifiers) {
+    const Scene scene = parse(mesh + modifiers + " }");
+    const auto& triangles = std::get<std::shared_ptr<const Mesh>>(scene.objects.at(0).shape)->triangles;
+    const Pattern& pattern = scene.materials.at(triangles.at(0).material[0]).pigment.map->pattern;
+    CHECK(pattern.uv_mapping);
+    return pattern.space.empty() ? 1 : transform(pattern.space).rows[0].x;
+  };
+  CHECK(of_mesh("uv_mapping scale 2") == 1);
+  CHECK(of_mesh("scale 2 uv_mapping") == 2);
+}
+
+TEST_CASE("where surface coordinates cannot be") {
+  CHECK_THAT(error_line("sphere { 0, 1 pigment { checker } uv_mapping }"), Catch::Contains("in front of"));
+  CHECK_THAT(error_line("sphere { 0, 1 texture { uv_mapping pigment { checker } } finish { phong 1 } }"),
+             Catch::Contains("uv_mapping"));
+  CHECK_THAT(
+      error_line(
+          "sphere { 0, 1 texture { pigment { checker } } texture { uv_mapping pigment { checker } } }"),
+      Catch::Contains("layers"));
+  CHECK_THAT(error_line("sky_sphere { pigment { uv_mapping checker } }"), Catch::Contains("no surface"));
+  CHECK_THAT(
+      error_line("sky_sphere { pigment { checker pigment { uv_mapping checker }, pigment { rgb 1 } } }"),
+      Catch::Contains("no surface"));
+}
+
 TEST_CASE("textures that are the same everywhere are shared") {
   const auto materials = [](const std::string& texture) {
     return parse("#declare S = sphere { 0, 1 " + texture +
@@ -556,17 +649,12 @@ TEST_CASE("what patterns lack is an error where it is used") {
     CHECK(error_line(declared).empty());
     return error_line(declared + "sphere { 0, 1 pigment { P } }");
   };
-  CHECK(refused("uv_mapping checker") == "scene.pov:1:24: error: 'uv_mapping' is not supported yet");
-  CHECK(refused("uv_mapping rgb 1").empty());
   CHECK(refused("tiling 20 scale 2") == "scene.pov:1:24: error: 'tiling' is not supported yet");
   CHECK(refused("image_map { png \"x\" }") == "scene.pov:1:24: error: 'image_map' is not supported yet");
   CHECK(refused("object { sphere { 0, 1 } rgb 1 rgb 0 }") ==
         "scene.pov:1:24: error: an object pattern is not supported yet");
   CHECK(refused("gradient x pigment_map { [0 rgb 1] [1 tiling 3] }") ==
         "scene.pov:1:62: error: 'tiling' is not supported yet");
-  CHECK(error_line("sphere { 0, 1 pigment { checker } uv_mapping }") ==
-        "scene.pov:1:35: error: 'uv_mapping' is not supported yet");
-  CHECK(error_line("sphere { 0, 1 pigment { rgb 1 } uv_mapping }").empty());
   CHECK(error_line("cubic { <1> }") == "scene.pov:1:1: error: 'cubic' is not supported yet");
   CHECK(error_line("camera { normal { bumps 1 } } sphere { 0, 1 }") ==
         "scene.pov:1:10: error: 'normal' is not supported yet");

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace celltrace::reference {
@@ -41,6 +43,11 @@ Shape triangle_shape(const ObjectPtr& object, const Mesh& mesh, const Mesh::Tria
     shape.vertex[i] = object->transform.point(Vec3(mesh.vertices[triangle.vertex[i]]));
     if (shape.smooth) shape.normal[i] = object->transform.normal(glm::normalize(Vec3(mesh.normals[n[i]])));
     shape.material[i] = triangle.material[i] == kNoIndex ? object->material : triangle.material[i];
+    if (!mesh.coordinates.empty()) {
+      const auto number = static_cast<std::size_t>(&triangle - mesh.triangles.data());
+      const Vec2f at = mesh.coordinates[number].corner[i];
+      shape.coordinates[i] = Vec3(at.x, at.y, 0);
+    }
   }
   shape.blended = shape.material[0] != shape.material[1] || shape.material[0] != shape.material[2];
   return shape;
@@ -192,6 +199,45 @@ Vec3 normal_at(const Shape& shape, const Vec3& point, const Crossing& crossing) 
     return glm::normalize(glm::cross(shape.vertex[1] - shape.vertex[0], shape.vertex[2] - shape.vertex[0]));
   return glm::normalize(shape.normal[0] * (1 - crossing.u - crossing.v) + shape.normal[1] * crossing.u +
                         shape.normal[2] * crossing.v);
+}
+
+namespace {
+
+double turns(double y, double x) {
+  const double angle = std::atan2(y, x) / (2 * std::numbers::pi);
+  return angle < 0 ? angle + 1 : angle;
+}
+
+// Points of a shape, in the space that it is written in.
+
+Vec3 coordinates_on(const Sphere& sphere, const Vec3& local, const Vec3&) {
+  const Vec3 p = glm::normalize(local - sphere.centre);
+  return {turns(p.z, p.x), 0.5 + std::asin(p.y) / std::numbers::pi, 0};
+}
+Vec3 coordinates_on(const Box& box, const Vec3& local, const Vec3&) {
+  const Vec3 low = glm::min(box.corner[0], box.corner[1]), high = glm::max(box.corner[0], box.corner[1]);
+  const Vec3 p = (local - low) / (high - low);
+  const Vec3 off = glm::abs(p - Vec3(0.5));
+  if (off.x >= off.y && off.x >= off.z) return {p.x < 0.5 ? p.z / 4 : 0.75 - p.z / 4, (1 + p.y) / 3, 0};
+  if (off.y >= off.z) return {0.25 + p.x / 4, p.y < 0.5 ? p.z / 3 : 1 - p.z / 3, 0};
+  return {p.z < 0.5 ? 1 - p.x / 4 : 0.25 + p.x / 4, (1 + p.y) / 3, 0};
+}
+Vec3 coordinates_on(const Torus& torus, const Vec3& p, const Vec3&) {
+  return {0.5 - std::atan2(p.z, p.x) / (2 * std::numbers::pi),
+          0.5 + std::atan2(p.y, std::hypot(p.x, p.z) - torus.major_radius) / (2 * std::numbers::pi), 0};
+}
+template <class Other> Vec3 coordinates_on(const Other&, const Vec3&, const Vec3& world) {
+  return {world.x, world.y, 0};
+}
+
+} // namespace
+
+Vec3 coordinates_at(const Shape& shape, const Vec3& point, const Crossing& crossing) {
+  if (shape.triangle)
+    return shape.coordinates[0] * (1 - crossing.u - crossing.v) + shape.coordinates[1] * crossing.u +
+           shape.coordinates[2] * crossing.v;
+  const Vec3 local = shape.object->transform.inverse().point(point);
+  return std::visit([&](const auto& of) { return coordinates_on(of, local, point); }, shape.object->shape);
 }
 
 bool contains(const Shape& shape, const Vec3& point) {

@@ -46,6 +46,7 @@ struct Shape {
   Vec3 vertex[3];
   Vec3 normal[3];
   bool smooth = false;
+  Vec3 coordinates[3] = {Vec3(0), Vec3(0), Vec3(0)}; ///< u, v, 0 of the surface
   /// One material, or one for each vertex.
   Index material[3] = {0, 0, 0};
   bool blended = false;
@@ -58,6 +59,9 @@ Crossings cross(const Shape& shape, const Ray& ray);
 
 /// Unit normal, with the direction that the geometry gives it.
 Vec3 normal_at(const Shape& shape, const Vec3& point, const Crossing& crossing);
+
+/// u, v, 0 of a point of a shape.
+Vec3 coordinates_at(const Shape& shape, const Vec3& point, const Crossing& crossing);
 
 /// True inside a sphere or another shape that is no part of a CSG; triangles have no inside.
 bool contains(const Shape& shape, const Vec3& point);

@@ -76,12 +76,14 @@ Transform to_own_space(const Pattern& pattern) {
   return map;
 }
 
-Pigment pigment_at(const Pigment& pigment, const Vec3& point) {
+Pigment pigment_at(const Pigment& pigment, const SurfacePoint& point) {
   if (!pigment.map) return pigment;
   const PatternMap<Pigment>& map = *pigment.map;
   const auto& entries = map.entries;
   // What is in a map is in the space of the map's pattern.
-  const Vec3 p = to_own_space(map.pattern).point(point);
+  const SurfacePoint p = {
+      to_own_space(map.pattern).point(map.pattern.uv_mapping ? point.coordinates : point.at),
+      point.coordinates};
   Pigment sum;
   if (map.is_average) {
     double weights = 0;
@@ -91,7 +93,7 @@ Pigment pigment_at(const Pigment& pigment, const Vec3& point) {
       add(sum, entry.position / weights, pigment_at(entry.value, p));
     return sum;
   }
-  double value = value_of(map.pattern, p);
+  double value = value_of(map.pattern, p.at);
   if (std::holds_alternative<pattern::Checker>(map.pattern.kind))
     return pigment_at(entries[std::min(static_cast<std::size_t>(value), entries.size() - 1)].value, p);
   if (value < 0 || value > 1) value = fraction(value);

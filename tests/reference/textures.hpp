@@ -16,7 +16,13 @@ double value_of(const Pattern& pattern, const Vec3& p);
 /// From the space around a pattern to its own, which has no turbulence in it.
 Transform to_own_space(const Pattern& pattern);
 
+/// Where a pigment is asked.
+struct SurfacePoint {
+  Vec3 at;
+  Vec3 coordinates{0}; ///< u, v, 0 of the surface
+};
+
 /// The colour at a point, without a map.
-Pigment pigment_at(const Pigment& pigment, const Vec3& point);
+Pigment pigment_at(const Pigment& pigment, const SurfacePoint& point);
 
 } // namespace celltrace::reference

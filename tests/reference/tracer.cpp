@@ -95,7 +95,7 @@ Vec3 Tracer::attenuation(const Ray& ray, double distance, InteriorStack inside) 
     const double weights[3] = {1 - c.u - c.v, c.u, c.v};
     Vec3 filter(0);
     for (int i = 0; i < 3; ++i)
-      filter += weights[i] * filter_colour(material_at(shape->material[i], point).pigment);
+      filter += weights[i] * filter_colour(material_at(shape->material[i], *shape, point, c).pigment);
     const Interior& interior = scene_.interiors[shape->object->interior];
     const bool leaves = std::find(inside.begin(), inside.end(), shape->object->interior) != inside.end();
     if (leaves && interior.fade_power != 0) filter *= faded(interior, c.distance - last);
@@ -131,9 +131,10 @@ Vec3 Tracer::in_fog(const Branch& branch, double distance, const Vec3& behind) c
   return added + passed * seen;
 }
 
-Material Tracer::material_at(Index index, const Vec3& point) const {
+Material Tracer::material_at(Index index, const Shape& shape, const Vec3& point,
+                             const Crossing& crossing) const {
   Material material = scene_.materials[index];
-  material.pigment = pigment_at(material.pigment, point);
+  material.pigment = pigment_at(material.pigment, {point, coordinates_at(shape, point, crossing)});
   return material;
 }
 
@@ -148,15 +149,15 @@ Vec3 Tracer::trace(const Branch& branch) const {
   point.position = branch.ray.origin + branch.ray.direction * hit.crossing.distance;
   point.normal = normal_at(*hit.shape, point.position, hit.crossing);
   if (glm::dot(point.normal, branch.ray.direction) > 0) point.normal = -point.normal;
-  if (!hit.shape->blended)
-    return in_fog(branch, point.distance,
-                  shade(branch, point, material_at(hit.shape->material[0], point.position)));
+  const auto material = [&](int corner) {
+    return material_at(hit.shape->material[corner], *hit.shape, point.position, hit.crossing);
+  };
+  if (!hit.shape->blended) return in_fog(branch, point.distance, shade(branch, point, material(0)));
 
   const double weights[3] = {1 - hit.crossing.u - hit.crossing.v, hit.crossing.u, hit.crossing.v};
   Vec3 sum(0);
   for (int i = 0; i < 3; ++i)
-    if (weights[i] >= scene_.adc_bailout)
-      sum += weights[i] * shade(branch, point, material_at(hit.shape->material[i], point.position));
+    if (weights[i] >= scene_.adc_bailout) sum += weights[i] * shade(branch, point, material(i));
   return in_fog(branch, point.distance, sum);
 }
 

@@ -333,6 +333,59 @@ Scene patterns() {
   return scene;
 }
 
+/// Pigments on the surfaces of all shapes that have coordinates of their own, and of some that have none; in
+/// CSG, clear, and as faces that blend.
+Scene surfaces() {
+  Scene scene = with_camera(camera_at({0.5, 2.4, -7}, {0, 0, 0}));
+  const auto waves = [](const Vec3& along, bool uv_mapping, double filter) {
+    Pattern pattern = pattern_of(pattern::Gradient{along}, Transform::scale(Vec3(0.25)));
+    pattern.wave = Pattern::Wave::sine;
+    pattern.uv_mapping = uv_mapping;
+    return mapped(pattern, {{0, {{0.9, 0.3, 0.1}, filter}}, {1, {{0.9, 0.9, 0.5}, filter}}});
+  };
+  // In a map on the surface everything is; a map on it does not mind what is around.
+  Pattern outer = pattern_of(pattern::Gradient{{0, 0.5, 0}}, Transform::translate({0, -0.25, 0}));
+  outer.uv_mapping = true;
+  const Pigment on_surface =
+      mapped(outer, {{0.2, waves({1, 0, 0}, false, 0)}, {0.8, waves({0, 1, 0}, false, 0)}});
+  Pattern around = pattern_of(pattern::Gradient{{0, 0.3, 0}}, Transform::translate({0, -1.5, 0}));
+  const Pigment inside_map = mapped(around, {{0, waves({1, 0, 0}, true, 0)}, {1, waves({0, 1, 0}, true, 0)}});
+  const Index painted_on[3] = {scene.add(painted(on_surface)), scene.add(painted(inside_map)),
+                               scene.add(painted(waves({1, 0, 0}, true, 0.7)))};
+  const Index plain = scene.add(painted(waves({1, 0, 0.3}, false, 0)));
+  const auto add = [&](auto shape, const Transform& transform, Index material) {
+    Object object;
+    object.shape = shape;
+    object.transform = transform;
+    object.material = material;
+    object.interior = new_interior(scene);
+    scene.objects.push_back(object);
+    return object;
+  };
+  const auto placed = [](double x, double y, double z) {
+    return Transform::rotate({25, 30, 15}).then(Transform::translate({x, y, z}));
+  };
+  add(Sphere{{0.1, 0, 0}, 0.8}, placed(-2.4, 0.9, 0), painted_on[0]);
+  add(Sphere{{0, 0, 0}, 0.7}, Transform::scale({-1, 0.6, 1}).then(placed(-0.8, 1.1, 0)), painted_on[1]);
+  add(Sphere{{0, 0, 0}, 0.6}, Transform::scale({-1, 1, 1}).then(placed(2.6, 1.1, 0)), painted_on[1]);
+  add(Box{{{-0.5, -0.6, -0.4}, {0.6, 0.5, 0.7}}}, placed(0.9, 0.9, 0), painted_on[0]);
+  add(Torus{0.6, 0.25}, placed(-2.1, -0.9, -0.5), painted_on[0]);
+  add(Cylinder{{0, -0.5, 0}, {0, 0.5, 0}, 0.4}, placed(-0.6, -0.8, -0.6), painted_on[1]);
+  add(Sphere{{0, 0, 0}, 0.5}, placed(0.6, -0.8, -1), painted_on[2]);
+  auto csg = std::make_shared<Csg>();
+  csg->operation = Csg::Operation::difference;
+  csg->parts = {add(Box{{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}}, Transform(), painted_on[0]),
+                add(Sphere{{-0.2, 0.3, -0.5}, 0.45}, Transform(), painted_on[1])};
+  scene.objects.resize(scene.objects.size() - 2);
+  add(std::shared_ptr<const Csg>(csg), placed(2.1, -0.7, -0.5), 0);
+  Mesh mesh = floor_mesh(-1.6f, 3);
+  mesh.coordinates = {{{{0, 0}, {1, 0}, {1, 2}}}, {{{0, 0}, {1, 2}, {0, 1}}}};
+  const Index blend[3] = {painted_on[0], plain, kNoIndex};
+  std::copy(blend, blend + 3, mesh.triangles[1].material);
+  scene.objects.push_back(mesh_object(mesh, painted_on[1], new_interior(scene)));
+  return scene;
+}
+
 /// What else textures are made of: noise, turbulence, normals, layers, maps of textures, a sky.
 Scene textures() {
   Scene scene = with_camera(camera_at({0.3, 1.9, -6.4}, {0, 0.2, 0}));
@@ -656,6 +709,7 @@ const std::vector<NamedScene>& scenes() {
       {"dark", dark},
       {"flat, gamma 2.2", flat_gamma},
       {"patterns", patterns},
+      {"surfaces", surfaces},
       {"cut meshes", cut_meshes},
       {"light groups", light_groups},
       {"lit from behind", lit_from_behind},

@@ -940,6 +940,76 @@ TEST_CASE("A sealed scene image with a fault in its textures is refused") {
   }
 }
 
+TEST_CASE("A sealed scene image that asks for more of surfaces than is found out is refused") {
+  const Bytes good = bytes_of(SceneImage(scene_named("surfaces")));
+  CHECK_NOTHROW(SceneImage::from_bytes(good));
+  const auto refused = [&](const std::function<void(Bytes&, ImageHeader&)>& change) {
+    Bytes bytes = good;
+    change(bytes, *table<ImageHeader>(bytes, 0));
+    REQUIRE(bytes != good);
+    seal(bytes);
+    CHECK_THROWS_WITH(SceneImage::from_bytes(bytes), Catch::Contains("offset"));
+  };
+  const auto object_with = [](Bytes& bytes, const ImageHeader& h, std::uint32_t flags) {
+    auto* objects = table<ObjectRecord>(bytes, h.object_offset);
+    while ((objects->kind_and_flags & flags) != flags)
+      ++objects;
+    return objects;
+  };
+  refused([](Bytes&, ImageHeader& h) { h.light_ways &= ~light_way::by_surface; });
+  refused([](Bytes&, ImageHeader& h) { h.light_ways &= ~light_way::stepwise; });
+  refused([&](Bytes& b, ImageHeader& h) {
+    object_with(b, h, object_flag::by_surface)->kind_and_flags &= ~object_flag::by_surface;
+  });
+  refused([&](Bytes& b, ImageHeader& h) {
+    object_with(b, h, object_flag::by_surface | object_flag::blended)->kind_and_flags &=
+        ~object_flag::by_surface;
+  });
+  refused([&](Bytes& b, ImageHeader& h) {
+    object_with(b, h, object_flag::by_surface | static_cast<std::uint32_t>(ObjectKind::triangle))->extra += 4;
+  });
+  refused([&](Bytes& b, ImageHeader& h) { // the sky has no surface
+    h.sky = object_with(b, h, object_flag::by_surface)->material;
+  });
+}
+
+TEST_CASE("Surface coordinates of a mesh are in its image where a material asks for them") {
+  Scene scene = scene_named("surfaces");
+  const SceneImage image(scene);
+  const ImageHeader& h = image.header();
+  const auto* objects = table<ObjectRecord>(image, h.object_offset);
+  int mapped = 0;
+  for (std::uint32_t i = 0; i < h.object_count; ++i) {
+    if ((objects[i].kind_and_flags & object_flag::kind_mask) !=
+        static_cast<std::uint32_t>(ObjectKind::triangle))
+      continue;
+    ++mapped;
+    REQUIRE((objects[i].kind_and_flags & object_flag::by_surface) != 0);
+    REQUIRE(objects[i].extra != kNoOffset);
+    const float(&uv)[6] = table<ExtraRecord>(image, objects[i].extra)->bounds;
+    CHECK(uv[0] == 0);
+    CHECK(uv[1] == 0);
+    CHECK(uv[2] == 1);
+    CHECK(uv[5] == ((objects[i].kind_and_flags & object_flag::blended) != 0 ? 1 : 2));
+  }
+  CHECK(mapped == 2);
+  for (Material& material : scene.materials)
+    material = matte({1, 1, 1});
+  const SceneImage plain(scene);
+  CHECK((plain.header().light_ways & (light_way::by_surface | light_way::stepwise)) == 0);
+  auto mesh = std::make_shared<Mesh>(*std::get<std::shared_ptr<const Mesh>>(scene.objects.back().shape));
+  mesh->coordinates.pop_back();
+  scene.objects.back().shape = std::shared_ptr<const Mesh>(mesh);
+  CHECK_THROWS_WITH(SceneImage(scene), Catch::Contains("surface coordinates"));
+  Scene sky;
+  Pigment pigment = scene_named("patterns").materials[0].pigment;
+  auto map = std::make_shared<PatternMap<Pigment>>(*pigment.map);
+  map->pattern.uv_mapping = true;
+  pigment.map = map;
+  sky.sky_sphere = {pigment};
+  CHECK_THROWS_WITH(SceneImage(sky), Catch::Contains("no surface"));
+}
+
 TEST_CASE("Pigments say of themselves whether an entry is a map") {
   const SceneImage image(scene_of(nested_pigment(2)));
   Bytes bytes = bytes_of(image);

@@ -7,11 +7,18 @@
 
 namespace celltrace::kernel {
 
+/// Whether its ExtraRecord says where an object may be. Triangles have surface coordinates there.
+constexpr bool has_own_bounds(uint32_t flags) {
+  constexpr uint32_t kMapped = object_flag::by_surface | static_cast<uint32_t>(ObjectKind::triangle);
+  return (flags & object_flag::csg) != 0 &&
+         (flags & (object_flag::by_surface | object_flag::kind_mask)) != kMapped;
+}
+
 /// The object's axis-aligned bounding box. `extra`: its ExtraRecord, if it has one.
 inline Aabb bounding_box(const ObjectRecord& object, const ExtraRecord& extra = {}) {
   const float* limits = extra.bounds;
   Aabb box = {{limits[0], limits[1], limits[2]}, {limits[3], limits[4], limits[5]}};
-  if ((object.kind_and_flags & object_flag::csg) != 0) return box;
+  if (has_own_bounds(object.kind_and_flags)) return box;
   Primitives::dispatch(object.kind_and_flags & object_flag::kind_mask,
                        [&](auto shape) { box = decltype(shape)::bounds(object, extra); });
   return box;

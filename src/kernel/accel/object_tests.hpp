@@ -325,10 +325,10 @@ private:
     for_each_part<Spu>([&](uint32_t first) {
       const uint32_t some = part_of<Spu>(lanes, first);
       if (some == 0) return;
-      const V3<R> point = part_of<Spu>(points, first);
+      const PatternPoints<R> crossed = {part_of<Spu>(points, first)};
       V3<R> transmittance;
       if ((flags & object_flag::blended) == 0) {
-        transmittance_at(scene_, material, point, some, transmittance);
+        transmittance_at(scene_, material, crossed, some, transmittance);
       } else {
         const BlendRecord blend = *scene_.blend(material);
         const RF u = part_of<Spu>(all_u, first), v = part_of<Spu>(all_v, first);
@@ -336,7 +336,7 @@ private:
         transmittance = {RF(0.0f), RF(0.0f), RF(0.0f)};
         V3<R> corner;
         for (uint32_t i = 0; i < 3; ++i) {
-          transmittance_at(scene_, blend.material[i], point, some, corner);
+          transmittance_at(scene_, blend.material[i], crossed, some, corner);
           transmittance = transmittance + corner * weights[i];
         }
       }

@@ -148,7 +148,7 @@ MaterialLanes<typename Spu::simd> gather_materials(SceneAccess<Spu>& scene, cons
 /// The pigments of patterned materials at points, which gather_materials() leaves open.
 template <class Spu>
 [[gnu::noinline]] void add_pigments(SceneAccess<Spu>& scene, const WordLanes& offsets,
-                                    const V3<typename Spu::simd>& point,
+                                    const PatternPoints<typename Spu::simd>& points,
                                     MaterialLanes<typename Spu::simd>& m) {
   using S = typename Spu::simd;
   scene.spu().enter_module(modules::kTextures);
@@ -162,7 +162,7 @@ template <class Spu>
       const uint32_t some = part_of<Spu>(same, first);
       if (some == 0) return;
       PigmentLanes<R> pigment;
-      pigment_at(scene, pattern, part_of<Spu>(point, first), some, pigment);
+      pigment_at(scene, pattern, part_of<Spu>(points, first), some, pigment);
       const auto take = R::M::from_bits(some);
       const auto put = [&](typename S::F& field, const F& value) {
         set_part<Spu>(field, first, R::select(take, value, part_of<Spu>(field, first)));
@@ -180,14 +180,15 @@ template <class Spu>
   });
 }
 
-/// Disturbs the normals of surfaces in the lanes of `m.disturbed`.
+/// Disturbs the normals of surfaces in the lanes of `m.disturbed`. `lanes`: what else patterns ask for.
 template <class Spu>
 [[gnu::noinline]] void disturb_normals(SceneAccess<Spu>& scene, const WordLanes& offsets,
-                                       const MaterialLanes<typename Spu::simd>& m,
+                                       const MaterialLanes<typename Spu::simd>& m, const SurfaceLanes* lanes,
                                        Surfaces<typename Spu::simd>& surfaces) {
   scene.spu().enter_module(modules::kNormals);
   for_each_value<typename Spu::simd>(offsets, m.disturbed, [&](uint32_t offset, uint32_t same) {
-    disturb_normal(scene, scene.material(offset)->normal, surfaces.point, same, surfaces.normal);
+    disturb_normal<Spu>(scene, scene.material(offset)->normal, {surfaces.point, lanes}, same,
+                        surfaces.normal);
   });
 }
 

@@ -32,14 +32,14 @@ static_assert(kRayNodeBytes % 128 == 0 && kRayNodeBytes <= kMaxDmaBytes, "spille
 /// Nodes of a stack that stay in local store, unless its owner has many stacks.
 constexpr uint32_t kResidentNodes = 3;
 
-/// A stack whose first `kResident` nodes are in local store; deeper ones are spilled to main memory, at most
-/// `spill_nodes` of them. Depth-first order makes a tree of level n need n + 1 nodes at most.
+/// A stack whose first nodes, at most `kResident`, are in local store; deeper ones are spilled to main
+/// memory, at most `spill_nodes` of them. Depth-first order makes a tree of level n need n + 1 nodes at most.
 template <class Spu, uint32_t kResident = kResidentNodes> class RayStack {
 public:
-  /// `has_resident` is false if local store has no room even for kResident nodes.
-  RayStack(Spu& spu, ea_t spill, uint32_t spill_nodes, bool has_resident = true)
-      : spu_(spu), resident_nodes_(has_resident ? kResident : 0),
-        resident_(has_resident ? spu.template allocate<RayNode>(kResident) : nullptr), spill_(spill),
+  /// `resident`: how many, where local store has no room for kResident nodes.
+  RayStack(Spu& spu, ea_t spill, uint32_t spill_nodes, uint32_t resident = kResident)
+      : spu_(spu), resident_nodes_(resident),
+        resident_(resident != 0 ? spu.template allocate<RayNode>(resident) : nullptr), spill_(spill),
         capacity_(resident_nodes_ + spill_nodes) {}
 
   bool empty() const { return size_ == 0; }

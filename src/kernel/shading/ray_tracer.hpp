@@ -8,6 +8,7 @@
 #include "kernel/shading/lighting.hpp"
 #include "kernel/shading/secondary_rays.hpp"
 #include "kernel/shading/shadow_walk.hpp"
+#include "kernel/shading/surface_lanes.hpp"
 #include "kernel/textures/sky.hpp"
 
 namespace celltrace::kernel {
@@ -30,9 +31,9 @@ public:
   /// `spill` has room for `spill_nodes`. `scratch` may be shared by tracers.
   RayTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, ea_t spill, uint32_t spill_nodes,
             RayNode& scratch)
-      : frame_(frame), scene_(scene),
-        stack_(spu, spill, spill_nodes, !has_areas(frame) && !walks_shadows(frame)),
-        node_(*spu.template allocate<RayNode>()), child_(scratch) {}
+      : frame_(frame), scene_(scene), stack_(spu, spill, spill_nodes, resident_nodes(frame)),
+        node_(*spu.template allocate<RayNode>()), child_(scratch),
+        surface_(allocate_surface_lanes(spu, frame)) {}
 
   /// The colours of primary rays whose hits are known, if all of them end there; false: they do not, or there
   /// are more lights than in one round.
@@ -90,7 +91,7 @@ public:
   /// on from there.
   [[gnu::always_inline]] void shade_hits(const HitPoints<S>& points, uint32_t hit, const LightRound& round) {
     round_ = round;
-    const Surfaces<S> surfaces = points.surfaces(node_.rays.direction.template load<S>(), hits_.object);
+    Surfaces<S> surfaces = points.surfaces(node_.rays.direction.template load<S>(), hits_.object);
     const uint32_t plain = points.plain(hit);
     if (plain != 0)
       spawn(surfaces, surfaces.normal, points.interior,
@@ -124,6 +125,13 @@ public:
 
 private:
   static uint32_t count(uint32_t lanes) { return static_cast<uint32_t>(__builtin_popcount(lanes)); }
+
+  /// What few frames need lies where nodes would.
+  static uint32_t resident_nodes(const FrameBlock& frame) {
+    static_assert(sizeof(SurfaceLanes) <= sizeof(RayNode));
+    if (has_areas(frame) || walks_shadows(frame)) return 0;
+    return has_surface_lanes(frame) ? kResident - 1 : kResident;
+  }
 
   V3<S> behind(const RayPacket& rays, uint32_t lanes) {
     V3<S> colour = splat3<S>(frame_.background);
@@ -185,9 +193,12 @@ private:
   /// Surfaces with several materials: each is shaded whole, and the results are blended by their weights.
   /// What goes on goes the same ways for all of them: as one ray each where it weighs the same, or every such
   /// surface would multiply the rays behind it.
-  [[gnu::noinline]] void shade_composed(const Surfaces<S>& surfaces, const HitPoints<S>& points,
-                                        uint32_t lanes) {
+  [[gnu::noinline]] void shade_composed(Surfaces<S>& surfaces, const HitPoints<S>& points, uint32_t lanes) {
     scene_.spu().run_in_module(modules::kComposed);
+    if (surface_ != nullptr) {
+      scene_.spu().enter_module(modules::kSurfaces);
+      find_surface_lanes(scene_, points, hits_, lanes, *surface_);
+    }
     const F u = F::load(hits_.u.lane);
     const F v = F::load(hits_.v.lane);
     const F weights[3] = {F(1.0f) - u - v, u, v};
@@ -204,7 +215,7 @@ private:
     spawn(surfaces, surfaces.normal, points.interior, all);
   }
   /// The share of materials that may be texture maps.
-  [[gnu::noinline]] void shade_share(const Surfaces<S>& surfaces, const HitPoints<S>& points,
+  [[gnu::noinline]] void shade_share(Surfaces<S>& surfaces, const HitPoints<S>& points,
                                      const WordLanes& materials, uint32_t lanes, const F& weight,
                                      SecondaryRays<S>& all) {
     uint32_t plain = lanes;
@@ -213,7 +224,7 @@ private:
       if (map == kNoOffset) return;
       plain &= ~same;
       scene_.spu().enter_module(modules::kTextures);
-      MapWalk<Spu, TextureStage::colours, S> walk(scene_, surfaces.point, MapOf::textures);
+      MapWalk<Spu, TextureStage::colours, S> walk(scene_, {surfaces.point, surface_}, MapOf::textures);
       walk.enter(map, weight, same);
       MapEntryRecord entry;
       F share;
@@ -228,7 +239,7 @@ private:
     if (plain != 0) shade_whole(surfaces, points, materials, plain, weight, all);
   }
   /// Adaptive depth control drops a material by its weight alone, as POV-Ray does.
-  [[gnu::noinline]] void shade_whole(const Surfaces<S>& surfaces, const HitPoints<S>& points,
+  [[gnu::noinline]] void shade_whole(Surfaces<S>& surfaces, const HitPoints<S>& points,
                                      const WordLanes& materials, uint32_t lanes, const F& weight,
                                      SecondaryRays<S>& all) {
     lanes &= (weight >= F(frame_.adc_bailout)).bits();
@@ -251,49 +262,53 @@ private:
                                            const WordLanes& materials, uint32_t lanes, const F& share) {
     scene_.spu().compute(scalar_work::kShade);
     const MaterialLanes<S> m = gather_materials(scene_, materials, lanes);
-    add(lanes, local_light(scene_, frame_, round_, surfaces, m, lanes, counters_.shadow) * share);
+    add_light(surfaces, m, lanes, {share, share, share});
     return round_.is_first() ? onward_rays(surfaces, interior, m, lanes, share) : SecondaryRays<S>::nothing();
+  }
+  /// Adds what surfaces send by themselves, times `share`. One copy, whose vectors are not on the stack while
+  /// rays go on.
+  [[gnu::noinline]] void add_light(const Surfaces<S>& surfaces, const MaterialLanes<S>& m, uint32_t lanes,
+                                   const V3<S>& share) {
+    add(lanes, local_light(scene_, frame_, round_, surfaces, m, lanes, counters_.shadow) * share);
   }
   [[gnu::noinline]] SecondaryRays<S> onward_rays(const Surfaces<S>& surfaces, const WordLanes& interior,
                                                  const MaterialLanes<S>& m, uint32_t lanes, const F& share) {
-    if (!m.has_reflection && !m.has_transmission) return SecondaryRays<S>::nothing();
+    SecondaryRays<S> onward = SecondaryRays<S>::nothing();
+    if (!m.has_reflection && !m.has_transmission) return onward;
     scene_.spu().compute(scalar_work::kSecondaryRays);
     scene_.spu().enter_module(modules::kSecondary);
     F fresnel_ratio(1.0f);
     if (m.fresnel != 0)
       fresnel_ratio = F::load(fresnel_ratios(scene_, interior, lanes & m.fresnel, node_).lane);
-    SecondaryRays<S> rays = secondary_rays_of<Spu>(m, -dot<S>(surfaces.direction, surfaces.normal),
-                                                   fresnel_ratio, frame_.adc_bailout, lanes, share);
-    if ((m.special & rays.mirrors) != 0) {
+    find_secondary_rays<Spu>(m, -dot<S>(surfaces.direction, surfaces.normal), fresnel_ratio,
+                             frame_.adc_bailout, lanes, share, onward);
+    if ((m.special & onward.mirrors) != 0) {
       scene_.spu().enter_module(modules::kFinishes);
-      change_special_mirror(scene_, surfaces, m, rays.mirrors, rays.mirror);
+      change_special_mirror(scene_, surfaces, m, onward.mirrors, onward.mirror);
     }
-    return rays;
+    return onward;
   }
 
   /// As shade(), of textures with patterns, normals or layers. The light of a layer comes through those
   /// above, but not what it reflects: that is POV-Ray's model. Where normals are disturbed, rays go on by
-  /// themselves.
-  [[gnu::noinline]] SecondaryRays<S> shade_layers(const Surfaces<S>& surfaces, const WordLanes& interior,
+  /// themselves. The surfaces have their layers' normals meanwhile.
+  [[gnu::noinline]] SecondaryRays<S> shade_layers(Surfaces<S>& surfaces, const WordLanes& interior,
                                                   const WordLanes& top, uint32_t all_lanes, const F& share) {
     const F one(1.0f);
     V3<S> above = {one, one, one}; // what comes through the layers above
     WordLanes materials = top;
     uint32_t lanes = all_lanes;
     SecondaryRays<S> onward = SecondaryRays<S>::nothing();
-    V3<S> outermost = surfaces.normal; // of the uppermost layer
+    const V3<S> smooth = surfaces.normal;
+    V3<S> outermost = smooth; // of the uppermost layer
     bool is_disturbed = false;
-    Surfaces<S> disturbed;
     for (bool is_top = true; lanes != 0; is_top = false) {
       MaterialLanes<S> m = gather_materials(scene_, materials, lanes);
-      if (m.patterned != 0) add_pigments(scene_, materials, surfaces.point, m);
-      if (m.disturbed != 0) {
-        disturbed = surfaces;
-        disturb_normals(scene_, materials, m, disturbed);
-      }
-      const Surfaces<S>& own = m.disturbed != 0 ? disturbed : surfaces;
-      add(lanes, local_light(scene_, frame_, round_, own, m, lanes, counters_.shadow) * above * share);
-      SecondaryRays<S> rays = onward_rays(own, interior, m, lanes, one);
+      if (m.patterned != 0) add_pigments<Spu>(scene_, materials, {surfaces.point, surface_}, m);
+      surfaces.normal = smooth;
+      if (m.disturbed != 0) disturb_normals(scene_, materials, m, surface_, surfaces);
+      add_light(surfaces, m, lanes, above * share);
+      SecondaryRays<S> rays = onward_rays(surfaces, interior, m, lanes, one);
       if (rays.is_nothing()) break;
       const uint32_t clear = rays.clear;
       rays.clear = 0;
@@ -301,11 +316,11 @@ private:
       rays.mirror = rays.mirror * share;
       if (is_top) {
         onward = rays;
-        outermost = own.normal;
+        outermost = surfaces.normal;
         is_disturbed = m.disturbed != 0;
       } else if (rays.mirrors != 0) {
         // POV-Ray does not ask what the layers above leave of it.
-        spawn(own, surfaces.normal, interior, rays);
+        spawn(surfaces, smooth, interior, rays);
       }
       // Transmitted through all layers, by those that were the last.
       const uint32_t bright = (grey<S>(above) > F(frame_.adc_bailout)).bits() & clear;
@@ -320,10 +335,13 @@ private:
     onward.through = above * through;
     onward.through_weight = S::select(S::M::from_bits(onward.clear), max_component<S>(above), F(0.0f));
     onward.clear_share = through;
-    if (!is_disturbed) return onward;
-    disturbed.normal = outermost;
-    spawn(disturbed, surfaces.normal, interior, onward);
-    return SecondaryRays<S>::nothing();
+    if (is_disturbed) {
+      surfaces.normal = outermost;
+      spawn(surfaces, smooth, interior, onward);
+      onward.clear_all();
+    }
+    surfaces.normal = smooth;
+    return onward;
   }
 
   /// Pushes the rays that go on; `smooth` is the normal before it was disturbed.
@@ -456,8 +474,9 @@ private:
   const FrameBlock& frame_;
   SceneAccess<Spu>& scene_;
   RayStack<Spu, kResident> stack_;
-  RayNode& node_;  ///< being traced
-  RayNode& child_; ///< being made
+  RayNode& node_;         ///< being traced
+  RayNode& child_;        ///< being made
+  SurfaceLanes* surface_; ///< at the hits; null: no pattern of the scene asks for it
   HitPacket hits_;
   /// Deeper nesting of bent reflections than this leaves the innermost ones unbent.
   static constexpr uint32_t kAccumulators = 8;

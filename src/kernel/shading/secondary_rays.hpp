@@ -171,12 +171,17 @@ template <class S> struct SecondaryRays {
   bool bends_reflection = false;
 
   static SecondaryRays nothing() {
-    const F zero(0.0f);
     SecondaryRays o;
-    o.mirror = o.through = {zero, zero, zero};
-    o.mirror_weight = o.through_weight = o.clear_share = zero;
-    o.reflection_power = F(1.0f);
+    o.clear_all();
     return o;
+  }
+  void clear_all() {
+    const F zero(0.0f);
+    mirror = through = {zero, zero, zero};
+    mirror_weight = through_weight = clear_share = zero;
+    reflection_power = F(1.0f);
+    mirrors = clear = 0;
+    bends_reflection = false;
   }
   /// Of lanes that have none yet.
   template <class Spu> void set_part(uint32_t first, const SecondaryRays<typename Spu::rare_simd>& part) {
@@ -244,24 +249,22 @@ SecondaryRays<S> secondary_rays_of(const MaterialLanes<S>& m, const typename S::
 
 } // namespace detail
 
-/// For surfaces of the materials `m` in `lanes`, `share` of which counts.
+/// For surfaces of the materials `m` in `lanes`, `share` of which counts. `all` is nothing() before.
 template <class Spu>
-[[gnu::noinline]] SecondaryRays<typename Spu::simd>
-secondary_rays_of(const MaterialLanes<typename Spu::simd>& m, const typename Spu::simd::F& cosine,
-                  const typename Spu::simd::F& fresnel_ratio, float adc_bailout, uint32_t lanes,
-                  const typename Spu::simd::F& share) {
+[[gnu::noinline]] void
+find_secondary_rays(const MaterialLanes<typename Spu::simd>& m, const typename Spu::simd::F& cosine,
+                    const typename Spu::simd::F& fresnel_ratio, float adc_bailout, uint32_t lanes,
+                    const typename Spu::simd::F& share, SecondaryRays<typename Spu::simd>& all) {
   using S = typename Spu::simd;
   if constexpr (kOnePart<Spu>) {
-    return detail::secondary_rays_of<S>(m, cosine, fresnel_ratio, adc_bailout, lanes, share);
+    all = detail::secondary_rays_of<S>(m, cosine, fresnel_ratio, adc_bailout, lanes, share);
   } else {
-    SecondaryRays<S> all = SecondaryRays<S>::nothing();
     for_each_part<Spu>([&](uint32_t first) {
       const auto part = [first](const auto& values) { return part_of<Spu>(values, first); };
       all.template set_part<Spu>(
           first, detail::secondary_rays_of<typename Spu::rare_simd>(
                      part(m), part(cosine), part(fresnel_ratio), adc_bailout, part(lanes), part(share)));
     });
-    return all;
   }
 }
 

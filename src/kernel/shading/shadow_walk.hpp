@@ -6,6 +6,7 @@
 #include "kernel/shading/fading.hpp"
 #include "kernel/shading/hit_points.hpp"
 #include "kernel/shading/secondary_rays.hpp"
+#include "kernel/shading/surface_lanes.hpp"
 
 namespace celltrace::kernel {
 
@@ -20,6 +21,8 @@ template <class S> struct alignas(128) ShadowWalk {
   VectorLanes* light;
   HitPacket hits;
   HitPoints<S> points;
+  SurfaceLanes surface; ///< at the points, if has_surface_lanes()
+  bool has_surface;
 };
 
 /// Local store for them, in a frame that has such.
@@ -42,6 +45,7 @@ template <class Spu>
   const F zero(0.0f);
   light.template store<S>(select<S>(S::M::from_bits(lanes), light.template load<S>(), {zero, zero, zero}));
   walk.light = &light;
+  walk.has_surface = has_surface_lanes(frame);
   if (from != nullptr) {
     walk.ray.interior_depth = from->interior_depth;
     for (uint32_t d = 0; d < kMaxInteriorDepth; ++d)
@@ -68,12 +72,12 @@ void filter_light(SceneAccess<Spu>& scene, uint32_t material, bool blended, uint
   for_each_part<Spu>([&](uint32_t first) {
     const uint32_t some = part_of<Spu>(lanes, first);
     if (some == 0) return;
-    const V3<S> point = part_of<Spu>(walk.points.point, first);
+    const PatternPoints<S> points = {part_of<Spu>(walk.points.point, first), &walk.surface, first};
     const F u = F::load(walk.hits.u.lane + first), v = F::load(walk.hits.v.lane + first);
     const F weights[3] = {F(1.0f) - u - v, u, v};
     V3<S> all = {F(0.0f), F(0.0f), F(0.0f)}, one;
     for (uint32_t corner = 0; corner < (blended ? 3u : 1u); ++corner) {
-      transmittance_at(scene, blend.material[corner], point, some, one);
+      transmittance_at(scene, blend.material[corner], points, some, one);
       all = blended ? all + one * weights[corner] : one;
     }
     const V3<S> before = walk.light->template load_from<S>(first);
@@ -96,7 +100,7 @@ void add_caustics(SceneAccess<Spu>& scene, uint32_t lanes, ShadowWalk<typename S
           if ((r.flags & material_flag::disturbed) == 0) return;
           const uint32_t normal = r.normal;
           scene.spu().enter_module(modules::kNormals);
-          disturb_normal(scene, normal, walk.points.point, some, walk.points.normal);
+          disturb_normal<Spu>(scene, normal, {walk.points.point, &walk.surface}, some, walk.points.normal);
         });
     for_each_part<Spu>([&](uint32_t first) {
       const V3<S> direction = walk.ray.rays.direction.template load_from<S>(first);
@@ -146,6 +150,10 @@ template <class Spu>
   if (counts != 0) {
     scene.spu().enter_module(modules::kFading);
     fade(scene, walk.ray, walk.points.interior, walk.hits.distance, counts, *walk.light, true);
+    if (walk.has_surface) {
+      scene.spu().enter_module(modules::kSurfaces);
+      find_surface_lanes(scene, walk.points, walk.hits, counts, walk.surface);
+    }
     for_each_value<S>(
         walk.points.material, counts & ~walk.points.blended,
         [&](uint32_t material, uint32_t same) { detail::filter_light(scene, material, false, same, walk); });

@@ -61,8 +61,8 @@ public:
   static constexpr CodeModule kModule =
       kStage == TextureStage::normals ? modules::kNormals : modules::kTextures;
 
-  MapWalk(SceneAccess<Spu>& scene, const V3<S>& point, MapOf of = MapOf::pigments)
-      : scene_(scene), of_(of), point_(point) {}
+  MapWalk(SceneAccess<Spu>& scene, const PatternPoints<S>& points, MapOf of = MapOf::pigments)
+      : scene_(scene), of_(of), points_(points) {}
 
   /// Starts at a pattern, whose leaves share `weight`.
   [[gnu::noinline]] void enter(uint32_t pattern, const F& weight, uint32_t lanes) {
@@ -125,14 +125,14 @@ private:
   };
 
   F value_of(const PatternRecord& r, uint32_t lanes) {
-    const auto at = [&](const V3<typename Spu::rare_simd>& point) {
-      return pattern_value(scene_, r, to_pattern_space<kStage>(scene_, r, point, lanes));
+    const auto at = [&](const PatternPoints<typename Spu::rare_simd>& points) {
+      return pattern_value(scene_, r, to_pattern_space<kStage>(scene_, r, points, lanes));
     };
     if constexpr (S::kLanes == Spu::rare_simd::kLanes) {
-      return at(point_);
+      return at(points_);
     } else {
       F value;
-      by_parts<Spu>(value, at, point_);
+      by_parts<Spu>(value, at, points_);
       return value;
     }
   }
@@ -153,7 +153,7 @@ private:
 
   SceneAccess<Spu>& scene_;
   MapOf of_;
-  V3<S> point_;
+  PatternPoints<S> points_;
   uint32_t depth_ = 0;
   Level levels_[kDeepestMapWalk];
 };

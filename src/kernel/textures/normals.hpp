@@ -67,14 +67,15 @@ inline void cofactors(const float (&m)[9], float (&c)[9]) {
 
 /// A unit normal as the pattern of `normal`, no map, disturbs it.
 template <class Spu>
-[[gnu::noinline]] void
-disturb_by(SceneAccess<Spu>& scene, const NormalRecord& normal, const V3<typename Spu::rare_simd>& point,
-           uint32_t lanes, const V3<typename Spu::rare_simd>& unit, V3<typename Spu::rare_simd>& disturbed) {
+[[gnu::noinline]] void disturb_by(SceneAccess<Spu>& scene, const NormalRecord& normal,
+                                  const PatternPoints<typename Spu::rare_simd>& points, uint32_t lanes,
+                                  const V3<typename Spu::rare_simd>& unit,
+                                  V3<typename Spu::rare_simd>& disturbed) {
   using S = typename Spu::rare_simd;
   using F = typename S::F;
   Spu& spu = scene.spu();
   const PatternRecord r = *scene.pattern(normal.pattern);
-  const V3<S> p = to_pattern_space<TextureStage::normals>(scene, r, point, lanes);
+  const V3<S> p = to_pattern_space<TextureStage::normals>(scene, r, points, lanes);
   float c[9];
   cofactors(normal.linear, c);
   const V3<S> local = normalise<S>(
@@ -114,26 +115,26 @@ disturb_by(SceneAccess<Spu>& scene, const NormalRecord& normal, const V3<typenam
 /// As disturb_normal(), for a part of a packet.
 template <class Spu>
 void disturb_part(SceneAccess<Spu>& scene, const NormalRecord& record,
-                  const V3<typename Spu::rare_simd>& point, uint32_t lanes,
+                  const PatternPoints<typename Spu::rare_simd>& points, uint32_t lanes,
                   V3<typename Spu::rare_simd>& unit) {
   using S = typename Spu::rare_simd;
   using F = typename S::F;
   const auto take = S::M::from_bits(lanes);
   V3<S> disturbed;
   if (record.is_mapped == 0) {
-    disturb_by(scene, record, point, lanes, unit, disturbed);
+    disturb_by(scene, record, points, lanes, unit, disturbed);
     unit = select<S>(take, disturbed, unit);
     return;
   }
   V3<S> sum = {F(0.0f), F(0.0f), F(0.0f)};
-  MapWalk<Spu, TextureStage::normals> walk(scene, point);
+  MapWalk<Spu, TextureStage::normals> walk(scene, points);
   walk.enter(record.pattern, F(1.0f), lanes);
   MapEntryRecord entry;
   F weight;
   uint32_t some;
   while (walk.next(entry, weight, some)) {
     const NormalRecord leaf = *scene.normal(entry.child);
-    disturb_by(scene, leaf, point, some, unit, disturbed);
+    disturb_by(scene, leaf, points, some, unit, disturbed);
     sum = sum + disturbed * weight;
   }
   unit = select<S>(take, normalise<S>(sum), unit);
@@ -141,17 +142,17 @@ void disturb_part(SceneAccess<Spu>& scene, const NormalRecord& record,
 
 } // namespace detail
 
-/// The normals at `point`, unit vectors on the viewer's side, as the record at `offset` disturbs them.
+/// The normals at `points`, unit vectors on the viewer's side, as the record at `offset` disturbs them.
 template <class Spu>
 [[gnu::noinline]] void disturb_normal(SceneAccess<Spu>& scene, uint32_t offset,
-                                      const V3<typename Spu::simd>& point, uint32_t lanes,
+                                      const PatternPoints<typename Spu::simd>& points, uint32_t lanes,
                                       V3<typename Spu::simd>& unit) {
   const NormalRecord record = *scene.normal(offset);
   for_each_part<Spu>([&](uint32_t first) {
     const uint32_t some = part_of<Spu>(lanes, first);
     if (some == 0) return;
     V3<typename Spu::rare_simd> normal = part_of<Spu>(unit, first);
-    detail::disturb_part(scene, record, part_of<Spu>(point, first), some, normal);
+    detail::disturb_part(scene, record, part_of<Spu>(points, first), some, normal);
     set_part<Spu>(unit, first, normal);
   });
 }

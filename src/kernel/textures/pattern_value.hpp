@@ -9,6 +9,7 @@
 #include "kernel/scene_access.hpp"
 #include "kernel/textures/gradient_noise.hpp"
 #include "kernel/textures/list.hpp"
+#include "kernel/textures/pattern_points.hpp"
 #include "kernel/textures/warps.hpp"
 #include "kernel/textures/wave.hpp"
 
@@ -170,11 +171,13 @@ template <class Spu>
 /// Points of `lanes` in the space of a pattern. Other lanes get any points.
 template <TextureStage kStage, class Spu>
 [[gnu::noinline]] V3<typename Spu::rare_simd>
-to_pattern_space(SceneAccess<Spu>& scene, const PatternRecord& r, const V3<typename Spu::rare_simd>& point,
-                 uint32_t lanes) {
+to_pattern_space(SceneAccess<Spu>& scene, const PatternRecord& r,
+                 const PatternPoints<typename Spu::rare_simd>& points, uint32_t lanes) {
   using S = typename Spu::rare_simd;
   Spu& spu = scene.spu();
-  V3<S> p = map_point<S>(r.to_space, point);
+  V3<S> p = points.at;
+  if ((r.kind_and_flags & pattern_flag::uv_mapping) != 0) p = surface_coordinates(points);
+  p = map_point<S>(r.to_space, p);
   move_idle_lanes<Spu>(p, lanes);
   for (uint32_t i = 0; i < r.step_count; ++i) {
     // A copy: the next read may replace the record.

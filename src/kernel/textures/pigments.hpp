@@ -34,13 +34,13 @@ namespace detail {
 /// Of a pattern whose map has colours only: the entries on both sides of its values, blended.
 template <class Spu>
 [[gnu::noinline]] void blend_colours(SceneAccess<Spu>& scene, uint32_t pattern,
-                                     const V3<typename Spu::rare_simd>& point, uint32_t lanes,
+                                     const PatternPoints<typename Spu::rare_simd>& points, uint32_t lanes,
                                      PigmentLanes<typename Spu::rare_simd>& pigment) {
   using S = typename Spu::rare_simd;
   using F = typename S::F;
   using M = typename S::M;
   const PatternRecord r = *scene.pattern(pattern);
-  const F value = pattern_value(scene, r, to_pattern_space<TextureStage::colours>(scene, r, point, lanes));
+  const F value = pattern_value(scene, r, to_pattern_space<TextureStage::colours>(scene, r, points, lanes));
   const F zero(0.0f);
   pigment = {{zero, zero, zero}, zero, zero};
   find_interval<S>(
@@ -57,13 +57,13 @@ template <class Spu>
 /// Of any pattern: the leaves of its tree of maps, by their weights.
 template <class Spu>
 [[gnu::noinline]] void add_up_leaves(SceneAccess<Spu>& scene, uint32_t pattern,
-                                     const V3<typename Spu::rare_simd>& point, uint32_t lanes,
+                                     const PatternPoints<typename Spu::rare_simd>& points, uint32_t lanes,
                                      PigmentLanes<typename Spu::rare_simd>& pigment) {
   using S = typename Spu::rare_simd;
   using F = typename S::F;
   const F zero(0.0f);
   pigment = {{zero, zero, zero}, zero, zero};
-  MapWalk<Spu, TextureStage::colours> walk(scene, point);
+  MapWalk<Spu, TextureStage::colours> walk(scene, points);
   walk.enter(pattern, F(1.0f), lanes);
   MapEntryRecord entry;
   F weight;
@@ -76,14 +76,15 @@ template <class Spu>
 
 /// The pigment of a pattern at the points of `lanes`, of a part of a packet.
 template <class Spu>
-void pigment_at(SceneAccess<Spu>& scene, uint32_t pattern, const V3<typename Spu::rare_simd>& point,
-                uint32_t lanes, PigmentLanes<typename Spu::rare_simd>& pigment) {
+void pigment_at(SceneAccess<Spu>& scene, uint32_t pattern,
+                const PatternPoints<typename Spu::rare_simd>& points, uint32_t lanes,
+                PigmentLanes<typename Spu::rare_simd>& pigment) {
   const uint32_t flags = scene.pattern(pattern)->kind_and_flags;
   if ((flags & (pattern_flag::nested | pattern_flag::average)) == 0 &&
       !Patterns::kAreLists[flags & pattern_flag::kind_mask])
-    detail::blend_colours(scene, pattern, point, lanes, pigment);
+    detail::blend_colours(scene, pattern, points, lanes, pigment);
   else
-    detail::add_up_leaves(scene, pattern, point, lanes, pigment);
+    detail::add_up_leaves(scene, pattern, points, lanes, pigment);
 }
 
 } // namespace celltrace::kernel

@@ -21,7 +21,7 @@ void add_sky_layers(SceneAccess<Spu>& scene, uint32_t sky, const V3<typename Spu
     const uint32_t flags = r.flags, pattern = r.pattern;
     PigmentLanes<S> layer = {splat3<S>(r.pigment), F(r.filter), F(r.transmit)};
     material = r.below;
-    if ((flags & material_flag::patterned) != 0) pigment_at(scene, pattern, direction, lanes, layer);
+    if ((flags & material_flag::patterned) != 0) pigment_at<Spu>(scene, pattern, {direction}, lanes, layer);
     const F clear = layer.filter + layer.transmit;
     sum = sum + layer.rgb * through * (one - clear);
     if ((flags & material_flag::old_opacity) != 0) {

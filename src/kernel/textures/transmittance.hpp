@@ -10,7 +10,7 @@ namespace detail {
 /// Of a texture that is no map: the product of its layers.
 template <class Spu>
 [[gnu::noinline]] void filter_of_layers(SceneAccess<Spu>& scene, uint32_t material,
-                                        const V3<typename Spu::rare_simd>& point, uint32_t lanes,
+                                        const PatternPoints<typename Spu::rare_simd>& points, uint32_t lanes,
                                         V3<typename Spu::rare_simd>& product) {
   using S = typename Spu::rare_simd;
   using F = typename S::F;
@@ -19,7 +19,7 @@ template <class Spu>
     const MaterialRecord& r = *scene.material(material);
     const uint32_t flags = r.flags, pattern = r.pattern, below = r.below;
     PigmentLanes<S> pigment = {splat3<S>(r.pigment), F(r.filter), F(r.transmit)};
-    if ((flags & material_flag::patterned) != 0) pigment_at(scene, pattern, point, lanes, pigment);
+    if ((flags & material_flag::patterned) != 0) pigment_at(scene, pattern, points, lanes, pigment);
     product = product * pigment.transmittance();
     if ((flags & material_flag::layered) == 0) return;
     material = below;
@@ -29,22 +29,22 @@ template <class Spu>
 /// Of any texture.
 template <class Spu>
 [[gnu::noinline]] void filter_of_texture(SceneAccess<Spu>& scene, uint32_t material,
-                                         const V3<typename Spu::rare_simd>& point, uint32_t lanes,
+                                         const PatternPoints<typename Spu::rare_simd>& points, uint32_t lanes,
                                          V3<typename Spu::rare_simd>& filter) {
   using S = typename Spu::rare_simd;
   using F = typename S::F;
   scene.spu().run_in_module(modules::kTextures);
   const uint32_t map = map_of(*scene.material(material));
-  if (map == kNoOffset) return filter_of_layers(scene, material, point, lanes, filter);
+  if (map == kNoOffset) return filter_of_layers(scene, material, points, lanes, filter);
   filter = {F(0.0f), F(0.0f), F(0.0f)};
-  MapWalk<Spu, TextureStage::colours> walk(scene, point, MapOf::textures);
+  MapWalk<Spu, TextureStage::colours> walk(scene, points, MapOf::textures);
   walk.enter(map, F(1.0f), lanes);
   MapEntryRecord entry;
   F weight;
   uint32_t some;
   V3<S> one;
   while (walk.next(entry, weight, some)) {
-    filter_of_layers(scene, entry.child, point, some, one);
+    filter_of_layers(scene, entry.child, points, some, one);
     filter = filter + one * weight;
   }
 }
@@ -54,8 +54,9 @@ template <class Spu>
 /// The transmittance of the texture at `material` at the points of `lanes`, of a part of a packet. One colour
 /// takes no code module: shadow rays through plain glass are many.
 template <class Spu>
-void transmittance_at(SceneAccess<Spu>& scene, uint32_t material, const V3<typename Spu::rare_simd>& point,
-                      uint32_t lanes, V3<typename Spu::rare_simd>& transmittance) {
+void transmittance_at(SceneAccess<Spu>& scene, uint32_t material,
+                      const PatternPoints<typename Spu::rare_simd>& points, uint32_t lanes,
+                      V3<typename Spu::rare_simd>& transmittance) {
   using S = typename Spu::rare_simd;
   using F = typename S::F;
   const MaterialRecord& r = *scene.material(material);
@@ -64,7 +65,7 @@ void transmittance_at(SceneAccess<Spu>& scene, uint32_t material, const V3<typen
     return;
   }
   scene.spu().enter_module(modules::kTextures);
-  detail::filter_of_texture(scene, material, point, lanes, transmittance);
+  detail::filter_of_texture(scene, material, points, lanes, transmittance);
 }
 
 } // namespace celltrace::kernel

@@ -1,0 +1,39 @@
+// Where patterns are asked. Kernel dialect.
+#pragma once
+
+#include "kernel/packet.hpp"
+#include "kernel/parts.hpp"
+
+namespace celltrace::kernel {
+
+/// What patterns may ask of the surfaces of a packet besides points, in the lanes of objects that are
+/// object_flag::by_surface.
+struct SurfaceLanes {
+  FloatLanes u, v;    ///< surface coordinates
+  VectorLanes normal; ///< unit vectors on the viewer's side, as they are disturbed by then
+};
+
+/// Points of a packet, or of a part of it.
+template <class S> struct PatternPoints {
+  V3<S> at;
+  const SurfaceLanes* surface = nullptr; ///< of the whole packet; null: no pattern asks for it
+  uint32_t first = 0;                    ///< lane of the packet that the part begins with
+};
+
+template <class Spu>
+[[gnu::always_inline]] inline decltype(auto) part_of(const PatternPoints<typename Spu::simd>& points,
+                                                     [[maybe_unused]] uint32_t first) {
+  if constexpr (kOnePart<Spu>)
+    return (points);
+  else
+    return PatternPoints<typename Spu::rare_simd>{part_of<Spu>(points.at, first), points.surface, first};
+}
+
+/// The coordinates of surfaces as points.
+template <class S> V3<S> surface_coordinates(const PatternPoints<S>& points) {
+  using F = typename S::F;
+  return {F::load(points.surface->u.lane + points.first), F::load(points.surface->v.lane + points.first),
+          F(0.0f)};
+}
+
+} // namespace celltrace::kernel
