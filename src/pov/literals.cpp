@@ -79,8 +79,9 @@ const char* read_entry(const char* at, const char* end, ListEntry& entry) {
 /// The count in front of a list says how long it will be, as far as the rest of the text can hold that.
 std::size_t expected(double count, const char* text, const char* end, std::size_t most) {
   const auto room = static_cast<std::size_t>((end - text) / kShortestVector + 2);
-  return count < static_cast<double>(std::min(room, most)) ? static_cast<std::size_t>(count) + 1
-                                                           : std::min(room, most);
+  const std::size_t limit = std::min(room, most);
+  if (!(count >= 0)) return 1;
+  return count < static_cast<double>(limit) ? static_cast<std::size_t>(count) + 1 : limit;
 }
 
 } // namespace

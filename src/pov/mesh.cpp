@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include <glm/geometric.hpp>
@@ -45,9 +46,12 @@ bool are_smooth(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 Index to_index(double value, std::size_t count, const char* what) {
   const double whole = std::trunc(value);
-  if (!(whole >= 0 && whole < static_cast<double>(count)))
-    throw InputError(std::string("mesh2 has no ") + what + ' ' +
-                     std::to_string(static_cast<long long>(whole)) + ", there are " + std::to_string(count));
+  if (!(whole >= 0 && whole < static_cast<double>(count))) {
+    char number[400]; // as long as a double can be
+    std::snprintf(number, sizeof number, "%.0f", whole);
+    throw InputError(std::string("mesh2 has no ") + what + ' ' + number + ", there are " +
+                     std::to_string(count));
+  }
   return static_cast<Index>(whole);
 }
 
