@@ -12,11 +12,11 @@ namespace celltrace::kernel::modules {
 
 /// Intersections with the shapes that are no spheres, triangles and planes, but for heavy ones, and what is
 /// inside of shapes, which CSG asks.
-constexpr CodeModule kShapes = {"shapes", 1, 0, 14464};
+constexpr CodeModule kShapes = {"shapes", 1, 0, 14720};
 /// What a program does once a frame or once for many: it makes its objects, and reports.
 constexpr CodeModule kStart = {"start", 3, 0, 9472};
 /// The building of accelerators.
-constexpr CodeModule kBuild = {"build", 16, 0, 25600};
+constexpr CodeModule kBuild = {"build", 16, 0, 25728};
 /// Patterns without noise, and those of noise with its tables.
 constexpr CodeModule kPatterns = {"patterns", 7, 0, 3712};
 constexpr CodeModule kNoise = {"noise", 8, 0, 14336};
