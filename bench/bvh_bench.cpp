@@ -98,7 +98,8 @@ void build(benchmark::State& state, Objects (*make)(std::size_t)) {
 /// Records in the order of the image, from frame to frame.
 void image(benchmark::State& state, compare::Model (*make)(std::size_t)) {
   const compare::Model model = make(static_cast<std::size_t>(state.range(0)));
-  Mesh mesh{model.vertices, {}, {}};
+  Mesh mesh;
+  mesh.vertices = model.vertices;
   for (const auto& [a, b, c] : model.triangles)
     mesh.triangles.push_back({{a, b, c}});
   Scene scene;

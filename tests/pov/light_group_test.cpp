@@ -39,8 +39,10 @@ std::string light(int tenths, const std::string& more = "") {
 std::string lit(const std::string& text) {
   const Scene scene = parse(text);
   std::string all;
-  for (std::size_t i = 0; i < scene.objects.size(); ++i)
-    all += (i == 0 ? "" : " ") + lights_of(scene, i);
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    if (i != 0) all += ' ';
+    all += lights_of(scene, i);
+  }
   return all;
 }
 

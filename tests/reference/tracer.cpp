@@ -207,9 +207,9 @@ Vec3 Tracer::own_light(const Branch& branch, const Point& point, const Material&
   const Index group = point.shape->object->light_group;
   for (const Light& light : scene_.lights) {
     if (!shines_on(light, group)) continue;
-    const Incoming arriving = incoming(light, point.position);
-    const Vec3 &to_light = arriving.to_light, &unshadowed = arriving.colour;
-    const double distance = arriving.distance;
+    const Incoming arrival = incoming(light, point.position);
+    const Vec3 &to_light = arrival.to_light, &unshadowed = arrival.colour;
+    const double distance = arrival.distance;
     const bool is_lit_through = point.shape->object->is_lit_through;
     const double cosine = glm::dot(point.normal, to_light);
     if (cosine < 1e-10 && !is_lit_through && f.diffuse_behind == 0) continue;
