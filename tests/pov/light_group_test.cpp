@@ -112,5 +112,5 @@ TEST_CASE("A light group has no texture and the like of its own") {
   CHECK_THAT(error_line("light_group { global_lights on " + kBall + "}"), Catch::Contains("unexpected"));
   CHECK_THAT(error_line("sphere { 0, 1 global_lights on }"), Catch::Contains("unexpected"));
   const std::string many = "#for (I, 1, 1100) light_group { " + kBall + "} #end";
-  CHECK_THAT(error_line(many), Catch::Contains("more than 1023 light groups"));
+  CHECK_THAT(error_line(many), Catch::Contains("more than 255 light groups"));
 }

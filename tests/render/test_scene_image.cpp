@@ -298,7 +298,7 @@ TEST_CASE("Light groups that are not sound are refused") {
   scene.light_groups.resize(kMostLightGroups);
   CHECK_NOTHROW(SceneImage(scene));
   scene.light_groups.resize(kMostLightGroups + 1);
-  CHECK_THROWS_WITH(SceneImage(scene), Catch::Contains("1023 light groups"));
+  CHECK_THROWS_WITH(SceneImage(scene), Catch::Contains("255 light groups"));
 }
 
 TEST_CASE("A sealed scene image with a fault in the inside of a mesh is refused") {

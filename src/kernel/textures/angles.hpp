@@ -28,7 +28,7 @@ template <class S>
   const F half = S::select(x < zero, F(0.5f) - quadrant, quadrant);
   return S::select(y < zero, -half, half);
 }
-/// The same in one copy, of the module of patterns.
+/// The same in one copy, which is always there: patterns of two modules ask for it.
 template <class S> [[gnu::noinline]] typename S::F turns_of(const typename S::F& y, const typename S::F& x) {
   return turns_inline<S>(y, x);
 }
