@@ -26,7 +26,7 @@ constexpr CodeModule kSampling = {"sampling", 18, 0, 14336};
 /// What insides take of light; and the start of mirrors that bend it.
 constexpr CodeModule kFading = {"fading", 20, 0, 2048};
 /// Patterns that few scenes have, many of which read tables of the scene image.
-constexpr CodeModule kRarePatterns = {"rare", 22, 0, 10752};
+constexpr CodeModule kRarePatterns = {"rare", 22, 0, 11264};
 /// What patterns ask of surfaces besides points.
 constexpr CodeModule kSurfaces = {"surfaces", 25, 0, 3840};
 /// Warps but for turbulence.
@@ -39,7 +39,7 @@ constexpr CodeModule kHeavyShapes = {"heavy", 4, 1, 4224};
 /// What is inside of meshes. Likewise: where CSG has meshes, it asks both by turns.
 constexpr CodeModule kMeshes = {"meshes", 17, 1, 2688};
 /// Where crossings are in polygons. Likewise, beside the shapes.
-constexpr CodeModule kPolygons = {"polygons", 25, 1, 1024};
+constexpr CodeModule kPolygons = {"polygons", 26, 1, 1024};
 /// Rays that go on from surfaces.
 constexpr CodeModule kSecondary = {"secondary", 2, 1, 9856};
 /// Light that is not simply a point's.
@@ -49,22 +49,22 @@ constexpr CodeModule kAreas = {"areas", 15, 1, 9088};
 /// The rays of cameras whose pictures are not flat.
 constexpr CodeModule kCameras = {"cameras", 10, 1, 6656};
 /// Pigments and normals, but for the patterns themselves.
-constexpr CodeModule kTextures = {"textures", 9, 1, 9728};
+constexpr CodeModule kTextures = {"textures", 9, 1, 9856};
 constexpr CodeModule kNormals = {"normals", 11, 1, 7040};
 
-/// What few finishes do with light.
-constexpr CodeModule kFinishes = {"finishes", 19, 1, 2560};
+/// What few finishes do with light, and light from behind.
+constexpr CodeModule kFinishes = {"finishes", 19, 1, 4224};
 
 // Of the third region: stages of which only one is under way. Rays are not traced while surfaces are shaded.
 
 /// Tests of objects that have a shape of the first region, or are parts of a CSG.
-constexpr CodeModule kObjects = {"objects", 12, 2, 7168};
+constexpr CodeModule kObjects = {"objects", 12, 2, 7424};
 /// Where hits lie on objects, and the normals there.
-constexpr CodeModule kHits = {"hits", 5, 2, 7296};
+constexpr CodeModule kHits = {"hits", 5, 2, 8192};
 /// Shading of surfaces with textures, or of several materials.
 constexpr CodeModule kComposed = {"composed", 13, 2, 8192};
-/// What rays pass through on their way, and the light that mirrors bend.
-constexpr CodeModule kAtmosphere = {"atmosphere", 24, 2, 3456};
+/// What rays pass through on their way or see before what they hit, and the light that mirrors bend.
+constexpr CodeModule kAtmosphere = {"atmosphere", 24, 2, 7424};
 /// Shadow rays that go from surface to surface.
 constexpr CodeModule kShadowWalk = {"walk", 21, 2, 5504};
 /// Exchange of units of work with other SPEs.
