@@ -4,6 +4,7 @@
 //   // expect: NAME.pov:3:1: error: ...
 //   // arguments: --max loop-steps=1000
 //
+// A * in the expected line is a number that differs between builds, like where memory runs out.
 // What cannot begin so has the lines in NAME.expect.
 #include "files.hpp"
 
@@ -43,6 +44,15 @@ std::string header(const std::string& text, const std::string& key) {
   const std::size_t at = text.substr(0, 1000).find(start);
   if (at == text.npos) return {};
   return text.substr(at + start.size(), text.find_first_of("\r\n", at) - at - start.size());
+}
+
+/// Whether the line is the expected one, where a * stands for one or more digits.
+bool matches(const std::string& line, const std::string& expected) {
+  const std::size_t star = expected.find('*');
+  if (star == expected.npos) return line == expected;
+  if (line.compare(0, star, expected, 0, star) != 0) return false;
+  const std::size_t after = std::min(line.find_first_not_of("0123456789", star), line.size());
+  return after > star && line.substr(after) == expected.substr(star + 1);
 }
 
 struct Ending {
@@ -102,7 +112,9 @@ TEST_CASE("hostile scenes each end in one message, soon and in little memory") {
     REQUIRE_FALSE(expected.empty());
     CHECK(WIFEXITED(ending.status));
     CHECK(WEXITSTATUS(ending.status) == 1);
-    CHECK(ending.error.substr(0, ending.error.find('\n')) == expected);
+    const std::string line = ending.error.substr(0, ending.error.find('\n'));
+    CAPTURE(line, expected);
+    CHECK(matches(line, expected));
     const std::size_t first = ending.error.find("error: ");
     CHECK((first == ending.error.npos || ending.error.find("error: ", first + 1) == ending.error.npos));
     CHECK(ending.error.size() < 2000);

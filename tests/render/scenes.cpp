@@ -608,7 +608,7 @@ Scene lit_from_behind() {
     object.shape = Disc{{0, 0, 0}, {0, 0.1 * i, 1}, 0.45, 0.1 * (i % 2)};
     if (i % 4 == 2) object = mesh_object(ball_mesh(4), object.material, object.interior);
     if (i % 4 == 2) object.transform = Transform::scale(Vec3(0.4));
-    if (i % 4 == 3) object.shape = Box{{{-0.4, -0.4, 0}, {0.4, 0.4, 0.001}}};
+    if (i % 4 == 3) object.shape = Box{{{-0.4, -0.4, 0}, {0.4, 0.4, 0.05}}};
     object.is_lit_through = i % 3 == 1;
     object.transform =
         object.transform.then(Transform::rotate({0, 23.0 * i, 0})).then(Transform::translate(at));
