@@ -6,6 +6,7 @@
 #
 # 120 seconds each for fuzz_parse and fuzz_render unless said otherwise. What makes one fail stays in build-fuzz/found;
 # `build-asan/tests/fuzz/TARGET FILE` runs it again. What the fuzzer has learned stays in build-fuzz/corpus.
+# FUZZ_SEED=N in the environment repeats a run's random choices, as far as the corpus and the time are the same.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -26,7 +27,7 @@ seeds=("$PWD"/tests/scenes "$PWD"/tests/hostile/scenes "$PWD"/examples/scenes)
 declare -A running
 for target in "$@"; do
   mkdir -p "$work/corpus/$target"
-  (cd "$work/empty" && "$build/tests/fuzz/$target" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=3000 -max_len=4096 \
+  (cd "$work/empty" && "$build/tests/fuzz/$target" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=3000 -max_len=4096 -seed="${FUZZ_SEED:-0}" \
     -dict="$OLDPWD/tests/fuzz/pov.dict" -artifact_prefix="$work/found/$target-" -print_final_stats=1 -verbosity=0 \
     "$work/corpus/$target" "${seeds[@]}" >"$work/$target.log" 2>&1) &
   running[$target]=$!
