@@ -91,6 +91,14 @@ struct Fractal {
   int interior = 0; ///< 0 to 6
   double interior_factor = 1;
 };
+/// How much the surface faces a direction, 0 away from it to 1 toward it, by the angle; with an altitude, the
+/// mean with how far a point is along that. Each counts by the length of its vector.
+struct Slope {
+  Vec3 direction{0, 1, 0};    ///< in the scene, wherever the pattern is moved; 0 if only the altitude counts
+  double least = 0, most = 1; ///< of what the surface faces: here the number is 0 and 1
+  Vec3 altitude{0, 0, 0};
+  double lowest = 0, highest = 1; ///< along the altitude: likewise
+};
 /// Only as a normal: the same direction all over each cell of crackle's points.
 struct Facets {
   double coords = 0; ///< how far that may be from the surface's own; instead of the normal's amount
@@ -101,7 +109,7 @@ struct Facets {
 using Kind =
     std::variant<Checker, Square, Hexagon, Triangular, Cubic, Brick, Gradient, Boxed, Spherical, Cylindrical,
                  Planar, Leopard, Onion, Radial, Spiral, Quilted, Bozo, Bumps, Dents, Granite, Wrinkles,
-                 Agate, Marble, Wood, Ripples, Waves, Cells, Crackle, Fractal, Facets>;
+                 Agate, Marble, Wood, Ripples, Waves, Cells, Crackle, Fractal, Slope, Facets>;
 
 } // namespace pattern
 

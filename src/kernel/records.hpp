@@ -194,8 +194,8 @@ struct alignas(128) PatternRecord {
   float frequency, phase, wave_exponent;
   TurbulenceWords turbulence;
   float parameter[5]; ///< by kind
-  /// Offset of the table that its kind reads: FeatureRecords, WaveRecords, or with `gradient_noise`
-  /// GradientRecords, before which there are the FeatureRecords if it reads both. Of
+  /// Offset of the table that its kind reads: FeatureRecords, WaveRecords, a SlopeRecord, or with
+  /// `gradient_noise` GradientRecords, before which there are the FeatureRecords if it reads both. Of
   /// fractals: fractal_word.
   uint32_t table;
 };
@@ -268,6 +268,16 @@ struct alignas(16) WaveRecord {
   float frequency; ///< of waves; ripples are all of 1
 };
 static_assert(sizeof(WaveRecord) == 16, "eight a line");
+
+/// Of a slope: its value is factor * (1 - a) + altitude . point + offset, where a is the angle of the
+/// surface's normal to the direction, in half turns.
+struct alignas(32) SlopeRecord {
+  float direction[3]; ///< of unit length
+  float factor;
+  float altitude[3];
+  float offset;
+};
+static_assert(sizeof(SlopeRecord) == 32, "four a line");
 
 /// What stands for a value of a pattern.
 struct alignas(32) MapEntryRecord {
@@ -509,7 +519,8 @@ struct alignas(128) ImageHeader {
   uint32_t light_word_offset, light_word_count;       ///< words of LightRecord::lit_sets
   uint32_t polygon_edge_offset, polygon_edge_count;   ///< PolygonEdgeRecords
   uint32_t rainbow_offset, rainbow_count;             ///< RainbowRecords
-  uint32_t unused[27];
+  uint32_t slope_offset, slope_count;                 ///< SlopeRecords
+  uint32_t unused[25];
 };
 static_assert(sizeof(ImageHeader) == 384, "three lines");
 

@@ -191,6 +191,17 @@ PatternChange magnet(Session& session, double kind, int pattern, const Quantity&
   return fractal(session, kind, nullptr, session.number(iterations, where), where);
 }
 
+PatternChange slope(Session& session, const pattern::Slope& slope, const Location& where) {
+  if (slope.direction == Vec3(0) && slope.altitude == Vec3(0))
+    session.fail(where, "this slope has neither a direction nor an altitude");
+  return [=](Session&, PatternDefinition& pattern) { choose(pattern, slope); };
+}
+
+void set_range(double& from, double& to, double least, double most) {
+  from = least == most ? 0 : least;
+  to = least == most ? 1 : most;
+}
+
 PatternChange set_fractal(int pattern::Fractal::*member, double value, int least, int most,
                           const Location& where) {
   return [=](Session& session, PatternDefinition& pattern) {
@@ -309,7 +320,7 @@ TexturePtr transformed(Session& session, const TexturePtr& texture, const Transf
 
 void add_layer(Session& session, SkySphereDefinition& sky, const PigmentDefinition& pigment,
                const Location& where) {
-  if (pigment.is_on_surface()) session.fail(where, "a sky_sphere has no surface for 'uv_mapping'");
+  if (pigment.asks_for_surface()) session.fail(where, "a sky_sphere has no surface for this pigment");
   append(session, sky.pigments, pigment, where);
 }
 

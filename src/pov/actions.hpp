@@ -88,6 +88,10 @@ PatternChange fractal(Session& session, double magnet, const Quantity* constant,
 /// Of the magnet's kind, `pattern` being the Mandelbrot set.
 PatternChange magnet(Session& session, double kind, int pattern, const Quantity& iterations,
                      const Location& where);
+/// Fails if it has neither a direction nor an altitude.
+PatternChange slope(Session& session, const pattern::Slope& slope, const Location& where);
+/// Sets a range of a slope; without a width it stays the one from 0 to 1.
+void set_range(double& from, double& to, double least, double most);
 /// What only fractals understand; fails unless the number is one of `least` to `most`.
 PatternChange set_fractal(int pattern::Fractal::*member, double value, int least, int most,
                           const Location& where);
@@ -123,7 +127,7 @@ TexturePtr transformed(Session& session, const TexturePtr& texture, const Transf
 
 void set_colour(PigmentDefinition& pigment, const Pigment& colour);
 
-/// Fails if the pigment is on surface coordinates: a sky has none.
+/// Fails if the pigment depends on a surface: a sky has none.
 void add_layer(Session& session, SkySphereDefinition& sky, const PigmentDefinition& pigment,
                const Location& where);
 /// Moves the pigments that it has got.

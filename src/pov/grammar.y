@@ -18,7 +18,7 @@
 // After a value both an operator and, since commas are optional, a sign or a colour's channel can follow: the
 // longer value is meant. A number at the front of an entry of a pigment_map is its weight. A name that CSG begins
 // with is all it consists of, not its first part.
-%expect 98
+%expect 106
 
 %code requires {
 #include "pov/actions.hpp"
@@ -90,6 +90,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %token NORMAL_VECTORS NO_SHADOW NUMBER_OF_WAVES OBJECT OCTAVES OMEGA OPEN
 %token PARALLEL PHASE PHONG PHONG_SIZE PHOTONS PIGMENT PIGMENT_MAP POINT_AT POLY_WAVE QUICK_COLOUR RADIUS
 %token ALBEDO ARC_ANGLE DOUBLE_ILLUMINATE FALLOFF_ANGLE GLOBAL_LIGHTS LIGHT_GROUP RADIOSITY RAINBOW WIDTH
+%token ALTITUDE SLOPE
 %token ADAPTIVE AREA_ILLUMINATION AREA_LIGHT CIRCULAR JITTER ORIENT
 %token USER_FUNCTION SPLINE TRACE INSIDE MIN_EXTENT MAX_EXTENT
 %token REFLECTION COLLECT PASS_THROUGH TARGET
@@ -114,6 +115,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %nterm <std::shared_ptr<PigmentDefinition>> pigment_base pigment_parts pigment_body
 %nterm <std::shared_ptr<NormalDefinition>> normal_start normal_base declared_normal normal_parts normal_body
 %nterm <PatternChange> pattern pattern_change
+%nterm <pattern::Slope> slope facing
 %nterm <Turbulence> turbulent_warp
 %nterm <SpaceStep> bend
 %nterm <warp::Repeat> repeat_warp
@@ -145,7 +147,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %nterm <std::shared_ptr<TriangleDefinition>> triangle triangle_vertices mapped_triangle
 %nterm <bool> albedo photons photon_items
 %nterm <NameId> variable
-%nterm <double> number optional_number flag entry_start
+%nterm <double> number optional_number second_number flag entry_start
 %nterm <std::shared_ptr<Spline>> spline_head spline
 %nterm <double Light::*> beam_number
 %nterm <UnsupportedPtr> unsupported unsupported_pattern unsupported_modifier
@@ -488,6 +490,31 @@ pattern
   | JULIA quantity optional_comma number { $$ = fractal(session, 0, &$2, $4, @1); }
   | MAGNET number ARGUED_PATTERN quantity { $$ = magnet(session, $2, $3, $4, @3); }
   | MAGNET number JULIA quantity optional_comma number { $$ = fractal(session, $2, &$4, $6, @1); }
+  | SLOPE quantity          { $$ = slope(session, {session.vector($2, @2)}, @1); }
+  | SLOPE '{' slope '}'     { $$ = slope(session, $3, @1); }
+  ;
+
+slope
+  : facing
+  | facing optional_comma ALTITUDE quantity optional_comma { $$ = $1; $$.altitude = session.vector($4, @4); }
+  | facing optional_comma ALTITUDE quantity optional_comma number optional_comma second_number {
+      $$ = $1;
+      $$.altitude = session.vector($4, @4);
+      set_range($$.lowest, $$.highest, $6, $8);
+    }
+  ;
+
+facing
+  : quantity                { $$.direction = session.vector($1, @1); }
+  | quantity optional_comma number optional_comma second_number {
+      $$.direction = session.vector($1, @1);
+      set_range($$.least, $$.most, $3, $5);
+    }
+  ;
+
+second_number // 0 if not there
+  : %empty                  { $$ = 0; }
+  | number
   ;
 
 pattern_change

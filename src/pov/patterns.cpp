@@ -195,6 +195,7 @@ const Entry kPatterns[] = {
      Wave::ramp,
      {{0, kCyan}, {0.333, kYellow}, {0.666, kMagenta}, {1, kCyan}}},
     {"ripples", make<Ripples>},
+    {"slope", make<Slope>, PatternForm::special},
     {"spherical", make<Spherical>},
     {"spiral1", make<Spiral>, kArgument, Wave::triangle, kGrey, set_arms},
     {"spiral2",
@@ -330,11 +331,11 @@ void bend(Session& session, PatternDefinition& pattern, const SpaceStep& warp, c
   pattern.own().space.push_back(warp);
 }
 
-void choose(PatternDefinition& pattern, const Fractal& fractal) {
+void choose(PatternDefinition& pattern, const Kind& kind) {
   const auto* entry = std::find_if(std::begin(kPatterns), std::end(kPatterns),
-                                   [](const Entry& one) { return std::string(one.word) == "mandel"; });
+                                   [&](const Entry& one) { return one.make().index() == kind.index(); });
   choose(pattern, static_cast<int>(entry - std::begin(kPatterns)));
-  pattern.own().kind = fractal;
+  pattern.own().kind = kind;
 }
 
 std::optional<warp::Mapping::Shape> mapping_shape(int number) {

@@ -20,7 +20,8 @@ struct Session;
 enum class PatternForm {
   plain,    ///< nothing of its own
   argument, ///< a number or a vector
-  list      ///< one colour, pigment, normal or texture for each of its numbers
+  list,     ///< one colour, pigment, normal or texture for each of its numbers
+  special   ///< by a rule of the grammar that is for its word alone
 };
 
 struct PatternWord {
@@ -75,8 +76,8 @@ void set_option(Session& session, PatternDefinition& pattern, int option, const 
 /// Moves the pattern, after everything that was done to its space before. Fails if there is no way back.
 void move(Session& session, PatternDefinition& pattern, const Transform& next, const Location& where);
 void bend(Session& session, PatternDefinition& pattern, const SpaceStep& warp, const Location& where);
-/// Makes it a fractal.
-void choose(PatternDefinition& pattern, const pattern::Fractal& fractal);
+/// Makes it one of a kind that only one word stands for.
+void choose(PatternDefinition& pattern, const pattern::Kind& kind);
 /// What a pattern makes of space as a warp; nothing if it makes none.
 std::optional<warp::Mapping::Shape> mapping_shape(int number);
 

@@ -319,7 +319,7 @@ std::shared_ptr<const Mesh> SceneBuilder::placed_triangle(const TriangleDefiniti
   MeshBuilder builder;
   TriangleDefinition placed = triangle.transformed(own.transform);
   // As all shapes without surface coordinates of their own.
-  if (own.texture && (own.uv_mapping || own.texture->has_surface())) {
+  if (own.texture && (own.uv_mapping || own.texture->asks_for_surface())) {
     placed.is_mapped = true;
     for (std::size_t i = 0; i < 3; ++i)
       placed.coordinates[i] = Vec2f(placed.vertices[i]);

@@ -34,6 +34,7 @@ const Word kWords[] = {
     {"adaptive", tokens::T_ADAPTIVE},
     {"adc_bailout", tokens::T_ADC_BAILOUT},
     {"albedo", tokens::T_ALBEDO},
+    {"altitude", tokens::T_ALTITUDE},
     {"ambient", tokens::T_AMBIENT},
     {"ambient_light", tokens::T_AMBIENT_LIGHT},
     {"angle", tokens::T_ANGLE},
@@ -169,6 +170,7 @@ const Word kWords[] = {
     {"shadowless", tokens::T_SHADOWLESS},
     {"sky", tokens::T_SKY},
     {"sky_sphere", tokens::T_SKY_SPHERE},
+    {"slope", tokens::T_SLOPE},
     {"slope_map", tokens::T_SLOPE_MAP},
     {"smooth_triangle", tokens::T_SMOOTH_TRIANGLE},
     {"specular", tokens::T_SPECULAR},
@@ -323,10 +325,10 @@ const char* const kUnsupportedBlocks[] = {
 };
 
 const char* const kUnsupportedFeatures[] = {
-    "absorption",   "all_intersections", "autostop",  "b_spline",   "blur_samples",  "cube",
-    "density_file", "importance",        "load_file", "max_trace",  "no_bump_scale", "pattern",
-    "precision",    "quaternion",        "save_file", "scattering", "slope",         "spacing",
-    "tiling",       "translucency",
+    "absorption",    "all_intersections", "autostop",   "b_spline",     "blur_samples",
+    "cube",          "density_file",      "importance", "load_file",    "max_trace",
+    "no_bump_scale", "pattern",           "precision",  "quaternion",   "save_file",
+    "scattering",    "spacing",           "tiling",     "translucency",
 };
 
 // What stands behind others of these words.
@@ -334,7 +336,6 @@ const char* const kUnsupportedArguments[] = {
     "aa_level",
     "aa_threshold",
     "all",
-    "altitude",
     "always_sample",
     "append",
     "ascii",
@@ -418,6 +419,8 @@ int token_of(PatternForm form) {
     return tokens::T_ARGUED_PATTERN;
   case PatternForm::list:
     return tokens::T_LIST_PATTERN;
+  case PatternForm::special:
+    break;
   }
   return tokens::T_PATTERN;
 }
@@ -447,8 +450,11 @@ std::vector<ReservedWord> reserved_words() {
     words.push_back({shape, tokens::T_SHAPE, number++, false});
   number = 0;
   const std::vector<PatternWord> patterns = pattern_words();
-  for (const PatternWord& pattern : patterns)
-    words.push_back({pattern.word, token_of(pattern.form), number++, false});
+  for (const PatternWord& pattern : patterns) {
+    if (pattern.form != PatternForm::special)
+      words.push_back({pattern.word, token_of(pattern.form), number, false});
+    ++number;
+  }
   number = 0;
   for (const PatternOption& option : pattern_options())
     words.push_back(

@@ -34,20 +34,21 @@ UnsupportedPtr PigmentDefinition::first_unsupported() const {
   return all({pattern.unsupported, unsupported, map ? map->unsupported : nullptr});
 }
 
-bool NormalDefinition::is_on_surface() const {
-  return pattern.exists() && (pattern.value().uv_mapping || (map && map->is_on_surface));
+bool NormalDefinition::asks_for_surface() const {
+  return pattern.exists() && (pattern.value().uv_mapping || (map && map->asks_for_surface));
 }
 
-bool TextureDefinition::has_surface() const {
+bool TextureDefinition::asks_for_surface() const {
   for (const TextureDefinition* layer = this; layer; layer = layer->below.get())
-    if (layer->is_on_surface || layer->pigment.is_on_surface() ||
-        (layer->normal && layer->normal->is_on_surface()) || (layer->map && layer->map->is_on_surface))
+    if (layer->is_on_surface || layer->pigment.asks_for_surface() ||
+        (layer->normal && layer->normal->asks_for_surface()) || (layer->map && layer->map->asks_for_surface))
       return true;
   return false;
 }
 
-bool PigmentDefinition::is_on_surface() const {
-  return pattern.exists() && (pattern.value().uv_mapping || (map && map->is_on_surface));
+bool PigmentDefinition::asks_for_surface() const {
+  const bool is_slope = std::holds_alternative<pattern::Slope>(pattern.value().kind);
+  return pattern.exists() && (pattern.value().uv_mapping || is_slope || (map && map->asks_for_surface));
 }
 
 bool PigmentDefinition::is_opaque() const {

@@ -24,10 +24,10 @@ using TexturePtr = std::shared_ptr<const TextureDefinition>;
 /// The entries of a map or of a pattern's list, of colours, pigments, normals or textures.
 template <class T> struct MapDefinition {
   std::vector<typename PatternMap<T>::Entry> entries;
-  int depth = 1;              ///< of maps inside one another
-  bool is_opaque = true;      ///< nothing shines through any entry
-  bool is_on_surface = false; ///< some entry is on surface coordinates
-  UnsupportedPtr unsupported; ///< the first in any entry
+  int depth = 1;                 ///< of maps inside one another
+  bool is_opaque = true;         ///< nothing shines through any entry
+  bool asks_for_surface = false; ///< some entry depends on more of a surface than points
+  UnsupportedPtr unsupported;    ///< the first in any entry
 };
 using PigmentMap = MapDefinition<Pigment>;
 using NormalMap = MapDefinition<Normal>;
@@ -49,8 +49,8 @@ struct PigmentDefinition {
   int depth() const { return !pattern.exists() ? 0 : map ? map->depth : 1; }
   /// Nothing shines through.
   bool is_opaque() const;
-  /// It, or something in its map, is on surface coordinates.
-  bool is_on_surface() const;
+  /// It, or something in its map, is on surface coordinates, or a slope.
+  bool asks_for_surface() const;
   Pigment finish() const;
 };
 using PigmentPtr = std::shared_ptr<const PigmentDefinition>;
@@ -66,7 +66,7 @@ struct NormalDefinition {
   [[no_unique_address]] Counted<NormalDefinition> counted;
 
   UnsupportedPtr first_unsupported() const;
-  bool is_on_surface() const;
+  bool asks_for_surface() const;
   int depth() const { return map ? map->depth : 0; }
   bool is_smooth() const { return !pattern.exists(); }
   Normal finish() const;
@@ -101,8 +101,8 @@ struct TextureDefinition {
   int depth() const { return map ? map->depth : 0; }
   /// Nothing shines through, so that a layer below does not matter.
   bool is_opaque() const;
-  /// Something in it is on surface coordinates.
-  bool has_surface() const;
+  /// As a pigment's.
+  bool asks_for_surface() const;
   /// Whether it matters where in space it is.
   bool is_constant() const;
   /// Whether it has a pigment, normal and finish that can be changed, and can be a layer.

@@ -27,7 +27,8 @@ FieldList<&ImageHeader::magic, &ImageHeader::version, &ImageHeader::bytes, &Imag
           &ImageHeader::gradient_offset, &ImageHeader::gradient_count, &ImageHeader::wave_offset,
           &ImageHeader::wave_count, &ImageHeader::light_set_count, &ImageHeader::light_word_offset,
           &ImageHeader::light_word_count, &ImageHeader::polygon_edge_offset, &ImageHeader::polygon_edge_count,
-          &ImageHeader::rainbow_offset, &ImageHeader::rainbow_count, &ImageHeader::unused>
+          &ImageHeader::rainbow_offset, &ImageHeader::rainbow_count, &ImageHeader::slope_offset,
+          &ImageHeader::slope_count, &ImageHeader::unused>
 fields_of(const ImageHeader&);
 
 FieldList<&ObjectRecord::kind_and_flags, &ObjectRecord::material, &ObjectRecord::interior,
@@ -79,6 +80,9 @@ FieldList<&PatternRecord::kind_and_flags, &PatternRecord::entries, &PatternRecor
           &PatternRecord::frequency, &PatternRecord::phase, &PatternRecord::wave_exponent,
           &PatternRecord::turbulence, &PatternRecord::parameter, &PatternRecord::table>
 fields_of(const PatternRecord&);
+
+FieldList<&SlopeRecord::direction, &SlopeRecord::factor, &SlopeRecord::altitude, &SlopeRecord::offset>
+fields_of(const SlopeRecord&);
 
 FieldList<&SpaceStepRecord::turbulence, &SpaceStepRecord::to_space, &SpaceStepRecord::kind_and_flags,
           &SpaceStepRecord::table, &SpaceStepRecord::value>

@@ -147,6 +147,34 @@ std::uint32_t put(const pattern::Waves&, Parameters) {
   return kPatternKind<WavesPattern>;
 }
 
+std::uint32_t put(const pattern::Slope& slope, Parameters) {
+  if (slope.direction == Vec3(0) && slope.altitude == Vec3(0))
+    throw InputError("a slope has neither direction nor altitude");
+  if (slope.least == slope.most || slope.lowest == slope.highest)
+    throw InputError("a slope has a range of no width");
+  return kPatternKind<SlopePattern>;
+}
+
+SlopeRecord record_of(const pattern::Slope& slope) {
+  const double facing = glm::length(slope.direction), climbing = glm::length(slope.altitude);
+  const double weight = 1 / ((facing + climbing) * (slope.most - slope.least));
+  SlopeRecord r{};
+  double offset = 0;
+  if (facing > 0) {
+    r.factor = static_cast<float>(facing * weight);
+    offset -= slope.least * facing * weight;
+  }
+  // Along the altitude's direction, by its length over that of both.
+  const double height = 1 / ((facing + climbing) * (slope.highest - slope.lowest));
+  if (climbing > 0) offset -= slope.lowest * climbing * height;
+  for (int i = 0; i < 3; ++i) {
+    r.direction[i] = facing > 0 ? static_cast<float>(slope.direction[i] / facing) : 0.0f;
+    r.altitude[i] = static_cast<float>(slope.altitude[i] * height);
+  }
+  r.offset = static_cast<float>(offset);
+  return r;
+}
+
 std::uint32_t word_of(const pattern::Fractal& fractal) {
   return static_cast<std::uint32_t>(fractal.exponent) |
          static_cast<std::uint32_t>(fractal.exterior) << fractal_word::exterior_shift |
@@ -167,6 +195,8 @@ PatternTable pattern_table(std::uint32_t kind_and_flags) {
   case kPatternKind<RipplesPattern>:
   case kPatternKind<WavesPattern>:
     return PatternTable::waves;
+  case kPatternKind<SlopePattern>:
+    return PatternTable::slopes;
   default:
     return PatternTable::none;
   }
@@ -177,6 +207,7 @@ PatternWords pattern_words(const pattern::Kind& kind, int number_of_waves) {
   words.kind_and_flags = std::visit([&](const auto& one) { return put(one, words.parameter); }, kind);
   words.table = pattern_table(words.kind_and_flags);
   if (const auto* fractal = std::get_if<pattern::Fractal>(&kind)) words.fractal = word_of(*fractal);
+  if (const auto* slope = std::get_if<pattern::Slope>(&kind)) words.slope = record_of(*slope);
   if (words.table == PatternTable::waves) words.parameter[0] = static_cast<float>(number_of_waves);
   return words;
 }

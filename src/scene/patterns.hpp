@@ -2,13 +2,14 @@
 #pragma once
 
 #include "celltrace/texture.hpp"
+#include "kernel/records.hpp"
 
 #include <cstdint>
 
 namespace celltrace {
 
 /// Which table a pattern reads.
-enum class PatternTable : std::uint8_t { none, features, gradients, waves };
+enum class PatternTable : std::uint8_t { none, features, gradients, waves, slopes };
 
 /// What a kind is in PatternRecords.
 struct PatternWords {
@@ -16,6 +17,7 @@ struct PatternWords {
   float parameter[5] = {};
   PatternTable table = PatternTable::none;
   std::uint32_t fractal = 0; ///< a fractal_word
+  kernel::SlopeRecord slope = {};
 };
 /// The table of a PatternRecord with these flags.
 PatternTable pattern_table(std::uint32_t kind_and_flags);

@@ -138,6 +138,7 @@ ImageHeader make_header(const Scene& scene, const LightSets& light_sets, const T
   layout.place<FeatureRecord>(textures.features.size(), header.feature_offset, header.feature_count);
   layout.place<GradientRecord>(textures.gradients.size(), header.gradient_offset, header.gradient_count);
   layout.place<WaveRecord>(textures.waves.size(), header.wave_offset, header.wave_count);
+  layout.place<SlopeRecord>(textures.slopes.size(), header.slope_offset, header.slope_count);
   layout.place<BlendRecord>(census.blended, header.blend_offset, header.blend_count);
   layout.place<InteriorRecord>(scene.interiors.size(), header.interior_offset, header.interior_count);
   layout.place<FinishRecord>(textures.finishes.size(), header.finish_offset, header.finish_count);
@@ -230,6 +231,7 @@ public:
     copy(textures.features, header_.feature_offset);
     copy(textures.gradients, header_.gradient_offset);
     copy(textures.waves, header_.wave_offset);
+    copy(textures.slopes, header_.slope_offset);
     for (std::size_t i = 0; i < scene_.interiors.size(); ++i)
       table<InteriorRecord>(header_.interior_offset)[i] = make_record(scene_.interiors[i]);
     for (std::size_t i = 0; i < scene_.fogs.size(); ++i)

@@ -201,6 +201,8 @@ private:
     case PatternTable::waves:
       return r.parameter[0] >= 1 && r.parameter[0] <= static_cast<float>(h_.wave_count) &&
              r.table == h_.wave_offset;
+    case PatternTable::slopes:
+      return refers_to(r.table, h_.slope_offset, h_.slope_count, sizeof(SlopeRecord));
     }
     return false;
   }
@@ -222,7 +224,8 @@ private:
   }
   /// Whether it is asked at more than points.
   static bool asks_by_itself(const PatternRecord& r) {
-    return (r.kind_and_flags & pattern_flag::uv_mapping) != 0;
+    return (r.kind_and_flags & pattern_flag::uv_mapping) != 0 ||
+           Patterns::kReadSurfaces[r.kind_and_flags & pattern_flag::kind_mask];
   }
   std::uint32_t depth_of(std::uint32_t pattern) const {
     const PatternRecord& r = patterns_[pattern];
@@ -461,6 +464,7 @@ SceneImage SceneImage::from_bytes(std::span<const std::byte> bytes) {
       !table_fits(h.feature_offset, h.feature_count, sizeof(FeatureRecord), bytes.size()) ||
       !table_fits(h.gradient_offset, h.gradient_count, sizeof(GradientRecord), bytes.size()) ||
       !table_fits(h.wave_offset, h.wave_count, sizeof(WaveRecord), bytes.size()) ||
+      !table_fits(h.slope_offset, h.slope_count, sizeof(SlopeRecord), bytes.size()) ||
       !table_fits(h.blend_offset, h.blend_count, sizeof(BlendRecord), bytes.size()) ||
       !table_fits(h.interior_offset, h.interior_count, sizeof(InteriorRecord), bytes.size()) ||
       !table_fits(h.finish_offset, h.finish_count, sizeof(FinishRecord), bytes.size()) ||

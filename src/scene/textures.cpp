@@ -117,15 +117,20 @@ private:
     if (w.orientation == Vec3(0)) fail("has a warp without orientation");
   }
   void pattern(const Pattern& p) const {
-    if (p.uv_mapping && !has_surface_) fail("has a pattern on a surface, but no surface");
+    if ((p.uv_mapping || std::holds_alternative<pattern::Slope>(p.kind)) && !has_surface_)
+      fail("has a pattern of surfaces, but no surface");
     space_step(p.normal_space);
     turbulence(p.turbulence);
     numbers({p.wave_exponent, p.frequency, p.phase});
     if (p.noise_generator < 0 || p.noise_generator > 3) fail("has a noise generator that is not 0 to 3");
     for (const SpaceStep& step : p.space)
       std::visit([&](const auto& one) { space_step(one); }, step);
-    for (const float number : pattern_words(p.kind, 1).parameter)
+    const PatternWords words = pattern_words(p.kind, 1);
+    for (const float number : words.parameter)
       numbers({number});
+    const SlopeRecord& s = words.slope;
+    numbers({s.direction[0], s.direction[1], s.direction[2], s.factor, s.altitude[0], s.altitude[1],
+             s.altitude[2], s.offset});
   }
 
   const std::string name_;
@@ -250,7 +255,8 @@ float inverse_width(double from, double to) {
 
 /// Whether points do not tell a pattern's values.
 bool asks_for_surface(const PatternRecord& r) {
-  return (r.kind_and_flags & pattern_flag::uv_mapping) != 0;
+  return (r.kind_and_flags & pattern_flag::uv_mapping) != 0 ||
+         Patterns::kReadSurfaces[r.kind_and_flags & pattern_flag::kind_mask];
 }
 
 /// The sky as a texture of layers; there is one.
@@ -455,9 +461,9 @@ TextureTables::Known TextureTables::add_normal(const Normal& normal, const Patte
     const bool has_slopes =
         !normal.slopes.empty() &&
         !disturbs(pattern_words(normal.pattern.kind, 1).kind_and_flags & pattern_flag::kind_mask);
-    const std::uint32_t slopes = has_slopes ? add_slopes(normal.slopes) : 0;
+    const std::uint32_t first = has_slopes ? add_slopes(normal.slopes) : 0;
     r.pattern = add_pattern(normal.pattern, outer, false, has_slopes ? normal.slopes.size() : 0);
-    patterns[r.pattern].entries = slopes;
+    patterns[r.pattern].entries = first;
     const auto* facets = std::get_if<pattern::Facets>(&normal.pattern.kind);
     r.amount = static_cast<float>(facets ? facets->coords : normal.amount);
     r.accuracy = static_cast<float>(normal.accuracy);
@@ -473,15 +479,15 @@ TextureTables::Known TextureTables::add_normal(const Normal& normal, const Patte
   return {static_cast<std::uint32_t>(normals.size() - 1), traits};
 }
 
-std::uint32_t TextureTables::add_slopes(const std::vector<SlopePoint>& slopes) {
-  make_room(entries, slopes.size(), "entries of maps");
+std::uint32_t TextureTables::add_slopes(const std::vector<SlopePoint>& points) {
+  make_room(entries, points.size(), "entries of maps");
   const auto first = static_cast<std::uint32_t>(entries.size());
-  for (std::size_t i = 0; i < slopes.size(); ++i) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
     MapEntryRecord entry{};
-    entry.position = static_cast<float>(slopes[i].position);
-    entry.inverse_width = i == 0 ? 0 : inverse_width(slopes[i - 1].position, slopes[i].position);
-    entry.rgb[0] = static_cast<float>(slopes[i].height);
-    entry.rgb[1] = static_cast<float>(slopes[i].slope);
+    entry.position = static_cast<float>(points[i].position);
+    entry.inverse_width = i == 0 ? 0 : inverse_width(points[i - 1].position, points[i].position);
+    entry.rgb[0] = static_cast<float>(points[i].height);
+    entry.rgb[1] = static_cast<float>(points[i].slope);
     entry.child = kNoOffset;
     entries.push_back(entry);
   }
@@ -536,6 +542,10 @@ std::uint32_t TextureTables::add_pattern(const Pattern& pattern, const PatternSp
     }
     r.table = words.fractal;
     tables_.back() = pattern_table(r.kind_and_flags);
+    if (tables_.back() == PatternTable::slopes) {
+      r.table = static_cast<std::uint32_t>(slopes.size());
+      slopes.push_back(words.slope);
+    }
     add_table(tables_.back());
   }
   r.frequency = static_cast<float>(pattern.frequency);
@@ -553,8 +563,8 @@ std::uint32_t TextureTables::add_pattern(const Pattern& pattern, const PatternSp
 void TextureTables::add_table(PatternTable table) {
   if (table == PatternTable::waves && waves.empty()) waves = make_waves(scene_.number_of_waves);
   if (table == PatternTable::gradients && gradients.empty()) gradients = make_gradients();
-  if (table != PatternTable::waves && table != PatternTable::none && features.empty())
-    features = make_features();
+  const bool has_features = table == PatternTable::features || table == PatternTable::gradients;
+  if (has_features && features.empty()) features = make_features();
 }
 
 /// What is met first is written last.
@@ -597,6 +607,9 @@ void TextureTables::relocate(const ImageHeader& header) {
       break;
     case PatternTable::waves:
       r.table = header.wave_offset;
+      break;
+    case PatternTable::slopes:
+      to_offset<SlopeRecord>(r.table, header.slope_offset);
       break;
     case PatternTable::none:
       break;

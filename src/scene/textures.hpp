@@ -55,6 +55,7 @@ public:
   std::vector<kernel::FeatureRecord> features;   ///< these three only if a pattern or a warp reads them
   std::vector<kernel::GradientRecord> gradients; ///< never without the features
   std::vector<kernel::WaveRecord> waves;
+  std::vector<kernel::SlopeRecord> slopes;     ///< one for each slope
   std::vector<kernel::RainbowRecord> rainbows; ///< those that are visible
   std::uint32_t sky;                           ///< index of the uppermost layer's material, or kNoOffset
   /// By material of the scene: what an object has that consists of it, of object_flag's opaque, mapped,

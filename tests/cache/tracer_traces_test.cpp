@@ -119,8 +119,7 @@ TEST_CASE("the last of several frames can be replayed, from warm caches and afte
   Scene scene = scene_named("meshes");
   RenderStatistics statistics;
   {
-    Renderer renderer(
-        options_for(CacheConfig::of(2, 8, CacheReplacement::random), Accelerator::bvh, writer));
+    Renderer renderer(options_for(CacheConfig::of(2, 8, CacheReplacement::random), Accelerator::bvh, writer));
     renderer.render(scene);
     scene.camera = camera_at({0.5, 0.7, -4.5}, {0.1, 0.2, 0});
     renderer.render(scene.camera);

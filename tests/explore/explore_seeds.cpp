@@ -1,6 +1,6 @@
-// Renders scenes on an emulated Cell under many seeds: each draws the interleaving of the SPEs, when DMA moves
-// and completes, which SPEs are slow or pause, and how long words take. The picture has to be native's every
-// time, with no rule broken, no deadlock, and every row rendered once.
+// Renders scenes on an emulated Cell under many seeds: each draws the interleaving of the SPEs, when DMA
+// moves and completes, which SPEs are slow or pause, and how long words take. The picture has to be native's
+// every time, with no rule broken, no deadlock, and every row rendered once.
 //
 //   explore_seeds [--seeds N] [--first N] [--width N] [--height N] SCENE.pov...
 //
@@ -28,7 +28,8 @@ struct Settings {
 };
 
 /// What is wrong with the run of one seed; empty: nothing.
-std::string fault_of(const Scene& scene, const RenderOptions& common, const Image& expected, std::uint64_t seed) {
+std::string fault_of(const Scene& scene, const RenderOptions& common, const Image& expected,
+                     std::uint64_t seed) {
   std::string broken;
   RenderOptions options = common;
   options.backend = "cell_emu";
@@ -69,9 +70,10 @@ bool explore(const std::string& path, const Settings& settings) {
                  fault.c_str());
     return false;
   }
-  std::printf("%s: %llu seeds from %llu on: the same picture, no diagnostic, no deadlock, every packet once\n",
-              path.c_str(), static_cast<unsigned long long>(settings.seeds),
-              static_cast<unsigned long long>(settings.first));
+  std::printf(
+      "%s: %llu seeds from %llu on: the same picture, no diagnostic, no deadlock, every packet once\n",
+      path.c_str(), static_cast<unsigned long long>(settings.seeds),
+      static_cast<unsigned long long>(settings.first));
   std::fflush(stdout);
   return true;
 }

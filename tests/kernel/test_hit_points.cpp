@@ -1,6 +1,6 @@
 // Points and normals where rays hit, against the reference's geometry.
-#include "kernel/shading/hit_points.hpp"
 #include "kernel/accel/traversal.hpp"
+#include "kernel/shading/hit_points.hpp"
 #include "prepared_scene.hpp"
 #include "reference/geometry.hpp"
 #include "soups.hpp"

@@ -72,7 +72,7 @@ VectorLanes points_of(const std::function<Vec3(unsigned)>& point) {
 /// Values of a pattern at points of its own space, wave included.
 FloatLanes values(const Pattern& pattern, const VectorLanes& points) {
   Textures textures(pattern);
-  return lanes_of(pattern_value(textures.access(), PatternRecord(textures.pattern()), points.load<Simd>()));
+  return lanes_of(pattern_value(textures.access(), PatternRecord(textures.pattern()), {points.load<Simd>()}));
 }
 
 /// Compares a pigment at sixteen points. Where a step of it is so near that rounding decides on which side a
@@ -447,7 +447,7 @@ TEST_CASE("The scene's noise generator is that of patterns without one") {
     scene.materials = {Textures::plain(Textures::grey(noise_of_generator(0)))};
     Textures textures(scene);
     const FloatLanes found =
-        lanes_of(pattern_value(textures.access(), PatternRecord(textures.pattern()), points.load<Simd>()));
+        lanes_of(pattern_value(textures.access(), PatternRecord(textures.pattern()), {points.load<Simd>()}));
     const FloatLanes expected = values(noise_of_generator(generator), points);
     for (unsigned l = 0; l < kSimdLanes; ++l)
       CHECK(found.lane[l] == expected.lane[l]);
@@ -465,7 +465,8 @@ TEST_CASE("Turbulence displaces points as POV-Ray's") {
   const auto in_space_of = [](const Pattern& pattern, const VectorLanes& from) {
     Textures textures(pattern);
     return lanes_of(to_pattern_space<TextureStage::colours>(
-        textures.access(), PatternRecord(textures.pattern()), {from.load<Simd>()}, 0xFFFF));
+                        textures.access(), PatternRecord(textures.pattern()), {from.load<Simd>()}, 0xFFFF)
+                        .at);
   };
   const VectorLanes displaced = in_space_of(own, points);
   const VectorLanes stepped =
@@ -653,7 +654,7 @@ Vec3 disturbed(const Normal& normal, const Vec3& point, const Vec3& unit) {
                                   {0, 1, 0}};
   Vec3 sum(0);
   for (const Vec3& corner : corners)
-    sum += corner * reference::value_of(normal.pattern, p + normal.accuracy * corner);
+    sum += corner * reference::value_of(normal.pattern, {p + normal.accuracy * corner});
   const Vec3 local = glm::normalize(to_space.normal(unit));
   return glm::normalize(to_space.inverse().normal(local - sum * (0.1 * normal.amount / normal.accuracy)));
 }

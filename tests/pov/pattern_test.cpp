@@ -72,6 +72,7 @@ TEST_CASE("every pattern has its word") {
       {"spotted", Bozo{}},        {"cylindrical", Cylindrical{}},
       {"waves", Waves{}},         {"wood", Wood{}},
       {"wrinkles", Wrinkles{}},   {"spiral2 3", Spiral{}},
+      {"slope y", Slope{}},       {"slope { x }", Slope{}},
       {"mandel 5", Fractal{}},    {"julia <0, 1>, 5", Fractal{}},
       {"julia u 5", Fractal{}},   {"magnet 1 mandel 5", Fractal{}},
   };
@@ -129,6 +130,27 @@ TEST_CASE("what stands behind a pattern's word") {
         "scene.pov:1:34: error: this gradient has no direction");
   CHECK(error_line("sphere { 0, 1 pigment { spiral1 1e300 } }") ==
         "scene.pov:1:33: error: a spiral has no more than a million arms");
+}
+
+TEST_CASE("slopes") {
+  const auto slope = [](const std::string& items) { return kind<pattern::Slope>("slope { " + items + " }"); };
+  const auto plain = slope("<1, 2, 3>");
+  CHECK(plain.direction == Vec3(1, 2, 3));
+  CHECK(plain.least == 0);
+  CHECK(plain.most == 1);
+  CHECK(plain.altitude == Vec3(0));
+  const auto ranged = slope("y, 0.2, 0.7 altitude 2*x, -1, 3");
+  CHECK(ranged.least == 0.2);
+  CHECK(ranged.most == 0.7);
+  CHECK(ranged.altitude == Vec3(2, 0, 0));
+  CHECK(ranged.lowest == -1);
+  CHECK(ranged.highest == 3);
+  CHECK(slope("y 0.2 0.7, altitude x").most == 0.7);
+  CHECK(slope("0 altitude x").direction == Vec3(0));
+  CHECK(slope("y, 0.5, 0.5").most == 1); // no range
+  CHECK(slope("y, 0.5").most == 0);
+  CHECK_THAT(error_line("sphere { 0, 1 pigment { slope 0 } }"), Catch::Contains("neither"));
+  CHECK_THAT(error_line("sky_sphere { pigment { slope y } }"), Catch::Contains("no surface"));
 }
 
 TEST_CASE("modifiers of patterns") {

@@ -227,7 +227,7 @@ TEST_CASE("what is not supported is an error where it is used") {
       "#declare F = function (x, y) { x + y } #declare B = blob { threshold 1 } #declare D = difference { "
       "sphere "
       "{ 0, 1 } object { B } }\n"
-      "#declare S = sphere { 0, 1 pigment { slope <0, 1, 0> } }\n"
+      "#declare S = sphere { 0, 1 pigment { density_file df3 \"d\" } }\n"
       "#declare I = interior { dispersion 1.1 } #declare C = interior { media { intervals 1 } }\n";
   CHECK(error_line(declarations).empty());
   CHECK(error_line(declarations + "sphere { 0, 1 texture { T } }") ==
@@ -236,13 +236,13 @@ TEST_CASE("what is not supported is an error where it is used") {
   CHECK(error_line(declarations + "union { sphere { 0, 1 } object { B } }") ==
         "scene.pov:3:53: error: 'blob' is not supported yet");
   CHECK(error_line(declarations + "object { S pigment { rgb 1 } }").empty());
-  CHECK(error_line(declarations + "S") == "scene.pov:4:38: error: 'slope' is not supported yet");
+  CHECK(error_line(declarations + "S") == "scene.pov:4:38: error: 'density_file' is not supported yet");
   CHECK(error_line(declarations + "sphere { 0, 1 interior { I } }") ==
         "scene.pov:5:25: error: 'dispersion' is not supported yet");
   CHECK(error_line(declarations + "sphere { 0, 1 interior { C } }") ==
         "scene.pov:5:66: error: 'media' is not supported yet");
   CHECK(test::error(declarations + "S") ==
-        "scene.pov:4:38: error: 'slope' is not supported yet\n    used at scene.pov:6:1");
+        "scene.pov:4:38: error: 'density_file' is not supported yet\n    used at scene.pov:6:1");
   CHECK(error_line("quartic { 0, x, 1 }") == "scene.pov:1:1: error: 'quartic' is not supported yet");
   CHECK(error_line("sphere { 0, 1 clipped_by { prism { 0, 1 } } }") ==
         "scene.pov:1:28: error: 'prism' is not supported yet");
@@ -251,13 +251,13 @@ TEST_CASE("what is not supported is an error where it is used") {
 }
 
 TEST_CASE("all that is not supported is reported at once, each feature once") {
-  const std::string scene = "sphere { 0, 1 pigment { slope <0, 1, 0> scale 2 } cutaway_textures }\n"
+  const std::string scene = "sphere { 0, 1 pigment { density_file df3 \"d\" scale 2 } cutaway_textures }\n"
                             "text { ttf \"x\" \"y\" 1, 0 }\n"
                             "union { sphere { 0, 1 cutaway_textures finish { phong 0.5 subsurface { "
                             "translucency 1 } diffuse 0.2 } } blob { threshold 1 } }\n";
-  CHECK(test::error(scene) == "scene.pov:1:51: error: 'cutaway_textures' is not supported yet\n"
+  CHECK(test::error(scene) == "scene.pov:1:56: error: 'cutaway_textures' is not supported yet\n"
                               "    used at scene.pov:1:1\n"
-                              "scene.pov:1:25: error: 'slope' is not supported yet\n"
+                              "scene.pov:1:25: error: 'density_file' is not supported yet\n"
                               "    used at scene.pov:1:1\n"
                               "scene.pov:2:1: error: 'text' is not supported yet\n"
                               "scene.pov:3:59: error: 'subsurface' is not supported yet\n"
@@ -273,8 +273,8 @@ TEST_CASE("all that is not supported is reported at once, each feature once") {
   std::string said;
   lenient.message = [&said](std::string_view message) { said += message; };
   const Scene read = test::parse(scene, lenient);
-  CHECK(said == "scene.pov:1:51: warning: 'cutaway_textures' is not supported yet and left out\n"
-                "scene.pov:1:25: warning: 'slope' is not supported yet and left out\n"
+  CHECK(said == "scene.pov:1:56: warning: 'cutaway_textures' is not supported yet and left out\n"
+                "scene.pov:1:25: warning: 'density_file' is not supported yet and left out\n"
                 "scene.pov:2:1: warning: 'text' is not supported yet and left out\n"
                 "scene.pov:3:59: warning: 'subsurface' is not supported yet and left out\n"
                 "scene.pov:3:105: warning: 'blob' is not supported yet and left out\n");
@@ -291,7 +291,7 @@ TEST_CASE("what is left out of CSG and patterns") {
   CHECK(test::parse("difference { blob { threshold 1 } sphere { 0, 1 } }", lenient).objects.empty());
   CHECK(test::parse("difference { sphere { 0, 1 } blob { threshold 1 } }", lenient).objects.size() == 1);
   const Scene scene = test::parse(
-      "sphere { 0, 1 pigment { slope <0, 1, 0> turbulence 1 color_map { [0 rgb 0.25] [1 rgb 1] } } }",
+      "sphere { 0, 1 pigment { density_file df3 \"d\" turbulence 1 color_map { [0 rgb 0.25] [1 rgb 1] } } }",
       lenient);
   CHECK(scene.materials.at(scene.objects.at(0).material).pigment.rgb == Vec3(0.25));
 }

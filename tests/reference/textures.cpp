@@ -26,6 +26,18 @@ double number(const pattern::Gradient& gradient, const Vec3& p) {
 double number(const pattern::Onion&, const Vec3& p) {
   return std::fmod(glm::length(p), 1);
 }
+double number(const pattern::Slope& slope, const SurfacePoint& p) {
+  const double facing = glm::length(slope.direction), climbing = glm::length(slope.altitude);
+  double sum = 0;
+  if (facing > 0) {
+    const double angle = std::acos(std::clamp(glm::dot(p.normal, slope.direction) / facing, -1.0, 1.0));
+    sum += facing * (1 - angle / std::numbers::pi - slope.least) / (slope.most - slope.least);
+  }
+  if (climbing > 0)
+    sum += climbing * (glm::dot(p.at, slope.altitude) / climbing - slope.lowest) /
+           (slope.highest - slope.lowest);
+  return sum / (facing + climbing);
+}
 template <class Kind> double number(const Kind&, const Vec3&) {
   throw std::logic_error("the reference has no such pattern");
 }
@@ -65,8 +77,9 @@ double wave(const Pattern& pattern, double number) {
   throw std::logic_error("no such wave");
 }
 
-double value_of(const Pattern& pattern, const Vec3& p) {
-  return wave(pattern, number_of(pattern.kind, p));
+double value_of(const Pattern& pattern, const SurfacePoint& p) {
+  if (const auto* slope = std::get_if<pattern::Slope>(&pattern.kind)) return wave(pattern, number(*slope, p));
+  return wave(pattern, number_of(pattern.kind, p.at));
 }
 
 Transform to_own_space(const Pattern& pattern) {
@@ -83,7 +96,7 @@ Pigment pigment_at(const Pigment& pigment, const SurfacePoint& point) {
   // What is in a map is in the space of the map's pattern.
   const SurfacePoint p = {
       to_own_space(map.pattern).point(map.pattern.uv_mapping ? point.coordinates : point.at),
-      point.coordinates};
+      point.coordinates, point.normal};
   Pigment sum;
   if (map.is_average) {
     double weights = 0;
@@ -93,7 +106,7 @@ Pigment pigment_at(const Pigment& pigment, const SurfacePoint& point) {
       add(sum, entry.position / weights, pigment_at(entry.value, p));
     return sum;
   }
-  double value = value_of(map.pattern, p.at);
+  double value = value_of(map.pattern, p);
   if (std::holds_alternative<pattern::Checker>(map.pattern.kind))
     return pigment_at(entries[std::min(static_cast<std::size_t>(value), entries.size() - 1)].value, p);
   if (value < 0 || value > 1) value = fraction(value);

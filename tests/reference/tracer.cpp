@@ -91,16 +91,16 @@ Vec3 Tracer::attenuation(const Ray& ray, double distance, InteriorStack inside) 
   Vec3 passed(1);
   double last = 0;
   for (const auto& [shape, c] : surfaces) {
-    const Vec3 point = ray.origin + c.distance * ray.direction;
     const double weights[3] = {1 - c.u - c.v, c.u, c.v};
     Vec3 filter(0);
     for (int i = 0; i < 3; ++i)
-      filter += weights[i] * filter_colour(material_at(shape->material[i], *shape, point, c).pigment);
+      filter += weights[i] * filter_colour(material_at(shape->material[i], *shape, ray, c).pigment);
     const Interior& interior = scene_.interiors[shape->object->interior];
     const bool leaves = std::find(inside.begin(), inside.end(), shape->object->interior) != inside.end();
     if (leaves && interior.fade_power != 0) filter *= faded(interior, c.distance - last);
     if (interior.caustics != 0) {
-      const double cosine = std::abs(glm::dot(ray.direction, normal_at(*shape, point, c)));
+      const double cosine =
+          std::abs(glm::dot(ray.direction, normal_at(*shape, ray.origin + c.distance * ray.direction, c)));
       filter *= 1 + std::pow(cosine, 45 * interior.caustics);
     }
     cross_surface(inside, shape->object->interior, scene_.interiors);
@@ -131,10 +131,13 @@ Vec3 Tracer::in_fog(const Branch& branch, double distance, const Vec3& behind) c
   return added + passed * seen;
 }
 
-Material Tracer::material_at(Index index, const Shape& shape, const Vec3& point,
+Material Tracer::material_at(Index index, const Shape& shape, const Ray& ray,
                              const Crossing& crossing) const {
   Material material = scene_.materials[index];
-  material.pigment = pigment_at(material.pigment, {point, coordinates_at(shape, point, crossing)});
+  const Vec3 point = ray.origin + ray.direction * crossing.distance;
+  Vec3 normal = normal_at(shape, point, crossing);
+  if (glm::dot(normal, ray.direction) > 0) normal = -normal;
+  material.pigment = pigment_at(material.pigment, {point, coordinates_at(shape, point, crossing), normal});
   return material;
 }
 
@@ -150,7 +153,7 @@ Vec3 Tracer::trace(const Branch& branch) const {
   point.normal = normal_at(*hit.shape, point.position, hit.crossing);
   if (glm::dot(point.normal, branch.ray.direction) > 0) point.normal = -point.normal;
   const auto material = [&](int corner) {
-    return material_at(hit.shape->material[corner], *hit.shape, point.position, hit.crossing);
+    return material_at(hit.shape->material[corner], *hit.shape, branch.ray, hit.crossing);
   };
   if (!hit.shape->blended) return in_fog(branch, point.distance, shade(branch, point, material(0)));
 

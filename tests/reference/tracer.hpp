@@ -43,7 +43,7 @@ private:
   };
 
   /// With the pigment that it has there.
-  Material material_at(Index index, const Shape& shape, const Vec3& point, const Crossing& crossing) const;
+  Material material_at(Index index, const Shape& shape, const Ray& ray, const Crossing& crossing) const;
   Vec3 trace(const Branch& branch) const;
   Vec3 shade(const Branch& branch, const Point& point, const Material& material) const;
   /// `group`: that of an object.

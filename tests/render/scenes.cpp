@@ -372,6 +372,15 @@ Scene surfaces() {
   add(Torus{0.6, 0.25}, placed(-2.1, -0.9, -0.5), painted_on[0]);
   add(Cylinder{{0, -0.5, 0}, {0, 0.5, 0}, 0.4}, placed(-0.6, -0.8, -0.6), painted_on[1]);
   add(Sphere{{0, 0, 0}, 0.5}, placed(0.6, -0.8, -1), painted_on[2]);
+  const auto facing = [&](const pattern::Slope& slope, double filter) {
+    Pattern pattern = pattern_of(slope, Transform::rotate({0, 0, 30}));
+    pattern.frequency = 1.5;
+    pattern.wave = Pattern::Wave::triangle;
+    return scene.add(
+        painted(mapped(pattern, {{0, {{0.2, 0.9, 0.3}, filter}}, {1, {{0.9, 0.2, 0.9}, filter}}})));
+  };
+  add(Sphere{{0, 0, 0}, 0.4}, placed(1.4, -1, -1.6), facing({{0.3, 1, -0.5}, 0.2, 0.7}, 0));
+  add(Sphere{{0, 0, 0}, 0.4}, placed(-1.2, -1, -1.6), facing({{1, 0, 0}, 0, 1, {0, 2, 0.5}, -1, 0.5}, 0.8));
   auto csg = std::make_shared<Csg>();
   csg->operation = Csg::Operation::difference;
   csg->parts = {add(Box{{{-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}}}, Transform(), painted_on[0]),

@@ -270,7 +270,8 @@ constexpr CodeModule kElsewhere = {"elsewhere", 3, 1, 1024};
 
 // Of host code: what the machine code of cell_sim calls is fetched by the program itself.
 const Rows kModules = {
-    kept(Rule::absent_module, "a module is there when it has been entered, until another one of its region is",
+    kept(Rule::absent_module,
+         "a module is there when it has been entered, until another one of its region is",
          [](Spu& spu, Stage& stage) {
            const auto before = spu.cycles();
            spu.enter_module(kOne);
@@ -281,15 +282,14 @@ const Rows kModules = {
            spu.enter_module(kOne);
            stage.is(spu.cycles(), after);
          }),
-    broken(
-        Rule::absent_module, "then it is not",
-        [](Spu& spu, Stage& stage) {
-          spu.enter_module(kOne);
-          spu.enter_module(kOther);
-          stage.next_line();
-          spu.run_in_module(kOne);
-        },
-        {"code of module 'one'"}),
+    broken(Rule::absent_module, "then it is not",
+           [](Spu& spu, Stage& stage) {
+             spu.enter_module(kOne);
+             spu.enter_module(kOther);
+             stage.next_line();
+             spu.run_in_module(kOne);
+           },
+           {"code of module 'one'"}),
 };
 
 TEST_CASE("conformance: code modules") {

@@ -180,16 +180,21 @@ template <class Spu>
   });
 }
 
-/// Disturbs the normals of surfaces in the lanes of `m.disturbed`. `lanes`: what else patterns ask for.
+/// Disturbs the normals of surfaces in the lanes of `m.disturbed`. `lanes`: what else patterns ask for, or
+/// null; from then on the disturbed normals, also in layers below that have none of their own.
 template <class Spu>
 [[gnu::noinline]] void disturb_normals(SceneAccess<Spu>& scene, const WordLanes& offsets,
-                                       const MaterialLanes<typename Spu::simd>& m, const SurfaceLanes* lanes,
+                                       const MaterialLanes<typename Spu::simd>& m, SurfaceLanes* lanes,
                                        Surfaces<typename Spu::simd>& surfaces) {
+  using S = typename Spu::simd;
   scene.spu().enter_module(modules::kNormals);
-  for_each_value<typename Spu::simd>(offsets, m.disturbed, [&](uint32_t offset, uint32_t same) {
+  for_each_value<S>(offsets, m.disturbed, [&](uint32_t offset, uint32_t same) {
     disturb_normal<Spu>(scene, scene.material(offset)->normal, {surfaces.point, lanes}, same,
                         surfaces.normal);
   });
+  if (lanes == nullptr) return;
+  lanes->normal.template store<S>(
+      select<S>(S::M::from_bits(m.disturbed), surfaces.normal, lanes->normal.template load<S>()));
 }
 
 /// POV-Ray's tint of metallic highlights and reflections: 1 + m (1 - F(x)) (pigment - 1), where x is the

@@ -304,9 +304,9 @@ private:
     bool is_disturbed = false;
     for (bool is_top = true; lanes != 0; is_top = false) {
       MaterialLanes<S> m = gather_materials(scene_, materials, lanes);
-      if (m.patterned != 0) add_pigments<Spu>(scene_, materials, {surfaces.point, surface_}, m);
       surfaces.normal = smooth;
       if (m.disturbed != 0) disturb_normals(scene_, materials, m, surface_, surfaces);
+      if (m.patterned != 0) add_pigments<Spu>(scene_, materials, {surfaces.point, surface_}, m);
       add_light(surfaces, m, lanes, above * share);
       SecondaryRays<S> rays = onward_rays(surfaces, interior, m, lanes, one);
       if (rays.is_nothing()) break;
@@ -341,6 +341,7 @@ private:
       onward.clear_all();
     }
     surfaces.normal = smooth;
+    if (surface_ != nullptr) surface_->normal.template store<S>(smooth);
     return onward;
   }
 

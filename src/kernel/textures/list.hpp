@@ -4,10 +4,11 @@
 //   kName
 //   kIsList        whether its value is the number of a map's entry
 //   kCode          where its code is
+//   kReadsSurface  whether its value depends on more than points
 //   kDisturbs      whether a normal of it is something else than the slope of its value; the code of that is
 //                  with the rare patterns' if its value is, else with the noise's
 // value(p, record), and if it disturbs, disturbance(p, record); of rare ones, the scene stands before these.
-// Values of patterns of noise get the source of it besides.
+// Values of patterns of noise get the source of it besides, and those that read surfaces PatternPoints.
 #pragma once
 
 #include "kernel/textures/agate.hpp"
@@ -32,6 +33,7 @@
 #include "kernel/textures/quilted.hpp"
 #include "kernel/textures/radial.hpp"
 #include "kernel/textures/ripples.hpp"
+#include "kernel/textures/slope.hpp"
 #include "kernel/textures/spherical.hpp"
 #include "kernel/textures/spiral1.hpp"
 #include "kernel/textures/spiral2.hpp"
@@ -50,6 +52,7 @@ template <class... P> struct PatternList : TypeList<P...> {
   static constexpr bool kDisturb[] = {P::kDisturbs...};
   static constexpr bool kReadNoise[] = {P::kReadsNoise...};
   static constexpr bool kAreShifted[] = {P::kIsShifted...};
+  static constexpr bool kReadSurfaces[] = {P::kReadsSurface...};
 };
 
 using Patterns =
@@ -58,7 +61,7 @@ using Patterns =
                 Spiral1Pattern, Spiral2Pattern, QuiltedPattern, SquarePattern, TriangularPattern,
                 HexagonPattern, CubicPattern, BrickPattern, DentsPattern, GranitePattern, WrinklesPattern,
                 AgatePattern, MarblePattern, WoodPattern, CellsPattern, CracklePattern, RipplesPattern,
-                WavesPattern, FractalPattern>;
+                WavesPattern, FractalPattern, SlopePattern>;
 constexpr bool disturbs(uint32_t kind) {
   return Patterns::kDisturb[kind];
 }

@@ -32,7 +32,8 @@ typename Spu::rare_simd::F height_of(SceneAccess<Spu>& scene, const PatternRecor
 /// Less the slope of the pattern's values, from four points around each.
 template <class Spu>
 V3<typename Spu::rare_simd> slope_disturbance(SceneAccess<Spu>& scene, const PatternRecord& r,
-                                              const V3<typename Spu::rare_simd>& p, float accuracy) {
+                                              const PatternPoints<typename Spu::rare_simd>& points,
+                                              float accuracy) {
   using S = typename Spu::rare_simd;
   using F = typename S::F;
   // The corners of a tetrahedron.
@@ -43,7 +44,9 @@ V3<typename Spu::rare_simd> slope_disturbance(SceneAccess<Spu>& scene, const Pat
   V3<S> sum = {F(0.0f), F(0.0f), F(0.0f)};
   for (const float(&corner)[3] : kCorners) {
     const V3<S> to = splat3<S>(corner);
-    F value = pattern_value(scene, r, p + to * F(accuracy));
+    PatternPoints<S> beside = points;
+    beside.at = points.at + to * F(accuracy);
+    F value = pattern_value(scene, r, beside);
     if (r.entry_count != 0) value = height_of(scene, r, value);
     sum = sum + to * value;
   }
@@ -75,7 +78,8 @@ template <class Spu>
   using F = typename S::F;
   Spu& spu = scene.spu();
   const PatternRecord r = *scene.pattern(normal.pattern);
-  const V3<S> p = to_pattern_space<TextureStage::normals>(scene, r, points, lanes);
+  const PatternPoints<S> own = to_pattern_space<TextureStage::normals>(scene, r, points, lanes);
+  const V3<S>& p = own.at;
   float c[9];
   cofactors(normal.linear, c);
   const V3<S> local = normalise<S>(
@@ -94,12 +98,12 @@ template <class Spu>
     PatternRecord part = r;
     constexpr auto kNoWave = static_cast<uint32_t>(PatternWave::none) << pattern_flag::wave_shift;
     part.kind_and_flags = kind | kNoWave | pattern_flag::gradient_noise;
-    const F depth = pattern_value(scene, part, p);
+    const F depth = pattern_value(scene, part, own);
     part.kind_and_flags = kPatternKind<BumpsPattern>;
     spu.enter_module(modules::kNoise);
     change = module_noise::disturbance(spu, part, p) * depth;
   } else if (!disturbs(kind)) {
-    change = slope_disturbance(scene, r, p, normal.accuracy);
+    change = slope_disturbance(scene, r, own, normal.accuracy);
   } else if (Patterns::kCode[kind] == PatternCode::rare) {
     spu.enter_module(modules::kRarePatterns);
     change = module_rare::disturbance(scene, r, p);

@@ -16,6 +16,7 @@ struct BlendPattern {
   static constexpr bool kDisturbs = false;
   static constexpr bool kReadsNoise = false;
   static constexpr bool kIsShifted = false;
+  static constexpr bool kReadsSurface = false; ///< its value depends on more than points
 };
 
 /// The number of a map's entry at every point.

@@ -131,9 +131,10 @@ template <class Spu>
 /// Of rare patterns, and of those of noise with generator 3.
 template <class Spu>
 [[gnu::noinline]] typename Spu::rare_simd::F value(SceneAccess<Spu>& scene, const PatternRecord& r,
-                                                   const V3<typename Spu::rare_simd>& p) {
+                                                   const PatternPoints<typename Spu::rare_simd>& points) {
   using S = typename Spu::rare_simd;
   scene.spu().run_in_module(modules::kRarePatterns);
+  const V3<S>& p = points.at;
   const noise::GradientNoise<Spu> source(scene, r.table);
   V3<S> q = p;
   if ((r.kind_and_flags & pattern_flag::at_features) != 0) q = nearest_feature(scene, r, p);
@@ -141,7 +142,10 @@ template <class Spu>
   typename S::F value(0.0f);
   Patterns::dispatch(r.kind_and_flags & pattern_flag::kind_mask, [&](auto pattern) {
     using Pattern = decltype(pattern);
-    if constexpr (Pattern::kCode == PatternCode::rare) value = Pattern::template value<Spu>(scene, p, r);
+    if constexpr (Pattern::kReadsSurface)
+      value = Pattern::template value<Spu>(scene, points, r);
+    else if constexpr (Pattern::kCode == PatternCode::rare)
+      value = Pattern::template value<Spu>(scene, p, r);
     if constexpr (Pattern::kIsShifted)
       value = Pattern::template value<S>(q, r);
     else if constexpr (Pattern::kReadsNoise)
@@ -170,7 +174,7 @@ template <class Spu>
 
 /// Points of `lanes` in the space of a pattern. Other lanes get any points.
 template <TextureStage kStage, class Spu>
-[[gnu::noinline]] V3<typename Spu::rare_simd>
+[[gnu::noinline]] PatternPoints<typename Spu::rare_simd>
 to_pattern_space(SceneAccess<Spu>& scene, const PatternRecord& r,
                  const PatternPoints<typename Spu::rare_simd>& points, uint32_t lanes) {
   using S = typename Spu::rare_simd;
@@ -196,14 +200,15 @@ to_pattern_space(SceneAccess<Spu>& scene, const PatternRecord& r,
     spu.enter_module(modules::kNoise);
     p = module_noise::displaced(spu, r.turbulence, p);
   }
-  return p;
+  return {p, points.surface, points.first};
 }
 
 /// At points in the pattern's own space, wave included. One copy, which is always there.
 template <class Spu>
 typename Spu::rare_simd::F pattern_value(SceneAccess<Spu>& scene, const PatternRecord& r,
-                                         const V3<typename Spu::rare_simd>& p) {
+                                         const PatternPoints<typename Spu::rare_simd>& points) {
   Spu& spu = scene.spu();
+  const V3<typename Spu::rare_simd>& p = points.at;
   spu.compute(scalar_work::kPattern);
   const bool is_gradient_noise = (r.kind_and_flags & pattern_flag::gradient_noise) != 0;
   switch (is_gradient_noise ? PatternCode::rare
@@ -235,7 +240,7 @@ typename Spu::rare_simd::F pattern_value(SceneAccess<Spu>& scene, const PatternR
   }
   case PatternCode::rare:
     spu.enter_module(modules::kRarePatterns);
-    return module_rare::value(scene, r, p);
+    return module_rare::value(scene, r, points);
   }
   return value_of<PatternCode::resident>(r, p);
 }

@@ -1,0 +1,29 @@
+// How much surfaces face a direction, and how high they are. Kernel dialect.
+#pragma once
+
+#include "kernel/textures/pattern_points.hpp"
+#include "kernel/textures/pattern_traits.hpp"
+
+namespace celltrace::kernel {
+
+/// Normals are those of the scene, whatever the pattern's space is.
+struct SlopePattern : RarePattern {
+  static constexpr const char* kName = "slope";
+  static constexpr bool kReadsSurface = true;
+
+  template <class Spu>
+  [[gnu::always_inline]] static typename Spu::rare_simd::F
+  value(SceneAccess<Spu>& scene, const PatternPoints<typename Spu::rare_simd>& points,
+        const PatternRecord& r) {
+    using S = typename Spu::rare_simd;
+    using F = typename S::F;
+    const SlopeRecord slope = *scene.template pattern_table<SlopeRecord>(r.table);
+    const V3<S> normal = points.surface->normal.template load_from<S>(points.first);
+    const F cosine = dot<S>(normal, splat3<S>(slope.direction)), one(1.0f);
+    const F acute = acos_unit<S>(S::min(S::abs(cosine), one)) * F(0.318309886f);
+    const F faces = S::select(cosine < F(0.0f), acute, one - acute);
+    return faces * F(slope.factor) + dot<S>(points.at, splat3<S>(slope.altitude)) + F(slope.offset);
+  }
+};
+
+} // namespace celltrace::kernel
