@@ -91,14 +91,11 @@ public:
   /// on from there.
   [[gnu::always_inline]] void shade_hits(const HitPoints<S>& points, uint32_t hit, const LightRound& round) {
     round_ = round;
-    Surfaces<S> surfaces = points.surfaces(node_.rays.direction.template load<S>(), hits_.object);
     const uint32_t plain = points.plain(hit);
-    if (plain != 0)
-      spawn(surfaces, surfaces.normal, points.interior,
-            shade(surfaces, points.interior, points.material, plain, F(1.0f)));
+    if (plain != 0) shade_plain(points, plain);
     if (plain == hit) return;
     scene_.spu().enter_module(modules::kComposed);
-    shade_composed(surfaces, points, hit & ~plain);
+    shade_composed(points, hit & ~plain);
   }
   /// Goes on to the next node() of the tree. False: there is none, light() is complete.
   bool advance() {
@@ -190,11 +187,29 @@ private:
     add(node_.lanes, raised);
   }
 
+  /// Surfaces of one material without textures. What it needs is not on the stack while others are shaded.
+  [[gnu::noinline]] void shade_plain(const HitPoints<S>& points, uint32_t lanes) {
+    Surfaces<S> surfaces;
+    find_surfaces(points, surfaces);
+    spawn(surfaces, surfaces.normal, points.interior,
+          shade(surfaces, points.interior, points.material, lanes, F(1.0f)));
+  }
+  /// Field by field: no copy of it is on the stack.
+  [[gnu::noinline]] void find_surfaces(const HitPoints<S>& points, Surfaces<S>& surfaces) const {
+    surfaces.point = points.point;
+    surfaces.normal = points.normal;
+    surfaces.direction = node_.rays.direction.template load<S>();
+    surfaces.objects = &hits_.object;
+    surfaces.any_side = 0;
+  }
+
   /// Surfaces with several materials: each is shaded whole, and the results are blended by their weights.
   /// What goes on goes the same ways for all of them: as one ray each where it weighs the same, or every such
   /// surface would multiply the rays behind it.
-  [[gnu::noinline]] void shade_composed(Surfaces<S>& surfaces, const HitPoints<S>& points, uint32_t lanes) {
+  [[gnu::noinline]] void shade_composed(const HitPoints<S>& points, uint32_t lanes) {
     scene_.spu().run_in_module(modules::kComposed);
+    Surfaces<S> surfaces;
+    find_surfaces(points, surfaces);
     if (surface_ != nullptr) {
       scene_.spu().enter_module(modules::kSurfaces);
       find_surface_lanes(scene_, points, hits_, lanes, *surface_);
