@@ -122,6 +122,8 @@ struct LightArea {
   bool orient = false;
 };
 
+struct Object;
+
 /// A light source with POV-Ray's formulas and defaults.
 struct Light {
   enum class Kind {
@@ -144,6 +146,10 @@ struct Light {
   double fade_power = 0;    ///< the exponent by which light decreases with distance; 0: it does not fade
   /// Of what its shadows are; else of a point.
   std::optional<LightArea> area = std::nullopt;
+  /// Only what comes through it shines, from there on: what is between it and the light casts no shadows. Its
+  /// materials and interiors mean nothing. No mesh may be a part of a CSG in it. Null: light goes everywhere.
+  std::shared_ptr<const Object> projected_through = nullptr;
+  bool is_dimmed_by_fog = false; ///< what comes through fogs is less, but not of a shadowless light
   bool is_global = true; ///< shines on all objects but those of light groups that leave global lights out
 };
 

@@ -411,11 +411,13 @@ constexpr uint32_t kind_mask = 0xFF;   ///< the place of its kind in the list of
 constexpr uint32_t shadowless = 0x100; ///< neither shadows nor highlights
 constexpr uint32_t parallel = 0x200;   ///< all its rays go along its axis
 constexpr uint32_t fades = 0x400;
-constexpr uint32_t area = 0x800;       ///< has an area, which shadows are looked for on
-constexpr uint32_t circular = 0x1000;  ///< that is round,
-constexpr uint32_t orient = 0x2000;    ///< turns to surfaces,
-constexpr uint32_t jitter = 0x4000;    ///< and whose places are moved at random
-constexpr uint32_t selective = 0x8000; ///< there are objects that it does not shine on
+constexpr uint32_t area = 0x800;        ///< has an area, which shadows are looked for on
+constexpr uint32_t circular = 0x1000;   ///< that is round,
+constexpr uint32_t orient = 0x2000;     ///< turns to surfaces,
+constexpr uint32_t jitter = 0x4000;     ///< and whose places are moved at random
+constexpr uint32_t selective = 0x8000;  ///< there are objects that it does not shine on
+constexpr uint32_t projected = 0x10000; ///< shines through its projector alone
+constexpr uint32_t dimmed = 0x20000;    ///< by fogs
 } // namespace light_flag
 
 /// Columns or rows of places on a light.
@@ -443,9 +445,10 @@ struct alignas(128) LightRecord {
   uint32_t adaptive;                   ///< times that the grid is divided in any case
   float axis_length;                   ///< from the location to where the light points
 
-  uint32_t
-      lit_sets; ///< selective: offset of words with a bit for each set of lights, whether it has this one
-  uint32_t unused[3];
+  /// Selective: offset of words with a bit for each set of lights, whether it has this one.
+  uint32_t lit_sets;
+  uint32_t projector, projector_count; ///< projected: offset of the first ObjectRecord that it shines through
+  uint32_t unused[1];
 };
 static_assert(sizeof(LightRecord) == 128, "one light a line");
 
@@ -474,7 +477,8 @@ constexpr uint32_t atmosphere = 0x1; ///< fogs or rainbows
 constexpr uint32_t fading = 0x2;     ///< interiors that fade
 /// Shadow rays go from surface to surface: what these let through depends on more than points of them.
 constexpr uint32_t stepwise = 0x4;
-constexpr uint32_t by_surface = 0x8; ///< some objects are object_flag::by_surface
+constexpr uint32_t by_surface = 0x8;  ///< some objects are object_flag::by_surface
+constexpr uint32_t projectors = 0x10; ///< of lights
 } // namespace light_way
 
 /// Head of a scene image.
@@ -520,7 +524,8 @@ struct alignas(128) ImageHeader {
   uint32_t polygon_edge_offset, polygon_edge_count;   ///< PolygonEdgeRecords
   uint32_t rainbow_offset, rainbow_count;             ///< RainbowRecords
   uint32_t slope_offset, slope_count;                 ///< SlopeRecords
-  uint32_t unused[25];
+  uint32_t projector_count;                           ///< ObjectRecords of projectors, just before those without bounds
+  uint32_t unused[24];
 };
 static_assert(sizeof(ImageHeader) == 384, "three lines");
 

@@ -89,7 +89,8 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %token MATERIAL MATRIX MAX_TRACE_LEVEL MESH MESH2 METALLIC NOISE_GENERATOR NORMAL NORMAL_INDICES NORMAL_MAP
 %token NORMAL_VECTORS NO_SHADOW NUMBER_OF_WAVES OBJECT OCTAVES OMEGA OPEN
 %token PARALLEL PHASE PHONG PHONG_SIZE PHOTONS PIGMENT PIGMENT_MAP POINT_AT POLY_WAVE QUICK_COLOUR RADIUS
-%token ALBEDO ARC_ANGLE DOUBLE_ILLUMINATE FALLOFF_ANGLE GLOBAL_LIGHTS LIGHT_GROUP RADIOSITY RAINBOW WIDTH
+%token ALBEDO ARC_ANGLE DOUBLE_ILLUMINATE FALLOFF_ANGLE GLOBAL_LIGHTS LIGHT_GROUP
+%token MEDIA_ATTENUATION MEDIA_INTERACTION PROJECTED_THROUGH RADIOSITY RAINBOW WIDTH
 %token ALTITUDE SLOPE
 %token ADAPTIVE AREA_ILLUMINATION AREA_LIGHT CIRCULAR JITTER ORIENT
 %token USER_FUNCTION SPLINE TRACE INSIDE MIN_EXTENT MAX_EXTENT
@@ -930,6 +931,7 @@ object_head // a name instead of what an object consists of: whatever object it 
   | shape_head               { $$ = shape(session, $1); }
   | shape_head OPEN          { $1.is_open = true; $$ = shape(session, $1); }
   | LOOKS_LIKE '{' object    { $$ = look(session, *$3, @1); } // modifiers may follow, as everywhere
+  | PROJECTED_THROUGH '{' object { $$ = projector(session, *$3, @1); }
   | csg_head                 { $$ = csg(session, std::move($1), @1); }
   | triangle_vertices        { $$ = lone_triangle(session, $1, @1); }
   | mesh_head                { $$ = mesh(session, *$1, @1); }
@@ -1045,7 +1047,7 @@ light_body // what comes later applies to what is there by then
   | light_body beam_number number                         { $$ = $1; set_beam(session, *$$, $2, $3, @2); }
   | light_body FADE_DISTANCE number                       { $$ = $1; light_of(*$$).fade_distance = $3; }
   | light_body FADE_POWER number                          { $$ = $1; light_of(*$$).fade_power = $3; }
-  | light_body object_body '}'                            { $$ = $1; set_looks_like(session, *$$, $2, @2); }
+  | light_body object_body '}'                            { $$ = $1; add_object(session, *$$, $2, @2); }
   | light_body AREA_LIGHT quantity optional_comma quantity optional_comma number optional_comma number {
       $$ = $1;
       set_area(session, *$$, session.vector($3, @3), session.vector($5, @5), {$7, $9}, @2);
@@ -1059,7 +1061,8 @@ light_body // what comes later applies to what is there by then
   | light_body CIRCULAR                                   { $$ = $1; area_of(*$$).circular = true; }
   | light_body ORIENT                                     { $$ = $1; area_of(*$$).orient = true; }
   | light_body transformation                             { $$ = $1; transform(*$$, $2); }
-  | light_body IGNORED_FLAG flag                          { $$ = $1; }
+  | light_body MEDIA_ATTENUATION flag { $$ = $1; definition_of(*$$).media_attenuation = $3 != 0; }
+  | light_body MEDIA_INTERACTION flag { $$ = $1; definition_of(*$$).media_interaction = $3 != 0; }
   | light_body unsupported                                { $$ = $1; mark($$->unsupported, $2); }
   | light_body photons                                    { $$ = $1; }
   ;

@@ -52,8 +52,12 @@ std::shared_ptr<ObjectDefinition> light(Session& session, const ObjectDefinition
   return object;
 }
 
+LightDefinition& definition_of(ObjectDefinition& object) {
+  return std::get<LightDefinition>(object.shape);
+}
+
 Light& light_of(ObjectDefinition& object) {
-  return std::get<LightDefinition>(object.shape).light;
+  return definition_of(object).light;
 }
 
 void set_kind(ObjectDefinition& object, Light::Kind kind) {
@@ -123,31 +127,46 @@ std::shared_ptr<ObjectDefinition> look(Session& session, const ObjectDefinition&
   if (session.lights.empty()) session.fail(where, "only a light source looks like something");
   auto moved_object = std::make_shared<ObjectDefinition>(object);
   moved_object->apply(Transform::translate(light_of(*session.lights.back()).location));
-  moved_object->is_look = true;
+  moved_object->role = ObjectDefinition::Role::look;
   return moved_object;
 }
 
-void set_looks_like(Session& session, ObjectDefinition& object,
-                    const std::shared_ptr<ObjectDefinition>& looks_like, const Location& where) {
-  if (!looks_like->is_look) session.fail(where, "a light source consists of no objects");
-  auto& definition = std::get<LightDefinition>(object.shape);
-  if (definition.looks_like) session.fail(where, "a light source looks like one object only");
-  nest(session, object, *looks_like, where);
-  looks_like->is_look = false;
-  looks_like->where = where;
-  definition.looks_like = looks_like;
+std::shared_ptr<ObjectDefinition> projector(Session& session, const ObjectDefinition& object,
+                                            const Location& where) {
+  if (session.lights.empty()) session.fail(where, "only a light source is projected through something");
+  auto copy = std::make_shared<ObjectDefinition>(object);
+  copy->role = ObjectDefinition::Role::projector;
+  return copy;
+}
+
+void add_object(Session& session, ObjectDefinition& light, const std::shared_ptr<ObjectDefinition>& object,
+                const Location& where) {
+  using Role = ObjectDefinition::Role;
+  if (object->role == Role::none) session.fail(where, "a light source consists of no objects");
+  LightDefinition& definition = definition_of(light);
+  const bool is_look = object->role == Role::look;
+  ObjectPtr& place = is_look ? definition.looks_like : definition.projected_through;
+  if (place)
+    session.fail(where, is_look ? "a light source looks like one object only"
+                                : "a light source is projected through one object only");
+  nest(session, light, *object, where);
+  object->role = Role::none;
+  object->where = where;
+  place = object;
 }
 
 ObjectPtr own_object(Session& session, const ObjectPtr& object, const Location& where) {
-  if (object->is_look) session.fail(where, "only a light source looks like something");
+  if (object->role != ObjectDefinition::Role::none)
+    session.fail(where, "only a light source looks like something, or is projected through it");
   return object;
 }
 
 void transform(ObjectDefinition& object, const Transform& next) {
-  auto& [light, looks_like, area, has_area] = std::get<LightDefinition>(object.shape);
-  light = moved(light, next);
-  if (has_area) area = moved(area, next);
-  if (looks_like) looks_like = moved(looks_like, next);
+  LightDefinition& definition = definition_of(object);
+  definition.light = moved(definition.light, next);
+  if (definition.has_area) definition.area = moved(definition.area, next);
+  for (ObjectPtr* own : {&definition.looks_like, &definition.projected_through})
+    if (*own) *own = moved(*own, next);
 }
 
 } // namespace celltrace::pov

@@ -23,6 +23,7 @@ LightArea moved(LightArea area, const Transform& next);
 // The modifiers of a light source.
 
 Light& light_of(ObjectDefinition& object);
+LightDefinition& definition_of(ObjectDefinition& object);
 /// Also sets the numbers of that kind, to what POV-Ray begins with.
 void set_kind(ObjectDefinition& object, Light::Kind kind);
 /// By the name of a shape, its place in shape_names().
@@ -41,10 +42,13 @@ void set_adaptive(ObjectDefinition& object, double level);
 /// behind it apply to it there.
 std::shared_ptr<ObjectDefinition> look(Session& session, const ObjectDefinition& object,
                                        const Location& where);
-/// Fails if the object is another one.
-void set_looks_like(Session& session, ObjectDefinition& object,
-                    const std::shared_ptr<ObjectDefinition>& looks_like, const Location& where);
-/// The object, unless it is what a light looks like: that is an error.
+/// What it shines through. Modifiers behind it apply to it.
+std::shared_ptr<ObjectDefinition> projector(Session& session, const ObjectDefinition& object,
+                                            const Location& where);
+/// One of these two. Fails if the object is another one.
+void add_object(Session& session, ObjectDefinition& light, const std::shared_ptr<ObjectDefinition>& object,
+                const Location& where);
+/// The object, unless it is one of these: that is an error.
 ObjectPtr own_object(Session& session, const ObjectPtr& object, const Location& where);
 /// As in POV-Ray, this is a kind of its own: what is said of another one before or after it cancels the
 /// other.

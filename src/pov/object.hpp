@@ -60,6 +60,8 @@ struct LightDefinition {
   ObjectPtr looks_like; ///< placed where the light is; null: nothing
   LightArea area;       ///< what is said of it, before or after it is there
   bool has_area = false;
+  ObjectPtr projected_through = nullptr; ///< placed where it is; null: nothing
+  bool media_attenuation = false, media_interaction = true;
 };
 
 struct ObjectDefinition {
@@ -85,9 +87,11 @@ struct ObjectDefinition {
   UnsupportedPtr unsupported;
   UnsupportedPtr missing;        ///< instead of a shape, one that this program lacks
   bool is_photon_target = false; ///< not of lights
-  bool is_look = false;          ///< being read as what a light looks like
-  bool is_declared = false;      ///< has a name: what is placed is a copy
-  int depth = 0;                 ///< of objects inside one another
+  /// What an object is to the light source that is being read.
+  enum class Role { none, look, projector };
+  Role role = Role::none;
+  bool is_declared = false; ///< has a name: what is placed is a copy
+  int depth = 0;            ///< of objects inside one another
   [[no_unique_address]] Counted<ObjectDefinition> counted;
 
   /// Moves its texture and what limits it, too.

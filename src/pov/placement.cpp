@@ -58,6 +58,15 @@ const char* name_of(const ObjectDefinition& csg) {
   return csg.inverse ? "an inverse union" : "a clipped union";
 }
 
+/// Whether there is a mesh in it.
+bool has_mesh(const Object& object) {
+  if (std::holds_alternative<std::shared_ptr<const Mesh>>(object.shape)) return true;
+  if (object.clipped_by && std::any_of(object.clipped_by->begin(), object.clipped_by->end(), has_mesh))
+    return true;
+  const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape);
+  return csg && std::any_of((*csg)->parts.begin(), (*csg)->parts.end(), has_mesh);
+}
+
 /// Whether there is any shape in it.
 bool has_shapes(const Object& object) {
   const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape);
@@ -266,8 +275,38 @@ Index SceneBuilder::add_light(const LightDefinition& definition, const Inherited
     diagnostics_.fail(where, "a circular area light has more than one place along each side");
   if (!Quantity::vector(light.location).is_finite() || !Quantity::vector(light.point_at).is_finite())
     diagnostics_.fail(where, "this light is not at a finite place");
+  light.is_dimmed_by_fog = definition.media_attenuation && definition.media_interaction;
+  if (definition.projected_through)
+    light.projected_through = make_projector(*definition.projected_through, own, where);
   scene_.lights.push_back(light);
   return static_cast<Index>(scene_.lights.size() - 1);
+}
+
+std::shared_ptr<const Object> SceneBuilder::make_projector(const ObjectDefinition& projector,
+                                                           Inherited around, const Location& where) {
+  around.clips = true; // only where it is matters
+  around.is_part = false;
+  auto parts = std::make_shared<Csg>();
+  collect(projector, around, where, parts->parts);
+  auto object = std::make_shared<Object>();
+  object->shape = std::shared_ptr<const Csg>(std::move(parts));
+  return object;
+}
+
+/// Takes plain unions apart.
+void SceneBuilder::collect(const ObjectDefinition& object, const Inherited& around, const Location& where,
+                           std::vector<Object>& objects) {
+  if (!diagnostics_.supports(object.missing, where)) return;
+  if (is_plain_union(object)) {
+    const Inherited own = inherit(object, around, where);
+    for (const ObjectPtr& part : compound(object)->parts)
+      collect(*part, own, where, objects);
+  } else if (std::optional<Object> made = make(object, around, where)) {
+    if (has_mesh(*made) && (made->clipped_by || !std::get_if<std::shared_ptr<const Mesh>>(&made->shape)))
+      refuse("a mesh in CSG that a light is projected through", object, where);
+    else
+      objects.push_back(std::move(*made));
+  }
 }
 
 /// What a light looks like casts no shadows and, as in POV-Ray, is not there if the light is in CSG.

@@ -121,8 +121,8 @@ const Word kWords[] = {
     {"max_extent", tokens::T_MAX_EXTENT},
     {"max_intersections", tokens::T_IGNORED_NUMBER},
     {"max_trace_level", tokens::T_MAX_TRACE_LEVEL},
-    {"media_attenuation", tokens::T_IGNORED_FLAG},
-    {"media_interaction", tokens::T_IGNORED_FLAG},
+    {"media_attenuation", tokens::T_MEDIA_ATTENUATION},
+    {"media_interaction", tokens::T_MEDIA_INTERACTION},
     {"mesh", tokens::T_MESH},
     {"mesh2", tokens::T_MESH2},
     {"metallic", tokens::T_METALLIC},
@@ -156,6 +156,7 @@ const Word kWords[] = {
     {"poly_wave", tokens::T_POLY_WAVE},
     {"quick_color", tokens::T_QUICK_COLOUR},
     {"quick_colour", tokens::T_QUICK_COLOUR},
+    {"projected_through", tokens::T_PROJECTED_THROUGH},
     {"radiosity", tokens::T_RADIOSITY},
     {"radius", tokens::T_RADIUS},
     {"rainbow", tokens::T_RAINBOW},
@@ -319,9 +320,8 @@ const char* const kUnsupportedObjects[] = {
 };
 
 const char* const kUnsupportedBlocks[] = {
-    "bump_map",          "contained_by", "density", "density_map", "image_map",
-    "image_pattern",     "material_map", "media",   "mesh_camera", "pigment_pattern",
-    "projected_through", "subsurface",   "tiles",
+    "bump_map",     "contained_by", "density",     "density_map",     "image_map",  "image_pattern",
+    "material_map", "media",        "mesh_camera", "pigment_pattern", "subsurface", "tiles",
 };
 
 const char* const kUnsupportedFeatures[] = {

@@ -104,6 +104,10 @@ private:
   void enter_solid(Inherited& own, const Location& where) const;
   void enter_light_group(const Compound& group, Inherited& own, const Location& where);
   Index add_light_group(const LightGroup& group, const Location& where);
+  std::shared_ptr<const Object> make_projector(const ObjectDefinition& projector, Inherited around,
+                                               const Location& where);
+  void collect(const ObjectDefinition& object, const Inherited& around, const Location& where,
+               std::vector<Object>& objects);
   Index add_light(const LightDefinition& definition, const Inherited& own, const Location& where);
   void place_look(const LightDefinition& definition, Inherited own, const Location& where);
   void refuse(const std::string& what, const ObjectDefinition& object, const Location& where);

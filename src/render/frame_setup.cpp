@@ -192,8 +192,10 @@ void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& optio
   frame.rainbow_offset = header.rainbow_offset;
   frame.rainbow_count = header.rainbow_count;
   if (options.model != Model::shared && (header.light_ways & light_way::stepwise) != 0)
-    throw InputError(
-        "interiors that fade, throw caustics or look different from inside need the shared model");
+    throw InputError("interiors that fade, throw caustics or look different from inside, and lights that fog "
+                     "dims, need the shared model");
+  if (options.model != Model::shared && (header.light_ways & light_way::projectors) != 0)
+    throw InputError("lights that are projected through something need the shared model");
   frame.light_places = 0;
   for (const Light& light : scene.lights)
     frame.light_places += light.area ? static_cast<std::uint32_t>(light.area->columns * light.area->rows) : 1;

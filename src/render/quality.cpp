@@ -77,9 +77,14 @@ Scene at_quality(const Scene& scene, int quality) {
     for (LightGroup& group : result.light_groups)
       group.lights.clear();
   }
-  if (quality <= kNoShadows)
+  if (quality <= kNoShadows) {
     for (Object& object : result.objects)
       object.no_shadow = true;
+    for (Light& light : result.lights) {
+      light.projected_through = nullptr;
+      light.is_dimmed_by_fog = false;
+    }
+  }
   if (quality <= kNoAreas)
     for (Light& light : result.lights)
       light.area.reset();

@@ -386,10 +386,13 @@ bool CsgParts::contains(const Object& object) {
 CsgParts::CsgParts(const Scene& scene) {
   TreeBuilder builder(solids, meshes);
   Flattener flattener(*this);
-  for (const Object& object : scene.objects) {
-    if (!contains(object)) continue;
-    const Node tree = builder.build(object, {});
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    if (!contains(scene.objects[i])) continue;
+    const Node tree = builder.build(scene.objects[i], {});
+    const std::size_t first = parts.size();
     flattener.show(tree, kNoCondition, kEverywhere);
+    for (std::size_t part = first; part < parts.size(); ++part)
+      parts[part].whole = i;
   }
 }
 

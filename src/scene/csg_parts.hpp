@@ -7,6 +7,7 @@
 #include "scene/mesh_insides.hpp"
 #include "scene/shapes.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct CsgPart {
   std::uint32_t condition; ///< index in CsgParts::conditions, or kNoCondition
   kernel::Aabb bounds;     ///< of what may be there of it
   bool is_bounded;         ///< false: `bounds` reach to infinity
+  std::size_t whole = 0;   ///< index of the object of the scene that it is a part of
 
   /// Whether its record needs the CSG: parts of plain unions are objects like others.
   bool is_limited() const;

@@ -28,7 +28,7 @@ FieldList<&ImageHeader::magic, &ImageHeader::version, &ImageHeader::bytes, &Imag
           &ImageHeader::wave_count, &ImageHeader::light_set_count, &ImageHeader::light_word_offset,
           &ImageHeader::light_word_count, &ImageHeader::polygon_edge_offset, &ImageHeader::polygon_edge_count,
           &ImageHeader::rainbow_offset, &ImageHeader::rainbow_count, &ImageHeader::slope_offset,
-          &ImageHeader::slope_count, &ImageHeader::unused>
+          &ImageHeader::slope_count, &ImageHeader::projector_count, &ImageHeader::unused>
 fields_of(const ImageHeader&);
 
 FieldList<&ObjectRecord::kind_and_flags, &ObjectRecord::material, &ObjectRecord::interior,
@@ -126,7 +126,8 @@ FieldList<&LightRecord::location, &LightRecord::kind_and_flags, &LightRecord::co
           &LightRecord::inverse_fade_distance, &LightRecord::fade_power, &LightRecord::across,
           &LightRecord::columns, &LightRecord::along, &LightRecord::rows, &LightRecord::inverse_columns,
           &LightRecord::inverse_rows, &LightRecord::adaptive, &LightRecord::axis_length,
-          &LightRecord::lit_sets, &LightRecord::unused>
+          &LightRecord::lit_sets, &LightRecord::projector, &LightRecord::projector_count,
+          &LightRecord::unused>
 fields_of(const LightRecord&);
 
 FieldList<&GroupRecord::min, &GroupRecord::first, &GroupRecord::max, &GroupRecord::count>

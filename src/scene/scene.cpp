@@ -13,6 +13,7 @@
 #include "celltrace/error.hpp"
 #include "kernel/records.hpp"
 #include "scene/light_sets.hpp"
+#include "scene/projectors.hpp"
 #include "scene/shapes.hpp"
 #include "scene/textures.hpp"
 
@@ -143,13 +144,12 @@ void check_mesh(const Mesh& mesh, std::size_t materials, const Name& name) {
 
 constexpr int kMaxCsgDepth = 100;
 
-/// Object `index` of the scene, or a part of it.
-void check_object(const Scene& scene, const Object& object, std::size_t index, int depth) {
-  const Name name = {"object", index};
-  check_index(object.material, scene.materials.size(), {"object", index, ", material"});
-  check_index(object.interior, scene.interiors.size(), {"object", index, ", interior"});
+/// An object of the scene, or a part of it.
+void check_object(const Scene& scene, const Object& object, const Name& name, int depth) {
+  check_index(object.material, scene.materials.size(), {name.what, name.index, ", material"});
+  check_index(object.interior, scene.interiors.size(), {name.what, name.index, ", interior"});
   if (object.light_group != kNoIndex)
-    check_index(object.light_group, scene.light_groups.size(), {"object", index, ", light group"});
+    check_index(object.light_group, scene.light_groups.size(), {name.what, name.index, ", light group"});
   const Vec3(&rows)[4] = object.transform.rows;
   check_vectors({rows[0], rows[1], rows[2], rows[3]}, name);
   if (const Sphere* sphere = std::get_if<Sphere>(&object.shape)) {
@@ -161,7 +161,7 @@ void check_object(const Scene& scene, const Object& object, std::size_t index, i
     if (!*csg) throw InputError(name.text() + " has no CSG");
     if (depth == kMaxCsgDepth) throw InputError(name.text() + " is a CSG that nests too deeply");
     for (const Object& part : (*csg)->parts)
-      check_object(scene, part, index, depth + 1);
+      check_object(scene, part, name, depth + 1);
   } else {
     const auto* polygon = std::get_if<std::shared_ptr<const Polygon>>(&object.shape);
     if (polygon != nullptr && !*polygon) throw InputError(name.text() + " has no polygon");
@@ -170,7 +170,7 @@ void check_object(const Scene& scene, const Object& object, std::size_t index, i
   if (!object.clipped_by) return;
   if (depth == kMaxCsgDepth) throw InputError(name.text() + " is clipped by what nests too deeply");
   for (const Object& clip : *object.clipped_by)
-    check_object(scene, clip, index, depth + 1);
+    check_object(scene, clip, name, depth + 1);
 }
 
 /// Instances share their mesh: each mesh is looked at once. `object` is number `index` of the scene, or a
@@ -224,13 +224,17 @@ void validate(const Scene& scene) {
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     check(scene.lights[i], {"light", i});
   validate_light_groups(scene);
+  const SceneWithProjectors with_projectors(scene);
+  for (std::size_t i = scene.objects.size(); i < with_projectors.scene().objects.size(); ++i)
+    check_object(with_projectors.scene(), with_projectors.scene().objects[i],
+                 {"projector", i - scene.objects.size()}, 0);
   for (std::size_t i = 0; i < scene.materials.size(); ++i)
     validate_texture(scene.materials[i], Name{"material", i}.text());
   validate_sky(scene);
   for (std::size_t i = 0; i < scene.interiors.size(); ++i)
     check(scene.interiors[i], {"interior", i});
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
-    check_object(scene, scene.objects[i], i, 0);
+    check_object(scene, scene.objects[i], {"object", i}, 0);
   std::unordered_set<const Mesh*> meshes;
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
     check_meshes(scene.objects[i], scene.materials.size(), i, meshes);

@@ -8,6 +8,7 @@
 #include "scene/light_sets.hpp"
 #include "scene/mesh_instances.hpp"
 #include "scene/parallel.hpp"
+#include "scene/projectors.hpp"
 #include "scene/scene_objects.hpp"
 #include "scene/surface_records.hpp"
 #include "scene/textures.hpp"
@@ -116,6 +117,10 @@ std::uint32_t light_ways_of(const Scene& scene, const TextureTables& textures, b
   if (textures.has_clear_side || textures.filters_by_surface) ways |= light_way::stepwise;
   if (has_blends && textures.by_surface && textures.filters) ways |= light_way::stepwise;
   if (textures.by_surface) ways |= light_way::by_surface;
+  for (const Light& light : scene.lights) {
+    if (light.is_dimmed_by_fog && !scene.fogs.empty()) ways |= light_way::stepwise;
+    if (light.projected_through) ways |= light_way::projectors;
+  }
   return ways;
 }
 
@@ -158,11 +163,12 @@ ImageHeader make_header(const Scene& scene, const LightSets& light_sets, const T
                                   header.polygon_edge_count);
   layout.place<ExtraRecord>(census.extras + objects.unbounded_extras(), header.extra_offset,
                             header.extra_count);
-  const std::uint32_t room = room_of_unbounded(objects.unbounded_count());
+  const std::uint32_t room = room_of_unbounded(objects.unbounded_count() + objects.projector_count());
   layout.place<ObjectRecord>(std::size_t{census.objects} + room, header.object_offset, header.object_count);
   header.object_offset += room * std::uint32_t{sizeof(ObjectRecord)};
   header.object_count = census.objects;
   header.unbounded_count = objects.unbounded_count();
+  header.projector_count = objects.projector_count();
   const std::size_t ordered = groups.empty() ? 0 : groups.size() - 1;
   layout.place<GroupRecord>(ordered + instances.group_count(), header.group_offset, header.group_count);
   layout.place<std::uint32_t>(instances.group_count() == 0 ? 0 : header.group_count, header.prototype_offset,
@@ -195,7 +201,8 @@ public:
     // What lies between the tables is always the same.
     std::memset(base, 0, header.extra_offset);
     const std::size_t before_objects =
-        kLineBytes + room_of_unbounded(header.unbounded_count) * sizeof(ObjectRecord);
+        kLineBytes +
+        room_of_unbounded(header.unbounded_count + header.projector_count) * sizeof(ObjectRecord);
     std::memset(base + header.object_offset - before_objects, 0, before_objects);
     const std::size_t objects_end =
         header.object_offset + std::size_t{header.object_count} * sizeof(ObjectRecord);
@@ -203,13 +210,20 @@ public:
     std::memcpy(base, &header, sizeof header);
   }
 
-  void write_lights(const LightSets& sets) {
+  void write_lights(const LightSets& sets, std::span<const std::uint32_t> projector_sizes) {
+    std::uint32_t projector = first_projector();
     std::copy(sets.words().begin(), sets.words().end(), table<std::uint32_t>(header_.light_word_offset));
     for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
       LightRecord record = make_record(scene_.lights[i]);
       if (const Index word = sets.first_words()[i]; word != kNoIndex) {
         record.kind_and_flags |= light_flag::selective;
         record.lit_sets = header_.light_word_offset + word * std::uint32_t{sizeof(std::uint32_t)};
+      }
+      if (scene_.lights[i].projected_through) {
+        record.projector = projector;
+        record.projector_count = projector_sizes.front();
+        projector += projector_sizes.front() * std::uint32_t{sizeof(ObjectRecord)};
+        projector_sizes = projector_sizes.subspan(1);
       }
       table<LightRecord>(header_.light_offset)[i] = record;
     }
@@ -290,8 +304,7 @@ public:
 
   /// `before`: what the others have in tables.
   void write_unbounded(const SceneObjects& objects, const ObjectCensus& before) {
-    objects.write_unbounded(tables_, before,
-                            table<ObjectRecord>(header_.object_offset) - header_.unbounded_count);
+    objects.write_unbounded(tables_, before, table<ObjectRecord>(first_projector()));
   }
 
   /// `places` has room for a word per object.
@@ -369,6 +382,11 @@ public:
   }
 
 private:
+  std::uint32_t first_projector() const {
+    return header_.object_offset -
+           (header_.unbounded_count + header_.projector_count) * std::uint32_t{sizeof(ObjectRecord)};
+  }
+
   void send_objects(const SceneObjects& objects, std::span<const PlacedObject> placed, std::uint32_t* places,
                     unsigned threads) {
     std::fill_n(places, objects.count(), SceneObjects::kNoPlace);
@@ -403,12 +421,14 @@ SceneImage::SceneImage(const Scene& scene) {
   assign(scene, work, 1);
 }
 
-void SceneImage::assign(const Scene& scene, AlignedBlock& work, unsigned threads,
+void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads,
                         std::uint32_t objects_a_thread) {
-  validate(scene);
+  validate(given);
+  const SceneWithProjectors with_projectors(given);
+  const Scene& scene = with_projectors.scene();
   TextureTables textures(scene);
   const MeshInstances instances(scene, textures.object_flags, threads);
-  const SceneObjects objects(scene, textures.object_flags, instances, threads);
+  const SceneObjects objects(scene, with_projectors.own_objects(), textures.object_flags, instances, threads);
   const std::uint64_t all = std::uint64_t{objects.count()} + instances.census().objects;
   threads = static_cast<unsigned>(std::clamp<std::uint64_t>(all / objects_a_thread, 1, threads));
   const OrderMemory memory(work, objects.count());
@@ -423,7 +443,7 @@ void SceneImage::assign(const Scene& scene, AlignedBlock& work, unsigned threads
 
   block_.reserve(header.bytes + bvh_bytes(header));
   TableWriter writer(block_.data(), header, scene, textures, objects.unbounded_extras());
-  writer.write_lights(light_sets);
+  writer.write_lights(light_sets, objects.projector_sizes());
   writer.write_surfaces(textures);
   writer.write_csg(objects.csg());
   writer.write_polygons(objects.polygons());

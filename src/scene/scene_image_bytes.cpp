@@ -47,7 +47,8 @@ bool needs_extra(std::uint32_t flags) {
 }
 
 bool references_are_valid(const std::byte* base, const ImageHeader& h) {
-  const auto* objects = reinterpret_cast<const ObjectRecord*>(base + h.object_offset) - h.unbounded_count;
+  const std::uint32_t before = h.unbounded_count + h.projector_count;
+  const auto* objects = reinterpret_cast<const ObjectRecord*>(base + h.object_offset) - before;
   const auto is_material = [&](std::uint32_t offset) {
     return refers_to(offset, h.material_offset, h.material_count, sizeof(MaterialRecord));
   };
@@ -55,7 +56,7 @@ bool references_are_valid(const std::byte* base, const ImageHeader& h) {
   for (std::uint32_t i = 0; i < h.blend_count; ++i)
     for (std::uint32_t material : blends[i].material)
       if (!is_material(material)) return false;
-  for (std::uint32_t i = 0; i < h.object_count + h.unbounded_count; ++i) {
+  for (std::uint32_t i = 0; i < h.object_count + before; ++i) {
     const ObjectRecord& object = objects[i];
     const std::uint32_t flags = object.kind_and_flags;
     const bool blended = (flags & object_flag::blended) != 0;
@@ -98,12 +99,20 @@ bool lights_are_valid(const std::byte* base, const ImageHeader& h) {
     return refers_to(light.lit_sets, h.light_word_offset, h.light_word_count, kWord) &&
            h.light_word_count - (light.lit_sets - h.light_word_offset) / kWord >= words_a_light;
   };
+  const std::uint32_t first_projector =
+      h.object_offset - (h.unbounded_count + h.projector_count) * std::uint32_t{sizeof(ObjectRecord)};
+  const auto has_projector = [&](const LightRecord& light) {
+    const std::uint32_t at = light.projector - first_projector;
+    return at % sizeof(ObjectRecord) == 0 && at / sizeof(ObjectRecord) <= h.projector_count &&
+           light.projector_count <= h.projector_count - at / sizeof(ObjectRecord);
+  };
   return std::all_of(lights, lights + h.light_count, [&](const LightRecord& light) {
     const auto is_count = [](std::uint32_t places) { return places - 1 < kMaxLightPlaces; };
     return (light.kind_and_flags & light_flag::kind_mask) < Lights::kCount &&
            (!has_area(light) ||
             (is_count(light.columns) && is_count(light.rows) && light.columns * light.rows > 1)) &&
-           ((light.kind_and_flags & light_flag::selective) == 0 || knows_its_sets(light));
+           ((light.kind_and_flags & light_flag::selective) == 0 || knows_its_sets(light)) &&
+           (!is_projected(light) || has_projector(light));
   });
 }
 
@@ -473,7 +482,8 @@ SceneImage SceneImage::from_bytes(std::span<const std::byte> bytes) {
       !table_fits(h.polygon_edge_offset, h.polygon_edge_count, sizeof(PolygonEdgeRecord), bytes.size()) ||
       !table_fits(h.extra_offset, h.extra_count, sizeof(ExtraRecord), bytes.size()) ||
       !table_fits(h.object_offset, h.object_count, sizeof(ObjectRecord), bytes.size()) ||
-      h.unbounded_count > (h.object_offset - sizeof(ImageHeader)) / sizeof(ObjectRecord) ||
+      std::uint64_t{h.unbounded_count} + h.projector_count >
+          (h.object_offset - sizeof(ImageHeader)) / sizeof(ObjectRecord) ||
       !table_fits(h.csg_offset, h.csg_count, sizeof(CsgRecord), bytes.size()) ||
       !table_fits(h.csg_step_offset, h.csg_step_count, sizeof(CsgStep), bytes.size()) ||
       !table_fits(h.solid_offset, h.solid_count, sizeof(SolidRecord), bytes.size()) ||

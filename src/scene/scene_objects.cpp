@@ -78,10 +78,11 @@ std::vector<Vec3f> changed(const std::vector<Vec3f>& from, unsigned threads, Cha
 
 } // namespace
 
-SceneObjects::SceneObjects(const Scene& scene, const std::vector<std::uint32_t>& material_flags,
-                           const MeshInstances& instances, unsigned threads)
+SceneObjects::SceneObjects(const Scene& scene, std::size_t projectors,
+                           const std::vector<std::uint32_t>& material_flags, const MeshInstances& instances,
+                           unsigned threads)
     : material_flags_(material_flags), csg_(scene), polygons_(scene) {
-  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+  for (std::size_t i = 0; i < projectors; ++i) {
     const Object& object = scene.objects[i];
     if (instances.contains(i) || CsgParts::contains(object)) continue;
     if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape))
@@ -89,7 +90,8 @@ SceneObjects::SceneObjects(const Scene& scene, const std::vector<std::uint32_t>&
     else
       add_shape(object);
   }
-  add_parts(threads);
+  add_parts(projectors, threads);
+  add_projectors(scene, projectors);
 }
 
 void SceneObjects::grow(std::size_t objects) {
@@ -111,9 +113,23 @@ void SceneObjects::add_shape(const Object& object) {
   grow(1);
 }
 
-void SceneObjects::add_parts(unsigned threads) {
+void SceneObjects::add_projectors(const Scene& scene, std::size_t first) {
+  for (std::size_t i = first; i < scene.objects.size(); ++i) {
+    const std::size_t before = projectors_.size();
+    if (!CsgParts::contains(scene.objects[i])) {
+      if (!place_shape(scene.objects[i]).is_empty) projectors_.push_back({&scene.objects[i], nullptr});
+    } else {
+      for (const CsgPart& part : csg_.parts)
+        if (part.whole == i) projectors_.push_back({&part.object, &part});
+    }
+    projector_sizes_.push_back(static_cast<std::uint32_t>(projectors_.size() - before));
+  }
+}
+
+void SceneObjects::add_parts(std::size_t projectors, unsigned threads) {
   const CsgPart* previous = nullptr;
   for (const CsgPart& part : csg_.parts) {
+    if (part.whole >= projectors) break; // all others are later ones
     if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&part.object.shape)) {
       add_mesh(part.object, **mesh, &part, threads);
       previous = nullptr;
@@ -142,7 +158,10 @@ bool SceneObjects::has_extra(const Placed& placed) {
 }
 
 std::uint32_t SceneObjects::unbounded_extras() const {
-  return static_cast<std::uint32_t>(std::count_if(unbounded_.begin(), unbounded_.end(), has_extra));
+  const auto extras = [](const std::vector<Placed>& objects) {
+    return static_cast<std::uint32_t>(std::count_if(objects.begin(), objects.end(), has_extra));
+  };
+  return extras(projectors_) + extras(unbounded_);
 }
 
 void SceneObjects::add_mesh(const Object& object, const Mesh& mesh, const CsgPart* part, unsigned threads) {
@@ -411,6 +430,8 @@ void SceneObjects::write_apart(std::uint32_t begin, std::uint32_t end, const std
 void SceneObjects::write_unbounded(const RecordTables& tables, const ObjectCensus& before,
                                    ObjectRecord* to) const {
   Writer writer(*this, tables, before);
+  for (const Placed& object : projectors_)
+    *to++ = writer.shape(object);
   for (const Placed& object : unbounded_)
     *to++ = writer.shape(object);
 }

@@ -17,10 +17,10 @@ namespace celltrace {
 
 class SceneObjects {
 public:
-  /// Those that are not among `instances`. `scene` and `material_flags`, what objects have that consist of a
-  /// material, stay as they are as long as this lives. Throws InputError if
-  /// there are too many objects.
-  SceneObjects(const Scene& scene, const std::vector<std::uint32_t>& material_flags,
+  /// Those that are not among `instances`. Objects from `projectors` on are those of lights. `scene` and
+  /// `material_flags`, what objects have that consist of a material, stay as they are as long as this lives.
+  /// Throws InputError if there are too many objects.
+  SceneObjects(const Scene& scene, std::size_t projectors, const std::vector<std::uint32_t>& material_flags,
                const MeshInstances& instances, unsigned threads);
 
   /// All that have bounds, those that cannot be hit included: spheres without a radius and triangles without
@@ -28,7 +28,11 @@ public:
   std::uint32_t count() const { return count_; }
   /// The others: planes, unless CSG bounds them.
   std::uint32_t unbounded_count() const { return static_cast<std::uint32_t>(unbounded_.size()); }
-  /// Their ExtraRecords.
+  /// What lights are projected through, without bounds or with.
+  std::uint32_t projector_count() const { return static_cast<std::uint32_t>(projectors_.size()); }
+  /// By projector, how many of these it consists of, one after the other.
+  const std::vector<std::uint32_t>& projector_sizes() const { return projector_sizes_; }
+  /// The ExtraRecords of these and of unbounded ones.
   std::uint32_t unbounded_extras() const;
   const CsgParts& csg() const { return csg_; }
   const PolygonTable& polygons() const { return polygons_; }
@@ -49,7 +53,7 @@ public:
                    const RecordTables& tables, kernel::ObjectRecord* to) const;
   static constexpr std::uint32_t kNoPlace = 0xFFFFFFFF;
 
-  /// The records of unbounded objects; `before` as for write().
+  /// The records of projectors, then of unbounded objects; `before` as for write().
   void write_unbounded(const RecordTables& tables, const ObjectCensus& before,
                        kernel::ObjectRecord* to) const;
 
@@ -80,7 +84,8 @@ private:
   void place_triangles(const Piece& piece, std::uint32_t begin, std::uint32_t end, ObjectCensus& census,
                        PlacedObject* to) const;
   void add_shape(const Object& object);
-  void add_parts(unsigned threads);
+  void add_parts(std::size_t projectors, unsigned threads);
+  void add_projectors(const Scene& scene, std::size_t first);
   /// `part`: that it is of a CSG, or null.
   void add_mesh(const Object& object, const Mesh& mesh, const CsgPart* part, unsigned threads);
   void grow(std::size_t objects);
@@ -94,7 +99,8 @@ private:
   CsgParts csg_;
   PolygonTable polygons_;
   std::vector<Piece> pieces_;
-  std::vector<Placed> unbounded_;
+  std::vector<Placed> unbounded_, projectors_;
+  std::vector<std::uint32_t> projector_sizes_;
   std::vector<std::vector<Vec3f>> transformed_;
   std::uint32_t count_ = 0;
 };

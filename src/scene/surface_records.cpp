@@ -97,6 +97,8 @@ LightRecord make_record(const Light& light) {
   copy(light.colour, r.colour);
   r.kind_and_flags = kind_of(light.kind);
   if (light.shadowless) r.kind_and_flags |= light_flag::shadowless;
+  if (light.projected_through) r.kind_and_flags |= light_flag::projected;
+  if (light.is_dimmed_by_fog) r.kind_and_flags |= light_flag::dimmed;
   bool has_axis = light.parallel;
   bool parallel = light.parallel;
   Lights::dispatch(kind_of(light.kind), [&](auto kind) {

@@ -39,7 +39,8 @@ RenderResult render_by(Model model, const Machine& machine, unsigned spes, const
 
 /// Whether its shadow rays go from surface to surface.
 bool needs_shared_model(const Scene& scene) {
-  return (SceneImage(scene).header().light_ways & kernel::light_way::stepwise) != 0;
+  return (SceneImage(scene).header().light_ways &
+          (kernel::light_way::stepwise | kernel::light_way::projectors)) != 0;
 }
 
 void check_models(const Scene& scene) {

@@ -69,6 +69,45 @@ TEST_CASE("parallel and fading light") {
   CHECK(light("fade_distance 3").fade_power == 0);
 }
 
+TEST_CASE("light through something") {
+  const auto through = [](const std::string& modifiers) {
+    const Light lit = light(modifiers);
+    REQUIRE(lit.projected_through);
+    return std::get<std::shared_ptr<const Csg>>(lit.projected_through->shape)->parts;
+  };
+  CHECK_FALSE(light("").projected_through);
+  const auto moved =
+      through("projected_through { sphere { 0, 1 pigment { rgb 1 } } translate x } translate y");
+  REQUIRE(moved.size() == 1);
+  CHECK(moved[0].transform.point(Vec3(0)) == Vec3(1, 1, 0));
+  const auto parts =
+      through("projected_through { union { box { 0, 1 } union { sphere { 0, 1 } light_source { 0 rgb 1 } } "
+              "mesh { triangle { 0, x, y } } difference { box { 0, 1 } sphere { 0, 1 } } } scale 2 }");
+  REQUIRE(parts.size() == 4);
+  CHECK(std::holds_alternative<Sphere>(parts[1].shape));
+  CHECK(std::holds_alternative<std::shared_ptr<const Mesh>>(parts[2].shape));
+  const Scene scene = parse("light_source { y rgb 1 projected_through { sphere { 0, 1 } } }");
+  CHECK(scene.objects.empty()); // it is not seen
+  CHECK(scene.materials.empty());
+  CHECK(through("projected_through { sphere { 0, 0 } }").empty()); // nothing shines through it
+  CHECK(refusal("projected_through { sphere { 0, 1 } } projected_through { sphere { 0, 1 } }") ==
+        "a light source is projected through one object only");
+  CHECK(
+      refusal(
+          "projected_through { intersection { mesh { triangle { 0, x, y } inside_vector z } box { 0, 1 } } }")
+          .starts_with("a mesh in CSG that a light is projected through is not supported"));
+  CHECK(error_line("sphere { 0, 1 } object { projected_through { sphere { 0, 1 } } }") ==
+        "scene.pov:1:26: error: only a light source is projected through something");
+}
+
+TEST_CASE("light that fog dims") {
+  CHECK_FALSE(light("").is_dimmed_by_fog);
+  CHECK(light("media_attenuation on").is_dimmed_by_fog);
+  CHECK(light("media_attenuation").is_dimmed_by_fog);
+  CHECK_FALSE(light("media_attenuation off").is_dimmed_by_fog);
+  CHECK_FALSE(light("media_attenuation on media_interaction off").is_dimmed_by_fog);
+}
+
 TEST_CASE("lights with an area") {
   CHECK_FALSE(light("jitter adaptive 2").area);
   const Light plain = light("area_light <4, 1, 0>, <0, 0, 2>, 5, 3.9");

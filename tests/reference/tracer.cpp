@@ -49,6 +49,13 @@ InteriorStack interiors_around(const std::vector<Shape>& shapes, const Vec3& poi
 Tracer::Tracer(const Scene& scene)
     : scene_(scene), shapes_(shapes_of(scene)),
       camera_inside_(interiors_around(shapes_, scene.camera.location)) {
+  for (const Light& light : scene.lights) {
+    projectors_.emplace_back();
+    if (!light.projected_through) continue;
+    auto alone = std::make_shared<Scene>();
+    alone->objects = {*light.projected_through};
+    projectors_.back() = {alone, shapes_of(*alone)};
+  }
 }
 
 Image Tracer::render(int width, int height) const {
@@ -79,7 +86,28 @@ Tracer::Hit Tracer::closest(const Ray& ray, bool mirrored) const {
   return hit;
 }
 
-Vec3 Tracer::attenuation(const Ray& ray, double distance, InteriorStack inside) const {
+Vec3 Tracer::arriving(const Light& light, const Ray& ray, double distance,
+                      const InteriorStack& inside) const {
+  if (light.projected_through) {
+    double nearest = HUGE_VAL;
+    for (const Shape& shape : projectors_[static_cast<std::size_t>(&light - scene_.lights.data())].shapes)
+      for (const Crossing& crossing : cross(shape, ray))
+        if (crossing.distance > kMinHitDistance) nearest = std::min(nearest, crossing.distance);
+    if (nearest >= distance) return Vec3(0);
+    distance = nearest;
+  }
+  return light.shadowless ? Vec3(1) : attenuation(ray, distance, inside, light.is_dimmed_by_fog);
+}
+
+Vec3 Tracer::fog_share(const Ray& ray, double begin, double end, const InteriorStack& inside) const {
+  Vec3 share(1);
+  if (std::all_of(inside.begin(), inside.end(), [&](Index i) { return scene_.interiors[i].hollow; }))
+    for (const Fog& fog : scene_.fogs)
+      share *= through(fog, ray.origin + begin * ray.direction, ray.direction, end - begin).pass;
+  return share;
+}
+
+Vec3 Tracer::attenuation(const Ray& ray, double distance, InteriorStack inside, bool is_dimmed) const {
   std::vector<Hit> surfaces;
   for (const Shape& shape : shapes_)
     for (const Crossing& c : cross(shape, ray))
@@ -103,10 +131,12 @@ Vec3 Tracer::attenuation(const Ray& ray, double distance, InteriorStack inside) 
           std::abs(glm::dot(ray.direction, normal_at(*shape, ray.origin + c.distance * ray.direction, c)));
       filter *= 1 + std::pow(cosine, 45 * interior.caustics);
     }
+    if (is_dimmed) passed *= fog_share(ray, last, c.distance, inside);
     cross_surface(inside, shape->object->interior, scene_.interiors);
     passed *= filter;
     last = c.distance;
   }
+  if (is_dimmed) passed *= fog_share(ray, last, distance, inside);
   return passed;
 }
 
@@ -193,13 +223,13 @@ Vec3 Tracer::own_light(const Branch& branch, const Point& point, const Material&
       const Vec3 way = glm::normalize(middle + offset);
       // Parallel light ends beside the place itself, and has no shadows behind it.
       const double end = distance > 0 ? glm::dot(light.location + offset - point.position, way) : 0;
-      return unshadowed * attenuation({point.position, way}, end, branch.inside);
+      return unshadowed * arriving(light, {point.position, way}, end, branch.inside);
     };
     Vec3 colour = unshadowed;
     if (light.area && !light.shadowless)
       colour = area_mean(*light.area, from_place);
-    else if (!light.shadowless)
-      colour *= attenuation({point.position, to_light}, distance, branch.inside);
+    else
+      colour *= arriving(light, {point.position, to_light}, distance, branch.inside);
     sum += lit(material, scene_.version, colour, to_light, direction, point.normal, !light.shadowless,
                is_lit_through) *
            film(f, scene_.irid_wavelength, std::abs(cosine), -glm::dot(direction, point.normal));

@@ -18,7 +18,7 @@ public:
   Vec3 see(const Ray& ray) const;
   /// Multiplier of a light's colour at the end of `distance` along a shadow ray.
   /// `inside`: what the ray begins in; nothing if it is not given.
-  Vec3 attenuation(const Ray& ray, double distance, InteriorStack inside = {}) const;
+  Vec3 attenuation(const Ray& ray, double distance, InteriorStack inside = {}, bool is_dimmed = false) const;
 
   struct Hit {
     const Shape* shape = nullptr; ///< none: the background
@@ -46,6 +46,10 @@ private:
   Material material_at(Index index, const Shape& shape, const Ray& ray, const Crossing& crossing) const;
   Vec3 trace(const Branch& branch) const;
   Vec3 shade(const Branch& branch, const Point& point, const Material& material) const;
+  /// What a light sends of what it would without anything in the way.
+  Vec3 arriving(const Light& light, const Ray& ray, double distance, const InteriorStack& inside) const;
+  /// What fogs leave of light on a part of its way.
+  Vec3 fog_share(const Ray& ray, double begin, double end, const InteriorStack& inside) const;
   /// `group`: that of an object.
   bool shines_on(const Light& light, Index group) const;
   Vec3 own_light(const Branch& branch, const Point& point, const Material& material) const;
@@ -54,6 +58,11 @@ private:
 
   const Scene& scene_;
   std::vector<Shape> shapes_;
+  struct Projector {
+    std::shared_ptr<const Scene> scene; ///< that has no other object
+    std::vector<Shape> shapes;
+  };
+  std::vector<Projector> projectors_; ///< by light
   InteriorStack camera_inside_;
 };
 

@@ -589,6 +589,75 @@ Scene polygons() {
   return scene;
 }
 
+/// Lights of every kind that shine through something alone.
+Scene projected_lights() {
+  Scene scene = with_camera(camera_at({0, 3, -7}, {0, 0, 0}));
+  scene.lights.pop_back();
+  scene.lights[0].colour = Vec3(0.15);
+  add_floor(scene, -1, {0.5, 0.6, 0.5}, {0.8, 0.8, 0.8});
+  for (int i = 0; i < 4; ++i)
+    add_sphere(scene, {1.3 * i - 2, -0.4, 0.3 * i}, 0.5,
+               i == 2 ? glass({0.9, 0.8, 0.9}) : matte({0.9, 0.8, 0.4}));
+  add_sphere(scene, {-0.7, 2.6, -0.7}, 0.2, matte({1, 0, 0})); // before a projector
+  const auto project = [&](Light light, const Object& projector) {
+    light.projected_through = std::make_shared<const Object>(projector);
+    scene.lights.push_back(light);
+  };
+  Object box;
+  box.shape = Box{{{-1.6, 1, -1.6}, {-0.2, 1.1, 0}}};
+  project({{-0.5, 4, -0.5}, {0.9, 0.6, 0.4}}, box);
+  Object ring;
+  ring.shape = Torus{0.8, 0.2};
+  ring.transform = Transform::translate({1.2, 1, 0});
+  Light area = {{1.5, 5, -1}, {0.4, 0.6, 1}};
+  area.area = LightArea{{0.5, 0, 0}, {0, 0, 0.5}, 4, 4, 1};
+  project(area, ring);
+  Object cut = box;
+  cut.shape = std::make_shared<const Csg>(
+      Csg{Csg::Operation::difference, {box, sphere_at({-0.9, 1, -0.8}, 0.4, 0, 0)}});
+  Light parallel = {{0, 6, 0}, {0.3, 0.9, 0.3}};
+  parallel.parallel = true;
+  parallel.point_at = {0.2, 0, 0.1};
+  project(parallel, cut);
+  Object mesh = mesh_object(floor_mesh(0, 0.7f), 0, 0);
+  mesh.transform = Transform::rotate({30, 20, 0}).then(Transform::translate({0.4, 1, 1}));
+  Light shadowless = {{0, 4, 3}, {0.5, 0.2, 0.5}, true};
+  project(shadowless, mesh);
+  Object wall;
+  wall.shape = Plane{{0, 1, 0}, 0.5};
+  project({{3, 2, -3}, {0.3, 0.3, 0.3}}, wall);
+  return scene;
+}
+
+/// Lights that fog dims, and others, through hollow things and others.
+Scene dimmed_lights() {
+  Scene scene = with_camera(camera_at({0, 1.5, -7}, {0, 0, 0}));
+  add_floor(scene, -1, {0.5, 0.6, 0.5}, {0.8, 0.8, 0.8});
+  for (Interior& interior : scene.interiors)
+    interior.hollow = true;
+  scene.lights[0].is_dimmed_by_fog = true;
+  scene.lights[0].colour = Vec3(1.6);
+  scene.lights.push_back({{1, 4, 2}, {0.6, 0.8, 1.4}});
+  scene.lights.back().is_dimmed_by_fog = true;
+  scene.lights.back().area = LightArea{{0.5, 0, 0}, {0, 0, 0.5}, 2, 2, 0};
+  add_sphere(scene, {-1.5, 0.3, 0}, 1, glass({0.9, 0.95, 1}), 1.1);
+  add_sphere(scene, {1.5, 0.3, 0}, 1, glass({1, 0.95, 0.9}), 1.1);
+  scene.interiors.back().hollow = true;
+  add_sphere(scene, {0, -0.5, -1.5}, 0.5, matte({0.9, 0.7, 0.4}));
+  Fog fog;
+  fog.distance = 12;
+  fog.colour = {0.6, 0.5, 0.4};
+  fog.filter = 0.5;
+  scene.fogs.push_back(fog);
+  fog.is_ground = true;
+  fog.distance = 5;
+  fog.offset = -0.8;
+  fog.altitude = 0.6;
+  fog.transmit = 0.2;
+  scene.fogs.push_back(fog);
+  return scene;
+}
+
 /// Thin things of every kind before lights that are in front and behind.
 Scene lit_from_behind() {
   Scene scene = with_camera(camera_at({0, 1, -7}, {0, 0, 0}));
@@ -608,7 +677,8 @@ Scene lit_from_behind() {
     m.finish.irid_thickness = 0.5;
     if (i == 5) m.pigment.transmit = 0.3;
     if (i == 7)
-      m.pigment.map = map_of<Pigment>({pattern::Checker{}}, {{0, {{1, 0, 0}}}, {1, {{0.9, 0.9, 1}}}});
+      m.pigment.map =
+          map_of<Pigment>({pattern::Gradient{{1, 0, 0}}}, {{0, {{1, 0, 0}}}, {1, {{0.9, 0.9, 1}}}});
     Object object;
     object.material = scene.add(m);
     object.interior = new_interior(scene);
@@ -722,6 +792,8 @@ const std::vector<NamedScene>& scenes() {
       {"cut meshes", cut_meshes},
       {"light groups", light_groups},
       {"lit from behind", lit_from_behind},
+      {"projected lights", projected_lights},
+      {"dimmed lights", dimmed_lights},
       {"polygons", polygons},
       {"rainbows", rainbows},
       {"textures", textures, "the reference has no noise, layers or normals"}};

@@ -219,6 +219,49 @@ TEST_CASE("A sealed scene image with a fault in its rainbows is refused") {
   refused([&](Bytes& b) { bows(b)[0].entries = header_of(b).material_offset; });
 }
 
+TEST_CASE("A sealed scene image with a fault in its projectors is refused") {
+  const Bytes good = bytes_of(SceneImage(scene_named("projected lights")));
+  const auto refused = [&](const std::function<void(Bytes&)>& change) {
+    Bytes bytes = good;
+    change(bytes);
+    seal(bytes);
+    CHECK_THROWS_WITH(SceneImage::from_bytes(bytes), Catch::Contains("offset"));
+  };
+  const auto lights = [](Bytes& b) { return table<LightRecord>(b, header_of(b).light_offset); };
+  const ImageHeader header = *reinterpret_cast<const ImageHeader*>(good.data());
+  REQUIRE(header.projector_count == 7); // a box, a torus, two surfaces of a CSG, two triangles, a plane
+  REQUIRE(header.unbounded_count == 0);
+  refused([](Bytes& b) { header_of(b).projector_count = 0xFFFFFFFF; });
+  refused([](Bytes& b) { header_of(b).projector_count = 6; });
+  refused([&](Bytes& b) { lights(b)[1].projector -= 64; });
+  refused([&](Bytes& b) { lights(b)[1].projector += 4; });
+  refused([&](Bytes& b) { lights(b)[1].projector_count = 8; });
+  refused([&](Bytes& b) { ++lights(b)[5].projector_count; });
+}
+
+TEST_CASE("Projectors that are not sound are refused") {
+  const auto with = [](const Object& projector) {
+    Scene scene = scene_named("projected lights");
+    scene.lights[3].projected_through = std::make_shared<const Object>(projector);
+    return scene;
+  };
+  Object object;
+  object.shape = Sphere{{0, HUGE_VAL, 0}, 1};
+  CHECK_THROWS_WITH(SceneImage(with(object)), Catch::Contains("projector 2"));
+  object = mesh_object(floor_mesh(0, 1), 0, 0);
+  CHECK_NOTHROW(SceneImage(with(object)));
+  Object whole;
+  whole.shape = std::make_shared<const Csg>(Csg{Csg::Operation::intersection, {object, object}});
+  CHECK_THROWS_WITH(SceneImage(with(whole)), Catch::Contains("mesh"));
+  whole.shape = std::make_shared<const Csg>(Csg{Csg::Operation::union_, {object, object}});
+  CHECK(SceneImage(with(whole)).header().projector_count == 7 + 2);
+  Mesh broken = floor_mesh(0, 1);
+  broken.triangles[0].vertex[1] = 4;
+  CHECK_THROWS_WITH(SceneImage(with(mesh_object(broken, 0, 0))), Catch::Contains("out of range"));
+  whole.shape = std::shared_ptr<const Csg>();
+  CHECK_THROWS_WITH(SceneImage(with(whole)), Catch::Contains("no CSG"));
+}
+
 TEST_CASE("Rainbows that are not sound are refused, and those that are not seen left out") {
   const auto with = [](const std::function<void(Rainbow&)>& change) {
     Scene scene = scene_named("rainbows");

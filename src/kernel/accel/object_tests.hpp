@@ -145,10 +145,12 @@ public:
   /// Tests the objects that no accelerator has. They lie before the others: as in POV-Ray, where one is at
   /// the same distance as another object, it is what is seen.
   void test_unbounded(const FrameBlock& frame, RayQuery& query) {
-    constexpr auto kBytes = static_cast<uint32_t>(sizeof(ObjectRecord));
-    uint32_t self = frame.object_offset - frame.unbounded_count * kBytes;
+    test_list(frame.object_offset - frame.unbounded_count * kObjectBytes, frame.unbounded_count, query);
+  }
+  /// The same of `count` objects from `self` on.
+  void test_list(uint32_t self, uint32_t count, RayQuery& query) {
     hit_filter_.begin_packet();
-    for (uint32_t i = 0; i < frame.unbounded_count && query.lanes != 0; ++i, self += kBytes) {
+    for (uint32_t i = 0; i < count && query.lanes != 0; ++i, self += kObjectBytes) {
       if (query.hits != nullptr)
         test_closest(*query.rays, self, *query.hits);
       else
@@ -201,6 +203,7 @@ public:
   /// Epsilon at both ends of a shadow ray, which is POV-Ray's: closer crossings do not count, so that a
   /// surface does not shadow itself.
   static constexpr float kShadowEpsilon = 1e-3f;
+  static constexpr auto kObjectBytes = static_cast<uint32_t>(sizeof(ObjectRecord));
 
   /// The lanes of the rays to be tested that come from a mirror, as no others see or do not see some objects.
   void set_reflected(uint32_t lanes) { reflected_ = lanes; }

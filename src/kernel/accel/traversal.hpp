@@ -47,6 +47,21 @@ public:
     intersect(&query, 1);
   }
 
+  /// Lets shadow rays end where they first cross what a light is projected through. Returns the lanes that
+  /// do, before the light; the light of the others becomes 0.
+  [[gnu::noinline]] uint32_t project(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
+                                     FloatLanes& distance, VectorLanes& colour) {
+    HitPacket hits;
+    RayQuery query = {&rays, &hits, nullptr, nullptr, lanes};
+    reset_hits(&query, 1);
+    objects_.test_list(light.projector, light.projector_count, query);
+    const F at = F::load(hits.distance.lane), end = F::load(distance.lane);
+    query = {&rays, nullptr, &distance, &colour, (at < end).bits() & lanes};
+    S::min(at, end).store(distance.lane);
+    clear_occluded(&query, 1);
+    return query.lanes;
+  }
+
   /// Gathers what may be between a packet's surfaces and a light with an area. False: that is not known.
   bool gather_occluders(const RayPacket& rays, uint32_t lanes, const LightRecord& light,
                         AreaOccluders<Spu>& occluders) {

@@ -22,11 +22,19 @@ template <class L> constexpr uint32_t kLightKind = Lights::number<L>();
 constexpr bool is_plain(const LightRecord& light) {
   static_assert(kLightKind<PointLight> == 0);
   constexpr uint32_t of_shadows = light_flag::shadowless | light_flag::area | light_flag::circular |
-                                  light_flag::orient | light_flag::jitter;
+                                  light_flag::orient | light_flag::jitter | light_flag::projected |
+                                  light_flag::dimmed;
   return (light.kind_and_flags & ~of_shadows) == 0;
 }
 constexpr bool is_shadowless(const LightRecord& light) {
   return (light.kind_and_flags & light_flag::shadowless) != 0;
+}
+constexpr bool is_projected(const LightRecord& light) {
+  return (light.kind_and_flags & light_flag::projected) != 0;
+}
+/// Whether it has to be found out what of the light comes to surfaces.
+constexpr bool is_asked_for(const LightRecord& light) {
+  return (light.kind_and_flags & (light_flag::shadowless | light_flag::projected)) != light_flag::shadowless;
 }
 constexpr bool has_area(const LightRecord& light) {
   return (light.kind_and_flags & light_flag::area) != 0;

@@ -181,7 +181,7 @@ private:
     const Surfaces<S> surfaces = context.points.lit_surfaces(rays.direction.template load<S>(), objects);
     writer_.begin(number);
     for_each_light(scene_, frame_, 0, frame_.light_count, [&](uint32_t i, const LightRecord& light) {
-      if (is_shadowless(light)) return;
+      if (is_shadowless(light)) return; // no light is projected: such scenes are refused
       IncidentLight<S> incident(light.colour);
       illuminate(scene_, light, surfaces, context.hit, incident);
       if (incident.facing == 0) return;

@@ -156,7 +156,7 @@ private:
     const LightRound lights = LightRound::from(frame_, 0, nullptr);
     lit_ = nullptr;
     for_each_light(scene_, frame_, 0, lights.count, [&](uint32_t number, const LightRecord& light) {
-      if (!is_shadowless(light)) find_light(number, light);
+      if (is_asked_for(light)) find_light(number, light);
     });
   }
   void find_light(uint32_t number, const LightRecord& light) {
@@ -173,8 +173,8 @@ private:
       }
       const uint32_t facing = aim_at(light, member, member.rays, member.hits, member.hit, colour, nullptr);
       if (facing == 0) continue;
-      if (walk_ != nullptr) {
-        trace_shadows(member.shadow_rays, facing, member.distance, colour);
+      if (walk_ != nullptr || is_projected(light)) {
+        trace_shadows(light, member.shadow_rays, facing, member.distance, colour);
         continue;
       }
       queries[asked++] = {&member.shadow_rays, nullptr, &member.distance, &colour, facing};
@@ -204,21 +204,30 @@ private:
     return incident.facing;
   }
 
-  /// As Traversal's transmittance(). Not inlined: once in local store is enough.
-  [[gnu::noinline]] void trace_shadows(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance,
-                                       VectorLanes& light) {
+  /// As Traversal's transmittance(), of a light. Not inlined: once in local store is enough.
+  [[gnu::noinline]] void trace_shadows(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
+                                       FloatLanes& distance, VectorLanes& colour) {
+    if (is_projected(light)) {
+      lanes = traversal_.project(light, rays, lanes, distance, colour);
+      if (lanes == 0 || is_shadowless(light)) return;
+    }
     if (walk_ != nullptr)
-      walk_shadows(rays, lanes, distance, light);
+      walk_shadows(light, rays, lanes, distance, colour);
     else
-      traversal_.transmittance(rays, lanes, distance, light);
+      traversal_.transmittance(rays, lanes, distance, colour);
   }
-  [[gnu::noinline]] void walk_shadows(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance,
-                                      VectorLanes& light) {
+  [[gnu::noinline]] void walk_shadows(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
+                                      const FloatLanes& distance, VectorLanes& colour) {
     ShadowWalk<S>& walk = *walk_;
+    const bool is_dimmed = (light.kind_and_flags & light_flag::dimmed) != 0;
     scene_.spu().enter_module(modules::kShadowWalk);
-    begin_shadow_walk(scene_.spu(), frame_, lit_, rays, lanes, distance, light, walk);
+    begin_shadow_walk(scene_.spu(), frame_, lit_, rays, lanes, distance, colour, walk);
     while (walk.ray.lanes != 0) {
       traversal_.find_closest(walk.ray.rays, walk.ray.lanes, walk.hits, kSeesAll);
+      if (is_dimmed) {
+        scene_.spu().enter_module(modules::kAtmosphere);
+        dim_shadow_rays(scene_, frame_, walk.hits, walk.left, walk.ray, *walk.light);
+      }
       scene_.spu().enter_module(modules::kShadowWalk);
       const uint32_t hit = hits_of_walk(scene_.spu(), walk);
       if (hit == 0) return;
@@ -237,7 +246,8 @@ private:
     if constexpr (kGathersOccluders<Spu>) {
       AreaOccluders<Spu> occluders;
       // Where shadow rays are walked, what they pass through is asked for surface by surface.
-      if (walk_ == nullptr && traversal_.gather_occluders(area.rays, facing, light, occluders)) {
+      if (walk_ == nullptr && !is_projected(light) &&
+          traversal_.gather_occluders(area.rays, facing, light, occluders)) {
         if (occluders.are_none())
           return colour.template store<S>(
               select<S>(S::M::from_bits(facing), colour.template load<S>(), {F(0.0f), F(0.0f), F(0.0f)}));
@@ -250,7 +260,7 @@ private:
     }
     while (next_place(scene_.spu(), light, area)) {
       scene_.spu().compute(scalar_work::kBundleLight);
-      trace_shadows(area.rays, area.lanes, area.distance, area.light);
+      trace_shadows(light, area.rays, area.lanes, area.distance, area.light);
     }
     colour = area.sum;
     tracer_.count_shadow_rays(area.rays_asked);
@@ -294,12 +304,12 @@ private:
   [[gnu::noinline]] void light_packet(Member& member, uint32_t hit, const LightRound& round) {
     lit_ = &tracer_.node();
     for_each_light(scene_, frame_, round.first, round.count, [&](uint32_t number, const LightRecord& light) {
-      if (is_shadowless(light)) return;
+      if (!is_asked_for(light)) return;
       VectorLanes& colour = member.light[number - round.first];
       const RayPacket& rays = tracer_.node().rays;
       if (has_area(light)) return look_at_area(light, member, rays, tracer_.hits(), hit, colour);
       const uint32_t facing = aim_at(light, member, rays, tracer_.hits(), hit, colour, nullptr);
-      if (facing != 0) trace_shadows(member.shadow_rays, facing, member.distance, colour);
+      if (facing != 0) trace_shadows(light, member.shadow_rays, facing, member.distance, colour);
     });
   }
 

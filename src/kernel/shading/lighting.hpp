@@ -131,7 +131,7 @@ V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, const FrameBlock& fr
     const uint32_t facing = incident.facing;
     if (facing == 0) return;
     scene.spu().compute(scalar_work::kLight);
-    if (!is_shadowless(light)) {
+    if (is_asked_for(light)) {
       incident.colour = round.colour[number - round.first].template load<S>();
       if (!has_area(light)) shadow_rays += static_cast<uint32_t>(__builtin_popcount(facing));
     }
