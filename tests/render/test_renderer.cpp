@@ -254,6 +254,22 @@ TEST_CASE("One Renderer's later frames are as those of a fresh one") {
   }
 }
 
+TEST_CASE("A later scene may need other things in local store, at the same place in memory") {
+  const char* const kNeeds[] = {"soft shadows", "dimmed lights", "surfaces", "highlights"};
+  for (const Backend& backend : one_of_each())
+    for (const char* first : kNeeds)
+      for (const char* second : kNeeds) {
+        INFO(backend.spu() << ": " << first << ", " << second);
+        Renderer renderer(backend.options(kWidth, kHeight, 2));
+        // The larger image first, so that both have room in one place.
+        Scene before = scene_named(first), after = scene_named(second);
+        before.max_trace_level = after.max_trace_level = 5;
+        before.objects.push_back(mesh_object(ball_mesh(20), 0, before.objects[0].interior));
+        renderer.render(before);
+        check_complete(renderer.render(after), backend, picture(after));
+      }
+}
+
 TEST_CASE("A later scene may need deeper trees") {
   Scene scene = scene_named("half mirrors");
   for (const Backend& backend : one_of_each()) {

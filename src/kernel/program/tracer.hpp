@@ -53,7 +53,8 @@ private:
     using Sampler = PixelSampler<Spu>;
 
     Phase(Spu& spu, const FrameBlock& frame, const CacheConfig& config)
-        : image(frame.image), ray_stack(frame.ray_stack), scene(spu, config, frame.image),
+        : image(frame.image), ray_stack(frame.ray_stack), needs(needs_of(frame)),
+          scene(spu, config, frame.image),
           samples(is_picture(frame) ? nullptr : spu.template allocate<SampleBundle<Spu>>()),
           bundles(spu, frame, scene,
                   frame.ray_stack + static_cast<ea_t>(spu.id() * frame.ray_stack_nodes) * kRayNodeBytes,
@@ -66,7 +67,16 @@ private:
             Sampler(spu, frame, *samples, bundles.scratch());
     }
 
+    /// What frames need more or less of local store for.
+    static uint32_t needs_of(const FrameBlock& frame) {
+      return has_areas(frame) + 2u * walks_shadows(frame) + 4u * has_surface_lanes(frame);
+    }
+    bool serves(const FrameBlock& frame) const {
+      return image == frame.image && ray_stack == frame.ray_stack && needs == needs_of(frame);
+    }
+
     ea_t image, ray_stack;
+    uint32_t needs;
     SceneAccess<Spu> scene;
     SampleBundle<Spu>* samples; ///< null, as is the sampler, if all frames are pictures
     BundleTracer<Spu, kAccelerators> bundles;
@@ -108,7 +118,7 @@ private:
     spu_.run_in_module(modules::kStart);
     while (spu_.in_mailbox_count() != 0)
       spu_.read_in_mailbox();
-    if (phase_ != nullptr && phase_->image == frame_.image && phase_->ray_stack == frame_.ray_stack)
+    if (phase_ != nullptr && phase_->serves(frame_))
       phase_->scene.cache().synchronize_all();
     else
       drop_phase();
