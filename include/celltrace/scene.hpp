@@ -257,7 +257,8 @@ struct Object {
   Transform transform;
   Index material = 0; ///< of a CSG: means nothing, its parts have their own
   Index interior = 0; ///< likewise
-  // These three of parts of a CSG count in unions alone.
+  // Of these three POV-Ray does not take all that parts of a CSG say: in unions all, but in those that are
+  // clipped or parts of other operations only no_reflection; in merges all but no_shadow; in others nothing.
   bool no_shadow = false;
   bool no_image = false;      ///< seen in mirrors alone
   bool no_reflection = false; ///< seen in no mirror

@@ -157,7 +157,7 @@ struct Pattern {
   Turbulence turbulence = {}; ///< of points in the pattern's own space, after all steps
   Wave wave = Wave::ramp;
   double wave_exponent = 1; ///< of Wave::poly
-  double frequency = 1;     ///< 0: the number as it is, without phase
+  double frequency = 1;     ///< 0: the number as it is, without phase, in its wave
   double phase = 0;
   int noise_generator = 0; ///< 1 to 3 as POV-Ray counts them; 0: the scene's
   /// Its space is that of (u, v, 0), the surface's coordinates, wherever in the scene the surface is and

@@ -59,6 +59,7 @@ struct Entry {
   std::vector<Colour> colours = {{0, {0, 0, 0}}, {1, {1, 1, 1}}};
   Setter set_argument = nullptr;
   std::vector<Option> options = {};
+  double frequency = 1;
 };
 
 template <class T> Kind make() {
@@ -116,7 +117,7 @@ const std::vector<Colour> kGrey{{0, kBlack}, {1, kWhite}};
 const std::vector<Colour> kSix{{0, kRed}, {1, kGreen}, {2, kBlue}, {3, kYellow}, {4, kCyan}, {5, kMagenta}};
 
 /// The word, the pattern, what stands behind the word, the wave and the colours it has by itself, the setter
-/// of its argument, its options.
+/// of its argument, its options, the frequency it has by itself.
 const Entry kPatterns[] = {
     {"agate",
      make<Agate>,
@@ -188,7 +189,8 @@ const Entry kPatterns[] = {
      kGrey,
      nullptr,
      {{"control0", [](Kind& kind, const Argument& a) { std::get<Quilted>(kind).control[0] = a.number(); }},
-      {"control1", [](Kind& kind, const Argument& a) { std::get<Quilted>(kind).control[1] = a.number(); }}}},
+      {"control1", [](Kind& kind, const Argument& a) { std::get<Quilted>(kind).control[1] = a.number(); }}},
+     0},
     {"radial",
      make<Radial>,
      kPlain,
@@ -289,6 +291,7 @@ void choose(PatternDefinition& pattern, int number) {
   const Entry& entry = entry_of(pattern);
   pattern.own().kind = entry.make();
   if (entry.wave != Wave::ramp) pattern.own().wave = entry.wave;
+  if (entry.frequency != 1) pattern.own().frequency = entry.frequency;
 }
 
 void set_argument(Session& session, PatternDefinition& pattern, const Quantity& argument,

@@ -106,7 +106,11 @@ struct Node {
 struct Surroundings {
   Transform transform;
   bool no_shadow = false, no_image = false, no_reflection = false;
-  bool hides_nothing = false; ///< what the parts say of these does not count
+  /// Whether what the object says of these counts. So it is in POV-Ray: in unions all of it, but where they
+  /// are clipped or parts of other operations only no_reflection; in merges all but no_shadow; in
+  /// intersections and differences nothing.
+  bool hides_shadow = true, hides_image = true, hides_reflection = true;
+  bool is_in_unions = true; ///< alone, and in none that is clipped
   bool inverse = false;
   bool shows = true;
   int depth = 0;
@@ -123,6 +127,7 @@ public:
     Node clipped;
     clipped.kind = Node::Kind::intersection;
     clipped.shows = around.shows;
+    around.is_in_unions = false;
     clipped.add(build_unclipped(object, around));
     around.shows = false;
     around.inverse = false;
@@ -134,11 +139,9 @@ public:
 private:
   Node build_unclipped(const Object& object, Surroundings around) {
     around.transform = object.transform.then(around.transform);
-    if (!around.hides_nothing) {
-      around.no_shadow = around.no_shadow || object.no_shadow;
-      around.no_image = around.no_image || object.no_image;
-      around.no_reflection = around.no_reflection || object.no_reflection;
-    }
+    around.no_shadow = around.no_shadow || (around.hides_shadow && object.no_shadow);
+    around.no_image = around.no_image || (around.hides_image && object.no_image);
+    around.no_reflection = around.no_reflection || (around.hides_reflection && object.no_reflection);
     around.inverse = around.inverse != object.inverse;
     if (const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape)) {
       if (!*csg) throw InputError("an object has no CSG");
@@ -156,7 +159,10 @@ private:
       node.kind = Node::Kind::intersection;
     else
       node.kind = csg.operation == Operation::union_ ? Node::Kind::union_ : Node::Kind::merge;
-    around.hides_nothing = around.hides_nothing || csg.operation != Operation::union_;
+    around.is_in_unions = around.is_in_unions && csg.operation == Operation::union_;
+    around.hides_shadow = around.is_in_unions;
+    around.hides_image = around.is_in_unions || csg.operation == Operation::merge;
+    around.hides_reflection = joins;
     const bool inverse = around.inverse;
     for (std::size_t i = 0; i < csg.parts.size(); ++i) {
       around.inverse = inverse != (csg.operation == Operation::difference && i > 0);

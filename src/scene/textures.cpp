@@ -528,9 +528,9 @@ std::uint32_t TextureTables::add_pattern(const Pattern& pattern, const PatternSp
     r.kind_and_flags = words.kind_and_flags;
     std::copy(std::begin(words.parameter), std::end(words.parameter), r.parameter);
     const std::uint32_t kind = r.kind_and_flags & pattern_flag::kind_mask;
-    const PatternWave wave = pattern.frequency == 0 || Patterns::kAreLists[kind]
-                                 ? PatternWave::none
-                                 : static_cast<PatternWave>(pattern.wave);
+    const bool is_raw = pattern.frequency == 0 && pattern.wave == Pattern::Wave::ramp;
+    const PatternWave wave =
+        is_raw || Patterns::kAreLists[kind] ? PatternWave::none : static_cast<PatternWave>(pattern.wave);
     r.kind_and_flags |= static_cast<std::uint32_t>(wave) << pattern_flag::wave_shift;
     const int generator = pattern.noise_generator == 0 ? scene_.noise_generator : pattern.noise_generator;
     if (generator == 1) r.kind_and_flags |= pattern_flag::first_generator;
@@ -548,8 +548,10 @@ std::uint32_t TextureTables::add_pattern(const Pattern& pattern, const PatternSp
     }
     add_table(tables_.back());
   }
-  r.frequency = static_cast<float>(pattern.frequency);
-  r.phase = static_cast<float>(pattern.phase);
+  // A frequency of 0 leaves the number as it is for its wave.
+  const bool is_own = pattern.frequency == 0 && pattern.wave != Pattern::Wave::ramp;
+  r.frequency = static_cast<float>(is_own ? 1 : pattern.frequency);
+  r.phase = static_cast<float>(is_own ? 0 : pattern.phase);
   r.wave_exponent = static_cast<float>(pattern.wave_exponent);
   r.turbulence = words_of(pattern.turbulence);
   const PatternSpace space = space_of(pattern, outer);

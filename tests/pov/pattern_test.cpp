@@ -98,6 +98,9 @@ TEST_CASE("what stands behind a pattern's word") {
   const Quilted quilted = kind<Quilted>("quilted control0 0.25 control1 2");
   CHECK(quilted.control[0] == 0.25);
   CHECK(quilted.control[1] == 2);
+  CHECK(pattern_of("quilted").frequency == 0);
+  CHECK(pattern_of("quilted frequency 2").frequency == 2);
+  CHECK(pattern_of("boxed").frequency == 1);
   const Crackle crackle = kind<Crackle>("crackle form <1, 2, 3> metric 1 offset 0.5 solid");
   CHECK(crackle.form[2] == 3);
   CHECK(crackle.metric == 1);

@@ -56,8 +56,9 @@ double number_of(const pattern::Kind& kind, const Vec3& p) {
 
 double wave(const Pattern& pattern, double number) {
   using Wave = Pattern::Wave;
-  if (pattern.frequency == 0) return number;
-  double v = std::fmod(number * pattern.frequency + pattern.phase, 1.00001);
+  if (pattern.frequency == 0 && pattern.wave == Wave::ramp) return number;
+  double v = pattern.frequency == 0 ? number : number * pattern.frequency + pattern.phase;
+  v = std::fmod(v, 1.00001);
   if (v < 0) v -= std::floor(v);
   const double u = fraction(v);
   switch (pattern.wave) {

@@ -33,7 +33,7 @@ Both(5, pigment { leopard color_map { Colours } scale 0.3 }, normal { leopard 1.
 Both(6, pigment { radial color_map { Colours } frequency 5 }, normal { radial 0.8 frequency 5 sine_wave })
 Both(7, pigment { spiral1 3 color_map { Colours } }, normal { spiral1 3 0.5 })
 Both(8, pigment { spiral2 4 color_map { Colours } }, normal { spiral2 4 0.4 })
-Both(9, pigment { quilted control0 0.3 control1 0.8 color_map { Colours } }, normal { quilted 1 control0 0.3 control1 0.8 })
+Both(9, pigment { quilted control0 0.3 control1 0.8 phase 0.4 color_map { Colours } }, normal { quilted 1 control0 0.3 control1 0.8 })
 Both(10, pigment { square pigment { rgb x }, pigment { rgb y }, pigment { rgb z }, pigment { rgb 1 } }, normal { gradient z 0.8 triangle_wave })
 Both(11, pigment { triangular pigment { rgb x }, pigment { rgb y }, pigment { rgb z }, pigment { rgb 1 }, pigment { rgb 0.3 }, pigment { rgb <1, 0.6, 0> } }, normal { cylindrical 1 scale 2 })
 Both(12, pigment { hexagon rgb <0.9, 0.4, 0.2>, rgb <0.9, 0.9, 0.7>, rgb <0.2, 0.4, 0.6> }, normal { hexagon 0.4 })

@@ -22,3 +22,24 @@ intersection {
   sphere { <3.2, 0.6, -2.5>, 0.6 no_image no_shadow } box { <2.6, 0, -3>, <3.7, 1, -2> no_reflection }
   pigment { color rgb <0.9, 0.5, 0.1> }
 }
+// What parts say of it counts in unions and, in part, in merges.
+merge {
+  sphere { 0, 0.4 no_image } sphere { <0.9, 0, 0>, 0.4 no_reflection }
+  sphere { <0.5, 0.9, 0>, 0.4 no_shadow } sphere { <0.9, 1.1, 0>, 0.4 }
+  pigment { color rgb <0.3, 0.8, 0.6> } translate <-4.2, 0.5, 0.5>
+}
+intersection {
+  union { box { <0, 0, 0>, <0.8, 1.2, 0.8> no_image } box { <0.4, 0.2, -0.2>, <1.2, 0.9, 0.6> no_reflection no_shadow } }
+  box { <0.1, -1, -2>, <1.1, 2, 2> }
+  pigment { color rgb <0.8, 0.7, 0.2> } translate <3.5, 0, 0>
+}
+union {
+  box { <0, 0, 0>, <0.8, 1.2, 0.8> } box { <0.4, 0.2, -0.2>, <1.2, 0.9, 0.6> no_reflection }
+  clipped_by { plane { x, 1 } }
+  pigment { color rgb <0.3, 0.4, 0.9> } translate <4.6, 0, 3>
+}
+// What is mirrored within glass is mirrored, too.
+intersection {
+  box { -0.5, 0.5 rotate 45*y scale <1, 2.4, 1> } plane { z, 0 }
+  pigment { color rgbt 0.9 } interior { ior 1.6 } translate <0.3, 1.4, 3>
+}

@@ -327,14 +327,15 @@ private:
       if (rays.is_nothing()) break;
       const uint32_t clear = rays.clear;
       rays.clear = 0;
-      above = select<S>(S::M::from_bits(clear), above * rays.through, above);
+      // POV-Ray does not ask what the layers above leave of what is mirrored, but it weighs it by that.
       rays.mirror = rays.mirror * share;
+      rays.mirror_weight = rays.mirror_weight * grey<S>(above);
+      above = select<S>(S::M::from_bits(clear), above * rays.through, above);
       if (is_top) {
         onward = rays;
         outermost = surfaces.normal;
         is_disturbed = m.disturbed != 0;
       } else if (rays.mirrors != 0) {
-        // POV-Ray does not ask what the layers above leave of it.
         spawn(surfaces, smooth, interior, rays);
       }
       // Transmitted through all layers, by those that were the last.
@@ -481,6 +482,7 @@ private:
         scene_.spu().enter_module(modules::kFading);
         fade_child(interior, onward.clear);
       }
+      child_.reflected |= total & child_.lanes;
       counters_.refraction += count(child_.lanes);
       push();
     }
