@@ -94,14 +94,27 @@ bool may_have_inside(const Object& object) {
   return sphere == nullptr || sphere->radius != 0;
 }
 
-/// As far as it is worth finding out.
-Aabb box_of(const Object& object) {
-  const bool is_shape = !std::holds_alternative<std::shared_ptr<const Csg>>(object.shape) &&
-                        !std::holds_alternative<std::shared_ptr<const Mesh>>(object.shape) &&
-                        !std::holds_alternative<Sphere>(object.shape);
-  if (!is_shape || object.inverse || !has_bounds(object)) return kEverywhere;
-  const PlacedShape shape = place_shape(object);
-  return shape.is_empty || !shape.is_bounded ? kEverywhere : shape.bounds();
+/// Around what POV-Ray takes for the object when it asks what the camera is in: what is inverse counts as if
+/// it were not, in merges too. As far as it is worth finding out.
+Aabb box_of(const Object& object, const Transform& around) {
+  Object shape = object;
+  shape.inverse = false;
+  shape.transform = object.transform.then(around);
+  if (const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape)) {
+    using Operation = Csg::Operation;
+    const Operation operation = (*csg)->operation;
+    if (operation == Operation::intersection || operation == Operation::difference) return kEverywhere;
+    Aabb box = {{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
+    for (const Object& part : (*csg)->parts)
+      box = united(box, box_of(part, shape.transform));
+    return box;
+  }
+  const bool is_lone_sphere = std::holds_alternative<Sphere>(object.shape) && !object.inverse;
+  if (is_lone_sphere || std::holds_alternative<std::shared_ptr<const Mesh>>(object.shape) ||
+      !has_bounds(shape))
+    return kEverywhere;
+  const PlacedShape placed = place_shape(shape);
+  return placed.is_empty || !placed.is_bounded ? kEverywhere : placed.bounds();
 }
 
 } // namespace
@@ -130,7 +143,8 @@ std::vector<Medium> media_of(const Scene& scene) {
   std::vector<Medium> media;
   for (const Object& object : scene.objects) {
     const std::optional<Index> interior = interior_of(object);
-    if (interior && may_have_inside(object)) media.push_back({object, *interior, box_of(object)});
+    if (interior && may_have_inside(object))
+      media.push_back({object, *interior, box_of(object, Transform())});
   }
   return media;
 }

@@ -200,7 +200,8 @@ private:
     surfaces.normal = points.normal;
     surfaces.direction = node_.rays.direction.template load<S>();
     surfaces.objects = &hits_.object;
-    surfaces.any_side = 0;
+    surfaces.any_side = points.lit_behind;
+    surfaces.lit_through = points.lit_through;
   }
 
   /// Surfaces with several materials: each is shaded whole, and the results are blended by their weights.
