@@ -176,6 +176,14 @@ TexturePtr with_list(Session& session, const TexturePtr& texture, int pattern, T
   return changed;
 }
 
+TexturePtr with_object(Session& session, const TexturePtr& texture, const Limit& object, TextureMap list,
+                       const Location& where) {
+  const pattern::Inside inside = inside_of(session, object, where);
+  const TexturePtr listed = with_list(session, texture, number_of(inside), std::move(list), where);
+  return with_pattern(session, listed,
+                      [&](Session&, PatternDefinition& pattern) { choose(pattern, inside); });
+}
+
 namespace {
 
 void refuse_in_colours(Session& session, const PatternDefinition& pattern, const Location& where) {

@@ -155,6 +155,15 @@ std::uint32_t put(const pattern::Slope& slope, Parameters) {
   return kPatternKind<SlopePattern>;
 }
 
+std::uint32_t put(const pattern::Grey& grey, Parameters) {
+  if (!grey.of) throw InputError("a pattern of a pigment has none");
+  return kPatternKind<PigmentPattern>;
+}
+std::uint32_t put(const pattern::Inside& inside, Parameters) {
+  if (!inside.of) throw InputError("a pattern of an object has none");
+  return kPatternKind<ObjectPattern>;
+}
+
 SlopeRecord record_of(const pattern::Slope& slope) {
   const double facing = glm::length(slope.direction), climbing = glm::length(slope.altitude);
   const double weight = 1 / ((facing + climbing) * (slope.most - slope.least));
@@ -197,6 +206,10 @@ PatternTable pattern_table(std::uint32_t kind_and_flags) {
     return PatternTable::waves;
   case kPatternKind<SlopePattern>:
     return PatternTable::slopes;
+  case kPatternKind<PigmentPattern>:
+    return PatternTable::pigments;
+  case kPatternKind<ObjectPattern>:
+    return PatternTable::objects;
   default:
     return PatternTable::none;
   }
