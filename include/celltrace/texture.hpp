@@ -115,7 +115,9 @@ struct Inside {
 /// Only as a normal: the same direction all over each cell of crackle's points.
 struct Facets {
   double coords = 0; ///< how far that may be from the surface's own; instead of the normal's amount
-  double size = 0;   ///< the other way to say it, which is not rendered yet
+  /// Instead of that, how large facets of a unit sphere are: they are as the surface's normal is, wherever
+  /// it is. Less than 0: it is smooth.
+  double size = 0;
   double metric = 2; ///< as crackle's
 };
 

@@ -194,8 +194,8 @@ struct alignas(128) PatternRecord {
   float frequency, phase, wave_exponent;
   TurbulenceWords turbulence;
   float parameter[5]; ///< by kind
-  /// Offset of the table that its kind reads: FeatureRecords, WaveRecords, a SlopeRecord, the PatternRecord of
-  /// a pigment that is the pattern, a CsgRecord that says what is in an object, or with `gradient_noise`
+  /// Offset of the table that its kind reads: FeatureRecords, WaveRecords, a SlopeRecord, the PatternRecord
+  /// of a pigment that is the pattern, a CsgRecord that says what is in an object, or with `gradient_noise`
   /// GradientRecords, before which there are the FeatureRecords if it reads both. Of fractals: fractal_word.
   uint32_t table;
 };
@@ -524,7 +524,7 @@ struct alignas(128) ImageHeader {
   uint32_t polygon_edge_offset, polygon_edge_count;   ///< PolygonEdgeRecords
   uint32_t rainbow_offset, rainbow_count;             ///< RainbowRecords
   uint32_t slope_offset, slope_count;                 ///< SlopeRecords
-  uint32_t projector_count;                           ///< ObjectRecords of projectors, just before those without bounds
+  uint32_t projector_count; ///< ObjectRecords of projectors, just before those without bounds
   uint32_t unused[24];
 };
 static_assert(sizeof(ImageHeader) == 384, "three lines");

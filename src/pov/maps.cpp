@@ -201,6 +201,9 @@ void check(Session& session, const PigmentDefinition& pigment, const Location& w
 void check(Session& session, const NormalDefinition& normal, const Location& where) {
   if (normal.pattern.is_average() && !normal.map && !normal.first_unsupported())
     session.fail(where, "an average needs a map");
+  const auto* facets = std::get_if<pattern::Facets>(&normal.pattern.value().kind);
+  if (facets != nullptr && facets->coords != 0 && facets->size != 0)
+    session.fail(where, "facets have either 'coords' or 'size'");
 }
 
 void check(Session& session, const TexturePtr& texture, const Location& where) {

@@ -121,8 +121,9 @@ std::uint32_t put(const pattern::Crackle& crackle, Parameters parameter) {
                           : kPatternKind<CracklePattern>;
 }
 std::uint32_t put(const pattern::Facets& facets, Parameters parameter) {
-  if (facets.size != 0) throw InputError("'size' of facets is not supported yet");
+  if (facets.size != 0 && facets.coords != 0) throw InputError("facets have both 'coords' and 'size'");
   if (!(facets.metric > 0)) throw InputError("the metric of facets is not greater than 0");
+  if (facets.size > 0) parameter[0] = static_cast<float>(1 / facets.size);
   parameter[3] = static_cast<float>(facets.metric);
   return kPatternKind<BumpsPattern> | pattern_flag::at_features;
 }

@@ -600,7 +600,7 @@ TextureTables::Known TextureTables::add_normal(const Normal& normal, const Patte
     patterns[r.pattern].entries = first;
     if (!has_slopes && blends_list(normal.pattern)) set_list_heights(patterns[r.pattern], normal.pattern);
     const auto* facets = std::get_if<pattern::Facets>(&normal.pattern.kind);
-    r.amount = static_cast<float>(facets ? facets->coords : normal.amount);
+    r.amount = static_cast<float>(!facets ? normal.amount : facets->size > 0 ? 1 : facets->coords);
     r.accuracy = static_cast<float>(normal.accuracy);
     const Transform map = whole_map(space_of(normal.pattern, outer)).inverse();
     for (int row = 0; row < 3; ++row)

@@ -136,6 +136,7 @@ TEST_CASE("what stands behind a pattern's word") {
   CHECK_FALSE(kind<Fractal>("magnet 2 mandel 7").is_julia);
   CHECK(kind<Fractal>("magnet 1 julia <1, 2>, 7").c[0] == 1);
   CHECK(std::get<Facets>(normal("facets coords 0.3").pattern.kind).coords == 0.3);
+  CHECK(std::get<Facets>(normal("facets size 0.2").pattern.kind).size == 0.2);
   CHECK(error_line("sphere { 0, 1 pigment { bozo exterior 1, 2 } }") ==
         "scene.pov:1:30: error: this word means something to fractals only");
   CHECK(error_line("sphere { 0, 1 pigment { mandel 5 exterior 9, 2 } }") ==
@@ -414,6 +415,7 @@ TEST_CASE("facets are for normals alone") {
   CHECK(error_line("sphere { 0, 1 normal { facets coords 1 } }").empty());
   CHECK(error_line("sphere { 0, 1 pigment { facets coords 1 } }") ==
         "scene.pov:1:23: error: 'facets' is a pattern of normals alone");
+  CHECK_THAT(error_line("sphere { 0, 1 normal { facets coords 1 size 0.1 } }"), Catch::Contains("either"));
 }
 
 TEST_CASE("normals") {

@@ -74,6 +74,7 @@ public:
   /// `points` stay where they are.
   MapWalk(SceneAccess<Spu>& scene, const PatternPoints<S>& points, MapOf of = MapOf::pigments)
       : scene_(scene), of_(of), points_(&points) {}
+  MapWalk(SceneAccess<Spu>&, const PatternPoints<S>&&, MapOf = MapOf::pigments) = delete;
 
   /// Starts at a pattern, whose leaves share `weight`.
   [[gnu::noinline]] void enter(uint32_t pattern, const F& weight, uint32_t lanes) {

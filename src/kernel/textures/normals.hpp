@@ -91,12 +91,19 @@ disturb_by(SceneAccess<Spu>& scene, MapWalk<Spu, TextureStage::normals>& walk, c
   V3<S> change;
   const uint32_t kind = r.kind_and_flags & pattern_flag::kind_mask;
   if (kind == kPatternKind<BumpsPattern> && (r.kind_and_flags & pattern_flag::at_features) != 0) {
-    // Facets: along the surface, by the noise of the point of their cell.
+    // Facets: along the surface, by the noise of the point of their cell; or the direction of the point that
+    // is nearest to the normal, as many times as long as the first parameter says.
+    const float times = r.parameter[0];
     spu.enter_module(modules::kRarePatterns);
-    const V3<S> facet = module_rare::nearest_feature(scene, r, p * F(10.0f));
-    spu.enter_module(modules::kNoise);
-    change = module_noise::disturbance(spu, r, facet);
-    change = change - local * dot<S>(change, local);
+    const V3<S> facet =
+        module_rare::nearest_feature(scene, r, times != 0.0f ? local * F(times) : p * F(10.0f));
+    if (times != 0.0f) {
+      change = facet - local;
+    } else {
+      spu.enter_module(modules::kNoise);
+      change = module_noise::disturbance(spu, r, facet);
+      change = change - local * dot<S>(change, local);
+    }
   } else if (kind == kPatternKind<DentsPattern> && (r.kind_and_flags & pattern_flag::gradient_noise) != 0) {
     // The depth is of generator 3, which has no vectors.
     PatternRecord part = r;
