@@ -11,6 +11,9 @@
 
 namespace celltrace {
 
+struct Object;
+struct Pigment;
+
 /// Displaces points by noise: `amount` times a sum of `octaves` octaves, each of them `lambda` times finer
 /// and `omega` times weaker than the one before.
 struct Turbulence {
@@ -99,17 +102,29 @@ struct Slope {
   Vec3 altitude{0, 0, 0};
   double lowest = 0, highest = 1; ///< along the altitude: likewise
 };
+/// How bright a pigment is: 0.297 of its red, 0.589 of its green and 0.114 of its blue. It is in the space of
+/// this pattern, as if it were in its map; so it counts as one level of nested maps.
+struct Grey {
+  std::shared_ptr<const Pigment> of;
+};
+/// A list of 2: what is outside of an object, and what is inside. The object is in the pattern's space; it
+/// has no meshes. Its materials and the like mean nothing.
+struct Inside {
+  std::shared_ptr<const Object> of;
+};
 /// Only as a normal: the same direction all over each cell of crackle's points.
 struct Facets {
   double coords = 0; ///< how far that may be from the surface's own; instead of the normal's amount
-  double size = 0;   ///< the other way to say it, which is not rendered yet
+  /// Instead of that, how large facets of a unit sphere are: they are as the surface's normal is, wherever
+  /// it is. Less than 0: it is smooth.
+  double size = 0;
   double metric = 2; ///< as crackle's
 };
 
 using Kind =
     std::variant<Checker, Square, Hexagon, Triangular, Cubic, Brick, Gradient, Boxed, Spherical, Cylindrical,
                  Planar, Leopard, Onion, Radial, Spiral, Quilted, Bozo, Bumps, Dents, Granite, Wrinkles,
-                 Agate, Marble, Wood, Ripples, Waves, Cells, Crackle, Fractal, Slope, Facets>;
+                 Agate, Marble, Wood, Ripples, Waves, Cells, Crackle, Fractal, Slope, Grey, Inside, Facets>;
 
 } // namespace pattern
 

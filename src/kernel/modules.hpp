@@ -26,7 +26,7 @@ constexpr CodeModule kSampling = {"sampling", 18, 0, 14336};
 /// What insides take of light; and the start of mirrors that bend it.
 constexpr CodeModule kFading = {"fading", 20, 0, 2048};
 /// Patterns that few scenes have, many of which read tables of the scene image.
-constexpr CodeModule kRarePatterns = {"rare", 22, 0, 11264};
+constexpr CodeModule kRarePatterns = {"rare", 22, 0, 13568};
 /// What patterns ask of surfaces besides points.
 constexpr CodeModule kSurfaces = {"surfaces", 25, 0, 3840};
 /// Warps but for turbulence.
@@ -49,8 +49,8 @@ constexpr CodeModule kAreas = {"areas", 15, 1, 9088};
 /// The rays of cameras whose pictures are not flat.
 constexpr CodeModule kCameras = {"cameras", 10, 1, 6656};
 /// Pigments and normals, but for the patterns themselves.
-constexpr CodeModule kTextures = {"textures", 9, 1, 9856};
-constexpr CodeModule kNormals = {"normals", 11, 1, 7040};
+constexpr CodeModule kTextures = {"textures", 9, 1, 10368};
+constexpr CodeModule kNormals = {"normals", 11, 1, 9088};
 
 /// What few finishes do with light, and light from behind.
 constexpr CodeModule kFinishes = {"finishes", 19, 1, 4224};
@@ -65,6 +65,8 @@ constexpr CodeModule kHits = {"hits", 5, 2, 8192};
 constexpr CodeModule kComposed = {"composed", 13, 2, 8192};
 /// What rays pass through on their way or see before what they hit, and the light that mirrors bend.
 constexpr CodeModule kAtmosphere = {"atmosphere", 24, 2, 7424};
+/// What is behind everything.
+constexpr CodeModule kSky = {"sky", 27, 2, 1280};
 /// Shadow rays that go from surface to surface.
 constexpr CodeModule kShadowWalk = {"walk", 21, 2, 5504};
 /// Exchange of units of work with other SPEs.

@@ -158,7 +158,7 @@ constexpr uint32_t wave_mask = 0x7;
 constexpr uint32_t turbulent = 0x800;        ///< `turbulence` displaces points
 constexpr uint32_t average = 0x1000;         ///< all entries, by weights that are their positions
 constexpr uint32_t first_generator = 0x2000; ///< of noise: scaled as POV-Ray's generator 1 does
-constexpr uint32_t nested = 0x4000;          ///< of a pigment: an entry is a map
+constexpr uint32_t nested = 0x4000;          ///< of a pigment: an entry or the pattern is a map
 constexpr uint32_t gradient_noise = 0x8000;  ///< of noise: POV-Ray's generator 3
 constexpr uint32_t at_features = 0x10000;    ///< of noise: at the nearest of the random points
 constexpr uint32_t shifted = 0x20000;        ///< a ShiftedPattern that has turbulence
@@ -194,9 +194,9 @@ struct alignas(128) PatternRecord {
   float frequency, phase, wave_exponent;
   TurbulenceWords turbulence;
   float parameter[5]; ///< by kind
-  /// Offset of the table that its kind reads: FeatureRecords, WaveRecords, a SlopeRecord, or with
-  /// `gradient_noise` GradientRecords, before which there are the FeatureRecords if it reads both. Of
-  /// fractals: fractal_word.
+  /// Offset of the table that its kind reads: FeatureRecords, WaveRecords, a SlopeRecord, the PatternRecord
+  /// of a pigment that is the pattern, a CsgRecord that says what is in an object, or with `gradient_noise`
+  /// GradientRecords, before which there are the FeatureRecords if it reads both. Of fractals: fractal_word.
   uint32_t table;
 };
 static_assert(sizeof(PatternRecord) == 128, "one a line");
@@ -524,7 +524,7 @@ struct alignas(128) ImageHeader {
   uint32_t polygon_edge_offset, polygon_edge_count;   ///< PolygonEdgeRecords
   uint32_t rainbow_offset, rainbow_count;             ///< RainbowRecords
   uint32_t slope_offset, slope_count;                 ///< SlopeRecords
-  uint32_t projector_count;                           ///< ObjectRecords of projectors, just before those without bounds
+  uint32_t projector_count; ///< ObjectRecords of projectors, just before those without bounds
   uint32_t unused[24];
 };
 static_assert(sizeof(ImageHeader) == 384, "three lines");

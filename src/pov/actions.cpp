@@ -228,6 +228,15 @@ PatternChange interior(double type, double factor, const Location& where) {
   };
 }
 
+PatternChange grey(const PigmentDefinition& pigment) {
+  return [=](Session&, PatternDefinition& pattern) {
+    choose(pattern, pattern::Grey{std::make_shared<const Pigment>(pigment.finish())});
+    pattern.inner_depth = std::max(pigment.depth(), 1);
+    pattern.inner_asks_for_surface = pigment.asks_for_surface();
+    mark(pattern.unsupported, pigment.first_unsupported());
+  };
+}
+
 PatternChange unsupported_change(const UnsupportedPtr& unsupported) {
   return [=](Session&, PatternDefinition& pattern) { mark(pattern.unsupported, unsupported); };
 }
@@ -519,6 +528,12 @@ ObjectPtr limiting(Session& session, const ObjectPtr& object, const Location& wh
   if (std::holds_alternative<LightDefinition>(object->shape))
     session.fail(where, "a light source has no inside");
   return object;
+}
+
+pattern::Inside inside_of(Session& session, const Limit& object, const Location& where) {
+  ObjectDefinition moved = *limiting(session, object.object, where);
+  moved.apply(object.transform);
+  return {session.builder.make_solid(moved, where)};
 }
 
 void limit(Session& session, ObjectDefinition& object, std::vector<Limit>& list,

@@ -97,6 +97,8 @@ PatternChange set_fractal(int pattern::Fractal::*member, double value, int least
                           const Location& where);
 PatternChange exterior(double type, double factor, const Location& where);
 PatternChange interior(double type, double factor, const Location& where);
+/// The grey of a pigment.
+PatternChange grey(const PigmentDefinition& pigment);
 PatternChange unsupported_change(const UnsupportedPtr& unsupported);
 PatternChange warp(const SpaceStep& warp, const Location& where);
 /// Along the only axis of which `width` is not 0.
@@ -174,6 +176,10 @@ TexturePtr with_pattern(Session& session, const TexturePtr& texture, const Patte
 TexturePtr with_list(Session& session, const TexturePtr& texture, int pattern, TextureMap list,
                      const Location& where);
 
+/// Of the pattern of an object.
+TexturePtr with_object(Session& session, const TexturePtr& texture, const Limit& object, TextureMap list,
+                       const Location& where);
+
 // Fail if a pattern lacks what it needs.
 void check(Session& session, const PigmentDefinition& pigment, const Location& where);
 void check(Session& session, const NormalDefinition& normal, const Location& where);
@@ -229,6 +235,8 @@ void set_global_lights(ObjectDefinition& object, bool are_on);
 ObjectPtr declared(const ObjectPtr& object);
 /// An object that other ones can be limited by.
 ObjectPtr limiting(Session& session, const ObjectPtr& object, const Location& where);
+/// What a pattern takes the inside of; `object` has been moved.
+pattern::Inside inside_of(Session& session, const Limit& object, const Location& where);
 /// Adds to one of the object's own lists of limits.
 void limit(Session& session, ObjectDefinition& object, std::vector<Limit>& list,
            const std::vector<Limit>& added, const Location& where);

@@ -88,7 +88,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %token INSIDE_VECTOR INTERIOR INVERSE IOR IRID LAMBDA LIGHT_SOURCE LOCATION LOOKS_LIKE LOOK_AT
 %token MATERIAL MATRIX MAX_TRACE_LEVEL MESH MESH2 METALLIC NOISE_GENERATOR NORMAL NORMAL_INDICES NORMAL_MAP
 %token NORMAL_VECTORS NO_SHADOW NUMBER_OF_WAVES OBJECT OCTAVES OMEGA OPEN
-%token PARALLEL PHASE PHONG PHONG_SIZE PHOTONS PIGMENT PIGMENT_MAP POINT_AT POLY_WAVE QUICK_COLOUR RADIUS
+%token PARALLEL PHASE PHONG PHONG_SIZE PHOTONS PIGMENT PIGMENT_MAP PIGMENT_PATTERN POINT_AT POLY_WAVE QUICK_COLOUR RADIUS
 %token ALBEDO ARC_ANGLE DOUBLE_ILLUMINATE FALLOFF_ANGLE GLOBAL_LIGHTS LIGHT_GROUP
 %token MEDIA_ATTENUATION MEDIA_INTERACTION PROJECTED_THROUGH RADIOSITY RAINBOW WIDTH
 %token ALTITUDE SLOPE
@@ -116,6 +116,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %nterm <std::shared_ptr<PigmentDefinition>> pigment_base pigment_parts pigment_body
 %nterm <std::shared_ptr<NormalDefinition>> normal_start normal_base declared_normal normal_parts normal_body
 %nterm <PatternChange> pattern pattern_change
+%nterm <Limit> pattern_object
 %nterm <pattern::Slope> slope facing
 %nterm <Turbulence> turbulent_warp
 %nterm <SpaceStep> bend
@@ -430,6 +431,18 @@ pigment_parts // what it is, and then what changes that
   | pigment_base pattern                   { $$ = $1; $2(session, $$->pattern); }
   | pigment_base LIST_PATTERN colours      { $$ = $1; set_colours(session, *$$, $2, $3, @2); }
   | pigment_base LIST_PATTERN pigments     { $$ = $1; set_list(session, *$$, $2, $3, @2); }
+  | pigment_base pattern_object colours '}' {
+      const pattern::Inside inside = inside_of(session, $2, @2);
+      $$ = $1;
+      set_colours(session, *$$, number_of(inside), $3, @2);
+      choose($$->pattern, inside);
+    }
+  | pigment_base pattern_object pigments '}' {
+      const pattern::Inside inside = inside_of(session, $2, @2);
+      $$ = $1;
+      set_list(session, *$$, number_of(inside), $3, @2);
+      choose($$->pattern, inside);
+    }
   | pigment_parts COLOUR_MAP colour_map    { $$ = $1; set_map(session, *$$, $3, @2); }
   | pigment_parts PIGMENT_MAP pigment_map  { $$ = $1; set_map(session, *$$, $3, @2); }
   | pigment_parts pattern_change           { $$ = $1; change(session, $$->pattern, $2); }
@@ -470,6 +483,18 @@ normal_parts
   | normal_base LIST_PATTERN                   { $$ = $1; choose($$->pattern, $2); }
   | normal_base LIST_PATTERN optional_comma number { $$ = $1; choose($$->pattern, $2); $$->amount = $4; }
   | normal_base LIST_PATTERN normals           { $$ = $1; set_list(session, *$$, $2, $3, @2); }
+  | normal_base pattern_object '}'             { $$ = $1; choose($$->pattern, inside_of(session, $2, @2)); }
+  | normal_base pattern_object '}' optional_comma number {
+      $$ = $1;
+      choose($$->pattern, inside_of(session, $2, @2));
+      $$->amount = $5;
+    }
+  | normal_base pattern_object normals '}'     {
+      const pattern::Inside inside = inside_of(session, $2, @2);
+      $$ = $1;
+      set_list(session, *$$, number_of(inside), $3, @2);
+      choose($$->pattern, inside);
+    }
   | normal_parts BUMP_SIZE number              { $$ = $1; $$->amount = $3; }
   | normal_parts ACCURACY number               { $$ = $1; $$->accuracy = accuracy(session, $3, @3); }
   | normal_parts NORMAL_MAP normal_map         { $$ = $1; set_map(session, *$$, $3, @2); }
@@ -493,6 +518,12 @@ pattern
   | MAGNET number JULIA quantity optional_comma number { $$ = fractal(session, $2, &$4, $6, @1); }
   | SLOPE quantity          { $$ = slope(session, {session.vector($2, @2)}, @1); }
   | SLOPE '{' slope '}'     { $$ = slope(session, $3, @1); }
+  | PIGMENT_PATTERN '{' from_default pigment_body '}' { $$ = grey(*$4); }
+  ;
+
+pattern_object // of a list, which follows
+  : OBJECT '{' object             { $$.object = $3; }
+  | pattern_object transformation { $$ = $1; $$.transform = $$.transform.then($2); }
   ;
 
 slope
@@ -757,6 +788,8 @@ texture_parts
   | texture_parts FINISH_ID      { require_plain(session, $1, @2); $$ = with_finish($1, *$2); }
   | texture_parts pattern        { $$ = with_pattern(session, $1, $2); }
   | texture_parts LIST_PATTERN textures { $$ = with_list(session, $1, $2, $3, @2); }
+  | texture_parts pattern_object textures '}' { $$ = with_object(session, $1, $2, $3, @2); }
+  | texture_parts pattern_object '}' { $$ = with_object(session, $1, $2, {}, @2); }
   | texture_parts TEXTURE_MAP texture_map { $$ = with_map(session, $1, $3, @2); }
   | texture_parts LIST_PATTERN   { $$ = with_list(session, $1, $2, {}, @2); }
   | texture_parts pattern_change { $$ = changed(session, $1, $2, @2); }
@@ -1235,7 +1268,6 @@ unsupported
 unsupported_pattern // a pigment's, normal's or texture's
   : unsupported_modifier
   | UNSUPPORTED_OBJECT { $$ = unsupported_feature(session, quoted(session, $1), @1); }
-  | OBJECT             { $$ = unsupported_feature(session, "an object pattern", @1); }
   | USER_FUNCTION      { $$ = unsupported_feature(session, "'function'", @1); }
   ;
 

@@ -176,6 +176,14 @@ TexturePtr with_list(Session& session, const TexturePtr& texture, int pattern, T
   return changed;
 }
 
+TexturePtr with_object(Session& session, const TexturePtr& texture, const Limit& object, TextureMap list,
+                       const Location& where) {
+  const pattern::Inside inside = inside_of(session, object, where);
+  const TexturePtr listed = with_list(session, texture, number_of(inside), std::move(list), where);
+  return with_pattern(session, listed,
+                      [&](Session&, PatternDefinition& pattern) { choose(pattern, inside); });
+}
+
 namespace {
 
 void refuse_in_colours(Session& session, const PatternDefinition& pattern, const Location& where) {
@@ -193,6 +201,9 @@ void check(Session& session, const PigmentDefinition& pigment, const Location& w
 void check(Session& session, const NormalDefinition& normal, const Location& where) {
   if (normal.pattern.is_average() && !normal.map && !normal.first_unsupported())
     session.fail(where, "an average needs a map");
+  const auto* facets = std::get_if<pattern::Facets>(&normal.pattern.value().kind);
+  if (facets != nullptr && facets->coords != 0 && facets->size != 0)
+    session.fail(where, "facets have either 'coords' or 'size'");
 }
 
 void check(Session& session, const TexturePtr& texture, const Location& where) {

@@ -185,7 +185,9 @@ const Entry kPatterns[] = {
      kPlain,
      Wave::triangle,
      {{0, {0.9, 0.8, 0.8}}, {0.9, {0.9, 0.08, 0.08}}, {0.9, kBlack}, {1, kBlack}}},
+    {"object", make<Inside>, PatternForm::special, Wave::ramp, {{0, kBlue}, {1, kGreen}}},
     {"onion", make<Onion>},
+    {"pigment_pattern", make<Grey>, PatternForm::special},
     {"planar", make<Planar>},
     {"quilted",
      make<Quilted>,
@@ -272,7 +274,9 @@ bool PatternDefinition::is_for_normals_alone() const {
 }
 
 std::size_t PatternDefinition::list_length() const {
-  return exists() && entry_of(*this).form == kList ? entry_of(*this).colours.size() : 0;
+  const bool is_list =
+      exists() && (entry_of(*this).form == kList || std::holds_alternative<Inside>(value().kind));
+  return is_list ? entry_of(*this).colours.size() : 0;
 }
 
 std::vector<PatternMap<Pigment>::Entry> PatternDefinition::default_colours() const {
@@ -286,6 +290,11 @@ void put_on_surface(PatternDefinition& pattern) {
   if (pattern.exists()) pattern.own().uv_mapping = true;
 }
 
+bool asks_for_surface(const PatternDefinition& pattern) {
+  return pattern.exists() && (pattern.value().uv_mapping || pattern.inner_asks_for_surface ||
+                              std::holds_alternative<Slope>(pattern.value().kind));
+}
+
 bool is_on_surface(const PatternDefinition& pattern) {
   return pattern.exists() && pattern.value().uv_mapping;
 }
@@ -295,6 +304,8 @@ void choose(PatternDefinition& pattern, int number) {
   if (pattern.value().uv_mapping) pattern.own() = Pattern();
   const Entry& entry = entry_of(pattern);
   pattern.own().kind = entry.make();
+  pattern.inner_depth = 0;
+  pattern.inner_asks_for_surface = false;
   if (entry.wave != Wave::ramp) pattern.own().wave = entry.wave;
   if (entry.frequency != 1) pattern.own().frequency = entry.frequency;
 }
@@ -339,10 +350,14 @@ void bend(Session& session, PatternDefinition& pattern, const SpaceStep& warp, c
   pattern.own().space.push_back(warp);
 }
 
-void choose(PatternDefinition& pattern, const Kind& kind) {
+int number_of(const Kind& kind) {
   const auto* entry = std::find_if(std::begin(kPatterns), std::end(kPatterns),
                                    [&](const Entry& one) { return one.make().index() == kind.index(); });
-  choose(pattern, static_cast<int>(entry - std::begin(kPatterns)));
+  return static_cast<int>(entry - std::begin(kPatterns));
+}
+
+void choose(PatternDefinition& pattern, const Kind& kind) {
+  choose(pattern, number_of(kind));
   pattern.own().kind = kind;
 }
 

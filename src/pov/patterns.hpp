@@ -44,6 +44,8 @@ inline constexpr int kNoPattern = -1;
 struct PatternDefinition {
   int number = kNoPattern; ///< its place in pattern_words()
   UnsupportedPtr unsupported;
+  int inner_depth = 0;                 ///< of the maps of a pigment that is the pattern, which is one itself
+  bool inner_asks_for_surface = false; ///< what that asks of surfaces is more than points
 
   const Pattern& value() const;
   /// To change it.
@@ -64,6 +66,8 @@ private:
 /// moves or changes it any more.
 void put_on_surface(PatternDefinition& pattern);
 bool is_on_surface(const PatternDefinition& pattern);
+/// Whether it depends on more of a surface than points.
+bool asks_for_surface(const PatternDefinition& pattern);
 /// Makes `pattern` the one with this number. What modifiers have done to it stays, but for the wave if the
 /// new pattern has one of its own, and unless it was on surface coordinates.
 void choose(PatternDefinition& pattern, int number);
@@ -78,6 +82,8 @@ void move(Session& session, PatternDefinition& pattern, const Transform& next, c
 void bend(Session& session, PatternDefinition& pattern, const SpaceStep& warp, const Location& where);
 /// Makes it one of a kind that only one word stands for.
 void choose(PatternDefinition& pattern, const pattern::Kind& kind);
+/// The number of the pattern of such a kind.
+int number_of(const pattern::Kind& kind);
 /// What a pattern makes of space as a warp; nothing if it makes none.
 std::optional<warp::Mapping::Shape> mapping_shape(int number);
 

@@ -309,6 +309,24 @@ void SceneBuilder::collect(const ObjectDefinition& object, const Inherited& arou
   }
 }
 
+std::shared_ptr<const Object> SceneBuilder::make_solid(const ObjectDefinition& object,
+                                                       const Location& where) {
+  Inherited around;
+  around.clips = true; // only where it is matters
+  around.inside = "the pattern of an object";
+  std::optional<Object> made = make(object, around, where);
+  if (made && has_mesh(*made)) {
+    refuse("a mesh in the pattern of an object", object, where);
+    made.reset();
+  }
+  if (!made || !has_shapes(*made)) {
+    // Nothing is in it.
+    made.emplace();
+    made->shape = Sphere{{0, 0, 0}, 0};
+  }
+  return std::make_shared<const Object>(std::move(*made));
+}
+
 /// What a light looks like casts no shadows and, as in POV-Ray, is not there if the light is in CSG.
 void SceneBuilder::place_look(const LightDefinition& definition, Inherited own, const Location& where) {
   if (!definition.looks_like || own.is_part) return;

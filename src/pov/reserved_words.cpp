@@ -152,6 +152,7 @@ const Word kWords[] = {
     {"photons", tokens::T_PHOTONS},
     {"pigment", tokens::T_PIGMENT},
     {"pigment_map", tokens::T_PIGMENT_MAP},
+    {"pigment_pattern", tokens::T_PIGMENT_PATTERN},
     {"point_at", tokens::T_POINT_AT},
     {"poly_wave", tokens::T_POLY_WAVE},
     {"quick_color", tokens::T_QUICK_COLOUR},
@@ -320,8 +321,8 @@ const char* const kUnsupportedObjects[] = {
 };
 
 const char* const kUnsupportedBlocks[] = {
-    "bump_map",     "contained_by", "density",     "density_map",     "image_map",  "image_pattern",
-    "material_map", "media",        "mesh_camera", "pigment_pattern", "subsurface", "tiles",
+    "bump_map",     "contained_by", "density",     "density_map", "image_map", "image_pattern",
+    "material_map", "media",        "mesh_camera", "subsurface",  "tiles",
 };
 
 const char* const kUnsupportedFeatures[] = {

@@ -32,6 +32,9 @@ public:
   /// supported is left out.
   void place(const ObjectPtr& object, const Location& where);
 
+  /// An object of which only the inside counts, without meshes.
+  std::shared_ptr<const Object> make_solid(const ObjectDefinition& object, const Location& where);
+
   /// The last camera is the scene's.
   void set_camera(std::shared_ptr<const CameraDefinition> camera) { camera_ = std::move(camera); }
   /// As if over black, for what it transmits, from version 3.7 on; before, without regard to that.

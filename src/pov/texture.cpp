@@ -35,20 +35,19 @@ UnsupportedPtr PigmentDefinition::first_unsupported() const {
 }
 
 bool NormalDefinition::asks_for_surface() const {
-  return pattern.exists() && (pattern.value().uv_mapping || (map && map->asks_for_surface));
+  return pov::asks_for_surface(pattern) || (pattern.exists() && map && map->asks_for_surface);
 }
 
 bool TextureDefinition::asks_for_surface() const {
   for (const TextureDefinition* layer = this; layer; layer = layer->below.get())
-    if (layer->is_on_surface || layer->pigment.asks_for_surface() ||
+    if (layer->is_on_surface || pov::asks_for_surface(layer->pattern) || layer->pigment.asks_for_surface() ||
         (layer->normal && layer->normal->asks_for_surface()) || (layer->map && layer->map->asks_for_surface))
       return true;
   return false;
 }
 
 bool PigmentDefinition::asks_for_surface() const {
-  const bool is_slope = std::holds_alternative<pattern::Slope>(pattern.value().kind);
-  return pattern.exists() && (pattern.value().uv_mapping || is_slope || (map && map->asks_for_surface));
+  return pov::asks_for_surface(pattern) || (pattern.exists() && map && map->asks_for_surface);
 }
 
 bool PigmentDefinition::is_opaque() const {

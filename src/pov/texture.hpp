@@ -5,6 +5,7 @@
 // uses it.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -46,7 +47,9 @@ struct PigmentDefinition {
   [[no_unique_address]] Counted<PigmentDefinition> counted;
 
   UnsupportedPtr first_unsupported() const;
-  int depth() const { return !pattern.exists() ? 0 : map ? map->depth : 1; }
+  int depth() const {
+    return !pattern.exists() ? 0 : std::max(map ? map->depth : 1, 1 + pattern.inner_depth);
+  }
   /// Nothing shines through.
   bool is_opaque() const;
   /// It, or something in its map, is on surface coordinates, or a slope.
@@ -67,7 +70,7 @@ struct NormalDefinition {
 
   UnsupportedPtr first_unsupported() const;
   bool asks_for_surface() const;
-  int depth() const { return map ? map->depth : 0; }
+  int depth() const { return map ? std::max(map->depth, 1 + pattern.inner_depth) : pattern.inner_depth; }
   bool is_smooth() const { return !pattern.exists(); }
   Normal finish() const;
 };
@@ -98,7 +101,7 @@ struct TextureDefinition {
   [[no_unique_address]] Counted<TextureDefinition> counted;
 
   UnsupportedPtr first_unsupported() const;
-  int depth() const { return map ? map->depth : 0; }
+  int depth() const { return map ? std::max(map->depth, 1 + pattern.inner_depth) : 0; }
   /// Nothing shines through, so that a layer below does not matter.
   bool is_opaque() const;
   /// As a pigment's.

@@ -288,6 +288,16 @@ class Flattener {
 public:
   explicit Flattener(CsgParts& to) : to_(to) {}
 
+  /// A condition that holds inside of a tree.
+  void add_inside(const Node& tree) {
+    CsgRecord record{};
+    record.next = kNoCondition;
+    record.steps = static_cast<std::uint32_t>(to_.steps.size());
+    compile(tree, 0, kCsgAccept, kCsgReject);
+    record.count = static_cast<std::uint32_t>(to_.steps.size()) - record.steps;
+    to_.conditions.push_back(record);
+  }
+
   /// The surfaces in `node` are there where the condition holds and inside `bounds`.
   void show(const Node& node, std::uint32_t condition, const Aabb& bounds) {
     if (!node.shows || is_empty(bounds)) return;
@@ -389,9 +399,11 @@ bool CsgParts::contains(const Object& object) {
          (object.clipped_by && !object.clipped_by->empty());
 }
 
-CsgParts::CsgParts(const Scene& scene) {
+CsgParts::CsgParts(const Scene& scene, const std::vector<std::shared_ptr<const Object>>& patterns) {
   TreeBuilder builder(solids, meshes);
   Flattener flattener(*this);
+  for (const auto& object : patterns)
+    flattener.add_inside(builder.build(*object, {}));
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     if (!contains(scene.objects[i])) continue;
     const Node tree = builder.build(scene.objects[i], {});

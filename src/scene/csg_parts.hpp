@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace celltrace {
@@ -42,9 +43,10 @@ struct CsgParts {
   MeshInsides meshes;
 
   CsgParts() = default;
-  /// Takes every object of the scene apart that is a CSG or clipped. Throws InputError if one nests too
-  /// deeply or a transformation is singular.
-  explicit CsgParts(const Scene& scene);
+  /// Takes every object of the scene apart that is a CSG or clipped. The first conditions say what is inside
+  /// of `patterns`, objects without meshes, one each. Throws InputError if one nests too deeply or a
+  /// transformation is singular.
+  explicit CsgParts(const Scene& scene, const std::vector<std::shared_ptr<const Object>>& patterns = {});
 
   /// Whether an object is among them.
   static bool contains(const Object& object);

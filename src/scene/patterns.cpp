@@ -121,8 +121,9 @@ std::uint32_t put(const pattern::Crackle& crackle, Parameters parameter) {
                           : kPatternKind<CracklePattern>;
 }
 std::uint32_t put(const pattern::Facets& facets, Parameters parameter) {
-  if (facets.size != 0) throw InputError("'size' of facets is not supported yet");
+  if (facets.size != 0 && facets.coords != 0) throw InputError("facets have both 'coords' and 'size'");
   if (!(facets.metric > 0)) throw InputError("the metric of facets is not greater than 0");
+  if (facets.size > 0) parameter[0] = static_cast<float>(1 / facets.size);
   parameter[3] = static_cast<float>(facets.metric);
   return kPatternKind<BumpsPattern> | pattern_flag::at_features;
 }
@@ -153,6 +154,15 @@ std::uint32_t put(const pattern::Slope& slope, Parameters) {
   if (slope.least == slope.most || slope.lowest == slope.highest)
     throw InputError("a slope has a range of no width");
   return kPatternKind<SlopePattern>;
+}
+
+std::uint32_t put(const pattern::Grey& grey, Parameters) {
+  if (!grey.of) throw InputError("a pattern of a pigment has none");
+  return kPatternKind<PigmentPattern>;
+}
+std::uint32_t put(const pattern::Inside& inside, Parameters) {
+  if (!inside.of) throw InputError("a pattern of an object has none");
+  return kPatternKind<ObjectPattern>;
 }
 
 SlopeRecord record_of(const pattern::Slope& slope) {
@@ -197,6 +207,10 @@ PatternTable pattern_table(std::uint32_t kind_and_flags) {
     return PatternTable::waves;
   case kPatternKind<SlopePattern>:
     return PatternTable::slopes;
+  case kPatternKind<PigmentPattern>:
+    return PatternTable::pigments;
+  case kPatternKind<ObjectPattern>:
+    return PatternTable::objects;
   default:
     return PatternTable::none;
   }

@@ -9,7 +9,7 @@
 namespace celltrace {
 
 /// Which table a pattern reads.
-enum class PatternTable : std::uint8_t { none, features, gradients, waves, slopes };
+enum class PatternTable : std::uint8_t { none, features, gradients, waves, slopes, pigments, objects };
 
 /// What a kind is in PatternRecords.
 struct PatternWords {

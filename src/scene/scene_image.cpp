@@ -428,7 +428,8 @@ void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads
   const Scene& scene = with_projectors.scene();
   TextureTables textures(scene);
   const MeshInstances instances(scene, textures.object_flags, threads);
-  const SceneObjects objects(scene, with_projectors.own_objects(), textures.object_flags, instances, threads);
+  const SceneObjects objects(scene, with_projectors.own_objects(), textures.objects, textures.object_flags,
+                             instances, threads);
   const std::uint64_t all = std::uint64_t{objects.count()} + instances.census().objects;
   threads = static_cast<unsigned>(std::clamp<std::uint64_t>(all / objects_a_thread, 1, threads));
   const OrderMemory memory(work, objects.count());

@@ -212,6 +212,10 @@ private:
              r.table == h_.wave_offset;
     case PatternTable::slopes:
       return refers_to(r.table, h_.slope_offset, h_.slope_count, sizeof(SlopeRecord));
+    case PatternTable::pigments:
+      return patterns_.find(r.table) != patterns_.count;
+    case PatternTable::objects:
+      return refers_to(r.table, h_.csg_offset, h_.csg_count, sizeof(CsgRecord));
     }
     return false;
   }
@@ -224,7 +228,7 @@ private:
     for (std::uint32_t i = 0; i < h_.pattern_count; ++i) {
       pigment_depth_[i] = depth_of(i);
       const PatternRecord& r = patterns_[i];
-      bool asks = asks_by_itself(r);
+      bool asks = pattern_asks(i);
       for (std::uint32_t entry = 0; pigment_depth_[i] > 1 && entry < r.entry_count; ++entry)
         if (const std::uint32_t child = child_of(r, entry); child != kNoOffset)
           asks = asks || pattern_asks_[patterns_.find(child)];
@@ -236,10 +240,28 @@ private:
     return (r.kind_and_flags & pattern_flag::uv_mapping) != 0 ||
            Patterns::kReadSurfaces[r.kind_and_flags & pattern_flag::kind_mask];
   }
+  /// Of earlier patterns this has been found out.
+  bool pattern_asks(std::uint32_t pattern) const {
+    const PatternRecord& r = patterns_[pattern];
+    return asks_by_itself(r) || (is_pigment(r) && pattern_asks_[patterns_.find(r.table)]);
+  }
+  /// How deep the maps of the pigment nest that a pattern is; 0: it is none.
+  std::uint32_t depth_inside(std::uint32_t pattern) const {
+    const PatternRecord& r = patterns_[pattern];
+    return is_pigment(r) ? pigment_depth_[patterns_.find(r.table)] : 0;
+  }
+  /// Whether a pattern, if it is a pigment, is one that is known, and found by looking for its value.
+  bool inside_is_sound(std::uint32_t pattern) const {
+    const PatternRecord& r = patterns_[pattern];
+    if (!is_pigment(r)) return true;
+    return (r.kind_and_flags & pattern_flag::nested) != 0 && patterns_.find(r.table) < pattern &&
+           depth_inside(pattern) != 0;
+  }
   std::uint32_t depth_of(std::uint32_t pattern) const {
     const PatternRecord& r = patterns_[pattern];
-    if (r.entry_count == 0) return 0;
-    std::uint32_t deepest = 0;
+    if (r.entry_count == 0 || !inside_is_sound(pattern)) return 0;
+    std::uint32_t deepest = depth_inside(pattern);
+    if (deepest == kDeepestMapWalk) return 0;
     for (std::uint32_t i = 0; i < r.entry_count; ++i) {
       const std::uint32_t child = child_of(r, i);
       if (child == kNoOffset) continue;
@@ -261,7 +283,9 @@ private:
     const std::uint32_t pattern = patterns_.find(r.pattern);
     std::uint32_t depth = 0;
     if (pattern == patterns_.count) return false;
-    bool asks = asks_by_itself(patterns_[pattern]);
+    if (!inside_is_sound(pattern)) return false;
+    bool asks = pattern_asks(pattern);
+    depth = depth_inside(pattern);
     if (r.is_mapped != 0)
       for (std::uint32_t i = 0; i < patterns_[pattern].entry_count; ++i) {
         const std::uint32_t child = normals_.find(child_of(patterns_[pattern], i));
@@ -269,7 +293,7 @@ private:
         depth = std::max(depth, normal_depth_[child]);
         asks = asks || normal_asks_[child];
       }
-    normal_depth_.push_back(r.is_mapped != 0 ? depth + 1 : 0);
+    normal_depth_.push_back(r.is_mapped != 0 ? depth + 1 : depth);
     normal_asks_.push_back(asks);
     return normal_depth_.back() <= kDeepestMapWalk &&
            (r.is_mapped == 0 || patterns_[pattern].entry_count != 0);
@@ -287,8 +311,9 @@ private:
     if (mapped || has(material_flag::patterned)) {
       const std::uint32_t pattern = patterns_.find(r.pattern);
       if (pattern == patterns_.count) return false;
-      if (!mapped && pigment_depth_[pattern] == 0) return false;
-      asks = mapped ? asks_by_itself(patterns_[pattern]) : pattern_asks_[pattern];
+      if (mapped ? !inside_is_sound(pattern) : pigment_depth_[pattern] == 0) return false;
+      asks = pattern_asks_[pattern];
+      if (mapped) material_depth_[material] = depth_inside(pattern) + 1;
       for (std::uint32_t i = 0; mapped && i < patterns_[pattern].entry_count; ++i) {
         const std::uint32_t child = materials_.find(child_of(patterns_[pattern], i));
         if (child == materials_.count || child <= material) return false;

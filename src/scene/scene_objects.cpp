@@ -79,9 +79,10 @@ std::vector<Vec3f> changed(const std::vector<Vec3f>& from, unsigned threads, Cha
 } // namespace
 
 SceneObjects::SceneObjects(const Scene& scene, std::size_t projectors,
+                           const std::vector<std::shared_ptr<const Object>>& patterns,
                            const std::vector<std::uint32_t>& material_flags, const MeshInstances& instances,
                            unsigned threads)
-    : material_flags_(material_flags), csg_(scene), polygons_(scene) {
+    : material_flags_(material_flags), csg_(scene, patterns), polygons_(scene) {
   for (std::size_t i = 0; i < projectors; ++i) {
     const Object& object = scene.objects[i];
     if (instances.contains(i) || CsgParts::contains(object)) continue;

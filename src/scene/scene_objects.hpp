@@ -17,11 +17,13 @@ namespace celltrace {
 
 class SceneObjects {
 public:
-  /// Those that are not among `instances`. Objects from `projectors` on are those of lights. `scene` and
-  /// `material_flags`, what objects have that consist of a material, stay as they are as long as this lives.
-  /// Throws InputError if there are too many objects.
-  SceneObjects(const Scene& scene, std::size_t projectors, const std::vector<std::uint32_t>& material_flags,
-               const MeshInstances& instances, unsigned threads);
+  /// Those that are not among `instances`, and what is inside of `patterns`. Objects from `projectors` on are
+  /// those of lights. `scene` and `material_flags`, what objects have that consist of a material, stay as
+  /// they are as long as this lives. Throws InputError if there are too many objects.
+  SceneObjects(const Scene& scene, std::size_t projectors,
+               const std::vector<std::shared_ptr<const Object>>& patterns,
+               const std::vector<std::uint32_t>& material_flags, const MeshInstances& instances,
+               unsigned threads);
 
   /// All that have bounds, those that cannot be hit included: spheres without a radius and triangles without
   /// an area.

@@ -4,10 +4,12 @@
 #include "kernel/textures/list.hpp"
 #include "kernel/textures/map_walk.hpp"
 #include "scene/pattern_tables.hpp"
+#include "scene/shapes.hpp"
 #include "scene/surface_records.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <type_traits>
 
@@ -20,6 +22,93 @@ using namespace kernel;
 namespace {
 
 static_assert(kDeepestMap == kDeepestMapWalk);
+constexpr int kDeepestSolid = 100;
+
+// --- lists with waves ---
+
+/// As many entries as any list has.
+constexpr std::size_t kMostListEntries = 6;
+
+bool is_list(const Pattern& pattern) {
+  return Patterns::kAreLists[pattern_words(pattern.kind, 1).kind_and_flags & pattern_flag::kind_mask];
+}
+
+/// Whether the numbers of a list become others, between which its entries are blended.
+bool blends_list(const Pattern& pattern) {
+  const bool has_wave = pattern.wave != Pattern::Wave::ramp;
+  return (has_wave || (pattern.frequency != 0 && pattern.frequency != 1)) && is_list(pattern);
+}
+
+/// What becomes of a number of a list. Frequency 1 is as good as none: then there is no phase either.
+double in_wave(const Pattern& pattern, std::size_t number) {
+  auto v = static_cast<double>(number);
+  if (pattern.frequency != 0 && pattern.frequency != 1) {
+    v = std::fmod(v * pattern.frequency + pattern.phase, 1.00001);
+    if (v < 0) v -= std::floor(v);
+  }
+  const double turn = v - std::floor(v);
+  switch (pattern.wave) {
+  case Pattern::Wave::ramp:
+    return v;
+  case Pattern::Wave::triangle:
+    return turn <= 0.5 ? 2 * turn : 2 - 2 * turn;
+  case Pattern::Wave::sine:
+    return (1 + std::sin(2 * std::numbers::pi * turn)) / 2;
+  case Pattern::Wave::scallop:
+    return std::abs(std::sin(std::numbers::pi * v));
+  case Pattern::Wave::cubic:
+    return v * v * (3 - 2 * v);
+  case Pattern::Wave::poly:
+    return std::pow(v, pattern.wave_exponent);
+  }
+  return v;
+}
+
+bool needs_averages(const PatternMap<Pigment>& map) {
+  return std::any_of(map.entries.begin(), map.entries.end(),
+                     [](const auto& entry) { return entry.value.map != nullptr; });
+}
+template <class T> bool needs_averages(const PatternMap<T>&) {
+  return true;
+}
+
+template <class T> T average(const T& a, const T& b, double share) {
+  auto map = std::make_shared<PatternMap<T>>();
+  map->is_average = true;
+  map->entries = {{1 - share, a}, {share, b}};
+  T blend{};
+  blend.map = std::move(map);
+  return blend;
+}
+template <class T> T blended(const T& a, const T& b, double share) {
+  return average(a, b, share);
+}
+template <> Pigment blended(const Pigment& a, const Pigment& b, double share) {
+  if (a.map || b.map) return average(a, b, share);
+  const double rest = 1 - share;
+  return {rest * a.rgb + share * b.rgb, rest * a.filter + share * b.filter,
+          rest * a.transmit + share * b.transmit};
+}
+
+/// A list of blends without a wave.
+template <class T> std::shared_ptr<const PatternMap<T>> without_wave(const PatternMap<T>& map) {
+  auto list = std::make_shared<PatternMap<T>>();
+  list->pattern = map.pattern;
+  list->pattern.wave = Pattern::Wave::ramp;
+  list->pattern.frequency = 1;
+  const double last = static_cast<double>(map.entries.size() - 1);
+  for (std::size_t i = 0; i < kMostListEntries; ++i) {
+    const double at = in_wave(map.pattern, i);
+    const double value = at > 0 ? std::min(at, last) : 0;
+    const auto below = static_cast<std::size_t>(value);
+    const double share = value - std::floor(value);
+    list->entries.push_back({static_cast<double>(i),
+                             share == 0
+                                 ? map.entries[below].value
+                                 : blended(map.entries[below].value, map.entries[below + 1].value, share)});
+  }
+  return list;
+}
 
 // --- checks ---
 
@@ -33,7 +122,8 @@ public:
       if (m.inside->inside) fail("looks different from inside, and there again");
       material(*m.inside, 0, 1);
     }
-    if (m.map) return map(*m.map, depth, [&](const Material& entry) { material(entry, depth + 1, 1); });
+    if (m.map)
+      return map(*m.map, depth, [&](const Material& entry, int inside) { material(entry, inside, 1); });
     pigment(m.pigment, 0);
     const Finish& f = m.finish;
     vectors({f.ambient, f.emission, f.reflection_min, f.reflection_max});
@@ -59,35 +149,40 @@ private:
   }
 
   void pigment(const Pigment& p, int depth) {
-    if (p.map) return map(*p.map, depth, [&](const Pigment& entry) { pigment(entry, depth + 1); });
+    if (p.map) return map(*p.map, depth, [&](const Pigment& entry, int inside) { pigment(entry, inside); });
     vectors({p.rgb});
     numbers({p.filter, p.transmit});
   }
   void normal(const Normal& n, int depth) {
-    if (n.map) return map(*n.map, depth, [&](const Normal& entry) { normal(entry, depth + 1); });
+    if (n.map) return map(*n.map, depth, [&](const Normal& entry, int inside) { normal(entry, inside); });
     numbers({n.amount, n.accuracy});
     if (!(n.accuracy > 0)) fail("has a normal whose accuracy is not greater than 0");
     if (n.slopes.size() > kMostMapEntries)
       fail("has a slope map of more than " + std::to_string(kMostMapEntries) + " entries");
     for (const SlopePoint& point : n.slopes)
       numbers({point.position, point.height, point.slope});
-    pattern(n.pattern);
+    pattern(n.pattern, depth);
+  }
+  void check_depth(int depth) const {
+    if (depth == kDeepestMap) fail("has maps that nest more than " + std::to_string(kDeepestMap) + " deep");
   }
   /// A map that several share is looked at once, or such trees would take for ever.
   template <class T, class Visit> void map(const PatternMap<T>& map, int depth, Visit visit) {
-    if (depth == kDeepestMap) fail("has maps that nest more than " + std::to_string(kDeepestMap) + " deep");
+    check_depth(depth);
     int& deepest = seen_.try_emplace(&map, -1).first->second;
     if (deepest >= depth) return;
     deepest = depth;
     if (map.entries.empty()) fail("has a map without entries");
     if (map.entries.size() > kMostMapEntries)
       fail("has a map of more than " + std::to_string(kMostMapEntries) + " entries");
-    pattern(map.pattern);
+    pattern(map.pattern, depth + 1);
+    int inside = depth + 1;
+    if (!map.is_average && blends_list(map.pattern) && needs_averages(map)) check_depth(inside++);
     double weights = 0;
     for (const auto& entry : map.entries) {
       numbers({entry.position});
       weights += entry.position;
-      visit(entry.value);
+      visit(entry.value, inside);
     }
     if (map.is_average && !(weights > 0)) fail("has an average whose weights are not greater than 0");
   }
@@ -116,7 +211,31 @@ private:
     numbers({w.distance, w.distance_exponent, w.major_radius});
     if (w.orientation == Vec3(0)) fail("has a warp without orientation");
   }
-  void pattern(const Pattern& p) const {
+  /// An object whose inside is a pattern, or a part of it.
+  void solid(const Object& object, int depth) const {
+    if (depth == kDeepestSolid) fail("has the pattern of an object that nests too deeply");
+    const Vec3(&rows)[4] = object.transform.rows;
+    vectors({rows[0], rows[1], rows[2], rows[3]});
+    if (std::holds_alternative<std::shared_ptr<const Mesh>>(object.shape))
+      fail("has the pattern of an object with a mesh");
+    if (const auto* sphere = std::get_if<Sphere>(&object.shape)) {
+      vectors({sphere->centre});
+      numbers({sphere->radius});
+    } else if (const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape)) {
+      if (!*csg || (*csg)->parts.empty()) fail("has the pattern of a CSG without parts");
+      for (const Object& part : (*csg)->parts)
+        solid(part, depth + 1);
+    } else {
+      const auto* polygon = std::get_if<std::shared_ptr<const Polygon>>(&object.shape);
+      if (polygon != nullptr && !*polygon) fail("has the pattern of an object without a polygon");
+      validate_shape(object, name_);
+    }
+    if (!object.clipped_by) return;
+    for (const Object& clip : *object.clipped_by)
+      solid(clip, depth + 1);
+  }
+  /// `depth`: how deep maps would lie in the pattern.
+  void pattern(const Pattern& p, int depth) {
     if ((p.uv_mapping || std::holds_alternative<pattern::Slope>(p.kind)) && !has_surface_)
       fail("has a pattern of surfaces, but no surface");
     space_step(p.normal_space);
@@ -131,6 +250,11 @@ private:
     const SlopeRecord& s = words.slope;
     numbers({s.direction[0], s.direction[1], s.direction[2], s.factor, s.altitude[0], s.altitude[1],
              s.altitude[2], s.offset});
+    if (const auto* inside = std::get_if<pattern::Inside>(&p.kind)) solid(*inside->of, 0);
+    if (const auto* grey = std::get_if<pattern::Grey>(&p.kind)) {
+      check_depth(depth); // one colour becomes a map, too
+      pigment(*grey->of, depth);
+    }
   }
 
   const std::string name_;
@@ -401,6 +525,13 @@ TextureTables::Known TextureTables::add_map(const std::shared_ptr<const PatternM
   const bool is_shared = outer.is_scene() || (std::is_same_v<T, Pigment> && map->pattern.uv_mapping);
   if (is_shared)
     if (const auto known = known_.find(map.get()); known != known_.end()) return known->second;
+  if (!map->is_average && blends_list(map->pattern)) {
+    const auto list = without_wave(*map);
+    made_.push_back(list);
+    const Known known = add_map(list, outer);
+    if (is_shared) known_[map.get()] = known;
+    return known;
+  }
   const PatternSpace inside = space_inside(map->pattern, outer);
   const std::size_t count = map->entries.size();
   make_room(entries, count, "entries of maps");
@@ -441,10 +572,10 @@ TextureTables::Known TextureTables::add_map(const std::shared_ptr<const PatternM
     }
     entries[first + i] = entry;
   }
-  const std::uint32_t pattern = add_pattern(map->pattern, outer, map->is_average, count);
+  const auto [pattern, of_pattern] = add_pattern(map->pattern, outer, inside, map->is_average, count);
   patterns[pattern].entries = first;
   if (is_nested) patterns[pattern].kind_and_flags |= pattern_flag::nested;
-  traits.by_surface = traits.by_surface || asks_for_surface(patterns[pattern]);
+  traits.by_surface = traits.by_surface || of_pattern.by_surface;
   if (is_shared) known_[map.get()] = {pattern, traits};
   return {pattern, traits};
 }
@@ -462,21 +593,40 @@ TextureTables::Known TextureTables::add_normal(const Normal& normal, const Patte
         !normal.slopes.empty() &&
         !disturbs(pattern_words(normal.pattern.kind, 1).kind_and_flags & pattern_flag::kind_mask);
     const std::uint32_t first = has_slopes ? add_slopes(normal.slopes) : 0;
-    r.pattern = add_pattern(normal.pattern, outer, false, has_slopes ? normal.slopes.size() : 0);
+    // What is in the pattern is asked at points of its own space.
+    const Known pattern =
+        add_pattern(normal.pattern, outer, {}, false, has_slopes ? normal.slopes.size() : 0);
+    r.pattern = pattern.index;
     patterns[r.pattern].entries = first;
+    if (!has_slopes && blends_list(normal.pattern)) set_list_heights(patterns[r.pattern], normal.pattern);
     const auto* facets = std::get_if<pattern::Facets>(&normal.pattern.kind);
-    r.amount = static_cast<float>(facets ? facets->coords : normal.amount);
+    r.amount = static_cast<float>(!facets ? normal.amount : facets->size > 0 ? 1 : facets->coords);
     r.accuracy = static_cast<float>(normal.accuracy);
     const Transform map = whole_map(space_of(normal.pattern, outer)).inverse();
     for (int row = 0; row < 3; ++row)
       for (int column = 0; column < 3; ++column)
         r.linear[row * 3 + column] = static_cast<float>(map.rows[column][row]);
-    traits.by_surface = asks_for_surface(patterns[r.pattern]);
+    traits.by_surface = pattern.traits.by_surface;
   }
   traits.disturbed = traits.textured = true;
   make_room(normals, 1, "normals");
   normals.push_back(r);
   return {static_cast<std::uint32_t>(normals.size() - 1), traits};
+}
+
+/// Of a list with a wave as a normal: a slope map of its numbers' shares of a power of two.
+void TextureTables::set_list_heights(PatternRecord& r, const Pattern& pattern) {
+  constexpr double kShare = 0.125;
+  static_assert(kShare * kMostListEntries <= 1);
+  std::vector<SlopePoint> heights;
+  for (std::size_t i = 0; i < kMostListEntries; ++i)
+    heights.push_back({static_cast<double>(i) * kShare, in_wave(pattern, i), 0});
+  r.entries = add_slopes(heights);
+  r.entry_count = static_cast<std::uint32_t>(heights.size());
+  r.kind_and_flags &= ~(pattern_flag::wave_mask << pattern_flag::wave_shift);
+  static_assert(static_cast<std::uint32_t>(PatternWave::ramp) == 0);
+  r.frequency = static_cast<float>(kShare);
+  r.phase = 0;
 }
 
 std::uint32_t TextureTables::add_slopes(const std::vector<SlopePoint>& points) {
@@ -515,9 +665,23 @@ void TextureTables::add_rainbow(const Rainbow& rainbow) {
   rainbows.push_back(r);
 }
 
-std::uint32_t TextureTables::add_pattern(const Pattern& pattern, const PatternSpace& outer, bool is_average,
-                                         std::size_t entry_count) {
+/// The index of the pattern whose map a pigment is.
+TextureTables::Known TextureTables::add_pigment(const Pigment& pigment, const PatternSpace& outer) {
+  if (pigment.map) return add_map(pigment.map, outer);
+  auto map = std::make_shared<PatternMap<Pigment>>();
+  map->is_average = true;
+  map->entries = {{1, pigment}};
+  made_.push_back(map);
+  return add_map<Pigment>(map, outer);
+}
+
+TextureTables::Known TextureTables::add_pattern(const Pattern& pattern, const PatternSpace& outer,
+                                                const PatternSpace& inside, bool is_average,
+                                                std::size_t entry_count) {
   PatternRecord r{};
+  const auto* grey = is_average ? nullptr : std::get_if<pattern::Grey>(&pattern.kind);
+  Known of_grey{0, {}};
+  if (grey != nullptr) of_grey = add_pigment(*grey->of, inside);
   r.entries = r.steps = 0;
   r.entry_count = static_cast<std::uint32_t>(entry_count);
   tables_.push_back(PatternTable::none);
@@ -546,6 +710,14 @@ std::uint32_t TextureTables::add_pattern(const Pattern& pattern, const PatternSp
       r.table = static_cast<std::uint32_t>(slopes.size());
       slopes.push_back(words.slope);
     }
+    if (grey != nullptr) {
+      r.table = of_grey.index;
+      r.kind_and_flags |= pattern_flag::nested;
+    }
+    if (const auto* solid = std::get_if<pattern::Inside>(&pattern.kind)) {
+      r.table = static_cast<std::uint32_t>(objects.size());
+      objects.push_back(solid->of);
+    }
     add_table(tables_.back());
   }
   // A frequency of 0 leaves the number as it is for its wave.
@@ -559,7 +731,9 @@ std::uint32_t TextureTables::add_pattern(const Pattern& pattern, const PatternSp
   add_steps(r, space.steps);
   make_room(patterns, 1, "patterns");
   patterns.push_back(r);
-  return static_cast<std::uint32_t>(patterns.size() - 1);
+  Traits traits;
+  traits.by_surface = asks_for_surface(r) || of_grey.traits.by_surface;
+  return {static_cast<std::uint32_t>(patterns.size() - 1), traits};
 }
 
 void TextureTables::add_table(PatternTable table) {
@@ -612,6 +786,12 @@ void TextureTables::relocate(const ImageHeader& header) {
       break;
     case PatternTable::slopes:
       to_offset<SlopeRecord>(r.table, header.slope_offset);
+      break;
+    case PatternTable::pigments:
+      to_offset<PatternRecord>(r.table, header.pattern_offset);
+      break;
+    case PatternTable::objects:
+      to_offset<CsgRecord>(r.table, header.csg_offset);
       break;
     case PatternTable::none:
       break;

@@ -55,7 +55,9 @@ public:
   std::vector<kernel::FeatureRecord> features;   ///< these three only if a pattern or a warp reads them
   std::vector<kernel::GradientRecord> gradients; ///< never without the features
   std::vector<kernel::WaveRecord> waves;
-  std::vector<kernel::SlopeRecord> slopes;     ///< one for each slope
+  std::vector<kernel::SlopeRecord> slopes; ///< one for each slope
+  /// Whose insides are patterns: the first conditions of the scene's CSG, in this order.
+  std::vector<std::shared_ptr<const Object>> objects;
   std::vector<kernel::RainbowRecord> rainbows; ///< those that are visible
   std::uint32_t sky;                           ///< index of the uppermost layer's material, or kNoOffset
   /// By material of the scene: what an object has that consists of it, of object_flag's opaque, mapped,
@@ -75,8 +77,10 @@ private:
   };
   enum class Child : std::uint8_t { pattern, normal, material, none };
 
-  std::uint32_t add_pattern(const Pattern& pattern, const PatternSpace& outer, bool is_average,
-                            std::size_t entry_count);
+  /// `inside`: what a pigment is in that is the pattern.
+  Known add_pattern(const Pattern& pattern, const PatternSpace& outer, const PatternSpace& inside,
+                    bool is_average, std::size_t entry_count);
+  Known add_pigment(const Pigment& pigment, const PatternSpace& outer);
   Traits fill_material(std::uint32_t index, const Material& material, const PatternSpace& outer);
   template <class T>
   Known add_map(const std::shared_ptr<const PatternMap<T>>& map, const PatternSpace& outer);
@@ -84,6 +88,7 @@ private:
   Known add_normal(const Normal& normal, const PatternSpace& outer);
   void add_table(PatternTable table);
   void add_steps(kernel::PatternRecord& r, const std::vector<SpaceStep>& space);
+  void set_list_heights(kernel::PatternRecord& r, const Pattern& pattern);
   std::uint32_t add_slopes(const std::vector<SlopePoint>& slopes);
   void add_rainbow(const Rainbow& rainbow);
   Traits fill(kernel::MapEntryRecord& entry, const Pigment& pigment);
@@ -92,6 +97,8 @@ private:
   std::vector<Child> children_;        ///< by entry, what its child is
   std::vector<PatternTable> tables_;   ///< by pattern, what it reads
   std::map<const void*, Known> known_; ///< maps that several share, by address
+  std::vector<std::shared_ptr<const void>>
+      made_; ///< maps that are not the scene's, so that no other has their address
 };
 
 } // namespace celltrace

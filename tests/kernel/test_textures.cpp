@@ -123,16 +123,50 @@ Pigment any_colour(Random& random) {
           random.below(2) * random.uniform(0, 1)};
 }
 
-Pattern any_pattern(Random& random) {
+bool is_list(const Pattern& pattern) {
+  return std::holds_alternative<pattern::Checker>(pattern.kind) ||
+         std::holds_alternative<pattern::Inside>(pattern.kind);
+}
+
+std::shared_ptr<const Object> any_object(Random& random) {
+  const auto ball = [&] {
+    Object object;
+    object.shape = Sphere{random.point(1.5), random.uniform(0.5, 2)};
+    object.inverse = random.below(3) == 0;
+    return object;
+  };
+  if (random.below(2) == 0) return std::make_shared<const Object>(ball());
+  Csg csg;
+  csg.operation = static_cast<Csg::Operation>(random.below(4));
+  Object box;
+  box.shape = Box{{{-1, -0.7, -1.2}, {1.1, 0.8, 1}}};
+  box.transform = Transform::rotate(random.point(180));
+  csg.parts = {ball(), box, ball()};
+  Object object;
+  object.shape = std::make_shared<const Csg>(csg);
+  object.transform = Transform::scale(Vec3(random.uniform(0.7, 2)));
+  return std::make_shared<const Object>(object);
+}
+
+/// `blends`: if it is a list, waves may make blends of it.
+Pattern any_pattern(Random& random, bool blends = false) {
   Pattern pattern;
-  if (random.below(2) == 0)
+  if (const unsigned which = random.below(5); which < 2)
     pattern.kind = pattern::Checker{};
+  else if (which == 2)
+    pattern.kind = pattern::Inside{any_object(random)};
   else
     pattern.kind = pattern::Gradient{random.direction() * random.uniform(0.5, 3)};
   if (random.below(2) == 0)
     pattern.space = {Transform::scale({random.uniform(0.5, 2), random.uniform(0.5, 2), 1})
                          .then(Transform::rotate(random.point(180)))
                          .then(Transform::translate(random.point(2)))};
+  if (blends && is_list(pattern) && random.below(2) == 0) {
+    pattern.wave = static_cast<Pattern::Wave>(random.below(6));
+    pattern.wave_exponent = random.uniform(0.3, 3);
+    pattern.frequency = random.below(4) == 0 ? random.below(2) : random.uniform(-2, 2);
+    pattern.phase = random.uniform(-1, 1);
+  }
   return pattern;
 }
 
@@ -140,10 +174,11 @@ Pattern any_pattern(Random& random) {
 Pigment any_pigment(Random& random, unsigned depth) {
   if (depth == 0 || random.below(4) == 0) return any_colour(random);
   PatternMap<Pigment> map;
-  map.pattern = any_pattern(random);
+  map.pattern = any_pattern(random, depth == 1);
   map.is_average = random.below(4) == 0;
-  const bool is_list = std::holds_alternative<pattern::Checker>(map.pattern.kind);
-  const unsigned count = is_list && !map.is_average ? 2 : 1 + random.below(5);
+  if (depth > 1 && !map.is_average && random.below(4) == 0)
+    map.pattern.kind = pattern::Grey{std::make_shared<const Pigment>(any_pigment(random, depth - 1))};
+  const unsigned count = is_list(map.pattern) && !map.is_average ? 2 : 1 + random.below(5);
   double position = random.uniform(0, 0.4);
   for (unsigned i = 0; i < count; ++i) {
     map.entries.push_back({position + (map.is_average ? 0.1 : 0), any_pigment(random, depth - 1)});
@@ -600,7 +635,8 @@ TEST_CASE("A walk through maps has lanes that were asked for, and weights that a
     Textures textures(pigment);
     const VectorLanes points = points_of([&](unsigned) { return random.point(5); });
     const std::uint32_t lanes = random.word() & kAll;
-    MapWalk<DirectSpu, TextureStage::colours> walk(textures.access(), {points.load<Simd>()});
+    const PatternPoints<Simd> asked = {points.load<Simd>()};
+    MapWalk<DirectSpu, TextureStage::colours> walk(textures.access(), asked);
     walk.enter(textures.material().pattern, F(1.0f), lanes);
     F sum(0.0f), weight;
     MapEntryRecord leaf;
@@ -640,6 +676,53 @@ TEST_CASE("A nested map moves with the map around it, its turbulence included") 
   }
 }
 
+TEST_CASE("Lists with waves blend what they list, maps and textures too") {
+  Pattern half = gradient({1, 0, 0});
+  half.kind = pattern::Checker{};
+  half.frequency = 0.5;
+  const Pigment ramp = Textures::grey(gradient({0, 1, 0}));
+  const Pigment red{{1, 0, 0}};
+  Pigment pigment;
+  pigment.map = std::make_shared<const PatternMap<Pigment>>(PatternMap<Pigment>{half, {{0, red}, {1, ramp}}});
+  Random random(99);
+  const VectorLanes points = points_of([&](unsigned) { return random.point(3); });
+  CHECK(check_pigment(pigment, points) > kSimdLanes / 2);
+
+  Material map;
+  map.map = std::make_shared<const PatternMap<Material>>(
+      PatternMap<Material>{half, {{0, Textures::plain(red)}, {1, Textures::plain(ramp)}}});
+  Textures textures(map);
+  V3<Simd> filter;
+  transmittance_at(textures.access(), textures.header().material_offset, {points.load<Simd>()}, kAll, filter);
+  for (unsigned l = 0; l < kSimdLanes; ++l)
+    CHECK(lanes_of(filter).x.lane[l] == Approx(0).margin(1e-6)); // opaque as both are
+
+  Normal blunt;
+  blunt.pattern.kind = pattern::Checker{};
+  blunt.pattern.wave = Pattern::Wave::triangle; // 0 everywhere
+  Material bumpy;
+  bumpy.normal = std::make_shared<const Normal>(blunt);
+  const VectorLanes units = points_of([&](unsigned) { return random.direction(); });
+  Textures normals(bumpy);
+  V3<Simd> unit = units.load<Simd>();
+  disturb_normal(normals.access(), normals.material().normal, {points.load<Simd>()}, kAll, unit);
+  for (unsigned l = 0; l < kSimdLanes; ++l)
+    CHECK(glm::length(test::at(lanes_of(unit), l) - test::at(units, l)) < 1e-5);
+}
+
+TEST_CASE("Patterns inside patterns are as deep as maps may be") {
+  Pigment pigment{{1, 1, 1}};
+  for (int depth = 1; depth <= kDeepestMap; ++depth) {
+    Pattern grey;
+    grey.kind = pattern::Grey{std::make_shared<const Pigment>(pigment)};
+    pigment = Textures::grey(grey);
+    if (depth + 1 <= kDeepestMap) // what is one colour is a map, too
+      CHECK_NOTHROW(Textures(pigment));
+    else
+      CHECK_THROWS_WITH(Textures(pigment), Catch::Contains("nest"));
+  }
+}
+
 // --- normals ---
 
 namespace {
@@ -674,6 +757,13 @@ Normal smooth_slope(Random& random) {
   Normal normal;
   normal.pattern = gradient(random.direction());
   normal.pattern.wave = Pattern::Wave::sine;
+  if (random.below(2) == 0) {
+    Pattern bright = normal.pattern;
+    bright.space = {
+        Transform::scale({random.uniform(0.5, 2), 1, 1}).then(Transform::rotate(random.point(180)))};
+    normal.pattern = {};
+    normal.pattern.kind = pattern::Grey{std::make_shared<const Pigment>(Textures::grey(bright))};
+  }
   normal.amount = random.uniform(-2, 2);
   normal.accuracy = random.uniform(0.01, 0.05);
   return normal;

@@ -57,24 +57,44 @@ std::string repeated(const std::string& text, int times) {
 TEST_CASE("every pattern has its word") {
   using namespace pattern;
   const std::pair<const char*, Kind> words[] = {
-      {"agate", Agate{}},         {"boxed", Boxed{}},
-      {"bozo", Bozo{}},           {"brick", Brick{}},
-      {"bumps", Bumps{}},         {"cells", Cells{}},
-      {"checker", Checker{}},     {"crackle", Crackle{}},
-      {"cubic", Cubic{}},         {"dents", Dents{}},
-      {"gradient y", Gradient{}}, {"granite", Granite{}},
-      {"hexagon", Hexagon{}},     {"leopard", Leopard{}},
-      {"marble", Marble{}},       {"onion", Onion{}},
-      {"planar", Planar{}},       {"quilted", Quilted{}},
-      {"radial", Radial{}},       {"ripples", Ripples{}},
-      {"spherical", Spherical{}}, {"square", Square{}},
-      {"spiral1 3", Spiral{}},    {"triangular", Triangular{}},
-      {"spotted", Bozo{}},        {"cylindrical", Cylindrical{}},
-      {"waves", Waves{}},         {"wood", Wood{}},
-      {"wrinkles", Wrinkles{}},   {"spiral2 3", Spiral{}},
-      {"slope y", Slope{}},       {"slope { x }", Slope{}},
-      {"mandel 5", Fractal{}},    {"julia <0, 1>, 5", Fractal{}},
-      {"julia u 5", Fractal{}},   {"magnet 1 mandel 5", Fractal{}},
+      {"agate", Agate{}},
+      {"boxed", Boxed{}},
+      {"bozo", Bozo{}},
+      {"brick", Brick{}},
+      {"bumps", Bumps{}},
+      {"cells", Cells{}},
+      {"checker", Checker{}},
+      {"crackle", Crackle{}},
+      {"cubic", Cubic{}},
+      {"dents", Dents{}},
+      {"gradient y", Gradient{}},
+      {"granite", Granite{}},
+      {"hexagon", Hexagon{}},
+      {"leopard", Leopard{}},
+      {"marble", Marble{}},
+      {"onion", Onion{}},
+      {"planar", Planar{}},
+      {"quilted", Quilted{}},
+      {"radial", Radial{}},
+      {"ripples", Ripples{}},
+      {"spherical", Spherical{}},
+      {"square", Square{}},
+      {"spiral1 3", Spiral{}},
+      {"triangular", Triangular{}},
+      {"spotted", Bozo{}},
+      {"cylindrical", Cylindrical{}},
+      {"waves", Waves{}},
+      {"wood", Wood{}},
+      {"wrinkles", Wrinkles{}},
+      {"spiral2 3", Spiral{}},
+      {"slope y", Slope{}},
+      {"slope { x }", Slope{}},
+      {"mandel 5", Fractal{}},
+      {"julia <0, 1>, 5", Fractal{}},
+      {"julia u 5", Fractal{}},
+      {"magnet 1 mandel 5", Fractal{}},
+      {"object { sphere { 0, 1 } }", Inside{}},
+      {"pigment_pattern { wood }", Grey{}},
   };
   for (const auto& [word, kind] : words) {
     INFO(word);
@@ -119,6 +139,7 @@ TEST_CASE("what stands behind a pattern's word") {
   CHECK_FALSE(kind<Fractal>("magnet 2 mandel 7").is_julia);
   CHECK(kind<Fractal>("magnet 1 julia <1, 2>, 7").c[0] == 1);
   CHECK(std::get<Facets>(normal("facets coords 0.3").pattern.kind).coords == 0.3);
+  CHECK(std::get<Facets>(normal("facets size 0.2").pattern.kind).size == 0.2);
   CHECK(error_line("sphere { 0, 1 pigment { bozo exterior 1, 2 } }") ==
         "scene.pov:1:30: error: this word means something to fractals only");
   CHECK(error_line("sphere { 0, 1 pigment { mandel 5 exterior 9, 2 } }") ==
@@ -154,6 +175,52 @@ TEST_CASE("slopes") {
   CHECK(slope("y, 0.5").most == 0);
   CHECK_THAT(error_line("sphere { 0, 1 pigment { slope 0 } }"), Catch::Contains("neither"));
   CHECK_THAT(error_line("sky_sphere { pigment { slope y } }"), Catch::Contains("no surface"));
+}
+
+TEST_CASE("pigments as patterns") {
+  const auto grey = kind<pattern::Grey>("pigment_pattern { checker rgb 1, rgb 0 scale 2 } scale 3");
+  REQUIRE(grey.of->map);
+  CHECK(grey.of->map->entries.size() == 2);
+  CHECK(grey.of->map->pattern.space.size() == 1);
+  CHECK(kind<pattern::Grey>("pigment_pattern { rgb 0.25 }").of->rgb == Vec3(0.25));
+  CHECK(pigment_map("pigment_pattern { bozo }").entries.at(1).value.rgb == Vec3(1));
+  CHECK(pigment_map("pigment_pattern { P } color_map { [0 rgb 0] [0.5 rgb 1] [1 rgb 0] }",
+                    "#declare P = pigment { agate } ")
+            .entries.size() == 3);
+  const std::string nest =
+      "pigment_map { [0 bozo pigment_map { [0 bozo pigment_map { [0 pigment_pattern { bozo "
+      "pigment_map { [0 bozo] } } ] } ] } ] }";
+  CHECK_THAT(error_line("sphere { 0, 1 pigment { bozo " + nest + " } }"), Catch::Contains("nested"));
+  CHECK_THAT(error_line("sky_sphere { pigment { pigment_pattern { slope y } } }"),
+             Catch::Contains("no surface"));
+}
+
+TEST_CASE("insides of objects as patterns") {
+  const auto plain = pigment_map("object { sphere { 0, 1 } }");
+  REQUIRE(plain.entries.size() == 2);
+  CHECK(plain.entries[0].value.rgb == Vec3(0, 0, 1));
+  CHECK(plain.entries[1].value.rgb == Vec3(0, 1, 0));
+  const auto coloured = pigment_map("object { Ball translate x rgb 1, rgb 0.5 } scale 2",
+                                    "#declare Ball = sphere { 0, 1 translate y } ");
+  CHECK(coloured.entries[1].value.rgb == Vec3(0.5));
+  const auto& ball = *std::get<pattern::Inside>(coloured.pattern.kind).of;
+  CHECK(ball.transform.point({0, 0, 0}) == Vec3(1, 1, 0));
+  CHECK(std::holds_alternative<Sphere>(ball.shape));
+  const auto nested = pigment_map("object { box { -1, 1 } pigment { bozo } pigment { rgb 0.5 } }");
+  CHECK(nested.entries[0].value.map);
+  const Material textured = material("texture { object { box { -1, 1 } texture { pigment { rgb 1 } } "
+                                     "texture { pigment { rgb x } } } }");
+  REQUIRE(textured.map);
+  CHECK(textured.map->entries.size() == 2);
+  CHECK(std::holds_alternative<pattern::Inside>(textured.map->pattern.kind));
+  CHECK(normal("object { box { -1, 1 } normal { bumps } normal { dents } }").map->entries.size() == 2);
+  const auto both = kind<pattern::Inside>("object { union { sphere { 0, 1 } plane { y, 0 } } }");
+  CHECK(std::get<std::shared_ptr<const Csg>>(both.of->shape)->parts.size() == 2);
+  CHECK(error_line("sphere { 0, 1 pigment { object { sphere { 0, 1 } rgb 1 rgb 0 rgb 1 } } }") ==
+        "scene.pov:1:25: error: this pattern takes a list of 2, but it has 3 entries");
+  CHECK_THAT(
+      error_line("sphere { 0, 1 pigment { object { mesh { triangle { 0, x, y } inside_vector z } } } }"),
+      Catch::Contains("not supported yet"));
 }
 
 TEST_CASE("modifiers of patterns") {
@@ -351,6 +418,7 @@ TEST_CASE("facets are for normals alone") {
   CHECK(error_line("sphere { 0, 1 normal { facets coords 1 } }").empty());
   CHECK(error_line("sphere { 0, 1 pigment { facets coords 1 } }") ==
         "scene.pov:1:23: error: 'facets' is a pattern of normals alone");
+  CHECK_THAT(error_line("sphere { 0, 1 normal { facets coords 1 size 0.1 } }"), Catch::Contains("either"));
 }
 
 TEST_CASE("normals") {
@@ -676,8 +744,6 @@ TEST_CASE("what patterns lack is an error where it is used") {
   };
   CHECK(refused("tiling 20 scale 2") == "scene.pov:1:24: error: 'tiling' is not supported yet");
   CHECK(refused("image_map { png \"x\" }") == "scene.pov:1:24: error: 'image_map' is not supported yet");
-  CHECK(refused("object { sphere { 0, 1 } rgb 1 rgb 0 }") ==
-        "scene.pov:1:24: error: an object pattern is not supported yet");
   CHECK(refused("gradient x pigment_map { [0 rgb 1] [1 tiling 3] }") ==
         "scene.pov:1:62: error: 'tiling' is not supported yet");
   CHECK(error_line("cubic { <1> }") == "scene.pov:1:1: error: 'cubic' is not supported yet");

@@ -1,5 +1,8 @@
 #include "reference/textures.hpp"
 
+#include "celltrace/scene.hpp"
+#include "reference/solids.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -38,8 +41,19 @@ double number(const pattern::Slope& slope, const SurfacePoint& p) {
            (slope.highest - slope.lowest);
   return sum / (facing + climbing);
 }
+double number(const pattern::Grey& grey, const SurfacePoint& p) {
+  const Vec3 rgb = pigment_at(*grey.of, p).rgb;
+  return 0.297 * rgb.x + 0.589 * rgb.y + 0.114 * rgb.z;
+}
+double number(const pattern::Inside& inside, const Vec3& p) {
+  return is_inside(*inside.of, p) ? 1 : 0;
+}
 template <class Kind> double number(const Kind&, const Vec3&) {
   throw std::logic_error("the reference has no such pattern");
+}
+
+bool is_list(const pattern::Kind& kind) {
+  return std::holds_alternative<pattern::Checker>(kind) || std::holds_alternative<pattern::Inside>(kind);
 }
 
 void add(Pigment& sum, double weight, const Pigment& pigment) {
@@ -56,10 +70,15 @@ double number_of(const pattern::Kind& kind, const Vec3& p) {
 
 double wave(const Pattern& pattern, double number) {
   using Wave = Pattern::Wave;
-  if (pattern.frequency == 0 && pattern.wave == Wave::ramp) return number;
+  const bool list = is_list(pattern.kind);
+  if (pattern.frequency == 0 && pattern.wave == Wave::ramp && !list) return number;
   double v = pattern.frequency == 0 ? number : number * pattern.frequency + pattern.phase;
-  v = std::fmod(v, 1.00001);
-  if (v < 0) v -= std::floor(v);
+  if (list && (pattern.frequency == 0 || pattern.frequency == 1)) {
+    v = number;
+  } else {
+    v = std::fmod(v, 1.00001);
+    if (v < 0) v -= std::floor(v);
+  }
   const double u = fraction(v);
   switch (pattern.wave) {
   case Wave::ramp:
@@ -80,6 +99,7 @@ double wave(const Pattern& pattern, double number) {
 
 double value_of(const Pattern& pattern, const SurfacePoint& p) {
   if (const auto* slope = std::get_if<pattern::Slope>(&pattern.kind)) return wave(pattern, number(*slope, p));
+  if (const auto* grey = std::get_if<pattern::Grey>(&pattern.kind)) return wave(pattern, number(*grey, p));
   return wave(pattern, number_of(pattern.kind, p.at));
 }
 
@@ -108,8 +128,14 @@ Pigment pigment_at(const Pigment& pigment, const SurfacePoint& point) {
     return sum;
   }
   double value = value_of(map.pattern, p);
-  if (std::holds_alternative<pattern::Checker>(map.pattern.kind))
-    return pigment_at(entries[std::min(static_cast<std::size_t>(value), entries.size() - 1)].value, p);
+  if (is_list(map.pattern.kind)) {
+    value = std::clamp(value, 0.0, static_cast<double>(entries.size() - 1));
+    const auto below = static_cast<std::size_t>(value);
+    const double share = fraction(value);
+    add(sum, 1 - share, pigment_at(entries[below].value, p));
+    if (share != 0) add(sum, share, pigment_at(entries[below + 1].value, p));
+    return sum;
+  }
   if (value < 0 || value > 1) value = fraction(value);
   if (value >= entries.back().position) return pigment_at(entries.back().value, p);
   std::size_t above = 0;

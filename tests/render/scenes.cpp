@@ -333,6 +333,44 @@ Scene patterns() {
   return scene;
 }
 
+/// Patterns of pigments and of objects, in each other and in maps of textures, and lists with waves.
+Scene patterns_of_patterns() {
+  Scene scene = with_camera(camera_at({0.4, 2.1, -6.3}, {0.1, 0.1, 0}));
+  const auto shared = [](const Pigment& pigment) { return std::make_shared<const Pigment>(pigment); };
+  Pattern waves = pattern_of(pattern::Gradient{{1, 0.4, 0}}, Transform::scale(Vec3(0.6)));
+  waves.wave = Pattern::Wave::sine;
+  const Pigment stripes = mapped(waves, {{0, {{0.9, 0.1, 0.3}}}, {1, {{0.2, 1, 0.6}}}});
+  const Pigment rings =
+      mapped(pattern_of(pattern::Onion{}), {{0, {{0, 0, 0}}}, {0.5, {{1, 0.9, 1}}}, {1, {{0, 0, 0}}}});
+  const Pigment mixed = mapped({}, {{1, stripes}, {2, rings}}, true);
+  Csg csg;
+  csg.operation = Csg::Operation::difference;
+  Object ball, box;
+  ball.shape = Sphere{{0, 0, 0}, 1.1};
+  box.shape = Box{{{-0.5, -0.6, -2}, {0.4, 0.5, 2}}};
+  csg.parts = {ball, box};
+  auto cut = std::make_shared<Object>();
+  cut->shape = std::make_shared<const Csg>(csg);
+  const auto grey = [&](const Pigment& of) {
+    return pattern_of(pattern::Grey{shared(of)}, Transform::rotate({20, 30, 0}));
+  };
+  const Pigment bright = mapped(grey(mixed), {{0.1, {{0.1, 0.2, 0.6}}}, {0.9, {{1, 0.9, 0.5}}}});
+  const Pigment in_cut = mapped(pattern_of(pattern::Inside{cut}, Transform::scale(Vec3(0.45))),
+                                {{0, {{0.8, 0.7, 0.3}}}, {1, bright}});
+  Pattern soft = pattern_of(pattern::Checker{}, Transform::scale(Vec3(0.37)));
+  soft.frequency = 0.4;
+  soft.phase = 0.2;
+  const Pigment pale = mapped(soft, {{0, {{0.9, 0.2, 0.1}}}, {1, {{0.1, 0.3, 0.9}, 0, 0.4}}});
+  const Pigment blend = mapped(soft, {{0, rings}, {1, stripes}});
+  const Pigment deep = mapped(grey(in_cut), {{0, {{0.3, 0.1, 0.1}}}, {1, {{0.9, 1, 0.8}}}});
+  scene.objects.push_back(
+      mesh_object(floor_mesh(-1.03f, 8), scene.add(painted(bright)), new_interior(scene)));
+  const Pigment all[] = {bright, in_cut, pale, blend, deep, mixed};
+  for (int i = 0; i < 6; ++i)
+    add_sphere(scene, {1.3 * (i % 3) - 1.3, -0.35 + 1.2 * (i / 3), 0.6 * (i / 3)}, 0.6, painted(all[i]));
+  return scene;
+}
+
 /// Pigments on the surfaces of all shapes that have coordinates of their own, and of some that have none; in
 /// CSG, clear, and as faces that blend.
 Scene surfaces() {
@@ -788,6 +826,7 @@ const std::vector<NamedScene>& scenes() {
       {"dark", dark},
       {"flat, gamma 2.2", flat_gamma},
       {"patterns", patterns},
+      {"patterns of patterns", patterns_of_patterns},
       {"surfaces", surfaces},
       {"cut meshes", cut_meshes},
       {"light groups", light_groups},

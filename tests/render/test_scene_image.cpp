@@ -875,6 +875,19 @@ TEST_CASE("A sealed scene image with a fault in its tables of random numbers is 
   refused(waves, [](H&, P& p) { p.parameter[0] = 0; });
   refused(waves, [](H&, P& p) { p.table = kNoOffset; });
   refused(bytes_with(pattern::Fractal{}, 0, {}), [](H&, P& p) { p.parameter[2] = 1e9f; });
+  const Bytes grey = bytes_with(pattern::Grey{std::make_shared<const Pigment>()}, 0, {});
+  // The pigment's own pattern is the first, the one that asks it follows.
+  const auto second = [](P& p) -> P& { return *(&p + 1); };
+  refused(grey, [&](H&, P& p) { second(p).table += 64; });
+  refused(grey, [&](H&, P& p) { second(p).table += sizeof(P); });
+  refused(grey, [&](H&, P& p) { second(p).table += 2 * sizeof(P); });
+  refused(grey, [&](H&, P& p) { second(p).kind_and_flags &= ~pattern_flag::nested; });
+  refused(grey, [](H&, P& p) { p.entry_count = 0; });
+  Object ball;
+  ball.shape = Sphere{};
+  const Bytes inside = bytes_with(pattern::Inside{std::make_shared<const Object>(ball)}, 0, {});
+  refused(inside, [](H& h, P&) { h.csg_count = 0; });
+  refused(inside, [](H&, P& p) { p.table += 16; });
   warp::BlackHole hole;
   hole.repeat = Vec3(2);
   hole.turbulence = Vec3(1);

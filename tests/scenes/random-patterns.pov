@@ -36,3 +36,8 @@ Bumpy(0, normal { facets coords 0.5 scale 3 })
 Bumpy(1.1, normal { dents 1 noise_generator 3 scale 0.1 })
 Bumpy(2.2, normal { bozo 0.7 triangle_wave frequency 2 slope_map { Steps } scale 0.5 })
 Bumpy(3.3, normal { gradient x 1 slope_map { Steps } scale 0.4 })
+#macro Faceted(X, Y, Normal)
+  object { sphere { 0, 0.35 } normal { Normal } translate <X, Y, 0> }
+#end
+Faceted(-0.75, 1.25, normal { facets size 0.3 })
+Faceted(0.75, 1.25, normal { facets size 0.8 rotate <20, 50, 0> scale <1, 2, 0.7> })

@@ -132,8 +132,10 @@ private:
 
   V3<S> behind(const RayPacket& rays, uint32_t lanes) {
     V3<S> colour = splat3<S>(frame_.background);
-    if (frame_.sky != kNoOffset)
+    if (frame_.sky != kNoOffset) {
+      scene_.spu().enter_module(modules::kSky);
       add_sky(scene_, frame_.sky, rays.direction.template load<S>(), lanes, colour);
+    }
     return colour;
   }
 
@@ -240,7 +242,8 @@ private:
       if (map == kNoOffset) return;
       plain &= ~same;
       scene_.spu().enter_module(modules::kTextures);
-      MapWalk<Spu, TextureStage::colours, S> walk(scene_, {surfaces.point, surface_}, MapOf::textures);
+      const PatternPoints<S> asked = {surfaces.point, surface_};
+      MapWalk<Spu, TextureStage::colours, S> walk(scene_, asked, MapOf::textures);
       walk.enter(map, weight, same);
       MapEntryRecord entry;
       F share;

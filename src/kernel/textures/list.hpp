@@ -28,7 +28,9 @@
 #include "kernel/textures/hexagon.hpp"
 #include "kernel/textures/leopard.hpp"
 #include "kernel/textures/marble.hpp"
+#include "kernel/textures/object_pattern.hpp"
 #include "kernel/textures/onion.hpp"
+#include "kernel/textures/pigment_pattern.hpp"
 #include "kernel/textures/planar.hpp"
 #include "kernel/textures/quilted.hpp"
 #include "kernel/textures/radial.hpp"
@@ -61,7 +63,7 @@ using Patterns =
                 Spiral1Pattern, Spiral2Pattern, QuiltedPattern, SquarePattern, TriangularPattern,
                 HexagonPattern, CubicPattern, BrickPattern, DentsPattern, GranitePattern, WrinklesPattern,
                 AgatePattern, MarblePattern, WoodPattern, CellsPattern, CracklePattern, RipplesPattern,
-                WavesPattern, FractalPattern, SlopePattern>;
+                WavesPattern, FractalPattern, SlopePattern, PigmentPattern, ObjectPattern>;
 constexpr bool disturbs(uint32_t kind) {
   return Patterns::kDisturb[kind];
 }

@@ -48,91 +48,171 @@ template <class S, class Spu, class At, class Between>
   at(within & (value <= F(above.position)), 0, above);
 }
 
+inline bool is_pigment(const PatternRecord& r) {
+  return (r.kind_and_flags & pattern_flag::kind_mask) == kPatternKind<PigmentPattern>;
+}
+
+/// What a pattern's wave, if there is one, makes of its values.
+template <class S> typename S::F in_wave(const PatternRecord& r, const typename S::F& value) {
+  return wave_of(r) == PatternWave::none ? value : in_wave_form<S>(r, value);
+}
+
 /// Visits the leaves of a tree of maps that count at the points of a packet (`S` is Spu::simd) or of a part
 /// of it (Spu::rare_simd), with their weights, which add up to 1 in each lane. Without recursion: one level
-/// of the tree is one of `levels_`. `Tree::pattern_of(scene, entry)` is the offset of the pattern whose map
-/// an entry is, or kNoOffset if it is a leaf.
+/// of the tree is one of `levels_`. A map whose pattern is a pigment waits on its level until the leaves of
+/// that, above it, have added up to their grey.
 template <class Spu, TextureStage kStage, class S = typename Spu::rare_simd> class MapWalk {
 public:
   using F = typename S::F;
   using I = typename S::I;
   using M = typename S::M;
+  using Part = typename Spu::rare_simd;
 
   static constexpr CodeModule kModule =
       kStage == TextureStage::normals ? modules::kNormals : modules::kTextures;
 
+  /// `points` stay where they are.
   MapWalk(SceneAccess<Spu>& scene, const PatternPoints<S>& points, MapOf of = MapOf::pigments)
-      : scene_(scene), of_(of), points_(points) {}
+      : scene_(scene), of_(of), points_(&points) {}
+  MapWalk(SceneAccess<Spu>&, const PatternPoints<S>&&, MapOf = MapOf::pigments) = delete;
 
   /// Starts at a pattern, whose leaves share `weight`.
   [[gnu::noinline]] void enter(uint32_t pattern, const F& weight, uint32_t lanes) {
     scene_.spu().run_in_module(kModule);
-    const PatternRecord r = *scene_.pattern(pattern);
     Level& level = levels_[depth_++];
     level.weight = weight;
-    level.entries = r.entries;
-    level.count = r.entry_count;
-    level.next = 0;
+    level.pattern = pattern;
     level.lanes = lanes;
-    level.average = (r.kind_and_flags & pattern_flag::average) != 0;
-    if (level.average) return;
-    const F value = value_of(r, lanes);
-    const auto set = [&](const M& some, uint32_t number, const F& share) {
-      level.upper = S::select(some, F(static_cast<float>(number)), level.upper);
-      level.share = S::select(some, share, level.share);
-    };
-    if (Patterns::kAreLists[r.kind_and_flags & pattern_flag::kind_mask]) {
-      level.upper = S::min(value, F(static_cast<float>(r.entry_count - 1)));
-      level.share = F(1.0f);
-    } else {
-      find_interval<S>(
-          scene_, r, value,
-          [&](const M& some, uint32_t number, const MapEntryRecord&) { set(some, number, F(1.0f)); },
-          [&](const M& some, uint32_t number, const MapEntryRecord&, const MapEntryRecord&, const F& share) {
-            set(some, number, share);
-          });
-    }
+    level.state = State::fresh;
   }
 
   /// The next leaf, with its weight in those of `lanes`; false: there are no more.
   [[gnu::noinline]] bool next(MapEntryRecord& leaf, F& weight, uint32_t& lanes) {
     scene_.spu().run_in_module(kModule);
-    while (depth_ != 0) {
+    while (depth_ != ground_) {
       Level& level = levels_[depth_ - 1];
+      if (level.state <= State::waits) {
+        open(level);
+        continue;
+      }
       if (level.next == level.count) {
         --depth_;
         continue;
       }
       const uint32_t number = level.next++;
       leaf = *scene_.map_entry(map_entry_at(level.entries, number));
-      weight = level.weight * (level.average ? F(leaf.position) : weight_of(level, number));
+      weight = level.weight * (level.state == State::average ? F(leaf.position) : weight_of(level, number));
       lanes = level.lanes & (weight > F(0.0f)).bits();
       if (lanes == 0) continue;
       const uint32_t pattern = pattern_of(leaf);
-      if (pattern == kNoOffset) return true;
-      enter(pattern, weight, lanes);
+      if (pattern != kNoOffset)
+        enter(pattern, weight, lanes);
+      else if (!kIsPart || grey_ == nullptr)
+        return true;
+      else
+        *grey_ = *grey_ + F(grey_of(leaf.rgb)) * weight;
     }
     return false;
   }
 
+  /// How bright a pigment is that is a map, at other points. Between two leaves: it takes the levels above
+  /// those that are under way.
+  [[gnu::noinline]] F grey_of_pigment(uint32_t pattern, const PatternPoints<S>& points, uint32_t lanes) {
+    scene_.spu().run_in_module(kModule);
+    const PatternPoints<S>* const own = points_;
+    F grey(0.0f);
+    points_ = &points;
+    grey_ = &grey;
+    ground_ = depth_;
+    enter(pattern, F(1.0f), lanes);
+    MapEntryRecord leaf;
+    F weight;
+    next(leaf, weight, lanes); // there is none: all are parts of the grey
+    ground_ = 0;
+    grey_ = nullptr;
+    points_ = own;
+    return grey;
+  }
+
 private:
+  /// Only such walks go on inside patterns that are pigments. Others have them go there, part by part.
+  static constexpr bool kIsPart = S::kLanes == Part::kLanes;
+
+  /// Of a level: its pattern has not been asked; its pattern is a pigment, which adds up in `upper`; leaves
+  /// have weights by lane; leaves have one weight.
+  enum class State : uint32_t { fresh, waits, placed, average };
   struct Level {
     F weight;
-    F upper; ///< by lane, number of the entry above the value
-    F share; ///< of that entry; the rest is the one's before
-    uint32_t entries, count, next, lanes;
-    bool average;
+    F upper;   ///< by lane, number of the entry above the value
+    F share;   ///< of that entry; the rest is the one's before
+    F* around; ///< of one that waits: the grey that leaves add to after this one's
+    uint32_t pattern, entries, count, next, lanes;
+    State state;
   };
 
-  F value_of(const PatternRecord& r, uint32_t lanes) {
-    const auto at = [&](const PatternPoints<typename Spu::rare_simd>& points) {
-      return pattern_value(scene_, r, to_pattern_space<kStage>(scene_, r, points, lanes));
+  /// Asks the pattern of a level, as far as that can be done at once, and finds the entries that count.
+  [[gnu::noinline]] void open(Level& level) {
+    scene_.spu().run_in_module(kModule);
+    const PatternRecord r = *scene_.pattern(level.pattern);
+    level.entries = r.entries;
+    level.count = r.entry_count;
+    level.next = 0;
+    if ((r.kind_and_flags & pattern_flag::average) != 0) {
+      level.state = State::average;
+      return;
+    }
+    F value;
+    if constexpr (kIsPart) {
+      if (level.state == State::waits) {
+        grey_ = level.around;
+        value = in_wave<Part>(r, level.upper);
+      } else if (is_pigment(r)) {
+        level.state = State::waits;
+        level.upper = F(0.0f);
+        level.around = grey_;
+        grey_ = &level.upper;
+        enter(r.table, F(1.0f), level.lanes);
+        return;
+      } else {
+        value = value_of(r, level.lanes);
+      }
+    } else {
+      value = value_of(r, level.lanes);
+    }
+    level.state = State::placed;
+    if (Patterns::kAreLists[r.kind_and_flags & pattern_flag::kind_mask]) {
+      level.upper = S::min(value, F(static_cast<float>(r.entry_count - 1)));
+      level.share = F(1.0f);
+      return;
+    }
+    const auto set = [&](const M& some, uint32_t number, const F& share) {
+      level.upper = S::select(some, F(static_cast<float>(number)), level.upper);
+      level.share = S::select(some, share, level.share);
     };
-    if constexpr (S::kLanes == Spu::rare_simd::kLanes) {
-      return at(points_);
+    find_interval<S>(
+        scene_, r, value,
+        [&](const M& some, uint32_t number, const MapEntryRecord&) { set(some, number, F(1.0f)); },
+        [&](const M& some, uint32_t number, const MapEntryRecord&, const MapEntryRecord&, const F& share) {
+          set(some, number, share);
+        });
+  }
+
+  F value_of(const PatternRecord& r, uint32_t lanes) {
+    if constexpr (kIsPart) {
+      return pattern_value(scene_, r, to_pattern_space<kStage>(scene_, r, *points_, lanes));
     } else {
       F value;
-      by_parts<Spu>(value, at, points_);
+      by_parts<Spu>(
+          value,
+          [&](const PatternPoints<Part>& points) {
+            if (is_pigment(r)) {
+              MapWalk<Spu, kStage> walk(scene_, points);
+              return in_wave<Part>(r,
+                                   walk.grey_of_pigment(r.table, points, part_of<Spu>(lanes, points.first)));
+            }
+            return pattern_value(scene_, r, to_pattern_space<kStage>(scene_, r, points, lanes));
+          },
+          *points_);
       return value;
     }
   }
@@ -140,10 +220,11 @@ private:
   /// The pattern whose map an entry is; kNoOffset: it is a leaf.
   uint32_t pattern_of(const MapEntryRecord& entry) {
     if constexpr (kStage == TextureStage::normals) {
+      if (grey_ != nullptr) return entry.child;
       const NormalRecord& normal = *scene_.normal(entry.child);
       return normal.is_mapped != 0 ? normal.pattern : kNoOffset;
     }
-    return of_ == MapOf::pigments ? entry.child : map_of(*scene_.material(entry.child));
+    return of_ == MapOf::pigments || grey_ != nullptr ? entry.child : map_of(*scene_.material(entry.child));
   }
 
   static F weight_of(const Level& level, uint32_t number) {
@@ -153,8 +234,10 @@ private:
 
   SceneAccess<Spu>& scene_;
   MapOf of_;
-  PatternPoints<S> points_;
+  const PatternPoints<S>* points_;
+  F* grey_ = nullptr; ///< what leaves add to, where they are parts of a pattern
   uint32_t depth_ = 0;
+  uint32_t ground_ = 0; ///< the depth at which next() ends
   Level levels_[kDeepestMapWalk];
 };
 

@@ -31,9 +31,9 @@ typename Spu::rare_simd::F height_of(SceneAccess<Spu>& scene, const PatternRecor
 
 /// Less the slope of the pattern's values, from four points around each.
 template <class Spu>
-V3<typename Spu::rare_simd> slope_disturbance(SceneAccess<Spu>& scene, const PatternRecord& r,
-                                              const PatternPoints<typename Spu::rare_simd>& points,
-                                              float accuracy) {
+V3<typename Spu::rare_simd>
+slope_disturbance(SceneAccess<Spu>& scene, MapWalk<Spu, TextureStage::normals>& walk, const PatternRecord& r,
+                  const PatternPoints<typename Spu::rare_simd>& points, uint32_t lanes, float accuracy) {
   using S = typename Spu::rare_simd;
   using F = typename S::F;
   // The corners of a tetrahedron.
@@ -46,7 +46,11 @@ V3<typename Spu::rare_simd> slope_disturbance(SceneAccess<Spu>& scene, const Pat
     const V3<S> to = splat3<S>(corner);
     PatternPoints<S> beside = points;
     beside.at = points.at + to * F(accuracy);
-    F value = pattern_value(scene, r, beside);
+    F value;
+    if (is_pigment(r))
+      value = in_wave<S>(r, walk.grey_of_pigment(r.table, beside, lanes));
+    else
+      value = pattern_value(scene, r, beside);
     if (r.entry_count != 0) value = height_of(scene, r, value);
     sum = sum + to * value;
   }
@@ -68,12 +72,12 @@ inline void cofactors(const float (&m)[9], float (&c)[9]) {
       number = -number;
 }
 
-/// A unit normal as the pattern of `normal`, no map, disturbs it.
+/// A unit normal as the pattern of `normal`, no map, disturbs it. `walk` is through the maps around it.
 template <class Spu>
-[[gnu::noinline]] void disturb_by(SceneAccess<Spu>& scene, const NormalRecord& normal,
-                                  const PatternPoints<typename Spu::rare_simd>& points, uint32_t lanes,
-                                  const V3<typename Spu::rare_simd>& unit,
-                                  V3<typename Spu::rare_simd>& disturbed) {
+[[gnu::noinline]] void
+disturb_by(SceneAccess<Spu>& scene, MapWalk<Spu, TextureStage::normals>& walk, const NormalRecord& normal,
+           const PatternPoints<typename Spu::rare_simd>& points, uint32_t lanes,
+           const V3<typename Spu::rare_simd>& unit, V3<typename Spu::rare_simd>& disturbed) {
   using S = typename Spu::rare_simd;
   using F = typename S::F;
   Spu& spu = scene.spu();
@@ -87,12 +91,19 @@ template <class Spu>
   V3<S> change;
   const uint32_t kind = r.kind_and_flags & pattern_flag::kind_mask;
   if (kind == kPatternKind<BumpsPattern> && (r.kind_and_flags & pattern_flag::at_features) != 0) {
-    // Facets: along the surface, by the noise of the point of their cell.
+    // Facets: along the surface, by the noise of the point of their cell; or the direction of the point that
+    // is nearest to the normal, as many times as long as the first parameter says.
+    const float times = r.parameter[0];
     spu.enter_module(modules::kRarePatterns);
-    const V3<S> facet = module_rare::nearest_feature(scene, r, p * F(10.0f));
-    spu.enter_module(modules::kNoise);
-    change = module_noise::disturbance(spu, r, facet);
-    change = change - local * dot<S>(change, local);
+    const V3<S> facet =
+        module_rare::nearest_feature(scene, r, times != 0.0f ? local * F(times) : p * F(10.0f));
+    if (times != 0.0f) {
+      change = facet - local;
+    } else {
+      spu.enter_module(modules::kNoise);
+      change = module_noise::disturbance(spu, r, facet);
+      change = change - local * dot<S>(change, local);
+    }
   } else if (kind == kPatternKind<DentsPattern> && (r.kind_and_flags & pattern_flag::gradient_noise) != 0) {
     // The depth is of generator 3, which has no vectors.
     PatternRecord part = r;
@@ -103,7 +114,7 @@ template <class Spu>
     spu.enter_module(modules::kNoise);
     change = module_noise::disturbance(spu, part, p) * depth;
   } else if (!disturbs(kind)) {
-    change = slope_disturbance(scene, r, own, normal.accuracy);
+    change = slope_disturbance(scene, walk, r, own, lanes, normal.accuracy);
   } else if (Patterns::kCode[kind] == PatternCode::rare) {
     spu.enter_module(modules::kRarePatterns);
     change = module_rare::disturbance(scene, r, p);
@@ -125,20 +136,20 @@ void disturb_part(SceneAccess<Spu>& scene, const NormalRecord& record,
   using F = typename S::F;
   const auto take = S::M::from_bits(lanes);
   V3<S> disturbed;
+  MapWalk<Spu, TextureStage::normals> walk(scene, points);
   if (record.is_mapped == 0) {
-    disturb_by(scene, record, points, lanes, unit, disturbed);
+    disturb_by(scene, walk, record, points, lanes, unit, disturbed);
     unit = select<S>(take, disturbed, unit);
     return;
   }
   V3<S> sum = {F(0.0f), F(0.0f), F(0.0f)};
-  MapWalk<Spu, TextureStage::normals> walk(scene, points);
   walk.enter(record.pattern, F(1.0f), lanes);
   MapEntryRecord entry;
   F weight;
   uint32_t some;
   while (walk.next(entry, weight, some)) {
     const NormalRecord leaf = *scene.normal(entry.child);
-    disturb_by(scene, leaf, points, some, unit, disturbed);
+    disturb_by(scene, walk, leaf, points, some, unit, disturbed);
     sum = sum + disturbed * weight;
   }
   unit = select<S>(take, normalise<S>(sum), unit);

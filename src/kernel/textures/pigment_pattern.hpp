@@ -1,0 +1,24 @@
+// How bright a pigment is. Kernel dialect.
+#pragma once
+
+#include "kernel/textures/pattern_traits.hpp"
+
+namespace celltrace::kernel {
+
+/// Its value is found by MapWalk: patterns cannot ask each other, as that would be recursion.
+struct PigmentPattern : RarePattern {
+  static constexpr const char* kName = "pigment_pattern";
+
+  template <class Spu, class Scene, class Points>
+  [[gnu::always_inline]] static typename Spu::rare_simd::F value(Scene&, const Points&,
+                                                                 const PatternRecord&) {
+    return typename Spu::rare_simd::F(0.0f);
+  }
+};
+
+/// Red, green and blue as they count.
+inline float grey_of(const float (&rgb)[3]) {
+  return 0.297f * rgb[0] + 0.589f * rgb[1] + 0.114f * rgb[2];
+}
+
+} // namespace celltrace::kernel
