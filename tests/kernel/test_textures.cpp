@@ -556,14 +556,18 @@ TEST_CASE("Waves at the ends of their period") {
   }
 }
 
-TEST_CASE("Frequency 0 leaves the number, whatever phase and wave") {
+TEST_CASE("Frequency 0 leaves the number, whatever its phase, for its wave") {
+  using Wave = Pattern::Wave;
   Pattern pattern = gradient({0, 1, 0});
-  pattern.wave = Pattern::Wave::sine;
   pattern.frequency = 0;
   pattern.phase = 0.3;
-  const FloatLanes found = values(pattern, points_of([](unsigned l) { return Vec3(0, 0.06 * l, 0); }));
-  for (unsigned l = 0; l < kSimdLanes; ++l)
-    CHECK(found.lane[l] == Approx(0.06 * l).margin(1e-6));
+  for (const Wave wave : {Wave::ramp, Wave::sine, Wave::triangle, Wave::poly}) {
+    pattern.wave = wave;
+    pattern.wave_exponent = 2;
+    const FloatLanes found = values(pattern, points_of([](unsigned l) { return Vec3(0, 0.06 * l, 0); }));
+    for (unsigned l = 0; l < kSimdLanes; ++l)
+      CHECK(found.lane[l] == Approx(reference::wave(pattern, 0.06 * l)).margin(1e-6));
+  }
 }
 
 TEST_CASE("A map before its first entry, between, at equal positions, and after the last") {

@@ -229,7 +229,7 @@ TEST_CASE("what light sources cannot have") {
   CHECK(error_line("looks_like { sphere { 0, 1 } }") ==
         "scene.pov:1:1: error: only a light source looks like something");
   CHECK(refusal("looks_like { union { looks_like { sphere { 0, 1 } } } }") ==
-        "only a light source looks like something");
+        "only a light source looks like something or is projected through it");
   CHECK(refusal("area_light x, y, 0, 2") == "an area light has 1 to 256 places along each side");
   CHECK(refusal("area_light x, y, 2, 257") == "an area light has 1 to 256 places along each side");
   CHECK(refusal("area_light x, y, 1, 3 circular") ==
