@@ -162,7 +162,8 @@ struct LightGroup {
 inline constexpr int kMostLightGroups = 255;
 
 /// Triangles with shared vertices; vertices, normals and surface coordinates are single precision, as in
-/// POV-Ray.
+/// POV-Ray. Where a material looks different from inside, a triangle's outside is where its normals point, or
+/// that of a flat one where -(b - a) x (c - a) does, of its corners a, b and c.
 struct Mesh {
   struct Triangle {
     Index vertex[3];

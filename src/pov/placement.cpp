@@ -7,6 +7,9 @@
 #include <cstring>
 #include <string>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
 #include "celltrace/error.hpp"
 #include "pov/light.hpp"
 #include "pov/mesh.hpp"
@@ -71,6 +74,25 @@ bool has_mesh(const Object& object) {
 bool has_shapes(const Object& object) {
   const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape);
   return !csg || std::any_of((*csg)->parts.begin(), (*csg)->parts.end(), has_shapes);
+}
+
+/// Orders the corners so that its outside as a Mesh's is POV-Ray's: where its normals point, or else, by the
+/// axis along which it faces most, to -x, +y or -z.
+void turn_outside(TriangleDefinition& triangle) {
+  const auto& v = triangle.vertices;
+  const Vec3 normal = glm::cross(v[1] - v[0], v[2] - v[0]);
+  const Vec3 size = glm::abs(normal);
+  bool is_turned;
+  if (triangle.is_smooth)
+    is_turned = glm::dot(normal, triangle.normals[0] + triangle.normals[1] + triangle.normals[2]) > 0;
+  else if (size.x >= size.y && size.x >= size.z)
+    is_turned = normal.x < 0;
+  else
+    is_turned = size.y >= size.z ? normal.y > 0 : normal.z < 0;
+  if (!is_turned) return;
+  std::swap(triangle.vertices[1], triangle.vertices[2]);
+  std::swap(triangle.normals[1], triangle.normals[2]);
+  std::swap(triangle.coordinates[1], triangle.coordinates[2]);
 }
 
 } // namespace
@@ -375,6 +397,7 @@ std::shared_ptr<const Mesh> SceneBuilder::placed_triangle(const TriangleDefiniti
                                                           const Inherited& own, const Location& where) {
   MeshBuilder builder;
   TriangleDefinition placed = triangle.transformed(own.transform);
+  if (own.inner_texture) turn_outside(placed);
   // As all shapes without surface coordinates of their own.
   if (own.texture && (own.uv_mapping || own.texture->asks_for_surface())) {
     placed.is_mapped = true;

@@ -94,27 +94,52 @@ bool may_have_inside(const Object& object) {
   return sphere == nullptr || sphere->radius != 0;
 }
 
-/// Around what POV-Ray takes for the object when it asks what the camera is in: what is inverse counts as if
-/// it were not, in merges too. As far as it is worth finding out.
-Aabb box_of(const Object& object, const Transform& around) {
-  Object shape = object;
-  shape.inverse = false;
-  shape.transform = object.transform.then(around);
+Aabb common(const Aabb& a, const Aabb& b) {
+  Aabb both = a;
+  for (int axis = 0; axis < 3; ++axis) {
+    both.min[axis] = std::max(a.min[axis], b.min[axis]);
+    both.max[axis] = std::min(a.max[axis], b.max[axis]);
+  }
+  return both;
+}
+
+Aabb box_of(const Object& object, const Transform& around);
+
+/// Of an object that is not clipped. `transform`: all of its own.
+Aabb box_of_shape(const Object& object, const Transform& transform) {
   if (const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape)) {
     using Operation = Csg::Operation;
     const Operation operation = (*csg)->operation;
     if (operation == Operation::intersection || operation == Operation::difference) return kEverywhere;
     Aabb box = {{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
     for (const Object& part : (*csg)->parts)
-      box = united(box, box_of(part, shape.transform));
+      box = united(box, box_of(part, transform));
     return box;
   }
-  const bool is_lone_sphere = std::holds_alternative<Sphere>(object.shape) && !object.inverse;
-  if (is_lone_sphere || std::holds_alternative<std::shared_ptr<const Mesh>>(object.shape) ||
-      !has_bounds(shape))
-    return kEverywhere;
+  if (std::holds_alternative<std::shared_ptr<const Mesh>>(object.shape)) return kEverywhere;
+  Object shape = object;
+  shape.inverse = false;
+  shape.transform = transform;
+  if (!has_bounds(shape)) return kEverywhere;
   const PlacedShape placed = place_shape(shape);
   return placed.is_empty || !placed.is_bounded ? kEverywhere : placed.bounds();
+}
+
+/// Around what POV-Ray takes for the object when it asks what the camera is in: what is inverse counts as if
+/// it were not, in merges too. As far as it is worth finding out.
+Aabb box_of(const Object& object, const Transform& around) {
+  Aabb box = box_of_shape(object, object.transform.then(around));
+  if (object.clipped_by)
+    for (const Object& clip : *object.clipped_by)
+      if (!clip.inverse) box = common(box, box_of(clip, around));
+  return box;
+}
+
+/// As the former; a sphere of its own is not worth a box, of which there may be a million.
+Aabb box_around(const Object& object) {
+  if (std::holds_alternative<Sphere>(object.shape) && !object.inverse && !object.clipped_by)
+    return kEverywhere;
+  return box_of(object, Transform());
 }
 
 } // namespace
@@ -143,8 +168,7 @@ std::vector<Medium> media_of(const Scene& scene) {
   std::vector<Medium> media;
   for (const Object& object : scene.objects) {
     const std::optional<Index> interior = interior_of(object);
-    if (interior && may_have_inside(object))
-      media.push_back({object, *interior, box_of(object, Transform())});
+    if (interior && may_have_inside(object)) media.push_back({object, *interior, box_around(object)});
   }
   return media;
 }

@@ -253,6 +253,7 @@ private:
     head_ = start_record(*object_, static_cast<std::uint32_t>(ObjectKind::triangle),
                          tables_.records.interior_offset);
     tables_.records.set_material(head_, material != kNoIndex ? material : object_->material);
+    RecordTables::change_sides(head_, *object_);
   }
 
   void write(const MeshPrototype::Triangle& triangle, ObjectRecord& to, LaneAabb& around) {
@@ -269,6 +270,7 @@ private:
 
   void write_normals(const MeshPrototype::Triangle& triangle, ObjectRecord& to) {
     to.kind_and_flags |= object_flag::smooth;
+    RecordTables::change_sides(to, *object_); // back: its outside is where its normals point
     to.extra = tables_.records.offset_of_extra(next_extra_);
     ExtraRecord record{};
     for (int corner = 0; corner < 3; ++corner)

@@ -36,6 +36,11 @@ struct RecordTables {
     record.material = offset_of_material(material);
     record.kind_and_flags |= material_flags[material];
   }
+  /// Of a flat triangle of a mesh: its normal points to its inside, unless `object` is a mirror image.
+  static void change_sides(kernel::ObjectRecord& record, const Object& object) {
+    if ((record.kind_and_flags & kernel::object_flag::two_sided) != 0 && object.transform.determinant() > 0)
+      record.kind_and_flags ^= kernel::object_flag::inverse;
+  }
   std::uint32_t offset_of_extra(std::uint32_t index) const {
     return extra_offset + index * static_cast<std::uint32_t>(sizeof(kernel::ExtraRecord));
   }

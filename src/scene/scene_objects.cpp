@@ -324,6 +324,7 @@ public:
     ExtraRecord record{};
     if (smooth) {
       r.kind_and_flags |= object_flag::smooth;
+      RecordTables::change_sides(r, *piece.object); // back: its outside is where its normals point
       for (int v = 0; v < 3; ++v)
         for (int i = 0; i < 3; ++i)
           record.value[v * 3 + i] = piece.normals[triangle.normal[v]][i];
@@ -368,6 +369,7 @@ private:
     material_ = material;
     head_ = start_record(object, static_cast<std::uint32_t>(ObjectKind::triangle), tables_.interior_offset);
     tables_.set_material(head_, material != kNoIndex ? material : object.material);
+    RecordTables::change_sides(head_, object);
   }
 
   void blend(ObjectRecord& r, const Object& object, const Mesh::Triangle& triangle) {
