@@ -21,14 +21,6 @@ constexpr Aabb kEverywhere = {{-kInfinite, -kInfinite, -kInfinite}, {kInfinite, 
 constexpr Aabb kNowhere = {{kInfinite, kInfinite, kInfinite}, {-kInfinite, -kInfinite, -kInfinite}};
 constexpr int kMaxDepth = 200;
 
-Aabb intersected(const Aabb& a, const Aabb& b) {
-  Aabb both;
-  for (int i = 0; i < 3; ++i) {
-    both.min[i] = std::max(a.min[i], b.min[i]);
-    both.max[i] = std::min(a.max[i], b.max[i]);
-  }
-  return both;
-}
 bool is_empty(const Aabb& box) {
   return box.min[0] > box.max[0] || box.min[1] > box.max[1] || box.min[2] > box.max[2];
 }

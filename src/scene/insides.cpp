@@ -94,15 +94,6 @@ bool may_have_inside(const Object& object) {
   return sphere == nullptr || sphere->radius != 0;
 }
 
-Aabb common(const Aabb& a, const Aabb& b) {
-  Aabb both = a;
-  for (int axis = 0; axis < 3; ++axis) {
-    both.min[axis] = std::max(a.min[axis], b.min[axis]);
-    both.max[axis] = std::min(a.max[axis], b.max[axis]);
-  }
-  return both;
-}
-
 Aabb box_of(const Object& object, const Transform& around);
 
 /// Of an object that is not clipped. `transform`: all of its own.
@@ -131,7 +122,7 @@ Aabb box_of(const Object& object, const Transform& around) {
   Aabb box = box_of_shape(object, object.transform.then(around));
   if (object.clipped_by)
     for (const Object& clip : *object.clipped_by)
-      if (!clip.inverse) box = common(box, box_of(clip, around));
+      if (!clip.inverse) box = intersected(box, box_of(clip, around));
   return box;
 }
 
