@@ -66,8 +66,8 @@ template <class S>
 /// Sets some lanes of a vector to the same three values. If these are `all` lanes that matter, `into` need
 /// not be initialised.
 template <class Spu>
-void put_in_lanes([[maybe_unused]] bool all, const typename Spu::simd::M& lanes, const float* values,
-                  V3<typename Spu::simd>& into) {
+[[gnu::always_inline]] inline void put_in_lanes([[maybe_unused]] bool all, const typename Spu::simd::M& lanes,
+                                                const float* values, V3<typename Spu::simd>& into) {
   using S = typename Spu::simd;
   if constexpr (kHasRoomForCode<Spu>)
     into = all ? splat3<S>(values) : select<S>(lanes, splat3<S>(values), into);
@@ -119,7 +119,7 @@ template <class S> Interval interval_of(const typename S::F& values) {
 }
 
 /// Calls `visit(lane)` for each bit that is set, the lowest first.
-template <class Visit> inline void for_each_lane(uint32_t lanes, Visit visit) {
+template <class Visit> inline void for_each_lane(uint32_t lanes, const Visit& visit) {
   while (lanes != 0) {
     const uint32_t lane = static_cast<uint32_t>(__builtin_ctz(lanes));
     lanes &= lanes - 1;
@@ -129,7 +129,7 @@ template <class Visit> inline void for_each_lane(uint32_t lanes, Visit visit) {
 
 /// Groups `lanes` by their values in `words`: calls `visit(value, lanes with it)` once for each value.
 template <class S, class Visit>
-inline void for_each_value(const WordLanes& words, uint32_t lanes, Visit visit) {
+inline void for_each_value(const WordLanes& words, uint32_t lanes, const Visit& visit) {
   using I = typename S::I;
   const I all = I::load(reinterpret_cast<const int32_t*>(words.lane));
   while (lanes != 0) {

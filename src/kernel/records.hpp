@@ -314,6 +314,17 @@ constexpr uint32_t layered = 0x10;  ///< has a layer below
 constexpr uint32_t mapped = 0x20;   ///< a texture map: `pattern` has MaterialRecords, all else means nothing
 constexpr uint32_t old_opacity =
     0x40; ///< filtered light is counted by the brightest channel, as before version 3.7
+// What the numbers of a record ask for: where a flag is not set, numbers that only it concerns are not read.
+constexpr uint32_t bends_diffuse = 0x80; ///< brilliance is not 1
+constexpr uint32_t phong = 0x100;
+constexpr uint32_t specular = 0x200;
+constexpr uint32_t highlights = phong | specular;
+constexpr uint32_t metallic = 0x400; ///< of highlights
+constexpr uint32_t reflects = 0x800;
+constexpr uint32_t metallic_mirror = 0x1000;
+constexpr uint32_t falloff = 0x2000;          ///< of reflection is not 1
+constexpr uint32_t bends_reflection = 0x4000; ///< its exponent is not 1
+constexpr uint32_t transmits = 0x8000;        ///< by its constants; a pattern may do so as well
 } // namespace material_flag
 
 /// A texture or one layer of it: pigment, normal and finish, with what is constant per frame computed

@@ -83,11 +83,11 @@ public:
 
   /// Calls `visit(offset)` for each object of a list until it returns true. The next object is on its way
   /// meanwhile.
-  template <class Visit> void for_each_listed(uint32_t list, uint32_t count, Visit visit) {
+  template <class Visit> void for_each_listed(uint32_t list, uint32_t count, const Visit& visit) {
     for_each_of({list, count, 0}, visit);
   }
   /// The same of a leaf.
-  template <class Visit> void for_each_object(const NodeRef& leaf, Visit visit) {
+  template <class Visit> void for_each_object(const NodeRef& leaf, const Visit& visit) {
     for_each_of({leaf.child, leaf_word::count(leaf.leaf), leaf_word::step_bytes(leaf.leaf)}, visit);
   }
 
@@ -109,7 +109,7 @@ private:
   struct Sequence {
     uint32_t first, count, step;
   };
-  template <class Visit> void for_each_of(const Sequence& objects, Visit visit) {
+  template <class Visit> void for_each_of(const Sequence& objects, const Visit& visit) {
     if (objects.count == 0) return;
     uint32_t next = member(objects, 0);
     for (uint32_t i = 1;; ++i) {

@@ -89,6 +89,23 @@ void set_area(const LightArea& area, LightRecord& r) {
   if (area.orient) r.kind_and_flags |= light_flag::orient;
 }
 
+/// What the numbers of a record ask the kernel for.
+std::uint32_t flags_of_numbers(const MaterialRecord& r) {
+  const auto any = [](const float(&v)[3]) { return v[0] != 0 || v[1] != 0 || v[2] != 0; };
+  std::uint32_t flags = 0;
+  const auto set = [&](bool is_asked_for, std::uint32_t flag) { flags |= is_asked_for ? flag : 0; };
+  set(r.brilliance != 1, material_flag::bends_diffuse);
+  set(r.phong > 0, material_flag::phong);
+  set(r.specular > 0, material_flag::specular);
+  set(r.metallic != 0, material_flag::metallic);
+  set(any(r.reflection_min) || any(r.reflection_max), material_flag::reflects);
+  set(r.reflection_metallic != 0, material_flag::metallic_mirror);
+  set(r.reflection_falloff != 1, material_flag::falloff);
+  set(r.inverse_reflection_exponent != 1, material_flag::bends_reflection);
+  set(r.filter != 0 || r.transmit != 0, material_flag::transmits);
+  return flags;
+}
+
 } // namespace
 
 LightRecord make_record(const Light& light) {
@@ -145,7 +162,7 @@ MaterialRecord make_record(const Material& material, const Scene& scene) {
       static_cast<float>(f.reflection_exponent != 0 ? 1 / f.reflection_exponent : 1);
   r.flags = (f.reflection_fresnel ? material_flag::fresnel : 0) |
             (f.conserve_energy ? material_flag::conserve_energy : 0) |
-            (scene.version < 3.7 ? material_flag::old_opacity : 0);
+            (scene.version < 3.7 ? material_flag::old_opacity : 0) | flags_of_numbers(r);
   r.pattern = r.normal = r.below = r.finish = r.inside = kNoOffset;
   return r;
 }

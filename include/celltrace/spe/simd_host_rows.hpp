@@ -127,6 +127,48 @@ private:
       sums[channel] = S::select(chosen, some[channel], sums[channel]);
   }
 
+#if defined(__AVX512F__)
+  /// Four rows side by side.
+  [[gnu::always_inline]] static __m512 load_rows(const float* a, const float* b, const float* c,
+                                                 const float* d) {
+    const __m512 two = _mm512_insertf32x4(_mm512_castps128_ps512(_mm_loadu_ps(a)), _mm_loadu_ps(b), 1);
+    return _mm512_insertf32x4(_mm512_insertf32x4(two, _mm_loadu_ps(c), 2), _mm_loadu_ps(d), 3);
+  }
+  /// A row is one unaligned load a channel, and those of four lanes are in one register: lane 4q + i is the
+  /// q-th quarter of the i-th register of four.
+  template <class StartsOf, class FactorsOf>
+    requires(kLanes == 16)
+  [[gnu::noinline]] static void sum_by_lane(const float* table, const StartsOf& starts_of,
+                                            const FactorsOf& factors_of, F (&sums)[kChannels]) {
+    alignas(64) int32_t indices[kRows][kLanes];
+    starts_of.find_indices(indices);
+    asm("" : "+m"(indices)); // or compilers would take the numbers out of the registers that they come from
+    Batch four[kChannels][4];
+    unroll<kRows>([&](std::size_t row) __attribute__((always_inline)) {
+      F factors[4];
+      factors_of(static_cast<uint32_t>(row), factors);
+      S::transpose_quads(factors[0], factors[1], factors[2], factors[3]);
+      unroll<4>([&](std::size_t i) __attribute__((always_inline)) {
+        const auto of = [&](std::size_t lane) __attribute__((always_inline)) {
+          return table + starts_of.start(static_cast<uint32_t>(indices[row][lane]));
+        };
+        const float *const a = of(i), *const b = of(i + 4), *const c = of(i + 8), *const d = of(i + 12);
+        for (uint32_t channel = 0; channel < kChannels; ++channel) {
+          Batch& total = four[channel][i];
+          const uint32_t at = 4 * channel;
+          const Batch product = Batch(load_rows(a + at, b + at, c + at, d + at)) * factors[i].part[0];
+          total = row == 0 ? product : total + product;
+          keep_in_order(total);
+        }
+      });
+    });
+    for (uint32_t channel = 0; channel < kChannels; ++channel) {
+      Batch(&sum)[4] = four[channel];
+      transpose_quads(sum[0], sum[1], sum[2], sum[3]);
+      sums[channel].part[0] = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+    }
+  }
+#endif
   /// A row is one unaligned load a channel: gathering its numbers takes a load for each.
   template <class StartsOf, class FactorsOf>
   [[gnu::noinline]] static void sum_by_lane(const float* table, const StartsOf& starts_of,

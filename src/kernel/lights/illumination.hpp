@@ -12,7 +12,7 @@ namespace celltrace::kernel {
 /// Calls `visit(number, light)` for lights [first, first + count) of the frame.
 template <class Spu, class Visit>
 void for_each_light(SceneAccess<Spu>& scene, const FrameBlock& frame, uint32_t first, uint32_t count,
-                    Visit visit) {
+                    const Visit& visit) {
   for (uint32_t i = first; i < first + count; ++i) {
     // A copy: the next read may replace the record.
     const LightRecord light =

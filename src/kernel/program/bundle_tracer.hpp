@@ -101,7 +101,7 @@ private:
   };
 
   /// Calls `visit` with each packet in the picture.
-  template <class Visit> void for_each_member(Visit visit) {
+  template <class Visit> void for_each_member(const Visit& visit) {
     for (uint32_t i = 0; i < kPackets; ++i)
       if (members_[i].pixels != 0) visit(members_[i]);
   }
@@ -143,9 +143,12 @@ private:
       queries[i] = {&member.rays, &member.hits, nullptr, nullptr, member.lanes};
     }
     run(queries);
+    const bool hints = kPrefetchesLines<Spu> && frame_.object_count > tuning::kObjectsInCoreCache;
     for (uint32_t i = 0; i < kPackets; ++i) {
       Member& member = members_[i];
       member.hit = hit_lanes<S>(member.hits, member.lanes);
+      if (hints && i + 1 < kPackets)
+        hint_extras(scene_, members_[i + 1].hits, hit_lanes<S>(members_[i + 1].hits, members_[i + 1].lanes));
       if (member.hit != 0) find_hit_points(scene_, member.rays, member.hits, member.hit, member.points);
     }
   }

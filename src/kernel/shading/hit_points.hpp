@@ -110,6 +110,14 @@ template <class S> uint32_t hit_lanes(const HitPacket& hits, uint32_t lanes) {
   return lanes & ~(objects == I::splat(static_cast<int32_t>(kNoOffset))).bits();
 }
 
+/// Says that find_hit_points() will want the normals of the hits of `lanes`.
+template <class Spu> void hint_extras(SceneAccess<Spu>& scene, const HitPacket& hits, uint32_t lanes) {
+  for_each_lane(lanes, [&](uint32_t lane) {
+    const uint32_t extra = scene.object(hits.object.lane[lane])->extra;
+    if (extra != kNoOffset) scene.cache().hint(extra);
+  });
+}
+
 /// Of the hits of `lanes`, all of which hit something. Points are computed from the object, not along the
 /// ray: they lie on the surface to its own precision, however far away the ray began.
 template <class Spu>
@@ -125,22 +133,24 @@ template <class Spu>
     of_kind = 0;
   objects.smooth = 0;
   I material = I::splat(0), interior = I::splat(0);
-  bool is_first = true;
+  uint32_t first_flags = 0, seen = 0;
   uint32_t open = 0, two_sided = 0, inverse = 0;
   objects.parameters.ratio = F(0.0f);
   points.blended = points.textured = points.disturbed = 0;
   points.lit_behind = points.lit_through = 0;
-  for_each_value<S>(hits.object, lanes, [&](uint32_t offset, uint32_t same) {
+  const auto take = [&](uint32_t offset, uint32_t same) __attribute__((always_inline)) {
     scene.spu().compute(scalar_work::kHitObject);
     const ObjectRecord& object = *scene.object(offset);
     const uint32_t flags = object.kind_and_flags;
     const uint32_t extra = object.extra;
-    // Lanes without a hit hold what the first has.
-    const bool first = is_first;
-    const uint32_t of_object = first ? 0xFFFF : same;
-    is_first = false;
-    const M mask = M::from_bits(of_object);
-    const auto put = [&](const float* values, V3<S>& into) { put_in_lanes<Spu>(first, mask, values, into); };
+    // Lanes without a hit hold what the first object has.
+    const bool first = seen == 0;
+    seen |= same;
+    if (first) first_flags = flags;
+    const M mask = M::from_bits(first ? 0xFFFF : same);
+    const auto put = [&](const float* values, V3<S>& into) __attribute__((always_inline)) {
+      put_in_lanes<Spu>(first, mask, values, into);
+    };
     const uint32_t kind = flags & object_flag::kind_mask;
     const bool is_local = kernel::is_local(kind);
     put(object.geometry, objects.geometry[0]);
@@ -149,15 +159,12 @@ template <class Spu>
     if (is_local) put(object.geometry + 9, objects.geometry[3]);
     material = S::select(mask, I::splat(static_cast<int32_t>(object.material)), material);
     interior = S::select(mask, I::splat(static_cast<int32_t>(object.interior)), interior);
-    for (uint32_t& of_kind : objects.of_kind)
-      of_kind &= ~of_object;
-    objects.of_kind[kind] |= of_object;
-    objects.smooth &= ~of_object;
+    objects.of_kind[kind] |= same;
     if ((flags & object_flag::blended) != 0) points.blended |= same;
     if ((flags & object_flag::textured) != 0) points.textured |= same;
     if ((flags & object_flag::disturbed) != 0) points.disturbed |= same;
     if ((flags & object_flag::smooth) != 0) {
-      objects.smooth |= of_object;
+      objects.smooth |= same;
       const float* const n = scene.extra(extra)->value;
       put(n, objects.normals[0]);
       put(n + 3, objects.normals[1]);
@@ -173,11 +180,13 @@ template <class Spu>
       if ((flags & object_flag::lit_behind) != 0) points.lit_behind |= same;
       if ((flags & object_flag::lit_through) != 0) points.lit_through |= same;
     }
-    if ((flags & object_flag::open) != 0)
-      open |= of_object;
-    else
-      open &= ~of_object;
-  });
+    if ((flags & object_flag::open) != 0) open |= same;
+  };
+  for_each_value<S>(hits.object, lanes, take);
+  const uint32_t rest = 0xFFFF & ~seen;
+  objects.of_kind[first_flags & object_flag::kind_mask] |= rest;
+  if ((first_flags & object_flag::smooth) != 0) objects.smooth |= rest;
+  if ((first_flags & object_flag::open) != 0) open |= rest;
   scene.spu().compute(scalar_work::kHitSurfaces);
   material.store(reinterpret_cast<int32_t*>(points.material.lane));
   interior.store(reinterpret_cast<int32_t*>(points.interior.lane));

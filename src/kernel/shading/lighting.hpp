@@ -34,10 +34,11 @@ template <class S>
 V3<S> highlight(const Surfaces<S>& s, const MaterialLanes<S>& m, const IncidentLight<S>& light) {
   using F = typename S::F;
   F strength(0.0f);
-  if (m.has_phong) strength = strength + phong_term<S>(s, m, light);
-  if (m.has_specular) strength = strength + specular_term<S>(s, m, light);
+  if (m.has(material_flag::phong)) strength = strength + phong_term<S>(s, m, light);
+  if (m.has(material_flag::specular)) strength = strength + specular_term<S>(s, m, light);
   const V3<S> white = light.colour * strength;
-  return m.has_metallic ? white * metallic_tint<S>(m.metallic, light.cosine, m.pigment) : white;
+  return m.has(material_flag::metallic) ? white * metallic_tint<S>(m.metallic, light.cosine, m.pigment)
+                                        : white;
 }
 
 /// What surfaces reflect. What few materials have is done by parts, as its code takes much local store.
@@ -48,12 +49,12 @@ V3<typename Spu::simd> reflected_light(const Surfaces<typename Spu::simd>& s,
   using R = typename Spu::rare_simd;
   using RF = typename R::F;
   typename Spu::simd::F bent = light.cosine;
-  if (m.bends_diffuse)
+  if (m.has(material_flag::bends_diffuse))
     by_parts<Spu>(
         bent, [](const RF& cosine, const RF& brilliance) { return pow<R>(cosine, brilliance); }, light.cosine,
         m.brilliance);
   V3<typename Spu::simd> sum = m.pigment * light.colour * (m.diffuse * m.opacity * bent);
-  if (highlights && (m.has_phong || m.has_specular))
+  if (highlights && m.has(material_flag::highlights))
     for_each_part<Spu>([&](uint32_t first) {
       set_part<Spu>(sum, first,
                     part_of<Spu>(sum, first) + highlight<R>(part_of<Spu>(s, first), part_of<Spu>(m, first),
@@ -83,7 +84,7 @@ template <class Spu>
     share = S::select(S::M::from_bits(same), F(scene.material(offset)->diffuse_behind), share);
   });
   F bent = light.cosine;
-  if (m.bends_diffuse)
+  if (m.has(material_flag::bends_diffuse))
     by_parts<Spu>(
         bent, [](const RF& cosine, const RF& brilliance) { return pow<R>(cosine, brilliance); }, light.cosine,
         m.brilliance);

@@ -19,11 +19,9 @@ template <class S> struct MaterialLanes {
   uint32_t patterned = 0, disturbed = 0, layered = 0; ///< likewise, as MaterialRecord::flags
   uint32_t special = 0;                               ///< likewise, with a FinishRecord
   const WordLanes* offsets;                           ///< of the records, of the whole packet
-  bool bends_diffuse = false;                         ///< some brilliance is not 1
-  bool has_phong = false, has_specular = false, has_metallic = false, has_reflection = false;
-  bool has_falloff = false;
-  bool bends_reflection = false; ///< some reflection exponent is not 1
-  bool has_transmission = false;
+  uint32_t flags = 0; ///< of all materials. Fields that none of them asks for are not set
+
+  bool has(uint32_t some_flags) const { return (flags & some_flags) != 0; }
 };
 
 /// The materials of a part of a packet's lanes.
@@ -58,14 +56,7 @@ template <class Spu>
     o.patterned = part(m.patterned);
     o.disturbed = part(m.disturbed);
     o.layered = part(m.layered);
-    o.bends_diffuse = m.bends_diffuse;
-    o.has_phong = m.has_phong;
-    o.has_specular = m.has_specular;
-    o.has_metallic = m.has_metallic;
-    o.has_reflection = m.has_reflection;
-    o.has_falloff = m.has_falloff;
-    o.bends_reflection = m.bends_reflection;
-    o.has_transmission = m.has_transmission;
+    o.flags = m.flags;
     return o;
   }
 }
@@ -73,9 +64,10 @@ template <class Spu>
 namespace detail {
 
 /// Gives `taken` lanes a material, which may be said to be `kAll`; `lanes` are those of them that have it.
+/// Sets what `wanted`, a material's flags, ask for.
 template <class Spu, bool kAll = false>
 [[gnu::noinline]] void gather_material(const MaterialRecord& r, uint32_t taken, uint32_t lanes,
-                                       MaterialLanes<typename Spu::simd>& m) {
+                                       uint32_t wanted, MaterialLanes<typename Spu::simd>& m) {
   using S = typename Spu::simd;
   using F = typename S::F;
   const auto take = S::M::from_bits(taken);
@@ -93,36 +85,33 @@ template <class Spu, bool kAll = false>
   };
   put3(m.pigment, r.pigment);
   put3(m.ambient, r.ambient);
-  put3(m.reflection_min, r.reflection_min);
-  put3(m.reflection_max, r.reflection_max);
   put(m.filter, r.filter);
   put(m.transmit, r.transmit);
   put(m.opacity, r.opacity);
   put(m.diffuse, r.diffuse);
-  put(m.brilliance, r.brilliance);
-  put(m.phong, r.phong);
-  put(m.phong_size, r.phong_size);
-  put(m.specular, r.specular);
-  put(m.inverse_roughness, r.inverse_roughness);
-  put(m.metallic, r.metallic);
-  put(m.reflection_falloff, r.reflection_falloff);
-  put(m.reflection_metallic, r.reflection_metallic);
-  put(m.inverse_reflection_exponent, r.inverse_reflection_exponent);
-  if ((r.flags & material_flag::fresnel) != 0) m.fresnel |= lanes;
-  if ((r.flags & material_flag::conserve_energy) != 0) m.conserve_energy |= lanes;
-  if ((r.flags & material_flag::patterned) != 0) m.patterned |= lanes;
-  if ((r.flags & material_flag::disturbed) != 0) m.disturbed |= lanes;
-  if ((r.flags & material_flag::layered) != 0) m.layered |= lanes;
+  if ((wanted & (material_flag::bends_diffuse | material_flag::highlights)) != 0) {
+    put(m.brilliance, r.brilliance);
+    put(m.phong, r.phong);
+    put(m.phong_size, r.phong_size);
+    put(m.specular, r.specular);
+    put(m.inverse_roughness, r.inverse_roughness);
+    put(m.metallic, r.metallic);
+  }
+  if ((wanted & material_flag::reflects) != 0) {
+    put3(m.reflection_min, r.reflection_min);
+    put3(m.reflection_max, r.reflection_max);
+    put(m.reflection_falloff, r.reflection_falloff);
+    put(m.reflection_metallic, r.reflection_metallic);
+    put(m.inverse_reflection_exponent, r.inverse_reflection_exponent);
+  }
+  const uint32_t flags = r.flags;
+  m.flags |= flags;
+  if ((flags & material_flag::fresnel) != 0) m.fresnel |= lanes;
+  if ((flags & material_flag::conserve_energy) != 0) m.conserve_energy |= lanes;
+  if ((flags & material_flag::patterned) != 0) m.patterned |= lanes;
+  if ((flags & material_flag::disturbed) != 0) m.disturbed |= lanes;
+  if ((flags & material_flag::layered) != 0) m.layered |= lanes;
   if (r.finish != kNoOffset) m.special |= lanes;
-  const auto any = [](const float(&v)[3]) { return v[0] != 0.0f || v[1] != 0.0f || v[2] != 0.0f; };
-  m.bends_diffuse |= r.brilliance != 1.0f;
-  m.has_phong |= r.phong > 0.0f;
-  m.has_specular |= r.specular > 0.0f;
-  m.has_metallic |= r.metallic != 0.0f;
-  m.has_reflection |= any(r.reflection_min) || any(r.reflection_max);
-  m.has_falloff |= r.reflection_falloff != 1.0f;
-  m.bends_reflection |= r.inverse_reflection_exponent != 1.0f;
-  m.has_transmission |= r.filter != 0.0f || r.transmit != 0.0f;
 }
 
 } // namespace detail
@@ -136,10 +125,13 @@ MaterialLanes<typename Spu::simd> gather_materials(SceneAccess<Spu>& scene, cons
   bool first = true;
   for_each_value<typename Spu::simd>(offsets, lanes, [&](uint32_t offset, uint32_t same) {
     scene.spu().compute(scalar_work::kMaterial);
+    const MaterialRecord& r = *scene.material(offset);
+    // Where all lanes have one material, what it does not ask for need not be set.
+    const uint32_t wanted = same == lanes ? r.flags : ~0u;
     if (kHasRoomForCode<Spu> && first)
-      detail::gather_material<Spu, kHasRoomForCode<Spu>>(*scene.material(offset), 0xFFFF, same, m);
+      detail::gather_material<Spu, kHasRoomForCode<Spu>>(r, 0xFFFF, same, wanted, m);
     else
-      detail::gather_material<Spu>(*scene.material(offset), first ? 0xFFFF : same, same, m);
+      detail::gather_material<Spu>(r, first ? 0xFFFF : same, same, wanted, m);
     first = false;
   });
   return m;
@@ -175,7 +167,7 @@ template <class Spu>
       put(m.transmit, pigment.transmit);
       put(m.opacity, F(1.0f) - filtered - pigment.transmit);
       const auto clear = !((pigment.filter == F(0.0f)) & (pigment.transmit == F(0.0f)));
-      m.has_transmission |= (clear.bits() & some) != 0;
+      if ((clear.bits() & some) != 0) m.flags |= material_flag::transmits;
     });
   });
 }

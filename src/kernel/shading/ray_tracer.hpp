@@ -44,7 +44,7 @@ public:
     if (hit != 0) {
       if (points.plain(hit) != hit) return false;
       const MaterialLanes<S> m = gather_materials(scene_, points.material, hit);
-      if (m.has_reflection || m.has_transmission) return false;
+      if (m.has(material_flag::reflects | material_flag::transmits)) return false;
       const Surfaces<S> surfaces = points.surfaces(rays.direction.template load<S>(), hits.object);
       colour = local_light(scene_, frame_, round, surfaces, m, hit, counters_.shadow);
     }
@@ -293,7 +293,7 @@ private:
   [[gnu::noinline]] SecondaryRays<S> onward_rays(const Surfaces<S>& surfaces, const WordLanes& interior,
                                                  const MaterialLanes<S>& m, uint32_t lanes, const F& share) {
     SecondaryRays<S> onward = SecondaryRays<S>::nothing();
-    if (!m.has_reflection && !m.has_transmission) return onward;
+    if (!m.has(material_flag::reflects | material_flag::transmits)) return onward;
     scene_.spu().compute(scalar_work::kSecondaryRays);
     scene_.spu().enter_module(modules::kSecondary);
     F fresnel_ratio(1.0f);

@@ -147,14 +147,14 @@ V3<S> reflectivity(const MaterialLanes<S>& m, const typename S::F& cosine,
   using F = typename S::F;
   V3<S> result = m.reflection_min;
   const F grazing = S::max(F(1.0f) - cosine, F(0.0f));
-  const F share = m.has_falloff ? pow<S>(grazing, m.reflection_falloff) : grazing;
+  const F share = m.has(material_flag::falloff) ? pow<S>(grazing, m.reflection_falloff) : grazing;
   result = result + (m.reflection_max - m.reflection_min) * share;
   if (m.fresnel != 0) {
     const F f = fresnel_reflectance<S>(fresnel_ratio, cosine);
     const V3<S> curved = m.reflection_max * f + m.reflection_min * (F(1.0f) - f);
     result = select<S>(S::M::from_bits(m.fresnel), curved, result);
   }
-  if (m.has_metallic || m.has_reflection)
+  if (m.has(material_flag::metallic_mirror))
     result = result * metallic_tint<S>(m.reflection_metallic, cosine, m.pigment);
   return result;
 }
@@ -221,19 +221,22 @@ SecondaryRays<S> secondary_rays_of(const MaterialLanes<S>& m, const typename S::
                                    const typename S::F& fresnel_ratio, float adc_bailout, uint32_t lanes,
                                    const typename S::F& share) {
   using F = typename S::F;
-  const V3<S> mirrored = reflectivity<S>(m, cosine, fresnel_ratio);
-  const F strength = max_component<S>(mirrored);
-  // POV-Ray weighs a reflection that is not Fresnel's by the most that it may be.
-  const F most = S::max(max_component<S>(m.reflection_min), max_component<S>(m.reflection_max));
-  SecondaryRays<S> onward = SecondaryRays<S>::nothing();
-  onward.mirrors = m.has_reflection ? (strength > F(0.0f)).bits() & lanes : 0;
-  const auto mirrors = S::M::from_bits(onward.mirrors);
   const F zero(0.0f);
-  onward.mirror = mirrored * S::select(mirrors, share, zero);
-  onward.mirror_weight = S::select(mirrors, S::select(S::M::from_bits(m.fresnel), strength, most), zero);
-  onward.bends_reflection = m.bends_reflection;
-  onward.reflection_power = m.inverse_reflection_exponent;
-  if (!m.has_transmission) return onward;
+  V3<S> mirrored = {zero, zero, zero};
+  SecondaryRays<S> onward = SecondaryRays<S>::nothing();
+  if (m.has(material_flag::reflects)) {
+    mirrored = reflectivity<S>(m, cosine, fresnel_ratio);
+    const F strength = max_component<S>(mirrored);
+    // POV-Ray weighs a reflection that is not Fresnel's by the most that it may be.
+    const F most = S::max(max_component<S>(m.reflection_min), max_component<S>(m.reflection_max));
+    onward.mirrors = (strength > F(0.0f)).bits() & lanes;
+    const auto mirrors = S::M::from_bits(onward.mirrors);
+    onward.mirror = mirrored * S::select(mirrors, share, zero);
+    onward.mirror_weight = S::select(mirrors, S::select(S::M::from_bits(m.fresnel), strength, most), zero);
+    onward.bends_reflection = m.has(material_flag::bends_reflection);
+    onward.reflection_power = m.inverse_reflection_exponent;
+  }
+  if (!m.has(material_flag::transmits)) return onward;
 
   const V3<S> one = {F(1.0f), F(1.0f), F(1.0f)};
   V3<S> filter = m.pigment * m.filter + V3<S>{m.transmit, m.transmit, m.transmit};

@@ -36,22 +36,42 @@ template <class S> struct LatticeCells {
   const int32_t* keys(uint32_t axis) const { return lattice[axis]; }
   /// Where in kLattice the numbers of the eight points around a lane are: in the order of z, x, y.
   void operator()(uint32_t lane, uint32_t (&starts)[8]) const {
-    uint32_t plane[3][2];
-    for (uint32_t axis = 0; axis < 3; ++axis) {
-      plane[axis][0] = static_cast<uint32_t>(lattice[axis][lane]);
-      plane[axis][1] = (plane[axis][0] + 1) & (kPeriod - 1);
+    uint32_t columns[4];
+    const uint32_t plane = static_cast<uint32_t>(lattice[2][lane]);
+    hash_columns(lane, columns);
+    for (uint32_t i = 0; i < 4; ++i) {
+      starts[2 * i] = start(columns[i] ^ plane);
+      starts[2 * i + 1] = start(columns[i] ^ above(plane));
     }
-    const uint32_t in_row[2] = {kHash.entry[plane[0][0]], kHash.entry[plane[0][1]]};
-    const auto look_up = [&](uint32_t x, uint32_t y) __attribute__((always_inline)) {
-      const uint32_t in_column = kHash.entry[in_row[x] ^ plane[1][y]];
-      const uint32_t first = 2 * x + 4 * y;
-      starts[first] = kHash.entry[in_column ^ plane[2][0]] & 255;
-      starts[first + 1] = kHash.entry[in_column ^ plane[2][1]] & 255;
-    };
-    look_up(0, 0);
-    look_up(1, 0);
-    look_up(0, 1);
-    look_up(1, 1);
+  }
+  /// The same in two steps, of which the first one is of all lanes at once: start() of these.
+  void find_indices(int32_t (&indices)[8][S::kLanes]) const {
+    alignas(64) int32_t columns[4][S::kLanes];
+    for (uint32_t lane = 0; lane < S::kLanes; ++lane) {
+      uint32_t of_lane[4];
+      hash_columns(lane, of_lane);
+      for (uint32_t i = 0; i < 4; ++i)
+        columns[i][lane] = static_cast<int32_t>(of_lane[i]);
+    }
+    const I plane = I::load(lattice[2]);
+    const I next = (plane + I::splat(1)) & I::splat(kPeriod - 1);
+    for (uint32_t i = 0; i < 4; ++i) {
+      (I::load(columns[i]) ^ plane).store(indices[2 * i]);
+      (I::load(columns[i]) ^ next).store(indices[2 * i + 1]);
+    }
+  }
+  [[gnu::always_inline]] static uint32_t start(uint32_t index) { return kHash.entry[index] & 255; }
+
+private:
+  static uint32_t above(uint32_t plane) { return (plane + 1) & (kPeriod - 1); }
+  /// Of the columns along z through the corners of a lane's cell, in the order of x, y.
+  [[gnu::always_inline]] void hash_columns(uint32_t lane, uint32_t (&columns)[4]) const {
+    const uint32_t x = static_cast<uint32_t>(lattice[0][lane]), y = static_cast<uint32_t>(lattice[1][lane]);
+    const uint32_t row = kHash.entry[x], next = kHash.entry[above(x)];
+    columns[0] = kHash.entry[row ^ y];
+    columns[1] = kHash.entry[next ^ y];
+    columns[2] = kHash.entry[row ^ above(y)];
+    columns[3] = kHash.entry[next ^ above(y)];
   }
 };
 
