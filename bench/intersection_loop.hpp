@@ -28,7 +28,8 @@ template <class Spu> void intersection_loop(Spu& spu, ea_t argument) {
     spu.compute(kernel::scalar_work::kTest[kind]);
     // Every time another ray, so that no result can be used twice.
     task->rays.origin.x.lane[i % kSimdLanes] += 1e-7f;
-    kernel::Crossings<S> crossings = kernel::Crossings<S>::none();
+    kernel::Crossings<S> crossings;
+    crossings.clear();
     kernel::Primitives::dispatch(kind, [&](auto shape) {
       decltype(shape)::template intersect<S>(task->rays, task->object, {}, 0, &crossings);
     });

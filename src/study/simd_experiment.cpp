@@ -64,7 +64,8 @@ Measured in_lanes(ObjectKind kind) {
   const ObjectRecord object = make_object(kind);
   return measure([&](EmulatedSpu& spu) {
     spu.compute(scalar_work::kTest[static_cast<std::uint32_t>(kind)]);
-    Crossings<S> crossings = Crossings<S>::none();
+    Crossings<S> crossings;
+    crossings.clear();
     Primitives::dispatch(static_cast<std::uint32_t>(kind), [&](auto shape) {
       decltype(shape)::template intersect<S>(rays, object, {}, 0, &crossings);
     });

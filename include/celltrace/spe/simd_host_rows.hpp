@@ -137,9 +137,9 @@ private:
   /// A row is one unaligned load a channel, and those of four lanes are in one register: lane 4q + i is the
   /// q-th quarter of the i-th register of four.
   template <class StartsOf, class FactorsOf>
-    requires(kLanes == 16)
-  [[gnu::noinline]] static void sum_by_lane(const float* table, const StartsOf& starts_of,
-                                            const FactorsOf& factors_of, F (&sums)[kChannels]) {
+  requires(kLanes == 16)
+      [[gnu::noinline]] static void sum_by_lane(const float* table, const StartsOf& starts_of,
+                                                const FactorsOf& factors_of, F (&sums)[kChannels]) {
     alignas(64) int32_t indices[kRows][kLanes];
     starts_of.find_indices(indices);
     asm("" : "+m"(indices)); // or compilers would take the numbers out of the registers that they come from

@@ -246,9 +246,10 @@ private:
     uint32_t blind = ((flags & object_flag::no_image) != 0 ? ~reflected_ : 0) |
                      ((flags & object_flag::no_reflection) != 0 ? reflected_ : 0);
     if (reflected_ == kSeesAll) blind = 0;
-    const Other other(*this, rays, record, self);
+    Other other(*this, rays, record, self);
     for (uint32_t pair = 0; pair < other.pairs; ++pair) {
-      Crossings<S> c = other.crossings[pair];
+      Crossings<S>& c = other.crossings[pair];
+      if ((c.near_hit | c.far_hit).bits() == 0) continue;
       if ((flags & object_flag::selective) != 0) {
         const M sees = M::from_bits(~blind & 0xFFFF);
         c.near_hit = c.near_hit & sees;
@@ -268,10 +269,11 @@ private:
                                                VectorLanes& light, const RaySegment& segment) {
     scene_.spu().run_in_module(modules::kObjects);
     const uint32_t flags = record.kind_and_flags, material = record.material;
-    const Other other(*this, rays, record, self);
+    Other other(*this, rays, record, self);
     uint32_t dark = 0;
     for (uint32_t pair = 0; pair < other.pairs; ++pair) {
-      Crossings<S> c = other.crossings[pair];
+      Crossings<S>& c = other.crossings[pair];
+      if ((c.near_hit | c.far_hit).bits() == 0) continue;
       if (other.csg != kNoOffset) {
         const ShadowHits shadow = shadow_hits(c, distance);
         accept(rays, other.csg, M::from_bits(shadow.near), M::from_bits(shadow.far), c);
@@ -362,7 +364,7 @@ private:
     else if (static_cast<ObjectKind>(kind) == ObjectKind::sphere)
       SpherePrimitive::intersect<S>(rays, object, {}, self, &c);
     else
-      c = intersect_plane<S>(rays, object, self);
+      intersect_plane<S>(rays, object, self, c);
     return c;
   }
 

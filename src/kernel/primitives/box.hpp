@@ -19,7 +19,7 @@ struct BoxPrimitive : LocalPrimitive<BoxPrimitive> {
     const V3<S>&o = rays.origin, &d = rays.direction;
     const SlabInterval<S> x(o.x, d.x, low, high), y(o.y, d.y, low, high), z(o.z, d.z, low, high);
     Crossings<S>& c = *crossings;
-    c = Crossings<S>::none();
+    c.clear();
     c.near = S::max(S::max(x.enter, y.enter), z.enter);
     c.far = S::min(S::min(x.leave, y.leave), z.leave);
     c.near_hit = c.far_hit = c.near <= c.far;

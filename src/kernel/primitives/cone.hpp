@@ -40,7 +40,7 @@ struct ConePrimitive : LocalPrimitive<ConePrimitive> {
     const F leave = S::select(steep, S::select(upward, far_away, low), high);
     const SlabInterval<S> caps(o.z, d.z, parameters.ratio, one);
     Crossings<S>& c = *crossings;
-    c = Crossings<S>::none();
+    c.clear();
     const F near = S::select(parameters.open, low, S::max(enter, caps.enter));
     const F far = S::select(parameters.open, high, S::min(leave, caps.leave));
     const auto solid = crosses & (near <= far);

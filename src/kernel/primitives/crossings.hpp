@@ -18,9 +18,11 @@ template <class S> struct Crossings {
   typename S::M near_hit, far_hit;
   typename S::F u, v; ///< of triangles: barycentric coordinates, the weights of the second and third vertex
 
-  static Crossings none() {
-    const typename S::F zero(0.0f);
-    return {zero, zero, S::M::none(), S::M::none(), zero, zero};
+  /// Makes it none. Field by field: masks that were just written stall processors that copy them as a part of
+  /// something larger.
+  void clear() {
+    near = far = u = v = typename S::F(0.0f);
+    near_hit = far_hit = S::M::none();
   }
 };
 /// No shape has more pairs of crossings: a torus has four crossings.

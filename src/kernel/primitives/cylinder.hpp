@@ -32,7 +32,7 @@ struct CylinderPrimitive : LocalPrimitive<CylinderPrimitive> {
     const F leave = S::select(along_axis, far_away, middle + half);
     const SlabInterval<S> caps(o.z, d.z, zero, one);
     Crossings<S>& c = *crossings;
-    c = Crossings<S>::none();
+    c.clear();
     c.near = S::select(parameters.open, enter, S::max(enter, caps.enter));
     c.far = S::select(parameters.open, leave, S::min(leave, caps.leave));
     const auto solid = crosses & (c.near <= c.far);

@@ -16,7 +16,7 @@ struct DiscPrimitive : LocalPrimitive<DiscPrimitive> {
                               Crossings<S>* crossings) {
     using F = typename S::F;
     Crossings<S>& c = *crossings;
-    c = Crossings<S>::none();
+    c.clear();
     c.near = -rays.origin.z * finite_inverse<S>(rays.direction.z);
     const F x = rays.origin.x + rays.direction.x * c.near, y = rays.origin.y + rays.direction.y * c.near;
     const F square = x * x + y * y;

@@ -7,17 +7,16 @@ namespace celltrace::kernel {
 
 /// Of the map, only the third row: the unit normal, and minus the distance.
 template <class S>
-[[gnu::noinline]] Crossings<S> intersect_plane(const RayPacket& rays, const ObjectRecord& object,
-                                               uint32_t self) {
+[[gnu::noinline]] void intersect_plane(const RayPacket& rays, const ObjectRecord& object, uint32_t self,
+                                       Crossings<S>& c) {
   using F = typename S::F;
   const V3<S> normal = splat3<S>(object.geometry + 8);
   const F height = dot<S>(normal, rays.origin.template load<S>()) + F(object.geometry[11]);
   const F slope = dot<S>(normal, rays.direction.template load<S>());
-  Crossings<S> c = Crossings<S>::none();
+  c.clear();
   c.near = -height * finite_inverse<S>(slope);
   // A ray that starts on a plane does not cross it again.
   c.near_hit = (S::abs(slope) > F(1e-10f)) & !lanes_that_start_on<S>(rays, self);
-  return c;
 }
 
 struct PlanePrimitive : LocalPrimitive<PlanePrimitive> {
@@ -30,7 +29,7 @@ struct PlanePrimitive : LocalPrimitive<PlanePrimitive> {
   static void intersect_local(const LocalRays<S>& rays, const LocalParameters<S>&, Crossings<S>* crossings) {
     using F = typename S::F;
     Crossings<S>& c = *crossings;
-    c = Crossings<S>::none();
+    c.clear();
     c.near = -rays.origin.z * finite_inverse<S>(rays.direction.z);
     // A ray that starts on a plane does not cross it again.
     c.near_hit = (S::abs(rays.direction.z) > F(1e-10f)) & !rays.starts_here;

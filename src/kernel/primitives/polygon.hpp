@@ -19,7 +19,7 @@ struct PolygonPrimitive : LocalPrimitive<PolygonPrimitive> {
   static void intersect_local(const LocalRays<S>& rays, const LocalParameters<S>&, Crossings<S>* crossings) {
     using F = typename S::F;
     Crossings<S>& c = *crossings;
-    c = Crossings<S>::none();
+    c.clear();
     c.near = -rays.origin.z * finite_inverse<S>(rays.direction.z);
     c.u = rays.origin.x + rays.direction.x * c.near;
     c.v = rays.origin.y + rays.direction.y * c.near;

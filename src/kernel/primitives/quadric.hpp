@@ -63,7 +63,7 @@ struct QuadricPrimitive : LocalPrimitive<QuadricPrimitive> {
     const M second_hit = real & !(rays.starts_here & !starts_first);
     const M in_turn = first <= second;
     Crossings<S>& crossing = *crossings;
-    crossing = Crossings<S>::none();
+    crossing.clear();
     crossing.near = S::min(first, second);
     crossing.far = S::max(first, second);
     crossing.near_hit = (first_hit & in_turn) | (second_hit & !in_turn);

@@ -70,7 +70,7 @@ template <class Spu>
   } else {
     uint32_t near_hit[kMaxCrossingPairs] = {}, far_hit[kMaxCrossingPairs] = {};
     for (uint32_t pair = 0; pair < kMaxCrossingPairs; ++pair)
-      crossings[pair] = Crossings<typename Spu::simd>::none();
+      crossings[pair].clear();
     for_each_part<Spu>([&](uint32_t first) {
       Crossings<R> part[kMaxCrossingPairs];
       intersect_part(local_rays<R>(rays, object, self, first), local_parameters<R>(object, extra), part);

@@ -49,7 +49,7 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
         (left > zero) & (enter <= leave) & (leave + shift >= zero) & !(in_hole(enter) & in_hole(leave));
     if (near_enough.bits() == 0) {
       for (uint32_t pair = 0; pair < kCrossingPairs; ++pair)
-        crossings[pair] = Crossings<S>::none();
+        crossings[pair].clear();
       return;
     }
     F bounds[5] = {-end, zero, zero, zero, end};
@@ -81,7 +81,7 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
     }
     for (uint32_t pair = 0; pair < kCrossingPairs; ++pair) {
       Crossings<S>& c = crossings[pair];
-      c = Crossings<S>::none();
+      c.clear();
       c.near = distance[2 * pair];
       c.far = distance[2 * pair + 1];
       c.near_hit = hit[2 * pair];

@@ -216,14 +216,14 @@ template <class S> struct SecondaryRays {
 
 namespace detail {
 
+/// `onward` is nothing() before.
 template <class S>
-SecondaryRays<S> secondary_rays_of(const MaterialLanes<S>& m, const typename S::F& cosine,
-                                   const typename S::F& fresnel_ratio, float adc_bailout, uint32_t lanes,
-                                   const typename S::F& share) {
+[[gnu::always_inline]] inline void
+secondary_rays_of(const MaterialLanes<S>& m, const typename S::F& cosine, const typename S::F& fresnel_ratio,
+                  float adc_bailout, uint32_t lanes, const typename S::F& share, SecondaryRays<S>& onward) {
   using F = typename S::F;
   const F zero(0.0f);
   V3<S> mirrored = {zero, zero, zero};
-  SecondaryRays<S> onward = SecondaryRays<S>::nothing();
   if (m.has(material_flag::reflects)) {
     mirrored = reflectivity<S>(m, cosine, fresnel_ratio);
     const F strength = max_component<S>(mirrored);
@@ -236,7 +236,7 @@ SecondaryRays<S> secondary_rays_of(const MaterialLanes<S>& m, const typename S::
     onward.bends_reflection = m.has(material_flag::bends_reflection);
     onward.reflection_power = m.inverse_reflection_exponent;
   }
-  if (!m.has(material_flag::transmits)) return onward;
+  if (!m.has(material_flag::transmits)) return;
 
   const V3<S> one = {F(1.0f), F(1.0f), F(1.0f)};
   V3<S> filter = m.pigment * m.filter + V3<S>{m.transmit, m.transmit, m.transmit};
@@ -247,7 +247,6 @@ SecondaryRays<S> secondary_rays_of(const MaterialLanes<S>& m, const typename S::
   onward.through = filter * counted;
   onward.through_weight = S::select(clear, max_component<S>(filter), zero);
   onward.clear_share = counted;
-  return onward;
 }
 
 } // namespace detail
@@ -260,13 +259,14 @@ find_secondary_rays(const MaterialLanes<typename Spu::simd>& m, const typename S
                     const typename Spu::simd::F& share, SecondaryRays<typename Spu::simd>& all) {
   using S = typename Spu::simd;
   if constexpr (kOnePart<Spu>) {
-    all = detail::secondary_rays_of<S>(m, cosine, fresnel_ratio, adc_bailout, lanes, share);
+    detail::secondary_rays_of<S>(m, cosine, fresnel_ratio, adc_bailout, lanes, share, all);
   } else {
     for_each_part<Spu>([&](uint32_t first) {
       const auto part = [first](const auto& values) { return part_of<Spu>(values, first); };
-      all.template set_part<Spu>(
-          first, detail::secondary_rays_of<typename Spu::rare_simd>(
-                     part(m), part(cosine), part(fresnel_ratio), adc_bailout, part(lanes), part(share)));
+      auto some = SecondaryRays<typename Spu::rare_simd>::nothing();
+      detail::secondary_rays_of<typename Spu::rare_simd>(part(m), part(cosine), part(fresnel_ratio),
+                                                         adc_bailout, part(lanes), part(share), some);
+      all.template set_part<Spu>(first, some);
     });
   }
 }
