@@ -126,6 +126,13 @@ struct RowStarts {
     starts[0] = start;
     starts[1] = (start * 7 + 3) & 15;
   }
+  template <uint32_t kLanes> void find_indices(int32_t (&indices)[2][kLanes]) const {
+    for (uint32_t lane = 0; lane < kLanes; ++lane) {
+      indices[0][lane] = of_lane[equal ? 0 : lane];
+      indices[1][lane] = indices[0][lane] * 7 + 3;
+    }
+  }
+  static uint32_t start(uint32_t index) { return index & 15; }
 };
 
 template <class S> void apply_rare_facade(FacadeBlock& x) {

@@ -33,7 +33,8 @@
 //   some rows of the table, times factors. starts_of(lane, uint32_t (&starts)[rows]) says where in the table
 //   the rows of a lane start, anywhere. Those of two lanes are the same if starts_of.keys(i), an aligned
 //   const int32_t[kLanes], has the same number for both, for each i below StartsOf::kKeys: some
-//   implementations ask. factors_of(row, F (&factors)[4]) gives a row's four factors, more than once if asked
+//   implementations ask. Others ask for all lanes at once: starts_of.find_indices(int32_t (&)[rows][kLanes])
+//   gives numbers from which starts_of.start(number) makes the same. factors_of(row, F (&factors)[4]) gives a row's four factors, more than once if asked
 //   again. A row has four numbers for each channel, one after the other: those of channel c are multiplied by
 //   the four factors of the row, and added up to sums[c]. The rows are added up in their order, then the four
 //   numbers as (0 + 1) + (2 + 3). Behind the last row 16 bytes more may be read.
