@@ -119,7 +119,7 @@ template <class S> Interval interval_of(const typename S::F& values) {
 }
 
 /// Calls `visit(lane)` for each bit that is set, the lowest first.
-template <class Visit> inline void for_each_lane(uint32_t lanes, const Visit& visit) {
+template <class Visit> [[gnu::always_inline]] inline void for_each_lane(uint32_t lanes, const Visit& visit) {
   while (lanes != 0) {
     const uint32_t lane = static_cast<uint32_t>(__builtin_ctz(lanes));
     lanes &= lanes - 1;
@@ -129,7 +129,8 @@ template <class Visit> inline void for_each_lane(uint32_t lanes, const Visit& vi
 
 /// Groups `lanes` by their values in `words`: calls `visit(value, lanes with it)` once for each value.
 template <class S, class Visit>
-inline void for_each_value(const WordLanes& words, uint32_t lanes, const Visit& visit) {
+[[gnu::always_inline]] inline void for_each_value(const WordLanes& words, uint32_t lanes,
+                                                  const Visit& visit) {
   using I = typename S::I;
   const I all = I::load(reinterpret_cast<const int32_t*>(words.lane));
   while (lanes != 0) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernel/accel/object_tests.hpp"
+#include "kernel/direct/record_lanes.hpp"
 
 namespace celltrace::kernel {
 
@@ -32,12 +33,11 @@ public:
   /// Loads all triangles, of which there is at least one. Unused lanes repeat the first.
   [[gnu::always_inline]] TriangleSides<S> sides() const {
     F numbers[12]; // a triangle's record has nine of them; the last three are unused
-    for (uint32_t first = 0; first < 12; first += 4) {
-      F* const four = numbers + first;
-      for (uint32_t i = 0; i < 4; ++i)
-        four[i] = S::join(words(i, first), words(i + 4, first), words(i + 8, first), words(i + 12, first));
-      S::transpose_quads(four[0], four[1], four[2], four[3]);
-    }
+    const auto triangle = [&](uint32_t i) __attribute__((always_inline)) {
+      return geometry_[i < count_ ? i : 0];
+    };
+    for (uint32_t first = 0; first < 12; first += 4)
+      load_words<S>(triangle, first, *reinterpret_cast<F(*)[4]>(numbers + first));
     const V3<S> v0 = {numbers[0], numbers[1], numbers[2]};
     return {v0, V3<S>{numbers[3], numbers[4], numbers[5]} - v0,
             V3<S>{numbers[6], numbers[7], numbers[8]} - v0};
@@ -45,9 +45,6 @@ public:
 
 private:
   using F = typename S::F;
-  using F4 = typename S::F4;
-
-  F4 words(uint32_t i, uint32_t first) const { return F4::load(geometry_[i < count_ ? i : 0] + first); }
 
   WordLanes offsets_;
   const float* geometry_[kMost];

@@ -1,6 +1,7 @@
 // Where rays hit, and the surface there. Kernel dialect.
 #pragma once
 
+#include "kernel/direct/record_lanes.hpp"
 #include "kernel/primitives/shapes_module.hpp"
 #include "kernel/scalar_work.hpp"
 #include "kernel/scene_access.hpp"
@@ -31,6 +32,8 @@ template <class S> struct HitPoints {
 };
 
 namespace detail {
+
+constexpr uint32_t kOfSides = object_flag::two_sided | object_flag::inverse | object_flag::lit_behind;
 
 template <class S>
 void surface_of_spheres(const ObjectLanes<S>& o, const V3<S>& along_ray, V3<S>& point, V3<S>& normal) {
@@ -118,6 +121,111 @@ template <class Spu> void hint_extras(SceneAccess<Spu>& scene, const HitPacket& 
   });
 }
 
+namespace detail {
+
+/// The objects that rays hit, and what their records say besides.
+template <class S> struct HitObjects {
+  using I = typename S::I;
+  ObjectLanes<S> objects;
+  I material = I::splat(0), interior = I::splat(0);
+  uint32_t open = 0, two_sided = 0, inverse = 0; ///< as object_flag's
+};
+
+/// Puts them in their lanes one by one. Lanes without a hit hold what the first object has.
+template <class Spu>
+[[gnu::always_inline]] inline void gather_objects(SceneAccess<Spu>& scene, const WordLanes& offsets,
+                                                  uint32_t lanes, HitObjects<typename Spu::simd>& o,
+                                                  HitPoints<typename Spu::simd>& points) {
+  using S = typename Spu::simd;
+  using F = typename S::F;
+  using I = typename S::I;
+  using M = typename S::M;
+  ObjectLanes<S>& objects = o.objects;
+  for (uint32_t& of_kind : objects.of_kind)
+    of_kind = 0;
+  objects.smooth = 0;
+  objects.parameters.ratio = F(0.0f);
+  uint32_t first_flags = 0, seen = 0;
+  for_each_value<S>(
+      offsets, lanes, [&](uint32_t offset, uint32_t same) __attribute__((always_inline)) {
+        scene.spu().compute(scalar_work::kHitObject);
+        const ObjectRecord& object = *scene.object(offset);
+        const uint32_t flags = object.kind_and_flags;
+        const uint32_t extra = object.extra;
+        const bool first = seen == 0;
+        seen |= same;
+        if (first) first_flags = flags;
+        const M mask = M::from_bits(first ? 0xFFFF : same);
+        const auto put = [&](const float* values, V3<S>& into) __attribute__((always_inline)) {
+          put_in_lanes<Spu>(first, mask, values, into);
+        };
+        const uint32_t kind = flags & object_flag::kind_mask;
+        const bool is_local = kernel::is_local(kind);
+        put(object.geometry, objects.geometry[0]);
+        put(object.geometry + 3, objects.geometry[1]);
+        if (kind != static_cast<uint32_t>(ObjectKind::sphere)) put(object.geometry + 6, objects.geometry[2]);
+        if (is_local) put(object.geometry + 9, objects.geometry[3]);
+        o.material = S::select(mask, I::splat(static_cast<int32_t>(object.material)), o.material);
+        o.interior = S::select(mask, I::splat(static_cast<int32_t>(object.interior)), o.interior);
+        objects.of_kind[kind] |= same;
+        if ((flags & object_flag::blended) != 0) points.blended |= same;
+        if ((flags & object_flag::textured) != 0) points.textured |= same;
+        if ((flags & object_flag::disturbed) != 0) points.disturbed |= same;
+        if ((flags & object_flag::smooth) != 0) {
+          objects.smooth |= same;
+          const float* const n = scene.extra(extra)->value;
+          put(n, objects.normals[0]);
+          put(n + 3, objects.normals[1]);
+          put(n + 6, objects.normals[2]);
+        } else if (is_local && extra != kNoOffset) {
+          const F ratio(scene.extra(extra)->value[0]);
+          objects.parameters.ratio = first ? ratio : S::select(mask, ratio, objects.parameters.ratio);
+        }
+        if ((flags & kOfSides) != 0) {
+          if ((flags & object_flag::two_sided) != 0) o.two_sided |= same;
+          if ((flags & object_flag::inverse) != 0) o.inverse |= same;
+          if ((flags & object_flag::lit_behind) != 0) points.lit_behind |= same;
+          if ((flags & object_flag::lit_through) != 0) points.lit_through |= same;
+        }
+        if ((flags & object_flag::open) != 0) o.open |= same;
+      });
+  const uint32_t rest = 0xFFFF & ~seen;
+  objects.of_kind[first_flags & object_flag::kind_mask] |= rest;
+  if ((first_flags & object_flag::smooth) != 0) objects.smooth |= rest;
+  if ((first_flags & object_flag::open) != 0) o.open |= rest;
+}
+
+/// The same of several objects at once. False: there is only one.
+template <class Spu>
+[[gnu::always_inline]] inline bool load_several_objects(SceneAccess<Spu>& scene, const WordLanes& offsets,
+                                                        uint32_t lanes, HitObjects<typename Spu::simd>& o,
+                                                        HitPoints<typename Spu::simd>& points) {
+  using S = typename Spu::simd;
+  using I = typename S::I;
+  const I all = I::load(reinterpret_cast<const int32_t*>(offsets.lane));
+  const I first = I::splat(static_cast<int32_t>(offsets.lane[__builtin_ctz(lanes)]));
+  if ((lanes & ~(all == first).bits()) == 0) return false;
+  WordLanes filled;
+  S::select(S::M::from_bits(lanes), all, first).store(reinterpret_cast<int32_t*>(filled.lane));
+  ObjectWords<S> words;
+  load_objects(scene, filled, o.objects, words);
+  o.material = words.material;
+  o.interior = words.interior;
+  o.open = words.lanes_with(object_flag::open);
+  points.blended = lanes & words.lanes_with(object_flag::blended);
+  points.textured = lanes & words.lanes_with(object_flag::textured);
+  points.disturbed = lanes & words.lanes_with(object_flag::disturbed);
+  if ((lanes & words.lanes_with(kOfSides)) != 0) {
+    o.two_sided = lanes & words.lanes_with(object_flag::two_sided);
+    o.inverse = lanes & words.lanes_with(object_flag::inverse);
+    points.lit_behind = lanes & words.lanes_with(object_flag::lit_behind);
+    points.lit_through = lanes & words.lanes_with(object_flag::lit_through);
+  }
+  return true;
+}
+
+} // namespace detail
+
 /// Of the hits of `lanes`, all of which hit something. Points are computed from the object, not along the
 /// ray: they lie on the surface to its own precision, however far away the ray began.
 template <class Spu>
@@ -125,79 +233,25 @@ template <class Spu>
                                        uint32_t lanes, HitPoints<typename Spu::simd>& points) {
   using S = typename Spu::simd;
   using F = typename S::F;
-  using I = typename S::I;
   using M = typename S::M;
   scene.spu().enter_module(modules::kHits);
-  ObjectLanes<S> objects;
-  for (uint32_t& of_kind : objects.of_kind)
-    of_kind = 0;
-  objects.smooth = 0;
-  I material = I::splat(0), interior = I::splat(0);
-  uint32_t first_flags = 0, seen = 0;
-  uint32_t open = 0, two_sided = 0, inverse = 0;
-  objects.parameters.ratio = F(0.0f);
   points.blended = points.textured = points.disturbed = 0;
   points.lit_behind = points.lit_through = 0;
-  const auto take = [&](uint32_t offset, uint32_t same) __attribute__((always_inline)) {
-    scene.spu().compute(scalar_work::kHitObject);
-    const ObjectRecord& object = *scene.object(offset);
-    const uint32_t flags = object.kind_and_flags;
-    const uint32_t extra = object.extra;
-    // Lanes without a hit hold what the first object has.
-    const bool first = seen == 0;
-    seen |= same;
-    if (first) first_flags = flags;
-    const M mask = M::from_bits(first ? 0xFFFF : same);
-    const auto put = [&](const float* values, V3<S>& into) __attribute__((always_inline)) {
-      put_in_lanes<Spu>(first, mask, values, into);
-    };
-    const uint32_t kind = flags & object_flag::kind_mask;
-    const bool is_local = kernel::is_local(kind);
-    put(object.geometry, objects.geometry[0]);
-    put(object.geometry + 3, objects.geometry[1]);
-    if (kind != static_cast<uint32_t>(ObjectKind::sphere)) put(object.geometry + 6, objects.geometry[2]);
-    if (is_local) put(object.geometry + 9, objects.geometry[3]);
-    material = S::select(mask, I::splat(static_cast<int32_t>(object.material)), material);
-    interior = S::select(mask, I::splat(static_cast<int32_t>(object.interior)), interior);
-    objects.of_kind[kind] |= same;
-    if ((flags & object_flag::blended) != 0) points.blended |= same;
-    if ((flags & object_flag::textured) != 0) points.textured |= same;
-    if ((flags & object_flag::disturbed) != 0) points.disturbed |= same;
-    if ((flags & object_flag::smooth) != 0) {
-      objects.smooth |= same;
-      const float* const n = scene.extra(extra)->value;
-      put(n, objects.normals[0]);
-      put(n + 3, objects.normals[1]);
-      put(n + 6, objects.normals[2]);
-    } else if (is_local && extra != kNoOffset) {
-      const F ratio(scene.extra(extra)->value[0]);
-      objects.parameters.ratio = first ? ratio : S::select(mask, ratio, objects.parameters.ratio);
-    }
-    constexpr uint32_t kOfSides = object_flag::two_sided | object_flag::inverse | object_flag::lit_behind;
-    if ((flags & kOfSides) != 0) {
-      if ((flags & object_flag::two_sided) != 0) two_sided |= same;
-      if ((flags & object_flag::inverse) != 0) inverse |= same;
-      if ((flags & object_flag::lit_behind) != 0) points.lit_behind |= same;
-      if ((flags & object_flag::lit_through) != 0) points.lit_through |= same;
-    }
-    if ((flags & object_flag::open) != 0) open |= same;
-  };
-  for_each_value<S>(hits.object, lanes, take);
-  const uint32_t rest = 0xFFFF & ~seen;
-  objects.of_kind[first_flags & object_flag::kind_mask] |= rest;
-  if ((first_flags & object_flag::smooth) != 0) objects.smooth |= rest;
-  if ((first_flags & object_flag::open) != 0) open |= rest;
+  detail::HitObjects<S> o;
+  bool is_done = false;
+  if constexpr (kReadsInPlace<Spu>)
+    is_done = detail::load_several_objects(scene, hits.object, lanes, o, points);
+  if (!is_done) detail::gather_objects(scene, hits.object, lanes, o, points);
   scene.spu().compute(scalar_work::kHitSurfaces);
-  material.store(reinterpret_cast<int32_t*>(points.material.lane));
-  interior.store(reinterpret_cast<int32_t*>(points.interior.lane));
-
-  objects.parameters.open = M::from_bits(open);
+  o.material.store(reinterpret_cast<int32_t*>(points.material.lane));
+  o.interior.store(reinterpret_cast<int32_t*>(points.interior.lane));
+  o.objects.parameters.open = M::from_bits(o.open);
 
   const V3<S> direction = rays.direction.template load<S>();
   const V3<S> along_ray = rays.origin.template load<S>() + direction * F::load(hits.distance.lane);
-  detail::surface_of<Spu>(objects, along_ray, hits, points.point, points.normal);
+  detail::surface_of<Spu>(o.objects, along_ray, hits, points.point, points.normal);
   const auto away = dot<S>(direction, points.normal) > F(0.0f);
-  for_each_value<S>(points.material, two_sided & (away.bits() ^ inverse) & ~points.blended,
+  for_each_value<S>(points.material, o.two_sided & (away.bits() ^ o.inverse) & ~points.blended,
                     [&](uint32_t outside, uint32_t same) {
                       const uint32_t inside = scene.material(outside)->inside;
                       for_each_lane(same, [&](uint32_t lane) { points.material.lane[lane] = inside; });
