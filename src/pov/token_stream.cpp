@@ -238,6 +238,11 @@ const Location& TokenStream::here() const {
   return frame.scanner ? last_place() : frame.opened_at;
 }
 
+std::pair<std::size_t, std::size_t> TokenStream::read_and_left() const {
+  const Scanner& scene = *session_.input.frames().front().scanner;
+  return {scene.offset(), scene.size() - scene.offset()};
+}
+
 /// What is seen to once in a while.
 void TokenStream::pause() {
   const ParseLimits& limits = session_.options.limits;

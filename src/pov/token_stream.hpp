@@ -72,6 +72,9 @@ public:
     if (tokens_read_ + work_ > next_pause_) pause();
   }
 
+  /// How many bytes of the scene's own file have been read, and how many are left.
+  std::pair<std::size_t, std::size_t> read_and_left() const;
+
   /// At the end of the scene: the files that #write still has to finish.
   void close_data_files();
 
