@@ -215,13 +215,6 @@ void TokenStream::finish(Value value, bool has_lookahead) {
   levels_.back().hands_back = has_lookahead;
 }
 
-std::optional<Start> TokenStream::take_start() {
-  Level& level = levels_.back();
-  if (!level.start_pending) return std::nullopt;
-  level.start_pending = false;
-  return level.start;
-}
-
 bool TokenStream::is_inside_value() const {
   const Level& level = levels_.back();
   return level.start != Start::scene && level.any_delivered && level.enclosing.empty() && level.nesting == 0;

@@ -45,7 +45,12 @@ public:
   void open(std::string text, const std::string& name, std::filesystem::path folder);
 
   /// What the grammar is entered for, once per entry.
-  std::optional<Start> take_start();
+  std::optional<Start> take_start() {
+    Level& level = levels_.back();
+    if (!level.start_pending) return std::nullopt;
+    level.start_pending = false;
+    return level.start;
+  }
   /// Fills in a new terminal.
   void next(Terminal& terminal);
 
