@@ -17,8 +17,9 @@
 %param { celltrace::pov::Session& session }
 // After a value both an operator and, since commas are optional, a sign or a colour's channel can follow: the
 // longer value is meant. A number at the front of an entry of a pigment_map is its weight. A name that CSG begins
-// with is all it consists of, not its first part.
-%expect 106
+// with is all it consists of, not its first part. A texture that is a name alone, or begins with one, needs no
+// rule for what comes before.
+%expect 112
 
 %code requires {
 #include "pov/actions.hpp"
@@ -773,11 +774,13 @@ reflection_body
   ;
 
 texture
-  : TEXTURE '{' texture_body '}' { $$ = $3; }
+  : TEXTURE '{' texture_body '}' { $$ = std::move($3); }
+  | TEXTURE '{' TEXTURE_ID '}'   { $$ = std::move($3); } // without the rules for parts: what most objects have
   ;
 
 texture_parts
   : %empty                       { $$ = session.builder.default_texture; }
+  | TEXTURE_ID                   { $$ = std::move($1); }
   | texture_parts TEXTURE_ID     { $$ = $1->uv_mapping ? with_uv_mapping($2) : $2; }
   | texture_parts PIGMENT '{' { session.base_texture = $1; } pigment_body '}' {
       require_plain(session, $1, @2);
