@@ -2,7 +2,8 @@
 // already obeyed the directives. It can be entered for a whole scene or for one value (see Start):
 // entered for a value it finishes as soon as the value is complete, whatever follows, because every state
 // that could end a value reduces by default. Actions that move on in the token stream themselves
-// (take_literals, take_name, skip_group, skip_arguments) belong to rules that are reduced without looking ahead.
+// (take_literals, take_arguments, take_name, skip_group, skip_arguments) belong to rules that are reduced without
+// looking ahead.
 
 %require "3.8"
 %language "c++"
@@ -79,6 +80,7 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %token <FunctionPtr> FUNCTION_ID
 %token <SplinePtr> SPLINE_ID
 %token UNDECLARED_ID
+%token ARGUMENTS // of a shape, which have been taken
 
 %token <int> SPLINE_KIND FUNCTION TEXT_FUNCTION COMPONENT COLOUR_MODEL SRGB_MODEL CHANNEL SHAPE CSG CAMERA_KIND
 %token <int> PATTERN ARGUED_PATTERN LIST_PATTERN PATTERN_OPTION PATTERN_FLAG WAVE
@@ -148,8 +150,8 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %nterm <std::shared_ptr<const MaterialDefinition>> material
 %nterm <std::shared_ptr<CameraDefinition>> camera camera_body
 %nterm <ObjectPtr> object
-%nterm <std::shared_ptr<ObjectDefinition>> object_head object_body light_body light_group
-%nterm <WrittenShape> shape_head
+%nterm <std::shared_ptr<ObjectDefinition>> object_body light_body light_group
+%nterm <WrittenShape> shape_start shape_head
 %nterm <Compound> csg_head light_group_head
 %nterm <std::vector<Limit>> limits
 %nterm <std::shared_ptr<MeshBuilder>> mesh_head
@@ -966,24 +968,13 @@ object
     }
   ;
 
-object_head // a name instead of what an object consists of: whatever object it stands for
-  : OBJECT '{' object        { $$ = std::make_shared<ObjectDefinition>(*$3); }
-  | SHAPE '{' OBJECT_ID      { $$ = std::make_shared<ObjectDefinition>(*$3); }
-  | CSG '{' OBJECT_ID        { $$ = std::make_shared<ObjectDefinition>(*$3); }
-  | MESH '{' OBJECT_ID       { $$ = std::make_shared<ObjectDefinition>(*$3); }
-  | MESH2 '{' OBJECT_ID      { $$ = std::make_shared<ObjectDefinition>(*$3); }
-  | shape_head               { $$ = shape(session, $1); }
-  | shape_head OPEN          { $1.is_open = true; $$ = shape(session, $1); }
-  | LOOKS_LIKE '{' object    { $$ = look(session, *$3, @1); } // modifiers may follow, as everywhere
-  | PROJECTED_THROUGH '{' object { $$ = projector(session, *$3, @1); }
-  | csg_head                 { $$ = csg(session, std::move($1), @1); }
-  | triangle_vertices        { $$ = lone_triangle(session, $1, @1); }
-  | mesh_head                { $$ = mesh(session, *$1, @1); }
-  | mesh2_head               { $$ = mesh2(session, *$1, @1); }
+shape_start
+  : SHAPE '{'                { $$.number = $1; $$.where = @1; session.tokens.take_arguments($$.arguments); }
   ;
 
 shape_head
-  : SHAPE '{' quantity       { $$.number = $1; $$.where = @1; $$.arguments.push_back({$3, @3}); }
+  : shape_start ARGUMENTS    { $$ = std::move($1); }
+  | shape_start quantity     { $$ = std::move($1); $$.arguments.push_back({$2, @2}); }
   | shape_head quantity      { $$ = std::move($1); append(session, $$.arguments, {$2, @2}, @2); }
   | shape_head ',' quantity  { $$ = std::move($1); append(session, $$.arguments, {$3, @3}, @3); }
   ;
@@ -1004,8 +995,21 @@ light_group // which is no more than its parts: it has no texture and the like o
   | light_group GLOBAL_LIGHTS flag  { $$ = $1; set_global_lights(*$$, $3 != 0); }
   ;
 
+// A name instead of what an object consists of stands for whatever object it is.
 object_body
-  : object_head
+  : OBJECT '{' object        { $$ = std::make_shared<ObjectDefinition>(*$3); }
+  | shape_start OBJECT_ID    { $$ = std::make_shared<ObjectDefinition>(*$2); }
+  | CSG '{' OBJECT_ID        { $$ = std::make_shared<ObjectDefinition>(*$3); }
+  | MESH '{' OBJECT_ID       { $$ = std::make_shared<ObjectDefinition>(*$3); }
+  | MESH2 '{' OBJECT_ID      { $$ = std::make_shared<ObjectDefinition>(*$3); }
+  | shape_head               { $$ = shape(session, $1); }
+  | shape_head OPEN          { $1.is_open = true; $$ = shape(session, $1); }
+  | LOOKS_LIKE '{' object    { $$ = look(session, *$3, @1); } // modifiers may follow, as everywhere
+  | PROJECTED_THROUGH '{' object { $$ = projector(session, *$3, @1); }
+  | csg_head                 { $$ = csg(session, std::move($1), @1); }
+  | triangle_vertices        { $$ = lone_triangle(session, $1, @1); }
+  | mesh_head                { $$ = mesh(session, *$1, @1); }
+  | mesh2_head               { $$ = mesh2(session, *$1, @1); }
   | object_body transformation         { $$ = std::move($1); $$->apply($2); }
   | object_body texture                { $$ = std::move($1); add_layer(session, *$$, $2, @2); }
   | object_body PIGMENT '{' { session.base_texture = plain_texture_of(session, *$1, @2); } pigment_body '}' {

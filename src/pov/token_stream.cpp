@@ -402,6 +402,20 @@ void TokenStream::take_literals(std::vector<ListEntry>& list) {
   }
 }
 
+void TokenStream::take_arguments(std::vector<ShapeArgument>& arguments) {
+  if (!session_.input.reads_file()) return;
+  const std::uint64_t limit = session_.options.limits.list_entries;
+  const std::uint64_t most = std::min<std::uint64_t>(limit, kLiteralsAtOnce); // so that it can be cancelled
+  constexpr std::size_t kMostOfUsualShapes = 4;
+  arguments.reserve(kMostOfUsualShapes);
+  if (!session_.input.top().scanner->take_arguments(arguments, most)) return;
+  tokens_read_ += 2 * arguments.size() - 1; // with their commas
+  Terminal taken;
+  taken.token = tokens::T_ARGUMENTS;
+  taken.where = arguments.front().where;
+  levels_.back().put_back = std::move(taken);
+}
+
 void TokenStream::skip_to_depth(std::size_t depth) {
   const Location opened = last_place();
   while (levels_.back().enclosing.size() > depth) {

@@ -63,6 +63,9 @@ public:
   /// For the grammar, at the front of a list: takes the entries that can be read straight from the file, if
   /// that is what is being read.
   void take_literals(std::vector<ListEntry>& list);
+  /// For the grammar, behind the brace of a shape: takes the arguments that can be read straight from the
+  /// file. If there are any, the next terminal is T_ARGUMENTS.
+  void take_arguments(std::vector<ShapeArgument>& arguments);
   /// For the grammar: a name, whatever it stands for.
   NameId take_name() { return expect_name("to write to").name; }
   /// For the grammar, inside { }, after a keyword: passes over what can belong to it, values and { }, up to,
