@@ -15,7 +15,7 @@
 #include "scene/light_sets.hpp"
 #include "scene/projectors.hpp"
 #include "scene/shapes.hpp"
-#include "scene/textures.hpp"
+#include "scene/texture_checks.hpp"
 
 namespace celltrace {
 
