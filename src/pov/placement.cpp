@@ -14,15 +14,13 @@
 #include "pov/light.hpp"
 #include "pov/mesh.hpp"
 #include "pov/shapes.hpp"
+#include "scene/shape_geometry.hpp"
 
 namespace celltrace::pov {
 
 namespace {
 
 using Operation = Csg::Operation;
-
-/// As many levels of CSG and clipping as a Scene can have.
-constexpr int kDeepestCsg = 100;
 
 /// Writes scene-wide indices over a mesh's own.
 void replace_materials(Mesh& mesh, const std::vector<Index>& materials) {

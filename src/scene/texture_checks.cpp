@@ -4,6 +4,7 @@
 #include "kernel/textures/map_walk.hpp"
 #include "scene/list_waves.hpp"
 #include "scene/patterns.hpp"
+#include "scene/shape_geometry.hpp"
 #include "scene/shapes.hpp"
 #include "scene/textures.hpp"
 
@@ -21,7 +22,6 @@ using namespace kernel;
 namespace {
 
 static_assert(kDeepestMap == kDeepestMapWalk);
-constexpr int kDeepestSolid = 100;
 
 class Check {
 public:
@@ -124,7 +124,7 @@ private:
   }
   /// An object whose inside is a pattern, or a part of it.
   void solid(const Object& object, int depth) const {
-    if (depth == kDeepestSolid) fail("has the pattern of an object that nests too deeply");
+    if (depth > kDeepestCsg) fail("has the pattern of an object that nests too deeply");
     const Vec3(&rows)[4] = object.transform.rows;
     vectors({rows[0], rows[1], rows[2], rows[3]});
     if (std::holds_alternative<std::shared_ptr<const Mesh>>(object.shape))
