@@ -2,7 +2,8 @@
 // already obeyed the directives. It can be entered for a whole scene or for one value (see Start):
 // entered for a value it finishes as soon as the value is complete, whatever follows, because every state
 // that could end a value reduces by default. Actions that move on in the token stream themselves
-// (take_literals, take_name, skip_group, skip_arguments) belong to rules that are reduced without looking ahead.
+// (take_literals, take_arguments, take_name, skip_group, skip_arguments) belong to rules that are reduced without
+// looking ahead.
 
 %require "3.8"
 %language "c++"
@@ -17,8 +18,9 @@
 %param { celltrace::pov::Session& session }
 // After a value both an operator and, since commas are optional, a sign or a colour's channel can follow: the
 // longer value is meant. A number at the front of an entry of a pigment_map is its weight. A name that CSG begins
-// with is all it consists of, not its first part.
-%expect 106
+// with is all it consists of, not its first part. A texture that is a name alone, or begins with one, needs no
+// rule for what comes before.
+%expect 112
 
 %code requires {
 #include "pov/actions.hpp"
@@ -41,6 +43,14 @@
 
 namespace celltrace::pov {
 int yylex(Parser::semantic_type* value, Location* where, Session& session);
+
+/// bison's own makes an empty symbol, moves it onto the stack, destroys it and moves the value after it. Each of
+/// these is a jump on the symbol's kind that no CPU can foresee: without the first three a scene of many small
+/// objects takes a tenth less time.
+template <>
+inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_type&& symbol) {
+  seq_.emplace_back(std::move(symbol));
+}
 }
 }
 
@@ -70,6 +80,7 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %token <FunctionPtr> FUNCTION_ID
 %token <SplinePtr> SPLINE_ID
 %token UNDECLARED_ID
+%token ARGUMENTS // of a shape, which have been taken
 
 %token <int> SPLINE_KIND FUNCTION TEXT_FUNCTION COMPONENT COLOUR_MODEL SRGB_MODEL CHANNEL SHAPE CSG CAMERA_KIND
 %token <int> PATTERN ARGUED_PATTERN LIST_PATTERN PATTERN_OPTION PATTERN_FLAG WAVE
@@ -139,8 +150,8 @@ int yylex(Parser::semantic_type* value, Location* where, Session& session);
 %nterm <std::shared_ptr<const MaterialDefinition>> material
 %nterm <std::shared_ptr<CameraDefinition>> camera camera_body
 %nterm <ObjectPtr> object
-%nterm <std::shared_ptr<ObjectDefinition>> object_head object_body light_body light_group
-%nterm <WrittenShape> shape_head
+%nterm <std::shared_ptr<ObjectDefinition>> object_body light_body light_group
+%nterm <WrittenShape> shape_start shape_head
 %nterm <Compound> csg_head light_group_head
 %nterm <std::vector<Limit>> limits
 %nterm <std::shared_ptr<MeshBuilder>> mesh_head
@@ -765,11 +776,13 @@ reflection_body
   ;
 
 texture
-  : TEXTURE '{' texture_body '}' { $$ = $3; }
+  : TEXTURE '{' texture_body '}' { $$ = std::move($3); }
+  | TEXTURE '{' TEXTURE_ID '}'   { $$ = std::move($3); } // without the rules for parts: what most objects have
   ;
 
 texture_parts
   : %empty                       { $$ = session.builder.default_texture; }
+  | TEXTURE_ID                   { $$ = std::move($1); }
   | texture_parts TEXTURE_ID     { $$ = $1->uv_mapping ? with_uv_mapping($2) : $2; }
   | texture_parts PIGMENT '{' { session.base_texture = $1; } pigment_body '}' {
       require_plain(session, $1, @2);
@@ -941,7 +954,7 @@ camera_body
 // ---- Objects ----
 
 object
-  : object_body '}'          { $1->where = @1; $$ = own_object(session, $1, @1); }
+  : object_body '}'          { $1->where = @1; $$ = own_object(session, std::move($1), @1); }
   | light_body '}'           { $1->where = @1; $$ = $1; session.lights.pop_back(); }
   | light_group '}'          { $1->where = @1; $$ = $1; }
   | OBJECT_ID
@@ -955,24 +968,13 @@ object
     }
   ;
 
-object_head // a name instead of what an object consists of: whatever object it stands for
-  : OBJECT '{' object        { $$ = std::make_shared<ObjectDefinition>(*$3); }
-  | SHAPE '{' OBJECT_ID      { $$ = std::make_shared<ObjectDefinition>(*$3); }
-  | CSG '{' OBJECT_ID        { $$ = std::make_shared<ObjectDefinition>(*$3); }
-  | MESH '{' OBJECT_ID       { $$ = std::make_shared<ObjectDefinition>(*$3); }
-  | MESH2 '{' OBJECT_ID      { $$ = std::make_shared<ObjectDefinition>(*$3); }
-  | shape_head               { $$ = shape(session, $1); }
-  | shape_head OPEN          { $1.is_open = true; $$ = shape(session, $1); }
-  | LOOKS_LIKE '{' object    { $$ = look(session, *$3, @1); } // modifiers may follow, as everywhere
-  | PROJECTED_THROUGH '{' object { $$ = projector(session, *$3, @1); }
-  | csg_head                 { $$ = csg(session, std::move($1), @1); }
-  | triangle_vertices        { $$ = lone_triangle(session, $1, @1); }
-  | mesh_head                { $$ = mesh(session, *$1, @1); }
-  | mesh2_head               { $$ = mesh2(session, *$1, @1); }
+shape_start
+  : SHAPE '{'                { $$.number = $1; $$.where = @1; session.tokens.take_arguments($$.arguments); }
   ;
 
 shape_head
-  : SHAPE '{' quantity       { $$.number = $1; $$.where = @1; $$.arguments.push_back({$3, @3}); }
+  : shape_start ARGUMENTS    { $$ = std::move($1); }
+  | shape_start quantity     { $$ = std::move($1); $$.arguments.push_back({$2, @2}); }
   | shape_head quantity      { $$ = std::move($1); append(session, $$.arguments, {$2, @2}, @2); }
   | shape_head ',' quantity  { $$ = std::move($1); append(session, $$.arguments, {$3, @3}, @3); }
   ;
@@ -993,53 +995,66 @@ light_group // which is no more than its parts: it has no texture and the like o
   | light_group GLOBAL_LIGHTS flag  { $$ = $1; set_global_lights(*$$, $3 != 0); }
   ;
 
+// A name instead of what an object consists of stands for whatever object it is.
 object_body
-  : object_head
-  | object_body transformation         { $$ = $1; $$->apply($2); }
-  | object_body texture                { $$ = $1; add_layer(session, *$$, $2, @2); }
+  : OBJECT '{' object        { $$ = std::make_shared<ObjectDefinition>(*$3); }
+  | shape_start OBJECT_ID    { $$ = std::make_shared<ObjectDefinition>(*$2); }
+  | CSG '{' OBJECT_ID        { $$ = std::make_shared<ObjectDefinition>(*$3); }
+  | MESH '{' OBJECT_ID       { $$ = std::make_shared<ObjectDefinition>(*$3); }
+  | MESH2 '{' OBJECT_ID      { $$ = std::make_shared<ObjectDefinition>(*$3); }
+  | shape_head               { $$ = shape(session, $1); }
+  | shape_head OPEN          { $1.is_open = true; $$ = shape(session, $1); }
+  | LOOKS_LIKE '{' object    { $$ = look(session, *$3, @1); } // modifiers may follow, as everywhere
+  | PROJECTED_THROUGH '{' object { $$ = projector(session, *$3, @1); }
+  | csg_head                 { $$ = csg(session, std::move($1), @1); }
+  | triangle_vertices        { $$ = lone_triangle(session, $1, @1); }
+  | mesh_head                { $$ = mesh(session, *$1, @1); }
+  | mesh2_head               { $$ = mesh2(session, *$1, @1); }
+  | object_body transformation         { $$ = std::move($1); $$->apply($2); }
+  | object_body texture                { $$ = std::move($1); add_layer(session, *$$, $2, @2); }
   | object_body PIGMENT '{' { session.base_texture = plain_texture_of(session, *$1, @2); } pigment_body '}' {
-      $$ = $1;
+      $$ = std::move($1);
       set_texture(*$$, with_pigment(texture_of(session, *$$), *$5));
     }
   | object_body NORMAL '{' { session.base_texture = plain_texture_of(session, *$1, @2); } normal_body '}' {
-      $$ = $1;
+      $$ = std::move($1);
       set_texture(*$$, with_normal(texture_of(session, *$$), $5));
     }
   | object_body FINISH '{' { session.base_texture = plain_texture_of(session, *$1, @2); } finish_body '}' {
-      $$ = $1;
+      $$ = std::move($1);
       set_texture(*$$, with_finish(texture_of(session, *$$), *$5));
     }
-  | object_body interior               { $$ = $1; $$->interior = $2; }
-  | object_body material               { $$ = $1; apply(session, $2, *$$, @2); }
+  | object_body interior               { $$ = std::move($1); $$->interior = $2; }
+  | object_body material               { $$ = std::move($1); apply(session, $2, *$$, @2); }
   | object_body INTERIOR_TEXTURE '{' texture_body '}' {
-      $$ = $1;
+      $$ = std::move($1);
       set_inside(session, *$$, $4, @2);
     }
-  | object_body NO_IMAGE               { $$ = $1; $$->no_image = true; }
-  | object_body NO_REFLECTION          { $$ = $1; $$->no_reflection = true; }
-  | object_body NO_SHADOW              { $$ = $1; $$->no_shadow = true; }
-  | object_body HOLLOW flag            { $$ = $1; $$->hollow = $3 != 0; }
-  | object_body DOUBLE_ILLUMINATE flag { $$ = $1; $$->is_lit_through = $3 != 0; }
-  | object_body INVERSE                { $$ = $1; $$->inverse = !$$->inverse; }
-  | object_body IGNORED_FLAG flag      { $$ = $1; }
-  | object_body UV_MAPPING             { $$ = $1; set_uv_mapping(session, *$$, @2); }
+  | object_body NO_IMAGE               { $$ = std::move($1); $$->no_image = true; }
+  | object_body NO_REFLECTION          { $$ = std::move($1); $$->no_reflection = true; }
+  | object_body NO_SHADOW              { $$ = std::move($1); $$->no_shadow = true; }
+  | object_body HOLLOW flag            { $$ = std::move($1); $$->hollow = $3 != 0; }
+  | object_body DOUBLE_ILLUMINATE flag { $$ = std::move($1); $$->is_lit_through = $3 != 0; }
+  | object_body INVERSE                { $$ = std::move($1); $$->inverse = !$$->inverse; }
+  | object_body IGNORED_FLAG flag      { $$ = std::move($1); }
+  | object_body UV_MAPPING             { $$ = std::move($1); set_uv_mapping(session, *$$, @2); }
   | object_body CUTAWAY_TEXTURES flag {
-      $$ = $1;
+      $$ = std::move($1);
       mark($$->unsupported, unless_zero("'cutaway_textures'", $3, @2));
     }
-  | object_body CLIPPED_BY '{' limits '}' { $$ = $1; limit(session, *$$, $$->clipped_by, $4, @2); }
+  | object_body CLIPPED_BY '{' limits '}' { $$ = std::move($1); limit(session, *$$, $$->clipped_by, $4, @2); }
   | object_body CLIPPED_BY '{' BOUNDED_BY '}' {
-      $$ = $1;
+      $$ = std::move($1);
       limit(session, *$$, $$->clipped_by, $$->bounded_by, @2);
     }
-  | object_body BOUNDED_BY '{' limits '}' { $$ = $1; limit(session, *$$, $$->bounded_by, $4, @2); }
+  | object_body BOUNDED_BY '{' limits '}' { $$ = std::move($1); limit(session, *$$, $$->bounded_by, $4, @2); }
   | object_body BOUNDED_BY '{' CLIPPED_BY '}' {
-      $$ = $1;
+      $$ = std::move($1);
       limit(session, *$$, $$->bounded_by, $$->clipped_by, @2);
     }
-  | object_body photons                { $$ = $1; $$->is_photon_target = $2; }
-  | object_body RADIOSITY              { $$ = $1; session.tokens.skip_group(); } // says something of radiosity's
-  | object_body unsupported_modifier   { $$ = $1; mark($$->unsupported, $2); }
+  | object_body photons                { $$ = std::move($1); $$->is_photon_target = $2; }
+  | object_body RADIOSITY              { $$ = std::move($1); session.tokens.skip_group(); } // of radiosity
+  | object_body unsupported_modifier   { $$ = std::move($1); mark($$->unsupported, $2); }
   ;
 
 photons // whether any are to be aimed at this

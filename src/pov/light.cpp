@@ -155,7 +155,7 @@ void add_object(Session& session, ObjectDefinition& light, const std::shared_ptr
   place = object;
 }
 
-ObjectPtr own_object(Session& session, const ObjectPtr& object, const Location& where) {
+ObjectPtr own_object(Session& session, ObjectPtr object, const Location& where) {
   if (object->role != ObjectDefinition::Role::none)
     session.fail(where, "only a light source looks like something or is projected through it");
   return object;

@@ -49,7 +49,7 @@ std::shared_ptr<ObjectDefinition> projector(Session& session, const ObjectDefini
 void add_object(Session& session, ObjectDefinition& light, const std::shared_ptr<ObjectDefinition>& object,
                 const Location& where);
 /// The object, unless it is one of these: that is an error.
-ObjectPtr own_object(Session& session, const ObjectPtr& object, const Location& where);
+ObjectPtr own_object(Session& session, ObjectPtr object, const Location& where);
 /// As in POV-Ray, this is a kind of its own: what is said of another one before or after it cancels the
 /// other.
 void set_shadowless(ObjectDefinition& object);

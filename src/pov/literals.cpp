@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <string_view>
+
+#include "pov/names.hpp"
 
 namespace celltrace::pov {
 
@@ -76,6 +79,20 @@ const char* read_entry(const char* at, const char* end, ListEntry& entry) {
   return behind && behind - at <= kLongestEntry ? behind : nullptr;
 }
 
+bool is_in_word(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || is_digit(c) || c == '_';
+}
+
+/// Whether a value in front of this is complete, whatever follows. A name that is not reserved may be that of
+/// a macro, which may go on with an operator.
+bool ends_value(const char* at, const Names& names) {
+  if (*at == ',' || *at == '}') return true;
+  const char* end = at;
+  while (is_in_word(*end))
+    ++end;
+  return names.is_reserved(std::string_view(at, static_cast<std::size_t>(end - at)));
+}
+
 /// The count in front of a list says how long it will be, as far as the rest of the text can hold that.
 std::size_t expected(double count, const char* text, const char* end, std::size_t most) {
   const auto room = static_cast<std::size_t>((end - text) / kShortestVector + 2);
@@ -88,6 +105,20 @@ std::size_t expected(double count, const char* text, const char* end, std::size_
 
 ListEntry::ListEntry(const Quantity& quantity) : v(quantity.vec3()), is_float(quantity.is_float()) {
   if (!quantity.is_finite()) v.x = std::numeric_limits<double>::infinity();
+}
+
+bool read_argument(const char* text, const char* end, bool is_first, const Names& names, Literal& literal) {
+  const char* at = skip_blanks(text);
+  if (!is_first) {
+    if (*at != ',') return false;
+    at = skip_blanks(at + 1);
+  }
+  ListEntry entry;
+  literal.begin = at;
+  literal.end = read_entry(at, end, entry);
+  if (!literal.end || !ends_value(skip_blanks(literal.end), names)) return false;
+  literal.value = entry.is_float ? Quantity(entry.v.x) : Quantity::vector(entry.v);
+  return true;
 }
 
 const char* take_literals(const char* text, const char* end, std::vector<ListEntry>& list, std::size_t most) {

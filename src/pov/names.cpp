@@ -28,6 +28,11 @@ Names::Names() {
   }
 }
 
+bool Names::is_reserved(std::string_view text) const {
+  const auto known = numbers_.find(text);
+  return known != numbers_.end() && entries_[known->second].token != 0;
+}
+
 NameId Names::intern(std::string_view text) {
   if (const auto known = numbers_.find(text); known != numbers_.end()) return known->second;
   Entry& entry = entries_.emplace_back();

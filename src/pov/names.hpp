@@ -63,6 +63,7 @@ public:
   Names();
 
   NameId intern(std::string_view text);
+  bool is_reserved(std::string_view text) const;
   const Entry& operator[](NameId name) const { return entries_[name]; }
   const std::string& text(NameId name) const { return entries_[name].text; }
   std::size_t size() const { return entries_.size(); }

@@ -14,15 +14,13 @@
 #include "pov/light.hpp"
 #include "pov/mesh.hpp"
 #include "pov/shapes.hpp"
+#include "scene/shape_geometry.hpp"
 
 namespace celltrace::pov {
 
 namespace {
 
 using Operation = Csg::Operation;
-
-/// As many levels of CSG and clipping as a Scene can have.
-constexpr int kDeepestCsg = 100;
 
 /// Writes scene-wide indices over a mesh's own.
 void replace_materials(Mesh& mesh, const std::vector<Index>& materials) {
@@ -76,6 +74,24 @@ bool has_shapes(const Object& object) {
   return !csg || std::any_of((*csg)->parts.begin(), (*csg)->parts.end(), has_shapes);
 }
 
+/// Bytes of the shortest object in a scene's text, "object{A}".
+constexpr std::size_t kShortestObject = 9;
+
+/// Before a list of all objects has to grow: as far as it will, if the rest of the scene is like what has
+/// been read. In a large scene of small objects, moving them each time that their number has doubled takes
+/// an eighth of the time, and memory for both copies of them.
+template <class T> void make_room(std::vector<T>& list, const TokenStream& tokens) {
+  constexpr std::size_t kFewest = 1024;
+  if (list.size() < list.capacity() || list.size() < kFewest) return;
+  const auto [read, left] = tokens.read_and_left();
+  const double expected =
+      static_cast<double>(list.size()) * static_cast<double>(left) / static_cast<double>(read);
+  const double most = static_cast<double>(left) / kShortestObject;
+  constexpr double kMargin = 1.03;
+  const auto more = static_cast<std::size_t>(kMargin * std::min(expected, most));
+  list.reserve(std::max(2 * list.size(), list.size() + more));
+}
+
 /// Orders the corners so that its outside as a Mesh's is POV-Ray's: where its normals point, or else, by the
 /// axis along which it faces most, to -x, +y or -z.
 void turn_outside(TriangleDefinition& triangle) {
@@ -110,7 +126,9 @@ void SceneBuilder::place(const ObjectDefinition& object, const Inherited& around
     for (const ObjectPtr& part : parts.parts)
       if (!is_group_light(parts, *part)) place(*part, own, where);
   } else if (std::optional<Object> placed = make(object, around, where)) {
-    if (has_shapes(*placed)) scene_.objects.push_back(std::move(*placed));
+    if (!has_shapes(*placed)) return;
+    make_room(scene_.objects, tokens_);
+    scene_.objects.push_back(std::move(*placed));
   }
 }
 
@@ -198,7 +216,10 @@ std::optional<Object> SceneBuilder::make(const ObjectDefinition& object, const I
 /// The interior of a shape: what it or an object around it has, what all parts of its CSG share, or its own.
 Index SceneBuilder::interior_of(const Inherited& own) {
   Index index = own.interior != kNoIndex ? own.interior : own.csg_interior;
-  if (index == kNoIndex) index = scene_.add(Interior{});
+  if (index == kNoIndex) {
+    make_room(scene_.interiors, tokens_);
+    index = scene_.add(Interior{});
+  }
   scene_.interiors[index].hollow = own.hollow;
   return index;
 }

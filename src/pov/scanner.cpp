@@ -56,14 +56,31 @@ void Scanner::count_lines(std::string_view lexeme) {
 
 bool Scanner::take_literals(std::vector<ListEntry>& list, std::size_t most) {
   const std::size_t count = list.size();
-  move_flex(); // puts back the character that flex has replaced behind its last lexeme
-  const char* begin = text_.data() + offset_;
-  const char* end = pov::take_literals(begin, text_.data() + text_.size(), list, most);
-  const std::string_view taken(begin, static_cast<std::size_t>(end - begin));
-  offset_ += taken.size();
-  count_lines(taken);
+  move_flex();
+  pass_to(pov::take_literals(text_.data() + offset_, text_.data() + text_.size(), list, most));
   move_flex();
   return list.size() > count;
+}
+
+bool Scanner::take_arguments(std::vector<ShapeArgument>& arguments, std::size_t most) {
+  const std::size_t count = arguments.size();
+  move_flex();
+  Literal literal;
+  while (arguments.size() < most && read_argument(text_.data() + offset_, text_.data() + text_.size(),
+                                                  arguments.empty(), names_, literal)) {
+    pass_to(literal.begin);
+    start_lexeme(static_cast<std::size_t>(literal.end - literal.begin));
+    arguments.push_back({literal.value, where_});
+  }
+  move_flex();
+  return arguments.size() > count;
+}
+
+void Scanner::pass_to(const char* place) {
+  const std::string_view passed(text_.data() + offset_,
+                                static_cast<std::size_t>(place - text_.data()) - offset_);
+  offset_ += passed.size();
+  count_lines(passed);
 }
 
 void Scanner::open_comment() {

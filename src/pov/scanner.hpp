@@ -10,8 +10,6 @@
 #include "pov/names.hpp"
 #include "pov/token.hpp"
 
-struct yy_buffer_state; // flex's
-
 namespace celltrace::pov {
 
 class Scanner {
@@ -35,6 +33,10 @@ public:
   /// Literals from here on, see pov::take_literals(). False if there were none.
   bool take_literals(std::vector<ListEntry>& list, std::size_t most);
 
+  /// The arguments of a shape from here on, as long as they are literals and fewer than `most`, see
+  /// pov::read_argument(). False if there were none.
+  bool take_arguments(std::vector<ShapeArgument>& arguments, std::size_t most);
+
   // What the generated code calls.
   void start_lexeme(std::size_t length);
   void start_line() { line_start_ = offset_, ++line_; }
@@ -56,15 +58,16 @@ public:
 private:
   static constexpr std::size_t kPadding = 2; // NULs that flex wants behind the text it scans in place
 
-  /// Has flex go on at offset_.
+  /// Has flex go on at offset_, and puts back the character that it has replaced behind its last lexeme.
   void move_flex();
+  /// Moves on to a place in the text.
+  void pass_to(const char* place);
   [[noreturn]] void fail(const Location& where, const std::string& what) const;
 
   std::string text_; // with its padding
   Names& names_;
   Fail fail_;
   void* flex_ = nullptr;
-  yy_buffer_state* buffer_ = nullptr; // flex's view of the text
   std::size_t offset_ = 0;
   std::size_t line_start_ = 0;
   std::uint32_t line_ = 1;

@@ -54,7 +54,7 @@ public:
   }
 
 private:
-  const WrittenShape::Argument& at(std::size_t i) const { return written_.arguments[i]; }
+  const ShapeArgument& at(std::size_t i) const { return written_.arguments[i]; }
 
   const Session& session_;
   const WrittenShape& written_;

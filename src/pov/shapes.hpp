@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "pov/literals.hpp"
 #include "pov/location.hpp"
 #include "pov/object.hpp"
 #include "pov/quantity.hpp"
@@ -15,13 +16,9 @@ struct Session;
 
 /// A shape as written, before its arguments are checked.
 struct WrittenShape {
-  struct Argument {
-    Quantity value;
-    Location where;
-  };
   int number = 0; ///< its place in shape_names()
   Location where;
-  std::vector<Argument> arguments;
+  std::vector<ShapeArgument> arguments;
   bool is_open = false; ///< `open` stands behind them
 };
 

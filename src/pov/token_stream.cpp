@@ -215,13 +215,6 @@ void TokenStream::finish(Value value, bool has_lookahead) {
   levels_.back().hands_back = has_lookahead;
 }
 
-std::optional<Start> TokenStream::take_start() {
-  Level& level = levels_.back();
-  if (!level.start_pending) return std::nullopt;
-  level.start_pending = false;
-  return level.start;
-}
-
 bool TokenStream::is_inside_value() const {
   const Level& level = levels_.back();
   return level.start != Start::scene && level.any_delivered && level.enclosing.empty() && level.nesting == 0;
@@ -236,6 +229,11 @@ Token TokenStream::read() {
 const Location& TokenStream::here() const {
   const Frame& frame = session_.input.top();
   return frame.scanner ? last_place() : frame.opened_at;
+}
+
+std::pair<std::size_t, std::size_t> TokenStream::read_and_left() const {
+  const Scanner& scene = *session_.input.frames().front().scanner;
+  return {scene.offset(), scene.size() - scene.offset()};
 }
 
 /// What is seen to once in a while.
@@ -402,6 +400,20 @@ void TokenStream::take_literals(std::vector<ListEntry>& list) {
     tokens_read_ += 2 * (list.size() - before); // with their commas
     pause();
   }
+}
+
+void TokenStream::take_arguments(std::vector<ShapeArgument>& arguments) {
+  if (!session_.input.reads_file()) return;
+  const std::uint64_t limit = session_.options.limits.list_entries;
+  const std::uint64_t most = std::min<std::uint64_t>(limit, kLiteralsAtOnce); // so that it can be cancelled
+  constexpr std::size_t kMostOfUsualShapes = 4;
+  arguments.reserve(kMostOfUsualShapes);
+  if (!session_.input.top().scanner->take_arguments(arguments, most)) return;
+  tokens_read_ += 2 * arguments.size() - 1; // with their commas
+  Terminal taken;
+  taken.token = tokens::T_ARGUMENTS;
+  taken.where = arguments.front().where;
+  levels_.back().put_back = std::move(taken);
 }
 
 void TokenStream::skip_to_depth(std::size_t depth) {

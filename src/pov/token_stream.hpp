@@ -45,7 +45,12 @@ public:
   void open(std::string text, const std::string& name, std::filesystem::path folder);
 
   /// What the grammar is entered for, once per entry.
-  std::optional<Start> take_start();
+  std::optional<Start> take_start() {
+    Level& level = levels_.back();
+    if (!level.start_pending) return std::nullopt;
+    level.start_pending = false;
+    return level.start;
+  }
   /// Fills in a new terminal.
   void next(Terminal& terminal);
 
@@ -58,6 +63,9 @@ public:
   /// For the grammar, at the front of a list: takes the entries that can be read straight from the file, if
   /// that is what is being read.
   void take_literals(std::vector<ListEntry>& list);
+  /// For the grammar, behind the brace of a shape: takes the arguments that can be read straight from the
+  /// file. If there are any, the next terminal is T_ARGUMENTS.
+  void take_arguments(std::vector<ShapeArgument>& arguments);
   /// For the grammar: a name, whatever it stands for.
   NameId take_name() { return expect_name("to write to").name; }
   /// For the grammar, inside { }, after a keyword: passes over what can belong to it, values and { }, up to,
@@ -71,6 +79,9 @@ public:
     work_ += work;
     if (tokens_read_ + work_ > next_pause_) pause();
   }
+
+  /// How many bytes of the scene's own file have been read, and how many are left.
+  std::pair<std::size_t, std::size_t> read_and_left() const;
 
   /// At the end of the scene: the files that #write still has to finish.
   void close_data_files();

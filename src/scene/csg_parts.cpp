@@ -3,6 +3,7 @@
 #include "celltrace/error.hpp"
 #include "kernel/accel/object_bounds.hpp"
 #include "scene/polytope.hpp"
+#include "scene/shape_geometry.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +20,6 @@ namespace {
 constexpr float kInfinite = std::numeric_limits<float>::max();
 constexpr Aabb kEverywhere = {{-kInfinite, -kInfinite, -kInfinite}, {kInfinite, kInfinite, kInfinite}};
 constexpr Aabb kNowhere = {{kInfinite, kInfinite, kInfinite}, {-kInfinite, -kInfinite, -kInfinite}};
-constexpr int kMaxDepth = 200;
 
 bool is_empty(const Aabb& box) {
   return box.min[0] > box.max[0] || box.min[1] > box.max[1] || box.min[2] > box.max[2];
@@ -113,7 +113,7 @@ public:
   TreeBuilder(std::vector<SolidRecord>& solids, MeshInsides& meshes) : solids_(solids), meshes_(meshes) {}
 
   Node build(const Object& object, Surroundings around) {
-    if (++around.depth > kMaxDepth) throw InputError("the scene has a CSG that nests too deeply");
+    if (around.depth++ > kDeepestCsg) throw InputError("the scene has a CSG that nests too deeply");
     if (!object.clipped_by || object.clipped_by->empty()) return build_unclipped(object, around);
     // What clips is not inverted with what it clips.
     Node clipped;

@@ -14,8 +14,9 @@
 #include "kernel/records.hpp"
 #include "scene/light_sets.hpp"
 #include "scene/projectors.hpp"
+#include "scene/shape_geometry.hpp"
 #include "scene/shapes.hpp"
-#include "scene/textures.hpp"
+#include "scene/texture_checks.hpp"
 
 namespace celltrace {
 
@@ -142,8 +143,6 @@ void check_mesh(const Mesh& mesh, std::size_t materials, const Name& name) {
       throw InputError(name.text() + Name{", triangle", i}.text() + " has an index that is out of range");
 }
 
-constexpr int kMaxCsgDepth = 100;
-
 /// An object of the scene, or a part of it.
 void check_object(const Scene& scene, const Object& object, const Name& name, int depth) {
   check_index(object.material, scene.materials.size(), {name.what, name.index, ", material"});
@@ -159,7 +158,7 @@ void check_object(const Scene& scene, const Object& object, const Name& name, in
     if (!*mesh) throw InputError(name.text() + " has no mesh");
   } else if (const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape)) {
     if (!*csg) throw InputError(name.text() + " has no CSG");
-    if (depth == kMaxCsgDepth) throw InputError(name.text() + " is a CSG that nests too deeply");
+    if (depth == kDeepestCsg) throw InputError(name.text() + " is a CSG that nests too deeply");
     for (const Object& part : (*csg)->parts)
       check_object(scene, part, name, depth + 1);
   } else {
@@ -168,7 +167,7 @@ void check_object(const Scene& scene, const Object& object, const Name& name, in
     validate_shape(object, name.text());
   }
   if (!object.clipped_by) return;
-  if (depth == kMaxCsgDepth) throw InputError(name.text() + " is clipped by what nests too deeply");
+  if (depth == kDeepestCsg) throw InputError(name.text() + " is clipped by what nests too deeply");
   for (const Object& clip : *object.clipped_by)
     check_object(scene, clip, name, depth + 1);
 }

@@ -7,6 +7,15 @@
 
 #include <vector>
 
+namespace celltrace {
+
+/// Levels of CSG and clipping that a shape may be in: in a Scene, in the object of a pattern, and in what the
+/// language makes. Whatever walks such a tree calls itself once a level, on a thread's stack of unknown size,
+/// and a hundred is far more than scenes have.
+inline constexpr int kDeepestCsg = 100;
+
+} // namespace celltrace
+
 namespace celltrace::geometry {
 
 struct Ray {

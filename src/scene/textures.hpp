@@ -8,17 +8,12 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <string>
 #include <vector>
 
 namespace celltrace {
 
-/// Throws InputError, with `name`, unless all numbers are finite, maps have entries and neither nest nor
-/// layer too deeply, and every pattern is one that there is.
-void validate_texture(const Material& material, const std::string& name);
-
-/// Likewise of the scene's sky sphere.
-void validate_sky(const Scene& scene);
+/// The sky sphere as a texture of layers; there is one.
+Material sky_of(const Scene& scene);
 
 kernel::TurbulenceWords words_of(const Turbulence& turbulence);
 

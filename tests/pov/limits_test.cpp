@@ -65,6 +65,20 @@ TEST_CASE("nesting has an end") {
                  "too large to be copied"));
 }
 
+TEST_CASE("a Scene takes CSG as deep as the language makes it") {
+  const auto nested = [](int times, const std::string& use) {
+    return "#declare U = sphere { 0, 1 } #for (I, 1, " + std::to_string(times) +
+           ") #declare U = merge { object { U } } #end " + use;
+  };
+  const std::string uses[] = {"object { U }",
+                              "sphere { 0, 1 pigment { object { U color rgb 0, color rgb 1 } } }"};
+  for (const std::string& use : uses) {
+    CAPTURE(use);
+    CHECK_NOTHROW(celltrace::validate(celltrace::test::parse(nested(100, use))));
+    CHECK(contains(error_line(nested(101, use)), "CSG is nested more than 100 deep"));
+  }
+}
+
 TEST_CASE("what a scene makes is bounded") {
   ParseOptions options;
   options.limits.objects = 10;

@@ -1,5 +1,5 @@
-// mesh2's lists, read as literals and by the grammar: the scene, or the error and its place, must be the
-// same. A sum in front keeps a whole list from being read as literals.
+// mesh2's lists, matrices and the arguments of shapes, read as literals and by the grammar: the scene, or the
+// error and its place, must be the same. A sum in front keeps a whole list from being read as literals.
 #include <bit>
 #include <random>
 #include <sstream>
@@ -197,4 +197,98 @@ TEST_CASE("a matrix of literals is what the grammar makes of it") {
     const std::string by_grammar = matrix_outcome(numbers, kByGrammar);
     CHECK(matrix_outcome(numbers, kByLiterals) == by_grammar);
   }
+}
+
+namespace {
+
+/// What cylinders and their textures come to, or the error.
+std::string cylinder_outcome(const std::string& cylinder, std::string_view first) {
+  const std::string text = "#declare Z = 0;\n#declare T = texture { pigment { rgb 1 } }\n"
+                           "#macro Twice() * 2 #end\n#macro One() , 1 #end\n" +
+                           with_first(cylinder, first);
+  try {
+    const Scene scene = parse(text);
+    std::ostringstream all;
+    all << std::hex << scene.materials.size();
+    for (const Object& object : scene.objects) {
+      const auto& [base, cap, radius, open] = std::get<Cylinder>(object.shape);
+      for (const double number : {base.x, base.y, base.z, cap.x, cap.y, cap.z, radius})
+        all << ' ' << std::bit_cast<std::uint64_t>(number);
+      all << open << object.no_shadow << object.transform.rows[3].x;
+    }
+    return all.str();
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+}
+
+/// Returns whether the text is a scene.
+bool check_same_cylinder(const std::string& text) {
+  CAPTURE(text);
+  const std::string by_grammar = cylinder_outcome(text, kByGrammar);
+  CHECK(cylinder_outcome(text, kByLiterals) == by_grammar);
+  return by_grammar.find("error") == by_grammar.npos;
+}
+
+} // namespace
+
+TEST_CASE("literal arguments of shapes are what the grammar makes of them") {
+  for (const std::string cylinder : {
+           "cylinder { %<1, 2, 3>, <4, 5, 6>, 0.5 }",
+           "cylinder {%<1,2,-3e1>,<+4,.5,6.>,1texture{T}}",
+           "cylinder {\n%<1, 2, 3>, // 7,\r\n <4, 5, 6>\n,\t-0\n open texture { T } }",
+           "cylinder { %<1, 2, 3> <4, 5, 6> 0.5 no_shadow }",
+           "cylinder { %<1, 2>, 4, 0.5 translate 2*x }",
+           "cylinder { %<1, 2, 3>, <4, 5, 6>, 0.5 Twice() texture { T } }",
+           "cylinder { %<1, 2, 3>, <4, 5, 6> One() }",
+           "cylinder { %<1, 2, 3>, <4, 5, 6>, #if (Z) 2 #else 3 #end }",
+           "cylinder { %<1, 2, 3>, <4, 5, 6>.y, 1 /* 2 */ no_shadow }",
+           "cylinder { %<1, 2, 3>, <4, 5, 6>, 1e-400 texture { T } texture { T translate x } }",
+           "#for (I, 1, 3) cylinder { %<1, 2, 3>, <4, 5, 6>, 1 translate I*x } #end",
+       })
+    CHECK(check_same_cylinder(cylinder));
+  for (const std::string cylinder : {
+           "cylinder { %",
+           "cylinder { %1",
+           "cylinder { %1 }",
+           "cylinder { %1, }",
+           "cylinder { %<1, 2, 3>, <4, 5, 6>, 0.5, }",
+           "cylinder { %<1, 2, 3>, <4, 5, 6>, 0.5, texture { T } }",
+           "cylinder { %<1, 2, 3>,\n\n <4, 5, 6>, 0.5, 1 texture { T } }",
+           "cylinder { %<1, 2, 3>, 5, <4, 5, 6> texture { T } }",
+           "cylinder { %<1, 2, 3>, <4, 5, 6>, 0.5\n pigmnet { rgb 1 } }",
+           "cylinder { %<1, 2, 3>, <4, 5, 6>, 1e999 }",
+           "cylinder { %<1, 2, 3>, <1, 2, 3>, 1 }",
+           "cylinder { %<1, 2, 3>, <4, 5, 6>, 1 cylinder }",
+           "cylinder { %<1, 2, 3>,, <4, 5, 6>, 1 }",
+       })
+    CHECK(!check_same_cylinder(cylinder));
+  CHECK(cylinder_outcome("cylinder { }", "") == "scene.pov:5:12: error: unexpected '}', expected a number");
+}
+
+TEST_CASE("arguments of shapes put together at random are the same read either way") {
+  const std::string pieces[] = {
+      ", <4, 5, 6>", ", 0.5", " open", " texture { T }", ",",      "\n",     "// c\n", "/* c */", " Z",
+      " +",          " -1",   " * 2",  " Twice()",       " One()", " <1,2>", ".x",     "#if (1)", " }"};
+  std::mt19937 random(8);
+  int scenes = 0;
+  for (int i = 0; i < 3000; ++i) {
+    std::string cylinder = "cylinder { %<1, 2, 3>";
+    for (unsigned length = random() % 6; length-- > 0;)
+      cylinder += pieces[random() % 2 ? random() % std::size(pieces) : random() % 2];
+    scenes += check_same_cylinder(cylinder + " }");
+  }
+  CHECK(scenes > 100);
+}
+
+TEST_CASE("literal arguments may not be more than any other") {
+  ParseOptions options;
+  options.limits.list_entries = 3;
+  const std::string text = "polygon { %4, 0, x, x+y }",
+                    literal = "polygon { %4, 0, <1, 0, 0>, <1, 1, 0>, 0 }";
+  for (const std::string& polygon : {text, literal})
+    CHECK(test::error_line(with_first(polygon, kByLiterals), options) ==
+          test::error_line(with_first(polygon, kByGrammar), options));
+  CHECK(test::error_line(with_first(literal, kByLiterals), options) ==
+        "scene.pov:1:30: error: this list has more than 3 entries (--max list-entries=N allows more)");
 }
