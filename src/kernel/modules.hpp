@@ -41,9 +41,9 @@ constexpr CodeModule kMeshes = {"meshes", 17, 1, 2688};
 /// Where crossings are in polygons. Likewise, beside the shapes.
 constexpr CodeModule kPolygons = {"polygons", 26, 1, 1024};
 /// Rays that go on from surfaces.
-constexpr CodeModule kSecondary = {"secondary", 2, 1, 9856};
+constexpr CodeModule kSecondary = {"secondary", 2, 1, 9088};
 /// Light that is not simply a point's.
-constexpr CodeModule kLights = {"lights", 6, 1, 4352};
+constexpr CodeModule kLights = {"lights", 6, 1, 4480};
 /// The sampling of lights that have an area.
 constexpr CodeModule kAreas = {"areas", 15, 1, 9088};
 /// The rays of cameras whose pictures are not flat.
@@ -58,11 +58,11 @@ constexpr CodeModule kFinishes = {"finishes", 19, 1, 4224};
 // Of the third region: stages of which only one is under way. Rays are not traced while surfaces are shaded.
 
 /// Tests of objects that have a shape of the first region, or are parts of a CSG.
-constexpr CodeModule kObjects = {"objects", 12, 2, 7424};
+constexpr CodeModule kObjects = {"objects", 12, 2, 6272};
 /// Where hits lie on objects, and the normals there.
-constexpr CodeModule kHits = {"hits", 5, 2, 8192};
+constexpr CodeModule kHits = {"hits", 5, 2, 7552};
 /// Shading of surfaces with textures, or of several materials.
-constexpr CodeModule kComposed = {"composed", 13, 2, 8192};
+constexpr CodeModule kComposed = {"composed", 13, 2, 7808};
 /// What rays pass through on their way or see before what they hit, and the light that mirrors bend.
 constexpr CodeModule kAtmosphere = {"atmosphere", 24, 2, 7424};
 /// What is behind everything.

@@ -61,8 +61,9 @@ void surface_of_triangles(const ObjectLanes<S>& o, const HitPacket& hits, V3<S>&
 }
 
 template <class Spu>
-void surface_of(const ObjectLanes<typename Spu::simd>& o, const V3<typename Spu::simd>& along_ray,
-                const HitPacket& hits, V3<typename Spu::simd>& point, V3<typename Spu::simd>& normal) {
+[[gnu::always_inline]] inline void surface_of(const ObjectLanes<typename Spu::simd>& o,
+                                              const V3<typename Spu::simd>& along_ray, const HitPacket& hits,
+                                              V3<typename Spu::simd>& point, V3<typename Spu::simd>& normal) {
   using S = typename Spu::simd;
   const uint32_t spheres = o.of_kind[kPrimitiveKind<SpherePrimitive>],
                  triangles = o.of_kind[kPrimitiveKind<TrianglePrimitive>],
