@@ -51,9 +51,9 @@ constexpr uint32_t kPixelsOfSmallObject = 2;
 // --- waiting for memory ---
 
 /// Up to this many objects, the caches of one core hold them with their nodes, and leaves are tested at once.
-/// With more objects, leaves are deferred while their objects are prefetched. Smaller: leaves are deferred
-/// although nothing has to be waited for; larger: tests wait for memory. Rays of head (17,684 objects) and
-/// bunny (69,630).
+/// With more objects, leaves are deferred while their objects are prefetched, and so are normals at hits a
+/// packet ahead. Smaller: leaves are deferred although nothing has to be waited for; larger: tests wait for
+/// memory. Rays of head (17,684 objects) and bunny (69,630).
 constexpr uint32_t kObjectsInCoreCache = 20000;
 /// The most leaves that are deferred. With kEnoughDeferredLeaves of them their objects are tested after the
 /// next node is expanded. Larger: more time to fetch them; smaller: hits shorten tfar sooner. Rays of the

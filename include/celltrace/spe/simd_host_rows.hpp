@@ -128,12 +128,6 @@ private:
   }
 
 #if defined(__AVX512F__)
-  /// Four rows side by side.
-  [[gnu::always_inline]] static __m512 load_rows(const float* a, const float* b, const float* c,
-                                                 const float* d) {
-    const __m512 two = _mm512_insertf32x4(_mm512_castps128_ps512(_mm_loadu_ps(a)), _mm_loadu_ps(b), 1);
-    return _mm512_insertf32x4(_mm512_insertf32x4(two, _mm_loadu_ps(c), 2), _mm_loadu_ps(d), 3);
-  }
   /// A row is one unaligned load a channel, and those of four lanes are in one register: lane 4q + i is the
   /// q-th quarter of the i-th register of four.
   template <class StartsOf, class FactorsOf>
@@ -155,8 +149,10 @@ private:
         const float *const a = of(i), *const b = of(i + 4), *const c = of(i + 8), *const d = of(i + 12);
         for (uint32_t channel = 0; channel < kChannels; ++channel) {
           Batch& total = four[channel][i];
-          const uint32_t at = 4 * channel;
-          const Batch product = Batch(load_rows(a + at, b + at, c + at, d + at)) * factors[i].part[0];
+          const auto load = [channel](const float* start) __attribute__((always_inline)) {
+            return F4{F4::Batch::load_unaligned(start + 4 * channel)};
+          };
+          const Batch product = S::join(load(a), load(b), load(c), load(d)).part[0] * factors[i].part[0];
           total = row == 0 ? product : total + product;
           keep_in_order(total);
         }

@@ -20,6 +20,20 @@ template <class S, class RecordOf>
   S::transpose_quads(words[0], words[1], words[2], words[3]);
 }
 
+/// Likewise twelve words, as vectors one after the other.
+template <class S, class RecordOf>
+[[gnu::always_inline]] inline void load_vectors(const RecordOf& record_of, uint32_t first,
+                                                V3<S> (&vectors)[4]) {
+  typename S::F a[4], b[4], c[4];
+  load_words<S>(record_of, first, a);
+  load_words<S>(record_of, first + 4, b);
+  load_words<S>(record_of, first + 8, c);
+  vectors[0] = {a[0], a[1], a[2]};
+  vectors[1] = {a[3], b[0], b[1]};
+  vectors[2] = {b[2], b[3], c[0]};
+  vectors[3] = {c[1], c[2], c[3]};
+}
+
 /// The words of ObjectRecords besides their geometry.
 template <class S> struct ObjectWords {
   typename S::I kind_and_flags, material, interior, extra;
@@ -49,18 +63,7 @@ template <class Spu>
   F four[4];
   load_words<S>(record_at(offsets), 0, four);
   words = {S::bits_of(four[0]), S::bits_of(four[1]), S::bits_of(four[2]), S::bits_of(four[3])};
-  V3<S>(&g)[4] = objects.geometry;
-  load_words<S>(record_at(offsets), 4, four);
-  g[0] = {four[0], four[1], four[2]};
-  g[1].x = four[3];
-  load_words<S>(record_at(offsets), 8, four);
-  g[1].y = four[0];
-  g[1].z = four[1];
-  g[2].x = four[2];
-  g[2].y = four[3];
-  load_words<S>(record_at(offsets), 12, four);
-  g[2].z = four[0];
-  g[3] = {four[1], four[2], four[3]};
+  load_vectors<S>(record_at(offsets), 4, objects.geometry);
 
   const I kinds = words.kind_and_flags & I::splat(object_flag::kind_mask);
   uint32_t local = 0xFFFF;
@@ -77,19 +80,11 @@ template <class Spu>
   S::select(M::from_bits(objects.smooth | local), words.extra,
             I::load(reinterpret_cast<const int32_t*>(offsets.lane)))
       .store(reinterpret_cast<int32_t*>(extras.lane));
-  V3<S>(&n)[3] = objects.normals;
-  load_words<S>(record_at(extras), 0, four);
-  objects.parameters.ratio = S::select(M::from_bits(local), four[0], F(0.0f));
-  if (objects.smooth == 0) return;
-  n[0] = {four[0], four[1], four[2]};
-  n[1].x = four[3];
-  load_words<S>(record_at(extras), 4, four);
-  n[1].y = four[0];
-  n[1].z = four[1];
-  n[2].x = four[2];
-  n[2].y = four[3];
-  load_words<S>(record_at(extras), 8, four);
-  n[2].z = four[0];
+  V3<S> values[4];
+  load_vectors<S>(record_at(extras), 0, values);
+  objects.parameters.ratio = S::select(M::from_bits(local), values[0].x, F(0.0f));
+  for (uint32_t i = 0; i < 3; ++i)
+    objects.normals[i] = values[i];
 }
 
 } // namespace celltrace::kernel
