@@ -22,7 +22,7 @@
 namespace celltrace {
 
 constexpr std::uint32_t kImageMagic = 0x43545349; // "CTSI"
-constexpr std::uint32_t kImageVersion = 10;
+constexpr std::uint32_t kImageVersion = 11;
 
 /// Thread safety: as a standard container.
 class SceneImage {
