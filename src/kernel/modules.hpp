@@ -12,13 +12,13 @@ namespace celltrace::kernel::modules {
 
 /// Intersections with the shapes that are no spheres, triangles and planes, but for heavy ones, and what is
 /// inside of shapes, which CSG asks.
-constexpr CodeModule kShapes = {"shapes", 1, 0, 14720};
+constexpr CodeModule kShapes = {"shapes", 1, 0, 14592};
 /// What a program does once a frame or once for many: it makes its objects, and reports.
 constexpr CodeModule kStart = {"start", 3, 0, 9600};
 /// The building of accelerators.
 constexpr CodeModule kBuild = {"build", 16, 0, 25728};
 /// Patterns without noise, and those of noise with its tables.
-constexpr CodeModule kPatterns = {"patterns", 7, 0, 3712};
+constexpr CodeModule kPatterns = {"patterns", 7, 0, 3200};
 constexpr CodeModule kNoise = {"noise", 8, 0, 14336};
 /// What becomes of the points of antialiased pictures, and which samples they need besides.
 constexpr CodeModule kSampling = {"sampling", 18, 0, 14336};
@@ -26,7 +26,7 @@ constexpr CodeModule kSampling = {"sampling", 18, 0, 14336};
 /// What insides take of light; and the start of mirrors that bend it.
 constexpr CodeModule kFading = {"fading", 20, 0, 2048};
 /// Patterns that few scenes have, many of which read tables of the scene image.
-constexpr CodeModule kRarePatterns = {"rare", 22, 0, 13568};
+constexpr CodeModule kRarePatterns = {"rare", 22, 0, 13184};
 /// What patterns ask of surfaces besides points.
 constexpr CodeModule kSurfaces = {"surfaces", 25, 0, 3840};
 /// Warps but for turbulence.
@@ -41,16 +41,18 @@ constexpr CodeModule kMeshes = {"meshes", 17, 1, 2688};
 /// Where crossings are in polygons. Likewise, beside the shapes.
 constexpr CodeModule kPolygons = {"polygons", 26, 1, 1024};
 /// Rays that go on from surfaces.
-constexpr CodeModule kSecondary = {"secondary", 2, 1, 9088};
+constexpr CodeModule kSecondary = {"secondary", 2, 1, 8960};
 /// Light that is not simply a point's.
 constexpr CodeModule kLights = {"lights", 6, 1, 4480};
 /// The sampling of lights that have an area.
 constexpr CodeModule kAreas = {"areas", 15, 1, 9088};
 /// The rays of cameras whose pictures are not flat.
-constexpr CodeModule kCameras = {"cameras", 10, 1, 6656};
+constexpr CodeModule kCameras = {"cameras", 10, 1, 6528};
 /// Pigments and normals, but for the patterns themselves.
-constexpr CodeModule kTextures = {"textures", 9, 1, 10368};
-constexpr CodeModule kNormals = {"normals", 11, 1, 9088};
+constexpr CodeModule kTextures = {"textures", 9, 1, 6656};
+/// The maps of textures: which of them count where.
+constexpr CodeModule kMaps = {"maps", 27, 1, 6528};
+constexpr CodeModule kNormals = {"normals", 11, 1, 8832};
 
 /// What few finishes do with light, and light from behind.
 constexpr CodeModule kFinishes = {"finishes", 19, 1, 4224};
@@ -58,18 +60,16 @@ constexpr CodeModule kFinishes = {"finishes", 19, 1, 4224};
 // Of the third region: stages of which only one is under way. Rays are not traced while surfaces are shaded.
 
 /// Tests of objects that have a shape of the first region, or are parts of a CSG.
-constexpr CodeModule kObjects = {"objects", 12, 2, 6272};
+constexpr CodeModule kObjects = {"objects", 12, 2, 6144};
 /// Where hits lie on objects, and the normals there.
 constexpr CodeModule kHits = {"hits", 5, 2, 7552};
 /// Shading of surfaces with textures, or of several materials.
 constexpr CodeModule kComposed = {"composed", 13, 2, 7808};
 /// What rays pass through on their way or see before what they hit, and the light that mirrors bend.
 constexpr CodeModule kAtmosphere = {"atmosphere", 24, 2, 7424};
-/// What is behind everything.
-constexpr CodeModule kSky = {"sky", 27, 2, 1280};
 /// Shadow rays that go from surface to surface.
 constexpr CodeModule kShadowWalk = {"walk", 21, 2, 5504};
 /// Exchange of units of work with other SPEs.
-constexpr CodeModule kExchange = {"exchange", 14, 2, 5120};
+constexpr CodeModule kExchange = {"exchange", 14, 2, 4992};
 
 } // namespace celltrace::kernel::modules

@@ -48,8 +48,11 @@ public:
       const Surfaces<S> surfaces = points.surfaces(rays.direction.template load<S>(), hits.object);
       colour = local_light(scene_, frame_, round, surfaces, m, hit, counters_.shadow);
     }
-    const V3<S> behind = background(rays, lanes);
-    colour = hit != 0 ? select<S>(M::from_bits(hit), colour, behind) : behind;
+    counters_.primary += count(lanes);
+    if (const uint32_t missed = lanes & ~hit; missed != 0) {
+      const V3<S> seen = behind(rays, missed);
+      colour = hit != 0 ? select<S>(M::from_bits(hit), colour, seen) : seen;
+    }
     return true;
   }
 
@@ -132,10 +135,8 @@ private:
 
   V3<S> behind(const RayPacket& rays, uint32_t lanes) {
     V3<S> colour = splat3<S>(frame_.background);
-    if (frame_.sky != kNoOffset) {
-      scene_.spu().enter_module(modules::kSky);
+    if (frame_.sky != kNoOffset)
       add_sky(scene_, frame_.sky, rays.direction.template load<S>(), lanes, colour);
-    }
     return colour;
   }
 
@@ -241,9 +242,9 @@ private:
       const uint32_t map = map_of(*scene_.material(material));
       if (map == kNoOffset) return;
       plain &= ~same;
-      scene_.spu().enter_module(modules::kTextures);
+      scene_.spu().enter_module(modules::kMaps);
       const PatternPoints<S> asked = {surfaces.point, surface_};
-      MapWalk<Spu, TextureStage::colours, S> walk(scene_, asked, MapOf::textures);
+      MapWalk<Spu, TextureStage::maps, S> walk(scene_, asked, MapOf::textures);
       walk.enter(map, weight, same);
       MapEntryRecord entry;
       F share;
@@ -252,7 +253,7 @@ private:
       while (walk.next(entry, share, some)) {
         fill(leaf, entry.child);
         shade_whole(surfaces, points, leaf, some, share, all);
-        scene_.spu().enter_module(modules::kTextures);
+        scene_.spu().enter_module(modules::kMaps);
       }
     });
     if (plain != 0) shade_whole(surfaces, points, materials, plain, weight, all);

@@ -69,7 +69,9 @@ public:
   using Part = typename Spu::rare_simd;
 
   static constexpr CodeModule kModule =
-      kStage == TextureStage::normals ? modules::kNormals : modules::kTextures;
+      kStage == TextureStage::normals ? modules::kNormals
+      : kStage == TextureStage::maps  ? modules::kMaps
+                                      : modules::kTextures;
 
   /// `points` stay where they are.
   MapWalk(SceneAccess<Spu>& scene, const PatternPoints<S>& points, MapOf of = MapOf::pigments)

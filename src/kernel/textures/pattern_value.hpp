@@ -15,8 +15,9 @@
 
 namespace celltrace::kernel {
 
-/// Who asks patterns. Each has a code module with its own copies of what asks them.
-enum class TextureStage : uint32_t { colours, normals };
+/// Who asks patterns: pigments, normals, and the maps of textures at hits. Each has a code module with its own
+/// copies of what asks them.
+enum class TextureStage : uint32_t { colours, normals, maps };
 
 /// The values of the patterns whose code is in one place, waves included.
 template <PatternCode kCode, class S>

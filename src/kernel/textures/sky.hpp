@@ -46,7 +46,6 @@ void add_sky_layers(SceneAccess<Spu>& scene, uint32_t sky, const V3<typename Spu
 template <class Spu>
 [[gnu::noinline]] void add_sky(SceneAccess<Spu>& scene, uint32_t sky, const V3<typename Spu::simd>& direction,
                                uint32_t lanes, V3<typename Spu::simd>& colour) {
-  scene.spu().run_in_module(modules::kSky);
   scene.spu().enter_module(modules::kTextures);
   for_each_part<Spu>([&](uint32_t first) {
     const uint32_t some = part_of<Spu>(lanes, first);
