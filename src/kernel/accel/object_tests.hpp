@@ -310,9 +310,13 @@ private:
 
   /// Leaves those of the crossings in `near` and `far` that satisfy the condition.
   void accept(const RayPacket& rays, uint32_t condition, const M& near, const M& far, Crossings<S>& c) {
-    const V3<S> origin = rays.origin.template load<S>(), direction = rays.direction.template load<S>();
-    c.near_hit = M::from_bits(csg_accepted(scene_, condition, origin + direction * c.near, near.bits()));
-    c.far_hit = M::from_bits(csg_accepted(scene_, condition, origin + direction * c.far, far.bits()));
+    const auto accepted = [&](const F& distance, uint32_t lanes) {
+      if (lanes == 0) return M::none();
+      const V3<S> origin = rays.origin.template load<S>(), direction = rays.direction.template load<S>();
+      return M::from_bits(csg_accepted(scene_, condition, origin + direction * distance, lanes));
+    };
+    c.near_hit = accepted(c.near, near.bits());
+    c.far_hit = accepted(c.far, far.bits());
   }
 
   /// Multiplies the light of `lanes` by the transmittance of a translucent surface that they cross at `at`.

@@ -23,18 +23,17 @@ struct QuadricPrimitive : LocalPrimitive<QuadricPrimitive> {
     F linear, constant;
 
     [[gnu::always_inline]] explicit Factors(const LocalParameters<S>& parameters) {
-      F rest = parameters.ratio;
-      const auto next_digit = [&rest](float base) __attribute__((always_inline)) {
-        const F above = S::floor((rest + F(0.5f)) * F(1.0f / base));
-        const F digit = rest - above * F(base);
-        rest = above;
-        return digit;
+      // Without the last digits, each by itself: none waits for another.
+      const auto without = [&](float base) __attribute__((always_inline)) {
+        return S::floor((parameters.ratio + F(0.5f)) * F(1.0f / base));
       };
-      square.x = next_digit(3.0f) - F(1.0f);
-      square.y = next_digit(3.0f) - F(1.0f);
-      square.z = next_digit(3.0f) - F(1.0f);
-      linear = next_digit(2.0f);
-      constant = rest - F(1.0f);
+      const F one(1.0f), three(3.0f);
+      const F after_x = without(3.0f), after_y = without(9.0f), after_z = without(27.0f);
+      const F after_linear = without(54.0f);
+      square = {parameters.ratio - after_x * three - one, after_x - after_y * three - one,
+                after_y - after_z * three - one};
+      linear = after_z - after_linear * F(2.0f);
+      constant = after_linear - one;
     }
     [[gnu::always_inline]] F at(const V3<S>& p) const {
       return dot<S>(square * p, p) + linear * p.z + constant;
@@ -54,16 +53,18 @@ struct QuadricPrimitive : LocalPrimitive<QuadricPrimitive> {
     const V3<S> bent = f.square * d;
     const F a = dot<S>(bent, d), b = dot<S>(bent, o) + f.linear * d.z * F(0.5f), c = f.at(o);
     const F discriminant = b * b - a * c;
+    const M real = discriminant >= F(0.0f);
+    crossings->clear();
+    if (real.bits() == 0) return;
     const F root = S::sqrt(S::max(discriminant, F(0.0f)));
     const F q = -(b + S::select(b < F(0.0f), -root, root));
     const F first = c * finite_inverse<S>(q) + middle, second = q * finite_inverse<S>(a) + middle;
     // A ray that starts on the surface may cross it once more: elsewhere.
-    const M real = discriminant >= F(0.0f), starts_first = S::abs(first) <= S::abs(second);
+    const M starts_first = S::abs(first) <= S::abs(second);
     const M first_hit = real & !(rays.starts_here & starts_first);
     const M second_hit = real & !(rays.starts_here & !starts_first);
     const M in_turn = first <= second;
     Crossings<S>& crossing = *crossings;
-    crossing.clear();
     crossing.near = S::min(first, second);
     crossing.far = S::max(first, second);
     crossing.near_hit = (first_hit & in_turn) | (second_hit & !in_turn);

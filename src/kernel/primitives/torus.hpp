@@ -21,6 +21,12 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
                               Crossings<S>* crossings) {
     using F = typename S::F;
     const F zero(0.0f), one(1.0f), two(2.0f), four(4.0f);
+    const auto near_enough = may_hit<S>(rays, parameters.ratio);
+    if (near_enough.bits() == 0) {
+      for (uint32_t pair = 0; pair < kCrossingPairs; ++pair)
+        crossings[pair].clear();
+      return;
+    }
     const F scale = S::sqrt(S::max(dot<S>(rays.direction, rays.direction), F(1e-30f)));
     const V3<S> d = rays.direction * (one / scale);
     const F shift = -dot<S>(rays.origin, d);
@@ -32,26 +38,8 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
     f.q = F(-8.0f) * (o.x * d.x + o.y * d.y);
     f.r = g * g - four * (o.x * o.x + o.y * o.y);
     const F outer = one + parameters.ratio;
-    const F left = outer * outer - square;
     // A little farther, where the ray is outside for certain.
-    const F end = S::sqrt(S::max(left, zero)) * F(1.001f) + F(1e-4f);
-    // Rays that miss the torus: where they are in its ball and as near to its plane as its tube, they are
-    // behind the start, or do not leave the hole.
-    const F slack(1e-4f), height = parameters.ratio * F(1.001f) + slack;
-    const SlabInterval<S> slab(o.z, d.z, -height, height);
-    const F enter = S::max(slab.enter, -end), leave = S::min(slab.leave, end);
-    const F hole = S::max((one - parameters.ratio) * F(0.999f) - slack, zero);
-    const auto in_hole = [&](const F& t) {
-      const F x = o.x + d.x * t, y = o.y + d.y * t;
-      return x * x + y * y < hole * hole;
-    };
-    const auto near_enough =
-        (left > zero) & (enter <= leave) & (leave + shift >= zero) & !(in_hole(enter) & in_hole(leave));
-    if (near_enough.bits() == 0) {
-      for (uint32_t pair = 0; pair < kCrossingPairs; ++pair)
-        crossings[pair].clear();
-      return;
-    }
+    const F end = S::sqrt(S::max(outer * outer - square, zero)) * F(1.001f) + F(1e-4f);
     F bounds[5] = {-end, zero, zero, zero, end};
     f.stationary_points(near_enough, bounds[1], bounds[2], bounds[3]);
     for (int i = 1; i < 4; ++i)
@@ -105,6 +93,28 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
   static LocalBounds local_bounds(float ratio) { return {-ratio, ratio, 1.0f + ratio, false}; }
 
 private:
+  /// All rays that hit the torus, and few that do not. Most rays that come to a torus miss it, many of them
+  /// through its hole: one division tells, where the quartic would take four roots and divisions.
+  template <class S>
+  static typename S::M may_hit(const LocalRays<S>& rays, const typename S::F& ratio) {
+    using F = typename S::F;
+    const V3<S>&o = rays.origin, &d = rays.direction;
+    const F zero(0.0f), one(1.0f);
+    const F rounding = F(1e-4f) + absolute_sum<S>(o) * F(1e-6f);
+    const F outer = one + ratio + rounding, height = ratio + rounding;
+    const F ahead = dot<S>(o, d), outside = dot<S>(o, o) * F(1.0f - 1e-6f) - outer * outer;
+    const auto in_ball = ahead * ahead >= dot<S>(d, d) * outside;
+    const auto comes_near = (ahead <= zero) | (outside <= zero);
+    // Where it is as near to the plane as the tube, it does not leave the hole.
+    const SlabInterval<S> slab(o.z, d.z, -height, height);
+    const F hole = S::max(one - ratio - rounding, zero);
+    const auto in_hole = [&](const F& t) {
+      const F x = o.x + d.x * t, y = o.y + d.y * t;
+      return x * x + y * y < hole * hole;
+    };
+    return in_ball & comes_near & (slab.leave >= zero) & !(in_hole(slab.enter) & in_hole(slab.leave));
+  }
+
   /// Newton's method ends where it moves less than this: the next step would be in the order of its square.
   static constexpr float kConverged = 1e-5f;
 
