@@ -26,7 +26,7 @@ constexpr CodeModule kSampling = {"sampling", 18, 0, 14336};
 /// What insides take of light; and the start of mirrors that bend it.
 constexpr CodeModule kFading = {"fading", 20, 0, 2048};
 /// Patterns that few scenes have, many of which read tables of the scene image.
-constexpr CodeModule kRarePatterns = {"rare", 22, 0, 13184};
+constexpr CodeModule kRarePatterns = {"rare", 22, 0, 13312};
 /// What patterns ask of surfaces besides points.
 constexpr CodeModule kSurfaces = {"surfaces", 25, 0, 3840};
 /// Warps but for turbulence.
@@ -35,7 +35,7 @@ constexpr CodeModule kWarps = {"warps", 23, 0, 3456};
 // Of the second region: what shades, and asks patterns.
 
 /// Intersections with heavy shapes. Not of the region of the other shapes: rays test both by turns.
-constexpr CodeModule kHeavyShapes = {"heavy", 4, 1, 4224};
+constexpr CodeModule kHeavyShapes = {"heavy", 4, 1, 4352};
 /// What is inside of meshes. Likewise: where CSG has meshes, it asks both by turns.
 constexpr CodeModule kMeshes = {"meshes", 17, 1, 2688};
 /// Where crossings are in polygons. Likewise, beside the shapes.
@@ -60,7 +60,7 @@ constexpr CodeModule kFinishes = {"finishes", 19, 1, 4224};
 // Of the third region: stages of which only one is under way. Rays are not traced while surfaces are shaded.
 
 /// Tests of objects that have a shape of the first region, or are parts of a CSG.
-constexpr CodeModule kObjects = {"objects", 12, 2, 6144};
+constexpr CodeModule kObjects = {"objects", 12, 2, 5888};
 /// Where hits lie on objects, and the normals there.
 constexpr CodeModule kHits = {"hits", 5, 2, 7552};
 /// Shading of surfaces with textures, or of several materials.

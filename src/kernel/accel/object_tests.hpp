@@ -310,13 +310,14 @@ private:
 
   /// Leaves those of the crossings in `near` and `far` that satisfy the condition.
   void accept(const RayPacket& rays, uint32_t condition, const M& near, const M& far, Crossings<S>& c) {
-    const auto accepted = [&](const F& distance, uint32_t lanes) {
-      if (lanes == 0) return M::none();
-      const V3<S> origin = rays.origin.template load<S>(), direction = rays.direction.template load<S>();
-      return M::from_bits(csg_accepted(scene_, condition, origin + direction * distance, lanes));
-    };
-    c.near_hit = accepted(c.near, near.bits());
-    c.far_hit = accepted(c.far, far.bits());
+    c.near_hit = accepted(rays, condition, c.near, near.bits());
+    c.far_hit = accepted(rays, condition, c.far, far.bits());
+  }
+  /// Not inlined: it is asked in four places.
+  [[gnu::noinline]] M accepted(const RayPacket& rays, uint32_t condition, const F& distance, uint32_t lanes) {
+    if (lanes == 0) return M::none();
+    const V3<S> origin = rays.origin.template load<S>(), direction = rays.direction.template load<S>();
+    return M::from_bits(csg_accepted(scene_, condition, origin + direction * distance, lanes));
   }
 
   /// Multiplies the light of `lanes` by the transmittance of a translucent surface that they cross at `at`.
