@@ -1,4 +1,5 @@
-// Image: an 8-bit picture in memory, read from and written to files, and compared with another one.
+// Pictures in memory: of 8 bits a channel, read from and written to files, and compared with each other; of
+// 16, written to files; and colours as numbers.
 //
 // Every function is safe to call from several threads at once on different pictures and files.
 #pragma once
@@ -18,22 +19,21 @@ namespace celltrace {
 inline constexpr int kMaxImageSide = 65535;
 inline constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 27;
 
-/// A picture: `height` rows of `width` pixels, top row first, four bytes (red, green, blue, alpha) a pixel,
-/// no padding. Values are as the file has them: encoded (sRGB by convention), alpha not premultiplied, 255 is
-/// opaque.
-struct Image {
+/// A picture: `height` rows of `width` pixels, top row first, four channels (red, green, blue, alpha) a
+/// pixel, no padding.
+template <class Channel> struct BasicImage {
   int width = 0;
   int height = 0;
-  std::vector<std::uint8_t> rgba;
+  std::vector<Channel> rgba;
 
-  Image() = default;
+  BasicImage() = default;
   /// Opaque black. Throws InputError if a side is below 1 or a limit is passed.
-  Image(int width, int height);
+  BasicImage(int width, int height);
 
-  std::uint8_t* pixel(int x, int y) { return rgba.data() + offset(x, y); }
-  const std::uint8_t* pixel(int x, int y) const { return rgba.data() + offset(x, y); }
+  Channel* pixel(int x, int y) { return rgba.data() + offset(x, y); }
+  const Channel* pixel(int x, int y) const { return rgba.data() + offset(x, y); }
 
-  bool operator==(const Image&) const = default;
+  bool operator==(const BasicImage&) const = default;
 
 private:
   std::size_t offset(int x, int y) const {
@@ -41,12 +41,29 @@ private:
   }
 };
 
-/// Writes a picture as PNG (8 bits a channel; without alpha if every pixel is opaque) or, without its alpha,
-/// as binary PPM, by the extension of `path` (.png or .ppm, in either case). The file appears whole or not at
-/// all: it is written under another name in the same folder and renamed. A device or pipe is written to
-/// directly. Throws InputError naming the file: unknown extension, picture without or with too many pixels,
-/// failed write.
+/// Values are as files have them: encoded (sRGB by convention), alpha not premultiplied, the largest number
+/// is opaque.
+using Image = BasicImage<std::uint8_t>;
+using DeepImage = BasicImage<std::uint16_t>;
+
+/// Colours as numbers, as rays brought them: not clipped, alpha 0 to 1.
+struct ColourImage : BasicImage<float> {
+  using BasicImage::BasicImage;
+  /// The power that makes colours linear. None: they are for display as they are.
+  std::optional<double> gamma = 1.0;
+};
+
+/// For display: each colour clipped to 0..1, made linear and encoded as sRGB, with 16 bits a channel. What is
+/// not a number becomes 0. Throws InputError if the picture is empty or too large.
+DeepImage to_deep_image(const ColourImage& colours);
+
+/// Writes a picture as PNG (8 or 16 bits a channel; without alpha if every pixel is opaque) or, without its
+/// alpha, as binary PPM, by the extension of `path` (.png or .ppm, in either case). The file appears whole or
+/// not at all: it is written under another name in the same folder and renamed. A device or pipe is written
+/// to directly. Throws InputError naming the file: unknown extension, picture without or with too many
+/// pixels, failed write.
 void save_image(const std::filesystem::path& path, const Image& image);
+void save_image(const std::filesystem::path& path, const DeepImage& image);
 
 /// Throws the InputError save_image() would end with for this path's extension or folder, so that a program
 /// can tell before it computes the picture.

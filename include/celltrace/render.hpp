@@ -100,6 +100,8 @@ struct RenderOptions {
   std::optional<PictureRegion> region;
   /// Model `shared` only. Takes 12 bytes of memory a pixel.
   std::optional<Antialiasing> antialiasing;
+  /// RenderResult::colours is wanted, too. Model `shared` only. Takes 28 bytes of memory a pixel.
+  bool colours = false;
   /// Of cell_emu and cell_sim; native knows none of it, and nothing is recorded on cell_sim. The trace is
   /// complete when the renderer is gone.
   EmulationConfig emulation;
@@ -195,6 +197,7 @@ std::string to_json(const RenderStatistics& statistics);
 
 struct RenderResult {
   Image image;
+  ColourImage colours; ///< empty unless RenderOptions::colours
   RenderStatistics statistics;
   bool complete = true; ///< false: cancelled; pixels that were not reached are transparent black
 };

@@ -100,6 +100,9 @@ void add_picture_options(CLI::App& command, RenderRequest& request, RenderTexts&
       ->type_name("OUT.png|OUT.ppm");
   add_choice(command, "--file-type", texts.file_type, {{"png", "ppm"}, {}},
              "What the picture is if its name does not say; default: png");
+  command.add_option("--bits", request.bits, "Bits a channel of the picture")
+      ->check(CLI::IsMember({8, 16}))
+      ->capture_default_str();
   add_choice(command, "--picture", texts.picture, {{"on", "off"}, {}}, "Whether the picture is written");
   RenderOptions& options = request.options;
   const CLI::Range side(1, kMaxImageSide);
@@ -363,6 +366,7 @@ void finish(RenderRequest& request, const RenderTexts& texts) {
   request.cache_trace = texts.emulation.cache_trace;
   request.options.region = region_of(texts, request.options);
   request.options.antialiasing = antialiasing_of(texts);
+  request.options.colours = request.bits == 16;
   request.options.accelerator = accelerator_of(texts.accelerator);
   request.options.model = model_of(texts.model);
   request.options.balance = balance_of(texts.balance);

@@ -23,6 +23,7 @@ struct RenderRequest {
   std::filesystem::path scene;
   /// By default the scene's name with .png, in the current folder. Empty: no picture is written.
   std::filesystem::path output;
+  int bits = 8; ///< a channel of the picture: 8 or 16
   RenderOptions options;
   std::vector<std::filesystem::path> library_paths;
   std::vector<std::filesystem::path> readable_folders, writable_folders; ///< of the scene

@@ -173,11 +173,25 @@ constexpr Setting kSettingOptions[] = {
 
 /// Settings that no switch says, without effect on the picture.
 constexpr std::string_view kIgnoredSettings[] = {
-    "all_console",         "all_file",       "append_file",      "bits_per_color",
-    "bounding_threshold",  "buffer_output",  "buffer_size",      "create_continue_trace_log",
-    "create_histogram",    "debug_file",     "display_gamma",    "fatal_file",
-    "histogram_grid_size", "histogram_name", "histogram_type",   "palette",
-    "render_file",         "statistic_file", "test_abort_count", "video_mode",
+    "all_console",
+    "all_file",
+    "append_file",
+    "bounding_threshold",
+    "buffer_output",
+    "buffer_size",
+    "create_continue_trace_log",
+    "create_histogram",
+    "debug_file",
+    "display_gamma",
+    "fatal_file",
+    "histogram_grid_size",
+    "histogram_name",
+    "histogram_type",
+    "palette",
+    "render_file",
+    "statistic_file",
+    "test_abort_count",
+    "video_mode",
     "warning_file",
 };
 
@@ -348,6 +362,7 @@ private:
     if (lower == "declare") return add_option("--declare", value);
     if (lower == "include_ini") return ini(needed(text, value, "a file name"));
     if (lower == "output_to_file") return output_to_file(is_on(value));
+    if (lower == "bits_per_color") return bits_per_color(text, value);
     if (lower == "output_file_type") return file_type(text, changed_case(value, std::toupper));
     const auto own = std::find_if(std::begin(kSettingOptions), std::end(kSettingOptions), same_name);
     if (own != std::end(kSettingOptions)) {
@@ -446,9 +461,16 @@ private:
 
   void file_type(const std::string& text, const std::string& type) {
     if (type.empty()) return;
-    if (type == "N" || type == "N8") return option("--file-type", "png");
-    if (type == "P" || type == "P8") return option("--file-type", "ppm");
-    refuse(text, "a file type other than PNG and PPM with 8 bits a channel");
+    const std::string bits = type.substr(1);
+    if ((type[0] != 'N' && type[0] != 'P') || (!bits.empty() && bits != "8" && bits != "16"))
+      refuse(text, "a file type other than PNG and PPM with 8 or 16 bits a channel");
+    option("--file-type", type[0] == 'N' ? "png" : "ppm");
+    if (!bits.empty()) option("--bits", bits);
+  }
+
+  void bits_per_color(const std::string& text, const std::string& bits) {
+    if (bits != "8" && bits != "16") refuse(text, "a picture of other than 8 or 16 bits a channel");
+    option("--bits", bits);
   }
 
   void ignore(const std::string& text, bool well_formed) {

@@ -145,7 +145,12 @@ int run_render(const RenderRequest& request) {
   OutputFile trace(request.trace, true);
   OutputFile cache_trace(request.cache_trace);
   const RenderResult result = render_with_progress(*scene, request, {trace.stream(), cache_trace.stream()});
-  if (!request.output.empty()) save_image(request.output, result.image);
+  if (!request.output.empty()) {
+    if (request.bits == 16)
+      save_image(request.output, to_deep_image(result.colours));
+    else
+      save_image(request.output, result.image);
+  }
   trace.finish();
   cache_trace.finish();
   if (!request.stats.empty()) write_statistics(request.stats, result.statistics, parsing.count());

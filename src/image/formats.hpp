@@ -11,7 +11,8 @@ namespace celltrace::image {
 Image read_png(std::FILE* file, std::uintmax_t file_bytes);
 Image read_ppm(std::FILE* file, std::uintmax_t file_bytes);
 
-void write_png(std::FILE* file, const Image& image);
-void write_ppm(std::FILE* file, const Image& image);
+/// Of Image and DeepImage.
+template <class Channel> void write_png(std::FILE* file, const BasicImage<Channel>& image);
+template <class Channel> void write_ppm(std::FILE* file, const BasicImage<Channel>& image);
 
 } // namespace celltrace::image

@@ -13,14 +13,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using Writer = void (*)(std::FILE*, const Image&);
+template <class Channel> using Writer = void (*)(std::FILE*, const BasicImage<Channel>&);
 
-Writer writer_for(const fs::path& path) {
+template <class Channel> Writer<Channel> writer_for(const fs::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension == ".png") return image::write_png;
-  if (extension == ".ppm") return image::write_ppm;
+  if (extension == ".png") return image::write_png<Channel>;
+  if (extension == ".ppm") return image::write_ppm<Channel>;
   throw InputError("the picture formats that can be written are .png and .ppm");
 }
 
@@ -41,11 +41,9 @@ template <class Work> auto naming_the_file(const fs::path& path, Work work) {
   }
 }
 
-} // namespace
-
-void save_image(const fs::path& path, const Image& image) {
+template <class Channel> void save(const fs::path& path, const BasicImage<Channel>& image) {
   naming_the_file(path, [&] {
-    const Writer write = writer_for(path);
+    const Writer<Channel> write = writer_for<Channel>(path);
     image::check_image(image);
     image::OutputFile file(path);
     write(file.get(), image);
@@ -53,9 +51,18 @@ void save_image(const fs::path& path, const Image& image) {
   });
 }
 
+} // namespace
+
+void save_image(const fs::path& path, const Image& image) {
+  save(path, image);
+}
+void save_image(const fs::path& path, const DeepImage& image) {
+  save(path, image);
+}
+
 void check_image_path(const fs::path& path) {
   naming_the_file(path, [&] {
-    writer_for(path);
+    writer_for<std::uint8_t>(path);
     std::error_code error;
     if (fs::is_directory(path, error)) throw InputError("is a folder");
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");

@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <new>
 #include <system_error>
@@ -57,43 +58,46 @@ void write_chunk(std::FILE* file, const char (&type)[5], const std::uint8_t* dat
   write_bytes(file, checksum, sizeof checksum);
 }
 
-void write_header(std::FILE* file, const Image& image, bool opaque) {
+template <class Channel> void write_header(std::FILE* file, const BasicImage<Channel>& image, bool opaque) {
   constexpr std::uint8_t kSignature[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
   write_bytes(file, kSignature, sizeof kSignature);
   std::uint8_t header[13] = {}; // deflate, the five filters, not interlaced
   put_big_endian(header, static_cast<std::uint32_t>(image.width));
   put_big_endian(header + 4, static_cast<std::uint32_t>(image.height));
-  header[8] = 8;
+  header[8] = 8 * sizeof(Channel);
   header[9] = opaque ? kColourRgb : kColourRgba;
   write_chunk(file, "IHDR", header, sizeof header);
 }
 
 /// The difference of a row and the one above, pixel by pixel: filter type Up.
-template <int channels>
-void filter_row(const std::uint8_t* row, const std::uint8_t* above, std::uint8_t* target, int width) {
+template <int channels, class Channel>
+void filter_row(const Channel* row, const Channel* above, std::uint8_t* target, int width) {
   for (int x = 0; x < width; ++x)
-    for (int channel = 0; channel < channels; ++channel)
-      target[channels * x + channel] =
-          static_cast<std::uint8_t>(row[4 * x + channel] - above[4 * x + channel]);
+    for (int channel = 0; channel < channels; ++channel) {
+      const Channel value = row[4 * x + channel], before = above[4 * x + channel];
+      std::uint8_t* const bytes = target + static_cast<int>(sizeof(Channel)) * (channels * x + channel);
+      if constexpr (sizeof(Channel) == 2) bytes[0] = static_cast<std::uint8_t>((value >> 8) - (before >> 8));
+      bytes[sizeof(Channel) - 1] = static_cast<std::uint8_t>(value - before);
+    }
 }
 
 /// The bytes that are compressed: each row behind the number of its filter.
-Bytes filtered(const Image& image, bool opaque, std::size_t& count) {
-  const std::size_t row_bytes = (opaque ? 3 : 4) * static_cast<std::size_t>(image.width);
+template <class Channel> Bytes filtered(const BasicImage<Channel>& image, bool opaque, std::size_t& count) {
+  const std::size_t row_bytes = (opaque ? 3 : 4) * sizeof(Channel) * static_cast<std::size_t>(image.width);
   count = (1 + row_bytes) * static_cast<std::size_t>(image.height);
   Bytes bytes = make_bytes(count);
-  const std::vector<std::uint8_t> zeros(4 * static_cast<std::size_t>(image.width));
+  const std::vector<Channel> zeros(4 * static_cast<std::size_t>(image.width));
   std::uint8_t* target = bytes.get();
   for (int y = 0; y < image.height; ++y) {
-    const std::uint8_t* above = y == 0 ? zeros.data() : image.pixel(0, y - 1);
+    const Channel* above = y == 0 ? zeros.data() : image.pixel(0, y - 1);
     *target++ = kFilterUp;
-    (opaque ? filter_row<3> : filter_row<4>)(image.pixel(0, y), above, target, image.width);
+    (opaque ? filter_row<3, Channel> : filter_row<4, Channel>)(image.pixel(0, y), above, target, image.width);
     target += row_bytes;
   }
   return bytes;
 }
 
-void write_pixels(std::FILE* file, const Image& image, bool opaque) {
+template <class Channel> void write_pixels(std::FILE* file, const BasicImage<Channel>& image, bool opaque) {
   const std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor(
       libdeflate_alloc_compressor(kLevel));
   if (!compressor) throw std::bad_alloc();
@@ -107,20 +111,23 @@ void write_pixels(std::FILE* file, const Image& image, bool opaque) {
   write_chunk(file, "IDAT", compressed.get(), size);
 }
 
-bool is_opaque(const Image& image) {
-  std::uint8_t all = 255;
+template <class Channel> bool is_opaque(const BasicImage<Channel>& image) {
+  constexpr Channel kOpaque = std::numeric_limits<Channel>::max();
+  Channel all = kOpaque;
   for (std::size_t alpha = 3; alpha < image.rgba.size(); alpha += 4)
     all &= image.rgba[alpha];
-  return all == 255;
+  return all == kOpaque;
 }
 
 } // namespace
 
-void write_png(std::FILE* file, const Image& image) {
+template <class Channel> void write_png(std::FILE* file, const BasicImage<Channel>& image) {
   const bool opaque = is_opaque(image);
   write_header(file, image, opaque);
   write_pixels(file, image, opaque);
   write_chunk(file, "IEND", nullptr, 0);
 }
+template void write_png(std::FILE* file, const Image& image);
+template void write_png(std::FILE* file, const DeepImage& image);
 
 } // namespace celltrace::image

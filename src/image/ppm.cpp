@@ -3,6 +3,7 @@
 #include "image/limits.hpp"
 
 #include <cctype>
+#include <limits>
 
 namespace celltrace::image {
 
@@ -66,15 +67,21 @@ Image read_ppm(std::FILE* file, std::uintmax_t file_bytes) {
   return image;
 }
 
-void write_ppm(std::FILE* file, const Image& image) {
-  std::fprintf(file, "P6\n%d %d\n255\n", image.width, image.height);
-  std::vector<std::uint8_t> row(3 * static_cast<std::size_t>(image.width));
+template <class Channel> void write_ppm(std::FILE* file, const BasicImage<Channel>& image) {
+  std::fprintf(file, "P6\n%d %d\n%d\n", image.width, image.height, std::numeric_limits<Channel>::max());
+  std::vector<std::uint8_t> row(3 * sizeof(Channel) * static_cast<std::size_t>(image.width));
   for (int y = 0; y < image.height; ++y) {
+    std::uint8_t* target = row.data();
     for (int x = 0; x < image.width; ++x)
-      for (int channel = 0; channel < 3; ++channel)
-        row[static_cast<std::size_t>(3 * x + channel)] = image.pixel(x, y)[channel];
+      for (int channel = 0; channel < 3; ++channel) {
+        const Channel value = image.pixel(x, y)[channel];
+        if constexpr (sizeof(Channel) == 2) *target++ = static_cast<std::uint8_t>(value >> 8);
+        *target++ = static_cast<std::uint8_t>(value);
+      }
     std::fwrite(row.data(), 1, row.size(), file);
   }
 }
+template void write_ppm(std::FILE* file, const Image& image);
+template void write_ppm(std::FILE* file, const DeepImage& image);
 
 } // namespace celltrace::image

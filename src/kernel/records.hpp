@@ -623,8 +623,9 @@ enum class GammaEncoding : uint32_t { none = 0, assumed = 1 };
 constexpr uint32_t kMaxInteriorDepth = 8;
 constexpr uint32_t kPacketEdge = 4; ///< a packet is 4x4 rays
 
-/// What a frame is for. With antialiasing a picture takes two: the points of a grid, one more than pixels
-/// each way, then the samples that some pixels need besides.
+/// What a frame is for. Where colours are asked for, a picture without antialiasing is a grid of its pixels'
+/// middles, and the host takes them from there. With antialiasing a picture takes two: the points of a grid,
+/// one more than pixels each way, then the samples that some pixels need besides.
 enum class FramePurpose : uint32_t { picture = 0, grid = 1, samples = 2 };
 
 /// POV-Ray's. `fixed`: grid points are the middles of pixels, from the one to the upper left of the picture
@@ -646,6 +647,14 @@ struct SamplingRecord {
   float threshold; ///< of the difference of two colours, summed over the channels
   float jitter;    ///< pixels that a sample may be moved by, all in all
   float inverse_gamma; ///< power that colours are raised to before they are compared
+  /// Bytes of a row of colours, a ColourRecord a pixel. The rows lie behind those of the surface; 0: colours
+  /// are not asked for.
+  uint32_t colours_pitch;
+};
+
+/// A pixel's colour as the rays brought it.
+struct alignas(16) ColourRecord {
+  float channel[3];
   uint32_t unused;
 };
 

@@ -21,7 +21,7 @@ FieldList<&BvhRecord::node_offset, &BvhRecord::node_capacity, &BvhRecord::node_c
 fields_of(const BvhRecord&);
 
 FieldList<&SamplingRecord::method, &SamplingRecord::depth, &SamplingRecord::threshold,
-          &SamplingRecord::jitter, &SamplingRecord::inverse_gamma, &SamplingRecord::unused>
+          &SamplingRecord::jitter, &SamplingRecord::inverse_gamma, &SamplingRecord::colours_pitch>
 fields_of(const SamplingRecord&);
 
 FieldList<&FrameBlock::camera, &FrameBlock::grid, &FrameBlock::bvh, &FrameBlock::image, &FrameBlock::surface,

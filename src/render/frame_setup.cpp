@@ -139,6 +139,8 @@ void check(const RenderOptions& options) {
       region.top >= region.bottom || region.bottom > options.height)
     throw InputError("the region to render has no pixels, or some that are not in the picture");
   if (options.antialiasing) check(*options.antialiasing, options.model);
+  if (options.colours && options.model != Model::shared)
+    throw InputError("colours as numbers are for the shared programming model");
 }
 
 void set_options(FrameBlock& frame, const RenderOptions& options, const Machine& machine) {
@@ -147,6 +149,7 @@ void set_options(FrameBlock& frame, const RenderOptions& options, const Machine&
   const PictureRegion region = region_of(options);
   frame.width = static_cast<std::uint32_t>(region.right - region.left);
   frame.height = static_cast<std::uint32_t>(region.bottom - region.top);
+  if (options.colours) frame.purpose = static_cast<std::uint32_t>(FramePurpose::grid);
   if (const auto& antialiasing = options.antialiasing) {
     frame.purpose = static_cast<std::uint32_t>(FramePurpose::grid);
     ++frame.width;
@@ -164,6 +167,9 @@ void set_options(FrameBlock& frame, const RenderOptions& options, const Machine&
   frame.bundle_columns = blocks(frame.packet_columns, edge);
   frame.bundle_rows = blocks(frame.packet_rows, edge);
   frame.surface_pitch = frame.packet_columns * kPacketEdge * 4;
+  if (options.colours)
+    frame.sampling.colours_pitch =
+        frame.packet_columns * kPacketEdge * static_cast<std::uint32_t>(sizeof(ColourRecord));
   frame.cache_ways = options.cache.ways;
   frame.cache_sets = options.cache.sets;
   frame.cache_replacement = static_cast<std::uint32_t>(options.cache.replacement);

@@ -89,9 +89,14 @@ private:
         frame_block_(1, machine->byte_order()), frame_(frame_block_[0]), machine_(std::move(machine)) {
     const unsigned spes = machine_->spe_count();
     set_options(frame_, options_, *machine_);
-    surface_ = make_list_target(std::size_t{frame_.surface_pitch} * frame_.packet_rows * kPacketEdge);
+    surface_ = make_list_target(std::size_t{frame_.surface_pitch + frame_.sampling.colours_pitch} *
+                                frame_.packet_rows * kPacketEdge);
     frame_.surface = to_ea(surface_.data());
     frame_.reports = reports_.ea();
+    if (options_.antialiasing || options_.colours)
+      grid_points_ = AlignedBlock::uninitialised(std::size_t{frame_.packet_columns} * frame_.packet_rows *
+                                                 kGridPacketBytes);
+    frame_.grid_points = to_ea(grid_points_.data());
     if (options_.antialiasing) make_room_for_samples();
     plan_ = std::make_unique<WorkPlan>(options_.balance, frame_.bundle_columns, frame_.bundle_rows, spes,
                                        machine_->byte_order());
@@ -106,11 +111,8 @@ private:
     const auto blocks = [](int pixels) {
       return (static_cast<std::uint32_t>(pixels) + kSampledEdge - 1) / kSampledEdge;
     };
-    grid_points_ = AlignedBlock::uninitialised(std::size_t{frame_.packet_columns} * frame_.packet_rows *
-                                               kGridPacketBytes);
     sample_store_ = AlignedBlock::uninitialised(std::size_t{machine_->spe_count()} *
                                                 sample_store_bytes(bundle_edge(machine_->direct_memory())));
-    frame_.grid_points = to_ea(grid_points_.data());
     frame_.sample_store = to_ea(sample_store_.data());
     const PictureRegion region = region_of(options_);
     sample_plan_ = std::make_unique<WorkPlan>(options_.balance, blocks(region.right - region.left),
@@ -168,6 +170,7 @@ private:
     collect(statistics, *machine_, frame_, reports_.all(), SpeMeter(*machine_).read());
     result.statistics = statistics;
     result.image = copy_picture();
+    if (options_.colours) result.colours = copy_colours(result.image);
     return result;
   }
 
@@ -203,12 +206,14 @@ private:
       // Half of the progress is the grid's.
       frame_.purpose = static_cast<std::uint32_t>(FramePurpose::grid);
       result.complete = render_pass(*plan_, part_of(progress, 0, 0.5), reports);
+      keep_colours();
       if (result.complete) {
         frame_.purpose = static_cast<std::uint32_t>(FramePurpose::samples);
         result.complete = render_pass(*sample_plan_, part_of(progress, 0.5, 1), reports);
       }
     } else {
       result.complete = render_pass(*plan_, progress, reports);
+      keep_colours();
     }
     statistics.render_seconds = render.seconds();
     if (machine_->backend() != "native") {
@@ -223,6 +228,7 @@ private:
     // The picture then lies in memory that the scene has had.
     if (is_last_frame_) image_ = SceneImage();
     result.image = copy_picture();
+    if (options_.colours) result.colours = copy_colours(result.image);
     return result;
   }
 
@@ -248,11 +254,63 @@ private:
     return complete;
   }
 
+  /// Whether the grid begins to the upper left of the picture, as that of the fixed method does.
+  bool begins_before_picture() const {
+    const auto& antialiasing = options_.antialiasing;
+    return antialiasing && antialiasing->method == Antialiasing::Method::fixed;
+  }
+  std::byte* rows_of_colours() {
+    return surface_.data() + std::size_t{frame_.surface_pitch} * frame_.packet_rows * kPacketEdge;
+  }
+
+  /// The colours of the grid's points become those of pixels, if they are wanted; in the SPEs' byte order.
+  void keep_colours() {
+    if (!options_.colours) return;
+    const std::byte* from = grid_points_.data();
+    constexpr std::uint32_t kPoints = kPacketEdge * kPacketEdge;
+    for (std::uint32_t row = 0; row < frame_.packet_rows; ++row)
+      for (std::uint32_t column = 0; column < frame_.packet_columns; ++column, from += kGridPacketBytes)
+        for (std::uint32_t point = 0; point < kPoints; ++point) {
+          const std::uint32_t x = column * kPacketEdge + point % kPacketEdge;
+          const std::uint32_t y = row * kPacketEdge + point / kPacketEdge;
+          std::byte* const to =
+              rows_of_colours() + std::size_t{y} * frame_.sampling.colours_pitch + x * sizeof(ColourRecord);
+          for (std::size_t channel = 0; channel < 3; ++channel)
+            std::memcpy(to + channel * sizeof(float), from + (channel * kPoints + point) * sizeof(float),
+                        sizeof(float));
+        }
+  }
+
+  /// Where the picture has not been rendered, so have the colours not.
+  ColourImage copy_colours(const Image& picture) {
+    ColourImage colours(picture.width, picture.height);
+    if (static_cast<GammaEncoding>(frame_.gamma_encoding) == GammaEncoding::none)
+      colours.gamma = std::nullopt;
+    else
+      colours.gamma = static_cast<double>(frame_.assumed_gamma);
+    const PictureRegion region = region_of(options_);
+    const std::size_t pitch = frame_.sampling.colours_pitch;
+    const std::byte* from = rows_of_colours();
+    if (begins_before_picture()) from += pitch + sizeof(ColourRecord);
+    for (int y = region.top; y < region.bottom; ++y, from += pitch)
+      for (int x = region.left; x < region.right; ++x) {
+        float* const pixel = colours.pixel(x, y);
+        if (picture.pixel(x, y)[3] == 0) {
+          pixel[3] = 0;
+          continue;
+        }
+        float channels[3];
+        std::memcpy(channels, from + static_cast<std::size_t>(x - region.left) * sizeof(ColourRecord),
+                    sizeof channels);
+        reorder(channels, machine_->byte_order());
+        std::copy(std::begin(channels), std::end(channels), pixel);
+      }
+    return colours;
+  }
+
   Image copy_picture() const {
     const auto* from = reinterpret_cast<const std::uint8_t*>(surface_.data());
-    // The grid of the fixed method begins to the upper left of the picture.
-    const auto& antialiasing = options_.antialiasing;
-    if (antialiasing && antialiasing->method == Antialiasing::Method::fixed) from += frame_.surface_pitch + 4;
+    if (begins_before_picture()) from += frame_.surface_pitch + 4;
     const PictureRegion region = region_of(options_);
     const std::size_t row = std::size_t{4} * static_cast<std::size_t>(region.right - region.left);
     if (options_.region) {

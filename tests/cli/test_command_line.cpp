@@ -383,6 +383,9 @@ TEST_CASE("the picture's name and type") {
   CHECK(output({"-o", "x/"}) == "x/");
   CHECK(output({"--picture", "off"}).empty());
   CHECK_THAT(render_error({"-o", "x.png", "--file-type", "ppm"}), Contains("x.png") && Contains("ppm"));
+  CHECK_FALSE(render_request({"a.pov"}).options.colours);
+  CHECK(render_request({"a.pov", "--bits", "16"}).options.colours);
+  CHECK_THAT(render_error({"--bits", "12"}), Contains("--bits"));
   CHECK(render_request({"a.pov", "--clock", "0.5"}).clock == 0.5);
   CHECK(render_request({"a.pov", "--quality", "4"}).options.quality == 4);
   CHECK_THAT(render_error({"--quality", "12"}), Contains("--quality"));

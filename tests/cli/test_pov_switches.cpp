@@ -45,7 +45,7 @@ TEST_CASE("a command line as POV-Ray's users write it") {
   CHECK(translated({"+W800", "+H600", "+Iscenes/a.pov", "+Oout.png", "+L/usr/inc", "+WT4", "+Q9", "-A",
                     "+FN8"}) == Arguments{"-W", "800", "-H", "600", "scenes/a.pov", "-o", "out.png", "-L",
                                           "/usr/inc", "--spes", "4", "--quality", "9", "--picture", "on",
-                                          "--file-type", "png"});
+                                          "--file-type", "png", "--bits", "8"});
   CHECK(translated({"Width=32", "height=16", "Input_File_Name=a.pov", "Output_File_Name=b.png",
                     "Library_Path=l", "Declare=x=1", "Work_Threads=2", "Antialias=off", "Quality=11",
                     "Output_File_Type=N"}) == Arguments{"-W", "32", "-H", "16", "a.pov", "-o", "b.png", "-L",
@@ -81,7 +81,6 @@ TEST_CASE("harmless switches are ignored with a note") {
 
 TEST_CASE("switches that would change the picture are refused by name") {
   const Arguments refused = {"+UA",
-                             "+FN16",
                              "+FT",
                              "+FJ",
                              "+KFF10",
@@ -145,6 +144,10 @@ TEST_CASE("regions, quality, clock, file types") {
   CHECK(translated({"+Q12"}) == Arguments{"--quality", "11"});
   CHECK(translated({"-F"}) == Arguments{"--picture", "off"});
   CHECK(translated({"+FP", "Output_to_File=off"}) == Arguments{"--picture", "off", "--file-type", "ppm"});
+  CHECK(translated({"+FN16"}) == Arguments{"--picture", "on", "--file-type", "png", "--bits", "16"});
+  CHECK(translated({"+FN16", "+FP8"}) == Arguments{"--picture", "on", "--file-type", "ppm", "--bits", "8"});
+  CHECK(translated({"Output_File_Type=P", "Bits_Per_Color=16"}) ==
+        Arguments{"--file-type", "ppm", "--bits", "16"});
   CHECK(translated({"+MV3.7"}).empty());
 }
 

@@ -95,8 +95,7 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
 private:
   /// All rays that hit the torus, and few that do not. Most rays that come to a torus miss it, many of them
   /// through its hole: one division tells, where the quartic would take four roots and divisions.
-  template <class S>
-  static typename S::M may_hit(const LocalRays<S>& rays, const typename S::F& ratio) {
+  template <class S> static typename S::M may_hit(const LocalRays<S>& rays, const typename S::F& ratio) {
     using F = typename S::F;
     const V3<S>&o = rays.origin, &d = rays.direction;
     const F zero(0.0f), one(1.0f);

@@ -99,11 +99,7 @@ private:
   static constexpr uint32_t kRowPackets = kSampledEdge / kPacketEdge + 1;
   static constexpr uint32_t kRowPoints = kSampledEdge + kSimdLanes; ///< and some more, for whole vectors
 
-  /// A pixel's colour as it crosses DMA.
-  struct alignas(16) Colour {
-    float channel[3];
-    uint32_t unused;
-  };
+  using Colour = ColourRecord;
   /// The channels of a row of points, of which the first is that at the block's left edge.
   struct alignas(64) PointRow {
     float channel[3][kRowPoints];
@@ -279,6 +275,16 @@ private:
     for (uint32_t i = 0; i < kSampledEdge; i += kSimdLanes)
       encode_pixels<Spu>(frame_, {W::load(colours[0] + i), W::load(colours[1] + i), W::load(colours[2] + i)})
           .store(reinterpret_cast<int32_t*>(words + i));
+  }
+
+  /// Puts some of the colours where they are wanted: x and y count from the block's first point on.
+  [[gnu::noinline]] void put_colours(uint32_t first, uint32_t count, uint32_t x, uint32_t y) {
+    if (frame_.sampling.colours_pitch == 0) return;
+    constexpr auto kBytes = static_cast<uint32_t>(sizeof(Colour));
+    const ea_t to = frame_.surface + frame_.packet_rows * kPacketEdge * frame_.surface_pitch +
+                    (row_ * kSampledEdge + y) * frame_.sampling.colours_pitch +
+                    (column_ * kSampledEdge + x) * kBytes;
+    spu_.put(scratch_.colours + first, to, count * kBytes, kTag);
   }
 
   // --- the fixed method ---
@@ -473,6 +479,7 @@ private:
         uint32_t* const word = &scratch_.leaving[x][(x + 1) % 4];
         *word = scratch_.words[x];
         spu_.put(word, row + x * static_cast<uint32_t>(sizeof(uint32_t)), sizeof(uint32_t), kTag);
+        put_colours(x, 1, x + 1, y + 1);
       });
       arrive();
     }
@@ -630,6 +637,10 @@ private:
       const ea_t to = frame_.surface + (row_ * kSampledEdge + first_row_ + y) * frame_.surface_pitch +
                       column_ * kSampledEdge * static_cast<uint32_t>(sizeof(uint32_t));
       spu_.put(scratch_.words, to, (width_ + 3) / 4 * 16, kTag);
+      for (uint32_t x = 0; x < width_ && frame_.sampling.colours_pitch != 0; ++x)
+        for (uint32_t axis = 0; axis < 3; ++axis)
+          scratch_.colours[x].channel[axis] = work_.adaptive.sums[y][axis][x];
+      put_colours(0, width_, 0, first_row_ + y);
       arrive();
     }
     rows_ = 0;

@@ -68,10 +68,9 @@ public:
   using M = typename S::M;
   using Part = typename Spu::rare_simd;
 
-  static constexpr CodeModule kModule =
-      kStage == TextureStage::normals ? modules::kNormals
-      : kStage == TextureStage::maps  ? modules::kMaps
-                                      : modules::kTextures;
+  static constexpr CodeModule kModule = kStage == TextureStage::normals ? modules::kNormals
+                                        : kStage == TextureStage::maps  ? modules::kMaps
+                                                                        : modules::kTextures;
 
   /// `points` stay where they are.
   MapWalk(SceneAccess<Spu>& scene, const PatternPoints<S>& points, MapOf of = MapOf::pigments)
