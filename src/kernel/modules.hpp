@@ -21,7 +21,7 @@ constexpr CodeModule kBuild = {"build", 16, 0, 25728};
 constexpr CodeModule kPatterns = {"patterns", 7, 0, 3200};
 constexpr CodeModule kNoise = {"noise", 8, 0, 14336};
 /// What becomes of the points of antialiased pictures, and which samples they need besides.
-constexpr CodeModule kSampling = {"sampling", 18, 0, 14848};
+constexpr CodeModule kSampling = {"sampling", 18, 0, 15232};
 
 /// What insides take of light; and the start of mirrors that bend it.
 constexpr CodeModule kFading = {"fading", 20, 0, 2048};

@@ -48,11 +48,16 @@ constexpr uint32_t sampled_rows(uint32_t edge) {
 constexpr uint32_t max_squares(uint32_t edge) {
   return sampled_rows(edge) * kSampledEdge + 5 * squares_at_once(edge) * kMaxSamplingDepth;
 }
-/// What an SPE needs in main memory: squares, or the colours of a block's pixels.
+/// Points of a row of a block, one more than pixels, with some room.
+constexpr uint32_t kStoredPoints = kSampledEdge + 8;
+/// What an SPE needs in main memory: squares; or of the pixels of a block their colours and what these are
+/// compared by, and of its points the latter.
 constexpr uint32_t sample_store_bytes(uint32_t edge) {
-  constexpr uint32_t kPixels = kSampledEdge * kSampledEdge * 16;
+  constexpr uint32_t kPixels = kSampledEdge * kSampledEdge, kPoints = (kSampledEdge + 1) * kStoredPoints;
+  constexpr auto kColours = (2 * kPixels + kPoints) * static_cast<uint32_t>(sizeof(ColourRecord));
+  static_assert(kColours % 128 == 0);
   const uint32_t squares = max_squares(edge) * static_cast<uint32_t>(sizeof(SampleSquare));
-  return squares > kPixels ? squares : kPixels;
+  return squares > kColours ? squares : kColours;
 }
 
 /// All but tracing: code of a module, which works on lanes part by part.
@@ -134,7 +139,7 @@ private:
     alignas(64) float encoding[2 * kSimdLanes];
     alignas(64) float channels[3][kSampledEdge]; ///< of pixels to be written
     alignas(64) uint32_t words[kSampledEdge];    ///< these
-    Colour colours[kSampledEdge];
+    Colour colours[kStoredPoints];
     alignas(16) uint32_t leaving[kSampledEdge][4];
   };
 
@@ -142,11 +147,26 @@ public:
   static constexpr uint32_t kScratchBytes = sizeof(Scratch);
 
 private:
+  // Most of what moves is small: where memory is direct, a transfer would take longer than the copy.
+
   [[gnu::noinline]] void fetch(void* ls, ea_t ea, uint32_t bytes) {
-    spu_.get(ls, ea, bytes, kTag);
-    spu_.wait_all(1u << kTag);
+    if constexpr (kReadsInPlace<Spu>) {
+      __builtin_memcpy(ls, reinterpret_cast<const void*>(static_cast<uintptr_t>(ea)), bytes);
+    } else {
+      spu_.get(ls, ea, bytes, kTag);
+      spu_.wait_all(1u << kTag);
+    }
   }
-  void arrive() { spu_.wait_all(1u << kTag); }
+  /// What is sent may be changed after arrive().
+  [[gnu::noinline]] void send(const void* ls, ea_t ea, uint32_t bytes) {
+    if constexpr (kReadsInPlace<Spu>)
+      __builtin_memcpy(reinterpret_cast<void*>(static_cast<uintptr_t>(ea)), ls, bytes);
+    else
+      spu_.put(ls, ea, bytes, kTag);
+  }
+  void arrive() {
+    if constexpr (!kReadsInPlace<Spu>) spu_.wait_all(1u << kTag);
+  }
 
   // --- the grid ---
 
@@ -159,8 +179,8 @@ private:
     const uint32_t left = frame_.packet_columns - column * kEdge;
     const uint32_t packets = left < kEdge ? left : kEdge;
     for (uint32_t y = 0; y < kEdge && row * kEdge + y < frame_.packet_rows; ++y)
-      spu_.put(&samples_.at[y * kEdge], packet_of_points(column * kEdge, row * kEdge + y),
-               packets * kGridPacketBytes, kTag);
+      send(&samples_.at[y * kEdge], packet_of_points(column * kEdge, row * kEdge + y),
+           packets * kGridPacketBytes);
     arrive();
   }
 
@@ -277,14 +297,19 @@ private:
           .store(reinterpret_cast<int32_t*>(words + i));
   }
 
+  /// Of channels that lie `stride` numbers apart.
+  [[gnu::noinline]] void gather_colours(const float* channels, uint32_t stride, uint32_t count) {
+    for (uint32_t x = 0; x < count; ++x)
+      for (uint32_t axis = 0; axis < 3; ++axis)
+        scratch_.colours[x].channel[axis] = channels[axis * stride + x];
+  }
   /// Puts some of the colours where they are wanted: x and y count from the block's first point on.
   [[gnu::noinline]] void put_colours(uint32_t first, uint32_t count, uint32_t x, uint32_t y) {
     if (frame_.sampling.colours_pitch == 0) return;
-    constexpr auto kBytes = static_cast<uint32_t>(sizeof(Colour));
     const ea_t to = frame_.surface + frame_.packet_rows * kPacketEdge * frame_.surface_pitch +
                     (row_ * kSampledEdge + y) * frame_.sampling.colours_pitch +
-                    (column_ * kSampledEdge + x) * kBytes;
-    spu_.put(scratch_.colours + first, to, count * kBytes, kTag);
+                    (column_ * kSampledEdge + x) * kColourBytes;
+    send(scratch_.colours + first, to, count * kColourBytes);
   }
 
   // --- the fixed method ---
@@ -294,15 +319,24 @@ private:
     auto& masks = work_.fixed;
     fetch_points(0, scratch_.points[0]);
     encode_points(scratch_.points[0], scratch_.encoded[0]);
+    store_encoded(0, scratch_.encoded[0]);
     for (uint32_t y = 0; y < height_; ++y) {
       const PointRow& above = scratch_.encoded[y % 2];
       PointRow& own = scratch_.encoded[(y + 1) % 2];
       fetch_points(y + 1, scratch_.points[0]);
       encode_points(scratch_.points[0], own);
+      store_encoded(y + 1, own);
       masks.left.row[y] = differing(own, 1, own, 0) & row_mask();
       masks.above.row[y] = differing(own, 1, above, 1) & row_mask();
       masks.known.row[y] = 0;
     }
+  }
+
+  /// Keeps what a row of points is compared by.
+  [[gnu::noinline]] void store_encoded(uint32_t y, const PointRow& encoded) {
+    gather_colours(encoded.channel[0], kRowPoints, width_ + 1);
+    send(scratch_.colours, encoded_point(0, y), (width_ + 1) * kColourBytes);
+    arrive();
   }
 
   /// Compares all pixels in POV-Ray's order, each with what the ones before it have become. Of pixels that
@@ -336,50 +370,49 @@ private:
     taken_ = cursor_;
   }
 
-  ea_t stored_colour(uint32_t x, uint32_t y) const {
-    return store_ + (y * kSampledEdge + x) * static_cast<uint32_t>(sizeof(Colour));
+  static constexpr auto kColourBytes = static_cast<uint32_t>(sizeof(Colour));
+  // The store: colours of pixels, what they are compared by, and what points are compared by.
+  ea_t stored_colour(uint32_t x, uint32_t y) const { return store_ + (y * kSampledEdge + x) * kColourBytes; }
+  ea_t encoded_colour(uint32_t x, uint32_t y) const { return stored_colour(x, kSampledEdge + y); }
+  ea_t encoded_point(uint32_t x, uint32_t y) const {
+    return stored_colour(0, 2 * kSampledEdge) + (y * kStoredPoints + x) * kColourBytes;
   }
   /// The colour of a point, x and y from the block's first one on.
   [[gnu::noinline]] void fetch_point(uint32_t x, uint32_t y, Colour& colour) {
     const uint32_t column = column_ * kSampledEdge + x;
     const uint32_t line = row_ * kSampledEdge + y;
-    VectorLanes& packet = scratch_.packets[0];
-    fetch(&packet, packet_of_points(column / kPacketEdge, line / kPacketEdge), kGridPacketBytes);
+    const ea_t packet = packet_of_points(column / kPacketEdge, line / kPacketEdge);
     const uint32_t lane = line % kPacketEdge * kPacketEdge + column % kPacketEdge;
-    for (uint32_t axis = 0; axis < 3; ++axis)
-      colour.channel[axis] = packet[axis].lane[lane];
+    const auto take_from = [&](const VectorLanes& points) {
+      for (uint32_t axis = 0; axis < 3; ++axis)
+        colour.channel[axis] = points[axis].lane[lane];
+    };
+    if constexpr (kReadsInPlace<Spu>) {
+      take_from(*reinterpret_cast<const VectorLanes*>(static_cast<uintptr_t>(packet)));
+    } else {
+      fetch(scratch_.packets, packet, kGridPacketBytes);
+      take_from(scratch_.packets[0]);
+    }
   }
-  /// What a pixel of the block has become: of those that are sampled, the store knows.
-  [[gnu::noinline]] void fetch_pixel(uint32_t x, uint32_t y, Colour& colour) {
+  /// What a point is compared by, which may be a pixel of the block: of those that are sampled, what they
+  /// have become.
+  [[gnu::noinline]] void fetch_encoded(uint32_t x, uint32_t y, Colour& colour) {
     const auto& masks = work_.fixed;
-    if ((masks.sampled.row[y] & masks.known.row[y] & 1u << x) != 0)
-      fetch(&colour, stored_colour(x, y), sizeof colour);
-    else
-      fetch_point(x + 1, y + 1, colour);
+    const bool is_pixel = x != 0 && y != 0;
+    const bool is_known =
+        is_pixel && (masks.sampled.row[y - 1] & masks.known.row[y - 1] & 1u << (x - 1)) != 0;
+    fetch(&colour, is_known ? encoded_colour(x - 1, y - 1) : encoded_point(x, y), kColourBytes);
   }
   /// Whether a pixel differs from its neighbours as they are now.
   [[gnu::noinline]] void compare_pixel(uint32_t x, uint32_t y, bool& left, bool& above) {
     Colour* const colours = scratch_.colours;
-    fetch_point(x + 1, y + 1, colours[0]);
-    if (x != 0)
-      fetch_pixel(x - 1, y, colours[1]);
-    else
-      fetch_point(0, y + 1, colours[1]);
-    if (y != 0)
-      fetch_pixel(x, y - 1, colours[2]);
-    else
-      fetch_point(x + 1, 0, colours[2]);
-    float* const lanes = scratch_.encoding;
-    for (uint32_t i = 0; i < 3; ++i)
-      for (uint32_t axis = 0; axis < 3; ++axis)
-        lanes[3 * i + axis] = colours[i].channel[axis];
-    for (uint32_t i = 9; i < kSimdLanes; ++i)
-      lanes[i] = 0.0f;
-    encode(lanes, kSimdLanes);
-    left = distance(lanes, lanes + 3) >= frame_.sampling.threshold;
-    above = distance(lanes, lanes + 6) >= frame_.sampling.threshold;
+    fetch(&colours[0], encoded_point(x + 1, y + 1), kColourBytes);
+    fetch_encoded(x, y + 1, colours[1]);
+    fetch_encoded(x + 1, y, colours[2]);
+    left = distance(colours[0].channel, colours[1].channel) >= frame_.sampling.threshold;
+    above = distance(colours[0].channel, colours[2].channel) >= frame_.sampling.threshold;
   }
-  static float distance(const float* a, const float* b) {
+  [[gnu::noinline]] static float distance(const float* a, const float* b) {
     return magnitude(a[0] - b[0]) + magnitude(a[1] - b[1]) + magnitude(a[2] - b[2]);
   }
 
@@ -453,13 +486,21 @@ private:
       for (uint32_t axis = 0; axis < 3; ++axis)
         sum_.channel[axis] += channel(i, axis);
       if (!next_sample(taken_)) continue;
-      const float share = 1.0f / static_cast<float>(depth * depth + 1);
-      Colour& mean = scratch_.colours[0];
-      for (uint32_t axis = 0; axis < 3; ++axis)
-        mean.channel[axis] = sum_.channel[axis] * share;
-      spu_.put(&mean, stored_colour(x, y), sizeof mean, kTag);
-      arrive();
+      store_mean(x, y, 1.0f / static_cast<float>(depth * depth + 1));
     }
+  }
+  /// A pixel is known: its share of the sum, and what that is compared by.
+  [[gnu::noinline]] void store_mean(uint32_t x, uint32_t y, float share) {
+    float* const colour = scratch_.encoding;
+    for (uint32_t axis = 0; axis < 3; ++axis)
+      colour[axis] = sum_.channel[axis] * share;
+    for (uint32_t i = 3; i < R::kLanes; ++i)
+      colour[i] = 0.0f;
+    send(colour, stored_colour(x, y), kColourBytes);
+    arrive();
+    encode(colour, R::kLanes);
+    send(colour, encoded_colour(x, y), kColourBytes);
+    arrive();
   }
 
   /// Pixels that are sampled replace those of the grid in the picture.
@@ -467,7 +508,7 @@ private:
     for (uint32_t y = 0; y < height_; ++y) {
       const uint32_t sampled = work_.fixed.sampled.row[y];
       if (sampled == 0) continue;
-      fetch(scratch_.colours, stored_colour(0, y), sizeof scratch_.colours);
+      fetch(scratch_.colours, stored_colour(0, y), kSampledEdge * kColourBytes);
       for (uint32_t x = 0; x < kSampledEdge; ++x)
         for (uint32_t axis = 0; axis < 3; ++axis)
           scratch_.channels[axis][x] = (sampled >> x & 1) != 0 ? scratch_.colours[x].channel[axis] : 0.0f;
@@ -478,7 +519,7 @@ private:
         // A word has the same place in its quadword on both sides of a transfer.
         uint32_t* const word = &scratch_.leaving[x][(x + 1) % 4];
         *word = scratch_.words[x];
-        spu_.put(word, row + x * static_cast<uint32_t>(sizeof(uint32_t)), sizeof(uint32_t), kTag);
+        send(word, row + x * static_cast<uint32_t>(sizeof(uint32_t)), sizeof(uint32_t));
         put_colours(x, 1, x + 1, y + 1);
       });
       arrive();
@@ -573,7 +614,7 @@ private:
   }
   /// `square` lies in local store.
   [[gnu::noinline]] void push(const SampleSquare& square) {
-    spu_.put(&square, stored_square(waiting_++), sizeof square, kTag);
+    send(&square, stored_square(waiting_++), sizeof square);
     arrive();
   }
 
@@ -591,9 +632,7 @@ private:
         points[i][axis] = i % 2 == 0 && i != 4 ? square.corner[i / 6 * 2 + i % 3 / 2][axis]
                                                : channel(first + i / 2 + (i > 4 ? 1 : 0), axis);
     float* const encoded = scratch_.encoding;
-    for (uint32_t i = 0; i < 9; ++i)
-      for (uint32_t axis = 0; axis < 3; ++axis)
-        encoded[3 * i + axis] = points[i][axis];
+    __builtin_memcpy(encoded, points, sizeof points);
     for (uint32_t i = 27; i < 2 * kSimdLanes; ++i)
       encoded[i] = 0.0f;
     encode(encoded, 2 * kSimdLanes);
@@ -636,10 +675,8 @@ private:
       encode_pixels_of(work_.adaptive.sums[y], scratch_.words);
       const ea_t to = frame_.surface + (row_ * kSampledEdge + first_row_ + y) * frame_.surface_pitch +
                       column_ * kSampledEdge * static_cast<uint32_t>(sizeof(uint32_t));
-      spu_.put(scratch_.words, to, (width_ + 3) / 4 * 16, kTag);
-      for (uint32_t x = 0; x < width_ && frame_.sampling.colours_pitch != 0; ++x)
-        for (uint32_t axis = 0; axis < 3; ++axis)
-          scratch_.colours[x].channel[axis] = work_.adaptive.sums[y][axis][x];
+      send(scratch_.words, to, (width_ + 3) / 4 * 16);
+      gather_colours(work_.adaptive.sums[y][0], kSampledEdge, width_);
       put_colours(0, width_, 0, first_row_ + y);
       arrive();
     }
