@@ -2,6 +2,7 @@
 #include "celltrace/image.hpp"
 #include "render/backends.hpp"
 #include "render/scenes.hpp"
+#include "render/tracer_program.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -46,18 +47,16 @@ void check_agree(const RenderResult& result) {
 
 TEST_CASE("Colours are those of the picture on every backend, antialiased or not") {
   std::vector<Backend> all = backends();
-  all.push_back({"cell_sim", "auto"}); // whose words have the other byte order
+  if (tracer_program().image("cell_sim").empty())
+    WARN("skipped on cell_sim: machine code needs CELLTRACE_SPU_GXX");
+  else
+    all.push_back({"cell_sim", "auto"}); // whose words have the other byte order
   const Scene scene = scene_named("glass and mirrors");
   for (const Backend& backend : all)
     for (const unsigned spes : {1u, 3u}) {
       INFO(backend.spu() << " with " << spes);
       RenderOptions options = with_colours(backend, spes);
-      try {
-        check_agree(render(scene, options));
-      } catch (const InputError& error) {
-        WARN(backend.spu() << " is not here: " << error.what());
-        break;
-      }
+      check_agree(render(scene, options));
       for (const auto which : {Antialiasing::Method::fixed, Antialiasing::Method::adaptive}) {
         options.antialiasing = method(which);
         check_agree(render(scene, options));
