@@ -6,12 +6,13 @@
 
 namespace celltrace::test {
 
-inline Image asymmetric_image(int width, int height) {
-  Image image(width, height);
+template <class Channel = std::uint8_t> BasicImage<Channel> asymmetric_image(int width, int height) {
+  BasicImage<Channel> image(width, height);
+  constexpr int kStep = sizeof(Channel) == 1 ? 1 : 107; // all bytes of a channel differ
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
       for (int channel = 0; channel < 3; ++channel)
-        image.pixel(x, y)[channel] = static_cast<std::uint8_t>(31 * x + 57 * y + 101 * channel);
+        image.pixel(x, y)[channel] = static_cast<Channel>(kStep * (31 * x + 57 * y + 101 * channel));
   return image;
 }
 

@@ -13,15 +13,6 @@ using namespace celltrace::test;
 
 namespace {
 
-DeepImage asymmetric_deep_image(int width, int height) {
-  DeepImage image(width, height);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      for (int channel = 0; channel < 3; ++channel)
-        image.pixel(x, y)[channel] = static_cast<std::uint16_t>(3331 * x + 5779 * y + 10133 * channel);
-  return image;
-}
-
 /// The samples of a file, as another library reads them.
 std::vector<std::uint16_t> samples_of(const std::filesystem::path& path, int& channels) {
   std::FILE* const file = std::fopen(path.c_str(), "rb");
@@ -66,7 +57,7 @@ std::vector<int> encoded(const std::vector<float>& colours, std::optional<double
 
 TEST_CASE("a picture of 16 bits survives PNG, with and without alpha") {
   const TemporaryFolder folder;
-  DeepImage image = asymmetric_deep_image(37, 23);
+  DeepImage image = asymmetric_image<std::uint16_t>(37, 23);
   int channels = 0;
   save_image(folder / "a.png", image);
   CHECK(samples_of(folder / "a.png", channels) == colours_of(image));
@@ -80,7 +71,7 @@ TEST_CASE("a picture of 16 bits survives PNG, with and without alpha") {
 
 TEST_CASE("a picture of 16 bits survives PPM, whose numbers have the high byte first") {
   const TemporaryFolder folder;
-  const DeepImage image = asymmetric_deep_image(5, 3);
+  const DeepImage image = asymmetric_image<std::uint16_t>(5, 3);
   save_image(folder / "a.ppm", image);
   std::string expected = "P6\n5 3\n65535\n";
   for (const std::uint16_t value : colours_of(image)) {
