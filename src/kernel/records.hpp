@@ -673,7 +673,7 @@ struct alignas(128) FrameBlock {
   ea_t reports;          ///< ReportRecord per SPE
   ea_t ray_stack;        ///< spill area: ray_stack_nodes nodes of kRayNodeBytes per SPE
   ea_t grid_points;      ///< kGridPacketBytes per packet, row by row; none if all frames are pictures
-  ea_t sample_store;     ///< kSampleStoreBytes per SPE, its own; likewise
+  ea_t sample_store;     ///< sample_store_bytes() per SPE, its own; likewise
   ea_t sort_buffer[2];   ///< work memory of PREPARE FRAME: `sort_capacity` pairs of 8 bytes each
   uint32_t prepare_spes; ///< that build the accelerator step by step; 0: one takes all steps
   uint32_t prepare_step; ///< the step that is to be taken
