@@ -6,6 +6,7 @@
 #include "celltrace/scene.hpp"
 #include "celltrace/spe/emulation.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -70,6 +71,23 @@ struct PictureRegion {
   int top = 0, bottom = 0;
 };
 
+/// Finished pixels of a frame that goes on.
+struct PictureBlock {
+  PictureRegion region; ///< where they are in the picture
+  /// R, G, B, A of the pixel at its left and top, as those of the result's image.
+  const std::uint8_t* first;
+  std::size_t pitch; ///< bytes from one row of them to the next
+};
+
+/// What of a scene is not as it was when the renderer saw it last, besides its camera. Only numbers may have
+/// changed for that to be worth while: where there are more or fewer objects, materials or triangles than
+/// before, or other shapes with more or less to them, all is made anew.
+struct SceneChanges {
+  bool objects = true; ///< shapes, places, materials by index, Object::is_hidden
+  /// Materials, interiors, lights, fogs, rainbows, the sky, colours of the scene's own, limits.
+  bool surfaces = true;
+};
+
 struct RenderOptions {
   int width = 640;  ///< pixels, 1..65520
   int height = 480; ///< pixels, 1..65520
@@ -111,6 +129,10 @@ struct RenderOptions {
   /// Called for every rule of the Cell that an emulated machine saw broken, by the thread that renders or
   /// destroys the renderer. Must not throw.
   std::function<void(const Diagnostic& diagnostic)> diagnostic;
+  /// Watches the picture grow: called by the thread that renders for each part that is finished, in no order.
+  /// With antialiasing a part may come again, better. The pixels are there during the call. What it throws
+  /// breaks the frame off and passes through. Of models other than `shared` the picture comes all at once.
+  std::function<void(const PictureBlock& block)> finished_block;
 };
 
 /// What a frame cost. Sums over all SPEs unless said otherwise; what building the accelerator took is only in
@@ -163,6 +185,16 @@ struct RenderStatistics {
   std::uint32_t bvh_nodes = 0;                 ///< 0 for a grid
   std::uint64_t accelerator_list_entries = 0;  ///< object numbers in all lists
   std::uint64_t accelerator_bytes = 0;
+  /// What was done about it and the scene image before this frame.
+  enum class Preparation {
+    built,    ///< all was made
+    refitted, ///< records of the image were changed where they are, and the bounds of nodes with them
+    updated,  ///< the same, but no object had changed
+    kept      ///< only the camera moved
+  };
+  Preparation preparation = Preparation::built;
+  /// Lines of the image that changed, and that SPEs were told to fetch again; 0 where memory is direct.
+  std::uint64_t stale_lines = 0;
 
   Cache list_cache, object_cache, material_cache, light_cache; ///< all 0 where memory is direct
   std::uint64_t dma_commands = 0, dma_list_elements = 0, dma_bytes_read = 0, dma_bytes_written = 0;
@@ -220,6 +252,17 @@ public:
   /// As above, with another camera and nothing else changed since the last render(): the accelerator is
   /// kept.
   RenderResult render(const Camera& camera, const Progress& progress = {});
+  /// As the first one, at the cost of what has changed: `changes` says what of the scene is not as it was at
+  /// the last render(), which may have been of another Scene object. Records are changed where they are, SPEs
+  /// fetch only those again, and the BVH is refitted, unless it has become so much worse than a new one that
+  /// this is cheaper. The picture is that of render(scene), to the bit. Grids and models other than `shared`
+  /// are always made anew.
+  RenderResult render(const Scene& scene, const SceneChanges& changes, const Progress& progress = {});
+
+  /// From the next frame on pictures have the size, region, antialiasing, colours and finished_block of
+  /// `options`, whose other members mean nothing. The scene and its accelerator stay. Throws InputError for
+  /// options out of range; then nothing has changed.
+  void set_picture(const RenderOptions& options);
 
 private:
   friend RenderResult render(const Scene& scene, const RenderOptions& options, const Progress& progress);

@@ -263,7 +263,10 @@ struct Object {
   bool no_shadow = false;
   bool no_image = false;      ///< seen in mirrors alone
   bool no_reflection = false; ///< seen in no mirror
-  bool inverse = false;       ///< inside and outside change places
+  /// Neither seen nor in the way of light, and nothing is inside of it. Rendering goes on from there and back
+  /// at small cost. Of parts of a CSG, of what clips or what lights are projected through: means nothing.
+  bool is_hidden = false;
+  bool inverse = false; ///< inside and outside change places
   /// Light that falls on the other side counts as if it fell on this one: POV-Ray's double_illuminate. Of a
   /// CSG: means nothing.
   bool is_lit_through = false;

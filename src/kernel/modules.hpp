@@ -14,7 +14,7 @@ namespace celltrace::kernel::modules {
 /// inside of shapes, which CSG asks.
 constexpr CodeModule kShapes = {"shapes", 1, 0, 14592};
 /// What a program does once a frame or once for many: it makes its objects, and reports.
-constexpr CodeModule kStart = {"start", 3, 0, 9600};
+constexpr CodeModule kStart = {"start", 3, 0, 10624};
 /// The building of accelerators.
 constexpr CodeModule kBuild = {"build", 16, 0, 25728};
 /// Patterns without noise, and those of noise with its tables.

@@ -674,7 +674,9 @@ struct alignas(128) FrameBlock {
   ea_t ray_stack;        ///< spill area: ray_stack_nodes nodes of kRayNodeBytes per SPE
   ea_t grid_points;      ///< kGridPacketBytes per packet, row by row; none if all frames are pictures
   ea_t sample_store;     ///< sample_store_bytes() per SPE, its own; likewise
-  ea_t sort_buffer[2];   ///< work memory of PREPARE FRAME: `sort_capacity` pairs of 8 bytes each
+  /// Of a command: PREPARE FRAME's work memory, `work_entries` pairs of 8 bytes each; SYNCHRONIZE's list of
+  /// lines that are out of date, the first block alone, whole lines of it, of `work_entries` words.
+  ea_t work_memory[2];
   uint32_t prepare_spes; ///< that build the accelerator step by step; 0: one takes all steps
   uint32_t prepare_step; ///< the step that is to be taken
 
@@ -682,7 +684,7 @@ struct alignas(128) FrameBlock {
   uint32_t packet_columns, packet_rows;
   uint32_t bundle_columns, bundle_rows;
   uint32_t surface_pitch;
-  uint32_t sort_capacity;
+  uint32_t work_entries;
   uint32_t ray_stack_nodes;
 
   uint32_t object_offset, object_count;
@@ -706,7 +708,7 @@ struct alignas(128) FrameBlock {
   uint32_t group_offset, group_count; ///< RunRecords
   uint32_t longest_group;             ///< objects
   uint32_t prototype_offset;          ///< a word per group; 0: there are no copies
-  uint32_t units_per_word;            ///< that an SPE tells of its progress by; 0: it does not
+  uint32_t units_per_word;            ///< that an SPE tells of its progress by; 0: it does not; or kEachUnit
   uint32_t wide_leaves;               ///< 0 or 1: for SPEs that test many triangles of a leaf at once
   uint32_t far_nodes;                 ///< 0 or 1: for SPEs that wait long for a node of the BVH
   uint32_t unbounded_count;           ///< objects just before the others that no accelerator has
@@ -720,6 +722,11 @@ struct alignas(128) FrameBlock {
   uint32_t unused[1];
 };
 static_assert(sizeof(FrameBlock) % 128 == 0 && sizeof(FrameBlock) <= 512, "fetched by one DMA command");
+
+/// FrameBlock::work_entries of SYNCHRONIZE: all lines are out of date.
+constexpr uint32_t kAllLines = 0xFFFFFFFF;
+/// FrameBlock::units_per_word: every unit is told by its number, once its pixels are in main memory.
+constexpr uint32_t kEachUnit = 0xFFFFFFFF;
 
 /// A unit of work: bundles in a row of bundles from `column` on, and on in the next row where it ends.
 struct alignas(8) UnitRecord {
@@ -776,6 +783,7 @@ enum class ReportKind : uint32_t {
   idle = 4,     ///< as progress, and nothing left to do
   finished = 5, ///< left the frame; the report record is written
   synchronised = 6,
+  unit = 7, ///< count: the number of a unit that is completed
 };
 constexpr uint32_t make_report(ReportKind kind, uint32_t count) {
   return (static_cast<uint32_t>(kind) << 28) | count;

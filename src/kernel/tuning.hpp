@@ -68,6 +68,13 @@ constexpr uint32_t kMostObjectsOfNearNodes = 4000000;
 /// Rays of generated models, '--primitives 10000000'.
 constexpr uint32_t kMaxInterleaved = 4;
 
+// --- objects that move ---
+
+/// A BVH is built again when refitting has made the expected cost of a ray so many times what it was, by the
+/// surface area heuristic. Larger: rays go through looser nodes; smaller: builds that cost several times what
+/// a refit does. Frames of 'refitted every frame/'.
+constexpr double kMostDecay = 1.5;
+
 // --- tests of triangles ---
 
 /// A leaf is tested ray by ray, with its triangles in lanes, with at most so many rays and at least so many

@@ -21,6 +21,10 @@ constexpr double kBeforeTreelets = 0.3;
 /// Larger work memory goes back to the system between frames.
 constexpr std::size_t kKeptBytes = std::size_t{256} << 20;
 
+/// Where so many times more lines are out of date than a cache has, hardly any of it is worth keeping, and
+/// SPEs need not go through the list.
+constexpr std::uint64_t kLinesWorthMarking = 16;
+
 /// Looks into the work memory of a BVH while it is built.
 class BvhWatch {
 public:
@@ -47,11 +51,42 @@ private:
 
 } // namespace
 
-void AcceleratorBuilder::make_image(const Scene& scene) {
-  image_.assign(scene, work_[0], machine_.direct_memory() ? machine_.spe_count() : 1);
+void AcceleratorBuilder::make_image(const Scene& scene, bool updatable) {
+  image_.assign(scene, work_[0], host_threads(), SceneImage::kObjectsAThread, updatable);
+}
+
+bool AcceleratorBuilder::update_image(const Scene& scene, const SceneChanges& changes) {
+  if (static_cast<AcceleratorKind>(frame_.accelerator) != AcceleratorKind::bvh) return false;
+  if (!machine_.direct_memory()) shared_image_.remember();
+  return changes.objects ? image_.update(scene, work_[0], host_threads()) : image_.update_surfaces(scene);
+}
+
+std::optional<std::uint64_t> AcceleratorBuilder::update(const SceneChanges& changes) {
+  if (changes.objects) {
+    refit_.refit(image_.mutable_base(), frame_.bvh, host_threads());
+    if (refit_.decay() > tuning::kMostDecay) return std::nullopt;
+  }
+  frame_.image = shared_image_.ea();
+  if (machine_.direct_memory()) {
+    team_.synchronize({});
+    return 0;
+  }
+  const std::vector<std::uint32_t> lines = shared_image_.publish_changes();
+  const std::uint64_t cached = std::uint64_t{frame_.cache_ways} * frame_.cache_sets;
+  if (lines.size() > kLinesWorthMarking * cached)
+    team_.synchronize();
+  else
+    team_.synchronize(lines);
+  return lines.size();
+}
+
+/// For what the PPE's side does.
+unsigned AcceleratorBuilder::host_threads() const {
+  return machine_.direct_memory() ? machine_.spe_count() : 1;
 }
 
 bool AcceleratorBuilder::build(const Progress& go_on) {
+  refit_.forget();
   const bool built = static_cast<AcceleratorKind>(frame_.accelerator) == AcceleratorKind::bvh
                          ? build_bvh(go_on)
                          : build_grid();
@@ -137,10 +172,10 @@ bool AcceleratorBuilder::build_bvh_on(SpeTeam& team, FrameBlock& frame, unsigned
 }
 
 void AcceleratorBuilder::enter_work_memory(std::uint64_t pairs) {
-  frame_.sort_capacity = static_cast<std::uint32_t>(pairs);
+  frame_.work_entries = static_cast<std::uint32_t>(pairs);
   for (int i = 0; i < 2; ++i) {
     work_[i].reserve(static_cast<std::size_t>(pairs) * 8);
-    frame_.sort_buffer[i] = reinterpret_cast<std::uintptr_t>(work_[i].data());
+    frame_.work_memory[i] = reinterpret_cast<std::uintptr_t>(work_[i].data());
   }
 }
 

@@ -149,7 +149,8 @@ void set_options(FrameBlock& frame, const RenderOptions& options, const Machine&
   const PictureRegion region = region_of(options);
   frame.width = static_cast<std::uint32_t>(region.right - region.left);
   frame.height = static_cast<std::uint32_t>(region.bottom - region.top);
-  if (options.colours) frame.purpose = static_cast<std::uint32_t>(FramePurpose::grid);
+  frame.purpose = static_cast<std::uint32_t>(options.colours ? FramePurpose::grid : FramePurpose::picture);
+  frame.sampling = SamplingRecord{};
   if (const auto& antialiasing = options.antialiasing) {
     frame.purpose = static_cast<std::uint32_t>(FramePurpose::grid);
     ++frame.width;

@@ -24,6 +24,16 @@ public:
     }
     return !stopped_;
   }
+  /// Calls another function of the caller's; as if it were asked, if that throws.
+  template <class Function> void tell(Function function) {
+    if (stopped_) return;
+    try {
+      function();
+    } catch (...) {
+      failure_ = std::current_exception();
+      stopped_ = true;
+    }
+  }
   bool stopped() const { return stopped_; }
   void rethrow() const {
     if (failure_) std::rethrow_exception(failure_);

@@ -10,6 +10,7 @@
 #include "render/quality.hpp"
 #include "render/spe_team.hpp"
 #include "render/statistics.hpp"
+#include "render/unit_blocks.hpp"
 #include "render/work_plan.hpp"
 
 #include <algorithm>
@@ -74,8 +75,29 @@ public:
       return render_scene(at_quality(scene, options_.quality), progress);
     });
   }
+  RenderResult render(const Scene& scene, const SceneChanges& changes, const Progress& progress) {
+    return reporting_failures([&] {
+      if (options_.quality >= kFullQuality) return render_changes(scene, changes, progress);
+      validate(scene);
+      return render_changes(at_quality(scene, options_.quality), changes, progress);
+    });
+  }
   RenderResult render(const Camera& camera, const Progress& progress) {
     return reporting_failures([&] { return render_camera(camera, progress); });
+  }
+  void set_picture(const RenderOptions& given) {
+    RenderOptions options = options_;
+    options.width = given.width;
+    options.height = given.height;
+    options.region = given.region;
+    options.antialiasing = given.antialiasing;
+    options.colours = given.colours;
+    options.finished_block = given.finished_block;
+    check(options);
+    options_ = options;
+    make_room_for_picture();
+    // What it takes of their local stores may be more or less.
+    if (!stages_) team_->synchronize({});
   }
   /// The only frame of this renderer.
   RenderResult render_once(const Scene& scene, const Progress& progress) {
@@ -87,24 +109,30 @@ private:
   Impl(const RenderOptions& options, std::unique_ptr<Machine> machine)
       : options_(options), reports_(machine->spe_count(), machine->byte_order()),
         frame_block_(1, machine->byte_order()), frame_(frame_block_[0]), machine_(std::move(machine)) {
-    const unsigned spes = machine_->spe_count();
-    set_options(frame_, options_, *machine_);
-    surface_ = make_list_target(std::size_t{frame_.surface_pitch + frame_.sampling.colours_pitch} *
-                                frame_.packet_rows * kPacketEdge);
-    frame_.surface = to_ea(surface_.data());
-    frame_.reports = reports_.ea();
-    if (options_.antialiasing || options_.colours)
-      grid_points_ = AlignedBlock::uninitialised(std::size_t{frame_.packet_columns} * frame_.packet_rows *
-                                                 kGridPacketBytes);
-    frame_.grid_points = to_ea(grid_points_.data());
-    if (options_.antialiasing) make_room_for_samples();
-    plan_ = std::make_unique<WorkPlan>(options_.balance, frame_.bundle_columns, frame_.bundle_rows, spes,
-                                       machine_->byte_order());
+    make_room_for_picture();
     team_ =
         std::make_unique<SpeTeam>(*machine_, frame_block_, static_cast<AcceleratorKind>(frame_.accelerator));
     builder_ = std::make_unique<AcceleratorBuilder>(*machine_, *team_, frame_, reports_, image_);
     if (options_.model != Model::shared)
       stages_ = std::make_unique<StageTeam>(*machine_, frame_block_, options_.model);
+  }
+
+  /// What depends on the size and the kind of pictures.
+  void make_room_for_picture() {
+    set_options(frame_, options_, *machine_);
+    surface_ = make_list_target(std::size_t{frame_.surface_pitch + frame_.sampling.colours_pitch} *
+                                frame_.packet_rows * kPacketEdge);
+    frame_.surface = to_ea(surface_.data());
+    frame_.reports = reports_.ea();
+    grid_points_ = AlignedBlock();
+    if (options_.antialiasing || options_.colours)
+      grid_points_ = AlignedBlock::uninitialised(std::size_t{frame_.packet_columns} * frame_.packet_rows *
+                                                 kGridPacketBytes);
+    frame_.grid_points = to_ea(grid_points_.data());
+    sample_plan_.reset();
+    if (options_.antialiasing) make_room_for_samples();
+    plan_ = std::make_unique<WorkPlan>(options_.balance, frame_.bundle_columns, frame_.bundle_rows,
+                                       machine_->spe_count(), machine_->byte_order());
   }
 
   void make_room_for_samples() {
@@ -141,7 +169,7 @@ private:
     RenderStatistics statistics;
     const Stopwatch build;
     if (options_.build_progress && !options_.build_progress(0)) return no_frame(statistics);
-    builder_->make_image(scene);
+    builder_->make_image(scene, is_edited_);
     has_scene_ = false;
     media_ = media_of(scene);
     statistics.build_seconds = build.seconds();
@@ -153,10 +181,7 @@ private:
     if (stages_) team_->dismiss(); // the SPEs get other programs
     has_scene_ = true;
     statistics.prepare_seconds = prepare.seconds();
-    const std::vector<SpeStatistics> prepared = meter.read();
-    statistics.prepare_cycles = elapsed_cycles(prepared);
-    for (const SpeStatistics& spe : prepared)
-      statistics.prepare += spe.cycles;
+    enter_preparation(statistics, meter.read());
     return render_frame(scene.camera, statistics, progress);
   }
 
@@ -174,10 +199,39 @@ private:
     return result;
   }
 
+  RenderResult render_changes(const Scene& scene, const SceneChanges& changes, const Progress& progress) {
+    is_edited_ = true;
+    if (!has_scene_ || stages_) return render_scene(scene, progress);
+    if (!changes.objects && !changes.surfaces) return render_camera(scene.camera, progress);
+    RenderStatistics statistics;
+    const Stopwatch build;
+    if (!builder_->update_image(scene, changes)) return render_scene(scene, progress);
+    media_ = media_of(scene);
+    enter_scene(scene);
+    statistics.build_seconds = build.seconds();
+    const Stopwatch prepare;
+    const SpeMeter meter(*machine_);
+    const std::optional<std::uint64_t> lines = builder_->update(changes);
+    if (!lines) return render_scene(scene, progress);
+    statistics.stale_lines = *lines;
+    statistics.preparation =
+        changes.objects ? RenderStatistics::Preparation::refitted : RenderStatistics::Preparation::updated;
+    statistics.prepare_seconds = prepare.seconds();
+    enter_preparation(statistics, meter.read());
+    return render_frame(scene.camera, statistics, progress);
+  }
+
+  static void enter_preparation(RenderStatistics& statistics, const std::vector<SpeStatistics>& prepared) {
+    statistics.prepare_cycles = elapsed_cycles(prepared);
+    for (const SpeStatistics& spe : prepared)
+      statistics.prepare += spe.cycles;
+  }
+
   RenderResult render_camera(const Camera& camera, const Progress& progress) {
     if (!has_scene_) throw InputError("a camera alone cannot be rendered: there is no scene yet");
     validate(camera);
     RenderStatistics statistics;
+    statistics.preparation = RenderStatistics::Preparation::kept;
     return render_frame(camera, statistics, progress);
   }
 
@@ -245,9 +299,14 @@ private:
     // Every word wakes the PPE: about 64 of them will do, and none where nobody asks and each costs a
     // thread's sleep.
     const bool silent = !progress && machine_->direct_memory();
-    frame_.units_per_word = silent ? 0 : plan.units() / 64 + 1;
+    frame_.units_per_word = options_.finished_block ? kEachUnit : silent ? 0 : plan.units() / 64 + 1;
     StripTally tally(machine_->spe_count(), plan.units());
-    const bool complete = stages_ ? stages_->render_frame(progress) : team_->render_frame(tally, progress);
+    const auto unit_done = [&](std::uint32_t unit) {
+      tell_blocks(regions_of(plan.unit(unit), blocks_of_frame()));
+    };
+    const bool complete =
+        stages_ ? stages_->render_frame(progress) : team_->render_frame(tally, progress, unit_done);
+    if (complete && stages_ && options_.finished_block) tell_blocks({region_of(options_)});
     reports_.fetch();
     add(reports, reports_.all());
     if (complete && !stages_) plan.learn();
@@ -258,6 +317,39 @@ private:
   bool begins_before_picture() const {
     const auto& antialiasing = options_.antialiasing;
     return antialiasing && antialiasing->method == Antialiasing::Method::fixed;
+  }
+  /// How this frame's blocks lie in the picture.
+  BlockGrid blocks_of_frame() const {
+    BlockGrid grid;
+    grid.region = region_of(options_);
+    grid.columns = frame_.bundle_columns;
+    grid.left = grid.region.left;
+    grid.top = grid.region.top;
+    if (static_cast<FramePurpose>(frame_.purpose) == FramePurpose::samples) {
+      grid.edge = static_cast<int>(kSampledEdge);
+      return grid;
+    }
+    grid.edge = static_cast<int>(bundle_edge(machine_->direct_memory()) * kPacketEdge);
+    if (begins_before_picture()) {
+      --grid.left;
+      --grid.top;
+    }
+    return grid;
+  }
+  void tell_blocks(const std::vector<PictureRegion>& regions) const {
+    const PictureRegion picture = region_of(options_);
+    for (const PictureRegion& region : regions)
+      options_.finished_block(
+          {region,
+           first_pixel() +
+               std::size_t{frame_.surface_pitch} * static_cast<std::size_t>(region.top - picture.top) +
+               std::size_t{4} * static_cast<std::size_t>(region.left - picture.left),
+           frame_.surface_pitch});
+  }
+  /// Of the region.
+  const std::uint8_t* first_pixel() const {
+    const auto* first = reinterpret_cast<const std::uint8_t*>(surface_.data());
+    return begins_before_picture() ? first + frame_.surface_pitch + 4 : first;
   }
   std::byte* rows_of_colours() {
     return surface_.data() + std::size_t{frame_.surface_pitch} * frame_.packet_rows * kPacketEdge;
@@ -309,8 +401,7 @@ private:
   }
 
   Image copy_picture() const {
-    const auto* from = reinterpret_cast<const std::uint8_t*>(surface_.data());
-    if (begins_before_picture()) from += frame_.surface_pitch + 4;
+    const std::uint8_t* from = first_pixel();
     const PictureRegion region = region_of(options_);
     const std::size_t row = std::size_t{4} * static_cast<std::size_t>(region.right - region.left);
     if (options_.region) {
@@ -344,6 +435,7 @@ private:
   std::unique_ptr<StageTeam> stages_;
   std::size_t known_diagnostics_ = 0;
   bool is_last_frame_ = false;
+  bool is_edited_ = false; ///< scenes come with what has changed
 };
 
 Renderer::Renderer(const RenderOptions& options) : impl_(std::make_unique<Impl>(options)) {
@@ -357,6 +449,14 @@ RenderResult Renderer::render(const Scene& scene, const Progress& progress) {
 }
 RenderResult Renderer::render(const Camera& camera, const Progress& progress) {
   return impl_->render(camera, progress);
+}
+
+RenderResult Renderer::render(const Scene& scene, const SceneChanges& changes, const Progress& progress) {
+  return impl_->render(scene, changes, progress);
+}
+
+void Renderer::set_picture(const RenderOptions& options) {
+  impl_->set_picture(options);
 }
 
 RenderResult render(const Scene& scene, const RenderOptions& options, const Progress& progress) {

@@ -13,7 +13,8 @@ namespace celltrace {
 using namespace kernel;
 
 SpeTeam::SpeTeam(Machine& machine, SharedRecords<FrameBlock>& frame, AcceleratorKind accelerator)
-    : machine_(machine), frame_(frame), members_(machine.spe_count()), accelerator_(accelerator) {
+    : machine_(machine), frame_(frame), lines_(0, machine.byte_order()), members_(machine.spe_count()),
+      accelerator_(accelerator) {
   for (unsigned spe = 0; spe < members_.size(); ++spe)
     members_[spe].spe = spe;
   assemble();
@@ -59,6 +60,18 @@ bool SpeTeam::prepare_frame(unsigned spes, const std::function<void()>& look) {
 }
 
 void SpeTeam::synchronize() {
+  frame_[0].work_entries = kAllLines;
+  command_synchronize();
+}
+
+void SpeTeam::synchronize(std::span<const std::uint32_t> lines) {
+  lines_.assign(lines);
+  frame_[0].work_memory[0] = lines_.ea();
+  frame_[0].work_entries = static_cast<std::uint32_t>(lines.size());
+  command_synchronize();
+}
+
+void SpeTeam::command_synchronize() {
   for (Member& member : members_)
     member.answered = false;
   signal_all(command::synchronize);
@@ -66,7 +79,7 @@ void SpeTeam::synchronize() {
     receive_answers(ReportKind::synchronised);
 }
 
-bool SpeTeam::render_frame(StripTally& tally, const Progress& progress) {
+bool SpeTeam::render_frame(StripTally& tally, const Progress& progress, const UnitDone& unit_done) {
   HeldProgress held(progress);
   for (unsigned spe = 0; spe < members_.size(); ++spe)
     members_[spe] = Member{spe, 0, false};
@@ -74,6 +87,10 @@ bool SpeTeam::render_frame(StripTally& tally, const Progress& progress) {
   bool go_on = held.ask(0);
   while (go_on && !tally.frame_complete()) {
     receive([&](Member& member, ReportKind kind, std::uint32_t count) {
+      if (kind == ReportKind::unit) {
+        ++member.units;
+        held.tell([&] { unit_done(count); });
+      }
       if (kind != ReportKind::progress && kind != ReportKind::idle) return;
       member.units = count;
       // Only an idle SPE has no question under way.
@@ -138,7 +155,7 @@ void SpeTeam::end_frame(bool complete) {
     // In the middle of a frame a mailbox may be full of neighbours' words, or lose ours to one: say it again.
     if (!receive_answers(ReportKind::finished) && !complete) tell();
   }
-  if (!complete) synchronize();
+  if (!complete) synchronize({}); // what is cached is as good as before
 }
 
 void SpeTeam::throw_if_stopped() {

@@ -7,7 +7,9 @@
 #include "celltrace/spe/shared_records.hpp"
 #include "render/frame_fields.hpp"
 
+#include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace celltrace {
@@ -31,11 +33,16 @@ public:
   /// The first `spes` SPEs build the accelerator, or take the frame block's step in building it; `look` is
   /// called now and then, and must not throw. False if they need more room than the frame block offers.
   bool prepare_frame(unsigned spes, const std::function<void()>& look);
-  /// Every SPE forgets what it has cached and what is in its mailbox.
+  /// Every SPE forgets what is in its mailbox, and fetches lines of the image again that it has cached.
   void synchronize();
-  /// All SPEs render; what each completed is in `tally`. False if `progress` broke the frame off; what it
-  /// throws passes through, the SPEs being ready for the next frame all the same.
-  bool render_frame(StripTally& tally, const Progress& progress);
+  /// The same, but of lines only those at these offsets.
+  void synchronize(std::span<const std::uint32_t> lines);
+  /// Hears the number of a unit whose pixels are in main memory.
+  using UnitDone = std::function<void(std::uint32_t unit)>;
+  /// All SPEs render; what each completed is in `tally`. `unit_done` is called if the frame block asks for
+  /// kEachUnit. False if `progress` broke the frame off; what either function throws does, too, and passes
+  /// through, the SPEs being ready for the next frame all the same.
+  bool render_frame(StripTally& tally, const Progress& progress, const UnitDone& unit_done = {});
 
 private:
   struct Member {
@@ -44,6 +51,8 @@ private:
     bool answered = false;   ///< the report that a command ends with has come
   };
 
+  /// What the frame block says of lines is there.
+  void command_synchronize();
   void signal_first(unsigned spes, std::uint32_t commands);
   void signal_all(std::uint32_t commands);
   /// Reads all mail; calls `handle(member, kind, count)`. Sleeps a little and returns false if there is none.
@@ -57,6 +66,7 @@ private:
 
   Machine& machine_;
   SharedRecords<kernel::FrameBlock>& frame_;
+  SharedRecords<std::uint32_t> lines_; ///< that are out of date, as the SPEs read them
   std::vector<Member> members_;
   const kernel::AcceleratorKind accelerator_;
   bool assembled_ = false;

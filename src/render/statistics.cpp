@@ -67,6 +67,21 @@ nlohmann::ordered_json cache_json(const RenderStatistics::Cache& cache) {
   return {{"hits", cache.hits}, {"misses", cache.misses}, {"hit_rate", cache.hit_rate()}};
 }
 
+const char* name_of(RenderStatistics::Preparation preparation) {
+  using Preparation = RenderStatistics::Preparation;
+  switch (preparation) {
+  case Preparation::built:
+    return "built";
+  case Preparation::refitted:
+    return "refitted";
+  case Preparation::updated:
+    return "updated";
+  case Preparation::kept:
+    break;
+  }
+  return "kept";
+}
+
 const char* name_of(Model model) {
   switch (model) {
   case Model::shared:
@@ -233,7 +248,9 @@ std::string to_json(const RenderStatistics& s) {
         {"bytes", s.accelerator_bytes},
         {"bytes_per_object",
          s.objects == 0 ? 0.0 : static_cast<double>(s.accelerator_bytes) / static_cast<double>(s.objects)},
-        {"visits", s.accelerator_visits}}},
+        {"visits", s.accelerator_visits},
+        {"preparation", name_of(s.preparation)},
+        {"stale_lines", s.stale_lines}}},
       {"cache",
        {{"list", cache_json(s.list_cache)},
         {"object", cache_json(s.object_cache)},

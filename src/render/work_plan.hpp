@@ -23,6 +23,7 @@ public:
   /// Writes where everything lies, and how wide the picture is. Call it before every frame: plans may move.
   void place(kernel::FrameBlock& frame) const;
   std::uint32_t units() const { return static_cast<std::uint32_t>(units_.size()); }
+  const kernel::UnitRecord& unit(std::uint32_t index) const { return units_[index]; }
   /// Plans the next frame by what the units of the one that is complete have cost.
   void learn();
 

@@ -401,8 +401,10 @@ CsgParts::CsgParts(const Scene& scene, const std::vector<std::shared_ptr<const O
     const Node tree = builder.build(scene.objects[i], {});
     const std::size_t first = parts.size();
     flattener.show(tree, kNoCondition, kEverywhere);
-    for (std::size_t part = first; part < parts.size(); ++part)
+    for (std::size_t part = first; part < parts.size(); ++part) {
       parts[part].whole = i;
+      parts[part].object.is_hidden = scene.objects[i].is_hidden;
+    }
   }
 }
 

@@ -159,7 +159,8 @@ std::vector<Medium> media_of(const Scene& scene) {
   std::vector<Medium> media;
   for (const Object& object : scene.objects) {
     const std::optional<Index> interior = interior_of(object);
-    if (interior && may_have_inside(object)) media.push_back({object, *interior, box_around(object)});
+    if (interior && !object.is_hidden && may_have_inside(object))
+      media.push_back({object, *interior, box_around(object)});
   }
   return media;
 }

@@ -266,6 +266,10 @@ private:
       around.grow(lanes);
     }
     if (triangle.normal[0] != kNoIndex) write_normals(triangle, to);
+    if (object_->is_hidden) {
+      const float(&at)[4] = vertices_[triangle.vertex[0]].at;
+      hide(to, {at[0], at[1], at[2]});
+    }
   }
 
   void write_normals(const MeshPrototype::Triangle& triangle, ObjectRecord& to) {

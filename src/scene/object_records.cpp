@@ -2,6 +2,9 @@
 
 #include "celltrace/error.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 namespace celltrace {
 
 using namespace kernel;
@@ -11,6 +14,16 @@ void ObjectCensus::add(const ObjectCensus& other) {
   extras += other.extras;
   blended += other.blended;
   around = united(around, other.around);
+}
+
+void hide(ObjectRecord& record, const Vec3f& at) {
+  record.kind_and_flags = static_cast<std::uint32_t>(ObjectKind::sphere) | object_flag::no_shadow |
+                          object_flag::no_image | object_flag::no_reflection |
+                          (record.kind_and_flags & object_flag::blended); // what `material` is
+  std::fill(std::begin(record.geometry), std::end(record.geometry), 0.0f);
+  for (int i = 0; i < 3; ++i)
+    record.geometry[i] = at[i];
+  record.extra = kNoOffset;
 }
 
 void check_size(const Aabb& box) {

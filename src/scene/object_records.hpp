@@ -67,6 +67,10 @@ inline kernel::ObjectRecord start_record(const Object& object, std::uint32_t kin
   return r;
 }
 
+/// Makes the record one that no ray sees, at a point: it keeps its place in the image for the day that it is
+/// shown.
+void hide(kernel::ObjectRecord& record, const Vec3f& at);
+
 /// Throws InputError unless single precision holds the squares of an object's coordinates.
 void check_size(const kernel::Aabb& box);
 

@@ -17,6 +17,7 @@
 #include "scene/shape_geometry.hpp"
 #include "scene/shapes.hpp"
 #include "scene/texture_checks.hpp"
+#include "scene/validation.hpp"
 
 namespace celltrace {
 
@@ -205,7 +206,7 @@ void validate(const Camera& camera) {
   if (camera.angle < 0 || camera.vertical_angle < 0) throw InputError("the camera has a negative angle");
 }
 
-void validate(const Scene& scene) {
+void validate_all_but_objects(const Scene& scene) {
   validate(scene.camera);
   check_vectors({scene.background}, {"the background"});
   check_vectors({scene.irid_wavelength}, {"the wavelengths"});
@@ -232,6 +233,10 @@ void validate(const Scene& scene) {
   validate_sky(scene);
   for (std::size_t i = 0; i < scene.interiors.size(); ++i)
     check(scene.interiors[i], {"interior", i});
+}
+
+void validate(const Scene& scene) {
+  validate_all_but_objects(scene);
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
     check_object(scene, scene.objects[i], {"object", i}, 0);
   std::unordered_set<const Mesh*> meshes;

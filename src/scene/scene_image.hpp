@@ -16,6 +16,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -41,8 +42,18 @@ public:
   /// Becomes the image of `scene` in up to `threads` threads, which have so many objects each at least; what
   /// comes out does not depend on their number. Keeps its memory where that is large enough, and uses `work`,
   /// which may grow. After an InputError it is as before; after another exception it may be empty.
+  /// `updatable`: remembers what update() and update_surfaces() need, 4 bytes an object.
   void assign(const Scene& scene, AlignedBlock& work, unsigned threads,
+              std::uint32_t objects_a_thread = kObjectsAThread, bool updatable = false);
+  /// Becomes the image of a scene that is the one given to assign() but for numbers in it, every record at
+  /// its place, also the accelerator's. False, and nothing has changed, if it was not updatable, or if there
+  /// is more or less than there was: objects, what of them can be hit, entries of tables. Throws InputError
+  /// as assign() does.
+  bool update(const Scene& scene, AlignedBlock& work, unsigned threads,
               std::uint32_t objects_a_thread = kObjectsAThread);
+  /// As update(), where all objects are as they were; but not for scenes in which patterns or lights refer to
+  /// objects, or where materials become opaque, textured or the like or cease to be.
+  bool update_surfaces(const Scene& scene);
   bool empty() const noexcept { return block_.size() == 0; }
 
   /// Makes room for an accelerator: a table of `table_bytes` bytes, of voxels or of nodes, and lists of
@@ -53,6 +64,8 @@ public:
   /// The static part.
   std::vector<std::byte> to_bytes() const;
   const std::byte* base() const noexcept { return block_.data(); }
+  /// For whoever refits the accelerator.
+  std::byte* mutable_base() noexcept { return block_.data(); }
   /// Offsets of the two, multiples of 128; valid after reserve_accelerator().
   std::uint32_t table_offset() const noexcept { return table_offset_; }
   std::uint32_t list_offset() const noexcept { return list_offset_; }
@@ -60,7 +73,18 @@ public:
   std::uint32_t end_offset() const noexcept { return end_offset_; }
 
 private:
+  /// What it remembers of its scene for updates.
+  struct Origin {
+    std::vector<std::uint32_t> places; ///< by object that is no instance, where it is, or kNoPlace
+    std::uint32_t placed = 0;          ///< of these, those that can be hit
+    std::vector<std::uint32_t> groups; ///< of them
+    std::vector<bool> is_instance;     ///< by object of the scene
+    std::vector<std::uint32_t> material_flags;
+    bool surfaces_are_apart = false; ///< no pattern and no light refers to objects
+  };
+
   AlignedBlock block_;
+  std::optional<Origin> origin_;
   std::uint32_t table_offset_ = 0;
   std::uint32_t list_offset_ = 0;
   std::uint32_t end_offset_ = 0;

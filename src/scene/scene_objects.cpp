@@ -295,6 +295,20 @@ public:
   ObjectRecord shape(const Placed& placed) {
     const Object& object = *placed.object;
     const PlacedShape shape = placed.part != nullptr ? placed.part->shape : place_shape(object);
+    ObjectRecord r = record_of(placed, shape);
+    if (object.is_hidden) hide(r, middle_of(placed, shape));
+    return r;
+  }
+
+  void triangle(const Piece& piece, std::uint32_t number, ObjectRecord& r) {
+    write_triangle(piece, number, r);
+    if (piece.object->is_hidden) hide(r, piece.vertices[piece.mesh->triangles[number].vertex[0]]);
+  }
+
+private:
+  /// As if it were not hidden; likewise below.
+  ObjectRecord record_of(const Placed& placed, const PlacedShape& shape) {
+    const Object& object = *placed.object;
     ObjectRecord r = start_record(object, shape.kind_and_flags, tables_.interior_offset);
     std::copy(shape.geometry, shape.geometry + 12, r.geometry);
     tables_.set_material(r, object.material);
@@ -310,7 +324,7 @@ public:
     return r;
   }
 
-  void triangle(const Piece& piece, std::uint32_t number, ObjectRecord& r) {
+  void write_triangle(const Piece& piece, std::uint32_t number, ObjectRecord& r) {
     const Mesh::Triangle& triangle = piece.mesh->triangles[number];
     if (piece.object != object_ || triangle.material[0] != material_)
       start(*piece.object, triangle.material[0]);
@@ -344,7 +358,14 @@ public:
     set_extra(r, record);
   }
 
-private:
+  static Vec3f middle_of(const Placed& placed, const PlacedShape& shape) {
+    const bool is_bounded = placed.part != nullptr ? placed.part->is_bounded : shape.is_bounded;
+    if (!is_bounded) return Vec3f(0);
+    const Aabb box = placed.part != nullptr ? placed.part->bounds : shape.bounds();
+    return {0.5f * (box.min[0] + box.max[0]), 0.5f * (box.min[1] + box.max[1]),
+            0.5f * (box.min[2] + box.max[2])};
+  }
+
   PolygonEdges edges_of(const Polygon& polygon) const {
     PolygonEdges edges = objects_.polygons_.of(polygon);
     edges.first = tables_.polygon_edge_offset + edges.first * std::uint32_t{sizeof(PolygonEdgeRecord)};

@@ -7,6 +7,8 @@
 
 #include <bit>
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 namespace celltrace {
 
@@ -23,17 +25,25 @@ public:
   /// Shows them the static part and an accelerator that the PPE's side has made. May move.
   void publish_all();
 
+  /// Before the image changes in place: keeps what it is now.
+  void remember();
+  /// Shows the SPEs what has changed since remember(), and returns the offsets of the lines in which that is,
+  /// in ascending order. The image has not moved.
+  std::vector<std::uint32_t> publish_changes();
+
   /// Of the base.
   ea_t ea() const noexcept {
     return reinterpret_cast<std::uintptr_t>(converts_ ? copy_.data() : image_.base());
   }
 
 private:
-  void copy(std::size_t bytes);
+  void copy(std::size_t begin, std::size_t end);
+  void copy_header();
 
   const SceneImage& image_;
   bool converts_;
   AlignedBlock copy_;
+  AlignedBlock before_; ///< the image as it was when it was remembered
 };
 
 } // namespace celltrace

@@ -68,7 +68,10 @@ TEST_CASE("a cache hits and misses as its model does, and its data are right") {
       const std::uint32_t bytes = std::min<std::uint32_t>(random() % 600, memory.bytes() - offset);
       for (std::uint32_t at = offset; at < offset + bytes / 4 * 4; at += 4)
         memory.word(at) += 77;
-      cache.synchronize(offset, bytes);
+      if (offset % kLineBytes + bytes <= kLineBytes && bytes != 0)
+        cache.synchronize_line(offset / kLineBytes * kLineBytes);
+      else
+        cache.synchronize(offset, bytes);
       model.synchronize(offset, bytes);
     } else if (choice == 44) {
       cache.synchronize_all();

@@ -59,10 +59,10 @@ public:
       frame_.longest_group = std::max(frame_.longest_group, group.count);
     frame_.bvh = {nodes, capacity_, 0, list};
     const kernel::bvh::WorkSize work(count, group_count, frame_.longest_group);
-    frame_.sort_capacity = static_cast<std::uint32_t>(work.pairs());
+    frame_.work_entries = static_cast<std::uint32_t>(work.pairs());
     for (int i = 0; i < 2; ++i) {
-      work_[i] = AlignedBlock(std::size_t{frame_.sort_capacity} * 8);
-      frame_.sort_buffer[i] = reinterpret_cast<std::uintptr_t>(work_[i].data());
+      work_[i] = AlignedBlock(std::size_t{frame_.work_entries} * 8);
+      frame_.work_memory[i] = reinterpret_cast<std::uintptr_t>(work_[i].data());
     }
   }
   /// In this thread.

@@ -68,10 +68,10 @@ public:
 
 private:
   void reserve_work(std::uint32_t pairs) {
-    frame_.sort_capacity = pairs;
+    frame_.work_entries = pairs;
     for (int i = 0; i < 2; ++i) {
       sort_[i] = AlignedBlock(std::size_t{pairs} * 8);
-      frame_.sort_buffer[i] = reinterpret_cast<std::uintptr_t>(sort_[i].data());
+      frame_.work_memory[i] = reinterpret_cast<std::uintptr_t>(sort_[i].data());
     }
   }
 

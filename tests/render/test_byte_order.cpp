@@ -73,14 +73,14 @@ TEST_CASE("Numbers of every width are converted in their places") {
   frame.camera.dy[2] = 1.5f;
   frame.grid.cells[2] = 77;
   frame.image = 0x0102030405060708;
-  frame.sort_buffer[1] = 0x1112131415161718;
+  frame.work_memory[1] = 0x1112131415161718;
   frame.adc_bailout = 0.25f;
   frame.camera_interiors[7] = 0x21222324;
   reverse_bytes(frame);
   CHECK(foreign<float>(&frame, offsetof(FrameBlock, camera) + offsetof(CameraRecord, dy) + 8) == 1.5f);
   CHECK(foreign<std::uint32_t>(&frame, offsetof(FrameBlock, grid) + offsetof(GridRecord, cells) + 8) == 77);
   CHECK(foreign<ea_t>(&frame, offsetof(FrameBlock, image)) == 0x0102030405060708);
-  CHECK(foreign<ea_t>(&frame, offsetof(FrameBlock, sort_buffer) + 8) == 0x1112131415161718);
+  CHECK(foreign<ea_t>(&frame, offsetof(FrameBlock, work_memory) + 8) == 0x1112131415161718);
   CHECK(foreign<float>(&frame, offsetof(FrameBlock, adc_bailout)) == 0.25f);
   CHECK(foreign<std::uint32_t>(&frame, offsetof(FrameBlock, camera_interiors) + 28) == 0x21222324);
 

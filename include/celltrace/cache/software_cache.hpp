@@ -160,6 +160,19 @@ public:
     }
   }
 
+  /// The same for the line at `line`, which costs no more than looking it up.
+  void synchronize_line(uint32_t line) {
+    if constexpr (!Spu::direct_memory) {
+      this->end_lifetimes();
+      record(cache_trace::Operation::synchronize, line);
+      spu_.record(this, 1);
+      if (!config_.enabled) return;
+      spu_.compute(kLookup);
+      const uint32_t set = set_of(line);
+      if (const uint32_t way = locate(set, line); way != kNotFound) mark_out_of_date(tag(set, way));
+    }
+  }
+
   // --- writing, with CacheOptions::write_back ---
 
   /// Writes an object that must not cross a line. Counted as a reference. Main memory has it when the line

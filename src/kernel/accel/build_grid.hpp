@@ -17,7 +17,7 @@ constexpr uint32_t kExtraTag = 7;
 /// counted, so that the PPE knows how much memory to provide.
 template <class Spu> uint32_t emit_pairs(Spu& spu, const FrameBlock& frame) {
   StreamReader<Spu, ObjectRecord> objects(spu, 0);
-  StreamWriter<Spu, SortPair> pairs(spu, 2, frame.sort_buffer[0]);
+  StreamWriter<Spu, SortPair> pairs(spu, 2, frame.work_memory[0]);
   auto& extra = *spu.template allocate<ExtraRecord>();
   uint32_t count = 0;
   objects.for_each(
@@ -35,7 +35,7 @@ template <class Spu> uint32_t emit_pairs(Spu& spu, const FrameBlock& frame) {
         }
         for_each_voxel(spu, frame.grid, object, extra, [&](uint32_t cell) {
           spu.compute(scalar_work::kEmitPair);
-          if (count++ < frame.sort_capacity) pairs.write({cell, offset});
+          if (count++ < frame.work_entries) pairs.write({cell, offset});
         });
       });
   pairs.flush();
@@ -74,7 +74,7 @@ template <class Spu> PrepareResult build_grid(Spu& spu, const FrameBlock& frame)
   uint8_t* const marked = spu.mark();
   const uint32_t count = detail::emit_pairs(spu, frame);
   spu.release(marked);
-  if (count > frame.sort_capacity || count > frame.grid.list_capacity) return {count, false};
+  if (count > frame.work_entries || count > frame.grid.list_capacity) return {count, false};
 
   const uint32_t cell_count = frame.grid.row_of_cells * frame.grid.cells[2];
   uint32_t bits = 0;
@@ -83,10 +83,10 @@ template <class Spu> PrepareResult build_grid(Spu& spu, const FrameBlock& frame)
   uint32_t result = 0;
   {
     StreamReader<Spu, SortPair> reader(spu, 0);
-    result = RadixSort<Spu>(spu, reader).sort(frame.sort_buffer, count, bits);
+    result = RadixSort<Spu>(spu, reader).sort(frame.work_memory, count, bits);
   }
   spu.release(marked);
-  detail::write_lists(spu, frame, frame.sort_buffer[result], count, cell_count);
+  detail::write_lists(spu, frame, frame.work_memory[result], count, cell_count);
   spu.release(marked);
   return {count, true};
 }

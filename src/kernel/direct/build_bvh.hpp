@@ -278,7 +278,7 @@ private:
 } // namespace bvh
 
 /// Builds the BVH of the objects in the scene image, in the memory that `frame.bvh` describes. Returns the
-/// number of nodes, including gaps between those that are used. The sort buffers need room for
+/// number of nodes, including gaps between those that are used. The work memory needs room for
 /// bvh::WorkSize::pairs(). No node is deeper than bvh::kMaxDepth. The result depends on the objects only.
 ///
 /// All SPEs of a team call this at the same time. `team` provides its size(), the index() of this SPE, and a

@@ -1,4 +1,4 @@
-// The layout of the work memory of a BVH build, which lies in the frame's sort buffers. Kernel dialect.
+// The layout of the work memory of a BVH build, which the frame block refers to. Kernel dialect.
 #pragma once
 
 #include "kernel/direct/build_bvh_plan.hpp"
@@ -18,11 +18,11 @@ struct WorkMemory {
 
   explicit WorkMemory(const FrameBlock& frame) {
     const WorkSize size(frame.object_count, frame.group_count, frame.longest_group);
-    team = pointer<TeamRecord>(frame.sort_buffer[0]);
+    team = pointer<TeamRecord>(frame.work_memory[0]);
     groups = reinterpret_cast<Reference*>(team + 1);
     references = groups + size.groups;
     treelets = reinterpret_cast<Treelet*>(references + size.references);
-    spare_groups = pointer<Reference>(frame.sort_buffer[1]);
+    spare_groups = pointer<Reference>(frame.work_memory[1]);
     spare_references = spare_groups + size.groups;
     treelet_of = reinterpret_cast<uint32_t*>(spare_references + size.references);
   }

@@ -38,7 +38,7 @@ constexpr uint32_t most_nodes(uint32_t objects, uint32_t groups, bool copies) {
   return objects / 3 + 2 + (copies ? groups : 0);
 }
 
-/// The size of the work memory, which lies in the sort buffers.
+/// The size of the work memory.
 struct WorkSize {
   uint32_t groups;
   uint32_t references; ///< to objects, if those of a treelet might exceed kLocalReferences
@@ -47,7 +47,7 @@ struct WorkSize {
       : groups(group_count),
         references((group_count == 0 ? objects : uint64_t{3} * longest_group) > kLocalReferences ? objects
                                                                                                  : 0) {}
-  /// The size of each of the two sort buffers, in pairs of 8 bytes: 4 for each reference to a group or an
+  /// The size of each of its two blocks, in pairs of 8 bytes: 4 for each reference to a group or an
   /// object; 5 for each treelet, of which there are as many as groups, or a word for each in the other
   /// buffer; and a line.
   constexpr uint64_t pairs() const {

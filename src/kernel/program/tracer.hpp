@@ -72,7 +72,8 @@ private:
       return has_areas(frame) + 2u * walks_shadows(frame) + 4u * has_surface_lanes(frame);
     }
     bool serves(const FrameBlock& frame) const {
-      return image == frame.image && ray_stack == frame.ray_stack && needs == needs_of(frame);
+      return image == frame.image && ray_stack == frame.ray_stack && needs == needs_of(frame) &&
+             (samples != nullptr || is_picture(frame));
     }
 
     ea_t image, ray_stack;
@@ -112,17 +113,34 @@ private:
     spu_.write_out_mailbox(make_report(result.built ? ReportKind::prepared : ReportKind::needs_memory, 0));
   }
 
-  /// Data has changed in main memory, or a frame was broken off: nothing cached and no word of it is valid
-  /// any more.
+  /// Data has changed in main memory, or a frame was broken off: no word of it is valid any more.
   [[gnu::noinline]] void synchronize() {
     spu_.run_in_module(modules::kStart);
     while (spu_.in_mailbox_count() != 0)
       spu_.read_in_mailbox();
     if (phase_ != nullptr && phase_->serves(frame_))
-      phase_->scene.cache().synchronize_all();
+      mark_lines();
     else
       drop_phase();
     spu_.write_out_mailbox(make_report(ReportKind::synchronised, 0));
+  }
+
+  /// Those that are out of date are fetched again at their next reference.
+  void mark_lines() {
+    auto& cache = phase_->scene.cache();
+    if (frame_.work_entries == kAllLines) return cache.synchronize_all();
+    struct alignas(kLineBytes) Lines {
+      uint32_t offset[kLineBytes / sizeof(uint32_t)];
+    };
+    constexpr uint32_t kLines = sizeof(Lines) / sizeof(uint32_t);
+    uint8_t* const marked = spu_.mark();
+    Lines& lines = *spu_.template allocate<Lines>();
+    for (uint32_t first = 0; first < frame_.work_entries; first += kLines) {
+      fetch(&lines, frame_.work_memory[0] + first * sizeof(uint32_t), sizeof lines);
+      for (uint32_t i = 0; i < kLines && first + i < frame_.work_entries; ++i)
+        cache.synchronize_line(lines.offset[i]);
+    }
+    spu_.release(marked);
   }
 
   void render() {
@@ -146,7 +164,7 @@ private:
     if (phase_ == nullptr) start_phase();
     phase_->scene.cache().reset_counters();
     phase_->bundles.reset_counters();
-    if (phase_->sampler != nullptr) phase_->sampler->begin_frame();
+    if (!is_picture(frame_)) phase_->sampler->begin_frame();
     fetch(&strip_, frame_.strips + spu_.id() * sizeof(StripRecord), sizeof(StripRecord));
     packets_ = 0;
     units_.begin_frame(frame_);
@@ -220,7 +238,8 @@ private:
       }
     }
     units_.write_cost(unit, start - spu_.read_decrementer());
-    exchange_.complete_unit();
+    if (frame_.units_per_word == kEachUnit) phase_->pixels.flush();
+    exchange_.complete_unit(unit);
   }
   /// Waits for work or for the end of the frame, and returns how many ticks. An SPE that says it is idle has
   /// all that it did in main memory.

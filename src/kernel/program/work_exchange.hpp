@@ -29,12 +29,16 @@ public:
     }
     return true;
   }
-  void complete_unit() {
+  void complete_unit(uint32_t unit) {
     node_.complete_unit();
-    if (units_per_report_ == 0 || --until_report_ != 0) return;
-    until_report_ = units_per_report_;
-    if (spu_.out_mailbox_count() != 0)
-      spu_.write_out_mailbox(make_report(ReportKind::progress, node_.completed()));
+    uint32_t word = make_report(ReportKind::unit, unit);
+    if (units_per_report_ != kEachUnit) {
+      if (units_per_report_ == 0 || --until_report_ != 0) return;
+      until_report_ = units_per_report_;
+      if (spu_.out_mailbox_count() == 0) return;
+      word = make_report(ReportKind::progress, node_.completed());
+    }
+    spu_.write_out_mailbox(word);
   }
 
   /// Handles what has arrived, without stalling. Cheap when nothing has. True if that was the end of the

@@ -1,0 +1,38 @@
+// Where the tables of a scene image lie.
+#pragma once
+
+#include "celltrace/scene.hpp"
+#include "kernel/records.hpp"
+#include "scene/light_sets.hpp"
+#include "scene/mesh_instances.hpp"
+#include "scene/object_records.hpp"
+#include "scene/scene_objects.hpp"
+#include "scene/textures.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace celltrace {
+
+/// Rounded up to lines.
+std::size_t whole_lines(std::size_t bytes);
+
+/// How many records are before those of other objects for ones without bounds: whole lines.
+std::uint32_t room_of_unbounded(std::uint32_t count);
+
+/// Of all objects, but for their bounds; `groups` are those of the objects that are no instances. Throws
+/// InputError if the image would pass 4 GB.
+kernel::ImageHeader make_header(const Scene& scene, const LightSets& light_sets,
+                                const TextureTables& textures, const SceneObjects& objects,
+                                const ObjectCensus& census, std::span<const std::uint32_t> groups,
+                                const MeshInstances& instances);
+
+/// As `old`, but for the tables of a scene whose objects are where they were.
+kernel::ImageHeader with_surfaces(const kernel::ImageHeader& old, const Scene& scene,
+                                  const LightSets& light_sets, const TextureTables& textures);
+
+/// Whether all tables have the same places.
+bool have_same_layout(const kernel::ImageHeader& a, const kernel::ImageHeader& b);
+
+} // namespace celltrace

@@ -1,0 +1,65 @@
+// Writes the tables of a scene image.
+#pragma once
+
+#include "celltrace/scene.hpp"
+#include "kernel/records.hpp"
+#include "scene/csg_parts.hpp"
+#include "scene/light_sets.hpp"
+#include "scene/mesh_instances.hpp"
+#include "scene/object_order.hpp"
+#include "scene/object_records.hpp"
+#include "scene/polygons.hpp"
+#include "scene/scene_objects.hpp"
+#include "scene/textures.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace celltrace {
+
+/// Puts the records of a scene where the header says. Everything that it is given stays as it is as long as
+/// it lives.
+class TableWriter {
+public:
+  TableWriter(std::byte* base, const kernel::ImageHeader& header, const Scene& scene,
+              const TextureTables& textures, std::uint32_t unbounded_extras);
+
+  /// The header, and zeros for all but objects: what lies between the tables is always the same.
+  void write_header();
+  void write_lights(const LightSets& sets, std::span<const std::uint32_t> projector_sizes);
+  void write_surfaces(TextureTables& textures);
+  /// Indices become offsets.
+  void write_csg(const CsgParts& csg);
+  void write_polygons(const PolygonTable& polygons);
+  /// `before`: what the others have in tables.
+  void write_unbounded(const SceneObjects& objects, const ObjectCensus& before);
+  /// `placed`: those that are no instances, in the order of the image. `places` has room for a word per
+  /// object.
+  void write_objects(const SceneObjects& objects, std::span<const PlacedObject> placed, std::uint32_t* places,
+                     unsigned threads);
+  /// Of objects that are no instances.
+  void write_groups(std::span<const std::uint32_t> groups, unsigned threads);
+  /// Behind everything else.
+  void write_instances(const MeshInstances& instances, unsigned threads);
+  /// At last. `around`: objects that are no instances.
+  void write_bounds(kernel::Aabb around);
+
+private:
+  void write_meshes(const MeshInsides& meshes);
+  void send_objects(const SceneObjects& objects, std::span<const PlacedObject> placed, std::uint32_t* places,
+                    unsigned threads);
+  std::uint32_t first_instance_extra(const MeshInstances& instances) const;
+  std::uint32_t first_projector() const;
+  template <class Record> Record* table(std::uint32_t offset) const {
+    return reinterpret_cast<Record*>(base_ + offset);
+  }
+
+  std::byte* base_;
+  const kernel::ImageHeader& header_;
+  const Scene& scene_;
+  std::uint32_t unbounded_extras_;
+  RecordTables tables_;
+};
+
+} // namespace celltrace

@@ -1,0 +1,354 @@
+// Sessions: what changes is made anew, and the picture is that of a fresh render.
+#include "celltrace/error.hpp"
+#include "celltrace/session.hpp"
+#include "render/backends.hpp"
+#include "render/scenes.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <atomic>
+#include <functional>
+#include <random>
+#include <stdexcept>
+#include <thread>
+
+using namespace celltrace;
+using namespace celltrace::test;
+
+namespace {
+
+using Preparation = RenderStatistics::Preparation;
+
+constexpr int kWidth = 64;
+constexpr int kHeight = 48;
+
+/// One of native, and the emulated one.
+std::vector<Backend> one_of_each() {
+  return {backends().front(), backends().back()};
+}
+
+Scene many_spheres(int count) {
+  Scene scene = scene_named("glass and mirrors");
+  scene.objects.clear();
+  scene.camera = camera_at({0, 2, -14}, {0, 0, 0});
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> place(-5, 5), radius(0.05, 0.3);
+  for (int i = 0; i < count; ++i) {
+    Object object;
+    object.shape = Sphere{{place(random), place(random), place(random)}, radius(random)};
+    object.material = static_cast<Index>(i) % static_cast<Index>(scene.materials.size());
+    object.interior = scene.add(Interior());
+    scene.objects.push_back(object);
+  }
+  return scene;
+}
+
+/// An even sheet, bent by `phase`.
+Mesh sheet(int side, float phase) {
+  Mesh mesh;
+  for (int y = 0; y <= side; ++y)
+    for (int x = 0; x <= side; ++x) {
+      const float u = static_cast<float>(x) / static_cast<float>(side) - 0.5f;
+      const float v = static_cast<float>(y) / static_cast<float>(side) - 0.5f;
+      mesh.vertices.emplace_back(6 * u, 6 * v, 0.5f * std::sin(9 * u + phase) * std::cos(7 * v - phase));
+    }
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x) {
+      const auto first = static_cast<Index>(y * (side + 1) + x);
+      const auto above = first + static_cast<Index>(side) + 1;
+      mesh.triangles.push_back({{first, first + 1, above}});
+      mesh.triangles.push_back({{first + 1, above + 1, above}});
+    }
+  return mesh;
+}
+
+Scene bent_sheet(float phase, int side = 60) {
+  Scene scene = many_spheres(40);
+  scene.objects.push_back(mesh_object(sheet(side, phase), 0, 0));
+  return scene;
+}
+
+/// The next frame is that of a fresh render.
+RenderResult check_next(Session& session) {
+  const RenderResult next = session.render();
+  REQUIRE(next.complete);
+  CHECK(next.statistics.diagnostics.empty());
+  const RenderResult fresh = render(session.scene(), session.options());
+  CHECK(next.image == fresh.image);
+  return next;
+}
+
+} // namespace
+
+TEST_CASE("Objects that move, shrink and change their material are refitted into the BVH") {
+  for (const Backend& backend : one_of_each()) {
+    INFO(backend.spu());
+    Session session(many_spheres(300), backend.options(kWidth, kHeight, 2));
+    CHECK(check_next(session).statistics.preparation == Preparation::built);
+    session.set_transform(17, Transform::translate({0.5, 1, -0.5}));
+    CHECK(check_next(session).statistics.preparation == Preparation::refitted);
+    session.set_transform(17, Transform::scale({2, 2, 2}));
+    session.set_material_of(18, 0);
+    CHECK(check_next(session).statistics.preparation == Preparation::refitted);
+    Object other = session.scene().objects[3];
+    other.shape = Sphere{{1, 1, -2}, 0.7};
+    session.set_object(3, other);
+    CHECK(check_next(session).statistics.preparation == Preparation::refitted);
+    session.set_camera(camera_at({3, 2, -12}, {0, 0, 0}));
+    CHECK(check_next(session).statistics.preparation == Preparation::kept);
+  }
+}
+
+TEST_CASE("Of a moved sphere of a thousand only its lines are fetched again") {
+  const Backend emulated = backends().back();
+  RenderOptions options = emulated.options(160, 120, 8);
+  options.emulation.schedule = Schedule::lockstep;
+  Session session(many_spheres(1000), options);
+  session.render();
+  session.set_transform(500, Transform::translate({0, 0.1, 0}));
+  const RenderResult moved = check_next(session);
+  CHECK(moved.statistics.preparation == Preparation::refitted);
+  // Its record, and the nodes from the root down to its leaf.
+  CHECK(moved.statistics.stale_lines >= 2);
+  CHECK(moved.statistics.stale_lines <= 12);
+}
+
+TEST_CASE("Objects are hidden and shown again") {
+  Scene scene = bent_sheet(0, 20);
+  const auto sheet_object = static_cast<Index>(scene.objects.size() - 1);
+  const auto add = [&](auto shape) {
+    Object object;
+    object.shape = shape;
+    object.interior = scene.add(Interior());
+    scene.objects.push_back(object);
+    return static_cast<Index>(scene.objects.size() - 1);
+  };
+  const Index plane = add(Plane{{0, 1, 0}, -3});
+  auto csg = std::make_shared<Csg>();
+  csg->operation = Csg::Operation::difference;
+  csg->parts.resize(2);
+  csg->parts[0].shape = Box{{{-1, -1, -3}, {1, 1, -2}}};
+  csg->parts[1].shape = Sphere{{0, 0, -3}, 0.8};
+  const Index difference = add(std::shared_ptr<const Csg>(csg));
+  for (const Backend& backend : one_of_each()) {
+    INFO(backend.spu());
+    Session session(scene, backend.options(kWidth, kHeight, 2));
+    const Image all = session.render().image;
+    for (const Index object : {sheet_object, plane, difference, Index{0}}) {
+      INFO("object " << object);
+      session.show(object, false);
+      const RenderResult without = check_next(session);
+      CHECK(without.statistics.preparation == Preparation::refitted);
+      Scene removed = session.scene();
+      removed.objects.erase(removed.objects.begin() + object);
+      CHECK(without.image == render(removed, session.options()).image);
+      session.show(object, true);
+      CHECK(check_next(session).image == all);
+    }
+  }
+}
+
+TEST_CASE("Materials, lights and interiors change without their objects") {
+  for (const Backend& backend : one_of_each()) {
+    INFO(backend.spu());
+    Session session(bent_sheet(1, 20), backend.options(kWidth, kHeight, 2));
+    session.render();
+    session.set_material(0, matte({0.2, 0.9, 0.1}));
+    CHECK(check_next(session).statistics.preparation == Preparation::updated);
+    Light light = session.scene().lights[0];
+    light.location += Vec3(1, 2, 0);
+    light.colour = {0.5, 0.6, 1};
+    session.set_light(0, light);
+    CHECK(check_next(session).statistics.preparation == Preparation::updated);
+    Interior interior;
+    interior.ior = 1.3;
+    session.set_interior(2, interior);
+    CHECK(check_next(session).statistics.preparation == Preparation::updated);
+    session.edit({false, true}, [](Scene& scene) { scene.background = {0.3, 0, 0.3}; });
+    CHECK(check_next(session).statistics.preparation == Preparation::updated);
+    // An area takes more places to look for shadows from, and more of a local store.
+    light.area = LightArea{};
+    session.set_light(0, light);
+    check_next(session);
+    light.area = std::nullopt;
+    session.set_light(0, light);
+    check_next(session);
+  }
+}
+
+TEST_CASE("What does not fit in its place is made anew") {
+  for (const Backend& backend : one_of_each()) {
+    INFO(backend.spu());
+    Session session(many_spheres(50), backend.options(kWidth, kHeight, 2));
+    session.render();
+    session.edit({}, [](Scene& scene) { scene.objects.pop_back(); });
+    CHECK(check_next(session).statistics.preparation == Preparation::built);
+    Object none = session.scene().objects[5];
+    none.shape = Sphere{{0, 0, 0}, 0};
+    session.set_object(5, none);
+    CHECK(check_next(session).statistics.preparation == Preparation::built);
+    session.edit({false, true}, [](Scene& scene) { scene.lights.push_back(scene.lights.front()); });
+    CHECK(check_next(session).statistics.preparation == Preparation::built);
+    session.replace(many_spheres(60));
+    CHECK(check_next(session).statistics.preparation == Preparation::built);
+    session.set_transform(5, Transform::translate({0, 0, 1}));
+    CHECK(check_next(session).statistics.preparation == Preparation::refitted);
+  }
+}
+
+TEST_CASE("A mesh that bends is refitted, and built again when the BVH has become bad") {
+  for (const Backend& backend : one_of_each()) {
+    INFO(backend.spu());
+    Session session(bent_sheet(0), backend.options(kWidth, kHeight, 2));
+    session.render();
+    const auto last = static_cast<Index>(session.scene().objects.size() - 1);
+    for (const float phase : {0.2f, 0.4f, 0.9f}) {
+      Object object = session.scene().objects[last];
+      object.shape = std::make_shared<const Mesh>(sheet(60, phase));
+      session.set_object(last, object);
+      CHECK(check_next(session).statistics.preparation == Preparation::refitted);
+    }
+    // Vertices anywhere.
+    Mesh mesh = sheet(60, 0);
+    std::shuffle(mesh.vertices.begin(), mesh.vertices.end(), std::mt19937(3));
+    Object object = session.scene().objects[last];
+    object.shape = std::make_shared<const Mesh>(mesh);
+    session.set_object(last, object);
+    CHECK(check_next(session).statistics.preparation == Preparation::built);
+  }
+}
+
+TEST_CASE("Instances of meshes move by themselves") {
+  Scene scene = many_spheres(30);
+  const Object mesh = mesh_object(sheet(50, 0), 0, 0);
+  for (int i = 0; i < 4; ++i) {
+    scene.objects.push_back(mesh);
+    scene.objects.back().transform = Transform::translate({2.0 * i - 3, 0, 3.0 * i});
+  }
+  for (const Backend& backend : one_of_each()) {
+    INFO(backend.spu());
+    Session session(scene, backend.options(kWidth, kHeight, 2));
+    session.render();
+    session.set_transform(31, Transform::translate({0, 1, -1}));
+    CHECK(check_next(session).statistics.preparation == Preparation::refitted);
+    session.show(32, false);
+    CHECK(check_next(session).statistics.preparation == Preparation::refitted);
+  }
+}
+
+TEST_CASE("Pictures change their size, their region and their sampling while the scene stays") {
+  for (const Backend& backend : one_of_each()) {
+    INFO(backend.spu());
+    Session session(many_spheres(100), backend.options(kWidth, kHeight, 3));
+    session.render();
+    RenderOptions options = session.options();
+    const auto check_kept = [&] {
+      session.set_picture(options);
+      CHECK(check_next(session).statistics.preparation == Preparation::kept);
+    };
+    options.width = 33;
+    options.height = 70;
+    check_kept();
+    options.antialiasing = Antialiasing{};
+    check_kept();
+    options.region = PictureRegion{3, 30, 20, 60};
+    check_kept();
+    options.antialiasing->method = Antialiasing::Method::adaptive;
+    check_kept();
+    options.antialiasing.reset();
+    options.colours = true;
+    check_kept();
+    options.colours = false;
+    options.region.reset();
+    check_kept();
+    options.width = 0;
+    CHECK_THROWS_AS(session.set_picture(options), InputError);
+    CHECK(session.options().width == 33);
+    CHECK(check_next(session).image.width == 33);
+  }
+}
+
+TEST_CASE("A framebuffer fills with what the result has") {
+  for (const Backend& backend : one_of_each())
+    for (const bool samples : {false, true}) {
+      INFO(backend.spu() << (samples ? " with antialiasing" : ""));
+      RenderOptions options = backend.options(53, 41, 3);
+      if (samples) options.antialiasing = Antialiasing{};
+      Session session(many_spheres(100), options);
+      std::vector<std::uint8_t> pixels(41 * 160, 7);
+      session.set_framebuffer(Framebuffer{pixels.data(), 160, PixelFormat::rgb8});
+      const RenderResult result = session.render();
+      CHECK(session.generation() > 1);
+      bool equal = true;
+      for (int y = 0; y < 41; ++y) {
+        for (int x = 0; x < 53; ++x)
+          equal = equal && std::equal(&pixels[y * 160 + x * 3], &pixels[y * 160 + x * 3 + 3],
+                                      result.image.pixel(x, y));
+        equal = equal && pixels[y * 160 + 159] == 7;
+      }
+      CHECK(equal);
+      CHECK_THROWS_AS(session.set_framebuffer(Framebuffer{pixels.data(), 158, PixelFormat::rgb8}),
+                      InputError);
+      options.width = 54;
+      CHECK_THROWS_AS(session.set_picture(options), InputError);
+      session.set_framebuffer(std::nullopt);
+      const std::uint64_t before = session.generation();
+      session.render();
+      CHECK(session.generation() == before);
+    }
+}
+
+TEST_CASE("What a function throws that hears of finished blocks passes through") {
+  for (const Backend& backend : one_of_each()) {
+    RenderOptions options = backend.options(kWidth, kHeight, 2);
+    int calls = 0;
+    options.finished_block = [&](const PictureBlock&) {
+      if (++calls == 3) throw std::runtime_error("enough");
+    };
+    Session session(many_spheres(100), options);
+    CHECK_THROWS_WITH(session.render(), "enough");
+    CHECK(check_next(session).complete);
+  }
+}
+
+TEST_CASE("Changes that are not valid leave the machine with the scene as it was") {
+  for (const Backend& backend : one_of_each()) {
+    Session session(many_spheres(20), backend.options(kWidth, kHeight, 2));
+    session.render();
+    CHECK_THROWS_AS(session.set_transform(20, Transform()), InputError);
+    CHECK_THROWS_AS(session.set_light(9, Light()), InputError);
+    const Object good = session.scene().objects[0];
+    Object bad = good;
+    bad.material = 1000;
+    session.set_object(0, bad);
+    CHECK_THROWS_AS(session.render(), InputError);
+    session.set_object(0, good);
+    check_next(session);
+  }
+}
+
+TEST_CASE("Frames are cancelled at any moment, and the next one is complete") {
+  for (const Backend& backend : one_of_each()) {
+    INFO(backend.spu());
+    Session session(many_spheres(200), backend.options(kWidth, kHeight, 2));
+    const Image expected = session.render().image;
+    std::mt19937 random(11);
+    for (int round = 0; round < 25; ++round) {
+      std::atomic<bool> over = false;
+      const auto delay = std::chrono::microseconds(random() % 3000);
+      std::thread canceller([&] {
+        std::this_thread::sleep_for(delay);
+        while (!over)
+          session.cancel();
+      });
+      session.set_transform(static_cast<Index>(round), Transform());
+      const RenderResult broken = session.render();
+      over = true;
+      canceller.join();
+      if (broken.complete) CHECK(broken.image == expected);
+      const RenderResult next = session.render();
+      REQUIRE(next.complete);
+      REQUIRE(next.image == expected);
+    }
+  }
+}
