@@ -77,6 +77,14 @@ struct PictureBlock {
   /// R, G, B, A of the pixel at its left and top, as those of the result's image.
   const std::uint8_t* first;
   std::size_t pitch; ///< bytes from one row of them to the next
+  unsigned spe;      ///< that rendered it
+};
+
+/// Who rendered a part of a picture, and what that has cost.
+struct WorkRecord {
+  PictureRegion region;
+  unsigned spe = 0;
+  double ticks_per_pixel = 0; ///< of the decrementer, which counts virtual time on emulated machines
 };
 
 /// What of a scene is not as it was when the renderer saw it last, besides its camera. Only numbers may have
@@ -133,6 +141,8 @@ struct RenderOptions {
   /// With antialiasing a part may come again, better. The pixels are there during the call. What it throws
   /// breaks the frame off and passes through. Of models other than `shared` the picture comes all at once.
   std::function<void(const PictureBlock& block)> finished_block;
+  /// RenderResult::work is wanted. Model `shared` only.
+  bool work_map = false;
 };
 
 /// What a frame cost. Sums over all SPEs unless said otherwise; what building the accelerator took is only in
@@ -217,6 +227,9 @@ struct RenderStatistics {
   double prepare_seconds = 0; ///< accelerator, by the SPEs
   double render_seconds = 0;
 
+  /// Corners of a box around all objects that are not infinite.
+  Vec3 bounds[2] = {Vec3(0), Vec3(0)};
+
   std::vector<Spe> spes;
   /// Rules that were broken since the frame before.
   std::vector<Diagnostic> diagnostics;
@@ -230,6 +243,9 @@ std::string to_json(const RenderStatistics& statistics);
 struct RenderResult {
   Image image;
   ColourImage colours; ///< empty unless RenderOptions::colours
+  /// Empty unless RenderOptions::work_map; of a broken-off frame what was finished. With antialiasing of the
+  /// samples.
+  std::vector<WorkRecord> work;
   RenderStatistics statistics;
   bool complete = true; ///< false: cancelled; pixels that were not reached are transparent black
 };
@@ -259,9 +275,9 @@ public:
   /// are always made anew.
   RenderResult render(const Scene& scene, const SceneChanges& changes, const Progress& progress = {});
 
-  /// From the next frame on pictures have the size, region, antialiasing, colours and finished_block of
-  /// `options`, whose other members mean nothing. The scene and its accelerator stay. Throws InputError for
-  /// options out of range; then nothing has changed.
+  /// From the next frame on pictures have the size, region, antialiasing, colours, finished_block and
+  /// work_map of `options`, whose other members mean nothing. The scene and its accelerator stay. Throws
+  /// InputError for options out of range; then nothing has changed.
   void set_picture(const RenderOptions& options);
 
 private:

@@ -93,6 +93,7 @@ public:
     options.antialiasing = given.antialiasing;
     options.colours = given.colours;
     options.finished_block = given.finished_block;
+    options.work_map = given.work_map;
     check(options);
     options_ = options;
     make_room_for_picture();
@@ -278,11 +279,15 @@ private:
     statistics.model = options_.model;
     if (stages_) statistics.stages = stages_->counts();
     statistics.diagnostics = new_diagnostics();
+    const ImageHeader& header = image_.header();
+    statistics.bounds[0] = {header.bounds_min[0], header.bounds_min[1], header.bounds_min[2]};
+    statistics.bounds[1] = {header.bounds_max[0], header.bounds_max[1], header.bounds_max[2]};
     result.statistics = statistics;
     // The picture then lies in memory that the scene has had.
     if (is_last_frame_) image_ = SceneImage();
     result.image = copy_picture();
     if (options_.colours) result.colours = copy_colours(result.image);
+    if (options_.work_map) result.work = std::move(work_);
     return result;
   }
 
@@ -299,14 +304,19 @@ private:
     // Every word wakes the PPE: about 64 of them will do, and none where nobody asks and each costs a
     // thread's sleep.
     const bool silent = !progress && machine_->direct_memory();
-    frame_.units_per_word = options_.finished_block ? kEachUnit : silent ? 0 : plan.units() / 64 + 1;
+    const bool tells_units = options_.finished_block || options_.work_map;
+    frame_.units_per_word = tells_units ? kEachUnit : silent ? 0 : plan.units() / 64 + 1;
     StripTally tally(machine_->spe_count(), plan.units());
-    const auto unit_done = [&](std::uint32_t unit) {
-      tell_blocks(regions_of(plan.unit(unit), blocks_of_frame()));
+    const BlockGrid blocks = blocks_of_frame();
+    std::vector<std::pair<std::uint32_t, unsigned>> done; // units, and by which SPE
+    const auto unit_done = [&](std::uint32_t unit, unsigned spe) {
+      done.emplace_back(unit, spe);
+      if (options_.finished_block) tell_blocks(regions_of(plan.unit(unit), blocks), spe);
     };
     const bool complete =
         stages_ ? stages_->render_frame(progress) : team_->render_frame(tally, progress, unit_done);
-    if (complete && stages_ && options_.finished_block) tell_blocks({region_of(options_)});
+    if (complete && stages_ && options_.finished_block) tell_blocks({region_of(options_)}, 0);
+    work_ = work_of(plan, done, blocks);
     reports_.fetch();
     add(reports, reports_.all());
     if (complete && !stages_) plan.learn();
@@ -336,7 +346,23 @@ private:
     }
     return grid;
   }
-  void tell_blocks(const std::vector<PictureRegion>& regions) const {
+  static std::vector<WorkRecord> work_of(WorkPlan& plan,
+                                         const std::vector<std::pair<std::uint32_t, unsigned>>& done,
+                                         const BlockGrid& blocks) {
+    std::vector<WorkRecord> work;
+    if (done.empty()) return work;
+    const std::vector<double> costs = plan.measured_costs();
+    for (const auto& [unit, spe] : done) {
+      const std::vector<PictureRegion> regions = regions_of(plan.unit(unit), blocks);
+      double pixels = 0;
+      for (const PictureRegion& region : regions)
+        pixels += double{1} * (region.right - region.left) * (region.bottom - region.top);
+      for (const PictureRegion& region : regions)
+        work.push_back({region, spe, costs[unit] / pixels});
+    }
+    return work;
+  }
+  void tell_blocks(const std::vector<PictureRegion>& regions, unsigned spe) const {
     const PictureRegion picture = region_of(options_);
     for (const PictureRegion& region : regions)
       options_.finished_block(
@@ -344,7 +370,7 @@ private:
            first_pixel() +
                std::size_t{frame_.surface_pitch} * static_cast<std::size_t>(region.top - picture.top) +
                std::size_t{4} * static_cast<std::size_t>(region.left - picture.left),
-           frame_.surface_pitch});
+           frame_.surface_pitch, spe});
   }
   /// Of the region.
   const std::uint8_t* first_pixel() const {
@@ -433,6 +459,7 @@ private:
   std::unique_ptr<SpeTeam> team_;
   std::unique_ptr<AcceleratorBuilder> builder_;
   std::unique_ptr<StageTeam> stages_;
+  std::vector<WorkRecord> work_; ///< of the last pass
   std::size_t known_diagnostics_ = 0;
   bool is_last_frame_ = false;
   bool is_edited_ = false; ///< scenes come with what has changed

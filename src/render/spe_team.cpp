@@ -12,6 +12,13 @@ namespace celltrace {
 
 using namespace kernel;
 
+namespace {
+
+/// Whoever wants a frame broken off is heard that soon, also where no SPE has anything to say.
+constexpr std::chrono::milliseconds kBetweenQuestions(5);
+
+} // namespace
+
 SpeTeam::SpeTeam(Machine& machine, SharedRecords<FrameBlock>& frame, AcceleratorKind accelerator)
     : machine_(machine), frame_(frame), lines_(0, machine.byte_order()), members_(machine.spe_count()),
       accelerator_(accelerator) {
@@ -81,6 +88,7 @@ void SpeTeam::command_synchronize() {
 
 bool SpeTeam::render_frame(StripTally& tally, const Progress& progress, const UnitDone& unit_done) {
   HeldProgress held(progress);
+  asks_ = static_cast<bool>(progress);
   for (unsigned spe = 0; spe < members_.size(); ++spe)
     members_[spe] = Member{spe, 0, false};
   signal_all(command::render_frame);
@@ -89,7 +97,7 @@ bool SpeTeam::render_frame(StripTally& tally, const Progress& progress, const Un
     receive([&](Member& member, ReportKind kind, std::uint32_t count) {
       if (kind == ReportKind::unit) {
         ++member.units;
-        held.tell([&] { unit_done(count); });
+        held.tell([&] { unit_done(count, member.spe); });
       }
       if (kind != ReportKind::progress && kind != ReportKind::idle) return;
       member.units = count;
@@ -125,7 +133,7 @@ template <class Handle> bool SpeTeam::receive(Handle handle) {
   }
   if (any) return true;
   throw_if_stopped();
-  machine_.wait_for_mail(std::chrono::milliseconds(50));
+  machine_.wait_for_mail(asks_ ? kBetweenQuestions : std::chrono::milliseconds(50));
   return false;
 }
 

@@ -37,8 +37,8 @@ public:
   void synchronize();
   /// The same, but of lines only those at these offsets.
   void synchronize(std::span<const std::uint32_t> lines);
-  /// Hears the number of a unit whose pixels are in main memory.
-  using UnitDone = std::function<void(std::uint32_t unit)>;
+  /// Hears the number of a unit whose pixels are in main memory, and which SPE completed it.
+  using UnitDone = std::function<void(std::uint32_t unit, unsigned spe)>;
   /// All SPEs render; what each completed is in `tally`. `unit_done` is called if the frame block asks for
   /// kEachUnit. False if `progress` broke the frame off; what either function throws does, too, and passes
   /// through, the SPEs being ready for the next frame all the same.
@@ -70,6 +70,7 @@ private:
   std::vector<Member> members_;
   const kernel::AcceleratorKind accelerator_;
   bool assembled_ = false;
+  bool asks_ = false; ///< whether somebody may break the frame off
 };
 
 } // namespace celltrace

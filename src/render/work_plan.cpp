@@ -188,6 +188,11 @@ std::vector<CostRun> WorkPlan::measured_runs() const {
   return runs;
 }
 
+std::vector<double> WorkPlan::measured_costs() {
+  cost_records_.fetch();
+  return costs();
+}
+
 std::vector<double> WorkPlan::costs() const {
   // What took less than a tick was not for nothing.
   const auto ticks = cost_records_.all();

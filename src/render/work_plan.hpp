@@ -24,6 +24,8 @@ public:
   void place(kernel::FrameBlock& frame) const;
   std::uint32_t units() const { return static_cast<std::uint32_t>(units_.size()); }
   const kernel::UnitRecord& unit(std::uint32_t index) const { return units_[index]; }
+  /// By unit, the ticks that it took in the frame before; 1 more, because nothing is for nothing.
+  std::vector<double> measured_costs();
   /// Plans the next frame by what the units of the one that is complete have cost.
   void learn();
 

@@ -352,3 +352,27 @@ TEST_CASE("Frames are cancelled at any moment, and the next one is complete") {
     }
   }
 }
+
+TEST_CASE("A work map says of every pixel who rendered it") {
+  for (const Backend& backend : one_of_each()) {
+    INFO(backend.spu());
+    RenderOptions options = backend.options(53, 41, 3);
+    options.work_map = true;
+    options.region = PictureRegion{5, 50, 2, 40};
+    Session session(many_spheres(100), options);
+    for (int frame = 0; frame < 2; ++frame) {
+      const RenderResult result = session.render();
+      std::vector<int> covered(53 * 41);
+      for (const WorkRecord& record : result.work) {
+        CHECK(record.spe < 3);
+        CHECK(record.ticks_per_pixel > 0);
+        for (int y = record.region.top; y < record.region.bottom; ++y)
+          for (int x = record.region.left; x < record.region.right; ++x)
+            ++covered[static_cast<std::size_t>(y * 53 + x)];
+      }
+      for (int y = 0; y < 41; ++y)
+        for (int x = 0; x < 53; ++x)
+          REQUIRE(covered[static_cast<std::size_t>(y * 53 + x)] == (x >= 5 && x < 50 && y >= 2 && y < 40));
+    }
+  }
+}
