@@ -56,7 +56,8 @@ struct NamedLimit {
 const std::vector<NamedLimit>& parse_limits();
 
 /// What a scene knows of the animation that it is a frame of: clock_on, frame_number, initial_frame,
-/// final_frame, initial_clock, final_clock and clock_delta. By default as POV-Ray has them for a still picture.
+/// final_frame, initial_clock, final_clock and clock_delta. By default as POV-Ray has them for a still
+/// picture.
 struct AnimationFrame {
   bool clock_on = false;
   int number = 0;

@@ -224,14 +224,14 @@ public:
   /// kept.
   RenderResult render(const Camera& camera, const Progress& progress = {});
 
-  /// What render(scene) does before the first pixel. False: RenderOptions::build_progress cancelled, and there
-  /// is no scene. Throws as render() does.
+  /// What render(scene) does before the first pixel. False: RenderOptions::build_progress cancelled, and
+  /// there is no scene. Throws as render() does.
   bool prepare(const Scene& scene);
-  /// Rows [top, bottom) of the picture, or of its region, as it would be rendered as a whole, by the scene and
-  /// camera that were prepared or rendered last; the rest is opaque black. Both are multiples of kRowStep, or
-  /// the last is the height. Pictures can so be rendered part by part; the statistics of the first part have
-  /// what preparing took. Of models other than `shared` all rows at once. Throws InputError for other rows and
-  /// where no scene is prepared, else as render() does.
+  /// Rows [top, bottom) of the picture, or of its region, as it would be rendered as a whole, by the scene
+  /// and camera that were prepared or rendered last; the rest is opaque black. Both are multiples of
+  /// kRowStep, or the last is the height. Pictures can so be rendered part by part; the statistics of the
+  /// first part have what preparing took. Of models other than `shared` all rows at once. Throws InputError
+  /// for other rows and where no scene is prepared, else as render() does.
   RenderResult render_rows(int top, int bottom, const Progress& progress = {});
   static constexpr int kRowStep = 32;
 

@@ -51,14 +51,10 @@ void declare_predefined(Session& session) {
   const ParseOptions& options = session.options;
   const AnimationFrame& frame = options.frame;
   const std::pair<const char*, double> numbers[] = {
-      {"image_width", options.width},
-      {"image_height", options.height},
-      {"frame_number", frame.number},
-      {"initial_frame", frame.initial_number},
-      {"final_frame", frame.final_number},
-      {"initial_clock", frame.initial_clock},
-      {"final_clock", frame.final_clock},
-      {"clock_on", frame.clock_on ? 1 : 0},
+      {"image_width", options.width},      {"image_height", options.height},
+      {"frame_number", frame.number},      {"initial_frame", frame.initial_number},
+      {"final_frame", frame.final_number}, {"initial_clock", frame.initial_clock},
+      {"final_clock", frame.final_clock},  {"clock_on", frame.clock_on ? 1 : 0},
   };
   for (const auto& [name, value] : numbers)
     session.symbols.declare(session.names.intern(name), Quantity(value));

@@ -293,9 +293,9 @@ private:
       };
       const PictureRegion region = region_of(options_);
       const std::uint32_t first = static_cast<std::uint32_t>(rows.top) / kSampledEdge;
-      sample_plan_ = std::make_unique<WorkPlan>(options_.balance, blocks(region.right - region.left),
-                                                blocks(rows.bottom) - first, spes, machine_->byte_order(),
-                                                first);
+      sample_plan_ =
+          std::make_unique<WorkPlan>(options_.balance, blocks(region.right - region.left),
+                                     blocks(rows.bottom) - first, spes, machine_->byte_order(), first);
     }
     planned_ = rows;
     planned_grid_ = grid;
@@ -338,7 +338,8 @@ private:
     constexpr std::uint32_t kPoints = kPacketEdge * kPacketEdge;
     const std::uint32_t first = static_cast<std::uint32_t>(rows.top) / kPacketEdge;
     const std::uint32_t lines = static_cast<std::uint32_t>(rows.bottom) + (options_.antialiasing ? 1 : 0);
-    const std::byte* from = grid_points_.data() + std::size_t{first} * frame_.packet_columns * kGridPacketBytes;
+    const std::byte* from =
+        grid_points_.data() + std::size_t{first} * frame_.packet_columns * kGridPacketBytes;
     for (std::uint32_t row = first; row < (lines + kPacketEdge - 1) / kPacketEdge; ++row)
       for (std::uint32_t column = 0; column < frame_.packet_columns; ++column, from += kGridPacketBytes)
         for (std::uint32_t point = 0; point < kPoints; ++point) {
@@ -403,7 +404,7 @@ private:
   RenderOptions options_;
   SceneImage image_;
   std::vector<Medium> media_;
-  bool has_scene_ = false; ///< and an accelerator for it
+  bool has_scene_ = false;    ///< and an accelerator for it
   RenderStatistics prepared_; ///< what that took, for the statistics of the next frame
   RowRange planned_ = {0, 0};
   BundleRows planned_grid_;

@@ -217,7 +217,8 @@ void add_rows(RenderStatistics& sum, const RenderStatistics& rows) {
   for (std::size_t spe = 0; spe < sum.spes.size() && spe < rows.spes.size(); ++spe) {
     add_counts(sum.spes[spe], rows.spes[spe], &S::Spe::rays, &S::Spe::packets, &S::Spe::exchanges,
                &S::Spe::busy_ticks, &S::Spe::cycles);
-    sum.spes[spe].local_store_peak = std::max(sum.spes[spe].local_store_peak, rows.spes[spe].local_store_peak);
+    sum.spes[spe].local_store_peak =
+        std::max(sum.spes[spe].local_store_peak, rows.spes[spe].local_store_peak);
     all_cycles += sum.spes[spe].cycles.total_cycle;
   }
   sum.module_share =

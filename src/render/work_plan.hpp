@@ -15,8 +15,8 @@ namespace celltrace {
 /// the way of balancing does.
 class WorkPlan {
 public:
-  /// For `columns` x `rows` bundles of a picture (at least one), of which the first row is `first_row`, and for
-  /// so many SPEs, whose SPUs have this byte order.
+  /// For `columns` x `rows` bundles of a picture (at least one), of which the first row is `first_row`, and
+  /// for so many SPEs, whose SPUs have this byte order.
   WorkPlan(Balance balance, std::uint32_t columns, std::uint32_t rows, std::uint32_t spes,
            std::endian spe_order = std::endian::native, std::uint32_t first_row = 0);
 
