@@ -10,11 +10,13 @@
 #include "cli/picture_job.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/scene_reading.hpp"
+#include "image/file.hpp"
 
 #include <algorithm>
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -40,10 +42,15 @@ public:
       return 0;
     }
     if (is_film()) film_ = open_film(request_.output, request_.film, request_.frame_rate);
-    const bool complete = render_frames();
+    bool complete = false;
+    try {
+      complete = render_frames();
+    } catch (...) {
+      finish_film();
+      throw;
+    }
     line_.wipe();
-    // Of a film that is broken off the frames that it has are one, too.
-    if (film_ && done_ > 0) film_->finish();
+    finish_film();
     if (complete && !request_.resume) state_.remove();
     if (!request_.stats.empty()) write_report(request_.stats, statistics_.dump(2) + "\n");
     if (!request_.quiet) print_summary(complete);
@@ -63,12 +70,21 @@ private:
 
   void leave_out_finished() {
     state_.load();
+    std::set<std::filesystem::path> files = state_.files();
+    for (const int frame : frames_)
+      files.insert(picture(frame));
+    image::remove_abandoned_parts(files);
     const auto is_finished = [&](int frame) { return state_.has_frame(frame, picture(frame)); };
     const auto rest = std::remove_if(frames_.begin(), frames_.end(), is_finished);
     const std::ptrdiff_t finished = frames_.end() - rest;
     frames_.erase(rest, frames_.end());
     if (finished > 0 && !frames_.empty() && !request_.quiet)
       std::cerr << what() << ": " << finished << " frames are finished, " << frames_.size() << " to go\n";
+  }
+
+  /// Of a film that is broken off the frames that it has are one, too.
+  void finish_film() {
+    if (film_ && done_ > 0) film_->finish();
   }
 
   /// False: interrupted.
@@ -107,7 +123,7 @@ private:
         },
         [&] { keeper.save(interrupted()); });
     reports.print_diagnostics();
-    if (film_ && result.complete) film_->add(image.image());
+    if (film_ && result.complete) add_to_film(image.image());
     const std::filesystem::path file = is_film() ? std::filesystem::path() : picture(frame.number);
     if (!file.empty()) save_picture(request_, file, image);
     if (!result.complete) {
@@ -118,6 +134,15 @@ private:
     ++done_;
     add_statistics(frame, result.statistics);
     return true;
+  }
+
+  void add_to_film(const Image& image) {
+    try {
+      film_->add(image);
+    } catch (...) {
+      film_.reset(); // there is nothing left to finish
+      throw;
+    }
   }
 
   void print_messages(const std::string& messages) {

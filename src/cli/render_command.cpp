@@ -8,9 +8,11 @@
 #include "cli/picture_job.hpp"
 #include "cli/progress_line.hpp"
 #include "cli/scene_reading.hpp"
+#include "image/file.hpp"
 
 #include <chrono>
 #include <iostream>
+#include <set>
 
 #include <nlohmann/json.hpp>
 
@@ -82,6 +84,9 @@ int run_render(const RenderRequest& request) {
   ResumeState state(request.output, settings_of(request));
   if (request.resume) {
     state.load();
+    std::set<std::filesystem::path> files = state.files();
+    files.insert(request.output);
+    image::remove_abandoned_parts(files);
     if (state.has_frame(kStill, request.output)) {
       if (!request.quiet) std::cerr << name << ": finished already\n";
       return 0;

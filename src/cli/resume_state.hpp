@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,6 +38,10 @@ public:
   void remove();
 
   bool is_kept() const { return !journal_.empty(); }
+  /// That it is kept in.
+  std::set<std::filesystem::path> files() const {
+    return is_kept() ? std::set{journal_, rows_} : std::set<std::filesystem::path>();
+  }
 
 private:
   void begin_journal();
