@@ -90,12 +90,13 @@ private:
   /// False: interrupted.
   bool render_frames() {
     RunReports reports(request_);
+    bool complete = true;
     try {
       RenderOptions options = request_.options;
       reports.attach(options);
       FrameSource source(request_, options, frames_);
-      while (!source.is_at_end())
-        if (!render(source, reports)) return false;
+      while (complete && !source.is_at_end())
+        complete = render(source, reports);
     } catch (const std::exception& error) {
       line_.wipe();
       reports.print_diagnostics(error.what());
@@ -103,7 +104,7 @@ private:
     }
     reports.print_diagnostics();
     reports.finish();
-    return true;
+    return complete;
   }
 
   bool render(FrameSource& source, RunReports& reports) {

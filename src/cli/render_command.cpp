@@ -36,7 +36,7 @@ ReadScene read_with_progress(const RenderRequest& request) {
       [&](double fraction) { line.update(fraction); });
 }
 
-/// What of `picture` is missing. Statistics without an SPE: interrupted before the first pixel.
+/// What of `picture` is missing.
 RenderResult render_with_progress(const ReadScene& read, const RenderRequest& request, RunReports& reports,
                                   ResumeState& state, PartialPicture& picture) {
   const bool visible = !request.quiet && stderr_is_terminal();
@@ -49,9 +49,7 @@ RenderResult render_with_progress(const ReadScene& read, const RenderRequest& re
     return !interrupted();
   };
   Renderer renderer(options);
-  RenderResult none;
-  none.complete = false;
-  if (!renderer.prepare(*read.scene)) return none;
+  if (!renderer.prepare(*read.scene)) return renderer.render(*read.scene); // which is broken off, too
   ProgressLine line(std::cerr, visible);
   RowKeeper keeper(state, kStill, read.files, picture);
   return render_remaining(
@@ -67,11 +65,6 @@ void write_statistics(const std::string& where, const RenderStatistics& statisti
   auto json = nlohmann::ordered_json::parse(to_json(statistics));
   json["seconds"]["parse"] = parse_seconds;
   write_report(where, json.dump(2) + "\n");
-}
-
-int say_interrupted() {
-  std::cerr << "interrupted before the first pixel\n";
-  return 2;
 }
 
 } // namespace
@@ -93,7 +86,10 @@ int run_render(const RenderRequest& request) {
     }
   }
   const ReadScene read = read_with_progress(request);
-  if (!read.scene || interrupted()) return say_interrupted();
+  if (!read.scene || interrupted()) {
+    std::cerr << "interrupted before the first pixel\n";
+    return 2;
+  }
   PartialPicture picture(request.options);
   if (!request.resume)
     state.remove();
@@ -109,7 +105,6 @@ int run_render(const RenderRequest& request) {
     throw;
   }
   reports.print_diagnostics();
-  if (result.statistics.spes.empty()) return say_interrupted();
   if (!request.output.empty()) save_picture(request, request.output, picture);
   if (result.complete && request.resume)
     state.finish_frame(kStill, request.output);

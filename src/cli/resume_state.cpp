@@ -4,7 +4,7 @@
 #include "cli/output_files.hpp"
 
 #include <algorithm>
-#include <charconv>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <iterator>

@@ -52,7 +52,7 @@ private:
   bool has_journal_ = false;             ///< of this run
 };
 
-/// "modified SECONDS, BYTES bytes" of a file, for settings.
+/// How long a file is and when it was changed, for settings.
 std::string file_stamp(const std::filesystem::path& path);
 
 } // namespace celltrace::cli

@@ -16,6 +16,7 @@
 #include <chrono>
 #include <cstring>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 namespace celltrace {
@@ -130,7 +131,7 @@ private:
     frame_.sample_store = to_ea(sample_store_.data());
   }
 
-  template <class Work> auto reporting_failures(Work work) {
+  template <class Work> std::invoke_result_t<Work> reporting_failures(Work work) {
     try {
       return work();
     } catch (...) {
