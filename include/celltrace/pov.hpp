@@ -55,6 +55,17 @@ struct NamedLimit {
 /// All of them.
 const std::vector<NamedLimit>& parse_limits();
 
+/// What a scene knows of the animation that it is a frame of: clock_on, frame_number, initial_frame,
+/// final_frame, initial_clock, final_clock and clock_delta. By default as POV-Ray has them for a still
+/// picture.
+struct AnimationFrame {
+  bool clock_on = false;
+  int number = 0;
+  int initial_number = 0, final_number = 0;
+  double initial_clock = 0, final_clock = 0;
+  double clock_delta = 0; ///< from frame to frame
+};
+
 struct ParseOptions {
   /// Searched for include files after the including file's folder and the scene's; POV-Ray's installed
   /// include folder comes last by itself.
@@ -68,6 +79,7 @@ struct ParseOptions {
   int width = 640;  ///< image_width
   int height = 480; ///< image_height
   double clock = 0;
+  AnimationFrame frame;
   /// POV-Ray's level of quality at which the picture will be rendered (RenderOptions::quality): below 9
   /// media, photons and radiosity mean nothing.
   int quality = 9;
@@ -84,6 +96,8 @@ struct ParseOptions {
   /// and of how many. Neither included files nor loops move it on, but it is called while they are read. If
   /// it returns false, reading ends with Cancelled.
   std::function<bool(std::uint64_t bytes, std::uint64_t total)> progress;
+  /// Hears of every file of the scene, from the parsing thread, when it is about to be read.
+  std::function<void(const std::filesystem::path& path)> reads_file;
   ParseLimits limits;
 };
 

@@ -237,6 +237,9 @@ struct RenderStatistics {
   std::uint64_t total_rays() const { return primary_rays + shadow_rays + reflection_rays + refraction_rays; }
 };
 
+/// Adds those of more rows of the same picture.
+void add_rows(RenderStatistics& sum, const RenderStatistics& rows);
+
 /// The statistics as JSON text; docs/statistics.md describes the keys.
 std::string to_json(const RenderStatistics& statistics);
 
@@ -279,6 +282,17 @@ public:
   /// work_map of `options`, whose other members mean nothing. The scene and its accelerator stay. Throws
   /// InputError for options out of range; then nothing has changed.
   void set_picture(const RenderOptions& options);
+
+  /// What render(scene) does before the first pixel. False: RenderOptions::build_progress cancelled, and
+  /// there is no scene. Throws as render() does.
+  bool prepare(const Scene& scene);
+  /// Rows [top, bottom) of the picture, or of its region, as it would be rendered as a whole, by the scene
+  /// and camera that were prepared or rendered last; the rest is opaque black. Both are multiples of
+  /// kRowStep, or the last is the height. Pictures can so be rendered part by part; the statistics of the
+  /// first part have what preparing took. Of models other than `shared` all rows at once. Throws InputError
+  /// for other rows and where no scene is prepared, else as render() does.
+  RenderResult render_rows(int top, int bottom, const Progress& progress = {});
+  static constexpr int kRowStep = 32;
 
 private:
   friend RenderResult render(const Scene& scene, const RenderOptions& options, const Progress& progress);

@@ -2,6 +2,7 @@
 
 #include "celltrace/error.hpp"
 #include "celltrace/image.hpp"
+#include "cli/animation_options.hpp"
 #include "cli/choice.hpp"
 #include "cli/emulation_options.hpp"
 #include "cli/keyword_page.hpp"
@@ -92,13 +93,17 @@ struct RenderTexts {
   double start_column = 0, end_column = 1, start_row = 0, end_row = 1;
   std::string file_type; ///< empty: by the name
   std::string picture = "on";
+  AnimationTexts animation;
 };
 
 void add_picture_options(CLI::App& command, RenderRequest& request, RenderTexts& texts) {
   command.add_option("scene", request.scene, "The scene, a POV-Ray file")->required()->type_name("SCENE.pov");
-  command.add_option("-o,--output", request.output, "The picture; default: the scene's name, here")
-      ->type_name("OUT.png|OUT.ppm");
-  add_choice(command, "--file-type", texts.file_type, {{"png", "ppm"}, {}},
+  command
+      .add_option(
+          "-o,--output", request.output,
+          "The picture or the film; default: the scene's name, here. A folder: the scene's name, there")
+      ->type_name("OUT.png|OUT.ppm|OUT.y4m|OUT.mp4|DIR/|-");
+  add_choice(command, "--file-type", texts.file_type, {{"png", "ppm", "y4m"}, {}},
              "What the picture is if its name does not say; default: png");
   command.add_option("--bits", request.bits, "Bits a channel of the picture")
       ->check(CLI::IsMember({8, 16}))
@@ -130,7 +135,6 @@ void add_picture_options(CLI::App& command, RenderRequest& request, RenderTexts&
   command.add_option("--declare", texts.declares, "Declare a number or string before the scene begins")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
-  command.add_option("--clock", request.clock, "The scene's clock")->capture_default_str();
   command
       .add_option("--max-level", options.max_trace_level,
                   "Depth of the ray tree; default: the scene's max_trace_level")
@@ -332,13 +336,16 @@ std::optional<PictureRegion> region_of(const RenderTexts& texts, const RenderOpt
   return region;
 }
 
-/// POV-Ray adds the extension where a file name has none.
+/// POV-Ray adds the extension where a file name has none, and the scene's name to a folder.
 std::filesystem::path output_of(const RenderRequest& request, const RenderTexts& texts) {
   if (texts.picture == "off") return {};
-  const std::string extension = texts.file_type == "ppm" ? ".ppm" : ".png";
+  const std::string extension = '.' + (texts.file_type.empty() ? "png" : texts.file_type);
   std::filesystem::path output = request.output;
-  if (output.empty()) return request.scene.stem().string() + extension;
-  if (!output.has_filename()) return output;
+  if (output == "-") {
+    if (extension == ".y4m") return output;
+    throw InputError("standard output takes films only, of --file-type y4m");
+  }
+  if (!output.has_filename()) return output / (request.scene.stem().string() + extension);
   if (!output.has_extension()) return output += extension;
   std::string own = output.extension().string();
   std::transform(own.begin(), own.end(), own.begin(),
@@ -375,7 +382,8 @@ void finish(RenderRequest& request, const RenderTexts& texts) {
   for (const std::string& text : texts.limits)
     set_limit(request.limits, text);
   request.output = output_of(request, texts);
-  check_number(request.clock, "--clock");
+  request.film = request.output == "-" ? FilmFormat::y4m : film_format_of(request.output);
+  finish_animation(request, texts.animation);
 }
 
 /// Takes what follows the first "--" away: CLI11 gives it to a command only before its positional arguments.
@@ -444,6 +452,7 @@ Request parse_command_line(std::vector<std::string> arguments) {
       ->check(CLI::Range(0, 11))
       ->capture_default_str();
   add_region_options(render_command, texts);
+  add_animation_options(render_command, render, texts.animation);
   add_antialiasing_options(render_command, texts);
   add_machine_options(render_command, render.options, texts);
   add_report_options(render_command, render);

@@ -4,6 +4,8 @@
 #include "celltrace/pov.hpp"
 #include "celltrace/render.hpp"
 #include "celltrace/spe/machine.hpp"
+#include "cli/film.hpp"
+#include "cli/frame_numbers.hpp"
 #include "study/study.hpp"
 
 #include <filesystem>
@@ -21,8 +23,11 @@ CacheConfig parse_cache(const std::string& text);
 
 struct RenderRequest {
   std::filesystem::path scene;
-  /// By default the scene's name with .png, in the current folder. Empty: no picture is written.
+  /// By default the scene's name with .png, in the current folder. Empty: no picture is written. Of an
+  /// animation, the name that those of its pictures are made of, or the film; "-": the film goes to stdout.
   std::filesystem::path output;
+  FilmFormat film = FilmFormat::none;
+  FrameRate frame_rate;
   int bits = 8; ///< a channel of the picture: 8 or 16
   RenderOptions options;
   std::vector<std::filesystem::path> library_paths;
@@ -30,7 +35,9 @@ struct RenderRequest {
   ParseLimits limits;
   std::vector<std::pair<std::string, std::string>> declares; ///< name and value
   bool lenient = false;                                      ///< leave out what of the scene is not supported
-  double clock = 0;
+  std::optional<double> clock;                               ///< of a still picture; none: 0, and not on
+  Animation animation;
+  bool resume = false;               ///< a run that was stopped goes on
   std::string stats;                 ///< file, "-" for stdout, empty for none
   std::filesystem::path trace;       ///< empty: none
   std::filesystem::path cache_trace; ///< empty: none

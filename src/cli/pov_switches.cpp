@@ -27,6 +27,8 @@ enum class Meaning {
   method,        // of antialiasing: 0 to 2, more counts as that
   depth,         // of antialiasing: 1 to 9, less and more count as these
   version,       // of the language
+  cyclic,        // animation, on or off
+  resume,        // on or off
   ignored,       // no effect on the picture; no value or a number follows
   ignored_word,  // the same, letters follow
   ignored_file,  // the same, a file name may follow
@@ -59,13 +61,14 @@ constexpr Switch kSwitches[] = {
     {"SC", Meaning::number_option, "--start-column"},
     {"EC", Meaning::number_option, "--end-column"},
     {"K", Meaning::number_option, "--clock"},
-    {"KC", Meaning::refused, "animation"},
-    {"KI", Meaning::refused, "animation"},
-    {"KF", Meaning::refused, "animation"},
-    {"KFI", Meaning::refused, "animation"},
-    {"KFF", Meaning::refused, "animation"},
-    {"SF", Meaning::refused, "animation"},
-    {"EF", Meaning::refused, "animation"},
+    {"KC", Meaning::cyclic},
+    {"KI", Meaning::number_option, "--initial-clock"},
+    {"KF", Meaning::number_option, "--final-clock"},
+    {"KFI", Meaning::number_option, "--initial-frame"},
+    {"KFF", Meaning::number_option, "--final-frame"},
+    {"SF", Meaning::number_option, "--start-frame"},
+    {"EF", Meaning::number_option, "--end-frame"},
+    {"STP", Meaning::number_option, "--frame-step"},
     {"UF", Meaning::refused, "field rendering"},
     {"UO", Meaning::refused, "field rendering"},
     {"HI", Meaning::refused, "including a header"},
@@ -74,7 +77,7 @@ constexpr Switch kSwitches[] = {
     {"B", Meaning::ignored},
     {"BP", Meaning::ignored},
     {"BS", Meaning::ignored},
-    {"C", Meaning::ignored},
+    {"C", Meaning::resume},
     {"D", Meaning::ignored_word},
     {"EP", Meaning::ignored},
     {"BM", Meaning::ignored},
@@ -135,6 +138,7 @@ constexpr Setting kSettings[] = {
     {"final_frame", "KFF"},
     {"subset_start_frame", "SF"},
     {"subset_end_frame", "EF"},
+    {"frame_step", "STP"},
     {"field_render", "UF"},
     {"odd_field", "UO"},
     {"bounding", "MB"},
@@ -252,7 +256,7 @@ bool is_own_option(std::string_view argument) {
 
 bool takes_the_next_argument(std::string_view argument) {
   for (const std::string_view alone :
-       {"-h", "--help", "--version", "--quiet", "--faults", "--lenient", "--list-keywords"})
+       {"-h", "--help", "--version", "--quiet", "--faults", "--lenient", "--list-keywords", "--resume"})
     if (argument == alone) return false;
   return is_own_option(argument) && argument.find('=') == std::string_view::npos;
 }
@@ -290,6 +294,7 @@ public:
         option("--antialias-jitter", number_of(jitter_amount_) < 1 ? jitter_amount_ : "1");
       if (!gamma_.empty()) option("--antialias-gamma", gamma_);
     }
+    if (resume_) result_.arguments.insert(result_.arguments.begin() + 1, "--resume"); // not behind a "--"
     return std::move(result_);
   }
 
@@ -381,7 +386,8 @@ private:
     // What a switch says by its sign a setting says by its value.
     const bool by_sign = same.meaning == Meaning::refused_if_on || same.meaning == Meaning::ignored ||
                          same.meaning == Meaning::ignored_word || same.meaning == Meaning::ignored_file ||
-                         same.meaning == Meaning::antialias || same.meaning == Meaning::jitter;
+                         same.meaning == Meaning::antialias || same.meaning == Meaning::jitter ||
+                         same.meaning == Meaning::cyclic || same.meaning == Meaning::resume;
     apply(text, same, by_sign ? "" : value, is_on(value));
   }
 
@@ -416,6 +422,13 @@ private:
       return;
     case Meaning::version:
       return version(text, needed_number(text, value));
+    case Meaning::cyclic:
+      if (!value.empty()) unknown(text);
+      return option("--cyclic", on ? "on" : "off");
+    case Meaning::resume:
+      if (!value.empty()) unknown(text);
+      resume_ = on;
+      return;
     case Meaning::ignored:
       return ignore(text, value.empty() || is_number(value));
     case Meaning::ignored_word:
@@ -502,7 +515,7 @@ private:
   std::optional<std::size_t> scene_;                       ///< where the one that a switch has named is
   int open_ini_files_ = 0;
   // POV-Ray's defaults.
-  bool antialias_ = false, jitter_ = true;
+  bool antialias_ = false, jitter_ = true, resume_ = false;
   std::string threshold_ = "0.3", jitter_amount_ = "1";
   std::string method_, depth_, gamma_; ///< empty: not said
 };

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <iosfwd>
 #include <string>
+#include <utility>
 
 namespace celltrace::cli {
 
@@ -20,6 +21,8 @@ public:
   ~ProgressLine();
 
   void update(double fraction);
+  /// What stands in front from now on.
+  void set_job(std::string job) { job_ = std::move(job); }
   /// Makes room for other text, until the next update.
   void wipe();
 

@@ -1,18 +1,18 @@
 #include "cli/render_command.hpp"
 
-#include "celltrace/cache/trace.hpp"
 #include "celltrace/image.hpp"
-#include "celltrace/pov.hpp"
 #include "celltrace/render.hpp"
+#include "cli/animation.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/output_files.hpp"
+#include "cli/picture_job.hpp"
 #include "cli/progress_line.hpp"
+#include "cli/scene_reading.hpp"
+#include "image/file.hpp"
 
-#include <charconv>
 #include <chrono>
-#include <cstdio>
 #include <iostream>
-#include <optional>
+#include <set>
 
 #include <nlohmann/json.hpp>
 
@@ -20,93 +20,45 @@ namespace celltrace::cli {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+/// Of a still picture, as POV-Ray numbers it.
+constexpr int kStill = 0;
 
-ParseOptions parse_options(const RenderRequest& request) {
-  ParseOptions options;
-  options.library_paths = request.library_paths;
-  options.readable_folders = request.readable_folders;
-  options.writable_folders = request.writable_folders;
-  options.limits = request.limits;
-  options.width = request.options.width;
-  options.height = request.options.height;
-  options.lenient = request.lenient;
-  options.clock = request.clock;
-  options.quality = request.options.quality;
-  for (const auto& [name, text] : request.declares) {
-    double number = 0;
-    const char* const last = text.data() + text.size();
-    const auto [end, error] = std::from_chars(text.data(), last, number);
-    if (error == std::errc() && end == last)
-      options.declares.emplace_back(name, number);
-    else
-      options.declares.emplace_back(name, text);
-  }
-  return options;
-}
-
-/// None if the user interrupted it.
-std::optional<Scene> parse_with_progress(const RenderRequest& request) {
+ReadScene read_with_progress(const RenderRequest& request) {
   ProgressLine line(std::cerr, !request.quiet && stderr_is_terminal(), "reading ",
                     std::chrono::milliseconds(500));
-  ParseOptions options = parse_options(request);
-  options.message = [&](std::string_view text) {
-    if (request.quiet) return;
-    line.wipe();
-    std::cerr << text;
-  };
-  options.progress = [&line](std::uint64_t bytes, std::uint64_t total) {
-    if (total > 0) line.update(static_cast<double>(bytes) / static_cast<double>(total));
+  return read_scene(
+      request, kStill,
+      [&](std::string_view text) {
+        if (request.quiet) return;
+        line.wipe();
+        std::cerr << text;
+      },
+      [&](double fraction) { line.update(fraction); });
+}
+
+/// What of `picture` is missing.
+RenderResult render_with_progress(const ReadScene& read, const RenderRequest& request, RunReports& reports,
+                                  ResumeState& state, PartialPicture& picture) {
+  const bool visible = !request.quiet && stderr_is_terminal();
+  ProgressLine building(std::cerr, visible, "building ", std::chrono::milliseconds(500));
+  RenderOptions options = request.options;
+  reports.attach(options);
+  options.build_progress = [&building](double fraction) {
+    building.update(fraction);
+    if (fraction >= 1) building.wipe();
     return !interrupted();
   };
-  try {
-    return parse_file(request.scene, options);
-  } catch (const Cancelled&) {
-    return std::nullopt;
-  }
-}
-
-/// Prints what an emulated machine finds wrong. `error` is what is printed as the error anyway.
-void print_diagnostics(const std::vector<Diagnostic>& diagnostics, const std::string& error = {}) {
-  for (const Diagnostic& diagnostic : diagnostics)
-    if (error.find(diagnostic.text) == std::string::npos)
-      std::cerr << "celltrace: warning: " << diagnostic.text << '\n';
-}
-
-/// Where the traces go; null: nowhere.
-struct TraceStreams {
-  std::ostream* events;
-  std::ostream* cache;
-};
-
-RenderResult render_with_progress(const Scene& scene, const RenderRequest& request, TraceStreams traces) {
-  RenderOptions options = request.options;
-  options.emulation.trace = traces.events;
-  std::optional<CacheTraceWriter> cache_trace;
-  if (traces.cache != nullptr) options.emulation.recorder = &cache_trace.emplace(*traces.cache);
-  std::vector<Diagnostic> diagnostics;
-  options.diagnostic = [&](const Diagnostic& diagnostic) { diagnostics.push_back(diagnostic); };
-  try {
-    RenderResult result = [&] {
-      const bool visible = !request.quiet && stderr_is_terminal();
-      ProgressLine building(std::cerr, visible, "building ", std::chrono::milliseconds(500));
-      options.build_progress = [&building](double fraction) {
-        building.update(fraction);
-        if (fraction >= 1) building.wipe();
-        return !interrupted();
-      };
-      ProgressLine line(std::cerr, visible);
-      return render(scene, options, [&line](double fraction) {
+  Renderer renderer(options);
+  if (!renderer.prepare(*read.scene)) return renderer.render(*read.scene); // which is broken off, too
+  ProgressLine line(std::cerr, visible);
+  RowKeeper keeper(state, kStill, read.files, picture);
+  return render_remaining(
+      renderer, options, picture,
+      [&line](double fraction) {
         line.update(fraction);
         return !interrupted();
-      });
-    }();
-    print_diagnostics(diagnostics);
-    return result;
-  } catch (const std::exception& error) {
-    print_diagnostics(diagnostics, error.what());
-    throw;
-  }
+      },
+      [&] { keeper.save(interrupted()); });
 }
 
 void write_statistics(const std::string& where, const RenderStatistics& statistics, double parse_seconds) {
@@ -115,46 +67,59 @@ void write_statistics(const std::string& where, const RenderStatistics& statisti
   write_report(where, json.dump(2) + "\n");
 }
 
-void print_summary(const RenderRequest& request, const RenderResult& result, double parse_seconds) {
-  const RenderStatistics& s = result.statistics;
-  const double build_seconds = s.build_seconds + s.prepare_seconds;
-  const double rate = s.render_seconds > 0 ? static_cast<double>(s.total_rays()) / s.render_seconds : 0;
-  std::fprintf(stderr,
-               "%s: %s%dx%d, %s, %zu SPEs; parse %.2f s, build %.2f s, render %.2f s; %.2f million rays/s",
-               request.output.empty() ? "no picture" : request.output.c_str(),
-               result.complete ? "" : "interrupted, partial, ", s.width, s.height, s.spu.c_str(),
-               s.spes.size(), parse_seconds, build_seconds, s.render_seconds, rate / 1e6);
-  if (s.render_cycles != 0)
-    std::fprintf(stderr, "; %.2f million virtual cycles", static_cast<double>(s.render_cycles) / 1e6);
-  std::fputc('\n', stderr);
-}
-
 } // namespace
 
 int run_render(const RenderRequest& request) {
+  if (request.animation.is_on() || request.film != FilmFormat::none) return run_animation(request);
   if (!request.output.empty()) check_image_path(request.output);
   catch_interrupts();
-  const Clock::time_point start = Clock::now();
-  const std::optional<Scene> scene = parse_with_progress(request);
-  const std::chrono::duration<double> parsing = Clock::now() - start;
-
-  if (!scene || interrupted()) {
+  const std::string name = request.output.empty() ? "no picture" : request.output.string();
+  ResumeState state(request.output, settings_of(request));
+  if (request.resume) {
+    state.load();
+    std::set<std::filesystem::path> files = state.files();
+    files.insert(request.output);
+    image::remove_abandoned_parts(files);
+    if (state.has_frame(kStill, request.output)) {
+      if (!request.quiet) std::cerr << name << ": finished already\n";
+      return 0;
+    }
+  }
+  const ReadScene read = read_with_progress(request);
+  if (!read.scene || interrupted()) {
     std::cerr << "interrupted before the first pixel\n";
     return 2;
   }
-  OutputFile trace(request.trace, true);
-  OutputFile cache_trace(request.cache_trace);
-  const RenderResult result = render_with_progress(*scene, request, {trace.stream(), cache_trace.stream()});
-  if (!request.output.empty()) {
-    if (request.bits == 16)
-      save_image(request.output, to_deep_image(result.colours));
-    else
-      save_image(request.output, result.image);
+  PartialPicture picture(request.options);
+  if (!request.resume)
+    state.remove();
+  else if (state.load_rows(kStill, read.files, picture) && !request.quiet)
+    std::cerr << name << ": " << picture.missing_rows() << " of " << picture.height() << " rows to go\n";
+
+  RunReports reports(request);
+  RenderResult result;
+  try {
+    result = render_with_progress(read, request, reports, state, picture);
+  } catch (const std::exception& error) {
+    reports.print_diagnostics(error.what());
+    throw;
   }
-  trace.finish();
-  cache_trace.finish();
-  if (!request.stats.empty()) write_statistics(request.stats, result.statistics, parsing.count());
-  if (!request.quiet) print_summary(request, result, parsing.count());
+  reports.print_diagnostics();
+  if (!request.output.empty()) save_picture(request, request.output, picture);
+  if (result.complete && request.resume)
+    state.finish_frame(kStill, request.output);
+  else if (result.complete)
+    state.remove();
+  reports.finish();
+  if (!request.stats.empty()) write_statistics(request.stats, result.statistics, read.seconds);
+  if (!request.quiet) {
+    const RenderStatistics& s = result.statistics;
+    std::cerr << name << ": " << (result.complete ? "" : "interrupted, partial, ") << s.width << 'x'
+              << picture.height() << ", " << summary_of(s, read.seconds) << '\n';
+    if (!result.complete && state.is_kept() && !picture.is_empty())
+      std::cerr << "the same command with +C goes on with the " << picture.missing_rows()
+                << " rows that are missing\n";
+  }
   return result.complete ? 0 : 2;
 }
 

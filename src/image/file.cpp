@@ -4,9 +4,11 @@
 
 #include <atomic>
 #include <cerrno>
+#include <charconv>
 #include <string>
 #include <system_error>
 
+#include <signal.h>
 #include <unistd.h>
 
 namespace celltrace::image {
@@ -89,6 +91,30 @@ void OutputFile::commit() {
   if (!temporary_.empty()) fs::remove(temporary_, ignored);
   if (failed) throw InputError("cannot be written to its end"); // why, the write that failed has known
   throw InputError("cannot be written: " + (error ? error.message() : reason(close_error)));
+}
+
+void remove_abandoned_parts(const std::set<fs::path>& paths) {
+  std::set<fs::path> targets, folders;
+  for (const fs::path& path : paths) {
+    const fs::path target = follow_links(path);
+    targets.insert(target);
+    folders.insert(target.parent_path());
+  }
+  for (const fs::path& folder : folders) {
+    std::error_code ignored;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+      // As temporary_name() makes them: TARGET.PROCESS-NUMBER.part
+      const fs::path file = entry.path();
+      if (file.extension() != ".part" || targets.count(file.parent_path() / file.stem().stem()) == 0)
+        continue;
+      const std::string number = file.stem().extension().string(); // begins with its dot
+      long process = 0;
+      const auto end = std::from_chars(number.data() + 1, number.data() + number.size(), process).ptr;
+      if (process <= 0 || end == number.data() + number.size() || *end != '-') continue;
+      const bool is_gone = kill(static_cast<pid_t>(process), 0) != 0 && errno == ESRCH;
+      if (is_gone) fs::remove(file, ignored);
+    }
+  }
 }
 
 } // namespace celltrace::image

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <set>
 
 namespace celltrace::image {
 
@@ -36,5 +37,8 @@ private:
   std::filesystem::path temporary_; // empty: the target is written to directly
   File file_;
 };
+
+/// Removes what processes that were killed have left of an OutputFile for one of these paths.
+void remove_abandoned_parts(const std::set<std::filesystem::path>& paths);
 
 } // namespace celltrace::image

@@ -38,7 +38,7 @@ Value value_of(Constant constant, const Session& session) {
   case Constant::off:
     return Quantity(0);
   case Constant::clock_delta:
-    return Quantity(1);
+    return Quantity(session.options.frame.clock_delta);
   case Constant::clock:
     return Quantity(session.options.clock);
   case Constant::version:
@@ -49,16 +49,12 @@ Value value_of(Constant constant, const Session& session) {
 
 void declare_predefined(Session& session) {
   const ParseOptions& options = session.options;
-  // A still picture is the first and only frame.
+  const AnimationFrame& frame = options.frame;
   const std::pair<const char*, double> numbers[] = {
-      {"image_width", options.width},
-      {"image_height", options.height},
-      {"frame_number", 0},
-      {"initial_frame", 1},
-      {"final_frame", 1},
-      {"initial_clock", 0},
-      {"final_clock", 1},
-      {"clock_on", 0},
+      {"image_width", options.width},      {"image_height", options.height},
+      {"frame_number", frame.number},      {"initial_frame", frame.initial_number},
+      {"final_frame", frame.final_number}, {"initial_clock", frame.initial_clock},
+      {"final_clock", frame.final_clock},  {"clock_on", frame.clock_on ? 1 : 0},
   };
   for (const auto& [name, value] : numbers)
     session.symbols.declare(session.names.intern(name), Quantity(value));

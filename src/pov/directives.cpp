@@ -209,6 +209,7 @@ TokenStream::read_file(const std::string& what, const std::string& wanted, const
     session_.fail(where, what + ' ' + quoted_name(wanted) +
                              " lies outside of the scene's folder and the library path: --allow DIR lets the "
                              "scene read what is in a folder");
+  if (session_.options.reads_file) session_.options.reads_file(file->path);
   try {
     return {file->path, read_text(file->path, session_.options.limits.file_bytes)};
   } catch (const InputError& error) {

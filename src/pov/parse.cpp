@@ -29,6 +29,7 @@ Scene parse(std::string text, const ParseOptions& options, const std::string& na
 } // namespace
 
 Scene parse_file(const std::filesystem::path& path, const ParseOptions& options) {
+  if (options.reads_file) options.reads_file(path);
   std::string text;
   try {
     text = pov::read_text(path, options.limits.file_bytes);

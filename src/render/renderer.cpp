@@ -17,6 +17,7 @@
 #include <chrono>
 #include <cstring>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 namespace celltrace {
@@ -60,6 +61,8 @@ AlignedBlock make_list_target(std::size_t bytes) {
 } // namespace
 
 class Renderer::Impl {
+  static_assert(kRowStep == kSampledEdge, "blocks of samples are whole");
+
 public:
   explicit Impl(const RenderOptions& options) : Impl(options, make_machine(machine_config(options))) {}
   ~Impl() {
@@ -69,18 +72,37 @@ public:
   }
 
   RenderResult render(const Scene& scene, const Progress& progress) {
+    if (!prepare(scene)) return no_frame();
+    return reporting_failures([&] { return render_frame(whole_picture(), progress); });
+  }
+  bool prepare(const Scene& scene) {
     return reporting_failures([&] {
-      if (options_.quality >= kFullQuality) return render_scene(scene, progress);
+      if (options_.quality >= kFullQuality) return prepare_scene(scene);
       validate(scene);
-      return render_scene(at_quality(scene, options_.quality), progress);
+      return prepare_scene(at_quality(scene, options_.quality));
+    });
+  }
+  RenderResult render_rows(int top, int bottom, const Progress& progress) {
+    return reporting_failures([&] {
+      if (!has_scene_) throw InputError("rows cannot be rendered: no scene is prepared");
+      const RowRange picture = whole_picture();
+      const auto ends_block = [&](int row) { return row % kRowStep == 0 || row == picture.bottom; };
+      if (top < 0 || top >= bottom || bottom > picture.bottom || top % kRowStep != 0 || !ends_block(bottom))
+        throw InputError("the rows to render are not whole blocks of the picture's");
+      if (options_.model != Model::shared && (top != 0 || bottom != picture.bottom))
+        throw InputError("rows are rendered one after the other by the shared programming model only");
+      return render_frame({top, bottom}, progress);
     });
   }
   RenderResult render(const Scene& scene, const SceneChanges& changes, const Progress& progress) {
-    return reporting_failures([&] {
-      if (options_.quality >= kFullQuality) return render_changes(scene, changes, progress);
+    const bool prepared = reporting_failures([&] {
+      is_edited_ = true;
+      if (options_.quality >= kFullQuality) return prepare_changes(scene, changes);
       validate(scene);
-      return render_changes(at_quality(scene, options_.quality), changes, progress);
+      return prepare_changes(at_quality(scene, options_.quality), changes);
     });
+    if (!prepared) return no_frame();
+    return reporting_failures([&] { return render_frame(whole_picture(), progress); });
   }
   RenderResult render(const Camera& camera, const Progress& progress) {
     return reporting_failures([&] { return render_camera(camera, progress); });
@@ -97,6 +119,7 @@ public:
     check(options);
     options_ = options;
     make_room_for_picture();
+    if (has_scene_) enter_camera(camera_);
     // What it takes of their local stores may be more or less.
     if (!stages_) team_->synchronize({});
   }
@@ -130,26 +153,18 @@ private:
       grid_points_ = AlignedBlock::uninitialised(std::size_t{frame_.packet_columns} * frame_.packet_rows *
                                                  kGridPacketBytes);
     frame_.grid_points = to_ea(grid_points_.data());
-    sample_plan_.reset();
     if (options_.antialiasing) make_room_for_samples();
-    plan_ = std::make_unique<WorkPlan>(options_.balance, frame_.bundle_columns, frame_.bundle_rows,
-                                       machine_->spe_count(), machine_->byte_order());
+    planned_ = {0, 0};
+    plan_rows(whole_picture());
   }
 
   void make_room_for_samples() {
-    const auto blocks = [](int pixels) {
-      return (static_cast<std::uint32_t>(pixels) + kSampledEdge - 1) / kSampledEdge;
-    };
     sample_store_ = AlignedBlock::uninitialised(std::size_t{machine_->spe_count()} *
                                                 sample_store_bytes(bundle_edge(machine_->direct_memory())));
     frame_.sample_store = to_ea(sample_store_.data());
-    const PictureRegion region = region_of(options_);
-    sample_plan_ = std::make_unique<WorkPlan>(options_.balance, blocks(region.right - region.left),
-                                              blocks(region.bottom - region.top), machine_->spe_count(),
-                                              machine_->byte_order());
   }
 
-  template <class Work> RenderResult reporting_failures(Work work) {
+  template <class Work> std::invoke_result_t<Work> reporting_failures(Work work) {
     try {
       return work();
     } catch (...) {
@@ -166,74 +181,104 @@ private:
     return found;
   }
 
-  RenderResult render_scene(const Scene& scene, const Progress& progress) {
-    RenderStatistics statistics;
+  /// Rows [top, bottom) of the region.
+  struct RowRange {
+    int top, bottom;
+    bool operator==(const RowRange&) const = default;
+  };
+  RowRange whole_picture() const {
+    const PictureRegion region = region_of(options_);
+    return {0, region.bottom - region.top};
+  }
+
+  /// Image and accelerator. False: `build_progress` cancelled.
+  bool prepare_scene(const Scene& scene) {
+    prepared_ = RenderStatistics();
     const Stopwatch build;
-    if (options_.build_progress && !options_.build_progress(0)) return no_frame(statistics);
+    if (options_.build_progress && !options_.build_progress(0)) {
+      has_scene_ = false;
+      return false;
+    }
     builder_->make_image(scene, is_edited_);
     has_scene_ = false;
     media_ = media_of(scene);
-    statistics.build_seconds = build.seconds();
+    prepared_.build_seconds = build.seconds();
     const Stopwatch prepare;
     const SpeMeter meter(*machine_);
     enter_scene(scene);
     team_->assemble();
-    if (!builder_->build(options_.build_progress)) return no_frame(statistics);
+    if (!builder_->build(options_.build_progress)) return false;
     if (stages_) team_->dismiss(); // the SPEs get other programs
     has_scene_ = true;
-    statistics.prepare_seconds = prepare.seconds();
-    enter_preparation(statistics, meter.read());
-    return render_frame(scene.camera, statistics, progress);
+    prepared_.prepare_seconds = prepare.seconds();
+    enter_preparation(meter.read());
+    enter_camera(scene.camera);
+    return true;
   }
 
   /// Cancelled before the first pixel.
-  RenderResult no_frame(RenderStatistics& statistics) {
-    has_scene_ = false;
+  RenderResult no_frame() {
     std::memset(surface_.data(), 0, surface_.size());
     reports_.clear();
     RenderResult result;
     result.complete = false;
+    RenderStatistics statistics = std::exchange(prepared_, nothing_prepared());
     collect(statistics, *machine_, frame_, reports_.all(), SpeMeter(*machine_).read());
     result.statistics = statistics;
-    result.image = copy_picture();
-    if (options_.colours) result.colours = copy_colours(result.image);
+    result.image = copy_picture(whole_picture());
+    if (options_.colours) result.colours = copy_colours(result.image, whole_picture());
     return result;
   }
 
-  RenderResult render_changes(const Scene& scene, const SceneChanges& changes, const Progress& progress) {
-    is_edited_ = true;
-    if (!has_scene_ || stages_) return render_scene(scene, progress);
-    if (!changes.objects && !changes.surfaces) return render_camera(scene.camera, progress);
-    RenderStatistics statistics;
+  /// As prepare_scene(), at the cost of what has changed.
+  bool prepare_changes(const Scene& scene, const SceneChanges& changes) {
+    if (!has_scene_ || stages_) return prepare_scene(scene);
+    prepared_ = nothing_prepared();
+    if (!changes.objects && !changes.surfaces) {
+      validate(scene.camera);
+      enter_camera(scene.camera);
+      return true;
+    }
     const Stopwatch build;
-    if (!builder_->update_image(scene, changes)) return render_scene(scene, progress);
+    if (!builder_->update_image(scene, changes)) return prepare_scene(scene);
     media_ = media_of(scene);
     enter_scene(scene);
-    statistics.build_seconds = build.seconds();
+    prepared_.build_seconds = build.seconds();
     const Stopwatch prepare;
     const SpeMeter meter(*machine_);
     const std::optional<std::uint64_t> lines = builder_->update(changes);
-    if (!lines) return render_scene(scene, progress);
-    statistics.stale_lines = *lines;
-    statistics.preparation =
+    if (!lines) return prepare_scene(scene);
+    prepared_.stale_lines = *lines;
+    prepared_.preparation =
         changes.objects ? RenderStatistics::Preparation::refitted : RenderStatistics::Preparation::updated;
-    statistics.prepare_seconds = prepare.seconds();
-    enter_preparation(statistics, meter.read());
-    return render_frame(scene.camera, statistics, progress);
+    prepared_.prepare_seconds = prepare.seconds();
+    enter_preparation(meter.read());
+    enter_camera(scene.camera);
+    return true;
   }
 
-  static void enter_preparation(RenderStatistics& statistics, const std::vector<SpeStatistics>& prepared) {
-    statistics.prepare_cycles = elapsed_cycles(prepared);
-    for (const SpeStatistics& spe : prepared)
-      statistics.prepare += spe.cycles;
+  static RenderStatistics nothing_prepared() {
+    RenderStatistics statistics;
+    statistics.preparation = RenderStatistics::Preparation::kept;
+    return statistics;
+  }
+  void enter_preparation(const std::vector<SpeStatistics>& spes) {
+    prepared_.prepare_cycles = elapsed_cycles(spes);
+    for (const SpeStatistics& spe : spes)
+      prepared_.prepare += spe.cycles;
   }
 
   RenderResult render_camera(const Camera& camera, const Progress& progress) {
     if (!has_scene_) throw InputError("a camera alone cannot be rendered: there is no scene yet");
     validate(camera);
-    RenderStatistics statistics;
-    statistics.preparation = RenderStatistics::Preparation::kept;
-    return render_frame(camera, statistics, progress);
+    prepared_ = nothing_prepared();
+    enter_camera(camera);
+    return render_frame(whole_picture(), progress);
+  }
+  void enter_camera(const Camera& camera) {
+    camera_ = camera;
+    set_camera(frame_, camera, picture_on_grid(options_), media_, image_);
+    traced_ = {0, 0};
   }
 
   /// What the frame block says of a scene whose image is there.
@@ -249,8 +294,9 @@ private:
     frame_.ray_stack = to_ea(ray_stack_.data());
   }
 
-  RenderResult render_frame(const Camera& camera, RenderStatistics& statistics, const Progress& progress) {
-    set_camera(frame_, camera, picture_on_grid(options_), media_, image_);
+  RenderResult render_frame(const RowRange& rows, const Progress& progress) {
+    RenderStatistics statistics = std::exchange(prepared_, nothing_prepared());
+    plan_rows(rows);
     // A frame that nobody can break off leaves no pixel out.
     if (progress) std::memset(surface_.data(), 0, surface_.size());
     const Stopwatch render;
@@ -261,14 +307,15 @@ private:
       // Half of the progress is the grid's.
       frame_.purpose = static_cast<std::uint32_t>(FramePurpose::grid);
       result.complete = render_pass(*plan_, part_of(progress, 0, 0.5), reports);
-      keep_colours();
+      keep_colours(rows);
       if (result.complete) {
+        traced_ = grid_rows_of(rows);
         frame_.purpose = static_cast<std::uint32_t>(FramePurpose::samples);
         result.complete = render_pass(*sample_plan_, part_of(progress, 0.5, 1), reports);
       }
     } else {
       result.complete = render_pass(*plan_, progress, reports);
-      keep_colours();
+      keep_colours(rows);
     }
     statistics.render_seconds = render.seconds();
     if (machine_->backend() != "native") {
@@ -276,6 +323,7 @@ private:
       statistics.seed = options_.emulation.seed;
     }
     collect(statistics, *machine_, frame_, reports, meter.read());
+    statistics.height = rows.bottom - rows.top;
     statistics.model = options_.model;
     if (stages_) statistics.stages = stages_->counts();
     statistics.diagnostics = new_diagnostics();
@@ -285,10 +333,47 @@ private:
     result.statistics = statistics;
     // The picture then lies in memory that the scene has had.
     if (is_last_frame_) image_ = SceneImage();
-    result.image = copy_picture();
-    if (options_.colours) result.colours = copy_colours(result.image);
+    result.image = copy_picture(rows);
+    if (options_.colours) result.colours = copy_colours(result.image, rows);
     if (options_.work_map) result.work = std::move(work_);
     return result;
+  }
+
+  /// Bundles of the grid, by row: [begin, end).
+  struct BundleRows {
+    std::uint32_t begin = 0, end = 0;
+    bool operator==(const BundleRows&) const = default;
+    std::uint32_t count() const { return end - begin; }
+  };
+  /// All that the picture's rows need.
+  BundleRows grid_rows_of(const RowRange& rows) const {
+    const std::uint32_t height = bundle_edge(machine_->direct_memory()) * kPacketEdge;
+    // Points below and to the right of a pixel are in its block.
+    const std::uint32_t lines = static_cast<std::uint32_t>(rows.bottom) + (options_.antialiasing ? 1 : 0);
+    return {static_cast<std::uint32_t>(rows.top) / height, (lines + height - 1) / height};
+  }
+  /// Plans that have learned stay as long as the rows do.
+  void plan_rows(const RowRange& rows) {
+    BundleRows grid = grid_rows_of(rows);
+    // Points between these rows and those before are there.
+    if (traced_.begin <= grid.begin && grid.begin < traced_.end && traced_.end < grid.end)
+      grid.begin = traced_.end;
+    if (planned_ == rows && planned_grid_ == grid) return;
+    const unsigned spes = machine_->spe_count();
+    plan_ = std::make_unique<WorkPlan>(options_.balance, frame_.bundle_columns, grid.count(), spes,
+                                       machine_->byte_order(), grid.begin);
+    if (options_.antialiasing) {
+      const auto blocks = [](int pixels) {
+        return (static_cast<std::uint32_t>(pixels) + kSampledEdge - 1) / kSampledEdge;
+      };
+      const PictureRegion region = region_of(options_);
+      const std::uint32_t first = static_cast<std::uint32_t>(rows.top) / kSampledEdge;
+      sample_plan_ =
+          std::make_unique<WorkPlan>(options_.balance, blocks(region.right - region.left),
+                                     blocks(rows.bottom) - first, spes, machine_->byte_order(), first);
+    }
+    planned_ = rows;
+    planned_grid_ = grid;
   }
 
   static Progress part_of(const Progress& progress, double begin, double end) {
@@ -382,11 +467,14 @@ private:
   }
 
   /// The colours of the grid's points become those of pixels, if they are wanted; in the SPEs' byte order.
-  void keep_colours() {
+  void keep_colours(const RowRange& rows) {
     if (!options_.colours) return;
-    const std::byte* from = grid_points_.data();
     constexpr std::uint32_t kPoints = kPacketEdge * kPacketEdge;
-    for (std::uint32_t row = 0; row < frame_.packet_rows; ++row)
+    const std::uint32_t first = static_cast<std::uint32_t>(rows.top) / kPacketEdge;
+    const std::uint32_t lines = static_cast<std::uint32_t>(rows.bottom) + (options_.antialiasing ? 1 : 0);
+    const std::byte* from =
+        grid_points_.data() + std::size_t{first} * frame_.packet_columns * kGridPacketBytes;
+    for (std::uint32_t row = first; row < (lines + kPacketEdge - 1) / kPacketEdge; ++row)
       for (std::uint32_t column = 0; column < frame_.packet_columns; ++column, from += kGridPacketBytes)
         for (std::uint32_t point = 0; point < kPoints; ++point) {
           const std::uint32_t x = column * kPacketEdge + point % kPacketEdge;
@@ -400,7 +488,7 @@ private:
   }
 
   /// Where the picture has not been rendered, so have the colours not.
-  ColourImage copy_colours(const Image& picture) {
+  ColourImage copy_colours(const Image& picture, const RowRange& rows) {
     ColourImage colours(picture.width, picture.height);
     if (static_cast<GammaEncoding>(frame_.gamma_encoding) == GammaEncoding::none)
       colours.gamma = std::nullopt;
@@ -408,9 +496,9 @@ private:
       colours.gamma = static_cast<double>(frame_.assumed_gamma);
     const PictureRegion region = region_of(options_);
     const std::size_t pitch = frame_.sampling.colours_pitch;
-    const std::byte* from = rows_of_colours();
+    const std::byte* from = rows_of_colours() + pitch * static_cast<std::size_t>(rows.top);
     if (begins_before_picture()) from += pitch + sizeof(ColourRecord);
-    for (int y = region.top; y < region.bottom; ++y, from += pitch)
+    for (int y = region.top + rows.top; y < region.top + rows.bottom; ++y, from += pitch)
       for (int x = region.left; x < region.right; ++x) {
         float* const pixel = colours.pixel(x, y);
         if (picture.pixel(x, y)[3] == 0) {
@@ -426,14 +514,15 @@ private:
     return colours;
   }
 
-  Image copy_picture() const {
-    const std::uint8_t* from = first_pixel();
+  Image copy_picture(const RowRange& rows) const {
+    const std::uint8_t* from =
+        first_pixel() + std::size_t{frame_.surface_pitch} * static_cast<std::size_t>(rows.top);
     const PictureRegion region = region_of(options_);
     const std::size_t row = std::size_t{4} * static_cast<std::size_t>(region.right - region.left);
-    if (options_.region) {
+    if (options_.region || rows != whole_picture()) {
       Image image(options_.width, options_.height);
-      for (int y = region.top; y < region.bottom; ++y, from += frame_.surface_pitch)
-        std::memcpy(image.pixel(region.left, y), from, row);
+      for (int y = rows.top; y < rows.bottom; ++y, from += frame_.surface_pitch)
+        std::memcpy(image.pixel(region.left, region.top + y), from, row);
       return image;
     }
     Image image;
@@ -448,7 +537,12 @@ private:
   RenderOptions options_;
   SceneImage image_;
   std::vector<Medium> media_;
-  bool has_scene_ = false; ///< and an accelerator for it
+  bool has_scene_ = false;    ///< and an accelerator for it
+  Camera camera_;             ///< of the next frame
+  RenderStatistics prepared_; ///< what that took, for the statistics of the next frame
+  RowRange planned_ = {0, 0};
+  BundleRows planned_grid_;
+  BundleRows traced_; ///< of the grid, whose points are there
   // Everything from here to the machine is read and written by the SPEs.
   AlignedBlock surface_, ray_stack_, grid_points_, sample_store_; // bytes, and the SPEs' own
   SharedRecords<ReportRecord> reports_;
@@ -484,6 +578,13 @@ RenderResult Renderer::render(const Scene& scene, const SceneChanges& changes, c
 
 void Renderer::set_picture(const RenderOptions& options) {
   impl_->set_picture(options);
+}
+
+bool Renderer::prepare(const Scene& scene) {
+  return impl_->prepare(scene);
+}
+RenderResult Renderer::render_rows(int top, int bottom, const Progress& progress) {
+  return impl_->render_rows(top, bottom, progress);
 }
 
 RenderResult render(const Scene& scene, const RenderOptions& options, const Progress& progress) {

@@ -208,6 +208,40 @@ void collect(RenderStatistics& s, const Machine& machine, const FrameBlock& fram
   s.imbalance = imbalance_of(s);
 }
 
+void add_rows(RenderStatistics& sum, const RenderStatistics& rows) {
+  const auto add_counts = [](auto& to, const auto& from, auto... counts) {
+    ((to.*counts += from.*counts), ...);
+  };
+  using S = RenderStatistics;
+  const auto add_cache_counts = [&](S::Cache& to, const S::Cache& from) {
+    add_counts(to, from, &S::Cache::hits, &S::Cache::misses);
+  };
+  add_counts(sum, rows, &S::height, &S::primary_rays, &S::shadow_rays, &S::reflection_rays,
+             &S::refraction_rays, &S::dropped_rays, &S::spilled_packets, &S::accelerator_visits,
+             &S::dma_commands, &S::dma_list_elements, &S::dma_bytes_read, &S::dma_bytes_written, &S::signals,
+             &S::mailbox_words, &S::module_fetches, &S::module_bytes, &S::module_cycles,
+             &S::balance_exchanges, &S::balance_units_moved, &S::prepare_cycles, &S::render_cycles,
+             &S::prepare, &S::build_seconds, &S::prepare_seconds, &S::render_seconds);
+  for (const auto& [shape, tests] : rows.packet_tests)
+    sum.packet_tests[shape] += tests;
+  add_cache_counts(sum.list_cache, rows.list_cache);
+  add_cache_counts(sum.object_cache, rows.object_cache);
+  add_cache_counts(sum.material_cache, rows.material_cache);
+  add_cache_counts(sum.light_cache, rows.light_cache);
+  std::uint64_t all_cycles = 0;
+  for (std::size_t spe = 0; spe < sum.spes.size() && spe < rows.spes.size(); ++spe) {
+    add_counts(sum.spes[spe], rows.spes[spe], &S::Spe::rays, &S::Spe::packets, &S::Spe::exchanges,
+               &S::Spe::busy_ticks, &S::Spe::cycles);
+    sum.spes[spe].local_store_peak =
+        std::max(sum.spes[spe].local_store_peak, rows.spes[spe].local_store_peak);
+    all_cycles += sum.spes[spe].cycles.total_cycle;
+  }
+  sum.module_share =
+      all_cycles == 0 ? 0 : static_cast<double>(sum.module_cycles) / static_cast<double>(all_cycles);
+  sum.imbalance = imbalance_of(sum);
+  sum.diagnostics.insert(sum.diagnostics.end(), rows.diagnostics.begin(), rows.diagnostics.end());
+}
+
 std::string to_json(const RenderStatistics& s) {
   nlohmann::ordered_json spes = nlohmann::ordered_json::array();
   for (const auto& spe : s.spes)

@@ -32,9 +32,9 @@ constexpr std::uint32_t divided(std::uint32_t count, std::uint32_t by) {
 } // namespace
 
 WorkPlan::WorkPlan(Balance balance, std::uint32_t columns, std::uint32_t rows, std::uint32_t spes,
-                   std::endian spe_order)
-    : balance_(balance), columns_(columns), rows_(rows), spes_(spes), unit_records_(0, spe_order),
-      strip_records_(0, spe_order), cost_records_(0, spe_order) {
+                   std::endian spe_order, std::uint32_t first_row)
+    : balance_(balance), columns_(columns), rows_(rows), first_row_(first_row), spes_(spes),
+      unit_records_(0, spe_order), strip_records_(0, spe_order), cost_records_(0, spe_order) {
   // Cuts by cost have at most an eighth more, and one.
   constexpr std::uint32_t kMostUnits = strip_word::kMaxUnits / 9 * 8 - 8;
   wanted_units_ = std::min({kMostUnits, kUnitsPerStrip * spes, columns * rows});
@@ -164,7 +164,8 @@ void WorkPlan::deal_tiles() {
 }
 
 void WorkPlan::add_unit(std::uint32_t column, std::uint32_t row, std::uint32_t bundles) {
-  units_.push_back({static_cast<std::uint16_t>(column), static_cast<std::uint16_t>(row), bundles});
+  units_.push_back(
+      {static_cast<std::uint16_t>(column), static_cast<std::uint16_t>(first_row_ + row), bundles});
 }
 
 void WorkPlan::write() {

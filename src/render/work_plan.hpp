@@ -15,10 +15,10 @@ namespace celltrace {
 /// the way of balancing does.
 class WorkPlan {
 public:
-  /// For a picture of `columns` x `rows` bundles (at least one), and for so many SPEs, whose SPUs have this
-  /// byte order.
+  /// For `columns` x `rows` bundles of a picture (at least one), of which the first row is `first_row`, and
+  /// for so many SPEs, whose SPUs have this byte order.
   WorkPlan(Balance balance, std::uint32_t columns, std::uint32_t rows, std::uint32_t spes,
-           std::endian spe_order = std::endian::native);
+           std::endian spe_order = std::endian::native, std::uint32_t first_row = 0);
 
   /// Writes where everything lies, and how wide the picture is. Call it before every frame: plans may move.
   void place(kernel::FrameBlock& frame) const;
@@ -41,6 +41,7 @@ private:
   void deal_pieces();
   void deal_bundles();
   void deal_tiles();
+  /// `row` is counted from the plan's first one on.
   void add_unit(std::uint32_t column, std::uint32_t row, std::uint32_t bundles);
   void write();
   /// By unit, as the SPEs wrote them.
@@ -49,7 +50,7 @@ private:
   std::vector<CostRun> measured_runs() const;
 
   Balance balance_;
-  std::uint32_t columns_, rows_, spes_;
+  std::uint32_t columns_, rows_, first_row_, spes_;
   std::uint32_t wanted_units_; ///< fewer than there may be at most, for cuts that do not come out even
   std::vector<kernel::UnitRecord> units_;
   std::vector<UnitRange> strips_;

@@ -57,6 +57,9 @@ public:
       kill(pid_, signal);
   }
 
+  /// At once, whatever the program does.
+  void send(int signal) { kill(pid_, signal); }
+
   Outcome finish() {
     int status = 0;
     waitpid(pid_, &status, 0);

@@ -66,7 +66,7 @@ TEST_CASE("extensions are added as POV-Ray adds them") {
 
 TEST_CASE("harmless switches are ignored with a note") {
   const Arguments harmless = {"+D",    "-D",    "+DGT",   "+P",          "-P",
-                              "+V",    "+X10",  "+B64",   "+C",          "Bounding_Threshold=3",
+                              "+V",    "+X10",  "+B64",   "+BP",         "Bounding_Threshold=3",
                               "+MB10", "+WL5",  "+UV",    "-UL",         "+GFa.txt",
                               "+BS16", "+SP64", "+HR",    "Display=off", "Verbose=on",
                               "+GIa",  "+RP2",  "+MI128", "+BM2",        "Warning_Console=off"};
@@ -83,13 +83,9 @@ TEST_CASE("switches that would change the picture are refused by name") {
   const Arguments refused = {"+UA",
                              "+FT",
                              "+FJ",
-                             "+KFF10",
-                             "+KFI2",
-                             "+SF2",
                              "+UF",
                              "+HIa.inc",
                              "+MV3.5",
-                             "Final_Frame=20",
                              "Output_File_Type=T",
                              "Output_Alpha=on"};
   for (const std::string& text : refused) {

@@ -129,7 +129,9 @@ TEST_CASE("random numbers repeat POV-Ray's") {
 
 TEST_CASE("constants and what the caller sets") {
   CHECK(value("true + yes + on + no + off + false") == "3.000");
-  CHECK(value("clock_delta + clock_on + final_frame + frame_number") == "2.000");
+  // As POV-Ray has them for a still picture.
+  CHECK(value("clock_delta + clock_on + initial_frame + final_frame + frame_number + final_clock") ==
+        "0.000");
   CHECK(value("version") == "3.700");
   celltrace::ParseOptions options;
   options.width = 320;
@@ -142,6 +144,18 @@ TEST_CASE("constants and what the caller sets") {
   CHECK_THROWS_AS(celltrace::test::parse("camera { }", options), celltrace::InputError);
   options.declares = {{"9lives", 1.0}};
   CHECK_THROWS_AS(celltrace::test::parse("camera { }", options), celltrace::InputError);
+}
+
+TEST_CASE("a scene knows which frame of which animation it is") {
+  celltrace::ParseOptions options;
+  options.clock = 0.5;
+  options.frame = {true, 7, 2, 12, -1, 3, 0.4};
+  CHECK(
+      output(
+          "#debug concat(str(clock_on, 0, 0), str(frame_number, 3, 0), str(initial_frame, 3, 0), "
+          "str(final_frame, 3, 0), str(initial_clock, 3, 0), str(final_clock, 2, 0), str(clock_delta, 4, 1), "
+          "str(clock, 4, 1))",
+          options) == "1  7  2 12 -1 3 0.4 0.5");
 }
 
 TEST_CASE("impossible calculations are errors") {

@@ -1,0 +1,112 @@
+#include "cli/animation_options.hpp"
+
+#include "celltrace/error.hpp"
+#include "cli/choice.hpp"
+
+#include <charconv>
+#include <cmath>
+
+namespace celltrace::cli {
+
+namespace {
+
+void check_number(double value, const char* option) {
+  if (!std::isfinite(value)) throw InputError(std::string(option) + " has to be a number");
+}
+
+/// Takes a whole number from the front.
+bool take_number(std::string_view& text, unsigned& number) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc()) return false;
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  return true;
+}
+
+FrameRate parse_frame_rate(const std::string& text) {
+  constexpr unsigned kMost = 1'000'000;
+  FrameRate rate;
+  std::string_view rest = text;
+  bool valid = take_number(rest, rate.frames);
+  if (valid && !rest.empty()) {
+    valid = rest[0] == '/';
+    rest.remove_prefix(1);
+    valid = valid && take_number(rest, rate.seconds) && rest.empty();
+  }
+  if (!valid || rate.frames == 0 || rate.seconds == 0 || rate.frames > kMost || rate.seconds > kMost)
+    throw InputError("--frame-rate: '" + text +
+                     "' is neither a whole number nor a fraction such as 30000/1001");
+  return rate;
+}
+
+/// +Declare=clock=X: the word is the language's own.
+void take_declared_clock(RenderRequest& request) {
+  for (auto declare = request.declares.begin(); declare != request.declares.end();) {
+    if (declare->first != "clock") {
+      ++declare;
+      continue;
+    }
+    const std::string& text = declare->second;
+    double number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size())
+      throw InputError("--declare: the clock has to be a number, not '" + text + "'");
+    request.clock = number;
+    declare = request.declares.erase(declare);
+  }
+}
+
+} // namespace
+
+void add_animation_options(CLI::App& command, RenderRequest& request, AnimationTexts& texts) {
+  Animation& animation = request.animation;
+  const CLI::Range frames(0, kMaxFrame);
+  command.add_option("--clock", request.clock, "The scene's clock; default: 0. An animation has its own");
+  command.add_option("--initial-frame", animation.initial_frame, "Number of an animation's first frame")
+      ->check(frames)
+      ->capture_default_str();
+  command
+      .add_option("--final-frame", animation.final_frame,
+                  "Number of its last frame; 1: it is a still picture")
+      ->check(frames)
+      ->capture_default_str();
+  command.add_option("--initial-clock", animation.initial_clock, "The clock in the first frame")
+      ->capture_default_str();
+  command.add_option("--final-clock", animation.final_clock, "The clock in the last frame")
+      ->capture_default_str();
+  add_choice(command, "--cyclic", texts.cyclic, {{"on", "off"}, {}},
+             "Whether the final clock is that of one frame more, so that the first can follow the last");
+  command
+      .add_option("--start-frame", animation.start_frame,
+                  "The first frame to render; below 1 a part of the final frame's number")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("N|FRACTION");
+  command.add_option("--end-frame", animation.end_frame, "The last frame to render; the same")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("N|FRACTION");
+  command.add_option("--frame-step", animation.step, "Render every so manieth frame only")
+      ->check(CLI::Range(1, kMaxFrame))
+      ->capture_default_str();
+  command.add_option("--frame-rate", texts.frame_rate, "Frames a second of a film")
+      ->type_name("N|N/M")
+      ->capture_default_str();
+  command.add_flag("--resume", request.resume, "Go on where a run with the same options was stopped");
+}
+
+void finish_animation(RenderRequest& request, const AnimationTexts& texts) {
+  Animation& animation = request.animation;
+  animation.cyclic = texts.cyclic == "on";
+  take_declared_clock(request);
+  if (request.clock) check_number(*request.clock, "--clock");
+  check_number(animation.initial_clock, "--initial-clock");
+  check_number(animation.final_clock, "--final-clock");
+  if (animation.start_frame) check_number(*animation.start_frame, "--start-frame");
+  if (animation.end_frame) check_number(*animation.end_frame, "--end-frame");
+  if (animation.is_on()) frames_to_render(animation);
+  request.frame_rate = parse_frame_rate(texts.frame_rate);
+  if (request.film == FilmFormat::none) return;
+  if (request.bits != 8) throw InputError("a film has 8 bits a channel");
+  if (request.resume)
+    throw InputError("a film cannot be resumed: render pictures, and make a film of them in the end");
+}
+
+} // namespace celltrace::cli

@@ -1,0 +1,88 @@
+#include "cli/frame_numbers.hpp"
+
+#include "celltrace/error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+namespace celltrace::cli {
+
+namespace {
+
+/// What POV-Ray calls final_frame: of a cyclic animation one more than there is.
+int last_number(const Animation& animation) {
+  return animation.final_frame + (animation.cyclic ? 1 : 0);
+}
+
+float clock_step(const Animation& animation) {
+  const int steps = last_number(animation) - animation.initial_frame;
+  if (steps == 0) return 0;
+  return (static_cast<float>(animation.final_clock) - static_cast<float>(animation.initial_clock)) /
+         static_cast<float>(steps);
+}
+
+/// A frame, or a part of final_frame.
+int frame_at(double value, const Animation& animation) {
+  if (value < 1)
+    return std::max(animation.initial_frame, static_cast<int>(std::floor(value * animation.final_frame)));
+  return static_cast<int>(std::min(std::floor(value), 1e9));
+}
+
+void check_is_frame(int frame, const Animation& animation, const char* option) {
+  if (frame >= animation.initial_frame && frame <= animation.final_frame) return;
+  throw InputError(std::string(option) + ": frame " + std::to_string(frame) +
+                   " is not in the animation, which has frames " + std::to_string(animation.initial_frame) +
+                   " to " + std::to_string(animation.final_frame));
+}
+
+} // namespace
+
+std::vector<int> frames_to_render(const Animation& animation) {
+  if (animation.final_frame < animation.initial_frame)
+    throw InputError("the final frame, " + std::to_string(animation.final_frame) +
+                     ", is before the initial one, " + std::to_string(animation.initial_frame));
+  const int first =
+      animation.start_frame ? frame_at(*animation.start_frame, animation) : animation.initial_frame;
+  const int last = animation.end_frame ? frame_at(*animation.end_frame, animation) : animation.final_frame;
+  check_is_frame(first, animation, "--start-frame");
+  check_is_frame(last, animation, "--end-frame");
+  if (last < first)
+    throw InputError("there are no frames to render: " + std::to_string(last) + " is before " +
+                     std::to_string(first));
+  std::vector<int> frames;
+  for (int frame = first; frame <= last; frame += animation.step)
+    frames.push_back(frame);
+  return frames;
+}
+
+double clock_of(const Animation& animation, int frame) {
+  return static_cast<float>(animation.initial_clock) +
+         static_cast<float>(frame - animation.initial_frame) * clock_step(animation);
+}
+
+AnimationFrame frame_of(const Animation& animation, int frame) {
+  AnimationFrame facts;
+  facts.clock_on = true;
+  facts.number = frame;
+  facts.initial_number = animation.initial_frame;
+  facts.final_number = last_number(animation);
+  facts.initial_clock = animation.initial_clock;
+  facts.final_clock = animation.final_clock;
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%g", static_cast<double>(clock_step(animation)));
+  facts.clock_delta = std::strtod(digits, nullptr);
+  return facts;
+}
+
+std::filesystem::path picture_of(const std::filesystem::path& output, const Animation& animation, int frame) {
+  if (!animation.is_on()) return output;
+  const std::size_t width = std::to_string(last_number(animation)).size();
+  std::string number = std::to_string(frame);
+  number.insert(0, width - std::min(width, number.size()), '0');
+  return output.parent_path() / (output.stem().string() + number + output.extension().string());
+}
+
+} // namespace celltrace::cli

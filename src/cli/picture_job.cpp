@@ -1,0 +1,69 @@
+#include "cli/picture_job.hpp"
+
+#include "celltrace/cache/trace.hpp"
+#include "celltrace/image.hpp"
+#include "cli/interrupt.hpp"
+
+#include <cstdio>
+#include <iostream>
+#include <utility>
+
+namespace celltrace::cli {
+
+RunReports::RunReports(const RenderRequest& request)
+    : events_(request.trace, true), cache_(request.cache_trace) {
+  if (cache_.stream() != nullptr) cache_writer_ = std::make_unique<CacheTraceWriter>(*cache_.stream());
+}
+RunReports::~RunReports() = default;
+
+void RunReports::attach(RenderOptions& options) {
+  options.emulation.trace = events_.stream();
+  if (cache_writer_) options.emulation.recorder = cache_writer_.get();
+  options.diagnostic = [this](const Diagnostic& diagnostic) { diagnostics_.push_back(diagnostic); };
+}
+
+void RunReports::print_diagnostics(const std::string& error) {
+  for (const Diagnostic& diagnostic : std::exchange(diagnostics_, {}))
+    if (error.find(diagnostic.text) == std::string::npos)
+      std::cerr << "celltrace: warning: " << diagnostic.text << '\n';
+}
+
+void RunReports::finish() {
+  cache_writer_.reset();
+  events_.finish();
+  cache_.finish();
+}
+
+void RowKeeper::save(bool at_once) {
+  constexpr std::chrono::seconds kInterval(10);
+  const Clock::time_point now = Clock::now();
+  if (picture_.is_empty() || picture_.is_complete() || (!at_once && now - last_ < kInterval)) return;
+  state_.save_rows(frame_, files_, picture_);
+  last_ = Clock::now();
+}
+
+void save_picture(const RenderRequest& request, const std::filesystem::path& path,
+                  const PartialPicture& picture) {
+  if (request.bits == 16)
+    save_image(path, to_deep_image(picture.colours()));
+  else
+    save_image(path, picture.image());
+}
+
+std::string summary_of(const RenderStatistics& s, double parse_seconds) {
+  const double build_seconds = s.build_seconds + s.prepare_seconds;
+  const double rate = s.render_seconds > 0 ? static_cast<double>(s.total_rays()) / s.render_seconds : 0;
+  char text[256];
+  std::snprintf(text, sizeof text,
+                "%s, %zu SPEs; parse %.2f s, build %.2f s, render %.2f s; %.2f million rays/s", s.spu.c_str(),
+                s.spes.size(), parse_seconds, build_seconds, s.render_seconds, rate / 1e6);
+  std::string summary = text;
+  if (s.render_cycles != 0) {
+    std::snprintf(text, sizeof text, "; %.2f million virtual cycles",
+                  static_cast<double>(s.render_cycles) / 1e6);
+    summary += text;
+  }
+  return summary;
+}
+
+} // namespace celltrace::cli

@@ -1,0 +1,123 @@
+#include "cli/scene_reading.hpp"
+
+#include "celltrace/error.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/version.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+
+namespace celltrace::cli {
+
+namespace {
+
+ParseOptions parse_options(const RenderRequest& request, int frame) {
+  ParseOptions options;
+  options.library_paths = request.library_paths;
+  options.readable_folders = request.readable_folders;
+  options.writable_folders = request.writable_folders;
+  options.limits = request.limits;
+  options.width = request.options.width;
+  options.height = request.options.height;
+  options.lenient = request.lenient;
+  options.quality = request.options.quality;
+  if (request.animation.is_on()) {
+    options.clock = clock_of(request.animation, frame);
+    options.frame = frame_of(request.animation, frame);
+  } else {
+    options.clock = static_cast<float>(request.clock.value_or(0)); // POV-Ray's precision
+    options.frame.clock_on = request.clock.has_value();
+  }
+  for (const auto& [name, text] : request.declares) {
+    double number = 0;
+    const char* const last = text.data() + text.size();
+    const auto [end, error] = std::from_chars(text.data(), last, number);
+    if (error == std::errc() && end == last)
+      options.declares.emplace_back(name, number);
+    else
+      options.declares.emplace_back(name, text);
+  }
+  return options;
+}
+
+std::string text_of(double number) {
+  char text[32];
+  const auto end = std::to_chars(std::begin(text), std::end(text), number).ptr;
+  return {text, end};
+}
+
+} // namespace
+
+ReadScene read_scene(const RenderRequest& request, int frame,
+                     const std::function<void(std::string_view)>& message,
+                     const std::function<void(double fraction)>& progress) {
+  const auto start = std::chrono::steady_clock::now();
+  ReadScene read;
+  ParseOptions options = parse_options(request, frame);
+  options.message = message;
+  options.progress = [&](std::uint64_t bytes, std::uint64_t total) {
+    if (total > 0) progress(static_cast<double>(bytes) / static_cast<double>(total));
+    return !interrupted();
+  };
+  options.reads_file = [&](const std::filesystem::path& path) {
+    // What a scene writes itself, it writes anew.
+    if (!request.writable_folders.empty() && !read.files.empty()) return;
+    const auto known = [&](const auto& file) { return file.first == path.string(); };
+    if (std::none_of(read.files.begin(), read.files.end(), known))
+      read.files.emplace_back(path.string(), file_stamp(path));
+  };
+  try {
+    read.scene = parse_file(request.scene, options);
+  } catch (const Cancelled&) {
+  }
+  read.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return read;
+}
+
+Settings settings_of(const RenderRequest& request) {
+  const RenderOptions& options = request.options;
+  Settings settings = {
+      {"version", version_text()},
+      {"scene", std::filesystem::absolute(request.scene).string()},
+      {"scene file", file_stamp(request.scene)},
+      {"width", std::to_string(options.width)},
+      {"height", std::to_string(options.height)},
+      {"bits", std::to_string(request.bits)},
+      {"backend", options.backend},
+      {"simd", options.simd},
+      {"model", std::to_string(static_cast<int>(options.model))},
+      {"accelerator", std::to_string(static_cast<int>(options.accelerator))},
+      {"quality", std::to_string(options.quality)},
+      {"lenient", request.lenient ? "on" : "off"},
+  };
+  const auto add = [&](const char* name, const std::string& value) { settings.emplace_back(name, value); };
+  if (options.max_trace_level) add("max level", std::to_string(*options.max_trace_level));
+  if (options.adc_bailout) add("adc", text_of(*options.adc_bailout));
+  if (const auto& region = options.region)
+    add("region", std::to_string(region->left) + '-' + std::to_string(region->right) + ' ' +
+                      std::to_string(region->top) + '-' + std::to_string(region->bottom));
+  if (const auto& antialiasing = options.antialiasing)
+    add("antialiasing", "method " + std::to_string(static_cast<int>(antialiasing->method) + 1) +
+                            " threshold " + text_of(antialiasing->threshold) + " depth " +
+                            std::to_string(antialiasing->depth) + " jitter " + text_of(antialiasing->jitter) +
+                            " gamma " + text_of(antialiasing->gamma));
+  if (request.animation.is_on()) {
+    const Animation& animation = request.animation;
+    add("frames", std::to_string(animation.initial_frame) + '-' + std::to_string(animation.final_frame));
+    add("clocks", text_of(animation.initial_clock) + " to " + text_of(animation.final_clock) +
+                      (animation.cyclic ? ", cyclic" : ""));
+  } else if (request.clock) {
+    add("clock", text_of(*request.clock));
+  }
+  for (const auto& [name, value] : request.declares)
+    add("declare", name + '=' + value);
+  for (const auto& folder : request.library_paths)
+    add("library", std::filesystem::absolute(folder).string());
+  // A line for each.
+  for (auto& [name, value] : settings)
+    std::replace(value.begin(), value.end(), '\n', ' ');
+  return settings;
+}
+
+} // namespace celltrace::cli

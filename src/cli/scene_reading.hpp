@@ -1,0 +1,29 @@
+// Reads a scene as a request to render it says.
+#pragma once
+
+#include "celltrace/pov.hpp"
+#include "cli/command_line.hpp"
+#include "cli/resume_state.hpp"
+
+#include <functional>
+#include <optional>
+#include <string_view>
+
+namespace celltrace::cli {
+
+struct ReadScene {
+  std::optional<Scene> scene; ///< none: the user interrupted it
+  Settings files;             ///< that it was read from, with their stamps
+  double seconds = 0;
+};
+
+/// `frame`: of the animation, if there is one. `message` and `progress` are those of ParseOptions, but that
+/// the latter need not look for interrupts. Throws what parse_file() throws.
+ReadScene read_scene(const RenderRequest& request, int frame,
+                     const std::function<void(std::string_view)>& message,
+                     const std::function<void(double fraction)>& progress);
+
+/// What pictures of a request depend on, besides the files that the scene includes.
+Settings settings_of(const RenderRequest& request);
+
+} // namespace celltrace::cli
