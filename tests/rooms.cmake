@@ -7,7 +7,8 @@ cmake_minimum_required(VERSION 3.25)
 set(computing "scene/(extent|mesh_geometry|noise|shape_geometry)\\.hpp")
 
 # Of each room, what it may include besides itself and public headers.
-set(allowed_cli "study/|pov/|render/|image/|cache/")
+set(allowed_cli "study/|pov/|render/|image/|cache/|viewer/")
+set(allowed_viewer "")
 set(allowed_study "render/|image/|cache/|kernel/|scene/parallel\\.hpp")
 set(allowed_pov "${computing}")
 set(allowed_render "scene/|image/|kernel/|backends/spe_entry\\.hpp")
@@ -18,7 +19,7 @@ set(allowed_kernel "")
 
 # Complains about each include of a file that is of a room, or a backend, and that `allowed` does not begin.
 function(check_includes file allowed)
-  file(STRINGS ${file} lines REGEX "^#include \"(backends|cache|cli|image|kernel|pov|render|scene|study)/")
+  file(STRINGS ${file} lines REGEX "^#include \"(backends|cache|cli|image|kernel|pov|render|scene|study|viewer)/")
   foreach(line IN LISTS lines)
     string(REGEX REPLACE "^#include \"([^\"]*)\".*" "\\1" included ${line})
     if(NOT included MATCHES "^(${allowed})")
@@ -27,7 +28,7 @@ function(check_includes file allowed)
   endforeach()
 endfunction()
 
-foreach(room cli study pov render scene image cache kernel)
+foreach(room cli viewer study pov render scene image cache kernel)
   file(GLOB_RECURSE files ${SOURCE}/${room}/*.[ch]pp ${SOURCE}/${room}/*.[ly])
   if(NOT files)
     message(FATAL_ERROR "there is no ${SOURCE}/${room}")

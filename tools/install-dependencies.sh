@@ -10,10 +10,10 @@
 set -euo pipefail
 
 declare -A packages=(
-  [build]="g++ cmake ninja-build flex bison libboost-context-dev libcli11-dev libdeflate-dev libglm-dev libpng-dev libxsimd-dev nlohmann-json3-dev"
-  [tests]="catch2 libbenchmark-dev python3 xz-utils"
+  [build]="g++ cmake ninja-build flex bison libboost-context-dev libcli11-dev libdeflate-dev libglm-dev libpng-dev libsdl2-dev libsdl2-ttf-dev libxsimd-dev nlohmann-json3-dev"
+  [tests]="catch2 fonts-dejavu-core libbenchmark-dev python3 xz-utils"
   [bench]="libembree-dev povray povray-includes"
-  [extras]="ccache clang libclang-rt-14-dev povray povray-includes"
+  [extras]="ccache clang libclang-rt-14-dev povray povray-includes xdotool xvfb"
 )
 
 is_installed() {

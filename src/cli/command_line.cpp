@@ -96,8 +96,7 @@ struct RenderTexts {
   AnimationTexts animation;
 };
 
-void add_picture_options(CLI::App& command, RenderRequest& request, RenderTexts& texts) {
-  command.add_option("scene", request.scene, "The scene, a POV-Ray file")->required()->type_name("SCENE.pov");
+void add_output_options(CLI::App& command, RenderRequest& request, RenderTexts& texts) {
   command
       .add_option(
           "-o,--output", request.output,
@@ -109,6 +108,10 @@ void add_picture_options(CLI::App& command, RenderRequest& request, RenderTexts&
       ->check(CLI::IsMember({8, 16}))
       ->capture_default_str();
   add_choice(command, "--picture", texts.picture, {{"on", "off"}, {}}, "Whether the picture is written");
+}
+
+void add_scene_options(CLI::App& command, RenderRequest& request, RenderTexts& texts) {
+  command.add_option("scene", request.scene, "The scene, a POV-Ray file")->required()->type_name("SCENE.pov");
   RenderOptions& options = request.options;
   const CLI::Range side(1, kMaxImageSide);
   command.add_option("-W,--width", options.width, "Pixels a row")->check(side)->capture_default_str();
@@ -210,6 +213,27 @@ void add_machine_options(CLI::App& command, RenderOptions& options, RenderTexts&
 void add_report_options(CLI::App& command, RenderRequest& request) {
   command.add_option("--stats", request.stats, "Write statistics as JSON; - is stdout")->type_name("FILE|-");
   command.add_flag("--quiet", request.quiet, "No progress, notes or summary");
+}
+
+void add_quality_option(CLI::App& command, RenderRequest& request) {
+  command
+      .add_option("--quality", request.options.quality,
+                  "What is left out: 0 all but colours, up to 8 and more nothing")
+      ->check(CLI::Range(0, 11))
+      ->capture_default_str();
+}
+
+void add_view_options(CLI::App& command, ViewRequest& request) {
+  command.add_option("--font", request.font, "What information is written in; default: one of the system's")
+      ->type_name("FILE.ttf");
+  command.add_option("--state", request.state, "Write a line of JSON for each change of what is seen")
+      ->type_name("FILE");
+  command
+      .add_option(
+          "--keys", request.keys,
+          "Press these, each when the picture is final: names of keys, WIDTHxHEIGHT, drag:X,Y, wheel:N")
+      ->type_name("KEYS")
+      ->delimiter(' ');
 }
 
 void add_compare_options(CLI::App& command, CompareRequest& request) {
@@ -386,6 +410,22 @@ void finish(RenderRequest& request, const RenderTexts& texts) {
   finish_animation(request, texts.animation);
 }
 
+void finish(ViewRequest& view, const RenderTexts& texts) {
+  RenderRequest& request = view.render;
+  request.options.cache = parse_cache(texts.cache);
+  request.options.emulation = emulation_config(texts.emulation, request.options.backend, Schedule::lockstep);
+  request.lenient = texts.emulation.lenient;
+  request.options.antialiasing = antialiasing_of(texts);
+  if (!texts.antialias) request.options.antialiasing = Antialiasing();
+  request.options.accelerator = accelerator_of(texts.accelerator);
+  request.options.model = model_of(texts.model);
+  request.options.balance = balance_of(texts.balance);
+  for (const std::string& text : texts.declares)
+    request.declares.push_back(parse_declare(text));
+  for (const std::string& text : texts.limits)
+    set_limit(request.limits, text);
+}
+
 /// Takes what follows the first "--" away: CLI11 gives it to a command only before its positional arguments.
 std::vector<std::string> split_rest(std::vector<std::string>& arguments) {
   const auto mark = std::find(arguments.begin(), arguments.end(), "--");
@@ -445,17 +485,25 @@ Request parse_command_line(std::vector<std::string> arguments) {
   RenderRequest render;
   RenderTexts texts;
   CLI::App& render_command = *app.add_subcommand("render", "Render a scene into a picture");
-  add_picture_options(render_command, render, texts);
-  render_command
-      .add_option("--quality", render.options.quality,
-                  "What is left out: 0 all but colours, up to 8 and more nothing")
-      ->check(CLI::Range(0, 11))
-      ->capture_default_str();
+  add_scene_options(render_command, render, texts);
+  add_output_options(render_command, render, texts);
+  add_quality_option(render_command, render);
   add_region_options(render_command, texts);
   add_animation_options(render_command, render, texts.animation);
   add_antialiasing_options(render_command, texts);
   add_machine_options(render_command, render.options, texts);
   add_report_options(render_command, render);
+
+  ViewRequest view;
+  RenderTexts view_texts;
+  CLI::App& view_command = *app.add_subcommand("view", "Look around in a scene, in a window");
+  add_scene_options(view_command, view.render, view_texts);
+  add_quality_option(view_command, view.render);
+  view_command.add_option("--clock", view.render.clock, "The scene's clock");
+  add_antialiasing_options(view_command, view_texts);
+  add_machine_options(view_command, view.render.options, view_texts);
+  add_view_options(view_command, view);
+  view_command.footer("H in the window shows the keys.");
 
   CompareRequest compare;
   CLI::App& compare_command = *app.add_subcommand("compare", "Say how far two pictures are apart");
@@ -491,6 +539,10 @@ Request parse_command_line(std::vector<std::string> arguments) {
     throw InputError(std::string(error.what()) + " (celltrace --help says more)");
   }
   if (compare_command.parsed()) return compare;
+  if (view_command.parsed()) {
+    finish(view, view_texts);
+    return view;
+  }
   if (study_command.parsed()) return study;
   if (spu_command.parsed()) {
     finish(spu, spu_texts, rest);

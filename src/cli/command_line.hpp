@@ -83,13 +83,20 @@ struct StudyRequest {
   bool quiet = false;
 };
 
+struct ViewRequest {
+  RenderRequest render;        ///< without its output
+  std::filesystem::path font;  ///< empty: one of the system's
+  std::filesystem::path state; ///< empty: none
+  std::vector<std::string> keys;
+};
+
 /// A text for stdout: --help or --version.
 struct InformationRequest {
   std::string text;
 };
 
-using Request =
-    std::variant<RenderRequest, CompareRequest, SpuRequest, ReplayRequest, StudyRequest, InformationRequest>;
+using Request = std::variant<RenderRequest, ViewRequest, CompareRequest, SpuRequest, ReplayRequest,
+                             StudyRequest, InformationRequest>;
 
 /// Reads a command line (without the program's name) after translate_pov_switches(). Throws InputError for
 /// whatever does not fit, and for what the program is to have and has not yet.

@@ -7,6 +7,7 @@
 #include "cli/replay_command.hpp"
 #include "cli/spu_command.hpp"
 #include "cli/study_command.hpp"
+#include "cli/view_command.hpp"
 
 #include <exception>
 #include <iostream>
@@ -43,6 +44,7 @@ int run(const std::vector<std::string>& arguments) {
     return 0;
   }
   if (const auto* compare = std::get_if<CompareRequest>(&request)) return run_compare(*compare);
+  if (const auto* view = std::get_if<ViewRequest>(&request)) return run_view(*view);
   if (const auto* spu = std::get_if<SpuRequest>(&request)) return run_spu(*spu);
   if (const auto* replay = std::get_if<ReplayRequest>(&request)) return run_replay(*replay);
   if (const auto* study = std::get_if<StudyRequest>(&request)) return run_study_command(*study);

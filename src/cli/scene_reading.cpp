@@ -10,8 +10,6 @@
 
 namespace celltrace::cli {
 
-namespace {
-
 ParseOptions parse_options(const RenderRequest& request, int frame) {
   ParseOptions options;
   options.library_paths = request.library_paths;
@@ -40,6 +38,8 @@ ParseOptions parse_options(const RenderRequest& request, int frame) {
   }
   return options;
 }
+
+namespace {
 
 std::string text_of(double number) {
   char text[32];

@@ -11,13 +11,16 @@
 
 namespace celltrace::cli {
 
+/// What a request says of reading its scene. `frame`: of the animation, if there is one.
+ParseOptions parse_options(const RenderRequest& request, int frame);
+
 struct ReadScene {
   std::optional<Scene> scene; ///< none: the user interrupted it
   Settings files;             ///< that it was read from, with their stamps
   double seconds = 0;
 };
 
-/// `frame`: of the animation, if there is one. `message` and `progress` are those of ParseOptions, but that
+/// `frame` as for parse_options(). `message` and `progress` are those of ParseOptions, but that
 /// the latter need not look for interrupts. Throws what parse_file() throws.
 ReadScene read_scene(const RenderRequest& request, int frame,
                      const std::function<void(std::string_view)>& message,

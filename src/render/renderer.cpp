@@ -159,6 +159,7 @@ private:
   }
 
   void make_room_for_samples() {
+    if (sample_store_.size() != 0) return; // it does not depend on the picture
     sample_store_ = AlignedBlock::uninitialised(std::size_t{machine_->spe_count()} *
                                                 sample_store_bytes(bundle_edge(machine_->direct_memory())));
     frame_.sample_store = to_ea(sample_store_.data());

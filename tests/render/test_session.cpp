@@ -261,6 +261,12 @@ TEST_CASE("Pictures change their size, their region and their sampling while the
     options.colours = false;
     options.region.reset();
     check_kept();
+    options.antialiasing = Antialiasing{};
+    check_kept();
+    options.antialiasing.reset();
+    check_kept();
+    options.antialiasing = Antialiasing{};
+    check_kept();
     options.width = 0;
     CHECK_THROWS_AS(session.set_picture(options), InputError);
     CHECK(session.options().width == 33);

@@ -70,10 +70,12 @@ public:
   /// `scratch`: room for kScratchBytes that belongs to the sampler while advance() runs.
   PixelSampler(Spu& spu, const FrameBlock& frame, SampleBundle<Spu>& samples, uint8_t* scratch)
       : spu_(spu), frame_(frame), samples_(samples), work_(*spu.template allocate<Work>()),
-        scratch_(*reinterpret_cast<Scratch*>(scratch)),
-        store_(frame.sample_store + spu.id() * sample_store_bytes(kBundleEdge<Spu>)) {}
+        scratch_(*reinterpret_cast<Scratch*>(scratch)) {}
 
-  void begin_frame() { under_way_ = false; }
+  void begin_frame() {
+    under_way_ = false;
+    store_ = frame_.sample_store + spu_.id() * sample_store_bytes(kBundleEdge<Spu>);
+  }
 
   /// Takes the colours of the bundle or block at (column, row); those of samples were asked for by the call
   /// before. True: the block needs those that `samples` now has, too.
@@ -688,7 +690,7 @@ private:
   SampleBundle<Spu>& samples_;
   Work& work_;
   Scratch& scratch_;
-  ea_t store_;
+  ea_t store_ = 0;
   bool under_way_ = false;
   uint32_t column_ = 0, row_ = 0;     ///< of the block
   uint32_t width_ = 0, height_ = 0;   ///< pixels of it that are in the picture

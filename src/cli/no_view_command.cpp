@@ -1,0 +1,12 @@
+// In place of view_command.cpp where SDL2 or SDL2_ttf was missing when this was built.
+#include "cli/view_command.hpp"
+
+#include "celltrace/error.hpp"
+
+namespace celltrace::cli {
+
+int run_view(const ViewRequest&) {
+  throw InputError("this celltrace has no window: it was built without SDL2 and SDL2_ttf");
+}
+
+} // namespace celltrace::cli

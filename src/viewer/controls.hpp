@@ -1,0 +1,52 @@
+// Which key does what.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <SDL_keycode.h>
+
+namespace celltrace::viewer {
+
+enum class Action : std::uint8_t {
+  left,
+  right,
+  forward,
+  back,
+  rise,
+  sink,
+  switch_mode,
+  zoom_in,
+  zoom_out,
+  reset,
+  next_view,
+  information,
+  strips,
+  costs,
+  next_backend,
+  next_model,
+  antialiasing,
+  screenshot,
+  pause,
+  help,
+  full_screen,
+  quit
+};
+
+struct Control {
+  Action action;
+  SDL_Keycode keys[2]; ///< the second one may be 0
+  const char* name;    ///< of the keys, for people
+  const char* help;
+};
+
+/// All, in the order in which help shows them.
+const std::vector<Control>& controls();
+/// Null for keys that do nothing.
+const Control* control_of(SDL_Keycode key);
+/// Those that go on as long as their key is down.
+constexpr bool is_movement(Action action) {
+  return action <= Action::sink || action == Action::zoom_in || action == Action::zoom_out;
+}
+
+} // namespace celltrace::viewer

@@ -1,0 +1,503 @@
+#include "viewer/viewer.hpp"
+
+#include "celltrace/error.hpp"
+#include "celltrace/spe/machine.hpp"
+#include "viewer/controls.hpp"
+#include "viewer/frame_source.hpp"
+#include "viewer/information.hpp"
+#include "viewer/key_script.hpp"
+#include "viewer/navigator.hpp"
+#include "viewer/scene_loader.hpp"
+#include "viewer/state_log.hpp"
+#include "viewer/window.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+
+#include <SDL.h>
+
+namespace celltrace::viewer {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Steps a second of a key that is held down, after the one that it makes at once.
+constexpr double kStepsPerSecond = 15;
+constexpr std::chrono::milliseconds kHold(200);
+constexpr double kDegreesPerPixel = 0.2;
+constexpr double kZoomPerStep = 1.1;
+constexpr std::chrono::milliseconds kBetweenLooks(250);
+constexpr std::chrono::seconds kMessage(3);
+
+double seconds_since(Clock::time_point then) {
+  return std::chrono::duration<double>(Clock::now() - then).count();
+}
+
+std::vector<std::string> usable_backends(const std::string& first) {
+  std::vector<std::string> backends = {first};
+  for (const std::string& backend : machine_backends())
+    if (backend != first) backends.push_back(backend);
+  return backends;
+}
+
+class Viewer {
+public:
+  explicit Viewer(const ViewOptions& options)
+      : options_(options), render_(options.render), antialiasing_(options.render.antialiasing),
+        backends_(usable_backends(options.render.backend)), state_(options.state), script_(options.keys),
+        wake_event_(SDL_RegisterEvents(1)),
+        loader_(options.scene, options.parse, [event = wake_event_] { wake(event); }),
+        window_("celltrace - " + options.scene.filename().string(), options.render.width,
+                options.render.height, options.font),
+        source_([event = wake_event_] { wake(event); }) {
+    redraw();
+  }
+
+  void run() {
+    while (!quits_) {
+      SDL_Event event;
+      if (SDL_WaitEventTimeout(&event, held_.empty() ? 50 : 5) != 0) {
+        do
+          handle(event);
+        while (!quits_ && SDL_PollEvent(&event) != 0);
+      }
+      if (quits_) return;
+      move_on();
+      take_scene();
+      take_frame();
+      look_at_files();
+      forget_message();
+      if (is_dirty_) redraw();
+    }
+  }
+
+private:
+  static void wake(Uint32 type) {
+    SDL_Event event{};
+    event.type = type;
+    SDL_PushEvent(&event);
+  }
+
+  // --- input ---
+
+  void handle(const SDL_Event& event) {
+    switch (event.type) {
+    case SDL_QUIT:
+      quits_ = true;
+      return;
+    case SDL_KEYDOWN:
+      return key_down(event.key);
+    case SDL_KEYUP:
+      if (const Control* control = control_of(event.key.keysym.sym)) held_.erase(control->action);
+      return;
+    case SDL_MOUSEMOTION:
+      return drag(event.motion.state, event.motion.xrel, event.motion.yrel);
+    case SDL_MOUSEWHEEL:
+      return zoom(event.wheel.y);
+    case SDL_WINDOWEVENT:
+      if (event.window.event == SDL_WINDOWEVENT_SIZE_CHANGED) resize();
+      if (event.window.event == SDL_WINDOWEVENT_FOCUS_LOST) held_.clear();
+      is_dirty_ = true;
+      return;
+    default:
+      return;
+    }
+  }
+
+  void key_down(const SDL_KeyboardEvent& key) {
+    const Control* const control = control_of(key.keysym.sym);
+    if (control == nullptr || key.repeat != 0) return;
+    if ((key.keysym.mod & (KMOD_CTRL | KMOD_ALT | KMOD_GUI)) != 0) return;
+    if (is_movement(control->action)) {
+      held_[control->action] = Clock::now() + kHold;
+      move(control->action, 1);
+      return want();
+    }
+    obey(control->action);
+  }
+
+  void obey(Action action) {
+    switch (action) {
+    case Action::quit:
+      quits_ = true;
+      return;
+    case Action::switch_mode:
+      if (navigator_)
+        navigator_->set_mode(navigator_->mode() == Navigator::Mode::planar ? Navigator::Mode::radial
+                                                                           : Navigator::Mode::planar);
+      break;
+    case Action::reset:
+      if (navigator_) navigator_->reset();
+      return want();
+    case Action::next_view:
+      if (navigator_) navigator_->look_from(navigator_->view() + 1);
+      return want();
+    case Action::information:
+      shows_information_ = !shows_information_;
+      break;
+    case Action::strips:
+      shows_strips_ = !shows_strips_;
+      shows_costs_ = false;
+      return want_work();
+    case Action::costs:
+      shows_costs_ = !shows_costs_;
+      shows_strips_ = false;
+      return want_work();
+    case Action::next_backend:
+      backend_ = (backend_ + 1) % backends_.size();
+      render_.backend = backends_[backend_];
+      return change_machine();
+    case Action::next_model:
+      render_.model = render_.model == Model::offload
+                          ? Model::shared
+                          : static_cast<Model>(static_cast<int>(render_.model) + 1);
+      return change_machine();
+    case Action::antialiasing:
+      antialiasing_ =
+          antialiasing_ ? std::nullopt : std::optional(options_.render.antialiasing.value_or(Antialiasing()));
+      return want();
+    case Action::screenshot:
+      save_screenshot();
+      break;
+    case Action::pause:
+      is_paused_ = !is_paused_;
+      if (!is_paused_) return want();
+      break;
+    case Action::help:
+      shows_help_ = !shows_help_;
+      break;
+    case Action::full_screen:
+      is_full_screen_ = !is_full_screen_;
+      window_.set_full_screen(is_full_screen_);
+      break;
+    default:
+      break;
+    }
+    is_dirty_ = true;
+  }
+
+  void move(Action action, double steps) {
+    if (!navigator_) return;
+    switch (action) {
+    case Action::left:
+      return navigator_->go(-steps, 0);
+    case Action::right:
+      return navigator_->go(steps, 0);
+    case Action::forward:
+      return navigator_->go(0, steps);
+    case Action::back:
+      return navigator_->go(0, -steps);
+    case Action::rise:
+      return navigator_->rise(steps);
+    case Action::sink:
+      return navigator_->rise(-steps);
+    case Action::zoom_in:
+      return navigator_->zoom(std::pow(kZoomPerStep, steps));
+    case Action::zoom_out:
+      return navigator_->zoom(std::pow(kZoomPerStep, -steps));
+    default:
+      return;
+    }
+  }
+
+  /// Keys that are held down, as soon as what the last movement asked for has been seen.
+  void move_on() {
+    if (held_.empty() || shown_number_ < number_) return;
+    const Clock::time_point now = Clock::now();
+    bool moved = false;
+    for (auto& [action, last] : held_) {
+      if (now <= last) continue;
+      move(action, std::chrono::duration<double>(now - last).count() * kStepsPerSecond);
+      last = now;
+      moved = true;
+    }
+    if (moved) want();
+  }
+
+  void drag(Uint32 buttons, int x, int y) {
+    if (!navigator_ || (x == 0 && y == 0)) return;
+    if ((buttons & SDL_BUTTON_LMASK) != 0)
+      navigator_->turn(kDegreesPerPixel * x, -kDegreesPerPixel * y);
+    else if ((buttons & (SDL_BUTTON_RMASK | SDL_BUTTON_MMASK)) != 0)
+      navigator_->go(0.1 * x, -0.1 * y);
+    else
+      return;
+    want();
+  }
+
+  void zoom(int steps) {
+    if (!navigator_ || steps == 0) return;
+    navigator_->zoom(std::pow(kZoomPerStep, steps));
+    want();
+  }
+
+  /// As if the user had done it.
+  void play(const KeyScript::Step& step) {
+    switch (step.kind) {
+    case KeyScript::Kind::key:
+      key_down(step.key);
+      if (const Control* control = control_of(step.key.keysym.sym)) held_.erase(control->action);
+      return;
+    case KeyScript::Kind::size:
+      return window_.set_size(step.x, step.y);
+    case KeyScript::Kind::drag:
+      return drag(SDL_BUTTON_LMASK, step.x, step.y);
+    case KeyScript::Kind::wheel:
+      return zoom(step.y);
+    }
+  }
+
+  // --- what is wanted ---
+
+  void resize() {
+    const int width = window_.width(), height = window_.height();
+    if (width == render_.width && height == render_.height) return;
+    render_.width = width;
+    render_.height = height;
+    want();
+  }
+
+  void change_machine() {
+    ++machine_;
+    want();
+  }
+  /// Frames that were rendered without noting who did what say nothing about it.
+  void want_work() {
+    if (shows_strips_ || shows_costs_) return want();
+    is_dirty_ = true;
+  }
+
+  void want() {
+    is_dirty_ = true;
+    if (!scene_ || is_paused_) return;
+    Wanted wanted;
+    wanted.scene = scene_;
+    wanted.options = render_;
+    wanted.options.antialiasing = render_.model == Model::shared ? antialiasing_ : std::nullopt;
+    if (render_.backend != "native" && wanted.options.spes == 0 && options_.render.backend == "native")
+      wanted.options.spes = 8;
+    wanted.work_map = shows_strips_ || shows_costs_;
+    wanted.machine = machine_;
+    wanted.number = ++number_;
+    wanted.camera = navigator_ ? fitted(navigator_->camera()) : fitted(scene_->camera);
+    asked_ = Clock::now();
+    source_.want(wanted);
+  }
+
+  /// A camera for a window of other proportions: what is seen of a picture's height stays.
+  Camera fitted(const Camera& camera) const {
+    const double proportion = (static_cast<double>(render_.width) / render_.height) /
+                              (static_cast<double>(options_.render.width) / options_.render.height);
+    Camera fitting = camera;
+    if (camera.kind == Camera::Kind::perspective || camera.kind == Camera::Kind::orthographic)
+      fitting.right *= proportion;
+    return fitting;
+  }
+
+  // --- what comes ---
+
+  void take_scene() {
+    std::optional<Loaded> loaded = loader_.take();
+    if (!loaded) return;
+    is_dirty_ = true;
+    if (!loaded->scene) {
+      say(loaded->error, true);
+      return;
+    }
+    const bool is_first = scene_ == nullptr;
+    error_.clear();
+    scene_ = loaded->scene;
+    if (!is_first) {
+      // Whoever edits a scene wants to see the same part of it again, unless the camera is what was edited.
+      has_new_camera_ = !same(scene_->camera, scene_camera_);
+    }
+    scene_camera_ = scene_->camera;
+    if (has_new_camera_ && !is_first) navigator_.reset();
+    want();
+  }
+
+  static bool same(const Camera& a, const Camera& b) {
+    return a.kind == b.kind && a.location == b.location && a.direction == b.direction && a.right == b.right &&
+           a.up == b.up && a.angle == b.angle && a.vertical_angle == b.vertical_angle;
+  }
+
+  void take_frame() {
+    std::optional<Frame> frame = source_.take();
+    if (!frame || is_paused_) return;
+    is_dirty_ = true;
+    if (!frame->error.empty()) {
+      say(frame->error, true);
+      shown_number_ = std::max(shown_number_, frame->number);
+      is_final_ = frame->number == number_;
+      return;
+    }
+    error_.clear();
+    if (frame->is_complete && frame->number != shown_number_) times_.push_back(Clock::now());
+    while (!times_.empty() && seconds_since(times_.front()) > 1)
+      times_.pop_front();
+    if (frame->number != shown_number_ && frame->number == number_) latency_ = seconds_since(asked_);
+    shown_number_ = std::max(shown_number_, frame->number);
+    is_final_ = frame->is_final && frame->number == number_;
+    if (!navigator_ && scene_)
+      navigator_.emplace(scene_->camera, frame->statistics.bounds[0], frame->statistics.bounds[1]);
+    frame_ = std::move(*frame);
+  }
+
+  void look_at_files() {
+    if (is_paused_ || Clock::now() < next_look_) return;
+    next_look_ = Clock::now() + kBetweenLooks;
+    loader_.look();
+  }
+
+  // --- what is seen ---
+
+  void say(const std::string& text, bool is_error) {
+    if (is_error) {
+      error_ = text;
+    } else {
+      message_ = text;
+      message_ends_ = Clock::now() + kMessage;
+    }
+    is_dirty_ = true;
+  }
+  void forget_message() {
+    if (message_.empty() || Clock::now() < message_ends_) return;
+    message_.clear();
+    is_dirty_ = true;
+  }
+
+  void save_screenshot() {
+    const std::string stem = options_.scene.stem().string();
+    for (int number = 1; number < 10000; ++number) {
+      const std::string digits = std::to_string(number);
+      screenshot_ =
+          stem + "-" + std::string(digits.size() < 3 ? 3 - digits.size() : 0, '0') + digits + ".png";
+      if (!std::filesystem::exists(screenshot_)) break;
+    }
+    try {
+      save_image(screenshot_, window_.screenshot());
+      say("saved " + screenshot_, false);
+    } catch (const std::exception& error) {
+      say(error.what(), true);
+    }
+  }
+
+  Situation situation() const {
+    Situation situation;
+    situation.scene = options_.scene.filename().string();
+    if (navigator_) {
+      situation.mode = navigator_->mode() == Navigator::Mode::planar ? "planar" : "radial";
+      situation.view = navigator_->views()[navigator_->view()];
+    }
+    situation.frames_per_second = static_cast<double>(times_.size());
+    situation.is_paused = is_paused_;
+    return situation;
+  }
+
+  void redraw() {
+    is_dirty_ = false;
+    Overlay overlay;
+    if (shows_strips_) overlay.patches = strips_of(frame_);
+    if (shows_costs_) overlay.patches = costs_of(frame_);
+    if (shows_information_) {
+      overlay.lines = information_on(frame_, situation());
+      overlay.bars = load_of(frame_);
+    }
+    if (shows_help_) overlay.table = help_table();
+    overlay.is_error = !error_.empty();
+    overlay.message = error_.empty() ? message_ : error_;
+    if (!scene_ && overlay.message.empty()) overlay.message = "reading " + options_.scene.string() + " ...";
+    window_.show(frame_.image, overlay);
+    window_.set_title("celltrace - " + options_.scene.filename().string() + (is_paused_ ? " (paused)" : ""));
+    log_state();
+    if ((is_final_ || (!error_.empty() && shown_number_ >= number_)) && !is_dirty_)
+      if (const auto step = script_.next()) {
+        is_final_ = false;
+        play(*step);
+        // What changes nothing in the picture is over at once.
+        is_final_ = is_final_ || shown_number_ == number_;
+        is_dirty_ = true;
+      }
+  }
+
+  void log_state() {
+    if (!state_.is_open()) return;
+    State state;
+    state.situation = situation();
+    state.frame = &frame_;
+    state.backend = render_.backend;
+    state.model = render_.model;
+    state.error = error_;
+    state.message = message_;
+    state.screenshot = screenshot_;
+    state.information = shows_information_;
+    state.strips = shows_strips_;
+    state.costs = shows_costs_;
+    state.help = shows_help_;
+    state.full_screen = is_full_screen_;
+    state.antialiasing = antialiasing_.has_value();
+    state.is_final = is_final_;
+    state.width = window_.width();
+    state.height = window_.height();
+    state.latency = latency_;
+    state.seconds = seconds_since(start_);
+    if (navigator_) state.camera = navigator_->camera();
+    state_.write(state);
+  }
+
+  const Clock::time_point start_ = Clock::now();
+  const ViewOptions options_;
+  RenderOptions render_; ///< of what is wanted
+  std::optional<Antialiasing> antialiasing_;
+  const std::vector<std::string> backends_;
+  std::size_t backend_ = 0;
+  StateLog state_;
+  KeyScript script_;
+  const Uint32 wake_event_;
+
+  std::shared_ptr<const Scene> scene_;
+  Camera scene_camera_;
+  bool has_new_camera_ = false;
+  std::optional<Navigator> navigator_; ///< as soon as the scene's size is known
+  Frame frame_;                        ///< that is shown
+  std::uint64_t machine_ = 1, number_ = 0, shown_number_ = 0;
+  bool is_final_ = false;
+  Clock::time_point asked_ = start_, next_look_ = start_, message_ends_ = start_;
+  double latency_ = 0; ///< seconds from the last input to the first picture of what it asked for
+  std::deque<Clock::time_point> times_; ///< of the frames of the last second
+  std::map<Action, Clock::time_point> held_;
+  bool shows_information_ = false, shows_strips_ = false, shows_costs_ = false, shows_help_ = false;
+  bool is_full_screen_ = false, is_paused_ = false, is_dirty_ = true, quits_ = false;
+  std::string error_, message_, screenshot_;
+
+  SceneLoader loader_;
+  Window window_;
+  FrameSource source_;
+};
+
+/// SDL's events, as long as it lives.
+class Events {
+public:
+  Events() {
+    SDL_SetMainReady();
+    if (SDL_InitSubSystem(SDL_INIT_EVENTS) != 0)
+      throw Error(std::string("cannot wait for events: ") + SDL_GetError());
+  }
+  ~Events() { SDL_Quit(); }
+};
+
+} // namespace
+
+void view(const ViewOptions& options) {
+  const Events events;
+  Viewer viewer(options);
+  viewer.run();
+}
+
+} // namespace celltrace::viewer

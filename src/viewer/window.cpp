@@ -1,0 +1,231 @@
+#include "viewer/window.hpp"
+
+#include "celltrace/error.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <sstream>
+
+#include <SDL.h>
+#include <SDL_ttf.h>
+
+namespace celltrace::viewer {
+
+namespace {
+
+constexpr int kPoints = 13;
+constexpr int kMargin = 6;
+constexpr Overlay::Colour kText = {255, 255, 255, 255};
+constexpr Overlay::Colour kShade = {0, 0, 0, 150};
+constexpr Overlay::Colour kError = {120, 0, 0, 210};
+constexpr Overlay::Colour kBar = {90, 200, 120, 230};
+
+/// Where systems have a typeface whose letters have one width.
+constexpr std::array kFonts = {"/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf",
+                               "/usr/share/fonts/dejavu-sans-mono-fonts/DejaVuSansMono.ttf",
+                               "/usr/share/fonts/TTF/DejaVuSansMono.ttf",
+                               "/usr/share/fonts/truetype/liberation/LiberationMono-Regular.ttf",
+                               "/usr/share/fonts/liberation-mono/LiberationMono-Regular.ttf",
+                               "/System/Library/Fonts/Menlo.ttc"};
+
+/// Else SDL would take a driver that shows nothing to anybody, and other libraries would complain.
+bool has_display() {
+#if defined(__unix__) && !defined(__APPLE__)
+  const auto is_set = [](const char* name) { return SDL_getenv(name) != nullptr && *SDL_getenv(name) != 0; };
+  return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY") || is_set("SDL_VIDEODRIVER");
+#else
+  return true;
+#endif
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);)
+    lines.push_back(line);
+  return lines;
+}
+
+} // namespace
+
+void Window::Free::operator()(SDL_Surface* surface) const noexcept {
+  SDL_FreeSurface(surface);
+}
+
+Window::Window(const std::string& title, int width, int height, const std::filesystem::path& font) {
+  if (!has_display())
+    throw Error("there is no display to open a window on: neither DISPLAY nor WAYLAND_DISPLAY is set");
+  if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0)
+    throw Error(std::string("there is no display to open a window on: ") + SDL_GetError());
+  window_ = SDL_CreateWindow(title.c_str(), SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, width, height,
+                             SDL_WINDOW_RESIZABLE);
+  if (window_ == nullptr) {
+    const std::string reason = SDL_GetError();
+    SDL_QuitSubSystem(SDL_INIT_VIDEO);
+    throw Error("cannot open a window: " + reason);
+  }
+  open_font(font);
+}
+
+Window::~Window() {
+  together_.reset();
+  if (font_ != nullptr) TTF_CloseFont(font_);
+  if (TTF_WasInit() != 0) TTF_Quit();
+  SDL_DestroyWindow(window_);
+  SDL_QuitSubSystem(SDL_INIT_VIDEO);
+}
+
+void Window::open_font(const std::filesystem::path& font) {
+  if (TTF_Init() != 0) return;
+  if (!font.empty()) {
+    font_ = TTF_OpenFont(font.c_str(), kPoints);
+    return;
+  }
+  for (const char* path : kFonts)
+    if (font_ == nullptr) font_ = TTF_OpenFont(path, kPoints);
+}
+
+int Window::width() const {
+  int width = 0;
+  SDL_GetWindowSize(window_, &width, nullptr);
+  return std::max(width, 1);
+}
+int Window::height() const {
+  int height = 0;
+  SDL_GetWindowSize(window_, nullptr, &height);
+  return std::max(height, 1);
+}
+
+void Window::set_title(const std::string& title) {
+  SDL_SetWindowTitle(window_, title.c_str());
+}
+void Window::set_full_screen(bool full_screen) {
+  SDL_SetWindowFullscreen(window_, full_screen ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
+}
+
+void Window::set_size(int width, int height) {
+  SDL_SetWindowSize(window_, width, height);
+}
+
+void Window::show(const Image& picture, const Overlay& overlay) {
+  SDL_Surface* const own = SDL_GetWindowSurface(window_);
+  if (own == nullptr) return; // while the window is being resized
+  if (!together_ || together_->w != own->w || together_->h != own->h)
+    together_.reset(SDL_CreateRGBSurfaceWithFormat(0, own->w, own->h, 32, SDL_PIXELFORMAT_RGBA32));
+  if (!together_) return;
+  SDL_FillRect(together_.get(), nullptr, SDL_MapRGBA(together_->format, 0, 0, 0, 255));
+  if (!picture.rgba.empty()) {
+    // SDL only reads.
+    const Surface pixels(SDL_CreateRGBSurfaceWithFormatFrom(const_cast<std::uint8_t*>(picture.rgba.data()),
+                                                            picture.width, picture.height, 32,
+                                                            picture.width * 4, SDL_PIXELFORMAT_RGBA32));
+    SDL_SetSurfaceBlendMode(pixels.get(), SDL_BLENDMODE_NONE);
+    SDL_BlitScaled(pixels.get(), nullptr, together_.get(), nullptr);
+  }
+  draw(overlay, picture);
+  SDL_SetSurfaceBlendMode(together_.get(), SDL_BLENDMODE_NONE);
+  SDL_BlitSurface(together_.get(), nullptr, own, nullptr);
+  SDL_UpdateWindowSurface(window_);
+}
+
+Image Window::screenshot() const {
+  Image image(together_ ? together_->w : 1, together_ ? together_->h : 1);
+  if (!together_) return image;
+  const auto* from = static_cast<const std::uint8_t*>(together_->pixels);
+  for (int y = 0; y < image.height; ++y, from += together_->pitch) {
+    std::memcpy(image.pixel(0, y), from, static_cast<std::size_t>(image.width) * 4);
+    for (int x = 0; x < image.width; ++x)
+      image.pixel(x, y)[3] = 255;
+  }
+  return image;
+}
+
+void Window::draw(const Overlay& overlay, const Image& picture) {
+  const int width = together_->w, height = together_->h;
+  for (const Overlay::Patch& patch : overlay.patches) {
+    const auto scaled = [](int at, int from, int to) {
+      return static_cast<int>(std::int64_t{at} * to / std::max(from, 1));
+    };
+    const int left = scaled(patch.region.left, picture.width, width);
+    const int top = scaled(patch.region.top, picture.height, height);
+    shade(left, top, scaled(patch.region.right, picture.width, width) - left,
+          scaled(patch.region.bottom, picture.height, height) - top, patch.colour);
+  }
+  const int line = line_height();
+  int y = kMargin;
+  if (!overlay.lines.empty() || !overlay.bars.empty()) {
+    int widest = 160;
+    for (const std::string& text : overlay.lines)
+      widest = std::max(widest, width_of(text));
+    const auto rows = static_cast<int>(overlay.lines.size() + overlay.bars.size());
+    shade(0, 0, widest + 2 * kMargin, rows * line + 2 * kMargin, kShade);
+  }
+  for (const std::string& text : overlay.lines)
+    y += write(text, kMargin, y, kText);
+  for (const Overlay::Bar& bar : overlay.bars) {
+    const int label = write(bar.label, kMargin, y, kText) == 0 ? 0 : width_of("SPE 000 ");
+    const auto length = static_cast<int>(100 * std::clamp(bar.share, 0.0, 1.0));
+    shade(kMargin + label, y + 3, 100, line - 5, kShade);
+    shade(kMargin + label, y + 3, length, line - 5, kBar);
+    y += line;
+  }
+  if (!overlay.table.empty()) {
+    int first = 0, second = 0;
+    for (const auto& [what, text] : overlay.table) {
+      first = std::max(first, width_of(what + "   "));
+      second = std::max(second, width_of(text));
+    }
+    const auto rows = static_cast<int>(overlay.table.size());
+    const int left = std::max((width - first - second) / 2, kMargin);
+    int at = std::max((height - rows * line) / 2, kMargin);
+    shade(left - kMargin, at - kMargin, first + second + 2 * kMargin, rows * line + 2 * kMargin,
+          {0, 0, 0, 200});
+    for (const auto& [what, text] : overlay.table) {
+      write(what, left, at, kText);
+      write(text, left + first, at, kText);
+      at += line;
+    }
+  }
+  if (overlay.message.empty()) return;
+  const std::vector<std::string> lines = lines_of(overlay.message);
+  const auto rows = static_cast<int>(lines.size());
+  const int top = std::max(height - rows * line - 2 * kMargin, 0);
+  shade(0, top, width, rows * line + 2 * kMargin, overlay.is_error ? kError : kShade);
+  int at = top + kMargin;
+  for (const std::string& text : lines)
+    at += write(text, kMargin, at, kText);
+}
+
+int Window::line_height() const {
+  return font_ == nullptr ? kPoints + 3 : TTF_FontLineSkip(font_);
+}
+
+int Window::width_of(const std::string& text) const {
+  int width = 0;
+  if (font_ != nullptr) TTF_SizeUTF8(font_, text.c_str(), &width, nullptr);
+  return width;
+}
+
+int Window::write(const std::string& text, int x, int y, Overlay::Colour colour) {
+  if (font_ == nullptr) return 0;
+  if (text.empty()) return line_height();
+  const Surface letters(
+      TTF_RenderUTF8_Blended(font_, text.c_str(), {colour.r, colour.g, colour.b, colour.a}));
+  if (!letters) return line_height();
+  SDL_Rect at = {x, y, 0, 0};
+  SDL_BlitSurface(letters.get(), nullptr, together_.get(), &at);
+  return line_height();
+}
+
+void Window::shade(int x, int y, int width, int height, Overlay::Colour colour) {
+  if (width <= 0 || height <= 0) return;
+  const Surface patch(SDL_CreateRGBSurfaceWithFormat(0, width, height, 32, SDL_PIXELFORMAT_RGBA32));
+  if (!patch) return;
+  SDL_FillRect(patch.get(), nullptr, SDL_MapRGBA(patch->format, colour.r, colour.g, colour.b, colour.a));
+  SDL_SetSurfaceBlendMode(patch.get(), SDL_BLENDMODE_BLEND);
+  SDL_Rect at = {x, y, 0, 0};
+  SDL_BlitSurface(patch.get(), nullptr, together_.get(), &at);
+}
+
+} // namespace celltrace::viewer

@@ -1,0 +1,86 @@
+// A window with a picture and information over it, by SDL.
+//
+// Three surfaces, as the thesis has them: the window's own; the picture, whose memory the SPEs' pixels come
+// to; and what is written over it. They are put together in a fourth one, so that a half-drawn one is never
+// seen and a screenshot is what was seen.
+#pragma once
+
+#include "celltrace/image.hpp"
+#include "celltrace/render.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+struct SDL_Surface;
+struct SDL_Window;
+typedef struct _TTF_Font TTF_Font; // as SDL_ttf declares it
+
+namespace celltrace::viewer {
+
+/// What is shown over a picture.
+struct Overlay {
+  struct Colour {
+    std::uint8_t r, g, b, a;
+  };
+  struct Patch {
+    PictureRegion region; ///< of the picture, in its own pixels
+    Colour colour;
+  };
+  struct Bar {
+    std::string label;
+    double share; ///< 0 to 1
+  };
+
+  std::vector<Patch> patches;
+  std::vector<std::string> lines;                         ///< at the top left
+  std::vector<Bar> bars;                                  ///< below them
+  std::vector<std::pair<std::string, std::string>> table; ///< in the middle: what, and what about it
+  std::string message;                                    ///< at the bottom, in any number of lines
+  bool is_error = false;                                  ///< the message is one
+};
+
+class Window {
+public:
+  /// Throws Error where there is no display. `font`: a TrueType file; empty: one that the system has.
+  Window(const std::string& title, int width, int height, const std::filesystem::path& font);
+  ~Window();
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  int width() const;
+  int height() const;
+  /// False: no font was found, and what is written over pictures is not seen.
+  bool has_font() const { return font_ != nullptr; }
+  void set_title(const std::string& title);
+  void set_full_screen(bool full_screen);
+  void set_size(int width, int height);
+
+  /// The picture fills the window; an empty one leaves it black.
+  void show(const Image& picture, const Overlay& overlay);
+  /// What was shown last.
+  Image screenshot() const;
+
+private:
+  struct Free {
+    void operator()(SDL_Surface* surface) const noexcept;
+  };
+  using Surface = std::unique_ptr<SDL_Surface, Free>;
+
+  void open_font(const std::filesystem::path& font);
+  void draw(const Overlay& overlay, const Image& picture);
+  /// Returns the height of what was written.
+  int write(const std::string& text, int x, int y, Overlay::Colour colour);
+  int line_height() const;
+  int width_of(const std::string& text) const;
+  void shade(int x, int y, int width, int height, Overlay::Colour colour);
+
+  SDL_Window* window_ = nullptr;
+  TTF_Font* font_ = nullptr;
+  Surface together_; ///< what is shown
+};
+
+} // namespace celltrace::viewer

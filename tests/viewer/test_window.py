@@ -1,0 +1,372 @@
+#!/usr/bin/env python3
+"""Drives `celltrace view` by real keys and a mouse, on a display of its own, and checks what it shows: by the lines
+that it writes about its state, and by the pixels of the display.
+
+    test_window.py CELLTRACE
+
+Exits with 77 where Xvfb or xdotool are missing."""
+
+import ctypes
+import json
+import os
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+
+SCENE = """
+#version 3.7;
+global_settings { assumed_gamma 1.0 }
+background { rgb <0.1, 0.2, 0.4> }
+camera { location <0, 1, -6> look_at <0, 0, 0> angle 45 right x*image_width/image_height }
+light_source { <-4, 6, -8> rgb 1 }
+sphere { <-1, 0, 0>, 0.9 pigment { rgb %s } }
+sphere { <1.2, 0, 1>, 0.9 pigment { rgb <0.2, 0.8, 0.3> } finish { reflection 0.3 } }
+sphere { <0, -101, 0>, 100 pigment { rgb 0.8 } }
+"""
+RED, BLUE = "<0.9, 0.1, 0.1>", "<0.1, 0.1, 0.9>"
+
+
+class Display:
+    """An X server whose framebuffer is a file."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        read, write = os.pipe()
+        self.process = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(write), "-screen", "0", "1024x768x24", "-fbdir", folder, "-nolisten", "tcp"],
+            pass_fds=[write], stderr=subprocess.DEVNULL)
+        os.close(write)
+        number = os.read(read, 16).decode().strip()
+        os.close(read)
+        if not number:
+            raise SystemExit("Xvfb did not start")
+        self.environment = dict(os.environ, DISPLAY=":" + number)
+        self.environment.pop("SDL_VIDEODRIVER", None)
+
+    def tool(self, *arguments):
+        done = subprocess.run(["xdotool", *map(str, arguments)], env=self.environment, check=True, capture_output=True,
+                              timeout=20)
+        return done.stdout.decode().strip()
+
+    def pixels(self, left, top, width, height):
+        """Rows of (r, g, b)."""
+        with open(os.path.join(self.folder, "Xvfb_screen0"), "rb") as file:
+            data = file.read()
+        header = struct.unpack(">25I", data[:100])
+        start, pitch, colours = header[0], header[12], header[19]
+        start += colours * 12
+        rows = []
+        for y in range(top, top + height):
+            row = data[start + y * pitch + left * 4:start + y * pitch + (left + width) * 4]
+            rows.append([(row[x + 2], row[x + 1], row[x]) for x in range(0, len(row), 4)])
+        return rows
+
+    def stop(self):
+        self.process.terminate()
+        self.process.wait()
+
+
+class Viewer:
+    def __init__(self, display, program, folder, *arguments):
+        self.display = display
+        self.folder = folder
+        self.state_file = os.path.join(folder, "state.json")
+        open(self.state_file, "w").close()
+        self.started = time.monotonic()
+        self.process = subprocess.Popen([program, "view", "scene.pov", "-W", "320", "-H", "240", "--state", self.state_file,
+                                         *arguments], cwd=folder, env=display.environment)
+        self.lines = 0
+        self.state = {}
+        self.wait("the first picture", lambda s: s["final"])
+        self.window = display.tool("search", "--pid", self.process.pid, "--name", "celltrace").split()[-1]
+        display.tool("windowfocus", self.window)
+
+    def wait(self, what, condition, seconds=30):
+        """Until a line of the state that has not been looked at yet fulfils the condition."""
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            with open(self.state_file) as file:
+                lines = [line for line in file.readlines() if line.endswith("\n")]
+            for line in lines[self.lines:]:
+                self.lines += 1
+                self.state = json.loads(line)
+                if condition(self.state):
+                    return self.state
+            if self.process.poll() is not None:
+                raise AssertionError("%s: the viewer ended with %d" % (what, self.process.returncode))
+            time.sleep(0.01)
+        raise AssertionError("%s: not within %d s; the state is %s" % (what, seconds, self.state))
+
+    def key(self, name):
+        self.display.tool("key", "--window", self.window, name)
+
+    def press(self, name, what, condition):
+        self.key(name)
+        return self.wait("%s (key %s)" % (what, name), condition)
+
+    def place(self):
+        values = dict(line.split("=") for line in
+                      self.display.tool("getwindowgeometry", "--shell", self.window).splitlines())
+        return int(values["X"]), int(values["Y"]), int(values["WIDTH"]), int(values["HEIGHT"])
+
+    def pixels(self):
+        return self.display.pixels(*self.place())
+
+    def settled_pixels(self):
+        """As soon as the display has what the state says."""
+        before = self.pixels()
+        for _ in range(100):
+            time.sleep(0.05)
+            now = self.pixels()
+            if now == before:
+                return now
+            before = now
+        return before
+
+
+def check(condition, what):
+    if not condition:
+        raise AssertionError(what)
+
+
+def share_of(rows, is_wanted):
+    pixels = [pixel for row in rows for pixel in row]
+    return sum(map(is_wanted, pixels)) / len(pixels)
+
+
+def is_red(pixel):
+    return pixel[0] > 100 and pixel[1] < 80 and pixel[2] < 80
+
+
+def is_blue(pixel):
+    return pixel[2] > 90 and pixel[0] < 60 and pixel[1] < 60
+
+
+def moved(before):
+    return lambda s: s["final"] and s["camera"]["location"] != before["camera"]["location"]
+
+
+def turned(before):
+    return lambda s: s["final"] and s["camera"]["direction"] != before["camera"]["direction"]
+
+
+def drive(display, program, folder):
+    with open(os.path.join(folder, "scene.pov"), "w") as file:
+        file.write(SCENE % RED)
+    viewer = Viewer(display, program, folder)
+    state = viewer.state
+    check(state["antialiased"], "the picture at rest is antialiased")
+    check(state["backend"] == "native" and state["mode"] == "planar", "it begins on native, planar")
+    first = viewer.settled_pixels()
+    check(share_of(first, is_red) > 0.05, "the red sphere is on the display")
+
+    # Movement: arrows and letters, planar and radial.
+    for keys in (("Left", "d"), ("Right", "a"), ("Up", "s"), ("Down", "w"), ("Prior", "v"), ("Next", "r")):
+        before = viewer.state
+        viewer.press(keys[0], "movement", moved(before))
+        check(viewer.pixels() != first, "what is seen has moved")
+        viewer.press(keys[1], "movement back", moved(viewer.state))
+        distance = sum((a - b) ** 2 for a, b in zip(before["camera"]["location"], viewer.state["camera"]["location"]))
+        check(distance < 1e-12, "the other key leads back")
+    check(viewer.settled_pixels() == first, "the same place shows the same picture")
+    viewer.press("m", "radial", lambda s: s["mode"] == "radial")
+    before = viewer.state
+    viewer.press("Left", "around the scene", turned(before))
+    viewer.press("Up", "over the scene", turned(viewer.state))
+    viewer.press("Home", "reset", lambda s: s["final"] and s["camera"] == before["camera"])
+    viewer.press("m", "planar", lambda s: s["mode"] == "planar")
+
+    # A key that is held down goes on.
+    display.tool("keydown", "--window", viewer.window, "Left")
+    places = set()
+    viewer.wait("many frames", lambda s: places.add(tuple(s["camera"]["location"])) or len(places) > 8)
+    display.tool("keyup", "--window", viewer.window, "Left")
+    viewer.press("0", "reset", lambda s: s["final"] and s["camera"] == before["camera"])
+
+    # Zoom: keys and the wheel.
+    size = share_of(viewer.settled_pixels(), is_red)
+    for _ in range(4):
+        viewer.press("plus", "zoom in", turned(viewer.state))
+    check(share_of(viewer.settled_pixels(), is_red) > 1.2 * size, "things are larger")
+    for _ in range(4):
+        viewer.press("minus", "zoom out", turned(viewer.state))
+    left, top, width, height = viewer.place()
+    display.tool("mousemove", left + width // 2, top + height // 2)
+    display.tool("click", 4)
+    viewer.wait("zoom by the wheel", turned(before))
+    display.tool("click", 5)
+    viewer.wait("and back", lambda s: s["final"])
+
+    # The mouse turns and moves.
+    before = viewer.state
+    display.tool("mousedown", 1, "mousemove_relative", 40, 10, "mouseup", 1)
+    viewer.wait("turning by the mouse", turned(before))
+    before = viewer.state
+    display.tool("mousedown", 3, "mousemove_relative", 20, 0, "mouseup", 3)
+    viewer.wait("moving by the mouse", moved(before))
+    viewer.press("Home", "reset", lambda s: s["final"])
+
+    # Views.
+    viewer.press("c", "next camera", lambda s: s["final"] and s["view"] == "front")
+    viewer.press("c", "next camera", lambda s: s["final"] and s["view"] == "right")
+    for view in ("back", "left", "above", "corner", "the scene's own"):
+        viewer.press("c", "next camera", lambda s, view=view: s["final"] and s["view"] == view)
+
+    # What is written over the picture.
+    plain = viewer.settled_pixels()
+    check(plain == first, "the scene's own camera shows what it did")
+    for key, name in (("i", "information"), ("h", "help"), ("F1", "help")):
+        shows = not viewer.state[name]
+        viewer.press(key, name, lambda s, name=name, shows=shows: s[name] == shows)
+        check((viewer.settled_pixels() != plain) == (viewer.state["information"] or viewer.state["help"]),
+              name + " is seen")
+    viewer.press("i", "no information", lambda s: not s["information"])
+    check(viewer.settled_pixels() == plain, "without it the picture is as before")
+    viewer.press("l", "strips", lambda s: s["strips"] and s["final"] and s["patches"] > 0)
+    strips = viewer.settled_pixels()
+    check(strips != plain, "strips are seen")
+    viewer.press("k", "costs", lambda s: s["costs"] and not s["strips"] and s["final"] and s["patches"] > 0)
+    check(viewer.settled_pixels() not in (plain, strips), "costs are seen")
+    viewer.press("k", "no costs", lambda s: not s["costs"])
+
+    # Screenshots: what is on the display.
+    viewer.press("p", "screenshot", lambda s: s["screenshot"] == "scene-001.png" and "saved" in s["message"])
+    check(os.path.exists(os.path.join(folder, "scene-001.png")), "the screenshot is there")
+    viewer.press("F12", "second screenshot", lambda s: s["screenshot"] == "scene-002.png")
+    viewer.wait("the message is gone", lambda s: s["message"] == "")
+    viewer.press("p", "third screenshot", lambda s: s["screenshot"] == "scene-003.png")
+    compared = subprocess.run([program, "compare", "--min-psnr", "90", "scene-001.png", "scene-003.png"], cwd=folder,
+                              capture_output=True)
+    check(compared.returncode == 0, "screenshots of the same are the same")
+
+    # Machines.
+    viewer.press("x", "no antialiasing", lambda s: s["final"] and not s["antialiased"] and not s["antialiasing"])
+    viewer.press("b", "the emulated Cell", lambda s: s["final"] and s["spu"] == "cell_emu" and s["virtual_cycles"] > 0)
+    viewer.press("n", "pipeline", lambda s: s["final"] and s["model"] == 1)
+    viewer.press("n", "split pipeline", lambda s: s["final"] and s["model"] == 2)
+    viewer.press("n", "offload", lambda s: s["final"] and s["model"] == 3)
+    viewer.press("n", "shared", lambda s: s["final"] and s["model"] == 0)
+    while viewer.state["backend"] != "native":
+        backend = viewer.state["backend"]
+        viewer.press("b", "next backend", lambda s, backend=backend: s["backend"] != backend)
+    viewer.wait("native", lambda s: s["final"] and s["spu"].startswith("native"))
+    viewer.press("x", "antialiasing", lambda s: s["final"] and s["antialiased"])
+    check(viewer.settled_pixels() == plain, "the picture is the first one again")
+
+    # The scene's file is watched.
+    with open(os.path.join(folder, "scene.pov"), "w") as file:
+        file.write(SCENE % BLUE)
+    viewer.wait("the scene as it was saved", lambda s: not s["final"])
+    viewer.wait("its picture", lambda s: s["final"])
+    check(share_of(viewer.settled_pixels(), is_blue) > 0.03, "the sphere is blue now")
+    with open(os.path.join(folder, "scene.pov"), "w") as file:
+        file.write("sphere { <0, 0, 0> oops")
+    state = viewer.wait("the error", lambda s: s["error"] != "")
+    check("scene.pov:1:" in state["error"] and "error:" in state["error"], "the error says where: " + state["error"])
+    check(share_of(viewer.settled_pixels(), is_blue) > 0.03, "the old picture stays")
+    with open(os.path.join(folder, "scene.pov"), "w") as file:
+        file.write(SCENE % RED)
+    viewer.wait("no error", lambda s: s["error"] == "" and s["final"])
+    check(share_of(viewer.settled_pixels(), is_red) > 0.05, "and red again")
+
+    # Pause.
+    viewer.press("space", "pause", lambda s: s["paused"])
+    viewer.key("Left")
+    time.sleep(0.3)
+    check(viewer.settled_pixels() != [], "nothing ends")
+    viewer.press("space", "go on", lambda s: not s["paused"] and s["final"])
+    viewer.press("Home", "reset", lambda s: s["final"])
+
+    # Sizes.
+    display.tool("windowsize", viewer.window, 500, 300)
+    viewer.wait("larger", lambda s: s["final"] and s["picture"] == [500, 300])
+    viewer.press("f", "full screen", lambda s: s["full_screen"])
+    viewer.press("F11", "window", lambda s: not s["full_screen"])
+
+    viewer.key("q")
+    start = time.monotonic()
+    check(viewer.process.wait(5) == 0, "q ends it with 0")
+    check(time.monotonic() - start < 1, "at once")
+
+
+class ClientMessage(ctypes.Structure):
+    _fields_ = [("type", ctypes.c_int), ("serial", ctypes.c_ulong), ("send_event", ctypes.c_int),
+                ("display", ctypes.c_void_p), ("window", ctypes.c_ulong), ("message_type", ctypes.c_ulong),
+                ("format", ctypes.c_int), ("data", ctypes.c_long * 5), ("padding", ctypes.c_long * 24)]
+
+
+def press_close_button(display, window):
+    """What a window manager sends."""
+    x = ctypes.CDLL("libX11.so.6")
+    x.XOpenDisplay.restype = ctypes.c_void_p
+    x.XInternAtom.restype = ctypes.c_ulong
+    x.XInternAtom.argtypes = [ctypes.c_void_p, ctypes.c_char_p, ctypes.c_int]
+    x.XSendEvent.argtypes = [ctypes.c_void_p, ctypes.c_ulong, ctypes.c_int, ctypes.c_long, ctypes.c_void_p]
+    x.XCloseDisplay.argtypes = [ctypes.c_void_p]
+    connection = x.XOpenDisplay(display.environment["DISPLAY"].encode())
+    message = ClientMessage(type=33, window=int(window), format=32,
+                            message_type=x.XInternAtom(connection, b"WM_PROTOCOLS", 0))
+    message.data[0] = x.XInternAtom(connection, b"WM_DELETE_WINDOW", 0)
+    x.XSendEvent(connection, int(window), 0, 0, ctypes.byref(message))
+    x.XCloseDisplay(connection)
+
+
+def close_button(display, program, folder):
+    for end in (lambda v: press_close_button(display, v.window), lambda v: v.process.terminate()):
+        viewer = Viewer(display, program, folder)
+        end(viewer)
+        try:
+            check(viewer.process.wait(5) == 0, "it ends with 0")
+        except subprocess.TimeoutExpired:
+            viewer.process.kill()
+            raise AssertionError("a closed window does not end it") from None
+
+
+def without_display(program, folder):
+    environment = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER")}
+    done = subprocess.run([program, "view", "scene.pov"], cwd=folder, env=environment, capture_output=True, timeout=20)
+    check(done.returncode == 1, "without a display it ends with 1")
+    check(len(done.stderr.decode().splitlines()) == 1, "and one line: " + done.stderr.decode())
+
+
+def dummy_driver(program, folder):
+    """SDL's driver without a display: keys come from a script."""
+    state = os.path.join(folder, "dummy.json")
+    keys = ["Left", "m", "Up", "i", "l", "k", "h", "c", "x", "b", "200x100", "drag:10,5", "wheel:1", "p", "q"]
+    done = subprocess.run([program, "view", "scene.pov", "-W", "160", "-H", "120", "--state", state, "--keys",
+                           " ".join(keys)],
+                          cwd=folder, env=dict(os.environ, SDL_VIDEODRIVER="dummy"), capture_output=True, timeout=60)
+    check(done.returncode == 0, "the dummy driver: " + done.stderr.decode())
+    with open(state) as file:
+        last = json.loads(file.readlines()[-1])
+    check(last["mode"] == "radial" and last["information"] and last["costs"] and last["help"], "keys had their effect")
+    check(last["window"] == [200, 100] and last["spu"] == "cell_emu" and last["view"] == "front", "the others, too")
+
+
+def main():
+    program = os.path.abspath(sys.argv[1])
+    with tempfile.TemporaryDirectory() as folder:
+        with open(os.path.join(folder, "scene.pov"), "w") as file:
+            file.write(SCENE % RED)
+        without_display(program, folder)
+        dummy_driver(program, folder)
+        if not shutil.which("Xvfb") or not shutil.which("xdotool"):
+            print("Skipped in part: Xvfb or xdotool are missing.")
+            return 77
+        display = Display(folder)
+        try:
+            for name in os.listdir(folder):
+                if name.startswith("scene-"):
+                    os.remove(os.path.join(folder, name))
+            drive(display, program, folder)
+            close_button(display, program, folder)
+        finally:
+            display.stop()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
