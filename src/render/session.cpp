@@ -85,6 +85,8 @@ public:
     changed.region = options.region;
     changed.antialiasing = options.antialiasing;
     changed.colours = options.colours;
+    changed.work_map = options.work_map;
+    changed.finished_block = options.finished_block;
     renderer_.set_picture(own_options(changed));
     given_ = changed;
   }

@@ -261,6 +261,10 @@ TEST_CASE("Pictures change their size, their region and their sampling while the
     options.colours = false;
     options.region.reset();
     check_kept();
+    options.work_map = true;
+    session.set_picture(options);
+    CHECK(!session.render().work.empty());
+    options.work_map = false;
     options.antialiasing = Antialiasing{};
     check_kept();
     options.antialiasing.reset();

@@ -81,8 +81,17 @@ class Viewer:
         self.lines = 0
         self.state = {}
         self.wait("the first picture", lambda s: s["final"])
-        self.window = display.tool("search", "--pid", self.process.pid, "--name", "celltrace").split()[-1]
+        self.window = self.find_window()
         display.tool("windowfocus", self.window)
+
+    def find_window(self):
+        for _ in range(100):
+            found = subprocess.run(["xdotool", "search", "--onlyvisible", "--name", "celltrace"], timeout=20,
+                                   env=self.display.environment, capture_output=True).stdout.split()
+            if found:
+                return found[-1].decode()
+            time.sleep(0.05)
+        raise AssertionError("there is no window")
 
     def wait(self, what, condition, seconds=30):
         """Until a line of the state that has not been looked at yet fulfils the condition."""
@@ -158,6 +167,7 @@ def drive(display, program, folder):
         file.write(SCENE % RED)
     viewer = Viewer(display, program, folder)
     state = viewer.state
+    initial = state["camera"]
     check(state["antialiased"], "the picture at rest is antialiased")
     check(state["backend"] == "native" and state["mode"] == "planar", "it begins on native, planar")
     first = viewer.settled_pixels()
@@ -176,7 +186,7 @@ def drive(display, program, folder):
     before = viewer.state
     viewer.press("Left", "around the scene", turned(before))
     viewer.press("Up", "over the scene", turned(viewer.state))
-    viewer.press("Home", "reset", lambda s: s["final"] and s["camera"] == before["camera"])
+    viewer.press("Home", "reset", lambda s: s["final"] and s["camera"] == initial)
     viewer.press("m", "planar", lambda s: s["mode"] == "planar")
 
     # A key that is held down goes on.
@@ -184,7 +194,7 @@ def drive(display, program, folder):
     places = set()
     viewer.wait("many frames", lambda s: places.add(tuple(s["camera"]["location"])) or len(places) > 8)
     display.tool("keyup", "--window", viewer.window, "Left")
-    viewer.press("0", "reset", lambda s: s["final"] and s["camera"] == before["camera"])
+    viewer.press("0", "reset", lambda s: s["final"] and s["camera"] == initial)
 
     # Zoom: keys and the wheel.
     size = share_of(viewer.settled_pixels(), is_red)
