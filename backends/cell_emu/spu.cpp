@@ -11,6 +11,7 @@ namespace celltrace::cell_emu {
 Spu::Spu(Spe& spe, const SpuContext& context, const ArenaState& arena)
     : SpuCore(spe, context), arena_(arena) {
   take_operation_counts();
+  mfc_.begin_allocations();
   initialise_base();
   stack_local() = this;
 }
@@ -110,6 +111,17 @@ void Spu::charge(std::uint32_t channel_reads, std::uint32_t channel_writes) {
 }
 
 // --- local store ---
+
+void Spu::allocated(void* begin, std::uint32_t bytes, CallSite site) {
+  mfc_.allocated(static_cast<const std::uint8_t*>(begin), bytes, site);
+  const std::uint32_t zone = context_.mfc.config.red_zone;
+  arena_.next += std::min<std::ptrdiff_t>(zone, arena_.end - arena_.next);
+}
+
+void Spu::release(std::uint8_t* marked, CallSite site) {
+  mfc_.release(marked, site, now());
+  SpuBase::release(marked);
+}
 
 std::uint32_t Spu::local_address(const void* pointer) const {
   const std::uintptr_t base = reinterpret_cast<std::uintptr_t>(context_.mfc.bus.map().local_store(id()));

@@ -30,6 +30,17 @@ public:
   /// That of the program which runs here: for code that has no Spu at hand. Throws SpeError if none does.
   static Spu& running();
 
+  // Its allocations are known, so that commands and stores that leave them are found.
+
+  template <class T>
+  T* allocate(std::uint32_t count = 1, std::uint32_t alignment = kLineBytes,
+              CallSite site = CallSite::here()) {
+    T* const objects = SpuBase::allocate<T>(count, alignment, site);
+    allocated(objects, static_cast<std::uint32_t>(count * sizeof(T)), site);
+    return objects;
+  }
+  void release(std::uint8_t* marked, CallSite site = CallSite::here());
+
   using SpuCore::id;
   std::uint32_t count() const { return context_.mfc.bus.map().spes(); }
   /// Throws SpeError if there is no such SPE.
@@ -115,6 +126,7 @@ public:
   void abandon();
 
 private:
+  void allocated(void* begin, std::uint32_t bytes, CallSite site);
   void issue(const MfcCommand& command);
   void fetch_module(const CodeModule& module);
   void report_absent_module(const CodeModule& module, CallSite site);
