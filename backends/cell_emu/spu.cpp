@@ -20,6 +20,10 @@ Spu::~Spu() {
   stack_local() = nullptr;
 }
 
+Spu* Spu::running_or_null() {
+  return static_cast<Spu*>(stack_local());
+}
+
 Spu& Spu::running() {
   if (stack_local() == nullptr) throw SpeError("an operation of an SPE where no SPE program runs");
   return *static_cast<Spu*>(stack_local());
@@ -145,6 +149,13 @@ void Spu::issue(const MfcCommand& command) {
 
 void Spu::enable_interrupts(std::function<void(Spu&)> handler) {
   interrupt_handler_ = std::move(handler);
+  interrupts_enabled_ = true;
+}
+
+void Spu::enable_interrupts() {
+  if (!interrupt_handler_)
+    throw SpeError("SPE " + std::to_string(id()) +
+                   ": interrupts are enabled, but no handler was given to enable_interrupts()");
   interrupts_enabled_ = true;
 }
 

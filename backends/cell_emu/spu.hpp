@@ -4,6 +4,7 @@
 
 #include "backends/cell_emu/counting_simd.hpp"
 #include "backends/cell_emu/spu_core.hpp"
+#include "celltrace/spe/quadword.hpp"
 #include "celltrace/spe/simd_host.hpp"
 #include "celltrace/spe/spu.hpp"
 
@@ -48,6 +49,8 @@ public:
   ArenaState& arena();
   [[noreturn]] void halt(HaltCode code, CallSite site = CallSite::here());
   [[noreturn]] void halt_at(HaltCode code, CallSite site) { halt(code, site); }
+  /// The condition of heq and its like held.
+  [[noreturn]] void halt_by_instruction() { fail(Rule::halted, std::string(text_of(Rule::halted))); }
   template <std::uint32_t code> void stop() { stop(code); }
 
   template <Channel c> std::uint32_t read_channel() {
@@ -73,6 +76,11 @@ public:
   }
 
   // --- what only the emulator has ---
+
+  /// The running program's; null where none runs.
+  static Spu* running_or_null();
+  /// The floating-point status that the SDK's intrinsics keep.
+  isa::Quadword& floating_status() { return floating_status_; }
 
   [[gnu::always_inline]] void compute(const ScalarWork& work) {
     cell_emu::count(work);
@@ -107,6 +115,8 @@ public:
   /// SPU interrupts: while they are enabled and the event status has a count, `handler` runs before the next
   /// channel access, with interrupts disabled; it is called again until it has read the event status.
   void enable_interrupts(std::function<void(Spu&)> handler);
+  /// Again, with the handler that was given last; SpeError if none was.
+  void enable_interrupts();
   void disable_interrupts() { interrupts_enabled_ = false; }
   /// bisled: calls `handler` if the event status has a count.
   template <class Handler> void branch_if_event(Handler handler) {
@@ -141,6 +151,7 @@ private:
   std::uint32_t resident_modules_[kMaxModuleRegions] = {}; ///< by region, 0: none
   std::map<const void*, void*> statics_;
   bool in_handler_ = false;
+  isa::Quadword floating_status_{};
   std::function<void(Spu&)> interrupt_handler_;
 };
 
