@@ -1,23 +1,27 @@
-/* The same source for the SPU's compiler and for the host's: what the generic intrinsics, some specific ones and
- * the operators on vectors give. On the SPU it is a program that takes operands from main memory at argp until
- * one set has a 0 in its fourth quadword, and puts the results of each set behind them. */
+/* The same source for the SPU's compiler and for the host's: what the generic intrinsics, some specific ones
+ * and the operators on vectors give. On the SPU it is a program that takes operands from main memory at argp
+ * until one set has a 0 in its fourth quadword, and puts the results of each set behind them. */
 #include "every_intrinsic.h"
 
 #include <spu_intrinsics.h>
 #include <spu_mfcio.h>
 
 #define GIVE(...) (results[count++] = (qword)(__VA_ARGS__))
-#define GIVE_SCALAR(kind, expression) (results[count++] = si_from_##kind(expression))
+/* Of a register with a scalar only the preferred slot is defined. */
+#define GIVE_SCALAR(expression) GIVE(spu_splats(expression))
 
 int every_intrinsic(qword* results, const qword* operands) {
   int count = 0;
-  const vec_uchar16 ub = (vec_uchar16)operands[0], vb = (vec_uchar16)operands[1], wb = (vec_uchar16)operands[2];
+  const vec_uchar16 ub = (vec_uchar16)operands[0], vb = (vec_uchar16)operands[1],
+                    wb = (vec_uchar16)operands[2];
   const vec_char16 sb = (vec_char16)operands[0], tb = (vec_char16)operands[1];
-  const vec_ushort8 uh = (vec_ushort8)operands[0], vh = (vec_ushort8)operands[1], wh = (vec_ushort8)operands[2];
+  const vec_ushort8 uh = (vec_ushort8)operands[0], vh = (vec_ushort8)operands[1],
+                    wh = (vec_ushort8)operands[2];
   const vec_short8 sh = (vec_short8)operands[0], th = (vec_short8)operands[1];
   const vec_uint4 u = (vec_uint4)operands[0], v = (vec_uint4)operands[1], w = (vec_uint4)operands[2];
   const vec_int4 s = (vec_int4)operands[0], t = (vec_int4)operands[1], r = (vec_int4)operands[2];
-  const vec_ullong2 ul = (vec_ullong2)operands[0], vl = (vec_ullong2)operands[1], wl = (vec_ullong2)operands[2];
+  const vec_ullong2 ul = (vec_ullong2)operands[0], vl = (vec_ullong2)operands[1],
+                    wl = (vec_ullong2)operands[2];
   const vec_llong2 sl = (vec_llong2)operands[0], tl = (vec_llong2)operands[1];
   const vec_float4 f = (vec_float4)operands[0], g = (vec_float4)operands[1], h = (vec_float4)operands[2];
   const vec_double2 d = (vec_double2)operands[0], e = (vec_double2)operands[1], x = (vec_double2)operands[2];
@@ -41,11 +45,11 @@ int every_intrinsic(qword* results, const qword* operands) {
   GIVE(spu_insert((unsigned char)7, ub, n));
   GIVE(spu_insert((short)-7, sh, m));
   GIVE(spu_insert(99, s, 3));
-  GIVE_SCALAR(int, spu_extract(spu_promote(99, 3), 3));
-  GIVE_SCALAR(float, spu_extract(spu_promote(1.5f, 1), 1));
-  GIVE_SCALAR(int, spu_extract(s, n));
-  GIVE_SCALAR(uchar, spu_extract(ub, m));
-  GIVE_SCALAR(short, spu_extract(sh, n));
+  GIVE_SCALAR(spu_extract(spu_promote(99, 3), 3));
+  GIVE_SCALAR(spu_extract(spu_promote(1.5f, 1), 1));
+  GIVE_SCALAR(spu_extract(s, n));
+  GIVE_SCALAR(spu_extract(ub, m));
+  GIVE_SCALAR(spu_extract(sh, n));
 
   GIVE(spu_convtf(s, 4));
   GIVE(spu_convtf(u, 0));
@@ -220,9 +224,9 @@ int every_intrinsic(qword* results, const qword* operands) {
   GIVE(si_cfltu(operands[0], 16));
   GIVE(si_rotqmbii(operands[0], -3));
   GIVE(si_rothmi(operands[0], -3));
-  GIVE(si_from_int(si_to_int(operands[0])));
-  GIVE(si_from_uchar(si_to_uchar(operands[0])));
-  GIVE(si_from_short(si_to_short(operands[0])));
+  GIVE_SCALAR(si_to_int(si_from_int(si_to_int(operands[0]))));
+  GIVE_SCALAR(si_to_uchar(si_from_uchar(si_to_uchar(operands[0]))));
+  GIVE_SCALAR(si_to_short(si_from_short(si_to_short(operands[0]))));
 
   GIVE((vec_uchar16)(vec_uint4){0x00010203, 0x10111213, 0x80C0E0FF, 7});
   GIVE((vec_uint4)(vec_ushort8){1, 2, 3, 4, 5, 6, 7, 8});

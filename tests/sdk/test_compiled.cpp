@@ -6,6 +6,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+
 int every_intrinsic(qword* results, const qword* operands);
 
 namespace celltrace::test {
@@ -43,7 +45,7 @@ TEST_CASE("intrinsics give what the SPU's compiler makes of them") {
     count = every_intrinsic(results, operands);
     for (int k = 0; k < count; ++k) {
       const qword expected(sdk::Quadword::load(memory[i].results[k]));
-      if (text_of(results[k]) == text_of(expected)) continue;
+      if (results[k].quadword() == expected.quadword()) continue;
       if (++differing[static_cast<std::size_t>(k)] == 1)
         UNSCOPED_INFO("result " << k << " of " << text_of(operands[0]) << " | " << text_of(operands[1])
                                 << " | " << text_of(operands[2]) << " is " << text_of(results[k])
@@ -51,7 +53,7 @@ TEST_CASE("intrinsics give what the SPU's compiler makes of them") {
     }
   }
   CHECK(count > 200);
-  CHECK(differing == std::vector<unsigned>(EVERY_INTRINSIC_RESULTS));
+  CHECK(std::count(differing.begin(), differing.end(), 0u) == EVERY_INTRINSIC_RESULTS);
 }
 #else
 TEST_CASE("intrinsics give what the SPU's compiler makes of them") {

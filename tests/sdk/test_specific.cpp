@@ -226,7 +226,7 @@ void check(SimulatedRegisters& spu, const Row& row, const isa::OpcodeInfo& info,
   for (std::size_t i = 0; i < operand_sets().size(); ++i) {
     const Operands& operands = operand_sets()[i];
     const qword result = row.function(operands, immediate);
-    if (text_of(result) == text_of(expected.rt[i])) continue;
+    if (result.quadword() == expected.rt[i].quadword()) continue;
     ++differing;
     UNSCOPED_INFO(text_of(operands.a) << " | " << text_of(operands.b) << " | " << text_of(operands.c)
                                       << " -> " << text_of(result) << " and not " << text_of(expected.rt[i]));
