@@ -153,6 +153,25 @@ TEST_CASE("a deadlock is reported with what everyone waits for") {
   }
 }
 
+TEST_CASE("who polls for ever ends at its limit, and so does who waits for it") {
+  for (const bool by_cycles : {true, false}) {
+    for (MachineConfig config : {lockstep(2), exploring_with_faults(2, 1), free_running(2)}) {
+      config.emulation.cycle_limit = by_cycles ? 100000 : 0;
+      config.emulation.seconds_limit = by_cycles ? 0 : 0.05;
+      const EmulatedRun run = emulate(config, [](Spu& spu) {
+        if (spu.id() == 1) spu.read_signal_1();
+        while (spu.in_mailbox_count() == 0) {
+        }
+      });
+      INFO(run.report());
+      CHECK(run.count(Rule::time_limit) == 1);
+      CHECK(run.diagnostics.size() == 1);
+      CHECK_THAT(run.errors[0], Catch::Contains(by_cycles ? "after 100000 cycles" : "after 0.05"));
+      CHECK_THAT(run.errors[1], Catch::Contains("interrupted at channel 3") && Catch::Contains("time-limit"));
+    }
+  }
+}
+
 TEST_CASE("a program that fails ends those that wait for it") {
   for (const MachineConfig& config : {lockstep(3), exploring_with_faults(3, 1), free_running(3)}) {
     const EmulatedRun run = emulate(config, [](Spu& spu) {
