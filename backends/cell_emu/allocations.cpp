@@ -1,16 +1,24 @@
 #include "backends/cell_emu/allocations.hpp"
 
 #include "backends/cell_emu/local_store_watch.hpp"
+#include "celltrace/spe/types.hpp"
 
 #include <algorithm>
 
 namespace celltrace::cell_emu {
+namespace {
 
-void Allocations::begin(std::uint8_t* local_store, std::uint32_t arena_end, std::uint32_t red_zone) {
+constexpr std::uint32_t aligned(std::uint32_t lsa, std::uint32_t alignment) {
+  return (lsa + alignment - 1) & ~(alignment - 1);
+}
+
+} // namespace
+
+void Allocations::begin(std::uint8_t* local_store, std::uint32_t begin, std::uint32_t red_zone) {
   const std::lock_guard lock(mutex_);
   local_store_ = local_store;
-  arena_end_ = arena_end;
   red_zone_ = red_zone;
+  next_ = unshifted_ = begin;
   known_ = true;
   allocations_.clear();
 }
@@ -21,10 +29,18 @@ void Allocations::end() {
   allocations_.clear();
 }
 
-void Allocations::add(std::uint32_t begin, std::uint32_t end, CallSite site) {
+void Allocations::add(std::uint32_t begin, std::uint32_t bytes, std::uint32_t alignment, std::uint32_t room,
+                      CallSite site) {
   const std::lock_guard lock(mutex_);
+  const std::uint32_t before = shift(), end = begin + bytes;
   if (!allocations_.empty()) allocations_.back().zone_end = std::min(allocations_.back().zone_end, begin);
-  allocations_.push_back({begin, end, std::min(end + kZoneBytes, arena_end_), site});
+  // A program may have moved the fill of its arena itself.
+  unshifted_ = std::min(unshifted_ + (begin - aligned(next_, alignment)), begin);
+  unshifted_ = std::min(aligned(unshifted_, alignment) + bytes, end);
+  // The next allocation may have to be aligned.
+  const bool fits = end + red_zone_ + kLineBytes - unshifted_ <= room + before;
+  next_ = end + (fits ? red_zone_ : 0);
+  allocations_.push_back({begin, end, std::min(end + kZoneBytes, kLocalStoreBytes), next_, unshifted_, site});
   fill_zone(allocations_.back());
 }
 
@@ -33,32 +49,38 @@ void Allocations::release(std::uint32_t lsa) {
   const auto is_kept = [&](const Allocation& each) { return each.begin < lsa; };
   allocations_.erase(std::partition_point(allocations_.begin(), allocations_.end(), is_kept),
                      allocations_.end());
+  const std::uint32_t shift_before =
+      allocations_.empty() ? 0 : allocations_.back().behind - allocations_.back().unshifted;
+  next_ = lsa;
+  unshifted_ = lsa - shift_before;
   if (allocations_.empty()) return;
   Allocation& last = allocations_.back();
   last.end = std::min(last.end, lsa);
-  last.zone_end = std::min(last.end + kZoneBytes, arena_end_);
+  last.zone_end = std::min(last.end + kZoneBytes, kLocalStoreBytes);
   fill_zone(last);
 }
 
-const Allocations::Allocation* Allocations::find(std::uint32_t lsa) const {
-  const auto behind =
-      std::upper_bound(allocations_.begin(), allocations_.end(), lsa,
-                       [](std::uint32_t at, const Allocation& each) { return at < each.begin; });
-  return behind == allocations_.begin() ? nullptr : &*std::prev(behind);
+Allocations::Iterator Allocations::behind(std::uint32_t lsa) const {
+  return std::upper_bound(allocations_.begin(), allocations_.end(), lsa,
+                          [](std::uint32_t at, const Allocation& each) { return at < each.begin; });
 }
 
-bool Allocations::broken_by_another(std::uint32_t lsa, std::uint32_t size) const {
+bool Allocations::is_left_by(std::uint32_t lsa, std::uint32_t size) const {
   const std::lock_guard lock(mutex_);
-  return !is_within_one(lsa, size) &&
-         std::any_of(allocations_.begin(), allocations_.end(),
-                     [&](const Allocation& each) { return lsa < each.zone_end && each.begin < lsa + size; });
+  const Iterator next = behind(lsa);
+  if (next != allocations_.begin()) {
+    const Allocation& before = *std::prev(next);
+    if (lsa + size <= before.end) return false;
+    if (lsa < before.zone_end) return true;
+  }
+  return next != allocations_.end() && next->begin < lsa + size;
 }
 
 std::optional<Allocations::Allocation> Allocations::before(std::uint32_t lsa) const {
   const std::lock_guard lock(mutex_);
-  const Allocation* const found = find(lsa);
-  if (found == nullptr) return std::nullopt;
-  return *found;
+  const Iterator next = behind(lsa);
+  if (next == allocations_.begin()) return std::nullopt;
+  return *std::prev(next);
 }
 
 void Allocations::fill_zone(const Allocation& allocation) const {

@@ -3,7 +3,9 @@
 //
 //   allocation | zone | allocation | zone | free ...
 //
-// A zone reaches to the next allocation, but not further than kZoneBytes.
+// A zone reaches to the next allocation, but not further than kZoneBytes. What zones take of the arena is
+// added at its end, in the local store that is kept for the stack and that nothing of a host's program uses:
+// with red zones a program finds as much room as without.
 #pragma once
 
 #include "celltrace/spe/call_site.hpp"
@@ -15,8 +17,8 @@
 
 namespace celltrace::cell_emu {
 
-/// Offsets in one local store. Thread safety: broken_by_another() from any thread, the others belong to the
-/// thread that runs the SPE.
+/// Offsets in one local store. Thread safety: is_left_by() and before() from any thread, the others belong to
+/// the thread that runs the SPE.
 class Allocations {
 public:
   static constexpr std::uint32_t kZoneBytes = 128;
@@ -24,6 +26,8 @@ public:
   struct Allocation {
     std::uint32_t begin, end; ///< without its zone
     std::uint32_t zone_end;
+    std::uint32_t behind;    ///< where the next one may begin
+    std::uint32_t unshifted; ///< where it might without any zones
     CallSite site;
   };
   /// A store into the zone behind an allocation.
@@ -32,23 +36,25 @@ public:
     std::uint32_t lsa; ///< of the first changed word
   };
 
-  /// A program begins, which may allocate up to `arena_end`. Between allocations it leaves `red_zone` bytes;
-  /// 0: zones are not watched.
-  void begin(std::uint8_t* local_store, std::uint32_t arena_end, std::uint32_t red_zone);
-  /// It has ended, or its allocations are not known.
+  /// A program begins, which may allocate from `begin` on. Between allocations it leaves `red_zone` bytes; 0:
+  /// zones are not watched.
+  void begin(std::uint8_t* local_store, std::uint32_t begin, std::uint32_t red_zone);
+  /// It has ended: nothing is known any more.
   void end();
+  bool known() const { return known_; }
 
-  void add(std::uint32_t begin, std::uint32_t end, CallSite site);
+  /// `room`: bytes by which the arena can still grow. Where that is too little, no zone is left.
+  void add(std::uint32_t begin, std::uint32_t bytes, std::uint32_t alignment, std::uint32_t room,
+           CallSite site);
   /// Everything from `lsa` on is free again.
   void release(std::uint32_t lsa);
 
-  /// [lsa, lsa + size) is not within one allocation, and it is known what was allocated.
-  bool breaks_bounds(std::uint32_t lsa, std::uint32_t size) const {
-    return known_ && !is_within_one(lsa, size);
-  }
-  /// The same for transfers of others, who may have arranged with the program to use what it has not
-  /// allocated: the range touches an allocation, or its zone, and is not within it.
-  bool broken_by_another(std::uint32_t lsa, std::uint32_t size) const;
+  /// Where the next allocation may begin, and how many bytes further that is than without zones.
+  std::uint32_t next() const { return next_; }
+  std::uint32_t shift() const { return next_ - unshifted_; }
+
+  /// [lsa, lsa + size) touches an allocation or its zone, and is not within the allocation.
+  bool is_left_by(std::uint32_t lsa, std::uint32_t size) const;
   /// The last allocation that begins at `lsa` or before.
   std::optional<Allocation> before(std::uint32_t lsa) const;
 
@@ -56,16 +62,14 @@ public:
   std::optional<Overrun> take_overrun();
 
 private:
-  bool is_within_one(std::uint32_t lsa, std::uint32_t size) const {
-    const Allocation* const found = find(lsa);
-    return found != nullptr && lsa + size <= found->end;
-  }
-  const Allocation* find(std::uint32_t lsa) const;
+  using Iterator = std::vector<Allocation>::const_iterator;
+  /// The first that begins behind `lsa`.
+  Iterator behind(std::uint32_t lsa) const;
   void fill_zone(const Allocation& allocation) const;
 
   std::uint8_t* local_store_ = nullptr;
-  std::uint32_t arena_end_ = 0;
   std::uint32_t red_zone_ = 0;
+  std::uint32_t next_ = 0, unshifted_ = 0;
   bool known_ = false;
   mutable std::mutex mutex_;            ///< for changes, and for looks from other threads
   std::vector<Allocation> allocations_; ///< in ascending order

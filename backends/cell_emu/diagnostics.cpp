@@ -50,7 +50,7 @@ constexpr std::array<Entry, kRules> kTable = {{
     {Rule::list_end, "list-end", kStop, "the list must not cross the end of local store"},
     {Rule::element_region, "element-region", kStop, "a list element must not cross a 4 GB boundary"},
     {Rule::allocation_bounds, "allocation-bounds", kStop,
-     "a transfer or list must lie within one allocation of the local store"},
+     "a transfer or list that touches an allocation of local store must lie within it"},
     {Rule::object_bounds, "object-bounds", kStop,
      "a transfer that touches a registered object in main memory must lie within it"},
     {Rule::parameters_kept, "parameters-kept", kWarn,

@@ -200,7 +200,7 @@ EmulatedCell::Run EmulatedCell::host_code(unsigned spe, const SpeProgram& progra
     Spu spu(runs, {mfc_context_, *scheduler_}, arena(runs.id, range));
     execute(
         runs, spu, [&] { entry(&spu, argument); },
-        [&] { bus_.hold_local_store(runs.id, [&] { guard.check(runs.id, log_); }); });
+        [&] { bus_.hold_local_store(runs.id, [&] { guard.check(runs.id, runs.mfc.arena_end(), log_); }); });
   };
 }
 

@@ -3,6 +3,7 @@
 #include "backends/cell_emu/channels.hpp"
 #include "backends/cell_emu/local_store_watch.hpp"
 #include "backends/cell_emu/mfc_rules.hpp"
+#include "celltrace/spe/spu.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -82,6 +83,7 @@ Mfc::Mfc(unsigned spe, const MfcContext& context, DmaTiming& timing, ProblemStat
 
 void Mfc::begin_program(ArenaRange arena) {
   arena_ = arena;
+  plain_arena_end_ = arena.end;
   bus_.map().local_stores().take_overrun(spe_);
   allocations().end();
   host_memory_.forget();
@@ -158,8 +160,8 @@ void Mfc::finish(Cycle now) {
 }
 
 ForeignStoreWatch::Used Mfc::local_store_in_use() const {
-  const std::uint64_t used =
-      std::min<std::uint64_t>(counters_.local_store_peak.value(), arena_.end - arena_.begin);
+  const std::uint64_t used = std::min<std::uint64_t>(counters_.local_store_peak.value() + red_zone_bytes(),
+                                                     arena_.end - arena_.begin);
   return {bus_.map().local_store(spe_) + arena_.begin, static_cast<std::uint32_t>(used),
           bus_.local_store_writes(spe_)};
 }
@@ -222,18 +224,30 @@ bool Mfc::note_overrun(Diagnostic& diagnostic, CallSite site, Cycle now) {
 
 // --- allocations ---
 
-void Mfc::begin_allocations() {
-  allocations().begin(bus_.map().local_store(spe_), arena_.end, context_.config.red_zone);
+void Mfc::begin_allocations(const std::uint8_t* from) {
+  std::uint8_t* const local_store = bus_.map().local_store(spe_);
+  allocations().begin(local_store, static_cast<std::uint32_t>(from - local_store), context_.config.red_zone);
 }
 
-void Mfc::allocated(const std::uint8_t* begin, std::uint32_t bytes, CallSite site) {
+void Mfc::allocated(const std::uint8_t* begin, std::uint32_t bytes, std::uint32_t alignment, CallSite site,
+                    ArenaState& arena) {
+  if (!allocations().known()) return;
   const auto lsa = static_cast<std::uint32_t>(begin - bus_.map().local_store(spe_));
-  allocations().add(lsa, lsa + bytes, site);
+  allocations().add(lsa, bytes, alignment, kLocalStoreBytes - arena_.end, site);
+  fit_arena(arena);
 }
 
-void Mfc::release(const std::uint8_t* from, CallSite site, Cycle now) {
-  check_stores(site, now);
+void Mfc::release(const std::uint8_t* from, CallSite site, Cycle now, ArenaState& arena) {
+  if (allocations().known()) check_stores(site, now);
   allocations().release(static_cast<std::uint32_t>(from - bus_.map().local_store(spe_)));
+  fit_arena(arena);
+}
+
+void Mfc::fit_arena(ArenaState& arena) {
+  arena_.end = std::min(plain_arena_end_ + allocations().shift(), kLocalStoreBytes);
+  std::uint8_t* const local_store = bus_.map().local_store(spe_);
+  arena.next = local_store + std::min(allocations().next(), arena_.end);
+  arena.end = local_store + arena_.end;
 }
 
 bool Mfc::note_allocation_overrun(Diagnostic& diagnostic, CallSite site, Cycle now) {
@@ -258,18 +272,18 @@ void Mfc::check_stores(CallSite site, Cycle now) {
     throw RuleViolation(overrun);
 }
 
-/// The local store that a command uses and that is not within one allocation: of the program that issued it,
-/// of whose allocations the PPE knows nothing, or of another SPE's.
+/// The local store of which a command leaves an allocation: of the program that issued it, or of another
+/// SPE's. Of its own SPE's allocations a proxy command knows nothing.
 std::optional<Mfc::LocalRange> Mfc::unallocated(const MfcCommand& command, bool proxy) const {
   const std::uint32_t size = storage_bytes(command);
   if (size == 0) return std::nullopt;
   const std::uint32_t lsa = is_list(command.opcode) ? static_cast<std::uint32_t>(command.ea) : command.lsa;
-  if (!proxy && allocations().breaks_bounds(lsa, size)) return LocalRange{spe_, lsa};
+  if (!proxy && allocations().is_left_by(lsa, size)) return LocalRange{spe_, lsa};
   if (is_list(command.opcode)) return std::nullopt;
   const AddressMap::Place place = bus_.map().locate(command.ea, size);
   if (place.kind != EaKind::local_store || (place.spe == spe_ && !proxy)) return std::nullopt;
   const auto there = static_cast<std::uint32_t>(command.ea - bus_.map().addresses(place.spe).local_store);
-  if (!context_.bounds.allocations[place.spe].broken_by_another(there, size)) return std::nullopt;
+  if (!context_.bounds.allocations[place.spe].is_left_by(there, size)) return std::nullopt;
   return LocalRange{place.spe, there};
 }
 

@@ -31,6 +31,10 @@
 #include <string>
 #include <vector>
 
+namespace celltrace {
+struct ArenaState;
+}
+
 namespace celltrace::cell_emu {
 
 /// What the MFCs of a machine share.
@@ -73,9 +77,14 @@ public:
   void abandon();
 
   /// A program that says what it allocates has begun; a release() is checked for stores past what it frees.
-  void begin_allocations();
-  void allocated(const std::uint8_t* begin, std::uint32_t bytes, CallSite site);
-  void release(const std::uint8_t* from, CallSite site, Cycle now);
+  void begin_allocations(const std::uint8_t* from);
+  /// Changes the arena's end and where the next allocation begins, as red zones ask for it.
+  void allocated(const std::uint8_t* begin, std::uint32_t bytes, std::uint32_t alignment, CallSite site,
+                 ArenaState& arena);
+  void release(const std::uint8_t* from, CallSite site, Cycle now, ArenaState& arena);
+  std::uint32_t arena_end() const { return arena_.end; }
+  /// Bytes that red zones have added to the arena.
+  std::uint32_t red_zone_bytes() const { return arena_.end - plain_arena_end_; }
 
   /// The part of the arena that the program has used.
   ForeignStoreWatch::Used local_store_in_use() const;
@@ -248,7 +257,10 @@ private:
 
   const unsigned spe_;
   const MfcContext context_;
+  void fit_arena(ArenaState& arena);
+
   ArenaRange arena_{0, kLocalStoreBytes};
+  std::uint32_t plain_arena_end_ = kLocalStoreBytes; ///< without red zones
   Bus& bus_;
   DmaTiming& timing_;
   ProblemState& problem_state_;

@@ -11,8 +11,8 @@ namespace celltrace::cell_emu {
 Spu::Spu(Spe& spe, const SpuContext& context, const ArenaState& arena)
     : SpuCore(spe, context), arena_(arena) {
   take_operation_counts();
-  mfc_.begin_allocations();
   initialise_base();
+  mfc_.begin_allocations(arena_.next);
   stack_local() = this;
 }
 
@@ -49,7 +49,8 @@ SpeAddresses Spu::addresses(std::uint32_t spe) const {
 
 /// Every change of the fill is preceded by a call of arena(), so the peak is seen here.
 ArenaState& Spu::arena() {
-  counters_.local_store_peak.raise_to(static_cast<std::uint64_t>(arena_.next - arena_.begin));
+  counters_.local_store_peak.raise_to(static_cast<std::uint64_t>(arena_.next - arena_.begin) -
+                                      mfc_.red_zone_bytes());
   return arena_;
 }
 
@@ -116,15 +117,13 @@ void Spu::charge(std::uint32_t channel_reads, std::uint32_t channel_writes) {
 
 // --- local store ---
 
-void Spu::allocated(void* begin, std::uint32_t bytes, CallSite site) {
-  mfc_.allocated(static_cast<const std::uint8_t*>(begin), bytes, site);
-  const std::uint32_t zone = context_.mfc.config.red_zone;
-  arena_.next += std::min<std::ptrdiff_t>(zone, arena_.end - arena_.next);
+void Spu::allocated(void* begin, std::uint32_t bytes, std::uint32_t alignment, CallSite site) {
+  mfc_.allocated(static_cast<const std::uint8_t*>(begin), bytes, alignment, site, arena_);
 }
 
 void Spu::release(std::uint8_t* marked, CallSite site) {
-  mfc_.release(marked, site, now());
-  SpuBase::release(marked);
+  arena(); // for the peak
+  mfc_.release(marked, site, now(), arena_);
 }
 
 std::uint32_t Spu::local_address(const void* pointer) const {

@@ -37,7 +37,7 @@ public:
   T* allocate(std::uint32_t count = 1, std::uint32_t alignment = kLineBytes,
               CallSite site = CallSite::here()) {
     T* const objects = SpuBase::allocate<T>(count, alignment, site);
-    allocated(objects, static_cast<std::uint32_t>(count * sizeof(T)), site);
+    allocated(objects, static_cast<std::uint32_t>(count * sizeof(T)), alignment, site);
     return objects;
   }
   void release(std::uint8_t* marked, CallSite site = CallSite::here());
@@ -136,7 +136,7 @@ public:
   void abandon();
 
 private:
-  void allocated(void* begin, std::uint32_t bytes, CallSite site);
+  void allocated(void* begin, std::uint32_t bytes, std::uint32_t alignment, CallSite site);
   void issue(const MfcCommand& command);
   void fetch_module(const CodeModule& module);
   void report_absent_module(const CodeModule& module, CallSite site);
