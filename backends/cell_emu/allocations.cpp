@@ -14,10 +14,10 @@ constexpr std::uint32_t aligned(std::uint32_t lsa, std::uint32_t alignment) {
 
 } // namespace
 
-void Allocations::begin(std::uint8_t* local_store, std::uint32_t begin, std::uint32_t red_zone) {
+void Allocations::begin(std::uint8_t* local_store, std::uint32_t begin, bool red_zones) {
   const std::lock_guard lock(mutex_);
   local_store_ = local_store;
-  red_zone_ = red_zone;
+  red_zones_ = red_zones;
   next_ = unshifted_ = begin;
   known_ = true;
   allocations_.clear();
@@ -29,17 +29,17 @@ void Allocations::end() {
   allocations_.clear();
 }
 
-void Allocations::add(std::uint32_t begin, std::uint32_t bytes, std::uint32_t alignment, std::uint32_t room,
-                      CallSite site) {
+void Allocations::add(std::uint32_t begin, std::uint32_t bytes, std::uint32_t alignment,
+                      std::uint32_t arena_end, CallSite site) {
   const std::lock_guard lock(mutex_);
-  const std::uint32_t before = shift(), end = begin + bytes;
+  const std::uint32_t end = begin + bytes;
   if (!allocations_.empty()) allocations_.back().zone_end = std::min(allocations_.back().zone_end, begin);
   // A program may have moved the fill of its arena itself.
   unshifted_ = std::min(unshifted_ + (begin - aligned(next_, alignment)), begin);
   unshifted_ = std::min(aligned(unshifted_, alignment) + bytes, end);
-  // The next allocation may have to be aligned.
-  const bool fits = end + red_zone_ + kLineBytes - unshifted_ <= room + before;
-  next_ = end + (fits ? red_zone_ : 0);
+  const std::uint32_t grown = arena_end + end + kZoneBytes - unshifted_;
+  const bool is_full = unshifted_ >= arena_end;
+  next_ = end + (red_zones_ && !is_full && grown <= kLocalStoreBytes ? kZoneBytes : 0);
   allocations_.push_back({begin, end, std::min(end + kZoneBytes, kLocalStoreBytes), next_, unshifted_, site});
   fill_zone(allocations_.back());
 }
@@ -84,11 +84,11 @@ std::optional<Allocations::Allocation> Allocations::before(std::uint32_t lsa) co
 }
 
 void Allocations::fill_zone(const Allocation& allocation) const {
-  if (red_zone_ != 0) fill_with_poison(local_store_ + allocation.end, allocation.zone_end - allocation.end);
+  if (red_zones_) fill_with_poison(local_store_ + allocation.end, allocation.zone_end - allocation.end);
 }
 
 std::optional<Allocations::Overrun> Allocations::take_overrun() {
-  if (red_zone_ == 0) return std::nullopt;
+  if (!red_zones_) return std::nullopt;
   for (const Allocation& each : allocations_) {
     const std::uint8_t* const zone = local_store_ + each.end;
     if (is_poison(zone, each.zone_end - each.end)) continue;

@@ -3,9 +3,10 @@
 //
 //   allocation | zone | allocation | zone | free ...
 //
-// A zone reaches to the next allocation, but not further than kZoneBytes. What zones take of the arena is
-// added at its end, in the local store that is kept for the stack and that nothing of a host's program uses:
-// with red zones a program finds as much room as without.
+// A zone reaches to the next allocation, but not further than kZoneBytes. With red zones asked for, each
+// allocation lies a multiple of kZoneBytes further than it would without, which keeps its alignment. What
+// zones take of the arena is added at its end, in the local store that is kept for the stack and that nothing
+// of a host's program uses: with red zones a program finds as much room as without.
 #pragma once
 
 #include "celltrace/spe/call_site.hpp"
@@ -36,15 +37,14 @@ public:
     std::uint32_t lsa; ///< of the first changed word
   };
 
-  /// A program begins, which may allocate from `begin` on. Between allocations it leaves `red_zone` bytes; 0:
-  /// zones are not watched.
-  void begin(std::uint8_t* local_store, std::uint32_t begin, std::uint32_t red_zone);
+  /// A program begins, which may allocate from `begin` on.
+  void begin(std::uint8_t* local_store, std::uint32_t begin, bool red_zones);
   /// It has ended: nothing is known any more.
   void end();
   bool known() const { return known_; }
 
-  /// `room`: bytes by which the arena can still grow. Where that is too little, no zone is left.
-  void add(std::uint32_t begin, std::uint32_t bytes, std::uint32_t alignment, std::uint32_t room,
+  /// `arena_end`: without zones. Where local store ends before a zone would, there is none.
+  void add(std::uint32_t begin, std::uint32_t bytes, std::uint32_t alignment, std::uint32_t arena_end,
            CallSite site);
   /// Everything from `lsa` on is free again.
   void release(std::uint32_t lsa);
@@ -68,7 +68,7 @@ private:
   void fill_zone(const Allocation& allocation) const;
 
   std::uint8_t* local_store_ = nullptr;
-  std::uint32_t red_zone_ = 0;
+  bool red_zones_ = false;
   std::uint32_t next_ = 0, unshifted_ = 0;
   bool known_ = false;
   mutable std::mutex mutex_;            ///< for changes, and for looks from other threads

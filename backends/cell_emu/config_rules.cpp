@@ -49,7 +49,6 @@ void check_emulation(const EmulationConfig& config) {
     if (static_cast<unsigned>(rule) >= kRules) refuse("actions", "names a rule that does not exist");
     one_of("actions", action, Action::stop);
   }
-  in_range("red_zone", config.red_zone, 0, 128, "from 0 to 128");
   in_range("seconds_limit", config.seconds_limit, 0, 1e9, "from 0 to 1e9");
   if (config.trace != nullptr && config.schedule != Schedule::lockstep)
     throw InputError("a trace needs the lockstep schedule");

@@ -10,7 +10,7 @@ MachineConfig emulated(unsigned spes, Schedule schedule) {
   config.backend = "cell_emu";
   config.spes = spes;
   config.emulation.schedule = schedule;
-  config.emulation.red_zone = 16;
+  config.emulation.red_zones = true;
   return config;
 }
 

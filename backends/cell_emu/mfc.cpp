@@ -226,14 +226,14 @@ bool Mfc::note_overrun(Diagnostic& diagnostic, CallSite site, Cycle now) {
 
 void Mfc::begin_allocations(const std::uint8_t* from) {
   std::uint8_t* const local_store = bus_.map().local_store(spe_);
-  allocations().begin(local_store, static_cast<std::uint32_t>(from - local_store), context_.config.red_zone);
+  allocations().begin(local_store, static_cast<std::uint32_t>(from - local_store), context_.config.red_zones);
 }
 
 void Mfc::allocated(const std::uint8_t* begin, std::uint32_t bytes, std::uint32_t alignment, CallSite site,
                     ArenaState& arena) {
   if (!allocations().known()) return;
   const auto lsa = static_cast<std::uint32_t>(begin - bus_.map().local_store(spe_));
-  allocations().add(lsa, bytes, alignment, kLocalStoreBytes - arena_.end, site);
+  allocations().add(lsa, bytes, alignment, plain_arena_end_, site);
   fit_arena(arena);
 }
 

@@ -74,6 +74,13 @@ void count(Unit unit) {
   }
 }
 
+/// As decoding gives it: some have no sign.
+std::int32_t decoded(std::int32_t immediate, isa::Syntax syntax) {
+  if (syntax == isa::Syntax::rt_u16) return immediate & 0xFFFF;
+  if (syntax == isa::Syntax::rt_u18) return immediate & 0x3FFFF;
+  return immediate;
+}
+
 } // namespace
 
 Quadword execute(Opcode opcode, const Quadword& a, const Quadword& b, const Quadword& c,
@@ -85,7 +92,7 @@ Quadword execute(Opcode opcode, const Quadword& a, const Quadword& b, const Quad
   static thread_local Quadword thread_status{};
   constexpr std::uint8_t kRt = 0, kRa = 1, kRb = 2, kRc = 3;
   isa::Instruction instruction{};
-  instruction.immediate = immediate;
+  instruction.immediate = decoded(immediate, info.syntax);
   instruction.rt = kRt;
   instruction.ra = kRa;
   instruction.rb = kRb;

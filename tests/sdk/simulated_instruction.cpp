@@ -1,11 +1,14 @@
 #include "sdk/simulated_instruction.hpp"
 
 #include "backends/cell_emu/machine.hpp"
+#include "celltrace/spe/types.hpp"
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <random>
+#include <span>
 
 namespace celltrace::test {
 namespace {
@@ -22,10 +25,16 @@ constexpr std::uint64_t kEdgeDoubles[] = {
     0x8000000000000001, 0x7FEFFFFFFFFFFFFF, 0x3FF0000000000001, 0x4340000000000000, 0x3CA0000000000000,
 };
 
-// Where what lies in local store.
-constexpr std::uint32_t kTables = 0x1000, kTableBytes = 0x2000;
-constexpr std::uint32_t kTableA = kTables, kTableB = kTableA + kTableBytes, kTableC = kTableB + kTableBytes,
-                        kResults = kTableC + kTableBytes, kStatus = kResults + kTableBytes;
+// Where what lies in local store: code, the tables of operands, then for each code its results and the
+// status.
+constexpr std::uint32_t kTables = 0x2000, kTableBytes = 0xE00, kResults = kTables + 3 * kTableBytes,
+                        kResultBytes = kTableBytes + 16;
+constexpr std::size_t kCodesAtATime = 48;
+static_assert(kResults + kCodesAtATime * kResultBytes <= kLocalStoreBytes);
+
+constexpr std::uint32_t results_of(std::size_t code) {
+  return kResults + static_cast<std::uint32_t>(code) * kResultBytes;
+}
 
 std::vector<Operands> make_operand_sets() {
   std::vector<Operands> sets;
@@ -83,60 +92,84 @@ std::string text_of(const qword& value) {
   return text;
 }
 
-SimulatedRegisters::SimulatedRegisters() {
+namespace {
+
+// Registers besides those of operands.
+constexpr std::uint32_t kIndex = 2, kBaseA = 20, kBaseB = 21, kBaseC = 22, kBaseResults = 23, kEnd = 24,
+                        kDone = 25, kStatus = 27;
+
+std::int32_t word_of(std::uint32_t value) {
+  return static_cast<std::int32_t>(value);
+}
+
+/// A loop over the operand sets.
+void append_loop(Code& code, const Code& instructions, std::uint32_t results) {
+  code.add("il", {.rt = kIndex}).add("fscrwr", {.ra = kIndex});
+  code.add("ila", {.rt = kBaseResults, .immediate = word_of(results)});
+  const std::uint32_t loop = code.here();
+  code.add("lqx", {.rt = kRa, .ra = kBaseA, .rb = kIndex});
+  code.add("lqx", {.rt = kRb, .ra = kBaseB, .rb = kIndex});
+  code.add("lqx", {.rt = kRc, .ra = kBaseC, .rb = kIndex});
+  code.add("ori", {.rt = kRt, .ra = kRc});
+  code.append(instructions);
+  code.add("stqx", {.rt = kRt, .ra = kBaseResults, .rb = kIndex});
+  code.add("ai", {.rt = kIndex, .ra = kIndex, .immediate = 16});
+  code.add("ceq", {.rt = kDone, .ra = kIndex, .rb = kEnd});
+  code.add("brz", {.rt = kDone, .immediate = (word_of(loop) - word_of(code.here())) / 4});
+  code.add("fscrrd", {.rt = kStatus});
+  code.add("ila", {.rt = kBaseResults, .immediate = word_of(results + kTableBytes)});
+  code.add("stqd", {.rt = kStatus, .ra = kBaseResults});
+}
+
+Code program_of(std::span<const Code> codes) {
+  const auto& sets = operand_sets();
+  REQUIRE(16 * sets.size() <= kTableBytes);
+  Code code;
+  code.add("ila", {.rt = kBaseA, .immediate = word_of(kTables)});
+  code.add("ila", {.rt = kBaseB, .immediate = word_of(kTables + kTableBytes)});
+  code.add("ila", {.rt = kBaseC, .immediate = word_of(kTables + 2 * kTableBytes)});
+  code.add("ila", {.rt = kEnd, .immediate = static_cast<std::int32_t>(16 * sets.size())});
+  for (std::size_t i = 0; i < codes.size(); ++i)
+    append_loop(code, codes[i], results_of(i));
+  code.exit();
+  REQUIRE(code.here() <= kTables);
+  std::uint32_t table = kTables;
+  for (const auto operand : {&Operands::a, &Operands::b, &Operands::c}) {
+    code.fill_to(table);
+    for (const Operands& each : sets)
+      append(code, each.*operand);
+    table += kTableBytes;
+  }
+  return code;
+}
+
+} // namespace
+
+std::vector<Results> execute_simulated(const std::vector<Code>& codes) {
   MachineConfig config;
   config.backend = "cell_sim";
   config.spes = 1;
   config.emulation.schedule = Schedule::lockstep;
-  config.emulation.cycle_limit = 10'000'000;
-  machine_ = cell_emu::make_machine(config);
-}
-
-Results SimulatedRegisters::execute(const Code& instructions) {
-  const auto& sets = operand_sets();
-  REQUIRE(16 * sets.size() <= kTableBytes);
-  constexpr std::uint32_t kIndex = 2, kBases = 20, kEnd = 24, kDone = 25, kZero = 26, kRead = 27;
-  Code code;
-  code.add("il", {.rt = kZero}).add("fscrwr", {.ra = kZero}).add("il", {.rt = kIndex});
-  const std::uint32_t bases[] = {kTableA, kTableB, kTableC, kResults};
-  for (std::uint32_t i = 0; i < 4; ++i)
-    code.add("ila", {.rt = kBases + i, .immediate = static_cast<std::int32_t>(bases[i])});
-  code.add("ila", {.rt = kEnd, .immediate = static_cast<std::int32_t>(16 * sets.size())});
-  const std::uint32_t loop = code.here();
-  code.add("lqx", {.rt = kRa, .ra = kBases, .rb = kIndex});
-  code.add("lqx", {.rt = kRb, .ra = kBases + 1, .rb = kIndex});
-  code.add("lqx", {.rt = kRc, .ra = kBases + 2, .rb = kIndex});
-  code.add("ori", {.rt = kRt, .ra = kRc});
-  code.append(instructions);
-  code.add("stqx", {.rt = kRt, .ra = kBases + 3, .rb = kIndex});
-  code.add("ai", {.rt = kIndex, .ra = kIndex, .immediate = 16});
-  code.add("ceq", {.rt = kDone, .ra = kIndex, .rb = kEnd});
-  const auto back = (static_cast<std::int32_t>(loop) - static_cast<std::int32_t>(code.here())) / 4;
-  code.add("brz", {.rt = kDone, .immediate = back});
-  code.add("fscrrd", {.rt = kRead});
-  code.add("stqa", {.rt = kRead, .immediate = static_cast<std::int32_t>(kStatus / 4)});
-  code.exit();
-  REQUIRE(code.here() <= kTables);
-  for (const auto& [base, operand] :
-       {std::pair{kTableA, &Operands::a}, {kTableB, &Operands::b}, {kTableC, &Operands::c}}) {
-    code.fill_to(base);
-    for (const Operands& each : sets)
-      append(code, each.*operand);
+  config.emulation.cycle_limit = 100'000'000;
+  const auto machine = cell_emu::make_machine(config);
+  std::vector<Results> all;
+  for (std::size_t first = 0; first < codes.size(); first += kCodesAtATime) {
+    const auto some = std::span(codes).subspan(first, std::min(kCodesAtATime, codes.size() - first));
+    const Bytes elf = program_of(some).elf();
+    SpeProgram program("instructions");
+    program.add_image("elf", elf);
+    machine->start(0, program, 0);
+    REQUIRE(machine->wait(0).code == 0);
+    const auto* const local_store =
+        reinterpret_cast<const std::uint8_t*>(static_cast<std::uintptr_t>(machine->addresses(0).local_store));
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      Results& results = all.emplace_back();
+      for (std::uint32_t set = 0; set < operand_sets().size(); ++set)
+        results.rt.push_back(at(local_store + results_of(i) + 16 * set));
+      results.status = at(local_store + results_of(i) + kTableBytes);
+    }
   }
-  code.fill_to(kStatus + 16);
-
-  const Bytes elf = code.elf();
-  SpeProgram program("instructions");
-  program.add_image("elf", elf);
-  machine_->start(0, program, 0);
-  REQUIRE(machine_->wait(0).code == 0);
-  const auto* const local_store =
-      reinterpret_cast<const std::uint8_t*>(static_cast<std::uintptr_t>(machine_->addresses(0).local_store));
-  Results results;
-  for (std::uint32_t i = 0; i < sets.size(); ++i)
-    results.rt.push_back(at(local_store + kResults + 16 * i));
-  results.status = at(local_store + kStatus);
-  return results;
+  return all;
 }
 
 } // namespace celltrace::test

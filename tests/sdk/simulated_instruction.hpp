@@ -2,11 +2,10 @@
 // tables, executes the instruction and stores what it gives.
 #pragma once
 
-#include "celltrace/spe/machine.hpp"
 #include "celltrace/spe/spu_vectors.hpp"
 #include "simulator/machine_code.hpp"
 
-#include <memory>
+#include <string>
 #include <vector>
 
 namespace celltrace::test {
@@ -27,17 +26,8 @@ struct Results {
   qword status;          ///< the FPSCR, which was 0 before the first set
 };
 
-/// A simulated SPU. Thread safety: none.
-class SimulatedRegisters {
-public:
-  SimulatedRegisters();
-
-  /// Executes the instructions for each of operand_sets().
-  Results execute(const Code& instructions);
-
-private:
-  std::unique_ptr<Machine> machine_;
-};
+/// Each of the codes, executed for each of operand_sets().
+std::vector<Results> execute_simulated(const std::vector<Code>& codes);
 
 /// As words in hexadecimal.
 std::string text_of(const qword& value);

@@ -204,7 +204,7 @@ std::vector<int> immediates_of(const isa::OpcodeInfo& info) {
     return {0, 1, -1, 15, 127, 128, 255, 511, -512, -128};
   case Format::ri16:
     if (info.syntax == isa::Syntax::rt_i16) return {0, 1, -1, 32767, -32768, 0x1234};
-    return {0, 1, 0x8000, 0xFFFF, 0x1234, 0xAAAA};
+    return {0, 1, 0x8000, 0xFFFF, 0x1234, 0xAAAA, -3};
   default:
     return {0, 1, 0x3FFFF, 0x2AAAA};
   }
@@ -216,37 +216,42 @@ std::int32_t field_of(const isa::OpcodeInfo& info, int immediate) {
   return immediate;
 }
 
-void check(SimulatedRegisters& spu, const Row& row, const isa::OpcodeInfo& info, int immediate) {
-  Code code;
-  code.add(row.mnemonic,
-           {.rt = kRt, .ra = kRa, .rb = kRb, .rc = kRc, .immediate = field_of(info, immediate)});
-  const Results expected = spu.execute(code);
+struct Call {
+  const Row* row;
+  int immediate;
+};
+
+void check(const Call& call, const Results& expected) {
   si_fscrwr(qword{});
   unsigned differing = 0;
   for (std::size_t i = 0; i < operand_sets().size(); ++i) {
     const Operands& operands = operand_sets()[i];
-    const qword result = row.function(operands, immediate);
+    const qword result = call.row->function(operands, call.immediate);
     if (result.quadword() == expected.rt[i].quadword()) continue;
     ++differing;
     UNSCOPED_INFO(text_of(operands.a) << " | " << text_of(operands.b) << " | " << text_of(operands.c)
                                       << " -> " << text_of(result) << " and not " << text_of(expected.rt[i]));
   }
-  INFO("si_" << row.mnemonic << ", immediate " << immediate);
+  INFO("si_" << call.row->mnemonic << ", immediate " << call.immediate);
   CHECK(differing == 0);
   CHECK(text_of(si_fscrrd()) == text_of(expected.status));
 }
 
 TEST_CASE("every si_ function computes what the simulated SPU does") {
-  SimulatedRegisters spu;
+  std::vector<Call> calls;
+  std::vector<Code> codes;
   for (const Row& row : kRows) {
     const isa::OpcodeInfo& info = info_of(row.mnemonic);
-    if (!row.has_immediate) {
-      check(spu, row, info, 0);
-      continue;
+    for (const int immediate : row.has_immediate ? immediates_of(info) : std::vector<int>{0}) {
+      calls.push_back({&row, immediate});
+      codes.push_back(
+          Code().add(row.mnemonic,
+                     {.rt = kRt, .ra = kRa, .rb = kRb, .rc = kRc, .immediate = field_of(info, immediate)}));
     }
-    for (const int immediate : immediates_of(info))
-      check(spu, row, info, immediate);
   }
+  const std::vector<Results> expected = execute_simulated(codes);
+  for (std::size_t i = 0; i < calls.size(); ++i)
+    check(calls[i], expected[i]);
 }
 
 TEST_CASE("every instruction that computes has its si_ function") {

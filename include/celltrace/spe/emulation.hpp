@@ -74,10 +74,10 @@ struct EmulationConfig {
   double seconds_limit = 0;
   /// Objects that are registered from the start; see Machine::register_object(). None may overlap another.
   std::vector<MemoryObject> objects;
-  /// `cell_emu`: bytes that are left free behind each allocation of a program, 0 to 128; the arena grows by
-  /// as many, into what is kept for the stack. Stores into them, and right behind the last allocation, break
-  /// Rule::allocation_overrun. 0: no store is looked for.
-  std::uint32_t red_zone = 0;
+  /// `cell_emu`: 128 bytes are left free behind each allocation of a program; the arena grows by as many,
+  /// into what is kept for the stack, while there is room. Stores into them, and right behind the last
+  /// allocation, break Rule::allocation_overrun.
+  bool red_zones = false;
   /// Lockstep: where the trace goes, as Chrome trace JSON; it must outlive the machine. Null: nowhere.
   std::ostream* trace = nullptr;
   /// `cell_emu`: takes what the kernels record; it must outlive the machine. Null: nothing is recorded.
