@@ -10,6 +10,7 @@ MachineConfig emulated(unsigned spes, Schedule schedule) {
   config.backend = "cell_emu";
   config.spes = spes;
   config.emulation.schedule = schedule;
+  config.emulation.red_zones = true;
   return config;
 }
 
@@ -25,6 +26,13 @@ void wait_for(Machine& machine, unsigned spe, EmulatedRun& run) {
   } catch (const SpeError& error) {
     run.errors.back() = error.what();
   }
+}
+
+/// The error, without the deadlock that the text has told already.
+std::string without_told(const std::string& error, const std::string& text) {
+  const std::size_t deadlock = error.find("deadlock: ");
+  if (deadlock == std::string::npos || text.find(error.substr(deadlock)) == std::string::npos) return error;
+  return error.substr(0, deadlock) + "deadlock";
 }
 
 } // namespace
@@ -49,9 +57,13 @@ std::string EmulatedRun::report() const {
   std::string text;
   for (const Diagnostic& each : diagnostics)
     text += each.text + "\n";
-  if (!ppe_error.empty()) text += "PPE: " + ppe_error + "\n";
+  const auto add = [&](const std::string& who, const std::string& error) {
+    if (!error.empty() && text.find(error) == std::string::npos)
+      text += who + without_told(error, text) + "\n";
+  };
+  add("PPE: ", ppe_error);
   for (const std::string& error : errors)
-    if (!error.empty() && text.find(error) == std::string::npos) text += error + "\n";
+    add("", error);
   return text;
 }
 

@@ -84,6 +84,9 @@ public:
                      std::uint32_t tag) override;
   std::uint32_t proxy_tag_status(unsigned spe, std::uint32_t mask, TagUpdate request) override;
 
+  void register_object(const MemoryObject& object) override { bounds_.objects.add(object); }
+  void forget_object(ea_t begin) override { bounds_.objects.remove(begin); }
+
   std::vector<Diagnostic> diagnostics() const override { return log_.all(); }
   SpeAddresses addresses(unsigned spe) const override {
     spes_.at(spe);
@@ -116,6 +119,7 @@ private:
   std::unique_ptr<Trace> trace_;
   DiagnosticLog log_;
   Flights flights_;
+  Bounds bounds_;
   std::vector<DmaTiming> timing_; ///< one, or in the free schedule one for every SPE
   std::vector<ProblemState*> registers_;
   Bus bus_;
@@ -135,8 +139,8 @@ EmulatedCell::EmulatedCell(const MachineConfig& config)
           config_.emulation, trace_ == nullptr
                                  ? DiagnosticLog::Listener{}
                                  : [this](const Diagnostic& diagnostic) { trace_->diagnostic(diagnostic); }),
-      flights_(config_.spes),
-      bus_(map_, registers_), mfc_context_{bus_,         flights_,    log_, config_.emulation,
+      flights_(config_.spes), bounds_(config_.spes, config_.emulation.objects),
+      bus_(map_, registers_), mfc_context_{bus_,         flights_,    bounds_, log_, config_.emulation,
                                            trace_.get(), byte_order()},
       started_(config_.spes) {
   scheduler_ = make_scheduler();
@@ -196,7 +200,7 @@ EmulatedCell::Run EmulatedCell::host_code(unsigned spe, const SpeProgram& progra
     Spu spu(runs, {mfc_context_, *scheduler_}, arena(runs.id, range));
     execute(
         runs, spu, [&] { entry(&spu, argument); },
-        [&] { bus_.hold_local_store(runs.id, [&] { guard.check(runs.id, log_); }); });
+        [&] { bus_.hold_local_store(runs.id, [&] { guard.check(runs.id, runs.mfc.arena_end(), log_); }); });
   };
 }
 

@@ -3,9 +3,11 @@
 #include "backends/cell_emu/channels.hpp"
 #include "backends/cell_emu/local_store_watch.hpp"
 #include "backends/cell_emu/mfc_rules.hpp"
+#include "celltrace/spe/spu.hpp"
 
 #include <algorithm>
 #include <bit>
+#include <cinttypes>
 #include <cstdio>
 #include <cstring>
 
@@ -23,7 +25,31 @@ std::string to_hex(std::uint32_t value) {
 /// Of a rule that is not to stop the program: does the command that broke it still mean something?
 constexpr bool can_be_carried_out(Rule rule) {
   return rule == Rule::none || rule == Rule::zero_size || rule == Rule::line_alignment ||
-         rule == Rule::program_overwritten;
+         rule == Rule::program_overwritten || rule == Rule::allocation_bounds || rule == Rule::object_bounds;
+}
+
+std::string describe(const Allocations::Allocation& allocation) {
+  std::string text =
+      std::to_string(allocation.end - allocation.begin) + " bytes at LS 0x" + to_hex(allocation.begin);
+  if (const std::string site = to_text(allocation.site); !site.empty()) text += ", made at " + site;
+  return text;
+}
+
+/// Of local store, that a command uses: of a list command the list.
+std::uint32_t storage_bytes(const MfcCommand& command) {
+  switch (kind_of(command.opcode)) {
+  case CommandKind::get:
+  case CommandKind::put:
+  case CommandKind::send_signal:
+    return command.size;
+  case CommandKind::lock_line:
+    return kLineBytes;
+  case CommandKind::barrier:
+  case CommandKind::cache_control:
+  case CommandKind::unknown:
+    break;
+  }
+  return 0;
 }
 
 const char* name_of(EaKind kind) {
@@ -57,7 +83,9 @@ Mfc::Mfc(unsigned spe, const MfcContext& context, DmaTiming& timing, ProblemStat
 
 void Mfc::begin_program(ArenaRange arena) {
   arena_ = arena;
+  plain_arena_end_ = arena.end;
   bus_.map().local_stores().take_overrun(spe_);
+  allocations().end();
   host_memory_.forget();
   tag_groups_ = {};
   used_tags_ = waited_tags_ = stalled_tags_ = 0;
@@ -90,6 +118,8 @@ void Mfc::finish(Cycle now) {
   };
   Diagnostic overrun;
   if (note_overrun(overrun, {}, now) && overrun.action == Action::stop) first = overrun;
+  while (note_allocation_overrun(overrun, {}, now))
+    if (overrun.action == Action::stop && !first) first = overrun;
   for (const Flight& flight : context_.flights.of(spe_)) {
     if (flight.proxy) continue;
     Diagnostic diagnostic;
@@ -130,13 +160,14 @@ void Mfc::finish(Cycle now) {
 }
 
 ForeignStoreWatch::Used Mfc::local_store_in_use() const {
-  const std::uint64_t used =
-      std::min<std::uint64_t>(counters_.local_store_peak.value(), arena_.end - arena_.begin);
+  const std::uint64_t used = std::min<std::uint64_t>(counters_.local_store_peak.value() + red_zone_bytes(),
+                                                     arena_.end - arena_.begin);
   return {bus_.map().local_store(spe_) + arena_.begin, static_cast<std::uint32_t>(used),
           bus_.local_store_writes(spe_)};
 }
 
 void Mfc::abandon() {
+  allocations().end();
   context_.flights.remove_if(spe_, [&](const Flight& flight) {
     if (!flight.proxy) permit_access(local_store(flight.transfer), flight.bytes());
     return !flight.proxy;
@@ -169,8 +200,8 @@ Diagnostic Mfc::about(const Entry& entry, Rule rule, Cycle now) const {
 }
 
 void Mfc::report(const Entry& entry, Rule rule, Cycle now, const std::string& before) const {
-  context_.log.report(about(entry, rule, now),
-                      before + describe(entry.command) + ": " + std::string(text_of(rule)));
+  context_.log.report(about(entry, rule, now), before + describe(entry.command) + ": " +
+                                                   std::string(text_of(rule)) + bounds_of(rule, entry));
 }
 
 void Mfc::report_channel(Channel channel, std::uint32_t value, Rule rule, CallSite site, Cycle now) const {
@@ -189,6 +220,100 @@ bool Mfc::note_overrun(Diagnostic& diagnostic, CallSite site, Cycle now) {
   const std::string where = *at < 0 ? std::to_string(-*at) + " bytes in front of LS 0"
                                     : "near LS 0x" + to_hex(static_cast<std::uint32_t>(*at));
   return context_.log.note(diagnostic, where + ": " + std::string(text_of(diagnostic.rule)));
+}
+
+// --- allocations ---
+
+void Mfc::begin_allocations(const std::uint8_t* from) {
+  std::uint8_t* const local_store = bus_.map().local_store(spe_);
+  allocations().begin(local_store, static_cast<std::uint32_t>(from - local_store), context_.config.red_zones);
+}
+
+void Mfc::allocated(const std::uint8_t* begin, std::uint32_t bytes, std::uint32_t alignment, CallSite site,
+                    ArenaState& arena) {
+  if (!allocations().known()) return;
+  const auto lsa = static_cast<std::uint32_t>(begin - bus_.map().local_store(spe_));
+  allocations().add(lsa, bytes, alignment, plain_arena_end_, site);
+  fit_arena(arena);
+}
+
+void Mfc::release(const std::uint8_t* from, CallSite site, Cycle now, ArenaState& arena) {
+  if (allocations().known()) check_stores(site, now);
+  allocations().release(static_cast<std::uint32_t>(from - bus_.map().local_store(spe_)));
+  fit_arena(arena);
+}
+
+void Mfc::fit_arena(ArenaState& arena) {
+  arena_.end = std::min(plain_arena_end_ + allocations().shift(), kLocalStoreBytes);
+  std::uint8_t* const local_store = bus_.map().local_store(spe_);
+  arena.next = local_store + std::min(allocations().next(), arena_.end);
+  arena.end = local_store + arena_.end;
+}
+
+bool Mfc::note_allocation_overrun(Diagnostic& diagnostic, CallSite site, Cycle now) {
+  const auto overrun = allocations().take_overrun();
+  if (!overrun) return false;
+  diagnostic = about({}, Rule::allocation_overrun, now);
+  diagnostic.site = site;
+  diagnostic.lsa = overrun->lsa;
+  diagnostic.other_site = overrun->allocation.site;
+  return context_.log.note(diagnostic, "near LS 0x" + to_hex(overrun->lsa) + ": " +
+                                           std::string(text_of(diagnostic.rule)) + " of " +
+                                           describe(overrun->allocation));
+}
+
+/// What the program has stored past its local store or its allocations since the last look.
+void Mfc::check_stores(CallSite site, Cycle now) {
+  Diagnostic overrun;
+  if (!bus_.map().local_stores().is_edge_intact(spe_) && note_overrun(overrun, site, now) &&
+      overrun.action == Action::stop)
+    throw RuleViolation(overrun);
+  if (note_allocation_overrun(overrun, site, now) && overrun.action == Action::stop)
+    throw RuleViolation(overrun);
+}
+
+/// The local store of which a command leaves an allocation: of the program that issued it, or of another
+/// SPE's. Of its own SPE's allocations a proxy command knows nothing.
+std::optional<Mfc::LocalRange> Mfc::unallocated(const MfcCommand& command, bool proxy) const {
+  const std::uint32_t size = storage_bytes(command);
+  if (size == 0) return std::nullopt;
+  const std::uint32_t lsa = is_list(command.opcode) ? static_cast<std::uint32_t>(command.ea) : command.lsa;
+  if (!proxy && allocations().is_left_by(lsa, size)) return LocalRange{spe_, lsa};
+  if (is_list(command.opcode)) return std::nullopt;
+  const AddressMap::Place place = bus_.map().locate(command.ea, size);
+  if (place.kind != EaKind::local_store || (place.spe == spe_ && !proxy)) return std::nullopt;
+  const auto there = static_cast<std::uint32_t>(command.ea - bus_.map().addresses(place.spe).local_store);
+  if (!context_.bounds.allocations[place.spe].is_left_by(there, size)) return std::nullopt;
+  return LocalRange{place.spe, there};
+}
+
+/// Lock lines are whole lines, whatever lies in them.
+std::optional<MemoryObject> Mfc::left_object(const MfcCommand& command) const {
+  const CommandKind kind = kind_of(command.opcode);
+  if ((kind != CommandKind::get && kind != CommandKind::put) || is_list(command.opcode) || command.size == 0)
+    return std::nullopt;
+  return context_.bounds.objects.left_by(command.ea, command.size);
+}
+
+Rule Mfc::broken_bounds_rule(const MfcCommand& command, bool proxy) const {
+  if (unallocated(command, proxy)) return Rule::allocation_bounds;
+  return left_object(command) ? Rule::object_bounds : Rule::none;
+}
+
+std::string Mfc::bounds_of(Rule rule, const Entry& entry) const {
+  if (rule == Rule::object_bounds) {
+    const auto object = left_object(entry.command);
+    if (!object) return {};
+    char text[80];
+    std::snprintf(text, sizeof text, ": %" PRIu64 " bytes at EA 0x%" PRIx64, object->bytes, object->ea);
+    return (object->name.empty() ? "" : ", '" + object->name + "'") + std::string(text);
+  }
+  if (rule != Rule::allocation_bounds) return {};
+  const auto range = unallocated(entry.command, entry.proxy);
+  if (!range) return {};
+  const auto before = context_.bounds.allocations[range->spe].before(range->lsa);
+  const std::string whose = range->spe == spe_ ? "" : " of SPE " + std::to_string(range->spe);
+  return before ? "; the last one before it" + whose + " is " + describe(*before) : "";
 }
 
 /// A get may only fill what is the program's own.
@@ -223,6 +348,7 @@ bool Mfc::check(const MfcCommand& command, std::uint64_t number, CallSite site, 
       rule = broken_transfer_rule(command, target_of(command, command.size, proxy));
   }
   if (rule == Rule::none && !is_list(command.opcode)) rule = broken_arena_rule(command);
+  if (rule == Rule::none) rule = broken_bounds_rule(command, proxy);
   if (rule == Rule::none && (kind == CommandKind::get || kind == CommandKind::put) && command.size == 0)
     rule = Rule::zero_size;
   if (rule != Rule::none) report({command, number, site, proxy, now}, rule, now);
@@ -230,10 +356,7 @@ bool Mfc::check(const MfcCommand& command, std::uint64_t number, CallSite site, 
 }
 
 void Mfc::issue(const MfcCommand& given, CallSite site, Cycle now) {
-  Diagnostic overrun;
-  if (!bus_.map().local_stores().is_edge_intact(spe_) && note_overrun(overrun, site, now) &&
-      overrun.action == Action::stop)
-    throw RuleViolation(overrun);
+  check_stores(site, now);
   ++commands_;
   if (!check(given, commands_, site, now, false)) return;
   MfcCommand command = given;
@@ -524,6 +647,7 @@ void Mfc::begin_part(Entry& entry, Cycle now) {
     const MfcCommand part = element_command(entry.command, element, entry.next_lsa);
     Rule rule = broken_element_rule(part, target_of(part, part.size, false));
     if (rule == Rule::none) rule = broken_arena_rule(part);
+    if (rule == Rule::none) rule = broken_bounds_rule(part, false);
     if (rule != Rule::none)
       report({part, entry.number, entry.site, false, now}, rule, now,
              "element " + std::to_string(entry.next_element) + " of " + describe(entry.command) + ": ");

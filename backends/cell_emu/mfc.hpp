@@ -11,6 +11,7 @@
 // observed that it is complete.
 #pragma once
 
+#include "backends/cell_emu/bounds.hpp"
 #include "backends/cell_emu/bus.hpp"
 #include "backends/cell_emu/counters.hpp"
 #include "backends/cell_emu/cycle.hpp"
@@ -30,12 +31,17 @@
 #include <string>
 #include <vector>
 
+namespace celltrace {
+struct ArenaState;
+}
+
 namespace celltrace::cell_emu {
 
 /// What the MFCs of a machine share.
 struct MfcContext {
   Bus& bus;
   Flights& flights;
+  Bounds& bounds;
   DiagnosticLog& log;
   const EmulationConfig& config;
   Trace* trace; ///< null: no trace is written
@@ -69,6 +75,16 @@ public:
   void finish(Cycle now);
   /// The program was broken off: forgets its commands.
   void abandon();
+
+  /// A program that says what it allocates has begun; a release() is checked for stores past what it frees.
+  void begin_allocations(const std::uint8_t* from);
+  /// Changes the arena's end and where the next allocation begins, as red zones ask for it.
+  void allocated(const std::uint8_t* begin, std::uint32_t bytes, std::uint32_t alignment, CallSite site,
+                 ArenaState& arena);
+  void release(const std::uint8_t* from, CallSite site, Cycle now, ArenaState& arena);
+  std::uint32_t arena_end() const { return arena_.end; }
+  /// Bytes that red zones have added to the arena.
+  std::uint32_t red_zone_bytes() const { return arena_.end - plain_arena_end_; }
 
   /// The part of the arena that the program has used.
   ForeignStoreWatch::Used local_store_in_use() const;
@@ -171,10 +187,23 @@ private:
   Diagnostic about(const Entry& entry, Rule rule, Cycle now) const;
   /// Reports a rule that a command breaks; `before` comes before the command in the text.
   void report(const Entry& entry, Rule rule, Cycle now, const std::string& before = {}) const;
+  Allocations& allocations() const { return context_.bounds.allocations[spe_]; }
   void report_channel(Channel channel, std::uint32_t value, Rule rule, CallSite site, Cycle now) const;
   /// A store past the local store that is found by a command, or at the end. False if it is not reported.
   bool note_overrun(Diagnostic& diagnostic, CallSite site, Cycle now);
+  /// The same for one past an allocation.
+  bool note_allocation_overrun(Diagnostic& diagnostic, CallSite site, Cycle now);
+  void check_stores(CallSite site, Cycle now);
   Rule broken_arena_rule(const MfcCommand& transfer) const;
+  Rule broken_bounds_rule(const MfcCommand& command, bool proxy) const;
+  /// What was to be kept, for a rule that broken_bounds_rule() has returned.
+  std::string bounds_of(Rule rule, const Entry& entry) const;
+  struct LocalRange {
+    unsigned spe;
+    std::uint32_t lsa;
+  };
+  std::optional<LocalRange> unallocated(const MfcCommand& command, bool proxy) const;
+  std::optional<MemoryObject> left_object(const MfcCommand& command) const;
   /// What a command of the SPU, or of the PPE, finds at its effective address.
   EaKind target_of(const MfcCommand& command, std::uint32_t size, bool proxy);
   /// False if the command cannot be carried out, though whoever broke the rule goes on.
@@ -228,7 +257,10 @@ private:
 
   const unsigned spe_;
   const MfcContext context_;
+  void fit_arena(ArenaState& arena);
+
   ArenaRange arena_{0, kLocalStoreBytes};
+  std::uint32_t plain_arena_end_ = kLocalStoreBytes; ///< without red zones
   Bus& bus_;
   DmaTiming& timing_;
   ProblemState& problem_state_;

@@ -19,12 +19,12 @@ public:
     fill_with_poison(local_store_ + arena_.end, kLocalStoreBytes - arena_.end);
   }
 
-  /// Reports the first bytes that were changed.
-  void check(unsigned spe, DiagnosticLog& log) const {
+  /// Reports the first bytes that were changed. The arena may have grown to `arena_end`.
+  void check(unsigned spe, std::uint32_t arena_end, DiagnosticLog& log) const {
     const bool code = is_poison(local_store_, arena_.begin);
-    const bool stack = is_poison(local_store_ + arena_.end, kLocalStoreBytes - arena_.end);
+    const bool stack = is_poison(local_store_ + arena_end, kLocalStoreBytes - arena_end);
     if (code && stack) return;
-    std::uint32_t lsa = code ? arena_.end : 0;
+    std::uint32_t lsa = code ? arena_end : 0;
     while (is_poison(local_store_ + lsa, 8))
       lsa += 8;
     Diagnostic diagnostic;

@@ -12,11 +12,16 @@ Spu::Spu(Spe& spe, const SpuContext& context, const ArenaState& arena)
     : SpuCore(spe, context), arena_(arena) {
   take_operation_counts();
   initialise_base();
+  mfc_.begin_allocations(arena_.next);
   stack_local() = this;
 }
 
 Spu::~Spu() {
   stack_local() = nullptr;
+}
+
+Spu* Spu::running_or_null() {
+  return static_cast<Spu*>(stack_local());
 }
 
 Spu& Spu::running() {
@@ -44,7 +49,8 @@ SpeAddresses Spu::addresses(std::uint32_t spe) const {
 
 /// Every change of the fill is preceded by a call of arena(), so the peak is seen here.
 ArenaState& Spu::arena() {
-  counters_.local_store_peak.raise_to(static_cast<std::uint64_t>(arena_.next - arena_.begin));
+  counters_.local_store_peak.raise_to(static_cast<std::uint64_t>(arena_.next - arena_.begin) -
+                                      mfc_.red_zone_bytes());
   return arena_;
 }
 
@@ -111,6 +117,15 @@ void Spu::charge(std::uint32_t channel_reads, std::uint32_t channel_writes) {
 
 // --- local store ---
 
+void Spu::allocated(void* begin, std::uint32_t bytes, std::uint32_t alignment, CallSite site) {
+  mfc_.allocated(static_cast<const std::uint8_t*>(begin), bytes, alignment, site, arena_);
+}
+
+void Spu::release(std::uint8_t* marked, CallSite site) {
+  arena(); // for the peak
+  mfc_.release(marked, site, now(), arena_);
+}
+
 std::uint32_t Spu::local_address(const void* pointer) const {
   const std::uintptr_t base = reinterpret_cast<std::uintptr_t>(context_.mfc.bus.map().local_store(id()));
   const std::uintptr_t offset = reinterpret_cast<std::uintptr_t>(pointer) - base;
@@ -133,6 +148,13 @@ void Spu::issue(const MfcCommand& command) {
 
 void Spu::enable_interrupts(std::function<void(Spu&)> handler) {
   interrupt_handler_ = std::move(handler);
+  interrupts_enabled_ = true;
+}
+
+void Spu::enable_interrupts() {
+  if (!interrupt_handler_)
+    throw SpeError("SPE " + std::to_string(id()) +
+                   ": interrupts are enabled, but no handler was given to enable_interrupts()");
   interrupts_enabled_ = true;
 }
 

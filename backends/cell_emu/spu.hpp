@@ -4,6 +4,7 @@
 
 #include "backends/cell_emu/counting_simd.hpp"
 #include "backends/cell_emu/spu_core.hpp"
+#include "celltrace/spe/quadword.hpp"
 #include "celltrace/spe/simd_host.hpp"
 #include "celltrace/spe/spu.hpp"
 
@@ -30,6 +31,17 @@ public:
   /// That of the program which runs here: for code that has no Spu at hand. Throws SpeError if none does.
   static Spu& running();
 
+  // Its allocations are known, so that commands and stores that leave them are found.
+
+  template <class T>
+  T* allocate(std::uint32_t count = 1, std::uint32_t alignment = kLineBytes,
+              CallSite site = CallSite::here()) {
+    T* const objects = SpuBase::allocate<T>(count, alignment, site);
+    allocated(objects, static_cast<std::uint32_t>(count * sizeof(T)), alignment, site);
+    return objects;
+  }
+  void release(std::uint8_t* marked, CallSite site = CallSite::here());
+
   using SpuCore::id;
   std::uint32_t count() const { return context_.mfc.bus.map().spes(); }
   /// Throws SpeError if there is no such SPE.
@@ -37,6 +49,8 @@ public:
   ArenaState& arena();
   [[noreturn]] void halt(HaltCode code, CallSite site = CallSite::here());
   [[noreturn]] void halt_at(HaltCode code, CallSite site) { halt(code, site); }
+  /// The condition of heq and its like held.
+  [[noreturn]] void halt_by_instruction() { fail(Rule::halted, std::string(text_of(Rule::halted))); }
   template <std::uint32_t code> void stop() { stop(code); }
 
   template <Channel c> std::uint32_t read_channel() {
@@ -62,6 +76,11 @@ public:
   }
 
   // --- what only the emulator has ---
+
+  /// The running program's; null where none runs.
+  static Spu* running_or_null();
+  /// The floating-point status that the SDK's intrinsics keep.
+  isa::Quadword& floating_status() { return floating_status_; }
 
   [[gnu::always_inline]] void compute(const ScalarWork& work) {
     cell_emu::count(work);
@@ -96,6 +115,8 @@ public:
   /// SPU interrupts: while they are enabled and the event status has a count, `handler` runs before the next
   /// channel access, with interrupts disabled; it is called again until it has read the event status.
   void enable_interrupts(std::function<void(Spu&)> handler);
+  /// Again, with the handler that was given last; SpeError if none was.
+  void enable_interrupts();
   void disable_interrupts() { interrupts_enabled_ = false; }
   /// bisled: calls `handler` if the event status has a count.
   template <class Handler> void branch_if_event(Handler handler) {
@@ -115,6 +136,7 @@ public:
   void abandon();
 
 private:
+  void allocated(void* begin, std::uint32_t bytes, std::uint32_t alignment, CallSite site);
   void issue(const MfcCommand& command);
   void fetch_module(const CodeModule& module);
   void report_absent_module(const CodeModule& module, CallSite site);
@@ -129,6 +151,7 @@ private:
   std::uint32_t resident_modules_[kMaxModuleRegions] = {}; ///< by region, 0: none
   std::map<const void*, void*> statics_;
   bool in_handler_ = false;
+  isa::Quadword floating_status_{};
   std::function<void(Spu&)> interrupt_handler_;
 };
 

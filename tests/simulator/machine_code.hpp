@@ -58,6 +58,10 @@ public:
     words_.push_back(word);
     return *this;
   }
+  Code& append(const Code& other) {
+    words_.insert(words_.end(), other.words_.begin(), other.words_.end());
+    return *this;
+  }
   /// No-ops up to `address`.
   Code& fill_to(std::uint32_t address) {
     while (here() < address)

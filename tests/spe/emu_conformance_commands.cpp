@@ -40,6 +40,13 @@ Row bad_address(const char* fact, ea_t (*address)(Spu&)) {
                 {"put 128 bytes"});
 }
 
+alignas(128) const std::uint32_t kObject[64] = {};
+
+/// The first line of it.
+void register_object(MachineConfig& config) {
+  config.emulation.objects = {{to_ea(kObject), 128, "object"}};
+}
+
 const Rows kTransfers = {
     kept(Rule::transfer_size, "1, 2, 4 and 8 bytes are transfers, at any multiple of their size",
          [](Spu& spu, Stage& stage) {
@@ -272,6 +279,53 @@ const Rows kTransfers = {
            },
            {"near LS address 1024"})
         .spes(2),
+
+    kept(Rule::allocation_bounds, "a get may fill all of an allocation",
+         [](Spu& spu, Stage& stage) {
+           auto* line = line_of(spu);
+           spu.get(line, to_ea(stage.from), 128, 0);
+           spu.wait_all(1);
+           stage.is(line[31], 32);
+         }),
+    broken(Rule::allocation_bounds, "and not go on behind it",
+           [](Spu& spu, Stage& stage) {
+             auto* line = line_of(spu);
+             stage.next_line();
+             spu.get(line, to_ea(stage.from), 256, 7);
+           },
+           {"get 256 bytes, LS 0x1a080 <- EA 0x", ", tag 7: ", "128 bytes at LS 0x1a080"}),
+    kept(Rule::allocation_overrun, "a program may store into all of an allocation",
+         [](Spu& spu, Stage& stage) {
+           auto* line = line_of(spu);
+           line_of(spu);
+           poke(line + 31, 5);
+           stage.is(line[31], 5);
+         }),
+    broken(Rule::allocation_overrun, "and not behind it",
+           [](Spu& spu, Stage&) {
+             auto* line = line_of(spu);
+             line_of(spu);
+             poke(line + 32, 5);
+           },
+           {"near LS 0x1a100: a store went past an allocation of 128 bytes at LS 0x1a080"}),
+    fact("red zones take nothing from the arena",
+         [](Spu& spu, Stage& stage) {
+           const std::uint32_t lines = spu.available() / 128 - 1;
+           for (std::uint32_t line = 0; line < lines; ++line)
+             line_of(spu);
+           stage.is(spu.available() < 256, true);
+         }),
+    kept(Rule::object_bounds, "a get may read all of a registered object",
+         [](Spu& spu, Stage&) { spu.get(line_of(spu), to_ea(kObject), 128, 0), spu.wait_all(1); })
+        .configured(register_object),
+    broken(Rule::object_bounds, "and not go on behind it",
+           [](Spu& spu, Stage& stage) {
+             auto* lines = spu.allocate<std::uint32_t>(64);
+             stage.next_line();
+             spu.get(lines, to_ea(kObject), 256, 7);
+           },
+           {"get 256 bytes", ", tag 7: ", "'object': 128 bytes at EA 0x"})
+        .configured(register_object),
 };
 
 /// What a mailbox word or a signal looks like on the SPE that sends it.

@@ -20,6 +20,7 @@ template <class Program> std::string violation(Program program) {
   alignas(128) static std::uint32_t memory[4096];
   MachineConfig config = lockstep(1);
   config.code_bytes = 0x18000;
+  config.emulation.red_zones = false; // allocations lie where they do on the SPU
   const EmulatedRun run = emulate(config, program, to_ea(memory));
   // What ends a program is a diagnostic, too.
   REQUIRE(!run.diagnostics.empty());

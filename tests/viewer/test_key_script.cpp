@@ -11,7 +11,7 @@ using namespace celltrace;
 using namespace celltrace::viewer;
 
 TEST_CASE("Scripts are of keys, sizes and the mouse") {
-  KeyScript script({"Left", "q", "Page Up", "800x600", "drag:-5,20", "wheel:-2"});
+  KeyScript script({"Left", "q", "PageUp", "800x600", "drag:-5,20", "wheel:-2"});
   CHECK(script.next()->key.keysym.sym == SDLK_LEFT);
   CHECK(script.next()->key.keysym.sym == SDLK_q);
   const auto page = script.next();

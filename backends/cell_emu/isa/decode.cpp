@@ -19,7 +19,7 @@ constexpr OpcodeInfo kOpcodes[] = {
 #define SPU_OPCODE(name, mnemonic, format, code, unit, syntax, operands)                                     \
   {mnemonic,   Opcode::name,   Format::format,        code,                                                  \
    Unit::unit, Syntax::syntax, operand_set::operands, execute::name},
-#include "backends/cell_emu/isa/opcodes.def"
+#include "celltrace/spe/opcodes.def"
 #undef SPU_OPCODE
 };
 

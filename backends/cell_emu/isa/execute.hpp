@@ -7,7 +7,7 @@ namespace celltrace::isa::execute {
 
 #define SPU_OPCODE(name, mnemonic, format, code, unit, syntax, operands)                                     \
   void name(State& state, const Instruction& i);
-#include "backends/cell_emu/isa/opcodes.def"
+#include "celltrace/spe/opcodes.def"
 #undef SPU_OPCODE
 
 void invalid(State& state, const Instruction& i);

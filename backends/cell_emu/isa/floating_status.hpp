@@ -6,7 +6,7 @@
 //   bits  116:119        single-precision division by zero in slots 0 to 3
 #pragma once
 
-#include "backends/cell_emu/isa/quadword.hpp"
+#include "celltrace/spe/quadword.hpp"
 
 #include <cstdint>
 

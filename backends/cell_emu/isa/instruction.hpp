@@ -3,6 +3,7 @@
 #pragma once
 
 #include "backends/cell_emu/isa/state.hpp"
+#include "celltrace/spe/spu_instructions.hpp"
 
 #include <cstdint>
 #include <span>
@@ -74,13 +75,6 @@ enum class Syntax : std::uint8_t {
   spr_rt,
   rt_channel, ///< the channel's number is in ra
   channel_rt,
-};
-
-/// Named as in assembly, in the order of opcodes.def; with an underscore behind the words of C++.
-enum class Opcode : std::uint8_t {
-#define SPU_OPCODE(name, mnemonic, format, code, unit, syntax, operands) name,
-#include "backends/cell_emu/isa/opcodes.def"
-#undef SPU_OPCODE
 };
 
 struct Instruction;

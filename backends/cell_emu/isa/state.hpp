@@ -1,7 +1,7 @@
 // What instructions work on: the registers and the local store of one SPU, and the world around it.
 #pragma once
 
-#include "backends/cell_emu/isa/quadword.hpp"
+#include "celltrace/spe/quadword.hpp"
 
 #include <cstdint>
 

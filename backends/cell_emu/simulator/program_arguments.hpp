@@ -4,7 +4,7 @@
 // and libspe2's spe_context_run() and elfspe, which fill the registers that it reads.
 #pragma once
 
-#include "backends/cell_emu/isa/quadword.hpp"
+#include "celltrace/spe/quadword.hpp"
 #include "backends/cell_emu/simulator/spu_elf.hpp"
 #include "celltrace/spe/types.hpp"
 

@@ -40,6 +40,8 @@ enum class Rule : unsigned char {
   list_length,
   list_end,
   element_region,
+  allocation_bounds,
+  object_bounds,
   parameters_kept,
   proxy_command,
   proxy_tag_range,
@@ -75,6 +77,7 @@ enum class Rule : unsigned char {
   // local store
   local_store_exhausted,
   local_store_overrun,
+  allocation_overrun,
   foreign_store,
   program_overwritten,
   stack_overflow,

@@ -10,6 +10,8 @@
 #include <iosfwd>
 #include <map>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace celltrace {
 
@@ -46,6 +48,13 @@ struct Faults {
   static constexpr Faults mixed() { return {4.0, 0.002, 20000, 5000, 5000}; }
 };
 
+/// An object in main memory, of which a command that touches it must not leave it.
+struct MemoryObject {
+  ea_t ea = 0;
+  std::uint64_t bytes = 0; ///< at least 1
+  std::string name;        ///< for diagnostics; may be empty
+};
+
 /// How to run a machine. make_machine() throws InputError for values out of the ranges that are stated here
 /// and in timing.hpp, for what is no number, and for enumerators that do not exist.
 struct EmulationConfig {
@@ -63,6 +72,12 @@ struct EmulationConfig {
   std::uint64_t cycle_limit = 0;
   /// The same for seconds of the host, 0 to 1e9. They pass for all programs at once, also while others run.
   double seconds_limit = 0;
+  /// Objects that are registered from the start; see Machine::register_object(). None may overlap another.
+  std::vector<MemoryObject> objects;
+  /// `cell_emu`: 128 bytes are left free behind each allocation of a program; the arena grows by as many,
+  /// into what is kept for the stack, while there is room. Stores into them, and right behind the last
+  /// allocation, break Rule::allocation_overrun.
+  bool red_zones = false;
   /// Lockstep: where the trace goes, as Chrome trace JSON; it must outlive the machine. Null: nowhere.
   std::ostream* trace = nullptr;
   /// `cell_emu`: takes what the kernels record; it must outlive the machine. Null: nothing is recorded.

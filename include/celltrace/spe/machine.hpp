@@ -10,10 +10,12 @@
 #include <bit>
 #include <chrono>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace celltrace {
@@ -130,6 +132,15 @@ public:
   /// there are such.
   virtual std::uint32_t proxy_tag_status(unsigned spe, std::uint32_t mask, TagUpdate request) = 0;
 
+  // Objects in main memory. `cell_emu` and `cell_sim` check that transfers that touch one stay in it
+  // (Rule::object_bounds; lock-line commands, which move whole lines, are not checked). Thread-safe.
+
+  /// Throws InputError for an object without bytes, or one that overlaps with another.
+  virtual void register_object(const MemoryObject&) {}
+  /// Call it before the memory is used for something else. Throws InputError if no registered object begins
+  /// there.
+  virtual void forget_object(ea_t) {}
+
   /// The rules that were broken since the machine was made, in the order of their discovery; at most some
   /// thousand. Empty on `native`, which does not check.
   virtual std::vector<Diagnostic> diagnostics() const { return {}; }
@@ -148,6 +159,15 @@ std::unique_ptr<Machine> make_machine(const MachineConfig& config);
 /// The effective address of an object in main memory.
 inline ea_t to_ea(const void* object) {
   return reinterpret_cast<std::uintptr_t>(object);
+}
+
+/// For EmulationConfig::objects and Machine::register_object(): an array, a record, or the elements of a
+/// container that keeps them in a row.
+template <class T> MemoryObject memory_object(const T& object, std::string name = {}) {
+  if constexpr (requires { std::data(object), std::size(object); })
+    return {to_ea(std::data(object)), std::size(object) * sizeof(*std::data(object)), std::move(name)};
+  else
+    return {to_ea(&object), sizeof object, std::move(name)};
 }
 
 } // namespace celltrace

@@ -1,6 +1,7 @@
-// The channel intrinsics of the SDK's <spu_intrinsics.h>, for existing SPE sources on the emulated Cell. They
-// act on the SPE whose program runs on the present thread, and throw SpeError where none does. The vector
-// intrinsics are not here. On a real SPU this header is the compiler's own.
+// The SDK's <spu_intrinsics.h>, for existing SPE sources on the emulated Cell: vector types, the specific
+// (si_*) and generic (spu_*) intrinsics of the C/C++ Language Extensions for Cell. What has to do with
+// channels, interrupts and run control is in this file; it acts on the SPE whose program runs on the present
+// thread, and throws SpeError where none does. On a real SPU this header is the compiler's own.
 #pragma once
 
 #ifdef __SPU__
@@ -8,6 +9,8 @@
 #else
 
 #include "backends/cell_emu/spu.hpp"
+#include "celltrace/spe/spu_generic.hpp"
+#include "celltrace/spe/spu_specific.hpp"
 
 // --- channels by number ---
 
@@ -40,6 +43,16 @@ constexpr unsigned int SPU_WrOutMbox = 28;
 constexpr unsigned int SPU_RdInMbox = 29;
 constexpr unsigned int SPU_WrOutIntrMbox = 30;
 
+// --- spu_testsv(): what is looked for ---
+
+constexpr int SPU_SV_NEG_DENORM = 0x01;
+constexpr int SPU_SV_POS_DENORM = 0x02;
+constexpr int SPU_SV_NEG_ZERO = 0x04;
+constexpr int SPU_SV_POS_ZERO = 0x08;
+constexpr int SPU_SV_NEG_INFINITY = 0x10;
+constexpr int SPU_SV_POS_INFINITY = 0x20;
+constexpr int SPU_SV_NAN = 0x40;
+
 namespace celltrace::sdk {
 
 /// The running SPE, about to do what stands at `site`.
@@ -67,11 +80,41 @@ inline unsigned int spu_readchcnt(unsigned int channel,
   return celltrace::sdk::spu_at(site).channel_count(channel);
 }
 
+// The same by registers, of which the preferred slot counts.
+
+inline qword si_rdch(unsigned int channel, celltrace::CallSite site = celltrace::CallSite::here()) {
+  return si_from_uint(spu_readch(channel, site));
+}
+inline qword si_rchcnt(unsigned int channel, celltrace::CallSite site = celltrace::CallSite::here()) {
+  return si_from_uint(spu_readchcnt(channel, site));
+}
+inline void si_wrch(unsigned int channel, qword value,
+                    celltrace::CallSite site = celltrace::CallSite::here()) {
+  spu_writech(channel, si_to_uint(value), site);
+}
+inline vec_uint4 spu_readchqw(unsigned int channel, celltrace::CallSite site = celltrace::CallSite::here()) {
+  return vec_uint4(si_rdch(channel, site));
+}
+template <celltrace::sdk::AnyVector V>
+void spu_writechqw(unsigned int channel, const V& value,
+                   celltrace::CallSite site = celltrace::CallSite::here()) {
+  si_wrch(channel, qword(celltrace::sdk::VectorOf<V>(value)), site);
+}
+
 // --- MFC commands by their word ---
 
 /// What a cast of a local-store pointer to unsigned int gives on a real SPU. Not of the SDK.
 inline unsigned int spu_ls_address(const volatile void* pointer) {
   return celltrace::cell_emu::Spu::running().local_address(celltrace::sdk::local_pointer(pointer));
+}
+
+inline qword si_from_ptr(const volatile void* pointer) {
+  return si_from_uint(pointer == nullptr ? 0 : spu_ls_address(pointer));
+}
+/// Null for the address 0.
+inline void* si_to_ptr(qword ra) {
+  const unsigned int lsa = si_to_uint(ra);
+  return lsa == 0 ? nullptr : static_cast<char*>(celltrace::sdk::local_quadword(lsa)) + (lsa & 15);
 }
 
 /// With the EAH that was written last. For a list command, `eal` is the list's spu_ls_address().
@@ -90,10 +133,57 @@ inline void spu_mfcdma64(const volatile void* ls, unsigned int eah, unsigned int
   spu_mfcdma32(ls, eal, size, tag, command, site);
 }
 
+/// Requests a tag status and waits for it: 0 immediate, 1 any, 2 all.
+inline unsigned int spu_mfcstat(unsigned int type, celltrace::CallSite site = celltrace::CallSite::here()) {
+  spu_writech(MFC_WrTagUpdate, type, site);
+  return spu_readch(MFC_RdTagStat, site);
+}
+
+// --- events and interrupts ---
+
+/// Calls `handler()` if the event status has a count.
+template <class Handler> void spu_bisled(Handler handler) {
+  celltrace::cell_emu::Spu::running().branch_if_event([&](auto&) { handler(); });
+}
+/// What is at LS 0 on a real SPU is what EmulatedSpu::enable_interrupts() was given; SpeError if nothing was.
+inline void spu_ienable() {
+  celltrace::cell_emu::Spu::running().enable_interrupts();
+}
+inline void spu_idisable() {
+  celltrace::cell_emu::Spu::running().disable_interrupts();
+}
+/// Interrupts are disabled, or enabled, if it branches.
+template <class Handler> void spu_bisled_d(Handler handler) {
+  celltrace::cell_emu::Spu::running().branch_if_event([&](auto& spu) {
+    spu.disable_interrupts();
+    handler();
+  });
+}
+template <class Handler> void spu_bisled_e(Handler handler) {
+  celltrace::cell_emu::Spu::running().branch_if_event([&](auto& spu) {
+    spu.enable_interrupts();
+    handler();
+  });
+}
+
+inline unsigned int spu_mfspr(int number) {
+  return si_to_uint(si_mfspr(number));
+}
+inline void spu_mtspr(int number, unsigned int value) {
+  si_mtspr(number, si_from_uint(value));
+}
+
 // --- run control ---
 
 /// The code is part of the instruction, so it is a constant.
 #define spu_stop(code) (celltrace::cell_emu::Spu::running().stop_and_signal<(code)>())
+
+#define si_stop(code) spu_stop(code)
+/// Its registers are for debuggers; the code is 0x3FFF.
+#define si_stopd(ra, rb, rc) ((void)(ra), (void)(rb), (void)(rc), spu_stop(0x3FFF))
+
+/// For optimisers alone.
+#define __align_hint(pointer, base, offset) ((void)0)
 
 // Loads and stores are in order on the emulated Cell.
 inline void spu_sync() {
