@@ -52,14 +52,21 @@ Frame CelltraceSide::build_and_trace() {
   return frame;
 }
 
+Frame CelltraceSide::refit_and_trace() {
+  Frame frame = render(scene_, SceneChanges{true, false});
+  const RenderStatistics& statistics = result_.statistics;
+  frame.build.wall = statistics.build_seconds + statistics.prepare_seconds;
+  return frame;
+}
+
 Frame CelltraceSide::trace() {
   return render(scene_.camera);
 }
 
 /// The statistics have no processor time; what the call took in all goes to `trace`.
-template <class Input> Frame CelltraceSide::render(const Input& input) {
+template <class... Input> Frame CelltraceSide::render(const Input&... input) {
   const Stopwatch stopwatch;
-  result_ = renderer_.render(input);
+  result_ = renderer_.render(input...);
   const RenderStatistics& statistics = result_.statistics;
   Frame frame;
   frame.trace = {statistics.render_seconds, stopwatch.elapsed().processor};

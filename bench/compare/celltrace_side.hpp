@@ -13,12 +13,14 @@ public:
 
   void take(const Model& model) override;
   Frame build_and_trace() override;
+  /// As build_and_trace(), where only vertices and centres are elsewhere than in the model before.
+  Frame refit_and_trace();
   Frame trace() override;
   const Image& picture() const override { return result_.image; }
   std::uint64_t accelerator_bytes() const override { return accelerator_bytes_; }
 
 private:
-  template <class Input> Frame render(const Input& input);
+  template <class... Input> Frame render(const Input&... input);
 
   Renderer renderer_;
   Scene scene_;

@@ -32,6 +32,8 @@ RTCBuildQuality quality_of(EmbreeConfig::Quality quality) {
     return RTC_BUILD_QUALITY_HIGH;
   case EmbreeConfig::Quality::medium:
     return RTC_BUILD_QUALITY_MEDIUM;
+  case EmbreeConfig::Quality::refit:
+    return RTC_BUILD_QUALITY_REFIT;
   default:
     return RTC_BUILD_QUALITY_LOW;
   }
@@ -123,7 +125,8 @@ private:
   }
 
   void build() {
-    const bool dynamic = config_.quality == EmbreeConfig::Quality::low;
+    const bool dynamic =
+        config_.quality == EmbreeConfig::Quality::low || config_.quality == EmbreeConfig::Quality::refit;
     if (!dynamic) forget_scene();
     if (scene_)
       rtcUpdateGeometryBuffer(geometry_.get(), RTC_BUFFER_TYPE_VERTEX, 0);
@@ -139,7 +142,9 @@ private:
     const RTCBuildQuality quality = quality_of(config_.quality);
     scene_.reset(rtcNewScene(device_.get()));
     rtcSetSceneFlags(scene_.get(), dynamic ? RTC_SCENE_FLAG_DYNAMIC : RTC_SCENE_FLAG_NONE);
-    rtcSetSceneBuildQuality(scene_.get(), quality);
+    // A scene itself is not refitted.
+    rtcSetSceneBuildQuality(scene_.get(),
+                            quality == RTC_BUILD_QUALITY_REFIT ? RTC_BUILD_QUALITY_MEDIUM : quality);
     geometry_.reset(rtcNewGeometry(device_.get(), spheres_.empty() ? RTC_GEOMETRY_TYPE_TRIANGLE
                                                                    : RTC_GEOMETRY_TYPE_SPHERE_POINT));
     rtcSetGeometryBuildQuality(geometry_.get(), quality);

@@ -15,7 +15,8 @@ struct EmbreeConfig {
   enum class Quality {
     high,   ///< static, the slowest builder and the fastest tracing
     medium, ///< static, the default builder
-    low     ///< a dynamic scene and the fastest builder
+    low,    ///< a dynamic scene and the fastest builder
+    refit   ///< a dynamic scene whose nodes get other bounds, after the default builder
   } quality = Quality::high;
 };
 

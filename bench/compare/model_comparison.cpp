@@ -13,6 +13,7 @@ namespace celltrace::compare {
 namespace {
 
 constexpr std::size_t kManyPrimitives = 1'000'000;
+constexpr std::size_t kJudgedMovingTriangles = 100'000;
 
 using Quality = EmbreeConfig::Quality;
 
@@ -85,6 +86,23 @@ public:
     frames(
         "rebuilt every frame", Quality::low, {"celltrace", ours}, [&](Side& side) { next(side, their_step); },
         bar_for_scanned(2));
+    celltrace_.take(model_);
+  }
+
+  void refitted() {
+    if (!wanted("refitted every frame") || model_.primitives() > 2 * kManyPrimitives) return;
+    const std::vector<Model> steps = {moved(model_, 1), moved(model_, 2)};
+    std::size_t our_step = 0, their_step = 0;
+    const auto ours = [&] {
+      celltrace_.take(steps[our_step++ % 2]);
+      const Frame frame = celltrace_.refit_and_trace();
+      return settings_(frame.build + frame.trace);
+    };
+    ours();
+    const bool judged = kind_ == ModelKind::generated && model_.triangles.size() / 1000 == kJudgedMovingTriangles / 1000;
+    frames(
+        "refitted every frame", Quality::refit, {"celltrace", ours},
+        [&](Side& side) { side.take(steps[their_step++ % 2]); }, judged ? at_least(2.5) : std::nullopt);
     celltrace_.take(model_);
   }
 
@@ -178,6 +196,7 @@ void compare_model(const Model& model, ModelKind kind, const Settings& settings,
     comparison.rays();
     comparison.first_frame();
     comparison.rebuilt();
+    comparison.refitted();
     comparison.speedup();
   }
 }
