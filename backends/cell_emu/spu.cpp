@@ -8,34 +8,39 @@
 
 namespace celltrace::cell_emu {
 
-Spu::Spu(Spe& spe, const SpuContext& context, const ArenaState& arena)
-    : SpuCore(spe, context), arena_(arena) {
-  take_operation_counts();
-  initialise_base();
-  stack_local() = this;
-}
-
-Spu::~Spu() {
-  stack_local() = nullptr;
-}
+Spu::~Spu() = default;
 
 Spu& Spu::running() {
   if (stack_local() == nullptr) throw SpeError("an operation of an SPE where no SPE program runs");
   return *static_cast<Spu*>(stack_local());
 }
 
-void Spu::finish() {
+HostCodeSpu::HostCodeSpu(Spe& spe, const SpuContext& context, const ArenaState& arena)
+    : SpuCore(spe, context), Spu(spe.id, context.mfc.bus.map().spes(),
+                                 context.mfc.bus.map().local_store(spe.id), context.mfc.config.recorder,
+                                 site_),
+      arena_(arena) {
+  take_operation_counts();
+  initialise_base();
+  stack_local() = static_cast<Spu*>(this);
+}
+
+HostCodeSpu::~HostCodeSpu() {
+  stack_local() = nullptr;
+}
+
+void HostCodeSpu::finish() {
   settle();
   arena();
   SpuCore::finish();
 }
 
-void Spu::abandon() {
+void HostCodeSpu::abandon() {
   arena();
   leave();
 }
 
-SpeAddresses Spu::addresses(std::uint32_t spe) const {
+SpeAddresses HostCodeSpu::addresses(std::uint32_t spe) const {
   if (spe >= count())
     throw SpeError("SPE " + std::to_string(id()) + ": there is no SPE " + std::to_string(spe) + ", only " +
                    std::to_string(count()));
@@ -43,12 +48,12 @@ SpeAddresses Spu::addresses(std::uint32_t spe) const {
 }
 
 /// Every change of the fill is preceded by a call of arena(), so the peak is seen here.
-ArenaState& Spu::arena() {
+ArenaState& HostCodeSpu::arena() {
   counters_.local_store_peak.raise_to(static_cast<std::uint64_t>(arena_.next - arena_.begin));
   return arena_;
 }
 
-void Spu::halt(HaltCode code, CallSite site) {
+void HostCodeSpu::throw_halted(HaltCode code, CallSite site) {
   site_ = site;
   std::string text = std::string("halted: ") + to_text(code);
   if (code != HaltCode::local_store_exhausted) fail(Rule::halted, text);
@@ -57,12 +62,12 @@ void Spu::halt(HaltCode code, CallSite site) {
                                         " bytes of the arena are free");
 }
 
-void Spu::stop(std::uint32_t code) {
+void HostCodeSpu::stop(std::uint32_t code) {
   settle();
   stop_with(code);
 }
 
-void Spu::fetch_module(const CodeModule& module) {
+void HostCodeSpu::fetch_module(const CodeModule& module) {
   settle();
   resident_modules_[module.region] = module.number;
   const TimingParameters& timing = context_.mfc.config.timing;
@@ -74,13 +79,13 @@ void Spu::fetch_module(const CodeModule& module) {
   counters_.module_cycles.add(now() - begin);
 }
 
-void Spu::report_absent_module(const CodeModule& module, CallSite site) {
+void HostCodeSpu::report_absent_module(const CodeModule& module, CallSite site) {
   site_ = site;
   fail(Rule::absent_module,
        std::string("code of module '") + module.name + "': " + std::string(text_of(Rule::absent_module)));
 }
 
-void Spu::note(const char* what, std::uint32_t value) {
+void HostCodeSpu::note(const char* what, std::uint32_t value) {
   if (context_.mfc.trace == nullptr) return;
   settle();
   context_.mfc.trace->note(id(), what, value, now());
@@ -88,11 +93,11 @@ void Spu::note(const char* what, std::uint32_t value) {
 
 // --- virtual time ---
 
-void Spu::settle() {
+void HostCodeSpu::settle() {
   spend(cycles_of(take_operation_counts(), context_.mfc.config.timing));
 }
 
-void Spu::charge(std::uint32_t channel_reads, std::uint32_t channel_writes) {
+void HostCodeSpu::charge(std::uint32_t channel_reads, std::uint32_t channel_writes) {
   settle();
   arena();
   const TimingParameters& timing = context_.mfc.config.timing;
@@ -111,32 +116,26 @@ void Spu::charge(std::uint32_t channel_reads, std::uint32_t channel_writes) {
 
 // --- local store ---
 
-std::uint32_t Spu::local_address(const void* pointer) const {
-  const std::uintptr_t base = reinterpret_cast<std::uintptr_t>(context_.mfc.bus.map().local_store(id()));
-  const std::uintptr_t offset = reinterpret_cast<std::uintptr_t>(pointer) - base;
-  return offset < kLocalStoreBytes ? static_cast<std::uint32_t>(offset) : kOutsideLocalStore;
-}
-
-void* Spu::local_static(const void* key, std::uint32_t bytes, std::uint32_t alignment) {
+void* HostCodeSpu::local_static(const void* key, std::uint32_t bytes, std::uint32_t alignment) {
   void*& object = statics_[key];
   if (object == nullptr) object = allocate<std::uint8_t>(bytes, alignment);
   return object;
 }
 
-void Spu::issue(const MfcCommand& command) {
+void HostCodeSpu::issue(MfcOpcode op, std::uint32_t lsa, ea_t ea, std::uint32_t size, std::uint32_t tag) {
   // Six channel writes: the parameters and the command.
   charge(0, 6);
-  issue_command(command);
+  issue_command({op, tag, lsa, size, ea});
 }
 
 // --- interrupts ---
 
-void Spu::enable_interrupts(std::function<void(Spu&)> handler) {
+void HostCodeSpu::enable_interrupts(std::function<void(Spu&)> handler) {
   interrupt_handler_ = std::move(handler);
   interrupts_enabled_ = true;
 }
 
-void Spu::run_interrupts() {
+void HostCodeSpu::run_interrupts() {
   if (in_handler_) return;
   update_decrementer();
   while (interrupts_enabled_ && state_.event_count() != 0) {
@@ -150,17 +149,17 @@ void Spu::run_interrupts() {
 
 // --- channels by number ---
 
-std::uint32_t Spu::read_channel(unsigned channel) {
+std::uint32_t HostCodeSpu::read_channel(unsigned channel) {
   charge(1, 0);
   return channel_read(channel);
 }
 
-void Spu::write_channel(unsigned channel, std::uint32_t value) {
+void HostCodeSpu::write_channel(unsigned channel, std::uint32_t value) {
   charge(0, 1);
   channel_write(channel, value);
 }
 
-std::uint32_t Spu::channel_count(unsigned channel) {
+std::uint32_t HostCodeSpu::channel_count(unsigned channel) {
   charge(1, 0);
   return channel_count_of(channel);
 }

@@ -5,7 +5,7 @@
 // here happens at now().
 #pragma once
 
-#include "backends/cell_emu/channels.hpp"
+#include "celltrace/spe/channels.hpp"
 #include "backends/cell_emu/decrementer.hpp"
 #include "backends/cell_emu/scheduler.hpp"
 

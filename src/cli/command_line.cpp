@@ -2,11 +2,11 @@
 
 #include "celltrace/error.hpp"
 #include "celltrace/image.hpp"
+#include "celltrace/version.hpp"
 #include "cli/animation_options.hpp"
 #include "cli/choice.hpp"
 #include "cli/emulation_options.hpp"
 #include "cli/keyword_page.hpp"
-#include "cli/version.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -434,7 +434,7 @@ Request parse_command_line(std::vector<std::string> arguments) {
   CLI::App app("Ray-traces POV-Ray scenes with a program written for the Cell's SPEs, on any machine.",
                "celltrace");
   app.require_subcommand(1);
-  app.set_version_flag("--version", version_text());
+  app.set_version_flag("--version", std::string("celltrace ") + version());
   app.add_flag_callback(
       "--list-keywords", [] { throw CLI::CallForVersion(keyword_page(), 0); },
       "Say which words of POV-Ray's language are supported");

@@ -7,7 +7,7 @@
 #include <spu_intrinsics.h>
 #else
 
-#include "backends/cell_emu/spu.hpp"
+#include "celltrace/spe/emulated_spu.hpp"
 
 // --- channels by number ---
 
