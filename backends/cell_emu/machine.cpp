@@ -232,7 +232,7 @@ template <class AnySpu, class Execute, class Check>
 void EmulatedCell::execute(Spe& spe, AnySpu& spu, Execute program, Check check) {
   try {
     program();
-  } catch (const SpuCore::Exit& exit) {
+  } catch (const SpeExit& exit) {
     spe.exit_code = exit.code;
   } catch (...) {
     spu.abandon();

@@ -16,9 +16,9 @@ Spu& Spu::running() {
 }
 
 HostCodeSpu::HostCodeSpu(Spe& spe, const SpuContext& context, const ArenaState& arena)
-    : SpuCore(spe, context), Spu(spe.id, context.mfc.bus.map().spes(),
-                                 context.mfc.bus.map().local_store(spe.id), context.mfc.config.recorder,
-                                 site_),
+    : SpuCore(spe, context),
+      Spu(spe.id, context.mfc.bus.map().spes(), context.mfc.bus.map().local_store(spe.id),
+          context.mfc.config.recorder, site_),
       arena_(arena) {
   take_operation_counts();
   initialise_base();

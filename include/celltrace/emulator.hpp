@@ -66,13 +66,13 @@ using EmulatedPpe = std::function<void(Machine&)>;
 /// that stops with a signal is the PPE's to resume. Programs may use whatever the host has, also what they
 /// capture; on the free schedule they run at the same time. Throws InputError for a configuration out of
 /// range, and what `ppe` throws unless that is an SpeError.
-CELLTRACE_EXPORT EmulatedRun emulate_program(const MachineConfig& config, const EmulatedProgram& program, ea_t argument,
-                            const EmulatedPpe& ppe);
+CELLTRACE_EXPORT EmulatedRun emulate_program(const MachineConfig& config, const EmulatedProgram& program,
+                                             ea_t argument, const EmulatedPpe& ppe);
 
 /// The same on a machine that is there, with a program as machines take it. Of the machine before there must
 /// be nothing left to wait for.
 CELLTRACE_EXPORT EmulatedRun emulate_on(Machine& machine, const SpeProgram& program, ea_t argument = 0,
-                       const EmulatedPpe& ppe = {});
+                                        const EmulatedPpe& ppe = {});
 
 /// emulate_program() with a program that takes (spu, argument) or only (spu).
 template <class Program>

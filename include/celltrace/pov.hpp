@@ -109,7 +109,8 @@ CELLTRACE_EXPORT Scene parse_file(const std::filesystem::path& path, const Parse
 
 /// The same for a scene in memory. `name` stands in messages; includes are looked for from the current
 /// folder.
-CELLTRACE_EXPORT Scene parse_string(std::string_view text, const ParseOptions& options = {}, std::string name = "<string>");
+CELLTRACE_EXPORT Scene parse_string(std::string_view text, const ParseOptions& options = {},
+                                    std::string name = "<string>");
 
 /// A word that the language reserves; directives with their #.
 struct Keyword {

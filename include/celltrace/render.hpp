@@ -302,6 +302,7 @@ private:
 };
 
 /// One frame on a machine of its own.
-CELLTRACE_EXPORT RenderResult render(const Scene& scene, const RenderOptions& options = {}, const Progress& progress = {});
+CELLTRACE_EXPORT RenderResult render(const Scene& scene, const RenderOptions& options = {},
+                                     const Progress& progress = {});
 
 } // namespace celltrace

@@ -36,8 +36,9 @@ CELLTRACE_EXPORT MachineConfig simulated(unsigned spes);
 /// programs with errors. Throws InputError for a configuration out of range or of another backend than
 /// "cell_sim" and for an `elf` that is no executable for the SPU, and what `ppe` throws unless that is an
 /// SpeError. Thread safety: runs are independent of each other.
-CELLTRACE_EXPORT SimulatedRun simulate(const MachineConfig& config, std::span<const std::uint8_t> elf, ea_t argument = 0,
-                      const EmulatedPpe& ppe = {}, const std::stop_token& stop = {});
+CELLTRACE_EXPORT SimulatedRun simulate(const MachineConfig& config, std::span<const std::uint8_t> elf,
+                                       ea_t argument = 0, const EmulatedPpe& ppe = {},
+                                       const std::stop_token& stop = {});
 
 /// The counters of all SPEs together, in the order of IBM's full-system simulator; several lines. `timing` is
 /// that of the machine.
@@ -46,7 +47,8 @@ CELLTRACE_EXPORT std::string counters_text(const EmulatedRun& run, const TimingP
 /// Where the cycles of a profile went, for people: the functions, hottest first, then the instructions of the
 /// hottest ones that make up `listed` (0..1) of all cycles together. `elf` is the program that was profiled;
 /// throws InputError if it is none.
-CELLTRACE_EXPORT std::string profile_text(const SpuProfile& profile, std::span<const std::uint8_t> elf, double listed = 0.95);
+CELLTRACE_EXPORT std::string profile_text(const SpuProfile& profile, std::span<const std::uint8_t> elf,
+                                          double listed = 0.95);
 /// The same as JSON, which docs/simulator.md describes, with all instructions that were executed.
 CELLTRACE_EXPORT std::string profile_json(const SpuProfile& profile, std::span<const std::uint8_t> elf);
 

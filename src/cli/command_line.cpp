@@ -5,8 +5,10 @@
 #include "celltrace/version.hpp"
 #include "cli/animation_options.hpp"
 #include "cli/choice.hpp"
+#include "cli/completions.hpp"
 #include "cli/emulation_options.hpp"
 #include "cli/keyword_page.hpp"
+#include "cli/man_page.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -438,6 +440,18 @@ Request parse_command_line(std::vector<std::string> arguments) {
   app.add_flag_callback(
       "--list-keywords", [] { throw CLI::CallForVersion(keyword_page(), 0); },
       "Say which words of POV-Ray's language are supported");
+  app.add_flag_callback(
+      "--man-page", [&app] { throw CLI::CallForVersion(man_page(describe(app)), 0); },
+      "Print the manual page, for man -l -");
+  app.add_option_function<std::string>(
+         "--completions",
+         [&app](const std::string& shell) {
+           throw CLI::CallForVersion(completions(describe(app), shell), 0);
+         },
+         "Print what makes a shell complete celltrace's options")
+      ->check(CLI::IsMember({"bash", "zsh", "fish"}))
+      ->type_name("SHELL")
+      ->trigger_on_parse();
   app.footer(
       "`celltrace SCENE.pov` means render. POV-Ray's switches (+W640 +H480 +Iscene.pov ...) are understood.\n"
       "Exit codes: 0 done, 1 error or past a bar, 2 interrupted.");

@@ -61,6 +61,7 @@ private:
 
 /// All traces of a file, ordered by SPE and then by age. Throws InputError if it is none, is damaged, or has
 /// more than `max_requests` requests, which are what takes memory.
-CELLTRACE_EXPORT std::vector<CacheTrace> read_cache_traces(std::istream& file, std::uint64_t max_requests = 1u << 27);
+CELLTRACE_EXPORT std::vector<CacheTrace> read_cache_traces(std::istream& file,
+                                                           std::uint64_t max_requests = 1u << 27);
 
 } // namespace celltrace
