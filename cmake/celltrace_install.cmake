@@ -115,7 +115,18 @@ install(FILES
 
 # --- the program, and what is read ---
 
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR}
+  COMPONENT read)
 if("program" IN_LIST CELLTRACE_COMPONENTS)
   install(TARGETS celltrace_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tools)
+  include(celltrace_manual)
+  if(CELLTRACE_MANUAL)
+    install(FILES ${CELLTRACE_MANUAL}/celltrace.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT read)
+    install(FILES ${CELLTRACE_MANUAL}/celltrace.bash RENAME celltrace COMPONENT tools
+      DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+    install(FILES ${CELLTRACE_MANUAL}/_celltrace COMPONENT tools
+      DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+    install(FILES ${CELLTRACE_MANUAL}/celltrace.fish COMPONENT tools
+      DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+  endif()
 endif()
