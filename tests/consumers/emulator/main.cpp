@@ -29,13 +29,14 @@ int main() {
   if (!run.ok() || seen != 3 || run.exit_codes[0] != 7) return 1;
   // What is computed on emulated SPEs is counted by inline code here, and charged by the library.
   const auto cycles = [](bool computing) {
-    return celltrace::emulate(celltrace::lockstep(1), [computing](celltrace::EmulatedSpu& spu) {
-             using F = celltrace::EmulatedSpu::simd::F;
-             F sum(0.0f);
-             for (int i = 0; computing && i < 100; ++i)
-               sum = sum + F(1.0f);
-             spu.write_out_mailbox(1);
-           })
+    return celltrace::emulate(celltrace::lockstep(1),
+                              [computing](celltrace::EmulatedSpu& spu) {
+                                using F = celltrace::EmulatedSpu::simd::F;
+                                F sum(0.0f);
+                                for (int i = 0; computing && i < 100; ++i)
+                                  sum = sum + F(1.0f);
+                                spu.write_out_mailbox(1);
+                              })
         .cycles;
   };
   if (cycles(true) <= cycles(false)) return 2;
