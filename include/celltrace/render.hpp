@@ -239,7 +239,7 @@ struct CELLTRACE_EXPORT RenderStatistics {
 };
 
 /// Adds those of more rows of the same picture.
-void add_rows(RenderStatistics& sum, const RenderStatistics& rows);
+CELLTRACE_EXPORT void add_rows(RenderStatistics& sum, const RenderStatistics& rows);
 
 /// The statistics as JSON text; docs/statistics.md describes the keys.
 CELLTRACE_EXPORT std::string to_json(const RenderStatistics& statistics);

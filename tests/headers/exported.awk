@@ -18,6 +18,14 @@ declaration == "" && /^[A-Za-z][A-Za-z0-9_:<>,&* ]*( |$)/ &&
   declaration = $0
   place = FILENAME ":" FNR
 }
+# A class with a member that is defined elsewhere.
+/^(class|struct) [A-Z].*[{]$/ && before !~ /^template/ { type = $0 ~ /CELLTRACE_EXPORT/ ? "" : $0 }
+/^}/ { type = "" }
+type != "" && /^  [A-Za-z~].*\)( const)?( noexcept)?;/ && !/^  (using|friend|static_assert|template|return|[A-Za-z:<>]+ [a-z_]+ = )/ {
+  print FILENAME ":" FNR ": not exported: " type
+  type = ""
+  failed = 1
+}
 declaration ~ /[{]$/ { declaration = "" }
 declaration ~ /;( *\/\/.*)?$/ {
   if (declaration ~ /\(/) finish()
