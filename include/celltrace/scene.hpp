@@ -292,7 +292,7 @@ struct Csg {
   std::vector<Object> parts; ///< placed in the space of the CSG
 };
 
-struct Scene {
+struct CELLTRACE_EXPORT Scene {
   std::string name; ///< for messages: the file it came from
   Camera camera;
   Vec3 background{0, 0, 0};

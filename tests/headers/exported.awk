@@ -21,7 +21,7 @@ declaration == "" && /^[A-Za-z][A-Za-z0-9_:<>,&* ]*( |$)/ &&
 # A class with a member that is defined elsewhere.
 /^(class|struct) [A-Z].*[{]$/ && before !~ /^template/ { type = $0 ~ /CELLTRACE_EXPORT/ ? "" : $0 }
 /^}/ { type = "" }
-type != "" && /^  [A-Za-z~].*\)( const)?( noexcept)?;/ && !/^  (using|friend|static_assert|template|return|[A-Za-z:<>]+ [a-z_]+ = )/ {
+type != "" && /^  [A-Za-z~][^{]*\)( const)?( noexcept)?;$/ && !/^  (using|friend|static_assert|return)|\/\/|operator/ {
   print FILENAME ":" FNR ": not exported: " type
   type = ""
   failed = 1
