@@ -26,10 +26,24 @@ if(CELLTRACE_FUZZ)
 endif()
 
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
-  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+  if(PROJECT_IS_TOP_LEVEL)
+    set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+  else()
+    message(STATUS "celltrace: CMAKE_BUILD_TYPE is empty; without optimisation rays take ten times as long")
+  endif()
 endif()
 set(CMAKE_CXX_EXTENSIONS OFF)
-set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+if(PROJECT_IS_TOP_LEVEL)
+  set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+endif()
+
+# Everything can become part of a shared library, or of a plugin that links static ones. Hidden, no function of the
+# tracer is called through tables for it; and thread-local objects have a fixed place, at the price of a few hundred
+# bytes of the memory that the system keeps for such.
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+target_compile_options(celltrace_options INTERFACE -ftls-model=initial-exec)
 
 # A room of the house: a static library celltrace_NAME whose headers are found from the root of src/, backends/ and
 # include/. The project's own warnings do not reach whoever links it.

@@ -9,7 +9,7 @@ tools/install-dependencies.sh build
 if [ ! -f build/CMakeCache.txt ]; then
   tools/configure.sh release -DCELLTRACE_TESTS=OFF -DCELLTRACE_BENCH=OFF -DCELLTRACE_EXAMPLES=OFF
 fi
-cmake --build --preset release --target celltrace
+cmake --build --preset release --target celltrace_program
 built=$SECONDS
 
 mkdir -p out

@@ -6,14 +6,15 @@
 #   build    to build the library and the program
 #   tests    to build and run the tests and benchmarks
 #   bench    Embree and POV-Ray, which celltrace is compared with
-#   extras   POV-Ray, for the tests that compare with it, clang with its runtime, to compare builds and to fuzz, and ccache
+#   extras   POV-Ray, for the tests that compare with it, clang with its runtime, to compare builds and to fuzz, ccache,
+#            and the shells whose completions are tested
 set -euo pipefail
 
 declare -A packages=(
   [build]="g++ cmake ninja-build flex bison libboost-context-dev libcli11-dev libdeflate-dev libglm-dev libpng-dev libsdl2-dev libsdl2-ttf-dev libxsimd-dev nlohmann-json3-dev"
-  [tests]="catch2 fonts-dejavu-core libbenchmark-dev python3 xz-utils"
+  [tests]="catch2 fonts-dejavu-core libbenchmark-dev pkg-config python3 xz-utils"
   [bench]="libembree-dev povray povray-includes"
-  [extras]="ccache clang libclang-rt-14-dev povray povray-includes xdotool xvfb"
+  [extras]="ccache clang fish libclang-rt-14-dev povray povray-includes xdotool xvfb zsh"
 )
 
 is_installed() {

@@ -197,9 +197,9 @@ EmulatedCell::Run EmulatedCell::host_code(unsigned spe, const SpeProgram& progra
   return [this, entry, argument, range](Spe& runs) {
     const ProgramGuard guard(map_.local_store(runs.id), range);
     bus_.hold_local_store(runs.id, [&] { guard.fill(); });
-    Spu spu(runs, {mfc_context_, *scheduler_}, arena(runs.id, range));
+    HostCodeSpu spu(runs, {mfc_context_, *scheduler_}, arena(runs.id, range));
     execute(
-        runs, spu, [&] { entry(&spu, argument); },
+        runs, spu, [&] { entry(static_cast<Spu*>(&spu), argument); },
         [&] { bus_.hold_local_store(runs.id, [&] { guard.check(runs.id, runs.mfc.arena_end(), log_); }); });
   };
 }
@@ -236,7 +236,7 @@ template <class AnySpu, class Execute, class Check>
 void EmulatedCell::execute(Spe& spe, AnySpu& spu, Execute program, Check check) {
   try {
     program();
-  } catch (const SpuCore::Exit& exit) {
+  } catch (const SpeExit& exit) {
     spe.exit_code = exit.code;
   } catch (...) {
     spu.abandon();

@@ -1,6 +1,6 @@
 #include "backends/cell_emu/mfc.hpp"
 
-#include "backends/cell_emu/channels.hpp"
+#include "celltrace/spe/channels.hpp"
 #include "backends/cell_emu/local_store_watch.hpp"
 #include "backends/cell_emu/mfc_rules.hpp"
 #include "celltrace/spe/spu.hpp"
@@ -207,7 +207,7 @@ void Mfc::report(const Entry& entry, Rule rule, Cycle now, const std::string& be
 void Mfc::report_channel(Channel channel, std::uint32_t value, Rule rule, CallSite site, Cycle now) const {
   Diagnostic diagnostic = about({}, rule, now);
   diagnostic.site = site;
-  context_.log.report(diagnostic, std::string(cell_emu::name_of(channel)) + " " + std::to_string(value) +
+  context_.log.report(diagnostic, std::string(celltrace::name_of(channel)) + " " + std::to_string(value) +
                                       ": " + std::string(text_of(rule)));
 }
 

@@ -12,9 +12,6 @@ constexpr unsigned kProxyQueueEntries = 8;
 /// Of libspe2; the others are the system's.
 constexpr std::uint32_t kProxyTags = 16;
 
-/// The local-store address of a pointer that does not point into the SPE's local store.
-constexpr std::uint32_t kOutsideLocalStore = 0xFFFFFFFFu;
-
 /// The parameters of channels 16..21. For a list command `size` is the length of the list in bytes, the high
 /// half of `ea` that of all its elements, and the low half the local-store address of the list.
 struct MfcCommand {

@@ -22,7 +22,7 @@
 // cycles. The parts lie in [0, 16]; there may be 2^42 instructions at a time.
 #pragma once
 
-#include "backends/cell_emu/operation_counter.hpp"
+#include "celltrace/spe/operation_counter.hpp"
 #include "celltrace/spe/timing.hpp"
 
 #include <algorithm>

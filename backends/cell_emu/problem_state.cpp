@@ -1,6 +1,6 @@
 #include "backends/cell_emu/problem_state.hpp"
 
-#include "backends/cell_emu/channels.hpp"
+#include "celltrace/spe/channels.hpp"
 #include "backends/cell_emu/diagnostic_log.hpp"
 
 #include <algorithm>

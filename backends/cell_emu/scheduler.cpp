@@ -1,6 +1,6 @@
 #include "backends/cell_emu/scheduler.hpp"
 
-#include "backends/cell_emu/channels.hpp"
+#include "celltrace/spe/channels.hpp"
 
 namespace celltrace::cell_emu {
 namespace {

@@ -8,17 +8,7 @@
 
 namespace celltrace::cell_emu {
 
-Spu::Spu(Spe& spe, const SpuContext& context, const ArenaState& arena)
-    : SpuCore(spe, context), arena_(arena) {
-  take_operation_counts();
-  initialise_base();
-  mfc_.begin_allocations(arena_.next);
-  stack_local() = this;
-}
-
-Spu::~Spu() {
-  stack_local() = nullptr;
-}
+Spu::~Spu() = default;
 
 Spu* Spu::running_or_null() {
   return static_cast<Spu*>(stack_local());
@@ -29,18 +19,33 @@ Spu& Spu::running() {
   return *static_cast<Spu*>(stack_local());
 }
 
-void Spu::finish() {
+HostCodeSpu::HostCodeSpu(Spe& spe, const SpuContext& context, const ArenaState& arena)
+    : SpuCore(spe, context),
+      Spu(spe.id, context.mfc.bus.map().spes(), context.mfc.bus.map().local_store(spe.id),
+          context.mfc.config.recorder, site_),
+      arena_(arena) {
+  take_operation_counts();
+  initialise_base();
+  mfc_.begin_allocations(arena_.next);
+  stack_local() = static_cast<Spu*>(this);
+}
+
+HostCodeSpu::~HostCodeSpu() {
+  stack_local() = nullptr;
+}
+
+void HostCodeSpu::finish() {
   settle();
   arena();
   SpuCore::finish();
 }
 
-void Spu::abandon() {
+void HostCodeSpu::abandon() {
   arena();
   leave();
 }
 
-SpeAddresses Spu::addresses(std::uint32_t spe) const {
+SpeAddresses HostCodeSpu::addresses(std::uint32_t spe) const {
   if (spe >= count())
     throw SpeError("SPE " + std::to_string(id()) + ": there is no SPE " + std::to_string(spe) + ", only " +
                    std::to_string(count()));
@@ -48,13 +53,13 @@ SpeAddresses Spu::addresses(std::uint32_t spe) const {
 }
 
 /// Every change of the fill is preceded by a call of arena(), so the peak is seen here.
-ArenaState& Spu::arena() {
+ArenaState& HostCodeSpu::arena() {
   counters_.local_store_peak.raise_to(static_cast<std::uint64_t>(arena_.next - arena_.begin) -
                                       mfc_.red_zone_bytes());
   return arena_;
 }
 
-void Spu::halt(HaltCode code, CallSite site) {
+void HostCodeSpu::throw_halted(HaltCode code, CallSite site) {
   site_ = site;
   std::string text = std::string("halted: ") + to_text(code);
   if (code != HaltCode::local_store_exhausted) fail(Rule::halted, text);
@@ -63,12 +68,12 @@ void Spu::halt(HaltCode code, CallSite site) {
                                         " bytes of the arena are free");
 }
 
-void Spu::stop(std::uint32_t code) {
+void HostCodeSpu::stop(std::uint32_t code) {
   settle();
   stop_with(code);
 }
 
-void Spu::fetch_module(const CodeModule& module) {
+void HostCodeSpu::fetch_module(const CodeModule& module) {
   settle();
   resident_modules_[module.region] = module.number;
   const TimingParameters& timing = context_.mfc.config.timing;
@@ -80,13 +85,13 @@ void Spu::fetch_module(const CodeModule& module) {
   counters_.module_cycles.add(now() - begin);
 }
 
-void Spu::report_absent_module(const CodeModule& module, CallSite site) {
+void HostCodeSpu::report_absent_module(const CodeModule& module, CallSite site) {
   site_ = site;
   fail(Rule::absent_module,
        std::string("code of module '") + module.name + "': " + std::string(text_of(Rule::absent_module)));
 }
 
-void Spu::note(const char* what, std::uint32_t value) {
+void HostCodeSpu::note(const char* what, std::uint32_t value) {
   if (context_.mfc.trace == nullptr) return;
   settle();
   context_.mfc.trace->note(id(), what, value, now());
@@ -94,11 +99,11 @@ void Spu::note(const char* what, std::uint32_t value) {
 
 // --- virtual time ---
 
-void Spu::settle() {
+void HostCodeSpu::settle() {
   spend(cycles_of(take_operation_counts(), context_.mfc.config.timing));
 }
 
-void Spu::charge(std::uint32_t channel_reads, std::uint32_t channel_writes) {
+void HostCodeSpu::charge(std::uint32_t channel_reads, std::uint32_t channel_writes) {
   settle();
   arena();
   const TimingParameters& timing = context_.mfc.config.timing;
@@ -117,48 +122,42 @@ void Spu::charge(std::uint32_t channel_reads, std::uint32_t channel_writes) {
 
 // --- local store ---
 
-void Spu::allocated(void* begin, std::uint32_t bytes, std::uint32_t alignment, CallSite site) {
+void HostCodeSpu::allocated(void* begin, std::uint32_t bytes, std::uint32_t alignment, CallSite site) {
   mfc_.allocated(static_cast<const std::uint8_t*>(begin), bytes, alignment, site, arena_);
 }
 
-void Spu::release(std::uint8_t* marked, CallSite site) {
+void HostCodeSpu::release(std::uint8_t* marked, CallSite site) {
   arena(); // for the peak
   mfc_.release(marked, site, now(), arena_);
 }
 
-std::uint32_t Spu::local_address(const void* pointer) const {
-  const std::uintptr_t base = reinterpret_cast<std::uintptr_t>(context_.mfc.bus.map().local_store(id()));
-  const std::uintptr_t offset = reinterpret_cast<std::uintptr_t>(pointer) - base;
-  return offset < kLocalStoreBytes ? static_cast<std::uint32_t>(offset) : kOutsideLocalStore;
-}
-
-void* Spu::local_static(const void* key, std::uint32_t bytes, std::uint32_t alignment) {
+void* HostCodeSpu::local_static(const void* key, std::uint32_t bytes, std::uint32_t alignment) {
   void*& object = statics_[key];
   if (object == nullptr) object = allocate<std::uint8_t>(bytes, alignment);
   return object;
 }
 
-void Spu::issue(const MfcCommand& command) {
+void HostCodeSpu::issue(MfcOpcode op, std::uint32_t lsa, ea_t ea, std::uint32_t size, std::uint32_t tag) {
   // Six channel writes: the parameters and the command.
   charge(0, 6);
-  issue_command(command);
+  issue_command({op, tag, lsa, size, ea});
 }
 
 // --- interrupts ---
 
-void Spu::enable_interrupts(std::function<void(Spu&)> handler) {
+void HostCodeSpu::enable_interrupts(std::function<void(Spu&)> handler) {
   interrupt_handler_ = std::move(handler);
   interrupts_enabled_ = true;
 }
 
-void Spu::enable_interrupts() {
+void HostCodeSpu::enable_interrupts() {
   if (!interrupt_handler_)
     throw SpeError("SPE " + std::to_string(id()) +
                    ": interrupts are enabled, but no handler was given to enable_interrupts()");
   interrupts_enabled_ = true;
 }
 
-void Spu::run_interrupts() {
+void HostCodeSpu::run_interrupts() {
   if (in_handler_) return;
   update_decrementer();
   while (interrupts_enabled_ && state_.event_count() != 0) {
@@ -172,17 +171,17 @@ void Spu::run_interrupts() {
 
 // --- channels by number ---
 
-std::uint32_t Spu::read_channel(unsigned channel) {
+std::uint32_t HostCodeSpu::read_channel(unsigned channel) {
   charge(1, 0);
   return channel_read(channel);
 }
 
-void Spu::write_channel(unsigned channel, std::uint32_t value) {
+void HostCodeSpu::write_channel(unsigned channel, std::uint32_t value) {
   charge(0, 1);
   channel_write(channel, value);
 }
 
-std::uint32_t Spu::channel_count(unsigned channel) {
+std::uint32_t HostCodeSpu::channel_count(unsigned channel) {
   charge(1, 0);
   return channel_count_of(channel);
 }

@@ -99,7 +99,7 @@ void SpuCore::fail(Rule rule, const std::string& what) {
 void SpuCore::stop_with(std::uint32_t code) {
   publish_cycles();
   reach();
-  if (code >= 0x2000 && code <= 0x20FF) throw Exit{code & 0xFF};
+  if (code >= 0x2000 && code <= 0x20FF) throw SpeExit{code & 0xFF};
   waited(context_.scheduler.pause(spe_, code, now_), "stopped");
 }
 

@@ -5,9 +5,10 @@
 // here happens at now().
 #pragma once
 
-#include "backends/cell_emu/channels.hpp"
 #include "backends/cell_emu/decrementer.hpp"
 #include "backends/cell_emu/scheduler.hpp"
+#include "celltrace/spe/channels.hpp"
+#include "celltrace/spe/program.hpp"
 
 #include <chrono>
 #include <string>
@@ -33,11 +34,6 @@ public:
 
   std::uint32_t id() const { return spe_.id; }
 
-  /// Thrown by stop_with() for one of the exit codes.
-  struct Exit {
-    std::uint32_t code;
-  };
-
 protected:
   ~SpuCore() = default;
 
@@ -56,7 +52,7 @@ protected:
 
   // --- run control ---
 
-  /// Returns when the PPE has resumed the program; throws Exit for a code that ends it.
+  /// Returns when the PPE has resumed the program; throws SpeExit for a code that ends it.
   void stop_with(std::uint32_t code);
   [[noreturn]] void fail(Rule rule, const std::string& what);
   /// The program is over: completes what is queued and looks for what it left undone.

@@ -9,10 +9,11 @@
 //   });
 //   CHECK(run.ok());
 //
-// docs/testing-spe-code.md shows more. Link the CMake target celltrace::cell_emu.
+// docs/testing-spe-code.md shows more. Link the CMake target celltrace::emulator.
 #pragma once
 
-#include "backends/cell_emu/spu.hpp"
+#include "celltrace/export.hpp"
+#include "celltrace/spe/emulated_spu.hpp"
 #include "celltrace/spe/machine.hpp"
 
 #include <algorithm>
@@ -28,7 +29,7 @@ namespace celltrace {
 using EmulatedSpu = cell_emu::Spu;
 
 /// What a run of programs left behind.
-struct EmulatedRun {
+struct CELLTRACE_EXPORT EmulatedRun {
   std::vector<Diagnostic> diagnostics; ///< in the order of their discovery
   /// By SPE: the error that ended its program; "" if there was none.
   std::vector<std::string> errors;
@@ -50,13 +51,13 @@ struct EmulatedRun {
 };
 
 /// A machine in lockstep by virtual time.
-MachineConfig lockstep(unsigned spes);
+CELLTRACE_EXPORT MachineConfig lockstep(unsigned spes);
 /// A machine in lockstep that explores the interleavings of `seed`, with data that move at random times.
-MachineConfig exploring(unsigned spes, std::uint64_t seed);
+CELLTRACE_EXPORT MachineConfig exploring(unsigned spes, std::uint64_t seed);
 /// As exploring(), with slow and pausing SPEs, late DMA and late words from the PPE.
-MachineConfig exploring_with_faults(unsigned spes, std::uint64_t seed);
+CELLTRACE_EXPORT MachineConfig exploring_with_faults(unsigned spes, std::uint64_t seed);
 /// A machine with a thread per SPE.
-MachineConfig free_running(unsigned spes);
+CELLTRACE_EXPORT MachineConfig free_running(unsigned spes);
 
 using EmulatedProgram = std::function<void(EmulatedSpu&, ea_t)>;
 using EmulatedPpe = std::function<void(Machine&)>;
@@ -65,13 +66,13 @@ using EmulatedPpe = std::function<void(Machine&)>;
 /// that stops with a signal is the PPE's to resume. Programs may use whatever the host has, also what they
 /// capture; on the free schedule they run at the same time. Throws InputError for a configuration out of
 /// range, and what `ppe` throws unless that is an SpeError.
-EmulatedRun emulate_program(const MachineConfig& config, const EmulatedProgram& program, ea_t argument,
-                            const EmulatedPpe& ppe);
+CELLTRACE_EXPORT EmulatedRun emulate_program(const MachineConfig& config, const EmulatedProgram& program,
+                                             ea_t argument, const EmulatedPpe& ppe);
 
 /// The same on a machine that is there, with a program as machines take it. Of the machine before there must
 /// be nothing left to wait for.
-EmulatedRun emulate_on(Machine& machine, const SpeProgram& program, ea_t argument = 0,
-                       const EmulatedPpe& ppe = {});
+CELLTRACE_EXPORT EmulatedRun emulate_on(Machine& machine, const SpeProgram& program, ea_t argument = 0,
+                                        const EmulatedPpe& ppe = {});
 
 /// emulate_program() with a program that takes (spu, argument) or only (spu).
 template <class Program>

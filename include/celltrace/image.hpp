@@ -5,6 +5,7 @@
 #pragma once
 
 #include "celltrace/error.hpp"
+#include "celltrace/export.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -55,28 +56,28 @@ struct ColourImage : BasicImage<float> {
 
 /// For display: each colour clipped to 0..1, made linear and encoded as sRGB, with 16 bits a channel. What is
 /// not a number becomes 0. Throws InputError if the picture is empty or too large.
-DeepImage to_deep_image(const ColourImage& colours);
+CELLTRACE_EXPORT DeepImage to_deep_image(const ColourImage& colours);
 
 /// Writes a picture as PNG (8 or 16 bits a channel; without alpha if every pixel is opaque) or, without its
 /// alpha, as binary PPM, by the extension of `path` (.png or .ppm, in either case). The file appears whole or
 /// not at all: it is written under another name in the same folder and renamed. A device or pipe is written
 /// to directly. Throws InputError naming the file: unknown extension, picture without or with too many
 /// pixels, failed write.
-void save_image(const std::filesystem::path& path, const Image& image);
-void save_image(const std::filesystem::path& path, const DeepImage& image);
+CELLTRACE_EXPORT void save_image(const std::filesystem::path& path, const Image& image);
+CELLTRACE_EXPORT void save_image(const std::filesystem::path& path, const DeepImage& image);
 
 /// Throws the InputError save_image() would end with for this path's extension or folder, so that a program
 /// can tell before it computes the picture.
-void check_image_path(const std::filesystem::path& path);
+CELLTRACE_EXPORT void check_image_path(const std::filesystem::path& path);
 
 /// Reads a PNG (any bit depth, grey, palette, alpha, interlaced; 16 bits are rounded to 8; gamma chunks are
 /// not applied) or a binary PPM (P6, any maximum), told apart by their content. Throws InputError naming the
 /// file: unreadable, neither format, damaged, truncated, over the limits above, or too short for the size it
 /// declares.
-Image load_image(const std::filesystem::path& path);
+CELLTRACE_EXPORT Image load_image(const std::filesystem::path& path);
 
 /// How far two pictures of the same size are apart.
-struct Comparison {
+struct CELLTRACE_EXPORT Comparison {
   int width = 0;
   int height = 0;
   /// Peak signal-to-noise ratio over red, green and blue in dB, peak 255; infinity if those are equal
@@ -97,18 +98,18 @@ struct Comparison {
 };
 
 /// Throws InputError if the sizes differ or a picture is empty.
-Comparison compare_images(const Image& a, const Image& b);
+CELLTRACE_EXPORT Comparison compare_images(const Image& a, const Image& b);
 
 /// One line for people: "PSNR 41.27 dB, worst 8x8 SSIM 0.9821 at (120, 64), 312 of 307200 pixels differ, by
 /// 17 at most", or "identical, WxH pixels".
-std::string to_text(const Comparison& comparison);
+CELLTRACE_EXPORT std::string to_text(const Comparison& comparison);
 
 /// A JSON object with the members of Comparison as keys and "identical". JSON has no infinity: an infinite
 /// PSNR is null.
-std::string to_json(const Comparison& comparison);
+CELLTRACE_EXPORT std::string to_json(const Comparison& comparison);
 
 /// The differences as an opaque picture: every channel of RGB is min(255, gain * |a - b|); black where equal.
 /// Throws as compare_images(), and InputError for a gain outside 1..255.
-Image difference_image(const Image& a, const Image& b, int gain = 8);
+CELLTRACE_EXPORT Image difference_image(const Image& a, const Image& b, int gain = 8);
 
 } // namespace celltrace

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "celltrace/error.hpp"
+#include "celltrace/export.hpp"
 #include "celltrace/scene.hpp"
 
 namespace celltrace {
@@ -53,7 +54,7 @@ struct NamedLimit {
   std::uint64_t ParseLimits::*limit;
 };
 /// All of them.
-const std::vector<NamedLimit>& parse_limits();
+CELLTRACE_EXPORT const std::vector<NamedLimit>& parse_limits();
 
 /// What a scene knows of the animation that it is a frame of: clock_on, frame_number, initial_frame,
 /// final_frame, initial_clock, final_clock and clock_delta. By default as POV-Ray has them for a still
@@ -104,11 +105,12 @@ struct ParseOptions {
 /// Throws SceneError for a fault of the scene: "file:line:column: error: text", followed by a line for every
 /// file and macro the place was reached through. InputError if an option is unusable, Cancelled if `progress`
 /// asked for it. Safe to call from several threads.
-Scene parse_file(const std::filesystem::path& path, const ParseOptions& options = {});
+CELLTRACE_EXPORT Scene parse_file(const std::filesystem::path& path, const ParseOptions& options = {});
 
 /// The same for a scene in memory. `name` stands in messages; includes are looked for from the current
 /// folder.
-Scene parse_string(std::string_view text, const ParseOptions& options = {}, std::string name = "<string>");
+CELLTRACE_EXPORT Scene parse_string(std::string_view text, const ParseOptions& options = {},
+                                    std::string name = "<string>");
 
 /// A word that the language reserves; directives with their #.
 struct Keyword {
@@ -122,6 +124,6 @@ struct Keyword {
 };
 
 /// All of them, in alphabetical order.
-std::vector<Keyword> keywords();
+CELLTRACE_EXPORT std::vector<Keyword> keywords();
 
 } // namespace celltrace

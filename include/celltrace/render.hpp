@@ -1,7 +1,8 @@
 // Rendering: a Scene in, a picture out, every ray traced by the SPE program.
 #pragma once
 
-#include "celltrace/cache.hpp"
+#include "celltrace/cache/config.hpp"
+#include "celltrace/export.hpp"
 #include "celltrace/image.hpp"
 #include "celltrace/scene.hpp"
 #include "celltrace/spe/emulation.hpp"
@@ -147,7 +148,7 @@ struct RenderOptions {
 
 /// What a frame cost. Sums over all SPEs unless said otherwise; what building the accelerator took is only in
 /// the seconds and cycles of its own.
-struct RenderStatistics {
+struct CELLTRACE_EXPORT RenderStatistics {
   struct Cache {
     std::uint64_t hits = 0, misses = 0;
     /// Hits per read, 0..1; 0 if nothing was read.
@@ -238,10 +239,10 @@ struct RenderStatistics {
 };
 
 /// Adds those of more rows of the same picture.
-void add_rows(RenderStatistics& sum, const RenderStatistics& rows);
+CELLTRACE_EXPORT void add_rows(RenderStatistics& sum, const RenderStatistics& rows);
 
 /// The statistics as JSON text; docs/statistics.md describes the keys.
-std::string to_json(const RenderStatistics& statistics);
+CELLTRACE_EXPORT std::string to_json(const RenderStatistics& statistics);
 
 struct RenderResult {
   Image image;
@@ -256,7 +257,7 @@ struct RenderResult {
 /// A render context: a machine whose SPEs run the tracer, kept from frame to frame. After a cancelled frame
 /// it renders the next one as usual. Thread safety: one thread at a time; different renderers are
 /// independent.
-class Renderer {
+class CELLTRACE_EXPORT Renderer {
 public:
   /// Throws InputError for options out of range.
   explicit Renderer(const RenderOptions& options = {});
@@ -301,6 +302,7 @@ private:
 };
 
 /// One frame on a machine of its own.
-RenderResult render(const Scene& scene, const RenderOptions& options = {}, const Progress& progress = {});
+CELLTRACE_EXPORT RenderResult render(const Scene& scene, const RenderOptions& options = {},
+                                     const Progress& progress = {});
 
 } // namespace celltrace

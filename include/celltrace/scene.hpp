@@ -6,6 +6,7 @@
 // it.
 #pragma once
 
+#include "celltrace/export.hpp"
 #include "celltrace/texture.hpp"
 
 #include <cstdint>
@@ -291,7 +292,7 @@ struct Csg {
   std::vector<Object> parts; ///< placed in the space of the CSG
 };
 
-struct Scene {
+struct CELLTRACE_EXPORT Scene {
   std::string name; ///< for messages: the file it came from
   Camera camera;
   Vec3 background{0, 0, 0};
@@ -324,9 +325,9 @@ struct Scene {
 };
 
 /// Throws InputError if a number is not finite, or an angle negative.
-void validate(const Camera& camera);
+CELLTRACE_EXPORT void validate(const Camera& camera);
 /// Throws InputError, naming the first fault, if an index is out of range, a number is not finite, or there
 /// are more triangles or vertices than 32-bit offsets can address, or a light's area has no places.
-void validate(const Scene& scene);
+CELLTRACE_EXPORT void validate(const Scene& scene);
 
 } // namespace celltrace

@@ -9,6 +9,7 @@
 // generation(), which any thread may call at any time; different sessions are independent.
 #pragma once
 
+#include "celltrace/export.hpp"
 #include "celltrace/render.hpp"
 
 #include <cstddef>
@@ -26,7 +27,7 @@ enum class PixelFormat {
   rgb8   ///< R, G, B
 };
 /// 3 or 4.
-std::size_t bytes_of(PixelFormat format);
+CELLTRACE_EXPORT std::size_t bytes_of(PixelFormat format);
 
 /// Memory of the application's that pictures are put into while they are rendered. Has to stay as long as the
 /// session may render into it.
@@ -36,7 +37,7 @@ struct Framebuffer {
   PixelFormat format = PixelFormat::rgba8;
 };
 
-class Session {
+class CELLTRACE_EXPORT Session {
 public:
   /// Throws InputError for options out of range. The scene is looked at when it is first rendered.
   explicit Session(Scene scene, const RenderOptions& options = {});

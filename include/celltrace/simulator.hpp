@@ -6,10 +6,11 @@
 //   CHECK(run.exit_codes[0] == 0);
 //   CHECK(run.output == "done\n");
 //
-// docs/simulator.md says more. Link the CMake target celltrace::cell_emu.
+// docs/simulator.md says more. Link the CMake target celltrace::emulator.
 #pragma once
 
 #include "celltrace/emulator.hpp"
+#include "celltrace/export.hpp"
 
 #include <cstdint>
 #include <span>
@@ -25,28 +26,30 @@ struct SimulatedRun : EmulatedRun {
 };
 
 /// Throws InputError, which says why, if `elf` is no executable for the SPU.
-void check_spu_program(std::span<const std::uint8_t> elf);
+CELLTRACE_EXPORT void check_spu_program(std::span<const std::uint8_t> elf);
 
 /// A machine of SPUs that execute machine code, in lockstep by virtual time.
-MachineConfig simulated(unsigned spes);
+CELLTRACE_EXPORT MachineConfig simulated(unsigned spes);
 
 /// Runs a stand-alone program, main(speid, argp, envp) or one that is linked with -mstdmain, on every SPE of
 /// a new machine while `ppe` plays the PPE, and waits for all. `argument` is argp. A request to stop ends the
 /// programs with errors. Throws InputError for a configuration out of range or of another backend than
 /// "cell_sim" and for an `elf` that is no executable for the SPU, and what `ppe` throws unless that is an
 /// SpeError. Thread safety: runs are independent of each other.
-SimulatedRun simulate(const MachineConfig& config, std::span<const std::uint8_t> elf, ea_t argument = 0,
-                      const EmulatedPpe& ppe = {}, const std::stop_token& stop = {});
+CELLTRACE_EXPORT SimulatedRun simulate(const MachineConfig& config, std::span<const std::uint8_t> elf,
+                                       ea_t argument = 0, const EmulatedPpe& ppe = {},
+                                       const std::stop_token& stop = {});
 
 /// The counters of all SPEs together, in the order of IBM's full-system simulator; several lines. `timing` is
 /// that of the machine.
-std::string counters_text(const EmulatedRun& run, const TimingParameters& timing);
+CELLTRACE_EXPORT std::string counters_text(const EmulatedRun& run, const TimingParameters& timing);
 
 /// Where the cycles of a profile went, for people: the functions, hottest first, then the instructions of the
 /// hottest ones that make up `listed` (0..1) of all cycles together. `elf` is the program that was profiled;
 /// throws InputError if it is none.
-std::string profile_text(const SpuProfile& profile, std::span<const std::uint8_t> elf, double listed = 0.95);
+CELLTRACE_EXPORT std::string profile_text(const SpuProfile& profile, std::span<const std::uint8_t> elf,
+                                          double listed = 0.95);
 /// The same as JSON, which docs/simulator.md describes, with all instructions that were executed.
-std::string profile_json(const SpuProfile& profile, std::span<const std::uint8_t> elf);
+CELLTRACE_EXPORT std::string profile_json(const SpuProfile& profile, std::span<const std::uint8_t> elf);
 
 } // namespace celltrace

@@ -1,6 +1,8 @@
 // Vectors and affine transformations, as POV-Ray has them.
 #pragma once
 
+#include "celltrace/export.hpp"
+
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -11,7 +13,7 @@ using Vec3f = glm::vec3;
 using Vec2f = glm::vec2;
 
 /// An affine transformation as POV-Ray writes it: row vectors, p' = p * rows[0..2] + rows[3].
-struct Transform {
+struct CELLTRACE_EXPORT Transform {
   Vec3 rows[4] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}};
 
   static Transform translate(const Vec3& offset);

@@ -2,11 +2,13 @@
 
 #include "celltrace/error.hpp"
 #include "celltrace/image.hpp"
+#include "celltrace/version.hpp"
 #include "cli/animation_options.hpp"
 #include "cli/choice.hpp"
+#include "cli/completions.hpp"
 #include "cli/emulation_options.hpp"
 #include "cli/keyword_page.hpp"
-#include "cli/version.hpp"
+#include "cli/man_page.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -474,10 +476,22 @@ Request parse_command_line(std::vector<std::string> arguments) {
   CLI::App app("Ray-traces POV-Ray scenes with a program written for the Cell's SPEs, on any machine.",
                "celltrace");
   app.require_subcommand(1);
-  app.set_version_flag("--version", version_text());
+  app.set_version_flag("--version", std::string("celltrace ") + version());
   app.add_flag_callback(
       "--list-keywords", [] { throw CLI::CallForVersion(keyword_page(), 0); },
       "Say which words of POV-Ray's language are supported");
+  app.add_flag_callback(
+      "--man-page", [&app] { throw CLI::CallForVersion(man_page(describe(app)), 0); },
+      "Print the manual page, for man -l -");
+  app.add_option_function<std::string>(
+         "--completions",
+         [&app](const std::string& shell) {
+           throw CLI::CallForVersion(completions(describe(app), shell), 0);
+         },
+         "Print what makes a shell complete celltrace's options")
+      ->check(CLI::IsMember({"bash", "zsh", "fish"}))
+      ->type_name("SHELL")
+      ->trigger_on_parse();
   app.footer(
       "`celltrace SCENE.pov` means render. POV-Ray's switches (+W640 +H480 +Iscene.pov ...) are understood.\n"
       "Exit codes: 0 done, 1 error or past a bar, 2 interrupted.");

@@ -2,7 +2,7 @@
 
 #include "celltrace/error.hpp"
 #include "cli/interrupt.hpp"
-#include "cli/version.hpp"
+#include "celltrace/version.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -78,7 +78,7 @@ ReadScene read_scene(const RenderRequest& request, int frame,
 Settings settings_of(const RenderRequest& request) {
   const RenderOptions& options = request.options;
   Settings settings = {
-      {"version", version_text()},
+      {"version", std::string("celltrace ") + version()},
       {"scene", std::filesystem::absolute(request.scene).string()},
       {"scene file", file_stamp(request.scene)},
       {"width", std::to_string(options.width)},

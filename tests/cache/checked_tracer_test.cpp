@@ -1,6 +1,6 @@
 // The tracer with caches that watch over their pointers: it uses none too late. This test program brings a
 // tracer_program() of its own, which the renderer starts in place of the usual one.
-#include "backends/cell_emu/spu.hpp"
+#include "celltrace/spe/emulated_spu.hpp"
 #include "celltrace/render.hpp"
 #include "kernel/program/tracer.hpp"
 #include "render/scenes.hpp"

@@ -1,5 +1,5 @@
 // Cycles of computation: what the SIMD facade and compute() count, and what the pipeline model makes of it.
-#include "backends/cell_emu/counting_simd.hpp"
+#include "celltrace/spe/counting_simd.hpp"
 #include "backends/cell_emu/pipeline.hpp"
 #include "celltrace/spe/simd_host.hpp"
 

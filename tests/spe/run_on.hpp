@@ -10,7 +10,7 @@
 #pragma once
 
 #include "backends/cell_emu/machine.hpp"
-#include "backends/cell_emu/spu.hpp"
+#include "celltrace/spe/emulated_spu.hpp"
 #include "backends/native/machine.hpp"
 #include "backends/native/spu.hpp"
 

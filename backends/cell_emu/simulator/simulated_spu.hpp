@@ -32,7 +32,7 @@ public:
                SpuProfile* profile);
   ~SimulatedSpu() override { mfc_.watch_flights(nullptr); }
 
-  /// Executes the program from its entry on, until it throws: Exit when it ends, or as SpuCore does.
+  /// Executes the program from its entry on, until it throws: SpeExit when it ends, or as SpuCore does.
   [[noreturn]] void run(const StartRegisters& registers);
   void finish();
   void abandon();

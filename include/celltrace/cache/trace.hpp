@@ -12,6 +12,7 @@
 
 #include "celltrace/cache/config.hpp"
 #include "celltrace/cache/trace_words.hpp"
+#include "celltrace/export.hpp"
 #include "celltrace/spe/recorder.hpp"
 
 #include <cstdint>
@@ -38,10 +39,10 @@ struct CacheTrace {
 };
 
 /// Without its prefetches: what is left is what a program has to wait for if nothing is fetched ahead.
-CacheTrace without_prefetches(CacheTrace trace);
+CELLTRACE_EXPORT CacheTrace without_prefetches(CacheTrace trace);
 
 /// Writes what the caches of a machine record. Memory that is needed does not grow with the run.
-class CacheTraceWriter : public SpeRecorder {
+class CELLTRACE_EXPORT CacheTraceWriter : public SpeRecorder {
 public:
   /// `file` is a binary stream that outlives the writer.
   explicit CacheTraceWriter(std::ostream& file);
@@ -60,6 +61,7 @@ private:
 
 /// All traces of a file, ordered by SPE and then by age. Throws InputError if it is none, is damaged, or has
 /// more than `max_requests` requests, which are what takes memory.
-std::vector<CacheTrace> read_cache_traces(std::istream& file, std::uint64_t max_requests = 1u << 27);
+CELLTRACE_EXPORT std::vector<CacheTrace> read_cache_traces(std::istream& file,
+                                                           std::uint64_t max_requests = 1u << 27);
 
 } // namespace celltrace

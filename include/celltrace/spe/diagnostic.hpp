@@ -1,6 +1,7 @@
 // What an emulated machine has to say about a program: which rule was broken, by whom and where.
 #pragma once
 
+#include "celltrace/export.hpp"
 #include "celltrace/spe/call_site.hpp"
 #include "celltrace/spe/types.hpp"
 
@@ -97,18 +98,18 @@ enum class Rule : unsigned char {
 constexpr unsigned kRules = static_cast<unsigned>(Rule::kernel_exception) + 1;
 
 /// "transfer-size".
-std::string_view name_of(Rule rule);
+CELLTRACE_EXPORT std::string_view name_of(Rule rule);
 /// What must hold: "size must be 1, 2, 4, 8 or a multiple of 16 up to 16384".
-std::string_view text_of(Rule rule);
+CELLTRACE_EXPORT std::string_view text_of(Rule rule);
 
 /// What happens when a rule is broken: nothing, a diagnostic, or a diagnostic and the end of the SPE's
 /// program.
 enum class Action : unsigned char { ignore, warn, stop };
 /// What happens if the machine's configuration says nothing else.
-Action default_action(Rule rule);
+CELLTRACE_EXPORT Action default_action(Rule rule);
 /// For programs that were written for the hardware and rely on what it does beyond the manuals: the rules
 /// that it has no objection to, all of which are Action::ignore. For EmulationConfig::actions.
-std::map<Rule, Action> lenient_actions();
+CELLTRACE_EXPORT std::map<Rule, Action> lenient_actions();
 
 /// One broken rule. The address fields are those of the command, where there is one.
 struct Diagnostic {

@@ -7,7 +7,7 @@
 #pragma once
 
 #ifndef __SPU__
-#include "backends/cell_emu/spu.hpp"
+#include "celltrace/spe/emulated_spu.hpp"
 
 #include <type_traits>
 #endif

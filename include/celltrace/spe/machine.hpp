@@ -2,6 +2,7 @@
 #pragma once
 
 #include "celltrace/error.hpp"
+#include "celltrace/export.hpp"
 #include "celltrace/spe/emulation.hpp"
 #include "celltrace/spe/program.hpp"
 #include "celltrace/spe/simulation.hpp"
@@ -70,7 +71,7 @@ struct SpeStatistics {
 /// A machine with n SPEs. Thread safety: one PPE thread at a time calls its members; interrupt() may be
 /// called from any thread and from a signal handler's thread. Errors: std::out_of_range for an SPE that does
 /// not exist.
-class Machine {
+class CELLTRACE_EXPORT Machine {
 public:
   Machine() = default;
   Machine(const Machine&) = delete;
@@ -151,10 +152,10 @@ public:
 };
 
 /// Names of the backends of this build: "native", "cell_emu", "cell_sim".
-std::vector<std::string> machine_backends();
+CELLTRACE_EXPORT std::vector<std::string> machine_backends();
 
 /// A machine by its configuration. Throws InputError for an unknown backend or a value out of range.
-std::unique_ptr<Machine> make_machine(const MachineConfig& config);
+CELLTRACE_EXPORT std::unique_ptr<Machine> make_machine(const MachineConfig& config);
 
 /// The effective address of an object in main memory.
 inline ea_t to_ea(const void* object) {

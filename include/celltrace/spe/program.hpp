@@ -2,6 +2,7 @@
 // and its machine code for SPUs that execute that.
 #pragma once
 
+#include "celltrace/export.hpp"
 #include "celltrace/spe/types.hpp"
 
 #include <cstdint>
@@ -19,6 +20,11 @@ namespace celltrace {
 struct LocalStoreUse {
   unsigned code_bytes = 0; ///< code, constants and data
   unsigned stack_bytes = 0;
+};
+
+/// Thrown by a program of host code on the emulated Cell: it ends as if it had returned with this exit code.
+struct CELLTRACE_EXPORT SpeExit {
+  std::uint32_t code;
 };
 
 /// A kernel compiled for one or more backends. `Spu::kKey` names the SPU type ("cell_emu", "native.avx2",

@@ -1,6 +1,8 @@
 // What kernels record while they run on a machine that measures, word by word: for studies and tests.
 #pragma once
 
+#include "celltrace/export.hpp"
+
 #include <cstdint>
 
 namespace celltrace {
@@ -9,7 +11,7 @@ struct ScalarWork;
 
 /// Takes the words. `source` tells apart the objects of one SPE's program that record; what their words mean
 /// is their own affair.
-class SpeRecorder {
+class CELLTRACE_EXPORT SpeRecorder {
 public:
   virtual ~SpeRecorder() = default;
   /// Called by the threads that run the SPEs: by one at a time for one `spe`, but for several SPEs at once.

@@ -25,10 +25,10 @@ uint32_t lane_bits(const xsimd::batch_bool<typename Batch::value_type, typename 
   if constexpr (Batch::size == 16) return static_cast<uint32_t>(mask.data);
 #endif
 #if defined(__AVX__)
-  if constexpr (Batch::size == 8) return static_cast<uint32_t>(_mm256_movemask_ps((__m256)mask.data));
+  if constexpr (Batch::size == 8) return static_cast<uint32_t>(_mm256_movemask_ps(reinterpret_cast<__m256>(mask.data)));
 #endif
 #if defined(__SSE2__)
-  if constexpr (Batch::size == 4) return static_cast<uint32_t>(_mm_movemask_ps((__m128)mask.data));
+  if constexpr (Batch::size == 4) return static_cast<uint32_t>(_mm_movemask_ps(reinterpret_cast<__m128>(mask.data)));
 #endif
   bool lanes[Batch::size];
   mask.store_unaligned(lanes);

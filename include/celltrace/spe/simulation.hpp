@@ -2,6 +2,8 @@
 // what is recorded of them.
 #pragma once
 
+#include "celltrace/export.hpp"
+
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -14,7 +16,7 @@ namespace celltrace {
 
 /// Where the cycles of a program went, word by word of local store. Programs that replace their code share
 /// the words. Thread safety: several SPEs may add at once; read it when none runs.
-class SpuProfile {
+class CELLTRACE_EXPORT SpuProfile {
 public:
   struct Word {
     std::uint64_t hits = 0;   ///< times that the instruction was issued

@@ -8,7 +8,7 @@
 #include <spu_intrinsics.h>
 #else
 
-#include "backends/cell_emu/spu.hpp"
+#include "celltrace/spe/emulated_spu.hpp"
 #include "celltrace/spe/spu_generic.hpp"
 #include "celltrace/spe/spu_specific.hpp"
 

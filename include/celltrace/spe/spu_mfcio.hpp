@@ -18,6 +18,7 @@
 #else
 
 #include "celltrace/spe/local_store.hpp"
+#include "celltrace/spe/program.hpp"
 #include "celltrace/spe/spu_intrinsics.hpp"
 #include "celltrace/spe/spu_mfcio_constants.hpp"
 
@@ -41,7 +42,7 @@ struct mfc_list_element_t {
   mfc_list_element_t() = default;
   /// In the order of the SDK's fields.
   constexpr mfc_list_element_t(uint32_t notify_bit, uint32_t reserved_bits, uint32_t bytes, uint32_t ea_low)
-      : size(bytes), reserved(reserved_bits), notify(notify_bit), eal(ea_low) {}
+      : size(bytes & 0x7FFF), reserved(reserved_bits & 0xFFFF), notify(notify_bit & 1), eal(ea_low) {}
 };
 static_assert(sizeof(mfc_list_element_t) == sizeof(celltrace::ListElement));
 
@@ -413,7 +414,7 @@ template <class... Arguments> auto spe_main(int (*main_function)(Arguments...), 
     const auto call = [&]<std::size_t... i>(std::index_sequence<i...>) {
       return main_function(static_cast<Arguments>(given[i])...);
     };
-    throw cell_emu::Spu::Exit{static_cast<uint32_t>(call(std::index_sequence_for<Arguments...>())) & 0xFF};
+    throw SpeExit{static_cast<uint32_t>(call(std::index_sequence_for<Arguments...>())) & 0xFF};
   };
 }
 

@@ -12,6 +12,8 @@ namespace celltrace {
 using ea_t = uint64_t;
 
 constexpr uint32_t kLocalStoreBytes = 256 * 1024;
+/// On the emulated Cell: the local-store address of a pointer that does not point into the SPE's local store.
+constexpr uint32_t kOutsideLocalStore = 0xFFFFFFFFu;
 /// Cache line of the EIB: the size at which a DMA transfer is most efficient.
 constexpr uint32_t kLineBytes = 128;
 constexpr uint32_t kMaxDmaBytes = 16 * 1024;

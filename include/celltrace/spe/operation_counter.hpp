@@ -37,7 +37,8 @@ struct OperationCounts {
 /// Of the kernel that runs on this host thread. Initial-exec and constant-initialised, and everything below
 /// is inlined always: then counting is an addition to memory per unit and basic block, some 15 % of the time
 /// of a kernel that only computes. Were it a function call per operation, kernels would take twice as long.
-inline constinit thread_local OperationCounts operation_counts [[gnu::tls_model("initial-exec")]];
+inline constinit thread_local OperationCounts operation_counts
+    [[gnu::tls_model("initial-exec"), gnu::visibility("default")]];
 
 /// The counts of this thread, which start again at 0.
 inline OperationCounts take_operation_counts() {

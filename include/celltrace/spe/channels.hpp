@@ -3,7 +3,7 @@
 
 #include "celltrace/spe/types.hpp"
 
-namespace celltrace::cell_emu {
+namespace celltrace {
 
 constexpr const char* name_of(Channel channel) {
   switch (channel) {
@@ -121,4 +121,4 @@ constexpr bool may_stall(Channel channel) {
   }
 }
 
-} // namespace celltrace::cell_emu
+} // namespace celltrace

@@ -2,7 +2,7 @@
 // counted as the instructions that the spu backend issues for it.
 #pragma once
 
-#include "backends/cell_emu/operation_counter.hpp"
+#include "celltrace/spe/operation_counter.hpp"
 
 #include <concepts>
 #include <cstdint>

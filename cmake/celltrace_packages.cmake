@@ -1,0 +1,90 @@
+# Debian packages, by `cpack -G DEB` (tools/make-packages.sh): the libraries libcelltrace0, what compiling with them needs
+# libcelltrace-dev, the program celltrace. They want a build with BUILD_SHARED_LIBS and CMAKE_INSTALL_PREFIX=/usr.
+
+set(maintainer "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
+if(NOT DEFINED ENV{DEBFULLNAME} OR NOT DEFINED ENV{DEBEMAIL})
+  set(maintainer "celltrace authors <root@localhost>")
+endif()
+set(CELLTRACE_MAINTAINER ${maintainer} CACHE STRING
+  "Maintainer of the packages: Name <address>; by default of DEBFULLNAME and DEBEMAIL")
+
+set(CPACK_PACKAGE_NAME celltrace)
+set(CPACK_PACKAGE_CONTACT ${CELLTRACE_MAINTAINER})
+set(CPACK_PACKAGING_INSTALL_PREFIX ${CMAKE_INSTALL_PREFIX})
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_GENERATOR DEB)
+set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+
+set(about "celltrace ray-traces POV-Ray scenes with a program that is written for the SPEs of the
+Cell Broadband Engine and runs on any PC: as threads with the widest SIMD of the CPU, or on an
+emulated Cell that holds it to the machine's rules.\n")
+set(packages_runtime libcelltrace${PROJECT_VERSION_MAJOR})
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION libs)
+set(CPACK_COMPONENT_GROUP_RUNTIME_DESCRIPTION "ray tracer for POV-Ray scenes - libraries
+${about}.\nThese are the shared libraries.")
+set(packages_dev libcelltrace-dev)
+set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "${packages_runtime} (= ${PROJECT_VERSION}), libglm-dev, libxsimd-dev")
+set(CPACK_COMPONENT_GROUP_DEV_DESCRIPTION "ray tracer for POV-Ray scenes - development files
+${about}.\nThese are the headers, a CMake package and pkg-config files.")
+set(packages_tools celltrace)
+set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION graphics)
+set(CPACK_COMPONENT_GROUP_TOOLS_DESCRIPTION "ray tracer for POV-Ray scenes - program
+${about}.\nThis is the program, which also runs programs for the SPU.")
+
+# What Debian wants beside the files: installed by no other way of installing.
+set(debian ${PROJECT_BINARY_DIR}/debian)
+file(READ ${PROJECT_SOURCE_DIR}/LICENSE licence)
+string(REGEX MATCH "Copyright \\(c\\) [^\n]*" copyright "${licence}")
+string(REPLACE "Copyright (c) " "" copyright "${copyright}")
+string(REGEX REPLACE "^.*Copyright[^\n]*\n\n" "" licence "${licence}")
+string(REGEX REPLACE "\n$" "" licence "${licence}")
+string(REPLACE "\n\n" "\n.\n" licence "${licence}")
+string(REPLACE "\n" "\n " licence "${licence}")
+file(WRITE ${debian}/copyright "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/
+Upstream-Name: celltrace
+
+Files: *
+Copyright: ${copyright}
+License: Expat
+ ${licence}
+")
+string(TIMESTAMP now "%a, %d %b %Y %H:%M:%S +0000" UTC) # or what SOURCE_DATE_EPOCH says
+file(WRITE ${debian}/changelog "celltrace (${PROJECT_VERSION}) unstable; urgency=medium
+
+  * What changed is in CHANGELOG.md of the sources.
+
+ -- ${CELLTRACE_MAINTAINER}  ${now}
+")
+find_program(CELLTRACE_GZIP gzip)
+mark_as_advanced(CELLTRACE_GZIP)
+if(CELLTRACE_GZIP)
+  execute_process(COMMAND ${CELLTRACE_GZIP} -9nf ${debian}/changelog)
+endif()
+foreach(group runtime dev tools)
+  string(TOUPPER ${group} upper)
+  set(CPACK_DEBIAN_${upper}_PACKAGE_NAME ${packages_${group}})
+  install(FILES ${debian}/copyright ${debian}/changelog.gz
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${packages_${group}} COMPONENT debian_${group} EXCLUDE_FROM_ALL OPTIONAL)
+endforeach()
+set(CPACK_COMPONENTS_ALL runtime debian_runtime dev debian_dev tools debian_tools)
+if(CELLTRACE_MANUAL AND CELLTRACE_GZIP)
+  install(CODE "execute_process(COMMAND ${CELLTRACE_GZIP} -9nkf celltrace.1 WORKING_DIRECTORY \"${CELLTRACE_MANUAL}\")"
+    COMPONENT debian_tools EXCLUDE_FROM_ALL)
+  install(FILES ${CELLTRACE_MANUAL}/celltrace.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1
+    COMPONENT debian_tools EXCLUDE_FROM_ALL)
+endif()
+
+include(CPack)
+foreach(group runtime dev tools)
+  string(TOUPPER ${group} upper)
+  cpack_add_component_group(${group} DESCRIPTION "${CPACK_COMPONENT_GROUP_${upper}_DESCRIPTION}")
+  cpack_add_component(${group} GROUP ${group})
+  cpack_add_component(debian_${group} GROUP ${group})
+endforeach()
