@@ -68,6 +68,10 @@ void HostCodeSpu::throw_halted(HaltCode code, CallSite site) {
                                         " bytes of the arena are free");
 }
 
+void HostCodeSpu::throw_halted_by_instruction() {
+  fail(Rule::halted, std::string(text_of(Rule::halted)));
+}
+
 void HostCodeSpu::stop(std::uint32_t code) {
   settle();
   stop_with(code);

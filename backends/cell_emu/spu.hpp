@@ -18,6 +18,7 @@ public:
   ~HostCodeSpu();
 
   using Spu::id;
+  void release(std::uint8_t* marked, CallSite site) override;
   SpeAddresses addresses(std::uint32_t spe) const override;
   ArenaState& arena() override;
 
@@ -27,7 +28,6 @@ public:
 
   void note(const char* what, std::uint32_t value) override;
   void* local_static(const void* key, std::uint32_t bytes, std::uint32_t alignment) override;
-  void release(std::uint8_t* marked, CallSite site) override;
   void enable_interrupts(std::function<void(Spu&)> handler) override;
   void enable_interrupts() override;
   void disable_interrupts() override { interrupts_enabled_ = false; }
@@ -43,11 +43,9 @@ public:
   void abandon();
 
 private:
-  [[noreturn]] void throw_halted(HaltCode code, CallSite site) override;
-  [[noreturn]] void throw_halted_by_instruction() override {
-    fail(Rule::halted, std::string(text_of(Rule::halted)));
-  }
   void allocated(void* begin, std::uint32_t bytes, std::uint32_t alignment, CallSite site) override;
+  [[noreturn]] void throw_halted_by_instruction() override;
+  [[noreturn]] void throw_halted(HaltCode code, CallSite site) override;
   void issue(MfcOpcode op, std::uint32_t lsa, ea_t ea, std::uint32_t size, std::uint32_t tag) override;
   void fetch_module(const CodeModule& module) override;
   [[noreturn]] void report_absent_module(const CodeModule& module, CallSite site) override;
@@ -61,7 +59,6 @@ private:
   ArenaState arena_;
   std::map<const void*, void*> statics_;
   bool in_handler_ = false;
-  isa::Quadword floating_status_{};
   std::function<void(Spu&)> interrupt_handler_;
 };
 

@@ -106,9 +106,7 @@ std::string zsh_text(const std::string& text) {
 
 std::string zsh_values(const DescribedOption& option) {
   if (option.value.empty()) return "";
-  std::string text = ":"; // not by operator +, of which GCC 12 warns
-  text += zsh_text(option.value);
-  text += ':';
+  std::string text = ":" + zsh_text(option.value) + ":";
   if (!option.choices.empty()) return text + "(" + joined(option.choices, " ") + ")";
   if (option.takes_folder()) return text + "_files -/";
   return option.takes_file() ? text + "_files" : text;

@@ -2,6 +2,7 @@
 // of spu_specific.hpp and spu_generic.hpp are made of them.
 #pragma once
 
+#include "celltrace/export.hpp"
 #include "celltrace/spe/quadword.hpp"
 
 #include <cstdint>
@@ -30,11 +31,11 @@ using isa::Quadword;
 /// Where an SPE program runs on this thread, its floating-point status is used, its virtual time goes on, and
 /// a halt ends it (Rule::halted). Elsewhere every thread has a status of its own, and a halt throws SpeError.
 /// Thread-safe.
-Quadword execute(Opcode opcode, const Quadword& a, const Quadword& b, const Quadword& c,
-                 std::int32_t immediate);
+CELLTRACE_EXPORT Quadword execute(Opcode opcode, const Quadword& a, const Quadword& b, const Quadword& c,
+                                  std::int32_t immediate);
 
 /// The 16 bytes of the running SPE's local store at an address, of which the low four bits and those beyond
 /// 256 KB do not count. Throws SpeError where no SPE program runs.
-void* local_quadword(std::uint32_t lsa);
+CELLTRACE_EXPORT void* local_quadword(std::uint32_t lsa);
 
 } // namespace celltrace::sdk
