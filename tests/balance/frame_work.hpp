@@ -89,7 +89,7 @@ private:
       if (exchange_.over()) return;
     }
     units_.write_cost(unit, state);
-    exchange_.complete_unit();
+    exchange_.complete_unit(unit);
     ++report_.units;
     report_.steps += steps;
   }

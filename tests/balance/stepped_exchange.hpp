@@ -57,7 +57,7 @@ private:
       return exchange_.take_unit(unit) ? unit + 1 : 0;
     case StepCommand::complete_unit:
       ++report_.units;
-      exchange_.complete_unit();
+      exchange_.complete_unit(0);
       return 0;
     case StepCommand::end_frame:
       end_frame();
