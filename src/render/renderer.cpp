@@ -361,8 +361,10 @@ private:
       grid.begin = traced_.end;
     if (planned_ == rows && planned_grid_ == grid) return;
     const unsigned spes = machine_->spe_count();
-    plan_ = std::make_unique<WorkPlan>(options_.balance, frame_.bundle_columns, grid.count(), spes,
-                                       machine_->byte_order(), grid.begin);
+    // The frame block has the columns of the plan that was carried out last, which may be of samples.
+    const std::uint32_t edge = bundle_edge(machine_->direct_memory());
+    plan_ = std::make_unique<WorkPlan>(options_.balance, (frame_.packet_columns + edge - 1) / edge,
+                                       grid.count(), spes, machine_->byte_order(), grid.begin);
     if (options_.antialiasing) {
       const auto blocks = [](int pixels) {
         return (static_cast<std::uint32_t>(pixels) + kSampledEdge - 1) / kSampledEdge;
