@@ -298,8 +298,9 @@ private:
   RenderResult render_frame(const RowRange& rows, const Progress& progress) {
     RenderStatistics statistics = std::exchange(prepared_, nothing_prepared());
     plan_rows(rows);
+    traced_ = {0, 0};
     // A frame that nobody can break off leaves no pixel out.
-    if (progress) std::memset(surface_.data(), 0, surface_.size());
+    if (progress) std::memset(surface_.data() + kept_bytes(), 0, surface_.size() - kept_bytes());
     const Stopwatch render;
     const SpeMeter meter(*machine_);
     RenderResult result;
@@ -377,6 +378,12 @@ private:
     }
     planned_ = rows;
     planned_grid_ = grid;
+  }
+  /// Of the surface: points that the plan leaves out are pixels, which came with the rows before.
+  std::size_t kept_bytes() const {
+    if (planned_grid_.begin == grid_rows_of(planned_).begin) return 0;
+    return std::size_t{frame_.surface_pitch} * planned_grid_.begin * bundle_edge(machine_->direct_memory()) *
+           kPacketEdge;
   }
 
   static Progress part_of(const Progress& progress, double begin, double end) {

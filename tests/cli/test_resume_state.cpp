@@ -137,7 +137,7 @@ TEST_CASE("rows that are damaged or cut off are none") {
 
 TEST_CASE("finished frames are known as long as their files are what they were") {
   const TemporaryFolder folder;
-  const auto picture = [&](int frame) { return folder / ("p" + std::to_string(frame) + ".png"); };
+  const auto picture = [&](int frame) { return folder / std::to_string(frame).append(".png"); };
   {
     ResumeState first(folder / "p.png", kSettings);
     for (int frame = 1; frame <= 3; ++frame) {
