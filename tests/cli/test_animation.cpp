@@ -56,9 +56,12 @@ TEST_CASE("an animation goes where it is told, on every machine") {
   REQUIRE(
       celltrace_run(folder, {"s.ini", "+Oe.ppm", "--backend", "cell_emu", "--spes", "2", "--stats", "e.json"})
           .exit_code == 0);
-  for (const char* number : {"1", "2", "3"})
-    CHECK(load_image(folder / ("out/s" + std::string(number) + ".png")) ==
-          load_image(folder / ("e" + std::string(number) + ".ppm")));
+  for (const char number : {'1', '2', '3'}) {
+    const auto picture = [&](const std::string& name, const char* extension) {
+      return load_image(folder / (name + number + extension));
+    };
+    CHECK(picture("out/s", ".png") == picture("e", ".ppm"));
+  }
   const auto statistics = nlohmann::json::parse(read_bytes(folder / "e.json"));
   REQUIRE(statistics.size() == 3);
   CHECK(statistics[1]["frame"] == 2);

@@ -380,7 +380,7 @@ TEST_CASE("the picture's name and type") {
   CHECK(output({"-o", "x"}) == "x.png");
   CHECK(output({"-o", "x", "--file-type", "ppm"}) == "x.ppm");
   CHECK(output({"-o", "x.PPM", "--file-type", "ppm"}) == "x.PPM");
-  CHECK(output({"-o", "x/"}) == "x/");
+  CHECK(output({"-o", "x/"}) == "x/a.png");
   CHECK(output({"--picture", "off"}).empty());
   CHECK_THAT(render_error({"-o", "x.png", "--file-type", "ppm"}), Contains("x.png") && Contains("ppm"));
   CHECK_FALSE(render_request({"a.pov"}).options.colours);

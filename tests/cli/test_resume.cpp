@@ -68,8 +68,7 @@ TEST_CASE("an animation that is killed ten times ends with the same files") {
     killed += run.finish().exit_code == 128 + SIGKILL ? 1 : 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder / "killed"))
       if (entry.path().extension() == ".png") {
-        const auto [file, is_new] =
-            seen.emplace(entry.path().filename().string(), std::filesystem::last_write_time(entry.path()));
+        seen.emplace(entry.path().filename().string(), std::filesystem::last_write_time(entry.path()));
         load_image(entry.path()); // is whole
       }
   }
