@@ -524,7 +524,8 @@ bool is_for_render(const std::vector<std::string>& arguments) {
   if (arguments.empty()) return false;
   const std::string& first = arguments[0];
   return first != "compare" && first != "spu" && first != "replay" && first != "study" && first != "view" &&
-         first != "--version" && first != "--list-keywords" && first != "--help" && first != "-h";
+         first != "--version" && first != "--list-keywords" && first != "--man-page" &&
+         first != "--completions" && first != "--help" && first != "-h";
 }
 
 } // namespace
