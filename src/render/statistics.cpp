@@ -71,7 +71,7 @@ const char* name_of(RenderStatistics::Preparation preparation) {
   using Preparation = RenderStatistics::Preparation;
   switch (preparation) {
   case Preparation::built:
-    return "built";
+    return "new";
   case Preparation::refitted:
     return "refitted";
   case Preparation::updated:

@@ -12,5 +12,5 @@ extern "C" int red_of_sphere(const char* backend) {
   options.width = options.height = 33;
   options.backend = backend;
   options.spes = 2;
-  return celltrace::render(scene, options).image.at(16, 16).r;
+  return celltrace::render(scene, options).image.pixel(16, 16)[0];
 }

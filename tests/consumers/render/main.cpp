@@ -3,6 +3,7 @@
 #include <celltrace/render.hpp>
 #include <celltrace/version.hpp>
 
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 
@@ -18,10 +19,10 @@ int main() {
     options.backend = backend;
     options.spes = 2;
     const celltrace::RenderResult result = celltrace::render(scene, options);
-    const auto middle = result.image.at(16, 16);
+    const std::uint8_t* const middle = result.image.pixel(16, 16);
     std::printf("%s: %d rays, middle %d %d %d\n", result.statistics.spu.c_str(),
-                static_cast<int>(result.statistics.primary_rays), middle.r, middle.g, middle.b);
-    if (middle.r < 100 || middle.g != 0 || !result.complete) return 2;
+                static_cast<int>(result.statistics.primary_rays), middle[0], middle[1], middle[2]);
+    if (middle[0] < 100 || middle[1] != 0 || !result.complete) return 2;
   }
   try {
     celltrace::parse_string("sphere { oops }");
