@@ -84,10 +84,17 @@ TEST_CASE("the manual page has every option that --help has") {
 TEST_CASE("the manual page is one that man reads") {
   if (!has_shell("man")) return;
   const std::string page = output_of({"--man-page"});
-  const std::string text =
+  const std::string printed =
       shell("bash", "man --warnings -E UTF-8 -l -Tutf8 -P cat - <<'END' 2>&1\n" + page + "END\n");
+  // Letters that are bold or underlined are printed over others.
+  std::string text;
+  for (const char c : printed)
+    if (c == '\b')
+      text.pop_back();
+    else
+      text += c;
   CHECK_THAT(text, Contains("SYNOPSIS"));
-  CHECK_THAT(text, !Contains("warning"));
+  CHECK_THAT(text, !Contains("warning:"));
 }
 
 TEST_CASE("bash completes commands, options, choices and files") {
