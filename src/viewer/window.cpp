@@ -58,6 +58,11 @@ Window::Window(const std::string& title, int width, int height, const std::files
     throw Error("there is no display to open a window on: neither DISPLAY nor WAYLAND_DISPLAY is set");
   if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0)
     throw Error(std::string("there is no display to open a window on: ") + SDL_GetError());
+  if (SDL_getenv("SDL_VIDEODRIVER") == nullptr &&
+      std::string(SDL_GetCurrentVideoDriver()) == "offscreen") { // what is left if all others fail
+    SDL_QuitSubSystem(SDL_INIT_VIDEO);
+    throw Error("there is no display to open a window on: none answers");
+  }
   window_ = SDL_CreateWindow(title.c_str(), SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, width, height,
                              SDL_WINDOW_RESIZABLE);
   if (window_ == nullptr) {

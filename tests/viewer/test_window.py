@@ -36,7 +36,8 @@ class Display:
         self.folder = folder
         read, write = os.pipe()
         self.process = subprocess.Popen(
-            ["Xvfb", "-displayfd", str(write), "-screen", "0", "1024x768x24", "-fbdir", folder, "-nolisten", "tcp"],
+            ["Xvfb", "-displayfd", str(write), "-screen", "0", "1024x768x24", "-fbdir", folder, "-nolisten", "tcp",
+             "-noreset"],
             pass_fds=[write], stderr=subprocess.DEVNULL)
         os.close(write)
         number = os.read(read, 16).decode().strip()
@@ -45,6 +46,12 @@ class Display:
             raise SystemExit("Xvfb did not start")
         self.environment = dict(os.environ, DISPLAY=":" + number)
         self.environment.pop("SDL_VIDEODRIVER", None)
+        for _ in range(100):
+            if subprocess.run(["xdotool", "getdisplaygeometry"], env=self.environment, timeout=20,
+                              capture_output=True).returncode == 0:
+                return
+            time.sleep(0.1)
+        raise SystemExit("Xvfb does not answer")
 
     def tool(self, *arguments):
         done = subprocess.run(["xdotool", *map(str, arguments)], env=self.environment, check=True, capture_output=True,
@@ -70,6 +77,8 @@ class Display:
 
 
 class Viewer:
+    all = []
+
     def __init__(self, display, program, folder, *arguments):
         self.display = display
         self.folder = folder
@@ -78,6 +87,7 @@ class Viewer:
         self.started = time.monotonic()
         self.process = subprocess.Popen([program, "view", "scene.pov", "-W", "320", "-H", "240", "--state", self.state_file,
                                          *arguments], cwd=folder, env=display.environment)
+        Viewer.all.append(self.process)
         self.lines = 0
         self.state = {}
         self.wait("the first picture", lambda s: s["final"])
@@ -374,6 +384,8 @@ def main():
             drive(display, program, folder)
             close_button(display, program, folder)
         finally:
+            for process in Viewer.all:
+                process.kill()
             display.stop()
     return 0
 
