@@ -120,7 +120,8 @@ void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads
   writer.write_bounds(loose.around);
   if (!updatable) return;
 
-  Origin& origin = origin_.emplace();
+  origin_ = std::make_unique<Origin>();
+  Origin& origin = *origin_;
   origin.places.resize(objects.count(), SceneObjects::kNoPlace);
   for (std::uint32_t i = 0; i < loose.objects; ++i)
     origin.places[memory.objects[i].source] = i;

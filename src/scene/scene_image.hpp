@@ -16,7 +16,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -84,7 +84,7 @@ private:
   };
 
   AlignedBlock block_;
-  std::optional<Origin> origin_;
+  std::unique_ptr<Origin> origin_; ///< null unless it is updatable
   std::uint32_t table_offset_ = 0;
   std::uint32_t list_offset_ = 0;
   std::uint32_t end_offset_ = 0;
