@@ -391,15 +391,12 @@ std::optional<Antialiasing> antialiasing_of(const RenderTexts& texts) {
   return antialiasing;
 }
 
-void finish(RenderRequest& request, const RenderTexts& texts) {
+/// What rendering and looking around share.
+void finish_scene(RenderRequest& request, const RenderTexts& texts, Schedule schedule) {
   request.options.cache = parse_cache(texts.cache);
-  request.options.emulation = emulation_config(texts.emulation, request.options.backend, Schedule::free);
+  request.options.emulation = emulation_config(texts.emulation, request.options.backend, schedule);
   request.lenient = texts.emulation.lenient;
-  request.trace = texts.emulation.trace;
-  request.cache_trace = texts.emulation.cache_trace;
-  request.options.region = region_of(texts, request.options);
   request.options.antialiasing = antialiasing_of(texts);
-  request.options.colours = request.bits == 16;
   request.options.accelerator = accelerator_of(texts.accelerator);
   request.options.model = model_of(texts.model);
   request.options.balance = balance_of(texts.balance);
@@ -407,25 +404,22 @@ void finish(RenderRequest& request, const RenderTexts& texts) {
     request.declares.push_back(parse_declare(text));
   for (const std::string& text : texts.limits)
     set_limit(request.limits, text);
+}
+
+void finish(RenderRequest& request, const RenderTexts& texts) {
+  finish_scene(request, texts, Schedule::free);
+  request.trace = texts.emulation.trace;
+  request.cache_trace = texts.emulation.cache_trace;
+  request.options.region = region_of(texts, request.options);
+  request.options.colours = request.bits == 16;
   request.output = output_of(request, texts);
   request.film = request.output == "-" ? FilmFormat::y4m : film_format_of(request.output);
   finish_animation(request, texts.animation);
 }
 
 void finish(ViewRequest& view, const RenderTexts& texts) {
-  RenderRequest& request = view.render;
-  request.options.cache = parse_cache(texts.cache);
-  request.options.emulation = emulation_config(texts.emulation, request.options.backend, Schedule::lockstep);
-  request.lenient = texts.emulation.lenient;
-  request.options.antialiasing = antialiasing_of(texts);
-  if (!texts.antialias) request.options.antialiasing = Antialiasing();
-  request.options.accelerator = accelerator_of(texts.accelerator);
-  request.options.model = model_of(texts.model);
-  request.options.balance = balance_of(texts.balance);
-  for (const std::string& text : texts.declares)
-    request.declares.push_back(parse_declare(text));
-  for (const std::string& text : texts.limits)
-    set_limit(request.limits, text);
+  finish_scene(view.render, texts, Schedule::lockstep);
+  if (!texts.antialias) view.render.options.antialiasing = Antialiasing(); // of pictures at rest
 }
 
 /// Takes what follows the first "--" away: CLI11 gives it to a command only before its positional arguments.
