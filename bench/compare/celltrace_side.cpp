@@ -1,5 +1,7 @@
 #include "celltrace_side.hpp"
 
+#include <algorithm>
+
 namespace celltrace::compare {
 
 namespace {
@@ -8,6 +10,7 @@ RenderOptions options_of(int size, unsigned threads) {
   RenderOptions options;
   options.width = options.height = size;
   options.spes = threads;
+  options.ray_queries = true;
   return options;
 }
 
@@ -61,6 +64,22 @@ Frame CelltraceSide::refit_and_trace() {
 
 Frame CelltraceSide::trace() {
   return render(scene_.camera);
+}
+
+CelltraceQueries::CelltraceQueries(const Model& model, Kind kind)
+    : side_(16, 1), queries_((side_.take(model), side_.build_and_trace(), side_.queries())), kind_(kind) {
+}
+
+void CelltraceQueries::closest_hits(std::span<const Ray> rays, std::span<float> distances) {
+  if (kind_ == Kind::single) {
+    std::transform(rays.begin(), rays.end(), distances.begin(),
+                   [this](const Ray& ray) { return queries_.closest_hit(ray).distance; });
+    return;
+  }
+  hits_.resize(rays.size());
+  queries_.closest_hits(rays, hits_);
+  std::transform(hits_.begin(), hits_.end(), distances.begin(),
+                 [](const RayHit& hit) { return hit.distance; });
 }
 
 /// The statistics have no processor time; what the call took in all goes to `trace`.

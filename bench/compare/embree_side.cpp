@@ -2,6 +2,7 @@
 
 #include "celltrace/error.hpp"
 #include "embree_trace.hpp"
+#include "query_side.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -64,6 +65,12 @@ public:
     std::transform(model.vertices.begin(), model.vertices.end(), vertices_.begin(),
                    [](const Vec3f& vertex) { return glm::vec4(vertex, 0); });
     set_camera(model);
+  }
+
+  /// Without a frame.
+  RTCScene built() {
+    build();
+    return scene_.get();
   }
 
   Frame build_and_trace() override {
@@ -176,7 +183,27 @@ private:
   Geometry geometry_;
 };
 
+class EmbreeQueries : public QuerySide {
+public:
+  explicit EmbreeQueries(const Model& model) : side_(16, 1, {1, EmbreeConfig::Quality::high}) {
+    side_.take(model);
+    scene_ = side_.built();
+  }
+
+  void closest_hits(std::span<const Ray> rays, std::span<float> distances) override {
+    intersect_one_by_one(scene_, rays.data(), distances.data(), rays.size());
+  }
+
+private:
+  EmbreeSide side_;
+  RTCScene scene_;
+};
+
 } // namespace
+
+std::unique_ptr<QuerySide> make_embree_queries(const Model& model) {
+  return std::make_unique<EmbreeQueries>(model);
+}
 
 std::optional<std::string> embree_version() {
   return "Embree " RTC_VERSION_STRING;

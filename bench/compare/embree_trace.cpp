@@ -248,6 +248,31 @@ std::uint64_t trace_tile_row(const EmbreeFrame& frame, int tile_row) {
   }
 }
 
+void intersect_one_by_one(RTCScene scene, const Ray* rays, float* distances, std::size_t count) {
+  const DenormalsAreZero mode;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Ray& ray = rays[i];
+    RTCRayHit one;
+    one.ray.org_x = ray.origin[0];
+    one.ray.org_y = ray.origin[1];
+    one.ray.org_z = ray.origin[2];
+    one.ray.dir_x = ray.direction[0];
+    one.ray.dir_y = ray.direction[1];
+    one.ray.dir_z = ray.direction[2];
+    one.ray.tnear = 0;
+    one.ray.tfar = ray.tfar;
+    one.ray.time = 0;
+    one.ray.mask = 0xFFFFFFFFu;
+    one.ray.flags = 0;
+    one.hit.geomID = one.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene, &context, &one);
+    distances[i] =
+        one.hit.geomID != RTC_INVALID_GEOMETRY_ID ? one.ray.tfar : std::numeric_limits<float>::infinity();
+  }
+}
+
 DenormalsAreZero::DenormalsAreZero() : before_(_mm_getcsr()) {
   _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
   _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);

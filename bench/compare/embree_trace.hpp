@@ -3,6 +3,9 @@
 
 #include <embree3/rtcore.h>
 
+#include "celltrace/ray.hpp"
+
+#include <cstddef>
 #include <cstdint>
 
 namespace celltrace::compare {
@@ -19,6 +22,9 @@ struct EmbreeFrame {
 /// Renders pixel rows [4*tile_row, 4*tile_row + 4); returns the number of shadow rays. Several threads may
 /// render different rows.
 std::uint64_t trace_tile_row(const EmbreeFrame& frame, int tile_row);
+
+/// The distances to the closest hits by rtcIntersect1(); infinity where nothing is hit.
+void intersect_one_by_one(RTCScene scene, const Ray* rays, float* distances, std::size_t count);
 
 /// While it lives, denormals count as zero on this thread, as Embree's manual demands.
 class DenormalsAreZero {

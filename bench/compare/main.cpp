@@ -45,7 +45,8 @@ bool any_wanted(const Settings& settings, const std::string& scene,
 
 void compare(const Model& model, ModelKind kind, const Settings& settings, Report& report) {
   if (!any_wanted(settings, model.name,
-                  {"rays", "first frame", "rebuilt every frame", "refitted every frame", "more threads"}))
+                  {"rays", "first frame", "rebuilt every frame", "refitted every frame", "ray queries",
+                   "more threads"}))
     return;
   std::cerr << "celltrace_compare: " << model.name << ", " << model.primitives() << " primitives\n";
   compare_model(model, kind, settings, report);

@@ -99,11 +99,49 @@ public:
       return settings_(frame.build + frame.trace);
     };
     ours();
-    const bool judged = kind_ == ModelKind::generated && model_.triangles.size() / 1000 == kJudgedMovingTriangles / 1000;
+    const bool judged =
+        kind_ == ModelKind::generated && model_.triangles.size() / 1000 == kJudgedMovingTriangles / 1000;
     frames(
         "refitted every frame", Quality::refit, {"celltrace", ours},
         [&](Side& side) { side.take(steps[their_step++ % 2]); }, judged ? at_least(2.5) : std::nullopt);
     celltrace_.take(model_);
+  }
+
+  /// Rays of the caller's own: primary ones, which streams trace as fast as pictures, and such that go
+  /// anywhere.
+  void ray_queries() {
+    if (threads_ != 1 || !wanted("ray queries")) return;
+    CelltraceQueries stream(model_, CelltraceQueries::Kind::stream),
+        single(model_, CelltraceQueries::Kind::single);
+    const std::vector<Ray> primary = primary_rays(model_, settings_.size);
+    std::vector<float> distances(primary.size());
+    stream.closest_hits(primary, distances);
+    const std::vector<Ray> scattered = scattered_rays(primary, distances);
+    celltrace_.build_and_trace();
+
+    std::vector<Subject> subjects = {
+        {"celltrace, pictures", [&] { return megarays_a_second(celltrace_); }},
+        {"celltrace, streams", [&] { return megarays_a_second(stream, primary); }},
+        {"celltrace, single rays", [&] { return megarays_a_second(single, primary); }}};
+    std::unique_ptr<QuerySide> embree;
+    if (embree_version()) {
+      embree = make_embree_queries(model_);
+      subjects.push_back({embree_name(1), [&] { return megarays_a_second(*embree, primary); }});
+    }
+    if (!scattered.empty()) {
+      subjects.push_back({"celltrace, scattered", [&] { return megarays_a_second(single, scattered); }});
+      if (embree)
+        subjects.push_back({"Embree, scattered", [&] { return megarays_a_second(*embree, scattered); }});
+    }
+    const std::vector<Samples> samples = alternate(subjects, settings_.runs, "Mray/s");
+    const auto compare = [&](std::size_t ours, std::size_t theirs, double bar) {
+      add("ray queries", samples[theirs].name, ratio(samples[ours], samples[theirs], Values::speeds),
+          at_least(bar), {samples[ours], samples[theirs]});
+    };
+    compare(1, 0, 0.9);
+    if (!embree) return;
+    compare(2, 3, 0.7);
+    if (!scattered.empty()) compare(4, 5, 0.7);
   }
 
   /// How much faster celltrace is with these threads than with one.
@@ -139,6 +177,19 @@ private:
       rays += frame.rays();
     }
     return static_cast<double>(rays) / 1e6 / seconds;
+  }
+
+  double megarays_a_second(QuerySide& side, std::span<const Ray> rays) const {
+    std::vector<float> distances(rays.size());
+    Seconds took;
+    std::size_t asked = 0;
+    while (took.wall < settings_.sample_seconds) {
+      const Stopwatch stopwatch;
+      side.closest_hits(rays, distances);
+      took = took + stopwatch.elapsed();
+      asked += rays.size();
+    }
+    return static_cast<double>(asked) / 1e6 / settings_(took);
   }
 
   /// Building and tracing, with Embree's packets on the other side. `prepare` is not measured.
@@ -197,6 +248,7 @@ void compare_model(const Model& model, ModelKind kind, const Settings& settings,
     comparison.first_frame();
     comparison.rebuilt();
     comparison.refitted();
+    comparison.ray_queries();
     comparison.speedup();
   }
 }

@@ -2,6 +2,7 @@
 #include "embree_side.hpp"
 
 #include "celltrace/error.hpp"
+#include "query_side.hpp"
 
 namespace celltrace::compare {
 
@@ -14,6 +15,10 @@ int widest_embree_packet() {
 }
 
 std::unique_ptr<Side> make_embree_side(int, unsigned, const EmbreeConfig&) {
+  throw Error("built without Embree");
+}
+
+std::unique_ptr<QuerySide> make_embree_queries(const Model&) {
   throw Error("built without Embree");
 }
 

@@ -4,6 +4,7 @@
 #include "celltrace/cache/config.hpp"
 #include "celltrace/export.hpp"
 #include "celltrace/image.hpp"
+#include "celltrace/ray_queries.hpp"
 #include "celltrace/scene.hpp"
 #include "celltrace/spe/emulation.hpp"
 
@@ -142,6 +143,8 @@ struct RenderOptions {
   /// With antialiasing a part may come again, better. The pixels are there during the call. What it throws
   /// breaks the frame off and passes through. Of models other than `shared` the picture comes all at once.
   std::function<void(const PictureBlock& block)> finished_block;
+  /// Renderer::ray_queries() is wanted. Takes 4 bytes of memory an object; none for grids.
+  bool ray_queries = false;
   /// RenderResult::work is wanted. Model `shared` only.
   bool work_map = false;
 };
@@ -294,6 +297,11 @@ public:
   /// for other rows and where no scene is prepared, else as render() does.
   RenderResult render_rows(int top, int bottom, const Progress& progress = {});
   static constexpr int kRowStep = 32;
+
+  /// Queries of the scene that was prepared or rendered last, with what RenderOptions::max_trace_level and
+  /// the like do not change. On every backend the host's CPU answers them. Throws InputError without
+  /// RenderOptions::ray_queries, where no scene is prepared, and where its accelerator is a grid.
+  RayQueries ray_queries() const;
 
 private:
   friend RenderResult render(const Scene& scene, const RenderOptions& options, const Progress& progress);

@@ -51,8 +51,8 @@ private:
 
 } // namespace
 
-void AcceleratorBuilder::make_image(const Scene& scene, bool updatable) {
-  image_.assign(scene, work_[0], host_threads(), SceneImage::kObjectsAThread, updatable);
+void AcceleratorBuilder::make_image(const Scene& scene, const ImageMemory& memory) {
+  image_.assign(scene, work_[0], host_threads(), SceneImage::kObjectsAThread, memory);
 }
 
 bool AcceleratorBuilder::update_image(const Scene& scene, const SceneChanges& changes) {

@@ -24,9 +24,9 @@ public:
       : machine_(machine), team_(team), frame_(frame), reports_(reports), image_(image),
         shared_image_(image, machine.byte_order()) {}
 
-  /// Makes `image` that of `scene`; with what update_image() needs if it is `updatable`. Throws as
-  /// SceneImage::assign() does.
-  void make_image(const Scene& scene, bool updatable);
+  /// Makes `image` that of `scene`; update_image() needs it to be updatable. Throws as SceneImage::assign()
+  /// does.
+  void make_image(const Scene& scene, const ImageMemory& memory);
 
   /// Makes room in the image and builds what the frame block asks for; then the frame block says where it
   /// lies. False if `go_on`, which hears the finished fraction now and then, has ended it: there is no

@@ -8,6 +8,7 @@
 #include "render/frame_setup.hpp"
 #include "render/models/stage_team.hpp"
 #include "render/quality.hpp"
+#include "render/ray_query_scene.hpp"
 #include "render/spe_team.hpp"
 #include "render/statistics.hpp"
 #include "render/unit_blocks.hpp"
@@ -66,6 +67,7 @@ class Renderer::Impl {
 public:
   explicit Impl(const RenderOptions& options) : Impl(options, make_machine(machine_config(options))) {}
   ~Impl() {
+    retire_queries();
     // Some rules are for the end of a program.
     team_.reset();
     new_diagnostics();
@@ -123,6 +125,16 @@ public:
     // What it takes of their local stores may be more or less.
     if (!stages_) team_->synchronize({});
   }
+  RayQueries ray_queries() {
+    if (!options_.ray_queries) throw InputError("ray queries need RenderOptions::ray_queries");
+    if (!has_scene_) throw InputError("ray queries need a scene: none is prepared");
+    if (static_cast<AcceleratorKind>(frame_.accelerator) != AcceleratorKind::bvh)
+      throw InputError("ray queries need a BVH: the scene's accelerator is a grid");
+    if (!query_scene_)
+      query_scene_ = std::make_shared<RayQueryScene>(
+          frame_, image_, machine_->direct_memory() ? machine_->spu_key() : make_machine({})->spu_key());
+    return RayQueryScene::queries(query_scene_);
+  }
   /// The only frame of this renderer.
   RenderResult render_once(const Scene& scene, const Progress& progress) {
     is_last_frame_ = true;
@@ -139,6 +151,12 @@ private:
     builder_ = std::make_unique<AcceleratorBuilder>(*machine_, *team_, frame_, reports_, image_);
     if (options_.model != Model::shared)
       stages_ = std::make_unique<StageTeam>(*machine_, frame_block_, options_.model);
+  }
+
+  /// The scene will not be what they were made for.
+  void retire_queries() noexcept {
+    if (query_scene_) query_scene_->retire();
+    query_scene_.reset();
   }
 
   /// What depends on the size and the kind of pictures.
@@ -200,7 +218,8 @@ private:
       has_scene_ = false;
       return false;
     }
-    builder_->make_image(scene, is_edited_);
+    retire_queries();
+    builder_->make_image(scene, {is_edited_, options_.ray_queries});
     has_scene_ = false;
     media_ = media_of(scene);
     prepared_.build_seconds = build.seconds();
@@ -241,6 +260,7 @@ private:
       return true;
     }
     const Stopwatch build;
+    retire_queries();
     if (!builder_->update_image(scene, changes)) return prepare_scene(scene);
     media_ = media_of(scene);
     enter_scene(scene);
@@ -547,9 +567,10 @@ private:
   RenderOptions options_;
   SceneImage image_;
   std::vector<Medium> media_;
-  bool has_scene_ = false;    ///< and an accelerator for it
-  Camera camera_;             ///< of the next frame
-  RenderStatistics prepared_; ///< what that took, for the statistics of the next frame
+  std::shared_ptr<RayQueryScene> query_scene_; ///< null: none of this scene was asked for
+  bool has_scene_ = false;                     ///< and an accelerator for it
+  Camera camera_;                              ///< of the next frame
+  RenderStatistics prepared_;                  ///< what that took, for the statistics of the next frame
   RowRange planned_ = {0, 0};
   BundleRows planned_grid_;
   BundleRows traced_; ///< of the grid, whose points are there
@@ -592,6 +613,9 @@ void Renderer::set_picture(const RenderOptions& options) {
 
 bool Renderer::prepare(const Scene& scene) {
   return impl_->prepare(scene);
+}
+RayQueries Renderer::ray_queries() const {
+  return impl_->ray_queries();
 }
 RenderResult Renderer::render_rows(int top, int bottom, const Progress& progress) {
   return impl_->render_rows(top, bottom, progress);

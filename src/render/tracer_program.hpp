@@ -12,4 +12,7 @@ SpeProgram tracer_program();
 /// By a uniform grid, on other machines.
 SpeProgram grid_tracer_program();
 
+/// No program of SPEs: for each CPU of the native backend, what enters its kernel::RayQueryFunctions.
+SpeProgram ray_queries_program();
+
 } // namespace celltrace

@@ -292,6 +292,12 @@ private:
   ObjectRecord head_;         ///< of a triangle with that material
 };
 
+void MeshInstances::append_owners(std::vector<Index>& owners) const {
+  for (const Instance& instance : instances_)
+    owners.insert(owners.end(), prototypes_[instance.prototype].triangles().size(),
+                  static_cast<Index>(instance.object - scene_.objects.data()));
+}
+
 void MeshInstances::write(const InstanceTables& tables, unsigned threads) const {
   for_each_part(threads, [&](unsigned part) {
     const HostPart mine(static_cast<std::uint32_t>(instances_.size()), part, threads);

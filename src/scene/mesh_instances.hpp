@@ -38,6 +38,9 @@ public:
   std::uint32_t group_count() const { return group_count_; }
   std::uint32_t longest_group() const { return longest_group_; }
 
+  /// Appends the object of the scene that each of their records is of, in the order of write().
+  void append_owners(std::vector<Index>& owners) const;
+
   /// Makes the records of all of them, instance by instance in the order of the scene, and group by group.
   void write(const InstanceTables& tables, unsigned threads) const;
 

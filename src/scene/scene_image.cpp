@@ -73,6 +73,18 @@ std::vector<bool> which_are(const MeshInstances& instances, std::size_t objects)
   return are;
 }
 
+/// `order`: the objects that are no instances, as they lie in the image.
+std::vector<Index> owners_of(const SceneObjects& objects, std::span<const PlacedObject> order,
+                             const MeshInstances& instances) {
+  std::vector<Index> owners = objects.unbounded_owners();
+  const std::vector<Index> loose = objects.owners();
+  owners.reserve(owners.size() + order.size() + instances.census().objects);
+  for (const PlacedObject& object : order)
+    owners.push_back(loose[object.source]);
+  instances.append_owners(owners);
+  return owners;
+}
+
 bool has_projectors(const Scene& scene) {
   return std::any_of(scene.lights.begin(), scene.lights.end(),
                      [](const Light& light) { return light.projected_through != nullptr; });
@@ -86,7 +98,7 @@ SceneImage::SceneImage(const Scene& scene) {
 }
 
 void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads,
-                        std::uint32_t objects_a_thread, bool updatable) {
+                        std::uint32_t objects_a_thread, const ImageMemory& remembered) {
   validate(given);
   const SceneWithProjectors with_projectors(given);
   const Scene& scene = with_projectors.scene();
@@ -118,7 +130,9 @@ void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads
   writer.write_instances(instances, threads);
   writer.write_unbounded(objects, census);
   writer.write_bounds(loose.around);
-  if (!updatable) return;
+  owners_.clear();
+  if (remembered.owners) owners_ = owners_of(objects, {memory.objects, loose.objects}, instances);
+  if (!remembered.updatable) return;
 
   origin_ = std::make_unique<Origin>();
   Origin& origin = *origin_;
@@ -206,6 +220,13 @@ void SceneImage::reserve_accelerator(std::uint64_t table_bytes, std::uint32_t li
   table_offset_ = static_cast<std::uint32_t>(begin);
   list_offset_ = static_cast<std::uint32_t>(lists);
   end_offset_ = static_cast<std::uint32_t>(end);
+}
+
+Index SceneImage::owner_of(std::uint32_t offset) const noexcept {
+  const ImageHeader& h = header();
+  const std::uint32_t first = h.object_offset - h.unbounded_count * std::uint32_t{sizeof(ObjectRecord)};
+  const std::size_t record = (offset - first) / sizeof(ObjectRecord);
+  return offset >= first && record < owners_.size() ? owners_[record] : kNoIndex;
 }
 
 const ImageHeader& SceneImage::header() const noexcept {

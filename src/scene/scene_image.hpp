@@ -25,6 +25,12 @@ namespace celltrace {
 constexpr std::uint32_t kImageMagic = 0x43545349; // "CTSI"
 constexpr std::uint32_t kImageVersion = 11;
 
+/// What a SceneImage remembers of its scene, 4 bytes an object each.
+struct ImageMemory {
+  bool updatable = false; ///< what update() and update_surfaces() need
+  bool owners = false;    ///< for owner_of()
+};
+
 /// Thread safety: as a standard container.
 class SceneImage {
 public:
@@ -42,9 +48,8 @@ public:
   /// Becomes the image of `scene` in up to `threads` threads, which have so many objects each at least; what
   /// comes out does not depend on their number. Keeps its memory where that is large enough, and uses `work`,
   /// which may grow. After an InputError it is as before; after another exception it may be empty.
-  /// `updatable`: remembers what update() and update_surfaces() need, 4 bytes an object.
   void assign(const Scene& scene, AlignedBlock& work, unsigned threads,
-              std::uint32_t objects_a_thread = kObjectsAThread, bool updatable = false);
+              std::uint32_t objects_a_thread = kObjectsAThread, const ImageMemory& memory = {});
   /// Becomes the image of a scene that is the one given to assign() but for numbers in it, every record at
   /// its place, also the accelerator's. False, and nothing has changed, if it was not updatable, or if there
   /// is more or less than there was: objects, what of them can be hit, entries of tables. Throws InputError
@@ -66,6 +71,9 @@ public:
   const std::byte* base() const noexcept { return block_.data(); }
   /// For whoever refits the accelerator.
   std::byte* mutable_base() noexcept { return block_.data(); }
+  /// The index in Scene::objects of what the record of an object at this offset belongs to; kNoIndex for
+  /// offsets where there is none. If it remembers owners.
+  Index owner_of(std::uint32_t offset) const noexcept;
   /// Offsets of the two, multiples of 128; valid after reserve_accelerator().
   std::uint32_t table_offset() const noexcept { return table_offset_; }
   std::uint32_t list_offset() const noexcept { return list_offset_; }
@@ -85,6 +93,7 @@ private:
 
   AlignedBlock block_;
   std::unique_ptr<Origin> origin_; ///< null unless it is updatable
+  std::vector<Index> owners_; ///< of unbounded objects and then all others, in the order of their records
   std::uint32_t table_offset_ = 0;
   std::uint32_t list_offset_ = 0;
   std::uint32_t end_offset_ = 0;

@@ -82,7 +82,7 @@ SceneObjects::SceneObjects(const Scene& scene, std::size_t projectors,
                            const std::vector<std::shared_ptr<const Object>>& patterns,
                            const std::vector<std::uint32_t>& material_flags, const MeshInstances& instances,
                            unsigned threads)
-    : material_flags_(material_flags), csg_(scene, patterns), polygons_(scene) {
+    : scene_(scene), material_flags_(material_flags), csg_(scene, patterns), polygons_(scene) {
   for (std::size_t i = 0; i < projectors; ++i) {
     const Object& object = scene.objects[i];
     if (instances.contains(i) || CsgParts::contains(object)) continue;
@@ -151,6 +151,28 @@ SceneObjects::Placed SceneObjects::placed_at(const Piece& piece, std::uint32_t n
   if (piece.part == nullptr) return {piece.object + (number - piece.first), nullptr};
   const CsgPart* part = piece.part + (number - piece.first);
   return {&part->object, part};
+}
+
+Index SceneObjects::owner_of(const Placed& placed) const {
+  if (placed.part != nullptr) return static_cast<Index>(placed.part->whole);
+  return static_cast<Index>(placed.object - scene_.objects.data());
+}
+
+std::vector<Index> SceneObjects::owners() const {
+  std::vector<Index> owners;
+  owners.reserve(count_);
+  for (const Piece& piece : pieces_)
+    for (std::uint32_t number = piece.first; number < end_of(piece); ++number)
+      owners.push_back(
+          owner_of(piece.mesh != nullptr ? Placed{piece.object, piece.part} : placed_at(piece, number)));
+  return owners;
+}
+
+std::vector<Index> SceneObjects::unbounded_owners() const {
+  std::vector<Index> owners;
+  for (const Placed& object : unbounded_)
+    owners.push_back(owner_of(object));
+  return owners;
 }
 
 bool SceneObjects::has_extra(const Placed& placed) {

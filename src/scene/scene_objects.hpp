@@ -30,6 +30,10 @@ public:
   std::uint32_t count() const { return count_; }
   /// The others: planes, unless CSG bounds them.
   std::uint32_t unbounded_count() const { return static_cast<std::uint32_t>(unbounded_.size()); }
+  /// The indices in the scene's objects of those that are counted, and of unbounded ones: of a part of a CSG,
+  /// that of the whole.
+  std::vector<Index> owners() const;
+  std::vector<Index> unbounded_owners() const;
   /// What lights are projected through, without bounds or with.
   std::uint32_t projector_count() const { return static_cast<std::uint32_t>(projectors_.size()); }
   /// By projector, how many of these it consists of, one after the other.
@@ -97,6 +101,9 @@ private:
   bool is_blended(const Piece& piece, const Mesh::Triangle& triangle) const;
   bool is_mapped(const Piece& piece, const Mesh::Triangle& triangle) const;
 
+  Index owner_of(const Placed& placed) const;
+
+  const Scene& scene_;
   const std::vector<std::uint32_t>& material_flags_;
   CsgParts csg_;
   PolygonTable polygons_;

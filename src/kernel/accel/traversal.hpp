@@ -79,6 +79,11 @@ public:
   /// their rays are coherent, this is faster than packet by packet.
   void intersect(RayQuery* queries, uint32_t count) {
     reset_hits(queries, count);
+    intersect_within(queries, count);
+  }
+  /// The same, but of closest hits only those before the distances that are in `hits`, where no object is
+  /// yet.
+  void intersect_within(RayQuery* queries, uint32_t count) {
     intersect_unbounded(queries, count);
     if constexpr (kHasBvh)
       if (uses_bvh()) bvh_.intersect(queries, count);
@@ -116,6 +121,7 @@ public:
     if constexpr (kHasBvh) bvh_.intersect(queries, bundle);
   }
 
+  ObjectTests<Spu>& objects() { return objects_; }
   const TraversalCounters& counters() const { return objects_.counters(); }
   void reset_counters() { objects_.reset_counters(); }
 

@@ -1,0 +1,36 @@
+// Rays and what they hit: plain data that applications and the kernel share.
+#pragma once
+
+#include <stdint.h>
+
+namespace celltrace {
+
+/// From `origin` along `direction`, in the scene's coordinates.
+struct Ray {
+  float origin[3];
+  float direction[3]; ///< of any length but 0
+  /// How far it reaches: hits there or beyond are none. In the scene's unit, whatever the direction's length.
+  float tfar = __builtin_inff();
+};
+
+/// The closest hit of a ray.
+struct RayHit {
+  static constexpr uint32_t kNone = 0xFFFFFFFF;
+
+  float distance = __builtin_inff(); ///< in the scene's unit; infinity if nothing is hit
+  /// Barycentric coordinates in a triangle: the second and the third vertex' share; 0 on other shapes.
+  float u = 0.0f, v = 0.0f;
+  uint32_t object = kNone; ///< index in Scene::objects, or kNone
+  uint32_t record = kNone; ///< what of the object is hit; for RayQueries::surface()
+
+  explicit operator bool() const { return object != kNone; }
+};
+
+/// A point on a surface.
+struct RaySurface {
+  float point[3];  ///< on the object, to its own precision
+  float normal[3]; ///< of length 1, on the side that the ray comes from; interpolated where triangles are
+                   ///< smooth
+};
+
+} // namespace celltrace

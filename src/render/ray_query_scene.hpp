@@ -1,0 +1,40 @@
+// What ray queries ask: the image and the BVH of a renderer's scene, as long as it has them.
+#pragma once
+
+#include "celltrace/ray_queries.hpp"
+#include "kernel/direct/ray_queries.hpp"
+#include "scene/scene_image.hpp"
+
+#include <atomic>
+#include <memory>
+#include <string_view>
+
+namespace celltrace {
+
+class RayQueryScene {
+public:
+  /// `frame` names a BVH for its image, which is `image`; both outlive queries that are asked before
+  /// retire(). `spu_key`: for which SPU type's CPU the code that answers is compiled. Throws InputError if
+  /// there is none.
+  RayQueryScene(const kernel::FrameBlock& frame, const SceneImage& image, std::string_view spu_key);
+
+  static RayQueries queries(std::shared_ptr<const RayQueryScene> scene);
+
+  /// From now on, queries throw InputError.
+  void retire() noexcept { is_current_.store(false, std::memory_order_relaxed); }
+  /// Throws InputError if it has been retired.
+  void check() const;
+
+  const kernel::FrameBlock& frame() const { return frame_; }
+  const kernel::RayQueryFunctions& functions() const { return functions_; }
+  /// The object of the scene that a record in the image is of.
+  std::uint32_t object_at(std::uint32_t record) const { return image_.owner_of(record); }
+
+private:
+  kernel::FrameBlock frame_;
+  const SceneImage& image_;
+  kernel::RayQueryFunctions functions_{};
+  std::atomic<bool> is_current_ = true;
+};
+
+} // namespace celltrace
