@@ -12,7 +12,7 @@ namespace celltrace {
 
 RayQueryScene::RayQueryScene(const kernel::FrameBlock& frame, const SceneImage& image,
                              std::string_view spu_key)
-    : frame_(frame), image_(image) {
+    : frame_(frame), image_(image), bvh_(image, frame.bvh.node_offset) {
   // Where the host reads it, whoever else has a copy.
   frame_.image = reinterpret_cast<std::uintptr_t>(image.base());
   const SpeProgram::Entry entry = ray_queries_program().entry(std::string(spu_key));
@@ -29,9 +29,9 @@ void RayQueryScene::check() const {
 class RayQueries::Impl {
 public:
   explicit Impl(std::shared_ptr<const RayQueryScene> scene)
-      : scene_(std::move(scene)), functions_(scene_->functions()),
+      : scene_(std::move(scene)), functions_(scene_->functions()), bvh_(scene_->bvh()),
         state_(::operator new(functions_.state_bytes, alignment())) {
-    functions_.open(state_, scene_->frame());
+    functions_.open(state_, scene_->frame(), bvh_);
   }
   Impl(const Impl& other) : Impl(other.scene_) {}
   Impl& operator=(const Impl&) = delete;
@@ -86,6 +86,7 @@ private:
 
   std::shared_ptr<const RayQueryScene> scene_;
   const kernel::RayQueryFunctions& functions_;
+  const kernel::QueryBvh bvh_;
   void* state_;
 };
 

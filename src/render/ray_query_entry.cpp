@@ -2,6 +2,7 @@
 #include "kernel/direct/ray_queries.hpp"
 
 #include "backends/spe_entry.hpp"
+#include "celltrace/spe/simd_host_eight.hpp"
 #include "celltrace/spe/simd_host_quad.hpp"
 
 namespace celltrace {
@@ -11,8 +12,8 @@ namespace {
 /// Not run by an SPE: where applications get their functions from.
 template <class Spu> void enter_functions(Spu&, ea_t argument) {
   using Simd = typename Spu::simd;
-  kernel::enter_ray_query_functions<kernel::RayQueryAnswers<kernel::QuerySpu<Simd>, HostQuad<Simd>>>(
-      argument);
+  kernel::enter_ray_query_functions<
+      kernel::RayQueryAnswers<kernel::QuerySpu<Simd>, HostQuad<Simd>, HostEight<Simd>>>(argument);
 }
 
 } // namespace

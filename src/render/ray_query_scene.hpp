@@ -3,6 +3,7 @@
 
 #include "celltrace/ray_queries.hpp"
 #include "kernel/direct/ray_queries.hpp"
+#include "render/single_ray_bvh.hpp"
 #include "scene/scene_image.hpp"
 
 #include <atomic>
@@ -26,6 +27,7 @@ public:
   void check() const;
 
   const kernel::FrameBlock& frame() const { return frame_; }
+  kernel::QueryBvh bvh() const { return bvh_.get(); }
   const kernel::RayQueryFunctions& functions() const { return functions_; }
   /// The object of the scene that a record in the image is of.
   std::uint32_t object_at(std::uint32_t record) const { return image_.owner_of(record); }
@@ -33,6 +35,7 @@ public:
 private:
   kernel::FrameBlock frame_;
   const SceneImage& image_;
+  SingleRayBvh bvh_;
   kernel::RayQueryFunctions functions_{};
   std::atomic<bool> is_current_ = true;
 };

@@ -15,8 +15,9 @@ namespace celltrace::kernel {
 struct RayQueryFunctions {
   size_t state_bytes;     ///< of memory for a state
   size_t state_alignment; ///< of its address
-  /// `frame`, with the image and the BVH that it names, stays as it is as long as the state is used.
-  void (*open)(void* state, const FrameBlock& frame);
+  /// `frame`, with the image and the BVH that it names, and `bvh` stay as they are as long as the state is
+  /// used.
+  void (*open)(void* state, const FrameBlock& frame, const QueryBvh& bvh);
   void (*closest_hit)(void* state, const Ray& ray, RayHit& hit);
   bool (*occluded)(void* state, const Ray& ray);
   void (*closest_hits)(void* state, const Ray* rays, RayHit* hits, uint32_t count);
@@ -31,13 +32,13 @@ public:
   using rare_simd = Simd;
 };
 
-template <class Spu, class Quad> class RayQueryAnswers {
+template <class Spu, class Quad, class Eight> class RayQueryAnswers {
 public:
   using S = typename Spu::simd;
 
-  explicit RayQueryAnswers(const FrameBlock& frame)
+  RayQueryAnswers(const FrameBlock& frame, const QueryBvh& bvh)
       : frame_(frame), scene_(spu_, CacheConfig::off(), frame.image), traversal_(scene_, frame_),
-        single_(traversal_.objects(), frame_) {
+        single_(traversal_.objects(), frame_, bvh) {
     traversal_.objects().set_reflected(kSeesAll);
   }
 
@@ -145,7 +146,7 @@ private:
   Spu spu_;
   SceneAccess<Spu> scene_;
   Traversal<Spu, kBvhOnly> traversal_;
-  SingleRayTraversal<Spu, Quad> single_;
+  SingleRayTraversal<Spu, Quad, Eight> single_;
   RayPacket packets_[kBundlePackets<Spu>];
   HitPacket hits_[kBundlePackets<Spu>];
   RayQuery queries_[kBundlePackets<Spu>];
@@ -156,7 +157,9 @@ template <class Answers> void enter_ray_query_functions(ea_t argument) {
   auto& functions = *reinterpret_cast<RayQueryFunctions*>(static_cast<uintptr_t>(argument));
   functions.state_bytes = sizeof(Answers);
   functions.state_alignment = alignof(Answers);
-  functions.open = [](void* state, const FrameBlock& frame) { new (state) Answers(frame); };
+  functions.open = [](void* state, const FrameBlock& frame, const QueryBvh& bvh) {
+    new (state) Answers(frame, bvh);
+  };
   functions.closest_hit = [](void* state, const Ray& ray, RayHit& hit) {
     static_cast<Answers*>(state)->closest_hit(ray, hit);
   };

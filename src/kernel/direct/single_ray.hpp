@@ -8,6 +8,7 @@
 #include "kernel/accel/frustum.hpp"
 #include "kernel/accel/object_tests.hpp"
 #include "kernel/accel/packet_traversal.hpp"
+#include "kernel/direct/query_bvh.hpp"
 
 namespace celltrace::kernel {
 
@@ -32,15 +33,14 @@ template <class S> struct SingleRay {
   }
 };
 
-/// `Quad`: the facade of four lanes.
-template <class Spu, class Quad> class SingleRayTraversal {
+/// `Quad` and `Eight`: four lanes for triangles and eight for boxes.
+template <class Spu, class Quad, class Eight> class SingleRayTraversal {
 public:
   using S = typename Spu::simd;
-  using F4 = typename S::F4;
   using Ray = SingleRay<S>;
 
-  SingleRayTraversal(ObjectTests<Spu>& objects, const FrameBlock& frame)
-      : objects_(objects), frame_(frame), root_{frame.bvh.node_offset, 0} {}
+  SingleRayTraversal(ObjectTests<Spu>& objects, const FrameBlock& frame, const QueryBvh& bvh)
+      : objects_(objects), frame_(frame), bvh_(bvh) {}
 
   /// Finds the closest hit before `ray.distance`.
   void find_closest(Ray& ray) { trace<false>(ray); }
@@ -48,11 +48,11 @@ public:
   bool occluded(Ray& ray) { return trace<true>(ray); }
 
 private:
-  static constexpr uint32_t kDepth = 48; // the builder keeps a BVH within it
-  static constexpr uint32_t kEntries = 3 * kDepth + 4;
+  static constexpr uint32_t kDepth = 64; // that of the BVH for packets, and of leaves that were divided
+  static constexpr uint32_t kEntries = (QueryNode::kWidth - 1) * kDepth + QueryNode::kWidth;
 
   struct Entry {
-    NodeRef ref;
+    uint32_t ref;
     float enter;
   };
 
@@ -63,26 +63,25 @@ private:
                 (ray.direction[2] < 0.0f ? 4u : 0u)) {
       for (uint32_t axis = 0; axis < 3; ++axis) {
         const float along = ray.direction[axis];
-        origin[axis] = F4::splat(ray.origin[axis]);
-        inverse[axis] = F4::splat(1.0f / (along < 0.0f ? smaller(along, -detail::kTinyDirection)
-                                                       : larger(along, detail::kTinyDirection)));
+        origin[axis] = Eight::splat(ray.origin[axis]);
+        inverse[axis] = Eight::splat(1.0f / (along < 0.0f ? smaller(along, -detail::kTinyDirection)
+                                                          : larger(along, detail::kTinyDirection)));
       }
     }
     /// As Frustum::intersect().
-    [[gnu::always_inline]] uint32_t intersect(const float (&bounds)[6][4], float tfar,
-                                              float (&enter)[4]) const {
+    [[gnu::always_inline]] uint32_t intersect(const QueryNode& node, float tfar, float* enter) const {
       const auto at = [&](uint32_t row, uint32_t axis) __attribute__((always_inline)) {
-        return (F4::load(bounds[row]) - origin[axis]) * inverse[axis];
+        return (Eight::load(node.bounds[row]) - origin[axis]) * inverse[axis];
       };
-      const F4 near = S::max(S::max(at(order.near[0], 0), at(order.near[1], 1)),
-                             S::max(at(order.near[2], 2), F4::splat(0.0f)));
-      const F4 far = S::min(S::min(at(order.far[0], 0), at(order.far[1], 1)),
-                            S::min(at(order.far[2], 2), F4::splat(tfar)));
+      const Eight near = Eight::max(Eight::max(at(order.near[0], 0), at(order.near[1], 1)),
+                                    Eight::max(at(order.near[2], 2), Eight::splat(0.0f)));
+      const Eight far = Eight::min(Eight::min(at(order.far[0], 0), at(order.far[1], 1)),
+                                   Eight::min(at(order.far[2], 2), Eight::splat(tfar)));
       near.store(enter);
-      return not_above_bits(near, far * F4::splat(detail::kRoundedUp));
+      return not_above_bits(near, far * Eight::splat(detail::kRoundedUp));
     }
 
-    F4 origin[3], inverse[3];
+    Eight origin[3], inverse[3];
     SlabOrder order;
   };
 
@@ -96,16 +95,22 @@ private:
       if (kAny && ray.object != kNoOffset) return true;
     }
     const Slabs slabs(ray);
+    const V3<Quad> origin = splat3<Quad>(ray.origin), direction = splat3<Quad>(ray.direction);
     float tfar = tfar_of(ray);
     Entry stack[kEntries];
     uint32_t size = 0;
-    for (NodeRef ref = root_;;) {
-      if (ref.is_leaf()) {
-        test_leaf(ref, ray);
+    for (uint32_t ref = query_ref::make(query_ref::node, 0);;) {
+      const uint32_t index = query_ref::index(ref);
+      if (query_ref::kind(ref) == query_ref::node) {
+        if (expand(slabs, bvh_.nodes[index], tfar, stack, size, ref)) continue;
+      } else {
+        if (query_ref::kind(ref) == query_ref::triangles)
+          test_triangles(bvh_.blocks[index], origin, direction, ray);
+        else
+          for (const uint32_t* self = bvh_.others + index; *self != kNoOffset; ++self)
+            test_other(*self, ray);
         if (kAny && ray.object != kNoOffset) return true;
         tfar = tfar_of(ray);
-      } else if (expand(slabs, tfar, stack, size, ref)) {
-        continue;
       }
       do {
         if (size == 0) return false;
@@ -117,20 +122,17 @@ private:
 
   /// Pushes the children that are hit, the nearest last, but for the nearest, which `ref` becomes. False:
   /// none is hit.
-  [[gnu::always_inline]] bool expand(const Slabs& slabs, float tfar, Entry* stack, uint32_t& size,
-                                     NodeRef& ref) {
-    ++objects_.counters().visits;
-    const NodeRecord& node = *objects_.scene().node(ref.child);
-    alignas(16) float enter[4];
-    uint32_t hit = slabs.intersect(node.bounds, tfar, enter);
+  [[gnu::always_inline]] static bool expand(const Slabs& slabs, const QueryNode& node, float tfar,
+                                            Entry* stack, uint32_t& size, uint32_t& ref) {
+    alignas(32) float enter[QueryNode::kWidth];
+    uint32_t hit = slabs.intersect(node, tfar, enter);
     if (hit == 0) return false;
     const uint32_t first = size;
     auto i = static_cast<uint32_t>(__builtin_ctz(hit));
-    Entry nearest = {{node.child[i], node.leaf[i]}, enter[i]};
+    Entry nearest = {node.child[i], enter[i]};
     while ((hit &= hit - 1) != 0) {
       i = static_cast<uint32_t>(__builtin_ctz(hit));
-      Entry other = {{node.child[i], node.leaf[i]}, enter[i]};
-      objects_.scene().hint(other.ref);
+      Entry other = {node.child[i], enter[i]};
       if (other.enter < nearest.enter) {
         const Entry nearer = other;
         other = nearest;
@@ -145,65 +147,31 @@ private:
     return true;
   }
 
-  /// Up to four triangles of a leaf.
-  struct Triangles {
-    const float* geometry[4];
-    uint32_t offset[4];
-    uint32_t count = 0;
-
-    /// The geometry of the first one in lanes that are not in use.
-    const float* at(uint32_t i) const { return geometry[i < count ? i : 0]; }
-  };
-
-  void test_leaf(const NodeRef& leaf, Ray& ray) {
-    Triangles triangles;
-    objects_.scene().for_each_object(
-        leaf, [&](uint32_t self) __attribute__((always_inline)) {
-          const ObjectRecord& object = *objects_.scene().object(self);
-          if (!ObjectTests<Spu>::is_plain_triangle(object.kind_and_flags)) {
-            test_other(self, ray);
-            return false;
-          }
-          triangles.geometry[triangles.count] = object.geometry;
-          triangles.offset[triangles.count] = self;
-          if (++triangles.count == 4) {
-            test(triangles, ray);
-            triangles.count = 0;
-          }
-          return false;
-        });
-    if (triangles.count != 0) test(triangles, ray);
-  }
-
-  [[gnu::always_inline]] void test(const Triangles& triangles, Ray& ray) {
+  /// As ObjectTests::keep_closest(), with the triangles in lanes.
+  [[gnu::always_inline]] static void test_triangles(const TriangleBlock& block, const V3<Quad>& origin,
+                                                    const V3<Quad>& direction, Ray& ray) {
     using F = typename Quad::F;
-    F w[12];
-    for (uint32_t first = 0; first < 12; first += 4) {
-      for (uint32_t i = 0; i < 4; ++i)
-        w[first + i] = F::load(triangles.at(i) + first);
-      Quad::transpose(w[first], w[first + 1], w[first + 2], w[first + 3]);
-    }
-    const V3<Quad> v0 = {w[0], w[1], w[2]};
-    const TriangleSides<Quad> sides = {v0, V3<Quad>{w[3], w[4], w[5]} - v0, V3<Quad>{w[6], w[7], w[8]} - v0};
-    const Crossings<Quad> c = SeenTriangle<Quad>(splat3<Quad>(ray.origin), sides)
-                                  .crossed(splat3<Quad>(ray.direction), Quad::M::none());
-    const uint32_t all = (1u << triangles.count) - 1;
-    uint32_t hit = (c.near_hit & (c.near > F(kMinHitDistance)) & (c.near <= F(ray.distance))).bits() & all;
-    if (hit == 0) return;
+    const auto vectors = [](const float(&rows)[3][4]) __attribute__((always_inline)) {
+      return V3<Quad>{F::load(rows[0]), F::load(rows[1]), F::load(rows[2])};
+    };
+    const TriangleSides<Quad> sides = {vectors(block.v0), vectors(block.edge1), vectors(block.edge2)};
+    const Crossings<Quad> c = SeenTriangle<Quad>(origin, sides).crossed(direction, Quad::M::none());
+    const uint32_t hit = (c.near_hit & (c.near > F(kMinHitDistance)) & (c.near <= F(ray.distance))).bits();
+    if (hit != 0) keep_closest(block, c, hit, ray);
+  }
+  static void keep_closest(const TriangleBlock& block, const Crossings<Quad>& c, uint32_t hit, Ray& ray) {
     alignas(16) float near[4], u[4], v[4];
     c.near.store(near);
     c.u.store(u);
     c.v.store(v);
     for (; hit != 0; hit &= hit - 1) {
       const auto i = static_cast<uint32_t>(__builtin_ctz(hit));
-      // As ObjectTests::keep_closest().
-      if (!(near[i] < ray.distance || (near[i] == ray.distance && static_cast<int32_t>(triangles.offset[i]) <
-                                                                      static_cast<int32_t>(ray.object))))
-        continue;
+      const bool precedes = static_cast<int32_t>(block.offset[i]) < static_cast<int32_t>(ray.object);
+      if (!(near[i] < ray.distance || (near[i] == ray.distance && precedes))) continue;
       ray.distance = near[i];
       ray.u = u[i];
       ray.v = v[i];
-      ray.object = triangles.offset[i];
+      ray.object = block.offset[i];
     }
   }
 
@@ -227,7 +195,7 @@ private:
 
   ObjectTests<Spu>& objects_;
   const FrameBlock& frame_;
-  const NodeRef root_;
+  const QueryBvh& bvh_;
 };
 
 } // namespace celltrace::kernel

@@ -1,0 +1,54 @@
+// Eight lanes of a host CPU, for tests of a single ray with eight boxes.
+#pragma once
+
+#include "celltrace/spe/simd_host.hpp"
+
+#include <type_traits>
+
+namespace celltrace {
+
+/// `Simd` is a HostSimd, part of the name so that units compiled for different CPUs share no inline function.
+template <class Simd> struct HostEight {
+  using Part =
+      std::conditional_t<(Simd::kWidth >= 8), xsimd::make_sized_batch_t<float, 8>, typename Simd::F4::Batch>;
+  static constexpr uint32_t kParts = 8 / static_cast<uint32_t>(Part::size);
+
+  Part part[kParts];
+
+  template <class Make> [[gnu::always_inline]] static HostEight make(Make make_part) {
+    HostEight result;
+    for (uint32_t i = 0; i < kParts; ++i)
+      result.part[i] = make_part(i);
+    return result;
+  }
+  static HostEight splat(float value) {
+    return make([&](uint32_t) { return Part(value); });
+  }
+  static HostEight load(const float* words) {
+    return make([&](uint32_t i) { return Part::load_aligned(words + i * Part::size); });
+  }
+  void store(float* words) const {
+    for (uint32_t i = 0; i < kParts; ++i)
+      part[i].store_aligned(words + i * Part::size);
+  }
+  friend HostEight operator-(const HostEight& a, const HostEight& b) {
+    return make([&](uint32_t i) { return a.part[i] - b.part[i]; });
+  }
+  friend HostEight operator*(const HostEight& a, const HostEight& b) {
+    return make([&](uint32_t i) { return a.part[i] * b.part[i]; });
+  }
+  static HostEight min(const HostEight& a, const HostEight& b) {
+    return make([&](uint32_t i) { return xsimd::min(a.part[i], b.part[i]); });
+  }
+  static HostEight max(const HostEight& a, const HostEight& b) {
+    return make([&](uint32_t i) { return xsimd::max(a.part[i], b.part[i]); });
+  }
+  friend uint32_t not_above_bits(const HostEight& a, const HostEight& b) {
+    uint32_t bits = 0;
+    for (uint32_t i = 0; i < kParts; ++i)
+      bits |= simd_host::lane_bits<Part>(a.part[i] <= b.part[i]) << (i * Part::size);
+    return bits;
+  }
+};
+
+} // namespace celltrace

@@ -1,0 +1,49 @@
+// The BVH for single rays: eight children wide, its triangles in blocks of four that are ready to be tested.
+// It is made from the BVH for packets, whose leaves suit sixteen lanes.
+#pragma once
+
+#include "kernel/records.hpp"
+
+#include <stdint.h>
+
+namespace celltrace::kernel {
+
+/// What a child is: nothing is hit in an empty one, whose box is empty.
+namespace query_ref {
+constexpr uint32_t kKindShift = 30;
+enum Kind : uint32_t {
+  node,      ///< the index of a node
+  triangles, ///< the index of a block
+  others,    ///< the index of the first of a list of other objects
+};
+constexpr uint32_t make(Kind kind, uint32_t index) {
+  return static_cast<uint32_t>(kind) << kKindShift | index;
+}
+constexpr uint32_t kind(uint32_t ref) {
+  return ref >> kKindShift;
+}
+constexpr uint32_t index(uint32_t ref) {
+  return ref & ((1u << kKindShift) - 1);
+}
+} // namespace query_ref
+
+struct alignas(64) QueryNode {
+  static constexpr uint32_t kWidth = 8;
+  float bounds[6][kWidth]; ///< min x, max x, min y, max y, min z, max z of each child
+  uint32_t child[kWidth];
+};
+
+/// A leaf. Lanes that are not in use repeat the first triangle.
+struct alignas(16) TriangleBlock {
+  float v0[3][4], edge1[3][4], edge2[3][4];
+  uint32_t offset[4]; ///< of the triangles' records in the scene image
+};
+
+/// Where it all lies.
+struct QueryBvh {
+  const QueryNode* nodes; ///< the first is the root
+  const TriangleBlock* blocks;
+  const uint32_t* others; ///< offsets; kNoOffset ends a list
+};
+
+} // namespace celltrace::kernel
