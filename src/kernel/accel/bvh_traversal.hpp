@@ -10,6 +10,7 @@
 #include "kernel/cameras/primary_rays.hpp"
 #include "kernel/direct/bundle_leaf_tests.hpp"
 #include "kernel/direct/light_bundle.hpp"
+#include "kernel/direct/origin_bundle.hpp"
 
 namespace celltrace::kernel {
 
@@ -32,6 +33,19 @@ public:
       tfar_[packet] = queries[packet].lanes != 0 ? PacketTraversal<Spu>::kTfarSlack * kMaxHitDistance : -1.0f;
     bundle.shortening.store(shortening_);
     traverse_bundle(queries, bundle);
+  }
+  /// The same of a bundle that has some of the packets of `queries`, each of which has some lanes.
+  void intersect(RayQuery* queries, uint32_t count, const OriginBundle<S>& bundle) {
+    if (bundle.packets != 0) {
+      bundle.shortening.store(shortening_);
+      for_each_lane(bundle.packets, [&](uint32_t packet) {
+        tfar_[packet] =
+            PacketTraversal<Spu>::tfar_of(queries[packet], queries[packet].lanes) * shortening_[packet];
+      });
+      begin(bundle.packets);
+      traverse_bundle(queries, bundle);
+    }
+    intersect(queries, count, bundle.packets);
   }
   /// Answers queries for the light from the point `light`. Each of them has some lanes.
   void intersect(RayQuery* queries, uint32_t count, const float (&light)[3]) {

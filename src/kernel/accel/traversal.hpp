@@ -79,11 +79,6 @@ public:
   /// their rays are coherent, this is faster than packet by packet.
   void intersect(RayQuery* queries, uint32_t count) {
     reset_hits(queries, count);
-    intersect_within(queries, count);
-  }
-  /// The same, but of closest hits only those before the distances that are in `hits`, where no object is
-  /// yet.
-  void intersect_within(RayQuery* queries, uint32_t count) {
     intersect_unbounded(queries, count);
     if constexpr (kHasBvh)
       if (uses_bvh()) bvh_.intersect(queries, count);
@@ -104,6 +99,13 @@ public:
       }
     }
     intersect(queries, count);
+  }
+
+  /// Finds the closest hits of packets of an application, by the BVH: those before the distances that are in
+  /// `hits`, where no object is yet. Each query has some lanes.
+  void find_closest_within(RayQuery* queries, uint32_t count) {
+    intersect_unbounded(queries, count);
+    bvh_.intersect(queries, count, OriginBundle<S>(queries, count));
   }
 
   /// Starts the traversal for a bundle of primary rays. False: certainly none of them hits anything.

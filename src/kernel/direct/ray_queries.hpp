@@ -62,7 +62,7 @@ public:
         const uint32_t begin = first + packets * kSimdLanes, left = count - begin;
         start(rays + begin, left < kSimdLanes ? left : kSimdLanes, packets);
       }
-      traversal_.intersect_within(queries_, packets);
+      traversal_.find_closest_within(queries_, packets);
       for (uint32_t packet = 0; packet < packets; ++packet) {
         const HitPacket& found = hits_[packet];
         RayHit* const to = hits + first + packet * kSimdLanes;
