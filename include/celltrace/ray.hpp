@@ -18,7 +18,8 @@ struct RayHit {
   static constexpr uint32_t kNone = 0xFFFFFFFF;
 
   float distance = __builtin_inff(); ///< in the scene's unit; infinity if nothing is hit
-  /// Barycentric coordinates in a triangle: the second and the third vertex' share; 0 on other shapes.
+  /// Barycentric coordinates in a triangle: the shares of its second and third vertex. They mean nothing on
+  /// other shapes.
   float u = 0.0f, v = 0.0f;
   uint32_t object = kNone; ///< index in Scene::objects, or kNone
   uint32_t record = kNone; ///< what of the object is hit; for RayQueries::surface()

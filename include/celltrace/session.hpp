@@ -2,7 +2,7 @@
 //
 //   Session session(parse_file("scene.pov"), options);
 //   session.render();
-//   session.set_transform(3, Transform::translation({0, 1, 0}));
+//   session.set_transform(3, Transform::translate({0, 1, 0}));
 //   RenderResult next = session.render();      // costs what has changed
 //
 // Indices are those of the vectors in Scene. Thread safety: one thread at a time, but for cancel() and
@@ -77,6 +77,9 @@ public:
   /// Renders the scene as it is now. As Renderer::render(). After an InputError the machine has the scene as
   /// it was before the changes, which are still to be made.
   RenderResult render(const Progress& progress = {});
+
+  /// As Renderer::ray_queries(), of the scene as it was rendered last.
+  RayQueries ray_queries() const;
 
   /// Breaks off the frame that is being rendered, if any: render() returns soon, with what is complete. The
   /// next frame is rendered as usual.

@@ -186,6 +186,9 @@ void Session::set_framebuffer(const std::optional<Framebuffer>& framebuffer) {
 RenderResult Session::render(const Progress& progress) {
   return impl_->render(progress);
 }
+RayQueries Session::ray_queries() const {
+  return impl_->renderer_.ray_queries();
+}
 void Session::cancel() noexcept {
   impl_->cancelled_.store(true, std::memory_order_relaxed);
 }

@@ -222,15 +222,4 @@ void SceneImage::reserve_accelerator(std::uint64_t table_bytes, std::uint32_t li
   end_offset_ = static_cast<std::uint32_t>(end);
 }
 
-Index SceneImage::owner_of(std::uint32_t offset) const noexcept {
-  const ImageHeader& h = header();
-  const std::uint32_t first = h.object_offset - h.unbounded_count * std::uint32_t{sizeof(ObjectRecord)};
-  const std::size_t record = (offset - first) / sizeof(ObjectRecord);
-  return offset >= first && record < owners_.size() ? owners_[record] : kNoIndex;
-}
-
-const ImageHeader& SceneImage::header() const noexcept {
-  return *reinterpret_cast<const ImageHeader*>(block_.data());
-}
-
 } // namespace celltrace

@@ -65,7 +65,9 @@ public:
   /// `list_words` words in all; where the static part moves, the old address becomes invalid.
   void reserve_accelerator(std::uint64_t table_bytes, std::uint32_t list_words);
 
-  const kernel::ImageHeader& header() const noexcept;
+  const kernel::ImageHeader& header() const noexcept {
+    return *reinterpret_cast<const kernel::ImageHeader*>(block_.data());
+  }
   /// The static part.
   std::vector<std::byte> to_bytes() const;
   const std::byte* base() const noexcept { return block_.data(); }
@@ -73,7 +75,13 @@ public:
   std::byte* mutable_base() noexcept { return block_.data(); }
   /// The index in Scene::objects of what the record of an object at this offset belongs to; kNoIndex for
   /// offsets where there is none. If it remembers owners.
-  Index owner_of(std::uint32_t offset) const noexcept;
+  Index owner_of(std::uint32_t offset) const noexcept {
+    const kernel::ImageHeader& h = header();
+    const auto first =
+        h.object_offset - h.unbounded_count * static_cast<std::uint32_t>(sizeof(kernel::ObjectRecord));
+    const std::size_t record = (offset - first) / sizeof(kernel::ObjectRecord);
+    return offset >= first && record < owners_.size() ? owners_[record] : kNoIndex;
+  }
   /// Offsets of the two, multiples of 128; valid after reserve_accelerator().
   std::uint32_t table_offset() const noexcept { return table_offset_; }
   std::uint32_t list_offset() const noexcept { return list_offset_; }

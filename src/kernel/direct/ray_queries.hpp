@@ -96,15 +96,11 @@ private:
       to[axis] = lanes[axis].lane[0];
   }
 
-  void set(RayHit& hit, uint32_t object, float distance, float u, float v) {
-    hit = RayHit();
-    if (object == kNoOffset) return;
-    hit.distance = distance;
-    hit.record = object;
-    const uint32_t kind = scene_.object(object)->kind_and_flags & object_flag::kind_mask;
-    if (kind != kPrimitiveKind<TrianglePrimitive>) return;
-    hit.u = u;
-    hit.v = v;
+  static void set(RayHit& hit, uint32_t object, float distance, float u, float v) {
+    if (object == kNoOffset)
+      hit = RayHit();
+    else
+      hit = {distance, u, v, RayHit::kNone, object};
   }
 
   static float end_of(const Ray& ray) { return ray.tfar < kMaxHitDistance ? ray.tfar : kMaxHitDistance; }
