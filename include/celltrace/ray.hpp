@@ -5,19 +5,22 @@
 
 namespace celltrace {
 
+/// As far as there is anything.
+constexpr float kEndless = __builtin_inff();
+
 /// From `origin` along `direction`, in the scene's coordinates.
 struct Ray {
   float origin[3];
   float direction[3]; ///< of any length but 0
   /// How far it reaches: hits there or beyond are none. In the scene's unit, whatever the direction's length.
-  float tfar = __builtin_inff();
+  float tfar = kEndless;
 };
 
 /// The closest hit of a ray.
 struct RayHit {
   static constexpr uint32_t kNone = 0xFFFFFFFF;
 
-  float distance = __builtin_inff(); ///< in the scene's unit; infinity if nothing is hit
+  float distance = kEndless; ///< in the scene's unit; infinity if nothing is hit
   /// Barycentric coordinates in a triangle: the shares of its second and third vertex. They mean nothing on
   /// other shapes.
   float u = 0.0f, v = 0.0f;

@@ -24,14 +24,6 @@ struct RayQueryFunctions {
   void (*surface)(void* state, const Ray& ray, const RayHit& hit, RaySurface& surface);
 };
 
-/// Nothing is stored there and nobody else is there: what the kernel asks of an SPU that it traverses on.
-template <class Simd> class QuerySpu : public SpuBase<QuerySpu<Simd>> {
-public:
-  static constexpr bool direct_memory = true;
-  using simd = Simd;
-  using rare_simd = Simd;
-};
-
 template <class Spu, class Quad, class Eight> class RayQueryAnswers {
 public:
   using S = typename Spu::simd;
