@@ -3,8 +3,12 @@
 
 #include "celltrace/export.hpp"
 
+#include <cstdint>
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace celltrace {
 
@@ -20,11 +24,40 @@ public:
   using Error::Error;
 };
 
+/// Something that was found in the text of a scene.
+struct Finding {
+  enum class Severity {
+    note,
+    warning, ///< the scene's own, and what was left out because it is not supported
+    error    ///< for which the scene is refused
+  };
+  Severity severity = Severity::error;
+  std::string file;                    ///< as messages name it
+  std::uint32_t line = 1, column = 1;  ///< from 1
+  std::string text;                    ///< what it is
+  std::vector<std::string> reached_by; ///< the includes and macros on the way there, from the inside out
+};
+
 /// The text of a scene is wrong or uses what is not supported. what() starts with "file:line:column: error:"
-/// and may continue with the include stack on further lines.
+/// and may continue with the include stack, and with further errors, on further lines.
 class CELLTRACE_EXPORT SceneError : public InputError {
 public:
-  using InputError::InputError;
+  /// At least one of `findings` is an error.
+  SceneError(const std::string& what, std::vector<Finding> findings)
+      : InputError(what), findings_(std::make_shared<const std::vector<Finding>>(std::move(findings))) {}
+
+  /// All of the run, in the order in which they were found: notes, warnings, each feature that is not
+  /// supported, and what ended it. Of notes and warnings the first thousand.
+  const std::vector<Finding>& findings() const noexcept { return *findings_; }
+
+private:
+  std::shared_ptr<const std::vector<Finding>> findings_;
+};
+
+/// There is not enough memory for a scene or picture.
+class CELLTRACE_EXPORT OutOfMemory : public Error {
+public:
+  OutOfMemory() : Error("there is not enough memory") {}
 };
 
 /// A kernel broke a rule of the machine it ran on, or stopped itself.

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -91,8 +92,15 @@ struct ParseOptions {
   std::vector<std::pair<std::string, std::variant<double, std::string>>> declares;
   /// Receives the text of #debug, #render and #statistics as it is, and "file:line:column: warning: text\n"
   /// for #warning, for what lenient reading leaves out and, with "note", for files found by another case of
-  /// their names. Called by the parsing thread. If empty, warnings go to stderr and the rest nowhere.
+  /// their names. Called by the parsing thread.
   std::function<void(std::string_view)> message;
+  /// Hears of every note, warning and error as data, when it is found, from the parsing thread. Errors are
+  /// thrown as well, at the end of the run.
+  std::function<void(const Finding& finding)> finding;
+  /// The application's own files: asked, from the parsing thread, for each file that a scene reads, by the
+  /// name that the scene gives it, with slashes between folders. Its text is taken in place of a file's;
+  /// nothing: the file system is searched.
+  std::function<std::optional<std::string>(const std::string& name)> file;
   /// Hears again and again, from the parsing thread, how many bytes of the scene's own file have been read,
   /// and of how many. Neither included files nor loops move it on, but it is called while they are read. If
   /// it returns false, reading ends with Cancelled.
@@ -104,13 +112,17 @@ struct ParseOptions {
 
 /// Throws SceneError for a fault of the scene: "file:line:column: error: text", followed by a line for every
 /// file and macro the place was reached through. InputError if an option is unusable, Cancelled if `progress`
-/// asked for it. Safe to call from several threads.
+/// asked for it, OutOfMemory. What functions of `options` throw passes through. Writes nothing to any stream.
+/// Safe to call from several threads at once.
 CELLTRACE_EXPORT Scene parse_file(const std::filesystem::path& path, const ParseOptions& options = {});
 
 /// The same for a scene in memory. `name` stands in messages; includes are looked for from the current
 /// folder.
 CELLTRACE_EXPORT Scene parse_string(std::string_view text, const ParseOptions& options = {},
                                     std::string name = "<string>");
+
+/// "file:line:column: severity: text", and a line for each place that it was reached by.
+CELLTRACE_EXPORT std::string to_text(const Finding& finding);
 
 /// A word that the language reserves; directives with their #.
 struct Keyword {

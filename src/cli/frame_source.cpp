@@ -36,7 +36,8 @@ FrameSource::Frame FrameSource::make(int number, Renderer* prepare_with) const {
         request_, number, [&](std::string_view text) { frame.messages += text; }, [](double) {});
   } catch (const SceneError& error) {
     if (!request_.animation.is_on()) throw;
-    throw SceneError(std::string(error.what()) + "\n  in frame " + std::to_string(number));
+    throw SceneError(std::string(error.what()) + "\n  in frame " + std::to_string(number),
+                     error.findings());
   }
   if (frame.read.scene && prepare_with != nullptr)
     frame.is_prepared = prepare_with->prepare(*frame.read.scene);

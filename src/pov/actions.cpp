@@ -594,7 +594,9 @@ std::shared_ptr<ObjectDefinition> mesh2(Session& session, Mesh2Definition& defin
                                         const Location& where) {
   std::shared_ptr<MeshDefinition> mesh;
   try {
-    mesh = make_mesh(std::move(definition));
+    mesh = make_mesh(std::move(definition), session.tokens);
+  } catch (const SceneError&) {
+    throw; // has its place
   } catch (const InputError& error) {
     session.fail(where, error.what());
   }

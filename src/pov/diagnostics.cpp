@@ -3,7 +3,6 @@
 #include "celltrace/error.hpp"
 
 #include <algorithm>
-#include <iostream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,7 +12,8 @@ namespace celltrace::pov {
 namespace {
 
 constexpr std::size_t kMostStackLines = 8;
-constexpr std::size_t kMostUnsupported = 50;
+constexpr std::size_t kMostErrorsInText = 50;
+constexpr std::size_t kMostRemarks = 1000;
 
 } // namespace
 
@@ -26,14 +26,23 @@ std::string quoted_name(std::string_view name) {
   return text;
 }
 
+void refuse_scene(const std::string& name, const std::string& what, const ParseOptions& options) {
+  Finding error;
+  error.file = name;
+  error.text = what;
+  if (options.finding) options.finding(error);
+  throw SceneError(to_text(error), {error});
+}
+
 std::string Diagnostics::place(const Location& where) const {
   return sources_.name(where.file) + ':' + std::to_string(where.line) + ':' + std::to_string(where.column);
 }
 
 void Diagnostics::fail(const Location& where, const std::string& what) const {
-  std::string before = unsupported_lines();
-  if (!before.empty()) before += '\n';
-  throw SceneError(before + place(where) + ": error: " + what + stack());
+  Finding error = finding(Finding::Severity::error, where, what);
+  error.reached_by = stack();
+  keep(error);
+  refuse();
 }
 
 void Diagnostics::exceed(const Location& where, std::uint64_t ParseLimits::*limit, const std::string& who,
@@ -45,12 +54,24 @@ void Diagnostics::exceed(const Location& where, std::uint64_t ParseLimits::*limi
                   named->name + "=N allows more)");
 }
 
-void Diagnostics::say(const Location& where, const char* kind, const std::string& what) const {
-  const std::string line = place(where) + ": " + kind + ": " + what + '\n';
-  if (options_.message)
-    options_.message(line);
-  else
-    std::cerr << line;
+Finding Diagnostics::finding(Finding::Severity severity, const Location& where,
+                             const std::string& what) const {
+  return {severity, sources_.name(where.file), where.line, where.column, what, {}};
+}
+
+void Diagnostics::keep(const Finding& finding) const {
+  if (options_.finding) options_.finding(finding);
+  if (finding.severity == Finding::Severity::error)
+    ++errors_;
+  else if (++remarks_ > kMostRemarks)
+    return;
+  findings_.push_back(finding);
+}
+
+void Diagnostics::say(Finding::Severity severity, const Location& where, const std::string& what) const {
+  const Finding said = finding(severity, where, what);
+  keep(said);
+  if (options_.message) options_.message(to_text(said) + '\n');
 }
 
 bool Diagnostics::supports(const UnsupportedPtr& unsupported, const Location& used_at) {
@@ -66,27 +87,36 @@ bool Diagnostics::supports(const UnsupportedPtr& unsupported, const Location& us
 void Diagnostics::note_unsupported(const Unsupported& unsupported, const Location& used_at) {
   if (options_.lenient)
     return warn(unsupported.where, unsupported.what + " is not supported yet and left out");
-  if (unsupported_errors_.size() >= kMostUnsupported) return;
-  std::string message = place(unsupported.where) + ": error: " + unsupported.what + " is not supported yet";
-  if (unsupported.where != used_at) message += "\n    used at " + place(used_at);
-  unsupported_errors_.push_back(message + stack());
+  Finding error =
+      finding(Finding::Severity::error, unsupported.where, unsupported.what + " is not supported yet");
+  error.reached_by = stack();
+  if (unsupported.where != used_at)
+    error.reached_by.insert(error.reached_by.begin(), "used at " + place(used_at));
+  keep(error);
 }
 
 void Diagnostics::require_supported() const {
-  if (!unsupported_errors_.empty()) throw SceneError(unsupported_lines());
+  if (errors_ != 0) refuse();
 }
 
-std::string Diagnostics::unsupported_lines() const {
-  std::string lines;
-  for (const std::string& error : unsupported_errors_)
-    lines += (lines.empty() ? "" : "\n") + error;
-  if (!options_.lenient && unsupported_.size() > unsupported_errors_.size())
-    lines += "\n    and " + std::to_string(unsupported_.size() - unsupported_errors_.size()) +
-             " more features that are not supported yet";
-  return lines;
+/// The last error, which may be another thing than a missing feature, is always told.
+void Diagnostics::refuse() const {
+  std::vector<const Finding*> errors;
+  for (const Finding& finding : findings_)
+    if (finding.severity == Finding::Severity::error) errors.push_back(&finding);
+  std::string text;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const bool is_last = i + 1 == errors.size();
+    if (i >= kMostErrorsInText && !is_last) continue;
+    if (i > kMostErrorsInText)
+      text +=
+          "\n    and " + std::to_string(i - kMostErrorsInText) + " more features that are not supported yet";
+    text += (text.empty() ? "" : "\n") + to_text(*errors[i]);
+  }
+  throw SceneError(text, findings_);
 }
 
-std::string Diagnostics::stack() const {
+std::vector<std::string> Diagnostics::stack() const {
   // A file that includes itself, or a macro that calls itself, is one line.
   struct Entry {
     std::string text;
@@ -106,14 +136,27 @@ std::string Diagnostics::stack() const {
     else
       entries.push_back({std::move(text), 1});
   }
-  std::string lines;
-  for (std::size_t i = 0; i < entries.size() && i < kMostStackLines; ++i) {
-    lines += "\n    " + entries[i].text;
-    if (entries[i].times > 1) lines += " (" + std::to_string(entries[i].times) + " times)";
-  }
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < entries.size() && i < kMostStackLines; ++i)
+    lines.push_back(entries[i].text +
+                    (entries[i].times > 1 ? " (" + std::to_string(entries[i].times) + " times)" : ""));
   if (entries.size() > kMostStackLines)
-    lines += "\n    and " + std::to_string(entries.size() - kMostStackLines) + " more";
+    lines.push_back("and " + std::to_string(entries.size() - kMostStackLines) + " more");
   return lines;
 }
 
 } // namespace celltrace::pov
+
+namespace celltrace {
+
+std::string to_text(const Finding& finding) {
+  static constexpr const char* kSeverities[] = {"note", "warning", "error"};
+  std::string text = finding.file + ':' + std::to_string(finding.line) + ':' +
+                     std::to_string(finding.column) + ": " + kSeverities[static_cast<int>(finding.severity)] +
+                     ": " + finding.text;
+  for (const std::string& place : finding.reached_by)
+    text += "\n    " + place;
+  return text;
+}
+
+} // namespace celltrace

@@ -17,6 +17,9 @@ namespace celltrace::pov {
 /// What a scene calls a file or the like, in quotes, as a message can show it: not too long, and in one line.
 std::string quoted_name(std::string_view name);
 
+/// Throws SceneError for a scene that cannot be read, or has nothing in it.
+[[noreturn]] void refuse_scene(const std::string& name, const std::string& what, const ParseOptions& options);
+
 class Diagnostics {
 public:
   Diagnostics(const Sources& sources, const Names& names, const Input& input, const ParseOptions& options)
@@ -33,8 +36,12 @@ public:
                            const std::string& unit) const;
 
   /// Says "place: warning: text", or another kind of message.
-  void warn(const Location& where, const std::string& what) const { say(where, "warning", what); }
-  void note(const Location& where, const std::string& what) const { say(where, "note", what); }
+  void warn(const Location& where, const std::string& what) const {
+    say(Finding::Severity::warning, where, what);
+  }
+  void note(const Location& where, const std::string& what) const {
+    say(Finding::Severity::note, where, what);
+  }
 
   /// Whether all is supported that something at `used_at` needs; nothing at all for null. What is not has to
   /// be left out: each feature is noted for the error at the end, or warned of in lenient reading, once.
@@ -43,17 +50,21 @@ public:
   void require_supported() const;
 
 private:
-  void say(const Location& where, const char* kind, const std::string& what) const;
+  Finding finding(Finding::Severity severity, const Location& where, const std::string& what) const;
+  void keep(const Finding& finding) const;
+  void say(Finding::Severity severity, const Location& where, const std::string& what) const;
   void note_unsupported(const Unsupported& unsupported, const Location& used_at);
-  std::string unsupported_lines() const;
-  std::string stack() const;
+  [[noreturn]] void refuse() const;
+  std::vector<std::string> stack() const;
 
   const Sources& sources_;
   const Names& names_;
   const Input& input_;
   const ParseOptions& options_;
-  std::set<std::string> unsupported_;           ///< the features noted or warned of
-  std::vector<std::string> unsupported_errors_; ///< the first ones of them
+  std::set<std::string> unsupported_;     ///< the features noted or warned of
+  mutable std::vector<Finding> findings_; ///< so far, of a parser that may be const
+  mutable std::size_t remarks_ = 0;       ///< notes and warnings among them
+  mutable std::size_t errors_ = 0;
 };
 
 } // namespace celltrace::pov

@@ -12,10 +12,8 @@ namespace celltrace::pov {
 namespace {
 
 /// Whether a file's path ends with the name it was asked for, but for what separates folders.
-bool is_spelled(const std::string& path, std::string wanted) {
-  std::replace(wanted.begin(), wanted.end(), '\\', '/');
-  const std::string name = std::filesystem::path(wanted).filename().string();
-  return path.ends_with(name);
+bool is_spelled(const std::string& path, const std::string& wanted) {
+  return path.ends_with(portable_path(wanted).filename().string());
 }
 
 } // namespace
@@ -203,6 +201,15 @@ std::string TokenStream::read_file_name(Location& where) {
 /// The file that the scene calls `wanted`: where it is, and its text.
 std::pair<std::filesystem::path, std::string>
 TokenStream::read_file(const std::string& what, const std::string& wanted, const Location& where) {
+  if (session_.options.file) {
+    const std::filesystem::path name = portable_path(wanted);
+    if (std::optional<std::string> text = session_.options.file(name.string())) {
+      if (text->size() > session_.options.limits.file_bytes)
+        session_.fail(where, what + ' ' + quoted_name(wanted) + ": this file is larger than " +
+                                 std::to_string(session_.options.limits.file_bytes) + " bytes");
+      return {name, std::move(*text)};
+    }
+  }
   const auto file = session_.sources.find_file(wanted, current_folder());
   if (!file) session_.fail(where, "cannot find the " + what + ' ' + quoted_name(wanted));
   if (!file->may_be_read)
@@ -211,7 +218,7 @@ TokenStream::read_file(const std::string& what, const std::string& wanted, const
                              "scene read what is in a folder");
   if (session_.options.reads_file) session_.options.reads_file(file->path);
   try {
-    return {file->path, read_text(file->path, session_.options.limits.file_bytes)};
+    return {file->path, read_text(file->path, session_.options.limits.file_bytes, [this] { pause(); })};
   } catch (const InputError& error) {
     session_.fail(where, what + ' ' + quoted_name(wanted) + ": " + error.what());
   }

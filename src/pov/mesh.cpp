@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "celltrace/error.hpp"
+#include "pov/token_stream.hpp"
 
 namespace celltrace::pov {
 
@@ -161,10 +162,12 @@ Index MeshBuilder::texture_index(const TexturePtr& texture) {
   return entry->second;
 }
 
-std::shared_ptr<MeshDefinition> make_mesh(Mesh2Definition definition) {
+std::shared_ptr<MeshDefinition> make_mesh(Mesh2Definition definition, TokenStream& tokens) {
   const std::vector<ListEntry>& vertices = definition.vertex_vectors;
-  for (ListEntry& normal : definition.normal_vectors)
+  for (ListEntry& normal : definition.normal_vectors) {
+    tokens.spend(1);
     normal.v = unit(normal.v);
+  }
   auto result = std::make_shared<MeshDefinition>();
   Mesh& mesh = result->mesh;
   mesh.inside_vector = definition.inside_vector;
@@ -175,6 +178,7 @@ std::shared_ptr<MeshDefinition> make_mesh(Mesh2Definition definition) {
   mesh.triangles.reserve(face_count);
   auto entry = faces.begin();
   for (std::size_t i = 0; entry != faces.end(); ++i) {
+    tokens.spend(1);
     const Face face = take_face(definition, entry);
     if (is_degenerate(vertices[face.vertex[0]].v, vertices[face.vertex[1]].v, vertices[face.vertex[2]].v))
       continue;
@@ -188,11 +192,15 @@ std::shared_ptr<MeshDefinition> make_mesh(Mesh2Definition definition) {
     add_coordinates(definition, i, face, mesh);
   }
   mesh.vertices.reserve(vertices.size());
-  for (const ListEntry& vertex : vertices)
+  for (const ListEntry& vertex : vertices) {
+    tokens.spend(1);
     mesh.vertices.push_back(to_single(vertex.v));
+  }
   mesh.normals.reserve(definition.normal_vectors.size());
-  for (const ListEntry& normal : definition.normal_vectors)
+  for (const ListEntry& normal : definition.normal_vectors) {
+    tokens.spend(1);
     mesh.normals.push_back(to_single(normal.v));
+  }
   result->textures = std::move(definition.textures);
   return result;
 }

@@ -10,6 +10,8 @@
 
 namespace celltrace::pov {
 
+class TokenStream;
+
 /// Takes triangles one by one. Degenerate ones are dropped; normals that are equal or zero count for nothing.
 class MeshBuilder {
 public:
@@ -37,6 +39,7 @@ struct Mesh2Definition {
 };
 
 /// Throws InputError, without a position, for indices that are out of range or do not belong to a face.
-std::shared_ptr<MeshDefinition> make_mesh(Mesh2Definition definition);
+/// `tokens` counts the work.
+std::shared_ptr<MeshDefinition> make_mesh(Mesh2Definition definition, TokenStream& tokens);
 
 } // namespace celltrace::pov

@@ -4,9 +4,27 @@
 #include "pov/constants.hpp"
 #include "pov/session.hpp"
 
+#include <new>
+
 namespace celltrace {
 
 namespace {
+
+constexpr std::size_t kCopiedAtOnce = 1u << 20;
+
+/// Runs `work`, and has what the library could not allocate for it be an Error.
+template <class Work> Scene within_memory(Work work) {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    throw OutOfMemory();
+  }
+}
+
+/// Asks whether to go on before the first token.
+void look(const ParseOptions& options, std::uint64_t bytes) {
+  if (options.progress && !options.progress(0, bytes)) throw Cancelled();
+}
 
 Scene parse(std::string text, const ParseOptions& options, const std::string& name,
             const std::filesystem::path& folder) {
@@ -20,7 +38,7 @@ Scene parse(std::string text, const ParseOptions& options, const std::string& na
   } catch (const pov::LimitPassed& passed) {
     session.exceed(session.tokens.last_place(), passed.limit, passed.who, passed.unit);
   }
-  if (session.tokens.is_empty()) throw SceneError(name + ":1:1: error: the scene is empty");
+  if (session.tokens.is_empty()) pov::refuse_scene(name, "the scene is empty", options);
   Scene scene = session.builder.finish(name);
   session.diagnostics.require_supported();
   return scene;
@@ -29,18 +47,29 @@ Scene parse(std::string text, const ParseOptions& options, const std::string& na
 } // namespace
 
 Scene parse_file(const std::filesystem::path& path, const ParseOptions& options) {
-  if (options.reads_file) options.reads_file(path);
-  std::string text;
-  try {
-    text = pov::read_text(path, options.limits.file_bytes);
-  } catch (const InputError& error) {
-    throw SceneError(path.string() + ":1:1: error: " + error.what());
-  }
-  return parse(std::move(text), options, path.string(), path.parent_path());
+  return within_memory([&] {
+    if (options.reads_file) options.reads_file(path);
+    std::error_code none;
+    const std::uint64_t bytes = std::filesystem::file_size(path, none);
+    std::string text;
+    try {
+      text = pov::read_text(path, options.limits.file_bytes, [&] { look(options, none ? 0 : bytes); });
+    } catch (const InputError& error) {
+      pov::refuse_scene(path.string(), error.what(), options);
+    }
+    return parse(std::move(text), options, path.string(), path.parent_path());
+  });
 }
 
 Scene parse_string(std::string_view text, const ParseOptions& options, std::string name) {
-  return parse(std::string(text), options, name, {});
+  return within_memory([&] {
+    std::string copy = pov::make_text(text.size());
+    for (std::size_t at = 0; at < text.size(); at += kCopiedAtOnce) {
+      look(options, text.size());
+      copy += text.substr(at, kCopiedAtOnce);
+    }
+    return parse(std::move(copy), options, name, {});
+  });
 }
 
 } // namespace celltrace

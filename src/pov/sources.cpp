@@ -53,13 +53,6 @@ std::optional<fs::path> find_without_case(const fs::path& folder, const fs::path
   return found;
 }
 
-/// Scenes written on Windows name their folders with backslashes.
-fs::path portable(std::string_view name) {
-  std::string path(name);
-  std::replace(path.begin(), path.end(), '\\', '/');
-  return path;
-}
-
 bool is_below(const fs::path& file, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
 }
@@ -99,8 +92,15 @@ struct Descriptor {
 };
 
 constexpr std::size_t kWriteAtOnce = 1u << 16;
+constexpr std::size_t kPadding = 2; // the scanner adds two NULs
 
 } // namespace
+
+fs::path portable_path(std::string_view name) {
+  std::string path(name);
+  std::replace(path.begin(), path.end(), '\\', '/');
+  return path;
+}
 
 Sources::Sources(const ParseOptions& options)
     : library_paths_(options.library_paths), readable_(canonical_folders(options.readable_folders)),
@@ -124,7 +124,7 @@ std::uint32_t Sources::number_of(const std::string& name) {
 
 std::optional<FoundFile> Sources::find_file(std::string_view name, const fs::path& naming_folder) const {
   if (name.find('\0') != name.npos) return std::nullopt;
-  const fs::path wanted = portable(name);
+  const fs::path wanted = portable_path(name);
   std::vector<fs::path> folders;
   if (!writable_.empty()) folders.push_back(writable_.front());
   folders.insert(folders.end(), {naming_folder, scene_folder_});
@@ -150,7 +150,7 @@ std::optional<FoundFile> Sources::find_file(std::string_view name, const fs::pat
 fs::path Sources::writable_file(std::string_view name) const {
   if (writable_.empty())
     throw InputError("scenes write no files unless --allow-write DIR says in which folder they may");
-  const fs::path wanted = portable(name);
+  const fs::path wanted = portable_path(name);
   if (name.find('\0') != name.npos || !wanted.has_filename() || wanted.filename() == "." ||
       wanted.filename() == "..")
     throw InputError("this is no name of a file");
@@ -169,7 +169,13 @@ fs::path Sources::writable_file(std::string_view name) const {
   return file;
 }
 
-std::string read_text(const fs::path& path, std::uint64_t limit) {
+std::string make_text(std::size_t bytes) {
+  std::string text;
+  text.reserve(bytes + kPadding);
+  return text;
+}
+
+std::string read_text(const fs::path& path, std::uint64_t limit, const std::function<void()>& look) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) throw InputError("there is no such file");
@@ -181,10 +187,9 @@ std::string read_text(const fs::path& path, std::uint64_t limit) {
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (file.number < 0) throw InputError("this file cannot be opened: " + reason(errno));
   // The size is a hint: the system's own files have none, and others may be written to meanwhile.
-  constexpr std::size_t kPadding = 2; // the scanner adds two NULs
-  std::string text;
-  text.reserve(static_cast<std::size_t>(std::min(size, limit)) + 1 + kPadding);
+  std::string text = make_text(static_cast<std::size_t>(std::min(size, limit)) + 1);
   for (;;) {
+    look();
     const std::size_t read = text.size();
     if (read > limit) throw InputError("this file is larger than " + std::to_string(limit) + " bytes");
     constexpr std::size_t kReadAtOnce = 1u << 20;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -48,9 +49,16 @@ private:
   std::unordered_map<std::string, std::uint32_t> numbers_;
 };
 
-/// The text of a file, at most `limit` bytes. Throws InputError, without a position, if it is missing, is not
-/// a regular file, is longer or cannot be read to its end.
-std::string read_text(const std::filesystem::path& path, std::uint64_t limit);
+/// Scenes written on Windows name their folders with backslashes.
+std::filesystem::path portable_path(std::string_view name);
+
+/// What a text is read into: room for `bytes` bytes, and for what the scanner puts behind them.
+std::string make_text(std::size_t bytes);
+
+/// The text of a file, at most `limit` bytes. Calls `look` every now and then. Throws InputError, without a
+/// position, if it is missing, is not a regular file, is longer or cannot be read to its end.
+std::string read_text(const std::filesystem::path& path, std::uint64_t limit,
+                      const std::function<void()>& look);
 
 /// A text file being written. What is left of it when it is destroyed goes to the file, if it can.
 class TextWriter {

@@ -16,8 +16,8 @@ using namespace kernel;
 
 namespace {
 
-/// What of building a BVH is over before the first treelet: making the image, and the nodes above.
-constexpr double kBeforeTreelets = 0.3;
+/// What of building a BVH is over before the first treelet: the nodes above.
+constexpr double kBeforeTreelets = 0.15;
 /// Larger work memory goes back to the system between frames.
 constexpr std::size_t kKeptBytes = std::size_t{256} << 20;
 

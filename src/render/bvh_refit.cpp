@@ -2,6 +2,7 @@
 
 #include "celltrace/spe/simd_host.hpp"
 #include "kernel/direct/build_bvh_subtree.hpp"
+#include "scene/build_watch.hpp"
 #include "scene/parallel.hpp"
 
 #include <algorithm>
@@ -83,11 +84,14 @@ void BvhRefit::refit(std::byte* base, const BvhRecord& bvh, unsigned threads) {
   if (threads > 1)
     for_each_part(threads, [&](unsigned part) {
       const HostPart mine(count, part, threads);
-      for (std::uint32_t i = mine.begin; i < mine.end; ++i)
+      for (std::uint32_t i = mine.begin; i < mine.end; ++i) {
+        BuildWatch::look_at(i);
         bound_leaves(base, nodes[nodes_[i]], nodes_[i]);
+      }
     });
   cost_ = 0;
   for (std::uint32_t i = count; i-- > 0;) {
+    BuildWatch::look_at(i);
     const std::uint32_t number = nodes_[i];
     if (threads == 1) bound_leaves(base, nodes[number], number);
     cost_ += bound_node(nodes[number], number);
@@ -102,6 +106,7 @@ void BvhRefit::find_nodes(std::byte* base, const BvhRecord& bvh) {
   first_cost_ = 0;
   parents_[0] = 0; // has none
   for (std::uint32_t number = 0; number < bvh.node_count; ++number) {
+    BuildWatch::look_at(number);
     if (parents_[number] == kGap) continue;
     nodes_.push_back(number);
     const NodeRecord& node = nodes[number];

@@ -13,6 +13,7 @@
 #include "render/statistics.hpp"
 #include "render/unit_blocks.hpp"
 #include "render/work_plan.hpp"
+#include "scene/build_watch.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -50,6 +51,9 @@ MachineConfig machine_config(const RenderOptions& options) {
   return config;
 }
 
+/// Of building, what the scene image takes.
+constexpr double kImageShare = 0.2;
+
 /// A block that a DMA list can address: all of it in one region of 4 GB.
 AlignedBlock make_list_target(std::size_t bytes) {
   AlignedBlock block = AlignedBlock::uninitialised(bytes);
@@ -74,14 +78,13 @@ public:
   }
 
   RenderResult render(const Scene& scene, const Progress& progress) {
-    if (!prepare(scene)) return no_frame();
+    if (!prepare(scene, progress)) return no_frame();
     return reporting_failures([&] { return render_frame(whole_picture(), progress); });
   }
-  bool prepare(const Scene& scene) {
-    return reporting_failures([&] {
-      if (options_.quality >= kFullQuality) return prepare_scene(scene);
-      validate(scene);
-      return prepare_scene(at_quality(scene, options_.quality));
+  /// `progress` may end it, too.
+  bool prepare(const Scene& scene, const Progress& progress) {
+    return while_wanted(progress, scene, [&](const Scene& wanted, const Progress& go_on) {
+      return prepare_scene(wanted, go_on);
     });
   }
   RenderResult render_rows(int top, int bottom, const Progress& progress) {
@@ -97,11 +100,9 @@ public:
     });
   }
   RenderResult render(const Scene& scene, const SceneChanges& changes, const Progress& progress) {
-    const bool prepared = reporting_failures([&] {
-      is_edited_ = true;
-      if (options_.quality >= kFullQuality) return prepare_changes(scene, changes);
-      validate(scene);
-      return prepare_changes(at_quality(scene, options_.quality), changes);
+    is_edited_ = true;
+    const bool prepared = while_wanted(progress, scene, [&](const Scene& wanted, const Progress& go_on) {
+      return prepare_changes(wanted, changes, go_on);
     });
     if (!prepared) return no_frame();
     return reporting_failures([&] { return render_frame(whole_picture(), progress); });
@@ -191,6 +192,32 @@ private:
       throw;
     }
   }
+  /// Calls work(scene, go_on), with the scene that the picture's quality leaves of `scene`, and with what
+  /// hears of building. False, and there is no scene then, if that has ended it.
+  template <class Work> bool while_wanted(const Progress& progress, const Scene& scene, Work work) {
+    Progress go_on;
+    if (options_.build_progress || progress)
+      go_on = [&, reached = 0.0](double fraction) mutable {
+        reached = std::max(reached, fraction); // whoever says so
+        return (!options_.build_progress || options_.build_progress(reached)) && (!progress || progress(0));
+      };
+    const Progress of_image = part_of(go_on, 0, kImageShare);
+    const BuildWatch watch(of_image);
+    try {
+      return reporting_failures([&] {
+        const Progress of_accelerator = part_of(go_on, kImageShare, 1);
+        if (options_.quality >= kFullQuality) return work(scene, of_accelerator);
+        validate(scene);
+        return work(at_quality(scene, options_.quality), of_accelerator);
+      });
+    } catch (const Cancelled&) {
+      has_scene_ = false;
+      return false;
+    } catch (...) {
+      if (watch.has_stopped()) has_scene_ = false;
+      throw;
+    }
+  }
   /// What the machine has found since the last call; the caller's function hears of it.
   std::vector<Diagnostic> new_diagnostics() {
     std::vector<Diagnostic> found = machine_->diagnostics();
@@ -210,14 +237,10 @@ private:
     return {0, region.bottom - region.top};
   }
 
-  /// Image and accelerator. False: `build_progress` cancelled.
-  bool prepare_scene(const Scene& scene) {
+  /// Image and accelerator. False: `go_on` cancelled.
+  bool prepare_scene(const Scene& scene, const Progress& go_on) {
     prepared_ = RenderStatistics();
     const Stopwatch build;
-    if (options_.build_progress && !options_.build_progress(0)) {
-      has_scene_ = false;
-      return false;
-    }
     retire_queries();
     builder_->make_image(scene, {is_edited_, options_.ray_queries});
     has_scene_ = false;
@@ -227,7 +250,7 @@ private:
     const SpeMeter meter(*machine_);
     enter_scene(scene);
     team_->assemble();
-    if (!builder_->build(options_.build_progress)) return false;
+    if (!builder_->build(go_on)) return false;
     if (stages_) team_->dismiss(); // the SPEs get other programs
     has_scene_ = true;
     prepared_.prepare_seconds = prepare.seconds();
@@ -251,8 +274,8 @@ private:
   }
 
   /// As prepare_scene(), at the cost of what has changed.
-  bool prepare_changes(const Scene& scene, const SceneChanges& changes) {
-    if (!has_scene_ || stages_) return prepare_scene(scene);
+  bool prepare_changes(const Scene& scene, const SceneChanges& changes, const Progress& go_on) {
+    if (!has_scene_ || stages_) return prepare_scene(scene, go_on);
     prepared_ = nothing_prepared();
     if (!changes.objects && !changes.surfaces) {
       validate(scene.camera);
@@ -261,14 +284,14 @@ private:
     }
     const Stopwatch build;
     retire_queries();
-    if (!builder_->update_image(scene, changes)) return prepare_scene(scene);
+    if (!builder_->update_image(scene, changes)) return prepare_scene(scene, go_on);
     media_ = media_of(scene);
     enter_scene(scene);
     prepared_.build_seconds = build.seconds();
     const Stopwatch prepare;
     const SpeMeter meter(*machine_);
     const std::optional<std::uint64_t> lines = builder_->update(changes);
-    if (!lines) return prepare_scene(scene);
+    if (!lines) return prepare_scene(scene, go_on);
     prepared_.stale_lines = *lines;
     prepared_.preparation =
         changes.objects ? RenderStatistics::Preparation::refitted : RenderStatistics::Preparation::updated;
@@ -612,7 +635,7 @@ void Renderer::set_picture(const RenderOptions& options) {
 }
 
 bool Renderer::prepare(const Scene& scene) {
-  return impl_->prepare(scene);
+  return impl_->prepare(scene, {});
 }
 RayQueries Renderer::ray_queries() const {
   return impl_->ray_queries();

@@ -2,6 +2,7 @@
 
 #include "celltrace/error.hpp"
 #include "kernel/accel/object_bounds.hpp"
+#include "scene/build_watch.hpp"
 #include "scene/polytope.hpp"
 #include "scene/shape_geometry.hpp"
 
@@ -51,7 +52,8 @@ Aabb half_space(const PlacedShape& plane, bool inverse) {
 /// Around all triangles in the world, and a little more.
 Aabb bounds_of(const Mesh& mesh, const Transform& transform) {
   Aabb box = kNowhere;
-  for (const Mesh::Triangle& triangle : mesh.triangles)
+  for (const Mesh::Triangle& triangle : mesh.triangles) {
+    BuildWatch::look_at(static_cast<std::size_t>(&triangle - mesh.triangles.data()));
     for (const Index vertex : triangle.vertex) {
       const Vec3 at = transform.point(Vec3(mesh.vertices[vertex]));
       for (int i = 0; i < 3; ++i) {
@@ -60,6 +62,7 @@ Aabb bounds_of(const Mesh& mesh, const Transform& transform) {
         box.max[i] = std::max(box.max[i], static_cast<float>(at[i]) + slack);
       }
     }
+  }
   return box;
 }
 
@@ -365,6 +368,7 @@ private:
 
   void show_solid(const Node& node, std::uint32_t condition, const Aabb& bounds) {
     if (node.shape.is_empty) return;
+    BuildWatch::look_at(to_.parts.size());
     CsgPart part;
     part.object = node.object;
     part.shape = node.shape;
@@ -397,6 +401,7 @@ CsgParts::CsgParts(const Scene& scene, const std::vector<std::shared_ptr<const O
   for (const auto& object : patterns)
     flattener.add_inside(builder.build(*object, {}));
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    BuildWatch::look_at(i);
     if (!contains(scene.objects[i])) continue;
     const Node tree = builder.build(scene.objects[i], {});
     const std::size_t first = parts.size();

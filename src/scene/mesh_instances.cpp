@@ -3,6 +3,7 @@
 #include "celltrace/error.hpp"
 #include "celltrace/spe/simd_host.hpp"
 #include "kernel/direct/build_bvh_bounds.hpp"
+#include "scene/build_watch.hpp"
 #include "scene/csg_parts.hpp"
 #include "scene/object_order.hpp"
 #include "scene/parallel.hpp"
@@ -98,8 +99,10 @@ MeshInstances::MeshInstances(const Scene& scene, const std::vector<std::uint32_t
   const unsigned parts = std::clamp(count / kInstancesPerThread, 1u, threads);
   for_each_part(parts, [&](unsigned part) {
     const HostPart mine(count, part, parts);
-    for (std::uint32_t i = mine.begin; i < mine.end; ++i)
+    for (std::uint32_t i = mine.begin; i < mine.end; ++i) {
+      BuildWatch::look();
       instances_[i].is_sound = keeps_areas(instances_[i]);
+    }
   });
   const auto is_unsound = [](const Instance& instance) { return !instance.is_sound; };
   instances_.erase(std::remove_if(instances_.begin(), instances_.end(), is_unsound), instances_.end());
@@ -213,6 +216,7 @@ public:
     start(instance, prototype);
     ObjectRecord* to = tables_.objects + instance.first_object;
     for (std::uint32_t group = 0; group < prototype.group_count(); ++group) {
+      BuildWatch::look_at(group);
       const std::uint32_t begin = prototype.groups()[group], end = prototype.groups()[group + 1];
       LaneAabb around = LaneAabb::empty();
       for (std::uint32_t i = begin; i < end; ++i)
@@ -235,6 +239,7 @@ private:
     object_ = instance.object;
     vertices_.clear();
     for (const Vec3f& vertex : prototype.vertices()) {
+      BuildWatch::look_at(vertices_.size());
       const Vec3f at = in_world(object_->transform, vertex);
       vertices_.push_back({{at.x, at.y, at.z, 0.0f}});
     }
@@ -302,8 +307,10 @@ void MeshInstances::write(const InstanceTables& tables, unsigned threads) const 
   for_each_part(threads, [&](unsigned part) {
     const HostPart mine(static_cast<std::uint32_t>(instances_.size()), part, threads);
     Writer writer(*this, tables);
-    for (std::uint32_t i = mine.begin; i < mine.end; ++i)
+    for (std::uint32_t i = mine.begin; i < mine.end; ++i) {
+      BuildWatch::look();
       writer.write(instances_[i]);
+    }
   });
 }
 

@@ -2,6 +2,7 @@
 
 #include "celltrace/spe/simd_host.hpp"
 #include "kernel/direct/build_bvh_split.hpp"
+#include "scene/build_watch.hpp"
 #include "scene/object_order.hpp"
 #include "scene/triangles.hpp"
 
@@ -54,6 +55,7 @@ public:
     if (begin == end) return;
     std::vector<Range> open = {bvh::range_of<Simd>(references_.data(), begin, end)};
     while (!open.empty()) {
+      BuildWatch::look_at(looks_++);
       const Range range = open.back();
       open.pop_back();
       if (!part(range) || range.count() < 2) continue;
@@ -67,6 +69,7 @@ public:
 private:
   std::vector<Reference>& references_;
   std::vector<Reference> spare_;
+  std::size_t looks_ = 0;
 };
 
 /// The triangles with an area in the order of their places in the mesh.
@@ -74,6 +77,7 @@ std::vector<Reference> references_to_triangles(const Mesh& mesh) {
   std::vector<Reference> references;
   references.reserve(mesh.triangles.size());
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    BuildWatch::look_at(i);
     const Index(&vertex)[3] = mesh.triangles[i].vertex;
     if (has_area(mesh.vertices[vertex[0]], mesh.vertices[vertex[1]], mesh.vertices[vertex[2]]))
       references.push_back(reference_to(i, mesh));
@@ -181,7 +185,9 @@ public:
 private:
   void find_equal() {
     std::vector<Index> order = first_like_;
-    const auto less = [this](Index a, Index b) {
+    std::size_t looks = 0;
+    const auto less = [&](Index a, Index b) {
+      BuildWatch::look_at(looks++);
       const Vec3f &p = points_[a], &q = points_[b];
       return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : p.z < q.z;
     };
@@ -216,6 +222,7 @@ MeshPrototype::MeshPrototype(const Mesh& mesh, unsigned threads) {
   PointTable normals(mesh.normals, mesh.triangles.size());
   triangles_.reserve(references.size());
   for (const Reference& reference : references) {
+    BuildWatch::look_at(triangles_.size());
     const Mesh::Triangle& from = mesh.triangles[reference.value];
     Triangle triangle = {{0, 0, 0}, {kNoIndex, kNoIndex, kNoIndex}, from.material[0]};
     for (int corner = 0; corner < 3; ++corner) {
@@ -240,6 +247,7 @@ void MeshPrototype::measure() {
   }
   least_height_ = std::numeric_limits<double>::max();
   for (const Triangle& triangle : triangles_) {
+    BuildWatch::look_at(static_cast<std::size_t>(&triangle - triangles_.data()));
     const Vec3 a(vertices_[triangle.vertex[0]]);
     const Vec3 u = Vec3(vertices_[triangle.vertex[1]]) - a;
     const Vec3 v = Vec3(vertices_[triangle.vertex[2]]) - a;

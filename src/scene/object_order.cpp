@@ -2,6 +2,7 @@
 
 #include "celltrace/spe/simd_host.hpp"
 #include "kernel/direct/build_bvh_bounds.hpp"
+#include "scene/build_watch.hpp"
 #include "scene/parallel.hpp"
 
 #include <algorithm>
@@ -149,8 +150,10 @@ public:
       const auto first = std::lower_bound(begins.begin(), begins.end(), mine.begin);
       const auto last = std::lower_bound(begins.begin(), begins.end(), mine.end);
       std::copy(spare_ + *first, spare_ + *last, objects_ + *first);
-      for (auto cell = first; cell != last; ++cell)
+      for (auto cell = first; cell != last; ++cell) {
+        BuildWatch::look_at(static_cast<std::size_t>(cell - first));
         finish(cell[0], cell[1], 1, groups[part]);
+      }
     });
     for (unsigned part = 1; part < threads; ++part)
       groups[0].insert(groups[0].end(), groups[part].begin(), groups[part].end());
@@ -162,6 +165,7 @@ private:
   std::vector<std::uint32_t> count_cells(const CurveGrid& grid, std::uint32_t begin, std::uint32_t end) {
     std::vector<std::uint32_t> counts(grid.count());
     for (std::uint32_t i = begin; i < end; ++i) {
+      BuildWatch::look_at(i);
       cells_[i] = grid.cell_of(objects_[i].centre);
       ++counts[cells_[i]];
     }
@@ -187,8 +191,10 @@ private:
   }
 
   void send(std::vector<std::uint32_t>& next, std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t i = begin; i < end; ++i)
+    for (std::uint32_t i = begin; i < end; ++i) {
+      BuildWatch::look_at(i);
       spare_[next[cells_[i]]++] = objects_[i];
+    }
   }
 
   /// Divides a cell with many objects.

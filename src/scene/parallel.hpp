@@ -1,6 +1,8 @@
 // Work in parts, in threads of the host.
 #pragma once
 
+#include "scene/build_watch.hpp"
+
 #include <cstdint>
 #include <exception>
 #include <thread>
@@ -18,10 +20,12 @@ struct HostPart {
 };
 
 /// Calls work(part) for each part, in a thread each, and returns when all are done. What the first of them
-/// that threw has thrown passes through.
+/// that threw has thrown passes through. This thread's BuildWatch is theirs, too.
 template <class Work> void for_each_part(unsigned parts, Work work) {
   std::vector<std::exception_ptr> failures(parts);
+  BuildWatch* const watch = BuildWatch::current();
   const auto run = [&](unsigned part) noexcept {
+    BuildWatch::follow(watch);
     try {
       work(part);
     } catch (...) {

@@ -12,6 +12,7 @@
 
 #include "celltrace/error.hpp"
 #include "kernel/records.hpp"
+#include "scene/build_watch.hpp"
 #include "scene/light_sets.hpp"
 #include "scene/projectors.hpp"
 #include "scene/shape_geometry.hpp"
@@ -139,9 +140,11 @@ void check_mesh(const Mesh& mesh, std::size_t materials, const Name& name) {
       check_finite({at.x, at.y}, name);
   if (!is_finite(mesh.inside_vector))
     throw InputError(name.text() + " has an inside vector that is not finite");
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    BuildWatch::look_at(i);
     if (!is_sound(mesh, mesh.triangles[i], materials))
       throw InputError(name.text() + Name{", triangle", i}.text() + " has an index that is out of range");
+  }
 }
 
 /// An object of the scene, or a part of it.
@@ -237,8 +240,10 @@ void validate_all_but_objects(const Scene& scene) {
 
 void validate(const Scene& scene) {
   validate_all_but_objects(scene);
-  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    BuildWatch::look_at(i);
     check_object(scene, scene.objects[i], {"object", i}, 0);
+  }
   std::unordered_set<const Mesh*> meshes;
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
     check_meshes(scene.objects[i], scene.materials.size(), i, meshes);

@@ -2,6 +2,7 @@
 
 #include "celltrace/error.hpp"
 #include "kernel/direct/build_bvh_plan.hpp"
+#include "scene/build_watch.hpp"
 #include "scene/image_layout.hpp"
 #include "scene/light_sets.hpp"
 #include "scene/mesh_instances.hpp"
@@ -99,16 +100,20 @@ SceneImage::SceneImage(const Scene& scene) {
 
 void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads,
                         std::uint32_t objects_a_thread, const ImageMemory& remembered) {
+  BuildWatch::reach(0);
   validate(given);
   const SceneWithProjectors with_projectors(given);
   const Scene& scene = with_projectors.scene();
   TextureTables textures(scene);
+  BuildWatch::reach(0.05);
   const MeshInstances instances(scene, textures.object_flags, threads);
+  BuildWatch::reach(0.2);
   const SceneObjects objects(scene, with_projectors.own_objects(), textures.objects, textures.object_flags,
                              instances, threads);
   threads = threads_for(objects, instances, threads, objects_a_thread);
   const OrderMemory memory(work, objects.count());
   const ObjectCensus loose = place_all(objects, memory.objects, threads);
+  BuildWatch::reach(0.4);
   std::vector<std::uint32_t> groups;
   if (loose.objects != 0 && (loose.objects >= kMinObjectsToOrder || instances.group_count() != 0))
     groups = order_along_curve(memory.objects, memory.spare, memory.cells, loose.objects, threads);
@@ -117,6 +122,7 @@ void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads
   const LightSets light_sets(scene);
   const ImageHeader header = make_header(scene, light_sets, textures, objects, census, groups, instances);
 
+  BuildWatch::reach(0.6);
   block_.reserve(header.bytes + bvh_bytes(header));
   origin_.reset();
   TableWriter writer(block_.data(), header, scene, textures, objects.unbounded_extras());
@@ -126,6 +132,7 @@ void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads
   writer.write_csg(objects.csg());
   writer.write_polygons(objects.polygons());
   writer.write_objects(objects, {memory.objects, loose.objects}, memory.cells, threads);
+  BuildWatch::reach(0.9);
   writer.write_groups(groups, threads);
   writer.write_instances(instances, threads);
   writer.write_unbounded(objects, census);
@@ -137,8 +144,10 @@ void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads
   origin_ = std::make_unique<Origin>();
   Origin& origin = *origin_;
   origin.places.resize(objects.count(), SceneObjects::kNoPlace);
-  for (std::uint32_t i = 0; i < loose.objects; ++i)
+  for (std::uint32_t i = 0; i < loose.objects; ++i) {
+    BuildWatch::look_at(i);
     origin.places[memory.objects[i].source] = i;
+  }
   origin.placed = loose.objects;
   origin.groups = std::move(groups);
   origin.is_instance = which_are(instances, given.objects.size());
@@ -179,6 +188,7 @@ bool SceneImage::update(const Scene& given, AlignedBlock& work, unsigned threads
   const ObjectCensus loose = place_all(objects, memory.spare, threads);
   if (loose.objects != origin_->placed) return false;
   for (std::uint32_t i = 0; i < loose.objects; ++i) {
+    BuildWatch::look_at(i);
     const std::uint32_t place = origin_->places[memory.spare[i].source];
     if (place == SceneObjects::kNoPlace) return false;
     memory.objects[place] = memory.spare[i];

@@ -48,6 +48,7 @@ public:
   /// Becomes the image of `scene` in up to `threads` threads, which have so many objects each at least; what
   /// comes out does not depend on their number. Keeps its memory where that is large enough, and uses `work`,
   /// which may grow. After an InputError it is as before; after another exception it may be empty.
+  /// A BuildWatch hears of it, and of update(), which may leave no image when it is stopped, either.
   void assign(const Scene& scene, AlignedBlock& work, unsigned threads,
               std::uint32_t objects_a_thread = kObjectsAThread, const ImageMemory& memory = {});
   /// Becomes the image of a scene that is the one given to assign() but for numbers in it, every record at

@@ -3,6 +3,7 @@
 #include "celltrace/error.hpp"
 #include "celltrace/spe/simd_host.hpp"
 #include "kernel/direct/build_bvh_bounds.hpp"
+#include "scene/build_watch.hpp"
 #include "scene/parallel.hpp"
 #include "scene/triangles.hpp"
 
@@ -70,8 +71,10 @@ std::vector<Vec3f> changed(const std::vector<Vec3f>& from, unsigned threads, Cha
   const unsigned parts = std::clamp(count / kVerticesPerThread, 1u, threads);
   for_each_part(parts, [&](unsigned part) {
     const HostPart mine(count, part, parts);
-    for (std::uint32_t i = mine.begin; i < mine.end; ++i)
+    for (std::uint32_t i = mine.begin; i < mine.end; ++i) {
+      BuildWatch::look_at(i);
       to[i] = change(from[i]);
+    }
   });
   return to;
 }
@@ -84,6 +87,7 @@ SceneObjects::SceneObjects(const Scene& scene, std::size_t projectors,
                            unsigned threads)
     : scene_(scene), material_flags_(material_flags), csg_(scene, patterns), polygons_(scene) {
   for (std::size_t i = 0; i < projectors; ++i) {
+    BuildWatch::look_at(i);
     const Object& object = scene.objects[i];
     if (instances.contains(i) || CsgParts::contains(object)) continue;
     if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape))
@@ -251,6 +255,7 @@ ObjectCensus SceneObjects::place(std::uint32_t begin, std::uint32_t end, PlacedO
 void SceneObjects::place_shapes(const Piece& piece, std::uint32_t begin, std::uint32_t end,
                                 ObjectCensus& census, PlacedObject* to) const {
   for (std::uint32_t number = begin; number < end; ++number) {
+    BuildWatch::look_at(number);
     const Placed object = placed_at(piece, number);
     Aabb box;
     if (object.part != nullptr) {
@@ -275,6 +280,7 @@ void SceneObjects::place_triangles(const Piece& piece, std::uint32_t begin, std:
   LaneAabb around = LaneAabb::empty();
   PlacedObject* next = to + census.objects;
   for (std::uint32_t number = begin; number < end; ++number) {
+    BuildWatch::look_at(number);
     const Mesh::Triangle& triangle = mesh.triangles[number - piece.first];
     const Vec3f &a = piece.vertices[triangle.vertex[0]], &b = piece.vertices[triangle.vertex[1]],
                 &c = piece.vertices[triangle.vertex[2]];
@@ -296,6 +302,7 @@ ObjectCensus SceneObjects::count_tables(std::span<const PlacedObject> objects) c
   ObjectCensus census;
   const Piece* near = nullptr;
   for (const PlacedObject& object : objects) {
+    BuildWatch::look_at(static_cast<std::size_t>(&object - objects.data()));
     const Piece& piece = piece_of(object.source, near);
     near = &piece;
     if (piece.mesh == nullptr) {
@@ -443,6 +450,7 @@ void SceneObjects::write(std::span<const PlacedObject> objects, const RecordTabl
   Writer writer(*this, tables, before);
   const Piece* near = nullptr;
   for (std::size_t i = 0; i < objects.size(); ++i) {
+    BuildWatch::look_at(i);
     const Piece& piece = piece_of(objects[i].source, near);
     near = &piece;
     const std::uint32_t number = objects[i].source;
@@ -460,6 +468,7 @@ void SceneObjects::write_apart(std::uint32_t begin, std::uint32_t end, const std
     const Piece& piece = piece_of(begin, nullptr);
     const std::uint32_t piece_end = std::min(end, end_of(piece));
     for (std::uint32_t number = begin; number < piece_end; ++number) {
+      BuildWatch::look_at(number);
       if (piece_end - number > kAhead && places[number + kAhead] != kNoPlace)
         __builtin_prefetch(to + places[number + kAhead], 1);
       if (places[number] == kNoPlace) continue;

@@ -2,6 +2,7 @@
 
 #include "celltrace/spe/simd_host.hpp"
 #include "kernel/direct/build_bvh_bounds.hpp"
+#include "scene/build_watch.hpp"
 #include "scene/image_layout.hpp"
 #include "scene/parallel.hpp"
 #include "scene/surface_records.hpp"
@@ -190,6 +191,7 @@ void TableWriter::write_groups(std::span<const std::uint32_t> groups, unsigned t
   for_each_part(threads, [&](unsigned part) {
     const HostPart mine(count, part, threads);
     for (std::uint32_t group = mine.begin; group < mine.end; ++group) {
+      BuildWatch::look_at(group);
       auto lanes = bvh::LaneAabb<Simd>::empty();
       for (std::uint32_t i = groups[group]; i < groups[group + 1]; ++i)
         lanes.grow(bvh::box_of<Simd>(objects[i], base_));
@@ -238,8 +240,10 @@ std::uint32_t TableWriter::first_projector() const {
 void TableWriter::send_objects(const SceneObjects& objects, std::span<const PlacedObject> placed,
                                std::uint32_t* places, unsigned threads) {
   std::fill_n(places, objects.count(), SceneObjects::kNoPlace);
-  for (std::uint32_t i = 0; i < placed.size(); ++i)
+  for (std::uint32_t i = 0; i < placed.size(); ++i) {
+    BuildWatch::look_at(i);
     places[placed[i].source] = i;
+  }
   for_each_part(threads, [&](unsigned part) {
     const HostPart mine(objects.count(), part, threads);
     objects.write_apart(mine.begin, mine.end, places, tables_, table<ObjectRecord>(header_.object_offset));

@@ -1,0 +1,140 @@
+// How long a job takes to end after it was cancelled, by what it did at that moment: a scene of two million
+// triangles, as text and built in code, cancelled at times drawn at random.
+//
+//   bench_cancel [TIMES] [SIDE] [BACKEND]
+//
+// TIMES for each kind of scene, 300 by default; SIDE is that of the mesh's square, 1000 by default.
+#include "celltrace/job.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <random>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+using namespace celltrace;
+using Clock = std::chrono::steady_clock;
+
+namespace {
+
+double height_at(int x, int z, int side) {
+  return 0.05 * std::sin(40.0 * x / side) * std::cos(31.0 * z / side);
+}
+
+Scene hills(int side) {
+  auto mesh = std::make_shared<Mesh>();
+  const auto at = [side](int x, int z) { return static_cast<Index>(z * (side + 1) + x); };
+  for (int z = 0; z <= side; ++z)
+    for (int x = 0; x <= side; ++x)
+      mesh->vertices.push_back(Vec3f(Vec3(double(x) / side - 0.5, height_at(x, z, side), double(z) / side)));
+  for (int z = 0; z < side; ++z)
+    for (int x = 0; x < side; ++x) {
+      mesh->triangles.push_back({{at(x, z), at(x + 1, z), at(x, z + 1)}});
+      mesh->triangles.push_back({{at(x + 1, z), at(x + 1, z + 1), at(x, z + 1)}});
+    }
+  Scene scene;
+  scene.camera.location = {0, 0.4, -0.8};
+  scene.camera.direction = {0, -0.3, 1};
+  Light light;
+  light.location = {3, 5, -3};
+  scene.lights.push_back(light);
+  Object object;
+  object.shape = std::shared_ptr<const Mesh>(mesh);
+  object.material = scene.add(Material());
+  object.interior = scene.add(Interior());
+  scene.objects.push_back(object);
+  return scene;
+}
+
+/// The same in the scene language.
+std::string text_of(const Scene& scene) {
+  const Mesh& mesh = *std::get<std::shared_ptr<const Mesh>>(scene.objects.front().shape);
+  std::string text = "camera { location <0, 0.4, -0.8> direction <0, -0.3, 1> }\n"
+                     "light_source { <3, 5, -3>, 1 }\nmesh2 { vertex_vectors { ";
+  char line[128];
+  text += std::to_string(mesh.vertices.size());
+  for (const Vec3f& v : mesh.vertices) {
+    std::snprintf(line, sizeof line, ",\n<%.6f, %.6f, %.6f>", double(v.x), double(v.y), double(v.z));
+    text += line;
+  }
+  text += "\n}\nface_indices { " + std::to_string(mesh.triangles.size());
+  for (const Mesh::Triangle& t : mesh.triangles) {
+    std::snprintf(line, sizeof line, ",\n<%u, %u, %u>", t.vertex[0], t.vertex[1], t.vertex[2]);
+    text += line;
+  }
+  return text + "\n}\npigment { rgb 0.8 } }\n";
+}
+
+double milliseconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+std::vector<JobPhase> phases() {
+  return {JobPhase::waiting, JobPhase::reading, JobPhase::building, JobPhase::rendering};
+}
+const char* name_of(JobPhase phase) {
+  static constexpr const char* kNames[] = {"waiting", "reading", "building", "rendering", "over"};
+  return kNames[static_cast<int>(phase)];
+}
+
+void measure(const char* what, const JobScene& scene, const JobOptions& options, int times) {
+  std::map<JobPhase, double> begins; // of a job that is left alone
+  JobOptions watched = options;
+  const auto begin = Clock::now();
+  watched.progress = [&](const JobProgress& progress) {
+    begins.try_emplace(progress.phase, milliseconds_since(begin));
+  };
+  RenderJob whole(scene, watched);
+  whole.wait();
+  const double total = milliseconds_since(begin);
+  std::printf("%s: %.0f ms", what, total);
+  for (const auto& [phase, at] : begins)
+    std::printf(", %s from %.0f ms", name_of(phase), at);
+  std::printf("\n");
+  whole.take();
+
+  std::mt19937 random(1);
+  std::map<JobPhase, std::vector<std::pair<double, double>>> taken; // with when
+  for (int i = 0; i < times; ++i) {
+    RenderJob job(scene, options);
+    const double wait = std::uniform_real_distribution<>(0, total)(random);
+    std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(wait));
+    const JobPhase phase = job.progress().phase;
+    const auto cancelled = Clock::now();
+    job.cancel();
+    job.wait();
+    if (phase != JobPhase::over) taken[phase].emplace_back(milliseconds_since(cancelled), wait);
+  }
+  for (const JobPhase phase : phases()) {
+    auto& all = taken[phase];
+    if (all.empty()) continue;
+    std::sort(all.begin(), all.end());
+    const auto at = [&](double share) {
+      return all[static_cast<std::size_t>(share * double(all.size() - 1))];
+    };
+    std::printf("  %-10s %4zu times, ms until it ended: median %6.2f, 99 %% %6.2f, most %6.2f (at %.0f ms)\n",
+                name_of(phase), all.size(), at(0.5).first, at(0.99).first, all.back().first,
+                all.back().second);
+  }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  const int times = argc > 1 ? std::atoi(argv[1]) : 300;
+  const int side = argc > 2 ? std::atoi(argv[2]) : 1000;
+  JobOptions options;
+  if (argc > 3) options.render.backend = argv[3];
+  options.render.antialiasing = Antialiasing(); // so that rendering takes a while, too
+  const auto scene = std::make_shared<const Scene>(hills(side));
+  const SceneText text = {text_of(*scene), "hills.pov"};
+  measure("text", text, options, times);
+  measure("scene", scene, options, times);
+  return 0;
+}
