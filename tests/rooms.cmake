@@ -43,6 +43,17 @@ foreach(room cli viewer study job pov render scene image cache kernel)
   endforeach()
 endforeach()
 
+# A library is silent: what it has to say goes to functions of the application's.
+file(GLOB_RECURSE files ${SOURCE}/*.[ch]pp ${SOURCE}/*.[ly] ${SOURCE}/../backends/*.[ch]pp ${SOURCE}/../include/*.[ch]pp)
+list(FILTER files EXCLUDE REGEX "/src/(cli|viewer|study)/")
+foreach(file IN LISTS files)
+  file(STRINGS ${file} lines REGEX "std::(cerr|cout|clog)|[^a-z_](stderr|stdout)[^a-z_]|[^a-z_](perror|puts|printf)\\(")
+  list(FILTER lines EXCLUDE REGEX "^ *//")
+  foreach(line IN LISTS lines)
+    message(SEND_ERROR "${file}: a library does not print: ${line}")
+  endforeach()
+endforeach()
+
 file(GLOB headers ${SOURCE}/scene/*.hpp)
 list(FILTER headers INCLUDE REGEX "${computing}$")
 foreach(header IN LISTS headers)

@@ -66,6 +66,15 @@ CELLTRACE_EXPORT DeepImage to_deep_image(const ColourImage& colours);
 CELLTRACE_EXPORT void save_image(const std::filesystem::path& path, const Image& image);
 CELLTRACE_EXPORT void save_image(const std::filesystem::path& path, const DeepImage& image);
 
+/// The formats of pictures in memory.
+enum class ImageFormat { png, ppm };
+
+/// The bytes that save_image() would write. Throws InputError for a picture without or with too many pixels.
+CELLTRACE_EXPORT std::vector<std::uint8_t> encode_image(const Image& image, ImageFormat format);
+CELLTRACE_EXPORT std::vector<std::uint8_t> encode_image(const DeepImage& image, ImageFormat format);
+/// As load_image() reads them. Throws InputError as that does.
+CELLTRACE_EXPORT Image decode_image(const std::uint8_t* bytes, std::size_t count);
+
 /// Throws the InputError save_image() would end with for this path's extension or folder, so that a program
 /// can tell before it computes the picture.
 CELLTRACE_EXPORT void check_image_path(const std::filesystem::path& path);

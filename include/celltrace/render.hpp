@@ -36,8 +36,8 @@ enum class Accelerator {
   bvh ///< a bounding volume hierarchy, four wide; where SPEs have no direct memory, the PPE's side builds it
 };
 
-/// Called now and then by the thread that renders, with the finished fraction of a job: starts at 0, never
-/// falls, ends at 1 if the job is completed. Return false to cancel.
+/// Called every few milliseconds by the thread that renders, with the finished fraction of the work: starts
+/// at 0, never falls, ends at 1 if the work is completed. Return false to cancel.
 using Progress = std::function<bool(double fraction)>;
 
 /// Which part of a frame an SPE does (docs/programming-models.md). The picture is the same.
@@ -133,8 +133,9 @@ struct RenderOptions {
   /// Of cell_emu and cell_sim; native knows none of it, and nothing is recorded on cell_sim. The trace is
   /// complete when the renderer is gone.
   EmulationConfig emulation;
-  /// Hears how far the image and the accelerator of a scene are, before its first frame. Where it cancels,
-  /// the frame has no pixels, and the renderer no scene.
+  /// Hears how far the image and the accelerator of a scene are, before its first frame and where changes are
+  /// made. Where it cancels, or `progress` of render() does, which hears 0 meanwhile, the frame has no pixels
+  /// and the renderer no scene.
   Progress build_progress;
   /// Called for every rule of the Cell that an emulated machine saw broken, by the thread that renders or
   /// destroys the renderer. Must not throw.
@@ -244,6 +245,9 @@ struct CELLTRACE_EXPORT RenderStatistics {
 /// Adds those of more rows of the same picture.
 CELLTRACE_EXPORT void add_rows(RenderStatistics& sum, const RenderStatistics& rows);
 
+/// As in the statistics' JSON: "pipeline-split", "refitted".
+CELLTRACE_EXPORT const char* name_of(Model model);
+CELLTRACE_EXPORT const char* name_of(RenderStatistics::Preparation preparation);
 /// The statistics as JSON text; docs/statistics.md describes the keys.
 CELLTRACE_EXPORT std::string to_json(const RenderStatistics& statistics);
 
@@ -262,15 +266,16 @@ struct RenderResult {
 /// independent.
 class CELLTRACE_EXPORT Renderer {
 public:
-  /// Throws InputError for options out of range.
+  /// Throws InputError for options out of range, Error where the system has no thread or no memory for it.
   explicit Renderer(const RenderOptions& options = {});
   ~Renderer();
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
 
-  /// Renders a frame; `progress` is of tracing alone. What the frame before has cost decides which SPE starts
-  /// where. Throws InputError if the scene is not valid, SpeError if a kernel failed; exceptions of
-  /// `progress` pass through. After SpeError the renderer throws again at every call.
+  /// Renders a frame; `progress` stays at 0 while the scene is made ready. What the frame before has cost
+  /// decides which SPE starts where. Throws InputError if the scene is not valid, SpeError if a kernel
+  /// failed, OutOfMemory; exceptions of `progress` pass through. After SpeError the renderer throws again at
+  /// every call.
   RenderResult render(const Scene& scene, const Progress& progress = {});
   /// As above, with another camera and nothing else changed since the last render(): the accelerator is
   /// kept.
@@ -309,7 +314,7 @@ private:
   std::unique_ptr<Impl> impl_;
 };
 
-/// One frame on a machine of its own.
+/// One frame on a machine of its own. Safe to call from several threads at once.
 CELLTRACE_EXPORT RenderResult render(const Scene& scene, const RenderOptions& options = {},
                                      const Progress& progress = {});
 

@@ -44,6 +44,13 @@ struct Camera {
   Vec3 up{0, 1, 0};
   double angle = 90;           ///< that a picture is wide, in degrees, not negative; of kinds that mention it
   double vertical_angle = 180; ///< that it is high, likewise
+
+  /// A perspective camera at `from` with `to` in the middle of its picture, which is `angle` degrees wide,
+  /// above 0 and below 180, and `aspect` times as wide as high, above 0. What lies along `sky` is up. Throws
+  /// InputError for numbers out of range or not finite, where `from` is `to`, and where `sky` is 0 or along
+  /// the way from one to the other.
+  CELLTRACE_EXPORT static Camera look_at(const Vec3& from, const Vec3& to, double angle = 67.38,
+                                         double aspect = 4.0 / 3, const Vec3& sky = {0, 1, 0});
 };
 
 /// What colour values mean and how they become 8 bits.
@@ -53,8 +60,8 @@ enum class GammaMode {
   assumed ///< working space has exponent Scene::assumed_gamma: sRGB-encoded on output
 };
 
-/// The inside of an object. Every object owns one; the children of a union share the union's if they have
-/// none.
+/// The inside of an object. Objects that a ray can be inside of at the same time have one each; the children
+/// of a union share the union's if they have none.
 struct Interior {
   double ior = 1;
   /// Light that leaves it after `fade_distance` is halfway to `fade_colour`: of the rest 1/(1 +
@@ -257,8 +264,8 @@ struct Object {
                std::shared_ptr<const Polygon>, std::shared_ptr<const Csg>>
       shape;
   Transform transform;
-  Index material = 0; ///< of a CSG: means nothing, its parts have their own
-  Index interior = 0; ///< likewise
+  Index material = 0;        ///< of a CSG: means nothing, its parts have their own
+  Index interior = kNoIndex; ///< likewise; kNoIndex: one as Interior() makes it, for all such objects
   // Of these three POV-Ray does not take all that parts of a CSG say: in unions all, but in those that are
   // clipped or parts of other operations only no_reflection; in merges all but no_shadow; in others nothing.
   bool no_shadow = false;

@@ -24,15 +24,19 @@ namespace celltrace {
 enum class PixelFormat {
   rgba8, ///< R, G, B, A
   bgra8, ///< B, G, R, A, as windows often have it
-  rgb8   ///< R, G, B
+  rgb8,  ///< R, G, B
+  // These come all at once, at the end of a frame that was not broken off, and take the memory of
+  // RenderOptions::colours. Model `shared` only.
+  rgba16, ///< as to_deep_image() makes them, 16 bits each, in the host's byte order
+  rgba32f ///< floats as in RenderResult::colours
 };
-/// 3 or 4.
+/// 3 to 16.
 CELLTRACE_EXPORT std::size_t bytes_of(PixelFormat format);
 
 /// Memory of the application's that pictures are put into while they are rendered. Has to stay as long as the
 /// session may render into it.
 struct Framebuffer {
-  void* pixels = nullptr; ///< the upper left one
+  void* pixels = nullptr; ///< the upper left one, aligned for its channels
   std::size_t pitch = 0;  ///< bytes from a row to the next one, at least the picture's
   PixelFormat format = PixelFormat::rgba8;
 };

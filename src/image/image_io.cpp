@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
 #include <cstring>
+#include <new>
 #include <system_error>
 
 namespace celltrace {
@@ -33,11 +35,41 @@ Image load(std::FILE* file, std::uintmax_t file_bytes) {
   throw InputError(have == 0 ? "is empty" : "is neither a PNG nor a binary PPM (P6)");
 }
 
+/// What `write` writes to a stream that it is given.
+template <class Write> std::vector<std::uint8_t> written_by(Write write) {
+  struct Memory {
+    char* bytes = nullptr;
+    std::size_t count = 0;
+    std::FILE* stream = open_memstream(&bytes, &count);
+    Memory() = default;
+    Memory(const Memory&) = delete;
+    Memory& operator=(const Memory&) = delete;
+    ~Memory() {
+      if (stream) std::fclose(stream);
+      std::free(bytes);
+    }
+  } memory;
+  if (!memory.stream) throw OutOfMemory();
+  write(memory.stream);
+  if (std::fflush(memory.stream) != 0 || std::ferror(memory.stream) != 0) throw OutOfMemory();
+  return {memory.bytes, memory.bytes + memory.count};
+}
+
+template <class Channel>
+std::vector<std::uint8_t> encoded(const BasicImage<Channel>& image, ImageFormat format) {
+  image::check_image(image);
+  return written_by([&](std::FILE* stream) {
+    (format == ImageFormat::png ? image::write_png<Channel> : image::write_ppm<Channel>)(stream, image);
+  });
+}
+
 template <class Work> auto naming_the_file(const fs::path& path, Work work) {
   try {
     return work();
   } catch (const InputError& error) {
     throw InputError(path.string() + ": " + error.what());
+  } catch (const std::bad_alloc&) {
+    throw OutOfMemory();
   }
 }
 
@@ -67,6 +99,23 @@ void check_image_path(const fs::path& path) {
     if (fs::is_directory(path, error)) throw InputError("is a folder");
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     if (!fs::is_directory(folder, error)) throw InputError("there is no folder " + folder.string());
+  });
+}
+
+std::vector<std::uint8_t> encode_image(const Image& image, ImageFormat format) {
+  return encoded(image, format);
+}
+std::vector<std::uint8_t> encode_image(const DeepImage& image, ImageFormat format) {
+  return encoded(image, format);
+}
+
+Image decode_image(const std::uint8_t* bytes, std::size_t count) {
+  return naming_the_file("picture in memory", [&] {
+    if (count == 0) throw InputError("is empty");
+    // Only ever read, which the interface cannot say.
+    const image::File stream(fmemopen(const_cast<std::uint8_t*>(bytes), count, "rb"));
+    if (!stream) throw OutOfMemory();
+    return load(stream.get(), count);
   });
 }
 

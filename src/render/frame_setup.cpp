@@ -5,6 +5,7 @@
 #include "kernel/cameras/list.hpp"
 #include "kernel/direct/door.hpp"
 #include "render/quality.hpp"
+#include "scene/object_records.hpp"
 #include "scene/surface_records.hpp"
 
 #include <algorithm>
@@ -247,9 +248,8 @@ void set_camera(FrameBlock& frame, const Camera& camera, const PictureOnGrid& pi
   std::vector<std::pair<double, std::uint32_t>> around;
   for (const Medium& medium : media) {
     if (!medium.contains(camera.location)) continue;
-    around.emplace_back(medium.volume(),
-                        image.header().interior_offset +
-                            medium.interior * static_cast<std::uint32_t>(sizeof(InteriorRecord)));
+    around.emplace_back(medium.volume(), offset_of_interior(image.header().interior_offset,
+                                                            image.header().interior_count, medium.interior));
   }
   std::sort(around.begin(), around.end(), std::greater<>());
   const std::size_t kept = std::min<std::size_t>(around.size(), kMaxInteriorDepth);

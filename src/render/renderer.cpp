@@ -18,7 +18,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <new>
 #include <span>
+#include <system_error>
 #include <type_traits>
 #include <utility>
 
@@ -187,6 +189,9 @@ private:
   template <class Work> std::invoke_result_t<Work> reporting_failures(Work work) {
     try {
       return work();
+    } catch (const std::bad_alloc&) {
+      new_diagnostics();
+      throw OutOfMemory();
     } catch (...) {
       new_diagnostics();
       throw;
@@ -613,7 +618,14 @@ private:
   bool is_edited_ = false; ///< scenes come with what has changed
 };
 
-Renderer::Renderer(const RenderOptions& options) : impl_(std::make_unique<Impl>(options)) {
+Renderer::Renderer(const RenderOptions& options) {
+  try {
+    impl_ = std::make_unique<Impl>(options);
+  } catch (const std::bad_alloc&) {
+    throw OutOfMemory();
+  } catch (const std::system_error& error) {
+    throw Error(std::string("the SPEs' threads cannot be started: ") + error.what());
+  }
 }
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;

@@ -34,7 +34,28 @@ void copy_row(const std::uint8_t* from, std::uint8_t* to, int pixels, PixelForma
   case PixelFormat::rgb8:
     for (int i = 0; i < pixels; ++i, from += 4, to += 3)
       std::memcpy(to, from, 3);
+    return;
+  case PixelFormat::rgba16:
+  case PixelFormat::rgba32f:
+    return; // made of numbers, at the end
   }
+}
+
+bool is_made_of_numbers(PixelFormat format) {
+  return format == PixelFormat::rgba16 || format == PixelFormat::rgba32f;
+}
+
+/// Where a pixel goes.
+std::uint8_t* place_in(const Framebuffer& framebuffer, int x, int y) {
+  return static_cast<std::uint8_t*>(framebuffer.pixels) + framebuffer.pitch * static_cast<std::size_t>(y) +
+         bytes_of(framebuffer.format) * static_cast<std::size_t>(x);
+}
+
+template <class Channel>
+void copy_region(const BasicImage<Channel>& from, const PictureRegion& region, const Framebuffer& to) {
+  const std::size_t row = 4 * sizeof(Channel) * static_cast<std::size_t>(region.right - region.left);
+  for (int y = region.top; y < region.bottom; ++y)
+    std::memcpy(place_in(to, region.left, y), from.pixel(region.left, y), row);
 }
 
 void check(const Framebuffer& framebuffer, int width) {
@@ -46,7 +67,16 @@ void check(const Framebuffer& framebuffer, int width) {
 } // namespace
 
 std::size_t bytes_of(PixelFormat format) {
-  return format == PixelFormat::rgb8 ? 3 : 4;
+  switch (format) {
+  case PixelFormat::rgb8:
+    return 3;
+  case PixelFormat::rgba16:
+    return 8;
+  case PixelFormat::rgba32f:
+    return 16;
+  default:
+    return 4;
+  }
 }
 
 class Session::Impl {
@@ -62,6 +92,7 @@ public:
     RenderResult result = renderer_.render(scene_, changes_, unless_cancelled);
     // A scene whose accelerator was not finished is nowhere; the renderer knows that.
     changes_ = {false, false};
+    if (wants_numbers()) finish_numbers(result);
     return result;
   }
 
@@ -72,7 +103,8 @@ public:
       return !cancelled_.load(std::memory_order_relaxed) &&
              (!given_.build_progress || given_.build_progress(fraction));
     };
-    if (framebuffer_ || options.finished_block)
+    own.colours |= wants_numbers();
+    if ((framebuffer_ && !wants_numbers()) || options.finished_block)
       own.finished_block = [this](const PictureBlock& block) { finish(block); };
     return own;
   }
@@ -93,16 +125,32 @@ public:
 
   void set_framebuffer(const std::optional<Framebuffer>& framebuffer) {
     if (framebuffer) check(*framebuffer, given_.width);
-    framebuffer_ = framebuffer;
-    renderer_.set_picture(own_options(given_));
+    const std::optional<Framebuffer> before = std::exchange(framebuffer_, framebuffer);
+    try {
+      renderer_.set_picture(own_options(given_));
+    } catch (...) {
+      framebuffer_ = before;
+      throw;
+    }
+  }
+
+  bool wants_numbers() const { return framebuffer_ && is_made_of_numbers(framebuffer_->format); }
+  /// Of a frame that was broken off nothing: the framebuffer stays as it is.
+  void finish_numbers(RenderResult& result) {
+    if (result.complete) {
+      const PictureRegion region = given_.region.value_or(PictureRegion{0, given_.width, 0, given_.height});
+      if (framebuffer_->format == PixelFormat::rgba32f)
+        copy_region(result.colours, region, *framebuffer_);
+      else
+        copy_region(to_deep_image(result.colours), region, *framebuffer_);
+      generation_.fetch_add(1, std::memory_order_release);
+    }
+    if (!given_.colours) result.colours = ColourImage();
   }
 
   void finish(const PictureBlock& block) {
-    if (framebuffer_) {
-      const std::size_t pixel = bytes_of(framebuffer_->format);
-      auto* to = static_cast<std::uint8_t*>(framebuffer_->pixels) +
-                 framebuffer_->pitch * static_cast<std::size_t>(block.region.top) +
-                 pixel * static_cast<std::size_t>(block.region.left);
+    if (framebuffer_ && !wants_numbers()) {
+      std::uint8_t* to = place_in(*framebuffer_, block.region.left, block.region.top);
       const std::uint8_t* from = block.first;
       for (int y = block.region.top; y < block.region.bottom;
            ++y, from += block.pitch, to += framebuffer_->pitch)

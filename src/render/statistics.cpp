@@ -67,35 +67,6 @@ nlohmann::ordered_json cache_json(const RenderStatistics::Cache& cache) {
   return {{"hits", cache.hits}, {"misses", cache.misses}, {"hit_rate", cache.hit_rate()}};
 }
 
-const char* name_of(RenderStatistics::Preparation preparation) {
-  using Preparation = RenderStatistics::Preparation;
-  switch (preparation) {
-  case Preparation::built:
-    return "new";
-  case Preparation::refitted:
-    return "refitted";
-  case Preparation::updated:
-    return "updated";
-  case Preparation::kept:
-    break;
-  }
-  return "kept";
-}
-
-const char* name_of(Model model) {
-  switch (model) {
-  case Model::shared:
-    return "shared";
-  case Model::pipeline:
-    return "pipeline";
-  case Model::pipeline_split:
-    return "pipeline-split";
-  case Model::offload:
-    break;
-  }
-  return "offload";
-}
-
 nlohmann::ordered_json stages_json(const RenderStatistics::Stages& stages) {
   return {{"generators", stages.generators},
           {"shaders", stages.shaders},
@@ -240,6 +211,35 @@ void add_rows(RenderStatistics& sum, const RenderStatistics& rows) {
       all_cycles == 0 ? 0 : static_cast<double>(sum.module_cycles) / static_cast<double>(all_cycles);
   sum.imbalance = imbalance_of(sum);
   sum.diagnostics.insert(sum.diagnostics.end(), rows.diagnostics.begin(), rows.diagnostics.end());
+}
+
+const char* name_of(RenderStatistics::Preparation preparation) {
+  using Preparation = RenderStatistics::Preparation;
+  switch (preparation) {
+  case Preparation::built:
+    return "new";
+  case Preparation::refitted:
+    return "refitted";
+  case Preparation::updated:
+    return "updated";
+  case Preparation::kept:
+    break;
+  }
+  return "kept";
+}
+
+const char* name_of(Model model) {
+  switch (model) {
+  case Model::shared:
+    return "shared";
+  case Model::pipeline:
+    return "pipeline";
+  case Model::pipeline_split:
+    return "pipeline-split";
+  case Model::offload:
+    break;
+  }
+  return "offload";
 }
 
 std::string to_json(const RenderStatistics& s) {

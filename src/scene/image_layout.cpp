@@ -69,7 +69,7 @@ void place_surfaces(Layout& layout, ImageHeader& header, const Scene& scene, con
   layout.place<WaveRecord>(textures.waves.size(), header.wave_offset, header.wave_count);
   layout.place<SlopeRecord>(textures.slopes.size(), header.slope_offset, header.slope_count);
   layout.place<BlendRecord>(blended, header.blend_offset, header.blend_count);
-  layout.place<InteriorRecord>(scene.interiors.size(), header.interior_offset, header.interior_count);
+  layout.place<InteriorRecord>(scene.interiors.size() + 1, header.interior_offset, header.interior_count);
   layout.place<FinishRecord>(textures.finishes.size(), header.finish_offset, header.finish_count);
   header.light_ways = light_ways_of(scene, textures, blended != 0);
   layout.place<FogRecord>(scene.fogs.size(), header.fog_offset, header.fog_count);

@@ -255,8 +255,7 @@ private:
 
   void set_material(Index material) {
     material_ = material;
-    head_ = start_record(*object_, static_cast<std::uint32_t>(ObjectKind::triangle),
-                         tables_.records.interior_offset);
+    head_ = start_record(*object_, static_cast<std::uint32_t>(ObjectKind::triangle), tables_.records);
     tables_.records.set_material(head_, material != kNoIndex ? material : object_->material);
     RecordTables::change_sides(head_, *object_);
   }

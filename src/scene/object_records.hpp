@@ -5,6 +5,7 @@
 #include "kernel/accel/object_bounds.hpp"
 #include "kernel/records.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -20,9 +21,15 @@ struct ObjectCensus {
   void add(const ObjectCensus& other);
 };
 
+/// In a table of `count`, of which the last one is that of objects without an interior.
+inline std::uint32_t offset_of_interior(std::uint32_t table_offset, std::uint32_t count, Index interior) {
+  return table_offset +
+         std::min(interior, count - 1) * static_cast<std::uint32_t>(sizeof(kernel::InteriorRecord));
+}
+
 /// Where records go that objects refer to, and where the tables lie in the image.
 struct RecordTables {
-  std::uint32_t material_offset, interior_offset, extra_offset, blend_offset;
+  std::uint32_t material_offset, interior_offset, interior_count, extra_offset, blend_offset;
   std::uint32_t csg_offset, polygon_edge_offset;
   kernel::ExtraRecord* extras;                      ///< table
   kernel::BlendRecord* blends;                      ///< table
@@ -53,7 +60,7 @@ inline std::uint32_t light_set_of(const Object& object) {
 
 /// A record without a material, without extras and without geometry.
 inline kernel::ObjectRecord start_record(const Object& object, std::uint32_t kind_and_flags,
-                                         std::uint32_t interior_offset) {
+                                         const RecordTables& tables) {
   kernel::ObjectRecord r{};
   r.kind_and_flags =
       kind_and_flags | (object.no_shadow ? kernel::object_flag::no_shadow : 0) |
@@ -62,7 +69,7 @@ inline kernel::ObjectRecord start_record(const Object& object, std::uint32_t kin
       (object.inverse ? kernel::object_flag::inverse : 0) |
       (object.is_lit_through ? kernel::object_flag::lit_behind | kernel::object_flag::lit_through : 0) |
       light_set_of(object) << kernel::object_flag::light_set_shift;
-  r.interior = interior_offset + object.interior * static_cast<std::uint32_t>(sizeof(kernel::InteriorRecord));
+  r.interior = offset_of_interior(tables.interior_offset, tables.interior_count, object.interior);
   r.extra = kernel::kNoOffset;
   return r;
 }

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <initializer_list>
 #include <limits>
+#include <numbers>
 #include <unordered_set>
 
 #include <glm/geometric.hpp>
@@ -150,7 +151,8 @@ void check_mesh(const Mesh& mesh, std::size_t materials, const Name& name) {
 /// An object of the scene, or a part of it.
 void check_object(const Scene& scene, const Object& object, const Name& name, int depth) {
   check_index(object.material, scene.materials.size(), {name.what, name.index, ", material"});
-  check_index(object.interior, scene.interiors.size(), {name.what, name.index, ", interior"});
+  if (object.interior != kNoIndex)
+    check_index(object.interior, scene.interiors.size(), {name.what, name.index, ", interior"});
   if (object.light_group != kNoIndex)
     check_index(object.light_group, scene.light_groups.size(), {name.what, name.index, ", light group"});
   const Vec3(&rows)[4] = object.transform.rows;
@@ -192,6 +194,24 @@ void check_meshes(const Object& object, std::size_t materials, std::size_t index
 }
 
 } // namespace
+
+Camera Camera::look_at(const Vec3& from, const Vec3& to, double angle, double aspect, const Vec3& sky) {
+  check_vectors({from, to, sky}, {"the camera"});
+  if (!(angle > 0 && angle < 180)) throw InputError("the camera's angle has to be above 0 and below 180");
+  if (!(aspect > 0) || !std::isfinite(aspect))
+    throw InputError("the camera's aspect ratio has to be above 0");
+  const Vec3 way = to - from;
+  const Vec3 across = glm::cross(sky, way);
+  if (!(glm::dot(across, across) > 0))
+    throw InputError("the camera looks nowhere, or along what is to be up");
+  Camera camera;
+  camera.location = from;
+  const double half_angle = angle * std::numbers::pi / 360;
+  camera.direction = glm::normalize(way);
+  camera.right = 2 * std::tan(half_angle) * glm::normalize(across);
+  camera.up = glm::length(camera.right) / aspect * glm::normalize(glm::cross(camera.direction, across));
+  return camera;
+}
 
 Index Scene::add(const Material& material) {
   materials.push_back(material);

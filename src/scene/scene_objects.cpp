@@ -338,7 +338,7 @@ private:
   /// As if it were not hidden; likewise below.
   ObjectRecord record_of(const Placed& placed, const PlacedShape& shape) {
     const Object& object = *placed.object;
-    ObjectRecord r = start_record(object, shape.kind_and_flags, tables_.interior_offset);
+    ObjectRecord r = start_record(object, shape.kind_and_flags, tables_);
     std::copy(shape.geometry, shape.geometry + 12, r.geometry);
     tables_.set_material(r, object.material);
     const bool limited = placed.part != nullptr && placed.part->is_limited();
@@ -417,7 +417,7 @@ private:
   void start(const Object& object, Index material) {
     object_ = &object;
     material_ = material;
-    head_ = start_record(object, static_cast<std::uint32_t>(ObjectKind::triangle), tables_.interior_offset);
+    head_ = start_record(object, static_cast<std::uint32_t>(ObjectKind::triangle), tables_);
     tables_.set_material(head_, material != kNoIndex ? material : object.material);
     RecordTables::change_sides(head_, object);
   }

@@ -46,6 +46,7 @@ TableWriter::TableWriter(std::byte* base, const ImageHeader& header, const Scene
     : base_(base), header_(header), scene_(scene),
       unbounded_extras_(unbounded_extras), tables_{header.material_offset,
                                                    header.interior_offset,
+                                                   header.interior_count,
                                                    header.extra_offset,
                                                    header.blend_offset,
                                                    header.csg_offset,
@@ -103,8 +104,10 @@ void TableWriter::write_surfaces(TextureTables& textures) {
   copy(textures.gradients, header_.gradient_offset);
   copy(textures.waves, header_.wave_offset);
   copy(textures.slopes, header_.slope_offset);
+  auto* const interiors = table<InteriorRecord>(header_.interior_offset);
   for (std::size_t i = 0; i < scene_.interiors.size(); ++i)
-    table<InteriorRecord>(header_.interior_offset)[i] = make_record(scene_.interiors[i]);
+    interiors[i] = make_record(scene_.interiors[i]);
+  interiors[scene_.interiors.size()] = make_record(Interior());
   for (std::size_t i = 0; i < scene_.fogs.size(); ++i)
     table<FogRecord>(header_.fog_offset)[i] = make_record(scene_.fogs[i], scene_);
 }

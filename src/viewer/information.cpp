@@ -24,35 +24,6 @@ double share(double part, double whole) {
   return whole > 0 ? part / whole : 0;
 }
 
-const char* name_of(Model model) {
-  switch (model) {
-  case Model::shared:
-    return "shared";
-  case Model::pipeline:
-    return "pipeline";
-  case Model::pipeline_split:
-    return "pipeline-split";
-  case Model::offload:
-    break;
-  }
-  return "offload";
-}
-
-const char* name_of(RenderStatistics::Preparation preparation) {
-  using Preparation = RenderStatistics::Preparation;
-  switch (preparation) {
-  case Preparation::built:
-    return "built";
-  case Preparation::refitted:
-    return "refitted";
-  case Preparation::updated:
-    return "updated";
-  case Preparation::kept:
-    break;
-  }
-  return "kept";
-}
-
 /// Far from each other on the colour wheel, whatever their number.
 Overlay::Colour colour_of(unsigned spe) {
   const double hue = std::fmod(spe * 0.618033988749895, 1.0) * 6;

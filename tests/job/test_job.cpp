@@ -6,7 +6,9 @@
 #include "job/scenes.hpp"
 
 #include <atomic>
+#include <fstream>
 #include <future>
+#include <iterator>
 #include <mutex>
 #include <stdexcept>
 #include <thread>
@@ -195,4 +197,14 @@ TEST_CASE("a job's scene can be in memory altogether") {
                 options);
   CHECK(job.take().complete);
   CHECK(asked == std::vector<std::string>{"parts/ball.inc"});
+}
+
+TEST_CASE("the program of docs/embedding.md is the example") {
+  const auto text_of_file = [](const std::string& path) {
+    std::ifstream file(CELLTRACE_SOURCE_DIR "/" + path);
+    REQUIRE(file);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  const std::string program = "```cpp\n" + text_of_file("examples/render_job/render_job.cpp") + "```\n";
+  CHECK(text_of_file("docs/embedding.md").find(program) != std::string::npos);
 }

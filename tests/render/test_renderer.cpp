@@ -399,6 +399,45 @@ TEST_CASE("Building says how far it is, and can be cancelled") {
   }
 }
 
+TEST_CASE("Who hears of rendering alone can end building, too") {
+  const Scene scene = large_scene();
+  for (const Backend& backend : one_of_each()) {
+    INFO(backend.spu());
+    Renderer renderer(backend.options(kWidth, kHeight, 2));
+    int left = -1;
+    const auto count = [&](double) { return left < 0 || left-- > 0; };
+    const Image expected = renderer.render(scene, count).image;
+    bool built = false;
+    for (left = 0; !built; left = 2 * left + 1) {
+      const int calls = left;
+      const RenderResult result = renderer.render(scene, count);
+      // Until it is built there are no rays.
+      built = result.statistics.total_rays() != 0 || result.complete;
+      if (!built) CHECK_THROWS_AS(renderer.render(scene.camera), InputError);
+      left = calls;
+    }
+    left = -1;
+    CHECK(renderer.render(scene, count).image == expected);
+  }
+}
+
+TEST_CASE("A change that is cancelled half-way is made anew") {
+  Scene scene = large_scene();
+  for (const Backend& backend : one_of_each()) {
+    INFO(backend.spu());
+    Renderer renderer(backend.options(kWidth, kHeight, 2));
+    const SceneChanges changes;
+    renderer.render(scene, changes);
+    for (Object& object : scene.objects)
+      object.transform = Transform::translate({0.1, 0, 0});
+    for (int calls = 0; calls < 12; ++calls) {
+      int left = calls;
+      renderer.render(scene, changes, [&](double) { return left-- > 0; });
+    }
+    CHECK(renderer.render(scene, changes).image == render(scene, backend.options(kWidth, kHeight, 2)).image);
+  }
+}
+
 TEST_CASE("A Renderer can be moved") {
   const Scene scene = scene_named("highlights");
   Renderer first(backends().front().options(kWidth, kHeight, 2));

@@ -308,6 +308,40 @@ TEST_CASE("A framebuffer fills with what the result has") {
     }
 }
 
+TEST_CASE("A framebuffer of numbers has those of the result when the frame is complete") {
+  for (const Backend& backend : one_of_each()) {
+    RenderOptions options = backend.options(21, 14, 2);
+    options.region = PictureRegion{2, 19, 1, 13};
+    Session session(many_spheres(40), options);
+    std::vector<float> floats(std::size_t{14} * 96, -1.0f);
+    session.set_framebuffer(Framebuffer{floats.data(), 96 * sizeof(float), PixelFormat::rgba32f});
+    CHECK(session.render().colours.rgba.empty());
+    CHECK(session.generation() == 1);
+    CHECK_FALSE(session.render([](double) { return false; }).complete);
+    CHECK(session.generation() == 1);
+    std::vector<std::uint16_t> words(std::size_t{14} * 90, 7);
+    session.set_framebuffer(Framebuffer{words.data(), 90 * sizeof(std::uint16_t), PixelFormat::rgba16});
+    options.colours = true;
+    session.set_picture(options);
+    const ColourImage colours = session.render().colours;
+    const DeepImage deep = to_deep_image(colours);
+    bool equal = true;
+    for (int y = 1; y < 13; ++y) {
+      const auto at = static_cast<std::size_t>(y);
+      equal &= std::equal(colours.pixel(2, y), colours.pixel(19, y), &floats[at * 96 + 8]);
+      equal &= std::equal(deep.pixel(2, y), deep.pixel(19, y), &words[at * 90 + 8]);
+      equal &= words[at * 90 + 7] == 7 && words[at * 90 + 19 * 4] == 7 && floats[at * 96 + 19 * 4] == -1;
+    }
+    CHECK(equal);
+    CHECK(floats[8] == -1);
+    CHECK_THROWS_AS(session.set_framebuffer(Framebuffer{floats.data(), 335, PixelFormat::rgba32f}),
+                    InputError);
+    session.set_framebuffer(std::nullopt);
+    session.render();
+    CHECK(session.generation() == 2);
+  }
+}
+
 TEST_CASE("What a function throws that hears of finished blocks passes through") {
   for (const Backend& backend : one_of_each()) {
     RenderOptions options = backend.options(kWidth, kHeight, 2);
