@@ -108,10 +108,12 @@ void Diagnostics::refuse() const {
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const bool is_last = i + 1 == errors.size();
     if (i >= kMostErrorsInText && !is_last) continue;
-    if (i > kMostErrorsInText)
-      text +=
-          "\n    and " + std::to_string(i - kMostErrorsInText) + " more features that are not supported yet";
-    text += (text.empty() ? "" : "\n") + to_text(*errors[i]);
+    if (i > kMostErrorsInText) {
+      text += "\n    and ";
+      text += std::to_string(i - kMostErrorsInText) + " more features that are not supported yet";
+    }
+    if (!text.empty()) text += '\n';
+    text += to_text(*errors[i]);
   }
   throw SceneError(text, findings_);
 }
@@ -141,7 +143,7 @@ std::vector<std::string> Diagnostics::stack() const {
     lines.push_back(entries[i].text +
                     (entries[i].times > 1 ? " (" + std::to_string(entries[i].times) + " times)" : ""));
   if (entries.size() > kMostStackLines)
-    lines.push_back("and " + std::to_string(entries.size() - kMostStackLines) + " more");
+    lines.push_back(std::string("and ") + std::to_string(entries.size() - kMostStackLines) + " more");
   return lines;
 }
 

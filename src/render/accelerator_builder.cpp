@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <functional>
 #include <thread>
 
 namespace celltrace {
@@ -31,10 +32,12 @@ public:
   BvhWatch(const AlignedBlock& work, const Progress& go_on)
       : team_(*reinterpret_cast<bvh::TeamRecord*>(work.data())), go_on_(go_on) {}
 
-  /// Asks whether to go on; if not, the SPEs take no more treelets.
+  /// Asks whether to go on; if not, the SPEs take and copy no more treelets.
   void look(bool treelets) {
     if (stopped() || go_on_.ask(treelets ? fraction() : 0)) return;
-    if (treelets) std::atomic_ref(team_.next).store(bvh::kStopped, std::memory_order_relaxed);
+    if (!treelets) return;
+    std::atomic_ref(team_.next).store(bvh::kStopped, std::memory_order_relaxed);
+    std::atomic_ref(team_.next_copy).store(bvh::kStopped, std::memory_order_relaxed);
   }
   bool stopped() const { return go_on_.stopped(); }
   void rethrow() const { go_on_.rethrow(); }
@@ -165,8 +168,10 @@ bool AcceleratorBuilder::build_bvh_on(SpeTeam& team, FrameBlock& frame, unsigned
   frame.prepare_spes = at_once ? 0 : builders;
   frame.prepare_step = 0;
   const std::uint32_t steps = at_once || frame_.group_count == 0 ? 1 : bvh::kSteps;
+  std::function<void()> look;
+  if (go_on) look = [&] { watch.look(frame.prepare_step != 0); };
   for (; frame.prepare_step < steps && !watch.stopped(); ++frame.prepare_step)
-    team.prepare_frame(builders, [&] { watch.look(frame.prepare_step != 0); });
+    team.prepare_frame(builders, look);
   watch.rethrow();
   return !watch.stopped();
 }

@@ -3,9 +3,14 @@
 
 #include "celltrace/render.hpp"
 
+#include <chrono>
 #include <exception>
 
 namespace celltrace {
+
+/// How long to wait for SPEs that may have nothing to say, so that whoever wants work broken off is heard
+/// soon; and where nobody asks.
+constexpr std::chrono::milliseconds kBetweenQuestions(5), kBetweenLooksAtSpes(50);
 
 /// Holds what the function throws until the SPEs are at rest.
 class HeldProgress {

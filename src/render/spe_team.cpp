@@ -12,13 +12,6 @@ namespace celltrace {
 
 using namespace kernel;
 
-namespace {
-
-/// Whoever wants a frame broken off is heard that soon, also where no SPE has anything to say.
-constexpr std::chrono::milliseconds kBetweenQuestions(5);
-
-} // namespace
-
 SpeTeam::SpeTeam(Machine& machine, SharedRecords<FrameBlock>& frame, AcceleratorKind accelerator)
     : machine_(machine), frame_(frame), lines_(0, machine.byte_order()), members_(machine.spe_count()),
       accelerator_(accelerator) {
@@ -52,6 +45,7 @@ void SpeTeam::dismiss() {
 }
 
 bool SpeTeam::prepare_frame(unsigned spes, const std::function<void()>& look) {
+  asks_ = static_cast<bool>(look);
   for (Member& member : members_)
     member.answered = member.spe >= spes;
   signal_first(spes, command::prepare_frame);
@@ -133,7 +127,7 @@ template <class Handle> bool SpeTeam::receive(Handle handle) {
   }
   if (any) return true;
   throw_if_stopped();
-  machine_.wait_for_mail(asks_ ? kBetweenQuestions : std::chrono::milliseconds(50));
+  machine_.wait_for_mail(asks_ ? kBetweenQuestions : kBetweenLooksAtSpes);
   return false;
 }
 

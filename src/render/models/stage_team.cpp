@@ -111,7 +111,7 @@ bool StageTeam::receive() {
   }
   if (any) return true;
   throw_if_stopped();
-  machine_.wait_for_mail(std::chrono::milliseconds(50));
+  machine_.wait_for_mail(kBetweenQuestions);
   return false;
 }
 
