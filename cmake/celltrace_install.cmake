@@ -1,5 +1,5 @@
 # What `cmake --install` installs: libraries and headers by component, the CMake package, pkg-config files, and the
-# program with its man page and completions. Install components: runtime, dev, tools.
+# program with its man page and completions. Install components: runtime, dev, tools; python (src/python).
 
 include(CMakePackageConfigHelpers)
 

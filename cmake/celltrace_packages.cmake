@@ -1,5 +1,6 @@
 # Debian packages, by `cpack -G DEB` (tools/make-packages.sh): the libraries libcelltrace0, what compiling with them needs
-# libcelltrace-dev, the program celltrace. They want a build with BUILD_SHARED_LIBS and CMAKE_INSTALL_PREFIX=/usr.
+# libcelltrace-dev, the program celltrace, the Python package python3-celltrace where it is built. They want a build with
+# BUILD_SHARED_LIBS and CMAKE_INSTALL_PREFIX=/usr.
 
 set(maintainer "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
 if(NOT DEFINED ENV{DEBFULLNAME} OR NOT DEFINED ENV{DEBEMAIL})
@@ -37,6 +38,18 @@ set(packages_tools celltrace)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION graphics)
 set(CPACK_COMPONENT_GROUP_TOOLS_DESCRIPTION "ray tracer for POV-Ray scenes - program
 ${about}.\nThis is the program, which also runs programs for the SPU.")
+set(packages_python python3-celltrace)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_COMPONENT_GROUP_PYTHON_DESCRIPTION "ray tracer for POV-Ray scenes - Python package
+${about}.\nThis is a package for Python, with pictures as NumPy's arrays.")
+set(package_groups runtime dev tools)
+if(CELLTRACE_HAS_PYTHON)
+  list(APPEND package_groups python)
+  # One for each minor version of Python: that is what the module is compiled for.
+  math(EXPR next "${Python3_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+    "${packages_runtime} (= ${PROJECT_VERSION}), python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next}), python3-numpy")
+endif()
 
 # What Debian wants beside the files: installed by no other way of installing.
 set(debian ${PROJECT_BINARY_DIR}/debian)
@@ -67,13 +80,14 @@ mark_as_advanced(CELLTRACE_GZIP)
 if(CELLTRACE_GZIP)
   execute_process(COMMAND ${CELLTRACE_GZIP} -9nf ${debian}/changelog)
 endif()
-foreach(group runtime dev tools)
+set(CPACK_COMPONENTS_ALL "")
+foreach(group IN LISTS package_groups)
+  list(APPEND CPACK_COMPONENTS_ALL ${group} debian_${group})
   string(TOUPPER ${group} upper)
   set(CPACK_DEBIAN_${upper}_PACKAGE_NAME ${packages_${group}})
   install(FILES ${debian}/copyright ${debian}/changelog.gz
     DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${packages_${group}} COMPONENT debian_${group} EXCLUDE_FROM_ALL OPTIONAL)
 endforeach()
-set(CPACK_COMPONENTS_ALL runtime debian_runtime dev debian_dev tools debian_tools)
 if(CELLTRACE_MANUAL AND CELLTRACE_GZIP)
   install(CODE "execute_process(COMMAND ${CELLTRACE_GZIP} -9nkf celltrace.1 WORKING_DIRECTORY \"${CELLTRACE_MANUAL}\")"
     COMPONENT debian_tools EXCLUDE_FROM_ALL)
@@ -82,7 +96,7 @@ if(CELLTRACE_MANUAL AND CELLTRACE_GZIP)
 endif()
 
 include(CPack)
-foreach(group runtime dev tools)
+foreach(group IN LISTS package_groups)
   string(TOUPPER ${group} upper)
   cpack_add_component_group(${group} DESCRIPTION "${CPACK_COMPONENT_GROUP_${upper}_DESCRIPTION}")
   cpack_add_component(${group} GROUP ${group})

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Makes the Debian packages libcelltrace0, libcelltrace-dev and celltrace in build-packages, and has lintian look at them
-# where it is installed. DEBFULLNAME and DEBEMAIL say who maintains them.
+# Makes the Debian packages libcelltrace0, libcelltrace-dev, celltrace and, where it can be built, python3-celltrace in
+# build-packages, and has lintian look at them where it is installed. DEBFULLNAME and DEBEMAIL say who maintains them.
 #
 #   tools/make-packages.sh [more arguments for cmake]
 set -euo pipefail

@@ -1,0 +1,39 @@
+// Pictures and lists of vectors as NumPy's arrays.
+#pragma once
+
+#include <pybind11/numpy.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace celltrace {
+
+/// An array of height x width x 4, which takes the channels over without copying.
+template <class Channel>
+pybind11::array_t<Channel> picture_array(std::vector<Channel>&& channels, int width, int height) {
+  auto owned = std::make_unique<std::vector<Channel>>(std::move(channels));
+  Channel* first = owned->data();
+  const pybind11::capsule owner(owned.get(),
+                                [](void* memory) { delete static_cast<std::vector<Channel>*>(memory); });
+  owned.release();
+  return pybind11::array_t<Channel>({height, width, 4}, first, owner);
+}
+
+/// Throws ValueError unless the array has as many dimensions as `shape`, and their sizes; -1: any.
+inline void check_shape(const pybind11::array& array, const std::vector<int>& shape,
+                        const std::string& name) {
+  bool fits = array.ndim() == static_cast<pybind11::ssize_t>(shape.size());
+  std::string wanted;
+  for (std::size_t i = 0; i < shape.size(); ++i) {
+    fits = fits && (shape[i] < 0 || array.shape(static_cast<pybind11::ssize_t>(i)) == shape[i]);
+    wanted += (i ? ", " : "") + (shape[i] < 0 ? std::string("n") : std::to_string(shape[i]));
+  }
+  if (!fits)
+    throw pybind11::value_error(name + ": the shape has to be (" + wanted + "), and is " +
+                                pybind11::str(array.attr("shape")).cast<std::string>());
+}
+
+} // namespace celltrace

@@ -1,0 +1,21 @@
+// Reading scenes with Python's lock released.
+#pragma once
+
+#include "python/watch.hpp"
+
+#include "celltrace/pov.hpp"
+
+#include <string>
+
+namespace celltrace {
+
+/// A file, or a text.
+struct SceneSource {
+  std::string text; ///< or the file's name
+  bool is_file = false;
+};
+
+/// With the interpreter's lock, which it releases. `watch` hears of it; where that ends it, throws Cancelled.
+Scene read_scene(const SceneSource& source, ParseOptions options, Watch& watch);
+
+} // namespace celltrace

@@ -1,0 +1,238 @@
+#include "python/arrays.hpp"
+#include "python/bindings.hpp"
+#include "python/options.hpp"
+#include "python/reading.hpp"
+
+#include "celltrace/session.hpp"
+
+namespace celltrace {
+
+namespace {
+
+// Shares of a job's progress.
+constexpr double kReading = 0.1, kBuilding = 0.2;
+
+/// Where pixels go, of an array of (height, width, 3 or 4) bytes.
+Framebuffer framebuffer_of(const py::array& array, const RenderOptions& options) {
+  const bool has_alpha = array.ndim() == 3 && array.shape(2) == 4;
+  check_shape(array, {options.height, options.width, has_alpha ? 4 : 3}, "into");
+  if (!array.dtype().is(py::dtype::of<std::uint8_t>()) || !array.writeable())
+    throw py::value_error("into: has to be a writable array of uint8");
+  if (array.strides(2) != 1 || array.strides(1) != array.shape(2) || array.strides(0) <= 0)
+    throw py::value_error("into: pixels of a row have to lie side by side");
+  return {const_cast<void*>(array.data()), static_cast<std::size_t>(array.strides(0)),
+          has_alpha ? PixelFormat::rgba8 : PixelFormat::rgb8};
+}
+
+py::array array_of(RenderResult& result, bool colours) {
+  if (colours)
+    return picture_array(std::move(result.colours.rgba), result.colours.width, result.colours.height);
+  return picture_array(std::move(result.image.rgba), result.image.width, result.image.height);
+}
+
+/// A Session that Python's threads may share: what changes it while it renders is refused.
+class GuardedSession {
+public:
+  GuardedSession(Scene scene, RenderOptions options) {
+    options.build_progress = [this](double fraction) {
+      watch_->set_part(0, kBuilding);
+      return (*watch_)(fraction);
+    };
+    session_.emplace(std::move(scene), options);
+  }
+  GuardedSession(const GuardedSession&) = delete;
+
+  /// Throws Error while another thread, or a frame's own progress function, is not through with it.
+  Session& idle() {
+    if (watch_) throw Error("the session is rendering");
+    return *session_;
+  }
+  void cancel() { session_->cancel(); }
+  const py::object& statistics() const { return statistics_; }
+
+  py::array render(const std::optional<py::array>& into, const py::object& progress) {
+    Session& session = idle();
+    if (into) session.set_framebuffer(framebuffer_of(*into, session.options()));
+    Watch watch(progress);
+    RenderResult result;
+    watch_ = &watch;
+    try {
+      const py::gil_scoped_release release;
+      result = session.render([&](double fraction) {
+        watch.set_part(kBuilding, 1);
+        return watch(fraction);
+      });
+    } catch (...) {
+      finish(into.has_value());
+      throw;
+    }
+    finish(into.has_value());
+    watch.check(result.complete);
+    statistics_ = py::module_::import("json").attr("loads")(to_json(result.statistics));
+    return into ? *into : array_of(result, session.options().colours);
+  }
+
+private:
+  void finish(bool had_framebuffer) {
+    watch_ = nullptr;
+    if (had_framebuffer) session_->set_framebuffer(std::nullopt);
+  }
+
+  std::optional<Session> session_;
+  Watch* watch_ = nullptr; ///< of the frame that is being rendered
+  py::object statistics_ = py::none();
+};
+
+std::filesystem::path path_of(const py::object& scene) {
+  try {
+    return scene.cast<std::filesystem::path>();
+  } catch (const py::cast_error&) {
+    throw py::type_error("scene: a Scene or a path is wanted");
+  }
+}
+
+/// One frame of a scene, or of a scene's file.
+py::array render_once(const py::object& scene, const py::object& progress, py::kwargs kwargs) {
+  Watch watch(progress);
+  std::shared_ptr<const Scene> read;
+  RenderOptions options;
+  double done = 0;
+  const bool is_scene = py::isinstance<Scene>(scene);
+  ParseOptions reading = is_scene ? ParseOptions() : take_parse_options(kwargs);
+  set_render_options(options, kwargs);
+  try {
+    if (is_scene) {
+      read = std::make_shared<Scene>(scene.cast<const Scene&>()); // the lock is released, and who knows
+    } else {
+      done = kReading;
+      watch.set_part(0, done);
+      reading.width = options.width;
+      reading.height = options.height;
+      reading.quality = options.quality;
+      const auto path = path_of(scene);
+      read = std::make_shared<Scene>(read_scene({path.string(), true}, std::move(reading), watch));
+    }
+  } catch (const Cancelled&) {
+    watch.check(false);
+    throw;
+  }
+  options.build_progress = [&](double fraction) {
+    watch.set_part(done, done + kBuilding);
+    return watch(fraction);
+  };
+  RenderResult result;
+  {
+    const py::gil_scoped_release release;
+    result = render(*read, options, [&](double fraction) {
+      watch.set_part(done + kBuilding, 1);
+      return watch(fraction);
+    });
+    read.reset();
+  }
+  watch.check(result.complete);
+  return array_of(result, options.colours);
+}
+
+void bind_options(py::module_& module) {
+  bind_values<Antialiasing>(module, "Antialiasing", "POV-Ray's methods of antialiasing.",
+                            Fields<Antialiasing>()
+                                .add("method", &Antialiasing::method, "fixed or adaptive: POV-Ray's 1 and 2")
+                                .add("threshold", &Antialiasing::threshold, "of differences that count")
+                                .add("depth", &Antialiasing::depth, "1 to 9")
+                                .add("jitter", &Antialiasing::jitter, "0 to 1")
+                                .add("gamma", &Antialiasing::gamma, ""));
+  bind_values<CacheConfig>(module, "Cache", "The software cache of each SPE.",
+                           Fields<CacheConfig>()
+                               .add("ways", &CacheConfig::ways, "a power of two")
+                               .add("sets", &CacheConfig::sets, "a power of two")
+                               .add("replacement", &CacheConfig::replacement, "random, fifo or lru")
+                               .add("enabled", &CacheConfig::enabled, "False: nothing is kept"));
+}
+
+} // namespace
+
+void bind_rendering(py::module_& module) {
+  bind_options(module);
+  module.def(
+      "render", &render_once, py::arg("scene"), py::kw_only(), py::arg("progress") = py::none(),
+      "Renders a Scene or a file in POV-Ray's language: an array of (height, width, 4), top row first.\n\n"
+      "uint8, for display; with colours=True float32, linear, as rays brought them. progress: called\n"
+      "with the finished fraction, 0 to 1; where it returns False, Cancelled is raised. Further keywords\n"
+      "are those of Session, and of Scene.from_file where there is a file.");
+
+  py::class_<GuardedSession, std::shared_ptr<GuardedSession>> session(
+      module, "Session",
+      "A scene on a machine, rendered frame after frame at the cost of what has changed.\n\n"
+      "It has a copy of the scene. Indices are those of the scene's lists.");
+  session
+      .def(py::init([](const Scene& scene, const py::kwargs& kwargs) {
+             RenderOptions options;
+             set_render_options(options, kwargs);
+             return std::make_shared<GuardedSession>(scene, options);
+           }),
+           py::arg("scene"))
+      .def("render", &GuardedSession::render, py::kw_only(), py::arg("into") = py::none(),
+           py::arg("progress") = py::none(),
+           "The scene as it is now, as the function render(). into: an array of (height, width, 3 or 4) "
+           "bytes,\n"
+           "which gets pixels when they are finished, and is returned.")
+      .def("cancel", &GuardedSession::cancel,
+           "Ends the frame that another thread is rendering, where Cancelled is raised.")
+      .def_property_readonly(
+          "statistics", &GuardedSession::statistics,
+          "Of the last whole frame, a dict by the keys of docs/statistics.md; None before.")
+      .def_property_readonly(
+          "scene", [](GuardedSession& self) { return Scene(self.idle().scene()); },
+          "A copy of the scene as it is now.")
+      .def(
+          "set_camera", [](GuardedSession& self, const Camera& to) { self.idle().set_camera(to); },
+          py::arg("camera"))
+      .def(
+          "set_light",
+          [](GuardedSession& self, Index light, const Light& to) { self.idle().set_light(light, to); },
+          py::arg("light"), py::arg("to"))
+      .def(
+          "set_material",
+          [](GuardedSession& self, Index material, const Material& to) {
+            self.idle().set_material(material, to);
+          },
+          py::arg("material"), py::arg("to"))
+      .def(
+          "set_interior",
+          [](GuardedSession& self, Index interior, const Interior& to) {
+            self.idle().set_interior(interior, to);
+          },
+          py::arg("interior"), py::arg("to"))
+      .def(
+          "set_object",
+          [](GuardedSession& self, Index object, const Object& to) { self.idle().set_object(object, to); },
+          py::arg("object"), py::arg("to"))
+      .def(
+          "set_transform",
+          [](GuardedSession& self, Index object, const Transform& to) {
+            self.idle().set_transform(object, to);
+          },
+          py::arg("object"), py::arg("to"))
+      .def(
+          "set_material_of",
+          [](GuardedSession& self, Index object, Index material) {
+            self.idle().set_material_of(object, material);
+          },
+          py::arg("object"), py::arg("material"))
+      .def(
+          "show", [](GuardedSession& self, Index object, bool visible) { self.idle().show(object, visible); },
+          py::arg("object"), py::arg("visible") = true)
+      .def(
+          "replace", [](GuardedSession& self, const Scene& scene) { self.idle().replace(scene); },
+          py::arg("scene"), "Another scene.")
+      .def(
+          "set_picture",
+          [](GuardedSession& self, const py::kwargs& kwargs) {
+            RenderOptions options = self.idle().options();
+            set_render_options(options, kwargs);
+            self.idle().set_picture(options);
+          },
+          "Another width, height, region, antialiasing or colours; the scene stays on the machine.");
+}
+
+} // namespace celltrace
