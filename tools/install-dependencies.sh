@@ -7,6 +7,7 @@
 #   tests    to build and run the tests and benchmarks
 #   bench    Embree and POV-Ray, which celltrace is compared with
 #   python   to build the Python package and to test it
+#   docs     to make the documents a site
 #   extras   POV-Ray, for the tests that compare with it, clang with its runtime, to compare builds and to fuzz, ccache,
 #            and the shells whose completions are tested
 set -euo pipefail
@@ -15,6 +16,7 @@ declare -A packages=(
   [build]="g++ cmake ninja-build flex bison libboost-context-dev libcli11-dev libdeflate-dev libglm-dev libpng-dev libsdl2-dev libsdl2-ttf-dev libxsimd-dev nlohmann-json3-dev"
   [tests]="catch2 fonts-dejavu-core libbenchmark-dev pkg-config python3 xz-utils"
   [python]="pybind11-dev python3-dev python3-numpy python3-pytest"
+  [docs]="doxygen mkdocs"
   [bench]="libembree-dev povray povray-includes"
   [extras]="ccache clang fish libclang-rt-14-dev povray povray-includes xdotool xvfb zsh"
 )

@@ -3,7 +3,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-tools/install-dependencies.sh build tests python
+tools/install-dependencies.sh build tests python docs
 tools/configure.sh ci
 cmake --build --preset ci
 ctest --preset ci --no-tests=error -j "$(nproc)"
