@@ -1,5 +1,5 @@
-# The Python that the module celltrace is for: sets CELLTRACE_HAS_PYTHON, Python3_EXECUTABLE and the target
-# Python3::Module. By CELLTRACE_PYTHON: ON, OFF, or AUTO, which does without where something is missing.
+# The Python that the module celltrace is for: sets CELLTRACE_HAS_PYTHON, Python3_EXECUTABLE, the target
+# Python3::Module, and CELLTRACE_PYTHON_PACKAGE, the folder in which the package is built. By CELLTRACE_PYTHON: ON, OFF, or AUTO, which does without where something is missing.
 
 set(CELLTRACE_PYTHON_DEFAULT OFF)
 if(CELLTRACE_WHOLE AND NOT CELLTRACE_SANITIZE) # a process of sanitized code has to be so from its start
@@ -32,6 +32,7 @@ if(Python3_FOUND)
 endif()
 if(Python3_FOUND AND pybind11_FOUND)
   set(CELLTRACE_HAS_PYTHON ON)
+  set(CELLTRACE_PYTHON_PACKAGE ${PROJECT_BINARY_DIR}/python)
 elseif(CELLTRACE_PYTHON STREQUAL "AUTO")
   message(STATUS "celltrace: without pybind11, NumPy and Python's headers there is no Python module")
 else()

@@ -6,7 +6,7 @@
 By a block's language:
 
     cpp       compiled, with the comment `given` before it: `#include`s go to the top, other lines into a function if
-              there is nothing that has to stand outside of one
+              there is nothing that has to stand outside of one. All of a page are one file, each in a namespace
     c         compiled as an SPE's program for the emulator
     cmake     a project is configured with it, which has main.cpp and the checkout as celltrace and third_party/celltrace
     sh        run by bash; the program, scene.pov and the checkout's tools and examples are there
@@ -67,6 +67,7 @@ class Page:
     def __init__(self, options):
         self.options = options
         self.folder = options.work
+        self.parts = []  # lines and texts of blocks in C++
         shutil.rmtree(self.folder, ignore_errors=True)
         self.folder.mkdir(parents=True)
         source = options.source
@@ -85,23 +86,31 @@ class Page:
         return run(command, self.folder, self.environment, **more)
 
     def cpp(self, block, given):
-        lines = (given + "\n" + block.text).split("\n")
-        includes = [line for line in lines if line.startswith("#include")]
-        rest = "\n".join(line for line in lines if not line.startswith("#include"))
-        if not OUTSIDE.search(rest):
-            rest = "void block();\nvoid block() {\n" + rest + "\n}"
-        self.compile("\n".join(includes) + "\n" + rest + "\n", ".cpp", "-std=c++20", "-Wall", "-Wextra",
-                     "-Wno-unused", "-Wno-unused-parameter")
+        self.parts.append((block.line - given.count("\n"), given + "\n" + block.text))
+        return "compiled with the others"
+
+    def compile_parts(self):
+        """All blocks in C++; errors name the line of the page."""
+        includes, rest = [], []
+        for line, text in self.parts:
+            includes += re.findall(r"^#include.*$", text, re.M)
+            text = f'#line {line} "{self.options.page}"\n' + re.sub(r"^#include.*$", "", text, flags=re.M)
+            if not OUTSIDE.search(text):
+                text = f"void block();\nvoid block() {{\n{text}\n}}"
+            rest.append(f"namespace line_{line} {{\n{text}\n}}\n")
+        if self.parts:
+            self.compile("\n".join(dict.fromkeys(includes)) + "\n" + "".join(rest), "-std=c++20", "-Wall", "-Wextra",
+                         "-Wno-unused", "-Wno-unused-parameter", "-Wno-main")
 
     def c(self, block, given):
-        headers = self.options.source / "include/celltrace/sdk"
-        self.compile(given + "\n" + block.text, ".cpp", "-std=c++20", "-Dmain=spe_program", f"-I{headers}")
+        self.compile(given + "\n" + block.text, "-std=c++20", "-Dmain=spe_program")
 
-    def compile(self, text, suffix, *flags):
-        (self.folder / f"block{suffix}").write_text(text)
+    def compile(self, text, *flags):
+        (self.folder / "block.cpp").write_text(text)
         launcher = [self.options.launcher] if self.options.launcher else []
         self.run([*launcher, self.options.compiler, *flags, f"-I{self.options.source}/include",
-                  f"-I{self.options.build}/include", "-c", f"block{suffix}", "-o", "block.o"])
+                  f"-I{self.options.source}/include/celltrace/sdk", f"-I{self.options.build}/include",
+                  "-c", "block.cpp", "-o", "block.o"])
 
     def cmake(self, block, given):
         project = self.folder / "cmake"
@@ -134,7 +143,7 @@ class Page:
 
     def python(self, block, given):
         if not self.options.python_package:
-            return "there is no Python package in this build"
+            return "not run: there is no Python package in this build"
         self.run([sys.executable if not self.options.python else self.options.python, "-"],
                  text=given + "\n" + block.text)
 
@@ -143,19 +152,19 @@ class Page:
         self.run([self.options.program, "block.pov", "-W", "64", "-H", "48", "--quiet", "-o", "block.png"])
 
     def text(self, block, given):
-        return "read only"
+        return "for reading"
 
     def do(self, block):
-        """Why it was not run; nothing: it was."""
+        """What there is to say; nothing: it was run."""
         if "file:" in block.notes:
             path = self.folder / block.notes["file:"]
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(block.text)
         if "not run:" in block.notes:
-            return block.notes["not run:"]
+            return "not run: " + block.notes["not run:"]
         for program in block.notes.get("needs:", "").split():
             if not shutil.which(program, path=self.environment["PATH"]):
-                return f"there is no {program}"
+                return f"not run: there is no {program}"
         languages = {"cpp", "c", "cmake", "sh", "console", "python", "pov", "text"}
         if block.language not in languages:
             if "file:" in block.notes:
@@ -182,13 +191,20 @@ def main():
         sys.exit(f"{options.page}: a fence has no end")
     page = Page(options)
     failures = 0
-    for block in blocks:
+
+    def attempt(what, work):
+        nonlocal failures
         try:
-            why = page.do(block)
-            print(f"{options.page.name}:{block.line}: {block.language}: {'not run: ' + why if why else 'ok'}")
+            why = work()
+            print(f"{what}: {why or 'ok'}", flush=True)
         except (Failed, subprocess.TimeoutExpired) as failure:
             failures += 1
-            print(f"{options.page.name}:{block.line}: {block.language}: FAILED: {failure}")
+            print(f"{what}: FAILED: {failure}", flush=True)
+
+    for block in blocks:
+        attempt(f"{options.page.name}:{block.line}: {block.language}", lambda: page.do(block))
+    if page.parts:
+        attempt("all blocks in C++", page.compile_parts)
     sys.exit(failures > 0)
 
 
