@@ -35,29 +35,31 @@ void warn(std::string_view text) {
   if (PyErr_WarnEx(PyExc_UserWarning, std::string(text).c_str(), 1)) throw py::error_already_set();
 }
 
-const Fields<RenderOptions>& render_fields() {
-  static const Fields<RenderOptions> fields =
-      Fields<RenderOptions>()
-          .add("width", &RenderOptions::width, "")
-          .add("height", &RenderOptions::height, "")
-          .add("backend", &RenderOptions::backend, "")
-          .add("spes", &RenderOptions::spes, "")
-          .add("simd", &RenderOptions::simd, "")
-          .add("cache", &RenderOptions::cache, "")
-          .add("balance", &RenderOptions::balance, "")
-          .add("accelerator", &RenderOptions::accelerator, "")
-          .add("model", &RenderOptions::model, "")
-          .add("max_trace_level", &RenderOptions::max_trace_level, "")
-          .add("adc_bailout", &RenderOptions::adc_bailout, "")
-          .add("quality", &RenderOptions::quality, "")
-          .add("region", &RenderOptions::region, "")
-          .add("antialiasing", &RenderOptions::antialiasing, "")
-          .add("colours", &RenderOptions::colours, "")
-          .add(
-              "schedule", [](RenderOptions& o) -> Schedule& { return o.emulation.schedule; }, "")
-          .add(
-              "seed", [](RenderOptions& o) -> std::uint64_t& { return o.emulation.seed; }, "");
-  return fields;
+Fields<RenderOptions> picture_fields() {
+  return Fields<RenderOptions>()
+      .add("width", &RenderOptions::width, "")
+      .add("height", &RenderOptions::height, "")
+      .add("region", &RenderOptions::region, "")
+      .add("antialiasing", &RenderOptions::antialiasing, "")
+      .add("colours", &RenderOptions::colours, "");
+}
+
+Fields<RenderOptions> render_fields() {
+  return picture_fields()
+      .add("backend", &RenderOptions::backend, "")
+      .add("spes", &RenderOptions::spes, "")
+      .add("simd", &RenderOptions::simd, "")
+      .add("cache", &RenderOptions::cache, "")
+      .add("balance", &RenderOptions::balance, "")
+      .add("accelerator", &RenderOptions::accelerator, "")
+      .add("model", &RenderOptions::model, "")
+      .add("max_trace_level", &RenderOptions::max_trace_level, "")
+      .add("adc_bailout", &RenderOptions::adc_bailout, "")
+      .add("quality", &RenderOptions::quality, "")
+      .add(
+          "schedule", [](RenderOptions& o) -> Schedule& { return o.emulation.schedule; }, "")
+      .add(
+          "seed", [](RenderOptions& o) -> std::uint64_t& { return o.emulation.seed; }, "");
 }
 
 const Fields<ParseOptions>& parse_fields() {
@@ -101,6 +103,10 @@ ParseOptions take_parse_options(py::kwargs& kwargs) {
 
 void set_render_options(RenderOptions& options, const py::kwargs& kwargs) {
   render_fields().set_all(options, py::args(), kwargs, "rendering");
+}
+
+void set_picture_options(RenderOptions& options, const py::kwargs& kwargs) {
+  picture_fields().set_all(options, py::args(), kwargs, "set_picture");
 }
 
 } // namespace celltrace

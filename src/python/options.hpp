@@ -13,5 +13,7 @@ namespace celltrace {
 ParseOptions take_parse_options(py::kwargs& kwargs);
 /// Sets those of rendering; TypeError for others.
 void set_render_options(RenderOptions& options, const py::kwargs& kwargs);
+/// Sets those that a machine may change between frames; TypeError for others.
+void set_picture_options(RenderOptions& options, const py::kwargs& kwargs);
 
 } // namespace celltrace

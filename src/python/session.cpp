@@ -229,7 +229,7 @@ void bind_rendering(py::module_& module) {
           "set_picture",
           [](GuardedSession& self, const py::kwargs& kwargs) {
             RenderOptions options = self.idle().options();
-            set_render_options(options, kwargs);
+            set_picture_options(options, kwargs);
             self.idle().set_picture(options);
           },
           "Another width, height, region, antialiasing or colours; the scene stays on the machine.");

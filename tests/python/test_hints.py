@@ -4,6 +4,7 @@ import ast
 import pathlib
 
 import celltrace
+import pytest
 
 HINTS = ast.parse((pathlib.Path(celltrace.__file__).parent / "__init__.pyi").read_text())
 CLASSES = {node.name: node for node in HINTS.body if isinstance(node, ast.ClassDef)}
@@ -54,6 +55,26 @@ def test_defaults():
         kwargs = {argument: ast.literal_eval(default) for argument, default in said.items()
                   if not (isinstance(default, ast.Constant) and default.value is ...)}
         assert getattr(celltrace, name)(**kwargs) == getattr(celltrace, name)(), name
+
+
+def test_keywords_are_taken():
+    def given(function):
+        return {argument.arg: ast.literal_eval(default)
+                for argument, default in zip(function.args.kwonlyargs, function.args.kw_defaults)
+                if not (isinstance(default, ast.Constant) and default.value is ...)}
+    methods = {(name, item.name): item for name, node in CLASSES.items() for item in node.body
+               if isinstance(item, ast.FunctionDef)}
+    scene = celltrace.Scene()
+    session = celltrace.Session(scene, **given(methods["Session", "__init__"]))
+    session.set_picture(**{name.arg: None if name.arg in ("region", "antialiasing") else 8
+                           for name in methods["Session", "set_picture"].args.kwonlyargs})
+    assert session.render(**given(methods["Session", "render"])).shape == (8, 8, 4)
+    for name in ("from_file", "from_text"):
+        keywords = given(methods["Scene", name])
+        assert set(keywords) == set(given(methods["Scene", "from_text"]))
+    celltrace.Scene.from_text("sphere { 0, 1 }", **keywords)
+    with pytest.raises(celltrace.InputError, match="none.pov"):
+        celltrace.render("none.pov", **given(FUNCTIONS["render"]))
 
 
 def test_docstrings():

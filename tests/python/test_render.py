@@ -59,6 +59,8 @@ def test_a_session_makes_what_has_changed(ball):
     assert session.render().shape == (10, 20, 4)
     with pytest.raises(celltrace.InputError, match="7"):
         session.show(7)
+    with pytest.raises(TypeError, match="set_picture has no 'spes'"):
+        session.set_picture(spes=1)
 
 
 @pytest.mark.parametrize("channels", [3, 4])
