@@ -93,9 +93,15 @@ endif()
 if("balance" IN_LIST CELLTRACE_COMPONENTS)
   celltrace_pkg_config(NAME balance DESCRIPTION "Load balancing by generalized dimension exchange and diffusion")
 endif()
+set(CELLTRACE_HAS_EXR OFF)
+set(exr "")
+if(TARGET Exr::Exr)
+  set(CELLTRACE_HAS_EXR ON)
+  set(exr OpenEXR)
+endif()
 if("celltrace" IN_LIST CELLTRACE_COMPONENTS)
   celltrace_pkg_config(NAME celltrace DESCRIPTION "Ray-traces POV-Ray scenes"
-    REQUIRES celltrace-emulator glm PRIVATE libpng libdeflate LIBS -lcelltrace)
+    REQUIRES celltrace-emulator glm PRIVATE libpng libdeflate ${exr} LIBS -lcelltrace)
 endif()
 
 set(CELLTRACE_IS_STATIC ON)
@@ -111,6 +117,7 @@ install(FILES
   ${PROJECT_BINARY_DIR}/cmake/celltraceConfig.cmake
   ${PROJECT_BINARY_DIR}/cmake/celltraceConfigVersion.cmake
   ${PROJECT_SOURCE_DIR}/cmake/FindDeflate.cmake
+  ${PROJECT_SOURCE_DIR}/cmake/FindExr.cmake
   DESTINATION ${CELLTRACE_CMAKE_DIR} COMPONENT dev)
 
 # --- the program, and what is read ---

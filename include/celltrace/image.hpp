@@ -1,5 +1,5 @@
 // Pictures in memory: of 8 bits a channel, read from and written to files, and compared with each other; of
-// 16, written to files; and colours as numbers.
+// 16, and colours as numbers, written to files.
 //
 // Every function is safe to call from several threads at once on different pictures and files.
 #pragma once
@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -47,24 +48,86 @@ private:
 using Image = BasicImage<std::uint8_t>;
 using DeepImage = BasicImage<std::uint16_t>;
 
-/// Colours as numbers, as rays brought them: not clipped, alpha 0 to 1.
+/// Colours as numbers, as rays brought them: not clipped, alpha 0 to 1. They are premultiplied: what is
+/// behind a pixel is added to them, times 1 - alpha.
 struct ColourImage : BasicImage<float> {
   using BasicImage::BasicImage;
   /// The power that makes colours linear. None: they are for display as they are.
   std::optional<double> gamma = 1.0;
 };
 
-/// For display: each colour clipped to 0..1, made linear and encoded as sRGB, with 16 bits a channel. What is
-/// not a number becomes 0. Throws InputError if the picture is empty or too large.
+/// For display, with 16 or 8 bits a channel: colours are divided by their alpha, clipped to 0..1, made linear
+/// and encoded as sRGB. As in POV-Ray's pictures, alpha is at least the luminance of the colour, so that what
+/// clear surfaces mirror can be seen. What is not a number becomes 0. Throws InputError if the picture is
+/// empty or too large.
 CELLTRACE_EXPORT DeepImage to_deep_image(const ColourImage& colours);
+CELLTRACE_EXPORT Image to_image(const ColourImage& colours);
 
-/// Writes a picture as PNG (8 or 16 bits a channel; without alpha if every pixel is opaque) or, without its
-/// alpha, as binary PPM, by the extension of `path` (.png or .ppm, in either case). The file appears whole or
-/// not at all: it is written under another name in the same folder and renamed. A device or pipe is written
-/// to directly. Throws InputError naming the file: unknown extension, picture without or with too many
-/// pixels, failed write.
+/// What is seen first through the middle of each pixel, row by row.
+struct FirstHits {
+  int width = 0;
+  int height = 0;
+  std::vector<float> depth;  ///< from where the ray starts, in the scene's unit; infinity where nothing is
+  std::vector<float> normal; ///< x, y, z a pixel, of length 1, to the side that is seen; 0 where nothing is
+  /// 1 + the index in Scene::interiors of what is seen, by which objects are told apart; 0 where nothing is.
+  std::vector<std::uint32_t> object;
+};
+
+/// A picture in BC1, an eighth of RGBA8: blocks of 4x4 pixels, row by row, 8 bytes each. They have two
+/// colours of 5, 6 and 5 bits (low byte first, the greater one first) and two bits a pixel, the first pixel
+/// in the lowest ones: 0 and 1 are these colours, 2 and 3 the ones that are a third and two thirds of the way
+/// from the first one to the second one. Pixels beyond the right and lower edges mean nothing.
+struct BlockImage {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> blocks;
+
+  int columns() const { return (width + 3) / 4; }
+  int rows() const { return (height + 3) / 4; }
+};
+/// The pixels, opaque. Throws InputError if the picture is empty, too large, or not as large as it says.
+CELLTRACE_EXPORT Image to_image(const BlockImage& blocks);
+
+/// The formats that pictures are written in, by the extensions of their files.
+enum class ImageFormat {
+  png, ///< Image and DeepImage: 8 or 16 bits a channel, without alpha if every pixel is opaque
+  ppm, ///< the same, binary, always without alpha
+  exr, ///< ColourImage: OpenEXR, linear, with alpha unless every pixel is opaque; if the build has OpenEXR
+  hdr, ///< ColourImage: Radiance's RGBE, linear, without alpha
+  dds  ///< BlockImage: a DirectDraw surface of format DXT1
+};
+/// By the extension of `path`, in either case. Throws InputError if it is none of these, or if the build
+/// cannot write it.
+CELLTRACE_EXPORT ImageFormat image_format_of(const std::filesystem::path& path);
+/// Whether colours as numbers are wanted for it.
+constexpr bool holds_numbers(ImageFormat format) {
+  return format == ImageFormat::exr || format == ImageFormat::hdr;
+}
+
+/// What is in an OpenEXR file besides colours, of 16 bits a channel.
+struct ExrOptions {
+  bool full_floats = false; ///< colours and normals have 32 bits a channel
+  /// Channels Z (32 bits), N.X, N.Y, N.Z and id (whole numbers). Of the picture's size, or null: none.
+  const FirstHits* first_hits = nullptr;
+};
+
+/// Writes a picture in the format that the extension of `path` says. The file appears whole or not at all: it
+/// is written under another name in the same folder and renamed. A device or pipe is written to directly.
+/// Throws InputError naming the file: unknown extension, a format for other pictures, picture without or with
+/// too many pixels, failed write.
 CELLTRACE_EXPORT void save_image(const std::filesystem::path& path, const Image& image);
 CELLTRACE_EXPORT void save_image(const std::filesystem::path& path, const DeepImage& image);
+/// Colours that are not linear become so; OpenEXR's 16 bits end at 65504, RGBE has nothing below 0.
+CELLTRACE_EXPORT void save_image(const std::filesystem::path& path, const ColourImage& colours,
+                                 const ExrOptions& exr = {});
+CELLTRACE_EXPORT void save_image(const std::filesystem::path& path, const BlockImage& blocks);
+
+/// The same, to the end of an open stream, which is flushed. Throws InputError without a name.
+CELLTRACE_EXPORT void write_image(std::FILE* file, ImageFormat format, const Image& image);
+CELLTRACE_EXPORT void write_image(std::FILE* file, ImageFormat format, const DeepImage& image);
+CELLTRACE_EXPORT void write_image(std::FILE* file, ImageFormat format, const ColourImage& colours,
+                                  const ExrOptions& exr = {});
+CELLTRACE_EXPORT void write_image(std::FILE* file, ImageFormat format, const BlockImage& blocks);
 
 /// The formats of pictures in memory.
 enum class ImageFormat { png, ppm };

@@ -1,5 +1,7 @@
 #include "image/file.hpp"
 
+#include "image/formats.hpp"
+
 #include "celltrace/error.hpp"
 
 #include <atomic>
@@ -46,6 +48,10 @@ fs::path temporary_name(const fs::path& target) {
 }
 
 } // namespace
+
+void write_bytes(std::FILE* file, const void* bytes, std::size_t count) {
+  if (std::fwrite(bytes, 1, count, file) != count) throw InputError("cannot be written: " + reason(errno));
+}
 
 File open_for_reading(const fs::path& path) {
   std::error_code error;

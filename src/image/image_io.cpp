@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <new>
@@ -15,15 +16,53 @@ namespace fs = std::filesystem;
 
 namespace {
 
-template <class Channel> using Writer = void (*)(std::FILE*, const BasicImage<Channel>&);
-
-template <class Channel> Writer<Channel> writer_for(const fs::path& path) {
+ImageFormat format_of(const fs::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension == ".png") return image::write_png<Channel>;
-  if (extension == ".ppm") return image::write_ppm<Channel>;
-  throw InputError("the picture formats that can be written are .png and .ppm");
+  if (extension == ".png") return ImageFormat::png;
+  if (extension == ".ppm") return ImageFormat::ppm;
+  if (extension == ".hdr") return ImageFormat::hdr;
+  if (extension == ".exr") {
+    image::check_has_exr();
+    return ImageFormat::exr;
+  }
+  if (extension == ".dds") return ImageFormat::dds;
+  throw InputError("the picture formats that can be written are .png, .ppm, .exr, .hdr and .dds");
+}
+
+template <class Channel>
+void write_encoded(std::FILE* file, ImageFormat format, const BasicImage<Channel>& image) {
+  image::check_image(image);
+  if (format == ImageFormat::png)
+    image::write_png(file, image);
+  else if (format == ImageFormat::ppm)
+    image::write_ppm(file, image);
+  else
+    throw InputError(format == ImageFormat::dds ? "a DirectDraw surface is for blocks of pixels"
+                                                : "OpenEXR and Radiance files are for colours as numbers");
+}
+
+void write_numbers(std::FILE* file, ImageFormat format, const ColourImage& colours, const ExrOptions& exr) {
+  image::check_image(colours);
+  if (!holds_numbers(format)) throw InputError("colours as numbers are for OpenEXR and Radiance files");
+  const ColourImage linear = image::to_linear(colours);
+  if (format == ImageFormat::hdr)
+    image::write_hdr(file, linear);
+  else
+    image::write_exr(file, linear, exr);
+}
+
+void write_blocks(std::FILE* file, ImageFormat format, const BlockImage& blocks) {
+  image::check_blocks(blocks);
+  if (format != ImageFormat::dds) throw InputError("blocks of pixels are for DirectDraw surfaces");
+  image::write_dds(file, blocks);
+}
+
+/// What has no name is complete when it has left the program.
+void flush(std::FILE* file) {
+  if (std::fflush(file) != 0 || std::ferror(file) != 0)
+    throw InputError("cannot be written: " + std::generic_category().message(errno));
 }
 
 Image load(std::FILE* file, std::uintmax_t file_bytes) {
@@ -73,28 +112,56 @@ template <class Work> auto naming_the_file(const fs::path& path, Work work) {
   }
 }
 
-template <class Channel> void save(const fs::path& path, const BasicImage<Channel>& image) {
+/// `write` gets the stream and the format.
+template <class Write> void save(const fs::path& path, Write write) {
   naming_the_file(path, [&] {
-    const Writer<Channel> write = writer_for<Channel>(path);
-    image::check_image(image);
+    const ImageFormat format = format_of(path);
     image::OutputFile file(path);
-    write(file.get(), image);
+    write(file.get(), format);
     file.commit();
   });
 }
 
 } // namespace
 
+ImageFormat image_format_of(const fs::path& path) {
+  return naming_the_file(path, [&] { return format_of(path); });
+}
+
 void save_image(const fs::path& path, const Image& image) {
-  save(path, image);
+  save(path, [&](std::FILE* file, ImageFormat format) { write_encoded(file, format, image); });
 }
 void save_image(const fs::path& path, const DeepImage& image) {
-  save(path, image);
+  save(path, [&](std::FILE* file, ImageFormat format) { write_encoded(file, format, image); });
+}
+void save_image(const fs::path& path, const ColourImage& colours, const ExrOptions& exr) {
+  save(path, [&](std::FILE* file, ImageFormat format) { write_numbers(file, format, colours, exr); });
+}
+
+void save_image(const fs::path& path, const BlockImage& blocks) {
+  save(path, [&](std::FILE* file, ImageFormat format) { write_blocks(file, format, blocks); });
+}
+
+void write_image(std::FILE* file, ImageFormat format, const BlockImage& blocks) {
+  write_blocks(file, format, blocks);
+  flush(file);
+}
+void write_image(std::FILE* file, ImageFormat format, const Image& image) {
+  write_encoded(file, format, image);
+  flush(file);
+}
+void write_image(std::FILE* file, ImageFormat format, const DeepImage& image) {
+  write_encoded(file, format, image);
+  flush(file);
+}
+void write_image(std::FILE* file, ImageFormat format, const ColourImage& colours, const ExrOptions& exr) {
+  write_numbers(file, format, colours, exr);
+  flush(file);
 }
 
 void check_image_path(const fs::path& path) {
   naming_the_file(path, [&] {
-    writer_for<std::uint8_t>(path);
+    format_of(path);
     std::error_code error;
     if (fs::is_directory(path, error)) throw InputError("is a folder");
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");

@@ -5,12 +5,10 @@
 
 #include "image/huge_pages.hpp"
 
-#include <cerrno>
 #include <cstring>
 #include <limits>
 #include <memory>
 #include <new>
-#include <system_error>
 
 #include <libdeflate.h>
 
@@ -39,11 +37,6 @@ Bytes make_bytes(std::size_t count) {
 void put_big_endian(std::uint8_t* target, std::uint32_t value) {
   for (int i = 0; i < 4; ++i)
     target[i] = static_cast<std::uint8_t>(value >> (24 - 8 * i));
-}
-
-void write_bytes(std::FILE* file, const std::uint8_t* bytes, std::size_t count) {
-  if (std::fwrite(bytes, 1, count, file) != count)
-    throw InputError("cannot be written: " + std::generic_category().message(errno));
 }
 
 void write_chunk(std::FILE* file, const char (&type)[5], const std::uint8_t* data, std::size_t count) {

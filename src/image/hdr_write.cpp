@@ -1,0 +1,87 @@
+// Radiance's pictures (RGBE), after Ward, "Real Pixels" (Graphics Gems II, 1991): three mantissas of 8 bits
+// and one exponent a pixel, in run-length encoded rows.
+#include "image/formats.hpp"
+
+#include <array>
+#include <cmath>
+#include <string>
+
+namespace celltrace::image {
+
+namespace {
+
+using Pixel = std::array<std::uint8_t, 4>;
+
+/// The greatest channel has 8 significant bits.
+Pixel encoded(const float* rgb) {
+  double channel[3], greatest = 0;
+  for (int i = 0; i < 3; ++i) {
+    const auto value = static_cast<double>(rgb[i]);
+    channel[i] = value > 0 ? std::min(value, 1e38) : 0; // also of what is not a number
+    greatest = std::max(greatest, channel[i]);
+  }
+  int exponent = 0;
+  std::frexp(greatest, &exponent);
+  // Rounding may carry the greatest one into the next power of two.
+  if (std::lround(std::ldexp(greatest, 8 - exponent)) > 255) ++exponent;
+  if (greatest < 1e-32 || exponent < -127) return {0, 0, 0, 0};
+  Pixel pixel;
+  for (std::size_t i = 0; i < 3; ++i)
+    pixel[i] = static_cast<std::uint8_t>(std::lround(std::ldexp(channel[i], 8 - exponent)));
+  pixel[3] = static_cast<std::uint8_t>(exponent + 128);
+  return pixel;
+}
+
+/// One channel of a row: a count above 128 and a byte that is repeated so often, less 128; or a count and as
+/// many bytes.
+void append_runs(const std::vector<Pixel>& row, std::size_t channel, std::string& out) {
+  constexpr std::size_t kLongestRun = 127, kMostBytes = 128, kWorthwhile = 4;
+  const auto length_of_run = [&](std::size_t at) {
+    std::size_t end = at + 1;
+    while (end < row.size() && end - at < kLongestRun && row[end][channel] == row[at][channel])
+      ++end;
+    return end - at;
+  };
+  for (std::size_t at = 0; at < row.size();) {
+    const std::size_t run = length_of_run(at);
+    if (run >= kWorthwhile) {
+      out += static_cast<char>(128 + run);
+      out += static_cast<char>(row[at][channel]);
+      at += run;
+      continue;
+    }
+    std::size_t end = at;
+    while (end < row.size() && end - at < kMostBytes && length_of_run(end) < kWorthwhile)
+      ++end;
+    out += static_cast<char>(end - at);
+    for (; at < end; ++at)
+      out += static_cast<char>(row[at][channel]);
+  }
+}
+
+} // namespace
+
+void write_hdr(std::FILE* file, const ColourImage& linear) {
+  const std::string header = "#?RADIANCE\nSOFTWARE=celltrace\nFORMAT=32-bit_rle_rgbe\n\n-Y " +
+                             std::to_string(linear.height) + " +X " + std::to_string(linear.width) + "\n";
+  write_bytes(file, header.data(), header.size());
+  constexpr int kLeastWidth = 8, kGreatestWidth = 32767; // of rows that may be encoded
+  const bool has_runs = linear.width >= kLeastWidth && linear.width <= kGreatestWidth;
+  std::vector<Pixel> row(static_cast<std::size_t>(linear.width));
+  for (int y = 0; y < linear.height; ++y) {
+    for (int x = 0; x < linear.width; ++x)
+      row[static_cast<std::size_t>(x)] = encoded(linear.pixel(x, y));
+    std::string out;
+    if (has_runs) {
+      out = {2, 2, static_cast<char>(linear.width >> 8), static_cast<char>(linear.width & 0xFF)};
+      for (std::size_t channel = 0; channel < 4; ++channel)
+        append_runs(row, channel, out);
+    } else {
+      for (const Pixel& pixel : row)
+        out.append(pixel.begin(), pixel.end());
+    }
+    write_bytes(file, out.data(), out.size());
+  }
+}
+
+} // namespace celltrace::image
