@@ -124,12 +124,24 @@ struct RenderOptions {
   /// transparent surfaces; from 8 on there are reflections and disturbed normals, and nothing is left out.
   int quality = 9;
   /// The part of the picture that is rendered: at least a pixel, and all within the picture. The rest is
-  /// opaque black.
+  /// opaque black, or clear if `alpha`.
   std::optional<PictureRegion> region;
-  /// Model `shared` only. Takes 12 bytes of memory a pixel.
+  /// Model `shared` only. Takes 16 bytes of memory a pixel.
   std::optional<Antialiasing> antialiasing;
-  /// RenderResult::colours is wanted, too. Model `shared` only. Takes 28 bytes of memory a pixel.
+  /// RenderResult::colours is wanted, too. Model `shared` only. Takes 32 bytes of memory a pixel.
   bool colours = false;
+  /// Pixels have alpha, as those of POV-Ray's +UA: they are clear where the camera sees what is behind the
+  /// scene, directly or through transparent surfaces. Else they are opaque. Model `shared` only. Takes as
+  /// much memory as colours.
+  bool alpha = false;
+  /// RenderResult::first_hits is wanted, too. Model `shared` only. Takes 20 bytes of memory a pixel besides
+  /// those of colours. With the adaptive method of antialiasing they are those at the upper left corners of
+  /// pixels, through which its rays go.
+  bool first_hits = false;
+  /// Pixels leave the SPEs in BC1: RenderResult::blocks. Model `shared` only, without `region`,
+  /// `antialiasing`, `colours`, `alpha`, `first_hits` and `finished_block`. encode_blocks() is for other
+  /// pictures.
+  bool blocks = false;
   /// Of cell_emu and cell_sim; native knows none of it, and nothing is recorded on cell_sim. The trace is
   /// complete when the renderer is gone.
   EmulationConfig emulation;
@@ -213,6 +225,11 @@ struct CELLTRACE_EXPORT RenderStatistics {
 
   Cache list_cache, object_cache, material_cache, light_cache; ///< all 0 where memory is direct
   std::uint64_t dma_commands = 0, dma_list_elements = 0, dma_bytes_read = 0, dma_bytes_written = 0;
+  std::uint64_t pixel_bytes =
+      0; ///< of those written, pixels as they are traced, without what antialiasing adds
+  /// Of a picture in blocks: squared differences from the pixels that were encoded, summed over red, green
+  /// and blue.
+  std::optional<std::uint64_t> block_error;
   std::uint64_t signals = 0, mailbox_words = 0;
   /// Code modules that SPEs fetched, and waited for. Only cell_emu says so.
   std::uint64_t module_fetches = 0, module_bytes = 0, module_cycles = 0;
@@ -239,11 +256,22 @@ struct CELLTRACE_EXPORT RenderStatistics {
   /// Rules that were broken since the frame before.
   std::vector<Diagnostic> diagnostics;
 
+  /// Of a picture in blocks: peak signal-to-noise ratio in dB; infinity if nothing differs.
+  std::optional<double> block_psnr() const;
   std::uint64_t total_rays() const { return primary_rays + shadow_rays + reflection_rays + refraction_rays; }
 };
 
 /// Adds those of more rows of the same picture.
 CELLTRACE_EXPORT void add_rows(RenderStatistics& sum, const RenderStatistics& rows);
+
+/// A picture in blocks, and what they are worth.
+struct EncodedPicture {
+  BlockImage blocks;
+  std::uint64_t error = 0; ///< as RenderStatistics::block_error
+};
+/// What SPEs would make of these pixels, whose alpha is left out. Throws InputError if the picture is empty
+/// or too large.
+CELLTRACE_EXPORT EncodedPicture encode_blocks(const Image& picture);
 
 /// As in the statistics' JSON: "pipeline-split", "refitted".
 CELLTRACE_EXPORT const char* name_of(Model model);
@@ -253,7 +281,9 @@ CELLTRACE_EXPORT std::string to_json(const RenderStatistics& statistics);
 
 struct RenderResult {
   Image image;
-  ColourImage colours; ///< empty unless RenderOptions::colours
+  ColourImage colours;  ///< empty unless RenderOptions::colours
+  FirstHits first_hits; ///< empty unless RenderOptions::first_hits
+  BlockImage blocks;    ///< empty unless RenderOptions::blocks; `image` then is what they show
   /// Empty unless RenderOptions::work_map; of a broken-off frame what was finished. With antialiasing of the
   /// samples.
   std::vector<WorkRecord> work;

@@ -303,6 +303,9 @@ struct CELLTRACE_EXPORT Scene {
   std::string name; ///< for messages: the file it came from
   Camera camera;
   Vec3 background{0, 0, 0};
+  /// Share of what is behind the picture that comes through the background, 0 to 1; counts where a picture
+  /// has alpha. Below version 3.7 it means nothing: only mirrors see sky and background there.
+  double background_transparency = 1;
   /// Layers over the background, the last one on top: what rays meet that hit nothing. Their patterns are
   /// asked at the ray's direction, of length 1.
   std::vector<Pigment> sky_sphere;

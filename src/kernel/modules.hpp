@@ -14,17 +14,23 @@ namespace celltrace::kernel::modules {
 /// inside of shapes, which CSG asks.
 constexpr CodeModule kShapes = {"shapes", 1, 0, 14592};
 /// What a program does once a frame or once for many: it makes its objects, and reports.
-constexpr CodeModule kStart = {"start", 3, 0, 10624};
+constexpr CodeModule kStart = {"start", 3, 0, 12032};
 /// The building of accelerators.
 constexpr CodeModule kBuild = {"build", 16, 0, 25728};
 /// Patterns without noise, and those of noise with its tables.
 constexpr CodeModule kPatterns = {"patterns", 7, 0, 3200};
 constexpr CodeModule kNoise = {"noise", 8, 0, 14336};
-/// What becomes of the points of antialiased pictures, and which samples they need besides.
-constexpr CodeModule kSampling = {"sampling", 18, 0, 15232};
+/// What becomes of the points of antialiased pictures, and which samples they need besides: by the fixed
+/// method, by the adaptive one, and either with alpha.
+constexpr CodeModule kSampling = {"sampling", 18, 0, 9984};
+constexpr CodeModule kSquares = {"squares", 28, 0, 9088};
+constexpr CodeModule kAlphaSampling = {"alphasampling", 29, 0, 10368};
+constexpr CodeModule kAlphaSquares = {"alphasquares", 30, 0, 9472};
+/// What primary rays hit, for main memory.
+constexpr CodeModule kFirstHits = {"firsthits", 31, 0, 768};
 
-/// What insides take of light; and the start of mirrors that bend it.
-constexpr CodeModule kFading = {"fading", 20, 0, 2048};
+/// What insides take of light, and how clear they are; and mirrors that bend it.
+constexpr CodeModule kFading = {"fading", 20, 0, 3968};
 /// Patterns that few scenes have, many of which read tables of the scene image.
 constexpr CodeModule kRarePatterns = {"rare", 22, 0, 13312};
 /// What patterns ask of surfaces besides points.
@@ -41,7 +47,7 @@ constexpr CodeModule kMeshes = {"meshes", 17, 1, 2688};
 /// Where crossings are in polygons. Likewise, beside the shapes.
 constexpr CodeModule kPolygons = {"polygons", 26, 1, 1024};
 /// Rays that go on from surfaces.
-constexpr CodeModule kSecondary = {"secondary", 2, 1, 8960};
+constexpr CodeModule kSecondary = {"secondary", 2, 1, 9088};
 /// Light that is not simply a point's.
 constexpr CodeModule kLights = {"lights", 6, 1, 4480};
 /// The sampling of lights that have an area.
@@ -65,10 +71,12 @@ constexpr CodeModule kObjects = {"objects", 12, 2, 5888};
 constexpr CodeModule kHits = {"hits", 5, 2, 7552};
 /// Shading of surfaces with textures, or of several materials.
 constexpr CodeModule kComposed = {"composed", 13, 2, 7808};
-/// What rays pass through on their way or see before what they hit, and the light that mirrors bend.
-constexpr CodeModule kAtmosphere = {"atmosphere", 24, 2, 7424};
+/// What rays pass through on their way or see before what they hit or behind it.
+constexpr CodeModule kAtmosphere = {"atmosphere", 24, 2, 7552};
 /// Shadow rays that go from surface to surface.
 constexpr CodeModule kShadowWalk = {"walk", 21, 2, 5504};
+/// Pixels become blocks of BC1.
+constexpr CodeModule kEncoding = {"encoding", 32, 2, 6976};
 /// Exchange of units of work with other SPEs.
 constexpr CodeModule kExchange = {"exchange", 14, 2, 4992};
 

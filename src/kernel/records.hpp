@@ -490,6 +490,11 @@ constexpr uint32_t fading = 0x2;     ///< interiors that fade
 constexpr uint32_t stepwise = 0x4;
 constexpr uint32_t by_surface = 0x8;  ///< some objects are object_flag::by_surface
 constexpr uint32_t projectors = 0x10; ///< of lights
+// Of frames alone, not of scene images:
+constexpr uint32_t alpha = 0x20; ///< how clear each pixel is is wanted, too
+/// With `alpha`: only rays that came by a mirror see sky and background.
+constexpr uint32_t no_backdrop = 0x40;
+constexpr uint32_t first_hits = 0x80; ///< what each primary ray hits is wanted, too
 } // namespace light_way
 
 /// Head of a scene image.
@@ -625,8 +630,9 @@ constexpr uint32_t kPacketEdge = 4; ///< a packet is 4x4 rays
 
 /// What a frame is for. Where colours are asked for, a picture without antialiasing is a grid of its pixels'
 /// middles, and the host takes them from there. With antialiasing a picture takes two: the points of a grid,
-/// one more than pixels each way, then the samples that some pixels need besides.
-enum class FramePurpose : uint32_t { picture = 0, grid = 1, samples = 2 };
+/// one more than pixels each way, then the samples that some pixels need besides. `blocks` is a picture whose
+/// pixels leave the SPEs as blocks of BC1.
+enum class FramePurpose : uint32_t { picture = 0, grid = 1, samples = 2, blocks = 3 };
 
 /// POV-Ray's. `fixed`: grid points are the middles of pixels, from the one to the upper left of the picture
 /// on, and pixels that differ from their neighbours get a number of samples. `adaptive`: they are the corners
@@ -637,8 +643,16 @@ enum class SamplingMethod : uint32_t { fixed = 1, adaptive = 2 };
 /// look from one to the next.
 constexpr uint32_t kSampledEdge = 32;
 constexpr uint32_t kMaxSamplingDepth = 9;
-/// Colours of a packet of grid points, red of all first, then green, then blue.
-constexpr uint32_t kGridPacketBytes = 3 * 4 * kPacketEdge * kPacketEdge;
+/// Colours of a packet of grid points, red of all first, then green, then blue, then how clear they are.
+constexpr uint32_t kGridPacketBytes = 4 * 4 * kPacketEdge * kPacketEdge;
+
+/// What the primary rays of a packet hit.
+struct alignas(64) FirstHitRecord {
+  float distance[kPacketEdge * kPacketEdge];
+  float normal[3][kPacketEdge * kPacketEdge];
+  uint32_t interior[kPacketEdge * kPacketEdge]; ///< offset of an InteriorRecord; kNoOffset: nothing was hit
+};
+static_assert(sizeof(FirstHitRecord) == 320, "crosses DMA");
 
 /// How pixels are sampled.
 struct SamplingRecord {
@@ -652,10 +666,10 @@ struct SamplingRecord {
   uint32_t colours_pitch;
 };
 
-/// A pixel's colour as the rays brought it.
+/// A pixel's colour as the rays brought it, and the share of what is behind the scene that comes through
+/// (light_way::alpha).
 struct alignas(16) ColourRecord {
-  float channel[3];
-  uint32_t unused;
+  float channel[4];
 };
 
 /// Everything an SPE needs for a frame. Lies in main memory at a place that does not change while the SPEs
@@ -665,14 +679,16 @@ struct alignas(128) FrameBlock {
   GridRecord grid;
   BvhRecord bvh;
 
-  ea_t image;            ///< base of the scene image
-  ea_t surface;          ///< RGBA8, rows of `surface_pitch` bytes, both multiples of 16 bytes
-  ea_t units;            ///< UnitRecord per unit of work, whole lines of them
-  ea_t costs;            ///< uint32_t per unit of work, written by the SPEs: ticks that it took
-  ea_t strips;           ///< StripRecord per SPE: the units it starts the frame with
-  ea_t reports;          ///< ReportRecord per SPE
-  ea_t ray_stack;        ///< spill area: ray_stack_nodes nodes of kRayNodeBytes per SPE
-  ea_t grid_points;      ///< kGridPacketBytes per packet, row by row; none if all frames are pictures
+  ea_t image;     ///< base of the scene image
+  ea_t surface;   ///< RGBA8, or 8 bytes a packet; rows of `surface_pitch` bytes, both multiples of 16 bytes
+  ea_t units;     ///< UnitRecord per unit of work, whole lines of them
+  ea_t costs;     ///< uint32_t per unit of work, written by the SPEs: ticks that it took
+  ea_t strips;    ///< StripRecord per SPE: the units it starts the frame with
+  ea_t reports;   ///< ReportRecord per SPE
+  ea_t ray_stack; ///< spill area: ray_stack_nodes nodes of kRayNodeBytes per SPE
+  /// kGridPacketBytes per packet, row by row, then with light_way::first_hits a FirstHitRecord per packet;
+  /// none if all frames are pictures.
+  ea_t grid_points;
   ea_t sample_store;     ///< sample_store_bytes() per SPE, its own; likewise
   /// Of a command: PREPARE FRAME's work memory, `work_entries` pairs of 8 bytes each; SYNCHRONIZE's list of
   /// lines that are out of date, the first block alone, whole lines of it, of `work_entries` words.
@@ -719,7 +735,8 @@ struct alignas(128) FrameBlock {
   uint32_t fog_offset, fog_count;
   uint32_t light_ways; ///< bits of light_way
   uint32_t rainbow_offset, rainbow_count;
-  uint32_t unused[1];
+  /// Share of what is behind the scene that comes through the background; counts with light_way::alpha.
+  float background_clear;
 };
 static_assert(sizeof(FrameBlock) % 128 == 0 && sizeof(FrameBlock) <= 512, "fetched by one DMA command");
 
@@ -755,7 +772,9 @@ struct alignas(128) ReportRecord {
   uint32_t busy_ticks; ///< of the decrementer, in which the SPE did not wait for work
   uint32_t spilled_nodes;
   uint32_t list_entries; ///< PREPARE FRAME
-  uint32_t unused[30];
+  uint64_t pixel_bytes;  ///< that left as pixels were traced
+  uint64_t block_error;  ///< of pixels in blocks: squared differences, summed over red, green and blue
+  uint32_t unused[26];
 };
 static_assert(sizeof(ReportRecord) == 384, "three lines");
 

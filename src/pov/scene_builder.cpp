@@ -29,6 +29,7 @@ const Mesh& SceneBuilder::mesh_of(const std::shared_ptr<MeshDefinition>& definit
 void SceneBuilder::set_background(const Pigment& colour) {
   const bool has_alpha = version_.value_or(kVersionIfNoneGiven) >= kVersionOfGamma;
   scene_.background = has_alpha ? colour.rgb * (1 - colour.transmit) : colour.rgb;
+  scene_.background_transparency = std::clamp(colour.transmit, 0.0, 1.0);
 }
 
 void SceneBuilder::set_sky_sphere(const SkySphereDefinition& sky, const Location& where) {

@@ -41,7 +41,7 @@ FieldList<&FrameBlock::camera, &FrameBlock::grid, &FrameBlock::bvh, &FrameBlock:
           &FrameBlock::units_per_word, &FrameBlock::wide_leaves, &FrameBlock::far_nodes,
           &FrameBlock::unbounded_count, &FrameBlock::sky, &FrameBlock::light_places, &FrameBlock::purpose,
           &FrameBlock::sampling, &FrameBlock::fog_offset, &FrameBlock::fog_count, &FrameBlock::light_ways,
-          &FrameBlock::rainbow_offset, &FrameBlock::rainbow_count, &FrameBlock::unused>
+          &FrameBlock::rainbow_offset, &FrameBlock::rainbow_count, &FrameBlock::background_clear>
 fields_of(const FrameBlock&);
 
 FieldList<&UnitRecord::column, &UnitRecord::row, &UnitRecord::bundles> fields_of(const UnitRecord&);
@@ -53,7 +53,7 @@ FieldList<&ReportRecord::primary_rays, &ReportRecord::shadow_rays, &ReportRecord
           &ReportRecord::cache_hits, &ReportRecord::cache_misses, &ReportRecord::dropped_rays,
           &ReportRecord::packets, &ReportRecord::exchanges, &ReportRecord::units_received,
           &ReportRecord::busy_ticks, &ReportRecord::spilled_nodes, &ReportRecord::list_entries,
-          &ReportRecord::unused>
+          &ReportRecord::pixel_bytes, &ReportRecord::block_error, &ReportRecord::unused>
 fields_of(const ReportRecord&);
 
 } // namespace celltrace::kernel

@@ -142,6 +142,16 @@ void check(const RenderOptions& options) {
   if (options.antialiasing) check(*options.antialiasing, options.model);
   if (options.colours && options.model != Model::shared)
     throw InputError("colours as numbers are for the shared programming model");
+  if (options.alpha && options.model != Model::shared)
+    throw InputError("pictures with alpha are for the shared programming model");
+  if (options.first_hits && options.model != Model::shared)
+    throw InputError("what is seen first is told by the shared programming model");
+  if (options.blocks && options.model != Model::shared)
+    throw InputError("pictures in blocks are for the shared programming model");
+  if (options.blocks && (options.antialiasing || options.region || brings_colours(options)))
+    throw InputError(
+        "pictures leave the SPEs in blocks without antialiasing, region, alpha, colours and first hits");
+  if (options.blocks && options.finished_block) throw InputError("a picture in blocks cannot be watched");
 }
 
 void set_options(FrameBlock& frame, const RenderOptions& options, const Machine& machine) {
@@ -150,7 +160,9 @@ void set_options(FrameBlock& frame, const RenderOptions& options, const Machine&
   const PictureRegion region = region_of(options);
   frame.width = static_cast<std::uint32_t>(region.right - region.left);
   frame.height = static_cast<std::uint32_t>(region.bottom - region.top);
-  frame.purpose = static_cast<std::uint32_t>(options.colours ? FramePurpose::grid : FramePurpose::picture);
+  frame.purpose = static_cast<std::uint32_t>(brings_colours(options) ? FramePurpose::grid
+                                             : options.blocks        ? FramePurpose::blocks
+                                                                     : FramePurpose::picture);
   frame.sampling = SamplingRecord{};
   if (const auto& antialiasing = options.antialiasing) {
     frame.purpose = static_cast<std::uint32_t>(FramePurpose::grid);
@@ -169,7 +181,8 @@ void set_options(FrameBlock& frame, const RenderOptions& options, const Machine&
   frame.bundle_columns = blocks(frame.packet_columns, edge);
   frame.bundle_rows = blocks(frame.packet_rows, edge);
   frame.surface_pitch = frame.packet_columns * kPacketEdge * 4;
-  if (options.colours)
+  if (options.blocks) frame.surface_pitch = (frame.packet_columns + 1) / 2 * 16;
+  if (brings_colours(options))
     frame.sampling.colours_pitch =
         frame.packet_columns * kPacketEdge * static_cast<std::uint32_t>(sizeof(ColourRecord));
   frame.cache_ways = options.cache.ways;
@@ -215,7 +228,18 @@ void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& optio
       scene.gamma_mode == GammaMode::assumed ? GammaEncoding::assumed : GammaEncoding::none);
   frame.assumed_gamma = static_cast<float>(scene.assumed_gamma);
   store(scene.background, frame.background);
+  if (options.first_hits) frame.light_ways |= light_way::first_hits;
+  if (options.alpha) {
+    constexpr double kVersionOfTransparency = 3.7;
+    frame.light_ways |= light_way::alpha;
+    if (scene.version < kVersionOfTransparency) frame.light_ways |= light_way::no_backdrop;
+    frame.background_clear = static_cast<float>(std::clamp(scene.background_transparency, 0.0, 1.0));
+  }
   frame.sky = header.sky;
+}
+
+bool brings_colours(const RenderOptions& options) {
+  return options.colours || options.alpha || options.first_hits;
 }
 
 PictureRegion region_of(const RenderOptions& options) {

@@ -25,6 +25,8 @@ struct PictureOnGrid {
   double left = 0.0, top = 0.0; ///< the middle of its upper left pixel: a column and a row of the grid
 };
 PictureOnGrid picture_on_grid(const RenderOptions& options);
+/// Whether colours leave the SPEs as numbers.
+bool brings_colours(const RenderOptions& options);
 /// The part of the picture that is rendered.
 PictureRegion region_of(const RenderOptions& options);
 /// Fills the camera, and the interiors of the media of the scene that it is inside of.

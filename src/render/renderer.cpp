@@ -5,6 +5,8 @@
 #include "kernel/program/pixel_sampler.hpp"
 #include "kernel/shading/ray_stack.hpp"
 #include "render/accelerator_builder.hpp"
+#include "render/blocks.hpp"
+#include "render/first_hits.hpp"
 #include "render/frame_setup.hpp"
 #include "render/models/stage_team.hpp"
 #include "render/quality.hpp"
@@ -170,9 +172,10 @@ private:
     frame_.surface = to_ea(surface_.data());
     frame_.reports = reports_.ea();
     grid_points_ = AlignedBlock();
-    if (options_.antialiasing || options_.colours)
-      grid_points_ = AlignedBlock::uninitialised(std::size_t{frame_.packet_columns} * frame_.packet_rows *
-                                                 kGridPacketBytes);
+    if (options_.antialiasing || brings_colours(options_))
+      grid_points_ = AlignedBlock::uninitialised(
+          std::size_t{frame_.packet_columns} * frame_.packet_rows *
+          (kGridPacketBytes + (options_.first_hits ? sizeof(FirstHitRecord) : 0)));
     frame_.grid_points = to_ea(grid_points_.data());
     if (options_.antialiasing) make_room_for_samples();
     planned_ = {0, 0};
@@ -181,8 +184,9 @@ private:
 
   void make_room_for_samples() {
     if (sample_store_.size() != 0) return; // it does not depend on the picture
-    sample_store_ = AlignedBlock::uninitialised(std::size_t{machine_->spe_count()} *
-                                                sample_store_bytes(bundle_edge(machine_->direct_memory())));
+    sample_store_ = AlignedBlock::uninitialised(
+        std::size_t{machine_->spe_count()} *
+        sample_store_bytes(bundle_edge(machine_->direct_memory()), options_.alpha));
     frame_.sample_store = to_ea(sample_store_.data());
   }
 
@@ -273,8 +277,7 @@ private:
     RenderStatistics statistics = std::exchange(prepared_, nothing_prepared());
     collect(statistics, *machine_, frame_, reports_.all(), SpeMeter(*machine_).read());
     result.statistics = statistics;
-    result.image = copy_picture(whole_picture());
-    if (options_.colours) result.colours = copy_colours(result.image, whole_picture());
+    copy_pixels(result, whole_picture());
     return result;
   }
 
@@ -381,10 +384,9 @@ private:
     statistics.bounds[0] = {header.bounds_min[0], header.bounds_min[1], header.bounds_min[2]};
     statistics.bounds[1] = {header.bounds_max[0], header.bounds_max[1], header.bounds_max[2]};
     result.statistics = statistics;
-    // The picture then lies in memory that the scene has had.
-    if (is_last_frame_) image_ = SceneImage();
-    result.image = copy_picture(rows);
-    if (options_.colours) result.colours = copy_colours(result.image, rows);
+    // The picture then lies in memory that the scene has had. First hits ask where its tables are.
+    if (is_last_frame_ && !options_.first_hits) image_ = SceneImage();
+    copy_pixels(result, rows);
     if (options_.work_map) result.work = std::move(work_);
     return result;
   }
@@ -526,7 +528,7 @@ private:
 
   /// The colours of the grid's points become those of pixels, if they are wanted; in the SPEs' byte order.
   void keep_colours(const RowRange& rows) {
-    if (!options_.colours) return;
+    if (!brings_colours(options_)) return;
     constexpr std::uint32_t kPoints = kPacketEdge * kPacketEdge;
     const std::uint32_t first = static_cast<std::uint32_t>(rows.top) / kPacketEdge;
     const std::uint32_t lines = static_cast<std::uint32_t>(rows.bottom) + (options_.antialiasing ? 1 : 0);
@@ -539,15 +541,45 @@ private:
           const std::uint32_t y = row * kPacketEdge + point / kPacketEdge;
           std::byte* const to =
               rows_of_colours() + std::size_t{y} * frame_.sampling.colours_pitch + x * sizeof(ColourRecord);
-          for (std::size_t channel = 0; channel < 3; ++channel)
+          for (std::size_t channel = 0; channel < 4; ++channel)
             std::memcpy(to + channel * sizeof(float), from + (channel * kPoints + point) * sizeof(float),
                         sizeof(float));
         }
   }
 
+  /// The host encodes pixels that have alpha.
+  void copy_pixels(RenderResult& result, const RowRange& rows) {
+    if (options_.blocks) {
+      result.blocks = copy_blocks(surface_, frame_, rows.top, rows.bottom);
+      result.image = to_image(result.blocks);
+      return;
+    }
+    result.image = copy_picture(rows);
+    if (!brings_colours(options_)) return;
+    ColourImage colours = copy_colours(result.image, rows);
+    if (options_.first_hits)
+      result.first_hits = read_first_hits(grid_points_, frame_, result.image, grid_at_picture(rows),
+                                          machine_->byte_order(), image_);
+    if (options_.alpha) result.image = to_image(colours);
+    if (options_.colours) result.colours = std::move(colours);
+  }
+
+  /// Where the rows are in the picture and in the grid.
+  GridAtPicture grid_at_picture(const RowRange& rows) const {
+    GridAtPicture grid;
+    const PictureRegion region = region_of(options_);
+    grid.region = {region.left, region.right, region.top + rows.top, region.top + rows.bottom};
+    grid.first_column = begins_before_picture() ? 1 : 0;
+    grid.first_row = grid.first_column + static_cast<std::uint32_t>(rows.top);
+    return grid;
+  }
+
   /// Where the picture has not been rendered, so have the colours not.
   ColourImage copy_colours(const Image& picture, const RowRange& rows) {
     ColourImage colours(picture.width, picture.height);
+    if (options_.alpha)
+      for (std::size_t alpha = 3; alpha < colours.rgba.size(); alpha += 4)
+        colours.rgba[alpha] = 0;
     if (static_cast<GammaEncoding>(frame_.gamma_encoding) == GammaEncoding::none)
       colours.gamma = std::nullopt;
     else
@@ -563,11 +595,12 @@ private:
           pixel[3] = 0;
           continue;
         }
-        float channels[3];
+        float channels[4];
         std::memcpy(channels, from + static_cast<std::size_t>(x - region.left) * sizeof(ColourRecord),
                     sizeof channels);
         reorder(channels, machine_->byte_order());
-        std::copy(std::begin(channels), std::end(channels), pixel);
+        std::copy_n(channels, 3, pixel);
+        if (options_.alpha) pixel[3] = 1 - channels[3];
       }
     return colours;
   }

@@ -5,7 +5,9 @@
 #include "render/spe_json.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -86,6 +88,14 @@ double RenderStatistics::Cache::hit_rate() const {
   return hits + misses == 0 ? 0 : static_cast<double>(hits) / static_cast<double>(hits + misses);
 }
 
+std::optional<double> RenderStatistics::block_psnr() const {
+  if (!block_error) return std::nullopt;
+  if (*block_error == 0) return std::numeric_limits<double>::infinity();
+  constexpr double kPeak = 255;
+  const double numbers = 3.0 * width * height;
+  return 10 * std::log10(kPeak * kPeak * numbers / static_cast<double>(*block_error));
+}
+
 SpeMeter::SpeMeter(const Machine& machine) : machine_(machine), start_(count(machine)) {
 }
 
@@ -128,6 +138,8 @@ void add(std::span<ReportRecord> sum, std::span<const ReportRecord> reports) {
     all.units_received += one.units_received;
     all.busy_ticks += one.busy_ticks;
     all.spilled_nodes += one.spilled_nodes;
+    all.pixel_bytes += one.pixel_bytes;
+    all.block_error += one.block_error;
   }
 }
 
@@ -135,13 +147,15 @@ void collect(RenderStatistics& s, const Machine& machine, const FrameBlock& fram
              std::span<const ReportRecord> reports, std::span<const SpeStatistics> spes) {
   s.backend = machine.backend();
   s.spu = machine.spu_key();
-  const bool is_grid = static_cast<FramePurpose>(frame.purpose) != FramePurpose::picture;
-  s.width = static_cast<int>(frame.width) - (is_grid ? 1 : 0);
-  s.height = static_cast<int>(frame.height) - (is_grid ? 1 : 0);
+  // The grid of antialiasing has one more point than pixels each way.
+  const int more = frame.sampling.method != 0 ? 1 : 0;
+  s.width = static_cast<int>(frame.width) - more;
+  s.height = static_cast<int>(frame.height) - more;
   s.objects = frame.object_count;
   collect_accelerator(s, frame);
   std::size_t index = 0;
   std::uint64_t all_cycles = 0;
+  std::uint64_t block_error = 0;
   for (const ReportRecord& r : reports) {
     s.primary_rays += r.primary_rays;
     s.shadow_rays += r.shadow_rays;
@@ -158,6 +172,8 @@ void collect(RenderStatistics& s, const Machine& machine, const FrameBlock& fram
     add_cache(s.light_cache, r, DataKind::light);
     s.balance_exchanges += r.exchanges;
     s.balance_units_moved += r.units_received;
+    s.pixel_bytes += r.pixel_bytes;
+    block_error += r.block_error;
 
     const SpeStatistics& spe = spes[index++];
     s.dma_commands += spe.dma_commands;
@@ -175,6 +191,7 @@ void collect(RenderStatistics& s, const Machine& machine, const FrameBlock& fram
   }
   s.module_share =
       all_cycles == 0 ? 0 : static_cast<double>(s.module_cycles) / static_cast<double>(all_cycles);
+  if (static_cast<FramePurpose>(frame.purpose) == FramePurpose::blocks) s.block_error = block_error;
   s.render_cycles = elapsed_cycles(spes);
   s.imbalance = imbalance_of(s);
 }
@@ -189,10 +206,11 @@ void add_rows(RenderStatistics& sum, const RenderStatistics& rows) {
   };
   add_counts(sum, rows, &S::height, &S::primary_rays, &S::shadow_rays, &S::reflection_rays,
              &S::refraction_rays, &S::dropped_rays, &S::spilled_packets, &S::accelerator_visits,
-             &S::dma_commands, &S::dma_list_elements, &S::dma_bytes_read, &S::dma_bytes_written, &S::signals,
-             &S::mailbox_words, &S::module_fetches, &S::module_bytes, &S::module_cycles,
-             &S::balance_exchanges, &S::balance_units_moved, &S::prepare_cycles, &S::render_cycles,
-             &S::prepare, &S::build_seconds, &S::prepare_seconds, &S::render_seconds);
+             &S::dma_commands, &S::dma_list_elements, &S::dma_bytes_read, &S::dma_bytes_written,
+             &S::pixel_bytes, &S::signals, &S::mailbox_words, &S::module_fetches, &S::module_bytes,
+             &S::module_cycles, &S::balance_exchanges, &S::balance_units_moved, &S::prepare_cycles,
+             &S::render_cycles, &S::prepare, &S::build_seconds, &S::prepare_seconds, &S::render_seconds);
+  if (sum.block_error && rows.block_error) *sum.block_error += *rows.block_error;
   for (const auto& [shape, tests] : rows.packet_tests)
     sum.packet_tests[shape] += tests;
   add_cache_counts(sum.list_cache, rows.list_cache);
@@ -254,6 +272,7 @@ std::string to_json(const RenderStatistics& s) {
   nlohmann::ordered_json diagnostics = nlohmann::ordered_json::array();
   for (const Diagnostic& diagnostic : s.diagnostics)
     diagnostics.push_back(diagnostic_json(diagnostic));
+  const std::optional<double> block_psnr = s.block_psnr();
   const nlohmann::ordered_json json = {
       {"backend", s.backend},
       {"model", name_of(s.model)},
@@ -294,7 +313,10 @@ std::string to_json(const RenderStatistics& s) {
        {{"commands", s.dma_commands},
         {"list_elements", s.dma_list_elements},
         {"bytes_read", s.dma_bytes_read},
-        {"bytes_written", s.dma_bytes_written}}},
+        {"bytes_written", s.dma_bytes_written},
+        {"pixel_bytes", s.pixel_bytes}}},
+      {"blocks",
+       {{"psnr", block_psnr && std::isfinite(*block_psnr) ? nlohmann::ordered_json(*block_psnr) : nullptr}}},
       {"communication", {{"signals", s.signals}, {"mailbox_words", s.mailbox_words}}},
       {"modules",
        {{"fetches", s.module_fetches},

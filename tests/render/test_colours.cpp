@@ -1,8 +1,7 @@
 // Colours as numbers: they are those of the picture, however it is rendered.
 #include "celltrace/image.hpp"
-#include "render/backends.hpp"
+#include "render/all_machines.hpp"
 #include "render/scenes.hpp"
-#include "render/tracer_program.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -46,13 +45,8 @@ void check_agree(const RenderResult& result) {
 } // namespace
 
 TEST_CASE("Colours are those of the picture on every backend, antialiased or not") {
-  std::vector<Backend> all = backends();
-  if (tracer_program().image("cell_sim").empty())
-    WARN("skipped on cell_sim: machine code needs CELLTRACE_SPU_GXX");
-  else
-    all.push_back({"cell_sim", "auto"}); // whose words have the other byte order
   const Scene scene = scene_named("glass and mirrors");
-  for (const Backend& backend : all)
+  for (const Backend& backend : all_machines())
     for (const unsigned spes : {1u, 3u}) {
       INFO(backend.spu() << " with " << spes);
       RenderOptions options = with_colours(backend, spes);

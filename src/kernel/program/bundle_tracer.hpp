@@ -19,7 +19,7 @@ public:
   /// `spill`: room for FrameBlock::ray_stack_nodes nodes. `samples` says where the rays of frames of samples
   /// go through; null: there are no such frames.
   BundleTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, ea_t spill,
-               const SampleBundle<Spu>* samples)
+               SampleBundle<Spu>* samples)
       : frame_(frame), scene_(scene), samples_(samples), traversal_(scene, frame),
         tracer_(spu, frame, scene, spill, frame.ray_stack_nodes, *spu.template allocate<RayNode>()),
         members_(spu.template allocate<Member>(kPackets)), area_(allocate_area_shadow(spu, frame)),
@@ -43,11 +43,12 @@ public:
       } else {
         const PinholeBundle<S> bundle(frame_, column, row);
         const bool missed = !traversal_.enter(bundle);
-        const bool plain = frame_.sky == kNoOffset && !has_atmosphere(frame_);
+        const bool asks_more = has_atmosphere(frame_) || (frame_.light_ways & light_way::first_hits) != 0;
+        const bool plain = frame_.sky == kNoOffset && !asks_more;
         if (missed && plain && is_whole(column, row))
           return fill(column * kEdge, row * kEdge, tracer_.background(kPackets * kSimdLanes));
         place(column, row);
-        if (missed && !has_atmosphere(frame_))
+        if (missed && !asks_more)
           return for_each_member([&](Member& member) {
             if (!plain) make_primary_rays(scene_.spu(), frame_, member.column, member.row, member.rays);
             put(member.column, member.row, tracer_.background(member.rays, member.lanes));
@@ -63,13 +64,44 @@ public:
       Member& member = members_[i];
       if (member.pixels == 0) continue;
       V3<S> seen;
+      if (samples_ != nullptr) tracer_.add_clear_to(samples_->at[i].clear);
       if (!trace(member, seen, stopped)) return;
       if (member.lanes != member.pixels) {
         const F black(0.0f);
         seen = select<S>(S::M::from_bits(member.lanes), seen, {black, black, black});
+        if (samples_ != nullptr)
+          for_each_lane(member.pixels & ~member.lanes,
+                        [&](uint32_t lane) { samples_->at[i].clear.lane[lane] = 1.0f; });
       }
       put(member.column, member.row, seen);
     }
+  }
+
+  /// Puts to main memory what the primary rays of the bundle hit that was traced last.
+  [[gnu::noinline]] void put_first_hits() {
+    scene_.spu().run_in_module(modules::kFirstHits);
+    const ea_t table = frame_.grid_points + frame_.packet_columns * frame_.packet_rows * kGridPacketBytes;
+    for (uint32_t i = 0; i < kPackets; ++i) {
+      Member& member = members_[i];
+      if (member.pixels == 0) continue;
+      // Shading may have left other points there.
+      if (member.hit != 0) find_hit_points(scene_, member.rays, member.hits, member.hit, member.points);
+      FirstHitRecord& record = member.first_hits;
+      for (uint32_t lane = 0; lane < kSimdLanes; ++lane) {
+        const bool is_hit = (member.hit >> lane & 1) != 0;
+        record.distance[lane] = member.hits.distance.lane[lane];
+        record.interior[lane] = is_hit ? member.points.interior.lane[lane] : kNoOffset;
+      }
+      if (member.hit != 0) {
+        member.points.normal.x.store(record.normal[0]);
+        member.points.normal.y.store(record.normal[1]);
+        member.points.normal.z.store(record.normal[2]);
+      }
+      constexpr auto kBytes = static_cast<uint32_t>(sizeof(FirstHitRecord));
+      scene_.spu().put(&record, table + (member.row * frame_.packet_columns + member.column) * kBytes, kBytes,
+                       kFirstHitTag);
+    }
+    scene_.spu().wait_all(1u << kFirstHitTag);
   }
 
   void reset_counters() {
@@ -87,12 +119,16 @@ public:
 private:
   static constexpr uint32_t kEdge = kBundleEdge<Spu>;
   static constexpr uint32_t kPackets = kBundlePackets<Spu>;
+  static constexpr uint32_t kFirstHitTag = 7;
 
   struct Member {
     RayPacket rays;
     HitPacket hits;
     HitPoints<S> points;
-    RayPacket shadow_rays; ///< toward the light that is asked of
+    union {
+      RayPacket shadow_rays;     ///< toward the light that is asked of
+      FirstHitRecord first_hits; ///< on their way to main memory, after the last light
+    };
     FloatLanes distance;
     VectorLanes light[kLightsARound]; ///< that comes to the points, of a round
     uint32_t column, row;
@@ -318,7 +354,7 @@ private:
 
   const FrameBlock& frame_;
   SceneAccess<Spu>& scene_;
-  const SampleBundle<Spu>* samples_;
+  SampleBundle<Spu>* samples_;
   Traversal<Spu, kAccelerators> traversal_;
   RayTracer<Spu> tracer_;
   Member* members_;

@@ -13,24 +13,36 @@
 #include "kernel/modules.hpp"
 #include "kernel/program/pixel_writer.hpp"
 
+#include <new>
+#include <type_traits>
+
 namespace celltrace::kernel {
+
+/// A packet of samples. x and y: where they are, in pixels from the middle of the picture; then their
+/// colours.
+struct SampleLanes : VectorLanes {
+  FloatLanes clear; ///< with light_way::alpha; 0 while a packet is not being traced
+
+  const FloatLanes& operator[](uint32_t axis) const {
+    return axis == 3 ? clear : VectorLanes::operator[](axis);
+  }
+};
 
 /// The samples of a bundle.
 template <class Spu> struct SampleBundle {
-  /// x and y: where they are, in pixels from the middle of the picture; then their colours.
-  VectorLanes at[kBundlePackets<Spu>];
+  SampleLanes at[kBundlePackets<Spu>];
   uint32_t lanes[kBundlePackets<Spu>]; ///< that are some
 };
 
 /// A square of a pixel, of which the colours at the corners are known: upper left, upper right, lower left,
 /// lower right.
-struct alignas(16) SampleSquare {
-  float corner[4][3];
+template <uint32_t kChannels> struct alignas(16) SampleSquare {
+  float corner[4][kChannels];
   float x, y;     ///< upper left, in points of the grid
   uint32_t pixel; ///< number among those whose colours are being summed up
   uint32_t level; ///< 0: the whole pixel
 };
-static_assert(sizeof(SampleSquare) == 64, "a power of two");
+static_assert(sizeof(SampleSquare<3>) == 64 && sizeof(SampleSquare<4>) == 80, "whole quadwords");
 
 constexpr uint32_t kSamplesOfSquare = 5;
 
@@ -52,16 +64,23 @@ constexpr uint32_t max_squares(uint32_t edge) {
 constexpr uint32_t kStoredPoints = kSampledEdge + 8;
 /// What an SPE needs in main memory: squares; or of the pixels of a block their colours and what these are
 /// compared by, and of its points the latter.
-constexpr uint32_t sample_store_bytes(uint32_t edge) {
+constexpr uint32_t sample_store_bytes(uint32_t edge, bool alpha) {
   constexpr uint32_t kPixels = kSampledEdge * kSampledEdge, kPoints = (kSampledEdge + 1) * kStoredPoints;
   constexpr auto kColours = (2 * kPixels + kPoints) * static_cast<uint32_t>(sizeof(ColourRecord));
   static_assert(kColours % 128 == 0);
-  const uint32_t squares = max_squares(edge) * static_cast<uint32_t>(sizeof(SampleSquare));
+  const size_t square = alpha ? sizeof(SampleSquare<4>) : sizeof(SampleSquare<3>);
+  const uint32_t squares = (max_squares(edge) * static_cast<uint32_t>(square) + 127) / 128 * 128;
   return squares > kColours ? squares : kColours;
 }
 
-/// All but tracing: code of a module, which works on lanes part by part.
-template <class Spu> class PixelSampler {
+/// Whether frames have how clear pixels are.
+constexpr bool wants_alpha(const FrameBlock& frame) {
+  return (frame.light_ways & light_way::alpha) != 0;
+}
+
+/// All but tracing, by one method: code of a module, which works on lanes part by part. Colours have three
+/// channels or, with light_way::alpha, four: the last one is how clear they are, which is compared as it is.
+template <class Spu, SamplingMethod kMethod, uint32_t kChannels> class PixelSampler {
 public:
   using S = typename Spu::simd;
   using R = typename Spu::rare_simd;
@@ -72,31 +91,47 @@ public:
       : spu_(spu), frame_(frame), samples_(samples), work_(*spu.template allocate<Work>()),
         scratch_(*reinterpret_cast<Scratch*>(scratch)) {}
 
-  void begin_frame() {
+  static constexpr const CodeModule& module() {
+    if constexpr (kMethod == SamplingMethod::fixed)
+      return kHasAlpha ? modules::kAlphaSampling : modules::kSampling;
+    else
+      return kHasAlpha ? modules::kAlphaSquares : modules::kSquares;
+  }
+
+  /// Is none of the module's code.
+  [[gnu::always_inline]] void begin_frame() {
     under_way_ = false;
-    store_ = frame_.sample_store + spu_.id() * sample_store_bytes(kBundleEdge<Spu>);
+    store_ = frame_.sample_store + spu_.id() * sample_store_bytes(kBundleEdge<Spu>, kHasAlpha);
+    for (SampleLanes& packet : samples_.at)
+      packet.clear = FloatLanes();
   }
 
   /// Takes the colours of the bundle or block at (column, row); those of samples were asked for by the call
   /// before. True: the block needs those that `samples` now has, too.
   [[gnu::noinline]] bool advance(uint32_t column, uint32_t row) {
-    spu_.run_in_module(modules::kSampling);
+    spu_.run_in_module(module());
     if (static_cast<FramePurpose>(frame_.purpose) == FramePurpose::grid) {
       store_points(column, row);
       return false;
     }
-    const bool fixed = static_cast<SamplingMethod>(frame_.sampling.method) == SamplingMethod::fixed;
-    if (!under_way_)
-      begin_block(column, row, fixed);
-    else if (fixed)
-      take_samples();
-    else
-      divide_squares();
-    under_way_ = fixed ? ask_for_pixels() : ask_for_squares();
+    if constexpr (kMethod == SamplingMethod::fixed) {
+      if (under_way_)
+        take_samples();
+      else
+        begin_block(column, row);
+      under_way_ = ask_for_pixels();
+    } else {
+      if (under_way_)
+        divide_squares();
+      else
+        begin_block(column, row);
+      under_way_ = ask_for_squares();
+    }
     return under_way_;
   }
 
 private:
+  static constexpr bool kHasAlpha = kChannels == 4;
   static constexpr uint32_t kEdge = kBundleEdge<Spu>;
   static constexpr uint32_t kPackets = kBundlePackets<Spu>;
   static constexpr uint32_t kSquares = squares_at_once(kEdge);
@@ -107,9 +142,10 @@ private:
   static constexpr uint32_t kRowPoints = kSampledEdge + kSimdLanes; ///< and some more, for whole vectors
 
   using Colour = ColourRecord;
+  using Square = SampleSquare<kChannels>;
   /// The channels of a row of points, of which the first is that at the block's left edge.
   struct alignas(64) PointRow {
-    float channel[3][kRowPoints];
+    float channel[kChannels][kRowPoints];
   };
   /// Goes over the samples of pixels that are asked for.
   struct Cursor {
@@ -129,16 +165,19 @@ private:
       BlockMask known;       ///< has a colour in the store
     } fixed;
     struct {
-      alignas(64) float sums[kRows][3][kSampledEdge];
+      alignas(64) float sums[kRows][kChannels][kSampledEdge];
     } adaptive;
   };
 
+  /// The nine points of a square that is divided, in whole vectors.
+  static constexpr uint32_t kEncoded = (9 * kChannels + kSimdLanes - 1) / kSimdLanes * kSimdLanes;
+
   /// What is not.
   struct Scratch {
-    VectorLanes packets[kRowPackets];
+    SampleLanes packets[kRowPackets];
     PointRow points[2], encoded[2]; ///< of two rows, by turns
-    SampleSquare squares[kSquares]; ///< that are being divided
-    alignas(64) float encoding[2 * kSimdLanes];
+    Square squares[kSquares];       ///< that are being divided
+    alignas(64) float encoding[kEncoded];
     alignas(64) float channels[3][kSampledEdge]; ///< of pixels to be written
     alignas(64) uint32_t words[kSampledEdge];    ///< these
     Colour colours[kStoredPoints];
@@ -177,13 +216,16 @@ private:
   }
 
   void store_points(uint32_t column, uint32_t row) {
-    static_assert(sizeof(VectorLanes) == kGridPacketBytes, "as in main memory");
+    static_assert(sizeof(SampleLanes) == kGridPacketBytes, "as in main memory");
     const uint32_t left = frame_.packet_columns - column * kEdge;
     const uint32_t packets = left < kEdge ? left : kEdge;
     for (uint32_t y = 0; y < kEdge && row * kEdge + y < frame_.packet_rows; ++y)
       send(&samples_.at[y * kEdge], packet_of_points(column * kEdge, row * kEdge + y),
            packets * kGridPacketBytes);
     arrive();
+    if constexpr (kHasAlpha)
+      for (SampleLanes& packet : samples_.at)
+        packet.clear = FloatLanes();
   }
 
   /// Row `row` of the grid's points at the block, of which the first is that to its upper left.
@@ -194,10 +236,10 @@ private:
     const uint32_t line = row_ * kSampledEdge + row;
     fetch(scratch_.packets, packet_of_points(first, line / kPacketEdge), packets * kGridPacketBytes);
     for (uint32_t packet = 0; packet < packets; ++packet)
-      for (uint32_t axis = 0; axis < 3; ++axis)
+      for (uint32_t axis = 0; axis < kChannels; ++axis)
         S::F4::load(scratch_.packets[packet][axis].lane + line % kPacketEdge * kPacketEdge)
             .store(points.channel[axis] + packet * kPacketEdge);
-    for (uint32_t axis = 0; axis < 3; ++axis)
+    for (uint32_t axis = 0; axis < kChannels; ++axis)
       for (uint32_t x = packets * kPacketEdge; x < kRowPoints; ++x)
         points.channel[axis][x] = 0.0f;
   }
@@ -225,26 +267,37 @@ private:
     uint32_t bits = 0;
     for (uint32_t x = 0; x < kSampledEdge; x += R::kLanes) {
       const V3<R> difference = points_from(a, first_a + x) - points_from(b, first_b + x);
-      bits |= (absolute_sum<R>(difference) >= F(frame_.sampling.threshold)).bits() << x;
+      F sum = absolute_sum<R>(difference);
+      if constexpr (kHasAlpha) {
+        const F clear = channel_from(a, 3, first_a + x);
+        sum = sum + R::abs(clear - channel_from(b, 3, first_b + x));
+      }
+      bits |= (sum >= F(frame_.sampling.threshold)).bits() << x;
     }
     return bits;
+  }
+  static F channel_from(const PointRow& row, uint32_t channel, uint32_t first) {
+    alignas(64) float lane[R::kLanes];
+    for (uint32_t i = 0; i < R::kLanes; ++i)
+      lane[i] = row.channel[channel][first + i];
+    return F::load(lane);
   }
 
   static uint32_t smaller_of(uint32_t a, uint32_t b) { return a < b ? a : b; }
 
-  [[gnu::noinline]] void begin_block(uint32_t column, uint32_t row, bool fixed) {
+  [[gnu::noinline]] void begin_block(uint32_t column, uint32_t row) {
     column_ = column;
     row_ = row;
     width_ = smaller_of(frame_.width - 1 - column * kSampledEdge, kSampledEdge);
     height_ = smaller_of(frame_.height - 1 - row * kSampledEdge, kSampledEdge);
-    if (!fixed) {
+    if constexpr (kMethod == SamplingMethod::fixed) {
+      compare_pixels();
+      compare_again();
+    } else {
       next_row_ = 0;
       rows_ = 0;
       waiting_ = 0;
-      return;
     }
-    compare_pixels();
-    compare_again();
   }
   /// Bits of the pixels of a row that are in the picture.
   uint32_t row_mask() const { return width_ == kSampledEdge ? ~0u : (1u << width_) - 1; }
@@ -270,7 +323,7 @@ private:
   /// Puts a sample, in points of the grid, into the next lane.
   [[gnu::noinline]] void ask(uint32_t number, float x, float y) {
     jitter(x, y);
-    VectorLanes& packet = samples_.at[number / kSimdLanes];
+    SampleLanes& packet = samples_.at[number / kSimdLanes];
     packet.x.lane[number % kSimdLanes] = x - frame_.camera.middle_x;
     packet.y.lane[number % kSimdLanes] = y - frame_.camera.middle_y;
   }
@@ -280,6 +333,7 @@ private:
       const uint32_t first = packet * kSimdLanes;
       const uint32_t lanes = count <= first ? 0 : smaller_of(count - first, kSimdLanes);
       samples_.lanes[packet] = (1u << lanes) - 1;
+      if constexpr (kHasAlpha) samples_.at[packet].clear = FloatLanes();
       if (lanes == 0) continue;
       for (uint32_t lane = lanes; lane < kSimdLanes; ++lane) {
         samples_.at[packet].x.lane[lane] = samples_.at[packet].x.lane[lanes - 1];
@@ -292,7 +346,7 @@ private:
   }
 
   /// Pixels of colours, as many as two packets.
-  [[gnu::noinline]] void encode_pixels_of(const float (&colours)[3][kSampledEdge], uint32_t* words) const {
+  [[gnu::noinline]] void encode_pixels_of(const float (*colours)[kSampledEdge], uint32_t* words) const {
     using W = typename S::F;
     for (uint32_t i = 0; i < kSampledEdge; i += kSimdLanes)
       encode_pixels<Spu>(frame_, {W::load(colours[0] + i), W::load(colours[1] + i), W::load(colours[2] + i)})
@@ -302,7 +356,7 @@ private:
   /// Of channels that lie `stride` numbers apart.
   [[gnu::noinline]] void gather_colours(const float* channels, uint32_t stride, uint32_t count) {
     for (uint32_t x = 0; x < count; ++x)
-      for (uint32_t axis = 0; axis < 3; ++axis)
+      for (uint32_t axis = 0; axis < kChannels; ++axis)
         scratch_.colours[x].channel[axis] = channels[axis * stride + x];
   }
   /// Puts some of the colours where they are wanted: x and y count from the block's first point on.
@@ -385,12 +439,12 @@ private:
     const uint32_t line = row_ * kSampledEdge + y;
     const ea_t packet = packet_of_points(column / kPacketEdge, line / kPacketEdge);
     const uint32_t lane = line % kPacketEdge * kPacketEdge + column % kPacketEdge;
-    const auto take_from = [&](const VectorLanes& points) {
-      for (uint32_t axis = 0; axis < 3; ++axis)
+    const auto take_from = [&](const SampleLanes& points) {
+      for (uint32_t axis = 0; axis < kChannels; ++axis)
         colour.channel[axis] = points[axis].lane[lane];
     };
     if constexpr (kReadsInPlace<Spu>) {
-      take_from(*reinterpret_cast<const VectorLanes*>(static_cast<uintptr_t>(packet)));
+      take_from(*reinterpret_cast<const SampleLanes*>(static_cast<uintptr_t>(packet)));
     } else {
       fetch(scratch_.packets, packet, kGridPacketBytes);
       take_from(scratch_.packets[0]);
@@ -415,7 +469,11 @@ private:
     above = distance(colours[0].channel, colours[2].channel) >= frame_.sampling.threshold;
   }
   [[gnu::noinline]] static float distance(const float* a, const float* b) {
-    return magnitude(a[0] - b[0]) + magnitude(a[1] - b[1]) + magnitude(a[2] - b[2]);
+    const float sum = magnitude(a[0] - b[0]) + magnitude(a[1] - b[1]) + magnitude(a[2] - b[2]);
+    if constexpr (kHasAlpha)
+      return sum + magnitude(a[3] - b[3]);
+    else
+      return sum;
   }
 
   /// The pixels of a row that still need samples.
@@ -485,7 +543,7 @@ private:
       const uint32_t y = taken_.row;
       // The middle of the pixel counts as one sample more.
       if ((taken_.across | taken_.down) == 0) fetch_point(x + 1, y + 1, sum_);
-      for (uint32_t axis = 0; axis < 3; ++axis)
+      for (uint32_t axis = 0; axis < kChannels; ++axis)
         sum_.channel[axis] += channel(i, axis);
       if (!next_sample(taken_)) continue;
       store_mean(x, y, 1.0f / static_cast<float>(depth * depth + 1));
@@ -494,13 +552,14 @@ private:
   /// A pixel is known: its share of the sum, and what that is compared by.
   [[gnu::noinline]] void store_mean(uint32_t x, uint32_t y, float share) {
     float* const colour = scratch_.encoding;
-    for (uint32_t axis = 0; axis < 3; ++axis)
+    for (uint32_t axis = 0; axis < kChannels; ++axis)
       colour[axis] = sum_.channel[axis] * share;
-    for (uint32_t i = 3; i < R::kLanes; ++i)
+    for (uint32_t i = kChannels; i < R::kLanes; ++i)
       colour[i] = 0.0f;
     send(colour, stored_colour(x, y), kColourBytes);
     arrive();
     encode(colour, R::kLanes);
+    if constexpr (kHasAlpha) colour[3] = sum_.channel[3] * share;
     send(colour, encoded_colour(x, y), kColourBytes);
     arrive();
   }
@@ -531,7 +590,7 @@ private:
   // --- the adaptive method ---
 
   ea_t stored_square(uint32_t number) const {
-    return store_ + number * static_cast<uint32_t>(sizeof(SampleSquare));
+    return store_ + number * static_cast<uint32_t>(sizeof(Square));
   }
 
   /// Makes the samples of as many squares as there is room for, the last ones first. False: the block is
@@ -546,7 +605,7 @@ private:
     waiting_ -= asked_;
     fetch_squares();
     for (uint32_t i = 0; i < asked_; ++i) {
-      const SampleSquare& square = scratch_.squares[i];
+      const Square& square = scratch_.squares[i];
       const float size = edge_of(square), half = 0.5f * size;
       const uint32_t first = i * kSamplesOfSquare;
       ask(first, square.x + half, square.y);
@@ -560,9 +619,9 @@ private:
   }
   /// Those that are being divided: behind the waiting ones.
   void fetch_squares() {
-    fetch(scratch_.squares, stored_square(waiting_), asked_ * static_cast<uint32_t>(sizeof(SampleSquare)));
+    fetch(scratch_.squares, stored_square(waiting_), asked_ * static_cast<uint32_t>(sizeof(Square)));
   }
-  static float edge_of(const SampleSquare& square) { return 1.0f / static_cast<float>(1u << square.level); }
+  static float edge_of(const Square& square) { return 1.0f / static_cast<float>(1u << square.level); }
 
   /// The next rows of pixels: those whose corners are alike are done, of the others the squares wait.
   [[gnu::noinline]] void compare_corners() {
@@ -589,7 +648,7 @@ private:
   }
   /// The means of the corners of pixels, or 0 where they are divided.
   static void sum_corners(const PointRow& upper, const PointRow& lower, uint32_t divided,
-                          float (&sums)[3][kSampledEdge]) {
+                          float (&sums)[kChannels][kSampledEdge]) {
     const V3<R> zero = {F(0.0f), F(0.0f), F(0.0f)};
     for (uint32_t x = 0; x < kSampledEdge; x += R::kLanes) {
       V3<R> sum = zero;
@@ -600,12 +659,19 @@ private:
       mean.x.store(sums[0] + x);
       mean.y.store(sums[1] + x);
       mean.z.store(sums[2] + x);
+      if constexpr (kHasAlpha) {
+        F clear(0.0f);
+        for (uint32_t corner = 0; corner < 4; ++corner)
+          clear = clear + channel_from(corner < 2 ? upper : lower, 3, x + corner % 2);
+        R::select(R::M::from_bits(divided >> x & ((1u << R::kLanes) - 1)), F(0.0f), clear * F(0.25f))
+            .store(sums[3] + x);
+      }
     }
   }
   void divide_pixel(uint32_t x, uint32_t y, uint32_t upper) {
-    SampleSquare& square = scratch_.squares[0];
+    Square& square = scratch_.squares[0];
     for (uint32_t corner = 0; corner < 4; ++corner)
-      for (uint32_t axis = 0; axis < 3; ++axis)
+      for (uint32_t axis = 0; axis < kChannels; ++axis)
         square.corner[corner][axis] =
             scratch_.points[corner < 2 ? upper : 1 - upper].channel[axis][x + corner % 2];
     square.x = static_cast<float>(column_ * kSampledEdge + x);
@@ -615,7 +681,7 @@ private:
     push(square);
   }
   /// `square` lies in local store.
-  [[gnu::noinline]] void push(const SampleSquare& square) {
+  [[gnu::noinline]] void push(const Square& square) {
     send(&square, stored_square(waiting_++), sizeof square);
     arrive();
   }
@@ -626,18 +692,21 @@ private:
     for (uint32_t i = 0; i < asked_; ++i)
       divide(scratch_.squares[i], i * kSamplesOfSquare);
   }
-  [[gnu::noinline]] void divide(SampleSquare& square, uint32_t first) {
+  [[gnu::noinline]] void divide(Square& square, uint32_t first) {
     // Nine points, row by row: corners are known, what is between them are samples.
-    float points[9][3];
-    for (uint32_t axis = 0; axis < 3; ++axis)
+    float points[9][kChannels];
+    for (uint32_t axis = 0; axis < kChannels; ++axis)
       for (uint32_t i = 0; i < 9; ++i)
         points[i][axis] = i % 2 == 0 && i != 4 ? square.corner[i / 6 * 2 + i % 3 / 2][axis]
                                                : channel(first + i / 2 + (i > 4 ? 1 : 0), axis);
     float* const encoded = scratch_.encoding;
     __builtin_memcpy(encoded, points, sizeof points);
-    for (uint32_t i = 27; i < 2 * kSimdLanes; ++i)
+    for (uint32_t i = 9 * kChannels; i < kEncoded; ++i)
       encoded[i] = 0.0f;
-    encode(encoded, 2 * kSimdLanes);
+    encode(encoded, kEncoded);
+    if constexpr (kHasAlpha)
+      for (uint32_t i = 0; i < 9; ++i)
+        encoded[i * kChannels + 3] = points[i][3];
 
     const uint32_t level = square.level + 1;
     const float half = 0.5f * edge_of(square);
@@ -649,7 +718,7 @@ private:
       const uint32_t corners[4] = {upper_left, upper_left + 1, upper_left + 3, upper_left + 4};
       if (level + 1 < frame_.sampling.depth && differ(encoded, corners)) {
         for (uint32_t corner = 0; corner < 4; ++corner)
-          for (uint32_t axis = 0; axis < 3; ++axis)
+          for (uint32_t axis = 0; axis < kChannels; ++axis)
             square.corner[corner][axis] = points[corners[corner]][axis];
         square.x = x + static_cast<float>(child % 2) * half;
         square.y = y + static_cast<float>(child / 2) * half;
@@ -658,7 +727,7 @@ private:
         continue;
       }
       float(*const sums)[kSampledEdge] = work_.adaptive.sums[pixel / kSampledEdge];
-      for (uint32_t axis = 0; axis < 3; ++axis)
+      for (uint32_t axis = 0; axis < kChannels; ++axis)
         sums[axis][pixel % kSampledEdge] += share * (points[corners[0]][axis] + points[corners[1]][axis] +
                                                      points[corners[2]][axis] + points[corners[3]][axis]);
     }
@@ -666,7 +735,8 @@ private:
   bool differ(const float* encoded, const uint32_t (&corners)[4]) const {
     for (uint32_t i = 1; i < 4; ++i)
       for (uint32_t j = 0; j < i; ++j)
-        if (distance(encoded + 3 * corners[i], encoded + 3 * corners[j]) >= frame_.sampling.threshold)
+        if (distance(encoded + kChannels * corners[i], encoded + kChannels * corners[j]) >=
+            frame_.sampling.threshold)
           return true;
     return false;
   }
@@ -700,6 +770,70 @@ private:
   uint32_t first_row_ = 0, rows_ = 0; ///< adaptive: the rows that are being summed up
   uint32_t next_row_ = 0;
   uint32_t waiting_ = 0; ///< squares in the store
+};
+
+/// The sampler that frames ask for, which is one of them as long as it lives.
+template <class Spu> class SamplerOfFrames {
+public:
+  SamplerOfFrames(Spu& spu, const FrameBlock& frame, SampleBundle<Spu>& samples, uint8_t* scratch)
+      : spu_(spu), kind_(kind_of(frame)) {
+    visit([&](auto& sampler) {
+      using Sampler = Of<decltype(sampler)>;
+      new (static_cast<void*>(&sampler)) Sampler(spu, frame, samples, scratch);
+    });
+  }
+
+  /// Whether it is the one that these frames ask for.
+  bool serves(const FrameBlock& frame) const { return kind_ == kind_of(frame); }
+
+  /// As PixelSampler's.
+  [[gnu::always_inline]] void begin_frame() {
+    visit([](auto& sampler) { sampler.begin_frame(); });
+  }
+  /// As PixelSampler's.
+  bool advance(uint32_t column, uint32_t row) {
+    bool more = false;
+    visit([&](auto& sampler) {
+      spu_.enter_module(Of<decltype(sampler)>::module());
+      more = sampler.advance(column, row);
+    });
+    return more;
+  }
+
+  static constexpr uint32_t kScratchBytes = PixelSampler<Spu, SamplingMethod::adaptive, 4>::kScratchBytes;
+
+private:
+  static uint32_t kind_of(const FrameBlock& frame) {
+    const bool adaptive = static_cast<SamplingMethod>(frame.sampling.method) == SamplingMethod::adaptive;
+    return static_cast<uint32_t>(adaptive) + 2u * static_cast<uint32_t>(wants_alpha(frame));
+  }
+
+  template <class Reference> using Of = std::remove_reference_t<Reference>;
+
+  template <class Visit> [[gnu::always_inline]] void visit(const Visit& visit) {
+    switch (kind_) {
+    case 0:
+      return visit(any_.fixed);
+    case 1:
+      return visit(any_.adaptive);
+    case 2:
+      return visit(any_.fixed_alpha);
+    default:
+      return visit(any_.adaptive_alpha);
+    }
+  }
+
+  union Any {
+    Any() {}
+    PixelSampler<Spu, SamplingMethod::fixed, 3> fixed;
+    PixelSampler<Spu, SamplingMethod::adaptive, 3> adaptive;
+    PixelSampler<Spu, SamplingMethod::fixed, 4> fixed_alpha;
+    PixelSampler<Spu, SamplingMethod::adaptive, 4> adaptive_alpha;
+  };
+
+  Spu& spu_;
+  uint32_t kind_;
+  Any any_;
 };
 
 } // namespace celltrace::kernel

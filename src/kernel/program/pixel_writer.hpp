@@ -4,7 +4,9 @@
 
 #include "celltrace/spe/types.hpp"
 #include "kernel/math.hpp"
+#include "kernel/modules.hpp"
 #include "kernel/packet.hpp"
+#include "kernel/program/block_encoder.hpp"
 
 namespace celltrace::kernel {
 
@@ -71,8 +73,8 @@ template <class Spu>
   return detail::pack<S>(channel(colour.x), channel(colour.y), channel(colour.z));
 }
 
-/// Writes `kRows` rows of packets at once. Whoever puts one packet puts all of its block of kRows x kRows
-/// that are in the picture before one of another block, and before flush().
+/// Writes `kRows` rows of packets at once, as pixels or as blocks of BC1. Whoever puts one packet puts all of
+/// its block of kRows x kRows that are in the picture before one of another block, and before flush().
 template <class Spu, uint32_t kRows = 1> class PixelWriter {
 public:
   using S = typename Spu::simd;
@@ -111,6 +113,14 @@ public:
     if (row == row_ && column - column_ < columns_) columns_ = column - column_;
   }
 
+  void reset_counters() {
+    bytes_ = 0;
+    error_ = 0;
+  }
+  /// That left since then; and of blocks the sum of their errors.
+  uint32_t bytes() const { return bytes_; }
+  uint64_t error() const { return error_; }
+
   /// Waits until all pixels have arrived.
   void flush() {
     send();
@@ -122,6 +132,7 @@ private:
 
   static constexpr uint32_t kFirstTag = 2;
   static constexpr uint32_t kPacketRowBytes = kPacketEdge * 4;
+  static constexpr uint32_t kBlockBytes = sizeof(EncodedBlock::bytes);
   /// Packets whose rows fill a line of main memory, which a transfer moves at once.
   static constexpr uint32_t kRunPackets = kLineBytes / kPacketRowBytes;
 
@@ -140,7 +151,8 @@ private:
       spu_.wait_all(1u << (kFirstTag + current_));
       column_ = column;
       row_ = row;
-      if constexpr (kPrefetchesLines<Spu>) claim_run();
+      if constexpr (kPrefetchesLines<Spu>)
+        if (!has_blocks()) claim_run();
     }
     return runs_[current_];
   }
@@ -161,9 +173,23 @@ private:
   // One copy: local store is short.
   [[gnu::noinline]] void send() {
     if (columns_ == 0) return;
-    Run& run = runs_[current_];
+    if (has_blocks()) {
+      spu_.enter_module(modules::kEncoding);
+      send_blocks();
+    } else {
+      send_pixels();
+    }
+    columns_ = 0;
+    current_ ^= 1;
+  }
+  /// Rows of packets that a run has.
+  uint32_t rows_of_run() const {
     const uint32_t left = frame_.packet_rows - row_;
-    const uint32_t rows = (left < kRows ? left : kRows) * kPacketEdge;
+    return left < kRows ? left : kRows;
+  }
+  [[gnu::always_inline]] void send_pixels() {
+    Run& run = runs_[current_];
+    const uint32_t rows = rows_of_run() * kPacketEdge;
     const uint32_t bytes = columns_ * kPacketRowBytes;
     const ea_t corner = corner_of_run();
     for (uint32_t y = 0; y < rows; ++y)
@@ -175,8 +201,36 @@ private:
       for (uint32_t y = 0; y < rows; ++y)
         spu_.put(run.pixels[y], corner + y * frame_.surface_pitch, bytes, kFirstTag + current_);
     }
-    columns_ = 0;
-    current_ ^= 1;
+    bytes_ += bytes * rows;
+  }
+
+  bool has_blocks() const { return static_cast<FramePurpose>(frame_.purpose) == FramePurpose::blocks; }
+
+  /// Blocks take the places of pixels that have been encoded.
+  [[gnu::noinline]] void send_blocks() {
+    spu_.run_in_module(modules::kEncoding);
+    Run& run = runs_[current_];
+    const uint32_t rows = rows_of_run();
+    // Whole quadwords: a row of packets may end with half of one.
+    const uint32_t bytes = (columns_ + 1) / 2 * 2 * kBlockBytes;
+    for (uint32_t y = 0; y < rows; ++y) {
+      auto* const out = reinterpret_cast<uint8_t*>(run.pixels[y * kPacketEdge]);
+      for (uint32_t x = 0; x < columns_; ++x) {
+        WordLanes pixels;
+        for (uint32_t line = 0; line < kPacketEdge; ++line)
+          U4::load(run.pixels[y * kPacketEdge + line] + x * kPacketEdge)
+              .store(pixels.lane + line * kPacketEdge);
+        const uint32_t lanes = extend_pixels((column_ + x) * kPacketEdge, (row_ + y) * kPacketEdge,
+                                             frame_.width, frame_.height, pixels);
+        EncodedBlock block;
+        encode_block<S>(pixels, lanes, block);
+        __builtin_memcpy(out + x * kBlockBytes, block.bytes, kBlockBytes);
+        error_ += block.error;
+      }
+      spu_.put(out, frame_.surface + (row_ + y) * frame_.surface_pitch + column_ * kBlockBytes, bytes,
+               kFirstTag + current_);
+    }
+    bytes_ += bytes * rows;
   }
 
   [[gnu::always_inline]] I encode(const V3<S>& colour) const { return encode_pixels<Spu>(frame_, colour); }
@@ -187,6 +241,8 @@ private:
   uint32_t current_ = 0;          ///< of the runs, the one being filled
   uint32_t columns_ = 0;          ///< of packets in it
   uint32_t column_ = 0, row_ = 0; ///< of the first of them
+  uint32_t bytes_ = 0;
+  uint64_t error_ = 0;
 };
 
 } // namespace celltrace::kernel

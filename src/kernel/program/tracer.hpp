@@ -45,12 +45,13 @@ private:
 
   template <class Object> struct alignas(128) Storage { uint8_t bytes[sizeof(Object)]; };
   static bool is_picture(const FrameBlock& frame) {
-    return static_cast<FramePurpose>(frame.purpose) == FramePurpose::picture;
+    const auto purpose = static_cast<FramePurpose>(frame.purpose);
+    return purpose == FramePurpose::picture || purpose == FramePurpose::blocks;
   }
 
   /// What rendering needs in local store; kept from frame to frame, so that the cache stays warm.
   struct Phase {
-    using Sampler = PixelSampler<Spu>;
+    using Sampler = SamplerOfFrames<Spu>;
 
     Phase(Spu& spu, const FrameBlock& frame, const CacheConfig& config)
         : image(frame.image), ray_stack(frame.ray_stack), needs(needs_of(frame)),
@@ -73,7 +74,7 @@ private:
     }
     bool serves(const FrameBlock& frame) const {
       return image == frame.image && ray_stack == frame.ray_stack && needs == needs_of(frame) &&
-             (samples != nullptr || is_picture(frame));
+             (is_picture(frame) || (sampler != nullptr && sampler->serves(frame)));
     }
 
     ea_t image, ray_stack;
@@ -164,6 +165,7 @@ private:
     if (phase_ == nullptr) start_phase();
     phase_->scene.cache().reset_counters();
     phase_->bundles.reset_counters();
+    phase_->pixels.reset_counters();
     if (!is_picture(frame_)) phase_->sampler->begin_frame();
     fetch(&strip_, frame_.strips + spu_.id() * sizeof(StripRecord), sizeof(StripRecord));
     packets_ = 0;
@@ -198,9 +200,14 @@ private:
     }
     phase_->pixels.put(x, y, colours);
   }
-  /// What was traced becomes part of what a picture is sampled by. True: there are samples to trace.
-  bool sample(uint32_t column, uint32_t row) {
-    spu_.enter_module(modules::kSampling);
+  /// What was traced becomes part of what a picture is sampled by. True: there are samples to trace. One
+  /// copy: local store is short.
+  [[gnu::noinline]] bool sample(uint32_t column, uint32_t row) {
+    const bool is_grid = static_cast<FramePurpose>(frame_.purpose) == FramePurpose::grid;
+    if (is_grid && (frame_.light_ways & light_way::first_hits) != 0) {
+      spu_.enter_module(modules::kFirstHits);
+      phase_->bundles.put_first_hits();
+    }
     return phase_->sampler->advance(column, row);
   }
 
@@ -222,7 +229,7 @@ private:
             },
             [&](uint32_t x, uint32_t y, const auto& colour) {
               if (!is_picture(frame_))
-                for (VectorLanes& packet : phase_->samples->at)
+                for (SampleLanes& packet : phase_->samples->at)
                   packet.store(colour);
               phase_->pixels.fill(x, y, colour);
               packets_ += kBundlePackets<Spu>;
@@ -273,6 +280,8 @@ private:
     report_.units_received = exchange_.units_received();
     report_.busy_ticks = busy_ticks;
     report_.spilled_nodes = phase_->bundles.spilled_nodes();
+    report_.pixel_bytes = phase_->pixels.bytes();
+    report_.block_error = phase_->pixels.error();
     send_report();
   }
 

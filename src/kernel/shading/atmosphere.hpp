@@ -5,15 +5,17 @@
 #include "kernel/packet.hpp"
 #include "kernel/scene_access.hpp"
 #include "kernel/shading/finishes.hpp"
+#include "kernel/shading/hit_points.hpp"
 #include "kernel/shading/ray_stack.hpp"
 #include "kernel/textures/angles.hpp"
 #include "kernel/textures/noise.hpp"
+#include "kernel/textures/sky.hpp"
 
 namespace celltrace::kernel {
 
-/// Whether a frame's rays go through fog, or rainbows may be seen.
+/// Whether a frame's rays go through fog, or rainbows may be seen; or something else behind the scene.
 constexpr bool has_atmosphere(const FrameBlock& frame) {
-  return (frame.light_ways & light_way::atmosphere) != 0;
+  return (frame.light_ways & (light_way::atmosphere | light_way::alpha)) != 0;
 }
 
 /// What comes through: `add` + `pass` times what is behind.
@@ -110,13 +112,14 @@ void bow_colour(SceneAccess<Spu>& scene, const RainbowRecord& bow, const typenam
   }
 }
 
-/// Of rays of `length` that look at a rainbow: what it adds and lets through. `seen` says in which lanes it
-/// is seen. The formulas are POV-Ray's.
+/// Of rays of `length` that look at a rainbow: what it adds and lets through, and how clear it is. `seen`
+/// says in which lanes it is seen. The formulas are POV-Ray's.
 template <class Spu>
-[[gnu::noinline]] void
-see_rainbow(SceneAccess<Spu>& scene, const RainbowRecord& bow, uint32_t number,
-            const V3<typename Spu::rare_simd>& direction, const typename Spu::rare_simd::F& length,
-            Passage<typename Spu::rare_simd>& through, typename Spu::rare_simd::M& seen) {
+[[gnu::noinline]] void see_rainbow(SceneAccess<Spu>& scene, const RainbowRecord& bow, uint32_t number,
+                                   const V3<typename Spu::rare_simd>& direction,
+                                   const typename Spu::rare_simd::F& length,
+                                   Passage<typename Spu::rare_simd>& through,
+                                   typename Spu::rare_simd::F& clear, typename Spu::rare_simd::M& seen) {
   using S = typename Spu::rare_simd;
   using F = typename S::F;
   constexpr float kToBinary = -1.44269504f;
@@ -145,6 +148,7 @@ see_rainbow(SceneAccess<Spu>& scene, const RainbowRecord& bow, uint32_t number,
   const V3<S> white = {one, one, one};
   through.pass = (white + (colour.rgb - white) * tinted) * pass;
   through.add = colour.rgb * opaque;
+  clear = pass * colour.transmit;
 }
 
 /// Those of `lanes` that are in no object without fog in it.
@@ -169,6 +173,14 @@ template <class S> typename S::F length_of(const HitPacket& hits, uint32_t first
   return S::select(missed, typename S::F(1e10f), S::F::load(hits.distance.lane + first));
 }
 
+/// Multiplies how clear the way of rays is, in those lanes of a part.
+template <class S>
+[[gnu::noinline]] void dim_clear(const typename S::M& lanes, const typename S::F& pass, RayNode& ray,
+                                 uint32_t first) {
+  const auto clear = S::F::load(ray.power.lane + first);
+  S::select(lanes, clear * pass, clear).store(ray.power.lane + first);
+}
+
 /// The rainbows, whose light fog dims. Of those that a ray sees all count the same: what it sees is their
 /// mean.
 template <class Spu>
@@ -182,16 +194,18 @@ template <class Spu>
     const F zero(0.0f), one(1.0f);
     const V3<S> nothing = {zero, zero, zero};
     Passage<S> sum = {nothing, nothing};
-    F count = zero;
+    F count = zero, clear_sum = zero;
     for (uint32_t i = 0; i < frame.rainbow_count; ++i) {
       // A copy: the next read may replace the record.
       const RainbowRecord bow =
           *scene.rainbow(frame.rainbow_offset + i * static_cast<uint32_t>(sizeof(RainbowRecord)));
       Passage<S> through;
+      F clear = zero;
       auto seen = S::M::none();
       see_rainbow(scene, bow, i, ray.rays.direction.template load_from<S>(first), length_of<S>(hits, first),
-                  through, seen);
+                  through, clear, seen);
       if (seen.bits() == 0) continue;
+      clear_sum = clear_sum + S::select(seen, clear, zero);
       sum.pass = sum.pass + select<S>(seen, through.pass, nothing);
       sum.add = sum.add + select<S>(seen, through.add, nothing);
       count = count + S::select(seen, one, zero);
@@ -203,6 +217,43 @@ template <class Spu>
     light.template store_from<S>(first, select<S>(take, before + throughput * (sum.add * share), before));
     ray.throughput.template store_from<S>(first,
                                           select<S>(take, throughput * (sum.pass * share), throughput));
+    if ((frame.light_ways & light_way::alpha) != 0) dim_clear<S>(take, clear_sum * share, ray, first);
+  });
+}
+
+} // namespace detail
+
+namespace detail {
+
+/// Rays that hit nothing and came by no mirror: what comes through the background, and the sky before it.
+template <class Spu>
+[[gnu::noinline]] void see_through(SceneAccess<Spu>& scene, const FrameBlock& frame, const HitPacket& hits,
+                                   RayNode& ray, FloatLanes& clear) {
+  using W = typename Spu::simd;
+  using S = typename Spu::rare_simd;
+  using F = typename S::F;
+  const uint32_t missed = ray.lanes & ~hit_lanes<W>(hits, ray.lanes) & ~ray.reflected;
+  if (missed == 0) return;
+  const bool is_hidden = (frame.light_ways & light_way::no_backdrop) != 0;
+  const bool has_sky = !is_hidden && frame.sky != kNoOffset;
+  V3<W> seen[2]; // of the sky over black, and over white
+  for (uint32_t i = 0; i < 2 && has_sky; ++i) {
+    const typename W::F behind(static_cast<float>(i));
+    seen[i] = {behind, behind, behind};
+    add_sky(scene, frame.sky, ray.rays.direction.template load<W>(), missed, seen[i]);
+  }
+  for_each_part<Spu>([&](uint32_t first) {
+    const auto take = S::M::from_bits(part_of<Spu>(missed, first));
+    const F zero(0.0f);
+    F share = F::load(ray.power.lane + first);
+    if (is_hidden) {
+      const V3<S> throughput = ray.throughput.template load_from<S>(first);
+      ray.throughput.template store_from<S>(first, select<S>(take, {zero, zero, zero}, throughput));
+    } else {
+      share = share * F(frame.background_clear);
+    }
+    if (has_sky) share = share * grey<S>(part_of<Spu>(seen[1], first) - part_of<Spu>(seen[0], first));
+    (F::load(clear.lane + first) + S::select(take, share, zero)).store(clear.lane + first);
   });
 }
 
@@ -235,10 +286,12 @@ template <class Spu>
 }
 
 /// Takes the rays of a node to what they hit: adds what is on the way to `light`, and leaves the node with
-/// the throughput that is left for what is there.
+/// the throughput that is left for what is there. With light_way::alpha it also adds to `clear_pixels` what
+/// comes through of what is behind the scene.
 template <class Spu>
 [[gnu::noinline]] void cross_atmosphere(SceneAccess<Spu>& scene, const FrameBlock& frame,
-                                        const HitPacket& hits, RayNode& ray, VectorLanes& light) {
+                                        const HitPacket& hits, RayNode& ray, VectorLanes& light,
+                                        FloatLanes* clear_pixels) {
   using S = typename Spu::rare_simd;
   using F = typename S::F;
   scene.spu().run_in_module(modules::kAtmosphere);
@@ -261,9 +314,12 @@ template <class Spu>
       light.template store_from<S>(
           first, select<S>(take, before + undimmed.template load_from<S>(first) * fogged.add, before));
       ray.throughput.template store_from<S>(first, select<S>(take, throughput * fogged.pass, throughput));
+      if ((frame.light_ways & light_way::alpha) != 0)
+        detail::dim_clear<S>(take, grey<S>(fogged.pass), ray, first);
     });
   }
   if (frame.rainbow_count != 0) detail::cross_rainbows(scene, frame, hits, lanes, ray, light);
+  if ((frame.light_ways & light_way::alpha) != 0) detail::see_through(scene, frame, hits, ray, *clear_pixels);
 }
 
 } // namespace celltrace::kernel

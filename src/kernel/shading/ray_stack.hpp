@@ -18,7 +18,9 @@ struct alignas(128) RayNode {
   WordLanes level;        ///< trace level, 0 for primary rays
   WordLanes interior_depth;
   WordLanes interiors[kMaxInteriorDepth];
-  FloatLanes power;   ///< of a node that gathers
+  /// Of a node that gathers; of others, with light_way::alpha, the share of what is behind the scene that
+  /// would come through so far.
+  FloatLanes power;
   uint32_t lanes;     ///< bit l: lane l is a ray
   uint32_t reflected; ///< of them, those that came by a mirror
   uint32_t target;    ///< number of the accumulator that the rays' light goes to

@@ -83,7 +83,7 @@ public:
     scene_.spu().compute(scalar_work::kNode);
     if (has_atmosphere(frame_)) {
       scene_.spu().enter_module(modules::kAtmosphere);
-      cross_atmosphere(scene_, frame_, hits_, node_, light_[node_.target]);
+      cross_atmosphere(scene_, frame_, hits_, node_, light_[node_.target], clear_);
     }
     const uint32_t hit = hit_lanes<S>(hits_, node_.lanes);
     const uint32_t missed = node_.lanes & ~hit;
@@ -105,12 +105,15 @@ public:
     while (!stack_.empty()) {
       stack_.pop(node_);
       if (node_.gathers == 0) return true;
-      scene_.spu().enter_module(modules::kAtmosphere);
+      scene_.spu().enter_module(modules::kFading);
       gather();
     }
     return false;
   }
   V3<S> light() const { return light_[0].template load<S>(); }
+
+  /// Where trees that begin from now on add how clear their pixels are. Wanted with light_way::alpha.
+  void add_clear_to(FloatLanes& clear) { clear_ = &clear; }
 
   /// Rays that were traced for a round of lights beyond those that shading counts.
   void count_shadow_rays(uint32_t rays) { counters_.shadow += rays; }
@@ -145,6 +148,7 @@ private:
     node_.rays = rays;
     node_.throughput.template store<S>({F(1.0f), F(1.0f), F(1.0f)});
     F(1.0f).store(node_.weight.lane);
+    F(1.0f).store(node_.power.lane);
     fill(node_.level, 0);
     fill(node_.interior_depth, frame_.camera_interior_count);
     for (uint32_t d = 0; d < frame_.camera_interior_count; ++d)
@@ -174,9 +178,9 @@ private:
     target.template store<S>(select<S>(M::from_bits(lanes), sum + weighted, sum));
   }
 
-  /// The light of a reflection is complete. Not of the atmosphere, but as rare.
+  /// The light of a reflection is complete.
   [[gnu::noinline]] void gather() {
-    scene_.spu().run_in_module(modules::kAtmosphere);
+    scene_.spu().run_in_module(modules::kFading);
     const V3<S> sum = light_[node_.gathers].template load<S>();
     const F power = F::load(node_.power.lane);
     --accumulators_in_use_;
@@ -409,10 +413,20 @@ private:
     return true;
   }
 
-  /// What is left of the light that `lanes` of child_ bring out of an interior.
-  [[gnu::noinline]] void fade_child(const WordLanes& interior, uint32_t lanes) {
+  /// What is left of the light that `lanes` of child_ bring out of an interior, and how clear their way is.
+  /// POV-Ray takes the grey of what comes through each surface.
+  [[gnu::noinline]] void fade_child(const WordLanes& interior, const V3<S>& through, uint32_t lanes) {
     scene_.spu().run_in_module(modules::kFading);
-    fade(scene_, node_, interior, hits_.distance, lanes, child_.throughput, false);
+    const bool fades = (frame_.light_ways & light_way::fading) != 0;
+    if ((frame_.light_ways & light_way::alpha) != 0) {
+      const VectorLanes throughput = child_.throughput;
+      child_.throughput.template store<S>(through);
+      if (fades) fade(scene_, node_, interior, hits_.distance, lanes, child_.throughput, false);
+      const F clear = F::load(node_.power.lane) * grey<S>(child_.throughput.template load<S>());
+      clear.store(child_.power.lane);
+      child_.throughput = throughput;
+    }
+    if (fades) fade(scene_, node_, interior, hits_.distance, lanes, child_.throughput, false);
   }
 
   void reflect(const Surfaces<S>& surfaces, const SecondaryRays<S>& onward, uint32_t lanes,
@@ -483,9 +497,9 @@ private:
     if (prepare_child(surfaces, direction, select<S>(total_mask, unfiltered, onward.through),
                       F::load(node_.weight.lane) * onward.through_weight, onward.clear & ~refraction.straight,
                       onward.clear)) {
-      if ((frame_.light_ways & light_way::fading) != 0) {
+      if ((frame_.light_ways & (light_way::fading | light_way::alpha)) != 0) {
         scene_.spu().enter_module(modules::kFading);
-        fade_child(interior, onward.clear);
+        fade_child(interior, onward.through, onward.clear);
       }
       child_.reflected |= total & child_.lanes;
       counters_.refraction += count(child_.lanes);
@@ -504,6 +518,7 @@ private:
   /// Deeper nesting of bent reflections than this leaves the innermost ones unbent.
   static constexpr uint32_t kAccumulators = 8;
   VectorLanes light_[kAccumulators];
+  FloatLanes* clear_ = nullptr; ///< of the packet, with light_way::alpha
   uint32_t accumulators_in_use_ = 1;
   LightRound round_ = {}; ///< of lights, that is being shaded
   RayCounters counters_;
