@@ -1,6 +1,7 @@
 // What the user asked for: the command line as values.
 #pragma once
 
+#include "celltrace/image.hpp"
 #include "celltrace/pov.hpp"
 #include "celltrace/render.hpp"
 #include "celltrace/spe/machine.hpp"
@@ -21,14 +22,18 @@ namespace celltrace::cli {
 /// a cache cannot have.
 CacheConfig parse_cache(const std::string& text);
 
+/// As the name of a file.
+inline constexpr char kStandardOutput[] = "-";
+
 struct RenderRequest {
   std::filesystem::path scene;
   /// By default the scene's name with .png, in the current folder. Empty: no picture is written. Of an
-  /// animation, the name that those of its pictures are made of, or the film; "-": the film goes to stdout.
+  /// animation, the name that those of its pictures are made of, or the film. "-": stdout.
   std::filesystem::path output;
   FilmFormat film = FilmFormat::none;
   FrameRate frame_rate;
-  int bits = 8; ///< a channel of the picture: 8 or 16
+  ImageFormat format = ImageFormat::png; ///< of pictures
+  int bits = 8; ///< a channel of the picture: 8 or 16, of OpenEXR 16 or 32, of Radiance's and blocks 8
   RenderOptions options;
   std::vector<std::filesystem::path> library_paths;
   std::vector<std::filesystem::path> readable_folders, writable_folders; ///< of the scene

@@ -76,6 +76,12 @@ void occupy_standard_streams() {
   }
 }
 
+void check_standard_output_is_open() {
+  const int flags = fcntl(STDOUT_FILENO, F_GETFL);
+  if (flags < 0 || (flags & O_ACCMODE) == O_RDONLY)
+    throw InputError("standard output cannot be written: it is closed");
+}
+
 void check_standard_output() {
   errno = 0;
   if (!(std::cout << std::flush) || std::fflush(stdout) != 0 || std::ferror(stdout) != 0)

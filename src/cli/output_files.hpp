@@ -58,6 +58,9 @@ void write_report(const std::string& where, const std::string& text);
 /// that it opens must not take the places of those that it was started without.
 void occupy_standard_streams();
 
+/// Throws InputError if stdout is closed, so that a program can tell before it makes what is to go there.
+void check_standard_output_is_open();
+
 /// For the end: throws InputError if something that was to go to stdout did not.
 void check_standard_output();
 

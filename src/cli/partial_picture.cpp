@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace celltrace::cli {
 
@@ -37,7 +38,7 @@ private:
 
 /// What is in front of the rows.
 struct Header {
-  std::int32_t width, height, top, bottom, has_colours, has_gamma;
+  std::int32_t width, height, top, bottom, has_colours, has_gamma, has_first_hits, has_blocks;
   double gamma;
 };
 
@@ -46,6 +47,31 @@ template <class Handle>
 void for_rows(const PartialPicture::Rows& rows, const PictureRegion& region, Handle handle) {
   for (int y = region.top + rows.top; y < region.top + rows.bottom; ++y)
     handle(y);
+}
+
+/// Calls `visit(to, from, count)` with where a row of numbers lies in both: of what is seen first, in the
+/// columns of the region.
+template <class To, class From, class Visit>
+void visit_first_hits(To& to, From& from, const PartialPicture::Rows& rows, const PictureRegion& region,
+                      Visit visit) {
+  if (to.depth.empty()) return;
+  const auto count = static_cast<std::size_t>(region.right - region.left);
+  for_rows(rows, region, [&](int y) {
+    const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(to.width) +
+                              static_cast<std::size_t>(region.left);
+    visit(&to.depth[first], &from.depth[first], count);
+    visit(&to.normal[3 * first], &from.normal[3 * first], 3 * count);
+    visit(&to.object[first], &from.object[first], count);
+  });
+}
+/// Likewise of blocks, of pictures that are all one region. Rows of theirs are whole.
+template <class To, class From, class Visit>
+void visit_blocks(To& to, From& from, const PartialPicture::Rows& rows, Visit visit) {
+  if (to.blocks.empty()) return;
+  const std::size_t row = 8 * static_cast<std::size_t>(to.columns());
+  const std::size_t top = static_cast<std::size_t>(rows.top) / 4,
+                    bottom = (static_cast<std::size_t>(rows.bottom) + 3) / 4;
+  visit(&to.blocks[top * row], &from.blocks[top * row], (bottom - top) * row);
 }
 
 } // namespace
@@ -62,6 +88,20 @@ PartialPicture::PartialPicture(const RenderOptions& options)
   };
   clear(image_);
   if (options.colours) clear(colours_);
+  const std::size_t pixels = image_.rgba.size() / 4;
+  if (options.first_hits) {
+    first_hits_.width = options.width;
+    first_hits_.height = options.height;
+    first_hits_.depth.assign(pixels, std::numeric_limits<float>::infinity());
+    first_hits_.normal.assign(3 * pixels, 0);
+    first_hits_.object.assign(pixels, 0);
+  }
+  if (options.blocks) {
+    blocks_.width = options.width;
+    blocks_.height = options.height;
+    blocks_.blocks.resize(8 * static_cast<std::size_t>(blocks_.columns()) *
+                          static_cast<std::size_t>(blocks_.rows()));
+  }
   finished_.assign(static_cast<std::size_t>((height() + kStep - 1) / kStep), false);
 }
 
@@ -112,6 +152,11 @@ void PartialPicture::take(const RenderResult& result, const Rows& rows, bool kee
     copy(colours_, result.colours);
     colours_.gamma = result.colours.gamma;
   }
+  const auto copy_numbers = [](auto* to, const auto* from, std::size_t count) {
+    std::copy_n(from, count, to);
+  };
+  visit_first_hits(first_hits_, result.first_hits, rows, region_, copy_numbers);
+  visit_blocks(blocks_, result.blocks, rows, copy_numbers);
   for (std::size_t block = static_cast<std::size_t>(rows.top / kStep); block < finished_.size(); ++block) {
     const Rows its = block_rows(block);
     if (its.top >= rows.bottom) break;
@@ -127,6 +172,8 @@ std::string PartialPicture::to_bytes() const {
                          region_.bottom,
                          has_colours,
                          colours_.gamma.has_value(),
+                         !first_hits_.depth.empty(),
+                         !blocks_.blocks.empty(),
                          colours_.gamma.value_or(0)};
   std::string bytes;
   append(bytes, &header, 1);
@@ -138,6 +185,11 @@ std::string PartialPicture::to_bytes() const {
       append(bytes, image_.pixel(0, y), row);
       if (has_colours) append(bytes, colours_.pixel(0, y), row);
     });
+    const auto append_numbers = [&](const auto* numbers, const auto*, std::size_t count) {
+      append(bytes, numbers, count);
+    };
+    visit_first_hits(first_hits_, first_hits_, block_rows(block), region_, append_numbers);
+    visit_blocks(blocks_, blocks_, block_rows(block), append_numbers);
   }
   return bytes;
 }
@@ -150,7 +202,8 @@ bool PartialPicture::take_bytes(std::string_view bytes) {
   const bool has_colours = !colours_.rgba.empty();
   if (!reader.is_good() || header.width != image_.width || header.height != image_.height ||
       header.top != region_.top || header.bottom != region_.bottom ||
-      (header.has_colours != 0) != has_colours)
+      (header.has_colours != 0) != has_colours || (header.has_first_hits != 0) == first_hits_.depth.empty() ||
+      (header.has_blocks != 0) == blocks_.blocks.empty())
     return false;
   if (header.has_gamma != 0)
     read.colours_.gamma = header.gamma;
@@ -166,6 +219,11 @@ bool PartialPicture::take_bytes(std::string_view bytes) {
       reader.take(read.image_.pixel(0, y), row);
       if (has_colours) reader.take(read.colours_.pixel(0, y), row);
     });
+    const auto take_numbers = [&](auto* numbers, const auto*, std::size_t count) {
+      reader.take(numbers, count);
+    };
+    visit_first_hits(read.first_hits_, first_hits_, block_rows(block), region_, take_numbers);
+    visit_blocks(read.blocks_, blocks_, block_rows(block), take_numbers);
   }
   if (!reader.is_at_end()) return false;
   *this = std::move(read);
@@ -218,7 +276,8 @@ RenderResult render_remaining(Renderer& renderer, const RenderOptions& options, 
         rows.top, rows.bottom, [&](double fraction) { return progress((done + fraction * count) / height); });
     done += count;
     bands.learn(count, result.statistics.render_seconds);
-    picture.take(result, rows, !options.antialiasing);
+    // What is missing of blocks is black.
+    picture.take(result, rows, !options.antialiasing && !options.blocks);
     sum.complete = result.complete;
     if (first)
       sum.statistics = result.statistics;

@@ -19,7 +19,9 @@ public:
   explicit PartialPicture(const RenderOptions& options);
 
   const Image& image() const { return image_; }
-  const ColourImage& colours() const { return colours_; } ///< empty unless RenderOptions::colours
+  const ColourImage& colours() const { return colours_; }     ///< empty unless RenderOptions::colours
+  const FirstHits& first_hits() const { return first_hits_; } ///< empty unless RenderOptions::first_hits
+  const BlockImage& blocks() const { return blocks_; }        ///< empty unless RenderOptions::blocks
   int height() const { return region_.bottom - region_.top; }
   bool is_complete() const;
   bool is_empty() const; ///< not a single block is finished
@@ -46,6 +48,8 @@ private:
   PictureRegion region_;
   Image image_;
   ColourImage colours_;
+  FirstHits first_hits_;
+  BlockImage blocks_;
   std::vector<bool> finished_; ///< by block
 };
 

@@ -1,6 +1,7 @@
 #include "cli/picture_job.hpp"
 
 #include "celltrace/cache/trace.hpp"
+#include "celltrace/error.hpp"
 #include "celltrace/image.hpp"
 #include "cli/interrupt.hpp"
 
@@ -42,12 +43,37 @@ void RowKeeper::save(bool at_once) {
   last_ = Clock::now();
 }
 
-void save_picture(const RenderRequest& request, const std::filesystem::path& path,
-                  const PartialPicture& picture) {
-  if (request.bits == 16)
-    save_image(path, to_deep_image(picture.colours()));
-  else
-    save_image(path, picture.image());
+namespace {
+
+template <class... Picture>
+void write(const RenderRequest& request, const std::filesystem::path& path, const Picture&... picture) {
+  if (path != kStandardOutput) return save_image(path, picture...);
+  try {
+    write_image(stdout, request.format, picture...);
+  } catch (const InputError& error) {
+    throw InputError(std::string("standard output ") + error.what());
+  }
+}
+
+} // namespace
+
+std::optional<std::uint64_t> save_picture(const RenderRequest& request, const std::filesystem::path& path,
+                                          const PartialPicture& picture) {
+  if (request.options.blocks) {
+    write(request, path, picture.blocks());
+  } else if (request.format == ImageFormat::dds) {
+    const EncodedPicture encoded = encode_blocks(picture.image());
+    write(request, path, encoded.blocks);
+    return encoded.error;
+  } else if (holds_numbers(request.format)) {
+    const ExrOptions exr = {request.bits == 32, request.options.first_hits ? &picture.first_hits() : nullptr};
+    write(request, path, picture.colours(), exr);
+  } else if (request.bits == 16) {
+    write(request, path, to_deep_image(picture.colours()));
+  } else {
+    write(request, path, picture.image());
+  }
+  return std::nullopt;
 }
 
 std::string summary_of(const RenderStatistics& s, double parse_seconds) {

@@ -20,6 +20,7 @@ enum class Meaning {
   output,        // the picture's file
   option,        // one of celltrace's own options, with this value
   number_option, // the same, the value being a number
+  on_or_off,     // one of celltrace's own options, which takes these words
   quality,       // 0..11, more counts as that
   file_type,     // letter and bits a channel
   antialias,     // on or off, and perhaps a threshold
@@ -55,7 +56,7 @@ constexpr Switch kSwitches[] = {
     {"AM", Meaning::method},
     {"R", Meaning::depth},
     {"J", Meaning::jitter},
-    {"UA", Meaning::refused_if_on, "an alpha channel"},
+    {"UA", Meaning::on_or_off, "--alpha"},
     {"SR", Meaning::number_option, "--start-row"},
     {"ER", Meaning::number_option, "--end-row"},
     {"SC", Meaning::number_option, "--start-column"},
@@ -387,7 +388,8 @@ private:
     const bool by_sign = same.meaning == Meaning::refused_if_on || same.meaning == Meaning::ignored ||
                          same.meaning == Meaning::ignored_word || same.meaning == Meaning::ignored_file ||
                          same.meaning == Meaning::antialias || same.meaning == Meaning::jitter ||
-                         same.meaning == Meaning::cyclic || same.meaning == Meaning::resume;
+                         same.meaning == Meaning::cyclic || same.meaning == Meaning::resume ||
+                         same.meaning == Meaning::on_or_off;
     apply(text, same, by_sign ? "" : value, is_on(value));
   }
 
@@ -401,6 +403,9 @@ private:
       return add_option(s.option_or_topic, needed(text, value, "a value"));
     case Meaning::number_option:
       return option(s.option_or_topic, needed_number(text, value));
+    case Meaning::on_or_off:
+      if (!value.empty()) unknown(text);
+      return option(s.option_or_topic, on ? "on" : "off");
     case Meaning::quality:
       return quality(needed_number(text, value));
     case Meaning::file_type:
@@ -475,9 +480,10 @@ private:
   void file_type(const std::string& text, const std::string& type) {
     if (type.empty()) return;
     const std::string bits = type.substr(1);
-    if ((type[0] != 'N' && type[0] != 'P') || (!bits.empty() && bits != "8" && bits != "16"))
-      refuse(text, "a file type other than PNG and PPM with 8 or 16 bits a channel");
-    option("--file-type", type[0] == 'N' ? "png" : "ppm");
+    const bool has_depths = type[0] == 'N' || type[0] == 'P';
+    if ((!has_depths && type != "E" && type != "H") || (!bits.empty() && bits != "8" && bits != "16"))
+      refuse(text, "a file type other than PNG and PPM with 8 or 16 bits a channel, OpenEXR and Radiance");
+    option("--file-type", type[0] == 'N' ? "png" : type[0] == 'P' ? "ppm" : type[0] == 'E' ? "exr" : "hdr");
     if (!bits.empty()) option("--bits", bits);
   }
 

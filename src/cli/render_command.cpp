@@ -11,6 +11,7 @@
 #include "image/file.hpp"
 
 #include <chrono>
+#include <csignal>
 #include <iostream>
 #include <set>
 
@@ -71,9 +72,16 @@ void write_statistics(const std::string& where, const RenderStatistics& statisti
 
 int run_render(const RenderRequest& request) {
   if (request.animation.is_on() || request.film != FilmFormat::none) return run_animation(request);
-  if (!request.output.empty()) check_image_path(request.output);
+  if (request.output == kStandardOutput) {
+    check_standard_output_is_open();
+    std::signal(SIGPIPE, SIG_IGN); // a reader that is gone is an error like others
+  } else if (!request.output.empty()) {
+    check_image_path(request.output);
+  }
   catch_interrupts();
-  const std::string name = request.output.empty() ? "no picture" : request.output.string();
+  const std::string name = request.output.empty()              ? "no picture"
+                           : request.output == kStandardOutput ? "standard output"
+                                                               : request.output.string();
   ResumeState state(request.output, settings_of(request));
   if (request.resume) {
     state.load();
@@ -105,7 +113,10 @@ int run_render(const RenderRequest& request) {
     throw;
   }
   reports.print_diagnostics();
-  if (!request.output.empty()) save_picture(request, request.output, picture);
+  if (!request.output.empty()) {
+    const auto error = save_picture(request, request.output, picture);
+    if (error) result.statistics.block_error = error;
+  }
   if (result.complete && request.resume)
     state.finish_frame(kStill, request.output);
   else if (result.complete)
