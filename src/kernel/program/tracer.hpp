@@ -5,7 +5,7 @@
 #pragma once
 
 #include "kernel/program/bundle_tracer.hpp"
-#include "kernel/program/pixel_sampler.hpp"
+#include "kernel/program/frame_sampler.hpp"
 #include "kernel/program/prepare_frame.hpp"
 #include "kernel/program/work_exchange.hpp"
 #include "kernel/program/work_units.hpp"
@@ -51,7 +51,7 @@ private:
 
   /// What rendering needs in local store; kept from frame to frame, so that the cache stays warm.
   struct Phase {
-    using Sampler = SamplerOfFrames<Spu>;
+    using Sampler = FrameSampler<Spu>;
 
     Phase(Spu& spu, const FrameBlock& frame, const CacheConfig& config)
         : image(frame.image), ray_stack(frame.ray_stack), needs(needs_of(frame)),
