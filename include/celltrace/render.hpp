@@ -153,7 +153,7 @@ struct RenderOptions {
   /// destroys the renderer. Must not throw.
   std::function<void(const Diagnostic& diagnostic)> diagnostic;
   /// Watches the picture grow: called by the thread that renders for each part that is finished, in no order.
-  /// With antialiasing a part may come again, better. The pixels are there during the call. What it throws
+  /// With antialiasing a part may come again, better. The pixels, opaque, are there during the call. What it throws
   /// breaks the frame off and passes through. Of models other than `shared` the picture comes all at once.
   std::function<void(const PictureBlock& block)> finished_block;
   /// Renderer::ray_queries() is wanted. Takes 4 bytes of memory an object; none for grids.
@@ -317,8 +317,8 @@ public:
   /// are always made anew.
   RenderResult render(const Scene& scene, const SceneChanges& changes, const Progress& progress = {});
 
-  /// From the next frame on pictures have the size, region, antialiasing, colours, finished_block and
-  /// work_map of `options`, whose other members mean nothing. The scene and its accelerator stay. Throws
+  /// From the next frame on pictures have the size, region, antialiasing, colours, alpha, first_hits, blocks,
+  /// finished_block and work_map of `options`, whose other members mean nothing. The scene and its accelerator stay. Throws
   /// InputError for options out of range; then nothing has changed.
   void set_picture(const RenderOptions& options);
 

@@ -69,13 +69,13 @@ public:
   /// Another scene.
   void replace(Scene scene);
 
-  /// The size of pictures, the region, antialiasing, and whether colours, a work map and finished blocks are
-  /// wanted, of `options`; the scene stays on the machine. Throws InputError if something is out of range;
-  /// then nothing has changed.
+  /// The size of pictures, the region, antialiasing, and whether colours, alpha, first hits, blocks, a work
+  /// map and finished parts are wanted, of `options`; the scene stays on the machine. Throws InputError if
+  /// something is out of range; then nothing has changed.
   void set_picture(const RenderOptions& options);
-  /// Where finished pixels go besides the result's image; nothing: nowhere. Give one with a size that has
+  /// Where finished pixels go besides the result's image, opaque; nothing: nowhere. Give one with a size that has
   /// room for the pictures before set_picture() makes them larger. Throws InputError if the pitch is too
-  /// small.
+  /// small, or if pictures are wanted in blocks; then nothing has changed.
   void set_framebuffer(const std::optional<Framebuffer>& framebuffer);
 
   /// Renders the scene as it is now. As Renderer::render(). After an InputError the machine has the scene as

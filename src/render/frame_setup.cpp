@@ -26,6 +26,8 @@ namespace {
 /// packets'.
 constexpr std::uint32_t kMaxCacheBytes = 70 * 1024;
 constexpr int kMaxEdge = 65520; // rows of packets fit the balancer's words
+/// Bits of light_way that pictures ask for; scenes have the others.
+constexpr std::uint32_t kWaysOfPictures = light_way::alpha | light_way::first_hits;
 
 void store(const Vec3& v, float* to) {
   for (int i = 0; i < 3; ++i)
@@ -163,6 +165,9 @@ void set_options(FrameBlock& frame, const RenderOptions& options, const Machine&
   frame.purpose = static_cast<std::uint32_t>(brings_colours(options) ? FramePurpose::grid
                                              : options.blocks        ? FramePurpose::blocks
                                                                      : FramePurpose::picture);
+  frame.light_ways &= ~kWaysOfPictures;
+  if (options.alpha) frame.light_ways |= light_way::alpha;
+  if (options.first_hits) frame.light_ways |= light_way::first_hits;
   frame.sampling = SamplingRecord{};
   if (const auto& antialiasing = options.antialiasing) {
     frame.purpose = static_cast<std::uint32_t>(FramePurpose::grid);
@@ -209,7 +214,10 @@ void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& optio
   frame.light_count = header.light_count;
   frame.fog_offset = header.fog_offset;
   frame.fog_count = header.fog_count;
-  frame.light_ways = header.light_ways;
+  frame.light_ways = header.light_ways | (frame.light_ways & kWaysOfPictures);
+  constexpr double kVersionOfTransparency = 3.7;
+  if (scene.version < kVersionOfTransparency) frame.light_ways |= light_way::no_backdrop;
+  frame.background_clear = static_cast<float>(std::clamp(scene.background_transparency, 0.0, 1.0));
   frame.rainbow_offset = header.rainbow_offset;
   frame.rainbow_count = header.rainbow_count;
   if (options.model != Model::shared && (header.light_ways & light_way::stepwise) != 0)
@@ -228,13 +236,6 @@ void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& optio
       scene.gamma_mode == GammaMode::assumed ? GammaEncoding::assumed : GammaEncoding::none);
   frame.assumed_gamma = static_cast<float>(scene.assumed_gamma);
   store(scene.background, frame.background);
-  if (options.first_hits) frame.light_ways |= light_way::first_hits;
-  if (options.alpha) {
-    constexpr double kVersionOfTransparency = 3.7;
-    frame.light_ways |= light_way::alpha;
-    if (scene.version < kVersionOfTransparency) frame.light_ways |= light_way::no_backdrop;
-    frame.background_clear = static_cast<float>(std::clamp(scene.background_transparency, 0.0, 1.0));
-  }
   frame.sky = header.sky;
 }
 

@@ -121,6 +121,9 @@ public:
     options.region = given.region;
     options.antialiasing = given.antialiasing;
     options.colours = given.colours;
+    options.alpha = given.alpha;
+    options.first_hits = given.first_hits;
+    options.blocks = given.blocks;
     options.finished_block = given.finished_block;
     options.work_map = given.work_map;
     check(options);
@@ -183,10 +186,11 @@ private:
   }
 
   void make_room_for_samples() {
-    if (sample_store_.size() != 0) return; // it does not depend on the picture
-    sample_store_ = AlignedBlock::uninitialised(
+    const std::size_t bytes =
         std::size_t{machine_->spe_count()} *
-        sample_store_bytes(bundle_edge(machine_->direct_memory()), options_.alpha));
+        sample_store_bytes(bundle_edge(machine_->direct_memory()), options_.alpha);
+    if (sample_store_.size() >= bytes) return; // it does not depend on the picture's size
+    sample_store_ = AlignedBlock::uninitialised(bytes);
     frame_.sample_store = to_ea(sample_store_.data());
   }
 

@@ -117,6 +117,9 @@ public:
     changed.region = options.region;
     changed.antialiasing = options.antialiasing;
     changed.colours = options.colours;
+    changed.alpha = options.alpha;
+    changed.first_hits = options.first_hits;
+    changed.blocks = options.blocks;
     changed.work_map = options.work_map;
     changed.finished_block = options.finished_block;
     renderer_.set_picture(own_options(changed));

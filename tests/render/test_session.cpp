@@ -75,6 +75,9 @@ RenderResult check_next(Session& session) {
   CHECK(next.statistics.diagnostics.empty());
   const RenderResult fresh = render(session.scene(), session.options());
   CHECK(next.image == fresh.image);
+  CHECK(next.colours.rgba == fresh.colours.rgba);
+  CHECK(next.first_hits.depth == fresh.first_hits.depth);
+  CHECK(next.blocks.blocks == fresh.blocks.blocks);
   return next;
 }
 
@@ -261,6 +264,17 @@ TEST_CASE("Pictures change their size, their region and their sampling while the
     options.colours = false;
     options.region.reset();
     check_kept();
+    options.antialiasing = Antialiasing{};
+    options.alpha = options.first_hits = true;
+    check_kept();
+    options.antialiasing->method = Antialiasing::Method::adaptive;
+    check_kept();
+    options.antialiasing.reset();
+    options.alpha = options.first_hits = false;
+    options.blocks = true;
+    check_kept();
+    options.blocks = false;
+    check_kept();
     options.work_map = true;
     session.set_picture(options);
     CHECK(!session.render().work.empty());
@@ -301,6 +315,10 @@ TEST_CASE("A framebuffer fills with what the result has") {
                       InputError);
       options.width = 54;
       CHECK_THROWS_AS(session.set_picture(options), InputError);
+      options = session.options();
+      options.antialiasing.reset();
+      options.blocks = true;
+      CHECK_THROWS_AS(session.set_picture(options), InputError); // which have no pixels to watch
       session.set_framebuffer(std::nullopt);
       const std::uint64_t before = session.generation();
       session.render();
