@@ -116,7 +116,7 @@ private:
     if (request_.resume) state_.load_rows(frame.number, frame.read.files, image);
     RowKeeper keeper(state_, frame.number, frame.read.files, image);
     line_.set_job("frame " + std::to_string(frame.number) + ", ");
-    const RenderResult result = render_remaining(
+    RenderResult result = render_remaining(
         *frame.renderer, request_.options, image,
         [&](double fraction) {
           line_.update((static_cast<double>(done_) + fraction) / static_cast<double>(frames_.size()));
@@ -126,7 +126,7 @@ private:
     reports.print_diagnostics();
     if (film_ && result.complete) add_to_film(image.image());
     const std::filesystem::path file = is_film() ? std::filesystem::path() : picture(frame.number);
-    if (!file.empty()) save_picture(request_, file, image);
+    if (!file.empty()) save_picture(request_, file, image, result.statistics);
     if (!result.complete) {
       missing_rows_ = image.missing_rows();
       return false;

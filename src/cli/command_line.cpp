@@ -1,7 +1,6 @@
 #include "cli/command_line.hpp"
 
 #include "celltrace/error.hpp"
-#include "celltrace/image.hpp"
 #include "celltrace/version.hpp"
 #include "cli/animation_options.hpp"
 #include "cli/choice.hpp"
@@ -9,9 +8,9 @@
 #include "cli/emulation_options.hpp"
 #include "cli/keyword_page.hpp"
 #include "cli/man_page.hpp"
+#include "cli/output_options.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -93,33 +92,9 @@ struct RenderTexts {
   int antialias_method = 1;
   Antialiasing antialiasing; ///< all but method and threshold
   double start_column = 0, end_column = 1, start_row = 0, end_row = 1;
-  std::string file_type; ///< empty: by the name
-  std::string picture = "on";
-  std::string alpha = "off";
-  std::string first_hits = "off";
-  std::optional<int> bits; ///< none: as many as the format has anyway
+  OutputTexts output;
   AnimationTexts animation;
 };
-
-void add_output_options(CLI::App& command, RenderRequest& request, RenderTexts& texts) {
-  command
-      .add_option("-o,--output", request.output,
-                  "The picture or the film; default: the scene's name, here. A folder: the scene's name, "
-                  "there. - is stdout")
-      ->type_name("OUT.png|ppm|exr|hdr|dds|y4m|mp4|DIR/|-");
-  add_choice(command, "--file-type,--format", texts.file_type,
-             {{"png", "ppm", "exr", "hdr", "dds", "y4m"}, {}},
-             "What the picture is if its name does not say; default: png");
-  command
-      .add_option("--bits", texts.bits,
-                  "Bits a channel of the picture: 8 or 16; of OpenEXR 16 or 32, which are floats")
-      ->check(CLI::IsMember({8, 16, 32}));
-  add_choice(command, "--first-hits", texts.first_hits, {{"on", "off"}, {}},
-             "Whether an OpenEXR file has depths, normals and numbers of objects, too");
-  add_choice(command, "--picture", texts.picture, {{"on", "off"}, {}}, "Whether the picture is written");
-  add_choice(command, "--alpha", texts.alpha, {{"on", "off"}, {}},
-             "Whether pixels are clear where nothing is, and half clear behind what is transparent");
-}
 
 void add_scene_options(CLI::App& command, RenderRequest& request, RenderTexts& texts) {
   command.add_option("scene", request.scene, "The scene, a POV-Ray file")->required()->type_name("SCENE.pov");
@@ -371,60 +346,6 @@ std::optional<PictureRegion> region_of(const RenderTexts& texts, const RenderOpt
   return region;
 }
 
-std::string lower_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
-
-/// POV-Ray adds the extension where a file name has none, and the scene's name to a folder.
-std::filesystem::path output_of(const RenderRequest& request, const RenderTexts& texts) {
-  if (texts.picture == "off") return {};
-  const std::string extension = '.' + (texts.file_type.empty() ? "png" : texts.file_type);
-  std::filesystem::path output = request.output;
-  if (output == kStandardOutput) return output;
-  if (!output.has_filename()) return output / (request.scene.stem().string() + extension);
-  if (!output.has_extension()) return output += extension;
-  if (!texts.file_type.empty() && lower_extension(output) != extension)
-    throw InputError(output.string() + ": the name does not say that the picture is to be a " +
-                     texts.file_type);
-  return output;
-}
-
-FilmFormat film_of(const RenderRequest& request, const RenderTexts& texts) {
-  if (request.output != kStandardOutput) return film_format_of(request.output);
-  return texts.file_type == "y4m" ? FilmFormat::y4m : FilmFormat::none;
-}
-
-/// What the picture's format asks of rendering.
-void set_format(RenderRequest& request, const RenderTexts& texts) {
-  RenderOptions& options = request.options;
-  options.alpha = texts.alpha == "on";
-  options.first_hits = texts.first_hits == "on";
-  request.bits = texts.bits.value_or(8);
-  if (request.output.empty()) return;
-  const bool is_film = request.film != FilmFormat::none;
-  const std::string type = texts.file_type.empty() ? "png" : texts.file_type;
-  if (!is_film)
-    request.format = image_format_of(request.output == kStandardOutput ? "stdout." + type : request.output);
-  const bool is_exr = !is_film && request.format == ImageFormat::exr;
-  const bool is_png = !is_film && request.format == ImageFormat::png;
-  const bool has_depths = is_png || (!is_film && request.format == ImageFormat::ppm);
-  request.bits = texts.bits.value_or(is_exr ? 16 : 8);
-  const int least = is_exr ? 16 : 8;
-  const bool has_more = is_exr || has_depths;
-  if (!is_film && request.bits != least && (!has_more || request.bits != 2 * least))
-    throw InputError("--bits " + std::to_string(request.bits) + " is not for pictures of this format");
-  if (options.alpha && !is_png && !is_exr) throw InputError("only PNG and OpenEXR files have alpha");
-  if (options.first_hits && !is_exr) throw InputError("--first-hits is for OpenEXR files");
-  if (is_film) return;
-  options.colours = holds_numbers(request.format) || (has_depths && request.bits == 16);
-  // Of other pictures the blocks are made in the end.
-  options.blocks = request.format == ImageFormat::dds && options.model == Model::shared &&
-                   !options.antialiasing && !options.region;
-}
-
 std::optional<Antialiasing> antialiasing_of(const RenderTexts& texts) {
   if (!texts.antialias) return std::nullopt;
   Antialiasing antialiasing = texts.antialiasing;
@@ -454,16 +375,8 @@ void finish(RenderRequest& request, const RenderTexts& texts) {
   request.trace = texts.emulation.trace;
   request.cache_trace = texts.emulation.cache_trace;
   request.options.region = region_of(texts, request.options);
-  request.options.colours = request.bits == 16;
-  request.output = output_of(request, texts);
-  request.film = film_of(request, texts);
-  set_format(request, texts);
+  finish_output(request, texts.output);
   finish_animation(request, texts.animation);
-  if (request.output != kStandardOutput) return;
-  if (request.stats == kStandardOutput)
-    throw InputError("picture and statistics cannot both go to standard output");
-  if (request.animation.is_on() && request.film == FilmFormat::none)
-    throw InputError("an animation goes to standard output as a film, of --file-type y4m");
 }
 
 void finish(ViewRequest& view, const RenderTexts& texts) {
@@ -543,7 +456,7 @@ Request parse_command_line(std::vector<std::string> arguments) {
   RenderTexts texts;
   CLI::App& render_command = *app.add_subcommand("render", "Render a scene into a picture");
   add_scene_options(render_command, render, texts);
-  add_output_options(render_command, render, texts);
+  add_output_options(render_command, render, texts.output);
   add_quality_option(render_command, render);
   add_region_options(render_command, texts);
   add_animation_options(render_command, render, texts.animation);

@@ -57,14 +57,14 @@ void write(const RenderRequest& request, const std::filesystem::path& path, cons
 
 } // namespace
 
-std::optional<std::uint64_t> save_picture(const RenderRequest& request, const std::filesystem::path& path,
-                                          const PartialPicture& picture) {
+void save_picture(const RenderRequest& request, const std::filesystem::path& path,
+                  const PartialPicture& picture, RenderStatistics& statistics) {
   if (request.options.blocks) {
     write(request, path, picture.blocks());
   } else if (request.format == ImageFormat::dds) {
     const EncodedPicture encoded = encode_blocks(picture.image());
     write(request, path, encoded.blocks);
-    return encoded.error;
+    statistics.block_error = encoded.error;
   } else if (holds_numbers(request.format)) {
     const ExrOptions exr = {request.bits == 32, request.options.first_hits ? &picture.first_hits() : nullptr};
     write(request, path, picture.colours(), exr);
@@ -73,7 +73,6 @@ std::optional<std::uint64_t> save_picture(const RenderRequest& request, const st
   } else {
     write(request, path, picture.image());
   }
-  return std::nullopt;
 }
 
 std::string summary_of(const RenderStatistics& s, double parse_seconds) {

@@ -7,9 +7,7 @@
 #include "cli/resume_state.hpp"
 
 #include <chrono>
-#include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,9 +56,9 @@ private:
 };
 
 /// To a file or, where `path` is kStandardOutput, to stdout. Of a picture that becomes blocks only now,
-/// returns RenderStatistics::block_error.
-std::optional<std::uint64_t> save_picture(const RenderRequest& request, const std::filesystem::path& path,
-                                          const PartialPicture& picture);
+/// `statistics` get what these are worth.
+void save_picture(const RenderRequest& request, const std::filesystem::path& path,
+                  const PartialPicture& picture, RenderStatistics& statistics);
 
 /// "32x18, native.avx2, 2 SPEs; parse 0.01 s, build 0.00 s, render 0.02 s; 1.23 million rays/s"
 std::string summary_of(const RenderStatistics& statistics, double parse_seconds);

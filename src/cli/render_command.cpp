@@ -113,10 +113,7 @@ int run_render(const RenderRequest& request) {
     throw;
   }
   reports.print_diagnostics();
-  if (!request.output.empty()) {
-    const auto error = save_picture(request, request.output, picture);
-    if (error) result.statistics.block_error = error;
-  }
+  if (!request.output.empty()) save_picture(request, request.output, picture, result.statistics);
   if (result.complete && request.resume)
     state.finish_frame(kStill, request.output);
   else if (result.complete)
