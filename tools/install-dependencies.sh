@@ -8,8 +8,8 @@
 #   bench    Embree and POV-Ray, which celltrace is compared with
 #   python   to build the Python package and to test it
 #   docs     to make the documents a site
-#   extras   POV-Ray, for the tests that compare with it, clang with its runtime, to compare builds and to fuzz, ccache,
-#            and the shells whose completions are tested
+#   extras   POV-Ray, for the tests that compare with it, ImageMagick and ffmpeg, which tests have read pictures, clang
+#            with its runtime, to compare builds and to fuzz, ccache, and the shells whose completions are tested
 set -euo pipefail
 
 declare -A packages=(
@@ -18,7 +18,7 @@ declare -A packages=(
   [python]="pybind11-dev python3-dev python3-numpy python3-pytest"
   [docs]="doxygen mkdocs"
   [bench]="libembree-dev povray povray-includes"
-  [extras]="ccache clang fish libclang-rt-14-dev povray povray-includes xdotool xvfb zsh"
+  [extras]="ccache clang ffmpeg fish imagemagick libclang-rt-14-dev libmagickcore-6.q16-6-extra povray povray-includes xdotool xvfb zsh"
 )
 
 is_installed() {
