@@ -129,12 +129,12 @@ CELLTRACE_EXPORT void write_image(std::FILE* file, ImageFormat format, const Col
                                   const ExrOptions& exr = {});
 CELLTRACE_EXPORT void write_image(std::FILE* file, ImageFormat format, const BlockImage& blocks);
 
-/// The formats of pictures in memory.
-enum class ImageFormat { png, ppm };
-
-/// The bytes that save_image() would write. Throws InputError for a picture without or with too many pixels.
+/// The same, into memory.
 CELLTRACE_EXPORT std::vector<std::uint8_t> encode_image(const Image& image, ImageFormat format);
 CELLTRACE_EXPORT std::vector<std::uint8_t> encode_image(const DeepImage& image, ImageFormat format);
+CELLTRACE_EXPORT std::vector<std::uint8_t> encode_image(const ColourImage& colours, ImageFormat format,
+                                                        const ExrOptions& exr = {});
+CELLTRACE_EXPORT std::vector<std::uint8_t> encode_image(const BlockImage& blocks, ImageFormat format);
 /// As load_image() reads them. Throws InputError as that does.
 CELLTRACE_EXPORT Image decode_image(const std::uint8_t* bytes, std::size_t count);
 

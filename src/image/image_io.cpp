@@ -94,14 +94,6 @@ template <class Write> std::vector<std::uint8_t> written_by(Write write) {
   return {memory.bytes, memory.bytes + memory.count};
 }
 
-template <class Channel>
-std::vector<std::uint8_t> encoded(const BasicImage<Channel>& image, ImageFormat format) {
-  image::check_image(image);
-  return written_by([&](std::FILE* stream) {
-    (format == ImageFormat::png ? image::write_png<Channel> : image::write_ppm<Channel>)(stream, image);
-  });
-}
-
 template <class Work> auto naming_the_file(const fs::path& path, Work work) {
   try {
     return work();
@@ -170,10 +162,17 @@ void check_image_path(const fs::path& path) {
 }
 
 std::vector<std::uint8_t> encode_image(const Image& image, ImageFormat format) {
-  return encoded(image, format);
+  return written_by([&](std::FILE* stream) { write_encoded(stream, format, image); });
 }
 std::vector<std::uint8_t> encode_image(const DeepImage& image, ImageFormat format) {
-  return encoded(image, format);
+  return written_by([&](std::FILE* stream) { write_encoded(stream, format, image); });
+}
+std::vector<std::uint8_t> encode_image(const ColourImage& colours, ImageFormat format,
+                                       const ExrOptions& exr) {
+  return written_by([&](std::FILE* stream) { write_numbers(stream, format, colours, exr); });
+}
+std::vector<std::uint8_t> encode_image(const BlockImage& blocks, ImageFormat format) {
+  return written_by([&](std::FILE* stream) { write_blocks(stream, format, blocks); });
 }
 
 Image decode_image(const std::uint8_t* bytes, std::size_t count) {
