@@ -87,8 +87,15 @@ void measure(const char* what, const JobScene& scene, const JobOptions& options,
   std::map<JobPhase, double> begins; // of a job that is left alone
   JobOptions watched = options;
   const auto begin = Clock::now();
+  std::map<JobPhase, std::pair<double, double>> silences; // the longest, and before which fraction
+  double heard = 0;
   watched.progress = [&](const JobProgress& progress) {
-    begins.try_emplace(progress.phase, milliseconds_since(begin));
+    const double now = milliseconds_since(begin);
+    begins.try_emplace(progress.phase, now);
+    auto& silence = silences[progress.phase];
+    silence = std::max(silence, {now - heard, progress.phase_fraction});
+    if (std::getenv("GAPS") && now - heard > 5) std::printf("gap %.1f before %d %.3f\n", now - heard, (int)progress.phase, progress.phase_fraction);
+    heard = now;
   };
   RenderJob whole(scene, watched);
   whole.wait();
@@ -97,6 +104,9 @@ void measure(const char* what, const JobScene& scene, const JobOptions& options,
   for (const auto& [phase, at] : begins)
     std::printf(", %s from %.0f ms", name_of(phase), at);
   std::printf("\n");
+  for (const auto& [phase, silence] : silences)
+    std::printf("  %-10s silent for %.1f ms at most, up to %.2f of it\n", name_of(phase), silence.first,
+                silence.second);
   whole.take();
 
   std::mt19937 random(1);

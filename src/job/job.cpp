@@ -39,7 +39,7 @@ public:
 
   void cancel() noexcept {
     cancelled_.store(true, std::memory_order_relaxed);
-    if (claim()) finish(std::make_exception_ptr(Cancelled()));
+    if (claim()) end_unbegun();
   }
 
   /// Until nothing of the options is called any more, unless this is called by one of them.
@@ -97,21 +97,26 @@ private:
     return true;
   }
   void cancel_if_waiting() noexcept {
-    if (claim()) finish(std::make_exception_ptr(Cancelled()));
+    if (claim()) end_unbegun();
+  }
+  void end_unbegun() noexcept {
+    publish(std::make_exception_ptr(Cancelled()));
+    fall_silent();
   }
 
   void run() noexcept {
     if (!claim()) return;
     try {
-      finish(render());
+      render();
     } catch (const std::bad_alloc&) {
-      finish(std::make_exception_ptr(OutOfMemory()));
+      publish(std::make_exception_ptr(OutOfMemory()));
     } catch (...) {
-      finish(std::current_exception());
+      publish(std::current_exception());
     }
+    fall_silent();
   }
 
-  RenderResult render() {
+  void render() {
     const bool reads = !std::holds_alternative<Scene>(given_) &&
                        !std::holds_alternative<std::shared_ptr<const Scene>>(given_);
     const double read = reads ? kReadingShare : 0;
@@ -128,11 +133,12 @@ private:
       return (!options_.render.build_progress || options_.render.build_progress(fraction)) &&
              tell(JobPhase::building, fraction, read, built);
     };
-    RenderResult result = celltrace::render(*scene, options, [&](double fraction) {
-      return !is_built || tell(JobPhase::rendering, fraction, built, 1);
-    });
+    Renderer renderer(options);
+    RenderResult result = renderer.render(
+        *scene, [&](double fraction) { return !is_built || tell(JobPhase::rendering, fraction, built, 1); });
     if (!is_built) throw Cancelled();
-    return result;
+    // Those who wait need not wait until the renderer has given its memory back.
+    publish(std::move(result));
   }
 
   std::shared_ptr<const Scene> take_scene() {
@@ -166,7 +172,7 @@ private:
 
   /// How far a phase is that takes the part [begin, end] of the job. False: it is to be cancelled.
   bool tell(JobPhase phase, double fraction, double begin, double end) {
-    if (cancelled_.load(std::memory_order_relaxed)) return false;
+    if (is_cancelled_in(phase)) return false;
     JobProgress now;
     {
       const std::lock_guard lock(mutex_);
@@ -174,24 +180,32 @@ private:
       now = progress_ = {phase, fraction, whole};
     }
     if (options_.progress) options_.progress(now);
-    return !cancelled_.load(std::memory_order_relaxed);
+    return !is_cancelled_in(phase);
+  }
+  bool is_cancelled_in(JobPhase phase) {
+    if (!cancelled_.load(std::memory_order_relaxed)) return false;
+    // That it has no picture is certain, and those who wait need not wait until all memory is given back.
+    if (phase != JobPhase::rendering) publish(std::make_exception_ptr(Cancelled()));
+    return true;
   }
 
-  void finish(RenderResult result) {
-    const bool complete = result.complete;
+  // The first one counts.
+  void publish(RenderResult result) {
+    const std::lock_guard lock(mutex_);
+    if (is_over()) return;
+    progress_ = {JobPhase::over, 1, result.complete ? 1 : progress_.fraction};
     result_ = std::move(result);
-    end(complete ? 1 : progress_.fraction);
+    changed_.notify_all();
   }
-  void finish(std::exception_ptr failure) noexcept {
+  void publish(std::exception_ptr failure) noexcept {
+    const std::lock_guard lock(mutex_);
+    if (is_over()) return;
+    progress_ = {JobPhase::over, 1, progress_.fraction};
     failure_ = std::move(failure);
-    end(progress_.fraction);
+    changed_.notify_all();
   }
-  void end(double fraction) noexcept {
-    {
-      const std::lock_guard lock(mutex_);
-      progress_ = {JobPhase::over, 1, fraction};
-      changed_.notify_all();
-    }
+  /// At the end of what is called of the options.
+  void fall_silent() noexcept {
     if (options_.finished) {
       RenderJob job(shared_from_this(), false);
       options_.finished(job);
@@ -212,7 +226,7 @@ private:
   JobProgress progress_;
   std::vector<Finding> findings_;
   std::shared_ptr<const Scene> scene_;
-  std::optional<RenderResult> result_; ///< these two the worker's, until the job is over
+  std::optional<RenderResult> result_;
   std::exception_ptr failure_;
   std::thread thread_;
 };
