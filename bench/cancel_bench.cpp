@@ -1,5 +1,7 @@
 // How long a job takes to end after it was cancelled, by what it did at that moment: a scene of two million
 // triangles, as text and built in code, cancelled at times drawn at random.
+// Besides, what processors have worked meanwhile for the job, in all threads: on a computer with other work
+// to do, what is above that is waiting for a processor.
 //
 //   bench_cancel [TIMES] [SIDE] [BACKEND]
 //
@@ -11,6 +13,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <map>
 #include <random>
 #include <string>
@@ -75,9 +78,19 @@ double milliseconds_since(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
-std::vector<JobPhase> phases() {
-  return {JobPhase::waiting, JobPhase::reading, JobPhase::building, JobPhase::rendering};
+/// Of all threads.
+double processor_milliseconds() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
 }
+
+void print_distribution(std::vector<double>& all) {
+  std::sort(all.begin(), all.end());
+  const auto at = [&](double share) { return all[static_cast<std::size_t>(share * double(all.size() - 1))]; };
+  std::printf("median %.2f, 99 %% %.2f, most %.2f", at(0.5), at(0.99), all.back());
+}
+
 const char* name_of(JobPhase phase) {
   static constexpr const char* kNames[] = {"waiting", "reading", "building", "rendering", "over"};
   return kNames[static_cast<int>(phase)];
@@ -94,8 +107,6 @@ void measure(const char* what, const JobScene& scene, const JobOptions& options,
     begins.try_emplace(progress.phase, now);
     auto& silence = silences[progress.phase];
     silence = std::max(silence, {now - heard, progress.phase_fraction});
-    if (std::getenv("GAPS") && now - heard > 5) std::printf("gap %.1f before %d %.3f\n", now - heard, (int)progress.phase, progress.phase_fraction);
-    heard = now;
   };
   RenderJob whole(scene, watched);
   whole.wait();
@@ -110,27 +121,26 @@ void measure(const char* what, const JobScene& scene, const JobOptions& options,
   whole.take();
 
   std::mt19937 random(1);
-  std::map<JobPhase, std::vector<std::pair<double, double>>> taken; // with when
+  std::map<JobPhase, std::vector<double>> taken, worked;
   for (int i = 0; i < times; ++i) {
     RenderJob job(scene, options);
     const double wait = std::uniform_real_distribution<>(0, total)(random);
     std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(wait));
     const JobPhase phase = job.progress().phase;
     const auto cancelled = Clock::now();
+    const double processor = processor_milliseconds();
     job.cancel();
     job.wait();
-    if (phase != JobPhase::over) taken[phase].emplace_back(milliseconds_since(cancelled), wait);
+    if (phase == JobPhase::over) continue;
+    taken[phase].push_back(milliseconds_since(cancelled));
+    worked[phase].push_back(processor_milliseconds() - processor);
   }
-  for (const JobPhase phase : phases()) {
-    auto& all = taken[phase];
-    if (all.empty()) continue;
-    std::sort(all.begin(), all.end());
-    const auto at = [&](double share) {
-      return all[static_cast<std::size_t>(share * double(all.size() - 1))];
-    };
-    std::printf("  %-10s %4zu times, ms until it ended: median %6.2f, 99 %% %6.2f, most %6.2f (at %.0f ms)\n",
-                name_of(phase), all.size(), at(0.5).first, at(0.99).first, all.back().first,
-                all.back().second);
+  for (auto& [phase, all] : taken) {
+    std::printf("  %-10s %4zu times, ms until it ended: ", name_of(phase), all.size());
+    print_distribution(all);
+    std::printf("; of processors: ");
+    print_distribution(worked[phase]);
+    std::printf("\n");
   }
 }
 

@@ -3,8 +3,11 @@
 
 #include "scene/build_watch.hpp"
 
+#include <chrono>
+#include <condition_variable>
 #include <cstdint>
 #include <exception>
+#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -20,23 +23,46 @@ struct HostPart {
 };
 
 /// Calls work(part) for each part, in a thread each, and returns when all are done. What the first of them
-/// that threw has thrown passes through. This thread's BuildWatch is theirs, too.
+/// that threw has thrown passes through. This thread's BuildWatch is theirs, too, and is asked as long as any
+/// is at work.
 template <class Work> void for_each_part(unsigned parts, Work work) {
+  constexpr std::chrono::milliseconds kBetweenLooks(5);
   std::vector<std::exception_ptr> failures(parts);
   BuildWatch* const watch = BuildWatch::current();
+  std::mutex mutex;
+  std::condition_variable ended;
+  unsigned at_work = parts;
   const auto run = [&](unsigned part) noexcept {
-    BuildWatch::follow(watch);
     try {
       work(part);
     } catch (...) {
       failures[part] = std::current_exception();
     }
+    const std::lock_guard lock(mutex);
+    --at_work;
+    ended.notify_one();
+  };
+  const auto look = [&]() noexcept {
+    try {
+      BuildWatch::look();
+    } catch (...) {
+      if (!failures[0]) failures[0] = std::current_exception();
+    }
   };
   {
     std::vector<std::jthread> others;
     for (unsigned part = 1; part < parts; ++part)
-      others.emplace_back(run, part);
+      others.emplace_back([&, part] {
+        BuildWatch::follow(watch);
+        run(part);
+      });
     run(0);
+    std::unique_lock lock(mutex);
+    while (!ended.wait_for(lock, kBetweenLooks, [&] { return at_work == 0; })) {
+      lock.unlock();
+      look();
+      lock.lock();
+    }
   }
   for (const std::exception_ptr& failure : failures)
     if (failure) std::rethrow_exception(failure);
