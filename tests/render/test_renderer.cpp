@@ -482,7 +482,7 @@ TEST_CASE("Scenes and cameras that cannot be rendered are refused, and the Rende
     };
     const double nan = std::numeric_limits<double>::quiet_NaN();
     refuses([](Scene& s) { s.objects[1].material = 1000; });
-    refuses([](Scene& s) { s.objects[1].interior = kNoIndex; });
+    refuses([](Scene& s) { s.objects[1].interior = 1000; });
     refuses([&](Scene& s) { s.camera.location.x = nan; });
     refuses([](Scene& s) {
       s.objects[1].transform = Transform::matrix({1, 2, 3, 2, 4, 6, 0, 0, 1, 0, 0, 0});
