@@ -81,9 +81,15 @@ TEST_CASE("a DirectDraw surface is what ImageMagick takes it for, on every backe
     CAPTURE(backend, outcome.err);
     REQUIRE(outcome.exit_code == 0);
     const auto statistics = nlohmann::json::parse(read_bytes(folder / "a.json"));
-    CHECK(statistics["blocks"]["psnr"] > 35);
+    // So few pixels are edges mostly; the best encoder there is gets 30.7 dB.
+    CHECK(statistics["blocks"]["psnr"] > 30);
     CHECK(statistics["dma"]["pixel_bytes"] == 26 * 15 * 8);
-    if (can_read) CHECK(compare_images(by_imagemagick(folder, "a.dds"), picture).psnr > 35);
+    if (can_read) CHECK(compare_images(by_imagemagick(folder, "a.dds"), picture).psnr > 30);
+  }
+  if (can_read) {
+    for (const char* name : {"c.png", "c.dds"})
+      REQUIRE(celltrace_run(folder, {kScene, "-W", "320", "-H", "240", "-o", name}).exit_code == 0);
+    CHECK(compare_images(by_imagemagick(folder, "c.dds"), load_image(folder / "c.png")).psnr > 35);
   }
   REQUIRE(run_with(folder, {"-o", "b.png", "--stats", "b.json"}).exit_code == 0);
   const auto statistics = nlohmann::json::parse(read_bytes(folder / "b.json"));

@@ -154,7 +154,7 @@ class Csg:
 Shape = Union[Sphere, Mesh, Plane, Disc, Box, Cylinder, Cone, Torus, Quadric, Polygon, Csg]
 
 class Object:
-    def __init__(self, shape: Shape = ..., transform: Transform = ..., material: int = 0, interior: int = 0,
+    def __init__(self, shape: Shape = ..., transform: Transform = ..., material: int = 0, interior: int = 0xFFFFFFFF,
                  no_shadow: bool = False, no_image: bool = False, no_reflection: bool = False,
                  is_hidden: bool = False, inverse: bool = False, is_lit_through: bool = False) -> None: ...
     def replace(self, **fields: Any) -> Object: ...
