@@ -153,8 +153,9 @@ struct RenderOptions {
   /// destroys the renderer. Must not throw.
   std::function<void(const Diagnostic& diagnostic)> diagnostic;
   /// Watches the picture grow: called by the thread that renders for each part that is finished, in no order.
-  /// With antialiasing a part may come again, better. The pixels, opaque, are there during the call. What it throws
-  /// breaks the frame off and passes through. Of models other than `shared` the picture comes all at once.
+  /// With antialiasing a part may come again, better. The pixels, opaque, are there during the call. What it
+  /// throws breaks the frame off and passes through. Of models other than `shared` the picture comes all at
+  /// once.
   std::function<void(const PictureBlock& block)> finished_block;
   /// Renderer::ray_queries() is wanted. Takes 4 bytes of memory an object; none for grids.
   bool ray_queries = false;
@@ -302,10 +303,10 @@ public:
   Renderer(Renderer&&) noexcept;
   Renderer& operator=(Renderer&&) noexcept;
 
-  /// Renders a frame; `progress` stays at 0 while the scene is made ready. What the frame before has cost
-  /// decides which SPE starts where. Throws InputError if the scene is not valid, SpeError if a kernel
-  /// failed, OutOfMemory; exceptions of `progress` pass through. After SpeError the renderer throws again at
-  /// every call.
+  /// Renders a frame; `progress` stays at 0 while the scene is made ready, and if it cancels then, there is
+  /// none. What the frame before has cost decides which SPE starts where. Throws InputError if the scene is
+  /// not valid, SpeError if a kernel failed, OutOfMemory; exceptions of `progress` pass through. After
+  /// SpeError the renderer throws again at every call.
   RenderResult render(const Scene& scene, const Progress& progress = {});
   /// As above, with another camera and nothing else changed since the last render(): the accelerator is
   /// kept.
@@ -318,8 +319,8 @@ public:
   RenderResult render(const Scene& scene, const SceneChanges& changes, const Progress& progress = {});
 
   /// From the next frame on pictures have the size, region, antialiasing, colours, alpha, first_hits, blocks,
-  /// finished_block and work_map of `options`, whose other members mean nothing. The scene and its accelerator stay. Throws
-  /// InputError for options out of range; then nothing has changed.
+  /// finished_block and work_map of `options`, whose other members mean nothing. The scene and its
+  /// accelerator stay. Throws InputError for options out of range; then nothing has changed.
   void set_picture(const RenderOptions& options);
 
   /// What render(scene) does before the first pixel. False: RenderOptions::build_progress cancelled, and
