@@ -8,17 +8,12 @@
 
 namespace celltrace {
 
-namespace {
-
-/// Not run by an SPE: where applications get their functions from.
-template <class Spu> void enter_functions(Spu&, ea_t argument) {
-  using Simd = typename Spu::simd;
-  kernel::enter_ray_query_functions<
-      kernel::RayQueryAnswers<native::QuerySpu<Simd>, HostQuad<Simd>, HostEight<Simd>>>(argument);
+// Not run by an SPE, and there is none: it is where applications get their functions from.
+void CELLTRACE_SPE_ENTRY_NAME(ray_queries, CELLTRACE_SPU_NAME)(void* spu, ea_t argument);
+void CELLTRACE_SPE_ENTRY_NAME(ray_queries, CELLTRACE_SPU_NAME)(void*, ea_t argument) {
+  using Simd = CELLTRACE_SPU_TYPE::simd;
+  using Spu = native::QuerySpu<Simd>;
+  kernel::enter_ray_query_functions<kernel::RayQueryAnswers<Spu, HostQuad<Simd>, HostEight<Simd>>>(argument);
 }
 
-} // namespace
-
 } // namespace celltrace
-
-CELLTRACE_SPE_ENTRY(ray_queries, enter_functions)
