@@ -107,6 +107,7 @@ void measure(const char* what, const JobScene& scene, const JobOptions& options,
     begins.try_emplace(progress.phase, now);
     auto& silence = silences[progress.phase];
     silence = std::max(silence, {now - heard, progress.phase_fraction});
+    heard = now;
   };
   RenderJob whole(scene, watched);
   whole.wait();

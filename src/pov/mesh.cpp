@@ -191,11 +191,16 @@ std::shared_ptr<MeshDefinition> make_mesh(Mesh2Definition definition, TokenStrea
     mesh.triangles.push_back(triangle);
     add_coordinates(definition, i, face, mesh);
   }
+  // What has been used gives its memory back by and by, not all at the end.
+  definition.face_indices = {};
+  tokens.look();
   mesh.vertices.reserve(vertices.size());
   for (const ListEntry& vertex : vertices) {
     tokens.spend(1);
     mesh.vertices.push_back(to_single(vertex.v));
   }
+  definition.vertex_vectors = {};
+  tokens.look();
   mesh.normals.reserve(definition.normal_vectors.size());
   for (const ListEntry& normal : definition.normal_vectors) {
     tokens.spend(1);

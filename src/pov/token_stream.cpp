@@ -391,6 +391,15 @@ bool TokenStream::look_up(const Token& word, Terminal& terminal) {
   return true;
 }
 
+/// A long list begins with the number of its entries, so that it need not be moved again and again as it
+/// grows. There are at most as many as the file has room for.
+void TokenStream::make_room(std::vector<ListEntry>& list, const Scanner& scanner) {
+  constexpr std::size_t kShortestEntry = 8; // <0,0,0>,
+  const std::size_t most = (scanner.size() - scanner.offset()) / kShortestEntry;
+  const double announced = list.front().is_float ? list.front().v.x : 0;
+  if (announced > 0) list.reserve(list.size() + static_cast<std::size_t>(std::min(announced, double(most))));
+}
+
 void TokenStream::take_literals(std::vector<ListEntry>& list) {
   if (!session_.input.reads_file()) return;
   Scanner& scanner = *session_.input.top().scanner;
@@ -398,6 +407,7 @@ void TokenStream::take_literals(std::vector<ListEntry>& list) {
   for (std::size_t before = 0; scanner.take_literals(list, std::min(before + kLiteralsAtOnce, limit));
        before = list.size()) {
     tokens_read_ += 2 * (list.size() - before); // with their commas
+    if (before == 0) make_room(list, scanner);
     pause();
   }
 }

@@ -80,6 +80,9 @@ public:
     if (tokens_read_ + work_ > next_pause_) pause();
   }
 
+  /// Throws as spend() does, whatever has been counted.
+  void look() { pause(); }
+
   /// How many bytes of the scene's own file have been read, and how many are left.
   std::pair<std::size_t, std::size_t> read_and_left() const;
 
@@ -122,6 +125,7 @@ private:
   bool is_inside_value() const;
   Token read();
   void pause();
+  static void make_room(std::vector<ListEntry>& list, const Scanner& scanner);
   const Location& here() const;
   void deliver(const Token& token, Terminal& terminal);
   void count_brackets(const Token& token);

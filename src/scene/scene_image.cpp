@@ -46,6 +46,20 @@ struct OrderMemory {
   }
 };
 
+/// Takes the first `bytes` bytes of memory from the system in their order. Where records are sent anywhere,
+/// the first few of them would have it make all of that memory ready, which nothing could interrupt.
+void touch(AlignedBlock& block, std::size_t bytes, unsigned threads) {
+  constexpr std::size_t kPage = 4096, kBetweenLooks = std::size_t{2} << 20;
+  const auto parts = static_cast<std::uint32_t>(bytes / kBetweenLooks);
+  for_each_part(threads, [&](unsigned part) {
+    const HostPart mine(parts, part, threads);
+    for (std::size_t at = mine.begin * kBetweenLooks; at < mine.end * kBetweenLooks; at += kPage) {
+      if (at % kBetweenLooks == 0) BuildWatch::look();
+      *const_cast<volatile std::byte*>(block.data() + at) = std::byte(0);
+    }
+  });
+}
+
 /// Writes those of the scene's objects that can be hit to `to`; in parts, which are brought together.
 ObjectCensus place_all(const SceneObjects& objects, PlacedObject* to, unsigned threads) {
   std::vector<ObjectCensus> census(threads);
@@ -112,6 +126,7 @@ void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads
                              instances, threads);
   threads = threads_for(objects, instances, threads, objects_a_thread);
   const OrderMemory memory(work, objects.count());
+  touch(work, work.size(), threads);
   const ObjectCensus loose = place_all(objects, memory.objects, threads);
   BuildWatch::reach(0.4);
   std::vector<std::uint32_t> groups;
@@ -125,6 +140,7 @@ void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads
   BuildWatch::reach(0.6);
   block_.reserve(header.bytes + bvh_bytes(header));
   origin_.reset();
+  touch(block_, header.bytes, threads);
   TableWriter writer(block_.data(), header, scene, textures, objects.unbounded_extras());
   writer.write_header();
   writer.write_lights(light_sets, objects.projector_sizes());
