@@ -11,6 +11,7 @@
 #include <set>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 using namespace celltrace;
 using celltrace::test::scenes_in;
@@ -34,11 +35,15 @@ Image native_picture(const Scene& scene, int width) {
   return render(scene, options).image;
 }
 
-void check_scene(const std::filesystem::path& path) {
+using Sizes = std::vector<std::pair<unsigned, int>>; // SPEs and pixels a row
+
+// Smaller where there are few: simulating takes the time of a core whatever their number.
+const Sizes kSmall{{1, 32}, {2, 48}, {8, 96}}, kLarge{{1, 72}, {2, 72}, {8, 160}};
+
+void check_scene(const std::filesystem::path& path, const Sizes& sizes) {
   INFO(path.filename().string());
   const Scene scene = parse_file(path);
-  // Smaller where there are few: simulating takes the time of a core whatever their number.
-  for (const auto& [spes, width] : {std::pair(1u, 72), std::pair(2u, 72), std::pair(8u, 160)}) {
+  for (const auto& [spes, width] : sizes) {
     INFO(spes << " SPEs");
     const Image expected = native_picture(scene, width);
     const RenderResult result = render(scene, simulated(spes, width));
@@ -69,7 +74,13 @@ bool has_machine_code() {
 TEST_CASE("The SPU's machine code renders the project's scenes") {
   if (!has_machine_code()) return;
   for (const auto& path : scenes_in(OWN_SCENES))
-    check_scene(path);
+    check_scene(path, kSmall);
+}
+
+TEST_CASE("The SPU's machine code renders the project's scenes in large", "[.all]") {
+  if (!has_machine_code()) return;
+  for (const auto& path : scenes_in(OWN_SCENES))
+    check_scene(path, kLarge);
 }
 
 TEST_CASE("The SPU's machine code renders published scenes") {
@@ -80,14 +91,14 @@ TEST_CASE("The SPU's machine code renders published scenes") {
     return;
   }
   for (const char* scene : {"crystal.pov", "jncraton_dish.pov", "forste_egg.pov"})
-    check_scene(folder / scene);
+    check_scene(folder / scene, kSmall);
 }
 
 TEST_CASE("The SPU's machine code renders all published scenes", "[.all]") {
   const auto scenes = scenes_in(PUBLISHED_SCENES);
   REQUIRE(scenes.size() == 10);
   for (const auto& path : scenes)
-    check_scene(path);
+    check_scene(path, kLarge);
 }
 
 // One of the two exceptions from "the same picture everywhere" in docs/architecture.md.

@@ -15,6 +15,8 @@ namespace {
 
 RenderResult render_on(const Scene& scene, const std::string& backend, unsigned spes) {
   RenderOptions options;
+  options.width = 320;
+  options.height = 240;
   options.backend = backend;
   options.spes = spes;
   RenderResult result = render(scene, options);
@@ -76,7 +78,7 @@ TEST_CASE("The cache of a small scene answers nearly every read, and an uneven o
   CHECK(s.object_cache.hit_rate() > 0.95);
   CHECK(s.material_cache.hit_rate() > 0.95);
   CHECK(s.list_cache.hit_rate() > 0.95);
-  CHECK(s.primary_rays == 640u * 480u);
+  CHECK(s.primary_rays == 320u * 240u);
   CHECK(s.shadow_rays > 0);
   CHECK(s.reflection_rays > 0);
   CHECK(s.balance_exchanges > 0);
