@@ -62,13 +62,13 @@ double middle_y(const PictureOnGrid& picture) {
   return picture.top + 0.5 * picture.height - 0.5;
 }
 
-void set_flat(FrameBlock& frame, const Camera& camera, const PictureOnGrid& picture, bool parallel) {
-  store(parallel ? camera.direction : camera.location, frame.camera.origin);
-  store(parallel ? camera.location : camera.direction, frame.camera.base);
-  store(camera.right / picture.width, frame.camera.dx);
-  store(-camera.up / picture.height, frame.camera.dy);
-  frame.camera.middle_x = static_cast<float>(middle_x(picture));
-  frame.camera.middle_y = static_cast<float>(middle_y(picture));
+void set_flat(CameraRecord& record, const Camera& camera, const PictureOnGrid& picture, bool parallel) {
+  store(parallel ? camera.direction : camera.location, record.origin);
+  store(parallel ? camera.location : camera.direction, record.base);
+  store(camera.right / picture.width, record.dx);
+  store(-camera.up / picture.height, record.dy);
+  record.middle_x = static_cast<float>(middle_x(picture));
+  record.middle_y = static_cast<float>(middle_y(picture));
 }
 
 /// A vector of no length stays that.
@@ -77,13 +77,13 @@ Vec3 unit(const Vec3& v) {
   return length > 0 ? v / length : v;
 }
 
-template <class Kind> void set_curved(FrameBlock& frame, const Camera& camera, const PictureOnGrid& on_grid) {
+template <class Kind>
+void set_curved(CameraRecord& record, const Camera& camera, const PictureOnGrid& on_grid) {
   constexpr double kRadiansPerDegree = std::numbers::pi / 180;
   const CameraPicture picture =
       Kind::picture({camera.angle * kRadiansPerDegree, camera.vertical_angle * kRadiansPerDegree,
                      glm::length(camera.right), glm::length(camera.up)});
   const auto axis = [](const Vec3& v) { return Kind::kHasUnitAxes ? unit(v) : v; };
-  CameraRecord& record = frame.camera;
   store(camera.location, record.origin);
   store(axis(camera.direction), record.base);
   store(axis(camera.right), record.dx);
@@ -258,18 +258,22 @@ PictureOnGrid picture_on_grid(const RenderOptions& options) {
           first - region.top};
 }
 
-void set_camera(FrameBlock& frame, const Camera& camera, const PictureOnGrid& picture,
-                const std::vector<Medium>& media, const SceneImage& image) {
-  frame.camera = CameraRecord{};
-  frame.camera.kind = static_cast<std::uint32_t>(camera.kind);
-  Cameras::dispatch(frame.camera.kind, [&](auto kind) {
+CameraRecord camera_record(const Camera& camera, const PictureOnGrid& picture) {
+  CameraRecord record{};
+  record.kind = static_cast<std::uint32_t>(camera.kind);
+  Cameras::dispatch(record.kind, [&](auto kind) {
     using Kind = decltype(kind);
     if constexpr (Kind::kIsFlat)
-      set_flat(frame, camera, picture, Kind::kShared == SharedByRays::direction);
+      set_flat(record, camera, picture, Kind::kShared == SharedByRays::direction);
     else
-      set_curved<Kind>(frame, camera, picture);
+      set_curved<Kind>(record, camera, picture);
   });
+  return record;
+}
 
+void set_camera(FrameBlock& frame, const Camera& camera, const PictureOnGrid& picture,
+                const std::vector<Medium>& media, const SceneImage& image) {
+  frame.camera = camera_record(camera, picture);
   std::vector<std::pair<double, std::uint32_t>> around;
   for (const Medium& medium : media) {
     if (!medium.contains(camera.location)) continue;

@@ -29,6 +29,7 @@ PictureOnGrid picture_on_grid(const RenderOptions& options);
 bool brings_colours(const RenderOptions& options);
 /// The part of the picture that is rendered.
 PictureRegion region_of(const RenderOptions& options);
+kernel::CameraRecord camera_record(const Camera& camera, const PictureOnGrid& picture);
 /// Fills the camera, and the interiors of the media of the scene that it is inside of.
 void set_camera(kernel::FrameBlock& frame, const Camera& camera, const PictureOnGrid& picture,
                 const std::vector<Medium>& media, const SceneImage& image);

@@ -1,5 +1,6 @@
 #include "viewer/frame_source.hpp"
 
+#include "celltrace/camera_ray.hpp"
 #include "celltrace/error.hpp"
 #include "celltrace/session.hpp"
 
@@ -66,15 +67,40 @@ std::optional<Frame> FrameSource::take() {
   return std::exchange(frame_, std::nullopt);
 }
 
+void FrameSource::pick(double x, double y) {
+  {
+    const std::lock_guard lock(mutex_);
+    place_ = {x, y};
+  }
+  changed_.notify_one();
+}
+
+std::optional<Picked> FrameSource::take_picked() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(picked_, std::nullopt);
+}
+
 void FrameSource::run() {
   std::uint64_t shown = 0;
   for (;;) {
     Wanted wanted;
+    std::optional<Place> place;
     {
       std::unique_lock lock(mutex_);
-      changed_.wait(lock, [&] { return quits_ || (wanted_.number != shown && wanted_.scene); });
+      const auto is_new = [&] { return wanted_.number != shown && wanted_.scene; };
+      changed_.wait(lock, [&] { return quits_ || is_new() || (place_ && session_); });
       if (quits_) return;
+      if (!is_new()) place = std::exchange(place_, std::nullopt);
       wanted = wanted_;
+    }
+    if (place) {
+      Picked picked = look_at(*place);
+      {
+        const std::lock_guard lock(mutex_);
+        picked_ = std::move(picked);
+      }
+      notify_();
+      continue;
     }
     shown = wanted.number;
     try {
@@ -91,9 +117,28 @@ void FrameSource::run() {
   }
 }
 
+Picked FrameSource::look_at(const Place& place) {
+  Picked picked;
+  try {
+    constexpr int kFine = 4096; // pixels a side, that places are counted in
+    const auto ray = camera_ray(camera_, kFine, kFine, place.x * kFine, place.y * kFine);
+    if (!ray) return picked;
+    const RayHit hit = session_->ray_queries().closest_hit(*ray);
+    if (!hit) return picked;
+    picked.object = hit.object;
+    picked.distance = hit.distance;
+    for (int axis = 0; axis < 3; ++axis)
+      picked.point[axis] = ray->origin[axis] + double(hit.distance) * ray->direction[axis];
+  } catch (const Error& error) {
+    picked.error = error.what();
+  }
+  return picked;
+}
+
 void FrameSource::show(const Wanted& wanted) {
   take_machine(wanted);
   session_->set_camera(wanted.camera);
+  camera_ = wanted.camera;
   const double pixels = pixels_of(wanted.options);
   int scale = pace_.first_scale(pixels);
   if (!render(wanted, scale, true, false)) return;

@@ -46,7 +46,15 @@ struct Frame {
   std::string error; ///< what went wrong instead; the image is empty then
 };
 
-/// Thread safety: want() and take() for one thread, which is not the one that renders.
+/// What a point of the picture shows.
+struct Picked {
+  std::optional<Index> object; ///< its index in Scene::objects; nothing where there is none
+  Vec3 point{0, 0, 0};         ///< on it
+  double distance = 0;         ///< from where the camera's ray starts
+  std::string error;           ///< what went wrong instead
+};
+
+/// Thread safety: for one thread, which is not the one that renders.
 class FrameSource {
 public:
   /// `notify` is called by the rendering thread whenever take() has something.
@@ -61,10 +69,20 @@ public:
   /// The newest that has come since the last call.
   std::optional<Frame> take();
 
+  /// Asks what the last picture shows `x` of its width from the left and `y` of its height from above. Does
+  /// not wait: the answer comes when nothing is rendered.
+  void pick(double x, double y);
+  std::optional<Picked> take_picked();
+
 private:
   using Clock = std::chrono::steady_clock;
 
+  struct Place {
+    double x, y;
+  };
+
   void run();
+  Picked look_at(const Place& place);
   void show(const Wanted& wanted);
   void take_machine(const Wanted& wanted);
   /// False: broken off, or there is nothing better to come.
@@ -74,16 +92,19 @@ private:
   void publish(Frame frame);
 
   const std::function<void()> notify_;
-  std::mutex mutex_; ///< of the next five
+  std::mutex mutex_; ///< of the next seven
   std::condition_variable changed_;
   Wanted wanted_;
   std::optional<Frame> frame_;
+  std::optional<Place> place_;
+  std::optional<Picked> picked_;
   bool quits_ = false;
 
   // The rendering thread's own.
   std::unique_ptr<Session> session_;
   std::uint64_t machine_ = 0;
   std::shared_ptr<const Scene> scene_;
+  Camera camera_; ///< of the last picture
   Pace pace_;
   /// A picture that grows while it is rendered; none if that is quick.
   std::optional<Frame> growing_;

@@ -21,6 +21,10 @@ KeyScript::Step KeyScript::step_of(const std::string& word) {
     step.kind = Kind::drag;
     return step;
   }
+  if (std::sscanf(word.c_str(), "click:%d,%d%n", &step.x, &step.y, &end) == 2 && is_all()) {
+    step.kind = Kind::click;
+    return step;
+  }
   if (std::sscanf(word.c_str(), "wheel:%d%n", &step.y, &end) == 1 && is_all()) {
     step.kind = Kind::wheel;
     return step;
@@ -32,7 +36,8 @@ KeyScript::Step KeyScript::step_of(const std::string& word) {
   }
   step.key.keysym.sym = SDL_GetKeyFromName(word.c_str());
   if (step.key.keysym.sym == SDLK_UNKNOWN)
-    throw InputError("--keys: '" + word + "' is neither a key nor WIDTHxHEIGHT, drag:X,Y or wheel:N");
+    throw InputError("--keys: '" + word +
+                     "' is neither a key nor WIDTHxHEIGHT, drag:X,Y, click:X,Y or wheel:N");
   return step;
 }
 

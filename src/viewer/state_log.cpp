@@ -55,6 +55,11 @@ void StateLog::write(const State& state) {
                       {"direction", json_of(state.camera->direction)},
                       {"right", json_of(state.camera->right)},
                       {"up", json_of(state.camera->up)}};
+  if (state.picked) {
+    json["picked"] = {
+        {"object", nullptr}, {"distance", state.picked->distance}, {"point", json_of(state.picked->point)}};
+    if (state.picked->object) json["picked"]["object"] = *state.picked->object;
+  }
   out_ << json.dump() << std::endl;
 }
 

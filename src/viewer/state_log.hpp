@@ -22,6 +22,7 @@ struct State {
   double latency = 0;        ///< seconds
   double seconds = 0;        ///< since the start
   std::optional<Camera> camera;
+  std::optional<Picked> picked;
 };
 
 class StateLog {

@@ -14,6 +14,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <deque>
 #include <map>
 #include <optional>
@@ -32,6 +34,8 @@ constexpr double kStepsPerSecond = 15;
 constexpr std::chrono::milliseconds kHold(200);
 constexpr double kDegreesPerPixel = 0.2;
 constexpr double kZoomPerStep = 1.1;
+/// Pixels that the mouse may go while its button is down without turning the camera.
+constexpr int kClick = 2;
 constexpr std::chrono::milliseconds kBetweenLooks(250);
 constexpr std::chrono::seconds kMessage(3);
 
@@ -71,6 +75,7 @@ public:
       move_on();
       take_scene();
       take_frame();
+      take_picked();
       look_at_files();
       forget_message();
       if (is_dirty_) redraw();
@@ -96,7 +101,14 @@ private:
     case SDL_KEYUP:
       if (const Control* control = control_of(event.key.keysym.sym)) held_.erase(control->action);
       return;
+    case SDL_MOUSEBUTTONDOWN:
+      dragged_ = 0;
+      return;
+    case SDL_MOUSEBUTTONUP:
+      if (event.button.button == SDL_BUTTON_LEFT && dragged_ <= kClick) pick(event.button.x, event.button.y);
+      return;
     case SDL_MOUSEMOTION:
+      dragged_ += std::abs(event.motion.xrel) + std::abs(event.motion.yrel);
       return drag(event.motion.state, event.motion.xrel, event.motion.yrel);
     case SDL_MOUSEWHEEL:
       return zoom(event.wheel.y);
@@ -221,7 +233,7 @@ private:
   }
 
   void drag(Uint32 buttons, int x, int y) {
-    if (!navigator_ || (x == 0 && y == 0)) return;
+    if (!navigator_ || (x == 0 && y == 0) || dragged_ <= kClick) return;
     if ((buttons & SDL_BUTTON_LMASK) != 0)
       navigator_->turn(kDegreesPerPixel * x, -kDegreesPerPixel * y);
     else if ((buttons & (SDL_BUTTON_RMASK | SDL_BUTTON_MMASK)) != 0)
@@ -229,6 +241,12 @@ private:
     else
       return;
     want();
+  }
+
+  /// Asks what is seen there, in pixels of the window.
+  void pick(int x, int y) {
+    is_picking_ = true;
+    source_.pick((x + 0.5) / window_.width(), (y + 0.5) / window_.height());
   }
 
   void zoom(int steps) {
@@ -246,7 +264,10 @@ private:
       return;
     case KeyScript::Kind::size:
       return window_.set_size(step.x, step.y);
+    case KeyScript::Kind::click:
+      return pick(step.x, step.y);
     case KeyScript::Kind::drag:
+      dragged_ = kClick + 1;
       return drag(SDL_BUTTON_LMASK, step.x, step.y);
     case KeyScript::Kind::wheel:
       return zoom(step.y);
@@ -279,6 +300,7 @@ private:
     Wanted wanted;
     wanted.scene = scene_;
     wanted.options = render_;
+    wanted.options.ray_queries = true;
     wanted.options.antialiasing = render_.model == Model::shared ? antialiasing_ : std::nullopt;
     if (render_.backend != "native" && wanted.options.spes == 0 && options_.render.backend == "native")
       wanted.options.spes = 8;
@@ -349,6 +371,19 @@ private:
     frame_ = std::move(*frame);
   }
 
+  void take_picked() {
+    const std::optional<Picked> picked = source_.take_picked();
+    if (!picked) return;
+    is_picking_ = false;
+    picked_ = *picked;
+    if (!picked->error.empty()) return say(picked->error, false);
+    if (!picked->object) return say("nothing", false);
+    char text[160];
+    std::snprintf(text, sizeof text, "object %u, %.4g away, at <%.4g, %.4g, %.4g>", *picked->object,
+                  picked->distance, picked->point.x, picked->point.y, picked->point.z);
+    say(text, false);
+  }
+
   void look_at_files() {
     if (is_paused_ || Clock::now() < next_look_) return;
     next_look_ = Clock::now() + kBetweenLooks;
@@ -416,6 +451,7 @@ private:
     window_.show(frame_.image, overlay);
     window_.set_title("celltrace - " + options_.scene.filename().string() + (is_paused_ ? " (paused)" : ""));
     log_state();
+    if (is_picking_) return;
     if ((is_final_ || (!error_.empty() && shown_number_ >= number_)) && !is_dirty_)
       if (const auto step = script_.next()) {
         is_final_ = false;
@@ -448,6 +484,7 @@ private:
     state.latency = latency_;
     state.seconds = seconds_since(start_);
     if (navigator_) state.camera = navigator_->camera();
+    state.picked = picked_;
     state_.write(state);
   }
 
@@ -457,6 +494,9 @@ private:
   std::optional<Antialiasing> antialiasing_;
   const std::vector<std::string> backends_;
   std::size_t backend_ = 0;
+  int dragged_ = 0; ///< pixels that the mouse went since a button went down
+  bool is_picking_ = false;
+  std::optional<Picked> picked_; ///< the last answer
   StateLog state_;
   KeyScript script_;
   const Uint32 wake_event_;

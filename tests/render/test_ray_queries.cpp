@@ -1,4 +1,5 @@
 // Ray queries beside each other, and beside pictures.
+#include "celltrace/camera_ray.hpp"
 #include "celltrace/error.hpp"
 #include "celltrace/pov.hpp"
 #include "celltrace/ray_queries.hpp"
@@ -79,6 +80,34 @@ bool same(const RayHit& a, const RayHit& b) {
 }
 
 } // namespace
+
+TEST_CASE("rays of every kind of camera hit what its picture shows") {
+  Scene scene = mixed_scene();
+  for (int kind = 0; kind <= static_cast<int>(Camera::Kind::fisheye); ++kind) {
+    CAPTURE(kind);
+    scene.camera.kind = static_cast<Camera::Kind>(kind);
+    scene.camera.angle = 100;
+    RenderOptions options = query_options();
+    options.width = 37;
+    options.height = 22;
+    options.first_hits = true;
+    Renderer renderer(options);
+    const FirstHits seen = renderer.render(scene).first_hits;
+    RayQueries queries = renderer.ray_queries();
+    unsigned hits = 0, others = 0;
+    for (int y = 0; y < options.height; ++y)
+      for (int x = 0; x < options.width; ++x) {
+        const float depth = seen.depth[static_cast<std::size_t>(y) * 37 + static_cast<std::size_t>(x)];
+        const auto ray = camera_ray(scene.camera, options.width, options.height, x + 0.5, y + 0.5);
+        const RayHit hit = ray ? queries.closest_hit(*ray) : RayHit();
+        hits += hit ? 1 : 0;
+        if (hit.distance != depth && !(std::abs(hit.distance - depth) < 1e-4f * depth)) ++others;
+      }
+    CHECK(hits > 200);
+    CHECK(others == 0);
+  }
+  CHECK_THROWS_AS(camera_ray(scene.camera, 0, 5, 0, 0), InputError);
+}
 
 TEST_CASE("single rays, packets and streams hit the same") {
   Renderer renderer(query_options());

@@ -11,7 +11,7 @@ using namespace celltrace;
 using namespace celltrace::viewer;
 
 TEST_CASE("Scripts are of keys, sizes and the mouse") {
-  KeyScript script({"Left", "q", "PageUp", "800x600", "drag:-5,20", "wheel:-2"});
+  KeyScript script({"Left", "q", "PageUp", "800x600", "drag:-5,20", "wheel:-2", "click:7,9"});
   CHECK(script.next()->key.keysym.sym == SDLK_LEFT);
   CHECK(script.next()->key.keysym.sym == SDLK_q);
   const auto page = script.next();
@@ -28,6 +28,10 @@ TEST_CASE("Scripts are of keys, sizes and the mouse") {
   const auto wheel = script.next();
   CHECK(wheel->kind == KeyScript::Kind::wheel);
   CHECK(wheel->y == -2);
+  const auto click = script.next();
+  CHECK(click->kind == KeyScript::Kind::click);
+  CHECK(click->x == 7);
+  CHECK(click->y == 9);
   CHECK(!script.next());
 }
 

@@ -237,6 +237,16 @@ def drive(display, program, folder):
     viewer.wait("moving by the mouse", moved(before))
     viewer.press("Home", "reset", lambda s: s["final"])
 
+    # A click says what is there.
+    left, top, width, height = viewer.place()
+    display.tool("mousemove", left + width // 2, top + height // 2, "click", 1)
+    state = viewer.wait("an object", lambda s: s.get("picked", {}).get("object") is not None)
+    check(state["message"].startswith("object %d, " % state["picked"]["object"]), "and says so: " + state["message"])
+    check(state["camera"] == initial, "and moves nothing")
+    display.tool("mousemove", left + 2, top + 2, "click", 1)
+    viewer.wait("nothing there", lambda s: s["picked"]["object"] is None and s["message"] == "nothing")
+    viewer.wait("the message is gone", lambda s: s["message"] == "")
+
     # Views.
     viewer.press("c", "next camera", lambda s: s["final"] and s["view"] == "front")
     viewer.press("c", "next camera", lambda s: s["final"] and s["view"] == "right")
@@ -365,7 +375,7 @@ def without_display(program, folder):
 def dummy_driver(program, folder):
     """SDL's driver without a display: keys come from a script."""
     state = os.path.join(folder, "dummy.json")
-    keys = ["Left", "m", "Up", "i", "l", "k", "h", "c", "x", "b", "200x100", "drag:10,5", "wheel:1", "p", "q"]
+    keys = ["Left", "m", "Up", "i", "l", "k", "h", "c", "x", "b", "200x100", "drag:10,5", "wheel:1", "click:100,50", "p", "q"]
     done = subprocess.run([program, "view", "scene.pov", "-W", "160", "-H", "120", "--state", state, "--keys",
                            " ".join(keys)],
                           cwd=folder, env=dict(os.environ, SDL_VIDEODRIVER="dummy"), capture_output=True, timeout=60)
@@ -374,6 +384,7 @@ def dummy_driver(program, folder):
         last = json.loads(file.readlines()[-1])
     check(last["mode"] == "radial" and last["information"] and last["costs"] and last["help"], "keys had their effect")
     check(last["window"] == [200, 100] and last["spu"] == "cell_emu" and last["view"] == "front", "the others, too")
+    check("picked" in last, "a click is answered")
 
 
 def main():
