@@ -11,15 +11,19 @@
 
 namespace celltrace {
 
-/// An array of height x width x 4, which takes the channels over without copying.
+/// An array of that shape, which takes the values over without copying.
+template <class Value>
+pybind11::array_t<Value> array_of_shape(std::vector<Value>&& values, std::vector<pybind11::ssize_t> shape) {
+  auto owned = std::make_unique<std::vector<Value>>(std::move(values));
+  Value* first = owned->data();
+  const pybind11::capsule owner(owned.get(),
+                                [](void* memory) { delete static_cast<std::vector<Value>*>(memory); });
+  owned.release();
+  return pybind11::array_t<Value>(std::move(shape), first, owner);
+}
 template <class Channel>
 pybind11::array_t<Channel> picture_array(std::vector<Channel>&& channels, int width, int height) {
-  auto owned = std::make_unique<std::vector<Channel>>(std::move(channels));
-  Channel* first = owned->data();
-  const pybind11::capsule owner(owned.get(),
-                                [](void* memory) { delete static_cast<std::vector<Channel>*>(memory); });
-  owned.release();
-  return pybind11::array_t<Channel>({height, width, 4}, first, owner);
+  return array_of_shape(std::move(channels), {height, width, 4});
 }
 
 /// Throws ValueError unless the array has as many dimensions as `shape`, and their sizes; -1: any.

@@ -2,10 +2,11 @@
 
 #include "celltrace/error.hpp"
 
-#include <charconv>
+#include <pybind11/stl.h>
+
+#include <algorithm>
 #include <string>
-#include <string_view>
-#include <system_error>
+#include <vector>
 
 namespace celltrace {
 
@@ -28,40 +29,52 @@ PyObject* make_type(py::module_& module, const char* name, const char* doc, PyOb
   return type;
 }
 
-/// Takes what is behind the last colon off `text`, if it is a number.
-bool take_number(std::string_view& text, long& number) {
-  const std::size_t colon = text.rfind(':');
-  if (colon == text.npos) return false;
-  const char *begin = text.data() + colon + 1, *end = text.data() + text.size();
-  const auto [stop, fault] = std::from_chars(begin, end, number);
-  if (fault != std::errc() || stop != end) return false;
-  text = text.substr(0, colon);
-  return true;
-}
-
 void raise(PyObject* type, const Error& error) {
   const py::object raised = py::reinterpret_borrow<py::object>(type)(error.what());
-  std::string_view place = error.what();
-  place = place.substr(0, place.find(": error: "));
-  long line = 0, column = 0;
-  if (type == types.scene && take_number(place, column) && take_number(place, line)) {
-    raised.attr("file") = std::string(place);
-    raised.attr("line") = line;
-    raised.attr("column") = column;
-  }
   PyErr_SetObject(type, raised.ptr());
+}
+
+/// With the place of what ended it.
+void raise(const SceneError& error) {
+  const py::object raised = py::reinterpret_borrow<py::object>(types.scene)(error.what());
+  const std::vector<Finding>& findings = error.findings();
+  raised.attr("findings") = findings;
+  const auto first = std::find_if(findings.begin(), findings.end(), [](const Finding& finding) {
+    return finding.severity == Finding::Severity::error;
+  });
+  if (first != findings.end()) {
+    raised.attr("file") = first->file;
+    raised.attr("line") = first->line;
+    raised.attr("column") = first->column;
+  }
+  PyErr_SetObject(types.scene, raised.ptr());
 }
 
 } // namespace
 
 void bind_errors(py::module_& module) {
+  py::class_<Finding>(module, "Finding", "Something that was found in the text of a scene.")
+      .def_property_readonly(
+          "severity",
+          [](const Finding& finding) {
+            const bool is_note = finding.severity == Finding::Severity::note;
+            return is_note ? "note" : finding.severity == Finding::Severity::warning ? "warning" : "error";
+          },
+          "note, warning or error")
+      .def_readonly("file", &Finding::file)
+      .def_readonly("line", &Finding::line, "from 1")
+      .def_readonly("column", &Finding::column, "from 1")
+      .def_readonly("text", &Finding::text)
+      .def_readonly("reached_by", &Finding::reached_by,
+                    "the includes and macros on the way there, from the inside out");
   py::dict nowhere;
   for (const char* part : {"file", "line", "column"})
     nowhere[part] = py::none();
+  nowhere["findings"] = py::tuple();
   types.error =
       make_type(module, "Error",
                 "Base of the errors of celltrace. file, line and column say where a scene's text is\n"
-                "wrong; elsewhere they are None.",
+                "wrong, and findings what else was found; elsewhere they are None and empty.",
                 PyExc_RuntimeError, nowhere);
   types.input =
       make_type(module, "InputError", "A picture, file, scene or option that cannot be used.", types.error);
@@ -78,7 +91,7 @@ void bind_errors(py::module_& module) {
     try {
       std::rethrow_exception(thrown);
     } catch (const SceneError& error) {
-      raise(types.scene, error);
+      raise(error);
     } catch (const InputError& error) {
       raise(types.input, error);
     } catch (const SpeError& error) {

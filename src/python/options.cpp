@@ -41,7 +41,9 @@ Fields<RenderOptions> picture_fields() {
       .add("height", &RenderOptions::height, "")
       .add("region", &RenderOptions::region, "")
       .add("antialiasing", &RenderOptions::antialiasing, "")
-      .add("colours", &RenderOptions::colours, "");
+      .add("colours", &RenderOptions::colours, "")
+      .add("alpha", &RenderOptions::alpha, "")
+      .add("first_hits", &RenderOptions::first_hits, "");
 }
 
 Fields<RenderOptions> render_fields() {

@@ -79,6 +79,8 @@ void bind_scene(py::module_& module) {
       .def_readwrite("name", &Scene::name, "for messages: the file it came from")
       .def_readwrite("camera", &Scene::camera, "")
       .def_readwrite("background", &Scene::background, "colour")
+      .def_readwrite("background_transparency", &Scene::background_transparency,
+                     "share of what is behind a picture with alpha that comes through the background, 0 to 1")
       .def_readwrite("ambient_light", &Scene::ambient_light, "colour")
       .def_readwrite("max_trace_level", &Scene::max_trace_level, "")
       .def_readwrite("adc_bailout", &Scene::adc_bailout, "")

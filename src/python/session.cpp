@@ -30,6 +30,15 @@ py::array array_of(RenderResult& result, bool colours) {
   return picture_array(std::move(result.image.rgba), result.image.width, result.image.height);
 }
 
+py::object arrays_of(FirstHits hits) {
+  const py::ssize_t width = hits.width, height = hits.height;
+  py::dict arrays;
+  arrays["depth"] = array_of_shape(std::move(hits.depth), {height, width});
+  arrays["normal"] = array_of_shape(std::move(hits.normal), {height, width, 3});
+  arrays["object"] = array_of_shape(std::move(hits.object), {height, width});
+  return arrays;
+}
+
 /// A Session that Python's threads may share: what changes it while it renders is refused.
 class GuardedSession {
 public:
@@ -49,6 +58,7 @@ public:
   }
   void cancel() { session_->cancel(); }
   const py::object& statistics() const { return statistics_; }
+  const py::object& first_hits() const { return first_hits_; }
 
   py::array render(const std::optional<py::array>& into, const py::object& progress) {
     Session& session = idle();
@@ -69,6 +79,7 @@ public:
     finish(into.has_value());
     watch.check(result.complete);
     statistics_ = py::module_::import("json").attr("loads")(to_json(result.statistics));
+    first_hits_ = session.options().first_hits ? arrays_of(std::move(result.first_hits)) : py::none();
     return into ? *into : array_of(result, session.options().colours);
   }
 
@@ -80,7 +91,7 @@ private:
 
   std::optional<Session> session_;
   Watch* watch_ = nullptr; ///< of the frame that is being rendered
-  py::object statistics_ = py::none();
+  py::object statistics_ = py::none(), first_hits_ = py::none();
 };
 
 std::filesystem::path path_of(const py::object& scene) {
@@ -156,7 +167,8 @@ void bind_rendering(py::module_& module) {
   module.def(
       "render", &render_once, py::arg("scene"), py::kw_only(), py::arg("progress") = py::none(),
       "Renders a Scene or a file in POV-Ray's language: an array of (height, width, 4), top row first.\n\n"
-      "uint8, for display; with colours=True float32, linear, as rays brought them. progress: called\n"
+      "uint8, for display; with colours=True float32, linear, as rays brought them. With alpha=True it is\n"
+      "transparent where what is behind the scene is seen. progress: called\n"
       "with the finished fraction, 0 to 1; where it returns False, Cancelled is raised. Further keywords\n"
       "are those of Session, and of Scene.from_file where there is a file.");
 
@@ -181,6 +193,11 @@ void bind_rendering(py::module_& module) {
       .def_property_readonly(
           "statistics", &GuardedSession::statistics,
           "Of the last whole frame, a dict by the keys of docs/statistics.md; None before.")
+      .def_property_readonly(
+          "first_hits", &GuardedSession::first_hits,
+          "What each pixel of the last whole frame sees first, where first_hits was asked for: a dict of\n"
+          "depth (height, width), from where the ray starts; normal (height, width, 3); object (height,\n"
+          "width), 1 + the index of its interior, 0 where nothing is.")
       .def_property_readonly(
           "scene", [](GuardedSession& self) { return Scene(self.idle().scene()); },
           "A copy of the scene as it is now.")
@@ -232,7 +249,8 @@ void bind_rendering(py::module_& module) {
             set_picture_options(options, kwargs);
             self.idle().set_picture(options);
           },
-          "Another width, height, region, antialiasing or colours; the scene stays on the machine.");
+          "Another width, height, region, antialiasing, colours, alpha or first_hits; the scene stays on the "
+          "machine.");
 }
 
 } // namespace celltrace

@@ -14,19 +14,6 @@ namespace celltrace {
 
 namespace {
 
-Camera look_at(const Vec3& location, const Vec3& target, double angle, double aspect, const Vec3& sky) {
-  const Vec3 direction = glm::normalize(target - location);
-  const Vec3 right = glm::normalize(glm::cross(sky, direction));
-  if (!(angle > 0 && angle < 180) || !(aspect > 0) || std::isnan(right.x))
-    throw InputError("look_at: needs an angle below 180 degrees, and a direction that is not the sky's");
-  Camera camera;
-  camera.location = location;
-  camera.up = glm::cross(direction, right);
-  camera.right = aspect * right;
-  camera.direction = direction * (aspect / 2 / std::tan(glm::radians(angle) / 2));
-  return camera;
-}
-
 /// The material of a sphere of which `text` is written.
 Material material_from_pov(const std::string& text) {
   const Scene scene = parse_string("sphere { 0, 1 " + text + "\n}", {}, "<material>");
@@ -54,7 +41,7 @@ void bind_camera(py::module_& module) {
                           .add("angle", &Camera::angle, "in degrees; perspective ones have it in direction")
                           .add("vertical_angle", &Camera::vertical_angle, ""))
       .def_static(
-          "look_at", &look_at, py::arg("location"), py::arg("target"), py::arg("angle") = 67.38,
+          "look_at", &Camera::look_at, py::arg("location"), py::arg("target"), py::arg("angle") = 67.38,
           py::arg("aspect") = 4.0 / 3, py::arg("sky") = Vec3(0, 1, 0),
           "A perspective camera; angle: that the picture is wide, in degrees; aspect: its width by its\n"
           "height.");

@@ -15,6 +15,16 @@ def test_an_error_knows_its_place(tmp_path):
     assert (caught.value.file, caught.value.line, caught.value.column) == (str(path), 2, 3)
 
 
+def test_all_that_was_found_is_told():
+    text = '#warning "careful"\nsphere { 0, 1 }\nmedia { }\nheight_field { png "a.png" }\nsfere'
+    with pytest.raises(celltrace.SceneError) as caught:
+        celltrace.Scene.from_text(text, message=lambda _: None)
+    findings = caught.value.findings
+    assert [finding.line for finding in findings if finding.severity == "error"][0] == caught.value.line
+    assert any(finding.severity == "warning" and "careful" in finding.text for finding in findings)
+    assert all(finding.file == "<string>" and finding.column >= 1 for finding in findings)
+
+
 def test_other_errors_have_no_place(tmp_path):
     with pytest.raises(celltrace.InputError, match="none.png") as caught:
         celltrace.load(tmp_path / "none.png")

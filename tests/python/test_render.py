@@ -18,6 +18,24 @@ def test_code_makes_the_picture_of_the_file(scene_file, ball):
     assert celltrace.compare(from_file, celltrace.render(ball, width=64, height=48))["max_difference"] <= 1
 
 
+def test_alpha_is_clear_where_nothing_is(ball):
+    ball.background = 0
+    picture = celltrace.render(ball, width=32, height=24, alpha=True)
+    assert picture[0, 0, 3] == 0 and picture[12, 16, 3] == 255
+    ball.background_transparency = 0
+    assert celltrace.render(ball, width=32, height=24, alpha=True)[0, 0, 3] == 255
+
+
+def test_first_hits_are_arrays(ball):
+    session = celltrace.Session(ball, width=32, height=24, first_hits=True)
+    assert session.first_hits is None
+    session.render()
+    hits = session.first_hits
+    assert hits["depth"].shape == (24, 32) and hits["normal"].shape == (24, 32, 3)
+    assert numpy.isinf(hits["depth"][0, 0]) and hits["object"][0, 0] == 0 and not hits["normal"][0, 0].any()
+    assert 3.9 < hits["depth"][12, 16] < 4.1 and hits["normal"][12, 16, 2] < -0.9 and hits["object"][12, 16] > 0
+
+
 def test_colours_are_numbers(ball):
     colours = celltrace.render(ball, width=32, height=24, colours=True)
     assert colours.shape == (24, 32, 4) and colours.dtype == numpy.float32
