@@ -1,13 +1,17 @@
 #include "render/single_ray_bvh.hpp"
 
 #include "celltrace/error.hpp"
+#include "image/huge_pages.hpp"
 #include "kernel/primitives/triangle.hpp"
 
 #include <algorithm>
 #include <array>
-#include <deque>
+#include <cmath>
 #include <limits>
 #include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 namespace celltrace {
 
@@ -18,13 +22,16 @@ namespace {
 constexpr std::uint32_t kBlock = 4;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// What may become a child of a node: something of the image's BVH, or some triangles of one of its leaves.
-struct Part {
+/// What a leaf of the image's BVH has: a triangle, or a list of other objects.
+struct Reference {
   Aabb box;
-  const NodeRecord* node = nullptr;        ///< if it is a node
-  std::span<std::uint32_t> triangles = {}; ///< if it is some of them; offsets
-  std::span<std::uint32_t> others = {};    ///< if it is other objects; offsets
+  std::uint32_t index; ///< offset of the triangle, or index of the list's first entry
+  bool is_triangle;
+
+  /// Twice the middle.
+  float middle(int axis) const { return box.min[axis] + box.max[axis]; }
 };
+using References = std::span<Reference>;
 
 float half_area(const Aabb& box) {
   const float x = box.max[0] - box.min[0], y = box.max[1] - box.min[1], z = box.max[2] - box.min[2];
@@ -54,150 +61,188 @@ public:
   Builder(SingleRayBvh& bvh, const SceneImage& image) : bvh_(bvh), image_(image) {}
 
   void build(std::uint32_t root) {
-    std::vector<Part> parts;
-    add_children(record<NodeRecord>(root), parts);
-    make_node(std::move(parts));
+    references_.reserve(image_.header().object_count);
+    collect(record<NodeRecord>(root));
+    bvh_.nodes_.emplace_back();
+    fill_node(0, references_, 0);
   }
 
 private:
+  struct Part {
+    References references;
+    Aabb box;
+  };
+  struct Split {
+    float cost = kInfinity;
+    std::size_t left = 0; ///< references
+    int axis = 0;
+    float middle = 0; ///< those below it go to the left; twice the place
+  };
+
+  /// With more levels, halves are of equal number, so that the stack of a traversal has a limit.
+  static constexpr int kFreeLevels = 32;
+  static constexpr std::size_t kBins = 16;
+
   template <class Record> const Record& record(std::uint32_t offset) const {
     return *reinterpret_cast<const Record*>(image_.base() + offset);
   }
-  Aabb box_of(std::uint32_t triangle) const {
-    return TrianglePrimitive::bounds(record<ObjectRecord>(triangle), {});
-  }
 
-  void add_children(const NodeRecord& node, std::vector<Part>& parts) {
+  void collect(const NodeRecord& node) {
     for (int i = 0; i < 4; ++i) {
-      Part part;
+      Aabb box;
       for (int axis = 0; axis < 3; ++axis) {
-        part.box.min[axis] = node.bounds[2 * axis][i];
-        part.box.max[axis] = node.bounds[2 * axis + 1][i];
+        box.min[axis] = node.bounds[2 * axis][i];
+        box.max[axis] = node.bounds[2 * axis + 1][i];
       }
-      if (!(part.box.min[0] <= part.box.max[0])) continue;
-      if (node.leaf[i] == 0) {
-        part.node = &record<NodeRecord>(node.child[i]);
-        parts.push_back(part);
-      } else {
-        add_leaf(node.child[i], node.leaf[i], part, parts);
-      }
-    }
-  }
-
-  /// Triangles and other objects of a leaf are two parts.
-  void add_leaf(std::uint32_t first, std::uint32_t word, const Part& leaf, std::vector<Part>& parts) {
-    const std::uint32_t count = leaf_word::count(word), step = leaf_word::step_bytes(word);
-    std::vector<std::uint32_t>& members = members_.emplace_back(count);
-    for (std::uint32_t i = 0; i < count; ++i)
-      members[i] = leaf_word::is_list(word) ? record<std::uint32_t>(first + i * 4) : first + i * step;
-    const auto middle = std::partition(members.begin(), members.end(), [this](std::uint32_t offset) {
-      return is_plain_triangle(record<ObjectRecord>(offset));
-    });
-    Part part = leaf;
-    part.triangles = {members.begin(), middle};
-    part.others = {};
-    if (!part.triangles.empty()) parts.push_back(part);
-    part.triangles = {};
-    part.others = {middle, members.end()};
-    if (!part.others.empty()) parts.push_back(part);
-  }
-
-  /// Of two halves of the triangles of a leaf, along the longest side of the box around their middles.
-  void halve(const Part& leaf, std::vector<Part>& parts) const {
-    Aabb middles = empty_box();
-    for (const std::uint32_t triangle : leaf.triangles) {
-      const Aabb box = box_of(triangle);
-      for (int axis = 0; axis < 3; ++axis) {
-        middles.min[axis] = std::min(middles.min[axis], box.min[axis] + box.max[axis]);
-        middles.max[axis] = std::max(middles.max[axis], box.min[axis] + box.max[axis]);
-      }
-    }
-    int axis = 0;
-    for (int other = 1; other < 3; ++other)
-      if (middles.max[other] - middles.min[other] > middles.max[axis] - middles.min[axis]) axis = other;
-    const std::size_t blocks = (leaf.triangles.size() + kBlock - 1) / kBlock;
-    const std::size_t half = (blocks + 1) / 2 * kBlock;
-    std::nth_element(leaf.triangles.begin(), leaf.triangles.begin() + static_cast<std::ptrdiff_t>(half),
-                     leaf.triangles.end(), [&](std::uint32_t a, std::uint32_t b) {
-                       const Aabb of_a = box_of(a), of_b = box_of(b);
-                       return of_a.min[axis] + of_a.max[axis] < of_b.min[axis] + of_b.max[axis];
-                     });
-    for (const std::span<std::uint32_t> triangles :
-         {leaf.triangles.first(half), leaf.triangles.subspan(half)}) {
-      Part part;
-      part.box = empty_box();
-      for (const std::uint32_t triangle : triangles)
-        grow(part.box, box_of(triangle));
-      for (int i = 0; i < 3; ++i) {
-        part.box.min[i] = std::max(part.box.min[i], leaf.box.min[i]);
-        part.box.max[i] = std::min(part.box.max[i], leaf.box.max[i]);
-      }
-      part.triangles = triangles;
-      parts.push_back(part);
-    }
-  }
-
-  /// Returns its index. Of what there is, the largest that has parts is divided, as long as there is room.
-  std::uint32_t make_node(std::vector<Part> parts) {
-    for (;;) {
-      const auto divides = [&](const Part& part) {
-        const std::size_t more = part.node != nullptr ? 3 : 1;
-        return parts.size() + more <= QueryNode::kWidth &&
-               (part.node != nullptr || part.triangles.size() > kBlock);
-      };
-      const Part* largest = nullptr;
-      for (const Part& part : parts)
-        if (divides(part) && (largest == nullptr || half_area(part.box) > half_area(largest->box)))
-          largest = &part;
-      if (largest == nullptr) break;
-      const Part whole = *largest;
-      parts.erase(parts.begin() + (largest - parts.data()));
-      if (whole.node != nullptr)
-        add_children(*whole.node, parts);
+      if (!(box.min[0] <= box.max[0])) continue;
+      if (node.leaf[i] == 0)
+        collect(record<NodeRecord>(node.child[i]));
       else
-        halve(whole, parts);
+        add_leaf(node.child[i], node.leaf[i], box);
     }
-    const auto index = static_cast<std::uint32_t>(bvh_.nodes_.size());
-    bvh_.nodes_.emplace_back();
+  }
+
+  void add_leaf(std::uint32_t first, std::uint32_t word, const Aabb& box) {
+    const std::uint32_t count = leaf_word::count(word), step = leaf_word::step_bytes(word);
+    const auto list = static_cast<std::uint32_t>(bvh_.others_.size());
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::uint32_t offset =
+          leaf_word::is_list(word) ? record<std::uint32_t>(first + i * 4) : first + i * step;
+      if (!is_plain_triangle(record<ObjectRecord>(offset))) {
+        bvh_.others_.push_back(offset);
+        continue;
+      }
+      // Of a triangle in several leaves each has a part.
+      Aabb part = TrianglePrimitive::bounds(record<ObjectRecord>(offset), {});
+      for (int axis = 0; axis < 3; ++axis) {
+        part.min[axis] = std::max(part.min[axis], box.min[axis]);
+        part.max[axis] = std::min(part.max[axis], box.max[axis]);
+      }
+      references_.push_back({part, offset, true});
+    }
+    if (bvh_.others_.size() == list) return;
+    bvh_.others_.push_back(kNoOffset);
+    references_.push_back({box, list, false});
+  }
+
+  static Aabb box_of(References references) {
+    Aabb box = empty_box();
+    for (const Reference& reference : references)
+      grow(box, reference.box);
+    return box;
+  }
+  static bool is_leaf(References references) {
+    return references.size() == 1 ||
+           (references.size() <= kBlock && std::all_of(references.begin(), references.end(),
+                                                       [](const Reference& r) { return r.is_triangle; }));
+  }
+  /// What testing so many takes, in blocks.
+  static float blocks(std::size_t count) { return static_cast<float>((count + kBlock - 1) / kBlock); }
+
+  /// By the surface area heuristic, of places between bins of equal width along each axis.
+  static Split best_split(References references) {
+    Aabb middles = empty_box();
+    for (const Reference& reference : references)
+      for (int axis = 0; axis < 3; ++axis) {
+        middles.min[axis] = std::min(middles.min[axis], reference.middle(axis));
+        middles.max[axis] = std::max(middles.max[axis], reference.middle(axis));
+      }
+    Split best;
+    for (int axis = 0; axis < 3; ++axis) {
+      const float low = middles.min[axis], width = middles.max[axis] - low;
+      const float scale = static_cast<float>(kBins) * 0.9999f / width;
+      if (!(width > 0) || !std::isfinite(scale)) continue;
+      std::array<Aabb, kBins> boxes;
+      boxes.fill(empty_box());
+      std::array<std::size_t, kBins> counts{};
+      for (const Reference& reference : references) {
+        const auto bin = static_cast<std::size_t>((reference.middle(axis) - low) * scale);
+        grow(boxes[bin], reference.box);
+        ++counts[bin];
+      }
+      std::array<float, kBins> right{}; // the cost of bins from here on
+      Aabb box = empty_box();
+      std::size_t count = 0;
+      for (std::size_t bin = kBins; bin-- > 1;) {
+        grow(box, boxes[bin]);
+        count += counts[bin];
+        right[bin] = count == 0 ? kInfinity : half_area(box) * blocks(count);
+      }
+      box = empty_box();
+      count = 0;
+      for (std::size_t bin = 1; bin < kBins; ++bin) {
+        grow(box, boxes[bin - 1]);
+        count += counts[bin - 1];
+        if (count == 0) continue;
+        const float cost = half_area(box) * blocks(count) + right[bin];
+        if (cost < best.cost) best = {cost, count, axis, low + static_cast<float>(bin) / scale};
+      }
+    }
+    return best;
+  }
+
+  /// Two parts, neither of them empty.
+  static std::pair<Part, Part> divide(References references, int level) {
+    std::size_t left = references.size() / 2;
+    if (const Split split = best_split(references); split.cost < kInfinity && level < kFreeLevels) {
+      const auto middle =
+          std::partition(references.begin(), references.end(), [&](const Reference& reference) {
+            return reference.middle(split.axis) < split.middle;
+          });
+      const auto below = static_cast<std::size_t>(middle - references.begin());
+      if (below != 0 && below != references.size()) left = below;
+    }
+    const References first = references.first(left), second = references.subspan(left);
+    return {{first, box_of(first)}, {second, box_of(second)}};
+  }
+
+  /// Of the parts of a node the largest is divided, as long as there is room.
+  void fill_node(std::uint32_t index, References references, int level) {
+    std::array<Part, QueryNode::kWidth> parts;
+    parts[0] = {references, box_of(references)};
+    std::size_t count = references.empty() ? 0 : 1;
+    while (count > 0 && count < parts.size()) {
+      Part* largest = nullptr;
+      for (std::size_t i = 0; i < count; ++i)
+        if (!is_leaf(parts[i].references) &&
+            (largest == nullptr || half_area(parts[i].box) > half_area(largest->box)))
+          largest = &parts[i];
+      if (largest == nullptr) break;
+      std::tie(*largest, parts[count]) = divide(largest->references, level);
+      ++count;
+    }
     std::array<std::uint32_t, QueryNode::kWidth> children{};
-    for (std::size_t i = 0; i < parts.size(); ++i)
-      children[i] = make_ref(parts[i]);
+    for (std::size_t i = 0; i < count; ++i)
+      children[i] = make_ref(parts[i].references);
     QueryNode& node = bvh_.nodes_[index];
     for (std::size_t i = 0; i < QueryNode::kWidth; ++i) {
-      const Aabb box = i < parts.size() ? parts[i].box : empty_box();
+      const Aabb box = i < count ? parts[i].box : empty_box();
       for (std::size_t axis = 0; axis < 3; ++axis) {
         node.bounds[2 * axis][i] = box.min[axis];
         node.bounds[2 * axis + 1][i] = box.max[axis];
       }
       node.child[i] = children[i];
     }
-    return index;
+    for (std::size_t i = 0; i < count; ++i)
+      if (query_ref::kind(children[i]) == query_ref::node)
+        fill_node(query_ref::index(children[i]), parts[i].references, level + 1);
   }
 
-  std::uint32_t make_ref(const Part& part) {
-    if (part.node != nullptr) {
-      std::vector<Part> parts;
-      add_children(*part.node, parts);
-      return query_ref::make(query_ref::node, make_node(std::move(parts)));
+  /// A node is made, but not filled.
+  std::uint32_t make_ref(References references) {
+    if (!is_leaf(references)) {
+      bvh_.nodes_.emplace_back();
+      return query_ref::make(query_ref::node, static_cast<std::uint32_t>(bvh_.nodes_.size() - 1));
     }
-    if (!part.others.empty()) {
-      const auto index = static_cast<std::uint32_t>(bvh_.others_.size());
-      bvh_.others_.insert(bvh_.others_.end(), part.others.begin(), part.others.end());
-      bvh_.others_.push_back(kNoOffset);
-      return query_ref::make(query_ref::others, index);
-    }
-    if (part.triangles.size() <= kBlock)
-      return query_ref::make(query_ref::triangles, make_blocks(part.triangles));
-    std::vector<Part> halves;
-    halve(part, halves);
-    return query_ref::make(query_ref::node, make_node(std::move(halves)));
+    if (!references[0].is_triangle) return query_ref::make(query_ref::others, references[0].index);
+    return query_ref::make(query_ref::triangles, make_block(references));
   }
 
-  std::uint32_t make_blocks(std::span<const std::uint32_t> triangles) {
+  std::uint32_t make_block(References triangles) {
     const auto index = static_cast<std::uint32_t>(bvh_.blocks_.size());
     TriangleBlock& block = bvh_.blocks_.emplace_back();
     for (std::size_t lane = 0; lane < kBlock; ++lane) {
-      const std::uint32_t offset = triangles[lane < triangles.size() ? lane : 0];
+      const std::uint32_t offset = triangles[lane < triangles.size() ? lane : 0].index;
       const float* const g = record<ObjectRecord>(offset).geometry;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         block.v0[axis][lane] = g[axis];
@@ -211,12 +256,15 @@ private:
 
   SingleRayBvh& bvh_;
   const SceneImage& image_;
-  std::deque<std::vector<std::uint32_t>> members_; ///< of leaves, where spans point to
+  std::vector<Reference> references_;
 };
 
 SingleRayBvh::SingleRayBvh(const SceneImage& image, std::uint32_t root) {
   nodes_.reserve(image.header().object_count / 8 + 1);
   blocks_.reserve(image.header().object_count / 2 + 1);
+  // Rays go through them in no order.
+  use_huge_pages(nodes_.data(), nodes_.capacity() * sizeof(QueryNode));
+  use_huge_pages(blocks_.data(), blocks_.capacity() * sizeof(TriangleBlock));
   Builder(*this, image).build(root);
 }
 

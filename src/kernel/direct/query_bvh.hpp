@@ -1,5 +1,5 @@
 // The BVH for single rays: eight children wide, its triangles in blocks of four that are ready to be tested.
-// It is made from the BVH for packets, whose leaves suit sixteen lanes.
+// It is made of what the leaves of the BVH for packets have, which suit sixteen lanes.
 #pragma once
 
 #include "kernel/records.hpp"
