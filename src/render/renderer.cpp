@@ -2,13 +2,11 @@
 
 #include "celltrace/error.hpp"
 #include "kernel/lights/list.hpp"
-#include "kernel/program/pixel_sampler.hpp"
 #include "kernel/shading/ray_stack.hpp"
 #include "render/accelerator_builder.hpp"
-#include "render/blocks.hpp"
-#include "render/first_hits.hpp"
 #include "render/frame_setup.hpp"
 #include "render/models/stage_team.hpp"
+#include "render/picture_memory.hpp"
 #include "render/quality.hpp"
 #include "render/ray_query_scene.hpp"
 #include "render/spe_team.hpp"
@@ -19,7 +17,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstring>
 #include <new>
 #include <span>
 #include <system_error>
@@ -58,15 +55,6 @@ MachineConfig machine_config(const RenderOptions& options) {
 /// Of building, what the scene image takes.
 constexpr double kImageShare = 0.2;
 
-/// A block that a DMA list can address: all of it in one region of 4 GB.
-AlignedBlock make_list_target(std::size_t bytes) {
-  AlignedBlock block = AlignedBlock::uninitialised(bytes);
-  const auto region = [](const std::byte* at) { return reinterpret_cast<std::uintptr_t>(at) >> 31 >> 1; };
-  // The block that straddles a border is kept while another one is made, which therefore lies elsewhere.
-  if (region(block.data()) != region(block.data() + bytes - 1)) return make_list_target(bytes);
-  return block;
-}
-
 } // namespace
 
 class Renderer::Impl {
@@ -83,7 +71,7 @@ public:
 
   RenderResult render(const Scene& scene, const Progress& progress) {
     if (!prepare(scene, progress)) return no_frame();
-    return reporting_failures([&] { return render_frame(whole_picture(), progress); });
+    return reporting_failures([&] { return render_frame(picture_.rows(), progress); });
   }
   /// `progress` may end it, too.
   bool prepare(const Scene& scene, const Progress& progress) {
@@ -94,7 +82,7 @@ public:
   RenderResult render_rows(int top, int bottom, const Progress& progress) {
     return reporting_failures([&] {
       if (!has_scene_) throw InputError("rows cannot be rendered: no scene is prepared");
-      const RowRange picture = whole_picture();
+      const RowRange picture = picture_.rows();
       const auto ends_block = [&](int row) { return row % kRowStep == 0 || row == picture.bottom; };
       if (top < 0 || top >= bottom || bottom > picture.bottom || top % kRowStep != 0 || !ends_block(bottom))
         throw InputError("the rows to render are not whole blocks of the picture's");
@@ -109,7 +97,7 @@ public:
       return prepare_changes(wanted, changes, go_on);
     });
     if (!prepared) return no_frame();
-    return reporting_failures([&] { return render_frame(whole_picture(), progress); });
+    return reporting_failures([&] { return render_frame(picture_.rows(), progress); });
   }
   RenderResult render(const Camera& camera, const Progress& progress) {
     return reporting_failures([&] { return render_camera(camera, progress); });
@@ -152,7 +140,8 @@ public:
 private:
   Impl(const RenderOptions& options, std::unique_ptr<Machine> machine)
       : options_(options), reports_(machine->spe_count(), machine->byte_order()),
-        frame_block_(1, machine->byte_order()), frame_(frame_block_[0]), machine_(std::move(machine)) {
+        frame_block_(1, machine->byte_order()), frame_(frame_block_[0]),
+        picture_(options_, frame_, machine->byte_order()), machine_(std::move(machine)) {
     make_room_for_picture();
     team_ =
         std::make_unique<SpeTeam>(*machine_, frame_block_, static_cast<AcceleratorKind>(frame_.accelerator));
@@ -170,28 +159,10 @@ private:
   /// What depends on the size and the kind of pictures.
   void make_room_for_picture() {
     set_options(frame_, options_, *machine_);
-    surface_ = make_list_target(std::size_t{frame_.surface_pitch + frame_.sampling.colours_pitch} *
-                                frame_.packet_rows * kPacketEdge);
-    frame_.surface = to_ea(surface_.data());
+    picture_.make_room(machine_->spe_count(), bundle_edge(machine_->direct_memory()));
     frame_.reports = reports_.ea();
-    grid_points_ = AlignedBlock();
-    if (options_.antialiasing || brings_colours(options_))
-      grid_points_ = AlignedBlock::uninitialised(
-          std::size_t{frame_.packet_columns} * frame_.packet_rows *
-          (kGridPacketBytes + (options_.first_hits ? sizeof(FirstHitRecord) : 0)));
-    frame_.grid_points = to_ea(grid_points_.data());
-    if (options_.antialiasing) make_room_for_samples();
     planned_ = {0, 0};
-    plan_rows(whole_picture());
-  }
-
-  void make_room_for_samples() {
-    const std::size_t bytes =
-        std::size_t{machine_->spe_count()} *
-        sample_store_bytes(bundle_edge(machine_->direct_memory()), options_.alpha);
-    if (sample_store_.size() >= bytes) return; // it does not depend on the picture's size
-    sample_store_ = AlignedBlock::uninitialised(bytes);
-    frame_.sample_store = to_ea(sample_store_.data());
+    plan_rows(picture_.rows());
   }
 
   template <class Work> std::invoke_result_t<Work> reporting_failures(Work work) {
@@ -240,16 +211,6 @@ private:
     return found;
   }
 
-  /// Rows [top, bottom) of the region.
-  struct RowRange {
-    int top, bottom;
-    bool operator==(const RowRange&) const = default;
-  };
-  RowRange whole_picture() const {
-    const PictureRegion region = region_of(options_);
-    return {0, region.bottom - region.top};
-  }
-
   /// Image and accelerator. False: `go_on` cancelled.
   bool prepare_scene(const Scene& scene, const Progress& go_on) {
     prepared_ = RenderStatistics();
@@ -274,14 +235,14 @@ private:
 
   /// Cancelled before the first pixel.
   RenderResult no_frame() {
-    std::memset(surface_.data(), 0, surface_.size());
+    picture_.clear_from(0);
     reports_.clear();
     RenderResult result;
     result.complete = false;
     RenderStatistics statistics = std::exchange(prepared_, nothing_prepared());
     collect(statistics, *machine_, frame_, reports_.all(), SpeMeter(*machine_).read());
     result.statistics = statistics;
-    copy_pixels(result, whole_picture());
+    picture_.copy(picture_.rows(), image_, result);
     return result;
   }
 
@@ -329,7 +290,7 @@ private:
     validate(camera);
     prepared_ = nothing_prepared();
     enter_camera(camera);
-    return render_frame(whole_picture(), progress);
+    return render_frame(picture_.rows(), progress);
   }
   void enter_camera(const Camera& camera) {
     camera_ = camera;
@@ -355,7 +316,7 @@ private:
     plan_rows(rows);
     traced_ = {0, 0};
     // A frame that nobody can break off leaves no pixel out.
-    if (progress) std::memset(surface_.data() + kept_bytes(), 0, surface_.size() - kept_bytes());
+    if (progress) picture_.clear_from(kept_lines());
     const Stopwatch render;
     const SpeMeter meter(*machine_);
     RenderResult result;
@@ -364,7 +325,7 @@ private:
       // Half of the progress is the grid's.
       frame_.purpose = static_cast<std::uint32_t>(FramePurpose::grid);
       result.complete = render_pass(*plan_, part_of(progress, 0, 0.5), reports);
-      keep_colours(rows);
+      picture_.keep_colours(rows);
       if (result.complete) {
         traced_ = grid_rows_of(rows);
         frame_.purpose = static_cast<std::uint32_t>(FramePurpose::samples);
@@ -372,7 +333,7 @@ private:
       }
     } else {
       result.complete = render_pass(*plan_, progress, reports);
-      keep_colours(rows);
+      picture_.keep_colours(rows);
     }
     statistics.render_seconds = render.seconds();
     if (machine_->backend() != "native") {
@@ -390,7 +351,7 @@ private:
     result.statistics = statistics;
     // The picture then lies in memory that the scene has had. First hits ask where its tables are.
     if (is_last_frame_ && !options_.first_hits) image_ = SceneImage();
-    copy_pixels(result, rows);
+    picture_.copy(rows, image_, result);
     if (options_.work_map) result.work = std::move(work_);
     return result;
   }
@@ -433,11 +394,10 @@ private:
     planned_ = rows;
     planned_grid_ = grid;
   }
-  /// Of the surface: points that the plan leaves out are pixels, which came with the rows before.
-  std::size_t kept_bytes() const {
+  /// Lines of the grid that the plan leaves out: pixels, which came with the rows before.
+  std::uint32_t kept_lines() const {
     if (planned_grid_.begin == grid_rows_of(planned_).begin) return 0;
-    return std::size_t{frame_.surface_pitch} * planned_grid_.begin * bundle_edge(machine_->direct_memory()) *
-           kPacketEdge;
+    return planned_grid_.begin * bundle_edge(machine_->direct_memory()) * kPacketEdge;
   }
 
   static Progress part_of(const Progress& progress, double begin, double end) {
@@ -456,15 +416,15 @@ private:
     const bool tells_units = options_.finished_block || options_.work_map;
     frame_.units_per_word = tells_units ? kEachUnit : silent ? 0 : plan.units() / 64 + 1;
     StripTally tally(machine_->spe_count(), plan.units());
-    const BlockGrid blocks = blocks_of_frame();
+    const BlockGrid blocks = picture_.blocks(bundle_edge(machine_->direct_memory()));
     std::vector<std::pair<std::uint32_t, unsigned>> done; // units, and by which SPE
     const auto unit_done = [&](std::uint32_t unit, unsigned spe) {
       done.emplace_back(unit, spe);
-      if (options_.finished_block) tell_blocks(regions_of(plan.unit(unit), blocks), spe);
+      if (options_.finished_block) picture_.tell_blocks(regions_of(plan.unit(unit), blocks), spe);
     };
     const bool complete =
         stages_ ? stages_->render_frame(progress) : team_->render_frame(tally, progress, unit_done);
-    if (complete && stages_ && options_.finished_block) tell_blocks({region_of(options_)}, 0);
+    if (complete && stages_ && options_.finished_block) picture_.tell_blocks({region_of(options_)}, 0);
     work_ = work_of(plan, done, blocks);
     reports_.fetch();
     add(reports, reports_.all());
@@ -472,29 +432,6 @@ private:
     return complete;
   }
 
-  /// Whether the grid begins to the upper left of the picture, as that of the fixed method does.
-  bool begins_before_picture() const {
-    const auto& antialiasing = options_.antialiasing;
-    return antialiasing && antialiasing->method == Antialiasing::Method::fixed;
-  }
-  /// How this frame's blocks lie in the picture.
-  BlockGrid blocks_of_frame() const {
-    BlockGrid grid;
-    grid.region = region_of(options_);
-    grid.columns = frame_.bundle_columns;
-    grid.left = grid.region.left;
-    grid.top = grid.region.top;
-    if (static_cast<FramePurpose>(frame_.purpose) == FramePurpose::samples) {
-      grid.edge = static_cast<int>(kSampledEdge);
-      return grid;
-    }
-    grid.edge = static_cast<int>(bundle_edge(machine_->direct_memory()) * kPacketEdge);
-    if (begins_before_picture()) {
-      --grid.left;
-      --grid.top;
-    }
-    return grid;
-  }
   static std::vector<WorkRecord> work_of(WorkPlan& plan,
                                          const std::vector<std::pair<std::uint32_t, unsigned>>& done,
                                          const BlockGrid& blocks) {
@@ -511,124 +448,6 @@ private:
     }
     return work;
   }
-  void tell_blocks(const std::vector<PictureRegion>& regions, unsigned spe) const {
-    const PictureRegion picture = region_of(options_);
-    for (const PictureRegion& region : regions)
-      options_.finished_block(
-          {region,
-           first_pixel() +
-               std::size_t{frame_.surface_pitch} * static_cast<std::size_t>(region.top - picture.top) +
-               std::size_t{4} * static_cast<std::size_t>(region.left - picture.left),
-           frame_.surface_pitch, spe});
-  }
-  /// Of the region.
-  const std::uint8_t* first_pixel() const {
-    const auto* first = reinterpret_cast<const std::uint8_t*>(surface_.data());
-    return begins_before_picture() ? first + frame_.surface_pitch + 4 : first;
-  }
-  std::byte* rows_of_colours() {
-    return surface_.data() + std::size_t{frame_.surface_pitch} * frame_.packet_rows * kPacketEdge;
-  }
-
-  /// The colours of the grid's points become those of pixels, if they are wanted; in the SPEs' byte order.
-  void keep_colours(const RowRange& rows) {
-    if (!brings_colours(options_)) return;
-    constexpr std::uint32_t kPoints = kPacketEdge * kPacketEdge;
-    const std::uint32_t first = static_cast<std::uint32_t>(rows.top) / kPacketEdge;
-    const std::uint32_t lines = static_cast<std::uint32_t>(rows.bottom) + (options_.antialiasing ? 1 : 0);
-    const std::byte* from =
-        grid_points_.data() + std::size_t{first} * frame_.packet_columns * kGridPacketBytes;
-    for (std::uint32_t row = first; row < (lines + kPacketEdge - 1) / kPacketEdge; ++row)
-      for (std::uint32_t column = 0; column < frame_.packet_columns; ++column, from += kGridPacketBytes)
-        for (std::uint32_t point = 0; point < kPoints; ++point) {
-          const std::uint32_t x = column * kPacketEdge + point % kPacketEdge;
-          const std::uint32_t y = row * kPacketEdge + point / kPacketEdge;
-          std::byte* const to =
-              rows_of_colours() + std::size_t{y} * frame_.sampling.colours_pitch + x * sizeof(ColourRecord);
-          for (std::size_t channel = 0; channel < 4; ++channel)
-            std::memcpy(to + channel * sizeof(float), from + (channel * kPoints + point) * sizeof(float),
-                        sizeof(float));
-        }
-  }
-
-  /// The host encodes pixels that have alpha.
-  void copy_pixels(RenderResult& result, const RowRange& rows) {
-    if (options_.blocks) {
-      result.blocks = copy_blocks(surface_, frame_, rows.top, rows.bottom);
-      result.image = to_image(result.blocks);
-      return;
-    }
-    result.image = copy_picture(rows);
-    if (!brings_colours(options_)) return;
-    ColourImage colours = copy_colours(result.image, rows);
-    if (options_.first_hits)
-      result.first_hits = read_first_hits(grid_points_, frame_, result.image, grid_at_picture(rows),
-                                          machine_->byte_order(), image_);
-    if (options_.alpha) result.image = to_image(colours);
-    if (options_.colours) result.colours = std::move(colours);
-  }
-
-  /// Where the rows are in the picture and in the grid.
-  GridAtPicture grid_at_picture(const RowRange& rows) const {
-    GridAtPicture grid;
-    const PictureRegion region = region_of(options_);
-    grid.region = {region.left, region.right, region.top + rows.top, region.top + rows.bottom};
-    grid.first_column = begins_before_picture() ? 1 : 0;
-    grid.first_row = grid.first_column + static_cast<std::uint32_t>(rows.top);
-    return grid;
-  }
-
-  /// Where the picture has not been rendered, so have the colours not.
-  ColourImage copy_colours(const Image& picture, const RowRange& rows) {
-    ColourImage colours(picture.width, picture.height);
-    if (options_.alpha)
-      for (std::size_t alpha = 3; alpha < colours.rgba.size(); alpha += 4)
-        colours.rgba[alpha] = 0;
-    if (static_cast<GammaEncoding>(frame_.gamma_encoding) == GammaEncoding::none)
-      colours.gamma = std::nullopt;
-    else
-      colours.gamma = static_cast<double>(frame_.assumed_gamma);
-    const PictureRegion region = region_of(options_);
-    const std::size_t pitch = frame_.sampling.colours_pitch;
-    const std::byte* from = rows_of_colours() + pitch * static_cast<std::size_t>(rows.top);
-    if (begins_before_picture()) from += pitch + sizeof(ColourRecord);
-    for (int y = region.top + rows.top; y < region.top + rows.bottom; ++y, from += pitch)
-      for (int x = region.left; x < region.right; ++x) {
-        float* const pixel = colours.pixel(x, y);
-        if (picture.pixel(x, y)[3] == 0) {
-          pixel[3] = 0;
-          continue;
-        }
-        float channels[4];
-        std::memcpy(channels, from + static_cast<std::size_t>(x - region.left) * sizeof(ColourRecord),
-                    sizeof channels);
-        reorder(channels, machine_->byte_order());
-        std::copy_n(channels, 3, pixel);
-        if (options_.alpha) pixel[3] = 1 - channels[3];
-      }
-    return colours;
-  }
-
-  Image copy_picture(const RowRange& rows) const {
-    const std::uint8_t* from =
-        first_pixel() + std::size_t{frame_.surface_pitch} * static_cast<std::size_t>(rows.top);
-    const PictureRegion region = region_of(options_);
-    const std::size_t row = std::size_t{4} * static_cast<std::size_t>(region.right - region.left);
-    if (options_.region || rows != whole_picture()) {
-      Image image(options_.width, options_.height);
-      for (int y = rows.top; y < rows.bottom; ++y, from += frame_.surface_pitch)
-        std::memcpy(image.pixel(region.left, region.top + y), from, row);
-      return image;
-    }
-    Image image;
-    image.width = options_.width;
-    image.height = options_.height;
-    image.rgba.reserve(row * static_cast<std::size_t>(options_.height));
-    for (int y = 0; y < options_.height; ++y, from += frame_.surface_pitch)
-      image.rgba.insert(image.rgba.end(), from, from + row);
-    return image;
-  }
-
   RenderOptions options_;
   SceneImage image_;
   std::vector<Medium> media_;
@@ -640,10 +459,11 @@ private:
   BundleRows planned_grid_;
   BundleRows traced_; ///< of the grid, whose points are there
   // Everything from here to the machine is read and written by the SPEs.
-  AlignedBlock surface_, ray_stack_, grid_points_, sample_store_; // bytes, and the SPEs' own
+  AlignedBlock ray_stack_; // the SPEs' own
   SharedRecords<ReportRecord> reports_;
   SharedRecords<FrameBlock> frame_block_;
-  FrameBlock& frame_;                            ///< the PPE's
+  FrameBlock& frame_; ///< the PPE's
+  PictureMemory picture_;
   std::unique_ptr<WorkPlan> plan_, sample_plan_; ///< the second one of blocks of pixels that are sampled
   std::unique_ptr<Machine> machine_;
   std::unique_ptr<SpeTeam> team_;
