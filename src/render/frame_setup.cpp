@@ -239,6 +239,20 @@ void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& optio
   frame.sky = header.sky;
 }
 
+RenderOptions with_picture_of(RenderOptions options, const RenderOptions& given) {
+  options.width = given.width;
+  options.height = given.height;
+  options.region = given.region;
+  options.antialiasing = given.antialiasing;
+  options.colours = given.colours;
+  options.alpha = given.alpha;
+  options.first_hits = given.first_hits;
+  options.blocks = given.blocks;
+  options.work_map = given.work_map;
+  options.finished_block = given.finished_block;
+  return options;
+}
+
 bool brings_colours(const RenderOptions& options) {
   return options.colours || options.alpha || options.first_hits;
 }

@@ -25,6 +25,8 @@ struct PictureOnGrid {
   double left = 0.0, top = 0.0; ///< the middle of its upper left pixel: a column and a row of the grid
 };
 PictureOnGrid picture_on_grid(const RenderOptions& options);
+/// `options` with what `given` says of pictures: their size and kind, and who hears of them.
+RenderOptions with_picture_of(RenderOptions options, const RenderOptions& given);
 /// Whether colours leave the SPEs as numbers.
 bool brings_colours(const RenderOptions& options);
 /// The part of the picture that is rendered.

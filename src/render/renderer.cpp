@@ -103,17 +103,7 @@ public:
     return reporting_failures([&] { return render_camera(camera, progress); });
   }
   void set_picture(const RenderOptions& given) {
-    RenderOptions options = options_;
-    options.width = given.width;
-    options.height = given.height;
-    options.region = given.region;
-    options.antialiasing = given.antialiasing;
-    options.colours = given.colours;
-    options.alpha = given.alpha;
-    options.first_hits = given.first_hits;
-    options.blocks = given.blocks;
-    options.finished_block = given.finished_block;
-    options.work_map = given.work_map;
+    const RenderOptions options = with_picture_of(options_, given);
     check(options);
     options_ = options;
     make_room_for_picture();

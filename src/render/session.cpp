@@ -1,6 +1,7 @@
 #include "celltrace/session.hpp"
 
 #include "celltrace/error.hpp"
+#include "render/frame_setup.hpp"
 
 #include <atomic>
 #include <cstring>
@@ -111,17 +112,7 @@ public:
 
   void set_picture(const RenderOptions& options) {
     if (framebuffer_) check(*framebuffer_, options.width);
-    RenderOptions changed = given_;
-    changed.width = options.width;
-    changed.height = options.height;
-    changed.region = options.region;
-    changed.antialiasing = options.antialiasing;
-    changed.colours = options.colours;
-    changed.alpha = options.alpha;
-    changed.first_hits = options.first_hits;
-    changed.blocks = options.blocks;
-    changed.work_map = options.work_map;
-    changed.finished_block = options.finished_block;
+    const RenderOptions changed = with_picture_of(given_, options);
     renderer_.set_picture(own_options(changed));
     given_ = changed;
   }

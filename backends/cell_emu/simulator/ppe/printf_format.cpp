@@ -1,5 +1,7 @@
 #include "backends/cell_emu/simulator/ppe/printf_format.hpp"
 
+#include "backends/cell_emu/simulator/ppe/format_text.hpp"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -23,8 +25,6 @@ void FormattedText::fill(char character, std::uint64_t count) {
 }
 
 namespace {
-
-enum class Length { normal, byte, half, two_words, word };
 
 struct Directive {
   bool left = false, plus = false, space = false, alternative = false, zero = false;
@@ -57,24 +57,23 @@ public:
       : text_(text), format_(format), local_store_(local_store), arguments_(arguments) {}
 
   void run() {
-    while (at_ < format_.size()) {
-      const std::size_t percent = std::min(format_.find('%', at_), format_.size());
-      text_.append(format_.substr(at_, percent - at_));
-      at_ = percent;
-      if (at_ < format_.size()) convert();
+    while (!format_.at_end()) {
+      text_.append(format_.take_until('%'));
+      if (!format_.at_end()) convert();
     }
   }
 
 private:
   void convert() {
-    const std::size_t start = at_++;
+    const std::size_t start = format_.place();
+    format_.take();
     Directive d;
     read_flags(d);
     read_width(d);
     read_precision(d);
-    read_length(d);
-    if (at_ == format_.size()) throw CallFailed{SpuErrno::invalid};
-    d.conversion = format_[at_++];
+    d.length = format_.read_length();
+    if (format_.at_end()) throw CallFailed{SpuErrno::invalid};
+    d.conversion = format_.take();
     switch (d.conversion) {
     case 'd':
     case 'i':
@@ -124,13 +123,13 @@ private:
       text_.append("%");
       break;
     default:
-      text_.append(format_.substr(start, at_ - start));
+      text_.append(format_.since(start));
     }
   }
 
   void read_flags(Directive& d) {
-    for (; at_ < format_.size(); ++at_)
-      switch (format_[at_]) {
+    for (; !format_.at_end(); format_.take())
+      switch (format_.peek()) {
       case '-':
         d.left = true;
         break;
@@ -154,43 +153,19 @@ private:
   }
 
   void read_width(Directive& d) {
-    if (skip('*')) {
+    if (format_.skip('*')) {
       const std::int64_t width = static_cast<std::int32_t>(arguments_.word());
       d.left |= width < 0;
       d.width = static_cast<std::uint64_t>(std::abs(width));
     } else {
-      d.width = read_number();
+      d.width = format_.read_number();
     }
   }
 
   void read_precision(Directive& d) {
-    if (!skip('.')) return;
-    d.precision =
-        skip('*') ? static_cast<std::int32_t>(arguments_.word()) : static_cast<std::int64_t>(read_number());
-  }
-
-  void read_length(Directive& d) {
-    if (skip('h'))
-      d.length = skip('h') ? Length::byte : Length::half;
-    else if (skip('l'))
-      d.length = skip('l') ? Length::two_words : Length::word;
-    else if (skip('j') || skip('q') || skip('L'))
-      d.length = Length::two_words;
-    else if (skip('z') || skip('t'))
-      d.length = Length::word;
-  }
-
-  bool skip(char character) {
-    if (at_ == format_.size() || format_[at_] != character) return false;
-    ++at_;
-    return true;
-  }
-
-  std::uint64_t read_number() {
-    std::uint64_t number = 0;
-    for (; at_ < format_.size() && format_[at_] >= '0' && format_[at_] <= '9'; ++at_)
-      number = std::min<std::uint64_t>(number * 10 + static_cast<unsigned>(format_[at_] - '0'), 1 << 30);
-    return number;
+    if (!format_.skip('.')) return;
+    d.precision = format_.skip('*') ? static_cast<std::int32_t>(arguments_.word())
+                                    : static_cast<std::int64_t>(format_.read_number());
   }
 
   void put(const Directive& d, Pieces pieces, bool zeros_allowed = true) {
@@ -439,24 +414,11 @@ private:
   void store_count(const Directive& d) {
     const std::uint32_t address = arguments_.word();
     const std::uint64_t count = text_.length();
-    switch (d.length) {
-    case Length::byte:
-      local_store_.store(address, static_cast<std::uint8_t>(count));
-      break;
-    case Length::half:
-      local_store_.store(address, static_cast<std::uint16_t>(count));
-      break;
-    case Length::two_words:
-      local_store_.store(address, count);
-      break;
-    default:
-      local_store_.store(address, static_cast<std::uint32_t>(count));
-    }
+    store_integer(local_store_, address, d.length, count);
   }
 
   FormattedText& text_;
-  const std::string format_; // a copy: %n may write into the program's
-  std::size_t at_ = 0;
+  FormatText format_;
   LocalStoreView local_store_;
   VariableArguments arguments_;
   std::array<char, kMostDigits + 400> buffer_;

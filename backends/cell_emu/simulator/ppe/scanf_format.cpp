@@ -1,5 +1,7 @@
 #include "backends/cell_emu/simulator/ppe/scanf_format.hpp"
 
+#include "backends/cell_emu/simulator/ppe/format_text.hpp"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -22,8 +24,6 @@ int digit_value(int c) {
   if (c >= '0' && c <= '9') return c - '0';
   return lower(c) >= 'a' && lower(c) <= 'z' ? lower(c) - 'a' + 10 : 99;
 }
-
-enum class Length { normal, byte, half, two_words, word };
 
 struct Directive {
   bool stored = true;
@@ -74,7 +74,7 @@ public:
 
   int run() {
     try {
-      while (at_ < format_.size())
+      while (!format_.at_end())
         step();
     } catch (const MatchFailed&) {
     } catch (const InputFailed&) {
@@ -85,17 +85,13 @@ public:
 
 private:
   void step() {
-    const char c = format_[at_];
-    if (is_space(c)) {
-      ++at_;
+    const char c = format_.take();
+    if (is_space(c))
       skip_spaces();
-    } else if (c != '%') {
-      ++at_;
+    else if (c != '%')
       match(c);
-    } else {
-      ++at_;
+    else
       convert();
-    }
   }
 
   void skip_spaces() {
@@ -114,14 +110,13 @@ private:
 
   void convert() {
     Directive d;
-    if (skip('*')) d.stored = false;
-    for (; at_ < format_.size() && format_[at_] >= '0' && format_[at_] <= '9'; ++at_)
-      d.width = std::min<std::uint64_t>(d.width * 10 + static_cast<unsigned>(format_[at_] - '0'), 1 << 30);
-    read_length(d);
-    if (at_ == format_.size()) throw CallFailed{SpuErrno::invalid};
-    d.conversion = format_[at_++];
+    if (format_.skip('*')) d.stored = false;
+    d.width = format_.read_number();
+    d.length = format_.read_length();
+    if (format_.at_end()) throw CallFailed{SpuErrno::invalid};
+    d.conversion = format_.take();
     if (d.conversion == 'n') {
-      if (d.stored) store_integer(d, arguments_.word(), consumed_);
+      if (d.stored) store_integer(local_store_, arguments_.word(), d.length, consumed_);
       return;
     }
     if (d.conversion == 'C' || d.conversion == 'S') {
@@ -183,35 +178,15 @@ private:
     if (d.stored) ++stored_;
   }
 
-  bool skip(char character) {
-    if (at_ == format_.size() || format_[at_] != character) return false;
-    ++at_;
-    return true;
-  }
-
-  void read_length(Directive& d) {
-    if (skip('h'))
-      d.length = skip('h') ? Length::byte : Length::half;
-    else if (skip('l'))
-      d.length = skip('l') ? Length::two_words : Length::word;
-    else if (skip('j') || skip('q') || skip('L'))
-      d.length = Length::two_words;
-    else if (skip('z') || skip('t'))
-      d.length = Length::word;
-  }
-
   std::array<bool, 256> read_set() {
     std::array<bool, 256> set{};
-    const bool inverted = skip('^');
+    const bool inverted = format_.skip('^');
     for (bool first = true;; first = false) {
-      if (at_ == format_.size()) throw CallFailed{SpuErrno::invalid};
-      const auto from = static_cast<unsigned char>(format_[at_++]);
+      if (format_.at_end()) throw CallFailed{SpuErrno::invalid};
+      const auto from = static_cast<unsigned char>(format_.take());
       if (from == ']' && !first) break;
       auto to = from;
-      if (at_ + 1 < format_.size() && format_[at_] == '-' && format_[at_ + 1] != ']') {
-        to = static_cast<unsigned char>(format_[at_ + 1]);
-        at_ += 2;
-      }
+      if (format_.skips_to_another('-', ']')) to = static_cast<unsigned char>(format_.take());
       for (unsigned c = from; c <= to; ++c)
         set[c] = true;
     }
@@ -249,7 +224,9 @@ private:
       field.take();
     }
     if (!digits) throw MatchFailed();
-    if (d.stored) store_integer(d, arguments_.word(), saturated(d, value, overflow, negative, is_signed));
+    if (d.stored)
+      store_integer(local_store_, arguments_.word(), d.length,
+                    saturated(d, value, overflow, negative, is_signed));
   }
 
   /// As strtol() and strtoul() treat what does not fit.
@@ -263,22 +240,6 @@ private:
     const std::uint64_t most = all / 2 + (negative ? 1 : 0);
     if (overflow || value > most) value = most;
     return negative ? ~value + 1 : value;
-  }
-
-  void store_integer(const Directive& d, std::uint32_t address, std::uint64_t value) {
-    switch (d.length) {
-    case Length::byte:
-      local_store_.store(address, static_cast<std::uint8_t>(value));
-      break;
-    case Length::half:
-      local_store_.store(address, static_cast<std::uint16_t>(value));
-      break;
-    case Length::two_words:
-      local_store_.store(address, value);
-      break;
-    default:
-      local_store_.store(address, static_cast<std::uint32_t>(value));
-    }
   }
 
   // --- floating point
@@ -393,8 +354,7 @@ private:
   }
 
   CharacterSource& source_;
-  const std::string format_; // a copy: conversions may write where it was
-  std::size_t at_ = 0;
+  FormatText format_;
   LocalStoreView local_store_;
   VariableArguments arguments_;
   std::uint64_t consumed_ = 0;
