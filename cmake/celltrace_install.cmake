@@ -29,23 +29,20 @@ set(component_headers_celltrace camera_ray.hpp image.hpp job.hpp pov.hpp ray.hpp
 # --- libraries ---
 
 # celltrace_pkg_config(NAME component DESCRIPTION text [REQUIRES modules...] [PRIVATE modules...] [LIBS flags...]
-#   [PRIVATE_LIBS flags...] [CFLAGS flags...]): a static library needs what is private, too.
+#   [PRIVATE_LIBS flags...] [CFLAGS flags...]): what is private a static library's users link, too; a shared one's need
+# not even have its headers and module, which pkg-config would ask for were it named.
 function(celltrace_pkg_config)
   cmake_parse_arguments(PC "" "NAME;DESCRIPTION" "REQUIRES;PRIVATE;LIBS;PRIVATE_LIBS;CFLAGS" ${ARGN})
   if(NOT BUILD_SHARED_LIBS)
     list(APPEND PC_REQUIRES ${PC_PRIVATE})
     list(APPEND PC_LIBS ${PC_PRIVATE_LIBS})
-    set(PC_PRIVATE "")
-    set(PC_PRIVATE_LIBS "")
   endif()
   set(PC_FILE celltrace-${PC_NAME})
   if(PC_NAME STREQUAL "celltrace")
     set(PC_FILE celltrace)
   endif()
   list(JOIN PC_REQUIRES ", " PC_REQUIRES)
-  list(JOIN PC_PRIVATE ", " PC_PRIVATE)
   list(JOIN PC_LIBS " " PC_LIBS)
-  list(JOIN PC_PRIVATE_LIBS " " PC_PRIVATE_LIBS)
   list(JOIN PC_CFLAGS " " PC_CFLAGS)
   set(PC_DIR ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
   set(PC_PREFIX ${CMAKE_INSTALL_PREFIX})
