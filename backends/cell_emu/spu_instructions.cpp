@@ -4,6 +4,7 @@
 #include "backends/cell_emu/isa/instruction.hpp"
 #include "backends/cell_emu/spu.hpp"
 
+#include <memory>
 #include <string>
 
 namespace celltrace::sdk {
@@ -87,8 +88,10 @@ Quadword execute(Opcode opcode, const Quadword& a, const Quadword& b, const Quad
                  std::int32_t immediate) {
   const isa::OpcodeInfo& info = isa::opcodes()[static_cast<std::size_t>(opcode)];
   if (!computes(info)) throw InputError(std::string(info.mnemonic) + " is no instruction that computes");
-  static thread_local HostEnvironment environment;
-  static thread_local isa::State state;
+  static HostEnvironment environment;
+  // On the heap: two kilobytes are more than a library gets of a thread's memory when it is loaded while a
+  // program runs.
+  static thread_local const auto registers = std::make_unique<isa::State>();
   static thread_local Quadword thread_status{};
   constexpr std::uint8_t kRt = 0, kRa = 1, kRb = 2, kRc = 3;
   isa::Instruction instruction{};
@@ -97,6 +100,7 @@ Quadword execute(Opcode opcode, const Quadword& a, const Quadword& b, const Quad
   instruction.ra = kRa;
   instruction.rb = kRb;
   instruction.rc = kRc;
+  isa::State& state = *registers;
   cell_emu::Spu* const spu = cell_emu::Spu::running_or_null();
   Quadword& status = spu != nullptr ? spu->floating_status() : thread_status;
   state.environment = &environment;
