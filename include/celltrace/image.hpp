@@ -30,7 +30,7 @@ template <class Channel> struct BasicImage {
 
   BasicImage() = default;
   /// Opaque black. Throws InputError if a side is below 1 or a limit is passed.
-  BasicImage(int width, int height);
+  CELLTRACE_EXPORT BasicImage(int width, int height);
 
   Channel* pixel(int x, int y) { return rgba.data() + offset(x, y); }
   const Channel* pixel(int x, int y) const { return rgba.data() + offset(x, y); }

@@ -1,4 +1,5 @@
 // Parses and renders, and catches what a library throws.
+#include <celltrace/image.hpp>
 #include <celltrace/pov.hpp>
 #include <celltrace/render.hpp>
 #include <celltrace/version.hpp>
@@ -24,6 +25,9 @@ int main() {
                 static_cast<int>(result.statistics.primary_rays), middle[0], middle[1], middle[2]);
     if (middle[0] < 100 || middle[1] != 0 || !result.complete) return 2;
   }
+  // Pictures are made of a template that the library instantiates.
+  if (celltrace::to_image(celltrace::ColourImage(4, 3)).rgba.size() != celltrace::Image(4, 3).rgba.size())
+    return 4;
   try {
     celltrace::parse_string("sphere { oops }");
   } catch (const celltrace::SceneError& error) {
