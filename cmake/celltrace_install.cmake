@@ -68,6 +68,11 @@ foreach(component IN LISTS CELLTRACE_COMPONENTS)
   endif()
   celltrace_target(target ${component})
   celltrace_install_headers(${component_headers_${component}})
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL "SHARED_LIBRARY" AND NOT CMAKE_INSTALL_PREFIX STREQUAL "/usr")
+    # Where the system does not look one finds the others beside it, whatever the path of the program that needs it.
+    set_target_properties(${target} PROPERTIES INSTALL_RPATH "$ORIGIN")
+  endif()
   install(TARGETS ${target} EXPORT celltrace-${component}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime NAMELINK_COMPONENT dev
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
