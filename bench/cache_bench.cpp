@@ -21,7 +21,7 @@ namespace {
 class CopyingSpu {
 public:
   static constexpr bool direct_memory = false;
-  using simd = HostSimd<xsimd::sse2>;
+  using simd = HostSimd<BaselineArch>;
 
   template <class T> T* allocate(std::uint32_t count = 1, std::uint32_t alignment = kLineBytes) {
     next_ = (next_ + alignment - 1) & ~(alignment - 1);

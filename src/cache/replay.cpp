@@ -18,7 +18,7 @@ namespace {
 class CountingSpu {
 public:
   static constexpr bool direct_memory = false;
-  using simd = HostSimd<xsimd::sse2>;
+  using simd = HostSimd<BaselineArch>;
 
   explicit CountingSpu(std::size_t bytes) : store_(bytes / kLineBytes + kSlack) {}
 

@@ -13,7 +13,7 @@ using namespace kernel;
 
 namespace {
 
-using Simd = HostSimd<xsimd::sse2>;
+using Simd = HostSimd<BaselineArch>;
 using LaneAabb = bvh::LaneAabb<Simd>;
 
 /// With fewer, starting threads takes longer than they save.

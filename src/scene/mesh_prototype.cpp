@@ -18,7 +18,7 @@ using bvh::Reference;
 
 namespace {
 
-using Simd = HostSimd<xsimd::sse2>;
+using Simd = HostSimd<BaselineArch>;
 using Range = bvh::Range<Simd>;
 
 /// Below it, to place a group of each instance in the BVH takes longer than to build that anew.

@@ -16,7 +16,7 @@ using namespace kernel;
 
 namespace {
 
-using Simd = HostSimd<xsimd::sse2>;
+using Simd = HostSimd<BaselineArch>;
 
 constexpr std::uint32_t kObjectsPerCell = 4;
 constexpr std::uint32_t kMaxCellBits = 18;

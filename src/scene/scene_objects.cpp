@@ -20,7 +20,7 @@ using namespace kernel;
 
 namespace {
 
-using Simd = HostSimd<xsimd::sse2>;
+using Simd = HostSimd<BaselineArch>;
 using LaneAabb = bvh::LaneAabb<Simd>;
 
 constexpr std::uint32_t kVerticesPerThread = 16384;

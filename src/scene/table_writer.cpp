@@ -19,7 +19,7 @@ using namespace kernel;
 
 namespace {
 
-using Simd = HostSimd<xsimd::sse2>;
+using Simd = HostSimd<BaselineArch>;
 
 /// A box around everything, a little larger than it is.
 Aabb bounds_of(Aabb all) {

@@ -227,7 +227,7 @@ TEST_CASE("tags that do not exist, an odd base and too little local store are re
 namespace {
 struct DirectSpu {
   static constexpr bool direct_memory = true;
-  using simd = HostSimd<xsimd::sse2>;
+  using simd = HostSimd<BaselineArch>;
 };
 } // namespace
 

@@ -18,7 +18,7 @@ namespace celltrace::test {
 class FakeSpu {
 public:
   static constexpr bool direct_memory = false;
-  using simd = HostSimd<xsimd::sse2>;
+  using simd = HostSimd<BaselineArch>;
 
   template <class T> T* allocate(std::uint32_t count = 1, std::uint32_t alignment = kLineBytes) {
     next_ = (next_ + alignment - 1) & ~(static_cast<std::size_t>(alignment) - 1);

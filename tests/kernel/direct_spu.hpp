@@ -18,7 +18,7 @@ class DirectSpu {
 public:
   static constexpr bool direct_memory = true;
   std::uint32_t id() const { return 0; }
-  using simd = HostSimd<xsimd::sse2>;
+  using simd = HostSimd<BaselineArch>;
   using rare_simd = simd;
 
   template <class T> T* allocate(std::uint32_t count = 1, std::uint32_t alignment = kLineBytes) {

@@ -248,7 +248,7 @@ TEST_CASE("A BVH over objects at the end of the numbers") {
 }
 
 TEST_CASE("A lane for each cut makes the same of few references as bins do") {
-  using Narrow = HostSimd<xsimd::sse2>;
+  using Narrow = HostSimd<BaselineArch>;
   using bvh::Reference;
   static_assert(Narrow::kWidth < kSimdLanes, "splits by bins");
   Random random(5);

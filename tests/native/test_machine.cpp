@@ -15,7 +15,7 @@ namespace {
 #if defined(__aarch64__)
 using TestSpu = native::Spu<xsimd::neon64>;
 #else
-using TestSpu = native::Spu<xsimd::sse2>;
+using TestSpu = native::Spu<BaselineArch>;
 #endif
 
 constexpr std::chrono::minutes kLong{1};

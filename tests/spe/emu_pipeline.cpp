@@ -10,7 +10,7 @@
 namespace celltrace::cell_emu {
 namespace {
 
-using S = CountingSimd<HostSimd<xsimd::sse2>>;
+using S = CountingSimd<HostSimd<BaselineArch>>;
 
 /// What `work` counts.
 template <class Work> OperationCounts counted(Work work) {
@@ -62,7 +62,7 @@ TEST_CASE("a load counts and gives the same lanes as one that nobody counts") {
   alignas(64) float counting[kSimdLanes];
   alignas(64) float silent[kSimdLanes];
   const OperationCounts counts = counted([&] { (S::F::load(lanes) / S::F(3.0f)).store(counting); });
-  using Silent = HostSimd<xsimd::sse2>;
+  using Silent = HostSimd<BaselineArch>;
   (Silent::F::load(lanes) / Silent::F(3.0f)).store(silent);
   for (std::uint32_t i = 0; i < kSimdLanes; ++i)
     CHECK(counting[i] == silent[i]);

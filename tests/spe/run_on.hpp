@@ -41,7 +41,7 @@ inline std::unique_ptr<Machine> machine_of(const std::string& key, unsigned spes
 /// The kinds of machine that this host can run.
 inline std::vector<std::string> spu_keys() {
   std::vector<std::string> keys;
-  for (const char* key : {cell_emu::Spu::kKey, kLockstep, "native.sse2", "native.avx2", "native.avx512"}) {
+  for (const char* key : {cell_emu::Spu::kKey, kLockstep, native::Spu<BaselineArch>::kKey, "native.avx2", "native.avx512"}) {
     try {
       machine_of(key, 1);
       keys.push_back(key);
@@ -65,7 +65,7 @@ template <class Kernel> struct Counted {
 template <class Kernel> SpeProgram program_of(Kernel) {
   SpeProgram program("test");
   program.add<cell_emu::Spu>(Counted<Kernel>{});
-  program.add<native::Spu<xsimd::sse2>>(Counted<Kernel>{});
+  program.add<native::Spu<BaselineArch>>(Counted<Kernel>{});
   program.add<native::Spu<xsimd::avx2>>(Counted<Kernel>{});
   program.add<native::Spu<xsimd::avx512dq>>(Counted<Kernel>{});
   return program;
@@ -73,7 +73,7 @@ template <class Kernel> SpeProgram program_of(Kernel) {
 
 template <class Kernel> unsigned entries_on(const std::string& key, Kernel) {
   if (spu_type_of(key) == cell_emu::Spu::kKey) return entries<cell_emu::Spu, Kernel>;
-  if (key == "native.sse2") return entries<native::Spu<xsimd::sse2>, Kernel>;
+  if (key == native::Spu<BaselineArch>::kKey) return entries<native::Spu<BaselineArch>, Kernel>;
   if (key == "native.avx2") return entries<native::Spu<xsimd::avx2>, Kernel>;
   return entries<native::Spu<xsimd::avx512dq>, Kernel>;
 }

@@ -23,7 +23,7 @@ class CELLTRACE_EXPORT Spu : public SpuBase<Spu> {
 public:
   static constexpr const char* kKey = "cell_emu";
   static constexpr bool direct_memory = false;
-  using simd = CountingSimd<HostSimd<xsimd::sse2>>;
+  using simd = CountingSimd<HostSimd<BaselineArch>>;
   using rare_simd = simd;
 
   Spu(const Spu&) = delete;

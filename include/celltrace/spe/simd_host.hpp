@@ -1,7 +1,7 @@
 // The SIMD facade of simd.hpp on a host CPU, over xsimd: 16 lanes are sixteen/size batches of the
 // architecture.
 //
-// `Arch` is an xsimd architecture ("xsimd::sse2", "xsimd::avx2", "xsimd::avx512dq"); it is part of every
+// `Arch` is an xsimd architecture ("xsimd::sse2", "xsimd::avx2", "xsimd::avx512dq", "xsimd::neon64"); it is part of every
 // type's name, so that translation units compiled for different CPUs share no inline function.
 #pragma once
 
@@ -13,6 +13,13 @@
 #include <xsimd/xsimd.hpp>
 
 namespace celltrace {
+
+/// What every CPU that the build is for has.
+#if defined(__aarch64__)
+using BaselineArch = xsimd::neon64;
+#else
+using BaselineArch = xsimd::sse2;
+#endif
 
 namespace simd_host {
 
