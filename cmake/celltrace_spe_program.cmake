@@ -21,6 +21,8 @@
 # SPU_HEADER and SPU_KERNEL say the same kernel to the real SPU's compiler: celltrace_spu_elf(NAME) makes an ELF of it,
 # which is the program's image for machines that execute machine code (`cell_sim`). Without that compiler there is none.
 
+# CELLTRACE_BASELINE_SPU is the SPU type of `native` that every CPU of this build has: that of C++'s BaselineArch.
+
 # Per SPU type: its header, type, key and flags.
 set(CELLTRACE_SPUS "" CACHE INTERNAL "SPU types of this build")
 function(celltrace_spu_type name)
@@ -45,6 +47,7 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     # GCC 12 reports the undefined operands of its own AVX-512 headers.
     list(APPEND avx512_flags -Wno-uninitialized -Wno-maybe-uninitialized)
   endif()
+  set(CELLTRACE_BASELINE_SPU native_sse2 CACHE INTERNAL "")
   celltrace_spu_type(native_sse2 HEADER backends/native/spu.hpp KEY native.sse2
     TYPE "celltrace::native::Spu<xsimd::sse2>" FLAGS ${native_flags})
   if(CELLTRACE_WIDE_SIMD)
@@ -54,6 +57,7 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
       TYPE "celltrace::native::Spu<xsimd::avx512dq>" FLAGS ${native_flags} ${avx512_flags})
   endif()
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
+  set(CELLTRACE_BASELINE_SPU native_neon64 CACHE INTERNAL "")
   celltrace_spu_type(native_neon64 HEADER backends/native/spu.hpp KEY native.neon64
     TYPE "celltrace::native::Spu<xsimd::neon64>" FLAGS ${native_flags})
 endif()

@@ -107,7 +107,7 @@ struct RenderOptions {
   /// Number of SPEs, up to 256; 0: on native one per CPU that the calling thread may use, on the
   /// others `emulation.timing.spes`. On native, as many SPEs as such CPUs keep to one each.
   unsigned spes = 0;
-  /// SIMD of native: "auto", "sse2", "avx2", "avx512".
+  /// SIMD of native: "auto", "sse2", "avx2", "avx512"; on AArch64 "auto", "neon64".
   std::string simd = "auto";
   /// The software cache of each SPE (native reads memory directly and has none).
   CacheConfig cache;

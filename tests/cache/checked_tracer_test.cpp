@@ -1,7 +1,8 @@
 // The tracer with caches that watch over their pointers: it uses none too late. This test program brings a
 // tracer_program() of its own, which the renderer starts in place of the usual one.
-#include "celltrace/spe/emulated_spu.hpp"
+#include "backends/native/spu.hpp"
 #include "celltrace/render.hpp"
+#include "celltrace/spe/emulated_spu.hpp"
 #include "kernel/program/tracer.hpp"
 #include "render/scenes.hpp"
 #include "render/tracer_program.hpp"
@@ -13,15 +14,7 @@
 namespace celltrace {
 
 // Of the usual program: where the PPE's side builds the accelerator.
-#ifdef __aarch64__
-void tracer_native_neon64(void* spu, ea_t argument);
-constexpr auto kHostEntry = tracer_native_neon64;
-constexpr const char* kHostKey = "native.neon64";
-#else
-void tracer_native_sse2(void* spu, ea_t argument);
-constexpr auto kHostEntry = tracer_native_sse2;
-constexpr const char* kHostKey = "native.sse2";
-#endif
+void CELLTRACE_HOST_TRACER(void* spu, ea_t argument);
 
 namespace {
 
@@ -71,7 +64,7 @@ namespace {
 /// `kernel(spu, argument)` on a watched or on a plain SPU.
 template <class Kernel> SpeProgram watched_program(const char* name, Kernel kernel) {
   SpeProgram program(name);
-  program.add(kHostKey, kHostEntry);
+  program.add(native::Spu<BaselineArch>::kKey, CELLTRACE_HOST_TRACER);
   program.add(cell_emu::Spu::kKey, [kernel](void* spu, ea_t argument) {
     cell_emu::Spu& real = *static_cast<cell_emu::Spu*>(spu);
     if (checked) {

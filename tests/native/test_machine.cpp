@@ -12,11 +12,7 @@ using namespace celltrace;
 
 namespace {
 
-#if defined(__aarch64__)
-using TestSpu = native::Spu<xsimd::neon64>;
-#else
 using TestSpu = native::Spu<BaselineArch>;
-#endif
 
 constexpr std::chrono::minutes kLong{1};
 

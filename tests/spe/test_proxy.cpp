@@ -221,7 +221,7 @@ TEST_CASE("proxy commands need an SPE that exists") {
 
 TEST_CASE("native refuses the proxy commands that it cannot do") {
   Blocks blocks;
-  const auto machine = stopped_machine("native.sse2", blocks);
+  const auto machine = stopped_machine(native::Spu<BaselineArch>::kKey, blocks);
   const ea_t ea = to_ea(&blocks.from);
   CHECK_THROWS_AS(machine->proxy_command(0, MfcOpcode::getl, blocks.lsa, ea, 16, 0), SpeError);
   CHECK_THROWS_AS(machine->proxy_command(0, MfcOpcode::getllar, blocks.lsa, ea, kLineBytes, 0), SpeError);

@@ -28,7 +28,7 @@ struct MachineConfig {
   /// Number of SPEs, 1..256; 0: on `native` one per CPU that the calling thread may use,
   /// on `cell_emu` and `cell_sim` `emulation.timing.spes`.
   unsigned spes = 0;
-  /// SIMD of `native`: "auto" (the widest that CPU and program have), "sse2", "avx2", "avx512".
+  /// SIMD of `native`: "auto" (the widest there is), "sse2", "avx2", "avx512"; on AArch64 "neon64".
   std::string simd = "auto";
   /// How the two signal notification registers of every SPE take a second write.
   SignalMode signal_mode[2] = {SignalMode::overwrite, SignalMode::overwrite};
