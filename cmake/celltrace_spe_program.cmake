@@ -60,6 +60,13 @@ elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
   set(CELLTRACE_BASELINE_SPU native_neon64 CACHE INTERNAL "")
   celltrace_spu_type(native_neon64 HEADER backends/native/spu.hpp KEY native.neon64
     TYPE "celltrace::native::Spu<xsimd::neon64>" FLAGS ${native_flags})
+else()
+  set(CELLTRACE_GENERIC_SIMD ON)
+  set(CELLTRACE_BASELINE_SPU native_generic CACHE INTERNAL "")
+endif()
+if(CELLTRACE_GENERIC_SIMD)
+  celltrace_spu_type(native_generic HEADER backends/native/spu.hpp KEY native.generic
+    TYPE "celltrace::native::Spu<celltrace::GenericArch>" FLAGS ${native_flags})
 endif()
 celltrace_spu_type(cell_emu HEADER celltrace/spe/emulated_spu.hpp KEY cell_emu TYPE "celltrace::cell_emu::Spu")
 

@@ -15,10 +15,13 @@ namespace celltrace::native {
 
 /// Names of the SPU types: "native." and what MachineConfig::simd calls them.
 template <class Arch> constexpr const char* kSpuKey = nullptr;
+#ifdef CELLTRACE_HAS_XSIMD
 template <> inline constexpr const char* kSpuKey<xsimd::sse2> = "native.sse2";
 template <> inline constexpr const char* kSpuKey<xsimd::avx2> = "native.avx2";
 template <> inline constexpr const char* kSpuKey<xsimd::avx512dq> = "native.avx512";
 template <> inline constexpr const char* kSpuKey<xsimd::neon64> = "native.neon64";
+#endif
+template <> inline constexpr const char* kSpuKey<GenericArch> = "native.generic";
 
 /// Transfers are memmoves that are complete when the call returns; nothing is checked; stalled channels
 /// sleep. Deviations from the Cell: see Mfc and Reservations.

@@ -40,6 +40,9 @@ const std::vector<SpuType>& spu_types() {
 #elif defined(__aarch64__)
     spu_type<xsimd::neon64>([] { return true; }),
 #endif
+#ifdef CELLTRACE_GENERIC_SIMD
+    spu_type<GenericArch>([] { return true; }),
+#endif
   };
   return types;
 }

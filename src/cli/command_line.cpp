@@ -177,7 +177,7 @@ void add_machine_options(CLI::App& command, RenderOptions& options, RenderTexts&
       .add_option("--spes", options.spes,
                   "SPEs; default: one a hardware thread on native, else those of the timing")
       ->check(CLI::Range(1u, 256u));
-  add_choice(command, "--simd", options.simd, {{"auto", "sse2", "avx2", "avx512", "neon64"}, {}},
+  add_choice(command, "--simd", options.simd, {{"auto", "sse2", "avx2", "avx512", "neon64", "generic"}, {}},
              "Instruction set of native");
   command.add_option("--cache", texts.cache, "Software cache: WAYSxSETS[:random|fifo|lru], or off")
       ->type_name("CACHE")

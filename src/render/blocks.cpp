@@ -6,15 +6,13 @@
 
 #include <cstring>
 
-#include <xsimd/xsimd.hpp>
-
 namespace celltrace {
 
 using namespace kernel;
 
 namespace {
 
-using Simd = HostSimd<xsimd::default_arch>;
+using Simd = HostSimd<BaselineArch>;
 constexpr std::size_t kBlockBytes = sizeof(EncodedBlock::bytes);
 
 BlockImage make_blocks(int width, int height) {

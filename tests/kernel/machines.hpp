@@ -11,7 +11,7 @@ namespace celltrace::test {
 
 inline std::vector<std::unique_ptr<Machine>> machines(unsigned spes = 1) {
   std::vector<std::unique_ptr<Machine>> usable;
-  for (const char* simd : {"sse2", "avx2", "avx512", "neon64", ""}) {
+  for (const char* simd : {"sse2", "avx2", "avx512", "neon64", "generic", ""}) {
     MachineConfig config;
     config.spes = spes;
     config.backend = *simd == '\0' ? "cell_emu" : "native";

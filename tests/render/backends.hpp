@@ -39,7 +39,7 @@ inline std::vector<Backend> backends() {
   std::vector<Backend> usable;
   for (const Backend& backend :
        {Backend{"native", "sse2"}, Backend{"native", "avx2"}, Backend{"native", "avx512"},
-        Backend{"native", "neon64"}, Backend{"cell_emu", "auto"}}) {
+        Backend{"native", "neon64"}, Backend{"native", "generic"}, Backend{"cell_emu", "auto"}}) {
     try {
       Renderer renderer(backend.options(4, 4, 1));
       usable.push_back(backend);

@@ -40,7 +40,7 @@ struct MachineKind {
 /// Those that this host can run and that the program was made for.
 inline std::vector<MachineKind> kinds_for(const SpeProgram& program) {
   std::vector<MachineKind> kinds;
-  for (const char* simd : {"sse2", "avx2", "avx512", "neon64"}) {
+  for (const char* simd : {"sse2", "avx2", "avx512", "neon64", "generic"}) {
     MachineKind kind{std::string("native.") + simd, {}};
     kind.config.simd = simd;
     try {

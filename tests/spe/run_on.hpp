@@ -10,9 +10,9 @@
 #pragma once
 
 #include "backends/cell_emu/machine.hpp"
-#include "celltrace/spe/emulated_spu.hpp"
 #include "backends/native/machine.hpp"
 #include "backends/native/spu.hpp"
+#include "celltrace/spe/emulated_spu.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -41,7 +41,8 @@ inline std::unique_ptr<Machine> machine_of(const std::string& key, unsigned spes
 /// The kinds of machine that this host can run.
 inline std::vector<std::string> spu_keys() {
   std::vector<std::string> keys;
-  for (const char* key : {cell_emu::Spu::kKey, kLockstep, native::Spu<BaselineArch>::kKey, "native.avx2", "native.avx512"}) {
+  for (const char* key :
+       {cell_emu::Spu::kKey, kLockstep, native::Spu<BaselineArch>::kKey, "native.avx2", "native.avx512"}) {
     try {
       machine_of(key, 1);
       keys.push_back(key);
@@ -66,16 +67,20 @@ template <class Kernel> SpeProgram program_of(Kernel) {
   SpeProgram program("test");
   program.add<cell_emu::Spu>(Counted<Kernel>{});
   program.add<native::Spu<BaselineArch>>(Counted<Kernel>{});
+#if defined(__x86_64__)
   program.add<native::Spu<xsimd::avx2>>(Counted<Kernel>{});
   program.add<native::Spu<xsimd::avx512dq>>(Counted<Kernel>{});
+#endif
   return program;
 }
 
 template <class Kernel> unsigned entries_on(const std::string& key, Kernel) {
   if (spu_type_of(key) == cell_emu::Spu::kKey) return entries<cell_emu::Spu, Kernel>;
-  if (key == native::Spu<BaselineArch>::kKey) return entries<native::Spu<BaselineArch>, Kernel>;
+#if defined(__x86_64__)
   if (key == "native.avx2") return entries<native::Spu<xsimd::avx2>, Kernel>;
-  return entries<native::Spu<xsimd::avx512dq>, Kernel>;
+  if (key == "native.avx512") return entries<native::Spu<xsimd::avx512dq>, Kernel>;
+#endif
+  return entries<native::Spu<BaselineArch>, Kernel>;
 }
 
 /// Runs the kernel on every SPE of the machine while `ppe(machine)` plays the PPE, and waits for all. Throws

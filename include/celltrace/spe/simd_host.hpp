@@ -1,33 +1,25 @@
-// The SIMD facade of simd.hpp on a host CPU, over xsimd: 16 lanes are sixteen/size batches of the
+// The SIMD facade of simd.hpp on a host CPU, over simd_batch.hpp: 16 lanes are sixteen/size batches of the
 // architecture.
 //
-// `Arch` is an xsimd architecture ("xsimd::sse2", "xsimd::avx2", "xsimd::avx512dq", "xsimd::neon64"); it is part of every
-// type's name, so that translation units compiled for different CPUs share no inline function.
+// `Arch` is an xsimd architecture ("xsimd::sse2", "xsimd::avx2", "xsimd::avx512dq", "xsimd::neon64") or GenericArch; it is
+// part of every type's name, so that translation units compiled for different CPUs share no inline function.
 #pragma once
 
 #include "celltrace/spe/simd.hpp"
+#include "celltrace/spe/simd_batch.hpp"
 #include "celltrace/spe/simd_host_rows.hpp"
 
 #include <stdint.h>
 
-#include <xsimd/xsimd.hpp>
-
 namespace celltrace {
-
-/// What every CPU that the build is for has.
-#if defined(__aarch64__)
-using BaselineArch = xsimd::neon64;
-#else
-using BaselineArch = xsimd::sse2;
-#endif
 
 namespace simd_host {
 
-/// One bit per lane of an xsimd mask, lane 0 in bit 0.
+template <class Batch> constexpr bool is_generic = std::is_same_v<typename Batch::arch_type, GenericArch>;
+
+/// One bit per lane of a mask of `Batch`'s, lane 0 in bit 0.
 template <class Batch>
-uint32_t lane_bits(const xsimd::batch_bool<typename Batch::value_type, typename Batch::arch_type>& mask) {
-  using Arch = typename Batch::arch_type;
-  (void)sizeof(Arch);
+uint32_t lane_bits(const typename Batch::batch_bool_type& mask) {
 #if defined(__AVX512F__)
   if constexpr (Batch::size == 16) return static_cast<uint32_t>(mask.data);
 #endif
@@ -35,7 +27,7 @@ uint32_t lane_bits(const xsimd::batch_bool<typename Batch::value_type, typename 
   if constexpr (Batch::size == 8) return static_cast<uint32_t>(_mm256_movemask_ps(reinterpret_cast<__m256>(mask.data)));
 #endif
 #if defined(__SSE2__)
-  if constexpr (Batch::size == 4) return static_cast<uint32_t>(_mm_movemask_ps(reinterpret_cast<__m128>(mask.data)));
+  if constexpr (Batch::size == 4 && !is_generic<Batch>) return static_cast<uint32_t>(_mm_movemask_ps(reinterpret_cast<__m128>(mask.data)));
 #endif
   bool lanes[Batch::size];
   mask.store_unaligned(lanes);
@@ -77,7 +69,7 @@ Joined<Batch> join(const Four& a, const Four& b, const Four& c, const Four& d) {
   if constexpr (Batch::size == 8) return {{_mm256_set_m128(b, a), _mm256_set_m128(d, c)}};
 #endif
 #if defined(__SSE2__)
-  if constexpr (Batch::size == 4) return {{__m128(a), __m128(b), __m128(c), __m128(d)}};
+  if constexpr (Batch::size == 4 && !is_generic<Batch>) return {{__m128(a), __m128(b), __m128(c), __m128(d)}};
 #endif
   alignas(64) float lanes[kSimdLanes];
   a.store_aligned(lanes);
@@ -93,9 +85,9 @@ Joined<Batch> join(const Four& a, const Four& b, const Four& c, const Four& d) {
 } // namespace simd_host
 
 template <class Arch> struct HostSimd {
-  using FloatBatch = xsimd::batch<float, Arch>;
-  using IntBatch = xsimd::batch<int32_t, Arch>;
-  using FloatMask = xsimd::batch_bool<float, Arch>;
+  using FloatBatch = typename simd_host::Batches<float, Arch>::Batch;
+  using IntBatch = typename simd_host::Batches<int32_t, Arch>::Batch;
+  using FloatMask = typename simd_host::Batches<float, Arch>::Mask;
   static constexpr uint32_t kWidth = static_cast<uint32_t>(FloatBatch::size);
   static constexpr uint32_t kParts = kSimdLanes / kWidth;
   static constexpr uint32_t kLanes = kSimdLanes;
@@ -116,7 +108,7 @@ template <class Arch> struct HostSimd {
       const IntBatch all(static_cast<int32_t>(bits));
       for (uint32_t i = 0; i < kParts; ++i)
         result.part[i] =
-            xsimd::bool_cast((all & IntBatch::load_aligned(simd_lane_bits + i * kWidth)) != IntBatch(0));
+            simd_host::bool_cast((all & IntBatch::load_aligned(simd_lane_bits + i * kWidth)) != IntBatch(0));
       return result;
     }
     static M none() {
@@ -197,7 +189,7 @@ template <class Arch> struct HostSimd {
       return zip(a, b, [](auto x, auto y) { return x * y; });
     }
     friend F operator/(const F& a, const F& b) {
-      return zip(a, b, [](auto x, auto y) { return x / y; });
+      return zip(a, b, [](auto x, auto y) { return simd_host::divide(x, y); });
     }
     friend F operator-(const F& a) {
       // Not 0 - x, which is what some architectures make of -x: that of a zero would have another sign.
@@ -270,78 +262,78 @@ template <class Arch> struct HostSimd {
     friend M operator==(const I& a, const I& b) {
       M r;
       for (uint32_t i = 0; i < kParts; ++i)
-        r.part[i] = xsimd::bool_cast(a.part[i] == b.part[i]);
+        r.part[i] = simd_host::bool_cast(a.part[i] == b.part[i]);
       return r;
     }
     friend M operator<(const I& a, const I& b) {
       M r;
       for (uint32_t i = 0; i < kParts; ++i)
-        r.part[i] = xsimd::bool_cast(a.part[i] < b.part[i]);
+        r.part[i] = simd_host::bool_cast(a.part[i] < b.part[i]);
       return r;
     }
   };
 
   static F min(const F& a, const F& b) {
-    return F::zip(a, b, [](auto x, auto y) { return xsimd::min(x, y); });
+    return F::zip(a, b, [](auto x, auto y) { return simd_host::min(x, y); });
   }
   static F max(const F& a, const F& b) {
-    return F::zip(a, b, [](auto x, auto y) { return xsimd::max(x, y); });
+    return F::zip(a, b, [](auto x, auto y) { return simd_host::max(x, y); });
   }
   /// The least and the greatest of all lanes.
   static void extremes(const F& a, float& least, float& greatest) {
     FloatBatch low = a.part[0], high = a.part[0];
     for (uint32_t i = 1; i < kParts; ++i) {
-      low = xsimd::min(low, a.part[i]);
-      high = xsimd::max(high, a.part[i]);
+      low = simd_host::min(low, a.part[i]);
+      high = simd_host::max(high, a.part[i]);
     }
     simd_host::extremes(low, high, least, greatest);
   }
   static F abs(const F& a) {
-    return F::map(a, [](auto x) { return xsimd::abs(x); });
+    return F::map(a, [](auto x) { return simd_host::abs(x); });
   }
   static F sqrt(const F& a) {
-    return F::map(a, [](auto x) { return xsimd::sqrt(x); });
+    return F::map(a, [](auto x) { return simd_host::sqrt(x); });
   }
   static F select(const M& m, const F& a, const F& b) {
     F r;
     for (uint32_t i = 0; i < kParts; ++i)
-      r.part[i] = xsimd::select(m.part[i], a.part[i], b.part[i]);
+      r.part[i] = simd_host::select(m.part[i], a.part[i], b.part[i]);
     return r;
   }
   static I select(const M& m, const I& a, const I& b) {
     I r;
     for (uint32_t i = 0; i < kParts; ++i)
-      r.part[i] = xsimd::select(xsimd::bool_cast(m.part[i]), a.part[i], b.part[i]);
+      r.part[i] = simd_host::select(simd_host::bool_cast(m.part[i]), a.part[i], b.part[i]);
     return r;
   }
   static F floor(const F& a) {
     F r;
     for (uint32_t i = 0; i < kParts; ++i)
-      r.part[i] = xsimd::floor(a.part[i]);
+      r.part[i] = simd_host::floor(a.part[i]);
     return r;
   }
   static I to_int(const F& a) {
     I r;
     for (uint32_t i = 0; i < kParts; ++i)
-      r.part[i] = xsimd::to_int(a.part[i]);
+      r.part[i] = simd_host::to_int(a.part[i]);
     return r;
   }
   static F to_float(const I& a) {
     F r;
     for (uint32_t i = 0; i < kParts; ++i)
-      r.part[i] = xsimd::to_float(a.part[i]);
+      r.part[i] = simd_host::to_float(a.part[i]);
     return r;
   }
   static I bits_of(const F& a) {
     I r;
     for (uint32_t i = 0; i < kParts; ++i)
-      r.part[i] = xsimd::bitwise_cast<IntBatch>(a.part[i]);
+      r.part[i] = simd_host::bitwise_cast<IntBatch>(a.part[i]);
     return r;
   }
   static F float_of(const I& a) {
     F r;
     for (uint32_t i = 0; i < kParts; ++i)
-      r.part[i] = xsimd::bitwise_cast<FloatBatch>(a.part[i]);
+      r.part[i] = simd_host::bitwise_cast<FloatBatch>(a.part[i]);
     return r;
   }
   template <int bits> static I shift_left(const I& a) {
@@ -358,7 +350,7 @@ template <class Arch> struct HostSimd {
   }
 
   struct F4 {
-    using Batch = xsimd::batch<float, xsimd::make_sized_batch_t<float, 4>::arch_type>;
+    using Batch = typename simd_host::Batches<float, Arch>::template OfSize<4>;
     Batch lanes;
 
     static F4 splat(float value) { return {Batch(value)}; }
@@ -388,14 +380,14 @@ template <class Arch> struct HostSimd {
     simd_host::RowSums<HostSimd, kRows, kChannels>::sum(table, starts_of, factors_of, sums);
   }
   static F4 min(const F4& a, const F4& b) {
-    return {xsimd::min(a.lanes, b.lanes)};
+    return {simd_host::min(a.lanes, b.lanes)};
   }
   static F4 max(const F4& a, const F4& b) {
-    return {xsimd::max(a.lanes, b.lanes)};
+    return {simd_host::max(a.lanes, b.lanes)};
   }
 
   struct U4 {
-    using Batch = xsimd::batch<uint32_t, xsimd::make_sized_batch_t<uint32_t, 4>::arch_type>;
+    using Batch = typename simd_host::Batches<uint32_t, Arch>::template OfSize<4>;
     Batch lanes;
 
     static U4 splat(uint32_t value) { return {Batch(value)}; }

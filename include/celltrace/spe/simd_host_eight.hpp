@@ -9,8 +9,9 @@ namespace celltrace {
 
 /// `Simd` is a HostSimd, part of the name so that units compiled for different CPUs share no inline function.
 template <class Simd> struct HostEight {
+  using Batches = simd_host::Batches<float, typename Simd::FloatBatch::arch_type>;
   using Part =
-      std::conditional_t<(Simd::kWidth >= 8), xsimd::make_sized_batch_t<float, 8>, typename Simd::F4::Batch>;
+      std::conditional_t<(Simd::kWidth >= 8), typename Batches::template OfSize<8>, typename Simd::F4::Batch>;
   static constexpr uint32_t kParts = 8 / static_cast<uint32_t>(Part::size);
 
   Part part[kParts];
@@ -38,10 +39,10 @@ template <class Simd> struct HostEight {
     return make([&](uint32_t i) { return a.part[i] * b.part[i]; });
   }
   static HostEight min(const HostEight& a, const HostEight& b) {
-    return make([&](uint32_t i) { return xsimd::min(a.part[i], b.part[i]); });
+    return make([&](uint32_t i) { return simd_host::min(a.part[i], b.part[i]); });
   }
   static HostEight max(const HostEight& a, const HostEight& b) {
-    return make([&](uint32_t i) { return xsimd::max(a.part[i], b.part[i]); });
+    return make([&](uint32_t i) { return simd_host::max(a.part[i], b.part[i]); });
   }
   friend uint32_t not_above_bits(const HostEight& a, const HostEight& b) {
     uint32_t bits = 0;

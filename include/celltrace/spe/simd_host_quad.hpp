@@ -32,7 +32,7 @@ template <class Simd> struct HostQuad {
     friend F operator+(const F& a, const F& b) { return a.lanes + b.lanes; }
     friend F operator-(const F& a, const F& b) { return a.lanes - b.lanes; }
     friend F operator*(const F& a, const F& b) { return a.lanes * b.lanes; }
-    friend F operator/(const F& a, const F& b) { return a.lanes / b.lanes; }
+    friend F operator/(const F& a, const F& b) { return simd_host::divide(a.lanes, b.lanes); }
     friend F operator-(const F& a) { return a.lanes ^ Batch(-0.0f); } // of a zero, too
     friend M operator<(const F& a, const F& b) { return {a.lanes < b.lanes}; }
     friend M operator<=(const F& a, const F& b) { return {a.lanes <= b.lanes}; }
@@ -40,10 +40,10 @@ template <class Simd> struct HostQuad {
     friend M operator>=(const F& a, const F& b) { return b <= a; }
   };
 
-  static F min(const F& a, const F& b) { return xsimd::min(a.lanes, b.lanes); }
-  static F max(const F& a, const F& b) { return xsimd::max(a.lanes, b.lanes); }
-  static F abs(const F& a) { return xsimd::abs(a.lanes); }
-  static F select(const M& m, const F& a, const F& b) { return xsimd::select(m.lanes, a.lanes, b.lanes); }
+  static F min(const F& a, const F& b) { return simd_host::min(a.lanes, b.lanes); }
+  static F max(const F& a, const F& b) { return simd_host::max(a.lanes, b.lanes); }
+  static F abs(const F& a) { return simd_host::abs(a.lanes); }
+  static F select(const M& m, const F& a, const F& b) { return simd_host::select(m.lanes, a.lanes, b.lanes); }
   /// Rows become columns.
   static void transpose(F& a, F& b, F& c, F& d) {
     simd_host::transpose_quads(a.lanes, b.lanes, c.lanes, d.lanes);

@@ -2,10 +2,11 @@
 // their rows are the same, otherwise lane by lane. Both do the same operations in the same order.
 #pragma once
 
+#include "celltrace/spe/simd_batch.hpp"
+
 #include <stdint.h>
 
 #include <utility>
-#include <xsimd/xsimd.hpp>
 
 namespace celltrace::simd_host {
 
@@ -17,7 +18,7 @@ template <class Batch> [[gnu::always_inline]] inline Batch zip_low(const Batch& 
 #if defined(__AVX__)
   if constexpr (Batch::size == 8) return _mm256_unpacklo_ps(a, b);
 #endif
-  if constexpr (Batch::size == 4) return xsimd::zip_lo(a, b);
+  if constexpr (Batch::size == 4) return zip_lo(a, b);
 }
 template <class Batch> [[gnu::always_inline]] inline Batch zip_high(const Batch& a, const Batch& b) {
 #if defined(__AVX512F__)
@@ -26,7 +27,7 @@ template <class Batch> [[gnu::always_inline]] inline Batch zip_high(const Batch&
 #if defined(__AVX__)
   if constexpr (Batch::size == 8) return _mm256_unpackhi_ps(a, b);
 #endif
-  if constexpr (Batch::size == 4) return xsimd::zip_hi(a, b);
+  if constexpr (Batch::size == 4) return zip_hi(a, b);
 }
 template <class Batch>
 [[gnu::always_inline]] inline void transpose_quads(Batch& a, Batch& b, Batch& c, Batch& d) {
