@@ -81,8 +81,12 @@ foreach(component IN LISTS CELLTRACE_COMPONENTS)
 endforeach()
 
 if("emulator" IN_LIST CELLTRACE_COMPONENTS)
+  set(stacks "")
+  if(NOT CELLTRACE_UCONTEXT)
+    set(stacks -lboost_context)
+  endif()
   celltrace_pkg_config(NAME emulator DESCRIPTION "Emulated Cell SPEs, for tests of SPE code"
-    REQUIRES xsimd LIBS -lcelltrace-emulator -pthread PRIVATE_LIBS -lboost_context)
+    REQUIRES xsimd LIBS -lcelltrace-emulator -pthread PRIVATE_LIBS ${stacks})
 endif()
 if("sdk" IN_LIST CELLTRACE_COMPONENTS)
   celltrace_pkg_config(NAME sdk DESCRIPTION "The Cell SDK's headers, in front of the emulator"

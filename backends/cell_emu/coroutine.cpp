@@ -1,9 +1,7 @@
 #include "backends/cell_emu/coroutine.hpp"
 
-#include <boost/context/fiber.hpp>
-#include <boost/context/protected_fixedsize_stack.hpp>
+#include "backends/cell_emu/switched_stack.hpp"
 
-#include <cstdint>
 #include <cxxabi.h>
 #include <utility>
 
@@ -32,8 +30,6 @@
 namespace celltrace::cell_emu {
 namespace {
 
-namespace context = boost::context;
-
 /// That of the stack that is running.
 thread_local void* running_stack_local = nullptr;
 
@@ -55,16 +51,11 @@ public:
 #ifdef CELLTRACE_HAS_TSAN
     tsan_fiber_ = __tsan_create_fiber(0);
 #endif
-    context::protected_fixedsize_stack allocator(kStackBytes);
-    const context::stack_context stack = allocator.allocate();
 #ifdef CELLTRACE_HAS_ASAN
-    stack_bottom_ = static_cast<const char*>(stack.sp) - stack.size;
-    stack_bytes_ = stack.size;
     // A stack that lay here before ended by a jump, with its last frames still marked.
-    __asan_unpoison_memory_region(stack_bottom_, stack_bytes_);
+    __asan_unpoison_memory_region(stack_.bottom(), stack_.bytes());
 #endif
-    fiber_ = context::fiber(std::allocator_arg, context::preallocated(stack.sp, stack.size, stack), allocator,
-                            [this](context::fiber&& caller) { return run(std::move(caller)); });
+    stack_.start([this] { run(); });
   }
   ~Impl() {
 #ifdef CELLTRACE_HAS_TSAN
@@ -81,9 +72,9 @@ public:
 #endif
 #ifdef CELLTRACE_HAS_ASAN
     void* fake_stack = nullptr;
-    __sanitizer_start_switch_fiber(&fake_stack, stack_bottom_, stack_bytes_);
+    __sanitizer_start_switch_fiber(&fake_stack, stack_.bottom(), stack_.bytes());
 #endif
-    fiber_ = std::move(fiber_).resume();
+    stack_.enter();
 #ifdef CELLTRACE_HAS_ASAN
     __sanitizer_finish_switch_fiber(fake_stack, nullptr, nullptr);
 #endif
@@ -93,22 +84,20 @@ public:
 
   void suspend() {
     leave(false);
-    caller_ = std::move(caller_).resume();
+    stack_.leave();
     arrive();
   }
 
   bool ended() const {
-    return !fiber_;
+    return stack_.ended();
   }
 
 private:
-  context::fiber run(context::fiber&& caller) {
-    caller_ = std::move(caller);
+  void run() {
     arrive();
     body_();
     body_ = nullptr;
     leave(true);
-    return std::move(caller_);
   }
 
   void arrive() {
@@ -126,13 +115,10 @@ private:
   }
 
   std::function<void()> body_;
-  context::fiber fiber_;
-  context::fiber caller_;
+  SwitchedStack stack_{kStackBytes};
   ExceptionState exceptions_;
   void* stack_local_ = nullptr;
 #ifdef CELLTRACE_HAS_ASAN
-  const void* stack_bottom_ = nullptr;
-  std::size_t stack_bytes_ = 0;
   void* fake_stack_ = nullptr;
   const void* caller_bottom_ = nullptr;
   std::size_t caller_bytes_ = 0;

@@ -1,4 +1,4 @@
-// A stack of its own for a program that takes turns with others on one thread. On Boost.Context, with the
+// A stack of its own for a program that takes turns with others on one thread. On a SwitchedStack, with the
 // address and thread sanitizers and the exception machinery told of every switch.
 #pragma once
 
