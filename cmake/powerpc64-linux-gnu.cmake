@@ -1,5 +1,4 @@
-# Toolchain file for big-endian 64-bit POWER on Debian, whose programs qemu-user runs here; see tools/test-ports.sh for the
-# libraries, which Debian has not for it.
+# Toolchain file for big-endian 64-bit POWER on Debian, whose programs qemu-user runs; see tools/test-ports.sh.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR ppc64)
 set(CMAKE_C_COMPILER powerpc64-linux-gnu-gcc)

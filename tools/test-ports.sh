@@ -65,7 +65,7 @@ port() {
 }
 
 aarch64() {
-  local build=build-aarch64 emulator=(qemu-aarch64 -L /usr/aarch64-linux-gnu)
+  local build=build-aarch64 emulator=(qemu-aarch64)
   needs_command aarch64-linux-gnu-g++ "package g++-aarch64-linux-gnu"
   needs_command qemu-aarch64 "package qemu-user"
   for library in png deflate z boost_context; do

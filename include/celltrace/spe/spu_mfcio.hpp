@@ -32,17 +32,27 @@ constexpr unsigned int MFC_CMD_WORD(unsigned int tid, unsigned int rid, unsigned
   return tid << 24 | rid << 16 | command;
 }
 
-/// As the SDK's, with the bits where ListElement has them on a little-endian host.
+/// As the SDK's, with the bits where ListElement has them.
 struct mfc_list_element_t {
+#if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
+  uint32_t notify : 1;
+  uint32_t reserved : 16;
+  uint32_t size : 15;
+#else
   uint32_t size : 15;
   uint32_t reserved : 16;
   uint32_t notify : 1;
+#endif
   uint32_t eal;
 
   mfc_list_element_t() = default;
   /// In the order of the SDK's fields.
   constexpr mfc_list_element_t(uint32_t notify_bit, uint32_t reserved_bits, uint32_t bytes, uint32_t ea_low)
-      : size(bytes & 0x7FFF), reserved(reserved_bits & 0xFFFF), notify(notify_bit & 1), eal(ea_low) {}
+      : eal(ea_low) {
+    notify = notify_bit & 1;
+    reserved = reserved_bits & 0xFFFF;
+    size = bytes & 0x7FFF;
+  }
 };
 static_assert(sizeof(mfc_list_element_t) == sizeof(celltrace::ListElement));
 
