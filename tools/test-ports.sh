@@ -9,7 +9,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 own_program=${CELLTRACE:-build-ci/src/cli/celltrace}
-scenes="csg textures glass lights shapes"
+scenes="examples/scenes/first.pov tests/scenes/csg.pov tests/scenes/textures.pov tests/scenes/glass.pov tests/scenes/lights.pov"
 least_psnr=60
 
 missing() {
@@ -23,7 +23,7 @@ needs_file() {
   [ -e "$1" ] || missing "$1" "$2"
 }
 
-# Headers without code of their own, whose CMake packages Debian has beside this machine's libraries.
+# configure NAME [arguments for cmake]. xsimd is headers only, and its CMake package is beside this machine's libraries.
 configure() {
   local arguments=()
   if command -v ccache >/dev/null; then
@@ -43,7 +43,7 @@ pictures() {
       for program in own other; do
         local command=("$own_program")
         [ $program = own ] || command=("${emulator[@]}" "$build/src/cli/celltrace")
-        "${command[@]}" "tests/scenes/$scene.pov" -W 160 -H 120 --backend "$backend" --quiet -o "$build/$program.ppm"
+        "${command[@]}" "$scene" -W 160 -H 120 --backend "$backend" --quiet -o "$build/$program.ppm"
       done
       psnr=$(compare -metric PSNR "$build/own.ppm" "$build/other.ppm" null: 2>&1) || true # fails where they differ
       echo "$scene, $backend: $psnr dB"
@@ -52,9 +52,9 @@ pictures() {
   done
 }
 
-# port NAME SUITES: builds the suites, runs them, compares pictures.
+# port SUITES: builds the suites, runs them, compares pictures.
 port() {
-  local targets=() suites=$2 different=0
+  local targets=() suites=$1 different=0
   for suite in $suites; do
     targets+=("test_$suite")
   done
@@ -72,7 +72,7 @@ aarch64() {
     needs_file /usr/lib/aarch64-linux-gnu/lib$library.a "packages libpng-dev, libdeflate-dev, zlib1g-dev, libboost-context-dev of arm64"
   done
   configure aarch64
-  port aarch64 "isa isa_instructions native spe cell_emu sdk simulator balance balance_on_spus cache cache_traces cache_checked kernel models image pov reference render job"
+  port "isa isa_instructions native spe cell_emu sdk simulator balance balance_on_spus cache cache_traces cache_checked kernel models image pov reference render job"
 }
 
 powerpc64() {
@@ -88,7 +88,7 @@ powerpc64() {
   configure powerpc64 -DCELLTRACE_UCONTEXT=ON -DCMAKE_EXE_LINKER_FLAGS=-Wl,--unresolved-symbols=ignore-all \
     -DPNG_LIBRARY="$nothing" -DPNG_PNG_INCLUDE_DIR=/usr/include -DDeflate_LIBRARY="$nothing" \
     -DDeflate_INCLUDE_DIR=/usr/include -DZLIB_LIBRARY="$nothing" -DZLIB_INCLUDE_DIR="$include"
-  port powerpc64 "isa isa_instructions native spe cell_emu sdk simulator balance balance_on_spus cache kernel"
+  port "isa isa_instructions native spe cell_emu sdk simulator balance balance_on_spus cache kernel"
 }
 
 needs_command cmake "package cmake"
