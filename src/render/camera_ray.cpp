@@ -9,7 +9,7 @@
 namespace celltrace {
 
 std::optional<Ray> camera_ray(const Camera& camera, int width, int height, double x, double y) {
-  using Simd = HostSimd<xsimd::sse2>;
+  using Simd = HostSimd<BaselineArch>;
   if (width < 1 || height < 1) throw InputError("a ray goes through a picture of at least one pixel");
   // Counted from the corners of pixels, not from their middles.
   const kernel::CameraRecord record = camera_record(camera, {double(width), double(height), 0.5, 0.5});
