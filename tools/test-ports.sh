@@ -85,7 +85,7 @@ powerpc64() {
   powerpc64-linux-gnu-ar rc $build/libnothing.a
   local nothing=$PWD/$build/libnothing.a include
   include=$(dirname "$(find /usr/include -name zconf.h | head -n 1)")
-  configure powerpc64 -DCELLTRACE_UCONTEXT=ON -DCMAKE_EXE_LINKER_FLAGS=-Wl,--unresolved-symbols=ignore-all \
+  configure powerpc64 -DCELLTRACE_UCONTEXT=ON -DCMAKE_EXE_LINKER_FLAGS="-static -Wl,--unresolved-symbols=ignore-all" \
     -DPNG_LIBRARY="$nothing" -DPNG_PNG_INCLUDE_DIR=/usr/include -DDeflate_LIBRARY="$nothing" \
     -DDeflate_INCLUDE_DIR=/usr/include -DZLIB_LIBRARY="$nothing" -DZLIB_INCLUDE_DIR="$include"
   port "isa isa_instructions native spe cell_emu sdk simulator balance balance_on_spus cache kernel"
