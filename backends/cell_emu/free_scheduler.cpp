@@ -127,8 +127,12 @@ bool FreeScheduler::wait(const Ready& ready, std::optional<std::chrono::millisec
 }
 
 void FreeScheduler::break_off(const std::string& because) {
-  for (const auto& spe : spes_)
-    spe->state.interrupt(because);
+  {
+    // An SPE keeps the first reason, and one that this wakes breaks the others off as well.
+    const std::lock_guard whole(breaking_off_);
+    for (const auto& spe : spes_)
+      spe->state.interrupt(because);
+  }
   broken_off_ = true;
   const std::lock_guard lock(mutex_);
   resumed_.notify_all();

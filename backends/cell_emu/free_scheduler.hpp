@@ -45,6 +45,7 @@ private:
   DiagnosticLog& log_;
   std::vector<std::thread> threads_;
   std::mutex mutex_;
+  std::mutex breaking_off_;         ///< held while all SPEs are told a reason; taken before mutex_
   std::condition_variable ppe_;     ///< something that the PPE may wait for
   std::condition_variable resumed_; ///< an SPE was resumed or interrupted
   unsigned active_ = 0;             ///< programs that neither ended nor paused
