@@ -72,7 +72,7 @@ template <class Spu>
     if (!is_local(kind)) local &= ~objects.of_kind[kind];
   }
   objects.smooth = words.lanes_with(object_flag::smooth);
-  objects.parameters.ratio = F(0.0f);
+  objects.parameters.ratio = objects.parameters.second = F(0.0f);
   local &= ~(words.extra == I::splat(static_cast<int32_t>(kNoOffset))).bits();
   if ((objects.smooth | local) == 0) return;
   // Lanes that want no extra record read their object's words instead.
@@ -83,6 +83,7 @@ template <class Spu>
   V3<S> values[4];
   load_vectors<S>(record_at(extras), 0, values);
   objects.parameters.ratio = S::select(M::from_bits(local), values[0].x, F(0.0f));
+  objects.parameters.second = S::select(M::from_bits(local), values[0].y, F(0.0f));
   for (uint32_t i = 0; i < 3; ++i)
     objects.normals[i] = values[i];
 }

@@ -18,8 +18,9 @@ namespace celltrace::kernel {
 
 /// What a shape has besides its map. One shape for all lanes, or in each lane another.
 template <class S> struct LocalParameters {
-  typename S::F ratio; ///< of a cone, a torus or a disc: see there
-  typename S::M open;  ///< cylinders and cones without caps
+  typename S::F ratio;  ///< of a cone, a torus or a disc: see there
+  typename S::F second; ///< of a superellipsoid: see there
+  typename S::M open;   ///< cylinders and cones without caps
 };
 
 /// Rays in a shape's space. Directions have any length, so that distances are those of the world.
@@ -150,7 +151,7 @@ inline bool overlaps_in_world(const float (&g)[12], const LocalBounds& local, co
 
 template <class S> LocalParameters<S> local_parameters(const ObjectRecord& object, const ExtraRecord& extra) {
   const bool open = (object.kind_and_flags & object_flag::open) != 0;
-  return {typename S::F(extra.value[0]), open ? S::M::all() : S::M::none()};
+  return {typename S::F(extra.value[0]), typename S::F(extra.value[1]), open ? S::M::all() : S::M::none()};
 }
 
 /// A packet's rays in the space of an object, whose offset is `self`: as many as S has lanes, from `first`

@@ -30,6 +30,7 @@ template <class Spu>
     for (uint32_t i = 0; i < 3; ++i)
       part.normals[i] = part_of<Spu>(o.normals[i], first);
     part.parameters.ratio = part_of<Spu>(o.parameters.ratio, first);
+    part.parameters.second = part_of<Spu>(o.parameters.second, first);
     part.parameters.open = Spu::rare_simd::M::from_bits(part_of<Spu>(o.parameters.open.bits(), first));
     for (uint32_t kind = 0; kind < kPrimitives; ++kind)
       part.of_kind[kind] = part_of<Spu>(o.of_kind[kind], first);
@@ -46,6 +47,28 @@ constexpr bool is_local(uint32_t kind) {
 /// Whether a kind's intersections are in a module of their own.
 constexpr bool is_heavy(uint32_t kind) {
   return Primitives::kAreHeavy[kind];
+}
+
+/// The unit normals of shapes in a space of their own, of the heavy ones or of the others, at points of their
+/// surfaces: the gradient there is transformed by the transposed map.
+template <class S, bool kOfHeavy>
+[[gnu::always_inline]] inline V3<S> normal_in_own_space(const ObjectLanes<S>& o, const V3<S>& point) {
+  // Three rows of four.
+  const V3<S>* const g = o.geometry;
+  const V3<S> rows[3] = {{g[0].x, g[0].y, g[0].z}, {g[1].y, g[1].z, g[2].x}, {g[2].z, g[3].x, g[3].y}};
+  const V3<S> local = {dot<S>(rows[0], point) + g[1].x, dot<S>(rows[1], point) + g[2].y,
+                       dot<S>(rows[2], point) + g[3].z};
+  V3<S> gradient = local;
+  uint32_t kind = 0;
+  Primitives::for_each([&](auto shape) {
+    using Shape = decltype(shape);
+    if constexpr (Shape::kIsLocal && Shape::kIsHeavy == kOfHeavy)
+      if (o.of_kind[kind] != 0)
+        gradient = select<S>(S::M::from_bits(o.of_kind[kind]),
+                             Shape::template gradient<S>(local, o.parameters), gradient);
+    ++kind;
+  });
+  return normalise<S>(rows[0] * gradient.x + rows[1] * gradient.y + rows[2] * gradient.z);
 }
 
 namespace module_heavy {
@@ -87,6 +110,14 @@ template <class Spu>
     }
   }
   return pairs;
+}
+
+/// As local_normal(), of heavy shapes.
+template <class Spu>
+[[gnu::noinline]] V3<typename Spu::rare_simd> normal(Spu& spu, const ObjectLanes<typename Spu::rare_simd>& o,
+                                                     const V3<typename Spu::rare_simd>& point) {
+  spu.run_in_module(modules::kHeavyShapes);
+  return normal_in_own_space<typename Spu::rare_simd, true>(o, point);
 }
 
 } // namespace module_heavy
@@ -141,25 +172,9 @@ template <class Spu>
 
 } // namespace module_shapes
 
-/// The unit normals of shapes in a space of their own, at points of their surfaces: the gradient there is
-/// transformed by the transposed map.
+/// The unit normals of shapes in a space of their own that are not heavy.
 template <class S> [[gnu::noinline]] V3<S> local_normal(const ObjectLanes<S>& o, const V3<S>& point) {
-  // Three rows of four.
-  const V3<S>* const g = o.geometry;
-  const V3<S> rows[3] = {{g[0].x, g[0].y, g[0].z}, {g[1].y, g[1].z, g[2].x}, {g[2].z, g[3].x, g[3].y}};
-  const V3<S> local = {dot<S>(rows[0], point) + g[1].x, dot<S>(rows[1], point) + g[2].y,
-                       dot<S>(rows[2], point) + g[3].z};
-  V3<S> gradient = local;
-  uint32_t kind = 0;
-  Primitives::for_each([&](auto shape) {
-    using Shape = decltype(shape);
-    if constexpr (Shape::kIsLocal)
-      if (o.of_kind[kind] != 0)
-        gradient = select<S>(S::M::from_bits(o.of_kind[kind]),
-                             Shape::template gradient<S>(local, o.parameters), gradient);
-    ++kind;
-  });
-  return normalise<S>(rows[0] * gradient.x + rows[1] * gradient.y + rows[2] * gradient.z);
+  return normal_in_own_space<S, false>(o, point);
 }
 
 } // namespace celltrace::kernel

@@ -61,7 +61,7 @@ void surface_of_triangles(const ObjectLanes<S>& o, const HitPacket& hits, V3<S>&
 }
 
 template <class Spu>
-[[gnu::always_inline]] inline void surface_of(const ObjectLanes<typename Spu::simd>& o,
+[[gnu::always_inline]] inline void surface_of(Spu& spu, const ObjectLanes<typename Spu::simd>& o,
                                               const V3<typename Spu::simd>& along_ray, const HitPacket& hits,
                                               V3<typename Spu::simd>& point, V3<typename Spu::simd>& normal) {
   using S = typename Spu::simd;
@@ -70,9 +70,10 @@ template <class Spu>
                  planes = o.of_kind[kPrimitiveKind<PlanePrimitive>];
   // Where there is room for the code, all at once what hits triangles alone.
   const bool only_triangles = kHasRoomForCode<Spu> && triangles == 0xFFFF;
-  uint32_t others = 0;
+  uint32_t others = 0, heavy = 0;
   for (uint32_t kind = 0; kind < kPrimitives; ++kind)
-    if (!only_triangles && kind > kPrimitiveKind<PlanePrimitive>) others |= o.of_kind[kind];
+    if (!only_triangles && kind > kPrimitiveKind<PlanePrimitive>)
+      (is_heavy(kind) ? heavy : others) |= o.of_kind[kind];
   if (spheres != 0) surface_of_spheres<S>(o, along_ray, point, normal);
   const auto add = [&](uint32_t lanes, const V3<S>& p, const V3<S>& n) {
     const auto mask = S::M::from_bits(lanes);
@@ -80,13 +81,20 @@ template <class Spu>
     normal = select<S>(mask, n, normal);
   };
   V3<S> p, n;
-  if (others != 0) {
+  if ((others | heavy) != 0) {
+    using R = typename Spu::rare_simd;
+    if (heavy != 0) spu.enter_module(modules::kHeavyShapes);
     for_each_part<Spu>([&](uint32_t first) {
-      set_part<Spu>(
-          n, first,
-          local_normal<typename Spu::rare_simd>(part_of<Spu>(o, first), part_of<Spu>(along_ray, first)));
+      const auto& part = part_of<Spu>(o, first);
+      const V3<R> at = part_of<Spu>(along_ray, first);
+      V3<R> of_part = at;
+      if (others != 0) of_part = local_normal<R>(part, at);
+      if (heavy != 0)
+        of_part = select<R>(R::M::from_bits(part_of<Spu>(heavy, first)), module_heavy::normal(spu, part, at),
+                            of_part);
+      set_part<Spu>(n, first, of_part);
     });
-    add(others, along_ray, n);
+    add(others | heavy, along_ray, n);
   }
   if (planes != 0) {
     // On the plane to the precision of the point: a pattern may have a step there.
@@ -145,7 +153,7 @@ template <class Spu>
   for (uint32_t& of_kind : objects.of_kind)
     of_kind = 0;
   objects.smooth = 0;
-  objects.parameters.ratio = F(0.0f);
+  objects.parameters.ratio = objects.parameters.second = F(0.0f);
   uint32_t first_flags = 0, seen = 0;
   for_each_value<S>(
       offsets, lanes, [&](uint32_t offset, uint32_t same) __attribute__((always_inline)) {
@@ -179,8 +187,11 @@ template <class Spu>
           put(n + 3, objects.normals[1]);
           put(n + 6, objects.normals[2]);
         } else if (is_local && extra != kNoOffset) {
-          const F ratio(scene.extra(extra)->value[0]);
-          objects.parameters.ratio = first ? ratio : S::select(mask, ratio, objects.parameters.ratio);
+          const ExtraRecord& values = *scene.extra(extra);
+          const F ratio(values.value[0]), second(values.value[1]);
+          LocalParameters<S>& p = objects.parameters;
+          p.ratio = first ? ratio : S::select(mask, ratio, p.ratio);
+          p.second = first ? second : S::select(mask, second, p.second);
         }
         if ((flags & kOfSides) != 0) {
           if ((flags & object_flag::two_sided) != 0) o.two_sided |= same;
@@ -250,7 +261,7 @@ template <class Spu>
 
   const V3<S> direction = rays.direction.template load<S>();
   const V3<S> along_ray = rays.origin.template load<S>() + direction * F::load(hits.distance.lane);
-  detail::surface_of<Spu>(o.objects, along_ray, hits, points.point, points.normal);
+  detail::surface_of(scene.spu(), o.objects, along_ray, hits, points.point, points.normal);
   const auto away = dot<S>(direction, points.normal) > F(0.0f);
   for_each_value<S>(points.material, o.two_sided & (away.bits() ^ o.inverse) & ~points.blended,
                     [&](uint32_t outside, uint32_t same) {

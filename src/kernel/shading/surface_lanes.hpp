@@ -39,7 +39,7 @@ template <class S>
 template <class S>
 [[gnu::always_inline]] inline void map_box(const V3<S>& p, typename S::F& u, typename S::F& v) {
   using F = typename S::F;
-  const V3<S> side = BoxPrimitive::gradient<S>(p, LocalParameters<S>{F(0.0f), S::M::none()});
+  const V3<S> side = BoxPrimitive::gradient<S>(p, LocalParameters<S>{F(0.0f), F(0.0f), S::M::none()});
   const F half(0.5f), zero(0.0f), one(1.0f);
   const F x = (p.x + one) * half, y = (p.y + one) * half, z = (p.z + one) * half;
   const auto is_x = !(side.x == zero), is_y = !(side.y == zero);
