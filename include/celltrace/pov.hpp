@@ -2,11 +2,12 @@
 //
 // Supported: the language itself (directives, macros, loops, strings, arrays, expressions), all cameras
 // but mesh cameras, all light sources and light groups, spheres, boxes, planes, discs, cylinders, cones,
-// tori, quadrics, polygons, triangles, meshes, unions, CSG of triangles and of all that have an inside, as
-// meshes with inside_vector do, with inverse and clipped_by, sky spheres, fogs, rainbows, and textures of
-// everything that texture.hpp has: patterns with maps and lists, normals, layers, and the finish. Whatever
-// else POV-Ray knows may be declared; where an object of the scene uses it, it is an error, "'blob' is not
-// supported yet": one for each feature, all in one message. Or they are left out: ParseOptions::lenient.
+// tori, quadrics, superellipsoids, polygons, triangles, meshes, unions, CSG of triangles and of all that
+// have an inside, as meshes with inside_vector do, with inverse and clipped_by, sky spheres, fogs, rainbows,
+// and textures of everything that texture.hpp has: patterns with maps and lists, normals, layers, and the
+// finish. Whatever else POV-Ray knows may be declared; where an object of the scene uses it, it is an error,
+// "'blob' is not supported yet": one for each feature, all in one message. Or they are left out:
+// ParseOptions::lenient.
 #pragma once
 
 #include <cstdint>

@@ -249,6 +249,13 @@ struct Quadric {
   double constant = -1;
 };
 
+/// Where (|x|^(2/e) + |y|^(2/e))^(e/n) + |z|^(2/n) = 1, e being `east_west` and n `north_south`: a sphere
+/// where both are 1, more like a box the smaller they are, and with edges that bend inward above 2. Less than
+/// 1e-4 counts as that.
+struct Superellipsoid {
+  double east_west = 1, north_south = 1;
+};
+
 /// Flat: loops of points in one plane, each of them closed from its last point to its first. It is there
 /// where an odd number of lines of theirs lies to one side: a loop inside another one is a hole. For CSG
 /// nothing is inside of it, and nothing of its inverse either.
@@ -261,7 +268,7 @@ struct Csg;
 /// One thing to hit: a shape, placed. Plain unions are already taken apart.
 struct Object {
   std::variant<Sphere, std::shared_ptr<const Mesh>, Plane, Disc, Box, Cylinder, Cone, Torus, Quadric,
-               std::shared_ptr<const Polygon>, std::shared_ptr<const Csg>>
+               Superellipsoid, std::shared_ptr<const Polygon>, std::shared_ptr<const Csg>>
       shape;
   Transform transform;
   Index material = 0;        ///< of a CSG: means nothing, its parts have their own

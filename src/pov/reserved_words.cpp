@@ -315,9 +315,8 @@ const DirectiveWord kDirectives[] = {
 // What POV-Ray 3.7 reserves for features that are not supported: things that are objects, things that have a
 // block in braces of their own, and the rest.
 const char* const kUnsupportedObjects[] = {
-    "bicubic_patch", "blob", "height_field", "isosurface",     "julia_fractal",
-    "lathe",         "ovus", "parametric",   "poly",           "prism",
-    "quartic",       "sor",  "sphere_sweep", "superellipsoid", "text",
+    "bicubic_patch", "blob", "height_field", "isosurface", "julia_fractal", "lathe",        "ovus",
+    "parametric",    "poly", "prism",        "quartic",    "sor",           "sphere_sweep", "text",
 };
 
 const char* const kUnsupportedBlocks[] = {

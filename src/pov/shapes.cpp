@@ -149,6 +149,12 @@ Shape read_sphere(const Arguments& a) {
   return Sphere{a.vector(0), a.number(1)};
 }
 
+Shape read_superellipsoid(const Arguments& a) {
+  const Vec3 exponents = a.vector(0);
+  a.require(exponents.x >= 0 && exponents.y >= 0, "a superellipsoid's exponents must not be negative");
+  return Superellipsoid{exponents.x, exponents.y};
+}
+
 Shape read_torus(const Arguments& a) {
   return Torus{a.number(0), a.number(1)};
 }
@@ -185,6 +191,7 @@ constexpr Entry kShapes[] = {
     {"polygon", {number("count")}, read_polygon, false, "point"},
     {"quadric", {vector("squares"), vector("products"), vector("linear"), number("constant")}, read_quadric},
     {"sphere", {vector("centre"), number("radius")}, read_sphere},
+    {"superellipsoid", {vector("east-west, north-south")}, read_superellipsoid},
     {"torus", {number("major radius"), number("minor radius")}, read_torus},
 };
 

@@ -3,6 +3,7 @@
 #include "scene/mesh_geometry.hpp"
 #include "scene/polygons.hpp"
 #include "scene/polynomial.hpp"
+#include "scene/shapes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -256,6 +257,82 @@ Extent extent(const Quadric& q) {
   if (level < 0) return {centre, centre};
   const Vec3 half = glm::sqrt(Vec3(level) / q.square);
   return {centre - half, centre + half};
+}
+
+/// 1 on the surface, less inside; in proportion to the distance from the centre.
+double superellipsoid_size(const Superellipsoid& s, const Vec3& p) {
+  const double across = 2 / std::max(s.east_west, kLeastExponent);
+  const double along = 2 / std::max(s.north_south, kLeastExponent);
+  const auto norm = [](double a, double b, double exponent) {
+    const double greater = std::max(std::fabs(a), std::fabs(b)), less = std::min(std::fabs(a), std::fabs(b));
+    return greater == 0 ? 0 : greater * std::pow(1 + std::pow(less / greater, exponent), 1 / exponent);
+  };
+  return norm(norm(p.x, p.y, across), p.z, along);
+}
+Vec3 superellipsoid_slope(const Superellipsoid& s, const Vec3& p) {
+  const double across = 2 / std::max(s.east_west, kLeastExponent);
+  const double along = 2 / std::max(s.north_south, kLeastExponent);
+  const auto term = [](double x, double exponent) {
+    return x == 0 ? 0 : std::copysign(std::pow(std::fabs(x), exponent - 1), x);
+  };
+  const double sum = std::pow(std::fabs(p.x), across) + std::pow(std::fabs(p.y), across);
+  const double factor = sum == 0 ? 0 : std::pow(sum, along / across - 1);
+  return {factor * term(p.x, across), factor * term(p.y, across), term(p.z, along)};
+}
+void cross(const Superellipsoid& s, const Ray& ray, Crossings& found) {
+  // A little more than the box that it is in, parted between the octants: in each part its size turns once at
+  // most.
+  constexpr double kReach = 1.001;
+  double enter = -std::numeric_limits<double>::infinity(), leave = -enter;
+  std::vector<double> places;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (ray.direction[axis] == 0) {
+      if (std::fabs(ray.origin[axis]) > kReach) return;
+      continue;
+    }
+    const double middle = -ray.origin[axis] / ray.direction[axis];
+    const double half = std::fabs(kReach / ray.direction[axis]);
+    enter = std::max(enter, middle - half);
+    leave = std::min(leave, middle + half);
+    places.push_back(middle);
+  }
+  if (enter >= leave) return;
+  for (double& place : places)
+    place = std::clamp(place, enter, leave);
+  places.insert(places.end(), {enter, leave});
+  std::sort(places.begin(), places.end());
+  const auto is_outside = [&](double t) { return superellipsoid_size(s, ray.at(t)) > 1; };
+  const auto add_between = [&](double low, double high) {
+    const bool falls = is_outside(low);
+    if (falls == is_outside(high)) return;
+    for (int halving = 0; halving < 60; ++halving) {
+      const double middle = 0.5 * (low + high);
+      (is_outside(middle) == falls ? low : high) = middle;
+    }
+    found.push_back({high, superellipsoid_slope(s, ray.at(high))});
+  };
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    double low = places[i - 1], high = places[i];
+    const double sign = is_outside(low) ? 1 : -1;
+    if (is_outside(low) == is_outside(high))
+      for (int third = 0; third < 80; ++third) {
+        const double first = (2 * low + high) / 3, second = (low + 2 * high) / 3;
+        const bool is_before =
+            sign * superellipsoid_size(s, ray.at(first)) < sign * superellipsoid_size(s, ray.at(second));
+        (is_before ? high : low) = is_before ? second : first;
+      }
+    else
+      low = high;
+    add_between(places[i - 1], low);
+    add_between(low, places[i]);
+  }
+}
+bool contains(const Superellipsoid& s, const Vec3& p) {
+  return superellipsoid_size(s, p) < 1;
+}
+Extent extent(const Superellipsoid&) {
+  constexpr double kPadded = 1.0001;
+  return {Vec3(-kPadded), Vec3(kPadded)};
 }
 
 void cross(const std::shared_ptr<const Mesh>& mesh, const Ray& ray, Crossings& found) {

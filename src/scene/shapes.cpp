@@ -278,6 +278,13 @@ PlacedShape place(const Object& object, const Quadric& quadric) {
   return shape;
 }
 
+PlacedShape place(const Object& object, const Superellipsoid& s) {
+  PlacedShape shape = in_own_space<SuperellipsoidPrimitive>(object, Transform());
+  shape.parameters[0] = static_cast<float>(2 / std::max(s.east_west, kLeastExponent));
+  shape.parameters[1] = static_cast<float>(2 / std::max(s.north_south, kLeastExponent));
+  return shape;
+}
+
 PlacedShape place(const Object& object, const std::shared_ptr<const Polygon>& polygon) {
   const std::optional<Transform> frame = frame_of(*polygon);
   return frame ? in_own_space<PolygonPrimitive>(object, *frame) : nothing();
@@ -321,6 +328,9 @@ std::vector<double> numbers_of(const Torus& t) {
 }
 std::vector<double> numbers_of(const Quadric& q) {
   return numbers({q.square, q.mixed, q.linear}, {q.constant});
+}
+std::vector<double> numbers_of(const Superellipsoid& s) {
+  return numbers({}, {s.east_west, s.north_south});
 }
 std::vector<double> numbers_of(const std::shared_ptr<const Polygon>& polygon) {
   std::vector<double> all;

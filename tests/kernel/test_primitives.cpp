@@ -57,6 +57,19 @@ std::vector<Subject> subjects() {
       named("thick torus", Torus{0.5, 0.45},
             [](const Vec3& p) { return square(std::hypot(p.x, p.z) - 0.5) + square(p.y) < square(0.45); }),
   };
+  const auto superellipsoid = [&](const char* name, double e, double n) {
+    all.push_back(named(name, Superellipsoid{e, n}, [e, n](const Vec3& p) {
+      const double across = std::pow(std::abs(p.x), 2 / e) + std::pow(std::abs(p.y), 2 / e);
+      return std::pow(across, e / n) + std::pow(std::abs(p.z), 2 / n) < 1;
+    }));
+  };
+  superellipsoid("superellipsoid", 0.5, 0.7);
+  superellipsoid("box with round edges", 0.1, 0.25);
+  superellipsoid("cylinder with round edges", 1, 0.1);
+  superellipsoid("octahedron", 2, 2);
+  superellipsoid("star", 3, 2.5);
+  superellipsoid("pillar that is a star", 3, 0.5);
+  superellipsoid("spindle", 0.5, 3);
   const auto quadric = [&](const char* name, const Quadric& q) {
     all.push_back(named(name, q, [q](const Vec3& p) {
       return glm::dot(q.square, p * p) + glm::dot(q.mixed, Vec3(p.x * p.y, p.x * p.z, p.y * p.z)) +

@@ -35,6 +35,8 @@ TEST_CASE("the extents of shapes") {
   CHECK(extents("disc { <1,2,3>, <1,1,0>, 2, 1 }") == "-1.0007 -0.0007 0.1716 to 3.0007 4.0007 5.8284");
   CHECK(extents("torus { 2, .5 rotate x*45 }") == "-2.5000 -2.1213 -2.1213 to 2.5000 2.1213 2.1213");
   CHECK(extents("quadric { 1, 0, 0, -1 }") == "-1.0000 -1.0000 -1.0000 to 1.0000 1.0000 1.0000");
+  CHECK(extents("superellipsoid { <.25, .5> rotate 30 }") ==
+        "-1.5917 -1.5247 -1.6832 to 1.5917 1.5247 1.6832");
   CHECK(extents("mesh { triangle { 0, x, y } triangle { 0, y, z } }") ==
         "0.0000 0.0000 0.0000 to 1.0000 1.0000 1.0000");
   CHECK(extents("plane { y, 1 }") == "-10000000000.0000 -10000000000.0000 -10000000000.0000 to "
@@ -75,6 +77,12 @@ TEST_CASE("tracing shapes") {
   CHECK(hit("torus { 2, .5 }", "<2,0,0>, -y") == "2.0000 -0.5000 0.0000 facing 0.0000 -1.0000 0.0000");
   CHECK(hit("quadric { 1, 0, 0, -1 }", "-z*3, z + x*.1") ==
         "0.2021 0.0000 -0.9794 facing 0.2021 0.0000 -0.9794");
+  CHECK(hit("superellipsoid { <.25, .5> }", "<.99,.5,-5>, z") ==
+        "0.9900 0.5000 -0.4397 facing 0.9961 0.0084 -0.0874");
+  CHECK(hit("superellipsoid { <1, .1> }", "<-5,.4,.5>, x") ==
+        "-0.9165 0.4000 0.5000 facing -0.9165 0.4000 0.0000");
+  CHECK(hit("superellipsoid { <4, 3> }", "<-2,.95,.01>, <3,-1,0>") ==
+        "-0.1502 0.3334 0.0100 facing -0.4581 0.3075 0.8340");
   CHECK(hit("cylinder { -y, y, -1 }", "<.3,10,.2>, -y") ==
         "0.3000 1.0000 0.2000 facing 0.0000 1.0000 0.0000");
   CHECK(hit("disc { 0, y, -1, .2 }", "<.3,10,.2>, -y") == "0.3000 0.0000 0.2000 facing 0.0000 1.0000 0.0000");
@@ -101,6 +109,8 @@ TEST_CASE("what is inside") {
   CHECK(inside("S, <1,2,3>") == "1");
   CHECK(inside("S, <1,2,5.1>") == "0");
   CHECK(inside("cylinder { -y, y, -1 }, <.3,.4,.1>") == "1");
+  CHECK(inside("superellipsoid { <4, 3> }, .1") == "1");
+  CHECK(inside("superellipsoid { <4, 3> }, .2") == "0");
   CHECK(inside("object { B inverse }, 0") == "1");
   CHECK(inside("difference { object { S } object { B } }, <0.5,3,2>") == "0");
 }

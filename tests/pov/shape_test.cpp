@@ -74,6 +74,17 @@ TEST_CASE("tori") {
   CHECK(parse("torus { 1, 0 } torus { 0, 1 } torus { -1, 0.2 } torus { 1, -0.2 }").objects.empty());
 }
 
+TEST_CASE("superellipsoids") {
+  const Superellipsoid s = only<Superellipsoid>("superellipsoid { <0.25, 2> scale 2 }");
+  CHECK(s.east_west == 0.25);
+  CHECK(s.north_south == 2);
+  CHECK(only<Superellipsoid>("superellipsoid { 1.5 }").north_south == 1.5);
+  CHECK(error_line("superellipsoid { 2, 3 }") ==
+        "scene.pov:1:1: error: expected 'superellipsoid { <east-west, north-south> }', found 2 arguments");
+  CHECK(error_line("superellipsoid { <1, -1> }") ==
+        "scene.pov:1:1: error: a superellipsoid's exponents must not be negative");
+}
+
 TEST_CASE("polygons") {
   using Loops = std::vector<std::vector<Vec3>>;
   const auto loops = [](const std::string& text) {

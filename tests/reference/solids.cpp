@@ -182,6 +182,45 @@ std::vector<double> cross(const Quadric& q, const Vec3& origin, const Vec3& dire
   return real_zeros({at_origin, slope, function(q, origin + direction) - at_origin - slope});
 }
 
+/// Less the 1 that it is on the surface.
+double function(const Superellipsoid& s, const Vec3& p) {
+  const double east_west = 2 / s.east_west, north_south = 2 / s.north_south;
+  return std::pow(std::pow(std::abs(p.x), east_west) + std::pow(std::abs(p.y), east_west),
+                  north_south / east_west) +
+         std::pow(std::abs(p.z), north_south) - 1;
+}
+Vec3 gradient(const Superellipsoid& s, const Vec3& p) {
+  constexpr double kStep = 1e-7;
+  Vec3 slope;
+  for (int i = 0; i < 3; ++i) {
+    Vec3 step(0);
+    step[i] = kStep;
+    slope[i] = function(s, p + step) - function(s, p - step);
+  }
+  return slope;
+}
+
+/// By steps that are small against all but what grazes it.
+std::vector<double> cross(const Superellipsoid& s, const Vec3& origin, const Vec3& direction) {
+  constexpr int kSteps = 2000;
+  const std::vector<double> box = cross(Box{{Vec3(-1.001), Vec3(1.001)}}, origin, direction);
+  if (box.empty()) return {};
+  const auto is_in = [&](double t) { return function(s, origin + t * direction) < 0; };
+  const auto place = [&](int step) { return box[0] + (box[1] - box[0]) * step / kSteps; };
+  std::vector<double> found;
+  for (int step = 1; step <= kSteps; ++step) {
+    double low = place(step - 1), high = place(step);
+    const bool before = is_in(low);
+    if (is_in(high) == before) continue;
+    for (int i = 0; i < 60; ++i) {
+      const double middle = 0.5 * (low + high);
+      (is_in(middle) == before ? low : high) = middle;
+    }
+    found.push_back(high);
+  }
+  return found;
+}
+
 std::vector<double> cross(const Sphere& sphere, const Vec3& origin, const Vec3& direction) {
   const Vec3 o = origin - sphere.centre;
   return real_zeros({glm::dot(o, o) - sphere.radius * sphere.radius, 2 * glm::dot(o, direction),
@@ -234,6 +273,7 @@ bool is_in_shape(const Object& object, const Vec3& p) {
                           return std::hypot(std::hypot(p.x, p.z) - s.major_radius, p.y) < s.minor_radius;
                         },
                         [&](const Quadric& s) { return function(s, p) < 0; },
+                        [&](const Superellipsoid& s) { return function(s, p) < 0; },
                         [&](const std::shared_ptr<const Polygon>&) { return false; },
                         [&](const std::shared_ptr<const Csg>& csg) { return is_in_csg(*csg, p); },
                     },
@@ -298,6 +338,7 @@ Vec3 local_normal(const Object& object, const Vec3& p) {
                           return p - flat * (s.major_radius / glm::length(flat));
                         },
                         [&](const Quadric& s) { return gradient(s, p); },
+                        [&](const Superellipsoid& s) { return gradient(s, p); },
                         [&](const std::shared_ptr<const Polygon>& s) {
                           const auto& loop = s->loops.at(0);
                           return glm::cross(loop.at(1) - loop.at(0), loop.at(2) - loop.at(0));

@@ -37,4 +37,7 @@ intersection {
   plane { y, 0.7 texture { Blue } }
   rotate <-25, 0, -10> translate <5.6, 0.1, -2>
 }
+superellipsoid { <0.3, 0.6> texture { Green } scale 0.5 rotate <-60, 0, 30> translate <5.4, 2, 1.2> }
+superellipsoid { <1.5, 0.25> texture { Glass } scale 0.45 rotate <80, 20, 0> translate <-1.8, 0.6, -4.2> }
+superellipsoid { <2.5, 3> texture { Red } scale 1.1 rotate <10, 30, 20> translate <-6.8, 1.4, 1.6> }
 sphere { 0, 0.6 texture { Mirror } scale <1, 0.8, 1.2> translate <-4.8, 2, 2.8> no_shadow }

@@ -20,6 +20,7 @@
 #include "kernel/primitives/polygon.hpp"
 #include "kernel/primitives/quadric.hpp"
 #include "kernel/primitives/sphere.hpp"
+#include "kernel/primitives/superellipsoid.hpp"
 #include "kernel/primitives/torus.hpp"
 #include "kernel/primitives/triangle.hpp"
 #include "kernel/type_list.hpp"
@@ -32,7 +33,7 @@ template <class... P> struct PrimitiveList : TypeList<P...> {
 
 using Primitives = PrimitiveList<SpherePrimitive, TrianglePrimitive, PlanePrimitive, EllipsoidPrimitive,
                                  DiscPrimitive, BoxPrimitive, CylinderPrimitive, ConePrimitive,
-                                 TorusPrimitive, QuadricPrimitive, PolygonPrimitive>;
+                                 TorusPrimitive, QuadricPrimitive, PolygonPrimitive, SuperellipsoidPrimitive>;
 constexpr uint32_t kPrimitives = Primitives::kCount;
 static_assert(kPrimitives <= kMaxPrimitives, "a counter for each in ReportRecord");
 
