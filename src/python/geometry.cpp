@@ -209,6 +209,11 @@ void bind_geometry(py::module_& module) {
           .add("mixed", &Quadric::mixed, "")
           .add("linear", &Quadric::linear, "")
           .add("constant", &Quadric::constant, ""));
+  bind_values<Superellipsoid>(module, "Superellipsoid",
+                              "Where (|x|^(2/e) + |y|^(2/e))^(e/n) + |z|^(2/n) is 1, of exponents e and n.",
+                              Fields<Superellipsoid>()
+                                  .add("east_west", &Superellipsoid::east_west, "e")
+                                  .add("north_south", &Superellipsoid::north_south, "n"));
   bind_values<Polygon>(module, "Polygon",
                        "Flat, of closed loops of points in one plane; a loop in another one is a hole.",
                        Fields<Polygon>().add("loops", &Polygon::loops, "lists of points"));

@@ -71,6 +71,7 @@ def test_wrong_arrays(arguments, text):
 @pytest.mark.parametrize("shape", [
     celltrace.Sphere(), celltrace.Disc(normal=(0, 1, -1)), celltrace.Box(), celltrace.Cylinder(),
     celltrace.Cone(cap=(0, 2, 0)), celltrace.Torus(), celltrace.Quadric(),
+    celltrace.Superellipsoid(0.5, 3),
     celltrace.Polygon([[(-1, -1, 0), (1, -1, 0), (0, 1, 0)]]), celltrace.Plane(),
     celltrace.Csg("difference", [celltrace.Object(celltrace.Box()), celltrace.Object(celltrace.Sphere(radius=1.3))]),
 ], ids=lambda shape: type(shape).__name__)
