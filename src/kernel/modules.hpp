@@ -10,8 +10,8 @@ namespace celltrace::kernel::modules {
 
 // Of the first region: what asks no other module.
 
-/// Intersections with the shapes that are no spheres, triangles and planes, but for heavy ones, and what is
-/// inside of shapes, which CSG asks.
+/// Intersections with the shapes that are no spheres, triangles and planes, and what is inside of shapes,
+/// which CSG asks; but for heavy ones.
 constexpr CodeModule kShapes = {"shapes", 1, 0, 14592};
 /// What a program does once a frame or once for many: it makes its objects, and reports.
 constexpr CodeModule kStart = {"start", 3, 0, 12032};
@@ -32,7 +32,7 @@ constexpr CodeModule kFirstHits = {"firsthits", 31, 0, 768};
 /// What insides take of light, and how clear they are; and mirrors that bend it.
 constexpr CodeModule kFading = {"fading", 20, 0, 3968};
 /// Patterns that few scenes have, many of which read tables of the scene image.
-constexpr CodeModule kRarePatterns = {"rare", 22, 0, 13312};
+constexpr CodeModule kRarePatterns = {"rare", 22, 0, 14080};
 /// What patterns ask of surfaces besides points.
 constexpr CodeModule kSurfaces = {"surfaces", 25, 0, 3840};
 /// Warps but for turbulence.
@@ -40,8 +40,11 @@ constexpr CodeModule kWarps = {"warps", 23, 0, 3456};
 
 // Of the second region: what shades, and asks patterns.
 
-/// Intersections with heavy shapes. Not of the region of the other shapes: rays test both by turns.
-constexpr CodeModule kHeavyShapes = {"heavy", 4, 1, 4352};
+/// Intersections with heavy shapes, and their normals. Not of the region of the other shapes: rays test both
+/// by turns.
+constexpr CodeModule kHeavyShapes = {"heavy", 4, 1, 8832};
+/// What is inside of heavy shapes.
+constexpr CodeModule kInsides = {"insides", 33, 1, 1792};
 /// What is inside of meshes. Likewise: where CSG has meshes, it asks both by turns.
 constexpr CodeModule kMeshes = {"meshes", 17, 1, 2688};
 /// Where crossings are in polygons. Likewise, beside the shapes.

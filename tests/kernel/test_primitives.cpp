@@ -67,9 +67,9 @@ std::vector<Subject> subjects() {
   superellipsoid("box with round edges", 0.1, 0.25);
   superellipsoid("cylinder with round edges", 1, 0.1);
   superellipsoid("octahedron", 2, 2);
-  superellipsoid("star", 3, 2.5);
-  superellipsoid("pillar that is a star", 3, 0.5);
-  superellipsoid("spindle", 0.5, 3);
+  superellipsoid("star", 2.5, 2.2);
+  superellipsoid("pillar that is a star", 2.5, 0.5);
+  superellipsoid("spindle", 0.5, 2.5);
   const auto quadric = [&](const char* name, const Quadric& q) {
     all.push_back(named(name, q, [q](const Vec3& p) {
       return glm::dot(q.square, p * p) + glm::dot(q.mixed, Vec3(p.x * p.y, p.x * p.z, p.y * p.z)) +

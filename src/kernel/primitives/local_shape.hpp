@@ -149,7 +149,9 @@ inline bool overlaps_in_world(const float (&g)[12], const LocalBounds& local, co
   return square_root(distance) <= radius + square_root(reach) * 1.0001f;
 }
 
-template <class S> LocalParameters<S> local_parameters(const ObjectRecord& object, const ExtraRecord& extra) {
+template <class S>
+[[gnu::always_inline]] inline LocalParameters<S> local_parameters(const ObjectRecord& object,
+                                                                  const ExtraRecord& extra) {
   const bool open = (object.kind_and_flags & object_flag::open) != 0;
   return {typename S::F(extra.value[0]), typename S::F(extra.value[1]), open ? S::M::all() : S::M::none()};
 }

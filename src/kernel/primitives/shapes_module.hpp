@@ -122,6 +122,29 @@ template <class Spu>
 
 } // namespace module_heavy
 
+namespace module_insides {
+
+/// As module_shapes::inside(), of heavy shapes.
+template <class Spu>
+[[gnu::noinline, gnu::flatten]] uint32_t inside(Spu& spu, const SolidRecord& solid,
+                                                const V3<typename Spu::simd>& points) {
+  using R = typename Spu::rare_simd;
+  spu.run_in_module(modules::kInsides);
+  const LocalParameters<R> parameters = local_parameters<R>(solid.object, solid.extra);
+  uint32_t lanes = 0;
+  for_each_part<Spu>([&](uint32_t first) {
+    const V3<R> local = to_local<R>(solid.object.geometry, part_of<Spu>(points, first), 1.0f);
+    Primitives::dispatch(solid.object.kind_and_flags & object_flag::kind_mask, [&](auto shape) {
+      using Shape = decltype(shape);
+      if constexpr (Shape::kIsHeavy)
+        lanes |= Shape::template inside_local<R>(local, parameters).bits() << first;
+    });
+  });
+  return lanes;
+}
+
+} // namespace module_insides
+
 namespace module_shapes {
 
 /// The crossings of a packet with an object; returns how many pairs. Rays are transformed in one place for
@@ -152,7 +175,7 @@ template <class Spu>
   return pairs;
 }
 
-/// Which of the points are in a solid.
+/// Which of the points are in a solid that is not heavy.
 template <class Spu>
 [[gnu::noinline]] uint32_t inside(Spu& spu, const SolidRecord& solid, const V3<typename Spu::simd>& points) {
   using S = typename Spu::simd;
@@ -165,7 +188,8 @@ template <class Spu>
   uint32_t lanes = 0;
   Primitives::dispatch(kind, [&](auto shape) {
     using Shape = decltype(shape);
-    if constexpr (Shape::kIsLocal) lanes = Shape::template inside_local<S>(local, parameters).bits();
+    if constexpr (Shape::kIsLocal && !Shape::kIsHeavy)
+      lanes = Shape::template inside_local<S>(local, parameters).bits();
   });
   return lanes;
 }

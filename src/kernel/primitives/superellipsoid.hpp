@@ -93,12 +93,14 @@ struct SuperellipsoidPrimitive : LocalPrimitive<SuperellipsoidPrimitive> {
   }
 
   template <class S> static typename S::M inside_local(const V3<S>& p, const LocalParameters<S>& parameters) {
-    return Terms<S>(p, parameters).sum() < typename S::F(1.0f);
+    return Terms<S>(p, parameters).root() < typename S::F(1.0f);
   }
 
   template <class S>
   [[gnu::always_inline]] static V3<S> gradient(const V3<S>& p, const LocalParameters<S>& parameters) {
-    return Terms<S>(p, parameters).gradient(p);
+    V3<S> slope;
+    Profile<S>::root_at(p, parameters, slope);
+    return slope;
   }
 
   static LocalBounds local_bounds(float) { return {-1.0f, 1.0f, 1.0f, true}; }
@@ -109,23 +111,29 @@ private:
   /// What the equation says at a point.
   template <class S> struct Terms {
     using F = typename S::F;
-    F power[4]; ///< |x|^p, |y|^p, |z|^q, and the sum of the first two to the power q/p
+    /// |x|^p, |y|^p, |z|^q, the sum of the first two to the power q/p, and that of the next two to the power
+    /// 1/q.
+    F power[5];
 
     [[gnu::always_inline]] Terms(const V3<S>& at, const LocalParameters<S>& parameters) {
-      F base[4] = {S::abs(at.x), S::abs(at.y), S::abs(at.z), F(0.0f)};
-      const F exponent[4] = {parameters.ratio, parameters.ratio, parameters.second,
-                             parameters.second / S::max(parameters.ratio, F(kLeast))};
+      const F p = S::max(parameters.ratio, F(kLeast)), q = S::max(parameters.second, F(kLeast));
+      F base[5] = {S::abs(at.x), S::abs(at.y), S::abs(at.z)};
+      const F exponent[5] = {p, p, q, q / p, F(1.0f) / q};
       // A loop, as local store has room for one copy of powers.
-      for (int i = 0; i < 4; ++i) {
-        if (i == 3) base[3] = power[0] + power[1];
+      for (int i = 0; i < 5; ++i) {
+        if (i == 3) base[i] = power[0] + power[1];
+        if (i == 4) base[i] = sum();
         power[i] = pow<S>(base[i], exponent[i]);
       }
     }
     [[gnu::always_inline]] F sum() const { return power[3] + power[2]; }
-    /// Divided by q.
+    [[gnu::always_inline]] F root() const { return power[4]; }
+    /// Of the root.
     [[gnu::always_inline]] V3<S> gradient(const V3<S>& at) const {
-      const F across = power[3] / S::max(power[0] + power[1], F(kLeast));
-      return {across * power[0] * inverse(at.x), across * power[1] * inverse(at.y), power[2] * inverse(at.z)};
+      const F along = root() / S::max(sum(), F(kLeast));
+      const F across = along * power[3] / S::max(power[0] + power[1], F(kLeast));
+      return {across * power[0] * inverse(at.x), across * power[1] * inverse(at.y),
+              along * power[2] * inverse(at.z)};
     }
 
   private:
@@ -144,14 +152,19 @@ private:
     V3<S> o, d;
     M convex;
 
+    /// One copy of it, for rays and for normals.
+    [[gnu::noinline]] static F root_at(const V3<S>& p, const LocalParameters<S>& parameters,
+                                       V3<S>& gradient) {
+      const Terms<S> terms(p, parameters);
+      gradient = terms.gradient(p);
+      return terms.root();
+    }
+
     /// The root of the sum, less 1: below 0 inside.
     [[gnu::noinline]] void at(const F& t, F& value, F& slope) const {
-      const V3<S> p = o + d * t;
-      const Terms<S> terms(p, parameters);
-      const F sum = terms.sum();
-      const F root = pow<S>(sum, F(1.0f) / parameters.second);
-      value = root - F(1.0f);
-      slope = dot<S>(terms.gradient(p), d) * (root / S::max(sum, F(kLeast)));
+      V3<S> gradient;
+      value = root_at(o + d * t, parameters, gradient) - F(1.0f);
+      slope = dot<S>(gradient, d);
     }
 
     /// Of the rays `wanted`, which are on the same side at `low` and `high`, those that are on the other one
