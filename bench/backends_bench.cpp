@@ -28,7 +28,7 @@ celltrace::Renderer renderer_of(Subject subject) {
   options.width = kWidth;
   options.height = kHeight;
   options.spes = 1;
-  options.backend = subject == native ? "native" : "cell_emu";
+  options.backend = subject == native ? celltrace::Backend::native : celltrace::Backend::cell_emu;
   options.emulation.schedule =
       subject == lockstep ? celltrace::Schedule::lockstep : celltrace::Schedule::free;
   return celltrace::Renderer(options);

@@ -92,7 +92,7 @@ std::pair<RenderStatistics, RenderStatistics> frames_of(const Scene& scene, Bala
   RenderOptions options;
   options.width = kWidth;
   options.height = kHeight;
-  options.backend = "cell_emu";
+  options.backend = Backend::cell_emu;
   options.spes = spes;
   options.balance = balance;
   options.emulation.schedule = Schedule::lockstep;

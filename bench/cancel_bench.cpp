@@ -151,7 +151,7 @@ int main(int argc, char** argv) {
   const int times = argc > 1 ? std::atoi(argv[1]) : 300;
   const int side = argc > 2 ? std::atoi(argv[2]) : 1000;
   JobOptions options;
-  if (argc > 3) options.render.backend = argv[3];
+  if (argc > 3) options.render.backend = backend_named(argv[3]);
   options.render.antialiasing = Antialiasing(); // so that rendering takes a while, too
   const auto scene = std::make_shared<const Scene>(hills(side));
   const SceneText text = {text_of(*scene), "hills.pov"};

@@ -44,7 +44,7 @@ int fly(int argc, char** argv) {
   Scene scene = parse_file(argv[1]);
   const int frames = number(2, 120), degrees = number(4, 60);
   RenderOptions options;
-  options.backend = "cell_emu";
+  options.backend = Backend::cell_emu;
   options.spes = static_cast<unsigned>(number(5, 8));
   options.emulation.schedule = Schedule::lockstep;
   options.width = number(3, 320);

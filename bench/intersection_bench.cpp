@@ -41,8 +41,7 @@ IntersectionTask make_task(ObjectKind kind) {
   return task;
 }
 
-void intersect(benchmark::State& state, ObjectKind kind, const std::string& backend,
-               const std::string& simd) {
+void intersect(benchmark::State& state, ObjectKind kind, Backend backend, SimdLevel simd) {
   MachineConfig config;
   config.backend = backend;
   config.spes = 1;
@@ -67,10 +66,14 @@ void intersect(benchmark::State& state, ObjectKind kind, const std::string& back
 }
 
 #define CELLTRACE_INTERSECT(kind)                                                                            \
-  BENCHMARK_CAPTURE(intersect, kind##_sse2, ObjectKind::kind, "native", "sse2")->UseRealTime();              \
-  BENCHMARK_CAPTURE(intersect, kind##_avx2, ObjectKind::kind, "native", "avx2")->UseRealTime();              \
-  BENCHMARK_CAPTURE(intersect, kind##_avx512, ObjectKind::kind, "native", "avx512")->UseRealTime();          \
-  BENCHMARK_CAPTURE(intersect, kind##_cell_emu, ObjectKind::kind, "cell_emu", "auto")->UseRealTime()
+  BENCHMARK_CAPTURE(intersect, kind##_sse2, ObjectKind::kind, Backend::native, SimdLevel::sse2)              \
+      ->UseRealTime();                                                                                       \
+  BENCHMARK_CAPTURE(intersect, kind##_avx2, ObjectKind::kind, Backend::native, SimdLevel::avx2)              \
+      ->UseRealTime();                                                                                       \
+  BENCHMARK_CAPTURE(intersect, kind##_avx512, ObjectKind::kind, Backend::native, SimdLevel::avx512)          \
+      ->UseRealTime();                                                                                       \
+  BENCHMARK_CAPTURE(intersect, kind##_cell_emu, ObjectKind::kind, Backend::cell_emu, SimdLevel::automatic)   \
+      ->UseRealTime()
 
 CELLTRACE_INTERSECT(sphere);
 CELLTRACE_INTERSECT(ellipsoid);

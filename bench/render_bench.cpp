@@ -25,7 +25,7 @@ celltrace::Scene sphere_field(int side) {
   return scene;
 }
 
-void render(benchmark::State& state, const char* backend) {
+void render(benchmark::State& state, celltrace::Backend backend) {
   const celltrace::Scene scene = sphere_field(20);
   celltrace::RenderOptions options;
   options.width = 320;
@@ -38,8 +38,16 @@ void render(benchmark::State& state, const char* backend) {
     rays += renderer.render(scene).statistics.total_rays();
   state.counters["rays"] = benchmark::Counter(static_cast<double>(rays), benchmark::Counter::kIsRate);
 }
-BENCHMARK_CAPTURE(render, native, "native")->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(render, cell_emu, "cell_emu")->Arg(1)->Arg(8)->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(render, native, celltrace::Backend::native)
+    ->Arg(1)
+    ->Arg(2)
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(render, cell_emu, celltrace::Backend::cell_emu)
+    ->Arg(1)
+    ->Arg(8)
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
 
 /// Primary rays through the accelerator and nothing else: no lights, no mirrors.
 void traverse(benchmark::State& state, celltrace::Accelerator accelerator) {

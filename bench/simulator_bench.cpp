@@ -52,7 +52,7 @@ void tracer(benchmark::State& state) {
     RenderOptions options;
     options.width = 64;
     options.height = 48;
-    options.backend = "cell_sim";
+    options.backend = Backend::cell_sim;
     options.spes = static_cast<unsigned>(state.range(0));
     options.emulation.schedule = Schedule::lockstep;
     Renderer renderer(options);
@@ -73,7 +73,7 @@ BENCHMARK(tracer)->Arg(1)->Arg(8)->Unit(benchmark::kMillisecond);
 void cache_reads(benchmark::State& state) {
   try {
     MachineConfig config;
-    config.backend = "cell_sim";
+    config.backend = Backend::cell_sim;
     config.spes = 1;
     config.emulation.schedule = Schedule::lockstep;
     const std::unique_ptr<Machine> machine = make_machine(config);

@@ -103,9 +103,9 @@ std::uint32_t hits_of(const TriangleTask& task) {
 
 /// `reference` must find as many hits.
 void test(benchmark::State& state, TriangleTest test, TriangleTest reference, std::uint32_t packets,
-          std::uint32_t rays, std::uint32_t triangles, const std::string& simd) {
+          std::uint32_t rays, std::uint32_t triangles, SimdLevel simd) {
   MachineConfig config;
-  config.backend = "native";
+  config.backend = Backend::native;
   config.spes = 1;
   config.simd = simd;
   std::unique_ptr<Machine> machine;
@@ -139,9 +139,9 @@ void test(benchmark::State& state, TriangleTest test, TriangleTest reference, st
 
 void add(const std::string& name, TriangleTest kind, TriangleTest reference, std::uint32_t packets,
          std::uint32_t rays, std::uint32_t triangles) {
-  for (const char* simd : {"sse2", "avx2", "avx512"})
+  for (const SimdLevel simd : {SimdLevel::sse2, SimdLevel::avx2, SimdLevel::avx512})
     benchmark::RegisterBenchmark(
-        (name + "/triangles:" + std::to_string(triangles) + "/" + simd).c_str(),
+        (name + "/triangles:" + std::to_string(triangles) + "/" + name_of(simd)).c_str(),
         [=](benchmark::State& state) { test(state, kind, reference, packets, rays, triangles, simd); })
         ->MeasureProcessCPUTime();
 }

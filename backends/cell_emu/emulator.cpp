@@ -7,7 +7,7 @@ namespace {
 
 MachineConfig emulated(unsigned spes, Schedule schedule) {
   MachineConfig config;
-  config.backend = "cell_emu";
+  config.backend = Backend::cell_emu;
   config.spes = spes;
   config.emulation.schedule = schedule;
   config.emulation.red_zones = true;

@@ -53,7 +53,7 @@ public:
   explicit EmulatedCell(const MachineConfig& config);
   ~EmulatedCell() override;
 
-  std::string_view backend() const noexcept override { return simulated() ? "cell_sim" : "cell_emu"; }
+  Backend backend() const noexcept override { return simulated() ? Backend::cell_sim : Backend::cell_emu; }
   unsigned spe_count() const noexcept override { return map_.spes(); }
   bool direct_memory() const noexcept override { return Spu::direct_memory; }
   std::string_view spu_key() const noexcept override { return simulated() ? SimulatedSpu::kKey : Spu::kKey; }
@@ -96,7 +96,7 @@ public:
 
 private:
   /// Its SPUs execute machine code.
-  bool simulated() const { return config_.backend == "cell_sim"; }
+  bool simulated() const { return config_.backend == Backend::cell_sim; }
   bool lockstep() const { return config_.emulation.schedule == Schedule::lockstep; }
   std::unique_ptr<Scheduler> make_scheduler();
   ArenaState arena(unsigned spe, ArenaRange range) const;

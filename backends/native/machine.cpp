@@ -53,7 +53,7 @@ public:
   explicit NativeMachine(const MachineConfig& config);
   ~NativeMachine() override;
 
-  std::string_view backend() const noexcept override { return "native"; }
+  Backend backend() const noexcept override { return Backend::native; }
   unsigned spe_count() const noexcept override { return static_cast<unsigned>(workers_.size()); }
   bool direct_memory() const noexcept override { return true; }
   std::string_view spu_key() const noexcept override { return current_type_->key; }

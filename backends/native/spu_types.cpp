@@ -1,7 +1,6 @@
 #include "backends/native/spu_types.hpp"
 
 #include "backends/native/spu.hpp"
-#include "celltrace/error.hpp"
 
 namespace celltrace::native {
 
@@ -9,7 +8,7 @@ namespace {
 
 template <class Arch> SpuType spu_type(bool (*supported)()) {
   const std::string key = Spu<Arch>::kKey;
-  return {key.substr(key.find('.') + 1), key, supported,
+  return {simd_level_named(key.substr(key.find('.') + 1)), key, supported,
           [](Spe& spe, SpeProgram::Entry entry, ea_t argument) {
             Spu<Arch> spu(spe);
             entry(&spu, argument);
@@ -17,9 +16,9 @@ template <class Arch> SpuType spu_type(bool (*supported)()) {
 }
 
 std::string names() {
-  std::string list = "auto";
+  std::string list = name_of(SimdLevel::automatic);
   for (const SpuType& type : spu_types())
-    list += ", " + type.simd;
+    list += std::string(", ") + name_of(type.simd);
   return list;
 }
 
@@ -47,16 +46,17 @@ const std::vector<SpuType>& spu_types() {
   return types;
 }
 
-std::vector<const SpuType*> usable_spu_types(const std::string& simd) {
+std::vector<const SpuType*> usable_spu_types(SimdLevel simd) {
   std::vector<const SpuType*> usable;
-  bool known = simd == "auto";
+  bool built = simd == SimdLevel::automatic;
   for (const SpuType& type : spu_types()) {
-    if (simd != "auto" && simd != type.simd) continue;
-    known = true;
+    if (simd != SimdLevel::automatic && simd != type.simd) continue;
+    built = true;
     if (type.supported()) usable.push_back(&type);
   }
-  if (!known) throw InputError("unknown SIMD \"" + simd + "\"; this build has " + names());
-  if (usable.empty()) throw InputError("this CPU does not support SIMD \"" + simd + "\"");
+  const std::string name = "SIMD \"" + std::string(name_of(simd)) + "\"";
+  if (!built) throw InputError("this build has no " + name + ", but " + names());
+  if (usable.empty()) throw InputError("this CPU does not support " + name);
   return usable;
 }
 

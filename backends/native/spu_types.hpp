@@ -1,6 +1,7 @@
 // The SPU types of this build and which of them a CPU can run.
 #pragma once
 
+#include "celltrace/spe/backend.hpp"
 #include "celltrace/spe/program.hpp"
 #include "celltrace/spe/types.hpp"
 
@@ -13,8 +14,8 @@ struct Spe;
 
 /// A Spu instantiation as the machine handles it.
 struct SpuType {
-  std::string simd; ///< as in MachineConfig::simd
-  std::string key;  ///< Spu::kKey
+  SimdLevel simd;
+  std::string key; ///< Spu::kKey
   bool (*supported)();
   /// Constructs the Spu on the stack and runs the kernel on it.
   void (*run)(Spe& spe, SpeProgram::Entry entry, ea_t argument);
@@ -23,8 +24,8 @@ struct SpuType {
 /// All of this build, the widest first.
 const std::vector<SpuType>& spu_types();
 
-/// Those a machine may use: one that was named, or all that the CPU supports for "auto". Throws InputError
-/// for a name that is unknown or that the CPU lacks.
-std::vector<const SpuType*> usable_spu_types(const std::string& simd);
+/// Those a machine may use: one, or for `automatic` all that the CPU supports. Throws InputError for a level
+/// that the build or the CPU lacks.
+std::vector<const SpuType*> usable_spu_types(SimdLevel simd);
 
 } // namespace celltrace::native

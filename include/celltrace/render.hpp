@@ -6,6 +6,7 @@
 #include "celltrace/image.hpp"
 #include "celltrace/ray_queries.hpp"
 #include "celltrace/scene.hpp"
+#include "celltrace/spe/backend.hpp"
 #include "celltrace/spe/emulation.hpp"
 
 #include <cstddef>
@@ -101,14 +102,12 @@ struct SceneChanges {
 struct RenderOptions {
   int width = 640;  ///< pixels, 1..65520
   int height = 480; ///< pixels, 1..65520
-  /// "native", "cell_emu" or "cell_sim"; see machine_backends(). The last needs a build with a compiler for
-  /// the SPU.
-  std::string backend = "native";
+  Backend backend = Backend::native;
   /// Number of SPEs, up to 256; 0: on native one per CPU that the calling thread may use, on the
   /// others `emulation.timing.spes`. On native, as many SPEs as such CPUs keep to one each.
   unsigned spes = 0;
-  /// SIMD of native: "auto", "sse2", "avx2", "avx512"; on AArch64 "auto", "neon64".
-  std::string simd = "auto";
+  /// Of native.
+  SimdLevel simd = SimdLevel::automatic;
   /// The software cache of each SPE (native reads memory directly and has none).
   CacheConfig cache;
   Balance balance = Balance::gde;
@@ -192,7 +191,7 @@ struct CELLTRACE_EXPORT RenderStatistics {
     std::uint64_t returns = 0; ///< split: times that a ray was sent back
   };
 
-  std::string backend;
+  Backend backend = Backend::native;
   Model model = Model::shared;
   Stages stages;
   std::string spu; ///< SPU type, e.g. "native.avx512"

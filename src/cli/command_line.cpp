@@ -3,10 +3,9 @@
 #include "celltrace/error.hpp"
 #include "celltrace/version.hpp"
 #include "cli/animation_options.hpp"
-#include "cli/choice.hpp"
 #include "cli/completions.hpp"
-#include "cli/emulation_options.hpp"
 #include "cli/keyword_page.hpp"
+#include "cli/machine_options.hpp"
 #include "cli/man_page.hpp"
 #include "cli/output_options.hpp"
 
@@ -25,22 +24,6 @@ namespace {
 std::pair<std::string, std::string> split(const std::string& text, char separator) {
   const std::size_t at = std::min(text.find(separator), text.size());
   return {text.substr(0, at), text.substr(std::min(at + 1, text.size()))};
-}
-
-std::uint32_t parse_size(const std::string& digits, const std::string& text) {
-  std::uint32_t value = 0;
-  const char* const last = digits.data() + digits.size();
-  const auto [end, error] = std::from_chars(digits.data(), last, value);
-  if (error != std::errc() || end != last)
-    throw InputError("--cache: '" + text + "' is neither WAYSxSETS[:random|fifo|lru] nor off");
-  return value;
-}
-
-CacheReplacement parse_replacement(const std::string& policy) {
-  if (policy == "random") return CacheReplacement::random;
-  if (policy == "fifo") return CacheReplacement::fifo;
-  if (policy == "lru") return CacheReplacement::lru;
-  throw InputError("--cache: '" + policy + "' is none of random, fifo, lru");
 }
 
 std::pair<std::string, std::string> parse_declare(const std::string& text) {
@@ -81,11 +64,7 @@ void set_limit(ParseLimits& limits, const std::string& text) {
 
 /// What CLI11 fills in besides the request.
 struct RenderTexts {
-  std::string cache = "4x128:fifo";
-  std::string balance = "gde";
-  std::string accelerator = "auto";
-  std::string model = "shared";
-  EmulationTexts emulation;
+  MachineTexts machine;
   std::vector<std::string> declares;
   std::vector<std::string> limits;
   std::optional<double> antialias; ///< the threshold
@@ -168,32 +147,6 @@ void add_antialiasing_options(CLI::App& command, RenderTexts& texts) {
   command.add_option("--antialias-gamma", texts.antialiasing.gamma, "Of the colours when they are compared")
       ->check(CLI::Range(0.01, 100.0))
       ->capture_default_str();
-}
-
-void add_machine_options(CLI::App& command, RenderOptions& options, RenderTexts& texts) {
-  add_choice(command, "--backend", options.backend, {{"native", "cell_emu", "cell_sim"}, {"spu"}},
-             "The machine: threads, an emulated Cell, or one whose SPUs execute machine code");
-  command
-      .add_option("--spes", options.spes,
-                  "SPEs; default: one a hardware thread on native, else those of the timing")
-      ->check(CLI::Range(1u, 256u));
-  add_choice(command, "--simd", options.simd, {{"auto", "sse2", "avx2", "avx512", "neon64", "generic"}, {}},
-             "Instruction set of native");
-  command.add_option("--cache", texts.cache, "Software cache: WAYSxSETS[:random|fifo|lru], or off")
-      ->type_name("CACHE")
-      ->capture_default_str();
-  add_choice(command, "--accelerator", texts.accelerator, {{"auto", "grid", "bvh"}, {}},
-             "How rays find objects: a uniform grid or a BVH, which auto is");
-  add_choice(
-      command, "--balance", texts.balance, {{"gde", "diffusion", "static", "scatter", "tiles"}, {}},
-      "How the SPEs share a frame: strips that exchange work, that diffusion adjusts between frames or "
-      "that stay; or bundles of packets or random tiles, dealt out");
-  add_choice(command, "--model", texts.model, {{"shared", "pipeline", "pipeline-split", "offload"}, {}},
-             "Programming model");
-  // Only emulated machines have what follows.
-  CLI::Option_group& emulation = *command.add_option_group("cell_emu and cell_sim only");
-  add_emulation_options(emulation, texts.emulation, Schedule::free);
-  add_cache_trace_option(emulation, texts.emulation);
 }
 
 void add_report_options(CLI::App& command, RenderRequest& request) {
@@ -280,14 +233,12 @@ void add_replay_options(CLI::App& command, ReplayRequest& request, ReplayTexts& 
   command.add_flag("--json", request.json, "Print JSON");
 }
 
-void add_study_options(CLI::App& command, StudyRequest& request) {
+void add_study_options(CLI::App& command, StudyRequest& request, std::string& backend) {
   command
       .add_option("--out", request.out, "Folder for study.txt, study.json, and a CSV and an SVG file a table")
       ->type_name("DIR");
   command.add_flag("--quick", request.options.quick, "Smaller pictures: about a minute on two cores");
-  command
-      .add_option("--backend", request.options.backend,
-                  "Whose cycles: of counted operations or of machine code")
+  command.add_option("--backend", backend, "Whose cycles: of counted operations or of machine code")
       ->check(CLI::IsMember({"cell_emu", "cell_sim"}))
       ->capture_default_str();
   command.add_option("--only", request.options.only, "Make one table only")
@@ -295,24 +246,6 @@ void add_study_options(CLI::App& command, StudyRequest& request) {
   command.add_option("--threads", request.options.threads, "Of the host; default: as many as it has")
       ->check(CLI::Range(1, 256));
   command.add_flag("--quiet", request.quiet, "No progress, and no tables on stdout");
-}
-
-Model model_of(const std::string& text) {
-  if (text == "pipeline") return Model::pipeline;
-  if (text == "pipeline-split") return Model::pipeline_split;
-  return text == "offload" ? Model::offload : Model::shared;
-}
-
-Balance balance_of(const std::string& text) {
-  if (text == "diffusion") return Balance::diffusion;
-  if (text == "static") return Balance::fixed;
-  if (text == "scatter") return Balance::scatter;
-  return text == "tiles" ? Balance::tiles : Balance::gde;
-}
-
-Accelerator accelerator_of(const std::string& text) {
-  if (text == "grid") return Accelerator::grid;
-  return text == "bvh" ? Accelerator::bvh : Accelerator::automatic;
 }
 
 /// As POV-Ray counts: columns and rows from 1 on, below that parts of the whole.
@@ -357,13 +290,9 @@ std::optional<Antialiasing> antialiasing_of(const RenderTexts& texts) {
 
 /// What rendering and looking around share.
 void finish_scene(RenderRequest& request, const RenderTexts& texts, Schedule schedule) {
-  request.options.cache = parse_cache(texts.cache);
-  request.options.emulation = emulation_config(texts.emulation, request.options.backend, schedule);
-  request.lenient = texts.emulation.lenient;
+  finish_machine(request.options, texts.machine, schedule);
+  request.lenient = texts.machine.emulation.lenient;
   request.options.antialiasing = antialiasing_of(texts);
-  request.options.accelerator = accelerator_of(texts.accelerator);
-  request.options.model = model_of(texts.model);
-  request.options.balance = balance_of(texts.balance);
   for (const std::string& text : texts.declares)
     request.declares.push_back(parse_declare(text));
   for (const std::string& text : texts.limits)
@@ -372,8 +301,8 @@ void finish_scene(RenderRequest& request, const RenderTexts& texts, Schedule sch
 
 void finish(RenderRequest& request, const RenderTexts& texts) {
   finish_scene(request, texts, Schedule::free);
-  request.trace = texts.emulation.trace;
-  request.cache_trace = texts.emulation.cache_trace;
+  request.trace = texts.machine.emulation.trace;
+  request.cache_trace = texts.machine.emulation.cache_trace;
   request.options.region = region_of(texts, request.options);
   finish_output(request, texts.output);
   finish_animation(request, texts.animation);
@@ -410,24 +339,6 @@ void finish(ReplayRequest& request, const ReplayTexts& texts) {
 
 } // namespace
 
-CacheConfig parse_cache(const std::string& text) {
-  CacheConfig cache;
-  if (text == "off") {
-    cache.enabled = false;
-    return cache;
-  }
-  const auto [sizes, policy] = split(text, ':');
-  const auto [ways, sets] = split(sizes, 'x');
-  cache.ways = parse_size(ways, text);
-  cache.sets = parse_size(sets, text);
-  if (sizes.size() < text.size()) cache.replacement = parse_replacement(policy);
-  if (!cache.valid())
-    throw InputError("--cache: '" + text +
-                     "' is no cache: ways and sets have to be powers of two, and at most " +
-                     std::to_string(CacheConfig::kMaxLines) + " lines");
-  return cache;
-}
-
 Request parse_command_line(std::vector<std::string> arguments) {
   CLI::App app("Ray-traces POV-Ray scenes with a program written for the Cell's SPEs, on any machine.",
                "celltrace");
@@ -461,7 +372,7 @@ Request parse_command_line(std::vector<std::string> arguments) {
   add_region_options(render_command, texts);
   add_animation_options(render_command, render, texts.animation);
   add_antialiasing_options(render_command, texts);
-  add_machine_options(render_command, render.options, texts);
+  add_machine_options(render_command, render.options, texts.machine);
   add_report_options(render_command, render);
 
   ViewRequest view;
@@ -471,7 +382,7 @@ Request parse_command_line(std::vector<std::string> arguments) {
   add_quality_option(view_command, view.render);
   view_command.add_option("--clock", view.render.clock, "The scene's clock");
   add_antialiasing_options(view_command, view_texts);
-  add_machine_options(view_command, view.render.options, view_texts);
+  add_machine_options(view_command, view.render.options, view_texts.machine);
   add_view_options(view_command, view);
   view_command.footer("H in the window shows the keys.");
 
@@ -492,9 +403,10 @@ Request parse_command_line(std::vector<std::string> arguments) {
   add_replay_options(replay_command, replay, replay_texts);
 
   StudyRequest study;
+  std::string study_backend = name_of(study.options.backend);
   CLI::App& study_command =
       *app.add_subcommand("study", "Repeat the experiments of the thesis on the emulated Cell");
-  add_study_options(study_command, study);
+  add_study_options(study_command, study, study_backend);
 
   std::vector<std::string> rest;
   if (!arguments.empty() && arguments.front() == "spu") rest = split_rest(arguments);
@@ -513,7 +425,10 @@ Request parse_command_line(std::vector<std::string> arguments) {
     finish(view, view_texts);
     return view;
   }
-  if (study_command.parsed()) return study;
+  if (study_command.parsed()) {
+    study.options.backend = backend_named(study_backend);
+    return study;
+  }
   if (spu_command.parsed()) {
     finish(spu, spu_texts, rest);
     return spu;

@@ -18,10 +18,6 @@
 
 namespace celltrace::cli {
 
-/// `off`, `WAYSxSETS` or `WAYSxSETS:random|fifo|lru`. Throws InputError for any other text and for sizes that
-/// a cache cannot have.
-CacheConfig parse_cache(const std::string& text);
-
 /// As the name of a file.
 inline constexpr char kStandardOutput[] = "-";
 
@@ -60,7 +56,7 @@ struct CompareRequest {
 
 struct SpuRequest {
   SpuRequest() {
-    machine.backend = "cell_sim";
+    machine.backend = Backend::cell_sim;
     machine.spes = 1;
   }
 

@@ -99,11 +99,10 @@ void add_cache_trace_option(CLI::App& command, EmulationTexts& texts) {
       ->type_name("FILE");
 }
 
-EmulationConfig emulation_config(const EmulationTexts& texts, const std::string& backend,
-                                 Schedule default_schedule) {
-  if (!texts.cache_trace.empty() && backend != "cell_emu")
+EmulationConfig emulation_config(const EmulationTexts& texts, Backend backend, Schedule default_schedule) {
+  if (!texts.cache_trace.empty() && backend != Backend::cell_emu)
     throw InputError("--cache-trace needs --backend cell_emu: machine code records nothing");
-  if (const char* given = first_given(texts); given && backend == "native")
+  if (const char* given = first_given(texts); given && backend == Backend::native)
     throw InputError(std::string(given) + " needs --backend cell_emu or cell_sim");
   EmulationConfig config;
   config.schedule = schedule_of(texts, default_schedule);

@@ -1,6 +1,7 @@
 // The options that only emulated machines have: schedule, seed, transfers, faults, timing, limits, traces.
 #pragma once
 
+#include "celltrace/spe/backend.hpp"
 #include "celltrace/spe/emulation.hpp"
 
 #include <string>
@@ -33,7 +34,6 @@ void add_cache_trace_option(CLI::App& command, EmulationTexts& texts);
 
 /// What they say together. Throws InputError if they contradict each other or the backend. Where the
 /// traces go stays unset.
-EmulationConfig emulation_config(const EmulationTexts& texts, const std::string& backend,
-                                 Schedule default_schedule);
+EmulationConfig emulation_config(const EmulationTexts& texts, Backend backend, Schedule default_schedule);
 
 } // namespace celltrace::cli

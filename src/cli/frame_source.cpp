@@ -12,7 +12,7 @@ FrameSource::FrameSource(const RenderRequest& request, const RenderOptions& opti
   RenderOptions own = options;
   own.build_progress = [](double) { return !interrupted(); };
   // Of an emulated machine there is only one: its time and its trace go on from frame to frame.
-  const bool prepares_ahead = options.backend == "native" && frames_.size() > 1;
+  const bool prepares_ahead = options.backend == Backend::native && frames_.size() > 1;
   for (int i = 0; i < (prepares_ahead ? 2 : 1); ++i)
     renderers_.push_back(std::make_unique<Renderer>(own));
   begin(0, prepares_ahead);
@@ -36,8 +36,7 @@ FrameSource::Frame FrameSource::make(int number, Renderer* prepare_with) const {
         request_, number, [&](std::string_view text) { frame.messages += text; }, [](double) {});
   } catch (const SceneError& error) {
     if (!request_.animation.is_on()) throw;
-    throw SceneError(std::string(error.what()) + "\n  in frame " + std::to_string(number),
-                     error.findings());
+    throw SceneError(std::string(error.what()) + "\n  in frame " + std::to_string(number), error.findings());
   }
   if (frame.read.scene && prepare_with != nullptr)
     frame.is_prepared = prepare_with->prepare(*frame.read.scene);

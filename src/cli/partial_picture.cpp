@@ -238,7 +238,7 @@ using Clock = std::chrono::steady_clock;
 class BandHeight {
 public:
   explicit BandHeight(const RenderOptions& options)
-      : in_bands_(options.backend == "native" && options.model == Model::shared) {}
+      : in_bands_(options.backend == Backend::native && options.model == Model::shared) {}
 
   int of(int rows, int height) const {
     if (!in_bands_) return rows;

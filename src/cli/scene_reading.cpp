@@ -1,8 +1,8 @@
 #include "cli/scene_reading.hpp"
 
 #include "celltrace/error.hpp"
-#include "cli/interrupt.hpp"
 #include "celltrace/version.hpp"
+#include "cli/interrupt.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -87,8 +87,8 @@ Settings settings_of(const RenderRequest& request) {
       {"format", std::to_string(static_cast<int>(request.format))},
       {"alpha", options.alpha ? "on" : "off"},
       {"first hits", options.first_hits ? "on" : "off"},
-      {"backend", options.backend},
-      {"simd", options.simd},
+      {"backend", name_of(options.backend)},
+      {"simd", name_of(options.simd)},
       {"model", std::to_string(static_cast<int>(options.model))},
       {"accelerator", std::to_string(static_cast<int>(options.accelerator))},
       {"quality", std::to_string(options.quality)},

@@ -37,7 +37,7 @@ nlohmann::ordered_json traffic_json(const SpeStatistics& spe) {
 
 std::string spu_statistics(const SimulatedRun& run, const MachineConfig& config, double seconds) {
   nlohmann::ordered_json json = {
-      {"backend", config.backend},
+      {"backend", name_of(config.backend)},
       {"schedule", config.emulation.schedule == Schedule::lockstep ? "lockstep" : "free"},
       {"seed", config.emulation.seed},
       {"seconds", {{"run", seconds}}},

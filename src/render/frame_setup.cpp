@@ -128,7 +128,7 @@ void check(const RenderOptions& options) {
   if (!options.cache.valid())
     throw InputError("the cache has to have a power of two of ways and a power of two of sets, and at most " +
                      std::to_string(CacheConfig::kMaxLines) + " lines");
-  if (options.backend != "native" && options.cache.local_store_bytes() > kMaxCacheBytes)
+  if (options.backend != Backend::native && options.cache.local_store_bytes() > kMaxCacheBytes)
     throw InputError("the cache takes " + std::to_string(options.cache.local_store_bytes()) +
                      " bytes of local store; beside the program there is room for " +
                      std::to_string(kMaxCacheBytes));

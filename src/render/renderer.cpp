@@ -326,7 +326,7 @@ private:
       picture_.keep_colours(rows);
     }
     statistics.render_seconds = render.seconds();
-    if (machine_->backend() != "native") {
+    if (machine_->backend() != Backend::native) {
       statistics.schedule = options_.emulation.schedule;
       statistics.seed = options_.emulation.seed;
     }

@@ -274,7 +274,7 @@ std::string to_json(const RenderStatistics& s) {
     diagnostics.push_back(diagnostic_json(diagnostic));
   const std::optional<double> block_psnr = s.block_psnr();
   const nlohmann::ordered_json json = {
-      {"backend", s.backend},
+      {"backend", name_of(s.backend)},
       {"model", name_of(s.model)},
       {"spu", s.spu},
       {"schedule", s.schedule == Schedule::lockstep ? "lockstep" : "free"},

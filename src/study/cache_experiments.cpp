@@ -43,8 +43,8 @@ Table study_cache_cost(Laboratory& laboratory) {
                false,
                {},
                {{"bvh", {}}, {"grid", {}}}}};
-  const std::vector<std::pair<std::string, Accelerator>> accelerators = {
-      {"bvh", Accelerator::bvh}, {"grid", Accelerator::grid}};
+  const std::vector<std::pair<std::string, Accelerator>> accelerators = {{"bvh", Accelerator::bvh},
+                                                                         {"grid", Accelerator::grid}};
   std::vector<Job> jobs;
   for (const StudyScene& scene : laboratory.scenes)
     for (const auto& [word, accelerator] : accelerators)
@@ -124,7 +124,7 @@ Table study_cache_shapes(Laboratory& laboratory) {
     std::stringstream file;
     CacheTraceWriter writer(file);
     RenderOptions options = laboratory.options(256, 2);
-    options.backend = "cell_emu";
+    options.backend = Backend::cell_emu;
     options.emulation.schedule = Schedule::lockstep;
     options.emulation.recorder = &writer;
     render(laboratory.scene(names[i]).scene, options);

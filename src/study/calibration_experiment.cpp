@@ -53,8 +53,8 @@ Table study_calibration(Laboratory& laboratory) {
       jobs.push_back(job);
     }
   }
-  const std::vector<Outcome> counted = laboratory.runner.run(jobs, "cell_emu");
-  const std::vector<Outcome> executed = laboratory.runner.run(jobs, "cell_sim");
+  const std::vector<Outcome> counted = laboratory.runner.run(jobs, Backend::cell_emu);
+  const std::vector<Outcome> executed = laboratory.runner.run(jobs, Backend::cell_sim);
   double sum = 0, farthest = 1;
   std::string where;
   for (std::size_t i = 0; i < jobs.size(); ++i) {

@@ -24,7 +24,8 @@ RenderOptions Laboratory::options(int full, unsigned spes) const {
 
 std::string Laboratory::command_options(const RenderOptions& options) const {
   return "-W " + std::to_string(options.width) + " -H " + std::to_string(options.height) + " --backend " +
-         runner.backend() + " --schedule lockstep --spes " + std::to_string(options.spes);
+         std::string(name_of(runner.backend())) + " --schedule lockstep --spes " +
+         std::to_string(options.spes);
 }
 
 Claim make_claim(const std::vector<ClaimValue>& values, Holds holds, double bar, bool at_most,

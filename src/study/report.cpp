@@ -173,8 +173,9 @@ void save(const Study& study, const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw InputError("cannot make the folder '" + folder.string() + "': " + error.message());
-  nlohmann::ordered_json json = {
-      {"quick", study.quick}, {"backend", study.backend}, {"claims", nlohmann::ordered_json::object()}};
+  nlohmann::ordered_json json = {{"quick", study.quick},
+                                 {"backend", name_of(study.backend)},
+                                 {"claims", nlohmann::ordered_json::object()}};
   for (const auto& [name, claim] : study.claims)
     json["claims"][name] = to_json(claim);
   json["tables"] = nlohmann::ordered_json::array();

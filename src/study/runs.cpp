@@ -20,7 +20,7 @@ std::uint64_t digest(const Image& image) {
   return hash;
 }
 
-Outcome run_one(const Job& job, const std::string& backend) {
+Outcome run_one(const Job& job, Backend backend) {
   RenderOptions options = job.options;
   options.backend = backend;
   options.emulation.schedule = Schedule::lockstep;
@@ -36,7 +36,7 @@ Outcome run_one(const Job& job, const std::string& backend) {
 
 } // namespace
 
-std::vector<Outcome> Runner::run(const std::vector<Job>& jobs, const std::string& backend) const {
+std::vector<Outcome> Runner::run(const std::vector<Job>& jobs, Backend backend) const {
   std::vector<Outcome> outcomes(jobs.size());
   each(jobs.size(), [&](std::size_t i) { outcomes[i] = run_one(jobs[i], backend); });
   return outcomes;
@@ -66,7 +66,7 @@ bool has_machine_code() {
 }
 
 double native_seconds(const Scene& scene, RenderOptions options, int frames) {
-  options.backend = "native";
+  options.backend = Backend::native;
   options.spes = 1;
   Renderer renderer(options);
   std::vector<double> seconds;

@@ -32,18 +32,18 @@ class Runner {
 public:
   /// `backend` is where jobs run. 0 threads: as many as the host has. `heard` is told of every job that is
   /// done, by any thread but one at a time.
-  Runner(std::string backend, unsigned threads, std::function<void()> heard)
-      : backend_(std::move(backend)), threads_(threads), heard_(std::move(heard)) {}
+  Runner(Backend backend, unsigned threads, std::function<void()> heard)
+      : backend_(backend), threads_(threads), heard_(std::move(heard)) {}
 
-  const std::string& backend() const { return backend_; }
+  Backend backend() const { return backend_; }
   /// In lockstep. In the order of the jobs. The first error of any is thrown.
   std::vector<Outcome> run(const std::vector<Job>& jobs) const { return run(jobs, backend_); }
-  std::vector<Outcome> run(const std::vector<Job>& jobs, const std::string& backend) const;
+  std::vector<Outcome> run(const std::vector<Job>& jobs, Backend backend) const;
   /// Calls `work(0)` to `work(count - 1)`.
   void each(std::size_t count, const std::function<void(std::size_t)>& work) const;
 
 private:
-  std::string backend_;
+  Backend backend_;
   unsigned threads_;
   std::function<void()> heard_;
 };

@@ -42,9 +42,10 @@ Study run_study(const StudyOptions& options,
   const std::vector<std::string> ids = table_ids();
   if (!options.only.empty() && std::find(ids.begin(), ids.end(), options.only) == ids.end())
     throw InputError("the study has no table '" + options.only + "', only " + listed(ids));
-  if (options.backend != "cell_emu" && options.backend != "cell_sim")
-    throw InputError("a study is of 'cell_emu' or 'cell_sim', not of '" + options.backend + "'");
-  if (options.backend == "cell_sim" && !has_machine_code())
+  if (options.backend != Backend::cell_emu && options.backend != Backend::cell_sim)
+    throw InputError("a study is of 'cell_emu' or 'cell_sim', not of '" +
+                     std::string(name_of(options.backend)) + "'");
+  if (options.backend == Backend::cell_sim && !has_machine_code())
     throw InputError("this build has no machine code for cell_sim: it was made without spu-elf-g++");
   const std::vector<StudyScene> scenes = make_scenes();
   Study study;

@@ -2,6 +2,7 @@
 // every machine, with seconds of the host beside them.
 #pragma once
 
+#include "celltrace/spe/backend.hpp"
 #include "study/table.hpp"
 
 #include <filesystem>
@@ -16,9 +17,9 @@ struct StudyOptions {
   bool quick = false;   ///< smaller pictures and fewer scenes; the tables are the same
   unsigned threads = 0; ///< of the host; 0: as many as it has
   std::string only;     ///< id of the one table that is wanted; "": all
-  /// Whose cycles: of "cell_emu", counted operations, or of "cell_sim", machine code. What machine code
+  /// Whose cycles: of cell_emu, counted operations, or of cell_sim, machine code. What machine code
   /// cannot show (`shapes`, `simd`) is of cell_emu all the same.
-  std::string backend = "cell_emu";
+  Backend backend = Backend::cell_emu;
 };
 
 /// A ratio or a rest that the thesis claims, where it is best shown, and where it is not.
@@ -36,7 +37,7 @@ struct Claim {
 
 struct Study {
   bool quick = false;
-  std::string backend;
+  Backend backend = Backend::cell_emu;
   std::vector<Table> tables;
   std::map<std::string, Claim> claims;
 };
@@ -45,7 +46,7 @@ struct Study {
 std::vector<std::string> table_ids();
 
 /// `progress` hears the number of jobs that are done, and the name of the table being made, from any thread
-/// but one at a time. Throws InputError for an unknown id or backend, or
+/// but one at a time. Throws InputError for an unknown id or another backend, or
 /// cell_sim in a build without the SPU's machine code, and Error if two ways to render a scene give
 /// different pictures.
 Study run_study(const StudyOptions& options,

@@ -43,9 +43,9 @@ double seconds_since(Clock::time_point then) {
   return std::chrono::duration<double>(Clock::now() - then).count();
 }
 
-std::vector<std::string> usable_backends(const std::string& first) {
-  std::vector<std::string> backends = {first};
-  for (const std::string& backend : machine_backends())
+std::vector<Backend> usable_backends(Backend first) {
+  std::vector<Backend> backends = {first};
+  for (const Backend backend : kBackends)
     if (backend != first) backends.push_back(backend);
   return backends;
 }
@@ -302,7 +302,8 @@ private:
     wanted.options = render_;
     wanted.options.ray_queries = true;
     wanted.options.antialiasing = render_.model == Model::shared ? antialiasing_ : std::nullopt;
-    if (render_.backend != "native" && wanted.options.spes == 0 && options_.render.backend == "native")
+    if (render_.backend != Backend::native && wanted.options.spes == 0 &&
+        options_.render.backend == Backend::native)
       wanted.options.spes = 8;
     wanted.work_map = shows_strips_ || shows_costs_;
     wanted.machine = machine_;
@@ -467,7 +468,7 @@ private:
     State state;
     state.situation = situation();
     state.frame = &frame_;
-    state.backend = render_.backend;
+    state.backend = name_of(render_.backend);
     state.model = render_.model;
     state.error = error_;
     state.message = message_;
@@ -492,7 +493,7 @@ private:
   const ViewOptions options_;
   RenderOptions render_; ///< of what is wanted
   std::optional<Antialiasing> antialiasing_;
-  const std::vector<std::string> backends_;
+  const std::vector<Backend> backends_;
   std::size_t backend_ = 0;
   int dragged_ = 0; ///< pixels that the mouse went since a button went down
   bool is_picking_ = false;

@@ -96,7 +96,7 @@ TEST_CASE("the tracer uses no pointer into its cache too late") {
   RenderOptions options;
   options.width = 48;
   options.height = 36;
-  options.backend = "cell_emu";
+  options.backend = Backend::cell_emu;
   options.spes = 2;
   options.emulation.schedule = Schedule::lockstep;
   options.accelerator = GENERATE(Accelerator::grid, Accelerator::bvh);

@@ -30,7 +30,7 @@ RenderOptions options_for(const CacheConfig& cache, Accelerator accelerator, Spe
   RenderOptions options;
   options.width = 64;
   options.height = 48;
-  options.backend = "cell_emu";
+  options.backend = Backend::cell_emu;
   options.spes = 3;
   options.cache = cache;
   options.accelerator = accelerator;

@@ -84,9 +84,9 @@ std::vector<Frame> render_both(const Job& job, std::map<std::string, Charges>& c
   WorkCounter counter;
   RenderOptions options = job.options;
   options.emulation.schedule = Schedule::lockstep;
-  options.backend = "cell_sim";
+  options.backend = Backend::cell_sim;
   Renderer simulating(options);
-  options.backend = "cell_emu";
+  options.backend = Backend::cell_emu;
   options.emulation.recorder = &counter;
   Renderer emulating(options);
   std::vector<Frame> frames;
@@ -150,7 +150,7 @@ void measure(const std::vector<std::string>& paths, unsigned threads, std::ostre
   }
   std::mutex mutex;
   std::size_t done = 0;
-  const study::Runner runner("cell_sim", threads,
+  const study::Runner runner(Backend::cell_sim, threads,
                              [&] { std::cerr << '\r' << ++done << " of " << jobs.size() << std::flush; });
   runner.each(jobs.size(), [&](std::size_t i) {
     Measurements both;

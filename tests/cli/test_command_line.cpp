@@ -1,4 +1,5 @@
 #include "cli/command_line.hpp"
+#include "cli/machine_options.hpp"
 
 #include "celltrace/error.hpp"
 
@@ -43,9 +44,9 @@ TEST_CASE("render has the documented defaults") {
   CHECK(r.output == "bunny.png");
   CHECK(r.options.width == 640);
   CHECK(r.options.height == 480);
-  CHECK(r.options.backend == "native");
+  CHECK(r.options.backend == Backend::native);
   CHECK(r.options.spes == 0);
-  CHECK(r.options.simd == "auto");
+  CHECK(r.options.simd == SimdLevel::automatic);
   CHECK(r.options.cache.enabled);
   CHECK(shape(r.options.cache) == "4x128:1");
   CHECK(r.options.balance == Balance::gde);
@@ -72,9 +73,9 @@ TEST_CASE("every option of render arrives") {
   CHECK(r.output == "out.ppm");
   CHECK(r.options.width == 32);
   CHECK(r.options.height == 16);
-  CHECK(r.options.backend == "cell_emu");
+  CHECK(r.options.backend == Backend::cell_emu);
   CHECK(r.options.spes == 6);
-  CHECK(r.options.simd == "avx2");
+  CHECK(r.options.simd == SimdLevel::avx2);
   CHECK(shape(r.options.cache) == "2x64:2");
   CHECK(r.options.balance == Balance::fixed);
   CHECK(r.options.max_trace_level == 9);
@@ -169,7 +170,7 @@ TEST_CASE("cell_sim takes the options of cell_emu, but for what machine code can
   };
   const RenderRequest all = simulated({"--schedule", "lockstep", "--seed", "7", "--transfers", "random",
                                        "--faults", "--timing", "ps3", "--trace", "t.json", "--limit", "5"});
-  CHECK(all.options.backend == "cell_sim");
+  CHECK(all.options.backend == Backend::cell_sim);
   CHECK(all.options.emulation.explore);
   CHECK(all.options.emulation.timing.spes == 6);
   CHECK(all.options.emulation.cycle_limit == 5);
@@ -186,7 +187,7 @@ TEST_CASE("spu takes a program, its arguments and what it may use") {
   };
   const SpuRequest plain = spu({"a/b.elf"});
   CHECK(plain.program == "a/b.elf");
-  CHECK(plain.machine.backend == "cell_sim");
+  CHECK(plain.machine.backend == Backend::cell_sim);
   CHECK(plain.machine.spes == 1);
   CHECK(plain.machine.emulation.schedule == Schedule::lockstep);
   CHECK_FALSE(plain.machine.emulation.explore);

@@ -32,7 +32,7 @@ std::string fault_of(const Scene& scene, const RenderOptions& common, const Imag
                      std::uint64_t seed) {
   std::string broken;
   RenderOptions options = common;
-  options.backend = "cell_emu";
+  options.backend = Backend::cell_emu;
   options.spes = static_cast<unsigned>(2 + seed % 7);
   options.emulation.schedule = Schedule::lockstep;
   options.emulation.explore = true;

@@ -11,17 +11,18 @@ namespace celltrace::test {
 
 inline std::vector<std::unique_ptr<Machine>> machines(unsigned spes = 1) {
   std::vector<std::unique_ptr<Machine>> usable;
-  for (const char* simd : {"sse2", "avx2", "avx512", "neon64", "generic", ""}) {
+  for (const SimdLevel simd : kSimdLevels) {
     MachineConfig config;
     config.spes = spes;
-    config.backend = *simd == '\0' ? "cell_emu" : "native";
-    if (*simd != '\0') config.simd = simd;
+    config.simd = simd;
+    if (simd == SimdLevel::automatic) config.backend = Backend::cell_emu;
     try {
       usable.push_back(make_machine(config));
     } catch (const InputError&) {
       continue; // not for this CPU
     }
-    const std::string expected = *simd == '\0' ? "cell_emu" : "native." + std::string(simd);
+    const std::string backend = name_of(config.backend);
+    const std::string expected = config.backend == Backend::native ? backend + "." + name_of(simd) : backend;
     if (usable.back()->spu_key() != expected) throw Error("not the machine that was asked for: " + expected);
   }
   return usable;

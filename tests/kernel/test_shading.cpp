@@ -164,7 +164,7 @@ TEST_CASE("Phong's highlight is cut off where POV-Ray cuts it off") {
                                        nullptr};
       IncidentLight<Simd> arrival(LightRecord().colour);
       arrival.direction = light.load<Simd>();
-      const double term = lanes_of(detail::phong_term<Simd>(surfaces, lanes, arrival)).lane[3];
+      const double term = lanes_of(kernel::detail::phong_term<Simd>(surfaces, lanes, arrival)).lane[3];
       const bool cut = cosine <= 0 || (size >= 60 && cosine <= 0.0008);
       INFO("phong_size " << size << ", cosine " << cosine);
       CHECK(term == Approx(cut ? 0 : std::pow(cosine, size)).epsilon(1e-4).margin(1e-37));

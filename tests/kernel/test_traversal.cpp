@@ -155,7 +155,7 @@ void check_accelerator(PreparedScene& prepared, const std::vector<TraversalQuery
   const auto packets = static_cast<unsigned>(first.size());
   const bool bvh = static_cast<AcceleratorKind>(prepared.frame().accelerator) == AcceleratorKind::bvh;
   for (const auto& machine : machines()) {
-    if (bvh && machine->backend() != "native") continue;
+    if (bvh && machine->backend() != Backend::native) continue;
     INFO(machine->spu_key() << (bvh ? ", BVH" : ", grid"));
     std::vector<TraversalQuery> asked = first;
     for (int round = 0; round < 2; ++round) {

@@ -13,8 +13,7 @@ constexpr NamedModel kModels[] = {
     {"pipeline", Model::pipeline}, {"split pipeline", Model::pipeline_split}, {"offload", Model::offload}};
 
 /// By the grid, as every model can.
-inline RenderOptions model_options(Model model, const std::string& backend, unsigned spes, int width,
-                                   int height) {
+inline RenderOptions model_options(Model model, Backend backend, unsigned spes, int width, int height) {
   RenderOptions options;
   options.model = model;
   options.backend = backend;

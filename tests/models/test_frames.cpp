@@ -17,11 +17,11 @@ namespace {
 constexpr int kWidth = 64;
 constexpr int kHeight = 48;
 
-RenderOptions small(Model model, const char* backend, unsigned spes) {
+RenderOptions small(Model model, Backend backend, unsigned spes) {
   return model_options(model, backend, spes, kWidth, kHeight);
 }
 Image expected_of(const Scene& scene) {
-  return render(scene, small(Model::shared, "native", 1)).image;
+  return render(scene, small(Model::shared, Backend::native, 1)).image;
 }
 
 } // namespace
@@ -29,8 +29,8 @@ Image expected_of(const Scene& scene) {
 TEST_CASE("Progress of every model starts at 0, never falls and ends at 1") {
   const Scene scene = scene_named("glass and mirrors");
   for (const NamedModel& model : kModels) {
-    for (const char* backend : {"native", "cell_emu"}) {
-      INFO(model.name << " on " << backend);
+    for (const Backend backend : {Backend::native, Backend::cell_emu}) {
+      INFO(model.name << " on " << name_of(backend));
       std::vector<double> fractions;
       const RenderResult result = render(scene, small(model.model, backend, 5), [&](double fraction) {
         fractions.push_back(fraction);
@@ -46,9 +46,9 @@ TEST_CASE("A cancelled frame of any model is followed by a whole one") {
   const Scene scene = scene_named("glass and mirrors");
   const Image expected = expected_of(scene);
   for (const NamedModel& model : kModels) {
-    for (const char* backend : {"native", "cell_emu"}) {
+    for (const Backend backend : {Backend::native, Backend::cell_emu}) {
       for (unsigned spes : {2u, 5u, 16u}) {
-        INFO(model.name << " on " << backend << " with " << spes);
+        INFO(model.name << " on " << name_of(backend) << " with " << spes);
         Renderer renderer(small(model.model, backend, spes));
         for (const double until : {0.0, 0.1, 0.6}) {
           const RenderResult broken =
@@ -69,7 +69,7 @@ TEST_CASE("An exception of progress passes through a model, and the next frame i
   const Image expected = expected_of(scene);
   for (const NamedModel& model : kModels) {
     INFO(model.name);
-    Renderer renderer(small(model.model, "cell_emu", 5));
+    Renderer renderer(small(model.model, Backend::cell_emu, 5));
     CHECK_THROWS_AS(renderer.render(scene, [](double) -> bool { throw std::runtime_error("enough"); }),
                     std::runtime_error);
     CHECK(renderer.render(scene).image == expected);
@@ -78,7 +78,7 @@ TEST_CASE("An exception of progress passes through a model, and the next frame i
 
 TEST_CASE("A renderer goes from scene to scene and camera to camera under every model") {
   for (const NamedModel& model : kModels) {
-    Renderer renderer(small(model.model, "cell_emu", 6));
+    Renderer renderer(small(model.model, Backend::cell_emu, 6));
     for (const char* name : {"meshes", "empty", "glass and mirrors"}) {
       INFO(model.name << ", " << name);
       Scene scene = scene_named(name);
@@ -91,7 +91,7 @@ TEST_CASE("A renderer goes from scene to scene and camera to camera under every 
 
 TEST_CASE("The split pipeline counts the rays that it sends back") {
   const Scene scene = scene_named("highlights");
-  RenderOptions options = small(Model::pipeline_split, "cell_emu", 8);
+  RenderOptions options = small(Model::pipeline_split, Backend::cell_emu, 8);
   const RenderStatistics::Stages split = render(scene, options).statistics.stages;
   options.model = Model::pipeline;
   const RenderStatistics::Stages joined = render(scene, options).statistics.stages;
@@ -111,7 +111,8 @@ TEST_CASE("The split pipeline counts the rays that it sends back") {
 }
 
 TEST_CASE("The shared model has no stages") {
-  const RenderStatistics s = render(scene_named("empty"), small(Model::shared, "native", 2)).statistics;
+  const RenderStatistics s =
+      render(scene_named("empty"), small(Model::shared, Backend::native, 2)).statistics;
   CHECK(s.model == Model::shared);
   CHECK(s.stages.jobs == 0);
   CHECK(s.stages.shaders == 0);
@@ -119,11 +120,11 @@ TEST_CASE("The shared model has no stages") {
 
 TEST_CASE("The PPE of the offload model is one more SPE") {
   const RenderStatistics s =
-      render(scene_named("highlights"), small(Model::offload, "cell_emu", 3)).statistics;
+      render(scene_named("highlights"), small(Model::offload, Backend::cell_emu, 3)).statistics;
   CHECK(s.spes.size() == 4);
   CHECK(s.stages.searchers == 3);
   const RenderStatistics whole_cell =
-      render(scene_named("empty"), small(Model::offload, "cell_emu", 0)).statistics;
+      render(scene_named("empty"), small(Model::offload, Backend::cell_emu, 0)).statistics;
   CHECK(whole_cell.stages.searchers == 8);
 }
 
@@ -131,7 +132,7 @@ TEST_CASE("A large cache leaves fewer packets under way, and the same picture") 
   const Scene scene = scene_named("glass and mirrors");
   const Image expected = expected_of(scene);
   for (const NamedModel& model : kModels) {
-    RenderOptions options = small(model.model, "cell_emu", 5);
+    RenderOptions options = small(model.model, Backend::cell_emu, 5);
     options.cache.sets = 128;
     options.cache.ways = 4;
     CHECK(render(scene, options).image == expected);
@@ -143,9 +144,9 @@ TEST_CASE("A large cache leaves fewer packets under way, and the same picture") 
 TEST_CASE("What a model cannot do is an error") {
   for (const NamedModel& model : kModels) {
     if (model.model == Model::offload) continue; // has its PPE besides
-    CHECK_THROWS_AS(Renderer(small(model.model, "native", 1)), InputError);
+    CHECK_THROWS_AS(Renderer(small(model.model, Backend::native, 1)), InputError);
   }
-  RenderOptions options = small(Model::pipeline_split, "native", 4);
+  RenderOptions options = small(Model::pipeline_split, Backend::native, 4);
   options.accelerator = Accelerator::bvh;
   CHECK_THROWS_AS(Renderer(options), InputError);
 }

@@ -18,12 +18,12 @@ namespace {
 
 struct Machine {
   const char* name;
-  const char* backend;
+  Backend backend;
   Schedule schedule;
 };
-constexpr Machine kMachines[] = {{"native", "native", Schedule::free},
-                                 {"cell_emu, free", "cell_emu", Schedule::free},
-                                 {"cell_emu, lockstep", "cell_emu", Schedule::lockstep}};
+constexpr Machine kMachines[] = {{"native", Backend::native, Schedule::free},
+                                 {"cell_emu, free", Backend::cell_emu, Schedule::free},
+                                 {"cell_emu, lockstep", Backend::cell_emu, Schedule::lockstep}};
 
 RenderResult render_by(Model model, const Machine& machine, unsigned spes, const Scene& scene) {
   RenderOptions options = model_options(model, machine.backend, spes, pixels(48), pixels(36));
@@ -102,7 +102,7 @@ TEST_CASE("Triangles of one plane that overlap look the same under every model")
 TEST_CASE("Joined pipeline and offload find objects by the BVH as well") {
   const Scene scene = scene_named("meshes");
   for (const Model model : {Model::pipeline, Model::offload}) {
-    RenderOptions options = model_options(Model::shared, "cell_emu", 5, pixels(48), pixels(36));
+    RenderOptions options = model_options(Model::shared, Backend::cell_emu, 5, pixels(48), pixels(36));
     options.accelerator = Accelerator::bvh;
     const Image expected = render(scene, options).image;
     options.model = model;
@@ -116,7 +116,7 @@ TEST_CASE("Joined pipeline and offload find objects by the BVH as well") {
 TEST_CASE("Pipelines take the grid unless told otherwise") {
   const Scene scene = scene_named("highlights");
   const auto accelerator = [&](Model model) {
-    RenderOptions options = model_options(model, "native", 4, 16, 12);
+    RenderOptions options = model_options(model, Backend::native, 4, 16, 12);
     options.accelerator = Accelerator::automatic;
     return render(scene, options).statistics.accelerator;
   };

@@ -13,7 +13,7 @@ namespace {
 
 RenderOptions exploring(Model model, std::uint64_t seed, int width, int height) {
   RenderOptions options =
-      model_options(model, "cell_emu", static_cast<unsigned>(2 + seed % 8), width, height);
+      model_options(model, Backend::cell_emu, static_cast<unsigned>(2 + seed % 8), width, height);
   options.emulation.schedule = Schedule::lockstep;
   options.emulation.explore = true;
   options.emulation.seed = seed;
@@ -34,7 +34,8 @@ TEST_CASE("Every model renders the same picture under many seeds") {
   constexpr int kWidth = 24, kHeight = 20;
   for (const char* name : {"glass and mirrors", "meshes"}) {
     const Scene scene = scene_named(name);
-    const Image expected = render(scene, model_options(Model::shared, "native", 1, kWidth, kHeight)).image;
+    const Image expected =
+        render(scene, model_options(Model::shared, Backend::native, 1, kWidth, kHeight)).image;
     for (const NamedModel& model : kModels) {
       for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
         INFO(model.name << ", " << name << ", seed " << seed);
@@ -51,7 +52,8 @@ TEST_CASE("Every model renders the same picture under many seeds") {
 TEST_CASE("Cancelled frames of every model under many seeds leave nothing behind") {
   constexpr int kWidth = 24, kHeight = 20;
   const Scene scene = scene_named("glass and mirrors");
-  const Image expected = render(scene, model_options(Model::shared, "native", 1, kWidth, kHeight)).image;
+  const Image expected =
+      render(scene, model_options(Model::shared, Backend::native, 1, kWidth, kHeight)).image;
   for (const NamedModel& model : kModels) {
     for (std::uint64_t seed = 1; seed <= kSeeds / 4; ++seed) {
       INFO(model.name << ", seed " << seed);
@@ -73,7 +75,7 @@ TEST_CASE("A run of any model in lockstep can be repeated to the cycle") {
   const Scene scene = scene_named("highlights");
   for (const NamedModel& model : kModels) {
     INFO(model.name);
-    RenderOptions options = model_options(model.model, "cell_emu", 8, 32, 24);
+    RenderOptions options = model_options(model.model, Backend::cell_emu, 8, 32, 24);
     options.emulation.schedule = Schedule::lockstep;
     const RenderStatistics first = render(scene, options).statistics;
     const RenderStatistics second = render(scene, options).statistics;

@@ -28,7 +28,7 @@ void check_lane_sum(Machine& machine) {
 TEST_CASE("every SPU type that the CPU supports runs a program compiled for it") {
   unsigned entered = 0;
   for (const native::SpuType& type : native::spu_types()) {
-    CAPTURE(type.simd);
+    CAPTURE(type.key);
     MachineConfig config;
     config.spes = 1;
     config.simd = type.simd;
@@ -45,7 +45,7 @@ TEST_CASE("every SPU type that the CPU supports runs a program compiled for it")
 }
 
 TEST_CASE("auto takes the widest SPU type that both CPU and program have") {
-  const auto usable = native::usable_spu_types("auto");
+  const auto usable = native::usable_spu_types(SimdLevel::automatic);
   MachineConfig config;
   config.spes = 1;
   const auto machine = make_machine(config);
@@ -83,16 +83,33 @@ TEST_CASE("a program without an entry for the machine is refused") {
   CHECK_FALSE(machine->running(0));
 }
 
-TEST_CASE("machines are made by name and within limits") {
+TEST_CASE("machines are made within limits") {
   MachineConfig config;
-  config.backend = "cray";
-  CHECK_THROWS_WITH(make_machine(config),
-                    Catch::Contains("unknown backend \"cray\"") && Catch::Contains("native"));
+  config.backend = static_cast<Backend>(7);
+  CHECK_THROWS_WITH(make_machine(config), Catch::Contains("unknown backend 7"));
   config = MachineConfig{};
   config.spes = 257;
   CHECK_THROWS_AS(make_machine(config), InputError);
-  config = MachineConfig{};
-  config.simd = "mmx";
-  CHECK_THROWS_WITH(make_machine(config), Catch::Contains("unknown SIMD \"mmx\""));
-  CHECK(machine_backends().front() == "native");
+  // No build has both.
+  std::string refused;
+  for (const SimdLevel level : {SimdLevel::sse2, SimdLevel::neon64}) {
+    config = MachineConfig{};
+    config.simd = level;
+    try {
+      make_machine(config);
+    } catch (const InputError& error) {
+      refused = error.what();
+    }
+  }
+  CHECK_THAT(refused, Catch::StartsWith("this build has no SIMD \"") && Catch::Contains("but auto"));
+}
+
+TEST_CASE("backends and SIMD levels have names") {
+  for (const Backend backend : kBackends)
+    CHECK(backend_named(name_of(backend)) == backend);
+  for (const SimdLevel level : kSimdLevels)
+    CHECK(simd_level_named(name_of(level)) == level);
+  CHECK_THROWS_WITH(backend_named("cray"), "unknown backend \"cray\"; there are native, cell_emu, cell_sim");
+  CHECK_THROWS_WITH(simd_level_named("mmx"), Catch::StartsWith("unknown SIMD \"mmx\"; there are auto, sse2"));
+  CHECK(name_of(static_cast<Backend>(7)) == std::string("unknown"));
 }

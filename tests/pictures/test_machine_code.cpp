@@ -22,7 +22,7 @@ RenderOptions simulated(unsigned spes, int width = 160) {
   RenderOptions options;
   options.width = width;
   options.height = width * 3 / 4;
-  options.backend = "cell_sim";
+  options.backend = Backend::cell_sim;
   options.spes = spes;
   options.emulation.schedule = Schedule::lockstep;
   return options;
@@ -30,7 +30,7 @@ RenderOptions simulated(unsigned spes, int width = 160) {
 
 Image native_picture(const Scene& scene, int width) {
   RenderOptions options = simulated(0, width);
-  options.backend = "native";
+  options.backend = Backend::native;
   options.emulation = {};
   return render(scene, options).image;
 }
@@ -48,7 +48,7 @@ void check_scene(const std::filesystem::path& path, const Sizes& sizes) {
     const Image expected = native_picture(scene, width);
     const RenderResult result = render(scene, simulated(spes, width));
     REQUIRE(result.complete);
-    CHECK(result.statistics.backend == "cell_sim");
+    CHECK(result.statistics.backend == Backend::cell_sim);
     CHECK(result.statistics.spes.size() == spes);
     CHECK(result.statistics.diagnostics.empty());
     const Comparison comparison = compare_images(result.image, expected);

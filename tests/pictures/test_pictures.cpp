@@ -13,7 +13,7 @@ using celltrace::test::scenes_in;
 
 namespace {
 
-RenderResult render_on(const Scene& scene, const std::string& backend, unsigned spes) {
+RenderResult render_on(const Scene& scene, Backend backend, unsigned spes) {
   RenderOptions options;
   options.width = 320;
   options.height = 240;
@@ -31,8 +31,8 @@ void check_backends(const Scene& scene, const Image& expected) {
                                      [](const Light& light) { return light.area.has_value(); });
   for (const unsigned spes : {1u, 2u, 6u, 8u, 16u}) {
     INFO(spes << " SPEs");
-    const RenderResult native = render_on(scene, "native", spes);
-    const RenderResult emulated = render_on(scene, "cell_emu", spes);
+    const RenderResult native = render_on(scene, Backend::native, spes);
+    const RenderResult emulated = render_on(scene, Backend::cell_emu, spes);
     CHECK(compare_images(native.image, expected).psnr >= 60);
     CHECK(compare_images(emulated.image, expected).psnr >= 60);
     const RenderStatistics &on_host = native.statistics, &on_spes = emulated.statistics;
@@ -50,7 +50,7 @@ void check_scenes(const std::vector<std::filesystem::path>& scenes) {
   for (const auto& path : scenes) {
     INFO(path.filename().string());
     const Scene scene = parse_file(path);
-    check_backends(scene, render_on(scene, "native", 1).image);
+    check_backends(scene, render_on(scene, Backend::native, 1).image);
   }
 }
 
@@ -74,7 +74,7 @@ TEST_CASE("Published scenes look the same on every backend") {
 
 TEST_CASE("The cache of a small scene answers nearly every read, and an uneven one is balanced") {
   const Scene scene = parse_file(std::filesystem::path(OWN_SCENES) / "finishes.pov");
-  const RenderStatistics s = render_on(scene, "cell_emu", 8).statistics;
+  const RenderStatistics s = render_on(scene, Backend::cell_emu, 8).statistics;
   CHECK(s.object_cache.hit_rate() > 0.95);
   CHECK(s.material_cache.hit_rate() > 0.95);
   CHECK(s.list_cache.hit_rate() > 0.95);

@@ -110,7 +110,7 @@ def test_values_do_not_change():
     (lambda: celltrace.Material.from_pov("pigment { blob }"), celltrace.SceneError, "<material>:1"),
     (lambda: celltrace.render("x.pov", widht=3), TypeError, "'widht'"),
     (lambda: celltrace.render(3), TypeError, ""),
-    (lambda: celltrace.Session(celltrace.Scene(), backend="gpu"), celltrace.InputError, "gpu"),
+    (lambda: celltrace.Session(celltrace.Scene(), backend="gpu"), ValueError, "gpu"),
     (lambda: celltrace.Session(celltrace.Scene(), balance="none"), ValueError, "none of gde"),
     (lambda: celltrace.render(celltrace.Scene(), width=0), celltrace.InputError, ""),
     (lambda: celltrace.Scene.from_text("", limits={"speed": 1}), ValueError, "speed"),

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kWidth = 96, kHeight = 72;
 
-Image picture_of(const Scene& scene, const char* backend) {
+Image picture_of(const Scene& scene, Backend backend) {
   RenderOptions options;
   options.backend = backend;
   options.width = kWidth;
@@ -34,9 +34,9 @@ TEST_CASE("The backends render scene files as the reference does") {
     parse.message = [](std::string_view) {};
     const Scene scene = parse_file(std::filesystem::path(OWN_SCENES) / (std::string(name) + ".pov"), parse);
     const Image expected = reference::Tracer(scene).render(kWidth, kHeight);
-    for (const char* backend : {"native", "cell_emu"}) {
+    for (const Backend backend : {Backend::native, Backend::cell_emu}) {
       const Comparison comparison = compare_images(expected, picture_of(scene, backend));
-      INFO(name << " on " << backend << ": " << to_text(comparison));
+      INFO(name << " on " << name_of(backend) << ": " << to_text(comparison));
       CHECK(comparison.psnr >= 45);
     }
   }

@@ -6,12 +6,12 @@
 
 namespace celltrace::test {
 
-inline std::vector<Backend> all_machines() {
-  std::vector<Backend> all = backends();
+inline std::vector<TestBackend> all_machines() {
+  std::vector<TestBackend> all = backends();
   if (tracer_program().image("cell_sim").empty())
     WARN("skipped on cell_sim: machine code needs CELLTRACE_SPU_GXX");
   else
-    all.push_back({"cell_sim", "auto"}); // whose words have the other byte order
+    all.push_back({Backend::cell_sim, SimdLevel::automatic}); // whose words have the other byte order
   return all;
 }
 

@@ -11,10 +11,15 @@
 
 namespace celltrace::test {
 
-struct Backend {
-  std::string backend, simd;
+struct TestBackend {
+  Backend backend = Backend::native;
+  SimdLevel simd = SimdLevel::automatic;
 
-  std::string spu() const { return backend == "native" ? backend + "." + simd : backend; }
+  /// Key of its type of SPU.
+  std::string spu() const {
+    const std::string name = name_of(backend);
+    return backend == Backend::native ? name + "." + name_of(simd) : name;
+  }
   RenderOptions options(int width, int height, unsigned spes) const {
     RenderOptions options;
     options.width = width;
@@ -35,11 +40,13 @@ constexpr int pixels(int edge) {
 #endif
 }
 
-inline std::vector<Backend> backends() {
-  std::vector<Backend> usable;
-  for (const Backend& backend :
-       {Backend{"native", "sse2"}, Backend{"native", "avx2"}, Backend{"native", "avx512"},
-        Backend{"native", "neon64"}, Backend{"native", "generic"}, Backend{"cell_emu", "auto"}}) {
+inline std::vector<TestBackend> backends() {
+  std::vector<TestBackend> usable;
+  std::vector<TestBackend> all;
+  for (const SimdLevel simd : kSimdLevels)
+    if (simd != SimdLevel::automatic) all.push_back({Backend::native, simd});
+  all.push_back({Backend::cell_emu});
+  for (const TestBackend& backend : all) {
     try {
       Renderer renderer(backend.options(4, 4, 1));
       usable.push_back(backend);

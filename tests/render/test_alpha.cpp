@@ -33,7 +33,7 @@ Scene three_spheres() {
   return scene;
 }
 
-RenderOptions with_alpha(const Backend& backend, unsigned spes = 2) {
+RenderOptions with_alpha(const TestBackend& backend, unsigned spes = 2) {
   RenderOptions options = backend.options(45, 33, spes);
   options.alpha = true;
   options.colours = true;
@@ -65,7 +65,7 @@ const double kFiltered = 0.5 * grey(1, 0.5, 0);
 } // namespace
 
 TEST_CASE("Pixels are clear as far as what is behind the scene comes through") {
-  for (const Backend& backend : all_machines()) {
+  for (const TestBackend& backend : all_machines()) {
     INFO(backend.spu());
     const RenderResult result = render(three_spheres(), with_alpha(backend));
     check_alphas(result.colours, {1 - 0.25, 1, 1 - kFiltered * kFiltered, 0});
@@ -77,7 +77,7 @@ TEST_CASE("Pixels are clear as far as what is behind the scene comes through") {
 }
 
 TEST_CASE("Backgrounds and skies are as clear as the language says") {
-  const Backend backend = backends().front();
+  const TestBackend backend = backends().front();
   Scene scene = three_spheres();
   scene.background = Vec3(0.5, 0.25, 1);
   scene.background_transparency = 0;
@@ -112,7 +112,7 @@ TEST_CASE("Fog takes from how clear pixels are, also before nothing") {
   fog.filter = 0.25;
   scene.fogs.push_back(fog);
   const double tint = 0.75 + 0.25 * grey(0.5, 0.25, 1);
-  for (const Backend& backend : all_machines()) {
+  for (const TestBackend& backend : all_machines()) {
     INFO(backend.spu());
     CHECK(alphas(render(scene, with_alpha(backend)).colours)[3] == Approx(1 - 0.2 * tint).margin(1e-5));
   }
@@ -130,7 +130,7 @@ TEST_CASE("Mirrors show what is behind the scene, and make no pixel clear") {
 TEST_CASE("Edges are as clear as they are antialiased, the same on every backend") {
   for (const auto method : {Antialiasing::Method::fixed, Antialiasing::Method::adaptive}) {
     std::optional<RenderResult> first;
-    for (const Backend& backend : backends()) {
+    for (const TestBackend& backend : backends()) {
       INFO(backend.spu());
       RenderOptions options = with_alpha(backend, 3);
       options.antialiasing.emplace().method = method;
@@ -155,7 +155,7 @@ TEST_CASE("Edges are as clear as they are antialiased, the same on every backend
 }
 
 TEST_CASE("A region's surroundings are clear, and opaque pixels are those of other pictures") {
-  const Backend backend = backends().front();
+  const TestBackend backend = backends().front();
   Scene scene = scene_named("glass and mirrors");
   scene.background_transparency = 0;
   RenderOptions options = with_alpha(backend);

@@ -130,7 +130,7 @@ Antialiasing method(Antialiasing::Method method, int depth = 3, double threshold
 const Antialiasing kFixed = method(Antialiasing::Method::fixed);
 const Antialiasing kAdaptive = method(Antialiasing::Method::adaptive);
 
-RenderResult sampled(const Backend& backend, unsigned spes, const Scene& scene,
+RenderResult sampled(const TestBackend& backend, unsigned spes, const Scene& scene,
                      const Antialiasing& antialiasing, std::optional<PictureRegion> region = {}) {
   RenderOptions options = backend.options(kWidth, kHeight, spes);
   options.antialiasing = antialiasing;
@@ -153,7 +153,7 @@ void check_close(const Image& picture, const Image& expected) {
 
 TEST_CASE("Antialiased pictures are those of the methods written plainly") {
   const Scene scene = scene_named("glass and mirrors");
-  const Backend backend = backends().front();
+  const TestBackend backend = backends().front();
   for (const Antialiasing& antialiasing :
        {kFixed, kAdaptive, method(Antialiasing::Method::fixed, 1),
         method(Antialiasing::Method::fixed, 4, 0.05), method(Antialiasing::Method::fixed, 2, 0),
@@ -172,7 +172,7 @@ TEST_CASE("Antialiased pictures are the same from every backend with any number 
       antialiasing.jitter = jitter;
       const Image expected = sampled(backends().front(), 1, scene, antialiasing).image;
       CHECK(compare_images(expected, sampled(backends().front(), 1, scene, antialiasing).image).psnr > 90);
-      for (const Backend& backend : backends())
+      for (const TestBackend& backend : backends())
         for (const unsigned spes : {1u, 3u, 8u}) {
           INFO(backend.spu() << " with " << spes);
           check_close(sampled(backend, spes, scene, antialiasing).image, expected);
@@ -183,7 +183,7 @@ TEST_CASE("Antialiased pictures are the same from every backend with any number 
 
 TEST_CASE("Antialiasing costs more rays where colours differ, and all are counted") {
   const Scene scene = scene_named("glass and mirrors");
-  const Backend backend = backends().back();
+  const TestBackend backend = backends().back();
   const auto rays = [&](const Antialiasing& antialiasing) {
     return sampled(backend, 2, scene, antialiasing).statistics.primary_rays;
   };
@@ -198,7 +198,7 @@ TEST_CASE("Antialiasing costs more rays where colours differ, and all are counte
 
 TEST_CASE("An antialiased frame can be cancelled anywhere, and the next one is as usual") {
   const Scene scene = scene_named("glass and mirrors");
-  for (const Backend& backend : {backends().front(), backends().back()})
+  for (const TestBackend& backend : {backends().front(), backends().back()})
     for (const Antialiasing& antialiasing : {kFixed, kAdaptive}) {
       const Image expected = sampled(backend, 2, scene, antialiasing).image;
       RenderOptions options = backend.options(kWidth, kHeight, 2);
@@ -228,7 +228,7 @@ TEST_CASE("An antialiased frame can be cancelled anywhere, and the next one is a
 
 TEST_CASE("Regions are parts of the whole picture, the rest is black") {
   const Scene scene = scene_named("glass and mirrors");
-  for (const Backend& backend : {backends().front(), backends().back()}) {
+  for (const TestBackend& backend : {backends().front(), backends().back()}) {
     RenderOptions options = backend.options(kWidth, kHeight, 2);
     const Image whole = render(scene, options).image;
     for (const PictureRegion& region :
@@ -246,7 +246,7 @@ TEST_CASE("Regions are parts of the whole picture, the rest is black") {
 
 TEST_CASE("An antialiased region has blocks of its own, and looks at the pixels around it") {
   const Scene scene = scene_named("glass and mirrors");
-  const Backend backend = backends().front();
+  const TestBackend backend = backends().front();
   // Where blocks are the same ones, so are the pixels.
   const PictureRegion region{32, 75, 32, 45};
   for (const Antialiasing& antialiasing : {kFixed, kAdaptive}) {

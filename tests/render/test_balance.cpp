@@ -95,7 +95,7 @@ std::uint32_t uneven_cost(std::uint32_t bundle) {
 }
 
 RenderOptions lockstep(unsigned spes, Balance balance) {
-  RenderOptions options = Backend{"cell_emu", "auto"}.options(512, 384, spes);
+  RenderOptions options = TestBackend{Backend::cell_emu, SimdLevel::automatic}.options(512, 384, spes);
   options.emulation.schedule = Schedule::lockstep;
   options.balance = balance;
   return options;
@@ -161,7 +161,7 @@ TEST_CASE("Strips begin with what costs more than a unit should") {
 
 TEST_CASE("Pictures are the same however the SPEs share them") {
   const Scene scene = scene_named("glass and mirrors");
-  for (const Backend& backend : {backends().front(), backends().back()}) {
+  for (const TestBackend& backend : {backends().front(), backends().back()}) {
     const RenderOptions alone = backend.options(70, 50, 1);
     const Image expected = render(scene, alone).image;
     for (const Balance balance : kBalances) {

@@ -11,7 +11,7 @@ using namespace celltrace::test;
 
 namespace {
 
-RenderOptions in_blocks(const Backend& backend, int width, int height, unsigned spes) {
+RenderOptions in_blocks(const TestBackend& backend, int width, int height, unsigned spes) {
   RenderOptions options = backend.options(width, height, spes);
   options.blocks = true;
   return options;
@@ -22,7 +22,7 @@ RenderOptions in_blocks(const Backend& backend, int width, int height, unsigned 
 TEST_CASE("The SPEs' blocks are those of their pixels, to the bit, on every backend") {
   const Scene scene = scene_named("glass and mirrors");
   std::optional<BlockImage> first;
-  for (const Backend& backend : all_machines())
+  for (const TestBackend& backend : all_machines())
     for (const auto& [width, height] : {std::pair{43, 26}, std::pair{32, 8}, std::pair{3, 2}}) {
       INFO(backend.spu() << " " << width << "x" << height);
       const RenderResult blocks = render(scene, in_blocks(backend, width, height, 2));
@@ -34,13 +34,13 @@ TEST_CASE("The SPEs' blocks are those of their pixels, to the bit, on every back
       if (width != 43) continue;
       CHECK(*blocks.statistics.block_psnr() > 28);
       if (!first) first = blocks.blocks;
-      if (backend.backend != "cell_sim") CHECK(blocks.blocks.blocks == first->blocks);
+      if (backend.backend != Backend::cell_sim) CHECK(blocks.blocks.blocks == first->blocks);
     }
 }
 
 TEST_CASE("Pixels in blocks take an eighth of the bytes") {
   const Scene scene = scene_named("glass and mirrors");
-  const Backend backend{"cell_emu", "auto"};
+  const TestBackend backend{Backend::cell_emu, SimdLevel::automatic};
   const RenderStatistics blocks = render(scene, in_blocks(backend, 64, 48, 1)).statistics;
   const RenderStatistics pixels = render(scene, backend.options(64, 48, 1)).statistics;
   CHECK(pixels.pixel_bytes == 64 * 48 * 4);
@@ -51,7 +51,7 @@ TEST_CASE("Pixels in blocks take an eighth of the bytes") {
 
 TEST_CASE("Pictures in blocks can be rendered part by part") {
   const Scene scene = scene_named("glass and mirrors");
-  for (const Backend& backend : backends()) {
+  for (const TestBackend& backend : backends()) {
     INFO(backend.spu());
     Renderer renderer(in_blocks(backend, 75, 45, 2));
     REQUIRE(renderer.prepare(scene));

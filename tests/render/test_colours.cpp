@@ -16,7 +16,7 @@ namespace {
 constexpr int kWidth = 75;
 constexpr int kHeight = 45;
 
-RenderOptions with_colours(const Backend& backend, unsigned spes) {
+RenderOptions with_colours(const TestBackend& backend, unsigned spes) {
   RenderOptions options = backend.options(kWidth, kHeight, spes);
   options.colours = true;
   return options;
@@ -46,7 +46,7 @@ void check_agree(const RenderResult& result) {
 
 TEST_CASE("Colours are those of the picture on every backend, antialiased or not") {
   const Scene scene = scene_named("glass and mirrors");
-  for (const Backend& backend : all_machines())
+  for (const TestBackend& backend : all_machines())
     for (const unsigned spes : {1u, 3u}) {
       INFO(backend.spu() << " with " << spes);
       RenderOptions options = with_colours(backend, spes);

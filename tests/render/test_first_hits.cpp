@@ -11,7 +11,7 @@ using namespace celltrace::test;
 
 namespace {
 
-RenderOptions with_first_hits(const Backend& backend, unsigned spes = 2) {
+RenderOptions with_first_hits(const TestBackend& backend, unsigned spes = 2) {
   RenderOptions options = backend.options(75, 45, spes);
   options.first_hits = true;
   return options;
@@ -29,7 +29,7 @@ Scene ball() {
 } // namespace
 
 TEST_CASE("First hits are what geometry says, on every backend") {
-  for (const Backend& backend : all_machines()) {
+  for (const TestBackend& backend : all_machines()) {
     INFO(backend.spu());
     const RenderResult result = render(ball(), with_first_hits(backend));
     const FirstHits& hits = result.first_hits;
@@ -66,7 +66,7 @@ TEST_CASE("First hits are the same to the bit on native and cell_emu, whatever e
     CAPTURE(name);
     const Scene scene = scene_named(name);
     std::optional<FirstHits> first;
-    for (const Backend& backend : backends())
+    for (const TestBackend& backend : backends())
       for (const bool more : {false, true}) {
         INFO(backend.spu());
         RenderOptions options = with_first_hits(backend, more ? 3 : 1);

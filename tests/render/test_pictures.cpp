@@ -20,7 +20,7 @@ namespace {
 constexpr int kWidth = pixels(160);
 constexpr int kHeight = pixels(120);
 
-Image render_on(const Backend& backend, unsigned spes, const Scene& scene) {
+Image render_on(const TestBackend& backend, unsigned spes, const Scene& scene) {
   const RenderResult result = render(scene, backend.options(kWidth, kHeight, spes));
   REQUIRE(result.complete);
   REQUIRE(result.statistics.spu == backend.spu());
@@ -32,7 +32,7 @@ Image render_on(const Backend& backend, unsigned spes, const Scene& scene) {
 } // namespace
 
 TEST_CASE("Pictures come close to the reference tracer's") {
-  const Backend backend = backends().front();
+  const TestBackend backend = backends().front();
   for (const NamedScene& named : scenes()) {
     INFO(named.name);
     if (!named.not_in_reference.empty()) {
@@ -77,7 +77,7 @@ TEST_CASE("crand takes a random part of diffuse light, the same on every backend
   const double error = 5 * 0.0433 / std::sqrt(count); // five standard errors of the mean
   CHECK(mean == Approx(0.225).margin(error + 0.001));
   CHECK(std::sqrt(squares / count - mean * mean) == Approx(0.15 / std::sqrt(12)).epsilon(0.15));
-  for (const Backend& backend : backends())
+  for (const TestBackend& backend : backends())
     CHECK(render_on(backend, 3, scene) == picture);
 }
 
@@ -92,7 +92,7 @@ TEST_CASE("Every kind of camera") {
     scene.camera.vertical_angle = 120;
     if (scene.camera.kind == Camera::Kind::orthographic) scene.camera.right *= 4, scene.camera.up *= 4;
     const Image expected = reference::Tracer(scene).render(kWidth, kHeight);
-    for (const Backend& backend : {backends().front(), backends().back()}) {
+    for (const TestBackend& backend : {backends().front(), backends().back()}) {
       const Comparison comparison = compare_images(expected, render_on(backend, 2, scene));
       INFO(backend.spu() << ": " << to_text(comparison));
       CHECK(comparison.psnr >= 55);
@@ -110,7 +110,7 @@ TEST_CASE("More lights than a bundle of packets searches for, some of them shado
     scene.lights.push_back(light);
   }
   const Image expected = reference::Tracer(scene).render(kWidth, kHeight);
-  for (const Backend& backend : {backends().front(), backends().back()}) {
+  for (const TestBackend& backend : {backends().front(), backends().back()}) {
     const Comparison comparison = compare_images(expected, render_on(backend, 2, scene));
     INFO(backend.spu() << ": " << to_text(comparison));
     CHECK(comparison.psnr >= 60);
@@ -125,7 +125,7 @@ TEST_CASE("Jittered lights are the same each time and on every backend") {
   const Image expected = render_on(backends().front(), 1, scene);
   CHECK_FALSE(expected == still);
   CHECK(compare_images(expected, still).psnr > 25);
-  for (const Backend& backend : backends())
+  for (const TestBackend& backend : backends())
     for (unsigned spes : {1u, 3u}) {
       INFO(backend.spu() << " with " << spes);
       CHECK(render_on(backend, spes, scene) == expected);
@@ -137,7 +137,7 @@ TEST_CASE("Every backend with any number of SPEs renders the same picture") {
     INFO(named.name);
     const Scene scene = named.make();
     const Image expected = render_on(backends().front(), 1, scene);
-    for (const Backend& backend : backends())
+    for (const TestBackend& backend : backends())
       for (unsigned spes : {1u, 2u, 3u, 8u, 16u}) {
         INFO(backend.spu() << " with " << spes);
         CHECK(render_on(backend, spes, scene) == expected);
@@ -149,7 +149,7 @@ TEST_CASE("Triangles of one plane that overlap look the same everywhere") {
   const Scene scene = overlapping_triangles();
   const Image expected = render_on(backends().front(), 1, scene);
   for (const Accelerator accelerator : {Accelerator::bvh, Accelerator::grid})
-    for (const Backend& backend : backends()) {
+    for (const TestBackend& backend : backends()) {
       INFO(backend.spu());
       RenderOptions options = backend.options(kWidth, kHeight, 2);
       options.accelerator = accelerator;
@@ -158,7 +158,7 @@ TEST_CASE("Triangles of one plane that overlap look the same everywhere") {
 }
 
 TEST_CASE("What has no bounds is seen where something else is at the same distance") {
-  for (const Backend& backend : backends()) {
+  for (const TestBackend& backend : backends()) {
     INFO(backend.spu());
     CHECK(render_on(backend, 1, ground(true)) == render_on(backend, 1, ground(false)));
   }
@@ -176,12 +176,13 @@ TEST_CASE("Bundled shadow rays see what single ones do, but for the sides of tri
             .then(Transform::rotate({37.0 * i, 11.0 * i, 5.0 * i}))
             .then(Transform::translate({0.8 * (i % 4) - 1.2, 0.7 * (i / 4) - 0.6, -1 + 0.1 * i}));
   }
-  const std::vector<Backend> all = backends();
-  const auto packets = std::find_if(all.begin(), all.end(),
-                                    [](const Backend& backend) { return backend.backend == "cell_emu"; });
+  const std::vector<TestBackend> all = backends();
+  const auto packets = std::find_if(all.begin(), all.end(), [](const TestBackend& backend) {
+    return backend.backend == Backend::cell_emu;
+  });
   REQUIRE(packets != all.end());
   const Image expected = render_on(*packets, 2, scene);
-  for (const Backend& backend : all) {
+  for (const TestBackend& backend : all) {
     INFO(backend.spu());
     const Image picture = render_on(backend, 2, scene);
     std::size_t others = 0;
@@ -221,7 +222,7 @@ TEST_CASE("Instances of a mesh look as meshes of their own do") {
   REQUIRE(SceneImage(scene).header().prototype_count != 0);
   REQUIRE(SceneImage(apart).header().prototype_count == 0);
   const Image expected = render_on(backends().front(), 1, apart);
-  for (const Backend& backend : backends())
+  for (const TestBackend& backend : backends())
     for (unsigned spes : {1u, 3u, 8u}) {
       INFO(backend.spu() << " with " << spes);
       CHECK(render_on(backend, spes, scene) == expected);

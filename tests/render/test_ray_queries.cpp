@@ -203,7 +203,7 @@ TEST_CASE("instances of a mesh are told apart") {
 }
 
 TEST_CASE("queries are of the scene as it was, on every backend") {
-  const std::string backend = GENERATE("native", "cell_emu");
+  const Backend backend = GENERATE(Backend::native, Backend::cell_emu);
   RenderOptions options = query_options();
   options.backend = backend;
   Session session(mixed_scene(), options);

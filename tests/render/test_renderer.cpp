@@ -16,7 +16,7 @@ constexpr int kWidth = 64;
 constexpr int kHeight = 48;
 
 /// Narrow and fast backends: what is tested here has nothing to do with SIMD.
-std::vector<Backend> one_of_each() {
+std::vector<TestBackend> one_of_each() {
   return {backends().front(), backends().back()};
 }
 
@@ -32,7 +32,7 @@ Scene uneven() {
   return scene;
 }
 
-void check_complete(const RenderResult& result, const Backend& backend, const Image& expected) {
+void check_complete(const RenderResult& result, const TestBackend& backend, const Image& expected) {
   REQUIRE(result.complete);
   REQUIRE(result.statistics.spu == backend.spu());
   CHECK(result.image == expected);
@@ -57,7 +57,7 @@ Scene large_scene() {
 
 TEST_CASE("Progress starts at 0, never falls and ends at 1") {
   const Scene scene = scene_named("glass and mirrors");
-  for (const Backend& backend : one_of_each()) {
+  for (const TestBackend& backend : one_of_each()) {
     for (unsigned spes : {1u, 5u}) {
       INFO(backend.spu() << " with " << spes);
       Renderer renderer(backend.options(kWidth, kHeight, spes));
@@ -77,13 +77,13 @@ TEST_CASE("Progress starts at 0, never falls and ends at 1") {
 TEST_CASE("Statistics agree with each other") {
   const Scene scene = scene_named("glass and mirrors");
   // The work is the same everywhere, by the same accelerator.
-  const auto options_of = [](const Backend& backend, unsigned spes) {
+  const auto options_of = [](const TestBackend& backend, unsigned spes) {
     RenderOptions options = backend.options(kWidth, kHeight, spes);
     options.accelerator = Accelerator::grid;
     return options;
   };
   const RenderStatistics expected = render(scene, options_of(backends().front(), 1)).statistics;
-  for (const Backend& backend : backends()) {
+  for (const TestBackend& backend : backends()) {
     INFO(backend.spu());
     Renderer renderer(options_of(backend, 3));
     for (int frame = 0; frame < 2; ++frame) {
@@ -122,7 +122,7 @@ TEST_CASE("Statistics agree with each other") {
       CHECK(s.balance_units_moved >= s.balance_exchanges);
       CHECK(s.imbalance == Approx(static_cast<double>(most) * 3 / static_cast<double>(rays) - 1));
 
-      const bool cached = backend.backend == "cell_emu";
+      const bool cached = backend.backend == Backend::cell_emu;
       for (const auto& cache : {s.list_cache, s.object_cache, s.material_cache, s.light_cache}) {
         CHECK((cache.hits + cache.misses != 0) == cached);
         CHECK(cache.hit_rate() <= 1);
@@ -138,7 +138,7 @@ TEST_CASE("Statistics agree with each other") {
 
 TEST_CASE("Statistics are of their frame alone") {
   const Scene scene = scene_named("glass and mirrors");
-  RenderOptions options = Backend{"cell_emu", "auto"}.options(kWidth, kHeight, 1);
+  RenderOptions options = TestBackend{Backend::cell_emu, SimdLevel::automatic}.options(kWidth, kHeight, 1);
   options.balance = Balance::fixed; // cuts the work of all frames alike
   Renderer renderer(options);
   const RenderStatistics first = renderer.render(scene).statistics;
@@ -169,7 +169,7 @@ TEST_CASE("The cache's shape changes the misses, not the picture") {
   fifo.sets = 16;
   fifo.replacement = CacheReplacement::fifo;
   for (const CacheConfig& cache : {off, tiny, full, fifo}) {
-    RenderOptions options = Backend{"cell_emu", "auto"}.options(kWidth, kHeight, 2);
+    RenderOptions options = TestBackend{Backend::cell_emu, SimdLevel::automatic}.options(kWidth, kHeight, 2);
     options.cache = cache;
     const RenderResult result = render(scene, options);
     CHECK(result.statistics.spu == "cell_emu");
@@ -180,11 +180,12 @@ TEST_CASE("The cache's shape changes the misses, not the picture") {
 
 TEST_CASE("Deep trees spill to main memory") {
   const Scene scene = scene_named("half mirrors");
-  const RenderResult deep = render(scene, Backend{"cell_emu", "auto"}.options(kWidth, kHeight, 2));
+  const RenderResult deep =
+      render(scene, TestBackend{Backend::cell_emu, SimdLevel::automatic}.options(kWidth, kHeight, 2));
   CHECK(deep.statistics.spilled_packets > 0);
   CHECK(deep.statistics.dma_bytes_written > 250'000);
   CHECK(deep.statistics.dropped_rays == 0);
-  RenderOptions options = Backend{"cell_emu", "auto"}.options(kWidth, kHeight, 2);
+  RenderOptions options = TestBackend{Backend::cell_emu, SimdLevel::automatic}.options(kWidth, kHeight, 2);
   options.max_trace_level = 3;
   const RenderResult shallow = render(scene, options);
   CHECK(shallow.statistics.spilled_packets == 0);
@@ -207,7 +208,7 @@ TEST_CASE("The options' limits replace the scene's") {
 TEST_CASE("Work moves to SPEs that have run dry") {
   const Scene scene = uneven();
   const Image expected = picture(scene, 120, 90);
-  for (const Backend& backend : one_of_each()) {
+  for (const TestBackend& backend : one_of_each()) {
     std::uint64_t exchanges = 0;
     for (int attempt = 0; attempt < 10 && exchanges == 0; ++attempt) {
       const RenderResult result = render(scene, backend.options(120, 90, 8));
@@ -228,7 +229,7 @@ TEST_CASE("Pictures of any size, also with more SPEs than rows") {
   const Scene scene = scene_named("highlights");
   for (const auto& [width, height] : {std::pair{1, 1}, {3, 2}, {5, 7}, {4, 64}, {66, 3}, {31, 33}}) {
     const Image expected = picture(scene, width, height);
-    for (const Backend& backend : one_of_each())
+    for (const TestBackend& backend : one_of_each())
       for (unsigned spes : {2u, 16u}) {
         INFO(backend.spu() << " with " << spes << ": " << width << "x" << height);
         Renderer renderer(backend.options(width, height, spes));
@@ -239,7 +240,7 @@ TEST_CASE("Pictures of any size, also with more SPEs than rows") {
 }
 
 TEST_CASE("One Renderer's later frames are as those of a fresh one") {
-  for (const Backend& backend : one_of_each()) {
+  for (const TestBackend& backend : one_of_each()) {
     INFO(backend.spu());
     Renderer renderer(backend.options(kWidth, kHeight, 4));
     for (const NamedScene& named : scenes()) {
@@ -256,7 +257,7 @@ TEST_CASE("One Renderer's later frames are as those of a fresh one") {
 
 TEST_CASE("A later scene may need other things in local store, at the same place in memory") {
   const char* const kNeeds[] = {"soft shadows", "dimmed lights", "surfaces", "highlights"};
-  for (const Backend& backend : one_of_each())
+  for (const TestBackend& backend : one_of_each())
     for (const char* first : kNeeds)
       for (const char* second : kNeeds) {
         INFO(backend.spu() << ": " << first << ", " << second);
@@ -272,7 +273,7 @@ TEST_CASE("A later scene may need other things in local store, at the same place
 
 TEST_CASE("A later scene may need deeper trees") {
   Scene scene = scene_named("half mirrors");
-  for (const Backend& backend : one_of_each()) {
+  for (const TestBackend& backend : one_of_each()) {
     Renderer renderer(backend.options(kWidth, kHeight, 4));
     for (int level : {5, 30, 100, 2, 60}) {
       INFO(backend.spu() << ", level " << level);
@@ -285,7 +286,7 @@ TEST_CASE("A later scene may need deeper trees") {
 TEST_CASE("A cancelled frame is broken off, and the next one is as usual") {
   const Scene scene = uneven();
   const Image expected = picture(scene);
-  for (const Backend& backend : one_of_each()) {
+  for (const TestBackend& backend : one_of_each()) {
     for (unsigned spes : {1u, 8u}) {
       INFO(backend.spu() << " with " << spes);
       Renderer renderer(backend.options(kWidth, kHeight, spes));
@@ -340,7 +341,7 @@ TEST_CASE("Pixels of a cancelled frame are finished or transparent black") {
 TEST_CASE("What the progress function throws passes through, and the next frame is as usual") {
   const Scene scene = scene_named("glass and mirrors");
   const Image expected = picture(scene);
-  for (const Backend& backend : one_of_each()) {
+  for (const TestBackend& backend : one_of_each()) {
     for (double limit : {0.0, 0.3, 1.0}) {
       INFO(backend.spu() << " at " << limit);
       Renderer renderer(backend.options(kWidth, kHeight, 4));
@@ -358,7 +359,7 @@ TEST_CASE("What the progress function throws passes through, and the next frame 
 TEST_CASE("Building says how far it is, and can be cancelled") {
   const Scene scene = large_scene();
   const Image expected = render(scene, backends().front().options(kWidth, kHeight, 2)).image;
-  for (const Backend& backend : one_of_each()) {
+  for (const TestBackend& backend : one_of_each()) {
     for (Accelerator accelerator : {Accelerator::bvh, Accelerator::grid}) {
       INFO(backend.spu());
       std::vector<double> fractions;
@@ -401,7 +402,7 @@ TEST_CASE("Building says how far it is, and can be cancelled") {
 
 TEST_CASE("Who hears of rendering alone can end building, too") {
   const Scene scene = large_scene();
-  for (const Backend& backend : one_of_each()) {
+  for (const TestBackend& backend : one_of_each()) {
     INFO(backend.spu());
     Renderer renderer(backend.options(kWidth, kHeight, 2));
     int left = -1;
@@ -428,7 +429,7 @@ TEST_CASE("Who hears of rendering alone can end building, too") {
 
 TEST_CASE("A change that is cancelled half-way is made anew") {
   Scene scene = large_scene();
-  for (const Backend& backend : one_of_each()) {
+  for (const TestBackend& backend : one_of_each()) {
     INFO(backend.spu());
     Renderer renderer(backend.options(kWidth, kHeight, 2));
     const SceneChanges changes;
@@ -463,8 +464,8 @@ TEST_CASE("Options out of range are refused") {
   refuses([](RenderOptions& o) { o.width = 65521; });
   refuses([](RenderOptions& o) { o.height = 65521; });
   refuses([](RenderOptions& o) { o.width = o.height = 65520; }); // more pixels than an Image has
-  refuses([](RenderOptions& o) { o.backend = "ps3"; });
-  refuses([](RenderOptions& o) { o.simd = "mmx"; });
+  refuses([](RenderOptions& o) { o.backend = static_cast<Backend>(7); });
+  refuses([](RenderOptions& o) { o.simd = static_cast<SimdLevel>(77); });
   refuses([](RenderOptions& o) { o.spes = 257; });
   refuses([](RenderOptions& o) { o.cache.ways = 3; });
   refuses([](RenderOptions& o) { o.cache.sets = 100; });
@@ -477,7 +478,7 @@ TEST_CASE("Options out of range are refused") {
 TEST_CASE("Scenes and cameras that cannot be rendered are refused, and the Renderer goes on") {
   const Scene good = scene_named("highlights");
   const Image expected = picture(good);
-  for (const Backend& backend : one_of_each()) {
+  for (const TestBackend& backend : one_of_each()) {
     Renderer renderer(backend.options(kWidth, kHeight, 2));
     CHECK_THROWS_AS(renderer.render(good.camera), InputError); // no scene yet
     const auto refuses = [&](auto change) {
@@ -522,7 +523,7 @@ TEST_CASE("Both accelerators show the same, built by one SPE or by many, also of
   CHECK(by_grid.statistics.accelerator == Accelerator::grid);
   CHECK(by_grid.statistics.bvh_nodes == 0);
   std::uint32_t nodes = 0;
-  for (const Backend& backend : one_of_each()) {
+  for (const TestBackend& backend : one_of_each()) {
     for (unsigned spes : {1u, 3u, 8u}) {
       INFO(backend.spu() << " with " << spes);
       options = backend.options(kWidth, kHeight, spes);

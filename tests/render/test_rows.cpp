@@ -50,7 +50,7 @@ void check_rows(const RenderOptions& options) {
 } // namespace
 
 TEST_CASE("Rows are those of the whole picture, antialiased or not") {
-  for (const Backend& backend : backends())
+  for (const TestBackend& backend : backends())
     for (const unsigned spes : {1u, 3u})
       for (const bool colours : {false, true})
         for (int method = 0; method < 3; ++method) {

@@ -47,7 +47,7 @@ TEST_CASE("objects without an interior have one as Interior() makes it") {
     object.interior = explicitly.add(Interior());
   // In one of them the camera is, which has to be known of.
   scene.camera.location = explicitly.camera.location = {-1, 0, 0};
-  for (const Backend& backend : backends()) {
+  for (const TestBackend& backend : backends()) {
     INFO(backend.spu());
     const RenderOptions options = backend.options(pixels(48), pixels(36), 2);
     CHECK(render(scene, options).image == render(explicitly, options).image);

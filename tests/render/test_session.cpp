@@ -23,7 +23,7 @@ constexpr int kWidth = 64;
 constexpr int kHeight = 48;
 
 /// One of native, and the emulated one.
-std::vector<Backend> one_of_each() {
+std::vector<TestBackend> one_of_each() {
   return {backends().front(), backends().back()};
 }
 
@@ -84,7 +84,7 @@ RenderResult check_next(Session& session) {
 } // namespace
 
 TEST_CASE("Objects that move, shrink and change their material are refitted into the BVH") {
-  for (const Backend& backend : one_of_each()) {
+  for (const TestBackend& backend : one_of_each()) {
     INFO(backend.spu());
     Session session(many_spheres(300), backend.options(kWidth, kHeight, 2));
     CHECK(check_next(session).statistics.preparation == Preparation::built);
@@ -103,7 +103,7 @@ TEST_CASE("Objects that move, shrink and change their material are refitted into
 }
 
 TEST_CASE("Of a moved sphere of a thousand only its lines are fetched again") {
-  const Backend emulated = backends().back();
+  const TestBackend emulated = backends().back();
   RenderOptions options = emulated.options(160, 120, 8);
   options.emulation.schedule = Schedule::lockstep;
   Session session(many_spheres(1000), options);
@@ -133,7 +133,7 @@ TEST_CASE("Objects are hidden and shown again") {
   csg->parts[0].shape = Box{{{-1, -1, -3}, {1, 1, -2}}};
   csg->parts[1].shape = Sphere{{0, 0, -3}, 0.8};
   const Index difference = add(std::shared_ptr<const Csg>(csg));
-  for (const Backend& backend : one_of_each()) {
+  for (const TestBackend& backend : one_of_each()) {
     INFO(backend.spu());
     Session session(scene, backend.options(kWidth, kHeight, 2));
     const Image all = session.render().image;
@@ -152,7 +152,7 @@ TEST_CASE("Objects are hidden and shown again") {
 }
 
 TEST_CASE("Materials, lights and interiors change without their objects") {
-  for (const Backend& backend : one_of_each()) {
+  for (const TestBackend& backend : one_of_each()) {
     INFO(backend.spu());
     Session session(bent_sheet(1, 20), backend.options(kWidth, kHeight, 2));
     session.render();
@@ -180,7 +180,7 @@ TEST_CASE("Materials, lights and interiors change without their objects") {
 }
 
 TEST_CASE("What does not fit in its place is made anew") {
-  for (const Backend& backend : one_of_each()) {
+  for (const TestBackend& backend : one_of_each()) {
     INFO(backend.spu());
     Session session(many_spheres(50), backend.options(kWidth, kHeight, 2));
     session.render();
@@ -200,7 +200,7 @@ TEST_CASE("What does not fit in its place is made anew") {
 }
 
 TEST_CASE("A mesh that bends is refitted, and built again when the BVH has become bad") {
-  for (const Backend& backend : one_of_each()) {
+  for (const TestBackend& backend : one_of_each()) {
     INFO(backend.spu());
     Session session(bent_sheet(0), backend.options(kWidth, kHeight, 2));
     session.render();
@@ -228,7 +228,7 @@ TEST_CASE("Instances of meshes move by themselves") {
     scene.objects.push_back(mesh);
     scene.objects.back().transform = Transform::translate({2.0 * i - 3, 0, 3.0 * i});
   }
-  for (const Backend& backend : one_of_each()) {
+  for (const TestBackend& backend : one_of_each()) {
     INFO(backend.spu());
     Session session(scene, backend.options(kWidth, kHeight, 2));
     session.render();
@@ -240,7 +240,7 @@ TEST_CASE("Instances of meshes move by themselves") {
 }
 
 TEST_CASE("Pictures change their size, their region and their sampling while the scene stays") {
-  for (const Backend& backend : one_of_each()) {
+  for (const TestBackend& backend : one_of_each()) {
     INFO(backend.spu());
     Session session(many_spheres(100), backend.options(kWidth, kHeight, 3));
     session.render();
@@ -293,7 +293,7 @@ TEST_CASE("Pictures change their size, their region and their sampling while the
 }
 
 TEST_CASE("A framebuffer fills with what the result has") {
-  for (const Backend& backend : one_of_each())
+  for (const TestBackend& backend : one_of_each())
     for (const bool samples : {false, true}) {
       INFO(backend.spu() << (samples ? " with antialiasing" : ""));
       RenderOptions options = backend.options(53, 41, 3);
@@ -327,7 +327,7 @@ TEST_CASE("A framebuffer fills with what the result has") {
 }
 
 TEST_CASE("A framebuffer of numbers has those of the result when the frame is complete") {
-  for (const Backend& backend : one_of_each()) {
+  for (const TestBackend& backend : one_of_each()) {
     RenderOptions options = backend.options(21, 14, 2);
     options.region = PictureRegion{2, 19, 1, 13};
     Session session(many_spheres(40), options);
@@ -361,7 +361,7 @@ TEST_CASE("A framebuffer of numbers has those of the result when the frame is co
 }
 
 TEST_CASE("What a function throws that hears of finished blocks passes through") {
-  for (const Backend& backend : one_of_each()) {
+  for (const TestBackend& backend : one_of_each()) {
     RenderOptions options = backend.options(kWidth, kHeight, 2);
     int calls = 0;
     options.finished_block = [&](const PictureBlock&) {
@@ -374,7 +374,7 @@ TEST_CASE("What a function throws that hears of finished blocks passes through")
 }
 
 TEST_CASE("Changes that are not valid leave the machine with the scene as it was") {
-  for (const Backend& backend : one_of_each()) {
+  for (const TestBackend& backend : one_of_each()) {
     Session session(many_spheres(20), backend.options(kWidth, kHeight, 2));
     session.render();
     CHECK_THROWS_AS(session.set_transform(20, Transform()), InputError);
@@ -390,7 +390,7 @@ TEST_CASE("Changes that are not valid leave the machine with the scene as it was
 }
 
 TEST_CASE("Frames are cancelled at any moment, and the next one is complete") {
-  for (const Backend& backend : one_of_each()) {
+  for (const TestBackend& backend : one_of_each()) {
     INFO(backend.spu());
     Session session(many_spheres(200), backend.options(kWidth, kHeight, 2));
     const Image expected = session.render().image;
@@ -416,7 +416,7 @@ TEST_CASE("Frames are cancelled at any moment, and the next one is complete") {
 }
 
 TEST_CASE("A work map says of every pixel who rendered it") {
-  for (const Backend& backend : one_of_each()) {
+  for (const TestBackend& backend : one_of_each()) {
     INFO(backend.spu());
     RenderOptions options = backend.options(53, 41, 3);
     options.work_map = true;

@@ -147,7 +147,7 @@ Code program_of(std::span<const Code> codes) {
 
 std::vector<Results> execute_simulated(const std::vector<Code>& codes) {
   MachineConfig config;
-  config.backend = "cell_sim";
+  config.backend = Backend::cell_sim;
   config.spes = 1;
   config.emulation.schedule = Schedule::lockstep;
   config.emulation.cycle_limit = 100'000'000;

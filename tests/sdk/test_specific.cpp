@@ -301,7 +301,7 @@ TEST_CASE("halts end the program as on the simulated SPU, with a diagnostic") {
         code.exit();
         const Bytes elf = code.elf();
         MachineConfig config = lockstep(1);
-        config.backend = "cell_sim";
+        config.backend = Backend::cell_sim;
         SpeProgram program("halt");
         program.add_image("elf", elf);
         const bool halts = emulate_on(*cell_emu::make_machine(config), program).broke(Rule::halted);

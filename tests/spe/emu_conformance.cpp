@@ -22,9 +22,11 @@ std::vector<const Rows*>& registry() {
 /// Machine code may have the operation in functions that were inlined.
 void check_site(const CallSite& found, const CallSite& culprit) {
   CAPTURE(found.file, found.line, found.function);
-  const std::string chain = found.file + (":" + std::to_string(found.line)) + " in " + found.function;
+  const auto place = [](const CallSite& site) {
+    return std::string(site.file) + ":" + std::to_string(site.line) + " in ";
+  };
   if (*found.function != 0) {
-    REQUIRE_THAT(chain, Catch::Contains(culprit.file + (":" + std::to_string(culprit.line)) + " in "));
+    REQUIRE_THAT(place(found) + found.function, Catch::Contains(place(culprit)));
     return;
   }
   REQUIRE_THAT(found.file, Catch::EndsWith(culprit.file));
@@ -89,9 +91,9 @@ bool has_machine_code() {
   return !hardware_program().image("cell_sim").empty();
 }
 
-std::vector<const char*> backends_of(const Row& row) {
-  if (row.kernel != HardwareRow::none && has_machine_code()) return {"cell_emu", "cell_sim"};
-  return {"cell_emu"};
+std::vector<Backend> backends_of(const Row& row) {
+  if (row.kernel != HardwareRow::none && has_machine_code()) return {Backend::cell_emu, Backend::cell_sim};
+  return {Backend::cell_emu};
 }
 
 /// What the kernel wrote back.
@@ -146,7 +148,7 @@ void check(const Row& row, MachineConfig config) {
                                                           : run_kernel(row, config, stage, ppe);
   INFO(run.report());
   REQUIRE(stage.failures() == "");
-  const bool is_seen = !row.machine_code_breaks_it || config.backend == "cell_sim";
+  const bool is_seen = !row.machine_code_breaks_it || config.backend == Backend::cell_sim;
   if (row.is_broken && is_seen)
     check_diagnostic(row, stage, run);
   else
@@ -163,9 +165,10 @@ void check_on_all_schedules(const Row& row) {
     for (const TransferTime when : {TransferTime::at_issue, TransferTime::at_wait, TransferTime::random}) {
       if (when == TransferTime::at_issue && !row.at_issue_too) continue;
       config.emulation.transfers = when;
-      for (const char* const backend : backends_of(row)) {
+      for (const Backend backend : backends_of(row)) {
         config.backend = backend;
-        CAPTURE(backend, config.emulation.schedule, config.emulation.explore, config.emulation.seed, when);
+        CAPTURE(name_of(backend), config.emulation.schedule, config.emulation.explore, config.emulation.seed,
+                when);
         check(row, config);
       }
     }

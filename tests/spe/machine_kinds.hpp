@@ -25,13 +25,14 @@ struct MachineKind {
   std::string name; ///< "native.avx2", "cell_sim, exploring"
   MachineConfig config;
 
-  bool is_native() const { return config.backend == "native"; }
-  bool runs_machine_code() const { return config.backend == "cell_sim"; }
+  bool is_native() const { return config.backend == Backend::native; }
+  bool runs_machine_code() const { return config.backend == Backend::cell_sim; }
   std::unique_ptr<Machine> machine(unsigned spes) const {
     MachineConfig with_spes = config;
     with_spes.spes = spes;
     std::unique_ptr<Machine> made = make_machine(with_spes);
-    REQUIRE(made->spu_key() == (is_native() ? config.backend + "." + config.simd : config.backend));
+    const std::string backend = name_of(config.backend);
+    REQUIRE(made->spu_key() == (is_native() ? backend + "." + name_of(config.simd) : backend));
     return made;
   }
   friend std::ostream& operator<<(std::ostream& out, const MachineKind& kind) { return out << kind.name; }
@@ -40,8 +41,9 @@ struct MachineKind {
 /// Those that this host can run and that the program was made for.
 inline std::vector<MachineKind> kinds_for(const SpeProgram& program) {
   std::vector<MachineKind> kinds;
-  for (const char* simd : {"sse2", "avx2", "avx512", "neon64", "generic"}) {
-    MachineKind kind{std::string("native.") + simd, {}};
+  for (const SimdLevel simd : kSimdLevels) {
+    if (simd == SimdLevel::automatic) continue;
+    MachineKind kind{std::string("native.") + name_of(simd), {}};
     kind.config.simd = simd;
     try {
       make_machine(kind.config);
@@ -50,8 +52,8 @@ inline std::vector<MachineKind> kinds_for(const SpeProgram& program) {
       // The CPU lacks it.
     }
   }
-  for (const char* backend : {"cell_emu", "cell_sim"}) {
-    if (backend == std::string("cell_sim") && program.image(backend).empty()) {
+  for (const Backend backend : {Backend::cell_emu, Backend::cell_sim}) {
+    if (backend == Backend::cell_sim && program.image(name_of(backend)).empty()) {
       WARN("skipped on cell_sim: the program \"" << program.name()
                                                  << "\" has no machine code, which needs CELLTRACE_SPU_GXX");
       continue;
@@ -59,7 +61,7 @@ inline std::vector<MachineKind> kinds_for(const SpeProgram& program) {
     for (const auto& [schedule, config] :
          {std::pair{"free", free_running(1)}, std::pair{"lockstep", lockstep(1)},
           std::pair{"exploring", exploring(1, 11)}, std::pair{"with faults", exploring_with_faults(1, 12)}}) {
-      kinds.push_back({std::string(backend) + ", " + schedule, config});
+      kinds.push_back({std::string(name_of(backend)) + ", " + schedule, config});
       kinds.back().config.backend = backend;
     }
   }

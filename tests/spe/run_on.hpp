@@ -34,7 +34,7 @@ inline std::unique_ptr<Machine> machine_of(const std::string& key, unsigned spes
     if (key == kLockstep) config.emulation.schedule = Schedule::lockstep;
     return cell_emu::make_machine(config);
   }
-  config.simd = key.substr(key.find('.') + 1);
+  config.simd = simd_level_named(key.substr(key.find('.') + 1));
   return native::make_machine(config);
 }
 

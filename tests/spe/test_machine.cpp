@@ -96,7 +96,7 @@ TEST_CASE("what a machine cannot do is refused") {
   CAPTURE(key);
   const auto machine = machine_of(key, 2);
   CHECK(machine->spe_count() == 2);
-  CHECK(std::string(machine->backend()) == key.substr(0, key.find('.')));
+  CHECK(name_of(machine->backend()) == key.substr(0, key.find('.')));
   CHECK_THROWS_AS(machine->wait(2), std::out_of_range);
   CHECK_THROWS_AS(machine->addresses(2), std::out_of_range);
   CHECK_THROWS_AS(machine->statistics(2), std::out_of_range);

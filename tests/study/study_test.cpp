@@ -132,8 +132,8 @@ TEST_CASE("Counted cycles are near those of machine code") {
       job.options.accelerator = accelerator;
       jobs.push_back(job);
     }
-  const Runner runner("cell_emu", 0, [] {});
-  const std::vector<Outcome> counted = runner.run(jobs), executed = runner.run(jobs, "cell_sim");
+  const Runner runner(Backend::cell_emu, 0, [] {});
+  const std::vector<Outcome> counted = runner.run(jobs), executed = runner.run(jobs, Backend::cell_sim);
   double sum = 0;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     INFO(scenes[i / 2].name << (i % 2 == 0 ? " on a BVH" : " on a grid"));
@@ -175,15 +175,15 @@ TEST_CASE("Jobs that run side by side give what they give alone, and an error of
     jobs.push_back(job);
   }
   int heard = 0;
-  const std::vector<Outcome> together = Runner("cell_emu", 3, [&] { ++heard; }).run(jobs);
-  const std::vector<Outcome> one_by_one = Runner("cell_emu", 1, [] {}).run(jobs);
+  const std::vector<Outcome> together = Runner(Backend::cell_emu, 3, [&] { ++heard; }).run(jobs);
+  const std::vector<Outcome> one_by_one = Runner(Backend::cell_emu, 1, [] {}).run(jobs);
   CHECK(heard == 3);
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     CHECK(together[i].last().render_cycles == one_by_one[i].last().render_cycles);
     CHECK(together[i].picture == together[0].picture);
   }
   jobs[1].options.width = 0;
-  CHECK_THROWS_AS(Runner("cell_emu", 2, [] {}).run(jobs), InputError);
+  CHECK_THROWS_AS(Runner(Backend::cell_emu, 2, [] {}).run(jobs), InputError);
 }
 
 TEST_CASE("Packets in SIMD lanes take fewer cycles a ray than rays one by one") {

@@ -10,7 +10,7 @@ void check_spu_program(std::span<const std::uint8_t> elf) {
 
 MachineConfig simulated(unsigned spes) {
   MachineConfig config;
-  config.backend = "cell_sim";
+  config.backend = Backend::cell_sim;
   config.spes = spes;
   config.emulation.schedule = Schedule::lockstep;
   return config;
@@ -18,8 +18,8 @@ MachineConfig simulated(unsigned spes) {
 
 SimulatedRun simulate(const MachineConfig& config, std::span<const std::uint8_t> elf, ea_t argument,
                       const EmulatedPpe& ppe, const std::stop_token& stop) {
-  if (config.backend != "cell_sim")
-    throw InputError("machine code runs on cell_sim, not on " + config.backend);
+  if (config.backend != Backend::cell_sim)
+    throw InputError("machine code runs on cell_sim, not on " + std::string(name_of(config.backend)));
   check_spu_program(elf);
   SimulatedRun run;
   MachineConfig own = config;

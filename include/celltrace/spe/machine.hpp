@@ -3,6 +3,7 @@
 
 #include "celltrace/error.hpp"
 #include "celltrace/export.hpp"
+#include "celltrace/spe/backend.hpp"
 #include "celltrace/spe/emulation.hpp"
 #include "celltrace/spe/program.hpp"
 #include "celltrace/spe/simulation.hpp"
@@ -23,13 +24,12 @@ namespace celltrace {
 
 /// How to build a machine. Values out of range make make_machine() throw InputError.
 struct MachineConfig {
-  /// One of machine_backends().
-  std::string backend = "native";
+  Backend backend = Backend::native;
   /// Number of SPEs, 1..256; 0: on `native` one per CPU that the calling thread may use,
   /// on `cell_emu` and `cell_sim` `emulation.timing.spes`.
   unsigned spes = 0;
-  /// SIMD of `native`: "auto" (the widest there is), "sse2", "avx2", "avx512"; on AArch64 "neon64".
-  std::string simd = "auto";
+  /// `native` only.
+  SimdLevel simd = SimdLevel::automatic;
   /// How the two signal notification registers of every SPE take a second write.
   SignalMode signal_mode[2] = {SignalMode::overwrite, SignalMode::overwrite};
   /// `cell_emu`: local store that the code and data of a program take, and that is kept for its stack, if it
@@ -79,7 +79,7 @@ public:
   /// Interrupts kernels that still run and joins them.
   virtual ~Machine() = default;
 
-  virtual std::string_view backend() const noexcept = 0;
+  virtual Backend backend() const noexcept = 0;
   virtual unsigned spe_count() const noexcept = 0;
   /// The SPEs can dereference effective addresses (Spu::direct_memory).
   virtual bool direct_memory() const noexcept = 0;
@@ -151,10 +151,8 @@ public:
   virtual SpeStatistics statistics(unsigned spe) const = 0;
 };
 
-/// Names of the backends of this build: "native", "cell_emu", "cell_sim".
-CELLTRACE_EXPORT std::vector<std::string> machine_backends();
-
-/// A machine by its configuration. Throws InputError for an unknown backend or a value out of range.
+/// A machine by its configuration. Throws InputError for a value out of range, and for SIMD that the build or
+/// the CPU lacks.
 CELLTRACE_EXPORT std::unique_ptr<Machine> make_machine(const MachineConfig& config);
 
 /// The effective address of an object in main memory.

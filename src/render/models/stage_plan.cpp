@@ -113,7 +113,7 @@ StagePlan plan_stages(Model model, AcceleratorKind accelerator, unsigned spes) {
 
 unsigned machine_spes(const RenderOptions& options) {
   if (options.model != Model::offload) return options.spes;
-  const unsigned of_the_model = options.backend != "native" ? options.emulation.timing.spes : 0;
+  const unsigned of_the_model = options.backend != Backend::native ? options.emulation.timing.spes : 0;
   const unsigned spes = options.spes != 0 ? options.spes : of_the_model;
   return spes != 0 ? spes + 1 : 0;
 }

@@ -11,7 +11,7 @@ extern "C" int red_of_sphere(const char* backend) {
                                                          "sphere { 0, 1 pigment { rgb <1, 0, 0> } }");
   celltrace::RenderOptions options;
   options.width = options.height = 33;
-  options.backend = backend;
+  options.backend = celltrace::backend_named(backend);
   options.spes = 2;
   const int red = celltrace::render(scene, options).image.pixel(16, 16)[0];
   // An intrinsic, for it brings more objects of the library's, whose thread-local ones have to fit as well.

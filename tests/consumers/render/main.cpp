@@ -16,7 +16,7 @@ int main() {
   celltrace::RenderOptions options;
   options.width = 33;
   options.height = 33;
-  for (const char* const backend : {"native", "cell_emu"}) {
+  for (const celltrace::Backend backend : {celltrace::Backend::native, celltrace::Backend::cell_emu}) {
     options.backend = backend;
     options.spes = 2;
     const celltrace::RenderResult result = celltrace::render(scene, options);

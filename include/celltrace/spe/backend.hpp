@@ -1,0 +1,85 @@
+// What there is to run SPE programs, and by which SIMD instructions the host does.
+#pragma once
+
+#include "celltrace/error.hpp"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace celltrace {
+
+/// What runs the SPEs' programs.
+enum class Backend : unsigned char {
+  native,   ///< threads of the host, which read memory directly
+  cell_emu, ///< an emulated Cell, with programs that were compiled for the host
+  cell_sim, ///< the same Cell with SPUs that execute machine code; needs a build with a compiler for the SPU
+};
+constexpr Backend kBackends[] = {Backend::native, Backend::cell_emu, Backend::cell_sim};
+
+/// SIMD instructions of `native`. What neither the build nor the CPU has is refused when a machine is made.
+enum class SimdLevel : unsigned char {
+  automatic, ///< the widest that the CPU and the program have
+  sse2,
+  avx2,
+  avx512,  ///< with CD, DQ, BW and VL
+  neon64,  ///< of AArch64
+  generic, ///< by the compiler's vector extensions
+};
+constexpr SimdLevel kSimdLevels[] = {SimdLevel::automatic, SimdLevel::sse2,   SimdLevel::avx2,
+                                     SimdLevel::avx512,    SimdLevel::neon64, SimdLevel::generic};
+
+/// Names as on the command line; "unknown" for what is none of the enumeration.
+constexpr const char* name_of(Backend backend) {
+  switch (backend) {
+  case Backend::native:
+    return "native";
+  case Backend::cell_emu:
+    return "cell_emu";
+  case Backend::cell_sim:
+    return "cell_sim";
+  }
+  return "unknown";
+}
+constexpr const char* name_of(SimdLevel level) {
+  switch (level) {
+  case SimdLevel::automatic:
+    return "auto";
+  case SimdLevel::sse2:
+    return "sse2";
+  case SimdLevel::avx2:
+    return "avx2";
+  case SimdLevel::avx512:
+    return "avx512";
+  case SimdLevel::neon64:
+    return "neon64";
+  case SimdLevel::generic:
+    return "generic";
+  }
+  return "unknown";
+}
+
+namespace detail {
+
+template <class Enumeration, std::size_t N>
+Enumeration named(const char* what, const Enumeration (&all)[N], std::string_view name) {
+  std::string names;
+  for (const Enumeration each : all) {
+    if (name == name_of(each)) return each;
+    names += (names.empty() ? "" : ", ") + std::string(name_of(each));
+  }
+  throw InputError("unknown " + std::string(what) + " \"" + std::string(name) + "\"; there are " + names);
+}
+
+} // namespace detail
+
+/// What has the name. Throws InputError, with the names there are, if nothing has. Safe to call from any
+/// thread.
+inline Backend backend_named(std::string_view name) {
+  return detail::named("backend", kBackends, name);
+}
+inline SimdLevel simd_level_named(std::string_view name) {
+  return detail::named("SIMD", kSimdLevels, name);
+}
+
+} // namespace celltrace
