@@ -16,7 +16,7 @@ constexpr CodeModule kShapes = {"shapes", 1, 0, 14592};
 /// What a program does once a frame or once for many: it makes its objects, and reports.
 constexpr CodeModule kStart = {"start", 3, 0, 12032};
 /// The building of accelerators.
-constexpr CodeModule kBuild = {"build", 16, 0, 25728};
+constexpr CodeModule kBuild = {"build", 16, 0, 21504};
 /// Patterns without noise, and those of noise with its tables.
 constexpr CodeModule kPatterns = {"patterns", 7, 0, 3200};
 constexpr CodeModule kNoise = {"noise", 8, 0, 14336};

@@ -101,7 +101,7 @@ struct LocalToWorld {
 };
 
 /// The bounds of a shape in the world.
-inline Aabb bounds_in_world(const float (&map)[12], const LocalBounds& local) {
+[[gnu::noinline]] inline Aabb bounds_in_world(const float (&map)[12], const LocalBounds& local) {
   const LocalToWorld world(map);
   Aabb box;
   for (int i = 0; i < 3; ++i) {
@@ -117,7 +117,7 @@ inline Aabb bounds_in_world(const float (&map)[12], const LocalBounds& local) {
 }
 
 /// Those of the unit sphere.
-inline Aabb round_bounds_in_world(const float (&map)[12]) {
+[[gnu::noinline]] inline Aabb round_bounds_in_world(const float (&map)[12]) {
   const LocalToWorld world(map);
   Aabb box;
   for (int i = 0; i < 3; ++i) {
