@@ -95,6 +95,9 @@ TEST_CASE("include files are searched for in order") {
   const std::string said = file_output(folder.write("case.pov", "#include \"SUB\\B.INC\""), options);
   CHECK(said.ends_with("b beside "));
   CHECK(said.find("case.pov:1:10: note: 'SUB\\B.INC' is found as '") != std::string::npos);
+  const std::string asking =
+      "#debug str(file_exists(\"c.inc\"), 0, 0) #debug str(file_exists(\"d.inc\"), 0, 0)";
+  CHECK(file_output(folder.write("asking.pov", asking)) == "10");
 }
 
 TEST_CASE("a semicolon may follow the name of a file that ends with a declaration") {

@@ -6,6 +6,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "pov/literals.hpp"
 #include "pov/parsing.hpp"
 
 using namespace celltrace;
@@ -151,6 +152,18 @@ TEST_CASE("a literal list may not be longer than any other") {
   CHECK(fault(five, kByLiterals) ==
         "scene.pov:6:54: error: this list has more than 4 entries (--max list-entries=N allows more)");
   CHECK(fault(five, kByGrammar) == fault(five, kByLiterals));
+}
+
+// Otherwise a mesh would be the same, only read slowly.
+TEST_CASE("literals are taken up to what needs the grammar") {
+  const std::string text = " 3,\n\t<1, 2, 3>, // <9, 9, 9>\r\n-4 ,<5, 6, 7> <8, 9, 0>, 1 + Z";
+  std::vector<pov::ListEntry> list;
+  CHECK(std::string(pov::take_literals(text.c_str(), text.c_str() + text.size() + 1, list, 10)) == "1 + Z");
+  REQUIRE(list.size() == 5);
+  CHECK(list[1].v == Vec3(1, 2, 3));
+  CHECK(list[2].v == Vec3(-4));
+  CHECK(list[2].is_float);
+  CHECK(list[4].v == Vec3(8, 9, 0));
 }
 
 namespace {

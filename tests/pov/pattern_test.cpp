@@ -110,6 +110,7 @@ TEST_CASE("what stands behind a pattern's word") {
   CHECK(kind<Spiral>("spiral1 3.7").arms == 3);
   CHECK_FALSE(kind<Spiral>("spiral1 3").is_crossed);
   CHECK(kind<Spiral>("spiral2 -2").arms == -2);
+  CHECK(kind<Spiral>("spiral1 1000000").arms == 1000000);
   CHECK(kind<Spiral>("spiral2 2").is_crossed);
   CHECK(kind<Agate>("agate agate_turb 0.3").turbulence == 0.3);
   const Brick brick = kind<Brick>("brick rgb 1, rgb 0 brick_size <1, 2, 3> mortar 0.25");
@@ -152,8 +153,9 @@ TEST_CASE("what stands behind a pattern's word") {
         "scene.pov:1:30: error: 'mortar' means nothing to this pattern");
   CHECK(error_line("sphere { 0, 1 pigment { gradient 0 } }") ==
         "scene.pov:1:34: error: this gradient has no direction");
-  CHECK(error_line("sphere { 0, 1 pigment { spiral1 1e300 } }") ==
-        "scene.pov:1:33: error: a spiral has no more than a million arms");
+  for (const char* arms : {"1e300", "1000001", "-1000001"})
+    CHECK(error_line("sphere { 0, 1 pigment { spiral1 " + std::string(arms) + " } }") ==
+          "scene.pov:1:33: error: a spiral has no more than a million arms");
 }
 
 TEST_CASE("slopes") {

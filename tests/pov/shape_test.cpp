@@ -71,6 +71,7 @@ TEST_CASE("tori") {
   const Torus torus = only<Torus>("torus { 2, 0.5 sturm rotate 90*x }");
   CHECK(torus.major_radius == 2);
   CHECK(torus.minor_radius == 0.5);
+  CHECK(only<Torus>("torus { 0.5, 0.25 }").major_radius == 0.5);
   CHECK(parse("torus { 1, 0 } torus { 0, 1 } torus { -1, 0.2 } torus { 1, -0.2 }").objects.empty());
 }
 
