@@ -186,6 +186,8 @@ TEST_CASE("a replay counts what is written back") {
   CHECK((result + result).written_back == 4);
   CHECK((result + result).hit_rate() == result.hit_rate());
   CHECK(ReplayResult().hit_rate() == 0);
+  trace.requests.insert(trace.requests.begin() + 2, {Operation::reset_counters, 0, 0, 1});
+  CHECK(replay(trace, CacheConfig::of(1, 1, CacheReplacement::fifo)).written_back == 1);
 }
 
 TEST_CASE("the last line of the 32-bit offsets can be replayed and forgotten") {
