@@ -57,7 +57,6 @@ void TokenStream::define_macro(const Token& directive) {
   auto macro = std::make_shared<Macro>();
   const Token name = expect_name("for a macro");
   macro->name = name.name;
-  macro->where = name.where;
   expect('(', "after a macro's name");
   Token token = read();
   while (!token.is(')')) {

@@ -21,7 +21,6 @@ class DataFile;
 
 struct Macro {
   NameId name = 0;
-  Location where;
   std::vector<NameId> parameters;
   TokenRange body;
 };
