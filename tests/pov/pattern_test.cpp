@@ -754,11 +754,12 @@ TEST_CASE("what patterns lack is an error where it is used") {
 }
 
 TEST_CASE("maps are bounded") {
-  const std::string entries = "#for (I, 1, N) [I rgb 1] #end ";
-  CHECK(error_line("#declare N = 256; #declare M = color_map { " + entries + "}").empty());
-  CHECK(
-      error_line("#declare N = 257; #declare M = color_map { " + entries + "}").find("at most 256 entries") !=
-      std::string::npos);
+  for (const std::string map :
+       {"color_map { #for (I, 1, N) [I rgb 1] #end }", "slope_map { #for (I, 1, N) [I <0, 1>] #end }"}) {
+    CHECK(error_line("#declare N = 256; #declare M = " + map).empty());
+    CHECK(error_line("#declare N = 257; #declare M = " + map).find("a map has at most 256 entries") !=
+          std::string::npos);
+  }
   const auto nested = [](int depth, const std::string& kind) {
     return error_line(
         "#declare P = pigment { rgb 1 } #declare N = normal { bumps } #declare T = texture { P } "
