@@ -90,12 +90,13 @@ ParseOptions take_parse_options(py::kwargs& kwargs) {
     for (const auto& [name, value] : declares.cast<Declared>())
       options.declares.emplace_back(name, value);
   if (const py::object limits = take(kwargs, "limits"))
-    for (const auto& [name, value] : limits.cast<std::map<std::string, std::uint64_t>>()) {
+    for (const auto& given : limits.cast<std::map<std::string, std::uint64_t>>()) {
+      const std::string& name = given.first; // no structured binding: Clang below 16 lets no lambda use one
       const auto& known = parse_limits();
       const auto limit = std::find_if(known.begin(), known.end(),
                                       [&](const NamedLimit& candidate) { return candidate.name == name; });
       if (limit == known.end()) throw py::value_error("there is no limit '" + name + "'");
-      options.limits.*limit->limit = value;
+      options.limits.*limit->limit = given.second;
     }
   const py::object message = take(kwargs, "message");
   options.message =
