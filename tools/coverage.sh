@@ -4,7 +4,7 @@
 #
 #   tools/coverage.sh [ARGUMENTS OF CTEST...]
 #
-# Takes clang with llvm-cov and llvm-profdata (Debian: clang, llvm). Whole pictures are left out unless other arguments
+# Takes clang with llvm-cov and llvm-profdata (Debian: clang, llvm). Whole pictures and documents are left out unless other arguments
 # for ctest are given: they run what shorter tests run, in ten times their time. Exit code 1 where fewer than 90 % of the
 # lines of src, include and backends are run, or where tests fail.
 set -euo pipefail
@@ -24,7 +24,7 @@ tools/configure.sh release -B "$build" -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUIL
 cmake --build "$build" -- -k 0
 rm -rf "$build/profiles"
 failed=0
-[ $# -gt 0 ] || set -- -LE whole_pictures
+[ $# -gt 0 ] || set -- -LE whole_pictures -E '^docs:'
 # Processes of one program add to the same few files.
 LLVM_PROFILE_FILE="$build/profiles/%4m.profraw" ctest --test-dir "$build" --no-tests=error -j "$(nproc)" "$@" | tail -n 30 || failed=1
 "$profdata" merge -sparse "$build"/profiles/*.profraw -o "$build/all.profdata"
@@ -32,7 +32,8 @@ LLVM_PROFILE_FILE="$build/profiles/%4m.profraw" ctest --test-dir "$build" --no-t
 objects=()
 while IFS= read -r program; do objects+=(-object "$program"); done \
   < <(find "$build/tests" "$build/src/cli" "$build/src/viewer" -maxdepth 2 -type f -perm -u+x ! -name '*.so*' 2>/dev/null)
-others='(tests|bench|examples|build-coverage)/|/usr/'
+# Paths may go through the build's folder, where ccache has made them relative.
+others='/(tests|bench|examples)/|build-coverage/(src|backends)/|^/usr/'
 "$cov" export -summary-only -instr-profile "$build/all.profdata" -ignore-filename-regex "$others" "${objects[@]}" \
   > "$build/coverage.json"
 "$cov" show -format=html -output-dir "$build/report" -instr-profile "$build/all.profdata" \
@@ -40,15 +41,16 @@ others='(tests|bench|examples|build-coverage)/|/usr/'
 
 python3 - "$PWD" "$build/coverage.json" <<'PYTHON' || failed=1
 import json
+import os.path
 import sys
 from collections import defaultdict
 
 top, report = sys.argv[1:]
 counts = defaultdict(lambda: [0, 0, 0, 0])
 for file in json.load(open(report))["data"][0]["files"]:
-    if not file["filename"].startswith(top + "/"):
+    parts = os.path.relpath(os.path.normpath(file["filename"]), top).split("/")
+    if parts[0] not in ("src", "include", "backends"):
         continue
-    parts = file["filename"][len(top) + 1:].split("/")
     room = "/".join(parts[:2 if parts[0] in ("src", "backends") else 3 if len(parts) > 3 else 2])
     for key in (room, "all"):
         for i, kind in enumerate(("lines", "branches")):
