@@ -3,7 +3,6 @@
 #include "scene/mesh_geometry.hpp"
 #include "scene/polygons.hpp"
 #include "scene/polynomial.hpp"
-#include "scene/shapes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -261,8 +260,7 @@ Extent extent(const Quadric& q) {
 
 /// 1 on the surface, less inside; in proportion to the distance from the centre.
 double superellipsoid_size(const Superellipsoid& s, const Vec3& p) {
-  const double across = 2 / std::max(s.east_west, kLeastExponent);
-  const double along = 2 / std::max(s.north_south, kLeastExponent);
+  const auto [across, along] = powers_of(s);
   const auto norm = [](double a, double b, double exponent) {
     const double greater = std::max(std::fabs(a), std::fabs(b)), less = std::min(std::fabs(a), std::fabs(b));
     return greater == 0 ? 0 : greater * std::pow(1 + std::pow(less / greater, exponent), 1 / exponent);
@@ -270,8 +268,7 @@ double superellipsoid_size(const Superellipsoid& s, const Vec3& p) {
   return norm(norm(p.x, p.y, across), p.z, along);
 }
 Vec3 superellipsoid_slope(const Superellipsoid& s, const Vec3& p) {
-  const double across = 2 / std::max(s.east_west, kLeastExponent);
-  const double along = 2 / std::max(s.north_south, kLeastExponent);
+  const auto [across, along] = powers_of(s);
   const auto term = [](double x, double exponent) {
     return x == 0 ? 0 : std::copysign(std::pow(std::fabs(x), exponent - 1), x);
   };
@@ -408,6 +405,11 @@ std::optional<Extent> ellipsoid_extent(const Sphere& sphere, const Transform& tr
 }
 
 } // namespace
+
+Powers powers_of(const Superellipsoid& s) {
+  constexpr double kLeastExponent = 1e-4;
+  return {2 / std::max(s.east_west, kLeastExponent), 2 / std::max(s.north_south, kLeastExponent)};
+}
 
 void find_crossings(const Shape& shape, const Ray& ray, Crossings& found) {
   std::visit([&](const auto& s) { cross(s, ray, found); }, shape);

@@ -32,6 +32,13 @@ using Crossings = std::vector<Crossing>;
 
 using Shape = decltype(Object::shape);
 
+/// The powers in a superellipsoid's equation.
+struct Powers {
+  double across; ///< of x and y
+  double along;  ///< of z
+};
+Powers powers_of(const Superellipsoid& superellipsoid);
+
 /// Appends all of them, in any order, also those behind the origin. None of a CSG.
 void find_crossings(const Shape& shape, const Ray& ray, Crossings& found);
 

@@ -3,6 +3,7 @@
 #include "celltrace/error.hpp"
 #include "kernel/accel/object_bounds.hpp"
 #include "scene/polygons.hpp"
+#include "scene/shape_geometry.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -280,8 +281,9 @@ PlacedShape place(const Object& object, const Quadric& quadric) {
 
 PlacedShape place(const Object& object, const Superellipsoid& s) {
   PlacedShape shape = in_own_space<SuperellipsoidPrimitive>(object, Transform());
-  shape.parameters[0] = static_cast<float>(2 / std::max(s.east_west, kLeastExponent));
-  shape.parameters[1] = static_cast<float>(2 / std::max(s.north_south, kLeastExponent));
+  const auto [across, along] = geometry::powers_of(s);
+  shape.parameters[0] = static_cast<float>(across);
+  shape.parameters[1] = static_cast<float>(along);
   return shape;
 }
 

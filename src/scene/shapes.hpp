@@ -21,9 +21,6 @@ struct PlacedShape {
   kernel::Aabb bounds() const;
 };
 
-/// Exponents of superellipsoids less than this count as it.
-constexpr double kLeastExponent = 1e-4;
-
 /// Two directions that are at right angles to `axis` and to each other, all of unit length.
 void complete_basis(const Vec3& axis, Vec3& first, Vec3& second);
 
