@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -21,10 +22,7 @@ constexpr Named<Balance> kBalances[] = {{"gde", Balance::gde},
                                         {"tiles", Balance::tiles}};
 constexpr Named<Accelerator> kAccelerators[] = {
     {"auto", Accelerator::automatic}, {"grid", Accelerator::grid}, {"bvh", Accelerator::bvh}};
-constexpr Named<Model> kModels[] = {{"shared", Model::shared},
-                                    {"pipeline", Model::pipeline},
-                                    {"pipeline-split", Model::pipeline_split},
-                                    {"offload", Model::offload}};
+constexpr Model kModels[] = {Model::shared, Model::pipeline, Model::pipeline_split, Model::offload};
 constexpr Named<CacheReplacement> kReplacements[] = {
     {"random", CacheReplacement::random}, {"fifo", CacheReplacement::fifo}, {"lru", CacheReplacement::lru}};
 
@@ -89,7 +87,8 @@ void finish_machine(RenderOptions& options, const MachineTexts& texts, Schedule 
   // CLI11 lets no other names pass.
   options.balance = *find(kBalances, texts.balance);
   options.accelerator = *find(kAccelerators, texts.accelerator);
-  options.model = *find(kModels, texts.model);
+  options.model = *std::find_if(std::begin(kModels), std::end(kModels),
+                                [&](Model model) { return texts.model == name_of(model); });
   options.emulation = emulation_config(texts.emulation, options.backend, default_schedule);
 }
 

@@ -23,13 +23,17 @@ template <class E> struct EnumStrings;
 template <class E> using EnumString = std::pair<const char*, E>;
 
 template <> struct EnumStrings<Backend> {
-  static constexpr EnumString<Backend> values[] = {
-      {"native", Backend::native}, {"cell_emu", Backend::cell_emu}, {"cell_sim", Backend::cell_sim}};
+  static constexpr EnumString<Backend> values[] = {{name_of(Backend::native), Backend::native},
+                                                   {name_of(Backend::cell_emu), Backend::cell_emu},
+                                                   {name_of(Backend::cell_sim), Backend::cell_sim}};
 };
 template <> struct EnumStrings<SimdLevel> {
-  static constexpr EnumString<SimdLevel> values[] = {
-      {"auto", SimdLevel::automatic}, {"sse2", SimdLevel::sse2},     {"avx2", SimdLevel::avx2},
-      {"avx512", SimdLevel::avx512},  {"neon64", SimdLevel::neon64}, {"generic", SimdLevel::generic}};
+  static constexpr EnumString<SimdLevel> values[] = {{name_of(SimdLevel::automatic), SimdLevel::automatic},
+                                                     {name_of(SimdLevel::sse2), SimdLevel::sse2},
+                                                     {name_of(SimdLevel::avx2), SimdLevel::avx2},
+                                                     {name_of(SimdLevel::avx512), SimdLevel::avx512},
+                                                     {name_of(SimdLevel::neon64), SimdLevel::neon64},
+                                                     {name_of(SimdLevel::generic), SimdLevel::generic}};
 };
 template <> struct EnumStrings<Balance> {
   static constexpr EnumString<Balance> values[] = {{"gde", Balance::gde},
