@@ -9,6 +9,7 @@
 #include "render/picture_memory.hpp"
 #include "render/quality.hpp"
 #include "render/ray_query_scene.hpp"
+#include "render/report_pace.hpp"
 #include "render/spe_team.hpp"
 #include "render/statistics.hpp"
 #include "render/unit_blocks.hpp"
@@ -400,11 +401,7 @@ private:
     reports_.clear();
     ++frame_.epoch;
     plan.place(frame_);
-    // Every word wakes the PPE: about 64 of them will do, and none where nobody asks and each costs a
-    // thread's sleep.
-    const bool silent = !progress && machine_->direct_memory();
-    const bool tells_units = options_.finished_block || options_.work_map;
-    frame_.units_per_word = tells_units ? kEachUnit : silent ? 0 : plan.units() / 64 + 1;
+    frame_.units_per_word = units_per_word(plan.units(), static_cast<bool>(progress));
     StripTally tally(machine_->spe_count(), plan.units());
     const BlockGrid blocks = picture_.blocks(bundle_edge(machine_->direct_memory()));
     std::vector<std::pair<std::uint32_t, unsigned>> done; // units, and by which SPE
@@ -412,14 +409,26 @@ private:
       done.emplace_back(unit, spe);
       if (options_.finished_block) picture_.tell_blocks(regions_of(plan.unit(unit), blocks), spe);
     };
+    const Stopwatch pass;
     const bool complete =
         stages_ ? stages_->render_frame(progress) : team_->render_frame(tally, progress, unit_done);
+    if (complete) report_pace().learn(plan.units(), pass.seconds());
     if (complete && stages_ && options_.finished_block) picture_.tell_blocks({region_of(options_)}, 0);
     work_ = work_of(plan, done, blocks);
     reports_.fetch();
     add(reports, reports_.all());
     if (complete && !stages_) plan.learn();
     return complete;
+  }
+
+  /// FrameBlock::units_per_word. Of emulated machines it does not depend on the host's time.
+  std::uint32_t units_per_word(std::uint32_t units, bool is_asked) {
+    if (options_.finished_block || options_.work_map) return kEachUnit;
+    if (!machine_->direct_memory()) return units / 64 + 1;
+    return is_asked ? report_pace().units_per_word(units) : 0;
+  }
+  ReportPace& report_pace() {
+    return static_cast<FramePurpose>(frame_.purpose) == FramePurpose::samples ? sample_pace_ : pace_;
   }
 
   static std::vector<WorkRecord> work_of(WorkPlan& plan,
@@ -459,7 +468,8 @@ private:
   std::unique_ptr<SpeTeam> team_;
   std::unique_ptr<AcceleratorBuilder> builder_;
   std::unique_ptr<StageTeam> stages_;
-  std::vector<WorkRecord> work_; ///< of the last pass
+  ReportPace pace_, sample_pace_; ///< of passes by the plans
+  std::vector<WorkRecord> work_;  ///< of the last pass
   std::size_t known_diagnostics_ = 0;
   bool is_last_frame_ = false;
   bool is_edited_ = false; ///< scenes come with what has changed

@@ -1,6 +1,7 @@
 // Renderer from frame to frame: progress, cancelling, reuse, statistics, options.
 #include "celltrace/error.hpp"
 #include "render/backends.hpp"
+#include "render/report_pace.hpp"
 #include "render/scenes.hpp"
 
 #include <catch2/catch.hpp>
@@ -336,6 +337,21 @@ TEST_CASE("Pixels of a cancelled frame are finished or transparent black") {
       REQUIRE(std::equal(p, p + 4, expected.pixel(x, y)));
     }
   CHECK(finished >= kWidth * kHeight * 4 / 10);
+}
+
+TEST_CASE("SPEs tell of their progress as often as passes are long") {
+  constexpr std::uint32_t kUnits = 10000;
+  ReportPace pace;
+  const auto words = [&] { return kUnits / pace.units_per_word(kUnits); };
+  CHECK(words() == 15); // nothing is known
+  pace.learn(kUnits / 10, 0.0001);
+  CHECK(words() == 7);
+  pace.learn(kUnits / 10, 0.05);
+  CHECK(words() == 24);
+  pace.learn(kUnits, 1000);
+  CHECK(words() == 63);
+  pace.learn(0, 0);
+  CHECK(pace.units_per_word(0) == 1);
 }
 
 TEST_CASE("What the progress function throws passes through, and the next frame is as usual") {

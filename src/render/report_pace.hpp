@@ -1,0 +1,30 @@
+// How often SPEs tell of their progress.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace celltrace {
+
+/// Each word wakes the PPE's thread, which takes some 20 us of an SPE's time: 64 of them are a tenth of a
+/// frame of 10 ms. Passes that took long before tell more often.
+class ReportPace {
+public:
+  /// Units of work between two words.
+  std::uint32_t units_per_word(std::uint32_t units) const { return units / words(units) + 1; }
+  /// What the last pass took.
+  void learn(std::uint32_t units, double seconds) { seconds_a_unit_ = units == 0 ? 0 : seconds / units; }
+
+private:
+  std::uint32_t words(std::uint32_t units) const {
+    if (seconds_a_unit_ < 0) return kFirstWords;
+    const double wanted = seconds_a_unit_ * units / kSecondsBetweenWords;
+    return static_cast<std::uint32_t>(std::clamp<double>(wanted, kLeastWords, kMostWords));
+  }
+
+  static constexpr double kSecondsBetweenWords = 0.02;
+  static constexpr std::uint32_t kLeastWords = 8, kFirstWords = 16, kMostWords = 64;
+  double seconds_a_unit_ = -1; ///< below 0: not known
+};
+
+} // namespace celltrace
