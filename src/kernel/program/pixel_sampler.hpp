@@ -306,23 +306,20 @@ private:
     x = (x ^ x >> 15) * 0x846CA68Bu;
     return x ^ x >> 16;
   }
-  void jitter(float& x, float& y) const {
-    const float amount = frame_.sampling.jitter;
-    if (amount == 0.0f) return;
+  static void jitter(float& x, float& y, float amount) {
     uint32_t bits[2];
     __builtin_memcpy(&bits[0], &x, sizeof x);
     __builtin_memcpy(&bits[1], &y, sizeof y);
     const uint32_t random = hash(bits[0] + hash(bits[1]));
     constexpr float kUnit = 1.0f / 65536;
-    x += (static_cast<float>(random & 0xFFFF) * kUnit - 0.5f) * amount;
-    y += (static_cast<float>(random >> 16) * kUnit - 0.5f) * amount;
+    x += (static_cast<float>(static_cast<int32_t>(random & 0xFFFF)) * kUnit - 0.5f) * amount;
+    y += (static_cast<float>(static_cast<int32_t>(random >> 16)) * kUnit - 0.5f) * amount;
   }
   /// Puts a sample, in points of the grid, into the next lane.
-  [[gnu::noinline]] void ask(uint32_t number, float x, float y) {
-    jitter(x, y);
+  void ask(uint32_t number, float x, float y) {
     SampleLanes& packet = samples_.at[number / kSimdLanes];
-    packet.x.lane[number % kSimdLanes] = x - frame_.camera.middle_x;
-    packet.y.lane[number % kSimdLanes] = y - frame_.camera.middle_y;
+    packet.x.lane[number % kSimdLanes] = x;
+    packet.y.lane[number % kSimdLanes] = y;
   }
   /// After the last sample. Lanes that are none get its place.
   [[gnu::noinline]] void end_asking(uint32_t count) {
@@ -332,10 +329,23 @@ private:
       samples_.lanes[packet] = (1u << lanes) - 1;
       if constexpr (kHasAlpha) samples_.at[packet].clear = FloatLanes();
       if (lanes == 0) continue;
+      float(&x)[kSimdLanes] = samples_.at[packet].x.lane;
+      float(&y)[kSimdLanes] = samples_.at[packet].y.lane;
       for (uint32_t lane = lanes; lane < kSimdLanes; ++lane) {
-        samples_.at[packet].x.lane[lane] = samples_.at[packet].x.lane[lanes - 1];
-        samples_.at[packet].y.lane[lane] = samples_.at[packet].y.lane[lanes - 1];
+        x[lane] = x[lanes - 1];
+        y[lane] = y[lanes - 1];
       }
+      move_samples(x, y);
+    }
+  }
+  /// Jittered, and from the middle of the picture. All lanes alike, so that compilers take them together.
+  [[gnu::noinline]] void move_samples(float (&x)[kSimdLanes], float (&y)[kSimdLanes]) const {
+    const float amount = frame_.sampling.jitter;
+    const float middle_x = frame_.camera.middle_x, middle_y = frame_.camera.middle_y;
+    for (uint32_t lane = 0; lane < kSimdLanes; ++lane) {
+      jitter(x[lane], y[lane], amount);
+      x[lane] -= middle_x;
+      y[lane] -= middle_y;
     }
   }
   float channel(uint32_t sample, uint32_t axis) const {
