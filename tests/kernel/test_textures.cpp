@@ -327,6 +327,32 @@ TEST_CASE("Checker at whole numbers, and where rounding has moved them") {
     }
 }
 
+TEST_CASE("Bricks where mortar begins, and where rounding has moved that") {
+  Pattern pattern;
+  pattern.kind = pattern::Brick{};
+  const pattern::Brick brick;
+  Random random(85);
+  for (const double off : {0.0, 1e-5, -1e-5})
+    for (int k = 0; k < 100; ++k) {
+      Vec3 edge[kSimdLanes];
+      const VectorLanes points = points_of([&](unsigned l) {
+        const auto course = std::floor(random.uniform(-4, 4)), column = std::floor(random.uniform(-4, 4));
+        const bool is_odd = std::fmod(std::abs(course), 2) == 1;
+        edge[l] = {(column + (is_odd ? 0.5 : 0)) * brick.size.x + brick.size.x - brick.mortar,
+                   (course + 0.3) * brick.size.y,
+                   (std::floor(random.uniform(-4, 4)) + (is_odd ? 0.8 : 0.3)) * brick.size.z};
+        return edge[l] + Vec3(off, 0, 0);
+      });
+      const FloatLanes found = values(pattern, points);
+      const FloatLanes before =
+          values(pattern, points_of([&](unsigned l) { return edge[l] - Vec3(0.01, 0, 0); }));
+      for (unsigned l = 0; l < kSimdLanes; ++l) {
+        REQUIRE(found.lane[l] == 0);
+        REQUIRE(before.lane[l] == 1);
+      }
+    }
+}
+
 TEST_CASE("Gradient") {
   Random random(82);
   for (const double reach : {1.5, 100.0})

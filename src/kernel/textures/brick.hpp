@@ -16,9 +16,11 @@ struct BrickPattern : ListPattern {
     const F y = snap<S>(q.y), course = S::floor(y);
     const F shift = remainder<S>(course, 2.0f) * F(0.5f); // of x in odd courses, of z in even ones
     const F x = snap<S>(q.x - shift), z = snap<S>(q.z + shift - F(0.5f));
-    const auto share = [&](uint32_t axis) { return F(1.0f - r.parameter[3] * r.parameter[axis]); };
-    const auto brick =
-        ((x - S::floor(x)) < share(0)) & ((y - course) < share(1)) & ((z - S::floor(z)) < share(2));
+    // Mortar begins where it does in double precision, as far as rounding lets see.
+    const auto is_brick = [&](const F& at, const F& from, uint32_t axis) {
+      return at - from < F(1.0f - r.parameter[3] * r.parameter[axis]) - lattice_epsilon<S>(at);
+    };
+    const auto brick = is_brick(x, S::floor(x), 0) & is_brick(y, course, 1) & is_brick(z, S::floor(z), 2);
     return S::select(brick, F(1.0f), F(0.0f));
   }
 };
