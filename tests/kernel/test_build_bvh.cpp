@@ -83,8 +83,13 @@ Shape check_tree(const BuiltBvh& tree) {
         continue;
       }
       REQUIRE(contains(at.box, box));
+      double size[3];
       for (int axis = 0; axis < 3; ++axis)
-        REQUIRE(box.min[axis] < box.max[axis]);
+        size[axis] = double{box.max[axis]} - box.min[axis];
+      for (const double side : size) { // never flat, whatever rays round to
+        REQUIRE(side > 0);
+        REQUIRE(side >= 0.9e-6 * (size[0] + size[1] + size[2]));
+      }
       if (node.leaf[slot] == 0) {
         open.push_back({node.child[slot], at.depth + 1, box});
         continue;

@@ -1,5 +1,6 @@
 // The light of a hit in single precision against the formulas of the reference.
 #include "kernel/accel/traversal.hpp"
+#include "kernel/shading/atmosphere.hpp"
 #include "kernel/shading/lighting.hpp"
 #include "kernel/shading/secondary_rays.hpp"
 #include "lanes.hpp"
@@ -367,4 +368,38 @@ TEST_CASE("More interiors than a ray remembers lose the outermost, and are count
   CHECK(node.interior_depth.lane[5] == kMaxInteriorDepth);
   CHECK(node.interiors[0].lane[5] == offset_of_interior(scene, 2));
   CHECK(node.interior_depth.lane[4] == 0);
+}
+
+TEST_CASE("Turbulence clears a fog as far as its depth says") {
+  Random random(66);
+  DirectSpu spu;
+  for (int k = 0; k < 60; ++k) {
+    FogRecord fog{};
+    fog.tint[0] = 1;
+    fog.inverse_distance = static_cast<float>(random.uniform(0.02, 0.3));
+    fog.flags = fog_flag::turbulent;
+    fog.turbulence_depth = static_cast<float>(random.uniform(0.1, 3));
+    fog.turbulence = {{0.5f, 1.0f, 0.7f}, 2.0f, 0.5f, 3};
+    VectorLanes origin, direction;
+    FloatLanes length;
+    for (unsigned l = 0; l < kSimdLanes; ++l) {
+      set(origin, l, random.point(5));
+      set(direction, l, random.direction());
+      length.lane[l] = static_cast<float>(random.uniform(0.1, 12));
+    }
+    const V3<Simd> begin = origin.load<Simd>(), way = direction.load<Simd>();
+    const Simd::F far = Simd::F::load(length.lane);
+    const auto passage = kernel::detail::through_fog(spu, fog, begin, way, far);
+    VectorLanes pass;
+    pass.store<Simd>(passage.pass);
+    FloatLanes noise;
+    const V3<Simd> middle = (begin + way * (far * Simd::F(0.5f))) * splat3<Simd>(fog.turbulence.amount);
+    kernel::noise::turbulence_value<Simd>(middle, fog.turbulence, false).store(noise.lane);
+    for (unsigned l = 0; l < kSimdLanes; ++l) {
+      const double depth = double{length.lane[l]} * fog.inverse_distance;
+      const double clear = std::min(1.0, double{noise.lane[l]} * fog.turbulence_depth);
+      const double expected = std::exp(-depth * (1 - std::exp(-depth) * clear));
+      CHECK(test::at(pass, l).x == Approx(expected).margin(1e-6));
+    }
+  }
 }

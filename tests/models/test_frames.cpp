@@ -110,6 +110,19 @@ TEST_CASE("The split pipeline counts the rays that it sends back") {
   CHECK(joined.generators + joined.shaders + joined.searchers == 8);
 }
 
+TEST_CASE("A pipeline reports what its caches did") {
+  const Scene scene = scene_named("glass and mirrors");
+  for (const NamedModel& model : kModels) {
+    INFO(model.name);
+    const RenderStatistics s = render(scene, small(model.model, Backend::cell_emu, 5)).statistics;
+    // Rays that lie side by side ask for the same lines.
+    for (const RenderStatistics::Cache* cache : {&s.object_cache, &s.material_cache}) {
+      CHECK(cache->misses > 0);
+      CHECK(cache->hits > cache->misses);
+    }
+  }
+}
+
 TEST_CASE("The shared model has no stages") {
   const RenderStatistics s =
       render(scene_named("empty"), small(Model::shared, Backend::native, 2)).statistics;

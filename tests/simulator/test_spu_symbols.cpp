@@ -1,10 +1,13 @@
 // Functions and data by name and address.
+#include "backends/cell_emu/simulator/code_places.hpp"
 #include "backends/cell_emu/simulator/spu_symbols.hpp"
 #include "simulator/elf_image.hpp"
 
 #include <catch2/catch.hpp>
 
 using namespace celltrace::test;
+using celltrace::cell_emu::CodePlace;
+using celltrace::cell_emu::CodePlaces;
 using celltrace::cell_emu::FunctionSymbol;
 using celltrace::cell_emu::SpuElf;
 using celltrace::cell_emu::SpuSymbols;
@@ -30,14 +33,15 @@ public:
     names_.push_back(0);
   }
   /// Of a program with code from 0x80 to 0x180.
-  SpuSymbols read() const {
+  SpuElf elf() const {
     ElfImage image;
     image.add_segment(0x80, Bytes(0x100), 0x100, 1 | 4);
     image.add_segment(0x200, Bytes(0x100), 0x100, 2 | 4);
     const std::uint32_t strings = image.add_section(".strtab", 3, names_);
     image.add_section(".symtab", 2, table_, strings);
-    return SpuSymbols(SpuElf(image.build()));
+    return SpuElf(image.build());
   }
+  SpuSymbols read() const { return SpuSymbols(elf()); }
 
 private:
   Bytes table_ = Bytes(16), names_ = Bytes(1);
@@ -66,6 +70,18 @@ TEST_CASE("an address belongs to the function at or before it") {
   CHECK(name_at(symbols, 0xFFFFFFFF) == "none");
   CHECK(symbols.function_at(0x110)->lsa == 0x100);
   CHECK(symbols.function_at(0x110)->bytes == 0x20);
+}
+
+TEST_CASE("a place in a program is a function and the bytes from its start") {
+  Symbols table;
+  table.add("whole", 0xA0, 0xE0, kFunction | kGlobal);
+  const CodePlaces places(table.elf());
+  CHECK(places.at(0xA0).offset == 0);
+  const CodePlace place = places.at(0x114);
+  CHECK(std::string(place.function) == "whole");
+  CHECK(place.offset == 0x74);
+  CHECK(place.file == nullptr);
+  CHECK(places.at(0x9C).function == nullptr);
 }
 
 TEST_CASE("functions of unknown size reach to the next one") {
