@@ -28,12 +28,12 @@ template <class Spu> void intersection_loop(Spu& spu, ea_t argument) {
     spu.compute(kernel::scalar_work::kTest[kind]);
     // Every time another ray, so that no result can be used twice.
     task->rays.origin.x.lane[i % kSimdLanes] += 1e-7f;
-    kernel::Crossings<S> crossings;
-    crossings.clear();
+    kernel::Crossings<S> crossings[kernel::kMaxCrossingPairs];
+    crossings[0].clear();
     kernel::Primitives::dispatch(kind, [&](auto shape) {
-      decltype(shape)::template intersect<S>(task->rays, task->object, {}, 0, &crossings);
+      decltype(shape)::template intersect<S>(task->rays, task->object, {}, 0, crossings);
     });
-    hits += static_cast<uint32_t>(__builtin_popcount(crossings.near_hit.bits()));
+    hits += static_cast<uint32_t>(__builtin_popcount(crossings[0].near_hit.bits()));
   }
   task->hits = hits;
   spu.put(task, argument, sizeof *task, 0);

@@ -40,11 +40,10 @@ constexpr CodeModule kWarps = {"warps", 23, 0, 3456};
 
 // Of the second region: what shades, and asks patterns.
 
-/// Intersections with heavy shapes, and their normals. Not of the region of the other shapes: rays test both
-/// by turns.
-constexpr CodeModule kHeavyShapes = {"heavy", 4, 1, 8832};
-/// What is inside of heavy shapes.
-constexpr CodeModule kInsides = {"insides", 33, 1, 1792};
+/// Intersections with heavy shapes. Not of the region of the other shapes: rays test both by turns.
+constexpr CodeModule kHeavyShapes = {"heavy", 4, 1, 8448};
+/// What is inside of heavy shapes, and the normals of these.
+constexpr CodeModule kHeavyPoints = {"heavypoints", 33, 1, 3200};
 /// What is inside of meshes. Likewise: where CSG has meshes, it asks both by turns.
 constexpr CodeModule kMeshes = {"meshes", 17, 1, 2688};
 /// Where crossings are in polygons. Likewise, beside the shapes.

@@ -17,8 +17,8 @@ uint32_t inside_solid(SceneAccess<Spu>& scene, uint32_t solid, const V3<typename
     return module_meshes::inside(scene, record.object, points, lanes);
   }
   if (is_heavy(record.object.kind_and_flags & object_flag::kind_mask)) {
-    scene.spu().enter_module(modules::kInsides);
-    return module_insides::inside(scene.spu(), record, points) & lanes;
+    scene.spu().enter_module(modules::kHeavyPoints);
+    return module_heavy_points::inside(scene.spu(), record, points) & lanes;
   }
   scene.spu().enter_module(modules::kShapes);
   return module_shapes::inside(scene.spu(), record, points) & lanes;

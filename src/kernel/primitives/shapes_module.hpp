@@ -112,24 +112,16 @@ template <class Spu>
   return pairs;
 }
 
-/// As local_normal(), of heavy shapes.
-template <class Spu>
-[[gnu::noinline]] V3<typename Spu::rare_simd> normal(Spu& spu, const ObjectLanes<typename Spu::rare_simd>& o,
-                                                     const V3<typename Spu::rare_simd>& point) {
-  spu.run_in_module(modules::kHeavyShapes);
-  return normal_in_own_space<typename Spu::rare_simd, true>(o, point);
-}
-
 } // namespace module_heavy
 
-namespace module_insides {
+namespace module_heavy_points {
 
 /// As module_shapes::inside(), of heavy shapes.
 template <class Spu>
 [[gnu::noinline, gnu::flatten]] uint32_t inside(Spu& spu, const SolidRecord& solid,
                                                 const V3<typename Spu::simd>& points) {
   using R = typename Spu::rare_simd;
-  spu.run_in_module(modules::kInsides);
+  spu.run_in_module(modules::kHeavyPoints);
   const LocalParameters<R> parameters = local_parameters<R>(solid.object, solid.extra);
   uint32_t lanes = 0;
   for_each_part<Spu>([&](uint32_t first) {
@@ -143,7 +135,15 @@ template <class Spu>
   return lanes;
 }
 
-} // namespace module_insides
+/// As local_normal(), of heavy shapes.
+template <class Spu>
+[[gnu::noinline]] V3<typename Spu::rare_simd> normal(Spu& spu, const ObjectLanes<typename Spu::rare_simd>& o,
+                                                     const V3<typename Spu::rare_simd>& point) {
+  spu.run_in_module(modules::kHeavyPoints);
+  return normal_in_own_space<typename Spu::rare_simd, true>(o, point);
+}
+
+} // namespace module_heavy_points
 
 namespace module_shapes {
 

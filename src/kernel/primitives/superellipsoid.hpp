@@ -3,8 +3,9 @@
 //
 // Rays are followed by the sum's root, to the power 1/q: as a distance does, it grows in proportion to how
 // far a point is from the centre, so that single precision does for any exponents. Where p and q are 1 or
-// more it is convex, and the line has one interval inside. Otherwise the shape is thin along the planes
-// between the octants; these part the line into intervals, in each of which the root turns once at most.
+// more it is convex: no tangent comes above it, so that Newton's method leads from outside to the crossing
+// and not beyond it. Otherwise the shape is thin along the planes between the octants; these part the line
+// into intervals, in each of which the root turns once at most.
 #pragma once
 
 #include "kernel/primitives/local_shape.hpp"
@@ -22,91 +23,53 @@ struct SuperellipsoidPrimitive : LocalPrimitive<SuperellipsoidPrimitive> {
                               Crossings<S>* crossings) {
     using F = typename S::F;
     using M = typename S::M;
-    const F zero(0.0f), one(1.0f);
     for (uint32_t pair = 0; pair < kCrossingPairs; ++pair)
       crossings[pair].clear();
-    const F inverse_scale = one / S::sqrt(S::max(dot<S>(rays.direction, rays.direction), F(1e-30f)));
-    Profile<S> f;
-    f.parameters = parameters;
-    f.d = rays.direction * inverse_scale;
-    const F shift = -dot<S>(rays.origin, f.d);
-    f.o = rays.origin + f.d * shift;
-    // Where the line crosses the planes between octants, and where it is in the box: a little more of it, so
-    // that it is outside at both ends for certain.
-    const V3<S> inverse = {finite_inverse<S>(f.d.x), finite_inverse<S>(f.d.y), finite_inverse<S>(f.d.z)};
-    const F reach(1.001f);
-    const F x = -f.o.x * inverse.x, y = -f.o.y * inverse.y, z = -f.o.z * inverse.z;
-    const V3<S> half = {S::abs(inverse.x) * reach, S::abs(inverse.y) * reach, S::abs(inverse.z) * reach};
-    const F enter = max_component<S>({x - half.x, y - half.y, z - half.z});
-    const F leave = S::min(x + half.x, S::min(y + half.y, z + half.z));
-    const M in_box = enter < leave;
-    if (in_box.bits() == 0) return;
-    f.convex = (parameters.ratio >= one) & (parameters.second >= one);
-    const F low = S::min(x, y), high = S::max(x, y);
-    F bounds[5] = {enter, S::min(low, z), S::max(low, S::min(high, z)), S::max(high, z), leave};
-    for (int i = 1; i < 4; ++i)
-      bounds[i] = S::select(f.convex, leave, S::min(S::max(bounds[i], enter), leave));
+    const Line<S> line(rays, parameters);
+    if (line.in_box.bits() == 0) return;
+    const F one(1.0f);
+    // One shape for all rays.
+    const bool is_convex = ((parameters.ratio >= one) & (parameters.second >= one)).bits() != 0;
     // A ray that starts here goes inward, and leaves the shape next, or outward, and enters it next; another
     // crossing before that is the start itself.
-    M starts = rays.starts_here, inward = M::none();
-    F value, slope;
-    if (starts.bits() != 0) {
-      f.at(-shift, value, slope);
-      inward = slope < zero;
-    }
-    F distance[4] = {zero, zero, zero, zero};
-    M hit[4] = {M::none(), M::none(), M::none(), M::none()};
-    f.at(bounds[0], value, slope);
-    for (int i = 0; i < 4; ++i) {
-      const M outside = value > zero, wanted = in_box & (bounds[i] < bounds[i + 1]);
-      if (wanted.bits() == 0) continue;
-      f.at(bounds[i + 1], value, slope);
-      const M crosses = wanted & ((outside & (value <= zero)) | ((value > zero) & !outside));
-      F middle = bounds[i + 1];
-      const M turns = f.other_side(bounds[i], middle, outside, wanted & !crosses);
-      for (int half_way = 0; half_way < 2; ++half_way) {
-        const bool first = half_way == 0;
-        const M here = first ? crosses | turns : turns, enters = first ? outside : !outside;
-        if (here.bits() == 0) break;
-        const F t =
-            (f.root_between(first ? bounds[i] : middle, first ? middle : bounds[i + 1], enters, here) +
-             shift) *
-            inverse_scale;
-        const M next = (t > zero) & ((inward & !enters) | (enters & !inward));
-        M put = here & !(starts & !next);
-        starts = starts & !put;
-        for (int place = 0; place < 4; ++place) {
-          const M free = put & !hit[place];
-          distance[place] = S::select(free, t, distance[place]);
-          hit[place] = hit[place] | free;
-          put = put & !free;
-        }
-      }
-    }
-    for (uint32_t pair = 0; pair < kCrossingPairs; ++pair) {
-      Crossings<S>& c = crossings[pair];
-      c.near = distance[2 * pair];
-      c.far = distance[2 * pair + 1];
-      c.near_hit = hit[2 * pair];
-      c.far_hit = hit[2 * pair + 1];
-    }
+    const M inward = line.goes_inward(rays.starts_here);
+    if (!is_convex) return line.cross_thin(rays.starts_here, inward, crossings);
+    Crossings<S>& c = crossings[0];
+    F near = line.enter, far = line.leave;
+    const M crosses = line.cross_convex(near, far, line.in_box);
+    c.near = line.distance_at(near);
+    c.far = line.distance_at(far);
+    c.near_hit = crosses & !rays.starts_here;
+    c.far_hit = crosses & (inward | !rays.starts_here);
   }
 
   template <class S> static typename S::M inside_local(const V3<S>& p, const LocalParameters<S>& parameters) {
-    return Terms<S>(p, parameters).root() < typename S::F(1.0f);
+    return Terms<S>(p, Exponents<S>(parameters)).root() < typename S::F(1.0f);
   }
 
   template <class S>
   [[gnu::always_inline]] static V3<S> gradient(const V3<S>& p, const LocalParameters<S>& parameters) {
-    V3<S> slope;
-    Profile<S>::root_at(p, parameters, slope);
-    return slope;
+    return Terms<S>(p, Exponents<S>(parameters)).gradient(p);
   }
 
   static LocalBounds local_bounds(float) { return {-1.0f, 1.0f, 1.0f, true}; }
 
 private:
   static constexpr float kLeast = 1e-37f;
+
+  /// Those of the powers that Terms has.
+  template <class S> struct Exponents {
+    using F = typename S::F;
+    F of[5];
+
+    explicit Exponents(const LocalParameters<S>& parameters) {
+      const F p = S::max(parameters.ratio, F(kLeast)), q = S::max(parameters.second, F(kLeast));
+      of[0] = of[1] = p;
+      of[2] = q;
+      of[3] = q / p;
+      of[4] = F(1.0f) / q;
+    }
+  };
 
   /// What the equation says at a point.
   template <class S> struct Terms {
@@ -115,15 +78,13 @@ private:
     /// 1/q.
     F power[5];
 
-    [[gnu::always_inline]] Terms(const V3<S>& at, const LocalParameters<S>& parameters) {
-      const F p = S::max(parameters.ratio, F(kLeast)), q = S::max(parameters.second, F(kLeast));
+    [[gnu::always_inline]] Terms(const V3<S>& at, const Exponents<S>& exponents) {
       F base[5] = {S::abs(at.x), S::abs(at.y), S::abs(at.z)};
-      const F exponent[5] = {p, p, q, q / p, F(1.0f) / q};
       // A loop, as local store has room for one copy of powers.
       for (int i = 0; i < 5; ++i) {
         if (i == 3) base[i] = power[0] + power[1];
         if (i == 4) base[i] = sum();
-        power[i] = pow<S>(base[i], exponent[i]);
+        power[i] = pow<S>(base[i], exponents.of[i]);
       }
     }
     [[gnu::always_inline]] F sum() const { return power[3] + power[2]; }
@@ -144,29 +105,122 @@ private:
     }
   };
 
-  /// Along a ray.
-  template <class S> struct Profile {
+  /// The lines of rays, by the distance in the shape's space from where they are closest to the centre.
+  template <class S> struct Line {
     using F = typename S::F;
     using M = typename S::M;
-    LocalParameters<S> parameters;
+    Exponents<S> exponents;
+    F inverse_scale, shift; ///< of distances along rays
     V3<S> o, d;
-    M convex;
+    V3<S> planes; ///< where the line crosses the planes between octants
+    /// Where it is in the box: a little more of it, so that it is outside at both ends for certain.
+    F enter, leave;
+    M in_box;
 
-    /// One copy of it, for rays and for normals.
-    [[gnu::noinline]] static F root_at(const V3<S>& p, const LocalParameters<S>& parameters,
-                                       V3<S>& gradient) {
-      const Terms<S> terms(p, parameters);
-      gradient = terms.gradient(p);
-      return terms.root();
+    Line(const LocalRays<S>& rays, const LocalParameters<S>& parameters) : exponents(parameters) {
+      const F reach(1.001f);
+      inverse_scale = F(1.0f) / S::sqrt(S::max(dot<S>(rays.direction, rays.direction), F(1e-30f)));
+      d = rays.direction * inverse_scale;
+      shift = -dot<S>(rays.origin, d);
+      o = rays.origin + d * shift;
+      const V3<S> inverse = {finite_inverse<S>(d.x), finite_inverse<S>(d.y), finite_inverse<S>(d.z)};
+      planes = {-o.x * inverse.x, -o.y * inverse.y, -o.z * inverse.z};
+      const V3<S> half = {S::abs(inverse.x) * reach, S::abs(inverse.y) * reach, S::abs(inverse.z) * reach};
+      enter = max_component<S>(planes - half);
+      leave = S::min(planes.x + half.x, S::min(planes.y + half.y, planes.z + half.z));
+      in_box = enter < leave;
+    }
+
+    F distance_at(const F& t) const { return (t + shift) * inverse_scale; }
+
+    /// Of the rays that start on the shape.
+    M goes_inward(const M& start) const {
+      if (start.bits() == 0) return M::none();
+      F value, slope;
+      at(-shift, value, slope);
+      return slope < F(0.0f);
     }
 
     /// The root of the sum, less 1: below 0 inside.
     [[gnu::noinline]] void at(const F& t, F& value, F& slope) const {
-      V3<S> gradient;
-      value = root_at(o + d * t, parameters, gradient) - F(1.0f);
-      slope = dot<S>(gradient, d);
+      const V3<S> p = o + d * t;
+      const Terms<S> terms(p, exponents);
+      value = terms.root() - F(1.0f);
+      slope = dot<S>(terms.gradient(p), d);
     }
 
+    /// Of the rays `wanted`, those that cross a convex shape: `near` and `far`, which are outside before and
+    /// behind it, move to the crossings. The result of a ray depends on no other ray.
+    [[gnu::noinline]] M cross_convex(F& near, F& far, M wanted) const {
+      const F zero(0.0f);
+      for (int end = 0; end < 2; ++end) {
+        const F ahead(end == 0 ? 1.0f : -1.0f), limit = end == 0 ? far : near;
+        F t = end == 0 ? near : far;
+        M moves = wanted;
+        for (int i = 0; i < 30 && moves.bits() != 0; ++i) {
+          F above, along;
+          at(t, above, along);
+          along = along * ahead;
+          // Where it rises, or the other end has come, there was none.
+          const M misses = moves & (above > zero) & ((along >= zero) | ((limit - t) * ahead <= zero));
+          wanted = wanted & !misses;
+          moves = moves & !misses;
+          const F step = above / S::max(-along, F(1e-20f));
+          t = S::select(moves, t + step * ahead, t);
+          moves = moves & (step > F(kConverged));
+        }
+        (end == 0 ? near : far) = t;
+      }
+      return wanted;
+    }
+
+    /// The crossings with a shape that may be entered twice. Of rays that start on it and go `inward` or not,
+    /// the next one behind the start is the first.
+    void cross_thin(M starts, const M& inward, Crossings<S>* crossings) const {
+      const F zero(0.0f);
+      const F low = S::min(planes.x, planes.y), high = S::max(planes.x, planes.y);
+      F bounds[5] = {enter, S::min(low, planes.z), S::max(low, S::min(high, planes.z)),
+                     S::max(high, planes.z), leave};
+      for (int i = 1; i < 4; ++i)
+        bounds[i] = S::min(S::max(bounds[i], enter), leave);
+      F distance[4] = {zero, zero, zero, zero};
+      M hit[4] = {M::none(), M::none(), M::none(), M::none()};
+      F value, slope;
+      at(bounds[0], value, slope);
+      for (int i = 0; i < 4; ++i) {
+        const M outside = value > zero, wanted = in_box & (bounds[i] < bounds[i + 1]);
+        if (wanted.bits() == 0) continue;
+        at(bounds[i + 1], value, slope);
+        const M crosses = wanted & ((outside & (value <= zero)) | ((value > zero) & !outside));
+        F middle = bounds[i + 1];
+        const M turns = other_side(bounds[i], middle, outside, wanted & !crosses);
+        for (int half_way = 0; half_way < 2; ++half_way) {
+          const bool first = half_way == 0;
+          const M here = first ? crosses | turns : turns, enters = first ? outside : !outside;
+          if (here.bits() == 0) break;
+          const F t = distance_at(
+              root_between(first ? bounds[i] : middle, first ? middle : bounds[i + 1], enters, here));
+          const M next = (t > zero) & ((inward & !enters) | (enters & !inward));
+          M put = here & !(starts & !next);
+          starts = starts & !put;
+          for (int place = 0; place < 4; ++place) {
+            const M free = put & !hit[place];
+            distance[place] = S::select(free, t, distance[place]);
+            hit[place] = hit[place] | free;
+            put = put & !free;
+          }
+        }
+      }
+      for (uint32_t pair = 0; pair < kCrossingPairs; ++pair) {
+        Crossings<S>& c = crossings[pair];
+        c.near = distance[2 * pair];
+        c.far = distance[2 * pair + 1];
+        c.near_hit = hit[2 * pair];
+        c.far_hit = hit[2 * pair + 1];
+      }
+    }
+
+  private:
     /// Of the rays `wanted`, which are on the same side at `low` and `high`, those that are on the other one
     /// in between: there `high` becomes a place where they are.
     [[gnu::noinline]] M other_side(F low, F& high, const M& outside, M wanted) const {
@@ -182,10 +236,9 @@ private:
       at_end = at_end * sign, slope_end = slope_end * sign;
       wanted = wanted & (slope_low < zero) & (slope_end > zero);
       for (int i = 0; i < 14 && wanted.bits() != 0; ++i) {
-        // Where the tangents meet: nothing convex comes below that.
+        // Where the tangents meet.
         const F width = end - low;
         const F meet = (at_low - at_end + slope_end * width) / S::max(slope_end - slope_low, F(1e-20f));
-        wanted = wanted & !(convex & (at_low + slope_low * meet > zero));
         const F t = low + S::select((meet > zero) & (meet < width), meet, width * F(0.5f));
         F value, slope;
         at(t, value, slope);
