@@ -42,8 +42,8 @@ constexpr CodeModule kWarps = {"warps", 23, 0, 3456};
 
 /// Intersections with heavy shapes. Not of the region of the other shapes: rays test both by turns.
 constexpr CodeModule kHeavyShapes = {"heavy", 4, 1, 8448};
-/// What is inside of heavy shapes, and the normals of these.
-constexpr CodeModule kHeavyPoints = {"heavypoints", 33, 1, 3200};
+/// What is inside of shapes whose equations have powers, and the normals of these.
+constexpr CodeModule kHeavyPoints = {"heavypoints", 33, 1, 2304};
 /// What is inside of meshes. Likewise: where CSG has meshes, it asks both by turns.
 constexpr CodeModule kMeshes = {"meshes", 17, 1, 2688};
 /// Where crossings are in polygons. Likewise, beside the shapes.
@@ -70,7 +70,7 @@ constexpr CodeModule kFinishes = {"finishes", 19, 1, 4224};
 /// Tests of objects that have a shape of the first region, or are parts of a CSG.
 constexpr CodeModule kObjects = {"objects", 12, 2, 5888};
 /// Where hits lie on objects, and the normals there.
-constexpr CodeModule kHits = {"hits", 5, 2, 7552};
+constexpr CodeModule kHits = {"hits", 5, 2, 7808};
 /// Shading of surfaces with textures, or of several materials.
 constexpr CodeModule kComposed = {"composed", 13, 2, 7808};
 /// What rays pass through on their way or see before what they hit or behind it.

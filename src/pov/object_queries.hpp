@@ -11,7 +11,7 @@ namespace celltrace::pov {
 
 struct Session;
 
-/// Where a ray meets an object first.
+/// Where a ray hits an object first.
 struct ObjectHit {
   Vec3 point;
   Vec3 normal; ///< of unit length; outwards, on whichever side the ray comes from

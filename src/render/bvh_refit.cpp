@@ -49,8 +49,8 @@ void store(const LaneAabb& bounds, bvh::Reference& to) {
   bounds.max.store(to.max);
 }
 
-/// The sum over its children of their areas, each times what a ray looks at that meets it: objects or four
-/// boxes.
+/// The sum over its children of their areas, each times what a ray that hits it is tested against: objects or
+/// four bounds.
 double cost_of(const NodeRecord& node) {
   using F4 = Simd::F4;
   const auto extent = [&](int axis) {

@@ -152,26 +152,26 @@ private:
       const float low = middles.min[axis], width = middles.max[axis] - low;
       const float scale = static_cast<float>(kBins) * 0.9999f / width;
       if (!(width > 0) || !std::isfinite(scale)) continue;
-      std::array<Aabb, kBins> boxes;
-      boxes.fill(empty_box());
+      std::array<Aabb, kBins> bounds;
+      bounds.fill(empty_box());
       std::array<std::size_t, kBins> counts{};
       for (const Reference& reference : references) {
         const auto bin = static_cast<std::size_t>((reference.middle(axis) - low) * scale);
-        grow(boxes[bin], reference.box);
+        grow(bounds[bin], reference.box);
         ++counts[bin];
       }
       std::array<float, kBins> right{}; // the cost of bins from here on
       Aabb box = empty_box();
       std::size_t count = 0;
       for (std::size_t bin = kBins; bin-- > 1;) {
-        grow(box, boxes[bin]);
+        grow(box, bounds[bin]);
         count += counts[bin];
         right[bin] = count == 0 ? kInfinity : half_area(box) * blocks(count);
       }
       box = empty_box();
       count = 0;
       for (std::size_t bin = 1; bin < kBins; ++bin) {
-        grow(box, boxes[bin - 1]);
+        grow(box, bounds[bin - 1]);
         count += counts[bin - 1];
         if (count == 0) continue;
         const float cost = half_area(box) * blocks(count) + right[bin];

@@ -33,7 +33,7 @@ template <class S> struct SingleRay {
   }
 };
 
-/// `Quad` and `Eight`: four lanes for triangles and eight for boxes.
+/// `Quad` and `Eight`: four lanes for triangles and eight for bounds.
 template <class Spu, class Quad, class Eight> class SingleRayTraversal {
 public:
   using S = typename Spu::simd;

@@ -16,7 +16,7 @@ uint32_t inside_solid(SceneAccess<Spu>& scene, uint32_t solid, const V3<typename
     scene.spu().enter_module(modules::kMeshes);
     return module_meshes::inside(scene, record.object, points, lanes);
   }
-  if (is_heavy(record.object.kind_and_flags & object_flag::kind_mask)) {
+  if (has_heavy_points(record.object.kind_and_flags & object_flag::kind_mask)) {
     scene.spu().enter_module(modules::kHeavyPoints);
     return module_heavy_points::inside(scene.spu(), record, points) & lanes;
   }

@@ -6,6 +6,7 @@
 //   kHasParameters   whether it reads its ExtraRecord
 //   kIsBounded       whether it can be in the BVH by itself
 //   kIsHeavy         whether the code of its intersect() is large: it has a code module apart
+//   kHasHeavyPoints  whether that of its inside() and of its normals is: likewise
 //   kIsLocal         whether its geometry is a map to a space of its own (local_shape.hpp)
 //   intersect(rays, object, extra, self, crossings), inside(point, object, extra)
 //   bounds(object, extra), overlaps(object, extra, box)
@@ -29,6 +30,7 @@ namespace celltrace::kernel {
 
 template <class... P> struct PrimitiveList : TypeList<P...> {
   static constexpr bool kAreHeavy[] = {P::kIsHeavy...};
+  static constexpr bool kHaveHeavyPoints[] = {P::kHasHeavyPoints...};
 };
 
 using Primitives = PrimitiveList<SpherePrimitive, TrianglePrimitive, PlanePrimitive, EllipsoidPrimitive,

@@ -171,6 +171,7 @@ template <class Shape> struct LocalPrimitive {
   static constexpr bool kIsLocal = true;
   static constexpr bool kIsBounded = true;
   static constexpr bool kIsHeavy = false;
+  static constexpr bool kHasHeavyPoints = false;
 
   template <class S>
   static void intersect(const RayPacket& rays, const ObjectRecord& object, const ExtraRecord& extra,

@@ -49,8 +49,13 @@ constexpr bool is_heavy(uint32_t kind) {
   return Primitives::kAreHeavy[kind];
 }
 
-/// The unit normals of shapes in a space of their own, of the heavy ones or of the others, at points of their
-/// surfaces: the gradient there is transformed by the transposed map.
+/// Whether its normals and what is inside are in a module of their own.
+constexpr bool has_heavy_points(uint32_t kind) {
+  return Primitives::kHaveHeavyPoints[kind];
+}
+
+/// The unit normals of shapes in a space of their own, of those with heavy points or of the others, at points
+/// of their surfaces: the gradient there is transformed by the transposed map.
 template <class S, bool kOfHeavy>
 [[gnu::always_inline]] inline V3<S> normal_in_own_space(const ObjectLanes<S>& o, const V3<S>& point) {
   // Three rows of four.
@@ -62,7 +67,7 @@ template <class S, bool kOfHeavy>
   uint32_t kind = 0;
   Primitives::for_each([&](auto shape) {
     using Shape = decltype(shape);
-    if constexpr (Shape::kIsLocal && Shape::kIsHeavy == kOfHeavy)
+    if constexpr (Shape::kIsLocal && Shape::kHasHeavyPoints == kOfHeavy)
       if (o.of_kind[kind] != 0)
         gradient = select<S>(S::M::from_bits(o.of_kind[kind]),
                              Shape::template gradient<S>(local, o.parameters), gradient);
@@ -114,28 +119,35 @@ template <class Spu>
 
 } // namespace module_heavy
 
-namespace module_heavy_points {
-
-/// As module_shapes::inside(), of heavy shapes.
-template <class Spu>
-[[gnu::noinline, gnu::flatten]] uint32_t inside(Spu& spu, const SolidRecord& solid,
-                                                const V3<typename Spu::simd>& points) {
+/// Which of the points are in a solid that is heavy, and has heavy points or not.
+template <class Spu, bool kHeavyPoints>
+[[gnu::always_inline]] inline uint32_t inside_heavy(const SolidRecord& solid,
+                                                    const V3<typename Spu::simd>& points) {
   using R = typename Spu::rare_simd;
-  spu.run_in_module(modules::kHeavyPoints);
   const LocalParameters<R> parameters = local_parameters<R>(solid.object, solid.extra);
   uint32_t lanes = 0;
   for_each_part<Spu>([&](uint32_t first) {
     const V3<R> local = to_local<R>(solid.object.geometry, part_of<Spu>(points, first), 1.0f);
     Primitives::dispatch(solid.object.kind_and_flags & object_flag::kind_mask, [&](auto shape) {
       using Shape = decltype(shape);
-      if constexpr (Shape::kIsHeavy)
+      if constexpr (Shape::kIsHeavy && Shape::kHasHeavyPoints == kHeavyPoints)
         lanes |= Shape::template inside_local<R>(local, parameters).bits() << first;
     });
   });
   return lanes;
 }
 
-/// As local_normal(), of heavy shapes.
+namespace module_heavy_points {
+
+/// As module_shapes::inside(), of shapes with heavy points.
+template <class Spu>
+[[gnu::noinline, gnu::flatten]] uint32_t inside(Spu& spu, const SolidRecord& solid,
+                                                const V3<typename Spu::simd>& points) {
+  spu.run_in_module(modules::kHeavyPoints);
+  return inside_heavy<Spu, true>(solid, points);
+}
+
+/// As local_normal(), of shapes with heavy points.
 template <class Spu>
 [[gnu::noinline]] V3<typename Spu::rare_simd> normal(Spu& spu, const ObjectLanes<typename Spu::rare_simd>& o,
                                                      const V3<typename Spu::rare_simd>& point) {
@@ -175,7 +187,7 @@ template <class Spu>
   return pairs;
 }
 
-/// Which of the points are in a solid that is not heavy.
+/// Which of the points are in a solid whose points are not heavy.
 template <class Spu>
 [[gnu::noinline]] uint32_t inside(Spu& spu, const SolidRecord& solid, const V3<typename Spu::simd>& points) {
   using S = typename Spu::simd;
@@ -183,6 +195,7 @@ template <class Spu>
   const uint32_t kind = solid.object.kind_and_flags & object_flag::kind_mask;
   if (kind == kPrimitiveKind<SpherePrimitive>)
     return SpherePrimitive::inside<S>(points, solid.object, solid.extra).bits();
+  if (is_heavy(kind)) return inside_heavy<Spu, false>(solid, points);
   const V3<S> local = to_local<S>(solid.object.geometry, points, 1.0f);
   const LocalParameters<S> parameters = local_parameters<S>(solid.object, solid.extra);
   uint32_t lanes = 0;
@@ -196,7 +209,7 @@ template <class Spu>
 
 } // namespace module_shapes
 
-/// The unit normals of shapes in a space of their own that are not heavy.
+/// The unit normals of shapes in a space of their own whose points are not heavy.
 template <class S> [[gnu::noinline]] V3<S> local_normal(const ObjectLanes<S>& o, const V3<S>& point) {
   return normal_in_own_space<S, false>(o, point);
 }

@@ -51,6 +51,7 @@ struct SpherePrimitive {
   static constexpr bool kHasParameters = false;
   static constexpr bool kIsLocal = false;
   static constexpr bool kIsHeavy = false;
+  static constexpr bool kHasHeavyPoints = false;
   static constexpr bool kIsBounded = true;
 
   template <class S>

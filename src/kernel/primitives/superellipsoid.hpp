@@ -17,6 +17,7 @@ struct SuperellipsoidPrimitive : LocalPrimitive<SuperellipsoidPrimitive> {
   static constexpr uint32_t kCrossingPairs = 2;
   static constexpr bool kHasParameters = true;
   static constexpr bool kIsHeavy = true;
+  static constexpr bool kHasHeavyPoints = true;
 
   template <class S>
   static void intersect_local(const LocalRays<S>& rays, const LocalParameters<S>& parameters,

@@ -73,7 +73,7 @@ template <class Spu>
   uint32_t others = 0, heavy = 0;
   for (uint32_t kind = 0; kind < kPrimitives; ++kind)
     if (!only_triangles && kind > kPrimitiveKind<PlanePrimitive>)
-      (is_heavy(kind) ? heavy : others) |= o.of_kind[kind];
+      (has_heavy_points(kind) ? heavy : others) |= o.of_kind[kind];
   if (spheres != 0) surface_of_spheres<S>(o, along_ray, point, normal);
   const auto add = [&](uint32_t lanes, const V3<S>& p, const V3<S>& n) {
     const auto mask = S::M::from_bits(lanes);
