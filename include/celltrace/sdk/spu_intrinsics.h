@@ -7,6 +7,7 @@
 #include "celltrace/spe/spu_intrinsics.hpp"
 
 #ifndef __SPU__
+#undef __vector // POWER's compilers have one of their own, of AltiVec's types
 #define __vector __attribute__((vector_size(16)))
 #ifndef CELLTRACE_NO_VECTOR_KEYWORD
 #include <vector> // before the word has another meaning
