@@ -16,13 +16,8 @@
 namespace celltrace::cell_emu {
 namespace {
 
-constexpr std::uint8_t kPoison[8] = {0xAD, 0xDE, 0xB0, 0x7F, 0xAD, 0xDE, 0xB0, 0x7F};
-
-std::uint64_t poison_word() {
-  std::uint64_t word;
-  std::memcpy(&word, kPoison, sizeof word);
-  return word;
-}
+// Two words 0x7FB0DEAD, a signalling NaN, as programs of this machine read them.
+constexpr std::uint64_t kPoison = 0x7FB0DEAD'7FB0DEADu;
 
 } // namespace
 
@@ -49,21 +44,19 @@ std::uint64_t checksum(const std::uint8_t* at, std::uint32_t bytes) {
 }
 
 void fill_with_poison(std::uint8_t* at, std::uint32_t bytes) {
-  const std::uint64_t word = poison_word();
   for (; bytes >= 8; at += 8, bytes -= 8)
-    std::memcpy(at, &word, sizeof word);
-  std::memcpy(at, kPoison, bytes);
+    std::memcpy(at, &kPoison, sizeof kPoison);
+  std::memcpy(at, &kPoison, bytes);
 }
 
 bool is_poison(const std::uint8_t* at, std::uint32_t bytes) {
-  const std::uint64_t poison = poison_word();
   std::uint64_t difference = 0;
   for (; bytes >= 8; at += 8, bytes -= 8) {
     std::uint64_t word;
     std::memcpy(&word, at, sizeof word);
-    difference |= word ^ poison;
+    difference |= word ^ kPoison;
   }
-  return difference == 0 && std::memcmp(at, kPoison, bytes) == 0;
+  return difference == 0 && std::memcmp(at, &kPoison, bytes) == 0;
 }
 
 #ifdef CELLTRACE_HAS_ASAN
