@@ -38,6 +38,8 @@ using Spu = EmulatedSpu;
 constexpr std::uint32_t in_order(std::endian order, std::uint32_t value) {
   return order == std::endian::native ? value : __builtin_bswap32(value);
 }
+// Where the lowest byte of one of this machine's words lies in it.
+constexpr std::uint32_t kLowByte = std::endian::native == std::endian::big ? 3 : 0;
 inline std::uint32_t load_word(std::endian order, const std::uint32_t* from) {
   return in_order(order, *from);
 }

@@ -201,7 +201,7 @@ const Rows kLists = {
            list[0] = ListElement::make(4, to_ea(stage.from + 1));
            list[1] = ListElement::make(8, to_ea(stage.from + 6));
            list[2] = ListElement::make(16, to_ea(stage.from + 8));
-           list[3] = ListElement::make(1, to_ea(stage.from + 15));
+           list[3] = ListElement::make(1, to_ea(stage.from + 15) + kLowByte);
            // The command's own low bits do not count.
            spu.getl(line + 3, to_ea(stage.from), list, 4, 3);
            spu.wait_all(1u << 3);

@@ -105,9 +105,9 @@ const Rows kOrdering = {
          [](Spu& spu, Stage& stage) {
            auto* buffer = spu.allocate<std::uint8_t>(64);
            spu.get(buffer, to_ea(stage.from), 32, 1);
-           spu.get(buffer + 32, to_ea(stage.from) + 32, 1, 2);
+           spu.get(buffer + 32 + kLowByte, to_ea(stage.from + 8) + kLowByte, 1, 2);
            spu.wait_all(6);
-           stage.is(buffer[32], 9);
+           stage.is(buffer[32 + kLowByte], 9);
          }),
     kept(Rule::local_store_race, "puts may share their source",
          [](Spu& spu, Stage& stage) {
