@@ -59,7 +59,7 @@ port() {
     targets+=("test_$suite")
   done
   ninja -C "$build" "${targets[@]}" celltrace_program
-  ctest --test-dir "$build" -j "$(nproc)" --output-on-failure -R "^(${suites// /|}): "
+  ctest --test-dir "$build" --no-tests=error -j "$(nproc)" --output-on-failure -R "^(${suites// /|}):"
   pictures native cell_emu
   [ $different -eq 0 ] || { echo "tools/test-ports.sh: pictures differ by more than $least_psnr dB allow" >&2; exit 1; }
 }
