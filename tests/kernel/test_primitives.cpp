@@ -59,6 +59,8 @@ std::vector<Subject> subjects() {
   };
   const auto superellipsoid = [&](const char* name, double e, double n) {
     all.push_back(named(name, Superellipsoid{e, n}, [e, n](const Vec3& p) {
+      const Vec3 away = glm::abs(p);
+      if (std::max({away.x, away.y, away.z}) > 1) return false; // powers take long
       const double across = std::pow(std::abs(p.x), 2 / e) + std::pow(std::abs(p.y), 2 / e);
       return std::pow(across, e / n) + std::pow(std::abs(p.z), 2 / n) < 1;
     }));
@@ -111,12 +113,13 @@ Transform random_transform(Random& random) {
       .then(Transform::translate(random.point(5)));
 }
 
-/// The distances at which a ray changes sides.
-std::vector<double> changes(const std::function<bool(double)>& inside, double from, double to) {
+/// The distances at which a ray changes sides, or the first `most` of them.
+std::vector<double> changes(const std::function<bool(double)>& inside, double from, double to,
+                            std::size_t most = SIZE_MAX) {
   constexpr int kSteps = 4000;
   std::vector<double> all;
   bool before = inside(from);
-  for (int i = 1; i <= kSteps; ++i) {
+  for (int i = 1; i <= kSteps && all.size() < most; ++i) {
     const double t = from + (to - from) * i / kSteps;
     const bool now = inside(t);
     if (now == before) continue;
@@ -213,7 +216,7 @@ TEST_CASE("Rays that start on a shape do not cross it there") {
         for (;;) {
           const Vec3 from = object.transform.point(random.point(1.2)), along = random.direction();
           const auto here =
-              changes([&](double t) { return subject.inside(inverse.point(from + along * t)); }, 0, 10);
+              changes([&](double t) { return subject.inside(inverse.point(from + along * t)); }, 0, 10, 1);
           if (here.empty()) continue;
           set(rays.origin, lane, from + along * here[0]);
           break;
