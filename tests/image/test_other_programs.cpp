@@ -35,7 +35,7 @@ double worst_of(const std::vector<double>& read, const ColourImage& written, dou
 constexpr double kHalfFloat = 1.0 / 2048;
 constexpr double kStep = 0.5 / 65535; // of ImageMagick's numbers
 
-float itself(const float* pixel, std::size_t channel) {
+[[maybe_unused]] float itself(const float* pixel, std::size_t channel) {
   return pixel[channel];
 }
 float greatest(const float* pixel, std::size_t) {
