@@ -225,8 +225,8 @@ struct CELLTRACE_EXPORT RenderStatistics {
 
   Cache list_cache, object_cache, material_cache, light_cache; ///< all 0 where memory is direct
   std::uint64_t dma_commands = 0, dma_list_elements = 0, dma_bytes_read = 0, dma_bytes_written = 0;
-  std::uint64_t pixel_bytes =
-      0; ///< of those written, pixels as they are traced, without what antialiasing adds
+  /// Of those written, pixels as they are traced, without what antialiasing adds.
+  std::uint64_t pixel_bytes = 0;
   /// Of a picture in blocks: squared differences from the pixels that were encoded, summed over red, green
   /// and blue.
   std::optional<std::uint64_t> block_error;
