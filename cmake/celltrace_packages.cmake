@@ -44,7 +44,7 @@ set(CPACK_DEBIAN_DEV_DESCRIPTION "ray tracer for POV-Ray scenes - development fi
 ${about}.\nThese are the headers, a CMake package and pkg-config files.")
 set(packages_tools celltrace)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION graphics)
-set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS fonts-dejavu-core) # what the viewer writes with
+set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS "libsdl2-2.0-0, libsdl2-ttf-2.0-0, fonts-dejavu-core") # loaded by the viewer
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SUGGESTS ffmpeg)
 set(CPACK_DEBIAN_TOOLS_DESCRIPTION "ray tracer for POV-Ray scenes - program
 ${about}.\nThis is the program, which also runs programs for the SPU.")

@@ -1,10 +1,9 @@
 #include "viewer/key_script.hpp"
 
 #include "celltrace/error.hpp"
+#include "viewer/sdl.hpp"
 
 #include <cstdio>
-
-#include <SDL_keyboard.h>
 
 namespace celltrace::viewer {
 
@@ -34,7 +33,7 @@ KeyScript::Step KeyScript::step_of(const std::string& word) {
     step.kind = Kind::size;
     return step;
   }
-  step.key.keysym.sym = SDL_GetKeyFromName(word.c_str());
+  step.key.keysym.sym = sdl().SDL_GetKeyFromName(word.c_str());
   if (step.key.keysym.sym == SDLK_UNKNOWN)
     throw InputError("--keys: '" + word +
                      "' is neither a key nor WIDTHxHEIGHT, drag:X,Y, click:X,Y or wheel:N");

@@ -8,6 +8,7 @@
 #include "viewer/key_script.hpp"
 #include "viewer/navigator.hpp"
 #include "viewer/scene_loader.hpp"
+#include "viewer/sdl.hpp"
 #include "viewer/state_log.hpp"
 #include "viewer/window.hpp"
 
@@ -20,8 +21,6 @@
 #include <map>
 #include <optional>
 #include <set>
-
-#include <SDL.h>
 
 namespace celltrace::viewer {
 
@@ -55,7 +54,7 @@ public:
   explicit Viewer(const ViewOptions& options)
       : options_(options), render_(options.render), antialiasing_(options.render.antialiasing),
         backends_(usable_backends(options.render.backend)), state_(options.state), script_(options.keys),
-        wake_event_(SDL_RegisterEvents(1)),
+        wake_event_(sdl().SDL_RegisterEvents(1)),
         loader_(options.scene, options.parse, [event = wake_event_] { wake(event); }),
         window_("celltrace - " + options.scene.filename().string(), options.render.width,
                 options.render.height, options.font),
@@ -66,10 +65,10 @@ public:
   void run() {
     while (!quits_) {
       SDL_Event event;
-      if (SDL_WaitEventTimeout(&event, held_.empty() ? 50 : 5) != 0) {
+      if (sdl().SDL_WaitEventTimeout(&event, held_.empty() ? 50 : 5) != 0) {
         do
           handle(event);
-        while (!quits_ && SDL_PollEvent(&event) != 0);
+        while (!quits_ && sdl().SDL_PollEvent(&event) != 0);
       }
       if (quits_) return;
       move_on();
@@ -86,7 +85,7 @@ private:
   static void wake(Uint32 type) {
     SDL_Event event{};
     event.type = type;
-    SDL_PushEvent(&event);
+    sdl().SDL_PushEvent(&event);
   }
 
   // --- input ---
@@ -526,11 +525,11 @@ private:
 class Events {
 public:
   Events() {
-    SDL_SetMainReady();
-    if (SDL_InitSubSystem(SDL_INIT_EVENTS) != 0)
-      throw Error(std::string("cannot wait for events: ") + SDL_GetError());
+    sdl().SDL_SetMainReady();
+    if (sdl().SDL_InitSubSystem(SDL_INIT_EVENTS) != 0)
+      throw Error(std::string("cannot wait for events: ") + sdl().SDL_GetError());
   }
-  ~Events() { SDL_Quit(); }
+  ~Events() { sdl().SDL_Quit(); }
 };
 
 } // namespace

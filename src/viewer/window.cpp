@@ -1,14 +1,13 @@
 #include "viewer/window.hpp"
 
 #include "celltrace/error.hpp"
+#include "viewer/sdl.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <cstring>
 #include <sstream>
-
-#include <SDL.h>
-#include <SDL_ttf.h>
 
 namespace celltrace::viewer {
 
@@ -32,7 +31,9 @@ constexpr std::array kFonts = {"/usr/share/fonts/truetype/dejavu/DejaVuSansMono.
 /// Else SDL would take a driver that shows nothing to anybody, and other libraries would complain.
 bool has_display() {
 #if defined(__unix__) && !defined(__APPLE__)
-  const auto is_set = [](const char* name) { return SDL_getenv(name) != nullptr && *SDL_getenv(name) != 0; };
+  const auto is_set = [](const char* name) {
+    return std::getenv(name) != nullptr && *std::getenv(name) != 0;
+  };
   return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY") || is_set("SDL_VIDEODRIVER");
 #else
   return true;
@@ -50,24 +51,24 @@ std::vector<std::string> lines_of(const std::string& text) {
 } // namespace
 
 void Window::Free::operator()(SDL_Surface* surface) const noexcept {
-  SDL_FreeSurface(surface);
+  sdl().SDL_FreeSurface(surface);
 }
 
 Window::Window(const std::string& title, int width, int height, const std::filesystem::path& font) {
   if (!has_display())
     throw Error("there is no display to open a window on: neither DISPLAY nor WAYLAND_DISPLAY is set");
-  if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0)
-    throw Error(std::string("there is no display to open a window on: ") + SDL_GetError());
-  if (SDL_getenv("SDL_VIDEODRIVER") == nullptr &&
-      std::string(SDL_GetCurrentVideoDriver()) == "offscreen") { // what is left if all others fail
-    SDL_QuitSubSystem(SDL_INIT_VIDEO);
+  if (sdl().SDL_InitSubSystem(SDL_INIT_VIDEO) != 0)
+    throw Error(std::string("there is no display to open a window on: ") + sdl().SDL_GetError());
+  if (std::getenv("SDL_VIDEODRIVER") == nullptr &&
+      std::string(sdl().SDL_GetCurrentVideoDriver()) == "offscreen") { // what is left if all others fail
+    sdl().SDL_QuitSubSystem(SDL_INIT_VIDEO);
     throw Error("there is no display to open a window on: none answers");
   }
-  window_ = SDL_CreateWindow(title.c_str(), SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, width, height,
-                             SDL_WINDOW_RESIZABLE);
+  window_ = sdl().SDL_CreateWindow(title.c_str(), SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED, width,
+                                   height, SDL_WINDOW_RESIZABLE);
   if (window_ == nullptr) {
-    const std::string reason = SDL_GetError();
-    SDL_QuitSubSystem(SDL_INIT_VIDEO);
+    const std::string reason = sdl().SDL_GetError();
+    sdl().SDL_QuitSubSystem(SDL_INIT_VIDEO);
     throw Error("cannot open a window: " + reason);
   }
   open_font(font);
@@ -75,63 +76,63 @@ Window::Window(const std::string& title, int width, int height, const std::files
 
 Window::~Window() {
   together_.reset();
-  if (font_ != nullptr) TTF_CloseFont(font_);
-  if (TTF_WasInit() != 0) TTF_Quit();
-  SDL_DestroyWindow(window_);
-  SDL_QuitSubSystem(SDL_INIT_VIDEO);
+  if (font_ != nullptr) sdl().TTF_CloseFont(font_);
+  if (sdl().TTF_WasInit() != 0) sdl().TTF_Quit();
+  sdl().SDL_DestroyWindow(window_);
+  sdl().SDL_QuitSubSystem(SDL_INIT_VIDEO);
 }
 
 void Window::open_font(const std::filesystem::path& font) {
-  if (TTF_Init() != 0) return;
+  if (sdl().TTF_Init() != 0) return;
   if (!font.empty()) {
-    font_ = TTF_OpenFont(font.c_str(), kPoints);
+    font_ = sdl().TTF_OpenFont(font.c_str(), kPoints);
     return;
   }
   for (const char* path : kFonts)
-    if (font_ == nullptr) font_ = TTF_OpenFont(path, kPoints);
+    if (font_ == nullptr) font_ = sdl().TTF_OpenFont(path, kPoints);
 }
 
 int Window::width() const {
   int width = 0;
-  SDL_GetWindowSize(window_, &width, nullptr);
+  sdl().SDL_GetWindowSize(window_, &width, nullptr);
   return std::max(width, 1);
 }
 int Window::height() const {
   int height = 0;
-  SDL_GetWindowSize(window_, nullptr, &height);
+  sdl().SDL_GetWindowSize(window_, nullptr, &height);
   return std::max(height, 1);
 }
 
 void Window::set_title(const std::string& title) {
-  SDL_SetWindowTitle(window_, title.c_str());
+  sdl().SDL_SetWindowTitle(window_, title.c_str());
 }
 void Window::set_full_screen(bool full_screen) {
-  SDL_SetWindowFullscreen(window_, full_screen ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
+  sdl().SDL_SetWindowFullscreen(window_, full_screen ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
 }
 
 void Window::set_size(int width, int height) {
-  SDL_SetWindowSize(window_, width, height);
+  sdl().SDL_SetWindowSize(window_, width, height);
 }
 
 void Window::show(const Image& picture, const Overlay& overlay) {
-  SDL_Surface* const own = SDL_GetWindowSurface(window_);
+  SDL_Surface* const own = sdl().SDL_GetWindowSurface(window_);
   if (own == nullptr) return; // while the window is being resized
   if (!together_ || together_->w != own->w || together_->h != own->h)
-    together_.reset(SDL_CreateRGBSurfaceWithFormat(0, own->w, own->h, 32, SDL_PIXELFORMAT_RGBA32));
+    together_.reset(sdl().SDL_CreateRGBSurfaceWithFormat(0, own->w, own->h, 32, SDL_PIXELFORMAT_RGBA32));
   if (!together_) return;
-  SDL_FillRect(together_.get(), nullptr, SDL_MapRGBA(together_->format, 0, 0, 0, 255));
+  sdl().SDL_FillRect(together_.get(), nullptr, sdl().SDL_MapRGBA(together_->format, 0, 0, 0, 255));
   if (!picture.rgba.empty()) {
     // SDL only reads.
-    const Surface pixels(SDL_CreateRGBSurfaceWithFormatFrom(const_cast<std::uint8_t*>(picture.rgba.data()),
-                                                            picture.width, picture.height, 32,
-                                                            picture.width * 4, SDL_PIXELFORMAT_RGBA32));
-    SDL_SetSurfaceBlendMode(pixels.get(), SDL_BLENDMODE_NONE);
-    SDL_BlitScaled(pixels.get(), nullptr, together_.get(), nullptr);
+    const Surface pixels(sdl().SDL_CreateRGBSurfaceWithFormatFrom(
+        const_cast<std::uint8_t*>(picture.rgba.data()), picture.width, picture.height, 32, picture.width * 4,
+        SDL_PIXELFORMAT_RGBA32));
+    sdl().SDL_SetSurfaceBlendMode(pixels.get(), SDL_BLENDMODE_NONE);
+    sdl().SDL_BlitScaled(pixels.get(), nullptr, together_.get(), nullptr);
   }
   draw(overlay, picture);
-  SDL_SetSurfaceBlendMode(together_.get(), SDL_BLENDMODE_NONE);
-  SDL_BlitSurface(together_.get(), nullptr, own, nullptr);
-  SDL_UpdateWindowSurface(window_);
+  sdl().SDL_SetSurfaceBlendMode(together_.get(), SDL_BLENDMODE_NONE);
+  sdl().SDL_BlitSurface(together_.get(), nullptr, own, nullptr);
+  sdl().SDL_UpdateWindowSurface(window_);
 }
 
 Image Window::screenshot() const {
@@ -203,12 +204,12 @@ void Window::draw(const Overlay& overlay, const Image& picture) {
 }
 
 int Window::line_height() const {
-  return font_ == nullptr ? kPoints + 3 : TTF_FontLineSkip(font_);
+  return font_ == nullptr ? kPoints + 3 : sdl().TTF_FontLineSkip(font_);
 }
 
 int Window::width_of(const std::string& text) const {
   int width = 0;
-  if (font_ != nullptr) TTF_SizeUTF8(font_, text.c_str(), &width, nullptr);
+  if (font_ != nullptr) sdl().TTF_SizeUTF8(font_, text.c_str(), &width, nullptr);
   return width;
 }
 
@@ -216,21 +217,22 @@ int Window::write(const std::string& text, int x, int y, Overlay::Colour colour)
   if (font_ == nullptr) return 0;
   if (text.empty()) return line_height();
   const Surface letters(
-      TTF_RenderUTF8_Blended(font_, text.c_str(), {colour.r, colour.g, colour.b, colour.a}));
+      sdl().TTF_RenderUTF8_Blended(font_, text.c_str(), {colour.r, colour.g, colour.b, colour.a}));
   if (!letters) return line_height();
   SDL_Rect at = {x, y, 0, 0};
-  SDL_BlitSurface(letters.get(), nullptr, together_.get(), &at);
+  sdl().SDL_BlitSurface(letters.get(), nullptr, together_.get(), &at);
   return line_height();
 }
 
 void Window::shade(int x, int y, int width, int height, Overlay::Colour colour) {
   if (width <= 0 || height <= 0) return;
-  const Surface patch(SDL_CreateRGBSurfaceWithFormat(0, width, height, 32, SDL_PIXELFORMAT_RGBA32));
+  const Surface patch(sdl().SDL_CreateRGBSurfaceWithFormat(0, width, height, 32, SDL_PIXELFORMAT_RGBA32));
   if (!patch) return;
-  SDL_FillRect(patch.get(), nullptr, SDL_MapRGBA(patch->format, colour.r, colour.g, colour.b, colour.a));
-  SDL_SetSurfaceBlendMode(patch.get(), SDL_BLENDMODE_BLEND);
+  sdl().SDL_FillRect(patch.get(), nullptr,
+                     sdl().SDL_MapRGBA(patch->format, colour.r, colour.g, colour.b, colour.a));
+  sdl().SDL_SetSurfaceBlendMode(patch.get(), SDL_BLENDMODE_BLEND);
   SDL_Rect at = {x, y, 0, 0};
-  SDL_BlitSurface(patch.get(), nullptr, together_.get(), &at);
+  sdl().SDL_BlitSurface(patch.get(), nullptr, together_.get(), &at);
 }
 
 } // namespace celltrace::viewer
