@@ -48,7 +48,7 @@ inline void set(kernel::VectorLanes& v, unsigned lane, const Vec3& value) {
   v.z.lane[lane] = static_cast<float>(value.z);
 }
 
-/// A number of repetitions, fewer where sanitizers make each of them slow.
+/// A number of repetitions, fewer where sanitizers or emulated processors make each of them slow.
 constexpr int times(int repetitions) {
 #ifdef CELLTRACE_SLOW_BUILD
   return repetitions / 16;
