@@ -76,10 +76,16 @@ void CelltraceQueries::closest_hits(std::span<const Ray> rays, std::span<float> 
                    [this](const Ray& ray) { return queries_.closest_hit(ray).distance; });
     return;
   }
-  hits_.resize(rays.size());
-  queries_.closest_hits(rays, hits_);
-  std::transform(hits_.begin(), hits_.end(), distances.begin(),
-                 [](const RayHit& hit) { return hit.distance; });
+  // As applications ask that use hits while these are in the caches: tile by tile.
+  constexpr std::size_t kTile = 4096;
+  hits_.resize(kTile);
+  for (std::size_t first = 0; first < rays.size(); first += kTile) {
+    const std::size_t count = std::min(kTile, rays.size() - first);
+    queries_.closest_hits(rays.subspan(first, count), std::span(hits_).first(count));
+    std::transform(hits_.begin(), hits_.begin() + static_cast<std::ptrdiff_t>(count),
+                   distances.begin() + static_cast<std::ptrdiff_t>(first),
+                   [](const RayHit& hit) { return hit.distance; });
+  }
 }
 
 /// The statistics have no processor time; what the call took in all goes to `trace`.

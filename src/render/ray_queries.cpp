@@ -3,7 +3,6 @@
 #include "render/tracer_program.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <new>
 #include <string>
 #include <utility>
@@ -50,13 +49,14 @@ public:
   }
   void closest_hits(std::span<const Ray> rays, std::span<RayHit> hits) {
     check_size(rays, hits.size());
-    constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max() / 256 * 256;
+    // So many whole bundles that their hits are in a cache of the second level when they get their names.
+    constexpr std::size_t kMost = 4096;
     for (std::size_t first = 0; first < rays.size(); first += kMost) {
-      const std::size_t count = std::min(kMost, rays.size() - first);
-      functions_.closest_hits(state_, rays.data() + first, hits.data() + first,
-                              static_cast<std::uint32_t>(count));
+      const std::span<RayHit> some = hits.subspan(first, std::min(kMost, rays.size() - first));
+      functions_.closest_hits(state_, rays.data() + first, some.data(),
+                              static_cast<std::uint32_t>(some.size()));
+      std::for_each(some.begin(), some.end(), [this](RayHit& hit) { name(hit); });
     }
-    std::for_each(hits.begin(), hits.end(), [this](RayHit& hit) { name(hit); });
   }
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> results) {
     check_size(rays, results.size());

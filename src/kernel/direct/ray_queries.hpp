@@ -48,7 +48,9 @@ public:
   }
 
   void closest_hits(const Ray* rays, RayHit* hits, uint32_t count) {
-    for (uint32_t first = 0; first < count; first += kBundlePackets<Spu> * kSimdLanes) {
+    constexpr uint32_t kBundleRays = kBundlePackets<Spu> * kSimdLanes;
+    for (uint32_t first = 0; first < count; first += kBundleRays) {
+      prefetch(rays, first + kBundleRays, first + 2 * kBundleRays);
       uint32_t packets = 0;
       for (; packets < kBundlePackets<Spu> && first + packets * kSimdLanes < count; ++packets) {
         const uint32_t begin = first + packets * kSimdLanes, left = count - begin;
@@ -56,11 +58,8 @@ public:
       }
       traversal_.find_closest_within(queries_, packets);
       for (uint32_t packet = 0; packet < packets; ++packet) {
-        const HitPacket& found = hits_[packet];
-        RayHit* const to = hits + first + packet * kSimdLanes;
-        const uint32_t left = count - first - packet * kSimdLanes;
-        for (uint32_t i = 0; i < kSimdLanes && i < left; ++i)
-          set(to[i], found.object.lane[i], found.distance.lane[i], found.u.lane[i], found.v.lane[i]);
+        const uint32_t begin = first + packet * kSimdLanes, left = count - begin;
+        set(hits + begin, left < kSimdLanes ? left : kSimdLanes, hits_[packet]);
       }
     }
   }
@@ -95,6 +94,34 @@ private:
       hit = {distance, u, v, RayHit::kNone, object};
   }
 
+  static void set(RayHit* hits, uint32_t count, const HitPacket& found) {
+    using F = typename S::F;
+    using I = typename S::I;
+    static_assert(offsetof(RayHit, object) == 12 && RayHit::kNone == kNoOffset);
+    const I none = I::splat(-1);
+    const auto missed = I::load(reinterpret_cast<const int32_t*>(found.object.lane)) == none;
+    // A row of four fields for each lane.
+    F rows[4] = {S::select(missed, F(kEndless), F::load(found.distance.lane)),
+                 S::select(missed, F(0.0f), F::load(found.u.lane)),
+                 S::select(missed, F(0.0f), F::load(found.v.lane)), S::float_of(none)};
+    S::transpose_quads(rows[0], rows[1], rows[2], rows[3]);
+    alignas(64) float of_lane[4][kSimdLanes];
+    for (uint32_t i = 0; i < 4; ++i)
+      rows[i].store(of_lane[i]);
+    for (uint32_t i = 0; i < count; ++i) {
+      __builtin_memcpy(static_cast<void*>(&hits[i]), &of_lane[i % 4][i - i % 4], offsetof(RayHit, record));
+      hits[i].record = found.object.lane[i];
+    }
+  }
+
+  /// Rays `begin` to `end`, which need not be there: rays come from main memory while others are traced.
+  static void prefetch(const Ray* rays, uint32_t begin, uint32_t end) {
+    constexpr uint32_t kRaysALine = 64 / sizeof(Ray);
+    const uintptr_t address = reinterpret_cast<uintptr_t>(rays);
+    for (uint32_t i = begin; i < end; i += kRaysALine)
+      __builtin_prefetch(reinterpret_cast<const void*>(address + i * sizeof(Ray)));
+  }
+
   static float end_of(const Ray& ray) { return ray.tfar < kMaxHitDistance ? ray.tfar : kMaxHitDistance; }
 
   static void start(const Ray& ray, SingleRay<S>& single) {
@@ -112,22 +139,32 @@ private:
 
   /// Rays that are fewer than a packet's lanes are followed by copies of the last one.
   void start(const Ray* rays, uint32_t count, uint32_t packet) {
+    using F = typename S::F;
+    static_assert(offsetof(Ray, direction) == 12 && offsetof(Ray, tfar) == 24);
+    const auto ray = [&](uint32_t lane) { return &rays[lane < count ? lane : count - 1]; };
+    F of_origin[4], of_direction[4]; // x, y, z and what lies behind or before
+    for (uint32_t i = 0; i < 4; ++i) {
+      const Ray *const a = ray(i), *const b = ray(i + 4), *const c = ray(i + 8), *const d = ray(i + 12);
+      of_origin[i] = S::join(quad(a, 0), quad(b, 0), quad(c, 0), quad(d, 0));
+      of_direction[i] = S::join(quad(a, 12), quad(b, 12), quad(c, 12), quad(d, 12));
+    }
+    S::transpose_quads(of_origin[0], of_origin[1], of_origin[2], of_origin[3]);
+    S::transpose_quads(of_direction[0], of_direction[1], of_direction[2], of_direction[3]);
     RayPacket& to = packets_[packet];
     HitPacket& hits = hits_[packet];
-    for (uint32_t i = 0; i < kSimdLanes; ++i) {
-      const Ray& ray = rays[i < count ? i : count - 1];
-      to.origin.x.lane[i] = ray.origin[0];
-      to.origin.y.lane[i] = ray.origin[1];
-      to.origin.z.lane[i] = ray.origin[2];
-      to.direction.x.lane[i] = ray.direction[0];
-      to.direction.y.lane[i] = ray.direction[1];
-      to.direction.z.lane[i] = ray.direction[2];
-      hits.distance.lane[i] = end_of(ray);
-    }
-    to.direction.template store<S>(normalise<S>(to.direction.template load<S>()));
+    to.origin.template store<S>({of_origin[0], of_origin[1], of_origin[2]});
+    to.direction.template store<S>(normalise<S>({of_direction[0], of_direction[1], of_direction[2]}));
+    const F farthest(kMaxHitDistance), tfar = of_direction[3];
+    S::select(tfar < farthest, tfar, farthest).store(hits.distance.lane);
     S::I::splat(-1).store(reinterpret_cast<int32_t*>(to.start_object.lane));
     S::I::splat(-1).store(reinterpret_cast<int32_t*>(hits.object.lane));
     queries_[packet] = {&to, &hits, nullptr, nullptr, (2u << (count - 1)) - 1};
+  }
+  /// Four numbers from `offset` bytes on.
+  [[gnu::always_inline]] static typename S::F4 quad(const Ray* ray, uint32_t offset) {
+    alignas(16) float numbers[4];
+    __builtin_memcpy(numbers, reinterpret_cast<const char*>(ray) + offset, sizeof numbers);
+    return S::F4::load(numbers);
   }
 
   const FrameBlock& frame_;
