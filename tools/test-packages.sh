@@ -54,6 +54,9 @@ use_packages() {
     celltrace render --backend "$backend" -W 80 -H 60 -o "$backend.png" examples/scenes/first.pov
   done
   cmp native.png cell_emu.png
+  say "a window without SDL2, which is recommended only"
+  if DISPLAY=:0 celltrace view examples/scenes/first.pov 2> view.log; then false; fi
+  grep "a window needs SDL2" view.log
 
   add ./libcelltrace0_*.deb ./python3-celltrace_*.deb
   say "a picture by Python"
