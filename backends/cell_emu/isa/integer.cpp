@@ -161,8 +161,8 @@ void mpya(State& state, const Instruction& i) {
 }
 
 void clz(State& state, const Instruction& i) {
-  // Of 64 bits, the lower of which end the count at 32: where POWER has no vectors, GCC 12 counts the zeros of
-  // two words that lie in one register as those of one number.
+  // Of 64 bits, the lower of which end the count at 32: where POWER has no vectors, GCC 12 counts the zeros
+  // of two words that lie in one register as those of one number.
   of_ra<U32>(state, i, [](U32 x) { return std::countl_zero(std::uint64_t{x} << 32 | 0x80000000u); });
 }
 void cntb(State& state, const Instruction& i) {
