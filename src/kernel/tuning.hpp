@@ -27,6 +27,17 @@ constexpr uint32_t kBundleEdgeInLocalStore = 2;
 /// smaller: more traversals, with tighter ones. 'trace time' of scenes with mirrors and glass; also for SPEs.
 constexpr float kMaxDirectionSpread = 1.0f;
 
+/// Rays of a packet that do not share a frustum by that are traced by blocks of 2x2 and one by one. Where
+/// processors test all lanes at once, one traversal with all rays of an octant (whose directions differ by 3
+/// at most) costs less, even if many of its nodes are hit by few rays. 'trace time' of scenes with mirrors.
+constexpr float kMaxPacketSpread = 3.0f;
+constexpr float kMaxPacketSpreadInLocalStore = kMaxDirectionSpread;
+
+/// A packet with so many rays of one tree goes on by itself; those of others are gathered into full packets.
+/// Larger: fewer lanes are empty; smaller: more packets have rays that are close to each other. 'trace time'
+/// of scenes with mirrors and glass, at 320x240.
+constexpr int kLeastRaysByThemselves = 12;
+
 /// Nodes that a bundle's frustum alone is tested against before its rays are made. Larger: more of the
 /// bundles that hit nothing are found; smaller: the tighter frusta of packets are tested from an earlier node
 /// on. Rays of the models, and of legocar most of all, which leaves much of its picture empty.

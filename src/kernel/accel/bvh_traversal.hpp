@@ -103,7 +103,7 @@ private:
         const uint32_t subset = same & subset_of(level, static_cast<uint32_t>(__builtin_ctz(same)));
         objects_.scene().spu().compute(scalar_work::kFrustum);
         const RayBounds bounds = bounds_of<S>(rays, subset);
-        if (bounds.direction_spread() > tuning::kMaxDirectionSpread) {
+        if (bounds.direction_spread() > kMaxPacketSpread<Spu>) {
           ++level;
           continue;
         }

@@ -108,6 +108,20 @@ public:
     bvh_.intersect(queries, count, OriginBundle<S>(queries, count));
   }
 
+  /// As intersect(), of rays that may all start at one point. May change the order of the queries.
+  void intersect_from_origin(RayQuery* queries, uint32_t count) {
+    if constexpr (kHasBundleViews<Spu> && kHasBvh) {
+      if (uses_bvh()) {
+        reset_hits(queries, count);
+        intersect_unbounded(queries, count);
+        const uint32_t with_rays = queries_with_rays(queries, count);
+        if (with_rays != 0) bvh_.intersect(queries, with_rays, OriginBundle<S>(queries, with_rays));
+        return;
+      }
+    }
+    intersect(queries, count);
+  }
+
   /// Starts the traversal for a bundle of primary rays. False: certainly none of them hits anything.
   bool enter(const PinholeBundle<S>& bundle) {
     if constexpr (kHasBvh)

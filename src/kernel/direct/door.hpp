@@ -32,6 +32,9 @@ template <class Spu> constexpr bool kHasBundleViews = Spu::direct_memory;
 /// gathered (AreaOccluders).
 template <class Spu> constexpr bool kGathersOccluders = Spu::direct_memory;
 
+/// Rays of a bundle's trees are gathered into full packets (RayPool).
+template <class Spu> constexpr bool kPoolsRays = Spu::direct_memory;
+
 /// The SPEs build the BVH (build_bvh.hpp). Otherwise the PPE's side has it built before it starts them.
 template <class Spu> constexpr bool kBuildsBvh = Spu::direct_memory;
 
@@ -41,5 +44,10 @@ constexpr uint32_t bundle_edge(bool direct) {
 }
 template <class Spu> constexpr uint32_t kBundleEdge = bundle_edge(Spu::direct_memory);
 template <class Spu> constexpr uint32_t kBundlePackets = kBundleEdge<Spu>* kBundleEdge<Spu>;
+
+/// The most that directions of a packet's rays differ by which are traced at once.
+template <class Spu>
+constexpr float kMaxPacketSpread =
+    Spu::direct_memory ? tuning::kMaxPacketSpread : tuning::kMaxPacketSpreadInLocalStore;
 
 } // namespace celltrace::kernel

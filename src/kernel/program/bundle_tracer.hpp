@@ -23,7 +23,7 @@ public:
       : frame_(frame), scene_(scene), samples_(samples), traversal_(scene, frame),
         tracer_(spu, frame, scene, spill, frame.ray_stack_nodes, *spu.template allocate<RayNode>()),
         members_(spu.template allocate<Member>(kPackets)), area_(allocate_area_shadow(spu, frame)),
-        walk_(allocate_shadow_walk(spu, frame)) {
+        walk_(allocate_shadow_walk(spu, frame)), pool_(spu) {
     static_assert(sizeof(ShadowWalk<S>) <= kResidentNodes * sizeof(RayNode), "lies where nodes would");
     static_assert(sizeof(AreaShadow<S>) <= kResidentNodes * sizeof(RayNode), "lies where nodes would");
   }
@@ -39,7 +39,7 @@ public:
     if constexpr (kHasBundleViews<Spu>) {
       if (takes_samples()) {
         place(0, 0);
-        find_hits([&](RayQuery* queries) { traversal_.intersect(queries, kPackets); });
+        find_hits([&](RayQuery* queries) { traversal_.intersect_from_origin(queries, kPackets); });
       } else {
         const PinholeBundle<S> bundle(frame_, column, row);
         const bool missed = !traversal_.enter(bundle);
@@ -60,12 +60,18 @@ public:
       find_hits([&](RayQuery* queries) { traversal_.intersect(queries, kPackets); });
     }
     find_lights();
+    if constexpr (kPoolsRays<Spu>)
+      if (!trace_pooled(stopped)) return pool_.rays.clear();
     for (uint32_t i = 0; i < kPackets; ++i) {
       Member& member = members_[i];
       if (member.pixels == 0) continue;
       V3<S> seen;
-      if (samples_ != nullptr) tracer_.add_clear_to(samples_->at[i].clear);
-      if (!trace(member, seen, stopped)) return;
+      if constexpr (kPoolsRays<Spu>) {
+        seen = pool_.light[i].template load<S>();
+      } else {
+        if (samples_ != nullptr) tracer_.add_clear_to(samples_->at[i].clear);
+        if (!trace(member, seen, stopped)) return;
+      }
       if (member.lanes != member.pixels) {
         const F black(0.0f);
         seen = select<S>(S::M::from_bits(member.lanes), seen, {black, black, black});
@@ -308,14 +314,20 @@ private:
   /// The colours of a packet, of which the hits are known and the light of the first round. False: it was
   /// stopped on the way.
   template <class Stopped> bool trace(Member& member, V3<S>& colour, Stopped stopped) {
-    const LightRound first = LightRound::from(frame_, 0, member.light);
     if constexpr (kHasRoomForCode<Spu>) {
-      if (tracer_.ends_at_once(member.rays, member.lanes, member.hits, member.points, first, colour))
+      const LightRound all = LightRound::from(frame_, 0, member.light);
+      if (tracer_.ends_at_once(member.rays, member.lanes, member.hits, member.points, all, colour))
         return true;
     }
     tracer_.begin(member.rays, member.lanes);
     tracer_.hits() = member.hits;
-    for (bool is_first = true;; is_first = false) {
+    return trace_tree(member, true, colour, stopped);
+  }
+  /// The colours of the tree that has begun. `is_first`: its hits are those of the member, whose light is
+  /// known.
+  template <class Stopped> bool trace_tree(Member& member, bool is_first, V3<S>& colour, Stopped stopped) {
+    const LightRound first = LightRound::from(frame_, 0, member.light);
+    for (;; is_first = false) {
       const uint32_t hit = tracer_.take_hits();
       if (hit != 0) {
         const RayNode& node = tracer_.node();
@@ -336,6 +348,45 @@ private:
                               tracer_.node().reflected);
     }
     colour = tracer_.light();
+    return true;
+  }
+
+  /// The colours of all packets of the bundle, whose rays go on in packets that the trees share. False: it
+  /// was stopped on the way.
+  template <class Stopped> bool trace_pooled(Stopped stopped) {
+    RayPooling<Spu>& pooling = tracer_.pooling();
+    pooling.pool = &pool_.rays;
+    V3<S> seen;
+    for (uint32_t i = 0; i < kPackets; ++i) {
+      Member& member = members_[i];
+      if (member.pixels == 0) continue;
+      if (samples_ != nullptr) tracer_.add_clear_to(samples_->at[i].clear);
+      for (uint32_t lane = 0; lane < kSimdLanes; ++lane)
+        pooling.pixels.lane[lane] = i * kSimdLanes + lane;
+      if (!trace(member, seen, stopped)) return false;
+      pool_.light[i].template store<S>(seen);
+    }
+    FloatLanes& clear = pool_.clear;
+    tracer_.add_clear_to(clear);
+    while (!pool_.rays.empty()) {
+      if (stopped()) return false;
+      tracer_.begin(pool_.rays.take());
+      const uint32_t lanes = tracer_.node().lanes;
+      F(0.0f).store(clear.lane);
+      traversal_.find_closest(tracer_.node().rays, lanes, tracer_.hits(), tracer_.node().reflected);
+      if (!trace_tree(members_[0], false, seen, stopped)) return false;
+      VectorLanes light;
+      light.template store<S>(seen);
+      const WordLanes& pixels = pooling.pixels;
+      for_each_lane(lanes, [&](uint32_t lane) {
+        const uint32_t packet = pixels.lane[lane] / kSimdLanes, to = pixels.lane[lane] % kSimdLanes;
+        VectorLanes& sum = pool_.light[packet];
+        sum.x.lane[to] += light.x.lane[lane];
+        sum.y.lane[to] += light.y.lane[lane];
+        sum.z.lane[to] += light.z.lane[lane];
+        if (samples_ != nullptr) samples_->at[packet].clear.lane[to] += clear.lane[lane];
+      });
+    }
     return true;
   }
 
@@ -360,6 +411,14 @@ private:
   Member* members_;
   AreaShadow<S>* area_;          ///< null if no light has an area
   ShadowWalk<S>* walk_;          ///< null if shadow rays need none
+  /// Of rays that go on, and the light that has come to the pixels of each packet.
+  struct Pool {
+    explicit Pool(Spu& spu) : rays(spu), light(spu.template allocate<VectorLanes>(kPackets)) {}
+    RayPool<Spu> rays;
+    VectorLanes* light;
+    FloatLanes clear; ///< of the rays that are being traced
+  };
+  detail::Present<Pool, kPoolsRays<Spu>> pool_;
   const RayNode* lit_ = nullptr; ///< whose hits lights are looked for at; null: those of primary rays
 };
 

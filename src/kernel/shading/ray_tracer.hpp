@@ -2,6 +2,7 @@
 // level and by contribution (adaptive depth control, Hall and Greenberg 1983). Kernel dialect.
 #pragma once
 
+#include "kernel/direct/ray_pool.hpp"
 #include "kernel/modules.hpp"
 #include "kernel/shading/atmosphere.hpp"
 #include "kernel/shading/fading.hpp"
@@ -75,6 +76,14 @@ public:
     stack_.clear(); // the tree before may have been broken off
     start(rays, lanes);
   }
+  /// Starts with rays of a pool, each of which goes on in its own tree.
+  void begin(const PooledPacket& packet) {
+    clear(0);
+    accumulators_in_use_ = 1;
+    stack_.clear();
+    node_ = packet.node;
+    pooling_.pixels = packet.pixels;
+  }
   /// The rays whose closest hits are wanted next, and where to put them.
   const RayNode& node() const { return node_; }
   HitPacket& hits() { return hits_; }
@@ -114,6 +123,9 @@ public:
 
   /// Where trees that begin from now on add how clear their pixels are. Wanted with light_way::alpha.
   void add_clear_to(FloatLanes& clear) { clear_ = &clear; }
+
+  /// Which rays go to a pool, and which pixels those are of that are traced.
+  RayPooling<Spu>& pooling() { return pooling_; }
 
   /// Rays that were traced for a round of lights beyond those that shading counts.
   void count_shadow_rays(uint32_t rays) { counters_.shadow += rays; }
@@ -164,6 +176,7 @@ private:
   }
 
   bool push() {
+    if ((child_.target | child_.gathers) == 0 && pooling_.takes(child_)) return true;
     const bool room = stack_.push(child_);
     if (!room) counters_.dropped += count(child_.lanes);
     return room;
@@ -511,6 +524,7 @@ private:
   const FrameBlock& frame_;
   SceneAccess<Spu>& scene_;
   RayStack<Spu, kResident> stack_;
+  RayPooling<Spu> pooling_;
   RayNode& node_;         ///< being traced
   RayNode& child_;        ///< being made
   SurfaceLanes* surface_; ///< at the hits; null: no pattern of the scene asks for it

@@ -1,0 +1,144 @@
+// Rays of many ray trees in full packets. Kernel dialect, where memory is direct.
+//
+// Behind surfaces that mirror or bend rays most packets of a tree have few rays each. Those of all trees of a
+// bundle are gathered here by the octants of their directions, and traced as many at a time as there are
+// lanes.
+#pragma once
+
+#include "kernel/accel/frustum.hpp"
+#include "kernel/shading/ray_stack.hpp"
+
+namespace celltrace::kernel {
+
+/// Rays of different trees, all of which go to their pixels' own light.
+struct PooledPacket {
+  RayNode node;
+  WordLanes pixels; ///< of the bundle, by lane
+};
+
+/// Packets of rays, one of each octant being filled. Full ones are taken first, the youngest before the
+/// others: so the pool holds few rays at any time.
+template <class Spu> class RayPool {
+public:
+  explicit RayPool(Spu& spu) : packets_(spu.template allocate<PooledPacket>(kPackets)) { clear(); }
+
+  bool empty() const { return full_ == 0 && filling_rays_ == 0; }
+  void clear() {
+    full_ = filling_rays_ = free_count_ = 0;
+    while (free_count_ < kPackets) {
+      free_[free_count_] = free_count_;
+      ++free_count_;
+    }
+    for (uint32_t octant = 0; octant < kOctants; ++octant)
+      begin_packet(octant);
+  }
+
+  /// Adds the rays of a node. False: they are as well off by themselves, or there is no room for them.
+  bool add(const RayNode& node, const WordLanes& pixels) {
+    if (__builtin_popcount(node.lanes) >= tuning::kLeastRaysByThemselves || free_count_ < kOctants)
+      return false;
+    for_each_lane(node.lanes, [&](uint32_t lane) {
+      const uint32_t octant = octant_of(node.rays, lane);
+      copy_ray(node, pixels, lane, packets_[filling_[octant]], count_[octant]++);
+      ++filling_rays_;
+      if (count_[octant] < kSimdLanes) return;
+      full_packets_[full_++] = filling_[octant];
+      filling_rays_ -= kSimdLanes;
+      begin_packet(octant);
+    });
+    return true;
+  }
+
+  /// The packet to be traced next; there is one. It stays where it is until rays are added.
+  const PooledPacket& take() {
+    uint32_t taken;
+    if (full_ != 0) {
+      taken = full_packets_[--full_];
+    } else {
+      const uint32_t octant = fill_up();
+      taken = filling_[octant];
+      filling_rays_ -= count_[octant];
+      begin_packet(octant);
+    }
+    free_[free_count_++] = taken;
+    return packets_[taken];
+  }
+
+private:
+  static constexpr uint32_t kOctants = 8;
+  /// Those that are being filled, some for each packet of a bundle, and those that wait on the way down the
+  /// trees.
+  static constexpr uint32_t kPackets = 64;
+
+  void begin_packet(uint32_t octant) {
+    count_[octant] = 0;
+    filling_[octant] = free_[--free_count_];
+    RayNode& node = packets_[filling_[octant]].node;
+    node.lanes = node.reflected = node.target = node.gathers = 0;
+  }
+
+  /// Adds the rays of other packets to the one with the most rays, as long as there is room for all of one.
+  /// Returns its octant.
+  uint32_t fill_up() {
+    uint32_t most = 0;
+    for (uint32_t octant = 1; octant < kOctants; ++octant)
+      if (count_[octant] > count_[most]) most = octant;
+    PooledPacket& packet = packets_[filling_[most]];
+    for (uint32_t octant = 0; octant < kOctants; ++octant) {
+      if (octant == most || count_[most] + count_[octant] > kSimdLanes) continue;
+      PooledPacket& other = packets_[filling_[octant]];
+      for (uint32_t lane = 0; lane < count_[octant]; ++lane)
+        copy_ray(other.node, other.pixels, lane, packet, count_[most]++);
+      count_[octant] = 0;
+      other.node.lanes = other.node.reflected = 0;
+    }
+    return most;
+  }
+
+  static void copy_ray(const RayNode& from, const WordLanes& pixels, uint32_t lane, PooledPacket& packet,
+                       uint32_t to_lane) {
+    RayNode& to = packet.node;
+    const auto copy = [&](const auto& source, auto& target) { target.lane[to_lane] = source.lane[lane]; };
+    const auto copy_vector = [&](const VectorLanes& source, VectorLanes& target) {
+      copy(source.x, target.x);
+      copy(source.y, target.y);
+      copy(source.z, target.z);
+    };
+    copy_vector(from.rays.origin, to.rays.origin);
+    copy_vector(from.rays.direction, to.rays.direction);
+    copy(from.rays.start_object, to.rays.start_object);
+    copy_vector(from.throughput, to.throughput);
+    copy(from.weight, to.weight);
+    copy(from.level, to.level);
+    copy(from.power, to.power);
+    copy(from.interior_depth, to.interior_depth);
+    for (uint32_t i = 0; i < from.interior_depth.lane[lane]; ++i)
+      copy(from.interiors[i], to.interiors[i]);
+    copy(pixels, packet.pixels);
+    to.lanes |= 1u << to_lane;
+    to.reflected |= (from.reflected >> lane & 1) << to_lane;
+  }
+
+  PooledPacket* packets_;
+  // Numbers of packets.
+  uint32_t free_[kPackets], free_count_ = 0;
+  uint32_t full_packets_[kPackets], full_ = 0;
+  uint32_t filling_[kOctants];
+
+  uint32_t count_[kOctants];  ///< rays of packets that are being filled
+  uint32_t filling_rays_ = 0; ///< all of them
+};
+
+/// What a tracer has to do with a pool: nothing, where rays stay in the packets of their trees.
+template <class Spu, bool kPools = kPoolsRays<Spu>> struct RayPooling {
+  bool takes(const RayNode&) { return false; }
+};
+template <class Spu> struct RayPooling<Spu, true> {
+  RayPool<Spu>* pool = nullptr;
+  WordLanes pixels; ///< of the bundle, that the lanes of the rays are which are being traced
+
+  /// False: they are to stay.
+  bool takes(const RayNode& node) { return pool != nullptr && pool->add(node, pixels); }
+};
+
+} // namespace celltrace::kernel
