@@ -30,13 +30,16 @@ struct FractalPattern : RarePattern {
     }
     M stays = M::all();
     const uint32_t most = static_cast<uint32_t>(r.parameter[2]);
+    // Numbers that have left are iterated on, wherever to: the next number does not wait for which they are.
+    Complex<S> left = z;
     for (uint32_t i = 0; i < most; ++i) {
-      const Complex<S> next = magnet == 0 ? plus<S>(power<S>(z, r.table & fractal_word::exponent_mask), c)
-                                          : magnetic<S>(z, c, magnet);
-      z = {S::select(stays, next.a, z.a), S::select(stays, next.b, z.b)};
+      z = magnet == 0 ? plus<S>(power<S>(z, r.table & fractal_word::exponent_mask), c)
+                      : magnetic<S>(z, c, magnet);
       const F size = square<S>(z);
       M leaves = size > F(magnet == 0 ? 4.0f : 10000.0f);
       if (magnet != 0) leaves = leaves | (square<S>({z.a - F(1.0f), z.b}) < F(0.0001f));
+      leaves = leaves & stays;
+      left = {S::select(leaves, z.a, left.a), S::select(leaves, z.b, left.b)};
       stays = stays & !leaves;
       if (stays.bits() == 0) break;
       rounds = S::select(stays, F(static_cast<float>(i + 1)), rounds);
@@ -46,8 +49,8 @@ struct FractalPattern : RarePattern {
     const uint32_t inside = r.table >> fractal_word::interior_shift & fractal_word::type_mask;
     const F factor(r.parameter[3]), inner(r.parameter[4]);
     const F of_outside = outside == 1   ? rounds * F(1.0f / r.parameter[2])
-                         : outside == 6 ? S::sqrt(square<S>(z)) * factor
-                                        : counted<S>(z, outside, factor);
+                         : outside == 6 ? S::sqrt(square<S>(left)) * factor
+                                        : counted<S>(left, outside, factor);
     const F of_inside = inside == 1   ? S::sqrt(least) * inner
                         : inside == 6 ? z.a * z.a + z.b * z.b * inner // POV-Ray's factor is only of one
                                       : counted<S>(z, inside, inner);
