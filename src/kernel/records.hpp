@@ -495,6 +495,7 @@ constexpr uint32_t alpha = 0x20; ///< how clear each pixel is is wanted, too
 /// With `alpha`: only rays that came by a mirror see sky and background.
 constexpr uint32_t no_backdrop = 0x40;
 constexpr uint32_t first_hits = 0x80; ///< what each primary ray hits is wanted, too
+constexpr uint32_t jitter = 0x100;    ///< places of lights are moved, in each lane otherwise
 } // namespace light_way
 
 /// Head of a scene image.
@@ -689,7 +690,7 @@ struct alignas(128) FrameBlock {
   /// kGridPacketBytes per packet, row by row, then with light_way::first_hits a FirstHitRecord per packet;
   /// none if all frames are pictures.
   ea_t grid_points;
-  ea_t sample_store;     ///< sample_store_bytes() per SPE, its own; likewise
+  ea_t sample_store; ///< sample_store_bytes() per SPE, its own; likewise
   /// Of a command: PREPARE FRAME's work memory, `work_entries` pairs of 8 bytes each; SYNCHRONIZE's list of
   /// lines that are out of date, the first block alone, whole lines of it, of `work_entries` words.
   ea_t work_memory[2];

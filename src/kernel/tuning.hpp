@@ -38,6 +38,11 @@ constexpr float kMaxPacketSpreadInLocalStore = kMaxDirectionSpread;
 /// of scenes with mirrors and glass, at 320x240.
 constexpr int kLeastRaysByThemselves = 12;
 
+/// Packets of a bundle of which two corners hit different materials: with so many the bundle's rays are
+/// sorted by materials, if that is found to pay. Smaller: materials are counted in vain; larger: packets with
+/// several materials stay. 'trace time' of scenes with many small objects; of others the cost.
+constexpr uint32_t kLeastMixedPackets = 4;
+
 /// Nodes that a bundle's frustum alone is tested against before its rays are made. Larger: more of the
 /// bundles that hit nothing are found; smaller: the tighter frusta of packets are tested from an earlier node
 /// on. Rays of the models, and of legocar most of all, which leaves much of its picture empty.

@@ -226,6 +226,9 @@ void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& optio
   if (options.model != Model::shared && (header.light_ways & light_way::projectors) != 0)
     throw InputError("lights that are projected through something need the shared model");
   frame.light_places = 0;
+  if (std::any_of(scene.lights.begin(), scene.lights.end(),
+                  [](const Light& light) { return light.area && light.area->jitter; }))
+    frame.light_ways |= light_way::jitter;
   for (const Light& light : scene.lights)
     frame.light_places += light.area ? static_cast<std::uint32_t>(light.area->columns * light.area->rows) : 1;
   frame.max_trace_level =

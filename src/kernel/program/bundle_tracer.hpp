@@ -4,6 +4,7 @@
 
 #include "kernel/accel/traversal.hpp"
 #include "kernel/cameras/primary_rays.hpp"
+#include "kernel/direct/hit_sorting.hpp"
 #include "kernel/lights/area_shadow.hpp"
 #include "kernel/program/pixel_sampler.hpp"
 #include "kernel/shading/ray_tracer.hpp"
@@ -66,17 +67,19 @@ public:
       Member& member = members_[i];
       if (member.pixels == 0) continue;
       V3<S> seen;
+      uint32_t with_ray = member.lanes;
       if constexpr (kPoolsRays<Spu>) {
+        with_ray = pool_.with_ray[i];
         seen = pool_.light[i].template load<S>();
       } else {
         if (samples_ != nullptr) tracer_.add_clear_to(samples_->at[i].clear);
         if (!trace(member, seen, stopped)) return;
       }
-      if (member.lanes != member.pixels) {
+      if (with_ray != member.pixels) {
         const F black(0.0f);
-        seen = select<S>(S::M::from_bits(member.lanes), seen, {black, black, black});
+        seen = select<S>(S::M::from_bits(with_ray), seen, {black, black, black});
         if (samples_ != nullptr)
-          for_each_lane(member.pixels & ~member.lanes,
+          for_each_lane(member.pixels & ~with_ray,
                         [&](uint32_t lane) { samples_->at[i].clear.lane[lane] = 1.0f; });
       }
       put(member.column, member.row, seen);
@@ -185,6 +188,7 @@ private:
       queries[i] = {&member.rays, &member.hits, nullptr, nullptr, member.lanes};
     }
     run(queries);
+    if constexpr (kPoolsRays<Spu>) pool_.sort(scene_, frame_, members_);
     const bool hints = kPrefetchesLines<Spu> && frame_.object_count > tuning::kObjectsInCoreCache;
     for (uint32_t i = 0; i < kPackets; ++i) {
       Member& member = members_[i];
@@ -321,6 +325,8 @@ private:
     }
     tracer_.begin(member.rays, member.lanes);
     tracer_.hits() = member.hits;
+    if constexpr (kPoolsRays<Spu>)
+      pool_.find_places(static_cast<uint32_t>(&member - members_), tracer_.pooling().pixels);
     return trace_tree(member, true, colour, stopped);
   }
   /// The colours of the tree that has begun. `is_first`: its hits are those of the member, whose light is
@@ -355,39 +361,47 @@ private:
   /// was stopped on the way.
   template <class Stopped> bool trace_pooled(Stopped stopped) {
     RayPooling<Spu>& pooling = tracer_.pooling();
-    pooling.pool = &pool_.rays;
+    pooling.pool = has_own_lanes(frame_) ? nullptr : &pool_.rays;
+    const F zero(0.0f);
+    if (pool_.is_sorted)
+      for (uint32_t i = 0; i < kPackets; ++i)
+        pool_.light[i].template store<S>({zero, zero, zero});
+    tracer_.add_clear_to(pool_.clear);
     V3<S> seen;
     for (uint32_t i = 0; i < kPackets; ++i) {
       Member& member = members_[i];
-      if (member.pixels == 0) continue;
-      if (samples_ != nullptr) tracer_.add_clear_to(samples_->at[i].clear);
-      for (uint32_t lane = 0; lane < kSimdLanes; ++lane)
-        pooling.pixels.lane[lane] = i * kSimdLanes + lane;
+      if (member.lanes == 0) continue;
+      zero.store(pool_.clear.lane);
       if (!trace(member, seen, stopped)) return false;
-      pool_.light[i].template store<S>(seen);
+      if (pool_.is_sorted) {
+        add_to_pixels(pool_.sorter.places(i), member.lanes, seen);
+      } else {
+        pool_.light[i].template store<S>(seen);
+        if (samples_ != nullptr) samples_->at[i].clear = pool_.clear;
+      }
     }
-    FloatLanes& clear = pool_.clear;
-    tracer_.add_clear_to(clear);
     while (!pool_.rays.empty()) {
       if (stopped()) return false;
       tracer_.begin(pool_.rays.take());
       const uint32_t lanes = tracer_.node().lanes;
-      F(0.0f).store(clear.lane);
+      zero.store(pool_.clear.lane);
       traversal_.find_closest(tracer_.node().rays, lanes, tracer_.hits(), tracer_.node().reflected);
       if (!trace_tree(members_[0], false, seen, stopped)) return false;
-      VectorLanes light;
-      light.template store<S>(seen);
-      const WordLanes& pixels = pooling.pixels;
-      for_each_lane(lanes, [&](uint32_t lane) {
-        const uint32_t packet = pixels.lane[lane] / kSimdLanes, to = pixels.lane[lane] % kSimdLanes;
-        VectorLanes& sum = pool_.light[packet];
-        sum.x.lane[to] += light.x.lane[lane];
-        sum.y.lane[to] += light.y.lane[lane];
-        sum.z.lane[to] += light.z.lane[lane];
-        if (samples_ != nullptr) samples_->at[packet].clear.lane[to] += clear.lane[lane];
-      });
+      add_to_pixels(pooling.pixels, lanes, seen);
     }
     return true;
+  }
+  void add_to_pixels(const WordLanes& pixels, uint32_t lanes, const V3<S>& seen) {
+    VectorLanes light;
+    light.template store<S>(seen);
+    for_each_lane(lanes, [&](uint32_t lane) {
+      const uint32_t packet = pixels.lane[lane] / kSimdLanes, to = pixels.lane[lane] % kSimdLanes;
+      VectorLanes& sum = pool_.light[packet];
+      sum.x.lane[to] += light.x.lane[lane];
+      sum.y.lane[to] += light.y.lane[lane];
+      sum.z.lane[to] += light.z.lane[lane];
+      if (samples_ != nullptr) samples_->at[packet].clear.lane[to] += pool_.clear.lane[lane];
+    });
   }
 
   /// The light of a round at the hits of the node that is being traced.
@@ -409,16 +423,42 @@ private:
   Traversal<Spu, kAccelerators> traversal_;
   RayTracer<Spu> tracer_;
   Member* members_;
-  AreaShadow<S>* area_;          ///< null if no light has an area
-  ShadowWalk<S>* walk_;          ///< null if shadow rays need none
-  /// Of rays that go on, and the light that has come to the pixels of each packet.
+  AreaShadow<S>* area_; ///< null if no light has an area
+  ShadowWalk<S>* walk_; ///< null if shadow rays need none
+  /// Whether rays stay in the lanes of their pixels.
+  static constexpr bool has_own_lanes(const FrameBlock& frame) {
+    return (frame.light_ways & light_way::jitter) != 0;
+  }
+  /// Of rays that leave their packets, and the light that has come to the pixels of each.
   struct Pool {
-    explicit Pool(Spu& spu) : rays(spu), light(spu.template allocate<VectorLanes>(kPackets)) {}
+    explicit Pool(Spu& spu) : rays(spu), sorter(spu), light(spu.template allocate<VectorLanes>(kPackets)) {}
+
+    /// Not where first hits are wanted by pixel.
+    void sort(SceneAccess<Spu>& scene, const FrameBlock& frame, Member* members) {
+      for (uint32_t i = 0; i < kPackets; ++i)
+        with_ray[i] = members[i].lanes;
+      is_sorted = frame.object_count <= tuning::kObjectsInCoreCache &&
+                  (frame.light_ways & light_way::first_hits) == 0 && !has_own_lanes(frame) &&
+                  sorter.sort(scene, members);
+    }
+    /// The pixels that the rays of a member are those of.
+    void find_places(uint32_t member, WordLanes& places) const {
+      if (is_sorted) {
+        places = sorter.places(member);
+        return;
+      }
+      for (uint32_t lane = 0; lane < kSimdLanes; ++lane)
+        places.lane[lane] = member * kSimdLanes + lane;
+    }
+
     RayPool<Spu> rays;
+    HitSorter<Spu> sorter;
     VectorLanes* light;
-    FloatLanes clear; ///< of the rays that are being traced
+    FloatLanes clear;            ///< of the rays that are being traced
+    uint32_t with_ray[kPackets]; ///< lanes of the pixels that have one
+    bool is_sorted = false;
   };
-  detail::Present<Pool, kPoolsRays<Spu>> pool_;
+  [[no_unique_address]] detail::Present<Pool, kPoolsRays<Spu>> pool_;
   const RayNode* lit_ = nullptr; ///< whose hits lights are looked for at; null: those of primary rays
 };
 

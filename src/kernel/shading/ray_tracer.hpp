@@ -524,7 +524,7 @@ private:
   const FrameBlock& frame_;
   SceneAccess<Spu>& scene_;
   RayStack<Spu, kResident> stack_;
-  RayPooling<Spu> pooling_;
+  [[no_unique_address]] RayPooling<Spu> pooling_;
   RayNode& node_;         ///< being traced
   RayNode& child_;        ///< being made
   SurfaceLanes* surface_; ///< at the hits; null: no pattern of the scene asks for it

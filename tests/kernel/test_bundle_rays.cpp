@@ -1,0 +1,228 @@
+// Rays that leave the packets that they began in: pools of secondary rays, and hits sorted by materials.
+#include "direct_spu.hpp"
+#include "kernel/direct/hit_sorting.hpp"
+#include "kernel/direct/ray_pool.hpp"
+#include "lanes.hpp"
+#include "prepared_scene.hpp"
+#include "soups.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <set>
+#include <vector>
+
+using namespace celltrace;
+using namespace celltrace::kernel;
+using namespace celltrace::test;
+
+namespace {
+
+/// Some rays, each with its number in all that it brings along.
+std::uint32_t next_number = 0;
+RayNode node_of(Random& random, std::uint32_t lanes, WordLanes& pixels) {
+  RayNode node = {};
+  node.lanes = lanes;
+  for_each_lane(lanes, [&](std::uint32_t lane) {
+    const auto number = static_cast<float>(next_number);
+    set(node.rays.origin, lane, {number, number, number});
+    set(node.rays.direction, lane, random.direction());
+    set(node.throughput, lane, {number + 1, number + 2, number + 3});
+    node.rays.start_object.lane[lane] = next_number;
+    node.weight.lane[lane] = number;
+    node.power.lane[lane] = number;
+    node.level.lane[lane] = next_number % 5;
+    node.interior_depth.lane[lane] = next_number % 3;
+    for (std::uint32_t i = 0; i < next_number % 3; ++i)
+      node.interiors[i].lane[lane] = next_number + i;
+    node.reflected |= (next_number & 1) << lane;
+    pixels.lane[lane] = next_number++;
+  });
+  return node;
+}
+
+void check_ray(const PooledPacket& packet, std::uint32_t lane) {
+  const RayNode& node = packet.node;
+  const std::uint32_t number = packet.pixels.lane[lane];
+  const auto value = static_cast<float>(number);
+  REQUIRE(node.rays.origin.y.lane[lane] == value);
+  REQUIRE(node.rays.start_object.lane[lane] == number);
+  REQUIRE(node.throughput.z.lane[lane] == value + 3);
+  REQUIRE(node.weight.lane[lane] == value);
+  REQUIRE(node.power.lane[lane] == value);
+  REQUIRE(node.level.lane[lane] == number % 5);
+  REQUIRE(node.interior_depth.lane[lane] == number % 3);
+  for (std::uint32_t i = 0; i < number % 3; ++i)
+    REQUIRE(node.interiors[i].lane[lane] == number + i);
+  REQUIRE((node.reflected >> lane & 1) == (number & 1));
+}
+
+} // namespace
+
+TEST_CASE("A pool of rays gives back each of them once, with all that belongs to it") {
+  DirectSpu spu;
+  RayPool<DirectSpu> pool(spu);
+  Random random(5);
+  for (int round = 0; round < 20; ++round) {
+    std::set<std::uint32_t> inside;
+    for (int step = 0; step < 400; ++step) {
+      if (random.below(3) != 0) {
+        WordLanes pixels = {};
+        std::uint32_t lanes = 0;
+        for (unsigned i = random.below(11) + 1; i != 0; --i)
+          lanes |= 1u << random.below(kSimdLanes);
+        const RayNode node = node_of(random, lanes, pixels);
+        if (!pool.add(node, pixels)) continue;
+        for_each_lane(lanes, [&](std::uint32_t lane) { REQUIRE(inside.insert(pixels.lane[lane]).second); });
+      } else if (!pool.empty()) {
+        const PooledPacket& packet = pool.take();
+        REQUIRE(packet.node.lanes != 0);
+        for_each_lane(packet.node.lanes, [&](std::uint32_t lane) {
+          check_ray(packet, lane);
+          REQUIRE(inside.erase(packet.pixels.lane[lane]) == 1);
+        });
+      }
+    }
+    if (round % 4 == 3) {
+      pool.clear();
+      REQUIRE(pool.empty());
+      continue;
+    }
+    while (!pool.empty()) {
+      const PooledPacket& packet = pool.take();
+      for_each_lane(packet.node.lanes,
+                    [&](std::uint32_t lane) { REQUIRE(inside.erase(packet.pixels.lane[lane]) == 1); });
+    }
+    REQUIRE(inside.empty());
+  }
+}
+
+TEST_CASE("Full packets of a pool have rays of one octant and come first") {
+  DirectSpu spu;
+  RayPool<DirectSpu> pool(spu);
+  Random random(6);
+  WordLanes pixels = {};
+  for (int i = 0; i < 40; ++i)
+    REQUIRE(pool.add(node_of(random, 0x1248u << (i % 4), pixels), pixels));
+  bool only_rest = false;
+  while (!pool.empty()) {
+    const PooledPacket& packet = pool.take();
+    std::set<std::uint32_t> octants;
+    for_each_lane(packet.node.lanes,
+                  [&](std::uint32_t lane) { octants.insert(octant_of(packet.node.rays, lane)); });
+    if (packet.node.lanes == 0xFFFF && octants.size() == 1) {
+      CHECK_FALSE(only_rest);
+      continue;
+    }
+    only_rest = true;
+  }
+}
+
+TEST_CASE("A pool refuses rays that fill a packet by themselves, and those that it has no room for") {
+  DirectSpu spu;
+  RayPool<DirectSpu> pool(spu);
+  Random random(7);
+  WordLanes pixels = {};
+  CHECK_FALSE(pool.add(node_of(random, 0xFFFF, pixels), pixels));
+  CHECK(pool.empty());
+  std::uint32_t taken = 0, added = 0;
+  while (pool.add(node_of(random, 0xFF, pixels), pixels))
+    added += 8;
+  CHECK(added > 40 * kSimdLanes);
+  CHECK_FALSE(pool.add(node_of(random, 1, pixels), pixels));
+  while (!pool.empty())
+    taken += static_cast<std::uint32_t>(__builtin_popcount(pool.take().node.lanes));
+  CHECK(taken == added);
+  CHECK(pool.add(node_of(random, 1, pixels), pixels));
+}
+
+namespace {
+
+constexpr std::uint32_t kPackets = kBundlePackets<DirectSpu>;
+
+/// A bundle whose rays bear their places, and the objects of a scene in some pattern.
+struct Bundle {
+  struct Packet {
+    RayPacket rays;
+    HitPacket hits;
+    std::uint32_t lanes;
+  };
+  Packet packets[kPackets];
+
+  template <class ObjectOf> explicit Bundle(const ObjectOf& object_of) {
+    for (std::uint32_t i = 0; i < kPackets; ++i) {
+      packets[i] = {};
+      packets[i].lanes = 0xFFFF;
+      for (std::uint32_t lane = 0; lane < kSimdLanes; ++lane) {
+        const auto place = static_cast<float>(i * kSimdLanes + lane);
+        set(packets[i].rays.origin, lane, {place, 1, 2});
+        set(packets[i].rays.direction, lane, {3, place, 4});
+        packets[i].hits.distance.lane[lane] = place;
+        packets[i].hits.object.lane[lane] = object_of(i, lane);
+      }
+    }
+  }
+};
+
+} // namespace
+
+TEST_CASE("Hits are sorted by materials, and their rays know where they were") {
+  const Scene source = soup(3, {40, 0, 0}, 5, 4);
+  PreparedScene scene(source);
+  DirectSpu spu;
+  SceneAccess<DirectSpu> access(spu, CacheConfig(), scene.frame().image);
+  HitSorter<DirectSpu> sorter(spu);
+  std::vector<std::uint32_t> objects; // one of each material
+  std::set<std::uint32_t> materials;
+  for (std::uint32_t i = 0; i < scene.object_count(); ++i)
+    if (materials.insert(scene.object(i).material).second) objects.push_back(scene.object_offset(i));
+  REQUIRE(objects.size() >= 3);
+  const auto material_of = [&](std::uint32_t object) {
+    return object == kNoOffset ? kNoOffset : access.object(object)->material;
+  };
+  const auto mixed_of = [&](const Bundle& bundle) {
+    unsigned sum = 0;
+    for (const Bundle::Packet& packet : bundle.packets) {
+      std::set<std::uint32_t> of_packet;
+      for_each_lane(packet.lanes, [&](std::uint32_t lane) {
+        if (packet.hits.object.lane[lane] != kNoOffset)
+          of_packet.insert(material_of(packet.hits.object.lane[lane]));
+      });
+      sum += static_cast<unsigned>(of_packet.size());
+    }
+    return sum;
+  };
+
+  SECTION("where packets have several") {
+    Bundle bundle([&](std::uint32_t i, std::uint32_t lane) {
+      return (lane + i) % 4 == 3 ? kNoOffset : objects[(lane + i) % 4 % 3];
+    });
+    bundle.packets[5].lanes = 0x00F1;
+    bundle.packets[kPackets - 1].lanes = 0;
+    const Bundle before = bundle;
+    REQUIRE(sorter.sort(access, bundle.packets));
+    CHECK(mixed_of(bundle) * 2 < mixed_of(before));
+    std::set<std::uint32_t> seen;
+    for (std::uint32_t i = 0; i < kPackets; ++i)
+      for_each_lane(bundle.packets[i].lanes, [&](std::uint32_t lane) {
+        const std::uint32_t place = sorter.places(i).lane[lane];
+        const Bundle::Packet& from = before.packets[place / kSimdLanes];
+        REQUIRE((from.lanes >> place % kSimdLanes & 1) == 1);
+        REQUIRE(seen.insert(place).second);
+        REQUIRE(bundle.packets[i].rays.origin.x.lane[lane] == static_cast<float>(place));
+        REQUIRE(bundle.packets[i].rays.direction.y.lane[lane] == static_cast<float>(place));
+        REQUIRE(bundle.packets[i].hits.distance.lane[lane] == static_cast<float>(place));
+        REQUIRE(bundle.packets[i].hits.object.lane[lane] == from.hits.object.lane[place % kSimdLanes]);
+      });
+    CHECK(seen.size() == (kPackets - 2) * kSimdLanes + 5);
+  }
+  SECTION("but not where each packet has one") {
+    Bundle bundle([&](std::uint32_t i, std::uint32_t) { return objects[i % 3]; });
+    CHECK_FALSE(sorter.sort(access, bundle.packets));
+    for (std::uint32_t i = 0; i < kPackets; ++i)
+      CHECK(bundle.packets[i].rays.origin.x.lane[3] == static_cast<float>(i * kSimdLanes + 3));
+  }
+  SECTION("nor where few packets have several") {
+    Bundle bundle([&](std::uint32_t i, std::uint32_t lane) { return objects[i == 0 ? lane % 3 : 0]; });
+    CHECK_FALSE(sorter.sort(access, bundle.packets));
+  }
+}
