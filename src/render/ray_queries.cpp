@@ -30,7 +30,7 @@ public:
   explicit Impl(std::shared_ptr<const RayQueryScene> scene)
       : scene_(std::move(scene)), functions_(scene_->functions()), bvh_(scene_->bvh()),
         state_(::operator new(functions_.state_bytes, alignment())) {
-    functions_.open(state_, scene_->frame(), bvh_);
+    functions_.open(state_, scene_->frame(), bvh_, scene_->owners());
   }
   Impl(const Impl& other) : Impl(other.scene_) {}
   Impl& operator=(const Impl&) = delete;
@@ -40,7 +40,6 @@ public:
     scene_->check();
     RayHit hit;
     functions_.closest_hit(state_, ray, hit);
-    name(hit);
     return hit;
   }
   bool occluded(const Ray& ray) {
@@ -49,14 +48,11 @@ public:
   }
   void closest_hits(std::span<const Ray> rays, std::span<RayHit> hits) {
     check_size(rays, hits.size());
-    // So many whole bundles that their hits are in a cache of the second level when they get their names.
-    constexpr std::size_t kMost = 4096;
-    for (std::size_t first = 0; first < rays.size(); first += kMost) {
-      const std::span<RayHit> some = hits.subspan(first, std::min(kMost, rays.size() - first));
-      functions_.closest_hits(state_, rays.data() + first, some.data(),
-                              static_cast<std::uint32_t>(some.size()));
-      std::for_each(some.begin(), some.end(), [this](RayHit& hit) { name(hit); });
-    }
+    // So many whole bundles that 32 bits count them.
+    constexpr std::size_t kMost = std::size_t{1} << 20;
+    for (std::size_t first = 0; first < rays.size(); first += kMost)
+      functions_.closest_hits(state_, rays.data() + first, hits.data() + first,
+                              static_cast<std::uint32_t>(std::min(kMost, rays.size() - first)));
   }
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> results) {
     check_size(rays, results.size());
@@ -75,9 +71,6 @@ public:
 
 private:
   std::align_val_t alignment() const { return std::align_val_t{functions_.state_alignment}; }
-  void name(RayHit& hit) const {
-    if (hit.record != RayHit::kNone) hit.object = scene_->object_at(hit.record);
-  }
   void check_size(std::span<const Ray> rays, std::size_t results) const {
     scene_->check();
     if (rays.size() != results)

@@ -28,6 +28,7 @@ public:
 
   const kernel::FrameBlock& frame() const { return frame_; }
   kernel::QueryBvh bvh() const { return bvh_.get(); }
+  const std::uint32_t* owners() const { return image_.owners().data(); }
   const kernel::RayQueryFunctions& functions() const { return functions_; }
   /// The object of the scene that a record in the image is of.
   std::uint32_t object_at(std::uint32_t record) const { return image_.owner_of(record); }

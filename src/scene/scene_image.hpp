@@ -83,6 +83,8 @@ public:
     const std::size_t record = (offset - first) / sizeof(kernel::ObjectRecord);
     return offset >= first && record < owners_.size() ? owners_[record] : kNoIndex;
   }
+  /// The same by record: of unbounded objects and then all others.
+  std::span<const Index> owners() const { return owners_; }
   /// Offsets of the two, multiples of 128; valid after reserve_accelerator().
   std::uint32_t table_offset() const noexcept { return table_offset_; }
   std::uint32_t list_offset() const noexcept { return list_offset_; }

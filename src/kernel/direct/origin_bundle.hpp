@@ -28,8 +28,7 @@ public:
     view.set_major(major);
     octant = octant_of(rays, lane);
     view.forth = ((octant >> major) & 1) != 0 ? -1.0f : 1.0f;
-    for (uint32_t packet = 0; packet < count; ++packet)
-      include(queries[packet], packet);
+    include_coherent(find_slopes(queries, count));
     if (is_single(packets))
       packets = 0;
     else
@@ -49,41 +48,82 @@ private:
     return true;
   }
 
-  /// Includes a packet if its rays are coherent with those before.
-  void include(const RayQuery& query, uint32_t packet) {
-    const auto active = S::M::from_bits(query.lanes);
-    const auto any_lane = static_cast<uint32_t>(__builtin_ctz(query.lanes));
-    // Other lanes take the value of an active one, so that they do not widen intervals.
-    const auto along = [&](uint32_t axis) {
-      const FloatLanes& all_lanes = query.rays->direction[axis];
-      return S::select(active, F::load(all_lanes.lane), F(all_lanes.lane[any_lane]));
-    };
-    const F length = along(view.axes[2]) * F(view.forth);
-    if ((length > F(1e-3f)).bits() != 0xFFFF) return; // otherwise slopes exceed 1000
-    const F scale = F(1.0f) / length;
-    Interval slopes[2], extents[2];
+  /// Finds the slopes of all packets. Returns those whose slopes are finite and in the octant.
+  uint32_t find_slopes(const RayQuery* queries, uint32_t count) {
+    F slopes[2][kSimdLanes];
+    uint32_t steep = 0;
+    for (uint32_t packet = 0; packet < kSimdLanes; ++packet) {
+      // What is no packet has the slopes of the first one.
+      const RayQuery& query = queries[packet < count ? packet : 0];
+      const auto active = S::M::from_bits(query.lanes);
+      const auto any_lane = static_cast<uint32_t>(__builtin_ctz(query.lanes));
+      // Other lanes take the value of an active one, so that they do not widen intervals.
+      const auto along = [&](uint32_t axis) {
+        const FloatLanes& all_lanes = query.rays->direction[axis];
+        return S::select(active, F::load(all_lanes.lane), F(all_lanes.lane[any_lane]));
+      };
+      const F length = along(view.axes[2]) * F(view.forth), shortest(1e-3f); // slopes exceed 1000 below
+      steep |= static_cast<uint32_t>((length > shortest).bits() != 0xFFFF) << packet;
+      const F scale = F(1.0f) / S::max(length, shortest);
+      slopes[0][packet] = along(view.axes[0]) * scale;
+      slopes[1][packet] = along(view.axes[1]) * scale;
+    }
+    uint32_t others = steep;
     for (uint32_t i = 0; i < 2; ++i) {
-      const Interval exact = interval_of<S>(along(view.axes[i]) * scale);
-      slopes[i] = {exact.low - kRelativeEpsilon * (1.0f + magnitude(exact.low)),
-                   exact.high + kRelativeEpsilon * (1.0f + magnitude(exact.high))};
+      find_extremes(slopes[i], lows_[i], highs_[i]);
+      const F low = F::load(lows_[i].lane), high = F::load(highs_[i].lane), one(1.0f),
+              epsilon(kRelativeEpsilon);
+      const F least = low - epsilon * (one + S::abs(low)), most = high + epsilon * (one + S::abs(high));
+      least.store(lows_[i].lane);
+      most.store(highs_[i].lane);
       const bool backward = ((octant >> view.axes[i]) & 1) != 0;
-      if (backward ? !(slopes[i].high < 0.0f) : !(slopes[i].low >= 0.0f)) return;
-      extents[i] = packets == 0 ? slopes[i] : united(slopes[i], slopes_[i]);
+      others |= ~(backward ? most < F(0.0f) : least >= F(0.0f)).bits();
     }
-    if (extents[0].high - extents[0].low + extents[1].high - extents[1].low > tuning::kMaxDirectionSpread)
-      return;
-    for (uint32_t i = 0; i < 2; ++i) {
-      set_lane(slopes[i].low, packet, lows_[i]);
-      set_lane(slopes[i].high, packet, highs_[i]);
-      slopes_[i] = extents[i];
-    }
-    packets |= 1u << packet;
+    return ((1u << count) - 1) & ~others;
   }
-  /// Sets a packet's lane. The first packet's value is also that of the lanes of packets that are not
-  /// included.
-  void set_lane(float value, uint32_t packet, FloatLanes& lanes) const {
-    if (packets == 0) F(value).store(lanes.lane);
-    lanes.lane[packet] = value;
+
+  /// The least and the greatest lane of each of sixteen packets, by packet. All packets at once: a processor
+  /// would wait for each step of the reduction of one.
+  static void find_extremes(const F (&values)[kSimdLanes], FloatLanes& low, FloatLanes& high) {
+    using F4 = typename S::F4;
+    for (uint32_t first = 0; first < kSimdLanes; first += 4) {
+      F a = values[first], b = values[first + 1], c = values[first + 2], d = values[first + 3];
+      S::transpose_quads(a, b, c, d);
+      // Lane 4q + i is of the packet `first` + i.
+      FloatLanes lows, highs;
+      S::min(S::min(a, b), S::min(c, d)).store(lows.lane);
+      S::max(S::max(a, b), S::max(c, d)).store(highs.lane);
+      const auto quad = [](const FloatLanes& lanes, uint32_t q) { return F4::load(lanes.lane + 4 * q); };
+      S::min(S::min(quad(lows, 0), quad(lows, 1)), S::min(quad(lows, 2), quad(lows, 3)))
+          .store(low.lane + first);
+      S::max(S::max(quad(highs, 0), quad(highs, 1)), S::max(quad(highs, 2), quad(highs, 3)))
+          .store(high.lane + first);
+    }
+  }
+
+  /// Includes those of the packets that are coherent with the ones before.
+  void include_coherent(uint32_t candidates) {
+    for_each_lane(candidates, [&](uint32_t packet) {
+      Interval extents[2];
+      float spread = 0.0f;
+      for (uint32_t i = 0; i < 2; ++i) {
+        const Interval own = {lows_[i].lane[packet], highs_[i].lane[packet]};
+        extents[i] = packets == 0 ? own : united(own, slopes_[i]);
+        spread += extents[i].high - extents[i].low;
+      }
+      if (spread > tuning::kMaxDirectionSpread) return;
+      slopes_[0] = extents[0];
+      slopes_[1] = extents[1];
+      packets |= 1u << packet;
+    });
+    if (packets == 0) return;
+    // Lanes of packets that are not included have the values of one that is.
+    const auto included = S::M::from_bits(packets);
+    const auto any = static_cast<uint32_t>(__builtin_ctz(packets));
+    for (uint32_t i = 0; i < 2; ++i) {
+      S::select(included, F::load(lows_[i].lane), F(lows_[i].lane[any])).store(lows_[i].lane);
+      S::select(included, F::load(highs_[i].lane), F(highs_[i].lane[any])).store(highs_[i].lane);
+    }
   }
 
   void bound() {

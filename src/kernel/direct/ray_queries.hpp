@@ -11,13 +11,13 @@
 namespace celltrace::kernel {
 
 /// What a build for one CPU answers queries by. `state`: memory that open() has been called for, by one
-/// thread at a time. Objects are told by RayHit::record, their offsets in the scene image.
+/// thread at a time. RayHit::record is an object's offset in the scene image.
 struct RayQueryFunctions {
   size_t state_bytes;     ///< of memory for a state
   size_t state_alignment; ///< of its address
-  /// `frame`, with the image and the BVH that it names, and `bvh` stay as they are as long as the state is
-  /// used.
-  void (*open)(void* state, const FrameBlock& frame, const QueryBvh& bvh);
+  /// `frame`, with the image and the BVH that it names, `bvh` and `owners` stay as they are as long as the
+  /// state is used. `owners`: RayHit::object by record, of unbounded objects and then all others.
+  void (*open)(void* state, const FrameBlock& frame, const QueryBvh& bvh, const uint32_t* owners);
   void (*closest_hit)(void* state, const Ray& ray, RayHit& hit);
   bool (*occluded)(void* state, const Ray& ray);
   void (*closest_hits)(void* state, const Ray* rays, RayHit* hits, uint32_t count);
@@ -28,10 +28,15 @@ template <class Spu, class Quad, class Eight> class RayQueryAnswers {
 public:
   using S = typename Spu::simd;
 
-  RayQueryAnswers(const FrameBlock& frame, const QueryBvh& bvh)
-      : frame_(frame), scene_(spu_, CacheConfig::off(), frame.image), traversal_(scene_, frame_),
+  RayQueryAnswers(const FrameBlock& frame, const QueryBvh& bvh, const uint32_t* owners)
+      : frame_(frame), owners_(owners),
+        first_record_(frame.object_offset -
+                      frame.unbounded_count * static_cast<uint32_t>(sizeof(ObjectRecord))),
+        scene_(spu_, CacheConfig::off(), frame.image), traversal_(scene_, frame_),
         single_(traversal_.objects(), frame_, bvh) {
     traversal_.objects().set_reflected(kSeesAll);
+    for (RayPacket& rays : packets_)
+      S::I::splat(-1).store(reinterpret_cast<int32_t*>(rays.start_object.lane));
   }
 
   void closest_hit(const Ray& ray, RayHit& hit) {
@@ -87,23 +92,38 @@ private:
       to[axis] = lanes[axis].lane[0];
   }
 
-  static void set(RayHit& hit, uint32_t object, float distance, float u, float v) {
+  uint32_t owner_of(uint32_t record) const {
+    return owners_[(record - first_record_) / sizeof(ObjectRecord)];
+  }
+
+  void set(RayHit& hit, uint32_t object, float distance, float u, float v) const {
     if (object == kNoOffset)
       hit = RayHit();
     else
-      hit = {distance, u, v, RayHit::kNone, object};
+      hit = {distance, u, v, owner_of(object), object};
   }
 
-  static void set(RayHit* hits, uint32_t count, const HitPacket& found) {
+  void set(RayHit* hits, uint32_t count, const HitPacket& found) const {
     using F = typename S::F;
     using I = typename S::I;
     static_assert(offsetof(RayHit, object) == 12 && RayHit::kNone == kNoOffset);
     const I none = I::splat(-1);
     const auto missed = I::load(reinterpret_cast<const int32_t*>(found.object.lane)) == none;
+    if (missed.bits() == 0xFFFF) {
+      for (uint32_t i = 0; i < count; ++i)
+        hits[i] = RayHit();
+      return;
+    }
+    alignas(64) float owners[kSimdLanes];
+    for (uint32_t lane = 0; lane < kSimdLanes; ++lane) {
+      const uint32_t record = found.object.lane[lane];
+      const uint32_t owner = record != kNoOffset ? owner_of(record) : RayHit::kNone;
+      __builtin_memcpy(&owners[lane], &owner, sizeof owner);
+    }
     // A row of four fields for each lane.
     F rows[4] = {S::select(missed, F(kEndless), F::load(found.distance.lane)),
                  S::select(missed, F(0.0f), F::load(found.u.lane)),
-                 S::select(missed, F(0.0f), F::load(found.v.lane)), S::float_of(none)};
+                 S::select(missed, F(0.0f), F::load(found.v.lane)), F::load(owners)};
     S::transpose_quads(rows[0], rows[1], rows[2], rows[3]);
     alignas(64) float of_lane[4][kSimdLanes];
     for (uint32_t i = 0; i < 4; ++i)
@@ -156,7 +176,6 @@ private:
     to.direction.template store<S>(normalise<S>({of_direction[0], of_direction[1], of_direction[2]}));
     const F farthest(kMaxHitDistance), tfar = of_direction[3];
     S::select(tfar < farthest, tfar, farthest).store(hits.distance.lane);
-    S::I::splat(-1).store(reinterpret_cast<int32_t*>(to.start_object.lane));
     S::I::splat(-1).store(reinterpret_cast<int32_t*>(hits.object.lane));
     queries_[packet] = {&to, &hits, nullptr, nullptr, (2u << (count - 1)) - 1};
   }
@@ -168,6 +187,8 @@ private:
   }
 
   const FrameBlock& frame_;
+  const uint32_t* owners_; ///< by record
+  uint32_t first_record_;  ///< offset of the first
   Spu spu_;
   SceneAccess<Spu> scene_;
   Traversal<Spu, kBvhOnly> traversal_;
@@ -182,8 +203,8 @@ template <class Answers> void enter_ray_query_functions(ea_t argument) {
   auto& functions = *reinterpret_cast<RayQueryFunctions*>(static_cast<uintptr_t>(argument));
   functions.state_bytes = sizeof(Answers);
   functions.state_alignment = alignof(Answers);
-  functions.open = [](void* state, const FrameBlock& frame, const QueryBvh& bvh) {
-    new (state) Answers(frame, bvh);
+  functions.open = [](void* state, const FrameBlock& frame, const QueryBvh& bvh, const uint32_t* owners) {
+    new (state) Answers(frame, bvh, owners);
   };
   functions.closest_hit = [](void* state, const Ray& ray, RayHit& hit) {
     static_cast<Answers*>(state)->closest_hit(ray, hit);
