@@ -382,7 +382,11 @@ private:
   std::vector<bool> pattern_asks_, normal_asks_, material_asks_; ///< by record, if at more than points
 };
 
-/// True if conditions end, and so do their programs.
+std::uint32_t solid_kind(const SolidRecord& solid) {
+  return solid.object.kind_and_flags & object_flag::kind_mask;
+}
+
+/// True if conditions end, so do their programs, and solids are of kinds that there are.
 bool csg_is_valid(const std::byte* base, const ImageHeader& h) {
   const auto* records = reinterpret_cast<const CsgRecord*>(base + h.csg_offset);
   for (std::uint32_t i = 0; i < h.csg_count; ++i) {
@@ -400,7 +404,11 @@ bool csg_is_valid(const std::byte* base, const ImageHeader& h) {
   const auto* steps = reinterpret_cast<const CsgStep*>(base + h.csg_step_offset);
   for (std::uint32_t i = 0; i < h.csg_step_count; ++i)
     if (!refers_to(steps[i].solid, h.solid_offset, h.solid_count, sizeof(SolidRecord))) return false;
-  return true;
+  const auto* solids = reinterpret_cast<const SolidRecord*>(base + h.solid_offset);
+  return std::all_of(solids, solids + h.solid_count, [](const SolidRecord& solid) {
+    const std::uint32_t kind = solid_kind(solid);
+    return kind < kPrimitives || kind == kMeshSolid || kind == kEmptySolid;
+  });
 }
 
 /// True if the insides of meshes have grids, and their cells lists of triangles.
@@ -408,7 +416,7 @@ bool meshes_are_valid(const std::byte* base, const ImageHeader& h) {
   constexpr auto kWord = static_cast<std::uint32_t>(sizeof(std::uint32_t));
   const auto* solids = reinterpret_cast<const SolidRecord*>(base + h.solid_offset);
   for (std::uint32_t i = 0; i < h.solid_count; ++i)
-    if (solids[i].object.kind_and_flags == kMeshSolid &&
+    if (solid_kind(solids[i]) == kMeshSolid &&
         !refers_to(solids[i].object.extra, h.mesh_grid_offset, h.mesh_grid_count, sizeof(MeshGridRecord)))
       return false;
   const auto* words = reinterpret_cast<const std::uint32_t*>(base + h.mesh_word_offset);

@@ -265,6 +265,23 @@ TEST_CASE("Light groups that are not sound are refused") {
   CHECK_THROWS_WITH(SceneImage(scene), Catch::Contains("255 light groups"));
 }
 
+TEST_CASE("A sealed scene image with a solid of no kind is refused") {
+  const Bytes good = bytes_of(SceneImage(scene_named("cut meshes")));
+  const auto with_kind = [&](std::uint32_t kind) {
+    Bytes bytes = good;
+    const ImageHeader& h = header_of(bytes);
+    REQUIRE(h.solid_count > 0);
+    ObjectRecord& object = table<SolidRecord>(bytes, h.solid_offset)->object;
+    object.kind_and_flags = kind;
+    object.extra = kNoOffset;
+    seal(bytes);
+    return bytes;
+  };
+  CHECK_NOTHROW(SceneImage::from_bytes(with_kind(kernel::kEmptySolid)));
+  for (const std::uint32_t kind : {kernel::kPrimitives, kernel::kMeshSolid - 1, kernel::kMeshSolid | 0x100u})
+    CHECK_THROWS_WITH(SceneImage::from_bytes(with_kind(kind)), Catch::Contains("offset"));
+}
+
 TEST_CASE("A sealed scene image with a fault in the inside of a mesh is refused") {
   const Bytes good = bytes_of(SceneImage(scene_named("cut meshes")));
   const auto refused = [&](const std::function<void(Bytes&, const ImageHeader&)>& change) {

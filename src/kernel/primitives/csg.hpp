@@ -12,11 +12,12 @@ template <class Spu>
 uint32_t inside_solid(SceneAccess<Spu>& scene, uint32_t solid, const V3<typename Spu::simd>& points,
                       uint32_t lanes) {
   const SolidRecord& record = *scene.solid(solid);
-  if (record.object.kind_and_flags == kMeshSolid) {
+  const uint32_t kind = record.object.kind_and_flags & object_flag::kind_mask;
+  if (kind == kMeshSolid) {
     scene.spu().enter_module(modules::kMeshes);
     return module_meshes::inside(scene, record.object, points, lanes);
   }
-  if (has_heavy_points(record.object.kind_and_flags & object_flag::kind_mask)) {
+  if (has_heavy_points(kind)) {
     scene.spu().enter_module(modules::kHeavyPoints);
     return module_heavy_points::inside(scene.spu(), record, points) & lanes;
   }

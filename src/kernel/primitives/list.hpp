@@ -29,8 +29,12 @@
 namespace celltrace::kernel {
 
 template <class... P> struct PrimitiveList : TypeList<P...> {
-  static constexpr bool kAreHeavy[] = {P::kIsHeavy...};
-  static constexpr bool kHaveHeavyPoints[] = {P::kHasHeavyPoints...};
+  static constexpr bool is_heavy(uint32_t kind) {
+    return ((P::kIsHeavy ? kind == TypeList<P...>::template number<P>() : false) || ...);
+  }
+  static constexpr bool has_heavy_points(uint32_t kind) {
+    return ((P::kHasHeavyPoints ? kind == TypeList<P...>::template number<P>() : false) || ...);
+  }
 };
 
 using Primitives = PrimitiveList<SpherePrimitive, TrianglePrimitive, PlanePrimitive, EllipsoidPrimitive,

@@ -44,14 +44,14 @@ constexpr bool is_local(uint32_t kind) {
   return kind != kPrimitiveKind<SpherePrimitive> && kind != kPrimitiveKind<TrianglePrimitive>;
 }
 
-/// Whether a kind's intersections are in a module of their own.
+/// Whether a kind's intersections are in a module of their own. Not those of no kind.
 constexpr bool is_heavy(uint32_t kind) {
-  return Primitives::kAreHeavy[kind];
+  return Primitives::is_heavy(kind);
 }
 
-/// Whether its normals and what is inside are in a module of their own.
+/// Whether its normals and what is inside are in a module of their own. Likewise.
 constexpr bool has_heavy_points(uint32_t kind) {
-  return Primitives::kHaveHeavyPoints[kind];
+  return Primitives::has_heavy_points(kind);
 }
 
 /// The unit normals of shapes in a space of their own, of those with heavy points or of the others, at points
