@@ -106,6 +106,13 @@ constexpr uint32_t kLeastTrianglesByLeaf = 4;
 /// more rays traverse. 'trace time/area-light'.
 constexpr uint32_t kMostAreaOccluders = 16;
 
+// --- patterns ---
+
+/// Up to so many lanes of a packet that are in one cell of crackle are compared with the points around that
+/// cell one lane after the other, all points at once; more lanes one point after the other. 'trace time' of
+/// scenes with crackle near by and as far as the horizon.
+constexpr int kMostLanesByFeatures = 6;
+
 // --- building the BVH ---
 
 /// When the objects of a range share a leaf. A triangle has weight 1.

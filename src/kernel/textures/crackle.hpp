@@ -2,6 +2,8 @@
 // stones (Worley 1996). Kernel dialect.
 #pragma once
 
+#include "kernel/direct/feature_neighbours.hpp"
+#include "kernel/packet.hpp"
 #include "kernel/textures/features.hpp"
 #include "kernel/textures/pattern_traits.hpp"
 
@@ -44,7 +46,11 @@ struct CracklePattern : RarePattern {
     for_each_cell_of<S>(p, [&](uint32_t lanes, const uint32_t(&cell)[3], const V3<S>& from) {
       const auto here = S::M::from_bits(lanes);
       // The inner cells first: most of the others are then too far away.
-      for (int32_t reach = 1; reach <= 2; ++reach)
+      if constexpr (kHasRoomForCode<Spu>) {
+        take_inner(features, cell, from, p, lanes, metric, last, nearest);
+        if (reaches_no_further<S>(nearest.power[last], here, metric)) return;
+      }
+      for (int32_t reach = kHasRoomForCode<Spu> ? 2 : 1; reach <= 2; ++reach)
         for (int32_t x = -reach; x <= reach; ++x) {
           const F gap_x = gap<S>(from.x, x);
           const uint32_t plane = features.number_after(0, cell[0] + static_cast<uint32_t>(x));
@@ -72,6 +78,34 @@ struct CracklePattern : RarePattern {
   }
 
 private:
+  /// The points of the inner cells, for lanes that are all in one cell.
+  template <class Spu, class S>
+  [[gnu::noinline]] static void take_inner(Features<Spu>& features, const uint32_t (&cell)[3],
+                                           const V3<S>& from, const V3<S>& p, uint32_t lanes, float metric,
+                                           uint32_t last, Nearest<S>& nearest) {
+    using F = typename S::F;
+    const FeatureNeighbours<S> neighbours(features, cell);
+    const bool is_simple = metric == 1.0f || metric == 2.0f;
+    if (!is_simple || __builtin_popcount(lanes) > tuning::kMostLanesByFeatures) {
+      const auto here = S::M::from_bits(lanes);
+      for (uint32_t i = 0; i < FeatureNeighbours<S>::kCount; ++i) {
+        const V3<S> d = neighbours.way_to(i, from);
+        take<S>(S::select(here, power<S>(d, metric), F(1e30f)), d, p, nearest);
+      }
+      return;
+    }
+    VectorLanes of_lane;
+    of_lane.template store<S>(from);
+    for_each_lane(lanes, [&](uint32_t lane) {
+      const float at[3] = {of_lane.x.lane[lane], of_lane.y.lane[lane], of_lane.z.lane[lane]};
+      const auto found = neighbours.nearest_to(at, last, [&](const V3<S>& d) { return power<S>(d, metric); });
+      const auto here = S::M::from_bits(1u << lane);
+      for (uint32_t i = 0; i <= last; ++i)
+        nearest.power[i] = S::select(here, F(found.power[i]), nearest.power[i]);
+      nearest.point = select<S>(here, p + splat3<S>(found.way), nearest.point);
+    });
+  }
+
   /// How far a coordinate in a cell is from those of the cell that is `steps` further.
   template <class S>
   [[gnu::always_inline]] static typename S::F gap(const typename S::F& from, int32_t steps) {
@@ -86,6 +120,13 @@ private:
                                                 const typename S::M& here, float metric) {
     if (metric == 2.0f) return (here & (square < power)).bits() == 0;
     return metric == 1.0f && (here & (square < power * power)).bits() == 0;
+  }
+
+  /// Whether no point beyond the inner cells, which are 1 away or more, is nearer.
+  template <class S>
+  [[gnu::always_inline]] static bool reaches_no_further(const typename S::F& power,
+                                                        const typename S::M& here, float metric) {
+    return (metric == 1.0f || metric == 2.0f) && (here & (power > typename S::F(1.0f))).bits() == 0;
   }
 
   /// What the distance is a root of.

@@ -2,6 +2,7 @@
 // iterated. Kernel dialect.
 #pragma once
 
+#include "kernel/direct/door.hpp"
 #include "kernel/math.hpp"
 #include "kernel/scene_access.hpp"
 #include "kernel/textures/pattern_traits.hpp"
@@ -28,8 +29,13 @@ struct FractalPattern : RarePattern {
       z = {F(0.0f), F(0.0f)};
       least = F(1e30f); // which is not counted as a number that the point has come to
     }
-    M stays = M::all();
+    const uint32_t outside = r.table >> fractal_word::exterior_shift & fractal_word::type_mask;
+    const uint32_t inside = r.table >> fractal_word::interior_shift & fractal_word::type_mask;
     const uint32_t most = static_cast<uint32_t>(r.parameter[2]);
+    if constexpr (kHasRoomForCode<Spu>)
+      if (magnet == 0 && (r.table & fractal_word::exponent_mask) == 2 && outside == 1 && inside <= 1)
+        return inside == 1 ? counted_squares<S, true>(z, c, most, r) : counted_squares<S, false>(z, c, most, r);
+    M stays = M::all();
     // Numbers that have left are iterated on, wherever to: the next number does not wait for which they are.
     Complex<S> left = z;
     for (uint32_t i = 0; i < most; ++i) {
@@ -45,8 +51,6 @@ struct FractalPattern : RarePattern {
       rounds = S::select(stays, F(static_cast<float>(i + 1)), rounds);
       least = S::select(stays, S::min(least, size), least);
     }
-    const uint32_t outside = r.table >> fractal_word::exterior_shift & fractal_word::type_mask;
-    const uint32_t inside = r.table >> fractal_word::interior_shift & fractal_word::type_mask;
     const F factor(r.parameter[3]), inner(r.parameter[4]);
     const F of_outside = outside == 1   ? rounds * F(1.0f / r.parameter[2])
                          : outside == 6 ? S::sqrt(square<S>(left)) * factor
@@ -59,6 +63,40 @@ struct FractalPattern : RarePattern {
 
 private:
   template <class S> struct Complex { typename S::F a, b; };
+
+  /// The value where numbers are squared, and no more is asked than how many stay and, inside, the least size.
+  /// A number that comes back after some rounds would do so for ever, as those do that converge: it is not
+  /// followed further (Brent 1980). Whatever is still to come has been there, so that the least size is known.
+  template <class S, bool kWantsLeast>
+  [[gnu::noinline]] static typename S::F counted_squares(const Complex<S>& first, const Complex<S>& c,
+                                                         uint32_t most, const PatternRecord& r) {
+    using F = typename S::F;
+    using M = typename S::M;
+    F a = first.a, b = first.b, aa = a * a, bb = b * b;
+    F least = aa + bb, rounds(0.0f);
+    M stays = M::all(), goes_on = M::all();
+    Complex<S> kept = first;
+    uint32_t keeps_next = 16;
+    for (uint32_t i = 1; i <= most; ++i) {
+      const F ab = a * b;
+      a = aa - bb + c.a;
+      b = ab + ab + c.b;
+      aa = a * a;
+      bb = b * b;
+      const F size = aa + bb;
+      stays = stays & (size <= F(4.0f));
+      rounds = S::select(stays, F(static_cast<float>(i)), rounds);
+      if constexpr (kWantsLeast) least = S::select(stays, S::min(least, size), least);
+      goes_on = goes_on & stays & !((a == kept.a) & (b == kept.b));
+      if (goes_on.bits() == 0) break;
+      if (i == keeps_next) {
+        kept = {a, b};
+        keeps_next *= 2;
+      }
+    }
+    const F factor(r.parameter[4]);
+    return S::select(stays, kWantsLeast ? S::sqrt(least) * factor : factor, rounds * F(1.0f / r.parameter[2]));
+  }
 
   template <class S> [[gnu::always_inline]] static typename S::F square(const Complex<S>& z) {
     return z.a * z.a + z.b * z.b;
