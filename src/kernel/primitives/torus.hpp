@@ -53,14 +53,18 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
     F distance[4];
     typename S::M hit[4] = {S::M::none(), S::M::none(), S::M::none(), S::M::none()};
     F value = f.at(bounds[0]);
+    F half_width = zero;
     for (int i = 0; i < 4; ++i) {
       const F next = f.at(bounds[i + 1]);
+      // The two crossings about each least value are where a parabola would have them, nearly.
+      if (i % 2 == 0) half_width = f.half_width(bounds[i + 1], next);
+      const F about = i % 2 == 0 ? bounds[i + 1] - half_width : bounds[i] + half_width;
       const auto falls = value > zero;
       const auto enters = falls & (next <= zero), leaves = (next > zero) & !falls;
       const auto crosses = near_enough & (enters | leaves);
       distance[i] = zero;
       if (crosses.bits() != 0) {
-        distance[i] = (f.root_between(bounds[i], bounds[i + 1], falls, crosses) + shift) * inverse_scale;
+        distance[i] = (f.root_between(bounds[i], bounds[i + 1], about, falls, crosses) + shift) * inverse_scale;
         const auto first = (distance[i] > zero) & ((inward & leaves) | (enters & !inward));
         hit[i] = crosses & !(starts & !first);
         starts = starts & !hit[i];
@@ -115,7 +119,9 @@ private:
   }
 
   /// Newton's method ends where it moves less than this: the next step would be in the order of its square.
-  static constexpr float kConverged = 1e-5f;
+  static constexpr float kConverged = 1e-4f;
+  /// Likewise Halley's, whose next step would be in the order of its cube.
+  static constexpr float kStationary = 1e-3f;
 
   /// t^4 + p t^2 + q t + r.
   template <class S> struct Quartic {
@@ -130,16 +136,18 @@ private:
 
     /// Of the rays `wanted`, in rising order; where there is only one, all are that.
     void stationary_points(typename S::M wanted, F& a, F& b, F& c) const {
-      // x^3 + (p/2) x - |q|/4 is convex for x > 0 and has its greatest zero there: Newton's method comes down
+      // x^3 + (p/2) x - |q|/4 is convex for x > 0 and has its greatest zero there: Halley's method comes down
       // to it from any bound. No torus reaches farther than 2 from its centre.
       const F half(0.5f), zero(0.0f);
       const F linear = p * half, constant = S::abs(q) * F(0.25f);
-      F x(2.5f);
+      F x = S::min(F(2.5f), S::sqrt(S::max(-linear, zero)) + above_cube_root(constant));
       for (int i = 0; i < 9 && wanted.bits() != 0; ++i) {
         const F square = x * x;
+        const F value = square * x + linear * x - constant;
         const F slope = S::max(F(3.0f) * square + linear, F(1e-6f));
-        const F next = S::max(x - (square * x + linear * x - constant) / slope, zero);
-        const auto moves = S::abs(next - x) > F(kConverged);
+        const F divisor = S::max(slope * slope - F(3.0f) * x * value, F(1e-12f));
+        const F next = S::max(x - value * slope / divisor, zero);
+        const auto moves = S::abs(next - x) > F(kStationary);
         x = S::select(wanted, next, x);
         wanted = wanted & moves;
       }
@@ -155,11 +163,25 @@ private:
       b = S::max(S::min(greatest, v), u);
     }
 
-    /// Of the rays `wanted`, the zero between `low` and `high`, between which the slope has one sign;
-    /// `falls`: positive at `low`. The result of a ray depends on no other ray.
-    F root_between(F low, F high, const typename S::M& falls, typename S::M wanted) const {
+    /// The cube root of x >= 0, or up to a tenth more: a third of the logarithm that the bits are, nearly.
+    static F above_cube_root(const F& x) {
+      using I = typename S::I;
+      const F third = S::to_float(S::bits_of(x)) * F(1.0f / 3);
+      return F(1.07f) * S::float_of(S::to_int(third) + I::splat(0x2A50'0000));
+    }
+
+    /// How far from `least`, where the slope is 0 and the value is `value`, a parabola of the same curvature
+    /// has its zeros.
+    F half_width(const F& least, const F& value) const {
+      const F curvature = F(12.0f) * least * least + F(2.0f) * p;
+      return S::sqrt(S::max(F(-2.0f) * value / S::max(curvature, F(1e-6f)), F(0.0f)));
+    }
+
+    /// Of the rays `wanted`, the zero between `low` and `high`, between which the slope has one sign, and
+    /// perhaps near `about`; `falls`: positive at `low`. The result of a ray depends on no other ray.
+    F root_between(F low, F high, const F& about, const typename S::M& falls, typename S::M wanted) const {
       const F sign = S::select(falls, F(-1.0f), F(1.0f)), half(0.5f);
-      F t = (low + high) * half;
+      F t = S::select((about >= low) & (about <= high), about, (low + high) * half);
       for (int i = 0; i < 10 && wanted.bits() != 0; ++i) {
         const F value = at(t) * sign;
         const auto root_is_above = value <= F(0.0f);
