@@ -168,13 +168,15 @@ private:
 
   /// The nine points of a square that is divided, in whole vectors.
   static constexpr uint32_t kEncoded = (9 * kChannels + kSimdLanes - 1) / kSimdLanes * kSimdLanes;
+  static_assert(R::kLanes <= kSampledEdge, "means are kept where colours of a row are");
 
   /// What is not.
   struct Scratch {
     SampleLanes packets[kRowPackets];
     PointRow points[2], encoded[2]; ///< of two rows, by turns
     Square squares[kSquares];       ///< that are being divided
-    alignas(64) float encoding[kEncoded];
+    alignas(64) float encoding[kEncoded > 3 * R::kLanes ? kEncoded : 3 * R::kLanes];
+    uint32_t places[R::kLanes];                  ///< of means that are being encoded
     alignas(64) float channels[3][kSampledEdge]; ///< of pixels to be written
     alignas(64) uint32_t words[kSampledEdge];    ///< these
     Colour colours[kStoredPoints];
@@ -420,8 +422,11 @@ private:
         const uint32_t before = bit >> 1;
         bool differs_left = (left & bit) != 0, differs_above = (above & bit) != 0;
         if (((own & masks.known.row[y] & before) | (*over & (y == 0 ? 0 : masks.known.row[y - 1]) & bit)) !=
-            0)
-          compare_pixel(x, y, differs_left, differs_above);
+            0) {
+          const uint32_t differs = kHasRoomForCode<Spu> ? differences_of(x, y) : differences_out_of_line(x, y);
+          differs_left = (differs & 1) != 0;
+          differs_above = (differs & 2) != 0;
+        }
         if (differs_left) own |= before;
         if (differs_above && y != 0) *over |= bit;
         if (!differs_left && !differs_above) continue;
@@ -457,30 +462,51 @@ private:
       take_from(scratch_.packets[0]);
     }
   }
-  /// What a point is compared by, which may be a pixel of the block: of those that are sampled, what they
-  /// have become.
-  [[gnu::noinline]] void fetch_encoded(uint32_t x, uint32_t y, Colour& colour) {
+  /// Where it lies if memory is direct, otherwise in `room`.
+  [[gnu::always_inline]] const Colour& colour_at(ea_t ea, [[maybe_unused]] Colour& room) {
+    if constexpr (kReadsInPlace<Spu>) {
+      return *reinterpret_cast<const Colour*>(static_cast<uintptr_t>(ea));
+    } else {
+      fetch(&room, ea, kColourBytes);
+      return room;
+    }
+  }
+  /// Where that is what a point is compared by, which may be a pixel of the block: of those that are sampled,
+  /// what they have become.
+  [[gnu::always_inline]] ea_t compared_by(uint32_t x, uint32_t y) const {
     const auto& masks = work_.fixed;
     const bool is_pixel = x != 0 && y != 0;
     const bool is_known =
         is_pixel && (masks.sampled.row[y - 1] & masks.known.row[y - 1] & 1u << (x - 1)) != 0;
-    fetch(&colour, is_known ? encoded_colour(x - 1, y - 1) : encoded_point(x, y), kColourBytes);
+    return is_known ? encoded_colour(x - 1, y - 1) : encoded_point(x, y);
   }
-  /// Whether a pixel differs from its neighbours as they are now.
-  [[gnu::noinline]] void compare_pixel(uint32_t x, uint32_t y, bool& left, bool& above) {
-    Colour* const colours = scratch_.colours;
-    fetch(&colours[0], encoded_point(x + 1, y + 1), kColourBytes);
-    fetch_encoded(x, y + 1, colours[1]);
-    fetch_encoded(x + 1, y, colours[2]);
-    left = distance(colours[0].channel, colours[1].channel) >= frame_.sampling.threshold;
-    above = distance(colours[0].channel, colours[2].channel) >= frame_.sampling.threshold;
+  /// Whether a pixel differs from its neighbours as they are now: bit 0 from the left one, bit 1 from the
+  /// upper one.
+  [[gnu::always_inline]] uint32_t differences_of(uint32_t x, uint32_t y) {
+    Colour* const room = scratch_.colours;
+    const Colour& own = colour_at(encoded_point(x + 1, y + 1), room[0]);
+    const Colour& left = colour_at(compared_by(x, y + 1), room[1]);
+    const Colour& above = colour_at(compared_by(x + 1, y), room[2]);
+    const float threshold = frame_.sampling.threshold;
+    return (distance(own.channel, left.channel) >= threshold ? 1u : 0u) |
+           (distance(own.channel, above.channel) >= threshold ? 2u : 0u);
   }
-  [[gnu::noinline]] static float distance(const float* a, const float* b) {
+  [[gnu::noinline]] uint32_t differences_out_of_line(uint32_t x, uint32_t y) { return differences_of(x, y); }
+  [[gnu::always_inline]] static float distance_inline(const float* a, const float* b) {
     const float sum = magnitude(a[0] - b[0]) + magnitude(a[1] - b[1]) + magnitude(a[2] - b[2]);
     if constexpr (kHasAlpha)
       return sum + magnitude(a[3] - b[3]);
     else
       return sum;
+  }
+  [[gnu::noinline]] static float distance_out_of_line(const float* a, const float* b) {
+    return distance_inline(a, b);
+  }
+  static float distance(const float* a, const float* b) {
+    if constexpr (kHasRoomForCode<Spu>)
+      return distance_inline(a, b);
+    else
+      return distance_out_of_line(a, b);
   }
 
   /// The pixels of a row that still need samples.
@@ -508,13 +534,17 @@ private:
     const float step = 1.0f / static_cast<float>(depth);
     uint32_t count = 0;
     for (;;) {
-      while (count < kPackets * kSimdLanes && find_pixel(cursor_)) {
-        const uint32_t x = column_ * kSampledEdge + static_cast<uint32_t>(__builtin_ctz(cursor_.pixels));
-        const uint32_t y = row_ * kSampledEdge + cursor_.row;
-        ask(count++, static_cast<float>(x) + 0.5f + (static_cast<float>(cursor_.across) + 0.5f) * step,
-            static_cast<float>(y) + 0.5f + (static_cast<float>(cursor_.down) + 0.5f) * step);
-        next_sample(cursor_);
+      Cursor cursor = cursor_;
+      while (count < kPackets * kSimdLanes && find_pixel(cursor)) {
+        const uint32_t column = column_ * kSampledEdge + static_cast<uint32_t>(__builtin_ctz(cursor.pixels));
+        const float x = static_cast<float>(column) + 0.5f;
+        const float y = static_cast<float>(row_ * kSampledEdge + cursor.row) + 0.5f;
+        do
+          ask(count++, x + (static_cast<float>(cursor.across) + 0.5f) * step,
+              y + (static_cast<float>(cursor.down) + 0.5f) * step);
+        while (!next_sample(cursor) && count < kPackets * kSimdLanes);
       }
+      cursor_ = cursor;
       if (count != 0) {
         end_asking(count);
         asked_ = count;
@@ -544,30 +574,54 @@ private:
 
   [[gnu::noinline]] void take_samples() {
     const uint32_t depth = frame_.sampling.depth;
-    for (uint32_t i = 0; i < asked_; ++i) {
-      find_pixel(taken_);
-      const uint32_t x = static_cast<uint32_t>(__builtin_ctz(taken_.pixels));
-      const uint32_t y = taken_.row;
+    const float share = 1.0f / static_cast<float>(depth * depth + 1);
+    Cursor taken = taken_;
+    uint32_t means = 0;
+    for (uint32_t i = 0; i < asked_;) {
+      find_pixel(taken);
+      const uint32_t x = static_cast<uint32_t>(__builtin_ctz(taken.pixels));
+      const uint32_t y = taken.row;
       // The middle of the pixel counts as one sample more.
-      if ((taken_.across | taken_.down) == 0) fetch_point(x + 1, y + 1, sum_);
-      for (uint32_t axis = 0; axis < kChannels; ++axis)
-        sum_.channel[axis] += channel(i, axis);
-      if (!next_sample(taken_)) continue;
-      store_mean(x, y, 1.0f / static_cast<float>(depth * depth + 1));
+      if ((taken.across | taken.down) == 0) fetch_point(x + 1, y + 1, sum_);
+      Colour sum = sum_;
+      bool complete;
+      do {
+        for (uint32_t axis = 0; axis < kChannels; ++axis)
+          sum.channel[axis] += channel(i, axis);
+        complete = next_sample(taken);
+      } while (++i < asked_ && !complete);
+      sum_ = sum;
+      if (!complete) break;
+      for (float& value : sum.channel)
+        value *= share;
+      store_mean(means++, x, y, sum);
+      if (means < R::kLanes) continue;
+      encode_means(means);
+      means = 0;
     }
+    taken_ = taken;
+    if (means != 0) encode_means(means);
   }
-  /// A pixel is known: its share of the sum, and what that is compared by.
-  [[gnu::noinline]] void store_mean(uint32_t x, uint32_t y, float share) {
-    float* const colour = scratch_.encoding;
-    for (uint32_t axis = 0; axis < kChannels; ++axis)
-      colour[axis] = sum_.channel[axis] * share;
-    for (uint32_t i = kChannels; i < R::kLanes; ++i)
-      colour[i] = 0.0f;
-    send(colour, stored_colour(x, y), kColourBytes);
+  /// A pixel is known.
+  void store_mean(uint32_t number, uint32_t x, uint32_t y, const Colour& mean) {
+    scratch_.colours[number] = mean;
+    scratch_.places[number] = y * kSampledEdge + x;
+    for (uint32_t axis = 0; axis < 3; ++axis)
+      scratch_.encoding[3 * number + axis] = mean.channel[axis];
+    send(&scratch_.colours[number], stored_colour(x, y), kColourBytes);
+  }
+  /// What so many means are compared by.
+  [[gnu::noinline]] void encode_means(uint32_t count) {
     arrive();
-    encode(colour, R::kLanes);
-    if constexpr (kHasAlpha) colour[3] = sum_.channel[3] * share;
-    send(colour, encoded_colour(x, y), kColourBytes);
+    for (uint32_t i = 3 * count; i < 3 * R::kLanes; ++i)
+      scratch_.encoding[i] = 0.0f;
+    encode(scratch_.encoding, 3 * R::kLanes);
+    for (uint32_t number = 0; number < count; ++number) {
+      Colour& mean = scratch_.colours[number];
+      for (uint32_t axis = 0; axis < 3; ++axis)
+        mean.channel[axis] = scratch_.encoding[3 * number + axis];
+      send(&mean, encoded_colour(scratch_.places[number], 0), kColourBytes);
+    }
     arrive();
   }
 
