@@ -290,6 +290,12 @@ private:
       return true;
     }
     const uint32_t group = state.group;
+    if constexpr (kHasRoomForCode<Spu>) {
+      push_children(slot, node, is_single(group) ? Lanes4{group, group, group, group}
+                                                 : rays.intersect_all(node.bounds, order, tfar(query)),
+                    group, hit, enter);
+      return false;
+    }
     const F each_tfar = tfar(query);
     const uint32_t first = slot.stack.size();
     do {
@@ -305,6 +311,21 @@ private:
       slot.stack.push(first, {child, lanes, enter[i], 0});
     } while (hit != 0);
     return false;
+  }
+
+  /// Pushes those of the children in `hit` that some of the rays `group` hit, without a branch: which ones
+  /// they are and in what order can hardly be predicted.
+  [[gnu::always_inline]] void push_children(Slot& slot, const NodeRecord& node, const Lanes4& hit_by,
+                                            uint32_t group, uint32_t hit, const float (&enter)[4]) {
+    uint32_t lanes[4];
+    float key[4];
+    for (uint32_t i = 0; i < 4; ++i) {
+      lanes[i] = hit_by.lanes[i] & group & (0u - (hit >> i & 1));
+      key[i] = lanes[i] != 0 ? enter[i] : -1.0f;
+    }
+    slot.stack.push_all(key, lanes, node.child, node.leaf);
+    for (uint32_t i = 0; i < 4; ++i)
+      if (lanes[i] != 0) objects_.scene().hint({node.child[i], node.leaf[i]});
   }
 
   ObjectTests<Spu>& objects_;

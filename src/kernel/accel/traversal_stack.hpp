@@ -37,10 +37,30 @@ public:
     entries_[place] = entry;
   }
 
+  /// Likewise the children of a node, without a branch: those with lanes, by the distance `key`. The others'
+  /// is less than any.
+  [[gnu::always_inline]] void push_all(const float (&key)[4], const uint32_t (&lanes)[4],
+                                       const uint32_t (&child)[4], const uint32_t (&leaf)[4]) {
+    // Where it goes: behind those that are farther, and of those at the same distance behind the first.
+    uint32_t place[4] = {0, 1, 2, 3};
+    for (uint32_t i = 0; i < 4; ++i)
+      for (uint32_t j = i + 1; j < 4; ++j) {
+        const uint32_t later_is_farther = key[j] > key[i] ? 1 : 0;
+        place[i] += later_is_farther;
+        place[j] -= later_is_farther;
+      }
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < 4; ++i) {
+      entries_[size_ + place[i]] = {{child[i], leaf[i]}, lanes[i], key[i], 0};
+      count += lanes[i] != 0 ? 1 : 0;
+    }
+    size_ += count;
+  }
+
 private:
   /// A node has four children, each with an entry for every packet that splits. One of these entries is
   /// popped before the next level is pushed. The builder keeps a BVH within 48 levels.
-  static constexpr uint32_t kEntries = (4 * kMaxSplitPackets - 1) * 48 + 4;
+  static constexpr uint32_t kEntries = (4 * kMaxSplitPackets - 1) * 48 + 8;
 
   Entry entries_[kEntries];
   uint32_t size_ = 0;
