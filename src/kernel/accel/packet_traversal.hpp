@@ -291,8 +291,9 @@ private:
     }
     const uint32_t group = state.group;
     if constexpr (kHasRoomForCode<Spu>) {
-      push_children(slot, node, is_single(group) ? Lanes4{group, group, group, group}
-                                                 : rays.intersect_all(node.bounds, order, tfar(query)),
+      push_children(slot, node,
+                    is_single(group) ? Lanes4{group, group, group, group}
+                                     : rays.intersect_all(node.bounds, order, tfar(query)),
                     group, hit, enter);
       return false;
     }

@@ -64,7 +64,8 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
       const auto crosses = near_enough & (enters | leaves);
       distance[i] = zero;
       if (crosses.bits() != 0) {
-        distance[i] = (f.root_between(bounds[i], bounds[i + 1], about, falls, crosses) + shift) * inverse_scale;
+        distance[i] =
+            (f.root_between(bounds[i], bounds[i + 1], about, falls, crosses) + shift) * inverse_scale;
         const auto first = (distance[i] > zero) & ((inward & leaves) | (enters & !inward));
         hit[i] = crosses & !(starts & !first);
         starts = starts & !hit[i];

@@ -423,7 +423,8 @@ private:
         bool differs_left = (left & bit) != 0, differs_above = (above & bit) != 0;
         if (((own & masks.known.row[y] & before) | (*over & (y == 0 ? 0 : masks.known.row[y - 1]) & bit)) !=
             0) {
-          const uint32_t differs = kHasRoomForCode<Spu> ? differences_of(x, y) : differences_out_of_line(x, y);
+          const uint32_t differs =
+              kHasRoomForCode<Spu> ? differences_of(x, y) : differences_out_of_line(x, y);
           differs_left = (differs & 1) != 0;
           differs_above = (differs & 2) != 0;
         }

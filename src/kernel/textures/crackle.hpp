@@ -124,8 +124,8 @@ private:
 
   /// Whether no point beyond the inner cells, which are 1 away or more, is nearer.
   template <class S>
-  [[gnu::always_inline]] static bool reaches_no_further(const typename S::F& power,
-                                                        const typename S::M& here, float metric) {
+  [[gnu::always_inline]] static bool reaches_no_further(const typename S::F& power, const typename S::M& here,
+                                                        float metric) {
     return (metric == 1.0f || metric == 2.0f) && (here & (power > typename S::F(1.0f))).bits() == 0;
   }
 

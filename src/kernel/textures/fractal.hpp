@@ -34,7 +34,8 @@ struct FractalPattern : RarePattern {
     const uint32_t most = static_cast<uint32_t>(r.parameter[2]);
     if constexpr (kHasRoomForCode<Spu>)
       if (magnet == 0 && (r.table & fractal_word::exponent_mask) == 2 && outside == 1 && inside <= 1)
-        return inside == 1 ? counted_squares<S, true>(z, c, most, r) : counted_squares<S, false>(z, c, most, r);
+        return inside == 1 ? counted_squares<S, true>(z, c, most, r)
+                           : counted_squares<S, false>(z, c, most, r);
     M stays = M::all();
     // Numbers that have left are iterated on, wherever to: the next number does not wait for which they are.
     Complex<S> left = z;
@@ -64,9 +65,10 @@ struct FractalPattern : RarePattern {
 private:
   template <class S> struct Complex { typename S::F a, b; };
 
-  /// The value where numbers are squared, and no more is asked than how many stay and, inside, the least size.
-  /// A number that comes back after some rounds would do so for ever, as those do that converge: it is not
-  /// followed further (Brent 1980). Whatever is still to come has been there, so that the least size is known.
+  /// The value where numbers are squared, and no more is asked than how many stay and, inside, the least
+  /// size. A number that comes back after some rounds would do so for ever, as those do that converge: it is
+  /// not followed further (Brent 1980). Whatever is still to come has been there, so that the least size is
+  /// known.
   template <class S, bool kWantsLeast>
   [[gnu::noinline]] static typename S::F counted_squares(const Complex<S>& first, const Complex<S>& c,
                                                          uint32_t most, const PatternRecord& r) {
@@ -95,7 +97,8 @@ private:
       }
     }
     const F factor(r.parameter[4]);
-    return S::select(stays, kWantsLeast ? S::sqrt(least) * factor : factor, rounds * F(1.0f / r.parameter[2]));
+    return S::select(stays, kWantsLeast ? S::sqrt(least) * factor : factor,
+                     rounds * F(1.0f / r.parameter[2]));
   }
 
   template <class S> [[gnu::always_inline]] static typename S::F square(const Complex<S>& z) {
