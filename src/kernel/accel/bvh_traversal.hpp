@@ -10,6 +10,7 @@
 #include "kernel/cameras/primary_rays.hpp"
 #include "kernel/direct/bundle_leaf_tests.hpp"
 #include "kernel/direct/light_bundle.hpp"
+#include "kernel/direct/mixed_rays.hpp"
 #include "kernel/direct/origin_bundle.hpp"
 
 namespace celltrace::kernel {
@@ -21,7 +22,8 @@ public:
 
   BvhTraversal(ObjectTests<Spu>& objects, const FrameBlock& frame)
       : objects_(objects), bvh_(frame.bvh), packet_traversal_(objects, frame),
-        max_split_packets_(max_split_packets(frame)) {}
+        max_split_packets_(max_split_packets(frame)),
+        mixes_octants_(frame.object_count <= tuning::kMostObjectsOfMixedRays) {}
 
   /// Answers the queries, at most one for each packet of a bundle. Hits must have been reset. Occluded lanes
   /// are removed from queries for light.
@@ -90,11 +92,13 @@ private:
   void intersect_packet(RayQuery& query) {
     objects_.hit_filter().begin_packet();
     const RayPacket& rays = *query.rays;
+    if constexpr (kMixesOctants<Spu>)
+      if (intersect_mixed(query)) return;
     RayGroup<S>& group = ray_groups_[0];
     uint32_t remaining = query.lanes;
     while (remaining != 0) {
       const uint32_t octant = octant_of(rays, static_cast<uint32_t>(__builtin_ctz(remaining)));
-      uint32_t same = remaining & lanes_in_octant(rays, octant);
+      uint32_t same = remaining & lanes_in_octant<S>(rays, octant);
       remaining &= ~same;
       // All rays of the octant if they are coherent; otherwise blocks of 2x2 rays, and divergent blocks ray
       // by ray.
@@ -118,21 +122,30 @@ private:
     }
   }
 
+  /// Traverses a packet with rays of several octants at once. False: that does not pay.
+  bool intersect_mixed(RayQuery& query) {
+    const RayPacket& rays = *query.rays;
+    if (__builtin_popcount(query.lanes) < tuning::kLeastMixedRays || !mixes_octants_) return false;
+    const uint32_t octant = octant_of(rays, static_cast<uint32_t>(__builtin_ctz(query.lanes)));
+    if ((query.lanes & ~lanes_in_octant<S>(rays, octant)) == 0) return false;
+    MixedVisitor<Spu> visitor = {packet_traversal_,
+                                 objects_,
+                                 query,
+                                 MixedRays<S>(rays),
+                                 packet_traversal_.stack(),
+                                 PacketTraversal<Spu>::tfar_of(query, query.lanes)};
+    visitor.stack.shrink(0);
+    visitor.lanes = query.lanes;
+    NodeRef ref = root();
+    traverse_nodes(visitor, ref);
+    return true;
+  }
+
   /// The lanes that `lane` is grouped with: on level 0 the whole packet, on level 1 its block of 2x2 rays, on
   /// level 2 itself.
   static uint32_t subset_of(uint32_t level, uint32_t lane) {
     if (level == 0) return 0xFFFF;
     return level == 1 ? 0x33u << (lane & 0xAu) : 1u << lane;
-  }
-
-  /// The lanes whose directions are in an octant.
-  static uint32_t lanes_in_octant(const RayPacket& rays, uint32_t octant) {
-    const F zero(0.0f);
-    const V3<S> direction = rays.direction.template load<S>();
-    const uint32_t x = (direction.x < zero).bits(), y = (direction.y < zero).bits(),
-                   z = (direction.z < zero).bits();
-    const auto same = [](uint32_t negative, uint32_t wanted) { return wanted != 0 ? negative : ~negative; };
-    return same(x, octant & 1) & same(y, octant & 2) & same(z, octant & 4);
   }
 
   // --- a bundle of packets ---
@@ -468,6 +481,7 @@ private:
   const BvhRecord& bvh_;
   PacketTraversal<Spu> packet_traversal_;
   const uint32_t max_split_packets_;
+  const bool mixes_octants_;
   RayGroup<S> ray_groups_[kBundlePackets<Spu>]; ///< by packet; intersect_packet() uses the first
   BundleFrusta<S, kBundlePackets<Spu>> frusta_;
   Frustum<S> bundle_frustum_;                  ///< contains all of frusta_

@@ -30,6 +30,16 @@ inline uint32_t octant_of(const RayPacket& rays, uint32_t lane) {
          (rays.direction.z.lane[lane] < 0.0f ? 4u : 0u);
 }
 
+/// The lanes whose directions are in an octant.
+template <class S> uint32_t lanes_in_octant(const RayPacket& rays, uint32_t octant) {
+  const typename S::F zero(0.0f);
+  const V3<S> direction = rays.direction.template load<S>();
+  const uint32_t x = (direction.x < zero).bits(), y = (direction.y < zero).bits(),
+                 z = (direction.z < zero).bits();
+  const auto same = [](uint32_t negative, uint32_t wanted) { return wanted != 0 ? negative : ~negative; };
+  return same(x, octant & 1) & same(y, octant & 2) & same(z, octant & 4);
+}
+
 /// The order of planes in the slab test: which rows of NodeRecord::bounds are the near and the far planes for
 /// rays of an octant, axis by axis.
 struct SlabOrder {

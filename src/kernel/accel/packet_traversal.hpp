@@ -104,6 +104,23 @@ public:
       return tfar_out_of_line(query, group);
   }
 
+  /// Tests the objects of a leaf, which the rays in `group` hit.
+  void test_objects(const NodeRef& leaf, uint32_t group, RayQuery& query) {
+    if constexpr (kTestsWholeLeaves<Spu>) {
+      if (leaf_word::count(leaf.leaf) >= tuning::kLeastTrianglesByLeaf &&
+          __builtin_popcount(group) <= tuning::kMostRaysByLeaf)
+        return LeafTests<Spu>(objects_).test(query, group, leaf);
+    }
+    objects_.scene().for_each_object(leaf, [&](uint32_t self) {
+      if (query.hits != nullptr) {
+        if (objects_.hit_filter().first_test(self)) objects_.test_closest(*query.rays, self, *query.hits);
+        return false;
+      }
+      query.lanes &= ~objects_.occluded(*query.rays, self, group, *query.distance, *query.light);
+      return (query.lanes & group) == 0;
+    });
+  }
+
 private:
   /// What is being traversed: the rays in `group`, with their frustum, up to `tfar`. Stack entries below
   /// `floor` belong to others.
@@ -256,22 +273,6 @@ private:
       state.tfar = tfar_of(query, state.group);
     else if ((query.lanes & state.group) == 0)
       slot.stack.shrink(state.floor);
-  }
-
-  void test_objects(const NodeRef& leaf, uint32_t group, RayQuery& query) {
-    if constexpr (kTestsWholeLeaves<Spu>) {
-      if (leaf_word::count(leaf.leaf) >= tuning::kLeastTrianglesByLeaf &&
-          __builtin_popcount(group) <= tuning::kMostRaysByLeaf)
-        return LeafTests<Spu>(objects_).test(query, group, leaf);
-    }
-    objects_.scene().for_each_object(leaf, [&](uint32_t self) {
-      if (query.hits != nullptr) {
-        if (objects_.hit_filter().first_test(self)) objects_.test_closest(*query.rays, self, *query.hits);
-        return false;
-      }
-      query.lanes &= ~objects_.occluded(*query.rays, self, group, *query.distance, *query.light);
-      return (query.lanes & group) == 0;
-    });
   }
 
   /// Intersects the children of node `ref` with the group. If its frustum hits one child, `ref` becomes that
