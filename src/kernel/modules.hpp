@@ -22,9 +22,9 @@ constexpr CodeModule kPatterns = {"patterns", 7, 0, 3200};
 constexpr CodeModule kNoise = {"noise", 8, 0, 14336};
 /// What becomes of the points of antialiased pictures, and which samples they need besides: by the fixed
 /// method, by the adaptive one, and either with alpha.
-constexpr CodeModule kSampling = {"sampling", 18, 0, 10368};
+constexpr CodeModule kSampling = {"sampling", 18, 0, 10880};
 constexpr CodeModule kSquares = {"squares", 28, 0, 9600};
-constexpr CodeModule kAlphaSampling = {"alphasampling", 29, 0, 10752};
+constexpr CodeModule kAlphaSampling = {"alphasampling", 29, 0, 11264};
 constexpr CodeModule kAlphaSquares = {"alphasquares", 30, 0, 9984};
 /// What primary rays hit, for main memory.
 constexpr CodeModule kFirstHits = {"firsthits", 31, 0, 768};
@@ -41,7 +41,7 @@ constexpr CodeModule kWarps = {"warps", 23, 0, 3456};
 // Of the second region: what shades, and asks patterns.
 
 /// Intersections with heavy shapes. Not of the region of the other shapes: rays test both by turns.
-constexpr CodeModule kHeavyShapes = {"heavy", 4, 1, 8448};
+constexpr CodeModule kHeavyShapes = {"heavy", 4, 1, 8704};
 /// What is inside of shapes whose equations have powers, and the normals of these.
 constexpr CodeModule kHeavyPoints = {"heavypoints", 33, 1, 2304};
 /// What is inside of meshes. Likewise: where CSG has meshes, it asks both by turns.

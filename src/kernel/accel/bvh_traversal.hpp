@@ -28,6 +28,10 @@ public:
   /// Answers the queries, at most one for each packet of a bundle. Hits must have been reset. Occluded lanes
   /// are removed from queries for light.
   void intersect(RayQuery* queries, uint32_t count) { intersect(queries, count, 0); }
+  /// Answers one query.
+  void intersect(RayQuery& query) {
+    if (query.lanes != 0) intersect_packet(query);
+  }
   /// Finds the closest hits of the primary rays of a bundle that has just been entered; query i is that of
   /// its packet i.
   void intersect(RayQuery* queries, const PinholeBundle<S>& bundle) {
@@ -89,7 +93,7 @@ private:
   // --- one packet ---
 
   /// Traverses a packet in groups of rays with similar directions in one octant, each with its own frustum.
-  void intersect_packet(RayQuery& query) {
+  [[gnu::noinline]] void intersect_packet(RayQuery& query) {
     objects_.hit_filter().begin_packet();
     const RayPacket& rays = *query.rays;
     if constexpr (kMixesOctants<Spu>)

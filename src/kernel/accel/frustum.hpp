@@ -31,7 +31,8 @@ inline uint32_t octant_of(const RayPacket& rays, uint32_t lane) {
 }
 
 /// The lanes whose directions are in an octant.
-template <class S> uint32_t lanes_in_octant(const RayPacket& rays, uint32_t octant) {
+template <class S>
+[[gnu::always_inline]] inline uint32_t lanes_in_octant(const RayPacket& rays, uint32_t octant) {
   const typename S::F zero(0.0f);
   const V3<S> direction = rays.direction.template load<S>();
   const uint32_t x = (direction.x < zero).bits(), y = (direction.y < zero).bits(),

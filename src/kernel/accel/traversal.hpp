@@ -35,7 +35,7 @@ public:
   void find_closest(const RayPacket& rays, uint32_t lanes, HitPacket& hits, uint32_t reflected = 0) {
     RayQuery query = {&rays, &hits, nullptr, nullptr, lanes};
     objects_.set_reflected(reflected);
-    intersect(&query, 1);
+    intersect_packet(query);
     objects_.set_reflected(0);
   }
 
@@ -44,7 +44,7 @@ public:
   /// crosses. The light of other lanes becomes 0.
   void transmittance(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance, VectorLanes& light) {
     RayQuery query = {&rays, nullptr, &distance, &light, lanes};
-    intersect(&query, 1);
+    intersect_packet(query);
   }
 
   /// Lets shadow rays end where they first cross what a light is projected through. Returns the lanes that
@@ -76,8 +76,9 @@ public:
   }
 
   /// Answers all queries, at most one for each packet of a bundle, either all for hits or all for light. If
-  /// their rays are coherent, this is faster than packet by packet.
-  void intersect(RayQuery* queries, uint32_t count) {
+  /// their rays are coherent, this is faster than packet by packet. Not inlined, as intersect_packet() is
+  /// not: local store has room for one copy of each.
+  [[gnu::noinline]] void intersect(RayQuery* queries, uint32_t count) {
     reset_hits(queries, count);
     intersect_unbounded(queries, count);
     if constexpr (kHasBvh)
@@ -85,6 +86,17 @@ public:
     if constexpr (kHasGrid)
       if (!uses_bvh()) intersect_grid(queries, count);
     clear_occluded(queries, count);
+  }
+
+  /// Answers one query, which needs no code for bundles.
+  [[gnu::noinline]] void intersect_packet(RayQuery& query) {
+    reset_hits(&query, 1);
+    intersect_unbounded(&query, 1);
+    if constexpr (kHasBvh)
+      if (uses_bvh()) bvh_.intersect(query);
+    if constexpr (kHasGrid)
+      if (!uses_bvh()) intersect_grid(&query, 1);
+    clear_occluded(&query, 1);
   }
 
   /// The same for shadow rays toward one light, at the point `light`. May change the order of the queries.
@@ -167,7 +179,7 @@ private:
     return with_rays;
   }
 
-  static void reset_hits(const RayQuery* queries, uint32_t count) {
+  [[gnu::noinline]] static void reset_hits(const RayQuery* queries, uint32_t count) {
     for (uint32_t i = 0; i < count; ++i) {
       HitPacket* const hits = queries[i].hits;
       if (hits == nullptr) continue;
@@ -185,7 +197,7 @@ private:
   }
 
   /// Sets the light of a query to 0 in lanes that are occluded or that were not asked for.
-  static void clear_occluded(const RayQuery* queries, uint32_t count) {
+  [[gnu::noinline]] static void clear_occluded(const RayQuery* queries, uint32_t count) {
     const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
     for (uint32_t i = 0; i < count; ++i) {
       const RayQuery& query = queries[i];
