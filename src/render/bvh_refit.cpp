@@ -17,12 +17,10 @@ using Simd = HostSimd<BaselineArch>;
 using LaneAabb = bvh::LaneAabb<Simd>;
 
 /// With fewer, starting threads takes longer than they save.
-constexpr std::uint32_t kNodesAThread = 8192;
+constexpr std::uint32_t kObjectsAThread = 65536;
+/// Objects whose records are on their way while one is read.
+constexpr std::size_t kAhead = 16;
 constexpr std::uint32_t kChildren = bvh::kChildren;
-
-NodeRecord* nodes_of(std::byte* base, const BvhRecord& bvh) {
-  return reinterpret_cast<NodeRecord*>(base + bvh.node_offset);
-}
 
 bool is_leaf(const NodeRecord& node, std::uint32_t slot) {
   return node.leaf[slot] != 0;
@@ -32,26 +30,13 @@ bool is_empty(const NodeRecord& node, std::uint32_t slot) {
   return node.leaf[slot] == 0 && node.child[slot] == 0;
 }
 
-LaneAabb bounds_of_leaf(const std::byte* base, std::uint32_t first, std::uint32_t word) {
-  const std::uint32_t step = leaf_word::step_bytes(word);
-  LaneAabb bounds = LaneAabb::empty();
-  for (std::uint32_t i = 0; i < leaf_word::count(word); ++i) {
-    const std::uint32_t object = leaf_word::is_list(word)
-                                     ? *reinterpret_cast<const std::uint32_t*>(base + first + i * 4)
-                                     : first + i * step;
-    bounds.grow(bvh::box_of<Simd>(*reinterpret_cast<const ObjectRecord*>(base + object), base));
-  }
-  return bounds;
-}
-
 void store(const LaneAabb& bounds, bvh::Reference& to) {
   bounds.min.store(to.min); // over the words beside, which are not used
   bounds.max.store(to.max);
 }
 
-/// The sum over its children of their areas, each times what a ray that hits it is tested against: objects or
-/// four bounds.
-double cost_of(const NodeRecord& node) {
+/// The sum over its children of their areas, each times what a ray that hits it is tested against.
+double cost_of(const NodeRecord& node, const float* tests) {
   using F4 = Simd::F4;
   const auto extent = [&](int axis) {
     return F4::load(node.bounds[2 * axis + 1]) - F4::load(node.bounds[2 * axis]);
@@ -61,8 +46,7 @@ double cost_of(const NodeRecord& node) {
   (x * y + (x + y) * z).store(areas);
   double cost = 0;
   for (std::uint32_t slot = 0; slot < kChildren; ++slot)
-    if (!is_empty(node, slot))
-      cost += double{areas[slot]} * (is_leaf(node, slot) ? leaf_word::count(node.leaf[slot]) : kChildren);
+    if (tests[slot] != 0) cost += double{areas[slot]} * tests[slot];
   return cost;
 }
 
@@ -77,61 +61,85 @@ double BvhRefit::decay() const {
 }
 
 void BvhRefit::refit(std::byte* base, const BvhRecord& bvh, unsigned threads) {
-  NodeRecord* const nodes = nodes_of(base, bvh);
   if (nodes_.empty()) find_nodes(base, bvh);
-  const auto count = static_cast<std::uint32_t>(nodes_.size());
-  threads = std::clamp(count / kNodesAThread, 1u, threads);
-  if (threads > 1)
-    for_each_part(threads, [&](unsigned part) {
-      const HostPart mine(count, part, threads);
-      for (std::uint32_t i = mine.begin; i < mine.end; ++i) {
-        BuildWatch::look_at(i);
-        bound_leaves(base, nodes[nodes_[i]], nodes_[i]);
-      }
-    });
+  threads = std::clamp(static_cast<std::uint32_t>(members_.size()) / kObjectsAThread, 1u, threads);
+  for (bvh::Reference& bounds : bounds_)
+    store(LaneAabb::empty(), bounds);
+  for_each_part(threads, [&](unsigned part) { bound_leaves(base, members_of(part, threads)); });
+  auto* const nodes = reinterpret_cast<NodeRecord*>(base + bvh.node_offset);
   cost_ = 0;
-  for (std::uint32_t i = count; i-- > 0;) {
+  for (auto i = static_cast<std::uint32_t>(nodes_.size()); i-- > 0;) {
     BuildWatch::look_at(i);
-    const std::uint32_t number = nodes_[i];
-    if (threads == 1) bound_leaves(base, nodes[number], number);
-    cost_ += bound_node(nodes[number], number);
+    cost_ += bound_node(nodes[nodes_[i]], i);
   }
 }
 
-void BvhRefit::find_nodes(std::byte* base, const BvhRecord& bvh) {
-  const NodeRecord* nodes = nodes_of(base, bvh);
+void BvhRefit::find_nodes(const std::byte* base, const BvhRecord& bvh) {
+  const auto* const nodes = reinterpret_cast<const NodeRecord*>(base + bvh.node_offset);
   constexpr std::uint32_t kGap = 0xFFFFFFFF;
-  parents_.assign(bvh.node_count, kGap);
-  bounds_.resize(std::size_t{bvh.node_count} * kChildren);
+  std::vector<std::uint32_t> place_of(bvh.node_count, kGap);
+  places_.clear();
+  members_.clear();
+  tests_.clear();
   first_cost_ = 0;
-  parents_[0] = 0; // has none
+  place_of[0] = 0; // has none
   for (std::uint32_t number = 0; number < bvh.node_count; ++number) {
     BuildWatch::look_at(number);
-    if (parents_[number] == kGap) continue;
+    if (place_of[number] == kGap) continue;
     nodes_.push_back(number);
+    places_.push_back(place_of[number]);
     const NodeRecord& node = nodes[number];
-    first_cost_ += cost_of(node);
     for (std::uint32_t slot = 0; slot < kChildren; ++slot) {
-      if (is_leaf(node, slot) || is_empty(node, slot)) continue;
-      const auto child =
-          (node.child[slot] - bvh.node_offset) / static_cast<std::uint32_t>(sizeof(NodeRecord));
-      parents_[child] = number * kChildren + slot;
+      const auto place = static_cast<std::uint32_t>(tests_.size());
+      if (is_leaf(node, slot)) {
+        add_leaf(base, node.child[slot], node.leaf[slot], place);
+        tests_.push_back(static_cast<float>(leaf_word::count(node.leaf[slot])));
+      } else if (is_empty(node, slot)) {
+        tests_.push_back(0);
+      } else {
+        place_of[(node.child[slot] - bvh.node_offset) / std::uint32_t{sizeof(NodeRecord)}] = place;
+        tests_.push_back(kChildren);
+      }
     }
+    first_cost_ += cost_of(node, &tests_[tests_.size() - kChildren]);
+  }
+  bounds_.resize(tests_.size());
+}
+
+void BvhRefit::add_leaf(const std::byte* base, std::uint32_t first, std::uint32_t word, std::uint32_t slot) {
+  for (std::uint32_t i = 0; i < leaf_word::count(word); ++i)
+    members_.push_back({leaf_word::is_list(word)
+                            ? *reinterpret_cast<const std::uint32_t*>(base + first + i * 4)
+                            : first + i * leaf_word::step_bytes(word),
+                        slot});
+}
+
+std::span<const BvhRefit::Member> BvhRefit::members_of(unsigned part, unsigned parts) const {
+  const HostPart mine(static_cast<std::uint32_t>(members_.size()), part, parts);
+  const auto whole_leaf = [&](std::uint32_t end) {
+    while (end != 0 && end != members_.size() && members_[end].slot == members_[end - 1].slot)
+      ++end;
+    return end;
+  };
+  const std::uint32_t begin = whole_leaf(mine.begin);
+  return {members_.data() + begin, whole_leaf(mine.end) - begin};
+}
+
+/// Without a loop for each leaf, whose end nobody could predict.
+void BvhRefit::bound_leaves(const std::byte* base, std::span<const Member> members) {
+  bvh::Reference* const all = bounds_.data();
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    BuildWatch::look_at(i);
+    if (members.size() - i > kAhead) __builtin_prefetch(base + members[i + kAhead].object);
+    bvh::Reference& leaf = all[members[i].slot];
+    LaneAabb bounds = LaneAabb::of(leaf);
+    bounds.grow(bvh::box_of<Simd>(*reinterpret_cast<const ObjectRecord*>(base + members[i].object), base));
+    store(bounds, leaf);
   }
 }
 
-void BvhRefit::bound_leaves(std::byte* base, const NodeRecord& node, std::uint32_t number) {
-  for (std::uint32_t slot = 0; slot < kChildren; ++slot) {
-    bvh::Reference& bounds = bounds_[std::size_t{number} * kChildren + slot];
-    if (is_leaf(node, slot))
-      store(bounds_of_leaf(base, node.child[slot], node.leaf[slot]), bounds);
-    else if (is_empty(node, slot))
-      store(LaneAabb::empty(), bounds);
-  }
-}
-
-double BvhRefit::bound_node(NodeRecord& node, std::uint32_t number) {
-  const bvh::Reference* const bounds = &bounds_[std::size_t{number} * kChildren];
+double BvhRefit::bound_node(NodeRecord& node, std::uint32_t i) {
+  const bvh::Reference* const bounds = &bounds_[std::size_t{i} * kChildren];
   LaneAabb children[kChildren];
   LaneAabb whole = LaneAabb::empty();
   for (std::uint32_t slot = 0; slot < kChildren; ++slot) {
@@ -139,8 +147,8 @@ double BvhRefit::bound_node(NodeRecord& node, std::uint32_t number) {
     whole.grow(children[slot]);
   }
   bvh::set_child_bounds<Simd>(node, children);
-  if (number != 0) store(whole, bounds_[parents_[number]]);
-  return cost_of(node);
+  if (i != 0) store(whole, bounds_[places_[i]]);
+  return cost_of(node, &tests_[std::size_t{i} * kChildren]);
 }
 
 } // namespace celltrace

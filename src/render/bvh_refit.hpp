@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace celltrace {
@@ -24,16 +25,26 @@ public:
   double decay() const;
 
 private:
-  void find_nodes(std::byte* base, const kernel::BvhRecord& bvh);
-  void bound_leaves(std::byte* base, const kernel::NodeRecord& node, std::uint32_t number);
-  /// The bounds of its children are known. Returns what it adds to the cost.
-  double bound_node(kernel::NodeRecord& node, std::uint32_t number);
+  /// An object in a leaf.
+  struct Member {
+    std::uint32_t object; ///< offset of its record
+    std::uint32_t slot;   ///< which of bounds_ is the leaf's
+  };
 
-  std::vector<std::uint32_t> nodes_; ///< numbers in ascending order, so that children come after parents
-  /// By number, the parent's number times four and the slot in it; nothing for gaps between nodes.
-  std::vector<std::uint32_t> parents_;
-  /// By number, of its four children; not padded as those in the image are.
-  std::vector<kernel::bvh::Reference> bounds_;
+  void find_nodes(const std::byte* base, const kernel::BvhRecord& bvh);
+  void add_leaf(const std::byte* base, std::uint32_t first, std::uint32_t word, std::uint32_t slot);
+  /// Part `part` of `parts`; no leaf is in two of them.
+  std::span<const Member> members_of(unsigned part, unsigned parts) const;
+  void bound_leaves(const std::byte* base, std::span<const Member> members);
+  /// Of entry `i` of nodes_; the bounds of its children are known. Returns what it adds to the cost.
+  double bound_node(kernel::NodeRecord& node, std::uint32_t i);
+
+  std::vector<std::uint32_t> nodes_;  ///< numbers in ascending order, so that children come after parents
+  std::vector<std::uint32_t> places_; ///< by entry of nodes_: which of bounds_ is its own
+  std::vector<Member> members_;       ///< leaf by leaf
+  // Four for each entry of nodes_: of its children.
+  std::vector<kernel::bvh::Reference> bounds_; ///< not padded as those in the image are
+  std::vector<float> tests_; ///< what a ray that hits the child is tested against: objects, or four bounds
   double first_cost_ = 0, cost_ = 0;
 };
 
