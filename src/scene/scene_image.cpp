@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace celltrace {
@@ -71,6 +72,21 @@ ObjectCensus place_all(const SceneObjects& objects, PlacedObject* to, unsigned t
     const PlacedObject* from = to + HostPart(objects.count(), part, threads).begin;
     std::copy(from, from + census[part].objects, to + census[0].objects);
     census[0].add(census[part]);
+  }
+  return census[0];
+}
+
+/// The same where objects have places already; nothing if one that can be hit has none.
+std::optional<ObjectCensus> count_placed(const SceneObjects& objects, std::span<const std::uint32_t> places,
+                                         unsigned threads) {
+  std::vector<std::optional<ObjectCensus>> census(threads);
+  for_each_part(threads, [&](unsigned part) {
+    const HostPart mine(objects.count(), part, threads);
+    census[part] = objects.count_placed(mine.begin, mine.end, places);
+  });
+  for (unsigned part = 1; part < threads && census[0]; ++part) {
+    if (!census[part]) return std::nullopt;
+    census[0]->add(*census[part]);
   }
   return census[0];
 }
@@ -200,21 +216,23 @@ bool SceneImage::update(const Scene& given, AlignedBlock& work, unsigned threads
                              instances, threads);
   if (objects.count() != origin_->places.size()) return false;
   threads = threads_for(objects, instances, threads, objects_a_thread);
-  const OrderMemory memory(work, objects.count());
-  const ObjectCensus loose = place_all(objects, memory.spare, threads);
-  if (loose.objects != origin_->placed) return false;
-  for (std::uint32_t i = 0; i < loose.objects; ++i) {
-    BuildWatch::look_at(i);
-    const std::uint32_t place = origin_->places[memory.spare[i].source];
-    if (place == SceneObjects::kNoPlace) return false;
-    memory.objects[place] = memory.spare[i];
-  }
-  ObjectCensus census = loose;
+  const std::optional<ObjectCensus> loose = count_placed(objects, origin_->places, threads);
+  if (!loose || loose->objects != origin_->placed) return false;
+  ObjectCensus census = *loose;
   census.add(instances.census());
   const LightSets light_sets(scene);
   const ImageHeader updated =
       make_header(scene, light_sets, textures, objects, census, origin_->groups, instances);
   if (!have_same_layout(header(), updated)) return false;
+  std::optional<OrderMemory> order; // records in other tables lie as objects do
+  if (updated.extra_count != 0 || updated.blend_count != 0) {
+    order.emplace(work, objects.count());
+    for (std::uint32_t i = 0; i < objects.count(); ++i) {
+      BuildWatch::look_at(i);
+      if (const std::uint32_t place = origin_->places[i]; place != SceneObjects::kNoPlace)
+        order->objects[place].source = i;
+    }
+  }
 
   TableWriter writer(block_.data(), updated, scene, textures, objects.unbounded_extras());
   writer.write_header();
@@ -222,11 +240,14 @@ bool SceneImage::update(const Scene& given, AlignedBlock& work, unsigned threads
   writer.write_surfaces(textures);
   writer.write_csg(objects.csg());
   writer.write_polygons(objects.polygons());
-  writer.write_objects(objects, {memory.objects, loose.objects}, memory.cells, threads);
+  if (order)
+    writer.write_objects(objects, {order->objects, loose->objects}, order->cells, threads);
+  else
+    writer.send_objects(objects, origin_->places, threads);
   writer.write_groups(origin_->groups, threads);
   writer.write_instances(instances, threads);
   writer.write_unbounded(objects, census);
-  writer.write_bounds(loose.around);
+  writer.write_bounds(loose->around);
   origin_->material_flags = std::move(textures.object_flags);
   origin_->surfaces_are_apart = textures.objects.empty() && !has_projectors(given);
   return true;

@@ -27,12 +27,13 @@ constexpr std::uint32_t kVerticesPerThread = 16384;
 /// Objects whose records are on their way while one is written, for they lie anywhere.
 constexpr std::uint32_t kAhead = 16;
 
-PlacedObject placed(const Aabb& box, std::uint32_t source) {
-  return {{box.min[0] + box.max[0], box.min[1] + box.max[1], box.min[2] + box.max[2]}, source};
-}
-
 Simd::F4 lanes_of(const Vec3f& vertex) {
   return four<Simd>(vertex.x, vertex.y, vertex.z, 0.0f);
+}
+
+LaneAabb lanes_of(const Aabb& box) {
+  return {four<Simd>(box.min[0], box.min[1], box.min[2], 0.0f),
+          four<Simd>(box.max[0], box.max[1], box.max[2], 0.0f)};
 }
 
 Aabb box_of(const LaneAabb& lanes) {
@@ -51,8 +52,9 @@ LaneAabb box_around(const Vec3f& a, const Vec3f& b, const Vec3f& c) {
 
 /// Leaves what is within `bounds` too; false if that is nothing.
 bool limit(LaneAabb& box, const Aabb& bounds) {
-  box.min = Simd::max(box.min, four<Simd>(bounds.min[0], bounds.min[1], bounds.min[2], 0.0f));
-  box.max = Simd::min(box.max, four<Simd>(bounds.max[0], bounds.max[1], bounds.max[2], 0.0f));
+  const LaneAabb within = lanes_of(bounds);
+  box.min = Simd::max(box.min, within.min);
+  box.max = Simd::min(box.max, within.max);
   return (not_above_bits(box.min, box.max) & 7) == 7;
 }
 
@@ -239,21 +241,38 @@ bool SceneObjects::is_mapped(const Piece& piece, const Mesh::Triangle& triangle)
 }
 
 ObjectCensus SceneObjects::place(std::uint32_t begin, std::uint32_t end, PlacedObject* to) const {
+  return visit_boxes(begin, end, [&](std::uint32_t number, const LaneAabb& box) {
+    box.centre().store(to->centre); // over the word behind
+    to++->source = number;
+  });
+}
+
+std::optional<ObjectCensus> SceneObjects::count_placed(std::uint32_t begin, std::uint32_t end,
+                                                       std::span<const std::uint32_t> places) const {
+  bool have_places = true;
+  const ObjectCensus census = visit_boxes(
+      begin, end, [&](std::uint32_t number, const LaneAabb&) { have_places &= places[number] != kNoPlace; });
+  return have_places ? std::optional(census) : std::nullopt;
+}
+
+template <class Visit>
+ObjectCensus SceneObjects::visit_boxes(std::uint32_t begin, std::uint32_t end, Visit visit) const {
   ObjectCensus census;
   while (begin < end) {
     const Piece& piece = piece_of(begin, nullptr);
     const std::uint32_t piece_end = std::min(end, end_of(piece));
     if (piece.mesh != nullptr)
-      place_triangles(piece, begin, piece_end, census, to);
+      visit_triangles(piece, begin, piece_end, census, visit);
     else
-      place_shapes(piece, begin, piece_end, census, to);
+      visit_shapes(piece, begin, piece_end, census, visit);
     begin = piece_end;
   }
   return census;
 }
 
-void SceneObjects::place_shapes(const Piece& piece, std::uint32_t begin, std::uint32_t end,
-                                ObjectCensus& census, PlacedObject* to) const {
+template <class Visit>
+void SceneObjects::visit_shapes(const Piece& piece, std::uint32_t begin, std::uint32_t end,
+                                ObjectCensus& census, Visit visit) const {
   for (std::uint32_t number = begin; number < end; ++number) {
     BuildWatch::look_at(number);
     const Placed object = placed_at(piece, number);
@@ -269,16 +288,17 @@ void SceneObjects::place_shapes(const Piece& piece, std::uint32_t begin, std::ui
     }
     check_size(box);
     census.around = united(census.around, box);
-    to[census.objects++] = placed(box, number);
+    ++census.objects;
+    visit(number, lanes_of(box));
   }
 }
 
-void SceneObjects::place_triangles(const Piece& piece, std::uint32_t begin, std::uint32_t end,
-                                   ObjectCensus& census, PlacedObject* to) const {
+template <class Visit>
+void SceneObjects::visit_triangles(const Piece& piece, std::uint32_t begin, std::uint32_t end,
+                                   ObjectCensus& census, Visit visit) const {
   const Mesh& mesh = *piece.mesh;
-  const bool is_limited = piece.is_limited_mesh();
+  const bool is_limited = piece.is_limited_mesh(), may_be_mapped = !mesh.coordinates.empty();
   LaneAabb around = LaneAabb::empty();
-  PlacedObject* next = to + census.objects;
   for (std::uint32_t number = begin; number < end; ++number) {
     BuildWatch::look_at(number);
     const Mesh::Triangle& triangle = mesh.triangles[number - piece.first];
@@ -288,13 +308,12 @@ void SceneObjects::place_triangles(const Piece& piece, std::uint32_t begin, std:
     LaneAabb box = box_around(a, b, c);
     if (!has_size(box)) check_size(box_of(box));
     if (is_limited && !limit(box, piece.part->bounds)) continue;
-    census.extras += is_limited || is_smooth(triangle) || is_mapped(piece, triangle);
+    census.extras += is_limited || is_smooth(triangle) || (may_be_mapped && is_mapped(piece, triangle));
     census.blended += is_blended(piece, triangle);
     around.grow(box);
-    box.centre().store(next->centre); // over the word behind
-    next++->source = number;
+    ++census.objects;
+    visit(number, box);
   }
-  census.objects = static_cast<std::uint32_t>(next - to);
   census.around = united(census.around, box_of(around));
 }
 
@@ -334,6 +353,13 @@ public:
     if (piece.object->is_hidden) hide(r, piece.vertices[piece.mesh->triangles[number].vertex[0]]);
   }
 
+  /// The same for a triangle that has records in no other table.
+  void lone_triangle(const Piece& piece, std::uint32_t number, ObjectRecord& r) {
+    const Mesh::Triangle& triangle = piece.mesh->triangles[number];
+    write_lone_triangle(piece, triangle, r);
+    if (piece.object->is_hidden) hide(r, piece.vertices[triangle.vertex[0]]);
+  }
+
 private:
   /// As if it were not hidden; likewise below.
   ObjectRecord record_of(const Placed& placed, const PlacedShape& shape) {
@@ -355,11 +381,7 @@ private:
 
   void write_triangle(const Piece& piece, std::uint32_t number, ObjectRecord& r) {
     const Mesh::Triangle& triangle = piece.mesh->triangles[number];
-    if (piece.object != object_ || triangle.material[0] != material_)
-      start(*piece.object, triangle.material[0]);
-    r = head_;
-    for (int v = 0; v < 3; ++v)
-      std::memcpy(r.geometry + 3 * v, &piece.vertices[triangle.vertex[v]], sizeof(Vec3f));
+    write_lone_triangle(piece, triangle, r);
     if (objects_.is_blended(piece, triangle)) blend(r, *piece.object, triangle);
     const bool smooth = is_smooth(triangle), limited = piece.is_limited_mesh();
     const bool mapped = objects_.is_mapped(piece, triangle);
@@ -385,6 +407,14 @@ private:
         record.bounds[v * 2 + 1] = at.y;
       }
     set_extra(r, record);
+  }
+
+  void write_lone_triangle(const Piece& piece, const Mesh::Triangle& triangle, ObjectRecord& r) {
+    if (piece.object != object_ || triangle.material[0] != material_)
+      start(*piece.object, triangle.material[0]);
+    r = head_;
+    for (int v = 0; v < 3; ++v)
+      std::memcpy(r.geometry + 3 * v, &piece.vertices[triangle.vertex[v]], sizeof(Vec3f));
   }
 
   static Vec3f middle_of(const Placed& placed, const PlacedShape& shape) {
@@ -474,7 +504,7 @@ void SceneObjects::write_apart(std::uint32_t begin, std::uint32_t end, const std
       if (places[number] == kNoPlace) continue;
       ObjectRecord& record = to[places[number]];
       if (piece.mesh != nullptr)
-        writer.triangle(piece, number - piece.first, record);
+        writer.lone_triangle(piece, number - piece.first, record);
       else
         record = writer.shape(placed_at(piece, number));
     }

@@ -10,6 +10,7 @@
 #include "scene/object_records.hpp"
 #include "scene/polygons.hpp"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -46,6 +47,9 @@ public:
   /// Writes those of [begin, end) that can be hit to `to`, in order. Throws InputError if an object's
   /// coordinates leave what single precision can hold.
   ObjectCensus place(std::uint32_t begin, std::uint32_t end, PlacedObject* to) const;
+  /// The same where they have places already, by object; nothing if one that can be hit has none.
+  std::optional<ObjectCensus> count_placed(std::uint32_t begin, std::uint32_t end,
+                                           std::span<const std::uint32_t> places) const;
   /// Those with records of their own in other tables, of `objects`.
   ObjectCensus count_tables(std::span<const PlacedObject> objects) const;
 
@@ -85,10 +89,14 @@ private:
 
   static Placed placed_at(const Piece& piece, std::uint32_t number);
   static bool has_extra(const Placed& placed);
-  void place_shapes(const Piece& piece, std::uint32_t begin, std::uint32_t end, ObjectCensus& census,
-                    PlacedObject* to) const;
-  void place_triangles(const Piece& piece, std::uint32_t begin, std::uint32_t end, ObjectCensus& census,
-                       PlacedObject* to) const;
+  /// Calls `visit(number, box)` for those of [begin, end) that can be hit.
+  template <class Visit> ObjectCensus visit_boxes(std::uint32_t begin, std::uint32_t end, Visit visit) const;
+  template <class Visit>
+  void visit_shapes(const Piece& piece, std::uint32_t begin, std::uint32_t end, ObjectCensus& census,
+                    Visit visit) const;
+  template <class Visit>
+  void visit_triangles(const Piece& piece, std::uint32_t begin, std::uint32_t end, ObjectCensus& census,
+                       Visit visit) const;
   void add_shape(const Object& object);
   void add_parts(std::size_t projectors, unsigned threads);
   void add_projectors(const Scene& scene, std::size_t first);

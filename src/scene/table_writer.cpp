@@ -170,7 +170,14 @@ void TableWriter::write_objects(const SceneObjects& objects, std::span<const Pla
   // Without tables that grow with them objects are written in the scene's order: it takes fewer lines to
   // send records anywhere than to fetch triangles and vertices from there.
   const bool has_tables = header_.extra_count != 0 || header_.blend_count != 0;
-  if (!has_tables) return send_objects(objects, placed, places, threads);
+  if (!has_tables) {
+    std::fill_n(places, objects.count(), SceneObjects::kNoPlace);
+    for (std::uint32_t i = 0; i < placed.size(); ++i) {
+      BuildWatch::look_at(i);
+      places[placed[i].source] = i;
+    }
+    return send_objects(objects, {places, objects.count()}, threads);
+  }
   std::vector<ObjectCensus> before(threads + 1);
   if (threads > 1)
     for_each_part(threads, [&](unsigned part) {
@@ -240,16 +247,12 @@ std::uint32_t TableWriter::first_projector() const {
          (header_.unbounded_count + header_.projector_count) * std::uint32_t{sizeof(ObjectRecord)};
 }
 
-void TableWriter::send_objects(const SceneObjects& objects, std::span<const PlacedObject> placed,
-                               std::uint32_t* places, unsigned threads) {
-  std::fill_n(places, objects.count(), SceneObjects::kNoPlace);
-  for (std::uint32_t i = 0; i < placed.size(); ++i) {
-    BuildWatch::look_at(i);
-    places[placed[i].source] = i;
-  }
+void TableWriter::send_objects(const SceneObjects& objects, std::span<const std::uint32_t> places,
+                               unsigned threads) {
   for_each_part(threads, [&](unsigned part) {
     const HostPart mine(objects.count(), part, threads);
-    objects.write_apart(mine.begin, mine.end, places, tables_, table<ObjectRecord>(header_.object_offset));
+    objects.write_apart(mine.begin, mine.end, places.data(), tables_,
+                        table<ObjectRecord>(header_.object_offset));
   });
 }
 

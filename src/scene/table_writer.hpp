@@ -38,6 +38,9 @@ public:
   /// object.
   void write_objects(const SceneObjects& objects, std::span<const PlacedObject> placed, std::uint32_t* places,
                      unsigned threads);
+  /// The same for objects without records in other tables. `places`: by object where it is among them, or
+  /// kNoPlace.
+  void send_objects(const SceneObjects& objects, std::span<const std::uint32_t> places, unsigned threads);
   /// Of objects that are no instances.
   void write_groups(std::span<const std::uint32_t> groups, unsigned threads);
   /// Behind everything else.
@@ -47,8 +50,6 @@ public:
 
 private:
   void write_meshes(const MeshInsides& meshes);
-  void send_objects(const SceneObjects& objects, std::span<const PlacedObject> placed, std::uint32_t* places,
-                    unsigned threads);
   std::uint32_t first_instance_extra(const MeshInstances& instances) const;
   std::uint32_t first_projector() const;
   template <class Record> Record* table(std::uint32_t offset) const {
