@@ -346,6 +346,39 @@ TEST_CASE("What is wrong with a mesh in CSG is said") {
           "object 0, triangle 1 has an index that is out of range");
 }
 
+TEST_CASE("Every index of every triangle is looked at") {
+  constexpr Index kHigh = 0x80000000;
+  Scene scene;
+  scene.add(Material());
+  scene.add(Material());
+  for (std::size_t count = 1; count <= 9; ++count) {
+    Mesh sound;
+    sound.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    sound.triangles.assign(count, {{0, 3, 1}, {kNoIndex, kNoIndex, kNoIndex}, {1, 0, kNoIndex}});
+    const auto check = [&](const Mesh& mesh, bool is_sound) {
+      scene.objects = {mesh_object(mesh, 0, kNoIndex)};
+      if (is_sound)
+        REQUIRE_NOTHROW(validate(scene));
+      else
+        REQUIRE_THROWS_AS(validate(scene), InputError);
+    };
+    check(sound, true);
+    for (std::size_t i = 0; i < count; ++i)
+      for (int corner = 0; corner < 3; ++corner) {
+        const auto refused = [&](Index(Mesh::Triangle::*which)[3], std::initializer_list<Index> values) {
+          for (const Index value : values) {
+            Mesh mesh = sound;
+            (mesh.triangles[i].*which)[corner] = value;
+            check(mesh, false);
+          }
+        };
+        refused(&Mesh::Triangle::vertex, {4, kHigh - 1, kHigh, kHigh + 1, kNoIndex - 1, kNoIndex});
+        refused(&Mesh::Triangle::normal, {0, 1, kHigh - 1, kHigh, kNoIndex - 1});
+        refused(&Mesh::Triangle::material, {2, 3, kHigh - 1, kHigh, kNoIndex - 1});
+      }
+  }
+}
+
 TEST_CASE("Spheres that a transformation leaves round stay spheres") {
   Scene scene;
   scene.add(matte({1, 1, 1}));
