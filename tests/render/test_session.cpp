@@ -1,12 +1,13 @@
 // Sessions: what changes is made anew, and the picture is that of a fresh render.
 #include "celltrace/error.hpp"
 #include "celltrace/session.hpp"
-#include "render/backends.hpp"
+#include "render/all_machines.hpp"
 #include "render/scenes.hpp"
 
 #include <catch2/catch.hpp>
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <random>
 #include <stdexcept>
@@ -79,6 +80,48 @@ RenderResult check_next(Session& session) {
   CHECK(next.first_hits.depth == fresh.first_hits.depth);
   CHECK(next.blocks.blocks == fresh.blocks.blocks);
   return next;
+}
+
+/// Cancels `times` frames of square pictures at moments that are spread over all that they take: those of
+/// which only the camera is new, of which objects have moved, and of which everything is new. The next frame
+/// is what it would have been.
+void cancel_frames(const TestBackend& backend, const Scene& scene, int edge, int times, unsigned seed) {
+  INFO(backend.spu());
+  Session session(scene, backend.options(edge, edge, 2));
+  const auto change = [&](int round) {
+    if (round % 3 == 1) session.set_transform(static_cast<Index>(round) % 20, Transform());
+    if (round % 3 == 2) session.replace(scene);
+  };
+  Image expected;
+  std::chrono::duration<double, std::micro> longest[3];
+  for (int round = 0; round < 6; ++round) {
+    change(round);
+    const auto start = std::chrono::steady_clock::now();
+    expected = session.render().image;
+    longest[round % 3] = std::chrono::steady_clock::now() - start;
+  }
+  std::mt19937 random(seed);
+  int cancelled = 0;
+  for (int round = 0; cancelled < times; ++round) {
+    REQUIRE(round < 20 * times); // or hardly any frame hears of it
+    change(round);
+    std::atomic<bool> over = false;
+    const std::chrono::microseconds delay(random() % (static_cast<unsigned>(longest[round % 3].count()) + 1));
+    std::thread canceller([&] {
+      std::this_thread::sleep_for(delay);
+      for (; !over; std::this_thread::yield())
+        session.cancel();
+    });
+    const RenderResult broken = session.render();
+    over = true;
+    canceller.join();
+    if (broken.complete) REQUIRE(broken.image == expected);
+    cancelled += !broken.complete;
+    const RenderResult next = session.render();
+    REQUIRE(next.complete);
+    REQUIRE(next.statistics.diagnostics.empty());
+    REQUIRE(next.image == expected);
+  }
 }
 
 } // namespace
@@ -390,29 +433,21 @@ TEST_CASE("Changes that are not valid leave the machine with the scene as it was
 }
 
 TEST_CASE("Frames are cancelled at any moment, and the next one is complete") {
-  for (const TestBackend& backend : one_of_each()) {
-    INFO(backend.spu());
-    Session session(many_spheres(200), backend.options(kWidth, kHeight, 2));
-    const Image expected = session.render().image;
-    std::mt19937 random(11);
-    for (int round = 0; round < 25; ++round) {
-      std::atomic<bool> over = false;
-      const auto delay = std::chrono::microseconds(random() % 3000);
-      std::thread canceller([&] {
-        std::this_thread::sleep_for(delay);
-        while (!over)
-          session.cancel();
-      });
-      session.set_transform(static_cast<Index>(round), Transform());
-      const RenderResult broken = session.render();
-      over = true;
-      canceller.join();
-      if (broken.complete) CHECK(broken.image == expected);
-      const RenderResult next = session.render();
-      REQUIRE(next.complete);
-      REQUIRE(next.image == expected);
-    }
-  }
+  for (const TestBackend& backend : one_of_each())
+    cancel_frames(backend, many_spheres(200), kWidth, 25, 11);
+}
+
+TEST_CASE("Frames of the simulator are cancelled at any moment, and the next one is complete") {
+  if (const TestBackend backend = all_machines().back(); backend.backend == Backend::cell_sim)
+    cancel_frames(backend, many_spheres(20), 16, 3, 12);
+}
+
+// The long form: test_render "[.long]".
+TEST_CASE("Frames are cancelled a thousand times, and the next one is complete", "[.long]") {
+  for (const TestBackend& backend : {backends().front(), TestBackend{Backend::cell_emu}})
+    cancel_frames(backend, many_spheres(200), 32, 1000, 13);
+  if (const TestBackend backend = all_machines().back(); backend.backend == Backend::cell_sim)
+    cancel_frames(backend, many_spheres(20), 16, 1000, 14);
 }
 
 TEST_CASE("A work map says of every pixel who rendered it") {
