@@ -612,24 +612,24 @@ void check_count(Session& session, double announced, std::size_t found, const Lo
                             " entries, but has " + std::to_string(found));
 }
 
-std::vector<ListEntry> counted(Session& session, std::vector<ListEntry>& list, const Location& where) {
+CountedList counted(Session& session, std::vector<ListEntry>& list, const Location& where) {
   check_count(session, list_count(session, list, where), list.size() - 1, where);
-  list.erase(list.begin());
-  return std::move(list);
+  return CountedList(std::move(list));
 }
 
-std::vector<ListEntry> faces(Session& session, std::vector<ListEntry>& list, const Location& where) {
-  const auto is_face = [](const ListEntry& entry) { return !entry.is_float; };
-  const auto count = static_cast<std::size_t>(std::count_if(list.begin(), list.end(), is_face));
-  check_count(session, list_count(session, list, where), count, where);
-  list.erase(list.begin());
-  return std::move(list);
+CountedList faces(Session& session, std::vector<ListEntry>& list, const Location& where) {
+  const double announced = list_count(session, list, where);
+  CountedList faces(std::move(list));
+  check_count(session, announced, count_faces(faces, session.tokens), where);
+  return faces;
 }
 
-std::vector<ListEntry> vectors(Session& session, std::vector<ListEntry>& list, const Location& where) {
-  std::vector<ListEntry> result = counted(session, list, where);
-  for (const ListEntry& entry : result)
+CountedList vectors(Session& session, std::vector<ListEntry>& list, const Location& where) {
+  CountedList result = counted(session, list, where);
+  for (const ListEntry& entry : result) {
+    session.tokens.spend(1);
     require_finite(session, entry, where);
+  }
   return result;
 }
 

@@ -259,11 +259,11 @@ std::shared_ptr<ObjectDefinition> mesh2(Session& session, Mesh2Definition& defin
 /// Checks the count that leads a list of mesh2.
 void check_count(Session& session, double announced, std::size_t found, const Location& where);
 /// The list without the count that leads it, which must be right.
-std::vector<ListEntry> counted(Session& session, std::vector<ListEntry>& list, const Location& where);
+CountedList counted(Session& session, std::vector<ListEntry>& list, const Location& where);
 /// The same for face_indices, where only the vectors count.
-std::vector<ListEntry> faces(Session& session, std::vector<ListEntry>& list, const Location& where);
+CountedList faces(Session& session, std::vector<ListEntry>& list, const Location& where);
 /// The same where every entry must be finite.
-std::vector<ListEntry> vectors(Session& session, std::vector<ListEntry>& list, const Location& where);
+CountedList vectors(Session& session, std::vector<ListEntry>& list, const Location& where);
 
 // ---- What is not supported ----
 

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "celltrace/error.hpp"
+#include "image/huge_pages.hpp"
 #include "pov/token_stream.hpp"
 
 namespace celltrace::pov {
@@ -67,7 +68,7 @@ void to_indices(const ListEntry& entry, std::size_t count, const char* what, Ind
 }
 
 /// Reads the face at `entry`, and moves on past it and the textures behind it.
-Face take_face(const Mesh2Definition& definition, std::vector<ListEntry>::const_iterator& entry) {
+Face take_face(const Mesh2Definition& definition, const ListEntry*& entry) {
   if (entry->is_float) throw InputError("mesh2 has a texture index without a face");
   Face face;
   to_indices(*entry++, definition.vertex_vectors.size(), "vertex", face.vertex);
@@ -121,7 +122,22 @@ bool find_normals(const Mesh2Definition& definition, std::size_t face, const Fac
                     definition.normal_vectors[normal[2]].v);
 }
 
+/// For so many elements that the memory is new.
+template <class T> void reserve(std::vector<T>& elements, std::size_t count) {
+  elements.reserve(count);
+  use_huge_pages(elements.data(), count * sizeof(T));
+}
+
 } // namespace
+
+std::size_t count_faces(const CountedList& faces, TokenStream& tokens) {
+  std::size_t count = 0;
+  for (const ListEntry& entry : faces) {
+    tokens.spend(1);
+    count += !entry.is_float;
+  }
+  return count;
+}
 
 TriangleDefinition TriangleDefinition::transformed(const Transform& transform) const {
   TriangleDefinition result = *this;
@@ -163,20 +179,19 @@ Index MeshBuilder::texture_index(const TexturePtr& texture) {
 }
 
 std::shared_ptr<MeshDefinition> make_mesh(Mesh2Definition definition, TokenStream& tokens) {
-  const std::vector<ListEntry>& vertices = definition.vertex_vectors;
-  for (ListEntry& normal : definition.normal_vectors) {
+  const CountedList& vertices = definition.vertex_vectors;
+  for (std::size_t i = 0; i < definition.normal_vectors.size(); ++i) {
     tokens.spend(1);
-    normal.v = unit(normal.v);
+    definition.normal_vectors[i].v = unit(definition.normal_vectors[i].v);
   }
   auto result = std::make_shared<MeshDefinition>();
   Mesh& mesh = result->mesh;
   mesh.inside_vector = definition.inside_vector;
-  const std::vector<ListEntry>& faces = definition.face_indices;
-  const auto is_face = [](const ListEntry& entry) { return !entry.is_float; };
-  const auto face_count = static_cast<std::size_t>(std::count_if(faces.begin(), faces.end(), is_face));
+  const CountedList& faces = definition.face_indices;
+  const std::size_t face_count = count_faces(faces, tokens);
   check_coordinates(definition, face_count);
-  mesh.triangles.reserve(face_count);
-  auto entry = faces.begin();
+  reserve(mesh.triangles, face_count);
+  const ListEntry* entry = faces.begin();
   for (std::size_t i = 0; entry != faces.end(); ++i) {
     tokens.spend(1);
     const Face face = take_face(definition, entry);
@@ -194,14 +209,14 @@ std::shared_ptr<MeshDefinition> make_mesh(Mesh2Definition definition, TokenStrea
   // What has been used gives its memory back by and by, not all at the end.
   definition.face_indices = {};
   tokens.look();
-  mesh.vertices.reserve(vertices.size());
+  reserve(mesh.vertices, vertices.size());
   for (const ListEntry& vertex : vertices) {
     tokens.spend(1);
     mesh.vertices.push_back(to_single(vertex.v));
   }
   definition.vertex_vectors = {};
   tokens.look();
-  mesh.normals.reserve(definition.normal_vectors.size());
+  reserve(mesh.normals, definition.normal_vectors.size());
   for (const ListEntry& normal : definition.normal_vectors) {
     tokens.spend(1);
     mesh.normals.push_back(to_single(normal.v));

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "pov/literals.hpp"
@@ -26,17 +27,39 @@ private:
   std::unordered_map<const TextureDefinition*, Index> texture_indices_;
 };
 
-/// The lists of a mesh2, each as written behind its count.
+/// The entries of a list that its count leads. The count stays where it was read: taking it out would move
+/// all entries, which can be a hundred megabytes.
+class CountedList {
+public:
+  CountedList() = default;
+  /// `written` begins with the count.
+  explicit CountedList(std::vector<ListEntry> written) : written_(std::move(written)) {}
+
+  std::size_t size() const { return written_.empty() ? 0 : written_.size() - 1; }
+  bool empty() const { return size() == 0; }
+  const ListEntry& operator[](std::size_t i) const { return written_[i + 1]; }
+  ListEntry& operator[](std::size_t i) { return written_[i + 1]; }
+  const ListEntry* begin() const { return end() - size(); }
+  const ListEntry* end() const { return written_.data() + written_.size(); }
+
+private:
+  std::vector<ListEntry> written_;
+};
+
+/// The lists of a mesh2.
 struct Mesh2Definition {
-  std::vector<ListEntry> vertex_vectors;
-  std::vector<ListEntry> normal_vectors;
+  CountedList vertex_vectors;
+  CountedList normal_vectors;
   std::vector<TexturePtr> textures;
-  std::vector<ListEntry> face_indices; ///< a vector for a face, floats for its textures behind it
-  std::vector<ListEntry> normal_indices;
-  std::vector<ListEntry> uv_vectors;
-  std::vector<ListEntry> uv_indices;
+  CountedList face_indices; ///< a vector for a face, floats for its textures behind it
+  CountedList normal_indices;
+  CountedList uv_vectors;
+  CountedList uv_indices;
   Vec3 inside_vector{0, 0, 0};
 };
+
+/// Without the textures' indices. `tokens` counts the work.
+std::size_t count_faces(const CountedList& faces, TokenStream& tokens);
 
 /// Throws InputError, without a position, for indices that are out of range or do not belong to a face.
 /// `tokens` counts the work.

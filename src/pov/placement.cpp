@@ -23,10 +23,13 @@ namespace {
 using Operation = Csg::Operation;
 
 /// Writes scene-wide indices over a mesh's own.
-void replace_materials(Mesh& mesh, const std::vector<Index>& materials) {
-  for (Mesh::Triangle& triangle : mesh.triangles)
+void replace_materials(Mesh& mesh, const std::vector<Index>& materials, TokenStream& tokens) {
+  if (materials.empty()) return; // then no triangle has one
+  for (Mesh::Triangle& triangle : mesh.triangles) {
+    tokens.spend(1);
     for (Index& material : triangle.material)
       if (material != kNoIndex) material = materials[material];
+  }
 }
 
 const Compound* compound(const ObjectDefinition& object) {
@@ -546,7 +549,7 @@ std::shared_ptr<const Mesh> SceneBuilder::placed_mesh(const std::shared_ptr<Mesh
   if (!is_constant) count_triangles(definition->mesh.triangles.size(), where);
   auto mesh = is_constant ? std::make_shared<Mesh>(std::move(definition->mesh))
                           : std::make_shared<Mesh>(definition->mesh);
-  replace_materials(*mesh, materials);
+  replace_materials(*mesh, materials, tokens_);
   if (is_constant) meshes_[definition] = mesh;
   return mesh;
 }

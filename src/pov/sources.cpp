@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "celltrace/error.hpp"
+#include "image/huge_pages.hpp"
 
 namespace celltrace::pov {
 
@@ -172,6 +173,7 @@ fs::path Sources::writable_file(std::string_view name) const {
 std::string make_text(std::size_t bytes) {
   std::string text;
   text.reserve(bytes + kPadding);
+  use_huge_pages(text.data(), text.capacity());
   return text;
 }
 

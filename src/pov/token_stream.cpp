@@ -4,6 +4,7 @@
 #include <ctime>
 
 #include "celltrace/error.hpp"
+#include "image/huge_pages.hpp"
 #include "pov/constants.hpp"
 #include "pov/grammar.hpp"
 #include "pov/session.hpp"
@@ -397,7 +398,9 @@ void TokenStream::make_room(std::vector<ListEntry>& list, const Scanner& scanner
   constexpr std::size_t kShortestEntry = 8; // <0,0,0>,
   const std::size_t most = (scanner.size() - scanner.offset()) / kShortestEntry;
   const double announced = list.front().is_float ? list.front().v.x : 0;
-  if (announced > 0) list.reserve(list.size() + static_cast<std::size_t>(std::min(announced, double(most))));
+  if (!(announced > 0)) return;
+  list.reserve(list.size() + static_cast<std::size_t>(std::min(announced, double(most))));
+  use_huge_pages(list.data(), list.capacity() * sizeof(ListEntry));
 }
 
 void TokenStream::take_literals(std::vector<ListEntry>& list) {
