@@ -175,6 +175,9 @@ void set_list(Session& session, NormalDefinition& normal, int pattern, NormalMap
 TexturePtr with_pattern(Session& session, const TexturePtr& texture, const PatternChange& pattern);
 TexturePtr with_list(Session& session, const TexturePtr& texture, int pattern, TextureMap list,
                      const Location& where);
+/// Of the checker pattern: where that has its first colour, `second` is, as in POV-Ray.
+TexturePtr with_tiles(Session& session, const TexturePtr& texture, const TexturePtr& first,
+                      const TexturePtr& second, const Location& where);
 
 /// Of the pattern of an object.
 TexturePtr with_object(Session& session, const TexturePtr& texture, const Limit& object, TextureMap list,

@@ -107,7 +107,7 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %token USER_FUNCTION SPLINE TRACE INSIDE MIN_EXTENT MAX_EXTENT
 %token REFLECTION COLLECT PASS_THROUGH TARGET
 %token REFLECTION_EXPONENT REFRACTION RIGHT ROTATE ROUGHNESS SCALE SHADOWLESS SKY SKY_SPHERE SMOOTH_TRIANGLE
-%token SPECULAR SPOTLIGHT SRGB TEXTURE TEXTURE_LIST TEXTURE_MAP TIGHTNESS TRANSFORM TRANSLATE TRIANGLE TURBULENCE UP
+%token SPECULAR SPOTLIGHT SRGB TEXTURE TEXTURE_LIST TEXTURE_MAP TIGHTNESS TILE2 TILES TRANSFORM TRANSLATE TRIANGLE TURBULENCE UP
 %token DISTANCE FADE_COLOUR INTERIOR_TEXTURE IRID_WAVELENGTH NO_IMAGE NO_REFLECTION THICKNESS FOG FOG_ALT FOG_OFFSET FOG_TYPE TURB_DEPTH
 %token UV_INDICES UV_MAPPING UV_VECTORS VERTEX_VECTORS WARP
 %token BLACK_HOLE DIST_EXP EXTERIOR FLIP JULIA MAGNET MAJOR_RADIUS ORIENTATION REPEAT SLOPE_MAP STRENGTH TOROIDAL
@@ -805,6 +805,7 @@ texture_parts
   | texture_parts pattern_object '}' { $$ = with_object(session, $1, $2, {}, @2); }
   | texture_parts TEXTURE_MAP texture_map { $$ = with_map(session, $1, $3, @2); }
   | texture_parts LIST_PATTERN   { $$ = with_list(session, $1, $2, {}, @2); }
+  | texture_parts TILES '{' layers TILE2 layers '}' { $$ = with_tiles(session, $1, $4, $6, @2); }
   | texture_parts pattern_change { $$ = changed(session, $1, $2, @2); }
   | texture_parts transformation { $$ = transformed(session, $1, $2, @2); }
   | texture_parts UV_MAPPING     { $$ = with_uv_mapping($1); }

@@ -176,6 +176,14 @@ TexturePtr with_list(Session& session, const TexturePtr& texture, int pattern, T
   return changed;
 }
 
+TexturePtr with_tiles(Session& session, const TexturePtr& texture, const TexturePtr& first,
+                      const TexturePtr& second, const Location& where) {
+  TextureMap list;
+  add(session, list, 0, second, where);
+  add(session, list, 0, first, where);
+  return with_list(session, texture, number_of(pattern::Checker()), std::move(list), where);
+}
+
 TexturePtr with_object(Session& session, const TexturePtr& texture, const Limit& object, TextureMap list,
                        const Location& where) {
   const pattern::Inside inside = inside_of(session, object, where);

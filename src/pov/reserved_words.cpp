@@ -188,6 +188,8 @@ const Word kWords[] = {
     {"texture_map", tokens::T_TEXTURE_MAP},
     {"thickness", tokens::T_THICKNESS},
     {"tightness", tokens::T_TIGHTNESS},
+    {"tile2", tokens::T_TILE2},
+    {"tiles", tokens::T_TILES},
     {"trace", tokens::T_TRACE},
     {"toroidal", tokens::T_TOROIDAL},
     {"transform", tokens::T_TRANSFORM},
@@ -320,8 +322,8 @@ const char* const kUnsupportedObjects[] = {
 };
 
 const char* const kUnsupportedBlocks[] = {
-    "bump_map",     "contained_by", "density",     "density_map", "image_map", "image_pattern",
-    "material_map", "media",        "mesh_camera", "subsurface",  "tiles",
+    "bump_map",      "contained_by", "density", "density_map", "image_map",
+    "image_pattern", "material_map", "media",   "mesh_camera", "subsurface",
 };
 
 const char* const kUnsupportedFeatures[] = {
@@ -391,7 +393,6 @@ const char* const kUnsupportedArguments[] = {
     "tga",
     "threshold",
     "tiff",
-    "tile2",
     "tolerance",
     "ttf",
     "type",

@@ -500,6 +500,23 @@ TEST_CASE("patterns of textures") {
         std::string::npos);
 }
 
+TEST_CASE("tiles are the second texture where checker has its first") {
+  const std::string a = "texture { pigment { rgb 1 } } ", b = "texture { pigment { rgb 0.5 } } ";
+  const Material tiles = material("texture { tiles { " + a + "tile2 " + b + "} scale 2 }");
+  REQUIRE(tiles.map);
+  CHECK(std::holds_alternative<pattern::Checker>(tiles.map->pattern.kind));
+  CHECK(tiles.map->pattern.space.size() == 1);
+  REQUIRE(tiles.map->entries.size() == 2);
+  CHECK(tiles.map->entries[0].value.pigment.rgb == Vec3(0.5));
+  CHECK(tiles.map->entries[1].value.pigment.rgb == Vec3(1));
+  const Material layered =
+      material("texture { tiles { " + a + "tile2 " + b + "texture { pigment { rgbt 0.5 } } } }");
+  REQUIRE(layered.map);
+  CHECK(layered.map->entries.at(0).value.below);
+  CHECK_FALSE(error_line("sphere { 0, 1 texture { tiles { " + a + "} } }").empty());
+  CHECK_FALSE(error_line("sphere { 0, 1 texture { tiles { tile2 " + a + "} } }").empty());
+}
+
 TEST_CASE("layers") {
   const std::string before =
       "#declare A = texture { pigment { rgb 1 } } #declare B = texture { pigment { rgbt 0.5 } } "
