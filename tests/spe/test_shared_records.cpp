@@ -84,5 +84,13 @@ TEST_CASE("SPEs of another byte order have records of their own") {
   CHECK(as_spes_see(tasks, 99).count == 0x02000000);
 }
 
+TEST_CASE("There may be no records to convert") {
+  SharedRecords<Task> tasks(0, kForeign);
+  tasks.publish();
+  tasks.fetch();
+  tasks.assign({});
+  CHECK(tasks.size() == 0);
+}
+
 } // namespace
 } // namespace celltrace::test

@@ -88,6 +88,7 @@ private:
     count_ = count;
   }
   void copy(const Line* from, Line* to) const noexcept {
+    if (count_ == 0) return; // and there may be no lines
     std::memcpy(to, from, count_ * sizeof(Record));
     auto* records = reinterpret_cast<Record*>(to);
     std::for_each(records, records + count_, [](Record& record) { reverse_bytes(record); });
