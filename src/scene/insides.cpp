@@ -96,12 +96,26 @@ bool may_have_inside(const Object& object) {
 
 Aabb box_of(const Object& object, const Transform& around);
 
+/// Of what all parts of an intersection or difference have in common. What is inverse does not limit it, nor
+/// what is taken away, which counts as inverse. Nothing is a point, as in POV-Ray.
+Aabb common_box(const Csg& csg, const Transform& transform) {
+  Aabb box = kEverywhere;
+  for (const Object& part : csg.parts) {
+    const bool is_taken_away = csg.operation == Csg::Operation::difference && &part != &csg.parts.front();
+    if (part.inverse == is_taken_away) box = intersected(box, box_of(part, transform));
+  }
+  for (int axis = 0; axis < 3; ++axis)
+    if (box.min[axis] > box.max[axis]) return {{0, 0, 0}, {0, 0, 0}};
+  return box;
+}
+
 /// Of an object that is not clipped. `transform`: all of its own.
 Aabb box_of_shape(const Object& object, const Transform& transform) {
   if (const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape)) {
     using Operation = Csg::Operation;
     const Operation operation = (*csg)->operation;
-    if (operation == Operation::intersection || operation == Operation::difference) return kEverywhere;
+    if (operation == Operation::intersection || operation == Operation::difference)
+      return common_box(**csg, transform);
     Aabb box = {{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
     for (const Object& part : (*csg)->parts)
       box = united(box, box_of(part, transform));

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <variant>
 #include <vector>
 
 namespace celltrace {
@@ -58,6 +59,12 @@ inline std::uint32_t light_set_of(const Object& object) {
   return object.light_group == kNoIndex ? 0 : object.light_group + 1;
 }
 
+/// Whether the material for its inside is seen where its normals point. POV-Ray turns an inverse quadric
+/// round twice, its coefficients and its normals: that is as if it were not inverse, here alone.
+inline bool is_seen_inverse(const Object& object) {
+  return object.inverse && !std::holds_alternative<Quadric>(object.shape);
+}
+
 /// A record without a material, without extras and without geometry.
 inline kernel::ObjectRecord start_record(const Object& object, std::uint32_t kind_and_flags,
                                          const RecordTables& tables) {
@@ -66,7 +73,7 @@ inline kernel::ObjectRecord start_record(const Object& object, std::uint32_t kin
       kind_and_flags | (object.no_shadow ? kernel::object_flag::no_shadow : 0) |
       (object.no_image ? kernel::object_flag::no_image : 0) |
       (object.no_reflection ? kernel::object_flag::no_reflection : 0) |
-      (object.inverse ? kernel::object_flag::inverse : 0) |
+      (is_seen_inverse(object) ? kernel::object_flag::inverse : 0) |
       (object.is_lit_through ? kernel::object_flag::lit_behind | kernel::object_flag::lit_through : 0) |
       light_set_of(object) << kernel::object_flag::light_set_shift;
   r.interior = offset_of_interior(tables.interior_offset, tables.interior_count, object.interior);

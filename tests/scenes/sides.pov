@@ -42,3 +42,7 @@ smooth_triangle { <3.4, -0.6, 0>, <0.2, 0.2, -1>, <4.2, -0.4, 0>, <0.1, 0, -1>, 
 smooth_triangle { <4.3, -0.6, 0>, <0.2, 0.2, 1>, <5, -0.4, 0>, <0.1, 0, 1>, <4.6, 0.6, 0>, <0, -0.2, 1> Sides() }
 polygon { 5, <0, 0>, <0.8, 0>, <1, 0.8>, <0.2, 0.6>, <0, 0> Sides() translate <2.8, -1.7, 0> }
 disc { <4.6, -1.2, 0>, <0.2, 0.4, -1>, 0.5 Sides() }
+// POV-Ray turns an inverse quadric round twice: its hollow shows the inside's texture, that of a sphere does not.
+difference { sphere { 0, 0.8 } quadric { <1, 1, 1>, 0, 0, -0.3 translate <0.2, 0.5, -0.6> } Sides() translate <-3.2, -1.8, 0> }
+difference { sphere { 0, 0.8 } sphere { <0.2, 0.5, -0.6>, 0.55 } Sides() translate <-1.4, -1.8, 0> }
+quadric { <1, 1, 1>, 0, 0, -0.2 inverse clipped_by { box { -1, 1 } } Sides() translate <0, -2, 0> }
