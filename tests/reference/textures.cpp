@@ -39,7 +39,9 @@ double number(const pattern::Slope& slope, const SurfacePoint& p) {
   if (climbing > 0)
     sum += climbing * (glm::dot(p.at, slope.altitude) / climbing - slope.lowest) /
            (slope.highest - slope.lowest);
-  return sum / (facing + climbing);
+  const double value = sum / (facing + climbing), beyond = std::fmod(value, 1);
+  if (value > 1) return beyond;
+  return value < 0 ? 1 + beyond : value;
 }
 double number(const pattern::Grey& grey, const SurfacePoint& p) {
   const Vec3 rgb = pigment_at(*grey.of, p).rgb;

@@ -39,3 +39,22 @@ mesh {
   texture { Snow }
   translate <4.3, -0.5, 0>
 }
+// Beyond the limits it starts again, before the frequency is applied; flat ground is just at 1, or at 0 beyond it.
+#local At = -4.5;
+#for (I, 0, 5)
+  #switch (I)
+    #case (0) #local Limited = pigment { slope { y, 0, 0.5 } color_map { Bands } } #break
+    #case (1) #local Limited = pigment { slope { y, 0.3, 1 } color_map { Bands } } #break
+    #case (2) #local Limited = pigment { slope { -y, 0.5, 1 } color_map { Bands } } #break
+    #case (3) #local Limited = pigment { slope { y, 0.2, 0.9 } color_map { Bands } frequency 1.7 } #break
+    #case (4) #local Limited = pigment { slope { y, 0.3, 0.6 altitude y, -1, 0.4 } color_map { Bands } frequency 0.6 phase 0.2 } #break
+    #case (5) #local Limited = pigment { slope { x, 0.4, 0.7 } color_map { Bands } triangle_wave frequency 1.3 } #break
+  #end
+  union {
+    sphere { 0.25*x, 0.5 }
+    cylinder { <-0.5, -0.4, -0.4>, <-0.5, 0, -0.4>, 0.35 }
+    pigment { Limited }
+    translate <At, -1.6, -1>
+  }
+  #local At = At + 1.8;
+#end

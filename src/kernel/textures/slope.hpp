@@ -22,7 +22,13 @@ struct SlopePattern : RarePattern {
     const F cosine = dot<S>(normal, splat3<S>(slope.direction)), one(1.0f);
     const F acute = acos_unit<S>(S::min(S::abs(cosine), one)) * F(0.318309886f);
     const F faces = S::select(cosine < F(0.0f), acute, one - acute);
-    return faces * F(slope.factor) + dot<S>(points.at, splat3<S>(slope.altitude)) + F(slope.offset);
+    const F whole = faces * F(slope.factor) + dot<S>(points.at, splat3<S>(slope.altitude)) + F(slope.offset);
+    // As in POV-Ray, what is beyond 0 and 1 starts again from the other one, before frequency and phase. Flat
+    // ground is often at just 0 or 1, and has to stay there in single precision.
+    const F slack(2e-6f);
+    const F part = whole - S::to_float(S::to_int(whole));
+    const F above = S::select(whole > one + slack, part, S::max(whole, F(0.0f)));
+    return S::select(whole < -slack, part + one, above);
   }
 };
 
