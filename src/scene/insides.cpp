@@ -33,39 +33,37 @@ bool is_near(const Sphere& sphere, const Transform& transform, const Vec3& point
   return true;
 }
 
-bool is_inside(const Object& object, const Transform& around, const Vec3& point);
+/// `around`: the transformation of the CSG that it is a part of. `is_turned`: that turns its inside out,
+/// which leaves its clips as they are: as in POV-Ray, nothing is inside beyond these.
+bool is_inside(const Object& object, const Transform& around, const Vec3& point, bool is_turned);
 
-bool is_inside(const Csg& csg, const Transform& transform, const Vec3& point) {
-  const auto in = [&](const Object& part) { return is_inside(part, transform, point); };
-  switch (csg.operation) {
-  case Csg::Operation::union_:
-  case Csg::Operation::merge:
-    return std::any_of(csg.parts.begin(), csg.parts.end(), in);
-  case Csg::Operation::intersection:
-    return std::all_of(csg.parts.begin(), csg.parts.end(), in);
-  case Csg::Operation::difference:
-    break;
-  }
-  return !csg.parts.empty() && in(csg.parts.front()) &&
-         std::none_of(csg.parts.begin() + 1, csg.parts.end(), in);
+/// `is_inverse`: an inverse union is the intersection of its parts' inverses, and the other way round.
+bool is_inside(const Csg& csg, const Transform& transform, const Vec3& point, bool is_inverse) {
+  const auto in = [&](const Object& part) {
+    const bool is_taken_away = csg.operation == Csg::Operation::difference && &part != &csg.parts.front();
+    return is_inside(part, transform, point, is_inverse != is_taken_away);
+  };
+  const bool is_union = csg.operation == Csg::Operation::union_ || csg.operation == Csg::Operation::merge;
+  return is_union != is_inverse ? std::any_of(csg.parts.begin(), csg.parts.end(), in)
+                                : !csg.parts.empty() && std::all_of(csg.parts.begin(), csg.parts.end(), in);
 }
 
-/// `around`: the transformation of the CSG that it is a part of.
-bool is_inside(const Object& object, const Transform& around, const Vec3& point) {
+bool is_inside(const Object& object, const Transform& around, const Vec3& point, bool is_turned) {
   const Transform transform = object.transform.then(around);
   if (object.clipped_by)
     for (const Object& clip : *object.clipped_by)
-      if (!is_inside(clip, around, point)) return false;
+      if (!is_inside(clip, around, point, false)) return false;
+  const bool is_inverse = object.inverse != is_turned;
   bool inside = false;
   const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape);
   const auto* sphere = std::get_if<Sphere>(&object.shape);
   if (mesh != nullptr && !(*mesh)->has_inside()) return false;
   if (std::holds_alternative<std::shared_ptr<const Polygon>>(object.shape)) return false;
   if (const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape))
-    inside = is_inside(**csg, transform, point);
-  else if (sphere == nullptr || is_near(*sphere, transform, point))
+    return is_inside(**csg, transform, point, is_inverse);
+  if (sphere == nullptr || is_near(*sphere, transform, point))
     inside = geometry::is_inside(object.shape, transform.inverse().point(point));
-  return inside != object.inverse;
+  return inside != is_inverse;
 }
 
 /// Whether what a ray is in can make a difference where it hits the material. Maps are taken for ones with
@@ -154,7 +152,7 @@ bool Medium::contains(const Vec3& point) const {
     const double slack = 1e-4 * (1 + std::abs(point[axis]));
     if (point[axis] < box.min[axis] - slack || point[axis] > box.max[axis] + slack) return false;
   }
-  return is_inside(object, Transform(), point);
+  return is_inside(object, Transform(), point, false);
 }
 
 double Medium::volume() const {
