@@ -65,40 +65,60 @@ struct FractalPattern : RarePattern {
 private:
   template <class S> struct Complex { typename S::F a, b; };
 
-  /// The value where numbers are squared, and no more is asked than how many stay and, inside, the least
-  /// size. A number that comes back after some rounds would do so for ever, as those do that converge: it is
-  /// not followed further (Brent 1980). Whatever is still to come has been there, so that the least size is
-  /// known.
+  /// Numbers that are squared, and what is asked of them: how many stay and, inside, the least size.
+  template <class S, bool kWantsLeast> struct Squares {
+    using F = typename S::F;
+
+    Complex<S> z;
+    F aa, bb; ///< squares of its parts
+    F least, rounds;
+    typename S::M stays;
+
+    explicit Squares(const Complex<S>& first)
+        : z(first), aa(first.a * first.a), bb(first.b * first.b), least(aa + bb), rounds(0.0f),
+          stays(S::M::all()) {}
+
+    [[gnu::always_inline]] void go_on(const Complex<S>& c) {
+      const F ab = z.a * z.b;
+      z = {aa - bb + c.a, ab + ab + c.b};
+      aa = z.a * z.a;
+      bb = z.b * z.b;
+      const F size = aa + bb;
+      stays = stays & (size <= F(4.0f));
+      rounds = S::select(stays, rounds + F(1.0f), rounds);
+      if constexpr (kWantsLeast) least = S::select(stays, S::min(least, size), least);
+    }
+  };
+
+  /// The value where no more is asked than that. A number that comes back after some rounds would do so for
+  /// ever, as those do that converge: it is not followed further (Brent 1980). Whatever is still to come has
+  /// been there, so that the least size is known. It is looked for after several rounds at a time only.
   template <class S, bool kWantsLeast>
   [[gnu::noinline]] static typename S::F counted_squares(const Complex<S>& first, const Complex<S>& c,
                                                          uint32_t most, const PatternRecord& r) {
     using F = typename S::F;
     using M = typename S::M;
-    F a = first.a, b = first.b, aa = a * a, bb = b * b;
-    F least = aa + bb, rounds(0.0f);
-    M stays = M::all(), goes_on = M::all();
+    constexpr uint32_t kRoundsAtATime = 4;
+    Squares<S, kWantsLeast> squares(first);
+    M goes_on = M::all();
     Complex<S> kept = first;
-    uint32_t keeps_next = 16;
-    for (uint32_t i = 1; i <= most; ++i) {
-      const F ab = a * b;
-      a = aa - bb + c.a;
-      b = ab + ab + c.b;
-      aa = a * a;
-      bb = b * b;
-      const F size = aa + bb;
-      stays = stays & (size <= F(4.0f));
-      rounds = S::select(stays, F(static_cast<float>(i)), rounds);
-      if constexpr (kWantsLeast) least = S::select(stays, S::min(least, size), least);
-      goes_on = goes_on & stays & !((a == kept.a) & (b == kept.b));
-      if (goes_on.bits() == 0) break;
+    uint32_t keeps_next = 4 * kRoundsAtATime;
+    uint32_t i = 0;
+    for (; most - i >= kRoundsAtATime && goes_on.bits() != 0; i += kRoundsAtATime) {
       if (i == keeps_next) {
-        kept = {a, b};
+        kept = squares.z;
         keeps_next *= 2;
       }
+      for (uint32_t round = 0; round < kRoundsAtATime; ++round)
+        squares.go_on(c);
+      goes_on = goes_on & squares.stays & !((squares.z.a == kept.a) & (squares.z.b == kept.b));
     }
+    if (goes_on.bits() != 0)
+      for (; i < most; ++i)
+        squares.go_on(c);
     const F factor(r.parameter[4]);
-    return S::select(stays, kWantsLeast ? S::sqrt(least) * factor : factor,
-                     rounds * F(1.0f / r.parameter[2]));
+    return S::select(squares.stays, kWantsLeast ? S::sqrt(squares.least) * factor : factor,
+                     squares.rounds * F(1.0f / r.parameter[2]));
   }
 
   template <class S> [[gnu::always_inline]] static typename S::F square(const Complex<S>& z) {
