@@ -20,15 +20,18 @@ struct SlopePattern : RarePattern {
     const SlopeRecord slope = *scene.template pattern_table<SlopeRecord>(r.table);
     const V3<S> normal = points.surface->normal.template load_from<S>(points.first);
     const F cosine = dot<S>(normal, splat3<S>(slope.direction)), one(1.0f);
-    const F acute = acos_unit<S>(S::min(S::abs(cosine), one)) * F(0.318309886f);
+    // Flat ground is often at just 0 or 1 or another whole number, where single precision would decide which
+    // end of the map it gets: what is as good as that is that.
+    const F size = S::abs(cosine), slack = F(2e-6f) + S::abs(F(slope.factor)) * F(5e-6f);
+    const F acute = acos_unit<S>(S::select(size < F(1.0f - 3e-7f), size, one)) * F(0.318309886f);
     const F faces = S::select(cosine < F(0.0f), acute, one - acute);
     const F whole = faces * F(slope.factor) + dot<S>(points.at, splat3<S>(slope.altitude)) + F(slope.offset);
-    // As in POV-Ray, what is beyond 0 and 1 starts again from the other one, before frequency and phase. Flat
-    // ground is often at just 0 or 1, and has to stay there in single precision.
-    const F slack(2e-6f);
-    const F part = whole - S::to_float(S::to_int(whole));
-    const F above = S::select(whole > one + slack, part, S::max(whole, F(0.0f)));
-    return S::select(whole < -slack, part + one, above);
+    // As in POV-Ray, what is beyond 0 and 1 starts again from the other one, before frequency and phase;
+    // whole numbers are 0, and 1 below 0.
+    const F beyond = S::select(whole < F(0.0f), whole - slack, whole + slack);
+    const F part = whole - S::to_float(S::to_int(beyond));
+    const F above = S::max(S::select(whole > one + slack, part, S::min(whole, one)), F(0.0f));
+    return S::select(whole < -slack, S::min(part + one, one), above);
   }
 };
 
