@@ -33,6 +33,11 @@ bool is_near(const Sphere& sphere, const Transform& transform, const Vec3& point
   return true;
 }
 
+/// `part`: one of the CSG's own.
+bool is_taken_away(const Object& part, const Csg& csg) {
+  return csg.operation == Csg::Operation::difference && &part != &csg.parts.front();
+}
+
 /// `around`: the transformation of the CSG that it is a part of. `is_turned`: that turns its inside out,
 /// which leaves its clips as they are: as in POV-Ray, nothing is inside beyond these.
 bool is_inside(const Object& object, const Transform& around, const Vec3& point, bool is_turned);
@@ -40,8 +45,7 @@ bool is_inside(const Object& object, const Transform& around, const Vec3& point,
 /// `is_inverse`: an inverse union is the intersection of its parts' inverses, and the other way round.
 bool is_inside(const Csg& csg, const Transform& transform, const Vec3& point, bool is_inverse) {
   const auto in = [&](const Object& part) {
-    const bool is_taken_away = csg.operation == Csg::Operation::difference && &part != &csg.parts.front();
-    return is_inside(part, transform, point, is_inverse != is_taken_away);
+    return is_inside(part, transform, point, is_inverse != is_taken_away(part, csg));
   };
   const bool is_union = csg.operation == Csg::Operation::union_ || csg.operation == Csg::Operation::merge;
   return is_union != is_inverse ? std::any_of(csg.parts.begin(), csg.parts.end(), in)
@@ -98,10 +102,8 @@ Aabb box_of(const Object& object, const Transform& around);
 /// what is taken away, which counts as inverse. Nothing is a point, as in POV-Ray.
 Aabb common_box(const Csg& csg, const Transform& transform) {
   Aabb box = kEverywhere;
-  for (const Object& part : csg.parts) {
-    const bool is_taken_away = csg.operation == Csg::Operation::difference && &part != &csg.parts.front();
-    if (part.inverse == is_taken_away) box = intersected(box, box_of(part, transform));
-  }
+  for (const Object& part : csg.parts)
+    if (part.inverse == is_taken_away(part, csg)) box = intersected(box, box_of(part, transform));
   for (int axis = 0; axis < 3; ++axis)
     if (box.min[axis] > box.max[axis]) return {{0, 0, 0}, {0, 0, 0}};
   return box;
