@@ -3,6 +3,8 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
+export CCACHE_SLOPPINESS=pch_defines,time_macros # else ccache compiles again what has a precompiled header
+
 tools/install-dependencies.sh build tests python docs
 tools/configure.sh ci
 cmake --build --preset ci
