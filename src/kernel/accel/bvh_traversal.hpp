@@ -22,7 +22,8 @@ public:
 
   BvhTraversal(ObjectTests<Spu>& objects, const FrameBlock& frame)
       : objects_(objects), bvh_(frame.bvh), packet_traversal_(objects, frame),
-        max_split_packets_(max_split_packets(frame)),
+        object_count_(static_cast<float>(frame.object_count)),
+        rays_of_frame_(static_cast<float>(frame.width * frame.height)),
         mixes_octants_(frame.object_count <= tuning::kMostObjectsOfMixedRays) {}
 
   /// Answers the queries, at most one for each packet of a bundle. Hits must have been reset. Occluded lanes
@@ -48,7 +49,6 @@ public:
         tfar_[packet] =
             PacketTraversal<Spu>::tfar_of(queries[packet], queries[packet].lanes) * shortening_[packet];
       });
-      begin(bundle.packets);
       traverse_bundle(queries, bundle);
     }
     intersect(queries, count, bundle.packets);
@@ -66,8 +66,8 @@ public:
 
   /// Traverses the BVH with the frustum of a bundle only, for which its rays need not exist yet, until it
   /// hits a leaf or a few nodes have been expanded. False: it hits no leaf, and no ray hits anything.
-  /// Otherwise intersect() continues from there.
-  bool enter(const PinholeBundle<S>& bundle) {
+  /// Otherwise intersect() continues from there. The bundle has some packets.
+  template <class Bundle> bool enter(const Bundle& bundle) {
     bundle_frustum_.set(bundle.all, bundle.octant);
     begin(bundle.packets);
     FrustumVisitor visitor = {*this, SlabOrder(bundle.octant), bundle.packets};
@@ -188,6 +188,7 @@ private:
     if (is_single(bundled)) return 0;
     bundle_frustum_.set(all, octant);
     view_ = nullptr;
+    set_max_split_packets(rays_of_frame_);
     octant_ = octant;
     reversed_ = false;
     begin(bundled);
@@ -203,6 +204,7 @@ private:
     frusta_.set(bundle.bounds, bundle.octant);
     bundle_frustum_.set(bundle.all, bundle.octant);
     view_ = &bundle.view;
+    set_max_split_packets(bundle.density != 0.0f ? bundle.density : rays_of_frame_);
     octant_ = bundle.turned ? bundle.octant ^ 7 : bundle.octant;
     reversed_ = bundle.turned;
     traverse_bundle(queries, SlabOrder(bundle.octant), SlabOrder(octant_), bundle.packets);
@@ -387,12 +389,12 @@ private:
   /// Whether leaves are hit by frusta only, without slab tests of rays. Frusta of rays through one point are
   /// tight. On an SPE the rays are tested all the same, because fetching an object by DMA costs more.
   bool trusts_frusta() const { return kHasBundleViews<Spu> && view_ != nullptr; }
-  /// Packets split early where triangles are assumed to be smaller than pixels.
-  static uint32_t max_split_packets(const FrameBlock& frame) {
+  /// Packets split early where triangles are assumed to be smaller than what is between `rays`, so many in a
+  /// picture.
+  void set_max_split_packets(float rays) {
     constexpr uint32_t kMost = PacketTraversal<Spu>::kMaxSplitPackets;
-    return kMost == 1 || frame.object_count <= frame.width * frame.height / tuning::kPixelsOfSmallObject
-               ? 1
-               : kMost;
+    if constexpr (kMost != 1)
+      max_split_packets_ = object_count_ * float{tuning::kPixelsOfSmallObject} <= rays ? 1 : kMost;
   }
   /// Whether the packets that hit a node traverse it separately.
   bool should_split(uint32_t packets) const {
@@ -484,7 +486,8 @@ private:
   ObjectTests<Spu>& objects_;
   const BvhRecord& bvh_;
   PacketTraversal<Spu> packet_traversal_;
-  const uint32_t max_split_packets_;
+  const float object_count_, rays_of_frame_;
+  uint32_t max_split_packets_ = 1; ///< of the bundle
   const bool mixes_octants_;
   RayGroup<S> ray_groups_[kBundlePackets<Spu>]; ///< by packet; intersect_packet() uses the first
   BundleFrusta<S, kBundlePackets<Spu>> frusta_;

@@ -114,10 +114,10 @@ public:
   }
 
   /// Finds the closest hits of packets of an application, by the BVH: those before the distances that are in
-  /// `hits`, where no object is yet. Each query has some lanes.
-  void find_closest_within(RayQuery* queries, uint32_t count) {
+  /// `hits`, where no object is yet. Each query has some lanes. `bundle`: of these packets, and entered last.
+  void find_closest_within(RayQuery* queries, uint32_t count, const OriginBundle<S>& bundle) {
     intersect_unbounded(queries, count);
-    bvh_.intersect(queries, count, OriginBundle<S>(queries, count));
+    bvh_.intersect(queries, count, bundle);
   }
 
   /// As intersect(), of rays that may all start at one point. May change the order of the queries.
@@ -127,15 +127,17 @@ public:
         reset_hits(queries, count);
         intersect_unbounded(queries, count);
         const uint32_t with_rays = queries_with_rays(queries, count);
-        if (with_rays != 0) bvh_.intersect(queries, with_rays, OriginBundle<S>(queries, with_rays));
-        return;
+        if (with_rays == 0) return;
+        const OriginBundle<S> bundle(queries, with_rays);
+        if (bundle.packets != 0) bvh_.enter(bundle);
+        return bvh_.intersect(queries, with_rays, bundle);
       }
     }
     intersect(queries, count);
   }
 
-  /// Starts the traversal for a bundle of primary rays. False: certainly none of them hits anything.
-  bool enter(const PinholeBundle<S>& bundle) {
+  /// Starts the traversal for a bundle of rays from one point. False: certainly none of them hits anything.
+  template <class Bundle> bool enter(const Bundle& bundle) {
     if constexpr (kHasBvh)
       return !uses_bvh() || bundle.packets == 0 || bvh_.enter(bundle) || frame_.unbounded_count != 0;
     else

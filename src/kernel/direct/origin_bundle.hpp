@@ -10,11 +10,12 @@ template <class S> class OriginBundle : public ViewBundle<S> {
 public:
   using F = typename S::F;
   using ViewBundle<S>::view, ViewBundle<S>::bounds, ViewBundle<S>::all, ViewBundle<S>::octant,
-      ViewBundle<S>::packets;
+      ViewBundle<S>::packets, ViewBundle<S>::density;
 
   F shortening; ///< of unit directions: none is longer on the major axis
 
-  /// Each query has some lanes. No packets, if they do not start at one point or only one is coherent.
+  /// Each query has some lanes; directions may have any length. No packets, if they do not start at one point
+  /// or only one is coherent.
   OriginBundle(const RayQuery* queries, uint32_t count) {
     const RayPacket& rays = *queries[0].rays;
     const auto lane = static_cast<uint32_t>(__builtin_ctz(queries[0].lanes));
@@ -37,6 +38,8 @@ public:
 
 private:
   static constexpr float kRelativeEpsilon = 1e-6f; ///< for the rounding of slopes
+  static constexpr float kMostSlope = 1e3f;
+  static constexpr float kLeastArea = 1e-12f;
 
   bool start_there(const RayQuery* queries, uint32_t count) const {
     const V3<S> origin = splat3<S>(view.origin);
@@ -51,7 +54,7 @@ private:
   /// Finds the slopes of all packets. Returns those whose slopes are finite and in the octant.
   uint32_t find_slopes(const RayQuery* queries, uint32_t count) {
     F slopes[2][kSimdLanes];
-    uint32_t steep = 0;
+    uint32_t aside = 0; // not along the major axis
     for (uint32_t packet = 0; packet < kSimdLanes; ++packet) {
       // What is no packet has the slopes of the first one.
       const RayQuery& query = queries[packet < count ? packet : 0];
@@ -62,13 +65,13 @@ private:
         const FloatLanes& all_lanes = query.rays->direction[axis];
         return S::select(active, F::load(all_lanes.lane), F(all_lanes.lane[any_lane]));
       };
-      const F length = along(view.axes[2]) * F(view.forth), shortest(1e-3f); // slopes exceed 1000 below
-      steep |= static_cast<uint32_t>((length > shortest).bits() != 0xFFFF) << packet;
+      const F length = along(view.axes[2]) * F(view.forth), shortest(1e-36f);
+      aside |= static_cast<uint32_t>((length > shortest).bits() != 0xFFFF) << packet;
       const F scale = F(1.0f) / S::max(length, shortest);
       slopes[0][packet] = along(view.axes[0]) * scale;
       slopes[1][packet] = along(view.axes[1]) * scale;
     }
-    uint32_t others = steep;
+    uint32_t others = aside;
     for (uint32_t i = 0; i < 2; ++i) {
       find_extremes(slopes[i], lows_[i], highs_[i]);
       const F low = F::load(lows_[i].lane), high = F::load(highs_[i].lane), one(1.0f),
@@ -78,6 +81,7 @@ private:
       most.store(highs_[i].lane);
       const bool backward = ((octant >> view.axes[i]) & 1) != 0;
       others |= ~(backward ? most < F(0.0f) : least >= F(0.0f)).bits();
+      others |= (S::max(most, -least) > F(kMostSlope)).bits();
     }
     return ((1u << count) - 1) & ~others;
   }
@@ -144,6 +148,8 @@ private:
       square = square + least * least;
     }
     shortening = F(1.000001f) / S::sqrt(square);
+    const float width = slopes_[0].high - slopes_[0].low, height = slopes_[1].high - slopes_[1].low;
+    density = static_cast<float>(__builtin_popcount(packets) * kSimdLanes) / (width * height + kLeastArea);
   }
 
   Interval slopes_[2];            ///< of all packets, on the two minor axes

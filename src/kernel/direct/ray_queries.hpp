@@ -61,7 +61,16 @@ public:
         const uint32_t begin = first + packets * kSimdLanes, left = count - begin;
         start(rays + begin, left < kSimdLanes ? left : kSimdLanes, packets);
       }
-      traversal_.find_closest_within(queries_, packets);
+      const OriginBundle<S> bundle(queries_, packets);
+      if (!traversal_.enter(bundle) && bundle.packets == (1u << packets) - 1) {
+        set_missed(hits + first, count - first < kBundleRays ? count - first : kBundleRays);
+        continue;
+      }
+      for (uint32_t packet = 0; packet < packets; ++packet) {
+        VectorLanes& direction = packets_[packet].direction;
+        direction.template store<S>(normalise<S>(direction.template load<S>()));
+      }
+      traversal_.find_closest_within(queries_, packets, bundle);
       for (uint32_t packet = 0; packet < packets; ++packet) {
         const uint32_t begin = first + packet * kSimdLanes, left = count - begin;
         set(hits + begin, left < kSimdLanes ? left : kSimdLanes, hits_[packet]);
@@ -103,17 +112,21 @@ private:
       hit = {distance, u, v, owner_of(object), object};
   }
 
+  static void set_missed(RayHit* hits, uint32_t count) {
+    static constexpr RayHit kMissed[kSimdLanes]; // copied in whole cache lines
+    uint32_t i = 0;
+    for (; i + kSimdLanes <= count; i += kSimdLanes)
+      __builtin_memcpy(static_cast<void*>(hits + i), kMissed, sizeof kMissed);
+    for (; i < count; ++i)
+      hits[i] = RayHit();
+  }
   void set(RayHit* hits, uint32_t count, const HitPacket& found) const {
     using F = typename S::F;
     using I = typename S::I;
     static_assert(offsetof(RayHit, object) == 12 && RayHit::kNone == kNoOffset);
     const I none = I::splat(-1);
     const auto missed = I::load(reinterpret_cast<const int32_t*>(found.object.lane)) == none;
-    if (missed.bits() == 0xFFFF) {
-      for (uint32_t i = 0; i < count; ++i)
-        hits[i] = RayHit();
-      return;
-    }
+    if (missed.bits() == 0xFFFF) return set_missed(hits, count);
     alignas(64) float owners[kSimdLanes];
     for (uint32_t lane = 0; lane < kSimdLanes; ++lane) {
       const uint32_t record = found.object.lane[lane];
@@ -157,7 +170,8 @@ private:
     single.has_packet = false;
   }
 
-  /// Rays that are fewer than a packet's lanes are followed by copies of the last one.
+  /// Directions keep their lengths. Rays that are fewer than a packet's lanes are followed by copies of the
+  /// last one.
   void start(const Ray* rays, uint32_t count, uint32_t packet) {
     using F = typename S::F;
     static_assert(offsetof(Ray, direction) == 12 && offsetof(Ray, tfar) == 24);
@@ -173,7 +187,7 @@ private:
     RayPacket& to = packets_[packet];
     HitPacket& hits = hits_[packet];
     to.origin.template store<S>({of_origin[0], of_origin[1], of_origin[2]});
-    to.direction.template store<S>(normalise<S>({of_direction[0], of_direction[1], of_direction[2]}));
+    to.direction.template store<S>({of_direction[0], of_direction[1], of_direction[2]});
     const F farthest(kMaxHitDistance), tfar = of_direction[3];
     S::select(tfar < farthest, tfar, farthest).store(hits.distance.lane);
     S::I::splat(-1).store(reinterpret_cast<int32_t*>(hits.object.lane));
