@@ -6,14 +6,14 @@
 namespace celltrace::cell_emu {
 namespace {
 
-constexpr std::uint64_t kStream = 0x5343484544;
+constexpr std::uint64_t kSchedulerStream = 0x5343484544;
 
 } // namespace
 
 LockstepScheduler::LockstepScheduler(Spes& spes, unsigned count, DiagnosticLog& log,
                                      const EmulationConfig& config)
-    : spes_(spes), log_(log), config_(config), random_(config.seed, kStream), agents_(count), watch_(count),
-      watches_(count > 1 && log.checks(Rule::foreign_store)) {
+    : spes_(spes), log_(log), config_(config), random_(config.seed, kSchedulerStream), agents_(count),
+      watch_(count), watches_(count > 1 && log.checks(Rule::foreign_store)) {
   // Some seeds change hands all the time, others let an SPE run far ahead.
   constexpr std::uint32_t kPatience[] = {2, 4, 16, 128};
   patience_ = kPatience[random_.below(4)];

@@ -1,8 +1,8 @@
 #include "backends/cell_emu/mfc.hpp"
 
-#include "celltrace/spe/channels.hpp"
 #include "backends/cell_emu/local_store_watch.hpp"
 #include "backends/cell_emu/mfc_rules.hpp"
+#include "celltrace/spe/channels.hpp"
 #include "celltrace/spe/spu.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace celltrace::cell_emu {
 namespace {
 
-constexpr std::uint64_t kStream = 0x4D4643;
+constexpr std::uint64_t kMfcStream = 0x4D4643;
 
 std::string to_hex(std::uint32_t value) {
   char text[9];
@@ -76,7 +76,7 @@ const char* name_of(EaKind kind) {
 Mfc::Mfc(unsigned spe, const MfcContext& context, DmaTiming& timing, ProblemState& problem_state,
          Counters& counters)
     : spe_(spe), context_(context), bus_(context.bus), timing_(timing), problem_state_(problem_state),
-      counters_(counters), random_(context.config.seed, kStream + spe) {
+      counters_(counters), random_(context.config.seed, kMfcStream + spe) {
 }
 
 // --- a program's life ---

@@ -11,7 +11,7 @@
 namespace celltrace::cell_emu {
 namespace {
 
-std::string to_hex(std::uint32_t address) {
+std::string address_text(std::uint32_t address) {
   char text[16];
   std::snprintf(text, sizeof text, "0x%05x", static_cast<unsigned>(address));
   return text;
@@ -131,7 +131,7 @@ void Mfc::report_early_load(const FlightInfo& flight, std::uint32_t lsa, CallSit
                             Cycle now) {
   if (flight.drained) return report_drained(flight, now);
   report_access(flight, Rule::get_target_read,
-                "load of LS " + to_hex(lsa) + ", used at " + to_text(use) + ",", load, now);
+                "load of LS " + address_text(lsa) + ", used at " + to_text(use) + ",", load, now);
 }
 
 void Mfc::check_store(std::uint32_t lsa, const std::uint8_t* bytes, CallSite site, Cycle now) {
@@ -148,7 +148,7 @@ void Mfc::check_store(std::uint32_t lsa, const std::uint8_t* bytes, CallSite sit
       report_drained(FlightInfo(flight), now);
     else
       report_access(FlightInfo(flight), get ? Rule::get_target_touched : Rule::put_source_changed,
-                    "store to LS " + to_hex(lsa), site, now);
+                    "store to LS " + address_text(lsa), site, now);
   }
 }
 

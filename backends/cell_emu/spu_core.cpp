@@ -6,7 +6,7 @@
 namespace celltrace::cell_emu {
 namespace {
 
-constexpr std::uint64_t kStream = 0x535055;
+constexpr std::uint64_t kSpuStream = 0x535055;
 
 constexpr unsigned kAllParameters = 0x1F << 16;
 /// EAH keeps 0 in programs that never write it: the 32-bit forms of the intrinsics do not.
@@ -49,7 +49,7 @@ template <unsigned c = 0, class Use> void with_channel(unsigned channel, Use use
 
 SpuCore::SpuCore(Spe& spe, const SpuContext& context)
     : spe_(spe), context_(context), mfc_(spe.mfc), state_(spe.state), counters_(spe.counters),
-      random_(context.mfc.config.seed, kStream + spe.id),
+      random_(context.mfc.config.seed, kSpuStream + spe.id),
       decrementer_(context.mfc.config.timing.cycles_per_tick), cycles_(spe.counters.cycles.value()),
       now_(spe.now), computing_since_(spe.now), start_(spe.now) {
   const double slowest = std::max(1.0, context.mfc.config.faults.slowest_spe);

@@ -10,10 +10,6 @@ namespace celltrace::cli {
 
 namespace {
 
-void check_number(double value, const char* option) {
-  if (!std::isfinite(value)) throw InputError(std::string(option) + " has to be a number");
-}
-
 /// Takes a whole number from the front.
 bool take_number(std::string_view& text, unsigned& number) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);

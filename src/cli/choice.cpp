@@ -1,6 +1,9 @@
 #include "cli/choice.hpp"
 
+#include "celltrace/error.hpp"
+
 #include <algorithm>
+#include <cmath>
 
 #include <CLI/CLI.hpp>
 
@@ -17,6 +20,10 @@ void add_choice(CLI::App& command, const std::string& name, std::string& target,
     return "'" + value + "' is none of " + CLI::detail::join(choice.known, ", ");
   };
   command.add_option(name, target, help)->check(CLI::Validator(check, CLI::detail::join(choice.known, "|")));
+}
+
+void check_number(double value, const char* option) {
+  if (!std::isfinite(value)) throw InputError(std::string(option) + " has to be a number");
 }
 
 } // namespace celltrace::cli

@@ -1,4 +1,4 @@
-// Options whose value is a word from a list.
+// What options may have for a value: a word from a list, or a number.
 #pragma once
 
 #include <string>
@@ -18,5 +18,8 @@ struct Choice {
 /// Adds an option that puts its word into `target`, which keeps its value where the option is not given.
 void add_choice(CLI::App& command, const std::string& name, std::string& target, const Choice& choice,
                 const std::string& help);
+
+/// Throws InputError for infinity and for what is no number: CLI11 takes both.
+void check_number(double value, const char* option);
 
 } // namespace celltrace::cli

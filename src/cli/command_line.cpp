@@ -3,6 +3,7 @@
 #include "celltrace/error.hpp"
 #include "celltrace/version.hpp"
 #include "cli/animation_options.hpp"
+#include "cli/choice.hpp"
 #include "cli/completions.hpp"
 #include "cli/keyword_page.hpp"
 #include "cli/machine_options.hpp"
@@ -254,9 +255,6 @@ int first_of(double start, int size) {
 }
 int end_of(double end, int size) {
   return static_cast<int>(std::min(end <= 1 ? std::floor(end * size) : std::floor(end), 1e9));
-}
-void check_number(double value, const char* option) {
-  if (!std::isfinite(value)) throw InputError(std::string(option) + " has to be a number");
 }
 void check_part(int first, int end, int size, const char* what) {
   if (end > size || first >= size)

@@ -70,7 +70,7 @@ std::string read_piece(int descriptor) {
   std::string piece(65536, '\0');
   ssize_t count = 0;
   do
-    count = read(descriptor, piece.data(), piece.size());
+    count = ::read(descriptor, piece.data(), piece.size());
   while (count < 0 && errno == EINTR && !interrupted());
   piece.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
   return piece;

@@ -16,9 +16,9 @@ namespace celltrace::image {
 namespace {
 
 /// The file in memory: the library goes back in what it has written, which pipes cannot.
-class Bytes : public Imf::OStream {
+class PictureStream : public Imf::OStream {
 public:
-  Bytes() : OStream("picture") {}
+  PictureStream() : OStream("picture") {}
 
   void write(const char bytes[], int count) override {
     const auto end = at_ + static_cast<std::size_t>(count);
@@ -89,7 +89,7 @@ void check_has_exr() {
 
 void write_exr(std::FILE* file, const ColourImage& linear, const ExrOptions& options) {
   const bool full = options.full_floats;
-  Bytes bytes;
+  PictureStream bytes;
   try {
     Imf::Header header(linear.width, linear.height);
     Channels channels(header, linear);

@@ -12,7 +12,7 @@ namespace celltrace::pov {
 namespace {
 
 /// The arguments of a call: three coordinates, and the parameters p[0], p[1], ... behind them.
-struct Call {
+struct InternalCall {
   Session& session;
   double x, y, z;
   const double* p;
@@ -22,10 +22,10 @@ struct Call {
 
 struct Internal {
   int parameters;
-  double (*value)(const Call&); ///< null: not supported
+  double (*value)(const InternalCall&); ///< null: not supported
 };
 
-double rounded_box(const Call& c) {
+double rounded_box(const InternalCall& c) {
   const double radius = c.p[0];
   double square = 0;
   const double coordinates[] = {c.x, c.y, c.z};
@@ -36,7 +36,7 @@ double rounded_box(const Call& c) {
   return std::sqrt(square) - radius;
 }
 
-double superellipsoid(const Call& c) {
+double superellipsoid(const InternalCall& c) {
   const double around = std::pow(std::fabs(c.x), 2 / c.p[0]) + std::pow(std::fabs(c.y), 2 / c.p[0]);
   const double all = std::pow(around, c.p[0] / c.p[1]) + std::pow(std::fabs(c.z), 2 / c.p[1]);
   return 1 - std::pow(all, c.p[1] / 2);
@@ -63,7 +63,7 @@ constexpr Internal kInternals[] = {
     {6, nullptr}, // f_dupin_cyclid
     // f_ellipsoid
     {3,
-     [](const Call& c) {
+     [](const InternalCall& c) {
        return std::sqrt(c.x * c.x * c.p[0] * c.p[0] + c.y * c.y * c.p[1] * c.p[1] +
                         c.z * c.z * c.p[2] * c.p[2]);
      }},
@@ -97,13 +97,13 @@ constexpr Internal kInternals[] = {
     {1, nullptr},  // f_paraboloid
     {3, nullptr},  // f_parabolic_torus
     // f_ph
-    {0, [](const Call& c) { return std::atan2(std::sqrt(c.x * c.x + c.z * c.z), c.y); }},
+    {0, [](const InternalCall& c) { return std::atan2(std::sqrt(c.x * c.x + c.z * c.z), c.y); }},
     {1, nullptr}, // f_pillow
     {1, nullptr}, // f_piriform
     {7, nullptr}, // f_piriform_2d
     // f_poly4
     {5,
-     [](const Call& c) {
+     [](const InternalCall& c) {
        const double r = std::sqrt(c.x * c.x + c.z * c.z);
        return r - ((((c.p[4] * c.y + c.p[3]) * c.y + c.p[2]) * c.y + c.p[1]) * c.y + c.p[0]);
      }},
@@ -113,13 +113,13 @@ constexpr Internal kInternals[] = {
     {1, nullptr}, // f_quartic_saddle
     {3, nullptr}, // f_quartic_cylinder
     // f_r
-    {0, [](const Call& c) { return std::sqrt(c.r2()); }},
+    {0, [](const InternalCall& c) { return std::sqrt(c.r2()); }},
     {6, nullptr}, // f_ridge
     {6, nullptr}, // f_ridged_mf
     // f_rounded_box
     {4, rounded_box},
     // f_sphere
-    {1, [](const Call& c) { return std::sqrt(c.r2()) - c.p[0]; }},
+    {1, [](const InternalCall& c) { return std::sqrt(c.r2()) - c.p[0]; }},
     {5, nullptr}, // f_spikes
     {4, nullptr}, // f_spikes_2d
     {6, nullptr}, // f_spiral
@@ -129,9 +129,9 @@ constexpr Internal kInternals[] = {
     // f_superellipsoid
     {2, superellipsoid},
     // f_th
-    {0, [](const Call& c) { return std::atan2(c.x, c.z); }},
+    {0, [](const InternalCall& c) { return std::atan2(c.x, c.z); }},
     // f_torus
-    {2, [](const Call& c) { return std::hypot(std::hypot(c.x, c.z) - c.p[0], c.y) - c.p[1]; }},
+    {2, [](const InternalCall& c) { return std::hypot(std::hypot(c.x, c.z) - c.p[0], c.y) - c.p[1]; }},
     {3, nullptr}, // f_torus2
     {1, nullptr}, // f_torus_gumdrop
     {1, nullptr}, // f_umbrella
@@ -139,13 +139,13 @@ constexpr Internal kInternals[] = {
     {6, nullptr}, // f_witch_of_agnesi_2d
     // f_noise3d
     {0,
-     [](const Call& c) {
+     [](const InternalCall& c) {
        return noise_value({c.x, c.y, c.z}, c.session.builder.noise_generator());
      }},
     {-1, nullptr},
     // f_noise_generator
     {1,
-     [](const Call& c) {
+     [](const InternalCall& c) {
        const double generator = std::trunc(c.p[0]);
        return noise_value({c.x, c.y, c.z}, generator == 2 ? 2 : generator == 3 ? 3 : 1);
      }},

@@ -9,13 +9,13 @@ namespace {
 
 /// POV-Ray's own size: 19,200 pixels for each of 16 SPEs. Not smaller for a quick study: it is what the
 /// claims are about.
-constexpr int kWidth = 640;
-constexpr int kHeight = 480;
+constexpr int kPictureWidth = 640;
+constexpr int kPictureHeight = 480;
 
 RenderOptions sized(unsigned spes) {
   RenderOptions options;
-  options.width = kWidth;
-  options.height = kHeight;
+  options.width = kPictureWidth;
+  options.height = kPictureHeight;
   options.spes = spes;
   return options;
 }

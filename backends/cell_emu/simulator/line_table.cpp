@@ -1,6 +1,7 @@
 #include "backends/cell_emu/simulator/line_table.hpp"
 
 #include "backends/cell_emu/simulator/dwarf_reader.hpp"
+#include "celltrace/spe/types.hpp"
 
 #include <algorithm>
 #include <map>
@@ -10,7 +11,6 @@ namespace celltrace::cell_emu {
 
 namespace {
 
-constexpr std::uint64_t kLocalStoreBytes = 256 * 1024;
 constexpr std::uint8_t kCopy = 1, kAdvancePc = 2, kAdvanceLine = 3, kSetFile = 4, kConstAddPc = 8,
                        kFixedAdvancePc = 9;
 constexpr std::uint8_t kEndSequence = 1, kSetAddress = 2, kDefineFile = 3;

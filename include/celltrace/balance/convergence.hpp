@@ -82,13 +82,13 @@ template <class Balance> double spectral_radius(std::uint32_t nodes, Balance bal
 
 /// What a sweep of GDE with `lambda` leaves of a deviation, 0..1. Errors as gde_sweep().
 inline double convergence_factor(const SystemGraph& graph, double lambda) {
-  return detail::spectral_radius(graph.nodes,
-                                 [&](std::span<double> loads) { gde_sweep(graph, loads, lambda); });
+  return celltrace::detail::spectral_radius(
+      graph.nodes, [&](std::span<double> loads) { gde_sweep(graph, loads, lambda); });
 }
 /// The same for a step of diffusion with `alpha`. Errors as diffusion_step().
 inline double diffusion_convergence_factor(const SystemGraph& graph, double alpha) {
-  return detail::spectral_radius(graph.nodes,
-                                 [&](std::span<double> loads) { diffusion_step(graph, loads, alpha); });
+  return celltrace::detail::spectral_radius(
+      graph.nodes, [&](std::span<double> loads) { diffusion_step(graph, loads, alpha); });
 }
 
 /// The lambda of the smallest convergence factor on any graph, by search to about 1e-4: for the graphs that

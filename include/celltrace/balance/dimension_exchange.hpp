@@ -71,19 +71,19 @@ template <class Load> void diffusion_step(const SystemGraph& graph, std::span<Lo
 /// loads (up to 2^53) move in whole units, rounded towards moving less. Throws std::invalid_argument for a
 /// lambda out of range or another number of loads than of nodes.
 inline void gde_sweep(const SystemGraph& graph, std::span<double> loads, double lambda) {
-  detail::gde_sweep(graph, loads, lambda);
+  celltrace::detail::gde_sweep(graph, loads, lambda);
 }
 inline void gde_sweep(const SystemGraph& graph, std::span<std::int64_t> loads, double lambda) {
-  detail::gde_sweep(graph, loads, lambda);
+  celltrace::detail::gde_sweep(graph, loads, lambda);
 }
 
 /// One step of first-order diffusion: all neighbours at once, w_i += alpha * sum over neighbours (w_j - w_i),
 /// with alpha in 0 .. 1/degree. Otherwise as gde_sweep().
 inline void diffusion_step(const SystemGraph& graph, std::span<double> loads, double alpha) {
-  detail::diffusion_step(graph, loads, alpha);
+  celltrace::detail::diffusion_step(graph, loads, alpha);
 }
 inline void diffusion_step(const SystemGraph& graph, std::span<std::int64_t> loads, double alpha) {
-  detail::diffusion_step(graph, loads, alpha);
+  celltrace::detail::diffusion_step(graph, loads, alpha);
 }
 /// The usual alpha, 1 / (degree + 1), with which diffusion converges on every connected graph.
 inline double diffusion_parameter(const SystemGraph& graph) {

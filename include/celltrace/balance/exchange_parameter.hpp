@@ -51,14 +51,16 @@ template <class OfSide> double of_longest(std::span<const std::uint32_t> sides, 
 
 /// Chain of n >= 1 nodes; `lambda` in 0..1.
 inline double chain_convergence_factor(std::uint32_t nodes, double lambda) {
-  detail::require_chain(nodes);
+  celltrace::detail::require_chain(nodes);
   if (nodes == 1) return 0;
-  return nodes == 2 ? std::abs(1 - 2 * lambda) : detail::slowest_factor(2 * std::numbers::pi / nodes, lambda);
+  return nodes == 2 ? std::abs(1 - 2 * lambda)
+                    : celltrace::detail::slowest_factor(2 * std::numbers::pi / nodes, lambda);
 }
 /// Ring of an even number of nodes; 2 nodes are a chain.
 inline double ring_convergence_factor(std::uint32_t nodes, double lambda) {
-  detail::require_even_ring(nodes);
-  return nodes == 2 ? std::abs(1 - 2 * lambda) : detail::slowest_factor(4 * std::numbers::pi / nodes, lambda);
+  celltrace::detail::require_even_ring(nodes);
+  return nodes == 2 ? std::abs(1 - 2 * lambda)
+                    : celltrace::detail::slowest_factor(4 * std::numbers::pi / nodes, lambda);
 }
 /// On a mesh or torus the slowest axis decides, which is a longest one. The sides of a torus are even.
 inline double mesh_convergence_factor(std::span<const std::uint32_t> sides, double lambda) {
@@ -76,21 +78,21 @@ inline double torus_convergence_factor(std::span<const std::uint32_t> sides, dou
 
 /// The lambda with which GDE converges fastest on a chain of n >= 1 nodes: 1 / (1 + sin(pi / n)).
 inline double optimal_chain_parameter(std::uint32_t nodes) {
-  detail::require_chain(nodes);
+  celltrace::detail::require_chain(nodes);
   return nodes == 1 ? 0.5 : 1 / (1 + std::sin(std::numbers::pi / nodes));
 }
 /// On a ring of an even number of nodes: 1 / (1 + sin(2 pi / n)). For odd rings, and for graphs of any other
 /// kind, there is best_exchange_parameter().
 inline double optimal_ring_parameter(std::uint32_t nodes) {
-  detail::require_even_ring(nodes);
+  celltrace::detail::require_even_ring(nodes);
   return nodes == 2 ? 0.5 : 1 / (1 + std::sin(2 * std::numbers::pi / nodes));
 }
 /// On a mesh or torus the longest side decides. The sides of a torus are even.
 inline double optimal_mesh_parameter(std::span<const std::uint32_t> sides) {
-  return detail::of_longest(sides, optimal_chain_parameter);
+  return celltrace::detail::of_longest(sides, optimal_chain_parameter);
 }
 inline double optimal_torus_parameter(std::span<const std::uint32_t> sides) {
-  return detail::of_longest(sides, optimal_ring_parameter);
+  return celltrace::detail::of_longest(sides, optimal_ring_parameter);
 }
 /// On a hypercube one sweep with 1/2 balances exactly.
 inline double optimal_hypercube_parameter() {

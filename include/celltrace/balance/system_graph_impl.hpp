@@ -96,23 +96,23 @@ inline SystemGraph ring_graph(std::uint32_t nodes) {
 }
 
 inline SystemGraph mesh_graph(std::span<const std::uint32_t> sides) {
-  return detail::box_graph(sides, false);
+  return celltrace::detail::box_graph(sides, false);
 }
 
 inline SystemGraph torus_graph(std::span<const std::uint32_t> sides) {
-  const SystemGraph by_axis = detail::box_graph(sides, true);
+  const SystemGraph by_axis = celltrace::detail::box_graph(sides, true);
   if (by_axis.colours <= by_axis.degree() + 1) return by_axis;
-  return coloured_graph(by_axis.nodes, detail::pairs_of(by_axis));
+  return coloured_graph(by_axis.nodes, celltrace::detail::pairs_of(by_axis));
 }
 
 inline SystemGraph hypercube_graph(std::uint32_t dimensions) {
-  detail::require_nodes(dimensions > 20 ? std::uint64_t{kMaxGraphNodes} + 1 : 1u << dimensions);
+  celltrace::detail::require_nodes(dimensions > 20 ? std::uint64_t{kMaxGraphNodes} + 1 : 1u << dimensions);
   const std::vector<std::uint32_t> sides(dimensions, 2);
   return mesh_graph(sides);
 }
 
 inline SystemGraph complete_graph(std::uint32_t nodes) {
-  detail::require_nodes(nodes, 4096);
+  celltrace::detail::require_nodes(nodes, 4096);
   // A round robin tournament: an odd number of players meet in round a + b; one more meets, in each round,
   // the player who would have to meet himself.
   const std::uint32_t rounds = nodes - 1 + nodes % 2;
@@ -128,13 +128,13 @@ inline SystemGraph complete_graph(std::uint32_t nodes) {
 
 inline SystemGraph coloured_graph(std::uint32_t nodes,
                                   std::span<const std::pair<std::uint32_t, std::uint32_t>> neighbours) {
-  detail::require_nodes(nodes);
-  detail::require_simple(nodes, neighbours);
+  celltrace::detail::require_nodes(nodes);
+  celltrace::detail::require_simple(nodes, neighbours);
   SystemGraph graph;
   graph.nodes = nodes;
   for (const auto& [a, b] : neighbours)
     graph.edges.push_back({a, b, 0});
-  const detail::EdgeColouring colouring(nodes, graph.degree(), neighbours);
+  const celltrace::detail::EdgeColouring colouring(nodes, graph.degree(), neighbours);
   for (std::size_t i = 0; i < graph.edges.size(); ++i) {
     graph.edges[i].colour = colouring.colours()[i];
     graph.colours = std::max(graph.colours, graph.edges[i].colour + 1);

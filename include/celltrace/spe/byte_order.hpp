@@ -49,10 +49,12 @@ template <auto first, auto... others> consteval bool are_different() {
 
 /// All data members of a record: numbers, enumerations, other records with fields, and arrays of all of them.
 template <auto first, auto... others> struct FieldList {
-  using Record = detail::RecordOf<first>;
-  static_assert((std::is_same_v<Record, detail::RecordOf<others>> && ...), "fields of two records");
-  static_assert(detail::are_different<first, others...>(), "a field is named twice");
-  static_assert((sizeof(detail::FieldOf<first>) + ... + sizeof(detail::FieldOf<others>)) == sizeof(Record),
+  using Record = celltrace::detail::RecordOf<first>;
+  static_assert((std::is_same_v<Record, celltrace::detail::RecordOf<others>> && ...),
+                "fields of two records");
+  static_assert(celltrace::detail::are_different<first, others...>(), "a field is named twice");
+  static_assert((sizeof(celltrace::detail::FieldOf<first>) + ... +
+                 sizeof(celltrace::detail::FieldOf<others>)) == sizeof(Record),
                 "a field of the record is missing in its list, or it has padding");
   static_assert(std::is_trivially_copyable_v<Record>, "a record is copied by DMA");
 
@@ -62,8 +64,8 @@ template <auto first, auto... others> struct FieldList {
   }
   /// Whether `holds` is true of every field's type.
   template <class Holds> static consteval bool all(Holds holds) {
-    return holds.template operator()<detail::FieldOf<first>>() &&
-           (holds.template operator()<detail::FieldOf<others>>() && ...);
+    return holds.template operator()<celltrace::detail::FieldOf<first>>() &&
+           (holds.template operator()<celltrace::detail::FieldOf<others>>() && ...);
   }
 };
 
