@@ -4,7 +4,13 @@ add_library(celltrace_options INTERFACE)
 target_compile_features(celltrace_options INTERFACE cxx_std_20)
 # The kernels give the same bits on every backend only if no compiler fuses multiply and add on its own.
 target_compile_options(celltrace_options INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -ffp-contract=off)
+  -Wall -Wextra -Wpedantic -Wnon-virtual-dtor -ffp-contract=off)
+if(NOT CELLTRACE_UNITY)
+  target_compile_options(celltrace_options INTERFACE -Wshadow)
+elseif(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # Sources look like headers, whose classes were to have no member of an anonymous namespace's type.
+  target_compile_options(celltrace_options INTERFACE -Wno-subobject-linkage)
+endif()
 if(CELLTRACE_WERROR)
   target_compile_options(celltrace_options INTERFACE -Werror)
 endif()
@@ -22,7 +28,6 @@ if(CELLTRACE_FUZZ)
   if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
     message(FATAL_ERROR "celltrace: CELLTRACE_FUZZ needs clang, whose libFuzzer it uses")
   endif()
-  target_compile_options(celltrace_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
@@ -46,12 +51,25 @@ set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 target_compile_options(celltrace_options INTERFACE -ftls-model=initial-exec)
 
 # A room of the house: a static library celltrace_NAME whose headers are found from the root of src/, backends/ and
-# include/. The project's own warnings do not reach whoever links it.
+# include/. The project's own warnings do not reach whoever links it. Sources that are APART name what others name, too:
+# they are never compiled together with them.
 function(celltrace_room name)
-  cmake_parse_arguments(ROOM "" "" "SOURCES;LINK" ${ARGN})
-  add_library(celltrace_${name} STATIC ${ROOM_SOURCES})
+  cmake_parse_arguments(ROOM "" "" "SOURCES;APART;LINK" ${ARGN})
+  add_library(celltrace_${name} STATIC ${ROOM_SOURCES} ${ROOM_APART})
+  if(ROOM_APART)
+    set_source_files_properties(${ROOM_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  endif()
+  if(CELLTRACE_UNITY)
+    set_target_properties(celltrace_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+  else()
+    set_target_properties(celltrace_${name} PROPERTIES UNITY_BUILD OFF)
+  endif()
   target_include_directories(celltrace_${name} PUBLIC
     ${PROJECT_SOURCE_DIR}/include ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
   target_compile_features(celltrace_${name} PUBLIC cxx_std_20)
   target_link_libraries(celltrace_${name} PRIVATE celltrace_options PUBLIC ${ROOM_LINK})
+  if(CELLTRACE_FUZZ)
+    # What branches on what a scene says; the kernels, whose lanes hardly branch, would take a tenth longer.
+    target_compile_options(celltrace_${name} PRIVATE -fsanitize=fuzzer-no-link)
+  endif()
 endfunction()
