@@ -244,7 +244,8 @@ bool SceneImage::update(const Scene& given, AlignedBlock& work, unsigned threads
     writer.write_objects(objects, {order->objects, loose->objects}, order->cells, threads);
   else
     writer.send_objects(objects, origin_->places, threads);
-  writer.write_groups(origin_->groups, threads);
+  // Where there are no instances, only what builds a BVH reads groups.
+  if (updated.prototype_count != 0) writer.write_groups(origin_->groups, threads);
   writer.write_instances(instances, threads);
   writer.write_unbounded(objects, census);
   writer.write_bounds(loose->around);

@@ -54,7 +54,7 @@ public:
   /// Becomes the image of a scene that is the one given to assign() but for numbers in it, every record at
   /// its place, also the accelerator's. False, and nothing has changed, if it was not updatable, or if there
   /// is more or less than there was: objects, what of them can be hit, entries of tables. Throws InputError
-  /// as assign() does.
+  /// as assign() does. Groups without instances keep their bounds: a BVH is built of an image that is new.
   bool update(const Scene& scene, AlignedBlock& work, unsigned threads,
               std::uint32_t objects_a_thread = kObjectsAThread);
   /// As update(), where all objects are as they were; but not for scenes in which patterns or lights refer to
