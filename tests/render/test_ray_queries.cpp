@@ -144,6 +144,32 @@ TEST_CASE("single rays, packets and streams hit the same") {
   CHECK(different == 0);
 }
 
+TEST_CASE("streams that miss, or mostly miss, hit what single rays hit") {
+  Renderer renderer(query_options());
+  renderer.render(parse_string("light_source { <5, 9, -9>, 1 }\n"
+                               "sphere { <0, 0, -1>, 0.3 pigment { rgb 1 } }\n"
+                               "box { <0.5, -1, -1>, <1, -0.7, 1> pigment { rgb 1 } }\n"));
+  RayQueries queries = renderer.ray_queries();
+  // Whole bundles, the last of them not full, of directions of any length; some turn away from the others.
+  for (const int edge : {17, 50, 200}) {
+    CAPTURE(edge);
+    std::vector<Ray> rays = camera_rays(edge);
+    for (std::size_t i = 0; i < rays.size(); ++i)
+      for (float& component : rays[i].direction)
+        component *= std::pow(10.0f, static_cast<float>(i % 41) - 20) * (i % 997 == 996 ? -1.0f : 1.0f);
+    std::vector<RayHit> hits(rays.size());
+    queries.closest_hits(rays, hits);
+    std::size_t different = 0, hit = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      different += same(queries.closest_hit(rays[i]), hits[i]) ? 0 : 1;
+      hit += hits[i] ? 1 : 0;
+    }
+    CHECK(different == 0);
+    CHECK(hit * 200 > rays.size());
+    CHECK(hit * 2 < rays.size());
+  }
+}
+
 TEST_CASE("hits have their object, place and normal") {
   Scene scene = mixed_scene();
   scene.objects.pop_back(); // the mesh
