@@ -11,7 +11,7 @@ constexpr float kEndless = __builtin_inff();
 /// From `origin` along `direction`, in the scene's coordinates.
 struct Ray {
   float origin[3];
-  float direction[3]; ///< of any length but 0
+  float direction[3]; ///< 1e-18 to 1e18 long
   /// How far it reaches: hits there or beyond are none. In the scene's unit, whatever the direction's length.
   float tfar = kEndless;
 };

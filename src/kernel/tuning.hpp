@@ -66,8 +66,8 @@ constexpr uint32_t kMissesOfLoose = 2;
 /// Larger: packets share fewer nodes; smaller: more nodes are tested for packets that do not hit them. Rays
 /// of the bunny, whose triangles are smaller than pixels.
 constexpr uint32_t kMaxSplitPackets = 4;
-/// Packets split that early where there are more objects than one for so many pixels: each then hits other
-/// nodes than its neighbours. Larger: models with larger triangles split too. Rays of the models.
+/// Packets split that early where there are more objects than one for so many pixels, or rays of a stream in
+/// a unit square: each then hits other nodes. Larger: larger triangles split too. Rays of the models.
 constexpr uint32_t kPixelsOfSmallObject = 2;
 
 // --- waiting for memory ---

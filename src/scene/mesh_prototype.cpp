@@ -4,6 +4,7 @@
 #include "kernel/direct/build_bvh_split.hpp"
 #include "scene/build_watch.hpp"
 #include "scene/object_order.hpp"
+#include "scene/record_vectors.hpp"
 #include "scene/triangles.hpp"
 
 #include <algorithm>
@@ -28,11 +29,6 @@ constexpr std::uint32_t kTrianglesPerRun = 128;
 static_assert(kTrianglesPerRun <= kMaxCopiedObjects);
 /// About a leaf of the BVH: within it, order does not matter.
 constexpr std::uint32_t kTrianglesPerLeaf = 4;
-
-void copy(const Vec3f& from, float* to) {
-  for (int i = 0; i < 3; ++i)
-    to[i] = from[i];
-}
 
 Reference reference_to(std::uint32_t number, const Mesh& mesh) {
   const Index(&vertex)[3] = mesh.triangles[number].vertex;

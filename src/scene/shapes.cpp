@@ -3,6 +3,7 @@
 #include "celltrace/error.hpp"
 #include "kernel/accel/object_bounds.hpp"
 #include "scene/polygons.hpp"
+#include "scene/record_vectors.hpp"
 #include "scene/shape_geometry.hpp"
 
 #include <algorithm>
@@ -30,11 +31,6 @@ void write_map(const Transform& map, float (&to)[12]) {
 namespace {
 
 using namespace kernel;
-
-void copy(const Vec3& from, float* to) {
-  for (int i = 0; i < 3; ++i)
-    to[i] = static_cast<float>(from[i]);
-}
 
 /// The factor by which a transformation scales everything, or 0 if it does not scale all directions alike.
 double uniform_scale(const Transform& t) {

@@ -1,6 +1,7 @@
 #include "scene/surface_records.hpp"
 
 #include "kernel/lights/list.hpp"
+#include "scene/record_vectors.hpp"
 #include "scene/textures.hpp"
 
 #include <algorithm>
@@ -14,11 +15,6 @@ namespace celltrace {
 using namespace kernel;
 
 namespace {
-
-void copy(const Vec3& from, float* to) {
-  for (int i = 0; i < 3; ++i)
-    to[i] = static_cast<float>(from[i]);
-}
 
 /// The opacity rule changed with language version 3.7.
 double opacity(const Pigment& p, double version) {

@@ -4,6 +4,7 @@
 #include "kernel/textures/list.hpp"
 #include "scene/list_waves.hpp"
 #include "scene/pattern_tables.hpp"
+#include "scene/record_vectors.hpp"
 #include "scene/surface_records.hpp"
 
 #include <algorithm>
@@ -27,11 +28,6 @@ void set(const Transform& to_space, float (&m)[12]) {
 
 bool is_still(const Turbulence& t) {
   return t.amount == Vec3(0);
-}
-
-void copy(const Vec3& from, float* to) {
-  for (int i = 0; i < 3; ++i)
-    to[i] = static_cast<float>(from[i]);
 }
 
 void fill(SpaceStepRecord& r, const Turbulence& t) {
