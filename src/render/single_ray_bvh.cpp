@@ -81,7 +81,7 @@ private:
 
   /// With more levels, halves are of equal number, so that the stack of a traversal has a limit.
   static constexpr int kFreeLevels = 32;
-  static constexpr std::size_t kBins = 16;
+  static constexpr std::size_t kBins = 32;
 
   template <class Record> const Record& record(std::uint32_t offset) const {
     return *reinterpret_cast<const Record*>(image_.base() + offset);

@@ -38,6 +38,17 @@ template <class Simd> struct HostEight {
   friend HostEight operator*(const HostEight& a, const HostEight& b) {
     return make([&](uint32_t i) { return a.part[i] * b.part[i]; });
   }
+  /// a * b - c, rounded once or twice.
+  friend HostEight multiply_subtract(const HostEight& a, const HostEight& b, const HostEight& c) {
+    return make([&](uint32_t i) {
+#if defined(__AVX512VL__)
+      if constexpr (Part::size == 8)
+        return Part(_mm256_mask_fmsub_ps(a.part[i], 0xFF, b.part[i], c.part[i]));
+      else
+#endif
+        return a.part[i] * b.part[i] - c.part[i];
+    });
+  }
   static HostEight min(const HostEight& a, const HostEight& b) {
     return make([&](uint32_t i) { return simd_host::min(a.part[i], b.part[i]); });
   }

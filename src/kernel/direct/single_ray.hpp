@@ -2,7 +2,7 @@
 // four triangles. Kernel dialect, where memory is direct.
 //
 // Finds the hits that packets find, to the last bit: tests of objects and of what is nearer are theirs, and
-// tests of nodes leave out less than theirs do not.
+// tests of nodes leave out none that the ray touches.
 #pragma once
 
 #include "kernel/accel/frustum.hpp"
@@ -51,38 +51,65 @@ private:
   static constexpr uint32_t kDepth = 64; // that of the BVH for packets, and of leaves that were divided
   static constexpr uint32_t kEntries = (QueryNode::kWidth - 1) * kDepth + QueryNode::kWidth;
 
+  /// A child that the ray enters, and where.
   struct Entry {
     uint32_t ref;
     float enter;
+
+    friend void sort(Entry& nearer, Entry& farther) {
+      const Entry a = nearer, b = farther;
+      const bool swapped = b.enter < a.enter;
+      nearer = swapped ? b : a;
+      farther = swapped ? a : b;
+    }
   };
 
-  /// The ray for tests of nodes.
+  /// The ray for tests of nodes: a plane at x is crossed at x * inverse - origin * inverse, one instruction
+  /// where they are fused.
   struct Slabs {
-    explicit Slabs(const Ray& ray)
-        : order((ray.direction[0] < 0.0f ? 1u : 0u) | (ray.direction[1] < 0.0f ? 2u : 0u) |
-                (ray.direction[2] < 0.0f ? 4u : 0u)) {
+    explicit Slabs(const Ray& ray) {
+      const SlabOrder order((ray.direction[0] < 0.0f ? 1u : 0u) | (ray.direction[1] < 0.0f ? 2u : 0u) |
+                            (ray.direction[2] < 0.0f ? 4u : 0u));
       for (uint32_t axis = 0; axis < 3; ++axis) {
         const float along = ray.direction[axis];
-        origin[axis] = Eight::splat(ray.origin[axis]);
-        inverse[axis] = Eight::splat(1.0f / (along < 0.0f ? smaller(along, -detail::kTinyDirection)
-                                                          : larger(along, detail::kTinyDirection)));
+        const float inverted = 1.0f / (along < 0.0f ? smaller(along, -detail::kTinyDirection)
+                                                    : larger(along, detail::kTinyDirection));
+        const float product = ray.origin[axis] * inverted, rounding = kRounding * __builtin_fabsf(product);
+        inverse[axis] = Eight::splat(inverted);
+        near_origin[axis] = Eight::splat(product + rounding);
+        far_origin[axis] = Eight::splat(product - rounding);
+        near_row[axis] = order.near[axis] * sizeof(QueryNode::bounds[0]);
+        far_row[axis] = order.far[axis] * sizeof(QueryNode::bounds[0]);
       }
     }
     /// As Frustum::intersect().
     [[gnu::always_inline]] uint32_t intersect(const QueryNode& node, float tfar, float* enter) const {
-      const auto at = [&](uint32_t row, uint32_t axis) __attribute__((always_inline)) {
-        return (Eight::load(node.bounds[row]) - origin[axis]) * inverse[axis];
+      const auto at = [&](size_t row, uint32_t axis, const Eight(&origins)[3])
+          __attribute__((always_inline)) {
+        const char* const plane = reinterpret_cast<const char*>(node.bounds) + row;
+        return multiply_subtract(Eight::load(reinterpret_cast<const float*>(plane)), inverse[axis],
+                                 origins[axis]);
       };
-      const Eight near = Eight::max(Eight::max(at(order.near[0], 0), at(order.near[1], 1)),
-                                    Eight::max(at(order.near[2], 2), Eight::splat(0.0f)));
-      const Eight far = Eight::min(Eight::min(at(order.far[0], 0), at(order.far[1], 1)),
-                                   Eight::min(at(order.far[2], 2), Eight::splat(tfar)));
+      const auto near_at = [&](uint32_t axis) __attribute__((always_inline)) {
+        return at(near_row[axis], axis, near_origin);
+      };
+      const auto far_at = [&](uint32_t axis) __attribute__((always_inline)) {
+        return at(far_row[axis], axis, far_origin);
+      };
+      const Eight near =
+          Eight::max(Eight::max(near_at(0), near_at(1)), Eight::max(near_at(2), Eight::splat(0.0f)));
+      const Eight far =
+          Eight::min(Eight::min(far_at(0), far_at(1)), Eight::min(far_at(2), Eight::splat(tfar)));
       near.store(enter);
       return not_above_bits(near, far * Eight::splat(detail::kRoundedUp));
     }
 
-    Eight origin[3], inverse[3];
-    SlabOrder order;
+    /// More than both products are rounded by, relative to origin * inverse: near planes are taken to be
+    /// nearer by it, far planes farther, since the difference may be much smaller than the products.
+    static constexpr float kRounding = 5e-7f;
+
+    Eight inverse[3], near_origin[3], far_origin[3];
+    size_t near_row[3], far_row[3]; ///< offsets in QueryNode::bounds
   };
 
   static float tfar_of(const Ray& ray) { return PacketTraversal<Spu>::kTfarSlack * ray.distance; }
@@ -98,11 +125,11 @@ private:
     const V3<Quad> origin = splat3<Quad>(ray.origin), direction = splat3<Quad>(ray.direction);
     float tfar = tfar_of(ray);
     Entry stack[kEntries];
-    uint32_t size = 0;
+    Entry* top = stack;
     for (uint32_t ref = query_ref::make(query_ref::node, 0);;) {
       const uint32_t index = query_ref::index(ref);
       if (query_ref::kind(ref) == query_ref::node) {
-        if (expand(slabs, bvh_.nodes[index], tfar, stack, size, ref)) continue;
+        if (expand(slabs, bvh_.nodes[index], tfar, top, ref)) continue;
       } else {
         if (query_ref::kind(ref) == query_ref::triangles)
           test_triangles(bvh_.blocks[index], origin, direction, ray);
@@ -113,37 +140,51 @@ private:
         tfar = tfar_of(ray);
       }
       do {
-        if (size == 0) return false;
-        --size;
-      } while (stack[size].enter > tfar);
-      ref = stack[size].ref;
+        if (top == stack) return false;
+        --top;
+      } while (top->enter > tfar);
+      ref = top->ref;
     }
   }
 
   /// Pushes the children that are hit, the nearest last, but for the nearest, which `ref` becomes. False:
   /// none is hit.
   [[gnu::always_inline]] static bool expand(const Slabs& slabs, const QueryNode& node, float tfar,
-                                            Entry* stack, uint32_t& size, uint32_t& ref) {
+                                            Entry*& top, uint32_t& ref) {
     alignas(32) float enter[QueryNode::kWidth];
     uint32_t hit = slabs.intersect(node, tfar, enter);
     if (hit == 0) return false;
-    const uint32_t first = size;
-    auto i = static_cast<uint32_t>(__builtin_ctz(hit));
-    Entry nearest = {node.child[i], enter[i]};
-    while ((hit &= hit - 1) != 0) {
-      i = static_cast<uint32_t>(__builtin_ctz(hit));
-      Entry other = {node.child[i], enter[i]};
-      if (other.enter < nearest.enter) {
-        const Entry nearer = other;
-        other = nearest;
-        nearest = nearer;
+    const auto next = [&]() __attribute__((always_inline)) {
+      const auto i = static_cast<uint32_t>(__builtin_ctz(hit));
+      hit &= hit - 1;
+      return Entry{node.child[i], enter[i]};
+    };
+    // Mostly one or two, whose order no branch predictor knows.
+    Entry a = next();
+    if (hit != 0) {
+      Entry b = next();
+      sort(a, b);
+      if (hit == 0) {
+        *top++ = b;
+      } else {
+        Entry c = next();
+        sort(b, c);
+        sort(a, b);
+        top[0] = c;
+        top[1] = b;
+        Entry* const first = top;
+        top += 2;
+        while (hit != 0) {
+          Entry other = next();
+          sort(a, other);
+          Entry* place = top++;
+          for (; place != first && place[-1].enter < other.enter; --place)
+            *place = place[-1];
+          *place = other;
+        }
       }
-      uint32_t place = size++;
-      for (; place > first && stack[place - 1].enter < other.enter; --place)
-        stack[place] = stack[place - 1];
-      stack[place] = other;
     }
-    ref = nearest.ref;
+    ref = a.ref;
     return true;
   }
 
