@@ -171,6 +171,44 @@ TEST_CASE("streams that miss, or mostly miss, hit what single rays hit") {
   }
 }
 
+// What is subtracted from far origins, or along an axis where a ray hardly moves, is rounded by more than the
+// flat boxes of such triangles are wide.
+TEST_CASE("rays along axes and from far away hit flat triangles, one by one as in packets") {
+  Renderer renderer(query_options());
+  renderer.render(parse_string("light_source { <5, 9, -9>, 1 }\n"
+                               "mesh {\n"
+                               "#for (X, -8, 7) #for (Y, -8, 7)\n"
+                               "  triangle { <X, Y, 3>, <X + 1, Y, 3>, <X, Y + 1, 3> }\n"
+                               "  triangle { <X, 0.1, Y>, <X, 0.1, Y + 1>, <X + 1, 0.1, Y> }\n"
+                               "#end #end\n"
+                               "pigment { rgb 1 } }\n"));
+  RayQueries queries = renderer.ray_queries();
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> coordinate(-8, 8);
+  std::vector<Ray> rays(4096);
+  for (Ray& ray : rays) {
+    const std::size_t along = random() % 3;
+    const float away = std::pow(10.0f, static_cast<float>(random() % 7));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      ray.origin[axis] = random() % 4 == 0 ? std::floor(coordinate(random)) : coordinate(random);
+      ray.direction[axis] = random() % 4 == 0 ? 1e-9f : 0.0f;
+    }
+    ray.origin[along] = -away;
+    ray.direction[along] = 1;
+  }
+  std::vector<RayHit> hits(rays.size());
+  queries.closest_hits(rays, hits);
+  std::size_t different = 0, hit = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    // Where triangles meet either may be hit.
+    const RayHit single = queries.closest_hit(rays[i]);
+    different += single.distance == hits[i].distance && single.object == hits[i].object ? 0 : 1;
+    hit += hits[i] ? 1 : 0;
+  }
+  CHECK(different == 0);
+  CHECK(hit > 1000);
+}
+
 TEST_CASE("hits have their object, place and normal") {
   Scene scene = mixed_scene();
   scene.objects.pop_back(); // the mesh
