@@ -307,6 +307,7 @@ private:
     wanted.work_map = shows_strips_ || shows_costs_;
     wanted.machine = machine_;
     wanted.number = ++number_;
+    is_final_ = false; // also of what is written before the first frame of it
     wanted.camera = navigator_ ? fitted(navigator_->camera()) : fitted(scene_->camera);
     asked_ = Clock::now();
     source_.want(wanted);
