@@ -1,8 +1,8 @@
 // Traverses the BVH with one ray: its node tests take the four children of a node at once, its leaf tests
 // four triangles. Kernel dialect, where memory is direct.
 //
-// Finds the hits that packets find, to the last bit: tests of objects and of what is nearer are theirs, and
-// tests of nodes leave out none that the ray touches.
+// Finds the hits that packets find, to the last bit: tests of objects and of what is nearer are theirs. Where
+// objects meet, packets may find another: their tests of nodes may leave out a box that a ray only touches.
 #pragma once
 
 #include "kernel/accel/frustum.hpp"
