@@ -34,7 +34,8 @@ public:
   RayQueries(RayQueries&&) noexcept;
   RayQueries& operator=(RayQueries&&) noexcept;
 
-  /// The closest hit of a ray. All queries of closest hits give the same answers to the last bit.
+  /// The closest hit of a ray. All queries of closest hits give the same answers to the last bit, but where
+  /// objects or triangles meet: there one query may name another of them, at the same distance.
   RayHit closest_hit(const Ray& ray);
   /// Those of many rays, one for each; faster by far where 16 rays in a row, and 256, start and go similar
   /// ways. So give them in blocks: pixels, for example, as 4x4 of 4x4. Throws InputError if there is not the
