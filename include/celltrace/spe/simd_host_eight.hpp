@@ -32,9 +32,6 @@ template <class Simd> struct HostEight {
     for (uint32_t i = 0; i < kParts; ++i)
       part[i].store_aligned(words + i * Part::size);
   }
-  friend HostEight operator-(const HostEight& a, const HostEight& b) {
-    return make([&](uint32_t i) { return a.part[i] - b.part[i]; });
-  }
   friend HostEight operator*(const HostEight& a, const HostEight& b) {
     return make([&](uint32_t i) { return a.part[i] * b.part[i]; });
   }

@@ -74,6 +74,7 @@ private:
         const float along = ray.direction[axis];
         const float inverted = 1.0f / (along < 0.0f ? smaller(along, -detail::kTinyDirection)
                                                     : larger(along, detail::kTinyDirection));
+        // magnitude() is a branch here, which takes 3 % of a ray.
         const float product = ray.origin[axis] * inverted, rounding = kRounding * __builtin_fabsf(product);
         inverse[axis] = Eight::splat(inverted);
         near_origin[axis] = Eight::splat(product + rounding);
@@ -159,7 +160,7 @@ private:
       hit &= hit - 1;
       return Entry{node.child[i], enter[i]};
     };
-    // Mostly one or two, whose order no branch predictor knows.
+    // Mostly one or two are hit, whose order no branch predictor knows.
     Entry a = next();
     if (hit != 0) {
       Entry b = next();
