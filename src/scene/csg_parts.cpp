@@ -4,6 +4,7 @@
 #include "kernel/accel/object_bounds.hpp"
 #include "scene/build_watch.hpp"
 #include "scene/polytope.hpp"
+#include "scene/quadric_bounds.hpp"
 #include "scene/shape_geometry.hpp"
 
 #include <algorithm>
@@ -11,6 +12,8 @@
 #include <limits>
 #include <optional>
 #include <utility>
+
+#include <glm/common.hpp>
 
 namespace celltrace {
 
@@ -49,6 +52,22 @@ Aabb half_space(const PlacedShape& plane, bool inverse) {
   return box;
 }
 
+/// Around a box after a transformation, and a little more.
+Aabb moved(const Aabb& box, const Transform& transform) {
+  Aabb all = kNowhere;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 at = transform.point({static_cast<double>((corner & 1) != 0 ? box.max[0] : box.min[0]),
+                                     static_cast<double>((corner & 2) != 0 ? box.max[1] : box.min[1]),
+                                     static_cast<double>((corner & 4) != 0 ? box.max[2] : box.min[2])});
+    for (int i = 0; i < 3; ++i) {
+      const double slack = 1e-5 * (1 + std::abs(at[i]));
+      all.min[i] = std::min(all.min[i], static_cast<float>(at[i] - slack));
+      all.max[i] = std::max(all.max[i], static_cast<float>(at[i] + slack));
+    }
+  }
+  return all;
+}
+
 /// Around all triangles in the world, and a little more.
 Aabb bounds_of(const Mesh& mesh, const Transform& transform) {
   Aabb box = kNowhere;
@@ -71,19 +90,25 @@ Aabb bounds_of(const Mesh& mesh, const Transform& transform) {
 struct Node {
   enum class Kind { solid, union_, merge, intersection };
   Kind kind = Kind::solid;
-  bool inverse = false;     ///< of a solid
-  bool shows = true;        ///< its surfaces are seen; not those of what clips
-  Object object;            ///< of a solid
-  PlacedShape shape;        ///< of a solid that is no mesh
-  Aabb mesh_bounds;         ///< of a mesh
-  std::uint32_t record = 0; ///< of a solid: index in CsgParts::solids
-  std::uint32_t leaves = 1; ///< solids in it
+  bool inverse = false;      ///< of a solid
+  bool shows = true;         ///< its surfaces are seen; not those of what clips
+  Object object;             ///< of a solid
+  PlacedShape shape;         ///< of a solid that is no mesh
+  Aabb mesh_bounds;          ///< of a mesh
+  std::uint32_t record = 0;  ///< of a solid: index in CsgParts::solids
+  std::uint32_t leaves = 1;  ///< solids in it
+  bool needs_bounds = false; ///< it has a quadric, that others may limit
   std::vector<Node> children;
 
   /// Of a solid; null: no mesh.
   const Mesh* mesh() const {
     const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape);
     return mesh != nullptr ? mesh->get() : nullptr;
+  }
+  /// Of a solid that has no bounds by itself; null: no quadric.
+  const Quadric* quadric() const {
+    const bool may_be = kind == Kind::solid && !shape.is_empty && !shape.is_bounded;
+    return may_be ? std::get_if<Quadric>(&object.shape) : nullptr;
   }
   /// No point is in it, nor in its inverse: a polygon, or a mesh without an inside vector.
   bool has_no_inside() const {
@@ -93,6 +118,7 @@ struct Node {
 
   void add(Node child) {
     leaves = (children.empty() ? 0 : leaves) + child.leaves;
+    needs_bounds = needs_bounds || child.needs_bounds;
     children.push_back(std::move(child));
   }
 };
@@ -179,6 +205,7 @@ private:
     node.object.clipped_by = nullptr;
     node.record = static_cast<std::uint32_t>(solids_.size());
     solids_.push_back(node.mesh() != nullptr ? place_mesh(node) : place_solid(node));
+    node.needs_bounds = node.quadric() != nullptr && !node.inverse;
     return node;
   }
 
@@ -251,31 +278,96 @@ private:
   bool has_slanted_ = false;
 };
 
-/// What a node may fill.
-Aabb solid_bounds(const Node& node) {
-  Aabb all = node.kind == Node::Kind::intersection ? kEverywhere : kNowhere;
+/// Calls `visit(child, its number)` with all children of a node, with those last that others may limit.
+template <class Visit> void for_each_child(const Node& node, const Visit& visit) {
+  for (const bool last : {false, true})
+    for (std::size_t i = 0; i < node.children.size(); ++i)
+      if (node.children[i].needs_bounds == last) visit(node.children[i], i);
+}
+
+/// A solid that is no mesh, in a space that the world is taken to, if that is not null.
+PlacedShape placed_in(const Transform* space, const Node& node) {
+  if (space == nullptr) return node.shape;
+  Object object = node.object;
+  object.transform = object.transform.then(*space);
+  return place_shape(object);
+}
+
+/// What a node may fill of a box; in the world, or in a space that the world is taken to.
+Aabb solid_bounds(const Node& node, const Aabb& within, const Transform* space = nullptr) {
+  Aabb all = node.kind == Node::Kind::intersection ? within : kNowhere;
   switch (node.kind) {
-  case Node::Kind::solid:
+  case Node::Kind::solid: {
     if (node.has_no_inside()) return kNowhere;
-    if (node.mesh() != nullptr) return node.inverse ? kEverywhere : node.mesh_bounds;
+    if (node.mesh() != nullptr) {
+      if (node.inverse || is_empty(node.mesh_bounds)) return node.inverse ? kEverywhere : kNowhere;
+      return space != nullptr ? moved(node.mesh_bounds, *space) : node.mesh_bounds;
+    }
     if (node.shape.is_empty) return node.inverse ? kEverywhere : kNowhere;
-    if (is_plane(node)) return half_space(node.shape, node.inverse);
+    if (is_plane(node)) return half_space(placed_in(space, node), node.inverse);
+    if (const Quadric* quadric = node.quadric(); quadric != nullptr && !node.inverse) {
+      const Transform& transform = node.object.transform;
+      return bounds_of_quadric(*quadric, space != nullptr ? transform.then(*space) : transform, true, within);
+    }
     // The inside of a disc is a half-space.
     if (node.inverse || !node.shape.is_bounded ||
         (node.shape.kind_and_flags & object_flag::kind_mask) == kPrimitiveKind<DiscPrimitive>)
       return kEverywhere;
-    return node.shape.bounds();
+    return placed_in(space, node).bounds();
+  }
   case Node::Kind::intersection:
-    for (const Node& child : node.children)
-      all = intersected(all, solid_bounds(child));
+    for_each_child(node, [&](const Node& child, std::size_t) {
+      all = intersected(all, solid_bounds(child, all, space));
+    });
+    if (space != nullptr) return all;
     if (const HalfSpaces planes(node); planes.limit_more() && !is_empty(all))
       all = intersected(all, planes.cut_out_of(all).bounds());
     return all;
   default:
     for (const Node& child : node.children)
-      all = united(all, solid_bounds(child));
+      all = united(all, solid_bounds(child, within, space));
     return all;
   }
+}
+
+/// One of the intersections that a shape is shown in, and which of its children that is in.
+struct Limit {
+  const Node* intersection;
+  std::size_t shown;
+};
+
+/// Whether a transformation takes some axis to what is none.
+bool turns_axes(const Transform& transform) {
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 row = glm::abs(transform.rows[i]);
+    if (row.x + row.y + row.z > (1 + 1e-6) * std::max({row.x, row.y, row.z})) return true;
+  }
+  return false;
+}
+
+/// Bounds of a quadric or a plane along its own axes, around which there may be some where there are none
+/// along those of the world: around what has been turned as a whole. Infinite if not.
+Aabb bounds_in_own_space(const Node& node, const std::vector<Limit>& limits) {
+  if (node.mesh() != nullptr || node.shape.is_bounded || !turns_axes(node.object.transform))
+    return kEverywhere;
+  constexpr std::uint32_t kMostSolids = 100; // of all that is asked for each of many shapes
+  std::uint32_t solids = 0;
+  for (const Limit& limit : limits)
+    solids += limit.intersection->leaves;
+  if (solids > kMostSolids) return kEverywhere;
+  const Transform own = node.object.transform.inverse();
+  Aabb box = kEverywhere;
+  if (is_plane(node)) {
+    const PlacedShape plane = placed_in(&own, node);
+    box = intersected(half_space(plane, false), half_space(plane, true));
+  }
+  for (const bool last : {false, true})
+    for (const Limit& limit : limits)
+      for (const Node& child : limit.intersection->children)
+        if (&child != &limit.intersection->children[limit.shown] && child.needs_bounds == last)
+          box = intersected(box, solid_bounds(child, box, &own));
+  if (const Quadric* quadric = node.quadric()) box = bounds_of_quadric(*quadric, Transform(), false, box);
+  return is_bounded(box) && !is_empty(box) ? moved(box, node.object.transform) : kEverywhere;
 }
 
 /// Appends what a tree shows to the tables.
@@ -308,11 +400,12 @@ public:
     std::optional<Polytope> polytope;
     if (node.kind == Node::Kind::intersection) {
       Aabb all = bounds;
-      for (const Node& child : node.children) {
-        filled.push_back(solid_bounds(child));
+      filled.assign(node.children.size(), kEverywhere);
+      for_each_child(node, [&](const Node& child, std::size_t i) {
+        filled[i] = solid_bounds(child, all);
         // What has no inside shows what is in all others.
-        if (!child.has_no_inside()) all = intersected(all, filled.back());
-      }
+        if (!child.has_no_inside()) all = intersected(all, filled[i]);
+      });
       if (const HalfSpaces planes(node); planes.limit_more() && !is_empty(all))
         polytope = planes.cut_out_of(all);
     }
@@ -332,7 +425,9 @@ public:
         inside = intersected(inside,
                              is_plane(child) ? polytope->bounds_of_face(child.record) : polytope->bounds());
       to_.conditions.push_back(record);
+      if (node.kind == Node::Kind::intersection) limits_.push_back({&node, i});
       show(child, static_cast<std::uint32_t>(to_.conditions.size()) - 1, inside);
+      if (node.kind == Node::Kind::intersection) limits_.pop_back();
     }
   }
 
@@ -380,12 +475,18 @@ private:
       around = node.shape.bounds();
     part.bounds = intersected(around, bounds);
     if (is_empty(part.bounds)) return;
+    if (const Quadric* quadric = node.quadric())
+      part.bounds = bounds_of_quadric(*quadric, node.object.transform, false, part.bounds);
+    if (is_empty(part.bounds)) return;
+    part.bounds = intersected(part.bounds, bounds_in_own_space(node, limits_));
+    if (is_empty(part.bounds)) return;
     // Meshes that are too large are refused with their triangles.
     part.is_bounded = node.mesh() != nullptr || is_bounded(part.bounds);
     to_.parts.push_back(std::move(part));
   }
 
   CsgParts& to_;
+  std::vector<Limit> limits_; ///< of what is being shown
 };
 
 } // namespace

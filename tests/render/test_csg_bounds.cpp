@@ -1,11 +1,13 @@
 // Bounds of what CSG shows: tight enough for a BVH, and around all that can be seen.
 #include "scene/csg_parts.hpp"
 #include "scene/polytope.hpp"
+#include "scene/quadric_bounds.hpp"
 
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 using namespace celltrace;
@@ -76,6 +78,7 @@ TEST_CASE("Planes bound what they cut, through differences, transformations and 
   inner.transform = Transform::scale({2, 2, 2}).then(Transform::translate({10, 0, 0}));
   Object cone = plane({0, 1, 0}, 0);
   cone.shape = Quadric{{1, -1, 1}, {}, {}, 0};
+  cone.transform = Transform::translate({10, 0, 0});
   const CsgParts parts =
       parts_of(csg(Csg::Operation::difference, {inner, plane({1, 1, 0}, std::sqrt(50.0)), cone}));
   REQUIRE(parts.parts.size() == 10);
@@ -146,4 +149,109 @@ TEST_CASE("An intersection of very many planes is soon taken apart") {
   for (int i = 0; i < 3000; ++i)
     planes.push_back(plane({normal(random), normal(random), normal(random)}, 1));
   CHECK(parts_of(csg(Csg::Operation::intersection, planes)).parts.size() == 3000);
+}
+
+TEST_CASE("Quadrics between planes are bounded, and bound the planes") {
+  Object cone = plane({0, 1, 0}, 0);
+  cone.shape = Quadric{{1, -1, 1}, {}, {}, 0};
+  Object inner = cone;
+  inner.transform = Transform::scale({0.5, 1, 0.5});
+  inner.inverse = true;
+  Object paraboloid = cone;
+  paraboloid.shape = Quadric{{1, 0, 1}, {}, {0, -1, 0}, 0};
+  Object cup = csg(Csg::Operation::intersection,
+                   {csg(Csg::Operation::intersection, {plane({0, 1, 0}, 2), cone, inner, paraboloid}),
+                    plane({0, 1, 0}, 0, true)});
+
+  SECTION("along the axes") {
+    cup.transform = Transform::scale({3, 1, 3}).then(Transform::translate({10, 0, 0}));
+    const CsgParts parts = parts_of(cup);
+    REQUIRE(parts.parts.size() == 5);
+    const double edge = 3 * std::sqrt(2.0);
+    check_bounds(parts.parts[0].bounds, {10 - edge, 0, -edge}, {10 + edge, 2, edge});
+    for (const CsgPart& part : parts.parts) {
+      CHECK(part.is_bounded);
+      CHECK(part.bounds.max[0] < 16.01f);
+    }
+  }
+  SECTION("turned as a whole") {
+    cup.transform = Transform::rotate({30, 40, 50}).then(Transform::translate({10, 0, 0}));
+    const CsgParts parts = parts_of(cup);
+    REQUIRE(parts.parts.size() == 5);
+    for (const CsgPart& part : parts.parts)
+      for (int i = 0; i < 3; ++i) {
+        INFO("part " << &part - parts.parts.data() << " axis " << i);
+        // Corners of a box with edges of 2 sqrt(2), 2 and 2 sqrt(2) are within 3 of its ends.
+        CHECK(part.bounds.min[i] > (i == 0 ? 10 : 0) - 5.0f);
+        CHECK(part.bounds.max[i] < (i == 0 ? 10 : 0) + 5.0f);
+      }
+  }
+}
+
+TEST_CASE("Quadrics that nothing limits stay without bounds") {
+  Object cone = plane({0, 1, 0}, 0);
+  cone.shape = Quadric{{1, -1, 1}, {}, {}, 0};
+  for (const Vec3& turn : {Vec3(0), Vec3(90, 0, 0), Vec3(30, 40, 50)}) {
+    cone.transform = Transform::rotate(turn);
+    const CsgParts parts = parts_of(csg(Csg::Operation::intersection, {plane({0, 1, 0}, 2), cone}));
+    REQUIRE(parts.parts.size() == 2);
+    CHECK_FALSE(parts.parts[0].is_bounded);
+    CHECK_FALSE(parts.parts[1].is_bounded);
+  }
+}
+
+TEST_CASE("All that a box has of a quadric is in the quadric's bounds") {
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal;
+  const auto any = [&] { return Vec3(normal(random), normal(random), normal(random)); };
+  const auto often_0 = [&](Vec3 v) {
+    for (int i = 0; i < 3; ++i)
+      if (random() % 3 == 0) v[i] = 0;
+    return v;
+  };
+  int on_surface = 0, within_solid = 0, limited = 0;
+  for (int round = 0; round < 3000; ++round) {
+    const Quadric quadric{often_0(any()), random() % 2 == 0 ? Vec3(0) : often_0(any()), often_0(any()),
+                          normal(random)};
+    Transform transform = Transform::scale(glm::abs(any()) + 0.1).then(Transform::translate(any() * 3.0));
+    if (random() % 2 == 0) transform = Transform::rotate(any() * 90.0).then(transform);
+    const Transform inverse = transform.inverse();
+    const auto value = [&](const Vec3& at) {
+      const Vec3 p = inverse.point(at);
+      return glm::dot(quadric.square, p * p) +
+             glm::dot(quadric.mixed, Vec3(p.x * p.y, p.x * p.z, p.y * p.z)) + glm::dot(quadric.linear, p) +
+             quadric.constant;
+    };
+    kernel::Aabb within;
+    for (int i = 0; i < 3; ++i) {
+      const double a = 4 * normal(random), b = 4 * normal(random);
+      constexpr float kInfinite = std::numeric_limits<float>::max();
+      within.min[i] = random() % 3 == 0 ? -kInfinite : static_cast<float>(std::min(a, b));
+      within.max[i] = random() % 3 == 0 ? kInfinite : static_cast<float>(std::max(a, b));
+    }
+    const kernel::Aabb surface = bounds_of_quadric(quadric, transform, false, within);
+    const kernel::Aabb solid = bounds_of_quadric(quadric, transform, true, within);
+    for (int i = 0; i < 3; ++i)
+      limited += surface.min[i] > within.min[i] || surface.max[i] < within.max[i];
+    for (int line = 0; line < 30; ++line) {
+      const Vec3 from = any() * 5.0, along = any() * 5.0;
+      if (contains(within, from) && value(from) <= 0) {
+        ++within_solid;
+        CHECK(contains(solid, from));
+      }
+      // A parabola through three values along the line.
+      const double c = value(from), plus = value(from + along), minus = value(from - along);
+      const double a = (plus + minus) / 2 - c, b = (plus - minus) / 2, root = b * b - 4 * a * c;
+      if (root < 0 || std::abs(a) < 1e-6) continue;
+      for (const double sign : {-1.0, 1.0}) {
+        const Vec3 at = from + along * ((-b + sign * std::sqrt(root)) / (2 * a));
+        if (!contains(within, at)) continue;
+        ++on_surface;
+        CHECK(contains(surface, at));
+      }
+    }
+  }
+  CHECK(on_surface > 5000);
+  CHECK(within_solid > 5000);
+  CHECK(limited > 2000);
 }
