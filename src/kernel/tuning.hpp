@@ -112,6 +112,13 @@ constexpr uint32_t kLeastTrianglesByLeaf = 4;
 /// more rays traverse. 'trace time/area-light'.
 constexpr uint32_t kMostAreaOccluders = 16;
 
+// --- shadows of what is translucent ---
+
+/// Shadow rays that start inside something translucent are walked at once where more than this share of them
+/// is found to cross it. Larger: more is found out in vain; smaller: rays are walked that cross nothing.
+/// 'trace time' of scenes with glass.
+constexpr float kMostMarkedOfInside = 0.5f;
+
 // --- patterns ---
 
 /// Up to so many lanes of a packet that are in one cell of crackle are compared with the points around that

@@ -208,6 +208,11 @@ public:
   /// The lanes of the rays to be tested that come from a mirror, as no others see or do not see some objects.
   void set_reflected(uint32_t lanes) { reflected_ = lanes; }
 
+  /// Whether translucent objects do not attenuate light, but occlude it too, and set its first channel to 1
+  /// in the lanes that cross them.
+  void set_marking(bool marks) { marks_ = marks; }
+  bool is_marking() const { return kMarksTranslucent<Spu> && marks_; }
+
   SceneAccess<Spu>& scene() { return scene_; }
   HitFilter& hit_filter() { return hit_filter_; }
   TraversalCounters& counters() { return counters_; }
@@ -230,6 +235,10 @@ private:
     if ((flags & object_flag::opaque) != 0) return shadow.near | shadow.far;
     const uint32_t near = lanes & shadow.near & segment.template contains<S>(c.near);
     const uint32_t far = lanes & shadow.far & segment.template contains<S>(c.far);
+    if (is_marking()) {
+      S::select(M::from_bits(near | far), F(1.0f), F::load(light.x.lane)).store(light.x.lane);
+      return near | far;
+    }
     uint32_t dark = 0;
     if (near != 0) dark |= attenuate(rays, c.near, c, flags, material, near, light);
     if (far != 0) dark |= attenuate(rays, c.far, c, flags, material, far, light);
@@ -377,6 +386,7 @@ private:
   HitFilter hit_filter_;
   TraversalCounters counters_;
   uint32_t reflected_ = 0;
+  bool marks_ = false;
 };
 
 } // namespace celltrace::kernel

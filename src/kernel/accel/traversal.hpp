@@ -47,6 +47,16 @@ public:
     intersect_packet(query);
   }
 
+  /// Leaves each query the lanes that cross nothing. Of the others, the first channel of its light becomes 1
+  /// in those that cross something translucent, and maybe something opaque too, and 0 in those that do not.
+  void mark_translucent(RayQuery& query) {
+    mark(&query, 1, [&] { intersect_packet(query); });
+  }
+  /// The same for several queries toward one light. May change their order.
+  void mark_translucent(RayQuery* queries, uint32_t count, const LightRecord& light) {
+    mark(queries, count, [&] { intersect(queries, count, light); });
+  }
+
   /// Lets shadow rays end where they first cross what a light is projected through. Returns the lanes that
   /// do, before the light; the light of the others becomes 0.
   [[gnu::noinline]] uint32_t project(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
@@ -99,14 +109,14 @@ public:
     clear_occluded(&query, 1);
   }
 
-  /// The same for shadow rays toward one light, at the point `light`. May change the order of the queries.
-  void intersect(RayQuery* queries, uint32_t count, const float (&light)[3]) {
+  /// The same for shadow rays toward one light. May change the order of the queries.
+  void intersect(RayQuery* queries, uint32_t count, const LightRecord& light) {
     if constexpr (kHasBundleViews<Spu> && kHasBvh) {
-      if (uses_bvh()) {
+      if (uses_bvh() && !is_parallel(light)) {
         intersect_unbounded(queries, count);
         // Planes may leave packets without rays, which a bundle cannot have.
         const uint32_t with_rays = frame_.unbounded_count == 0 ? count : queries_with_rays(queries, count);
-        if (with_rays != 0) bvh_.intersect(queries, with_rays, light);
+        if (with_rays != 0) bvh_.intersect(queries, with_rays, light.location);
         return clear_occluded(queries, count);
       }
     }
@@ -159,6 +169,15 @@ private:
   static constexpr bool kHasGrid = (kAccelerators & kGridOnly) != 0,
                         kHasBvh = (kAccelerators & kBvhOnly) != 0;
 
+  template <class Run> void mark(const RayQuery* queries, uint32_t count, Run run) {
+    const F zero(0.0f);
+    for (uint32_t i = 0; i < count; ++i)
+      queries[i].light->template store<S>({zero, zero, zero});
+    objects_.set_marking(true);
+    run();
+    objects_.set_marking(false);
+  }
+
   void intersect_grid(RayQuery* queries, uint32_t count) {
     for (uint32_t i = 0; i < count; ++i) {
       RayQuery& query = queries[i];
@@ -199,7 +218,8 @@ private:
   }
 
   /// Sets the light of a query to 0 in lanes that are occluded or that were not asked for.
-  [[gnu::noinline]] static void clear_occluded(const RayQuery* queries, uint32_t count) {
+  [[gnu::noinline]] void clear_occluded(const RayQuery* queries, uint32_t count) const {
+    if (objects_.is_marking()) return;
     const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
     for (uint32_t i = 0; i < count; ++i) {
       const RayQuery& query = queries[i];

@@ -32,6 +32,10 @@ template <class Spu> constexpr bool kHasBundleViews = Spu::direct_memory;
 /// gathered (AreaOccluders).
 template <class Spu> constexpr bool kGathersOccluders = Spu::direct_memory;
 
+/// Where shadow rays are walked, those are found first that cross something translucent: only these are
+/// walked (ShadowWalk).
+template <class Spu> constexpr bool kMarksTranslucent = Spu::direct_memory;
+
 /// Rays of a bundle's trees are gathered into full packets (RayPool).
 template <class Spu> constexpr bool kPoolsRays = Spu::direct_memory;
 

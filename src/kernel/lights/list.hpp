@@ -32,6 +32,10 @@ constexpr bool is_shadowless(const LightRecord& light) {
 constexpr bool is_projected(const LightRecord& light) {
   return (light.kind_and_flags & light_flag::projected) != 0;
 }
+/// Whether fogs take some of it on its way.
+constexpr bool is_dimmed(const LightRecord& light) {
+  return (light.kind_and_flags & light_flag::dimmed) != 0;
+}
 /// Whether it has to be found out what of the light comes to surfaces.
 constexpr bool is_asked_for(const LightRecord& light) {
   return (light.kind_and_flags & (light_flag::shadowless | light_flag::projected)) != light_flag::shadowless;

@@ -5,6 +5,7 @@
 #include "kernel/accel/traversal.hpp"
 #include "kernel/cameras/primary_rays.hpp"
 #include "kernel/direct/hit_sorting.hpp"
+#include "kernel/direct/shadow_marking.hpp"
 #include "kernel/lights/area_shadow.hpp"
 #include "kernel/program/pixel_sampler.hpp"
 #include "kernel/shading/ray_tracer.hpp"
@@ -210,6 +211,7 @@ private:
   }
   void find_light(uint32_t number, const LightRecord& light) {
     RayQuery queries[kPackets];
+    const bool by_packet = is_projected(light) || walks_all(light);
     uint32_t asked = 0;
     for (uint32_t i = 0; i < kPackets; ++i) {
       Member& member = members_[i];
@@ -222,17 +224,16 @@ private:
       }
       const uint32_t facing = aim_at(light, member, member.rays, member.hits, member.hit, colour, nullptr);
       if (facing == 0) continue;
-      if (walk_ != nullptr || is_projected(light)) {
+      if (by_packet) {
         trace_shadows(light, member.shadow_rays, facing, member.distance, colour);
         continue;
       }
       queries[asked++] = {&member.shadow_rays, nullptr, &member.distance, &colour, facing};
     }
     if (asked == 0) return;
-    if (is_parallel(light))
-      traversal_.intersect(queries, asked);
-    else
-      traversal_.intersect(queries, asked, light.location);
+    if constexpr (kMarksTranslucent<Spu>)
+      if (walk_ != nullptr) return walk_marked(light, queries, asked);
+    traversal_.intersect(queries, asked, light);
   }
 
   /// Makes a member's shadow rays from what `rays` hit in `lanes`, or starts the sampling of a light that has
@@ -260,20 +261,60 @@ private:
       lanes = traversal_.project(light, rays, lanes, distance, colour);
       if (lanes == 0 || is_shadowless(light)) return;
     }
-    if (walk_ != nullptr)
-      walk_shadows(light, rays, lanes, distance, colour);
-    else
-      traversal_.transmittance(rays, lanes, distance, colour);
+    if (walk_ == nullptr) return traversal_.transmittance(rays, lanes, distance, colour);
+    if (walks_all(light)) return walk_shadows(light, rays, lanes, distance, colour);
+    if constexpr (kMarksTranslucent<Spu>) walk_marked(light, rays, lanes, distance, colour);
   }
+  /// Whether all shadow rays toward a light are walked, or none of them.
+  bool walks_all(const LightRecord& light) const {
+    return walk_ != nullptr && (!kMarksTranslucent<Spu> || is_dimmed(light));
+  }
+  /// Answers the queries of a bundle: those of their rays are walked that cross something translucent.
+  [[gnu::noinline]] void walk_marked(const LightRecord& light, RayQuery* queries, uint32_t count) {
+    VectorLanes marks[kPackets];
+    VectorLanes* colours[kPackets];
+    for (uint32_t i = 0; i < count; ++i) {
+      colours[i] = queries[i].light;
+      queries[i].light = &marks[i];
+    }
+    traversal_.mark_translucent(queries, count, light);
+    for (uint32_t i = 0; i < count; ++i)
+      walk_some(light, queries[i], marked_lanes<S>(*queries[i].light), *colours[queries[i].light - marks]);
+  }
+  /// The same of the node that is being traced.
+  [[gnu::noinline]] void walk_marked(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
+                                     const FloatLanes& distance, VectorLanes& colour) {
+    const uint32_t inside = lanes & lanes_inside(lit_);
+    uint32_t walked = marking_.walked_at_once(inside);
+    VectorLanes marks;
+    RayQuery query = {&rays, nullptr, &distance, &marks, lanes & ~walked};
+    if (query.lanes != 0) {
+      const uint32_t asked = inside & query.lanes;
+      traversal_.mark_translucent(query);
+      const uint32_t marked = marked_lanes<S>(marks);
+      marking_.count(asked, marked);
+      walked |= marked;
+    }
+    walk_some(light, query, walked, colour);
+  }
+  /// The light of a query that has been marked, of which `walked` lanes are still to be walked.
+  void walk_some(const LightRecord& light, const RayQuery& query, uint32_t walked, VectorLanes& colour) {
+    const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
+    const V3<S> direct = select<S>(S::M::from_bits(query.lanes), colour.template load<S>(), dark);
+    if (walked == 0) return colour.template store<S>(direct);
+    walk_shadows(light, *query.rays, walked, *query.distance, colour);
+    colour.template store<S>(colour.template load<S>() + direct);
+  }
+  /// Walks `lanes` of shadow rays. The light of the others becomes 0.
   [[gnu::noinline]] void walk_shadows(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
                                       const FloatLanes& distance, VectorLanes& colour) {
     ShadowWalk<S>& walk = *walk_;
-    const bool is_dimmed = (light.kind_and_flags & light_flag::dimmed) != 0;
+    const bool dims = is_dimmed(light);
     scene_.spu().enter_module(modules::kShadowWalk);
     begin_shadow_walk(scene_.spu(), frame_, lit_, rays, lanes, distance, colour, walk);
     while (walk.ray.lanes != 0) {
       traversal_.find_closest(walk.ray.rays, walk.ray.lanes, walk.hits, kSeesAll);
-      if (is_dimmed) {
+      if (dims) {
         scene_.spu().enter_module(modules::kAtmosphere);
         dim_shadow_rays(scene_, frame_, walk.hits, walk.left, walk.ray, *walk.light);
       }
@@ -294,8 +335,7 @@ private:
     if (facing == 0) return;
     if constexpr (kGathersOccluders<Spu>) {
       AreaOccluders<Spu> occluders;
-      // Where shadow rays are walked, what they pass through is asked for surface by surface.
-      if (walk_ == nullptr && !is_projected(light) &&
+      if (!walks_all(light) && !is_projected(light) &&
           traversal_.gather_occluders(area.rays, facing, light, occluders)) {
         if (occluders.are_none())
           return colour.template store<S>(
@@ -459,6 +499,7 @@ private:
     bool is_sorted = false;
   };
   [[no_unique_address]] detail::Present<Pool, kPoolsRays<Spu>> pool_;
+  [[no_unique_address]] detail::Present<ShadowMarking, kMarksTranslucent<Spu>> marking_;
   const RayNode* lit_ = nullptr; ///< whose hits lights are looked for at; null: those of primary rays
 };
 
