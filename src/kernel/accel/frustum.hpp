@@ -70,12 +70,13 @@ public:
                 inverse_of(direction.z, (octant & 4) != 0)};
   }
 
-  /// Returns the lanes that hit the bounds of child `i`, each up to its own `tfar`.
-  uint32_t intersect(const float (&bounds)[6][4], const SlabOrder& order, uint32_t i, const F& tfar) const {
+  /// Returns the lanes that hit the bounds of child `i`, each from `tnear` up to its own `tfar`.
+  uint32_t intersect(const float (&bounds)[6][4], const SlabOrder& order, uint32_t i, const F& tfar,
+                     float tnear = 0.0f) const {
     const auto near = [&](uint32_t axis) { return F(bounds[order.near[axis]][i]); };
     const auto far = [&](uint32_t axis) { return F(bounds[order.far[axis]][i]); };
     const F t_enter = S::max(S::max((near(0) - origin_.x) * inverse_.x, (near(1) - origin_.y) * inverse_.y),
-                             S::max((near(2) - origin_.z) * inverse_.z, F(0.0f)));
+                             S::max((near(2) - origin_.z) * inverse_.z, F(tnear)));
     const F t_exit = S::min(S::min((far(0) - origin_.x) * inverse_.x, (far(1) - origin_.y) * inverse_.y),
                             S::min((far(2) - origin_.z) * inverse_.z, tfar));
     return (t_enter <= t_exit * F(detail::kRoundedUp)).bits();
@@ -83,9 +84,9 @@ public:
 
   /// The same of all four children.
   [[gnu::always_inline]] Lanes4 intersect_all(const float (&bounds)[6][4], const SlabOrder& order,
-                                              const F& tfar) const {
-    return {intersect(bounds, order, 0, tfar), intersect(bounds, order, 1, tfar),
-            intersect(bounds, order, 2, tfar), intersect(bounds, order, 3, tfar)};
+                                              const F& tfar, float tnear) const {
+    return {intersect(bounds, order, 0, tfar, tnear), intersect(bounds, order, 1, tfar, tnear),
+            intersect(bounds, order, 2, tfar, tnear), intersect(bounds, order, 3, tfar, tnear)};
   }
 
 private:
@@ -198,11 +199,11 @@ public:
     far_inverse_[axis] = F4::splat(slab.far_inverse);
   }
 
-  /// Returns the children of a node that the frustum hits up to `tfar`, bit i for child i. `enter` receives
-  /// lower bounds of the distances to them.
-  uint32_t intersect(const float (&bounds)[6][4], const SlabOrder& order, float tfar,
-                     float (&enter)[4]) const {
-    F4 t_enter = F4::splat(0.0f);
+  /// Returns the children of a node that the frustum hits from `tnear` up to `tfar`, bit i for child i.
+  /// `enter` receives lower bounds of the distances to them.
+  uint32_t intersect(const float (&bounds)[6][4], const SlabOrder& order, float tfar, float (&enter)[4],
+                     float tnear = 0.0f) const {
+    F4 t_enter = F4::splat(tnear);
     F4 t_exit = F4::splat(tfar);
     for (uint32_t axis = 0; axis < 3; ++axis) {
       t_enter =

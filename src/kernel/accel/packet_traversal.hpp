@@ -92,6 +92,12 @@ public:
       }
   }
 
+  /// The distance from which on hits count for certain not to be too near: nodes that rays leave before are
+  /// missed. Where surfaces lie on each other, those are many.
+  static float tnear(const RayQuery& query) {
+    if constexpr (!kHasRoomForCode<Spu>) return 0.0f;
+    return 0.5f * (query.hits != nullptr ? kMinHitDistance : ObjectTests<Spu>::kShadowEpsilon);
+  }
   /// The tfar of each ray: the distance of its closest hit so far, or of the light.
   static F tfar(const RayQuery& query) {
     return F::load(query.hits != nullptr ? query.hits->distance.lane : query.distance->lane);
@@ -283,7 +289,7 @@ private:
     ++objects_.counters().visits;
     const NodeRecord& node = *objects_.scene().node(ref.child);
     alignas(16) float enter[4];
-    uint32_t hit = state.frustum->intersect(node.bounds, order, state.tfar, enter);
+    uint32_t hit = state.frustum->intersect(node.bounds, order, state.tfar, enter, tnear(query));
     if (hit == 0) return false;
     if (is_single(hit)) {
       const uint32_t i = static_cast<uint32_t>(__builtin_ctz(hit));
@@ -294,7 +300,7 @@ private:
     if constexpr (kHasRoomForCode<Spu>) {
       push_children(slot, node,
                     is_single(group) ? Lanes4{group, group, group, group}
-                                     : rays.intersect_all(node.bounds, order, tfar(query)),
+                                     : rays.intersect_all(node.bounds, order, tfar(query), tnear(query)),
                     group, hit, enter);
       return false;
     }

@@ -21,15 +21,15 @@ public:
     inverse_ = {inverse_of(direction.x), inverse_of(direction.y), inverse_of(direction.z)};
   }
 
-  /// The `lanes` that hit each child of a node up to their own `tfar`. `enter` receives the least distance to
-  /// each child that is hit, -1 for the others.
-  [[gnu::always_inline]] void intersect(const float (&bounds)[6][4], const F& tfar, uint32_t lanes,
-                                        uint32_t (&hit)[4], float (&enter)[4]) const {
+  /// The `lanes` that hit each child of a node from `tnear` up to their own `tfar`. `enter` receives the
+  /// least distance to each child that is hit, -1 for the others.
+  [[gnu::always_inline]] void intersect(const float (&bounds)[6][4], float tnear, const F& tfar,
+                                        uint32_t lanes, uint32_t (&hit)[4], float (&enter)[4]) const {
     // Without an order of planes, an empty box is like any other.
     const uint32_t present = not_above_bits(F4::load(bounds[0]), F4::load(bounds[1]));
     F distance[4];
     for (uint32_t i = 0; i < 4; ++i) {
-      F from(0.0f), to = tfar;
+      F from(tnear), to = tfar;
       clip(bounds[0][i], bounds[1][i], origin_.x, inverse_.x, from, to);
       clip(bounds[2][i], bounds[3][i], origin_.y, inverse_.y, from, to);
       clip(bounds[4][i], bounds[5][i], origin_.z, inverse_.z, from, to);
@@ -80,7 +80,8 @@ template <class Spu> struct MixedVisitor {
     const NodeRecord& node = *objects.scene().node(ref.child);
     uint32_t hit[4];
     float enter[4];
-    rays.intersect(node.bounds, PacketTraversal<Spu>::tfar(query), lanes & query.lanes, hit, enter);
+    rays.intersect(node.bounds, PacketTraversal<Spu>::tnear(query), PacketTraversal<Spu>::tfar(query),
+                   lanes & query.lanes, hit, enter);
     stack.push_all(enter, hit, node.child, node.leaf);
     return false;
   }
