@@ -34,8 +34,9 @@ struct FractalPattern : RarePattern {
     const uint32_t most = static_cast<uint32_t>(r.parameter[2]);
     if constexpr (kHasRoomForCode<Spu>)
       if (magnet == 0 && (r.table & fractal_word::exponent_mask) == 2 && outside == 1 && inside <= 1)
-        return inside == 1 ? counted_squares<S, true>(z, c, most, r)
-                           : counted_squares<S, false>(z, c, most, r);
+        return inside == 1
+                   ? counted_squares<S, true>(z, c, M::none(), most, r)
+                   : counted_squares<S, false>(z, c, is_julia ? M::none() : surely_stays<S>(c), most, r);
     M stays = M::all();
     // Numbers that have left are iterated on, wherever to: the next number does not wait for which they are.
     Complex<S> left = z;
@@ -90,17 +91,28 @@ private:
     }
   };
 
-  /// The value where no more is asked than that. A number that comes back after some rounds would do so for
-  /// ever, as those do that converge: it is not followed further (Brent 1980). Whatever is still to come has
-  /// been there, so that the least size is known. It is looked for after several rounds at a time only.
+  /// Numbers in the greatest two parts of the Mandelbrot set, but for those near the edge.
+  template <class S> [[gnu::always_inline]] static typename S::M surely_stays(const Complex<S>& c) {
+    using F = typename S::F;
+    constexpr float kShrunk = 0.9999f; // far more than rounding changes
+    const F x = c.a - F(0.25f), y = c.b * c.b, q = x * x + y, from_disc = c.a + F(1.0f);
+    const auto in_cardioid = q * (q + x) < y * F(0.25f * kShrunk);
+    return in_cardioid | (from_disc * from_disc + y < F(0.0625f * kShrunk));
+  }
+
+  /// The value where no more is asked than that. `stay`: some that are known to, if the least size is not
+  /// asked. A number that comes back after some rounds would do so for ever, as those do that converge: it is
+  /// not followed further (Brent 1980). Whatever is still to come has been there, so that the least size is
+  /// known. It is looked for after several rounds at a time only.
   template <class S, bool kWantsLeast>
   [[gnu::noinline]] static typename S::F counted_squares(const Complex<S>& first, const Complex<S>& c,
-                                                         uint32_t most, const PatternRecord& r) {
+                                                         const typename S::M& stay, uint32_t most,
+                                                         const PatternRecord& r) {
     using F = typename S::F;
     using M = typename S::M;
     constexpr uint32_t kRoundsAtATime = 4;
     Squares<S, kWantsLeast> squares(first);
-    M goes_on = M::all();
+    M goes_on = !stay;
     Complex<S> kept = first;
     uint32_t keeps_next = 4 * kRoundsAtATime;
     uint32_t i = 0;
