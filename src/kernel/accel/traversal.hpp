@@ -218,8 +218,10 @@ private:
   }
 
   /// Sets the light of a query to 0 in lanes that are occluded or that were not asked for.
-  [[gnu::noinline]] void clear_occluded(const RayQuery* queries, uint32_t count) const {
-    if (objects_.is_marking()) return;
+  void clear_occluded(const RayQuery* queries, uint32_t count) const {
+    if (!objects_.is_marking()) clear_light(queries, count);
+  }
+  [[gnu::noinline]] static void clear_light(const RayQuery* queries, uint32_t count) {
     const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
     for (uint32_t i = 0; i < count; ++i) {
       const RayQuery& query = queries[i];

@@ -20,8 +20,8 @@ public:
 
   /// `spill`: room for FrameBlock::ray_stack_nodes nodes. `samples` says where the rays of frames of samples
   /// go through; null: there are no such frames.
-  BundleTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, ea_t spill,
-               SampleBundle<Spu>* samples)
+  [[gnu::always_inline]] BundleTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, ea_t spill,
+                                      SampleBundle<Spu>* samples)
       : frame_(frame), scene_(scene), samples_(samples), traversal_(scene, frame),
         tracer_(spu, frame, scene, spill, frame.ray_stack_nodes, *spu.template allocate<RayNode>()),
         members_(spu.template allocate<Member>(kPackets)), area_(allocate_area_shadow(spu, frame)),
