@@ -94,10 +94,10 @@ private:
   /// Numbers in the greatest two parts of the Mandelbrot set, but for those near the edge.
   template <class S> [[gnu::always_inline]] static typename S::M surely_stays(const Complex<S>& c) {
     using F = typename S::F;
-    constexpr float kShrunk = 0.9999f; // far more than rounding changes
+    constexpr float kRounding = 5e-7f; // of all terms together: none of them is above 1
     const F x = c.a - F(0.25f), y = c.b * c.b, q = x * x + y, from_disc = c.a + F(1.0f);
-    const auto in_cardioid = q * (q + x) < y * F(0.25f * kShrunk);
-    return in_cardioid | (from_disc * from_disc + y < F(0.0625f * kShrunk));
+    const auto in_cardioid = q * (q + x) + F(kRounding) < y * F(0.25f);
+    return in_cardioid | (from_disc * from_disc + y < F(0.0625f - kRounding));
   }
 
   /// The value where no more is asked than that. `stay`: some that are known to, if the least size is not
