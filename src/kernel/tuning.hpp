@@ -114,10 +114,10 @@ constexpr uint32_t kMostAreaOccluders = 16;
 
 // --- shadows of what is translucent ---
 
-/// Shadow rays that start inside something translucent are walked at once where more than this share of them
-/// is found to cross it. Larger: more is found out in vain; smaller: rays are walked that cross nothing.
-/// 'trace time' of scenes with glass.
-constexpr float kMostMarkedOfInside = 0.5f;
+/// Shadow rays of packets are walked at once where more than this share of them is found to cross something
+/// translucent. Larger: more is found out in vain; smaller: rays are walked that cross nothing. 'trace time'
+/// of scenes with glass.
+constexpr float kMostMarked = 0.25f;
 
 // --- patterns ---
 

@@ -22,30 +22,45 @@ inline uint32_t lanes_inside(const RayNode* node) {
 }
 
 /// Says whether it pays to find out which shadow rays cross something translucent, so that others need not be
-/// walked (ShadowWalk). Where they start inside, nearly all of them may.
+/// walked (ShadowWalk): not where many do. Rays that start inside, of which nearly all may, are counted
+/// apart.
 class ShadowMarking {
 public:
-  /// The lanes that are walked without asking, of those that start `inside`.
-  uint32_t walked_at_once(uint32_t inside) {
-    const float most = tuning::kMostMarkedOfInside * static_cast<float>(asked_);
-    if (inside == 0 || static_cast<float>(marked_) <= most) return 0;
-    return ++packets_ % kPacketsByAsked != 0 ? inside : 0;
+  /// The lanes of a packet that are walked without asking. `inside`: those that start there.
+  uint32_t walked_at_once(uint32_t lanes, uint32_t inside) {
+    return outside_.walked_at_once(lanes & ~inside) | inside_.walked_at_once(lanes & inside);
   }
   /// Counts the lanes among those `asked` that are marked.
-  void count(uint32_t asked, uint32_t marked) {
-    asked_ += static_cast<uint32_t>(__builtin_popcount(asked));
-    marked_ += static_cast<uint32_t>(__builtin_popcount(asked & marked));
-    if (asked_ < kRemembered) return;
-    asked_ /= 2;
-    marked_ /= 2;
+  void count(uint32_t asked, uint32_t inside, uint32_t marked) {
+    outside_.count(asked & ~inside, marked);
+    inside_.count(asked & inside, marked);
   }
 
 private:
-  /// Of so many packets one is asked nevertheless: where the next ones are it may be otherwise.
-  static constexpr uint32_t kPacketsByAsked = 32;
-  static constexpr uint32_t kRemembered = 8192; ///< lanes
+  class Share {
+  public:
+    uint32_t walked_at_once(uint32_t lanes) {
+      const float most = tuning::kMostMarked * static_cast<float>(asked_);
+      if (lanes == 0 || static_cast<float>(marked_) <= most) return 0;
+      return ++packets_ % kPacketsByAsked != 0 ? lanes : 0;
+    }
+    void count(uint32_t asked, uint32_t marked) {
+      asked_ += static_cast<uint32_t>(__builtin_popcount(asked));
+      marked_ += static_cast<uint32_t>(__builtin_popcount(asked & marked));
+      if (asked_ < kRemembered) return;
+      asked_ /= 2;
+      marked_ /= 2;
+    }
 
-  uint32_t asked_ = 0, marked_ = 0, packets_ = 0;
+  private:
+    /// Of so many packets one is asked nevertheless: where the next ones are it may be otherwise.
+    static constexpr uint32_t kPacketsByAsked = 32;
+    static constexpr uint32_t kRemembered = 8192; ///< lanes
+
+    uint32_t asked_ = 0, marked_ = 0, packets_ = 0;
+  };
+
+  Share outside_, inside_;
 };
 
 } // namespace celltrace::kernel

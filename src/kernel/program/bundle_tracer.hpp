@@ -285,14 +285,14 @@ private:
   [[gnu::noinline]] void walk_marked(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
                                      const FloatLanes& distance, VectorLanes& colour) {
     const uint32_t inside = lanes & lanes_inside(lit_);
-    uint32_t walked = marking_.walked_at_once(inside);
+    uint32_t walked = marking_.walked_at_once(lanes, inside);
     VectorLanes marks;
     RayQuery query = {&rays, nullptr, &distance, &marks, lanes & ~walked};
     if (query.lanes != 0) {
-      const uint32_t asked = inside & query.lanes;
+      const uint32_t asked = query.lanes;
       traversal_.mark_translucent(query);
       const uint32_t marked = marked_lanes<S>(marks);
-      marking_.count(asked, marked);
+      marking_.count(asked, inside, marked);
       walked |= marked;
     }
     walk_some(light, query, walked, colour);
