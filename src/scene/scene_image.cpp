@@ -76,13 +76,14 @@ ObjectCensus place_all(const SceneObjects& objects, PlacedObject* to, unsigned t
   return census[0];
 }
 
-/// The same where objects have places already; nothing if one that can be hit has none.
-std::optional<ObjectCensus> count_placed(const SceneObjects& objects, std::span<const std::uint32_t> places,
-                                         unsigned threads) {
+/// The same where objects have places already: `count(begin, end)` is asked of parts. Nothing if one that can
+/// be hit has none.
+template <class Count>
+std::optional<ObjectCensus> count_in_parts(std::uint32_t objects, unsigned threads, Count count) {
   std::vector<std::optional<ObjectCensus>> census(threads);
   for_each_part(threads, [&](unsigned part) {
-    const HostPart mine(objects.count(), part, threads);
-    census[part] = objects.count_placed(mine.begin, mine.end, places);
+    const HostPart mine(objects, part, threads);
+    census[part] = count(mine.begin, mine.end);
   });
   for (unsigned part = 1; part < threads && census[0]; ++part) {
     if (!census[part]) return std::nullopt;
@@ -216,8 +217,19 @@ bool SceneImage::update(const Scene& given, AlignedBlock& work, unsigned threads
                              instances, threads);
   if (objects.count() != origin_->places.size()) return false;
   threads = threads_for(objects, instances, threads, objects_a_thread);
-  const std::optional<ObjectCensus> loose = count_placed(objects, origin_->places, threads);
-  if (!loose || loose->objects != origin_->placed) return false;
+  // Plain triangles are written as they are counted: should there turn out to be others than before, they all
+  // are written again. Of the rest an error may be found, which has to leave the image as it was.
+  const bool at_once =
+      header().extra_count == 0 && header().blend_count == 0 && objects.are_plain_triangles();
+  std::optional<ObjectCensus> loose;
+  if (at_once) {
+    loose.emplace().objects = origin_->placed;
+  } else {
+    loose = count_in_parts(objects.count(), threads, [&](std::uint32_t begin, std::uint32_t end) {
+      return objects.count_placed(begin, end, origin_->places);
+    });
+    if (!loose || loose->objects != origin_->placed) return false;
+  }
   ObjectCensus census = *loose;
   census.add(instances.census());
   const LightSets light_sets(scene);
@@ -235,6 +247,15 @@ bool SceneImage::update(const Scene& given, AlignedBlock& work, unsigned threads
   }
 
   TableWriter writer(block_.data(), updated, scene, textures, objects.unbounded_extras());
+  if (at_once) {
+    loose = count_in_parts(objects.count(), threads, [&](std::uint32_t begin, std::uint32_t end) {
+      return writer.send_placed(objects, origin_->places, begin, end);
+    });
+    if (!loose || loose->objects != origin_->placed || loose->extras != 0 || loose->blended != 0) {
+      origin_.reset();
+      return false;
+    }
+  }
   writer.write_header();
   writer.write_lights(light_sets, objects.projector_sizes());
   writer.write_surfaces(textures);
@@ -242,7 +263,7 @@ bool SceneImage::update(const Scene& given, AlignedBlock& work, unsigned threads
   writer.write_polygons(objects.polygons());
   if (order)
     writer.write_objects(objects, {order->objects, loose->objects}, order->cells, threads);
-  else
+  else if (!at_once)
     writer.send_objects(objects, origin_->places, threads);
   // Where there are no instances, only what builds a BVH reads groups.
   if (updated.prototype_count != 0) writer.write_groups(origin_->groups, threads);

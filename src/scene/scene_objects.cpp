@@ -491,7 +491,35 @@ void SceneObjects::write(std::span<const PlacedObject> objects, const RecordTabl
   }
 }
 
-void SceneObjects::write_apart(std::uint32_t begin, std::uint32_t end, const std::uint32_t* places,
+bool SceneObjects::are_plain_triangles() const {
+  return std::all_of(pieces_.begin(), pieces_.end(), [](const Piece& piece) {
+    if (piece.mesh == nullptr || piece.is_limited_mesh()) return false;
+    float greatest = 0;
+    for (const Vec3f& vertex : piece.vertices)
+      greatest = std::max({greatest, std::abs(vertex.x), std::abs(vertex.y), std::abs(vertex.z)});
+    return has_size(box_around(Vec3f(greatest), Vec3f(-greatest), Vec3f(0)));
+  });
+}
+
+std::optional<ObjectCensus> SceneObjects::write_placed(std::uint32_t begin, std::uint32_t end,
+                                                       std::span<const std::uint32_t> places,
+                                                       const RecordTables& tables, ObjectRecord* to) const {
+  Writer writer(*this, tables, {});
+  const Piece* near = nullptr;
+  bool have_places = true;
+  const ObjectCensus census = visit_boxes(begin, end, [&](std::uint32_t number, const LaneAabb&) {
+    if (end - number > kAhead && places[number + kAhead] != kNoPlace)
+      __builtin_prefetch(to + places[number + kAhead], 1);
+    const std::uint32_t place = places[number];
+    have_places &= place != kNoPlace;
+    if (place == kNoPlace) return;
+    near = &piece_of(number, near);
+    writer.lone_triangle(*near, number - near->first, to[place]);
+  });
+  return have_places ? std::optional(census) : std::nullopt;
+}
+
+void SceneObjects::write_apart(std::uint32_t begin, std::uint32_t end, std::span<const std::uint32_t> places,
                                const RecordTables& tables, ObjectRecord* to) const {
   Writer writer(*this, tables, {});
   while (begin < end) {

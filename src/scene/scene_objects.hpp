@@ -57,9 +57,16 @@ public:
   void write(std::span<const PlacedObject> objects, const RecordTables& tables, const ObjectCensus& before,
              kernel::ObjectRecord* to) const;
 
-  /// The same for those of [begin, end) of the scene, where there are no tables: `places` says by object
-  /// where in `to` it belongs, or kNoPlace.
-  void write_apart(std::uint32_t begin, std::uint32_t end, const std::uint32_t* places,
+  /// Whether all are triangles that no CSG limits, and none of their coordinates leave what single precision
+  /// can hold.
+  bool are_plain_triangles() const;
+  /// As count_placed(), and makes the records of those that have no others in tables: `places` says where in
+  /// `to` they belong. Those of are_plain_triangles() only.
+  std::optional<ObjectCensus> write_placed(std::uint32_t begin, std::uint32_t end,
+                                           std::span<const std::uint32_t> places, const RecordTables& tables,
+                                           kernel::ObjectRecord* to) const;
+  /// As write() for those of [begin, end) of the scene, where there are no tables.
+  void write_apart(std::uint32_t begin, std::uint32_t end, std::span<const std::uint32_t> places,
                    const RecordTables& tables, kernel::ObjectRecord* to) const;
   static constexpr std::uint32_t kNoPlace = 0xFFFFFFFF;
 

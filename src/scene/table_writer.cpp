@@ -247,12 +247,17 @@ std::uint32_t TableWriter::first_projector() const {
          (header_.unbounded_count + header_.projector_count) * std::uint32_t{sizeof(ObjectRecord)};
 }
 
+std::optional<ObjectCensus> TableWriter::send_placed(const SceneObjects& objects,
+                                                     std::span<const std::uint32_t> places,
+                                                     std::uint32_t begin, std::uint32_t end) {
+  return objects.write_placed(begin, end, places, tables_, table<ObjectRecord>(header_.object_offset));
+}
+
 void TableWriter::send_objects(const SceneObjects& objects, std::span<const std::uint32_t> places,
                                unsigned threads) {
   for_each_part(threads, [&](unsigned part) {
     const HostPart mine(objects.count(), part, threads);
-    objects.write_apart(mine.begin, mine.end, places.data(), tables_,
-                        table<ObjectRecord>(header_.object_offset));
+    objects.write_apart(mine.begin, mine.end, places, tables_, table<ObjectRecord>(header_.object_offset));
   });
 }
 

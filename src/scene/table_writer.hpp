@@ -14,6 +14,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 namespace celltrace {
@@ -41,6 +42,9 @@ public:
   /// The same for objects without records in other tables. `places`: by object where it is among them, or
   /// kNoPlace.
   void send_objects(const SceneObjects& objects, std::span<const std::uint32_t> places, unsigned threads);
+  /// Those of [begin, end) of the scene as they are counted: see SceneObjects::write_placed().
+  std::optional<ObjectCensus> send_placed(const SceneObjects& objects, std::span<const std::uint32_t> places,
+                                          std::uint32_t begin, std::uint32_t end);
   /// Of objects that are no instances.
   void write_groups(std::span<const std::uint32_t> groups, unsigned threads);
   /// Behind everything else.

@@ -264,6 +264,43 @@ TEST_CASE("A mesh that bends is refitted, and built again when the BVH has becom
   }
 }
 
+TEST_CASE("A scene of triangles alone is refitted as long as the same ones can be hit") {
+  Scene scene = many_spheres(0);
+  scene.objects.push_back(mesh_object(sheet(60, 0), 0, 0));
+  scene.objects.push_back(mesh_object(sheet(10, 1), 1, 0));
+  scene.objects.back().transform = Transform::translate({1, 0, 3});
+  for (const TestBackend& backend : one_of_each()) {
+    INFO(backend.spu());
+    Session session(scene, backend.options(kWidth, kHeight, 2));
+    const Image first = session.render().image;
+    const auto bend = [&](const Mesh& mesh) {
+      Object object = session.scene().objects[0];
+      object.shape = std::make_shared<const Mesh>(mesh);
+      session.set_object(0, object);
+    };
+    bend(sheet(60, 0.2f));
+    CHECK(check_next(session).statistics.preparation == Preparation::refitted);
+    Mesh pinched = sheet(60, 0.2f);
+    pinched.vertices[1000] = pinched.vertices[1001];
+    bend(pinched);
+    CHECK(check_next(session).statistics.preparation == Preparation::built);
+    bend(sheet(60, 0.3f));
+    CHECK(check_next(session).statistics.preparation == Preparation::built);
+    Mesh two_materials = sheet(60, 0.3f);
+    two_materials.triangles[70].material[1] = 2;
+    bend(two_materials);
+    CHECK(check_next(session).statistics.preparation == Preparation::built);
+    bend(sheet(60, 0.4f));
+    CHECK(check_next(session).statistics.preparation == Preparation::built);
+    Mesh huge = sheet(60, 0.4f);
+    huge.vertices[0].x = 1e30f;
+    bend(huge);
+    CHECK_THROWS_AS(session.render(), InputError);
+    bend(sheet(60, 0));
+    CHECK(check_next(session).image == first);
+  }
+}
+
 TEST_CASE("Instances of meshes move by themselves") {
   Scene scene = many_spheres(30);
   const Object mesh = mesh_object(sheet(50, 0), 0, 0);
