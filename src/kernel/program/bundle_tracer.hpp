@@ -19,7 +19,7 @@ public:
   using F = typename S::F;
 
   /// `spill`: room for FrameBlock::ray_stack_nodes nodes. `samples` says where the rays of frames of samples
-  /// go through; null: there are no such frames.
+  /// go through; null: there are no such frames. Inlined: it would take much of an SPE's stack by itself.
   [[gnu::always_inline]] BundleTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, ea_t spill,
                                       SampleBundle<Spu>* samples)
       : frame_(frame), scene_(scene), samples_(samples), traversal_(scene, frame),
