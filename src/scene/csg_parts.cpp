@@ -3,6 +3,7 @@
 #include "celltrace/error.hpp"
 #include "kernel/accel/object_bounds.hpp"
 #include "scene/build_watch.hpp"
+#include "scene/extent.hpp"
 #include "scene/polytope.hpp"
 #include "scene/quadric_bounds.hpp"
 #include "scene/shape_geometry.hpp"
@@ -54,18 +55,16 @@ Aabb half_space(const PlacedShape& plane, bool inverse) {
 
 /// Around a box after a transformation, and a little more.
 Aabb moved(const Aabb& box, const Transform& transform) {
-  Aabb all = kNowhere;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 at = transform.point({static_cast<double>((corner & 1) != 0 ? box.max[0] : box.min[0]),
-                                     static_cast<double>((corner & 2) != 0 ? box.max[1] : box.min[1]),
-                                     static_cast<double>((corner & 4) != 0 ? box.max[2] : box.min[2])});
-    for (int i = 0; i < 3; ++i) {
-      const double slack = 1e-5 * (1 + std::abs(at[i]));
-      all.min[i] = std::min(all.min[i], static_cast<float>(at[i] - slack));
-      all.max[i] = std::max(all.max[i], static_cast<float>(at[i] + slack));
-    }
+  const Extent around =
+      Extent{Vec3(box.min[0], box.min[1], box.min[2]), Vec3(box.max[0], box.max[1], box.max[2])};
+  if (around.is_everywhere()) return kEverywhere;
+  const Extent extent = around.moved(transform);
+  Aabb result;
+  for (int i = 0; i < 3; ++i) {
+    result.min[i] = static_cast<float>(extent.min[i] - 1e-5 * (1 + std::abs(extent.min[i])));
+    result.max[i] = static_cast<float>(extent.max[i] + 1e-5 * (1 + std::abs(extent.max[i])));
   }
-  return all;
+  return result;
 }
 
 /// Around all triangles in the world, and a little more.
@@ -300,8 +299,9 @@ Aabb solid_bounds(const Node& node, const Aabb& within, const Transform* space =
   case Node::Kind::solid: {
     if (node.has_no_inside()) return kNowhere;
     if (node.mesh() != nullptr) {
-      if (node.inverse || is_empty(node.mesh_bounds)) return node.inverse ? kEverywhere : kNowhere;
-      return space != nullptr ? moved(node.mesh_bounds, *space) : node.mesh_bounds;
+      if (node.inverse) return kEverywhere;
+      return space == nullptr || is_empty(node.mesh_bounds) ? node.mesh_bounds
+                                                            : moved(node.mesh_bounds, *space);
     }
     if (node.shape.is_empty) return node.inverse ? kEverywhere : kNowhere;
     if (is_plane(node)) return half_space(placed_in(space, node), node.inverse);

@@ -13,6 +13,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMost = Polytope::kReach; ///< coordinates beyond count as infinite
 
+constexpr double kSlack = 1e-4; ///< relative, and absolute below 1: as half-spaces of CSG have
+
 struct Range {
   double low, high;
 
@@ -96,11 +98,14 @@ struct WorldQuadric {
                            2 +
                        q.constant * a_far * b_far;
       }
-    // Rotations by right angles leave a little where there should be nothing.
+    // Rotations there and back leave a little where there should be nothing.
     for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        if (i != j && std::abs(matrix[i][j]) <= 1e-6 * std::sqrt(std::abs(matrix[i][i] * matrix[j][j])))
+      for (int j = 0; j < 3; ++j) {
+        const double one = std::abs(matrix[i][i]), other = std::abs(matrix[j][j]);
+        if (i != j &&
+            std::abs(matrix[i][j]) <= std::max(1e-6 * std::sqrt(one * other), 1e-12 * std::max(one, other)))
           matrix[i][j] = 0;
+      }
   }
 
   /// Where it is on one axis, within a box.
@@ -133,11 +138,10 @@ kernel::Aabb bounds_of_quadric(const Quadric& quadric, const Transform& transfor
   for (int round = 0; round < 2; ++round)
     for (int i = 0; i < 3; ++i) {
       const Range found = q.along(i, solid, box);
-      const double slack = 1e-4;
       if (std::abs(found.low) < kMost)
-        box[i].low = std::max(box[i].low, found.low - slack * (1 + std::abs(found.low)));
+        box[i].low = std::max(box[i].low, found.low - kSlack * (1 + std::abs(found.low)));
       if (std::abs(found.high) < kMost)
-        box[i].high = std::min(box[i].high, found.high + slack * (1 + std::abs(found.high)));
+        box[i].high = std::min(box[i].high, found.high + kSlack * (1 + std::abs(found.high)));
     }
   for (int i = 0; i < 3; ++i) {
     if (box[i].low > -kMost) result.min[i] = static_cast<float>(box[i].low);

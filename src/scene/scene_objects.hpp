@@ -65,7 +65,8 @@ public:
   std::optional<ObjectCensus> write_placed(std::uint32_t begin, std::uint32_t end,
                                            std::span<const std::uint32_t> places, const RecordTables& tables,
                                            kernel::ObjectRecord* to) const;
-  /// As write() for those of [begin, end) of the scene, where there are no tables.
+  /// As write() for those of [begin, end) of the scene, where there are no tables; those without a place are
+  /// left out.
   void write_apart(std::uint32_t begin, std::uint32_t end, std::span<const std::uint32_t> places,
                    const RecordTables& tables, kernel::ObjectRecord* to) const;
   static constexpr std::uint32_t kNoPlace = 0xFFFFFFFF;
