@@ -67,6 +67,24 @@ std::uint32_t between(const F& at, const FloatLanes& distance) {
   return ((at > low) & (at < load(distance) - low)).bits();
 }
 
+/// Calls `visit(traversal, light, one, other)` with two random bundles that are alike, and their light.
+template <class Visit> void with_two_bundles(Random& random, const FrameBlock& frame, const Visit& visit) {
+  const Vec3 middle = random.point(12);
+  const double size = std::pow(10.0, random.uniform(-1, 0.7));
+  const Vec3 lamp = any_light(random, middle, size);
+  const Random state = random;
+  ShadowBundle one(random, middle, size, lamp);
+  random = state;
+  ShadowBundle other(random, middle, size, lamp);
+  DirectSpu spu;
+  SceneAccess<DirectSpu> access(spu, CacheConfig(), frame.image);
+  Traversal<DirectSpu> traversal(access, frame);
+  LightRecord light{};
+  std::copy(one.place, one.place + 3, light.location);
+  visit(traversal, light, one, other);
+}
+using ShadowTraversal = Traversal<DirectSpu>;
+
 } // namespace
 
 TEST_CASE("The beams of rays to a light meet every box that one of them meets before it") {
@@ -199,29 +217,22 @@ TEST_CASE("Light comes to a bundle as it comes to its packets") {
       prepared.use_bvh(wide_leaves, !wide_leaves);
       REQUIRE(prepared.prepare().built);
       FrameBlock& frame = prepared.frame();
-      for (int k = 0; k < times(300); ++k) {
-        const Vec3 middle = random.point(12);
-        const double size = std::pow(10.0, random.uniform(-1, 0.7));
-        const Vec3 lamp = any_light(random, middle, size);
-        const Random state = random;
-        ShadowBundle together(random, middle, size, lamp);
-        random = state;
-        ShadowBundle alone(random, middle, size, lamp);
-        DirectSpu spu;
-        SceneAccess<DirectSpu> access(spu, CacheConfig(), frame.image);
-        Traversal<DirectSpu> traversal(access, frame);
-        LightRecord light{};
-        std::copy(together.place, together.place + 3, light.location);
-        traversal.intersect(together.queries, kPackets, light);
-        for (std::uint32_t i = 0; i < kPackets; ++i) {
-          traversal.transmittance(alone.rays[i], alone.queries[i].lanes, alone.distance[i], alone.light[i]);
-          for_each_lane(alone.queries[i].lanes, [&](std::uint32_t lane) {
-            for (int c = 0; c < 3; ++c)
-              REQUIRE(at(together.light[i], lane)[c] == Approx(at(alone.light[i], lane)[c]).margin(1e-6));
-            ++(alone.light[i].y.lane[lane] == 0 ? dark : bright);
-          });
-        }
-      }
+      for (int k = 0; k < times(300); ++k)
+        with_two_bundles(random, frame,
+                         [&](ShadowTraversal& traversal, const LightRecord& light, ShadowBundle& together,
+                             ShadowBundle& alone) {
+                           traversal.intersect(together.queries, kPackets, light);
+                           for (std::uint32_t i = 0; i < kPackets; ++i) {
+                             traversal.transmittance(alone.rays[i], alone.queries[i].lanes, alone.distance[i],
+                                                     alone.light[i]);
+                             for_each_lane(alone.queries[i].lanes, [&](std::uint32_t lane) {
+                               for (int c = 0; c < 3; ++c)
+                                 REQUIRE(at(together.light[i], lane)[c] ==
+                                         Approx(at(alone.light[i], lane)[c]).margin(1e-6));
+                               ++(alone.light[i].y.lane[lane] == 0 ? dark : bright);
+                             });
+                           }
+                         });
     }
   CHECK(dark > times(8000));
   CHECK(bright > times(8000));
@@ -235,44 +246,37 @@ TEST_CASE("Shadow rays that cross something translucent are marked, others are n
     prepared.use_bvh(true, false);
     REQUIRE(prepared.prepare().built);
     FrameBlock& frame = prepared.frame();
-    for (int k = 0; k < times(200); ++k) {
-      const Vec3 middle = random.point(12);
-      const double size = std::pow(10.0, random.uniform(-1, 0.7));
-      const Vec3 lamp = any_light(random, middle, size);
-      const Random state = random;
-      ShadowBundle bundle(random, middle, size, lamp);
-      random = state;
-      ShadowBundle alone(random, middle, size, lamp);
-      DirectSpu spu;
-      SceneAccess<DirectSpu> access(spu, CacheConfig(), frame.image);
-      Traversal<DirectSpu> traversal(access, frame);
-      LightRecord light{};
-      std::copy(bundle.place, bundle.place + 3, light.location);
-      std::uint32_t asked[kPackets];
-      VectorLanes whole[kPackets];
-      for (std::uint32_t i = 0; i < kPackets; ++i) {
-        asked[i] = alone.queries[i].lanes;
-        whole[i] = alone.light[i];
-        traversal.transmittance(alone.rays[i], asked[i], alone.distance[i], alone.light[i]);
-      }
-      if (k % 2 == 0)
-        traversal.mark_translucent(bundle.queries, kPackets, light);
-      else
-        for (RayQuery& query : bundle.queries)
-          traversal.mark_translucent(query);
-      for (const RayQuery& query : bundle.queries) {
-        const auto i = static_cast<std::size_t>(query.light - bundle.light);
-        for_each_lane(asked[i], [&](std::uint32_t lane) {
-          const Vec3 before = at(whole[i], lane), comes = at(alone.light[i], lane);
-          const bool is_left = (query.lanes >> lane & 1) != 0, is_marked = at(*query.light, lane).x != 0;
-          if (is_left) CHECK_FALSE(is_marked);
-          if (is_left) CHECK(comes == before);
-          if (!is_left && !is_marked) CHECK(comes == Vec3(0));
-          if (is_marked) CHECK(comes != before);
-          ++(is_marked ? marked : is_left ? clear : dark);
-        });
-      }
-    }
+    for (int k = 0; k < times(200); ++k)
+      with_two_bundles(random, frame,
+                       [&](ShadowTraversal& traversal, const LightRecord& light, ShadowBundle& bundle,
+                           ShadowBundle& alone) {
+                         std::uint32_t asked[kPackets];
+                         VectorLanes whole[kPackets];
+                         for (std::uint32_t i = 0; i < kPackets; ++i) {
+                           asked[i] = alone.queries[i].lanes;
+                           whole[i] = alone.light[i];
+                           traversal.transmittance(alone.rays[i], asked[i], alone.distance[i],
+                                                   alone.light[i]);
+                         }
+                         if (k % 2 == 0)
+                           traversal.mark_translucent(bundle.queries, kPackets, light);
+                         else
+                           for (RayQuery& query : bundle.queries)
+                             traversal.mark_translucent(query);
+                         for (const RayQuery& query : bundle.queries) {
+                           const auto i = static_cast<std::size_t>(query.light - bundle.light);
+                           for_each_lane(asked[i], [&](std::uint32_t lane) {
+                             const Vec3 before = at(whole[i], lane), comes = at(alone.light[i], lane);
+                             const bool is_left = (query.lanes >> lane & 1) != 0,
+                                        is_marked = at(*query.light, lane).x != 0;
+                             if (is_left) CHECK_FALSE(is_marked);
+                             if (is_left) CHECK(comes == before);
+                             if (!is_left && !is_marked) CHECK(comes == Vec3(0));
+                             if (is_marked) CHECK(comes != before);
+                             ++(is_marked ? marked : is_left ? clear : dark);
+                           });
+                         }
+                       });
   }
   CHECK(marked > times(2000));
   CHECK(dark > times(2000));

@@ -265,7 +265,7 @@ private:
     if (walks_all(light)) return walk_shadows(light, rays, lanes, distance, colour);
     if constexpr (kMarksTranslucent<Spu>) walk_marked(light, rays, lanes, distance, colour);
   }
-  /// Whether all shadow rays toward a light are walked, or none of them.
+  /// Whether all shadow rays toward a light are walked; otherwise those that are marked are, or none.
   bool walks_all(const LightRecord& light) const {
     return walk_ != nullptr && (!kMarksTranslucent<Spu> || is_dimmed(light));
   }
