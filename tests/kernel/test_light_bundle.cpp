@@ -199,6 +199,33 @@ TEST_CASE("Packets see the triangles that their rays to a light cross, and cross
   CHECK(unseen > times(10000));
 }
 
+TEST_CASE("Packets beside a sharp corner of a triangle do not see it") {
+  Random random(124);
+  // Points of the plane z = 0, 0.1 apart. The corner lies above (0.85, 0.95), in the third column and the
+  // third row of packets.
+  for (const double height : {30.0, 3e4}) {
+    const Vec3 lamp(2, 2, height);
+    ShadowBundle shadows(random, Vec3(0), 1, lamp);
+    for (std::uint32_t i = 0; i < kPackets; ++i) {
+      for (unsigned lane = 0; lane < kSimdLanes; ++lane) {
+        const Vec3 point(0.1 * ((i % 4) * 4 + lane % 4), 0.1 * ((i / 4) * 4 + lane / 4), 0);
+        set(shadows.rays[i].origin, lane, point);
+        set(shadows.rays[i].direction, lane, glm::normalize(lamp - point));
+        shadows.distance[i].lane[lane] = static_cast<float>(glm::length(lamp - point));
+      }
+      shadows.queries[i].lanes = 0xFFFF;
+    }
+    const LightBundle<Simd> bundle(shadows.place, shadows.queries, kPackets);
+    REQUIRE(bundle.packets == 0xFFFF);
+    REQUIRE(bundle.turned == (height == 30.0));
+    LeafTriangles<Simd> leaf{};
+    const ObjectRecord record = triangle({0.85, 0.95, 0.01}, {3, 0.6, 0.01}, {3, 1.3, 0.01});
+    leaf.add(64, record);
+    const TriangleCulling<Simd> viewed(leaf.sides(), bundle.view);
+    CHECK(viewed.seen_by(0, bundle.view) == (1u << 10 | 1u << 11));
+  }
+}
+
 TEST_CASE("Light comes to a bundle as it comes to its packets") {
   Random random(122);
   int dark = 0, bright = 0;

@@ -1,8 +1,8 @@
-// Culls the packets of a bundle for triangles, by edge functions in the view of the bundle. Kernel dialect.
+// Culls the packets of a bundle for triangles, by separating axes in the view of the bundle. Kernel dialect.
 //
 // In the map of a BundleView, a ray hits a triangle if its direction is on the inner side of the three planes
 // through the origin and an edge. The edge functions are the scalar products of the direction and the planes'
-// normals.
+// normals. Packets beside a corner are culled by the rectangle around the triangle.
 #pragma once
 
 #include "kernel/direct/bundle_view.hpp"
@@ -28,16 +28,21 @@ public:
     inward_[2].template store<S>(w);
     // Larger than the overlap of neighbours (see SeenTriangle): no packet is culled whose rays would hit.
     const F size = S::max(absolute_sum<S>(edge1), absolute_sum<S>(edge2));
-    const F rounding = (absolute_sum<S>(from) + F(view.span)) * size * F(32.0f * detail::kUnitInLastPlace);
+    const F uncertainty = (absolute_sum<S>(from) + F(view.span)) * F(32.0f * detail::kUnitInLastPlace);
+    const F rounding = uncertainty * size;
     (-u.z - rounding).store(least_[0].lane);
     (-v.z - rounding).store(least_[1].lane);
     (-w.z - rounding).store(least_[2].lane);
+    bound(from, edge1, edge2, uncertainty + size * F(4.0f * detail::kMaxOverlap));
   }
 
-  /// Returns the packets that may hit triangle `i`: those whose rectangles reach the inner side of each
-  /// plane.
+  /// Returns the packets that may hit triangle `i`: those whose rectangles reach the inner side of each plane
+  /// and the triangle's rectangle.
   [[gnu::always_inline]] uint32_t seen_by(uint32_t i, const BundleView<S>& view) const {
     M seen = M::all();
+    for (uint32_t axis = 0; axis < 2; ++axis)
+      seen = seen & (view.seen[axis].high >= F(low_[axis].lane[i])) &
+             (view.seen[axis].low <= F(high_[axis].lane[i]));
     for (uint32_t side = 0; side < 3; ++side) {
       const F x(inward_[side].x.lane[i]), y(inward_[side].y.lane[i]);
       const F most = S::max(x * view.seen[0].low, x * view.seen[0].high) +
@@ -48,8 +53,31 @@ public:
   }
 
 private:
+  /// Computes the rectangles around the triangles' projections. Each corner lies within `reach` of where the
+  /// hits next to it are. Triangles that come too close to the plane of depth 0 have no bounds.
+  [[gnu::always_inline]] void bound(const V3<S>& from, const V3<S>& edge1, const V3<S>& edge2,
+                                    const F& reach) {
+    const V3<S> corner = {-from.x, -from.y, -from.z};
+    const V3<S> corner1 = corner + edge1, corner2 = corner + edge2;
+    const M is_bounded = S::min(S::min(corner.z, corner1.z), corner2.z) > F(2.0f) * reach;
+    const F inverse = F(1.0f) / corner.z, inverse1 = F(1.0f) / corner1.z, inverse2 = F(1.0f) / corner2.z;
+    // Depths may be less than the corners' by `reach`, which is up to half of them.
+    const F relative = F(2.0f) * reach * S::max(S::max(inverse, inverse1), inverse2);
+    const F* const axes[2][3] = {{&corner.x, &corner1.x, &corner2.x}, {&corner.y, &corner1.y, &corner2.y}};
+    for (uint32_t i = 0; i < 2; ++i) {
+      const F a = *axes[i][0] * inverse, b = *axes[i][1] * inverse1, c = *axes[i][2] * inverse2;
+      const F low = S::min(S::min(a, b), c), high = S::max(S::max(a, b), c);
+      const F margin = relative * (F(1.0f) + S::max(S::abs(low), S::abs(high)));
+      S::select(is_bounded, low - margin, F(-kUnbounded)).store(low_[i].lane);
+      S::select(is_bounded, high + margin, F(kUnbounded)).store(high_[i].lane);
+    }
+  }
+
+  static constexpr float kUnbounded = 3e38f;
+
   // A lane for each triangle.
   VectorLanes inward_[3]; ///< normals of the planes through edges, inward
+  FloatLanes low_[2], high_[2]; ///< rectangle of the projection, at depth 1
   FloatLanes least_[3];   ///< bound of n.x * x + n.y * y for a ray (x, y, 1) inside
 };
 
