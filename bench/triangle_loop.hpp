@@ -4,7 +4,7 @@
 
 #include "kernel/direct/leaf_tests.hpp"
 #include "kernel/direct/pinhole_triangles.hpp"
-#include "kernel/direct/pluecker_triangles.hpp"
+#include "kernel/direct/shadow_volumes.hpp"
 
 #include <stdint.h>
 
@@ -15,14 +15,14 @@ enum class TriangleTest : uint32_t {
   pinhole,       ///< pinhole_triangles.hpp: the same, with what the rays of one origin have in common
   by_ray,        ///< leaf_tests.hpp: one ray of a packet against all triangles
   shadow_single, ///< as `single`, for shadow rays
-  pluecker       ///< pluecker_triangles.hpp: the same by Pluecker coordinates
+  shadow_volumes ///< shadow_volumes.hpp: the same by the origins of rays to one light
 };
 
 struct alignas(128) TriangleTask {
   kernel::RayPacket packets[kSimdLanes];
   kernel::HitPacket hits[kSimdLanes];    ///< answers
   kernel::FloatLanes light[kSimdLanes];  ///< distances of a light
-  kernel::BundleMoments moments;         ///< of shadow rays toward it
+  kernel::ShadowOrigins origins;         ///< of shadow rays toward it
   kernel::ObjectRecord leaf[kSimdLanes]; ///< triangles
   float eye[3];                          ///< the origin of primary rays
   uint32_t triangle_count, packet_count;
@@ -53,7 +53,6 @@ template <class Spu, class Visit> void test_single(const TriangleTask& task, Vis
 template <class Spu> void test_triangles(TriangleTask& task) {
   using namespace kernel;
   using S = typename Spu::simd;
-  using F = typename S::F;
   using Tests = ObjectTests<Spu>;
   if (task.test == TriangleTest::single) {
     test_single<Spu>(task, [&](uint32_t i, uint32_t packet, const Crossings<S>& crossings) {
@@ -77,16 +76,12 @@ template <class Spu> void test_triangles(TriangleTask& task) {
       for (uint32_t packet = 0; packet < task.packet_count; ++packet)
         Tests::keep_closest(seen.crossed(i, task.packets[packet].direction.template load<S>()),
                             triangle_offset(i), task.hits[packet]);
-  } else if (task.test == TriangleTest::pluecker) {
-    const PlueckerTriangles<S> pluecker(sides, task.moments);
-    const F low(Tests::kShadowEpsilon);
+  } else if (task.test == TriangleTest::shadow_volumes) {
+    const ShadowVolumes<S> volumes(sides, task.origins);
     for (uint32_t i = 0; i < task.triangle_count; ++i)
       for (uint32_t packet = 0; packet < task.packet_count; ++packet) {
-        const RayPacket& rays = task.packets[packet];
-        const F high = F::load(task.light[packet].lane) - low;
-        const auto crossed =
-            pluecker.crossed_between(i, rays, task.moments.of[packet], task.moments, low, high);
-        task.occluded[packet] |= (crossed & !lanes_that_start_on<S>(rays, triangle_offset(i))).bits();
+        const auto starts_on = lanes_that_start_on<S>(task.packets[packet], triangle_offset(i));
+        task.occluded[packet] |= (volumes.crossed(i, task.origins, packet) & !starts_on).bits();
       }
   } else {
     for (uint32_t packet = 0; packet < task.packet_count; ++packet)

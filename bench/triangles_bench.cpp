@@ -34,9 +34,9 @@ void set(VectorLanes& lanes, std::uint32_t lane, const float (&v)[3]) {
 void make_rays(TriangleTask& task, bool shadows) {
   const float eye[3] = {0, 0, -5};
   std::copy(eye, eye + 3, task.eye);
-  std::copy(eye, eye + 3, task.moments.light);
-  std::fill(task.moments.base, task.moments.base + 3, 0.0f);
-  task.moments.span = 1.5f;
+  std::copy(eye, eye + 3, task.origins.light);
+  std::fill(task.origins.base, task.origins.base + 3, 0.0f);
+  task.origins.span = 1.5f;
   for (std::uint32_t packet = 0; packet < kSimdLanes; ++packet)
     for (std::uint32_t lane = 0; lane < kSimdLanes; ++lane) {
       const float x = static_cast<float>(packet % 4 * 4 + lane % 4) / 15 - 0.5f;
@@ -48,11 +48,9 @@ void make_rays(TriangleTask& task, bool shadows) {
       set(rays.origin, lane, origin);
       set(rays.direction, lane, direction);
       rays.start_object.lane[lane] = kNoOffset;
-      // (origin - base) x direction
-      set(task.moments.of[packet], lane,
-          {origin[1] * direction[2] - origin[2] * direction[1],
-           origin[2] * direction[0] - origin[0] * direction[2],
-           origin[0] * direction[1] - origin[1] * direction[0]});
+      set(task.origins.origin[packet], lane, origin); // the base is 0
+      task.origins.low[packet].lane[lane] = kShadowEpsilon / length;
+      task.origins.high[packet].lane[lane] = 1 - kShadowEpsilon / length;
       task.light[packet].lane[lane] = length;
       task.hits[packet].distance.lane[lane] = kMaxHitDistance;
       task.hits[packet].object.lane[lane] = kNoOffset;
@@ -84,7 +82,7 @@ std::unique_ptr<TriangleTask> make_task(TriangleTest test, std::uint32_t packets
   task->packet_count = packets;
   task->lanes = (2u << (rays - 1)) - 1;
   task->test = test;
-  make_rays(*task, test == TriangleTest::shadow_single || test == TriangleTest::pluecker);
+  make_rays(*task, test == TriangleTest::shadow_single || test == TriangleTest::shadow_volumes);
   make_leaf(*task);
   return task;
 }
@@ -152,7 +150,7 @@ const int registered = [] {
     add("primary_rays/single", single, single, 16, 16, triangles);
     add("primary_rays/pinhole", pinhole, single, 16, 16, triangles);
     add("shadow_rays/single", shadow_single, shadow_single, 16, 16, triangles);
-    add("shadow_rays/pluecker", pluecker, shadow_single, 16, 16, triangles);
+    add("shadow_rays/shadow_volumes", shadow_volumes, shadow_single, 16, 16, triangles);
     add("few_rays/by_triangle", single, single, 1, 16, triangles);
     for (const std::uint32_t rays : {1u, 2u, 4u, 8u})
       add("few_rays/by_ray/rays:" + std::to_string(rays), by_ray, single, 1, rays, triangles);

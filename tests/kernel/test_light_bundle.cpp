@@ -2,7 +2,7 @@
 // comes to them.
 #include "kernel/accel/traversal.hpp"
 #include "kernel/direct/light_bundle.hpp"
-#include "kernel/direct/pluecker_triangles.hpp"
+#include "kernel/direct/shadow_volumes.hpp"
 #include "kernel/direct/triangle_culling.hpp"
 #include "made_records.hpp"
 #include "prepared_scene.hpp"
@@ -154,7 +154,7 @@ TEST_CASE("Packets see the triangles that their rays to a light cross, and cross
       leaf.add(64 * (i + 1), records[i]);
     }
     const TriangleCulling<Simd> viewed(leaf.sides(), bundle.view);
-    const PlueckerTriangles<Simd> by_moment(leaf.sides(), *bundle.view.moments);
+    const ShadowVolumes<Simd> volumes(leaf.sides(), *bundle.view.shadows);
     for (unsigned i = 0; i < count; ++i) {
       const std::uint32_t seen_by = viewed.seen_by(i, bundle.view);
       for_each_lane(bundle.packets, [&](std::uint32_t packet) {
@@ -166,13 +166,7 @@ TEST_CASE("Packets see the triangles that their rays to a light cross, and cross
                          << (bundle.turned ? ", from the light" : ", from afar"));
         if (hits != 0) REQUIRE((seen_by >> packet & 1) == 1);
         unseen += (seen_by >> packet & 1) == 0;
-        const F low(1e-3f);
-        const std::uint32_t by =
-            by_moment
-                .crossed_between(i, rays, bundle.view.moments->of[packet], *bundle.view.moments, low,
-                                 load(shadows.distance[packet]) - low)
-                .bits() &
-            lanes;
+        const std::uint32_t by = volumes.crossed(i, *bundle.view.shadows, packet).bits() & lanes;
         // But where rounding decides: at sides and ends, and along the plane.
         const FloatLanes u = lanes_of(c.u), v = lanes_of(c.v), near = lanes_of(c.near);
         for_each_lane(hits ^ by, [&](std::uint32_t lane) {

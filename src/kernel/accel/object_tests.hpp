@@ -200,9 +200,6 @@ public:
            (flags & (object_flag::opaque | object_flag::no_shadow)) == object_flag::opaque;
   }
 
-  /// Epsilon at both ends of a shadow ray, which is POV-Ray's: closer crossings do not count, so that a
-  /// surface does not shadow itself.
-  static constexpr float kShadowEpsilon = 1e-3f;
   static constexpr auto kObjectBytes = static_cast<uint32_t>(sizeof(ObjectRecord));
 
   /// The lanes of the rays to be tested that come from a mirror, as no others see or do not see some objects.

@@ -96,7 +96,7 @@ public:
   /// missed. Where surfaces lie on each other, those are many.
   static float tnear(const RayQuery& query) {
     if constexpr (!kHasRoomForCode<Spu>) return 0.0f;
-    return 0.5f * (query.hits != nullptr ? kMinHitDistance : ObjectTests<Spu>::kShadowEpsilon);
+    return 0.5f * (query.hits != nullptr ? kMinHitDistance : kShadowEpsilon);
   }
   /// The tfar of each ray: the distance of its closest hit so far, or of the light.
   static F tfar(const RayQuery& query) {

@@ -4,7 +4,7 @@
 
 #include "kernel/direct/leaf_triangles.hpp"
 #include "kernel/direct/pinhole_triangles.hpp"
-#include "kernel/direct/pluecker_triangles.hpp"
+#include "kernel/direct/shadow_volumes.hpp"
 #include "kernel/direct/triangle_culling.hpp"
 
 namespace celltrace::kernel {
@@ -65,7 +65,7 @@ public:
     }
     if (changed != 0) {
       if (is_shadow_query(queries, changed))
-        test_shadows(queries, sides, *view.moments, pairs);
+        test_shadows(queries, sides, *view.shadows, pairs);
       else
         keep_closest(queries, sides, view, pairs);
     }
@@ -111,13 +111,11 @@ private:
   }
 
   [[gnu::always_inline]] void test_shadows(RayQuery* queries, const TriangleSides<S>& sides,
-                                           const BundleMoments& moments, const Pairs& pairs) {
-    const PlueckerTriangles<S> pluecker(sides, moments);
+                                           const ShadowOrigins& origins, const Pairs& pairs) {
+    const ShadowVolumes<S> volumes(sides, origins);
     for_each_pair(pairs, [&](uint32_t i, uint32_t packet) {
       RayQuery& query = queries[packet];
-      const F low(Tests::kShadowEpsilon);
-      const F high = F::load(query.distance->lane) - low;
-      const M occluded = pluecker.crossed_between(i, *query.rays, moments.of[packet], moments, low, high);
+      const M occluded = volumes.crossed(i, origins, packet);
       query.lanes &= ~(occluded & !lanes_that_start_on<S>(*query.rays, triangles_.offset(i))).bits();
     });
   }

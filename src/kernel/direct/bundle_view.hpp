@@ -5,13 +5,14 @@
 
 namespace celltrace::kernel {
 
-/// The moments (of Pluecker coordinates) of rays toward a light. They are taken about a base point near the
-/// origins of the rays: relative to the light, triangles near these origins would be rounded by more than
-/// kShadowEpsilon.
-struct BundleMoments {
+/// Where rays toward a light start, relative to a base point near all of their origins: relative to the
+/// light, triangles near these origins would be rounded by more than kShadowEpsilon.
+struct ShadowOrigins {
   float base[3], light[3];
-  float span;                 ///< an upper bound of the origins' distances from the base
-  VectorLanes of[kSimdLanes]; ///< by packet: (origin - base) x direction
+  float span;                     ///< an upper bound of the origins' distances from the base
+  VectorLanes origin[kSimdLanes]; ///< by packet: origin - base
+  /// By packet: the range on a ray in which something occludes it, as shares of the way to the light.
+  FloatLanes low[kSimdLanes], high[kSimdLanes];
 };
 
 /// A projective map of the scene for rays that all pass through one point, as a camera's onto its image
@@ -32,7 +33,7 @@ template <class S> struct BundleView {
   float depth_scale = 1.0f, depth_offset = 0.0f; ///< depth = scale * length on the major axis - offset
   LaneInterval<S> seen[2];                       ///< the rectangles of the packets, at depth 1
   float span = 0.0f; ///< an upper bound of the distances from `origin` at which rays start
-  const BundleMoments* moments = nullptr; ///< of rays toward a light, otherwise null
+  const ShadowOrigins* shadows = nullptr; ///< of rays toward a light, otherwise null
 
   void set_major(uint32_t axis) {
     axes[0] = axis == 0 ? 1 : 0;

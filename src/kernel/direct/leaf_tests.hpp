@@ -74,7 +74,7 @@ public:
 
 private:
   static void occlude(const Crossings<S>& c, uint32_t triangles, uint32_t lane, RayQuery& query) {
-    const F low(Tests::kShadowEpsilon);
+    const F low(kShadowEpsilon);
     const M occluding = c.near_hit & (c.near > low) & (c.near < F(query.distance->lane[lane]) - low);
     if ((occluding.bits() & triangles) != 0) query.lanes &= ~(1u << lane);
   }

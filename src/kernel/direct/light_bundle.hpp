@@ -37,7 +37,7 @@ public:
       bound_near(light);
     else
       bound_far(light);
-    compute_moments(light);
+    set_origins(light);
   }
 
 private:
@@ -185,14 +185,13 @@ private:
       all.origin[axis] = bounds.origin[axis].all();
   }
 
-  /// Computes moments about the origin of one of the rays.
-  void compute_moments(const float (&light)[3]) {
-    moments_.span = 0.0f;
+  /// Sets the origins relative to one of them.
+  void set_origins(const float (&light)[3]) {
     for (uint32_t axis = 0; axis < 3; ++axis) {
-      moments_.light[axis] = light[axis];
-      moments_.base[axis] = some_origin(axis);
+      shadows_.light[axis] = light[axis];
+      shadows_.base[axis] = some_origin(axis);
     }
-    const V3<S> base = splat3<S>(moments_.base);
+    const V3<S> base = splat3<S>(shadows_.base), place = splat3<S>(light) - base;
     F span(0.0f);
     for_each_lane(packets, [&](uint32_t packet) {
       const RayQuery& query = queries_[packet];
@@ -200,10 +199,14 @@ private:
       const VectorLanes& points = query.rays->origin;
       const V3<S> from = V3<S>{active(points, 0), active(points, 1), active(points, 2)} - base;
       span = S::max(span, absolute_sum<S>(from));
-      moments_.of[packet].template store<S>(cross<S>(from, query.rays->direction.template load<S>()));
+      shadows_.origin[packet].template store<S>(from);
+      const V3<S> to_light = place - from;
+      const F scale = F(1.0f) / S::sqrt(dot<S>(to_light, to_light));
+      S::min(F(kShadowEpsilon) * scale, F(1.0f)).store(shadows_.low[packet].lane);
+      ((F::load(query.distance->lane) - F(kShadowEpsilon)) * scale).store(shadows_.high[packet].lane);
     });
-    moments_.span = interval_of<S>(span).high;
-    view.moments = &moments_;
+    shadows_.span = interval_of<S>(span).high;
+    view.shadows = &shadows_;
   }
   float some_origin(uint32_t axis) const {
     const RayQuery& first = queries_[__builtin_ctz(packets)];
@@ -216,7 +219,7 @@ private:
   int spread_count_ = 0;                    ///< packets whose slopes differ by kLeastSpread or more
   float farthest_ = 0.0f;                   ///< the greatest of `reach`
   FloatLanes lows_[2], highs_[2], reaches_; ///< by packet: rectangles; `reach`
-  BundleMoments moments_;
+  ShadowOrigins shadows_;
 };
 
 } // namespace celltrace::kernel

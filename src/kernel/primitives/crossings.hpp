@@ -9,6 +9,9 @@ namespace celltrace::kernel {
 /// Hits nearer or farther than this are none, as in POV-Ray.
 constexpr float kMinHitDistance = 1e-4f;
 constexpr float kMaxHitDistance = 1e7f;
+/// Epsilon at both ends of a shadow ray, which is POV-Ray's: closer crossings do not count, so that a surface
+/// does not shadow itself.
+constexpr float kShadowEpsilon = 1e-3f;
 
 /// Two crossings of each ray of a packet with a surface, by distance along the ray. Distances of lanes
 /// outside their mask are meaningless. Shapes with one crossing have `far_hit` empty; shapes with more fill

@@ -131,7 +131,7 @@ template <class Spu>
   using F = typename S::F;
   using M = typename S::M;
   scene.spu().run_in_module(modules::kShadowWalk);
-  const F epsilon(ObjectTests<Spu>::kShadowEpsilon);
+  const F epsilon(kShadowEpsilon);
   const F distance = F::load(walk.hits.distance.lane), left = F::load(walk.left.lane);
   const uint32_t before_light = hit_lanes<S>(walk.hits, walk.ray.lanes) & (distance < left - epsilon).bits();
   walk.ray.lanes = before_light;
