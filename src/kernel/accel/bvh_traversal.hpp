@@ -423,8 +423,7 @@ private:
   void intersect_leaf(BundleLeafTests<Spu>& leaves, const NodeRef& leaf, uint32_t packets,
                       RayQuery* queries) {
     if constexpr (kHasBundleViews<Spu>)
-      if (view_ != nullptr && !is_single(packets))
-        return update_tfar(leaves.add(queries, packets, leaf), queries);
+      if (view_ != nullptr) return update_tfar(leaves.add(queries, packets, leaf), queries);
     objects_.scene().for_each_object(leaf, [&](uint32_t self) {
       test_object(self, packets, queries);
       return false;
