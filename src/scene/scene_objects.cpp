@@ -8,6 +8,7 @@
 #include "scene/triangles.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -63,6 +64,20 @@ bool has_size(const LaneAabb& box) {
   constexpr float kSmall = 0.99e18f;
   return (not_above_bits(Simd::F4::splat(-kSmall), box.min) &
           not_above_bits(box.max, Simd::F4::splat(kSmall)) & 7) == 7;
+}
+
+/// The greatest magnitude of a coordinate; no number if one of them is none. Word by word, of which vectors
+/// take several: magnitudes are in the order of their bits.
+float greatest_magnitude(std::span<const Vec3f> vectors) {
+  constexpr std::int32_t kMagnitude = 0x7FFFFFFF;
+  const std::span<const std::byte> bytes = std::as_bytes(vectors);
+  std::int32_t greatest = 0;
+  for (std::size_t i = 0; i < bytes.size(); i += sizeof greatest) {
+    std::int32_t word;
+    std::memcpy(&word, &bytes[i], sizeof word);
+    greatest = std::max(greatest, word & kMagnitude);
+  }
+  return std::bit_cast<float>(greatest);
 }
 
 /// In parts of a reasonable size.
@@ -494,10 +509,8 @@ void SceneObjects::write(std::span<const PlacedObject> objects, const RecordTabl
 bool SceneObjects::are_plain_triangles() const {
   return std::all_of(pieces_.begin(), pieces_.end(), [](const Piece& piece) {
     if (piece.mesh == nullptr || piece.is_limited_mesh()) return false;
-    float greatest = 0;
-    for (const Vec3f& vertex : piece.vertices)
-      greatest = std::max({greatest, std::abs(vertex.x), std::abs(vertex.y), std::abs(vertex.z)});
-    return has_size(box_around(Vec3f(greatest), Vec3f(-greatest), Vec3f(0)));
+    const Vec3f greatest(greatest_magnitude(piece.vertices));
+    return has_size(box_around(greatest, -greatest, Vec3f(0)));
   });
 }
 
