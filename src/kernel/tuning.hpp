@@ -59,6 +59,11 @@ constexpr uint32_t kMaxEnteredNodes = 24;
 /// would do. It matters at silhouettes, where the origins of shadow rays lie far apart. Rays of the models;
 /// also for SPEs.
 constexpr uint32_t kMissesOfLoose = 2;
+/// A packet of shadow rays is wide if its rectangle, as the light sees it, is larger than its share of the
+/// bundle's by this factor: the origins lie on several surfaces, and leaves between these are hit by the
+/// frustum only. Its rays are tested against leaves' bounds as well. Larger: triangles are tested in vain;
+/// smaller: rays are tested where frusta would do. 'refitted every frame/(hills|random)-100000'.
+constexpr float kWidePacket = 1.5f;
 
 // --- when packets of a bundle part ---
 

@@ -57,6 +57,22 @@ struct ShadowBundle {
   }
 };
 
+/// Lets one of the rays start at `point`.
+void aim_from(ShadowBundle& bundle, std::uint32_t packet, unsigned lane, const Vec3& point) {
+  const Vec3 to_light = Vec3(bundle.place[0], bundle.place[1], bundle.place[2]) - point;
+  set(bundle.rays[packet].origin, lane, point);
+  set(bundle.rays[packet].direction, lane, glm::normalize(to_light));
+  bundle.distance[packet].lane[lane] = static_cast<float>(glm::length(to_light));
+}
+/// Lets all rays start in the plane z = 0, 0.1 apart from (0, 0) on.
+void start_on_grid(ShadowBundle& bundle) {
+  for (std::uint32_t i = 0; i < kPackets; ++i) {
+    for (unsigned lane = 0; lane < kSimdLanes; ++lane)
+      aim_from(bundle, i, lane, {0.1 * ((i % 4) * 4 + lane % 4), 0.1 * ((i / 4) * 4 + lane / 4), 0});
+    bundle.queries[i].lanes = 0xFFFF;
+  }
+}
+
 /// From next to the bundle to farther away than any sun.
 Vec3 any_light(Random& random, const Vec3& middle, double size) {
   return middle + random.direction() * (size * std::pow(10.0, random.uniform(0.2, 6)));
@@ -194,29 +210,31 @@ TEST_CASE("Packets see the triangles that their rays to a light cross, and cross
 }
 
 TEST_CASE("Packets beside a sharp corner of a triangle do not see it") {
-  Random random(124);
-  // Points of the plane z = 0, 0.1 apart. The corner lies above (0.85, 0.95), in the third column and the
-  // third row of packets.
+  // The corner lies above (0.85, 0.95), in the third column and the third row of packets.
+  const ObjectRecord record = triangle({0.85, 0.95, 0.01}, {3, 0.6, 0.01}, {3, 1.3, 0.01});
   for (const double height : {30.0, 3e4}) {
-    const Vec3 lamp(2, 2, height);
-    ShadowBundle shadows(random, Vec3(0), 1, lamp);
-    for (std::uint32_t i = 0; i < kPackets; ++i) {
-      for (unsigned lane = 0; lane < kSimdLanes; ++lane) {
-        const Vec3 point(0.1 * ((i % 4) * 4 + lane % 4), 0.1 * ((i / 4) * 4 + lane / 4), 0);
-        set(shadows.rays[i].origin, lane, point);
-        set(shadows.rays[i].direction, lane, glm::normalize(lamp - point));
-        shadows.distance[i].lane[lane] = static_cast<float>(glm::length(lamp - point));
-      }
-      shadows.queries[i].lanes = 0xFFFF;
-    }
+    Random random(124);
+    ShadowBundle shadows(random, Vec3(0), 1, {2, 2, height});
+    start_on_grid(shadows);
     const LightBundle<Simd> bundle(shadows.place, shadows.queries, kPackets);
     REQUIRE(bundle.packets == 0xFFFF);
     REQUIRE(bundle.turned == (height == 30.0));
     LeafTriangles<Simd> leaf{};
-    const ObjectRecord record = triangle({0.85, 0.95, 0.01}, {3, 0.6, 0.01}, {3, 1.3, 0.01});
     leaf.add(64, record);
     const TriangleCulling<Simd> viewed(leaf.sides(), bundle.view);
     CHECK(viewed.seen_by(0, bundle.view) == (1u << 10 | 1u << 11));
+  }
+}
+
+TEST_CASE("Packets are wide that cover much more of a light's view than their shares") {
+  for (const double height : {30.0, 3e4}) {
+    Random random(125);
+    ShadowBundle shadows(random, Vec3(0), 1, {2, 2, height});
+    start_on_grid(shadows);
+    CHECK(LightBundle<Simd>(shadows.place, shadows.queries, kPackets).wide == 0);
+    aim_from(shadows, 5, 0, {0, 0, 0});
+    aim_from(shadows, 5, 15, {1.5, 1.5, 0});
+    CHECK(LightBundle<Simd>(shadows.place, shadows.queries, kPackets).wide == 1u << 5);
   }
 }
 

@@ -204,6 +204,7 @@ private:
     frusta_.set(bundle.bounds, bundle.octant);
     bundle_frustum_.set(bundle.all, bundle.octant);
     view_ = &bundle.view;
+    wide_ = bundle.wide;
     set_max_split_packets(bundle.density != 0.0f ? bundle.density : rays_of_frame_);
     octant_ = bundle.turned ? bundle.octant ^ 7 : bundle.octant;
     reversed_ = bundle.turned;
@@ -375,7 +376,8 @@ private:
       const bool tests_rays = (child.is_leaf() && !trusts_frusta()) || should_split(lanes);
       if (lanes == 0) continue;
       objects_.scene().hint(child);
-      lanes &= ~packets_that_miss(node.bounds, ray_order, i, queries, tests_rays ? lanes : lanes & loose_);
+      lanes &= ~packets_that_miss(node.bounds, ray_order, i, queries,
+                                  tests_rays ? lanes : lanes & doubted_at(child));
       if (tests_rays && !child.is_leaf())
         for_each_lane(lanes, [&](uint32_t packet) {
           stack.push(first, {child, 1u << packet, enter[i], hit_rays_[packet]});
@@ -389,6 +391,12 @@ private:
   /// Whether leaves are hit by frusta only, without slab tests of rays. Frusta of rays through one point are
   /// tight. On an SPE the rays are tested all the same, because fetching an object by DMA costs more.
   bool trusts_frusta() const { return kHasBundleViews<Spu> && view_ != nullptr; }
+  /// The packets whose rays are tested for a child although those of others are not.
+  uint32_t doubted_at(const NodeRef& child) const {
+    if constexpr (kHasBundleViews<Spu>)
+      if (child.is_leaf()) return loose_ | wide_;
+    return loose_;
+  }
   /// Packets split early where triangles are assumed to be smaller than what is between `rays`, so many in a
   /// picture.
   void set_max_split_packets(float rays) {
@@ -494,6 +502,7 @@ private:
   uint32_t hit_rays_[kBundlePackets<Spu>];     ///< by packet, of the child that was tested last
   uint32_t misses_[kBundlePackets<Spu>];       ///< by packet: nodes that its frustum hit, but no ray
   uint32_t loose_ = 0;                         ///< packets whose frusta are loose
+  uint32_t wide_ = 0;                          ///< ViewBundle::wide; undefined without a view
   float max_tfar_ = 0.0f;                      ///< the greatest of tfar_
   const BundleView<S>* view_ = nullptr;        ///< of the bundle, if its rays pass through one point
   uint32_t octant_ = 0;                        ///< of all rays of the bundle

@@ -64,6 +64,7 @@ template <class S> struct ViewBundle {
   uint32_t octant = 0;
   bool turned = false;  ///< bounds and octant are those of reversed rays
   uint32_t packets = 0; ///< which packets; for others all else is undefined
+  uint32_t wide = 0;    ///< packets whose frusta hit many leaves that none of their rays hits
   float density = 0.0f; ///< rays in a unit square at depth 1; 0: not known
 };
 

@@ -12,7 +12,7 @@ template <class S> class LightBundle : public ViewBundle<S> {
 public:
   using F = typename S::F;
   using ViewBundle<S>::view, ViewBundle<S>::bounds, ViewBundle<S>::all, ViewBundle<S>::octant,
-      ViewBundle<S>::turned, ViewBundle<S>::packets;
+      ViewBundle<S>::turned, ViewBundle<S>::packets, ViewBundle<S>::wide;
 
   F reach; ///< by packet: the greatest length of its rays on the major axis
 
@@ -38,6 +38,7 @@ public:
     else
       bound_far(light);
     set_origins(light);
+    find_wide();
   }
 
 private:
@@ -207,6 +208,18 @@ private:
     });
     shadows_.span = interval_of<S>(span).high;
     view.shadows = &shadows_;
+  }
+  /// Finds the packets whose rectangles are much larger than their shares of the rectangle around all.
+  void find_wide() {
+    F area(1.0f);
+    float whole = 1.0f;
+    for (uint32_t i = 0; i < 2; ++i) {
+      area = area * (view.seen[i].high - view.seen[i].low);
+      const Interval extent = view.seen[i].all();
+      whole *= extent.high - extent.low;
+    }
+    const float share = whole / static_cast<float>(__builtin_popcount(packets));
+    wide = (area > F(tuning::kWidePacket * share)).bits() & packets;
   }
   float some_origin(uint32_t axis) const {
     const RayQuery& first = queries_[__builtin_ctz(packets)];
