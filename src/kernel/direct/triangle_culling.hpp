@@ -76,9 +76,9 @@ private:
   static constexpr float kUnbounded = 3e38f;
 
   // A lane for each triangle.
-  VectorLanes inward_[3]; ///< normals of the planes through edges, inward
+  VectorLanes inward_[3];       ///< normals of the planes through edges, inward
   FloatLanes low_[2], high_[2]; ///< rectangle of the projection, at depth 1
-  FloatLanes least_[3];   ///< bound of n.x * x + n.y * y for a ray (x, y, 1) inside
+  FloatLanes least_[3];         ///< bound of n.x * x + n.y * y for a ray (x, y, 1) inside
 };
 
 } // namespace celltrace::kernel
