@@ -34,7 +34,7 @@ struct alignas(128) TriangleTask {
 
 /// The offset of triangle `i`, as in a scene image.
 inline uint32_t triangle_offset(uint32_t i) {
-  return (i + 1) * static_cast<uint32_t>(sizeof(kernel::ObjectRecord));
+  return i * static_cast<uint32_t>(sizeof(kernel::ObjectRecord));
 }
 
 /// The test of a packet against the triangles one by one, as of ObjectTests.
@@ -66,9 +66,10 @@ template <class Spu> void test_triangles(TriangleTask& task) {
     });
     return;
   }
-  LeafTriangles<S> triangles;
+  LeafTriangles<S> triangles(task.leaf);
   for (uint32_t i = 0; i < task.triangle_count; ++i)
-    triangles.add(triangle_offset(i), task.leaf[i]);
+    triangles.add(triangle_offset(i));
+  triangles.fill(Tests::kPlainTriangle);
   const TriangleSides<S> sides = triangles.sides();
   if (task.test == TriangleTest::pinhole) {
     const PinholeTriangles<S> seen(sides, task.eye);

@@ -23,6 +23,11 @@ template <class Spu> class SceneAccess {
 public:
   SceneAccess(Spu& spu, const CacheConfig& config, ea_t image) : cache_(spu, config, image) {}
 
+  /// The scene image where records are read in place, else null.
+  const uint8_t* image() {
+    if constexpr (kReadsInPlace<Spu>) return read<uint8_t>(0, DataKind::object);
+    return nullptr;
+  }
   const ObjectRecord* object(uint32_t offset) { return read<ObjectRecord>(offset, DataKind::object); }
   const ExtraRecord* extra(uint32_t offset) { return read_apart<ExtraRecord>(offset, DataKind::object); }
   const PolygonEdgeRecord* polygon_edge(uint32_t offset) {

@@ -258,13 +258,15 @@ TEST_CASE("Triangles seen from one point are crossed where a single triangle is,
     RayPacket rays{};
     const Vec3 eye = random.point(k % 3 == 0 ? 1000 * size : 3 * size);
     Subject subjects[kSimdLanes];
-    LeafTriangles<Simd> leaf;
+    ObjectRecord records[kSimdLanes];
+    LeafTriangles<Simd> leaf(records);
     for (std::uint32_t i = 0; i < kSimdLanes; ++i) {
       const Vec3 corner = random.point(size), edge = random.point(size);
       // Some without area, some through the eye.
       const Vec3 last = i == 5 ? corner + edge * 2.0 : i == 6 ? eye : corner + random.point(size);
       subjects[i] = triangle({corner, corner + edge, last});
-      leaf.add(64 * i, subjects[i].record);
+      records[i] = subjects[i].record;
+      leaf.add(64 * i);
     }
     for (unsigned lane = 0; lane < kSimdLanes; ++lane) {
       set(rays.origin, lane, eye);
@@ -272,6 +274,7 @@ TEST_CASE("Triangles seen from one point are crossed where a single triangle is,
       rays.start_object.lane[lane] = kNoOffset;
     }
     const float point[3] = {rays.origin.x.lane[0], rays.origin.y.lane[0], rays.origin.z.lane[0]};
+    leaf.fill({});
     const PinholeTriangles<Simd> seen(leaf.sides(), point);
     for (std::uint32_t i = 0; i < kSimdLanes; ++i) {
       const Crossings<Simd> one = intersect(rays, subjects[i].record, 64 * i);

@@ -158,7 +158,7 @@ TEST_CASE("Packets see the triangles that their rays to a light cross, and cross
     // Triangles around points of rays, not farther away than the surface is large, or the light.
     const unsigned count = 1 + random.below(LeafTriangles<Simd>::kMost);
     ObjectRecord records[LeafTriangles<Simd>::kMost];
-    LeafTriangles<Simd> leaf{};
+    LeafTriangles<Simd> leaf(records);
     for (unsigned i = 0; i < count; ++i) {
       const std::uint32_t packet = random.below(kPackets), lane = random.below(kSimdLanes);
       const RayPacket& rays = shadows.rays[packet];
@@ -167,15 +167,16 @@ TEST_CASE("Packets see the triangles that their rays to a light cross, and cross
       const double side = size * std::pow(10.0, random.uniform(-2, 1));
       records[i] =
           triangle(point + random.point(side), point + random.point(side), point + random.point(side));
-      leaf.add(64 * (i + 1), records[i]);
+      leaf.add(64 * i);
     }
+    leaf.fill({});
     const TriangleCulling<Simd> viewed(leaf.sides(), bundle.view);
     const ShadowVolumes<Simd> volumes(leaf.sides(), *bundle.view.shadows);
     for (unsigned i = 0; i < count; ++i) {
       const std::uint32_t seen_by = viewed.seen_by(i, bundle.view);
       for_each_lane(bundle.packets, [&](std::uint32_t packet) {
         const RayPacket& rays = shadows.rays[packet];
-        const Crossings<Simd> c = intersect(rays, records[i], 64 * (i + 1));
+        const Crossings<Simd> c = intersect(rays, records[i], 64 * i);
         const std::uint32_t lanes = shadows.queries[packet].lanes;
         const std::uint32_t hits = c.near_hit.bits() & between(c.near, shadows.distance[packet]) & lanes;
         INFO("triangle " << i << ", packet " << packet
@@ -219,8 +220,9 @@ TEST_CASE("Packets beside a sharp corner of a triangle do not see it") {
     const LightBundle<Simd> bundle(shadows.place, shadows.queries, kPackets);
     REQUIRE(bundle.packets == 0xFFFF);
     REQUIRE(bundle.turned == (height == 30.0));
-    LeafTriangles<Simd> leaf{};
-    leaf.add(64, record);
+    LeafTriangles<Simd> leaf(&record);
+    leaf.add(0);
+    leaf.fill({});
     const TriangleCulling<Simd> viewed(leaf.sides(), bundle.view);
     CHECK(viewed.seen_by(0, bundle.view) == (1u << 10 | 1u << 11));
   }

@@ -56,6 +56,14 @@ struct RaySegment {
   }
 };
 
+/// What an object has to have among its kind_and_flags: in the bits of `mask` those of `value`, and no
+/// others.
+struct ObjectFlags {
+  uint32_t mask, value;
+
+  constexpr bool are_in(uint32_t kind_and_flags) const { return (kind_and_flags & mask) == value; }
+};
+
 /// In place of lanes that come from a mirror: the rays see everything.
 constexpr uint32_t kSeesAll = 0x80000000u;
 
@@ -84,7 +92,7 @@ public:
   void test_closest_of_all(const RayQuery* queries, uint32_t packets, uint32_t self) {
     const ObjectRecord& object = *scene_.object(self);
     const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
-    if (!is_plain_triangle(object.kind_and_flags)) {
+    if (!kPlainTriangle.are_in(object.kind_and_flags)) {
       for_each_lane(packets, [&](uint32_t i) { test_closest(*queries[i].rays, self, *queries[i].hits); });
       return;
     }
@@ -124,7 +132,7 @@ public:
     const ObjectRecord& object = *scene_.object(self);
     const uint32_t flags = object.kind_and_flags;
     if ((flags & object_flag::no_shadow) != 0) return;
-    if (!is_opaque_triangle(flags)) {
+    if (!kPlainTriangle.are_in(flags) || (flags & object_flag::opaque) == 0) {
       for_each_lane(packets, [&](uint32_t i) {
         RayQuery& query = queries[i];
         hit_filter_.begin_packet();
@@ -189,16 +197,14 @@ public:
             (c.far_hit & (c.far > low) & (c.far < high)).bits()};
   }
 
-  /// Whether an object is a triangle that is no part of a CSG.
-  static bool is_plain_triangle(uint32_t flags) {
-    return (flags & (object_flag::kind_mask | object_flag::csg | object_flag::selective)) ==
-           static_cast<uint32_t>(ObjectKind::triangle);
-  }
-  /// Whether the flags are those of a triangle that occludes all light.
-  static bool is_opaque_triangle(uint32_t flags) {
-    return is_plain_triangle(flags) &&
-           (flags & (object_flag::opaque | object_flag::no_shadow)) == object_flag::opaque;
-  }
+  /// Triangles that are no part of a CSG.
+  static constexpr ObjectFlags kPlainTriangle = {object_flag::kind_mask | object_flag::csg |
+                                                     object_flag::selective,
+                                                 static_cast<uint32_t>(ObjectKind::triangle)};
+  /// Those of them that occlude all light.
+  static constexpr ObjectFlags kOpaqueTriangle = {kPlainTriangle.mask | object_flag::opaque |
+                                                      object_flag::no_shadow,
+                                                  kPlainTriangle.value | object_flag::opaque};
 
   static constexpr auto kObjectBytes = static_cast<uint32_t>(sizeof(ObjectRecord));
 

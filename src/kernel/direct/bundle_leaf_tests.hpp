@@ -9,8 +9,9 @@
 
 namespace celltrace::kernel {
 
-/// The triangles of consecutive leaves are deferred, so that they fill the SIMD lanes. For each triangle
-/// test() then culls packets, which lie in lanes, and tests those that are left, with their rays in lanes.
+/// The objects of consecutive leaves of triangles are deferred, so that they fill the SIMD lanes. For each
+/// triangle test() then culls packets, which lie in lanes, and tests those that are left, with their rays in
+/// lanes.
 template <class Spu> class BundleLeafTests {
 public:
   using S = typename Spu::simd;
@@ -18,36 +19,36 @@ public:
   using M = typename S::M;
   using Tests = ObjectTests<Spu>;
 
-  explicit BundleLeafTests(Tests& tests) : tests_(tests) {}
+  explicit BundleLeafTests(Tests& tests) : tests_(tests), triangles_(tests.scene().image()) {}
 
-  /// Whether triangles have been deferred to test().
+  /// Whether objects have been deferred to test().
   bool has_deferred() const { return triangles_.count() != 0; }
   /// Whether all objects of another leaf could be deferred with them.
-  bool has_room_for(const NodeRef& leaf) const {
-    return triangles_.count() + leaf_word::count(leaf.leaf) <= kMost;
-  }
+  bool has_room_for(const NodeRef& leaf) const { return triangles_.has_room_for(leaf); }
 
-  /// Defers the triangles of a leaf that `packets` have hit, as far as there is room, and tests its other
-  /// objects. Returns the packets whose results may have changed.
+  /// Defers the objects of a leaf that `packets` have hit. If the first of them is no triangle, or there is
+  /// not enough room, it tests those that are none. Returns the packets whose results may have changed.
   uint32_t add(RayQuery* queries, uint32_t packets, const NodeRef& leaf) {
     const bool shadows = is_shadow_query(queries, packets);
-    const uint32_t before = triangles_.count();
+    uint32_t all[kMost];
+    for (uint32_t& of_one : all)
+      of_one = packets;
+    __builtin_memcpy(packets_of_ + triangles_.count(), all, sizeof all);
+    if (triangles_.has_room_for(leaf) && triangles_.add(leaf, wanted(shadows))) return 0;
     uint32_t changed = 0;
-    collect_triangles(tests_.scene(), leaf, shadows, triangles_, [&](uint32_t self) {
+    collect_triangles(tests_.scene(), leaf, wanted(shadows), triangles_, [&](uint32_t self) {
       changed = packets;
-      if (shadows)
-        tests_.test_occlusion_of_all(queries, packets, self);
-      else
-        tests_.test_closest_of_all(queries, packets, self);
+      test_object(queries, packets, self, shadows);
     });
-    for (uint32_t i = before; i < triangles_.count(); ++i)
-      packets_of_[i] = packets;
     return changed;
   }
 
-  /// Tests the deferred triangles, of which there are some. Returns the packets whose results may have
-  /// changed.
+  /// Tests the deferred objects, of which there are some. Returns the packets whose results may have changed.
   uint32_t test(RayQuery* queries, const BundleView<S>& view) {
+    const bool shadows = view.shadows != nullptr;
+    const uint32_t fit = triangles_.fill(wanted(shadows));
+    const uint32_t others =
+        fit == triangles_.all() ? 0 : test_others(queries, triangles_.all() & ~fit, shadows);
     const TriangleSides<S> sides = triangles_.sides();
     const TriangleCulling<S> culling(sides, view);
     // Packets are culled for all triangles before the first test: no triangle waits for the tests of another.
@@ -64,16 +65,37 @@ public:
       }
     }
     if (changed != 0) {
-      if (is_shadow_query(queries, changed))
+      if (shadows)
         test_shadows(queries, sides, *view.shadows, pairs);
       else
         keep_closest(queries, sides, view, pairs);
     }
     triangles_.clear();
-    return changed;
+    return changed | others;
   }
 
 private:
+  static constexpr ObjectFlags wanted(bool shadows) {
+    return shadows ? Tests::kOpaqueTriangle : Tests::kPlainTriangle;
+  }
+  void test_object(RayQuery* queries, uint32_t packets, uint32_t self, bool shadows) {
+    if (shadows)
+      tests_.test_occlusion_of_all(queries, packets, self);
+    else
+      tests_.test_closest_of_all(queries, packets, self);
+  }
+  /// Tests those of the deferred objects that are no triangles, or let light through, so that no packet is
+  /// left for them. Returns the packets.
+  [[gnu::noinline]] uint32_t test_others(RayQuery* queries, uint32_t others, bool shadows) {
+    uint32_t packets = 0;
+    for_each_lane(others, [&](uint32_t i) {
+      packets |= packets_of_[i];
+      test_object(queries, packets_of_[i], triangles_.offset(i), shadows);
+      packets_of_[i] = 0;
+    });
+    return packets;
+  }
+
   static constexpr uint32_t kMost = LeafTriangles<S>::kMost;
   static_assert(kBundlePackets<Spu> <= kSimdLanes, "packets of a bundle are lanes");
 
@@ -122,7 +144,7 @@ private:
 
   Tests& tests_;
   LeafTriangles<S> triangles_;
-  uint32_t packets_of_[kMost]; ///< by triangle: the packets that hit its leaf
+  uint32_t packets_of_[2 * kMost]; ///< by triangle: the packets that hit its leaf
 };
 
 } // namespace celltrace::kernel

@@ -18,8 +18,9 @@ public:
   /// Tests the objects of a leaf against `rays` of a packet.
   void test(RayQuery& query, uint32_t rays, const NodeRef& leaf) {
     const bool shadows = query.hits == nullptr;
-    LeafTriangles<S> triangles;
-    collect_triangles(tests_.scene(), leaf, shadows, triangles, [&](uint32_t self) {
+    LeafTriangles<S> triangles(tests_.scene().image());
+    const ObjectFlags& wanted = shadows ? Tests::kOpaqueTriangle : Tests::kPlainTriangle;
+    collect_triangles(tests_.scene(), leaf, wanted, triangles, [&](uint32_t self) {
       if (!shadows) {
         if (tests_.hit_filter().first_test(self)) tests_.test_closest(*query.rays, self, *query.hits);
       } else if ((query.lanes & rays) != 0) {
@@ -27,6 +28,7 @@ public:
       }
     });
     if (triangles.count() == 0) return;
+    triangles.fill(wanted);
     const TriangleSides<S> sides = triangles.sides();
     for (uint32_t left = rays & query.lanes; left != 0; left &= left - 1) {
       const auto lane = static_cast<uint32_t>(__builtin_ctz(left));
@@ -46,7 +48,7 @@ public:
       return V3<S>{F(v.x.lane[lane]), F(v.y.lane[lane]), F(v.z.lane[lane])};
     };
     const I start = I::splat(static_cast<int32_t>(rays.start_object.lane[lane]));
-    const M starts_here = I::load(reinterpret_cast<const int32_t*>(triangles.offsets().lane)) == start;
+    const M starts_here = I::load(reinterpret_cast<const int32_t*>(triangles.offsets())) == start;
     return SeenTriangle<S>(of_ray(rays.origin), sides).crossed(of_ray(rays.direction), starts_here);
   }
 

@@ -17,27 +17,61 @@ template <class S> class LeafTriangles {
 public:
   static constexpr uint32_t kMost = kSimdLanes;
 
+  /// Their offsets are from `image` on.
+  explicit LeafTriangles(const void* image) : image_(static_cast<const uint8_t*>(image)) {}
+
   uint32_t count() const { return count_; }
   void clear() { count_ = 0; }
   uint32_t all() const { return (2u << (count_ - 1)) - 1; } ///< lanes in use; count() is not 0
   /// The offset of triangle `i` in the scene image.
-  uint32_t offset(uint32_t i) const { return offsets_.lane[i]; }
-  const WordLanes& offsets() const { return offsets_; }
+  uint32_t offset(uint32_t i) const { return offsets_[i]; }
+  const uint32_t* offsets() const { return offsets_; } ///< 64-byte aligned
+  bool has_room_for(const NodeRef& leaf) const { return count_ + leaf_word::count(leaf.leaf) <= kMost; }
 
-  /// Adds a triangle, for which there is room. Its record must stay valid.
-  void add(uint32_t offset, const ObjectRecord& triangle) {
-    offsets_.lane[count_] = offset;
-    geometry_[count_++] = triangle.geometry;
+  /// Adds a triangle, for which there is room.
+  void add(uint32_t offset) { offsets_[count_++] = offset; }
+
+  /// Adds the objects of a leaf, for which there is room, if the first of them is a `wanted` triangle. The
+  /// others may be what they like: see fill().
+  [[gnu::always_inline]] bool add(const NodeRef& leaf, const ObjectFlags& wanted) {
+    // All lanes without a loop whose end could not be predicted: those behind the leaf's are not in use. What
+    // has no list has an object there, which is as long.
+    static_assert(sizeof(ObjectRecord) == kMost * sizeof(uint32_t));
+    uint32_t next[kMost];
+    __builtin_memcpy(next, image_ + leaf.child, sizeof next);
+    const uint32_t step = leaf_word::step_bytes(leaf.leaf), listed = leaf_word::is_list(leaf.leaf) ? ~0u : 0u;
+    for (uint32_t i = 0; i < kMost; ++i)
+      next[i] = (next[i] & listed) | ((leaf.child + i * step) & ~listed);
+    if (!wanted.are_in(record_at(next[0]).kind_and_flags)) return false;
+    __builtin_memcpy(offsets_ + count_, next, sizeof next);
+    count_ += leaf_word::count(leaf.leaf);
+    return true;
   }
 
-  /// Loads all triangles, of which there is at least one. Unused lanes repeat the first.
+  /// Lets lanes that are not in use repeat the first, of which there is one. Returns the lanes with `wanted`
+  /// triangles.
+  [[gnu::always_inline]] uint32_t fill(const ObjectFlags& wanted) {
+    const uint32_t first = offsets_[0];
+    for (uint32_t i = 0; i < kMost; ++i)
+      offsets_[i] = i < count_ ? offsets_[i] : first;
+    uint32_t differences = 0;
+    for (uint32_t i = 0; i < kMost; ++i)
+      differences |= record(i).kind_and_flags ^ wanted.value;
+    if ((differences & wanted.mask) == 0) return all();
+    uint32_t lanes = 0;
+    for (uint32_t i = 0; i < count_; ++i)
+      lanes |= static_cast<uint32_t>(wanted.are_in(record(i).kind_and_flags)) << i;
+    return lanes;
+  }
+
+  /// Loads all triangles, after fill(). Lanes with other objects are meaningless.
   [[gnu::always_inline]] TriangleSides<S> sides() const {
     F numbers[12]; // a triangle's record has nine of them; the last three are unused
-    const auto triangle = [&](uint32_t i) __attribute__((always_inline)) {
-      return geometry_[i < count_ ? i : 0];
+    const auto geometry = [&](uint32_t i) __attribute__((always_inline)) {
+      return record(i).geometry;
     };
     for (uint32_t first = 0; first < 12; first += 4)
-      load_words<S>(triangle, first, *reinterpret_cast<F(*)[4]>(numbers + first));
+      load_words<S>(geometry, first, *reinterpret_cast<F(*)[4]>(numbers + first));
     const V3<S> v0 = {numbers[0], numbers[1], numbers[2]};
     return {v0, V3<S>{numbers[3], numbers[4], numbers[5]} - v0,
             V3<S>{numbers[6], numbers[7], numbers[8]} - v0};
@@ -46,24 +80,26 @@ public:
 private:
   using F = typename S::F;
 
-  WordLanes offsets_;
-  const float* geometry_[kMost];
+  const ObjectRecord& record(uint32_t i) const { return record_at(offsets_[i]); }
+  const ObjectRecord& record_at(uint32_t offset) const {
+    return *reinterpret_cast<const ObjectRecord*>(image_ + offset);
+  }
+
+  const uint8_t* image_;
+  alignas(64) uint32_t offsets_[2 * kMost]; ///< add() writes behind those that there are
   uint32_t count_ = 0;
 };
 
-/// Adds the triangles of a leaf, as far as there is room; for shadow rays only the opaque ones. Calls
-/// `visit(offset)` for all other objects of the leaf.
+/// Adds the `wanted` triangles of a leaf, as far as there is room. Calls `visit(offset)` for all other
+/// objects of the leaf.
 template <class Spu, class Visit>
 [[gnu::always_inline]] inline void
-collect_triangles(SceneAccess<Spu>& scene, const NodeRef& leaf, bool shadows,
+collect_triangles(SceneAccess<Spu>& scene, const NodeRef& leaf, const ObjectFlags& wanted,
                   LeafTriangles<typename Spu::simd>& triangles, Visit visit) {
   scene.for_each_object(leaf, [&](uint32_t self) {
-    const ObjectRecord& object = *scene.object(self);
-    const uint32_t flags = object.kind_and_flags;
-    const bool fits =
-        shadows ? ObjectTests<Spu>::is_opaque_triangle(flags) : ObjectTests<Spu>::is_plain_triangle(flags);
-    if (fits && triangles.count() < LeafTriangles<typename Spu::simd>::kMost)
-      triangles.add(self, object);
+    const uint32_t flags = scene.object(self)->kind_and_flags;
+    if (wanted.are_in(flags) && triangles.count() < LeafTriangles<typename Spu::simd>::kMost)
+      triangles.add(self);
     else
       visit(self);
     return false;
