@@ -69,7 +69,7 @@ template <class Spu> void test_triangles(TriangleTask& task) {
   LeafTriangles<S> triangles(task.leaf);
   for (uint32_t i = 0; i < task.triangle_count; ++i)
     triangles.add(triangle_offset(i));
-  triangles.fill(Tests::kPlainTriangle);
+  triangles.fill();
   const TriangleSides<S> sides = triangles.sides();
   if (task.test == TriangleTest::pinhole) {
     const PinholeTriangles<S> seen(sides, task.eye);

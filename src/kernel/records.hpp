@@ -42,6 +42,21 @@ constexpr uint32_t lit_behind = 0x400000;
 constexpr uint32_t lit_through = 0x800000; ///< as if it fell on this side; also lit_behind then
 constexpr uint32_t light_set_shift = 24; ///< number of the set of lights that shine on it; 0: all global ones
 } // namespace object_flag
+
+/// What an object has to have among its kind_and_flags: in the bits of `mask` those of `value`, and no
+/// others.
+struct ObjectFlags {
+  uint32_t mask, value;
+
+  constexpr bool are_in(uint32_t kind_and_flags) const { return (kind_and_flags & mask) == value; }
+};
+/// Triangles that are no part of a CSG, which all rays see.
+constexpr ObjectFlags kPlainTriangle = {object_flag::kind_mask | object_flag::csg | object_flag::selective,
+                                        static_cast<uint32_t>(ObjectKind::triangle)};
+/// Those of them that occlude all light.
+constexpr ObjectFlags kOpaqueTriangle = {kPlainTriangle.mask | object_flag::opaque | object_flag::no_shadow,
+                                         kPlainTriangle.value | object_flag::opaque};
+
 constexpr uint32_t kMaxLightSets = 1u << (32 - object_flag::light_set_shift);
 
 /// Geometry by kind: sphere: centre (0..2), radius (3), the directions of its x axis (4..6) and y axis (7..9)
@@ -610,6 +625,8 @@ constexpr uint32_t step_bytes(uint32_t word) {
 }
 /// What fits.
 constexpr int32_t kMaxStep = (1 << (31 - kCountBits)) - 1;
+/// Bytes that may be read from where a leaf's list begins, whatever its count.
+constexpr uint32_t kReadableBytes = sizeof(ObjectRecord);
 } // namespace leaf_word
 
 /// the BVH. The root is the first node.

@@ -49,11 +49,6 @@ void grow(Aabb& box, const Aabb& by) {
   }
 }
 
-bool is_plain_triangle(const ObjectRecord& object) {
-  constexpr std::uint32_t kAsked = object_flag::kind_mask | object_flag::csg | object_flag::selective;
-  return (object.kind_and_flags & kAsked) == static_cast<std::uint32_t>(ObjectKind::triangle);
-}
-
 } // namespace
 
 class SingleRayBvh::Builder {
@@ -108,7 +103,7 @@ private:
     for (std::uint32_t i = 0; i < count; ++i) {
       const std::uint32_t offset =
           leaf_word::is_list(word) ? record<std::uint32_t>(first + i * 4) : first + i * step;
-      if (!is_plain_triangle(record<ObjectRecord>(offset))) {
+      if (!kPlainTriangle.are_in(record<ObjectRecord>(offset).kind_and_flags)) {
         bvh_.others_.push_back(offset);
         continue;
       }

@@ -19,6 +19,7 @@
 #include "scene/shape_geometry.hpp"
 #include "scene/shapes.hpp"
 #include "scene/texture_checks.hpp"
+#include "scene/triangles.hpp"
 #include "scene/validation.hpp"
 
 namespace celltrace {
@@ -29,21 +30,6 @@ constexpr std::size_t kMostEntries = std::numeric_limits<Index>::max() - 1;
 
 bool is_finite(const Vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-/// Word by word, without a branch for each.
-bool all_finite(const std::vector<Vec3f>& vectors) {
-  static_assert(sizeof(Vec3f) == 3 * sizeof(std::uint32_t));
-  constexpr std::uint32_t kExponent = 0x7F800000; // all ones: infinite, or no number
-  constexpr std::uint32_t kLastOfIt = 0x00800000;
-  const auto* bytes = reinterpret_cast<const std::byte*>(vectors.data());
-  std::uint32_t carries = 0;
-  for (std::size_t i = 0; i < vectors.size() * sizeof(Vec3f); i += sizeof(std::uint32_t)) {
-    std::uint32_t word = 0;
-    std::memcpy(&word, bytes + i, sizeof word);
-    carries |= (word & kExponent) + kLastOfIt;
-  }
-  return carries >> 31 == 0;
 }
 
 /// What is checked; put into words only for an error.
@@ -128,7 +114,8 @@ bool is_sound(const Mesh& mesh, const Mesh::Triangle& triangle, std::size_t mate
   return sound;
 }
 
-/// Whether the triangles of a mesh without normals are all sound; as with all_finite(), many words at a time.
+/// Whether the triangles of a mesh without normals are all sound; as with greatest_magnitude(), many words at
+/// a time.
 bool are_sound(const Mesh& mesh, std::size_t materials) {
   static_assert(sizeof(Mesh::Triangle) == 9 * sizeof(Index));
   constexpr std::size_t kAtATime = 4, kWords = 9 * kAtATime; // whole vectors
@@ -165,7 +152,7 @@ void check_mesh(const Mesh& mesh, std::size_t materials, const Name& name) {
   if (mesh.vertices.size() > kMostEntries || mesh.normals.size() > kMostEntries ||
       mesh.triangles.size() > kMostEntries)
     throw InputError(name.text() + " has more entries than 32 bits can count");
-  if (!all_finite(mesh.vertices) || !all_finite(mesh.normals))
+  if (!std::isfinite(greatest_magnitude(mesh.vertices)) || !std::isfinite(greatest_magnitude(mesh.normals)))
     throw InputError(name.text() + " has a number that is not finite");
   if (!mesh.coordinates.empty() && mesh.coordinates.size() != mesh.triangles.size())
     throw InputError(name.text() + " has surface coordinates for other triangles than it has");

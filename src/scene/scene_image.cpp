@@ -25,15 +25,12 @@ using namespace kernel;
 
 namespace {
 
-/// Lists of objects are read as many words at a time as a record has: up to so many bytes behind the last.
-constexpr std::size_t kBehindLists = sizeof(ObjectRecord);
-
 /// What the accelerator that is most likely to be built needs.
 std::size_t bvh_bytes(const ImageHeader& header) {
   const std::size_t nodes =
       bvh::most_nodes(header.object_count, header.group_count, header.prototype_count != 0);
-  return nodes * sizeof(NodeRecord) + header.object_count * sizeof(std::uint32_t) + kBehindLists +
-         2 * kLineBytes;
+  return nodes * sizeof(NodeRecord) + header.object_count * sizeof(std::uint32_t) +
+         leaf_word::kReadableBytes + kLineBytes;
 }
 
 /// Work memory for ordering objects.
@@ -282,7 +279,8 @@ bool SceneImage::update(const Scene& given, AlignedBlock& work, unsigned threads
 void SceneImage::reserve_accelerator(std::uint64_t table_bytes, std::uint32_t list_words) {
   const std::size_t begin = header().bytes;
   const std::size_t lists = whole_lines(begin + table_bytes);
-  const std::size_t end = whole_lines(lists + std::size_t{list_words} * sizeof(std::uint32_t) + kBehindLists);
+  const std::size_t list_bytes = std::size_t{list_words} * sizeof(std::uint32_t) + leaf_word::kReadableBytes;
+  const std::size_t end = whole_lines(lists + list_bytes);
   if (end > std::numeric_limits<std::uint32_t>::max())
     throw InputError("the scene is too large: its image would pass 4 GB");
   if (end > block_.size()) {

@@ -8,7 +8,6 @@
 #include "scene/triangles.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -64,20 +63,6 @@ bool has_size(const LaneAabb& box) {
   constexpr float kSmall = 0.99e18f;
   return (not_above_bits(Simd::F4::splat(-kSmall), box.min) &
           not_above_bits(box.max, Simd::F4::splat(kSmall)) & 7) == 7;
-}
-
-/// The greatest magnitude of a coordinate; no number if one of them is none. Word by word, of which vectors
-/// take several: magnitudes are in the order of their bits.
-float greatest_magnitude(std::span<const Vec3f> vectors) {
-  constexpr std::int32_t kMagnitude = 0x7FFFFFFF;
-  const std::span<const std::byte> bytes = std::as_bytes(vectors);
-  std::int32_t greatest = 0;
-  for (std::size_t i = 0; i < bytes.size(); i += sizeof greatest) {
-    std::int32_t word;
-    std::memcpy(&word, &bytes[i], sizeof word);
-    greatest = std::max(greatest, word & kMagnitude);
-  }
-  return std::bit_cast<float>(greatest);
 }
 
 /// In parts of a reasonable size.

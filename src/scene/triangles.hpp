@@ -1,14 +1,34 @@
-// What is asked of a mesh's triangles one by one.
+// What is asked of a mesh's vertices and of its triangles one by one.
 #pragma once
 
 #include "celltrace/scene.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
 
 #include <glm/geometric.hpp>
 
 namespace celltrace {
+
+/// The greatest magnitude of a coordinate; not finite if one of them is not. Word by word, of which vectors
+/// take several: magnitudes are in the order of their bits, above which are infinity and what is no number.
+inline float greatest_magnitude(std::span<const Vec3f> vectors) {
+  static_assert(sizeof(Vec3f) == 3 * sizeof(std::int32_t));
+  constexpr std::int32_t kMagnitude = 0x7FFFFFFF;
+  const auto* const bytes = reinterpret_cast<const std::byte*>(vectors.data());
+  std::int32_t greatest = 0;
+  for (std::size_t i = 0; i < vectors.size_bytes(); i += sizeof greatest) {
+    std::int32_t word = 0;
+    std::memcpy(&word, bytes + i, sizeof word);
+    greatest = std::max(greatest, word & kMagnitude);
+  }
+  return std::bit_cast<float>(greatest);
+}
 
 /// In double precision it is right; where single precision leaves no doubt, that is faster.
 inline bool has_area(const Vec3f& a, const Vec3f& b, const Vec3f& c) {

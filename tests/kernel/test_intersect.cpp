@@ -274,7 +274,7 @@ TEST_CASE("Triangles seen from one point are crossed where a single triangle is,
       rays.start_object.lane[lane] = kNoOffset;
     }
     const float point[3] = {rays.origin.x.lane[0], rays.origin.y.lane[0], rays.origin.z.lane[0]};
-    leaf.fill({});
+    leaf.fill();
     const PinholeTriangles<Simd> seen(leaf.sides(), point);
     for (std::uint32_t i = 0; i < kSimdLanes; ++i) {
       const Crossings<Simd> one = intersect(rays, subjects[i].record, 64 * i);

@@ -33,7 +33,6 @@ struct ShadowBundle {
   ShadowBundle(Random& random, const Vec3& middle, double size, const Vec3& light_place) {
     for (int axis = 0; axis < 3; ++axis)
       place[axis] = static_cast<float>(light_place[axis]);
-    const Vec3 lamp(place[0], place[1], place[2]);
     const Vec3 normal = random.direction();
     const Vec3 right = glm::normalize(glm::cross(normal, random.direction()));
     const Vec3 down = glm::cross(right, normal);
@@ -44,10 +43,7 @@ struct ShadowBundle {
         const double x = (i % 4) * 4 + lane % 4, y = (i / 4) * 4 + lane / 4;
         const Vec3 point = middle + (right * x + down * y) * (size / 16) + random.point(rough * size) +
                            (x + y > 20 ? behind : Vec3(0));
-        set(rays[i].origin, lane, point);
-        const Vec3 to_light = lamp - at(rays[i].origin, lane);
-        set(rays[i].direction, lane, glm::normalize(to_light));
-        distance[i].lane[lane] = static_cast<float>(glm::length(to_light));
+        start_at(point, i, lane);
         rays[i].start_object.lane[lane] = kNoOffset;
       }
       light[i] = lanes_of(Vec{F(1.0f), F(0.5f), F(2.0f)});
@@ -55,20 +51,21 @@ struct ShadowBundle {
       queries[i] = {&rays[i], nullptr, &distance[i], &light[i], lanes};
     }
   }
+
+  /// Lets one of the rays start at `point`.
+  void start_at(const Vec3& point, std::uint32_t packet, unsigned lane) {
+    set(rays[packet].origin, lane, point);
+    const Vec3 to_light = Vec3(place[0], place[1], place[2]) - at(rays[packet].origin, lane);
+    set(rays[packet].direction, lane, glm::normalize(to_light));
+    distance[packet].lane[lane] = static_cast<float>(glm::length(to_light));
+  }
 };
 
-/// Lets one of the rays start at `point`.
-void aim_from(ShadowBundle& bundle, std::uint32_t packet, unsigned lane, const Vec3& point) {
-  const Vec3 to_light = Vec3(bundle.place[0], bundle.place[1], bundle.place[2]) - point;
-  set(bundle.rays[packet].origin, lane, point);
-  set(bundle.rays[packet].direction, lane, glm::normalize(to_light));
-  bundle.distance[packet].lane[lane] = static_cast<float>(glm::length(to_light));
-}
 /// Lets all rays start in the plane z = 0, 0.1 apart from (0, 0) on.
 void start_on_grid(ShadowBundle& bundle) {
   for (std::uint32_t i = 0; i < kPackets; ++i) {
     for (unsigned lane = 0; lane < kSimdLanes; ++lane)
-      aim_from(bundle, i, lane, {0.1 * ((i % 4) * 4 + lane % 4), 0.1 * ((i / 4) * 4 + lane / 4), 0});
+      bundle.start_at({0.1 * ((i % 4) * 4 + lane % 4), 0.1 * ((i / 4) * 4 + lane / 4), 0}, i, lane);
     bundle.queries[i].lanes = 0xFFFF;
   }
 }
@@ -169,7 +166,7 @@ TEST_CASE("Packets see the triangles that their rays to a light cross, and cross
           triangle(point + random.point(side), point + random.point(side), point + random.point(side));
       leaf.add(64 * i);
     }
-    leaf.fill({});
+    leaf.fill();
     const TriangleCulling<Simd> viewed(leaf.sides(), bundle.view);
     const ShadowVolumes<Simd> volumes(leaf.sides(), *bundle.view.shadows);
     for (unsigned i = 0; i < count; ++i) {
@@ -222,7 +219,7 @@ TEST_CASE("Packets beside a sharp corner of a triangle do not see it") {
     REQUIRE(bundle.turned == (height == 30.0));
     LeafTriangles<Simd> leaf(&record);
     leaf.add(0);
-    leaf.fill({});
+    leaf.fill();
     const TriangleCulling<Simd> viewed(leaf.sides(), bundle.view);
     CHECK(viewed.seen_by(0, bundle.view) == (1u << 10 | 1u << 11));
   }
@@ -234,8 +231,8 @@ TEST_CASE("Packets are wide that cover much more of a light's view than their sh
     ShadowBundle shadows(random, Vec3(0), 1, {2, 2, height});
     start_on_grid(shadows);
     CHECK(LightBundle<Simd>(shadows.place, shadows.queries, kPackets).wide == 0);
-    aim_from(shadows, 5, 0, {0, 0, 0});
-    aim_from(shadows, 5, 15, {1.5, 1.5, 0});
+    shadows.start_at({0, 0, 0}, 5, 0);
+    shadows.start_at({1.5, 1.5, 0}, 5, 15);
     CHECK(LightBundle<Simd>(shadows.place, shadows.queries, kPackets).wide == 1u << 5);
   }
 }

@@ -217,7 +217,7 @@ private:
     max_tfar_ = PacketTraversal<Spu>::kTfarSlack * kMaxHitDistance; // until the first leaf has been tested
     loose_ = 0;
     known_rays_ = known_frusta_ = 0;
-    BundleLeafTests<Spu> leaves(objects_);
+    BundleLeafTests<Spu> leaves(objects_, view_);
     BundleVisitor visitor = {*this, leaves, queries, order, ray_order, bundled};
     NodeRef ref = {};
     traverse_nodes(visitor, ref, false);
@@ -447,7 +447,7 @@ private:
       if (!leaves.has_deferred()) return;
       const Stack& stack = packet_traversal_.stack();
       if (stack.size() != 0 && stack.top().ref.is_leaf() && leaves.has_room_for(stack.top().ref)) return;
-      update_tfar(leaves.test(queries, *view_), queries);
+      update_tfar(leaves.test(queries), queries);
       max_tfar_ = Lanes::greatest_of(bundled, tfar_);
     }
   }

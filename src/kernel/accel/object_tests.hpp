@@ -56,14 +56,6 @@ struct RaySegment {
   }
 };
 
-/// What an object has to have among its kind_and_flags: in the bits of `mask` those of `value`, and no
-/// others.
-struct ObjectFlags {
-  uint32_t mask, value;
-
-  constexpr bool are_in(uint32_t kind_and_flags) const { return (kind_and_flags & mask) == value; }
-};
-
 /// In place of lanes that come from a mirror: the rays see everything.
 constexpr uint32_t kSeesAll = 0x80000000u;
 
@@ -196,15 +188,6 @@ public:
     return {(c.near_hit & (c.near > low) & (c.near < high)).bits(),
             (c.far_hit & (c.far > low) & (c.far < high)).bits()};
   }
-
-  /// Triangles that are no part of a CSG.
-  static constexpr ObjectFlags kPlainTriangle = {object_flag::kind_mask | object_flag::csg |
-                                                     object_flag::selective,
-                                                 static_cast<uint32_t>(ObjectKind::triangle)};
-  /// Those of them that occlude all light.
-  static constexpr ObjectFlags kOpaqueTriangle = {kPlainTriangle.mask | object_flag::opaque |
-                                                      object_flag::no_shadow,
-                                                  kPlainTriangle.value | object_flag::opaque};
 
   static constexpr auto kObjectBytes = static_cast<uint32_t>(sizeof(ObjectRecord));
 

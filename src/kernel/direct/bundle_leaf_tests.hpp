@@ -19,7 +19,9 @@ public:
   using M = typename S::M;
   using Tests = ObjectTests<Spu>;
 
-  explicit BundleLeafTests(Tests& tests) : tests_(tests), triangles_(tests.scene().image()) {}
+  /// `view`: of the bundle. Without one, nothing may be called.
+  BundleLeafTests(Tests& tests, const BundleView<S>* view)
+      : tests_(tests), view_(view), triangles_(tests.scene().image()) {}
 
   /// Whether objects have been deferred to test().
   bool has_deferred() const { return triangles_.count() != 0; }
@@ -29,27 +31,26 @@ public:
   /// Defers the objects of a leaf that `packets` have hit. If the first of them is no triangle, or there is
   /// not enough room, it tests those that are none. Returns the packets whose results may have changed.
   uint32_t add(RayQuery* queries, uint32_t packets, const NodeRef& leaf) {
-    const bool shadows = is_shadow_query(queries, packets);
-    uint32_t all[kMost];
+    uint32_t all[kMost]; // filled and copied as a vector
     for (uint32_t& of_one : all)
       of_one = packets;
     __builtin_memcpy(packets_of_ + triangles_.count(), all, sizeof all);
-    if (triangles_.has_room_for(leaf) && triangles_.add(leaf, wanted(shadows))) return 0;
+    if (triangles_.has_room_for(leaf) && triangles_.add(leaf, wanted())) return 0;
     uint32_t changed = 0;
-    collect_triangles(tests_.scene(), leaf, wanted(shadows), triangles_, [&](uint32_t self) {
+    collect_triangles(tests_.scene(), leaf, wanted(), triangles_, [&](uint32_t self) {
       changed = packets;
-      test_object(queries, packets, self, shadows);
+      test_object(queries, packets, self);
     });
     return changed;
   }
 
   /// Tests the deferred objects, of which there are some. Returns the packets whose results may have changed.
-  uint32_t test(RayQuery* queries, const BundleView<S>& view) {
-    const bool shadows = view.shadows != nullptr;
-    const uint32_t fit = triangles_.fill(wanted(shadows));
-    const uint32_t others =
-        fit == triangles_.all() ? 0 : test_others(queries, triangles_.all() & ~fit, shadows);
+  uint32_t test(RayQuery* queries) {
+    triangles_.fill();
+    const uint32_t unfit = triangles_.all() & ~triangles_.lanes_with(wanted());
+    const uint32_t others = unfit == 0 ? 0 : test_others(queries, unfit);
     const TriangleSides<S> sides = triangles_.sides();
+    const BundleView<S>& view = *view_;
     const TriangleCulling<S> culling(sides, view);
     // Packets are culled for all triangles before the first test: no triangle waits for the tests of another.
     Pairs pairs;
@@ -65,7 +66,7 @@ public:
       }
     }
     if (changed != 0) {
-      if (shadows)
+      if (are_shadows())
         test_shadows(queries, sides, *view.shadows, pairs);
       else
         keep_closest(queries, sides, view, pairs);
@@ -75,22 +76,22 @@ public:
   }
 
 private:
-  static constexpr ObjectFlags wanted(bool shadows) {
-    return shadows ? Tests::kOpaqueTriangle : Tests::kPlainTriangle;
-  }
-  void test_object(RayQuery* queries, uint32_t packets, uint32_t self, bool shadows) {
-    if (shadows)
+  bool are_shadows() const { return view_->shadows != nullptr; }
+  ObjectFlags wanted() const { return wanted_triangles(are_shadows()); }
+
+  void test_object(RayQuery* queries, uint32_t packets, uint32_t self) {
+    if (are_shadows())
       tests_.test_occlusion_of_all(queries, packets, self);
     else
       tests_.test_closest_of_all(queries, packets, self);
   }
   /// Tests those of the deferred objects that are no triangles, or let light through, so that no packet is
   /// left for them. Returns the packets.
-  [[gnu::noinline]] uint32_t test_others(RayQuery* queries, uint32_t others, bool shadows) {
+  [[gnu::noinline]] uint32_t test_others(RayQuery* queries, uint32_t others) {
     uint32_t packets = 0;
     for_each_lane(others, [&](uint32_t i) {
       packets |= packets_of_[i];
-      test_object(queries, packets_of_[i], triangles_.offset(i), shadows);
+      test_object(queries, packets_of_[i], triangles_.offset(i));
       packets_of_[i] = 0;
     });
     return packets;
@@ -118,10 +119,6 @@ private:
     tests_.counters().tests[static_cast<uint32_t>(ObjectKind::triangle)] += tests;
   }
 
-  static bool is_shadow_query(const RayQuery* queries, uint32_t packets) {
-    return queries[__builtin_ctz(packets)].hits == nullptr;
-  }
-
   [[gnu::always_inline]] void keep_closest(const RayQuery* queries, const TriangleSides<S>& sides,
                                            const BundleView<S>& view, const Pairs& pairs) {
     const PinholeTriangles<S> triangles(sides, view.origin);
@@ -143,6 +140,7 @@ private:
   }
 
   Tests& tests_;
+  const BundleView<S>* view_;
   LeafTriangles<S> triangles_;
   uint32_t packets_of_[2 * kMost]; ///< by triangle: the packets that hit its leaf
 };

@@ -19,8 +19,7 @@ public:
   void test(RayQuery& query, uint32_t rays, const NodeRef& leaf) {
     const bool shadows = query.hits == nullptr;
     LeafTriangles<S> triangles(tests_.scene().image());
-    const ObjectFlags& wanted = shadows ? Tests::kOpaqueTriangle : Tests::kPlainTriangle;
-    collect_triangles(tests_.scene(), leaf, wanted, triangles, [&](uint32_t self) {
+    collect_triangles(tests_.scene(), leaf, wanted_triangles(shadows), triangles, [&](uint32_t self) {
       if (!shadows) {
         if (tests_.hit_filter().first_test(self)) tests_.test_closest(*query.rays, self, *query.hits);
       } else if ((query.lanes & rays) != 0) {
@@ -28,7 +27,7 @@ public:
       }
     });
     if (triangles.count() == 0) return;
-    triangles.fill(wanted);
+    triangles.fill();
     const TriangleSides<S> sides = triangles.sides();
     for (uint32_t left = rays & query.lanes; left != 0; left &= left - 1) {
       const auto lane = static_cast<uint32_t>(__builtin_ctz(left));

@@ -12,6 +12,11 @@ template <class S> typename S::F product(const VectorLanes& a, uint32_t i, const
   return F(a.x.lane[i]) * b.x + F(a.y.lane[i]) * b.y + F(a.z.lane[i]) * b.z;
 }
 
+/// Triangles that are tested in lanes; of shadow rays only those that occlude all light.
+constexpr ObjectFlags wanted_triangles(bool shadows) {
+  return shadows ? kOpaqueTriangle : kPlainTriangle;
+}
+
 /// Triangles that are collected from leaves and tested at once.
 template <class S> class LeafTriangles {
 public:
@@ -32,12 +37,12 @@ public:
   void add(uint32_t offset) { offsets_[count_++] = offset; }
 
   /// Adds the objects of a leaf, for which there is room, if the first of them is a `wanted` triangle. The
-  /// others may be what they like: see fill().
+  /// others may be what they like: see lanes_with().
   [[gnu::always_inline]] bool add(const NodeRef& leaf, const ObjectFlags& wanted) {
     // All lanes without a loop whose end could not be predicted: those behind the leaf's are not in use. What
     // has no list has an object there, which is as long.
-    static_assert(sizeof(ObjectRecord) == kMost * sizeof(uint32_t));
     uint32_t next[kMost];
+    static_assert(sizeof next == leaf_word::kReadableBytes);
     __builtin_memcpy(next, image_ + leaf.child, sizeof next);
     const uint32_t step = leaf_word::step_bytes(leaf.leaf), listed = leaf_word::is_list(leaf.leaf) ? ~0u : 0u;
     for (uint32_t i = 0; i < kMost; ++i)
@@ -48,12 +53,14 @@ public:
     return true;
   }
 
-  /// Lets lanes that are not in use repeat the first, of which there is one. Returns the lanes with `wanted`
-  /// triangles.
-  [[gnu::always_inline]] uint32_t fill(const ObjectFlags& wanted) {
+  /// Lets lanes that are not in use repeat the first, of which there is one. The rest is for after that.
+  [[gnu::always_inline]] void fill() {
     const uint32_t first = offsets_[0];
     for (uint32_t i = 0; i < kMost; ++i)
       offsets_[i] = i < count_ ? offsets_[i] : first;
+  }
+  /// The lanes with `wanted` triangles.
+  [[gnu::always_inline]] uint32_t lanes_with(const ObjectFlags& wanted) const {
     uint32_t differences = 0;
     for (uint32_t i = 0; i < kMost; ++i)
       differences |= record(i).kind_and_flags ^ wanted.value;
@@ -64,7 +71,7 @@ public:
     return lanes;
   }
 
-  /// Loads all triangles, after fill(). Lanes with other objects are meaningless.
+  /// Loads all triangles. Lanes with other objects are meaningless.
   [[gnu::always_inline]] TriangleSides<S> sides() const {
     F numbers[12]; // a triangle's record has nine of them; the last three are unused
     const auto geometry = [&](uint32_t i) __attribute__((always_inline)) {
