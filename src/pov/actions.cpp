@@ -495,6 +495,11 @@ void set_inside(Session& session, ObjectDefinition& object, const TexturePtr& to
   object.inside = layer(session, object.inside, top, where);
 }
 
+void check(Session& session, const ObjectDefinition& object, const Location& where) {
+  if (object.inside && !object.texture)
+    session.fail(where, "an object with an 'interior_texture' has to have a texture, too");
+}
+
 std::shared_ptr<ObjectDefinition> shape(Session& session, const WrittenShape& written) {
   auto object = std::make_shared<ObjectDefinition>();
   object->shape = read_shape(session, written);

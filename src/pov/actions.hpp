@@ -225,6 +225,8 @@ void add_layer(Session& session, ObjectDefinition& object, const TexturePtr& top
 void set_uv_mapping(Session& session, ObjectDefinition& object, const Location& where);
 /// Adds a layer to what the object looks like from inside.
 void set_inside(Session& session, ObjectDefinition& object, const TexturePtr& top, const Location& where);
+/// What an object has to have when it ends.
+void check(Session& session, const ObjectDefinition& object, const Location& where);
 std::shared_ptr<ObjectDefinition> shape(Session& session, const WrittenShape& written);
 /// With POV-Ray's defaults: no direction, and an arc without an end.
 std::shared_ptr<RainbowDefinition> new_rainbow();

@@ -955,7 +955,11 @@ camera_body
 // ---- Objects ----
 
 object
-  : object_body '}'          { $1->where = @1; $$ = own_object(session, std::move($1), @1); }
+  : object_body '}' {
+      $1->where = @1;
+      check(session, *$1, @1);
+      $$ = own_object(session, std::move($1), @1);
+    }
   | light_body '}'           { $1->where = @1; $$ = $1; session.lights.pop_back(); }
   | light_group '}'          { $1->where = @1; $$ = $1; }
   | OBJECT_ID

@@ -134,4 +134,11 @@ TEST_CASE("what looks different from inside") {
       material("material { texture { pigment { rgb x } } interior_texture { pigment { rgb y } } }");
   REQUIRE(declared.inside);
   CHECK(declared.inside->pigment.rgb == Vec3(0, 1, 0));
+  const char* const alone =
+      "scene.pov:1:1: error: an object with an 'interior_texture' has to have a texture, too";
+  CHECK(error_line("sphere { 0, 1 interior_texture { pigment { rgb x } } }") == alone);
+  CHECK(error_line("sphere { 0, 1 material { interior_texture { pigment { rgb x } } } }") == alone);
+  CHECK(
+      error_line("#default { pigment { rgb y } }\nsphere { 0, 1 interior_texture { pigment { rgb x } } }") ==
+      "scene.pov:2:1: error: an object with an 'interior_texture' has to have a texture, too");
 }
