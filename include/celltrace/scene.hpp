@@ -150,8 +150,11 @@ struct Light {
   double radius = 30, falloff = 45;
   double tightness = 0;  ///< the exponent by which light decreases off the axis, of all but points
   bool parallel = false; ///< all rays along the axis, also behind the location; a spotlight has no edge then
-  double fade_distance = 0; ///< at which there is as much light as without fading; 0: it does not fade
-  double fade_power = 0;    ///< the exponent by which light decreases with distance; 0: it does not fade
+  /// At which there is as much light as without fading; 0: it does not fade. As in POV-Ray, the share of
+  /// light is 2 / (1 + (distance / fade_distance)^fade_power) for negative distances, too: those behind
+  /// parallel light.
+  double fade_distance = 0;
+  double fade_power = 0; ///< the exponent by which light decreases with distance; 0: it does not fade
   /// Of what its shadows are; else of a point.
   std::optional<LightArea> area = std::nullopt;
   /// Only what comes through it shines, from there on: what is between it and the light casts no shadows. Its

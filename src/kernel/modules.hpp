@@ -51,7 +51,7 @@ constexpr CodeModule kPolygons = {"polygons", 26, 1, 1024};
 /// Rays that go on from surfaces.
 constexpr CodeModule kSecondary = {"secondary", 2, 1, 9088};
 /// Light that is not simply a point's.
-constexpr CodeModule kLights = {"lights", 6, 1, 4480};
+constexpr CodeModule kLights = {"lights", 6, 1, 4608};
 /// The sampling of lights that have an area.
 constexpr CodeModule kAreas = {"areas", 15, 1, 9088};
 /// The rays of cameras whose pictures are not flat.

@@ -474,7 +474,10 @@ struct alignas(128) LightRecord {
   /// Selective: offset of words with a bit for each set of lights, whether it has this one.
   uint32_t lit_sets;
   uint32_t projector, projector_count; ///< projected: offset of the first ObjectRecord that it shines through
-  uint32_t unused[1];
+  /// The power of a negative distance, in units of that of fading, over the power of the positive one: 1 or
+  /// -1, or so much that no light is left where it is no number. As in POV-Ray, whose distances behind
+  /// parallel light are negative.
+  float fade_behind;
 };
 static_assert(sizeof(LightRecord) == 128, "one light a line");
 

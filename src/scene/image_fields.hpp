@@ -127,7 +127,7 @@ FieldList<&LightRecord::location, &LightRecord::kind_and_flags, &LightRecord::co
           &LightRecord::columns, &LightRecord::along, &LightRecord::rows, &LightRecord::inverse_columns,
           &LightRecord::inverse_rows, &LightRecord::adaptive, &LightRecord::axis_length,
           &LightRecord::lit_sets, &LightRecord::projector, &LightRecord::projector_count,
-          &LightRecord::unused>
+          &LightRecord::fade_behind>
 fields_of(const LightRecord&);
 
 FieldList<&GroupRecord::min, &GroupRecord::first, &GroupRecord::max, &GroupRecord::count>

@@ -125,8 +125,10 @@ LightRecord make_record(const Light& light) {
   r.tightness = static_cast<float>(light.tightness);
   if (light.fade_distance != 0 && light.fade_power > 0) {
     r.kind_and_flags |= light_flag::fades;
-    r.inverse_fade_distance = static_cast<float>(1 / std::abs(light.fade_distance));
+    r.inverse_fade_distance = static_cast<float>(1 / light.fade_distance);
     r.fade_power = static_cast<float>(light.fade_power);
+    const bool is_whole = light.fade_power == std::floor(light.fade_power);
+    r.fade_behind = !is_whole ? 1e30f : std::fmod(light.fade_power, 2) == 0 ? 1.0f : -1.0f;
   }
   if (light.area) set_area(*light.area, r);
   r.axis_length = static_cast<float>(glm::distance(light.location, light.point_at));

@@ -60,7 +60,8 @@ Light any_light(Random& random, Light::Kind kind) {
   light.tightness = random.below(2) * random.uniform(0, 10);
   light.parallel = kind == Light::Kind::point && random.below(2) == 0;
   light.fade_distance = random.below(2) * random.uniform(0.5, 8);
-  light.fade_power = random.below(3) * 0.75;
+  if (random.below(4) == 0) light.fade_distance = -light.fade_distance;
+  light.fade_power = random.below(4) * 0.75;
   return light;
 }
 
@@ -113,6 +114,28 @@ TEST_CASE("A light of a point is what it was without other kinds") {
     CHECK(is_plain(make_record(light)));
     check(light, Places(random), 0xFFFF);
   }
+}
+
+TEST_CASE("Behind parallel light distances are negative, and odd powers of them") {
+  Light light;
+  light.location = {0, -20, 0};
+  light.point_at = {1, -25, 0}; // all places are behind it
+  light.parallel = true;
+  light.fade_distance = 60;
+  Random random(74);
+  Places places(random);
+  for (unsigned l = 0; l < kSimdLanes; ++l)
+    set(places.normal, l, {0, 1, 0});
+  for (const double power : {1.0, 2.0, 3.0, 4.0}) {
+    light.fade_power = power;
+    CHECK(check(light, places, 0xFFFF) == kSimdLanes);
+  }
+  const float before = Incident(light, places, 0xFFFF).colour.x.lane[0];
+  CHECK(before < 2);
+  light.fade_power = 3;
+  CHECK(Incident(light, places, 0xFFFF).colour.x.lane[0] > 2);
+  light.fade_power = 2.5;
+  CHECK(check(light, places, 0xFFFF) == 0);
 }
 
 TEST_CASE("A narrow beam far away has a smooth edge") {

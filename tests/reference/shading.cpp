@@ -53,8 +53,9 @@ double in_cylinder(const Light& light, double depth, double aside) {
 }
 
 Incoming faded(const Light& light, Incoming in) {
-  if (light.fade_distance != 0 && light.fade_power > 0)
-    in.colour *= 2 / (1 + std::pow(std::abs(in.distance / light.fade_distance), light.fade_power));
+  if (light.fade_distance == 0 || light.fade_power <= 0) return in;
+  const double power = std::pow(in.distance / light.fade_distance, light.fade_power);
+  in.colour *= std::isnan(power) ? 0 : 2 / (1 + power); // of a negative distance it may be none
   return in;
 }
 

@@ -54,3 +54,7 @@ light_source { <3, 3, 6> rgb <0.9, 0.7, 0.3> spotlight point_at <2, 2.5, 9> tigh
 light_source { <-3, 6, 2> rgb <1, 0.3, 0.2> cylinder point_at <-3, 0, 2> tightness 1.5 radius 0 falloff 2 }
 light_source { <-3, 4, -9> rgb <0.2, 0.2, 0.25> spotlight shadowless fade_distance 9 fade_power 1 }
 light_source { <0, 1, 8> rgb <0.1, 0.07, 0.05> parallel point_at <2, 0.8, 9> }
+// Behind parallel light distances are negative, of which odd powers are, too, and others may be no numbers.
+light_source { <-6, 1, 9> rgb <0.05, 0.08, 0.06> parallel point_at <-6, 0.8, 10> fade_distance 40 fade_power 3 }
+light_source { <2, 3, 1> rgb <0.1, 0.06, 0.06> parallel point_at <4, 1, 1.5> fade_distance 5 fade_power 1.5 }
+light_source { <4, 6, -9> rgb <0.04, 0.04, 0.08> fade_distance -60 fade_power 1 }

@@ -6,6 +6,9 @@
 
 namespace celltrace::kernel {
 
+/// Of a light, where less is none.
+constexpr float kLeastShare = 1e-10f;
+
 /// The share of the light on the axis that there is `way_off` of it. Its edge is a cubic.
 template <class S> typename S::F beam_share(const LightRecord& light, const typename S::F& way_off) {
   using F = typename S::F;
@@ -16,11 +19,13 @@ template <class S> typename S::F beam_share(const LightRecord& light, const type
   return S::select(way_off < one, share, zero);
 }
 
-/// The share of the light at the distance of fading that there is at `distance`.
+/// The share of the light at the distance of fading that there is at `distance`. It is negative where an odd
+/// power of a negative distance is below -1.
 template <class S> typename S::F fade_share(const LightRecord& light, const typename S::F& distance) {
   using F = typename S::F;
-  const F ratio = S::abs(distance) * F(light.inverse_fade_distance);
-  return F(2.0f) / (F(1.0f) + pow<S>(ratio, F(light.fade_power)));
+  const F ratio = distance * F(light.inverse_fade_distance), one(1.0f);
+  const F behind = S::select(ratio < F(0.0f), F(light.fade_behind), one);
+  return F(2.0f) / (one + pow<S>(S::abs(ratio), F(light.fade_power)) * behind);
 }
 
 } // namespace celltrace::kernel

@@ -59,7 +59,7 @@ template <class Spu>
     share = share * fade_share<S>(light, incident.distance);
   incident.distance = S::max(incident.distance, F(0.0f));
   incident.colour = incident.colour * share;
-  incident.facing &= (share > F(0.0f)).bits();
+  incident.facing &= (S::abs(share) > F(kLeastShare)).bits();
 }
 
 } // namespace module_lights
