@@ -93,7 +93,7 @@ static_assert(sizeof(PolygonEdgeRecord) == 16, "eight a line");
 
 // Constructive solid geometry. Surfaces of its parts are objects; a crossing with one counts where the
 // condition of the part holds: in all other parts of an intersection, in no other part of a merge, at each
-// level of the tree.
+// level of the tree. As in POV-Ray, parts of a merge that a ray does not see hide nothing from it.
 
 /// The condition of a part, at one level. Its program says of a point whether it is in the other parts; steps
 /// [skip_begin, skip_end) are of the part itself.
@@ -110,7 +110,9 @@ static_assert(sizeof(CsgRecord) == 32, "four a line");
 struct alignas(16) CsgStep {
   uint32_t solid; ///< offset of a SolidRecord
   uint32_t if_inside, if_outside;
-  uint32_t unused;
+  /// Of object_flag::selective. If it is not 0, the solid is not asked: rays that do not see what has these
+  /// flags go on at `if_outside`, others at `if_inside`.
+  uint32_t unseen_by;
 };
 static_assert(sizeof(CsgStep) == 16, "eight a line");
 constexpr uint32_t kCsgAccept = 0xFFFFFFFFu;

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -89,14 +90,15 @@ Aabb bounds_of(const Mesh& mesh, const Transform& transform) {
 struct Node {
   enum class Kind { solid, union_, merge, intersection };
   Kind kind = Kind::solid;
-  bool inverse = false;      ///< of a solid
-  bool shows = true;         ///< its surfaces are seen; not those of what clips
-  Object object;             ///< of a solid
-  PlacedShape shape;         ///< of a solid that is no mesh
-  Aabb mesh_bounds;          ///< of a mesh
-  std::uint32_t record = 0;  ///< of a solid: index in CsgParts::solids
-  std::uint32_t leaves = 1;  ///< solids in it
-  bool needs_bounds = false; ///< it has a quadric, that others may limit
+  bool inverse = false;        ///< of a solid
+  bool shows = true;           ///< its surfaces are seen; not those of what clips
+  Object object;               ///< of a solid
+  PlacedShape shape;           ///< of a solid that is no mesh
+  Aabb mesh_bounds;            ///< of a mesh
+  std::uint32_t record = 0;    ///< of a solid: index in CsgParts::solids
+  std::uint32_t leaves = 1;    ///< solids in it
+  std::uint32_t unseen_by = 0; ///< of object_flag::selective: rays that see none of it
+  bool needs_bounds = false;   ///< it has a quadric, that others may limit
   std::vector<Node> children;
 
   /// Of a solid; null: no mesh.
@@ -113,6 +115,20 @@ struct Node {
   bool has_no_inside() const {
     return mesh() != nullptr ? !mesh()->has_inside()
                              : std::holds_alternative<std::shared_ptr<const Polygon>>(object.shape);
+  }
+
+  /// Rays that see other parts, but not this one. It hides nothing from them if the node is a merge.
+  std::uint32_t hidden_from(const Node& child) const {
+    return kind == Kind::merge ? child.unseen_by & ~unseen_by : 0;
+  }
+  /// Of the program that says whether a point is in a child.
+  std::uint32_t steps_for(const Node& child) const {
+    return child.leaves + (hidden_from(child) != 0 ? 1 : 0);
+  }
+  /// Whether it is in any.
+  std::uint32_t steps() const {
+    return std::accumulate(children.begin(), children.end(), 0u,
+                           [this](std::uint32_t sum, const Node& child) { return sum + steps_for(child); });
   }
 
   void add(Node child) {
@@ -149,6 +165,7 @@ public:
     clipped.shows = around.shows;
     around.is_in_unions = false;
     clipped.add(build_unclipped(object, around));
+    clipped.unseen_by = clipped.children.front().unseen_by;
     around.shows = false;
     around.inverse = false;
     for (const Object& clip : *object.clipped_by)
@@ -165,9 +182,15 @@ private:
     around.inverse = around.inverse != object.inverse;
     if (const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape)) {
       if (!*csg) throw InputError("an object has no CSG");
-      return build_operation(**csg, around);
+      return seen_as(around, build_operation(**csg, around));
     }
-    return build_solid(object, around);
+    return seen_as(around, build_solid(object, around));
+  }
+
+  static Node seen_as(const Surroundings& around, Node node) {
+    if (around.no_image) node.unseen_by |= object_flag::no_image;
+    if (around.no_reflection) node.unseen_by |= object_flag::no_reflection;
+    return node;
   }
 
   Node build_operation(const Csg& csg, Surroundings around) {
@@ -409,15 +432,16 @@ public:
       if (const HalfSpaces planes(node); planes.limit_more() && !is_empty(all))
         polytope = planes.cut_out_of(all);
     }
+    const std::uint32_t count = node.steps();
     std::uint32_t begin = 0;
     for (std::size_t i = 0; i < node.children.size(); ++i) {
       const Node& child = node.children[i];
       CsgRecord record{};
       record.next = condition;
       record.steps = steps;
-      record.count = node.leaves;
+      record.count = count;
       record.skip_begin = begin;
-      record.skip_end = begin += child.leaves;
+      record.skip_end = begin += node.steps_for(child);
       Aabb inside = bounds;
       for (std::size_t other = 0; other < filled.size(); ++other)
         if (other != i) inside = intersected(inside, filled[other]);
@@ -436,13 +460,19 @@ private:
   /// have to be filled, in a merge none.
   void compile_siblings(const Node& node) {
     const bool all = node.kind == Node::Kind::intersection;
+    const std::uint32_t count = node.steps();
     std::uint32_t position = 0;
     for (const Node& child : node.children) {
-      const std::uint32_t after = position + child.leaves;
-      const std::uint32_t go_on = after == node.leaves ? kCsgAccept : after;
+      const std::uint32_t after = position + node.steps_for(child);
+      const std::uint32_t go_on = after == count ? kCsgAccept : after;
+      if (const std::uint32_t rays = node.hidden_from(child); rays != 0)
+        to_.steps.push_back({first_solid(child), ++position, go_on, rays});
       compile(child, position, all ? go_on : kCsgReject, all ? kCsgReject : go_on);
       position = after;
     }
+  }
+  static std::uint32_t first_solid(const Node& node) {
+    return node.children.empty() ? node.record : first_solid(node.children.front());
   }
   /// Goes on at step `if_inside` where a point is in the node, else at `if_outside`.
   void compile(const Node& node, std::uint32_t position, std::uint32_t if_inside, std::uint32_t if_outside) {

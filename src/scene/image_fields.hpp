@@ -45,7 +45,7 @@ FieldList<&CsgRecord::next, &CsgRecord::steps, &CsgRecord::count, &CsgRecord::sk
           &CsgRecord::skip_end, &CsgRecord::unused>
 fields_of(const CsgRecord&);
 
-FieldList<&CsgStep::solid, &CsgStep::if_inside, &CsgStep::if_outside, &CsgStep::unused>
+FieldList<&CsgStep::solid, &CsgStep::if_inside, &CsgStep::if_outside, &CsgStep::unseen_by>
 fields_of(const CsgStep&);
 
 FieldList<&SolidRecord::object, &SolidRecord::extra> fields_of(const SolidRecord&);

@@ -43,3 +43,11 @@ intersection {
   box { -0.5, 0.5 rotate 45*y scale <1, 2.4, 1> } plane { z, 0 }
   pigment { color rgbt 0.9 } interior { ior 1.6 } translate <0.3, 1.4, 3>
 }
+// Parts of a merge that a ray does not see hide nothing from it.
+merge {
+  box { <0, 0, 0>, <0.8, 0.7, 0.6> no_image }
+  sphere { <0.8, 0.6, 0>, 0.45 }
+  intersection { sphere { <0.3, 0.7, -0.1>, 0.5 } box { -1, 0.95 } no_reflection }
+  merge { cylinder { <0.3, 0.2, 0>, <1.4, 0.2, 0.2>, 0.2 } sphere { <1.3, 0.3, 0.1>, 0.3 no_image } no_reflection }
+  pigment { color rgbt <0.9, 0.6, 0.2, 0.3> } translate <-3.8, 0, -2.2>
+}

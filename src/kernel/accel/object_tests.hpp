@@ -56,9 +56,6 @@ struct RaySegment {
   }
 };
 
-/// In place of lanes that come from a mirror: the rays see everything.
-constexpr uint32_t kSeesAll = 0x80000000u;
-
 /// Intersection tests of packets with objects of the scene, and the merging of their results.
 template <class Spu> class ObjectTests {
 public:
@@ -238,9 +235,7 @@ private:
                                                uint32_t self, HitPacket& hits) {
     scene_.spu().run_in_module(modules::kObjects);
     const uint32_t flags = record.kind_and_flags;
-    uint32_t blind = ((flags & object_flag::no_image) != 0 ? ~reflected_ : 0) |
-                     ((flags & object_flag::no_reflection) != 0 ? reflected_ : 0);
-    if (reflected_ == kSeesAll) blind = 0;
+    const uint32_t blind = blind_lanes(flags, reflected_);
     Other other(*this, rays, record, self);
     for (uint32_t pair = 0; pair < other.pairs; ++pair) {
       Crossings<S>& c = other.crossings[pair];
@@ -254,7 +249,7 @@ private:
         const F nearest = F::load(hits.distance.lane);
         const auto near = c.near_hit & (c.near > F(kMinHitDistance)) & (c.near <= nearest);
         const auto far = c.far_hit & (c.far > F(kMinHitDistance)) & (c.far <= nearest);
-        accept(rays, other.csg, near, far, c);
+        accept(rays, other.csg, near, far, reflected_, c);
       }
       keep_closest(c, self, hits);
     }
@@ -271,7 +266,7 @@ private:
       if ((c.near_hit | c.far_hit).bits() == 0) continue;
       if (other.csg != kNoOffset) {
         const ShadowHits shadow = shadow_hits(c, distance);
-        accept(rays, other.csg, M::from_bits(shadow.near), M::from_bits(shadow.far), c);
+        accept(rays, other.csg, M::from_bits(shadow.near), M::from_bits(shadow.far), kSeesAll, c);
       }
       dark |= occluded_by(rays, c, flags, material, lanes & ~dark, distance, light, segment);
     }
@@ -304,15 +299,17 @@ private:
   };
 
   /// Leaves those of the crossings in `near` and `far` that satisfy the condition.
-  void accept(const RayPacket& rays, uint32_t condition, const M& near, const M& far, Crossings<S>& c) {
-    c.near_hit = accepted(rays, condition, c.near, near.bits());
-    c.far_hit = accepted(rays, condition, c.far, far.bits());
+  void accept(const RayPacket& rays, uint32_t condition, const M& near, const M& far, uint32_t reflected,
+              Crossings<S>& c) {
+    c.near_hit = accepted(rays, condition, c.near, near.bits(), reflected);
+    c.far_hit = accepted(rays, condition, c.far, far.bits(), reflected);
   }
   /// Not inlined: it is asked in four places.
-  [[gnu::noinline]] M accepted(const RayPacket& rays, uint32_t condition, const F& distance, uint32_t lanes) {
+  [[gnu::noinline]] M accepted(const RayPacket& rays, uint32_t condition, const F& distance, uint32_t lanes,
+                               uint32_t reflected) {
     if (lanes == 0) return M::none();
     const V3<S> origin = rays.origin.template load<S>(), direction = rays.direction.template load<S>();
-    return M::from_bits(csg_accepted(scene_, condition, origin + direction * distance, lanes));
+    return M::from_bits(csg_accepted(scene_, condition, origin + direction * distance, lanes, reflected));
   }
 
   /// Multiplies the light of `lanes` by the transmittance of a translucent surface that they cross at `at`.

@@ -25,11 +25,22 @@ uint32_t inside_solid(SceneAccess<Spu>& scene, uint32_t solid, const V3<typename
   return module_shapes::inside(scene.spu(), record, points) & lanes;
 }
 
+/// In place of lanes that come from a mirror: the rays see everything.
+constexpr uint32_t kSeesAll = 0x80000000u;
+
+/// The lanes that do not see what has these flags, of rays of which those in `reflected` come from a mirror.
+inline uint32_t blind_lanes(uint32_t flags, uint32_t reflected) {
+  if (reflected == kSeesAll) return 0;
+  return ((flags & object_flag::no_image) != 0 ? ~reflected : 0) |
+         ((flags & object_flag::no_reflection) != 0 ? reflected : 0);
+}
+
 /// Which of the points in `lanes`, on the surface of a part, satisfy its condition and those of all levels
 /// above it. Each lane has a place in the program of its own, which only goes forward.
 template <class Spu>
 [[gnu::noinline]] uint32_t csg_accepted(SceneAccess<Spu>& scene, uint32_t condition,
-                                        const V3<typename Spu::simd>& points, uint32_t lanes) {
+                                        const V3<typename Spu::simd>& points, uint32_t lanes,
+                                        uint32_t reflected) {
   using S = typename Spu::simd;
   using I = typename S::I;
   const auto word = [](uint32_t value) { return I::splat(static_cast<int32_t>(value)); };
@@ -47,7 +58,8 @@ template <class Spu>
       const uint32_t here = (place == word(i)).bits() & lanes;
       if (here == 0) continue;
       const CsgStep step = *scene.csg_step(level.steps + i * static_cast<uint32_t>(sizeof(CsgStep)));
-      const uint32_t inside = inside_solid(scene, step.solid, points, here);
+      const uint32_t inside = step.unseen_by != 0 ? here & ~blind_lanes(step.unseen_by, reflected)
+                                                  : inside_solid(scene, step.solid, points, here);
       place = S::select(S::M::from_bits(inside), word(step.if_inside), place);
       place = S::select(S::M::from_bits(here & ~inside), word(step.if_outside), place);
     }
