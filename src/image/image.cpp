@@ -1,8 +1,8 @@
 #include "celltrace/image.hpp"
 
 #include "image/formats.hpp"
-#include "image/huge_pages.hpp"
 #include "image/limits.hpp"
+#include "memory/huge_pages.hpp"
 
 #include <algorithm>
 #include <cmath>

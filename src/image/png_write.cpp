@@ -3,7 +3,7 @@
 #include "image/formats.hpp"
 #include "image/limits.hpp"
 
-#include "image/huge_pages.hpp"
+#include "memory/huge_pages.hpp"
 
 #include <cstring>
 #include <limits>

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "celltrace/error.hpp"
-#include "image/huge_pages.hpp"
+#include "memory/huge_pages.hpp"
 #include "pov/token_stream.hpp"
 
 namespace celltrace::pov {

@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "celltrace/error.hpp"
-#include "image/huge_pages.hpp"
+#include "memory/huge_pages.hpp"
 
 namespace celltrace::pov {
 

@@ -4,7 +4,7 @@
 #include <ctime>
 
 #include "celltrace/error.hpp"
-#include "image/huge_pages.hpp"
+#include "memory/huge_pages.hpp"
 #include "pov/constants.hpp"
 #include "pov/grammar.hpp"
 #include "pov/session.hpp"

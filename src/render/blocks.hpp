@@ -5,7 +5,7 @@
 #include "celltrace/image.hpp"
 #include "celltrace/render.hpp"
 #include "kernel/records.hpp"
-#include "scene/aligned_block.hpp"
+#include "memory/aligned_block.hpp"
 
 namespace celltrace {
 

@@ -4,7 +4,7 @@
 #include "celltrace/image.hpp"
 #include "celltrace/render.hpp"
 #include "kernel/records.hpp"
-#include "scene/aligned_block.hpp"
+#include "memory/aligned_block.hpp"
 #include "scene/scene_image.hpp"
 
 #include <bit>

@@ -3,9 +3,9 @@
 
 #include "celltrace/render.hpp"
 #include "kernel/records.hpp"
+#include "memory/aligned_block.hpp"
 #include "render/first_hits.hpp"
 #include "render/unit_blocks.hpp"
-#include "scene/aligned_block.hpp"
 
 #include <bit>
 #include <cstddef>

@@ -1,8 +1,8 @@
 #include "render/single_ray_bvh.hpp"
 
 #include "celltrace/error.hpp"
-#include "image/huge_pages.hpp"
 #include "kernel/primitives/triangle.hpp"
+#include "memory/huge_pages.hpp"
 
 #include <algorithm>
 #include <array>

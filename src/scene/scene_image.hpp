@@ -12,7 +12,7 @@
 
 #include "celltrace/scene.hpp"
 #include "kernel/records.hpp"
-#include "scene/aligned_block.hpp"
+#include "memory/aligned_block.hpp"
 
 #include <cstddef>
 #include <cstdint>

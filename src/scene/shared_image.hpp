@@ -2,7 +2,7 @@
 #pragma once
 
 #include "celltrace/spe/types.hpp"
-#include "scene/aligned_block.hpp"
+#include "memory/aligned_block.hpp"
 #include "scene/scene_image.hpp"
 
 #include <bit>

@@ -5,11 +5,11 @@
 #include "celltrace/render.hpp"
 #include "celltrace/spe/machine.hpp"
 #include "celltrace/spe/shared_records.hpp"
+#include "memory/aligned_block.hpp"
 #include "render/frame_fields.hpp"
 #include "render/held_progress.hpp"
 #include "render/models/stage_fields.hpp"
 #include "render/models/stage_plan.hpp"
-#include "scene/aligned_block.hpp"
 
 #include <vector>
 

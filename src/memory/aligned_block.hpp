@@ -6,7 +6,7 @@
 
 namespace celltrace {
 
-/// Starts on a 128-byte boundary. Large blocks lie on large pages where the system has them, for rays go
+/// Starts on a 128-byte boundary. Large blocks lie on huge pages where the system has them, for rays go
 /// through them in no order.
 class AlignedBlock {
 public:

@@ -1,17 +1,16 @@
-#include "scene/aligned_block.hpp"
+#include "memory/aligned_block.hpp"
+
+#include "memory/huge_pages.hpp"
 
 #include <cstdlib>
 #include <cstring>
 #include <new>
-
-#include <sys/mman.h>
 
 namespace celltrace {
 
 namespace {
 
 constexpr std::size_t kLine = 128;
-constexpr std::size_t kLargePage = std::size_t{2} << 20;
 
 std::size_t round_up(std::size_t bytes, std::size_t unit) {
   return (bytes + unit - 1) / unit * unit;
@@ -25,17 +24,14 @@ void AlignedBlock::Free::operator()(std::byte* bytes) const noexcept {
 
 AlignedBlock AlignedBlock::uninitialised(std::size_t bytes) {
   // From half of one on: it is there in a fifth of the time that as many small ones take.
-  const bool large = bytes >= kLargePage / 2;
-  const std::size_t unit = large ? kLargePage : kLine;
+  const bool large = bytes >= kHugePage / 2;
+  const std::size_t unit = large ? kHugePage : kLine;
   const std::size_t whole = round_up(bytes == 0 ? 1 : bytes, unit);
   AlignedBlock block;
   block.bytes_.reset(static_cast<std::byte*>(std::aligned_alloc(unit, whole)));
   if (!block.bytes_) throw std::bad_alloc();
   block.size_ = bytes;
-#ifdef MADV_HUGEPAGE
-  // Without large pages everything works as well.
-  if (large) static_cast<void>(madvise(block.bytes_.get(), whole, MADV_HUGEPAGE));
-#endif
+  if (large) use_huge_pages(block.bytes_.get(), whole);
   return block;
 }
 

@@ -11,11 +11,12 @@
 
 namespace celltrace {
 
+constexpr std::size_t kHugePage = std::size_t{2} << 20;
+
 /// Advice for memory that is about to be filled: it changes what page faults cost and nothing else. Blocks
 /// too small to hold a huge page are left alone.
 inline void use_huge_pages(void* data, std::size_t bytes) noexcept {
 #ifdef MADV_HUGEPAGE
-  constexpr std::uintptr_t kHugePage = std::uintptr_t{2} << 20;
   const auto begin = reinterpret_cast<std::uintptr_t>(data) & ~(kHugePage - 1);
   const auto end = (reinterpret_cast<std::uintptr_t>(data) + bytes + kHugePage - 1) & ~(kHugePage - 1);
   if (bytes >= kHugePage) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
