@@ -14,7 +14,7 @@ namespace celltrace::kernel::modules {
 /// which CSG asks; but for heavy ones.
 constexpr CodeModule kShapes = {"shapes", 1, 0, 14592};
 /// What a program does once a frame or once for many: it makes its objects, and reports.
-constexpr CodeModule kStart = {"start", 3, 0, 12032};
+constexpr CodeModule kStart = {"start", 3, 0, 12672};
 /// The building of accelerators.
 constexpr CodeModule kBuild = {"build", 16, 0, 21504};
 /// Patterns without noise, and those of noise with its tables.
@@ -22,10 +22,10 @@ constexpr CodeModule kPatterns = {"patterns", 7, 0, 3200};
 constexpr CodeModule kNoise = {"noise", 8, 0, 14336};
 /// What becomes of the points of antialiased pictures, and which samples they need besides: by the fixed
 /// method, by the adaptive one, and either with alpha.
-constexpr CodeModule kSampling = {"sampling", 18, 0, 10880};
-constexpr CodeModule kSquares = {"squares", 28, 0, 9600};
-constexpr CodeModule kAlphaSampling = {"alphasampling", 29, 0, 11264};
-constexpr CodeModule kAlphaSquares = {"alphasquares", 30, 0, 9984};
+constexpr CodeModule kSampling = {"sampling", 18, 0, 11136};
+constexpr CodeModule kSquares = {"squares", 28, 0, 9728};
+constexpr CodeModule kAlphaSampling = {"alphasampling", 29, 0, 11520};
+constexpr CodeModule kAlphaSquares = {"alphasquares", 30, 0, 10112};
 /// What primary rays hit, for main memory.
 constexpr CodeModule kFirstHits = {"firsthits", 31, 0, 768};
 

@@ -1,7 +1,8 @@
 // The sampler that frames ask for: by either method, with or without alpha. Kernel dialect.
 #pragma once
 
-#include "kernel/program/pixel_sampler.hpp"
+#include "kernel/program/adaptive_sampler.hpp"
+#include "kernel/program/fixed_sampler.hpp"
 
 #include <new>
 #include <type_traits>
@@ -22,11 +23,11 @@ public:
   /// Whether it is the one that these frames ask for.
   bool serves(const FrameBlock& frame) const { return kind_ == kind_of(frame); }
 
-  /// As PixelSampler's.
+  /// As the samplers'.
   [[gnu::always_inline]] void begin_frame() {
     visit([](auto& sampler) { sampler.begin_frame(); });
   }
-  /// As PixelSampler's.
+  /// As the samplers'.
   bool advance(uint32_t column, uint32_t row) {
     bool more = false;
     visit([&](auto& sampler) {
@@ -36,7 +37,11 @@ public:
     return more;
   }
 
-  static constexpr uint32_t kScratchBytes = PixelSampler<Spu, SamplingMethod::adaptive, 4>::kScratchBytes;
+  /// Of the samplers with alpha, which need most.
+  static constexpr uint32_t kScratchBytes =
+      FixedSampler<Spu, 4>::kScratchBytes > AdaptiveSampler<Spu, 4>::kScratchBytes
+          ? FixedSampler<Spu, 4>::kScratchBytes
+          : AdaptiveSampler<Spu, 4>::kScratchBytes;
 
 private:
   static uint32_t kind_of(const FrameBlock& frame) {
@@ -61,10 +66,10 @@ private:
 
   union Any {
     Any() {}
-    PixelSampler<Spu, SamplingMethod::fixed, 3> fixed;
-    PixelSampler<Spu, SamplingMethod::adaptive, 3> adaptive;
-    PixelSampler<Spu, SamplingMethod::fixed, 4> fixed_alpha;
-    PixelSampler<Spu, SamplingMethod::adaptive, 4> adaptive_alpha;
+    FixedSampler<Spu, 3> fixed;
+    AdaptiveSampler<Spu, 3> adaptive;
+    FixedSampler<Spu, 4> fixed_alpha;
+    AdaptiveSampler<Spu, 4> adaptive_alpha;
   };
 
   Spu& spu_;

@@ -1,0 +1,330 @@
+// Antialiasing by the fixed method: pixels that differ from a neighbour are sampled by a grid of rays. Kernel
+// dialect.
+//
+// Each comparison is with what a neighbour has become by then, pixel after pixel. All pixels that seem to
+// need samples get them at once; then the comparisons are made again with what is known, until no pixel is
+// missing.
+#pragma once
+
+#include "kernel/program/pixel_sampler.hpp"
+
+namespace celltrace::kernel {
+
+template <class Spu, uint32_t kChannels>
+class FixedSampler : public PixelSampler<Spu, SamplingMethod::fixed, kChannels> {
+  using Base = PixelSampler<Spu, SamplingMethod::fixed, kChannels>;
+  using Base::arrive, Base::ask, Base::asked_, Base::channel, Base::column_, Base::differing, Base::distance,
+      Base::encode, Base::encode_pixels_of, Base::encode_points, Base::end_asking, Base::fetch,
+      Base::fetch_points, Base::frame_, Base::gather_colours, Base::go_to_block, Base::height_,
+      Base::kColourBytes, Base::kPackets, Base::kRowPoints, Base::packet_of_points, Base::put_colours,
+      Base::row_, Base::row_mask, Base::scratch_, Base::send, Base::store_, Base::takes_points,
+      Base::under_way_, Base::width_;
+  using typename Base::Colour, typename Base::PointRow, typename Base::R;
+
+  struct Scratch : Base::Scratch {
+    alignas(64) float encoding[3 * R::kLanes];   ///< of means
+    uint32_t places[R::kLanes];                  ///< of these
+    alignas(64) float channels[3][kSampledEdge]; ///< of pixels to be written
+    alignas(16) uint32_t leaving[kSampledEdge][4];
+  };
+
+  Scratch& scratch() const { return static_cast<Scratch&>(scratch_); }
+
+public:
+  static constexpr uint32_t kScratchBytes = sizeof(Scratch);
+
+  /// `scratch`: room for kScratchBytes that belongs to the sampler while advance() runs.
+  FixedSampler(Spu& spu, const FrameBlock& frame, SampleBundle<Spu>& samples, uint8_t* scratch)
+      : Base(spu, frame, samples, *reinterpret_cast<Scratch*>(scratch)),
+        masks_(*spu.template allocate<Masks>()) {}
+
+  /// Takes the colours of the bundle or block at (column, row); those of samples were asked for by the call
+  /// before. True: the block needs those that `samples` now has, too.
+  [[gnu::noinline]] bool advance(uint32_t column, uint32_t row) {
+    if (takes_points(column, row)) return false;
+    if (under_way_)
+      take_samples();
+    else
+      begin_block(column, row);
+    under_way_ = ask_for_pixels();
+    return under_way_;
+  }
+
+private:
+  /// Goes over the samples of pixels that are asked for.
+  struct Cursor {
+    uint32_t row = 0, pixels = 0;  ///< bits of the row that are still to come, the lowest first
+    uint32_t across = 0, down = 0; ///< the sample
+  };
+  /// A bit for each pixel of the block, by row.
+  struct BlockMask {
+    uint32_t row[kSampledEdge];
+  };
+  struct alignas(128) Masks {
+    BlockMask left, above; ///< differ from the pixel's left or upper neighbour, before any is sampled
+    BlockMask sampled;     ///< as far as is known, is sampled
+    BlockMask known;       ///< has a colour in the store
+  };
+
+  [[gnu::noinline]] void begin_block(uint32_t column, uint32_t row) {
+    go_to_block(column, row);
+    compare_pixels();
+    compare_again();
+  }
+
+  /// The neighbours that pixels differ from, before any of them is sampled.
+  [[gnu::noinline]] void compare_pixels() {
+    fetch_points(0, scratch().points[0]);
+    encode_points(scratch().points[0], scratch().encoded[0]);
+    store_encoded(0, scratch().encoded[0]);
+    for (uint32_t y = 0; y < height_; ++y) {
+      const PointRow& above = scratch().encoded[y % 2];
+      PointRow& own = scratch().encoded[(y + 1) % 2];
+      fetch_points(y + 1, scratch().points[0]);
+      encode_points(scratch().points[0], own);
+      store_encoded(y + 1, own);
+      masks_.left.row[y] = differing(own, 1, own, 0) & row_mask();
+      masks_.above.row[y] = differing(own, 1, above, 1) & row_mask();
+      masks_.known.row[y] = 0;
+    }
+  }
+
+  /// Keeps what a row of points is compared by.
+  [[gnu::noinline]] void store_encoded(uint32_t y, const PointRow& encoded) {
+    gather_colours(encoded.channel[0], kRowPoints, width_ + 1);
+    send(scratch().colours, encoded_point(0, y), (width_ + 1) * kColourBytes);
+    arrive();
+  }
+
+  /// Compares all pixels in POV-Ray's order, each with what the ones before it have become. Of pixels that
+  /// are to be sampled and are not yet, the colour counts that they have.
+  [[gnu::noinline]] void compare_again() {
+    uint32_t none = 0;
+    for (uint32_t y = 0; y < height_; ++y) {
+      masks_.sampled.row[y] = 0;
+      uint32_t* const over = y == 0 ? &none : &masks_.sampled.row[y - 1];
+      uint32_t& own = masks_.sampled.row[y];
+      const uint32_t left = masks_.left.row[y], above = masks_.above.row[y];
+      uint32_t candidates = left | above | *over;
+      while (candidates != 0) {
+        const uint32_t x = static_cast<uint32_t>(__builtin_ctz(candidates));
+        const uint32_t bit = 1u << x;
+        candidates &= ~bit;
+        const uint32_t before = bit >> 1;
+        bool differs_left = (left & bit) != 0, differs_above = (above & bit) != 0;
+        if (((own & masks_.known.row[y] & before) | (*over & (y == 0 ? 0 : masks_.known.row[y - 1]) & bit)) !=
+            0) {
+          const uint32_t differs =
+              kHasRoomForCode<Spu> ? differences_of(x, y) : differences_out_of_line(x, y);
+          differs_left = (differs & 1) != 0;
+          differs_above = (differs & 2) != 0;
+        }
+        if (differs_left) own |= before;
+        if (differs_above && y != 0) *over |= bit;
+        if (!differs_left && !differs_above) continue;
+        own |= bit;
+        candidates |= bit << 1 & row_mask();
+      }
+    }
+    cursor_ = begin_cursor();
+    taken_ = cursor_;
+  }
+
+  // The store: colours of pixels, what they are compared by, and what points are compared by.
+  ea_t stored_colour(uint32_t x, uint32_t y) const { return store_ + (y * kSampledEdge + x) * kColourBytes; }
+  ea_t encoded_colour(uint32_t x, uint32_t y) const { return stored_colour(x, kSampledEdge + y); }
+  ea_t encoded_point(uint32_t x, uint32_t y) const {
+    return stored_colour(0, 2 * kSampledEdge) + (y * kStoredPoints + x) * kColourBytes;
+  }
+  /// The colour of a point, x and y from the block's first one on.
+  [[gnu::noinline]] void fetch_point(uint32_t x, uint32_t y, Colour& colour) {
+    const uint32_t column = column_ * kSampledEdge + x;
+    const uint32_t line = row_ * kSampledEdge + y;
+    const ea_t packet = packet_of_points(column / kPacketEdge, line / kPacketEdge);
+    const uint32_t lane = line % kPacketEdge * kPacketEdge + column % kPacketEdge;
+    const auto take_from = [&](const SampleLanes& points) {
+      for (uint32_t axis = 0; axis < kChannels; ++axis)
+        colour.channel[axis] = points[axis].lane[lane];
+    };
+    if constexpr (kReadsInPlace<Spu>) {
+      take_from(*reinterpret_cast<const SampleLanes*>(static_cast<uintptr_t>(packet)));
+    } else {
+      fetch(scratch().packets, packet, kGridPacketBytes);
+      take_from(scratch().packets[0]);
+    }
+  }
+  /// Where it lies if memory is direct, otherwise in `room`.
+  [[gnu::always_inline]] const Colour& colour_at(ea_t ea, [[maybe_unused]] Colour& room) {
+    if constexpr (kReadsInPlace<Spu>) {
+      return *reinterpret_cast<const Colour*>(static_cast<uintptr_t>(ea));
+    } else {
+      fetch(&room, ea, kColourBytes);
+      return room;
+    }
+  }
+  /// Where that is what a point is compared by, which may be a pixel of the block: of those that are sampled,
+  /// what they have become.
+  [[gnu::always_inline]] ea_t compared_by(uint32_t x, uint32_t y) const {
+    const bool is_pixel = x != 0 && y != 0;
+    const bool is_known =
+        is_pixel && (masks_.sampled.row[y - 1] & masks_.known.row[y - 1] & 1u << (x - 1)) != 0;
+    return is_known ? encoded_colour(x - 1, y - 1) : encoded_point(x, y);
+  }
+  /// Whether a pixel differs from its neighbours as they are now: bit 0 from the left one, bit 1 from the
+  /// upper one.
+  [[gnu::always_inline]] uint32_t differences_of(uint32_t x, uint32_t y) {
+    Colour* const room = scratch().colours;
+    const Colour& own = colour_at(encoded_point(x + 1, y + 1), room[0]);
+    const Colour& left = colour_at(compared_by(x, y + 1), room[1]);
+    const Colour& above = colour_at(compared_by(x + 1, y), room[2]);
+    const float threshold = frame_.sampling.threshold;
+    return (distance(own.channel, left.channel) >= threshold ? 1u : 0u) |
+           (distance(own.channel, above.channel) >= threshold ? 2u : 0u);
+  }
+  [[gnu::noinline]] uint32_t differences_out_of_line(uint32_t x, uint32_t y) { return differences_of(x, y); }
+
+  /// The pixels of a row that still need samples.
+  uint32_t wanted(uint32_t y) const { return masks_.sampled.row[y] & ~masks_.known.row[y]; }
+  Cursor begin_cursor() const {
+    Cursor cursor;
+    cursor.pixels = wanted(0);
+    return cursor;
+  }
+  /// Goes to the next pixel that needs samples if it is at none. False: there is no other.
+  bool find_pixel(Cursor& cursor) const {
+    while (cursor.pixels == 0) {
+      if (++cursor.row >= height_) {
+        cursor.row = height_ - 1;
+        return false;
+      }
+      cursor.pixels = wanted(cursor.row);
+    }
+    return true;
+  }
+
+  /// Makes as many samples as there is room for. False: the block is done.
+  [[gnu::noinline]] bool ask_for_pixels() {
+    const uint32_t depth = frame_.sampling.depth;
+    const float step = 1.0f / static_cast<float>(depth);
+    uint32_t count = 0;
+    for (;;) {
+      Cursor cursor = cursor_;
+      while (count < kPackets * kSimdLanes && find_pixel(cursor)) {
+        const uint32_t column = column_ * kSampledEdge + static_cast<uint32_t>(__builtin_ctz(cursor.pixels));
+        const float x = static_cast<float>(column) + 0.5f;
+        const float y = static_cast<float>(row_ * kSampledEdge + cursor.row) + 0.5f;
+        do
+          ask(count++, x + (static_cast<float>(cursor.across) + 0.5f) * step,
+              y + (static_cast<float>(cursor.down) + 0.5f) * step);
+        while (!next_sample(cursor) && count < kPackets * kSimdLanes);
+      }
+      cursor_ = cursor;
+      if (count != 0) {
+        end_asking(count);
+        asked_ = count;
+        return true;
+      }
+      bool any = false;
+      for (uint32_t y = 0; y < height_; ++y) {
+        any = any || wanted(y) != 0;
+        masks_.known.row[y] |= masks_.sampled.row[y];
+      }
+      if (!any) break;
+      compare_again();
+    }
+    write_sampled();
+    return false;
+  }
+  /// True: it was the last one of its pixel.
+  bool next_sample(Cursor& cursor) const {
+    const uint32_t depth = frame_.sampling.depth;
+    if (++cursor.across < depth) return false;
+    cursor.across = 0;
+    if (++cursor.down < depth) return false;
+    cursor.down = 0;
+    cursor.pixels &= cursor.pixels - 1;
+    return true;
+  }
+
+  [[gnu::noinline]] void take_samples() {
+    const uint32_t depth = frame_.sampling.depth;
+    const float share = 1.0f / static_cast<float>(depth * depth + 1);
+    Cursor taken = taken_;
+    uint32_t means = 0;
+    for (uint32_t i = 0; i < asked_;) {
+      find_pixel(taken);
+      const uint32_t x = static_cast<uint32_t>(__builtin_ctz(taken.pixels));
+      const uint32_t y = taken.row;
+      // The middle of the pixel counts as one sample more.
+      if ((taken.across | taken.down) == 0) fetch_point(x + 1, y + 1, sum_);
+      Colour sum = sum_;
+      bool complete;
+      do {
+        for (uint32_t axis = 0; axis < kChannels; ++axis)
+          sum.channel[axis] += channel(i, axis);
+        complete = next_sample(taken);
+      } while (++i < asked_ && !complete);
+      sum_ = sum;
+      if (!complete) break;
+      for (float& value : sum.channel)
+        value *= share;
+      store_mean(means++, x, y, sum);
+      if (means < R::kLanes) continue;
+      encode_means(means);
+      means = 0;
+    }
+    taken_ = taken;
+    if (means != 0) encode_means(means);
+  }
+  /// A pixel is known.
+  void store_mean(uint32_t number, uint32_t x, uint32_t y, const Colour& mean) {
+    scratch().colours[number] = mean;
+    scratch().places[number] = y * kSampledEdge + x;
+    for (uint32_t axis = 0; axis < 3; ++axis)
+      scratch().encoding[3 * number + axis] = mean.channel[axis];
+    send(&scratch().colours[number], stored_colour(x, y), kColourBytes);
+  }
+  /// What so many means are compared by.
+  [[gnu::noinline]] void encode_means(uint32_t count) {
+    arrive();
+    for (uint32_t i = 3 * count; i < 3 * R::kLanes; ++i)
+      scratch().encoding[i] = 0.0f;
+    encode(scratch().encoding, 3 * R::kLanes);
+    for (uint32_t number = 0; number < count; ++number) {
+      Colour& mean = scratch().colours[number];
+      for (uint32_t axis = 0; axis < 3; ++axis)
+        mean.channel[axis] = scratch().encoding[3 * number + axis];
+      send(&mean, encoded_colour(scratch().places[number], 0), kColourBytes);
+    }
+    arrive();
+  }
+
+  /// Pixels that are sampled replace those of the grid in the picture.
+  [[gnu::noinline]] void write_sampled() {
+    for (uint32_t y = 0; y < height_; ++y) {
+      const uint32_t sampled = masks_.sampled.row[y];
+      if (sampled == 0) continue;
+      fetch(scratch().colours, stored_colour(0, y), kSampledEdge * kColourBytes);
+      for (uint32_t x = 0; x < kSampledEdge; ++x)
+        for (uint32_t axis = 0; axis < 3; ++axis)
+          scratch().channels[axis][x] = (sampled >> x & 1) != 0 ? scratch().colours[x].channel[axis] : 0.0f;
+      encode_pixels_of(scratch().channels, scratch().words);
+      const ea_t row = frame_.surface + (row_ * kSampledEdge + y + 1) * frame_.surface_pitch +
+                       (column_ * kSampledEdge + 1) * static_cast<uint32_t>(sizeof(uint32_t));
+      for_each_lane(sampled, [&](uint32_t x) {
+        // A word has the same place in its quadword on both sides of a transfer.
+        uint32_t* const word = &scratch().leaving[x][(x + 1) % 4];
+        *word = scratch().words[x];
+        send(word, row + x * static_cast<uint32_t>(sizeof(uint32_t)), sizeof(uint32_t));
+        put_colours(x, 1, x + 1, y + 1);
+      });
+      arrive();
+    }
+  }
+
+  Masks& masks_;
+  Cursor cursor_, taken_; ///< the next sample to be asked for, and to be taken
+  Colour sum_ = {};       ///< of the samples of a pixel that are there
+};
+
+} // namespace celltrace::kernel
