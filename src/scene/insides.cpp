@@ -19,7 +19,7 @@ using namespace kernel;
 namespace {
 
 constexpr float kFar = std::numeric_limits<float>::max();
-constexpr Aabb kEverywhere = {{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}};
+constexpr Aabb kUnbounded = {{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}};
 
 /// Whether a point is in the box of a sphere: hardly any of a million spheres is worth an inverse.
 bool is_near(const Sphere& sphere, const Transform& transform, const Vec3& point) {
@@ -101,7 +101,7 @@ Aabb box_of(const Object& object, const Transform& around);
 /// Of what all parts of an intersection or difference have in common. What is inverse does not limit it, nor
 /// what is taken away, which counts as inverse. Nothing is a point, as in POV-Ray.
 Aabb common_box(const Csg& csg, const Transform& transform) {
-  Aabb box = kEverywhere;
+  Aabb box = kUnbounded;
   for (const Object& part : csg.parts)
     if (part.inverse == is_taken_away(part, csg)) box = intersected(box, box_of(part, transform));
   for (int axis = 0; axis < 3; ++axis)
@@ -121,13 +121,13 @@ Aabb box_of_shape(const Object& object, const Transform& transform) {
       box = united(box, box_of(part, transform));
     return box;
   }
-  if (std::holds_alternative<std::shared_ptr<const Mesh>>(object.shape)) return kEverywhere;
+  if (std::holds_alternative<std::shared_ptr<const Mesh>>(object.shape)) return kUnbounded;
   Object shape = object;
   shape.inverse = false;
   shape.transform = transform;
-  if (!has_bounds(shape)) return kEverywhere;
+  if (!has_bounds(shape)) return kUnbounded;
   const PlacedShape placed = place_shape(shape);
-  return placed.is_empty || !placed.is_bounded ? kEverywhere : placed.bounds();
+  return placed.is_empty || !placed.is_bounded ? kUnbounded : placed.bounds();
 }
 
 /// Around what POV-Ray takes for the object when it asks what the camera is in: what is inverse counts as if
@@ -143,7 +143,7 @@ Aabb box_of(const Object& object, const Transform& around) {
 /// As the former; a sphere of its own is not worth a box, of which there may be a million.
 Aabb box_around(const Object& object) {
   if (std::holds_alternative<Sphere>(object.shape) && !object.inverse && !object.clipped_by)
-    return kEverywhere;
+    return kUnbounded;
   return box_of(object, Transform());
 }
 
