@@ -81,6 +81,32 @@ TEST_CASE("crand takes a random part of diffuse light, the same on every backend
     CHECK(render_on(backend, 3, scene) == picture);
 }
 
+TEST_CASE("Parts of a merge hide nothing from rays that do not see them") {
+  Material mirror = matte(Vec3(0.2));
+  mirror.finish.reflection_min = mirror.finish.reflection_max = Vec3(0.6);
+  for (const bool only_mirrored : {false, true}) {
+    Scene scene;
+    scene.camera = camera_at({0, 3, -5}, {0, 0, 0});
+    scene.lights = {{{4, 6, -5}, {0.9, 0.9, 0.8}, true}}; // shadowless: all parts occlude
+    scene.objects = {mesh_object(floor_mesh(-1.2f, 8), scene.add(mirror), scene.add(Interior{}))};
+    Object inner = sphere_at({0, 0, 0}, 0.5, scene.add(matte({0.9, 0.2, 0.1})), scene.add(Interior{}));
+    Object outer = sphere_at({0, 0, 0}, 0.9, scene.add(matte({0.1, 0.3, 0.9})), inner.interior);
+    (only_mirrored ? outer.no_image : outer.no_reflection) = true;
+    Scene apart = scene;
+    apart.objects.insert(apart.objects.end(), {inner, outer});
+    Object merge;
+    merge.shape = std::make_shared<const Csg>(Csg{Csg::Operation::merge, {inner, outer}});
+    merge.interior = inner.interior;
+    scene.objects.push_back(merge);
+    for (const TestBackend& backend : {backends().front(), backends().back()}) {
+      const Comparison comparison =
+          compare_images(render_on(backend, 2, apart), render_on(backend, 2, scene));
+      INFO(backend.spu() << (only_mirrored ? ", no_image: " : ", no_reflection: ") << to_text(comparison));
+      CHECK(comparison.psnr >= 60);
+    }
+  }
+}
+
 TEST_CASE("Every kind of camera") {
   Scene scene = scene_named("glass and mirrors");
   const Camera perspective = scene.camera;

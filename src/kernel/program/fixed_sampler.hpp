@@ -21,6 +21,7 @@ class FixedSampler : public PixelSampler<Spu, SamplingMethod::fixed, kChannels> 
       Base::under_way_, Base::width_;
   using typename Base::Colour, typename Base::PointRow, typename Base::R;
 
+  static_assert(R::kLanes <= kSampledEdge, "means are kept where colours of a row are");
   struct Scratch : Base::Scratch {
     alignas(64) float encoding[3 * R::kLanes];   ///< of means
     uint32_t places[R::kLanes];                  ///< of these

@@ -111,7 +111,6 @@ protected:
     float channel[kChannels][kRowPoints];
   };
   static constexpr auto kColourBytes = static_cast<uint32_t>(sizeof(Colour));
-  static_assert(R::kLanes <= kSampledEdge, "means are kept where colours of a row are");
 
   /// What is not kept from call to call.
   struct Scratch {
