@@ -278,6 +278,7 @@ struct Object {
   Index interior = kNoIndex; ///< likewise; kNoIndex: one as Interior() makes it, for all such objects
   // Of these three POV-Ray does not take all that parts of a CSG say: in unions all, but in those that are
   // clipped or parts of other operations only no_reflection; in merges all but no_shadow; in others nothing.
+  // What a ray does not see of a merge hides nothing of its other parts from that ray.
   bool no_shadow = false;
   bool no_image = false;      ///< seen in mirrors alone
   bool no_reflection = false; ///< seen in no mirror
