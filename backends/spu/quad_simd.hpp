@@ -32,6 +32,7 @@ struct QuadSimd {
     F(vec_float4 lanes) : quad(lanes) {}
 
     static F load(const float* lanes) { return *reinterpret_cast<const vec_float4*>(lanes); }
+    static F load_unaligned(const float* lanes) { return Simd::load_floats(lanes); }
     void store(float* lanes) const { *reinterpret_cast<vec_float4*>(lanes) = quad; }
     friend F operator+(const F& a, const F& b) { return spu_add(a.quad, b.quad); }
     friend F operator-(const F& a, const F& b) { return spu_sub(a.quad, b.quad); }

@@ -42,6 +42,17 @@ struct Simd {
     return spu_madd(spu_nmsub(root, root, x), half_inverse, root);
   }
 
+  /// Four floats from any one on: shuffled from the quadwords of the first and the last.
+  static vec_float4 load_floats(const float* words) {
+    const auto quad_at = [](const void* place) {
+      return *reinterpret_cast<const vec_uchar16*>(reinterpret_cast<uintptr_t>(place) & ~uintptr_t{15});
+    };
+    const vec_uint4 bytes = {0x00010203, 0x04050607, 0x08090A0B, 0x0C0D0E0F};
+    const unsigned first = static_cast<unsigned>(reinterpret_cast<uintptr_t>(words) & 15);
+    const vec_uint4 pattern = spu_add(bytes, spu_splats(first * 0x01010101u));
+    return (vec_float4)spu_shuffle(quad_at(words), quad_at(words + 3), (vec_uchar16)pattern);
+  }
+
   struct M {
     vec_uint4 quad[kQuads]; ///< all ones or all zeros a lane
 
@@ -92,6 +103,9 @@ struct Simd {
     static F load(const float* lanes) {
       const vec_float4* quads = reinterpret_cast<const vec_float4*>(lanes);
       return {quads[0], quads[1], quads[2], quads[3]};
+    }
+    static F load_unaligned(const float* lanes) {
+      return {load_floats(lanes), load_floats(lanes + 4), load_floats(lanes + 8), load_floats(lanes + 12)};
     }
     void store(float* lanes) const {
       vec_float4* quads = reinterpret_cast<vec_float4*>(lanes);

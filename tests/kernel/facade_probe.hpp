@@ -19,6 +19,7 @@ struct alignas(128) FacadeBlock {
   float least[16], most[16], magnitude[16], root[16], chosen[16];
   float splat[16], from_int[16], reinterpreted[16], joined[16];
   float transposed[4][16];
+  float unaligned[16];
   float row_sums[2][16], equal_row_sums[2][16];
   int32_t int_sum[16], int_difference[16], int_and[16], int_or[16], int_chosen[16];
   float floor[16];
@@ -64,6 +65,7 @@ template <class S> void apply_facade(FacadeBlock& x) {
   S::transpose_quads(rows[0], rows[1], rows[2], rows[3]);
   for (int row = 0; row < 4; ++row)
     rows[row].store(x.transposed[row]);
+  F::load_unaligned(x.a + 5).store(x.unaligned);
   x.less = (a < b).bits();
   x.less_equal = (a <= b).bits();
   x.greater = (a > b).bits();

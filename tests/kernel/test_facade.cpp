@@ -101,6 +101,7 @@ void check_floats(const FacadeBlock& x) {
     const float* const quads[4] = {x.a, x.b, x.a + 12, x.b + 4};
     return quads[l / 4][l % 4];
   }));
+  CHECK(same_floats(x.unaligned, [&](int l) { return l < 11 ? x.a[l + 5] : x.b[l - 11]; }));
   for (int row = 0; row < 4; ++row)
     CHECK(same_floats(x.transposed[row], [&](int l) {
       const float* const rows[4] = {x.a, x.b, x.sum, x.difference};

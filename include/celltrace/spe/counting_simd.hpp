@@ -59,6 +59,10 @@ template <class Uncounted> struct CountingSimd {
       count_packet({.ls = 1});
       return F([&] { return Uncounted::F::load(lanes); });
     }
+    static F load_unaligned(const float* lanes) {
+      count_packet({.ls = 1, .shuf = 1}); // one quadword more, which is not counted
+      return F([&] { return Uncounted::F::load_unaligned(lanes); });
+    }
     void store(float* lanes) const {
       count_packet({.ls = 1});
       value.store(lanes);

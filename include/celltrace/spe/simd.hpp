@@ -6,7 +6,8 @@
 // caller:
 //
 //   F    16 floats, implicitly from one float (splat); default construction leaves it indeterminate
-//        F::load(const float*) / store(float*), 64-byte aligned; + - * / and unary -; < <= > >= == give M
+//        F::load(const float*) / store(float*), 64-byte aligned; + - * / and unary -; < <= > >= == give M;
+//        F::load_unaligned(const float*): from any float on
 //   I    16 int32: I::splat, load, store; + - & |; == < give M; I::load_words(line, offsets): for each
 //        lane the word at its offset, a multiple of 4 and taken modulo 128, of the 128 bytes at `line`;
 //        ^ (exclusive or)

@@ -157,6 +157,12 @@ template <class Arch> struct HostSimd {
         r.part[i] = FloatBatch::load_aligned(lanes + i * kWidth);
       return r;
     }
+    static F load_unaligned(const float* lanes) {
+      F r;
+      for (uint32_t i = 0; i < kParts; ++i)
+        r.part[i] = FloatBatch::load_unaligned(lanes + i * kWidth);
+      return r;
+    }
     void store(float* lanes) const {
       for (uint32_t i = 0; i < kParts; ++i)
         part[i].store_aligned(lanes + i * kWidth);

@@ -11,10 +11,10 @@ class AdaptiveSampler : public PixelSampler<Spu, SamplingMethod::adaptive, kChan
   using Base = PixelSampler<Spu, SamplingMethod::adaptive, kChannels>;
   using Base::arrive, Base::ask, Base::asked_, Base::channel, Base::channel_from, Base::column_,
       Base::differing, Base::distance, Base::encode, Base::encode_pixels_of, Base::encode_points,
-      Base::end_asking, Base::fetch, Base::fetch_points, Base::frame_, Base::gather_colours,
-      Base::go_to_block, Base::height_, Base::kEdge, Base::kHasAlpha, Base::points_from, Base::put_colours,
-      Base::row_, Base::row_mask, Base::scratch_, Base::send, Base::smaller_of, Base::store_,
-      Base::takes_points, Base::under_way_, Base::width_;
+      Base::end_asking, Base::fetch, Base::frame_, Base::gather_colours, Base::go_to_block, Base::height_,
+      Base::kEdge, Base::kHasAlpha, Base::packets_of_row, Base::points_from, Base::put_colours, Base::row_,
+      Base::row_mask, Base::scratch_, Base::send, Base::smaller_of, Base::store_, Base::take_points,
+      Base::takes_points, Base::under_way_, Base::wants_colours, Base::width_;
   using typename Base::F, typename Base::PointRow, typename Base::R;
 
   using Square = SampleSquare<kChannels>;
@@ -101,11 +101,13 @@ private:
     first_row_ = next_row_;
     rows_ = smaller_of(height_ - next_row_, kRows);
     next_row_ += rows_;
-    fetch_points(first_row_, scratch().points[0]);
+    const SampleLanes* packets = packets_of_row(first_row_);
+    take_points(packets, first_row_, scratch().points[0]);
     encode_points(scratch().points[0], scratch().encoded[0]);
     for (uint32_t y = 0; y < rows_; ++y) {
-      const uint32_t upper = y % 2, lower = 1 - upper;
-      fetch_points(first_row_ + y + 1, scratch().points[lower]);
+      const uint32_t upper = y % 2, lower = 1 - upper, row = first_row_ + y + 1;
+      if (row % kPacketEdge == 0) packets = packets_of_row(row);
+      take_points(packets, row, scratch().points[lower]);
       encode_points(scratch().points[lower], scratch().encoded[lower]);
       uint32_t divided =
           frame_.sampling.depth > 1
@@ -146,7 +148,7 @@ private:
     for (uint32_t corner = 0; corner < 4; ++corner)
       for (uint32_t axis = 0; axis < kChannels; ++axis)
         square.corner[corner][axis] =
-            scratch().points[corner < 2 ? upper : 1 - upper].channel[axis][x + corner % 2];
+            scratch().points[corner < 2 ? upper : 1 - upper].channel(axis)[x + corner % 2];
     square.x = static_cast<float>(column_ * kSampledEdge + x);
     square.y = static_cast<float>(row_ * kSampledEdge + first_row_ + y);
     square.pixel = y * kSampledEdge + x;
@@ -176,7 +178,7 @@ private:
     __builtin_memcpy(encoded, points, sizeof points);
     for (uint32_t i = 9 * kChannels; i < kEncoded; ++i)
       encoded[i] = 0.0f;
-    encode(encoded, kEncoded);
+    encode(encoded, kEncoded, encoded);
     if constexpr (kHasAlpha)
       for (uint32_t i = 0; i < 9; ++i)
         encoded[i * kChannels + 3] = points[i][3];
@@ -221,8 +223,10 @@ private:
       const ea_t to = frame_.surface + (row_ * kSampledEdge + first_row_ + y) * frame_.surface_pitch +
                       column_ * kSampledEdge * static_cast<uint32_t>(sizeof(uint32_t));
       send(scratch().words, to, (width_ + 3) / 4 * 16);
-      gather_colours(sums_.row[y][0], kSampledEdge, width_);
-      put_colours(0, width_, 0, first_row_ + y);
+      if (wants_colours()) {
+        gather_colours(sums_.row[y][0], kSampledEdge, width_);
+        put_colours(0, width_, 0, first_row_ + y);
+      }
       arrive();
     }
     rows_ = 0;

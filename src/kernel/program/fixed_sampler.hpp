@@ -14,11 +14,11 @@ template <class Spu, uint32_t kChannels>
 class FixedSampler : public PixelSampler<Spu, SamplingMethod::fixed, kChannels> {
   using Base = PixelSampler<Spu, SamplingMethod::fixed, kChannels>;
   using Base::arrive, Base::ask, Base::asked_, Base::channel, Base::column_, Base::differing, Base::distance,
-      Base::encode, Base::encode_pixels_of, Base::encode_points, Base::end_asking, Base::fetch,
-      Base::fetch_points, Base::frame_, Base::gather_colours, Base::go_to_block, Base::height_,
-      Base::kColourBytes, Base::kPackets, Base::kRowPoints, Base::packet_of_points, Base::put_colours,
-      Base::row_, Base::row_mask, Base::scratch_, Base::send, Base::store_, Base::takes_points,
-      Base::under_way_, Base::width_;
+      Base::encode, Base::encode_pixels_of, Base::encode_points, Base::end_asking, Base::fetch, Base::frame_,
+      Base::go_to_block, Base::height_, Base::kColourBytes, Base::kPackets, Base::made_at,
+      Base::packet_of_points, Base::packets_of_row, Base::put_colours, Base::row_, Base::row_mask,
+      Base::scratch_, Base::send, Base::store_, Base::take_points, Base::takes_points, Base::under_way_,
+      Base::wants_colours, Base::width_;
   using typename Base::Colour, typename Base::PointRow, typename Base::R;
 
   static_assert(R::kLanes <= kSampledEdge, "means are kept where colours of a row are");
@@ -75,25 +75,34 @@ private:
 
   /// The neighbours that pixels differ from, before any of them is sampled.
   [[gnu::noinline]] void compare_pixels() {
-    fetch_points(0, scratch().points[0]);
-    encode_points(scratch().points[0], scratch().encoded[0]);
-    store_encoded(0, scratch().encoded[0]);
-    for (uint32_t y = 0; y < height_; ++y) {
-      const PointRow& above = scratch().encoded[y % 2];
-      PointRow& own = scratch().encoded[(y + 1) % 2];
-      fetch_points(y + 1, scratch().points[0]);
+    const SampleLanes* packets = nullptr;
+    for (uint32_t line = 0; line <= height_; ++line) {
+      if (line % kPacketEdge == 0) packets = packets_of_row(line);
+      PointRow& own = scratch().encoded[line % 2];
+      take_points(packets, line, scratch().points[0]);
       encode_points(scratch().points[0], own);
-      store_encoded(y + 1, own);
+      store_encoded(line, own);
+      if (line == 0) continue;
+      const uint32_t y = line - 1;
       masks_.left.row[y] = differing(own, 1, own, 0) & row_mask();
-      masks_.above.row[y] = differing(own, 1, above, 1) & row_mask();
+      masks_.above.row[y] = differing(own, 1, scratch().encoded[y % 2], 1) & row_mask();
       masks_.known.row[y] = 0;
     }
   }
 
   /// Keeps what a row of points is compared by.
   [[gnu::noinline]] void store_encoded(uint32_t y, const PointRow& encoded) {
-    gather_colours(encoded.channel[0], kRowPoints, width_ + 1);
-    send(scratch().colours, encoded_point(0, y), (width_ + 1) * kColourBytes);
+    using W = typename Base::S::F;
+    Colour* const row = made_at(encoded_row(y), scratch().colours);
+    for (uint32_t x = 0; x < kStoredPoints; x += kSimdLanes) {
+      W lanes[4];
+      for (uint32_t axis = 0; axis < 4; ++axis)
+        lanes[axis] = axis < kChannels ? W::load_unaligned(encoded.channel(axis) + x) : W(0.0f);
+      Base::S::transpose_quads(lanes[0], lanes[1], lanes[2], lanes[3]);
+      for (uint32_t i = 0; i < 4; ++i)
+        lanes[i].store(row[x + 4 * i].channel);
+    }
+    send(row, encoded_row(y), kStoredPoints * kColourBytes);
     arrive();
   }
 
@@ -134,8 +143,12 @@ private:
   // The store: colours of pixels, what they are compared by, and what points are compared by.
   ea_t stored_colour(uint32_t x, uint32_t y) const { return store_ + (y * kSampledEdge + x) * kColourBytes; }
   ea_t encoded_colour(uint32_t x, uint32_t y) const { return stored_colour(x, kSampledEdge + y); }
+  ea_t encoded_row(uint32_t y) const {
+    return stored_colour(0, 2 * kSampledEdge) + y * kStoredPoints * kColourBytes;
+  }
+  /// Of four neighbours the colours lie in four vectors: as store_encoded() transposed them.
   ea_t encoded_point(uint32_t x, uint32_t y) const {
-    return stored_colour(0, 2 * kSampledEdge) + (y * kStoredPoints + x) * kColourBytes;
+    return encoded_row(y) + ((x & ~15u) | (x & 3) << 2 | (x >> 2 & 3)) * kColourBytes;
   }
   /// The colour of a point, x and y from the block's first one on.
   [[gnu::noinline]] void fetch_point(uint32_t x, uint32_t y, Colour& colour) {
@@ -290,7 +303,7 @@ private:
     arrive();
     for (uint32_t i = 3 * count; i < 3 * R::kLanes; ++i)
       scratch().encoding[i] = 0.0f;
-    encode(scratch().encoding, 3 * R::kLanes);
+    encode(scratch().encoding, 3 * R::kLanes, scratch().encoding);
     for (uint32_t number = 0; number < count; ++number) {
       Colour& mean = scratch().colours[number];
       for (uint32_t axis = 0; axis < 3; ++axis)
@@ -317,7 +330,7 @@ private:
         uint32_t* const word = &scratch().leaving[x][(x + 1) % 4];
         *word = scratch().words[x];
         send(word, row + x * static_cast<uint32_t>(sizeof(uint32_t)), sizeof(uint32_t));
-        put_colours(x, 1, x + 1, y + 1);
+        if (wants_colours()) put_colours(x, 1, x + 1, y + 1);
       });
       arrive();
     }

@@ -53,8 +53,8 @@ constexpr uint32_t sampled_rows(uint32_t edge) {
 constexpr uint32_t max_squares(uint32_t edge) {
   return sampled_rows(edge) * kSampledEdge + 5 * squares_at_once(edge) * kMaxSamplingDepth;
 }
-/// Points of a row of a block, one more than pixels, with some room.
-constexpr uint32_t kStoredPoints = kSampledEdge + 8;
+/// Points of a row of a block, one more than pixels, in whole vectors.
+constexpr uint32_t kStoredPoints = kSampledEdge + kSimdLanes;
 /// What an SPE needs in main memory: squares; or of the pixels of a block their colours and what these are
 /// compared by, and of its points the latter.
 constexpr uint32_t sample_store_bytes(uint32_t edge, bool alpha) {
@@ -103,12 +103,18 @@ protected:
   static constexpr uint32_t kTag = 7;
   /// Packets that a row of points of a block is in: one more of them than pixels.
   static constexpr uint32_t kRowPackets = kSampledEdge / kPacketEdge + 1;
-  static constexpr uint32_t kRowPoints = kSampledEdge + kSimdLanes; ///< and some more, for whole vectors
+  static constexpr uint32_t kRowPoints = kRowPackets * kPacketEdge;
 
   using Colour = ColourRecord;
-  /// The channels of a row of points, of which the first is that at the block's left edge.
+  /// The channels of a row of points, of which the first is that at the block's left edge. Those that are
+  /// encoded are one behind the other, in whole vectors; vectors may be read from any point on.
   struct alignas(64) PointRow {
-    float channel[kChannels][kRowPoints];
+    static constexpr uint32_t kEncoded = (3 * kRowPoints + kSimdLanes - 1) / kSimdLanes * kSimdLanes;
+    float numbers[kEncoded + (kHasAlpha ? kRowPoints : 0) + kSimdLanes];
+
+    static constexpr uint32_t first_of(uint32_t axis) { return axis == 3 ? kEncoded : axis * kRowPoints; }
+    float* channel(uint32_t axis) { return numbers + first_of(axis); }
+    const float* channel(uint32_t axis) const { return numbers + first_of(axis); }
   };
   static constexpr auto kColourBytes = static_cast<uint32_t>(sizeof(Colour));
 
@@ -117,7 +123,7 @@ protected:
     SampleLanes packets[kRowPackets];
     PointRow points[2], encoded[2];           ///< of two rows, by turns
     alignas(64) uint32_t words[kSampledEdge]; ///< pixels to be written
-    Colour colours[kStoredPoints];
+    alignas(64) Colour colours[kStoredPoints];
   };
 
   PixelSampler(Spu& spu, const FrameBlock& frame, SampleBundle<Spu>& samples, Scratch& scratch)
@@ -152,10 +158,20 @@ protected:
   }
   /// What is sent may be changed after arrive().
   [[gnu::noinline]] void send(const void* ls, ea_t ea, uint32_t bytes) {
-    if constexpr (kReadsInPlace<Spu>)
-      __builtin_memcpy(reinterpret_cast<void*>(static_cast<uintptr_t>(ea)), ls, bytes);
-    else
+    if constexpr (kReadsInPlace<Spu>) {
+      void* const to = reinterpret_cast<void*>(static_cast<uintptr_t>(ea));
+      if (to != ls) __builtin_memcpy(to, ls, bytes);
+    } else {
       spu_.put(ls, ea, bytes, kTag);
+    }
+  }
+  /// Where to make what is sent to `ea`: there if memory is direct, otherwise in `room`.
+  template <class Object>
+  [[gnu::always_inline]] static Object* made_at([[maybe_unused]] ea_t ea, [[maybe_unused]] Object* room) {
+    if constexpr (kReadsInPlace<Spu>)
+      return reinterpret_cast<Object*>(static_cast<uintptr_t>(ea));
+    else
+      return room;
   }
   void arrive() {
     if constexpr (!kReadsInPlace<Spu>) spu_.wait_all(1u << kTag);
@@ -180,38 +196,50 @@ protected:
         packet.clear = FloatLanes();
   }
 
-  /// Row `row` of the grid's points at the block, of which the first is that to its upper left.
-  [[gnu::noinline]] void fetch_points(uint32_t row, PointRow& points) {
-    const uint32_t first = column_ * kSampledEdge / kPacketEdge;
-    const uint32_t left = frame_.packet_columns - first;
-    const uint32_t packets = left < kRowPackets ? left : kRowPackets;
-    const uint32_t line = row_ * kSampledEdge + row;
-    fetch(scratch_.packets, packet_of_points(first, line / kPacketEdge), packets * kGridPacketBytes);
-    for (uint32_t packet = 0; packet < packets; ++packet)
-      for (uint32_t axis = 0; axis < kChannels; ++axis)
-        S::F4::load(scratch_.packets[packet][axis].lane + line % kPacketEdge * kPacketEdge)
-            .store(points.channel[axis] + packet * kPacketEdge);
-    for (uint32_t axis = 0; axis < kChannels; ++axis)
+  /// The packets with a row of the grid's points at the block, of which the first is that to its upper left.
+  /// Where memory is not direct they stay until others are fetched.
+  [[gnu::noinline]] const SampleLanes* packets_of_row(uint32_t row) {
+    const ea_t first = packet_of_points(column_ * kSampledEdge / kPacketEdge,
+                                        (row_ * kSampledEdge + row) / kPacketEdge);
+    if constexpr (kReadsInPlace<Spu>) return reinterpret_cast<const SampleLanes*>(static_cast<uintptr_t>(first));
+    fetch(scratch_.packets, first, packets_of_block() * kGridPacketBytes);
+    return scratch_.packets;
+  }
+  /// Across the block, as far as there are any.
+  uint32_t packets_of_block() const {
+    return smaller_of(frame_.packet_columns - column_ * kSampledEdge / kPacketEdge, kRowPackets);
+  }
+  /// The points of a row, out of its packets.
+  [[gnu::noinline]] void take_points(const SampleLanes* from, uint32_t row, PointRow& points) const {
+    const uint32_t packets = packets_of_block();
+    const uint32_t first = row % kPacketEdge * kPacketEdge;
+    for (uint32_t axis = 0; axis < kChannels; ++axis) {
+      float* const channel = points.channel(axis);
+      for (uint32_t packet = 0; packet < packets; ++packet)
+        S::F4::load(from[packet][axis].lane + first).store(channel + packet * kPacketEdge);
       for (uint32_t x = packets * kPacketEdge; x < kRowPoints; ++x)
-        points.channel[axis][x] = 0.0f;
+        channel[x] = 0.0f;
+    }
+    for (uint32_t i = 3 * kRowPoints; i < PointRow::kEncoded; ++i)
+      points.numbers[i] = 0.0f;
   }
 
-  /// Numbers become what colours are compared by; whole vectors of sixteen.
-  [[gnu::noinline]] void encode(float* values, uint32_t count) const {
+  /// What numbers are compared by; whole vectors of sixteen.
+  [[gnu::noinline]] void encode(const float* numbers, uint32_t count, float* encoded) const {
     for (uint32_t i = 0; i < count; i += R::kLanes)
-      pow<R>(F::load(values + i), F(frame_.sampling.inverse_gamma)).store(values + i);
+      pow<R>(F::load(numbers + i), F(frame_.sampling.inverse_gamma)).store(encoded + i);
   }
-  [[gnu::noinline]] void encode_points(const PointRow& points, PointRow& encoded) const {
-    encoded = points;
-    encode(encoded.channel[0], 3 * kRowPoints);
+  void encode_points(const PointRow& points, PointRow& encoded) const {
+    encode(points.numbers, PointRow::kEncoded, encoded.numbers);
+    if constexpr (kHasAlpha)
+      __builtin_memcpy(encoded.channel(3), points.channel(3), kRowPoints * sizeof(float));
   }
   /// Points of a row, from any one on.
   static V3<R> points_from(const PointRow& row, uint32_t first) {
-    alignas(64) float lane[3][R::kLanes];
-    for (uint32_t axis = 0; axis < 3; ++axis)
-      for (uint32_t i = 0; i < R::kLanes; ++i)
-        lane[axis][i] = row.channel[axis][first + i];
-    return {F::load(lane[0]), F::load(lane[1]), F::load(lane[2])};
+    return {channel_from(row, 0, first), channel_from(row, 1, first), channel_from(row, 2, first)};
+  }
+  static F channel_from(const PointRow& row, uint32_t axis, uint32_t first) {
+    return F::load_unaligned(row.channel(axis) + first);
   }
   /// Where the points of a block's row differ from those of another, each counted from any one on.
   [[gnu::noinline]] uint32_t differing(const PointRow& a, uint32_t first_a, const PointRow& b,
@@ -228,13 +256,6 @@ protected:
     }
     return bits;
   }
-  static F channel_from(const PointRow& row, uint32_t channel, uint32_t first) {
-    alignas(64) float lane[R::kLanes];
-    for (uint32_t i = 0; i < R::kLanes; ++i)
-      lane[i] = row.channel[channel][first + i];
-    return F::load(lane);
-  }
-
   static uint32_t smaller_of(uint32_t a, uint32_t b) { return a < b ? a : b; }
 
   /// Where a sample is moved to, in pixels: of a hash of its place, so that it is the same in every run.
@@ -304,9 +325,9 @@ protected:
       for (uint32_t axis = 0; axis < kChannels; ++axis)
         scratch_.colours[x].channel[axis] = channels[axis * stride + x];
   }
+  bool wants_colours() const { return frame_.sampling.colours_pitch != 0; }
   /// Puts some of the colours where they are wanted: x and y count from the block's first point on.
   [[gnu::noinline]] void put_colours(uint32_t first, uint32_t count, uint32_t x, uint32_t y) {
-    if (frame_.sampling.colours_pitch == 0) return;
     const ea_t to = frame_.surface + frame_.packet_rows * kPacketEdge * frame_.surface_pitch +
                     (row_ * kSampledEdge + y) * frame_.sampling.colours_pitch +
                     (column_ * kSampledEdge + x) * kColourBytes;
