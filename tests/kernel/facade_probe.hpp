@@ -128,13 +128,24 @@ struct RowStarts {
     starts[0] = start;
     starts[1] = (start * 7 + 3) & 15;
   }
-  template <uint32_t kLanes> void find_indices(int32_t (&indices)[2][kLanes]) const {
-    for (uint32_t lane = 0; lane < kLanes; ++lane) {
-      indices[0][lane] = of_lane[equal ? 0 : lane];
-      indices[1][lane] = indices[0][lane] * 7 + 3;
-    }
+  template <class LookUp, uint32_t kLanes>
+  void find_indices(const LookUp& look_up, int32_t (&indices)[2][kLanes]) const {
+    static constexpr uint16_t kMultiples[16] = {0, 16, 32, 48, 64, 80, 96, 112, 1, 2, 3, 4, 5, 6, 7, 8};
+    typename LookUp::Numbers numbers[2];
+    look_up(
+        kMultiples,
+        [this](uint32_t lane, uint32_t row) {
+          uint32_t starts[2];
+          (*this)(lane, starts);
+          return starts[row];
+        },
+        numbers);
+    for (uint32_t row = 0; row < 2; ++row)
+      numbers[row].store(indices[row]);
   }
-  static uint32_t start(uint32_t index) { return index & 15; }
+  static uint32_t start(uint32_t multiple) {
+    return multiple < 16 && multiple != 0 ? multiple + 7 : multiple / 16;
+  }
 };
 
 template <class S> void apply_rare_facade(FacadeBlock& x) {

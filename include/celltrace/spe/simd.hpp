@@ -34,12 +34,14 @@
 //   of some rows of the table, times factors. starts_of(lane, uint32_t (&starts)[rows]) says where in the
 //   table the rows of a lane start, anywhere. Those of two lanes are the same if starts_of.keys(i), an
 //   aligned const int32_t[kLanes], has one number for both, for each i below StartsOf::kKeys: some
-//   implementations ask. Others ask starts_of.find_indices(int32_t (&)[rows][kLanes]) for numbers of all
-//   lanes, of which starts_of.start(number) is the same. factors_of(row, F (&factors)[4]) gives a row's
-//   four factors, more than once if asked again. A row has four numbers for each channel, one after the
-//   other: those of channel c are multiplied by the four factors of the row, and added up to sums[c]. The
-//   rows are added up in their order, then the four numbers as (0 + 1) + (2 + 3). Behind the last row 16
-//   bytes more may be read.
+//   implementations ask. Others ask starts_of.find_indices(look_up, int32_t (&)[rows][kLanes]) for numbers
+//   of all lanes, of which starts_of.start(number) is the same. Their look_up(const uint16_t* table,
+//   index_of, Numbers (&numbers)[n]) helps with that: of each lane, numbers[i] is that at index_of(lane, i)
+//   in the table. LookUp::Numbers is an I, whose operations emulations do not count. factors_of(row, F
+//   (&factors)[4]) gives a row's four factors, more than once if asked again. A row has four numbers for each
+//   channel, one after the other: those of channel c are multiplied by the four factors of the row, and added
+//   up to sums[c]. The rows are added up in their order, then the four numbers as (0 + 1) + (2 + 3). Behind
+//   the last row 16 bytes more may be read.
 //
 // On the host every float operation is IEEE single precision, never fused, so that all widths and backends
 // give the same bits. On the SPU division and sqrt are estimates refined to within 2 units in the last place,

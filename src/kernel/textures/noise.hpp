@@ -45,19 +45,21 @@ template <class S> struct LatticeCells {
     }
   }
   /// The same in two steps, of which the first one is of all lanes at once: start() of these.
-  void find_indices(int32_t (&indices)[8][S::kLanes]) const {
-    alignas(64) int32_t columns[4][S::kLanes];
-    for (uint32_t lane = 0; lane < S::kLanes; ++lane) {
-      uint32_t of_lane[4];
-      hash_columns(lane, of_lane);
-      for (uint32_t i = 0; i < 4; ++i)
-        columns[i][lane] = static_cast<int32_t>(of_lane[i]);
-    }
-    const I plane = I::load(lattice[2]);
-    const I next = (plane + I::splat(1)) & I::splat(kPeriod - 1);
+  template <class LookUp>
+  [[gnu::always_inline]] void find_indices(const LookUp& look_up, int32_t (&indices)[8][S::kLanes]) const {
+    // Of the columns along z through the corners of the cells.
+    const auto index_of = [&](uint32_t lane, uint32_t corner) __attribute__((always_inline)) {
+      const uint32_t x = static_cast<uint32_t>(lattice[0][lane]), y = static_cast<uint32_t>(lattice[1][lane]);
+      return kHash.entry[(corner & 1) != 0 ? above(x) : x] ^ ((corner & 2) != 0 ? above(y) : y);
+    };
+    using Numbers = typename LookUp::Numbers;
+    Numbers columns[4];
+    look_up(kHash.entry, index_of, columns);
+    const Numbers plane = Numbers::load(lattice[2]);
+    const Numbers next = (plane + Numbers::splat(1)) & Numbers::splat(kPeriod - 1);
     for (uint32_t i = 0; i < 4; ++i) {
-      (I::load(columns[i]) ^ plane).store(indices[2 * i]);
-      (I::load(columns[i]) ^ next).store(indices[2 * i + 1]);
+      (columns[i] ^ plane).store(indices[2 * i]);
+      (columns[i] ^ next).store(indices[2 * i + 1]);
     }
   }
   [[gnu::always_inline]] static uint32_t start(uint32_t index) { return kHash.entry[index] & 255; }
