@@ -9,7 +9,20 @@
 
 #include <stddef.h>
 
+#include <type_traits>
+
 namespace celltrace::kernel {
+
+/// A record that stays while others are read: itself where records are read in place, otherwise a copy.
+template <class Spu, class Record>
+using Kept = std::conditional_t<kReadsInPlace<Spu>, const Record&, const Record>;
+/// The same of one record after the other, a copy of which has `room`.
+template <class Spu, class Record>
+[[gnu::always_inline]] inline const Record* keep(const Record* record, [[maybe_unused]] Record& room) {
+  if constexpr (kReadsInPlace<Spu>) return record;
+  room = *record;
+  return &room;
+}
 
 /// The software cache that a frame asks for.
 inline CacheConfig cache_config(const FrameBlock& frame) {

@@ -280,7 +280,6 @@ private:
     uint32_t csg = kNoOffset; ///< offset of its condition
 
     Other(ObjectTests& tests, const RayPacket& rays, const ObjectRecord& record, uint32_t self) {
-      // A copy: the next read may replace the record.
       const ObjectRecord object = record;
       const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
       ExtraRecord extra = {};
@@ -332,7 +331,7 @@ private:
       if ((flags & object_flag::blended) == 0) {
         transmittance_at(scene_, material, crossed, some, transmittance);
       } else {
-        const BlendRecord blend = *scene_.blend(material);
+        Kept<Spu, BlendRecord> blend = *scene_.blend(material);
         const RF u = part_of<Spu>(all_u, first), v = part_of<Spu>(all_v, first);
         const RF weights[3] = {RF(1.0f) - u - v, u, v};
         transmittance = {RF(0.0f), RF(0.0f), RF(0.0f)};

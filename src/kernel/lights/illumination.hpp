@@ -14,8 +14,7 @@ template <class Spu, class Visit>
 void for_each_light(SceneAccess<Spu>& scene, const FrameBlock& frame, uint32_t first, uint32_t count,
                     const Visit& visit) {
   for (uint32_t i = first; i < first + count; ++i) {
-    // A copy: the next read may replace the record.
-    const LightRecord light =
+    Kept<Spu, LightRecord> light =
         *scene.light(frame.light_offset + i * static_cast<uint32_t>(sizeof(LightRecord)));
     visit(i, light);
   }

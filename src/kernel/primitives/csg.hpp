@@ -45,7 +45,7 @@ template <class Spu>
   using I = typename S::I;
   const auto word = [](uint32_t value) { return I::splat(static_cast<int32_t>(value)); };
   while (condition != kNoOffset && lanes != 0) {
-    const CsgRecord level = *scene.csg(condition);
+    Kept<Spu, CsgRecord> level = *scene.csg(condition);
     const uint32_t first = level.skip_begin == 0 ? level.skip_end : 0;
     I place = word(first == level.count ? kCsgAccept : first);
     for (uint32_t i = first; i < level.count; ++i) {
@@ -57,7 +57,7 @@ template <class Spu>
       }
       const uint32_t here = (place == word(i)).bits() & lanes;
       if (here == 0) continue;
-      const CsgStep step = *scene.csg_step(level.steps + i * static_cast<uint32_t>(sizeof(CsgStep)));
+      Kept<Spu, CsgStep> step = *scene.csg_step(level.steps + i * static_cast<uint32_t>(sizeof(CsgStep)));
       const uint32_t inside = step.unseen_by != 0 ? here & ~blind_lanes(step.unseen_by, reflected)
                                                   : inside_solid(scene, step.solid, points, here);
       place = S::select(S::M::from_bits(inside), word(step.if_inside), place);

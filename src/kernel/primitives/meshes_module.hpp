@@ -38,7 +38,7 @@ template <class Spu>
   using I = typename S::I;
   scene.spu().run_in_module(modules::kMeshes);
   const V3<S> local = to_local<S>(solid.geometry, points, 1.0f);
-  const MeshGridRecord grid = *scene.mesh_grid(solid.extra);
+  Kept<Spu, MeshGridRecord> grid = *scene.mesh_grid(solid.extra);
   const F columns(static_cast<float>(grid.columns)), rows(static_cast<float>(grid.rows));
   const auto in_grid = (local.x >= F(0.0f)) & (local.x < columns) & (local.y >= F(0.0f)) & (local.y < rows);
   lanes &= in_grid.bits();

@@ -95,7 +95,7 @@ void bow_colour(SceneAccess<Spu>& scene, const RainbowRecord& bow, const typenam
   MapEntryRecord before = *scene.map_entry(bow.entries);
   colour = {splat3<S>(before.rgb), F(before.filter), F(before.transmit)};
   for (uint32_t i = 1; i < bow.entry_count; ++i) {
-    const MapEntryRecord entry = *scene.map_entry(bow.entries + i * kBytes);
+    Kept<Spu, MapEntryRecord> entry = *scene.map_entry(bow.entries + i * kBytes);
     const auto beyond = value > F(before.position);
     F share(1.0f);
     if (entry.inverse_width != 0.0f)
@@ -196,8 +196,7 @@ template <class Spu>
     Passage<S> sum = {nothing, nothing};
     F count = zero, clear_sum = zero;
     for (uint32_t i = 0; i < frame.rainbow_count; ++i) {
-      // A copy: the next read may replace the record.
-      const RainbowRecord bow =
+      Kept<Spu, RainbowRecord> bow =
           *scene.rainbow(frame.rainbow_offset + i * static_cast<uint32_t>(sizeof(RainbowRecord)));
       Passage<S> through;
       F clear = zero;
@@ -270,8 +269,7 @@ template <class Spu>
   scene.spu().run_in_module(modules::kAtmosphere);
   const uint32_t lanes = detail::lanes_in_the_open(scene, ray, ray.lanes);
   for (uint32_t i = 0; i < frame.fog_count; ++i) {
-    // A copy: the next read may replace the record.
-    const FogRecord fog = *scene.fog(frame.fog_offset + i * static_cast<uint32_t>(sizeof(FogRecord)));
+    Kept<Spu, FogRecord> fog = *scene.fog(frame.fog_offset + i * static_cast<uint32_t>(sizeof(FogRecord)));
     for_each_part<Spu>([&](uint32_t first) {
       const uint32_t some = part_of<Spu>(lanes, first);
       if (some == 0) return;
@@ -299,8 +297,7 @@ template <class Spu>
   // As in POV-Ray, no fog dims what another one adds.
   const VectorLanes undimmed = ray.throughput;
   for (uint32_t i = 0; i < frame.fog_count; ++i) {
-    // A copy: the next read may replace the record.
-    const FogRecord fog = *scene.fog(frame.fog_offset + i * static_cast<uint32_t>(sizeof(FogRecord)));
+    Kept<Spu, FogRecord> fog = *scene.fog(frame.fog_offset + i * static_cast<uint32_t>(sizeof(FogRecord)));
     for_each_part<Spu>([&](uint32_t first) {
       const uint32_t some = part_of<Spu>(lanes, first);
       if (some == 0) return;

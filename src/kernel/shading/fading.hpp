@@ -26,7 +26,7 @@ template <class Spu>
   constexpr float kToBinary = 1.44269504f, kExponential = 1000.0f;
   scene.spu().run_in_module(modules::kFading);
   for_each_value<typename Spu::simd>(interior, lanes, [&](uint32_t offset, uint32_t same) {
-    const InteriorRecord r = *scene.interior(offset);
+    Kept<Spu, InteriorRecord> r = *scene.interior(offset);
     if (r.inverse_fade_distance == 0.0f || (is_shadow && r.fade_power == 0.0f)) return;
     uint32_t inside = 0;
     for_each_lane(

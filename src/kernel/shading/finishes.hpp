@@ -74,7 +74,7 @@ template <class Spu>
   using F = typename R::F;
   scene.spu().run_in_module(modules::kFinishes);
   for_each_value<S>(*m.offsets, m.special & light.facing, [&](uint32_t offset, uint32_t same) {
-    const FinishRecord f = *scene.finish(scene.material(offset)->finish);
+    Kept<Spu, FinishRecord> f = *scene.finish(scene.material(offset)->finish);
     for_each_part<Spu>([&](uint32_t first) {
       const uint32_t some = part_of<Spu>(same, first);
       if (some == 0) return;
@@ -106,7 +106,7 @@ template <class Spu>
   using F = typename R::F;
   scene.spu().run_in_module(modules::kFinishes);
   for_each_value<S>(*m.offsets, m.special & lanes, [&](uint32_t offset, uint32_t same) {
-    const FinishRecord f = *scene.finish(scene.material(offset)->finish);
+    Kept<Spu, FinishRecord> f = *scene.finish(scene.material(offset)->finish);
     if (f.irid == 0.0f) return;
     for_each_part<Spu>([&](uint32_t first) {
       const uint32_t some = part_of<Spu>(same, first);

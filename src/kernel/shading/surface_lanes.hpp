@@ -108,7 +108,7 @@ template <class Spu>
   surface.normal.template store<S>(points.normal);
   for_each_value<S>(hits.object, lanes, [&](uint32_t offset, uint32_t same) {
     scene.spu().compute(scalar_work::kHitObject);
-    const ObjectRecord object = *scene.object(offset);
+    Kept<Spu, ObjectRecord> object = *scene.object(offset);
     if ((object.kind_and_flags & object_flag::by_surface) == 0) return;
     for_each_part<Spu>([&](uint32_t first) {
       const auto take = R::M::from_bits(part_of<Spu>(same, first));

@@ -35,17 +35,20 @@ template <class S, class Spu, class At, class Between>
   const M outside = (pattern_value > F(1.0f)) | (pattern_value < F(0.0f));
   const F value = S::select(outside, pattern_value - S::floor(pattern_value), pattern_value);
   uint32_t number = r.entry_count - 1;
-  MapEntryRecord above = *scene.map_entry(map_entry_at(r.entries, number));
-  at(M::all(), number, above);
-  const M within = value < F(above.position);
+  MapEntryRecord room[2];
+  const MapEntryRecord* above =
+      keep<Spu>(scene.map_entry(map_entry_at(r.entries, number)), room[number & 1]);
+  at(M::all(), number, *above);
+  const M within = value < F(above->position);
   if (within.bits() == 0) return;
   for (; number != 0; --number) {
-    const MapEntryRecord below = *scene.map_entry(map_entry_at(r.entries, number - 1));
-    between(within & (value <= F(above.position)), number, below, above,
-            (value - F(below.position)) * F(above.inverse_width));
+    const MapEntryRecord* const below =
+        keep<Spu>(scene.map_entry(map_entry_at(r.entries, number - 1)), room[(number - 1) & 1]);
+    between(within & (value <= F(above->position)), number, *below, *above,
+            (value - F(below->position)) * F(above->inverse_width));
     above = below;
   }
-  at(within & (value <= F(above.position)), 0, above);
+  at(within & (value <= F(above->position)), 0, *above);
 }
 
 inline bool is_pigment(const PatternRecord& r) {
@@ -154,7 +157,7 @@ private:
   /// Asks the pattern of a level, as far as that can be done at once, and finds the entries that count.
   [[gnu::noinline]] void open(Level& level) {
     scene_.spu().run_in_module(kModule);
-    const PatternRecord r = *scene_.pattern(level.pattern);
+    Kept<Spu, PatternRecord> r = *scene_.pattern(level.pattern);
     level.entries = r.entries;
     level.count = r.entry_count;
     level.next = 0;

@@ -81,7 +81,7 @@ disturb_by(SceneAccess<Spu>& scene, MapWalk<Spu, TextureStage::normals>& walk, c
   using S = typename Spu::rare_simd;
   using F = typename S::F;
   Spu& spu = scene.spu();
-  const PatternRecord r = *scene.pattern(normal.pattern);
+  Kept<Spu, PatternRecord> r = *scene.pattern(normal.pattern);
   const PatternPoints<S> own = to_pattern_space<TextureStage::normals>(scene, r, points, lanes);
   const V3<S>& p = own.at;
   float c[9];
@@ -148,7 +148,7 @@ void disturb_part(SceneAccess<Spu>& scene, const NormalRecord& record,
   F weight;
   uint32_t some;
   while (walk.next(entry, weight, some)) {
-    const NormalRecord leaf = *scene.normal(entry.child);
+    Kept<Spu, NormalRecord> leaf = *scene.normal(entry.child);
     disturb_by(scene, walk, leaf, points, some, unit, disturbed);
     sum = sum + disturbed * weight;
   }
@@ -162,7 +162,7 @@ template <class Spu>
 [[gnu::noinline]] void disturb_normal(SceneAccess<Spu>& scene, uint32_t offset,
                                       const PatternPoints<typename Spu::simd>& points, uint32_t lanes,
                                       V3<typename Spu::simd>& unit) {
-  const NormalRecord record = *scene.normal(offset);
+  Kept<Spu, NormalRecord> record = *scene.normal(offset);
   for_each_part<Spu>([&](uint32_t first) {
     const uint32_t some = part_of<Spu>(lanes, first);
     if (some == 0) return;

@@ -39,12 +39,12 @@ struct ObjectPattern : RarePattern {
     using S = typename Spu::rare_simd;
     using I = typename S::I;
     const auto word = [](uint32_t value) { return I::splat(static_cast<int32_t>(value)); };
-    const CsgRecord program = *scene.csg(r.table);
+    Kept<Spu, CsgRecord> program = *scene.csg(r.table);
     I place = word(0);
     for (uint32_t i = 0; i < program.count; ++i) {
       const uint32_t here = (place == word(i)).bits();
       if (here == 0) continue;
-      const CsgStep step = *scene.csg_step(program.steps + i * static_cast<uint32_t>(sizeof(CsgStep)));
+      Kept<Spu, CsgStep> step = *scene.csg_step(program.steps + i * static_cast<uint32_t>(sizeof(CsgStep)));
       const SolidRecord& solid = *scene.solid(step.solid);
       const uint32_t inside = lanes_in(scene.spu(), solid, p);
       place = S::select(S::M::from_bits(here & inside), word(step.if_inside), place);

@@ -185,8 +185,7 @@ to_pattern_space(SceneAccess<Spu>& scene, const PatternRecord& r,
   p = map_point<S>(r.to_space, p);
   move_idle_lanes<Spu>(p, lanes);
   for (uint32_t i = 0; i < r.step_count; ++i) {
-    // A copy: the next read may replace the record.
-    const SpaceStepRecord step =
+    Kept<Spu, SpaceStepRecord> step =
         *scene.space_step(r.steps + i * static_cast<uint32_t>(sizeof(SpaceStepRecord)));
     if ((step.kind_and_flags & warp_flag::kind_mask) == static_cast<uint32_t>(WarpKind::turbulence)) {
       spu.enter_module(modules::kNoise);

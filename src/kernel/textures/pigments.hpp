@@ -39,7 +39,7 @@ template <class Spu>
   using S = typename Spu::rare_simd;
   using F = typename S::F;
   using M = typename S::M;
-  const PatternRecord r = *scene.pattern(pattern);
+  Kept<Spu, PatternRecord> r = *scene.pattern(pattern);
   const F value = pattern_value(scene, r, to_pattern_space<TextureStage::colours>(scene, r, points, lanes));
   const F zero(0.0f);
   pigment = {{zero, zero, zero}, zero, zero};

@@ -53,7 +53,7 @@ private:
     using F = typename S::F;
     const uint32_t count = static_cast<uint32_t>(r.parameter[0]);
     for (uint32_t i = 0; i < count; ++i) {
-      const WaveRecord wave =
+      Kept<Spu, WaveRecord> wave =
           *scene.template pattern_table<WaveRecord>(r.table + i * static_cast<uint32_t>(sizeof(WaveRecord)));
       const V3<S> from = p - splat3<S>(wave.source);
       const F length = S::sqrt(dot<S>(from, from));

@@ -17,7 +17,7 @@ struct SlopePattern : RarePattern {
         const PatternRecord& r) {
     using S = typename Spu::rare_simd;
     using F = typename S::F;
-    const SlopeRecord slope = *scene.template pattern_table<SlopeRecord>(r.table);
+    Kept<Spu, SlopeRecord> slope = *scene.template pattern_table<SlopeRecord>(r.table);
     const V3<S> normal = points.surface->normal.template load_from<S>(points.first);
     const F cosine = dot<S>(normal, splat3<S>(slope.direction)), one(1.0f);
     // Flat ground is often at just 0 or 1 or another whole number, where single precision would decide which
