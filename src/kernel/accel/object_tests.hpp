@@ -280,10 +280,12 @@ private:
     uint32_t csg = kNoOffset; ///< offset of its condition
 
     Other(ObjectTests& tests, const RayPacket& rays, const ObjectRecord& record, uint32_t self) {
-      const ObjectRecord object = record;
+      Kept<Spu, ObjectRecord> object = record;
       const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
-      ExtraRecord extra = {};
-      if (object.extra != kNoOffset) extra = *tests.scene_.extra(object.extra);
+      ExtraRecord room;
+      if (object.extra == kNoOffset) room = {};
+      const ExtraRecord& extra =
+          object.extra == kNoOffset ? room : *keep<Spu>(tests.scene_.extra(object.extra), room);
       if ((object.kind_and_flags & object_flag::csg) != 0) csg = extra.csg;
       ++tests.counters_.tests[kind];
       tests.scene_.spu().compute(scalar_work::kTestEllipsoid);
