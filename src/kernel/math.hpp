@@ -109,6 +109,27 @@ template <class S> typename S::F pow(const typename S::F& x, const typename S::F
   return S::select(x > F(1e-37f), exp2<S>(y * log2<S>(positive)), F(0.0f));
 }
 
+/// x to the power y for x >= 0 and |y| <= 1, by half the operations: relative error below 2e-5; what is below
+/// 1e-37 counts as that. The polynomials are interpolated at Chebyshev's points.
+template <class S> typename S::F coarse_pow(const typename S::F& x, const typename S::F& y) {
+  using F = typename S::F;
+  using I = typename S::I;
+  const I bits = S::bits_of(S::max(x, F(1e-37f)));
+  const F m = S::float_of((bits & I::splat(0x007FFFFF)) | I::splat(0x3F800000)), m2 = m * m;
+  // Of the mantissa in [1, 2), less the exponent's bias.
+  const F logarithm =
+      ((F(-2.787926207f - 127.0f) + m * F(5.047855413f)) + m2 * (F(-3.489878551f) + m * F(1.589474295f))) +
+      m2 * m2 * (F(-0.402513394f) + m * F(0.043004958f));
+  const F power =
+      S::min(S::max((S::to_float(S::template shift_right<23>(bits)) + logarithm) * y + F(127.0f), F(0.0f)),
+             F(254.0f));
+  const I exponent = S::to_int(power); // with its bias: truncated downward
+  const F r = power - S::to_float(exponent), r2 = r * r;
+  const F mantissa = (F(1.000003493f) + r * F(0.692972922f)) +
+                     r2 * ((F(0.241604357f) + r * F(0.051744998f)) + r2 * F(0.013670309f));
+  return mantissa * S::float_of(S::template shift_left<23>(exponent));
+}
+
 /// The sine of an angle in turns, in [0, 1]; absolute error below 3e-7.
 template <class S> typename S::F sine_of_turns(const typename S::F& turns) {
   using F = typename S::F;

@@ -88,6 +88,25 @@ TEST_CASE("pow") {
   CHECK(one.lane[9] == 1);
 }
 
+TEST_CASE("coarse_pow") {
+  Random random(14);
+  for (double power : {0.2, 0.4, 0.45454545, 1.0}) {
+    INFO(power);
+    const auto function = [&](const F& x) { return coarse_pow<Simd>(x, F(static_cast<float>(power))); };
+    const auto error = [&](double x, double y) { return relative(y, std::pow(x, power)); };
+    CHECK(worst(
+              5000, [&] { return random.uniform(0, 1); }, function, error) < 2e-5);
+    CHECK(worst(
+              5000, [&] { return std::exp2(random.uniform(-60, 60)); }, function, error) < 2e-5);
+  }
+  // Of 0 and of what is negative.
+  for (float x : {0.0f, -1.0f, -1e30f}) {
+    const auto least = lanes_of(coarse_pow<Simd>(F(x), F(0.4f)));
+    CHECK(least.lane[3] >= 0);
+    CHECK(least.lane[3] < 1e-14f);
+  }
+}
+
 TEST_CASE("acos_unit") {
   Random random(5);
   const auto function = [](const F& x) { return acos_unit<Simd>(x); };

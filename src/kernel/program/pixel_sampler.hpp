@@ -199,9 +199,10 @@ protected:
   /// The packets with a row of the grid's points at the block, of which the first is that to its upper left.
   /// Where memory is not direct they stay until others are fetched.
   [[gnu::noinline]] const SampleLanes* packets_of_row(uint32_t row) {
-    const ea_t first = packet_of_points(column_ * kSampledEdge / kPacketEdge,
-                                        (row_ * kSampledEdge + row) / kPacketEdge);
-    if constexpr (kReadsInPlace<Spu>) return reinterpret_cast<const SampleLanes*>(static_cast<uintptr_t>(first));
+    const ea_t first =
+        packet_of_points(column_ * kSampledEdge / kPacketEdge, (row_ * kSampledEdge + row) / kPacketEdge);
+    if constexpr (kReadsInPlace<Spu>)
+      return reinterpret_cast<const SampleLanes*>(static_cast<uintptr_t>(first));
     fetch(scratch_.packets, first, packets_of_block() * kGridPacketBytes);
     return scratch_.packets;
   }
@@ -224,10 +225,11 @@ protected:
       points.numbers[i] = 0.0f;
   }
 
-  /// What numbers are compared by; whole vectors of sixteen.
+  /// What numbers are compared by; whole vectors of sixteen. Not exactly: few pixels are that close to the
+  /// threshold.
   [[gnu::noinline]] void encode(const float* numbers, uint32_t count, float* encoded) const {
     for (uint32_t i = 0; i < count; i += R::kLanes)
-      pow<R>(F::load(numbers + i), F(frame_.sampling.inverse_gamma)).store(encoded + i);
+      coarse_pow<R>(F::load(numbers + i), F(frame_.sampling.inverse_gamma)).store(encoded + i);
   }
   void encode_points(const PointRow& points, PointRow& encoded) const {
     encode(points.numbers, PointRow::kEncoded, encoded.numbers);
