@@ -10,12 +10,12 @@ template <class Spu, uint32_t kChannels>
 class AdaptiveSampler : public PixelSampler<Spu, SamplingMethod::adaptive, kChannels> {
   using Base = PixelSampler<Spu, SamplingMethod::adaptive, kChannels>;
   using Base::arrive, Base::ask, Base::asked_, Base::channel, Base::channel_from, Base::column_,
-      Base::differing, Base::distance, Base::encode, Base::encode_pixels_of, Base::encode_points,
-      Base::end_asking, Base::fetch, Base::frame_, Base::gather_colours, Base::go_to_block, Base::height_,
-      Base::kEdge, Base::kHasAlpha, Base::packets_of_row, Base::points_from, Base::put_colours, Base::row_,
-      Base::row_mask, Base::scratch_, Base::send, Base::smaller_of, Base::store_, Base::take_points,
-      Base::takes_points, Base::under_way_, Base::wants_colours, Base::width_;
-  using typename Base::F, typename Base::PointRow, typename Base::R;
+      Base::differing, Base::encode, Base::encode_pixels_of, Base::encode_points, Base::end_asking,
+      Base::fetch, Base::frame_, Base::gather_colours, Base::go_to_block, Base::height_, Base::kEdge,
+      Base::kHasAlpha, Base::packets_of_row, Base::points_from, Base::put_colours, Base::row_, Base::row_mask,
+      Base::scratch_, Base::send, Base::smaller_of, Base::store_, Base::take_points, Base::takes_points,
+      Base::under_way_, Base::wants_colours, Base::width_;
+  using typename Base::F, typename Base::Points, typename Base::R;
 
   using Square = SampleSquare<kChannels>;
   static constexpr uint32_t kSquares = squares_at_once(kEdge);
@@ -117,12 +117,12 @@ private:
       for_each_lane(divided, [&](uint32_t x) { divide_pixel(x, y, upper); });
     }
   }
-  uint32_t differing_corners(const PointRow& upper, const PointRow& lower) const {
+  uint32_t differing_corners(const Points& upper, const Points& lower) const {
     return differing(upper, 0, upper, 1) | differing(upper, 0, lower, 0) | differing(upper, 0, lower, 1) |
            differing(upper, 1, lower, 0) | differing(upper, 1, lower, 1) | differing(lower, 0, lower, 1);
   }
   /// The means of the corners of pixels, or 0 where they are divided.
-  static void sum_corners(const PointRow& upper, const PointRow& lower, uint32_t divided,
+  static void sum_corners(const Points& upper, const Points& lower, uint32_t divided,
                           float (&sums)[kChannels][kSampledEdge]) {
     const V3<R> zero = {F(0.0f), F(0.0f), F(0.0f)};
     for (uint32_t x = 0; x < kSampledEdge; x += R::kLanes) {
@@ -206,6 +206,23 @@ private:
         sums[axis][pixel % kSampledEdge] += share * (points[corners[0]][axis] + points[corners[1]][axis] +
                                                      points[corners[2]][axis] + points[corners[3]][axis]);
     }
+  }
+  /// By how much two colours differ.
+  [[gnu::always_inline]] static float distance_inline(const float* a, const float* b) {
+    const float sum = magnitude(a[0] - b[0]) + magnitude(a[1] - b[1]) + magnitude(a[2] - b[2]);
+    if constexpr (kHasAlpha)
+      return sum + magnitude(a[3] - b[3]);
+    else
+      return sum;
+  }
+  [[gnu::noinline]] static float distance_out_of_line(const float* a, const float* b) {
+    return distance_inline(a, b);
+  }
+  static float distance(const float* a, const float* b) {
+    if constexpr (kHasRoomForCode<Spu>)
+      return distance_inline(a, b);
+    else
+      return distance_out_of_line(a, b);
   }
   bool differ(const float* encoded, const uint32_t (&corners)[4]) const {
     for (uint32_t i = 1; i < 4; ++i)

@@ -13,18 +13,28 @@ namespace celltrace::kernel {
 template <class Spu, uint32_t kChannels>
 class FixedSampler : public PixelSampler<Spu, SamplingMethod::fixed, kChannels> {
   using Base = PixelSampler<Spu, SamplingMethod::fixed, kChannels>;
-  using Base::arrive, Base::ask, Base::asked_, Base::channel, Base::column_, Base::differing, Base::distance,
-      Base::encode, Base::encode_pixels_of, Base::encode_points, Base::end_asking, Base::fetch, Base::frame_,
-      Base::go_to_block, Base::height_, Base::kColourBytes, Base::kPackets, Base::made_at,
+  using Base::arrive, Base::ask, Base::asked_, Base::channel, Base::column_, Base::differing, Base::encode,
+      Base::encode_pixels_of, Base::encode_points, Base::end_asking, Base::fetch, Base::found_at,
+      Base::frame_, Base::go_to_block, Base::height_, Base::kColourBytes, Base::kPackets, Base::made_at,
       Base::packet_of_points, Base::packets_of_row, Base::put_colours, Base::row_, Base::row_mask,
-      Base::scratch_, Base::send, Base::store_, Base::take_points, Base::takes_points, Base::under_way_,
+      Base::scratch_, Base::send_made, Base::store_, Base::take_points, Base::takes_points, Base::under_way_,
       Base::wants_colours, Base::width_;
-  using typename Base::Colour, typename Base::PointRow, typename Base::R;
+  using typename Base::Colour, typename Base::Points, typename Base::R;
 
-  static_assert(R::kLanes <= kSampledEdge, "means are kept where colours of a row are");
+  /// The means of a row of pixels as a row of points: that of a pixel is where its point would be.
+  struct MeanRow {
+    alignas(64) float numbers[kChannels][kSimdLanes + kSampledEdge];
+
+    const float* channel(uint32_t axis) const { return numbers[axis] + kSimdLanes - 1; }
+  };
+  struct Place {
+    uint32_t x, y;
+  };
   struct Scratch : Base::Scratch {
-    alignas(64) float encoding[3 * R::kLanes];   ///< of means
-    uint32_t places[R::kLanes];                  ///< of these
+    alignas(64) float encoding[3 * R::kLanes]; ///< of means
+    Colour means_of[R::kLanes];
+    Place places[R::kLanes]; ///< of these
+    MeanRow means;
     alignas(64) float channels[3][kSampledEdge]; ///< of pixels to be written
     alignas(16) uint32_t leaving[kSampledEdge][4];
   };
@@ -76,79 +86,90 @@ private:
   /// The neighbours that pixels differ from, before any of them is sampled.
   [[gnu::noinline]] void compare_pixels() {
     const SampleLanes* packets = nullptr;
+    const Points* above = nullptr;
     for (uint32_t line = 0; line <= height_; ++line) {
       if (line % kPacketEdge == 0) packets = packets_of_row(line);
-      PointRow& own = scratch().encoded[line % 2];
+      Points* const own = made_at(encoded_row(line), &scratch().encoded[line % 2]);
       take_points(packets, line, scratch().points[0]);
-      encode_points(scratch().points[0], own);
-      store_encoded(line, own);
-      if (line == 0) continue;
-      const uint32_t y = line - 1;
-      masks_.left.row[y] = differing(own, 1, own, 0) & row_mask();
-      masks_.above.row[y] = differing(own, 1, scratch().encoded[y % 2], 1) & row_mask();
-      masks_.known.row[y] = 0;
+      encode_points(scratch().points[0], *own);
+      send_made(own, encoded_row(line));
+      if (line != 0) {
+        const uint32_t y = line - 1;
+        masks_.left.row[y] = differing(*own, 1, *own, 0) & row_mask();
+        masks_.above.row[y] = differing(*own, 1, *above, 1) & row_mask();
+        masks_.known.row[y] = 0;
+      }
+      arrive();
+      above = own;
     }
-  }
-
-  /// Keeps what a row of points is compared by.
-  [[gnu::noinline]] void store_encoded(uint32_t y, const PointRow& encoded) {
-    using W = typename Base::S::F;
-    Colour* const row = made_at(encoded_row(y), scratch().colours);
-    for (uint32_t x = 0; x < kStoredPoints; x += kSimdLanes) {
-      W lanes[4];
-      for (uint32_t axis = 0; axis < 4; ++axis)
-        lanes[axis] = axis < kChannels ? W::load_unaligned(encoded.channel(axis) + x) : W(0.0f);
-      Base::S::transpose_quads(lanes[0], lanes[1], lanes[2], lanes[3]);
-      for (uint32_t i = 0; i < 4; ++i)
-        lanes[i].store(row[x + 4 * i].channel);
-    }
-    send(row, encoded_row(y), kStoredPoints * kColourBytes);
-    arrive();
   }
 
   /// Compares all pixels in POV-Ray's order, each with what the ones before it have become. Of pixels that
   /// are to be sampled and are not yet, the colour counts that they have.
   [[gnu::noinline]] void compare_again() {
-    uint32_t none = 0;
+    uint32_t over = 0, known_over = 0; // of the row above
     for (uint32_t y = 0; y < height_; ++y) {
-      masks_.sampled.row[y] = 0;
-      uint32_t* const over = y == 0 ? &none : &masks_.sampled.row[y - 1];
-      uint32_t& own = masks_.sampled.row[y];
       const uint32_t left = masks_.left.row[y], above = masks_.above.row[y];
-      uint32_t candidates = left | above | *over;
+      const uint32_t known = masks_.known.row[y];
+      // The same where a neighbour is sampled and its colour known.
+      uint32_t left_known = 0, above_known = 0;
+      if ((known | known_over) != 0) compare_with_means(y, left_known, above_known);
+      uint32_t own = 0;
+      uint32_t candidates = left | above | over;
       while (candidates != 0) {
-        const uint32_t x = static_cast<uint32_t>(__builtin_ctz(candidates));
-        const uint32_t bit = 1u << x;
-        candidates &= ~bit;
-        const uint32_t before = bit >> 1;
-        bool differs_left = (left & bit) != 0, differs_above = (above & bit) != 0;
-        if (((own & masks_.known.row[y] & before) | (*over & (y == 0 ? 0 : masks_.known.row[y - 1]) & bit)) !=
-            0) {
-          const uint32_t differs =
-              kHasRoomForCode<Spu> ? differences_of(x, y) : differences_out_of_line(x, y);
-          differs_left = (differs & 1) != 0;
-          differs_above = (differs & 2) != 0;
-        }
-        if (differs_left) own |= before;
-        if (differs_above && y != 0) *over |= bit;
-        if (!differs_left && !differs_above) continue;
-        own |= bit;
-        candidates |= bit << 1 & row_mask();
+        const uint32_t bit = candidates & (0u - candidates);
+        const uint32_t differs_left = bit & ((own & known & bit >> 1) != 0 ? left_known : left);
+        const uint32_t differs_above = bit & ((over & known_over & bit) != 0 ? above_known : above);
+        const uint32_t differs = differs_left | differs_above;
+        own |= differs | differs_left >> 1;
+        over |= differs_above;
+        candidates = (candidates & ~bit) | (differs << 1 & row_mask());
       }
+      if (y != 0) masks_.sampled.row[y - 1] = over;
+      over = own;
+      known_over = known;
     }
+    masks_.sampled.row[height_ - 1] = over;
     cursor_ = begin_cursor();
     taken_ = cursor_;
   }
 
+  /// Which pixels of a row differ from the means of their left and upper neighbours, of those that are known.
+  [[gnu::noinline]] void compare_with_means(uint32_t y, uint32_t& left, uint32_t& above) {
+    const Points& own = *found_at(encoded_row(y + 1), &scratch().encoded[0]);
+    MeanRow& means = scratch().means;
+    if (masks_.known.row[y] != 0) {
+      read_means(y, means);
+      left = differing(own, 1, means, 0);
+    }
+    if (y == 0 || masks_.known.row[y - 1] == 0) return;
+    read_means(y - 1, means);
+    above = differing(own, 1, means, 1);
+  }
+  [[gnu::noinline]] void read_means(uint32_t y, MeanRow& means) {
+    using W = typename Base::S::F;
+    struct Row {
+      Colour of[kSampledEdge];
+    };
+    const Row& row = *found_at(encoded_colour(0, y), reinterpret_cast<Row*>(scratch().colours));
+    for (uint32_t x = 0; x < kSampledEdge; x += kSimdLanes) {
+      W lanes[4];
+      for (uint32_t i = 0; i < 4; ++i)
+        lanes[i] = W::load(row.of[x + 4 * i].channel);
+      Base::S::transpose_quads(lanes[0], lanes[1], lanes[2], lanes[3]);
+      for (uint32_t axis = 0; axis < kChannels; ++axis)
+        lanes[axis].store(means.numbers[axis] + kSimdLanes + x);
+    }
+  }
+
   // The store: colours of pixels, what they are compared by, and what points are compared by.
   ea_t stored_colour(uint32_t x, uint32_t y) const { return store_ + (y * kSampledEdge + x) * kColourBytes; }
-  ea_t encoded_colour(uint32_t x, uint32_t y) const { return stored_colour(x, kSampledEdge + y); }
-  ea_t encoded_row(uint32_t y) const {
-    return stored_colour(0, 2 * kSampledEdge) + y * kStoredPoints * kColourBytes;
+  /// Of four neighbours the colours lie in four vectors, which read_means() transposes.
+  ea_t encoded_colour(uint32_t x, uint32_t y) const {
+    return stored_colour((x & ~15u) | (x & 3) << 2 | (x >> 2 & 3), kSampledEdge + y);
   }
-  /// Of four neighbours the colours lie in four vectors: as store_encoded() transposed them.
-  ea_t encoded_point(uint32_t x, uint32_t y) const {
-    return encoded_row(y) + ((x & ~15u) | (x & 3) << 2 | (x >> 2 & 3)) * kColourBytes;
+  ea_t encoded_row(uint32_t y) const {
+    return stored_colour(0, 2 * kSampledEdge) + y * static_cast<uint32_t>(sizeof(Points));
   }
   /// The colour of a point, x and y from the block's first one on.
   [[gnu::noinline]] void fetch_point(uint32_t x, uint32_t y, Colour& colour) {
@@ -156,46 +177,10 @@ private:
     const uint32_t line = row_ * kSampledEdge + y;
     const ea_t packet = packet_of_points(column / kPacketEdge, line / kPacketEdge);
     const uint32_t lane = line % kPacketEdge * kPacketEdge + column % kPacketEdge;
-    const auto take_from = [&](const SampleLanes& points) {
-      for (uint32_t axis = 0; axis < kChannels; ++axis)
-        colour.channel[axis] = points[axis].lane[lane];
-    };
-    if constexpr (kReadsInPlace<Spu>) {
-      take_from(*reinterpret_cast<const SampleLanes*>(static_cast<uintptr_t>(packet)));
-    } else {
-      fetch(scratch().packets, packet, kGridPacketBytes);
-      take_from(scratch().packets[0]);
-    }
+    const SampleLanes& points = *found_at(packet, scratch().packets);
+    for (uint32_t axis = 0; axis < kChannels; ++axis)
+      colour.channel[axis] = points[axis].lane[lane];
   }
-  /// Where it lies if memory is direct, otherwise in `room`.
-  [[gnu::always_inline]] const Colour& colour_at(ea_t ea, [[maybe_unused]] Colour& room) {
-    if constexpr (kReadsInPlace<Spu>) {
-      return *reinterpret_cast<const Colour*>(static_cast<uintptr_t>(ea));
-    } else {
-      fetch(&room, ea, kColourBytes);
-      return room;
-    }
-  }
-  /// Where that is what a point is compared by, which may be a pixel of the block: of those that are sampled,
-  /// what they have become.
-  [[gnu::always_inline]] ea_t compared_by(uint32_t x, uint32_t y) const {
-    const bool is_pixel = x != 0 && y != 0;
-    const bool is_known =
-        is_pixel && (masks_.sampled.row[y - 1] & masks_.known.row[y - 1] & 1u << (x - 1)) != 0;
-    return is_known ? encoded_colour(x - 1, y - 1) : encoded_point(x, y);
-  }
-  /// Whether a pixel differs from its neighbours as they are now: bit 0 from the left one, bit 1 from the
-  /// upper one.
-  [[gnu::always_inline]] uint32_t differences_of(uint32_t x, uint32_t y) {
-    Colour* const room = scratch().colours;
-    const Colour& own = colour_at(encoded_point(x + 1, y + 1), room[0]);
-    const Colour& left = colour_at(compared_by(x, y + 1), room[1]);
-    const Colour& above = colour_at(compared_by(x + 1, y), room[2]);
-    const float threshold = frame_.sampling.threshold;
-    return (distance(own.channel, left.channel) >= threshold ? 1u : 0u) |
-           (distance(own.channel, above.channel) >= threshold ? 2u : 0u);
-  }
-  [[gnu::noinline]] uint32_t differences_out_of_line(uint32_t x, uint32_t y) { return differences_of(x, y); }
 
   /// The pixels of a row that still need samples.
   uint32_t wanted(uint32_t y) const { return masks_.sampled.row[y] & ~masks_.known.row[y]; }
@@ -292,11 +277,13 @@ private:
   }
   /// A pixel is known.
   void store_mean(uint32_t number, uint32_t x, uint32_t y, const Colour& mean) {
-    scratch().colours[number] = mean;
-    scratch().places[number] = y * kSampledEdge + x;
+    scratch().means_of[number] = mean;
+    scratch().places[number] = {x, y};
     for (uint32_t axis = 0; axis < 3; ++axis)
       scratch().encoding[3 * number + axis] = mean.channel[axis];
-    send(&scratch().colours[number], stored_colour(x, y), kColourBytes);
+    Colour* const place = made_at(stored_colour(x, y), &scratch().means_of[number]);
+    *place = mean;
+    send_made(place, stored_colour(x, y));
   }
   /// What so many means are compared by.
   [[gnu::noinline]] void encode_means(uint32_t count) {
@@ -305,10 +292,13 @@ private:
       scratch().encoding[i] = 0.0f;
     encode(scratch().encoding, 3 * R::kLanes, scratch().encoding);
     for (uint32_t number = 0; number < count; ++number) {
-      Colour& mean = scratch().colours[number];
+      Colour& mean = scratch().means_of[number];
       for (uint32_t axis = 0; axis < 3; ++axis)
         mean.channel[axis] = scratch().encoding[3 * number + axis];
-      send(&mean, encoded_colour(scratch().places[number], 0), kColourBytes);
+      const ea_t to = encoded_colour(scratch().places[number].x, scratch().places[number].y);
+      Colour* const place = made_at(to, &mean);
+      *place = mean;
+      send_made(place, to);
     }
     arrive();
   }
@@ -327,9 +317,10 @@ private:
                        (column_ * kSampledEdge + 1) * static_cast<uint32_t>(sizeof(uint32_t));
       for_each_lane(sampled, [&](uint32_t x) {
         // A word has the same place in its quadword on both sides of a transfer.
-        uint32_t* const word = &scratch().leaving[x][(x + 1) % 4];
+        const ea_t to = row + x * static_cast<uint32_t>(sizeof(uint32_t));
+        uint32_t* const word = made_at(to, &scratch().leaving[x][(x + 1) % 4]);
         *word = scratch().words[x];
-        send(word, row + x * static_cast<uint32_t>(sizeof(uint32_t)), sizeof(uint32_t));
+        send_made(word, to);
         if (wants_colours()) put_colours(x, 1, x + 1, y + 1);
       });
       arrive();

@@ -53,17 +53,28 @@ constexpr uint32_t sampled_rows(uint32_t edge) {
 constexpr uint32_t max_squares(uint32_t edge) {
   return sampled_rows(edge) * kSampledEdge + 5 * squares_at_once(edge) * kMaxSamplingDepth;
 }
-/// Points of a row of a block, one more than pixels, in whole vectors.
-constexpr uint32_t kStoredPoints = kSampledEdge + kSimdLanes;
+
+/// The channels of a row of points of a block, one more than it has pixels, of which the first is that at its
+/// left edge. Those that are encoded are one behind the other, in whole vectors; vectors may be read from any
+/// point on.
+template <uint32_t kChannels> struct alignas(64) PointRow {
+  static constexpr uint32_t kPackets = kSampledEdge / kPacketEdge + 1, kPoints = kPackets * kPacketEdge;
+  static constexpr uint32_t kEncoded = (3 * kPoints + kSimdLanes - 1) / kSimdLanes * kSimdLanes;
+  float numbers[kEncoded + (kChannels - 3) * kPoints + kSimdLanes];
+
+  static constexpr uint32_t first_of(uint32_t axis) { return axis == 3 ? kEncoded : axis * kPoints; }
+  float* channel(uint32_t axis) { return numbers + first_of(axis); }
+  const float* channel(uint32_t axis) const { return numbers + first_of(axis); }
+};
 /// What an SPE needs in main memory: squares; or of the pixels of a block their colours and what these are
 /// compared by, and of its points the latter.
 constexpr uint32_t sample_store_bytes(uint32_t edge, bool alpha) {
-  constexpr uint32_t kPixels = kSampledEdge * kSampledEdge, kPoints = (kSampledEdge + 1) * kStoredPoints;
-  constexpr auto kColours = (2 * kPixels + kPoints) * static_cast<uint32_t>(sizeof(ColourRecord));
-  static_assert(kColours % 128 == 0);
+  constexpr uint32_t kPixels = kSampledEdge * kSampledEdge;
+  const size_t row = alpha ? sizeof(PointRow<4>) : sizeof(PointRow<3>);
   const size_t square = alpha ? sizeof(SampleSquare<4>) : sizeof(SampleSquare<3>);
-  const uint32_t squares = (max_squares(edge) * static_cast<uint32_t>(square) + 127) / 128 * 128;
-  return squares > kColours ? squares : kColours;
+  const size_t colours = 2 * kPixels * sizeof(ColourRecord) + (kSampledEdge + 1) * row;
+  const size_t squares = max_squares(edge) * square;
+  return static_cast<uint32_t>(((squares > colours ? squares : colours) + 127) / 128 * 128);
 }
 
 /// Whether frames have how clear pixels are.
@@ -101,29 +112,17 @@ protected:
   static constexpr uint32_t kEdge = kBundleEdge<Spu>;
   static constexpr uint32_t kPackets = kBundlePackets<Spu>;
   static constexpr uint32_t kTag = 7;
-  /// Packets that a row of points of a block is in: one more of them than pixels.
-  static constexpr uint32_t kRowPackets = kSampledEdge / kPacketEdge + 1;
-  static constexpr uint32_t kRowPoints = kRowPackets * kPacketEdge;
 
   using Colour = ColourRecord;
-  /// The channels of a row of points, of which the first is that at the block's left edge. Those that are
-  /// encoded are one behind the other, in whole vectors; vectors may be read from any point on.
-  struct alignas(64) PointRow {
-    static constexpr uint32_t kEncoded = (3 * kRowPoints + kSimdLanes - 1) / kSimdLanes * kSimdLanes;
-    float numbers[kEncoded + (kHasAlpha ? kRowPoints : 0) + kSimdLanes];
-
-    static constexpr uint32_t first_of(uint32_t axis) { return axis == 3 ? kEncoded : axis * kRowPoints; }
-    float* channel(uint32_t axis) { return numbers + first_of(axis); }
-    const float* channel(uint32_t axis) const { return numbers + first_of(axis); }
-  };
+  using Points = PointRow<kChannels>;
   static constexpr auto kColourBytes = static_cast<uint32_t>(sizeof(Colour));
 
   /// What is not kept from call to call.
   struct Scratch {
-    SampleLanes packets[kRowPackets];
-    PointRow points[2], encoded[2];           ///< of two rows, by turns
+    SampleLanes packets[Points::kPackets];
+    Points points[2], encoded[2];             ///< of two rows, by turns
     alignas(64) uint32_t words[kSampledEdge]; ///< pixels to be written
-    alignas(64) Colour colours[kStoredPoints];
+    alignas(64) Colour colours[kSampledEdge];
   };
 
   PixelSampler(Spu& spu, const FrameBlock& frame, SampleBundle<Spu>& samples, Scratch& scratch)
@@ -158,20 +157,32 @@ protected:
   }
   /// What is sent may be changed after arrive().
   [[gnu::noinline]] void send(const void* ls, ea_t ea, uint32_t bytes) {
-    if constexpr (kReadsInPlace<Spu>) {
-      void* const to = reinterpret_cast<void*>(static_cast<uintptr_t>(ea));
-      if (to != ls) __builtin_memcpy(to, ls, bytes);
-    } else {
+    if constexpr (kReadsInPlace<Spu>)
+      __builtin_memcpy(reinterpret_cast<void*>(static_cast<uintptr_t>(ea)), ls, bytes);
+    else
       spu_.put(ls, ea, bytes, kTag);
-    }
   }
-  /// Where to make what is sent to `ea`: there if memory is direct, otherwise in `room`.
+  /// Where to make what send_made() is to send to `ea`: there if memory is direct, otherwise in `room`.
   template <class Object>
   [[gnu::always_inline]] static Object* made_at([[maybe_unused]] ea_t ea, [[maybe_unused]] Object* room) {
     if constexpr (kReadsInPlace<Spu>)
       return reinterpret_cast<Object*>(static_cast<uintptr_t>(ea));
     else
       return room;
+  }
+  template <class Object>
+  [[gnu::always_inline]] void send_made([[maybe_unused]] const Object* made, [[maybe_unused]] ea_t ea) {
+    if constexpr (!kReadsInPlace<Spu>) send(made, ea, sizeof(Object));
+  }
+  /// What was made at `ea`: there if memory is direct, otherwise fetched to `room`.
+  template <class Object>
+  [[gnu::always_inline]] const Object* found_at(ea_t ea, [[maybe_unused]] Object* room) {
+    if constexpr (kReadsInPlace<Spu>) {
+      return reinterpret_cast<const Object*>(static_cast<uintptr_t>(ea));
+    } else {
+      fetch(room, ea, sizeof(Object));
+      return room;
+    }
   }
   void arrive() {
     if constexpr (!kReadsInPlace<Spu>) spu_.wait_all(1u << kTag);
@@ -208,20 +219,20 @@ protected:
   }
   /// Across the block, as far as there are any.
   uint32_t packets_of_block() const {
-    return smaller_of(frame_.packet_columns - column_ * kSampledEdge / kPacketEdge, kRowPackets);
+    return smaller_of(frame_.packet_columns - column_ * kSampledEdge / kPacketEdge, Points::kPackets);
   }
   /// The points of a row, out of its packets.
-  [[gnu::noinline]] void take_points(const SampleLanes* from, uint32_t row, PointRow& points) const {
+  [[gnu::noinline]] void take_points(const SampleLanes* from, uint32_t row, Points& points) const {
     const uint32_t packets = packets_of_block();
     const uint32_t first = row % kPacketEdge * kPacketEdge;
     for (uint32_t axis = 0; axis < kChannels; ++axis) {
       float* const channel = points.channel(axis);
       for (uint32_t packet = 0; packet < packets; ++packet)
         S::F4::load(from[packet][axis].lane + first).store(channel + packet * kPacketEdge);
-      for (uint32_t x = packets * kPacketEdge; x < kRowPoints; ++x)
+      for (uint32_t x = packets * kPacketEdge; x < Points::kPoints; ++x)
         channel[x] = 0.0f;
     }
-    for (uint32_t i = 3 * kRowPoints; i < PointRow::kEncoded; ++i)
+    for (uint32_t i = 3 * Points::kPoints; i < Points::kEncoded; ++i)
       points.numbers[i] = 0.0f;
   }
 
@@ -231,20 +242,21 @@ protected:
     for (uint32_t i = 0; i < count; i += R::kLanes)
       coarse_pow<R>(F::load(numbers + i), F(frame_.sampling.inverse_gamma)).store(encoded + i);
   }
-  void encode_points(const PointRow& points, PointRow& encoded) const {
-    encode(points.numbers, PointRow::kEncoded, encoded.numbers);
+  void encode_points(const Points& points, Points& encoded) const {
+    encode(points.numbers, Points::kEncoded, encoded.numbers);
     if constexpr (kHasAlpha)
-      __builtin_memcpy(encoded.channel(3), points.channel(3), kRowPoints * sizeof(float));
+      __builtin_memcpy(encoded.channel(3), points.channel(3), Points::kPoints * sizeof(float));
   }
   /// Points of a row, from any one on.
-  static V3<R> points_from(const PointRow& row, uint32_t first) {
+  template <class Row> static V3<R> points_from(const Row& row, uint32_t first) {
     return {channel_from(row, 0, first), channel_from(row, 1, first), channel_from(row, 2, first)};
   }
-  static F channel_from(const PointRow& row, uint32_t axis, uint32_t first) {
+  template <class Row> static F channel_from(const Row& row, uint32_t axis, uint32_t first) {
     return F::load_unaligned(row.channel(axis) + first);
   }
   /// Where the points of a block's row differ from those of another, each counted from any one on.
-  [[gnu::noinline]] uint32_t differing(const PointRow& a, uint32_t first_a, const PointRow& b,
+  template <class Row>
+  [[gnu::noinline]] uint32_t differing(const Points& a, uint32_t first_a, const Row& b,
                                        uint32_t first_b) const {
     uint32_t bits = 0;
     for (uint32_t x = 0; x < kSampledEdge; x += R::kLanes) {
@@ -334,24 +346,6 @@ protected:
                     (row_ * kSampledEdge + y) * frame_.sampling.colours_pitch +
                     (column_ * kSampledEdge + x) * kColourBytes;
     send(scratch_.colours + first, to, count * kColourBytes);
-  }
-
-  /// By how much two colours differ.
-  [[gnu::always_inline]] static float distance_inline(const float* a, const float* b) {
-    const float sum = magnitude(a[0] - b[0]) + magnitude(a[1] - b[1]) + magnitude(a[2] - b[2]);
-    if constexpr (kHasAlpha)
-      return sum + magnitude(a[3] - b[3]);
-    else
-      return sum;
-  }
-  [[gnu::noinline]] static float distance_out_of_line(const float* a, const float* b) {
-    return distance_inline(a, b);
-  }
-  static float distance(const float* a, const float* b) {
-    if constexpr (kHasRoomForCode<Spu>)
-      return distance_inline(a, b);
-    else
-      return distance_out_of_line(a, b);
   }
 
   Spu& spu_;
