@@ -173,6 +173,8 @@ private:
     starts_of.find_indices(LookUp(), indices);
     asm("" : "+m"(indices)); // or compilers would take the numbers out of the registers that they come from
     Batch four[kChannels][4];
+    Batch low[kPairs + 1][4],
+        high[kPairs + 1][4]; // of pairs of channels, of lanes i and i + 4, i + 8 and i + 12
     unroll<kRows>([&](std::size_t row) __attribute__((always_inline)) {
       F factors[4];
       factors_of(static_cast<uint32_t>(row), factors);
@@ -182,17 +184,32 @@ private:
           return table + starts_of.start(static_cast<uint32_t>(indices[row][lane]));
         };
         const float *const a = of(i), *const b = of(i + 4), *const c = of(i + 8), *const d = of(i + 12);
-        for (uint32_t channel = 0; channel < kChannels; ++channel) {
-          Batch& total = four[channel][i];
+        const auto add = [row](Batch & total, const Batch& product) __attribute__((always_inline)) {
+          total = row == 0 ? product : total + product;
+          keep_in_order(total);
+        };
+        const __m512 f = factors[i].part[0];
+        for (uint32_t pair = 0; pair < kPairs; ++pair) {
+          const auto two = [pair](const float* first, const float* second) __attribute__((always_inline)) {
+            return Batch(_mm512_insertf32x8(_mm512_castps256_ps512(_mm256_loadu_ps(first + 8 * pair)),
+                                            _mm256_loadu_ps(second + 8 * pair), 1));
+          };
+          add(low[pair][i], two(a, b) * Batch(_mm512_shuffle_f32x4(f, f, 0x50)));
+          add(high[pair][i], two(c, d) * Batch(_mm512_shuffle_f32x4(f, f, 0xFA)));
+        }
+        for (uint32_t channel = 2 * kPairs; channel < kChannels; ++channel) {
           const auto load = [channel](const float* start) __attribute__((always_inline)) {
             return F4{F4::Batch::load_unaligned(start + 4 * channel)};
           };
-          const Batch product = S::join(load(a), load(b), load(c), load(d)).part[0] * factors[i].part[0];
-          total = row == 0 ? product : total + product;
-          keep_in_order(total);
+          add(four[channel][i], S::join(load(a), load(b), load(c), load(d)).part[0] * factors[i].part[0]);
         }
       });
     });
+    for (uint32_t pair = 0; pair < kPairs; ++pair)
+      for (uint32_t i = 0; i < 4; ++i) {
+        four[2 * pair][i] = _mm512_shuffle_f32x4(low[pair][i], high[pair][i], 0x88);
+        four[2 * pair + 1][i] = _mm512_shuffle_f32x4(low[pair][i], high[pair][i], 0xDD);
+      }
     for (uint32_t channel = 0; channel < kChannels; ++channel) {
       Batch(&sum)[4] = four[channel];
       transpose_quads(sum[0], sum[1], sum[2], sum[3]);
