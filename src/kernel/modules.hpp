@@ -14,7 +14,7 @@ namespace celltrace::kernel::modules {
 /// which CSG asks; but for heavy ones.
 constexpr CodeModule kShapes = {"shapes", 1, 0, 14592};
 /// What a program does once a frame or once for many: it makes its objects, and reports.
-constexpr CodeModule kStart = {"start", 3, 0, 12672};
+constexpr CodeModule kStart = {"start", 3, 0, 12800};
 /// The building of accelerators.
 constexpr CodeModule kBuild = {"build", 16, 0, 21504};
 /// Patterns without noise, and those of noise with its tables.
@@ -23,9 +23,9 @@ constexpr CodeModule kNoise = {"noise", 8, 0, 14336};
 /// What becomes of the points of antialiased pictures, and which samples they need besides: by the fixed
 /// method, by the adaptive one, and either with alpha.
 constexpr CodeModule kSampling = {"sampling", 18, 0, 11136};
-constexpr CodeModule kSquares = {"squares", 28, 0, 9728};
+constexpr CodeModule kSquares = {"squares", 28, 0, 9984};
 constexpr CodeModule kAlphaSampling = {"alphasampling", 29, 0, 11520};
-constexpr CodeModule kAlphaSquares = {"alphasquares", 30, 0, 10112};
+constexpr CodeModule kAlphaSquares = {"alphasquares", 30, 0, 10624};
 /// What primary rays hit, for main memory.
 constexpr CodeModule kFirstHits = {"firsthits", 31, 0, 768};
 
@@ -57,10 +57,10 @@ constexpr CodeModule kAreas = {"areas", 15, 1, 9088};
 /// The rays of cameras whose pictures are not flat.
 constexpr CodeModule kCameras = {"cameras", 10, 1, 6528};
 /// Pigments and normals, but for the patterns themselves.
-constexpr CodeModule kTextures = {"textures", 9, 1, 6656};
+constexpr CodeModule kTextures = {"textures", 9, 1, 6784};
 /// The maps of textures: which of them count where.
-constexpr CodeModule kMaps = {"maps", 27, 1, 6528};
-constexpr CodeModule kNormals = {"normals", 11, 1, 8832};
+constexpr CodeModule kMaps = {"maps", 27, 1, 6656};
+constexpr CodeModule kNormals = {"normals", 11, 1, 8960};
 
 /// What few finishes do with light, and light from behind.
 constexpr CodeModule kFinishes = {"finishes", 19, 1, 4224};
