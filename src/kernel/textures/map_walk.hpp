@@ -36,8 +36,7 @@ template <class S, class Spu, class At, class Between>
   const F value = S::select(outside, pattern_value - S::floor(pattern_value), pattern_value);
   uint32_t number = r.entry_count - 1;
   MapEntryRecord room[2];
-  const MapEntryRecord* above =
-      keep<Spu>(scene.map_entry(map_entry_at(r.entries, number)), room[number & 1]);
+  const MapEntryRecord* above = keep<Spu>(scene.map_entry(map_entry_at(r.entries, number)), room[number & 1]);
   at(M::all(), number, *above);
   const M within = value < F(above->position);
   if (within.bits() == 0) return;
