@@ -109,8 +109,9 @@ template <class S> typename S::F pow(const typename S::F& x, const typename S::F
   return S::select(x > F(1e-37f), exp2<S>(y * log2<S>(positive)), F(0.0f));
 }
 
-/// x to the power y for x >= 0 and |y| <= 1, with fewer operations than pow(): relative error below 1e-5;
-/// what is below 1e-37 counts as that. The polynomials are interpolated at Chebyshev's points.
+/// x to the power y for x >= 0, with fewer operations than pow(): relative error below 1e-5 for |y| <= 1, and
+/// y times that for larger powers, up to 1e38. What is below 1e-37 counts as that. The polynomials are
+/// interpolated at Chebyshev's points.
 template <class S>
 [[gnu::always_inline]] inline typename S::F coarse_pow(const typename S::F& x, const typename S::F& y) {
   using F = typename S::F;

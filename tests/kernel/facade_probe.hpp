@@ -130,7 +130,8 @@ struct RowStarts {
   }
   template <class LookUp, uint32_t kLanes>
   void find_indices(const LookUp& look_up, int32_t (&indices)[2][kLanes]) const {
-    static constexpr uint16_t kMultiples[16] = {0, 16, 32, 48, 64, 80, 96, 112, 1, 2, 3, 4, 5, 6, 7, 8};
+    static constexpr uint16_t kMultiples[16] = {0,    256,  512,  768,  1024, 1280, 1536, 1792,
+                                                2048, 2304, 2560, 2816, 3072, 3328, 3584, 3840};
     typename LookUp::Numbers numbers[2];
     look_up(
         kMultiples,
@@ -143,9 +144,7 @@ struct RowStarts {
     for (uint32_t row = 0; row < 2; ++row)
       numbers[row].store(indices[row]);
   }
-  static uint32_t start(uint32_t multiple) {
-    return multiple < 16 && multiple != 0 ? multiple + 7 : multiple / 16;
-  }
+  static uint32_t start(uint32_t multiple) { return multiple / 256; }
 };
 
 template <class S> void apply_rare_facade(FacadeBlock& x) {

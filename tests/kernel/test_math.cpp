@@ -99,6 +99,11 @@ TEST_CASE("coarse_pow") {
     CHECK(worst(
               5000, [&] { return std::exp2(random.uniform(-60, 60)); }, function, error) < 1e-5);
   }
+  const auto fifth = [](const F& x) { return coarse_pow<Simd>(x, F(5.0f)); };
+  CHECK(worst(
+            5000, [&] { return random.uniform(0.1, 10); }, fifth,
+            [](double x, double y) { return relative(y, std::pow(x, 5)); }) < 5e-5);
+  CHECK(std::isfinite(lanes_of(fifth(F(1e30f))).lane[7]));
   // Of 0 and of what is negative.
   for (float x : {0.0f, -1.0f, -1e30f}) {
     const auto least = lanes_of(coarse_pow<Simd>(F(x), F(0.4f)));

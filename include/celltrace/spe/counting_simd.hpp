@@ -60,7 +60,8 @@ template <class Uncounted> struct CountingSimd {
       return F([&] { return Uncounted::F::load(lanes); });
     }
     static F load_unaligned(const float* lanes) {
-      count_packet({.ls = 1, .shuf = 1}); // one quadword more, which is not counted
+      count_packet({.ls = 2, .shuf = 1});
+      count_chain({.fx2 = 2, .shuf = 1}); // the pattern of the shuffles
       return F([&] { return Uncounted::F::load_unaligned(lanes); });
     }
     void store(float* lanes) const {

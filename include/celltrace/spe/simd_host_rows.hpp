@@ -163,8 +163,9 @@ private:
     }
   };
 
-  /// A row is one unaligned load a channel, and those of four lanes are in one register: lane 4q + i is the
-  /// q-th quarter of the i-th register of four.
+  /// A row is one unaligned load for each pair of channels, and one for the last of an odd number. Those of
+  /// four lanes are in one register, or of pairs in two: lane 4q + i is the q-th quarter of the i-th register
+  /// of four.
   template <class StartsOf, class FactorsOf>
   requires(kLanes == 16)
       [[gnu::noinline]] static void sum_by_lane(const float* table, const StartsOf& starts_of,
@@ -173,8 +174,8 @@ private:
     starts_of.find_indices(LookUp(), indices);
     asm("" : "+m"(indices)); // or compilers would take the numbers out of the registers that they come from
     Batch four[kChannels][4];
-    Batch low[kPairs + 1][4],
-        high[kPairs + 1][4]; // of pairs of channels, of lanes i and i + 4, i + 8 and i + 12
+    // Of pairs of channels, side by side: of lanes i and i + 4, and of i + 8 and i + 12.
+    Batch low[kPairs + 1][4], high[kPairs + 1][4];
     unroll<kRows>([&](std::size_t row) __attribute__((always_inline)) {
       F factors[4];
       factors_of(static_cast<uint32_t>(row), factors);

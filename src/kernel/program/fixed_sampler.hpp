@@ -15,10 +15,10 @@ class FixedSampler : public PixelSampler<Spu, SamplingMethod::fixed, kChannels> 
   using Base = PixelSampler<Spu, SamplingMethod::fixed, kChannels>;
   using Base::arrive, Base::ask, Base::asked_, Base::channel, Base::column_, Base::differing, Base::encode,
       Base::encode_pixels_of, Base::encode_points, Base::end_asking, Base::fetch, Base::found_at,
-      Base::frame_, Base::go_to_block, Base::height_, Base::kColourBytes, Base::kPackets, Base::made_at,
+      Base::frame_, Base::go_to_block, Base::height_, Base::kColourBytes, Base::kPackets,
       Base::packet_of_points, Base::packets_of_row, Base::put_colours, Base::row_, Base::row_mask,
-      Base::scratch_, Base::send_made, Base::store_, Base::take_points, Base::takes_points, Base::under_way_,
-      Base::wants_colours, Base::width_;
+      Base::scratch_, Base::send_object, Base::store_, Base::take_points, Base::takes_points,
+      Base::under_way_, Base::wants_colours, Base::width_;
   using typename Base::Colour, typename Base::Points, typename Base::R;
 
   /// The means of a row of pixels as a row of points: that of a pixel is where its point would be.
@@ -86,21 +86,19 @@ private:
   /// The neighbours that pixels differ from, before any of them is sampled.
   [[gnu::noinline]] void compare_pixels() {
     const SampleLanes* packets = nullptr;
-    const Points* above = nullptr;
     for (uint32_t line = 0; line <= height_; ++line) {
       if (line % kPacketEdge == 0) packets = packets_of_row(line);
-      Points* const own = made_at(encoded_row(line), &scratch().encoded[line % 2]);
+      Points& own = scratch().encoded[line % 2];
       take_points(packets, line, scratch().points[0]);
-      encode_points(scratch().points[0], *own);
-      send_made(own, encoded_row(line));
+      encode_points(scratch().points[0], own);
+      send_object(own, encoded_row(line));
       if (line != 0) {
         const uint32_t y = line - 1;
-        masks_.left.row[y] = differing(*own, 1, *own, 0) & row_mask();
-        masks_.above.row[y] = differing(*own, 1, *above, 1) & row_mask();
+        masks_.left.row[y] = differing(own, 1, own, 0) & row_mask();
+        masks_.above.row[y] = differing(own, 1, scratch().encoded[y % 2], 1) & row_mask();
         masks_.known.row[y] = 0;
       }
       arrive();
-      above = own;
     }
   }
 
@@ -148,14 +146,11 @@ private:
   }
   [[gnu::noinline]] void read_means(uint32_t y, MeanRow& means) {
     using W = typename Base::S::F;
-    struct Row {
-      Colour of[kSampledEdge];
-    };
-    const Row& row = *found_at(encoded_colour(0, y), reinterpret_cast<Row*>(scratch().colours));
+    const Colour* const row = found_at(encoded_colour(0, y), scratch().colours, kSampledEdge * kColourBytes);
     for (uint32_t x = 0; x < kSampledEdge; x += kSimdLanes) {
       W lanes[4];
       for (uint32_t i = 0; i < 4; ++i)
-        lanes[i] = W::load(row.of[x + 4 * i].channel);
+        lanes[i] = W::load(row[x + 4 * i].channel);
       Base::S::transpose_quads(lanes[0], lanes[1], lanes[2], lanes[3]);
       for (uint32_t axis = 0; axis < kChannels; ++axis)
         lanes[axis].store(means.numbers[axis] + kSimdLanes + x);
@@ -281,9 +276,7 @@ private:
     scratch().places[number] = {x, y};
     for (uint32_t axis = 0; axis < 3; ++axis)
       scratch().encoding[3 * number + axis] = mean.channel[axis];
-    Colour* const place = made_at(stored_colour(x, y), &scratch().means_of[number]);
-    *place = mean;
-    send_made(place, stored_colour(x, y));
+    send_object(scratch().means_of[number], stored_colour(x, y));
   }
   /// What so many means are compared by.
   [[gnu::noinline]] void encode_means(uint32_t count) {
@@ -295,10 +288,8 @@ private:
       Colour& mean = scratch().means_of[number];
       for (uint32_t axis = 0; axis < 3; ++axis)
         mean.channel[axis] = scratch().encoding[3 * number + axis];
-      const ea_t to = encoded_colour(scratch().places[number].x, scratch().places[number].y);
-      Colour* const place = made_at(to, &mean);
-      *place = mean;
-      send_made(place, to);
+      const Place place = scratch().places[number];
+      send_object(mean, encoded_colour(place.x, place.y));
     }
     arrive();
   }
@@ -317,10 +308,9 @@ private:
                        (column_ * kSampledEdge + 1) * static_cast<uint32_t>(sizeof(uint32_t));
       for_each_lane(sampled, [&](uint32_t x) {
         // A word has the same place in its quadword on both sides of a transfer.
-        const ea_t to = row + x * static_cast<uint32_t>(sizeof(uint32_t));
-        uint32_t* const word = made_at(to, &scratch().leaving[x][(x + 1) % 4]);
-        *word = scratch().words[x];
-        send_made(word, to);
+        uint32_t& word = scratch().leaving[x][(x + 1) % 4];
+        word = scratch().words[x];
+        send_object(word, row + x * static_cast<uint32_t>(sizeof(uint32_t)));
         if (wants_colours()) put_colours(x, 1, x + 1, y + 1);
       });
       arrive();

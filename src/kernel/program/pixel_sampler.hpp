@@ -55,12 +55,11 @@ constexpr uint32_t max_squares(uint32_t edge) {
 }
 
 /// The channels of a row of points of a block, one more than it has pixels, of which the first is that at its
-/// left edge. Those that are encoded are one behind the other, in whole vectors; vectors may be read from any
-/// point on.
+/// left edge. Those that are encoded are one behind the other, in whole vectors.
 template <uint32_t kChannels> struct alignas(64) PointRow {
   static constexpr uint32_t kPackets = kSampledEdge / kPacketEdge + 1, kPoints = kPackets * kPacketEdge;
   static constexpr uint32_t kEncoded = (3 * kPoints + kSimdLanes - 1) / kSimdLanes * kSimdLanes;
-  float numbers[kEncoded + (kChannels - 3) * kPoints + kSimdLanes];
+  float numbers[kEncoded + (kChannels - 3) * kPoints];
 
   static constexpr uint32_t first_of(uint32_t axis) { return axis == 3 ? kEncoded : axis * kPoints; }
   float* channel(uint32_t axis) { return numbers + first_of(axis); }
@@ -162,25 +161,21 @@ protected:
     else
       spu_.put(ls, ea, bytes, kTag);
   }
-  /// Where to make what send_made() is to send to `ea`: there if memory is direct, otherwise in `room`.
-  template <class Object>
-  [[gnu::always_inline]] static Object* made_at([[maybe_unused]] ea_t ea, [[maybe_unused]] Object* room) {
+  /// An object that stays as it is until arrive(). Where memory is direct that is a copy without a call.
+  template <class Object> [[gnu::always_inline]] void send_object(const Object& object, ea_t ea) {
     if constexpr (kReadsInPlace<Spu>)
-      return reinterpret_cast<Object*>(static_cast<uintptr_t>(ea));
+      *reinterpret_cast<Object*>(static_cast<uintptr_t>(ea)) = object;
     else
-      return room;
+      send(&object, ea, sizeof(Object));
   }
+  /// Objects in main memory: there if memory is direct, otherwise fetched to `room`.
   template <class Object>
-  [[gnu::always_inline]] void send_made([[maybe_unused]] const Object* made, [[maybe_unused]] ea_t ea) {
-    if constexpr (!kReadsInPlace<Spu>) send(made, ea, sizeof(Object));
-  }
-  /// What was made at `ea`: there if memory is direct, otherwise fetched to `room`.
-  template <class Object>
-  [[gnu::always_inline]] const Object* found_at(ea_t ea, [[maybe_unused]] Object* room) {
+  [[gnu::always_inline]] const Object* found_at(ea_t ea, [[maybe_unused]] Object* room,
+                                                [[maybe_unused]] uint32_t bytes = sizeof(Object)) {
     if constexpr (kReadsInPlace<Spu>) {
       return reinterpret_cast<const Object*>(static_cast<uintptr_t>(ea));
     } else {
-      fetch(room, ea, sizeof(Object));
+      fetch(room, ea, bytes);
       return room;
     }
   }
@@ -212,10 +207,7 @@ protected:
   [[gnu::noinline]] const SampleLanes* packets_of_row(uint32_t row) {
     const ea_t first =
         packet_of_points(column_ * kSampledEdge / kPacketEdge, (row_ * kSampledEdge + row) / kPacketEdge);
-    if constexpr (kReadsInPlace<Spu>)
-      return reinterpret_cast<const SampleLanes*>(static_cast<uintptr_t>(first));
-    fetch(scratch_.packets, first, packets_of_block() * kGridPacketBytes);
-    return scratch_.packets;
+    return found_at(first, scratch_.packets, packets_of_block() * kGridPacketBytes);
   }
   /// Across the block, as far as there are any.
   uint32_t packets_of_block() const {

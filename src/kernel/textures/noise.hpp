@@ -36,21 +36,18 @@ template <class S> struct LatticeCells {
   const int32_t* keys(uint32_t axis) const { return lattice[axis]; }
   /// Where in kLattice the numbers of the eight points around a lane are: in the order of z, x, y.
   void operator()(uint32_t lane, uint32_t (&starts)[8]) const {
-    uint32_t columns[4];
     const uint32_t plane = static_cast<uint32_t>(lattice[2][lane]);
-    hash_columns(lane, columns);
     for (uint32_t i = 0; i < 4; ++i) {
-      starts[2 * i] = start(columns[i] ^ plane);
-      starts[2 * i + 1] = start(columns[i] ^ above(plane));
+      const uint32_t column = kHash.entry[column_index(lane, i)];
+      starts[2 * i] = start(column ^ plane);
+      starts[2 * i + 1] = start(column ^ above(plane));
     }
   }
   /// The same in two steps, of which the first one is of all lanes at once: start() of these.
   template <class LookUp>
   [[gnu::always_inline]] void find_indices(const LookUp& look_up, int32_t (&indices)[8][S::kLanes]) const {
-    // Of the columns along z through the corners of the cells.
-    const auto index_of = [&](uint32_t lane, uint32_t corner) __attribute__((always_inline)) {
-      const uint32_t x = static_cast<uint32_t>(lattice[0][lane]), y = static_cast<uint32_t>(lattice[1][lane]);
-      return kHash.entry[(corner & 1) != 0 ? above(x) : x] ^ ((corner & 2) != 0 ? above(y) : y);
+    const auto index_of = [this](uint32_t lane, uint32_t corner) __attribute__((always_inline)) {
+      return column_index(lane, corner);
     };
     using Numbers = typename LookUp::Numbers;
     Numbers columns[4];
@@ -66,14 +63,11 @@ template <class S> struct LatticeCells {
 
 private:
   static uint32_t above(uint32_t plane) { return (plane + 1) & (kPeriod - 1); }
-  /// Of the columns along z through the corners of a lane's cell, in the order of x, y.
-  [[gnu::always_inline]] void hash_columns(uint32_t lane, uint32_t (&columns)[4]) const {
+  /// Where in kHash the hash is of one of the columns along z through the corners of a lane's cell, which are
+  /// in the order of x, y.
+  [[gnu::always_inline]] uint32_t column_index(uint32_t lane, uint32_t corner) const {
     const uint32_t x = static_cast<uint32_t>(lattice[0][lane]), y = static_cast<uint32_t>(lattice[1][lane]);
-    const uint32_t row = kHash.entry[x], next = kHash.entry[above(x)];
-    columns[0] = kHash.entry[row ^ y];
-    columns[1] = kHash.entry[next ^ y];
-    columns[2] = kHash.entry[row ^ above(y)];
-    columns[3] = kHash.entry[next ^ above(y)];
+    return kHash.entry[(corner & 1) != 0 ? above(x) : x] ^ ((corner & 2) != 0 ? above(y) : y);
   }
 };
 
