@@ -51,9 +51,9 @@ constexpr CodeModule kPolygons = {"polygons", 26, 1, 1024};
 /// Rays that go on from surfaces.
 constexpr CodeModule kSecondary = {"secondary", 2, 1, 9088};
 /// Light that is not simply a point's.
-constexpr CodeModule kLights = {"lights", 6, 1, 4608};
+constexpr CodeModule kLights = {"lights", 6, 1, 4864};
 /// The sampling of lights that have an area.
-constexpr CodeModule kAreas = {"areas", 15, 1, 9088};
+constexpr CodeModule kAreas = {"areas", 15, 1, 9472};
 /// The rays of cameras whose pictures are not flat.
 constexpr CodeModule kCameras = {"cameras", 10, 1, 6528};
 /// Pigments and normals, but for the patterns themselves.
@@ -76,7 +76,7 @@ constexpr CodeModule kComposed = {"composed", 13, 2, 7808};
 /// What rays pass through on their way or see before what they hit or behind it.
 constexpr CodeModule kAtmosphere = {"atmosphere", 24, 2, 7552};
 /// Shadow rays that go from surface to surface.
-constexpr CodeModule kShadowWalk = {"walk", 21, 2, 5504};
+constexpr CodeModule kShadowWalk = {"walk", 21, 2, 5632};
 /// Pixels become blocks of BC1.
 constexpr CodeModule kEncoding = {"encoding", 32, 2, 6976};
 /// Exchange of units of work with other SPEs.

@@ -87,10 +87,25 @@ struct RayPacket {
 /// The closest hit of each ray: its distance, the object's offset (kNoOffset: none), and its barycentric
 /// coordinates in a triangle.
 struct HitPacket {
-  FloatLanes distance;
   WordLanes object;
+  FloatLanes distance;
   FloatLanes u, v;
 };
+
+namespace detail {
+[[gnu::noinline]] inline void copy_out_of_line(void* to, const void* from, uint32_t bytes) {
+  __builtin_memcpy(to, from, bytes);
+}
+} // namespace detail
+
+/// Copies what there is of all lanes. On an SPE by a call: inlined, each quadword would take two
+/// instructions.
+template <class Spu, class Packet> void copy_packet(const Packet& from, Packet& to) {
+  if constexpr (kHasRoomForCode<Spu>)
+    to = from;
+  else
+    detail::copy_out_of_line(&to, &from, sizeof(Packet));
+}
 
 /// A ray query of one packet. If `hits` is given: find the closest hits of the rays. Otherwise, for shadow
 /// rays: multiply `light` by the transmittance up to `distance`.

@@ -47,6 +47,7 @@ struct Sampling {
   DirectSpu spu;
   VectorLanes point, normal;
   WordLanes objects{};
+  ShadowRays to_place;
   std::unique_ptr<AreaShadow<Simd>> shadow = std::make_unique<AreaShadow<Simd>>();
   LightRecord record;
   std::uint32_t facing = 0;
@@ -64,8 +65,9 @@ struct Sampling {
     IncidentLight<Simd> incident(record.colour);
     illuminate(scene, record, surfaces, lanes, incident);
     facing = incident.facing;
-    VectorLanes sum;
-    const std::uint32_t rays = sample_area(spu, record, surfaces, incident, *shadow, sum, look);
+    VectorLanes sum; // of surfaces that send on all of it
+    sum.store<Simd>(incident.colour);
+    const std::uint32_t rays = sample_area(spu, record, surfaces, incident, to_place, *shadow, sum, look);
     CHECK(rays == shadow->rays_asked);
     return sum;
   }
@@ -147,9 +149,9 @@ TEST_CASE("Where the places of a light are") {
         const Vec3 way = glm::normalize(middle + offset);
         double end = glm::length(middle + offset);
         if (light.parallel) end = std::max(glm::dot(light.location + offset - point, way), 0.0);
-        REQUIRE(test::at(shadow.rays.origin, l) == point);
-        REQUIRE(glm::length(test::at(shadow.rays.direction, l) - way) < 5e-6);
-        REQUIRE(shadow.distance.lane[l] == Approx(end).margin(2e-5));
+        REQUIRE(test::at(shadow.to_place->rays.origin, l) == point);
+        REQUIRE(glm::length(test::at(shadow.to_place->rays.direction, l) - way) < 5e-6);
+        REQUIRE(shadow.to_place->distance.lane[l] == Approx(end).margin(2e-5));
       });
     });
   }
@@ -175,10 +177,11 @@ TEST_CASE("Jitter is the same each time, other in each lane, and stays near the 
   for (const bool again : {false, true}) {
     sampling.run(0xFFFF, [&](AreaShadow<Simd>& shadow) {
       const Place place = {static_cast<int>(shadow.place.column), static_cast<int>(shadow.place.row)};
-      if (!again) first[place] = shadow.rays.direction;
+      if (!again) first[place] = shadow.to_place->rays.direction;
       for (unsigned l = 0; l < kSimdLanes; ++l) {
-        CHECK(test::at(first[place], l) == test::at(shadow.rays.direction, l));
-        const Vec3 ray = test::at(shadow.rays.direction, l) * double(shadow.distance.lane[l]);
+        CHECK(test::at(first[place], l) == test::at(shadow.to_place->rays.direction, l));
+        const Vec3 ray =
+            test::at(shadow.to_place->rays.direction, l) * double(shadow.to_place->distance.lane[l]);
         const Vec3 off = {ray.x - (place.first - 2.0), ray.y - 6, ray.z - (place.second - 1.5)};
         CHECK(std::abs(off.x) <= 0.500001);
         CHECK(std::abs(off.y) <= 1e-5);
@@ -216,12 +219,13 @@ TEST_CASE("A shaft touches every node that is between surfaces and a place of th
     std::uint32_t between = 0, found = 0;
     bool is_known = false;
     sampling.run(lanes, [&](AreaShadow<Simd>& shadow) {
-      if (!is_known) found = Shaft<Simd>(shadow.rays, lanes, sampling.record).intersect(bounds);
+      if (!is_known) found = Shaft<Simd>(shadow.to_place->rays, lanes, sampling.record).intersect(bounds);
       is_known = true;
       for_each_lane(shadow.lanes, [&](unsigned l) {
-        const Vec3 origin = test::at(shadow.rays.origin, l), direction = test::at(shadow.rays.direction, l);
+        const Vec3 origin = test::at(shadow.to_place->rays.origin, l),
+                   direction = test::at(shadow.to_place->rays.direction, l);
         for (int child = 0; child < 4; ++child) {
-          double enter = 0, leave = shadow.distance.lane[l];
+          double enter = 0, leave = shadow.to_place->distance.lane[l];
           for (int axis = 0; axis < 3; ++axis) {
             const double a = (bounds[2 * axis][child] - origin[axis]) / direction[axis];
             const double b = (bounds[2 * axis + 1][child] - origin[axis]) / direction[axis];

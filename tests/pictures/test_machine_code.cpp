@@ -83,6 +83,32 @@ TEST_CASE("The SPU's machine code renders the project's scenes in large", "[.all
     check_scene(path, kLarge);
 }
 
+TEST_CASE("The frame that takes the most local store renders by machine code") {
+  if (!has_machine_code()) return;
+  // Lights with an area, shadow rays that are walked, patterns that ask for the surface, and samples.
+  const Scene scene = parse_string(R"(
+    #version 3.7;
+    global_settings { assumed_gamma 1 }
+    camera { location <0, 1, -5> look_at 0 }
+    light_source { <5, 8, -5> rgb 1 area_light <1, 0, 0>, <0, 1, 0>, 4, 4 adaptive 1 }
+    plane { y, -1 pigment { slope { y } color_map { [0 rgb 1] [1 rgb 0.2] } } }
+    sphere {
+      0, 1
+      pigment { rgbf <1, 0.8, 0.8, 0.9> } finish { reflection 0.1 } normal { bumps 0.3 }
+      interior { ior 1.5 fade_distance 1 fade_power 1001 fade_color <0.9, 0.2, 0.2> }
+    })");
+  RenderOptions options = simulated(1, 32);
+  options.antialiasing.emplace();
+  const RenderResult result = render(scene, options);
+  REQUIRE(result.complete);
+  CHECK(result.statistics.diagnostics.empty());
+  options.backend = Backend::native;
+  options.emulation = {};
+  const Comparison comparison = compare_images(result.image, render(scene, options).image);
+  INFO(to_text(comparison));
+  CHECK(comparison.psnr >= 40); // few pixels may be sampled otherwise
+}
+
 TEST_CASE("The SPU's machine code renders published scenes") {
   if (!has_machine_code()) return;
   const std::filesystem::path folder = PUBLISHED_SCENES;

@@ -132,8 +132,7 @@ template <class S> struct AreaShadow {
   using F = typename S::F;
 
   // Of the place that is asked for.
-  RayPacket rays;
-  FloatLanes distance;
+  ShadowRays* to_place;
   VectorLanes light; ///< before, that of the whole light; after, what comes through
 
   VectorLanes sum;
@@ -193,8 +192,8 @@ template <class S>
 [[gnu::noinline]] void begin_area(const LightRecord& light, const Surfaces<S>& s,
                                   const IncidentLight<S>& incident, AreaShadow<S>& a) {
   using F = typename S::F;
-  a.rays.origin.template store<S>(s.point);
-  a.rays.start_object = *s.objects;
+  a.to_place->rays.origin.template store<S>(s.point);
+  a.to_place->rays.start_object = *s.objects;
   a.to_middle.template store<S>(incident.direction * incident.distance);
   a.whole.template store<S>(incident.colour);
   a.sum.template store<S>({F(0.0f), F(0.0f), F(0.0f)});
@@ -288,10 +287,10 @@ template <class Spu>
       if (lanes == 0) continue;
       V3<S> direction;
       F distance;
-      aim<Spu>(light, a.rays.origin.template load<S>(), a.to_middle.template load<S>(), place, direction,
-               distance);
-      a.rays.direction.template store<S>(direction);
-      distance.store(a.distance.lane);
+      aim<Spu>(light, a.to_place->rays.origin.template load<S>(), a.to_middle.template load<S>(), place,
+               direction, distance);
+      a.to_place->rays.direction.template store<S>(direction);
+      distance.store(a.to_place->distance.lane);
       a.light = a.whole;
       a.place = place;
       a.lanes = lanes;
@@ -305,6 +304,22 @@ template <class Spu>
   }
 }
 
+/// Leaves of what surfaces would send on of the whole light what they do of its sum. That is 0 where the
+/// light was not asked for.
+template <class Spu>
+[[gnu::noinline]] void dim(Spu& spu, const AreaShadow<typename Spu::simd>& a, VectorLanes& sent) {
+  using R = typename Spu::rare_simd;
+  using F = typename R::F;
+  spu.run_in_module(modules::kAreas);
+  const F zero(0.0f);
+  const auto share = [&](const F& some, const F& of) { return R::select(of == zero, zero, some / of); };
+  for_each_part<Spu>([&](uint32_t first) {
+    const V3<R> sum = a.sum.template load_from<R>(first), all = a.whole.template load_from<R>(first);
+    const V3<R> left = {share(sum.x, all.x), share(sum.y, all.y), share(sum.z, all.z)};
+    sent.store_from<R>(first, sent.load_from<R>(first) * left);
+  });
+}
+
 } // namespace module_areas
 
 /// Local store for the sampling of lights, if the scene has such.
@@ -313,12 +328,13 @@ template <class Spu> AreaShadow<typename Spu::simd>* allocate_area_shadow(Spu& s
   return spu.template allocate<AreaShadow<typename Spu::simd>>();
 }
 
-/// Starts the sampling of a light for the surfaces that face it.
+/// Starts the sampling of a light for the surfaces that face it, whose rays will be `to_place`.
 template <class Spu>
 void begin_sampling(Spu& spu, const LightRecord& light, const Surfaces<typename Spu::simd>& s,
-                    const IncidentLight<typename Spu::simd>& incident,
+                    const IncidentLight<typename Spu::simd>& incident, ShadowRays& to_place,
                     AreaShadow<typename Spu::simd>& shadow) {
   spu.enter_module(modules::kAreas);
+  shadow.to_place = &to_place;
   module_areas::begin_area<typename Spu::simd>(light, s, incident, shadow);
 }
 
@@ -329,16 +345,16 @@ bool next_place(Spu& spu, const LightRecord& light, AreaShadow<typename Spu::sim
   return module_areas::next_sample(spu, light, shadow);
 }
 
-/// The light that comes to the surfaces from all of a light's area. `look(shadow)` leaves in `shadow.light`
-/// what comes from `shadow.place`. Returns how many rays that took.
+/// Leaves of what surfaces would send on of a light what they do of that which comes from all of its area.
+/// `look(shadow)` leaves in `shadow.light` what comes from `shadow.place`. Returns how many rays that took.
 template <class Spu, class Look>
 uint32_t sample_area(Spu& spu, const LightRecord& light, const Surfaces<typename Spu::simd>& s,
-                     const IncidentLight<typename Spu::simd>& incident,
-                     AreaShadow<typename Spu::simd>& shadow, VectorLanes& colour, Look look) {
-  begin_sampling(spu, light, s, incident, shadow);
+                     const IncidentLight<typename Spu::simd>& incident, ShadowRays& to_place,
+                     AreaShadow<typename Spu::simd>& shadow, VectorLanes& sent, Look look) {
+  begin_sampling(spu, light, s, incident, to_place, shadow);
   while (next_place(spu, light, shadow))
     look(shadow);
-  colour = shadow.sum;
+  module_areas::dim(spu, shadow, sent);
   return shadow.rays_asked;
 }
 

@@ -36,19 +36,14 @@ uint32_t lanes_of_its_objects(SceneAccess<Spu>& scene, const LightRecord& light,
   return lit;
 }
 
-/// From the light of a point in the same place to that of a source that is not plain.
+/// Takes of the light that has been aimed what its beam and its distance leave.
 template <class Spu>
-[[gnu::noinline]] void shape(SceneAccess<Spu>& scene, const LightRecord& light,
-                             const Surfaces<typename Spu::simd>& s, uint32_t lanes,
-                             IncidentLight<typename Spu::simd>& incident) {
+[[gnu::noinline]] void attenuate(SceneAccess<Spu>& scene, const LightRecord& light,
+                                 const Surfaces<typename Spu::simd>& s,
+                                 IncidentLight<typename Spu::simd>& incident) {
   using S = typename Spu::simd;
   using F = typename S::F;
   scene.spu().run_in_module(modules::kLights);
-  if ((light.kind_and_flags & light_flag::selective) != 0) {
-    lanes = lanes_of_its_objects(scene, light, *s.objects, lanes);
-    incident.facing &= lanes;
-  }
-  if (is_parallel(light)) make_parallel(light, s, lanes, incident);
   F share(1.0f);
   Lights::dispatch(light.kind_and_flags & light_flag::kind_mask, [&](auto kind) {
     using Kind = decltype(kind);
@@ -61,6 +56,29 @@ template <class Spu>
   incident.facing &= (S::abs(share) > F(kLeastShare)).bits();
 }
 
+/// From the light of a point in the same place to that of a source that is not plain.
+template <class Spu>
+[[gnu::noinline]] void shape(SceneAccess<Spu>& scene, const LightRecord& light,
+                             const Surfaces<typename Spu::simd>& s, uint32_t lanes,
+                             IncidentLight<typename Spu::simd>& incident) {
+  scene.spu().run_in_module(modules::kLights);
+  if ((light.kind_and_flags & light_flag::selective) != 0) {
+    lanes = lanes_of_its_objects(scene, light, *s.objects, lanes);
+    incident.facing &= lanes;
+  }
+  if (is_parallel(light)) make_parallel(light, s, lanes, incident);
+  attenuate(scene, light, s, incident);
+}
+
+template <class Spu>
+[[gnu::noinline]] void aim_parallel(Spu& spu, const LightRecord& light, const V3<typename Spu::simd>& points,
+                                    IncidentLight<typename Spu::simd>& incident) {
+  using S = typename Spu::simd;
+  spu.run_in_module(modules::kLights);
+  kernel::aim_parallel<S>(light, points, incident);
+  incident.distance = S::max(incident.distance, typename S::F(0.0f));
+}
+
 } // namespace module_lights
 
 /// Makes of `incident`, which has the light's colour only, what comes to the surfaces of `lanes`. It is not
@@ -68,10 +86,20 @@ template <class Spu>
 template <class Spu>
 void illuminate(SceneAccess<Spu>& scene, const LightRecord& light, const Surfaces<typename Spu::simd>& s,
                 uint32_t lanes, IncidentLight<typename Spu::simd>& incident) {
-  PointLight::illuminate(light, s, lanes, incident);
+  PointLight::illuminate<Spu>(light, s, lanes, incident);
   if (is_plain(light) || (incident.facing == 0 && !is_parallel(light))) return;
   scene.spu().enter_module(modules::kLights);
   module_lights::shape(scene, light, s, lanes, incident);
+}
+
+/// Sets where a light comes from and how far shadow rays go, but nothing else.
+template <class Spu>
+void aim(Spu& spu, const LightRecord& light, const V3<typename Spu::simd>& points,
+         IncidentLight<typename Spu::simd>& incident) {
+  PointLight::aim<Spu>(light, points, incident);
+  if (!is_parallel(light)) return;
+  spu.enter_module(modules::kLights);
+  module_lights::aim_parallel(spu, light, points, incident);
 }
 
 } // namespace celltrace::kernel

@@ -47,13 +47,18 @@ template <class Spu>
   }
 }
 
-/// The rays from surfaces against the light, and how far each goes.
+/// Rays against a light, and how far each goes.
+struct ShadowRays {
+  RayPacket rays;
+  FloatLanes distance;
+};
+/// Those from points on objects.
 template <class S>
-void make_shadow_rays(const Surfaces<S>& s, const IncidentLight<S>& light, RayPacket& rays,
-                      FloatLanes& distance) {
-  rays.origin.template store<S>(s.point);
+void make_shadow_rays(const V3<S>& points, const WordLanes& objects, const IncidentLight<S>& light,
+                      RayPacket& rays, FloatLanes& distance) {
+  rays.origin.template store<S>(points);
   rays.direction.template store<S>(light.direction);
-  rays.start_object = *s.objects;
+  rays.start_object = objects;
   light.distance.store(distance.lane);
 }
 

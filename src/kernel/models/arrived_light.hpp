@@ -37,7 +37,9 @@ template <class Spu> class ArrivedLight {
 public:
   using S = typename Spu::simd;
 
-  ArrivedLight(Spu& spu, const FrameBlock& frame) : spu_(spu), area_(allocate_area_shadow(spu, frame)) {}
+  ArrivedLight(Spu& spu, const FrameBlock& frame)
+      : spu_(spu), area_(allocate_area_shadow(spu, frame)),
+        to_place_(area_ != nullptr ? spu.template allocate<ShadowRays>() : nullptr) {}
 
   /// Whether some lights of the frame have areas.
   bool has_areas() const { return area_ != nullptr; }
@@ -55,33 +57,43 @@ public:
   /// No light was asked for.
   void arrive_nothing() { searches_ = cursor_ = 0; }
 
-  /// Puts what has arrived from the `count` lights from `first` on where it belongs. Lights come in order; of
-  /// those that no surface faces nothing was asked.
-  void take(uint32_t first, uint32_t count, VectorLanes* colours) {
+  /// Puts what has arrived of the lights of a round where it was gathered. Lights come in order; of those
+  /// that count nowhere nothing was asked.
+  void take(const LightRound& round) {
+    round.clear<S>();
     for (; cursor_ < searches_; ++cursor_) {
       const AnsweredSearch& next = answer(cursor_);
-      if (next.number >= first + count) return;
-      colours[next.number - first] = next.light.colour;
+      if (next.number >= round.next()) return;
+      round.gathered[next.number - round.first] = next.light.colour;
     }
   }
-  /// The same in a frame some of whose lights have areas, for the surfaces of `lanes` that they were asked
-  /// for. Returns how many rays a sampling of these lights would have traced.
+  /// The same in a frame some of whose lights have areas, where the round has gathered again; it counts in
+  /// the lanes that `lanes_of(gathered)` says. Returns how many rays a sampling of these lights would have
+  /// traced.
+  template <class LanesOf>
   uint32_t take(SceneAccess<Spu>& scene, const FrameBlock& frame, const LightRound& round,
-                const Surfaces<S>& surfaces, uint32_t lanes, VectorLanes* colours) {
+                Surfaces<S>& surfaces, const LanesOf& lanes_of) {
     uint32_t rays = 0;
     for_each_light(scene, frame, round.first, round.count, [&](uint32_t number, const LightRecord& light) {
-      if (cursor_ == searches_ || answer(cursor_).number != number) return;
-      VectorLanes& colour = colours[number - round.first];
+      VectorLanes& gathered = round.gathered[number - round.first];
+      if (cursor_ == searches_ || answer(cursor_).number != number) {
+        const typename S::F zero(0.0f);
+        return gathered.template store<S>({zero, zero, zero});
+      }
       if (!has_area(light)) {
-        colour = answer(cursor_++).light.colour;
+        gathered = answer(cursor_++).light.colour;
         return;
       }
+      const uint32_t lanes = lanes_of(gathered);
+      surfaces.any_side = lanes;
       IncidentLight<S> incident(light.colour);
       illuminate(scene, light, surfaces, lanes, incident);
       // All its places were asked for, row by row.
-      rays += sample_area(spu_, light, surfaces, incident, *area_, colour, [&](AreaShadow<S>& shadow) {
-        shadow.light = answer(cursor_ + shadow.place.row * light.columns + shadow.place.column).light.colour;
-      });
+      rays += sample_area(
+          spu_, light, surfaces, incident, *to_place_, *area_, gathered, [&](AreaShadow<S>& shadow) {
+            shadow.light =
+                answer(cursor_ + shadow.place.row * light.columns + shadow.place.column).light.colour;
+          });
       cursor_ += light.columns * light.rows;
     });
     return rays;
@@ -99,7 +111,8 @@ private:
   }
 
   Spu& spu_;
-  AreaShadow<S>* area_; ///< null if no light has an area
+  AreaShadow<S>* area_;  ///< null if no light has an area
+  ShadowRays* to_place_; ///< likewise
   ea_t first_search_ = 0;
   uint32_t searches_ = 0;
   AnswerBlock* block_ = nullptr;

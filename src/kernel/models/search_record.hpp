@@ -25,7 +25,8 @@ struct alignas(128) JobRecord {
 };
 static_assert(sizeof(JobRecord) == 128, "crosses DMA");
 
-/// Light from a source to the points that shadow rays start at: its distance, and what is left of it.
+/// Light from a source to the points that shadow rays start at: its distance, and what is left of what they
+/// would send on of it, or of the light itself if it comes from a place of an area.
 struct LightOnItsWay {
   FloatLanes distance;
   VectorLanes colour;
@@ -36,7 +37,7 @@ struct alignas(128) SearchRecord {
   RayPacket rays;
   union {
     HitPacket hits;      ///< closest
-    LightOnItsWay light; ///< shadow; the colour is that at the source before the search
+    LightOnItsWay light; ///< shadow; before the search, the colour is what comes if nothing is in the way
   };
   uint32_t kind;    ///< SearchKind
   uint32_t lanes;   ///< the rays

@@ -14,6 +14,7 @@ namespace celltrace::kernel::models {
 template <class Spu> class Shader {
 public:
   using S = typename Spu::simd;
+  using F = typename S::F;
 
   Shader(Spu& spu, ea_t block)
       : spu_(spu), stage_(spu, block), orders_(stage_.orders()), frame_(stage_.frame()),
@@ -62,7 +63,9 @@ private:
 
     Tracer tracer;
     HitPoints<S> points;
-    uint32_t hit = 0; ///< lanes
+    VectorLanes of_root; ///< what has come of the root's light of the first round
+    bool is_root = true; ///< of the tree, is what is being shaded
+    uint32_t hit = 0;    ///< lanes
     Awaits awaits = Awaits::packet;
     uint32_t column = 0, row = 0;
     uint32_t searches = 0; ///< under way
@@ -146,6 +149,8 @@ private:
       context.column = arrival.job.column;
       context.row = arrival.job.row;
       context.tracer.begin(arrival.search.rays, arrival.search.lanes);
+      context.is_root = true;
+      context.of_root.template store<S>({F(0.0f), F(0.0f), F(0.0f)});
       take_hits(number, arrival.search.hits);
       return;
     case Awaits::hits:
@@ -153,7 +158,7 @@ private:
       return;
     case Awaits::light:
       light_.arrive(sender_.search(number, 0), context.searches, arrival.lights, kFirstTag + current_);
-      shade(number);
+      take_light(number);
       return;
     }
   }
@@ -168,27 +173,51 @@ private:
       return;
     }
     find_hit_points(scene_, context.tracer.node().rays, hits, context.hit, context.points);
-    if (ask_for_light(number)) return;
+    if (shade(number)) return;
     light_.arrive_nothing();
-    shade(number);
+    take_light(number);
   }
 
-  /// Sends a shadow search for every light that some of the surfaces face; false if there is none.
-  bool ask_for_light(uint32_t number) {
+  /// Shades what was hit, and sends a shadow search for every light that counts; false if none does.
+  bool shade(uint32_t number) {
     Context& context = *contexts_[number];
-    const RayPacket& rays = context.tracer.node().rays;
-    const WordLanes& objects = context.tracer.hits().object;
-    const Surfaces<S> surfaces = context.points.lit_surfaces(rays.direction.template load<S>(), objects);
     writer_.begin(number);
-    for_each_light(scene_, frame_, 0, frame_.light_count, [&](uint32_t i, const LightRecord& light) {
+    for (uint32_t first = 0; first == 0 || first < frame_.light_count; first += kLightsARound) {
+      LightRound round = LightRound::from(frame_, first, gathered_);
+      round.clear<S>();
+      // Light comes to pixels in the order of the rounds, in whatever program.
+      round.only_gathers = first != 0;
+      context.tracer.shade_hits(context.points, context.hit, round);
+      ask_for_light(context, round);
+    }
+    context.searches = writer_.count();
+    if (context.searches == 0) return false;
+    context.awaits = Awaits::light;
+    writer_.send();
+    return true;
+  }
+  /// Not inlined: its surfaces are not on the stack while hits are shaded.
+  [[gnu::noinline]] void ask_for_light(Context& context, const LightRound& round) {
+    const RayPacket& rays = context.tracer.node().rays;
+    Surfaces<S> surfaces =
+        context.points.surfaces(rays.direction.template load<S>(), context.tracer.hits().object);
+    for_each_light(scene_, frame_, round.first, round.count, [&](uint32_t i, const LightRecord& light) {
       if (is_shadowless(light)) return; // no light is projected: such scenes are refused
-      IncidentLight<S> incident(light.colour);
-      illuminate(scene_, light, surfaces, context.hit, incident);
-      if (incident.facing == 0) return;
+      const VectorLanes& gathered = round.gathered[i - round.first];
+      const uint32_t lanes = context.tracer.lanes_that_count(gathered, context.hit);
+      if (lanes == 0) return;
       if (!has_area(light)) {
+        IncidentLight<S> incident;
+        aim(spu_, light, surfaces.point, incident);
+        incident.facing = lanes;
+        incident.colour = gathered.template load<S>();
+        context.tracer.count_shadow_rays(static_cast<uint32_t>(__builtin_popcount(lanes)));
         ask_for_light_of(i, surfaces, incident);
         return;
       }
+      surfaces.any_side = lanes;
+      IncidentLight<S> incident(light.colour);
+      illuminate(scene_, light, surfaces, lanes, incident);
       for (uint32_t row = 0; row < light.rows; ++row)
         for (uint32_t column = 0; column < light.columns; ++column) {
           IncidentLight<S> from_place(light.colour);
@@ -197,17 +226,12 @@ private:
           ask_for_light_of(i, surfaces, from_place);
         }
     });
-    context.searches = writer_.count();
-    if (context.searches == 0) return false;
-    context.awaits = Awaits::light;
-    writer_.send();
-    return true;
   }
 
   void ask_for_light_of(uint32_t number, const Surfaces<S>& surfaces, const IncidentLight<S>& incident) {
     spu_.compute(model_work::kCopy);
     SearchRecord& search = writer_.next();
-    make_shadow_rays(surfaces, incident, search.rays, search.light.distance);
+    make_shadow_rays(surfaces.point, *surfaces.objects, incident, search.rays, search.light.distance);
     search.light.colour.template store<S>(incident.colour);
     search.kind = static_cast<uint32_t>(SearchKind::shadow);
     search.lanes = incident.facing;
@@ -217,40 +241,50 @@ private:
     writer_.put();
   }
 
-  void shade(uint32_t number) {
+  /// Adds what has come of the light that was asked for; that of the first round to what primary rays hit
+  /// when the tree is done.
+  void take_light(uint32_t number) {
     Context& context = *contexts_[number];
-    for (LightRound round = LightRound::from(frame_, 0, colours_);;
-         round = LightRound::from(frame_, round.next(), colours_)) {
-      take_light(context, round);
-      context.tracer.shade_hits(context.points, context.hit, round);
-      if (round.next() == frame_.light_count) break;
+    for (uint32_t first = 0; first == 0 || first < frame_.light_count; first += kLightsARound) {
+      LightRound round = LightRound::from(frame_, first, gathered_);
+      round.clear<S>();
+      // Answers from areas are of their places, not of what surfaces send on.
+      round.only_gathers = first == 0;
+      if (first != 0 || light_.has_areas()) context.tracer.shade_hits(context.points, context.hit, round);
+      if (light_.has_areas())
+        take_areas(context, round);
+      else
+        light_.take(round);
+      if (context.is_root && first == 0)
+        round.add_to<S>(context.of_root, context.hit);
+      else
+        context.tracer.add_gathered(round, context.hit);
     }
     go_on(number);
-  }
-
-  void take_light(Context& context, const LightRound& round) {
-    if (light_.has_areas())
-      take_areas(context, round);
-    else
-      light_.take(round.first, round.count, colours_);
   }
   /// Not inlined: its surfaces are not on the stack while hits are shaded.
   [[gnu::noinline]] void take_areas(Context& context, const LightRound& round) {
     const RayPacket& rays = context.tracer.node().rays;
     const WordLanes& objects = context.tracer.hits().object;
-    const Surfaces<S> surfaces = context.points.lit_surfaces(rays.direction.template load<S>(), objects);
-    context.tracer.count_shadow_rays(light_.take(scene_, frame_, round, surfaces, context.hit, colours_));
+    Surfaces<S> surfaces = context.points.surfaces(rays.direction.template load<S>(), objects);
+    context.tracer.count_shadow_rays(
+        light_.take(scene_, frame_, round, surfaces, [&](const VectorLanes& gathered) {
+          return context.tracer.lanes_that_count(gathered, context.hit);
+        }));
   }
 
   /// To the next node of the tree, or the next packet.
   void go_on(uint32_t number) {
     Context& context = *contexts_[number];
     const bool more = context.tracer.advance();
+    context.is_root = false;
     if (more && !stopped_) {
       ask_for_hits(number);
       return;
     }
-    if (!more) pixels_.put(context.column, context.row, context.tracer.light());
+    if (!more)
+      pixels_.put(context.column, context.row,
+                  context.tracer.light().template load<S>() + context.of_root.template load<S>());
     context.awaits = Awaits::packet;
     if (stage_.has(task::generate))
       feed_.give_back(number);
@@ -302,7 +336,7 @@ private:
   SearchWriter<Spu> writer_;
   PixelWriter<Spu> pixels_;
   ArrivedLight<Spu> light_;
-  VectorLanes colours_[kLightsARound];
+  VectorLanes gathered_[kLightsARound];
   RayNode& scratch_;
   Arrival* arrivals_;
   uint32_t current_ = 0;

@@ -23,9 +23,10 @@ public:
   [[gnu::always_inline]] BundleTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, ea_t spill,
                                       SampleBundle<Spu>* samples)
       : frame_(frame), scene_(scene), samples_(samples), traversal_(scene, frame),
-        tracer_(spu, frame, scene, spill, frame.ray_stack_nodes, *spu.template allocate<RayNode>()),
-        members_(spu.template allocate<Member>(kPackets)), area_(allocate_area_shadow(spu, frame)),
-        walk_(allocate_shadow_walk(spu, frame)), pool_(spu) {
+        scratch_(*spu.template allocate<RayNode>()),
+        tracer_(spu, frame, scene, spill, frame.ray_stack_nodes, scratch_),
+        store_(*spu.template allocate<Store>()), area_(allocate_area_shadow(spu, frame)),
+        walk_(allocate_shadow_walk(spu, frame, scratch_)), pool_(spu) {
     static_assert(sizeof(ShadowWalk<S>) <= kResidentNodes * sizeof(RayNode), "lies where nodes would");
     static_assert(sizeof(AreaShadow<S>) <= kResidentNodes * sizeof(RayNode), "lies where nodes would");
   }
@@ -52,8 +53,8 @@ public:
         place(column, row);
         if (missed && !asks_more)
           return for_each_member([&](Member& member) {
-            if (!plain) make_primary_rays(scene_.spu(), frame_, member.column, member.row, member.rays);
-            put(member.column, member.row, tracer_.background(member.rays, member.lanes));
+            if (!plain) make_primary_rays(scene_.spu(), frame_, member.column, member.row, rays_of(member));
+            put(member.column, member.row, tracer_.background(rays_of(member), member.lanes));
           });
         find_hits([&](RayQuery* queries) { traversal_.intersect(queries, bundle); });
       }
@@ -61,21 +62,16 @@ public:
       place(column, row);
       find_hits([&](RayQuery* queries) { traversal_.intersect(queries, kPackets); });
     }
-    find_lights();
-    if constexpr (kPoolsRays<Spu>)
-      if (!trace_pooled(stopped)) return pool_.rays.clear();
+    if (!trace_trees(stopped)) {
+      if constexpr (kPoolsRays<Spu>) pool_.rays.clear();
+      return;
+    }
     for (uint32_t i = 0; i < kPackets; ++i) {
-      Member& member = members_[i];
+      Member& member = store_.members[i];
       if (member.pixels == 0) continue;
-      V3<S> seen;
+      V3<S> seen = light_of(i);
       uint32_t with_ray = member.lanes;
-      if constexpr (kPoolsRays<Spu>) {
-        with_ray = pool_.with_ray[i];
-        seen = pool_.light[i].template load<S>();
-      } else {
-        if (samples_ != nullptr) tracer_.add_clear_to(samples_->at[i].clear);
-        if (!trace(member, seen, stopped)) return;
-      }
+      if constexpr (kPoolsRays<Spu>) with_ray = pool_.with_ray[i];
       if (with_ray != member.pixels) {
         const F black(0.0f);
         seen = select<S>(S::M::from_bits(with_ray), seen, {black, black, black});
@@ -87,33 +83,6 @@ public:
     }
   }
 
-  /// Puts to main memory what the primary rays of the bundle hit that was traced last.
-  [[gnu::noinline]] void put_first_hits() {
-    scene_.spu().run_in_module(modules::kFirstHits);
-    const ea_t table = frame_.grid_points + frame_.packet_columns * frame_.packet_rows * kGridPacketBytes;
-    for (uint32_t i = 0; i < kPackets; ++i) {
-      Member& member = members_[i];
-      if (member.pixels == 0) continue;
-      // Shading may have left other points there.
-      if (member.hit != 0) find_hit_points(scene_, member.rays, member.hits, member.hit, member.points);
-      FirstHitRecord& record = member.first_hits;
-      for (uint32_t lane = 0; lane < kSimdLanes; ++lane) {
-        const bool is_hit = (member.hit >> lane & 1) != 0;
-        record.distance[lane] = member.hits.distance.lane[lane];
-        record.interior[lane] = is_hit ? member.points.interior.lane[lane] : kNoOffset;
-      }
-      if (member.hit != 0) {
-        member.points.normal.x.store(record.normal[0]);
-        member.points.normal.y.store(record.normal[1]);
-        member.points.normal.z.store(record.normal[2]);
-      }
-      constexpr auto kBytes = static_cast<uint32_t>(sizeof(FirstHitRecord));
-      scene_.spu().put(&record, table + (member.row * frame_.packet_columns + member.column) * kBytes, kBytes,
-                       kFirstHitTag);
-    }
-    scene_.spu().wait_all(1u << kFirstHitTag);
-  }
-
   void reset_counters() {
     tracer_.reset_counters();
     traversal_.reset_counters();
@@ -123,33 +92,58 @@ public:
   uint32_t spilled_nodes() const { return tracer_.spilled_nodes(); }
 
   /// Local store that nothing is in between two calls of trace().
-  uint8_t* scratch() { return reinterpret_cast<uint8_t*>(members_); }
-  static constexpr uint32_t scratch_bytes() { return kPackets * static_cast<uint32_t>(sizeof(Member)); }
+  uint8_t* scratch() { return reinterpret_cast<uint8_t*>(&store_); }
+  static constexpr uint32_t scratch_bytes() { return static_cast<uint32_t>(sizeof(Store)); }
 
 private:
   static constexpr uint32_t kEdge = kBundleEdge<Spu>;
   static constexpr uint32_t kPackets = kBundlePackets<Spu>;
   static constexpr uint32_t kFirstHitTag = 7;
 
-  struct Member {
+  /// What it takes to ask what comes of light that points send on.
+  struct LitPoints {
+    ShadowRays to_light;
+    VectorLanes light[kLightsARound]; ///< that they send on, gathered in a round
+  };
+  /// What is kept of hits once they are shaded; the objects are where they were.
+  struct ShadedHits {
+    WordLanes object;
+    VectorLanes seen; ///< where rays stay in their packets: all but the gathered light
+  };
+  struct PrimaryRays {
     RayPacket rays;
-    HitPacket hits;
-    HitPoints<S> points;
+  };
+  struct Member : LitPoints, detail::Present<PrimaryRays, kHasRoomForCode<Spu>> {
+    V3<S> point; ///< once they are shaded: where they have hit something
     union {
-      RayPacket shadow_rays;     ///< toward the light that is asked of
-      FirstHitRecord first_hits; ///< on their way to main memory, after the last light
+      HitPacket hits; ///< until they are shaded
+      ShadedHits shaded;
     };
-    FloatLanes distance;
-    VectorLanes light[kLightsARound]; ///< that comes to the points, of a round
     uint32_t column, row;
     uint32_t pixels;     ///< lanes in the picture
     uint32_t lanes, hit; ///< of them, those that have a ray; of these, those that hit something
   };
+  struct Store {
+    Member members[kPackets];
+    // Of the node that is being shaded.
+    HitPoints<S> points;
+    union {
+      LitPoints lit;             ///< if it is no root
+      FirstHitRecord first_hits; ///< of a root, on their way to main memory
+    };
+  };
 
+  /// The primary rays of a member: elsewhere than those to a light, or where these will be.
+  static RayPacket& rays_of(Member& member) {
+    if constexpr (kHasRoomForCode<Spu>)
+      return member.rays;
+    else
+      return member.to_light.rays;
+  }
   /// Calls `visit` with each packet in the picture.
   template <class Visit> void for_each_member(const Visit& visit) {
     for (uint32_t i = 0; i < kPackets; ++i)
-      if (members_[i].pixels != 0) visit(members_[i]);
+      if (store_.members[i].pixels != 0) visit(store_.members[i]);
   }
 
   bool is_whole(uint32_t column, uint32_t row) const {
@@ -158,7 +152,7 @@ private:
   }
   void place(uint32_t column, uint32_t row) {
     for (uint32_t i = 0; i < kPackets; ++i) {
-      Member& member = members_[i];
+      Member& member = store_.members[i];
       member.column = column * kEdge + i % kEdge;
       member.row = row * kEdge + i / kEdge;
       const bool inside = member.column < frame_.packet_columns && member.row < frame_.packet_rows;
@@ -171,37 +165,33 @@ private:
   bool takes_samples() const { return static_cast<FramePurpose>(frame_.purpose) == FramePurpose::samples; }
   /// Those of a member; returns the lanes that have one.
   uint32_t make_rays(uint32_t number) {
-    Member& member = members_[number];
+    Member& member = store_.members[number];
     F x = pixels_across<S>(frame_, member.column), y = pixels_down<S>(frame_, member.row);
     if (takes_samples()) {
       x = F::load(samples_->at[number].x.lane);
       y = F::load(samples_->at[number].y.lane);
     }
-    return make_rays_through(scene_.spu(), frame_.camera, x, y, member.rays);
+    return make_rays_through(scene_.spu(), frame_.camera, x, y, rays_of(member));
   }
 
   /// `run` answers the queries of all packets; those of packets outside are for nothing.
   template <class Run> void find_hits(Run run) {
     RayQuery queries[kPackets];
     for (uint32_t i = 0; i < kPackets; ++i) {
-      Member& member = members_[i];
+      Member& member = store_.members[i];
       if (member.pixels != 0) member.lanes &= make_rays(i);
-      queries[i] = {&member.rays, &member.hits, nullptr, nullptr, member.lanes};
+      queries[i] = {&rays_of(member), &member.hits, nullptr, nullptr, member.lanes};
     }
     run(queries);
-    if constexpr (kPoolsRays<Spu>) pool_.sort(scene_, frame_, members_);
-    const bool hints = kPrefetchesLines<Spu> && frame_.object_count > tuning::kObjectsInCoreCache;
+    if constexpr (kPoolsRays<Spu>) pool_.sort(scene_, frame_, store_.members);
     for (uint32_t i = 0; i < kPackets; ++i) {
-      Member& member = members_[i];
+      Member& member = store_.members[i];
       member.hit = hit_lanes<S>(member.hits, member.lanes);
-      if (hints && i + 1 < kPackets)
-        hint_extras(scene_, members_[i + 1].hits, hit_lanes<S>(members_[i + 1].hits, members_[i + 1].lanes));
-      if (member.hit != 0) find_hit_points(scene_, member.rays, member.hits, member.hit, member.points);
     }
   }
 
-  /// The light of the first round at what the primary rays hit. Not inlined: records of lights are not on the
-  /// stack while rays are shaded.
+  /// Finds out what comes of the light that has been gathered at what the primary rays hit. Not inlined:
+  /// records of lights are not on the stack while rays are shaded.
   [[gnu::noinline]] void find_lights() {
     const LightRound lights = LightRound::from(frame_, 0, nullptr);
     lit_ = nullptr;
@@ -214,44 +204,60 @@ private:
     const bool by_packet = is_projected(light) || walks_all(light);
     uint32_t asked = 0;
     for (uint32_t i = 0; i < kPackets; ++i) {
-      Member& member = members_[i];
+      Member& member = store_.members[i];
       if (member.hit == 0) continue;
       scene_.spu().compute(scalar_work::kBundleLight);
       VectorLanes& colour = member.light[number];
-      if (has_area(light)) {
-        look_at_area(light, member, member.rays, member.hits, member.hit, colour);
+      const uint32_t lanes = lanes_above<Spu>(colour, member.hit, kLeastLight);
+      if (lanes == 0 || has_area(light) || by_packet) {
+        ask_for(light, member, member.point, member.shaded.object, is_aimed(number, 0), lanes, colour);
         continue;
       }
-      const uint32_t facing = aim_at(light, member, member.rays, member.hits, member.hit, colour, nullptr);
-      if (facing == 0) continue;
-      if (by_packet) {
-        trace_shadows(light, member.shadow_rays, facing, member.distance, colour);
-        continue;
-      }
-      queries[asked++] = {&member.shadow_rays, nullptr, &member.distance, &colour, facing};
+      aim_at(light, member.to_light, member.point, member.shaded.object, is_aimed(number, 0), lanes);
+      queries[asked++] = {&member.to_light.rays, nullptr, &member.to_light.distance, &colour, lanes};
     }
     if (asked == 0) return;
     if constexpr (kMarksTranslucent<Spu>)
       if (walk_ != nullptr) return walk_marked(light, queries, asked);
     traversal_.intersect(queries, asked, light);
   }
+  /// Leaves in `colour`, which has been gathered, what comes of it to points on objects; in `lanes` it
+  /// counts.
+  [[gnu::noinline]] void ask_for(const LightRecord& light, LitPoints& at, const V3<S>& point,
+                                 const WordLanes& objects, bool is_aimed, uint32_t lanes,
+                                 VectorLanes& colour) {
+    if (lanes == 0) return colour.template store<S>({F(0.0f), F(0.0f), F(0.0f)});
+    aim_at(light, at.to_light, point, objects, is_aimed, lanes);
+    if (has_area(light)) return look_at_area(light, lanes, colour);
+    trace_shadows(light, at.to_light.rays, lanes, at.to_light.distance, colour);
+  }
 
-  /// Makes a member's shadow rays from what `rays` hit in `lanes`, or starts the sampling of a light that has
-  /// an area; else `area` is null. `colour` becomes what comes if nothing is in the way. Returns the lanes
-  /// that face the light. Not inlined: its surfaces are not on the stack while rays are traced.
-  [[gnu::noinline]] uint32_t aim_at(const LightRecord& light, Member& member, const RayPacket& rays,
-                                    const HitPacket& hits, uint32_t lanes, VectorLanes& colour,
-                                    AreaShadow<S>* area) {
-    const Surfaces<S> surfaces = member.points.lit_surfaces(rays.direction.template load<S>(), hits.object);
+  /// Makes shadow rays, unless shading has, or starts the sampling of a light that has an area.
+  void aim_at(const LightRecord& light, ShadowRays& to_light, const V3<S>& point, const WordLanes& objects,
+              bool is_aimed, uint32_t lanes) {
+    if (!has_area(light)) tracer_.count_shadow_rays(static_cast<uint32_t>(__builtin_popcount(lanes)));
+    if (is_aimed && !has_area(light)) return;
+    make_rays_to(light, to_light, point, objects, lanes);
+  }
+  /// Not inlined: its surfaces are not on the stack while rays are traced.
+  [[gnu::noinline]] void make_rays_to(const LightRecord& light, ShadowRays& to_light, const V3<S>& point,
+                                      const WordLanes& objects, uint32_t lanes) {
     IncidentLight<S> incident(light.colour);
-    illuminate(scene_, light, surfaces, lanes, incident);
-    if (incident.facing == 0) return 0;
-    colour.template store<S>(incident.colour);
-    if (area != nullptr)
-      begin_sampling(scene_.spu(), light, surfaces, incident, *area);
-    else
-      make_shadow_rays(surfaces, incident, member.shadow_rays, member.distance);
-    return incident.facing;
+    aim(scene_.spu(), light, point, incident);
+    if (!has_area(light)) {
+      make_shadow_rays(point, objects, incident, to_light.rays, to_light.distance);
+      return;
+    }
+    // It is known in which lanes the light counts: nothing is asked of the surfaces but where they are.
+    Surfaces<S> surfaces;
+    surfaces.point = point;
+    surfaces.objects = &objects;
+    incident.facing = lanes;
+    if (!is_plain(light)) {
+      scene_.spu().enter_module(modules::kLights);
+      module_lights::attenuate(scene_, light, surfaces, incident);
+    }
+    begin_sampling(scene_.spu(), light, surfaces, incident, to_light, *area_);
   }
 
   /// As Traversal's transmittance(), of a light. Not inlined: once in local store is enough.
@@ -312,148 +318,230 @@ private:
     const bool dims = is_dimmed(light);
     scene_.spu().enter_module(modules::kShadowWalk);
     begin_shadow_walk(scene_.spu(), frame_, lit_, rays, lanes, distance, colour, walk);
-    while (walk.ray.lanes != 0) {
-      traversal_.find_closest(walk.ray.rays, walk.ray.lanes, walk.hits, kSeesAll);
+    while (walk.ray->lanes != 0) {
+      traversal_.find_closest(walk.ray->rays, walk.ray->lanes, walk.hits, kSeesAll);
       if (dims) {
         scene_.spu().enter_module(modules::kAtmosphere);
-        dim_shadow_rays(scene_, frame_, walk.hits, walk.left, walk.ray, *walk.light);
+        dim_shadow_rays(scene_, frame_, walk.hits, walk.left, *walk.ray, *walk.light);
       }
       scene_.spu().enter_module(modules::kShadowWalk);
       const uint32_t hit = hits_of_walk(scene_.spu(), walk);
       if (hit == 0) return;
-      find_hit_points(scene_, walk.ray.rays, walk.hits, hit, walk.points);
+      find_hit_points(scene_, walk.ray->rays, walk.hits, hit, walk.points);
       scene_.spu().enter_module(modules::kShadowWalk);
       step_shadow_walk(scene_, walk, tracer_.dropped());
     }
   }
 
   /// The light of an area, whose places each packet asks by itself. Not inlined: few scenes have such lights.
-  [[gnu::noinline]] void look_at_area(const LightRecord& light, Member& member, const RayPacket& rays,
-                                      const HitPacket& hits, uint32_t lanes, VectorLanes& colour) {
+  [[gnu::noinline]] void look_at_area(const LightRecord& light, [[maybe_unused]] uint32_t lanes,
+                                      VectorLanes& colour) {
     AreaShadow<S>& area = *area_;
-    const uint32_t facing = aim_at(light, member, rays, hits, lanes, colour, &area);
-    if (facing == 0) return;
     if constexpr (kGathersOccluders<Spu>) {
       AreaOccluders<Spu> occluders;
       if (!walks_all(light) && !is_projected(light) &&
-          traversal_.gather_occluders(area.rays, facing, light, occluders)) {
+          traversal_.gather_occluders(area.to_place->rays, lanes, light, occluders)) {
         if (occluders.are_none())
           return colour.template store<S>(
-              select<S>(S::M::from_bits(facing), colour.template load<S>(), {F(0.0f), F(0.0f), F(0.0f)}));
+              select<S>(S::M::from_bits(lanes), colour.template load<S>(), {F(0.0f), F(0.0f), F(0.0f)}));
         while (next_place(scene_.spu(), light, area))
-          traversal_.transmittance(area.rays, area.lanes, area.distance, area.light, occluders);
-        colour = area.sum;
-        tracer_.count_shadow_rays(area.rays_asked);
-        return;
+          traversal_.transmittance(area.to_place->rays, area.lanes, area.to_place->distance, area.light,
+                                   occluders);
+        return take_area_light(colour);
       }
     }
     while (next_place(scene_.spu(), light, area)) {
       scene_.spu().compute(scalar_work::kBundleLight);
-      trace_shadows(light, area.rays, area.lanes, area.distance, area.light);
+      trace_shadows(light, area.to_place->rays, area.lanes, area.to_place->distance, area.light);
     }
-    colour = area.sum;
-    tracer_.count_shadow_rays(area.rays_asked);
+    take_area_light(colour);
+  }
+  void take_area_light(VectorLanes& colour) {
+    tracer_.count_shadow_rays(area_->rays_asked);
+    scene_.spu().enter_module(modules::kAreas);
+    module_areas::dim(scene_.spu(), *area_, colour);
   }
 
-  /// The colours of a packet, of which the hits are known and the light of the first round. False: it was
-  /// stopped on the way.
-  template <class Stopped> bool trace(Member& member, V3<S>& colour, Stopped stopped) {
-    if constexpr (kHasRoomForCode<Spu>) {
-      const LightRound all = LightRound::from(frame_, 0, member.light);
-      if (tracer_.ends_at_once(member.rays, member.lanes, member.hits, member.points, all, colour))
-        return true;
-    }
-    tracer_.begin(member.rays, member.lanes);
-    tracer_.hits() = member.hits;
-    if constexpr (kPoolsRays<Spu>)
-      pool_.find_places(static_cast<uint32_t>(&member - members_), tracer_.pooling().pixels);
-    return trace_tree(member, true, colour, stopped);
-  }
-  /// The colours of the tree that has begun. `is_first`: its hits are those of the member, whose light is
-  /// known.
-  template <class Stopped> bool trace_tree(Member& member, bool is_first, V3<S>& colour, Stopped stopped) {
-    const LightRound first = LightRound::from(frame_, 0, member.light);
-    for (;; is_first = false) {
-      const uint32_t hit = tracer_.take_hits();
-      if (hit != 0) {
-        const RayNode& node = tracer_.node();
-        if (!is_first) {
-          find_hit_points(scene_, node.rays, tracer_.hits(), hit, member.points);
-          light_packet(member, hit, first);
-        }
-        for (LightRound round = first;;) {
-          tracer_.shade_hits(member.points, hit, round);
-          if (round.next() >= frame_.light_count) break;
-          round = LightRound::from(frame_, round.next(), member.light);
-          light_packet(member, hit, round);
-        }
+  /// Works off the trees of all packets. What the first round gathers of the roots' light is asked for when
+  /// all roots have been shaded, for all of them together, and added last: so the sum does not depend on who
+  /// traces what when. False: it was stopped on the way.
+  template <class Stopped> [[gnu::noinline]] bool trace_trees(Stopped stopped) {
+    const bool hints = kPrefetchesLines<Spu> && frame_.object_count > tuning::kObjectsInCoreCache;
+    if constexpr (kPoolsRays<Spu>) begin_pooling();
+    for (uint32_t i = 0; i < kPackets; ++i) {
+      Member& member = store_.members[i];
+      if (hints && i + 1 < kPackets)
+        hint_extras(scene_, store_.members[i + 1].hits, store_.members[i + 1].hit);
+      if (member.pixels != 0 && wants_first_hits()) {
+        scene_.spu().enter_module(modules::kFirstHits);
+        put_first_hits(member);
       }
-      if (!tracer_.advance()) break;
-      if (stopped()) return false;
-      traversal_.find_closest(tracer_.node().rays, tracer_.node().lanes, tracer_.hits(),
-                              tracer_.node().reflected);
+      if (member.lanes == 0 || !shade_root(member)) continue;
+      if (!trace_tree(stopped)) return false;
+      keep(member, tracer_.light());
     }
-    colour = tracer_.light();
+    find_lights();
+    if constexpr (kPoolsRays<Spu>)
+      if (!trace_pooled(stopped)) return false;
+    for (uint32_t i = 0; i < kPackets; ++i)
+      if (store_.members[i].hit != 0) add_left_light(i);
     return true;
   }
 
-  /// The colours of all packets of the bundle, whose rays go on in packets that the trees share. False: it
-  /// was stopped on the way.
-  template <class Stopped> bool trace_pooled(Stopped stopped) {
-    RayPooling<Spu>& pooling = tracer_.pooling();
-    pooling.pool = has_own_lanes(frame_) ? nullptr : &pool_.rays;
-    const F zero(0.0f);
-    if (pool_.is_sorted)
-      for (uint32_t i = 0; i < kPackets; ++i)
-        pool_.light[i].template store<S>({zero, zero, zero});
-    tracer_.add_clear_to(pool_.clear);
-    V3<S> seen;
-    for (uint32_t i = 0; i < kPackets; ++i) {
-      Member& member = members_[i];
-      if (member.lanes == 0) continue;
-      zero.store(pool_.clear.lane);
-      if (!trace(member, seen, stopped)) return false;
-      if (pool_.is_sorted) {
-        add_to_pixels(pool_.sorter.places(i), member.lanes, seen);
-      } else {
-        pool_.light[i].template store<S>(seen);
-        if (samples_ != nullptr) samples_->at[i].clear = pool_.clear;
+  bool wants_first_hits() const {
+    return static_cast<FramePurpose>(frame_.purpose) == FramePurpose::grid &&
+           (frame_.light_ways & light_way::first_hits) != 0;
+  }
+  /// Puts to main memory what the primary rays of a member hit.
+  [[gnu::noinline]] void put_first_hits(Member& member) {
+    scene_.spu().run_in_module(modules::kFirstHits);
+    const ea_t table = frame_.grid_points + frame_.packet_columns * frame_.packet_rows * kGridPacketBytes;
+    const HitPoints<S>& points = store_.points;
+    if (member.hit != 0) find_hit_points(scene_, rays_of(member), member.hits, member.hit, store_.points);
+    FirstHitRecord& record = store_.first_hits;
+    for (uint32_t lane = 0; lane < kSimdLanes; ++lane) {
+      const bool is_hit = (member.hit >> lane & 1) != 0;
+      record.distance[lane] = member.hits.distance.lane[lane];
+      record.interior[lane] = is_hit ? points.interior.lane[lane] : kNoOffset;
+    }
+    if (member.hit != 0) {
+      points.normal.x.store(record.normal[0]);
+      points.normal.y.store(record.normal[1]);
+      points.normal.z.store(record.normal[2]);
+    }
+    constexpr auto kBytes = static_cast<uint32_t>(sizeof(FirstHitRecord));
+    scene_.spu().put(&record, table + (member.row * frame_.packet_columns + member.column) * kBytes, kBytes,
+                     kFirstHitTag);
+    scene_.spu().wait_all(1u << kFirstHitTag);
+  }
+
+  LightRound begin_round(uint32_t first, LitPoints& lit) const {
+    LightRound round = LightRound::from(frame_, first, lit.light);
+    round.template clear<S>();
+    if constexpr (kHasRoomForCode<Spu>) round.to_first = &lit.to_light;
+    return round;
+  }
+  /// Whether shading has left the rays toward a light, of a round that begins with `first`.
+  static bool is_aimed(uint32_t number, uint32_t first) { return kHasRoomForCode<Spu> && number == first; }
+  /// Shades what the primary rays of a member hit. False: all that they see is known but for the light that
+  /// is asked for later. Otherwise the member's tree has begun.
+  bool shade_root(Member& member) {
+    if constexpr (kPoolsRays<Spu>) pool_.clear_lanes();
+    if constexpr (kHasRoomForCode<Spu>) {
+      if (member.hit != 0) {
+        find_hit_points(scene_, rays_of(member), member.hits, member.hit, store_.points);
+        member.point = store_.points.point;
+      }
+      VectorLanes seen;
+      LightRound only = LightRound::from(frame_, 0, member.light);
+      only.is_fresh = true;
+      only.to_first = &member.to_light;
+      if (tracer_.ends_at_once(rays_of(member), member.lanes, member.hits, store_.points, only, seen)) {
+        keep(member, seen);
+        return false;
       }
     }
+    const auto number = static_cast<uint32_t>(&member - store_.members);
+    if constexpr (kPoolsRays<Spu>) {
+      pool_.find_places(number, tracer_.pooling().pixels);
+    } else {
+      if (samples_ != nullptr) tracer_.add_clear_to(samples_->at[number].clear);
+    }
+    tracer_.begin(rays_of(member), member.lanes);
+    copy_packet<Spu>(member.hits, tracer_.hits());
+    shade_node(&member);
+    return true;
+  }
+  // Not inlined: one copy of each saves local store, and their vectors are not on the stack while others run.
+
+  [[gnu::noinline]] uint32_t take_hits() { return tracer_.take_hits(); }
+  /// Shades what the rays of the node have hit that is being traced. If it is a member's root, the light of
+  /// the first round is left where it is gathered.
+  [[gnu::noinline]] void shade_node(Member* root) {
+    const uint32_t hit = kHasRoomForCode<Spu> ? tracer_.take_hits() : take_hits();
+    if (hit == 0) return;
+    if (!kHasRoomForCode<Spu> || root == nullptr)
+      find_hit_points(scene_, tracer_.node().rays, tracer_.hits(), hit, store_.points);
+    if (root != nullptr) copy_packet<Spu>(store_.points.point, root->point);
+    for (uint32_t first = 0;;) {
+      const bool is_left = root != nullptr && first == 0;
+      const LightRound round = begin_round(first, is_left ? *root : store_.lit);
+      tracer_.shade_hits(store_.points, hit, round);
+      if (!is_left) {
+        light_packet(hit, round);
+        tracer_.add_gathered(round, hit);
+      }
+      first += kLightsARound;
+      if (first >= frame_.light_count) return;
+    }
+  }
+  /// Works off the nodes that are still to come. False: it was stopped on the way.
+  template <class Stopped> bool trace_tree(Stopped stopped) {
+    while (tracer_.advance()) {
+      if (stopped()) return false;
+      find_closest();
+      shade_node(nullptr);
+    }
+    return true;
+  }
+  void find_closest() {
+    traversal_.find_closest(tracer_.node().rays, tracer_.node().lanes, tracer_.hits(),
+                            tracer_.node().reflected);
+  }
+
+  /// What a member's primary rays see but for the light that is asked for later.
+  void keep(Member& member, const VectorLanes& seen) {
+    if constexpr (kPoolsRays<Spu>)
+      pool_.put(static_cast<uint32_t>(&member - store_.members), member.lanes, seen, samples_);
+    else
+      copy_packet<Spu>(seen, member.shaded.seen);
+  }
+  /// Adds what has come of the light that a root's first round gathered.
+  void add_left_light(uint32_t number) {
+    Member& member = store_.members[number];
+    const LightRound round = LightRound::from(frame_, 0, member.light);
+    if constexpr (kPoolsRays<Spu>)
+      pool_.add(number, member.hit, round);
+    else
+      round.add_to<S>(member.shaded.seen, member.hit);
+  }
+  /// All that the primary rays of a member see.
+  V3<S> light_of(uint32_t number) {
+    Member& member = store_.members[number];
+    if constexpr (!kPoolsRays<Spu>)
+      return member.shaded.seen.template load<S>();
+    else
+      return pool_.light_of(number, member.hit, LightRound::from(frame_, 0, member.light));
+  }
+
+  void begin_pooling() {
+    tracer_.pooling().pool = has_own_lanes(frame_) ? nullptr : &pool_.rays;
+    pool_.begin();
+    tracer_.add_clear_to(pool_.clear);
+  }
+  /// Traces the rays that have left their packets.
+  template <class Stopped> bool trace_pooled(Stopped stopped) {
     while (!pool_.rays.empty()) {
       if (stopped()) return false;
       tracer_.begin(pool_.rays.take());
       const uint32_t lanes = tracer_.node().lanes;
-      zero.store(pool_.clear.lane);
-      traversal_.find_closest(tracer_.node().rays, lanes, tracer_.hits(), tracer_.node().reflected);
-      if (!trace_tree(members_[0], false, seen, stopped)) return false;
-      add_to_pixels(pooling.pixels, lanes, seen);
+      pool_.clear_lanes();
+      find_closest();
+      shade_node(nullptr);
+      if (!trace_tree(stopped)) return false;
+      pool_.add_to_pixels(tracer_.pooling().pixels, lanes, tracer_.light(), samples_);
     }
     return true;
   }
-  void add_to_pixels(const WordLanes& pixels, uint32_t lanes, const V3<S>& seen) {
-    VectorLanes light;
-    light.template store<S>(seen);
-    for_each_lane(lanes, [&](uint32_t lane) {
-      const uint32_t packet = pixels.lane[lane] / kSimdLanes, to = pixels.lane[lane] % kSimdLanes;
-      VectorLanes& sum = pool_.light[packet];
-      sum.x.lane[to] += light.x.lane[lane];
-      sum.y.lane[to] += light.y.lane[lane];
-      sum.z.lane[to] += light.z.lane[lane];
-      if (samples_ != nullptr) samples_->at[packet].clear.lane[to] += pool_.clear.lane[lane];
-    });
-  }
 
   /// The light of a round at the hits of the node that is being traced.
-  [[gnu::noinline]] void light_packet(Member& member, uint32_t hit, const LightRound& round) {
+  [[gnu::noinline]] void light_packet(uint32_t hit, const LightRound& round) {
     lit_ = &tracer_.node();
     for_each_light(scene_, frame_, round.first, round.count, [&](uint32_t number, const LightRecord& light) {
       if (!is_asked_for(light)) return;
-      VectorLanes& colour = member.light[number - round.first];
-      const RayPacket& rays = tracer_.node().rays;
-      if (has_area(light)) return look_at_area(light, member, rays, tracer_.hits(), hit, colour);
-      const uint32_t facing = aim_at(light, member, rays, tracer_.hits(), hit, colour, nullptr);
-      if (facing != 0) trace_shadows(light, member.shadow_rays, facing, member.distance, colour);
+      VectorLanes& colour = round.gathered[number - round.first];
+      ask_for(light, store_.lit, store_.points.point, tracer_.hits().object, is_aimed(number, round.first),
+              tracer_.lanes_that_count(colour, hit), colour);
     });
   }
 
@@ -461,8 +549,9 @@ private:
   SceneAccess<Spu>& scene_;
   SampleBundle<Spu>* samples_;
   Traversal<Spu, kAccelerators> traversal_;
+  RayNode& scratch_; ///< the tracer's while surfaces are shaded, else that of shadow rays that are walked
   RayTracer<Spu> tracer_;
-  Member* members_;
+  Store& store_;
   AreaShadow<S>* area_; ///< null if no light has an area
   ShadowWalk<S>* walk_; ///< null if shadow rays need none
   /// Whether rays stay in the lanes of their pixels.
@@ -489,6 +578,45 @@ private:
       }
       for (uint32_t lane = 0; lane < kSimdLanes; ++lane)
         places.lane[lane] = member * kSimdLanes + lane;
+    }
+
+    /// No light has come yet.
+    void begin() {
+      if (is_sorted)
+        for (uint32_t i = 0; i < kPackets; ++i)
+          light[i].template store<S>({F(0.0f), F(0.0f), F(0.0f)});
+    }
+    void clear_lanes() { F(0.0f).store(clear.lane); }
+    /// What the primary rays of a member see, and how clear their way is.
+    void put(uint32_t member, uint32_t lanes, const VectorLanes& seen, SampleBundle<Spu>* samples) {
+      if (is_sorted) return add_to_pixels(sorter.places(member), lanes, seen, samples);
+      light[member] = seen;
+      if (samples != nullptr) samples->at[member].clear = clear;
+    }
+    /// More light for some of them that have been sorted.
+    void add(uint32_t member, uint32_t lanes, const LightRound& round) {
+      if (!is_sorted) return; // light_of() adds it
+      VectorLanes more;
+      more.template store<S>(round.template sum<S>());
+      add_to_pixels(sorter.places(member), lanes, more, nullptr);
+    }
+    /// All that has come to the pixels of a member.
+    V3<S> light_of(uint32_t member, uint32_t lanes, const LightRound& round) const {
+      const V3<S> seen = light[member].template load<S>();
+      if (is_sorted || lanes == 0) return seen;
+      return select<S>(S::M::from_bits(lanes), seen + round.template sum<S>(), seen);
+    }
+    /// Light of rays that have left their packets, and if there are samples how clear their way is.
+    void add_to_pixels(const WordLanes& pixels, uint32_t lanes, const VectorLanes& from,
+                       SampleBundle<Spu>* samples) {
+      for_each_lane(lanes, [&](uint32_t lane) {
+        const uint32_t packet = pixels.lane[lane] / kSimdLanes, to = pixels.lane[lane] % kSimdLanes;
+        VectorLanes& sum = light[packet];
+        sum.x.lane[to] += from.x.lane[lane];
+        sum.y.lane[to] += from.y.lane[lane];
+        sum.z.lane[to] += from.z.lane[lane];
+        if (samples != nullptr) samples->at[packet].clear.lane[to] += clear.lane[lane];
+      });
     }
 
     RayPool<Spu> rays;

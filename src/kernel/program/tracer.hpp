@@ -203,11 +203,6 @@ private:
   /// What was traced becomes part of what a picture is sampled by. True: there are samples to trace. One
   /// copy: local store is short.
   [[gnu::noinline]] bool sample(uint32_t column, uint32_t row) {
-    const bool is_grid = static_cast<FramePurpose>(frame_.purpose) == FramePurpose::grid;
-    if (is_grid && (frame_.light_ways & light_way::first_hits) != 0) {
-      spu_.enter_module(modules::kFirstHits);
-      phase_->bundles.put_first_hits();
-    }
     return phase_->sampler->advance(column, row);
   }
 

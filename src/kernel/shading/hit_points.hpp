@@ -25,10 +25,6 @@ template <class S> struct HitPoints {
   Surfaces<S> surfaces(const V3<S>& direction, const WordLanes& objects) const {
     return {point, normal, direction, &objects, lit_behind, lit_through};
   }
-  /// The same for lights whose shadow rays are asked for before normals are disturbed.
-  Surfaces<S> lit_surfaces(const V3<S>& direction, const WordLanes& objects) const {
-    return {point, normal, direction, &objects, disturbed | lit_behind};
-  }
 };
 
 namespace detail {

@@ -99,29 +99,78 @@ template <class Spu>
 /// Lights that surfaces are lit by at a time: what comes to them is known for so many.
 constexpr uint32_t kLightsARound = 4;
 
-/// Lights [first, first + count) of a frame, and what comes from each of them to the surfaces that face it.
-/// The first round adds what surfaces send without light.
+/// Lights [first, first + count) of a frame, and what surfaces would send on of each of them if nothing were
+/// in the way. Only where that counts is it asked what comes of it. The first round adds what surfaces send
+/// without light.
 struct LightRound {
   uint32_t first, count;
-  const VectorLanes* colour; ///< by light of the round; that of lights without shadows is not read
+  VectorLanes* gathered;          ///< by light of the round; nothing of lights that are not asked for
+  bool only_gathers = false;      ///< nothing else comes of it: surfaces are shaded for another time
+  bool is_fresh = false;          ///< what has been gathered is undefined: surfaces are shaded once
+  ShadowRays* to_first = nullptr; ///< where there is room for code: becomes the rays toward the first light
 
   /// The round of a frame that begins with a light.
-  static LightRound from(const FrameBlock& frame, uint32_t first, const VectorLanes* colour) {
+  static LightRound from(const FrameBlock& frame, uint32_t first, VectorLanes* gathered) {
     const uint32_t left = frame.light_count - first;
-    return {first, left < kLightsARound ? left : kLightsARound, colour};
+    return {first, left < kLightsARound ? left : kLightsARound, gathered};
   }
-  bool is_first() const { return first == 0; }
+  bool is_first() const { return first == 0 && !only_gathers; }
   /// The light that the next round begins with; none is left if there are no more.
   uint32_t next() const { return first + count; }
+
+  template <class S> void clear() const {
+    const typename S::F zero(0.0f);
+    for (uint32_t i = 0; i < count; ++i)
+      gathered[i].template store<S>({zero, zero, zero});
+  }
+  template <class S> V3<S> sum() const {
+    const typename S::F zero(0.0f);
+    V3<S> sum = {zero, zero, zero};
+    for (uint32_t i = 0; i < count; ++i)
+      sum = sum + gathered[i].template load<S>();
+    return sum;
+  }
+  /// Adds the light of all lights. Not inlined: one copy saves local store.
+  template <class S> [[gnu::noinline]] void add_to(VectorLanes& light, uint32_t lanes) const {
+    const V3<S> sum = this->sum<S>();
+    const V3<S> before = light.template load<S>();
+    light.template store<S>(select<S>(S::M::from_bits(lanes), before + sum, before));
+  }
 };
 
-/// Ambient light, and what the lights of a round contribute, at the surfaces of `lanes`. Counts a shadow ray
-/// per light and lane that faces it, but for lights with areas, of which only who samples them knows.
+/// Light counts if one of its channels is above this: less does not change a pixel.
+constexpr float kLeastLight = 1e-6f;
+
+namespace detail {
+
+template <class S> uint32_t find_lanes_above(const VectorLanes& light, uint32_t lanes, float least) {
+  const V3<S> l = light.template load<S>();
+  const typename S::F most = S::max(S::abs(l.x), S::max(S::abs(l.y), S::abs(l.z)));
+  return (most > typename S::F(least)).bits() & lanes;
+}
+/// Not inlined on an SPE: one copy saves local store.
+template <class S>
+[[gnu::noinline]] uint32_t lanes_above_out_of_line(const VectorLanes& light, uint32_t lanes, float least) {
+  return find_lanes_above<S>(light, lanes, least);
+}
+
+} // namespace detail
+
+/// Those of `lanes` in which light is above `least`.
+template <class Spu> uint32_t lanes_above(const VectorLanes& light, uint32_t lanes, float least) {
+  if constexpr (kHasRoomForCode<Spu>)
+    return detail::find_lanes_above<typename Spu::simd>(light, lanes, least);
+  else
+    return detail::lanes_above_out_of_line<typename Spu::simd>(light, lanes, least);
+}
+
+/// Gathers what the surfaces of `lanes` send on of the lights of a round that are asked for, times `weight`.
+/// Returns the rest, without it: ambient light and that of other lights.
 template <class Spu>
 V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, const FrameBlock& frame, const LightRound& round,
                                    const Surfaces<typename Spu::simd>& s,
                                    const MaterialLanes<typename Spu::simd>& m, uint32_t lanes,
-                                   uint64_t& shadow_rays) {
+                                   const V3<typename Spu::simd>& weight) {
   using S = typename Spu::simd;
   using F = typename S::F;
   const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
@@ -130,12 +179,17 @@ V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, const FrameBlock& fr
     IncidentLight<S> incident(light.colour);
     illuminate(scene, light, s, lanes, incident);
     const uint32_t facing = incident.facing;
-    if (facing == 0) return;
-    scene.spu().compute(scalar_work::kLight);
-    if (is_asked_for(light)) {
-      incident.colour = round.colour[number - round.first].template load<S>();
-      if (!has_area(light)) shadow_rays += static_cast<uint32_t>(__builtin_popcount(facing));
+    VectorLanes& gathered = round.gathered[number - round.first];
+    const bool is_fresh = kHasRoomForCode<Spu> && round.is_fresh;
+    if (facing == 0) {
+      if (is_fresh) gathered.template store<S>(dark);
+      return;
     }
+    const bool is_asked = is_asked_for(light);
+    if constexpr (kHasRoomForCode<Spu>)
+      if (round.to_first != nullptr && number == round.first && is_asked)
+        make_shadow_rays(s.point, *s.objects, incident, round.to_first->rays, round.to_first->distance);
+    scene.spu().compute(scalar_work::kLight);
     V3<S> sent;
     if (s.any_side != 0) {
       scene.spu().enter_module(modules::kFinishes);
@@ -148,7 +202,14 @@ V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, const FrameBlock& fr
       scene.spu().enter_module(modules::kFinishes);
       change_special_light(scene, s, m, incident, number, sent);
     }
-    sum = sum + select<S>(S::M::from_bits(facing), sent, dark);
+    sent = select<S>(S::M::from_bits(facing), sent, dark);
+    if (!is_asked) {
+      sum = sum + sent;
+      if (is_fresh) gathered.template store<S>(dark);
+      return;
+    }
+    const V3<S> more = sent * weight;
+    gathered.template store<S>(is_fresh ? more : gathered.template load<S>() + more);
   });
   return sum;
 }

@@ -37,23 +37,24 @@ public:
         surface_(allocate_surface_lanes(spu, frame)) {}
 
   /// The colours of primary rays whose hits are known, if all of them end there; false: they do not, or there
-  /// are more lights than in one round.
+  /// are more lights than in one round. Without the light that the round gathers.
   bool ends_at_once(const RayPacket& rays, uint32_t lanes, const HitPacket& hits, const HitPoints<S>& points,
-                    const LightRound& round, V3<S>& colour) {
+                    const LightRound& round, VectorLanes& colours) {
     if (round.next() != frame_.light_count || has_atmosphere(frame_)) return false;
     const uint32_t hit = hit_lanes<S>(hits, lanes);
+    const F zero(0.0f), one(1.0f);
+    V3<S> seen = {zero, zero, zero};
     if (hit != 0) {
       if (points.plain(hit) != hit) return false;
       const MaterialLanes<S> m = gather_materials(scene_, points.material, hit);
       if (m.has(material_flag::reflects | material_flag::transmits)) return false;
       const Surfaces<S> surfaces = points.surfaces(rays.direction.template load<S>(), hits.object);
-      colour = local_light(scene_, frame_, round, surfaces, m, hit, counters_.shadow);
+      seen = local_light(scene_, frame_, round, surfaces, m, hit, {one, one, one});
     }
     counters_.primary += count(lanes);
-    if (const uint32_t missed = lanes & ~hit; missed != 0) {
-      const V3<S> seen = behind(rays, missed);
-      colour = hit != 0 ? select<S>(M::from_bits(hit), colour, seen) : seen;
-    }
+    if (const uint32_t missed = lanes & ~hit; missed != 0)
+      seen = select<S>(M::from_bits(hit), seen, behind(rays, missed));
+    colours.template store<S>(seen);
     return true;
   }
 
@@ -99,8 +100,8 @@ public:
     if (missed != 0) add(missed, behind(node_.rays, missed));
     return hit;
   }
-  /// The light of the surfaces that take_hits() told of, from a round of lights. With the first round rays go
-  /// on from there.
+  /// Shades the surfaces that take_hits() told of, in the light of a round. With the first round rays go on
+  /// from there.
   [[gnu::always_inline]] void shade_hits(const HitPoints<S>& points, uint32_t hit, const LightRound& round) {
     round_ = round;
     const uint32_t plain = points.plain(hit);
@@ -109,6 +110,13 @@ public:
     scene_.spu().enter_module(modules::kComposed);
     shade_composed(points, hit & ~plain);
   }
+  /// The lanes in which gathered light counts. That of a bent reflection is raised to a power: all of it
+  /// does.
+  uint32_t lanes_that_count(const VectorLanes& gathered, uint32_t lanes) const {
+    return lanes_above<Spu>(gathered, lanes, node_.target == 0 ? kLeastLight : 0.0f);
+  }
+  /// Adds what has come of the light that a round has gathered.
+  void add_gathered(const LightRound& round, uint32_t lanes) { round.add_to<S>(light_[node_.target], lanes); }
   /// Goes on to the next node() of the tree. False: there is none, light() is complete.
   bool advance() {
     while (!stack_.empty()) {
@@ -119,7 +127,7 @@ public:
     }
     return false;
   }
-  V3<S> light() const { return light_[0].template load<S>(); }
+  const VectorLanes& light() const { return light_[0]; }
 
   /// Where trees that begin from now on add how clear their pixels are. Wanted with light_way::alpha.
   void add_clear_to(FloatLanes& clear) { clear_ = &clear; }
@@ -127,7 +135,6 @@ public:
   /// Which rays go to a pool, and which pixels those are of that are traced.
   RayPooling<Spu>& pooling() { return pooling_; }
 
-  /// Rays that were traced for a round of lights beyond those that shading counts.
   void count_shadow_rays(uint32_t rays) { counters_.shadow += rays; }
   void reset_counters() {
     counters_ = RayCounters();
@@ -157,7 +164,7 @@ private:
 
   /// The root of the tree: the rays as they leave the camera.
   void start(const RayPacket& rays, uint32_t lanes) {
-    node_.rays = rays;
+    copy_packet<Spu>(rays, node_.rays);
     node_.throughput.template store<S>({F(1.0f), F(1.0f), F(1.0f)});
     F(1.0f).store(node_.weight.lane);
     F(1.0f).store(node_.power.lane);
@@ -185,10 +192,12 @@ private:
   void clear(uint32_t accumulator) { light_[accumulator].template store<S>({F(0.0f), F(0.0f), F(0.0f)}); }
 
   void add(uint32_t lanes, const V3<S>& light) {
+    add_weighted(lanes, light, node_.throughput.template load<S>());
+  }
+  void add_weighted(uint32_t lanes, const V3<S>& light, const V3<S>& weight) {
     VectorLanes& target = light_[node_.target];
     const V3<S> sum = target.template load<S>();
-    const V3<S> weighted = light * node_.throughput.template load<S>();
-    target.template store<S>(select<S>(M::from_bits(lanes), sum + weighted, sum));
+    target.template store<S>(select<S>(M::from_bits(lanes), sum + light * weight, sum));
   }
 
   /// The light of a reflection is complete.
@@ -306,7 +315,9 @@ private:
   /// rays go on.
   [[gnu::noinline]] void add_light(const Surfaces<S>& surfaces, const MaterialLanes<S>& m, uint32_t lanes,
                                    const V3<S>& share) {
-    add(lanes, local_light(scene_, frame_, round_, surfaces, m, lanes, counters_.shadow) * share);
+    const V3<S> weight = share * node_.throughput.template load<S>();
+    const V3<S> rest = local_light(scene_, frame_, round_, surfaces, m, lanes, weight);
+    if (!round_.only_gathers) add_weighted(lanes, rest, weight);
   }
   [[gnu::noinline]] SecondaryRays<S> onward_rays(const Surfaces<S>& surfaces, const WordLanes& interior,
                                                  const MaterialLanes<S>& m, uint32_t lanes, const F& share) {

@@ -16,7 +16,7 @@ constexpr bool walks_shadows(const FrameBlock& frame) {
 
 /// The rays of a packet on their way to a light.
 template <class S> struct alignas(128) ShadowWalk {
-  RayNode ray;     ///< from the last surface on; those that are still on the way
+  RayNode* ray;    ///< from the last surface on; those that are still on the way
   FloatLanes left; ///< to the light
   VectorLanes* light;
   HitPacket hits;
@@ -25,10 +25,13 @@ template <class S> struct alignas(128) ShadowWalk {
   bool has_surface;
 };
 
-/// Local store for them, in a frame that has such.
-template <class Spu> ShadowWalk<typename Spu::simd>* allocate_shadow_walk(Spu& spu, const FrameBlock& frame) {
+/// Local store for them, in a frame that has such. `scratch` is theirs while they are on their way.
+template <class Spu>
+ShadowWalk<typename Spu::simd>* allocate_shadow_walk(Spu& spu, const FrameBlock& frame, RayNode& scratch) {
   if (!walks_shadows(frame)) return nullptr;
-  return spu.template allocate<ShadowWalk<typename Spu::simd>>();
+  auto* const walk = spu.template allocate<ShadowWalk<typename Spu::simd>>();
+  walk->ray = &scratch;
+  return walk;
 }
 
 /// Starts `lanes` of shadow rays, from what the rays of `from` hit, or those of the camera if it is null.
@@ -39,23 +42,23 @@ template <class Spu>
   using S = typename Spu::simd;
   using F = typename S::F;
   spu.run_in_module(modules::kShadowWalk);
-  walk.ray.rays = rays;
-  walk.ray.lanes = lanes;
+  walk.ray->rays = rays;
+  walk.ray->lanes = lanes;
   walk.left = distance;
   const F zero(0.0f);
   light.template store<S>(select<S>(S::M::from_bits(lanes), light.template load<S>(), {zero, zero, zero}));
   walk.light = &light;
   walk.has_surface = has_surface_lanes(frame);
   if (from != nullptr) {
-    walk.ray.interior_depth = from->interior_depth;
+    walk.ray->interior_depth = from->interior_depth;
     for (uint32_t d = 0; d < kMaxInteriorDepth; ++d)
-      walk.ray.interiors[d] = from->interiors[d];
+      walk.ray->interiors[d] = from->interiors[d];
     return;
   }
   for_each_lane(lanes, [&](uint32_t lane) {
-    walk.ray.interior_depth.lane[lane] = frame.camera_interior_count;
+    walk.ray->interior_depth.lane[lane] = frame.camera_interior_count;
     for (uint32_t d = 0; d < frame.camera_interior_count; ++d)
-      walk.ray.interiors[d].lane[lane] = frame.camera_interiors[d];
+      walk.ray->interiors[d].lane[lane] = frame.camera_interiors[d];
   });
 }
 
@@ -103,7 +106,7 @@ void add_caustics(SceneAccess<Spu>& scene, uint32_t lanes, ShadowWalk<typename S
           disturb_normal<Spu>(scene, normal, {walk.points.point, &walk.surface}, some, walk.points.normal);
         });
     for_each_part<Spu>([&](uint32_t first) {
-      const V3<S> direction = walk.ray.rays.direction.template load_from<S>(first);
+      const V3<S> direction = walk.ray->rays.direction.template load_from<S>(first);
       const F cosine = S::abs(dot<S>(direction, part_of<Spu>(walk.points.normal, first)));
       const F more = F(1.0f) + pow<S>(cosine, F(exponent));
       const V3<S> before = walk.light->template load_from<S>(first);
@@ -119,7 +122,7 @@ void add_caustics(SceneAccess<Spu>& scene, uint32_t lanes, ShadowWalk<typename S
 template <class Spu>
 [[gnu::noinline]] uint32_t hits_of_walk(Spu& spu, const ShadowWalk<typename Spu::simd>& walk) {
   spu.run_in_module(modules::kShadowWalk);
-  return hit_lanes<typename Spu::simd>(walk.hits, walk.ray.lanes);
+  return hit_lanes<typename Spu::simd>(walk.hits, walk.ray->lanes);
 }
 
 /// Takes the rays through the surfaces that they have hit. Those that reach the light, or end, leave the
@@ -133,8 +136,8 @@ template <class Spu>
   scene.spu().run_in_module(modules::kShadowWalk);
   const F epsilon(kShadowEpsilon);
   const F distance = F::load(walk.hits.distance.lane), left = F::load(walk.left.lane);
-  const uint32_t before_light = hit_lanes<S>(walk.hits, walk.ray.lanes) & (distance < left - epsilon).bits();
-  walk.ray.lanes = before_light;
+  const uint32_t before_light = hit_lanes<S>(walk.hits, walk.ray->lanes) & (distance < left - epsilon).bits();
+  walk.ray->lanes = before_light;
   if (before_light == 0) return;
   uint32_t counts = before_light & (distance > epsilon).bits();
   uint32_t dark = 0;
@@ -149,7 +152,7 @@ template <class Spu>
   counts &= ~dark;
   if (counts != 0) {
     scene.spu().enter_module(modules::kFading);
-    fade(scene, walk.ray, walk.points.interior, walk.hits.distance, counts, *walk.light, true);
+    fade(scene, *walk.ray, walk.points.interior, walk.hits.distance, counts, *walk.light, true);
     if (walk.has_surface) {
       scene.spu().enter_module(modules::kSurfaces);
       find_surface_lanes(scene, walk.points, walk.hits, counts, walk.surface);
@@ -162,7 +165,7 @@ template <class Spu>
     });
     detail::add_caustics(scene, counts, walk);
     scene.spu().enter_module(modules::kSecondary);
-    cross_surfaces(scene, walk.points.interior, counts, walk.ray, overflows);
+    cross_surfaces(scene, walk.points.interior, counts, *walk.ray, overflows);
     const V3<S> light = walk.light->template load<S>();
     const F most = S::max(S::abs(light.x), S::max(S::abs(light.y), S::abs(light.z)));
     dark |= counts & (most < F(1e-10f)).bits();
@@ -170,11 +173,11 @@ template <class Spu>
   const F zero(0.0f);
   const V3<S> light = walk.light->template load<S>();
   walk.light->template store<S>(select<S>(M::from_bits(dark), {zero, zero, zero}, light));
-  walk.ray.lanes = before_light & ~dark;
-  const M goes_on = M::from_bits(walk.ray.lanes);
-  walk.ray.rays.origin.template store<S>(
-      select<S>(goes_on, walk.points.point, walk.ray.rays.origin.template load<S>()));
-  walk.ray.rays.start_object = walk.hits.object;
+  walk.ray->lanes = before_light & ~dark;
+  const M goes_on = M::from_bits(walk.ray->lanes);
+  walk.ray->rays.origin.template store<S>(
+      select<S>(goes_on, walk.points.point, walk.ray->rays.origin.template load<S>()));
+  walk.ray->rays.start_object = walk.hits.object;
   (left - distance).store(walk.left.lane);
 }
 

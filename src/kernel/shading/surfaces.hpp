@@ -10,8 +10,7 @@ template <class S> struct Surfaces {
   V3<S> point, normal;      ///< normal flipped toward the viewer
   V3<S> direction;          ///< of the rays that arrive
   const WordLanes* objects; ///< what the points lie on
-  uint32_t any_side = 0; ///< lanes that light may come to from all sides: some counts from behind, or their
-                         ///< normals are not known yet
+  uint32_t any_side = 0;    ///< lanes that light may come to from all sides
   uint32_t lit_through = 0; ///< lanes in which light from behind counts as if it came from before
 };
 
