@@ -92,7 +92,6 @@ double difference(const Vec3& a, const Vec3& b) {
 
 TEST_CASE("Ambient light, diffuse light and highlights of mixed materials") {
   Random random(60);
-  std::uint64_t all_rays = 0, all_most = 0;
   for (int k = 0; k < 300; ++k) {
     const unsigned lights = random.below(7);
     const Scene source = empty_scene(random, k % 2 == 0 ? 3.7 : 3.62, lights);
@@ -133,28 +132,28 @@ TEST_CASE("Ambient light, diffuse light and highlights of mixed materials") {
       round.add_to<Simd>(light, lanes);
     }
 
-    std::uint64_t most_rays = 0; // some faces send nothing on
+    // Rays that are traced for certain, and those that may be: rounding decides about light at the limit.
+    std::uint64_t certain_rays = 0, possible_rays = 0;
     for_each_lane(lanes, [&](unsigned l) {
       const Material& m = source.materials[hits.index[l]];
       const Vec3 normal = test::at(hits.normal, l);
-      Vec3 expected = m.pigment.rgb * (m.finish.ambient * source.ambient_light + m.finish.emission) *
+      Vec3 expected = weight * m.pigment.rgb * (m.finish.ambient * source.ambient_light + m.finish.emission) *
                       reference::opacity(m.pigment, source.version);
       for (const Light& each : source.lights) {
         const Vec3 to_light = glm::normalize(each.location - test::at(hits.point, l));
-        expected += reference::lit(m, source.version, each.colour, to_light, test::at(hits.direction, l),
-                                   normal, !each.shadowless);
-        if (!each.shadowless && glm::dot(to_light, normal) >= 1e-10) ++most_rays;
+        const Vec3 lit = weight * reference::lit(m, source.version, each.colour, to_light,
+                                                 test::at(hits.direction, l), normal, !each.shadowless);
+        expected += lit;
+        if (each.shadowless) continue;
+        certain_rays += difference(lit, Vec3(0)) > 2 * kLeastLight;
+        possible_rays += difference(lit, Vec3(0)) > 0.5 * kLeastLight;
       }
       // Exponents up to 200 magnify the rounding of the cosines.
-      REQUIRE(difference(test::at(light, l), expected * weight) < 1e-4);
+      REQUIRE(difference(test::at(light, l), expected) < 1e-4);
     });
-    REQUIRE(shadow_rays <= most_rays);
-    all_rays += shadow_rays;
-    all_most += most_rays;
+    REQUIRE(shadow_rays >= certain_rays);
+    REQUIRE(shadow_rays <= possible_rays);
   }
-  // Light is asked for where it counts, but nowhere else.
-  CHECK(all_rays > all_most / 2);
-  CHECK(all_rays < all_most);
 }
 
 TEST_CASE("Phong's highlight is cut off where POV-Ray cuts it off") {
