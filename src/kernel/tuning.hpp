@@ -33,15 +33,16 @@ constexpr float kMaxDirectionSpread = 1.0f;
 constexpr float kMaxPacketSpread = 3.0f;
 constexpr float kMaxPacketSpreadInLocalStore = kMaxDirectionSpread;
 
-/// So many rays of a packet that go to several octants traverse the BVH together, in scenes of at most so many
-/// objects. Fewer rays, or rays among smaller objects, have few nodes in common: traversals octant by octant
-/// have a frustum, and follow single rays by themselves. 'trace time' of scenes with mirrors and glass.
+/// So many rays of a packet that go to several octants traverse the BVH together, in scenes of at most so
+/// many objects. Fewer rays, or rays among smaller objects, have few nodes in common: traversals octant by
+/// octant have a frustum, and follow single rays by themselves. 'trace time' of scenes with mirrors and
+/// glass.
 constexpr int kLeastMixedRays = 4;
 constexpr uint32_t kMostObjectsOfMixedRays = 20000;
 
-/// A packet with so many rays of one tree goes on by itself; those of others are gathered into full packets.
-/// Larger: fewer lanes are empty; smaller: more packets have rays that are close to each other. 'trace time'
-/// of scenes with mirrors and glass, at 320x240.
+/// A packet with so many rays of one tree goes on by itself, and so do so many shadow rays from there; those
+/// of others are gathered into full packets. Larger: fewer lanes are empty; smaller: more packets have rays
+/// that are close to each other. 'trace time' of scenes with mirrors and glass, at 320x240.
 constexpr int kLeastRaysByThemselves = 12;
 
 /// Packets of a bundle of which two corners hit different materials: with so many the bundle's rays are

@@ -1,7 +1,9 @@
-// Rays that leave the packets that they began in: pools of secondary rays, and hits sorted by materials.
+// Rays that leave the packets that they began in: pools of secondary rays, queues of shadow rays, and hits
+// sorted by materials.
 #include "direct_spu.hpp"
 #include "kernel/direct/hit_sorting.hpp"
 #include "kernel/direct/ray_pool.hpp"
+#include "kernel/direct/shadow_queue.hpp"
 #include "lanes.hpp"
 #include "prepared_scene.hpp"
 #include "soups.hpp"
@@ -94,6 +96,62 @@ TEST_CASE("A pool of rays gives back each of them once, with all that belongs to
     }
     REQUIRE(inside.empty());
   }
+}
+
+TEST_CASE("A queue of shadow rays gives each point once, with all that belongs to it, in full packets") {
+  using S = DirectSpu::simd;
+  DirectSpu spu;
+  ShadowQueue<DirectSpu> queue(spu);
+  Random random(8);
+  for (const bool with_interiors : {false, true}) {
+    std::set<std::uint32_t> inside[3];
+    const auto check = [&](std::uint32_t light, const QueuedPoints& points, std::uint32_t lanes) {
+      for_each_lane(lanes, [&](std::uint32_t lane) {
+        const std::uint32_t number = points.pixels.lane[lane];
+        const auto value = static_cast<float>(number);
+        REQUIRE(inside[light].erase(number) == 1);
+        REQUIRE(points.point.z.lane[lane] == value);
+        REQUIRE(points.object.lane[lane] == number);
+        REQUIRE(points.light.x.lane[lane] == value + 1);
+        REQUIRE(points.light.z.lane[lane] == value + 3);
+        if (!with_interiors) return;
+        REQUIRE(points.interiors.interior_depth.lane[lane] == number % 3);
+        for (std::uint32_t i = 0; i < number % 3; ++i)
+          REQUIRE(points.interiors.interiors[i].lane[lane] == number + i);
+      });
+    };
+    for (int step = 0; step < 400; ++step) {
+      const std::uint32_t light = random.below(3), lanes = random.below(0x10000);
+      if (!queue.takes(light, lanes)) continue;
+      WordLanes pixels = {};
+      const RayNode node = node_of(random, lanes, pixels);
+      for_each_lane(lanes, [&](std::uint32_t lane) { inside[light].insert(pixels.lane[lane]); });
+      queue.add(light, lanes, node.rays.origin.load<S>(), node.rays.start_object, node.throughput, pixels,
+                with_interiors ? &node : nullptr,
+                [&](const QueuedPoints& points) { check(light, points, 0xFFFF); });
+      REQUIRE(inside[light].size() < kSimdLanes);
+    }
+    queue.finish(check);
+    for (const auto& left : inside)
+      REQUIRE(left.empty());
+    queue.finish([](std::uint32_t, const QueuedPoints&, std::uint32_t) { FAIL("nothing is left"); });
+  }
+}
+
+TEST_CASE("A queue of shadow rays refuses packets with many, lights of high numbers, and forgets all") {
+  DirectSpu spu;
+  ShadowQueue<DirectSpu> queue(spu);
+  Random random(9);
+  CHECK(queue.takes(0, 0x00FF));
+  CHECK_FALSE(queue.takes(0, 0xFFFF));
+  CHECK_FALSE(queue.takes(1000, 1));
+  WordLanes pixels = {};
+  const RayNode node = node_of(random, 0xFF, pixels);
+  const auto none = [](const QueuedPoints&) { FAIL("no packet is full"); };
+  queue.add(2, 0xFF, node.rays.origin.load<DirectSpu::simd>(), node.rays.start_object, node.throughput,
+            pixels, nullptr, none);
+  queue.clear();
+  queue.finish([](std::uint32_t, const QueuedPoints&, std::uint32_t) { FAIL("nothing is left"); });
 }
 
 TEST_CASE("Full packets of a pool have rays of one octant and come first") {

@@ -36,7 +36,8 @@ template <class Spu> constexpr bool kGathersOccluders = Spu::direct_memory;
 /// walked (ShadowWalk).
 template <class Spu> constexpr bool kMarksTranslucent = Spu::direct_memory;
 
-/// Rays of a bundle's trees are gathered into full packets (RayPool).
+/// Rays of a bundle's trees are gathered into full packets (RayPool), and shadow rays from what they hit, too
+/// (ShadowQueue).
 template <class Spu> constexpr bool kPoolsRays = Spu::direct_memory;
 
 /// Rays of several octants traverse the BVH together (MixedRays).

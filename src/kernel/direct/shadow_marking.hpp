@@ -13,7 +13,7 @@ template <class S> uint32_t marked_lanes(const VectorLanes& marks) {
 }
 
 /// The lanes whose rays have come into something with an interior, if they are not those of the camera.
-inline uint32_t lanes_inside(const RayNode* node) {
+inline uint32_t lanes_inside(const RayInteriors* node) {
   uint32_t inside = 0;
   if (node != nullptr)
     for (uint32_t lane = 0; lane < kSimdLanes; ++lane)

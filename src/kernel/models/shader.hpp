@@ -211,7 +211,7 @@ private:
         aim(spu_, light, surfaces.point, incident);
         incident.facing = lanes;
         incident.colour = gathered.template load<S>();
-        context.tracer.count_shadow_rays(static_cast<uint32_t>(__builtin_popcount(lanes)));
+        context.tracer.counters().shadow += static_cast<uint32_t>(__builtin_popcount(lanes));
         ask_for_light_of(i, surfaces, incident);
         return;
       }
@@ -267,10 +267,10 @@ private:
     const RayPacket& rays = context.tracer.node().rays;
     const WordLanes& objects = context.tracer.hits().object;
     Surfaces<S> surfaces = context.points.surfaces(rays.direction.template load<S>(), objects);
-    context.tracer.count_shadow_rays(
+    context.tracer.counters().shadow +=
         light_.take(scene_, frame_, round, surfaces, [&](const VectorLanes& gathered) {
           return context.tracer.lanes_that_count(gathered, context.hit);
-        }));
+        });
   }
 
   /// To the next node of the tree, or the next packet.

@@ -4,12 +4,10 @@
 
 #include "kernel/accel/traversal.hpp"
 #include "kernel/cameras/primary_rays.hpp"
-#include "kernel/direct/hit_sorting.hpp"
-#include "kernel/direct/shadow_marking.hpp"
-#include "kernel/lights/area_shadow.hpp"
+#include "kernel/program/bundle_pool.hpp"
 #include "kernel/program/pixel_sampler.hpp"
 #include "kernel/shading/ray_tracer.hpp"
-#include "kernel/shading/shadow_walk.hpp"
+#include "kernel/shading/shadow_tracer.hpp"
 
 namespace celltrace::kernel {
 
@@ -22,14 +20,10 @@ public:
   /// go through; null: there are no such frames. Inlined: it would take much of an SPE's stack by itself.
   [[gnu::always_inline]] BundleTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, ea_t spill,
                                       SampleBundle<Spu>* samples)
-      : frame_(frame), scene_(scene), samples_(samples), traversal_(scene, frame),
-        scratch_(*spu.template allocate<RayNode>()),
+      : frame_(frame), scene_(scene), samples_(samples), scratch_(*spu.template allocate<RayNode>()),
         tracer_(spu, frame, scene, spill, frame.ray_stack_nodes, scratch_),
-        store_(*spu.template allocate<Store>()), area_(allocate_area_shadow(spu, frame)),
-        walk_(allocate_shadow_walk(spu, frame, scratch_)), pool_(spu) {
-    static_assert(sizeof(ShadowWalk<S>) <= kResidentNodes * sizeof(RayNode), "lies where nodes would");
-    static_assert(sizeof(AreaShadow<S>) <= kResidentNodes * sizeof(RayNode), "lies where nodes would");
-  }
+        store_(*spu.template allocate<Store>()), shadows_(spu, frame, scene, scratch_, tracer_.counters()),
+        pool_(spu, samples) {}
 
   /// Calls `put(column, row, colours)` for each packet in the picture of the bundle at (column, row); that
   /// counts bundles, `put` packets. Or `fill(column, row, colour)` where all of the bundle has one colour and
@@ -42,10 +36,10 @@ public:
     if constexpr (kHasBundleViews<Spu>) {
       if (takes_samples()) {
         place(0, 0);
-        find_hits([&](RayQuery* queries) { traversal_.intersect_from_origin(queries, kPackets); });
+        find_hits([&](RayQuery* queries) { shadows_.traversal().intersect_from_origin(queries, kPackets); });
       } else {
         const PinholeBundle<S> bundle(frame_, column, row);
-        const bool missed = !traversal_.enter(bundle);
+        const bool missed = !shadows_.traversal().enter(bundle);
         const bool asks_more = has_atmosphere(frame_) || (frame_.light_ways & light_way::first_hits) != 0;
         const bool plain = frame_.sky == kNoOffset && !asks_more;
         if (missed && plain && is_whole(column, row))
@@ -56,14 +50,14 @@ public:
             if (!plain) make_primary_rays(scene_.spu(), frame_, member.column, member.row, rays_of(member));
             put(member.column, member.row, tracer_.background(rays_of(member), member.lanes));
           });
-        find_hits([&](RayQuery* queries) { traversal_.intersect(queries, bundle); });
+        find_hits([&](RayQuery* queries) { shadows_.traversal().intersect(queries, bundle); });
       }
     } else {
       place(column, row);
-      find_hits([&](RayQuery* queries) { traversal_.intersect(queries, kPackets); });
+      find_hits([&](RayQuery* queries) { shadows_.traversal().intersect(queries, kPackets); });
     }
     if (!trace_trees(stopped)) {
-      if constexpr (kPoolsRays<Spu>) pool_.rays.clear();
+      if constexpr (kPoolsRays<Spu>) pool_.drop();
       return;
     }
     for (uint32_t i = 0; i < kPackets; ++i) {
@@ -71,7 +65,7 @@ public:
       if (member.pixels == 0) continue;
       V3<S> seen = light_of(i);
       uint32_t with_ray = member.lanes;
-      if constexpr (kPoolsRays<Spu>) with_ray = pool_.with_ray[i];
+      if constexpr (kPoolsRays<Spu>) with_ray = pool_.with_ray(i);
       if (with_ray != member.pixels) {
         const F black(0.0f);
         seen = select<S>(S::M::from_bits(with_ray), seen, {black, black, black});
@@ -85,10 +79,10 @@ public:
 
   void reset_counters() {
     tracer_.reset_counters();
-    traversal_.reset_counters();
+    shadows_.traversal().reset_counters();
   }
   const RayCounters& ray_counters() const { return tracer_.counters(); }
-  const TraversalCounters& traversal_counters() const { return traversal_.counters(); }
+  const TraversalCounters& traversal_counters() const { return shadows_.traversal().counters(); }
   uint32_t spilled_nodes() const { return tracer_.spilled_nodes(); }
 
   /// Local store that nothing is in between two calls of trace().
@@ -194,14 +188,14 @@ private:
   /// records of lights are not on the stack while rays are shaded.
   [[gnu::noinline]] void find_lights() {
     const LightRound lights = LightRound::from(frame_, 0, nullptr);
-    lit_ = nullptr;
+    shadows_.set_interiors(nullptr);
     for_each_light(scene_, frame_, 0, lights.count, [&](uint32_t number, const LightRecord& light) {
       if (is_asked_for(light)) find_light(number, light);
     });
   }
   void find_light(uint32_t number, const LightRecord& light) {
     RayQuery queries[kPackets];
-    const bool by_packet = is_projected(light) || walks_all(light);
+    const bool by_packet = shadows_.asks_by_packet(light);
     uint32_t asked = 0;
     for (uint32_t i = 0; i < kPackets; ++i) {
       Member& member = store_.members[i];
@@ -209,159 +203,16 @@ private:
       scene_.spu().compute(scalar_work::kBundleLight);
       VectorLanes& colour = member.light[number];
       const uint32_t lanes = lanes_above<Spu>(colour, member.hit, kLeastLight);
-      if (lanes == 0 || has_area(light) || by_packet) {
-        ask_for(light, member, member.point, member.shaded.object, is_aimed(number, 0), lanes, colour);
+      if (lanes == 0 || by_packet) {
+        shadows_.trace(light, member.to_light, member.point, member.shaded.object, is_aimed(number, 0), lanes,
+                       colour);
         continue;
       }
-      aim_at(light, member.to_light, member.point, member.shaded.object, is_aimed(number, 0), lanes);
+      shadows_.aim(light, member.to_light, member.point, member.shaded.object, is_aimed(number, 0), lanes);
       queries[asked++] = {&member.to_light.rays, nullptr, &member.to_light.distance, &colour, lanes};
     }
-    if (asked == 0) return;
-    if constexpr (kMarksTranslucent<Spu>)
-      if (walk_ != nullptr) return walk_marked(light, queries, asked);
-    traversal_.intersect(queries, asked, light);
+    if (asked != 0) shadows_.trace(light, queries, asked);
   }
-  /// Leaves in `colour`, which has been gathered, what comes of it to points on objects; in `lanes` it
-  /// counts.
-  [[gnu::noinline]] void ask_for(const LightRecord& light, LitPoints& at, const V3<S>& point,
-                                 const WordLanes& objects, bool is_aimed, uint32_t lanes,
-                                 VectorLanes& colour) {
-    if (lanes == 0) return colour.template store<S>({F(0.0f), F(0.0f), F(0.0f)});
-    aim_at(light, at.to_light, point, objects, is_aimed, lanes);
-    if (has_area(light)) return look_at_area(light, lanes, colour);
-    trace_shadows(light, at.to_light.rays, lanes, at.to_light.distance, colour);
-  }
-
-  /// Makes shadow rays, unless shading has, or starts the sampling of a light that has an area.
-  void aim_at(const LightRecord& light, ShadowRays& to_light, const V3<S>& point, const WordLanes& objects,
-              bool is_aimed, uint32_t lanes) {
-    if (!has_area(light)) tracer_.count_shadow_rays(static_cast<uint32_t>(__builtin_popcount(lanes)));
-    if (is_aimed && !has_area(light)) return;
-    make_rays_to(light, to_light, point, objects, lanes);
-  }
-  /// Not inlined: its surfaces are not on the stack while rays are traced.
-  [[gnu::noinline]] void make_rays_to(const LightRecord& light, ShadowRays& to_light, const V3<S>& point,
-                                      const WordLanes& objects, uint32_t lanes) {
-    IncidentLight<S> incident(light.colour);
-    aim(scene_.spu(), light, point, incident);
-    if (!has_area(light)) {
-      make_shadow_rays(point, objects, incident, to_light.rays, to_light.distance);
-      return;
-    }
-    // It is known in which lanes the light counts: nothing is asked of the surfaces but where they are.
-    Surfaces<S> surfaces;
-    surfaces.point = point;
-    surfaces.objects = &objects;
-    incident.facing = lanes;
-    if (!is_plain(light)) {
-      scene_.spu().enter_module(modules::kLights);
-      module_lights::attenuate(scene_, light, surfaces, incident);
-    }
-    begin_sampling(scene_.spu(), light, surfaces, incident, to_light, *area_);
-  }
-
-  /// As Traversal's transmittance(), of a light. Not inlined: once in local store is enough.
-  [[gnu::noinline]] void trace_shadows(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
-                                       FloatLanes& distance, VectorLanes& colour) {
-    if (is_projected(light)) {
-      lanes = traversal_.project(light, rays, lanes, distance, colour);
-      if (lanes == 0 || is_shadowless(light)) return;
-    }
-    if (walk_ == nullptr) return traversal_.transmittance(rays, lanes, distance, colour);
-    if (walks_all(light)) return walk_shadows(light, rays, lanes, distance, colour);
-    if constexpr (kMarksTranslucent<Spu>) walk_marked(light, rays, lanes, distance, colour);
-  }
-  /// Whether all shadow rays toward a light are walked; otherwise those that are marked are, or none.
-  bool walks_all(const LightRecord& light) const {
-    return walk_ != nullptr && (!kMarksTranslucent<Spu> || is_dimmed(light));
-  }
-  /// Answers the queries of a bundle: those of their rays are walked that cross something translucent.
-  [[gnu::noinline]] void walk_marked(const LightRecord& light, RayQuery* queries, uint32_t count) {
-    VectorLanes marks[kPackets];
-    VectorLanes* colours[kPackets];
-    for (uint32_t i = 0; i < count; ++i) {
-      colours[i] = queries[i].light;
-      queries[i].light = &marks[i];
-    }
-    traversal_.mark_translucent(queries, count, light);
-    for (uint32_t i = 0; i < count; ++i)
-      walk_some(light, queries[i], marked_lanes<S>(*queries[i].light), *colours[queries[i].light - marks]);
-  }
-  /// The same of the node that is being traced.
-  [[gnu::noinline]] void walk_marked(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
-                                     const FloatLanes& distance, VectorLanes& colour) {
-    const uint32_t inside = lanes & lanes_inside(lit_);
-    uint32_t walked = marking_.walked_at_once(lanes, inside);
-    VectorLanes marks;
-    RayQuery query = {&rays, nullptr, &distance, &marks, lanes & ~walked};
-    if (query.lanes != 0) {
-      const uint32_t asked = query.lanes;
-      traversal_.mark_translucent(query);
-      const uint32_t marked = marked_lanes<S>(marks);
-      marking_.count(asked, inside, marked);
-      walked |= marked;
-    }
-    walk_some(light, query, walked, colour);
-  }
-  /// The light of a query that has been marked, of which `walked` lanes are still to be walked.
-  void walk_some(const LightRecord& light, const RayQuery& query, uint32_t walked, VectorLanes& colour) {
-    const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
-    const V3<S> direct = select<S>(S::M::from_bits(query.lanes), colour.template load<S>(), dark);
-    if (walked == 0) return colour.template store<S>(direct);
-    walk_shadows(light, *query.rays, walked, *query.distance, colour);
-    colour.template store<S>(colour.template load<S>() + direct);
-  }
-  /// Walks `lanes` of shadow rays. The light of the others becomes 0.
-  [[gnu::noinline]] void walk_shadows(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
-                                      const FloatLanes& distance, VectorLanes& colour) {
-    ShadowWalk<S>& walk = *walk_;
-    const bool dims = is_dimmed(light);
-    scene_.spu().enter_module(modules::kShadowWalk);
-    begin_shadow_walk(scene_.spu(), frame_, lit_, rays, lanes, distance, colour, walk);
-    while (walk.ray->lanes != 0) {
-      traversal_.find_closest(walk.ray->rays, walk.ray->lanes, walk.hits, kSeesAll);
-      if (dims) {
-        scene_.spu().enter_module(modules::kAtmosphere);
-        dim_shadow_rays(scene_, frame_, walk.hits, walk.left, *walk.ray, *walk.light);
-      }
-      scene_.spu().enter_module(modules::kShadowWalk);
-      const uint32_t hit = hits_of_walk(scene_.spu(), walk);
-      if (hit == 0) return;
-      find_hit_points(scene_, walk.ray->rays, walk.hits, hit, walk.points);
-      scene_.spu().enter_module(modules::kShadowWalk);
-      step_shadow_walk(scene_, walk, tracer_.dropped());
-    }
-  }
-
-  /// The light of an area, whose places each packet asks by itself. Not inlined: few scenes have such lights.
-  [[gnu::noinline]] void look_at_area(const LightRecord& light, [[maybe_unused]] uint32_t lanes,
-                                      VectorLanes& colour) {
-    AreaShadow<S>& area = *area_;
-    if constexpr (kGathersOccluders<Spu>) {
-      AreaOccluders<Spu> occluders;
-      if (!walks_all(light) && !is_projected(light) &&
-          traversal_.gather_occluders(area.to_place->rays, lanes, light, occluders)) {
-        if (occluders.are_none())
-          return colour.template store<S>(
-              select<S>(S::M::from_bits(lanes), colour.template load<S>(), {F(0.0f), F(0.0f), F(0.0f)}));
-        while (next_place(scene_.spu(), light, area))
-          traversal_.transmittance(area.to_place->rays, area.lanes, area.to_place->distance, area.light,
-                                   occluders);
-        return take_area_light(colour);
-      }
-    }
-    while (next_place(scene_.spu(), light, area)) {
-      scene_.spu().compute(scalar_work::kBundleLight);
-      trace_shadows(light, area.to_place->rays, area.lanes, area.to_place->distance, area.light);
-    }
-    take_area_light(colour);
-  }
-  void take_area_light(VectorLanes& colour) {
-    tracer_.count_shadow_rays(area_->rays_asked);
-    scene_.spu().enter_module(modules::kAreas);
-    module_areas::dim(scene_.spu(), *area_, colour);
-  }
-
   /// Works off the trees of all packets. What the first round gathers of the roots' light is asked for when
   /// all roots have been shaded, for all of them together, and added last: so the sum does not depend on who
   /// traces what when. False: it was stopped on the way.
@@ -378,7 +229,7 @@ private:
       }
       if (member.lanes == 0 || !shade_root(member)) continue;
       if (!trace_tree(stopped)) return false;
-      keep(member, tracer_.light());
+      keep_tree(member);
     }
     find_lights();
     if constexpr (kPoolsRays<Spu>)
@@ -443,7 +294,7 @@ private:
     }
     const auto number = static_cast<uint32_t>(&member - store_.members);
     if constexpr (kPoolsRays<Spu>) {
-      pool_.find_places(number, tracer_.pooling().pixels);
+      pool_.begin_tree(number, tracer_.pooling().pixels);
     } else {
       if (samples_ != nullptr) tracer_.add_clear_to(samples_->at[number].clear);
     }
@@ -485,16 +336,23 @@ private:
     return true;
   }
   void find_closest() {
-    traversal_.find_closest(tracer_.node().rays, tracer_.node().lanes, tracer_.hits(),
-                            tracer_.node().reflected);
+    shadows_.traversal().find_closest(tracer_.node().rays, tracer_.node().lanes, tracer_.hits(),
+                                      tracer_.node().reflected);
   }
 
   /// What a member's primary rays see but for the light that is asked for later.
   void keep(Member& member, const VectorLanes& seen) {
     if constexpr (kPoolsRays<Spu>)
-      pool_.put(static_cast<uint32_t>(&member - store_.members), member.lanes, seen, samples_);
+      pool_.put(static_cast<uint32_t>(&member - store_.members), member.lanes, seen);
     else
       copy_packet<Spu>(seen, member.shaded.seen);
+  }
+  /// The same of a member whose tree is complete.
+  void keep_tree(Member& member) {
+    if constexpr (kPoolsRays<Spu>)
+      pool_.put_tree(static_cast<uint32_t>(&member - store_.members), member.lanes, tracer_.light());
+    else
+      keep(member, tracer_.light());
   }
   /// Adds what has come of the light that a root's first round gathered.
   void add_left_light(uint32_t number) {
@@ -515,7 +373,7 @@ private:
   }
 
   void begin_pooling() {
-    tracer_.pooling().pool = has_own_lanes(frame_) ? nullptr : &pool_.rays;
+    tracer_.pooling().pool = pool_.has_own_lanes(frame_) ? nullptr : &pool_.rays;
     pool_.begin();
     tracer_.add_clear_to(pool_.clear);
   }
@@ -529,106 +387,60 @@ private:
       find_closest();
       shade_node(nullptr);
       if (!trace_tree(stopped)) return false;
-      pool_.add_to_pixels(tracer_.pooling().pixels, lanes, tracer_.light(), samples_);
+      pool_.add_tree(tracer_.pooling().pixels, lanes, tracer_.light());
     }
+    pool_.shadows.finish([&](uint32_t number, QueuedPoints& points, uint32_t lanes) {
+      for_each_light(scene_, frame_, number, 1,
+                     [&](uint32_t, const LightRecord& light) { light_queued(light, points, lanes); });
+    });
     return true;
+  }
+
+  /// Whether the light of the node that is being traced may come to its pixels later.
+  bool queues_light() {
+    if constexpr (kPoolsRays<Spu>)
+      return tracer_.pooling().pool != nullptr && tracer_.node().target == 0;
+    else
+      return false;
+  }
+  /// Leaves light of a few lanes to light_queued(). False: it is not to wait.
+  bool queue_light(uint32_t number, const LightRecord& light, uint32_t lanes, const VectorLanes& colour) {
+    if (lanes == 0 || !pool_.shadows.takes(number, lanes) || !queues_light()) return false;
+    pool_.shadows.add(number, lanes, store_.points.point, tracer_.hits().object, colour,
+                      tracer_.pooling().pixels, shadows_.asks_interiors() ? &tracer_.node() : nullptr,
+                      [&](QueuedPoints& points) { light_queued(light, points, 0xFFFF); });
+    return true;
+  }
+  /// Takes to their pixels what comes of a light to points that have waited.
+  [[gnu::noinline]] void light_queued(const LightRecord& light, QueuedPoints& points, uint32_t lanes) {
+    shadows_.set_interiors(&points.interiors);
+    shadows_.trace(light, store_.lit.to_light, points.point.template load<S>(), points.object, false, lanes,
+                   points.light);
+    pool_.add(points.pixels, lanes, points.light);
   }
 
   /// The light of a round at the hits of the node that is being traced.
   [[gnu::noinline]] void light_packet(uint32_t hit, const LightRound& round) {
-    lit_ = &tracer_.node();
     for_each_light(scene_, frame_, round.first, round.count, [&](uint32_t number, const LightRecord& light) {
       if (!is_asked_for(light)) return;
       VectorLanes& colour = round.gathered[number - round.first];
-      ask_for(light, store_.lit, store_.points.point, tracer_.hits().object, is_aimed(number, round.first),
-              tracer_.lanes_that_count(colour, hit), colour);
+      uint32_t lanes = tracer_.lanes_that_count(colour, hit);
+      if constexpr (kPoolsRays<Spu>)
+        if (queue_light(number, light, lanes, colour)) lanes = 0;
+      shadows_.set_interiors(&tracer_.node());
+      shadows_.trace(light, store_.lit.to_light, store_.points.point, tracer_.hits().object,
+                     is_aimed(number, round.first), lanes, colour);
     });
   }
 
   const FrameBlock& frame_;
   SceneAccess<Spu>& scene_;
   SampleBundle<Spu>* samples_;
-  Traversal<Spu, kAccelerators> traversal_;
   RayNode& scratch_; ///< the tracer's while surfaces are shaded, else that of shadow rays that are walked
   RayTracer<Spu> tracer_;
   Store& store_;
-  AreaShadow<S>* area_; ///< null if no light has an area
-  ShadowWalk<S>* walk_; ///< null if shadow rays need none
-  /// Whether rays stay in the lanes of their pixels.
-  static constexpr bool has_own_lanes(const FrameBlock& frame) {
-    return (frame.light_ways & light_way::jitter) != 0;
-  }
-  /// Of rays that leave their packets, and the light that has come to the pixels of each.
-  struct Pool {
-    explicit Pool(Spu& spu) : rays(spu), sorter(spu), light(spu.template allocate<VectorLanes>(kPackets)) {}
-
-    /// Not where first hits are wanted by pixel.
-    void sort(SceneAccess<Spu>& scene, const FrameBlock& frame, Member* members) {
-      for (uint32_t i = 0; i < kPackets; ++i)
-        with_ray[i] = members[i].lanes;
-      is_sorted = frame.object_count <= tuning::kObjectsInCoreCache &&
-                  (frame.light_ways & light_way::first_hits) == 0 && !has_own_lanes(frame) &&
-                  sorter.sort(scene, members);
-    }
-    /// The pixels that the rays of a member are those of.
-    void find_places(uint32_t member, WordLanes& places) const {
-      if (is_sorted) {
-        places = sorter.places(member);
-        return;
-      }
-      for (uint32_t lane = 0; lane < kSimdLanes; ++lane)
-        places.lane[lane] = member * kSimdLanes + lane;
-    }
-
-    /// No light has come yet.
-    void begin() {
-      if (is_sorted)
-        for (uint32_t i = 0; i < kPackets; ++i)
-          light[i].template store<S>({F(0.0f), F(0.0f), F(0.0f)});
-    }
-    void clear_lanes() { F(0.0f).store(clear.lane); }
-    /// What the primary rays of a member see, and how clear their way is.
-    void put(uint32_t member, uint32_t lanes, const VectorLanes& seen, SampleBundle<Spu>* samples) {
-      if (is_sorted) return add_to_pixels(sorter.places(member), lanes, seen, samples);
-      light[member] = seen;
-      if (samples != nullptr) samples->at[member].clear = clear;
-    }
-    /// More light for some of them that have been sorted.
-    void add(uint32_t member, uint32_t lanes, const LightRound& round) {
-      if (!is_sorted) return; // light_of() adds it
-      VectorLanes more;
-      more.template store<S>(round.template sum<S>());
-      add_to_pixels(sorter.places(member), lanes, more, nullptr);
-    }
-    /// All that has come to the pixels of a member.
-    V3<S> light_of(uint32_t member, uint32_t lanes, const LightRound& round) const {
-      const V3<S> seen = light[member].template load<S>();
-      if (is_sorted || lanes == 0) return seen;
-      return select<S>(S::M::from_bits(lanes), seen + round.template sum<S>(), seen);
-    }
-    /// Light of rays that have left their packets, and if there are samples how clear their way is.
-    void add_to_pixels(const WordLanes& pixels, uint32_t lanes, const VectorLanes& from,
-                       SampleBundle<Spu>* samples) {
-      for_each_lane(lanes, [&](uint32_t lane) {
-        const uint32_t packet = pixels.lane[lane] / kSimdLanes, to = pixels.lane[lane] % kSimdLanes;
-        VectorLanes& sum = light[packet];
-        sum.x.lane[to] += from.x.lane[lane];
-        sum.y.lane[to] += from.y.lane[lane];
-        sum.z.lane[to] += from.z.lane[lane];
-        if (samples != nullptr) samples->at[packet].clear.lane[to] += clear.lane[lane];
-      });
-    }
-
-    RayPool<Spu> rays;
-    HitSorter<Spu> sorter;
-    VectorLanes* light;
-    FloatLanes clear;            ///< of the rays that are being traced
-    uint32_t with_ray[kPackets]; ///< lanes of the pixels that have one
-    bool is_sorted = false;
-  };
-  [[no_unique_address]] detail::Present<Pool, kPoolsRays<Spu>> pool_;
-  [[no_unique_address]] detail::Present<ShadowMarking, kMarksTranslucent<Spu>> marking_;
-  const RayNode* lit_ = nullptr; ///< whose hits lights are looked for at; null: those of primary rays
+  ShadowTracer<Spu, kAccelerators> shadows_;
+  [[no_unique_address]] detail::Present<BundlePool<Spu>, kPoolsRays<Spu>> pool_;
 };
 
 } // namespace celltrace::kernel

@@ -6,18 +6,22 @@
 
 namespace celltrace::kernel {
 
-/// A packet of rays with what each contributes and where it stands. `interiors[d]` are, per lane, the offsets
-/// of the interiors that the ray is inside of, outermost first, `interior_depth` of them.
+/// The interiors that the rays of a packet are inside of: `interiors[d]` are, per lane, their offsets,
+/// outermost first, `interior_depth` of them.
+struct RayInteriors {
+  WordLanes interior_depth;
+  WordLanes interiors[kMaxInteriorDepth];
+};
+
+/// A packet of rays with what each contributes and where it stands.
 ///
 /// Light is added up in accumulators; number 0 is the pixel's. A reflection whose light is raised to a power
 /// (POV-Ray's reflection exponent) gets one of its own, and a node below it on the stack that gathers it.
-struct alignas(128) RayNode {
+struct alignas(128) RayNode : RayInteriors {
   RayPacket rays;
   VectorLanes throughput; ///< what the ray's colour is multiplied by on its way into the pixel
   FloatLanes weight;      ///< POV-Ray's weight of the ray, which adaptive depth control compares
   WordLanes level;        ///< trace level, 0 for primary rays
-  WordLanes interior_depth;
-  WordLanes interiors[kMaxInteriorDepth];
   /// Of a node that gathers; of others, with light_way::alpha, the share of what is behind the scene that
   /// would come through so far.
   FloatLanes power;

@@ -135,14 +135,13 @@ public:
   /// Which rays go to a pool, and which pixels those are of that are traced.
   RayPooling<Spu>& pooling() { return pooling_; }
 
-  void count_shadow_rays(uint32_t rays) { counters_.shadow += rays; }
   void reset_counters() {
     counters_ = RayCounters();
     stack_.reset_counters();
   }
   const RayCounters& counters() const { return counters_; }
-  /// Counts rays that are in more interiors than can be told.
-  uint64_t& dropped() { return counters_.dropped; }
+  /// For those who trace rays in its place.
+  RayCounters& counters() { return counters_; }
   uint32_t spilled_nodes() const { return stack_.spilled(); }
 
 private:

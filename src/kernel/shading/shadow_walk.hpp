@@ -36,7 +36,7 @@ ShadowWalk<typename Spu::simd>* allocate_shadow_walk(Spu& spu, const FrameBlock&
 
 /// Starts `lanes` of shadow rays, from what the rays of `from` hit, or those of the camera if it is null.
 template <class Spu>
-[[gnu::noinline]] void begin_shadow_walk(Spu& spu, const FrameBlock& frame, const RayNode* from,
+[[gnu::noinline]] void begin_shadow_walk(Spu& spu, const FrameBlock& frame, const RayInteriors* from,
                                          const RayPacket& rays, uint32_t lanes, const FloatLanes& distance,
                                          VectorLanes& light, ShadowWalk<typename Spu::simd>& walk) {
   using S = typename Spu::simd;

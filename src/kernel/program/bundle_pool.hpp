@@ -1,0 +1,127 @@
+// The rays of a bundle that leave their packets, and the light that they bring to its pixels. Kernel dialect,
+// where memory is direct.
+//
+// Primary rays are sorted by what they hit if that pays; secondary rays, and shadow rays from what those hit,
+// are gathered into full packets.
+#pragma once
+
+#include "kernel/direct/hit_sorting.hpp"
+#include "kernel/direct/ray_pool.hpp"
+#include "kernel/direct/shadow_queue.hpp"
+#include "kernel/program/pixel_sampler.hpp"
+#include "kernel/shading/lighting.hpp"
+
+namespace celltrace::kernel {
+
+template <class Spu> class BundlePool {
+public:
+  using S = typename Spu::simd;
+  using F = typename S::F;
+
+  /// `samples`: becomes how clear the way is of each; null: that is not asked.
+  BundlePool(Spu& spu, SampleBundle<Spu>* samples)
+      : rays(spu), shadows(spu), samples_(samples), sorter_(spu),
+        light_(spu.template allocate<VectorLanes>(kPackets)) {}
+
+  RayPool<Spu> rays;        ///< that are to be traced
+  ShadowQueue<Spu> shadows; ///< of what such rays have hit
+  FloatLanes clear;         ///< how clear the way of the rays is that are being traced
+
+  /// Whether rays stay in the lanes of their pixels.
+  static constexpr bool has_own_lanes(const FrameBlock& frame) {
+    return (frame.light_ways & light_way::jitter) != 0;
+  }
+  /// The members of a bundle, with what their rays hit. They stay where first hits are wanted by pixel.
+  template <class Member> void sort(SceneAccess<Spu>& scene, const FrameBlock& frame, Member* members) {
+    for (uint32_t i = 0; i < kPackets; ++i)
+      with_ray_[i] = members[i].lanes;
+    is_sorted_ = frame.object_count <= tuning::kObjectsInCoreCache &&
+                 (frame.light_ways & light_way::first_hits) == 0 && !has_own_lanes(frame) &&
+                 sorter_.sort(scene, members);
+  }
+  /// The lanes of a member's pixels that have a ray.
+  uint32_t with_ray(uint32_t member) const { return with_ray_[member]; }
+
+  /// Starts the trees of a bundle: no light has come yet.
+  void begin() {
+    if (is_sorted_)
+      for (uint32_t i = 0; i < kPackets; ++i)
+        set_dark(i);
+  }
+  /// Starts the tree of a member. `pixels`: become those that its rays are of.
+  void begin_tree(uint32_t member, WordLanes& pixels) {
+    if (is_sorted_) {
+      pixels = sorter_.places(member);
+      return;
+    }
+    set_dark(member);
+    for (uint32_t lane = 0; lane < kSimdLanes; ++lane)
+      pixels.lane[lane] = member * kSimdLanes + lane;
+  }
+  void clear_lanes() { F(0.0f).store(clear.lane); }
+
+  /// What the primary rays of a member see by themselves, without a tree.
+  void put(uint32_t member, uint32_t lanes, const VectorLanes& seen) {
+    if (is_sorted_) return add_tree(sorter_.places(member), lanes, seen);
+    light_[member] = seen;
+    if (samples_ != nullptr) samples_->at[member].clear = clear;
+  }
+  /// The light of a member's tree. Some of it may have come already.
+  void put_tree(uint32_t member, uint32_t lanes, const VectorLanes& seen) {
+    if (is_sorted_) return add_tree(sorter_.places(member), lanes, seen);
+    VectorLanes all;
+    all.template store<S>(light_[member].template load<S>() + seen.template load<S>());
+    put(member, lanes, all);
+  }
+  /// The light of a tree of rays that have left their packets.
+  void add_tree(const WordLanes& pixels, uint32_t lanes, const VectorLanes& seen) {
+    add(pixels, lanes, seen);
+    if (samples_ == nullptr) return;
+    for_each_lane(lanes, [&](uint32_t lane) {
+      samples_->at[pixels.lane[lane] / kSimdLanes].clear.lane[pixels.lane[lane] % kSimdLanes] +=
+          clear.lane[lane];
+    });
+  }
+  /// More light for pixels.
+  void add(const WordLanes& pixels, uint32_t lanes, const VectorLanes& light) {
+    for_each_lane(lanes, [&](uint32_t lane) {
+      VectorLanes& sum = light_[pixels.lane[lane] / kSimdLanes];
+      const uint32_t to = pixels.lane[lane] % kSimdLanes;
+      sum.x.lane[to] += light.x.lane[lane];
+      sum.y.lane[to] += light.y.lane[lane];
+      sum.z.lane[to] += light.z.lane[lane];
+    });
+  }
+  /// What has come of the light that a round has gathered for a member's primary rays.
+  void add(uint32_t member, uint32_t lanes, const LightRound& round) {
+    if (!is_sorted_) return; // light_of() adds it
+    VectorLanes more;
+    more.template store<S>(round.template sum<S>());
+    add(sorter_.places(member), lanes, more);
+  }
+  /// All that has come to the pixels of a member, with that of a round as in add().
+  V3<S> light_of(uint32_t member, uint32_t lanes, const LightRound& round) const {
+    const V3<S> seen = light_[member].template load<S>();
+    if (is_sorted_ || lanes == 0) return seen;
+    return select<S>(S::M::from_bits(lanes), seen + round.template sum<S>(), seen);
+  }
+
+  /// Forgets all rays.
+  void drop() {
+    rays.clear();
+    shadows.clear();
+  }
+
+private:
+  static constexpr uint32_t kPackets = kBundlePackets<Spu>;
+
+  void set_dark(uint32_t member) { light_[member].template store<S>({F(0.0f), F(0.0f), F(0.0f)}); }
+
+  SampleBundle<Spu>* samples_;
+  HitSorter<Spu> sorter_;
+  VectorLanes* light_; ///< that has come to the pixels of each member
+  uint32_t with_ray_[kPackets];
+  bool is_sorted_ = false;
+};
+
+} // namespace celltrace::kernel

@@ -1,0 +1,202 @@
+// What comes of light to points: shadow rays are traced, or walked from surface to surface, and lights that
+// have an area are asked place by place. Kernel dialect.
+#pragma once
+
+#include "kernel/accel/traversal.hpp"
+#include "kernel/direct/shadow_marking.hpp"
+#include "kernel/lights/area_shadow.hpp"
+#include "kernel/shading/ray_tracer.hpp"
+#include "kernel/shading/shadow_walk.hpp"
+
+namespace celltrace::kernel {
+
+template <class Spu, uint32_t kAccelerators = kAnyAccelerator> class ShadowTracer {
+public:
+  using S = typename Spu::simd;
+  using F = typename S::F;
+
+  /// `scratch` may be shared with a RayTracer, whose `counters` count shadow rays.
+  [[gnu::always_inline]] ShadowTracer(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene,
+                                      RayNode& scratch, RayCounters& counters)
+      : frame_(frame), scene_(scene), traversal_(scene, frame), counters_(counters),
+        area_(allocate_area_shadow(spu, frame)), walk_(allocate_shadow_walk(spu, frame, scratch)) {
+    static_assert(sizeof(ShadowWalk<S>) <= kResidentNodes * sizeof(RayNode), "lies where nodes would");
+    static_assert(sizeof(AreaShadow<S>) <= kResidentNodes * sizeof(RayNode), "lies where nodes would");
+  }
+
+  /// What answers the queries, and may answer others.
+  Traversal<Spu, kAccelerators>& traversal() { return traversal_; }
+  const Traversal<Spu, kAccelerators>& traversal() const { return traversal_; }
+
+  /// Says what interiors the rays are in that have hit the points from now on; null: primary rays.
+  void set_interiors(const RayInteriors* interiors) { interiors_ = interiors; }
+  /// Whether set_interiors() matters.
+  bool asks_interiors() const { return walk_ != nullptr; }
+
+  /// Whether the rays of a bundle to a light are not traced together.
+  bool asks_by_packet(const LightRecord& light) const {
+    return (light.kind_and_flags & (light_flag::area | light_flag::projected)) != 0 || walks_all(light);
+  }
+
+  /// Leaves in `colour`, which has been gathered, what comes of it to points on objects; in `lanes` it
+  /// counts.
+  [[gnu::noinline]] void trace(const LightRecord& light, ShadowRays& to_light, const V3<S>& point,
+                               const WordLanes& objects, bool is_aimed, uint32_t lanes, VectorLanes& colour) {
+    if (lanes == 0) return colour.template store<S>({F(0.0f), F(0.0f), F(0.0f)});
+    this->aim(light, to_light, point, objects, is_aimed, lanes);
+    if (has_area(light)) return look_at_area(light, lanes, colour);
+    trace_shadows(light, to_light.rays, lanes, to_light.distance, colour);
+  }
+
+  /// Makes shadow rays, unless shading has, or starts the sampling of a light that has an area.
+  void aim(const LightRecord& light, ShadowRays& to_light, const V3<S>& point, const WordLanes& objects,
+           bool is_aimed, uint32_t lanes) {
+    if (!has_area(light)) counters_.shadow += static_cast<uint32_t>(__builtin_popcount(lanes));
+    if (is_aimed && !has_area(light)) return;
+    make_rays_to(light, to_light, point, objects, lanes);
+  }
+  /// Answers the queries of a bundle toward a light, of which asks_by_packet() is false. May change their
+  /// order.
+  void trace(const LightRecord& light, RayQuery* queries, uint32_t count) {
+    if constexpr (kMarksTranslucent<Spu>)
+      if (walk_ != nullptr) return walk_marked(light, queries, count);
+    traversal_.intersect(queries, count, light);
+  }
+
+private:
+  static constexpr uint32_t kPackets = kBundlePackets<Spu>;
+
+  /// Not inlined: its surfaces are not on the stack while rays are traced.
+  [[gnu::noinline]] void make_rays_to(const LightRecord& light, ShadowRays& to_light, const V3<S>& point,
+                                      const WordLanes& objects, uint32_t lanes) {
+    IncidentLight<S> incident(light.colour);
+    kernel::aim(scene_.spu(), light, point, incident);
+    if (!has_area(light)) {
+      make_shadow_rays(point, objects, incident, to_light.rays, to_light.distance);
+      return;
+    }
+    // It is known in which lanes the light counts: nothing is asked of the surfaces but where they are.
+    Surfaces<S> surfaces;
+    surfaces.point = point;
+    surfaces.objects = &objects;
+    incident.facing = lanes;
+    if (!is_plain(light)) {
+      scene_.spu().enter_module(modules::kLights);
+      module_lights::attenuate(scene_, light, surfaces, incident);
+    }
+    begin_sampling(scene_.spu(), light, surfaces, incident, to_light, *area_);
+  }
+
+  /// As Traversal's transmittance(), of a light. Not inlined: once in local store is enough.
+  [[gnu::noinline]] void trace_shadows(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
+                                       FloatLanes& distance, VectorLanes& colour) {
+    if (is_projected(light)) {
+      lanes = traversal_.project(light, rays, lanes, distance, colour);
+      if (lanes == 0 || is_shadowless(light)) return;
+    }
+    if (walk_ == nullptr) return traversal_.transmittance(rays, lanes, distance, colour);
+    if (walks_all(light)) return walk_shadows(light, rays, lanes, distance, colour);
+    if constexpr (kMarksTranslucent<Spu>) walk_marked(light, rays, lanes, distance, colour);
+  }
+  /// Whether all shadow rays toward a light are walked; otherwise those that are marked are, or none.
+  bool walks_all(const LightRecord& light) const {
+    return walk_ != nullptr && (!kMarksTranslucent<Spu> || is_dimmed(light));
+  }
+  /// Answers the queries of a bundle: those of their rays are walked that cross something translucent.
+  [[gnu::noinline]] void walk_marked(const LightRecord& light, RayQuery* queries, uint32_t count) {
+    VectorLanes marks[kPackets];
+    VectorLanes* colours[kPackets];
+    for (uint32_t i = 0; i < count; ++i) {
+      colours[i] = queries[i].light;
+      queries[i].light = &marks[i];
+    }
+    traversal_.mark_translucent(queries, count, light);
+    for (uint32_t i = 0; i < count; ++i)
+      walk_some(light, queries[i], marked_lanes<S>(*queries[i].light), *colours[queries[i].light - marks]);
+  }
+  /// The same of the node that is being traced.
+  [[gnu::noinline]] void walk_marked(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
+                                     const FloatLanes& distance, VectorLanes& colour) {
+    const uint32_t inside = lanes & lanes_inside(interiors_);
+    uint32_t walked = marking_.walked_at_once(lanes, inside);
+    VectorLanes marks;
+    RayQuery query = {&rays, nullptr, &distance, &marks, lanes & ~walked};
+    if (query.lanes != 0) {
+      const uint32_t asked = query.lanes;
+      traversal_.mark_translucent(query);
+      const uint32_t marked = marked_lanes<S>(marks);
+      marking_.count(asked, inside, marked);
+      walked |= marked;
+    }
+    walk_some(light, query, walked, colour);
+  }
+  /// The light of a query that has been marked, of which `walked` lanes are still to be walked.
+  void walk_some(const LightRecord& light, const RayQuery& query, uint32_t walked, VectorLanes& colour) {
+    const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
+    const V3<S> direct = select<S>(S::M::from_bits(query.lanes), colour.template load<S>(), dark);
+    if (walked == 0) return colour.template store<S>(direct);
+    walk_shadows(light, *query.rays, walked, *query.distance, colour);
+    colour.template store<S>(colour.template load<S>() + direct);
+  }
+  /// Walks `lanes` of shadow rays. The light of the others becomes 0.
+  [[gnu::noinline]] void walk_shadows(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
+                                      const FloatLanes& distance, VectorLanes& colour) {
+    ShadowWalk<S>& walk = *walk_;
+    const bool dims = is_dimmed(light);
+    scene_.spu().enter_module(modules::kShadowWalk);
+    begin_shadow_walk(scene_.spu(), frame_, interiors_, rays, lanes, distance, colour, walk);
+    while (walk.ray->lanes != 0) {
+      traversal_.find_closest(walk.ray->rays, walk.ray->lanes, walk.hits, kSeesAll);
+      if (dims) {
+        scene_.spu().enter_module(modules::kAtmosphere);
+        dim_shadow_rays(scene_, frame_, walk.hits, walk.left, *walk.ray, *walk.light);
+      }
+      scene_.spu().enter_module(modules::kShadowWalk);
+      const uint32_t hit = hits_of_walk(scene_.spu(), walk);
+      if (hit == 0) return;
+      find_hit_points(scene_, walk.ray->rays, walk.hits, hit, walk.points);
+      scene_.spu().enter_module(modules::kShadowWalk);
+      step_shadow_walk(scene_, walk, counters_.dropped);
+    }
+  }
+
+  /// The light of an area, whose places each packet asks by itself. Not inlined: few scenes have such lights.
+  [[gnu::noinline]] void look_at_area(const LightRecord& light, [[maybe_unused]] uint32_t lanes,
+                                      VectorLanes& colour) {
+    AreaShadow<S>& area = *area_;
+    if constexpr (kGathersOccluders<Spu>) {
+      AreaOccluders<Spu> occluders;
+      if (!walks_all(light) && !is_projected(light) &&
+          traversal_.gather_occluders(area.to_place->rays, lanes, light, occluders)) {
+        if (occluders.are_none())
+          return colour.template store<S>(
+              select<S>(S::M::from_bits(lanes), colour.template load<S>(), {F(0.0f), F(0.0f), F(0.0f)}));
+        while (next_place(scene_.spu(), light, area))
+          traversal_.transmittance(area.to_place->rays, area.lanes, area.to_place->distance, area.light,
+                                   occluders);
+        return take_area_light(colour);
+      }
+    }
+    while (next_place(scene_.spu(), light, area)) {
+      scene_.spu().compute(scalar_work::kBundleLight);
+      trace_shadows(light, area.to_place->rays, area.lanes, area.to_place->distance, area.light);
+    }
+    take_area_light(colour);
+  }
+  void take_area_light(VectorLanes& colour) {
+    counters_.shadow += area_->rays_asked;
+    scene_.spu().enter_module(modules::kAreas);
+    module_areas::dim(scene_.spu(), *area_, colour);
+  }
+
+  const FrameBlock& frame_;
+  SceneAccess<Spu>& scene_;
+  Traversal<Spu, kAccelerators> traversal_;
+  RayCounters& counters_;
+  AreaShadow<S>* area_; ///< null if no light has an area
+  ShadowWalk<S>* walk_; ///< null if shadow rays need none
+  [[no_unique_address]] detail::Present<ShadowMarking, kMarksTranslucent<Spu>> marking_;
+  const RayInteriors* interiors_ = nullptr;
+};
+
+} // namespace celltrace::kernel
