@@ -209,6 +209,9 @@ struct Pigment {
   double filter = 0;
   double transmit = 0;
   std::shared_ptr<const PatternMap<Pigment>> map = nullptr; ///< instead of the above
+
+  /// Of maps: whether both are one.
+  bool operator==(const Pigment&) const = default;
 };
 
 /// A point of a curve over a pattern's numbers.
@@ -252,6 +255,8 @@ struct Finish {
   double irid = 0;  ///< a film on the surface makes light stronger or weaker by up to this share of it,
   double irid_thickness = 0;  ///< of this thickness,
   double irid_turbulence = 0; ///< which noise changes
+
+  bool operator==(const Finish&) const = default;
 };
 
 /// A texture, in the space of the scene: patterns do not move with the objects that have it.
@@ -264,6 +269,9 @@ struct Material {
       nullptr; ///< instead of all of the above; no entry is a layer over others' map
   /// Of an object's material: what it looks like from inside, itself without one. Null: the same.
   std::shared_ptr<const Material> inside = nullptr;
+
+  /// Of normals, maps and other materials: whether both are one.
+  bool operator==(const Material&) const = default;
 };
 inline constexpr int kMostLayers = 64;
 

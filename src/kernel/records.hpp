@@ -298,9 +298,11 @@ static_assert(sizeof(SlopeRecord) == 32, "four a line");
 
 /// What stands for a value of a pattern.
 struct alignas(32) MapEntryRecord {
-  float position;      ///< the pattern's value, or an average's weight
-  float inverse_width; ///< of the interval from the entry before, 0 where there is none
-  float rgb[3];        ///< of a pigment without a map
+  float position; ///< the pattern's value, or an average's weight
+  /// Of the interval from the entry before. 0 where there is none, or where that one counts alone: it is the
+  /// same.
+  float inverse_width;
+  float rgb[3]; ///< of a pigment without a map
   float filter, transmit;
   /// Pigments: offset of a PatternRecord, whose map it is, or kNoOffset. Normals: of a NormalRecord.
   /// Textures: of a MaterialRecord. Slope maps: means nothing; rgb[0] is the height there, rgb[1] the slope.

@@ -289,6 +289,18 @@ TextureTables::Known TextureTables::add_map(const std::shared_ptr<const PatternM
     entry.position = static_cast<float>(map->is_average ? from.position / weights : from.position);
     entry.inverse_width = i == 0 ? 0 : inverse_width(map->entries[i - 1].position, from.position);
     entry.child = kNoOffset;
+    if constexpr (!std::is_same_v<T, Normal>) {
+      // Between two entries that are the same the lower one counts alone: it is not looked at twice.
+      if (i != 0 && from.value == map->entries[i - 1].value) {
+        const float position = entry.position;
+        entry = entries[first + i - 1];
+        entry.position = position;
+        entry.inverse_width = 0;
+        children_[first + i] = children_[first + i - 1];
+        entries[first + i] = entry;
+        continue;
+      }
+    }
     if constexpr (std::is_same_v<T, Pigment>) {
       children_[first + i] = Child::pattern;
       Traits own = fill(entry, from.value);

@@ -416,8 +416,10 @@ TEST_CASE("A map that several share is written once, and maps in several spaces 
     for (int level = 0; level < kDeepestMap; ++level) {
       PatternMap<Pigment> map;
       map.pattern = pattern;
-      for (int i = 0; i < kMostMapEntries; ++i)
+      for (int i = 0; i < kMostMapEntries; ++i) {
+        pigment.rgb.x = i; // no two are the same
         map.entries.push_back({i / 256.0, pigment});
+      }
       pigment.map = std::make_shared<const PatternMap<Pigment>>(map);
     }
     return scene_of(pigment);
@@ -437,4 +439,32 @@ TEST_CASE("A map that several share is written once, and maps in several spaces 
     moved.space.emplace_back(Turbulence{{0.1, 0.1, 0.1}});
   CHECK_THROWS_WITH(SceneImage(pyramid(moved)),
                     "all textures together have more than 4194304 warps of patterns");
+}
+
+TEST_CASE("Entries of a map that are the same as the one before share its records and are not blended") {
+  Pigment noisy;
+  PatternMap<Pigment> noise;
+  noise.pattern.kind = pattern::Bozo{};
+  noise.entries = {{0, {{1, 0, 0}}}, {1, {{0, 1, 0}}}};
+  noisy.map = std::make_shared<const PatternMap<Pigment>>(noise);
+  Material matt, shiny;
+  matt.pigment = shiny.pigment = noisy;
+  shiny.finish.phong = 1;
+  PatternMap<Material> map;
+  map.entries = {{0, matt}, {0.25, matt}, {0.5, shiny}, {0.75, shiny}, {1, matt}};
+  Material mapped;
+  mapped.map = std::make_shared<const PatternMap<Material>>(map);
+  Bytes bytes = bytes_of(SceneImage(scene_of(mapped)));
+  TextureRecords records(bytes);
+  const MapEntryRecord* const entries = &records.entry_of(records.material(material_flag::mapped).pattern);
+  CHECK(entries[1].child == entries[0].child);
+  CHECK(entries[2].child != entries[1].child);
+  CHECK(entries[3].child == entries[2].child);
+  CHECK(entries[4].child != entries[0].child);
+  const float widths[] = {0, 0, 4, 0, 4}, positions[] = {0, 0.25f, 0.5f, 0.75f, 1};
+  for (int i = 0; i < 5; ++i) {
+    INFO("entry " << i);
+    CHECK(entries[i].inverse_width == widths[i]);
+    CHECK(entries[i].position == positions[i]);
+  }
 }
