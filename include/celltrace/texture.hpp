@@ -210,7 +210,7 @@ struct Pigment {
   double transmit = 0;
   std::shared_ptr<const PatternMap<Pigment>> map = nullptr; ///< instead of the above
 
-  /// Of maps: whether both are one.
+  /// Maps are equal if they are the same object.
   bool operator==(const Pigment&) const = default;
 };
 
@@ -270,7 +270,7 @@ struct Material {
   /// Of an object's material: what it looks like from inside, itself without one. Null: the same.
   std::shared_ptr<const Material> inside = nullptr;
 
-  /// Of normals, maps and other materials: whether both are one.
+  /// Normals, maps and other materials are equal if they are the same object.
   bool operator==(const Material&) const = default;
 };
 inline constexpr int kMostLayers = 64;

@@ -53,6 +53,18 @@ struct VectorLanes {
   }
 };
 
+/// Copies one lane to another.
+template <class Lanes>
+[[gnu::always_inline]] inline void copy_lane(const Lanes& from, uint32_t lane, Lanes& to, uint32_t to_lane) {
+  to.lane[to_lane] = from.lane[lane];
+}
+[[gnu::always_inline]] inline void copy_lane(const VectorLanes& from, uint32_t lane, VectorLanes& to,
+                                             uint32_t to_lane) {
+  copy_lane(from.x, lane, to.x, to_lane);
+  copy_lane(from.y, lane, to.y, to_lane);
+  copy_lane(from.z, lane, to.z, to_lane);
+}
+
 namespace detail {
 
 /// Not inlined: one copy of the code saves local store.
@@ -83,6 +95,12 @@ struct RayPacket {
   VectorLanes direction;
   WordLanes start_object;
 };
+[[gnu::always_inline]] inline void copy_lane(const RayPacket& from, uint32_t lane, RayPacket& to,
+                                             uint32_t to_lane) {
+  copy_lane(from.origin, lane, to.origin, to_lane);
+  copy_lane(from.direction, lane, to.direction, to_lane);
+  copy_lane(from.start_object, lane, to.start_object, to_lane);
+}
 
 /// The closest hit of each ray: its distance, the object's offset (kNoOffset: none), and its barycentric
 /// coordinates in a triangle.

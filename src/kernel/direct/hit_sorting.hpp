@@ -101,20 +101,13 @@ private:
     for_each_lane(lanes, [&](uint32_t lane) {
       const uint32_t place = next_[class_[number][lane]]++;
       Sorted& sorted = sorted_[place / kSimdLanes];
-      const auto copy = [&](const auto& from, auto& to) { to.lane[place % kSimdLanes] = from.lane[lane]; };
-      const auto copy_vector = [&](const VectorLanes& from, VectorLanes& to) {
-        copy(from.x, to.x);
-        copy(from.y, to.y);
-        copy(from.z, to.z);
-      };
-      copy_vector(rays.origin, sorted.rays.origin);
-      copy_vector(rays.direction, sorted.rays.direction);
-      copy(rays.start_object, sorted.rays.start_object);
-      copy(hits.distance, sorted.hits.distance);
-      copy(hits.object, sorted.hits.object);
-      copy(hits.u, sorted.hits.u);
-      copy(hits.v, sorted.hits.v);
-      sorted.places.lane[place % kSimdLanes] = number * kSimdLanes + lane;
+      const uint32_t to = place % kSimdLanes;
+      copy_lane(rays, lane, sorted.rays, to);
+      copy_lane(hits.distance, lane, sorted.hits.distance, to);
+      copy_lane(hits.object, lane, sorted.hits.object, to);
+      copy_lane(hits.u, lane, sorted.hits.u, to);
+      copy_lane(hits.v, lane, sorted.hits.v, to);
+      sorted.places.lane[to] = number * kSimdLanes + lane;
     });
   }
 

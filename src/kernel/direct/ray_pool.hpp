@@ -98,23 +98,13 @@ private:
   static void copy_ray(const RayNode& from, const WordLanes& pixels, uint32_t lane, PooledPacket& packet,
                        uint32_t to_lane) {
     RayNode& to = packet.node;
-    const auto copy = [&](const auto& source, auto& target) { target.lane[to_lane] = source.lane[lane]; };
-    const auto copy_vector = [&](const VectorLanes& source, VectorLanes& target) {
-      copy(source.x, target.x);
-      copy(source.y, target.y);
-      copy(source.z, target.z);
-    };
-    copy_vector(from.rays.origin, to.rays.origin);
-    copy_vector(from.rays.direction, to.rays.direction);
-    copy(from.rays.start_object, to.rays.start_object);
-    copy_vector(from.throughput, to.throughput);
-    copy(from.weight, to.weight);
-    copy(from.level, to.level);
-    copy(from.power, to.power);
-    copy(from.interior_depth, to.interior_depth);
-    for (uint32_t i = 0; i < from.interior_depth.lane[lane]; ++i)
-      copy(from.interiors[i], to.interiors[i]);
-    copy(pixels, packet.pixels);
+    copy_lane(from.rays, lane, to.rays, to_lane);
+    copy_lane(from.throughput, lane, to.throughput, to_lane);
+    copy_lane(from.weight, lane, to.weight, to_lane);
+    copy_lane(from.level, lane, to.level, to_lane);
+    copy_lane(from.power, lane, to.power, to_lane);
+    copy_lane(static_cast<const RayInteriors&>(from), lane, static_cast<RayInteriors&>(to), to_lane);
+    copy_lane(pixels, lane, packet.pixels, to_lane);
     to.lanes |= 1u << to_lane;
     to.reflected |= (from.reflected >> lane & 1) << to_lane;
   }

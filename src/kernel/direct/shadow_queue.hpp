@@ -39,21 +39,11 @@ public:
     point.template store<typename Spu::simd>(points);
     for_each_lane(lanes, [&](uint32_t lane) {
       const uint32_t to = count_[light]++;
-      const auto copy = [&](const auto& from, auto& into) { into.lane[to] = from.lane[lane]; };
-      const auto copy_vector = [&](const VectorLanes& from, VectorLanes& into) {
-        copy(from.x, into.x);
-        copy(from.y, into.y);
-        copy(from.z, into.z);
-      };
-      copy_vector(point, packet.point);
-      copy(objects, packet.object);
-      copy_vector(colours, packet.light);
-      copy(pixels, packet.pixels);
-      if (interiors != nullptr) {
-        copy(interiors->interior_depth, packet.interiors.interior_depth);
-        for (uint32_t i = 0; i < interiors->interior_depth.lane[lane]; ++i)
-          copy(interiors->interiors[i], packet.interiors.interiors[i]);
-      }
+      copy_lane(point, lane, packet.point, to);
+      copy_lane(objects, lane, packet.object, to);
+      copy_lane(colours, lane, packet.light, to);
+      copy_lane(pixels, lane, packet.pixels, to);
+      if (interiors != nullptr) copy_lane(*interiors, lane, packet.interiors, to);
       if (count_[light] < kSimdLanes) return;
       count_[light] = 0;
       trace(packet);

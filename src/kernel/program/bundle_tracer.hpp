@@ -373,7 +373,7 @@ private:
   }
 
   void begin_pooling() {
-    tracer_.pooling().pool = pool_.has_own_lanes(frame_) ? nullptr : &pool_.rays;
+    tracer_.pooling().pool = BundlePool<Spu>::has_own_lanes(frame_) ? nullptr : &pool_.rays;
     pool_.begin();
     tracer_.add_clear_to(pool_.clear);
   }
@@ -396,16 +396,11 @@ private:
     return true;
   }
 
-  /// Whether the light of the node that is being traced may come to its pixels later.
-  bool queues_light() {
-    if constexpr (kPoolsRays<Spu>)
-      return tracer_.pooling().pool != nullptr && tracer_.node().target == 0;
-    else
-      return false;
-  }
-  /// Leaves light of a few lanes to light_queued(). False: it is not to wait.
+  /// Leaves light of a few lanes of the node that is being traced to light_queued(). False: it has to come
+  /// now, as what it goes to is no pixel's or its rays have a packet of their own.
   bool queue_light(uint32_t number, const LightRecord& light, uint32_t lanes, const VectorLanes& colour) {
-    if (lanes == 0 || !pool_.shadows.takes(number, lanes) || !queues_light()) return false;
+    const bool may_wait = tracer_.pooling().pool != nullptr && tracer_.node().target == 0;
+    if (lanes == 0 || !may_wait || !pool_.shadows.takes(number, lanes)) return false;
     pool_.shadows.add(number, lanes, store_.points.point, tracer_.hits().object, colour,
                       tracer_.pooling().pixels, shadows_.asks_interiors() ? &tracer_.node() : nullptr,
                       [&](QueuedPoints& points) { light_queued(light, points, 0xFFFF); });

@@ -12,6 +12,12 @@ struct RayInteriors {
   WordLanes interior_depth;
   WordLanes interiors[kMaxInteriorDepth];
 };
+[[gnu::always_inline]] inline void copy_lane(const RayInteriors& from, uint32_t lane, RayInteriors& to,
+                                             uint32_t to_lane) {
+  copy_lane(from.interior_depth, lane, to.interior_depth, to_lane);
+  for (uint32_t i = 0; i < from.interior_depth.lane[lane]; ++i)
+    copy_lane(from.interiors[i], lane, to.interiors[i], to_lane);
+}
 
 /// A packet of rays with what each contributes and where it stands.
 ///

@@ -28,7 +28,7 @@ public:
   Traversal<Spu, kAccelerators>& traversal() { return traversal_; }
   const Traversal<Spu, kAccelerators>& traversal() const { return traversal_; }
 
-  /// Says what interiors the rays are in that have hit the points from now on; null: primary rays.
+  /// The interiors of the rays whose hits are asked about from now on; null: those of the camera.
   void set_interiors(const RayInteriors* interiors) { interiors_ = interiors; }
   /// Whether set_interiors() matters.
   bool asks_interiors() const { return walk_ != nullptr; }
@@ -114,7 +114,7 @@ private:
     for (uint32_t i = 0; i < count; ++i)
       walk_some(light, queries[i], marked_lanes<S>(*queries[i].light), *colours[queries[i].light - marks]);
   }
-  /// The same of the node that is being traced.
+  /// The same for one packet, of which some lanes may be walked without asking.
   [[gnu::noinline]] void walk_marked(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
                                      const FloatLanes& distance, VectorLanes& colour) {
     const uint32_t inside = lanes & lanes_inside(interiors_);
