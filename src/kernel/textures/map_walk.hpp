@@ -24,8 +24,9 @@ inline uint32_t map_entry_at(uint32_t entries, uint32_t number) {
 
 /// Where values of a pattern lie in its map: calls `at(lanes, number, entry)` where an entry counts alone,
 /// and `between(lanes, number, below, above, share)` where two do, `number` and `share` being the upper
-/// one's. Later calls go before earlier ones: they may be for lanes that have been visited. Of equal
-/// positions the first counts below and the last above, as in POV-Ray.
+/// one's. The first call is for all lanes, those after it for what lies below the last entry, each lane once:
+/// long maps are mostly intervals in which there is none. Of equal positions the first counts below and the
+/// last above, as in POV-Ray.
 template <class S, class Spu, class At, class Between>
 [[gnu::always_inline]] inline void find_interval(SceneAccess<Spu>& scene, const PatternRecord& r,
                                                  const typename S::F& pattern_value, At at, Between between) {
@@ -38,16 +39,20 @@ template <class S, class Spu, class At, class Between>
   MapEntryRecord room[2];
   const MapEntryRecord* above = keep<Spu>(scene.map_entry(map_entry_at(r.entries, number)), room[number & 1]);
   at(M::all(), number, *above);
-  const M within = value < F(above->position);
-  if (within.bits() == 0) return;
-  for (; number != 0; --number) {
+  M within = value < F(above->position);
+  for (; within.bits() != 0; --number) {
+    if (number == 0) {
+      at(within, 0, *above);
+      return;
+    }
     const MapEntryRecord* const below =
         keep<Spu>(scene.map_entry(map_entry_at(r.entries, number - 1)), room[(number - 1) & 1]);
-    between(within & (value <= F(above->position)), number, *below, *above,
-            (value - F(below->position)) * F(above->inverse_width));
+    const M further = within & (value <= F(below->position)), here = within & !further;
+    if (here.bits() != 0)
+      between(here, number, *below, *above, (value - F(below->position)) * F(above->inverse_width));
     above = below;
+    within = further;
   }
-  at(within & (value <= F(above->position)), 0, *above);
 }
 
 inline bool is_pigment(const PatternRecord& r) {
