@@ -4,6 +4,7 @@
 #include "celltrace/cache.hpp"
 #include "kernel/accel/traversal_stack.hpp"
 #include "kernel/direct/door.hpp"
+#include "kernel/direct/feature_neighbours.hpp"
 #include "kernel/records.hpp"
 #include "kernel/scalar_work.hpp"
 
@@ -118,6 +119,13 @@ public:
       cache_.hint(ref.child + leaf_word::step_bytes(ref.leaf));
   }
 
+  /// Where memory is direct.
+  NeighbourCache<typename Spu::rare_simd>& neighbours() { return neighbours_; }
+  /// Records have changed: what was gathered from them is not valid any more.
+  void forget_gathered() {
+    if constexpr (kHasRoomForCode<Spu>) neighbours_.clear();
+  }
+
   SoftwareCache<Spu, DataKind>& cache() { return cache_; }
   Spu& spu() { return cache_.spu(); }
 
@@ -169,7 +177,11 @@ private:
     return cache_.bytes(offset, size, kind);
   }
 
+  struct Nothing {};
   SoftwareCache<Spu, DataKind> cache_;
+  [[no_unique_address]] std::conditional_t<kHasRoomForCode<Spu>, NeighbourCache<typename Spu::rare_simd>,
+                                           Nothing>
+      neighbours_;
 };
 
 } // namespace celltrace::kernel

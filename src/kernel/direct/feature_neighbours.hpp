@@ -7,7 +7,8 @@
 #pragma once
 
 #include "kernel/direct/door.hpp"
-#include "kernel/textures/features.hpp"
+
+#include <stdint.h>
 
 namespace celltrace::kernel {
 
@@ -16,15 +17,15 @@ template <class S> class FeatureNeighbours {
 public:
   using F = typename S::F;
 
-  template <class Spu> FeatureNeighbours(Features<Spu>& features, const uint32_t (&cell)[3]) {
+  /// `features`: the Features of a table.
+  template <class Table> void gather(Table& features, const uint32_t (&cell)[3]) {
     uint32_t i = 0;
     for (int32_t x = -1; x <= 1; ++x) {
       const uint32_t plane = features.number_after(0, cell[0] + static_cast<uint32_t>(x));
       for (int32_t y = -1; y <= 1; ++y) {
         const uint32_t column = features.number_after(plane, cell[1] + static_cast<uint32_t>(y));
         for (int32_t z = -1; z <= 1; ++z, ++i) {
-          const FeatureRecord& feature =
-              features.at(features.number_after(column, cell[2] + static_cast<uint32_t>(z)));
+          const auto feature = features.at(features.number_after(column, cell[2] + static_cast<uint32_t>(z)));
           place_[0][i] = feature.place[0] + static_cast<float>(x);
           place_[1][i] = feature.place[1] + static_cast<float>(y);
           place_[2][i] = feature.place[2] + static_cast<float>(z);
@@ -89,6 +90,39 @@ private:
   }
 
   alignas(64) float place_[3][kPlaces];
+};
+
+/// The neighbours of cells that were asked for lately: points around a normal, and those of packets side by
+/// side, are in the same few cells.
+template <class S> class NeighbourCache {
+public:
+  NeighbourCache() { clear(); }
+  void clear() {
+    for (Key& key : keys_)
+      key.table = kNoTable;
+  }
+
+  /// Those in `features`, which begin at `table`. They stay until the next call.
+  template <class Table>
+  const FeatureNeighbours<S>& around(Table& features, uint32_t table, const uint32_t (&cell)[3]) {
+    const uint32_t at = (cell[0] * 35 + cell[1] * 7 + cell[2]) % kCells;
+    Key& key = keys_[at];
+    if (key.table != table || key.cell[0] != cell[0] || key.cell[1] != cell[1] || key.cell[2] != cell[2]) {
+      key = {table, {cell[0], cell[1], cell[2]}};
+      neighbours_[at].gather(features, cell);
+    }
+    return neighbours_[at];
+  }
+
+private:
+  static constexpr uint32_t kNoTable = ~0u;
+  static constexpr uint32_t kCells = tuning::kCachedNeighbours;
+  struct Key {
+    uint32_t table, cell[3];
+  };
+
+  Key keys_[kCells];
+  FeatureNeighbours<S> neighbours_[kCells];
 };
 
 } // namespace celltrace::kernel

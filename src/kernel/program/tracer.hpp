@@ -128,6 +128,7 @@ private:
 
   /// Those that are out of date are fetched again at their next reference.
   void mark_lines() {
+    phase_->scene.forget_gathered();
     auto& cache = phase_->scene.cache();
     if (frame_.work_entries == kAllLines) return cache.synchronize_all();
     struct alignas(kLineBytes) Lines {

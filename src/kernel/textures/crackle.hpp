@@ -20,7 +20,7 @@ struct CracklePattern : RarePattern {
     using S = typename Spu::rare_simd;
     using F = typename S::F;
     const uint32_t last = r.parameter[2] != 0.0f ? 2 : r.parameter[1] != 0.0f ? 1 : 0;
-    const Nearest<S> nearest = nearest_of<Spu>(scene, p, r, last);
+    const Nearest<S> nearest = nearest_of<Spu>(scene, p, r, {last, false});
     F sum(0.0f);
     for (uint32_t i = 0; i < 3; ++i)
       if (r.parameter[i] != 0.0f)
@@ -32,11 +32,15 @@ struct CracklePattern : RarePattern {
     typename S::F power[3]; ///< of the three shortest distances, ascending
     V3<S> point;            ///< the nearest one
   };
-  /// The distances up to number `last` are sure.
+  /// What is asked of the nearest points: the distances up to number `last`, and perhaps the nearest one.
+  struct Wanted {
+    uint32_t last;
+    bool point;
+  };
   template <class Spu>
   [[gnu::always_inline]] static Nearest<typename Spu::rare_simd>
   nearest_of(SceneAccess<Spu>& scene, const V3<typename Spu::rare_simd>& p, const PatternRecord& r,
-             uint32_t last) {
+             const Wanted& wanted) {
     using S = typename Spu::rare_simd;
     using F = typename S::F;
     const F far(1e30f);
@@ -47,8 +51,8 @@ struct CracklePattern : RarePattern {
       const auto here = S::M::from_bits(lanes);
       // The inner cells first: most of the others are then too far away.
       if constexpr (kHasRoomForCode<Spu>) {
-        take_inner(features, cell, from, p, lanes, metric, last, nearest);
-        if (reaches_no_further<S>(nearest.power[last], here, metric)) return;
+        take_inner(features, cell, from, p, lanes, metric, wanted, nearest);
+        if (reaches_no_further<S>(nearest.power[wanted.last], here, metric)) return;
       }
       for (int32_t reach = kHasRoomForCode<Spu> ? 2 : 1; reach <= 2; ++reach)
         for (int32_t x = -reach; x <= reach; ++x) {
@@ -57,12 +61,13 @@ struct CracklePattern : RarePattern {
           for (int32_t y = -reach; y <= reach; ++y) {
             const F gap_y = gap<S>(from.y, y), gap_xy = gap_x * gap_x + gap_y * gap_y;
             const bool is_outer = reach == 2 && (x < -1 || x > 1 || y < -1 || y > 1);
-            if (reach == 2 && is_too_far<S>(gap_xy, nearest.power[last], here, metric)) continue;
+            if (reach == 2 && is_too_far<S>(gap_xy, nearest.power[wanted.last], here, metric)) continue;
             const uint32_t column = features.number_after(plane, cell[1] + static_cast<uint32_t>(y));
             const int32_t step = reach == 1 || is_outer ? 1 : 4;
             for (int32_t z = -reach; z <= reach; z += step) {
               const F gap_z = gap<S>(from.z, z);
-              if (reach == 2 && is_too_far<S>(gap_xy + gap_z * gap_z, nearest.power[last], here, metric))
+              if (reach == 2 &&
+                  is_too_far<S>(gap_xy + gap_z * gap_z, nearest.power[wanted.last], here, metric))
                 continue;
               const FeatureRecord feature =
                   features.at(features.number_after(column, cell[2] + static_cast<uint32_t>(z)));
@@ -82,25 +87,39 @@ private:
   template <class Spu, class S>
   [[gnu::noinline]] static void take_inner(Features<Spu>& features, const uint32_t (&cell)[3],
                                            const V3<S>& from, const V3<S>& p, uint32_t lanes, float metric,
-                                           uint32_t last, Nearest<S>& nearest) {
+                                           const Wanted& wanted, Nearest<S>& nearest) {
     using F = typename S::F;
-    const FeatureNeighbours<S> neighbours(features, cell);
+    const FeatureNeighbours<S>& neighbours = features.neighbours_of(cell);
     const bool is_simple = metric == 1.0f || metric == 2.0f;
     if (!is_simple || __builtin_popcount(lanes) > tuning::kMostLanesByFeatures) {
       const auto here = S::M::from_bits(lanes);
-      for (uint32_t i = 0; i < FeatureNeighbours<S>::kCount; ++i) {
-        const V3<S> d = neighbours.way_to(i, from);
-        take<S>(S::select(here, power<S>(d, metric), F(1e30f)), d, p, nearest);
-      }
+      const auto take_all = [&](float of_metric, const auto& take_one) __attribute__((always_inline)) {
+        Nearest<S> found = nearest;
+        for (uint32_t i = 0; i < FeatureNeighbours<S>::kCount; ++i) {
+          const V3<S> d = neighbours.way_to(i, from);
+          take_one(S::select(here, power<S>(d, of_metric), F(1e30f)), d, found);
+        }
+        nearest = found;
+      };
+      if (metric == 2.0f && wanted.last <= 1 && !wanted.point)
+        take_all(2.0f, [](const F& power, const V3<S>&, Nearest<S>& found) {
+          const F second = S::max(found.power[0], power);
+          found.power[0] = S::min(found.power[0], power);
+          found.power[1] = S::min(found.power[1], second);
+        });
+      else
+        take_all(metric,
+                 [&](const F& power, const V3<S>& d, Nearest<S>& found) { take<S>(power, d, p, found); });
       return;
     }
     VectorLanes of_lane;
     of_lane.template store<S>(from);
     for_each_lane(lanes, [&](uint32_t lane) {
       const float at[3] = {of_lane.x.lane[lane], of_lane.y.lane[lane], of_lane.z.lane[lane]};
-      const auto found = neighbours.nearest_to(at, last, [&](const V3<S>& d) { return power<S>(d, metric); });
+      const auto found =
+          neighbours.nearest_to(at, wanted.last, [&](const V3<S>& d) { return power<S>(d, metric); });
       const auto here = S::M::from_bits(1u << lane);
-      for (uint32_t i = 0; i <= last; ++i)
+      for (uint32_t i = 0; i <= wanted.last; ++i)
         nearest.power[i] = S::select(here, F(found.power[i]), nearest.power[i]);
       nearest.point = select<S>(here, p + splat3<S>(found.way), nearest.point);
     });

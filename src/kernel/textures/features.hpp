@@ -54,6 +54,11 @@ public:
         table_ + (number & (kFeatures - 1)) * static_cast<uint32_t>(sizeof(FeatureRecord)));
   }
 
+  /// The points in and around a cell, until the next call. Where memory is direct.
+  const auto& neighbours_of(const uint32_t (&cell)[3]) {
+    return scene_.neighbours().around(*this, table_, cell);
+  }
+
 private:
   SceneAccess<Spu>& scene_;
   uint32_t table_;

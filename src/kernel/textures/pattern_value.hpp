@@ -126,7 +126,7 @@ template <class Spu>
 [[gnu::noinline]] V3<typename Spu::rare_simd> nearest_feature(SceneAccess<Spu>& scene, const PatternRecord& r,
                                                               const V3<typename Spu::rare_simd>& p) {
   scene.spu().run_in_module(modules::kRarePatterns);
-  return CracklePattern::nearest_of<Spu>(scene, p, r, 0).point;
+  return CracklePattern::nearest_of<Spu>(scene, p, r, {0, true}).point;
 }
 
 /// Of rare patterns, and of those of noise with generator 3.
