@@ -77,12 +77,12 @@ public:
                         AreaOccluders<Spu>& occluders) {
     return uses_bvh() && occluders.gather(objects_, frame_, rays, lanes, light);
   }
-  /// As above, where nothing else may be in the way.
-  void transmittance(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance, VectorLanes& light,
-                     const AreaOccluders<Spu>& occluders) {
+  /// Those of `lanes` that cross none of the occluders, all of which are opaque: `light` stays what it is.
+  uint32_t unoccluded(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance, VectorLanes& light,
+                      const AreaOccluders<Spu>& occluders) {
     RayQuery query = {&rays, nullptr, &distance, &light, lanes};
     occluders.test(objects_, query);
-    clear_occluded(&query, 1);
+    return query.lanes;
   }
 
   /// Answers all queries, at most one for each packet of a bundle, either all for hits or all for light. If

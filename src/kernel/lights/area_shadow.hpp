@@ -47,7 +47,7 @@ template <class S> typename S::F jitter(uint32_t place, const float* lanes) {
 /// From the middle of a light to a place on it, which is seen from where it is `to_middle` to the middle. Of
 /// a packet's part from lane `first` on.
 template <class S>
-[[gnu::noinline]] V3<S> offset_of(const LightRecord& light, const V3<S>& to_middle, const LightPlace& place,
+V3<S> offset_of(const LightRecord& light, const V3<S>& to_middle, const LightPlace& place,
                                   uint32_t first) {
   using F = typename S::F;
   const uint32_t flags = light.kind_and_flags;
@@ -98,7 +98,7 @@ void aim_part(const LightRecord& light, const V3<S>& points, const V3<S>& to_mid
   from_place.distance = S::select(dot<S>(to_middle, to_middle) > zero, S::max(beside, zero), zero);
 }
 template <class Spu>
-[[gnu::noinline]] void aim(const LightRecord& light, const V3<typename Spu::simd>& points,
+void aim(const LightRecord& light, const V3<typename Spu::simd>& points,
                            const V3<typename Spu::simd>& to_middle, const LightPlace& place,
                            V3<typename Spu::simd>& direction, typename Spu::simd::F& distance) {
   using R = typename Spu::rare_simd;
@@ -125,20 +125,17 @@ template <class Spu>
 
 } // namespace module_areas
 
-/// Where the sampling of a light stands that surfaces of a packet face. Whoever looks at places asks next()
-/// for them, one after the other, and leaves in `light` what comes from there; then it is over, and `sum` is
-/// the light.
+/// Where the sampling of a light stands that surfaces of a packet face. Whoever looks at places asks
+/// next_place() for them, one after the other, and leaves in `light` what comes from there, or says by
+/// answer() where all of it does.
 template <class S> struct AreaShadow {
-  using F = typename S::F;
-
   // Of the place that is asked for.
   ShadowRays* to_place;
   VectorLanes light; ///< before, that of the whole light; after, what comes through
 
-  VectorLanes sum;
-
   // Its own.
   static constexpr uint32_t kCorners = 4;
+  static constexpr float kTolerance = 0.1f; ///< by which colours of corners that agree may differ
   static constexpr uint32_t kDivisions = 9; ///< of the longest grid
   static constexpr uint32_t kMaxQuads = 3 * kDivisions + 1;
   static constexpr uint32_t kPlaces = 256; ///< in the table
@@ -149,13 +146,23 @@ template <class S> struct AreaShadow {
     uint16_t lanes, level;
     float weight;
   };
+  /// What comes from a corner of the quad: by lane all light, another colour, or none.
+  struct Corner {
+    uint32_t lit, tinted; ///< in other lanes it is dark
+    VectorLanes colour;   ///< where it is tinted
+  };
   /// Lanes in which all light comes from a place, or none.
   struct Known {
     uint16_t place, lit, dark;
   };
   static_assert(kMaxLightPlaces * kMaxLightPlaces <= 1u << 16);
 
-  VectorLanes to_middle, whole, corner[kCorners];
+  VectorLanes to_middle, whole;
+  FloatLanes share;    ///< of the whole light, of what has been looked at
+  VectorLanes tinted;  ///< and what comes tinted, beside that; only with `is_tinted`
+  uint32_t is_tinted;  ///< lanes
+  uint32_t is_visible; ///< lanes that see a difference between all light and none
+  Corner corner[kCorners];
   Known known[kPlaces];
   Quad quads[kMaxQuads];
   uint32_t quad_count;
@@ -196,7 +203,9 @@ template <class S>
   a.to_place->rays.start_object = *s.objects;
   a.to_middle.template store<S>(incident.direction * incident.distance);
   a.whole.template store<S>(incident.colour);
-  a.sum.template store<S>({F(0.0f), F(0.0f), F(0.0f)});
+  F(0.0f).store(a.share.lane);
+  a.is_tinted = 0;
+  a.is_visible = (absolute_sum<S>(incident.colour) > F(AreaShadow<S>::kTolerance)).bits();
   for (typename AreaShadow<S>::Known& entry : a.known)
     entry = {0, 0, 0}; // of the first place nothing is known either
   a.rays_asked = 0;
@@ -212,50 +221,104 @@ template <class S>
             1.0f};
 }
 
-/// Of the place that was asked for, what came of it.
-template <class S> void take_sample(AreaShadow<S>& a) {
+/// Of the place that was asked for, `lit` and `tinted` lanes.
+template <class S> void take_answer(AreaShadow<S>& a, uint32_t lit, uint32_t tinted) {
+  typename AreaShadow<S>::Corner& corner = a.corner[a.corner_count++];
+  typename AreaShadow<S>::Known& known = a.known_at(a.place);
+  corner.lit |= lit;
+  corner.tinted = tinted;
+  known.lit |= static_cast<uint16_t>(lit);
+  known.dark |= static_cast<uint16_t>(a.lanes & ~(lit | tinted));
+  a.lanes = 0;
+}
+template <class S> void take_colours(AreaShadow<S>& a) {
   using F = typename S::F;
   const V3<S> came = a.light.template load<S>(), whole = a.whole.template load<S>();
-  VectorLanes& corner = a.corner[a.corner_count];
-  corner.template store<S>(select<S>(S::M::from_bits(a.lanes), came, corner.template load<S>()));
   const F zero(0.0f);
   const auto lit = (came.x == whole.x) & (came.y == whole.y) & (came.z == whole.z);
   const auto dark = (came.x == zero) & (came.y == zero) & (came.z == zero);
-  typename AreaShadow<S>::Known& known = a.known_at(a.place);
-  known.lit |= static_cast<uint16_t>(lit.bits() & a.lanes);
-  known.dark |= static_cast<uint16_t>(dark.bits() & a.lanes & ~lit.bits());
-  a.lanes = 0;
-  ++a.corner_count;
+  const uint32_t tinted = a.lanes & ~(lit | dark).bits();
+  if (tinted != 0) a.corner[a.corner_count].colour = a.light;
+  take_answer(a, a.lanes & lit.bits(), tinted);
 }
 
-/// The lanes in which neighbouring corners differ so much that the quad is looked at closer.
-template <class S> uint32_t disagreement(const AreaShadow<S>& a) {
-  using F = typename S::F;
-  constexpr float kTolerance = 0.1f;
-  constexpr uint32_t kRound[] = {0, 1, 3, 2, 0};
+/// In a part of the packet, from lane `first` on.
+template <class Spu>
+V3<typename Spu::rare_simd> colour_of(const AreaShadow<typename Spu::simd>& a, uint32_t number,
+                                      uint32_t first) {
+  using R = typename Spu::rare_simd;
+  using F = typename R::F;
+  const auto& corner = a.corner[number];
+  const V3<R> dark = {F(0.0f), F(0.0f), F(0.0f)};
+  const V3<R> untinted =
+      select<R>(R::M::from_bits(part_of<Spu>(corner.lit, first)), a.whole.template load_from<R>(first), dark);
+  return select<R>(R::M::from_bits(part_of<Spu>(corner.tinted, first)),
+                   corner.colour.template load_from<R>(first), untinted);
+}
+/// Of the lanes in which a corner is tinted, those in which neighbouring corners differ so much that the quad
+/// is looked at closer.
+template <class Spu>
+[[gnu::noinline]] uint32_t disagreement(const AreaShadow<typename Spu::simd>& a, uint32_t tinted) {
+  using R = typename Spu::rare_simd;
+  using F = typename R::F;
+  constexpr uint32_t kRound[] = {0, 1, 3, 2};
   uint32_t differ = 0;
-  for (uint32_t i = 0; i < 4; ++i) {
-    const V3<S> one = a.corner[kRound[i]].template load<S>(),
-                next = a.corner[kRound[i + 1]].template load<S>();
-    differ |= (absolute_sum<S>(one - next) > F(kTolerance)).bits();
-  }
-  return differ;
+  for_each_part<Spu>([&](uint32_t first) {
+    V3<R> before = colour_of<Spu>(a, 2, first);
+    for (const uint32_t corner : kRound) {
+      const V3<R> next = colour_of<Spu>(a, corner, first);
+      differ |= (absolute_sum<R>(before - next) > F(a.kTolerance)).bits() << first;
+      before = next;
+    }
+  });
+  return differ & tinted;
+}
+/// Adds `weight` times the corners to what comes tinted.
+template <class Spu>
+[[gnu::noinline]] void add_tinted(AreaShadow<typename Spu::simd>& a, uint32_t lanes, float weight) {
+  using R = typename Spu::rare_simd;
+  using F = typename R::F;
+  for_each_part<Spu>([&](uint32_t first) {
+    V3<R> sum = colour_of<Spu>(a, 0, first);
+    for (uint32_t i = 1; i < a.kCorners; ++i)
+      sum = sum + colour_of<Spu>(a, i, first);
+    const F zero(0.0f), added = R::select(R::M::from_bits(part_of<Spu>(lanes, first)), F(weight), zero);
+    const V3<R> none = {zero, zero, zero};
+    const V3<R> before = select<R>(R::M::from_bits(part_of<Spu>(a.is_tinted, first)),
+                                   a.tinted.template load_from<R>(first), none);
+    a.tinted.template store_from<R>(first, before + sum * added);
+  });
+  a.is_tinted |= lanes;
 }
 
 /// All corners are known: adds their mean where they agree, and divides the quad where not.
-template <class S> void finish_quad(const LightRecord& light, AreaShadow<S>& a) {
+template <class Spu> void finish_quad(const LightRecord& light, AreaShadow<typename Spu::simd>& a) {
+  using S = typename Spu::simd;
   using F = typename S::F;
   const typename AreaShadow<S>::Quad q = a.quad;
+  const auto& c = a.corner;
+  const uint32_t tinted = (c[0].tinted | c[1].tinted | c[2].tinted | c[3].tinted) & q.lanes;
   uint32_t divided = 0;
-  if (q.right > q.left + 1 || q.bottom > q.top + 1)
-    divided = q.level < light.adaptive ? q.lanes : q.lanes & disagreement<S>(a);
+  if (q.right > q.left + 1 || q.bottom > q.top + 1) {
+    if (q.level < light.adaptive) {
+      divided = q.lanes;
+    } else {
+      const uint32_t any = c[0].lit | c[1].lit | c[2].lit | c[3].lit,
+                     all = c[0].lit & c[1].lit & c[2].lit & c[3].lit;
+      divided = any & ~all & a.is_visible;
+      if (tinted != 0) divided = (divided & ~tinted) | disagreement<Spu>(a, tinted);
+      divided &= q.lanes;
+    }
+  }
   const uint32_t agreed = q.lanes & ~divided;
   if (agreed != 0) {
-    V3<S> mean = a.corner[0].template load<S>();
-    for (uint32_t i = 1; i < 4; ++i)
-      mean = mean + a.corner[i].template load<S>();
-    const V3<S> sum = a.sum.template load<S>();
-    a.sum.template store<S>(select<S>(S::M::from_bits(agreed), sum + mean * F(0.25f * q.weight), sum));
+    // Weights are powers of 2: the sum is exact.
+    const float weight = 0.25f * q.weight;
+    F share = F::load(a.share.lane);
+    for (const auto& corner : c)
+      share = S::select(S::M::from_bits(corner.lit & agreed & ~tinted), share + F(weight), share);
+    share.store(a.share.lane);
+    if ((agreed & tinted) != 0) add_tinted<Spu>(a, agreed & tinted, weight);
   }
   if (divided == 0) return;
   // Quarters share the middle, or lie on both sides of it; of a line two are the same.
@@ -275,14 +338,13 @@ template <class Spu>
   using S = typename Spu::simd;
   using F = typename S::F;
   spu.run_in_module(modules::kAreas);
-  if (a.lanes != 0) take_sample<S>(a);
+  if (a.lanes != 0) take_colours<S>(a);
   for (;;) {
     for (; a.corner_count < AreaShadow<S>::kCorners; ++a.corner_count) {
       const LightPlace place = a.place_of(a.corner_count);
       const typename AreaShadow<S>::Known& known = a.known_at(place);
-      const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
-      a.corner[a.corner_count].template store<S>(
-          select<S>(S::M::from_bits(known.lit), a.whole.template load<S>(), dark));
+      a.corner[a.corner_count].lit = known.lit;
+      a.corner[a.corner_count].tinted = 0;
       const uint32_t lanes = a.quad.lanes & ~uint32_t(known.lit | known.dark);
       if (lanes == 0) continue;
       V3<S> direction;
@@ -297,7 +359,7 @@ template <class Spu>
       a.rays_asked += static_cast<uint32_t>(__builtin_popcount(lanes));
       return true;
     }
-    finish_quad<S>(light, a);
+    finish_quad<Spu>(light, a);
     if (a.quad_count == 0) return false;
     a.quad = a.quads[--a.quad_count];
     a.corner_count = 0;
@@ -312,10 +374,16 @@ template <class Spu>
   using F = typename R::F;
   spu.run_in_module(modules::kAreas);
   const F zero(0.0f);
-  const auto share = [&](const F& some, const F& of) { return R::select(of == zero, zero, some / of); };
+  const auto share_of = [&](const F& some, const F& of) { return R::select(of == zero, zero, some / of); };
   for_each_part<Spu>([&](uint32_t first) {
-    const V3<R> sum = a.sum.template load_from<R>(first), all = a.whole.template load_from<R>(first);
-    const V3<R> left = {share(sum.x, all.x), share(sum.y, all.y), share(sum.z, all.z)};
+    const F share = F::load(a.share.lane + first);
+    V3<R> left = {share, share, share};
+    const uint32_t tinted = part_of<Spu>(a.is_tinted, first);
+    if (tinted != 0) {
+      const V3<R> sum = a.tinted.template load_from<R>(first), all = a.whole.template load_from<R>(first);
+      const V3<R> more = {share_of(sum.x, all.x), share_of(sum.y, all.y), share_of(sum.z, all.z)};
+      left = select<R>(R::M::from_bits(tinted), left + more, left);
+    }
     sent.store_from<R>(first, sent.load_from<R>(first) * left);
   });
 }
@@ -343,6 +411,11 @@ template <class Spu>
 bool next_place(Spu& spu, const LightRecord& light, AreaShadow<typename Spu::simd>& shadow) {
   spu.enter_module(modules::kAreas);
   return module_areas::next_sample(spu, light, shadow);
+}
+
+/// Says that all light comes from the place that was asked for in `lit` lanes, and none in others.
+template <class S> void answer(AreaShadow<S>& shadow, uint32_t lit) {
+  module_areas::take_answer(shadow, lit, 0);
 }
 
 /// Leaves of what surfaces would send on of a light what they do of that which comes from all of its area.

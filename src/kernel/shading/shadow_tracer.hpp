@@ -172,8 +172,8 @@ private:
           return colour.template store<S>(
               select<S>(S::M::from_bits(lanes), colour.template load<S>(), {F(0.0f), F(0.0f), F(0.0f)}));
         while (next_place(scene_.spu(), light, area))
-          traversal_.transmittance(area.to_place->rays, area.lanes, area.to_place->distance, area.light,
-                                   occluders);
+          answer(area, traversal_.unoccluded(area.to_place->rays, area.lanes, area.to_place->distance,
+                                             area.light, occluders));
         return take_area_light(colour);
       }
     }
