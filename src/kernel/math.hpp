@@ -2,6 +2,8 @@
 // bits. Kernel dialect. Accuracy figures are for the host's single precision.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
+
 #include <stdint.h>
 
 namespace celltrace::kernel {
@@ -164,7 +166,7 @@ template <class S> typename S::F acos_unit(const typename S::F& x) {
 /// Sine and cosine of x; absolute error below 2e-7 for |x| <= 100, and for larger x that of a rounding of x.
 /// Beyond 8192 x counts as that. Not inlined: local store has room for one copy.
 template <class S>
-[[gnu::noinline]] void sin_cos(const typename S::F& x, typename S::F& sine, typename S::F& cosine) {
+CELLTRACE_ONE_COPY void sin_cos(const typename S::F& x, typename S::F& sine, typename S::F& cosine) {
   using F = typename S::F;
   using I = typename S::I;
   const F angle = S::min(S::max(x, F(-8192.0f)), F(8192.0f));

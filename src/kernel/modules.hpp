@@ -59,7 +59,7 @@ constexpr CodeModule kCameras = {"cameras", 10, 1, 6528};
 /// Pigments and normals, but for the patterns themselves.
 constexpr CodeModule kTextures = {"textures", 9, 1, 6784};
 /// The maps of textures: which of them count where.
-constexpr CodeModule kMaps = {"maps", 27, 1, 6656};
+constexpr CodeModule kMaps = {"maps", 27, 1, 6784};
 constexpr CodeModule kNormals = {"normals", 11, 1, 8960};
 
 /// What few finishes do with light, and light from behind.

@@ -2,6 +2,7 @@
 // Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "celltrace/spe/simd.hpp"
 #include "kernel/direct/door.hpp"
 #include "kernel/math.hpp"
@@ -69,7 +70,7 @@ namespace detail {
 
 /// Not inlined: one copy of the code saves local store.
 template <class S>
-[[gnu::noinline]] void put_elsewhere(const typename S::M& lanes, const float* values, V3<S>& into) {
+CELLTRACE_ONE_COPY void put_elsewhere(const typename S::M& lanes, const float* values, V3<S>& into) {
   into = select<S>(lanes, splat3<S>(values), into);
 }
 
@@ -111,7 +112,7 @@ struct HitPacket {
 };
 
 namespace detail {
-[[gnu::noinline]] inline void copy_out_of_line(void* to, const void* from, uint32_t bytes) {
+CELLTRACE_ONE_COPY inline void copy_out_of_line(void* to, const void* from, uint32_t bytes) {
   __builtin_memcpy(to, from, bytes);
 }
 } // namespace detail

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "celltrace/cache.hpp"
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/accel/traversal_stack.hpp"
 #include "kernel/direct/door.hpp"
 #include "kernel/direct/feature_neighbours.hpp"
@@ -119,12 +120,9 @@ public:
       cache_.hint(ref.child + leaf_word::step_bytes(ref.leaf));
   }
 
-  /// Where memory is direct.
-  NeighbourCache<typename Spu::rare_simd>& neighbours() { return neighbours_; }
-  /// Records have changed: what was gathered from them is not valid any more.
-  void forget_gathered() {
-    if constexpr (kHasRoomForCode<Spu>) neighbours_.clear();
-  }
+  /// Keeps random points for points that are close together; null: none does.
+  NeighbourCache<typename Spu::rare_simd>* neighbours() const { return neighbours_; }
+  void set_neighbours(NeighbourCache<typename Spu::rare_simd>* cache) { neighbours_ = cache; }
 
   SoftwareCache<Spu, DataKind>& cache() { return cache_; }
   Spu& spu() { return cache_.spu(); }
@@ -153,7 +151,7 @@ private:
     return object;
   }
   /// One copy: local store is short.
-  [[gnu::noinline]] uint32_t member_through_cache(const Sequence& objects, uint32_t i) {
+  CELLTRACE_ONE_COPY uint32_t member_through_cache(const Sequence& objects, uint32_t i) {
     const uint32_t object = offset_of(objects, i);
     if (i != 0) cache_.prefetch(object);
     return object;
@@ -173,15 +171,12 @@ private:
     else
       return reinterpret_cast<const T*>(read_bytes(offset, sizeof(T), kind));
   }
-  [[gnu::noinline]] const uint8_t* read_bytes(uint32_t offset, uint32_t size, DataKind kind) {
+  CELLTRACE_ONE_COPY const uint8_t* read_bytes(uint32_t offset, uint32_t size, DataKind kind) {
     return cache_.bytes(offset, size, kind);
   }
 
-  struct Nothing {};
   SoftwareCache<Spu, DataKind> cache_;
-  [[no_unique_address]] std::conditional_t<kHasRoomForCode<Spu>, NeighbourCache<typename Spu::rare_simd>,
-                                           Nothing>
-      neighbours_;
+  NeighbourCache<typename Spu::rare_simd>* neighbours_ = nullptr;
 };
 
 } // namespace celltrace::kernel

@@ -132,10 +132,6 @@ constexpr float kMostMarked = 0.25f;
 /// scenes with crackle near by and as far as the horizon.
 constexpr int kMostLanesByFeatures = 6;
 
-/// Cells of crackle whose neighbours are remembered, 400 bytes each: 'trace time' of scenes with normals from
-/// crackle. Twice as many find 5 % more and take much of a first-level cache.
-constexpr uint32_t kCachedNeighbours = 32;
-
 // --- building the BVH ---
 
 /// When the objects of a range share a leaf. A triangle has weight 1.

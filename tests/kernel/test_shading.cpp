@@ -119,7 +119,7 @@ TEST_CASE("Ambient light, diffuse light and highlights of mixed materials") {
       for_each_light(access, scene.frame(), round.first, round.count,
                      [&](unsigned number, const LightRecord& record) {
                        VectorLanes& sent = gathered[number - first];
-                       const std::uint32_t asked = lanes_above<DirectSpu>(sent, lanes, kLeastLight);
+                       const std::uint32_t asked = lanes_above<Simd>(sent, lanes, kLeastLight);
                        shadow_rays += static_cast<unsigned>(__builtin_popcount(asked));
                        IncidentLight<Simd> incident;
                        aim(spu, record, hits.point.load<Simd>(), incident);

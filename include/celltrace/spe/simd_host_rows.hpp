@@ -117,10 +117,10 @@ private:
             (four[channel][0] + four[channel][1]) + (four[channel][2] + four[channel][3]);
     });
   }
-  /// Of some lanes, whose rows are the same. Not inlined: compilers would compute all factors before.
+  /// Of some lanes, whose rows are the same.
   template <class StartsOf, class FactorsOf>
-  [[gnu::noinline]] static void replace_lanes(const float* table, const StartsOf& starts_of, uint32_t lanes,
-                                              const FactorsOf& factors_of, F (&sums)[kChannels]) {
+  static void replace_lanes(const float* table, const StartsOf& starts_of, uint32_t lanes,
+                            const FactorsOf& factors_of, F (&sums)[kChannels]) {
     F some[kChannels];
     sum_like(table, starts_of, first_of(lanes), factors_of, some);
     const auto chosen = S::M::from_bits(lanes);
@@ -168,8 +168,8 @@ private:
   /// of four.
   template <class StartsOf, class FactorsOf>
   requires(kLanes == 16)
-      [[gnu::noinline]] static void sum_by_lane(const float* table, const StartsOf& starts_of,
-                                                const FactorsOf& factors_of, F (&sums)[kChannels]) {
+      static void sum_by_lane(const float* table, const StartsOf& starts_of, const FactorsOf& factors_of,
+                              F (&sums)[kChannels]) {
     alignas(64) int32_t indices[kRows][kLanes];
     starts_of.find_indices(LookUp(), indices);
     asm("" : "+m"(indices)); // or compilers would take the numbers out of the registers that they come from
@@ -220,8 +220,8 @@ private:
 #endif
   /// A row is one unaligned load a channel: gathering its numbers takes a load for each.
   template <class StartsOf, class FactorsOf>
-  [[gnu::noinline]] static void sum_by_lane(const float* table, const StartsOf& starts_of,
-                                            const FactorsOf& factors_of, F (&sums)[kChannels]) {
+  static void sum_by_lane(const float* table, const StartsOf& starts_of, const FactorsOf& factors_of,
+                          F (&sums)[kChannels]) {
     // The four factors of lane 4q + i are side by side at [i][4q].
     alignas(64) float factors_by_lane[kRows][4][kLanes];
     for (uint32_t row = 0; row < kRows; ++row) {

@@ -6,6 +6,7 @@
 // Divergent packets do not join the bundle: each is traversed by itself, in groups of similar rays.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/accel/packet_traversal.hpp"
 #include "kernel/cameras/primary_rays.hpp"
 #include "kernel/direct/bundle_leaf_tests.hpp"
@@ -93,7 +94,7 @@ private:
   // --- one packet ---
 
   /// Traverses a packet in groups of rays with similar directions in one octant, each with its own frustum.
-  [[gnu::noinline]] void intersect_packet(RayQuery& query) {
+  CELLTRACE_ONE_COPY void intersect_packet(RayQuery& query) {
     objects_.hit_filter().begin_packet();
     const RayPacket& rays = *query.rays;
     if constexpr (kMixesOctants<Spu>)
@@ -299,8 +300,8 @@ private:
 
   /// Traverses a node separately with one packet, by its entry `first`. Where interleaving pays, the next
   /// entries on the stack are traversed at the same time if they are of other single packets.
-  [[gnu::noinline]] void traverse_split(RayQuery* queries, const SlabOrder& order,
-                                        typename Stack::Entry first) {
+  CELLTRACE_ONE_COPY void traverse_split(RayQuery* queries, const SlabOrder& order,
+                                         typename Stack::Entry first) {
     objects_.scene().spu().compute(scalar_work::kPacketAlone);
     typename PacketTraversal<Spu>::Task tasks[PacketTraversal<Spu>::kMaxInterleaved];
     tasks[0] = task_of(queries, first);

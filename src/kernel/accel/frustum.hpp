@@ -4,6 +4,7 @@
 // Geometric and arithmetic culling methods for entire ray packets, 2006). Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/packet.hpp"
 #include "kernel/scalar.hpp"
 
@@ -63,7 +64,7 @@ public:
 
   /// Undefined until set() has been called.
   OctantRays() = default;
-  [[gnu::noinline]] void set(const RayPacket& rays, uint32_t octant) {
+  CELLTRACE_ONE_COPY void set(const RayPacket& rays, uint32_t octant) {
     origin_ = rays.origin.template load<S>();
     const V3<S> direction = rays.direction.template load<S>();
     inverse_ = {inverse_of(direction.x, (octant & 1) != 0), inverse_of(direction.y, (octant & 2) != 0),
@@ -125,7 +126,7 @@ struct RayBounds {
 };
 
 /// The bounds of the rays in `lanes`, of which there is at least one.
-template <class S> [[gnu::noinline]] RayBounds bounds_of(const RayPacket& rays, uint32_t lanes) {
+template <class S> CELLTRACE_ONE_COPY RayBounds bounds_of(const RayPacket& rays, uint32_t lanes) {
   using F = typename S::F;
   const auto active = S::M::from_bits(lanes);
   const uint32_t active_lane = static_cast<uint32_t>(__builtin_ctz(lanes));

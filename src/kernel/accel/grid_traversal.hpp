@@ -5,6 +5,7 @@
 // come to it. A ray stops when its closest hit lies within its current voxel.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/accel/grid_walk.hpp"
 #include "kernel/accel/object_tests.hpp"
 
@@ -22,7 +23,7 @@ public:
   // Not inlined: the stack frame of a traversal would otherwise be part of the caller's all the time.
 
   /// As Traversal's; `hits` have been reset.
-  [[gnu::noinline]] void find_closest(const RayPacket& rays, uint32_t lanes, HitPacket& hits) {
+  CELLTRACE_ONE_COPY void find_closest(const RayPacket& rays, uint32_t lanes, HitPacket& hits) {
     objects_.hit_filter().begin_packet();
     walk(rays, lanes, [&](const VoxelWalk<S>& at, uint32_t listing) {
       for_each_cell(at.cell(), listing, [&](uint32_t cell, uint32_t) { find_closest_in(cell, rays, hits); });
@@ -31,8 +32,8 @@ public:
   }
 
   /// As Traversal's; returns the lanes that are not occluded.
-  [[gnu::noinline]] uint32_t transmittance(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance,
-                                           VectorLanes& light) {
+  CELLTRACE_ONE_COPY uint32_t transmittance(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance,
+                                            VectorLanes& light) {
     objects_.hit_filter().begin_packet();
     uint32_t lit = lanes;
     FloatLanes enter, leave;

@@ -2,6 +2,7 @@
 // transmittance of shadow rays. Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/primitives/csg.hpp"
 #include "kernel/primitives/list.hpp"
 #include "kernel/primitives/polygons_module.hpp"
@@ -69,7 +70,7 @@ public:
   // Some are not inlined: the tests are most of the program's code, and one copy of each saves local store.
 
   /// Tests an object and keeps hits that are closer than those in `hits`.
-  __attribute__((noinline)) void test_closest(const RayPacket& rays, uint32_t self, HitPacket& hits) {
+  CELLTRACE_ONE_COPY void test_closest(const RayPacket& rays, uint32_t self, HitPacket& hits) {
     scene_.spu().compute(scalar_work::kClosest);
     const ObjectRecord& object = *scene_.object(self);
     if (is_simple(object.kind_and_flags)) return keep_closest(test(rays, object, self), self, hits);
@@ -99,9 +100,9 @@ public:
   /// the first time only. A translucent object attenuates the light of `lanes` by each crossing within
   /// `segment`: one that lies in several voxels is tested in each of them, but every crossing counts once.
   /// Lanes that this leaves without light are returned.
-  __attribute__((noinline)) uint32_t occluded(const RayPacket& rays, uint32_t self, uint32_t lanes,
-                                              const FloatLanes& distance, VectorLanes& light,
-                                              const RaySegment& segment = {nullptr, nullptr}) {
+  CELLTRACE_ONE_COPY uint32_t occluded(const RayPacket& rays, uint32_t self, uint32_t lanes,
+                                       const FloatLanes& distance, VectorLanes& light,
+                                       const RaySegment& segment = {nullptr, nullptr}) {
     scene_.spu().compute(scalar_work::kShadow);
     const ObjectRecord& object = *scene_.object(self);
     const uint32_t flags = object.kind_and_flags;
@@ -231,8 +232,8 @@ private:
   // Objects that are not simple: their crossings are several pairs, and count where the CSG's condition
   // holds.
 
-  [[gnu::noinline]] void test_closest_of_other(const RayPacket& rays, const ObjectRecord& record,
-                                               uint32_t self, HitPacket& hits) {
+  CELLTRACE_ONE_COPY void test_closest_of_other(const RayPacket& rays, const ObjectRecord& record,
+                                                uint32_t self, HitPacket& hits) {
     scene_.spu().run_in_module(modules::kObjects);
     const uint32_t flags = record.kind_and_flags;
     const uint32_t blind = blind_lanes(flags, reflected_);
@@ -254,9 +255,9 @@ private:
       keep_closest(c, self, hits);
     }
   }
-  [[gnu::noinline]] uint32_t occluded_by_other(const RayPacket& rays, const ObjectRecord& record,
-                                               uint32_t self, uint32_t lanes, const FloatLanes& distance,
-                                               VectorLanes& light, const RaySegment& segment) {
+  CELLTRACE_ONE_COPY uint32_t occluded_by_other(const RayPacket& rays, const ObjectRecord& record,
+                                                uint32_t self, uint32_t lanes, const FloatLanes& distance,
+                                                VectorLanes& light, const RaySegment& segment) {
     scene_.spu().run_in_module(modules::kObjects);
     const uint32_t flags = record.kind_and_flags, material = record.material;
     Other other(*this, rays, record, self);
@@ -306,8 +307,8 @@ private:
     c.far_hit = accepted(rays, condition, c.far, far.bits(), reflected);
   }
   /// Not inlined: it is asked in four places.
-  [[gnu::noinline]] M accepted(const RayPacket& rays, uint32_t condition, const F& distance, uint32_t lanes,
-                               uint32_t reflected) {
+  CELLTRACE_ONE_COPY M accepted(const RayPacket& rays, uint32_t condition, const F& distance, uint32_t lanes,
+                                uint32_t reflected) {
     if (lanes == 0) return M::none();
     const V3<S> origin = rays.origin.template load<S>(), direction = rays.direction.template load<S>();
     return M::from_bits(csg_accepted(scene_, condition, origin + direction * distance, lanes, reflected));
@@ -315,9 +316,9 @@ private:
 
   /// Multiplies the light of `lanes` by the transmittance of a translucent surface that they cross at `at`.
   /// Returns those of which hardly any is left: a ray with less than 1e-10 of it in each channel can stop.
-  [[gnu::noinline]] uint32_t attenuate(const RayPacket& rays, const F& at, const Crossings<S>& c,
-                                       uint32_t flags, uint32_t material, uint32_t lanes,
-                                       VectorLanes& light) {
+  CELLTRACE_ONE_COPY uint32_t attenuate(const RayPacket& rays, const F& at, const Crossings<S>& c,
+                                        uint32_t flags, uint32_t material, uint32_t lanes,
+                                        VectorLanes& light) {
     using R = typename Spu::rare_simd;
     using RF = typename R::F;
     scene_.spu().compute(scalar_work::kFilter);

@@ -6,6 +6,7 @@
 // frustum of its own. An object in a leaf is tested against the whole packet.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/accel/frustum.hpp"
 #include "kernel/accel/traversal_loop.hpp"
 #include "kernel/direct/deferred_leaves.hpp"
@@ -103,11 +104,13 @@ public:
     return F::load(query.hits != nullptr ? query.hits->distance.lane : query.distance->lane);
   }
   /// The greatest tfar of the rays in `group`, with kTfarSlack. Distances are positive.
-  static float tfar_of(const RayQuery& query, uint32_t group) {
-    if constexpr (kHasRoomForCode<Spu>)
-      return greatest_tfar(query, group);
-    else
-      return tfar_out_of_line(query, group);
+  CELLTRACE_ONE_COPY static float tfar_of(const RayQuery& query, uint32_t group) {
+    if (is_single(group)) {
+      const uint32_t lane = static_cast<uint32_t>(__builtin_ctz(group));
+      return kTfarSlack *
+             (query.hits != nullptr ? query.hits->distance.lane[lane] : query.distance->lane[lane]);
+    }
+    return kTfarSlack * interval_of<S>(S::select(M::from_bits(group), tfar(query), F(0.0f))).high;
   }
 
   /// Tests the objects of a leaf, which the rays in `group` hit.
@@ -186,19 +189,6 @@ private:
     }
   };
 
-  static float greatest_tfar(const RayQuery& query, uint32_t group) {
-    if (is_single(group)) {
-      const uint32_t lane = static_cast<uint32_t>(__builtin_ctz(group));
-      return kTfarSlack *
-             (query.hits != nullptr ? query.hits->distance.lane[lane] : query.distance->lane[lane]);
-    }
-    return kTfarSlack * interval_of<S>(S::select(M::from_bits(group), tfar(query), F(0.0f))).high;
-  }
-  /// Not inlined on an SPE: one copy of the code saves local store.
-  [[gnu::noinline]] static float tfar_out_of_line(const RayQuery& query, uint32_t group) {
-    return greatest_tfar(query, group);
-  }
-
   TraversalState begin(Slot& slot, const Task& task, uint32_t floor) {
     TraversalState state = {&task.group->frustum, task.lanes, floor, tfar_of(*task.query, task.lanes)};
     if (is_single(task.hit) && !is_single(task.lanes)) split_off(slot, state, task.hit, *task.query);
@@ -232,21 +222,12 @@ private:
   /// Continues with one ray of the group.
   void split_off(Slot& slot, TraversalState& state, uint32_t ray, const RayQuery& query) {
     objects_.scene().spu().compute(scalar_work::kRayAlone);
-    if constexpr (kHasRoomForCode<Spu>)
-      set_single(slot, state, ray, query);
-    else
-      set_single_out_of_line(slot, state, ray, query);
+    set_single(slot, state, ray, query);
   }
-  [[gnu::always_inline]] void set_single(Slot& slot, TraversalState& state, uint32_t ray,
-                                         const RayQuery& query) {
+  CELLTRACE_ONE_COPY void set_single(Slot& slot, TraversalState& state, uint32_t ray, const RayQuery& query) {
     const uint32_t lane = static_cast<uint32_t>(__builtin_ctz(ray));
     slot.single.set(bounds_of_ray(*query.rays, lane), octant_of(*query.rays, lane));
     state = {&slot.single, ray, slot.stack.size(), tfar_of(query, ray)};
-  }
-  /// Not inlined on an SPE: one copy of the code saves local store.
-  [[gnu::noinline]] void set_single_out_of_line(Slot& slot, TraversalState& state, uint32_t ray,
-                                                const RayQuery& query) {
-    set_single(slot, state, ray, query);
   }
 
   /// Tests the objects of a leaf, or defers it with a few others until after a node is expanded. Meanwhile

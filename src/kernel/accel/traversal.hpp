@@ -2,6 +2,7 @@
 // Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/accel/bvh_traversal.hpp"
 #include "kernel/accel/grid_traversal.hpp"
 #include "kernel/direct/area_occluders.hpp"
@@ -59,8 +60,8 @@ public:
 
   /// Lets shadow rays end where they first cross what a light is projected through. Returns the lanes that
   /// do, before the light; the light of the others becomes 0.
-  [[gnu::noinline]] uint32_t project(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
-                                     FloatLanes& distance, VectorLanes& colour) {
+  CELLTRACE_ONE_COPY uint32_t project(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
+                                      FloatLanes& distance, VectorLanes& colour) {
     HitPacket hits;
     RayQuery query = {&rays, &hits, nullptr, nullptr, lanes};
     reset_hits(&query, 1);
@@ -88,7 +89,7 @@ public:
   /// Answers all queries, at most one for each packet of a bundle, either all for hits or all for light. If
   /// their rays are coherent, this is faster than packet by packet. Not inlined, as intersect_packet() is
   /// not: local store has room for one copy of each.
-  [[gnu::noinline]] void intersect(RayQuery* queries, uint32_t count) {
+  CELLTRACE_ONE_COPY void intersect(RayQuery* queries, uint32_t count) {
     reset_hits(queries, count);
     intersect_unbounded(queries, count);
     if constexpr (kHasBvh)
@@ -99,7 +100,7 @@ public:
   }
 
   /// Answers one query, which needs no code for bundles.
-  [[gnu::noinline]] void intersect_packet(RayQuery& query) {
+  CELLTRACE_ONE_COPY void intersect_packet(RayQuery& query) {
     reset_hits(&query, 1);
     intersect_unbounded(&query, 1);
     if constexpr (kHasBvh)
@@ -200,7 +201,7 @@ private:
     return with_rays;
   }
 
-  [[gnu::noinline]] static void reset_hits(const RayQuery* queries, uint32_t count) {
+  CELLTRACE_ONE_COPY static void reset_hits(const RayQuery* queries, uint32_t count) {
     for (uint32_t i = 0; i < count; ++i) {
       HitPacket* const hits = queries[i].hits;
       if (hits == nullptr) continue;
@@ -212,7 +213,7 @@ private:
   void intersect_unbounded(RayQuery* queries, uint32_t count) {
     if (frame_.unbounded_count != 0) test_unbounded(queries, count);
   }
-  [[gnu::noinline]] void test_unbounded(RayQuery* queries, uint32_t count) {
+  CELLTRACE_ONE_COPY void test_unbounded(RayQuery* queries, uint32_t count) {
     for (uint32_t i = 0; i < count; ++i)
       objects_.test_unbounded(frame_, queries[i]);
   }
@@ -221,7 +222,7 @@ private:
   void clear_occluded(const RayQuery* queries, uint32_t count) const {
     if (!objects_.is_marking()) clear_light(queries, count);
   }
-  [[gnu::noinline]] static void clear_light(const RayQuery* queries, uint32_t count) {
+  CELLTRACE_ONE_COPY static void clear_light(const RayQuery* queries, uint32_t count) {
     const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
     for (uint32_t i = 0; i < count; ++i) {
       const RayQuery& query = queries[i];

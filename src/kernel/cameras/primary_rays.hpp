@@ -1,6 +1,7 @@
 // Render ray packet: the sixteen rays through a 4x4 block of pixels. Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/cameras/list.hpp"
 #include "kernel/direct/bundle_view.hpp"
 #include "kernel/modules.hpp"
@@ -16,8 +17,8 @@ namespace module_cameras {
 
 /// The rays of a curved camera; returns the lanes that have one.
 template <class Spu>
-[[gnu::noinline]] uint32_t bend(Spu& spu, const CameraRecord& camera, const typename Spu::simd::F& x,
-                                const typename Spu::simd::F& y, RayPacket& packet) {
+CELLTRACE_ONE_COPY uint32_t bend(Spu& spu, const CameraRecord& camera, const typename Spu::simd::F& x,
+                                 const typename Spu::simd::F& y, RayPacket& packet) {
   using S = typename Spu::simd;
   using F = typename S::F;
   spu.run_in_module(modules::kCameras);

@@ -1,6 +1,7 @@
 // All around: columns are longitudes, rows latitudes. Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/cameras/camera_view.hpp"
 
 namespace celltrace::kernel {
@@ -27,7 +28,7 @@ struct SphericalCamera {
 private:
   /// By Rodrigues's formula.
   template <class S>
-  [[gnu::noinline]] static V3<S> turned(const V3<S>& v, const V3<S>& axis, const typename S::F& angle) {
+  CELLTRACE_ONE_COPY static V3<S> turned(const V3<S>& v, const V3<S>& axis, const typename S::F& angle) {
     typename S::F sine, cosine;
     sin_cos<S>(angle, sine, cosine);
     return v * cosine + cross<S>(axis, v) * sine + axis * (dot<S>(axis, v) * (typename S::F(1.0f) - cosine));

@@ -3,6 +3,7 @@
 // Agglomerative Clustering for Rendering, 2008). Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/direct/build_bvh_bounds.hpp"
 #include "kernel/tuning.hpp"
 
@@ -17,8 +18,8 @@ public:
 
   /// Reorders the references of `range` by cluster, and describes the clusters. The range has more than
   /// kChildren references, and at most kMaxReferences.
-  [[gnu::noinline]] static void make(Reference* references, const Range<S>& range,
-                                     Range<S> (&clusters)[kChildren]) {
+  CELLTRACE_ONE_COPY static void make(Reference* references, const Range<S>& range,
+                                      Range<S> (&clusters)[kChildren]) {
     Clusters work;
     work.start(references + range.begin, range.count());
     while (work.count_ > kChildren)

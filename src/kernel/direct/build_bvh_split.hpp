@@ -2,6 +2,7 @@
 // On fast Construction of SAH-based Bounding Volume Hierarchies, 2007). Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/direct/build_bvh_lanes.hpp"
 
 namespace celltrace::kernel::bvh {
@@ -31,8 +32,8 @@ public:
 
   /// Splits `range`, of at least two references, and reorders these so that those of `left` come first;
   /// stable. `spare` has room for all of them.
-  [[gnu::noinline]] static void split(Reference* references, Reference* spare, const Range<S>& range,
-                                      Range<S>& left, Range<S>& right) {
+  CELLTRACE_ONE_COPY static void split(Reference* references, Reference* spare, const Range<S>& range,
+                                       Range<S>& left, Range<S>& right) {
     // If all of it lies on a line along an axis, every SAH cost is 0.
     if (range.box.area() == 0.0f) return halve_range(references, range, left, right);
     if constexpr (S::kWidth == kSimdLanes && kBins == kFewBins) {

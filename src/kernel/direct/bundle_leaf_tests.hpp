@@ -2,6 +2,7 @@
 // several leaves together. Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/direct/leaf_triangles.hpp"
 #include "kernel/direct/pinhole_triangles.hpp"
 #include "kernel/direct/shadow_volumes.hpp"
@@ -87,7 +88,7 @@ private:
   }
   /// Tests those of the deferred objects that are no triangles, or let light through, so that no packet is
   /// left for them. Returns the packets.
-  [[gnu::noinline]] uint32_t test_others(RayQuery* queries, uint32_t others) {
+  CELLTRACE_ONE_COPY uint32_t test_others(RayQuery* queries, uint32_t others) {
     uint32_t packets = 0;
     for_each_lane(others, [&](uint32_t i) {
       packets |= packets_of_[i];

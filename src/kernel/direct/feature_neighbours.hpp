@@ -7,6 +7,7 @@
 #pragma once
 
 #include "kernel/direct/door.hpp"
+#include "kernel/records.hpp"
 
 #include <stdint.h>
 
@@ -92,36 +93,36 @@ private:
   alignas(64) float place_[3][kPlaces];
 };
 
-/// The neighbours of cells that were asked for lately: points around a normal, and those of packets side by
-/// side, are in the same few cells.
+/// The neighbours of the cells that a packet's points are in, for points beside them: a normal asks at four
+/// that are close together. Of one table.
 template <class S> class NeighbourCache {
 public:
-  NeighbourCache() { clear(); }
-  void clear() {
-    for (Key& key : keys_)
-      key.table = kNoTable;
+  NeighbourCache() {
+    for (uint64_t& name : names_)
+      name = kNone;
   }
 
-  /// Those in `features`, which begin at `table`. They stay until the next call.
-  template <class Table>
-  const FeatureNeighbours<S>& around(Table& features, uint32_t table, const uint32_t (&cell)[3]) {
-    const uint32_t at = (cell[0] * 35 + cell[1] * 7 + cell[2]) % kCells;
-    Key& key = keys_[at];
-    if (key.table != table || key.cell[0] != cell[0] || key.cell[1] != cell[1] || key.cell[2] != cell[2]) {
-      key = {table, {cell[0], cell[1], cell[2]}};
-      neighbours_[at].gather(features, cell);
-    }
-    return neighbours_[at];
+  /// Those in `features`. They stay until the next call.
+  template <class Table> const FeatureNeighbours<S>& around(Table& features, const uint32_t (&cell)[3]) {
+    // As many bits of each coordinate as there are numbers of cells.
+    uint64_t name = 0;
+    for (const uint32_t coordinate : cell)
+      name = name * kFeatures + coordinate % kFeatures;
+    for (uint32_t i = 0; i < kCells; ++i)
+      if (names_[i] == name) return neighbours_[i];
+    const uint32_t oldest = next_;
+    next_ = (next_ + 1) % kCells;
+    names_[oldest] = name;
+    neighbours_[oldest].gather(features, cell);
+    return neighbours_[oldest];
   }
 
 private:
-  static constexpr uint32_t kNoTable = ~0u;
-  static constexpr uint32_t kCells = tuning::kCachedNeighbours;
-  struct Key {
-    uint32_t table, cell[3];
-  };
+  static constexpr uint64_t kNone = ~uint64_t{0};
+  static constexpr uint32_t kCells = S::kLanes;
 
-  Key keys_[kCells];
+  uint64_t names_[kCells];
+  uint32_t next_ = 0;
   FeatureNeighbours<S> neighbours_[kCells];
 };
 

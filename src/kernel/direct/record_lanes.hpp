@@ -1,6 +1,7 @@
 // Records of a packet's lanes side by side, read where they lie. Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/primitives/shapes_module.hpp"
 #include "kernel/scene_access.hpp"
 
@@ -47,9 +48,9 @@ template <class S> struct ObjectWords {
 
 /// The objects at `offsets`, all at once: that takes less than each by itself where there are several.
 template <class Spu>
-[[gnu::noinline]] void load_objects(SceneAccess<Spu>& scene, const WordLanes& offsets,
-                                    ObjectLanes<typename Spu::simd>& objects,
-                                    ObjectWords<typename Spu::simd>& words) {
+CELLTRACE_ONE_COPY void load_objects(SceneAccess<Spu>& scene, const WordLanes& offsets,
+                                     ObjectLanes<typename Spu::simd>& objects,
+                                     ObjectWords<typename Spu::simd>& words) {
   using S = typename Spu::simd;
   using F = typename S::F;
   using I = typename S::I;

@@ -5,6 +5,7 @@
 // objects meet, packets may find another: their tests of nodes may leave out a box that a ray only touches.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/accel/frustum.hpp"
 #include "kernel/accel/object_tests.hpp"
 #include "kernel/accel/packet_traversal.hpp"
@@ -218,7 +219,7 @@ private:
   }
 
   /// Any other object, by the test that packets have.
-  [[gnu::noinline]] void test_other(uint32_t self, Ray& ray) {
+  CELLTRACE_ONE_COPY void test_other(uint32_t self, Ray& ray) {
     using F = typename S::F;
     const RayPacket& packet = ray.as_packet();
     HitPacket& hits = ray.hits;

@@ -6,6 +6,7 @@
 // quads share corners.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/lights/incident_light.hpp"
 #include "kernel/lights/list.hpp"
 #include "kernel/modules.hpp"
@@ -47,8 +48,7 @@ template <class S> typename S::F jitter(uint32_t place, const float* lanes) {
 /// From the middle of a light to a place on it, which is seen from where it is `to_middle` to the middle. Of
 /// a packet's part from lane `first` on.
 template <class S>
-V3<S> offset_of(const LightRecord& light, const V3<S>& to_middle, const LightPlace& place,
-                                  uint32_t first) {
+V3<S> offset_of(const LightRecord& light, const V3<S>& to_middle, const LightPlace& place, uint32_t first) {
   using F = typename S::F;
   const uint32_t flags = light.kind_and_flags;
   F u(static_cast<float>(place.column)), v(static_cast<float>(place.row));
@@ -99,8 +99,8 @@ void aim_part(const LightRecord& light, const V3<S>& points, const V3<S>& to_mid
 }
 template <class Spu>
 void aim(const LightRecord& light, const V3<typename Spu::simd>& points,
-                           const V3<typename Spu::simd>& to_middle, const LightPlace& place,
-                           V3<typename Spu::simd>& direction, typename Spu::simd::F& distance) {
+         const V3<typename Spu::simd>& to_middle, const LightPlace& place, V3<typename Spu::simd>& direction,
+         typename Spu::simd::F& distance) {
   using R = typename Spu::rare_simd;
   for_each_part<Spu>([&](uint32_t first) {
     IncidentLight<R> from_place;
@@ -112,10 +112,10 @@ void aim(const LightRecord& light, const V3<typename Spu::simd>& points,
 
 /// Makes of the light of the middle, of the same colour, that of a place.
 template <class Spu>
-[[gnu::noinline]] void aim_shadow_rays(Spu& spu, const LightRecord& light,
-                                       const Surfaces<typename Spu::simd>& s, const LightPlace& place,
-                                       const IncidentLight<typename Spu::simd>& middle,
-                                       IncidentLight<typename Spu::simd>& from_place) {
+CELLTRACE_ONE_COPY void aim_shadow_rays(Spu& spu, const LightRecord& light,
+                                        const Surfaces<typename Spu::simd>& s, const LightPlace& place,
+                                        const IncidentLight<typename Spu::simd>& middle,
+                                        IncidentLight<typename Spu::simd>& from_place) {
   spu.run_in_module(modules::kAreas);
   aim<Spu>(light, s.point, middle.direction * middle.distance, place, from_place.direction,
            from_place.distance);
@@ -196,8 +196,8 @@ template <class S> struct AreaShadow {
 namespace module_areas {
 
 template <class S>
-[[gnu::noinline]] void begin_area(const LightRecord& light, const Surfaces<S>& s,
-                                  const IncidentLight<S>& incident, AreaShadow<S>& a) {
+CELLTRACE_ONE_COPY void begin_area(const LightRecord& light, const Surfaces<S>& s,
+                                   const IncidentLight<S>& incident, AreaShadow<S>& a) {
   using F = typename S::F;
   a.to_place->rays.origin.template store<S>(s.point);
   a.to_place->rays.start_object = *s.objects;
@@ -258,7 +258,7 @@ V3<typename Spu::rare_simd> colour_of(const AreaShadow<typename Spu::simd>& a, u
 /// Of the lanes in which a corner is tinted, those in which neighbouring corners differ so much that the quad
 /// is looked at closer.
 template <class Spu>
-[[gnu::noinline]] uint32_t disagreement(const AreaShadow<typename Spu::simd>& a, uint32_t tinted) {
+CELLTRACE_ONE_COPY uint32_t disagreement(const AreaShadow<typename Spu::simd>& a, uint32_t tinted) {
   using R = typename Spu::rare_simd;
   using F = typename R::F;
   constexpr uint32_t kRound[] = {0, 1, 3, 2};
@@ -275,7 +275,7 @@ template <class Spu>
 }
 /// Adds `weight` times the corners to what comes tinted.
 template <class Spu>
-[[gnu::noinline]] void add_tinted(AreaShadow<typename Spu::simd>& a, uint32_t lanes, float weight) {
+CELLTRACE_ONE_COPY void add_tinted(AreaShadow<typename Spu::simd>& a, uint32_t lanes, float weight) {
   using R = typename Spu::rare_simd;
   using F = typename R::F;
   for_each_part<Spu>([&](uint32_t first) {
@@ -334,7 +334,7 @@ template <class Spu> void finish_quad(const LightRecord& light, AreaShadow<typen
 
 /// False: there is nothing more to look at.
 template <class Spu>
-[[gnu::noinline]] bool next_sample(Spu& spu, const LightRecord& light, AreaShadow<typename Spu::simd>& a) {
+CELLTRACE_ONE_COPY bool next_sample(Spu& spu, const LightRecord& light, AreaShadow<typename Spu::simd>& a) {
   using S = typename Spu::simd;
   using F = typename S::F;
   spu.run_in_module(modules::kAreas);
@@ -369,7 +369,7 @@ template <class Spu>
 /// Leaves of what surfaces would send on of the whole light what they do of its sum. That is 0 where the
 /// light was not asked for.
 template <class Spu>
-[[gnu::noinline]] void dim(Spu& spu, const AreaShadow<typename Spu::simd>& a, VectorLanes& sent) {
+CELLTRACE_ONE_COPY void dim(Spu& spu, const AreaShadow<typename Spu::simd>& a, VectorLanes& sent) {
   using R = typename Spu::rare_simd;
   using F = typename R::F;
   spu.run_in_module(modules::kAreas);

@@ -1,6 +1,7 @@
 // The lights of a frame, and what each sends to surfaces. Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/lights/attenuation.hpp"
 #include "kernel/lights/list.hpp"
 #include "kernel/lights/parallel.hpp"
@@ -38,9 +39,9 @@ uint32_t lanes_of_its_objects(SceneAccess<Spu>& scene, const LightRecord& light,
 
 /// Takes of the light that has been aimed what its beam and its distance leave.
 template <class Spu>
-[[gnu::noinline]] void attenuate(SceneAccess<Spu>& scene, const LightRecord& light,
-                                 const Surfaces<typename Spu::simd>& s,
-                                 IncidentLight<typename Spu::simd>& incident) {
+CELLTRACE_ONE_COPY void attenuate(SceneAccess<Spu>& scene, const LightRecord& light,
+                                  const Surfaces<typename Spu::simd>& s,
+                                  IncidentLight<typename Spu::simd>& incident) {
   using S = typename Spu::simd;
   using F = typename S::F;
   scene.spu().run_in_module(modules::kLights);
@@ -58,9 +59,9 @@ template <class Spu>
 
 /// From the light of a point in the same place to that of a source that is not plain.
 template <class Spu>
-[[gnu::noinline]] void shape(SceneAccess<Spu>& scene, const LightRecord& light,
-                             const Surfaces<typename Spu::simd>& s, uint32_t lanes,
-                             IncidentLight<typename Spu::simd>& incident) {
+CELLTRACE_ONE_COPY void shape(SceneAccess<Spu>& scene, const LightRecord& light,
+                              const Surfaces<typename Spu::simd>& s, uint32_t lanes,
+                              IncidentLight<typename Spu::simd>& incident) {
   scene.spu().run_in_module(modules::kLights);
   if ((light.kind_and_flags & light_flag::selective) != 0) {
     lanes = lanes_of_its_objects(scene, light, *s.objects, lanes);
@@ -71,8 +72,8 @@ template <class Spu>
 }
 
 template <class Spu>
-[[gnu::noinline]] void aim_parallel(Spu& spu, const LightRecord& light, const V3<typename Spu::simd>& points,
-                                    IncidentLight<typename Spu::simd>& incident) {
+CELLTRACE_ONE_COPY void aim_parallel(Spu& spu, const LightRecord& light, const V3<typename Spu::simd>& points,
+                                     IncidentLight<typename Spu::simd>& incident) {
   using S = typename Spu::simd;
   spu.run_in_module(modules::kLights);
   kernel::aim_parallel<S>(light, points, incident);

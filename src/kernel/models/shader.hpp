@@ -2,6 +2,7 @@
 // question under way most of the time. Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/models/arrived_light.hpp"
 #include "kernel/models/primary_feed.hpp"
 #include "kernel/models/search_writer.hpp"
@@ -197,7 +198,7 @@ private:
     return true;
   }
   /// Not inlined: its surfaces are not on the stack while hits are shaded.
-  [[gnu::noinline]] void ask_for_light(Context& context, const LightRound& round) {
+  CELLTRACE_ONE_COPY void ask_for_light(Context& context, const LightRound& round) {
     const RayPacket& rays = context.tracer.node().rays;
     Surfaces<S> surfaces =
         context.points.surfaces(rays.direction.template load<S>(), context.tracer.hits().object);
@@ -263,7 +264,7 @@ private:
     go_on(number);
   }
   /// Not inlined: its surfaces are not on the stack while hits are shaded.
-  [[gnu::noinline]] void take_areas(Context& context, const LightRound& round) {
+  CELLTRACE_ONE_COPY void take_areas(Context& context, const LightRound& round) {
     const RayPacket& rays = context.tracer.node().rays;
     const WordLanes& objects = context.tracer.hits().object;
     Surfaces<S> surfaces = context.points.surfaces(rays.direction.template load<S>(), objects);

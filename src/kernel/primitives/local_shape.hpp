@@ -9,6 +9,7 @@
 //   surface local_bounds(ratio)
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/aabb.hpp"
 #include "kernel/primitives/crossings.hpp"
 #include "kernel/records.hpp"
@@ -101,7 +102,7 @@ struct LocalToWorld {
 };
 
 /// The bounds of a shape in the world.
-[[gnu::noinline]] inline Aabb bounds_in_world(const float (&map)[12], const LocalBounds& local) {
+CELLTRACE_ONE_COPY inline Aabb bounds_in_world(const float (&map)[12], const LocalBounds& local) {
   const LocalToWorld world(map);
   Aabb box;
   for (int i = 0; i < 3; ++i) {
@@ -117,7 +118,7 @@ struct LocalToWorld {
 }
 
 /// Those of the unit sphere.
-[[gnu::noinline]] inline Aabb round_bounds_in_world(const float (&map)[12]) {
+CELLTRACE_ONE_COPY inline Aabb round_bounds_in_world(const float (&map)[12]) {
   const LocalToWorld world(map);
   Aabb box;
   for (int i = 0; i < 3; ++i) {

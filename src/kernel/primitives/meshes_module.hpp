@@ -1,6 +1,7 @@
 // The code module of the insides of meshes. Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/modules.hpp"
 #include "kernel/primitives/local_shape.hpp"
 #include "kernel/scene_access.hpp"
@@ -31,8 +32,8 @@ template <class S>
 
 /// Which of the points in `lanes` are in a mesh. `solid`: of its SolidRecord.
 template <class Spu>
-[[gnu::noinline]] uint32_t inside(SceneAccess<Spu>& scene, const ObjectRecord& solid,
-                                  const V3<typename Spu::simd>& points, uint32_t lanes) {
+CELLTRACE_ONE_COPY uint32_t inside(SceneAccess<Spu>& scene, const ObjectRecord& solid,
+                                   const V3<typename Spu::simd>& points, uint32_t lanes) {
   using S = typename Spu::simd;
   using F = typename S::F;
   using I = typename S::I;

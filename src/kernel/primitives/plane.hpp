@@ -1,14 +1,15 @@
 // Plane: z = 0 of its space; the half-space z < 0 is inside. Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/primitives/local_shape.hpp"
 
 namespace celltrace::kernel {
 
 /// Of the map, only the third row: the unit normal, and minus the distance.
 template <class S>
-[[gnu::noinline]] void intersect_plane(const RayPacket& rays, const ObjectRecord& object, uint32_t self,
-                                       Crossings<S>& c) {
+CELLTRACE_ONE_COPY void intersect_plane(const RayPacket& rays, const ObjectRecord& object, uint32_t self,
+                                        Crossings<S>& c) {
   using F = typename S::F;
   const V3<S> normal = splat3<S>(object.geometry + 8);
   const F height = dot<S>(normal, rays.origin.template load<S>()) + F(object.geometry[11]);

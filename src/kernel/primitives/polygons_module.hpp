@@ -1,6 +1,7 @@
 // The code module of polygons. Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/modules.hpp"
 #include "kernel/primitives/polygon.hpp"
 #include "kernel/scene_access.hpp"
@@ -12,8 +13,8 @@ namespace module_polygons {
 /// Leaves the crossings that are in a polygon: an odd number of its edges is to one side of them. An end that
 /// two edges share counts as part of one of them, as rows are half-open intervals.
 template <class Spu>
-[[gnu::noinline]] void cut_out(SceneAccess<Spu>& scene, const ExtraRecord& extra,
-                               Crossings<typename Spu::simd>& c) {
+CELLTRACE_ONE_COPY void cut_out(SceneAccess<Spu>& scene, const ExtraRecord& extra,
+                                Crossings<typename Spu::simd>& c) {
   using S = typename Spu::simd;
   using F = typename S::F;
   scene.spu().run_in_module(modules::kPolygons);

@@ -3,6 +3,7 @@
 // Spheres and triangles that are no parts of CSG do not come here: their code is always resident.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/modules.hpp"
 #include "kernel/primitives/list.hpp"
 
@@ -80,9 +81,9 @@ namespace module_heavy {
 
 /// As module_shapes::intersect(), of heavy shapes, which take so many lanes at a time as rare code does.
 template <class Spu>
-[[gnu::noinline]] uint32_t intersect(Spu& spu, const RayPacket& rays, const ObjectRecord& object,
-                                     const ExtraRecord& extra, uint32_t self,
-                                     Crossings<typename Spu::simd>* crossings) {
+CELLTRACE_ONE_COPY uint32_t intersect(Spu& spu, const RayPacket& rays, const ObjectRecord& object,
+                                      const ExtraRecord& extra, uint32_t self,
+                                      Crossings<typename Spu::simd>* crossings) {
   using R = typename Spu::rare_simd;
   spu.run_in_module(modules::kHeavyShapes);
   uint32_t pairs = 0;
@@ -141,16 +142,16 @@ namespace module_heavy_points {
 
 /// As module_shapes::inside(), of shapes with heavy points.
 template <class Spu>
-[[gnu::noinline, gnu::flatten]] uint32_t inside(Spu& spu, const SolidRecord& solid,
-                                                const V3<typename Spu::simd>& points) {
+CELLTRACE_ONE_COPY [[gnu::flatten]] uint32_t inside(Spu& spu, const SolidRecord& solid,
+                                                    const V3<typename Spu::simd>& points) {
   spu.run_in_module(modules::kHeavyPoints);
   return inside_heavy<Spu, true>(solid, points);
 }
 
 /// As local_normal(), of shapes with heavy points.
 template <class Spu>
-[[gnu::noinline]] V3<typename Spu::rare_simd> normal(Spu& spu, const ObjectLanes<typename Spu::rare_simd>& o,
-                                                     const V3<typename Spu::rare_simd>& point) {
+CELLTRACE_ONE_COPY V3<typename Spu::rare_simd> normal(Spu& spu, const ObjectLanes<typename Spu::rare_simd>& o,
+                                                      const V3<typename Spu::rare_simd>& point) {
   spu.run_in_module(modules::kHeavyPoints);
   return normal_in_own_space<typename Spu::rare_simd, true>(o, point);
 }
@@ -162,9 +163,9 @@ namespace module_shapes {
 /// The crossings of a packet with an object; returns how many pairs. Rays are transformed in one place for
 /// all shapes that want it: local store is short.
 template <class Spu>
-[[gnu::noinline]] uint32_t intersect(Spu& spu, const RayPacket& rays, const ObjectRecord& object,
-                                     const ExtraRecord& extra, uint32_t self,
-                                     Crossings<typename Spu::simd>* crossings) {
+CELLTRACE_ONE_COPY uint32_t intersect(Spu& spu, const RayPacket& rays, const ObjectRecord& object,
+                                      const ExtraRecord& extra, uint32_t self,
+                                      Crossings<typename Spu::simd>* crossings) {
   using S = typename Spu::simd;
   spu.run_in_module(modules::kShapes);
   const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
@@ -189,7 +190,7 @@ template <class Spu>
 
 /// Which of the points are in a solid whose points are not heavy.
 template <class Spu>
-[[gnu::noinline]] uint32_t inside(Spu& spu, const SolidRecord& solid, const V3<typename Spu::simd>& points) {
+CELLTRACE_ONE_COPY uint32_t inside(Spu& spu, const SolidRecord& solid, const V3<typename Spu::simd>& points) {
   using S = typename Spu::simd;
   spu.run_in_module(modules::kShapes);
   const uint32_t kind = solid.object.kind_and_flags & object_flag::kind_mask;
@@ -210,7 +211,7 @@ template <class Spu>
 } // namespace module_shapes
 
 /// The unit normals of shapes in a space of their own whose points are not heavy.
-template <class S> [[gnu::noinline]] V3<S> local_normal(const ObjectLanes<S>& o, const V3<S>& point) {
+template <class S> CELLTRACE_ONE_COPY V3<S> local_normal(const ObjectLanes<S>& o, const V3<S>& point) {
   return normal_in_own_space<S, false>(o, point);
 }
 

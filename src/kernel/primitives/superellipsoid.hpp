@@ -8,6 +8,7 @@
 // into intervals, in each of which the root turns once at most.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/primitives/local_shape.hpp"
 
 namespace celltrace::kernel {
@@ -143,7 +144,7 @@ private:
     }
 
     /// The root of the sum, less 1: below 0 inside.
-    [[gnu::noinline]] void at(const F& t, F& value, F& slope) const {
+    CELLTRACE_ONE_COPY void at(const F& t, F& value, F& slope) const {
       const V3<S> p = o + d * t;
       const Terms<S> terms(p, exponents);
       value = terms.root() - F(1.0f);
@@ -152,7 +153,7 @@ private:
 
     /// Of the rays `wanted`, those that cross a convex shape: `near` and `far`, which are outside before and
     /// behind it, move to the crossings. The result of a ray depends on no other ray.
-    [[gnu::noinline]] M cross_convex(F& near, F& far, M wanted) const {
+    CELLTRACE_ONE_COPY M cross_convex(F& near, F& far, M wanted) const {
       const F zero(0.0f);
       for (int end = 0; end < 2; ++end) {
         const F ahead(end == 0 ? 1.0f : -1.0f), limit = end == 0 ? far : near;
@@ -224,7 +225,7 @@ private:
   private:
     /// Of the rays `wanted`, which are on the same side at `low` and `high`, those that are on the other one
     /// in between: there `high` becomes a place where they are.
-    [[gnu::noinline]] M other_side(F low, F& high, const M& outside, M wanted) const {
+    CELLTRACE_ONE_COPY M other_side(F low, F& high, const M& outside, M wanted) const {
       M found = M::none();
       if (wanted.bits() == 0) return found;
       const F zero(0.0f), sign = S::select(outside, F(1.0f), F(-1.0f));
@@ -261,7 +262,7 @@ private:
 
     /// Of the rays `wanted`, the crossing between `low` and `high`; `falls`: outside at `low`. The result of
     /// a ray depends on no other ray.
-    [[gnu::noinline]] F root_between(F low, F high, const M& falls, M wanted) const {
+    CELLTRACE_ONE_COPY F root_between(F low, F high, const M& falls, M wanted) const {
       const F sign = S::select(falls, F(-1.0f), F(1.0f)), half(0.5f);
       F t = (low + high) * half;
       for (int i = 0; i < 20 && wanted.bits() != 0; ++i) {

@@ -2,6 +2,7 @@
 // these differ (after Whitted 1980). Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/program/pixel_sampler.hpp"
 
 namespace celltrace::kernel {
@@ -39,7 +40,7 @@ public:
         sums_(*spu.template allocate<Sums>()) {}
 
   /// As FixedSampler's.
-  [[gnu::noinline]] bool advance(uint32_t column, uint32_t row) {
+  CELLTRACE_ONE_COPY bool advance(uint32_t column, uint32_t row) {
     if (takes_points(column, row)) return false;
     if (under_way_)
       divide_squares();
@@ -55,7 +56,7 @@ private:
     alignas(64) float row[kRows][kChannels][kSampledEdge];
   };
 
-  [[gnu::noinline]] void begin_block(uint32_t column, uint32_t row) {
+  CELLTRACE_ONE_COPY void begin_block(uint32_t column, uint32_t row) {
     go_to_block(column, row);
     next_row_ = 0;
     rows_ = 0;
@@ -68,7 +69,7 @@ private:
 
   /// Makes the samples of as many squares as there is room for, the last ones first. False: the block is
   /// done.
-  [[gnu::noinline]] bool ask_for_squares() {
+  CELLTRACE_ONE_COPY bool ask_for_squares() {
     while (waiting_ == 0) {
       if (rows_ != 0) write_rows();
       if (next_row_ == height_) return false;
@@ -97,7 +98,7 @@ private:
   static float edge_of(const Square& square) { return 1.0f / static_cast<float>(1u << square.level); }
 
   /// The next rows of pixels: those whose corners are alike are done, of the others the squares wait.
-  [[gnu::noinline]] void compare_corners() {
+  CELLTRACE_ONE_COPY void compare_corners() {
     first_row_ = next_row_;
     rows_ = smaller_of(height_ - next_row_, kRows);
     next_row_ += rows_;
@@ -156,18 +157,18 @@ private:
     push(square);
   }
   /// `square` lies in local store.
-  [[gnu::noinline]] void push(const Square& square) {
+  CELLTRACE_ONE_COPY void push(const Square& square) {
     send(&square, stored_square(waiting_++), sizeof square);
     arrive();
   }
 
   /// Makes four of each square that was asked for: those whose corners are alike are done, the others wait.
-  [[gnu::noinline]] void divide_squares() {
+  CELLTRACE_ONE_COPY void divide_squares() {
     fetch_squares();
     for (uint32_t i = 0; i < asked_; ++i)
       divide(scratch().squares[i], i * kSamplesOfSquare);
   }
-  [[gnu::noinline]] void divide(Square& square, uint32_t first) {
+  CELLTRACE_ONE_COPY void divide(Square& square, uint32_t first) {
     // Nine points, row by row: corners are known, what is between them are samples.
     float points[9][kChannels];
     for (uint32_t axis = 0; axis < kChannels; ++axis)
@@ -208,21 +209,12 @@ private:
     }
   }
   /// By how much two colours differ.
-  [[gnu::always_inline]] static float distance_inline(const float* a, const float* b) {
+  CELLTRACE_ONE_COPY static float distance(const float* a, const float* b) {
     const float sum = magnitude(a[0] - b[0]) + magnitude(a[1] - b[1]) + magnitude(a[2] - b[2]);
     if constexpr (kHasAlpha)
       return sum + magnitude(a[3] - b[3]);
     else
       return sum;
-  }
-  [[gnu::noinline]] static float distance_out_of_line(const float* a, const float* b) {
-    return distance_inline(a, b);
-  }
-  static float distance(const float* a, const float* b) {
-    if constexpr (kHasRoomForCode<Spu>)
-      return distance_inline(a, b);
-    else
-      return distance_out_of_line(a, b);
   }
   bool differ(const float* encoded, const uint32_t (&corners)[4]) const {
     for (uint32_t i = 1; i < 4; ++i)
@@ -234,7 +226,7 @@ private:
   }
 
   /// Pixels take the place of the corners in the picture.
-  [[gnu::noinline]] void write_rows() {
+  CELLTRACE_ONE_COPY void write_rows() {
     for (uint32_t y = 0; y < rows_; ++y) {
       encode_pixels_of(sums_.row[y], scratch().words);
       const ea_t to = frame_.surface + (row_ * kSampledEdge + first_row_ + y) * frame_.surface_pitch +

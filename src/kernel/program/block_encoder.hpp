@@ -6,6 +6,7 @@
 // where they are floats, so that nothing rounds: the same pixels become the same block on every machine.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/packet.hpp"
 
 namespace celltrace::kernel {
@@ -25,7 +26,7 @@ template <class S> struct Fit {
 };
 
 /// Of sixteen whole numbers, whose sum is below 2^24.
-template <class S> [[gnu::noinline]] float sum_of(const typename S::F& numbers) {
+template <class S> CELLTRACE_ONE_COPY float sum_of(const typename S::F& numbers) {
   using F4 = typename S::F4;
   alignas(64) float lane[kSimdLanes];
   numbers.store(lane);
@@ -51,7 +52,7 @@ inline void scale_to(float below, float greatest, float* numbers, uint32_t count
 
 /// The direction in which pixels differ most, by the power method; whole numbers below 1024. No length: they
 /// are all of one colour.
-template <class S> [[gnu::noinline]] void find_axis(const V3<S>& pixels, float (&axis)[3]) {
+template <class S> CELLTRACE_ONE_COPY void find_axis(const V3<S>& pixels, float (&axis)[3]) {
   using F = typename S::F;
   constexpr uint32_t kIterations = 8;
   const auto mean_of = [](const F& channel) { return F(whole(sum_of<S>(channel) * 0.0625f + 0.5f)); };
@@ -104,8 +105,8 @@ inline void channels_of(uint32_t end, uint32_t (&channel)[3]) {
 
 /// The best that pixels can become between two ends. Those in `lanes` count.
 template <class S>
-[[gnu::noinline]] void fit(const V3<S>& pixels, uint32_t lanes, uint32_t end_a, uint32_t end_b,
-                           Fit<S>& result) {
+CELLTRACE_ONE_COPY void fit(const V3<S>& pixels, uint32_t lanes, uint32_t end_a, uint32_t end_b,
+                            Fit<S>& result) {
   using F = typename S::F;
   // The greater one is the first: otherwise there would be three colours only.
   result.ends[0] = end_a > end_b ? end_a : end_b;
@@ -144,7 +145,7 @@ inline uint32_t steps_of(int32_t number, int32_t whole, uint32_t most) {
 
 /// The ends that suit the pixels' thirds best, by least squares; false if these do not tell.
 template <class S>
-[[gnu::noinline]] bool improve_ends(const V3<S>& pixels, const typename S::F& thirds, uint32_t (&ends)[2]) {
+CELLTRACE_ONE_COPY bool improve_ends(const V3<S>& pixels, const typename S::F& thirds, uint32_t (&ends)[2]) {
   using F = typename S::F;
   const F rest = F(3.0f) - thirds;
   const auto whole_sum = [](const F& numbers) { return static_cast<int32_t>(sum_of<S>(numbers)); };
@@ -183,7 +184,7 @@ template <class S> V3<S> channels_of_pixels(const uint32_t* pixels) {
 /// The block of a packet of pixels whose bytes lie as R, G, B, A. Those in `lanes` count, which are some; the
 /// others are to have colours of theirs.
 template <class S>
-[[gnu::noinline]] void encode_block(const WordLanes& pixels, uint32_t lanes, EncodedBlock& encoded) {
+CELLTRACE_ONE_COPY void encode_block(const WordLanes& pixels, uint32_t lanes, EncodedBlock& encoded) {
   using F = typename S::F;
   constexpr uint32_t kImprovements = 3;
   const V3<S> colours = block::channels_of_pixels<S>(pixels.lane);

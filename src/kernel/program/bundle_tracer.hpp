@@ -2,6 +2,7 @@
 // together; from there on each packet's tree of rays is worked off by itself. Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/accel/traversal.hpp"
 #include "kernel/cameras/primary_rays.hpp"
 #include "kernel/program/bundle_pool.hpp"
@@ -186,7 +187,7 @@ private:
 
   /// Finds out what comes of the light that has been gathered at what the primary rays hit. Not inlined:
   /// records of lights are not on the stack while rays are shaded.
-  [[gnu::noinline]] void find_lights() {
+  CELLTRACE_ONE_COPY void find_lights() {
     const LightRound lights = LightRound::from(frame_, 0, nullptr);
     shadows_.set_interiors(nullptr);
     for_each_light(scene_, frame_, 0, lights.count, [&](uint32_t number, const LightRecord& light) {
@@ -202,7 +203,7 @@ private:
       if (member.hit == 0) continue;
       scene_.spu().compute(scalar_work::kBundleLight);
       VectorLanes& colour = member.light[number];
-      const uint32_t lanes = lanes_above<Spu>(colour, member.hit, kLeastLight);
+      const uint32_t lanes = lanes_above<S>(colour, member.hit, kLeastLight);
       if (lanes == 0 || by_packet) {
         shadows_.trace(light, member.to_light, member.point, member.shaded.object, is_aimed(number, 0), lanes,
                        colour);
@@ -216,7 +217,7 @@ private:
   /// Works off the trees of all packets. What the first round gathers of the roots' light is asked for when
   /// all roots have been shaded, for all of them together, and added last: so the sum does not depend on who
   /// traces what when. False: it was stopped on the way.
-  template <class Stopped> [[gnu::noinline]] bool trace_trees(Stopped stopped) {
+  template <class Stopped> CELLTRACE_ONE_COPY bool trace_trees(Stopped stopped) {
     const bool hints = kPrefetchesLines<Spu> && frame_.object_count > tuning::kObjectsInCoreCache;
     if constexpr (kPoolsRays<Spu>) begin_pooling();
     for (uint32_t i = 0; i < kPackets; ++i) {
@@ -244,7 +245,7 @@ private:
            (frame_.light_ways & light_way::first_hits) != 0;
   }
   /// Puts to main memory what the primary rays of a member hit.
-  [[gnu::noinline]] void put_first_hits(Member& member) {
+  CELLTRACE_ONE_COPY void put_first_hits(Member& member) {
     scene_.spu().run_in_module(modules::kFirstHits);
     const ea_t table = frame_.grid_points + frame_.packet_columns * frame_.packet_rows * kGridPacketBytes;
     const HitPoints<S>& points = store_.points;
@@ -305,10 +306,10 @@ private:
   }
   // Not inlined: one copy of each saves local store, and their vectors are not on the stack while others run.
 
-  [[gnu::noinline]] uint32_t take_hits() { return tracer_.take_hits(); }
+  CELLTRACE_ONE_COPY uint32_t take_hits() { return tracer_.take_hits(); }
   /// Shades what the rays of the node have hit that is being traced. If it is a member's root, the light of
   /// the first round is left where it is gathered.
-  [[gnu::noinline]] void shade_node(Member* root) {
+  CELLTRACE_ONE_COPY void shade_node(Member* root) {
     const uint32_t hit = kHasRoomForCode<Spu> ? tracer_.take_hits() : take_hits();
     if (hit == 0) return;
     if (!kHasRoomForCode<Spu> || root == nullptr)
@@ -407,7 +408,7 @@ private:
     return true;
   }
   /// Takes to their pixels what comes of a light to points that have waited.
-  [[gnu::noinline]] void light_queued(const LightRecord& light, QueuedPoints& points, uint32_t lanes) {
+  CELLTRACE_ONE_COPY void light_queued(const LightRecord& light, QueuedPoints& points, uint32_t lanes) {
     shadows_.set_interiors(&points.interiors);
     shadows_.trace(light, store_.lit.to_light, points.point.template load<S>(), points.object, false, lanes,
                    points.light);
@@ -415,7 +416,7 @@ private:
   }
 
   /// The light of a round at the hits of the node that is being traced.
-  [[gnu::noinline]] void light_packet(uint32_t hit, const LightRound& round) {
+  CELLTRACE_ONE_COPY void light_packet(uint32_t hit, const LightRound& round) {
     for_each_light(scene_, frame_, round.first, round.count, [&](uint32_t number, const LightRecord& light) {
       if (!is_asked_for(light)) return;
       VectorLanes& colour = round.gathered[number - round.first];

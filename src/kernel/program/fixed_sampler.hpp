@@ -6,6 +6,7 @@
 // missing.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/program/pixel_sampler.hpp"
 
 namespace celltrace::kernel {
@@ -51,7 +52,7 @@ public:
 
   /// Takes the colours of the bundle or block at (column, row); those of samples were asked for by the call
   /// before. True: the block needs those that `samples` now has, too.
-  [[gnu::noinline]] bool advance(uint32_t column, uint32_t row) {
+  CELLTRACE_ONE_COPY bool advance(uint32_t column, uint32_t row) {
     if (takes_points(column, row)) return false;
     if (under_way_)
       take_samples();
@@ -77,14 +78,14 @@ private:
     BlockMask known;       ///< has a colour in the store
   };
 
-  [[gnu::noinline]] void begin_block(uint32_t column, uint32_t row) {
+  CELLTRACE_ONE_COPY void begin_block(uint32_t column, uint32_t row) {
     go_to_block(column, row);
     compare_pixels();
     compare_again();
   }
 
   /// The neighbours that pixels differ from, before any of them is sampled.
-  [[gnu::noinline]] void compare_pixels() {
+  CELLTRACE_ONE_COPY void compare_pixels() {
     const SampleLanes* packets = nullptr;
     for (uint32_t line = 0; line <= height_; ++line) {
       if (line % kPacketEdge == 0) packets = packets_of_row(line);
@@ -104,7 +105,7 @@ private:
 
   /// Compares all pixels in POV-Ray's order, each with what the ones before it have become. Of pixels that
   /// are to be sampled and are not yet, the colour counts that they have.
-  [[gnu::noinline]] void compare_again() {
+  CELLTRACE_ONE_COPY void compare_again() {
     uint32_t over = 0, known_over = 0; // of the row above
     for (uint32_t y = 0; y < height_; ++y) {
       const uint32_t left = masks_.left.row[y], above = masks_.above.row[y];
@@ -133,7 +134,7 @@ private:
   }
 
   /// Which pixels of a row differ from the means of their left and upper neighbours, of those that are known.
-  [[gnu::noinline]] void compare_with_means(uint32_t y, uint32_t& left, uint32_t& above) {
+  CELLTRACE_ONE_COPY void compare_with_means(uint32_t y, uint32_t& left, uint32_t& above) {
     const Points& own = *found_at(encoded_row(y + 1), &scratch().encoded[0]);
     MeanRow& means = scratch().means;
     if (masks_.known.row[y] != 0) {
@@ -144,7 +145,7 @@ private:
     read_means(y - 1, means);
     above = differing(own, 1, means, 1);
   }
-  [[gnu::noinline]] void read_means(uint32_t y, MeanRow& means) {
+  CELLTRACE_ONE_COPY void read_means(uint32_t y, MeanRow& means) {
     using W = typename Base::S::F;
     const Colour* const row = found_at(encoded_colour(0, y), scratch().colours, kSampledEdge * kColourBytes);
     for (uint32_t x = 0; x < kSampledEdge; x += kSimdLanes) {
@@ -167,7 +168,7 @@ private:
     return stored_colour(0, 2 * kSampledEdge) + y * static_cast<uint32_t>(sizeof(Points));
   }
   /// The colour of a point, x and y from the block's first one on.
-  [[gnu::noinline]] void fetch_point(uint32_t x, uint32_t y, Colour& colour) {
+  CELLTRACE_ONE_COPY void fetch_point(uint32_t x, uint32_t y, Colour& colour) {
     const uint32_t column = column_ * kSampledEdge + x;
     const uint32_t line = row_ * kSampledEdge + y;
     const ea_t packet = packet_of_points(column / kPacketEdge, line / kPacketEdge);
@@ -197,7 +198,7 @@ private:
   }
 
   /// Makes as many samples as there is room for. False: the block is done.
-  [[gnu::noinline]] bool ask_for_pixels() {
+  CELLTRACE_ONE_COPY bool ask_for_pixels() {
     const uint32_t depth = frame_.sampling.depth;
     const float step = 1.0f / static_cast<float>(depth);
     uint32_t count = 0;
@@ -240,7 +241,7 @@ private:
     return true;
   }
 
-  [[gnu::noinline]] void take_samples() {
+  CELLTRACE_ONE_COPY void take_samples() {
     const uint32_t depth = frame_.sampling.depth;
     const float share = 1.0f / static_cast<float>(depth * depth + 1);
     Cursor taken = taken_;
@@ -279,7 +280,7 @@ private:
     send_object(scratch().means_of[number], stored_colour(x, y));
   }
   /// What so many means are compared by.
-  [[gnu::noinline]] void encode_means(uint32_t count) {
+  CELLTRACE_ONE_COPY void encode_means(uint32_t count) {
     arrive();
     for (uint32_t i = 3 * count; i < 3 * R::kLanes; ++i)
       scratch().encoding[i] = 0.0f;
@@ -295,7 +296,7 @@ private:
   }
 
   /// Pixels that are sampled replace those of the grid in the picture.
-  [[gnu::noinline]] void write_sampled() {
+  CELLTRACE_ONE_COPY void write_sampled() {
     for (uint32_t y = 0; y < height_; ++y) {
       const uint32_t sampled = masks_.sampled.row[y];
       if (sampled == 0) continue;

@@ -6,6 +6,7 @@
 // Samples of any pixels of a block are traced together, as many as a bundle has room for.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/modules.hpp"
 #include "kernel/program/pixel_writer.hpp"
 
@@ -146,7 +147,7 @@ protected:
 
   // Most of what moves is small: where memory is direct, a transfer would take longer than the copy.
 
-  [[gnu::noinline]] void fetch(void* ls, ea_t ea, uint32_t bytes) {
+  CELLTRACE_ONE_COPY void fetch(void* ls, ea_t ea, uint32_t bytes) {
     if constexpr (kReadsInPlace<Spu>) {
       __builtin_memcpy(ls, reinterpret_cast<const void*>(static_cast<uintptr_t>(ea)), bytes);
     } else {
@@ -155,7 +156,7 @@ protected:
     }
   }
   /// What is sent may be changed after arrive().
-  [[gnu::noinline]] void send(const void* ls, ea_t ea, uint32_t bytes) {
+  CELLTRACE_ONE_COPY void send(const void* ls, ea_t ea, uint32_t bytes) {
     if constexpr (kReadsInPlace<Spu>)
       __builtin_memcpy(reinterpret_cast<void*>(static_cast<uintptr_t>(ea)), ls, bytes);
     else
@@ -204,7 +205,7 @@ protected:
 
   /// The packets with a row of the grid's points at the block, of which the first is that to its upper left.
   /// Where memory is not direct they stay until others are fetched.
-  [[gnu::noinline]] const SampleLanes* packets_of_row(uint32_t row) {
+  CELLTRACE_ONE_COPY const SampleLanes* packets_of_row(uint32_t row) {
     const ea_t first =
         packet_of_points(column_ * kSampledEdge / kPacketEdge, (row_ * kSampledEdge + row) / kPacketEdge);
     return found_at(first, scratch_.packets, packets_of_block() * kGridPacketBytes);
@@ -214,7 +215,7 @@ protected:
     return smaller_of(frame_.packet_columns - column_ * kSampledEdge / kPacketEdge, Points::kPackets);
   }
   /// The points of a row, out of its packets.
-  [[gnu::noinline]] void take_points(const SampleLanes* from, uint32_t row, Points& points) const {
+  CELLTRACE_ONE_COPY void take_points(const SampleLanes* from, uint32_t row, Points& points) const {
     const uint32_t packets = packets_of_block();
     const uint32_t first = row % kPacketEdge * kPacketEdge;
     for (uint32_t axis = 0; axis < kChannels; ++axis) {
@@ -230,7 +231,7 @@ protected:
 
   /// What numbers are compared by; whole vectors of sixteen. Not exactly: few pixels are that close to the
   /// threshold.
-  [[gnu::noinline]] void encode(const float* numbers, uint32_t count, float* encoded) const {
+  CELLTRACE_ONE_COPY void encode(const float* numbers, uint32_t count, float* encoded) const {
     for (uint32_t i = 0; i < count; i += R::kLanes)
       coarse_pow<R>(F::load(numbers + i), F(frame_.sampling.inverse_gamma)).store(encoded + i);
   }
@@ -248,8 +249,8 @@ protected:
   }
   /// Where the points of a block's row differ from those of another, each counted from any one on.
   template <class Row>
-  [[gnu::noinline]] uint32_t differing(const Points& a, uint32_t first_a, const Row& b,
-                                       uint32_t first_b) const {
+  CELLTRACE_ONE_COPY uint32_t differing(const Points& a, uint32_t first_a, const Row& b,
+                                        uint32_t first_b) const {
     uint32_t bits = 0;
     for (uint32_t x = 0; x < kSampledEdge; x += R::kLanes) {
       const V3<R> difference = points_from(a, first_a + x) - points_from(b, first_b + x);
@@ -287,7 +288,7 @@ protected:
     packet.y.lane[number % kSimdLanes] = y;
   }
   /// After the last sample. Lanes that are none get its place.
-  [[gnu::noinline]] void end_asking(uint32_t count) {
+  CELLTRACE_ONE_COPY void end_asking(uint32_t count) {
     for (uint32_t packet = 0; packet < kPackets; ++packet) {
       const uint32_t first = packet * kSimdLanes;
       const uint32_t lanes = count <= first ? 0 : smaller_of(count - first, kSimdLanes);
@@ -304,7 +305,7 @@ protected:
     }
   }
   /// Jittered, and from the middle of the picture. All lanes alike, so that compilers take them together.
-  [[gnu::noinline]] void move_samples(float (&x)[kSimdLanes], float (&y)[kSimdLanes]) const {
+  CELLTRACE_ONE_COPY void move_samples(float (&x)[kSimdLanes], float (&y)[kSimdLanes]) const {
     const float amount = frame_.sampling.jitter;
     const float middle_x = frame_.camera.middle_x, middle_y = frame_.camera.middle_y;
     for (uint32_t lane = 0; lane < kSimdLanes; ++lane) {
@@ -318,7 +319,7 @@ protected:
   }
 
   /// Pixels of colours, as many as two packets.
-  [[gnu::noinline]] void encode_pixels_of(const float (*colours)[kSampledEdge], uint32_t* words) const {
+  CELLTRACE_ONE_COPY void encode_pixels_of(const float (*colours)[kSampledEdge], uint32_t* words) const {
     using W = typename S::F;
     for (uint32_t i = 0; i < kSampledEdge; i += kSimdLanes)
       encode_pixels<Spu>(frame_, {W::load(colours[0] + i), W::load(colours[1] + i), W::load(colours[2] + i)})
@@ -326,14 +327,14 @@ protected:
   }
 
   /// Of channels that lie `stride` numbers apart.
-  [[gnu::noinline]] void gather_colours(const float* channels, uint32_t stride, uint32_t count) {
+  CELLTRACE_ONE_COPY void gather_colours(const float* channels, uint32_t stride, uint32_t count) {
     for (uint32_t x = 0; x < count; ++x)
       for (uint32_t axis = 0; axis < kChannels; ++axis)
         scratch_.colours[x].channel[axis] = channels[axis * stride + x];
   }
   bool wants_colours() const { return frame_.sampling.colours_pitch != 0; }
   /// Puts some of the colours where they are wanted: x and y count from the block's first point on.
-  [[gnu::noinline]] void put_colours(uint32_t first, uint32_t count, uint32_t x, uint32_t y) {
+  CELLTRACE_ONE_COPY void put_colours(uint32_t first, uint32_t count, uint32_t x, uint32_t y) {
     const ea_t to = frame_.surface + frame_.packet_rows * kPacketEdge * frame_.surface_pitch +
                     (row_ * kSampledEdge + y) * frame_.sampling.colours_pitch +
                     (column_ * kSampledEdge + x) * kColourBytes;

@@ -2,6 +2,7 @@
 // Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "celltrace/spe/types.hpp"
 #include "kernel/math.hpp"
 #include "kernel/modules.hpp"
@@ -40,7 +41,7 @@ template <class S>
 }
 /// One copy for all channels: local store is short.
 template <class S>
-[[gnu::noinline]] typename S::I quantise_elsewhere(const FrameBlock& frame, const typename S::F& value) {
+CELLTRACE_ONE_COPY typename S::I quantise_elsewhere(const FrameBlock& frame, const typename S::F& value) {
   return quantise<S>(frame, value);
 }
 
@@ -171,7 +172,7 @@ private:
   }
 
   // One copy: local store is short.
-  [[gnu::noinline]] void send() {
+  CELLTRACE_ONE_COPY void send() {
     if (columns_ == 0) return;
     if (has_blocks()) {
       spu_.enter_module(modules::kEncoding);
@@ -207,7 +208,7 @@ private:
   bool has_blocks() const { return static_cast<FramePurpose>(frame_.purpose) == FramePurpose::blocks; }
 
   /// Blocks take the places of pixels that have been encoded.
-  [[gnu::noinline]] void send_blocks() {
+  CELLTRACE_ONE_COPY void send_blocks() {
     spu_.run_in_module(modules::kEncoding);
     Run& run = runs_[current_];
     const uint32_t rows = rows_of_run();

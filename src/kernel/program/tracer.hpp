@@ -4,6 +4,7 @@
 // and the mailbox (the neighbours' balancing, and the PPE's word that ends the frame).
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/program/bundle_tracer.hpp"
 #include "kernel/program/frame_sampler.hpp"
 #include "kernel/program/prepare_frame.hpp"
@@ -104,7 +105,7 @@ private:
     spu_.wait_all(1u << kTag);
   }
 
-  [[gnu::noinline]] void prepare() {
+  CELLTRACE_ONE_COPY void prepare() {
     spu_.run_in_module(modules::kBuild);
     drop_phase();
     const PrepareResult result = prepare_frame<Spu, kAccelerators>(spu_, frame_);
@@ -115,7 +116,7 @@ private:
   }
 
   /// Data has changed in main memory, or a frame was broken off: no word of it is valid any more.
-  [[gnu::noinline]] void synchronize() {
+  CELLTRACE_ONE_COPY void synchronize() {
     spu_.run_in_module(modules::kStart);
     while (spu_.in_mailbox_count() != 0)
       spu_.read_in_mailbox();
@@ -128,7 +129,6 @@ private:
 
   /// Those that are out of date are fetched again at their next reference.
   void mark_lines() {
-    phase_->scene.forget_gathered();
     auto& cache = phase_->scene.cache();
     if (frame_.work_entries == kAllLines) return cache.synchronize_all();
     struct alignas(kLineBytes) Lines {
@@ -161,7 +161,7 @@ private:
     spu_.enter_module(modules::kStart);
     end_frame(start, idle);
   }
-  [[gnu::noinline]] void begin_frame() {
+  CELLTRACE_ONE_COPY void begin_frame() {
     spu_.run_in_module(modules::kStart);
     if (phase_ == nullptr) start_phase();
     phase_->scene.cache().reset_counters();
@@ -173,7 +173,7 @@ private:
     units_.begin_frame(frame_);
   }
   /// `start`: the decrementer when the frame began. `idle`: ticks without work since then.
-  [[gnu::noinline]] void end_frame(uint32_t start, uint32_t idle) {
+  CELLTRACE_ONE_COPY void end_frame(uint32_t start, uint32_t idle) {
     spu_.run_in_module(modules::kStart);
     phase_->pixels.flush();
     units_.flush();
@@ -183,7 +183,7 @@ private:
     spu_.write_out_mailbox(make_report(ReportKind::finished, 0));
   }
 
-  [[gnu::noinline]] void start_phase() {
+  CELLTRACE_ONE_COPY void start_phase() {
     phase_ = new (static_cast<void*>(spu_.template allocate<Storage<Phase>>()))
         Phase(spu_, frame_, cache_config(frame_));
   }
@@ -203,7 +203,7 @@ private:
   }
   /// What was traced becomes part of what a picture is sampled by. True: there are samples to trace. One
   /// copy: local store is short.
-  [[gnu::noinline]] bool sample(uint32_t column, uint32_t row) {
+  CELLTRACE_ONE_COPY bool sample(uint32_t column, uint32_t row) {
     return phase_->sampler->advance(column, row);
   }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "celltrace/balance/strip.hpp"
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/modules.hpp"
 #include "kernel/records.hpp"
 
@@ -63,7 +64,7 @@ public:
 private:
   static constexpr uint32_t kDomain = event::signal_2 | event::in_mailbox;
 
-  [[gnu::noinline]] void enter_domain(const FrameBlock& frame, UnitRange units) {
+  CELLTRACE_ONE_COPY void enter_domain(const FrameBlock& frame, UnitRange units) {
     spu_.run_in_module(modules::kExchange);
     over_ = false;
     epoch_ = frame.epoch & (strip_word::kEpochs - 1);
@@ -76,7 +77,7 @@ private:
     spu_.write_event_mask(kDomain);
     act();
   }
-  [[gnu::noinline]] void wait_for_work() {
+  CELLTRACE_ONE_COPY void wait_for_work() {
     spu_.run_in_module(modules::kExchange);
     act();
     if (node_.remaining().empty() && !over_) handle();
@@ -84,7 +85,7 @@ private:
 
   /// The safe order of an event handler: mask, read, acknowledge, drain, unmask. A phantom event finds
   /// nothing to drain.
-  [[gnu::noinline]] bool handle() {
+  CELLTRACE_ONE_COPY bool handle() {
     spu_.run_in_module(modules::kExchange);
     const uint32_t events = spu_.read_event_status();
     spu_.write_event_mask(0);
@@ -95,7 +96,7 @@ private:
     act();
     return over_;
   }
-  [[gnu::noinline]] void drain_mailbox() {
+  CELLTRACE_ONE_COPY void drain_mailbox() {
     while (spu_.in_mailbox_count() != 0) {
       const uint32_t word = spu_.read_in_mailbox();
       // A doorbell that was delivered before the word has to be seen before it.
@@ -120,7 +121,7 @@ private:
     spu_.note("balance exchange", after - before);
   }
 
-  [[gnu::noinline]] void act() {
+  CELLTRACE_ONE_COPY void act() {
     for (;;) {
       const StripAction action = node_.next_action();
       switch (action.kind) {

@@ -1,6 +1,7 @@
 // What few finishes do with light: crand and irid. Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/lights/incident_light.hpp"
 #include "kernel/modules.hpp"
 #include "kernel/shading/material_lanes.hpp"
@@ -14,7 +15,7 @@ namespace detail {
 
 /// Numbers in [0, 1) that look random, each of a point and of `salt` alone: the same however work is shared.
 /// The last bits of points do not count, in which backends may differ.
-template <class S> [[gnu::noinline]] typename S::F random_at(const V3<S>& point, uint32_t salt) {
+template <class S> CELLTRACE_ONE_COPY typename S::F random_at(const V3<S>& point, uint32_t salt) {
   constexpr uint32_t kCertain = ~0x1Fu;
   alignas(64) float lane[3][S::kLanes];
   point.x.store(lane[0]);
@@ -65,10 +66,10 @@ V3<typename Spu::rare_simd> film_factors(Spu& spu, const FinishRecord& f,
 
 /// Changes what surfaces send on of the light with this number, in the lanes of `m.special`.
 template <class Spu>
-[[gnu::noinline]] void change_special_light(SceneAccess<Spu>& scene, const Surfaces<typename Spu::simd>& s,
-                                            const MaterialLanes<typename Spu::simd>& m,
-                                            const IncidentLight<typename Spu::simd>& light, uint32_t number,
-                                            V3<typename Spu::simd>& sent) {
+CELLTRACE_ONE_COPY void change_special_light(SceneAccess<Spu>& scene, const Surfaces<typename Spu::simd>& s,
+                                             const MaterialLanes<typename Spu::simd>& m,
+                                             const IncidentLight<typename Spu::simd>& light, uint32_t number,
+                                             V3<typename Spu::simd>& sent) {
   using S = typename Spu::simd;
   using R = typename Spu::rare_simd;
   using F = typename R::F;
@@ -98,9 +99,9 @@ template <class Spu>
 /// Changes what surfaces mirror, in those of `lanes` that are of `m.special`: films are passed as light from
 /// there would pass them.
 template <class Spu>
-[[gnu::noinline]] void change_special_mirror(SceneAccess<Spu>& scene, const Surfaces<typename Spu::simd>& s,
-                                             const MaterialLanes<typename Spu::simd>& m, uint32_t lanes,
-                                             V3<typename Spu::simd>& mirror) {
+CELLTRACE_ONE_COPY void change_special_mirror(SceneAccess<Spu>& scene, const Surfaces<typename Spu::simd>& s,
+                                              const MaterialLanes<typename Spu::simd>& m, uint32_t lanes,
+                                              V3<typename Spu::simd>& mirror) {
   using S = typename Spu::simd;
   using R = typename Spu::rare_simd;
   using F = typename R::F;

@@ -1,6 +1,7 @@
 // Where rays hit, and the surface there. Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/direct/record_lanes.hpp"
 #include "kernel/primitives/shapes_module.hpp"
 #include "kernel/scalar_work.hpp"
@@ -237,8 +238,8 @@ template <class Spu>
 /// Of the hits of `lanes`, all of which hit something. Points are computed from the object, not along the
 /// ray: they lie on the surface to its own precision, however far away the ray began.
 template <class Spu>
-[[gnu::noinline]] void find_hit_points(SceneAccess<Spu>& scene, const RayPacket& rays, const HitPacket& hits,
-                                       uint32_t lanes, HitPoints<typename Spu::simd>& points) {
+CELLTRACE_ONE_COPY void find_hit_points(SceneAccess<Spu>& scene, const RayPacket& rays, const HitPacket& hits,
+                                        uint32_t lanes, HitPoints<typename Spu::simd>& points) {
   using S = typename Spu::simd;
   using F = typename S::F;
   using M = typename S::M;

@@ -2,6 +2,7 @@
 // model that POV-Ray uses: ambient, diffuse with brilliance, Phong and Blinn highlights. Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/lights/illumination.hpp"
 #include "kernel/shading/finishes.hpp"
 #include "kernel/shading/hit_points.hpp"
@@ -66,10 +67,10 @@ V3<typename Spu::simd> reflected_light(const Surfaces<typename Spu::simd>& s,
 /// The same of surfaces some of which light reaches from behind, too: there it has a share of its own and no
 /// highlights, or counts as if it came from before. Leaves no light where none counts.
 template <class Spu>
-[[gnu::noinline]] void light_of_both_sides(SceneAccess<Spu>& scene, const Surfaces<typename Spu::simd>& s,
-                                           const MaterialLanes<typename Spu::simd>& m, bool highlights,
-                                           IncidentLight<typename Spu::simd>& light,
-                                           V3<typename Spu::simd>& sent) {
+CELLTRACE_ONE_COPY void light_of_both_sides(SceneAccess<Spu>& scene, const Surfaces<typename Spu::simd>& s,
+                                            const MaterialLanes<typename Spu::simd>& m, bool highlights,
+                                            IncidentLight<typename Spu::simd>& light,
+                                            V3<typename Spu::simd>& sent) {
   using S = typename Spu::simd;
   using F = typename S::F;
   using R = typename Spu::rare_simd;
@@ -131,7 +132,7 @@ struct LightRound {
     return sum;
   }
   /// Adds the light of all lights. Not inlined: one copy saves local store.
-  template <class S> [[gnu::noinline]] void add_to(VectorLanes& light, uint32_t lanes) const {
+  template <class S> CELLTRACE_ONE_COPY void add_to(VectorLanes& light, uint32_t lanes) const {
     const V3<S> sum = this->sum<S>();
     const V3<S> before = light.template load<S>();
     light.template store<S>(select<S>(S::M::from_bits(lanes), before + sum, before));
@@ -141,27 +142,12 @@ struct LightRound {
 /// Light counts if one of its channels is above this: less does not change a pixel.
 constexpr float kLeastLight = 1e-6f;
 
-namespace detail {
-
-template <class S> uint32_t find_lanes_above(const VectorLanes& light, uint32_t lanes, float least) {
+/// Those of `lanes` in which light is above `least`.
+template <class S>
+CELLTRACE_ONE_COPY uint32_t lanes_above(const VectorLanes& light, uint32_t lanes, float least) {
   const V3<S> l = light.template load<S>();
   const typename S::F most = S::max(S::abs(l.x), S::max(S::abs(l.y), S::abs(l.z)));
   return (most > typename S::F(least)).bits() & lanes;
-}
-/// Not inlined on an SPE: one copy saves local store.
-template <class S>
-[[gnu::noinline]] uint32_t lanes_above_out_of_line(const VectorLanes& light, uint32_t lanes, float least) {
-  return find_lanes_above<S>(light, lanes, least);
-}
-
-} // namespace detail
-
-/// Those of `lanes` in which light is above `least`.
-template <class Spu> uint32_t lanes_above(const VectorLanes& light, uint32_t lanes, float least) {
-  if constexpr (kHasRoomForCode<Spu>)
-    return detail::find_lanes_above<typename Spu::simd>(light, lanes, least);
-  else
-    return detail::lanes_above_out_of_line<typename Spu::simd>(light, lanes, least);
 }
 
 /// Gathers what the surfaces of `lanes` send on of the lights of a round that are asked for, times `weight`.

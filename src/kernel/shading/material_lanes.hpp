@@ -1,6 +1,7 @@
 // The materials of sixteen hits side by side. Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/scalar_work.hpp"
 #include "kernel/scene_access.hpp"
 #include "kernel/shading/surfaces.hpp"
@@ -66,8 +67,8 @@ namespace detail {
 /// Gives `taken` lanes a material, which may be said to be `kAll`; `lanes` are those of them that have it.
 /// Sets what `wanted`, a material's flags, ask for.
 template <class Spu, bool kAll = false>
-[[gnu::noinline]] void gather_material(const MaterialRecord& r, uint32_t taken, uint32_t lanes,
-                                       uint32_t wanted, MaterialLanes<typename Spu::simd>& m) {
+CELLTRACE_ONE_COPY void gather_material(const MaterialRecord& r, uint32_t taken, uint32_t lanes,
+                                        uint32_t wanted, MaterialLanes<typename Spu::simd>& m) {
   using S = typename Spu::simd;
   using F = typename S::F;
   const auto take = S::M::from_bits(taken);
@@ -139,9 +140,9 @@ MaterialLanes<typename Spu::simd> gather_materials(SceneAccess<Spu>& scene, cons
 
 /// The pigments of patterned materials at points, which gather_materials() leaves open.
 template <class Spu>
-[[gnu::noinline]] void add_pigments(SceneAccess<Spu>& scene, const WordLanes& offsets,
-                                    const PatternPoints<typename Spu::simd>& points,
-                                    MaterialLanes<typename Spu::simd>& m) {
+CELLTRACE_ONE_COPY void add_pigments(SceneAccess<Spu>& scene, const WordLanes& offsets,
+                                     const PatternPoints<typename Spu::simd>& points,
+                                     MaterialLanes<typename Spu::simd>& m) {
   using S = typename Spu::simd;
   scene.spu().enter_module(modules::kTextures);
   for_each_value<S>(offsets, m.patterned, [&](uint32_t offset, uint32_t same) {
@@ -175,9 +176,9 @@ template <class Spu>
 /// Disturbs the normals of surfaces in the lanes of `m.disturbed`. `lanes`: what else patterns ask for, or
 /// null; from then on the disturbed normals, also in layers below that have none of their own.
 template <class Spu>
-[[gnu::noinline]] void disturb_normals(SceneAccess<Spu>& scene, const WordLanes& offsets,
-                                       const MaterialLanes<typename Spu::simd>& m, SurfaceLanes* lanes,
-                                       Surfaces<typename Spu::simd>& surfaces) {
+CELLTRACE_ONE_COPY void disturb_normals(SceneAccess<Spu>& scene, const WordLanes& offsets,
+                                        const MaterialLanes<typename Spu::simd>& m, SurfaceLanes* lanes,
+                                        Surfaces<typename Spu::simd>& surfaces) {
   using S = typename Spu::simd;
   scene.spu().enter_module(modules::kNormals);
   for_each_value<S>(offsets, m.disturbed, [&](uint32_t offset, uint32_t same) {

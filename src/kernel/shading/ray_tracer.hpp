@@ -2,6 +2,7 @@
 // level and by contribution (adaptive depth control, Hall and Greenberg 1983). Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/direct/ray_pool.hpp"
 #include "kernel/modules.hpp"
 #include "kernel/shading/atmosphere.hpp"
@@ -113,7 +114,7 @@ public:
   /// The lanes in which gathered light counts. That of a bent reflection is raised to a power: all of it
   /// does.
   uint32_t lanes_that_count(const VectorLanes& gathered, uint32_t lanes) const {
-    return lanes_above<Spu>(gathered, lanes, node_.target == 0 ? kLeastLight : 0.0f);
+    return lanes_above<S>(gathered, lanes, node_.target == 0 ? kLeastLight : 0.0f);
   }
   /// Adds what has come of the light that a round has gathered.
   void add_gathered(const LightRound& round, uint32_t lanes) { round.add_to<S>(light_[node_.target], lanes); }
@@ -200,7 +201,7 @@ private:
   }
 
   /// The light of a reflection is complete.
-  [[gnu::noinline]] void gather() {
+  CELLTRACE_ONE_COPY void gather() {
     scene_.spu().run_in_module(modules::kFading);
     const V3<S> sum = light_[node_.gathers].template load<S>();
     const F power = F::load(node_.power.lane);
@@ -216,14 +217,14 @@ private:
   }
 
   /// Surfaces of one material without textures. What it needs is not on the stack while others are shaded.
-  [[gnu::noinline]] void shade_plain(const HitPoints<S>& points, uint32_t lanes) {
+  CELLTRACE_ONE_COPY void shade_plain(const HitPoints<S>& points, uint32_t lanes) {
     Surfaces<S> surfaces;
     find_surfaces(points, surfaces);
     spawn(surfaces, surfaces.normal, points.interior,
           shade(surfaces, points.interior, points.material, lanes, F(1.0f)));
   }
   /// Field by field: no copy of it is on the stack.
-  [[gnu::noinline]] void find_surfaces(const HitPoints<S>& points, Surfaces<S>& surfaces) const {
+  CELLTRACE_ONE_COPY void find_surfaces(const HitPoints<S>& points, Surfaces<S>& surfaces) const {
     surfaces.point = points.point;
     surfaces.normal = points.normal;
     surfaces.direction = node_.rays.direction.template load<S>();
@@ -235,7 +236,7 @@ private:
   /// Surfaces with several materials: each is shaded whole, and the results are blended by their weights.
   /// What goes on goes the same ways for all of them: as one ray each where it weighs the same, or every such
   /// surface would multiply the rays behind it.
-  [[gnu::noinline]] void shade_composed(const HitPoints<S>& points, uint32_t lanes) {
+  CELLTRACE_ONE_COPY void shade_composed(const HitPoints<S>& points, uint32_t lanes) {
     scene_.spu().run_in_module(modules::kComposed);
     Surfaces<S> surfaces;
     find_surfaces(points, surfaces);
@@ -259,9 +260,9 @@ private:
     spawn(surfaces, surfaces.normal, points.interior, all);
   }
   /// The share of materials that may be texture maps.
-  [[gnu::noinline]] void shade_share(Surfaces<S>& surfaces, const HitPoints<S>& points,
-                                     const WordLanes& materials, uint32_t lanes, const F& weight,
-                                     SecondaryRays<S>& all) {
+  CELLTRACE_ONE_COPY void shade_share(Surfaces<S>& surfaces, const HitPoints<S>& points,
+                                      const WordLanes& materials, uint32_t lanes, const F& weight,
+                                      SecondaryRays<S>& all) {
     uint32_t plain = lanes;
     for_each_value<S>(materials, lanes & points.textured, [&](uint32_t material, uint32_t same) {
       const uint32_t map = map_of(*scene_.material(material));
@@ -284,9 +285,9 @@ private:
     if (plain != 0) shade_whole(surfaces, points, materials, plain, weight, all);
   }
   /// Adaptive depth control drops a material by its weight alone, as POV-Ray does.
-  [[gnu::noinline]] void shade_whole(Surfaces<S>& surfaces, const HitPoints<S>& points,
-                                     const WordLanes& materials, uint32_t lanes, const F& weight,
-                                     SecondaryRays<S>& all) {
+  CELLTRACE_ONE_COPY void shade_whole(Surfaces<S>& surfaces, const HitPoints<S>& points,
+                                      const WordLanes& materials, uint32_t lanes, const F& weight,
+                                      SecondaryRays<S>& all) {
     lanes &= (weight >= F(frame_.adc_bailout)).bits();
     if (lanes == 0) return;
     const WordLanes& interior = points.interior;
@@ -303,8 +304,8 @@ private:
 
   /// Adds the surface's own light, times `share`; returns what goes on. Not inlined, as spawn() is not:
   /// local store has no room for a copy at each call.
-  [[gnu::noinline]] SecondaryRays<S> shade(const Surfaces<S>& surfaces, const WordLanes& interior,
-                                           const WordLanes& materials, uint32_t lanes, const F& share) {
+  CELLTRACE_ONE_COPY SecondaryRays<S> shade(const Surfaces<S>& surfaces, const WordLanes& interior,
+                                            const WordLanes& materials, uint32_t lanes, const F& share) {
     scene_.spu().compute(scalar_work::kShade);
     const MaterialLanes<S> m = gather_materials(scene_, materials, lanes);
     add_light(surfaces, m, lanes, {share, share, share});
@@ -312,14 +313,14 @@ private:
   }
   /// Adds what surfaces send by themselves, times `share`. One copy, whose vectors are not on the stack while
   /// rays go on.
-  [[gnu::noinline]] void add_light(const Surfaces<S>& surfaces, const MaterialLanes<S>& m, uint32_t lanes,
-                                   const V3<S>& share) {
+  CELLTRACE_ONE_COPY void add_light(const Surfaces<S>& surfaces, const MaterialLanes<S>& m, uint32_t lanes,
+                                    const V3<S>& share) {
     const V3<S> weight = share * node_.throughput.template load<S>();
     const V3<S> rest = local_light(scene_, frame_, round_, surfaces, m, lanes, weight);
     if (!round_.only_gathers) add_weighted(lanes, rest, weight);
   }
-  [[gnu::noinline]] SecondaryRays<S> onward_rays(const Surfaces<S>& surfaces, const WordLanes& interior,
-                                                 const MaterialLanes<S>& m, uint32_t lanes, const F& share) {
+  CELLTRACE_ONE_COPY SecondaryRays<S> onward_rays(const Surfaces<S>& surfaces, const WordLanes& interior,
+                                                  const MaterialLanes<S>& m, uint32_t lanes, const F& share) {
     SecondaryRays<S> onward = SecondaryRays<S>::nothing();
     if (!m.has(material_flag::reflects | material_flag::transmits)) return onward;
     scene_.spu().compute(scalar_work::kSecondaryRays);
@@ -339,8 +340,8 @@ private:
   /// As shade(), of textures with patterns, normals or layers. The light of a layer comes through those
   /// above, but not what it reflects: that is POV-Ray's model. Where normals are disturbed, rays go on by
   /// themselves. The surfaces have their layers' normals meanwhile.
-  [[gnu::noinline]] SecondaryRays<S> shade_layers(Surfaces<S>& surfaces, const WordLanes& interior,
-                                                  const WordLanes& top, uint32_t all_lanes, const F& share) {
+  CELLTRACE_ONE_COPY SecondaryRays<S> shade_layers(Surfaces<S>& surfaces, const WordLanes& interior,
+                                                   const WordLanes& top, uint32_t all_lanes, const F& share) {
     const F one(1.0f);
     V3<S> above = {one, one, one}; // what comes through the layers above
     WordLanes materials = top;
@@ -394,8 +395,8 @@ private:
   }
 
   /// Pushes the rays that go on; `smooth` is the normal before it was disturbed.
-  [[gnu::noinline]] void spawn(const Surfaces<S>& surfaces, const V3<S>& smooth, const WordLanes& interior,
-                               const SecondaryRays<S>& onward) {
+  CELLTRACE_ONE_COPY void spawn(const Surfaces<S>& surfaces, const V3<S>& smooth, const WordLanes& interior,
+                                const SecondaryRays<S>& onward) {
     if ((onward.mirrors | onward.clear) == 0 || !round_.is_first()) return;
     scene_.spu().compute(scalar_work::kSpawn);
     scene_.spu().enter_module(modules::kSecondary);
@@ -438,7 +439,7 @@ private:
 
   /// What is left of the light that `lanes` of child_ bring out of an interior, and how clear their way is.
   /// POV-Ray takes the grey of what comes through each surface.
-  [[gnu::noinline]] void fade_child(const WordLanes& interior, const V3<S>& through, uint32_t lanes) {
+  CELLTRACE_ONE_COPY void fade_child(const WordLanes& interior, const V3<S>& through, uint32_t lanes) {
     scene_.spu().run_in_module(modules::kFading);
     const bool fades = (frame_.light_ways & light_way::fading) != 0;
     if ((frame_.light_ways & light_way::alpha) != 0) {
@@ -476,7 +477,7 @@ private:
 
   /// Sends the light of child_ to an accumulator of its own, from which a node pushed below it gathers it.
   /// Not in the module of what calls it, which has no room.
-  [[gnu::noinline]] void redirect(const F& power) {
+  CELLTRACE_ONE_COPY void redirect(const F& power) {
     scene_.spu().run_in_module(modules::kFading);
     child_.gathers = accumulators_in_use_;
     power.store(child_.power.lane);

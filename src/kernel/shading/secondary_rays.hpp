@@ -2,6 +2,7 @@
 // reflection. Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/shading/hit_points.hpp"
 #include "kernel/shading/material_lanes.hpp"
 #include "kernel/shading/ray_stack.hpp"
@@ -253,7 +254,7 @@ secondary_rays_of(const MaterialLanes<S>& m, const typename S::F& cosine, const 
 
 /// For surfaces of the materials `m` in `lanes`, `share` of which counts. `all` is nothing() before.
 template <class Spu>
-[[gnu::noinline]] void
+CELLTRACE_ONE_COPY void
 find_secondary_rays(const MaterialLanes<typename Spu::simd>& m, const typename Spu::simd::F& cosine,
                     const typename Spu::simd::F& fresnel_ratio, float adc_bailout, uint32_t lanes,
                     const typename Spu::simd::F& share, SecondaryRays<typename Spu::simd>& all) {

@@ -2,6 +2,7 @@
 // have an area are asked place by place. Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/accel/traversal.hpp"
 #include "kernel/direct/shadow_marking.hpp"
 #include "kernel/lights/area_shadow.hpp"
@@ -40,8 +41,9 @@ public:
 
   /// Leaves in `colour`, which has been gathered, what comes of it to points on objects; in `lanes` it
   /// counts.
-  [[gnu::noinline]] void trace(const LightRecord& light, ShadowRays& to_light, const V3<S>& point,
-                               const WordLanes& objects, bool is_aimed, uint32_t lanes, VectorLanes& colour) {
+  CELLTRACE_ONE_COPY void trace(const LightRecord& light, ShadowRays& to_light, const V3<S>& point,
+                                const WordLanes& objects, bool is_aimed, uint32_t lanes,
+                                VectorLanes& colour) {
     if (lanes == 0) return colour.template store<S>({F(0.0f), F(0.0f), F(0.0f)});
     this->aim(light, to_light, point, objects, is_aimed, lanes);
     if (has_area(light)) return look_at_area(light, lanes, colour);
@@ -67,8 +69,8 @@ private:
   static constexpr uint32_t kPackets = kBundlePackets<Spu>;
 
   /// Not inlined: its surfaces are not on the stack while rays are traced.
-  [[gnu::noinline]] void make_rays_to(const LightRecord& light, ShadowRays& to_light, const V3<S>& point,
-                                      const WordLanes& objects, uint32_t lanes) {
+  CELLTRACE_ONE_COPY void make_rays_to(const LightRecord& light, ShadowRays& to_light, const V3<S>& point,
+                                       const WordLanes& objects, uint32_t lanes) {
     IncidentLight<S> incident(light.colour);
     kernel::aim(scene_.spu(), light, point, incident);
     if (!has_area(light)) {
@@ -88,8 +90,8 @@ private:
   }
 
   /// As Traversal's transmittance(), of a light. Not inlined: once in local store is enough.
-  [[gnu::noinline]] void trace_shadows(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
-                                       FloatLanes& distance, VectorLanes& colour) {
+  CELLTRACE_ONE_COPY void trace_shadows(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
+                                        FloatLanes& distance, VectorLanes& colour) {
     if (is_projected(light)) {
       lanes = traversal_.project(light, rays, lanes, distance, colour);
       if (lanes == 0 || is_shadowless(light)) return;
@@ -103,7 +105,7 @@ private:
     return walk_ != nullptr && (!kMarksTranslucent<Spu> || is_dimmed(light));
   }
   /// Answers the queries of a bundle: those of their rays are walked that cross something translucent.
-  [[gnu::noinline]] void walk_marked(const LightRecord& light, RayQuery* queries, uint32_t count) {
+  CELLTRACE_ONE_COPY void walk_marked(const LightRecord& light, RayQuery* queries, uint32_t count) {
     VectorLanes marks[kPackets];
     VectorLanes* colours[kPackets];
     for (uint32_t i = 0; i < count; ++i) {
@@ -115,8 +117,8 @@ private:
       walk_some(light, queries[i], marked_lanes<S>(*queries[i].light), *colours[queries[i].light - marks]);
   }
   /// The same for one packet, of which some lanes may be walked without asking.
-  [[gnu::noinline]] void walk_marked(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
-                                     const FloatLanes& distance, VectorLanes& colour) {
+  CELLTRACE_ONE_COPY void walk_marked(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
+                                      const FloatLanes& distance, VectorLanes& colour) {
     const uint32_t inside = lanes & lanes_inside(interiors_);
     uint32_t walked = marking_.walked_at_once(lanes, inside);
     VectorLanes marks;
@@ -139,8 +141,8 @@ private:
     colour.template store<S>(colour.template load<S>() + direct);
   }
   /// Walks `lanes` of shadow rays. The light of the others becomes 0.
-  [[gnu::noinline]] void walk_shadows(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
-                                      const FloatLanes& distance, VectorLanes& colour) {
+  CELLTRACE_ONE_COPY void walk_shadows(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
+                                       const FloatLanes& distance, VectorLanes& colour) {
     ShadowWalk<S>& walk = *walk_;
     const bool dims = is_dimmed(light);
     scene_.spu().enter_module(modules::kShadowWalk);
@@ -161,8 +163,8 @@ private:
   }
 
   /// The light of an area, whose places each packet asks by itself. Not inlined: few scenes have such lights.
-  [[gnu::noinline]] void look_at_area(const LightRecord& light, [[maybe_unused]] uint32_t lanes,
-                                      VectorLanes& colour) {
+  CELLTRACE_ONE_COPY void look_at_area(const LightRecord& light, [[maybe_unused]] uint32_t lanes,
+                                       VectorLanes& colour) {
     AreaShadow<S>& area = *area_;
     if constexpr (kGathersOccluders<Spu>) {
       AreaOccluders<Spu> occluders;

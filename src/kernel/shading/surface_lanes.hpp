@@ -1,6 +1,7 @@
 // What patterns may ask of surfaces besides points: their coordinates and normals. Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/modules.hpp"
 #include "kernel/shading/hit_points.hpp"
 #include "kernel/textures/angles.hpp"
@@ -98,9 +99,9 @@ void surface_coordinates_of(SceneAccess<Spu>& scene, const ObjectRecord& object,
 
 /// Of those hits of `lanes` that are on objects with object_flag::by_surface, before normals are disturbed.
 template <class Spu>
-[[gnu::noinline]] void find_surface_lanes(SceneAccess<Spu>& scene,
-                                          const HitPoints<typename Spu::simd>& points, const HitPacket& hits,
-                                          uint32_t lanes, SurfaceLanes& surface) {
+CELLTRACE_ONE_COPY void find_surface_lanes(SceneAccess<Spu>& scene,
+                                           const HitPoints<typename Spu::simd>& points, const HitPacket& hits,
+                                           uint32_t lanes, SurfaceLanes& surface) {
   using S = typename Spu::simd;
   using R = typename Spu::rare_simd;
   using F = typename R::F;

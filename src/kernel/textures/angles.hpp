@@ -1,6 +1,7 @@
 // Angles of points about an axis. Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/math.hpp"
 
 namespace celltrace::kernel {
@@ -29,7 +30,7 @@ template <class S>
   return S::select(y < zero, -half, half);
 }
 /// The same in one copy, which is always there: patterns of two modules ask for it.
-template <class S> [[gnu::noinline]] typename S::F turns_of(const typename S::F& y, const typename S::F& x) {
+template <class S> CELLTRACE_ONE_COPY typename S::F turns_of(const typename S::F& y, const typename S::F& x) {
   return turns_inline<S>(y, x);
 }
 

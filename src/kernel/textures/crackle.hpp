@@ -2,6 +2,7 @@
 // stones (Worley 1996). Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/direct/feature_neighbours.hpp"
 #include "kernel/packet.hpp"
 #include "kernel/textures/features.hpp"
@@ -85,11 +86,12 @@ struct CracklePattern : RarePattern {
 private:
   /// The points of the inner cells, for lanes that are all in one cell.
   template <class Spu, class S>
-  [[gnu::noinline]] static void take_inner(Features<Spu>& features, const uint32_t (&cell)[3],
-                                           const V3<S>& from, const V3<S>& p, uint32_t lanes, float metric,
-                                           const Wanted& wanted, Nearest<S>& nearest) {
+  CELLTRACE_ONE_COPY static void take_inner(Features<Spu>& features, const uint32_t (&cell)[3],
+                                            const V3<S>& from, const V3<S>& p, uint32_t lanes, float metric,
+                                            const Wanted& wanted, Nearest<S>& nearest) {
     using F = typename S::F;
-    const FeatureNeighbours<S>& neighbours = features.neighbours_of(cell);
+    FeatureNeighbours<S> room;
+    const FeatureNeighbours<S>& neighbours = features.neighbours_of(cell, room);
     const bool is_simple = metric == 1.0f || metric == 2.0f;
     if (!is_simple || __builtin_popcount(lanes) > tuning::kMostLanesByFeatures) {
       const auto here = S::M::from_bits(lanes);

@@ -54,14 +54,38 @@ public:
         table_ + (number & (kFeatures - 1)) * static_cast<uint32_t>(sizeof(FeatureRecord)));
   }
 
-  /// The points in and around a cell, until the next call. Where memory is direct.
-  const auto& neighbours_of(const uint32_t (&cell)[3]) {
-    return scene_.neighbours().around(*this, table_, cell);
+  /// The points in and around a cell, until the next call: in `room`, unless they are cached. Where memory is
+  /// direct.
+  template <class Neighbours> const Neighbours& neighbours_of(const uint32_t (&cell)[3], Neighbours& room) {
+    if (auto* const cache = scene_.neighbours()) return cache->around(*this, cell);
+    room.gather(*this, cell);
+    return room;
   }
 
 private:
   SceneAccess<Spu>& scene_;
   uint32_t table_;
+};
+
+/// As long as it lives, random points that patterns gather are kept for the next points, where memory is
+/// direct.
+template <class Spu, bool kKeeps = kHasRoomForCode<Spu>> class NeighboursKept {
+public:
+  /// Not inlined: GCC 12 would say that the pointer outlives the cache, whatever the destructor does.
+  [[gnu::noinline]] explicit NeighboursKept(SceneAccess<Spu>& scene) : scene_(scene) {
+    scene.set_neighbours(&cache_);
+  }
+  ~NeighboursKept() { scene_.set_neighbours(nullptr); }
+  NeighboursKept(const NeighboursKept&) = delete;
+  NeighboursKept& operator=(const NeighboursKept&) = delete;
+
+private:
+  SceneAccess<Spu>& scene_;
+  NeighbourCache<typename Spu::rare_simd> cache_;
+};
+template <class Spu> class NeighboursKept<Spu, false> {
+public:
+  explicit NeighboursKept(SceneAccess<Spu>&) {}
 };
 
 } // namespace celltrace::kernel

@@ -2,6 +2,7 @@
 // iterated. Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/direct/door.hpp"
 #include "kernel/math.hpp"
 #include "kernel/scene_access.hpp"
@@ -105,9 +106,9 @@ private:
   /// not followed further (Brent 1980). Whatever is still to come has been there, so that the least size is
   /// known. It is looked for after several rounds at a time only.
   template <class S, bool kWantsLeast>
-  [[gnu::noinline]] static typename S::F counted_squares(const Complex<S>& first, const Complex<S>& c,
-                                                         const typename S::M& stay, uint32_t most,
-                                                         const PatternRecord& r) {
+  CELLTRACE_ONE_COPY static typename S::F counted_squares(const Complex<S>& first, const Complex<S>& c,
+                                                          const typename S::M& stay, uint32_t most,
+                                                          const PatternRecord& r) {
     using F = typename S::F;
     using M = typename S::M;
     constexpr uint32_t kRoundsAtATime = 4;

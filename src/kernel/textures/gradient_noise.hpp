@@ -1,6 +1,7 @@
 // The noise of POV-Ray's generator 3: Perlin's, of gradients at lattice points (Perlin 1985). Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/textures/features.hpp"
 #include "kernel/textures/noise.hpp"
 
@@ -14,7 +15,7 @@ public:
   /// `table`: offset of the GradientRecords.
   GradientNoise(SceneAccess<Spu>& scene, uint32_t table) : scene_(scene), table_(table) {}
 
-  [[gnu::noinline]] F value(const V3<S>& p) const {
+  CELLTRACE_ONE_COPY F value(const V3<S>& p) const {
     constexpr float kShift = 0.023157213f; // POV-Ray's shift of 10,000,000.023, whose cells are
     constexpr uint32_t kCells = 10000000;  // these numbers further
     F sum(0.0f);
@@ -36,11 +37,11 @@ public:
     return S::min(S::max(sum + F(0.4925f), F(0.0f)), F(1.0f));
   }
 
-  [[gnu::noinline]] F spread_value(const V3<S>& p) const {
+  CELLTRACE_ONE_COPY F spread_value(const V3<S>& p) const {
     const F noise = value(p);
     return S::min(S::max(spread<S>(noise, false), F(0.0f)), F(1.0f));
   }
-  [[gnu::noinline]] F turbulence_value(const V3<S>& p, const TurbulenceWords& t) const {
+  CELLTRACE_ONE_COPY F turbulence_value(const V3<S>& p, const TurbulenceWords& t) const {
     F sum = spread_value(p);
     float scale = t.lambda, strength = t.omega;
     for (uint32_t octave = 1; octave < t.octaves; ++octave) {

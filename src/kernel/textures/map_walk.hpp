@@ -2,6 +2,7 @@
 // map again. Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/packet.hpp"
 #include "kernel/textures/pattern_value.hpp"
 
@@ -85,7 +86,7 @@ public:
   MapWalk(SceneAccess<Spu>&, const PatternPoints<S>&&, MapOf = MapOf::pigments) = delete;
 
   /// Starts at a pattern, whose leaves share `weight`.
-  [[gnu::noinline]] void enter(uint32_t pattern, const F& weight, uint32_t lanes) {
+  CELLTRACE_ONE_COPY void enter(uint32_t pattern, const F& weight, uint32_t lanes) {
     scene_.spu().run_in_module(kModule);
     Level& level = levels_[depth_++];
     level.weight = weight;
@@ -95,7 +96,7 @@ public:
   }
 
   /// The next leaf, with its weight in those of `lanes`; false: there are no more.
-  [[gnu::noinline]] bool next(MapEntryRecord& leaf, F& weight, uint32_t& lanes) {
+  CELLTRACE_ONE_COPY bool next(MapEntryRecord& leaf, F& weight, uint32_t& lanes) {
     scene_.spu().run_in_module(kModule);
     while (depth_ != ground_) {
       Level& level = levels_[depth_ - 1];
@@ -125,7 +126,7 @@ public:
 
   /// How bright a pigment is that is a map, at other points. Between two leaves: it takes the levels above
   /// those that are under way.
-  [[gnu::noinline]] F grey_of_pigment(uint32_t pattern, const PatternPoints<S>& points, uint32_t lanes) {
+  CELLTRACE_ONE_COPY F grey_of_pigment(uint32_t pattern, const PatternPoints<S>& points, uint32_t lanes) {
     scene_.spu().run_in_module(kModule);
     const PatternPoints<S>* const own = points_;
     F grey(0.0f);
@@ -159,7 +160,7 @@ private:
   };
 
   /// Asks the pattern of a level, as far as that can be done at once, and finds the entries that count.
-  [[gnu::noinline]] void open(Level& level) {
+  CELLTRACE_ONE_COPY void open(Level& level) {
     scene_.spu().run_in_module(kModule);
     Kept<Spu, PatternRecord> r = *scene_.pattern(level.pattern);
     level.entries = r.entries;

@@ -4,6 +4,7 @@
 // The octaves, weights and tables are as measured from POV-Ray 3.7; in single precision.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "celltrace/spe/simd.hpp"
 #include "kernel/math.hpp"
 #include "kernel/records.hpp"
@@ -105,7 +106,7 @@ template <class S, uint32_t kChannels>
 }
 
 template <class S, uint32_t kChannels>
-[[gnu::noinline]] void make_noise(const V3<S>& p, typename S::F (&noise)[kChannels]) {
+CELLTRACE_ONE_COPY void make_noise(const V3<S>& p, typename S::F (&noise)[kChannels]) {
   make_noise_inline<S>(p, noise);
 }
 
@@ -130,8 +131,8 @@ template <class S> typename S::F spread_value(const V3<S>& p, bool first_generat
 }
 /// Octaves of value(). As in POV-Ray, only the first one is clipped. Not inlined: one copy does for all.
 template <class S>
-[[gnu::noinline]] typename S::F turbulence_value(const V3<S>& p, const TurbulenceWords& t,
-                                                 bool first_generator) {
+CELLTRACE_ONE_COPY typename S::F turbulence_value(const V3<S>& p, const TurbulenceWords& t,
+                                                  bool first_generator) {
   using F = typename S::F;
   F sum = spread_value<S>(p, first_generator);
   float scale = t.lambda, strength = t.omega;

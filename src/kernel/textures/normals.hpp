@@ -1,6 +1,8 @@
 // Normals that patterns disturb. Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
+#include "kernel/textures/features.hpp"
 #include "kernel/textures/map_walk.hpp"
 
 namespace celltrace::kernel {
@@ -42,6 +44,7 @@ slope_disturbance(SceneAccess<Spu>& scene, MapWalk<Spu, TextureStage::normals>& 
                                            {-0.471404521f, -1.0f / 3, -0.816496581f},
                                            {0.0f, 1.0f, 0.0f}};
   V3<S> sum = {F(0.0f), F(0.0f), F(0.0f)};
+  [[maybe_unused]] const NeighboursKept<Spu> neighbours(scene);
   for (const float(&corner)[3] : kCorners) {
     const V3<S> to = splat3<S>(corner);
     PatternPoints<S> beside = points;
@@ -74,7 +77,7 @@ inline void cofactors(const float (&m)[9], float (&c)[9]) {
 
 /// A unit normal as the pattern of `normal`, no map, disturbs it. `walk` is through the maps around it.
 template <class Spu>
-[[gnu::noinline]] void
+CELLTRACE_ONE_COPY void
 disturb_by(SceneAccess<Spu>& scene, MapWalk<Spu, TextureStage::normals>& walk, const NormalRecord& normal,
            const PatternPoints<typename Spu::rare_simd>& points, uint32_t lanes,
            const V3<typename Spu::rare_simd>& unit, V3<typename Spu::rare_simd>& disturbed) {
@@ -159,9 +162,9 @@ void disturb_part(SceneAccess<Spu>& scene, const NormalRecord& record,
 
 /// The normals at `points`, unit vectors on the viewer's side, as the record at `offset` disturbs them.
 template <class Spu>
-[[gnu::noinline]] void disturb_normal(SceneAccess<Spu>& scene, uint32_t offset,
-                                      const PatternPoints<typename Spu::simd>& points, uint32_t lanes,
-                                      V3<typename Spu::simd>& unit) {
+CELLTRACE_ONE_COPY void disturb_normal(SceneAccess<Spu>& scene, uint32_t offset,
+                                       const PatternPoints<typename Spu::simd>& points, uint32_t lanes,
+                                       V3<typename Spu::simd>& unit) {
   Kept<Spu, NormalRecord> record = *scene.normal(offset);
   for_each_part<Spu>([&](uint32_t first) {
     const uint32_t some = part_of<Spu>(lanes, first);

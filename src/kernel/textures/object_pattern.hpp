@@ -1,6 +1,7 @@
 // Whether points are in an object. Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/modules.hpp"
 #include "kernel/primitives/list.hpp"
 #include "kernel/scene_access.hpp"
@@ -15,8 +16,8 @@ struct ObjectPattern : RarePattern {
 
   /// As module_shapes::inside(), beside the other rare patterns: the shapes' module has the same place.
   template <class Spu>
-  [[gnu::noinline, gnu::flatten]] static uint32_t lanes_in(Spu& spu, const SolidRecord& solid,
-                                                           const V3<typename Spu::rare_simd>& points) {
+  CELLTRACE_ONE_COPY [[gnu::flatten]] static uint32_t lanes_in(Spu& spu, const SolidRecord& solid,
+                                                               const V3<typename Spu::rare_simd>& points) {
     using S = typename Spu::rare_simd;
     spu.run_in_module(modules::kRarePatterns);
     const uint32_t kind = solid.object.kind_and_flags & object_flag::kind_mask;

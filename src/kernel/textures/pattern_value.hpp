@@ -4,6 +4,7 @@
 // which read tables of the scene image, and the others, but for few whose code is always there.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/modules.hpp"
 #include "kernel/parts.hpp"
 #include "kernel/scene_access.hpp"
@@ -15,8 +16,8 @@
 
 namespace celltrace::kernel {
 
-/// Who asks patterns: pigments, normals, and the maps of textures at hits. Each has a code module with its own
-/// copies of what asks them.
+/// Who asks patterns: pigments, normals, and the maps of textures at hits. Each has a code module with its
+/// own copies of what asks them.
 enum class TextureStage : uint32_t { colours, normals, maps };
 
 /// The values of the patterns whose code is in one place, waves included.
@@ -48,8 +49,8 @@ template <class S, class Source>
 namespace module_patterns {
 
 template <class Spu>
-[[gnu::noinline]] typename Spu::rare_simd::F value(Spu& spu, const PatternRecord& r,
-                                                   const V3<typename Spu::rare_simd>& p) {
+CELLTRACE_ONE_COPY typename Spu::rare_simd::F value(Spu& spu, const PatternRecord& r,
+                                                    const V3<typename Spu::rare_simd>& p) {
   spu.run_in_module(modules::kPatterns);
   return value_of<PatternCode::plain>(r, p);
 }
@@ -59,15 +60,15 @@ template <class Spu>
 namespace module_noise {
 
 template <class Spu>
-[[gnu::noinline]] typename Spu::rare_simd::F value(Spu& spu, const PatternRecord& r,
-                                                   const V3<typename Spu::rare_simd>& p) {
+CELLTRACE_ONE_COPY typename Spu::rare_simd::F value(Spu& spu, const PatternRecord& r,
+                                                    const V3<typename Spu::rare_simd>& p) {
   spu.run_in_module(modules::kNoise);
   return value_of<PatternCode::noise>(r, p);
 }
 
 template <class Spu>
-[[gnu::noinline]] V3<typename Spu::rare_simd> displaced(Spu& spu, const TurbulenceWords& t,
-                                                        const V3<typename Spu::rare_simd>& p) {
+CELLTRACE_ONE_COPY V3<typename Spu::rare_simd> displaced(Spu& spu, const TurbulenceWords& t,
+                                                         const V3<typename Spu::rare_simd>& p) {
   using S = typename Spu::rare_simd;
   spu.run_in_module(modules::kNoise);
   return p + noise::turbulence<S>(p, t.octaves, t.lambda, t.omega) * splat3<S>(t.amount);
@@ -75,7 +76,7 @@ template <class Spu>
 
 /// By noise of generators 1 and 2.
 template <class Spu>
-[[gnu::noinline]] void shift(Spu& spu, const PatternRecord& r, V3<typename Spu::rare_simd>& p) {
+CELLTRACE_ONE_COPY void shift(Spu& spu, const PatternRecord& r, V3<typename Spu::rare_simd>& p) {
   using S = typename Spu::rare_simd;
   spu.run_in_module(modules::kNoise);
   shift_points<S>(p, r, noise::LatticeNoise<S>{r});
@@ -83,8 +84,8 @@ template <class Spu>
 
 /// What a pattern of which disturbs() is true adds to a normal, in its own space.
 template <class Spu>
-[[gnu::noinline]] V3<typename Spu::rare_simd> disturbance(Spu& spu, const PatternRecord& r,
-                                                          const V3<typename Spu::rare_simd>& p) {
+CELLTRACE_ONE_COPY V3<typename Spu::rare_simd> disturbance(Spu& spu, const PatternRecord& r,
+                                                           const V3<typename Spu::rare_simd>& p) {
   using S = typename Spu::rare_simd;
   spu.run_in_module(modules::kNoise);
   const typename S::F zero(0.0f);
@@ -102,8 +103,8 @@ template <class Spu>
 namespace module_warps {
 
 template <class Spu>
-[[gnu::noinline]] V3<typename Spu::rare_simd> bent(SceneAccess<Spu>& scene, const SpaceStepRecord& step,
-                                                   const V3<typename Spu::rare_simd>& p) {
+CELLTRACE_ONE_COPY V3<typename Spu::rare_simd> bent(SceneAccess<Spu>& scene, const SpaceStepRecord& step,
+                                                    const V3<typename Spu::rare_simd>& p) {
   using S = typename Spu::rare_simd;
   scene.spu().run_in_module(modules::kWarps);
   const auto kind = static_cast<WarpKind>(step.kind_and_flags & warp_flag::kind_mask);
@@ -123,16 +124,16 @@ namespace module_rare {
 
 /// The random points that are nearest to points.
 template <class Spu>
-[[gnu::noinline]] V3<typename Spu::rare_simd> nearest_feature(SceneAccess<Spu>& scene, const PatternRecord& r,
-                                                              const V3<typename Spu::rare_simd>& p) {
+CELLTRACE_ONE_COPY V3<typename Spu::rare_simd>
+nearest_feature(SceneAccess<Spu>& scene, const PatternRecord& r, const V3<typename Spu::rare_simd>& p) {
   scene.spu().run_in_module(modules::kRarePatterns);
   return CracklePattern::nearest_of<Spu>(scene, p, r, {0, true}).point;
 }
 
 /// Of rare patterns, and of those of noise with generator 3.
 template <class Spu>
-[[gnu::noinline]] typename Spu::rare_simd::F value(SceneAccess<Spu>& scene, const PatternRecord& r,
-                                                   const PatternPoints<typename Spu::rare_simd>& points) {
+CELLTRACE_ONE_COPY typename Spu::rare_simd::F value(SceneAccess<Spu>& scene, const PatternRecord& r,
+                                                    const PatternPoints<typename Spu::rare_simd>& points) {
   using S = typename Spu::rare_simd;
   scene.spu().run_in_module(modules::kRarePatterns);
   const V3<S>& p = points.at;
@@ -157,8 +158,8 @@ template <class Spu>
 
 /// As that of the noise.
 template <class Spu>
-[[gnu::noinline]] V3<typename Spu::rare_simd> disturbance(SceneAccess<Spu>& scene, const PatternRecord& r,
-                                                          const V3<typename Spu::rare_simd>& p) {
+CELLTRACE_ONE_COPY V3<typename Spu::rare_simd> disturbance(SceneAccess<Spu>& scene, const PatternRecord& r,
+                                                           const V3<typename Spu::rare_simd>& p) {
   using S = typename Spu::rare_simd;
   scene.spu().run_in_module(modules::kRarePatterns);
   const typename S::F zero(0.0f);
@@ -175,13 +176,15 @@ template <class Spu>
 
 /// Points of `lanes` in the space of a pattern. Other lanes get any points.
 template <TextureStage kStage, class Spu>
-[[gnu::noinline]] PatternPoints<typename Spu::rare_simd>
+CELLTRACE_ONE_COPY PatternPoints<typename Spu::rare_simd>
 to_pattern_space(SceneAccess<Spu>& scene, const PatternRecord& r,
                  const PatternPoints<typename Spu::rare_simd>& points, uint32_t lanes) {
   using S = typename Spu::rare_simd;
   Spu& spu = scene.spu();
   V3<S> p = points.at;
-  if ((r.kind_and_flags & pattern_flag::uv_mapping) != 0) p = surface_coordinates(points);
+  // Skies have no surface.
+  if ((r.kind_and_flags & pattern_flag::uv_mapping) != 0 && points.surface != nullptr)
+    p = surface_coordinates(points);
   p = map_point<S>(r.to_space, p);
   move_idle_lanes<Spu>(p, lanes);
   for (uint32_t i = 0; i < r.step_count; ++i) {

@@ -1,6 +1,7 @@
 // Pigments: the colours of surfaces, and what they let through. Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/textures/map_walk.hpp"
 
 namespace celltrace::kernel {
@@ -33,9 +34,9 @@ namespace detail {
 
 /// Of a pattern whose map has colours only: the entries on both sides of its values, blended.
 template <class Spu>
-[[gnu::noinline]] void blend_colours(SceneAccess<Spu>& scene, uint32_t pattern,
-                                     const PatternPoints<typename Spu::rare_simd>& points, uint32_t lanes,
-                                     PigmentLanes<typename Spu::rare_simd>& pigment) {
+CELLTRACE_ONE_COPY void blend_colours(SceneAccess<Spu>& scene, uint32_t pattern,
+                                      const PatternPoints<typename Spu::rare_simd>& points, uint32_t lanes,
+                                      PigmentLanes<typename Spu::rare_simd>& pigment) {
   using S = typename Spu::rare_simd;
   using F = typename S::F;
   using M = typename S::M;
@@ -56,9 +57,9 @@ template <class Spu>
 
 /// Of any pattern: the leaves of its tree of maps, by their weights.
 template <class Spu>
-[[gnu::noinline]] void add_up_leaves(SceneAccess<Spu>& scene, uint32_t pattern,
-                                     const PatternPoints<typename Spu::rare_simd>& points, uint32_t lanes,
-                                     PigmentLanes<typename Spu::rare_simd>& pigment) {
+CELLTRACE_ONE_COPY void add_up_leaves(SceneAccess<Spu>& scene, uint32_t pattern,
+                                      const PatternPoints<typename Spu::rare_simd>& points, uint32_t lanes,
+                                      PigmentLanes<typename Spu::rare_simd>& pigment) {
   using S = typename Spu::rare_simd;
   using F = typename S::F;
   const F zero(0.0f);

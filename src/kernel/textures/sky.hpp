@@ -1,6 +1,7 @@
 // The sky: layers of pigments over the background, as far away as nothing else. Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/textures/pigments.hpp"
 
 namespace celltrace::kernel {
@@ -44,8 +45,9 @@ void add_sky_layers(SceneAccess<Spu>& scene, uint32_t sky, const V3<typename Spu
 /// before language version 3.7 dim those below them by filter and transmit alone, whatever their colours, but
 /// the background by the product of all colours.
 template <class Spu>
-[[gnu::noinline]] void add_sky(SceneAccess<Spu>& scene, uint32_t sky, const V3<typename Spu::simd>& direction,
-                               uint32_t lanes, V3<typename Spu::simd>& colour) {
+CELLTRACE_ONE_COPY void add_sky(SceneAccess<Spu>& scene, uint32_t sky,
+                                const V3<typename Spu::simd>& direction, uint32_t lanes,
+                                V3<typename Spu::simd>& colour) {
   scene.spu().enter_module(modules::kTextures);
   for_each_part<Spu>([&](uint32_t first) {
     const uint32_t some = part_of<Spu>(lanes, first);

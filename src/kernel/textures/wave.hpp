@@ -1,6 +1,7 @@
 // Wave forms: what becomes of a pattern's values before its map is asked. Kernel dialect.
 #pragma once
 
+#include "celltrace/spe/one_copy.hpp"
 #include "kernel/math.hpp"
 #include "kernel/records.hpp"
 
@@ -13,7 +14,7 @@ inline PatternWave wave_of(const PatternRecord& r) {
 /// As POV-Ray: values repeat after slightly more than 1, so that 1 itself is the end and not the beginning. A
 /// result may be as much above 1. One copy, which is always there: both modules of patterns end with it.
 template <class S>
-[[gnu::noinline]] typename S::F in_wave_form(const PatternRecord& r, const typename S::F& value) {
+CELLTRACE_ONE_COPY typename S::F in_wave_form(const PatternRecord& r, const typename S::F& value) {
   using F = typename S::F;
   constexpr float kRepeat = 1.00001f;
   F v = value * F(r.frequency) + F(r.phase);
