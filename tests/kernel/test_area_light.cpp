@@ -97,9 +97,9 @@ TEST_CASE("A light with an area is the mean of its quads") {
       REQUIRE((shadow.lanes & ~lanes) == 0);
       const Place place = {static_cast<int>(shadow.place.column), static_cast<int>(shadow.place.row)};
       for (unsigned l = 0; l < kSimdLanes; ++l) {
-        CHECK(test::at(shadow.light, l) == Vec3(Vec3f(light.colour)));
+        CHECK(test::at(shadow.light(), l) == Vec3(Vec3f(light.colour)));
         const Vec3 none(0);
-        set(shadow.light, l, (shadow.lanes >> l & 1) != 0 ? grids[l].at(place) : none);
+        set(shadow.light(), l, (shadow.lanes >> l & 1) != 0 ? grids[l].at(place) : none);
       }
     });
     for_each_lane(sampling.facing, [&](unsigned l) {
@@ -122,7 +122,7 @@ TEST_CASE("No place is looked at twice if all light comes from it, or none") {
       std::uint32_t& lanes = seen[{shadow.place.column, shadow.place.row}];
       REQUIRE((lanes & shadow.lanes) == 0);
       lanes |= shadow.lanes;
-      if (shadow.place.column % 2 == 0) shadow.light = VectorLanes{};
+      if (shadow.place.column % 2 == 0) shadow.light() = VectorLanes{};
     });
     CHECK(seen.size() == std::size_t(light.area->columns * light.area->rows));
     for (const auto& [place, lanes] : seen)

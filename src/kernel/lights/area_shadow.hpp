@@ -126,12 +126,12 @@ CELLTRACE_ONE_COPY void aim_shadow_rays(Spu& spu, const LightRecord& light,
 } // namespace module_areas
 
 /// Where the sampling of a light stands that surfaces of a packet face. Whoever looks at places asks
-/// next_place() for them, one after the other, and leaves in `light` what comes from there, or says by
+/// next_place() for them, one after the other, and leaves in light() what comes from there, or says by
 /// answer() where all of it does.
 template <class S> struct AreaShadow {
-  // Of the place that is asked for.
-  ShadowRays* to_place;
-  VectorLanes light; ///< before, that of the whole light; after, what comes through
+  ShadowRays* to_place; ///< that is asked for
+  /// Before, that of the whole light; after, what comes through from the place.
+  VectorLanes& light() { return colour[corner_count]; }
 
   // Its own.
   static constexpr uint32_t kCorners = 4;
@@ -146,11 +146,6 @@ template <class S> struct AreaShadow {
     uint16_t lanes, level;
     float weight;
   };
-  /// What comes from a corner of the quad: by lane all light, another colour, or none.
-  struct Corner {
-    uint32_t lit, tinted; ///< in other lanes it is dark
-    VectorLanes colour;   ///< where it is tinted
-  };
   /// Lanes in which all light comes from a place, or none.
   struct Known {
     uint16_t place, lit, dark;
@@ -159,10 +154,13 @@ template <class S> struct AreaShadow {
 
   VectorLanes to_middle, whole;
   FloatLanes share;    ///< of the whole light, of what has been looked at
-  VectorLanes tinted;  ///< and what comes tinted, beside that; only with `is_tinted`
+  VectorLanes more;    ///< what comes tinted, beside that; only where `is_tinted`
   uint32_t is_tinted;  ///< lanes
   uint32_t is_visible; ///< lanes that see a difference between all light and none
-  Corner corner[kCorners];
+  // What comes from the corners of the quad: in lanes that are lit all light, in those that are tinted a
+  // colour, in others nothing.
+  VectorLanes colour[kCorners];
+  uint32_t lit[kCorners], tinted[kCorners];
   Known known[kPlaces];
   Quad quads[kMaxQuads];
   uint32_t quad_count;
@@ -223,23 +221,21 @@ CELLTRACE_ONE_COPY void begin_area(const LightRecord& light, const Surfaces<S>& 
 
 /// Of the place that was asked for, `lit` and `tinted` lanes.
 template <class S> void take_answer(AreaShadow<S>& a, uint32_t lit, uint32_t tinted) {
-  typename AreaShadow<S>::Corner& corner = a.corner[a.corner_count++];
+  const uint32_t corner = a.corner_count++;
   typename AreaShadow<S>::Known& known = a.known_at(a.place);
-  corner.lit |= lit;
-  corner.tinted = tinted;
+  a.lit[corner] |= lit;
+  a.tinted[corner] = tinted;
   known.lit |= static_cast<uint16_t>(lit);
   known.dark |= static_cast<uint16_t>(a.lanes & ~(lit | tinted));
   a.lanes = 0;
 }
 template <class S> void take_colours(AreaShadow<S>& a) {
   using F = typename S::F;
-  const V3<S> came = a.light.template load<S>(), whole = a.whole.template load<S>();
+  const V3<S> came = a.light().template load<S>(), whole = a.whole.template load<S>();
   const F zero(0.0f);
   const auto lit = (came.x == whole.x) & (came.y == whole.y) & (came.z == whole.z);
   const auto dark = (came.x == zero) & (came.y == zero) & (came.z == zero);
-  const uint32_t tinted = a.lanes & ~(lit | dark).bits();
-  if (tinted != 0) a.corner[a.corner_count].colour = a.light;
-  take_answer(a, a.lanes & lit.bits(), tinted);
+  take_answer(a, a.lanes & lit.bits(), a.lanes & ~(lit | dark).bits());
 }
 
 /// In a part of the packet, from lane `first` on.
@@ -248,12 +244,11 @@ V3<typename Spu::rare_simd> colour_of(const AreaShadow<typename Spu::simd>& a, u
                                       uint32_t first) {
   using R = typename Spu::rare_simd;
   using F = typename R::F;
-  const auto& corner = a.corner[number];
   const V3<R> dark = {F(0.0f), F(0.0f), F(0.0f)};
-  const V3<R> untinted =
-      select<R>(R::M::from_bits(part_of<Spu>(corner.lit, first)), a.whole.template load_from<R>(first), dark);
-  return select<R>(R::M::from_bits(part_of<Spu>(corner.tinted, first)),
-                   corner.colour.template load_from<R>(first), untinted);
+  const V3<R> untinted = select<R>(R::M::from_bits(part_of<Spu>(a.lit[number], first)),
+                                   a.whole.template load_from<R>(first), dark);
+  return select<R>(R::M::from_bits(part_of<Spu>(a.tinted[number], first)),
+                   a.colour[number].template load_from<R>(first), untinted);
 }
 /// Of the lanes in which a corner is tinted, those in which neighbouring corners differ so much that the quad
 /// is looked at closer.
@@ -285,8 +280,8 @@ CELLTRACE_ONE_COPY void add_tinted(AreaShadow<typename Spu::simd>& a, uint32_t l
     const F zero(0.0f), added = R::select(R::M::from_bits(part_of<Spu>(lanes, first)), F(weight), zero);
     const V3<R> none = {zero, zero, zero};
     const V3<R> before = select<R>(R::M::from_bits(part_of<Spu>(a.is_tinted, first)),
-                                   a.tinted.template load_from<R>(first), none);
-    a.tinted.template store_from<R>(first, before + sum * added);
+                                   a.more.template load_from<R>(first), none);
+    a.more.template store_from<R>(first, before + sum * added);
   });
   a.is_tinted |= lanes;
 }
@@ -296,15 +291,14 @@ template <class Spu> void finish_quad(const LightRecord& light, AreaShadow<typen
   using S = typename Spu::simd;
   using F = typename S::F;
   const typename AreaShadow<S>::Quad q = a.quad;
-  const auto& c = a.corner;
-  const uint32_t tinted = (c[0].tinted | c[1].tinted | c[2].tinted | c[3].tinted) & q.lanes;
+  const uint32_t tinted = (a.tinted[0] | a.tinted[1] | a.tinted[2] | a.tinted[3]) & q.lanes;
   uint32_t divided = 0;
   if (q.right > q.left + 1 || q.bottom > q.top + 1) {
     if (q.level < light.adaptive) {
       divided = q.lanes;
     } else {
-      const uint32_t any = c[0].lit | c[1].lit | c[2].lit | c[3].lit,
-                     all = c[0].lit & c[1].lit & c[2].lit & c[3].lit;
+      const uint32_t any = a.lit[0] | a.lit[1] | a.lit[2] | a.lit[3],
+                     all = a.lit[0] & a.lit[1] & a.lit[2] & a.lit[3];
       divided = any & ~all & a.is_visible;
       if (tinted != 0) divided = (divided & ~tinted) | disagreement<Spu>(a, tinted);
       divided &= q.lanes;
@@ -315,8 +309,8 @@ template <class Spu> void finish_quad(const LightRecord& light, AreaShadow<typen
     // Weights are powers of 2: the sum is exact.
     const float weight = 0.25f * q.weight;
     F share = F::load(a.share.lane);
-    for (const auto& corner : c)
-      share = S::select(S::M::from_bits(corner.lit & agreed & ~tinted), share + F(weight), share);
+    for (const uint32_t lit : a.lit)
+      share = S::select(S::M::from_bits(lit & agreed & ~tinted), share + F(weight), share);
     share.store(a.share.lane);
     if ((agreed & tinted) != 0) add_tinted<Spu>(a, agreed & tinted, weight);
   }
@@ -343,8 +337,8 @@ CELLTRACE_ONE_COPY bool next_sample(Spu& spu, const LightRecord& light, AreaShad
     for (; a.corner_count < AreaShadow<S>::kCorners; ++a.corner_count) {
       const LightPlace place = a.place_of(a.corner_count);
       const typename AreaShadow<S>::Known& known = a.known_at(place);
-      a.corner[a.corner_count].lit = known.lit;
-      a.corner[a.corner_count].tinted = 0;
+      a.lit[a.corner_count] = known.lit;
+      a.tinted[a.corner_count] = 0;
       const uint32_t lanes = a.quad.lanes & ~uint32_t(known.lit | known.dark);
       if (lanes == 0) continue;
       V3<S> direction;
@@ -353,7 +347,7 @@ CELLTRACE_ONE_COPY bool next_sample(Spu& spu, const LightRecord& light, AreaShad
                direction, distance);
       a.to_place->rays.direction.template store<S>(direction);
       distance.store(a.to_place->distance.lane);
-      a.light = a.whole;
+      a.light() = a.whole;
       a.place = place;
       a.lanes = lanes;
       a.rays_asked += static_cast<uint32_t>(__builtin_popcount(lanes));
@@ -380,7 +374,7 @@ CELLTRACE_ONE_COPY void dim(Spu& spu, const AreaShadow<typename Spu::simd>& a, V
     V3<R> left = {share, share, share};
     const uint32_t tinted = part_of<Spu>(a.is_tinted, first);
     if (tinted != 0) {
-      const V3<R> sum = a.tinted.template load_from<R>(first), all = a.whole.template load_from<R>(first);
+      const V3<R> sum = a.more.template load_from<R>(first), all = a.whole.template load_from<R>(first);
       const V3<R> more = {share_of(sum.x, all.x), share_of(sum.y, all.y), share_of(sum.z, all.z)};
       left = select<R>(R::M::from_bits(tinted), left + more, left);
     }
@@ -419,7 +413,7 @@ template <class S> void answer(AreaShadow<S>& shadow, uint32_t lit) {
 }
 
 /// Leaves of what surfaces would send on of a light what they do of that which comes from all of its area.
-/// `look(shadow)` leaves in `shadow.light` what comes from `shadow.place`. Returns how many rays that took.
+/// `look(shadow)` leaves in `shadow.light()` what comes from `shadow.place`. Returns how many rays that took.
 template <class Spu, class Look>
 uint32_t sample_area(Spu& spu, const LightRecord& light, const Surfaces<typename Spu::simd>& s,
                      const IncidentLight<typename Spu::simd>& incident, ShadowRays& to_place,

@@ -91,7 +91,7 @@ public:
       // All its places were asked for, row by row.
       rays += sample_area(
           spu_, light, surfaces, incident, *to_place_, *area_, gathered, [&](AreaShadow<S>& shadow) {
-            shadow.light =
+            shadow.light() =
                 answer(cursor_ + shadow.place.row * light.columns + shadow.place.column).light.colour;
           });
       cursor_ += light.columns * light.rows;

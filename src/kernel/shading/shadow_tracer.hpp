@@ -175,13 +175,13 @@ private:
               select<S>(S::M::from_bits(lanes), colour.template load<S>(), {F(0.0f), F(0.0f), F(0.0f)}));
         while (next_place(scene_.spu(), light, area))
           answer(area, traversal_.unoccluded(area.to_place->rays, area.lanes, area.to_place->distance,
-                                             area.light, occluders));
+                                             area.light(), occluders));
         return take_area_light(colour);
       }
     }
     while (next_place(scene_.spu(), light, area)) {
       scene_.spu().compute(scalar_work::kBundleLight);
-      trace_shadows(light, area.to_place->rays, area.lanes, area.to_place->distance, area.light);
+      trace_shadows(light, area.to_place->rays, area.lanes, area.to_place->distance, area.light());
     }
     take_area_light(colour);
   }
