@@ -1,7 +1,6 @@
 // Constructive solid geometry: which crossings with a part's surface count. Kernel dialect.
 #pragma once
 
-#include "celltrace/spe/one_copy.hpp"
 #include "kernel/primitives/meshes_module.hpp"
 #include "kernel/primitives/shapes_module.hpp"
 #include "kernel/scene_access.hpp"
@@ -39,9 +38,9 @@ inline uint32_t blind_lanes(uint32_t flags, uint32_t reflected) {
 /// Which of the points in `lanes`, on the surface of a part, satisfy its condition and those of all levels
 /// above it. Each lane has a place in the program of its own, which only goes forward.
 template <class Spu>
-CELLTRACE_ONE_COPY uint32_t csg_accepted(SceneAccess<Spu>& scene, uint32_t condition,
-                                         const V3<typename Spu::simd>& points, uint32_t lanes,
-                                         uint32_t reflected) {
+[[gnu::noinline]] uint32_t csg_accepted(SceneAccess<Spu>& scene, uint32_t condition,
+                                        const V3<typename Spu::simd>& points, uint32_t lanes,
+                                        uint32_t reflected) {
   using S = typename Spu::simd;
   using I = typename S::I;
   const auto word = [](uint32_t value) { return I::splat(static_cast<int32_t>(value)); };

@@ -1,7 +1,6 @@
 // What rays pass through on their way from surface to surface: fog, and rainbows behind it. Kernel dialect.
 #pragma once
 
-#include "celltrace/spe/one_copy.hpp"
 #include "kernel/modules.hpp"
 #include "kernel/packet.hpp"
 #include "kernel/scene_access.hpp"
@@ -116,11 +115,11 @@ void bow_colour(SceneAccess<Spu>& scene, const RainbowRecord& bow, const typenam
 /// Of rays of `length` that look at a rainbow: what it adds and lets through, and how clear it is. `seen`
 /// says in which lanes it is seen. The formulas are POV-Ray's.
 template <class Spu>
-CELLTRACE_ONE_COPY void see_rainbow(SceneAccess<Spu>& scene, const RainbowRecord& bow, uint32_t number,
-                                    const V3<typename Spu::rare_simd>& direction,
-                                    const typename Spu::rare_simd::F& length,
-                                    Passage<typename Spu::rare_simd>& through,
-                                    typename Spu::rare_simd::F& clear, typename Spu::rare_simd::M& seen) {
+[[gnu::noinline]] void see_rainbow(SceneAccess<Spu>& scene, const RainbowRecord& bow, uint32_t number,
+                                   const V3<typename Spu::rare_simd>& direction,
+                                   const typename Spu::rare_simd::F& length,
+                                   Passage<typename Spu::rare_simd>& through,
+                                   typename Spu::rare_simd::F& clear, typename Spu::rare_simd::M& seen) {
   using S = typename Spu::rare_simd;
   using F = typename S::F;
   constexpr float kToBinary = -1.44269504f;
@@ -176,8 +175,8 @@ template <class S> typename S::F length_of(const HitPacket& hits, uint32_t first
 
 /// Multiplies how clear the way of rays is, in those lanes of a part.
 template <class S>
-CELLTRACE_ONE_COPY void dim_clear(const typename S::M& lanes, const typename S::F& pass, RayNode& ray,
-                                  uint32_t first) {
+[[gnu::noinline]] void dim_clear(const typename S::M& lanes, const typename S::F& pass, RayNode& ray,
+                                 uint32_t first) {
   const auto clear = S::F::load(ray.power.lane + first);
   S::select(lanes, clear * pass, clear).store(ray.power.lane + first);
 }
@@ -185,9 +184,8 @@ CELLTRACE_ONE_COPY void dim_clear(const typename S::M& lanes, const typename S::
 /// The rainbows, whose light fog dims. Of those that a ray sees all count the same: what it sees is their
 /// mean.
 template <class Spu>
-CELLTRACE_ONE_COPY void cross_rainbows(SceneAccess<Spu>& scene, const FrameBlock& frame,
-                                       const HitPacket& hits, uint32_t lanes, RayNode& ray,
-                                       VectorLanes& light) {
+[[gnu::noinline]] void cross_rainbows(SceneAccess<Spu>& scene, const FrameBlock& frame, const HitPacket& hits,
+                                      uint32_t lanes, RayNode& ray, VectorLanes& light) {
   using S = typename Spu::rare_simd;
   using F = typename S::F;
   for_each_part<Spu>([&](uint32_t first) {
@@ -228,8 +226,8 @@ namespace detail {
 
 /// Rays that hit nothing and came by no mirror: what comes through the background, and the sky before it.
 template <class Spu>
-CELLTRACE_ONE_COPY void see_through(SceneAccess<Spu>& scene, const FrameBlock& frame, const HitPacket& hits,
-                                    RayNode& ray, FloatLanes& clear) {
+[[gnu::noinline]] void see_through(SceneAccess<Spu>& scene, const FrameBlock& frame, const HitPacket& hits,
+                                   RayNode& ray, FloatLanes& clear) {
   using W = typename Spu::simd;
   using S = typename Spu::rare_simd;
   using F = typename S::F;
@@ -263,9 +261,9 @@ CELLTRACE_ONE_COPY void see_through(SceneAccess<Spu>& scene, const FrameBlock& f
 /// Multiplies the light of shadow rays by what fogs let through of it, as far as they go to what they hit or
 /// to the light, `left` away.
 template <class Spu>
-CELLTRACE_ONE_COPY void dim_shadow_rays(SceneAccess<Spu>& scene, const FrameBlock& frame,
-                                        const HitPacket& hits, const FloatLanes& left, const RayNode& ray,
-                                        VectorLanes& light) {
+[[gnu::noinline]] void dim_shadow_rays(SceneAccess<Spu>& scene, const FrameBlock& frame,
+                                       const HitPacket& hits, const FloatLanes& left, const RayNode& ray,
+                                       VectorLanes& light) {
   using S = typename Spu::rare_simd;
   using F = typename S::F;
   scene.spu().run_in_module(modules::kAtmosphere);
@@ -289,9 +287,9 @@ CELLTRACE_ONE_COPY void dim_shadow_rays(SceneAccess<Spu>& scene, const FrameBloc
 /// the throughput that is left for what is there. With light_way::alpha it also adds to `clear_pixels` what
 /// comes through of what is behind the scene.
 template <class Spu>
-CELLTRACE_ONE_COPY void cross_atmosphere(SceneAccess<Spu>& scene, const FrameBlock& frame,
-                                         const HitPacket& hits, RayNode& ray, VectorLanes& light,
-                                         FloatLanes* clear_pixels) {
+[[gnu::noinline]] void cross_atmosphere(SceneAccess<Spu>& scene, const FrameBlock& frame,
+                                        const HitPacket& hits, RayNode& ray, VectorLanes& light,
+                                        FloatLanes* clear_pixels) {
   using S = typename Spu::rare_simd;
   using F = typename S::F;
   scene.spu().run_in_module(modules::kAtmosphere);

@@ -1,7 +1,6 @@
 // What the insides of objects take of the light that goes through them. Kernel dialect.
 #pragma once
 
-#include "celltrace/spe/one_copy.hpp"
 #include "kernel/modules.hpp"
 #include "kernel/packet.hpp"
 #include "kernel/scene_access.hpp"
@@ -20,8 +19,8 @@ inline bool is_inside(const RayNode& ray, uint32_t lane, uint32_t interior) {
 /// POV-Ray only rays fade that hit the surface of an interior that they are in, whatever else they are in,
 /// and shadow rays only where the power is not 0.
 template <class Spu>
-CELLTRACE_ONE_COPY void fade(SceneAccess<Spu>& scene, const RayNode& ray, const WordLanes& interior,
-                             const FloatLanes& distance, uint32_t lanes, VectorLanes& light, bool is_shadow) {
+[[gnu::noinline]] void fade(SceneAccess<Spu>& scene, const RayNode& ray, const WordLanes& interior,
+                            const FloatLanes& distance, uint32_t lanes, VectorLanes& light, bool is_shadow) {
   using S = typename Spu::rare_simd;
   using F = typename S::F;
   constexpr float kToBinary = 1.44269504f, kExponential = 1000.0f;

@@ -2,7 +2,6 @@
 // different from inside, what a surface lets through depends on where the ray comes from. Kernel dialect.
 #pragma once
 
-#include "celltrace/spe/one_copy.hpp"
 #include "kernel/accel/object_tests.hpp"
 #include "kernel/shading/fading.hpp"
 #include "kernel/shading/hit_points.hpp"
@@ -37,9 +36,9 @@ ShadowWalk<typename Spu::simd>* allocate_shadow_walk(Spu& spu, const FrameBlock&
 
 /// Starts `lanes` of shadow rays, from what the rays of `from` hit, or those of the camera if it is null.
 template <class Spu>
-CELLTRACE_ONE_COPY void begin_shadow_walk(Spu& spu, const FrameBlock& frame, const RayInteriors* from,
-                                          const RayPacket& rays, uint32_t lanes, const FloatLanes& distance,
-                                          VectorLanes& light, ShadowWalk<typename Spu::simd>& walk) {
+[[gnu::noinline]] void begin_shadow_walk(Spu& spu, const FrameBlock& frame, const RayInteriors* from,
+                                         const RayPacket& rays, uint32_t lanes, const FloatLanes& distance,
+                                         VectorLanes& light, ShadowWalk<typename Spu::simd>& walk) {
   using S = typename Spu::simd;
   using F = typename S::F;
   spu.run_in_module(modules::kShadowWalk);
@@ -121,7 +120,7 @@ void add_caustics(SceneAccess<Spu>& scene, uint32_t lanes, ShadowWalk<typename S
 
 /// Those of the rays that hit something.
 template <class Spu>
-CELLTRACE_ONE_COPY uint32_t hits_of_walk(Spu& spu, const ShadowWalk<typename Spu::simd>& walk) {
+[[gnu::noinline]] uint32_t hits_of_walk(Spu& spu, const ShadowWalk<typename Spu::simd>& walk) {
   spu.run_in_module(modules::kShadowWalk);
   return hit_lanes<typename Spu::simd>(walk.hits, walk.ray->lanes);
 }
@@ -129,8 +128,8 @@ CELLTRACE_ONE_COPY uint32_t hits_of_walk(Spu& spu, const ShadowWalk<typename Spu
 /// Takes the rays through the surfaces that they have hit. Those that reach the light, or end, leave the
 /// walk.
 template <class Spu>
-CELLTRACE_ONE_COPY void step_shadow_walk(SceneAccess<Spu>& scene, ShadowWalk<typename Spu::simd>& walk,
-                                         uint64_t& overflows) {
+[[gnu::noinline]] void step_shadow_walk(SceneAccess<Spu>& scene, ShadowWalk<typename Spu::simd>& walk,
+                                        uint64_t& overflows) {
   using S = typename Spu::simd;
   using F = typename S::F;
   using M = typename S::M;

@@ -1,7 +1,6 @@
 // What surfaces let through of the light that shadow rays ask for. Kernel dialect.
 #pragma once
 
-#include "celltrace/spe/one_copy.hpp"
 #include "kernel/textures/pigments.hpp"
 
 namespace celltrace::kernel {
@@ -10,9 +9,9 @@ namespace detail {
 
 /// Of a texture that is no map: the product of its layers.
 template <class Spu>
-CELLTRACE_ONE_COPY void filter_of_layers(SceneAccess<Spu>& scene, uint32_t material,
-                                         const PatternPoints<typename Spu::rare_simd>& points, uint32_t lanes,
-                                         V3<typename Spu::rare_simd>& product) {
+[[gnu::noinline]] void filter_of_layers(SceneAccess<Spu>& scene, uint32_t material,
+                                        const PatternPoints<typename Spu::rare_simd>& points, uint32_t lanes,
+                                        V3<typename Spu::rare_simd>& product) {
   using S = typename Spu::rare_simd;
   using F = typename S::F;
   product = {F(1.0f), F(1.0f), F(1.0f)};
@@ -29,9 +28,9 @@ CELLTRACE_ONE_COPY void filter_of_layers(SceneAccess<Spu>& scene, uint32_t mater
 
 /// Of any texture.
 template <class Spu>
-CELLTRACE_ONE_COPY void filter_of_texture(SceneAccess<Spu>& scene, uint32_t material,
-                                          const PatternPoints<typename Spu::rare_simd>& points,
-                                          uint32_t lanes, V3<typename Spu::rare_simd>& filter) {
+[[gnu::noinline]] void filter_of_texture(SceneAccess<Spu>& scene, uint32_t material,
+                                         const PatternPoints<typename Spu::rare_simd>& points, uint32_t lanes,
+                                         V3<typename Spu::rare_simd>& filter) {
   using S = typename Spu::rare_simd;
   using F = typename S::F;
   scene.spu().run_in_module(modules::kTextures);
