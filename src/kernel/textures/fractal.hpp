@@ -2,7 +2,6 @@
 // iterated. Kernel dialect.
 #pragma once
 
-#include "celltrace/spe/one_copy.hpp"
 #include "kernel/direct/door.hpp"
 #include "kernel/math.hpp"
 #include "kernel/scene_access.hpp"
@@ -104,11 +103,12 @@ private:
   /// The value where no more is asked than that. `stay`: some that are known to, if the least size is not
   /// asked. A number that comes back after some rounds would do so for ever, as those do that converge: it is
   /// not followed further (Brent 1980). Whatever is still to come has been there, so that the least size is
-  /// known. It is looked for after several rounds at a time only.
+  /// known. It is looked for after several rounds at a time only. Not inlined: the loop has the registers for
+  /// itself.
   template <class S, bool kWantsLeast>
-  CELLTRACE_ONE_COPY static typename S::F counted_squares(const Complex<S>& first, const Complex<S>& c,
-                                                          const typename S::M& stay, uint32_t most,
-                                                          const PatternRecord& r) {
+  [[gnu::noinline]] static typename S::F counted_squares(const Complex<S>& first, const Complex<S>& c,
+                                                         const typename S::M& stay, uint32_t most,
+                                                         const PatternRecord& r) {
     using F = typename S::F;
     using M = typename S::M;
     constexpr uint32_t kRoundsAtATime = 4;
