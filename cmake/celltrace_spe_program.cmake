@@ -43,7 +43,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   set(native_flags --param=inline-unit-growth=100)
   # Hot programs: vectors of packets go through memory across a call, so that larger functions are inlined than is usual
   # (30 instructions). Where one register holds a packet or half of it: AVX2 takes 12 % less time, AVX-512 6 %, for a
-  # program that is half as large again; limits of 200 and 800 are slower than that. With narrower registers 100
+  # program that is half as large again; limits of 200 and 500 are slower than that. With narrower registers 100
   # instructions are as good as 400, 3 %, and compile in less time.
   set(hot_flags --param=inline-unit-growth=600 --param=max-inline-insns-auto=100)
   set(wide_hot_flags --param=inline-unit-growth=600 --param=max-inline-insns-auto=400)

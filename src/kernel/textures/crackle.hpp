@@ -95,23 +95,22 @@ private:
     const bool is_simple = metric == 1.0f || metric == 2.0f;
     if (!is_simple || __builtin_popcount(lanes) > tuning::kMostLanesByFeatures) {
       const auto here = S::M::from_bits(lanes);
-      const auto take_all = [&](float of_metric, const auto& take_one) __attribute__((always_inline)) {
+      const auto take_all = [&](float of_metric) __attribute__((always_inline)) {
         Nearest<S> found = nearest;
         for (uint32_t i = 0; i < FeatureNeighbours<S>::kCount; ++i) {
           const V3<S> d = neighbours.way_to(i, from);
-          take_one(S::select(here, power<S>(d, of_metric), F(1e30f)), d, found);
+          take<S>(S::select(here, power<S>(d, of_metric), F(1e30f)), d, p, found);
         }
-        nearest = found;
+        return found;
       };
-      if (metric == 2.0f && wanted.last <= 1 && !wanted.point)
-        take_all(2.0f, [](const F& power, const V3<S>&, Nearest<S>& found) {
-          const F second = S::max(found.power[0], power);
-          found.power[0] = S::min(found.power[0], power);
-          found.power[1] = S::min(found.power[1], second);
-        });
-      else
-        take_all(metric,
-                 [&](const F& power, const V3<S>& d, Nearest<S>& found) { take<S>(power, d, p, found); });
+      if (metric == 2.0f && wanted.last <= 1 && !wanted.point) {
+        // What is not taken over, compilers do not compute.
+        const Nearest<S> found = take_all(2.0f);
+        nearest.power[0] = found.power[0];
+        nearest.power[1] = found.power[1];
+      } else {
+        nearest = take_all(metric);
+      }
       return;
     }
     VectorLanes of_lane;
