@@ -29,6 +29,9 @@ struct ConePrimitive : LocalPrimitive<ConePrimitive> {
     // Where a < 0 there is always a crossing, at the apex at least; less is rounding.
     const auto steep = a < zero;
     const auto crosses = (square >= zero) | steep;
+    Crossings<S>& c = *crossings;
+    c.clear();
+    if (crosses.bits() == 0) return;
     const F root = S::sqrt(S::max(square, zero));
     const F q = -(b + S::select(b < zero, -root, root));
     const F first = q * finite_inverse<S>(a), second = k * finite_inverse<S>(q);
@@ -39,8 +42,6 @@ struct ConePrimitive : LocalPrimitive<ConePrimitive> {
     const F enter = S::select(steep, S::select(upward, high, -far_away), low);
     const F leave = S::select(steep, S::select(upward, far_away, low), high);
     const SlabInterval<S> caps(o.z, d.z, parameters.ratio, one);
-    Crossings<S>& c = *crossings;
-    c.clear();
     const F near = S::select(parameters.open, low, S::max(enter, caps.enter));
     const F far = S::select(parameters.open, high, S::min(leave, caps.leave));
     const auto solid = crosses & (near <= far);

@@ -26,13 +26,14 @@ struct CylinderPrimitive : LocalPrimitive<CylinderPrimitive> {
     const F y = o.y + d.y * S::select(along_axis, zero, middle);
     const F left = one - (x * x + y * y);
     const auto crosses = left >= zero;
+    Crossings<S>& c = *crossings;
+    c.clear();
+    if (crosses.bits() == 0) return;
     const F half = S::sqrt(S::max(left, zero) * inverse);
     const F far_away(1e20f);
     const F enter = S::select(along_axis, -far_away, middle - half);
     const F leave = S::select(along_axis, far_away, middle + half);
     const SlabInterval<S> caps(o.z, d.z, zero, one);
-    Crossings<S>& c = *crossings;
-    c.clear();
     c.near = S::select(parameters.open, enter, S::max(enter, caps.enter));
     c.far = S::select(parameters.open, leave, S::min(leave, caps.leave));
     const auto solid = crosses & (c.near <= c.far);
