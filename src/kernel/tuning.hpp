@@ -134,22 +134,25 @@ constexpr int kMostLanesByFeatures = 6;
 
 // --- building the BVH ---
 
-/// When the objects of a range share a leaf. A triangle has weight 1.
+/// When the objects of a range share a leaf. A triangle has weight 1. Two or three objects that would not
+/// fill a node always do, but in a scene of few objects.
 struct LeafRule {
-  uint32_t certain;      ///< up to this weight always
-  uint32_t most;         ///< above this weight never; between the two, the SAH decides
-  float cost;            ///< of testing an object of weight 1, relative to expanding a node
-  uint32_t other_weight; ///< the weight of an object that is no triangle
+  uint32_t certain;       ///< so many objects of weight 1 always
+  uint32_t most;          ///< above this weight never; between the two, the SAH decides
+  float cost;             ///< of testing an object of weight 1, relative to expanding a node
+  uint32_t sphere_weight; ///< a sphere is tested in little time, and fills most of its bounds
+  uint32_t other_weight;  ///< of what is neither: most tests of thin cylinders are in vain
 };
 /// Wide leaves are for SPEs that test many triangles of a leaf at once. Larger: fewer nodes are built and
-/// expanded; smaller: fewer triangles are tested in vain. 'rebuilt every frame' and rays of the models.
-constexpr LeafRule kWideLeaves = {12, 32, 0.5f, 4};
-/// Narrow leaves are for tests one by one: up to three objects always share one, because they would not fill
-/// a node. `celltrace render --backend cell_emu --schedule lockstep --stats -`, whose cycles count.
-constexpr LeafRule kNarrowLeaves = {3, 8, 2.0f, 1};
+/// expanded; smaller: fewer objects are tested in vain. 'rebuilt every frame' and rays of the models; for
+/// weights 'trace time' of molecules and of scenes with a few simple shapes.
+constexpr LeafRule kWideLeaves = {12, 32, 0.5f, 2, 3};
+/// Narrow leaves are for tests one by one. `celltrace render --backend cell_emu --schedule lockstep --stats
+/// -`, whose cycles count.
+constexpr LeafRule kNarrowLeaves = {3, 8, 2.0f, 2, 2};
 /// In copied treelets four objects do: a node for them would take memory in every copy, and rays would wait
 /// for it longer than the tests take. 'first frame' of a scene with many instances of one mesh.
-constexpr LeafRule kCopiedLeaves = {4, 8, 2.0f, 1};
+constexpr LeafRule kCopiedLeaves = {4, 8, 2.0f, 1, 1};
 /// Leaves are wide in scenes of at most so many objects, all of which are in the cache that a PC's cores
 /// share. Larger: objects that no ray hits are fetched from main memory; smaller: more nodes are built and
 /// expanded. Rays of generated models, '--primitives 100000 1000000'.

@@ -209,7 +209,9 @@ private:
       add_references(group.first, group.count, rule, references, all);
     }
     NodeRecord* nodes = nodes_ + memory_.team->top_nodes + treelet.first_node;
-    const NodeRecord* end = build(all, treelet.place, nodes, references, spare, treelet.first, rule);
+    Leaves<S> leaves(image_, list_offset(treelet.first), references, rule, kChildren);
+    const NodeRecord* end =
+        TreeletBuilder(image_, references, spare, leaves, treelet_stack_).build(all, treelet.place, nodes);
     treelet.nodes = static_cast<uint32_t>(end - nodes);
   }
 
@@ -222,21 +224,17 @@ private:
       lanes.min.store(reference.min); // lane 3 overwrites `value` and `weight`, which are set below
       lanes.max.store(reference.max);
       reference.value = frame_.object_offset + i * static_cast<uint32_t>(sizeof(ObjectRecord));
-      const uint32_t kind = objects_[i].kind_and_flags & object_flag::kind_mask;
-      reference.weight = static_cast<ObjectKind>(kind) == ObjectKind::triangle ? 1 : rule.other_weight;
+      reference.weight = weight_of(objects_[i], rule);
       range.weight += reference.weight;
       range.box.grow(lanes);
     }
   }
 
-  /// Builds the subtree of a range. Its lists begin at word `first` of the BVH's list.
-  NodeRecord* build(const Range<S>& range, const Place& place, NodeRecord* next, Reference* references,
-                    Reference* spare, uint32_t first, const LeafRule& rule) {
-    Leaves<S> leaves(image_, frame_.bvh.list_offset + first * 4, references, rule);
-    return TreeletBuilder(image_, references, spare, leaves, treelet_stack_).build(range, place, next);
-  }
+  /// The place of a word of the BVH's list in the image.
+  uint32_t list_offset(uint32_t word) const { return frame_.bvh.list_offset + word * 4; }
 
-  /// Builds the BVH of a scene with few objects, which are not in groups.
+  /// Builds the BVH of a scene with few objects, which are not in groups. They need not fill nodes: what
+  /// memory that takes does not matter.
   void build_whole() {
     const uint32_t count = frame_.object_count;
     const bool local = count <= kLocalReferences;
@@ -244,21 +242,24 @@ private:
     const LeafRule rule = leaf_rule(frame_.wide_leaves != 0, false);
     Range<S> all = {0, 0, 0, LaneAabb<S>::empty()};
     add_references(0, count, rule, references, all);
-    const NodeRecord* end = all.weight <= rule.certain
-                                ? add_root(all, references, rule)
-                                : build(all, {nullptr, 0, 0}, nodes_, references,
-                                        local ? spare_ : memory_.spare_references, 0, rule);
+    Leaves<S> leaves(image_, list_offset(0), references, rule, 2);
+    NodeRecord* end = nodes_ + 1;
+    if (leaves.end(all)) {
+      add_root(all, leaves);
+    } else {
+      Reference* spare = local ? spare_ : memory_.spare_references;
+      end = TreeletBuilder(image_, references, spare, leaves, treelet_stack_)
+                .build(all, {nullptr, 0, 0}, nodes_);
+    }
     memory_.team->nodes = static_cast<uint32_t>(end - nodes_);
   }
   /// Makes the root of a BVH that is a single leaf.
-  NodeRecord* add_root(const Range<S>& all, const Reference* references, const LeafRule& rule) {
+  void add_root(const Range<S>& all, Leaves<S>& leaves) {
     const LaneAabb<S> empty = LaneAabb<S>::empty();
     set_child_bounds<S>(*nodes_, {all.box, empty, empty, empty});
     for (uint32_t i = 0; i < kChildren; ++i)
       nodes_->child[i] = nodes_->leaf[i] = 0;
-    if (all.count() != 0)
-      Leaves<S>(image_, frame_.bvh.list_offset, references, rule).add(all, {nodes_, 0, 0});
-    return nodes_ + 1;
+    if (all.count() != 0) leaves.add(all, {nodes_, 0, 0});
   }
 
   const FrameBlock& frame_;

@@ -14,9 +14,16 @@ inline LeafRule leaf_rule(bool wide, bool copied) {
   if (wide) return tuning::kWideLeaves;
   return copied ? tuning::kCopiedLeaves : tuning::kNarrowLeaves;
 }
-static_assert(tuning::kNarrowLeaves.certain >= kChildren - 1 &&
-                  tuning::kCopiedLeaves.certain >= kChildren - 1,
-              "fewer objects do not fill a node");
+inline uint32_t weight_of(const ObjectRecord& object, const LeafRule& rule) {
+  switch (static_cast<ObjectKind>(object.kind_and_flags & object_flag::kind_mask)) {
+  case ObjectKind::triangle:
+    return 1;
+  case ObjectKind::sphere:
+    return rule.sphere_weight;
+  default:
+    return rule.other_weight;
+  }
+}
 
 /// The ends of a SubtreeBuilder over objects. The list of a leaf has the same place in the BVH's list as its
 /// range has in the references.
@@ -24,17 +31,22 @@ template <class S> class Leaves {
 public:
   static constexpr uint32_t kMaxSplitDepth = 32;
 
-  Leaves(uint8_t* image, uint32_t list_offset, const Reference* references, const LeafRule& rule)
-      : image_(image), list_offset_(list_offset), references_(references), rule_(rule) {}
+  /// Ranges of fewer than `fewest` objects always share a leaf.
+  Leaves(uint8_t* image, uint32_t list_offset, const Reference* references, const LeafRule& rule,
+         uint32_t fewest)
+      : image_(image), list_offset_(list_offset), references_(references), rule_(rule), fewest_(fewest) {}
 
-  bool end(const Range<S>& range) const { return range.weight <= rule_.certain; }
+  bool end(const Range<S>& range) const {
+    const uint32_t count = range.count();
+    return count < fewest_ || (range.weight == count && count <= rule_.certain);
+  }
 
   bool end(const Range<S>& range, const Range<S> (&children)[kChildren]) const {
     if (range.weight > rule_.most || range.count() > kMaxLeaf) return false;
     const float area = range.box.area();
     float saved = area * static_cast<float>(range.weight);
     for (const Range<S>& child : children)
-      saved -= child.box.area() * static_cast<float>(child.weight);
+      if (child.count() != 0) saved -= child.box.area() * static_cast<float>(child.weight);
     return !(saved * rule_.cost > area);
   }
 
@@ -68,6 +80,7 @@ private:
   uint32_t list_offset_;
   const Reference* references_;
   LeafRule rule_;
+  uint32_t fewest_;
 };
 
 } // namespace celltrace::kernel::bvh

@@ -32,10 +32,16 @@ struct alignas(128) TeamRecord {
 static_assert(sizeof(TeamRecord) == 128, "one line");
 constexpr uint32_t kStopped = 0x80000000u;
 
-/// The most nodes that a BVH can have. A node has four children and a leaf at least one object; only above
-/// copies nodes may have two or three children.
+/// The most nodes of a treelet of so many objects: a node has four children, and a leaf at least one object.
+constexpr uint32_t most_treelet_nodes(uint32_t objects) {
+  return (objects - 1) / 3;
+}
+
+/// The most nodes that a BVH can have. Without groups objects may be the only two or three children of a
+/// node: at worst all of them lie in pairs, two thirds as many nodes as objects. Above copies nodes may have
+/// two or three children.
 constexpr uint32_t most_nodes(uint32_t objects, uint32_t groups, bool copies) {
-  return objects / 3 + 2 + (copies ? groups : 0);
+  return (groups == 0 ? 2 * objects : objects) / 3 + 2 + (copies ? groups : 0);
 }
 
 /// The size of the work memory.

@@ -49,8 +49,8 @@ template <class S> void set_child_bounds(NodeRecord& node, const LaneAabb<S> (&c
 ///   bool end(const Range<S>&)                          whether a range ends without a node of its own
 ///   bool end(const Range<S>&, const Range<S> (&)[4])   the same, now that its children would be these
 ///   void add(const Range<S>&, const Place&)            stores a range that ends in its parent
-/// Halving bounds the depth. A single reference must end. If all ranges of fewer than kChildren references
-/// end, every node has four children.
+/// Halving bounds the depth. A single reference must end. Nodes have four children, but where a range of
+/// fewer references does not end: then each of them is a child.
 template <class S, class Ends> class SubtreeBuilder {
 public:
   /// A range whose nodes have not been built.

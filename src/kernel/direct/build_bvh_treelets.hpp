@@ -57,8 +57,7 @@ public:
   void add(const Range<S>& range, const Place& place) {
     treelets_[count_++] = {place, range.begin, range.end, objects_, range.weight, nodes_, 0};
     objects_ += range.weight;
-    // Nodes of four children above n leaves are (n - 1) / 3, and a leaf has an object or more.
-    if (!prototypes_.is_copy(groups_[range.begin].value)) nodes_ += (range.weight - 1) / 3;
+    if (!prototypes_.is_copy(groups_[range.begin].value)) nodes_ += most_treelet_nodes(range.weight);
   }
   uint32_t count() const { return count_; }
   /// The most nodes that all treelets but the copies can have.
