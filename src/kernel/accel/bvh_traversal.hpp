@@ -25,7 +25,8 @@ public:
       : objects_(objects), bvh_(frame.bvh), packet_traversal_(objects, frame),
         object_count_(static_cast<float>(frame.object_count)),
         rays_of_frame_(static_cast<float>(frame.width * frame.height)),
-        mixes_octants_(frame.object_count <= tuning::kMostObjectsOfMixedRays) {}
+        mixes_octants_(frame.object_count <= tuning::kMostObjectsOfMixedRays),
+        mixes_always_(frame.object_count <= tuning::kMostObjectsWithoutFrusta) {}
 
   /// Answers the queries, at most one for each packet of a bundle. Hits must have been reset. Occluded lanes
   /// are removed from queries for light.
@@ -131,8 +132,10 @@ private:
   bool intersect_mixed(RayQuery& query) {
     const RayPacket& rays = *query.rays;
     if (__builtin_popcount(query.lanes) < tuning::kLeastMixedRays || !mixes_octants_) return false;
-    const uint32_t octant = octant_of(rays, static_cast<uint32_t>(__builtin_ctz(query.lanes)));
-    if ((query.lanes & ~lanes_in_octant<S>(rays, octant)) == 0) return false;
+    if (!mixes_always_) {
+      const uint32_t octant = octant_of(rays, static_cast<uint32_t>(__builtin_ctz(query.lanes)));
+      if ((query.lanes & ~lanes_in_octant<S>(rays, octant)) == 0) return false;
+    }
     MixedVisitor<Spu> visitor = {packet_traversal_,
                                  objects_,
                                  query,
@@ -496,7 +499,7 @@ private:
   PacketTraversal<Spu> packet_traversal_;
   const float object_count_, rays_of_frame_;
   uint32_t max_split_packets_ = 1; ///< of the bundle
-  const bool mixes_octants_;
+  const bool mixes_octants_, mixes_always_;
   RayGroup<S> ray_groups_[kBundlePackets<Spu>]; ///< by packet; intersect_packet() uses the first
   BundleFrusta<S, kBundlePackets<Spu>> frusta_;
   Frustum<S> bundle_frustum_;                  ///< contains all of frusta_
