@@ -234,7 +234,7 @@ private:
       send(scratch().words, to, (width_ + 3) / 4 * 16);
       if (wants_colours()) {
         gather_colours(sums_.row[y][0], kSampledEdge, width_);
-        put_colours(0, width_, 0, first_row_ + y);
+        put_colours(scratch_.colours, width_, 0, first_row_ + y);
       }
       arrive();
     }

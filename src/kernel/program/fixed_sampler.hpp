@@ -15,12 +15,13 @@ template <class Spu, uint32_t kChannels>
 class FixedSampler : public PixelSampler<Spu, SamplingMethod::fixed, kChannels> {
   using Base = PixelSampler<Spu, SamplingMethod::fixed, kChannels>;
   using Base::arrive, Base::ask, Base::asked_, Base::channel, Base::column_, Base::differing, Base::encode,
-      Base::encode_pixels_of, Base::encode_points, Base::end_asking, Base::fetch, Base::found_at,
-      Base::frame_, Base::go_to_block, Base::height_, Base::kColourBytes, Base::kPackets,
-      Base::packet_of_points, Base::packets_of_row, Base::put_colours, Base::row_, Base::row_mask,
-      Base::scratch_, Base::send_object, Base::store_, Base::take_points, Base::takes_points,
-      Base::under_way_, Base::wants_colours, Base::width_;
+      Base::encode_pixels_of, Base::encode_points, Base::end_asking, Base::found_at, Base::frame_,
+      Base::go_to_block, Base::height_, Base::kColourBytes, Base::kPackets, Base::packet_of_points,
+      Base::packets_of_row, Base::put_colours, Base::row_, Base::row_mask, Base::scratch_, Base::send_object,
+      Base::store_, Base::take_points, Base::takes_points, Base::under_way_, Base::wants_colours,
+      Base::width_;
   using typename Base::Colour, typename Base::Points, typename Base::R;
+  using W = typename Base::S::F;
 
   /// The means of a row of pixels as a row of points: that of a pixel is where its point would be.
   struct MeanRow {
@@ -103,8 +104,9 @@ private:
     }
   }
 
-  /// Compares all pixels in POV-Ray's order, each with what the ones before it have become. Of pixels that
-  /// are to be sampled and are not yet, the colour counts that they have.
+  /// Compares all pixels in POV-Ray's order, each with what the ones before it have become: rows from above,
+  /// and in a row from the left. Of pixels that are to be sampled and are not yet, the colour counts that
+  /// they have.
   CELLTRACE_ONE_COPY void compare_again() {
     uint32_t over = 0, known_over = 0; // of the row above
     for (uint32_t y = 0; y < height_; ++y) {
@@ -113,19 +115,14 @@ private:
       // The same where a neighbour is sampled and its colour known.
       uint32_t left_known = 0, above_known = 0;
       if ((known | known_over) != 0) compare_with_means(y, left_known, above_known);
-      uint32_t own = 0;
-      uint32_t candidates = left | above | over;
-      while (candidates != 0) {
-        const uint32_t bit = candidates & (0u - candidates);
-        const uint32_t differs_left = bit & ((own & known & bit >> 1) != 0 ? left_known : left);
-        const uint32_t differs_above = bit & ((over & known_over & bit) != 0 ? above_known : above);
-        const uint32_t differs = differs_left | differs_above;
-        own |= differs | differs_left >> 1;
-        over |= differs_above;
-        candidates = (candidates & ~bit) | (differs << 1 & row_mask());
-      }
-      if (y != 0) masks_.sampled.row[y - 1] = over;
-      over = own;
+      const uint32_t differs_above = chosen(over & known_over, above_known, above);
+      // A pixel whose left neighbour differs is compared with what that has become.
+      const uint32_t differs =
+          known == 0 ? left | differs_above
+                     : in_a_row(left | differs_above, chosen(known << 1, left_known, left) | differs_above);
+      const uint32_t differs_left = chosen((differs & known) << 1, left_known, left);
+      if (y != 0) masks_.sampled.row[y - 1] = over | differs_above;
+      over = differs | differs_left >> 1;
       known_over = known;
     }
     masks_.sampled.row[height_ - 1] = over;
@@ -133,37 +130,52 @@ private:
     taken_ = cursor_;
   }
 
+  /// The bits of `a` where `which` has one, otherwise those of `b`.
+  static uint32_t chosen(uint32_t which, uint32_t a, uint32_t b) { return (a & which) | (b & ~which); }
+  /// The bits of a row, of which each depends on the one before: it is that of `after_0` or of `after_1`; the
+  /// lowest one comes after 0. A prefix computation: each step composes what as many bits as before make of
+  /// the one in front of them.
+  static uint32_t in_a_row(uint32_t after_0, uint32_t after_1) {
+    for (uint32_t bits = 1; bits < kSampledEdge; bits *= 2) {
+      const uint32_t composed = chosen(after_0 << bits, after_1, after_0);
+      after_1 = chosen(after_1 << bits, after_1, after_0);
+      after_0 = composed;
+    }
+    return after_0;
+  }
+
   /// Which pixels of a row differ from the means of their left and upper neighbours, of those that are known.
   CELLTRACE_ONE_COPY void compare_with_means(uint32_t y, uint32_t& left, uint32_t& above) {
     const Points& own = *found_at(encoded_row(y + 1), &scratch().encoded[0]);
-    MeanRow& means = scratch().means;
-    if (masks_.known.row[y] != 0) {
-      read_means(y, means);
-      left = differing(own, 1, means, 0);
-    }
-    if (y == 0 || masks_.known.row[y - 1] == 0) return;
-    read_means(y - 1, means);
-    above = differing(own, 1, means, 1);
+    MeanRow& means = scratch().means; // those of the row above, if they were read for it
+    if (y != 0 && masks_.known.row[y - 1] != 0) above = differing(own, 1, means, 1);
+    if (masks_.known.row[y] == 0) return;
+    read_means(y, means);
+    left = differing(own, 1, means, 0) & row_mask();
   }
   CELLTRACE_ONE_COPY void read_means(uint32_t y, MeanRow& means) {
-    using W = typename Base::S::F;
     const Colour* const row = found_at(encoded_colour(0, y), scratch().colours, kSampledEdge * kColourBytes);
     for (uint32_t x = 0; x < kSampledEdge; x += kSimdLanes) {
-      W lanes[4];
-      for (uint32_t i = 0; i < 4; ++i)
-        lanes[i] = W::load(row[x + 4 * i].channel);
-      Base::S::transpose_quads(lanes[0], lanes[1], lanes[2], lanes[3]);
+      W channels[4];
+      take_channels(row + x, channels);
       for (uint32_t axis = 0; axis < kChannels; ++axis)
-        lanes[axis].store(means.numbers[axis] + kSimdLanes + x);
+        channels[axis].store(means.numbers[axis] + kSimdLanes + x);
     }
+  }
+  /// The channels of sixteen neighbours in the store.
+  static void take_channels(const Colour* colours, W (&channels)[4]) {
+    for (uint32_t i = 0; i < 4; ++i)
+      channels[i] = W::load(colours[4 * i].channel);
+    Base::S::transpose_quads(channels[0], channels[1], channels[2], channels[3]);
   }
 
   // The store: colours of pixels, what they are compared by, and what points are compared by.
-  ea_t stored_colour(uint32_t x, uint32_t y) const { return store_ + (y * kSampledEdge + x) * kColourBytes; }
-  /// Of four neighbours the colours lie in four vectors, which read_means() transposes.
-  ea_t encoded_colour(uint32_t x, uint32_t y) const {
-    return stored_colour((x & ~15u) | (x & 3) << 2 | (x >> 2 & 3), kSampledEdge + y);
+  ea_t stored_colour(uint32_t x, uint32_t y) const {
+    return store_ + (y * kSampledEdge + place_in_row(x)) * kColourBytes;
   }
+  /// Of four neighbours the colours lie in four vectors, which take_channels() transposes.
+  static uint32_t place_in_row(uint32_t x) { return (x & ~15u) | (x & 3) << 2 | (x >> 2 & 3); }
+  ea_t encoded_colour(uint32_t x, uint32_t y) const { return stored_colour(x, kSampledEdge + y); }
   ea_t encoded_row(uint32_t y) const {
     return stored_colour(0, 2 * kSampledEdge) + y * static_cast<uint32_t>(sizeof(Points));
   }
@@ -300,10 +312,16 @@ private:
     for (uint32_t y = 0; y < height_; ++y) {
       const uint32_t sampled = masks_.sampled.row[y];
       if (sampled == 0) continue;
-      fetch(scratch().colours, stored_colour(0, y), kSampledEdge * kColourBytes);
-      for (uint32_t x = 0; x < kSampledEdge; ++x)
+      const Colour* const colours =
+          found_at(stored_colour(0, y), scratch().colours, kSampledEdge * kColourBytes);
+      for (uint32_t x = 0; x < kSampledEdge; x += kSimdLanes) {
+        W channels[4];
+        take_channels(colours + x, channels);
+        // Of other pixels there is no colour.
+        const auto take = Base::S::M::from_bits(sampled >> x & 0xFFFF);
         for (uint32_t axis = 0; axis < 3; ++axis)
-          scratch().channels[axis][x] = (sampled >> x & 1) != 0 ? scratch().colours[x].channel[axis] : 0.0f;
+          Base::S::select(take, channels[axis], W(0.0f)).store(scratch().channels[axis] + x);
+      }
       encode_pixels_of(scratch().channels, scratch().words);
       const ea_t row = frame_.surface + (row_ * kSampledEdge + y + 1) * frame_.surface_pitch +
                        (column_ * kSampledEdge + 1) * static_cast<uint32_t>(sizeof(uint32_t));
@@ -312,7 +330,7 @@ private:
         uint32_t& word = scratch().leaving[x][(x + 1) % 4];
         word = scratch().words[x];
         send_object(word, row + x * static_cast<uint32_t>(sizeof(uint32_t)));
-        if (wants_colours()) put_colours(x, 1, x + 1, y + 1);
+        if (wants_colours()) put_colours(colours + place_in_row(x), 1, x + 1, y + 1);
       });
       arrive();
     }

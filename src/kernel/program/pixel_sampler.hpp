@@ -334,11 +334,11 @@ protected:
   }
   bool wants_colours() const { return frame_.sampling.colours_pitch != 0; }
   /// Puts some of the colours where they are wanted: x and y count from the block's first point on.
-  CELLTRACE_ONE_COPY void put_colours(uint32_t first, uint32_t count, uint32_t x, uint32_t y) {
+  CELLTRACE_ONE_COPY void put_colours(const Colour* colours, uint32_t count, uint32_t x, uint32_t y) {
     const ea_t to = frame_.surface + frame_.packet_rows * kPacketEdge * frame_.surface_pitch +
                     (row_ * kSampledEdge + y) * frame_.sampling.colours_pitch +
                     (column_ * kSampledEdge + x) * kColourBytes;
-    send(scratch_.colours + first, to, count * kColourBytes);
+    send(colours, to, count * kColourBytes);
   }
 
   Spu& spu_;
