@@ -153,7 +153,7 @@ struct LeafRule {
 constexpr LeafRule kWideLeaves = {12, 32, 0.5f, 2, 3};
 /// Narrow leaves are for tests one by one. `celltrace render --backend cell_emu --schedule lockstep --stats
 /// -`, whose cycles count.
-constexpr LeafRule kNarrowLeaves = {3, 8, 2.0f, 2, 2};
+constexpr LeafRule kNarrowLeaves = {3, 16, 2.0f, 2, 2};
 /// In copied treelets four objects do: a node for them would take memory in every copy, and rays would wait
 /// for it longer than the tests take. 'first frame' of a scene with many instances of one mesh.
 constexpr LeafRule kCopiedLeaves = {4, 8, 2.0f, 1, 1};
