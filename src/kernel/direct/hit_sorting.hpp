@@ -13,26 +13,33 @@ namespace celltrace::kernel {
 template <class Spu> class HitSorter {
 public:
   using S = typename Spu::simd;
+  using F = typename S::F;
+  using I = typename S::I;
 
   explicit HitSorter(Spu& spu) : sorted_(spu.template allocate<Sorted>(kPackets)) {}
 
-  /// Sorts the packets of a bundle if that pays: rays, hits and the lanes that they have, which they then
-  /// take from the first one on. Otherwise they stay as they are.
+  /// Sorts the packets of a bundle that are mixed, if that pays: rays, hits and the lanes that they have,
+  /// which they then take from the first one on. Others stay as they are.
   template <class Packet> bool sort(SceneAccess<Spu>& scene, Packet* packets) {
     if (!looks_mixed(scene, packets)) return false;
-    materials_count_ = rays_ = mixed_ = 0;
+    materials_count_ = rays_ = mixed_ = sorted_count_ = 0;
     for (uint32_t& count : count_)
       count = 0;
     for (uint32_t i = 0; i < kPackets; ++i)
-      classify(scene, packets[i].hits, packets[i].lanes, class_[i]);
+      classify(scene, packets[i].hits, packets[i].lanes, i);
     if (!pays()) return false;
+    const Differing differing = find_differing(packets);
     for (uint32_t i = 0; i < kPackets; ++i)
-      move(packets[i].rays, packets[i].hits, packets[i].lanes, i);
-    for (uint32_t i = 0; i < kPackets; ++i) {
-      const uint32_t first = i * kSimdLanes, left = rays_ > first ? rays_ - first : 0;
-      packets[i].rays = sorted_[i].rays;
-      packets[i].hits = sorted_[i].hits;
-      packets[i].lanes = left < kSimdLanes ? (1u << left) - 1 : 0xFFFF;
+      keep_places(i);
+    for (uint32_t n = 0; n < sorted_count_; ++n) {
+      const Packet& packet = packets[number_[n]];
+      move(packet.rays, packet.hits, packet.lanes, number_[n], differing);
+    }
+    for (uint32_t n = 0; n < sorted_count_; ++n) {
+      const uint32_t first = n * kSimdLanes, left = rays_ > first ? rays_ - first : 0;
+      Packet& packet = packets[number_[n]];
+      packet.lanes = left < kSimdLanes ? (1u << left) - 1 : 0xFFFF;
+      put_back(sorted_[number_[n]], differing, packet.rays, packet.hits);
     }
     return true;
   }
@@ -66,17 +73,23 @@ private:
     return mixed >= tuning::kLeastMixedPackets;
   }
 
-  void classify(SceneAccess<Spu>& scene, const HitPacket& hits, uint32_t lanes,
-                uint8_t (&classes)[kSimdLanes]) {
+  /// Of a packet that is to be sorted: it has hits of several materials, or also rays that hit nothing.
+  void classify(SceneAccess<Spu>& scene, const HitPacket& hits, uint32_t lanes, uint32_t number) {
+    uint32_t of_class[kMaterials + 1];
     uint32_t seen = 0;
     for_each_value<S>(hits.object, lanes, [&](uint32_t object, uint32_t same) {
       const uint32_t of = object == kNoOffset ? kNone : number_of(scene.object(object)->material);
-      count_[of] += static_cast<uint32_t>(__builtin_popcount(same));
+      of_class[of] = (seen >> of & 1) != 0 ? of_class[of] | same : same;
       seen |= 1u << of;
-      for_each_lane(same, [&](uint32_t lane) { classes[lane] = static_cast<uint8_t>(of); });
     });
+    if ((seen & (seen - 1)) == 0) return;
+    number_[sorted_count_++] = number;
     rays_ += static_cast<uint32_t>(__builtin_popcount(lanes));
     mixed_ += static_cast<uint32_t>(__builtin_popcount(seen & ~(1u << kNone)));
+    for_each_lane(seen, [&](uint32_t of) {
+      count_[of] += static_cast<uint32_t>(__builtin_popcount(of_class[of]));
+      for_each_lane(of_class[of], [&](uint32_t lane) { class_[number][lane] = static_cast<uint8_t>(of); });
+    });
   }
   uint32_t number_of(uint32_t material) {
     for (uint32_t i = 0; i < materials_count_; ++i)
@@ -97,26 +110,78 @@ private:
     return 4 * mixed_ > 5 * least;
   }
 
-  void move(const RayPacket& rays, const HitPacket& hits, uint32_t lanes, uint32_t number) {
+  /// What is not the same for all rays: those of most cameras start at one point, and only what is on
+  /// triangles has coordinates. What is the same need not be moved ray by ray.
+  struct Differing {
+    bool starts, coordinates;
+    VectorLanes origin;     ///< all the same, unless starts are not
+    WordLanes start_object; ///< likewise
+  };
+  template <class Packet> Differing find_differing(const Packet* packets) const {
+    Differing all = {};
+    const Packet& some = packets[number_[0]];
+    const auto lane = static_cast<uint32_t>(__builtin_ctz(some.lanes));
+    const V3<S> origin = some.rays.origin.template of<S>(lane);
+    const I object = I::splat(static_cast<int32_t>(some.rays.start_object.lane[lane]));
+    for (uint32_t n = 0; n < sorted_count_; ++n) {
+      const Packet& packet = packets[number_[n]];
+      const V3<S> start = packet.rays.origin.template load<S>();
+      const auto same = (start.x == origin.x) & (start.y == origin.y) & (start.z == origin.z) &
+                        (words(packet.rays.start_object) == object);
+      const auto none = (F::load(packet.hits.u.lane) == F(0.0f)) & (F::load(packet.hits.v.lane) == F(0.0f));
+      all.starts = all.starts || (packet.lanes & ~same.bits()) != 0;
+      all.coordinates = all.coordinates || (packet.lanes & ~none.bits()) != 0;
+    }
+    all.origin.template store<S>(origin);
+    object.store(reinterpret_cast<int32_t*>(all.start_object.lane));
+    return all;
+  }
+  static I words(const WordLanes& lanes) { return I::load(reinterpret_cast<const int32_t*>(lanes.lane)); }
+
+  void move(const RayPacket& rays, const HitPacket& hits, uint32_t lanes, uint32_t number,
+            const Differing& differing) {
     for_each_lane(lanes, [&](uint32_t lane) {
       const uint32_t place = next_[class_[number][lane]]++;
-      Sorted& sorted = sorted_[place / kSimdLanes];
+      Sorted& sorted = sorted_[number_[place / kSimdLanes]];
       const uint32_t to = place % kSimdLanes;
-      copy_lane(rays, lane, sorted.rays, to);
+      if (differing.starts) {
+        copy_lane(rays.origin, lane, sorted.rays.origin, to);
+        copy_lane(rays.start_object, lane, sorted.rays.start_object, to);
+      }
+      copy_lane(rays.direction, lane, sorted.rays.direction, to);
+      if (differing.coordinates) {
+        copy_lane(hits.u, lane, sorted.hits.u, to);
+        copy_lane(hits.v, lane, sorted.hits.v, to);
+      }
       copy_lane(hits.distance, lane, sorted.hits.distance, to);
       copy_lane(hits.object, lane, sorted.hits.object, to);
-      copy_lane(hits.u, lane, sorted.hits.u, to);
-      copy_lane(hits.v, lane, sorted.hits.v, to);
       sorted.places.lane[to] = number * kSimdLanes + lane;
     });
   }
 
+  void keep_places(uint32_t number) {
+    WordLanes& places = sorted_[number].places;
+    for (uint32_t lane = 0; lane < kSimdLanes; ++lane)
+      places.lane[lane] = number * kSimdLanes + lane;
+  }
+  static void put_back(const Sorted& sorted, const Differing& differing, RayPacket& rays, HitPacket& hits) {
+    rays.origin = differing.starts ? sorted.rays.origin : differing.origin;
+    rays.start_object = differing.starts ? sorted.rays.start_object : differing.start_object;
+    rays.direction = sorted.rays.direction;
+    hits.distance = sorted.hits.distance;
+    hits.object = sorted.hits.object;
+    const F none(0.0f);
+    (differing.coordinates ? F::load(sorted.hits.u.lane) : none).store(hits.u.lane);
+    (differing.coordinates ? F::load(sorted.hits.v.lane) : none).store(hits.v.lane);
+  }
+
   Sorted* sorted_;
-  uint8_t class_[kPackets][kSimdLanes]; ///< numbers of the materials that rays hit
+  uint32_t number_[kPackets], sorted_count_ = 0; ///< packets that are sorted
+  uint8_t class_[kPackets][kSimdLanes];          ///< of them: numbers of the materials that rays hit
   uint32_t materials_[kMaterials], materials_count_ = 0;
   uint32_t count_[kMaterials + 1], next_[kMaterials + 1]; ///< rays of each, and the next one's place
   uint32_t rays_ = 0;
-  uint32_t mixed_ = 0; ///< materials of all packets together
+  uint32_t mixed_ = 0; ///< materials of these packets together
 };
 
 } // namespace celltrace::kernel
