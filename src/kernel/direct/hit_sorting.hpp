@@ -19,32 +19,33 @@ public:
   explicit HitSorter(Spu& spu) : sorted_(spu.template allocate<Sorted>(kPackets)) {}
 
   /// Sorts the packets of a bundle that are mixed, if that pays: rays, hits and the lanes that they have,
-  /// which they then take from the first one on. Others stay as they are.
-  template <class Packet> bool sort(SceneAccess<Spu>& scene, Packet* packets) {
-    if (!looks_mixed(scene, packets)) return false;
+  /// which they then take from the first one on. Others stay as they are. Returns the packets that were
+  /// sorted.
+  template <class Packet> uint32_t sort(SceneAccess<Spu>& scene, Packet* packets) {
+    if (!looks_mixed(scene, packets)) return 0;
     materials_count_ = rays_ = mixed_ = sorted_count_ = 0;
     for (uint32_t& count : count_)
       count = 0;
     for (uint32_t i = 0; i < kPackets; ++i)
       classify(scene, packets[i].hits, packets[i].lanes, i);
-    if (!pays()) return false;
+    if (!pays()) return 0;
     const Differing differing = find_differing(packets);
-    for (uint32_t i = 0; i < kPackets; ++i)
-      keep_places(i);
     for (uint32_t n = 0; n < sorted_count_; ++n) {
       const Packet& packet = packets[number_[n]];
       move(packet.rays, packet.hits, packet.lanes, number_[n], differing);
     }
+    uint32_t sorted = 0;
     for (uint32_t n = 0; n < sorted_count_; ++n) {
       const uint32_t first = n * kSimdLanes, left = rays_ > first ? rays_ - first : 0;
       Packet& packet = packets[number_[n]];
       packet.lanes = left < kSimdLanes ? (1u << left) - 1 : 0xFFFF;
       put_back(sorted_[number_[n]], differing, packet.rays, packet.hits);
+      sorted |= 1u << number_[n];
     }
-    return true;
+    return sorted;
   }
 
-  /// Where the rays of packet `i` were before they were sorted: lane + kSimdLanes x packet.
+  /// Where the rays of packet `i`, which was sorted, were before: lane + kSimdLanes x packet.
   const WordLanes& places(uint32_t i) const { return sorted_[i].places; }
 
 private:
@@ -159,11 +160,6 @@ private:
     });
   }
 
-  void keep_places(uint32_t number) {
-    WordLanes& places = sorted_[number].places;
-    for (uint32_t lane = 0; lane < kSimdLanes; ++lane)
-      places.lane[lane] = number * kSimdLanes + lane;
-  }
   static void put_back(const Sorted& sorted, const Differing& differing, RayPacket& rays, HitPacket& hits) {
     rays.origin = differing.starts ? sorted.rays.origin : differing.origin;
     rays.start_object = differing.starts ? sorted.rays.start_object : differing.start_object;

@@ -35,22 +35,21 @@ public:
   template <class Member> void sort(SceneAccess<Spu>& scene, const FrameBlock& frame, Member* members) {
     for (uint32_t i = 0; i < kPackets; ++i)
       with_ray_[i] = members[i].lanes;
-    is_sorted_ = frame.object_count <= tuning::kObjectsInCoreCache &&
-                 (frame.light_ways & light_way::first_hits) == 0 && !has_own_lanes(frame) &&
-                 sorter_.sort(scene, members);
+    sorted_ = 0;
+    if (frame.object_count <= tuning::kObjectsInCoreCache &&
+        (frame.light_ways & light_way::first_hits) == 0 && !has_own_lanes(frame))
+      sorted_ = sorter_.sort(scene, members);
   }
   /// The lanes of a member's pixels that have a ray.
   uint32_t with_ray(uint32_t member) const { return with_ray_[member]; }
 
   /// Starts the trees of a bundle: no light has come yet.
   void begin() {
-    if (is_sorted_)
-      for (uint32_t i = 0; i < kPackets; ++i)
-        set_dark(i);
+    for_each_lane(sorted_, [&](uint32_t member) { set_dark(member); });
   }
   /// Starts the tree of a member. `pixels`: become those that its rays are of.
   void begin_tree(uint32_t member, WordLanes& pixels) {
-    if (is_sorted_) {
+    if (is_sorted(member)) {
       pixels = sorter_.places(member);
       return;
     }
@@ -62,13 +61,13 @@ public:
 
   /// What the primary rays of a member see by themselves, without a tree.
   void put(uint32_t member, uint32_t lanes, const VectorLanes& seen) {
-    if (is_sorted_) return add_tree(sorter_.places(member), lanes, seen);
+    if (is_sorted(member)) return add_tree(sorter_.places(member), lanes, seen);
     light_[member] = seen;
     if (samples_ != nullptr) samples_->at[member].clear = clear;
   }
   /// The light of a member's tree. Some of it may have come already.
   void put_tree(uint32_t member, uint32_t lanes, const VectorLanes& seen) {
-    if (is_sorted_) return add_tree(sorter_.places(member), lanes, seen);
+    if (is_sorted(member)) return add_tree(sorter_.places(member), lanes, seen);
     VectorLanes all;
     all.template store<S>(light_[member].template load<S>() + seen.template load<S>());
     put(member, lanes, all);
@@ -94,7 +93,7 @@ public:
   }
   /// What has come of the light that a round has gathered for a member's primary rays.
   void add(uint32_t member, uint32_t lanes, const LightRound& round) {
-    if (!is_sorted_) return; // light_of() adds it
+    if (!is_sorted(member)) return; // light_of() adds it
     VectorLanes more;
     more.template store<S>(round.template sum<S>());
     add(sorter_.places(member), lanes, more);
@@ -102,7 +101,7 @@ public:
   /// All that has come to the pixels of a member, with that of a round as in add().
   V3<S> light_of(uint32_t member, uint32_t lanes, const LightRound& round) const {
     const V3<S> seen = light_[member].template load<S>();
-    if (is_sorted_ || lanes == 0) return seen;
+    if (is_sorted(member) || lanes == 0) return seen;
     return select<S>(S::M::from_bits(lanes), seen + round.template sum<S>(), seen);
   }
 
@@ -115,13 +114,15 @@ public:
 private:
   static constexpr uint32_t kPackets = kBundlePackets<Spu>;
 
+  /// Whether the rays of a member are those of other pixels.
+  bool is_sorted(uint32_t member) const { return (sorted_ >> member & 1) != 0; }
   void set_dark(uint32_t member) { light_[member].template store<S>({F(0.0f), F(0.0f), F(0.0f)}); }
 
   SampleBundle<Spu>* samples_;
   HitSorter<Spu> sorter_;
   VectorLanes* light_; ///< that has come to the pixels of each member
   uint32_t with_ray_[kPackets];
-  bool is_sorted_ = false;
+  uint32_t sorted_ = 0; ///< members whose rays have been sorted
 };
 
 } // namespace celltrace::kernel
