@@ -174,6 +174,20 @@ TEST_CASE("A BVH over few objects") {
   }
 }
 
+TEST_CASE("Few objects that are far apart lie alone in their leaves, though they fill no nodes") {
+  const bool wide_leaves = GENERATE(false, true);
+  Random random(5);
+  for (unsigned count = 1; count <= 40; ++count) {
+    INFO(count << " objects");
+    const auto anywhere = [&](unsigned) { return sphere(random.point(10), 0.01); };
+    CHECK(check(objects(count, anywhere), wide_leaves).largest_leaf == 1);
+    const auto in_pairs = [](unsigned i) {
+      return sphere({i / 2 * 1000.0, i / 2 % 3 * 1000.0, i % 2 * 10.0}, 0.01);
+    };
+    CHECK(check(objects(2 * count, in_pairs), wide_leaves).largest_leaf == 1);
+  }
+}
+
 TEST_CASE("A BVH over objects of any kind and number") {
   Random random(2);
   for (unsigned count : {100u, 1000u, 5000u, 20000u, 70000u}) {

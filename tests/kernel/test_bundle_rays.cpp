@@ -10,6 +10,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <cstring>
 #include <set>
 #include <vector>
 
@@ -250,6 +251,29 @@ TEST_CASE("Hits are sorted by materials, and their rays know where they were") {
     return sum;
   };
 
+  /// How many rays of sorted packets are there, each of them once and with all that it had.
+  const auto rays_found = [&](const Bundle& before, const Bundle& bundle, std::uint32_t sorted) {
+    std::set<std::uint32_t> seen;
+    for_each_lane(sorted, [&](std::uint32_t i) {
+      for_each_lane(bundle.packets[i].lanes, [&](std::uint32_t lane) {
+        const std::uint32_t place = sorter.places(i).lane[lane], was = place % kSimdLanes;
+        const Bundle::Packet &from = before.packets[place / kSimdLanes], &to = bundle.packets[i];
+        REQUIRE((from.lanes >> was & 1) == 1);
+        REQUIRE(seen.insert(place).second);
+        for (std::uint32_t axis = 0; axis < 3; ++axis) {
+          REQUIRE(to.rays.origin[axis].lane[lane] == from.rays.origin[axis].lane[was]);
+          REQUIRE(to.rays.direction[axis].lane[lane] == from.rays.direction[axis].lane[was]);
+        }
+        REQUIRE(to.rays.start_object.lane[lane] == from.rays.start_object.lane[was]);
+        REQUIRE(to.hits.distance.lane[lane] == static_cast<float>(place));
+        REQUIRE(to.hits.object.lane[lane] == from.hits.object.lane[was]);
+        REQUIRE(to.hits.u.lane[lane] == from.hits.u.lane[was]);
+        REQUIRE(to.hits.v.lane[lane] == from.hits.v.lane[was]);
+      });
+    });
+    return seen.size();
+  };
+
   SECTION("where packets have several") {
     Bundle bundle([&](std::uint32_t i, std::uint32_t lane) {
       return (lane + i) % 4 == 3 ? kNoOffset : objects[(lane + i) % 4 % 3];
@@ -257,21 +281,28 @@ TEST_CASE("Hits are sorted by materials, and their rays know where they were") {
     bundle.packets[5].lanes = 0x00F1;
     bundle.packets[kPackets - 1].lanes = 0;
     const Bundle before = bundle;
-    REQUIRE(sorter.sort(access, bundle.packets));
+    const std::uint32_t sorted = sorter.sort(access, bundle.packets);
+    CHECK(sorted == (1u << (kPackets - 1)) - 1);
     CHECK(mixed_of(bundle) * 2 < mixed_of(before));
-    std::set<std::uint32_t> seen;
+    CHECK(rays_found(before, bundle, sorted) == (kPackets - 2) * kSimdLanes + 5);
+  }
+  SECTION("where some packets have several, and others stay as they are") {
+    const bool same_start = GENERATE(false, true), has_coordinates = GENERATE(false, true);
+    Bundle bundle(
+        [&](std::uint32_t i, std::uint32_t lane) { return objects[i % 2 == 0 ? (lane + lane / 8) % 3 : 1]; });
     for (std::uint32_t i = 0; i < kPackets; ++i)
-      for_each_lane(bundle.packets[i].lanes, [&](std::uint32_t lane) {
-        const std::uint32_t place = sorter.places(i).lane[lane];
-        const Bundle::Packet& from = before.packets[place / kSimdLanes];
-        REQUIRE((from.lanes >> place % kSimdLanes & 1) == 1);
-        REQUIRE(seen.insert(place).second);
-        REQUIRE(bundle.packets[i].rays.origin.x.lane[lane] == static_cast<float>(place));
-        REQUIRE(bundle.packets[i].rays.direction.y.lane[lane] == static_cast<float>(place));
-        REQUIRE(bundle.packets[i].hits.distance.lane[lane] == static_cast<float>(place));
-        REQUIRE(bundle.packets[i].hits.object.lane[lane] == from.hits.object.lane[place % kSimdLanes]);
-      });
-    CHECK(seen.size() == (kPackets - 2) * kSimdLanes + 5);
+      for (std::uint32_t lane = 0; lane < kSimdLanes; ++lane) {
+        Bundle::Packet& packet = bundle.packets[i];
+        if (same_start) set(packet.rays.origin, lane, {5, 6, 7});
+        packet.rays.start_object.lane[lane] = same_start ? kNoOffset : i;
+        if (has_coordinates) packet.hits.v.lane[lane] = packet.hits.distance.lane[lane] / 1000;
+      }
+    const Bundle before = bundle;
+    const std::uint32_t sorted = sorter.sort(access, bundle.packets);
+    CHECK(sorted == 0x5555u % (1u << kPackets));
+    CHECK(rays_found(before, bundle, sorted) == kPackets / 2 * kSimdLanes);
+    for (std::uint32_t i = 1; i < kPackets; i += 2)
+      CHECK(std::memcmp(&bundle.packets[i], &before.packets[i], sizeof before.packets[i]) == 0);
   }
   SECTION("but not where each packet has one") {
     Bundle bundle([&](std::uint32_t i, std::uint32_t) { return objects[i % 3]; });
