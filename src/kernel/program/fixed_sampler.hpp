@@ -14,13 +14,13 @@ namespace celltrace::kernel {
 template <class Spu, uint32_t kChannels>
 class FixedSampler : public PixelSampler<Spu, SamplingMethod::fixed, kChannels> {
   using Base = PixelSampler<Spu, SamplingMethod::fixed, kChannels>;
-  using Base::arrive, Base::ask, Base::asked_, Base::channel, Base::column_, Base::differing, Base::encode,
-      Base::encode_pixels_of, Base::encode_points, Base::end_asking, Base::found_at, Base::frame_,
-      Base::go_to_block, Base::height_, Base::kColourBytes, Base::kPackets, Base::packet_of_points,
-      Base::packets_of_row, Base::put_colours, Base::row_, Base::row_mask, Base::scratch_, Base::send_object,
-      Base::store_, Base::take_points, Base::takes_points, Base::under_way_, Base::wants_colours,
-      Base::width_;
-  using typename Base::Colour, typename Base::Points, typename Base::R;
+  using Base::arrive, Base::ask, Base::asked_, Base::channel, Base::channel_from, Base::column_,
+      Base::differing, Base::encode, Base::encode_pixels_of, Base::encode_points, Base::end_asking,
+      Base::found_at, Base::frame_, Base::go_to_block, Base::height_, Base::kColourBytes, Base::kPackets,
+      Base::packet_of_points, Base::packets_of_row, Base::put_colours, Base::row_, Base::row_mask,
+      Base::scratch_, Base::send_object, Base::store_, Base::take_points, Base::takes_points,
+      Base::under_way_, Base::wants_colours, Base::width_;
+  using typename Base::Colour, typename Base::F, typename Base::Points, typename Base::R;
   using W = typename Base::S::F;
 
   /// The means of a row of pixels as a row of points: that of a pixel is where its point would be.
@@ -87,21 +87,60 @@ private:
 
   /// The neighbours that pixels differ from, before any of them is sampled.
   CELLTRACE_ONE_COPY void compare_pixels() {
+    const F step = most_step();
     const SampleLanes* packets = nullptr;
+    encoded_ = 0;
+    bool is_encoded = false;
     for (uint32_t line = 0; line <= height_; ++line) {
       if (line % kPacketEdge == 0) packets = packets_of_row(line);
-      Points& own = scratch().encoded[line % 2];
-      take_points(packets, line, scratch().points[0]);
-      encode_points(scratch().points[0], own);
-      send_object(own, encoded_row(line));
+      const Points& own = scratch().points[line % 2];
+      take_points(packets, line, scratch().points[line % 2]);
+      bool is_over_encoded = is_encoded;
+      is_encoded = false;
       if (line != 0) {
         const uint32_t y = line - 1;
-        masks_.left.row[y] = differing(own, 1, own, 0) & row_mask();
-        masks_.above.row[y] = differing(own, 1, scratch().encoded[y % 2], 1) & row_mask();
+        uint32_t left = 0, above = 0;
+        if (!is_smooth(own, scratch().points[y % 2], step)) {
+          if (!is_over_encoded) encode_row(y);
+          encode_row(line);
+          is_encoded = true;
+          const Points &encoded = scratch().encoded[line % 2], &over = scratch().encoded[y % 2];
+          left = differing(encoded, 1, encoded, 0) & row_mask();
+          above = differing(encoded, 1, over, 1) & row_mask();
+        }
+        masks_.left.row[y] = left;
+        masks_.above.row[y] = above;
         masks_.known.row[y] = 0;
       }
       arrive();
     }
+  }
+  /// What two points may differ by in each channel if they are not to be told apart: |a^g - b^g| is at most
+  /// |a - b|^g for g up to 1. Less than 0: that is not known.
+  F most_step() const {
+    constexpr float kLeastThreshold = 0.05f; // below, errors of encode() would count
+    const SamplingRecord& sampling = frame_.sampling;
+    if (Base::kHasAlpha || sampling.inverse_gamma > 1.0f || sampling.threshold < kLeastThreshold)
+      return F(-1.0f);
+    return coarse_pow<R>(F(0.3f * sampling.threshold), F(1.0f / sampling.inverse_gamma));
+  }
+  /// Whether no point of a row can differ from the one to its left or above it.
+  CELLTRACE_ONE_COPY bool is_smooth(const Points& own, const Points& over, const F& step) const {
+    F most(0.0f);
+    for (uint32_t x = 0; x < kSampledEdge; x += R::kLanes)
+      for (uint32_t axis = 0; axis < 3; ++axis) {
+        const F point = channel_from(own, axis, 1 + x);
+        most = R::max(most, R::max(R::abs(point - channel_from(own, axis, x)),
+                                   R::abs(point - channel_from(over, axis, 1 + x))));
+      }
+    return ((most <= step).bits() | ~0u << R::kLanes) == ~0u;
+  }
+  /// Stores what the points of a row are compared by, which take_points() has taken.
+  CELLTRACE_ONE_COPY void encode_row(uint32_t line) {
+    Points& encoded = scratch().encoded[line % 2];
+    encode_points(scratch().points[line % 2], encoded);
+    send_object(encoded, encoded_row(line));
+    if (line != 0) encoded_ |= 1u << (line - 1);
   }
 
   /// Compares all pixels in POV-Ray's order, each with what the ones before it have become: rows from above,
@@ -146,6 +185,11 @@ private:
 
   /// Which pixels of a row differ from the means of their left and upper neighbours, of those that are known.
   CELLTRACE_ONE_COPY void compare_with_means(uint32_t y, uint32_t& left, uint32_t& above) {
+    if ((encoded_ >> y & 1) == 0) {
+      take_points(packets_of_row(y + 1), y + 1, scratch().points[(y + 1) % 2]);
+      encode_row(y + 1);
+      arrive();
+    }
     const Points& own = *found_at(encoded_row(y + 1), &scratch().encoded[0]);
     MeanRow& means = scratch().means; // those of the row above, if they were read for it
     if (y != 0 && masks_.known.row[y - 1] != 0) above = differing(own, 1, means, 1);
@@ -339,6 +383,7 @@ private:
   Masks& masks_;
   Cursor cursor_, taken_; ///< the next sample to be asked for, and to be taken
   Colour sum_ = {};       ///< of the samples of a pixel that are there
+  uint32_t encoded_ = 0;  ///< rows of pixels of which the store has what they are compared by
 };
 
 } // namespace celltrace::kernel
