@@ -21,7 +21,9 @@ enum class ObjectKind : uint32_t { sphere = 0, triangle = 1, plane = 2, ellipsoi
 constexpr uint32_t kMaxPrimitives = 16;
 
 namespace object_flag {
-constexpr uint32_t kind_mask = 0xFF;
+constexpr uint32_t kind_mask = 0x7F;
+/// Secondary rays may leave some of its materials, or these have layers or are texture maps.
+constexpr uint32_t spawns = 0x80;
 constexpr uint32_t smooth = 0x100;     ///< triangle with vertex normals
 constexpr uint32_t no_shadow = 0x200;  ///< shadow rays pass
 constexpr uint32_t opaque = 0x400;     ///< shadow rays stop

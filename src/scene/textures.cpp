@@ -154,6 +154,7 @@ Material sky_of(const Scene& scene) {
 
 void TextureTables::Traits::add(const Traits& other) {
   opaque = opaque && other.opaque;
+  spawns = spawns || other.spawns;
   textured = textured || other.textured;
   disturbed = disturbed || other.disturbed;
   lit_behind = lit_behind || other.lit_behind;
@@ -166,8 +167,8 @@ TextureTables::TextureTables(const Scene& scene) : scene_(scene) {
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const Traits traits = fill_material(static_cast<std::uint32_t>(i), scene.materials[i], {});
     object_flags.push_back(
-        (traits.opaque ? object_flag::opaque : 0) | (traits.textured ? object_flag::textured : 0) |
-        (traits.disturbed ? object_flag::disturbed : 0) | (traits.two_sided ? object_flag::two_sided : 0) |
+        (traits.opaque ? object_flag::opaque : 0) | (traits.spawns ? object_flag::spawns : 0) |
+        (traits.textured ? object_flag::textured : 0) | (traits.disturbed ? object_flag::disturbed : 0) | (traits.two_sided ? object_flag::two_sided : 0) |
         (traits.lit_behind ? object_flag::lit_behind : 0) |
         (traits.by_surface ? object_flag::by_surface : 0));
     by_surface = by_surface || traits.by_surface;
@@ -196,7 +197,7 @@ TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Ma
     r.flags = material_flag::mapped;
     r.pattern = map.index;
     traits = map.traits;
-    traits.textured = true;
+    traits.spawns = traits.textured = true;
   } else {
     r = make_record(material, scene_);
     traits.lit_behind = material.finish.diffuse_behind != 0;
@@ -213,6 +214,7 @@ TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Ma
     } else {
       traits.opaque = is_opaque(material.pigment);
     }
+    traits.spawns = !traits.opaque || (r.flags & material_flag::reflects) != 0 || material.below != nullptr;
     if (material.normal) {
       r.flags |= material_flag::disturbed;
       const Known normal = add_normal(*material.normal, outer);

@@ -55,15 +55,15 @@ public:
   std::vector<std::shared_ptr<const Object>> objects;
   std::vector<kernel::RainbowRecord> rainbows; ///< those that are visible
   std::uint32_t sky;                           ///< index of the uppermost layer's material, or kNoOffset
-  /// By material of the scene: what an object has that consists of it, of object_flag's opaque, mapped,
-  /// disturbed, two_sided, by_surface.
+  /// By material of the scene: what an object has that consists of it, of object_flag's opaque, spawns,
+  /// textured, disturbed, two_sided, lit_behind, by_surface.
   std::vector<std::uint32_t> object_flags;
 
 private:
   /// What the textures of a tree have in common.
   struct Traits {
-    bool opaque = true, textured = false, disturbed = false, two_sided = false, lit_behind = false,
-         by_surface = false;
+    bool opaque = true, spawns = false, textured = false, disturbed = false, two_sided = false,
+         lit_behind = false, by_surface = false;
     void add(const Traits& other);
   };
   struct Known {

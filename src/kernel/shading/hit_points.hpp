@@ -16,6 +16,7 @@ template <class S> struct HitPoints {
   WordLanes material; ///< offset of a MaterialRecord, or of a BlendRecord in lanes of `blended`
   WordLanes interior;
   uint32_t blended = 0;
+  uint32_t spawning = 0;  ///< lanes from which rays may go on, as object_flag's; where there is room for code
   uint32_t textured = 0;  ///< lanes some of whose materials are not the constants of their records alone
   uint32_t disturbed = 0; ///< of them, those some of whose materials disturb normals
   uint32_t lit_behind = 0, lit_through = 0; ///< as object_flag's
@@ -175,6 +176,7 @@ template <class Spu>
         o.interior = S::select(mask, I::splat(static_cast<int32_t>(object.interior)), o.interior);
         objects.of_kind[kind] |= same;
         if ((flags & object_flag::blended) != 0) points.blended |= same;
+        if (kHasRoomForCode<Spu> && (flags & object_flag::spawns) != 0) points.spawning |= same;
         if ((flags & object_flag::textured) != 0) points.textured |= same;
         if ((flags & object_flag::disturbed) != 0) points.disturbed |= same;
         if ((flags & object_flag::smooth) != 0) {
@@ -222,6 +224,7 @@ template <class Spu>
   o.interior = words.interior;
   o.open = words.lanes_with(object_flag::open);
   points.blended = lanes & words.lanes_with(object_flag::blended);
+  points.spawning = lanes & words.lanes_with(object_flag::spawns);
   points.textured = lanes & words.lanes_with(object_flag::textured);
   points.disturbed = lanes & words.lanes_with(object_flag::disturbed);
   if ((lanes & words.lanes_with(kOfSides)) != 0) {
@@ -244,7 +247,7 @@ CELLTRACE_ONE_COPY void find_hit_points(SceneAccess<Spu>& scene, const RayPacket
   using F = typename S::F;
   using M = typename S::M;
   scene.spu().enter_module(modules::kHits);
-  points.blended = points.textured = points.disturbed = 0;
+  points.blended = points.spawning = points.textured = points.disturbed = 0;
   points.lit_behind = points.lit_through = 0;
   detail::HitObjects<S> o;
   bool is_done = false;

@@ -43,13 +43,16 @@ public:
                     const LightRound& round, VectorLanes& colours) {
     if (round.next() != frame_.light_count || has_atmosphere(frame_)) return false;
     const uint32_t hit = hit_lanes<S>(hits, lanes);
+    if (((points.spawning | points.blended) & hit) != 0) return false;
     const F zero(0.0f), one(1.0f);
     V3<S> seen = {zero, zero, zero};
     if (hit != 0) {
-      if (points.plain(hit) != hit) return false;
-      const MaterialLanes<S> m = gather_materials(scene_, points.material, hit);
-      if (m.has(material_flag::reflects | material_flag::transmits)) return false;
-      const Surfaces<S> surfaces = points.surfaces(rays.direction.template load<S>(), hits.object);
+      MaterialLanes<S> m = gather_materials(scene_, points.material, hit);
+      Surfaces<S> surfaces = points.surfaces(rays.direction.template load<S>(), hits.object);
+      if ((points.textured & hit) != 0) {
+        prepare_textures(points, hits, points.textured & hit);
+        add_textures(points.material, m, surfaces);
+      }
       seen = local_light(scene_, frame_, round, surfaces, m, hit, {one, one, one});
     }
     counters_.primary += count(lanes);
@@ -233,6 +236,18 @@ private:
     surfaces.lit_through = points.lit_through;
   }
 
+  /// Finds out what patterns ask for besides points.
+  void prepare_textures(const HitPoints<S>& points, const HitPacket& hits, uint32_t lanes) {
+    if (surface_ == nullptr) return;
+    scene_.spu().enter_module(modules::kSurfaces);
+    find_surface_lanes(scene_, points, hits, lanes, *surface_);
+  }
+  /// What materials leave to their patterns.
+  void add_textures(const WordLanes& materials, MaterialLanes<S>& m, Surfaces<S>& surfaces) {
+    if (m.disturbed != 0) disturb_normals(scene_, materials, m, surface_, surfaces);
+    if (m.patterned != 0) add_pigments<Spu>(scene_, materials, {surfaces.point, surface_}, m);
+  }
+
   /// Surfaces with several materials: each is shaded whole, and the results are blended by their weights.
   /// What goes on goes the same ways for all of them: as one ray each where it weighs the same, or every such
   /// surface would multiply the rays behind it.
@@ -240,10 +255,7 @@ private:
     scene_.spu().run_in_module(modules::kComposed);
     Surfaces<S> surfaces;
     find_surfaces(points, surfaces);
-    if (surface_ != nullptr) {
-      scene_.spu().enter_module(modules::kSurfaces);
-      find_surface_lanes(scene_, points, hits_, lanes, *surface_);
-    }
+    prepare_textures(points, hits_, lanes);
     const F u = F::load(hits_.u.lane);
     const F v = F::load(hits_.v.lane);
     const F weights[3] = {F(1.0f) - u - v, u, v};
@@ -353,8 +365,7 @@ private:
     for (bool is_top = true; lanes != 0; is_top = false) {
       MaterialLanes<S> m = gather_materials(scene_, materials, lanes);
       surfaces.normal = smooth;
-      if (m.disturbed != 0) disturb_normals(scene_, materials, m, surface_, surfaces);
-      if (m.patterned != 0) add_pigments<Spu>(scene_, materials, {surfaces.point, surface_}, m);
+      add_textures(materials, m, surfaces);
       add_light(surfaces, m, lanes, above * share);
       SecondaryRays<S> rays = onward_rays(surfaces, interior, m, lanes, one);
       if (rays.is_nothing()) break;
