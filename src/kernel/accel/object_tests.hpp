@@ -250,7 +250,7 @@ private:
         const F nearest = F::load(hits.distance.lane);
         const auto near = c.near_hit & (c.near > F(kMinHitDistance)) & (c.near <= nearest);
         const auto far = c.far_hit & (c.far > F(kMinHitDistance)) & (c.far <= nearest);
-        accept(rays, other.csg, near, far, reflected_, c);
+        accept(rays, other.csg, near, far, false, reflected_, c);
       }
       keep_closest(c, self, hits);
     }
@@ -267,7 +267,8 @@ private:
       if ((c.near_hit | c.far_hit).bits() == 0) continue;
       if (other.csg != kNoOffset) {
         const ShadowHits shadow = shadow_hits(c, distance);
-        accept(rays, other.csg, M::from_bits(shadow.near), M::from_bits(shadow.far), kSeesAll, c);
+        const bool asks_both = (flags & object_flag::opaque) == 0;
+        accept(rays, other.csg, M::from_bits(shadow.near), M::from_bits(shadow.far), asks_both, kSeesAll, c);
       }
       dark |= occluded_by(rays, c, flags, material, lanes & ~dark, distance, light, segment);
     }
@@ -300,11 +301,13 @@ private:
     }
   };
 
-  /// Leaves those of the crossings in `near` and `far` that satisfy the condition.
-  void accept(const RayPacket& rays, uint32_t condition, const M& near, const M& far, uint32_t reflected,
-              Crossings<S>& c) {
+  /// Leaves those of the crossings in `near` and `far` that satisfy the condition; of a ray's two the far one
+  /// may be left out unless `asks_both`.
+  void accept(const RayPacket& rays, uint32_t condition, const M& near, const M& far, bool asks_both,
+              uint32_t reflected, Crossings<S>& c) {
     c.near_hit = accepted(rays, condition, c.near, near.bits(), reflected);
-    c.far_hit = accepted(rays, condition, c.far, far.bits(), reflected);
+    const uint32_t known = asks_both ? 0 : c.near_hit.bits();
+    c.far_hit = accepted(rays, condition, c.far, far.bits() & ~known, reflected);
   }
   /// Not inlined: it is asked in four places.
   CELLTRACE_ONE_COPY M accepted(const RayPacket& rays, uint32_t condition, const F& distance, uint32_t lanes,
