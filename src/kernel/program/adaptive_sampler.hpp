@@ -10,11 +10,11 @@ namespace celltrace::kernel {
 template <class Spu, uint32_t kChannels>
 class AdaptiveSampler : public PixelSampler<Spu, SamplingMethod::adaptive, kChannels> {
   using Base = PixelSampler<Spu, SamplingMethod::adaptive, kChannels>;
-  using Base::arrive, Base::ask, Base::asked_, Base::channel, Base::channel_from, Base::column_,
-      Base::differing, Base::encode, Base::encode_pixels_of, Base::encode_points, Base::end_asking,
-      Base::fetch, Base::frame_, Base::gather_colours, Base::go_to_block, Base::height_, Base::kEdge,
-      Base::kHasAlpha, Base::packets_of_row, Base::points_from, Base::put_colours, Base::row_, Base::row_mask,
-      Base::scratch_, Base::send, Base::smaller_of, Base::store_, Base::take_points, Base::takes_points,
+  using Base::arrive, Base::ask, Base::asked_, Base::channel_from, Base::column_, Base::differing,
+      Base::encode, Base::encode_pixels_of, Base::encode_points, Base::end_asking, Base::fetch, Base::frame_,
+      Base::gather_colours, Base::go_to_block, Base::height_, Base::kEdge, Base::kHasAlpha,
+      Base::packets_of_row, Base::points_from, Base::put_colours, Base::row_, Base::row_mask, Base::scratch_,
+      Base::send, Base::smaller_of, Base::store_, Base::take_channels, Base::take_points, Base::takes_points,
       Base::under_way_, Base::wants_colours, Base::width_;
   using typename Base::F, typename Base::Points, typename Base::R;
 
@@ -165,6 +165,7 @@ private:
   /// Makes four of each square that was asked for: those whose corners are alike are done, the others wait.
   CELLTRACE_ONE_COPY void divide_squares() {
     fetch_squares();
+    take_channels(asked_ * kSamplesOfSquare);
     for (uint32_t i = 0; i < asked_; ++i)
       divide(scratch().squares[i], i * kSamplesOfSquare);
   }
@@ -174,7 +175,7 @@ private:
     for (uint32_t axis = 0; axis < kChannels; ++axis)
       for (uint32_t i = 0; i < 9; ++i)
         points[i][axis] = i % 2 == 0 && i != 4 ? square.corner[i / 6 * 2 + i % 3 / 2][axis]
-                                               : channel(first + i / 2 + (i > 4 ? 1 : 0), axis);
+                                               : scratch().sampled[axis][first + i / 2 + (i > 4 ? 1 : 0)];
     float* const encoded = scratch().encoding;
     __builtin_memcpy(encoded, points, sizeof points);
     for (uint32_t i = 9 * kChannels; i < kEncoded; ++i)

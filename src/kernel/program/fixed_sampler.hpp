@@ -14,14 +14,16 @@ namespace celltrace::kernel {
 template <class Spu, uint32_t kChannels>
 class FixedSampler : public PixelSampler<Spu, SamplingMethod::fixed, kChannels> {
   using Base = PixelSampler<Spu, SamplingMethod::fixed, kChannels>;
-  using Base::arrive, Base::ask, Base::asked_, Base::channel, Base::channel_from, Base::column_,
-      Base::differing, Base::encode, Base::encode_pixels_of, Base::encode_points, Base::end_asking,
-      Base::found_at, Base::frame_, Base::go_to_block, Base::height_, Base::kColourBytes, Base::kPackets,
-      Base::packet_of_points, Base::packets_of_row, Base::put_colours, Base::row_, Base::row_mask,
-      Base::scratch_, Base::send_object, Base::store_, Base::take_points, Base::takes_points,
+  using Base::arrive, Base::asked_, Base::channel_from, Base::column_, Base::differing, Base::encode,
+      Base::encode_pixels_of, Base::encode_points, Base::end_asking, Base::found_at, Base::frame_,
+      Base::go_to_block, Base::height_, Base::kColourBytes, Base::kSamples, Base::packet_of_points,
+      Base::packets_of_row, Base::put_colours, Base::row_, Base::row_mask, Base::scratch_, Base::send_object,
+      Base::smaller_of, Base::store_, Base::take_channels, Base::take_points, Base::takes_points,
       Base::under_way_, Base::wants_colours, Base::width_;
   using typename Base::Colour, typename Base::F, typename Base::Points, typename Base::R;
   using W = typename Base::S::F;
+
+  static constexpr uint32_t kMostSamples = kMaxSamplingDepth * kMaxSamplingDepth; ///< of a pixel
 
   /// The means of a row of pixels as a row of points: that of a pixel is where its point would be.
   struct MeanRow {
@@ -33,7 +35,8 @@ class FixedSampler : public PixelSampler<Spu, SamplingMethod::fixed, kChannels> 
     uint32_t x, y;
   };
   struct Scratch : Base::Scratch {
-    alignas(64) float encoding[3 * R::kLanes]; ///< of means
+    float across[kMostSamples], down[kMostSamples]; ///< where a pixel's samples are, from its upper left
+    alignas(64) float encoding[3 * R::kLanes];      ///< of means
     Colour means_of[R::kLanes];
     Place places[R::kLanes]; ///< of these
     MeanRow means;
@@ -66,8 +69,8 @@ public:
 private:
   /// Goes over the samples of pixels that are asked for.
   struct Cursor {
-    uint32_t row = 0, pixels = 0;  ///< bits of the row that are still to come, the lowest first
-    uint32_t across = 0, down = 0; ///< the sample
+    uint32_t row = 0, pixels = 0; ///< bits of the row that are still to come, the lowest first
+    uint32_t sample = 0;          ///< of the pixel, row by row
   };
   /// A bit for each pixel of the block, by row.
   struct BlockMask {
@@ -201,13 +204,13 @@ private:
     const Colour* const row = found_at(encoded_colour(0, y), scratch().colours, kSampledEdge * kColourBytes);
     for (uint32_t x = 0; x < kSampledEdge; x += kSimdLanes) {
       W channels[4];
-      take_channels(row + x, channels);
+      load_colours(row + x, channels);
       for (uint32_t axis = 0; axis < kChannels; ++axis)
         channels[axis].store(means.numbers[axis] + kSimdLanes + x);
     }
   }
   /// The channels of sixteen neighbours in the store.
-  static void take_channels(const Colour* colours, W (&channels)[4]) {
+  static void load_colours(const Colour* colours, W (&channels)[4]) {
     for (uint32_t i = 0; i < 4; ++i)
       channels[i] = W::load(colours[4 * i].channel);
     Base::S::transpose_quads(channels[0], channels[1], channels[2], channels[3]);
@@ -217,7 +220,7 @@ private:
   ea_t stored_colour(uint32_t x, uint32_t y) const {
     return store_ + (y * kSampledEdge + place_in_row(x)) * kColourBytes;
   }
-  /// Of four neighbours the colours lie in four vectors, which take_channels() transposes.
+  /// Of four neighbours the colours lie in four vectors, which load_colours() transposes.
   static uint32_t place_in_row(uint32_t x) { return (x & ~15u) | (x & 3) << 2 | (x >> 2 & 3); }
   ea_t encoded_colour(uint32_t x, uint32_t y) const { return stored_colour(x, kSampledEdge + y); }
   ea_t encoded_row(uint32_t y) const {
@@ -253,23 +256,21 @@ private:
     return true;
   }
 
-  /// Makes as many samples as there is room for. False: the block is done.
-  CELLTRACE_ONE_COPY bool ask_for_pixels() {
+  uint32_t samples_of_pixel() const { return frame_.sampling.depth * frame_.sampling.depth; }
+  CELLTRACE_ONE_COPY void find_samples_of_pixel() {
     const uint32_t depth = frame_.sampling.depth;
     const float step = 1.0f / static_cast<float>(depth);
-    uint32_t count = 0;
-    for (;;) {
-      Cursor cursor = cursor_;
-      while (count < kPackets * kSimdLanes && find_pixel(cursor)) {
-        const uint32_t column = column_ * kSampledEdge + static_cast<uint32_t>(__builtin_ctz(cursor.pixels));
-        const float x = static_cast<float>(column) + 0.5f;
-        const float y = static_cast<float>(row_ * kSampledEdge + cursor.row) + 0.5f;
-        do
-          ask(count++, x + (static_cast<float>(cursor.across) + 0.5f) * step,
-              y + (static_cast<float>(cursor.down) + 0.5f) * step);
-        while (!next_sample(cursor) && count < kPackets * kSimdLanes);
+    for (uint32_t i = 0, down = 0; down < depth; ++down)
+      for (uint32_t across = 0; across < depth; ++across, ++i) {
+        scratch().across[i] = (static_cast<float>(across) + 0.5f) * step;
+        scratch().down[i] = (static_cast<float>(down) + 0.5f) * step;
       }
-      cursor_ = cursor;
+  }
+  /// Makes as many samples as there is room for. False: the block is done.
+  CELLTRACE_ONE_COPY bool ask_for_pixels() {
+    find_samples_of_pixel();
+    for (;;) {
+      const uint32_t count = ask_for_wanted();
       if (count != 0) {
         end_asking(count);
         asked_ = count;
@@ -286,37 +287,53 @@ private:
     write_sampled();
     return false;
   }
-  /// True: it was the last one of its pixel.
-  bool next_sample(Cursor& cursor) const {
-    const uint32_t depth = frame_.sampling.depth;
-    if (++cursor.across < depth) return false;
-    cursor.across = 0;
-    if (++cursor.down < depth) return false;
-    cursor.down = 0;
+  /// Samples of pixels, one after the other. Returns how many there are.
+  CELLTRACE_ONE_COPY uint32_t ask_for_wanted() {
+    Scratch& s = scratch();
+    const uint32_t samples = samples_of_pixel();
+    uint32_t count = 0;
+    while (count < kSamples && find_pixel(cursor_)) {
+      const uint32_t column = column_ * kSampledEdge + static_cast<uint32_t>(__builtin_ctz(cursor_.pixels));
+      const float x = static_cast<float>(column) + 0.5f;
+      const float y = static_cast<float>(row_ * kSampledEdge + cursor_.row) + 0.5f;
+      const uint32_t first = cursor_.sample, some = smaller_of(samples - first, kSamples - count);
+      for (uint32_t i = 0; i < some; ++i) {
+        s.x[count + i] = x + s.across[first + i];
+        s.y[count + i] = y + s.down[first + i];
+      }
+      count += some;
+      go_on(cursor_, some);
+    }
+    return count;
+  }
+  /// Passes samples of the cursor's pixel. True: the last one of them, too.
+  bool go_on(Cursor& cursor, uint32_t samples) const {
+    cursor.sample += samples;
+    if (cursor.sample != samples_of_pixel()) return false;
+    cursor.sample = 0;
     cursor.pixels &= cursor.pixels - 1;
     return true;
   }
 
   CELLTRACE_ONE_COPY void take_samples() {
-    const uint32_t depth = frame_.sampling.depth;
-    const float share = 1.0f / static_cast<float>(depth * depth + 1);
-    Cursor taken = taken_;
+    const uint32_t samples = samples_of_pixel();
+    const float share = 1.0f / static_cast<float>(samples + 1);
     uint32_t means = 0;
+    take_channels(asked_);
     for (uint32_t i = 0; i < asked_;) {
-      find_pixel(taken);
-      const uint32_t x = static_cast<uint32_t>(__builtin_ctz(taken.pixels));
-      const uint32_t y = taken.row;
+      find_pixel(taken_);
+      const uint32_t x = static_cast<uint32_t>(__builtin_ctz(taken_.pixels));
+      const uint32_t y = taken_.row;
       // The middle of the pixel counts as one sample more.
-      if ((taken.across | taken.down) == 0) fetch_point(x + 1, y + 1, sum_);
+      if (taken_.sample == 0) fetch_point(x + 1, y + 1, sum_);
+      const uint32_t some = smaller_of(samples - taken_.sample, asked_ - i);
       Colour sum = sum_;
-      bool complete;
-      do {
+      for (uint32_t sample = i; sample < i + some; ++sample)
         for (uint32_t axis = 0; axis < kChannels; ++axis)
-          sum.channel[axis] += channel(i, axis);
-        complete = next_sample(taken);
-      } while (++i < asked_ && !complete);
+          sum.channel[axis] += scratch().sampled[axis][sample];
       sum_ = sum;
-      if (!complete) break;
+      i += some;
+      if (!go_on(taken_, some)) break;
       for (float& value : sum.channel)
         value *= share;
       store_mean(means++, x, y, sum);
@@ -324,7 +341,6 @@ private:
       encode_means(means);
       means = 0;
     }
-    taken_ = taken;
     if (means != 0) encode_means(means);
   }
   /// A pixel is known.
@@ -360,7 +376,7 @@ private:
           found_at(stored_colour(0, y), scratch().colours, kSampledEdge * kColourBytes);
       for (uint32_t x = 0; x < kSampledEdge; x += kSimdLanes) {
         W channels[4];
-        take_channels(colours + x, channels);
+        load_colours(colours + x, channels);
         // Of other pixels there is no colour.
         const auto take = Base::S::M::from_bits(sampled >> x & 0xFFFF);
         for (uint32_t axis = 0; axis < 3; ++axis)

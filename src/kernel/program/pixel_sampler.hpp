@@ -117,8 +117,12 @@ protected:
   using Points = PointRow<kChannels>;
   static constexpr auto kColourBytes = static_cast<uint32_t>(sizeof(Colour));
 
-  /// What is not kept from call to call.
+  static constexpr uint32_t kSamples = kPackets * kSimdLanes;
+
+  /// What is not kept from call to call. Samples are numbered through all packets.
   struct Scratch {
+    alignas(64) float x[kSamples], y[kSamples];     ///< of samples that are asked for
+    alignas(64) float sampled[kChannels][kSamples]; ///< channels of samples that were traced
     SampleLanes packets[Points::kPackets];
     Points points[2], encoded[2];             ///< of two rows, by turns
     alignas(64) uint32_t words[kSampledEdge]; ///< pixels to be written
@@ -281,41 +285,41 @@ protected:
     x += (static_cast<float>(static_cast<int32_t>(random & 0xFFFF)) * kUnit - 0.5f) * amount;
     y += (static_cast<float>(static_cast<int32_t>(random >> 16)) * kUnit - 0.5f) * amount;
   }
-  /// Puts a sample, in points of the grid, into the next lane.
+  /// Asks for a sample, in points of the grid.
   void ask(uint32_t number, float x, float y) {
-    SampleLanes& packet = samples_.at[number / kSimdLanes];
-    packet.x.lane[number % kSimdLanes] = x;
-    packet.y.lane[number % kSimdLanes] = y;
+    scratch_.x[number] = x;
+    scratch_.y[number] = y;
   }
-  /// After the last sample. Lanes that are none get its place.
+  /// Puts samples into lanes. Lanes that are none get the place of the last one.
   CELLTRACE_ONE_COPY void end_asking(uint32_t count) {
+    const uint32_t whole = (count + kSimdLanes - 1) / kSimdLanes * kSimdLanes;
+    for (uint32_t i = count; i < whole; ++i)
+      ask(i, scratch_.x[count - 1], scratch_.y[count - 1]);
     for (uint32_t packet = 0; packet < kPackets; ++packet) {
       const uint32_t first = packet * kSimdLanes;
       const uint32_t lanes = count <= first ? 0 : smaller_of(count - first, kSimdLanes);
       samples_.lanes[packet] = (1u << lanes) - 1;
       if constexpr (kHasAlpha) samples_.at[packet].clear = FloatLanes();
-      if (lanes == 0) continue;
-      float(&x)[kSimdLanes] = samples_.at[packet].x.lane;
-      float(&y)[kSimdLanes] = samples_.at[packet].y.lane;
-      for (uint32_t lane = lanes; lane < kSimdLanes; ++lane) {
-        x[lane] = x[lanes - 1];
-        y[lane] = y[lanes - 1];
-      }
-      move_samples(x, y);
+      if (lanes != 0) place_samples(first, samples_.at[packet]);
     }
   }
   /// Jittered, and from the middle of the picture. All lanes alike, so that compilers take them together.
-  CELLTRACE_ONE_COPY void move_samples(float (&x)[kSimdLanes], float (&y)[kSimdLanes]) const {
+  CELLTRACE_ONE_COPY void place_samples(uint32_t first, SampleLanes& packet) const {
     const float amount = frame_.sampling.jitter;
     const float middle_x = frame_.camera.middle_x, middle_y = frame_.camera.middle_y;
     for (uint32_t lane = 0; lane < kSimdLanes; ++lane) {
-      jitter(x[lane], y[lane], amount);
-      x[lane] -= middle_x;
-      y[lane] -= middle_y;
+      float x = scratch_.x[first + lane], y = scratch_.y[first + lane];
+      jitter(x, y, amount);
+      packet.x.lane[lane] = x - middle_x;
+      packet.y.lane[lane] = y - middle_y;
     }
   }
-  float channel(uint32_t sample, uint32_t axis) const {
-    return samples_.at[sample / kSimdLanes][axis].lane[sample % kSimdLanes];
+  /// Takes so many samples out of their lanes.
+  CELLTRACE_ONE_COPY void take_channels(uint32_t count) {
+    using W = typename S::F;
+    for (uint32_t first = 0; first < count; first += kSimdLanes)
+      for (uint32_t axis = 0; axis < kChannels; ++axis)
+        W::load(samples_.at[first / kSimdLanes][axis].lane).store(scratch_.sampled[axis] + first);
   }
 
   /// Pixels of colours, as many as two packets.
