@@ -22,6 +22,8 @@ template <class S> struct HitPoints {
   uint32_t lit_behind = 0, lit_through = 0; ///< as object_flag's
 
   uint32_t plain(uint32_t lanes) const { return lanes & ~(blended | textured); }
+  /// Whether each of `lanes` has one material, and no rays go on from there.
+  bool ends(uint32_t lanes) const { return (lanes & (spawning | blended)) == 0; }
 
   /// As rays along `direction` see them that hit `objects`.
   Surfaces<S> surfaces(const V3<S>& direction, const WordLanes& objects) const {

@@ -43,16 +43,12 @@ public:
                     const LightRound& round, VectorLanes& colours) {
     if (round.next() != frame_.light_count || has_atmosphere(frame_)) return false;
     const uint32_t hit = hit_lanes<S>(hits, lanes);
-    if (((points.spawning | points.blended) & hit) != 0) return false;
+    if (!points.ends(hit)) return false;
     const F zero(0.0f), one(1.0f);
     V3<S> seen = {zero, zero, zero};
     if (hit != 0) {
-      MaterialLanes<S> m = gather_materials(scene_, points.material, hit);
       Surfaces<S> surfaces = points.surfaces(rays.direction.template load<S>(), hits.object);
-      if ((points.textured & hit) != 0) {
-        prepare_textures(points, hits, points.textured & hit);
-        add_textures(points.material, m, surfaces);
-      }
+      const MaterialLanes<S> m = materials_of(points, hits, hit, surfaces);
       seen = local_light(scene_, frame_, round, surfaces, m, hit, {one, one, one});
     }
     counters_.primary += count(lanes);
@@ -108,6 +104,8 @@ public:
   /// from there.
   [[gnu::always_inline]] void shade_hits(const HitPoints<S>& points, uint32_t hit, const LightRound& round) {
     round_ = round;
+    if constexpr (kHasRoomForCode<Spu>)
+      if (points.ends(hit)) return shade_last(points, hit);
     const uint32_t plain = points.plain(hit);
     if (plain != 0) shade_plain(points, plain);
     if (plain == hit) return;
@@ -225,6 +223,22 @@ private:
     find_surfaces(points, surfaces);
     spawn(surfaces, surfaces.normal, points.interior,
           shade(surfaces, points.interior, points.material, lanes, F(1.0f)));
+  }
+  /// Surfaces from which no rays go on.
+  void shade_last(const HitPoints<S>& points, uint32_t lanes) {
+    Surfaces<S> surfaces = points.surfaces(node_.rays.direction.template load<S>(), hits_.object);
+    const F one(1.0f);
+    add_light(surfaces, materials_of(points, hits_, lanes, surfaces), lanes, {one, one, one});
+  }
+  /// The materials of such surfaces with their textures, and their normals.
+  MaterialLanes<S> materials_of(const HitPoints<S>& points, const HitPacket& hits, uint32_t lanes,
+                                Surfaces<S>& surfaces) {
+    MaterialLanes<S> m = gather_materials(scene_, points.material, lanes);
+    if (const uint32_t textured = points.textured & lanes; textured != 0) {
+      prepare_textures(points, hits, textured);
+      add_textures(points.material, m, surfaces);
+    }
+    return m;
   }
   /// Field by field: no copy of it is on the stack.
   CELLTRACE_ONE_COPY void find_surfaces(const HitPoints<S>& points, Surfaces<S>& surfaces) const {
