@@ -168,23 +168,42 @@ template <class S> V3<S> vector(const V3<S>& p) {
   return {noise[0], noise[1], noise[2]};
 }
 
-/// Octaves of vector(), each `lambda` times finer and `omega` times weaker than the one before.
-template <class S> V3<S> turbulence(const V3<S>& p, uint32_t octaves, float lambda, float omega) {
+/// Octaves of the first coordinates of vector(), each `lambda` times finer and `omega` times weaker than the
+/// one before.
+template <class S, uint32_t kChannels>
+[[gnu::always_inline]] inline void add_octaves(const V3<S>& p, uint32_t octaves, float lambda, float omega,
+                                               typename S::F (&sums)[kChannels]) {
   using F = typename S::F;
-  const F zero(0.0f);
-  V3<S> sum = {zero, zero, zero};
+  for (F& sum : sums)
+    sum = F(0.0f);
   float scale = 1.0f, strength = 1.0f;
   for (uint32_t octave = 0; octave < octaves; ++octave) {
-    F noise[3];
+    F noise[kChannels];
     if constexpr (kOneCopy<S>)
       make_noise<S>(p * F(scale), noise);
     else
       make_noise_inline<S>(p * F(scale), noise);
-    sum = sum + V3<S>{noise[0], noise[1], noise[2]} * F(strength);
+    for (uint32_t i = 0; i < kChannels; ++i)
+      sums[i] = sums[i] + noise[i] * F(strength);
     scale *= lambda;
     strength *= omega;
   }
-  return sum;
+}
+template <class S> V3<S> turbulence(const V3<S>& p, uint32_t octaves, float lambda, float omega) {
+  typename S::F sums[3];
+  add_octaves<S>(p, octaves, lambda, omega, sums);
+  return {sums[0], sums[1], sums[2]};
+}
+/// The first two coordinates of it; the third is 0 or, where one copy of the code does for both, as well.
+template <class S> V3<S> turbulence_across_z(const V3<S>& p, uint32_t octaves, float lambda, float omega) {
+  using F = typename S::F;
+  if constexpr (kOneCopy<S>) {
+    return turbulence<S>(p, octaves, lambda, omega);
+  } else {
+    F sums[2];
+    add_octaves<S>(p, octaves, lambda, omega, sums);
+    return {sums[0], sums[1], F(0.0f)};
+  }
 }
 
 } // namespace celltrace::kernel::noise

@@ -16,7 +16,7 @@ struct WoodPattern : NoisePattern {
     const TurbulenceWords& t = r.turbulence;
     F x = p.x, y = p.y;
     if (t.amount[0] != 0.0f || t.amount[1] != 0.0f) {
-      const V3<S> noise = noise::turbulence<S>(p, t.octaves, t.lambda, t.omega);
+      const V3<S> noise = noise::turbulence_across_z<S>(p, t.octaves, t.lambda, t.omega);
       const auto bend = [](const F& turns) { return sine_of_turns<S>(turns - S::floor(turns)); };
       x = x + bend((x + noise.x) * F(t.amount[0]));
       y = y + bend((y + noise.y) * F(t.amount[1]));
