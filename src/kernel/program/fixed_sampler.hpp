@@ -34,12 +34,18 @@ class FixedSampler : public PixelSampler<Spu, SamplingMethod::fixed, kChannels> 
   struct Place {
     uint32_t x, y;
   };
+  /// Where a pixel's samples are, from its upper left.
+  struct PixelGrid {
+    float across[kMostSamples], down[kMostSamples];
+  };
   struct Scratch : Base::Scratch {
-    float across[kMostSamples], down[kMostSamples]; ///< where a pixel's samples are, from its upper left
-    alignas(64) float encoding[3 * R::kLanes];      ///< of means
+    alignas(64) float encoding[3 * R::kLanes]; ///< of means
     Colour means_of[R::kLanes];
     Place places[R::kLanes]; ///< of these
-    MeanRow means;
+    union {
+      MeanRow means;  ///< while pixels are compared
+      PixelGrid grid; ///< while samples are asked for
+    };
     alignas(64) float channels[3][kSampledEdge]; ///< of pixels to be written
     alignas(16) uint32_t leaving[kSampledEdge][4];
   };
@@ -257,18 +263,17 @@ private:
   }
 
   uint32_t samples_of_pixel() const { return frame_.sampling.depth * frame_.sampling.depth; }
-  CELLTRACE_ONE_COPY void find_samples_of_pixel() {
+  CELLTRACE_ONE_COPY void find_samples_of_pixel(PixelGrid& grid) const {
     const uint32_t depth = frame_.sampling.depth;
     const float step = 1.0f / static_cast<float>(depth);
     for (uint32_t i = 0, down = 0; down < depth; ++down)
       for (uint32_t across = 0; across < depth; ++across, ++i) {
-        scratch().across[i] = (static_cast<float>(across) + 0.5f) * step;
-        scratch().down[i] = (static_cast<float>(down) + 0.5f) * step;
+        grid.across[i] = (static_cast<float>(across) + 0.5f) * step;
+        grid.down[i] = (static_cast<float>(down) + 0.5f) * step;
       }
   }
   /// Makes as many samples as there is room for. False: the block is done.
   CELLTRACE_ONE_COPY bool ask_for_pixels() {
-    find_samples_of_pixel();
     for (;;) {
       const uint32_t count = ask_for_wanted();
       if (count != 0) {
@@ -289,7 +294,9 @@ private:
   }
   /// Samples of pixels, one after the other. Returns how many there are.
   CELLTRACE_ONE_COPY uint32_t ask_for_wanted() {
-    Scratch& s = scratch();
+    PixelGrid& grid = scratch().grid;
+    find_samples_of_pixel(grid);
+    float *const to_x = scratch().asked.x, *const to_y = scratch().asked.y;
     const uint32_t samples = samples_of_pixel();
     uint32_t count = 0;
     while (count < kSamples && find_pixel(cursor_)) {
@@ -298,8 +305,8 @@ private:
       const float y = static_cast<float>(row_ * kSampledEdge + cursor_.row) + 0.5f;
       const uint32_t first = cursor_.sample, some = smaller_of(samples - first, kSamples - count);
       for (uint32_t i = 0; i < some; ++i) {
-        s.x[count + i] = x + s.across[first + i];
-        s.y[count + i] = y + s.down[first + i];
+        to_x[count + i] = x + grid.across[first + i];
+        to_y[count + i] = y + grid.down[first + i];
       }
       count += some;
       go_on(cursor_, some);

@@ -119,10 +119,15 @@ protected:
 
   static constexpr uint32_t kSamples = kPackets * kSimdLanes;
 
+  struct Places {
+    float x[kSamples], y[kSamples];
+  };
   /// What is not kept from call to call. Samples are numbered through all packets.
   struct Scratch {
-    alignas(64) float x[kSamples], y[kSamples];     ///< of samples that are asked for
-    alignas(64) float sampled[kChannels][kSamples]; ///< channels of samples that were traced
+    union {
+      alignas(64) Places asked;                       ///< where samples are asked for
+      alignas(64) float sampled[kChannels][kSamples]; ///< what came of those of the call before
+    };
     SampleLanes packets[Points::kPackets];
     Points points[2], encoded[2];             ///< of two rows, by turns
     alignas(64) uint32_t words[kSampledEdge]; ///< pixels to be written
@@ -287,14 +292,14 @@ protected:
   }
   /// Asks for a sample, in points of the grid.
   void ask(uint32_t number, float x, float y) {
-    scratch_.x[number] = x;
-    scratch_.y[number] = y;
+    scratch_.asked.x[number] = x;
+    scratch_.asked.y[number] = y;
   }
   /// Puts samples into lanes. Lanes that are none get the place of the last one.
   CELLTRACE_ONE_COPY void end_asking(uint32_t count) {
     const uint32_t whole = (count + kSimdLanes - 1) / kSimdLanes * kSimdLanes;
     for (uint32_t i = count; i < whole; ++i)
-      ask(i, scratch_.x[count - 1], scratch_.y[count - 1]);
+      ask(i, scratch_.asked.x[count - 1], scratch_.asked.y[count - 1]);
     for (uint32_t packet = 0; packet < kPackets; ++packet) {
       const uint32_t first = packet * kSimdLanes;
       const uint32_t lanes = count <= first ? 0 : smaller_of(count - first, kSimdLanes);
@@ -308,7 +313,7 @@ protected:
     const float amount = frame_.sampling.jitter;
     const float middle_x = frame_.camera.middle_x, middle_y = frame_.camera.middle_y;
     for (uint32_t lane = 0; lane < kSimdLanes; ++lane) {
-      float x = scratch_.x[first + lane], y = scratch_.y[first + lane];
+      float x = scratch_.asked.x[first + lane], y = scratch_.asked.y[first + lane];
       jitter(x, y, amount);
       packet.x.lane[lane] = x - middle_x;
       packet.y.lane[lane] = y - middle_y;
