@@ -237,7 +237,7 @@ private:
     scene_.spu().run_in_module(modules::kObjects);
     const uint32_t flags = record.kind_and_flags;
     const uint32_t blind = blind_lanes(flags, reflected_);
-    Other other(*this, rays, record, self);
+    Other other(*this, rays, record, self, kMinHitDistance);
     for (uint32_t pair = 0; pair < other.pairs; ++pair) {
       Crossings<S>& c = other.crossings[pair];
       if ((c.near_hit | c.far_hit).bits() == 0) continue;
@@ -260,15 +260,15 @@ private:
                                                 VectorLanes& light, const RaySegment& segment) {
     scene_.spu().run_in_module(modules::kObjects);
     const uint32_t flags = record.kind_and_flags, material = record.material;
-    Other other(*this, rays, record, self);
+    const bool is_opaque = (flags & object_flag::opaque) != 0;
+    Other other(*this, rays, record, self, is_opaque ? kShadowEpsilon : kEveryCrossing);
     uint32_t dark = 0;
     for (uint32_t pair = 0; pair < other.pairs; ++pair) {
       Crossings<S>& c = other.crossings[pair];
       if ((c.near_hit | c.far_hit).bits() == 0) continue;
       if (other.csg != kNoOffset) {
         const ShadowHits shadow = shadow_hits(c, distance);
-        const bool asks_both = (flags & object_flag::opaque) == 0;
-        accept(rays, other.csg, M::from_bits(shadow.near), M::from_bits(shadow.far), asks_both, kSeesAll, c);
+        accept(rays, other.csg, M::from_bits(shadow.near), M::from_bits(shadow.far), !is_opaque, kSeesAll, c);
       }
       dark |= occluded_by(rays, c, flags, material, lanes & ~dark, distance, light, segment);
     }
@@ -281,7 +281,9 @@ private:
     uint32_t pairs = 1;
     uint32_t csg = kNoOffset; ///< offset of its condition
 
-    Other(ObjectTests& tests, const RayPacket& rays, const ObjectRecord& record, uint32_t self) {
+    /// Of an object that is no part of a CSG, the first crossing that is farther than `enough` will do.
+    Other(ObjectTests& tests, const RayPacket& rays, const ObjectRecord& record, uint32_t self,
+          float enough) {
       Kept<Spu, ObjectRecord> object = record;
       const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
       ExtraRecord room;
@@ -293,7 +295,8 @@ private:
       tests.scene_.spu().compute(scalar_work::kTestEllipsoid);
       Spu& spu = tests.scene_.spu();
       spu.enter_module(is_heavy(kind) ? modules::kHeavyShapes : modules::kShapes);
-      pairs = is_heavy(kind) ? module_heavy::intersect(spu, rays, object, extra, self, crossings)
+      pairs = is_heavy(kind) ? module_heavy::intersect(spu, rays, object, extra, self,
+                                                       csg == kNoOffset ? enough : kEveryCrossing, crossings)
                              : module_shapes::intersect(spu, rays, object, extra, self, crossings);
       if (kind != kPrimitiveKind<PolygonPrimitive>) return;
       spu.enter_module(modules::kPolygons);

@@ -28,6 +28,8 @@ template <class S> struct Crossings {
     near_hit = far_hit = S::M::none();
   }
 };
+/// In place of a distance, where all crossings of a ray are asked for.
+constexpr float kEveryCrossing = 1e30f;
 /// No shape has more pairs of crossings: a torus has four crossings.
 constexpr uint32_t kMaxCrossingPairs = 2;
 

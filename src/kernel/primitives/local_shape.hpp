@@ -28,6 +28,8 @@ template <class S> struct LocalParameters {
 template <class S> struct LocalRays {
   V3<S> origin, direction;
   typename S::M starts_here; ///< rays that start on this object
+  /// After a ray's first crossing that is farther than this the others may be left out.
+  float enough = kEveryCrossing;
 };
 
 /// Around a shape: along the third axis from `low` to `high`; across it `radius` to all sides of a disc, or
@@ -160,11 +162,11 @@ template <class S>
 /// A packet's rays in the space of an object, whose offset is `self`: as many as S has lanes, from `first`
 /// on.
 template <class S>
-LocalRays<S> local_rays(const RayPacket& rays, const ObjectRecord& object, uint32_t self,
-                        uint32_t first = 0) {
+LocalRays<S> local_rays(const RayPacket& rays, const ObjectRecord& object, uint32_t self, uint32_t first = 0,
+                        float enough = kEveryCrossing) {
   return {to_local<S>(object.geometry, rays.origin.template load_from<S>(first), 1.0f),
           to_local<S>(object.geometry, rays.direction.template load_from<S>(first), 0.0f),
-          lanes_that_start_on<S>(rays, self, first)};
+          lanes_that_start_on<S>(rays, self, first), enough};
 }
 
 /// What a shape in a space of its own is to the rest of the kernel.

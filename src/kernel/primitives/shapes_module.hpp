@@ -79,10 +79,11 @@ template <class S, bool kOfHeavy>
 
 namespace module_heavy {
 
-/// As module_shapes::intersect(), of heavy shapes, which take so many lanes at a time as rare code does.
+/// As module_shapes::intersect(), of heavy shapes, which take so many lanes at a time as rare code does, and
+/// time for each crossing: `enough` is as LocalRays'.
 template <class Spu>
 CELLTRACE_ONE_COPY uint32_t intersect(Spu& spu, const RayPacket& rays, const ObjectRecord& object,
-                                      const ExtraRecord& extra, uint32_t self,
+                                      const ExtraRecord& extra, uint32_t self, float enough,
                                       Crossings<typename Spu::simd>* crossings) {
   using R = typename Spu::rare_simd;
   spu.run_in_module(modules::kHeavyShapes);
@@ -95,14 +96,16 @@ CELLTRACE_ONE_COPY uint32_t intersect(Spu& spu, const RayPacket& rays, const Obj
     });
   };
   if constexpr (kOnePart<Spu>) {
-    intersect_part(local_rays<R>(rays, object, self), local_parameters<R>(object, extra), crossings);
+    intersect_part(local_rays<R>(rays, object, self, 0, enough), local_parameters<R>(object, extra),
+                   crossings);
   } else {
     uint32_t near_hit[kMaxCrossingPairs] = {}, far_hit[kMaxCrossingPairs] = {};
     for (uint32_t pair = 0; pair < kMaxCrossingPairs; ++pair)
       crossings[pair].clear();
     for_each_part<Spu>([&](uint32_t first) {
       Crossings<R> part[kMaxCrossingPairs];
-      intersect_part(local_rays<R>(rays, object, self, first), local_parameters<R>(object, extra), part);
+      intersect_part(local_rays<R>(rays, object, self, first, enough), local_parameters<R>(object, extra),
+                     part);
       for (uint32_t pair = 0; pair < pairs; ++pair) {
         set_part<Spu>(crossings[pair].near, first, part[pair].near);
         set_part<Spu>(crossings[pair].far, first, part[pair].far);

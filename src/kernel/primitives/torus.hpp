@@ -52,6 +52,7 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
     auto starts = rays.starts_here;
     F distance[4];
     typename S::M hit[4] = {S::M::none(), S::M::none(), S::M::none(), S::M::none()};
+    auto asks = near_enough; // for further crossings
     F value = f.at(bounds[0]);
     F half_width = zero;
     for (int i = 0; i < 4; ++i) {
@@ -61,7 +62,7 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
       const F about = i % 2 == 0 ? bounds[i + 1] - half_width : bounds[i] + half_width;
       const auto falls = value > zero;
       const auto enters = falls & (next <= zero), leaves = (next > zero) & !falls;
-      const auto crosses = near_enough & (enters | leaves);
+      const auto crosses = asks & (enters | leaves);
       distance[i] = zero;
       if (crosses.bits() != 0) {
         distance[i] =
@@ -69,6 +70,7 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
         const auto first = (distance[i] > zero) & ((inward & leaves) | (enters & !inward));
         hit[i] = crosses & !(starts & !first);
         starts = starts & !hit[i];
+        asks = asks & !(hit[i] & (distance[i] > F(rays.enough)));
       }
       value = next;
     }
