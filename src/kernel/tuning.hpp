@@ -70,6 +70,11 @@ constexpr uint32_t kMissesOfLoose = 2;
 /// smaller: rays are tested where frusta would do. 'refitted every frame/(hills|random)-100000'.
 constexpr float kWidePacket = 1.5f;
 
+/// In scenes of at most so many objects, and planes besides, packets are tested against all of them in place
+/// of a bundle's traversal. Larger: objects are tested that a frustum would miss; smaller: frusta are computed
+/// for a single leaf. 'trace time' of scenes with one or two objects.
+constexpr uint32_t kMostListedObjects = 2;
+
 // --- when packets of a bundle part ---
 
 /// A node that this many packets of a bundle hit, or fewer, may be traversed by each of them separately.

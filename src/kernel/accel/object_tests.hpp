@@ -140,10 +140,11 @@ public:
     }
   }
 
-  /// Tests the objects that no accelerator has. They lie before the others: as in POV-Ray, where one is at
-  /// the same distance as another object, it is what is seen.
-  void test_unbounded(const FrameBlock& frame, RayQuery& query) {
-    test_list(frame.object_offset - frame.unbounded_count * kObjectBytes, frame.unbounded_count, query);
+  /// Tests the objects that no accelerator has, and so many of the others. They lie before these: as in
+  /// POV-Ray, where one is at the same distance as another object, it is what is seen.
+  void test_unbounded(const FrameBlock& frame, RayQuery& query, uint32_t others = 0) {
+    test_list(frame.object_offset - frame.unbounded_count * kObjectBytes, frame.unbounded_count + others,
+              query);
   }
   /// The same of `count` objects from `self` on.
   void test_list(uint32_t self, uint32_t count, RayQuery& query) {

@@ -29,7 +29,8 @@ public:
   using F = typename S::F;
 
   Traversal(SceneAccess<Spu>& scene, const FrameBlock& frame)
-      : frame_(frame), objects_(scene), grid_(objects_, frame.grid), bvh_(objects_, frame) {}
+      : frame_(frame), objects_(scene), grid_(objects_, frame.grid), bvh_(objects_, frame),
+        lists_all_(kHasRoomForCode<Spu> && uses_bvh() && frame.object_count <= tuning::kMostListedObjects) {}
 
   /// Finds the closest hit of each ray in `lanes`, of which `reflected` come from a mirror. The results of
   /// other lanes are undefined.
@@ -91,9 +92,9 @@ public:
   /// not: local store has room for one copy of each.
   CELLTRACE_ONE_COPY void intersect(RayQuery* queries, uint32_t count) {
     reset_hits(queries, count);
-    intersect_unbounded(queries, count);
+    intersect_listed(queries, count);
     if constexpr (kHasBvh)
-      if (uses_bvh()) bvh_.intersect(queries, count);
+      if (uses_bvh() && !lists_all_) bvh_.intersect(queries, count);
     if constexpr (kHasGrid)
       if (!uses_bvh()) intersect_grid(queries, count);
     clear_occluded(queries, count);
@@ -102,9 +103,9 @@ public:
   /// Answers one query, which needs no code for bundles.
   CELLTRACE_ONE_COPY void intersect_packet(RayQuery& query) {
     reset_hits(&query, 1);
-    intersect_unbounded(&query, 1);
+    intersect_listed(&query, 1);
     if constexpr (kHasBvh)
-      if (uses_bvh()) bvh_.intersect(query);
+      if (uses_bvh() && !lists_all_) bvh_.intersect(query);
     if constexpr (kHasGrid)
       if (!uses_bvh()) intersect_grid(&query, 1);
     clear_occluded(&query, 1);
@@ -113,8 +114,8 @@ public:
   /// The same for shadow rays toward one light. May change the order of the queries.
   void intersect(RayQuery* queries, uint32_t count, const LightRecord& light) {
     if constexpr (kHasBundleViews<Spu> && kHasBvh) {
-      if (uses_bvh() && !is_parallel(light)) {
-        intersect_unbounded(queries, count);
+      if (uses_bvh() && !lists_all_ && !is_parallel(light)) {
+        intersect_listed(queries, count);
         // Planes may leave packets without rays, which a bundle cannot have.
         const uint32_t with_rays = frame_.unbounded_count == 0 ? count : queries_with_rays(queries, count);
         if (with_rays != 0) bvh_.intersect(queries, with_rays, light.location);
@@ -127,16 +128,16 @@ public:
   /// Finds the closest hits of packets of an application, by the BVH: those before the distances that are in
   /// `hits`, where no object is yet. Each query has some lanes. `bundle`: of these packets, and entered last.
   void find_closest_within(RayQuery* queries, uint32_t count, const OriginBundle<S>& bundle) {
-    intersect_unbounded(queries, count);
-    bvh_.intersect(queries, count, bundle);
+    intersect_listed(queries, count);
+    if (!lists_all_) bvh_.intersect(queries, count, bundle);
   }
 
   /// As intersect(), of rays that may all start at one point. May change the order of the queries.
   void intersect_from_origin(RayQuery* queries, uint32_t count) {
     if constexpr (kHasBundleViews<Spu> && kHasBvh) {
-      if (uses_bvh()) {
+      if (uses_bvh() && !lists_all_) {
         reset_hits(queries, count);
-        intersect_unbounded(queries, count);
+        intersect_listed(queries, count);
         const uint32_t with_rays = queries_with_rays(queries, count);
         if (with_rays == 0) return;
         const OriginBundle<S> bundle(queries, with_rays);
@@ -150,15 +151,16 @@ public:
   /// Starts the traversal for a bundle of rays from one point. False: certainly none of them hits anything.
   template <class Bundle> bool enter(const Bundle& bundle) {
     if constexpr (kHasBvh)
-      return !uses_bvh() || bundle.packets == 0 || bvh_.enter(bundle) || frame_.unbounded_count != 0;
+      return !uses_bvh() || bundle.packets == 0 || (lists_all_ && frame_.unbounded_count != 0) ||
+             bvh_.enter(bundle) || frame_.unbounded_count != 0;
     else
       return true;
   }
   /// Finds the closest hits of the bundle that was entered last; query i is that of its packet i.
   void intersect(RayQuery* queries, const PinholeBundle<S>& bundle) {
-    if (!uses_bvh() || bundle.packets == 0) return intersect(queries, kBundlePackets<Spu>);
+    if (!uses_bvh() || lists_all_ || bundle.packets == 0) return intersect(queries, kBundlePackets<Spu>);
     reset_hits(queries, kBundlePackets<Spu>);
-    intersect_unbounded(queries, kBundlePackets<Spu>);
+    intersect_listed(queries, kBundlePackets<Spu>);
     if constexpr (kHasBvh) bvh_.intersect(queries, bundle);
   }
 
@@ -209,13 +211,14 @@ private:
       S::I::splat(-1).store(reinterpret_cast<int32_t*>(hits->object.lane));
     }
   }
-  /// Tests the objects that no accelerator has.
-  void intersect_unbounded(RayQuery* queries, uint32_t count) {
-    if (frame_.unbounded_count != 0) test_unbounded(queries, count);
+  /// Tests the objects that no accelerator has, and all others if they are few.
+  void intersect_listed(RayQuery* queries, uint32_t count) {
+    if (frame_.unbounded_count != 0 || lists_all_) test_listed(queries, count);
   }
-  CELLTRACE_ONE_COPY void test_unbounded(RayQuery* queries, uint32_t count) {
+  CELLTRACE_ONE_COPY void test_listed(RayQuery* queries, uint32_t count) {
+    const uint32_t others = lists_all_ ? frame_.object_count : 0;
     for (uint32_t i = 0; i < count; ++i)
-      objects_.test_unbounded(frame_, queries[i]);
+      objects_.test_unbounded(frame_, queries[i], others);
   }
 
   /// Sets the light of a query to 0 in lanes that are occluded or that were not asked for.
@@ -240,6 +243,7 @@ private:
   ObjectTests<Spu> objects_;
   detail::Present<GridTraversal<Spu>, kHasGrid> grid_;
   detail::Present<BvhTraversal<Spu>, kHasBvh> bvh_;
+  const bool lists_all_; ///< no accelerator is asked
 };
 
 } // namespace celltrace::kernel
