@@ -41,7 +41,7 @@ constexpr CodeModule kWarps = {"warps", 23, 0, 3456};
 // Of the second region: what shades, and asks patterns.
 
 /// Intersections with heavy shapes. Not of the region of the other shapes: rays test both by turns.
-constexpr CodeModule kHeavyShapes = {"heavy", 4, 1, 8704};
+constexpr CodeModule kHeavyShapes = {"heavy", 4, 1, 8832};
 /// What is inside of shapes whose equations have powers, and the normals of these.
 constexpr CodeModule kHeavyPoints = {"heavypoints", 33, 1, 2304};
 /// What is inside of meshes. Likewise: where CSG has meshes, it asks both by turns.
@@ -68,7 +68,7 @@ constexpr CodeModule kFinishes = {"finishes", 19, 1, 4224};
 // Of the third region: stages of which only one is under way. Rays are not traced while surfaces are shaded.
 
 /// Tests of objects that have a shape of the first region, or are parts of a CSG.
-constexpr CodeModule kObjects = {"objects", 12, 2, 6144};
+constexpr CodeModule kObjects = {"objects", 12, 2, 6272};
 /// Where hits lie on objects, and the normals there.
 constexpr CodeModule kHits = {"hits", 5, 2, 7808};
 /// Shading of surfaces with textures, or of several materials.

@@ -30,7 +30,7 @@ public:
 
   Traversal(SceneAccess<Spu>& scene, const FrameBlock& frame)
       : frame_(frame), objects_(scene), grid_(objects_, frame.grid), bvh_(objects_, frame),
-        lists_all_(kHasRoomForCode<Spu> && uses_bvh() && frame.object_count <= tuning::kMostListedObjects) {}
+        lists_all_(uses_bvh() && frame.object_count <= tuning::kMostListedObjects) {}
 
   /// Finds the closest hit of each ray in `lanes`, of which `reflected` come from a mirror. The results of
   /// other lanes are undefined.
@@ -94,7 +94,7 @@ public:
     reset_hits(queries, count);
     intersect_listed(queries, count);
     if constexpr (kHasBvh)
-      if (uses_bvh() && !lists_all_) bvh_.intersect(queries, count);
+      if (uses_bvh() && !lists_all()) bvh_.intersect(queries, count);
     if constexpr (kHasGrid)
       if (!uses_bvh()) intersect_grid(queries, count);
     clear_occluded(queries, count);
@@ -105,7 +105,7 @@ public:
     reset_hits(&query, 1);
     intersect_listed(&query, 1);
     if constexpr (kHasBvh)
-      if (uses_bvh() && !lists_all_) bvh_.intersect(query);
+      if (uses_bvh() && !lists_all()) bvh_.intersect(query);
     if constexpr (kHasGrid)
       if (!uses_bvh()) intersect_grid(&query, 1);
     clear_occluded(&query, 1);
@@ -114,7 +114,7 @@ public:
   /// The same for shadow rays toward one light. May change the order of the queries.
   void intersect(RayQuery* queries, uint32_t count, const LightRecord& light) {
     if constexpr (kHasBundleViews<Spu> && kHasBvh) {
-      if (uses_bvh() && !lists_all_ && !is_parallel(light)) {
+      if (uses_bvh() && !lists_all() && !is_parallel(light)) {
         intersect_listed(queries, count);
         // Planes may leave packets without rays, which a bundle cannot have.
         const uint32_t with_rays = frame_.unbounded_count == 0 ? count : queries_with_rays(queries, count);
@@ -129,13 +129,13 @@ public:
   /// `hits`, where no object is yet. Each query has some lanes. `bundle`: of these packets, and entered last.
   void find_closest_within(RayQuery* queries, uint32_t count, const OriginBundle<S>& bundle) {
     intersect_listed(queries, count);
-    if (!lists_all_) bvh_.intersect(queries, count, bundle);
+    if (!lists_all()) bvh_.intersect(queries, count, bundle);
   }
 
   /// As intersect(), of rays that may all start at one point. May change the order of the queries.
   void intersect_from_origin(RayQuery* queries, uint32_t count) {
     if constexpr (kHasBundleViews<Spu> && kHasBvh) {
-      if (uses_bvh() && !lists_all_) {
+      if (uses_bvh() && !lists_all()) {
         reset_hits(queries, count);
         intersect_listed(queries, count);
         const uint32_t with_rays = queries_with_rays(queries, count);
@@ -151,14 +151,14 @@ public:
   /// Starts the traversal for a bundle of rays from one point. False: certainly none of them hits anything.
   template <class Bundle> bool enter(const Bundle& bundle) {
     if constexpr (kHasBvh)
-      return !uses_bvh() || bundle.packets == 0 || (lists_all_ && frame_.unbounded_count != 0) ||
+      return !uses_bvh() || bundle.packets == 0 || (lists_all() && frame_.unbounded_count != 0) ||
              bvh_.enter(bundle) || frame_.unbounded_count != 0;
     else
       return true;
   }
   /// Finds the closest hits of the bundle that was entered last; query i is that of its packet i.
   void intersect(RayQuery* queries, const PinholeBundle<S>& bundle) {
-    if (!uses_bvh() || lists_all_ || bundle.packets == 0) return intersect(queries, kBundlePackets<Spu>);
+    if (!uses_bvh() || lists_all() || bundle.packets == 0) return intersect(queries, kBundlePackets<Spu>);
     reset_hits(queries, kBundlePackets<Spu>);
     intersect_listed(queries, kBundlePackets<Spu>);
     if constexpr (kHasBvh) bvh_.intersect(queries, bundle);
@@ -213,10 +213,10 @@ private:
   }
   /// Tests the objects that no accelerator has, and all others if they are few.
   void intersect_listed(RayQuery* queries, uint32_t count) {
-    if (frame_.unbounded_count != 0 || lists_all_) test_listed(queries, count);
+    if (frame_.unbounded_count != 0 || lists_all()) test_listed(queries, count);
   }
   CELLTRACE_ONE_COPY void test_listed(RayQuery* queries, uint32_t count) {
-    const uint32_t others = lists_all_ ? frame_.object_count : 0;
+    const uint32_t others = lists_all() ? frame_.object_count : 0;
     for (uint32_t i = 0; i < count; ++i)
       objects_.test_unbounded(frame_, queries[i], others);
   }
@@ -234,6 +234,8 @@ private:
           select<S>(S::M::from_bits(query.lanes), query.light->template load<S>(), dark));
     }
   }
+  /// Whether no accelerator is asked. Where there is no room for more code, one always is.
+  bool lists_all() const { return kHasRoomForCode<Spu> && lists_all_; }
   bool uses_bvh() const {
     if constexpr (kAccelerators != kAnyAccelerator) return kHasBvh;
     return static_cast<AcceleratorKind>(frame_.accelerator) == AcceleratorKind::bvh;
@@ -243,7 +245,7 @@ private:
   ObjectTests<Spu> objects_;
   detail::Present<GridTraversal<Spu>, kHasGrid> grid_;
   detail::Present<BvhTraversal<Spu>, kHasBvh> bvh_;
-  const bool lists_all_; ///< no accelerator is asked
+  const bool lists_all_;
 };
 
 } // namespace celltrace::kernel
