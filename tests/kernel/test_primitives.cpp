@@ -107,6 +107,10 @@ ObjectRecord record_of(const PlacedShape& shape, ExtraRecord& extra) {
   return record;
 }
 
+std::uint32_t subject_kind(const Subject& subject) {
+  return place_shape(subject.object).kind_and_flags & object_flag::kind_mask;
+}
+
 Transform random_transform(Random& random) {
   return Transform::scale({random.uniform(0.3, 3), random.uniform(0.3, 3), random.uniform(0.3, 3)})
       .then(Transform::rotate(random.point(180)))
@@ -196,6 +200,50 @@ TEST_CASE("Rays cross every shape where they change sides") {
     CHECK(off <= 1 + crossed / 500);
     CHECK(compared > 0.985 * times(160) * int{kSimdLanes});
     CHECK(crossed > times(160) * int{kSimdLanes} / 2);
+  }
+}
+
+TEST_CASE("Of crossings of which one will do there is the first") {
+  Random random(21);
+  for (const Subject& subject : subjects()) {
+    if (!is_local(subject_kind(subject))) continue;
+    INFO(subject.name);
+    for (int round = 0; round < times(40); ++round) {
+      Object object = subject.object;
+      object.transform = random_transform(random);
+      ExtraRecord extra;
+      const ObjectRecord record = record_of(place_shape(object), extra);
+      RayPacket rays;
+      for (unsigned lane = 0; lane < kSimdLanes; ++lane) {
+        const Vec3 direction = random.direction();
+        set(rays.origin, lane, object.transform.point(random.point(0.9)) - direction * random.uniform(0, 4));
+        set(rays.direction, lane, direction);
+        rays.start_object.lane[lane] = kNoOffset;
+      }
+      const auto cross = [&](float enough) {
+        std::vector<std::vector<double>> all(kSimdLanes);
+        Crossings<Simd> crossings[kMaxCrossingPairs] = {};
+        Primitives::dispatch(record.kind_and_flags & object_flag::kind_mask, [&](auto shape) {
+          using Shape = decltype(shape);
+          if constexpr (Shape::kIsLocal) {
+            Shape::template intersect_local<Simd>(local_rays<Simd>(rays, record, 640, 0, enough),
+                                                  local_parameters<Simd>(record, extra), crossings);
+            for (unsigned lane = 0; lane < kSimdLanes; ++lane)
+              all[lane] = crossings_of(crossings, Shape::kCrossingPairs, lane);
+          }
+        });
+        return all;
+      };
+      const auto all = cross(kEveryCrossing), some = cross(kMinHitDistance);
+      for (unsigned lane = 0; lane < kSimdLanes; ++lane) {
+        const auto in_front = [](const std::vector<double>& crossings) {
+          const auto first =
+              std::find_if(crossings.begin(), crossings.end(), [](double t) { return t > kMinHitDistance; });
+          return first == crossings.end() ? -1 : *first;
+        };
+        REQUIRE(in_front(some[lane]) == in_front(all[lane]));
+      }
+    }
   }
 }
 

@@ -48,6 +48,49 @@ TEST_CASE("Pictures come close to the reference tracer's") {
   }
 }
 
+TEST_CASE("Surfaces look the same whether rays may go on from there or not") {
+  // At level 1 none does, so that a mirror changes nothing but how its surface is shaded.
+  for (const char* name : {"patterns", "surfaces", "textures", "lit from behind", "soft shadows"}) {
+    Scene scene = scene_named(name);
+    scene.max_trace_level = 1;
+    Scene mirrors = scene;
+    for (Material& material : mirrors.materials)
+      material.finish.reflection_max += Vec3(1e-3);
+    for (const TestBackend& backend : backends()) {
+      INFO(name << " on " << backend.spu());
+      CHECK(render_on(backend, 2, mirrors) == render_on(backend, 2, scene));
+    }
+  }
+}
+
+TEST_CASE("Few objects look the same among others that nobody sees") {
+  for (int count = 0; count <= 3; ++count) {
+    Scene few;
+    few.camera = camera_at({0, 2, -6}, {0, 0.5, 0});
+    few.lights = {{{4, 6, -5}, {1, 1, 0.8}}, {{-5, 3, -4}, {0.2, 0.3, 0.4}}};
+    Material mirror = matte({0.3, 0.4, 0.6});
+    mirror.finish.reflection_min = mirror.finish.reflection_max = Vec3(0.4);
+    const Index interior = few.add(Interior{});
+    Object floor;
+    floor.shape = Plane{};
+    floor.material = few.add(matte({0.8, 0.7, 0.6}));
+    floor.interior = interior;
+    few.objects = {floor};
+    for (int i = 0; i < count; ++i)
+      few.objects.push_back(sphere_at({1.5 * i - 1, 0.8, 0.5 * i}, 0.9, few.add(mirror), interior));
+    Scene many = few;
+    for (int i = 0; i < 9; ++i) {
+      Object hidden = sphere_at({0.5 * i - 2, 1, -1}, 0.4, floor.material, interior);
+      hidden.no_shadow = hidden.no_image = hidden.no_reflection = true;
+      many.objects.push_back(hidden);
+    }
+    for (const TestBackend& backend : backends()) {
+      INFO(count << " on " << backend.spu());
+      CHECK(render_on(backend, 2, many) == render_on(backend, 2, few));
+    }
+  }
+}
+
 TEST_CASE("crand takes a random part of diffuse light, the same on every backend") {
   Scene scene;
   scene.gamma_mode = GammaMode::none;

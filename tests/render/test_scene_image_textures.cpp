@@ -326,6 +326,42 @@ TEST_CASE("Pigments say of themselves whether an entry is a map") {
   CHECK_THROWS_WITH(SceneImage::from_bytes(bytes), Catch::Contains("offset"));
 }
 
+TEST_CASE("Objects say whether secondary rays may leave them") {
+  const auto spawns = [](const Material& material) {
+    Scene scene;
+    scene.objects = {sphere_at({0, 0, 0}, 1, scene.add(material), scene.add(Interior{}))};
+    const SceneImage image(scene);
+    const auto* object = table<ObjectRecord>(image, image.header().object_offset);
+    return (object->kind_and_flags & object_flag::spawns) != 0;
+  };
+  const Material plain = matte({1, 0.5, 0});
+  Pigment clear;
+  clear.transmit = 0.5;
+  const auto with = [&](auto change) {
+    Material material = plain;
+    change(material);
+    return spawns(material);
+  };
+  const auto mixed = [&](const Pigment& second) {
+    return map_of<Pigment>({}, {{0, plain.pigment}, {1, second}});
+  };
+  CHECK_FALSE(spawns(plain));
+  CHECK_FALSE(with([&](Material& m) { m.pigment.map = mixed(Pigment{}); }));
+  CHECK_FALSE(with([&](Material& m) { m.normal = std::make_shared<const Normal>(); }));
+  CHECK_FALSE(with([&](Material& m) { m.inside = std::make_shared<const Material>(plain); }));
+  CHECK(with([&](Material& m) { m.pigment = clear; }));
+  CHECK(with([&](Material& m) { m.pigment.map = mixed(clear); }));
+  CHECK(with([&](Material& m) { m.pigment.map = mixed(around(clear)); }));
+  CHECK(with([&](Material& m) { m.finish.reflection_max = {0, 0, 0.1}; }));
+  CHECK(with([&](Material& m) { m.below = std::make_shared<const Material>(plain); }));
+  CHECK(with([&](Material& m) { m.map = map_of<Material>({}, {{0, plain}}); }));
+  CHECK(with([&](Material& m) {
+    Material inside = plain;
+    inside.pigment = clear;
+    m.inside = std::make_shared<const Material>(inside);
+  }));
+}
+
 TEST_CASE("Textures that are too deep or too long are refused by name") {
   const auto refused = [](const Scene& scene, const std::string& message) {
     CHECK_THROWS_WITH(validate(scene), message);
