@@ -22,7 +22,7 @@ constexpr uint32_t kMaxPrimitives = 16;
 
 namespace object_flag {
 constexpr uint32_t kind_mask = 0x7F;
-/// Secondary rays may leave some of its materials, or these have layers or are texture maps.
+/// Secondary rays may leave some of its materials, or these are texture maps.
 constexpr uint32_t spawns = 0x80;
 constexpr uint32_t smooth = 0x100;     ///< triangle with vertex normals
 constexpr uint32_t no_shadow = 0x200;  ///< shadow rays pass

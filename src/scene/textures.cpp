@@ -168,8 +168,8 @@ TextureTables::TextureTables(const Scene& scene) : scene_(scene) {
     const Traits traits = fill_material(static_cast<std::uint32_t>(i), scene.materials[i], {});
     object_flags.push_back(
         (traits.opaque ? object_flag::opaque : 0) | (traits.spawns ? object_flag::spawns : 0) |
-        (traits.textured ? object_flag::textured : 0) | (traits.disturbed ? object_flag::disturbed : 0) | (traits.two_sided ? object_flag::two_sided : 0) |
-        (traits.lit_behind ? object_flag::lit_behind : 0) |
+        (traits.textured ? object_flag::textured : 0) | (traits.disturbed ? object_flag::disturbed : 0) |
+        (traits.two_sided ? object_flag::two_sided : 0) | (traits.lit_behind ? object_flag::lit_behind : 0) |
         (traits.by_surface ? object_flag::by_surface : 0));
     by_surface = by_surface || traits.by_surface;
     filters = filters || !traits.opaque;
@@ -214,7 +214,7 @@ TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Ma
     } else {
       traits.opaque = is_opaque(material.pigment);
     }
-    traits.spawns = !traits.opaque || (r.flags & material_flag::reflects) != 0 || material.below != nullptr;
+    traits.spawns = !traits.opaque || (r.flags & material_flag::reflects) != 0;
     if (material.normal) {
       r.flags |= material_flag::disturbed;
       const Known normal = add_normal(*material.normal, outer);
@@ -226,7 +226,10 @@ TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Ma
       const Known below = add_material(*material.below, outer);
       r.flags |= material_flag::layered;
       r.below = below.index;
+      // What comes through a layer stays inside, but a Fresnel mirror asks what rays are inside of.
       traits.opaque = traits.opaque || below.traits.opaque;
+      constexpr std::uint32_t kAsksRays = material_flag::reflects | material_flag::fresnel;
+      traits.spawns = (r.flags & kAsksRays) != 0 || below.traits.spawns;
       traits.disturbed = traits.disturbed || below.traits.disturbed;
       traits.lit_behind = traits.lit_behind || below.traits.lit_behind;
       traits.by_surface = traits.by_surface || below.traits.by_surface;

@@ -353,7 +353,20 @@ TEST_CASE("Objects say whether secondary rays may leave them") {
   CHECK(with([&](Material& m) { m.pigment.map = mixed(clear); }));
   CHECK(with([&](Material& m) { m.pigment.map = mixed(around(clear)); }));
   CHECK(with([&](Material& m) { m.finish.reflection_max = {0, 0, 0.1}; }));
-  CHECK(with([&](Material& m) { m.below = std::make_shared<const Material>(plain); }));
+  // What comes through layers stays in them, as long as the lowest is opaque.
+  const auto over = [&](const Material& below) {
+    return with([&](Material& m) {
+      m.pigment = clear;
+      m.below = std::make_shared<const Material>(below);
+    });
+  };
+  Material lowest = plain;
+  CHECK_FALSE(over(lowest));
+  lowest.finish.reflection_max = Vec3(0.1);
+  CHECK(over(lowest));
+  lowest = plain;
+  lowest.pigment = clear;
+  CHECK(over(lowest));
   CHECK(with([&](Material& m) { m.map = map_of<Material>({}, {{0, plain}}); }));
   CHECK(with([&](Material& m) {
     Material inside = plain;

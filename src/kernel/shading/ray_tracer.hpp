@@ -43,13 +43,14 @@ public:
                     const LightRound& round, VectorLanes& colours) {
     if (round.next() != frame_.light_count || has_atmosphere(frame_)) return false;
     const uint32_t hit = hit_lanes<S>(hits, lanes);
-    if (!points.ends(hit)) return false;
+    if (!ends(points, hit)) return false;
     const F zero(0.0f), one(1.0f);
     V3<S> seen = {zero, zero, zero};
     if (hit != 0) {
       Surfaces<S> surfaces = points.surfaces(rays.direction.template load<S>(), hits.object);
       const MaterialLanes<S> m = materials_of(points, hits, hit, surfaces);
-      seen = local_light(scene_, frame_, round, surfaces, m, hit, {one, one, one});
+      seen = m.layered != 0 ? light_of_layers(points, hit, round, surfaces)
+                            : local_light(scene_, frame_, round, surfaces, m, hit, {one, one, one});
     }
     counters_.primary += count(lanes);
     if (const uint32_t missed = lanes & ~hit; missed != 0)
@@ -105,7 +106,7 @@ public:
   [[gnu::always_inline]] void shade_hits(const HitPoints<S>& points, uint32_t hit, const LightRound& round) {
     round_ = round;
     if constexpr (kHasRoomForCode<Spu>)
-      if (points.ends(hit)) return shade_last(points, hit);
+      if (ends(points, hit)) return shade_last(points, hit);
     const uint32_t plain = points.plain(hit);
     if (plain != 0) shade_plain(points, plain);
     if (plain == hit) return;
@@ -228,15 +229,37 @@ private:
   void shade_last(const HitPoints<S>& points, uint32_t lanes) {
     Surfaces<S> surfaces = points.surfaces(node_.rays.direction.template load<S>(), hits_.object);
     const F one(1.0f);
-    add_light(surfaces, materials_of(points, hits_, lanes, surfaces), lanes, {one, one, one});
+    const MaterialLanes<S> m = materials_of(points, hits_, lanes, surfaces);
+    if (m.layered != 0)
+      shade_layers(surfaces, points.interior, points.material, lanes, one);
+    else
+      add_light(surfaces, m, lanes, {one, one, one});
   }
-  /// The materials of such surfaces with their textures, and their normals.
+  /// Whether a tree ends there. POV-Ray drops textures that weigh less than the bailout, if it is above 1
+  /// all.
+  bool ends(const HitPoints<S>& points, uint32_t lanes) const {
+    return points.ends(lanes) && (frame_.adc_bailout <= 1.0f || (points.textured & lanes) == 0);
+  }
+  /// What primary rays see of surfaces with layers, without a tree.
+  V3<S> light_of_layers(const HitPoints<S>& points, uint32_t lanes, const LightRound& round,
+                        Surfaces<S>& surfaces) {
+    const F one(1.0f);
+    round_ = round;
+    round_.is_fresh = false;
+    round_.template clear<S>();
+    node_.target = 0;
+    node_.throughput.template store<S>({one, one, one});
+    clear(0);
+    shade_layers(surfaces, points.interior, points.material, lanes, one);
+    return light_[0].template load<S>();
+  }
+  /// The materials of such surfaces, and their normals: with their textures, unless they have layers.
   MaterialLanes<S> materials_of(const HitPoints<S>& points, const HitPacket& hits, uint32_t lanes,
                                 Surfaces<S>& surfaces) {
     MaterialLanes<S> m = gather_materials(scene_, points.material, lanes);
     if (const uint32_t textured = points.textured & lanes; textured != 0) {
       prepare_textures(points, hits, textured);
-      add_textures(points.material, m, surfaces);
+      if (m.layered == 0) add_textures(points.material, m, surfaces);
     }
     return m;
   }
