@@ -48,9 +48,13 @@ public:
     V3<S> seen = {zero, zero, zero};
     if (hit != 0) {
       Surfaces<S> surfaces = points.surfaces(rays.direction.template load<S>(), hits.object);
-      const MaterialLanes<S> m = materials_of(points, hits, hit, surfaces);
-      seen = m.layered != 0 ? light_of_layers(points, hit, round, surfaces)
-                            : local_light(scene_, frame_, round, surfaces, m, hit, {one, one, one});
+      prepare_ends(points, hits, hit);
+      if (has_layers(points, hit)) {
+        seen = light_of_layers(points, hit, round, surfaces);
+      } else {
+        const MaterialLanes<S> m = materials_of(points, hit, surfaces);
+        seen = local_light(scene_, frame_, round, surfaces, m, hit, {one, one, one});
+      }
     }
     counters_.primary += count(lanes);
     if (const uint32_t missed = lanes & ~hit; missed != 0)
@@ -229,11 +233,11 @@ private:
   void shade_last(const HitPoints<S>& points, uint32_t lanes) {
     Surfaces<S> surfaces = points.surfaces(node_.rays.direction.template load<S>(), hits_.object);
     const F one(1.0f);
-    const MaterialLanes<S> m = materials_of(points, hits_, lanes, surfaces);
-    if (m.layered != 0)
+    prepare_ends(points, hits_, lanes);
+    if (has_layers(points, lanes))
       shade_layers(surfaces, points.interior, points.material, lanes, one);
     else
-      add_light(surfaces, m, lanes, {one, one, one});
+      add_light(surfaces, materials_of(points, lanes, surfaces), lanes, {one, one, one});
   }
   /// Whether a tree ends there. POV-Ray drops textures that weigh less than the bailout, if it is above 1
   /// all.
@@ -253,14 +257,24 @@ private:
     shade_layers(surfaces, points.interior, points.material, lanes, one);
     return light_[0].template load<S>();
   }
-  /// The materials of such surfaces, and their normals: with their textures, unless they have layers.
-  MaterialLanes<S> materials_of(const HitPoints<S>& points, const HitPacket& hits, uint32_t lanes,
-                                Surfaces<S>& surfaces) {
-    MaterialLanes<S> m = gather_materials(scene_, points.material, lanes);
-    if (const uint32_t textured = points.textured & lanes; textured != 0) {
+  /// Before any of the following is asked of surfaces where trees end.
+  void prepare_ends(const HitPoints<S>& points, const HitPacket& hits, uint32_t lanes) {
+    if (const uint32_t textured = points.textured & lanes; textured != 0)
       prepare_textures(points, hits, textured);
-      if (m.layered == 0) add_textures(points.material, m, surfaces);
-    }
+  }
+  /// Whether some of them have layers.
+  bool has_layers(const HitPoints<S>& points, uint32_t lanes) {
+    bool any = false;
+    if (const uint32_t textured = points.textured & lanes; textured != 0)
+      for_each_value<S>(points.material, textured, [&](uint32_t material, uint32_t) {
+        any = any || (scene_.material(material)->flags & material_flag::layered) != 0;
+      });
+    return any;
+  }
+  /// Their materials if none has layers, and their normals: with their textures.
+  MaterialLanes<S> materials_of(const HitPoints<S>& points, uint32_t lanes, Surfaces<S>& surfaces) {
+    MaterialLanes<S> m = gather_materials(scene_, points.material, lanes);
+    if ((points.textured & lanes) != 0) add_textures(points.material, m, surfaces);
     return m;
   }
   /// Field by field: no copy of it is on the stack.
