@@ -239,8 +239,8 @@ private:
     else
       add_light(surfaces, materials_of(points, lanes, surfaces), lanes, {one, one, one});
   }
-  /// Whether a tree ends there. POV-Ray drops textures that weigh less than the bailout, if it is above 1
-  /// all.
+  /// Whether trees end there. Textures that weigh less than the bailout are dropped, which all do if that is
+  /// above 1.
   bool ends(const HitPoints<S>& points, uint32_t lanes) const {
     return points.ends(lanes) && (frame_.adc_bailout <= 1.0f || (points.textured & lanes) == 0);
   }
