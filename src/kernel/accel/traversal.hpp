@@ -94,7 +94,7 @@ public:
     reset_hits(queries, count);
     intersect_listed(queries, count);
     if constexpr (kHasBvh)
-      if (uses_bvh() && !lists_all()) bvh_.intersect(queries, count);
+      if (asks_bvh()) bvh_.intersect(queries, count);
     if constexpr (kHasGrid)
       if (!uses_bvh()) intersect_grid(queries, count);
     clear_occluded(queries, count);
@@ -105,7 +105,7 @@ public:
     reset_hits(&query, 1);
     intersect_listed(&query, 1);
     if constexpr (kHasBvh)
-      if (uses_bvh() && !lists_all()) bvh_.intersect(query);
+      if (asks_bvh()) bvh_.intersect(query);
     if constexpr (kHasGrid)
       if (!uses_bvh()) intersect_grid(&query, 1);
     clear_occluded(&query, 1);
@@ -114,7 +114,7 @@ public:
   /// The same for shadow rays toward one light. May change the order of the queries.
   void intersect(RayQuery* queries, uint32_t count, const LightRecord& light) {
     if constexpr (kHasBundleViews<Spu> && kHasBvh) {
-      if (uses_bvh() && !lists_all() && !is_parallel(light)) {
+      if (asks_bvh() && !is_parallel(light)) {
         intersect_listed(queries, count);
         // Planes may leave packets without rays, which a bundle cannot have.
         const uint32_t with_rays = frame_.unbounded_count == 0 ? count : queries_with_rays(queries, count);
@@ -135,7 +135,7 @@ public:
   /// As intersect(), of rays that may all start at one point. May change the order of the queries.
   void intersect_from_origin(RayQuery* queries, uint32_t count) {
     if constexpr (kHasBundleViews<Spu> && kHasBvh) {
-      if (uses_bvh() && !lists_all()) {
+      if (asks_bvh()) {
         reset_hits(queries, count);
         intersect_listed(queries, count);
         const uint32_t with_rays = queries_with_rays(queries, count);
@@ -158,7 +158,7 @@ public:
   }
   /// Finds the closest hits of the bundle that was entered last; query i is that of its packet i.
   void intersect(RayQuery* queries, const PinholeBundle<S>& bundle) {
-    if (!uses_bvh() || lists_all() || bundle.packets == 0) return intersect(queries, kBundlePackets<Spu>);
+    if (!asks_bvh() || bundle.packets == 0) return intersect(queries, kBundlePackets<Spu>);
     reset_hits(queries, kBundlePackets<Spu>);
     intersect_listed(queries, kBundlePackets<Spu>);
     if constexpr (kHasBvh) bvh_.intersect(queries, bundle);
@@ -236,6 +236,7 @@ private:
   }
   /// Whether no accelerator is asked. Where there is no room for more code, one always is.
   bool lists_all() const { return kHasRoomForCode<Spu> && lists_all_; }
+  bool asks_bvh() const { return uses_bvh() && !lists_all(); }
   bool uses_bvh() const {
     if constexpr (kAccelerators != kAnyAccelerator) return kHasBvh;
     return static_cast<AcceleratorKind>(frame_.accelerator) == AcceleratorKind::bvh;

@@ -99,20 +99,17 @@ private:
     const F step = most_step();
     const SampleLanes* packets = nullptr;
     encoded_ = 0;
-    bool is_encoded = false;
     for (uint32_t line = 0; line <= height_; ++line) {
       if (line % kPacketEdge == 0) packets = packets_of_row(line);
       const Points& own = scratch().points[line % 2];
       take_points(packets, line, scratch().points[line % 2]);
-      bool is_over_encoded = is_encoded;
-      is_encoded = false;
       if (line != 0) {
         const uint32_t y = line - 1;
         uint32_t left = 0, above = 0;
         if (!is_smooth(own, scratch().points[y % 2], step)) {
-          if (!is_over_encoded) encode_row(y);
+          const bool is_encoded = y != 0 && (encoded_ >> (y - 1) & 1) != 0;
+          if (!is_encoded) encode_row(y);
           encode_row(line);
-          is_encoded = true;
           const Points &encoded = scratch().encoded[line % 2], &over = scratch().encoded[y % 2];
           left = differing(encoded, 1, encoded, 0) & row_mask();
           above = differing(encoded, 1, over, 1) & row_mask();
