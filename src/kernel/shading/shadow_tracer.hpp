@@ -6,7 +6,7 @@
 #include "kernel/accel/traversal.hpp"
 #include "kernel/direct/shadow_marking.hpp"
 #include "kernel/lights/area_shadow.hpp"
-#include "kernel/shading/ray_tracer.hpp"
+#include "kernel/shading/ray_tree.hpp"
 #include "kernel/shading/shadow_walk.hpp"
 
 namespace celltrace::kernel {

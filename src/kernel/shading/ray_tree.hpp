@@ -1,0 +1,318 @@
+// The tree of rays behind one packet of primary rays: the node that is being traced, the stack of nodes that
+// wait, the light that comes together, and the rays that go on from a surface. It is cut by level and by
+// contribution (adaptive depth control, Hall and Greenberg 1983). Kernel dialect.
+#pragma once
+
+#include "celltrace/spe/one_copy.hpp"
+#include "kernel/direct/ray_pool.hpp"
+#include "kernel/modules.hpp"
+#include "kernel/shading/fading.hpp"
+#include "kernel/shading/lighting.hpp"
+#include "kernel/shading/secondary_rays.hpp"
+#include "kernel/shading/shadow_walk.hpp"
+#include "kernel/shading/surface_lanes.hpp"
+
+namespace celltrace::kernel {
+
+struct RayCounters {
+  uint64_t primary = 0, shadow = 0, reflection = 0, refraction = 0;
+  uint64_t dropped = 0; ///< beyond what the stacks hold
+};
+
+/// What a RayTracer knows of the tree. Its parts are base classes: pointers from one to the other would cost
+/// an SPE code that it has no room for.
+template <class Spu, uint32_t kResident> class RayTree {
+public:
+  using S = typename Spu::simd;
+  using R = typename Spu::rare_simd;
+  using F = typename S::F;
+  using I = typename S::I;
+  using M = typename S::M;
+
+  /// Starts the tree of a packet of primary rays.
+  void begin(const RayPacket& rays, uint32_t lanes) {
+    scene_.spu().compute(scalar_work::kPrimaryPacket);
+    clear(0);
+    accumulators_in_use_ = 1;
+    stack_.clear(); // the tree before may have been broken off
+    start(rays, lanes);
+  }
+  /// Starts with rays of a pool, each of which goes on in its own tree.
+  void begin(const PooledPacket& packet) {
+    clear(0);
+    accumulators_in_use_ = 1;
+    stack_.clear();
+    node_ = packet.node;
+    pooling_.pixels = packet.pixels;
+  }
+  /// The rays whose closest hits are wanted next, and where to put them.
+  const RayNode& node() const { return node_; }
+  HitPacket& hits() { return hits_; }
+  /// The lanes in which gathered light counts. That of a bent reflection is raised to a power: all of it
+  /// does.
+  uint32_t lanes_that_count(const VectorLanes& gathered, uint32_t lanes) const {
+    return lanes_above<S>(gathered, lanes, node_.target == 0 ? kLeastLight : 0.0f);
+  }
+  /// Goes on to the next node() of the tree. False: there is none, light() is complete.
+  bool advance() {
+    while (!stack_.empty()) {
+      stack_.pop(node_);
+      if (node_.gathers == 0) return true;
+      scene_.spu().enter_module(modules::kFading);
+      gather();
+    }
+    return false;
+  }
+  const VectorLanes& light() const { return light_[0]; }
+
+  /// Where trees that begin from now on add how clear their pixels are. Wanted with light_way::alpha.
+  void add_clear_to(FloatLanes& clear) { clear_ = &clear; }
+
+  /// Which rays go to a pool, and which pixels those are of that are traced.
+  RayPooling<Spu>& pooling() { return pooling_; }
+
+  void reset_counters() {
+    counters_ = RayCounters();
+    stack_.reset_counters();
+  }
+  const RayCounters& counters() const { return counters_; }
+  /// For those who trace rays in its place.
+  RayCounters& counters() { return counters_; }
+  uint32_t spilled_nodes() const { return stack_.spilled(); }
+
+protected:
+  RayTree(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, ea_t spill, uint32_t spill_nodes,
+          RayNode& scratch)
+      : frame_(frame), scene_(scene), stack_(spu, spill, spill_nodes, resident_nodes(frame)),
+        node_(*spu.template allocate<RayNode>()), child_(scratch) {}
+
+  static uint32_t count(uint32_t lanes) { return static_cast<uint32_t>(__builtin_popcount(lanes)); }
+
+  static void fill(WordLanes& lanes, uint32_t value) {
+    S::I::splat(static_cast<int32_t>(value)).store(reinterpret_cast<int32_t*>(lanes.lane));
+  }
+
+  /// Makes light() zero, for what is added without rays that are traced.
+  void begin_light() {
+    const F one(1.0f);
+    node_.target = 0;
+    node_.throughput.template store<S>({one, one, one});
+    clear(0);
+  }
+  void clear(uint32_t accumulator) { light_[accumulator].template store<S>({F(0.0f), F(0.0f), F(0.0f)}); }
+
+  /// Adds light that comes along the rays of node_, or from where they end with a weight of their own.
+  void add(uint32_t lanes, const V3<S>& light) {
+    add_weighted(lanes, light, node_.throughput.template load<S>());
+  }
+  void add_weighted(uint32_t lanes, const V3<S>& light, const V3<S>& weight) {
+    VectorLanes& target = light_[node_.target];
+    const V3<S> sum = target.template load<S>();
+    target.template store<S>(select<S>(M::from_bits(lanes), sum + light * weight, sum));
+  }
+
+  /// Pushes the rays that go on; `smooth` is the normal before it was disturbed.
+  CELLTRACE_ONE_COPY void spawn(const Surfaces<S>& surfaces, const V3<S>& smooth, const WordLanes& interior,
+                                const SecondaryRays<S>& onward) {
+    if ((onward.mirrors | onward.clear) == 0 || !round_.is_first()) return;
+    scene_.spu().compute(scalar_work::kSpawn);
+    scene_.spu().enter_module(modules::kSecondary);
+    const F cosine = -dot<S>(surfaces.direction, surfaces.normal);
+    V3<S> mirrored;
+    by_parts<Spu>(
+        mirrored,
+        [](const V3<R>& direction, const V3<R>& normal, const V3<R>& undisturbed) {
+          return mirror<R>(direction, normal, undisturbed);
+        },
+        surfaces.direction, surfaces.normal, smooth);
+    const uint32_t total = onward.clear != 0 ? transmit(surfaces, interior, onward, cosine, mirrored) : 0;
+    reflect(surfaces, onward, onward.mirrors & ~total, mirrored);
+  }
+
+private:
+  /// What few frames need lies where nodes would.
+  static uint32_t resident_nodes(const FrameBlock& frame) {
+    static_assert(sizeof(SurfaceLanes) <= sizeof(RayNode));
+    if (has_areas(frame) || walks_shadows(frame)) return 0;
+    return has_surface_lanes(frame) ? kResident - 1 : kResident;
+  }
+
+  /// The root of the tree: the rays as they leave the camera.
+  void start(const RayPacket& rays, uint32_t lanes) {
+    copy_packet<Spu>(rays, node_.rays);
+    node_.throughput.template store<S>({F(1.0f), F(1.0f), F(1.0f)});
+    F(1.0f).store(node_.weight.lane);
+    F(1.0f).store(node_.power.lane);
+    fill(node_.level, 0);
+    fill(node_.interior_depth, frame_.camera_interior_count);
+    for (uint32_t d = 0; d < frame_.camera_interior_count; ++d)
+      fill(node_.interiors[d], frame_.camera_interiors[d]);
+    node_.lanes = lanes;
+    node_.reflected = 0;
+    node_.target = 0;
+    node_.gathers = 0;
+    counters_.primary += count(lanes);
+  }
+
+  /// Lets child_ wait for its turn, in the stack or in a pool. False: there is no room.
+  bool push() {
+    if ((child_.target | child_.gathers) == 0 && pooling_.takes(child_)) return true;
+    const bool room = stack_.push(child_);
+    if (!room) counters_.dropped += count(child_.lanes);
+    return room;
+  }
+
+  /// The light of a reflection is complete.
+  CELLTRACE_ONE_COPY void gather() {
+    scene_.spu().run_in_module(modules::kFading);
+    const V3<S> sum = light_[node_.gathers].template load<S>();
+    const F power = F::load(node_.power.lane);
+    --accumulators_in_use_;
+    V3<S> raised;
+    for_each_part<Spu>([&](uint32_t first) {
+      const V3<R> base = part_of<Spu>(sum, first);
+      const typename R::F exponent = part_of<Spu>(power, first);
+      set_part<Spu>(raised, first,
+                    V3<R>{pow<R>(base.x, exponent), pow<R>(base.y, exponent), pow<R>(base.z, exponent)});
+    });
+    add(node_.lanes, raised);
+  }
+
+  /// Fills child_ with rays from the surfaces whose weight and level allow them; false if there are none.
+  bool prepare_child(const Surfaces<S>& surfaces, const V3<S>& direction, const V3<S>& throughput,
+                     const F& weight, uint32_t one_level_deeper, uint32_t lanes) {
+    scene_.spu().compute(scalar_work::kChild);
+    uint32_t go = 0;
+    const M heavy = weight >= F(frame_.adc_bailout);
+    for_each_lane(lanes & heavy.bits(), [&](uint32_t lane) {
+      // A ray that goes straight on takes no level, but as in POV-Ray there has to be one left.
+      const uint32_t level = node_.level.lane[lane];
+      child_.level.lane[lane] = level + ((one_level_deeper >> lane) & 1);
+      go |= static_cast<uint32_t>(level + 1 < frame_.max_trace_level) << lane;
+    });
+    if (go == 0) return false;
+    child_.rays.origin.template store<S>(surfaces.point);
+    child_.rays.direction.template store<S>(direction);
+    child_.rays.start_object = *surfaces.objects;
+    child_.throughput.template store<S>(node_.throughput.template load<S>() * throughput);
+    weight.store(child_.weight.lane);
+    child_.lanes = go;
+    child_.reflected = node_.reflected;
+    child_.target = node_.target;
+    child_.gathers = 0;
+    return true;
+  }
+
+  /// What is left of the light that `lanes` of child_ bring out of an interior, and how clear their way is.
+  /// POV-Ray takes the grey of what comes through each surface.
+  CELLTRACE_ONE_COPY void fade_child(const WordLanes& interior, const V3<S>& through, uint32_t lanes) {
+    scene_.spu().run_in_module(modules::kFading);
+    const bool fades = (frame_.light_ways & light_way::fading) != 0;
+    if ((frame_.light_ways & light_way::alpha) != 0) {
+      const VectorLanes throughput = child_.throughput;
+      child_.throughput.template store<S>(through);
+      if (fades) fade(scene_, node_, interior, hits_.distance, lanes, child_.throughput, false);
+      const F clear = F::load(node_.power.lane) * grey<S>(child_.throughput.template load<S>());
+      clear.store(child_.power.lane);
+      child_.throughput = throughput;
+    }
+    if (fades) fade(scene_, node_, interior, hits_.distance, lanes, child_.throughput, false);
+  }
+
+  void reflect(const Surfaces<S>& surfaces, const SecondaryRays<S>& onward, uint32_t lanes,
+               const V3<S>& mirrored) {
+    if (lanes == 0) return;
+    inherit_interiors();
+    if (!prepare_child(surfaces, mirrored, onward.mirror, F::load(node_.weight.lane) * onward.mirror_weight,
+                       lanes, lanes))
+      return;
+    child_.reflected = child_.lanes;
+    counters_.reflection += count(child_.lanes);
+    if (onward.bends_reflection && accumulators_in_use_ < kAccumulators) {
+      scene_.spu().enter_module(modules::kFading);
+      redirect(onward.reflection_power);
+    }
+    push();
+  }
+
+  void inherit_interiors() {
+    child_.interior_depth = node_.interior_depth;
+    for (uint32_t d = 0; d < kMaxInteriorDepth; ++d)
+      child_.interiors[d] = node_.interiors[d];
+  }
+
+  /// Sends the light of child_ to an accumulator of its own, from which a node pushed below it gathers it.
+  /// Not in the module of what calls it, which has no room.
+  CELLTRACE_ONE_COPY void redirect(const F& power) {
+    scene_.spu().run_in_module(modules::kFading);
+    child_.gathers = accumulators_in_use_;
+    power.store(child_.power.lane);
+    if (!push()) return;
+    child_.target = accumulators_in_use_++;
+    child_.gathers = 0;
+    child_.throughput.template store<S>({F(1.0f), F(1.0f), F(1.0f)});
+    clear(child_.target);
+  }
+
+  /// Pushes the transmitted rays; returns the lanes that were totally reflected.
+  uint32_t transmit(const Surfaces<S>& surfaces, const WordLanes& interior, const SecondaryRays<S>& onward,
+                    const F& cosine, const V3<S>& mirrored) {
+    scene_.spu().compute(scalar_work::kTransmit);
+    scene_.spu().run_in_module(modules::kSecondary);
+    inherit_interiors();
+    const Refraction refraction = cross_surfaces(scene_, interior, onward.clear, child_, counters_.dropped);
+    const F ratio = F::load(refraction.ratio.lane);
+    V3<S> bent;
+    uint32_t beyond = 0;
+    for_each_part<Spu>([&](uint32_t first) {
+      const auto part = [first](const auto& values) { return part_of<Spu>(values, first); };
+      auto is_total = R::M::none();
+      set_part<Spu>(
+          bent, first,
+          refract<R>(part(surfaces.direction), part(surfaces.normal), part(cosine), part(ratio), is_total));
+      beyond |= is_total.bits() << first;
+    });
+    const uint32_t total = beyond & onward.clear & ~refraction.straight;
+    const M total_mask = M::from_bits(total);
+    V3<S> direction = select<S>(M::from_bits(refraction.straight), surfaces.direction, bent);
+    direction = select<S>(total_mask, mirrored, direction);
+    // A totally reflected ray stays inside, unfiltered.
+    for_each_lane(total, [&](uint32_t lane) {
+      child_.interior_depth.lane[lane] = node_.interior_depth.lane[lane];
+      for (uint32_t d = 0; d < kMaxInteriorDepth; ++d)
+        child_.interiors[d].lane[lane] = node_.interiors[d].lane[lane];
+    });
+    const V3<S> unfiltered = {onward.clear_share, onward.clear_share, onward.clear_share};
+    // POV-Ray's weight is that of a transmitted ray even where all light is reflected.
+    if (prepare_child(surfaces, direction, select<S>(total_mask, unfiltered, onward.through),
+                      F::load(node_.weight.lane) * onward.through_weight, onward.clear & ~refraction.straight,
+                      onward.clear)) {
+      if ((frame_.light_ways & (light_way::fading | light_way::alpha)) != 0) {
+        scene_.spu().enter_module(modules::kFading);
+        fade_child(interior, onward.through, onward.clear);
+      }
+      child_.reflected |= total & child_.lanes;
+      counters_.refraction += count(child_.lanes);
+      push();
+    }
+    return total;
+  }
+
+protected:
+  const FrameBlock& frame_;
+  SceneAccess<Spu>& scene_;
+  RayStack<Spu, kResident> stack_;
+  [[no_unique_address]] RayPooling<Spu> pooling_;
+  RayNode& node_;  ///< being traced
+  RayNode& child_; ///< being made
+  HitPacket hits_;
+  /// Deeper nesting of bent reflections than this leaves the innermost ones unbent.
+  static constexpr uint32_t kAccumulators = 8;
+  VectorLanes light_[kAccumulators]; ///< by the nodes' targets
+  FloatLanes* clear_ = nullptr;      ///< of the packet, with light_way::alpha
+  uint32_t accumulators_in_use_ = 1;
+  LightRound round_ = {}; ///< in which surfaces at hits_ are shaded; rays go on with the first
+  RayCounters counters_;
+};
+
+} // namespace celltrace::kernel

@@ -1,0 +1,294 @@
+// The shading of surfaces that rays of a tree have hit: their materials, textures and layers in the light of
+// a round, and which rays go on. Kernel dialect.
+#pragma once
+
+#include "kernel/shading/ray_tree.hpp"
+
+namespace celltrace::kernel {
+
+/// What a RayTracer knows of surfaces.
+template <class Spu, uint32_t kResident> class SurfaceShading : public RayTree<Spu, kResident> {
+protected:
+  using Tree = RayTree<Spu, kResident>;
+  using Tree::add_weighted;
+  using Tree::fill;
+  using Tree::frame_;
+  using Tree::hits_;
+  using Tree::light_;
+  using Tree::node_;
+  using Tree::round_;
+  using Tree::scene_;
+  using Tree::spawn;
+
+public:
+  using typename Tree::F;
+  using typename Tree::S;
+
+  /// Shades the surfaces that take_hits() told of, in the light of a round. With the first round rays go on
+  /// from there.
+  [[gnu::always_inline]] void shade_hits(const HitPoints<S>& points, uint32_t hit, const LightRound& round) {
+    round_ = round;
+    if constexpr (kHasRoomForCode<Spu>)
+      if (ends(points, hit)) return shade_last(points, hit);
+    const uint32_t plain = points.plain(hit);
+    if (plain != 0) shade_plain(points, plain);
+    if (plain == hit) return;
+    scene_.spu().enter_module(modules::kComposed);
+    shade_composed(points, hit & ~plain);
+  }
+  /// Adds what has come of the light that a round has gathered.
+  void add_gathered(const LightRound& round, uint32_t lanes) { round.add_to<S>(light_[node_.target], lanes); }
+
+protected:
+  SurfaceShading(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, ea_t spill, uint32_t spill_nodes,
+                 RayNode& scratch)
+      : Tree(spu, frame, scene, spill, spill_nodes, scratch), surface_(allocate_surface_lanes(spu, frame)) {}
+
+  /// Whether trees end there. Textures that weigh less than the bailout are dropped, which all do if that is
+  /// above 1.
+  bool ends(const HitPoints<S>& points, uint32_t lanes) const {
+    return points.ends(lanes) && (frame_.adc_bailout <= 1.0f || (points.textured & lanes) == 0);
+  }
+  /// What primary rays see of surfaces for which ends() holds, without a tree.
+  V3<S> light_of_ends(const RayPacket& rays, const HitPacket& hits, const HitPoints<S>& points,
+                      uint32_t lanes, const LightRound& round) {
+    Surfaces<S> surfaces = points.surfaces(rays.direction.template load<S>(), hits.object);
+    prepare_ends(points, hits, lanes);
+    if (has_layers(points, lanes)) return light_of_layers(points, lanes, round, surfaces);
+    const F one(1.0f);
+    const MaterialLanes<S> m = materials_of(points, lanes, surfaces);
+    return local_light(scene_, frame_, round, surfaces, m, lanes, {one, one, one});
+  }
+
+private:
+  /// Surfaces of one material without textures. What it needs is not on the stack while others are shaded.
+  CELLTRACE_ONE_COPY void shade_plain(const HitPoints<S>& points, uint32_t lanes) {
+    Surfaces<S> surfaces;
+    find_surfaces(points, surfaces);
+    spawn(surfaces, surfaces.normal, points.interior,
+          shade(surfaces, points.interior, points.material, lanes, F(1.0f)));
+  }
+  /// Surfaces from which no rays go on.
+  void shade_last(const HitPoints<S>& points, uint32_t lanes) {
+    Surfaces<S> surfaces = points.surfaces(node_.rays.direction.template load<S>(), hits_.object);
+    const F one(1.0f);
+    prepare_ends(points, hits_, lanes);
+    if (has_layers(points, lanes))
+      shade_layers(surfaces, points.interior, points.material, lanes, one);
+    else
+      add_light(surfaces, materials_of(points, lanes, surfaces), lanes, {one, one, one});
+  }
+  /// As light_of_ends(), of surfaces with layers.
+  V3<S> light_of_layers(const HitPoints<S>& points, uint32_t lanes, const LightRound& round,
+                        Surfaces<S>& surfaces) {
+    const F one(1.0f);
+    round_ = round;
+    round_.is_fresh = false;
+    round_.template clear<S>();
+    Tree::begin_light();
+    shade_layers(surfaces, points.interior, points.material, lanes, one);
+    return Tree::light().template load<S>();
+  }
+  /// Before any of the following is asked of surfaces where trees end.
+  void prepare_ends(const HitPoints<S>& points, const HitPacket& hits, uint32_t lanes) {
+    if (const uint32_t textured = points.textured & lanes; textured != 0)
+      prepare_textures(points, hits, textured);
+  }
+  /// Whether some of them have layers.
+  bool has_layers(const HitPoints<S>& points, uint32_t lanes) {
+    bool any = false;
+    if (const uint32_t textured = points.textured & lanes; textured != 0)
+      for_each_value<S>(points.material, textured, [&](uint32_t material, uint32_t) {
+        any = any || (scene_.material(material)->flags & material_flag::layered) != 0;
+      });
+    return any;
+  }
+  /// Their materials if none has layers, and their normals: with their textures.
+  MaterialLanes<S> materials_of(const HitPoints<S>& points, uint32_t lanes, Surfaces<S>& surfaces) {
+    MaterialLanes<S> m = gather_materials(scene_, points.material, lanes);
+    if ((points.textured & lanes) != 0) add_textures(points.material, m, surfaces);
+    return m;
+  }
+  /// Field by field: no copy of it is on the stack.
+  CELLTRACE_ONE_COPY void find_surfaces(const HitPoints<S>& points, Surfaces<S>& surfaces) const {
+    surfaces.point = points.point;
+    surfaces.normal = points.normal;
+    surfaces.direction = node_.rays.direction.template load<S>();
+    surfaces.objects = &hits_.object;
+    surfaces.any_side = points.lit_behind;
+    surfaces.lit_through = points.lit_through;
+  }
+
+  /// Finds out what patterns ask for besides points.
+  void prepare_textures(const HitPoints<S>& points, const HitPacket& hits, uint32_t lanes) {
+    if (surface_ == nullptr) return;
+    scene_.spu().enter_module(modules::kSurfaces);
+    find_surface_lanes(scene_, points, hits, lanes, *surface_);
+  }
+  /// What materials leave to their patterns.
+  void add_textures(const WordLanes& materials, MaterialLanes<S>& m, Surfaces<S>& surfaces) {
+    if (m.disturbed != 0) disturb_normals(scene_, materials, m, surface_, surfaces);
+    if (m.patterned != 0) add_pigments<Spu>(scene_, materials, {surfaces.point, surface_}, m);
+  }
+
+  /// Surfaces with several materials: each is shaded whole, and the results are blended by their weights.
+  /// What goes on goes the same ways for all of them: as one ray each where it weighs the same, or every such
+  /// surface would multiply the rays behind it.
+  CELLTRACE_ONE_COPY void shade_composed(const HitPoints<S>& points, uint32_t lanes) {
+    scene_.spu().run_in_module(modules::kComposed);
+    Surfaces<S> surfaces;
+    find_surfaces(points, surfaces);
+    prepare_textures(points, hits_, lanes);
+    const F u = F::load(hits_.u.lane);
+    const F v = F::load(hits_.v.lane);
+    const F weights[3] = {F(1.0f) - u - v, u, v};
+    SecondaryRays<S> all = SecondaryRays<S>::nothing();
+    for (uint32_t corner = 0; corner < 3 && points.blended != 0; ++corner) {
+      WordLanes materials = points.material;
+      for_each_lane(points.blended, [&](uint32_t lane) {
+        materials.lane[lane] = scene_.blend(points.material.lane[lane])->material[corner];
+      });
+      shade_share(surfaces, points, materials, points.blended, weights[corner], all);
+    }
+    if (const uint32_t textured = lanes & ~points.blended; textured != 0)
+      shade_share(surfaces, points, points.material, textured, F(1.0f), all);
+    spawn(surfaces, surfaces.normal, points.interior, all);
+  }
+  /// The share of materials that may be texture maps.
+  CELLTRACE_ONE_COPY void shade_share(Surfaces<S>& surfaces, const HitPoints<S>& points,
+                                      const WordLanes& materials, uint32_t lanes, const F& weight,
+                                      SecondaryRays<S>& all) {
+    uint32_t plain = lanes;
+    for_each_value<S>(materials, lanes & points.textured, [&](uint32_t material, uint32_t same) {
+      const uint32_t map = map_of(*scene_.material(material));
+      if (map == kNoOffset) return;
+      plain &= ~same;
+      scene_.spu().enter_module(modules::kMaps);
+      const PatternPoints<S> asked = {surfaces.point, surface_};
+      MapWalk<Spu, TextureStage::maps, S> walk(scene_, asked, MapOf::textures);
+      walk.enter(map, weight, same);
+      MapEntryRecord entry;
+      F share;
+      uint32_t some;
+      WordLanes leaf;
+      while (walk.next(entry, share, some)) {
+        fill(leaf, entry.child);
+        shade_whole(surfaces, points, leaf, some, share, all);
+        scene_.spu().enter_module(modules::kMaps);
+      }
+    });
+    if (plain != 0) shade_whole(surfaces, points, materials, plain, weight, all);
+  }
+  /// Adaptive depth control drops a material by its weight alone, as POV-Ray does.
+  CELLTRACE_ONE_COPY void shade_whole(Surfaces<S>& surfaces, const HitPoints<S>& points,
+                                      const WordLanes& materials, uint32_t lanes, const F& weight,
+                                      SecondaryRays<S>& all) {
+    lanes &= (weight >= F(frame_.adc_bailout)).bits();
+    if (lanes == 0) return;
+    const WordLanes& interior = points.interior;
+    const SecondaryRays<S> one = (lanes & points.textured) != 0
+                                     ? shade_layers(surfaces, interior, materials, lanes, weight)
+                                     : shade(surfaces, interior, materials, lanes, weight);
+    if (all.is_nothing())
+      all = one;
+    else if (all.weighs_like(one))
+      all.add(one);
+    else
+      spawn(surfaces, surfaces.normal, interior, one);
+  }
+
+  /// Adds the surface's own light, times `share`; returns what goes on. Not inlined, as spawn() is not:
+  /// local store has no room for a copy at each call.
+  CELLTRACE_ONE_COPY SecondaryRays<S> shade(const Surfaces<S>& surfaces, const WordLanes& interior,
+                                            const WordLanes& materials, uint32_t lanes, const F& share) {
+    scene_.spu().compute(scalar_work::kShade);
+    const MaterialLanes<S> m = gather_materials(scene_, materials, lanes);
+    add_light(surfaces, m, lanes, {share, share, share});
+    return round_.is_first() ? onward_rays(surfaces, interior, m, lanes, share) : SecondaryRays<S>::nothing();
+  }
+  /// Adds what surfaces send by themselves, times `share`. One copy, whose vectors are not on the stack while
+  /// rays go on.
+  CELLTRACE_ONE_COPY void add_light(const Surfaces<S>& surfaces, const MaterialLanes<S>& m, uint32_t lanes,
+                                    const V3<S>& share) {
+    const V3<S> weight = share * node_.throughput.template load<S>();
+    const V3<S> rest = local_light(scene_, frame_, round_, surfaces, m, lanes, weight);
+    if (!round_.only_gathers) add_weighted(lanes, rest, weight);
+  }
+  CELLTRACE_ONE_COPY SecondaryRays<S> onward_rays(const Surfaces<S>& surfaces, const WordLanes& interior,
+                                                  const MaterialLanes<S>& m, uint32_t lanes, const F& share) {
+    SecondaryRays<S> onward = SecondaryRays<S>::nothing();
+    if (!m.has(material_flag::reflects | material_flag::transmits)) return onward;
+    scene_.spu().compute(scalar_work::kSecondaryRays);
+    scene_.spu().enter_module(modules::kSecondary);
+    F fresnel_ratio(1.0f);
+    if (m.fresnel != 0)
+      fresnel_ratio = F::load(fresnel_ratios(scene_, interior, lanes & m.fresnel, node_).lane);
+    find_secondary_rays<Spu>(m, -dot<S>(surfaces.direction, surfaces.normal), fresnel_ratio,
+                             frame_.adc_bailout, lanes, share, onward);
+    if ((m.special & onward.mirrors) != 0) {
+      scene_.spu().enter_module(modules::kFinishes);
+      change_special_mirror(scene_, surfaces, m, onward.mirrors, onward.mirror);
+    }
+    return onward;
+  }
+
+  /// As shade(), of textures with patterns, normals or layers. The light of a layer comes through those
+  /// above, but not what it reflects: that is POV-Ray's model. Where normals are disturbed, rays go on by
+  /// themselves. The surfaces have their layers' normals meanwhile.
+  CELLTRACE_ONE_COPY SecondaryRays<S> shade_layers(Surfaces<S>& surfaces, const WordLanes& interior,
+                                                   const WordLanes& top, uint32_t all_lanes, const F& share) {
+    const F one(1.0f);
+    V3<S> above = {one, one, one}; // what comes through the layers above
+    WordLanes materials = top;
+    uint32_t lanes = all_lanes;
+    SecondaryRays<S> onward = SecondaryRays<S>::nothing();
+    const V3<S> smooth = surfaces.normal;
+    V3<S> outermost = smooth; // of the uppermost layer
+    bool is_disturbed = false;
+    for (bool is_top = true; lanes != 0; is_top = false) {
+      MaterialLanes<S> m = gather_materials(scene_, materials, lanes);
+      surfaces.normal = smooth;
+      add_textures(materials, m, surfaces);
+      add_light(surfaces, m, lanes, above * share);
+      SecondaryRays<S> rays = onward_rays(surfaces, interior, m, lanes, one);
+      if (rays.is_nothing()) break;
+      const uint32_t clear = rays.clear;
+      rays.clear = 0;
+      // POV-Ray does not ask what the layers above leave of what is mirrored, but it weighs it by that.
+      rays.mirror = rays.mirror * share;
+      rays.mirror_weight = rays.mirror_weight * grey<S>(above);
+      above = select<S>(S::M::from_bits(clear), above * rays.through, above);
+      if (is_top) {
+        onward = rays;
+        outermost = surfaces.normal;
+        is_disturbed = m.disturbed != 0;
+      } else if (rays.mirrors != 0) {
+        spawn(surfaces, smooth, interior, rays);
+      }
+      // Transmitted through all layers, by those that were the last.
+      const uint32_t bright = (grey<S>(above) > F(frame_.adc_bailout)).bits() & clear;
+      onward.clear |= bright & ~m.layered;
+      lanes = bright & m.layered;
+      for_each_value<S>(materials, lanes, [&](uint32_t offset, uint32_t same) {
+        const uint32_t below = scene_.material(offset)->below;
+        for_each_lane(same, [&](uint32_t lane) { materials.lane[lane] = below; });
+      });
+    }
+    const F through = S::select(S::M::from_bits(onward.clear), share, F(0.0f));
+    onward.through = above * through;
+    onward.through_weight = S::select(S::M::from_bits(onward.clear), max_component<S>(above), F(0.0f));
+    onward.clear_share = through;
+    if (is_disturbed) {
+      surfaces.normal = outermost;
+      spawn(surfaces, smooth, interior, onward);
+      onward.clear_all();
+    }
+    surfaces.normal = smooth;
+    if (surface_ != nullptr) surface_->normal.template store<S>(smooth);
+    return onward;
+  }
+
+  SurfaceLanes* surface_; ///< at the hits; null: no pattern of the scene asks for it
+};
+
+} // namespace celltrace::kernel
