@@ -7,6 +7,11 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <initializer_list>
+#include <memory>
+#include <utility>
+
 using namespace celltrace;
 using namespace celltrace::test;
 
@@ -142,4 +147,41 @@ TEST_CASE("Numbers beyond single precision are refused") {
   refused([](Scene& s) { s.objects[1].shape = Sphere{{0, 0, 0}, 1e300}; });
   refused([](Scene& s) { s.objects[1].shape = Sphere{{0, 1e39, 0}, 1}; });
   refused([](Scene& s) { s.objects[0].transform = Transform::scale({1e39, 1, 1}); });
+}
+
+namespace {
+
+/// Shapes of one white material, seen with a mirror's finish so that normals show, before a wall.
+Scene white_shapes(std::initializer_list<Object> objects) {
+  Scene scene;
+  scene.camera = camera_at({2.5, 3, -5.5}, {0, 0, 0});
+  scene.background = {0.5, 0.6, 0.7};
+  scene.lights = {{{-3, 9, -8}, {1, 1, 1}}};
+  Material white = matte({1, 1, 1});
+  white.finish.reflection_min = white.finish.reflection_max = Vec3(0.3);
+  const Index material = scene.add(white), interior = scene.add(Interior{});
+  for (Object object : objects) {
+    object.material = material;
+    object.interior = interior;
+    scene.objects.push_back(object);
+  }
+  return scene;
+}
+
+Object shaped(decltype(Object::shape) shape, const Transform& transform = {}) {
+  Object object;
+  object.shape = std::move(shape);
+  object.transform = transform;
+  return object;
+}
+
+} // namespace
+
+TEST_CASE("Thin tori have smooth outlines") {
+  for (const double minor : {0.1, 0.03, 0.01, 0.0035}) {
+    const Transform turned = Transform::rotate({20, 30, 10});
+    const Comparison c = against_reference(white_shapes({shaped(Torus{1.7, minor}, turned)}));
+    INFO(minor << ": " << to_text(c));
+    CHECK(c.psnr >= 50);
+  }
 }

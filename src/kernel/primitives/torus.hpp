@@ -34,12 +34,14 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
     const F square = dot<S>(o, o);
     const F g = square + one - parameters.ratio * parameters.ratio;
     Quartic<S> f;
+    f.origin = o;
+    f.direction = d;
+    f.inner = one - parameters.ratio;
+    f.outer = one + parameters.ratio;
     f.p = two * g - four * (d.x * d.x + d.y * d.y);
     f.q = F(-8.0f) * (o.x * d.x + o.y * d.y);
-    f.r = g * g - four * (o.x * o.x + o.y * o.y);
-    const F outer = one + parameters.ratio;
     // A little farther, where the ray is outside for certain.
-    const F end = S::sqrt(S::max(outer * outer - square, zero)) * F(1.001f) + F(1e-4f);
+    const F end = S::sqrt(S::max(f.outer * f.outer - square, zero)) * F(1.001f) + F(1e-4f);
     F bounds[5] = {-end, zero, zero, zero, end};
     f.stationary_points(near_enough, bounds[1], bounds[2], bounds[3]);
     for (int i = 1; i < 4; ++i)
@@ -53,7 +55,7 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
     F distance[4];
     typename S::M hit[4] = {S::M::none(), S::M::none(), S::M::none(), S::M::none()};
     auto asks = near_enough; // for further crossings
-    F value = f.at(bounds[0]);
+    F value = one; // of the first bound: it is outside
     F half_width = zero;
     for (int i = 0; i < 4; ++i) {
       const F next = f.at(bounds[i + 1]);
@@ -126,14 +128,18 @@ private:
   /// Likewise Halley's, whose next step would be in the order of its cube.
   static constexpr float kStationary = 1e-3f;
 
-  /// t^4 + p t^2 + q t + r.
+  /// t^4 + p t^2 + q t + r along a ray, which is a torus's function at the ray's points.
   template <class S> struct Quartic {
     using F = typename S::F;
-    F p, q, r;
+    V3<S> origin, direction;
+    F inner, outer, p, q; ///< the first two are radii of the torus
 
+    /// From the point: r would be the difference of numbers of which the square of a thin tube is too small a
+    /// part. The first factor is that of the tube on the axis's side of the point.
     F at(const F& t) const {
-      const F square = t * t;
-      return square * square + p * square + q * t + r;
+      const F x = origin.x + direction.x * t, y = origin.y + direction.y * t, z = origin.z + direction.z * t;
+      const F around = S::sqrt(x * x + y * y), square = z * z;
+      return ((around - outer) * (around - inner) + square) * ((around + outer) * (around + inner) + square);
     }
     F slope(const F& t) const { return (F(4.0f) * t * t + F(2.0f) * p) * t + q; }
 
