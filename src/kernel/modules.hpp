@@ -34,14 +34,14 @@ constexpr CodeModule kFading = {"fading", 20, 0, 3968};
 /// Patterns that few scenes have, many of which read tables of the scene image.
 constexpr CodeModule kRarePatterns = {"rare", 22, 0, 14208};
 /// What patterns ask of surfaces besides points.
-constexpr CodeModule kSurfaces = {"surfaces", 25, 0, 3840};
+constexpr CodeModule kSurfaces = {"surfaces", 25, 0, 3968};
 /// Warps but for turbulence.
 constexpr CodeModule kWarps = {"warps", 23, 0, 3456};
 
 // Of the second region: what shades, and asks patterns.
 
 /// Intersections with heavy shapes. Not of the region of the other shapes: rays test both by turns.
-constexpr CodeModule kHeavyShapes = {"heavy", 4, 1, 8832};
+constexpr CodeModule kHeavyShapes = {"heavy", 4, 1, 8960};
 /// What is inside of shapes whose equations have powers, and the normals of these.
 constexpr CodeModule kHeavyPoints = {"heavypoints", 33, 1, 2304};
 /// What is inside of meshes. Likewise: where CSG has meshes, it asks both by turns.
@@ -70,7 +70,7 @@ constexpr CodeModule kFinishes = {"finishes", 19, 1, 4224};
 /// Tests of objects that have a shape of the first region, or are parts of a CSG.
 constexpr CodeModule kObjects = {"objects", 12, 2, 6272};
 /// Where hits lie on objects, and the normals there.
-constexpr CodeModule kHits = {"hits", 5, 2, 7808};
+constexpr CodeModule kHits = {"hits", 5, 2, 7936};
 /// Shading of surfaces with textures, or of several materials.
 constexpr CodeModule kComposed = {"composed", 13, 2, 7808};
 /// What rays pass through on their way or see before what they hit or behind it.

@@ -70,8 +70,7 @@ bool references_are_valid(const std::byte* base, const ImageHeader& h) {
       return false;
     if (!refers_to(object.interior, h.interior_offset, h.interior_count, sizeof(InteriorRecord)))
       return false;
-    const bool has_coordinates = (flags & object_flag::by_surface) != 0 && object.extra != kNoOffset;
-    if ((needs_extra(flags) || has_coordinates) &&
+    if ((needs_extra(flags) || object.extra != kNoOffset) &&
         !refers_to(object.extra, h.extra_offset, h.extra_count, sizeof(ExtraRecord)))
       return false;
     const auto extra = [&] { return reinterpret_cast<const ExtraRecord*>(base + object.extra); };

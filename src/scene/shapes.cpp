@@ -66,6 +66,19 @@ PlacedShape nothing() {
   return shape;
 }
 
+/// How long the first two axes of a box or a cylinder are in the world, compared with the third. What is
+/// about as thick as it is long needs no such parameters.
+void set_proportions(PlacedShape& shape, const Transform& to_world) {
+  constexpr double kThin = 16;
+  double axis[3];
+  for (int i = 0; i < 3; ++i)
+    axis[i] = glm::length(to_world.rows[i]);
+  if (*std::max_element(axis, axis + 3) <= kThin * *std::min_element(axis, axis + 3)) return;
+  shape.has_parameters = true;
+  for (int i = 0; i < 2; ++i)
+    shape.parameters[i] = static_cast<float>(axis[i] / axis[2] - 1);
+}
+
 /// An axis of its own space from `base` to `cap`; `radius` to the sides.
 Transform along_axis(const Vec3& base, const Vec3& cap, double radius) {
   Transform t;
@@ -138,22 +151,36 @@ PlacedShape place(const Object& object, const Disc& disc) {
 }
 
 PlacedShape place(const Object& object, const Box& box) {
-  Transform own;
-  const Vec3 half = 0.5 * glm::abs(box.corner[1] - box.corner[0]);
+  if (box.corner[0] == box.corner[1]) return nothing();
+  Vec3 low = glm::min(box.corner[0], box.corner[1]), high = glm::max(box.corner[0], box.corner[1]);
+  Vec3 scale;
+  for (int i = 0; i < 3; ++i) {
+    scale[i] = glm::length(object.transform.rows[i]);
+    // A side that no ray gets to would take the precision of the one across.
+    const double reach = 2 * double{kMaxHitDistance} / scale[i];
+    low[i] = glm::clamp(low[i], -reach, reach);
+    high[i] = glm::clamp(high[i], -reach, reach);
+  }
+  const Vec3 half = 0.5 * (high - low);
   const double largest = std::max({half.x, half.y, half.z});
-  if (largest == 0) return nothing();
-  // A flat box shows both of its sides.
-  for (int i = 0; i < 3; ++i)
-    own.rows[i][i] = std::max(half[i], 1e-6 * largest);
-  own.rows[3] = 0.5 * (box.corner[0] + box.corner[1]);
-  return in_own_space<BoxPrimitive>(object, own);
+  Transform own;
+  for (int i = 0; i < 3; ++i) {
+    // A flat box shows both of its sides.
+    const double least = half[i] == 0 ? std::min(1e-6 * largest, 1e-4 / scale[i]) : 1e-12 * largest;
+    own.rows[i][i] = std::max(half[i], least);
+  }
+  own.rows[3] = 0.5 * (low + high);
+  PlacedShape shape = in_own_space<BoxPrimitive>(object, own);
+  set_proportions(shape, own.then(object.transform));
+  return shape;
 }
 
 PlacedShape place(const Object& object, const Cylinder& cylinder) {
   if (cylinder.radius == 0 || cylinder.base == cylinder.cap) return nothing();
-  PlacedShape shape = in_own_space<CylinderPrimitive>(
-      object, along_axis(cylinder.base, cylinder.cap, std::abs(cylinder.radius)));
+  const Transform own = along_axis(cylinder.base, cylinder.cap, std::abs(cylinder.radius));
+  PlacedShape shape = in_own_space<CylinderPrimitive>(object, own);
   if (cylinder.open) shape.kind_and_flags |= object_flag::open;
+  set_proportions(shape, own.then(object.transform));
   return shape;
 }
 

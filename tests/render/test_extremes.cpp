@@ -177,6 +177,34 @@ Object shaped(decltype(Object::shape) shape, const Transform& transform = {}) {
 
 } // namespace
 
+TEST_CASE("Thin boxes and cylinders have the normals of their faces up to the rim") {
+  const Transform turned = Transform::rotate({20, 30, 10});
+  for (const double thickness : {0.0, 1e-6, 1e-5, 1e-4, 1e-3}) {
+    const Scene scene = white_shapes({
+        shaped(Box{{{-2, -1, 0}, {0.2, 1.2, thickness}}}, turned),
+        shaped(Box{{{-1, -1.5, -1}, {2, thickness - 1.5, 1}}}),
+        shaped(Box{{{-1, -1, -1}, {1, 1, 1}}},
+               Transform::scale({0.7, 0.5 * thickness + 1e-7, 0.7}).then(Transform::translate({1.2, 1, 0}))),
+        shaped(Cylinder{{1.2, 0.2, 0}, {1.2, 0.2 + std::max(thickness, 1e-6), 0}, 0.8, false}),
+    });
+    const Comparison c = against_reference(scene);
+    INFO(thickness << ": " << to_text(c));
+    CHECK(c.psnr >= 50);
+  }
+}
+
+TEST_CASE("Boxes that are much longer than they are thick are as thick as they say") {
+  for (const double length : {1e5, 1e6, 1e7, 2e9}) {
+    const Scene scene = white_shapes({
+        shaped(Box{{{-length, -1, -length}, {length, 0, length}}}),
+        shaped(Sphere{{0, 0.5, 0}, 0.8}),
+    });
+    const Comparison c = against_reference(scene);
+    INFO(length << ": " << to_text(c));
+    CHECK(c.psnr >= 45);
+  }
+}
+
 TEST_CASE("Thin tori have smooth outlines") {
   for (const double minor : {0.1, 0.03, 0.01, 0.0035}) {
     const Transform turned = Transform::rotate({20, 30, 10});

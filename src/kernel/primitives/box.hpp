@@ -31,13 +31,21 @@ struct BoxPrimitive : LocalPrimitive<BoxPrimitive> {
     return S::max(S::max(S::abs(p.x), S::abs(p.y)), S::abs(p.z)) < F(1.0f);
   }
 
-  /// The face is the one whose plane is nearest.
-  template <class S> [[gnu::always_inline]] static V3<S> gradient(const V3<S>& p, const LocalParameters<S>&) {
+  /// The face is the one whose plane is nearest in the world: in its own space, the error of a point across
+  /// a thin box is larger than its distance from the narrow sides. `ratio` and `second` are by how much more
+  /// the box is long along x and y than along z, as parts of that; 0 where it does not matter.
+  template <class S>
+  [[gnu::always_inline]] static V3<S> gradient(const V3<S>& p, const LocalParameters<S>& parameters) {
     using F = typename S::F;
-    const F x = S::abs(p.x), y = S::abs(p.y), z = S::abs(p.z), zero(0.0f);
-    const auto is_x = (x >= y) & (x >= z);
-    const auto is_y = (y >= z) & !is_x;
-    return {S::select(is_x, p.x, zero), S::select(is_y, p.y, zero), S::select(is_x | is_y, zero, p.z)};
+    const F one(1.0f), zero(0.0f);
+    const F in_x = one - S::abs(p.x), in_y = one - S::abs(p.y), z = one - S::abs(p.z);
+    const F x = in_x + in_x * parameters.ratio, y = in_y + in_y * parameters.second;
+    const auto is_x = (x <= y) & (x <= z);
+    const auto is_y = (y <= z) & !is_x;
+    // Away from 0, which is what the error may have made of a coordinate.
+    const F shift(0.298828125f); // no coordinate that has such an error
+    return {S::select(is_x, p.x + shift, zero), S::select(is_y, p.y + shift, zero),
+            S::select(is_x | is_y, zero, p.z + shift)};
   }
 
   static LocalBounds local_bounds(float) { return {-1.0f, 1.0f, 1.0f, true}; }

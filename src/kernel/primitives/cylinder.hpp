@@ -50,11 +50,14 @@ struct CylinderPrimitive : LocalPrimitive<CylinderPrimitive> {
     return (p.x * p.x + p.y * p.y < F(1.0f)) & (p.z > F(0.0f)) & (p.z < F(1.0f));
   }
 
+  /// As of a box, `ratio` is by how much the radius is more than the height, as a part of that; 0 where it
+  /// does not matter.
   template <class S>
   [[gnu::always_inline]] static V3<S> gradient(const V3<S>& p, const LocalParameters<S>& parameters) {
     using F = typename S::F;
     const F zero(0.0f), one(1.0f);
-    const F from_side = S::abs(one - S::sqrt(p.x * p.x + p.y * p.y));
+    const F in_radii = S::abs(one - S::sqrt(p.x * p.x + p.y * p.y));
+    const F from_side = in_radii + in_radii * parameters.ratio;
     const F from_bottom = S::abs(p.z), from_top = S::abs(one - p.z);
     const auto cap = (S::min(from_bottom, from_top) < from_side) & !parameters.open;
     const F up = S::select(from_top < from_bottom, one, -one);

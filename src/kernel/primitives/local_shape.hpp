@@ -19,8 +19,8 @@ namespace celltrace::kernel {
 
 /// What a shape has besides its map. One shape for all lanes, or in each lane another.
 template <class S> struct LocalParameters {
-  typename S::F ratio;  ///< of a cone, a torus or a disc: see there
-  typename S::F second; ///< of a superellipsoid: see there
+  typename S::F ratio;  ///< of a cone, a torus, a disc, a box or a cylinder: see there
+  typename S::F second; ///< of a superellipsoid or a box: see there
   typename S::M open;   ///< cylinders and cones without caps
 };
 
