@@ -154,7 +154,8 @@ struct Surroundings {
 
 class TreeBuilder {
 public:
-  TreeBuilder(std::vector<SolidRecord>& solids, MeshInsides& meshes) : solids_(solids), meshes_(meshes) {}
+  TreeBuilder(const Vec3& eye, std::vector<SolidRecord>& solids, MeshInsides& meshes)
+      : eye_(eye), solids_(solids), meshes_(meshes) {}
 
   Node build(const Object& object, Surroundings around) {
     if (around.depth++ > kDeepestCsg) throw InputError("the scene has a CSG that nests too deeply");
@@ -231,13 +232,14 @@ private:
     return node;
   }
 
-  static SolidRecord place_solid(Node& node) {
+  SolidRecord place_solid(Node& node) const {
     node.shape = place_shape(node.object);
     SolidRecord solid{};
     solid.object.kind_and_flags =
         node.shape.is_empty || node.has_no_inside() ? kEmptySolid : node.shape.kind_and_flags;
-    std::copy(node.shape.geometry, node.shape.geometry + 12, solid.object.geometry);
-    std::copy(node.shape.parameters, node.shape.parameters + 2, solid.extra.value);
+    const PlacedShape shape = with_boundary(node.shape, eye_);
+    std::copy(shape.geometry, shape.geometry + 12, solid.object.geometry);
+    std::copy(shape.parameters, shape.parameters + 2, solid.extra.value);
     return solid;
   }
 
@@ -254,6 +256,7 @@ private:
     return solid;
   }
 
+  const Vec3& eye_;
   std::vector<SolidRecord>& solids_;
   MeshInsides& meshes_;
 };
@@ -527,7 +530,7 @@ bool CsgParts::contains(const Object& object) {
 }
 
 CsgParts::CsgParts(const Scene& scene, const std::vector<std::shared_ptr<const Object>>& patterns) {
-  TreeBuilder builder(solids, meshes);
+  TreeBuilder builder(scene.camera.location, solids, meshes);
   Flattener flattener(*this);
   for (const auto& object : patterns)
     flattener.add_inside(builder.build(*object, {}));

@@ -386,6 +386,52 @@ PlacedShape place_shape(const Object& object) {
   return std::visit([&](const auto& shape) { return place(object, shape); }, object.shape);
 }
 
+PlacedShape with_boundary(const PlacedShape& shape, const Vec3& eye) {
+  const std::uint32_t kind = shape.kind_and_flags & object_flag::kind_mask;
+  if (shape.is_empty) return shape;
+  // A point is as precise as its coordinates and those of its ray's origin are large. What is farther away
+  // than this is seen too small for its boundary to matter.
+  const double far_away = 100 + 4 * glm::length(eye);
+  Vec3 reach = glm::abs(eye);
+  if (shape.is_bounded) {
+    const kernel::Aabb box = shape.bounds();
+    for (int i = 0; i < 3; ++i)
+      reach[i] += std::min<double>(std::max(std::abs(box.min[i]), std::abs(box.max[i])), far_away);
+  }
+  PlacedShape solid = shape;
+  float* const map = solid.geometry;
+  const auto error = [&](int row) { // in units of the shape's own space
+    constexpr double kRounding = 4e-7;
+    double sum = std::abs(map[row * 4 + 3]);
+    for (int i = 0; i < 3; ++i)
+      sum += std::abs(map[row * 4 + i]) * reach[i];
+    return sum * kRounding;
+  };
+  const auto scale = [&](int row, double factor) {
+    for (int i = 0; i < 4; ++i)
+      map[row * 4 + i] = static_cast<float>(map[row * 4 + i] * factor);
+  };
+  const double errors[3] = {error(0), error(1), error(2)};
+  const double across = std::max(errors[0], errors[1]), along = std::min(errors[2], 0.25);
+  if (kind == kPrimitiveKind<PlanePrimitive>) {
+    map[11] = static_cast<float>(map[11] - errors[2]);
+  } else if (kind == kPrimitiveKind<BoxPrimitive>) {
+    for (int row = 0; row < 3; ++row)
+      scale(row, 1 / (1 + errors[row]));
+  } else if (kind == kPrimitiveKind<CylinderPrimitive>) {
+    scale(0, 1 + across);
+    scale(1, 1 + across);
+    map[11] = static_cast<float>(map[11] - along);
+    scale(2, 1 / (1 - 2 * along));
+  } else if (kind == kPrimitiveKind<ConePrimitive>) {
+    scale(0, 1 + across + 2 * along);
+    scale(1, 1 + across + 2 * along);
+    scale(2, 1 + along);
+    if (solid.parameters[0] > 0) solid.parameters[0] += static_cast<float>(2 * along);
+  }
+  return solid;
+}
+
 bool has_bounds(const Object& object) {
   // Most shapes always have: they are not placed to find out.
   if (std::holds_alternative<Plane>(object.shape)) return false;

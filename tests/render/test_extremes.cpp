@@ -205,6 +205,48 @@ TEST_CASE("Boxes that are much longer than they are thick are as thick as they s
   }
 }
 
+TEST_CASE("Points where surfaces of a CSG coincide are in boxes, but not in cylinders and cones") {
+  const Transform turned = Transform::rotate({0, 25, 5}).then(Transform::translate({0, 0.01, 0}));
+  const auto colour = [](Scene& scene, const Vec3& rgb) {
+    Material m = matte(rgb);
+    m.finish.ambient = Vec3(1);
+    m.finish.diffuse = 0;
+    return scene.add(m);
+  };
+  /// The first shape without the second, or where no CSG is asked for, both of them.
+  const auto picture = [&](const decltype(Object::shape)& first, const decltype(Object::shape)& second,
+                           bool csg) {
+    Scene scene;
+    scene.camera = camera_at({2, 7, -5}, {0, 0, 0});
+    const Index red = colour(scene, {1, 0, 0}), green = colour(scene, {0, 1, 0});
+    const Index interior = scene.add(Interior{});
+    Object one = shaped(first), other = shaped(second);
+    one.material = red;
+    other.material = green;
+    one.interior = other.interior = interior;
+    if (csg) {
+      const auto difference = std::make_shared<Csg>(Csg{Csg::Operation::difference, {one, other}});
+      scene.objects = {shaped(std::shared_ptr<const Csg>(difference))};
+      scene.objects[0].material = red;
+      scene.objects[0].interior = interior;
+    } else {
+      scene.objects = {one, other};
+    }
+    for (Object& object : scene.objects)
+      object.transform = turned;
+    return render(scene, backends().front().options(80, 60, 2)).image;
+  };
+  const Box block{{{-1.5, -1, -1.5}, {1.5, 1, 1.5}}}, hole{{{-1, -0.5, -1}, {1, 1, 1}}};
+  // The hole's lid is seen, which lies a little higher in the other picture.
+  const Box lid{{{-1, 0.9, -1}, {1, 1.0001, 1}}};
+  CHECK(compare_images(picture(block, hole, true), picture(block, lid, false)).psnr >= 40);
+  const Cylinder drum{{0, -1, 0}, {0, 1, 0}, 1.5, false}, bore{{0, -0.5, 0}, {0, 1, 0}, 1, false};
+  const Cylinder sunk{{0, -0.5, 0}, {0, 0.9, 0}, 1, false};
+  CHECK(compare_images(picture(drum, bore, true), picture(drum, sunk, false)).psnr >= 40);
+  const Cone frustum{{0, -1, 0}, {0, 1, 0}, 2, 1.5, false}, funnel{{0, -0.5, 0}, {0, 1, 0}, 0.3, 1, false};
+  CHECK(compare_images(picture(frustum, funnel, true), picture(frustum, sunk, false)).psnr >= 40);
+}
+
 TEST_CASE("Thin tori have smooth outlines") {
   for (const double minor : {0.1, 0.03, 0.01, 0.0035}) {
     const Transform turned = Transform::rotate({20, 30, 10});
