@@ -37,7 +37,9 @@ constexpr Vec3 kDefaultLookAt{0, 0, 1};
 constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180;
 constexpr double kTiny = 1e-10;
 
-void set_angle(Camera& camera, double degrees) {
+void set_flat_angle(Camera& camera, double degrees) {
+  if (degrees < 0 || degrees >= 180) throw InputError("a camera's angle must lie between 0 and 180 degrees");
+  if (degrees == 0) return;
   const double length = glm::length(camera.direction);
   const double width = glm::length(camera.right);
   if (length == 0) throw InputError("the camera has no direction");
@@ -69,7 +71,7 @@ void turn(Camera& camera, const Vec3& look_at, const Vec3& sky) {
   camera.right = sideways * (sign * width);
 }
 
-constexpr double kVersionOfOrthographicScale = 3.5; // before, right and up are its picture's size
+constexpr double kVersionOfFixedOrder = 3.5;
 
 /// An orthographic camera whose picture has no size of its own takes that of a perspective one at the
 /// looked-at point.
@@ -78,6 +80,29 @@ void scale_orthographic(Camera& camera, double distance) {
   if (depth == 0) throw InputError("the camera has no direction");
   camera.right *= distance / depth;
   camera.up *= distance / depth;
+}
+
+void move(Camera& camera, const Transform& next) {
+  camera.location = next.point(camera.location);
+  camera.direction = next.direction(camera.direction);
+  camera.right = next.direction(camera.right);
+  camera.up = next.direction(camera.up);
+}
+
+Camera view_of(const CameraDefinition& definition) {
+  Camera camera;
+  camera.location = definition.location;
+  camera.direction = definition.direction;
+  camera.right = definition.right.value_or(kDefaultRight);
+  camera.up = definition.up.value_or(kDefaultUp);
+  return camera;
+}
+
+void set_view(CameraDefinition& definition, const Camera& camera) {
+  definition.location = camera.location;
+  definition.direction = camera.direction;
+  definition.right = camera.right;
+  definition.up = camera.up;
 }
 
 bool is_finite(const Vec3& v) {
@@ -95,6 +120,12 @@ std::vector<const char*> camera_kind_names() {
 
 void set_kind(CameraDefinition& camera, int name) {
   camera.kind = kKinds[name].kind;
+  if (camera.kind != Camera::Kind::orthographic || !camera.acts_at_once) return;
+  const double distance = glm::length(camera.look_at.value_or(kDefaultLookAt) - camera.location);
+  if (distance < kTiny || glm::length(camera.direction) < kTiny) return;
+  Camera view = view_of(camera);
+  scale_orthographic(view, distance);
+  set_view(camera, view);
 }
 
 void set_kind_by_pattern(Session& session, CameraDefinition& camera, int pattern, const Location& where) {
@@ -121,32 +152,67 @@ void set_angles(Session& session, CameraDefinition& camera, double angle, double
   camera.vertical_angle = vertical_angle;
 }
 
-Camera CameraDefinition::finish(double version) const {
-  Camera camera;
+void set_angle(Session& session, CameraDefinition& camera, double angle, const Location& where) {
+  camera.angle = angle;
+  camera.vertical_angle.reset();
+  if (!camera.acts_at_once || !is_flat(camera.kind)) return;
+  Camera view = view_of(camera);
+  try {
+    set_flat_angle(view, angle);
+  } catch (const InputError& error) {
+    session.fail(where, error.what());
+  }
+  camera.direction = view.direction;
+}
+
+void set_look_at(CameraDefinition& camera, const Vec3& point) {
+  camera.look_at = point;
+  if (!camera.acts_at_once) return;
+  Camera view = view_of(camera);
+  turn(view, point, camera.sky);
+  set_view(camera, view);
+}
+
+void transform(CameraDefinition& camera, const Transform& next) {
+  if (!camera.acts_at_once) {
+    camera.transform = camera.transform.then(next);
+    return;
+  }
+  Camera view = view_of(camera);
+  move(view, next);
+  set_view(camera, view);
+}
+
+std::shared_ptr<CameraDefinition> start_camera(Session& session, const CameraDefinition& from,
+                                               const Location& where) {
+  auto camera = std::make_shared<CameraDefinition>(from);
+  if (from.acts_at_once || !session.builder.is_before(kVersionOfFixedOrder)) return camera;
+  camera->acts_at_once = true;
+  try {
+    set_view(*camera, from.finish());
+  } catch (const InputError& error) {
+    session.fail(where, error.what());
+  }
+  camera->transform = Transform();
+  return camera;
+}
+
+Camera CameraDefinition::finish() const {
+  Camera camera = view_of(*this);
   camera.kind = kind;
-  camera.right = right.value_or(kDefaultRight);
-  camera.direction = direction;
-  if (is_flat(kind)) {
-    if (angle && (*angle < 0 || *angle >= 180))
-      throw InputError("a camera's angle must lie between 0 and 180 degrees");
-    if (angle && *angle != 0) set_angle(camera, *angle);
-  } else {
+  if (!is_flat(kind)) {
     camera.angle = angle.value_or(kind == Camera::Kind::spherical ? 360 : 90);
     camera.vertical_angle = vertical_angle.value_or(camera.angle / 2);
     if (camera.angle < 0 || camera.vertical_angle < 0)
       throw InputError("a camera's angle must not be negative");
   }
-  camera.up = up.value_or(kDefaultUp);
-  camera.location = location;
-  if (look_at) turn(camera, *look_at, sky);
-  if (kind == Camera::Kind::orthographic && version >= kVersionOfOrthographicScale &&
-      ((!right && !up) || angle))
-    scale_orthographic(camera, glm::length(look_at.value_or(kDefaultLookAt) - location));
-
-  camera.location = transform.point(camera.location);
-  camera.direction = transform.direction(camera.direction);
-  camera.right = transform.direction(camera.right);
-  camera.up = transform.direction(camera.up);
+  if (!acts_at_once) {
+    if (angle && is_flat(kind)) set_flat_angle(camera, *angle);
+    if (look_at) turn(camera, *look_at, sky);
+    if (kind == Camera::Kind::orthographic && ((!right && !up) || angle))
+      scale_orthographic(camera, glm::length(look_at.value_or(kDefaultLookAt) - location));
+    move(camera, transform);
+  }
   if (!is_finite(camera.location) || !is_finite(camera.direction) || !is_finite(camera.right) ||
       !is_finite(camera.up) || glm::length(camera.direction) == 0)
     throw InputError("the camera has no direction");

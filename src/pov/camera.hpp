@@ -1,6 +1,7 @@
 // The camera as written, and what it comes to.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -15,8 +16,10 @@ struct Session;
 /// The words for kinds of cameras that are no words of something else.
 std::vector<const char*> camera_kind_names();
 
-/// Fields in any order; finish() applies them in the fixed one of that version of POV-Ray's language.
+/// Fields in any order, which finish() applies in a fixed one; or, in a scene of a version before 3.5, each
+/// of them acts on what is there by then, and finish() has nothing left to do.
 struct CameraDefinition {
+  bool acts_at_once = false;
   Camera::Kind kind = Camera::Kind::perspective;
   Vec3 location{0, 0, 0};
   Vec3 direction{0, 0, 1};
@@ -32,8 +35,12 @@ struct CameraDefinition {
 
   /// Throws InputError, without a position, if the camera has no view: an angle of 180 degrees or more, no
   /// direction.
-  Camera finish(double version) const;
+  Camera finish() const;
 };
+
+/// One that starts as another, or as the default, where the scene has got to.
+std::shared_ptr<CameraDefinition> start_camera(Session& session, const CameraDefinition& from,
+                                               const Location& where);
 
 /// By its place in camera_kind_names().
 void set_kind(CameraDefinition& camera, int name);
@@ -44,5 +51,8 @@ void set_kind(Session& session, CameraDefinition& camera, int shape, double numb
 /// A camera that is seen with the angle from left to right, and from bottom to top. Fails if it has no such.
 void set_angles(Session& session, CameraDefinition& camera, double angle, double vertical_angle,
                 const Location& where);
+void set_angle(Session& session, CameraDefinition& camera, double angle, const Location& where);
+void set_look_at(CameraDefinition& camera, const Vec3& point);
+void transform(CameraDefinition& camera, const Transform& next);
 
 } // namespace celltrace::pov

@@ -930,10 +930,8 @@ camera
   ;
 
 camera_body
-  : %empty {
-      $$ = std::make_shared<CameraDefinition>(session.builder.default_camera);
-    }
-  | camera_body CAMERA_ID          { $$ = std::make_shared<CameraDefinition>(*$2); }
+  : %empty { $$ = start_camera(session, session.builder.default_camera, @$); }
+  | camera_body CAMERA_ID          { $$ = start_camera(session, *$2, @2); }
   | camera_body CAMERA_KIND        { $$ = $1; set_kind(*$$, $2); }
   | camera_body PATTERN            { $$ = $1; set_kind_by_pattern(session, *$$, $2, @2); }
   | camera_body SHAPE number       { $$ = $1; set_kind(session, *$$, $2, $3, @2); }
@@ -942,12 +940,12 @@ camera_body
   | camera_body RIGHT quantity     { $$ = $1; $$->right = session.vector($3, @3); }
   | camera_body UP quantity        { $$ = $1; $$->up = session.vector($3, @3); }
   | camera_body SKY quantity       { $$ = $1; $$->sky = session.vector($3, @3); }
-  | camera_body LOOK_AT quantity   { $$ = $1; $$->look_at = session.vector($3, @3); }
-  | camera_body ANGLE number       { $$ = $1; $$->angle = $3; $$->vertical_angle.reset(); }
+  | camera_body LOOK_AT quantity   { $$ = $1; set_look_at(*$$, session.vector($3, @3)); }
+  | camera_body ANGLE number       { $$ = $1; set_angle(session, *$$, $3, @2); }
   | camera_body ANGLE number optional_comma number { $$ = $1; set_angles(session, *$$, $3, $5, @5); }
   | camera_body APERTURE number    { $$ = $1; mark($$->unsupported, unless_zero("'aperture'", $3, @2)); }
   | camera_body IGNORED_NUMBER quantity { $$ = $1; }
-  | camera_body transformation     { $$ = $1; $$->transform = $$->transform.then($2); }
+  | camera_body transformation     { $$ = $1; transform(*$$, $2); }
   | camera_body NORMAL { $$ = $1; mark($$->unsupported, unsupported_feature(session, "'normal'", @2)); }
   | camera_body unsupported_modifier { $$ = $1; mark($$->unsupported, $2); }
   ;

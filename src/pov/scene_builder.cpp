@@ -15,6 +15,10 @@ constexpr double kVersionOfNoise = 3.5; // that is in range
 
 } // namespace
 
+bool SceneBuilder::is_before(double version) const {
+  return std::lround(this->version() * 100) < std::lround(version * 100);
+}
+
 void SceneBuilder::count_triangles(std::size_t count, const Location& where) {
   triangles_ += count;
   if (triangles_ > limits_.triangles)
@@ -85,7 +89,7 @@ Scene SceneBuilder::finish(const std::string& name) {
   diagnostics_.supports(camera.unsupported, camera.where);
   if (has_photon_targets_ && photons_) diagnostics_.supports(photons_, photons_->where);
   try {
-    scene_.camera = camera.finish(scene_.version);
+    scene_.camera = camera.finish();
   } catch (const InputError& error) {
     diagnostics_.fail(camera.where, error.what());
   }

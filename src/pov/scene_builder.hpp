@@ -63,6 +63,8 @@ public:
   void set_version(double version) { version_ = version; }
   /// What `version` says: 3.7 until #version changes it.
   double version() const { return version_.value_or(3.7); }
+  /// Whether it is less than this one. POV-Ray counts in hundredths.
+  bool is_before(double version) const;
 
   /// As it was declared, whether it has been placed or not.
   const Mesh& mesh_of(const std::shared_ptr<MeshDefinition>& definition) const;

@@ -102,6 +102,80 @@ TEST_CASE("an orthographic camera has the size of right and up before version 3.
   CHECK(parse("#version 3.5; " + scene).camera.right.x > 2);
 }
 
+TEST_CASE("before version 3.5 each field acts on what is there") {
+  const auto old = [](const std::string& fields) {
+    return parse("#version 3.1; camera { " + fields + " }").camera;
+  };
+  const Camera plain = old("location -5*z");
+  // Turned to the point as seen from the origin, which is where the camera still was.
+  CHECK(near(old("look_at x location -5*z").direction, {1, 0, 0}));
+  CHECK(near(old("look_at x location -5*z").location, {0, 0, -5}));
+  CHECK(near(old("location -5*z look_at 0 sky x").up, plain.up));
+  CHECK(near(old("location -5*z sky x look_at 0").up, {1, 0, 0}));
+  CHECK(near(old("location -5*x look_at 0 direction 2*z").direction, {0, 0, 2}));
+  CHECK(near(old("location -5*x look_at 0 right 2*x").right, {2, 0, 0}));
+  const double depth = 1.33 / (2 * std::tan(3.14159265358979 / 6));
+  CHECK(near(old("angle 60 right 3*x").direction, {0, 0, depth}));
+  CHECK(near(old("right 3*x angle 60").direction, {0, 0, depth * 3 / 1.33}));
+  CHECK(near(old("angle 60 direction 2*z").direction, {0, 0, 2}));
+  CHECK(near(old("location -5*x look_at 0 angle 60").direction, {depth, 0, 0}));
+  const Camera moved = old("translate y rotate 90*y location -5*x");
+  CHECK(near(moved.location, {-5, 0, 0}));
+  CHECK(near(moved.direction, {1, 0, 0}));
+  CHECK(near(moved.right, {0, 0, -1.33}));
+  CHECK(near(old("rotate 90*y location -5*z look_at 0").direction, {0, 0, 1}));
+}
+
+TEST_CASE("before version 3.5 the kind of a camera may come late") {
+  const auto late = [](const std::string& kind) {
+    return parse("#version 3.1; camera { angle 60 " + kind + " }").camera;
+  };
+  CHECK(late("orthographic").kind == Camera::Kind::orthographic);
+  // It takes the size that the picture has at the point which is looked at, or would be.
+  CHECK(late("orthographic").right.x == Approx(2 * std::tan(3.14159265358979 / 6)));
+  CHECK(
+      near(late("location -5*z look_at 0 orthographic").right, {10 * std::tan(3.14159265358979 / 6), 0, 0}));
+  CHECK(near(late("orthographic location -5*z look_at 0").right, {2 * std::tan(3.14159265358979 / 6), 0, 0}));
+  CHECK(late("fisheye").angle == 60);
+}
+
+TEST_CASE("the version that a camera is read by is the one in front of it") {
+  CHECK(near(parse("camera { look_at x location -5*x } #version 3.1;").camera.direction, {1, 0, 0}));
+  CHECK(near(parse("#version 3.1; camera { location -5*z look_at 0 sky x } #version 3.7;").camera.up,
+             {0, 1, 0}));
+  // POV-Ray counts versions in hundredths.
+  CHECK(near(parse("#version 3.494; camera { look_at x location z }").camera.direction, {1, 0, 0}));
+  CHECK(near(parse("#version 3.496; camera { look_at x location 2*x }").camera.direction, {-1, 0, 0}));
+}
+
+TEST_CASE("what a declared camera is followed by acts on it before version 3.5") {
+  const std::string declared = "camera { look_at <1, 0, 1> angle 90 location -z }";
+  const auto used = [&](const std::string& before, const std::string& after) {
+    return parse("#version " + before + "; #declare C = " + declared + " #version 3.1; camera { C " + after +
+                 " }")
+        .camera;
+  };
+  const double half = std::sqrt(0.5) * 0.665;
+  CHECK(near(used("3.1", "location 2*y").location, {0, 2, 0}));
+  CHECK(near(used("3.1", "location 2*y").direction, {half, 0, half}));
+  CHECK(near(used("3.1", "rotate -45*y").direction, {0, 0, 0.665}));
+  // It was finished where it was declared.
+  CHECK(glm::length(used("3.7", "location 2*y").direction - 0.665 * glm::normalize(Vec3(1, 0, 2))) < 5e-4);
+  CHECK(near(
+      parse("#version 3.1; #declare C = camera { location -5*z look_at 0 sky x } #version 3.7; camera { C }")
+          .camera.up,
+      {0, 1, 0}));
+}
+
+TEST_CASE("cameras that cannot be before version 3.5") {
+  CHECK(error_line("#version 3.1; camera { angle 180 }") ==
+        "scene.pov:1:24: error: a camera's angle must lie between 0 and 180 degrees");
+  CHECK(error_line("#version 3.1; camera { direction 0 angle 60 }") ==
+        "scene.pov:1:36: error: the camera has no direction");
+  CHECK(error_line("#declare C = camera { angle 180 } #version 3.1; camera { C }") ==
+        "scene.pov:1:58: error: a camera's angle must lie between 0 and 180 degrees");
+}
+
 TEST_CASE("kinds of cameras by their words") {
   using Kind = Camera::Kind;
   CHECK(camera("perspective").kind == Kind::perspective);
