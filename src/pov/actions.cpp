@@ -309,7 +309,11 @@ void require_plain(Session& session, const TexturePtr& texture, const Location& 
     session.fail(where, "the pigment, normal and finish of a texture with 'uv_mapping' stay as they are");
 }
 
-TexturePtr layer(Session& session, const TexturePtr& below, const TexturePtr& top, const Location& where) {
+TexturePtr layer(Session& session, const TexturePtr& below, const TexturePtr& given, const Location& where) {
+  constexpr double kVersionOfFilteringLayers = 3.11;
+  const TexturePtr top = session.builder.is_before(kVersionOfFilteringLayers)
+                             ? with_filter_as_transmit(given, below != nullptr)
+                             : given;
   if (!below) return top;
   if (below->pattern.exists() || top->pattern.exists())
     session.fail(where, "a pattern of textures cannot be one of several layers");

@@ -122,8 +122,9 @@ TexturePtr changed(Session& session, const TexturePtr& texture, const PatternCha
 /// Fails for a texture whose pattern is one of textures, or which is on surface coordinates: it has no
 /// pigment, normal or finish of its own.
 void require_plain(Session& session, const TexturePtr& texture, const Location& where);
-/// `top` on `below`, which may be null. Fails for textures that cannot be layers.
-TexturePtr layer(Session& session, const TexturePtr& below, const TexturePtr& top, const Location& where);
+/// `given` on `below`, which may be null. Fails for textures that cannot be layers. Up to version 3.1 layers
+/// that are on other ones transmit what they filter.
+TexturePtr layer(Session& session, const TexturePtr& below, const TexturePtr& given, const Location& where);
 TexturePtr transformed(Session& session, const TexturePtr& texture, const Transform& next,
                        const Location& where);
 

@@ -817,7 +817,7 @@ texture_body
   ;
 
 layers
-  : texture
+  : texture        { $$ = layer(session, nullptr, $1, @1); }
   | layers texture { $$ = layer(session, $1, $2, @2); }
   ;
 

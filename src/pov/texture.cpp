@@ -1,6 +1,8 @@
 #include "pov/texture.hpp"
 
 #include <initializer_list>
+#include <unordered_map>
+#include <utility>
 
 namespace celltrace::pov {
 
@@ -27,6 +29,48 @@ UnsupportedPtr all(std::initializer_list<UnsupportedPtr> marks) {
 std::shared_ptr<TextureDefinition> copy(const TexturePtr& texture) {
   return std::make_shared<TextureDefinition>(*texture);
 }
+
+/// Makes pigments transmit what they filter. A map that several of them share is changed once.
+class FilterAsTransmit {
+public:
+  /// Whether that changed anything.
+  bool apply(PigmentDefinition& pigment) {
+    if (!pigment.pattern.exists()) return apply(pigment.value);
+    if (!pigment.map) return false;
+    auto map = std::make_shared<PigmentMap>(*pigment.map);
+    if (!apply_all(map->entries)) return false;
+    pigment.map = std::move(map);
+    return true;
+  }
+
+private:
+  using Map = std::shared_ptr<const PatternMap<Pigment>>;
+
+  bool apply(Pigment& pigment) {
+    if (pigment.map) {
+      const Map changed = of(pigment.map);
+      return std::exchange(pigment.map, changed) != changed;
+    }
+    pigment.transmit += pigment.filter;
+    return std::exchange(pigment.filter, 0) != 0;
+  }
+
+  bool apply_all(std::vector<PatternMap<Pigment>::Entry>& entries) {
+    bool has_changed = false;
+    for (auto& entry : entries)
+      has_changed |= apply(entry.value);
+    return has_changed;
+  }
+
+  Map of(const Map& map) {
+    Map& known = known_[map.get()];
+    if (known) return known;
+    auto changed = std::make_shared<PatternMap<Pigment>>(*map);
+    return known = apply_all(changed->entries) ? std::move(changed) : map;
+  }
+
+  std::unordered_map<const PatternMap<Pigment>*, Map> known_;
+};
 
 } // namespace
 
@@ -188,6 +232,17 @@ TexturePtr layered(const TexturePtr& below, const TexturePtr& top) {
   auto changed = copy(top);
   changed->below = top->below ? layered(below, top->below) : below;
   changed->layers = 1 + changed->below->layers;
+  return changed;
+}
+
+TexturePtr with_filter_as_transmit(const TexturePtr& texture, bool also_lowest) {
+  const TexturePtr below = texture->below ? with_filter_as_transmit(texture->below, also_lowest) : nullptr;
+  PigmentDefinition pigment = texture->pigment;
+  const bool has_changed = (below || also_lowest) && FilterAsTransmit().apply(pigment);
+  if (!has_changed && below == texture->below) return texture;
+  auto changed = copy(texture);
+  changed->below = below;
+  changed->pigment = std::move(pigment);
   return changed;
 }
 

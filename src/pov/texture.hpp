@@ -129,6 +129,9 @@ TexturePtr transformed(const TexturePtr& texture, const Transform& next);
 /// opaque.
 TexturePtr layered(const TexturePtr& below, const TexturePtr& top);
 
+/// The texture with what its layers filter transmitted instead: of all but the lowest one, or of that, too.
+TexturePtr with_filter_as_transmit(const TexturePtr& texture, bool also_lowest);
+
 struct SkySphereDefinition {
   std::vector<PigmentDefinition> pigments; ///< the last one is on top
   UnsupportedPtr unsupported;

@@ -197,6 +197,79 @@ TEST_CASE("an opaque layer hides those below") {
   CHECK(material("texture { pigment { rgb 1 } } texture { pigment { rgb 0.5 } }").pigment.rgb.x == 0.5);
 }
 
+namespace {
+
+/// Of an object with the textures, read by the version.
+Material layered(const std::string& version, const std::string& textures) {
+  const Scene scene = parse("#version " + version + "; sphere { 0, 1 " + textures + " }");
+  return scene.materials.at(scene.objects.at(0).material);
+}
+
+bool transmits(const Pigment& pigment) {
+  return pigment.filter == 0 && pigment.transmit == Approx(0.75);
+}
+
+const std::string kBase = "texture { pigment { rgb 0.5 } } ";
+const std::string kFiltering = "rgbft <0.8, 0.4, 0.2, 0.5, 0.25> ";
+const std::string kFilteringLayer = "texture { pigment { " + kFiltering + "} } ";
+
+} // namespace
+
+TEST_CASE("up to version 3.1 layers on others transmit what they filter") {
+  const std::string both = kBase + kFilteringLayer;
+  for (const char* version : {"3.0", "3.1", "3.104"})
+    CHECK(transmits(layered(version, both).pigment));
+  for (const char* version : {"3.106", "3.5", "3.6", "3.7"})
+    CHECK(layered(version, both).pigment.filter == 0.5);
+  const Material three = layered("3.1", kFilteringLayer + kFilteringLayer + kFilteringLayer);
+  CHECK(transmits(three.pigment));
+  CHECK(transmits(three.below->pigment));
+  CHECK(three.below->below->pigment.filter == 0.5);
+  CHECK(layered("3.1", kFilteringLayer).pigment.filter == 0.5);
+  CHECK(transmits(layered("3.1", "material { " + both + "}").pigment));
+  const Scene inside =
+      parse("#version 3.1; sphere { 0, 1 " + kBase + "interior_texture { pigment { rgb 1 } } " +
+            "interior_texture { pigment { " + kFiltering + "} } }");
+  CHECK(transmits(inside.materials.at(inside.objects.at(0).material).inside->pigment));
+}
+
+TEST_CASE("up to version 3.1 all colours of patterns in layers transmit what they filter") {
+  const std::string map = "color_map { [0 rgb 1] [1 " + kFiltering + "] }";
+  const auto pigment = [](const std::string& items) {
+    return layered("3.1", kBase + "texture { pigment { " + items + " } }").pigment.map->entries;
+  };
+  CHECK(transmits(pigment("gradient x " + map).at(1).value));
+  CHECK(pigment("gradient x " + map).at(0).value.transmit == 0);
+  CHECK(transmits(pigment("checker rgb 1 " + kFiltering).at(1).value));
+  CHECK(transmits(pigment("average pigment_map { [1 " + kFiltering + "] }").at(0).value));
+  const auto nested =
+      pigment("gradient x pigment_map { [0 gradient y " + map + "] [1 gradient z " + map + "] }");
+  CHECK(transmits(nested.at(0).value.map->entries.at(1).value));
+  CHECK(transmits(nested.at(1).value.map->entries.at(1).value));
+}
+
+TEST_CASE(
+    "up to version 3.1 layers transmit what they filter where they are declared and where they are used") {
+  const auto used = [](const std::string& before, const std::string& after, const std::string& text) {
+    return parse("#version " + before + "; #declare T = " + kBase + kFilteringLayer + "#version " + after +
+                 "; sphere { 0, 1 " + text + " }");
+  };
+  const auto first = [](const Scene& scene) { return scene.materials.at(scene.objects.at(0).material); };
+  CHECK(transmits(first(used("3.1", "3.6", "texture { T }")).pigment));
+  CHECK(transmits(first(used("3.6", "3.1", "texture { T }")).pigment));
+  CHECK(transmits(first(used("3.6", "3.1", "texture { T finish { ambient 1 } }")).pigment));
+  CHECK(transmits(first(used("3.6", "3.1", "texture { tiles { texture { T } tile2 texture { T } } }"))
+                      .map->entries.at(0)
+                      .value.pigment));
+  // Entries of maps and lists are no layers where they are used.
+  CHECK(first(used("3.6", "3.1", "texture { checker texture { T } texture { T } }"))
+            .map->entries.at(0)
+            .value.pigment.filter == 0.5);
+  CHECK(first(used("3.6", "3.1", "texture { gradient x texture_map { [0 T] [1 T] } }"))
+            .map->entries.at(0)
+            .value.pigment.filter == 0.5);
+}
+
 TEST_CASE("interiors and materials") {
   CHECK(ior("") == 1);
   CHECK(ior("interior { ior 1.5 caustics 0 }") == 1.5);
