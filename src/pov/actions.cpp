@@ -355,7 +355,12 @@ bool is_ground_fog(Session& session, double type, const Location& where) {
   return type == 2;
 }
 
-void set_colour(Fog& fog, const Pigment& colour) {
+void set_colour_or_distance(Session& session, Fog& fog, const Quantity& value, const Location& where) {
+  if (value.is_float()) {
+    fog.distance = session.number(value, where);
+    return;
+  }
+  const Pigment colour = session.colour(value, where);
   fog.colour = colour.rgb;
   fog.filter = colour.filter;
   fog.transmit = colour.transmit;

@@ -138,7 +138,8 @@ void transform(Session& session, SkySphereDefinition& sky, const Transform& next
 
 /// Whether a fog of this type is one that lies on the ground.
 bool is_ground_fog(Session& session, double type, const Location& where);
-void set_colour(Fog& fog, const Pigment& colour);
+/// A mere number is the distance.
+void set_colour_or_distance(Session& session, Fog& fog, const Quantity& value, const Location& where);
 /// As in POV-Ray, only the direction of its heights turns.
 void transform(Fog& fog, const Transform& next);
 /// Of length 1.

@@ -849,7 +849,7 @@ fog_body
   | fog_body FOG_ID             { $$ = std::make_shared<FogDefinition>(*$2); }
   | fog_body FOG_TYPE number    { $$ = $1; $$->value.is_ground = is_ground_fog(session, $3, @3); }
   | fog_body DISTANCE number    { $$ = $1; $$->value.distance = $3; }
-  | fog_body colour_value       { $$ = $1; set_colour($$->value, session.colour($2, @2)); }
+  | fog_body colour_value       { $$ = $1; set_colour_or_distance(session, $$->value, $2, @2); }
   | fog_body FOG_OFFSET number  { $$ = $1; $$->value.offset = $3; }
   | fog_body FOG_ALT number     { $$ = $1; $$->value.altitude = $3; }
   | fog_body UP quantity        { $$ = $1; $$->value.up = direction(session, $3, @3); }

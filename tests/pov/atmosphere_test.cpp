@@ -47,6 +47,12 @@ TEST_CASE("fog") {
   CHECK(full.turbulence_depth == .7);
   // Transformations turn it; it does not move.
   CHECK(fog("up 3*y translate 5 scale 2").up.y == Approx(1));
+  for (const char* body : {"rgb <0, 0, 1> 11", "11 rgb <0, 0, 1>", "<0, 0, 1> 11", "11 colour red 0 blue 1",
+                           "rgb <0, 0, 1> distance 2 (5 + 6)"}) {
+    INFO(body);
+    CHECK(fog(body).distance == 11);
+    CHECK(fog(body).colour == Vec3(0, 0, 1));
+  }
   CHECK(error_line("fog { up 0 }") == "scene.pov:1:10: error: this vector has no direction");
   CHECK(fog("rotate 90*x").up.z == Approx(1));
   CHECK(parse("#declare F = fog { distance 3 } fog { F distance 4 } fog { F }").fogs.at(0).distance == 4);
