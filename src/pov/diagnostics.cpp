@@ -74,6 +74,10 @@ void Diagnostics::say(Finding::Severity severity, const Location& where, const s
   if (options_.message) options_.message(to_text(said) + '\n');
 }
 
+void Diagnostics::warn_once(const Location& where, const std::string& what) {
+  if (warned_at_.insert({where.file, where.line, where.column}).second) warn(where, what);
+}
+
 bool Diagnostics::supports(const UnsupportedPtr& unsupported, const Location& used_at) {
   if (!unsupported) return true;
   std::vector<const Unsupported*> all; // from the last to the first

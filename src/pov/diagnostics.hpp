@@ -1,6 +1,8 @@
 // How a fault of the scene is reported.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <set>
 #include <string>
 #include <string_view>
@@ -39,6 +41,8 @@ public:
   void warn(const Location& where, const std::string& what) const {
     say(Finding::Severity::warning, where, what);
   }
+  /// The same, but no more than one warning a place, however often loops and macros come there.
+  void warn_once(const Location& where, const std::string& what);
   void note(const Location& where, const std::string& what) const {
     say(Finding::Severity::note, where, what);
   }
@@ -61,9 +65,10 @@ private:
   const Names& names_;
   const Input& input_;
   const ParseOptions& options_;
-  std::set<std::string> unsupported_;     ///< the features noted or warned of
-  mutable std::vector<Finding> findings_; ///< so far, of a parser that may be const
-  mutable std::size_t remarks_ = 0;       ///< notes and warnings among them
+  std::set<std::string> unsupported_;                ///< the features noted or warned of
+  std::set<std::array<std::uint32_t, 3>> warned_at_; ///< by warn_once()
+  mutable std::vector<Finding> findings_;            ///< so far, of a parser that may be const
+  mutable std::size_t remarks_ = 0;                  ///< notes and warnings among them
   mutable std::size_t errors_ = 0;
 };
 

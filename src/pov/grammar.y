@@ -20,7 +20,7 @@
 // longer value is meant. A number at the front of an entry of a pigment_map is its weight. A name that CSG begins
 // with is all it consists of, not its first part. A texture that is a name alone, or begins with one, needs no
 // rule for what comes before.
-%expect 112
+%expect 113
 
 %code requires {
 #include "pov/actions.hpp"
@@ -97,7 +97,7 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %token DIFFUSE DIMENSIONS DIMENSION_SIZE DIRECTION DISPERSION EMISSION EXPONENT FACE_INDICES
 %token FADE_DISTANCE FADE_POWER FALLOFF FINISH FREQUENCY FRESNEL GLOBAL_SETTINGS HOLLOW IGNORED_FLAG IGNORED_NUMBER
 %token INSIDE_VECTOR INTERIOR INVERSE IOR IRID LAMBDA LIGHT_SOURCE LOCATION LOOKS_LIKE LOOK_AT
-%token MATERIAL MATRIX MAX_TRACE_LEVEL MESH MESH2 METALLIC NOISE_GENERATOR NORMAL NORMAL_INDICES NORMAL_MAP
+%token MATERIAL MATRIX MAX_INTERSECTIONS MAX_TRACE_LEVEL MESH MESH2 METALLIC NOISE_GENERATOR NORMAL NORMAL_INDICES NORMAL_MAP
 %token NORMAL_VECTORS NO_SHADOW NUMBER_OF_WAVES OBJECT OCTAVES OMEGA OPEN
 %token PARALLEL PHASE PHONG PHONG_SIZE PHOTONS PIGMENT PIGMENT_MAP PIGMENT_PATTERN POINT_AT POLY_WAVE QUICK_COLOUR RADIUS
 %token ALBEDO ARC_ANGLE DOUBLE_ILLUMINATE FALLOFF_ANGLE GLOBAL_LIGHTS LIGHT_GROUP
@@ -195,6 +195,8 @@ scene
   | scene fog                       { session.builder.add_fog(*$2, @2); }
   | scene rainbow                   { session.builder.add_rainbow(*$2, @2); }
   | scene GLOBAL_SETTINGS '{' settings '}'
+  | scene MAX_TRACE_LEVEL number    { set_max_trace_level(session, $3, @3); } // as before version 3
+  | scene MAX_INTERSECTIONS number
   | scene UNSUPPORTED_BLOCK         {
       session.diagnostics.supports(unsupported_block(session, $2, @2), @2);
       session.tokens.skip_group();
@@ -211,6 +213,7 @@ settings
   | settings NOISE_GENERATOR number { set_noise_generator(session, $3, @3); }
   | settings IRID_WAVELENGTH colour_value { session.builder.set_irid_wavelength(session.colour($3, @3).rgb); }
   | settings NUMBER_OF_WAVES number { set_number_of_waves(session, $3, @3); }
+  | settings MAX_INTERSECTIONS number
   | settings IGNORED_NUMBER colour_value
   | settings IGNORED_FLAG flag
   | settings CHARSET UNSUPPORTED_ARGUMENT
@@ -898,6 +901,7 @@ interior_body
       $$ = $1;
       mark($$.unsupported, unless_zero("'dispersion'", $3 - 1, @2));
     }
+  | interior_body REFRACTION number  { $$ = $1; } // no more than a switch before version 3.1
   | interior_body IGNORED_NUMBER colour_value { $$ = $1; }
   | interior_body unsupported        { $$ = $1; mark($$.unsupported, $2); }
   ;
@@ -1054,6 +1058,10 @@ object_body
   | object_body BOUNDED_BY '{' CLIPPED_BY '}' {
       $$ = std::move($1);
       limit(session, *$$, $$->bounded_by, $$->clipped_by, @2);
+    }
+  | object_body colour {
+      $$ = std::move($1);
+      session.diagnostics.warn_once(@2, "this colour is ignored: what gives an object one is its 'pigment'");
     }
   | object_body photons                { $$ = std::move($1); $$->is_photon_target = $2; }
   | object_body RADIOSITY              { $$ = std::move($1); session.tokens.skip_group(); } // of radiosity

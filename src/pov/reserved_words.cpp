@@ -119,7 +119,7 @@ const Word kWords[] = {
     {"material", tokens::T_MATERIAL},
     {"matrix", tokens::T_MATRIX},
     {"max_extent", tokens::T_MAX_EXTENT},
-    {"max_intersections", tokens::T_IGNORED_NUMBER},
+    {"max_intersections", tokens::T_MAX_INTERSECTIONS},
     {"max_trace_level", tokens::T_MAX_TRACE_LEVEL},
     {"media_attenuation", tokens::T_MEDIA_ATTENUATION},
     {"media_interaction", tokens::T_MEDIA_INTERACTION},
@@ -263,6 +263,7 @@ const DetailedWord kDetailedWords[] = {
     {"cubic_spline", tokens::T_SPLINE_KIND, static_cast<int>(Spline::Kind::cubic)},
     {"natural_spline", tokens::T_SPLINE_KIND, static_cast<int>(Spline::Kind::natural)},
     {"union", tokens::T_CSG, detail(Csg::Operation::union_)},
+    {"composite", tokens::T_CSG, detail(Csg::Operation::union_)}, // before version 2
     {"merge", tokens::T_CSG, detail(Csg::Operation::merge)},
     {"intersection", tokens::T_CSG, detail(Csg::Operation::intersection)},
     {"difference", tokens::T_CSG, detail(Csg::Operation::difference)},
@@ -347,7 +348,6 @@ const char* const kUnsupportedArguments[] = {
     "bitwise_xor",
     "brightness",
     "component",
-    "composite",
     "conic_sweep",
     "count",
     "df3",
@@ -492,7 +492,7 @@ std::vector<Keyword> keywords() {
   std::vector<Keyword> result;
   for (const ReservedWord& word : reserved_words()) {
     const bool is_ignored = word.token == tokens::T_IGNORED_FLAG || word.token == tokens::T_IGNORED_NUMBER ||
-                            word.token == tokens::T_QUICK_COLOUR;
+                            word.token == tokens::T_MAX_INTERSECTIONS || word.token == tokens::T_QUICK_COLOUR;
     const bool is_refused =
         std::find(std::begin(kRefused), std::end(kRefused), word.token) != std::end(kRefused);
     const auto support = is_ignored ? Keyword::Support::ignored : Keyword::Support::full;

@@ -5,6 +5,7 @@
 
 using namespace celltrace;
 using test::error_line;
+using test::output;
 using test::parse;
 
 TEST_CASE("spheres") {
@@ -92,6 +93,42 @@ TEST_CASE("hints and flags that change no picture are accepted") {
       parse("sphere { 0, 1 hollow inverse sturm hierarchy off bounded_by { blob { threshold 1 } } "
             "photons { target reflection on } no_radiosity uv_mapping pigment { rgb 1 } }");
   CHECK(scene.objects.size() == 1);
+}
+
+TEST_CASE("words of early versions") {
+  CHECK(parse("max_trace_level 3 sphere { 0, 1 }").max_trace_level == 3);
+  CHECK(parse("global_settings { max_trace_level 4 } #version 1.0; max_trace_level 3").max_trace_level == 3);
+  CHECK(error_line("max_trace_level 300") ==
+        "scene.pov:1:17: error: max_trace_level must lie between 1 and 256");
+  CHECK(
+      parse("max_intersections 64 sphere { 0, 1 } global_settings { max_intersections 3 }").objects.size() ==
+      1);
+  CHECK(error_line("max_intersections x").ends_with("expected a float, found a vector"));
+  CHECK(error_line("mm_per_unit 1").find("unexpected 'mm_per_unit'") != std::string::npos);
+  const Scene composite =
+      parse("#declare C = composite { sphere { 0, 1 } composite { sphere { x, 1 } } translate y } "
+            "composite { C } union { composite { C pigment { rgb 1 } } sphere { y, 1 } }");
+  CHECK(composite.objects.size() == 5);
+  const Scene glass = parse("sphere { 0, 1 interior { refraction 0.5 ior 1.3 } }");
+  CHECK(glass.interiors.at(0).ior == 1.3);
+}
+
+TEST_CASE("a colour of an object is ignored") {
+  const auto pigment = [](const std::string& modifiers) {
+    const Scene scene = parse("sphere { 0, 1 " + modifiers + " }");
+    return scene.materials.at(scene.objects.at(0).material).pigment;
+  };
+  for (const char* colour :
+       {"colour red 0 green 1", "rgb <1, 2, 3>", "red 1 filter 1", "color 3", "color rgbt 1"}) {
+    INFO(colour);
+    CHECK(pigment(std::string("pigment { rgb <3, 4, 5> } ") + colour).rgb == Vec3(3, 4, 5));
+    CHECK(pigment(std::string(colour) + " scale 2 pigment { rgb <3, 4, 5> }").rgb == Vec3(3, 4, 5));
+    CHECK(pigment(std::string("pigment { rgb <3, 4, 5> } ") + colour).transmit == 0);
+  }
+  CHECK(output("#for (I, 1, 3) sphere { 0, 1 colour red I } #end\nsphere { 0, 1 rgb 1 }") ==
+        "scene.pov:1:30: warning: this colour is ignored: what gives an object one is its 'pigment'\n"
+        "scene.pov:2:15: warning: this colour is ignored: what gives an object one is its 'pigment'\n");
+  CHECK(error_line("light_source { 0, 1 rgb 1 }").find("unexpected 'rgb'") != std::string::npos);
 }
 
 TEST_CASE("the environment") {
