@@ -63,6 +63,13 @@ void append_component(Session& session, Quantity& vector, double component, cons
   vector.v[static_cast<std::size_t>(vector.count++)] = component;
 }
 
+Transform scale(Session& session, const Quantity& factors, const Location& where) {
+  const Vec3 v = session.vector(factors, where);
+  if (v.x == 0 || v.y == 0 || v.z == 0)
+    session.diagnostics.warn_once(where, "a scale by 0 counts as one by 1");
+  return Transform::scale(v);
+}
+
 Transform matrix(Session& session, const std::vector<ListEntry>& numbers, const Location& where) {
   if (numbers.size() != 12)
     session.fail(where, "a matrix has 12 numbers, not " + std::to_string(numbers.size()));
@@ -516,6 +523,8 @@ std::shared_ptr<ObjectDefinition> shape(Session& session, const WrittenShape& wr
 }
 
 std::shared_ptr<ObjectDefinition> csg(Session& session, Compound compound, const Location& where) {
+  if (compound.parts.size() < 2 && !compound.is_light_group)
+    session.diagnostics.warn_once(where, "this CSG has less than two objects");
   auto object = std::make_shared<ObjectDefinition>();
   for (const ObjectPtr& part : compound.parts)
     nest(session, *object, *part, where);

@@ -28,6 +28,7 @@ void append(Session& session, std::vector<T, A>& list, U&& element, const Locati
 double component(Session& session, const Quantity& quantity, int which, const Location& where);
 /// Adds one to a vector being read.
 void append_component(Session& session, Quantity& vector, double component, const Location& where);
+Transform scale(Session& session, const Quantity& factors, const Location& where);
 Transform matrix(Session& session, const std::vector<ListEntry>& numbers, const Location& where);
 Transform inverse(Session& session, const Transform& transform, const Location& where);
 

@@ -51,6 +51,12 @@ bool is_flat(Camera::Kind kind) {
   return kind == Camera::Kind::perspective || kind == Camera::Kind::orthographic;
 }
 
+/// The sky says nothing then about what is sideways.
+bool looks_along_sky(const Vec3& location, const Vec3& look_at, const Vec3& sky) {
+  const double distance = glm::distance(look_at, location);
+  return distance >= kTiny && glm::length(glm::cross(sky, (look_at - location) / distance)) < kTiny;
+}
+
 /// Turns the camera towards a point; the sky says which way is up, and lengths and handedness stay as they
 /// were.
 void turn(Camera& camera, const Vec3& look_at, const Vec3& sky) {
@@ -64,7 +70,7 @@ void turn(Camera& camera, const Vec3& look_at, const Vec3& sky) {
 
   const Vec3 forward = line_of_sight / distance;
   Vec3 sideways = glm::cross(sky, forward);
-  if (glm::length(sideways) < kTiny) sideways = width > 0 ? camera.right : kDefaultRight;
+  if (looks_along_sky(camera.location, look_at, sky)) sideways = width > 0 ? camera.right : kDefaultRight;
   sideways = glm::normalize(sideways);
   camera.direction = forward * depth;
   camera.up = glm::cross(forward, sideways) * height;
@@ -103,6 +109,12 @@ void set_view(CameraDefinition& definition, const Camera& camera) {
   definition.direction = camera.direction;
   definition.right = camera.right;
   definition.up = camera.up;
+}
+
+void warn_of_sky(Session& session, const CameraDefinition& camera) {
+  if (camera.look_at && looks_along_sky(camera.location, *camera.look_at, camera.sky))
+    session.diagnostics.warn_once(camera.look_at_where,
+                                  "this camera looks along its 'sky': it keeps the 'right' that it has");
 }
 
 bool is_finite(const Vec3& v) {
@@ -165,9 +177,11 @@ void set_angle(Session& session, CameraDefinition& camera, double angle, const L
   camera.direction = view.direction;
 }
 
-void set_look_at(CameraDefinition& camera, const Vec3& point) {
+void set_look_at(Session& session, CameraDefinition& camera, const Vec3& point, const Location& where) {
   camera.look_at = point;
+  camera.look_at_where = where;
   if (!camera.acts_at_once) return;
+  warn_of_sky(session, camera);
   Camera view = view_of(camera);
   turn(view, point, camera.sky);
   set_view(camera, view);
@@ -181,6 +195,10 @@ void transform(CameraDefinition& camera, const Transform& next) {
   Camera view = view_of(camera);
   move(view, next);
   set_view(camera, view);
+}
+
+void check(Session& session, const CameraDefinition& camera) {
+  if (!camera.acts_at_once) warn_of_sky(session, camera);
 }
 
 std::shared_ptr<CameraDefinition> start_camera(Session& session, const CameraDefinition& from,

@@ -27,6 +27,7 @@ struct CameraDefinition {
   std::optional<Vec3> right;
   std::optional<Vec3> up;
   std::optional<Vec3> look_at;
+  Location look_at_where;
   std::optional<double> angle;          ///< horizontal, in degrees
   std::optional<double> vertical_angle; ///< in degrees
   Transform transform;
@@ -52,7 +53,9 @@ void set_kind(Session& session, CameraDefinition& camera, int shape, double numb
 void set_angles(Session& session, CameraDefinition& camera, double angle, double vertical_angle,
                 const Location& where);
 void set_angle(Session& session, CameraDefinition& camera, double angle, const Location& where);
-void set_look_at(CameraDefinition& camera, const Vec3& point);
+void set_look_at(Session& session, CameraDefinition& camera, const Vec3& point, const Location& where);
 void transform(CameraDefinition& camera, const Transform& next);
+/// Warns of what makes a complete camera stand otherwise than meant.
+void check(Session& session, const CameraDefinition& camera);
 
 } // namespace celltrace::pov

@@ -411,7 +411,7 @@ colour_value
 transformation
   : TRANSLATE quantity        { $$ = Transform::translate(session.vector($2, @2)); }
   | ROTATE quantity           { $$ = Transform::rotate(session.vector($2, @2)); }
-  | SCALE quantity            { $$ = Transform::scale(session.vector($2, @2)); }
+  | SCALE quantity            { $$ = scale(session, $2, @1); }
   | MATRIX '<' entries '>'    { $$ = matrix(session, $3, @1); }
   | TRANSFORM TRANSFORM_ID    { $$ = $2; }
   | TRANSFORM '{' transform_items '}' { $$ = $3; }
@@ -930,7 +930,7 @@ material_body
 // ---- Camera ----
 
 camera
-  : CAMERA '{' camera_body '}' { $$ = $3; $$->where = @1; }
+  : CAMERA '{' camera_body '}' { $$ = $3; $$->where = @1; check(session, *$$); }
   ;
 
 camera_body
@@ -944,7 +944,7 @@ camera_body
   | camera_body RIGHT quantity     { $$ = $1; $$->right = session.vector($3, @3); }
   | camera_body UP quantity        { $$ = $1; $$->up = session.vector($3, @3); }
   | camera_body SKY quantity       { $$ = $1; $$->sky = session.vector($3, @3); }
-  | camera_body LOOK_AT quantity   { $$ = $1; set_look_at(*$$, session.vector($3, @3)); }
+  | camera_body LOOK_AT quantity   { $$ = $1; set_look_at(session, *$$, session.vector($3, @3), @2); }
   | camera_body ANGLE number       { $$ = $1; set_angle(session, *$$, $3, @2); }
   | camera_body ANGLE number optional_comma number { $$ = $1; set_angles(session, *$$, $3, $5, @5); }
   | camera_body APERTURE number    { $$ = $1; mark($$->unsupported, unless_zero("'aperture'", $3, @2)); }

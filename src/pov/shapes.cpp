@@ -40,7 +40,7 @@ constexpr Parameter optional_number(const char* name) {
 /// The arguments of one shape, which are as many as it takes and of the right types.
 class Arguments {
 public:
-  Arguments(const Session& session, const WrittenShape& written) : session_(session), written_(written) {}
+  Arguments(Session& session, const WrittenShape& written) : session_(session), written_(written) {}
 
   Vec3 vector(std::size_t i) const { return session_.vector(at(i).value, at(i).where); }
   double number(std::size_t i) const { return session_.number(at(i).value, at(i).where); }
@@ -52,11 +52,12 @@ public:
   void require(bool condition, const char* what) const {
     if (!condition) session_.fail(written_.where, what);
   }
+  void warn(const char* what) const { session_.diagnostics.warn_once(written_.where, what); }
 
 private:
   const ShapeArgument& at(std::size_t i) const { return written_.arguments[i]; }
 
-  const Session& session_;
+  Session& session_;
   const WrittenShape& written_;
 };
 
@@ -138,6 +139,7 @@ Shape read_polygon(const Arguments& a) {
       polygon->loops.back().push_back(point);
     }
   }
+  if (!is_closed) a.warn("this polygon does not come back to the point where its last loop begins");
   return std::shared_ptr<const Polygon>(polygon);
 }
 

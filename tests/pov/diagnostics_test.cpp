@@ -5,6 +5,7 @@
 
 using celltrace::test::error;
 using celltrace::test::error_line;
+using celltrace::test::output;
 
 TEST_CASE("text that makes no sense") {
   CHECK(error_line("") == "scene.pov:1:1: error: the scene is empty");
@@ -67,4 +68,42 @@ TEST_CASE("columns count from 1 in every line, whatever ends it") {
   CHECK(error_line("\r\n\r  oops") == "scene.pov:3:3: error: 'oops' is not declared");
   CHECK(error_line("/* \n \n */ oops") == "scene.pov:3:5: error: 'oops' is not declared");
   CHECK(error_line("#debug \"a\nb\" oops") == "scene.pov:2:4: error: 'oops' is not declared");
+}
+
+TEST_CASE("what POV-Ray warns of, too") {
+  const std::string zero = "warning: a scale by 0 counts as one by 1\n";
+  CHECK(output("sphere { 0, 1 scale 0 }") == "scene.pov:1:15: " + zero);
+  CHECK(output("sphere { 0, 1 pigment { checker scale <1, 0, 1> } }") == "scene.pov:1:33: " + zero);
+  CHECK(output("sphere { 0, 1 scale <1, 1e-11, 2> scale -1 }").empty());
+
+  const std::string few = "warning: this CSG has less than two objects\n";
+  CHECK(output("union { sphere { 0, 1 } }") == "scene.pov:1:1: " + few);
+  CHECK(output("#declare D = difference { box { 0, 1 } scale 2 } object { D }") == "scene.pov:1:14: " + few);
+  CHECK(output("merge { }") == "scene.pov:1:1: " + few);
+  CHECK(output("union { sphere { 0, 1 } light_source { 9, 1 } } light_group { sphere { 0, 1 } }").empty());
+
+  CHECK(output("polygon { 3, 0, x, y }") ==
+        "scene.pov:1:1: warning: this polygon does not come back to the point where its last loop begins\n");
+  CHECK(output("polygon { 4, 0, x, y, 0 }").empty());
+}
+
+TEST_CASE("a camera that looks along its sky") {
+  const std::string warning =
+      "warning: this camera looks along its 'sky': it keeps the 'right' that it has\n";
+  CHECK(output("camera { look_at 0 location 5*y }") == "scene.pov:1:10: " + warning);
+  CHECK(output("camera { look_at 0 location -5*z sky z }") == "scene.pov:1:10: " + warning);
+  CHECK(output("camera { look_at 0 location 5*y sky z }").empty());
+  CHECK(output("camera { location 5*y }").empty());
+  CHECK(output("#declare C = camera { location 5*y look_at 0 } camera { C } camera { C translate x }") ==
+        "scene.pov:1:36: " + warning);
+  // Here the camera is at the origin yet.
+  CHECK(output("#version 3.1; camera { look_at y location <5, 1, 0> }") == "scene.pov:1:24: " + warning);
+  CHECK(output("#version 3.1; camera { look_at x location <1, 5, 0> }").empty());
+  CHECK(output("#version 3.1; camera { location 5*y look_at 0 sky z }") == "scene.pov:1:37: " + warning);
+}
+
+TEST_CASE("a place is warned of once") {
+  CHECK(output("#for (I, 1, 3) sphere { 0, I scale 0 scale 0 } #end") ==
+        "scene.pov:1:30: warning: a scale by 0 counts as one by 1\n"
+        "scene.pov:1:38: warning: a scale by 0 counts as one by 1\n");
 }
