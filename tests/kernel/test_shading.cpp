@@ -284,6 +284,39 @@ TEST_CASE("Mirrored and refracted directions, and total reflection") {
   CHECK(beyond > 1000);
 }
 
+TEST_CASE("Disturbed normals that are turned away refract as if they were turned around") {
+  Random random(67);
+  unsigned beyond = 0;
+  for (int k = 0; k < 1000; ++k) {
+    VectorLanes direction, normal;
+    FloatLanes ratio;
+    for (unsigned l = 0; l < kSimdLanes; ++l) {
+      const Vec3 n = random.direction();
+      const Vec3 d = random.direction();
+      set(normal, l, n);
+      set(direction, l, glm::dot(n, d) < 0 ? -d : d);
+      ratio.lane[l] = static_cast<float>(random.uniform(0.4, 2.5));
+    }
+    const Vec d = direction.load<Simd>();
+    const Vec n = normal.load<Simd>();
+    M total = M::none();
+    const VectorLanes bent = lanes_of(refract<Simd>(d, n, -dot<Simd>(d, n), load(ratio), total));
+    for (unsigned l = 0; l < kSimdLanes; ++l) {
+      const Vec3 from = test::at(direction, l), turned = -test::at(normal, l);
+      const double c = glm::dot(from, turned);
+      const double square = 1 - ratio.lane[l] * ratio.lane[l] * (1 - c * c);
+      if (std::abs(square) < 1e-5) continue;
+      const auto expected = reference::refract(from, turned, ratio.lane[l]);
+      REQUIRE((total.bits() >> l & 1) == (expected ? 0 : 1));
+      if (!expected)
+        ++beyond;
+      else
+        REQUIRE(glm::length(test::at(bent, l) - *expected) < 2e-6 / std::sqrt(square));
+    }
+  }
+  CHECK(beyond > 1000);
+}
+
 TEST_CASE("Mirrored by disturbed normals no ray goes below its surface") {
   Random random(66);
   unsigned away = 0, below = 0;

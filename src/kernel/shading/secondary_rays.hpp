@@ -99,15 +99,16 @@ FloatLanes fresnel_ratios(SceneAccess<Spu>& scene, const WordLanes& interior, ui
   return ratios;
 }
 
-/// Snell's law in vector form. `cosine` = -direction.normal >= 0. Lanes beyond the critical angle go to
-/// `total`.
+/// Snell's law in vector form. `cosine` = -direction.normal. As in POV-Ray, a disturbed normal that is turned
+/// away from the ray is as if it were turned around. Lanes beyond the critical angle go to `total`.
 template <class S>
 V3<S> refract(const V3<S>& direction, const V3<S>& normal, const typename S::F& cosine,
               const typename S::F& ratio, typename S::M& total) {
   using F = typename S::F;
   const F square = F(1.0f) + ratio * ratio * (cosine * cosine - F(1.0f));
   total = square < F(0.0f);
-  const F along_normal = ratio * cosine - S::sqrt(S::max(square, F(0.0f)));
+  const F root = S::sqrt(S::max(square, F(0.0f)));
+  const F along_normal = ratio * cosine - S::select(cosine < F(0.0f), -root, root);
   return normalise<S>(direction * ratio + normal * along_normal);
 }
 
