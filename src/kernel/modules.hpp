@@ -74,7 +74,9 @@ constexpr CodeModule kHits = {"hits", 5, 2, 7936};
 /// Shading of surfaces with textures, or of several materials.
 constexpr CodeModule kComposed = {"composed", 13, 2, 7808};
 /// What rays pass through on their way or see before what they hit or behind it.
-constexpr CodeModule kAtmosphere = {"atmosphere", 24, 2, 7552};
+constexpr CodeModule kAtmosphere = {"atmosphere", 24, 2, 6784};
+/// What rays see that hit nothing, where there is a sky.
+constexpr CodeModule kSky = {"sky", 34, 2, 2048};
 /// Shadow rays that go from surface to surface.
 constexpr CodeModule kShadowWalk = {"walk", 21, 2, 5632};
 /// Pixels become blocks of BC1.

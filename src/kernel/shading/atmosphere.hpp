@@ -222,42 +222,6 @@ template <class Spu>
 
 } // namespace detail
 
-namespace detail {
-
-/// Rays that hit nothing and came by no mirror: what comes through the background, and the sky before it.
-template <class Spu>
-[[gnu::noinline]] void see_through(SceneAccess<Spu>& scene, const FrameBlock& frame, const HitPacket& hits,
-                                   RayNode& ray, FloatLanes& clear) {
-  using W = typename Spu::simd;
-  using S = typename Spu::rare_simd;
-  using F = typename S::F;
-  const uint32_t missed = ray.lanes & ~hit_lanes<W>(hits, ray.lanes) & ~ray.reflected;
-  if (missed == 0) return;
-  const bool is_hidden = (frame.light_ways & light_way::no_backdrop) != 0;
-  const bool has_sky = !is_hidden && frame.sky != kNoOffset;
-  V3<W> seen[2]; // of the sky over black, and over white
-  for (uint32_t i = 0; i < 2 && has_sky; ++i) {
-    const typename W::F behind(static_cast<float>(i));
-    seen[i] = {behind, behind, behind};
-    add_sky(scene, frame.sky, ray.rays.direction.template load<W>(), missed, seen[i]);
-  }
-  for_each_part<Spu>([&](uint32_t first) {
-    const auto take = S::M::from_bits(part_of<Spu>(missed, first));
-    const F zero(0.0f);
-    F share = F::load(ray.power.lane + first);
-    if (is_hidden) {
-      const V3<S> throughput = ray.throughput.template load_from<S>(first);
-      ray.throughput.template store_from<S>(first, select<S>(take, {zero, zero, zero}, throughput));
-    } else {
-      share = share * F(frame.background_clear);
-    }
-    if (has_sky) share = share * grey<S>(part_of<Spu>(seen[1], first) - part_of<Spu>(seen[0], first));
-    (F::load(clear.lane + first) + S::select(take, share, zero)).store(clear.lane + first);
-  });
-}
-
-} // namespace detail
-
 /// Multiplies the light of shadow rays by what fogs let through of it, as far as they go to what they hit or
 /// to the light, `left` away.
 template <class Spu>
@@ -284,12 +248,10 @@ template <class Spu>
 }
 
 /// Takes the rays of a node to what they hit: adds what is on the way to `light`, and leaves the node with
-/// the throughput that is left for what is there. With light_way::alpha it also adds to `clear_pixels` what
-/// comes through of what is behind the scene.
+/// the throughput that is left for what is there.
 template <class Spu>
 [[gnu::noinline]] void cross_atmosphere(SceneAccess<Spu>& scene, const FrameBlock& frame,
-                                        const HitPacket& hits, RayNode& ray, VectorLanes& light,
-                                        FloatLanes* clear_pixels) {
+                                        const HitPacket& hits, RayNode& ray, VectorLanes& light) {
   using S = typename Spu::rare_simd;
   using F = typename S::F;
   scene.spu().run_in_module(modules::kAtmosphere);
@@ -316,7 +278,40 @@ template <class Spu>
     });
   }
   if (frame.rainbow_count != 0) detail::cross_rainbows(scene, frame, hits, lanes, ray, light);
-  if ((frame.light_ways & light_way::alpha) != 0) detail::see_through(scene, frame, hits, ray, *clear_pixels);
+}
+
+/// Rays of a node that hit nothing and came by no mirror: adds to `clear` what comes through the background,
+/// and the sky before it. After cross_atmosphere().
+template <class Spu>
+[[gnu::noinline]] void see_through(SceneAccess<Spu>& scene, const FrameBlock& frame, const HitPacket& hits,
+                                   RayNode& ray, FloatLanes& clear) {
+  using W = typename Spu::simd;
+  using S = typename Spu::rare_simd;
+  using F = typename S::F;
+  scene.spu().run_in_module(modules::kSky);
+  const uint32_t missed = ray.lanes & ~hit_lanes<W>(hits, ray.lanes) & ~ray.reflected;
+  if (missed == 0) return;
+  const bool is_hidden = (frame.light_ways & light_way::no_backdrop) != 0;
+  const bool has_sky = !is_hidden && frame.sky != kNoOffset;
+  V3<W> seen[2]; // of the sky over black, and over white
+  for (uint32_t i = 0; i < 2 && has_sky; ++i) {
+    const typename W::F behind(static_cast<float>(i));
+    seen[i] = {behind, behind, behind};
+    add_sky(scene, frame.sky, ray.rays.direction.template load<W>(), missed, seen[i]);
+  }
+  for_each_part<Spu>([&](uint32_t first) {
+    const auto take = S::M::from_bits(part_of<Spu>(missed, first));
+    const F zero(0.0f);
+    F share = F::load(ray.power.lane + first);
+    if (is_hidden) {
+      const V3<S> throughput = ray.throughput.template load_from<S>(first);
+      ray.throughput.template store_from<S>(first, select<S>(take, {zero, zero, zero}, throughput));
+    } else {
+      share = share * F(frame.background_clear);
+    }
+    if (has_sky) share = share * grey<S>(part_of<Spu>(seen[1], first) - part_of<Spu>(seen[0], first));
+    (F::load(clear.lane + first) + S::select(take, share, zero)).store(clear.lane + first);
+  });
 }
 
 } // namespace celltrace::kernel

@@ -67,7 +67,11 @@ public:
     scene_.spu().compute(scalar_work::kNode);
     if (has_atmosphere(frame_)) {
       scene_.spu().enter_module(modules::kAtmosphere);
-      cross_atmosphere(scene_, frame_, hits_, node_, light_[node_.target], clear_);
+      cross_atmosphere(scene_, frame_, hits_, node_, light_[node_.target]);
+      if ((frame_.light_ways & light_way::alpha) != 0) {
+        scene_.spu().enter_module(modules::kSky);
+        see_through(scene_, frame_, hits_, node_, *clear_);
+      }
     }
     const uint32_t hit = hit_lanes<S>(hits_, node_.lanes);
     const uint32_t missed = node_.lanes & ~hit;
@@ -78,8 +82,10 @@ public:
 private:
   V3<S> behind(const RayPacket& rays, uint32_t lanes) {
     V3<S> colour = splat3<S>(frame_.background);
-    if (frame_.sky != kNoOffset)
+    if (frame_.sky != kNoOffset) {
+      scene_.spu().enter_module(modules::kSky);
       add_sky(scene_, frame_.sky, rays.direction.template load<S>(), lanes, colour);
+    }
     return colour;
   }
 };

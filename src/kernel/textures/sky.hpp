@@ -2,6 +2,7 @@
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
+#include "kernel/modules.hpp"
 #include "kernel/textures/pigments.hpp"
 
 namespace celltrace::kernel {
@@ -48,6 +49,7 @@ template <class Spu>
 CELLTRACE_ONE_COPY void add_sky(SceneAccess<Spu>& scene, uint32_t sky,
                                 const V3<typename Spu::simd>& direction, uint32_t lanes,
                                 V3<typename Spu::simd>& colour) {
+  scene.spu().run_in_module(modules::kSky);
   scene.spu().enter_module(modules::kTextures);
   for_each_part<Spu>([&](uint32_t first) {
     const uint32_t some = part_of<Spu>(lanes, first);
