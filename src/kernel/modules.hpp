@@ -49,7 +49,7 @@ constexpr CodeModule kMeshes = {"meshes", 17, 1, 2688};
 /// Where crossings are in polygons. Likewise, beside the shapes.
 constexpr CodeModule kPolygons = {"polygons", 26, 1, 1024};
 /// Rays that go on from surfaces.
-constexpr CodeModule kSecondary = {"secondary", 2, 1, 9088};
+constexpr CodeModule kSecondary = {"secondary", 2, 1, 8832};
 /// Light that is not simply a point's.
 constexpr CodeModule kLights = {"lights", 6, 1, 4864};
 /// The sampling of lights that have an area.
@@ -72,7 +72,7 @@ constexpr CodeModule kObjects = {"objects", 12, 2, 6272};
 /// Where hits lie on objects, and the normals there.
 constexpr CodeModule kHits = {"hits", 5, 2, 7936};
 /// Shading of surfaces with textures, or of several materials.
-constexpr CodeModule kComposed = {"composed", 13, 2, 7808};
+constexpr CodeModule kComposed = {"composed", 13, 2, 7168};
 /// What rays pass through on their way or see before what they hit or behind it.
 constexpr CodeModule kAtmosphere = {"atmosphere", 24, 2, 6784};
 /// What rays see that hit nothing, where there is a sky.

@@ -251,6 +251,7 @@ Vec3 Tracer::shade(const Branch& branch, const Point& point, const Material& mat
   const Index own = point.shape->object->interior;
   const bool leaves = std::find(branch.inside.begin(), branch.inside.end(), own) != branch.inside.end();
   const Vec3 left = leaves ? faded(scene_.interiors[own], point.distance) : Vec3(1);
+  const Vec3 filmed = film(material.finish, scene_.irid_wavelength, cosine, cosine);
 
   if (grey(filter) > scene_.adc_bailout) {
     const double weight = branch.weight * max_component(filter);
@@ -264,7 +265,7 @@ Vec3 Tracer::shade(const Branch& branch, const Point& point, const Material& mat
           left * filter * trace({{point.position, *bent}, branch.level + 1, weight, inside, branch.mirrored});
     } else {
       const Ray back{point.position, mirror(direction, point.normal)};
-      return sum + left * trace({back, branch.level + 1, weight, branch.inside, branch.mirrored});
+      return sum + left * filmed * trace({back, branch.level + 1, weight, branch.inside, branch.mirrored});
     }
   }
   const double strength = reflected_weight(material.finish, mirrored);
@@ -274,8 +275,7 @@ Vec3 Tracer::shade(const Branch& branch, const Point& point, const Material& mat
                            branch.weight * strength,
                            branch.inside,
                            true});
-  return sum + mirrored * film(material.finish, scene_.irid_wavelength, cosine, cosine) *
-                   glm::pow(seen, Vec3(1 / material.finish.reflection_exponent));
+  return sum + mirrored * filmed * glm::pow(seen, Vec3(1 / material.finish.reflection_exponent));
 }
 
 } // namespace celltrace::reference

@@ -124,6 +124,54 @@ TEST_CASE("crand takes a random part of diffuse light, the same on every backend
     CHECK(render_on(backend, 3, scene) == picture);
 }
 
+namespace {
+
+/// A box of glass that rays meet from inside beyond the critical angle, with a floor and a light.
+Scene box_of_glass(const Finish& finish, const Interior& glass) {
+  Scene scene;
+  scene.camera = camera_at({0.5, 1.2, -5}, {0, 0.4, 0});
+  scene.background = {0.5, 0.6, 0.9};
+  scene.lights = {{{4, 6, -5}, {1, 1, 0.8}}};
+  scene.max_trace_level = 8;
+  Object floor;
+  floor.shape = Plane{{0, 1, 0}, -1.1};
+  floor.material = scene.add(matte({0.8, 0.7, 0.6}));
+  floor.interior = scene.add(Interior{});
+  Material clear = matte({0.9, 0.95, 0.8});
+  clear.finish = finish;
+  clear.pigment.filter = 0.9;
+  Object box;
+  box.shape = Box{{{-1, -1, -1}, {1, 1.5, 1}}};
+  box.transform = Transform::rotate({0, 30, 0});
+  box.material = scene.add(clear);
+  box.interior = scene.add(glass);
+  scene.objects = {floor, box};
+  return scene;
+}
+
+} // namespace
+
+TEST_CASE("Films change what is totally reflected, but nothing else of a mirror does") {
+  Finish finish;
+  finish.diffuse = 0.1;
+  const Scene without = box_of_glass(finish, {1.5});
+  finish.irid = 0.6;
+  finish.irid_thickness = 0.8;
+  const Scene film = box_of_glass(finish, {1.5});
+  finish.reflection_max = Vec3(0.4);
+  finish.reflection_metallic = 0.8;
+  finish.reflection_exponent = 0.7;
+  const Scene mirror = box_of_glass(finish, {1.5});
+  const TestBackend backend = backends().front();
+  for (const Scene& scene : {film, mirror}) {
+    const Comparison c =
+        compare_images(reference::Tracer(scene).render(kWidth, kHeight), render_on(backend, 2, scene));
+    INFO(to_text(c));
+    CHECK(c.psnr >= 50);
+  }
+  CHECK(compare_images(render_on(backend, 2, without), render_on(backend, 2, film)).psnr < 30);
+}
+
 TEST_CASE("Parts of a merge hide nothing from rays that do not see them") {
   Material mirror = matte(Vec3(0.2));
   mirror.finish.reflection_min = mirror.finish.reflection_max = Vec3(0.6);

@@ -5,6 +5,7 @@
 #include "kernel/lights/incident_light.hpp"
 #include "kernel/modules.hpp"
 #include "kernel/shading/material_lanes.hpp"
+#include "kernel/shading/secondary_rays.hpp"
 #include "kernel/textures/noise.hpp"
 
 #include <string.h>
@@ -96,29 +97,34 @@ CELLTRACE_ONE_COPY void change_special_light(SceneAccess<Spu>& scene, const Surf
   });
 }
 
-/// Changes what surfaces mirror, in those of `lanes` that are of `m.special`: films are passed as light from
-/// there would pass them.
+/// Changes what surfaces mirror and reflect inside, in the lanes of `m.special`: films are passed as light
+/// from there would pass them.
 template <class Spu>
 CELLTRACE_ONE_COPY void change_special_mirror(SceneAccess<Spu>& scene, const Surfaces<typename Spu::simd>& s,
-                                              const MaterialLanes<typename Spu::simd>& m, uint32_t lanes,
-                                              V3<typename Spu::simd>& mirror) {
+                                              const MaterialLanes<typename Spu::simd>& m,
+                                              SecondaryRays<typename Spu::simd>& onward) {
   using S = typename Spu::simd;
   using R = typename Spu::rare_simd;
   using F = typename R::F;
   scene.spu().run_in_module(modules::kFinishes);
-  for_each_value<S>(*m.offsets, m.special & lanes, [&](uint32_t offset, uint32_t same) {
-    Kept<Spu, FinishRecord> f = *scene.finish(scene.material(offset)->finish);
-    if (f.irid == 0.0f) return;
-    for_each_part<Spu>([&](uint32_t first) {
-      const uint32_t some = part_of<Spu>(same, first);
-      if (some == 0) return;
-      const F cosine = -dot<R>(part_of<Spu>(s.direction, first), part_of<Spu>(s.normal, first));
-      const V3<R> before = part_of<Spu>(mirror, first);
-      const V3<R> factors =
-          detail::film_factors(scene.spu(), f, part_of<Spu>(s.point, first), cosine + cosine);
-      set_part<Spu>(mirror, first, select<R>(R::M::from_bits(some), before * factors, before));
-    });
-  });
+  for_each_value<S>(
+      *m.offsets, m.special & (onward.mirrors | onward.clear), [&](uint32_t offset, uint32_t same) {
+        Kept<Spu, FinishRecord> f = *scene.finish(scene.material(offset)->finish);
+        if (f.irid == 0.0f) return;
+        for_each_part<Spu>([&](uint32_t first) {
+          const uint32_t some = part_of<Spu>(same, first);
+          if (some == 0) return;
+          const F cosine = -dot<R>(part_of<Spu>(s.direction, first), part_of<Spu>(s.normal, first));
+          const V3<R> factors =
+              detail::film_factors(scene.spu(), f, part_of<Spu>(s.point, first), cosine + cosine);
+          const auto pass = [&](V3<typename Spu::simd>& light) {
+            const V3<R> before = part_of<Spu>(light, first);
+            set_part<Spu>(light, first, select<R>(R::M::from_bits(some), before * factors, before));
+          };
+          pass(onward.mirror);
+          pass(onward.reflected_inside);
+        });
+      });
 }
 
 } // namespace celltrace::kernel

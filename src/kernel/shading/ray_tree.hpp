@@ -276,15 +276,14 @@ private:
     const M total_mask = M::from_bits(total);
     V3<S> direction = select<S>(M::from_bits(refraction.straight), surfaces.direction, bent);
     direction = select<S>(total_mask, mirrored, direction);
-    // A totally reflected ray stays inside, unfiltered.
+    // A totally reflected ray stays inside. As in POV-Ray nothing changes it but a film.
     for_each_lane(total, [&](uint32_t lane) {
       child_.interior_depth.lane[lane] = node_.interior_depth.lane[lane];
       for (uint32_t d = 0; d < kMaxInteriorDepth; ++d)
         child_.interiors[d].lane[lane] = node_.interiors[d].lane[lane];
     });
-    const V3<S> unfiltered = {onward.clear_share, onward.clear_share, onward.clear_share};
     // POV-Ray's weight is that of a transmitted ray even where all light is reflected.
-    if (prepare_child(surfaces, direction, select<S>(total_mask, unfiltered, onward.through),
+    if (prepare_child(surfaces, direction, select<S>(total_mask, onward.reflected_inside, onward.through),
                       F::load(node_.weight.lane) * onward.through_weight, onward.clear & ~refraction.straight,
                       onward.clear)) {
       if ((frame_.light_ways & (light_way::fading | light_way::alpha)) != 0) {

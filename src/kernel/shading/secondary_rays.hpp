@@ -167,7 +167,7 @@ template <class S> struct SecondaryRays {
   using F = typename S::F;
   V3<S> mirror, through;
   F mirror_weight, through_weight;
-  F clear_share;                   ///< what a totally reflected ray counts in lanes of `clear`
+  V3<S> reflected_inside;          ///< factor of totally reflected light, in lanes of `clear`
   F reflection_power;              ///< that mirrored light is raised to, if bends_reflection
   uint32_t mirrors = 0, clear = 0; ///< lanes with any mirrored, any transmitted light
   bool bends_reflection = false;
@@ -179,8 +179,8 @@ template <class S> struct SecondaryRays {
   }
   void clear_all() {
     const F zero(0.0f);
-    mirror = through = {zero, zero, zero};
-    mirror_weight = through_weight = clear_share = zero;
+    mirror = through = reflected_inside = {zero, zero, zero};
+    mirror_weight = through_weight = zero;
     reflection_power = F(1.0f);
     mirrors = clear = 0;
     bends_reflection = false;
@@ -191,7 +191,6 @@ template <class S> struct SecondaryRays {
     kernel::set_part<Spu>(through, first, part.through);
     kernel::set_part<Spu>(mirror_weight, first, part.mirror_weight);
     kernel::set_part<Spu>(through_weight, first, part.through_weight);
-    kernel::set_part<Spu>(clear_share, first, part.clear_share);
     kernel::set_part<Spu>(reflection_power, first, part.reflection_power);
     mirrors |= part.mirrors << first;
     clear |= part.clear << first;
@@ -199,18 +198,33 @@ template <class S> struct SecondaryRays {
   }
   bool is_nothing() const { return (mirrors | clear) == 0; }
   /// True if adaptive depth control would treat the rays of both alike, and neither bends reflections.
-  bool weighs_like(const SecondaryRays& other) const {
-    const auto alike = [](const F& a, const F& b) { return (S::abs(a - b) > F(1e-6f)).bits() == 0; };
-    return mirrors == other.mirrors && clear == other.clear && alike(mirror_weight, other.mirror_weight) &&
-           alike(through_weight, other.through_weight) && !bends_reflection && !other.bends_reflection;
+  template <class Spu> bool weighs_like(const SecondaryRays& other) const {
+    using R = typename Spu::rare_simd;
+    uint32_t unlike = (mirrors ^ other.mirrors) | (clear ^ other.clear);
+    for_each_part<Spu>([&](uint32_t first) {
+      const auto differ = [first](const F& a, const F& b) {
+        return (R::abs(part_of<Spu>(a, first) - part_of<Spu>(b, first)) > typename R::F(1e-6f)).bits();
+      };
+      unlike |= differ(mirror_weight, other.mirror_weight) | differ(through_weight, other.through_weight);
+    });
+    return unlike == 0 && !bends_reflection && !other.bends_reflection;
   }
   /// Light of the same directions from another material of the same surfaces that weighs the same.
-  void add(const SecondaryRays& other) {
-    mirror = mirror + other.mirror;
-    through = through + other.through;
-    mirror_weight = S::max(mirror_weight, other.mirror_weight);
-    through_weight = S::max(through_weight, other.through_weight);
-    clear_share = clear_share + other.clear_share;
+  template <class Spu> void add(const SecondaryRays& other) {
+    using R = typename Spu::rare_simd;
+    for_each_part<Spu>([&](uint32_t first) {
+      const auto sum = [first](V3<S>& to, const V3<S>& more) {
+        kernel::set_part<Spu>(to, first, part_of<Spu>(to, first) + part_of<Spu>(more, first));
+      };
+      const auto greatest = [first](F& to, const F& more) {
+        kernel::set_part<Spu>(to, first, R::max(part_of<Spu>(to, first), part_of<Spu>(more, first)));
+      };
+      sum(mirror, other.mirror);
+      sum(through, other.through);
+      sum(reflected_inside, other.reflected_inside);
+      greatest(mirror_weight, other.mirror_weight);
+      greatest(through_weight, other.through_weight);
+    });
     mirrors |= other.mirrors;
     clear |= other.clear;
   }
@@ -218,7 +232,7 @@ template <class S> struct SecondaryRays {
 
 namespace detail {
 
-/// `onward` is nothing() before.
+/// All but what is reflected inside. `onward` is nothing() before.
 template <class S>
 [[gnu::always_inline]] inline void
 secondary_rays_of(const MaterialLanes<S>& m, const typename S::F& cosine, const typename S::F& fresnel_ratio,
@@ -248,12 +262,12 @@ secondary_rays_of(const MaterialLanes<S>& m, const typename S::F& cosine, const 
   const F counted = S::select(clear, share, zero);
   onward.through = filter * counted;
   onward.through_weight = S::select(clear, max_component<S>(filter), zero);
-  onward.clear_share = counted;
 }
 
 } // namespace detail
 
-/// For surfaces of the materials `m` in `lanes`, `share` of which counts. `all` is nothing() before.
+/// For surfaces of the materials `m` in `lanes`, `share` of which counts: all but what is reflected inside.
+/// `all` is nothing() before.
 template <class Spu>
 CELLTRACE_ONE_COPY void
 find_secondary_rays(const MaterialLanes<typename Spu::simd>& m, const typename Spu::simd::F& cosine,

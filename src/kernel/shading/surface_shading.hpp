@@ -22,6 +22,7 @@ protected:
 
 public:
   using typename Tree::F;
+  using typename Tree::R;
   using typename Tree::S;
 
   /// Shades the surfaces that take_hits() told of, in the light of a round. With the first round rays go on
@@ -74,7 +75,7 @@ private:
     const F one(1.0f);
     prepare_ends(points, hits_, lanes);
     if (has_layers(points, lanes))
-      shade_layers(surfaces, points.interior, points.material, lanes, one);
+      shade_layers(surfaces, points, points.material, lanes, one);
     else
       add_light(surfaces, materials_of(points, lanes, surfaces), lanes, {one, one, one});
   }
@@ -86,7 +87,7 @@ private:
     round_.is_fresh = false;
     round_.template clear<S>();
     Tree::begin_light();
-    shade_layers(surfaces, points.interior, points.material, lanes, one);
+    shade_layers(surfaces, points, points.material, lanes, one);
     return Tree::light().template load<S>();
   }
   /// Before any of the following is asked of surfaces where trees end.
@@ -139,16 +140,15 @@ private:
     Surfaces<S> surfaces;
     find_surfaces(points, surfaces);
     prepare_textures(points, hits_, lanes);
-    const F u = F::load(hits_.u.lane);
-    const F v = F::load(hits_.v.lane);
-    const F weights[3] = {F(1.0f) - u - v, u, v};
     SecondaryRays<S> all = SecondaryRays<S>::nothing();
     for (uint32_t corner = 0; corner < 3 && points.blended != 0; ++corner) {
       WordLanes materials = points.material;
       for_each_lane(points.blended, [&](uint32_t lane) {
         materials.lane[lane] = scene_.blend(points.material.lane[lane])->material[corner];
       });
-      shade_share(surfaces, points, materials, points.blended, weights[corner], all);
+      F weight = F::load(corner == 1 ? hits_.u.lane : hits_.v.lane);
+      if (corner == 0) weight = F(1.0f) - F::load(hits_.u.lane) - weight;
+      shade_share(surfaces, points, materials, points.blended, weight, all);
     }
     if (const uint32_t textured = lanes & ~points.blended; textured != 0)
       shade_share(surfaces, points, points.material, textured, F(1.0f), all);
@@ -187,12 +187,12 @@ private:
     if (lanes == 0) return;
     const WordLanes& interior = points.interior;
     const SecondaryRays<S> one = (lanes & points.textured) != 0
-                                     ? shade_layers(surfaces, interior, materials, lanes, weight)
+                                     ? shade_layers(surfaces, points, materials, lanes, weight)
                                      : shade(surfaces, interior, materials, lanes, weight);
     if (all.is_nothing())
       all = one;
-    else if (all.weighs_like(one))
-      all.add(one);
+    else if (all.template weighs_like<Spu>(one))
+      all.template add<Spu>(one);
     else
       spawn(surfaces, surfaces.normal, interior, one);
   }
@@ -225,9 +225,11 @@ private:
       fresnel_ratio = F::load(fresnel_ratios(scene_, interior, lanes & m.fresnel, node_).lane);
     find_secondary_rays<Spu>(m, -dot<S>(surfaces.direction, surfaces.normal), fresnel_ratio,
                              frame_.adc_bailout, lanes, share, onward);
-    if ((m.special & onward.mirrors) != 0) {
+    const F counted = S::select(S::M::from_bits(onward.clear), share, F(0.0f));
+    onward.reflected_inside = {counted, counted, counted};
+    if ((m.special & (onward.mirrors | onward.clear)) != 0) {
       scene_.spu().enter_module(modules::kFinishes);
-      change_special_mirror(scene_, surfaces, m, onward.mirrors, onward.mirror);
+      change_special_mirror(scene_, surfaces, m, onward);
     }
     return onward;
   }
@@ -235,14 +237,15 @@ private:
   /// As shade(), of textures with patterns, normals or layers. The light of a layer comes through those
   /// above, but not what it reflects: that is POV-Ray's model. Where normals are disturbed, rays go on by
   /// themselves. The surfaces have their layers' normals meanwhile.
-  CELLTRACE_ONE_COPY SecondaryRays<S> shade_layers(Surfaces<S>& surfaces, const WordLanes& interior,
+  CELLTRACE_ONE_COPY SecondaryRays<S> shade_layers(Surfaces<S>& surfaces, const HitPoints<S>& points,
                                                    const WordLanes& top, uint32_t all_lanes, const F& share) {
+    const WordLanes& interior = points.interior;
+    const V3<S>& smooth = points.normal;
     const F one(1.0f);
     V3<S> above = {one, one, one}; // what comes through the layers above
     WordLanes materials = top;
     uint32_t lanes = all_lanes;
     SecondaryRays<S> onward = SecondaryRays<S>::nothing();
-    const V3<S> smooth = surfaces.normal;
     V3<S> outermost = smooth; // of the uppermost layer
     bool is_disturbed = false;
     for (bool is_top = true; lanes != 0; is_top = false) {
@@ -255,9 +258,17 @@ private:
       const uint32_t clear = rays.clear;
       rays.clear = 0;
       // POV-Ray does not ask what the layers above leave of what is mirrored, but it weighs it by that.
-      rays.mirror = rays.mirror * share;
-      rays.mirror_weight = rays.mirror_weight * grey<S>(above);
-      above = select<S>(S::M::from_bits(clear), above * rays.through, above);
+      uint32_t bright = 0;
+      for_each_part<Spu>([&](uint32_t first) {
+        const auto part = [first](const auto& values) { return part_of<Spu>(values, first); };
+        const V3<R> before = part(above);
+        const V3<R> left = select<R>(R::M::from_bits(part(clear)), before * part(rays.through), before);
+        set_part<Spu>(rays.mirror, first, part(rays.mirror) * part(share));
+        set_part<Spu>(rays.mirror_weight, first, part(rays.mirror_weight) * grey<R>(before));
+        set_part<Spu>(above, first, left);
+        bright |= (grey<R>(left) > typename R::F(frame_.adc_bailout)).bits() << first;
+      });
+      bright &= clear;
       if (is_top) {
         onward = rays;
         outermost = surfaces.normal;
@@ -266,7 +277,6 @@ private:
         spawn(surfaces, smooth, interior, rays);
       }
       // Transmitted through all layers, by those that were the last.
-      const uint32_t bright = (grey<S>(above) > F(frame_.adc_bailout)).bits() & clear;
       onward.clear |= bright & ~m.layered;
       lanes = bright & m.layered;
       for_each_value<S>(materials, lanes, [&](uint32_t offset, uint32_t same) {
@@ -274,10 +284,15 @@ private:
         for_each_lane(same, [&](uint32_t lane) { materials.lane[lane] = below; });
       });
     }
-    const F through = S::select(S::M::from_bits(onward.clear), share, F(0.0f));
-    onward.through = above * through;
-    onward.through_weight = S::select(S::M::from_bits(onward.clear), max_component<S>(above), F(0.0f));
-    onward.clear_share = through;
+    for_each_part<Spu>([&](uint32_t first) {
+      const auto part = [first](const auto& values) { return part_of<Spu>(values, first); };
+      const auto clear = R::M::from_bits(part(onward.clear));
+      const typename R::F zero(0.0f), through = R::select(clear, part(share), zero);
+      const V3<R> left = part(above);
+      set_part<Spu>(onward.through, first, left * through);
+      set_part<Spu>(onward.through_weight, first, R::select(clear, max_component<R>(left), zero));
+      set_part<Spu>(onward.reflected_inside, first, part(onward.reflected_inside) * through);
+    });
     if (is_disturbed) {
       surfaces.normal = outermost;
       spawn(surfaces, smooth, interior, onward);
