@@ -72,6 +72,7 @@ struct Interior {
   Vec3 fade_colour{0, 0, 0};
   double caustics = 0; ///< shadows get lighter where light falls through it straight; more is less wide
   bool hollow = false; ///< there is fog in it, too
+  double refraction = 1;
 };
 
 /// What light passes through on its way between surfaces, but for rays that are in an object whose interior

@@ -391,11 +391,15 @@ static_assert(sizeof(FinishRecord) == 32, "four a line");
 
 struct alignas(32) InteriorRecord {
   float ior;
-  uint32_t is_hollow;          ///< 0 or 1: there is fog in it
+  /// What transmitted light is multiplied by at its surfaces; with the other sign, where there is fog in it.
+  float signed_refraction;
   float inverse_fade_distance; ///< 0: it does not fade
   float fade_power;            ///< from 1000 on: exponentially
   float fade_colour[3];
   float caustics; ///< exponent; 0: none
+
+  bool is_hollow() const { return __builtin_signbit(signed_refraction) != 0; }
+  float refraction() const { return __builtin_fabsf(signed_refraction); }
 };
 static_assert(sizeof(InteriorRecord) == 32, "four a line");
 
@@ -509,7 +513,7 @@ constexpr uint32_t kMaxCopiedObjects = 256;
 /// What light may meet on its way that few scenes have.
 namespace light_way {
 constexpr uint32_t atmosphere = 0x1; ///< fogs or rainbows
-constexpr uint32_t fading = 0x2;     ///< interiors that fade
+constexpr uint32_t fading = 0x2;     ///< interiors that fade, or whose surfaces dim what they transmit
 /// Shadow rays go from surface to surface: what these let through depends on more than points of them.
 constexpr uint32_t stepwise = 0x4;
 constexpr uint32_t by_surface = 0x8;  ///< some objects are object_flag::by_surface

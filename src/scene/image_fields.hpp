@@ -106,7 +106,7 @@ FieldList<&FinishRecord::crand, &FinishRecord::irid, &FinishRecord::irid_thickne
           &FinishRecord::irid_turbulence, &FinishRecord::inverse_wavelength, &FinishRecord::first_generator>
 fields_of(const FinishRecord&);
 
-FieldList<&InteriorRecord::ior, &InteriorRecord::is_hollow, &InteriorRecord::inverse_fade_distance,
+FieldList<&InteriorRecord::ior, &InteriorRecord::signed_refraction, &InteriorRecord::inverse_fade_distance,
           &InteriorRecord::fade_power, &InteriorRecord::fade_colour, &InteriorRecord::caustics>
 fields_of(const InteriorRecord&);
 

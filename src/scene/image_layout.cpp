@@ -40,6 +40,7 @@ std::uint32_t light_ways_of(const Scene& scene, const TextureTables& textures, b
   for (const Interior& interior : scene.interiors) {
     const InteriorRecord r = make_record(interior);
     if (r.inverse_fade_distance != 0) ways |= light_way::fading | light_way::stepwise;
+    if (r.refraction() != 1) ways |= light_way::fading;
     if (r.caustics != 0) ways |= light_way::stepwise;
   }
   if (textures.has_clear_side || textures.filters_by_surface) ways |= light_way::stepwise;

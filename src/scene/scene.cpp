@@ -90,7 +90,9 @@ void check(const Rainbow& bow, const Name& name) {
 }
 
 void check(const Interior& interior, const Name& name) {
-  check_finite({interior.ior, interior.fade_distance, interior.fade_power, interior.caustics}, name);
+  check_finite(
+      {interior.ior, interior.fade_distance, interior.fade_power, interior.refraction, interior.caustics},
+      name);
   check_vectors({interior.fade_colour}, name);
 }
 

@@ -187,7 +187,8 @@ InteriorRecord make_record(const Interior& interior) {
   constexpr double kCausticsUnit = 45;
   InteriorRecord r{};
   r.ior = static_cast<float>(interior.ior);
-  r.is_hollow = interior.hollow ? 1 : 0;
+  const auto refraction = static_cast<float>(std::max(interior.refraction, 0.0));
+  r.signed_refraction = interior.hollow ? -refraction : refraction;
   if (interior.fade_distance != 0) {
     r.inverse_fade_distance = static_cast<float>(1 / std::abs(interior.fade_distance));
     r.fade_power = static_cast<float>(interior.fade_power);

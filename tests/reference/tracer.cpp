@@ -250,7 +250,8 @@ Vec3 Tracer::shade(const Branch& branch, const Point& point, const Material& mat
   if (material.finish.conserve_energy) filter *= 1.0 - mirrored;
   const Index own = point.shape->object->interior;
   const bool leaves = std::find(branch.inside.begin(), branch.inside.end(), own) != branch.inside.end();
-  const Vec3 left = leaves ? faded(scene_.interiors[own], point.distance) : Vec3(1);
+  const Vec3 left =
+      scene_.interiors[own].refraction * (leaves ? faded(scene_.interiors[own], point.distance) : Vec3(1));
   const Vec3 filmed = film(material.finish, scene_.irid_wavelength, cosine, cosine);
 
   if (grey(filter) > scene_.adc_bailout) {

@@ -565,6 +565,7 @@ Scene fog_and_insides() {
   for (std::size_t i = 0; i < scene.interiors.size(); ++i) {
     Interior& interior = scene.interiors[i];
     interior.hollow = i % 2 == 0;
+    interior.refraction = 1.2 - 0.1 * static_cast<double>(i % 4);
     interior.fade_distance = 0.8;
     interior.fade_power = i % 3 == 0 ? 1000 : 1.5;
     interior.fade_colour = {0.2, 0.5, 0.8};

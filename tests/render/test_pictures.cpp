@@ -172,6 +172,26 @@ TEST_CASE("Films change what is totally reflected, but nothing else of a mirror 
   CHECK(compare_images(render_on(backend, 2, without), render_on(backend, 2, film)).psnr < 30);
 }
 
+TEST_CASE("Refraction of interiors dims transmitted light at each of their surfaces, but no shadows") {
+  Finish finish;
+  finish.diffuse = 0.2;
+  finish.reflection_max = Vec3(0.1);
+  for (const double refraction : {0.0, 0.5, 1.3}) {
+    for (const double fade_distance : {0.0, 0.8}) {
+      Interior glass{1.4, fade_distance, 2, {0.2, 0.5, 0.8}};
+      glass.refraction = refraction;
+      glass.hollow = refraction == 0.5;
+      const Scene scene = box_of_glass(finish, glass);
+      const Image expected = reference::Tracer(scene).render(kWidth, kHeight);
+      for (const TestBackend& backend : backends()) {
+        const Comparison c = compare_images(expected, render_on(backend, 2, scene));
+        INFO(backend.spu() << ", " << refraction << ", " << fade_distance << ": " << to_text(c));
+        CHECK(c.psnr >= 50);
+      }
+    }
+  }
+}
+
 TEST_CASE("Parts of a merge hide nothing from rays that do not see them") {
   Material mirror = matte(Vec3(0.2));
   mirror.finish.reflection_min = mirror.finish.reflection_max = Vec3(0.6);

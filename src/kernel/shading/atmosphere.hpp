@@ -156,7 +156,7 @@ template <class Spu> uint32_t lanes_in_the_open(SceneAccess<Spu>& scene, const R
   uint32_t open = lanes;
   for_each_lane(lanes, [&](uint32_t lane) {
     for (uint32_t d = 0; d < ray.interior_depth.lane[lane]; ++d)
-      if (scene.interior(ray.interiors[d].lane[lane])->is_hollow == 0) open &= ~(1u << lane);
+      if (!scene.interior(ray.interiors[d].lane[lane])->is_hollow()) open &= ~(1u << lane);
   });
   return open;
 }

@@ -15,9 +15,10 @@ inline bool is_inside(const RayNode& ray, uint32_t lane, uint32_t interior) {
   return false;
 }
 
-/// What is left of the light of `lanes` that comes out of what it hits, after `distance` in there. As in
+/// What is left of the light of `lanes` that goes on from what it hits, after `distance` before. As in
 /// POV-Ray only rays fade that hit the surface of an interior that they are in, whatever else they are in,
-/// and shadow rays only where the power is not 0.
+/// and shadow rays only where the power is not 0. The interior's refraction counts on both sides of its
+/// surface, where light is totally reflected as well, but not for shadow rays.
 template <class Spu>
 [[gnu::noinline]] void fade(SceneAccess<Spu>& scene, const RayNode& ray, const WordLanes& interior,
                             const FloatLanes& distance, uint32_t lanes, VectorLanes& light, bool is_shadow) {
@@ -27,12 +28,14 @@ template <class Spu>
   scene.spu().run_in_module(modules::kFading);
   for_each_value<typename Spu::simd>(interior, lanes, [&](uint32_t offset, uint32_t same) {
     Kept<Spu, InteriorRecord> r = *scene.interior(offset);
-    if (r.inverse_fade_distance == 0.0f || (is_shadow && r.fade_power == 0.0f)) return;
     uint32_t inside = 0;
-    for_each_lane(
-        same, [&](uint32_t lane) { inside |= static_cast<uint32_t>(is_inside(ray, lane, offset)) << lane; });
+    if (r.inverse_fade_distance != 0.0f && !(is_shadow && r.fade_power == 0.0f))
+      for_each_lane(same, [&](uint32_t lane) {
+        inside |= static_cast<uint32_t>(is_inside(ray, lane, offset)) << lane;
+      });
+    const F passed(is_shadow ? 1.0f : r.refraction());
     for_each_part<Spu>([&](uint32_t first) {
-      const uint32_t some = part_of<Spu>(inside, first);
+      const uint32_t some = part_of<Spu>(same, first);
       if (some == 0) return;
       const F way = F::load(distance.lane + first) * F(r.inverse_fade_distance);
       const F one(1.0f);
@@ -45,6 +48,7 @@ template <class Spu>
         const V3<S> colour = splat3<S>(r.fade_colour);
         left = colour + (V3<S>{one, one, one} - colour) * share;
       }
+      left = select<S>(S::M::from_bits(part_of<Spu>(inside, first)), left, {one, one, one}) * passed;
       const V3<S> before = light.template load_from<S>(first);
       light.template store_from<S>(first, select<S>(S::M::from_bits(some), before * left, before));
     });
