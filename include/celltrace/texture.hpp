@@ -200,7 +200,7 @@ template <class T> struct PatternMap {
   std::vector<Entry> entries;
   bool is_average = false; ///< all entries by their weights; of the pattern only steps and turbulence count
 };
-inline constexpr int kDeepestMap = 5;
+inline constexpr int kDeepestMap = 8;
 inline constexpr int kMostMapEntries = 256;
 
 /// Colour with POV-Ray's two transparency channels; neither is limited to 0..1.

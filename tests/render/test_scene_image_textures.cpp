@@ -382,26 +382,26 @@ TEST_CASE("Textures that are too deep or too long are refused by name") {
   };
   SECTION("maps in maps") {
     CHECK_NOTHROW(SceneImage::from_bytes(bytes_of(SceneImage(scene_of(nested_pigment(kDeepestMap))))));
-    refused(scene_of(nested_pigment(kDeepestMap + 1)), "material 0 has maps that nest more than 5 deep");
+    refused(scene_of(nested_pigment(kDeepestMap + 1)), "material 0 has maps that nest more than 8 deep");
     Normal normal;
     Material material;
     for (int i = 0; i <= kDeepestMap; ++i) {
       normal.map = map_of<Normal>({}, {{0, normal}});
       material.map = map_of<Material>({}, {{0, material}});
     }
-    refused(scene_of(material), "material 0 has maps that nest more than 5 deep");
+    refused(scene_of(material), "material 0 has maps that nest more than 8 deep");
     Material disturbed;
     disturbed.normal = std::make_shared<const Normal>(normal);
-    refused(scene_of(disturbed), "material 0 has maps that nest more than 5 deep");
+    refused(scene_of(disturbed), "material 0 has maps that nest more than 8 deep");
     Scene scene;
     scene.sky_sphere = {nested_pigment(kDeepestMap + 1)};
-    refused(scene, "the sky sphere has maps that nest more than 5 deep");
+    refused(scene, "the sky sphere has maps that nest more than 8 deep");
   }
   SECTION("a map that is known to be sound, deeper inside another one") {
     Scene scene = scene_of(nested_pigment(kDeepestMap));
     const Pigment deep = scene.materials[0].pigment;
     scene.materials[0].pigment.map = map_of<Pigment>({}, {{0, deep.map->entries[0].value}, {1, deep}});
-    refused(scene, "material 0 has maps that nest more than 5 deep");
+    refused(scene, "material 0 has maps that nest more than 8 deep");
   }
   SECTION("entries") {
     PatternMap<Pigment> map;

@@ -9,7 +9,7 @@
 namespace celltrace::kernel {
 
 /// How deep maps may lie in each other.
-constexpr uint32_t kDeepestMapWalk = 5;
+constexpr uint32_t kDeepestMapWalk = 8;
 
 /// What the entries of a tree of maps are where colours are asked; where normals are, they are normals.
 enum class MapOf : uint32_t { pigments, textures };
