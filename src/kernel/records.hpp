@@ -526,6 +526,9 @@ constexpr uint32_t first_hits = 0x80; ///< what each primary ray hits is wanted,
 constexpr uint32_t jitter = 0x100;    ///< places of lights are moved, in each lane otherwise
 } // namespace light_way
 
+/// Beyond this nobody counts what may go on from surfaces.
+constexpr uint32_t kMostSurfaceNodes = 0x10000;
+
 /// Head of a scene image.
 struct alignas(128) ImageHeader {
   uint32_t magic;
@@ -570,7 +573,8 @@ struct alignas(128) ImageHeader {
   uint32_t rainbow_offset, rainbow_count;             ///< RainbowRecords
   uint32_t slope_offset, slope_count;                 ///< SlopeRecords
   uint32_t projector_count; ///< ObjectRecords of projectors, just before those without bounds
-  uint32_t unused[24];
+  uint32_t surface_nodes; ///< that what the rays of a node hit may push, at most; kMostSurfaceNodes: or more
+  uint32_t unused[23];
 };
 static_assert(sizeof(ImageHeader) == 384, "three lines");
 

@@ -292,13 +292,20 @@ private:
   /// What the frame block says of a scene whose image is there.
   void enter_scene(const Scene& scene) {
     set_scene(frame_, scene, options_, image_);
-    // A tree of n levels needs n + 1 nodes; straight transmission may add some that cost no level.
+    // Each level of a tree adds what its surfaces push, but for the node that comes up next; straight
+    // transmission may add some that cost no level. Averages of many mirrors push so much that there is a
+    // limit: what passes it is dropped, and counted.
+    constexpr std::uint32_t kMostBytesOfSpe = 8 << 20, kLevelsOfStraight = 32;
+    const std::uint64_t levels = std::uint64_t{frame_.max_trace_level} + kLevelsOfStraight;
+    const std::uint64_t wanted = levels * std::max(image_.header().surface_nodes, 2u) - levels;
+    const auto most = std::max<std::uint64_t>(levels, kMostBytesOfSpe / kRayNodeBytes);
     // Where lights have areas or shadow rays go step by step, none of them stays in local store.
     const bool has_resident = !has_areas(frame_) && (frame_.light_ways & light_way::stepwise) == 0;
-    const std::uint32_t nodes = frame_.max_trace_level + 32 + (has_resident ? 0 : kResidentNodes);
+    const std::uint32_t nodes =
+        static_cast<std::uint32_t>(std::min(wanted, most)) + (has_resident ? 0 : kResidentNodes);
     if (nodes == frame_.ray_stack_nodes) return;
     frame_.ray_stack_nodes = nodes;
-    ray_stack_ = AlignedBlock(std::size_t{machine_->spe_count()} * nodes * kRayNodeBytes);
+    ray_stack_ = AlignedBlock::uninitialised(std::size_t{machine_->spe_count()} * nodes * kRayNodeBytes);
     frame_.ray_stack = to_ea(ray_stack_.data());
   }
 

@@ -28,7 +28,8 @@ FieldList<&ImageHeader::magic, &ImageHeader::version, &ImageHeader::bytes, &Imag
           &ImageHeader::wave_count, &ImageHeader::light_set_count, &ImageHeader::light_word_offset,
           &ImageHeader::light_word_count, &ImageHeader::polygon_edge_offset, &ImageHeader::polygon_edge_count,
           &ImageHeader::rainbow_offset, &ImageHeader::rainbow_count, &ImageHeader::slope_offset,
-          &ImageHeader::slope_count, &ImageHeader::projector_count, &ImageHeader::unused>
+          &ImageHeader::slope_count, &ImageHeader::projector_count, &ImageHeader::surface_nodes,
+          &ImageHeader::unused>
 fields_of(const ImageHeader&);
 
 FieldList<&ObjectRecord::kind_and_flags, &ObjectRecord::material, &ObjectRecord::interior,

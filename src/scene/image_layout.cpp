@@ -73,6 +73,7 @@ void place_surfaces(Layout& layout, ImageHeader& header, const Scene& scene, con
   layout.place<InteriorRecord>(scene.interiors.size() + 1, header.interior_offset, header.interior_count);
   layout.place<FinishRecord>(textures.finishes.size(), header.finish_offset, header.finish_count);
   header.light_ways = light_ways_of(scene, textures, blended != 0);
+  header.surface_nodes = textures.most_nodes(blended != 0);
   layout.place<FogRecord>(scene.fogs.size(), header.fog_offset, header.fog_count);
   layout.place<RainbowRecord>(textures.rainbows.size(), header.rainbow_offset, header.rainbow_count);
   header.sky = textures.sky == kNoOffset
@@ -141,6 +142,7 @@ bool have_same_layout(const ImageHeader& a, const ImageHeader& b) {
   ImageHeader other = b;
   other.light_ways = a.light_ways;
   other.sky = a.sky;
+  other.surface_nodes = a.surface_nodes;
   std::copy(a.bounds_min, a.bounds_min + 3, other.bounds_min);
   std::copy(a.bounds_max, a.bounds_max + 3, other.bounds_max);
   return std::memcmp(&a, &other, sizeof a) == 0;

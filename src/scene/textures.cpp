@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <type_traits>
 
@@ -128,6 +129,20 @@ float inverse_width(double from, double to) {
   return std::isfinite(inverse) ? inverse : 0;
 }
 
+/// Of the nodes that several materials push, so many of which count.
+std::uint32_t sum_of_greatest(std::vector<std::uint32_t> nodes, std::size_t count) {
+  std::sort(nodes.begin(), nodes.end(), std::greater<>());
+  std::uint32_t sum = 0;
+  for (std::size_t i = 0; i < std::min(count, nodes.size()); ++i)
+    sum = std::min(sum + nodes[i], kMostSurfaceNodes);
+  return sum;
+}
+/// What its rays take of a stack; those of light that is bent are followed by a node that gathers it.
+std::uint32_t nodes_of_mirror(const MaterialRecord& r) {
+  if ((r.flags & material_flag::reflects) == 0) return 0;
+  return (r.flags & material_flag::bends_reflection) != 0 ? 2 : 1;
+}
+
 /// Whether points do not tell a pattern's values.
 bool asks_for_surface(const PatternRecord& r) {
   return (r.kind_and_flags & pattern_flag::uv_mapping) != 0 ||
@@ -159,6 +174,7 @@ void TextureTables::Traits::add(const Traits& other) {
   disturbed = disturbed || other.disturbed;
   lit_behind = lit_behind || other.lit_behind;
   by_surface = by_surface || other.by_surface;
+  nodes = std::max(nodes, other.nodes);
 }
 
 TextureTables::TextureTables(const Scene& scene) : scene_(scene) {
@@ -174,10 +190,20 @@ TextureTables::TextureTables(const Scene& scene) : scene_(scene) {
     by_surface = by_surface || traits.by_surface;
     filters = filters || !traits.opaque;
     filters_by_surface = filters_by_surface || (traits.by_surface && !traits.opaque);
+    if (scene.materials[i].map || scene.materials[i].inside)
+      mapped_nodes_.push_back(traits.nodes);
+    else
+      unmapped_nodes_ = std::max(unmapped_nodes_, traits.nodes);
   }
   sky = scene.sky_sphere.empty() ? kNoOffset : add_material(sky_of(scene), {}).index;
   for (const Rainbow& rainbow : scene.rainbows)
     if (is_visible(rainbow)) add_rainbow(rainbow);
+}
+
+std::uint32_t TextureTables::most_nodes(bool has_blends) const {
+  // The rays of a node may hit as many maps as a packet has lanes, besides surfaces without and with layers.
+  const std::uint32_t of_material = 2 * unmapped_nodes_ + sum_of_greatest(mapped_nodes_, kSimdLanes);
+  return std::min(kMostSurfaceNodes, has_blends ? 3 * of_material : of_material);
 }
 
 TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Material& material,
@@ -215,6 +241,8 @@ TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Ma
       traits.opaque = is_opaque(material.pigment);
     }
     traits.spawns = !traits.opaque || (r.flags & material_flag::reflects) != 0;
+    const std::uint32_t mirrors = nodes_of_mirror(r);
+    traits.nodes = mirrors + (traits.opaque ? 0 : 1);
     if (material.normal) {
       r.flags |= material_flag::disturbed;
       const Known normal = add_normal(*material.normal, outer);
@@ -230,6 +258,7 @@ TextureTables::Traits TextureTables::fill_material(std::uint32_t index, const Ma
       traits.opaque = traits.opaque || below.traits.opaque;
       constexpr std::uint32_t kAsksRays = material_flag::reflects | material_flag::fresnel;
       traits.spawns = (r.flags & kAsksRays) != 0 || below.traits.spawns;
+      traits.nodes = mirrors + below.traits.nodes;
       traits.disturbed = traits.disturbed || below.traits.disturbed;
       traits.lit_behind = traits.lit_behind || below.traits.lit_behind;
       traits.by_surface = traits.by_surface || below.traits.by_surface;
@@ -288,6 +317,7 @@ TextureTables::Known TextureTables::add_map(const std::shared_ptr<const PatternM
   for (const auto& entry : map->entries)
     weights += entry.position;
   Traits traits;
+  std::vector<std::uint32_t> nodes; // by entry
   for (std::size_t i = 0; i < count; ++i) {
     const auto& from = map->entries[i];
     MapEntryRecord entry{};
@@ -303,6 +333,7 @@ TextureTables::Known TextureTables::add_map(const std::shared_ptr<const PatternM
         entry.inverse_width = 0;
         children_[first + i] = children_[first + i - 1];
         entries[first + i] = entry;
+        if (!nodes.empty()) nodes.push_back(nodes.back());
         continue;
       }
     }
@@ -326,6 +357,7 @@ TextureTables::Known TextureTables::add_map(const std::shared_ptr<const PatternM
       const Known material = add_material(from.value, inside);
       entry.child = material.index;
       traits.add(material.traits);
+      nodes.push_back(material.traits.nodes);
     }
     entries[first + i] = entry;
   }
@@ -333,6 +365,8 @@ TextureTables::Known TextureTables::add_map(const std::shared_ptr<const PatternM
   patterns[pattern].entries = first;
   if (is_nested) patterns[pattern].kind_and_flags |= pattern_flag::nested;
   traits.by_surface = traits.by_surface || of_pattern.by_surface;
+  // Where they are not averaged, two count in each lane.
+  traits.nodes = sum_of_greatest(nodes, map->is_average ? count : 2 * kSimdLanes);
   if (is_shared) known_[map.get()] = {pattern, traits};
   return {pattern, traits};
 }

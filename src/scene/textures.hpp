@@ -34,6 +34,9 @@ public:
   /// none that the kernel has.
   explicit TextureTables(const Scene& scene);
 
+  /// Of ImageHeader::surface_nodes. `has_blends`: some surfaces are of several materials.
+  std::uint32_t most_nodes(bool has_blends) const;
+
   /// Makes offsets in the image of all references.
   void relocate(const kernel::ImageHeader& header);
 
@@ -64,6 +67,7 @@ private:
   struct Traits {
     bool opaque = true, spawns = false, textured = false, disturbed = false, two_sided = false,
          lit_behind = false, by_surface = false;
+    std::uint32_t nodes = 0; ///< that a surface pushes, at most, for rays that go on by themselves
     void add(const Traits& other);
   };
   struct Known {
@@ -89,9 +93,11 @@ private:
   Traits fill(kernel::MapEntryRecord& entry, const Pigment& pigment);
 
   const Scene& scene_;
-  std::vector<Child> children_;        ///< by entry, what its child is
-  std::vector<PatternTable> tables_;   ///< by pattern, what it reads
-  std::map<const void*, Known> known_; ///< maps that several share, by address
+  std::uint32_t unmapped_nodes_ = 0; ///< Traits::nodes: the most of any material of the scene that is no map,
+  std::vector<std::uint32_t> mapped_nodes_; ///< and of each that is
+  std::vector<Child> children_;             ///< by entry, what its child is
+  std::vector<PatternTable> tables_;        ///< by pattern, what it reads
+  std::map<const void*, Known> known_;      ///< maps that several share, by address
   std::vector<std::shared_ptr<const void>>
       made_; ///< maps that are not the scene's, so that no other has their address
 };

@@ -4,6 +4,7 @@
 #include "reference/tracer.hpp"
 #include "render/backends.hpp"
 #include "render/scenes.hpp"
+#include "scene/scene_image.hpp"
 
 #include <catch2/catch.hpp>
 
@@ -116,6 +117,40 @@ TEST_CASE("Blended transparent faces in a row lose no ray") {
   const RenderResult result = render(scene, backends().front().options(20, 15, 2));
   CHECK(result.statistics.dropped_rays == 0);
   CHECK(compare_images(reference::Tracer(scene).render(20, 15), result.image).psnr >= 45);
+}
+
+TEST_CASE("Averages of many mirrors have room for their rays") {
+  PatternMap<Material> mirrors;
+  mirrors.is_average = true;
+  for (int i = 0; i < 80; ++i) {
+    Material mirror = matte({0.5, 0.5, 0.5});
+    mirror.finish.reflection_max = mirror.finish.reflection_min = Vec3(0.1);
+    mirror.finish.reflection_exponent = i % 2 == 0 ? 1 : 0.9;
+    Normal bumps{Pattern{pattern::Bumps{}}, 0.03};
+    bumps.pattern.space = {Transform::translate({17.3 * i, 0, 0})};
+    mirror.normal = std::make_shared<const Normal>(bumps);
+    mirrors.entries.push_back({1, mirror});
+  }
+  Material average;
+  average.map = std::make_shared<const PatternMap<Material>>(mirrors);
+  Scene scene;
+  scene.camera = camera_at({0, 6, -11}, {0, 0.5, 0});
+  scene.background = {0.5, 0.6, 0.9};
+  scene.lights = {{{10, 10, -10}}};
+  scene.max_trace_level = 3;
+  scene.adc_bailout = 0.002;
+  Object floor;
+  floor.shape = Plane{{0, 1, 0}, -1};
+  floor.material = scene.add(average);
+  floor.interior = scene.add(Interior{});
+  scene.objects = {floor, sphere_at({0, 0.5, 0}, 1, floor.material, floor.interior)};
+  CHECK(SceneImage(scene).header().surface_nodes == 120);
+  for (const bool area : {false, true}) {
+    if (area) scene.lights[0].area = LightArea{{1, 0, 0}, {0, 1, 0}, 2, 2, 0};
+    const RenderResult result = render(scene, backends().front().options(12, 9, 1));
+    CHECK(result.statistics.dropped_rays == 0);
+    CHECK(result.statistics.reflection_rays > 4000);
+  }
 }
 
 TEST_CASE("Sixteen spheres in each other, more than a ray remembers") {

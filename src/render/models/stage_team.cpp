@@ -76,7 +76,7 @@ void StageTeam::prepare() {
   const std::uint32_t stack_nodes = frame_[0].ray_stack_nodes + kResidentNodes;
   const std::size_t contexts = std::size_t{plan_.pipelines} * kMaxContexts;
   jobs_ = AlignedBlock(contexts * job_bytes);
-  ray_stacks_ = AlignedBlock(contexts * stack_nodes * kRayNodeBytes);
+  ray_stacks_ = AlignedBlock::uninitialised(contexts * stack_nodes * kRayNodeBytes);
   for (unsigned spe = 0; spe < plan_.spes.size(); ++spe) {
     const StagePlan::Spe& planned = plan_.spes[spe];
     StageBlock& orders = orders_[spe];
