@@ -170,6 +170,7 @@ private:
   }
 
   void print_summary(bool complete) const {
+    if (sum_) print_dropped_rays(*sum_);
     std::cerr << what() << ": " << (complete ? "" : "interrupted, ") << done_
               << (done_ == 1 ? " frame" : " frames");
     if (sum_)

@@ -75,6 +75,14 @@ void save_picture(const RenderRequest& request, const std::filesystem::path& pat
   }
 }
 
+void print_dropped_rays(const RenderStatistics& statistics) {
+  if (statistics.dropped_rays == 0) return;
+  std::cerr
+      << "celltrace: warning: " << statistics.dropped_rays
+      << " rays were dropped, as so many at a time or inside of so many objects have no room: what they "
+         "would have seen is missing\n";
+}
+
 std::string summary_of(const RenderStatistics& s, double parse_seconds) {
   const double build_seconds = s.build_seconds + s.prepare_seconds;
   const double rate = s.render_seconds > 0 ? static_cast<double>(s.total_rays()) / s.render_seconds : 0;

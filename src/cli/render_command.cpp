@@ -122,6 +122,7 @@ int run_render(const RenderRequest& request) {
   if (!request.stats.empty()) write_statistics(request.stats, result.statistics, read.seconds);
   if (!request.quiet) {
     const RenderStatistics& s = result.statistics;
+    print_dropped_rays(s);
     std::cerr << name << ": " << (result.complete ? "" : "interrupted, partial, ") << s.width << 'x'
               << picture.height() << ", " << summary_of(s, read.seconds) << '\n';
     if (!result.complete && state.is_kept() && !picture.is_empty())

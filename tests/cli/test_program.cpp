@@ -92,6 +92,18 @@ TEST_CASE("statistics go where they are asked for, and quiet is quiet") {
   CHECK(nlohmann::json::parse(read_bytes(folder / "s.json"))["width"] == 8);
 }
 
+TEST_CASE("rays that are dropped are told of, but not if quiet") {
+  const TemporaryFolder folder;
+  write_bytes(folder / "nested.pov",
+              "#version 3.7; global_settings { max_trace_level 40 } camera { location -z*30 }\n"
+              "#for (I, 1, 15) sphere { 0, I pigment { rgbt .97 } interior { ior 1.02 } } #end\n");
+  const Outcome outcome = celltrace_run(folder, {"nested.pov", "-W", "8", "-H", "8"});
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.err, Contains("celltrace: warning: ") && Contains(" rays were dropped"));
+  CHECK(celltrace_run(folder, {"nested.pov", "-W", "8", "-H", "8", "--quiet"}).err.empty());
+  CHECK_THAT(celltrace_run(folder, {kScene, "-W", "8", "-H", "8"}).err, !Contains("dropped"));
+}
+
 TEST_CASE("every key of the statistics is documented") {
   const TemporaryFolder folder;
   const std::string document = read_bytes(CELLTRACE_SOURCE_DIR "/docs/statistics.md");
