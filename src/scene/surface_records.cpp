@@ -165,13 +165,23 @@ MaterialRecord make_record(const Material& material, const Scene& scene) {
   return r;
 }
 
+namespace {
+
+/// crand, which is a share of diffuse light.
+bool takes_at_random(const Finish& finish) {
+  return finish.crand != 0 && (finish.diffuse != 0 || finish.diffuse_behind != 0);
+}
+
+} // namespace
+
 bool has_record(const Finish& finish) {
-  return (finish.diffuse != 0 || finish.diffuse_behind != 0) && (finish.crand != 0 || finish.irid != 0);
+  // Films change highlights and mirrored light as well.
+  return finish.irid != 0 || takes_at_random(finish);
 }
 
 FinishRecord make_record(const Finish& finish, const Scene& scene) {
   FinishRecord r{};
-  r.crand = static_cast<float>(finish.crand);
+  r.crand = takes_at_random(finish) ? static_cast<float>(finish.crand) : 0;
   r.irid = static_cast<float>(finish.irid);
   r.irid_thickness = static_cast<float>(finish.irid_thickness);
   r.irid_turbulence = static_cast<float>(finish.irid_turbulence);
