@@ -619,30 +619,33 @@ turbulent_warp
   | turbulent_warp LAMBDA number  { $$ = $1; $$.lambda = $3; }
   ;
 
-colours
-  : %empty                           { }
-  | colours optional_comma colour_value { $$ = std::move($1); add(session, $$, 0, session.colour($3, @3), @3); }
+colours // there may be a comma behind each entry of a list
+  : %empty { }
+  | colours colour_value optional_comma {
+      $$ = std::move($1);
+      add(session, $$, 0, session.colour($2, @2), @2);
+    }
   ;
 
 pigments
-  : PIGMENT '{' from_default pigment_body '}' { add(session, $$, 0, *$4, @1); }
-  | pigments optional_comma PIGMENT '{' from_default pigment_body '}' {
+  : PIGMENT '{' from_default pigment_body '}' optional_comma { add(session, $$, 0, *$4, @1); }
+  | pigments PIGMENT '{' from_default pigment_body '}' optional_comma {
       $$ = std::move($1);
-      add(session, $$, 0, *$6, @3);
+      add(session, $$, 0, *$5, @2);
     }
   ;
 
 normals
-  : NORMAL '{' from_default normal_body '}' { add(session, $$, 0, *$4, @1); }
-  | normals optional_comma NORMAL '{' from_default normal_body '}' {
+  : NORMAL '{' from_default normal_body '}' optional_comma { add(session, $$, 0, *$4, @1); }
+  | normals NORMAL '{' from_default normal_body '}' optional_comma {
       $$ = std::move($1);
-      add(session, $$, 0, *$6, @3);
+      add(session, $$, 0, *$5, @2);
     }
   ;
 
 textures
-  : texture                         { add(session, $$, 0, $1, @1); }
-  | textures optional_comma texture { $$ = std::move($1); add(session, $$, 0, $3, @3); }
+  : texture optional_comma          { add(session, $$, 0, $1, @1); }
+  | textures texture optional_comma { $$ = std::move($1); add(session, $$, 0, $2, @2); }
   ;
 
 colour_map
@@ -768,7 +771,7 @@ irid_items // of the finish that is being read
   ;
 
 reflection_body
-  : colour_value                             { $$.set(session.colour($1, @1).rgb); }
+  : colour_value optional_comma              { $$.set(session.colour($1, @1).rgb); }
   | colour_value optional_comma colour_value {
       $$.set(session.colour($1, @1).rgb, session.colour($3, @3).rgb);
     }

@@ -383,6 +383,30 @@ TEST_CASE("lists of colours and pigments") {
         "scene.pov:1:25: error: this pattern takes a list of 2, but it has 3 entries");
 }
 
+TEST_CASE("a comma behind the last entry of a list") {
+  CHECK(pigment_map("checker rgb 1, rgb 0.5, scale 2").entries.at(1).value.rgb == Vec3(0.5));
+  CHECK(pigment_map("checker rgb 1,").entries.at(1).value.rgb == Vec3(0, 1, 0));
+  const auto brick = pigment_map("brick rgb 1, rgb 0.5, brick_size 0.25");
+  CHECK(brick.entries.at(1).value.rgb == Vec3(0.5));
+  CHECK(std::get<pattern::Brick>(brick.pattern.kind).size == Vec3(0.25));
+  CHECK(pigment_map("hexagon rgb 1, rgb 0, rgb 0.5,").entries.at(2).value.rgb == Vec3(0.5));
+  CHECK(pigment_map("square rgb 1, rgb 0, rgb 1, rgb 0.5,").entries.at(3).value.rgb == Vec3(0.5));
+  CHECK(pigment_map("triangular rgb 1, rgb 0, rgb 1, rgb 0, rgb 1, rgb 0.5,").entries.at(5).value.rgb ==
+        Vec3(0.5));
+  CHECK(pigment_map("object { sphere { 0, 1 } rgb 1, rgb 0.5, }").entries.at(1).value.rgb == Vec3(0.5));
+  CHECK(pigment_map("checker pigment { rgb 1 }, pigment { rgb 0.5 }, scale 2").entries.at(1).value.rgb ==
+        Vec3(0.5));
+  CHECK(normal("checker normal { bumps 1 }, normal { dents 2 }, scale 2").map->entries.at(1).value.amount ==
+        2);
+  const Material textures =
+      material("texture { checker texture { pigment { rgb 1 } }, texture { pigment { rgb 0.5 } }, scale 2 }");
+  CHECK(textures.map->entries.at(1).value.pigment.rgb == Vec3(0.5));
+  // Nowhere else.
+  CHECK_FALSE(error_line("sphere { 0, 1 pigment { checker, rgb 1 rgb 0 } }").empty());
+  CHECK_FALSE(error_line("sphere { 0, 1 pigment { checker rgb 1,, rgb 0 } }").empty());
+  CHECK_FALSE(error_line("sphere { 0, 1 pigment { checker rgb 1, rgb 0,, } }").empty());
+}
+
 TEST_CASE("maps of pigments and averages") {
   const auto map = pigment_map("gradient x pigment_map { [0 bozo scale 2] [0.5 rgb 1] [1 P rotate x] }",
                                "#declare P = pigment { marble } ");

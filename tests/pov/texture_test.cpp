@@ -135,6 +135,13 @@ TEST_CASE("reflection, old and new form") {
   CHECK(f.reflection_min == Vec3(0, 0, 0));
   CHECK(f.reflection_max == Vec3(.9, .9, .9));
   CHECK(f.reflection_fresnel);
+  // A comma behind the first colour need not have a second one behind it.
+  f = finish("reflection { 0.4, metallic }");
+  CHECK(f.reflection_min == Vec3(.4, .4, .4));
+  CHECK(f.reflection_metallic == 1);
+  CHECK(finish("reflection { 0.4, fresnel on }").reflection_min == Vec3(0));
+  CHECK(finish("reflection { 0.4, }").reflection_max == Vec3(0.4));
+  CHECK_FALSE(error_line("sphere { 0, 1 finish { reflection { 0.4, 0.5, } } }").empty());
 }
 
 TEST_CASE("a reflection keeps what it does not say") {
