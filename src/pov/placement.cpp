@@ -204,10 +204,11 @@ std::optional<Object> SceneBuilder::make(const ObjectDefinition& object, const I
                           : material_index(own.texture, own.texture_transform, where);
       if (own.inner_texture) {
         Material material = scene_.materials[made.material];
-        material.inside =
-            shared_material(own.uv_mapping ? mapped_texture(own.inner_texture, own.inner_transform)
-                                           : transformed(own.inner_texture, own.inner_transform),
-                            where);
+        material.inside = shared_material(
+            own.uv_mapping                     ? mapped_texture(own.inner_texture, own.inner_transform)
+            : own.inner_texture->is_constant() ? own.inner_texture
+                                               : transformed(own.inner_texture, own.inner_transform),
+            where);
         made.material = scene_.add(material);
       }
     }
@@ -473,15 +474,18 @@ bool SceneBuilder::PlacedTexture::operator<(const PlacedTexture& other) const {
 
 /// A texture on surface coordinates, after it has been moved.
 TexturePtr SceneBuilder::mapped_texture(const TexturePtr& texture, const Transform& transform) {
-  const auto [known, is_new] = mapped_textures_.try_emplace(PlacedTexture{texture, transform});
-  if (is_new) known->second = on_surface(transformed(texture, transform));
+  const bool is_constant = texture->is_constant();
+  const PlacedTexture placed =
+      is_constant ? PlacedTexture{original(texture), Transform()} : PlacedTexture{texture, transform};
+  const auto [known, is_new] = mapped_textures_.try_emplace(placed);
+  if (is_new) known->second = on_surface(transformed(placed.texture, placed.transform));
   return known->second;
 }
 
 Index SceneBuilder::material_index(const TexturePtr& texture, const Transform& transform,
                                    const Location& where) {
   if (texture->is_constant()) {
-    const auto [known, is_new] = material_indices_.try_emplace(texture);
+    const auto [known, is_new] = material_indices_.try_emplace(original(texture));
     if (is_new) known->second = scene_.add(make_material(*texture, where));
     return known->second;
   }
@@ -517,9 +521,9 @@ Material SceneBuilder::make_material(const TextureDefinition& texture, const Loc
 
 std::shared_ptr<const Material> SceneBuilder::shared_material(const TexturePtr& texture,
                                                               const Location& where) {
-  if (const auto known = shared_materials_.find(texture); known != shared_materials_.end())
-    return known->second;
-  return shared_materials_[texture] = std::make_shared<const Material>(make_material(*texture, where));
+  const TexturePtr& key = original(texture);
+  if (const auto known = shared_materials_.find(key); known != shared_materials_.end()) return known->second;
+  return shared_materials_[key] = std::make_shared<const Material>(make_material(*texture, where));
 }
 
 /// Every place of a texture with maps has its own copy of them, and its own transformations.

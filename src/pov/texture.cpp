@@ -208,7 +208,9 @@ TexturePtr with_finished_uv_mapping(const TexturePtr& texture) {
 }
 
 TexturePtr transformed(const TexturePtr& texture, const Transform& next) {
-  if (texture->is_constant() || next.is_identity()) return texture;
+  const bool is_constant = texture->is_constant();
+  // What nothing can change any more.
+  if (next.is_identity() || (is_constant && !texture->is_plain())) return texture;
   auto changed = copy(texture);
   const auto move = [&](PatternDefinition& pattern) {
     if (texture->is_on_surface)
@@ -217,14 +219,21 @@ TexturePtr transformed(const TexturePtr& texture, const Transform& next) {
       append(pattern.own().space, next);
   };
   if (changed->pattern.exists()) move(changed->pattern);
-  if (changed->pigment.pattern.exists()) move(changed->pigment.pattern);
+  if (changed->is_plain() || changed->pigment.pattern.exists()) move(changed->pigment.pattern);
   if (changed->normal) {
     auto normal = std::make_shared<NormalDefinition>(*changed->normal);
     move(normal->pattern);
     changed->normal = std::move(normal);
   }
-  if (changed->below) changed->below = transformed(changed->below, next);
+  if (is_constant)
+    changed->original.texture = original(texture);
+  else if (changed->below)
+    changed->below = transformed(changed->below, next);
   return changed;
+}
+
+const TexturePtr& original(const TexturePtr& texture) {
+  return texture->original.texture ? texture->original.texture : texture;
 }
 
 TexturePtr layered(const TexturePtr& below, const TexturePtr& top) {

@@ -87,6 +87,18 @@ struct FinishDefinition {
 };
 using FinishPtr = std::shared_ptr<const FinishDefinition>;
 
+/// Another texture that a texture looks like. A copy, which is made to be changed, has none.
+struct Original {
+  TexturePtr texture;
+
+  Original() = default;
+  Original(const Original&) {}
+  Original& operator=(const Original&) {
+    texture = nullptr;
+    return *this;
+  }
+};
+
 struct TextureDefinition {
   PigmentDefinition pigment;
   NormalPtr normal; ///< null: smooth; a smooth one is what later normals start from
@@ -97,6 +109,7 @@ struct TextureDefinition {
   TextureMapPtr map;
   bool uv_mapping = false;    ///< as a pigment's
   bool is_on_surface = false; ///< all of it is on surface coordinates, and only its normals turn any more
+  Original original;          ///< of one that is the same everywhere and has only been moved
   UnsupportedPtr unsupported;
   [[no_unique_address]] Counted<TextureDefinition> counted;
 
@@ -123,11 +136,15 @@ void finish_uv_mapping(NormalDefinition& normal);
 TexturePtr with_finished_uv_mapping(const TexturePtr& texture);
 /// The texture with all its layers on surface coordinates.
 TexturePtr on_surface(const TexturePtr& texture);
-/// The texture with all its layers moved: itself if it is the same everywhere.
+/// The texture with all its layers moved. A pigment or normal without a pattern is moved, too: as in POV-Ray,
+/// a pattern that it gets later finds it moved.
 TexturePtr transformed(const TexturePtr& texture, const Transform& next);
 /// `top` on `below` (null: nothing), neither of them with a pattern of textures: the top alone if it is
 /// opaque.
 TexturePtr layered(const TexturePtr& below, const TexturePtr& top);
+/// The texture that has the same material: another one where that has only been moved, and is the same
+/// everywhere.
+const TexturePtr& original(const TexturePtr& texture);
 
 /// The texture with what its layers filter transmitted instead: of all but the lowest one, or of that, too.
 TexturePtr with_filter_as_transmit(const TexturePtr& texture, bool also_lowest);

@@ -189,6 +189,51 @@ TEST_CASE("a pigment or finish changes what the object already has") {
   CHECK(scene.materials.at(0).finish.ambient.x == 1);
 }
 
+TEST_CASE("a pigment that a plain one has been moved for is moved") {
+  const auto space = [](const std::string& scene) {
+    const Scene parsed = parse(scene);
+    return parsed.materials.at(parsed.objects.at(0).material).pigment.map->pattern.space;
+  };
+  const std::string declared = "#declare T = texture { pigment { rgb 1 } scale 2 } "
+                               "#declare S = sphere { 0, 1 pigment { rgb 1 } scale 2 } "
+                               "#declare U = union { sphere { 0, 1 } pigment { rgb 1 } scale 2 } "
+                               "#declare M = material { texture { pigment { rgb 1 } } scale 2 } ";
+  for (const std::string object :
+       {"sphere { 0, 1 pigment { rgb 1 } scale 2 pigment { checker } scale 3 }",
+        "sphere { 0, 1 scale 7 pigment { rgb 1 } scale 2 pigment { rgb 0 } pigment { checker } scale 3 }",
+        "sphere { 0, 1 texture { pigment { rgb 1 } scale 2 pigment { checker } } scale 3 }",
+        "sphere { 0, 1 texture { T } pigment { checker } scale 3 }",
+        "sphere { 0, 1 texture { T pigment { checker } scale 3 } }",
+        "object { S pigment { checker } scale 3 }", "object { U pigment { checker } scale 3 }",
+        "sphere { 0, 1 material { M } pigment { checker } scale 3 }"}) {
+    INFO(object);
+    const auto steps = space(declared + object);
+    REQUIRE(steps.size() == 1);
+    CHECK(std::get<Transform>(steps[0]).point({1, 1, 1}) == Vec3(6));
+  }
+  CHECK(
+      space("#default { texture { pigment { rgb 1 } scale 2 } } sphere { 0, 1 scale 3 pigment { checker } }")
+          .size() == 1);
+  // Without a pigment of its own it has not been moved, and surface coordinates do not move.
+  CHECK(space("sphere { 0, 1 scale 2 pigment { checker } }").empty());
+  CHECK(space("sphere { 0, 1 uv_mapping pigment { rgb 1 } scale 2 pigment { checker } }").empty());
+}
+
+TEST_CASE("a plain texture that is moved stays one material") {
+  const std::string declared = "#declare P = texture { pigment { rgb 1 } finish { phong 1 } } ";
+  CHECK(parse(declared +
+              "sphere { 0, 1 texture { P } scale 2 } sphere { 0, 1 texture { P } translate x } "
+              "sphere { 0, 1 texture { P scale 3 } } sphere { 0, 1 texture { P scale 3 rotate x } } "
+              "union { sphere { 0, 1 uv_mapping texture { P scale 5 } } scale 4 } "
+              "union { sphere { 0, 1 texture { P scale 6 } } scale 4 }")
+            .materials.size() == 2);
+  // Changed after it has been moved, it is another one.
+  const Scene changed = parse(declared + "sphere { 0, 1 texture { P scale 2 } } "
+                                         "sphere { 0, 1 texture { P scale 2 finish { phong 0.5 } } }");
+  REQUIRE(changed.materials.size() == 2);
+  CHECK(changed.materials[1].finish.phong == 0.5);
+}
+
 TEST_CASE("ior in a finish changes the interior, as in POV-Ray 3.1") {
   CHECK(ior("interior { ior 1.1 } finish { ior 1.5 }") == 1.5);
   const Scene scene =
