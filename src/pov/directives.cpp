@@ -165,8 +165,22 @@ void TokenStream::declare(bool is_local) {
   }
 }
 
+/// Also of an array's element, which then has no value.
 void TokenStream::undefine() {
-  session_.symbols.undefine(expect_name("to forget").name);
+  const Token name = expect_name("to forget");
+  const std::shared_ptr<Slot> slot = session_.symbols.find(name.name);
+  if (slot && std::holds_alternative<std::shared_ptr<Array>>(slot->value)) {
+    const std::vector<std::size_t> subscripts = read_subscripts();
+    if (!subscripts.empty()) {
+      Value& forgotten = element(slot->value, subscripts, name.where);
+      if (std::holds_alternative<std::monostate>(forgotten))
+        session_.fail(name.where,
+                      "this element of '" + session_.names.text(name.name) + "' has no value to forget");
+      forgotten = Value();
+      return;
+    }
+  }
+  session_.symbols.undefine(name.name);
 }
 
 /// Reads ( name ) with subscripts, for #ifdef and defined().

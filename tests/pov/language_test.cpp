@@ -130,6 +130,16 @@ TEST_CASE("arrays") {
       output(
           "#macro Set(A) #declare A[0] = 7; #end #declare A = array[1] {1} Set(A) #debug str(A[0], 0, 0)") ==
       "7");
+  CHECK(output("#declare A = array[2] {1, 2} #undef A[0] #ifdef (A[0]) #debug \"y\" #else #debug \"n\" #end "
+               "#declare A[0] = 3; #debug str(A[0] + A[1], 0, 0) #undef A #ifdef (A) #debug \"y\" #end") ==
+        "n5");
+  CHECK(output("#declare A = array[1][2] {{1, 2}} #undef A[0][1] #ifdef (A[0][1]) #debug \"y\" #end "
+               "#debug str(A[0][0], 0, 0)") == "1");
+  CHECK(error_line("#declare A = array[1] {1} #undef A[1]") ==
+        "scene.pov:1:34: error: subscript 1 is out of range, the array has 1 elements");
+  CHECK(error_line("#declare A = array[1]; #undef A[0]") ==
+        "scene.pov:1:31: error: this element of 'A' has no value to forget");
+  CHECK_FALSE(error_line("#declare A = 1; #undef A[0]").empty());
   CHECK(error_line("#declare A = array[2]; #declare B = A[2];") ==
         "scene.pov:1:37: error: subscript 2 is out of range, the array has 2 elements");
   CHECK(error_line("#declare A = array[2]; #declare B = A[0];") ==
