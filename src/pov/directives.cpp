@@ -1,6 +1,7 @@
 // TokenStream: the directives that define, include and say something.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "celltrace/error.hpp"
 #include "pov/actions.hpp"
@@ -195,10 +196,20 @@ bool TokenStream::is_defined() {
   return slot && !std::holds_alternative<std::monostate>(element(slot->value, subscripts, name.where));
 }
 
+/// `unofficial` may stand in front of the number: patched versions of POV-Ray had it.
 void TokenStream::set_version() {
+  const Token first = read();
+  if (first.kind != Token::Kind::word || session_.names.text(first.name) != "unofficial")
+    session_.input.unread(first);
   const Location where = last_place();
   const double version = session_.number(std::get<Quantity>(evaluate(Start::expression)), where);
   skip_semicolon();
+  constexpr double kNewest = 3.7;
+  if (std::floor(version * 100 + 0.5) > kNewest * 100) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", version);
+    session_.fail(where, std::string("this scene needs version ") + text + " of POV-Ray's language, not 3.7");
+  }
   session_.builder.set_version(version);
 }
 

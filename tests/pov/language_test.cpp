@@ -170,6 +170,20 @@ TEST_CASE("#version decides gamma unless the scene does") {
   CHECK(scene.version == 3.1);
 }
 
+TEST_CASE("which versions there are") {
+  using celltrace::test::parse;
+  CHECK(parse("#version unofficial 3.6; camera { }").version == 3.6);
+  CHECK(parse("#version unofficial 3.7; camera { }").version == 3.7);
+  CHECK(parse("#version 3.704; camera { }").version == 3.704);
+  CHECK(error_line("#version official 3.7; camera { }") ==
+        "scene.pov:1:10: error: 'official' is not declared");
+  CHECK_FALSE(error_line("#version unofficial patch 3.7; camera { }").empty());
+  CHECK(error_line("#version 3.8; camera { }") ==
+        "scene.pov:1:1: error: this scene needs version 3.8 of POV-Ray's language, not 3.7");
+  CHECK_FALSE(error_line("#version unofficial 3.8; camera { }").empty());
+  CHECK_FALSE(error_line("#version 3.705; camera { }").empty());
+}
+
 TEST_CASE("#default changes what textures start from") {
   const auto scene =
       celltrace::test::parse("#default { pigment { rgb 0.5 } finish { ambient 1 } } sphere { 0, 1 }"
