@@ -96,6 +96,10 @@ void Scanner::unterminated_comment() {
   fail(comment_start_, "this comment is never closed");
 }
 
+void Scanner::second_point() {
+  fail(where_, "this number has more than one decimal point");
+}
+
 void Scanner::unterminated_string() {
   fail(where_, "this string is never closed");
 }

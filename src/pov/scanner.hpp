@@ -47,6 +47,7 @@ public:
   bool close_comment() { return --comment_depth_ == 0; }
   [[noreturn]] void unterminated_comment();
   [[noreturn]] void unterminated_string();
+  [[noreturn]] void second_point();
   Token punctuation(unsigned symbol) const;
   Token bad_character(unsigned char character) const;
   Token number(std::string_view lexeme) const;

@@ -17,6 +17,18 @@ TEST_CASE("numbers are written in all of C's decimal ways") {
   CHECK(error_line("sphere { 0, 1e99999 }") == "scene.pov:1:13: error: this number is not finite");
 }
 
+TEST_CASE("a number has one decimal point") {
+  for (const char* number : {"0.0.95", "<0.0.95, 1, 1>", "1.5.", "1..5", "1e3.5", ".5.5", "1.5.x", "1e5.x"}) {
+    INFO(number);
+    CHECK(error_line("#declare A = " + std::string(number) + ";").find("more than one decimal point") !=
+          std::string::npos);
+  }
+  CHECK(error_line("sphere { 0, 0.0.95 }") ==
+        "scene.pov:1:13: error: this number has more than one decimal point");
+  CHECK(value("<1, 2.>.y") == "2.000");
+  CHECK(value("(1.5).x") == "1.500");
+}
+
 TEST_CASE("operators bind as in POV-Ray") {
   CHECK(value("1 + 2 * 3") == "7.000");
   CHECK(value("-2 * -3") == "6.000");
