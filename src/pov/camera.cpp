@@ -62,7 +62,6 @@ bool looks_along_sky(const Vec3& location, const Vec3& look_at, const Vec3& sky)
 void turn(Camera& camera, const Vec3& look_at, const Vec3& sky) {
   const Vec3 line_of_sight = look_at - camera.location;
   const double distance = glm::length(line_of_sight);
-  if (distance < kTiny) return;
   const double sign = glm::dot(glm::cross(camera.up, camera.direction), camera.right) > 0 ? 1 : -1;
   const double depth = glm::length(camera.direction);
   const double height = glm::length(camera.up);
@@ -197,8 +196,12 @@ void transform(CameraDefinition& camera, const Transform& next) {
   set_view(camera, view);
 }
 
-void check(Session& session, const CameraDefinition& camera) {
-  if (!camera.acts_at_once) warn_of_sky(session, camera);
+void check(Session& session, const CameraDefinition& camera, const Location& where) {
+  constexpr double kLeast = 1e-5; // where POV-Ray has its bound
+  if (camera.acts_at_once || !camera.look_at) return;
+  if (glm::distance(*camera.look_at, camera.location) < kLeast)
+    session.fail(where, "the camera's 'location' and 'look_at' are the same point");
+  warn_of_sky(session, camera);
 }
 
 std::shared_ptr<CameraDefinition> start_camera(Session& session, const CameraDefinition& from,

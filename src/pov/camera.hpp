@@ -55,7 +55,8 @@ void set_angles(Session& session, CameraDefinition& camera, double angle, double
 void set_angle(Session& session, CameraDefinition& camera, double angle, const Location& where);
 void set_look_at(Session& session, CameraDefinition& camera, const Vec3& point, const Location& where);
 void transform(CameraDefinition& camera, const Transform& next);
-/// Warns of what makes a complete camera stand otherwise than meant.
-void check(Session& session, const CameraDefinition& camera);
+/// Of a complete camera, at `where`: warns of what makes it stand otherwise than meant, and fails if it looks
+/// at its own location.
+void check(Session& session, const CameraDefinition& camera, const Location& where);
 
 } // namespace celltrace::pov

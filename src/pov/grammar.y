@@ -933,7 +933,7 @@ material_body
 // ---- Camera ----
 
 camera
-  : CAMERA '{' camera_body '}' { $$ = $3; $$->where = @1; check(session, *$$); }
+  : CAMERA '{' camera_body '}' { check(session, *$3, @1); $$ = $3; $$->where = @1; }
   ;
 
 camera_body

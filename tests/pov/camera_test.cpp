@@ -91,6 +91,12 @@ TEST_CASE("the last camera is the scene's") {
 TEST_CASE("cameras that cannot be") {
   CHECK(error_line("camera { angle 180 }") ==
         "scene.pov:1:1: error: a camera's angle must lie between 0 and 180 degrees");
+  CHECK(error_line("camera { location x look_at x }") ==
+        "scene.pov:1:1: error: the camera's 'location' and 'look_at' are the same point");
+  CHECK_FALSE(error_line("camera { look_at 9e-6 * z translate x }").empty());
+  CHECK_FALSE(error_line("#declare C = camera { location x look_at x }").empty());
+  CHECK(error_line("camera { look_at 1.1e-5 * z }").empty());
+  CHECK(error_line("camera { location x look_at x location y }").empty());
   CHECK(error_line("camera { direction 0 }") == "scene.pov:1:1: error: the camera has no direction");
   CHECK(error_line("camera { aperture 0.4 blur_samples 10 }") ==
         "scene.pov:1:10: error: 'aperture' is not supported yet");
