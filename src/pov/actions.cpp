@@ -70,6 +70,13 @@ Transform scale(Session& session, const Quantity& factors, const Location& where
   return Transform::scale(v);
 }
 
+Quantity divided(Session& session, const Quantity& a, const Quantity& b, const Location& where) {
+  const Quantity divisor = b.promoted(a.count);
+  const auto* end = divisor.v.data() + divisor.count;
+  if (std::find(divisor.v.data(), end, 0.0) != end) session.diagnostics.warn_once(where, "division by zero");
+  return a / b;
+}
+
 Transform matrix(Session& session, const std::vector<ListEntry>& numbers, const Location& where) {
   if (numbers.size() != 12)
     session.fail(where, "a matrix has 12 numbers, not " + std::to_string(numbers.size()));

@@ -32,6 +32,9 @@ Transform scale(Session& session, const Quantity& factors, const Location& where
 Transform matrix(Session& session, const std::vector<ListEntry>& numbers, const Location& where);
 Transform inverse(Session& session, const Transform& transform, const Location& where);
 
+/// Warns of a division by zero, which gives an infinity.
+Quantity divided(Session& session, const Quantity& a, const Quantity& b, const Location& where);
+
 /// From sRGB to what the scene's colours mean, as its assumed_gamma, which must be known by now, says.
 Quantity decoded(Session& session, const Quantity& colour, const Location& where);
 

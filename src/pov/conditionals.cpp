@@ -37,7 +37,7 @@ Token TokenStream::skip_branch(unsigned depth) {
 
 double TokenStream::condition_value() {
   const Location where = last_place();
-  return session_.number(std::get<Quantity>(evaluate(Start::condition)), where);
+  return session_.any_number(std::get<Quantity>(evaluate(Start::condition)), where);
 }
 
 bool TokenStream::condition() {

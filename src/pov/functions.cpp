@@ -59,9 +59,12 @@ template <class Better> Quantity best(const Call& call, Better better) {
   return result;
 }
 
-Quantity divide_whole(const Call& call) {
-  call.require(call.number(1) != 0, "division by zero");
-  return std::trunc(call.number(0) / call.number(1));
+/// POV-Ray's int() and div() make an int of a number, as a PC does it: those that are out of range, and
+/// infinities, are all the least one.
+double whole(double number) {
+  constexpr double kBound = 2147483648.0;
+  const double result = std::trunc(number);
+  return result >= -kBound && result < kBound ? result : -kBound;
 }
 
 Quantity seed(const Call& call) {
@@ -236,11 +239,11 @@ const Function kFunctions[] = {
     {"cos", "n", CELLTRACE_NUMERIC(std::cos(c.number(0)))},
     {"cosh", "n", CELLTRACE_NUMERIC(std::cosh(c.number(0)))},
     {"degrees", "n", CELLTRACE_NUMERIC(c.number(0) * kDegreesPerRadian)},
-    {"div", "nn", CELLTRACE_NUMERIC(divide_whole(c))},
+    {"div", "nn", CELLTRACE_NUMERIC(whole(c.number(0) / c.number(1)))},
     {"exp", "n", CELLTRACE_NUMERIC(std::exp(c.number(0)))},
     {"file_exists", "s", CELLTRACE_NUMERIC(file_exists(c) ? 1 : 0)},
     {"floor", "n", CELLTRACE_NUMERIC(std::floor(c.number(0)))},
-    {"int", "n", CELLTRACE_NUMERIC(std::trunc(c.number(0)))},
+    {"int", "n", CELLTRACE_NUMERIC(whole(c.number(0)))},
     {"ln", "n", CELLTRACE_NUMERIC(logarithm(c, std::log))},
     {"log", "n", CELLTRACE_NUMERIC(logarithm(c, std::log10))},
     {"max", "n+", CELLTRACE_NUMERIC(best(c, std::greater<>()))},

@@ -20,7 +20,7 @@
 // longer value is meant. A number at the front of an entry of a pigment_map is its weight. A name that CSG begins
 // with is all it consists of, not its first part. A texture that is a name alone, or begins with one, needs no
 // rule for what comes before.
-%expect 113
+%expect 115
 
 %code requires {
 #include "pov/actions.hpp"
@@ -160,7 +160,7 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %nterm <std::shared_ptr<TriangleDefinition>> triangle triangle_vertices mapped_triangle
 %nterm <bool> albedo photons photon_items
 %nterm <NameId> variable
-%nterm <double> number optional_number second_number flag entry_start
+%nterm <double> number component optional_number second_number flag entry_start
 %nterm <std::shared_ptr<Spline>> spline_head spline
 %nterm <double Light::*> beam_number
 %nterm <UnsupportedPtr> unsupported unsupported_pattern unsupported_modifier
@@ -190,7 +190,7 @@ scene
   : %empty
   | scene object                    { session.builder.place($2, @2); }
   | scene camera                    { session.builder.set_camera($2); }
-  | scene BACKGROUND '{' colour_value '}' { session.builder.set_background(session.colour($4, @4)); }
+  | scene BACKGROUND '{' colour_value '}' { session.builder.set_background(session.light($4, @4)); }
   | scene sky_sphere                { session.builder.set_sky_sphere(*$2, @2); }
   | scene fog                       { session.builder.add_fog(*$2, @2); }
   | scene rainbow                   { session.builder.add_rainbow(*$2, @2); }
@@ -209,7 +209,7 @@ settings
   | settings ASSUMED_GAMMA SRGB     { session.builder.set_assumed_gamma(std::nullopt); }
   | settings MAX_TRACE_LEVEL number { set_max_trace_level(session, $3, @3); }
   | settings ADC_BAILOUT number     { session.builder.set_adc_bailout($3); }
-  | settings AMBIENT_LIGHT colour_value { session.builder.set_ambient_light(session.colour($3, @3).rgb); }
+  | settings AMBIENT_LIGHT colour_value { session.builder.set_ambient_light(session.light($3, @3).rgb); }
   | settings NOISE_GENERATOR number { set_noise_generator(session, $3, @3); }
   | settings IRID_WAVELENGTH colour_value { session.builder.set_irid_wavelength(session.colour($3, @3).rgb); }
   | settings NUMBER_OF_WAVES number { set_number_of_waves(session, $3, @3); }
@@ -260,7 +260,7 @@ quantity
   : operand
   | signs operand         { $$ = $1.apply($2); }
   | quantity '*' quantity { $$ = $1 * $3; }
-  | quantity '/' quantity { $$ = $1 / $3; }
+  | quantity '/' quantity { $$ = divided(session, $1, $3, @2); }
   | quantity '+' quantity { $$ = $1 + $3; }
   | quantity '-' quantity { $$ = $1 - $3; }
   ;
@@ -308,9 +308,13 @@ vector
   ;
 
 vector_items
-  : number                         { $$ = $1; }
-  | vector_items ',' number        { $$ = $1; append_component(session, $$, $3, @3); }
-  | vector_items number            { $$ = $1; append_component(session, $$, $2, @2); }
+  : component                      { $$ = $1; }
+  | vector_items ',' component     { $$ = $1; append_component(session, $$, $3, @3); }
+  | vector_items component         { $$ = $1; append_component(session, $$, $2, @2); }
+  ;
+
+component // which may be infinite: what uses the vector knows whether it takes that
+  : quantity                       { $$ = session.any_number($1, @1); }
   ;
 
 // Comparisons and the like exist inside parentheses only: elsewhere < and > enclose vectors.
@@ -441,7 +445,7 @@ pigment_base
 
 pigment_parts // what it is, and then what changes that
   : pigment_base
-  | pigment_base colour_value              { $$ = $1; set_colour(*$$, session.colour($2, @2)); }
+  | pigment_base colour_value              { $$ = $1; set_colour(*$$, session.surface($2)); }
   | pigment_base pattern                   { $$ = $1; $2(session, $$->pattern); }
   | pigment_base LIST_PATTERN colours      { $$ = $1; set_colours(session, *$$, $2, $3, @2); }
   | pigment_base LIST_PATTERN pigments     { $$ = $1; set_list(session, *$$, $2, $3, @2); }
@@ -623,7 +627,7 @@ colours // there may be a comma behind each entry of a list
   : %empty { }
   | colours colour_value optional_comma {
       $$ = std::move($1);
-      add(session, $$, 0, session.colour($2, @2), @2);
+      add(session, $$, 0, session.surface($2), @2);
     }
   ;
 
@@ -731,8 +735,8 @@ finish_parts
       $$ = std::make_shared<FinishDefinition>(session.base_texture->finish);
     }
   | finish_parts FINISH_ID                  { $$ = std::make_shared<FinishDefinition>(*$2); }
-  | finish_parts AMBIENT colour_value       { $$ = $1; $$->value.ambient = session.colour($3, @3).rgb; }
-  | finish_parts EMISSION colour_value      { $$ = $1; $$->value.emission = session.colour($3, @3).rgb; }
+  | finish_parts AMBIENT colour_value       { $$ = $1; $$->value.ambient = session.light($3, @3).rgb; }
+  | finish_parts EMISSION colour_value      { $$ = $1; $$->value.emission = session.light($3, @3).rgb; }
   | finish_parts DIFFUSE albedo number      { $$ = $1; set_diffuse(*$$, $3, $4, 0); }
   | finish_parts DIFFUSE albedo number optional_comma number { $$ = $1; set_diffuse(*$$, $3, $4, $6); }
   | finish_parts BRILLIANCE number          { $$ = $1; $$->value.brilliance = $3; }
@@ -1099,7 +1103,7 @@ limits // of where an object is; they can be moved together
 light_body // what comes later applies to what is there by then
   : LIGHT_SOURCE '{' OBJECT_ID                            { $$ = light(session, *$3, @3); }
   | LIGHT_SOURCE '{' quantity optional_comma colour_value {
-      $$ = light(session, session.vector($3, @3), session.colour($5, @5).rgb);
+      $$ = light(session, session.vector($3, @3), session.light($5, @5).rgb);
     }
   | light_body SPOTLIGHT                                  { $$ = $1; set_kind(*$$, Light::Kind::spotlight); }
   | light_body SHAPE                                      { $$ = $1; set_kind(session, *$$, $2, @2); }

@@ -46,7 +46,7 @@ Quantity make_colour(ColourModel model, const Quantity& value);
 enum class Channel { red, green, blue, filter, transmit };
 Quantity with_channel(const Quantity& colour, Channel channel, double value);
 
-/// Component-wise after promotion; a division by zero gives an infinity, which no object accepts.
+/// Component-wise after promotion; a division by zero gives an infinity, which few things accept.
 Quantity operator+(const Quantity& a, const Quantity& b);
 Quantity operator-(const Quantity& a, const Quantity& b);
 Quantity operator*(const Quantity& a, const Quantity& b);

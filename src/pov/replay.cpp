@@ -187,7 +187,7 @@ std::vector<double> TokenStream::read_numbers(const Location& where) {
   const Value list = evaluate(Start::list);
   std::vector<double> numbers;
   for (const Value& element : std::get<std::shared_ptr<Array>>(list)->elements)
-    numbers.push_back(session_.number(std::get<Quantity>(element), where));
+    numbers.push_back(session_.any_number(std::get<Quantity>(element), where));
   return numbers;
 }
 

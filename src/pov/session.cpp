@@ -10,12 +10,25 @@ void require_finite(const Session& session, const Quantity& quantity, const Loca
   if (!quantity.is_finite()) session.fail(where, "this number is not finite");
 }
 
+/// With `most` for infinities.
+Quantity clamped(const Quantity& quantity, double most) {
+  Quantity result = quantity;
+  for (double& component : result.v)
+    if (std::isinf(component)) component = std::copysign(most, component);
+  return result;
+}
+
 } // namespace
 
-double Session::number(const Quantity& quantity, const Location& where) const {
+double Session::any_number(const Quantity& quantity, const Location& where) const {
   if (!quantity.is_float()) fail(where, std::string("expected a float, found ") + kind_name(quantity));
-  require_finite(*this, quantity, where);
   return quantity.v[0];
+}
+
+double Session::number(const Quantity& quantity, const Location& where) const {
+  const double value = any_number(quantity, where);
+  require_finite(*this, quantity, where);
+  return value;
 }
 
 std::int64_t Session::whole(const Quantity& quantity, const Location& where) const {
@@ -32,6 +45,26 @@ Vec3 Session::vector(const Quantity& quantity, const Location& where) const {
 Pigment Session::colour(const Quantity& quantity, const Location& where) const {
   require_finite(*this, quantity, where);
   return quantity.pigment();
+}
+
+Vec3 Session::corner(const Quantity& quantity, const Location& where) const {
+  constexpr double kFarthest = 1e5; // of single precision a hundredth is left there
+  return vector(clamped(quantity, kFarthest), where);
+}
+
+Pigment Session::light(const Quantity& quantity, const Location& where) const {
+  constexpr double kBrightest = 1e20; // so that what a surface makes of it is a number, too
+  return colour(clamped(quantity, kBrightest), where);
+}
+
+Pigment Session::surface(const Quantity& quantity) const {
+  const Pigment pigment = quantity.pigment();
+  if (quantity.is_finite()) return pigment;
+  if (!std::isfinite(pigment.filter) || !std::isfinite(pigment.transmit)) return {};
+  Pigment finite = pigment;
+  for (int i = 0; i < 3; ++i)
+    if (!std::isfinite(finite.rgb[i])) finite.rgb[i] = 0;
+  return finite;
 }
 
 void Session::count_text(std::size_t bytes, const Location& where) {

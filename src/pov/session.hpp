@@ -53,6 +53,16 @@ struct Session {
   Vec3 vector(const Quantity& quantity, const Location& where) const;
   Pigment colour(const Quantity& quantity, const Location& where) const;
 
+  // And what it may be as well, as POV-Ray has it after a division by zero.
+  /// A float of a condition or a loop, finite or not.
+  double any_number(const Quantity& quantity, const Location& where) const;
+  /// A corner: as far away as boxes reach where it is infinite.
+  Vec3 corner(const Quantity& quantity, const Location& where) const;
+  /// A colour of light: as bright as can be where it is infinite.
+  Pigment light(const Quantity& quantity, const Location& where) const;
+  /// A colour of surfaces: none where it is not finite, and black if what it lets through is not.
+  Pigment surface(const Quantity& quantity) const;
+
   [[noreturn]] void exceed(const Location& where, std::uint64_t ParseLimits::*limit, const std::string& who,
                            const std::string& unit) const {
     diagnostics.exceed(where, limit, who, unit);

@@ -43,6 +43,7 @@ public:
   Arguments(Session& session, const WrittenShape& written) : session_(session), written_(written) {}
 
   Vec3 vector(std::size_t i) const { return session_.vector(at(i).value, at(i).where); }
+  Vec3 corner(std::size_t i) const { return session_.corner(at(i).value, at(i).where); }
   double number(std::size_t i) const { return session_.number(at(i).value, at(i).where); }
   double number_or(std::size_t i, double otherwise) const {
     return i < written_.arguments.size() ? number(i) : otherwise;
@@ -62,7 +63,7 @@ private:
 };
 
 Shape read_box(const Arguments& a) {
-  return Box{{a.vector(0), a.vector(1)}};
+  return Box{{a.corner(0), a.corner(1)}};
 }
 
 Shape read_cone(const Arguments& a) {

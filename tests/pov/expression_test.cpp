@@ -170,12 +170,47 @@ TEST_CASE("a scene knows which frame of which animation it is") {
           options) == "1  7  2 12 -1 3 0.4 0.5");
 }
 
+TEST_CASE("a division by zero is infinite") {
+  using celltrace::test::output;
+  using celltrace::test::parse;
+  const std::string warning = "scene.pov:1:15: warning: division by zero\n";
+  CHECK(output("#declare A = 1/0; #debug str(A, 0, 0)") == warning + "inf");
+  CHECK(output("#declare A =-1/0; #debug str(A, 0, 0)") == warning + "inf"); // as POV-Ray has it
+  CHECK(output("#declare A = <1, 2, 3>/<1, 0, 2>; #debug vstr(3, A, \" \", 0, 1)") ==
+        "scene.pov:1:23: warning: division by zero\n1.0 inf 1.5");
+  // Once for each place.
+  CHECK(output("#declare A = 1; #for (I, 1, 3) #declare B = A/0; #end #declare C = 1/0;") ==
+        "scene.pov:1:46: warning: division by zero\nscene.pov:1:69: warning: division by zero\n");
+  CHECK(
+      output("#if (1e400) #debug \"y\" #end #for (I, 1, 1e400) #debug \"n\" #if (I = 3) #break #end #end") ==
+      "ynnn");
+  CHECK(value("int(1e400)") == "-2147483648.000");
+  CHECK(value("int(3e9)") == "-2147483648.000");
+  CHECK(value("int(-2147483648.5)") == "-2147483648.000");
+  CHECK(value("int(2147483647.5)") == "2147483647.000");
+  CHECK(value("div(1, 0)") == "-2147483648.000");
+  CHECK(value("div(-7, 2)") == "-3.000");
+
+  const auto scene =
+      parse("box { <-1, -1, 0>, <1, 1e400, -1e400> pigment { rgb <1, 1e400, 0.5> } finish { ambient "
+            "1e400 } } sphere { 0, 1 pigment { rgbt <1, 1, 1, 1e400> } } "
+            "light_source { y, rgb 1e400 }");
+  const auto& box = std::get<celltrace::Box>(scene.objects.at(0).shape);
+  CHECK(box.corner[1] == celltrace::Vec3(1, 1e5, -1e5));
+  CHECK(scene.materials.at(0).pigment.rgb == celltrace::Vec3(1, 0, 0.5));
+  CHECK(scene.materials.at(0).finish.ambient.x >= 1e20);
+  CHECK(scene.materials.at(1).pigment.rgb == celltrace::Vec3(0));
+  CHECK(scene.materials.at(1).pigment.transmit == 0);
+  CHECK(scene.lights.at(0).colour.x >= 1e20);
+  CHECK(error_line("box { 0, 1e400 - 1e400 }") == "scene.pov:1:10: error: this number is not finite");
+  CHECK(error_line("sphere { 0, 1 scale 1e400 }") == "scene.pov:1:21: error: this number is not finite");
+}
+
 TEST_CASE("impossible calculations are errors") {
   CHECK(error_line("#declare A = sqrt(-1);") ==
         "scene.pov:1:14: error: the square root of a negative number");
   CHECK(error_line("#declare A = ln(0);") ==
         "scene.pov:1:14: error: the logarithm of a number that is not positive");
-  CHECK(error_line("#declare A = div(1, 0);") == "scene.pov:1:14: error: division by zero");
   CHECK(error_line("sphere { 1/0, 1 }") == "scene.pov:1:10: error: this number is not finite");
   CHECK(error_line("global_settings { adc_bailout <1, 2> }") ==
         "scene.pov:1:31: error: expected a float, found a vector");
