@@ -845,7 +845,8 @@ sky_sphere_body
   | sky_sphere_body transformation  { $$ = $1; transform(session, *$$, $2, @2); }
   | sky_sphere_body EMISSION colour_value {
       $$ = $1;
-      mark($$->unsupported, make_unsupported("a sky_sphere's 'emission'", @2));
+      $$->emission = session.colour($3, @3).rgb;
+      $$->emission_where = @2;
     }
   | sky_sphere_body unsupported     { $$ = $1; mark($$->unsupported, $2); }
   ;

@@ -1,5 +1,6 @@
 #include "pov/scene_builder.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "celltrace/error.hpp"
@@ -12,6 +13,25 @@ namespace {
 constexpr double kVersionIfNoneGiven = 3.62;
 constexpr double kVersionOfGamma = 3.7; // and of transparent backgrounds
 constexpr double kVersionOfNoise = 3.5; // that is in range
+
+bool filters(const Pigment& pigment) {
+  if (!pigment.map) return pigment.filter != 0;
+  const auto& entries = pigment.map->entries;
+  return std::any_of(entries.begin(), entries.end(), [](const auto& entry) { return filters(entry.value); });
+}
+
+/// With all its colours, which is what it sends out if it has no filter.
+Pigment multiplied(const Pigment& pigment, const Vec3& factor) {
+  Pigment result = pigment;
+  result.rgb *= factor;
+  if (pigment.map) {
+    auto map = std::make_shared<PatternMap<Pigment>>(*pigment.map);
+    for (auto& entry : map->entries)
+      entry.value = multiplied(entry.value, factor);
+    result.map = std::move(map);
+  }
+  return result;
+}
 
 } // namespace
 
@@ -41,7 +61,15 @@ void SceneBuilder::set_sky_sphere(const SkySphereDefinition& sky, const Location
   scene_.sky_sphere.clear();
   for (const PigmentDefinition& pigment : sky.pigments) {
     diagnostics_.supports(pigment.first_unsupported(), where);
-    scene_.sky_sphere.push_back(pigment.finish());
+    Pigment layer = pigment.finish();
+    if (sky.emission != Vec3(1)) {
+      if (filters(layer)) {
+        const std::string what = "'emission' of a sky_sphere whose pigments have a filter";
+        diagnostics_.supports(std::make_shared<Unsupported>(Unsupported{what, sky.emission_where}), where);
+      }
+      layer = multiplied(layer, sky.emission);
+    }
+    scene_.sky_sphere.push_back(std::move(layer));
   }
 }
 

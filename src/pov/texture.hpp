@@ -151,6 +151,8 @@ TexturePtr with_filter_as_transmit(const TexturePtr& texture, bool also_lowest);
 
 struct SkySphereDefinition {
   std::vector<PigmentDefinition> pigments; ///< the last one is on top
+  Vec3 emission{1, 1, 1};                  ///< what their colours count, but not as filters
+  Location emission_where;
   UnsupportedPtr unsupported;
 };
 using SkySpherePtr = std::shared_ptr<const SkySphereDefinition>;

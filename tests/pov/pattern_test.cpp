@@ -775,8 +775,34 @@ TEST_CASE("sky spheres") {
   CHECK(error_line("sky_sphere { }") == "scene.pov:1:1: error: a sky_sphere needs a pigment");
   CHECK(error_line("sky_sphere { pigment { tiling 9 } }") ==
         "scene.pov:1:24: error: 'tiling' is not supported yet");
-  CHECK(error_line("sky_sphere { pigment { rgb 1 } emission 2 }") ==
-        "scene.pov:1:32: error: a sky_sphere's 'emission' is not supported yet");
+}
+
+TEST_CASE("a sky sphere's emission multiplies its colours") {
+  const auto sky = [](const std::string& items) { return parse("sky_sphere { " + items + " }").sky_sphere; };
+  const auto layers = sky("pigment { rgb <0.25, 0.5, 1> } emission rgb <2, 1, 0.5> "
+                          "pigment { gradient x color_map { [0 rgbt <1, 1, 1, 0.5>] [1 rgb 0.5] } }");
+  REQUIRE(layers.size() == 2);
+  CHECK(layers[0].rgb == Vec3(0.5));
+  CHECK(layers[1].map->entries[0].value.rgb == Vec3(2, 1, 0.5));
+  CHECK(layers[1].map->entries[0].value.transmit == 0.5);
+  CHECK(layers[1].map->entries[1].value.rgb == Vec3(1, 0.5, 0.25));
+  CHECK(sky("pigment { gradient x pigment_map { [0 checker rgb 1 rgb 0.5] [1 rgb 1] } } emission 0.5")[0]
+            .map->entries[0]
+            .value.map->entries[1]
+            .value.rgb == Vec3(0.25));
+  // The last one counts.
+  CHECK(
+      parse("#declare S = sky_sphere { pigment { rgb 1 } emission 2 } sky_sphere { S }").sky_sphere[0].rgb ==
+      Vec3(2));
+  CHECK(
+      parse(
+          "#declare S = sky_sphere { pigment { rgb 1 } emission 2 } sky_sphere { S emission 3 emission 0.5 }")
+          .sky_sphere[0]
+          .rgb == Vec3(0.5));
+  CHECK(
+      error_line("sky_sphere { pigment { rgbf 0.5 } emission 2 }") ==
+      "scene.pov:1:35: error: 'emission' of a sky_sphere whose pigments have a filter is not supported yet");
+  CHECK(error_line("sky_sphere { pigment { rgbf 0.5 } emission 1 }").empty());
 }
 
 TEST_CASE("what patterns lack is an error where it is used") {
