@@ -753,7 +753,7 @@ finish_parts
       $$->value.reflection_exponent = exponent(session, $3, @3);
     }
   | finish_parts IOR number                 { $$ = $1; $$->ior = ior(session, $3, @3); }
-  | finish_parts REFRACTION number          { $$ = $1; }
+  | finish_parts REFRACTION number          { $$ = $1; $$->refraction = $3; }
   | finish_parts CRAND number               { $$ = $1; $$->value.crand = $3; }
   | finish_parts CAUSTICS number            { $$ = $1; $$->caustics = $3; }
   | finish_parts FADE_DISTANCE number       { $$ = $1; $$->fade_distance = $3; }

@@ -464,6 +464,11 @@ Index SceneBuilder::interior_index(const ObjectDefinition& object, Index inherit
     made.fade_distance = finish.fade_distance.value_or(made.fade_distance);
     made.fade_power = finish.fade_power.value_or(made.fade_power);
   }
+  // Unlike those, it is always said, but a pattern of textures has no finish.
+  if (!texture.map) {
+    if (index == kNoIndex && finish.refraction != 1) index = scene_.add(Interior{});
+    if (index != kNoIndex) scene_.interiors[index].refraction = finish.refraction;
+  }
   return index;
 }
 

@@ -80,6 +80,7 @@ struct FinishDefinition {
   Finish value;
   // POV-Ray 3.1 had these here: they become the interior's.
   std::optional<double> ior, caustics, fade_distance, fade_power;
+  double refraction = 1;
   bool diffuse_is_albedo = false, phong_is_albedo = false,
        specular_is_albedo = false; ///< until it is complete
   UnsupportedPtr unsupported;

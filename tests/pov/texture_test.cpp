@@ -245,6 +245,43 @@ TEST_CASE("ior in a finish changes the interior, as in POV-Ray 3.1") {
   CHECK(scene.interiors[scene.objects[1].interior].ior == 1.5);
 }
 
+TEST_CASE("refraction in a finish becomes the interior's") {
+  const auto refraction = [](const std::string& text, std::size_t object = 0) {
+    const Scene scene = parse(text);
+    return scene.interiors.at(scene.objects.at(object).interior).refraction;
+  };
+  const auto of = [&](const std::string& modifiers) {
+    return refraction("sphere { 0, 1 " + modifiers + " }");
+  };
+  const std::string half = "finish { refraction 0.5 } ", clear = "pigment { rgbf 1 } ";
+  CHECK(of("") == 1);
+  CHECK(of(half) == 0.5);
+  CHECK(of("finish { refraction 1.5 ior 1.2 }") == 1.5);
+  CHECK(of("finish { refraction off }") == 0);
+  CHECK(of("finish { refraction 0.5 refraction on }") == 1);
+  CHECK(of(half + "interior { ior 1.5 }") == 0.5);
+  CHECK(of("interior { ior 1.5 } " + half) == 0.5);
+  CHECK(of("material { texture { " + clear + half + "} interior { ior 1.5 } }") == 0.5);
+  // Of layers, the top one's.
+  CHECK(of("texture { " + clear + "} texture { " + clear + half + "}") == 0.5);
+  CHECK(of("texture { " + clear + half + "} texture { " + clear + "}") == 1);
+  CHECK(of("texture { gradient x texture_map { [0 " + clear + half + "] [1 " + clear + half + "] } }") == 1);
+  CHECK(of("texture { " + clear + "} interior_texture { " + clear + half + "}") == 1);
+  CHECK(refraction("#default { " + half + "} sphere { 0, 1 texture { " + clear + "} }") == 0.5);
+  CHECK(refraction("#default { " + half + "} sphere { 0, 1 texture { gradient x texture_map { [0 " + clear +
+                   "] [1 " + clear + "] } } }") == 1);
+  CHECK(refraction("#declare F = " + half + "#declare S = sphere { 0, 1 finish { F } } object { S " + clear +
+                   "}") == 0.5);
+  // Parts of a union have its texture, or say it anew; of those that share an interior, the last one counts.
+  CHECK(refraction("union { sphere { 0, 1 } " + half + "}") == 0.5);
+  CHECK(refraction("union { sphere { 0, 1 " + clear + "} " + half + "}") == 1);
+  CHECK(refraction("union { sphere { 0, 1 finish { refraction 0.8 } } " + half + "}") == 0.8);
+  CHECK(refraction("union { sphere { 0, 1 " + clear + "} sphere { 0, 1 " + half +
+                   "} interior { ior 1.5 } }") == 0.5);
+  CHECK(refraction("union { sphere { 0, 1 " + half + "} sphere { 0, 1 " + clear +
+                   "} interior { ior 1.5 } }") == 1);
+}
+
 TEST_CASE("an opaque layer hides those below") {
   CHECK(material("texture { pigment { rgb 1 } } texture { pigment { rgb 0.5 } }").pigment.rgb.x == 0.5);
 }
