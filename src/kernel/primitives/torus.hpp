@@ -38,8 +38,10 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
     f.direction = d;
     f.inner = one - parameters.ratio;
     f.outer = one + parameters.ratio;
+    f.is_thin = (parameters.ratio < F(kThin)).bits() != 0;
     f.p = two * g - four * (d.x * d.x + d.y * d.y);
     f.q = F(-8.0f) * (o.x * d.x + o.y * d.y);
+    f.r = g * g - four * (o.x * o.x + o.y * o.y);
     // A little farther, where the ray is outside for certain.
     const F end = S::sqrt(S::max(f.outer * f.outer - square, zero)) * F(1.001f) + F(1e-4f);
     F bounds[5] = {-end, zero, zero, zero, end};
@@ -55,7 +57,7 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
     F distance[4];
     typename S::M hit[4] = {S::M::none(), S::M::none(), S::M::none(), S::M::none()};
     auto asks = near_enough; // for further crossings
-    F value = one; // of the first bound: it is outside
+    F value = one;           // of the first bound: it is outside
     F half_width = zero;
     for (int i = 0; i < 4; ++i) {
       const F next = f.at(bounds[i + 1]);
@@ -123,6 +125,8 @@ private:
     return in_ball & comes_near & (slab.leave >= zero) & !(in_hole(slab.enter) & in_hole(slab.leave));
   }
 
+  /// Ratios below this are those of thin tori.
+  static constexpr float kThin = 0.1f;
   /// Newton's method ends where it moves less than this: the next step would be in the order of its square.
   static constexpr float kConverged = 1e-4f;
   /// Likewise Halley's, whose next step would be in the order of its cube.
@@ -132,11 +136,18 @@ private:
   template <class S> struct Quartic {
     using F = typename S::F;
     V3<S> origin, direction;
-    F inner, outer, p, q; ///< the first two are radii of the torus
+    F inner, outer, p, q, r; ///< the first two are radii of the torus
+    bool is_thin;
 
-    /// From the point: r would be the difference of numbers of which the square of a thin tube is too small a
-    /// part. The first factor is that of the tube on the axis's side of the point.
+    /// Of a thin torus from the point: r is the difference of numbers of which the square of a thin tube is
+    /// too small a part. The first factor is that of the tube on the axis's side of the point. Where rays are
+    /// taken in parts, as there is no room for code, all tori are thin.
     F at(const F& t) const {
+      if constexpr (S::kLanes == kSimdLanes)
+        if (!is_thin) {
+          const F square = t * t;
+          return square * square + p * square + q * t + r;
+        }
       const F x = origin.x + direction.x * t, y = origin.y + direction.y * t, z = origin.z + direction.z * t;
       const F around = S::sqrt(x * x + y * y), square = z * z;
       return ((around - outer) * (around - inner) + square) * ((around + outer) * (around + inner) + square);
