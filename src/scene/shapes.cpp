@@ -69,7 +69,7 @@ PlacedShape nothing() {
 /// How long the first two axes of a box or a cylinder are in the world, compared with the third. What is
 /// about as thick as it is long needs no such parameters.
 void set_proportions(PlacedShape& shape, const Transform& to_world) {
-  constexpr double kThin = 16;
+  constexpr double kThin = 100;
   double axis[3];
   for (int i = 0; i < 3; ++i)
     axis[i] = glm::length(to_world.rows[i]);

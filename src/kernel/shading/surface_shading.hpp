@@ -51,8 +51,9 @@ protected:
     return points.ends(lanes) && (frame_.adc_bailout <= 1.0f || (points.textured & lanes) == 0);
   }
   /// What primary rays see of surfaces for which ends() holds, without a tree.
-  V3<S> light_of_ends(const RayPacket& rays, const HitPacket& hits, const HitPoints<S>& points,
-                      uint32_t lanes, const LightRound& round) {
+  [[gnu::always_inline]] V3<S> light_of_ends(const RayPacket& rays, const HitPacket& hits,
+                                             const HitPoints<S>& points, uint32_t lanes,
+                                             const LightRound& round) {
     Surfaces<S> surfaces = points.surfaces(rays.direction.template load<S>(), hits.object);
     prepare_ends(points, hits, lanes);
     if (has_layers(points, lanes)) return light_of_layers(points, lanes, round, surfaces);
