@@ -71,11 +71,10 @@ struct Interior {
   double fade_power = 0;
   Vec3 fade_colour{0, 0, 0};
   double caustics = 0; ///< shadows get lighter where light falls through it straight; more is less wide
-  /// What light that passes a surface of it, going in or out, is multiplied by: POV-Ray's `refraction` of a
-  /// finish. Shadows do not know it.
+  /// What light that passes a surface of it, going in or out, is multiplied by, where it is totally reflected
+  /// as well: POV-Ray's `refraction` of a finish. Not the light of shadow rays. Less than 0 counts as 0.
   double refraction = 1;
   bool hollow = false; ///< there is fog in it, too
-  double refraction = 1;
 };
 
 /// What light passes through on its way between surfaces, but for rays that are in an object whose interior

@@ -415,7 +415,7 @@ colour_value
 transformation
   : TRANSLATE quantity        { $$ = Transform::translate(session.vector($2, @2)); }
   | ROTATE quantity           { $$ = Transform::rotate(session.vector($2, @2)); }
-  | SCALE quantity            { $$ = scale(session, $2, @1); }
+  | SCALE quantity            { $$ = scale(session, $2, @2); }
   | MATRIX '<' entries '>'    { $$ = matrix(session, $3, @1); }
   | TRANSFORM TRANSFORM_ID    { $$ = $2; }
   | TRANSFORM '{' transform_items '}' { $$ = $3; }

@@ -72,8 +72,8 @@ TEST_CASE("columns count from 1 in every line, whatever ends it") {
 
 TEST_CASE("what POV-Ray warns of, too") {
   const std::string zero = "warning: a scale by 0 counts as one by 1\n";
-  CHECK(output("sphere { 0, 1 scale 0 }") == "scene.pov:1:15: " + zero);
-  CHECK(output("sphere { 0, 1 pigment { checker scale <1, 0, 1> } }") == "scene.pov:1:33: " + zero);
+  CHECK(output("sphere { 0, 1 scale 0 }") == "scene.pov:1:21: " + zero);
+  CHECK(output("sphere { 0, 1 pigment { checker scale <1, 0, 1> } }") == "scene.pov:1:39: " + zero);
   CHECK(output("sphere { 0, 1 scale <1, 1e-11, 2> scale -1 }").empty());
 
   const std::string few = "warning: this CSG has less than two objects\n";
@@ -104,6 +104,6 @@ TEST_CASE("a camera that looks along its sky") {
 
 TEST_CASE("a place is warned of once") {
   CHECK(output("#for (I, 1, 3) sphere { 0, I scale 0 scale 0 } #end") ==
-        "scene.pov:1:30: warning: a scale by 0 counts as one by 1\n"
-        "scene.pov:1:38: warning: a scale by 0 counts as one by 1\n");
+        "scene.pov:1:36: warning: a scale by 0 counts as one by 1\n"
+        "scene.pov:1:44: warning: a scale by 0 counts as one by 1\n");
 }

@@ -189,10 +189,11 @@ TEST_CASE("pigments as patterns") {
   CHECK(pigment_map("pigment_pattern { P } color_map { [0 rgb 0] [0.5 rgb 1] [1 rgb 0] }",
                     "#declare P = pigment { agate } ")
             .entries.size() == 3);
-  const std::string nest =
-      "pigment_map { [0 bozo pigment_map { [0 bozo pigment_map { [0 pigment_pattern { bozo "
-      "pigment_map { [0 bozo] } } ] } ] } ] }";
-  CHECK_THAT(error_line("sphere { 0, 1 pigment { bozo " + nest + " } }"), Catch::Contains("nested"));
+  std::string nest = "pigment_map { [0 pigment_pattern { bozo pigment_map { [0 bozo] } } ] }";
+  for (int depth = 3; depth < kDeepestMap; ++depth)
+    nest = "pigment_map { [0 bozo " + nest + " ] }";
+  CHECK_THAT(error_line("sphere { 0, 1 pigment { bozo pigment_map { [0 bozo " + nest + " ] } } }"),
+             Catch::Contains("nested"));
   CHECK_THAT(error_line("sky_sphere { pigment { pigment_pattern { slope y } } }"),
              Catch::Contains("no surface"));
 }
