@@ -13,8 +13,8 @@ namespace celltrace::pov {
 
 namespace {
 
-/// Of objects inside one another.
-constexpr int kDeepestObject = 200;
+/// Of objects inside one another, as loops make them that add to a union. A level takes 1.3 KB of the stack.
+constexpr int kDeepestObject = 1000;
 
 /// What `.grey` counts as, past the components.
 constexpr int kGrey = 5;
