@@ -248,19 +248,33 @@ TEST_CASE("Fresnel's reflectance") {
   CHECK(lanes_of(fresnel_reflectance<Simd>(F(1.0f), F(0.5f))).lane[0] == Approx(0).margin(1e-6));
 }
 
-TEST_CASE("Mirrored and refracted directions, and total reflection") {
-  Random random(64);
-  unsigned beyond = 0;
-  for (int k = 0; k < 5000; ++k) {
-    VectorLanes direction, normal;
-    FloatLanes ratio;
+namespace {
+
+/// Rays at surfaces, with their ratios of indices of refraction.
+struct RaysAtSurfaces {
+  VectorLanes direction, normal;
+  FloatLanes ratio;
+
+  /// `away`: normals are turned away from the rays.
+  RaysAtSurfaces(Random& random, bool away) {
     for (unsigned l = 0; l < kSimdLanes; ++l) {
       const Vec3 n = random.direction();
       const Vec3 d = random.direction();
       set(normal, l, n);
-      set(direction, l, glm::dot(n, d) > 0 ? -d : d);
+      set(direction, l, (glm::dot(n, d) > 0) == away ? d : -d);
       ratio.lane[l] = static_cast<float>(l < 8 ? random.uniform(0.4, 2.5) : l % 2 == 0 ? 1.5 : 1 / 1.5);
     }
+  }
+};
+
+} // namespace
+
+TEST_CASE("Mirrored and refracted directions, and total reflection") {
+  Random random(64);
+  unsigned beyond = 0;
+  for (int k = 0; k < 5000; ++k) {
+    const RaysAtSurfaces rays(random, false);
+    const auto& [direction, normal, ratio] = rays;
     const Vec d = direction.load<Simd>();
     const Vec n = normal.load<Simd>();
     const F cosine = -dot<Simd>(d, n);
@@ -288,15 +302,8 @@ TEST_CASE("Disturbed normals that are turned away refract as if they were turned
   Random random(67);
   unsigned beyond = 0;
   for (int k = 0; k < 1000; ++k) {
-    VectorLanes direction, normal;
-    FloatLanes ratio;
-    for (unsigned l = 0; l < kSimdLanes; ++l) {
-      const Vec3 n = random.direction();
-      const Vec3 d = random.direction();
-      set(normal, l, n);
-      set(direction, l, glm::dot(n, d) < 0 ? -d : d);
-      ratio.lane[l] = static_cast<float>(random.uniform(0.4, 2.5));
-    }
+    const RaysAtSurfaces rays(random, true);
+    const auto& [direction, normal, ratio] = rays;
     const Vec d = direction.load<Simd>();
     const Vec n = normal.load<Simd>();
     M total = M::none();
