@@ -33,7 +33,8 @@ template <class Spu>
       for_each_lane(same, [&](uint32_t lane) {
         inside |= static_cast<uint32_t>(is_inside(ray, lane, offset)) << lane;
       });
-    const F passed(is_shadow ? 1.0f : r.refraction());
+    const float passed = is_shadow ? 1.0f : r.refraction();
+    if (inside == 0 && passed == 1.0f) return;
     for_each_part<Spu>([&](uint32_t first) {
       const uint32_t some = part_of<Spu>(same, first);
       if (some == 0) return;
@@ -48,7 +49,7 @@ template <class Spu>
         const V3<S> colour = splat3<S>(r.fade_colour);
         left = colour + (V3<S>{one, one, one} - colour) * share;
       }
-      left = select<S>(S::M::from_bits(part_of<Spu>(inside, first)), left, {one, one, one}) * passed;
+      left = select<S>(S::M::from_bits(part_of<Spu>(inside, first)), left, {one, one, one}) * F(passed);
       const V3<S> before = light.template load_from<S>(first);
       light.template store_from<S>(first, select<S>(S::M::from_bits(some), before * left, before));
     });
