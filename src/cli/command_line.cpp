@@ -105,6 +105,11 @@ void add_scene_options(CLI::App& command, RenderRequest& request, RenderTexts& t
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
   command
+      .add_option("--language-version", request.language_version,
+                  "What a scene without #version is written for, such as 3.1")
+      ->check(CLI::Range(0.1, 100.0))
+      ->type_name("FLOAT");
+  command
       .add_option("--max-level", options.max_trace_level,
                   "Depth of the ray tree; default: the scene's max_trace_level")
       ->check(CLI::Range(1, 256));

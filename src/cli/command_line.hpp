@@ -36,6 +36,7 @@ struct RenderRequest {
   ParseLimits limits;
   std::vector<std::pair<std::string, std::string>> declares; ///< name and value
   bool lenient = false;                                      ///< leave out what of the scene is not supported
+  std::optional<double> language_version;                    ///< of a scene that does not say its own
   std::optional<double> clock;                               ///< of a still picture; none: 0, and not on
   Animation animation;
   bool resume = false;               ///< a run that was stopped goes on

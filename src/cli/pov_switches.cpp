@@ -27,7 +27,6 @@ enum class Meaning {
   jitter,        // on or off, and perhaps an amount
   method,        // of antialiasing: 0 to 2, more counts as that
   depth,         // of antialiasing: 1 to 9, less and more count as these
-  version,       // of the language
   cyclic,        // animation, on or off
   resume,        // on or off
   ignored,       // no effect on the picture; no value or a number follows
@@ -73,7 +72,7 @@ constexpr Switch kSwitches[] = {
     {"UF", Meaning::refused, "field rendering"},
     {"UO", Meaning::refused, "field rendering"},
     {"HI", Meaning::refused, "including a header"},
-    {"MV", Meaning::version},
+    {"MV", Meaning::number_option, "--language-version"},
     {"AG", Meaning::ignored},
     {"B", Meaning::ignored},
     {"BP", Meaning::ignored},
@@ -425,8 +424,6 @@ private:
     case Meaning::depth:
       depth_ = limited(needed_number(text, value), 1, 9);
       return;
-    case Meaning::version:
-      return version(text, needed_number(text, value));
     case Meaning::cyclic:
       if (!value.empty()) unknown(text);
       return option("--cyclic", on ? "on" : "off");
@@ -469,11 +466,6 @@ private:
   }
 
   void quality(const std::string& value) { option("--quality", limited(value, 0, 11)); }
-
-  static void version(const std::string& text, const std::string& value) {
-    // Scenes mostly say themselves what they are written for.
-    if (number_of(value) < 3.7) refuse(text, "a language version before 3.7 that the scene does not say");
-  }
 
   void output_to_file(bool on) { option("--picture", on ? "on" : "off"); }
 

@@ -19,6 +19,7 @@ ParseOptions parse_options(const RenderRequest& request, int frame) {
   options.width = request.options.width;
   options.height = request.options.height;
   options.lenient = request.lenient;
+  options.version = request.language_version;
   options.quality = request.options.quality;
   if (request.animation.is_on()) {
     options.clock = clock_of(request.animation, frame);
@@ -96,6 +97,7 @@ Settings settings_of(const RenderRequest& request) {
   };
   const auto add = [&](const char* name, const std::string& value) { settings.emplace_back(name, value); };
   if (options.max_trace_level) add("max level", std::to_string(*options.max_trace_level));
+  if (request.language_version) add("language version", text_of(*request.language_version));
   if (options.adc_bailout) add("adc", text_of(*options.adc_bailout));
   if (const auto& region = options.region)
     add("region", std::to_string(region->left) + '-' + std::to_string(region->right) + ' ' +

@@ -94,12 +94,27 @@ void TokenStream::expect(char punctuation, const char* purpose) {
     session_.fail(token.where, std::string("expected '") + punctuation + "' " + purpose);
 }
 
-/// Also where the one that includes a file has it behind the file's last declaration: people write
-/// #include "file.inc";
-void TokenStream::skip_semicolon() {
+/// Whether there was one. Also where the one that includes a file has it behind the file's last declaration:
+/// people write #include "file.inc";
+bool TokenStream::skip_semicolon() {
   const Token token = read();
   skips_semicolon_ = token.kind == Token::Kind::end;
   if (!skips_semicolon_ && !token.is(';')) session_.input.unread(token);
+  return token.is(';');
+}
+
+/// From version 3.5 on a number, vector or colour that is declared needs one.
+void TokenStream::expect_semicolon(const Token& declared) {
+  if (skip_semicolon() || session_.builder.is_before(3.5)) return;
+  lacks_semicolon_ = declared;
+  if (!skips_semicolon_) check_semicolon();
+}
+
+void TokenStream::check_semicolon() const {
+  if (lacks_semicolon_)
+    session_.fail(lacks_semicolon_->where,
+                  "'" + session_.names.text(lacks_semicolon_->name) +
+                      "' needs a ';' behind its value, unless a #version below 3.5 comes first");
 }
 
 std::vector<std::size_t> TokenStream::read_subscripts() {
@@ -151,9 +166,14 @@ void TokenStream::declare(bool is_local) {
   expect('=', "after the name to declare");
   const std::size_t depth = session_.input.depth();
   Value value = evaluate(Start::value);
-  skip_semicolon();
-  leave_finished_macros(depth);                                  // the semicolon may be a macro's
-  if (std::holds_alternative<Quantity>(value)) skip_semicolon(); // POV-Ray takes two behind numbers
+  const bool has_semicolon = skip_semicolon();
+  leave_finished_macros(depth); // the semicolon may be a macro's
+  if (std::holds_alternative<Quantity>(value)) {
+    if (has_semicolon)
+      skip_semicolon(); // POV-Ray takes two behind numbers
+    else
+      expect_semicolon(name);
+  }
   if (const auto* text = std::get_if<std::string>(&value)) session_.count_text(text->size(), name.where);
   if (!subscripts.empty()) {
     const std::shared_ptr<Slot> slot = session_.symbols.find(name.name);

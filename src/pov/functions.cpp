@@ -67,6 +67,14 @@ double whole(double number) {
   return result >= -kBound && result < kBound ? result : -kBound;
 }
 
+/// Of the arguments as ints, from the first to the last.
+template <class Combine> Quantity bitwise(const Call& call, Combine combine) {
+  auto result = static_cast<std::int32_t>(whole(call.number(0)));
+  for (std::size_t i = 1; i < call.count(); ++i)
+    result = combine(result, static_cast<std::int32_t>(whole(call.number(i))));
+  return static_cast<double>(result);
+}
+
 Quantity seed(const Call& call) {
   auto& streams = call.session().random_streams;
   call.require(streams.size() < call.session().options.limits.list_entries, "too many random streams");
@@ -235,6 +243,9 @@ const Function kFunctions[] = {
     {"atan", "n", CELLTRACE_NUMERIC(std::atan(c.number(0)))},
     {"atan2", "nn", CELLTRACE_NUMERIC(std::atan2(c.number(0), c.number(1)))},
     {"atanh", "n", CELLTRACE_NUMERIC(std::atanh(c.number(0)))},
+    {"bitwise_and", "n+", CELLTRACE_NUMERIC(bitwise(c, std::bit_and<>()))},
+    {"bitwise_or", "n+", CELLTRACE_NUMERIC(bitwise(c, std::bit_or<>()))},
+    {"bitwise_xor", "n+", CELLTRACE_NUMERIC(bitwise(c, std::bit_xor<>()))},
     {"ceil", "n", CELLTRACE_NUMERIC(std::ceil(c.number(0)))},
     {"cos", "n", CELLTRACE_NUMERIC(std::cos(c.number(0)))},
     {"cosh", "n", CELLTRACE_NUMERIC(std::cosh(c.number(0)))},

@@ -32,6 +32,10 @@ Scene parse(std::string text, const ParseOptions& options, const std::string& na
   session.sources.set_scene_folder(folder);
   session.tokens.open(std::move(text), name, folder);
   pov::declare_predefined(session);
+  if (const auto& version = options.version) {
+    if (!(*version > 0)) throw InputError("the language's version has to be above 0");
+    session.builder.set_version(*version);
+  }
   try {
     session.tokens.evaluate(pov::Start::scene);
     session.tokens.close_data_files();

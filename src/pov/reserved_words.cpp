@@ -340,12 +340,8 @@ const char* const kUnsupportedArguments[] = {
     "aa_threshold",
     "all",
     "always_sample",
-    "append",
     "ascii",
     "bezier_spline",
-    "bitwise_and",
-    "bitwise_or",
-    "bitwise_xor",
     "brightness",
     "component",
     "conic_sweep",
@@ -381,14 +377,12 @@ const char* const kUnsupportedArguments[] = {
     "precompute",
     "pretrace_end",
     "pretrace_start",
-    "prod",
     "pwr",
     "ratio",
     "recursion_limit",
     "samples",
     "slice",
     "smooth",
-    "sum",
     "sys",
     "tga",
     "threshold",
@@ -405,6 +399,9 @@ const char* const kUnsupportedArguments[] = {
     "v_steps",
     "water_level",
 };
+
+// Words that directives and functions look for themselves.
+const char* const kWordsReadApart[] = {"append", "prod", "sum"};
 
 /// Words with rules of their own by which what they stand for is not supported.
 constexpr int kRefused[] = {
@@ -442,6 +439,8 @@ std::vector<ReservedWord> reserved_words() {
     words.push_back({text, tokens::T_UNSUPPORTED, 0, true});
   for (const char* text : kUnsupportedArguments)
     words.push_back({text, tokens::T_UNSUPPORTED_ARGUMENT, 0, true});
+  for (const char* text : kWordsReadApart)
+    words.push_back({text, tokens::T_READ_APART, 0, false});
   int number = 0;
   for (const FunctionName& function : function_names())
     words.push_back(

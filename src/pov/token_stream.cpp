@@ -260,8 +260,12 @@ void TokenStream::next(Terminal& terminal) {
     const Token token = read();
     switch (token.kind) {
     case Token::Kind::end:
-      if (!leave_frame_at_end()) return end_at(token, terminal);
-      if (skips_semicolon_) skip_semicolon();
+      if (!leave_frame_at_end()) {
+        check_semicolon();
+        return end_at(token, terminal);
+      }
+      if (skips_semicolon_ && skip_semicolon()) lacks_semicolon_.reset();
+      if (!skips_semicolon_) check_semicolon();
       continue;
     case Token::Kind::directive:
       // A directive ends a value that can be complete, as in POV-Ray.

@@ -145,7 +145,9 @@ private:
   std::pair<std::filesystem::path, std::string> read_file(const std::string& what, const std::string& wanted,
                                                           const Location& where);
   void show(const Token& directive, Directive kind);
-  void skip_semicolon();
+  bool skip_semicolon();
+  void expect_semicolon(const Token& declared);
+  void check_semicolon() const;
   Token expect_name(const char* purpose);
   void expect(char punctuation, const char* purpose);
   bool is_defined();
@@ -190,9 +192,10 @@ private:
   double started_; ///< of the thread's processor time
   std::vector<Level> levels_;
   std::uint64_t tokens_read_ = 0;
-  bool skips_semicolon_ = false; ///< once, behind the frame that ends
-  std::uint64_t work_ = 0;       ///< besides
-  std::uint64_t next_pause_ = 0; ///< after so many tokens and so much work
+  bool skips_semicolon_ = false;         ///< once, behind the frame that ends
+  std::optional<Token> lacks_semicolon_; ///< what is declared at its end, if one has to be there
+  std::uint64_t work_ = 0;               ///< besides
+  std::uint64_t next_pause_ = 0;         ///< after so many tokens and so much work
   std::uint64_t tokens_recorded_ = 0;
   std::uint64_t iterations_ = 0;
   unsigned macro_calls_ = 0;

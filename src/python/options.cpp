@@ -70,6 +70,7 @@ const Fields<ParseOptions>& parse_fields() {
                                                  .add("readable_folders", &ParseOptions::readable_folders, "")
                                                  .add("writable_folders", &ParseOptions::writable_folders, "")
                                                  .add("clock", &ParseOptions::clock, "")
+                                                 .add("version", &ParseOptions::version, "")
                                                  .add("lenient", &ParseOptions::lenient, "");
   return fields;
 }

@@ -69,6 +69,10 @@ TEST_CASE("functions of floats") {
   CHECK(value("degrees(pi)") == "180.000");
   CHECK(value("sin(pi / 2) + cos(0) + tan(0)") == "2.000");
   CHECK(value("atan2(1, 0)") == "1.571");
+  CHECK(value("bitwise_and(6.9, -3.2)") == "4.000");
+  CHECK(value("bitwise_or(1, 2, 8)") == "11.000");
+  CHECK(value("bitwise_xor(1e20, 5)") == "-2147483643.000");
+  CHECK(value("bitwise_xor(7)") == "7.000");
   CHECK(value("acos(1.0000001)") == "0.000");
   CHECK(value("asin(-2)") == "-1.571");
   CHECK(value("min(3, 1, 2)") == "1.000");

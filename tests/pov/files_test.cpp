@@ -108,6 +108,10 @@ TEST_CASE("a semicolon may follow the name of a file that ends with a declaratio
     folder.write("a.inc", text);
     CHECK(file_output(folder.write("scene.pov", "#include \"a.inc\"; #debug \"on\"")) == "on");
   }
+  folder.write("a.inc", "#declare A = 1");
+  CHECK(file_output(folder.write("scene.pov", "#include \"a.inc\"; #debug \"on\"")) == "on");
+  CHECK(file_error(folder.write("scene.pov", "#include \"a.inc\" #debug \"on\""))
+            .find("a.inc:1:10: error: 'A' needs a ';'") != std::string::npos);
   folder.write("a.inc", "sphere { 0, 1 }");
   const std::string scene = folder.write("scene.pov", "#include \"a.inc\";");
   CHECK(file_error(scene).find(":1:17: error: unexpected ';'") != std::string::npos);

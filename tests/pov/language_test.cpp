@@ -3,6 +3,7 @@
 
 #include "pov/parsing.hpp"
 
+using celltrace::ParseOptions;
 using celltrace::test::error_line;
 using celltrace::test::output;
 
@@ -12,7 +13,7 @@ TEST_CASE("comments nest and line ends may be of any kind") {
 
 TEST_CASE("#declare, #local and #undef") {
   CHECK(output("#declare A = 1; #declare A = A + 1; #debug str(A, 0, 0)") == "2");
-  CHECK(output("#declare A = 1 #declare B = 2 #debug str(A + B, 0, 0)") == "3");
+  CHECK(output("#version 3.1; #declare A = 1 #declare B = 2 #debug str(A + B, 0, 0)") == "3");
   CHECK(output("declare A = 5; #debug str(A, 0, 0)") == "5");
   CHECK(output("#local A = 1; #undef A #ifdef (A) #debug \"y\" #else #debug \"n\" #end") == "n");
   CHECK(output("#declare deprecated once \"use B\" A = 1; #debug str(A, 0, 0)") == "1");
@@ -30,6 +31,32 @@ TEST_CASE("semicolons behind declarations") {
     INFO(text);
     CHECK(error_line(text).find("unexpected ';'") != std::string::npos);
   }
+}
+
+TEST_CASE("semicolons that are missing behind numbers") {
+  const auto is_missed = [](const std::string& line) {
+    return line.find("error: 'A' needs a ';' behind its value, unless a #version below 3.5 comes first") !=
+           std::string::npos;
+  };
+  for (const std::string text :
+       {"#declare A = 1", "#local A = <1, 2> #declare B = 1;", "#declare A = rgb 1 sphere { 0, 1 }",
+        "#declare A = array[2]; #declare A[0] = 1 #debug \"\"", "#macro M() #declare A = 1 #end M()",
+        "#macro M() 1 #end #declare A = M() sphere { 0, 1 }", "#if (1) #declare A = 1 #end"}) {
+    INFO(text);
+    CHECK(is_missed(error_line(text)));
+    CHECK(is_missed(error_line("#version 3.5; " + text)));
+    CHECK(error_line("#version 3.49; " + text).empty());
+  }
+  ParseOptions options;
+  options.version = 3.1;
+  CHECK(error_line("#declare A = 1 #if (version != 3.1) #error \"no\" #end", options).empty());
+  CHECK(is_missed(error_line("#version 3.7; #declare A = 1", options)));
+  options.version = 0;
+  CHECK_THROWS_AS(celltrace::test::parse("", options), celltrace::InputError);
+  CHECK(error_line(" #declare A = 1").starts_with("scene.pov:1:11: error: "));
+  CHECK(output("#macro M() 1; #end #declare A = M() #debug str(A, 0, 0)") == "1");
+  CHECK(output("#declare A = \"a\" #declare B = array[1] {1} #declare C = function(x) { x } #debug A") ==
+        "a");
 }
 
 TEST_CASE("conditions") {
@@ -201,7 +228,7 @@ TEST_CASE("what a macro has left behind its value belongs to the macro") {
   CHECK(output(choose + "#declare V = <F(0), F(2), 1 #if (1) + 3 #end,>; #debug vstr(3, V, \" \", 0, 0)") ==
         "6 7 4");
   CHECK(output(choose + "#macro G(A, B) #debug str(A - B, 0, 0) #end G(F(2), F(0))") == "1");
-  CHECK(output(choose + "#macro H() #local V = F(0) #debug str(V, 0, 0) #end H()") == "6");
+  CHECK(output(choose + "#macro H() #local V = F(0); #debug str(V, 0, 0) #end H()") == "6");
   CHECK(output("#macro T(A) #if (vlength(A)) transform { translate A } #else transform { scale 2 } #end #end "
                "#declare U = T(x); #declare F = function { transform { U } } "
                "#debug vstr(3, F(1, 1, 1), \" \", 0, 0)") == "2 1 1");

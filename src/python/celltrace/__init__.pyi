@@ -352,12 +352,12 @@ class Scene:
     @staticmethod
     def from_file(path: Path, *, progress: Optional[Progress] = None, library_paths: Iterable[Path] = (),
                   readable_folders: Iterable[Path] = (), writable_folders: Iterable[Path] = (), clock: float = 0,
-                  lenient: bool = False, declares: Dict[str, Union[float, str]] = {},
+                  version: Optional[float] = None, lenient: bool = False, declares: Dict[str, Union[float, str]] = {},
                   limits: Dict[str, int] = {}, message: Optional[Callable[[str], None]] = None) -> Scene: ...
     @staticmethod
     def from_text(text: str, *, progress: Optional[Progress] = None, library_paths: Iterable[Path] = (),
                   readable_folders: Iterable[Path] = (), writable_folders: Iterable[Path] = (), clock: float = 0,
-                  lenient: bool = False, declares: Dict[str, Union[float, str]] = {},
+                  version: Optional[float] = None, lenient: bool = False, declares: Dict[str, Union[float, str]] = {},
                   limits: Dict[str, int] = {}, message: Optional[Callable[[str], None]] = None) -> Scene: ...
     @property
     def background(self) -> Triple: ...
@@ -461,8 +461,8 @@ def render(scene: Union[Scene, Path], *, progress: Optional[Progress] = None, wi
            colours: bool = False, alpha: bool = False, first_hits: bool = False,
            schedule: Literal["free", "lockstep"] = "free", seed: int = 0,
            library_paths: Iterable[Path] = (), readable_folders: Iterable[Path] = (),
-           writable_folders: Iterable[Path] = (), clock: float = 0, lenient: bool = False,
-           declares: Dict[str, Union[float, str]] = {}, limits: Dict[str, int] = {},
+           writable_folders: Iterable[Path] = (), clock: float = 0, version: Optional[float] = None,
+           lenient: bool = False, declares: Dict[str, Union[float, str]] = {}, limits: Dict[str, int] = {},
            message: Optional[Callable[[str], None]] = None) -> Picture: ...
 def save(path: Path, picture: Picture) -> None: ...
 def load(path: Path) -> NDArray[numpy.uint8]: ...
