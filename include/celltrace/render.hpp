@@ -51,7 +51,8 @@ enum class Model {
 };
 
 /// Antialiasing by POV-Ray's methods: pixels are sampled by more rays where colours differ. They are compared
-/// by the sum over the channels of the differences of their powers of 1 / gamma.
+/// by the sum over the channels of the differences of their powers of 1 / gamma, once they are linear: of
+/// Scene::assumed_gamma / gamma.
 struct Antialiasing {
   enum class Method {
     fixed,   ///< a pixel that differs from its left or upper neighbour, and that neighbour, get depth x depth

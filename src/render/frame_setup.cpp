@@ -115,6 +115,26 @@ double jitter_of(const Antialiasing& antialiasing) {
   return antialiasing.jitter / (fixed ? antialiasing.depth : (1 << antialiasing.depth) + 1);
 }
 
+/// By which colours become linear.
+double exponent_of(const Scene& scene) {
+  constexpr double kOfSrgb = 2.4; // but for the darkest colours
+  switch (scene.gamma_mode) {
+  case GammaMode::none:
+    break;
+  case GammaMode::srgb:
+    return kOfSrgb;
+  case GammaMode::assumed:
+    return scene.assumed_gamma;
+  }
+  return 1;
+}
+
+/// POV-Ray makes colours linear before it compares them.
+void set_comparison(FrameBlock& frame, const RenderOptions& options) {
+  if (options.antialiasing)
+    frame.sampling.inverse_gamma = frame.assumed_gamma / static_cast<float>(options.antialiasing->gamma);
+}
+
 } // namespace
 
 void check(const RenderOptions& options) {
@@ -179,8 +199,8 @@ void set_options(FrameBlock& frame, const RenderOptions& options, const Machine&
     frame.sampling.depth = static_cast<std::uint32_t>(antialiasing->depth);
     frame.sampling.threshold = static_cast<float>(antialiasing->threshold);
     frame.sampling.jitter = static_cast<float>(jitter_of(*antialiasing));
-    frame.sampling.inverse_gamma = static_cast<float>(1 / antialiasing->gamma);
   }
+  set_comparison(frame, options);
   frame.packet_columns = blocks(frame.width, kPacketEdge);
   frame.packet_rows = blocks(frame.height, kPacketEdge);
   frame.bundle_columns = blocks(frame.packet_columns, edge);
@@ -215,6 +235,8 @@ void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& optio
   frame.fog_offset = header.fog_offset;
   frame.fog_count = header.fog_count;
   frame.light_ways = header.light_ways | (frame.light_ways & kWaysOfPictures);
+  // Their stages cannot walk: light is dimmed by what lies within POV-Ray's tolerance, too.
+  if (options.model != Model::shared) frame.light_ways &= ~light_way::near_surfaces;
   constexpr double kVersionOfTransparency = 3.7;
   if (scene.version < kVersionOfTransparency) frame.light_ways |= light_way::no_backdrop;
   frame.background_clear = static_cast<float>(std::clamp(scene.background_transparency, 0.0, 1.0));
@@ -237,7 +259,8 @@ void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& optio
   frame.adc_bailout = static_cast<float>(options.adc_bailout.value_or(scene.adc_bailout));
   frame.gamma_encoding = static_cast<std::uint32_t>(
       scene.gamma_mode == GammaMode::assumed ? GammaEncoding::assumed : GammaEncoding::none);
-  frame.assumed_gamma = static_cast<float>(scene.assumed_gamma);
+  frame.assumed_gamma = static_cast<float>(exponent_of(scene));
+  set_comparison(frame, options);
   store(scene.background, frame.background);
   frame.sky = header.sky;
 }

@@ -100,8 +100,10 @@ Vec3 sample_square(Picture& picture, const Antialiasing& antialiasing, double x,
   return sum / 4.0;
 }
 
-Image expected_picture(const Scene& scene, const Antialiasing& antialiasing) {
+Image expected_picture(const Scene& scene, Antialiasing antialiasing) {
   Picture picture(scene);
+  if (scene.gamma_mode == GammaMode::assumed)
+    antialiasing.gamma /= scene.assumed_gamma; // linear, then compared
   Colours colours;
   if (antialiasing.method == Antialiasing::Method::fixed) {
     for (int y = 0; y < kHeight; y += 32)
@@ -162,6 +164,19 @@ TEST_CASE("Antialiased pictures are those of the methods written plainly") {
     INFO("method " << static_cast<int>(antialiasing.method) << ", depth " << antialiasing.depth
                    << ", threshold " << antialiasing.threshold);
     check_close(sampled(backend, 2, scene, antialiasing).image, expected_picture(scene, antialiasing));
+  }
+}
+
+TEST_CASE("Colours are linear where antialiasing compares them") {
+  Scene scene = scene_named("glass and mirrors");
+  scene.gamma_mode = GammaMode::assumed;
+  for (const double gamma : {0.6, 2.2, 3.0}) {
+    scene.assumed_gamma = gamma;
+    for (const Antialiasing& antialiasing : {kFixed, kAdaptive}) {
+      INFO("gamma " << gamma << ", method " << static_cast<int>(antialiasing.method));
+      check_close(sampled(backends().front(), 2, scene, antialiasing).image,
+                  expected_picture(scene, antialiasing));
+    }
   }
 }
 
