@@ -141,8 +141,9 @@ void set_assumed_gamma(Session& session, double gamma, const Location& where) {
 }
 
 void set_max_trace_level(Session& session, double level, const Location& where) {
-  if (!(level >= 1 && level <= 256)) session.fail(where, "max_trace_level must lie between 1 and 256");
-  session.builder.set_max_trace_level(static_cast<int>(level));
+  constexpr double kMost = 256;
+  if (level > kMost) session.diagnostics.warn(where, "max_trace_level is 256, which is the most there is");
+  session.builder.set_max_trace_level(level >= 1 ? static_cast<int>(std::min(level, kMost)) : 1);
 }
 
 void set_noise_generator(Session& session, double number, const Location& where) {
@@ -597,6 +598,13 @@ void add_triangle(Session& session, MeshBuilder& builder, const TriangleDefiniti
   } catch (const InputError& error) {
     session.fail(where, error.what());
   }
+}
+
+void set_textures(Session& session, TriangleDefinition& triangle, const std::vector<TexturePtr>& textures,
+                  const Location& where) {
+  if (textures.size() != triangle.textures.size())
+    session.fail(where, "the texture_list of a triangle has three textures, one for each corner");
+  std::copy(textures.begin(), textures.end(), triangle.textures.begin());
 }
 
 void set_coordinates(Session& session, TriangleDefinition& triangle, const std::array<Vec3, 3>& uv,

@@ -260,6 +260,9 @@ std::shared_ptr<ObjectDefinition>
 lone_triangle(Session& session, std::shared_ptr<TriangleDefinition> triangle, const Location& where);
 void add_triangle(Session& session, MeshBuilder& builder, const TriangleDefinition& triangle,
                   const Location& where);
+/// Fails unless they are three.
+void set_textures(Session& session, TriangleDefinition& triangle, const std::vector<TexturePtr>& textures,
+                  const Location& where);
 /// Fails unless they are finite.
 void set_coordinates(Session& session, TriangleDefinition& triangle, const std::array<Vec3, 3>& uv,
                      const Location& where);

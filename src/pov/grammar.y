@@ -157,7 +157,7 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %nterm <std::shared_ptr<MeshBuilder>> mesh_head
 %nterm <std::shared_ptr<Mesh2Definition>> mesh2_head
 %nterm <std::vector<TexturePtr>> texture_list
-%nterm <std::shared_ptr<TriangleDefinition>> triangle triangle_vertices mapped_triangle
+%nterm <std::shared_ptr<TriangleDefinition>> triangle plain_triangle triangle_vertices mapped_triangle
 %nterm <bool> albedo photons photon_items
 %nterm <NameId> variable
 %nterm <double> number component optional_number second_number flag entry_start
@@ -1143,10 +1143,15 @@ beam_number
 // ---- Meshes ----
 
 triangle
-  : triangle_vertices '}'         { $$ = $1; }
-  | triangle_vertices texture '}' { $$ = $1; $$->texture = $2; }
-  | mapped_triangle '}'           { $$ = $1; }
-  | mapped_triangle texture '}'   { $$ = $1; $$->texture = $2; }
+  : plain_triangle '}'                                    { $$ = $1; }
+  | plain_triangle texture '}'                            { $$ = $1; $$->textures = {$2, $2, $2}; }
+  | plain_triangle TEXTURE_LIST '{' texture_list '}' '}'  { $$ = $1; set_textures(session, *$$, $4, @2); }
+  | plain_triangle texture TEXTURE_LIST '{' texture_list '}' '}' { $$ = $1; set_textures(session, *$$, $5, @3); }
+  ;
+
+plain_triangle
+  : triangle_vertices
+  | mapped_triangle
   ;
 
 mapped_triangle

@@ -163,7 +163,7 @@ void MeshBuilder::add(const TriangleDefinition& triangle) {
       result.normal[i] = static_cast<Index>(mesh.normals.size());
       mesh.normals.push_back(to_single(normals[i]));
     }
-    if (triangle.texture) result.material[i] = texture_index(triangle.texture);
+    if (triangle.textures[i]) result.material[i] = texture_index(triangle.textures[i]);
   }
   mesh.triangles.push_back(result);
   if (!triangle.is_mapped && mesh.coordinates.empty()) return;

@@ -48,7 +48,7 @@ struct TriangleDefinition {
   bool is_smooth = false;
   std::array<Vec2f, 3> coordinates{}; ///< of the surface
   bool is_mapped = false;             ///< it has such
-  TexturePtr texture;                 ///< null: the mesh's
+  std::array<TexturePtr, 3> textures; ///< at its corners; null: the mesh's
 
   /// As POV-Ray moves a triangle that stands alone: its normals, too, corner by corner.
   TriangleDefinition transformed(const Transform& transform) const;

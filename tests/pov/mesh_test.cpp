@@ -45,6 +45,28 @@ TEST_CASE("a mesh keeps its triangles' own textures") {
   CHECK(scene.materials[scene.objects[0].material].pigment.rgb.x == 0.5);
 }
 
+TEST_CASE("a mesh's triangles with a texture at each corner") {
+  const std::string named =
+      "#declare A = texture { pigment { rgb x } } #declare B = texture { pigment { rgb y } } "
+      "#declare C = texture { pigment { rgb z } } mesh { ";
+  const Scene scene =
+      parse(named + "triangle { 0, x, y texture_list { A, B, C } } "
+                    "smooth_triangle { 0, y, x, x, y, z texture { A } texture_list { C B A } } "
+                    "triangle { 0, x, y uv_vectors 0, x, y texture_list { A A B } } }");
+  const Mesh& mesh = mesh_of(scene);
+  REQUIRE(mesh.triangles.size() == 3);
+  const Vec3 axes[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(scene.materials[mesh.triangles[0].material[i]].pigment.rgb == axes[i]);
+    CHECK(scene.materials[mesh.triangles[1].material[i]].pigment.rgb == axes[2 - i]);
+    CHECK(scene.materials[mesh.triangles[2].material[i]].pigment.rgb == axes[i / 2]);
+  }
+  CHECK(error_line("#declare A = texture { } mesh { triangle { 0, x, y texture_list { A, A } } }") ==
+        "scene.pov:1:52: error: the texture_list of a triangle has three textures, one for each corner");
+  CHECK(error_line(named + "triangle { 0, x, y texture_list { A, B, C } texture { A } } }")
+            .find("unexpected") != std::string::npos);
+}
+
 TEST_CASE("surface coordinates of triangles") {
   const Scene scene =
       parse("mesh { triangle { 0, x, y } triangle { 0, x, x uv_vectors <9, 9>, <9, 9>, <9, 9> } "

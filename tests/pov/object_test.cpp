@@ -98,8 +98,7 @@ TEST_CASE("hints and flags that change no picture are accepted") {
 TEST_CASE("words of early versions") {
   CHECK(parse("max_trace_level 3 sphere { 0, 1 }").max_trace_level == 3);
   CHECK(parse("global_settings { max_trace_level 4 } #version 1.0; max_trace_level 3").max_trace_level == 3);
-  CHECK(error_line("max_trace_level 300") ==
-        "scene.pov:1:17: error: max_trace_level must lie between 1 and 256");
+  CHECK(parse("max_trace_level 300").max_trace_level == 256);
   CHECK(
       parse("max_intersections 64 sphere { 0, 1 } global_settings { max_intersections 3 }").objects.size() ==
       1);
@@ -148,8 +147,12 @@ TEST_CASE("the environment") {
         "scene.pov:1:19: error: 'photons' is not supported yet");
   CHECK(error_line(photons + "reflection on target off pass_through } }").empty());
   CHECK(error_line("sphere { 0, 1 photons { target refraction on collect off } }").empty());
-  CHECK(error_line("global_settings { max_trace_level 0 }") ==
-        "scene.pov:1:35: error: max_trace_level must lie between 1 and 256");
+  CHECK(parse("global_settings { max_trace_level 0 }").max_trace_level == 1);
+  CHECK(parse("global_settings { max_trace_level -1e20 }").max_trace_level == 1);
+  CHECK(parse("global_settings { max_trace_level 1.9 }").max_trace_level == 1);
+  CHECK(parse("global_settings { max_trace_level 256 }").max_trace_level == 256);
+  CHECK(output("global_settings { max_trace_level 1e20 }") ==
+        "scene.pov:1:35: warning: max_trace_level is 256, which is the most there is\n");
   CHECK(scene.irid_wavelength == Vec3(1));
   CHECK(parse("sphere { 0, 1 }").irid_wavelength == Vec3(0.7, 0.52, 0.48));
 }
