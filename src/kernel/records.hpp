@@ -518,6 +518,9 @@ constexpr uint32_t fading = 0x2;     ///< interiors that fade, or whose surfaces
 constexpr uint32_t stepwise = 0x4;
 constexpr uint32_t by_surface = 0x8;  ///< some objects are object_flag::by_surface
 constexpr uint32_t projectors = 0x10; ///< of lights
+/// Shadow rays that cross two translucent surfaces within kShadowEpsilon may go on behind the second one: in
+/// those, too, that are not `stepwise`.
+constexpr uint32_t near_surfaces = 0x200;
 // Of frames alone, not of scene images:
 constexpr uint32_t alpha = 0x20; ///< how clear each pixel is is wanted, too
 /// With `alpha`: only rays that came by a mirror see sky and background.

@@ -300,7 +300,7 @@ private:
     const std::uint64_t wanted = levels * std::max(image_.header().surface_nodes, 2u) - levels;
     const auto most = std::max<std::uint64_t>(levels, kMostBytesOfSpe / kRayNodeBytes);
     // Where lights have areas or shadow rays go step by step, none of them stays in local store.
-    const bool has_resident = !has_areas(frame_) && (frame_.light_ways & light_way::stepwise) == 0;
+    const bool has_resident = !has_areas(frame_) && !walks_shadows(frame_);
     const std::uint32_t nodes =
         static_cast<std::uint32_t>(std::min(wanted, most)) + (has_resident ? 0 : kResidentNodes);
     if (nodes == frame_.ray_stack_nodes) return;

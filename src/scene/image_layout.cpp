@@ -2,6 +2,7 @@
 
 #include "celltrace/error.hpp"
 #include "scene/image_fields.hpp"
+#include "scene/near_surfaces.hpp"
 #include "scene/scene_image.hpp"
 #include "scene/surface_records.hpp"
 
@@ -100,6 +101,7 @@ ImageHeader make_header(const Scene& scene, const LightSets& light_sets, const T
   header.version = kImageVersion;
   Layout layout(sizeof(ImageHeader));
   place_surfaces(layout, header, scene, light_sets, textures, census.blended);
+  if (has_near_surfaces(scene, textures.object_flags)) header.light_ways |= light_way::near_surfaces;
   const CsgParts& csg = objects.csg();
   layout.place<CsgRecord>(csg.conditions.size(), header.csg_offset, header.csg_count);
   layout.place<CsgStep>(csg.steps.size(), header.csg_step_offset, header.csg_step_count);
@@ -135,6 +137,7 @@ ImageHeader with_surfaces(const ImageHeader& old, const Scene& scene, const Ligh
   ImageHeader header = old;
   Layout layout(sizeof(ImageHeader));
   place_surfaces(layout, header, scene, light_sets, textures, old.blend_count);
+  header.light_ways |= old.light_ways & light_way::near_surfaces;
   return header;
 }
 

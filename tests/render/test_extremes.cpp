@@ -12,6 +12,7 @@
 #include <initializer_list>
 #include <memory>
 #include <utility>
+#include <vector>
 
 using namespace celltrace;
 using namespace celltrace::test;
@@ -289,4 +290,58 @@ TEST_CASE("Thin tori have smooth outlines") {
     INFO(minor << ": " << to_text(c));
     CHECK(c.psnr >= 50);
   }
+}
+
+TEST_CASE("Shadow rays miss what is near behind a translucent surface") {
+  // A floor under glass that is not seen itself, in light from above.
+  const auto scene_of = [](const std::vector<std::pair<double, double>>& boxes,
+                           const std::vector<float>& sheets) {
+    Scene scene;
+    scene.camera = orthographic_camera({0, 4, -4}, {0, 0, 0}, 4);
+    scene.lights.emplace_back().location = {0.1, 100, 0.2};
+    const Index white = scene.add(matte({1, 1, 1})), clear = scene.add(glass({0.7, 0.8, 0.9}));
+    scene.objects.push_back(mesh_object(floor_mesh(0, 3), white, scene.add(Interior{})));
+    for (const auto& [bottom, top] : boxes) {
+      Object object;
+      object.shape = Box{{{-1, bottom, -1}, {1, top, 1}}};
+      object.material = clear;
+      scene.objects.push_back(object);
+    }
+    for (const float height : sheets)
+      scene.objects.push_back(mesh_object(floor_mesh(height, 1), clear, kNoIndex));
+    for (std::size_t i = 1; i < scene.objects.size(); ++i)
+      scene.objects[i].no_image = true;
+    return scene;
+  };
+  const auto is_flagged = [](const Scene& scene) {
+    return (SceneImage(scene).header().light_ways & kernel::light_way::near_surfaces) != 0;
+  };
+  struct Case {
+    std::vector<std::pair<double, double>> boxes;
+    std::vector<float> seen; ///< the heights of the surfaces that count
+  };
+  const std::vector<std::pair<double, double>> layers = {
+      {1, 1.2}, {1.2005, 1.3}, {1.3004, 1.3008}, {1.5, 1.6}};
+  for (const Case& c : {Case{{{1, 1.0005}}, {1}},                         // thin
+                        Case{{{1, 1.2}, {1.2005, 1.5}}, {1, 1.2f, 1.5f}}, // a gap
+                        Case{{{1, 1.2}, {1.2, 1.5}}, {1, 1.2f, 1.5f}},    // none
+                        Case{layers, {1, 1.2f, 1.3f, 1.5f, 1.6f}}}) {
+    const Scene scene = scene_of(c.boxes, {}), expected = scene_of({}, c.seen);
+    CHECK(is_flagged(scene));
+    for (const TestBackend& backend : backends()) {
+      const RenderOptions options = backend.options(40, 30, 2);
+      const Comparison comparison =
+          compare_images(render(expected, options).image, render(scene, options).image);
+      INFO(backend.spu() << ", " << c.boxes.size() << " boxes: " << to_text(comparison));
+      CHECK(comparison.psnr > 60);
+    }
+  }
+  CHECK_FALSE(is_flagged(scene_of({{1, 1.2}, {1.3, 1.4}}, {1.5f})));
+  CHECK_FALSE(is_flagged(scene_of({}, {1, 1.1f})));
+  Scene opaque = scene_of({{1, 1.2}, {1.2, 1.3}}, {});
+  opaque.objects.back().material = 0;
+  CHECK_FALSE(is_flagged(opaque));
+  opaque.objects.back().material = 1;
+  opaque.objects.back().no_shadow = true;
+  CHECK_FALSE(is_flagged(opaque));
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
+#include "kernel/direct/near_crossings.hpp"
 #include "kernel/primitives/csg.hpp"
 #include "kernel/primitives/list.hpp"
 #include "kernel/primitives/polygons_module.hpp"
@@ -193,10 +194,16 @@ public:
   /// The lanes of the rays to be tested that come from a mirror, as no others see or do not see some objects.
   void set_reflected(uint32_t lanes) { reflected_ = lanes; }
 
-  /// Whether translucent objects do not attenuate light, but occlude it too, and set its first channel to 1
-  /// in the lanes that cross them.
-  void set_marking(bool marks) { marks_ = marks; }
-  bool is_marking() const { return kMarksTranslucent<Spu> && marks_; }
+  /// What translucent objects do to shadow rays. Where memory is not direct they attenuate them.
+  enum class Translucency {
+    attenuates, ///< multiplies the light
+    marks,      ///< occludes it, and sets its first channel to 1
+    is_kept     ///< for later: the light is that of NearCrossings
+  };
+  void set_translucency(Translucency translucency) { translucency_ = translucency; }
+  Translucency translucency() const {
+    return kMarksTranslucent<Spu> ? translucency_ : Translucency::attenuates;
+  }
 
   SceneAccess<Spu>& scene() { return scene_; }
   HitFilter& hit_filter() { return hit_filter_; }
@@ -220,14 +227,21 @@ private:
     if ((flags & object_flag::opaque) != 0) return shadow.near | shadow.far;
     const uint32_t near = lanes & shadow.near & segment.template contains<S>(c.near);
     const uint32_t far = lanes & shadow.far & segment.template contains<S>(c.far);
-    if (is_marking()) {
+    if (translucency() == Translucency::marks) {
       S::select(M::from_bits(near | far), F(1.0f), F::load(light.x.lane)).store(light.x.lane);
       return near | far;
     }
     uint32_t dark = 0;
-    if (near != 0) dark |= attenuate(rays, c.near, c, flags, material, near, light);
-    if (far != 0) dark |= attenuate(rays, c.far, c, flags, material, far, light);
+    if (near != 0) dark |= cross_translucent(rays, c.near, c, flags, material, near, light);
+    if (far != 0) dark |= cross_translucent(rays, c.far, c, flags, material, far, light);
     return dark;
+  }
+  /// As attenuate(), unless what the surface lets through is kept.
+  uint32_t cross_translucent(const RayPacket& rays, const F& at, const Crossings<S>& c, uint32_t flags,
+                             uint32_t material, uint32_t lanes, VectorLanes& light) {
+    if (translucency() != Translucency::is_kept) return attenuate(rays, at, c, flags, material, lanes, light);
+    VectorLanes* const kept = static_cast<NearCrossings<S>&>(light).add(at, lanes);
+    return kept == nullptr ? lanes : attenuate(rays, at, c, flags, material, lanes, *kept);
   }
 
   // Objects that are not simple: their crossings are several pairs, and count where the CSG's condition
@@ -378,7 +392,7 @@ private:
   HitFilter hit_filter_;
   TraversalCounters counters_;
   uint32_t reflected_ = 0;
-  bool marks_ = false;
+  Translucency translucency_ = Translucency::attenuates;
 };
 
 } // namespace celltrace::kernel

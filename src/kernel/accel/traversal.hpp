@@ -59,6 +59,16 @@ public:
     mark(queries, count, [&] { intersect(queries, count, light); });
   }
 
+  /// As transmittance(), for a query whose light is that of NearCrossings, which keep what is crossed. The
+  /// light of lanes for which they had no room becomes 0.
+  void keep_crossings(RayQuery& query) {
+    keep([&] { intersect_packet(query); });
+  }
+  /// The same for several queries toward one light. May change their order.
+  void keep_crossings(RayQuery* queries, uint32_t count, const LightRecord& light) {
+    keep([&] { intersect(queries, count, light); });
+  }
+
   /// Lets shadow rays end where they first cross what a light is projected through. Returns the lanes that
   /// do, before the light; the light of the others becomes 0.
   CELLTRACE_ONE_COPY uint32_t project(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
@@ -169,6 +179,7 @@ public:
   void reset_counters() { objects_.reset_counters(); }
 
 private:
+  using Translucency = typename ObjectTests<Spu>::Translucency;
   static constexpr bool kHasGrid = (kAccelerators & kGridOnly) != 0,
                         kHasBvh = (kAccelerators & kBvhOnly) != 0;
 
@@ -176,9 +187,14 @@ private:
     const F zero(0.0f);
     for (uint32_t i = 0; i < count; ++i)
       queries[i].light->template store<S>({zero, zero, zero});
-    objects_.set_marking(true);
+    objects_.set_translucency(Translucency::marks);
     run();
-    objects_.set_marking(false);
+    objects_.set_translucency(Translucency::attenuates);
+  }
+  template <class Run> void keep(Run run) {
+    objects_.set_translucency(Translucency::is_kept);
+    run();
+    objects_.set_translucency(Translucency::attenuates);
   }
 
   void intersect_grid(RayQuery* queries, uint32_t count) {
@@ -223,7 +239,7 @@ private:
 
   /// Sets the light of a query to 0 in lanes that are occluded or that were not asked for.
   void clear_occluded(const RayQuery* queries, uint32_t count) const {
-    if (!objects_.is_marking()) clear_light(queries, count);
+    if (objects_.translucency() != Translucency::marks) clear_light(queries, count);
   }
   CELLTRACE_ONE_COPY static void clear_light(const RayQuery* queries, uint32_t count) {
     const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};

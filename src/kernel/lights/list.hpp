@@ -47,6 +47,15 @@ constexpr bool has_area(const LightRecord& light) {
 constexpr bool has_areas(const FrameBlock& frame) {
   return frame.light_places != frame.light_count;
 }
+
+/// Whether shadow rays that cross something translucent are walked (ShadowWalk): all of them.
+constexpr bool walks_translucent(const FrameBlock& frame) {
+  return (frame.light_ways & light_way::stepwise) != 0;
+}
+/// The same: any of them.
+constexpr bool walks_shadows(const FrameBlock& frame) {
+  return (frame.light_ways & (light_way::stepwise | light_way::near_surfaces)) != 0;
+}
 constexpr bool is_parallel(const LightRecord& light) {
   return (light.kind_and_flags & light_flag::parallel) != 0;
 }

@@ -61,7 +61,9 @@ public:
   /// order.
   void trace(const LightRecord& light, RayQuery* queries, uint32_t count) {
     if constexpr (kMarksTranslucent<Spu>)
-      if (walk_ != nullptr) return walk_marked(light, queries, count);
+      if (walk_ != nullptr)
+        return walks_translucent(frame_) ? walk_marked(light, queries, count)
+                                         : look_at_crossings(light, queries, count);
     traversal_.intersect(queries, count, light);
   }
 
@@ -98,9 +100,12 @@ private:
     }
     if (walk_ == nullptr) return traversal_.transmittance(rays, lanes, distance, colour);
     if (walks_all(light)) return walk_shadows(light, rays, lanes, distance, colour);
-    if constexpr (kMarksTranslucent<Spu>) walk_marked(light, rays, lanes, distance, colour);
+    if constexpr (kMarksTranslucent<Spu>) {
+      if (walks_translucent(frame_)) return walk_marked(light, rays, lanes, distance, colour);
+      look_at_crossings(light, rays, lanes, distance, colour);
+    }
   }
-  /// Whether all shadow rays toward a light are walked; otherwise those that are marked are, or none.
+  /// Whether all shadow rays toward a light are walked; otherwise those are that have to be, or none.
   bool walks_all(const LightRecord& light) const {
     return walk_ != nullptr && (!kMarksTranslucent<Spu> || is_dimmed(light));
   }
@@ -113,8 +118,10 @@ private:
       queries[i].light = &marks[i];
     }
     traversal_.mark_translucent(queries, count, light);
-    for (uint32_t i = 0; i < count; ++i)
-      walk_some(light, queries[i], marked_lanes<S>(*queries[i].light), *colours[queries[i].light - marks]);
+    for (uint32_t i = 0; i < count; ++i) {
+      VectorLanes& colour = *colours[queries[i].light - marks];
+      walk_some(light, queries[i], colour, marked_lanes<S>(*queries[i].light), colour);
+    }
   }
   /// The same for one packet, of which some lanes may be walked without asking.
   CELLTRACE_ONE_COPY void walk_marked(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
@@ -130,12 +137,45 @@ private:
       marking_.count(asked, inside, marked);
       walked |= marked;
     }
-    walk_some(light, query, walked, colour);
+    walk_some(light, query, colour, walked, colour);
   }
-  /// The light of a query that has been marked, of which `walked` lanes are still to be walked.
-  void walk_some(const LightRecord& light, const RayQuery& query, uint32_t walked, VectorLanes& colour) {
+  /// Answers the queries of a bundle where surfaces may be near each other: what they cross is kept. Only
+  /// rays are walked that cross more than there is room for.
+  CELLTRACE_ONE_COPY void look_at_crossings(const LightRecord& light, RayQuery* queries, uint32_t count) {
+    CrossingPool pool;
+    NearCrossings<S> crossings[kPackets];
+    VectorLanes* colours[kPackets];
+    for (uint32_t i = 0; i < count; ++i) {
+      colours[i] = queries[i].light;
+      crossings[i].begin(*colours[i], pool);
+      queries[i].light = &crossings[i];
+    }
+    traversal_.keep_crossings(queries, count, light);
+    for (uint32_t i = 0; i < count; ++i) {
+      auto& crossed = static_cast<NearCrossings<S>&>(*queries[i].light);
+      finish(light, queries[i], crossed, *colours[&crossed - crossings]);
+    }
+  }
+  /// The same for one packet.
+  CELLTRACE_ONE_COPY void look_at_crossings(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
+                                            const FloatLanes& distance, VectorLanes& colour) {
+    CrossingPool pool;
+    NearCrossings<S> crossings;
+    crossings.begin(colour, pool);
+    RayQuery query = {&rays, nullptr, &distance, &crossings, lanes};
+    traversal_.keep_crossings(query);
+    finish(light, query, crossings, colour);
+  }
+  void finish(const LightRecord& light, const RayQuery& query, NearCrossings<S>& crossings,
+              VectorLanes& colour) {
+    crossings.finish();
+    walk_some(light, query, crossings, crossings.overflowed, colour);
+  }
+  /// The light of a query: `answered` in lanes that are left; `walked` lanes are still to be walked.
+  void walk_some(const LightRecord& light, const RayQuery& query, const VectorLanes& answered,
+                 uint32_t walked, VectorLanes& colour) {
     const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
-    const V3<S> direct = select<S>(S::M::from_bits(query.lanes), colour.template load<S>(), dark);
+    const V3<S> direct = select<S>(S::M::from_bits(query.lanes), answered.template load<S>(), dark);
     if (walked == 0) return colour.template store<S>(direct);
     walk_shadows(light, *query.rays, walked, *query.distance, colour);
     colour.template store<S>(colour.template load<S>() + direct);

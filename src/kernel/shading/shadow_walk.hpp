@@ -10,10 +10,6 @@
 
 namespace celltrace::kernel {
 
-constexpr bool walks_shadows(const FrameBlock& frame) {
-  return (frame.light_ways & light_way::stepwise) != 0;
-}
-
 /// The rays of a packet on their way to a light.
 template <class S> struct alignas(128) ShadowWalk {
   RayNode* ray;    ///< from the last surface on; those that are still on the way

@@ -1,0 +1,74 @@
+// What shadow rays cross of translucent surfaces, some of which may be so near each other that not all of
+// them count. Kernel dialect.
+#pragma once
+
+#include "kernel/math.hpp"
+#include "kernel/packet.hpp"
+#include "kernel/primitives/crossings.hpp"
+
+namespace celltrace::kernel {
+
+/// Room for what the packets of a bundle cross.
+struct CrossingPool {
+  static constexpr uint32_t kMost = 384;
+  static constexpr float kNowhere = -1.0f;
+
+  uint32_t count = 0;
+  FloatLanes distance[kMost]; ///< kNowhere in lanes that do not cross it
+  VectorLanes transmittance[kMost];
+};
+
+/// The light of a packet's shadow rays, without what they have crossed until finish().
+template <class S> struct NearCrossings : VectorLanes {
+  using F = typename S::F;
+  using M = typename S::M;
+
+  uint32_t overflowed = 0; ///< lanes that have crossed more than there is room for
+
+  void begin(const VectorLanes& light, CrossingPool& pool) {
+    static_cast<VectorLanes&>(*this) = light;
+    pool_ = &pool;
+    overflowed = count_ = 0;
+  }
+  /// Of a surface that `lanes` cross at `distance`: where what it lets through is to be multiplied. Null if
+  /// there is no room.
+  VectorLanes* add(const F& distance, uint32_t lanes) {
+    if (count_ == kMost || pool_->count == CrossingPool::kMost) {
+      overflowed |= lanes;
+      return nullptr;
+    }
+    const uint32_t place = pool_->count++;
+    place_[count_++] = static_cast<uint16_t>(place);
+    S::select(M::from_bits(lanes), distance, F(CrossingPool::kNowhere)).store(pool_->distance[place].lane);
+    const F one(1.0f);
+    pool_->transmittance[place].template store<S>({one, one, one});
+    return &pool_->transmittance[place];
+  }
+  /// Multiplies the light by what those surfaces let through that count: as POV-Ray starts again at each one,
+  /// it does not see the next within kShadowEpsilon. Of two at one distance the one that was found first
+  /// does.
+  void finish() {
+    V3<S> light = this->template load<S>();
+    for (uint32_t i = 0; i < count_; ++i) {
+      const F distance = distance_of(i), nearest = distance - F(kShadowEpsilon);
+      M hidden = M::none();
+      for (uint32_t k = 0; k < i; ++k)
+        hidden = hidden | ((distance_of(k) <= distance) & (distance_of(k) >= nearest));
+      for (uint32_t k = i + 1; k < count_; ++k)
+        hidden = hidden | ((distance_of(k) < distance) & (distance_of(k) >= nearest));
+      light = select<S>(hidden, light, light * pool_->transmittance[place_[i]].template load<S>());
+    }
+    this->template store<S>(light);
+  }
+
+private:
+  static constexpr uint32_t kMost = 64;
+
+  F distance_of(uint32_t i) const { return F::load(pool_->distance[place_[i]].lane); }
+
+  CrossingPool* pool_ = nullptr;
+  uint32_t count_ = 0;
+  uint16_t place_[kMost]; ///< in the pool
+};
+
+} // namespace celltrace::kernel
