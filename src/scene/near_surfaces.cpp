@@ -2,7 +2,7 @@
 
 #include "kernel/primitives/crossings.hpp"
 #include "kernel/records.hpp"
-#include "scene/shape_geometry.hpp"
+#include "scene/object_extents.hpp"
 
 #include <algorithm>
 
@@ -17,14 +17,14 @@ public:
 
   void add(const Object& object, const Transform& around) {
     if (object.is_hidden || object.no_shadow) return;
-    const Transform transform = object.transform.then(around);
     const auto* const csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape);
     if (csg != nullptr && (*csg)->operation == Csg::Operation::union_) {
+      const Transform transform = object.transform.then(around);
       for (const Object& part : (*csg)->parts)
         add(part, transform);
       return;
     }
-    if (is_translucent(object)) boxes_.push_back({extent_of(object, transform), is_flat(object)});
+    if (is_translucent(object)) boxes_.push_back({extent_of(object, around), is_flat(object)});
   }
 
   /// Whether any is thin, or near another one.
@@ -72,22 +72,6 @@ private:
         for (const Index material : triangle.material)
           if (material != kNoIndex && is_translucent(material)) return true;
     return is_translucent(object.material);
-  }
-
-  /// Of a CSG: where it can be.
-  static Extent extent_of(const Object& object, const Transform& transform) {
-    const auto* const csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape);
-    if (object.inverse) return Extent::everywhere();
-    if (csg == nullptr) return geometry::extent_of(object.shape, transform);
-    const std::vector<Object>& parts = (*csg)->parts;
-    Extent extent = extent_of(parts.front(), parts.front().transform.then(transform));
-    if ((*csg)->operation == Csg::Operation::difference) return extent;
-    for (std::size_t i = 1; i < parts.size(); ++i) {
-      const Extent other = extent_of(parts[i], parts[i].transform.then(transform));
-      extent =
-          (*csg)->operation == Csg::Operation::intersection ? extent.common(other) : extent.joined(other);
-    }
-    return extent;
   }
 
   const std::vector<std::uint32_t>& material_flags_;

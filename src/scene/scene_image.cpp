@@ -3,6 +3,7 @@
 #include "celltrace/error.hpp"
 #include "kernel/direct/build_bvh_plan.hpp"
 #include "scene/build_watch.hpp"
+#include "scene/coplanar_faces.hpp"
 #include "scene/image_layout.hpp"
 #include "scene/light_sets.hpp"
 #include "scene/mesh_instances.hpp"
@@ -135,8 +136,9 @@ void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads
   BuildWatch::reach(0);
   validate(given);
   const SceneWithProjectors with_projectors(given);
-  const Scene& scene = with_projectors.scene();
-  TextureTables textures(scene);
+  TextureTables textures(with_projectors.scene());
+  const SceneWithFacesApart with_faces_apart(with_projectors.scene(), textures.object_flags);
+  const Scene& scene = with_faces_apart.scene();
   BuildWatch::reach(0.05);
   const MeshInstances instances(scene, textures.object_flags, threads);
   BuildWatch::reach(0.2);
@@ -210,8 +212,9 @@ bool SceneImage::update(const Scene& given, AlignedBlock& work, unsigned threads
   if (!origin_ || given.objects.size() != origin_->is_instance.size()) return false;
   validate(given);
   const SceneWithProjectors with_projectors(given);
-  const Scene& scene = with_projectors.scene();
-  TextureTables textures(scene);
+  TextureTables textures(with_projectors.scene());
+  const SceneWithFacesApart with_faces_apart(with_projectors.scene(), textures.object_flags);
+  const Scene& scene = with_faces_apart.scene();
   const MeshInstances instances(scene, textures.object_flags, threads);
   if (which_are(instances, given.objects.size()) != origin_->is_instance) return false;
   const SceneObjects objects(scene, with_projectors.own_objects(), textures.objects, textures.object_flags,

@@ -4,6 +4,7 @@
 #include "reference/tracer.hpp"
 #include "render/backends.hpp"
 #include "render/scenes.hpp"
+#include "scene/coplanar_faces.hpp"
 #include "scene/scene_image.hpp"
 
 #include <catch2/catch.hpp>
@@ -344,4 +345,80 @@ TEST_CASE("Shadow rays miss what is near behind a translucent surface") {
   opaque.objects.back().material = 1;
   opaque.objects.back().no_shadow = true;
   CHECK_FALSE(is_flagged(opaque));
+}
+
+TEST_CASE("Of faces in one plane the one is seen that POV-Ray tests first") {
+  const auto box = [](Scene& scene, const Vec3& from, const Vec3& to, const Vec3& colour) {
+    Object object;
+    object.shape = Box{{from, to}};
+    object.material = scene.add(matte(colour));
+    scene.materials[object.material].finish.ambient = Vec3(1);
+    scene.materials[object.material].finish.diffuse = 0;
+    scene.objects.push_back(object);
+  };
+  // Where they overlap, seen along z or against it, with something aside so that POV-Ray has a tree.
+  for (const double direction : {1.0, -1.0}) {
+    for (const double turn : {0.0, 35.0}) {
+      Scene scene;
+      scene.camera = orthographic_camera({0.05, 0.03, -10 * direction}, {0.05, 0.03, 0}, 1);
+      const double thickness = 0.3 * direction;
+      box(scene, {-1, -1, 0}, {3, 1, thickness}, {1, 0, 0});     // its middle is at x = 1
+      box(scene, {-2, -1, 0}, {2, 1, 2 * thickness}, {0, 1, 0}); // 0
+      box(scene, {-3, -1, 0}, {5, 1, thickness}, {0, 0, 1});     // 1, behind the others
+      box(scene, {20, 0, 3}, {21, 1, 4}, {1, 1, 1});
+      for (Object& object : scene.objects)
+        object.transform = Transform::rotate({0, 0, turn});
+      for (const TestBackend& backend : backends()) {
+        const Image image = render(scene, backend.options(32, 24, 1)).image;
+        INFO(backend.spu() << ", " << direction << ", turned by " << turn);
+        for (int y = 0; y < image.height; ++y)
+          for (int x = 0; x < image.width; ++x) {
+            REQUIRE(image.pixel(x, y)[0] == 0);
+            REQUIRE(image.pixel(x, y)[1] == 255);
+          }
+      }
+    }
+  }
+}
+
+TEST_CASE("Planes are in front of faces of boxes in them, and copies of one object stay where they are") {
+  Scene scene;
+  scene.camera = orthographic_camera({0.1, 10, 0.2}, {0.1, 0, 0.2}, 1);
+  scene.camera.right = {1, 0, 0};
+  scene.camera.up = {0, 0, 0.75};
+  Object floor;
+  Object lid;
+  lid.shape = Box{{{-2, -1, -2}, {2, 0, 2}}};
+  lid.material = scene.add(matte({1, 0, 0}));
+  floor.shape = Plane{{0, 1, 0}, 0};
+  floor.material = scene.add(matte({0, 0, 1}));
+  for (const Index material : {lid.material, floor.material}) {
+    scene.materials[material].finish.ambient = Vec3(1);
+    scene.materials[material].finish.diffuse = 0;
+  }
+  Object aside;
+  aside.shape = Sphere{{9, 0, 0}, 1};
+  aside.material = floor.material;
+  scene.objects = {lid, floor, aside};
+  for (const TestBackend& backend : backends()) {
+    const Image image = render(scene, backend.options(32, 24, 1)).image;
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x)
+        REQUIRE(image.pixel(x, y)[2] == 255);
+  }
+  // What looks the same is not moved: the image is that of one box and one below it.
+  Scene twice;
+  twice.add(matte({1, 1, 1}));
+  lid.material = 0;
+  twice.objects = {lid, lid};
+  CHECK_FALSE(SceneWithFacesApart(twice, {kernel::object_flag::opaque}).has_moved());
+  twice.objects[1].material = twice.add(matte({1, 0, 0}));
+  const std::vector<std::uint32_t> opaque(2, kernel::object_flag::opaque);
+  twice.camera.location = {0, 5, -9};
+  const SceneWithFacesApart apart(twice, opaque);
+  REQUIRE(apart.has_moved());
+  const auto& moved = std::get<Box>(apart.scene().objects[0].shape); // of two objects the first one is seen
+  CHECK(moved.corner[1].y > 0);
+  CHECK(moved.corner[1].y < 1e-4);
+  CHECK(moved.corner[0].y == -1);
 }

@@ -1,0 +1,337 @@
+#include "scene/coplanar_faces.hpp"
+
+#include "kernel/records.hpp"
+#include "scene/bounding_tree.hpp"
+#include "scene/object_extents.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <tuple>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+namespace celltrace {
+
+namespace {
+
+constexpr std::size_t kMostObjects = 8192, kMostPairs = 1 << 20;
+constexpr int kMostSteps = 32; ///< that faces of one plane are moved apart by
+
+/// In a plane whose normal points to where the first of its coordinates grows that are not 0.
+struct Face {
+  Vec3 normal;
+  double distance; ///< of the plane from the origin
+  Extent extent;
+  std::size_t object;
+  std::size_t box; ///< kPlane: the object is a plane
+  int side;        ///< of the box: axis * 2, and 1 for the one of larger coordinates
+  bool looks_up;   ///< its outside is where the normal points
+  Index material;
+  int steps = 0; ///< to move it, along the normal
+
+  static constexpr std::size_t kPlane = ~std::size_t{0};
+};
+
+/// Calls `visit(box, transform, material)` for the boxes of an object, which may be changed: those in its
+/// CSG, too, that are not cut out of it. CSGs are copied if they may be.
+template <class AnyObject, class Visit>
+void visit_boxes(AnyObject& object, const Transform& around, Visit& visit) {
+  if (object.inverse) return;
+  const Transform transform = object.transform.then(around);
+  if (auto* const box = std::get_if<Box>(&object.shape)) return visit(*box, transform, object.material);
+  auto* const shared = std::get_if<std::shared_ptr<const Csg>>(&object.shape);
+  if (shared == nullptr) return;
+  const auto visit_parts = [&](auto& csg) {
+    const bool is_difference = csg.operation == Csg::Operation::difference;
+    for (std::size_t i = 0; i < (is_difference ? 1 : csg.parts.size()); ++i)
+      visit_boxes(csg.parts[i], transform, visit);
+  };
+  if constexpr (std::is_const_v<AnyObject>) {
+    visit_parts(**shared);
+  } else {
+    auto copy = std::make_shared<Csg>(**shared);
+    visit_parts(*copy);
+    *shared = std::move(copy);
+  }
+}
+
+/// Turns the normal, which points out, the way that Face says.
+void turn(Face& face) {
+  constexpr double kNone = 1e-9;
+  int axis = 0;
+  while (axis < 2 && std::abs(face.normal[axis]) < kNone)
+    ++axis;
+  face.looks_up = face.normal[axis] > 0;
+  if (face.looks_up) return;
+  face.normal = -face.normal;
+  face.distance = -face.distance;
+}
+
+class CoplanarFaces {
+public:
+  CoplanarFaces(const Scene& scene, const std::vector<std::uint32_t>& material_flags)
+      : scene_(scene), material_flags_(material_flags) {
+    std::size_t boxes = 0;
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+      const Object& object = scene.objects[i];
+      if (const auto* const plane = std::get_if<Plane>(&object.shape)) add_plane(i, *plane);
+      const auto visit = [&](const Box& box, const Transform& transform, Index material) {
+        if (!object.is_hidden) add_box(i, boxes, box, transform, material);
+        ++boxes;
+      };
+      visit_boxes(object, Transform(), visit);
+    }
+    box_count_ = boxes;
+  }
+
+  /// Whether any has to be moved.
+  bool settle() {
+    sort();
+    for (std::size_t first = 0, last = 1; first < faces_.size(); first = last++) {
+      while (last < faces_.size() && are_in_one_plane(faces_[last - 1], faces_[last]))
+        ++last;
+      if (last - first > 1) settle(first, last);
+    }
+    return any_moves_;
+  }
+
+  Scene moved() const {
+    Scene scene = scene_;
+    struct Sides {
+      const Face* face[6] = {};
+    };
+    std::vector<Sides> sides(box_count_);
+    std::vector<bool> has_moves(scene.objects.size());
+    for (const Face& face : faces_) {
+      if (face.steps == 0) continue;
+      has_moves[face.object] = true;
+      if (face.box != Face::kPlane)
+        sides[face.box].face[face.side] = &face;
+      else
+        scene.objects[face.object].transform =
+            scene.objects[face.object].transform.then(Transform::translate(way(face)));
+    }
+    std::size_t number = 0;
+    const auto move = [&](Box& box, const Transform& transform, Index) {
+      for (int side = 0; side < 6; ++side) {
+        const Face* const face = sides[number].face[side];
+        if (face == nullptr) continue;
+        const int axis = side / 2;
+        Vec3 unit(0);
+        unit[axis] = 1;
+        const int corner = (box.corner[0][axis] > box.corner[1][axis]) != (side % 2 != 0);
+        box.corner[corner][axis] +=
+            glm::dot(way(*face), face->normal) / glm::dot(transform.direction(unit), face->normal);
+      }
+      ++number;
+    };
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+      if (has_moves[i]) {
+        visit_boxes(scene.objects[i], Transform(), move);
+      } else {
+        const auto pass = [&](const Box&, const Transform&, Index) { ++number; };
+        visit_boxes(std::as_const(scene.objects[i]), Transform(), pass);
+      }
+    }
+    return scene;
+  }
+
+private:
+  /// How far a face is moved: farther than where rounding may put it, and much less than can be seen.
+  Vec3 way(const Face& face) const {
+    constexpr double kStep = 5e-7;
+    const Vec3 eye = scene_.camera.location;
+    Vec3 near(0);
+    if (!face.extent.is_everywhere())
+      for (int axis = 0; axis < 3; ++axis)
+        near[axis] = std::clamp(eye[axis], face.extent.min[axis], face.extent.max[axis]);
+    const double size = glm::length(eye) + std::abs(face.distance) + glm::length(near);
+    return face.normal * (kStep * face.steps * size);
+  }
+
+  void add_plane(std::size_t object, const Plane& plane) {
+    Face face{};
+    const Transform& transform = scene_.objects[object].transform;
+    face.normal = glm::normalize(transform.normal(plane.normal));
+    face.distance = glm::dot(face.normal, transform.point(glm::normalize(plane.normal) * plane.distance));
+    turn(face);
+    face.extent = Extent::everywhere();
+    face.material = scene_.objects[object].material;
+    face.object = object;
+    face.box = Face::kPlane;
+    faces_.push_back(face);
+  }
+
+  void add_box(std::size_t object, std::size_t number, const Box& box, const Transform& transform,
+               Index material) {
+    const Vec3 low = glm::min(box.corner[0], box.corner[1]), high = glm::max(box.corner[0], box.corner[1]);
+    for (int side = 0; side < 6; ++side) {
+      const int axis = side / 2;
+      const double at = (side % 2 != 0 ? high : low)[axis];
+      Vec3 unit(0);
+      unit[axis] = 1;
+      Face face{};
+      Vec3 corner_of_face;
+      for (int corner = 0; corner < 4; ++corner) {
+        Vec3 place;
+        place[axis] = at;
+        place[(axis + 1) % 3] = (corner & 1 ? high : low)[(axis + 1) % 3];
+        place[(axis + 2) % 3] = (corner & 2 ? high : low)[(axis + 2) % 3];
+        place = corner_of_face = transform.point(place);
+        face.extent = corner == 0 ? Extent{place, place} : face.extent.joined({place, place});
+      }
+      face.normal = glm::normalize(transform.normal(unit)) * (side % 2 != 0 ? 1.0 : -1.0);
+      face.distance = glm::dot(face.normal, corner_of_face);
+      face.material = material;
+      // Those that look away are seen through something, or in mirrors: where many are, time is worth more.
+      if (is_opaque(face) && glm::dot(face.normal, scene_.camera.location) < face.distance) continue;
+      turn(face);
+      face.object = object;
+      face.box = number;
+      face.side = side;
+      faces_.push_back(face);
+    }
+  }
+
+  static bool are_parallel(const Face& a, const Face& b) {
+    constexpr double kSame = 1e-9;
+    const Vec3 difference = glm::abs(a.normal - b.normal);
+    return std::max({difference.x, difference.y, difference.z}) < kSame;
+  }
+  static bool are_in_one_plane(const Face& a, const Face& b) {
+    constexpr double kSame = 1e-11;
+    return are_parallel(a, b) && std::abs(a.distance - b.distance) <= kSame * (1 + std::abs(a.distance));
+  }
+
+  /// So that those of one plane are neighbours.
+  void sort() {
+    struct Key {
+      std::int32_t normal[3]; ///< rounded
+      std::uint32_t face;
+      double distance;
+    };
+    std::vector<Key> keys;
+    keys.reserve(faces_.size());
+    for (const Face& face : faces_) {
+      const auto rounded = [&](int axis) {
+        return static_cast<std::int32_t>(std::floor(face.normal[axis] * 1e6 + 0.25));
+      };
+      const auto number = static_cast<std::uint32_t>(keys.size());
+      keys.push_back({{rounded(0), rounded(1), rounded(2)}, number, face.distance});
+    }
+    std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
+      return std::tie(a.normal[0], a.normal[1], a.normal[2], a.distance) <
+             std::tie(b.normal[0], b.normal[1], b.normal[2], b.distance);
+    });
+    std::vector<Face> sorted;
+    sorted.reserve(faces_.size());
+    for (const Key& key : keys)
+      sorted.push_back(faces_[key.face]);
+    faces_ = std::move(sorted);
+  }
+
+  /// Whether two faces of one plane share more than edges.
+  static bool overlap(const Extent& a, const Extent& b) {
+    int wide = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double both = std::min(a.max[axis], b.max[axis]) - std::max(a.min[axis], b.min[axis]);
+      const double size = std::min(a.max[axis] - a.min[axis], b.max[axis] - b.min[axis]);
+      if (both < -1e-9 * (1 + std::abs(a.min[axis]))) return false;
+      if (both > 1e-6 * size && both > 0) ++wide;
+    }
+    return wide >= 2;
+  }
+
+  bool is_opaque(const Face& face) const {
+    return (material_flags_[face.material] & kernel::object_flag::opaque) != 0;
+  }
+  /// Whether it shows which one of the two rays hit. From inside of what is opaque nothing is seen.
+  bool can_differ(const Face& a, const Face& b) const {
+    const bool are_opaque = is_opaque(a) && is_opaque(b);
+    return !are_opaque || (a.looks_up == b.looks_up && a.material != b.material);
+  }
+
+  /// Moves faces [first, last) of one plane apart.
+  void settle(std::size_t first, std::size_t last) {
+    std::sort(faces_.begin() + static_cast<std::ptrdiff_t>(first),
+              faces_.begin() + static_cast<std::ptrdiff_t>(last),
+              [](const Face& a, const Face& b) { return a.extent.min.x < b.extent.min.x; });
+    std::vector<std::pair<Face*, Face*>> pairs; // the first one is seen
+    for (std::size_t i = first; i < last; ++i) {
+      for (std::size_t k = i + 1; k < last && faces_[k].extent.min.x <= faces_[i].extent.max.x; ++k) {
+        if (++pairs_ > kMostPairs) return;
+        Face &a = faces_[i], &b = faces_[k];
+        if (a.object == b.object || !can_differ(a, b) || !overlap(a.extent, b.extent)) continue;
+        if (is_seen(a, b))
+          pairs.emplace_back(&a, &b);
+        else
+          pairs.emplace_back(&b, &a);
+      }
+    }
+    if (pairs.empty()) return;
+    any_moves_ = true;
+    if (stack(pairs)) return;
+    // What is seen depends on the ray, and no order of all faces is right everywhere.
+    for (auto& [seen, hidden] : pairs)
+      if (tree_->rank(hidden->object) < tree_->rank(seen->object)) std::swap(seen, hidden);
+    if (stack(pairs)) return;
+    for (std::size_t i = first; i < last; ++i)
+      faces_[i].steps = 0;
+  }
+
+  /// Gives the faces of pairs their steps. False if these would be too many.
+  bool stack(const std::vector<std::pair<Face*, Face*>>& pairs) const {
+    const Face& any = *pairs.front().first;
+    const bool from_above = glm::dot(scene_.camera.location, any.normal) > any.distance;
+    for (const auto& [seen, hidden] : pairs)
+      seen->steps = hidden->steps = 0;
+    bool has_changed = true;
+    while (has_changed) {
+      has_changed = false;
+      for (const auto& [seen, hidden] : pairs) {
+        Face &above = from_above ? *seen : *hidden, &below = from_above ? *hidden : *seen;
+        if (above.steps > below.steps) continue;
+        above.steps = below.steps + 1;
+        if (above.steps > kMostSteps) return false;
+        has_changed = true;
+      }
+    }
+    return true;
+  }
+
+  /// Whether POV-Ray shows `a` where the two overlap.
+  bool is_seen(const Face& a, const Face& b) {
+    if (!tree_) {
+      std::vector<Extent> extents;
+      for (const Object& object : scene_.objects)
+        extents.push_back(extent_of(object, Transform()));
+      tree_.emplace(extents);
+    }
+    const Extent both = a.extent.common(b.extent);
+    const Vec3 eye = scene_.camera.location;
+    const Vec3 middle = both.is_everywhere() ? eye + a.normal : (both.min + both.max) * 0.5;
+    return tree_->tests_first(a.object, b.object, {eye, middle - eye});
+  }
+
+  const Scene& scene_;
+  const std::vector<std::uint32_t>& material_flags_;
+  std::vector<Face> faces_;
+  std::size_t box_count_ = 0, pairs_ = 0;
+  std::optional<BoundingTree> tree_;
+  bool any_moves_ = false;
+};
+
+} // namespace
+
+SceneWithFacesApart::SceneWithFacesApart(const Scene& scene, const std::vector<std::uint32_t>& material_flags)
+    : scene_(scene) {
+  if (scene.objects.size() > kMostObjects) return;
+  CoplanarFaces faces(scene, material_flags);
+  if (faces.settle()) copy_ = faces.moved();
+}
+
+} // namespace celltrace
