@@ -191,15 +191,11 @@ PlacedShape place(const Object& object, const Cone& cone) {
     std::swap(small, large);
     std::swap(from, to);
   }
-  // Nearly a cylinder, its apex is too far away.
-  if (large - small <= 1e-6 * large)
-    return place(object, Cylinder{cone.base, cone.cap, 0.5 * (small + large), cone.open});
+  if (small == large) return place(object, Cylinder{cone.base, cone.cap, large, cone.open});
   if (from == to) return nothing();
-  const double ratio = small / large;
-  // The apex is where the radius would be 0.
-  const Vec3 apex = to - (to - from) / (1 - ratio);
-  PlacedShape shape = in_own_space<ConePrimitive>(object, along_axis(apex, to, large));
-  shape.parameters[0] = static_cast<float>(ratio);
+  PlacedShape shape = in_own_space<ConePrimitive>(object, along_axis(from, to, large));
+  shape.parameters[0] = static_cast<float>(small / large);
+  shape.parameters[1] = static_cast<float>((large - small) / large);
   if (cone.open) shape.kind_and_flags |= object_flag::open;
   return shape;
 }
@@ -418,16 +414,13 @@ PlacedShape with_boundary(const PlacedShape& shape, const Vec3& eye) {
   } else if (kind == kPrimitiveKind<BoxPrimitive>) {
     for (int row = 0; row < 3; ++row)
       scale(row, 1 / (1 + errors[row]));
-  } else if (kind == kPrimitiveKind<CylinderPrimitive>) {
-    scale(0, 1 + across);
-    scale(1, 1 + across);
+  } else if (kind == kPrimitiveKind<CylinderPrimitive> || kind == kPrimitiveKind<ConePrimitive>) {
+    // To another height of a cone belongs another radius.
+    const double narrower = across + (kind == kPrimitiveKind<ConePrimitive> ? 2 * along : 0);
+    scale(0, 1 + narrower);
+    scale(1, 1 + narrower);
     map[11] = static_cast<float>(map[11] - along);
     scale(2, 1 / (1 - 2 * along));
-  } else if (kind == kPrimitiveKind<ConePrimitive>) {
-    scale(0, 1 + across + 2 * along);
-    scale(1, 1 + across + 2 * along);
-    scale(2, 1 + along);
-    if (solid.parameters[0] > 0) solid.parameters[0] += static_cast<float>(2 * along);
   }
   return solid;
 }

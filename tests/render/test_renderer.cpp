@@ -87,9 +87,9 @@ TEST_CASE("Statistics agree with each other") {
   for (const TestBackend& backend : backends()) {
     INFO(backend.spu());
     const bool shares_packets = backend.backend == Backend::native;
-    const auto expected_tests = shares_packets
-                                    ? expected.packet_tests
-                                    : render(scene, options_of(backend, 1)).statistics.packet_tests;
+    // SPEs walk where translucent surfaces may be near each other.
+    const RenderStatistics alone =
+        shares_packets ? expected : render(scene, options_of(backend, 1)).statistics;
     Renderer renderer(options_of(backend, 3));
     for (int frame = 0; frame < 2; ++frame) {
       const RenderStatistics s = renderer.render(scene).statistics;
@@ -104,9 +104,9 @@ TEST_CASE("Statistics agree with each other") {
       CHECK(s.reflection_rays == expected.reflection_rays);
       CHECK(s.refraction_rays == expected.refraction_rays);
       CHECK(s.dropped_rays == 0);
-      CHECK(s.packet_tests == expected_tests);
+      CHECK(s.packet_tests == alone.packet_tests);
       CHECK(s.packet_tests.at("ellipsoid") == 0);
-      CHECK(s.accelerator_visits == expected.accelerator_visits);
+      CHECK(s.accelerator_visits == alone.accelerator_visits);
       CHECK(s.accelerator_list_entries >= s.objects);
 
       std::uint64_t rays = 0;

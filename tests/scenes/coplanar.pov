@@ -27,7 +27,6 @@ box { <0.8, 0, 0.2>, <1.8, 0.8, 1.2> pigment { rgbf <0.8, 1, 0.9, 0.9> } interio
 union {
   box { <-1.5, 0, 0>, <0.3, 0.5, 0.3> Colour() }
   box { <-0.2, 0.2, 0>, <1.5, 0.7, 0.5> Colour() }
-  intersection { box { <-1, 0.3, 0>, <0.4, 1, 0.4> } sphere { <-0.3, 0.5, 0>, 0.7 } Colour() }
   rotate 20 * y
   translate <2.2, 0, 3>
 }

@@ -1,5 +1,5 @@
-// Cone: x^2 + y^2 = z^2 in its space, from z = `ratio` (the smaller radius over the larger one) to z = 1;
-// with or without caps. Kernel dialect.
+// Cone: x^2 + y^2 = r^2 in its space, where the radius r grows from `ratio` (the smaller radius over the
+// larger one) at z = 0 to 1 at z = 1, by `second`; with or without caps. Kernel dialect.
 #pragma once
 
 #include "kernel/primitives/local_shape.hpp"
@@ -22,9 +22,10 @@ struct ConePrimitive : LocalPrimitive<ConePrimitive> {
     const V3<S> from_middle = {rays.origin.x, rays.origin.y, rays.origin.z - F(0.5f)};
     const F shift = -dot<S>(from_middle, d) / length_square;
     const V3<S> o = rays.origin + d * shift;
-    const F a = d.x * d.x + d.y * d.y - d.z * d.z;
-    const F b = o.x * d.x + o.y * d.y - o.z * d.z;
-    const F k = o.x * o.x + o.y * o.y - o.z * o.z;
+    const F radius = radius_at<S>(o.z, parameters), growth = d.z * parameters.second;
+    const F a = d.x * d.x + d.y * d.y - growth * growth;
+    const F b = o.x * d.x + o.y * d.y - radius * growth;
+    const F k = o.x * o.x + o.y * o.y - radius * radius;
     const F square = b * b - a * k;
     // Where a < 0 there is always a crossing, at the apex at least; less is rounding.
     const auto steep = a < zero;
@@ -36,12 +37,12 @@ struct ConePrimitive : LocalPrimitive<ConePrimitive> {
     const F q = -(b + S::select(b < zero, -root, root));
     const F first = q * finite_inverse<S>(a), second = k * finite_inverse<S>(q);
     const F low = S::min(first, second), high = S::max(first, second);
-    // Inside is between the crossings or, of a steep ray, beyond the one in the nappe where z > 0.
+    // Inside is between the crossings or, of a steep ray, beyond the one in the nappe where r > 0.
     const F far_away(1e20f);
     const auto upward = d.z > zero;
     const F enter = S::select(steep, S::select(upward, high, -far_away), low);
     const F leave = S::select(steep, S::select(upward, far_away, low), high);
-    const SlabInterval<S> caps(o.z, d.z, parameters.ratio, one);
+    const SlabInterval<S> caps(o.z, d.z, zero, one);
     const F near = S::select(parameters.open, low, S::max(enter, caps.enter));
     const F far = S::select(parameters.open, high, S::min(leave, caps.leave));
     const auto solid = crosses & (near <= far);
@@ -55,21 +56,31 @@ struct ConePrimitive : LocalPrimitive<ConePrimitive> {
 
   template <class S> static typename S::M inside_local(const V3<S>& p, const LocalParameters<S>& parameters) {
     using F = typename S::F;
-    return (p.x * p.x + p.y * p.y < p.z * p.z) & (p.z > parameters.ratio) & (p.z < F(1.0f));
+    const F radius = radius_at<S>(p.z, parameters);
+    return (p.x * p.x + p.y * p.y < radius * radius) & (p.z > F(0.0f)) & (p.z < F(1.0f));
   }
 
   template <class S>
   [[gnu::always_inline]] static V3<S> gradient(const V3<S>& p, const LocalParameters<S>& parameters) {
     using F = typename S::F;
     const F zero(0.0f), one(1.0f);
-    const F from_side = S::abs(p.z - S::sqrt(p.x * p.x + p.y * p.y)) * F(0.70710678f);
-    const F from_bottom = S::abs(p.z - parameters.ratio), from_top = S::abs(one - p.z);
+    const F radius = radius_at<S>(p.z, parameters);
+    const F from_side = S::abs(radius - S::sqrt(p.x * p.x + p.y * p.y));
+    const F from_bottom = S::abs(p.z), from_top = S::abs(one - p.z);
     const auto cap = (S::min(from_bottom, from_top) < from_side) & !parameters.open;
     const F up = S::select(from_top < from_bottom, one, -one);
-    return {S::select(cap, zero, p.x), S::select(cap, zero, p.y), S::select(cap, up, -p.z)};
+    return {S::select(cap, zero, p.x), S::select(cap, zero, p.y),
+            S::select(cap, up, -radius * parameters.second)};
   }
 
-  static LocalBounds local_bounds(float ratio) { return {ratio, 1.0f, 1.0f, false}; }
+  static LocalBounds local_bounds(float) { return {0.0f, 1.0f, 1.0f, false}; }
+
+private:
+  template <class S>
+  [[gnu::always_inline]] static typename S::F radius_at(const typename S::F& z,
+                                                        const LocalParameters<S>& parameters) {
+    return parameters.ratio + z * parameters.second;
+  }
 };
 
 } // namespace celltrace::kernel

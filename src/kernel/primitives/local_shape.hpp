@@ -20,7 +20,7 @@ namespace celltrace::kernel {
 /// What a shape has besides its map. One shape for all lanes, or in each lane another.
 template <class S> struct LocalParameters {
   typename S::F ratio;  ///< of a cone, a torus, a disc, a box or a cylinder: see there
-  typename S::F second; ///< of a superellipsoid or a box: see there
+  typename S::F second; ///< of a superellipsoid, a box or a cone: see there
   typename S::M open;   ///< cylinders and cones without caps
 };
 
