@@ -94,8 +94,8 @@ using namespace celltrace::test;
 
 TEST_CASE("the tracer uses no pointer into its cache too late") {
   RenderOptions options;
-  options.width = 48;
-  options.height = 36;
+  options.width = 32;
+  options.height = 24;
   options.backend = Backend::cell_emu;
   options.spes = 2;
   options.emulation.schedule = Schedule::lockstep;

@@ -195,11 +195,11 @@ void check_scene(const Scene& scene, unsigned packets = times(160)) {
 } // namespace
 
 TEST_CASE("Through soups of spheres, ellipsoids, triangles and all of them") {
-  check_scene(soup(1, {300, 0, 0}, 10, 1));
-  check_scene(soup(2, {0, 300, 0}, 10, 1));
-  check_scene(soup(3, {0, 0, 300}, 10, 2));
-  check_scene(soup(4, {100, 100, 100}, 10, 3)); // much overlap
-  check_scene(soup(5, {100, 100, 100}, 10, 0.1));
+  check_scene(soup(1, {150, 0, 0}, 10, 1));
+  check_scene(soup(2, {0, 150, 0}, 10, 1));
+  check_scene(soup(3, {0, 0, 150}, 10, 2));
+  check_scene(soup(4, {60, 60, 60}, 10, 3)); // much overlap
+  check_scene(soup(5, {60, 60, 60}, 10, 0.1));
 }
 
 TEST_CASE("Through more objects than are at hand, so that leaves wait") {
