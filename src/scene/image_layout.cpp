@@ -2,7 +2,6 @@
 
 #include "celltrace/error.hpp"
 #include "scene/image_fields.hpp"
-#include "scene/near_surfaces.hpp"
 #include "scene/scene_image.hpp"
 #include "scene/surface_records.hpp"
 
@@ -38,9 +37,10 @@ private:
 /// `has_blends`: some surfaces are of several materials.
 std::uint32_t light_ways_of(const Scene& scene, const TextureTables& textures, bool has_blends) {
   std::uint32_t ways = scene.fogs.empty() && textures.rainbows.empty() ? 0 : light_way::atmosphere;
+  bool has_fading = false;
   for (const Interior& interior : scene.interiors) {
     const InteriorRecord r = make_record(interior);
-    if (r.inverse_fade_distance != 0) ways |= light_way::fading | light_way::stepwise;
+    has_fading = has_fading || r.inverse_fade_distance != 0;
     if (r.refraction() != 1) ways |= light_way::fading;
     if (r.caustics != 0) ways |= light_way::stepwise;
   }
@@ -51,7 +51,9 @@ std::uint32_t light_ways_of(const Scene& scene, const TextureTables& textures, b
     if (light.is_dimmed_by_fog && !scene.fogs.empty()) ways |= light_way::stepwise;
     if (light.projected_through) ways |= light_way::projectors;
   }
-  return ways;
+  if (!has_fading) return ways;
+  if ((ways & light_way::stepwise) == 0) ways |= light_way::only_fading;
+  return ways | light_way::fading | light_way::stepwise;
 }
 
 /// The tables that come first: all that does not say where objects are. `blended`: objects of several
@@ -95,13 +97,14 @@ std::uint32_t room_of_unbounded(std::uint32_t count) {
 
 ImageHeader make_header(const Scene& scene, const LightSets& light_sets, const TextureTables& textures,
                         const SceneObjects& objects, const ObjectCensus& census,
-                        std::span<const std::uint32_t> groups, const MeshInstances& instances) {
+                        std::span<const std::uint32_t> groups, const MeshInstances& instances,
+                        bool has_near_surfaces) {
   ImageHeader header{};
   header.magic = kImageMagic;
   header.version = kImageVersion;
   Layout layout(sizeof(ImageHeader));
   place_surfaces(layout, header, scene, light_sets, textures, census.blended);
-  if (has_near_surfaces(scene, textures.object_flags)) header.light_ways |= light_way::near_surfaces;
+  if (has_near_surfaces) header.light_ways |= light_way::near_surfaces;
   const CsgParts& csg = objects.csg();
   layout.place<CsgRecord>(csg.conditions.size(), header.csg_offset, header.csg_count);
   layout.place<CsgStep>(csg.steps.size(), header.csg_step_offset, header.csg_step_count);

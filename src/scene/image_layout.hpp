@@ -26,7 +26,7 @@ std::uint32_t room_of_unbounded(std::uint32_t count);
 kernel::ImageHeader make_header(const Scene& scene, const LightSets& light_sets,
                                 const TextureTables& textures, const SceneObjects& objects,
                                 const ObjectCensus& census, std::span<const std::uint32_t> groups,
-                                const MeshInstances& instances);
+                                const MeshInstances& instances, bool has_near_surfaces);
 
 /// As `old`, but for the tables of a scene whose objects are where they were.
 kernel::ImageHeader with_surfaces(const kernel::ImageHeader& old, const Scene& scene,

@@ -2,6 +2,7 @@
 
 #include "kernel/primitives/crossings.hpp"
 #include "kernel/records.hpp"
+#include "scene/build_watch.hpp"
 #include "scene/object_extents.hpp"
 
 #include <algorithm>
@@ -30,7 +31,8 @@ public:
   /// Whether any is thin, or near another one.
   bool any_near() {
     constexpr double kNear = kernel::kShadowEpsilon;
-    constexpr std::size_t kMostPairs = 1 << 22; // beyond that nobody waits to know
+    constexpr std::size_t kMostBoxes = 1 << 18, kMostPairs = 1 << 22; // beyond that nobody waits to know
+    if (boxes_.size() > kMostBoxes) return true;
     std::sort(boxes_.begin(), boxes_.end(),
               [](const Box& a, const Box& b) { return a.extent.min.x < b.extent.min.x; });
     std::size_t pairs = 0;
@@ -84,8 +86,10 @@ bool has_near_surfaces(const Scene& scene, const std::vector<std::uint32_t>& mat
   const auto is_opaque = [](std::uint32_t flags) { return (flags & kernel::object_flag::opaque) != 0; };
   if (std::all_of(material_flags.begin(), material_flags.end(), is_opaque)) return false;
   TranslucentBoxes boxes(material_flags);
-  for (const Object& object : scene.objects)
-    boxes.add(object, Transform());
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    BuildWatch::look_at(i);
+    boxes.add(scene.objects[i], Transform());
+  }
   return boxes.any_near();
 }
 

@@ -7,6 +7,7 @@
 #include "scene/image_layout.hpp"
 #include "scene/light_sets.hpp"
 #include "scene/mesh_instances.hpp"
+#include "scene/near_surfaces.hpp"
 #include "scene/parallel.hpp"
 #include "scene/projectors.hpp"
 #include "scene/scene_objects.hpp"
@@ -135,10 +136,11 @@ void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads
                         std::uint32_t objects_a_thread, const ImageMemory& remembered) {
   BuildWatch::reach(0);
   validate(given);
-  const SceneWithProjectors with_projectors(given);
-  TextureTables textures(with_projectors.scene());
-  const SceneWithFacesApart with_faces_apart(with_projectors.scene(), textures.object_flags);
-  const Scene& scene = with_faces_apart.scene();
+  const SceneWithProjectors as_given(given);
+  TextureTables textures(as_given.scene());
+  const SceneWithFacesApart with_faces_apart(given, textures.object_flags);
+  const SceneWithProjectors with_projectors(with_faces_apart.scene());
+  const Scene& scene = with_projectors.scene();
   BuildWatch::reach(0.05);
   const MeshInstances instances(scene, textures.object_flags, threads);
   BuildWatch::reach(0.2);
@@ -155,7 +157,8 @@ void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads
   ObjectCensus census = loose;
   census.add(instances.census());
   const LightSets light_sets(scene);
-  const ImageHeader header = make_header(scene, light_sets, textures, objects, census, groups, instances);
+  const ImageHeader header = make_header(scene, light_sets, textures, objects, census, groups, instances,
+                                         has_near_surfaces(given, textures.object_flags));
 
   BuildWatch::reach(0.6);
   block_.reserve(header.bytes + bvh_bytes(header));
@@ -211,10 +214,11 @@ bool SceneImage::update(const Scene& given, AlignedBlock& work, unsigned threads
                         std::uint32_t objects_a_thread) {
   if (!origin_ || given.objects.size() != origin_->is_instance.size()) return false;
   validate(given);
-  const SceneWithProjectors with_projectors(given);
-  TextureTables textures(with_projectors.scene());
-  const SceneWithFacesApart with_faces_apart(with_projectors.scene(), textures.object_flags);
-  const Scene& scene = with_faces_apart.scene();
+  const SceneWithProjectors as_given(given);
+  TextureTables textures(as_given.scene());
+  const SceneWithFacesApart with_faces_apart(given, textures.object_flags);
+  const SceneWithProjectors with_projectors(with_faces_apart.scene());
+  const Scene& scene = with_projectors.scene();
   const MeshInstances instances(scene, textures.object_flags, threads);
   if (which_are(instances, given.objects.size()) != origin_->is_instance) return false;
   const SceneObjects objects(scene, with_projectors.own_objects(), textures.objects, textures.object_flags,
@@ -237,8 +241,8 @@ bool SceneImage::update(const Scene& given, AlignedBlock& work, unsigned threads
   ObjectCensus census = *loose;
   census.add(instances.census());
   const LightSets light_sets(scene);
-  const ImageHeader updated =
-      make_header(scene, light_sets, textures, objects, census, origin_->groups, instances);
+  const ImageHeader updated = make_header(scene, light_sets, textures, objects, census, origin_->groups,
+                                          instances, has_near_surfaces(given, textures.object_flags));
   if (!have_same_layout(header(), updated)) return false;
   std::optional<OrderMemory> order; // records in other tables lie as objects do
   if (updated.extra_count != 0 || updated.blend_count != 0) {

@@ -110,6 +110,7 @@ public:
     const uint32_t material = object.material;
     if ((flags & object_flag::no_shadow) != 0) return 0;
     if ((flags & object_flag::opaque) != 0 && !hit_filter_.first_test(self)) return 0;
+    if constexpr (kMarksTranslucent<Spu>) interior_ = object.interior;
     if (!is_simple(flags)) {
       scene_.spu().enter_module(modules::kObjects);
       return occluded_by_other(rays, object, self, lanes, distance, light, segment);
@@ -240,7 +241,7 @@ private:
   uint32_t cross_translucent(const RayPacket& rays, const F& at, const Crossings<S>& c, uint32_t flags,
                              uint32_t material, uint32_t lanes, VectorLanes& light) {
     if (translucency() != Translucency::is_kept) return attenuate(rays, at, c, flags, material, lanes, light);
-    VectorLanes* const kept = static_cast<NearCrossings<S>&>(light).add(at, lanes);
+    VectorLanes* const kept = static_cast<NearCrossings<S>&>(light).add(at, lanes, interior_);
     return kept == nullptr ? lanes : attenuate(rays, at, c, flags, material, lanes, *kept);
   }
 
@@ -393,6 +394,7 @@ private:
   TraversalCounters counters_;
   uint32_t reflected_ = 0;
   Translucency translucency_ = Translucency::attenuates;
+  uint32_t interior_ = kNoOffset; ///< of the object that shadow rays are tested against
 };
 
 } // namespace celltrace::kernel

@@ -1,5 +1,5 @@
-// What shadow rays cross of translucent surfaces, some of which may be so near each other that not all of
-// them count. Kernel dialect.
+// What shadow rays cross of translucent surfaces, where it matters in which order they do: some may be so
+// near each other that not all of them count, and interiors may fade. Kernel dialect.
 #pragma once
 
 #include "kernel/math.hpp"
@@ -16,6 +16,7 @@ struct CrossingPool {
   uint32_t count = 0;
   FloatLanes distance[kMost]; ///< kNowhere in lanes that do not cross it
   VectorLanes transmittance[kMost];
+  uint32_t interior[kMost]; ///< of the objects
 };
 
 /// The light of a packet's shadow rays, without what they have crossed until finish().
@@ -32,7 +33,7 @@ template <class S> struct NearCrossings : VectorLanes {
   }
   /// Of a surface that `lanes` cross at `distance`: where what it lets through is to be multiplied. Null if
   /// there is no room.
-  VectorLanes* add(const F& distance, uint32_t lanes) {
+  VectorLanes* add(const F& distance, uint32_t lanes, uint32_t interior) {
     if (count_ == kMost || pool_->count == CrossingPool::kMost) {
       overflowed |= lanes;
       return nullptr;
@@ -40,10 +41,12 @@ template <class S> struct NearCrossings : VectorLanes {
     const uint32_t place = pool_->count++;
     place_[count_++] = static_cast<uint16_t>(place);
     S::select(M::from_bits(lanes), distance, F(CrossingPool::kNowhere)).store(pool_->distance[place].lane);
+    pool_->interior[place] = interior;
     const F one(1.0f);
     pool_->transmittance[place].template store<S>({one, one, one});
     return &pool_->transmittance[place];
   }
+  bool empty() const { return count_ == 0; }
   /// Multiplies the light by what those surfaces let through that count: as POV-Ray starts again at each one,
   /// it does not see the next within kShadowEpsilon. Of two at one distance the one that was found first
   /// does.
@@ -59,6 +62,41 @@ template <class S> struct NearCrossings : VectorLanes {
       light = select<S>(hidden, light, light * pool_->transmittance[place_[i]].template load<S>());
     }
     this->template store<S>(light);
+  }
+
+  /// The next surface that each ray crosses.
+  struct Next {
+    uint32_t lanes; ///< those that cross one
+    FloatLanes distance;
+    VectorLanes transmittance;
+    WordLanes interior;
+  };
+  /// Takes the nearest surfaces of `lanes` out; of two at one distance that which was found first.
+  Next take(uint32_t lanes) {
+    using I = typename S::I;
+    const F one(1.0f), nowhere(kMaxHitDistance);
+    F nearest = nowhere;
+    V3<S> transmittance = {one, one, one};
+    I place = I::splat(-1), interior = I::splat(0);
+    for (uint32_t i = 0; i < count_; ++i) {
+      const F distance = distance_of(i);
+      const M closer = (distance >= F(0.0f)) & (distance < nearest);
+      nearest = S::select(closer, distance, nearest);
+      transmittance = select<S>(closer, pool_->transmittance[place_[i]].template load<S>(), transmittance);
+      interior = S::select(closer, I::splat(static_cast<int32_t>(pool_->interior[place_[i]])), interior);
+      place = S::select(closer, I::splat(static_cast<int32_t>(i)), place);
+    }
+    const M found = M::from_bits(lanes) & (nearest < nowhere);
+    for (uint32_t i = 0; i < count_; ++i) {
+      const M taken = found & (place == I::splat(static_cast<int32_t>(i)));
+      S::select(taken, F(CrossingPool::kNowhere), distance_of(i)).store(pool_->distance[place_[i]].lane);
+    }
+    Next next;
+    next.lanes = found.bits();
+    nearest.store(next.distance.lane);
+    next.transmittance.template store<S>(transmittance);
+    interior.store(reinterpret_cast<int32_t*>(next.interior.lane));
+    return next;
   }
 
 private:

@@ -52,7 +52,11 @@ constexpr bool has_areas(const FrameBlock& frame) {
 constexpr bool walks_translucent(const FrameBlock& frame) {
   return (frame.light_ways & light_way::stepwise) != 0;
 }
-/// The same: any of them.
+/// Of these, whether it is enough to know all that a ray crosses.
+constexpr bool walks_for_fading(const FrameBlock& frame) {
+  return (frame.light_ways & light_way::only_fading) != 0;
+}
+/// As walks_translucent(), whether any of them are.
 constexpr bool walks_shadows(const FrameBlock& frame) {
   return (frame.light_ways & (light_way::stepwise | light_way::near_surfaces)) != 0;
 }

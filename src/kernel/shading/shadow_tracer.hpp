@@ -62,8 +62,8 @@ public:
   void trace(const LightRecord& light, RayQuery* queries, uint32_t count) {
     if constexpr (kMarksTranslucent<Spu>)
       if (walk_ != nullptr)
-        return walks_translucent(frame_) ? walk_marked(light, queries, count)
-                                         : look_at_crossings(light, queries, count);
+        return keeps_crossings() ? look_at_crossings(light, queries, count)
+                                 : walk_marked(light, queries, count);
     traversal_.intersect(queries, count, light);
   }
 
@@ -101,10 +101,12 @@ private:
     if (walk_ == nullptr) return traversal_.transmittance(rays, lanes, distance, colour);
     if (walks_all(light)) return walk_shadows(light, rays, lanes, distance, colour);
     if constexpr (kMarksTranslucent<Spu>) {
-      if (walks_translucent(frame_)) return walk_marked(light, rays, lanes, distance, colour);
-      look_at_crossings(light, rays, lanes, distance, colour);
+      if (keeps_crossings()) return look_at_crossings(light, rays, lanes, distance, colour);
+      walk_marked(light, rays, lanes, distance, colour);
     }
   }
+  /// Whether it is enough to know all that a ray crosses, and in which order.
+  bool keeps_crossings() const { return !walks_translucent(frame_) || walks_for_fading(frame_); }
   /// Whether all shadow rays toward a light are walked; otherwise those are that have to be, or none.
   bool walks_all(const LightRecord& light) const {
     return walk_ != nullptr && (!kMarksTranslucent<Spu> || is_dimmed(light));
@@ -139,7 +141,7 @@ private:
     }
     walk_some(light, query, colour, walked, colour);
   }
-  /// Answers the queries of a bundle where surfaces may be near each other: what they cross is kept. Only
+  /// Answers the queries of a bundle where order matters: what they cross is kept. Only
   /// rays are walked that cross more than there is room for.
   CELLTRACE_ONE_COPY void look_at_crossings(const LightRecord& light, RayQuery* queries, uint32_t count) {
     CrossingPool pool;
@@ -168,8 +170,34 @@ private:
   }
   void finish(const LightRecord& light, const RayQuery& query, NearCrossings<S>& crossings,
               VectorLanes& colour) {
-    crossings.finish();
+    if (walks_for_fading(frame_))
+      pass_crossings(query, crossings);
+    else
+      crossings.finish();
     walk_some(light, query, crossings, crossings.overflowed, colour);
+  }
+  /// Takes rays through the surfaces that they cross, one after the other, as step_shadow_walk() does.
+  void pass_crossings(const RayQuery& query, NearCrossings<S>& crossings) {
+    if (query.lanes == 0 || crossings.empty()) return;
+    ShadowWalk<S>& walk = *walk_;
+    VectorLanes light = crossings;
+    begin_shadow_walk(scene_.spu(), frame_, interiors_, *query.rays, query.lanes, *query.distance, light,
+                      walk);
+    F last(0.0f);
+    for (;;) {
+      const auto next = crossings.take(query.lanes);
+      if (next.lanes == 0) break;
+      const F distance = F::load(next.distance.lane), way = distance - last;
+      const uint32_t counts = next.lanes & (way > F(kShadowEpsilon)).bits();
+      last = S::select(S::M::from_bits(next.lanes), distance, last);
+      way.store(walk.hits.distance.lane);
+      fade(scene_, *walk.ray, next.interior, walk.hits.distance, counts, light, true);
+      const V3<S> before = light.template load<S>();
+      light.template store<S>(
+          select<S>(S::M::from_bits(counts), before * next.transmittance.template load<S>(), before));
+      cross_surfaces(scene_, next.interior, counts, *walk.ray, counters_.dropped);
+    }
+    static_cast<VectorLanes&>(crossings) = light;
   }
   /// The light of a query: `answered` in lanes that are left; `walked` lanes are still to be walked.
   void walk_some(const LightRecord& light, const RayQuery& query, const VectorLanes& answered,
