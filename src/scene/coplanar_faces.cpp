@@ -2,6 +2,7 @@
 
 #include "kernel/records.hpp"
 #include "scene/bounding_tree.hpp"
+#include "scene/build_watch.hpp"
 #include "scene/object_extents.hpp"
 
 #include <algorithm>
@@ -18,7 +19,8 @@ namespace celltrace {
 
 namespace {
 
-constexpr std::size_t kMostObjects = 8192, kMostPairs = 1 << 20;
+constexpr std::size_t kMostObjects = 8192;
+constexpr std::size_t kMostPairs = 1 << 20, kMostOverlaps = 1 << 16; ///< beyond these nobody waits for more
 constexpr int kMostSteps = 32; ///< that faces of one plane are moved apart by
 
 /// In a plane whose normal points to where the first of its coordinates grows that are not 0.
@@ -44,7 +46,7 @@ void visit_boxes(AnyObject& object, const Transform& around, Visit& visit) {
   const Transform transform = object.transform.then(around);
   if (auto* const box = std::get_if<Box>(&object.shape)) return visit(*box, transform, object.material);
   auto* const shared = std::get_if<std::shared_ptr<const Csg>>(&object.shape);
-  if (shared == nullptr) return;
+  if (shared == nullptr || (*shared)->parts.empty()) return;
   const auto visit_parts = [&](auto& csg) {
     const bool is_difference = csg.operation == Csg::Operation::difference;
     for (std::size_t i = 0; i < (is_difference ? 1 : csg.parts.size()); ++i)
@@ -163,7 +165,7 @@ private:
     face.material = scene_.objects[object].material;
     face.object = object;
     face.box = Face::kPlane;
-    faces_.push_back(face);
+    if (is_usable(face)) faces_.push_back(face);
   }
 
   void add_box(std::size_t object, std::size_t number, const Box& box, const Transform& transform,
@@ -193,8 +195,16 @@ private:
       face.object = object;
       face.box = number;
       face.side = side;
-      faces_.push_back(face);
+      if (is_usable(face)) faces_.push_back(face);
     }
+  }
+
+  /// Not where a transformation is singular, or a box as wide as numbers reach: it is refused elsewhere.
+  static bool is_usable(const Face& face) {
+    constexpr double kFarthest = 1e12;
+    const Vec3 reach = glm::max(glm::abs(face.extent.min), glm::abs(face.extent.max));
+    return glm::dot(face.normal, face.normal) < 2 && std::abs(face.distance) < kFarthest &&
+           reach.x < kFarthest && reach.y < kFarthest && reach.z < kFarthest;
   }
 
   static bool are_parallel(const Face& a, const Face& b) {
@@ -263,9 +273,11 @@ private:
     std::vector<std::pair<Face*, Face*>> pairs; // the first one is seen
     for (std::size_t i = first; i < last; ++i) {
       for (std::size_t k = i + 1; k < last && faces_[k].extent.min.x <= faces_[i].extent.max.x; ++k) {
-        if (++pairs_ > kMostPairs) return;
+        BuildWatch::look_at(pairs_);
+        if (++pairs_ > kMostPairs || overlaps_ > kMostOverlaps) return;
         Face &a = faces_[i], &b = faces_[k];
         if (a.object == b.object || !can_differ(a, b) || !overlap(a.extent, b.extent)) continue;
+        ++overlaps_;
         if (is_seen(a, b))
           pairs.emplace_back(&a, &b);
         else
@@ -289,9 +301,9 @@ private:
     const bool from_above = glm::dot(scene_.camera.location, any.normal) > any.distance;
     for (const auto& [seen, hidden] : pairs)
       seen->steps = hidden->steps = 0;
-    bool has_changed = true;
-    while (has_changed) {
-      has_changed = false;
+    // Without circles each round settles one step more.
+    for (int round = 0; round <= kMostSteps + 1; ++round) {
+      bool has_changed = false;
       for (const auto& [seen, hidden] : pairs) {
         Face &above = from_above ? *seen : *hidden, &below = from_above ? *hidden : *seen;
         if (above.steps > below.steps) continue;
@@ -299,8 +311,9 @@ private:
         if (above.steps > kMostSteps) return false;
         has_changed = true;
       }
+      if (!has_changed) return true;
     }
-    return true;
+    return false;
   }
 
   /// Whether POV-Ray shows `a` where the two overlap.
@@ -320,7 +333,7 @@ private:
   const Scene& scene_;
   const std::vector<std::uint32_t>& material_flags_;
   std::vector<Face> faces_;
-  std::size_t box_count_ = 0, pairs_ = 0;
+  std::size_t box_count_ = 0, pairs_ = 0, overlaps_ = 0;
   std::optional<BoundingTree> tree_;
   bool any_moves_ = false;
 };
