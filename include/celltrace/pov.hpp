@@ -83,7 +83,8 @@ struct ParseOptions {
   int height = 480; ///< image_height
   double clock = 0;
   AnimationFrame frame;
-  /// Of the language, above 0: as if the scene began with #version. None: POV-Ray's rules for a scene without.
+  /// Of the language, above 0 and below 1000: as if the scene began with #version. None: POV-Ray's rules for
+  /// a scene without.
   std::optional<double> version;
   /// POV-Ray's level of quality at which the picture will be rendered (RenderOptions::quality): below 9
   /// media, photons and radiosity mean nothing.

@@ -33,7 +33,8 @@ Scene parse(std::string text, const ParseOptions& options, const std::string& na
   session.tokens.open(std::move(text), name, folder);
   pov::declare_predefined(session);
   if (const auto& version = options.version) {
-    if (!(*version > 0)) throw InputError("the language's version has to be above 0");
+    constexpr double kNone = 1000;
+    if (!(*version > 0 && *version < kNone)) throw InputError("there is no such version of the language");
     session.builder.set_version(*version);
   }
   try {

@@ -53,6 +53,8 @@ TEST_CASE("semicolons that are missing behind numbers") {
   CHECK(is_missed(error_line("#version 3.7; #declare A = 1", options)));
   options.version = 0;
   CHECK_THROWS_AS(celltrace::test::parse("", options), celltrace::InputError);
+  options.version = 1e300;
+  CHECK_THROWS_AS(celltrace::test::parse("", options), celltrace::InputError);
   CHECK(error_line(" #declare A = 1").starts_with("scene.pov:1:11: error: "));
   CHECK(output("#macro M() 1; #end #declare A = M() #debug str(A, 0, 0)") == "1");
   CHECK(output("#declare A = \"a\" #declare B = array[1] {1} #declare C = function(x) { x } #debug A") ==
