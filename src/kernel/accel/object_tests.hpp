@@ -3,7 +3,7 @@
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
-#include "kernel/direct/near_crossings.hpp"
+#include "kernel/direct/kept_crossings.hpp"
 #include "kernel/primitives/csg.hpp"
 #include "kernel/primitives/list.hpp"
 #include "kernel/primitives/polygons_module.hpp"
@@ -199,7 +199,7 @@ public:
   enum class Translucency {
     attenuates, ///< multiplies the light
     marks,      ///< occludes it, and sets its first channel to 1
-    is_kept     ///< for later: the light is that of NearCrossings
+    is_kept     ///< for later: the light is that of KeptCrossings
   };
   void set_translucency(Translucency translucency) { translucency_ = translucency; }
   Translucency translucency() const {
@@ -241,7 +241,7 @@ private:
   uint32_t cross_translucent(const RayPacket& rays, const F& at, const Crossings<S>& c, uint32_t flags,
                              uint32_t material, uint32_t lanes, VectorLanes& light) {
     if (translucency() != Translucency::is_kept) return attenuate(rays, at, c, flags, material, lanes, light);
-    VectorLanes* const kept = static_cast<NearCrossings<S>&>(light).add(at, lanes, interior_);
+    VectorLanes* const kept = static_cast<KeptCrossings<S>&>(light).add(at, lanes, interior_);
     return kept == nullptr ? lanes : attenuate(rays, at, c, flags, material, lanes, *kept);
   }
 

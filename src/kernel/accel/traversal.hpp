@@ -59,14 +59,14 @@ public:
     mark(queries, count, [&] { intersect(queries, count, light); });
   }
 
-  /// As transmittance(), for a query whose light is that of NearCrossings, which keep what is crossed. The
+  /// As transmittance(), for a query whose light is that of KeptCrossings, which keep what is crossed. The
   /// light of lanes for which they had no room becomes 0.
   void keep_crossings(RayQuery& query) {
-    keep([&] { intersect_packet(query); });
+    with(Translucency::is_kept, [&] { intersect_packet(query); });
   }
   /// The same for several queries toward one light. May change their order.
   void keep_crossings(RayQuery* queries, uint32_t count, const LightRecord& light) {
-    keep([&] { intersect(queries, count, light); });
+    with(Translucency::is_kept, [&] { intersect(queries, count, light); });
   }
 
   /// Lets shadow rays end where they first cross what a light is projected through. Returns the lanes that
@@ -187,12 +187,10 @@ private:
     const F zero(0.0f);
     for (uint32_t i = 0; i < count; ++i)
       queries[i].light->template store<S>({zero, zero, zero});
-    objects_.set_translucency(Translucency::marks);
-    run();
-    objects_.set_translucency(Translucency::attenuates);
+    with(Translucency::marks, run);
   }
-  template <class Run> void keep(Run run) {
-    objects_.set_translucency(Translucency::is_kept);
+  template <class Run> void with(Translucency translucency, Run run) {
+    objects_.set_translucency(translucency);
     run();
     objects_.set_translucency(Translucency::attenuates);
   }

@@ -33,7 +33,7 @@ template <class Spu> constexpr bool kHasBundleViews = Spu::direct_memory;
 template <class Spu> constexpr bool kGathersOccluders = Spu::direct_memory;
 
 /// Where shadow rays are walked, those are found first that cross something translucent: only these are
-/// walked (ShadowWalk). Or, for near surfaces, what they cross is kept (NearCrossings).
+/// walked (ShadowWalk). Or what they cross is kept, where its order is enough (KeptCrossings).
 template <class Spu> constexpr bool kMarksTranslucent = Spu::direct_memory;
 
 /// Rays of a bundle's trees are gathered into full packets (RayPool), and shadow rays from what they hit, too

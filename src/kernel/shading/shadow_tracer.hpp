@@ -145,7 +145,7 @@ private:
   /// rays are walked that cross more than there is room for.
   CELLTRACE_ONE_COPY void look_at_crossings(const LightRecord& light, RayQuery* queries, uint32_t count) {
     CrossingPool pool;
-    NearCrossings<S> crossings[kPackets];
+    KeptCrossings<S> crossings[kPackets];
     VectorLanes* colours[kPackets];
     for (uint32_t i = 0; i < count; ++i) {
       colours[i] = queries[i].light;
@@ -154,7 +154,7 @@ private:
     }
     traversal_.keep_crossings(queries, count, light);
     for (uint32_t i = 0; i < count; ++i) {
-      auto& crossed = static_cast<NearCrossings<S>&>(*queries[i].light);
+      auto& crossed = static_cast<KeptCrossings<S>&>(*queries[i].light);
       finish(light, queries[i], crossed, *colours[&crossed - crossings]);
     }
   }
@@ -162,13 +162,13 @@ private:
   CELLTRACE_ONE_COPY void look_at_crossings(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
                                             const FloatLanes& distance, VectorLanes& colour) {
     CrossingPool pool;
-    NearCrossings<S> crossings;
+    KeptCrossings<S> crossings;
     crossings.begin(colour, pool);
     RayQuery query = {&rays, nullptr, &distance, &crossings, lanes};
     traversal_.keep_crossings(query);
     finish(light, query, crossings, colour);
   }
-  void finish(const LightRecord& light, const RayQuery& query, NearCrossings<S>& crossings,
+  void finish(const LightRecord& light, const RayQuery& query, KeptCrossings<S>& crossings,
               VectorLanes& colour) {
     if (walks_for_fading(frame_))
       pass_crossings(query, crossings);
@@ -177,7 +177,7 @@ private:
     walk_some(light, query, crossings, crossings.overflowed, colour);
   }
   /// Takes rays through the surfaces that they cross, one after the other, as step_shadow_walk() does.
-  void pass_crossings(const RayQuery& query, NearCrossings<S>& crossings) {
+  void pass_crossings(const RayQuery& query, KeptCrossings<S>& crossings) {
     if (query.lanes == 0 || crossings.empty()) return;
     ShadowWalk<S>& walk = *walk_;
     VectorLanes light = crossings;

@@ -20,7 +20,7 @@ struct CrossingPool {
 };
 
 /// The light of a packet's shadow rays, without what they have crossed until finish().
-template <class S> struct NearCrossings : VectorLanes {
+template <class S> struct KeptCrossings : VectorLanes {
   using F = typename S::F;
   using M = typename S::M;
 
