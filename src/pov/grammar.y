@@ -20,7 +20,7 @@
 // longer value is meant. A number at the front of an entry of a pigment_map is its weight. A name that CSG begins
 // with is all it consists of, not its first part. A texture that is a name alone, or begins with one, needs no
 // rule for what comes before.
-%expect 115
+%expect 105
 
 %code requires {
 #include "pov/actions.hpp"
@@ -112,7 +112,7 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %token UV_INDICES UV_MAPPING UV_VECTORS VERTEX_VECTORS WARP
 %token BLACK_HOLE DIST_EXP EXTERIOR FLIP JULIA MAGNET MAJOR_RADIUS ORIENTATION REPEAT SLOPE_MAP STRENGTH TOROIDAL
 
-%nterm <Quantity> quantity operand vector vector_items comparison logic value_in_brackets
+%nterm <Quantity> quantity choice operand vector vector_items comparison logic value_in_brackets
 %nterm <Quantity> colour colour_value colour_base
 %nterm <ColourModel> srgb_model
 %nterm <Signs> signs
@@ -385,11 +385,11 @@ text
 // ---- Colours ----
 
 colour // with a keyword: distinct from a mere number
-  : COLOUR quantity              { $$ = $2.promoted(5); $$.is_colour = true; }
-  | COLOUR COLOUR_MODEL quantity { $$ = make_colour(ColourModel($2), $3); }
-  | COLOUR_MODEL quantity        { $$ = make_colour(ColourModel($1), $2); }
-  | COLOUR srgb_model quantity   { $$ = decoded(session, make_colour($2, $3), @2); }
-  | srgb_model quantity          { $$ = decoded(session, make_colour($1, $2), @1); }
+  : COLOUR choice                { $$ = $2.promoted(5); $$.is_colour = true; }
+  | COLOUR COLOUR_MODEL choice   { $$ = make_colour(ColourModel($2), $3); }
+  | COLOUR_MODEL choice          { $$ = make_colour(ColourModel($1), $2); }
+  | COLOUR srgb_model choice     { $$ = decoded(session, make_colour($2, $3), @2); }
+  | srgb_model choice            { $$ = decoded(session, make_colour($1, $2), @1); }
   | COLOUR CHANNEL number        { $$ = with_channel(Quantity::colour({0, 0, 0}), Channel($2), $3); }
   | CHANNEL number               { $$ = with_channel(Quantity::colour({0, 0, 0}), Channel($1), $2); }
   | colour CHANNEL number        { $$ = with_channel($1, Channel($2), $3); }
@@ -400,8 +400,14 @@ srgb_model
   | SRGB_MODEL { $$ = ColourModel($1); }
   ;
 
-colour_base
+// Where POV-Ray asks for a colour it takes a whole expression, which has brackets around it elsewhere.
+choice
   : quantity
+  | quantity '?' choice ':' choice { $$ = is_true(session.number($1, @1)) ? $3 : $5; }
+  ;
+
+colour_base
+  : choice
   | colour_base CHANNEL number   { $$ = with_channel($1, Channel($2), $3); }
   ;
 

@@ -46,6 +46,11 @@ TEST_CASE("pigments") {
             "sphere { 0, 1 pigment { color Red filter 0.5 } }");
   CHECK(named.materials.at(0).pigment.rgb == Vec3(1, 0, 0));
   CHECK(named.materials.at(1).pigment.filter == 0.5);
+  // Colours may be whole expressions without brackets.
+  CHECK(material("pigment { rgb 1 ? <1, 2, 3> : 0 transmit 0.5 }").pigment.rgb == Vec3(1, 2, 3));
+  CHECK(material("pigment { color 0 ? 1 : (2 > 1) ? <4, 5, 6> : 0 }").pigment.rgb == Vec3(4, 5, 6));
+  CHECK(material("finish { ambient 0 ? 1 : 0.5 }").finish.ambient == Vec3(0.5));
+  CHECK(error_line("light_source { (1 > 0) ? x : y, 1 }").find("unexpected '?'") != std::string::npos);
 }
 
 TEST_CASE("colours in sRGB") {
