@@ -62,13 +62,29 @@ double middle_y(const PictureOnGrid& picture) {
   return picture.top + 0.5 * picture.height - 0.5;
 }
 
+/// How many rows below the middle a perspective picture has its horizon, that of floors if up is nearly the y
+/// axis; 0 if it has none.
+double horizon_row(const Vec3& middle, const Vec3& row, double height) {
+  int up = 0;
+  for (int axis = 1; axis < 3; ++axis)
+    if (std::abs(row[axis]) > std::abs(row[up])) up = axis;
+  const double exact = row[up] != 0 ? -middle[up] / row[up] : 0;
+  return std::abs(exact) <= height / 2 ? std::round(exact) : 0;
+}
+
 void set_flat(CameraRecord& record, const Camera& camera, const PictureOnGrid& picture, bool parallel) {
+  const Vec3 row = -camera.up / picture.height;
+  Vec3 base = parallel ? camera.location : camera.direction;
+  // Counted from the horizon: what single precision leaves of the difference of two directions decides how
+  // far away its rays meet a floor, and on which of its squares.
+  const double first_row = parallel ? 0 : horizon_row(base, row, picture.height);
+  base += row * first_row;
   store(parallel ? camera.direction : camera.location, record.origin);
-  store(parallel ? camera.location : camera.direction, record.base);
+  store(base, record.base);
   store(camera.right / picture.width, record.dx);
-  store(-camera.up / picture.height, record.dy);
+  store(row, record.dy);
   record.middle_x = static_cast<float>(middle_x(picture));
-  record.middle_y = static_cast<float>(middle_y(picture));
+  record.middle_y = static_cast<float>(middle_y(picture) + first_row);
 }
 
 /// A vector of no length stays that.
