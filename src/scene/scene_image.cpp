@@ -5,6 +5,7 @@
 #include "scene/build_watch.hpp"
 #include "scene/coplanar_faces.hpp"
 #include "scene/image_layout.hpp"
+#include "scene/large_spheres.hpp"
 #include "scene/light_sets.hpp"
 #include "scene/mesh_instances.hpp"
 #include "scene/near_surfaces.hpp"
@@ -139,7 +140,8 @@ void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads
   const SceneWithProjectors as_given(given);
   TextureTables textures(as_given.scene());
   const SceneWithFacesApart with_faces_apart(given, textures.object_flags);
-  const SceneWithProjectors with_projectors(with_faces_apart.scene());
+  const SceneWithLargeSpheres with_large_spheres(with_faces_apart.scene(), textures.object_flags);
+  const SceneWithProjectors with_projectors(with_large_spheres.scene());
   const Scene& scene = with_projectors.scene();
   BuildWatch::reach(0.05);
   const MeshInstances instances(scene, textures.object_flags, threads);
@@ -217,7 +219,8 @@ bool SceneImage::update(const Scene& given, AlignedBlock& work, unsigned threads
   const SceneWithProjectors as_given(given);
   TextureTables textures(as_given.scene());
   const SceneWithFacesApart with_faces_apart(given, textures.object_flags);
-  const SceneWithProjectors with_projectors(with_faces_apart.scene());
+  const SceneWithLargeSpheres with_large_spheres(with_faces_apart.scene(), textures.object_flags);
+  const SceneWithProjectors with_projectors(with_large_spheres.scene());
   const Scene& scene = with_projectors.scene();
   const MeshInstances instances(scene, textures.object_flags, threads);
   if (which_are(instances, given.objects.size()) != origin_->is_instance) return false;

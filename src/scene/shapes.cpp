@@ -239,6 +239,34 @@ void diagonalise(double (&m)[3][3], Vec3 (&axes)[3]) {
   }
 }
 
+struct CurvedAxis {
+  Vec3 direction;
+  double square; ///< the factor of the square of what is along it
+};
+
+/// An ellipsoid whose surface goes through (0, 0, 0), from which it is measured: there no digits are lost
+/// however large it is. In its own space it is a sphere of diameter 1 below the origin.
+PlacedShape place_about_surface(const Object& object, const std::vector<CurvedAxis>& axes,
+                                const Vec3& linear) {
+  // Where all squares are alike, z is the way out.
+  Vec3 out(0), across[2];
+  for (int i = 0; i < 3; ++i)
+    out[i] = glm::dot(linear, axes[i].direction) / std::sqrt(axes[i].square);
+  const double diameter = glm::length(out);
+  out /= diameter;
+  complete_basis(out, across[0], across[1]);
+  const Vec3 rows[3] = {across[0], across[1], out};
+  Transform own;
+  for (int row = 0; row < 3; ++row) {
+    own.rows[row] = Vec3(0);
+    for (int i = 0; i < 3; ++i)
+      own.rows[row] += axes[i].direction * (rows[row][i] * diameter / std::sqrt(axes[i].square));
+  }
+  PlacedShape shape = in_own_space<QuadricPrimitive>(object, own);
+  shape.parameters[0] = QuadricPrimitive::code(1, 1, 1, 1, 0);
+  return shape;
+}
+
 /// In its own space a quadric has its axes along the coordinates', and its factors are 1, 0 or -1.
 PlacedShape place(const Object& object, const Quadric& quadric) {
   double m[3][3] = {{quadric.square.x, quadric.mixed.x / 2, quadric.mixed.y / 2},
@@ -248,16 +276,16 @@ PlacedShape place(const Object& object, const Quadric& quadric) {
   diagonalise(m, axes);
   const double largest = std::max({std::abs(m[0][0]), std::abs(m[1][1]), std::abs(m[2][2])});
   // Curved axes come first. Each has its middle where the linear term along it ends.
-  struct Axis {
-    Vec3 direction;
-    double square;
-  };
-  std::vector<Axis> curved, straight;
+  std::vector<CurvedAxis> curved, straight;
   for (int i = 0; i < 3; ++i)
     (std::abs(m[i][i]) > 1e-9 * largest ? curved : straight).push_back({axes[i], m[i][i]});
+  const bool is_ellipsoid =
+      std::all_of(curved.begin(), curved.end(), [](const CurvedAxis& axis) { return axis.square > 0; });
+  if (curved.size() == 3 && is_ellipsoid && quadric.constant == 0 && quadric.linear != Vec3(0))
+    return place_about_surface(object, curved, quadric.linear);
   Vec3 middle(0), linear = quadric.linear;
   double constant = quadric.constant;
-  for (const Axis& axis : curved) {
+  for (const CurvedAxis& axis : curved) {
     const double along = glm::dot(quadric.linear, axis.direction);
     middle -= axis.direction * (along / (2 * axis.square));
     constant -= along * along / (4 * axis.square);
@@ -280,11 +308,11 @@ PlacedShape place(const Object& object, const Quadric& quadric) {
   Transform own;
   int factors[3] = {0, 0, 0};
   int next = 0;
-  for (const Axis& axis : curved) {
+  for (const CurvedAxis& axis : curved) {
     own.rows[next] = axis.direction * std::sqrt(unit / std::abs(axis.square));
     factors[next++] = axis.square > 0 ? 1 : -1;
   }
-  for (const Axis& axis : straight)
+  for (const CurvedAxis& axis : straight)
     own.rows[next++] = axis.direction;
   own.rows[3] = middle;
   const int sign = constant > 0 ? 1 : constant < 0 ? -1 : 0;
@@ -415,12 +443,14 @@ PlacedShape with_boundary(const PlacedShape& shape, const Vec3& eye) {
     for (int row = 0; row < 3; ++row)
       scale(row, 1 / (1 + errors[row]));
   } else if (kind == kPrimitiveKind<CylinderPrimitive> || kind == kPrimitiveKind<ConePrimitive>) {
-    // To another height of a cone belongs another radius.
-    const double narrower = across + (kind == kPrimitiveKind<ConePrimitive> ? 2 * along : 0);
+    // To another height of a cone belongs another radius. Open ones have their boundary inside.
+    const double sign = (shape.kind_and_flags & object_flag::open) != 0 ? -1 : 1;
+    const double narrower =
+        sign * std::min(across + (kind == kPrimitiveKind<ConePrimitive> ? 2 * along : 0), 0.5);
     scale(0, 1 + narrower);
     scale(1, 1 + narrower);
-    map[11] = static_cast<float>(map[11] - along);
-    scale(2, 1 / (1 - 2 * along));
+    map[11] = static_cast<float>(map[11] - sign * along);
+    scale(2, 1 / (1 - sign * 2 * along));
   }
   return solid;
 }

@@ -30,9 +30,9 @@ void write_map(const Transform& map, float (&to)[12]);
 /// Of a shape that is neither a mesh nor a CSG. Throws InputError if its transformation is singular.
 PlacedShape place_shape(const Object& object);
 
-/// The shape as points are tested against that lie on its surface but for rounding: those are in a box and in
-/// a half-space, but not in a cylinder or a cone, as in POV-Ray. Where surfaces of a CSG coincide, it depends
-/// on that which of them is seen. `eye`: where most rays begin.
+/// The shape as points are tested against that lie on its surface but for rounding: those are in a box, in a
+/// half-space and in an open cylinder or cone, but not in a closed one, as in POV-Ray. Where surfaces of a CSG
+/// coincide, it depends on that which of them is seen. `eye`: where most rays begin.
 PlacedShape with_boundary(const PlacedShape& shape, const Vec3& eye);
 
 /// Whether the bounds of such a shape are finite, without those that CSG may give it.

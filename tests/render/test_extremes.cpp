@@ -10,6 +10,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <initializer_list>
 #include <memory>
 #include <utility>
@@ -63,6 +64,65 @@ TEST_CASE("A small scene in a large one") {
   const Comparison c = against_reference(scene);
   INFO(to_text(c));
   CHECK(c.psnr >= 45);
+}
+
+TEST_CASE("A planet with the camera on its ground") {
+  Scene scene;
+  scene.background = {0.4, 0.6, 0.9};
+  scene.lights.push_back(Light{{5, 10, -8}});
+  Material ground = matte({0.9, 0.8, 0.6});
+  Pattern stripes{pattern::Gradient{{1, 0, 1}}};
+  stripes.wave = Pattern::Wave::sine;
+  stripes.frequency = 30;
+  ground.pigment.map = std::make_shared<const PatternMap<Pigment>>(
+      PatternMap<Pigment>{stripes, {{0, Pigment{{0.9, 0.8, 0.6}}}, {1, Pigment{{0.1, 0.4, 0.2}}}}});
+  ground.finish.reflection_max = ground.finish.reflection_min = Vec3(0.4);
+  const Index grounds = scene.add(ground), balls = scene.add(matte({1, 0.2, 0.2})),
+              interior = scene.add(Interior{});
+  scene.camera = camera_at({0, 1, -4}, {0, 0.8, 0});
+  scene.objects = {sphere_at({0, -6371, 0}, 6371, grounds, interior),
+                   sphere_at({0, 0.7, 0}, 0.7, balls, interior)};
+  Object stretched = sphere_at({0, 0, 0}, 1, balls, interior);
+  stretched.transform = Transform::scale({9000, 3000, 6000}).then(Transform::translate({2, 3000.2, -2}));
+  Object inside = stretched; // a part of a CSG
+  Csg csg;
+  csg.operation = Csg::Operation::difference;
+  csg.parts = {sphere_at({-3, 0, 0}, 1, balls, interior), inside};
+  Object cut;
+  cut.shape = std::make_shared<const Csg>(csg);
+  scene.objects.push_back(cut);
+  const Comparison c = against_reference(scene);
+  INFO(to_text(c));
+  CHECK(c.psnr >= 45);
+}
+
+TEST_CASE("Rows of a picture that end at the edge of a floor's squares") {
+  // Row 40 sees the floor at z = 1595: so far away, its rays are nearly along it.
+  Pigment checker;
+  checker.map = std::make_shared<const PatternMap<Pigment>>(
+      PatternMap<Pigment>{{pattern::Checker{}}, {{0, Pigment{{1, 1, 1}}}, {1, Pigment{{0, 0.5, 0}}}}});
+  Scene scene;
+  Material floor = matte({1, 1, 1});
+  floor.pigment = checker;
+  floor.finish.ambient = Vec3(1);
+  floor.finish.diffuse = 0;
+  Object plane;
+  plane.shape = Plane{{0, 1, 0}, 0};
+  plane.material = scene.add(floor);
+  plane.interior = scene.add(Interior{});
+  scene.objects.push_back(plane);
+  scene.camera.location = {0, 3, -4};
+  scene.camera.direction = Vec3(0, -1, 3) / std::sqrt(10.0);
+  scene.camera.right = {4.0 / 3, 0, 0};
+  scene.camera.up = Vec3(0, 3, 1) / std::sqrt(10.0);
+  const Image image = render(scene, backends().front().options(320, 240, 2)).image;
+  int wrong = 0;
+  for (int x = 0; x < 320; ++x) {
+    const double at = 480 * std::sqrt(10.0) * scene.camera.right.x * ((x + 0.5) / 320 - 0.5);
+    const bool is_white = (static_cast<int>(std::floor(at)) + 1595) % 2 == 0;
+    wrong += (image.pixel(x, 40)[0] != 0) != is_white;
+  }
+  CHECK(wrong <= 4);
 }
 
 TEST_CASE("A camera in a medium, before an opaque mirror that asks for it") {
@@ -242,7 +302,7 @@ TEST_CASE("Boxes that are much longer than they are thick are as thick as they s
   }
 }
 
-TEST_CASE("Points where surfaces of a CSG coincide are in boxes, but not in cylinders and cones") {
+TEST_CASE("Points where surfaces of a CSG coincide are in boxes, but only in open cylinders and cones") {
   const Transform turned = Transform::rotate({0, 25, 5}).then(Transform::translate({0, 0.01, 0}));
   const auto colour = [](Scene& scene, const Vec3& rgb) {
     Material m = matte(rgb);
@@ -282,6 +342,16 @@ TEST_CASE("Points where surfaces of a CSG coincide are in boxes, but not in cyli
   CHECK(compare_images(picture(drum, bore, true), picture(drum, sunk, false)).psnr >= 40);
   const Cone frustum{{0, -1, 0}, {0, 1, 0}, 2, 1.5, false}, funnel{{0, -0.5, 0}, {0, 1, 0}, 0.3, 1, false};
   CHECK(compare_images(picture(frustum, funnel, true), picture(frustum, sunk, false)).psnr >= 40);
+  // These have no lid, as if they reached farther out.
+  for (const bool is_cone : {false, true}) {
+    const auto hollow = [&](double height) {
+      const double radius = is_cone ? 0.3 + 0.7 * (height + 0.5) / 1.5 : 1;
+      const Cone opening{{0, -0.5, 0}, {0, height, 0}, 0.3, radius, true};
+      const Cylinder pipe{{0, -0.5, 0}, {0, height, 0}, radius, true};
+      return is_cone ? picture(drum, opening, true) : picture(drum, pipe, true);
+    };
+    CHECK(compare_images(hollow(1), hollow(1.01)).psnr >= 40);
+  }
 }
 
 TEST_CASE("Thin tori have smooth outlines") {

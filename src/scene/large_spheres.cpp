@@ -1,0 +1,86 @@
+#include "scene/large_spheres.hpp"
+
+#include "kernel/records.hpp"
+
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <variant>
+
+#include <glm/geometric.hpp>
+
+namespace celltrace {
+
+namespace {
+
+constexpr double kLarge = 256;          ///< radii beside the camera's distance from the surface
+constexpr std::size_t kMostSpheres = 8; ///< quadrics have no bounds: each ray is tested against all of them
+
+class LargeSpheres {
+public:
+  LargeSpheres(const Vec3& eye, const std::vector<std::uint32_t>& material_flags)
+      : eye_(eye), material_flags_(material_flags) {}
+
+  /// The object as it is to be, its parts too, if one of them has changed.
+  std::optional<Object> changed(const Object& object, const Transform& around) {
+    const Transform transform = object.transform.then(around);
+    if (const auto* const sphere = std::get_if<Sphere>(&object.shape))
+      return about_nearest_point(object, *sphere, transform);
+    const auto* const csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape);
+    if (csg == nullptr) return {};
+    std::shared_ptr<Csg> copy;
+    for (std::size_t i = 0; i < (*csg)->parts.size(); ++i) {
+      std::optional<Object> part = changed((*csg)->parts[i], transform);
+      if (!part) continue;
+      if (!copy) copy = std::make_shared<Csg>(**csg);
+      copy->parts[i] = *std::move(part);
+    }
+    if (!copy) return {};
+    Object whole = object;
+    whole.shape = std::move(copy);
+    return whole;
+  }
+
+private:
+  std::optional<Object> about_nearest_point(const Object& object, const Sphere& sphere,
+                                            const Transform& transform) {
+    const double radius = std::abs(sphere.radius);
+    const Vec3 from_centre =
+        (transform.is_identity() ? eye_ : transform.inverse().point(eye_)) - sphere.centre;
+    const double distance = glm::length(from_centre);
+    const bool is_large = radius > kLarge * std::abs(distance - radius) && distance > 0;
+    if (!is_large || object.inverse || object.clipped_by != nullptr || count_ == kMostSpheres) return {};
+    if (object.material < material_flags_.size() &&
+        (material_flags_[object.material] & kernel::object_flag::by_surface) != 0)
+      return {};
+    ++count_;
+    const Vec3 normal = from_centre / distance;
+    Object quadric = object;
+    Quadric shape;
+    shape.linear = normal * (2 * radius);
+    shape.constant = 0;
+    quadric.shape = shape;
+    quadric.transform = Transform::translate(sphere.centre + normal * radius).then(object.transform);
+    return quadric;
+  }
+
+  const Vec3 eye_;
+  const std::vector<std::uint32_t>& material_flags_;
+  std::size_t count_ = 0;
+};
+
+} // namespace
+
+SceneWithLargeSpheres::SceneWithLargeSpheres(const Scene& scene,
+                                             const std::vector<std::uint32_t>& material_flags)
+    : scene_(scene) {
+  LargeSpheres spheres(scene.camera.location, material_flags);
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    std::optional<Object> object = spheres.changed(scene.objects[i], Transform());
+    if (!object) continue;
+    if (!copy_) copy_ = scene;
+    copy_->objects[i] = *std::move(object);
+  }
+}
+
+} // namespace celltrace
