@@ -148,6 +148,36 @@ TEST_CASE("A camera in a medium, before an opaque mirror that asks for it") {
   CHECK(compare_images(picture(1.6), picture(1.0)).psnr < 30);
 }
 
+TEST_CASE("Lights with an area behind many objects") {
+  // More than are gathered: those are remembered that occlude one place, and tested for the next one.
+  Scene scene;
+  scene.camera = camera_at({0, 4, -9}, {0, 1, 0});
+  Light light{{2, 12, -3}};
+  light.area = LightArea{{2, 0, 0}, {0, 0, 2}, 5, 5, 1};
+  scene.lights.push_back(light);
+  const Index interior = scene.add(Interior{}), solid = scene.add(matte({0.8, 0.5, 0.3}));
+  Material glass = matte({0.3, 0.9, 0.4});
+  glass.pigment.filter = 0.7;
+  const Index filters = scene.add(glass);
+  Object floor;
+  floor.shape = Plane{{0, 1, 0}, 0};
+  floor.material = scene.add(matte({1, 1, 1}));
+  floor.interior = interior;
+  scene.objects.push_back(floor);
+  for (int i = 0; i < 150; ++i) {
+    const Vec3 at(0.7 * (i % 10) - 3, 0.5 + 1.1 * (i / 50), 0.8 * (i / 10 % 5) - 2);
+    Object object = sphere_at(at, 0.3, i % 7 == 0 ? filters : solid, interior);
+    if (i % 3 == 0) object.shape = Box{{at - Vec3(0.25), at + Vec3(0.25, 0.2, 0.3)}};
+    scene.objects.push_back(object);
+  }
+  const Comparison c = against_reference(scene);
+  INFO(to_text(c));
+  CHECK(c.psnr >= 45);
+  const Image first = render(scene, backends().front().options(80, 60, 2)).image;
+  for (const TestBackend& backend : backends())
+    CHECK(compare_images(first, render(scene, backend.options(80, 60, 1)).image).differing_pixels == 0);
+}
+
 TEST_CASE("A distant camera with a long lens") {
   Scene scene = scene_named("highlights");
   scene.camera.location = {0, 1500, -7000};

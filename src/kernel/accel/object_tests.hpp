@@ -4,6 +4,7 @@
 
 #include "celltrace/spe/one_copy.hpp"
 #include "kernel/direct/kept_crossings.hpp"
+#include "kernel/direct/recent_occluders.hpp"
 #include "kernel/primitives/csg.hpp"
 #include "kernel/primitives/list.hpp"
 #include "kernel/primitives/polygons_module.hpp"
@@ -111,11 +112,33 @@ public:
     if ((flags & object_flag::no_shadow) != 0) return 0;
     if ((flags & object_flag::opaque) != 0 && !hit_filter_.first_test(self)) return 0;
     if constexpr (kMarksTranslucent<Spu>) interior_ = object.interior;
-    if (!is_simple(flags)) {
-      scene_.spu().enter_module(modules::kObjects);
-      return occluded_by_other(rays, object, self, lanes, distance, light, segment);
+    if constexpr (!kGathersOccluders<Spu>) {
+      if (!is_simple(flags)) {
+        scene_.spu().enter_module(modules::kObjects);
+        return occluded_by_other(rays, object, self, lanes, distance, light, segment);
+      }
+      return occluded_by(rays, test(rays, object, self), flags, material, lanes, distance, light, segment);
+    } else {
+      const uint32_t dark =
+          is_simple(flags)
+              ? occluded_by(rays, test(rays, object, self), flags, material, lanes, distance, light, segment)
+              : occluded_by_other(rays, object, self, lanes, distance, light, segment);
+      if (recent_.remembers && (flags & object_flag::opaque) != 0 && (dark & lanes) != 0) recent_.add(self);
+      return dark;
     }
-    return occluded_by(rays, test(rays, object, self), flags, material, lanes, distance, light, segment);
+  }
+  /// Where occluders are gathered: whether opaque objects are remembered that occlude rays.
+  void remember_occluders(bool remembers) { recent_.remembers = remembers; }
+  /// Removes the lanes that those occlude from a query.
+  void test_recent(RayQuery& query) {
+    hit_filter_.begin_packet();
+    recent_.test([&](uint32_t self) {
+      if (query.lanes == 0) return true;
+      const uint32_t dark =
+          occluded(*query.rays, self, query.lanes, *query.distance, *query.light) & query.lanes;
+      query.lanes &= ~dark;
+      return dark != 0;
+    });
   }
 
   /// The same for the whole rays of several packets: removes occluded lanes from their queries. The object
@@ -395,6 +418,7 @@ private:
   uint32_t reflected_ = 0;
   Translucency translucency_ = Translucency::attenuates;
   uint32_t interior_ = kNoOffset; ///< of the object that shadow rays are tested against
+  [[no_unique_address]] Present<RecentOccluders, kGathersOccluders<Spu>> recent_;
 };
 
 } // namespace celltrace::kernel

@@ -15,14 +15,6 @@ constexpr uint32_t kGridOnly = 1u << static_cast<uint32_t>(AcceleratorKind::grid
 constexpr uint32_t kBvhOnly = 1u << static_cast<uint32_t>(AcceleratorKind::bvh);
 constexpr uint32_t kAnyAccelerator = kGridOnly | kBvhOnly;
 
-namespace detail {
-/// A T, or nothing.
-template <class T, bool kPresent> struct Present : T { using T::T; };
-template <class T> struct Present<T, false> {
-  template <class... Arguments> explicit Present(const Arguments&...) {}
-};
-} // namespace detail
-
 template <class Spu, uint32_t kAccelerators = kAnyAccelerator> class Traversal {
 public:
   using S = typename Spu::simd;
@@ -94,6 +86,16 @@ public:
                       const AreaOccluders<Spu>& occluders) {
     RayQuery query = {&rays, nullptr, &distance, &light, lanes};
     occluders.test(objects_, query);
+    return query.lanes;
+  }
+
+  /// Whether opaque objects are remembered from now on that occlude rays.
+  void remember_occluders(bool remembers) { objects_.remember_occluders(remembers); }
+  /// As unoccluded(), of those that are remembered.
+  uint32_t unoccluded_by_recent(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance,
+                                VectorLanes& light) {
+    RayQuery query = {&rays, nullptr, &distance, &light, lanes};
+    objects_.test_recent(query);
     return query.lanes;
   }
 
@@ -258,8 +260,8 @@ private:
 
   const FrameBlock& frame_;
   ObjectTests<Spu> objects_;
-  detail::Present<GridTraversal<Spu>, kHasGrid> grid_;
-  detail::Present<BvhTraversal<Spu>, kHasBvh> bvh_;
+  Present<GridTraversal<Spu>, kHasGrid> grid_;
+  Present<BvhTraversal<Spu>, kHasBvh> bvh_;
   const bool lists_all_;
 };
 

@@ -29,7 +29,7 @@ template <class Spu> constexpr bool kTestsWholeLeaves = Spu::direct_memory;
 template <class Spu> constexpr bool kHasBundleViews = Spu::direct_memory;
 
 /// Before the places of a light with an area are looked at one by one, the objects that may be in the way are
-/// gathered (AreaOccluders).
+/// gathered (AreaOccluders); if they are too many, those are remembered that are (RecentOccluders).
 template <class Spu> constexpr bool kGathersOccluders = Spu::direct_memory;
 
 /// Where shadow rays are walked, those are found first that cross something translucent: only these are
@@ -57,5 +57,11 @@ template <class Spu> constexpr uint32_t kBundlePackets = kBundleEdge<Spu>* kBund
 template <class Spu>
 constexpr float kMaxPacketSpread =
     Spu::direct_memory ? tuning::kMaxPacketSpread : tuning::kMaxPacketSpreadInLocalStore;
+
+/// A T, or nothing.
+template <class T, bool kPresent> struct Present : T { using T::T; };
+template <class T> struct Present<T, false> {
+  template <class... Arguments> explicit Present(const Arguments&...) {}
+};
 
 } // namespace celltrace::kernel

@@ -108,7 +108,7 @@ private:
   struct PrimaryRays {
     RayPacket rays;
   };
-  struct Member : LitPoints, detail::Present<PrimaryRays, kHasRoomForCode<Spu>> {
+  struct Member : LitPoints, Present<PrimaryRays, kHasRoomForCode<Spu>> {
     V3<S> point; ///< once they are shaded: where they have hit something
     union {
       HitPacket hits; ///< until they are shaded
@@ -436,7 +436,7 @@ private:
   RayTracer<Spu> tracer_;
   Store& store_;
   ShadowTracer<Spu, kAccelerators> shadows_;
-  [[no_unique_address]] detail::Present<BundlePool<Spu>, kPoolsRays<Spu>> pool_;
+  [[no_unique_address]] Present<BundlePool<Spu>, kPoolsRays<Spu>> pool_;
 };
 
 } // namespace celltrace::kernel

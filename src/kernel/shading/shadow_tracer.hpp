@@ -246,11 +246,28 @@ private:
                                              area.light(), occluders));
         return take_area_light(colour);
       }
+      if (walk_ == nullptr && !is_projected(light)) return look_at_occluded_area(light, colour);
     }
     while (next_place(scene_.spu(), light, area)) {
       scene_.spu().compute(scalar_work::kBundleLight);
       trace_shadows(light, area.to_place->rays, area.lanes, area.to_place->distance, area.light());
     }
+    take_area_light(colour);
+  }
+  /// The same where what occludes one place may occlude the next one, too.
+  CELLTRACE_ONE_COPY void look_at_occluded_area(const LightRecord& light, VectorLanes& colour) {
+    AreaShadow<S>& area = *area_;
+    traversal_.remember_occluders(true);
+    while (next_place(scene_.spu(), light, area)) {
+      const RayPacket& rays = area.to_place->rays;
+      const FloatLanes& distance = area.to_place->distance;
+      const uint32_t lanes = traversal_.unoccluded_by_recent(rays, area.lanes, distance, area.light());
+      if (lanes == 0)
+        answer(area, 0);
+      else
+        traversal_.transmittance(rays, lanes, distance, area.light());
+    }
+    traversal_.remember_occluders(false);
     take_area_light(colour);
   }
   void take_area_light(VectorLanes& colour) {
@@ -265,7 +282,7 @@ private:
   RayCounters& counters_;
   AreaShadow<S>* area_; ///< null if no light has an area
   ShadowWalk<S>* walk_; ///< null if shadow rays need none
-  [[no_unique_address]] detail::Present<ShadowMarking, kMarksTranslucent<Spu>> marking_;
+  [[no_unique_address]] Present<ShadowMarking, kMarksTranslucent<Spu>> marking_;
   const RayInteriors* interiors_ = nullptr;
 };
 

@@ -1,0 +1,38 @@
+// What has occluded shadow rays just now. Kernel dialect.
+#pragma once
+
+#include <cstdint>
+
+namespace celltrace::kernel {
+
+/// The opaque objects that occluded shadow rays of a packet toward the place of a light before this one: most
+/// likely they do so again (Haines and Greenberg, The light buffer, 1986), and a test costs less than a
+/// traversal.
+class RecentOccluders {
+public:
+  bool remembers = false; ///< whether occluders are to be added
+
+  /// The last ones stay that there is room for.
+  void add(uint32_t object) {
+    for (uint32_t i = 0; i < count_; ++i)
+      if (objects_[i] == object) return;
+    objects_[next_] = object;
+    next_ = (next_ + 1) % kMost;
+    if (count_ < kMost) ++count_;
+  }
+  /// Keeps those that `occlude(object)` says so of. None is added meanwhile.
+  template <class Occlude> void test(Occlude occlude) {
+    RecentOccluders kept;
+    kept.remembers = remembers;
+    remembers = false;
+    for (uint32_t i = 0; i < count_; ++i)
+      if (occlude(objects_[i])) kept.add(objects_[i]);
+    *this = kept;
+  }
+
+private:
+  static constexpr uint32_t kMost = 8;
+  uint32_t objects_[kMost], count_ = 0, next_ = 0;
+};
+
+} // namespace celltrace::kernel
