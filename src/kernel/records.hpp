@@ -586,10 +586,10 @@ static_assert(sizeof(ImageHeader) == 384, "three lines");
 // --- frame ---
 
 /// Flat cameras: through pixel (x, y) goes base + (x - middle_x)*dx + (y - middle_y)*dy, as a direction from
-/// `origin` (not normalised) or as an origin with direction `origin`; the row `middle_y` may be another than
-/// that in the middle. Curved ones: `origin` is their location, and `base`, `dx` and `dy` are their axes
-/// forward, right and up; pixel (x, y) is at
-/// ((x - middle_x) * step_x, (middle_y - y) * step_y) of their picture, which the kind turns into a ray.
+/// `origin` (not normalised) or as an origin with direction `origin`; `middle_y` may be another row than that
+/// in the middle. Curved ones: `origin` is their location, and `base`, `dx` and `dy` are their axes forward,
+/// right and up; pixel (x, y) is at ((x - middle_x) * step_x, (middle_y - y) * step_y) of their picture,
+/// which the kind turns into a ray.
 struct alignas(16) CameraRecord {
   float origin[3];
   uint32_t kind; ///< its place in the list of cameras/list.hpp

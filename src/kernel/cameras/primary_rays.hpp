@@ -61,8 +61,8 @@ uint32_t make_rays_through(Spu& spu, const CameraRecord& camera, const typename 
   return 0xFFFF;
 }
 
-/// Where the pixels of the packet at (column, row) are, both counted in packets. From the
-/// record's column and row: about them nothing cancels.
+/// Where the pixels of the packet at (column, row) are, both counted in packets. From the middle that the
+/// record says: about it nothing cancels.
 template <class S> typename S::F pixels_across(const FrameBlock& frame, uint32_t column) {
   using F = typename S::F;
   return F::load(detail::kLaneX) + F(static_cast<float>(column * kPacketEdge) - frame.camera.middle_x);
