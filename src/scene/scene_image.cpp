@@ -121,6 +121,20 @@ std::vector<Index> owners_of(const SceneObjects& objects, std::span<const Placed
   return owners;
 }
 
+/// What records are made of: a scene's textures, and its objects as single precision needs them.
+struct SceneOfRecords {
+  const SceneWithProjectors as_given;
+  TextureTables textures;
+  const SceneWithFacesApart with_faces_apart;
+  const SceneWithLargeSpheres with_large_spheres;
+  const SceneWithProjectors with_projectors;
+
+  explicit SceneOfRecords(const Scene& given)
+      : as_given(given), textures(as_given.scene()), with_faces_apart(given, textures.object_flags),
+        with_large_spheres(with_faces_apart.scene(), textures.object_flags),
+        with_projectors(with_large_spheres.scene()) {}
+};
+
 bool has_projectors(const Scene& scene) {
   return std::any_of(scene.lights.begin(), scene.lights.end(),
                      [](const Light& light) { return light.projected_through != nullptr; });
@@ -137,11 +151,9 @@ void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads
                         std::uint32_t objects_a_thread, const ImageMemory& remembered) {
   BuildWatch::reach(0);
   validate(given);
-  const SceneWithProjectors as_given(given);
-  TextureTables textures(as_given.scene());
-  const SceneWithFacesApart with_faces_apart(given, textures.object_flags);
-  const SceneWithLargeSpheres with_large_spheres(with_faces_apart.scene(), textures.object_flags);
-  const SceneWithProjectors with_projectors(with_large_spheres.scene());
+  SceneOfRecords prepared(given);
+  TextureTables& textures = prepared.textures;
+  const SceneWithProjectors& with_projectors = prepared.with_projectors;
   const Scene& scene = with_projectors.scene();
   BuildWatch::reach(0.05);
   const MeshInstances instances(scene, textures.object_flags, threads);
@@ -216,11 +228,9 @@ bool SceneImage::update(const Scene& given, AlignedBlock& work, unsigned threads
                         std::uint32_t objects_a_thread) {
   if (!origin_ || given.objects.size() != origin_->is_instance.size()) return false;
   validate(given);
-  const SceneWithProjectors as_given(given);
-  TextureTables textures(as_given.scene());
-  const SceneWithFacesApart with_faces_apart(given, textures.object_flags);
-  const SceneWithLargeSpheres with_large_spheres(with_faces_apart.scene(), textures.object_flags);
-  const SceneWithProjectors with_projectors(with_large_spheres.scene());
+  SceneOfRecords prepared(given);
+  TextureTables& textures = prepared.textures;
+  const SceneWithProjectors& with_projectors = prepared.with_projectors;
   const Scene& scene = with_projectors.scene();
   const MeshInstances instances(scene, textures.object_flags, threads);
   if (which_are(instances, given.objects.size()) != origin_->is_instance) return false;

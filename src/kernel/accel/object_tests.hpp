@@ -112,20 +112,16 @@ public:
     if ((flags & object_flag::no_shadow) != 0) return 0;
     if ((flags & object_flag::opaque) != 0 && !hit_filter_.first_test(self)) return 0;
     if constexpr (kMarksTranslucent<Spu>) interior_ = object.interior;
-    if constexpr (!kGathersOccluders<Spu>) {
-      if (!is_simple(flags)) {
-        scene_.spu().enter_module(modules::kObjects);
-        return occluded_by_other(rays, object, self, lanes, distance, light, segment);
-      }
-      return occluded_by(rays, test(rays, object, self), flags, material, lanes, distance, light, segment);
+    uint32_t dark;
+    if (is_simple(flags)) {
+      dark = occluded_by(rays, test(rays, object, self), flags, material, lanes, distance, light, segment);
     } else {
-      const uint32_t dark =
-          is_simple(flags)
-              ? occluded_by(rays, test(rays, object, self), flags, material, lanes, distance, light, segment)
-              : occluded_by_other(rays, object, self, lanes, distance, light, segment);
-      if (recent_.remembers && (flags & object_flag::opaque) != 0 && (dark & lanes) != 0) recent_.add(self);
-      return dark;
+      scene_.spu().enter_module(modules::kObjects);
+      dark = occluded_by_other(rays, object, self, lanes, distance, light, segment);
     }
+    if constexpr (kGathersOccluders<Spu>)
+      if (recent_.remembers && (flags & object_flag::opaque) != 0 && (dark & lanes) != 0) recent_.add(self);
+    return dark;
   }
   /// Where occluders are gathered: whether opaque objects are remembered that occlude rays.
   void remember_occluders(bool remembers) { recent_.remembers = remembers; }

@@ -58,7 +58,7 @@ template <class Spu>
 constexpr float kMaxPacketSpread =
     Spu::direct_memory ? tuning::kMaxPacketSpread : tuning::kMaxPacketSpreadInLocalStore;
 
-/// A T, or nothing.
+/// A T, or nothing: for members that only a capability asks for.
 template <class T, bool kPresent> struct Present : T { using T::T; };
 template <class T> struct Present<T, false> {
   template <class... Arguments> explicit Present(const Arguments&...) {}
