@@ -229,7 +229,11 @@ public:
   HitFilter& hit_filter() { return hit_filter_; }
   TraversalCounters& counters() { return counters_; }
   const TraversalCounters& counters() const { return counters_; }
-  void reset_counters() { counters_ = TraversalCounters(); }
+  /// The records may be another scene's from now on.
+  void begin_frame() {
+    counters_ = TraversalCounters();
+    if constexpr (kGathersOccluders<Spu>) recent_.forget();
+  }
 
 private:
   /// Spheres, triangles and planes that are no parts of a CSG, and seen by all rays: their code is always

@@ -178,7 +178,7 @@ public:
 
   ObjectTests<Spu>& objects() { return objects_; }
   const TraversalCounters& counters() const { return objects_.counters(); }
-  void reset_counters() { objects_.reset_counters(); }
+  void begin_frame() { objects_.begin_frame(); }
 
 private:
   using Translucency = typename ObjectTests<Spu>::Translucency;

@@ -20,6 +20,7 @@ public:
     next_ = (next_ + 1) % kMost;
     if (count_ < kMost) ++count_;
   }
+  void forget() { count_ = next_ = 0; }
   /// Keeps those that `occlude(object)` says so of. None is added meanwhile.
   template <class Occlude> void test(Occlude occlude) {
     RecentOccluders kept;

@@ -78,9 +78,9 @@ public:
     }
   }
 
-  void reset_counters() {
+  void begin_frame() {
     tracer_.reset_counters();
-    shadows_.traversal().reset_counters();
+    shadows_.traversal().begin_frame();
   }
   const RayCounters& ray_counters() const { return tracer_.counters(); }
   const TraversalCounters& traversal_counters() const { return shadows_.traversal().counters(); }

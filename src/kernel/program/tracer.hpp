@@ -165,7 +165,7 @@ private:
     spu_.run_in_module(modules::kStart);
     if (phase_ == nullptr) start_phase();
     phase_->scene.cache().reset_counters();
-    phase_->bundles.reset_counters();
+    phase_->bundles.begin_frame();
     phase_->pixels.reset_counters();
     if (!is_picture(frame_)) phase_->sampler->begin_frame();
     fetch(&strip_, frame_.strips + spu_.id() * sizeof(StripRecord), sizeof(StripRecord));
