@@ -17,6 +17,9 @@ endif()
 if(CELLTRACE_SANITIZE)
   target_compile_options(celltrace_options INTERFACE
     -fsanitize=${CELLTRACE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  if(CELLTRACE_NO_SANITIZE)
+    target_compile_options(celltrace_options INTERFACE -fno-sanitize=${CELLTRACE_NO_SANITIZE})
+  endif()
   target_link_options(celltrace_options INTERFACE -fsanitize=${CELLTRACE_SANITIZE})
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # Instrumented code makes GCC 12 report the standard library's own <regex>.
