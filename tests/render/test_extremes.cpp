@@ -207,8 +207,8 @@ TEST_CASE("Soft shadows know nothing of the objects of the scene before") {
   });
   for (const TestBackend& backend : backends()) {
     INFO(backend.spu());
-    const RenderOptions options =
-        backend.options(32, 24, 4); // SPEs that do not build a BVH keep what they know
+    // Several SPEs: the one that builds the BVH starts afresh for every scene, the others do not.
+    const RenderOptions options = backend.options(32, 24, 4);
     Renderer renderer(options);
     CHECK(renderer.render(dark).image == render(dark, options).image);
     CHECK(renderer.render(lit).image == render(lit, options).image);
