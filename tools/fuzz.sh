@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Feeds the parser and the renderer scenes that are made up at random, under the address and undefined-behaviour
-# sanitizers (libFuzzer, so that it needs clang and its runtime), in the sanitizers' build.
+# sanitizers (libFuzzer, so that it needs clang and its runtime), in the sanitizers' build, with the checks that this
+# was configured with: all of them, unless .ci/run was here before without --all.
 #
 #   tools/fuzz.sh [SECONDS [TARGET...]]
 #

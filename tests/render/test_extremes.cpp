@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <initializer_list>
 #include <memory>
 #include <utility>
@@ -177,42 +176,6 @@ TEST_CASE("Lights with an area behind many objects") {
   const Image first = render(scene, backends().front().options(80, 60, 2)).image;
   for (const TestBackend& backend : backends())
     CHECK(compare_images(first, render(scene, backend.options(80, 60, 1)).image).differing_pixels == 0);
-}
-
-TEST_CASE("Soft shadows know nothing of the objects of the scene before") {
-  const auto below = [](int objects, const std::function<decltype(Object::shape)(int)>& shape) {
-    Scene scene;
-    scene.camera = camera_at({0, 1, -4}, {0, 0, 0});
-    Light light{{0, 20, 0}};
-    light.area = LightArea{{2, 0, 0}, {0, 0, 2}, 5, 5, 1};
-    scene.lights.push_back(light);
-    Object object;
-    object.interior = scene.add(Interior{});
-    object.material = scene.add(matte({1, 1, 1}));
-    object.shape = Plane{{0, 1, 0}, 0};
-    scene.objects.push_back(object);
-    for (int i = 0; i < objects; ++i) {
-      object.shape = shape(i);
-      scene.objects.push_back(object);
-    }
-    return scene;
-  };
-  // Sheets that leave no light, and fewer specks that leave most of it, but are too many to be gathered.
-  // Records of the sheets are still there behind those of the specks.
-  const Scene dark = below(400, [](int i) {
-    return Box{{{-20, 2 + 0.02 * i, -20}, {20, 2.01 + 0.02 * i, 20}}};
-  });
-  const Scene lit = below(30, [](int i) {
-    return Sphere{{0.1 * (i % 6) - 0.3, 19, 0.1 * (i / 6) - 0.2}, 0.02};
-  });
-  for (const TestBackend& backend : backends()) {
-    INFO(backend.spu());
-    // Several SPEs: the one that builds the BVH starts afresh for every scene, the others do not.
-    const RenderOptions options = backend.options(32, 24, 4);
-    Renderer renderer(options);
-    CHECK(renderer.render(dark).image == render(dark, options).image);
-    CHECK(renderer.render(lit).image == render(lit, options).image);
-  }
 }
 
 TEST_CASE("A distant camera with a long lens") {

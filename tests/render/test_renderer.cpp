@@ -6,6 +6,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <functional>
 #include <stdexcept>
 
 using namespace celltrace;
@@ -288,6 +289,41 @@ TEST_CASE("A later scene may need deeper trees") {
       scene.max_trace_level = level;
       check_complete(renderer.render(scene), backend, picture(scene));
     }
+  }
+}
+
+TEST_CASE("A later scene's soft shadows know nothing of the objects before") {
+  const auto below = [](int objects, const std::function<decltype(Object::shape)(int)>& shape) {
+    Scene scene;
+    scene.camera = camera_at({0, 1, -4}, {0, 0, 0});
+    Light light{{0, 20, 0}};
+    light.area = LightArea{{2, 0, 0}, {0, 0, 2}, 5, 5, 1};
+    scene.lights.push_back(light);
+    Object object;
+    object.interior = scene.add(Interior{});
+    object.material = scene.add(matte({1, 1, 1}));
+    object.shape = Plane{{0, 1, 0}, 0};
+    scene.objects.push_back(object);
+    for (int i = 0; i < objects; ++i) {
+      object.shape = shape(i);
+      scene.objects.push_back(object);
+    }
+    return scene;
+  };
+  // Sheets that leave no light, and fewer specks that leave most of it, but are too many to be gathered.
+  // Records of the sheets are still there behind those of the specks.
+  const Scene dark = below(400, [](int i) {
+    return Box{{{-20, 2 + 0.02 * i, -20}, {20, 2.01 + 0.02 * i, 20}}};
+  });
+  const Scene lit = below(30, [](int i) {
+    return Sphere{{0.1 * (i % 6) - 0.3, 19, 0.1 * (i / 6) - 0.2}, 0.02};
+  });
+  for (const TestBackend& backend : one_of_each()) {
+    INFO(backend.spu());
+    // Several SPEs: the one that builds the BVH starts afresh for every scene, the others do not.
+    Renderer renderer(backend.options(32, 24, 4));
+    for (const Scene& scene : {dark, lit})
+      check_complete(renderer.render(scene), backend, picture(scene, 32, 24));
   }
 }
 
