@@ -17,7 +17,7 @@ struct CELLTRACE_EXPORT Transform {
   Vec3 rows[4] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}};
 
   static Transform translate(const Vec3& offset);
-  /// About x, then y, then z, in degrees, left-handed.
+  /// About x, then y, then z, in degrees, left-handed. NaN where an angle is not finite.
   static Transform rotate(const Vec3& degrees);
   /// A factor of 0 counts as 1, as in POV-Ray.
   static Transform scale(const Vec3& factors);

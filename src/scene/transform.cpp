@@ -25,7 +25,7 @@ Cofactors cofactors(const Vec3 (&rows)[4]) {
 /// A quarter turn must be exact: scenes place walls and mirrors by it.
 void sine_and_cosine(double degrees, double& sine, double& cosine) {
   const double quarters = degrees / 90;
-  if (quarters != std::floor(quarters)) {
+  if (!std::isfinite(quarters) || quarters != std::floor(quarters)) {
     sine = std::sin(degrees * kRadiansPerDegree);
     cosine = std::cos(degrees * kRadiansPerDegree);
     return;

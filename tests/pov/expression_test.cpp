@@ -105,6 +105,7 @@ TEST_CASE("functions of vectors") {
   CHECK(value(3, "vnormalize(0)") == "0.00 0.00 0.00");
   CHECK(value(3, "vrotate(x, 90 * y)") == "0.00 0.00 -1.00");
   CHECK(value(3, "vrotate(y, 90 * x)") == "0.00 0.00 1.00");
+  CHECK(value("vlength(vrotate(y, 20 / x)) * 0").find("nan") != std::string::npos); // as in POV-Ray
   CHECK(value(3, "vaxis_rotate(x, z, 90)") == "0.00 1.00 0.00");
 }
 
