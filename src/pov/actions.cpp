@@ -486,6 +486,7 @@ double ior(Session& session, double value, const Location& where) {
 void nest(Session& session, ObjectDefinition& object, const ObjectDefinition& part, const Location& where) {
   object.depth = std::max(object.depth, part.depth + 1);
   if (object.depth > kDeepestObject) session.fail(where, "objects are nested too deeply");
+  object.size = std::min(object.size + part.size, ObjectDefinition::kMostParts);
 }
 
 TexturePtr texture_of(Session& session, const ObjectDefinition& object) {

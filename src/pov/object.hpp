@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <variant>
@@ -92,6 +93,8 @@ struct ObjectDefinition {
   Role role = Role::none;
   bool is_declared = false; ///< has a name: what is placed is a copy
   int depth = 0;            ///< of objects inside one another
+  std::uint64_t size = 1;   ///< how many objects are placed with it, itself included, or kMostParts
+  static constexpr std::uint64_t kMostParts = std::uint64_t{1} << 62;
   [[no_unique_address]] Counted<ObjectDefinition> counted;
 
   /// Moves its texture and what limits it, too.

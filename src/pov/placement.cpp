@@ -119,6 +119,8 @@ void turn_outside(TriangleDefinition& triangle) {
 } // namespace
 
 void SceneBuilder::place(const ObjectPtr& object, const Location& where) {
+  // Before there are so many.
+  if (object->size > limits_.objects - std::min(parts_placed_, limits_.objects)) exceed_objects(where);
   place(*object, Inherited{}, where);
 }
 
@@ -137,14 +139,17 @@ void SceneBuilder::place(const ObjectDefinition& object, const Inherited& around
   }
 }
 
+void SceneBuilder::exceed_objects(const Location& where) const {
+  diagnostics_.exceed(where, &ParseLimits::objects, "the scene has", "objects");
+}
+
 /// What the object's own parts inherit from it.
 SceneBuilder::Inherited SceneBuilder::inherit(const ObjectDefinition& object, const Inherited& around,
                                               const Location& where) {
   diagnostics_.supports(object.unsupported, where);
   has_photon_targets_ = has_photon_targets_ || object.is_photon_target;
   tokens_.spend(1); // an object that is placed may have many parts
-  if (++parts_placed_ > limits_.objects)
-    diagnostics_.exceed(where, &ParseLimits::objects, "the scene has", "objects");
+  if (++parts_placed_ > limits_.objects) exceed_objects(where);
   Inherited own = around;
   own.transform = object.transform.then(around.transform);
   own.no_shadow = object.no_shadow || around.no_shadow;

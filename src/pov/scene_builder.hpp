@@ -100,6 +100,7 @@ private:
     const char* inside = nullptr; ///< in what its inside counts, for messages; null: it does not
   };
   void place(const ObjectDefinition& object, const Inherited& around, const Location& where);
+  [[noreturn]] void exceed_objects(const Location& where) const;
   Inherited inherit(const ObjectDefinition& object, const Inherited& around, const Location& where);
   std::optional<Object> make(const ObjectDefinition& object, const Inherited& around, const Location& where);
   bool make_shape(const ObjectDefinition& object, const Inherited& own, Object& made, const Location& where);

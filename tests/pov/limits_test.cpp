@@ -125,6 +125,16 @@ TEST_CASE("what a scene makes is bounded") {
                  "makes more than 1000 bytes of text"));
 }
 
+TEST_CASE("objects are counted before there are too many") {
+  const std::string doubled = "#declare U = sphere { 0, 1 } #for (I, 1, 200) #declare U = ";
+  for (const char* twice : {"union { object { U } object { U } }", "difference { object { U } object { U } }",
+                            "sphere { 0, 1 clipped_by { object { U } object { U } } }"}) {
+    INFO(twice);
+    CHECK(contains(error_line(doubled + twice + " #end object { U }"),
+                   "the scene has more than 4000000 objects"));
+  }
+}
+
 TEST_CASE("reading a scene takes no longer than it may") {
   ParseOptions options;
   options.limits.seconds = 0;
