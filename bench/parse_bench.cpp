@@ -41,6 +41,15 @@ std::string loop_scene(int spheres) {
          "}\n#end\n";
 }
 
+/// A program that computes and places nothing.
+std::string arithmetic_scene(int steps) {
+  return "#version 3.7;\n#declare P = array[100];\n#for (I, 0, 99) #declare P[I] = <I, 2*I, sin(I)>; #end\n"
+         "#declare S = 0;\n#declare J = 0;\n#while (J < " +
+         std::to_string(steps) +
+         ")\n  #local K = mod(J, 99);\n  #local A = P[K] + (P[K + 1] - P[K])*0.5;\n"
+         "  #if (A.x > 50 & J != 3) #declare S = S + vlength(A); #end\n  #declare J = J + 1;\n#end\n";
+}
+
 void parse(benchmark::State& state, const std::string& text) {
   for (auto _ : state)
     benchmark::DoNotOptimize(celltrace::parse_string(text));
@@ -67,5 +76,11 @@ void parse_loop(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * state.range(0));
 }
 BENCHMARK(parse_loop)->Arg(100)->Arg(10000)->Unit(benchmark::kMillisecond);
+
+void parse_arithmetic(benchmark::State& state) {
+  parse(state, arithmetic_scene(static_cast<int>(state.range(0))));
+  state.SetItemsProcessed(state.iterations() * state.range(0));
+}
+BENCHMARK(parse_arithmetic)->Arg(10000)->Unit(benchmark::kMillisecond);
 
 } // namespace

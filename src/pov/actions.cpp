@@ -47,12 +47,16 @@ double positive(Session& session, double value, const char* what, const Location
   return value;
 }
 
+bool has_component(const Quantity& quantity, int which) {
+  return which == kGrey ? quantity.count >= 3 : which < quantity.count;
+}
+
 double component(Session& session, const Quantity& quantity, int which, const Location& where) {
   if (which == kGrey) {
-    if (quantity.count < 3) session.fail(where, "only a colour has a grey value");
+    if (!has_component(quantity, which)) session.fail(where, "only a colour has a grey value");
     return quantity.grey();
   }
-  if (which >= quantity.count)
+  if (!has_component(quantity, which))
     session.fail(where, std::string(kind_name(quantity)) + " of " + std::to_string(quantity.count) +
                             " components has no such component");
   return quantity.v[static_cast<std::size_t>(which)];

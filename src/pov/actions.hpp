@@ -24,6 +24,8 @@ void append(Session& session, std::vector<T, A>& list, U&& element, const Locati
 
 // ---- Numbers ----
 
+/// Whether there is a component of this number (Names::Entry::component).
+bool has_component(const Quantity& quantity, int which);
 /// The component a word behind a dot names, as in v.x or c.red.
 double component(Session& session, const Quantity& quantity, int which, const Location& where);
 /// Adds one to a vector being read.

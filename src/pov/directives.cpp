@@ -147,7 +147,7 @@ Value& TokenStream::element(Value& array, const std::vector<std::size_t>& subscr
 
 /// `deprecated once "message"` in front of a name.
 void TokenStream::skip_deprecation() {
-  const auto is_word = [this](const Token& token, const char* text) {
+  const auto is_word = [this](const Token& token, std::string_view text) {
     return token.kind == Token::Kind::word && session_.names.text(token.name) == text;
   };
   Token token = read();

@@ -353,6 +353,12 @@ void check_numeric_call(Session& session, int function, std::size_t arguments, c
     session.fail(where, std::string(called.name) + "() is no function of floats");
 }
 
+bool is_pure(int function) {
+  const char* const name = kFunctions[function].name;
+  const auto is_name = [name](const char* other) { return std::strcmp(name, other) == 0; };
+  return !is_name("rand") && !is_name("seed") && !is_name("now") && !is_name("file_exists");
+}
+
 Quantity call_numeric(Session& session, int function, const std::vector<Value>& arguments,
                       const Location& where) {
   return std::get<Quantity>(evaluate(session, function, arguments, where));

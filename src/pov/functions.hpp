@@ -18,6 +18,8 @@ std::vector<FunctionName> function_names();
 
 /// Fails unless the function is one of floats only, of so many, that gives a float.
 void check_numeric_call(Session& session, int function, std::size_t arguments, const Location& where);
+/// Whether a function depends on nothing but its arguments, and changes nothing.
+bool is_pure(int function);
 /// Checks the arguments and calls function number `function`.
 Quantity call_numeric(Session& session, int function, const std::vector<Value>& arguments,
                       const Location& where);

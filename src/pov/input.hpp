@@ -56,6 +56,8 @@ public:
   Token read();
   /// Whether the next token comes from a file.
   bool reads_file() const { return put_back_.empty() && frames_.back().scanner != nullptr; }
+  /// Whether it comes from what has been recorded.
+  bool reads_record() const { return put_back_.empty() && frames_.back().scanner == nullptr; }
   /// Whether the top frame is a macro with nothing left to read.
   bool is_exhausted() const;
   void unread(const Token& token) { put_back_.push_back(token); }

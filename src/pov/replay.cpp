@@ -1,4 +1,7 @@
 // TokenStream: macros and loops, which are recorded once and read as often as needed.
+#include <algorithm>
+
+#include "pov/arithmetic.hpp"
 #include "pov/session.hpp"
 #include "pov/token_stream.hpp"
 
@@ -27,6 +30,54 @@ TokenRange TokenStream::take_block(const Token& opening) {
   if (is_replay) return {frame.range.tokens, begin, frame.position - 1};
   const std::size_t count = recorded->size();
   return {std::move(recorded), 0, count};
+}
+
+/// What one of arithmetic.hpp's functions makes of what is being replayed.
+std::optional<Quantity> TokenStream::replay(std::optional<Quantity> (*take)(Session&, TokenSpan&)) {
+  if (!session_.input.reads_record()) return std::nullopt;
+  Frame& frame = session_.input.top();
+  const Token* const first = frame.range.tokens->data();
+  TokenSpan rest{first + frame.position, first + frame.range.end};
+  const std::optional<Quantity> taken = take(session_, rest);
+  if (!taken) return std::nullopt;
+  const auto position = static_cast<std::size_t>(rest.begin - first);
+  tokens_read_ += position - frame.position;
+  frame.position = position;
+  if (tokens_read_ + work_ > next_pause_) pause();
+  return taken;
+}
+
+std::optional<Quantity> TokenStream::replay_value(Start start) {
+  switch (start) {
+  case Start::condition:
+    return replay(take_condition);
+  case Start::expression:
+  case Start::value:
+    return replay(take_quantity);
+  default:
+    return std::nullopt;
+  }
+}
+
+/// Makes one token of a vector, if there is one behind the bracket.
+void TokenStream::replay_vector(Token& bracket) {
+  const std::optional<Quantity> vector = replay(take_vector);
+  if (!vector) return;
+  bracket.kind = Token::Kind::vector;
+  bracket.symbol = static_cast<std::uint16_t>(vector->count);
+  std::copy_n(vector->v.begin(), vector->count, bracket.number);
+}
+
+void TokenStream::replay_arguments(std::vector<ShapeArgument>& arguments) {
+  if (!session_.input.reads_record()) return;
+  const Frame& frame = session_.input.top();
+  for (;;) {
+    const bool is_first = arguments.empty();
+    const std::size_t place = frame.position + (is_first ? 0 : 1);
+    const std::optional<Quantity> argument = replay(is_first ? take_argument : take_next_argument);
+    if (!argument) return;
+    arguments.push_back({*argument, (*frame.range.tokens)[place].where});
+  }
 }
 
 void TokenStream::leave_frame() {

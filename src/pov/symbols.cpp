@@ -12,6 +12,11 @@ std::shared_ptr<Slot> Symbols::find(NameId name) const {
   return bindings_[name].back().slot;
 }
 
+const Value* Symbols::value_of(NameId name) const {
+  if (name >= bindings_.size() || bindings_[name].empty()) return nullptr;
+  return &bindings_[name].back().slot->value;
+}
+
 void Symbols::declare(NameId name, Value value) {
   auto& visible = bindings(name);
   if (visible.empty())

@@ -13,6 +13,9 @@ public:
   /// Null if the name is not declared.
   std::shared_ptr<Slot> find(NameId name) const;
 
+  /// The same without a share in it: for as long as nothing is declared.
+  const Value* value_of(NameId name) const;
+
   /// Writes to the innermost visible binding, or makes a global one.
   void declare(NameId name, Value value);
   /// Writes to the current scope's binding, or makes one.

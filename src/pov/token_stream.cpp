@@ -184,6 +184,7 @@ const std::filesystem::path& TokenStream::current_folder() const {
 }
 
 Value TokenStream::evaluate(Start start) {
+  if (const std::optional<Quantity> value = replay_value(start)) return *value;
   if (levels_.size() >= kMostLevels) session_.fail(here(), "macros and directives are nested too deeply");
   Level& level = levels_.emplace_back();
   level.start = start;
@@ -257,7 +258,8 @@ void TokenStream::next(Terminal& terminal) {
     return;
   }
   for (;;) {
-    const Token token = read();
+    Token token = read();
+    if (token.is('<') && !levels_.back().after_operand) replay_vector(token);
     switch (token.kind) {
     case Token::Kind::end:
       if (!leave_frame_at_end()) {
@@ -420,13 +422,17 @@ void TokenStream::take_literals(std::vector<ListEntry>& list) {
 }
 
 void TokenStream::take_arguments(std::vector<ShapeArgument>& arguments) {
-  if (!session_.input.reads_file()) return;
-  const std::uint64_t limit = session_.options.limits.list_entries;
-  const std::uint64_t most = std::min<std::uint64_t>(limit, kLiteralsAtOnce); // so that it can be cancelled
   constexpr std::size_t kMostOfUsualShapes = 4;
   arguments.reserve(kMostOfUsualShapes);
-  if (!session_.input.top().scanner->take_arguments(arguments, most)) return;
-  tokens_read_ += 2 * arguments.size() - 1; // with their commas
+  if (session_.input.reads_file()) {
+    const std::uint64_t limit = session_.options.limits.list_entries;
+    const std::uint64_t most = std::min<std::uint64_t>(limit, kLiteralsAtOnce); // so that it can be cancelled
+    session_.input.top().scanner->take_arguments(arguments, most);
+    tokens_read_ += 2 * arguments.size(); // with their commas
+  } else {
+    replay_arguments(arguments);
+  }
+  if (arguments.empty()) return;
   Terminal taken;
   taken.token = tokens::T_ARGUMENTS;
   taken.where = arguments.front().where;

@@ -18,6 +18,7 @@
 namespace celltrace::pov {
 
 struct Session;
+struct TokenSpan;
 
 /// What the grammar can be entered for.
 enum class Start {
@@ -64,7 +65,7 @@ public:
   /// that is what is being read.
   void take_literals(std::vector<ListEntry>& list);
   /// For the grammar, behind the brace of a shape: takes the arguments that can be read straight from the
-  /// file. If there are any, the next terminal is T_ARGUMENTS.
+  /// file, or from what is being repeated. If there are any, the next terminal is T_ARGUMENTS.
   void take_arguments(std::vector<ShapeArgument>& arguments);
   /// For the grammar: a name, whatever it stands for.
   NameId take_name() { return expect_name("to write to").name; }
@@ -184,6 +185,10 @@ private:
   void start_while(const Token& directive);
   void start_for(const Token& directive);
   void start_iteration(bool is_first);
+  std::optional<Quantity> replay(std::optional<Quantity> (*take)(Session&, TokenSpan&));
+  std::optional<Quantity> replay_value(Start start);
+  void replay_vector(Token& bracket);
+  void replay_arguments(std::vector<ShapeArgument>& arguments);
   void leave_frame();
   bool leave_frame_at_end();
   std::vector<double> read_numbers(const Location& where);
