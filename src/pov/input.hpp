@@ -1,6 +1,7 @@
 // The stack of things being read: files, macro bodies and loop bodies.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -39,6 +40,7 @@ struct Frame {
   std::size_t position = 0;
   NameId macro_name = 0;
   std::optional<Counter> counter;
+  std::uint64_t iterations = 0; ///< of a loop, so far
   std::vector<Conditional> conditionals;
 };
 

@@ -1,7 +1,9 @@
 // TokenStream: macros and loops, which are recorded once and read as often as needed.
 #include <algorithm>
+#include <cmath>
 
 #include "pov/arithmetic.hpp"
+#include "pov/endless_loops.hpp"
 #include "pov/session.hpp"
 #include "pov/token_stream.hpp"
 
@@ -226,8 +228,13 @@ bool advance(Counter& counter, bool is_first) {
 } // namespace
 
 void TokenStream::start_iteration(bool is_first) {
+  constexpr std::uint64_t kIterationsBeforeALook = 1000;
   Frame& frame = session_.input.top();
-  if (++iterations_ > session_.options.limits.loop_iterations)
+  const double least = ++frame.iterations == kIterationsBeforeALook ? least_iterations(session_, frame) : 0;
+  if (std::isinf(least))
+    session_.fail(frame.opened_at, "this loop never ends: nothing in it changes what that depends on");
+  const std::uint64_t most = session_.options.limits.loop_iterations;
+  if (++iterations_ > most || least > static_cast<double>(most - iterations_))
     session_.exceed(frame.opened_at, &ParseLimits::loop_iterations, "the loops of the scene run", "times");
   frame.position = frame.range.begin;
   const bool goes_on = frame.counter ? advance(*frame.counter, is_first) : condition();

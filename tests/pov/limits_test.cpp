@@ -23,11 +23,11 @@ bool contains(const std::string& text, const char* part) {
 
 TEST_CASE("loops and macros end") {
   ParseOptions options;
-  options.limits.loop_iterations = 1000;
+  options.limits.loop_iterations = 500;
   CHECK(error_line("#while (1) #end", options) == "scene.pov:1:1: error: the loops of the scene run more "
-                                                  "than 1000 times (--max loop-steps=N allows more)");
+                                                  "than 500 times (--max loop-steps=N allows more)");
   CHECK(error_line("#for (I, 1, 10, 1e-9) #end", options) ==
-        "scene.pov:1:1: error: the loops of the scene run more than 1000 times (--max loop-steps=N allows "
+        "scene.pov:1:1: error: the loops of the scene run more than 500 times (--max loop-steps=N allows "
         "more)");
   CHECK(
       error_line("#macro M() M() #end M()") ==
@@ -36,6 +36,53 @@ TEST_CASE("loops and macros end") {
   CHECK(contains(error_line("#macro M(A) M(M(A)) #end M(1)"), "nested too deeply"));
   options.limits.tokens = 100;
   CHECK(contains(error_line(repeated("sphere { 0, 1 }", 50), options), "the scene has more than 100 tokens"));
+}
+
+TEST_CASE("loops that cannot end are found before they have run long") {
+  const std::string start = "#declare A = 1; #declare B = array[2] {1, 2} #declare F = function(x) {x + A} "
+                            "#macro Twice(X) X * 2 #end\n";
+  for (const char* loop :
+       {"#while (1) #end", "#while (A < 2 & B[1]) #declare C = A; #end",
+        "#while (F(A) > 0) sphere { A, 1 } #end",
+        "#while (sin(A) < pi) #if (A) #local D = B; #end #for (I, 1, 2) #declare C = I; #end #end",
+        "#while (A = 1) #while (A = 2) #end #switch (A) #case (1) #debug \"\" #end #end",
+        "#macro Endless(A) #while (A) #local B = A + 1; #end #end Endless(3)",
+        "#while (A < 5) sphere { A, Twice(A) } #end",
+        "#macro Own() #local A = 3; #for (A, 1, 2) #end #end #while (A) Own() #end",
+        "#for (I, 1, 1/0) #end"}) {
+    INFO(loop);
+    CHECK(contains(error_line(start + loop),
+                   "error: this loop never ends: nothing in it changes what that depends on"));
+  }
+  CHECK(contains(error_line("#for (I, 1, 1e8) sphere { I, 1 } #end"),
+                 "the loops of the scene run more than 10000000 "));
+  CHECK(contains(error_line("#for (I, 0, -1e8, -1) #end"), "the loops of the scene run more than 10000000 "));
+}
+
+TEST_CASE("loops that only seem to be endless end") {
+  const std::string start =
+      "#declare A = 0; #declare B = array[2] {0, 0} #declare R = seed(1); "
+      "#macro Count(X) #declare X = X + 1; #end #macro Next() #declare A = A + 1; #end\n";
+  for (const char* loop :
+       {"#while (A < 3000) #declare A = A + 1; #end", "#while (B[1] < 3000) #declare B[1] = B[1] + 1; #end",
+        "#while (A < 3000) Count(A) #end", "#while (A < 3000) Next() #end",
+        "#macro M(X) #while (A < 3000) #declare X = X + 1; #end #end M(A)", "#while (rand(R) < 0.999) #end",
+        "#while (1) #declare A = A + 1; #if (A > 3000) #break #end #end",
+        "#macro Nested() Next() #end #while (A < 3000) #declare C = 2; Nested() #end",
+        "#macro Local(X) #local X = X + 1; #end #while (A < 3000) Local(A) #end",
+        "#macro Loop(X) #for (X, X + 1, X) #end #end #while (A < 3000) Next() #end",
+        "#while (A < 3000) #macro New() #declare A = A + 1; #end New() #end",
+        "#for (I, 1, 1e9) #declare A = A + 1; #if (A > 3000) #break #end #end",
+        "#for (I, 1, 1e9) #if (I > 3000) #declare I = 2e9; #end #end",
+        "#declare C = 1; #while (defined(C)) #declare A = A + 1; #if (A > 3000) #undef C #end #end",
+        "#while (A < 3000) declare A = A + 1; #end", "#while (A < 3000) #for (A, A + 1, A + 1) #end #end",
+        "#declare N = <0, 0, 0>; #while (N.z = 0) #declare A = A + 1; #declare C = trace(sphere { 0, A / "
+        "3000 }, "
+        "<0, 0.99, -9>, z, N); #end",
+        "#while (A < 3000) #declare deprecated once \"it is old\" A = A + 1; #end"}) {
+    INFO(loop);
+    CHECK(error_line(start + loop + " sphere { 0, 1 }").empty());
+  }
 }
 
 TEST_CASE("nesting has an end") {

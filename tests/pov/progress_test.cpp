@@ -51,5 +51,5 @@ TEST_CASE("a parse can be stopped before it starts, in a list and in a loop") {
   };
   stop_after(0, "sphere { 0, 1 }");
   stop_after(1, "mesh2 { vertex_vectors { 200000, " + repeated("<1, 2, 3>,\n", 200000) + "} }");
-  stop_after(5, "#while (1) #declare A = 1; #end");
+  stop_after(5, "#declare A = 1; #while (A) #declare A = A + 1; #end");
 }

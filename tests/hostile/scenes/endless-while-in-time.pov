@@ -1,5 +1,6 @@
-// expect: endless-while-in-time.pov:1:1: error: reading the scene takes more than 0 seconds (--max seconds=N allows more)
+// expect: endless-while-in-time.pov:4:1: error: reading the scene takes more than 0 seconds (--max seconds=N allows more)
 // arguments: --max seconds=0
-#while (1)
-  #declare A = sphere { 0, 1 pigment { rgb 1 } }
+#declare I = 1;
+#while (I > 0)
+  #declare I = I + 1;
 #end

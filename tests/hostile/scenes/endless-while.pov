@@ -1,5 +1,5 @@
-// expect: endless-while.pov:3:1: error: the loops of the scene run more than 100000 times (--max loop-steps=N allows more)
-// arguments: --max loop-steps=100000
-#while (1)
-  #declare A = 1;
+// expect: endless-while.pov:3:1: error: this loop never ends: nothing in it changes what that depends on
+#declare I = 0;
+#while (I < 10)
+  sphere { I * x, 1 }
 #end
