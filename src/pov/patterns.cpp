@@ -51,7 +51,7 @@ struct Option {
   bool has_value = true;
 };
 
-struct Entry {
+struct PatternEntry {
   const char* word;
   Kind (*make)();
   PatternForm form = PatternForm::plain;
@@ -118,7 +118,7 @@ const std::vector<Colour> kSix{{0, kRed}, {1, kGreen}, {2, kBlue}, {3, kYellow},
 
 /// The word, the pattern, what stands behind the word, the wave and the colours it has by itself, the setter
 /// of its argument, its options, the frequency it has by itself.
-const Entry kPatterns[] = {
+const PatternEntry kPatterns[] = {
     {"agate",
      make<Agate>,
      kPlain,
@@ -220,11 +220,11 @@ const Entry kPatterns[] = {
     {"wrinkles", make<Wrinkles>},
 };
 
-const Entry& entry_of(const PatternDefinition& pattern) {
+const PatternEntry& entry_of(const PatternDefinition& pattern) {
   return kPatterns[static_cast<std::size_t>(pattern.number)];
 }
 
-const Option* find_option(const Entry& entry, const char* word) {
+const Option* find_option(const PatternEntry& entry, const char* word) {
   const auto found = std::find_if(entry.options.begin(), entry.options.end(),
                                   [&](const Option& option) { return std::string(option.word) == word; });
   return found == entry.options.end() ? nullptr : &*found;
@@ -241,7 +241,7 @@ void check_steps(Session& session, const PatternDefinition& pattern, const Locat
 std::vector<PatternWord> pattern_words() {
   std::vector<PatternWord> words;
   std::transform(std::begin(kPatterns), std::end(kPatterns), std::back_inserter(words),
-                 [](const Entry& entry) {
+                 [](const PatternEntry& entry) {
                    return PatternWord{entry.word, entry.form};
                  });
   return words;
@@ -249,7 +249,7 @@ std::vector<PatternWord> pattern_words() {
 
 std::vector<PatternOption> pattern_options() {
   std::vector<PatternOption> options;
-  for (const Entry& entry : kPatterns)
+  for (const PatternEntry& entry : kPatterns)
     for (const Option& option : entry.options)
       options.push_back({option.word, option.has_value});
   return options;
@@ -302,7 +302,7 @@ bool is_on_surface(const PatternDefinition& pattern) {
 void choose(PatternDefinition& pattern, int number) {
   pattern.number = number;
   if (pattern.value().uv_mapping) pattern.own() = Pattern();
-  const Entry& entry = entry_of(pattern);
+  const PatternEntry& entry = entry_of(pattern);
   pattern.own().kind = entry.make();
   pattern.inner_depth = 0;
   pattern.inner_asks_for_surface = false;
@@ -351,8 +351,9 @@ void bend(Session& session, PatternDefinition& pattern, const SpaceStep& warp, c
 }
 
 int number_of(const Kind& kind) {
-  const auto* entry = std::find_if(std::begin(kPatterns), std::end(kPatterns),
-                                   [&](const Entry& one) { return one.make().index() == kind.index(); });
+  const auto* entry = std::find_if(std::begin(kPatterns), std::end(kPatterns), [&](const PatternEntry& one) {
+    return one.make().index() == kind.index();
+  });
   return static_cast<int>(entry - std::begin(kPatterns));
 }
 

@@ -165,7 +165,7 @@ Shape read_torus(const Arguments& a) {
 constexpr std::size_t kMostParameters = 4;
 constexpr bool kCanBeOpen = true;
 
-struct Entry {
+struct ShapeForm {
   const char* name;
   Parameter parameters[kMostParameters]; ///< those that may be left out come last
   Shape (*read)(const Arguments&);
@@ -183,7 +183,7 @@ struct Entry {
   }
 };
 
-constexpr Entry kShapes[] = {
+constexpr ShapeForm kShapes[] = {
     {"box", {vector("corner"), vector("corner")}, read_box},
     {"cone", {vector("base"), number("radius"), vector("cap"), number("radius")}, read_cone, kCanBeOpen},
     {"cylinder", {vector("base"), vector("cap"), number("radius")}, read_cylinder, kCanBeOpen},
@@ -199,7 +199,7 @@ constexpr Entry kShapes[] = {
 };
 
 /// How the shape is written.
-std::string form(const Entry& shape) {
+std::string form(const ShapeForm& shape) {
   std::string text = std::string(shape.name) + " { ";
   for (std::size_t i = 0; i < shape.most(); ++i) {
     const Parameter& parameter = shape.parameters[i];
@@ -211,12 +211,12 @@ std::string form(const Entry& shape) {
   return text + (shape.can_be_open ? " [open] }" : " }");
 }
 
-[[noreturn]] void fail(const Session& session, const Location& where, const Entry& shape,
+[[noreturn]] void fail(const Session& session, const Location& where, const ShapeForm& shape,
                        const std::string& found) {
   session.fail(where, "expected '" + form(shape) + "', found " + found);
 }
 
-void check_arguments(const Session& session, const Entry& shape, const WrittenShape& written) {
+void check_arguments(const Session& session, const ShapeForm& shape, const WrittenShape& written) {
   const std::size_t count = written.arguments.size();
   if (count < shape.fewest() || (count > shape.most() && !shape.vectors))
     fail(session, written.where, shape, std::to_string(count) + (count == 1 ? " argument" : " arguments"));
@@ -235,12 +235,12 @@ void check_arguments(const Session& session, const Entry& shape, const WrittenSh
 std::vector<const char*> shape_names() {
   std::vector<const char*> names;
   std::transform(std::begin(kShapes), std::end(kShapes), std::back_inserter(names),
-                 [](const Entry& shape) { return shape.name; });
+                 [](const ShapeForm& shape) { return shape.name; });
   return names;
 }
 
 Shape read_shape(Session& session, const WrittenShape& written) {
-  const Entry& shape = kShapes[written.number];
+  const ShapeForm& shape = kShapes[written.number];
   check_arguments(session, shape, written);
   return shape.read(Arguments(session, written));
 }

@@ -168,7 +168,7 @@ TEST_CASE("what is repeated has the values that it has once") {
 
 TEST_CASE("what is repeated has the values that it has once: at random") {
   Expressions expressions(11);
-  for (int i = 0; i < 4000; ++i)
+  for (int i = 0; i < 2000; ++i)
     check(shown(expressions(1 + i % 5)));
 }
 
