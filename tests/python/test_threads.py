@@ -8,7 +8,7 @@ import time
 import celltrace
 import pytest
 
-ENDLESS = "#declare A = 1; #while (A) #declare A = A + 1; #end"  # too much so for the parser to know
+ENDLESS = "#declare A = 1; #while (A) #declare A = A + 1; #end"  # for all the parser can tell it may end
 
 
 def test_progress_grows_to_one(scene_file):
