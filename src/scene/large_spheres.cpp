@@ -1,9 +1,9 @@
 #include "scene/large_spheres.hpp"
 
 #include "kernel/records.hpp"
+#include "scene/csg_leaves.hpp"
 
 #include <cmath>
-#include <memory>
 #include <utility>
 #include <variant>
 
@@ -22,23 +22,13 @@ public:
       : eye_(eye), material_flags_(material_flags) {}
 
   /// The object as it is to be, its parts too, if one of them has changed.
-  std::optional<Object> changed(const Object& object, const Transform& around) {
-    const Transform transform = object.transform.then(around);
-    if (const auto* const sphere = std::get_if<Sphere>(&object.shape))
-      return about_nearest_point(object, *sphere, transform);
-    const auto* const csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape);
-    if (csg == nullptr) return {};
-    std::shared_ptr<Csg> copy;
-    for (std::size_t i = 0; i < (*csg)->parts.size(); ++i) {
-      std::optional<Object> part = changed((*csg)->parts[i], transform);
-      if (!part) continue;
-      if (!copy) copy = std::make_shared<Csg>(**csg);
-      copy->parts[i] = *std::move(part);
-    }
-    if (!copy) return {};
-    Object whole = object;
-    whole.shape = std::move(copy);
-    return whole;
+  std::optional<Object> changed(const Object& object) {
+    const auto change = [this](const Object& leaf, const LeafPlace& place) -> std::optional<Object> {
+      const auto* const sphere = std::get_if<Sphere>(&leaf.shape);
+      if (sphere == nullptr) return {};
+      return about_nearest_point(leaf, *sphere, place.transform);
+    };
+    return with_leaves_changed(object, LeafPlace(), change);
   }
 
 private:
@@ -76,7 +66,7 @@ SceneWithLargeSpheres::SceneWithLargeSpheres(const Scene& scene,
     : scene_(scene) {
   LargeSpheres spheres(scene.camera.location, material_flags);
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    std::optional<Object> object = spheres.changed(scene.objects[i], Transform());
+    std::optional<Object> object = spheres.changed(scene.objects[i]);
     if (!object) continue;
     if (!copy_) copy_ = scene;
     copy_->objects[i] = *std::move(object);

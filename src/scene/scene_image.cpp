@@ -4,6 +4,7 @@
 #include "kernel/direct/build_bvh_plan.hpp"
 #include "scene/build_watch.hpp"
 #include "scene/coplanar_faces.hpp"
+#include "scene/deep_cuts.hpp"
 #include "scene/image_layout.hpp"
 #include "scene/large_spheres.hpp"
 #include "scene/light_sets.hpp"
@@ -125,12 +126,14 @@ std::vector<Index> owners_of(const SceneObjects& objects, std::span<const Placed
 struct SceneOfRecords {
   const SceneWithProjectors as_given;
   TextureTables textures;
+  const SceneWithDeepCuts with_deep_cuts;
   const SceneWithFacesApart with_faces_apart;
   const SceneWithLargeSpheres with_large_spheres;
   const SceneWithProjectors with_projectors;
 
   explicit SceneOfRecords(const Scene& given)
-      : as_given(given), textures(as_given.scene()), with_faces_apart(given, textures.object_flags),
+      : as_given(given), textures(as_given.scene()), with_deep_cuts(given),
+        with_faces_apart(with_deep_cuts.scene(), textures.object_flags),
         with_large_spheres(with_faces_apart.scene(), textures.object_flags),
         with_projectors(with_large_spheres.scene()) {}
 };

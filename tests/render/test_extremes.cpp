@@ -447,6 +447,40 @@ TEST_CASE("Shadow rays miss what is near behind a translucent surface") {
   CHECK_FALSE(is_flagged(opaque));
 }
 
+TEST_CASE("Holes that are cut hardly deeper than a wall are open") {
+  // As far away as that, single precision does not tell the faces apart.
+  for (const double distance : {10.0, 300.0, 3000.0}) {
+    for (const double beyond : {1e-7, 3e-7, 1e-6, 1e-5}) {
+      Scene scene;
+      scene.camera = camera_at(Vec3(0.2, 0.3, -1) * distance, {0, 0, 0});
+      scene.background = Vec3(0.1, 0.2, 0.9);
+      scene.lights.push_back({Vec3(-2, 3, -2) * distance});
+      const double size = 0.2 * distance, over = beyond * distance;
+      const Index stone = scene.add(matte({0.9, 0.7, 0.5})), inside = scene.add(matte({0.2, 0.8, 0.3}));
+      const auto part = [&](auto shape, Index material) {
+        Object object;
+        object.shape = shape;
+        object.material = material;
+        return object;
+      };
+      const auto low = -0.1 * size - over, high = 0.1 * size + over;
+      auto wall = std::make_shared<Csg>();
+      wall->operation = Csg::Operation::difference;
+      wall->parts = {part(Box{{{-size, -size, -0.1 * size}, {size, size, 0.1 * size}}}, stone),
+                     part(Box{{{-0.7 * size, -0.5 * size, low}, {-0.2 * size, 0.5 * size, high}}}, inside),
+                     part(Cylinder{{0.1 * size, 0, high}, {0.1 * size, 0, low}, 0.2 * size}, inside),
+                     part(Cone{{0.6 * size, 0, low}, {0.6 * size, 0, high}, 0.3 * size, 0.1 * size}, inside)};
+      Object object;
+      object.shape = std::shared_ptr<const Csg>(wall);
+      object.transform = Transform::rotate({10, 20, 30});
+      scene.objects.push_back(object);
+      const Comparison c = against_reference(scene);
+      INFO(distance << ", " << beyond << ": " << to_text(c));
+      CHECK(c.psnr >= 45);
+    }
+  }
+}
+
 TEST_CASE("Of faces in one plane the one is seen that POV-Ray tests first") {
   const auto box = [](Scene& scene, const Vec3& from, const Vec3& to, const Vec3& colour) {
     Object object;

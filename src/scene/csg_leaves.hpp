@@ -1,0 +1,58 @@
+// Objects as they are, or the parts that they are cut out of and put together from.
+#pragma once
+
+#include "celltrace/scene.hpp"
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <variant>
+
+namespace celltrace {
+
+/// Where a leaf of an object's CSG is: placed in the scene, and whether what is outside of it belongs to the
+/// object.
+struct LeafPlace {
+  Transform transform;
+  bool inverse = false;
+
+  LeafPlace within(const Object& object) const {
+    return {object.transform.then(transform), inverse != object.inverse};
+  }
+  LeafPlace part(const Csg& csg, std::size_t number) const {
+    return {transform, inverse != (csg.operation == Csg::Operation::difference && number > 0)};
+  }
+};
+
+/// Calls `visit(leaf, place)` for an object that is no CSG, or for all such parts, in their order. What clips
+/// does not count.
+template <class Visit> void visit_leaves(const Object& object, const LeafPlace& around, Visit& visit) {
+  const LeafPlace place = around.within(object);
+  const auto* const csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape);
+  if (csg == nullptr) return visit(object, place);
+  for (std::size_t i = 0; i < (*csg)->parts.size(); ++i)
+    visit_leaves((*csg)->parts[i], place.part(**csg, i), visit);
+}
+
+/// The object with the leaves that `change(leaf, place)`, called as above, returns for its own; nothing if it
+/// returns nothing for any of them.
+template <class Change>
+std::optional<Object> with_leaves_changed(const Object& object, const LeafPlace& around, Change& change) {
+  const LeafPlace place = around.within(object);
+  const auto* const csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape);
+  if (csg == nullptr) return change(object, place);
+  std::shared_ptr<Csg> copy;
+  for (std::size_t i = 0; i < (*csg)->parts.size(); ++i) {
+    std::optional<Object> part = with_leaves_changed((*csg)->parts[i], place.part(**csg, i), change);
+    if (!part) continue;
+    if (!copy) copy = std::make_shared<Csg>(**csg);
+    copy->parts[i] = *std::move(part);
+  }
+  if (!copy) return {};
+  Object whole = object;
+  whole.shape = std::move(copy);
+  return whole;
+}
+
+} // namespace celltrace
