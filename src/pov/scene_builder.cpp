@@ -54,6 +54,8 @@ void SceneBuilder::set_background(const Pigment& colour) {
   const bool has_alpha = version_.value_or(kVersionIfNoneGiven) >= kVersionOfGamma;
   scene_.background = has_alpha ? colour.rgb * (1 - colour.transmit) : colour.rgb;
   scene_.background_transparency = std::clamp(colour.transmit, 0.0, 1.0);
+  scene_.mirrored_background.reset();
+  if (has_alpha && colour.transmit > 0) scene_.mirrored_background = colour.rgb;
 }
 
 void SceneBuilder::set_sky_sphere(const SkySphereDefinition& sky, const Location& where) {

@@ -254,8 +254,10 @@ void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& optio
   // Their stages cannot walk: light is dimmed by what lies within POV-Ray's tolerance, too.
   if (options.model != Model::shared) frame.light_ways &= ~light_way::near_surfaces;
   constexpr double kVersionOfTransparency = 3.7;
-  if (scene.version < kVersionOfTransparency) frame.light_ways |= light_way::no_backdrop;
-  frame.background_clear = static_cast<float>(std::clamp(scene.background_transparency, 0.0, 1.0));
+  const bool has_backdrop = scene.version >= kVersionOfTransparency;
+  if (!has_backdrop) frame.light_ways |= light_way::no_backdrop;
+  frame.background_clear =
+      has_backdrop ? static_cast<float>(std::clamp(scene.background_transparency, 0.0, 1.0)) : 1.0f;
   frame.rainbow_offset = header.rainbow_offset;
   frame.rainbow_count = header.rainbow_count;
   if (options.model != Model::shared && (header.light_ways & light_way::stepwise) != 0)
@@ -277,8 +279,10 @@ void set_scene(FrameBlock& frame, const Scene& scene, const RenderOptions& optio
       scene.gamma_mode == GammaMode::assumed ? GammaEncoding::assumed : GammaEncoding::none);
   frame.assumed_gamma = static_cast<float>(exponent_of(scene));
   set_comparison(frame, options);
-  store(scene.background, frame.background);
   frame.sky = header.sky;
+  const bool is_mirrored = options.alpha && scene.mirrored_background && frame.sky == kNoOffset;
+  if (is_mirrored) frame.light_ways |= light_way::mirrored_background;
+  store(is_mirrored ? *scene.mirrored_background : scene.background, frame.background);
 }
 
 RenderOptions with_picture_of(RenderOptions options, const RenderOptions& given) {

@@ -254,7 +254,7 @@ void validate(const Camera& camera) {
 
 void validate_all_but_objects(const Scene& scene) {
   validate(scene.camera);
-  check_vectors({scene.background}, {"the background"});
+  check_vectors({scene.background, scene.mirrored_background.value_or(scene.background)}, {"the background"});
   check_finite({scene.background_transparency}, {"the background"});
   check_vectors({scene.irid_wavelength}, {"the wavelengths"});
   check_vectors({scene.ambient_light}, {"the ambient light"});

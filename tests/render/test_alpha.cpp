@@ -127,6 +127,27 @@ TEST_CASE("Mirrors show what is behind the scene, and make no pixel clear") {
   check_alphas(result.colours, {1 - 0.25, 1, 1 - kFiltered * kFiltered, 0});
 }
 
+TEST_CASE("Mirrors see all of a background that is clear, and other rays what is left of it") {
+  Scene scene;
+  scene.camera = orthographic_camera({0, 0, -10}, {0, 0, 0}, 8);
+  scene.background = Vec3(0.25, 0.5, 0);
+  scene.background_transparency = 0.5;
+  scene.mirrored_background = Vec3(0.5, 1, 0);
+  const Index mirror = scene.add(matte({0, 0, 0}));
+  scene.materials[mirror].finish.reflection_min = scene.materials[mirror].finish.reflection_max = Vec3(0.5);
+  scene.objects.push_back(sphere_at({0, 0, 0}, 1, mirror, scene.add(Interior{})));
+  for (const TestBackend& backend : all_machines()) {
+    INFO(backend.spu());
+    const RenderResult result = render(scene, with_alpha(backend));
+    const int middle = result.colours.width / 2, row = result.colours.height / 2;
+    CHECK(result.colours.pixel(middle, row)[0] == Approx(0.25).margin(1e-4));
+    CHECK(result.colours.pixel(middle, row)[1] == Approx(0.5).margin(1e-4));
+    CHECK(result.colours.pixel(middle, row)[3] == Approx(1));
+    CHECK(result.colours.pixel(0, 0)[1] == Approx(0.5).margin(1e-4));
+    CHECK(result.colours.pixel(0, 0)[3] == Approx(0.5).margin(1e-4));
+  }
+}
+
 TEST_CASE("Edges are as clear as they are antialiased, the same on every backend") {
   for (const auto method : {Antialiasing::Method::fixed, Antialiasing::Method::adaptive}) {
     std::optional<RenderResult> first;

@@ -292,6 +292,7 @@ template <class Spu>
   const uint32_t missed = ray.lanes & ~hit_lanes<W>(hits, ray.lanes) & ~ray.reflected;
   if (missed == 0) return;
   const bool is_hidden = (frame.light_ways & light_way::no_backdrop) != 0;
+  const bool dims = (frame.light_ways & (light_way::no_backdrop | light_way::mirrored_background)) != 0;
   const bool has_sky = !is_hidden && frame.sky != kNoOffset;
   V3<W> seen[2]; // of the sky over black, and over white
   for (uint32_t i = 0; i < 2 && has_sky; ++i) {
@@ -303,12 +304,12 @@ template <class Spu>
     const auto take = S::M::from_bits(part_of<Spu>(missed, first));
     const F zero(0.0f);
     F share = F::load(ray.power.lane + first);
-    if (is_hidden) {
+    if (dims) {
       const V3<S> throughput = ray.throughput.template load_from<S>(first);
-      ray.throughput.template store_from<S>(first, select<S>(take, {zero, zero, zero}, throughput));
-    } else {
-      share = share * F(frame.background_clear);
+      const V3<S> left = throughput * F(1.0f - frame.background_clear);
+      ray.throughput.template store_from<S>(first, select<S>(take & (share > zero), left, throughput));
     }
+    share = share * F(frame.background_clear);
     if (has_sky) share = share * grey<S>(part_of<Spu>(seen[1], first) - part_of<Spu>(seen[0], first));
     (F::load(clear.lane + first) + S::select(take, share, zero)).store(clear.lane + first);
   });
