@@ -121,7 +121,7 @@ struct RenderOptions {
   std::optional<double> adc_bailout;
   /// POV-Ray's levels, 0 to 11. 0 and 1: colours of pigments alone; from 2 on light falls on surfaces; from 4
   /// on they have shadows; from 5 on those of lights with an area are soft; from 6 on rays go through
-  /// transparent surfaces; from 8 on there are reflections and disturbed normals, and nothing is left out.
+  /// transparent surfaces; from 8 on there are reflections and disturbed normals; from 9 on fog and rainbows.
   int quality = 9;
   /// The part of the picture that is rendered: at least a pixel, and all within the picture. The rest is
   /// opaque black, or clear if `alpha`.

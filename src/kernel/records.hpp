@@ -182,6 +182,7 @@ constexpr uint32_t gradient_noise = 0x8000;  ///< of noise: POV-Ray's generator 
 constexpr uint32_t at_features = 0x10000;    ///< of noise: at the nearest of the random points
 constexpr uint32_t shifted = 0x20000;        ///< a ShiftedPattern that has turbulence
 constexpr uint32_t uv_mapping = 0x40000;     ///< `to_space` is from surface coordinates (u, v, 0)
+constexpr uint32_t never_repeats = 0x80000;  ///< values above 1 stay what they are
 } // namespace pattern_flag
 /// What becomes of a pattern's values: POV-Ray's wave forms. `none`: they stay, frequency and phase mean
 /// nothing.

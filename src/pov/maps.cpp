@@ -2,7 +2,10 @@
 #include "pov/actions.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+
+#include <glm/common.hpp>
 
 namespace celltrace::pov {
 
@@ -22,14 +25,37 @@ void add(Session& session, MapDefinition<T>& map, double position, const T& valu
   mark(map.unsupported, unsupported);
 }
 
+/// What two entries make of a number between them, where that is simple: `entry` stays as it is where it is
+/// not.
+template <class Entry> void set_between(Entry&, const Entry&, const Entry&, double) {
+}
+void set_between(PatternMap<Pigment>::Entry& entry, const PatternMap<Pigment>::Entry& below,
+                 const PatternMap<Pigment>::Entry& above, double share) {
+  const Pigment &a = below.value, &b = above.value;
+  if (a.map || b.map) return;
+  entry.value = {glm::mix(a.rgb, b.rgb, share), std::lerp(a.filter, b.filter, share),
+                 std::lerp(a.transmit, b.transmit, share)};
+}
+
 /// Positions ascend in a Scene's maps. POV-Ray looks for the first entry that a number has not passed, after
-/// it has looked whether it has passed the last one.
+/// it has looked whether it has passed the last one, and takes the entry before it as it is, even if that
+/// lies further back than where the numbers begin that come here.
 template <class Entries> void make_ascending(Entries& entries) {
   const double last = entries.back().position;
-  double reached = entries.front().position;
-  for (auto& entry : entries) {
-    reached = std::max(reached, entry.position);
-    entry.position = std::min(reached, last);
+  auto before = entries.front(); // as it is written
+  double reached = std::min(before.position, last);
+  entries.front().position = reached;
+  for (std::size_t i = 1; i < entries.size(); ++i) {
+    const auto written = entries[i];
+    if (written.position > reached && reached < last) {
+      const double width = written.position - before.position;
+      if (before.position < reached)
+        set_between(entries[i - 1], before, written, (reached - before.position) / width);
+      if (written.position > last) set_between(entries[i], before, written, (last - before.position) / width);
+    }
+    reached = std::max(reached, std::min(written.position, last));
+    entries[i].position = reached;
+    before = written;
   }
 }
 template <class T> std::shared_ptr<const MapDefinition<T>> ascending(MapDefinition<T> map) {

@@ -280,8 +280,11 @@ std::size_t PatternDefinition::list_length() const {
 }
 
 std::vector<PatternMap<Pigment>::Entry> PatternDefinition::default_colours() const {
+  // Of all fractals Mandelbrot's own alone has colours.
+  const auto* fractal = std::get_if<Fractal>(&value().kind);
+  const bool is_other = fractal && (fractal->is_julia || fractal->magnet != 0 || fractal->exponent != 2);
   std::vector<PatternMap<Pigment>::Entry> entries;
-  for (const Colour& colour : entry_of(*this).colours)
+  for (const Colour& colour : is_other ? kGrey : entry_of(*this).colours)
     entries.push_back({colour.position, Pigment{colour.rgb}});
   return entries;
 }

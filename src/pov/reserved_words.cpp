@@ -491,7 +491,7 @@ std::vector<Keyword> keywords() {
   std::vector<Keyword> result;
   for (const ReservedWord& word : reserved_words()) {
     const bool is_ignored = word.token == tokens::T_IGNORED_FLAG || word.token == tokens::T_IGNORED_NUMBER ||
-                            word.token == tokens::T_MAX_INTERSECTIONS || word.token == tokens::T_QUICK_COLOUR;
+                            word.token == tokens::T_MAX_INTERSECTIONS;
     const bool is_refused =
         std::find(std::begin(kRefused), std::end(kRefused), word.token) != std::end(kRefused);
     const auto support = is_ignored ? Keyword::Support::ignored : Keyword::Support::full;

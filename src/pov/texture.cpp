@@ -95,11 +95,13 @@ bool PigmentDefinition::asks_for_surface() const {
 }
 
 bool PigmentDefinition::is_opaque() const {
+  if (quick_colour) return quick_colour->filter == 0 && quick_colour->transmit == 0;
   if (pattern.exists()) return !map || map->is_opaque;
   return value.filter == 0 && value.transmit == 0;
 }
 
 Pigment PigmentDefinition::finish() const {
+  if (quick_colour) return *quick_colour;
   Pigment pigment = value;
   if (pattern.exists())
     pigment.map = finish_map<Pigment>(pattern, map ? map->entries : pattern.default_colours());

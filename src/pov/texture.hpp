@@ -41,8 +41,9 @@ using SlopeMapPtr = std::shared_ptr<const std::vector<SlopePoint>>;
 struct PigmentDefinition {
   Pigment value; ///< of one without a pattern; it has no map
   PatternDefinition pattern;
-  PigmentMapPtr map;       ///< null: the pattern's own colours
-  bool uv_mapping = false; ///< while it is read: it will be put on surface coordinates
+  PigmentMapPtr map;                   ///< null: the pattern's own colours
+  std::optional<Pigment> quick_colour; ///< instead of all that, where quality is low enough for it
+  bool uv_mapping = false;             ///< while it is read: it will be put on surface coordinates
   UnsupportedPtr unsupported;
   [[no_unique_address]] Counted<PigmentDefinition> counted;
 

@@ -10,6 +10,7 @@ namespace {
 constexpr int kColoursOnly = 1;
 constexpr int kNoShadows = 3;
 constexpr int kNoAreas = 4;
+constexpr int kAllSurfaces = 8; ///< and lights
 
 /// Makes textures of lower quality. Maps that textures share stay shared.
 class Reducer {
@@ -69,6 +70,9 @@ private:
 Scene at_quality(const Scene& scene, int quality) {
   Scene result = scene;
   if (quality >= kFullQuality) return result;
+  result.fogs.clear();
+  result.rainbows.clear();
+  if (quality >= kAllSurfaces) return result;
   Reducer reducer(quality);
   for (Material& material : result.materials)
     material = reducer.reduced(material);

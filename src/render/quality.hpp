@@ -6,7 +6,7 @@
 namespace celltrace {
 
 /// POV-Ray's levels of quality: RenderOptions::quality says what each leaves out. From here on, all is there.
-inline constexpr int kFullQuality = 8;
+inline constexpr int kFullQuality = 9;
 
 /// The scene as it is at this quality, but for rays that go on from surfaces: below kRaysGoOn none does.
 Scene at_quality(const Scene& scene, int quality);

@@ -95,7 +95,7 @@ private:
       weights += entry.position;
       visit(entry.value, inside);
     }
-    if (map.is_average && !(weights > 0)) fail("has an average whose weights are not greater than 0");
+    if (map.is_average && weights == 0) fail("has an average whose weights add up to 0");
   }
   void turbulence(const Turbulence& t) const {
     vectors({t.amount});

@@ -483,9 +483,8 @@ TextureTables::Known TextureTables::add_pattern(const Pattern& pattern, const Pa
     r.kind_and_flags = words.kind_and_flags;
     std::copy(std::begin(words.parameter), std::end(words.parameter), r.parameter);
     const std::uint32_t kind = r.kind_and_flags & pattern_flag::kind_mask;
-    const bool is_raw = pattern.frequency == 0 && pattern.wave == Pattern::Wave::ramp;
     const PatternWave wave =
-        is_raw || Patterns::kAreLists[kind] ? PatternWave::none : static_cast<PatternWave>(pattern.wave);
+        Patterns::kAreLists[kind] ? PatternWave::none : static_cast<PatternWave>(pattern.wave);
     r.kind_and_flags |= static_cast<std::uint32_t>(wave) << pattern_flag::wave_shift;
     const int generator = pattern.noise_generator == 0 ? scene_.noise_generator : pattern.noise_generator;
     if (generator == 1) r.kind_and_flags |= pattern_flag::first_generator;
@@ -511,8 +510,9 @@ TextureTables::Known TextureTables::add_pattern(const Pattern& pattern, const Pa
     }
     add_table(tables_.back());
   }
-  // A frequency of 0 leaves the number as it is for its wave.
-  const bool is_own = pattern.frequency == 0 && pattern.wave != Pattern::Wave::ramp;
+  // A frequency of 0 leaves numbers as they are.
+  const bool is_own = pattern.frequency == 0;
+  if (is_own) r.kind_and_flags |= pattern_flag::never_repeats;
   r.frequency = static_cast<float>(is_own ? 1 : pattern.frequency);
   r.phase = static_cast<float>(is_own ? 0 : pattern.phase);
   r.wave_exponent = static_cast<float>(pattern.wave_exponent);

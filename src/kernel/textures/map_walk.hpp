@@ -30,12 +30,9 @@ inline uint32_t map_entry_at(uint32_t entries, uint32_t number) {
 /// last above, as in POV-Ray.
 template <class S, class Spu, class At, class Between>
 [[gnu::always_inline]] inline void find_interval(SceneAccess<Spu>& scene, const PatternRecord& r,
-                                                 const typename S::F& pattern_value, At at, Between between) {
+                                                 const typename S::F& value, At at, Between between) {
   using F = typename S::F;
   using M = typename S::M;
-  // Outside of 0..1 a map begins again.
-  const M outside = (pattern_value > F(1.0f)) | (pattern_value < F(0.0f));
-  const F value = S::select(outside, pattern_value - S::floor(pattern_value), pattern_value);
   uint32_t number = r.entry_count - 1;
   MapEntryRecord room[2];
   const MapEntryRecord* above = keep<Spu>(scene.map_entry(map_entry_at(r.entries, number)), room[number & 1]);
@@ -111,7 +108,7 @@ public:
       const uint32_t number = level.next++;
       leaf = *scene_.map_entry(map_entry_at(level.entries, number));
       weight = level.weight * (level.state == State::average ? F(leaf.position) : weight_of(level, number));
-      lanes = level.lanes & (weight > F(0.0f)).bits();
+      lanes = level.lanes & (S::abs(weight) > F(0.0f)).bits(); // an average may take something away
       if (lanes == 0) continue;
       const uint32_t pattern = pattern_of(leaf);
       if (pattern != kNoOffset)

@@ -17,11 +17,10 @@ template <class S>
 CELLTRACE_ONE_COPY typename S::F in_wave_form(const PatternRecord& r, const typename S::F& value) {
   using F = typename S::F;
   constexpr float kRepeat = 1.00001f;
+  const bool repeats = (r.kind_and_flags & pattern_flag::never_repeats) == 0;
   F v = value * F(r.frequency) + F(r.phase);
-  if (((v < F(0.0f)) | (v > F(1.0f))).bits() != 0) {
-    v = v - S::to_float(S::to_int(v * F(1.0f / kRepeat))) * F(kRepeat);
-    v = v - S::select(v < F(0.0f), S::floor(v), F(0.0f));
-  }
+  v = v - S::to_float(S::to_int(v * F(repeats ? 1.0f / kRepeat : 0.0f))) * F(kRepeat);
+  v = v - S::select(v < F(0.0f), S::floor(v), F(0.0f));
   if (wave_of(r) == PatternWave::ramp) return v;
   const F turn = v - S::floor(v);
   switch (wave_of(r)) {
