@@ -73,7 +73,7 @@ constexpr Switch kSwitches[] = {
     {"UO", Meaning::refused, "field rendering"},
     {"HI", Meaning::refused, "including a header"},
     {"MV", Meaning::number_option, "--language-version"},
-    {"AG", Meaning::ignored},
+    {"AG", Meaning::number_option, "--antialias-gamma"},
     {"B", Meaning::ignored},
     {"BP", Meaning::ignored},
     {"BS", Meaning::ignored},

@@ -92,9 +92,9 @@ Transform matrix(Session& session, const std::vector<ListEntry>& numbers, const 
   return Transform::matrix(values);
 }
 
-Transform inverse(Session& session, const Transform& transform, const Location& where) {
+Transform complete(Session& session, const WrittenTransform& written, const Location& where) {
   try {
-    return transform.inverse();
+    return written.is_inverse ? written.items.inverse() : written.items;
   } catch (const InputError&) {
     session.fail(where, "this transformation is singular: it has no inverse");
   }
@@ -264,6 +264,15 @@ PatternChange warp(const SpaceStep& warp, const Location& where) {
   return [=](Session& session, PatternDefinition& pattern) { bend(session, pattern, warp, where); };
 }
 
+void keep_apart(Session& session, warp::BlackHole& hole, const Location& where) {
+  for (int i = 0; i < 3; ++i) {
+    const double least = 2 * hole.radius + hole.turbulence[i];
+    if (!(hole.repeat[i] > 0 && hole.repeat[i] < least)) continue;
+    hole.repeat[i] = least;
+    session.diagnostics.warn_once(where, "this black hole repeats less than its size apart: as far as that");
+  }
+}
+
 warp::Repeat repeat(Session& session, const Vec3& width, const Location& where) {
   warp::Repeat repeat;
   int axes = 0;
@@ -369,6 +378,11 @@ void set_colour(PigmentDefinition& pigment, const Pigment& colour) {
   pigment.unsupported = nullptr;
 }
 
+void set_quick_colour(Session& session, PigmentDefinition& pigment, const Pigment& colour) {
+  constexpr int kBestWithout = 5;
+  if (session.options.quality <= kBestWithout) pigment.quick_colour = colour;
+}
+
 bool is_ground_fog(Session& session, double type, const Location& where) {
   if (type != 1 && type != 2) session.fail(where, "there are fogs of type 1 and 2");
   return type == 2;
@@ -471,6 +485,10 @@ void set_reflection(Finish& finish, const Vec3& colour) {
 }
 
 double roughness(Session& session, double value, const Location& where) {
+  // As in POV-Ray, where it becomes an exponent of 0.
+  constexpr double kSameEverywhere = 1e30;
+  if (value == 0) session.diagnostics.warn_once(where, "with a roughness of 0 the highlight is everywhere");
+  if (value == 0) return kSameEverywhere;
   return positive(session, value, "roughness", where);
 }
 

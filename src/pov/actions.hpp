@@ -32,7 +32,12 @@ double component(Session& session, const Quantity& quantity, int which, const Lo
 void append_component(Session& session, Quantity& vector, double component, const Location& where);
 Transform scale(Session& session, const Quantity& factors, const Location& where);
 Transform matrix(Session& session, const std::vector<ListEntry>& numbers, const Location& where);
-Transform inverse(Session& session, const Transform& transform, const Location& where);
+/// What stands in transform { }.
+struct WrittenTransform {
+  Transform items;
+  bool is_inverse = false;
+};
+Transform complete(Session& session, const WrittenTransform& written, const Location& where);
 
 /// Warns of a division by zero, which gives an infinity.
 Quantity divided(Session& session, const Quantity& a, const Quantity& b, const Location& where);
@@ -108,6 +113,8 @@ PatternChange grey(const PigmentDefinition& pigment);
 PatternChange unsupported_change(const UnsupportedPtr& unsupported);
 PatternChange warp(const SpaceStep& warp, const Location& where);
 /// Along the only axis of which `width` is not 0.
+/// A black hole's copies do not reach into one another: they are as far apart as that takes.
+void keep_apart(Session& session, warp::BlackHole& hole, const Location& where);
 warp::Repeat repeat(Session& session, const Vec3& width, const Location& where);
 /// `option`: the word, which has to be "offset".
 Vec3 offset(Session& session, int option, const Quantity& value, const Location& where);
@@ -135,6 +142,8 @@ TexturePtr transformed(Session& session, const TexturePtr& texture, const Transf
                        const Location& where);
 
 void set_colour(PigmentDefinition& pigment, const Pigment& colour);
+/// What counts alone where the picture is of a quality that low.
+void set_quick_colour(Session& session, PigmentDefinition& pigment, const Pigment& colour);
 
 /// Fails if the pigment depends on a surface: a sky has none.
 void add_layer(Session& session, SkySphereDefinition& sky, const PigmentDefinition& pigment,

@@ -168,13 +168,19 @@ private:
   void emit_constant(double value) { program_.steps[emit(Kind::constant)].value = value; }
   std::uint32_t here() const { return static_cast<std::uint32_t>(program_.steps.size()); }
 
+  /// In functions, and there alone, & binds tighter than |.
   void read_logic() {
+    read_both();
+    while (take('|')) {
+      read_both();
+      emit(Kind::either);
+    }
+  }
+  void read_both() {
     read_comparison();
-    for (;;) {
-      const Kind kind = is('&') ? Kind::both : Kind::either;
-      if (!take('&') && !take('|')) return;
+    while (take('&')) {
       read_comparison();
-      emit(kind);
+      emit(Kind::both);
     }
   }
 

@@ -20,7 +20,7 @@
 // longer value is meant. A number at the front of an entry of a pigment_map is its weight. A name that CSG begins
 // with is all it consists of, not its first part. A texture that is a name alone, or begins with one, needs no
 // rule for what comes before.
-%expect 105
+%expect 109
 
 %code requires {
 #include "pov/actions.hpp"
@@ -123,7 +123,8 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %nterm <std::vector<ListEntry>> counted_list entries literals
 %nterm <std::vector<std::size_t>> dimensions
 %nterm <std::shared_ptr<Array>> elements
-%nterm <Transform> transformation transform_items
+%nterm <Transform> transformation
+%nterm <WrittenTransform> transform_items
 %nterm <std::shared_ptr<PigmentDefinition>> pigment_base pigment_parts pigment_body
 %nterm <std::shared_ptr<NormalDefinition>> normal_start normal_base declared_normal normal_parts normal_body
 %nterm <PatternChange> pattern pattern_change
@@ -424,14 +425,14 @@ transformation
   | SCALE quantity            { $$ = scale(session, $2, @2); }
   | MATRIX '<' entries '>'    { $$ = matrix(session, $3, @1); }
   | TRANSFORM TRANSFORM_ID    { $$ = $2; }
-  | TRANSFORM '{' transform_items '}' { $$ = $3; }
+  | TRANSFORM '{' transform_items '}' { $$ = complete(session, $3, @1); }
   ;
 
-transform_items
+transform_items // `inverse` is for all of them, wherever it stands
   : %empty                         { }
-  | transform_items transformation { $$ = $1.then($2); }
-  | transform_items TRANSFORM_ID   { $$ = $1.then($2); }
-  | transform_items INVERSE        { $$ = inverse(session, $1, @2); }
+  | transform_items transformation { $$ = $1; $$.items = $1.items.then($2); }
+  | transform_items TRANSFORM_ID   { $$ = $1; $$.items = $1.items.then($2); }
+  | transform_items INVERSE        { $$ = $1; $$.is_inverse = true; }
   ;
 
 // ---- Textures ----
@@ -471,7 +472,7 @@ pigment_parts // what it is, and then what changes that
   | pigment_parts PIGMENT_MAP pigment_map  { $$ = $1; set_map(session, *$$, $3, @2); }
   | pigment_parts pattern_change           { $$ = $1; change(session, $$->pattern, $2); }
   | pigment_parts transformation           { $$ = $1; move(session, $$->pattern, $2, @2); }
-  | pigment_parts QUICK_COLOUR colour_value { $$ = $1; }
+  | pigment_parts QUICK_COLOUR colour_value { $$ = $1; set_quick_colour(session, *$$, session.surface($3)); }
   | pigment_parts unsupported_pattern      { $$ = $1; mark($$->pattern.unsupported, $2); }
   ;
 
@@ -594,7 +595,7 @@ pattern_change
 bend
   : turbulent_warp { $$ = $1; }
   | repeat_warp    { $$ = $1; }
-  | hole_warp      { $$ = $1; }
+  | hole_warp      { keep_apart(session, $1, @1); $$ = $1; }
   | mapping_warp   { $$ = $1; }
   ;
 
@@ -605,7 +606,7 @@ repeat_warp
   ;
 
 hole_warp
-  : BLACK_HOLE quantity ',' number { $$.centre = session.vector($2, @2); $$.radius = positive(session, $4, "the radius", @4); }
+  : BLACK_HOLE quantity optional_comma number { $$.centre = session.vector($2, @2); $$.radius = positive(session, $4, "the radius", @4); }
   | hole_warp FALLOFF number       { $$ = $1; $$.falloff = $3; }
   | hole_warp STRENGTH number      { $$ = $1; $$.strength = $3; }
   | hole_warp INVERSE              { $$ = $1; $$.is_inverse = true; }
@@ -615,7 +616,7 @@ hole_warp
 
 mapping_warp
   : PATTERN                           { $$ = mapping(session, $1, @1); }
-  | PATTERN quantity ',' number       { $$ = mapping(session, $1, @1); $$.orientation = orientation(session, $2, @2); $$.distance = $4; }
+  | PATTERN quantity optional_comma number { $$ = mapping(session, $1, @1); $$.orientation = orientation(session, $2, @2); $$.distance = $4; }
   | TOROIDAL                          { $$.shape = warp::Mapping::Shape::toroidal; }
   | mapping_warp ORIENTATION quantity { $$ = $1; $$.orientation = orientation(session, $3, @3); }
   | mapping_warp DIST_EXP number      { $$ = $1; $$.distance_exponent = $3; }
@@ -900,11 +901,13 @@ rainbow_body
   ;
 
 interior
-  : INTERIOR '{' interior_body '}' { $$ = std::make_shared<InteriorDefinition>($3); }
+  : INTERIOR '{' { session.base_interior = nullptr; } interior_body '}' {
+      $$ = std::make_shared<InteriorDefinition>($4);
+    }
   ;
 
-interior_body
-  : %empty                           { }
+interior_body // changes what is there
+  : %empty                           { if (session.base_interior) $$ = *session.base_interior; }
   | interior_body INTERIOR_ID        { $$ = *$2; }
   | interior_body IOR number         { $$ = $1; $$.ior = ior(session, $3, @3); }
   | interior_body CAUSTICS number    { $$ = $1; $$.caustics = $3; }
@@ -932,7 +935,10 @@ material_body
       $$ = $1;
       $$.inside = layer(session, $$.inside, $4, @2);
     }
-  | material_body interior       { $$ = $1; $$.interior = $2; }
+  | material_body INTERIOR '{' { session.base_interior = $1.interior; } interior_body '}' {
+      $$ = $1;
+      $$.interior = std::make_shared<InteriorDefinition>($5);
+    }
   | material_body transformation {
       $$ = $1;
       if ($$.texture) $$.texture = transformed(session, $$.texture, $2, @2);
@@ -1045,7 +1051,10 @@ object_body
       $$ = std::move($1);
       set_texture(*$$, with_finish(texture_of(session, *$$), *$5));
     }
-  | object_body interior               { $$ = std::move($1); $$->interior = $2; }
+  | object_body INTERIOR '{' { session.base_interior = $1->interior; } interior_body '}' {
+      $$ = std::move($1);
+      $$->interior = std::make_shared<InteriorDefinition>($5);
+    }
   | object_body material               { $$ = std::move($1); apply(session, $2, *$$, @2); }
   | object_body INTERIOR_TEXTURE '{' texture_body '}' {
       $$ = std::move($1);
@@ -1268,7 +1277,7 @@ declarable
   | material          { $$ = $1; }
   | camera            { $$ = std::shared_ptr<const CameraDefinition>($1); }
   | object            { $$ = declared($1); }
-  | TRANSFORM '{' transform_items '}' { $$ = $3; }
+  | TRANSFORM '{' transform_items '}' { $$ = complete(session, $3, @1); }
   | UNSUPPORTED_BLOCK { $$ = make_unsupported(quoted(session, $1), @1); session.tokens.skip_group(); }
   | ARRAY dimensions  { $$ = make_array(session, $2, 0, @1); }
   | ARRAY dimensions '{' elements '}' { $$ = filled_array(session, $2, $4, @3); }

@@ -29,6 +29,14 @@ struct Counter {
   double step = 1;
 };
 
+/// An array's element that a macro has as a parameter: it gets the parameter's value when the macro ends.
+struct ElementReference {
+  std::shared_ptr<Array> array;
+  std::size_t index = 0;
+  std::shared_ptr<Slot> slot; ///< of the parameter
+  Value value;                ///< that it had at first
+};
+
 /// One thing being read: the scanner of a file, or a recorded range.
 struct Frame {
   enum class Kind { file, macro, loop };
@@ -39,6 +47,7 @@ struct Frame {
   TokenRange range;
   std::size_t position = 0;
   NameId macro_name = 0;
+  std::vector<ElementReference> references; ///< of a macro
   std::optional<Counter> counter;
   std::uint64_t iterations = 0; ///< of a loop, so far
   std::vector<Conditional> conditionals;

@@ -34,16 +34,21 @@ bool is_degenerate(const Vec3& a, const Vec3& b, const Vec3& c) {
   return normal.x == 0 && normal.y == 0 && normal.z == 0;
 }
 
-/// POV-Ray brings vertex normals to length one before it interpolates; zero stays zero.
-Vec3 unit(const Vec3& normal) {
-  const double length = glm::length(normal);
-  return length > 0 ? normal / length : normal;
+constexpr double kNoNormal = 1e-10; ///< no component of one is as long
+
+bool is_zero(const Vec3& normal) {
+  const Vec3 size = glm::abs(normal);
+  return std::max({size.x, size.y, size.z}) < kNoNormal;
 }
 
-/// Whether three unit normals bend a surface: none is zero and not all are equal.
+/// POV-Ray brings vertex normals to length one before it interpolates; zero becomes that along x.
+Vec3 unit(const Vec3& normal) {
+  return is_zero(normal) ? Vec3(1, 0, 0) : glm::normalize(normal);
+}
+
+/// Whether three unit normals bend a surface.
 bool are_smooth(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const auto is_zero = [](const Vec3& n) { return n.x == 0 && n.y == 0 && n.z == 0; };
-  return !is_zero(a) && !is_zero(b) && !is_zero(c) && !(a == b && b == c);
+  return !(a == b && b == c);
 }
 
 Index to_index(double value, std::size_t count, const char* what) {
@@ -146,6 +151,18 @@ TriangleDefinition TriangleDefinition::transformed(const Transform& transform) c
   for (Vec3& normal : result.normals)
     normal = transform.normal(normal);
   return result;
+}
+
+bool TriangleDefinition::is_shown_alone() const {
+  if (!is_smooth) return true;
+  const Vec3 across = glm::cross(vertices[1] - vertices[0], vertices[2] - vertices[0]);
+  int sides = 0;
+  for (const Vec3& normal : normals) {
+    const double side = glm::dot(across, normal);
+    if (is_zero(normal) || side == 0) return false;
+    sides += side > 0 ? 1 : -1;
+  }
+  return std::abs(sides) == 3;
 }
 
 void MeshBuilder::add(const TriangleDefinition& triangle) {

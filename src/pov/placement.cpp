@@ -437,7 +437,11 @@ std::shared_ptr<const Mesh> SceneBuilder::placed_triangle(const TriangleDefiniti
       placed.coordinates[i] = Vec2f(placed.vertices[i]);
   }
   try {
-    builder.add(placed);
+    if (triangle.is_shown_alone())
+      builder.add(placed);
+    else
+      diagnostics_.warn_once(where,
+                             "a smooth_triangle is left out whose normals are on both sides of it, or zero");
   } catch (const InputError& error) {
     diagnostics_.fail(where, error.what());
   }
@@ -465,7 +469,8 @@ Index SceneBuilder::interior_index(const ObjectDefinition& object, Index inherit
     if (index == kNoIndex) index = scene_.add(Interior{});
     Interior& made = scene_.interiors[index];
     made.ior = finish.ior.value_or(made.ior);
-    made.caustics = finish.caustics.value_or(made.caustics);
+    constexpr double kInteriorsUnit = 45; // as in POV-Ray
+    if (finish.caustics) made.caustics = *finish.caustics / kInteriorsUnit;
     made.fade_distance = finish.fade_distance.value_or(made.fade_distance);
     made.fade_power = finish.fade_power.value_or(made.fade_power);
   }

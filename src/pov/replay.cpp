@@ -82,8 +82,32 @@ void TokenStream::replay_arguments(std::vector<ShapeArgument>& arguments) {
   }
 }
 
+namespace {
+
+bool is_same(const Value& a, const Value& b) {
+  if (a.index() != b.index()) return false;
+  return std::visit(
+      [&b](const auto& value) {
+        using T = std::decay_t<decltype(value)>;
+        const T& other = std::get<T>(b);
+        if constexpr (std::is_same_v<T, Quantity>)
+          return value.count == other.count && value.is_colour == other.is_colour && value.v == other.v;
+        else if constexpr (std::is_same_v<T, Transform>)
+          return std::equal(std::begin(value.rows), std::end(value.rows), std::begin(other.rows));
+        else
+          return value == other;
+      },
+      a);
+}
+
+} // namespace
+
 void TokenStream::leave_frame() {
   const Frame& frame = session_.input.top();
+  for (const ElementReference& reference : frame.references)
+    if (reference.index < reference.array->elements.size() &&
+        !is_same(reference.slot->value, reference.value))
+      reference.array->elements[reference.index] = reference.slot->value;
   if (frame.kind != Frame::Kind::loop) session_.symbols.leave_scope();
   if (frame.kind == Frame::Kind::macro) --macro_calls_;
   session_.input.pop();
@@ -128,6 +152,7 @@ void TokenStream::call(const Token& name, const std::shared_ptr<const Macro>& ma
   const Token parenthesis = read();
   if (!parenthesis.is('(')) session_.fail(name.where, "expected '(' after " + call);
   std::vector<std::shared_ptr<Slot>> arguments;
+  Frame frame;
   Token token = read();
   while (!token.is(')')) {
     if (token.kind == Token::Kind::end)
@@ -136,7 +161,7 @@ void TokenStream::call(const Token& name, const std::shared_ptr<const Macro>& ma
       session_.fail(name.where,
                     call + " takes only " + std::to_string(macro->parameters.size()) + " arguments");
     session_.input.unread(token);
-    arguments.push_back(read_argument(call));
+    arguments.push_back(read_argument(call, frame.references));
     token = read();
     if (token.is(',')) token = read();
   }
@@ -149,7 +174,6 @@ void TokenStream::call(const Token& name, const std::shared_ptr<const Macro>& ma
   session_.symbols.enter_scope();
   for (std::size_t i = 0; i < arguments.size(); ++i)
     session_.symbols.bind(macro->parameters[i], std::move(arguments[i]));
-  Frame frame;
   frame.kind = Frame::Kind::macro;
   frame.opened_at = name.where;
   frame.macro_name = macro->name;
@@ -158,8 +182,35 @@ void TokenStream::call(const Token& name, const std::shared_ptr<const Macro>& ma
   session_.input.push(std::move(frame));
 }
 
-/// A lone identifier is passed by reference; anything else is evaluated once.
-std::shared_ptr<Slot> TokenStream::read_argument(const std::string& call) {
+/// Behind the name of an array: whether its subscripts are all that is there of an argument. They are still
+/// to be read then.
+bool TokenStream::is_lone_element() {
+  std::vector<Token> passed;
+  unsigned depth = 0;
+  bool is_lone = false;
+  for (;;) {
+    const Token token = read();
+    if (token.kind == Token::Kind::end || token.kind == Token::Kind::directive) {
+      if (token.kind == Token::Kind::directive) passed.push_back(token);
+      break;
+    }
+    passed.push_back(token);
+    is_lone = depth == 0 && passed.size() > 1 && (token.is(',') || token.is(')'));
+    if (token.is('['))
+      ++depth;
+    else if (depth == 0)
+      break;
+    else if (token.is(']'))
+      --depth;
+  }
+  for (; !passed.empty(); passed.pop_back())
+    session_.input.unread(passed.back());
+  return is_lone;
+}
+
+/// A lone identifier or element of an array is passed by reference; anything else is evaluated once.
+std::shared_ptr<Slot> TokenStream::read_argument(const std::string& call,
+                                                 std::vector<ElementReference>& references) {
   const Token first = read();
   if (first.kind == Token::Kind::word && session_.names[first.name].token == 0) {
     const Token second = read();
@@ -169,6 +220,17 @@ std::shared_ptr<Slot> TokenStream::read_argument(const std::string& call) {
       session_.fail(first.where,
                     "'" + session_.names.text(first.name) + "' is not declared, " + call + " cannot take it");
     if (second.is(',') || second.is(')')) return slot;
+    if (second.is('[') && slot && std::holds_alternative<std::shared_ptr<Array>>(slot->value) &&
+        is_lone_element()) {
+      std::vector<std::size_t> subscripts = read_subscripts();
+      const std::size_t last = subscripts.back();
+      subscripts.pop_back();
+      Value& of = element(slot->value, subscripts, first.where);
+      const Value& value = element(of, {last}, first.where);
+      references.push_back(
+          {std::get<std::shared_ptr<Array>>(of), last, std::make_shared<Slot>(Slot{value}), value});
+      return references.back().slot;
+    }
   }
   // Most arguments need no grammar.
   if (first.kind == Token::Kind::number || first.kind == Token::Kind::vector) {

@@ -140,12 +140,17 @@ std::optional<FoundFile> Sources::find_file(std::string_view name, const fs::pat
                                         std::any_of(readable_.begin(), readable_.end(), has_it));
     return FoundFile{path, may_be_read};
   };
-  for (const fs::path& folder : folders)
-    if (is_file(folder / wanted)) return found(folder / wanted);
-  if (wanted.is_absolute()) return std::nullopt;
-  for (const fs::path& folder : folders)
-    if (const auto path = find_without_case(folder, wanted)) return found(*path);
-  return std::nullopt;
+  const auto find = [&](const fs::path& file) -> std::optional<FoundFile> {
+    for (const fs::path& folder : folders)
+      if (is_file(folder / file)) return found(folder / file);
+    if (wanted.is_absolute()) return std::nullopt;
+    for (const fs::path& folder : folders)
+      if (const auto path = find_without_case(folder, file)) return found(*path);
+    return std::nullopt;
+  };
+  if (const auto file = find(wanted)) return file;
+  // As POV-Ray has it, the ending may be left out.
+  return wanted.has_extension() ? std::nullopt : find(fs::path(wanted).replace_extension(".inc"));
 }
 
 fs::path Sources::writable_file(std::string_view name) const {

@@ -181,7 +181,8 @@ private:
   TokenRange take_block(const Token& opening);
   void define_macro(const Token& directive);
   void call(const Token& name, const std::shared_ptr<const Macro>& macro);
-  std::shared_ptr<Slot> read_argument(const std::string& call);
+  std::shared_ptr<Slot> read_argument(const std::string& call, std::vector<ElementReference>& references);
+  bool is_lone_element();
   void start_while(const Token& directive);
   void start_for(const Token& directive);
   void start_iteration(bool is_first);

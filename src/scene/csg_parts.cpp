@@ -148,6 +148,7 @@ struct Surroundings {
   bool hides_shadow = true, hides_image = true, hides_reflection = true;
   bool is_in_unions = true; ///< alone, and in none that is clipped
   bool inverse = false;
+  bool was_inverse = false; ///< somewhere on the way
   bool shows = true;
   int depth = 0;
 };
@@ -181,6 +182,7 @@ private:
     around.no_image = around.no_image || (around.hides_image && object.no_image);
     around.no_reflection = around.no_reflection || (around.hides_reflection && object.no_reflection);
     around.inverse = around.inverse != object.inverse;
+    around.was_inverse = around.was_inverse || around.inverse;
     if (const auto* csg = std::get_if<std::shared_ptr<const Csg>>(&object.shape)) {
       if (!*csg) throw InputError("an object has no CSG");
       return seen_as(around, build_operation(**csg, around));
@@ -201,8 +203,9 @@ private:
     node.shows = around.shows;
     if (joins == around.inverse)
       node.kind = Node::Kind::intersection;
-    else
-      node.kind = csg.operation == Operation::union_ ? Node::Kind::union_ : Node::Kind::merge;
+    else // in POV-Ray an intersection that is inverted becomes a merge, whatever it was before
+      node.kind =
+          csg.operation == Operation::union_ && !around.was_inverse ? Node::Kind::union_ : Node::Kind::merge;
     around.is_in_unions = around.is_in_unions && csg.operation == Operation::union_;
     around.hides_shadow = around.is_in_unions;
     around.hides_image = around.is_in_unions || csg.operation == Operation::merge;

@@ -199,7 +199,8 @@ void cross(const Torus& torus, const Ray& ray, Crossings& found) {
   const Vec3 d = ray.direction / length;
   const double middle = -glm::dot(ray.origin, d);
   const Vec3 o = ray.origin + d * middle;
-  const double reach = std::fabs(torus.major_radius) + std::fabs(torus.minor_radius);
+  // A little farther than it reaches: roots at the ends of where they are looked for may be missed.
+  const double reach = 1.001 * (std::fabs(torus.major_radius) + std::fabs(torus.minor_radius));
   if (glm::dot(o, o) > reach * reach) return;
   const double R = torus.major_radius * torus.major_radius, r = torus.minor_radius * torus.minor_radius;
   const double k = glm::dot(o, o) + R - r;

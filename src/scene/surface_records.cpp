@@ -144,8 +144,8 @@ MaterialRecord make_record(const Material& material, const Scene& scene) {
   r.transmit = static_cast<float>(p.transmit);
   r.opacity = static_cast<float>(opacity(p, scene.version));
   copy(f.ambient * scene.ambient_light + f.emission, r.ambient);
-  r.diffuse = static_cast<float>(f.diffuse);
-  r.diffuse_behind = static_cast<float>(f.diffuse_behind);
+  r.diffuse = static_cast<float>(std::max(f.diffuse, 0.0)); // as in POV-Ray there is none below
+  r.diffuse_behind = static_cast<float>(std::max(f.diffuse_behind, 0.0));
   r.brilliance = static_cast<float>(f.brilliance);
   r.phong = static_cast<float>(f.phong);
   r.phong_size = static_cast<float>(f.phong_size);
