@@ -320,8 +320,8 @@ struct CELLTRACE_EXPORT Scene {
   /// Share of what is behind the picture that comes through the background, 0 to 1; counts where a picture
   /// has alpha. Below version 3.7 it means nothing: only mirrors see sky and background there.
   double background_transparency = 1;
-  /// What mirrors and bent rays see in place of the background where a picture has alpha and the scene no
-  /// sky; none: the same. `background` is what is left of it then behind the picture.
+  /// What reflected rays see in place of the background, those in glass too, where a picture has alpha and
+  /// the scene no sky; none: the same. `background` is what is left of it then behind the picture.
   std::optional<Vec3> mirrored_background;
   /// Layers over the background, the last one on top: what rays meet that hit nothing. Their patterns are
   /// asked at the ray's direction, of length 1.

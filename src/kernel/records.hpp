@@ -528,7 +528,7 @@ constexpr uint32_t only_fading = 0x400;
 constexpr uint32_t alpha = 0x20; ///< how clear each pixel is is wanted, too
 /// With `alpha`: only rays that came by a mirror see sky and background.
 constexpr uint32_t no_backdrop = 0x40;
-/// With `alpha`: FrameBlock::background is what mirrors and bent rays see, others less of it, as it is clear.
+/// With `alpha`: FrameBlock::background is what reflected rays see, others less of it, as it is clear.
 constexpr uint32_t mirrored_background = 0x800;
 constexpr uint32_t first_hits = 0x80; ///< what each primary ray hits is wanted, too
 constexpr uint32_t jitter = 0x100;    ///< places of lights are moved, in each lane otherwise
@@ -779,8 +779,8 @@ struct alignas(128) FrameBlock {
   uint32_t fog_offset, fog_count;
   uint32_t light_ways; ///< bits of light_way
   uint32_t rainbow_offset, rainbow_count;
-  /// Share of what is behind the scene that comes through the background; counts with light_way::alpha, 1 with
-  /// light_way::no_backdrop.
+  /// Share of what is behind the scene that comes through the background; counts with light_way::alpha, 1
+  /// with light_way::no_backdrop.
   float background_clear;
 };
 static_assert(sizeof(FrameBlock) % 128 == 0 && sizeof(FrameBlock) <= 512, "fetched by one DMA command");

@@ -35,13 +35,13 @@ Token TokenStream::skip_branch(unsigned depth) {
   }
 }
 
-double TokenStream::condition_value() {
-  const Location where = last_place();
+/// `where`: the directive that it belongs to.
+double TokenStream::condition_value(Location where) {
   return session_.any_number(std::get<Quantity>(evaluate(Start::condition)), where);
 }
 
-bool TokenStream::condition() {
-  return is_true(condition_value());
+bool TokenStream::condition(Location where) {
+  return is_true(condition_value(where));
 }
 
 void TokenStream::obey_if(const Token& directive, bool holds) {
@@ -52,10 +52,11 @@ void TokenStream::obey_if(const Token& directive, bool holds) {
 /// Passes over branches of the #if on top until one is to be read.
 void TokenStream::choose_else() {
   for (;;) {
-    const Directive kind = session_.names[skip_branch(0).name].directive;
+    const Token directive = skip_branch(0);
+    const Directive kind = session_.names[directive.name].directive;
     if (kind == Directive::end) return session_.input.top().conditionals.pop_back();
     if (kind == Directive::else_) return;
-    if (kind == Directive::elseif && condition()) return;
+    if (kind == Directive::elseif && condition(directive.where)) return;
   }
 }
 
@@ -70,19 +71,21 @@ void TokenStream::obey_else(const Token& directive, Directive kind) {
 }
 
 void TokenStream::obey_switch(const Token& directive) {
-  const double value = condition_value();
+  const double value = condition_value(directive.where);
   session_.input.top().conditionals.push_back({true, directive.where});
   for (;;) {
-    const Directive kind = session_.names[skip_branch(0).name].directive;
+    const Token branch = skip_branch(0);
+    const Directive kind = session_.names[branch.name].directive;
     if (kind == Directive::end) return session_.input.top().conditionals.pop_back();
     if (kind == Directive::else_) return;
-    if (kind != Directive::elseif && case_holds(kind, value)) return;
+    if (kind != Directive::elseif && case_holds(branch, value)) return;
   }
 }
 
-bool TokenStream::case_holds(Directive kind, double value) {
-  if (kind == Directive::case_) return std::fabs(condition_value() - value) < kComparisonTolerance;
-  const Location where = last_place();
+bool TokenStream::case_holds(const Token& directive, double value) {
+  const Location& where = directive.where;
+  if (session_.names[directive.name].directive == Directive::case_)
+    return std::fabs(condition_value(where) - value) < kComparisonTolerance;
   expect('(', "after #range");
   const std::vector<double> bounds = read_numbers(where);
   if (bounds.size() != 2) session_.fail(where, "#range takes two numbers");
@@ -90,11 +93,11 @@ bool TokenStream::case_holds(Directive kind, double value) {
 }
 
 /// A #case met while reading falls through.
-void TokenStream::obey_case(const Token& directive, Directive kind) {
+void TokenStream::obey_case(const Token& directive) {
   const auto& conditionals = session_.input.top().conditionals;
   if (conditionals.empty() || !conditionals.back().is_switch)
     session_.fail(directive.where, "#case and #range belong into a #switch");
-  case_holds(kind, 0);
+  case_holds(directive, 0);
 }
 
 void TokenStream::obey_end(const Token& directive) {

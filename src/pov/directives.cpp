@@ -28,7 +28,7 @@ void TokenStream::obey(const Token& directive) {
   case Directive::undef:
     return undefine();
   case Directive::version:
-    return set_version();
+    return set_version(directive);
   case Directive::include:
     return include(directive);
   case Directive::default_:
@@ -41,7 +41,7 @@ void TokenStream::obey(const Token& directive) {
   case Directive::error:
     return show(directive, kind);
   case Directive::if_:
-    return obey_if(directive, condition());
+    return obey_if(directive, condition(directive.where));
   case Directive::ifdef:
     return obey_if(directive, is_defined());
   case Directive::ifndef:
@@ -53,7 +53,7 @@ void TokenStream::obey(const Token& directive) {
     return obey_else(directive, kind);
   case Directive::case_:
   case Directive::range:
-    return obey_case(directive, kind);
+    return obey_case(directive);
   case Directive::end:
     return obey_end(directive);
   case Directive::break_:
@@ -217,11 +217,11 @@ bool TokenStream::is_defined() {
 }
 
 /// `unofficial` may stand in front of the number: patched versions of POV-Ray had it.
-void TokenStream::set_version() {
+void TokenStream::set_version(const Token& directive) {
   const Token first = read();
   if (first.kind != Token::Kind::word || session_.names.text(first.name) != "unofficial")
     session_.input.unread(first);
-  const Location where = last_place();
+  const Location& where = directive.where;
   const double version = session_.number(std::get<Quantity>(evaluate(Start::expression)), where);
   skip_semicolon();
   constexpr double kNewest = 3.7;

@@ -299,7 +299,7 @@ void TokenStream::start_iteration(bool is_first) {
   if (++iterations_ > most || least > static_cast<double>(most - iterations_))
     session_.exceed(frame.opened_at, &ParseLimits::loop_iterations, "the loops of the scene run", "times");
   frame.position = frame.range.begin;
-  const bool goes_on = frame.counter ? advance(*frame.counter, is_first) : condition();
+  const bool goes_on = frame.counter ? advance(*frame.counter, is_first) : condition(frame.opened_at);
   if (!goes_on) leave_frame();
 }
 

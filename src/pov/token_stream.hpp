@@ -140,7 +140,7 @@ private:
   void declare(bool is_local);
   void skip_deprecation();
   void undefine();
-  void set_version();
+  void set_version(const Token& directive);
   void include(const Token& directive);
   std::string read_file_name(Location& where);
   std::pair<std::filesystem::path, std::string> read_file(const std::string& what, const std::string& wanted,
@@ -165,17 +165,17 @@ private:
   std::string data_text(const Value& value, const Location& where) const;
 
   // conditionals.cpp
-  double condition_value();
-  bool condition();
+  double condition_value(Location where);
+  bool condition(Location where);
   Token skip_branch(unsigned depth);
   void obey_if(const Token& directive, bool holds);
   void choose_else();
   void obey_switch(const Token& directive);
   void obey_else(const Token& directive, Directive kind);
-  void obey_case(const Token& directive, Directive kind);
+  void obey_case(const Token& directive);
   void obey_end(const Token& directive);
   void obey_break(const Token& directive);
-  bool case_holds(Directive kind, double value);
+  bool case_holds(const Token& directive, double value);
 
   // replay.cpp: macros and loops
   TokenRange take_block(const Token& opening);

@@ -79,9 +79,8 @@ void bind_scene(py::module_& module) {
       .def_readwrite("name", &Scene::name, "for messages: the file it came from")
       .def_readwrite("camera", &Scene::camera, "")
       .def_readwrite("background", &Scene::background, "colour")
-      .def_readwrite(
-          "mirrored_background", &Scene::mirrored_background,
-          "what mirrors and bent rays see in place of it in a picture with alpha, without a sky; or None")
+      .def_readwrite("mirrored_background", &Scene::mirrored_background,
+                     "what reflected rays see in place of it in a picture with alpha, without a sky; or None")
       .def_readwrite("background_transparency", &Scene::background_transparency,
                      "share of what is behind a picture with alpha that comes through the background, 0 to 1")
       .def_readwrite("ambient_light", &Scene::ambient_light, "colour")

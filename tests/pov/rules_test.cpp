@@ -71,6 +71,16 @@ TEST_CASE("elements of arrays are passed to macros by reference") {
   CHECK(error_line(swap + "Swap(P[0], P[") != "");
 }
 
+TEST_CASE("errors in conditions are where the directive is") {
+  CHECK(error_line("sphere { 0, 1 }\n#if (<1, 2>)\n#end") ==
+        "scene.pov:2:1: error: expected a float, found a vector");
+  CHECK(error_line("sphere { 0, 1 }\n#while (<1, 2>)\n#end") ==
+        "scene.pov:2:1: error: expected a float, found a vector");
+  CHECK(error_line("sphere { 0, 1 }\n#if (0)\n#elseif (<1, 2>)\n#end") ==
+        "scene.pov:3:1: error: expected a float, found a vector");
+  CHECK(error_line("sphere { 0, 1 }\n\n#version 4;").substr(0, 15) == "scene.pov:3:1: ");
+}
+
 TEST_CASE("in functions & binds tighter than |") {
   CHECK(output("#declare F = function(x, y, z) {x | y & z} #debug str(F(1, 0, 0), 0, 0)") == "1");
   CHECK(output("#declare F = function(x, y, z) {x & y | z} #debug str(F(0, 0, 1), 0, 0)") == "1");
