@@ -457,8 +457,10 @@ TEST_CASE("Holes that are cut hardly deeper than a wall are open") {
       scene.lights.push_back({Vec3(-2, 3, -2) * distance});
       const double size = 0.2 * distance, over = beyond * distance;
       const Index stone = scene.add(matte({0.9, 0.7, 0.5})), inside = scene.add(matte({0.2, 0.8, 0.3}));
+      const Index interior = scene.add(Interior{});
       const auto part = [&](auto shape, Index material) {
         Object object;
+        object.interior = interior;
         object.shape = shape;
         object.material = material;
         return object;
@@ -471,6 +473,7 @@ TEST_CASE("Holes that are cut hardly deeper than a wall are open") {
                      part(Cylinder{{0.1 * size, 0, high}, {0.1 * size, 0, low}, 0.2 * size}, inside),
                      part(Cone{{0.6 * size, 0, low}, {0.6 * size, 0, high}, 0.3 * size, 0.1 * size}, inside)};
       Object object;
+      object.interior = interior;
       object.shape = std::shared_ptr<const Csg>(wall);
       object.transform = Transform::rotate({10, 20, 30});
       scene.objects.push_back(object);

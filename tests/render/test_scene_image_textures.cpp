@@ -450,7 +450,7 @@ TEST_CASE("Textures that are too deep or too long are refused by name") {
     refused(with([&](auto& map) { map.pattern.phase = no_number; }),
             "material 0 has a number that is not finite");
     refused(with([&](auto& map) { map.is_average = true; }),
-            "material 0 has an average whose weights are not greater than 0");
+            "material 0 has an average whose weights add up to 0");
     refused(with([&](auto& map) { map.pattern.turbulence.octaves = 11; }),
             "material 0 has turbulence whose octaves are not 1 to 10");
     refused(with([&](auto& map) { map.pattern.noise_generator = 4; }),
