@@ -15,12 +15,12 @@ namespace celltrace {
 
 namespace {
 
-constexpr std::size_t kMostPairs =
+constexpr std::size_t kMostComparisons =
     1 << 22; ///< of faces in all of the scene: beyond them nobody waits for more
 
 /// A face in the scene. `ends`: which of a shape's, by axis and then the lower one first; of a cylinder or
 /// cone the base's is first.
-struct Face {
+struct EndFace {
   Vec3 normal; ///< outwards
   double distance;
   Vec3 point;
@@ -59,7 +59,7 @@ private:
   };
 
   void add_face(const LeafPlace& place, int end, const Vec3& outward, const Vec3& point) {
-    Face face{};
+    EndFace face{};
     face.normal = glm::normalize(place.transform.normal(outward));
     face.point = place.transform.point(point);
     face.distance = glm::dot(face.normal, face.point);
@@ -98,12 +98,12 @@ private:
     constexpr double kSameDirection = 1e-9, kSamePlane = 1e-11;
     constexpr double kDeepEnough = 2e-6; // of the distance: single precision is wrong by up to a tenth of it
     moves_.clear();
-    for (const Face& cut : cut_) {
-      if (pairs_ > kMostPairs) return;
+    for (const EndFace& cut : cut_) {
+      if (pairs_ > kMostComparisons) return;
       pairs_ += kept_.size();
       const double size = glm::length(eye_) + glm::length(cut.point) + glm::length(cut.point - eye_);
       double way = 0;
-      for (const Face& kept : kept_) {
+      for (const EndFace& kept : kept_) {
         const double beyond = cut.distance - kept.distance;
         const Vec3 turned = glm::abs(cut.normal - kept.normal);
         if (beyond > kSamePlane * size && beyond < kDeepEnough * size &&
@@ -147,7 +147,7 @@ private:
   }
 
   const Vec3 eye_;
-  std::vector<Face> kept_, cut_;
+  std::vector<EndFace> kept_, cut_;
   std::vector<Move> moves_;
   std::size_t leaves_ = 0, pairs_ = 0;
 };
