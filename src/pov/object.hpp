@@ -12,6 +12,7 @@
 #include "pov/location.hpp"
 #include "pov/memory.hpp"
 #include "pov/texture.hpp"
+#include "scene/triangle_tree.hpp"
 
 namespace celltrace::pov {
 
@@ -40,6 +41,7 @@ void transform_limits(std::vector<Limit>& limits, const Transform& next);
 struct MeshDefinition {
   Mesh mesh;
   std::vector<TexturePtr> textures;
+  std::unique_ptr<geometry::TriangleTree> tree; ///< from when the scene asks about the mesh
 };
 
 /// One triangle as written in a mesh or alone. Without normals it is flat.

@@ -41,6 +41,16 @@ const Mesh* mesh_of(const Query& query, const ObjectDefinition& object) {
   return mesh ? &query.session.builder.mesh_of(*mesh) : nullptr;
 }
 
+/// Of the mesh that the object is.
+std::vector<std::uint32_t> triangles_along(const Query& query, const ObjectDefinition& object,
+                                           const Ray& ray) {
+  auto& tree = std::get<std::shared_ptr<MeshDefinition>>(object.shape)->tree;
+  if (!tree) tree = std::make_unique<geometry::TriangleTree>(*mesh_of(query, object));
+  std::vector<std::uint32_t> triangles = tree->along(ray);
+  query.count(triangles.size());
+  return triangles;
+}
+
 const Compound* compound_of(const ObjectDefinition& object) {
   const auto* compound = std::get_if<std::shared_ptr<const Compound>>(&object.shape);
   return compound ? compound->get() : nullptr;
@@ -91,8 +101,8 @@ bool contains(const Query& query, const ObjectDefinition& object, const Vec3& po
   if (const Compound* compound = compound_of(object)) {
     is_inside = contains(query, *compound, p);
   } else if (const Mesh* mesh = mesh_of(query, object)) {
-    if (mesh->has_inside()) query.count(mesh->triangles.size());
-    is_inside = geometry::is_inside(*mesh, p);
+    if (mesh->has_inside())
+      is_inside = geometry::is_inside(*mesh, triangles_along(query, object, {p, mesh->inside_vector}), p);
   } else if (const auto* shape = std::get_if<Shape>(&object.shape)) {
     if (std::holds_alternative<std::shared_ptr<const Polygon>>(*shape)) return false;
     is_inside = geometry::is_inside(*shape, p);
@@ -134,8 +144,7 @@ void cross(const Query& query, const ObjectDefinition& object, const Ray& ray, C
   if (const Compound* compound = compound_of(object)) {
     cross(query, *compound, local, own);
   } else if (const Mesh* mesh = mesh_of(query, object)) {
-    query.count(mesh->triangles.size());
-    geometry::find_crossings(*mesh, local, own);
+    geometry::find_crossings(*mesh, triangles_along(query, object, local), local, own);
   } else if (const TriangleDefinition* triangle = triangle_of(object)) {
     const Vec3* normals = triangle->is_smooth ? triangle->normals.data() : nullptr;
     geometry::cross_triangle(triangle->vertices, normals, local, own);

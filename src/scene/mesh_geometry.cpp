@@ -32,6 +32,20 @@ std::array<Vec3, 3> corners_of(const Mesh& mesh, const Mesh::Triangle& triangle)
   return {Vec3(mesh.vertices[vertex[0]]), Vec3(mesh.vertices[vertex[1]]), Vec3(mesh.vertices[vertex[2]])};
 }
 
+void cross(const Mesh& mesh, const Mesh::Triangle& triangle, const Ray& ray, Crossings& found) {
+  const std::array<Vec3, 3> corners = corners_of(mesh, triangle);
+  if (!is_smooth(triangle)) return cross_triangle(corners, nullptr, ray, found);
+  Vec3 normals[3];
+  for (int i = 0; i < 3; ++i)
+    normals[i] = unit_normal(mesh.normals[triangle.normal[i]]);
+  cross_triangle(corners, normals, ray, found);
+}
+
+bool is_ahead(const Mesh& mesh, const Mesh::Triangle& triangle, const Ray& ray) {
+  const std::optional<Place> place = place_on(corners_of(mesh, triangle), ray);
+  return place && place->t > 0;
+}
+
 } // namespace
 
 void cross_triangle(const std::array<Vec3, 3>& corners, const Vec3* normals, const Ray& ray,
@@ -44,27 +58,31 @@ void cross_triangle(const std::array<Vec3, 3>& corners, const Vec3* normals, con
 }
 
 void find_crossings(const Mesh& mesh, const Ray& ray, Crossings& found) {
-  for (const Mesh::Triangle& triangle : mesh.triangles) {
-    const std::array<Vec3, 3> corners = corners_of(mesh, triangle);
-    if (!is_smooth(triangle)) {
-      cross_triangle(corners, nullptr, ray, found);
-      continue;
-    }
-    Vec3 normals[3];
-    for (int i = 0; i < 3; ++i)
-      normals[i] = unit_normal(mesh.normals[triangle.normal[i]]);
-    cross_triangle(corners, normals, ray, found);
-  }
+  for (const Mesh::Triangle& triangle : mesh.triangles)
+    cross(mesh, triangle, ray, found);
+}
+
+void find_crossings(const Mesh& mesh, const std::vector<std::uint32_t>& triangles, const Ray& ray,
+                    Crossings& found) {
+  for (const std::uint32_t triangle : triangles)
+    cross(mesh, mesh.triangles[triangle], ray, found);
 }
 
 bool is_inside(const Mesh& mesh, const Vec3& point) {
   if (!mesh.has_inside()) return false;
   const Ray ray{point, mesh.inside_vector};
   bool inside = false;
-  for (const Mesh::Triangle& triangle : mesh.triangles) {
-    const std::optional<Place> place = place_on(corners_of(mesh, triangle), ray);
-    if (place && place->t > 0) inside = !inside;
-  }
+  for (const Mesh::Triangle& triangle : mesh.triangles)
+    inside ^= is_ahead(mesh, triangle, ray);
+  return inside;
+}
+
+bool is_inside(const Mesh& mesh, const std::vector<std::uint32_t>& triangles, const Vec3& point) {
+  if (!mesh.has_inside()) return false;
+  const Ray ray{point, mesh.inside_vector};
+  bool inside = false;
+  for (const std::uint32_t triangle : triangles)
+    inside ^= is_ahead(mesh, mesh.triangles[triangle], ray);
   return inside;
 }
 

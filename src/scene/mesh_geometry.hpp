@@ -4,6 +4,8 @@
 #include "scene/shape_geometry.hpp"
 
 #include <array>
+#include <cstdint>
+#include <vector>
 
 namespace celltrace::geometry {
 
@@ -12,10 +14,15 @@ void cross_triangle(const std::array<Vec3, 3>& corners, const Vec3* normals, con
                     Crossings& found);
 
 void find_crossings(const Mesh& mesh, const Ray& ray, Crossings& found);
+/// Of some of its triangles.
+void find_crossings(const Mesh& mesh, const std::vector<std::uint32_t>& triangles, const Ray& ray,
+                    Crossings& found);
 
 /// Whether the ray from there along the mesh's inside vector, if it has one, crosses an odd number of
 /// triangles.
 bool is_inside(const Mesh& mesh, const Vec3& point);
+/// `triangles`: with all that this ray crosses.
+bool is_inside(const Mesh& mesh, const std::vector<std::uint32_t>& triangles, const Vec3& point);
 
 /// A point where there are no vertices.
 Extent extent_of(const Mesh& mesh);

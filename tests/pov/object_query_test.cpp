@@ -102,6 +102,28 @@ TEST_CASE("tracing CSG and meshes, placed or not") {
   CHECK(hit(mesh + " object { O }", "<.2,.2,-1>, z") == expected);
 }
 
+TEST_CASE("a mesh is hit where its triangles are, however many") {
+  const std::string scene =
+      "#declare R = seed(3); #macro V() <rand(R), rand(R), rand(R)> * 20 #end "
+      "#declare A = array[900] #for (I, 0, 899, 3) #local P = V(); #declare A[I] = P; "
+      "#declare A[I + 1] = P + V() / 4; #declare A[I + 2] = P + V() / 4; #end "
+      "#macro All() #for (I, 0, 899, 3) triangle { A[I], A[I + 1], A[I + 2] } #end #end "
+      "#declare M = mesh { All() inside_vector y } #declare U = union { All() } "
+      "#declare Hits = 0; #declare Differ = 0; #declare Inside = 0; #for (I, 0, 999) "
+      "#local N = <0, 0, 0>; #local L = <0, 0, 0>; #local From = V() * 2 - 10; #local To = V() - From; "
+      "#local P = trace(M, From, To, N); #local Q = trace(U, From, To, L); "
+      "#if (vlength(L) > 0) #declare Hits = Hits + 1; #end "
+      "#if (vlength(P - Q) > 1e-4 | vlength(N - L) > 1e-4) #declare Differ = Differ + 1; #end "
+      // As often as the ray of the mesh meets one of them.
+      "#declare P = V(); #declare Odd = 0; #declare Ray = P; #declare Far = 0; "
+      "#while (!Far) #declare Ray = trace(U, Ray, y, N); #if (vlength(N) = 0) #declare Far = 1; "
+      "#else #declare Odd = !Odd; #declare N = <0, 0, 0>; #end #end "
+      "#if (Odd != inside(M, P)) #declare Differ = Differ + 1; #end "
+      "#if (Odd) #declare Inside = Inside + 1; #end #end ";
+  CHECK(output(scene + "#debug str(Differ, 0, 0)") == "0");
+  CHECK(output(scene + "#debug str(Hits > 500 & Inside > 200, 0, 0)") == "1");
+}
+
 TEST_CASE("what is inside") {
   const auto inside = [](const std::string& what) {
     return output(kObjects + "#debug str(inside(" + what + "), 0, 0)");
