@@ -1118,6 +1118,7 @@ limits // of where an object is; they can be moved together
 
 light_body // what comes later applies to what is there by then
   : LIGHT_SOURCE '{' OBJECT_ID                            { $$ = light(session, *$3, @3); }
+  | LIGHT_SOURCE '{' quantity                             { $$ = light(session, session.vector($3, @3), Vec3(0)); }
   | LIGHT_SOURCE '{' quantity optional_comma colour_value {
       $$ = light(session, session.vector($3, @3), session.light($5, @5).rgb);
     }

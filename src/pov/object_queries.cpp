@@ -206,7 +206,9 @@ Extent extent(const Query& query, const ObjectDefinition& object) {
   else if (const Mesh* mesh = mesh_of(query, object))
     result = geometry::extent_of(*mesh).moved(object.transform);
   else if (const TriangleDefinition* triangle = triangle_of(object))
-    result = Extent::around({triangle->vertices.begin(), triangle->vertices.end()}).moved(object.transform);
+    result = Extent::around({object.transform.point(triangle->vertices[0]),
+                             object.transform.point(triangle->vertices[1]),
+                             object.transform.point(triangle->vertices[2])});
   else if (const auto* shape = std::get_if<Shape>(&object.shape))
     result = geometry::extent_of(*shape, object.transform);
   // What limits it bounds it, too, if that is smaller.

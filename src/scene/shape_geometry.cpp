@@ -9,6 +9,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <type_traits>
 #include <variant>
 
 #include <glm/common.hpp>
@@ -20,8 +21,8 @@ namespace celltrace::geometry {
 namespace {
 
 /// Round things have POV-Ray's box of the box around them on their own axes: which way these are turned about
-/// the round one's axis.
-Extent round_extent(const Vec3& base, const Vec3& cap, double radius) {
+/// the round one's axis. That box is placed, not one around it.
+Extent round_extent(const Vec3& base, const Vec3& cap, double radius, const Transform& transform) {
   const Vec3 d = glm::normalize(cap - base);
   const double square = d.x * d.x + d.y * d.y;
   Vec3 across{1, 0, 0}, along{0, 1, 0};
@@ -35,12 +36,12 @@ Extent round_extent(const Vec3& base, const Vec3& cap, double radius) {
   }
   std::vector<Vec3> corners;
   for (int corner = 0; corner < 8; ++corner)
-    corners.push_back((corner & 1 ? cap : base) + across * (corner & 2 ? radius : -radius) +
-                      along * (corner & 4 ? radius : -radius));
+    corners.push_back(transform.point((corner & 1 ? cap : base) + across * (corner & 2 ? radius : -radius) +
+                                      along * (corner & 4 ? radius : -radius)));
   return Extent::around(corners);
 }
 
-// cross(), contains() and extent() of each shape.
+// cross(), contains() and extent() of each shape; of round ones that are placed.
 
 void cross(const Sphere& s, const Ray& ray, Crossings& found) {
   const Vec3 o = ray.origin - s.centre;
@@ -84,11 +85,11 @@ void cross(const Disc& disc, const Ray& ray, Crossings& found) {
 bool contains(const Disc& disc, const Vec3& p) {
   return glm::dot(disc.normal, p - disc.centre) < 0;
 }
-Extent extent(const Disc& disc) {
+Extent extent(const Disc& disc, const Transform& transform) {
   constexpr double kThickness = 0.001;
-  if (glm::length(disc.normal) == 0) return {disc.centre, disc.centre};
+  if (glm::length(disc.normal) == 0) return Extent::around({transform.point(disc.centre)});
   const Vec3 n = glm::normalize(disc.normal) * kThickness;
-  return round_extent(disc.centre - n, disc.centre + n, disc.radius);
+  return round_extent(disc.centre - n, disc.centre + n, disc.radius, transform);
 }
 
 Box ordered(const Box& box) {
@@ -170,9 +171,11 @@ bool contains(const Cone& any_cone, const Vec3& p) {
   const double radius = cone.base_radius + (cone.cap_radius - cone.base_radius) * height / length;
   return glm::length(p - cone.base - axis * (height / length)) < radius;
 }
-Extent extent(const Cone& any_cone) {
+Extent extent(const Cone& any_cone, const Transform& transform) {
   const Cone cone = with_positive_radii(any_cone);
-  return round_extent(cone.base, cone.cap, std::max(cone.base_radius, cone.cap_radius));
+  // From its wide end, as it were.
+  return cone.base_radius >= cone.cap_radius ? round_extent(cone.base, cone.cap, cone.base_radius, transform)
+                                             : round_extent(cone.cap, cone.base, cone.cap_radius, transform);
 }
 
 /// A cylinder is a cone, too.
@@ -185,8 +188,8 @@ void cross(const Cylinder& c, const Ray& ray, Crossings& found) {
 bool contains(const Cylinder& c, const Vec3& p) {
   return contains(as_cone(c), p);
 }
-Extent extent(const Cylinder& c) {
-  return extent(as_cone(c));
+Extent extent(const Cylinder& c, const Transform& transform) {
+  return extent(as_cone(c), transform);
 }
 
 double torus_value(const Torus& torus, const Vec3& p) {
@@ -405,6 +408,9 @@ std::optional<Extent> ellipsoid_extent(const Sphere& sphere, const Transform& tr
   return Extent{centre - half, centre + half};
 }
 
+template <typename S>
+constexpr bool is_round = std::is_same_v<S, Disc> || std::is_same_v<S, Cone> || std::is_same_v<S, Cylinder>;
+
 } // namespace
 
 Powers powers_of(const Superellipsoid& s) {
@@ -423,7 +429,14 @@ bool is_inside(const Shape& shape, const Vec3& point) {
 Extent extent_of(const Shape& shape, const Transform& transform) {
   if (const auto* sphere = std::get_if<Sphere>(&shape))
     if (const std::optional<Extent> tight = ellipsoid_extent(*sphere, transform)) return *tight;
-  const Extent all = std::visit([](const auto& s) { return extent(s); }, shape).moved(transform);
+  const Extent all = std::visit(
+      [&](const auto& s) {
+        if constexpr (is_round<std::decay_t<decltype(s)>>)
+          return extent(s, transform);
+        else
+          return extent(s).moved(transform);
+      },
+      shape);
   return std::holds_alternative<std::shared_ptr<const Polygon>>(shape) ? thickened(all) : all;
 }
 

@@ -155,3 +155,9 @@ TEST_CASE("what mirrors see of a background that is clear") {
   CHECK(scene.background == Vec3(0.75, 0.375, 0));
   CHECK(scene.mirrored_background == Vec3(1, 0.5, 0));
 }
+
+TEST_CASE("a light without a colour is black") {
+  CHECK(parse("light_source { <1, 2, 3> }").lights.at(0).colour == Vec3(0));
+  CHECK(parse("light_source { <1, 2, 3> spotlight point_at 0 }").lights.at(0).colour == Vec3(0));
+  CHECK(parse("light_source { y, 0.5 }").lights.at(0).colour == Vec3(0.5));
+}
