@@ -405,6 +405,8 @@ bool SceneBuilder::make_shape(const ObjectDefinition& object, const Inherited& o
   } else {
     mesh = placed_mesh(std::get<std::shared_ptr<MeshDefinition>>(object.shape),
                        object.uv_mapping ? object.transform_before_uv : own.transform, own.uv_mapping, where);
+    if (own.inner_texture && !own.clips)
+      mesh = with_inside(mesh, scene_.materials[made.material].inside, where);
   }
   if (!mesh->has_inside()) {
     // Of a mesh without an inside POV-Ray's CSG takes what a ray crosses first, and nothing behind it.
@@ -571,6 +573,33 @@ std::shared_ptr<const Mesh> SceneBuilder::placed_mesh(const std::shared_ptr<Mesh
   replace_materials(*mesh, materials, tokens_);
   if (is_constant) meshes_[definition] = mesh;
   return mesh;
+}
+
+/// The object's interior_texture is that of triangles with textures of their own, too.
+std::shared_ptr<const Mesh> SceneBuilder::with_inside(const std::shared_ptr<const Mesh>& mesh,
+                                                      const std::shared_ptr<const Material>& inside,
+                                                      const Location& where) {
+  const auto has_material = [](const Mesh::Triangle& triangle) { return triangle.material[0] != kNoIndex; };
+  if (std::none_of(mesh->triangles.begin(), mesh->triangles.end(), has_material)) return mesh;
+  std::shared_ptr<const Mesh>& known = meshes_with_insides_[{mesh, inside}];
+  if (known) return known;
+  count_triangles(mesh->triangles.size(), where);
+  const auto copy = std::make_shared<Mesh>(*mesh);
+  std::unordered_map<Index, Index> changed;
+  for (Mesh::Triangle& triangle : copy->triangles) {
+    tokens_.spend(1);
+    for (Index& index : triangle.material) {
+      if (index == kNoIndex) continue;
+      const auto [entry, is_new] = changed.try_emplace(index, kNoIndex);
+      if (is_new) {
+        Material material = scene_.materials[index];
+        material.inside = inside;
+        entry->second = scene_.add(material);
+      }
+      index = entry->second;
+    }
+  }
+  return known = copy;
 }
 
 } // namespace celltrace::pov

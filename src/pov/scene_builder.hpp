@@ -129,6 +129,9 @@ private:
                                               const Location& where);
   std::shared_ptr<const Mesh> placed_mesh(const std::shared_ptr<MeshDefinition>& definition,
                                           const Transform& transform, bool uv_mapping, const Location& where);
+  std::shared_ptr<const Mesh> with_inside(const std::shared_ptr<const Mesh>& mesh,
+                                          const std::shared_ptr<const Material>& inside,
+                                          const Location& where);
 
   /// A texture that depends on where it is.
   struct PlacedTexture {
@@ -157,6 +160,10 @@ private:
   std::map<PlacedTexture, TexturePtr> mapped_textures_; ///< on surface coordinates
   std::unordered_map<TexturePtr, std::shared_ptr<const Material>> shared_materials_; ///< layers and entries
   std::unordered_map<std::shared_ptr<MeshDefinition>, std::shared_ptr<const Mesh>> meshes_;
+  /// Copies of meshes whose triangles have textures of their own, for objects with an interior_texture.
+  std::map<std::pair<std::shared_ptr<const Mesh>, std::shared_ptr<const Material>>,
+           std::shared_ptr<const Mesh>>
+      meshes_with_insides_;
 };
 
 } // namespace celltrace::pov

@@ -161,3 +161,22 @@ TEST_CASE("a light without a colour is black") {
   CHECK(parse("light_source { <1, 2, 3> spotlight point_at 0 }").lights.at(0).colour == Vec3(0));
   CHECK(parse("light_source { y, 0.5 }").lights.at(0).colour == Vec3(0.5));
 }
+
+TEST_CASE("an interior_texture is that of a mesh's own textures, too") {
+  const Scene scene =
+      parse("#declare M = mesh2 { vertex_vectors { 4, 0, x, y, z } texture_list { 1, texture { "
+            "pigment { rgb x } } } face_indices { 2, <0, 1, 2>, 0, <1, 2, 3> } } "
+            "#declare I = texture { pigment { rgb z } } #declare T = texture { pigment { rgb y } } "
+            "object { M texture { T } interior_texture { I } } object { M texture { T } } "
+            "object { M texture { T } interior_texture { I } translate x }");
+  const auto mesh = [&](std::size_t i) {
+    return std::get<std::shared_ptr<const Mesh>>(scene.objects.at(i).shape);
+  };
+  const auto own = [&](std::size_t i) { return scene.materials.at(mesh(i)->triangles.at(0).material[0]); };
+  REQUIRE(own(0).inside);
+  CHECK(own(0).inside->pigment.rgb == Vec3(0, 0, 1));
+  CHECK(own(0).pigment.rgb == Vec3(1, 0, 0));
+  CHECK(mesh(0)->triangles.at(1).material[0] == kNoIndex);
+  CHECK_FALSE(own(1).inside);
+  CHECK(mesh(0) == mesh(2));
+}
