@@ -39,10 +39,10 @@ bool hits(const Vec3f& min, const Vec3f& max, double padding, const Ray& ray) {
 
 TriangleTree::TriangleTree(const Mesh& mesh) : order_(mesh.triangles.size()) {
   std::iota(order_.begin(), order_.end(), 0u);
-  std::vector<Vec3f> centres; // three times as far
+  std::vector<Vec3> centres; // three times as far
   for (const Mesh::Triangle& triangle : mesh.triangles)
-    centres.push_back(mesh.vertices[triangle.vertex[0]] + mesh.vertices[triangle.vertex[1]] +
-                      mesh.vertices[triangle.vertex[2]]);
+    centres.push_back(Vec3(mesh.vertices[triangle.vertex[0]]) + Vec3(mesh.vertices[triangle.vertex[1]]) +
+                      Vec3(mesh.vertices[triangle.vertex[2]]));
   for (const Vec3f& vertex : mesh.vertices)
     size_ = std::max(size_, largest(Vec3(vertex)));
   nodes_.reserve(order_.size());
@@ -50,10 +50,11 @@ TriangleTree::TriangleTree(const Mesh& mesh) : order_(mesh.triangles.size()) {
 }
 
 /// Halves them along the axis where their centres are farthest apart. Returns the node's index.
-std::uint32_t TriangleTree::build(const Mesh& mesh, const std::vector<Vec3f>& centres, std::uint32_t begin,
+std::uint32_t TriangleTree::build(const Mesh& mesh, const std::vector<Vec3>& centres, std::uint32_t begin,
                                   std::uint32_t end) {
   const auto index = static_cast<std::uint32_t>(nodes_.size());
-  Vec3f min(std::numeric_limits<float>::infinity()), max = -min, nearest = min, farthest = max;
+  Vec3f min(std::numeric_limits<float>::infinity()), max = -min;
+  Vec3 nearest(min), farthest(max);
   for (std::uint32_t i = begin; i < end; ++i) {
     for (const Index vertex : mesh.triangles[order_[i]].vertex) {
       min = glm::min(min, mesh.vertices[vertex]);
@@ -64,7 +65,7 @@ std::uint32_t TriangleTree::build(const Mesh& mesh, const std::vector<Vec3f>& ce
   }
   nodes_.push_back({min, max, begin, end, 0});
   if (end - begin <= kMostOfLeaf) return index;
-  const Vec3f extent = farthest - nearest;
+  const Vec3 extent = farthest - nearest;
   const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
   const std::uint32_t middle = begin + (end - begin) / 2;
   const auto at = [&](std::uint32_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };

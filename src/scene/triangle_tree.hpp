@@ -25,7 +25,7 @@ private:
     std::uint32_t right;      ///< the left child is next; 0: a leaf
   };
 
-  std::uint32_t build(const Mesh& mesh, const std::vector<Vec3f>& centres, std::uint32_t begin,
+  std::uint32_t build(const Mesh& mesh, const std::vector<Vec3>& centres, std::uint32_t begin,
                       std::uint32_t end);
 
   std::vector<std::uint32_t> order_; ///< all triangles, leaf by leaf
