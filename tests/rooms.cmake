@@ -4,7 +4,7 @@
 cmake_minimum_required(VERSION 3.25)
 
 # Of src/scene, for the language: what computes in double precision and knows no records.
-set(computing "scene/(extent|mesh_geometry|noise|shape_geometry)\\.hpp")
+set(computing "scene/(extent|mesh_geometry|noise|shape_geometry|triangle_tree)\\.hpp")
 
 # Of each room, what it may include besides itself and public headers.
 set(allowed_cli "study/|pov/|render/|image/|cache/|viewer/")
