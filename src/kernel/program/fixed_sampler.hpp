@@ -73,11 +73,21 @@ public:
   }
 
 private:
-  /// Goes over the samples of pixels that are asked for.
+  /// Goes over the samples of pixels that are asked for, tile by tile of 8x4, so that rays that are traced
+  /// together are near each other.
   struct Cursor {
-    uint32_t row = 0, pixels = 0; ///< bits of the row that are still to come, the lowest first
-    uint32_t sample = 0;          ///< of the pixel, row by row
+    uint32_t tile = 0;   ///< of the block, by row
+    uint32_t pixels = 0; ///< bits of the tile that are still to come, the lowest first; by row
+    uint32_t sample = 0; ///< of the pixel, row by row
+
+    // Of the next pixel, in the block.
+    uint32_t x() const { return tile % 4 * 8 + first() % 8; }
+    uint32_t y() const { return tile / 4 * 4 + first() / 8; }
+
+  private:
+    uint32_t first() const { return static_cast<uint32_t>(__builtin_ctz(pixels)); }
   };
+  static constexpr uint32_t kTiles = kSampledEdge * kSampledEdge / 32;
   /// A bit for each pixel of the block, by row.
   struct BlockMask {
     uint32_t row[kSampledEdge];
@@ -242,19 +252,24 @@ private:
 
   /// The pixels of a row that still need samples.
   uint32_t wanted(uint32_t y) const { return masks_.sampled.row[y] & ~masks_.known.row[y]; }
+  CELLTRACE_ONE_COPY uint32_t wanted_of_tile(uint32_t tile) const {
+    uint32_t pixels = 0;
+    for (uint32_t line = 0; line < 4; ++line) {
+      const uint32_t y = tile / 4 * 4 + line;
+      if (y < height_) pixels |= (wanted(y) >> tile % 4 * 8 & 0xFF) << 8 * line;
+    }
+    return pixels;
+  }
   Cursor begin_cursor() const {
     Cursor cursor;
-    cursor.pixels = wanted(0);
+    cursor.pixels = wanted_of_tile(0);
     return cursor;
   }
   /// Goes to the next pixel that needs samples if it is at none. False: there is no other.
   bool find_pixel(Cursor& cursor) const {
     while (cursor.pixels == 0) {
-      if (++cursor.row >= height_) {
-        cursor.row = height_ - 1;
-        return false;
-      }
-      cursor.pixels = wanted(cursor.row);
+      if (cursor.tile == kTiles - 1) return false;
+      cursor.pixels = wanted_of_tile(++cursor.tile);
     }
     return true;
   }
@@ -297,9 +312,8 @@ private:
     const uint32_t samples = samples_of_pixel();
     uint32_t count = 0;
     while (count < kSamples && find_pixel(cursor_)) {
-      const uint32_t column = column_ * kSampledEdge + static_cast<uint32_t>(__builtin_ctz(cursor_.pixels));
-      const float x = static_cast<float>(column) + 0.5f;
-      const float y = static_cast<float>(row_ * kSampledEdge + cursor_.row) + 0.5f;
+      const float x = static_cast<float>(column_ * kSampledEdge + cursor_.x()) + 0.5f;
+      const float y = static_cast<float>(row_ * kSampledEdge + cursor_.y()) + 0.5f;
       const uint32_t first = cursor_.sample, some = smaller_of(samples - first, kSamples - count);
       for (uint32_t i = 0; i < some; ++i) {
         to_x[count + i] = x + grid.across[first + i];
@@ -326,8 +340,7 @@ private:
     take_channels(asked_);
     for (uint32_t i = 0; i < asked_;) {
       find_pixel(taken_);
-      const uint32_t x = static_cast<uint32_t>(__builtin_ctz(taken_.pixels));
-      const uint32_t y = taken_.row;
+      const uint32_t x = taken_.x(), y = taken_.y();
       // The middle of the pixel counts as one sample more.
       if (taken_.sample == 0) fetch_point(x + 1, y + 1, sum_);
       const uint32_t some = smaller_of(samples - taken_.sample, asked_ - i);
