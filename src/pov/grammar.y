@@ -20,7 +20,7 @@
 // longer value is meant. A number at the front of an entry of a pigment_map is its weight. A name that CSG begins
 // with is all it consists of, not its first part. A texture that is a name alone, or begins with one, needs no
 // rule for what comes before.
-%expect 109
+%expect 115
 
 %code requires {
 #include "pov/actions.hpp"
@@ -82,7 +82,7 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %token UNDECLARED_ID
 %token ARGUMENTS // of a shape, which have been taken
 
-%token <int> SPLINE_KIND FUNCTION TEXT_FUNCTION COMPONENT COLOUR_MODEL SRGB_MODEL CHANNEL SHAPE CSG CAMERA_KIND
+%token <int> SPLINE_KIND FUNCTION TEXT_FUNCTION COMPONENT COLOUR_MODEL SRGB_MODEL CHANNEL SHAPE OPTION_SHAPE CSG CAMERA_KIND
 %token <int> PATTERN ARGUED_PATTERN LIST_PATTERN PATTERN_OPTION PATTERN_FLAG WAVE
 %token <NameId> UNSUPPORTED UNSUPPORTED_ARGUMENT UNSUPPORTED_OBJECT UNSUPPORTED_BLOCK
 %token BAD_CHARACTER DEFINED CONSTANT READ_APART
@@ -152,7 +152,7 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %nterm <std::shared_ptr<CameraDefinition>> camera camera_body
 %nterm <ObjectPtr> object
 %nterm <std::shared_ptr<ObjectDefinition>> object_body light_body light_group
-%nterm <WrittenShape> shape_start shape_head
+%nterm <WrittenShape> shape_start shape_head option_shape_start option_shape_head
 %nterm <Compound> csg_head light_group_head
 %nterm <std::vector<Limit>> limits
 %nterm <std::shared_ptr<MeshBuilder>> mesh_head
@@ -1006,6 +1006,18 @@ shape_head
   | shape_head ',' quantity  { $$ = std::move($1); append(session, $$.arguments, {$3, @3}, @3); }
   ;
 
+// Of what may be left out behind them the comma may be there.
+option_shape_start
+  : OPTION_SHAPE '{'         { $$.number = $1; $$.where = @1; session.tokens.take_arguments($$.arguments); }
+  ;
+
+option_shape_head
+  : option_shape_start ARGUMENTS   { $$ = std::move($1); }
+  | option_shape_start quantity    { $$ = std::move($1); $$.arguments.push_back({$2, @2}); }
+  | option_shape_head quantity     { $$ = std::move($1); append(session, $$.arguments, {$2, @2}, @2); }
+  | option_shape_head ',' quantity { $$ = std::move($1); append(session, $$.arguments, {$3, @3}, @3); }
+  ;
+
 csg_head
   : CSG '{'                  { $$.operation = Csg::Operation($1); }
   | csg_head object          { $$ = std::move($1); append(session, $$.parts, $2, @2); }
@@ -1030,6 +1042,9 @@ object_body
   | MESH '{' OBJECT_ID       { $$ = std::make_shared<ObjectDefinition>(*$3); }
   | MESH2 '{' OBJECT_ID      { $$ = std::make_shared<ObjectDefinition>(*$3); }
   | shape_head               { $$ = shape(session, $1); }
+  | option_shape_start OBJECT_ID { $$ = std::make_shared<ObjectDefinition>(*$2); }
+  | option_shape_head        { $$ = shape(session, $1); }
+  | option_shape_head ','    { $1.comma = @2; $$ = shape(session, $1); }
   | shape_head OPEN          { $1.is_open = true; $$ = shape(session, $1); }
   | LOOKS_LIKE '{' object    { $$ = look(session, *$3, @1); } // modifiers may follow, as everywhere
   | PROJECTED_THROUGH '{' object { $$ = projector(session, *$3, @1); }

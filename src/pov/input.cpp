@@ -3,12 +3,12 @@
 namespace celltrace::pov {
 
 Token Input::read() {
-  if (!put_back_.empty()) {
-    const Token token = put_back_.back();
-    put_back_.pop_back();
+  Frame& frame = frames_.back();
+  if (!frame.put_back.empty()) {
+    const Token token = frame.put_back.back();
+    frame.put_back.pop_back();
     return token;
   }
-  Frame& frame = frames_.back();
   if (frame.scanner) return frame.scanner->next();
   if (frame.position < frame.range.end) return (*frame.range.tokens)[frame.position++];
   Token end;
@@ -18,7 +18,7 @@ Token Input::read() {
 
 bool Input::is_exhausted() const {
   const Frame& frame = frames_.back();
-  return put_back_.empty() && frame.kind == Frame::Kind::macro && frame.position == frame.range.end;
+  return frame.put_back.empty() && frame.kind == Frame::Kind::macro && frame.position == frame.range.end;
 }
 
 } // namespace celltrace::pov

@@ -51,9 +51,10 @@ struct Frame {
   std::optional<Counter> counter;
   std::uint64_t iterations = 0; ///< of a loop, so far
   std::vector<Conditional> conditionals;
+  std::vector<Token> put_back; ///< in front of the rest, the next one last
 };
 
-/// The frames and the tokens put back in front of them. Knows nothing of what the tokens mean.
+/// The frames and the tokens put back in front of theirs. Knows nothing of what the tokens mean.
 class Input {
 public:
   void push(Frame frame) { frames_.push_back(std::move(frame)); }
@@ -66,16 +67,16 @@ public:
   /// Kind::end, and no further, at the end of the top frame.
   Token read();
   /// Whether the next token comes from a file.
-  bool reads_file() const { return put_back_.empty() && frames_.back().scanner != nullptr; }
+  bool reads_file() const { return top().put_back.empty() && top().scanner != nullptr; }
   /// Whether it comes from what has been recorded.
-  bool reads_record() const { return put_back_.empty() && frames_.back().scanner == nullptr; }
+  bool reads_record() const { return top().put_back.empty() && top().scanner == nullptr; }
   /// Whether the top frame is a macro with nothing left to read.
   bool is_exhausted() const;
-  void unread(const Token& token) { put_back_.push_back(token); }
+  /// In the top frame, from which it came.
+  void unread(const Token& token) { top().put_back.push_back(token); }
 
 private:
   std::vector<Frame> frames_;
-  std::vector<Token> put_back_;
 };
 
 } // namespace celltrace::pov

@@ -226,11 +226,17 @@ void check_arguments(const Session& session, const ShapeForm& shape, const Writt
     if (!parameter.is_vector && !value.is_float())
       fail(session, where, shape, std::string(kind_name(value)) + " as " + parameter.name);
   }
+  // What could be there may be left out, but not its comma alone where nothing could be.
+  if (written.comma && count >= shape.most()) session.fail(*written.comma, "unexpected ','");
   if (written.is_open && !shape.can_be_open)
     session.fail(written.where, std::string("a ") + shape.name + " cannot be open");
 }
 
 } // namespace
+
+bool has_option(int shape) {
+  return kShapes[shape].fewest() != kShapes[shape].most();
+}
 
 std::vector<const char*> shape_names() {
   std::vector<const char*> names;

@@ -3,6 +3,7 @@
 // language's words and the messages about wrong arguments come from there too.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "pov/literals.hpp"
@@ -19,11 +20,14 @@ struct WrittenShape {
   int number = 0; ///< its place in shape_names()
   Location where;
   std::vector<ShapeArgument> arguments;
-  bool is_open = false; ///< `open` stands behind them
+  bool is_open = false;          ///< `open` stands behind them
+  std::optional<Location> comma; ///< behind the last one
 };
 
 /// All of them.
 std::vector<const char*> shape_names();
+/// Whether something may be left out behind what such a shape has to have; by its place in shape_names().
+bool has_option(int shape);
 
 /// Fails if the arguments are not the shape's.
 Shape read_shape(Session& session, const WrittenShape& written);

@@ -144,6 +144,30 @@ TEST_CASE("normals that are zero lie along x in meshes, and leave a triangle out
   CHECK(parse("smooth_triangle { 0, z, x, <0, 1, 2>, y, <0, 1, 2> }").objects.size() == 1);
 }
 
+TEST_CASE("a comma may stand where a disc's hole would") {
+  const Scene scene =
+      parse("disc { y, y, 3, pigment { rgb 1 } } disc { y, y, 3 rotate x } #for (I, 1, 2) disc { y, y, "
+            "I, pigment { rgb I } } #end");
+  REQUIRE(scene.objects.size() == 4);
+  CHECK(std::get<Disc>(scene.objects[0].shape).hole_radius == 0);
+  CHECK(std::get<Disc>(scene.objects[3].shape).radius == 2);
+  CHECK(error_line("disc { y, y, 3, 1, pigment { rgb 1 } }") == "scene.pov:1:18: error: unexpected ','");
+  CHECK(error_line("sphere { 0, 1, pigment { rgb 1 } }") ==
+        "scene.pov:1:16: error: unexpected 'pigment', expected a number");
+}
+
+TEST_CASE("subscripts in a macro's arguments may call macros") {
+  const std::string macros =
+      "#declare A = array[4] { 3, 2, 1, 0 } #macro Mod4(N) #local M = mod(N, 4); #if (M < 0) #local M = M + "
+      "4; "
+      "#end M #end #macro Pass(W, C, P) Mod4(W[Mod4(C + P)] - P) #end #macro Twice(X) (2 * X) #end ";
+  CHECK(output(macros + "#declare C = 2; #declare C = Pass(A, C, 1); #debug str(C, 0, 0)") == "3");
+  CHECK(output(macros + "#debug str(Twice(A[Mod4(5)] + A[Mod4(A[Mod4(-1)])]), 0, 0)") == "10");
+  CHECK(output(macros + "#for (I, 0, 3) #debug str(Pass(A, A[Mod4(I)], 2), 0, 0) #end") == "0123");
+  CHECK(output("#macro Set(X) #declare X = 7; #end #macro One() 1 #end #declare A = array[2] { 0, 0 } "
+               "Set(A[One()]) #debug concat(str(A[0], 0, 0), str(A[1], 0, 0))") == "07");
+}
+
 TEST_CASE("trace() finds a torus from its middle outwards") {
   CHECK(value(3, "trace(torus { 0.6, 0.25 }, <5, 0, 0>, -x)") == "0.85 0.00 0.00");
   CHECK(value(3, "trace(torus { 0.6, 0.25 }, <0, 0, -5>, z)") == "0.00 0.00 -0.85");
