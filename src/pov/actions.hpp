@@ -112,9 +112,9 @@ PatternChange interior(double type, double factor, const Location& where);
 PatternChange grey(const PigmentDefinition& pigment);
 PatternChange unsupported_change(const UnsupportedPtr& unsupported);
 PatternChange warp(const SpaceStep& warp, const Location& where);
-/// Along the only axis of which `width` is not 0.
 /// A black hole's copies do not reach into one another: they are as far apart as that takes.
 void keep_apart(Session& session, warp::BlackHole& hole, const Location& where);
+/// Along the only axis of which `width` is not 0.
 warp::Repeat repeat(Session& session, const Vec3& width, const Location& where);
 /// `option`: the word, which has to be "offset".
 Vec3 offset(Session& session, int option, const Quantity& value, const Location& where);

@@ -1042,10 +1042,10 @@ object_body
   | MESH '{' OBJECT_ID       { $$ = std::make_shared<ObjectDefinition>(*$3); }
   | MESH2 '{' OBJECT_ID      { $$ = std::make_shared<ObjectDefinition>(*$3); }
   | shape_head               { $$ = shape(session, $1); }
+  | shape_head OPEN          { $1.is_open = true; $$ = shape(session, $1); }
   | option_shape_start OBJECT_ID { $$ = std::make_shared<ObjectDefinition>(*$2); }
   | option_shape_head        { $$ = shape(session, $1); }
   | option_shape_head ','    { $1.comma = @2; $$ = shape(session, $1); }
-  | shape_head OPEN          { $1.is_open = true; $$ = shape(session, $1); }
   | LOOKS_LIKE '{' object    { $$ = look(session, *$3, @1); } // modifiers may follow, as everywhere
   | PROJECTED_THROUGH '{' object { $$ = projector(session, *$3, @1); }
   | csg_head                 { $$ = csg(session, std::move($1), @1); }
