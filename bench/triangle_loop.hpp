@@ -56,7 +56,7 @@ template <class Spu> void test_triangles(TriangleTask& task) {
   using Tests = ObjectTests<Spu>;
   if (task.test == TriangleTest::single) {
     test_single<Spu>(task, [&](uint32_t i, uint32_t packet, const Crossings<S>& crossings) {
-      Tests::keep_closest(crossings, triangle_offset(i), task.hits[packet]);
+      kernel::keep_closest<S>(crossings, triangle_offset(i), task.hits[packet]);
     });
     return;
   }
@@ -75,7 +75,7 @@ template <class Spu> void test_triangles(TriangleTask& task) {
     const PinholeTriangles<S> seen(sides, task.eye);
     for (uint32_t i = 0; i < task.triangle_count; ++i)
       for (uint32_t packet = 0; packet < task.packet_count; ++packet)
-        Tests::keep_closest(seen.crossed(i, task.packets[packet].direction.template load<S>()),
+        kernel::keep_closest<S>(seen.crossed(i, task.packets[packet].direction.template load<S>()),
                             triangle_offset(i), task.hits[packet]);
   } else if (task.test == TriangleTest::shadow_volumes) {
     const ShadowVolumes<S> volumes(sides, task.origins);

@@ -48,6 +48,8 @@ constexpr CodeModule kHeavyPoints = {"heavypoints", 33, 1, 2304};
 constexpr CodeModule kMeshes = {"meshes", 17, 1, 2688};
 /// Where crossings are in polygons. Likewise, beside the shapes.
 constexpr CodeModule kPolygons = {"polygons", 26, 1, 1024};
+/// Instances of meshes. Likewise.
+constexpr CodeModule kInstances = {"instances", 35, 1, 7808};
 /// Rays that go on from surfaces.
 constexpr CodeModule kSecondary = {"secondary", 2, 1, 8832};
 /// Light that is not simply a point's.
@@ -68,9 +70,9 @@ constexpr CodeModule kFinishes = {"finishes", 19, 1, 4224};
 // Of the third region: stages of which only one is under way. Rays are not traced while surfaces are shaded.
 
 /// Tests of objects that have a shape of the first region, or are parts of a CSG.
-constexpr CodeModule kObjects = {"objects", 12, 2, 6272};
+constexpr CodeModule kObjects = {"objects", 12, 2, 6528};
 /// Where hits lie on objects, and the normals there.
-constexpr CodeModule kHits = {"hits", 5, 2, 7936};
+constexpr CodeModule kHits = {"hits", 5, 2, 7808};
 /// Shading of surfaces with textures, or of several materials.
 constexpr CodeModule kComposed = {"composed", 13, 2, 7168};
 /// What rays pass through on their way or see before what they hit or behind it.

@@ -63,8 +63,8 @@ constexpr uint32_t kMaxLightSets = 1u << (32 - object_flag::light_set_shift);
 
 /// Geometry by kind: sphere: centre (0..2), radius (3), the directions of its x axis (4..6) and y axis (7..9)
 /// and 1 or, if it is mirrored, -1 (10), which are for its surface coordinates. Triangle: its vertices (0..2,
-/// 3..5, 6..8). All others: the affine map from the world to the shape's own space, three rows of four (xyz |
-/// offset).
+/// 3..5, 6..8). All others: the affine map from the world to the own space of the shape or the mesh, three
+/// rows of four (xyz | offset).
 struct alignas(64) ObjectRecord {
   uint32_t kind_and_flags;
   uint32_t material; ///< offset of a MaterialRecord, or of a BlendRecord if `blended`
@@ -76,12 +76,13 @@ static_assert(sizeof(ObjectRecord) == 64, "two objects a line");
 
 /// What few objects have. `value`: of a smooth triangle, the normals at its three vertices, xyz each, which
 /// interpolate linearly and have any common length; of a shape in its own space, its parameters, of a polygon
-/// those of PolygonEdges.
+/// those of PolygonEdges, of an instance the bits of its InstanceRecord's offset.
 struct alignas(64) ExtraRecord {
   float value[9];
   uint32_t csg; ///< of objects with object_flag::csg: offset of a CsgRecord
-  /// Of such objects: what may be there of them; least x, y, z, greatest x, y, z. But of triangles with
-  /// object_flag::by_surface the surface coordinates u, v of their vertices, 0 if they have no such record.
+  /// Of such objects and of instances: what may be there of them; least x, y, z, greatest x, y, z. But of
+  /// triangles with object_flag::by_surface the surface coordinates u, v of their vertices, 0 if they have no
+  /// such record.
   float bounds[6];
 };
 static_assert(sizeof(ExtraRecord) == 64, "two records a line");
@@ -160,6 +161,37 @@ struct alignas(64) MeshTriangleRecord {
   uint32_t unused[3];
 };
 static_assert(sizeof(MeshTriangleRecord) == 64, "two a line");
+
+// Instances of a mesh of which the image has one copy. Its triangles are ObjectRecords in its own space, in a
+// table apart, in the order of the leaves of a BVH that it has for itself. An instance is one object, whose
+// test traverses that BVH. Hits name a triangle of an instance by a number, for which an ObjectRecord in the
+// world is made where one is asked for.
+
+/// Set in the numbers of such triangles, and in no offset that objects have in an image with instances.
+constexpr uint32_t kInstancedBit = 0x80000000u;
+/// Whether the object that a ray hits or starts on is such a triangle.
+constexpr bool is_instanced(uint32_t object) {
+  return object + 1 > kInstancedBit; // that of kNoOffset is 0
+}
+/// Levels of a mesh's BVH, at most.
+constexpr uint32_t kMaxMeshLevels = 16;
+
+/// The records of a mesh's triangles have the material kNoOffset where that is the instance's. Neither has
+/// materials that let light through, ask for more of surfaces than points, or look different from inside.
+struct alignas(128) InstanceRecord {
+  float to_world[12];       ///< the affine map from the mesh's space, three rows of four
+  float normal_to_world[9]; ///< three rows
+  uint32_t first_number;    ///< of its triangles, in ascending order; the first one of all is 1
+  uint32_t triangle_count;
+  uint32_t first_triangle; ///< offset of the mesh's first ObjectRecord
+  uint32_t root;           ///< offset of the mesh's NodeRecord
+  uint32_t kind_and_flags; ///< of triangles without a material of their own
+  uint32_t material;       ///< of these
+  uint32_t interior;       ///< of all
+  uint32_t owner;          ///< index of its object in the scene
+  uint32_t unused[3];
+};
+static_assert(sizeof(InstanceRecord) == 128, "one a line");
 
 /// A face whose vertices have different materials, blended by barycentric coordinates.
 struct alignas(16) BlendRecord {
@@ -582,7 +614,10 @@ struct alignas(128) ImageHeader {
   uint32_t slope_offset, slope_count;                 ///< SlopeRecords
   uint32_t projector_count; ///< ObjectRecords of projectors, just before those without bounds
   uint32_t surface_nodes; ///< that what the rays of a node hit may push, at most; kMostSurfaceNodes: or more
-  uint32_t unused[23];
+  uint32_t instance_offset, instance_count;       ///< InstanceRecords
+  uint32_t mesh_object_offset, mesh_object_count; ///< ObjectRecords of the meshes of instances
+  uint32_t mesh_node_offset, mesh_node_count;     ///< NodeRecords of their BVHs
+  uint32_t unused[17];
 };
 static_assert(sizeof(ImageHeader) == 384, "three lines");
 

@@ -44,6 +44,12 @@ public:
     return nullptr;
   }
   const ObjectRecord* object(uint32_t offset) { return read<ObjectRecord>(offset, DataKind::object); }
+  const ObjectRecord* object_apart(uint32_t offset) {
+    return read_apart<ObjectRecord>(offset, DataKind::object);
+  }
+  const InstanceRecord* instance(uint32_t offset) {
+    return read_apart<InstanceRecord>(offset, DataKind::object);
+  }
   const ExtraRecord* extra(uint32_t offset) { return read_apart<ExtraRecord>(offset, DataKind::object); }
   const PolygonEdgeRecord* polygon_edge(uint32_t offset) {
     return read_apart<PolygonEdgeRecord>(offset, DataKind::object);

@@ -125,7 +125,7 @@ void add(std::span<ReportRecord> sum, std::span<const ReportRecord> reports) {
     all.shadow_rays += one.shadow_rays;
     all.reflection_rays += one.reflection_rays;
     all.refraction_rays += one.refraction_rays;
-    for (std::uint32_t kind = 0; kind < kPrimitives; ++kind)
+    for (std::uint32_t kind = 0; kind < kObjectKinds; ++kind)
       all.tests[kind] += one.tests[kind];
     all.accelerator_visits += one.accelerator_visits;
     for (std::uint32_t kind = 0; kind < kDataKinds; ++kind) {
@@ -163,8 +163,8 @@ void collect(RenderStatistics& s, const Machine& machine, const FrameBlock& fram
     s.refraction_rays += r.refraction_rays;
     s.dropped_rays += r.dropped_rays;
     s.spilled_packets += r.spilled_nodes;
-    for (std::uint32_t kind = 0; kind < kPrimitives; ++kind)
-      s.packet_tests[Primitives::kNames[kind]] += r.tests[kind];
+    for (std::uint32_t kind = 0; kind < kObjectKinds; ++kind)
+      s.packet_tests[name_of_kind(kind)] += r.tests[kind];
     s.accelerator_visits += r.accelerator_visits;
     add_cache(s.list_cache, r, DataKind::list);
     add_cache(s.object_cache, r, DataKind::object);

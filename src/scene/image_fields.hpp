@@ -29,6 +29,8 @@ FieldList<&ImageHeader::magic, &ImageHeader::version, &ImageHeader::bytes, &Imag
           &ImageHeader::light_word_count, &ImageHeader::polygon_edge_offset, &ImageHeader::polygon_edge_count,
           &ImageHeader::rainbow_offset, &ImageHeader::rainbow_count, &ImageHeader::slope_offset,
           &ImageHeader::slope_count, &ImageHeader::projector_count, &ImageHeader::surface_nodes,
+          &ImageHeader::instance_offset, &ImageHeader::instance_count, &ImageHeader::mesh_object_offset,
+          &ImageHeader::mesh_object_count, &ImageHeader::mesh_node_offset, &ImageHeader::mesh_node_count,
           &ImageHeader::unused>
 fields_of(const ImageHeader&);
 
@@ -58,6 +60,12 @@ FieldList<&MeshTriangleRecord::row, &MeshTriangleRecord::column, &MeshTriangleRe
           &MeshTriangleRecord::height, &MeshTriangleRecord::gradient, &MeshTriangleRecord::least_height,
           &MeshTriangleRecord::greatest_height, &MeshTriangleRecord::unused>
 fields_of(const MeshTriangleRecord&);
+
+FieldList<&InstanceRecord::to_world, &InstanceRecord::normal_to_world, &InstanceRecord::first_number,
+          &InstanceRecord::triangle_count, &InstanceRecord::first_triangle, &InstanceRecord::root,
+          &InstanceRecord::kind_and_flags, &InstanceRecord::material, &InstanceRecord::interior,
+          &InstanceRecord::owner, &InstanceRecord::unused>
+fields_of(const InstanceRecord&);
 
 FieldList<&BlendRecord::material, &BlendRecord::unused> fields_of(const BlendRecord&);
 

@@ -97,8 +97,8 @@ std::uint32_t room_of_unbounded(std::uint32_t count) {
 
 ImageHeader make_header(const Scene& scene, const LightSets& light_sets, const TextureTables& textures,
                         const SceneObjects& objects, const ObjectCensus& census,
-                        std::span<const std::uint32_t> groups, const MeshInstances& instances,
-                        bool has_near_surfaces) {
+                        std::span<const std::uint32_t> groups, const InstancedMeshes& instanced,
+                        const MeshInstances& instances, bool has_near_surfaces) {
   ImageHeader header{};
   header.magic = kImageMagic;
   header.version = kImageVersion;
@@ -116,8 +116,11 @@ ImageHeader make_header(const Scene& scene, const LightSets& light_sets, const T
                                    header.mesh_triangle_count);
   layout.place<PolygonEdgeRecord>(objects.polygons().edges().size(), header.polygon_edge_offset,
                                   header.polygon_edge_count);
-  layout.place<ExtraRecord>(census.extras + objects.unbounded_extras(), header.extra_offset,
-                            header.extra_count);
+  layout.place<InstanceRecord>(instanced.instance_count(), header.instance_offset, header.instance_count);
+  layout.place<ObjectRecord>(instanced.object_count(), header.mesh_object_offset, header.mesh_object_count);
+  layout.place<NodeRecord>(instanced.node_count(), header.mesh_node_offset, header.mesh_node_count);
+  layout.place<ExtraRecord>(std::size_t{census.extras} + objects.unbounded_extras() + instanced.extra_count(),
+                            header.extra_offset, header.extra_count);
   const std::uint32_t room = room_of_unbounded(objects.unbounded_count() + objects.projector_count());
   layout.place<ObjectRecord>(std::size_t{census.objects} + room, header.object_offset, header.object_count);
   header.object_offset += room * std::uint32_t{sizeof(ObjectRecord)};

@@ -3,6 +3,7 @@
 
 #include "celltrace/scene.hpp"
 #include "kernel/records.hpp"
+#include "scene/instanced_meshes.hpp"
 #include "scene/light_sets.hpp"
 #include "scene/mesh_instances.hpp"
 #include "scene/object_records.hpp"
@@ -26,7 +27,8 @@ std::uint32_t room_of_unbounded(std::uint32_t count);
 kernel::ImageHeader make_header(const Scene& scene, const LightSets& light_sets,
                                 const TextureTables& textures, const SceneObjects& objects,
                                 const ObjectCensus& census, std::span<const std::uint32_t> groups,
-                                const MeshInstances& instances, bool has_near_surfaces);
+                                const InstancedMeshes& instanced, const MeshInstances& instances,
+                                bool has_near_surfaces);
 
 /// As `old`, but for the tables of a scene whose objects are where they were.
 kernel::ImageHeader with_surfaces(const kernel::ImageHeader& old, const Scene& scene,

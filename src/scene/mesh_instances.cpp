@@ -8,6 +8,7 @@
 #include "scene/object_order.hpp"
 #include "scene/parallel.hpp"
 #include "scene/triangles.hpp"
+#include "scene/world_box.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -49,40 +50,11 @@ Vec3f in_world(const Transform& transform, const Vec3f& vertex) {
   return Vec3f(transform.point(Vec3(vertex)));
 }
 
-/// The box around a box that is transformed.
-class WorldBox {
-public:
-  WorldBox() = default;
-  WorldBox(const Aabb& box, const Transform& transform) {
-    const Vec3 low(box.min[0], box.min[1], box.min[2]), high(box.max[0], box.max[1], box.max[2]);
-    const Vec3 centre = transform.point(0.5 * (low + high));
-    const Vec3 half = 0.5 * (high - low);
-    Vec3 reach(0);
-    for (int row = 0; row < 3; ++row)
-      reach += half[row] * glm::abs(transform.rows[row]);
-    min_ = centre - reach;
-    max_ = centre + reach;
-  }
-
-  void grow(const WorldBox& other) {
-    min_ = glm::min(min_, other.min_);
-    max_ = glm::max(max_, other.max_);
-  }
-  /// Half the surface.
-  double area() const {
-    const Vec3 e = max_ - min_;
-    return e.x * e.y + (e.x + e.y) * e.z;
-  }
-
-private:
-  Vec3 min_ = Vec3(1e300), max_ = Vec3(-1e300);
-};
-
 /// Objects of the image that a scene has if all its triangles have an area.
-std::uint64_t objects_of(const Scene& scene) {
+std::uint64_t objects_of(const Scene& scene, const InstancedMeshes& instanced) {
   std::uint64_t count = 0;
   for (const Object& object : scene.objects) {
-    const Mesh* mesh = mesh_of(object);
+    const Mesh* mesh = instanced.find(object) == nullptr ? mesh_of(object) : nullptr;
     count += mesh != nullptr ? mesh->triangles.size() : 1;
   }
   return count;
@@ -90,11 +62,11 @@ std::uint64_t objects_of(const Scene& scene) {
 
 } // namespace
 
-MeshInstances::MeshInstances(const Scene& scene, const std::vector<std::uint32_t>& material_flags,
-                             unsigned threads)
+MeshInstances::MeshInstances(const Scene& scene, const InstancedMeshes& instanced,
+                             const std::vector<std::uint32_t>& material_flags, unsigned threads)
     : scene_(scene) {
-  if (objects_of(scene) < kMinObjectsToOrder) return;
-  find(scene, material_flags, threads);
+  if (objects_of(scene, instanced) < kMinObjectsToOrder) return;
+  find(scene, instanced, material_flags, threads);
   const auto count = static_cast<std::uint32_t>(instances_.size());
   const unsigned parts = std::clamp(count / kInstancesPerThread, 1u, threads);
   for_each_part(parts, [&](unsigned part) {
@@ -110,8 +82,8 @@ MeshInstances::MeshInstances(const Scene& scene, const std::vector<std::uint32_t
   number();
 }
 
-void MeshInstances::find(const Scene& scene, const std::vector<std::uint32_t>& material_flags,
-                         unsigned threads) {
+void MeshInstances::find(const Scene& scene, const InstancedMeshes& instanced,
+                         const std::vector<std::uint32_t>& material_flags, unsigned threads) {
   constexpr std::uint32_t kUnknown = 0xFFFFFFFF, kNone = 0xFFFFFFFE;
   struct Uses {
     std::uint32_t count = 0;
@@ -119,9 +91,11 @@ void MeshInstances::find(const Scene& scene, const std::vector<std::uint32_t>& m
   };
   std::unordered_map<const Mesh*, Uses> uses;
   for (const Object& object : scene.objects)
-    if (const Mesh* mesh = mesh_of(object); mesh != nullptr && MeshPrototype::is_large_enough(*mesh))
+    if (const Mesh* mesh = mesh_of(object);
+        mesh != nullptr && MeshPrototype::is_large_enough(*mesh) && instanced.find(object) == nullptr)
       ++uses[mesh].count;
   for (const Object& object : scene.objects) {
+    if (instanced.find(object) != nullptr) continue;
     const auto found = uses.find(mesh_of(object));
     if (found == uses.end() || found->second.count < 2) continue;
     const Mesh& mesh = *found->first;

@@ -1,8 +1,9 @@
-// Objects that are instances of one mesh: what depends on the mesh alone is worked out once.
+// Objects that are copies of one mesh: what depends on the mesh alone is worked out once.
 #pragma once
 
 #include "celltrace/scene.hpp"
 #include "kernel/records.hpp"
+#include "scene/instanced_meshes.hpp"
 #include "scene/mesh_prototype.hpp"
 #include "scene/object_records.hpp"
 
@@ -24,12 +25,14 @@ struct InstanceTables {
 
 class MeshInstances {
 public:
-  /// Those of `scene`, which is valid and stays as it is as long as this lives: meshes that are worth while
-  /// to share, placed at least twice, such that each triangle with an area keeps one, and whose materials do
-  /// not ask for surface coordinates that the mesh has. None in a scene of few triangles. `material_flags`:
-  /// what objects have that consist of a material. Throws InputError if an object's coordinates leave what
-  /// single precision can hold, or if there are too many objects.
-  MeshInstances(const Scene& scene, const std::vector<std::uint32_t>& material_flags, unsigned threads);
+  /// Those of `scene`, which is valid and stays as it is as long as this lives, that are not among
+  /// `instanced`: meshes that are worth while to share, placed at least twice, such that each triangle with
+  /// an area keeps one, and whose materials do not ask for surface coordinates that the mesh has. None in a
+  /// scene of few triangles. `material_flags`: what objects have that consist of a material. Throws
+  /// InputError if an object's coordinates leave what single precision can hold, or if there are too many
+  /// objects.
+  MeshInstances(const Scene& scene, const InstancedMeshes& instanced,
+                const std::vector<std::uint32_t>& material_flags, unsigned threads);
 
   /// Whether an object of the scene is among them.
   bool contains(std::size_t object) const { return !is_instance_.empty() && is_instance_[object]; }
@@ -53,7 +56,8 @@ private:
   };
   class Writer;
 
-  void find(const Scene& scene, const std::vector<std::uint32_t>& material_flags, unsigned threads);
+  void find(const Scene& scene, const InstancedMeshes& instanced,
+            const std::vector<std::uint32_t>& material_flags, unsigned threads);
   bool keeps_areas(const Instance& instance) const;
   bool are_tangled() const;
   void number();

@@ -31,7 +31,7 @@ inline std::uint32_t offset_of_interior(std::uint32_t table_offset, std::uint32_
 /// Where records go that objects refer to, and where the tables lie in the image.
 struct RecordTables {
   std::uint32_t material_offset, interior_offset, interior_count, extra_offset, blend_offset;
-  std::uint32_t csg_offset, polygon_edge_offset;
+  std::uint32_t csg_offset, polygon_edge_offset, instance_offset;
   kernel::ExtraRecord* extras;                      ///< table
   kernel::BlendRecord* blends;                      ///< table
   const std::vector<std::uint32_t>& material_flags; ///< object_flags by material

@@ -6,6 +6,7 @@
 #include "scene/coplanar_faces.hpp"
 #include "scene/deep_cuts.hpp"
 #include "scene/image_layout.hpp"
+#include "scene/instanced_meshes.hpp"
 #include "scene/large_spheres.hpp"
 #include "scene/light_sets.hpp"
 #include "scene/mesh_instances.hpp"
@@ -103,11 +104,14 @@ unsigned threads_for(const SceneObjects& objects, const MeshInstances& instances
   return static_cast<unsigned>(std::clamp<std::uint64_t>(all / objects_a_thread, 1, threads));
 }
 
-std::vector<bool> which_are(const MeshInstances& instances, std::size_t objects) {
-  std::vector<bool> are(objects);
+std::vector<ObjectForm> forms_of(const InstancedMeshes& instanced, const MeshInstances& instances,
+                                 std::size_t objects) {
+  std::vector<ObjectForm> forms(objects);
   for (std::size_t i = 0; i < objects; ++i)
-    are[i] = instances.contains(i);
-  return are;
+    forms[i] = instanced.contains(i)   ? ObjectForm::instance
+               : instances.contains(i) ? ObjectForm::copy
+                                       : ObjectForm::itself;
+  return forms;
 }
 
 /// `order`: the objects that are no instances, as they lie in the image.
@@ -159,10 +163,11 @@ void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads
   const SceneWithProjectors& with_projectors = prepared.with_projectors;
   const Scene& scene = with_projectors.scene();
   BuildWatch::reach(0.05);
-  const MeshInstances instances(scene, textures.object_flags, threads);
+  const InstancedMeshes instanced(scene, with_projectors.own_objects(), textures.object_flags, threads);
+  const MeshInstances instances(scene, instanced, textures.object_flags, threads);
   BuildWatch::reach(0.2);
   const SceneObjects objects(scene, with_projectors.own_objects(), textures.objects, textures.object_flags,
-                             instances, threads);
+                             instanced, instances, threads);
   threads = threads_for(objects, instances, threads, objects_a_thread);
   const OrderMemory memory(work, objects.count());
   touch(work, work.size(), threads);
@@ -174,19 +179,21 @@ void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads
   ObjectCensus census = loose;
   census.add(instances.census());
   const LightSets light_sets(scene);
-  const ImageHeader header = make_header(scene, light_sets, textures, objects, census, groups, instances,
-                                         has_near_surfaces(given, textures.object_flags));
+  const ImageHeader header = make_header(scene, light_sets, textures, objects, census, groups, instanced,
+                                         instances, has_near_surfaces(given, textures.object_flags));
 
   BuildWatch::reach(0.6);
   block_.reserve(header.bytes + bvh_bytes(header));
   origin_.reset();
   touch(block_, header.bytes, threads);
-  TableWriter writer(block_.data(), header, scene, textures, objects.unbounded_extras());
+  TableWriter writer(block_.data(), header, scene, textures,
+                     objects.unbounded_extras() + instanced.extra_count());
   writer.write_header();
   writer.write_lights(light_sets, objects.projector_sizes());
   writer.write_surfaces(textures);
   writer.write_csg(objects.csg());
   writer.write_polygons(objects.polygons());
+  writer.write_instanced(instanced);
   writer.write_objects(objects, {memory.objects, loose.objects}, memory.cells, threads);
   BuildWatch::reach(0.9);
   writer.write_groups(groups, threads);
@@ -206,7 +213,7 @@ void SceneImage::assign(const Scene& given, AlignedBlock& work, unsigned threads
   }
   origin.placed = loose.objects;
   origin.groups = std::move(groups);
-  origin.is_instance = which_are(instances, given.objects.size());
+  origin.forms = forms_of(instanced, instances, given.objects.size());
   origin.material_flags = std::move(textures.object_flags);
   origin.surfaces_are_apart = textures.objects.empty() && !has_projectors(given);
 }
@@ -229,16 +236,17 @@ bool SceneImage::update_surfaces(const Scene& scene) {
 
 bool SceneImage::update(const Scene& given, AlignedBlock& work, unsigned threads,
                         std::uint32_t objects_a_thread) {
-  if (!origin_ || given.objects.size() != origin_->is_instance.size()) return false;
+  if (!origin_ || given.objects.size() != origin_->forms.size()) return false;
   validate(given);
   SceneOfRecords prepared(given);
   TextureTables& textures = prepared.textures;
   const SceneWithProjectors& with_projectors = prepared.with_projectors;
   const Scene& scene = with_projectors.scene();
-  const MeshInstances instances(scene, textures.object_flags, threads);
-  if (which_are(instances, given.objects.size()) != origin_->is_instance) return false;
+  const InstancedMeshes instanced(scene, with_projectors.own_objects(), textures.object_flags, threads);
+  const MeshInstances instances(scene, instanced, textures.object_flags, threads);
+  if (forms_of(instanced, instances, given.objects.size()) != origin_->forms) return false;
   const SceneObjects objects(scene, with_projectors.own_objects(), textures.objects, textures.object_flags,
-                             instances, threads);
+                             instanced, instances, threads);
   if (objects.count() != origin_->places.size()) return false;
   threads = threads_for(objects, instances, threads, objects_a_thread);
   // Plain triangles are written as they are counted: should there turn out to be others than before, they all
@@ -257,8 +265,9 @@ bool SceneImage::update(const Scene& given, AlignedBlock& work, unsigned threads
   ObjectCensus census = *loose;
   census.add(instances.census());
   const LightSets light_sets(scene);
-  const ImageHeader updated = make_header(scene, light_sets, textures, objects, census, origin_->groups,
-                                          instances, has_near_surfaces(given, textures.object_flags));
+  const ImageHeader updated =
+      make_header(scene, light_sets, textures, objects, census, origin_->groups, instanced, instances,
+                  has_near_surfaces(given, textures.object_flags));
   if (!have_same_layout(header(), updated)) return false;
   std::optional<OrderMemory> order; // records in other tables lie as objects do
   if (updated.extra_count != 0 || updated.blend_count != 0) {
@@ -270,7 +279,8 @@ bool SceneImage::update(const Scene& given, AlignedBlock& work, unsigned threads
     }
   }
 
-  TableWriter writer(block_.data(), updated, scene, textures, objects.unbounded_extras());
+  TableWriter writer(block_.data(), updated, scene, textures,
+                     objects.unbounded_extras() + instanced.extra_count());
   if (at_once) {
     loose = count_in_parts(objects.count(), threads, [&](std::uint32_t begin, std::uint32_t end) {
       return writer.send_placed(objects, origin_->places, begin, end);
@@ -285,6 +295,7 @@ bool SceneImage::update(const Scene& given, AlignedBlock& work, unsigned threads
   writer.write_surfaces(textures);
   writer.write_csg(objects.csg());
   writer.write_polygons(objects.polygons());
+  writer.write_instanced(instanced);
   if (order)
     writer.write_objects(objects, {order->objects, loose->objects}, order->cells, threads);
   else if (!at_once)
@@ -299,6 +310,14 @@ bool SceneImage::update(const Scene& given, AlignedBlock& work, unsigned threads
   return true;
 }
 
+Index SceneImage::owner_of_instanced(std::uint32_t number) const noexcept {
+  const auto* const first = reinterpret_cast<const InstanceRecord*>(block_.data() + header().instance_offset);
+  const auto* const after = std::upper_bound(
+      first, first + header().instance_count, number - kInstancedBit,
+      [](std::uint32_t n, const InstanceRecord& instance) { return n < instance.first_number; });
+  return after != first ? after[-1].owner : kNoIndex;
+}
+
 void SceneImage::reserve_accelerator(std::uint64_t table_bytes, std::uint32_t list_words) {
   const std::size_t begin = header().bytes;
   const std::size_t lists = whole_lines(begin + table_bytes);
@@ -306,6 +325,8 @@ void SceneImage::reserve_accelerator(std::uint64_t table_bytes, std::uint32_t li
   const std::size_t end = whole_lines(lists + list_bytes);
   if (end > std::numeric_limits<std::uint32_t>::max())
     throw InputError("the scene is too large: its image would pass 4 GB");
+  if (header().instance_count != 0 && end > kInstancedBit)
+    throw InputError("the scene is too large: with instances of meshes, its image would pass 2 GB");
   if (end > block_.size()) {
     AlignedBlock larger = AlignedBlock::uninitialised(end);
     std::memcpy(larger.data(), block_.data(), begin);

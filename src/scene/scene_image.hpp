@@ -1,13 +1,13 @@
 // SceneImage: a Scene in the flat binary form that the SPEs read.
 //
 // One contiguous, 128-byte aligned block: header, lights, materials, patterns and their maps, normals,
-// blends, interiors, conditions of CSG, insides of meshes, extra records, objects, groups of objects and
-// which of them are copies (the static part, written here), then the voxels or nodes and the object lists of
-// the accelerator (PREPARE FRAME's). From kMinObjectsToOrder on, objects lie in the order of a Morton curve,
-// and behind them instances of meshes, each in the order of its mesh's prototype. All positions are 32-bit
-// offsets from its base, so that the static part can be saved, mapped elsewhere and sent to another process
-// of the same byte order; it carries a version and a checksum. Words are in the host's order: SharedImage is
-// what SPEs of another order read.
+// blends, interiors, conditions of CSG, insides of meshes, instances and their meshes, extra records,
+// objects, groups of objects and which of them are copies (the static part, written here), then the voxels or
+// nodes and the object lists of the accelerator (PREPARE FRAME's). From kMinObjectsToOrder on, objects lie in
+// the order of a Morton curve, and behind them instances of meshes, each in the order of its mesh's
+// prototype. All positions are 32-bit offsets from its base, so that the static part can be saved, mapped
+// elsewhere and sent to another process of the same byte order; it carries a version and a checksum. Words
+// are in the host's order: SharedImage is what SPEs of another order read.
 #pragma once
 
 #include "celltrace/scene.hpp"
@@ -23,13 +23,16 @@
 namespace celltrace {
 
 constexpr std::uint32_t kImageMagic = 0x43545349; // "CTSI"
-constexpr std::uint32_t kImageVersion = 13;
+constexpr std::uint32_t kImageVersion = 14;
 
 /// What a SceneImage remembers of its scene, 4 bytes an object each.
 struct ImageMemory {
   bool updatable = false; ///< what update() and update_surfaces() need
   bool owners = false;    ///< for owner_of()
 };
+
+/// What an object is in the image: records of its own, a copy of a mesh, or an instance of one.
+enum class ObjectForm : std::uint8_t { itself, copy, instance };
 
 /// Thread safety: as a standard container.
 class SceneImage {
@@ -77,6 +80,7 @@ public:
   /// The index in Scene::objects of what the record of an object at this offset belongs to; kNoIndex for
   /// offsets where there is none. If it remembers owners.
   Index owner_of(std::uint32_t offset) const noexcept {
+    if (kernel::is_instanced(offset)) return owner_of_instanced(offset);
     const kernel::ImageHeader& h = header();
     const auto first =
         h.object_offset - h.unbounded_count * static_cast<std::uint32_t>(sizeof(kernel::ObjectRecord));
@@ -92,12 +96,14 @@ public:
   std::uint32_t end_offset() const noexcept { return end_offset_; }
 
 private:
+  Index owner_of_instanced(std::uint32_t number) const noexcept;
+
   /// What it remembers of its scene for updates.
   struct Origin {
     std::vector<std::uint32_t> places; ///< by object that is no instance, where it is, or kNoPlace
     std::uint32_t placed = 0;          ///< of these, those that can be hit
     std::vector<std::uint32_t> groups; ///< of them
-    std::vector<bool> is_instance;     ///< by object of the scene
+    std::vector<ObjectForm> forms;     ///< by object of the scene
     std::vector<std::uint32_t> material_flags;
     bool surfaces_are_apart = false; ///< no pattern and no light refers to objects
   };

@@ -3,13 +3,14 @@
 
 #include "celltrace/error.hpp"
 #include "kernel/lights/list.hpp"
-#include "kernel/primitives/list.hpp"
+#include "kernel/primitives/instances_module.hpp"
 #include "kernel/textures/list.hpp"
 #include "kernel/textures/map_walk.hpp"
 #include "scene/patterns.hpp"
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <string>
 
 namespace celltrace {
@@ -43,7 +44,7 @@ bool needs_extra(std::uint32_t flags) {
   bool has_parameters = false;
   Primitives::dispatch(flags & object_flag::kind_mask,
                        [&](auto shape) { has_parameters = decltype(shape)::kHasParameters; });
-  return has_parameters || (flags & (object_flag::smooth | object_flag::csg)) != 0;
+  return has_parameters || is_instance(flags) || (flags & (object_flag::smooth | object_flag::csg)) != 0;
 }
 
 bool references_are_valid(const std::byte* base, const ImageHeader& h) {
@@ -60,7 +61,7 @@ bool references_are_valid(const std::byte* base, const ImageHeader& h) {
     const ObjectRecord& object = objects[i];
     const std::uint32_t flags = object.kind_and_flags;
     const bool blended = (flags & object_flag::blended) != 0;
-    if ((flags & object_flag::kind_mask) >= kPrimitives) return false;
+    if ((flags & object_flag::kind_mask) >= kObjectKinds) return false;
     if (flags >> object_flag::light_set_shift >= h.light_set_count) return false;
     if (blended ? !refers_to(object.material, h.blend_offset, h.blend_count, sizeof(BlendRecord))
                 : !is_material(object.material))
@@ -82,6 +83,9 @@ bool references_are_valid(const std::byte* base, const ImageHeader& h) {
                h.polygon_edge_count - (edges.first - h.polygon_edge_offset) / sizeof(PolygonEdgeRecord)))
         return false;
     }
+    if (is_instance(flags) &&
+        !refers_to(instance_of(*extra()), h.instance_offset, h.instance_count, sizeof(InstanceRecord)))
+      return false;
     if ((flags & object_flag::csg) != 0 &&
         !refers_to(extra()->csg, h.csg_offset, h.csg_count, sizeof(CsgRecord)))
       return false;
@@ -367,7 +371,17 @@ private:
           light_way::by_surface | (has(object_flag::opaque) ? 0 : std::uint32_t{light_way::stepwise});
       if (!has(object_flag::by_surface) || (h_.light_ways & ways) != ways) return false;
     }
-    return true;
+    // Triangles of instances are not told of at all.
+    const auto is_plain = [&](std::uint32_t offset) {
+      const std::uint32_t material = materials_.find(offset);
+      return material == materials_.count || !material_asks_[material];
+    };
+    const auto* instances = reinterpret_cast<const InstanceRecord*>(base_ + h_.instance_offset);
+    const auto* triangles = reinterpret_cast<const ObjectRecord*>(base_ + h_.mesh_object_offset);
+    return std::all_of(instances, instances + h_.instance_count,
+                       [&](const InstanceRecord& instance) { return is_plain(instance.material); }) &&
+           std::all_of(triangles, triangles + h_.mesh_object_count,
+                       [&](const ObjectRecord& triangle) { return is_plain(triangle.material); });
   }
 
   const std::byte* base_;
@@ -441,6 +455,105 @@ bool meshes_are_valid(const std::byte* base, const ImageHeader& h) {
   }
   return true;
 }
+
+/// Triangles of meshes that instances share: the lowest and the highest of those below a node.
+struct TriangleSpan {
+  std::uint32_t lowest = kNoOffset, highest = 0;
+
+  void grow(const TriangleSpan& other) {
+    lowest = std::min(lowest, other.lowest);
+    highest = std::max(highest, other.highest);
+  }
+};
+
+/// True if instances have meshes and numbers of their own for the triangles of these, whose nodes lead to
+/// them in few steps.
+class InstanceCheck {
+public:
+  InstanceCheck(const std::byte* base, const ImageHeader& h)
+      : h_(h), instances_(reinterpret_cast<const InstanceRecord*>(base + h.instance_offset)),
+        objects_(reinterpret_cast<const ObjectRecord*>(base + h.mesh_object_offset)),
+        nodes_(reinterpret_cast<const NodeRecord*>(base + h.mesh_node_offset)), spans_(h.mesh_node_count),
+        levels_(h.mesh_node_count) {}
+
+  bool holds() {
+    return std::all_of(objects_, objects_ + h_.mesh_object_count,
+                       [this](const ObjectRecord& object) { return is_triangle(object); }) &&
+           nodes_are_valid() && instances_are_valid();
+  }
+
+private:
+  static constexpr std::uint32_t kForbidden =
+      object_flag::kind_mask | object_flag::blended | object_flag::two_sided | object_flag::csg;
+  bool has_plain_material(std::uint32_t flags, std::uint32_t material) const {
+    return (flags & kForbidden) == static_cast<std::uint32_t>(ObjectKind::triangle) &&
+           flags >> object_flag::light_set_shift == 0 &&
+           (material == kNoOffset ||
+            refers_to(material, h_.material_offset, h_.material_count, sizeof(MaterialRecord)));
+  }
+  bool is_triangle(const ObjectRecord& object) const {
+    const bool smooth = (object.kind_and_flags & object_flag::smooth) != 0;
+    return has_plain_material(object.kind_and_flags, object.material) &&
+           (smooth ? refers_to(object.extra, h_.extra_offset, h_.extra_count, sizeof(ExtraRecord))
+                   : object.extra == kNoOffset);
+  }
+
+  /// Children come after their node.
+  bool nodes_are_valid() {
+    for (std::uint32_t i = h_.mesh_node_count; i-- > 0;)
+      for (std::uint32_t child = 0; child < std::size(nodes_[i].child); ++child)
+        if (!add_child(i, nodes_[i].child[child], nodes_[i].leaf[child])) return false;
+    return true;
+  }
+  bool add_child(std::uint32_t node, std::uint32_t child, std::uint32_t leaf) {
+    if ((child | leaf) == 0) return true;
+    if (leaf != 0) {
+      const std::uint32_t count = leaf_word::count(leaf);
+      if (leaf != leaf_word::make(count, 1) || count == 0 ||
+          !refers_to(child, h_.mesh_object_offset, h_.mesh_object_count, sizeof(ObjectRecord)))
+        return false;
+      const auto first = (child - h_.mesh_object_offset) / static_cast<std::uint32_t>(sizeof(ObjectRecord));
+      if (count > h_.mesh_object_count - first) return false;
+      spans_[node].grow({first, first + count - 1});
+      return true;
+    }
+    if (!refers_to(child, h_.mesh_node_offset, h_.mesh_node_count, sizeof(NodeRecord))) return false;
+    const auto index = (child - h_.mesh_node_offset) / static_cast<std::uint32_t>(sizeof(NodeRecord));
+    if (index <= node) return false;
+    spans_[node].grow(spans_[index]);
+    levels_[node] = std::max(levels_[node], levels_[index] + 1);
+    return levels_[node] < kMaxMeshLevels;
+  }
+
+  bool instances_are_valid() const {
+    std::uint32_t next = 1;
+    for (std::uint32_t i = 0; i < h_.instance_count; ++i) {
+      const InstanceRecord& r = instances_[i];
+      if (r.first_number < next || r.triangle_count == 0 ||
+          r.triangle_count > kInstancedBit - 1 - r.first_number || r.material == kNoOffset ||
+          !has_plain_material(r.kind_and_flags, r.material) ||
+          (r.kind_and_flags & object_flag::smooth) != 0 ||
+          !refers_to(r.interior, h_.interior_offset, h_.interior_count, sizeof(InteriorRecord)) ||
+          !refers_to(r.first_triangle, h_.mesh_object_offset, h_.mesh_object_count, sizeof(ObjectRecord)) ||
+          !refers_to(r.root, h_.mesh_node_offset, h_.mesh_node_count, sizeof(NodeRecord)))
+        return false;
+      next = r.first_number + r.triangle_count;
+      const auto first = (r.first_triangle - h_.mesh_object_offset) / sizeof(ObjectRecord);
+      const TriangleSpan& span = spans_[(r.root - h_.mesh_node_offset) / sizeof(NodeRecord)];
+      if (r.triangle_count > h_.mesh_object_count - first || span.lowest < first ||
+          span.highest >= first + r.triangle_count)
+        return false;
+    }
+    return true;
+  }
+
+  const ImageHeader& h_;
+  const InstanceRecord* instances_;
+  const ObjectRecord* objects_;
+  const NodeRecord* nodes_;
+  std::vector<TriangleSpan> spans_;   ///< by node
+  std::vector<std::uint32_t> levels_; ///< by node, those below it
+};
 
 /// True if there are no groups, or each object is in one.
 bool groups_are_valid(const std::byte* base, const ImageHeader& h) {
@@ -522,12 +635,16 @@ SceneImage SceneImage::from_bytes(std::span<const std::byte> bytes) {
       !table_fits(h.mesh_grid_offset, h.mesh_grid_count, sizeof(MeshGridRecord), bytes.size()) ||
       !table_fits(h.mesh_word_offset, h.mesh_word_count, sizeof(std::uint32_t), bytes.size()) ||
       !table_fits(h.mesh_triangle_offset, h.mesh_triangle_count, sizeof(MeshTriangleRecord), bytes.size()) ||
+      !table_fits(h.instance_offset, h.instance_count, sizeof(InstanceRecord), bytes.size()) ||
+      !table_fits(h.mesh_object_offset, h.mesh_object_count, sizeof(ObjectRecord), bytes.size()) ||
+      !table_fits(h.mesh_node_offset, h.mesh_node_count, sizeof(NodeRecord), bytes.size()) ||
+      (h.instance_count != 0 && h.bytes > kInstancedBit) ||
       !table_fits(h.group_offset, h.group_count, sizeof(GroupRecord), bytes.size()) ||
       !table_fits(h.prototype_offset, h.prototype_count, sizeof(std::uint32_t), bytes.size()) ||
       !references_are_valid(image.base(), h) || !lights_are_valid(image.base(), h) ||
       !TextureCheck(image.base(), h).holds() || !csg_is_valid(image.base(), h) ||
       !meshes_are_valid(image.base(), h) || !groups_are_valid(image.base(), h) ||
-      !prototypes_are_valid(image.base(), h))
+      !prototypes_are_valid(image.base(), h) || !InstanceCheck(image.base(), h).holds())
     throw InputError("scene image: an offset is out of range");
   return image;
 }

@@ -85,14 +85,16 @@ std::vector<Vec3f> changed(const std::vector<Vec3f>& from, unsigned threads, Cha
 
 SceneObjects::SceneObjects(const Scene& scene, std::size_t projectors,
                            const std::vector<std::shared_ptr<const Object>>& patterns,
-                           const std::vector<std::uint32_t>& material_flags, const MeshInstances& instances,
-                           unsigned threads)
-    : scene_(scene), material_flags_(material_flags), csg_(scene, patterns), polygons_(scene) {
+                           const std::vector<std::uint32_t>& material_flags, const InstancedMeshes& instanced,
+                           const MeshInstances& instances, unsigned threads)
+    : scene_(scene), material_flags_(material_flags), instanced_(instanced), csg_(scene, patterns),
+      polygons_(scene) {
   for (std::size_t i = 0; i < projectors; ++i) {
     BuildWatch::look_at(i);
     const Object& object = scene.objects[i];
     if (instances.contains(i) || CsgParts::contains(object)) continue;
-    if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape))
+    const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape);
+    if (mesh != nullptr && !instanced.contains(i))
       add_mesh(object, **mesh, nullptr, threads);
     else
       add_shape(object);
@@ -181,14 +183,16 @@ std::vector<Index> SceneObjects::unbounded_owners() const {
   return owners;
 }
 
-bool SceneObjects::has_extra(const Placed& placed) {
-  if (placed.part == nullptr) return place_shape(*placed.object).has_parameters;
+bool SceneObjects::has_extra(const Placed& placed) const {
+  if (placed.part == nullptr)
+    return instanced_.find(*placed.object) != nullptr || place_shape(*placed.object).has_parameters;
   return placed.part->is_limited() || placed.part->shape.has_parameters;
 }
 
 std::uint32_t SceneObjects::unbounded_extras() const {
-  const auto extras = [](const std::vector<Placed>& objects) {
-    return static_cast<std::uint32_t>(std::count_if(objects.begin(), objects.end(), has_extra));
+  const auto extras = [this](const std::vector<Placed>& objects) {
+    return static_cast<std::uint32_t>(std::count_if(
+        objects.begin(), objects.end(), [this](const Placed& placed) { return has_extra(placed); }));
   };
   return extras(projectors_) + extras(unbounded_);
 }
@@ -280,6 +284,9 @@ void SceneObjects::visit_shapes(const Piece& piece, std::uint32_t begin, std::ui
     if (object.part != nullptr) {
       box = object.part->bounds;
       census.extras += has_extra(object);
+    } else if (const auto* instance = instanced_.find(*object.object)) {
+      box = instance->box;
+      ++census.extras;
     } else {
       const PlacedShape shape = place_shape(*object.object);
       if (shape.is_empty) continue;
@@ -342,6 +349,8 @@ public:
 
   ObjectRecord shape(const Placed& placed) {
     const Object& object = *placed.object;
+    if (placed.part == nullptr)
+      if (const auto* instance = objects_.instanced_.find(object)) return record_of(*instance);
     const PlacedShape shape = placed.part != nullptr ? placed.part->shape : place_shape(object);
     ObjectRecord r = record_of(placed, shape);
     if (object.is_hidden) hide(r, middle_of(placed, shape));
@@ -376,6 +385,16 @@ private:
       edges_of(**polygon).put_in(extra);
     if (limited) limit_by_csg(*placed.part, placed.part->bounds, r, extra);
     set_extra(r, extra);
+    return r;
+  }
+
+  ObjectRecord record_of(const InstancedMeshes::Instance& instance) {
+    const Object& object = *instance.object;
+    ObjectRecord r = start_record(object, kInstanceKind | object_flag::opaque, tables_);
+    write_map(object.transform.inverse(), r.geometry);
+    r.material = tables_.offset_of_material(object.material);
+    set_extra(r, objects_.instanced_.extra_of(instance, tables_.instance_offset));
+    if (object.is_hidden) hide(r, middle_of(instance.box));
     return r;
   }
 
@@ -420,7 +439,9 @@ private:
   static Vec3f middle_of(const Placed& placed, const PlacedShape& shape) {
     const bool is_bounded = placed.part != nullptr ? placed.part->is_bounded : shape.is_bounded;
     if (!is_bounded) return Vec3f(0);
-    const Aabb box = placed.part != nullptr ? placed.part->bounds : shape.bounds();
+    return middle_of(placed.part != nullptr ? placed.part->bounds : shape.bounds());
+  }
+  static Vec3f middle_of(const Aabb& box) {
     return {0.5f * (box.min[0] + box.max[0]), 0.5f * (box.min[1] + box.max[1]),
             0.5f * (box.min[2] + box.max[2])};
   }

@@ -5,6 +5,7 @@
 #include "celltrace/scene.hpp"
 #include "kernel/records.hpp"
 #include "scene/csg_parts.hpp"
+#include "scene/instanced_meshes.hpp"
 #include "scene/mesh_instances.hpp"
 #include "scene/object_order.hpp"
 #include "scene/object_records.hpp"
@@ -18,13 +19,14 @@ namespace celltrace {
 
 class SceneObjects {
 public:
-  /// Those that are not among `instances`, and what is inside of `patterns`. Objects from `projectors` on are
-  /// those of lights. `scene` and `material_flags`, what objects have that consist of a material, stay as
-  /// they are as long as this lives. Throws InputError if there are too many objects.
+  /// Those that are not among `instances`, each of `instanced` as one, and what is inside of `patterns`.
+  /// Objects from `projectors` on are those of lights. `scene` and `material_flags`, what objects have that
+  /// consist of a material, stay as they are as long as this lives. Throws InputError if there are too many
+  /// objects.
   SceneObjects(const Scene& scene, std::size_t projectors,
                const std::vector<std::shared_ptr<const Object>>& patterns,
-               const std::vector<std::uint32_t>& material_flags, const MeshInstances& instances,
-               unsigned threads);
+               const std::vector<std::uint32_t>& material_flags, const InstancedMeshes& instanced,
+               const MeshInstances& instances, unsigned threads);
 
   /// All that have bounds, those that cannot be hit included: spheres without a radius and triangles without
   /// an area.
@@ -96,7 +98,7 @@ private:
   class Writer;
 
   static Placed placed_at(const Piece& piece, std::uint32_t number);
-  static bool has_extra(const Placed& placed);
+  bool has_extra(const Placed& placed) const;
   /// Calls `visit(number, box)` for those of [begin, end) that can be hit.
   template <class Visit> ObjectCensus visit_boxes(std::uint32_t begin, std::uint32_t end, Visit visit) const;
   template <class Visit>
@@ -121,6 +123,7 @@ private:
 
   const Scene& scene_;
   const std::vector<std::uint32_t>& material_flags_;
+  const InstancedMeshes& instanced_;
   CsgParts csg_;
   PolygonTable polygons_;
   std::vector<Piece> pieces_;

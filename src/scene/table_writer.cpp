@@ -42,18 +42,19 @@ std::span<const PlacedObject> part_of(std::span<const PlacedObject> all, unsigne
 } // namespace
 
 TableWriter::TableWriter(std::byte* base, const ImageHeader& header, const Scene& scene,
-                         const TextureTables& textures, std::uint32_t unbounded_extras)
+                         const TextureTables& textures, std::uint32_t other_extras)
     : base_(base), header_(header), scene_(scene),
-      unbounded_extras_(unbounded_extras), tables_{header.material_offset,
-                                                   header.interior_offset,
-                                                   header.interior_count,
-                                                   header.extra_offset,
-                                                   header.blend_offset,
-                                                   header.csg_offset,
-                                                   header.polygon_edge_offset,
-                                                   table<ExtraRecord>(header.extra_offset),
-                                                   table<BlendRecord>(header.blend_offset),
-                                                   textures.object_flags} {
+      other_extras_(other_extras), tables_{header.material_offset,
+                                           header.interior_offset,
+                                           header.interior_count,
+                                           header.extra_offset,
+                                           header.blend_offset,
+                                           header.csg_offset,
+                                           header.polygon_edge_offset,
+                                           header.instance_offset,
+                                           table<ExtraRecord>(header.extra_offset),
+                                           table<BlendRecord>(header.blend_offset),
+                                           textures.object_flags} {
 }
 
 void TableWriter::write_header() {
@@ -226,9 +227,17 @@ void TableWriter::write_instances(const MeshInstances& instances, unsigned threa
                   threads);
 }
 
-/// ExtraRecords lie as objects do: of loose ones, of instances, of unbounded ones.
+void TableWriter::write_instanced(const InstancedMeshes& instanced) {
+  instanced.write({tables_, table<InstanceRecord>(header_.instance_offset),
+                   table<ObjectRecord>(header_.mesh_object_offset), header_.mesh_object_offset,
+                   table<NodeRecord>(header_.mesh_node_offset), header_.mesh_node_offset,
+                   header_.extra_count - instanced.extra_count()});
+}
+
+/// ExtraRecords lie as objects do: of loose ones, of instances, of unbounded ones, of meshes that instances
+/// share.
 std::uint32_t TableWriter::first_instance_extra(const MeshInstances& instances) const {
-  return header_.extra_count - unbounded_extras_ - instances.census().extras;
+  return header_.extra_count - other_extras_ - instances.census().extras;
 }
 
 void TableWriter::write_bounds(Aabb around) {

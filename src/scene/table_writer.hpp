@@ -4,6 +4,7 @@
 #include "celltrace/scene.hpp"
 #include "kernel/records.hpp"
 #include "scene/csg_parts.hpp"
+#include "scene/instanced_meshes.hpp"
 #include "scene/light_sets.hpp"
 #include "scene/mesh_instances.hpp"
 #include "scene/object_order.hpp"
@@ -23,8 +24,9 @@ namespace celltrace {
 /// it lives.
 class TableWriter {
 public:
+  /// `other_extras`: ExtraRecords behind those of objects that an accelerator has.
   TableWriter(std::byte* base, const kernel::ImageHeader& header, const Scene& scene,
-              const TextureTables& textures, std::uint32_t unbounded_extras);
+              const TextureTables& textures, std::uint32_t other_extras);
 
   /// The header, and zeros for all but objects: what lies between the tables is always the same.
   void write_header();
@@ -47,6 +49,7 @@ public:
                                           std::uint32_t begin, std::uint32_t end);
   /// Of objects that are no instances.
   void write_groups(std::span<const std::uint32_t> groups, unsigned threads);
+  void write_instanced(const InstancedMeshes& instanced);
   /// Behind everything else.
   void write_instances(const MeshInstances& instances, unsigned threads);
   /// At last. `around`: objects that are no instances.
@@ -63,7 +66,7 @@ private:
   std::byte* base_;
   const kernel::ImageHeader& header_;
   const Scene& scene_;
-  std::uint32_t unbounded_extras_;
+  std::uint32_t other_extras_;
   RecordTables tables_;
 };
 

@@ -27,7 +27,8 @@ inline Aabb bounding_box(const ObjectRecord& object, const ExtraRecord& extra = 
 /// Whether the object may touch a box; some shapes say so of a box near them, too.
 inline bool overlaps(const ObjectRecord& object, const Aabb& box, const ExtraRecord& extra = {}) {
   bool result = false;
-  if ((object.kind_and_flags & object_flag::csg) != 0) return true; // those within its bounds
+  if ((object.kind_and_flags & object_flag::csg) != 0 || is_instance(object.kind_and_flags))
+    return true; // those within its bounds
   Primitives::dispatch(object.kind_and_flags & object_flag::kind_mask,
                        [&](auto shape) { result = decltype(shape)::overlaps(object, extra, box); });
   return result;

@@ -6,6 +6,7 @@
 #include "kernel/direct/kept_crossings.hpp"
 #include "kernel/direct/recent_occluders.hpp"
 #include "kernel/primitives/csg.hpp"
+#include "kernel/primitives/instances_module.hpp"
 #include "kernel/primitives/list.hpp"
 #include "kernel/primitives/polygons_module.hpp"
 #include "kernel/scalar_work.hpp"
@@ -16,8 +17,8 @@ namespace celltrace::kernel {
 
 /// Counters of a frame, for its report.
 struct TraversalCounters {
-  uint64_t tests[kPrimitives] = {}; ///< by kind
-  uint64_t visits = 0;              ///< voxels entered by rays, or nodes of the BVH expanded
+  uint64_t tests[kObjectKinds] = {}; ///< by kind
+  uint64_t visits = 0;               ///< voxels entered by rays, or nodes of the BVH expanded
 };
 
 /// Mailboxing (Amanatides and Woo 1987): remembers which objects have been tested against the current packet,
@@ -75,7 +76,7 @@ public:
   CELLTRACE_ONE_COPY void test_closest(const RayPacket& rays, uint32_t self, HitPacket& hits) {
     scene_.spu().compute(scalar_work::kClosest);
     const ObjectRecord& object = *scene_.object(self);
-    if (is_simple(object.kind_and_flags)) return keep_closest(test(rays, object, self), self, hits);
+    if (is_simple(object.kind_and_flags)) return keep_closest<S>(test(rays, object, self), self, hits);
     scene_.spu().enter_module(modules::kObjects);
     test_closest_of_other(rays, object, self, hits);
   }
@@ -94,7 +95,7 @@ public:
     for (uint32_t left = packets; left != 0; left &= left - 1) {
       const RayQuery& query = queries[__builtin_ctz(left)];
       const SeenTriangle<S> triangle(query.rays->origin.template load<S>(), sides);
-      keep_closest(triangle.crossed(*query.rays, self), self, *query.hits);
+      keep_closest<S>(triangle.crossed(*query.rays, self), self, *query.hits);
     }
   }
 
@@ -178,26 +179,6 @@ public:
     }
   }
 
-  /// Merges the crossings with object `self` into the closest hits.
-  static void keep_closest(const Crossings<S>& c, uint32_t self, HitPacket& hits) {
-    const M near_valid = c.near_hit & (c.near > F(kMinHitDistance));
-    const M far_valid = c.far_hit & (c.far > F(kMinHitDistance));
-    const F distance = S::select(near_valid, c.near, c.far);
-    const F nearest = F::load(hits.distance.lane);
-    const M hit = near_valid | far_valid;
-    const M not_farther = hit & (distance <= nearest);
-    // Of two hits at the same distance that of the object with the lower offset counts: the result does not
-    // depend on the order of the tests.
-    auto* objects = reinterpret_cast<int32_t*>(hits.object.lane);
-    const I present = I::load(objects);
-    const I candidate = I::splat(static_cast<int32_t>(self));
-    const M closer = not_farther & ((distance < nearest) | (candidate < present));
-    S::select(closer, distance, nearest).store(hits.distance.lane);
-    S::select(closer, c.u, F::load(hits.u.lane)).store(hits.u.lane);
-    S::select(closer, c.v, F::load(hits.v.lane)).store(hits.v.lane);
-    S::select(closer, candidate, present).store(objects);
-  }
-
   /// Lanes whose near or far crossing lies between their origin and the light.
   struct ShadowHits {
     uint32_t near, far;
@@ -275,6 +256,7 @@ private:
                                                 uint32_t self, HitPacket& hits) {
     scene_.spu().run_in_module(modules::kObjects);
     const uint32_t flags = record.kind_and_flags;
+    if (is_instance(flags)) return test_instance(rays, record, kMinHitDistance, false, hits);
     const uint32_t blind = blind_lanes(flags, reflected_);
     Other other(*this, rays, record, self, kMinHitDistance);
     for (uint32_t pair = 0; pair < other.pairs; ++pair) {
@@ -291,7 +273,7 @@ private:
         const auto far = c.far_hit & (c.far > F(kMinHitDistance)) & (c.far <= nearest);
         accept(rays, other.csg, near, far, false, reflected_, c);
       }
-      keep_closest(c, self, hits);
+      keep_closest<S>(c, self, hits);
     }
   }
   CELLTRACE_ONE_COPY uint32_t occluded_by_other(const RayPacket& rays, const ObjectRecord& record,
@@ -299,6 +281,7 @@ private:
                                                 VectorLanes& light, const RaySegment& segment) {
     scene_.spu().run_in_module(modules::kObjects);
     const uint32_t flags = record.kind_and_flags, material = record.material;
+    if (is_instance(flags)) return occluded_by_instance(rays, record, distance);
     const bool is_opaque = (flags & object_flag::opaque) != 0;
     Other other(*this, rays, record, self, is_opaque ? kShadowEpsilon : kEveryCrossing);
     uint32_t dark = 0;
@@ -312,6 +295,25 @@ private:
       dark |= occluded_by(rays, c, flags, material, lanes & ~dark, distance, light, segment);
     }
     return dark;
+  }
+
+  void test_instance(const RayPacket& rays, const ObjectRecord& record, float nearest, bool any,
+                     HitPacket& hits) {
+    ++counters_.tests[kInstanceKind];
+    scene_.spu().enter_module(modules::kInstances);
+    const auto work = module_instances::intersect(scene_, rays, record, nearest, any, hits);
+    counters_.visits += work.nodes;
+    counters_.tests[static_cast<uint32_t>(ObjectKind::triangle)] += work.triangles;
+  }
+  /// All instances are opaque.
+  CELLTRACE_ONE_COPY uint32_t occluded_by_instance(const RayPacket& rays, const ObjectRecord& record,
+                                                   const FloatLanes& distance) {
+    HitPacket hits;
+    const I none = I::splat(static_cast<int32_t>(kInstancedBit));
+    (F::load(distance.lane) - F(kShadowEpsilon)).store(hits.distance.lane);
+    none.store(reinterpret_cast<int32_t*>(hits.object.lane));
+    test_instance(rays, record, kShadowEpsilon, true, hits);
+    return ~(I::load(reinterpret_cast<const int32_t*>(hits.object.lane)) == none).bits() & 0xFFFF;
   }
 
   /// The crossings of a packet with an object that is not simple.

@@ -13,7 +13,8 @@ struct NodeRef {
 };
 
 /// At most `kMaxSplitPackets` packets of a bundle traverse a node separately; each has an entry of its own.
-template <uint32_t kMaxSplitPackets> class TraversalStack {
+/// `kLevels`: of nodes. The builder keeps a BVH within 48.
+template <uint32_t kMaxSplitPackets, uint32_t kLevels = 48> class TraversalStack {
 public:
   /// A node or leaf to traverse. `lanes`: the rays of a packet, or the packets of a bundle, that hit it.
   /// `enter`: a lower bound of their distances to it. `rays`: if one packet of a bundle traverses it
@@ -59,8 +60,8 @@ public:
 
 private:
   /// A node has four children, each with an entry for every packet that splits. One of these entries is
-  /// popped before the next level is pushed. The builder keeps a BVH within 48 levels.
-  static constexpr uint32_t kEntries = (4 * kMaxSplitPackets - 1) * 48 + 8;
+  /// popped before the next level is pushed.
+  static constexpr uint32_t kEntries = (4 * kMaxSplitPackets - 1) * kLevels + 8;
 
   Entry entries_[kEntries];
   uint32_t size_ = 0;

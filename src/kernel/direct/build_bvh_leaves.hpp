@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernel/direct/build_bvh_subtree.hpp"
+#include "kernel/primitives/list.hpp"
 #include "kernel/tuning.hpp"
 
 namespace celltrace::kernel::bvh {
@@ -15,6 +16,7 @@ inline LeafRule leaf_rule(bool wide, bool copied) {
   return copied ? tuning::kCopiedLeaves : tuning::kNarrowLeaves;
 }
 inline uint32_t weight_of(const ObjectRecord& object, const LeafRule& rule) {
+  if (is_instance(object.kind_and_flags)) return rule.most; // it is a BVH itself
   switch (static_cast<ObjectKind>(object.kind_and_flags & object_flag::kind_mask)) {
   case ObjectKind::triangle:
     return 1;

@@ -126,7 +126,7 @@ private:
     for_each_pair(pairs, [&](uint32_t i, uint32_t packet) {
       const RayQuery& query = queries[packet];
       const V3<S> direction = query.rays->direction.template load<S>();
-      Tests::keep_closest(triangles.crossed(i, direction), triangles_.offset(i), *query.hits);
+      kernel::keep_closest<S>(triangles.crossed(i, direction), triangles_.offset(i), *query.hits);
     });
   }
 

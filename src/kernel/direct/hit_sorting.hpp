@@ -60,6 +60,11 @@ private:
     WordLanes places;
   };
 
+  /// Triangles of instances count as if they had one in common: it would take long to find theirs.
+  static uint32_t material_at(SceneAccess<Spu>& scene, uint32_t object) {
+    return is_instanced(object) ? kInstancedBit : scene.object(object)->material;
+  }
+
   /// A glance at two corners of each packet.
   template <class Packet> static bool looks_mixed(SceneAccess<Spu>& scene, const Packet* packets) {
     uint32_t mixed = 0;
@@ -69,7 +74,7 @@ private:
       const uint32_t first = object.lane[0], last = object.lane[kSimdLanes - 1];
       if (first == last) continue;
       mixed += static_cast<uint32_t>(first == kNoOffset || last == kNoOffset ||
-                                     scene.object(first)->material != scene.object(last)->material);
+                                     material_at(scene, first) != material_at(scene, last));
     }
     return mixed >= tuning::kLeastMixedPackets;
   }
@@ -79,7 +84,7 @@ private:
     uint32_t of_class[kMaterials + 1];
     uint32_t seen = 0;
     for_each_value<S>(hits.object, lanes, [&](uint32_t object, uint32_t same) {
-      const uint32_t of = object == kNoOffset ? kNone : number_of(scene.object(object)->material);
+      const uint32_t of = object == kNoOffset ? kNone : number_of(material_at(scene, object));
       of_class[of] = (seen >> of & 1) != 0 ? of_class[of] | same : same;
       seen |= 1u << of;
     });

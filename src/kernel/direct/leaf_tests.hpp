@@ -51,7 +51,7 @@ public:
     return SeenTriangle<S>(of_ray(rays.origin), sides).crossed(of_ray(rays.direction), starts_here);
   }
 
-  /// As ObjectTests::keep_closest(), with the triangles in lanes and a single ray.
+  /// As keep_closest() of crossings.hpp, with the triangles in lanes and a single ray.
   static void keep_closest(const Crossings<S>& c, const LeafTriangles<S>& triangles, uint32_t lane,
                            HitPacket& hits) {
     const M valid = c.near_hit & (c.near > F(kMinHitDistance)) & (c.near <= F(hits.distance.lane[lane]));

@@ -101,11 +101,12 @@ private:
       to[axis] = lanes[axis].lane[0];
   }
 
-  uint32_t owner_of(uint32_t record) const {
+  uint32_t owner_of(uint32_t record) {
+    if (is_instanced(record)) return scene_.instance(instance_with(scene_, record))->owner;
     return owners_[(record - first_record_) / sizeof(ObjectRecord)];
   }
 
-  void set(RayHit& hit, uint32_t object, float distance, float u, float v) const {
+  void set(RayHit& hit, uint32_t object, float distance, float u, float v) {
     if (object == kNoOffset)
       hit = RayHit();
     else
@@ -120,7 +121,7 @@ private:
     for (; i < count; ++i)
       hits[i] = RayHit();
   }
-  void set(RayHit* hits, uint32_t count, const HitPacket& found) const {
+  void set(RayHit* hits, uint32_t count, const HitPacket& found) {
     using F = typename S::F;
     using I = typename S::I;
     static_assert(offsetof(RayHit, object) == 12 && RayHit::kNone == kNoOffset);

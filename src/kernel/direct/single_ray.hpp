@@ -190,7 +190,7 @@ private:
     return true;
   }
 
-  /// As ObjectTests::keep_closest(), with the triangles in lanes.
+  /// As keep_closest() of crossings.hpp, with the triangles in lanes.
   [[gnu::always_inline]] static void test_triangles(const TriangleBlock& block, const V3<Quad>& origin,
                                                     const V3<Quad>& direction, Ray& ray) {
     using F = typename Quad::F;

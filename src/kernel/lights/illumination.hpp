@@ -30,7 +30,9 @@ uint32_t lanes_of_its_objects(SceneAccess<Spu>& scene, const LightRecord& light,
                               uint32_t lanes) {
   uint32_t lit = 0;
   for_each_value<typename Spu::simd>(objects, lanes, [&](uint32_t object, uint32_t same) {
-    const uint32_t set = scene.object(object)->kind_and_flags >> object_flag::light_set_shift;
+    // Instances have all global lights.
+    const uint32_t set =
+        is_instanced(object) ? 0 : scene.object(object)->kind_and_flags >> object_flag::light_set_shift;
     const uint32_t word = scene.list_word(light.lit_sets + set / 32 * 4);
     if ((word >> set % 32 & 1) != 0) lit |= same;
   });

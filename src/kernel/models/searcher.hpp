@@ -138,7 +138,7 @@ private:
     stage_report.returns = tests_.returns();
     ReportRecord& report = stage_.report();
     const TraversalCounters& counters = split() ? tests_.counters() : whole_.counters();
-    for (uint32_t kind = 0; kind < kPrimitives; ++kind)
+    for (uint32_t kind = 0; kind < kObjectKinds; ++kind)
       report.tests[kind] = counters.tests[kind];
     report.accelerator_visits = split() ? walk_.voxels() : counters.visits;
     stage_.add_cache(scene_);

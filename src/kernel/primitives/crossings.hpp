@@ -4,6 +4,8 @@
 #include "kernel/math.hpp"
 #include "kernel/packet.hpp"
 
+#include <stdint.h>
+
 namespace celltrace::kernel {
 
 /// Hits nearer or farther than this are none, as in POV-Ray.
@@ -39,6 +41,29 @@ typename S::M lanes_that_start_on(const RayPacket& rays, uint32_t self, uint32_t
   using I = typename S::I;
   return I::load(reinterpret_cast<const int32_t*>(rays.start_object.lane + first)) ==
          I::splat(static_cast<int32_t>(self));
+}
+
+/// Merges the crossings with object `self` into the closest hits.
+template <class S> void keep_closest(const Crossings<S>& c, uint32_t self, HitPacket& hits) {
+  using F = typename S::F;
+  using I = typename S::I;
+  using M = typename S::M;
+  const M near_valid = c.near_hit & (c.near > F(kMinHitDistance));
+  const M far_valid = c.far_hit & (c.far > F(kMinHitDistance));
+  const F distance = S::select(near_valid, c.near, c.far);
+  const F nearest = F::load(hits.distance.lane);
+  const M hit = near_valid | far_valid;
+  const M not_farther = hit & (distance <= nearest);
+  // Of two hits at the same distance that of the object with the lower offset counts: the result does not
+  // depend on the order of the tests.
+  auto* objects = reinterpret_cast<int32_t*>(hits.object.lane);
+  const I present = I::load(objects);
+  const I candidate = I::splat(static_cast<int32_t>(self));
+  const M closer = not_farther & ((distance < nearest) | (candidate < present));
+  S::select(closer, distance, nearest).store(hits.distance.lane);
+  S::select(closer, c.u, F::load(hits.u.lane)).store(hits.u.lane);
+  S::select(closer, c.v, F::load(hits.v.lane)).store(hits.v.lane);
+  S::select(closer, candidate, present).store(objects);
 }
 
 } // namespace celltrace::kernel

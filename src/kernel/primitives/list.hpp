@@ -50,4 +50,15 @@ static_assert(kPrimitiveKind<SpherePrimitive> == static_cast<uint32_t>(ObjectKin
                   kPrimitiveKind<TrianglePrimitive> == static_cast<uint32_t>(ObjectKind::triangle),
               "the kinds that have names");
 
+/// Of objects that are no shapes: instances of meshes (instances_module.hpp).
+constexpr uint32_t kInstanceKind = kPrimitives;
+constexpr uint32_t kObjectKinds = kPrimitives + 1;
+static_assert(kObjectKinds <= kMaxPrimitives, "a counter for each in ReportRecord");
+constexpr bool is_instance(uint32_t kind_and_flags) {
+  return (kind_and_flags & object_flag::kind_mask) == kInstanceKind;
+}
+constexpr const char* name_of_kind(uint32_t kind) {
+  return kind == kInstanceKind ? "instance" : Primitives::kNames[kind];
+}
+
 } // namespace celltrace::kernel

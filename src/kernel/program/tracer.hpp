@@ -263,7 +263,7 @@ private:
     report_.refraction_rays = rays.refraction;
     report_.dropped_rays = rays.dropped;
     const TraversalCounters& traversal = phase_->bundles.traversal_counters();
-    for (uint32_t kind = 0; kind < kPrimitives; ++kind)
+    for (uint32_t kind = 0; kind < kObjectKinds; ++kind)
       report_.tests[kind] = traversal.tests[kind];
     report_.accelerator_visits = traversal.visits;
     for (uint32_t kind = 0; kind < kDataKinds; ++kind) {

@@ -3,6 +3,7 @@
 
 #include "celltrace/spe/one_copy.hpp"
 #include "kernel/direct/record_lanes.hpp"
+#include "kernel/primitives/instances_module.hpp"
 #include "kernel/primitives/shapes_module.hpp"
 #include "kernel/scalar_work.hpp"
 #include "kernel/scene_access.hpp"
@@ -125,6 +126,7 @@ template <class S> uint32_t hit_lanes(const HitPacket& hits, uint32_t lanes) {
 /// Says that find_hit_points() will want the normals of the hits of `lanes`.
 template <class Spu> void hint_extras(SceneAccess<Spu>& scene, const HitPacket& hits, uint32_t lanes) {
   for_each_lane(lanes, [&](uint32_t lane) {
+    if (is_instanced(hits.object.lane[lane])) return;
     const uint32_t extra = scene.object(hits.object.lane[lane])->extra;
     if (extra != kNoOffset) scene.cache().hint(extra);
   });
@@ -155,10 +157,16 @@ template <class Spu>
   objects.smooth = 0;
   objects.parameters.ratio = objects.parameters.second = F(0.0f);
   uint32_t first_flags = 0, seen = 0;
+  InstancedTriangle room;
   for_each_value<S>(
       offsets, lanes, [&](uint32_t offset, uint32_t same) __attribute__((always_inline)) {
         scene.spu().compute(scalar_work::kHitObject);
-        const ObjectRecord& object = *scene.object(offset);
+        const bool instanced = is_instanced(offset);
+        if (instanced) {
+          scene.spu().enter_module(modules::kInstances);
+          module_instances::load(scene, offset, room);
+        }
+        const ObjectRecord& object = instanced ? room.object : *scene.object_apart(offset);
         const uint32_t flags = object.kind_and_flags;
         const uint32_t extra = object.extra;
         const bool first = seen == 0;
@@ -183,7 +191,7 @@ template <class Spu>
         if ((flags & object_flag::disturbed) != 0) points.disturbed |= same;
         if ((flags & object_flag::smooth) != 0) {
           objects.smooth |= same;
-          const float* const n = scene.extra(extra)->value;
+          const float* const n = (instanced ? &room.extra : scene.extra(extra))->value;
           put(n, objects.normals[0]);
           put(n + 3, objects.normals[1]);
           put(n + 6, objects.normals[2]);
@@ -208,7 +216,7 @@ template <class Spu>
   if ((first_flags & object_flag::open) != 0) o.open |= rest;
 }
 
-/// The same of several objects at once. False: there is only one.
+/// The same of several objects at once. False: there is only one, or some are triangles of instances.
 template <class Spu>
 [[gnu::always_inline]] inline bool load_several_objects(SceneAccess<Spu>& scene, const WordLanes& offsets,
                                                         uint32_t lanes, HitObjects<typename Spu::simd>& o,
@@ -218,8 +226,10 @@ template <class Spu>
   const I all = I::load(reinterpret_cast<const int32_t*>(offsets.lane));
   const I first = I::splat(static_cast<int32_t>(offsets.lane[__builtin_ctz(lanes)]));
   if ((lanes & ~(all == first).bits()) == 0) return false;
+  const I in_all = S::select(S::M::from_bits(lanes), all, first);
+  if ((in_all < I::splat(0)).bits() != 0) return false;
   WordLanes filled;
-  S::select(S::M::from_bits(lanes), all, first).store(reinterpret_cast<int32_t*>(filled.lane));
+  in_all.store(reinterpret_cast<int32_t*>(filled.lane));
   ObjectWords<S> words;
   load_objects(scene, filled, o.objects, words);
   o.material = words.material;

@@ -138,7 +138,7 @@ template <class Spu>
   uint32_t counts = before_light & (distance > epsilon).bits();
   uint32_t dark = 0;
   for_each_value<S>(walk.hits.object, before_light, [&](uint32_t object, uint32_t same) {
-    const uint32_t flags = scene.object(object)->kind_and_flags;
+    const uint32_t flags = is_instanced(object) ? object_flag::opaque : scene.object(object)->kind_and_flags;
     if ((flags & object_flag::no_shadow) != 0)
       counts &= ~same;
     else if ((flags & object_flag::opaque) != 0)

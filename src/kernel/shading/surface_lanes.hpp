@@ -109,6 +109,7 @@ CELLTRACE_ONE_COPY void find_surface_lanes(SceneAccess<Spu>& scene,
   surface.normal.template store<S>(points.normal);
   for_each_value<S>(hits.object, lanes, [&](uint32_t offset, uint32_t same) {
     scene.spu().compute(scalar_work::kHitObject);
+    if (is_instanced(offset)) return;
     Kept<Spu, ObjectRecord> object = *scene.object(offset);
     if ((object.kind_and_flags & object_flag::by_surface) == 0) return;
     for_each_part<Spu>([&](uint32_t first) {
