@@ -71,8 +71,8 @@ constexpr uint32_t kMissesOfLoose = 2;
 constexpr float kWidePacket = 1.5f;
 
 /// In scenes of at most so many objects, and planes besides, packets are tested against all of them in place
-/// of a bundle's traversal. Larger: objects are tested that a frustum would miss; smaller: frusta are computed
-/// for a single leaf. 'trace time' of scenes with one or two objects.
+/// of a bundle's traversal. Larger: objects are tested that a frustum would miss; smaller: frusta are
+/// computed for a single leaf. 'trace time' of scenes with one or two objects.
 constexpr uint32_t kMostListedObjects = 2;
 
 // --- when packets of a bundle part ---
@@ -156,6 +156,9 @@ struct LeafRule {
 /// expanded; smaller: fewer objects are tested in vain. 'rebuilt every frame' and rays of the models; for
 /// weights 'trace time' of molecules and of scenes with a few simple shapes.
 constexpr LeafRule kWideLeaves = {12, 32, 0.5f, 2, 3};
+/// Rays of a packet that go on alone in an instance's mesh where they are so few. Larger: fewer lanes idle;
+/// smaller: fewer nodes are expanded more than once. 'trace time' of scenes with many instances.
+constexpr int kMostRaysAlone = 1;
 /// Narrow leaves are for tests one by one. `celltrace render --backend cell_emu --schedule lockstep --stats
 /// -`, whose cycles count.
 constexpr LeafRule kNarrowLeaves = {3, 16, 2.0f, 2, 2};

@@ -16,6 +16,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include <glm/geometric.hpp>
+
 namespace celltrace {
 
 using namespace kernel;
@@ -45,6 +47,22 @@ const Mesh* plain_mesh_of(const Object& object) {
 bool is_plain(std::uint32_t flags) {
   return (flags & (object_flag::opaque | object_flag::two_sided | object_flag::by_surface)) ==
          object_flag::opaque;
+}
+
+/// Whether rays can be taken to the mesh's space: the determinants of its triangles neither vanish nor
+/// overflow there.
+bool has_moderate_size(const MeshPrototype& mesh, const Transform& transform) {
+  constexpr float kFarthest = 1e8f;
+  constexpr double kLeastFactor = 1e-5, kMostFactor = 1e5;
+  const auto is_near = [](float x) { return std::abs(x) < kFarthest; };
+  const auto is_moderate = [&](const Vec3& axis) {
+    const double factor = glm::length(axis);
+    return factor > kLeastFactor && factor < kMostFactor;
+  };
+  return std::all_of(transform.rows, transform.rows + 3, is_moderate) &&
+         std::all_of(mesh.group_bounds().begin(), mesh.group_bounds().end(), [&](const Aabb& box) {
+           return std::all_of(box.min, box.min + 3, is_near) && std::all_of(box.max, box.max + 3, is_near);
+         });
 }
 
 /// A little around it: rays are rounded, and what they hit.
@@ -118,7 +136,9 @@ InstancedMeshes::InstancedMeshes(const Scene& scene, std::size_t objects,
       add_mesh(MeshPrototype(*found->first, threads));
     }
     const MeshPrototype& prototype = meshes_[use.mesh].prototype;
-    if (prototype.triangles().empty() || !prototype.surely_keeps_areas(object.transform)) continue;
+    if (prototype.triangles().empty() || !has_moderate_size(prototype, object.transform) ||
+        !prototype.surely_keeps_areas(object.transform))
+      continue;
     instance_of_[i] = instance_count();
     add_instance(object, use.mesh);
   }

@@ -18,6 +18,8 @@ constexpr std::uint32_t kMostInLeaf = 4;
 /// Places at which the SAH looks to split a range: of small ones, all.
 constexpr std::uint32_t kMostPlaces = 64;
 
+constexpr float kFar = 3e38f;
+
 float half_area(const Aabb& box) {
   const float x = box.max[0] - box.min[0], y = box.max[1] - box.min[1], z = box.max[2] - box.min[2];
   return x * y + (x + y) * z;
@@ -74,8 +76,8 @@ private:
       const bool is_there = i < count;
       const Range& child = children[i];
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        nodes_[number].bounds[2 * axis][i] = is_there ? child.box.min[axis] : 1.0f;
-        nodes_[number].bounds[2 * axis + 1][i] = is_there ? child.box.max[axis] : -1.0f;
+        nodes_[number].bounds[2 * axis][i] = is_there ? child.box.min[axis] : kFar;
+        nodes_[number].bounds[2 * axis + 1][i] = is_there ? child.box.max[axis] : -kFar;
       }
       if (!is_there) continue;
       const bool is_leaf = child.count() <= kMostInLeaf;

@@ -111,7 +111,9 @@ public:
     const uint32_t flags = object.kind_and_flags;
     const uint32_t material = object.material;
     if ((flags & object_flag::no_shadow) != 0) return 0;
-    if ((flags & object_flag::opaque) != 0 && !hit_filter_.first_test(self)) return 0;
+    // Of instances, which take long, only the rays that are asked for: they may come back for others.
+    const bool all_at_once = !is_instance(flags) || segment.enter != nullptr;
+    if ((flags & object_flag::opaque) != 0 && all_at_once && !hit_filter_.first_test(self)) return 0;
     if constexpr (kMarksTranslucent<Spu>) interior_ = object.interior;
     uint32_t dark;
     if (is_simple(flags)) {
@@ -281,7 +283,8 @@ private:
                                                 VectorLanes& light, const RaySegment& segment) {
     scene_.spu().run_in_module(modules::kObjects);
     const uint32_t flags = record.kind_and_flags, material = record.material;
-    if (is_instance(flags)) return occluded_by_instance(rays, record, distance);
+    if (is_instance(flags))
+      return occluded_by_instance(rays, record, segment.enter != nullptr ? 0xFFFF : lanes, distance);
     const bool is_opaque = (flags & object_flag::opaque) != 0;
     Other other(*this, rays, record, self, is_opaque ? kShadowEpsilon : kEveryCrossing);
     uint32_t dark = 0;
@@ -307,10 +310,11 @@ private:
   }
   /// All instances are opaque.
   CELLTRACE_ONE_COPY uint32_t occluded_by_instance(const RayPacket& rays, const ObjectRecord& record,
-                                                   const FloatLanes& distance) {
+                                                   uint32_t lanes, const FloatLanes& distance) {
     HitPacket hits;
     const I none = I::splat(static_cast<int32_t>(kInstancedBit));
-    (F::load(distance.lane) - F(kShadowEpsilon)).store(hits.distance.lane);
+    S::select(M::from_bits(lanes), F::load(distance.lane) - F(kShadowEpsilon), F(-1.0f))
+        .store(hits.distance.lane);
     none.store(reinterpret_cast<int32_t*>(hits.object.lane));
     test_instance(rays, record, kShadowEpsilon, true, hits);
     return ~(I::load(reinterpret_cast<const int32_t*>(hits.object.lane)) == none).bits() & 0xFFFF;

@@ -223,7 +223,10 @@ private:
     for (uint32_t i = 0; i < count; ++i) {
       HitPacket* const hits = queries[i].hits;
       if (hits == nullptr) continue;
-      F(kMaxHitDistance).store(hits->distance.lane);
+      // Where there is room for it, other rays hit nothing: instances take long to find out what.
+      const F farthest(kMaxHitDistance);
+      (kHasRoomForCode<Spu> ? S::select(S::M::from_bits(queries[i].lanes), farthest, F(-1.0f)) : farthest)
+          .store(hits->distance.lane);
       S::I::splat(-1).store(reinterpret_cast<int32_t*>(hits->object.lane));
     }
   }

@@ -7,6 +7,7 @@
 
 #include "celltrace/spe/one_copy.hpp"
 #include "kernel/accel/traversal_stack.hpp"
+#include "kernel/direct/instance_rays.hpp"
 #include "kernel/modules.hpp"
 #include "kernel/primitives/local_shape.hpp"
 #include "kernel/primitives/triangle.hpp"
@@ -50,11 +51,6 @@ template <class Spu> uint32_t instance_with(SceneAccess<Spu>& scene, uint32_t nu
 
 namespace module_instances {
 
-/// What a test took.
-struct Work {
-  uint32_t nodes, triangles;
-};
-
 /// The rays of a packet in a mesh's space.
 template <class S> struct MeshRays {
   V3<S> origin, direction, inverse;
@@ -80,8 +76,9 @@ template <class S> struct MeshRays {
 /// Replaces hits by closer ones with the object's triangles that are farther than `nearest`. Where `any` will
 /// do, `hits` has kInstancedBit in place of objects, and rays end with their first hit.
 template <class Spu>
-CELLTRACE_ONE_COPY Work intersect(SceneAccess<Spu>& scene, const RayPacket& rays, const ObjectRecord& object,
-                                  float nearest, bool any, HitPacket& hits) {
+CELLTRACE_ONE_COPY InstanceWork intersect(SceneAccess<Spu>& scene, const RayPacket& rays,
+                                          const ObjectRecord& object, float nearest, bool any,
+                                          HitPacket& hits) {
   using S = typename Spu::simd;
   using F = typename S::F;
   using I = typename S::I;
@@ -94,8 +91,11 @@ CELLTRACE_ONE_COPY Work intersect(SceneAccess<Spu>& scene, const RayPacket& rays
   const InstanceRecord& instance = *scene.instance(instance_of(*scene.extra(object.extra)));
   const uint32_t first_triangle = instance.first_triangle, first = kInstancedBit + instance.first_number;
   NodeRef ref = {instance.root, 0};
+  [[maybe_unused]] const InstanceTest test = {first, first_triangle, nearest, any};
+  [[maybe_unused]] const Present<InstanceRays<Spu>, kTestsWholeLeaves<Spu>> alone(
+      rays, local.origin, local.direction, local.inverse);
   TraversalStack<1, kMaxMeshLevels> stack;
-  Work work = {0, 0};
+  InstanceWork work = {0, 0};
   for (;;) {
     if (ref.is_leaf()) {
       scene.for_each_object(ref, [&](uint32_t triangle) {
@@ -125,8 +125,10 @@ CELLTRACE_ONE_COPY Work intersect(SceneAccess<Spu>& scene, const RayPacket& rays
         F enter;
         const uint32_t lanes = local.find_entry(node.bounds, i, reach, enter);
         if (lanes == 0) continue;
-        float first_enter, last_enter;
-        S::extremes(S::select(S::M::from_bits(lanes), enter, F(kMaxHitDistance)), first_enter, last_enter);
+        // The order matters if the nearest hit is asked for.
+        float first_enter = 0.0f, last_enter;
+        if (!any)
+          S::extremes(S::select(S::M::from_bits(lanes), enter, F(kMaxHitDistance)), first_enter, last_enter);
         stack.push(siblings, {{node.child[i], node.leaf[i]}, lanes, first_enter, 0});
       }
     }
@@ -135,7 +137,16 @@ CELLTRACE_ONE_COPY Work intersect(SceneAccess<Spu>& scene, const RayPacket& rays
       const auto& next = stack.pop();
       ref = next.ref;
       // What has been hit since then may be nearer.
-      if ((next.lanes & (F(next.enter) <= F::load(hits.distance.lane) * F(1.00001f)).bits()) != 0) break;
+      const uint32_t lanes = next.lanes & (F(next.enter) <= F::load(hits.distance.lane) * F(1.00001f)).bits();
+      if constexpr (kTestsWholeLeaves<Spu>) {
+        if (lanes != 0 && __builtin_popcount(lanes) <= tuning::kMostRaysAlone) {
+          const NodeRef below = next.ref;
+          for_each_lane(lanes,
+                        [&](uint32_t lane) { alone.traverse(scene, lane, below, test, stack, hits, work); });
+          continue;
+        }
+      }
+      if (lanes != 0) break;
     }
   }
 }

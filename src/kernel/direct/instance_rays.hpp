@@ -1,0 +1,147 @@
+// Rays of a packet that go alone in the space of an instance's mesh: tested against the children of a node,
+// and against the triangles of a leaf, in lanes. Kernel dialect.
+#pragma once
+
+#include "kernel/accel/traversal_stack.hpp"
+#include "kernel/direct/record_lanes.hpp"
+#include "kernel/primitives/triangle.hpp"
+
+namespace celltrace::kernel {
+
+/// What of an instance's test is the same for all of its rays.
+struct InstanceTest {
+  uint32_t first_number, first_triangle; ///< of the mesh's first triangle: its number, and its offset
+  float nearest;                         ///< hits are farther
+  bool any;                              ///< any hit will do: rays end with their first
+};
+
+/// What it took.
+struct InstanceWork {
+  uint32_t nodes, triangles;
+};
+
+template <class Spu> class InstanceRays {
+public:
+  using S = typename Spu::simd;
+  using F = typename S::F;
+  using F4 = typename S::F4;
+  using M = typename S::M;
+  using Stack = TraversalStack<1, kMaxMeshLevels>;
+
+  /// Of rays in the mesh's space; `inverse` is that of their direction.
+  [[gnu::always_inline]] InstanceRays(const RayPacket& world, const V3<S>& origin, const V3<S>& direction,
+                                      const V3<S>& inverse)
+      : world_(world) {
+    origin_.template store<S>(origin);
+    direction_.template store<S>(direction);
+    inverse_.template store<S>(inverse);
+  }
+
+  /// Traverses the subtree below `ref` with one of them.
+  void traverse(SceneAccess<Spu>& scene, uint32_t lane, NodeRef ref, const InstanceTest& test, Stack& stack,
+                HitPacket& hits, InstanceWork& work) const {
+    const uint32_t floor = stack.size();
+    const Slabs slabs(*this, lane);
+    for (;;) {
+      if (!ref.is_leaf()) {
+        ++work.nodes;
+        expand(*scene.node(ref.child), slabs, hits.distance.lane[lane], stack);
+      } else {
+        work.triangles += leaf_word::count(ref.leaf);
+        test_leaf(scene, lane, ref, test, hits);
+        if (test.any && hits.object.lane[lane] != kInstancedBit) {
+          hits.distance.lane[lane] = -1.0f;
+          return stack.shrink(floor);
+        }
+      }
+      do {
+        if (stack.size() == floor) return;
+        ref = stack.top().ref;
+      } while (stack.pop().enter > hits.distance.lane[lane] * kLonger);
+    }
+  }
+
+  /// A triangle's distance is rounded: a box is a little longer than it is.
+  static constexpr float kLonger = 1.00001f;
+
+private:
+  /// The ray in every lane, and which rows of bounds are near it.
+  struct Slabs {
+    F4 origin[3], inverse[3];
+    uint32_t near[3];
+
+    [[gnu::always_inline]] Slabs(const InstanceRays& rays, uint32_t lane) {
+      for (uint32_t axis = 0; axis < 3; ++axis) {
+        const float inverse_of_lane = rays.inverse_[axis].lane[lane];
+        origin[axis] = F4::splat(rays.origin_[axis].lane[lane]);
+        inverse[axis] = F4::splat(inverse_of_lane);
+        near[axis] = 2 * axis + (inverse_of_lane < 0.0f ? 1 : 0);
+      }
+    }
+  };
+
+  /// Pushes those of the children that the ray enters before `reach`.
+  [[gnu::always_inline]] static void expand(const NodeRecord& node, const Slabs& slabs, float reach,
+                                            Stack& stack) {
+    F4 enter = F4::splat(0.0f), leave = F4::splat(reach);
+    for (uint32_t axis = 0; axis < 3; ++axis) {
+      const uint32_t near = slabs.near[axis];
+      enter = S::max(enter, (F4::load(node.bounds[near]) - slabs.origin[axis]) * slabs.inverse[axis]);
+      leave = S::min(leave, (F4::load(node.bounds[near ^ 1]) - slabs.origin[axis]) * slabs.inverse[axis]);
+    }
+    alignas(16) float key[4];
+    enter.store(key);
+    const uint32_t siblings = stack.size();
+    for_each_lane(not_above_bits(enter, leave * F4::splat(kLonger)), [&](uint32_t i) {
+      const NodeRef child = {node.child[i], node.leaf[i]};
+      if ((child.child | child.leaf) != 0) stack.push(siblings, {child, 1, key[i], 0});
+    });
+  }
+
+  [[gnu::always_inline]] void test_leaf(SceneAccess<Spu>& scene, uint32_t lane, const NodeRef& leaf,
+                                        const InstanceTest& test, HitPacket& hits) const {
+    constexpr auto kBytes = static_cast<uint32_t>(sizeof(ObjectRecord));
+    const uint32_t count = leaf_word::count(leaf.leaf);
+    const uint32_t first = test.first_number + (leaf.child - test.first_triangle) / kBytes;
+    const ObjectRecord* const records = scene.object(leaf.child);
+    // Lanes beyond the leaf's triangles repeat the first.
+    const auto geometry = [&](uint32_t i) __attribute__((always_inline)) {
+      return records[i < count ? i : 0].geometry;
+    };
+    F numbers[12];
+    for (uint32_t word = 0; word < 12; word += 4)
+      load_words<S>(geometry, word, *reinterpret_cast<F(*)[4]>(numbers + word));
+    const V3<S> v0 = {numbers[0], numbers[1], numbers[2]};
+    const TriangleSides<S> sides = {v0, V3<S>{numbers[3], numbers[4], numbers[5]} - v0,
+                                    V3<S>{numbers[6], numbers[7], numbers[8]} - v0};
+    const uint32_t start = world_.start_object.lane[lane] - first;
+    const Crossings<S> c = SeenTriangle<S>(of(origin_, lane), sides).crossed(of(direction_, lane), M::none());
+    const M valid = c.near_hit & (c.near > F(test.nearest)) & (c.near <= F(hits.distance.lane[lane]));
+    uint32_t hit = valid.bits() & ((1u << count) - 1);
+    if (start < count) hit &= ~(1u << start);
+    if (hit == 0) return;
+    FloatLanes near, u, v;
+    c.near.store(near.lane);
+    c.u.store(u.lane);
+    c.v.store(v.lane);
+    for_each_lane(hit, [&](uint32_t i) {
+      const float distance = hits.distance.lane[lane];
+      const auto present = static_cast<int32_t>(hits.object.lane[lane]);
+      const auto candidate = static_cast<int32_t>(first + i);
+      if (!(near.lane[i] < distance || (near.lane[i] == distance && candidate < present))) return;
+      hits.distance.lane[lane] = near.lane[i];
+      hits.u.lane[lane] = u.lane[i];
+      hits.v.lane[lane] = v.lane[i];
+      hits.object.lane[lane] = first + i;
+    });
+  }
+
+  static V3<S> of(const VectorLanes& v, uint32_t lane) {
+    return {F(v.x.lane[lane]), F(v.y.lane[lane]), F(v.z.lane[lane])};
+  }
+
+  const RayPacket& world_;
+  VectorLanes origin_, direction_, inverse_;
+};
+
+} // namespace celltrace::kernel
