@@ -22,6 +22,15 @@ namespace {
 constexpr std::size_t kMostObjects = 8192;
 constexpr std::size_t kMostPairs = 1 << 20, kMostOverlaps = 1 << 16; ///< beyond these nobody waits for more
 constexpr int kMostSteps = 32; ///< that faces of one plane are moved apart by
+/// Steps that surely take a face out of a solid whose boundary it was on: that is a little larger than it is.
+constexpr int kStepsOut = 3;
+
+/// The parts of an object's CSG that a box is in, from the whole down.
+struct CsgStep {
+  const Csg* csg;
+  std::size_t part;
+};
+using CsgPath = std::vector<CsgStep>;
 
 /// In a plane whose normal points to where the first of its coordinates grows that are not 0.
 struct Face {
@@ -33,24 +42,28 @@ struct Face {
   int side;        ///< of the box: axis * 2, and 1 for the one of larger coordinates
   bool looks_up;   ///< its outside is where the normal points
   Index material;
-  int steps = 0; ///< to move it, along the normal
+  std::uint32_t path = 0; ///< its number
+  int steps = 0;          ///< to move it, toward the camera
 
   static constexpr std::size_t kPlane = ~std::size_t{0};
 };
 
-/// Calls `visit(box, transform, material)` for the boxes of an object, which may be changed: those in its
-/// CSG, too, that are not cut out of it. CSGs are copied if they may be.
+/// Calls `visit(box, transform, material, path)` for the boxes of an object, which may be changed: those in
+/// its CSG, too, that are not cut out of it. CSGs are copied if they may be.
 template <class AnyObject, class Visit>
-void visit_boxes(AnyObject& object, const Transform& around, Visit& visit) {
+void visit_boxes(AnyObject& object, const Transform& around, CsgPath& path, Visit& visit) {
   if (object.inverse) return;
   const Transform transform = object.transform.then(around);
-  if (auto* const box = std::get_if<Box>(&object.shape)) return visit(*box, transform, object.material);
+  if (auto* const box = std::get_if<Box>(&object.shape)) return visit(*box, transform, object.material, path);
   auto* const shared = std::get_if<std::shared_ptr<const Csg>>(&object.shape);
   if (shared == nullptr || (*shared)->parts.empty()) return;
   const auto visit_parts = [&](auto& csg) {
     const bool is_difference = csg.operation == Csg::Operation::difference;
-    for (std::size_t i = 0; i < (is_difference ? 1 : csg.parts.size()); ++i)
-      visit_boxes(csg.parts[i], transform, visit);
+    for (std::size_t i = 0; i < (is_difference ? 1 : csg.parts.size()); ++i) {
+      path.push_back({&csg, i});
+      visit_boxes(csg.parts[i], transform, path, visit);
+      path.pop_back();
+    }
   };
   if constexpr (std::is_const_v<AnyObject>) {
     visit_parts(**shared);
@@ -59,6 +72,11 @@ void visit_boxes(AnyObject& object, const Transform& around, Visit& visit) {
     visit_parts(*copy);
     *shared = std::move(copy);
   }
+}
+
+template <class AnyObject, class Visit> void visit_boxes(AnyObject& object, Visit& visit) {
+  CsgPath path;
+  visit_boxes(object, Transform(), path, visit);
 }
 
 /// Turns the normal, which points out, the way that Face says.
@@ -81,11 +99,12 @@ public:
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
       const Object& object = scene.objects[i];
       if (const auto* const plane = std::get_if<Plane>(&object.shape)) add_plane(i, *plane);
-      const auto visit = [&](const Box& box, const Transform& transform, Index material) {
-        if (!object.is_hidden) add_box(i, boxes, box, transform, material);
+      const auto visit = [&](const Box& box, const Transform& transform, Index material,
+                             const CsgPath& path) {
+        if (!object.is_hidden) add_box(i, boxes, box, transform, material, path);
         ++boxes;
       };
-      visit_boxes(object, Transform(), visit);
+      visit_boxes(object, visit);
     }
     box_count_ = boxes;
   }
@@ -118,7 +137,7 @@ public:
             scene.objects[face.object].transform.then(Transform::translate(way(face)));
     }
     std::size_t number = 0;
-    const auto move = [&](Box& box, const Transform& transform, Index) {
+    const auto move = [&](Box& box, const Transform& transform, Index, const CsgPath&) {
       for (int side = 0; side < 6; ++side) {
         const Face* const face = sides[number].face[side];
         if (face == nullptr) continue;
@@ -133,10 +152,10 @@ public:
     };
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
       if (has_moves[i]) {
-        visit_boxes(scene.objects[i], Transform(), move);
+        visit_boxes(scene.objects[i], move);
       } else {
-        const auto pass = [&](const Box&, const Transform&, Index) { ++number; };
-        visit_boxes(std::as_const(scene.objects[i]), Transform(), pass);
+        const auto pass = [&](const Box&, const Transform&, Index, const CsgPath&) { ++number; };
+        visit_boxes(std::as_const(scene.objects[i]), pass);
       }
     }
     return scene;
@@ -152,7 +171,11 @@ private:
       for (int axis = 0; axis < 3; ++axis)
         near[axis] = std::clamp(eye[axis], face.extent.min[axis], face.extent.max[axis]);
     const double size = glm::length(eye) + std::abs(face.distance) + glm::length(near);
-    return face.normal * (kStep * face.steps * size);
+    return face.normal * (kStep * face.steps * size * (is_seen_from_above(face) ? 1 : -1));
+  }
+  /// Whether the camera is where the normal points.
+  bool is_seen_from_above(const Face& face) const {
+    return glm::dot(scene_.camera.location, face.normal) > face.distance;
   }
 
   void add_plane(std::size_t object, const Plane& plane) {
@@ -169,7 +192,8 @@ private:
   }
 
   void add_box(std::size_t object, std::size_t number, const Box& box, const Transform& transform,
-               Index material) {
+               Index material, const CsgPath& path) {
+    if (!path.empty()) paths_.push_back(path);
     const Vec3 low = glm::min(box.corner[0], box.corner[1]), high = glm::max(box.corner[0], box.corner[1]);
     for (int side = 0; side < 6; ++side) {
       const int axis = side / 2;
@@ -195,6 +219,7 @@ private:
       face.object = object;
       face.box = number;
       face.side = side;
+      face.path = path.empty() ? 0 : static_cast<std::uint32_t>(paths_.size());
       if (is_usable(face)) faces_.push_back(face);
     }
   }
@@ -265,50 +290,77 @@ private:
     return !are_opaque || (a.looks_up == b.looks_up && a.material != b.material);
   }
 
+  /// Two faces of one plane: the first one belongs nearer to the camera, by so many steps.
+  struct Order {
+    Face* near;
+    Face* far;
+    int steps = 1;
+  };
+
+  /// Of faces of one object: none, unless they are of parts of an intersection that look the same way. There
+  /// POV-Ray shows that of the last part: the others are moved out, where they are in no other part.
+  std::optional<Order> order_of_parts(Face& a, Face& b) const {
+    if (a.path == 0 || b.path == 0 || a.looks_up != b.looks_up) return std::nullopt;
+    const CsgPath &of_a = paths_[a.path - 1], &of_b = paths_[b.path - 1];
+    std::size_t level = 0;
+    while (level < std::min(of_a.size(), of_b.size()) && of_a[level].part == of_b[level].part)
+      ++level;
+    if (level == std::min(of_a.size(), of_b.size()) ||
+        of_a[level].csg->operation != Csg::Operation::intersection)
+      return std::nullopt;
+    Face& out = of_a[level].part < of_b[level].part ? a : b;
+    Face& in = &out == &a ? b : a;
+    if (a.looks_up == is_seen_from_above(a)) return Order{&out, &in, kStepsOut};
+    return Order{&in, &out, kStepsOut};
+  }
+
+  /// Of faces of two objects: the one that POV-Ray shows is nearer.
+  Order order_of_objects(Face& a, Face& b) {
+    if (is_seen(a, b)) return {&a, &b};
+    return {&b, &a};
+  }
+
   /// Moves faces [first, last) of one plane apart.
   void settle(std::size_t first, std::size_t last) {
     std::sort(faces_.begin() + static_cast<std::ptrdiff_t>(first),
               faces_.begin() + static_cast<std::ptrdiff_t>(last),
               [](const Face& a, const Face& b) { return a.extent.min.x < b.extent.min.x; });
-    std::vector<std::pair<Face*, Face*>> pairs; // the first one is seen
+    std::vector<Order> orders;
     for (std::size_t i = first; i < last; ++i) {
       for (std::size_t k = i + 1; k < last && faces_[k].extent.min.x <= faces_[i].extent.max.x; ++k) {
         BuildWatch::look_at(pairs_);
         if (++pairs_ > kMostPairs || overlaps_ > kMostOverlaps) return;
         Face &a = faces_[i], &b = faces_[k];
-        if (a.object == b.object || !can_differ(a, b) || !overlap(a.extent, b.extent)) continue;
+        if (!can_differ(a, b) || !overlap(a.extent, b.extent)) continue;
         ++overlaps_;
-        if (is_seen(a, b))
-          pairs.emplace_back(&a, &b);
-        else
-          pairs.emplace_back(&b, &a);
+        const std::optional<Order> order =
+            a.object == b.object ? order_of_parts(a, b) : order_of_objects(a, b);
+        if (order) orders.push_back(*order);
       }
     }
-    if (pairs.empty()) return;
+    if (orders.empty()) return;
     any_moves_ = true;
-    if (stack(pairs)) return;
+    if (stack(orders)) return;
     // What is seen depends on the ray, and no order of all faces is right everywhere.
-    for (auto& [seen, hidden] : pairs)
-      if (tree_->rank(hidden->object) < tree_->rank(seen->object)) std::swap(seen, hidden);
-    if (stack(pairs)) return;
+    for (Order& order : orders)
+      if (tree_ && tree_->rank(order.far->object) < tree_->rank(order.near->object))
+        std::swap(order.near, order.far);
+    if (stack(orders)) return;
     for (std::size_t i = first; i < last; ++i)
       faces_[i].steps = 0;
   }
 
-  /// Gives the faces of pairs their steps. False if these would be too many.
-  bool stack(const std::vector<std::pair<Face*, Face*>>& pairs) const {
-    const Face& any = *pairs.front().first;
-    const bool from_above = glm::dot(scene_.camera.location, any.normal) > any.distance;
-    for (const auto& [seen, hidden] : pairs)
-      seen->steps = hidden->steps = 0;
+  /// Gives the faces their steps. False if these would be too many.
+  static bool stack(const std::vector<Order>& orders) {
+    for (const Order& order : orders)
+      order.near->steps = order.far->steps = 0;
     // Without circles each round settles one step more.
     for (int round = 0; round <= kMostSteps + 1; ++round) {
       bool has_changed = false;
-      for (const auto& [seen, hidden] : pairs) {
-        Face &above = from_above ? *seen : *hidden, &below = from_above ? *hidden : *seen;
-        if (above.steps > below.steps) continue;
-        above.steps = below.steps + 1;
-        if (above.steps > kMostSteps) return false;
+      for (const Order& order : orders) {
+        if (order.near->steps >= order.far->steps + order.steps) continue;
+        order.near->steps = order.far->steps + order.steps;
+        if (order.near->steps > kMostSteps) return false;
         has_changed = true;
       }
       if (!has_changed) return true;
@@ -333,6 +385,7 @@ private:
   const Scene& scene_;
   const std::vector<std::uint32_t>& material_flags_;
   std::vector<Face> faces_;
+  std::vector<CsgPath> paths_; ///< of boxes in CSGs
   std::size_t box_count_ = 0, pairs_ = 0, overlaps_ = 0;
   std::optional<BoundingTree> tree_;
   bool any_moves_ = false;

@@ -12,7 +12,8 @@ namespace celltrace {
 /// A scene in which faces of boxes and planes that lie in one plane, and overlap, are moved apart, by a few
 /// millionths of their distance from the camera, so that the one is in front that POV-Ray shows. There
 /// rounding is the same for all of them and the first one counts that is tested (BoundingTree); single
-/// precision would show now the one and now the other. Boxes may be parts of a CSG, but not cut out of it.
+/// precision would show now the one and now the other. Boxes may be parts of a CSG, but not cut out of it: of
+/// faces of one intersection that of the last part is seen.
 /// Scenes of very many objects stay as they are.
 class SceneWithFacesApart {
 public:

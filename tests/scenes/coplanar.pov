@@ -1,4 +1,4 @@
-// Faces in one plane: of boxes that overlap, of a box in a plane, of glass on a plane, in a wall that is turned.
+// Faces in one plane: of boxes that overlap, or are parts of an intersection, of a box in a plane, of glass on a plane, in a wall that is turned.
 #version 3.7;
 global_settings { assumed_gamma 1 }
 camera { location <1, 5, -8> look_at <0, 0.3, 0> angle 45 }
@@ -22,6 +22,17 @@ box { <0.8, -1, -2.5>, <2.2, 0, -1.1> Colour() }
 
 // Glass on the floor.
 box { <0.8, 0, 0.2>, <1.8, 0.8, 1.2> pigment { rgbf <0.8, 1, 0.9, 0.9> } interior { ior 1.2 } }
+
+// What boxes have in common, with faces of both.
+intersection {
+  box { <-3.5, 0, -3>, <-2.25, 1, -2> Colour() }
+  box { <-3, -1, -3>, <-2, 1.5, -1.5> Colour() }
+  box { <-3.25, 0.25, -3>, <-2, 1.25, -1.5> Colour() }
+}
+intersection {
+  box { <-0.875, 0.125, -3>, <0.25, 0.5, -2.5> Colour() }
+  box { <-1.25, 0, -3>, <-0.25, 0.75, -2> Colour() }
+}
 
 // Bricks that overlap in a wall.
 union {
