@@ -509,7 +509,8 @@ private:
     if ((child | leaf) == 0) return true;
     if (leaf != 0) {
       const std::uint32_t count = leaf_word::count(leaf);
-      if (leaf != leaf_word::make(count, 1) || count == 0 ||
+      // Rays that go alone test them in lanes.
+      if (leaf != leaf_word::make(count, 1) || count == 0 || count > kSimdLanes ||
           !refers_to(child, h_.mesh_object_offset, h_.mesh_object_count, sizeof(ObjectRecord)))
         return false;
       const auto first = (child - h_.mesh_object_offset) / static_cast<std::uint32_t>(sizeof(ObjectRecord));

@@ -221,6 +221,10 @@ TEST_CASE("A sealed scene image with a fault in its instances is refused") {
     nodes[0].child[0] = h.mesh_object_offset + (h.mesh_object_count - 1) * std::uint32_t{sizeof(O)};
   });
   refused([](H& h, I*, O*, N* nodes) {
+    nodes[0].leaf[0] = leaf_word::make(17, 1);
+    nodes[0].child[0] = h.mesh_object_offset;
+  });
+  refused([](H& h, I*, O*, N* nodes) {
     nodes[0].leaf[0] = leaf_word::make(2, 2);
     nodes[0].child[0] = h.mesh_object_offset;
   });
