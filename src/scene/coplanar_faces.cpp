@@ -26,11 +26,11 @@ constexpr int kMostSteps = 32; ///< that faces of one plane are moved apart by
 constexpr int kStepsOut = 3;
 
 /// The parts of an object's CSG that a box is in, from the whole down.
-struct CsgStep {
+struct PathStep {
   const Csg* csg;
   std::size_t part;
 };
-using CsgPath = std::vector<CsgStep>;
+using CsgPath = std::vector<PathStep>;
 
 /// In a plane whose normal points to where the first of its coordinates grows that are not 0.
 struct Face {

@@ -55,8 +55,25 @@ namespace module_instances {
 template <class S> struct MeshRays {
   V3<S> origin, direction, inverse;
 
-  /// Where they enter a child of a node, and which of them do that before `reach`. A triangle's distance is
-  /// rounded: a box is a little longer than it is.
+  /// Pushes the children of a node that some of them enter before `reach`, the nearest on top unless `any`
+  /// order will do.
+  [[gnu::always_inline]] void expand(const NodeRecord& node, const typename S::F& reach, bool any,
+                                     TraversalStack<1, kMaxMeshLevels>& stack) const {
+    using F = typename S::F;
+    const uint32_t siblings = stack.size();
+    for (uint32_t i = 0; i < 4 && (node.child[i] | node.leaf[i]) != 0; ++i) {
+      F enter;
+      const uint32_t lanes = find_entry(node.bounds, i, reach, enter);
+      if (lanes == 0) continue;
+      float first_enter = 0.0f, last_enter;
+      if (!any)
+        S::extremes(S::select(S::M::from_bits(lanes), enter, F(kMaxHitDistance)), first_enter, last_enter);
+      stack.push(siblings, {{node.child[i], node.leaf[i]}, lanes, first_enter, 0});
+    }
+  }
+
+private:
+  /// Where they enter a child of a node, and which of them do that before `reach`.
   [[gnu::always_inline]] uint32_t find_entry(const float (&bounds)[6][4], uint32_t child,
                                              const typename S::F& reach, typename S::F& enter) const {
     using F = typename S::F;
@@ -68,8 +85,7 @@ template <class S> struct MeshRays {
     const F high_z = (F(bounds[5][child]) - origin.z) * inverse.z;
     enter = S::max(S::max(S::min(low_x, high_x), S::min(low_y, high_y)), S::min(low_z, high_z));
     const F leave = S::min(S::min(S::max(low_x, high_x), S::max(low_y, high_y)), S::max(low_z, high_z));
-    const F longer(1.00001f);
-    return ((enter <= S::min(leave, reach) * longer) & (leave >= F(0.0f))).bits();
+    return ((enter <= S::min(leave, reach) * F(kLongerBox)) & (leave >= F(0.0f))).bits();
   }
 };
 
@@ -91,9 +107,11 @@ CELLTRACE_ONE_COPY InstanceWork intersect(SceneAccess<Spu>& scene, const RayPack
   const InstanceRecord& instance = *scene.instance(instance_of(*scene.extra(object.extra)));
   const uint32_t first_triangle = instance.first_triangle, first = kInstancedBit + instance.first_number;
   NodeRef ref = {instance.root, 0};
+  uint32_t lanes = (F::load(hits.distance.lane) > F(0.0f)).bits();
   [[maybe_unused]] const InstanceTest test = {first, first_triangle, nearest, any};
-  [[maybe_unused]] const Present<InstanceRays<Spu>, kTestsWholeLeaves<Spu>> alone(
-      rays, local.origin, local.direction, local.inverse);
+  // Where any hit will do, most rays end before a frustum pays.
+  [[maybe_unused]] const Present<InstanceRays<Spu>, kTestsWholeLeaves<Spu>> in_lanes(
+      rays, local.origin, local.direction, local.inverse, any ? 0u : lanes);
   TraversalStack<1, kMaxMeshLevels> stack;
   InstanceWork work = {0, 0};
   for (;;) {
@@ -120,29 +138,24 @@ CELLTRACE_ONE_COPY InstanceWork intersect(SceneAccess<Spu>& scene, const RayPack
       ++work.nodes;
       const F reach = F::load(hits.distance.lane);
       const NodeRecord& node = *scene.node(ref.child);
-      const uint32_t siblings = stack.size();
-      for (uint32_t i = 0; i < 4 && (node.child[i] | node.leaf[i]) != 0; ++i) {
-        F enter;
-        const uint32_t lanes = local.find_entry(node.bounds, i, reach, enter);
-        if (lanes == 0) continue;
-        // The order matters if the nearest hit is asked for.
-        float first_enter = 0.0f, last_enter;
-        if (!any)
-          S::extremes(S::select(S::M::from_bits(lanes), enter, F(kMaxHitDistance)), first_enter, last_enter);
-        stack.push(siblings, {{node.child[i], node.leaf[i]}, lanes, first_enter, 0});
+      bool is_done = false;
+      if constexpr (kTestsWholeLeaves<Spu>) {
+        is_done = in_lanes.has_frustum();
+        if (is_done) in_lanes.expand(node, lanes, reach, stack);
       }
+      if (!is_done) local.expand(node, reach, any, stack);
     }
     for (;;) {
       if (stack.size() == 0) return work;
       const auto& next = stack.pop();
       ref = next.ref;
       // What has been hit since then may be nearer.
-      const uint32_t lanes = next.lanes & (F(next.enter) <= F::load(hits.distance.lane) * F(1.00001f)).bits();
+      lanes = next.lanes & (F(next.enter) <= F::load(hits.distance.lane) * F(kLongerBox)).bits();
       if constexpr (kTestsWholeLeaves<Spu>) {
         if (lanes != 0 && __builtin_popcount(lanes) <= tuning::kMostRaysAlone) {
-          const NodeRef below = next.ref;
-          for_each_lane(lanes,
-                        [&](uint32_t lane) { alone.traverse(scene, lane, below, test, stack, hits, work); });
+          const NodeRef below = ref;
+          for_each_lane(
+              lanes, [&](uint32_t lane) { in_lanes.traverse(scene, lane, below, test, stack, hits, work); });
           continue;
         }
       }
