@@ -31,7 +31,7 @@ namespace {
 /// time' of scenes with instances.
 constexpr std::uint64_t kMostCopies = 500'000;
 /// Smaller meshes are always copied: to take rays to their space would be most of the work.
-constexpr std::size_t kFewestTriangles = 128;
+constexpr std::size_t kFewestTrianglesToShare = 128;
 
 /// Of an object all of which is a large mesh, seen by all rays in the light of all global lights.
 const Mesh* plain_mesh_of(const Object& object) {
@@ -40,7 +40,7 @@ const Mesh* plain_mesh_of(const Object& object) {
       object.light_group != kNoIndex)
     return nullptr;
   const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&object.shape);
-  return mesh != nullptr && (*mesh)->triangles.size() >= kFewestTriangles ? mesh->get() : nullptr;
+  return mesh != nullptr && (*mesh)->triangles.size() >= kFewestTrianglesToShare ? mesh->get() : nullptr;
 }
 
 /// Whether a material with these flags lets no light through and asks nothing of surfaces but points.
@@ -77,14 +77,14 @@ Aabb around(const WorldBox& box) {
   return result;
 }
 
-Aabb bounds_of(const MeshPrototype& mesh, const MeshPrototype::Triangle& triangle) {
+Aabb bounds_of_triangle(const MeshPrototype& mesh, const MeshPrototype::Triangle& triangle) {
   const Vec3f &a = mesh.vertices()[triangle.vertex[0]], &b = mesh.vertices()[triangle.vertex[1]],
               &c = mesh.vertices()[triangle.vertex[2]];
   const Vec3f low = glm::min(a, glm::min(b, c)), high = glm::max(a, glm::max(b, c));
   return {{low.x, low.y, low.z}, {high.x, high.y, high.z}};
 }
 
-std::uint32_t sum(std::uint32_t a, std::size_t b) {
+std::uint32_t sum_of(std::uint32_t a, std::size_t b) {
   if (b > std::numeric_limits<std::int32_t>::max() - a)
     throw InputError("the scene is too large: its meshes and their instances have more triangles than 31 "
                      "bits can count");
@@ -92,7 +92,7 @@ std::uint32_t sum(std::uint32_t a, std::size_t b) {
 }
 
 /// How a mesh is used.
-struct Uses {
+struct MeshUses {
   std::uint32_t count = 0;
   bool is_shared = false;
   Index mesh = kNoIndex; ///< once it is shared, its number
@@ -103,9 +103,10 @@ struct Uses {
 InstancedMeshes::InstancedMeshes(const Scene& scene, std::size_t objects,
                                  const std::vector<std::uint32_t>& material_flags, unsigned threads)
     : objects_(scene.objects.data()) {
-  std::unordered_map<const Mesh*, Uses> uses;
+  std::unordered_map<const Mesh*, MeshUses> uses;
   const auto mesh_of = [&](const Object& object) {
-    return is_plain(material_flags[object.material]) ? plain_mesh_of(object) : nullptr;
+    const Mesh* const mesh = plain_mesh_of(object);
+    return mesh != nullptr && is_plain(material_flags[object.material]) ? mesh : nullptr;
   };
   std::uint64_t triangles = 0;
   for (std::size_t i = 0; i < objects; ++i)
@@ -130,7 +131,7 @@ InstancedMeshes::InstancedMeshes(const Scene& scene, std::size_t objects,
     const Object& object = scene.objects[i];
     const auto found = uses.find(mesh_of(object));
     if (found == uses.end() || !found->second.is_shared) continue;
-    Uses& use = found->second;
+    MeshUses& use = found->second;
     if (use.mesh == kNoIndex) {
       use.mesh = static_cast<Index>(meshes_.size());
       add_mesh(MeshPrototype(*found->first, threads));
@@ -148,10 +149,10 @@ void InstancedMeshes::add_mesh(MeshPrototype&& prototype) {
   std::vector<Aabb> bounds;
   bounds.reserve(prototype.triangles().size());
   for (const MeshPrototype::Triangle& triangle : prototype.triangles())
-    bounds.push_back(bounds_of(prototype, triangle));
+    bounds.push_back(bounds_of_triangle(prototype, triangle));
   SharedMesh mesh = {std::move(prototype), {}, object_count_, extra_count_, node_count_};
   if (!bounds.empty()) mesh.nodes = build_mesh_bvh(bounds);
-  object_count_ = sum(object_count_, mesh.prototype.triangles().size());
+  object_count_ = sum_of(object_count_, mesh.prototype.triangles().size());
   extra_count_ += mesh.prototype.smooth();
   node_count_ += static_cast<std::uint32_t>(mesh.nodes.size());
   meshes_.push_back(std::move(mesh));
@@ -164,7 +165,7 @@ void InstancedMeshes::add_instance(const Object& object, std::uint32_t mesh) {
     box.grow(WorldBox(group, object.transform));
   instances_.push_back({&object, mesh, next_number_, around(box)});
   check_size(instances_.back().box);
-  next_number_ = sum(next_number_, prototype.triangles().size());
+  next_number_ = sum_of(next_number_, prototype.triangles().size());
 }
 
 ExtraRecord InstancedMeshes::extra_of(const Instance& instance, std::uint32_t table_offset) const {

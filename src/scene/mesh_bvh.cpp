@@ -18,23 +18,23 @@ constexpr std::uint32_t kMostInLeaf = 4;
 /// Places at which the SAH looks to split a range: of small ones, all.
 constexpr std::uint32_t kMostPlaces = 64;
 
-constexpr float kFar = 3e38f;
+constexpr float kBeyond = 3e38f;
 
 float half_area(const Aabb& box) {
   const float x = box.max[0] - box.min[0], y = box.max[1] - box.min[1], z = box.max[2] - box.min[2];
   return x * y + (x + y) * z;
 }
 
-struct Range {
+struct TriangleRange {
   std::uint32_t begin = 0, end = 0;
   Aabb box{};
 
   std::uint32_t count() const { return end - begin; }
 };
 
-class Builder {
+class MeshBvhBuilder {
 public:
-  explicit Builder(std::span<const Aabb> bounds) : bounds_(bounds) {}
+  explicit MeshBvhBuilder(std::span<const Aabb> bounds) : bounds_(bounds) {}
 
   std::vector<NodeRecord> build() {
     add_node(range(0, static_cast<std::uint32_t>(bounds_.size())), kMaxMeshLevels);
@@ -42,8 +42,8 @@ public:
   }
 
 private:
-  Range range(std::uint32_t begin, std::uint32_t end) const {
-    Range all = {begin, end, bounds_[begin]};
+  TriangleRange range(std::uint32_t begin, std::uint32_t end) const {
+    TriangleRange all = {begin, end, bounds_[begin]};
     for (std::uint32_t i = begin + 1; i < end; ++i)
       all.box = united(all.box, bounds_[i]);
     return all;
@@ -53,20 +53,20 @@ private:
   static std::uint64_t room_of(std::uint32_t levels) { return std::uint64_t{kMostInLeaf} << (2 * levels); }
 
   /// `levels`: that it may have, itself included.
-  std::uint32_t add_node(const Range& all, std::uint32_t levels) {
+  std::uint32_t add_node(const TriangleRange& all, std::uint32_t levels) {
     BuildWatch::look_at(nodes_.size());
-    std::array<Range, 4> children = {all};
+    std::array<TriangleRange, 4> children = {all};
     std::size_t count = 1;
     // What the levels below have no room for is split first, then what costs most.
     const std::uint64_t room = room_of(levels - 1);
-    const auto urgency = [room](const Range& r) {
+    const auto urgency = [room](const TriangleRange& r) {
       const float cost = r.count() > kMostInLeaf ? half_area(r.box) * static_cast<float>(r.count()) : -1.0f;
       return std::pair(r.count() > room, cost);
     };
     while (count < children.size()) {
-      Range* const most =
-          std::max_element(children.begin(), children.begin() + static_cast<std::ptrdiff_t>(count),
-                           [&](const Range& a, const Range& b) { return urgency(a) < urgency(b); });
+      TriangleRange* const most = std::max_element(
+          children.begin(), children.begin() + static_cast<std::ptrdiff_t>(count),
+          [&](const TriangleRange& a, const TriangleRange& b) { return urgency(a) < urgency(b); });
       if (most->count() <= kMostInLeaf) break;
       children[count++] = split(*most, room);
     }
@@ -74,10 +74,10 @@ private:
     nodes_.emplace_back();
     for (std::size_t i = 0; i < children.size(); ++i) {
       const bool is_there = i < count;
-      const Range& child = children[i];
+      const TriangleRange& child = children[i];
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        nodes_[number].bounds[2 * axis][i] = is_there ? child.box.min[axis] : kFar;
-        nodes_[number].bounds[2 * axis + 1][i] = is_there ? child.box.max[axis] : -kFar;
+        nodes_[number].bounds[2 * axis][i] = is_there ? child.box.min[axis] : kBeyond;
+        nodes_[number].bounds[2 * axis + 1][i] = is_there ? child.box.max[axis] : -kBeyond;
       }
       if (!is_there) continue;
       const bool is_leaf = child.count() <= kMostInLeaf;
@@ -90,7 +90,7 @@ private:
 
   /// Leaves `left` a part of it, and returns the rest; neither has more than `most`, unless that is less than
   /// half.
-  Range split(Range& left, std::uint64_t most) {
+  TriangleRange split(TriangleRange& left, std::uint64_t most) {
     const std::uint32_t count = left.count(), places = std::min(count, kMostPlaces);
     const auto place = [&](std::uint32_t i) {
       return left.begin + static_cast<std::uint32_t>(std::uint64_t{count} * i / places);
@@ -118,21 +118,21 @@ private:
       before = united(before, parts_[i].box);
     }
     const std::uint32_t end = left.end, middle = best != 0 ? place(best) : left.begin + count / 2;
-    Range right = best != 0 ? Range{middle, end, behind_[best]} : range(middle, end);
-    left = best != 0 ? Range{left.begin, middle, box} : range(left.begin, middle);
+    TriangleRange right = best != 0 ? TriangleRange{middle, end, behind_[best]} : range(middle, end);
+    left = best != 0 ? TriangleRange{left.begin, middle, box} : range(left.begin, middle);
     return right;
   }
 
   std::span<const Aabb> bounds_;
   std::vector<NodeRecord> nodes_;
-  std::vector<Range> parts_; ///< of the range that is split
-  std::vector<Aabb> behind_; ///< around each of them and those that follow
+  std::vector<TriangleRange> parts_; ///< of the range that is split
+  std::vector<Aabb> behind_;         ///< around each of them and those that follow
 };
 
 } // namespace
 
 std::vector<NodeRecord> build_mesh_bvh(std::span<const Aabb> bounds) {
-  return Builder(bounds).build();
+  return MeshBvhBuilder(bounds).build();
 }
 
 } // namespace celltrace
