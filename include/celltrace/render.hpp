@@ -199,7 +199,7 @@ struct CELLTRACE_EXPORT RenderStatistics {
   Schedule schedule = Schedule::free;
   std::uint64_t seed = 0;
   int width = 0, height = 0; ///< of the region that is rendered
-  std::uint64_t objects = 0; ///< after unions and instances are taken apart
+  std::uint64_t objects = 0; ///< after unions and copies of meshes are taken apart; one for an instance
 
   /// Primary rays are also those of antialiasing.
   std::uint64_t primary_rays = 0, shadow_rays = 0, reflection_rays = 0, refraction_rays = 0;
