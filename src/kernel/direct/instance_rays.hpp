@@ -130,36 +130,17 @@ private:
     const uint32_t first = test.first_number + (leaf.child - test.first_triangle) / kBytes;
     const ObjectRecord* const records = scene.object(leaf.child);
     // Lanes beyond the leaf's triangles repeat the first.
-    const auto geometry = [&](uint32_t i) __attribute__((always_inline)) {
+    const TriangleSides<S> sides = load_sides<S>([&](uint32_t i) __attribute__((always_inline)) {
       return records[i < count ? i : 0].geometry;
-    };
-    F numbers[12];
-    for (uint32_t word = 0; word < 12; word += 4)
-      load_words<S>(geometry, word, *reinterpret_cast<F(*)[4]>(numbers + word));
-    const V3<S> v0 = {numbers[0], numbers[1], numbers[2]};
-    const TriangleSides<S> sides = {v0, V3<S>{numbers[3], numbers[4], numbers[5]} - v0,
-                                    V3<S>{numbers[6], numbers[7], numbers[8]} - v0};
+    });
     const uint32_t start = world_.start_object.lane[lane] - first;
     const Crossings<S> c =
         SeenTriangle<S>(of(local_.origin, lane), sides).crossed(of(local_.direction, lane), M::none());
     const M valid = c.near_hit & (c.near > F(test.nearest)) & (c.near <= F(hits.distance.lane[lane]));
     uint32_t hit = valid.bits() & ((1u << count) - 1);
     if (start < count) hit &= ~(1u << start);
-    if (hit == 0) return;
-    FloatLanes near, u, v;
-    c.near.store(near.lane);
-    c.u.store(u.lane);
-    c.v.store(v.lane);
-    for_each_lane(hit, [&](uint32_t i) {
-      const float distance = hits.distance.lane[lane];
-      const auto present = static_cast<int32_t>(hits.object.lane[lane]);
-      const auto candidate = static_cast<int32_t>(first + i);
-      if (!(near.lane[i] < distance || (near.lane[i] == distance && candidate < present))) return;
-      hits.distance.lane[lane] = near.lane[i];
-      hits.u.lane[lane] = u.lane[i];
-      hits.v.lane[lane] = v.lane[i];
-      hits.object.lane[lane] = first + i;
-    });
+    keep_closest_of<S>(
+        c, hit, lane, [first](uint32_t i) { return first + i; }, hits);
   }
 
   static V3<S> of(const VectorLanes& v, uint32_t lane) {

@@ -55,22 +55,8 @@ public:
   static void keep_closest(const Crossings<S>& c, const LeafTriangles<S>& triangles, uint32_t lane,
                            HitPacket& hits) {
     const M valid = c.near_hit & (c.near > F(kMinHitDistance)) & (c.near <= F(hits.distance.lane[lane]));
-    const uint32_t hit = valid.bits() & triangles.all();
-    if (hit == 0) return;
-    FloatLanes near, u, v;
-    c.near.store(near.lane);
-    c.u.store(u.lane);
-    c.v.store(v.lane);
-    for_each_lane(hit, [&](uint32_t i) {
-      const float nearest = hits.distance.lane[lane];
-      const auto present = static_cast<int32_t>(hits.object.lane[lane]);
-      const auto candidate = static_cast<int32_t>(triangles.offset(i));
-      if (!(near.lane[i] < nearest || (near.lane[i] == nearest && candidate < present))) return;
-      hits.distance.lane[lane] = near.lane[i];
-      hits.u.lane[lane] = u.lane[i];
-      hits.v.lane[lane] = v.lane[i];
-      hits.object.lane[lane] = triangles.offset(i);
-    });
+    const auto offset_of = [&](uint32_t i) { return triangles.offset(i); };
+    keep_closest_of<S>(c, valid.bits() & triangles.all(), lane, offset_of, hits);
   }
 
 private:

@@ -73,20 +73,10 @@ public:
 
   /// Loads all triangles. Lanes with other objects are meaningless.
   [[gnu::always_inline]] TriangleSides<S> sides() const {
-    F numbers[12]; // a triangle's record has nine of them; the last three are unused
-    const auto geometry = [&](uint32_t i) __attribute__((always_inline)) {
-      return record(i).geometry;
-    };
-    for (uint32_t first = 0; first < 12; first += 4)
-      load_words<S>(geometry, first, *reinterpret_cast<F(*)[4]>(numbers + first));
-    const V3<S> v0 = {numbers[0], numbers[1], numbers[2]};
-    return {v0, V3<S>{numbers[3], numbers[4], numbers[5]} - v0,
-            V3<S>{numbers[6], numbers[7], numbers[8]} - v0};
+    return load_sides<S>([&](uint32_t i) __attribute__((always_inline)) { return record(i).geometry; });
   }
 
 private:
-  using F = typename S::F;
-
   const ObjectRecord& record(uint32_t i) const { return record_at(offsets_[i]); }
   const ObjectRecord& record_at(uint32_t offset) const {
     return *reinterpret_cast<const ObjectRecord*>(image_ + offset);

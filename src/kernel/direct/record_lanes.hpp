@@ -35,6 +35,38 @@ template <class S, class RecordOf>
   vectors[3] = {c[1], c[2], c[3]};
 }
 
+/// Triangles, one in each lane. `geometry_of(lane)`: that of its record, which has twelve words.
+template <class S, class GeometryOf>
+[[gnu::always_inline]] inline TriangleSides<S> load_sides(const GeometryOf& geometry_of) {
+  typename S::F numbers[12]; // a triangle has nine of them; the last three are unused
+  for (uint32_t first = 0; first < 12; first += 4)
+    load_words<S>(geometry_of, first, *reinterpret_cast<typename S::F(*)[4]>(numbers + first));
+  const V3<S> v0 = {numbers[0], numbers[1], numbers[2]};
+  return {v0, V3<S>{numbers[3], numbers[4], numbers[5]} - v0, V3<S>{numbers[6], numbers[7], numbers[8]} - v0};
+}
+
+/// As keep_closest() of crossings.hpp, of one ray with the triangles in lanes, those in `hit` of which it
+/// hits no farther than at its distance. `number_of(i)`: what names the triangle in lane i.
+template <class S, class NumberOf>
+[[gnu::always_inline]] inline void keep_closest_of(const Crossings<S>& c, uint32_t hit, uint32_t lane,
+                                                   const NumberOf& number_of, HitPacket& hits) {
+  if (hit == 0) return;
+  FloatLanes near, u, v;
+  c.near.store(near.lane);
+  c.u.store(u.lane);
+  c.v.store(v.lane);
+  for_each_lane(hit, [&](uint32_t i) {
+    const float nearest = hits.distance.lane[lane];
+    const auto present = static_cast<int32_t>(hits.object.lane[lane]);
+    const auto candidate = static_cast<int32_t>(number_of(i));
+    if (!(near.lane[i] < nearest || (near.lane[i] == nearest && candidate < present))) return;
+    hits.distance.lane[lane] = near.lane[i];
+    hits.u.lane[lane] = u.lane[i];
+    hits.v.lane[lane] = v.lane[i];
+    hits.object.lane[lane] = number_of(i);
+  });
+}
+
 /// The words of ObjectRecords besides their geometry.
 template <class S> struct ObjectWords {
   typename S::I kind_and_flags, material, interior, extra;
