@@ -126,10 +126,6 @@ TEST_CASE("what only some rays see") {
 }
 
 TEST_CASE("what looks different from inside") {
-  const auto material = [](const std::string& modifiers) {
-    const Scene scene = parse("sphere { 0, 1 " + modifiers + " }");
-    return scene.materials.at(scene.objects.at(0).material);
-  };
   CHECK_FALSE(material("texture { pigment { rgb 1 } }").inside);
   const Material both =
       material("texture { pigment { rgb x } } interior_texture { pigment { gradient x } translate 2*x }");

@@ -5,15 +5,9 @@
 
 using celltrace::ParseOptions;
 using celltrace::test::error_line;
+using celltrace::test::repeated;
 
 namespace {
-
-std::string repeated(const std::string& text, int times) {
-  std::string result;
-  for (int i = 0; i < times; ++i)
-    result += text;
-  return result;
-}
 
 bool contains(const std::string& text, const char* part) {
   return text.find(part) != std::string::npos;

@@ -20,6 +20,19 @@ inline std::string output(std::string_view text, ParseOptions options = {}) {
   return said;
 }
 
+/// The material of a sphere with these modifiers, after what stands `before` it.
+inline Material material(const std::string& modifiers, const std::string& before = "") {
+  const Scene scene = parse(before + "sphere { 0, 1 " + modifiers + " }");
+  return scene.materials.at(scene.objects.at(0).material);
+}
+
+inline std::string repeated(const std::string& text, int times) {
+  std::string all;
+  for (int i = 0; i < times; ++i)
+    all += text;
+  return all;
+}
+
 /// The value of an expression as #debug prints it, with three digits.
 inline std::string value(const std::string& expression) {
   return output("#debug str(" + expression + ", 0, 3)");

@@ -7,14 +7,10 @@
 
 using namespace celltrace;
 using test::error_line;
+using test::material;
 using test::parse;
 
 namespace {
-
-Material material(const std::string& modifiers, const std::string& before = "") {
-  const Scene scene = parse(before + "sphere { 0, 1 " + modifiers + " }");
-  return scene.materials.at(scene.objects.at(0).material);
-}
 
 PatternMap<Pigment> pigment_map(const std::string& items, const std::string& before = "") {
   const Material m = material("pigment { " + items + " }", before);

@@ -6,15 +6,9 @@
 
 using namespace celltrace;
 using test::parse;
+using test::repeated;
 
 namespace {
-
-std::string repeated(const std::string& text, int times) {
-  std::string all;
-  for (int i = 0; i < times; ++i)
-    all += text;
-  return all;
-}
 
 void check_progress(const std::string& text) {
   ParseOptions options;

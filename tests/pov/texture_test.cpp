@@ -5,14 +5,10 @@
 
 using namespace celltrace;
 using test::error_line;
+using test::material;
 using test::parse;
 
 namespace {
-
-Material material(const std::string& modifiers) {
-  const Scene scene = parse("sphere { 0, 1 " + modifiers + " }");
-  return scene.materials.at(scene.objects.at(0).material);
-}
 
 Finish finish(const std::string& items) {
   return material("finish { " + items + " }").finish;
