@@ -1,0 +1,43 @@
+// What the tables of a scene image have to be, whoever wrote it, so that kernels can follow its offsets. All
+// of these take the image's first byte and its header, and need each table to lie within the image.
+#pragma once
+
+#include "kernel/records.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace celltrace {
+
+/// True if `offset` is that of a record of a table of `count` of them.
+inline bool refers_to(std::uint32_t offset, std::uint32_t table, std::uint32_t count, std::size_t record) {
+  return offset >= table && (offset - table) % record == 0 && (offset - table) / record < count;
+}
+
+/// True if objects are of kinds that there are, and refer to materials, interiors and what their kinds need.
+bool objects_are_valid(const std::byte* base, const kernel::ImageHeader& h);
+
+bool lights_are_valid(const std::byte* base, const kernel::ImageHeader& h);
+
+/// True if every reference of textures is to a record of its table, no walk through maps and layers is too
+/// long, and objects say what their textures ask. Objects and blends are valid.
+bool textures_are_valid(const std::byte* base, const kernel::ImageHeader& h);
+
+/// True if conditions end, so do their programs, and solids are of kinds that there are.
+bool csg_is_valid(const std::byte* base, const kernel::ImageHeader& h);
+
+/// True if the insides of meshes have grids, and their cells lists of triangles.
+bool mesh_insides_are_valid(const std::byte* base, const kernel::ImageHeader& h);
+
+/// True if instances have meshes and numbers of their own for the triangles of these, whose nodes lead to
+/// them in few steps.
+bool instances_are_valid(const std::byte* base, const kernel::ImageHeader& h);
+
+/// True if there are no groups, or each object is in one.
+bool groups_are_valid(const std::byte* base, const kernel::ImageHeader& h);
+
+/// True if there are no copies, or each of them and its prototype are of one number of objects, and not many.
+/// The groups are valid.
+bool prototypes_are_valid(const std::byte* base, const kernel::ImageHeader& h);
+
+} // namespace celltrace
