@@ -206,7 +206,7 @@ TEST_CASE("Rays cross every shape where they change sides") {
   }
 }
 
-TEST_CASE("Of crossings of which one will do there is the first") {
+TEST_CASE("Of crossings of which some will do there are those") {
   Random random(21);
   for (const Subject& subject : subjects()) {
     if (!is_local(subject_kind(subject))) continue;
@@ -223,13 +223,15 @@ TEST_CASE("Of crossings of which one will do there is the first") {
         set(rays.direction, lane, direction);
         rays.start_object.lane[lane] = kNoOffset;
       }
-      const auto cross = [&](float enough) {
+      const auto cross = [&](float enough, float limit) {
         std::vector<std::vector<double>> all(kSimdLanes);
         Crossings<Simd> crossings[kMaxCrossingPairs] = {};
         Primitives::dispatch(record.kind_and_flags & object_flag::kind_mask, [&](auto shape) {
           using Shape = decltype(shape);
           if constexpr (Shape::kIsLocal) {
-            Shape::template intersect_local<Simd>(local_rays<Simd>(rays, record, 640, 0, enough),
+            FloatLanes limits;
+            Simd::F(limit).store(limits.lane);
+            Shape::template intersect_local<Simd>(local_rays<Simd>(rays, record, 640, 0, {enough, &limits}),
                                                   local_parameters<Simd>(record, extra), crossings);
             for (unsigned lane = 0; lane < kSimdLanes; ++lane)
               all[lane] = crossings_of(crossings, Shape::kCrossingPairs, lane);
@@ -237,7 +239,9 @@ TEST_CASE("Of crossings of which one will do there is the first") {
         });
         return all;
       };
-      const auto all = cross(kEveryCrossing), some = cross(kMinHitDistance);
+      const auto limit = static_cast<float>(random.uniform(0, 4));
+      const auto all = cross(kEveryCrossing, kEveryCrossing), some = cross(kMinHitDistance, kEveryCrossing),
+                 near = cross(kEveryCrossing, limit);
       for (unsigned lane = 0; lane < kSimdLanes; ++lane) {
         const auto in_front = [](const std::vector<double>& crossings) {
           const auto first =
@@ -245,6 +249,11 @@ TEST_CASE("Of crossings of which one will do there is the first") {
           return first == crossings.end() ? -1 : *first;
         };
         REQUIRE(in_front(some[lane]) == in_front(all[lane]));
+        for (const double crossing : all[lane])
+          if (crossing <= limit) {
+            const std::vector<double>& found = near[lane];
+            REQUIRE(std::find(found.begin(), found.end(), crossing) != found.end());
+          }
       }
     }
   }

@@ -260,7 +260,7 @@ private:
     const uint32_t flags = record.kind_and_flags;
     if (is_instance(flags)) return test_instance(rays, record, kMinHitDistance, false, hits);
     const uint32_t blind = blind_lanes(flags, reflected_);
-    Other other(*this, rays, record, self, kMinHitDistance);
+    Other other(*this, rays, record, self, {kMinHitDistance, &hits.distance});
     for (uint32_t pair = 0; pair < other.pairs; ++pair) {
       Crossings<S>& c = other.crossings[pair];
       if ((c.near_hit | c.far_hit).bits() == 0) continue;
@@ -286,7 +286,7 @@ private:
     if (is_instance(flags))
       return occluded_by_instance(rays, record, segment.enter != nullptr ? 0xFFFF : lanes, distance);
     const bool is_opaque = (flags & object_flag::opaque) != 0;
-    Other other(*this, rays, record, self, is_opaque ? kShadowEpsilon : kEveryCrossing);
+    Other other(*this, rays, record, self, {is_opaque ? kShadowEpsilon : kEveryCrossing, &distance});
     uint32_t dark = 0;
     for (uint32_t pair = 0; pair < other.pairs; ++pair) {
       Crossings<S>& c = other.crossings[pair];
@@ -326,9 +326,9 @@ private:
     uint32_t pairs = 1;
     uint32_t csg = kNoOffset; ///< offset of its condition
 
-    /// Of an object that is no part of a CSG, the first crossing that is farther than `enough` will do.
+    /// Those that are asked for; of an object that is a part of a CSG one is not enough.
     Other(ObjectTests& tests, const RayPacket& rays, const ObjectRecord& record, uint32_t self,
-          float enough) {
+          AskedCrossings asked) {
       Kept<Spu, ObjectRecord> object = record;
       const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
       ExtraRecord room;
@@ -336,12 +336,12 @@ private:
       const ExtraRecord& extra =
           object.extra == kNoOffset ? room : *keep<Spu>(tests.scene_.extra(object.extra), room);
       if ((object.kind_and_flags & object_flag::csg) != 0) csg = extra.csg;
+      if (csg != kNoOffset) asked.enough = kEveryCrossing;
       ++tests.counters_.tests[kind];
       tests.scene_.spu().compute(scalar_work::kTestEllipsoid);
       Spu& spu = tests.scene_.spu();
       spu.enter_module(is_heavy(kind) ? modules::kHeavyShapes : modules::kShapes);
-      pairs = is_heavy(kind) ? module_heavy::intersect(spu, rays, object, extra, self,
-                                                       csg == kNoOffset ? enough : kEveryCrossing, crossings)
+      pairs = is_heavy(kind) ? module_heavy::intersect(spu, rays, object, extra, self, asked, crossings)
                              : module_shapes::intersect(spu, rays, object, extra, self, crossings);
       if (kind != kPrimitiveKind<PolygonPrimitive>) return;
       spu.enter_module(modules::kPolygons);

@@ -24,12 +24,20 @@ template <class S> struct LocalParameters {
   typename S::M open;   ///< cylinders and cones without caps
 };
 
+/// Which of a ray's crossings are asked for.
+struct AskedCrossings {
+  /// After the first crossing that is farther than this the others may be left out.
+  float enough = kEveryCrossing;
+  /// By ray: crossings that are farther than this may be left out. nullptr: none.
+  const FloatLanes* limit = nullptr;
+};
+inline constexpr AskedCrossings kAllCrossings;
+
 /// Rays in a shape's space. Directions have any length, so that distances are those of the world.
 template <class S> struct LocalRays {
   V3<S> origin, direction;
   typename S::M starts_here; ///< rays that start on this object
-  /// After a ray's first crossing that is farther than this the others may be left out.
-  float enough = kEveryCrossing;
+  const AskedCrossings* asked = &kAllCrossings;
 };
 
 /// Around a shape: along the third axis from `low` to `high`; across it `radius` to all sides of a disc, or
@@ -163,10 +171,10 @@ template <class S>
 /// on.
 template <class S>
 LocalRays<S> local_rays(const RayPacket& rays, const ObjectRecord& object, uint32_t self, uint32_t first = 0,
-                        float enough = kEveryCrossing) {
+                        const AskedCrossings& asked = kAllCrossings) {
   return {to_local<S>(object.geometry, rays.origin.template load_from<S>(first), 1.0f),
           to_local<S>(object.geometry, rays.direction.template load_from<S>(first), 0.0f),
-          lanes_that_start_on<S>(rays, self, first), enough};
+          lanes_that_start_on<S>(rays, self, first), &asked};
 }
 
 /// What a shape in a space of its own is to the rest of the kernel.

@@ -80,10 +80,10 @@ template <class S, bool kOfHeavy>
 namespace module_heavy {
 
 /// As module_shapes::intersect(), of heavy shapes, which take so many lanes at a time as rare code does, and
-/// time for each crossing: `enough` is as LocalRays'.
+/// time for each crossing.
 template <class Spu>
 CELLTRACE_ONE_COPY uint32_t intersect(Spu& spu, const RayPacket& rays, const ObjectRecord& object,
-                                      const ExtraRecord& extra, uint32_t self, float enough,
+                                      const ExtraRecord& extra, uint32_t self, const AskedCrossings& asked,
                                       Crossings<typename Spu::simd>* crossings) {
   using R = typename Spu::rare_simd;
   spu.run_in_module(modules::kHeavyShapes);
@@ -96,7 +96,7 @@ CELLTRACE_ONE_COPY uint32_t intersect(Spu& spu, const RayPacket& rays, const Obj
     });
   };
   if constexpr (kOnePart<Spu>) {
-    intersect_part(local_rays<R>(rays, object, self, 0, enough), local_parameters<R>(object, extra),
+    intersect_part(local_rays<R>(rays, object, self, 0, asked), local_parameters<R>(object, extra),
                    crossings);
   } else {
     uint32_t near_hit[kMaxCrossingPairs] = {}, far_hit[kMaxCrossingPairs] = {};
@@ -104,7 +104,7 @@ CELLTRACE_ONE_COPY uint32_t intersect(Spu& spu, const RayPacket& rays, const Obj
       crossings[pair].clear();
     for_each_part<Spu>([&](uint32_t first) {
       Crossings<R> part[kMaxCrossingPairs];
-      intersect_part(local_rays<R>(rays, object, self, first, enough), local_parameters<R>(object, extra),
+      intersect_part(local_rays<R>(rays, object, self, first, asked), local_parameters<R>(object, extra),
                      part);
       for (uint32_t pair = 0; pair < pairs; ++pair) {
         set_part<Spu>(crossings[pair].near, first, part[pair].near);

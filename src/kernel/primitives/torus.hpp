@@ -74,7 +74,7 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
         const auto first = (distance[i] > zero) & ((inward & leaves) | (enters & !inward));
         hit[i] = crosses & !(starts & !first);
         starts = starts & !hit[i];
-        asks = asks & !(hit[i] & (distance[i] > F(rays.enough)));
+        asks = asks & !(hit[i] & (distance[i] > F(rays.asked->enough)));
       }
       value = next;
     }
@@ -104,8 +104,9 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
   static LocalBounds local_bounds(float ratio) { return {-ratio, ratio, 1.0f + ratio, false}; }
 
 private:
-  /// All rays that hit the torus, and few that do not. Most rays that come to a torus miss it, many of them
-  /// through its hole: one division tells, where the quartic would take four roots and divisions.
+  /// All rays that hit the torus before their limits, and few that do not. Most rays that come to a torus
+  /// miss it, many of them through its hole: one division or two tell, where the quartic would take four
+  /// roots and more divisions.
   template <class S> static typename S::M may_hit(const LocalRays<S>& rays, const typename S::F& ratio) {
     using F = typename S::F;
     const V3<S>&o = rays.origin, &d = rays.direction;
@@ -117,12 +118,20 @@ private:
     const auto comes_near = (ahead <= zero) | (outside <= zero);
     // Where it is as near to the plane as the tube, it does not leave the hole.
     const SlabInterval<S> slab(o.z, d.z, -height, height);
-    const F hole = S::max(one - ratio - rounding, zero);
-    const auto in_hole = [&](const F& t) {
+    const auto from_axis = [&](const F& t) {
       const F x = o.x + d.x * t, y = o.y + d.y * t;
-      return x * x + y * y < hole * hole;
+      return x * x + y * y;
     };
-    return in_ball & comes_near & (slab.leave >= zero) & !(in_hole(slab.enter) & in_hole(slab.leave));
+    const F hole = S::max(one - ratio - rounding, zero), hole_square = hole * hole;
+    const auto in_hole = (from_axis(slab.enter) < hole_square) & (from_axis(slab.leave) < hole_square);
+    const auto near_enough = in_ball & comes_near & (slab.leave >= zero) & !in_hole;
+    if constexpr (S::kLanes != kSimdLanes) return near_enough; // there is no room for code
+    const FloatLanes* const limit = rays.asked->limit;
+    const auto in_time = limit != nullptr ? near_enough & (slab.enter <= F::load(limit->lane)) : near_enough;
+    if (in_time.bits() == 0) return in_time;
+    // And comes to the tube there.
+    const F nearest = -(o.x * d.x + o.y * d.y) / S::max(d.x * d.x + d.y * d.y, F(1e-30f));
+    return in_time & (from_axis(S::min(S::max(nearest, slab.enter), slab.leave)) <= outer * outer);
   }
 
   /// Ratios below this are those of thin tori.
