@@ -26,6 +26,14 @@ Comparison against_reference(const Scene& scene) {
   return compare_images(expected, render(scene, backends().front().options(80, 60, 2)).image);
 }
 
+/// White and green ones.
+Pigment squares() {
+  Pigment checker;
+  checker.map = std::make_shared<const PatternMap<Pigment>>(
+      PatternMap<Pigment>{{pattern::Checker{}}, {{0, Pigment{{1, 1, 1}}}, {1, Pigment{{0, 0.5, 0}}}}});
+  return checker;
+}
+
 Scene moved(const std::string& name, const Transform& by) {
   Scene scene = scene_named(name);
   for (Object& object : scene.objects)
@@ -98,12 +106,9 @@ TEST_CASE("A planet with the camera on its ground") {
 
 TEST_CASE("Rows of a picture that end at the edge of a floor's squares") {
   // Row 40 sees the floor at z = 1595: so far away, its rays are nearly along it.
-  Pigment checker;
-  checker.map = std::make_shared<const PatternMap<Pigment>>(
-      PatternMap<Pigment>{{pattern::Checker{}}, {{0, Pigment{{1, 1, 1}}}, {1, Pigment{{0, 0.5, 0}}}}});
   Scene scene;
   Material floor = matte({1, 1, 1});
-  floor.pigment = checker;
+  floor.pigment = squares();
   floor.finish.ambient = Vec3(1);
   floor.finish.diffuse = 0;
   Object plane;
@@ -318,6 +323,25 @@ TEST_CASE("Thin boxes and cylinders have the normals of their faces up to the ri
     INFO(thickness << ": " << to_text(c));
     CHECK(c.psnr >= 50);
   }
+}
+
+TEST_CASE("Squares are whole on distant faces that lie where the squares end") {
+  Scene scene = white_shapes({
+      shaped(Box{{{-2, -2, 0}, {-1, 0, 1}}}),
+      shaped(Cylinder{{0.5, -2, 0}, {0.5, 0, 0}, 1, false}),
+      shaped(Cone{{2, 0, 1}, {2, -1, 1}, 0.7, 0.2, false}),
+      shaped(Disc{{-0.5, 1, 0}, {0, 1, 0}, 0.5, 0.1}, Transform::translate({0, 0, 1.5})),
+      shaped(std::make_shared<const Polygon>(
+          Polygon{{{{1, 1, 2}, {2, 1, 2}, {2, 2, 2}, {1, 2, 2}, {1, 1, 2}}}})),
+  });
+  for (Material& material : scene.materials)
+    material.pigment = squares();
+  scene.camera.location = {300, 700, -1500};
+  scene.camera = camera_at(scene.camera.location, {0, 0, 0});
+  scene.camera.direction *= 400;
+  const Comparison c = against_reference(scene);
+  INFO(to_text(c));
+  CHECK(c.psnr >= 45);
 }
 
 TEST_CASE("Boxes that are much longer than they are thick are as thick as they say") {

@@ -9,6 +9,7 @@ struct BoxPrimitive : LocalPrimitive<BoxPrimitive> {
   static constexpr const char* kName = "box";
   static constexpr uint32_t kCrossingPairs = 1;
   static constexpr bool kHasParameters = false;
+  static constexpr bool kHasFaces = true;
 
   /// The slab test (Kay and Kajiya 1986).
   template <class S>
@@ -47,6 +48,13 @@ struct BoxPrimitive : LocalPrimitive<BoxPrimitive> {
     const F shift(0.298828125f);
     return {S::select(is_x, p.x + shift, zero), S::select(is_y, p.y + shift, zero),
             S::select(is_x | is_y, zero, p.z + shift)};
+  }
+
+  template <class S>
+  [[gnu::always_inline]] static typename S::F off_face(const V3<S>& p, const V3<S>& gradient) {
+    using F = typename S::F;
+    const auto off = [](const F& at) { return at - S::select(at < F(0.0f), F(-1.0f), F(1.0f)); };
+    return dot<S>(gradient, {off(p.x), off(p.y), off(p.z)});
   }
 
   static LocalBounds local_bounds(float) { return {-1.0f, 1.0f, 1.0f, true}; }

@@ -10,6 +10,7 @@ struct ConePrimitive : LocalPrimitive<ConePrimitive> {
   static constexpr const char* kName = "cone";
   static constexpr uint32_t kCrossingPairs = 1;
   static constexpr bool kHasParameters = true;
+  static constexpr bool kHasFaces = true;
 
   template <class S>
   static void intersect_local(const LocalRays<S>& rays, const LocalParameters<S>& parameters,
@@ -71,6 +72,14 @@ struct ConePrimitive : LocalPrimitive<ConePrimitive> {
     const F up = S::select(from_top < from_bottom, one, -one);
     return {S::select(cap, zero, p.x), S::select(cap, zero, p.y),
             S::select(cap, up, -radius * parameters.second)};
+  }
+
+  template <class S>
+  [[gnu::always_inline]] static typename S::F off_face(const V3<S>& p, const V3<S>& gradient) {
+    using F = typename S::F;
+    const F zero(0.0f);
+    const auto cap = (gradient.x == zero) & (gradient.y == zero);
+    return S::select(cap, gradient.z * (p.z - S::max(gradient.z, zero)), zero);
   }
 
   static LocalBounds local_bounds(float) { return {0.0f, 1.0f, 1.0f, false}; }

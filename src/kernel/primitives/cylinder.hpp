@@ -10,6 +10,7 @@ struct CylinderPrimitive : LocalPrimitive<CylinderPrimitive> {
   static constexpr const char* kName = "cylinder";
   static constexpr uint32_t kCrossingPairs = 1;
   static constexpr bool kHasParameters = false;
+  static constexpr bool kHasFaces = true;
 
   template <class S>
   static void intersect_local(const LocalRays<S>& rays, const LocalParameters<S>& parameters,
@@ -62,6 +63,11 @@ struct CylinderPrimitive : LocalPrimitive<CylinderPrimitive> {
     const auto cap = (S::min(from_bottom, from_top) < from_side) & !parameters.open;
     const F up = S::select(from_top < from_bottom, one, -one);
     return {S::select(cap, zero, p.x), S::select(cap, zero, p.y), S::select(cap, up, zero)};
+  }
+
+  template <class S>
+  [[gnu::always_inline]] static typename S::F off_face(const V3<S>& p, const V3<S>& gradient) {
+    return gradient.z * (p.z - S::max(gradient.z, typename S::F(0.0f)));
   }
 
   static LocalBounds local_bounds(float) { return {0.0f, 1.0f, 1.0f, false}; }

@@ -10,6 +10,7 @@ struct DiscPrimitive : LocalPrimitive<DiscPrimitive> {
   static constexpr const char* kName = "disc";
   static constexpr uint32_t kCrossingPairs = 1;
   static constexpr bool kHasParameters = true;
+  static constexpr bool kHasFaces = true;
 
   template <class S>
   static void intersect_local(const LocalRays<S>& rays, const LocalParameters<S>& parameters,
@@ -31,6 +32,10 @@ struct DiscPrimitive : LocalPrimitive<DiscPrimitive> {
   template <class S> [[gnu::always_inline]] static V3<S> gradient(const V3<S>&, const LocalParameters<S>&) {
     using F = typename S::F;
     return {F(0.0f), F(0.0f), F(1.0f)};
+  }
+
+  template <class S> [[gnu::always_inline]] static typename S::F off_face(const V3<S>& p, const V3<S>&) {
+    return p.z;
   }
 
   static LocalBounds local_bounds(float) { return {0.0f, 0.0f, 1.0f, false}; }

@@ -5,8 +5,9 @@
 //   kName, kCrossingPairs, kHasParameters             as list.hpp says
 //   intersect_local(rays, parameters, crossings)      in the shape's space
 //   inside_local(point, parameters)                   lanes inside
-//   gradient(point, parameters)                       outward normal, of any length, at a point of the
-//   surface local_bounds(ratio)
+//   gradient(point, parameters)                       outward normal, of any length, at a point of it
+//   off_face(point, gradient)                         how far off its flat face, times that length
+//   local_bounds(ratio)
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
@@ -183,6 +184,7 @@ template <class Shape> struct LocalPrimitive {
   static constexpr bool kIsBounded = true;
   static constexpr bool kIsHeavy = false;
   static constexpr bool kHasHeavyPoints = false;
+  static constexpr bool kHasFaces = false; ///< flat ones: then it has off_face()
 
   template <class S>
   static void intersect(const RayPacket& rays, const ObjectRecord& object, const ExtraRecord& extra,

@@ -13,6 +13,7 @@ struct PolygonPrimitive : LocalPrimitive<PolygonPrimitive> {
   static constexpr const char* kName = "polygon";
   static constexpr uint32_t kCrossingPairs = 1;
   static constexpr bool kHasParameters = true;
+  static constexpr bool kHasFaces = true;
 
   /// Puts x and y of where they cross into u and v.
   template <class S>
@@ -34,6 +35,10 @@ struct PolygonPrimitive : LocalPrimitive<PolygonPrimitive> {
   template <class S> [[gnu::always_inline]] static V3<S> gradient(const V3<S>&, const LocalParameters<S>&) {
     using F = typename S::F;
     return {F(0.0f), F(0.0f), F(1.0f)};
+  }
+
+  template <class S> [[gnu::always_inline]] static typename S::F off_face(const V3<S>& p, const V3<S>&) {
+    return p.z;
   }
 
   static LocalBounds local_bounds(float) { return {0.0f, 0.0f, 1.0f, true}; }

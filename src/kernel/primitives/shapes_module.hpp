@@ -56,25 +56,35 @@ constexpr bool has_heavy_points(uint32_t kind) {
 }
 
 /// The unit normals of shapes in a space of their own, of those with heavy points or of the others, at points
-/// of their surfaces: the gradient there is transformed by the transposed map.
+/// of their surfaces: the gradient there is transformed by the transposed map. Where there is room for the
+/// code, points of flat faces are moved to the precision of a point: a pattern may have a step there.
 template <class S, bool kOfHeavy>
-[[gnu::always_inline]] inline V3<S> normal_in_own_space(const ObjectLanes<S>& o, const V3<S>& point) {
+[[gnu::always_inline]] inline V3<S> normal_in_own_space(const ObjectLanes<S>& o, V3<S>& point) {
+  constexpr bool kMoves = !kOfHeavy && S::kLanes == kSimdLanes;
   // Three rows of four.
   const V3<S>* const g = o.geometry;
   const V3<S> rows[3] = {{g[0].x, g[0].y, g[0].z}, {g[1].y, g[1].z, g[2].x}, {g[2].z, g[3].x, g[3].y}};
   const V3<S> local = {dot<S>(rows[0], point) + g[1].x, dot<S>(rows[1], point) + g[2].y,
                        dot<S>(rows[2], point) + g[3].z};
   V3<S> gradient = local;
+  typename S::F off(0.0f);
   uint32_t kind = 0;
   Primitives::for_each([&](auto shape) {
     using Shape = decltype(shape);
     if constexpr (Shape::kIsLocal && Shape::kHasHeavyPoints == kOfHeavy)
-      if (o.of_kind[kind] != 0)
-        gradient = select<S>(S::M::from_bits(o.of_kind[kind]),
-                             Shape::template gradient<S>(local, o.parameters), gradient);
+      if (o.of_kind[kind] != 0) {
+        const auto mask = S::M::from_bits(o.of_kind[kind]);
+        const V3<S> of_kind = Shape::template gradient<S>(local, o.parameters);
+        gradient = select<S>(mask, of_kind, gradient);
+        if constexpr (kMoves && Shape::kHasFaces)
+          off = S::select(mask, Shape::template off_face<S>(local, of_kind), off);
+      }
     ++kind;
   });
-  return normalise<S>(rows[0] * gradient.x + rows[1] * gradient.y + rows[2] * gradient.z);
+  const V3<S> outward = rows[0] * gradient.x + rows[1] * gradient.y + rows[2] * gradient.z;
+  if constexpr (kMoves)
+    point = point - outward * (off / S::max(dot<S>(outward, outward), typename S::F(1e-30f)));
+  return normalise<S>(outward);
 }
 
 namespace module_heavy {
@@ -154,7 +164,7 @@ CELLTRACE_ONE_COPY [[gnu::flatten]] uint32_t inside(Spu& spu, const SolidRecord&
 /// As local_normal(), of shapes with heavy points.
 template <class Spu>
 CELLTRACE_ONE_COPY V3<typename Spu::rare_simd> normal(Spu& spu, const ObjectLanes<typename Spu::rare_simd>& o,
-                                                      const V3<typename Spu::rare_simd>& point) {
+                                                      V3<typename Spu::rare_simd>& point) {
   spu.run_in_module(modules::kHeavyPoints);
   return normal_in_own_space<typename Spu::rare_simd, true>(o, point);
 }
@@ -213,8 +223,8 @@ CELLTRACE_ONE_COPY uint32_t inside(Spu& spu, const SolidRecord& solid, const V3<
 
 } // namespace module_shapes
 
-/// The unit normals of shapes in a space of their own whose points are not heavy.
-template <class S> CELLTRACE_ONE_COPY V3<S> local_normal(const ObjectLanes<S>& o, const V3<S>& point) {
+/// The unit normals of shapes in a space of their own whose points are not heavy; see normal_in_own_space().
+template <class S> CELLTRACE_ONE_COPY V3<S> local_normal(const ObjectLanes<S>& o, V3<S>& point) {
   return normal_in_own_space<S, false>(o, point);
 }
 

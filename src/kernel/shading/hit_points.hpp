@@ -87,15 +87,19 @@ template <class Spu>
     if (heavy != 0) spu.enter_module(modules::kHeavyPoints);
     for_each_part<Spu>([&](uint32_t first) {
       const auto& part = part_of<Spu>(o, first);
-      const V3<R> at = part_of<Spu>(along_ray, first);
+      V3<R> at = part_of<Spu>(along_ray, first);
       V3<R> of_part = at;
       if (others != 0) of_part = local_normal<R>(part, at);
       if (heavy != 0)
         of_part = select<R>(R::M::from_bits(part_of<Spu>(heavy, first)),
                             module_heavy_points::normal(spu, part, at), of_part);
       set_part<Spu>(n, first, of_part);
+      if constexpr (kOnePart<Spu>) p = at;
     });
-    add(others | heavy, along_ray, n);
+    if constexpr (kOnePart<Spu>)
+      add(others | heavy, p, n);
+    else
+      add(others | heavy, along_ray, n);
   }
   if (planes != 0) {
     // On the plane to the precision of the point: a pattern may have a step there.
