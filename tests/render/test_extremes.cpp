@@ -328,6 +328,7 @@ TEST_CASE("Thin boxes and cylinders have the normals of their faces up to the ri
 TEST_CASE("Squares are whole on distant faces that lie where the squares end") {
   Scene scene = white_shapes({
       shaped(Box{{{-2, -2, 0}, {-1, 0, 1}}}),
+      shaped(Box{{{-3, -1e-5, 1.5}, {-1.5, 1e-5, 2.5}}}),
       shaped(Cylinder{{0.5, -2, 0}, {0.5, 0, 0}, 1, false}),
       shaped(Cone{{2, 0, 1}, {2, -1, 1}, 0.7, 0.2, false}),
       shaped(Disc{{-0.5, 1, 0}, {0, 1, 0}, 0.5, 0.1}, Transform::translate({0, 0, 1.5})),

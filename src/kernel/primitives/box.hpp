@@ -50,11 +50,17 @@ struct BoxPrimitive : LocalPrimitive<BoxPrimitive> {
             S::select(is_x | is_y, zero, p.z + shift)};
   }
 
+  /// Where a ray comes from millions of times a box's thickness away, its distance does not tell two faces
+  /// apart: it has come to the nearer one.
   template <class S>
-  [[gnu::always_inline]] static typename S::F off_face(const V3<S>& p, const V3<S>& gradient) {
+  [[gnu::always_inline]] static typename S::F off_face(const V3<S>& p, const V3<S>& gradient,
+                                                       const V3<S>& way) {
     using F = typename S::F;
-    const auto off = [](const F& at) { return at - S::select(at < F(0.0f), F(-1.0f), F(1.0f)); };
-    return dot<S>(gradient, {off(p.x), off(p.y), off(p.z)});
+    const auto off = [](const F& at, const F& along) {
+      const F which = S::select(S::abs(along) > F(1e6f), -along, at);
+      return at - S::select(which < F(0.0f), F(-1.0f), F(1.0f));
+    };
+    return dot<S>(gradient, {off(p.x, way.x), off(p.y, way.y), off(p.z, way.z)});
   }
 
   static LocalBounds local_bounds(float) { return {-1.0f, 1.0f, 1.0f, true}; }

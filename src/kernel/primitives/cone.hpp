@@ -75,7 +75,7 @@ struct ConePrimitive : LocalPrimitive<ConePrimitive> {
   }
 
   template <class S>
-  [[gnu::always_inline]] static typename S::F off_face(const V3<S>& p, const V3<S>& gradient) {
+  [[gnu::always_inline]] static typename S::F off_face(const V3<S>& p, const V3<S>& gradient, const V3<S>&) {
     using F = typename S::F;
     const F zero(0.0f);
     const auto cap = (gradient.x == zero) & (gradient.y == zero);

@@ -66,7 +66,7 @@ struct CylinderPrimitive : LocalPrimitive<CylinderPrimitive> {
   }
 
   template <class S>
-  [[gnu::always_inline]] static typename S::F off_face(const V3<S>& p, const V3<S>& gradient) {
+  [[gnu::always_inline]] static typename S::F off_face(const V3<S>& p, const V3<S>& gradient, const V3<S>&) {
     return gradient.z * (p.z - S::max(gradient.z, typename S::F(0.0f)));
   }
 

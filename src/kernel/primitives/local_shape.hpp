@@ -6,7 +6,7 @@
 //   intersect_local(rays, parameters, crossings)      in the shape's space
 //   inside_local(point, parameters)                   lanes inside
 //   gradient(point, parameters)                       outward normal, of any length, at a point of it
-//   off_face(point, gradient)                         how far off its flat face, times that length
+//   off_face(point, gradient, way)                    how far off its flat face, times that length
 //   local_bounds(ratio)
 #pragma once
 

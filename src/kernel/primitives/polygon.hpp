@@ -37,7 +37,8 @@ struct PolygonPrimitive : LocalPrimitive<PolygonPrimitive> {
     return {F(0.0f), F(0.0f), F(1.0f)};
   }
 
-  template <class S> [[gnu::always_inline]] static typename S::F off_face(const V3<S>& p, const V3<S>&) {
+  template <class S>
+  [[gnu::always_inline]] static typename S::F off_face(const V3<S>& p, const V3<S>&, const V3<S>&) {
     return p.z;
   }
 

@@ -56,11 +56,12 @@ constexpr bool has_heavy_points(uint32_t kind) {
 }
 
 /// The unit normals of shapes in a space of their own, of those with heavy points or of the others, at points
-/// of their surfaces: the gradient there is transformed by the transposed map. Where there is room for the
-/// code, points of flat faces are moved to the precision of a point: a pattern may have a step there.
+/// of their surfaces: the gradient there is transformed by the transposed map. `moved`, unless it is nullptr,
+/// receives the points, of which those of flat faces are moved there; rays have come to them on the ways
+/// `way`.
 template <class S, bool kOfHeavy>
-[[gnu::always_inline]] inline V3<S> normal_in_own_space(const ObjectLanes<S>& o, V3<S>& point) {
-  constexpr bool kMoves = !kOfHeavy && S::kLanes == kSimdLanes;
+[[gnu::always_inline]] inline V3<S> normal_in_own_space(const ObjectLanes<S>& o, const V3<S>& point,
+                                                        const V3<S>& way, V3<S>* moved) {
   // Three rows of four.
   const V3<S>* const g = o.geometry;
   const V3<S> rows[3] = {{g[0].x, g[0].y, g[0].z}, {g[1].y, g[1].z, g[2].x}, {g[2].z, g[3].x, g[3].y}};
@@ -76,14 +77,17 @@ template <class S, bool kOfHeavy>
         const auto mask = S::M::from_bits(o.of_kind[kind]);
         const V3<S> of_kind = Shape::template gradient<S>(local, o.parameters);
         gradient = select<S>(mask, of_kind, gradient);
-        if constexpr (kMoves && Shape::kHasFaces)
-          off = S::select(mask, Shape::template off_face<S>(local, of_kind), off);
+        if constexpr (Shape::kHasFaces)
+          if (moved != nullptr) {
+            const V3<S> local_way = {dot<S>(rows[0], way), dot<S>(rows[1], way), dot<S>(rows[2], way)};
+            off = S::select(mask, Shape::template off_face<S>(local, of_kind, local_way), off);
+          }
       }
     ++kind;
   });
   const V3<S> outward = rows[0] * gradient.x + rows[1] * gradient.y + rows[2] * gradient.z;
-  if constexpr (kMoves)
-    point = point - outward * (off / S::max(dot<S>(outward, outward), typename S::F(1e-30f)));
+  if (moved != nullptr)
+    *moved = point - outward * (off / S::max(dot<S>(outward, outward), typename S::F(1e-30f)));
   return normalise<S>(outward);
 }
 
@@ -164,9 +168,9 @@ CELLTRACE_ONE_COPY [[gnu::flatten]] uint32_t inside(Spu& spu, const SolidRecord&
 /// As local_normal(), of shapes with heavy points.
 template <class Spu>
 CELLTRACE_ONE_COPY V3<typename Spu::rare_simd> normal(Spu& spu, const ObjectLanes<typename Spu::rare_simd>& o,
-                                                      V3<typename Spu::rare_simd>& point) {
+                                                      const V3<typename Spu::rare_simd>& point) {
   spu.run_in_module(modules::kHeavyPoints);
-  return normal_in_own_space<typename Spu::rare_simd, true>(o, point);
+  return normal_in_own_space<typename Spu::rare_simd, true>(o, point, point, nullptr);
 }
 
 } // namespace module_heavy_points
@@ -223,9 +227,16 @@ CELLTRACE_ONE_COPY uint32_t inside(Spu& spu, const SolidRecord& solid, const V3<
 
 } // namespace module_shapes
 
-/// The unit normals of shapes in a space of their own whose points are not heavy; see normal_in_own_space().
-template <class S> CELLTRACE_ONE_COPY V3<S> local_normal(const ObjectLanes<S>& o, V3<S>& point) {
-  return normal_in_own_space<S, false>(o, point);
+/// The unit normals of shapes in a space of their own whose points are not heavy.
+template <class S> CELLTRACE_ONE_COPY V3<S> local_normal(const ObjectLanes<S>& o, const V3<S>& point) {
+  return normal_in_own_space<S, false>(o, point, point, nullptr);
+}
+/// The same where there is room for the code. Points along a ray are as exact as its distance, points moved
+/// onto flat faces as themselves: a pattern may have a step there.
+template <class S>
+CELLTRACE_ONE_COPY V3<S> local_normal(const ObjectLanes<S>& o, const V3<S>& way, V3<S>& point) {
+  const V3<S> along_ray = point;
+  return normal_in_own_space<S, false>(o, along_ray, way, &point);
 }
 
 } // namespace celltrace::kernel

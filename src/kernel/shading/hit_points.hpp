@@ -63,6 +63,7 @@ void surface_of_triangles(const ObjectLanes<S>& o, const HitPacket& hits, V3<S>&
 
 template <class Spu>
 [[gnu::always_inline]] inline void surface_of(Spu& spu, const ObjectLanes<typename Spu::simd>& o,
+                                              const V3<typename Spu::simd>& way,
                                               const V3<typename Spu::simd>& along_ray, const HitPacket& hits,
                                               V3<typename Spu::simd>& point, V3<typename Spu::simd>& normal) {
   using S = typename Spu::simd;
@@ -87,14 +88,18 @@ template <class Spu>
     if (heavy != 0) spu.enter_module(modules::kHeavyPoints);
     for_each_part<Spu>([&](uint32_t first) {
       const auto& part = part_of<Spu>(o, first);
-      V3<R> at = part_of<Spu>(along_ray, first);
+      const V3<R> at = part_of<Spu>(along_ray, first);
       V3<R> of_part = at;
-      if (others != 0) of_part = local_normal<R>(part, at);
+      if constexpr (kOnePart<Spu>) {
+        p = at;
+        if (others != 0) of_part = local_normal<R>(part, way, p);
+      } else {
+        if (others != 0) of_part = local_normal<R>(part, at);
+      }
       if (heavy != 0)
         of_part = select<R>(R::M::from_bits(part_of<Spu>(heavy, first)),
                             module_heavy_points::normal(spu, part, at), of_part);
       set_part<Spu>(n, first, of_part);
-      if constexpr (kOnePart<Spu>) p = at;
     });
     if constexpr (kOnePart<Spu>)
       add(others | heavy, p, n);
@@ -276,8 +281,9 @@ CELLTRACE_ONE_COPY void find_hit_points(SceneAccess<Spu>& scene, const RayPacket
   o.objects.parameters.open = M::from_bits(o.open);
 
   const V3<S> direction = rays.direction.template load<S>();
-  const V3<S> along_ray = rays.origin.template load<S>() + direction * F::load(hits.distance.lane);
-  detail::surface_of(scene.spu(), o.objects, along_ray, hits, points.point, points.normal);
+  const V3<S> way = direction * F::load(hits.distance.lane);
+  const V3<S> along_ray = rays.origin.template load<S>() + way;
+  detail::surface_of(scene.spu(), o.objects, way, along_ray, hits, points.point, points.normal);
   const auto away = dot<S>(direction, points.normal) > F(0.0f);
   for_each_value<S>(points.material, o.two_sided & (away.bits() ^ o.inverse) & ~points.blended,
                     [&](uint32_t outside, uint32_t same) {
