@@ -17,7 +17,7 @@ using namespace kernel;
 namespace {
 
 /// A grid has at most so many list entries a triangle; else it gets fewer cells.
-constexpr std::uint64_t kMostEntries = 16;
+constexpr std::uint64_t kMostEntriesPerTriangle = 16;
 
 /// A space whose third axis is along the mesh's inside vector, and in which the mesh lies between 0 and 1.
 /// `extent`: what that is in the mesh's own space.
@@ -144,7 +144,8 @@ MeshInsides::Inside MeshInsides::add(const Mesh& mesh) {
       triangles_.push_back(record);
       entries += CellRange(record, grid).count();
     }
-    if (entries > kMostEntries * mesh.triangles.size() && std::max(grid.columns, grid.rows) > 1) continue;
+    if (entries > kMostEntriesPerTriangle * mesh.triangles.size() && std::max(grid.columns, grid.rows) > 1)
+      continue;
     add_lists(grid, first);
     grids_.push_back(grid);
     return {static_cast<std::uint32_t>(grids_.size()) - 1, to_grid};
