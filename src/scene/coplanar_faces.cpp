@@ -25,7 +25,7 @@ constexpr int kMostSteps = 32; ///< that faces of one plane are moved apart by
 /// Steps that surely take a face out of a solid whose boundary it was on: that is a little larger than it is.
 constexpr int kStepsOut = 3;
 
-/// The parts of an object's CSG that a box is in, from the whole down.
+/// The parts of an object's CSG that a solid is in, from the whole down.
 struct PathStep {
   const Csg* csg;
   std::size_t part;
@@ -38,9 +38,10 @@ struct Face {
   double distance; ///< of the plane from the origin
   Extent extent;
   std::size_t object;
-  std::size_t box; ///< kPlane: the object is a plane
-  int side;        ///< of the box: axis * 2, and 1 for the one of larger coordinates
-  bool looks_up;   ///< its outside is where the normal points
+  std::size_t solid; ///< kPlane: the object is a plane
+  int side;      ///< of a box: axis * 2, and 1 for the one of larger coordinates; of others: 1 for the cap
+  bool is_round; ///< an end of a cylinder or a cone
+  bool looks_up; ///< its outside is where the normal points
   Index material;
   std::uint32_t path = 0; ///< its number
   int steps = 0;          ///< to move it, toward the camera
@@ -48,20 +49,24 @@ struct Face {
   static constexpr std::size_t kPlane = ~std::size_t{0};
 };
 
-/// Calls `visit(box, transform, material, path)` for the boxes of an object, which may be changed: those in
-/// its CSG, too, that are not cut out of it. CSGs are copied if they may be.
+/// Calls `visit(solid, transform, material, path)` for the boxes, cylinders and cones of an object, which may
+/// be changed: those in its CSG, too, that are not cut out of it. CSGs are copied if they may be.
 template <class AnyObject, class Visit>
-void visit_boxes(AnyObject& object, const Transform& around, CsgPath& path, Visit& visit) {
+void visit_solids(AnyObject& object, const Transform& around, CsgPath& path, Visit& visit) {
   if (object.inverse) return;
   const Transform transform = object.transform.then(around);
   if (auto* const box = std::get_if<Box>(&object.shape)) return visit(*box, transform, object.material, path);
+  if (auto* const cylinder = std::get_if<Cylinder>(&object.shape))
+    return visit(*cylinder, transform, object.material, path);
+  if (auto* const cone = std::get_if<Cone>(&object.shape))
+    return visit(*cone, transform, object.material, path);
   auto* const shared = std::get_if<std::shared_ptr<const Csg>>(&object.shape);
   if (shared == nullptr || (*shared)->parts.empty()) return;
   const auto visit_parts = [&](auto& csg) {
     const bool is_difference = csg.operation == Csg::Operation::difference;
     for (std::size_t i = 0; i < (is_difference ? 1 : csg.parts.size()); ++i) {
       path.push_back({&csg, i});
-      visit_boxes(csg.parts[i], transform, path, visit);
+      visit_solids(csg.parts[i], transform, path, visit);
       path.pop_back();
     }
   };
@@ -74,9 +79,9 @@ void visit_boxes(AnyObject& object, const Transform& around, CsgPath& path, Visi
   }
 }
 
-template <class AnyObject, class Visit> void visit_boxes(AnyObject& object, Visit& visit) {
+template <class AnyObject, class Visit> void visit_solids(AnyObject& object, Visit& visit) {
   CsgPath path;
-  visit_boxes(object, Transform(), path, visit);
+  visit_solids(object, Transform(), path, visit);
 }
 
 /// Turns the normal, which points out, the way that Face says.
@@ -95,18 +100,18 @@ class CoplanarFaces {
 public:
   CoplanarFaces(const Scene& scene, const std::vector<std::uint32_t>& material_flags)
       : scene_(scene), material_flags_(material_flags) {
-    std::size_t boxes = 0;
+    std::size_t solids = 0;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
       const Object& object = scene.objects[i];
       if (const auto* const plane = std::get_if<Plane>(&object.shape)) add_plane(i, *plane);
-      const auto visit = [&](const Box& box, const Transform& transform, Index material,
+      const auto visit = [&](const auto& solid, const Transform& transform, Index material,
                              const CsgPath& path) {
-        if (!object.is_hidden) add_box(i, boxes, box, transform, material, path);
-        ++boxes;
+        if (!object.is_hidden) add(i, solids, solid, transform, material, path);
+        ++solids;
       };
-      visit_boxes(object, visit);
+      visit_solids(object, visit);
     }
-    box_count_ = boxes;
+    solid_count_ = solids;
   }
 
   /// Whether any has to be moved.
@@ -125,37 +130,29 @@ public:
     struct Sides {
       const Face* face[6] = {};
     };
-    std::vector<Sides> sides(box_count_);
+    std::vector<Sides> sides(solid_count_);
     std::vector<bool> has_moves(scene.objects.size());
     for (const Face& face : faces_) {
       if (face.steps == 0) continue;
       has_moves[face.object] = true;
-      if (face.box != Face::kPlane)
-        sides[face.box].face[face.side] = &face;
+      if (face.solid != Face::kPlane)
+        sides[face.solid].face[face.side] = &face;
       else
         scene.objects[face.object].transform =
             scene.objects[face.object].transform.then(Transform::translate(way(face)));
     }
     std::size_t number = 0;
-    const auto move = [&](Box& box, const Transform& transform, Index, const CsgPath&) {
-      for (int side = 0; side < 6; ++side) {
-        const Face* const face = sides[number].face[side];
-        if (face == nullptr) continue;
-        const int axis = side / 2;
-        Vec3 unit(0);
-        unit[axis] = 1;
-        const int corner = (box.corner[0][axis] > box.corner[1][axis]) != (side % 2 != 0);
-        box.corner[corner][axis] +=
-            glm::dot(way(*face), face->normal) / glm::dot(transform.direction(unit), face->normal);
-      }
+    const auto move = [&](auto& solid, const Transform& transform, Index, const CsgPath&) {
+      for (int side = 0; side < 6; ++side)
+        if (const Face* const face = sides[number].face[side]) move_side(solid, side, transform, *face);
       ++number;
     };
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
       if (has_moves[i]) {
-        visit_boxes(scene.objects[i], move);
+        visit_solids(scene.objects[i], move);
       } else {
-        const auto pass = [&](const Box&, const Transform&, Index, const CsgPath&) { ++number; };
-        visit_boxes(std::as_const(scene.objects[i]), pass);
+        const auto pass = [&](const auto&, const Transform&, Index, const CsgPath&) { ++number; };
+        visit_solids(std::as_const(scene.objects[i]), pass);
       }
     }
     return scene;
@@ -173,6 +170,24 @@ private:
     const double size = glm::length(eye) + std::abs(face.distance) + glm::length(near);
     return face.normal * (kStep * face.steps * size * (is_seen_from_above(face) ? 1 : -1));
   }
+  void move_side(Box& box, int side, const Transform& transform, const Face& face) const {
+    const int axis = side / 2;
+    Vec3 unit(0);
+    unit[axis] = 1;
+    const int corner = (box.corner[0][axis] > box.corner[1][axis]) != (side % 2 != 0);
+    box.corner[corner][axis] += along(transform.direction(unit), face);
+  }
+  /// Of a cylinder or a cone.
+  template <class Round>
+  void move_side(Round& solid, int side, const Transform& transform, const Face& face) const {
+    const Vec3 axis = solid.cap - solid.base;
+    (side != 0 ? solid.cap : solid.base) += axis * along(transform.direction(axis), face);
+  }
+  /// How far to go in a direction, in lengths of it, to where the face is moved.
+  double along(const Vec3& direction, const Face& face) const {
+    return glm::dot(way(face), face.normal) / glm::dot(direction, face.normal);
+  }
+  bool looks_at_camera(const Face& face) const { return face.looks_up == is_seen_from_above(face); }
   /// Whether the camera is where the normal points.
   bool is_seen_from_above(const Face& face) const {
     return glm::dot(scene_.camera.location, face.normal) > face.distance;
@@ -187,12 +202,12 @@ private:
     face.extent = Extent::everywhere();
     face.material = scene_.objects[object].material;
     face.object = object;
-    face.box = Face::kPlane;
+    face.solid = Face::kPlane;
     if (is_usable(face)) faces_.push_back(face);
   }
 
-  void add_box(std::size_t object, std::size_t number, const Box& box, const Transform& transform,
-               Index material, const CsgPath& path) {
+  void add(std::size_t object, std::size_t number, const Box& box, const Transform& transform, Index material,
+           const CsgPath& path) {
     if (!path.empty()) paths_.push_back(path);
     const Vec3 low = glm::min(box.corner[0], box.corner[1]), high = glm::max(box.corner[0], box.corner[1]);
     for (int side = 0; side < 6; ++side) {
@@ -200,28 +215,68 @@ private:
       const double at = (side % 2 != 0 ? high : low)[axis];
       Vec3 unit(0);
       unit[axis] = 1;
-      Face face{};
-      Vec3 corner_of_face;
+      Vec3 corners[4];
       for (int corner = 0; corner < 4; ++corner) {
-        Vec3 place;
-        place[axis] = at;
-        place[(axis + 1) % 3] = (corner & 1 ? high : low)[(axis + 1) % 3];
-        place[(axis + 2) % 3] = (corner & 2 ? high : low)[(axis + 2) % 3];
-        place = corner_of_face = transform.point(place);
-        face.extent = corner == 0 ? Extent{place, place} : face.extent.joined({place, place});
+        corners[corner][axis] = at;
+        corners[corner][(axis + 1) % 3] = (corner & 1 ? high : low)[(axis + 1) % 3];
+        corners[corner][(axis + 2) % 3] = (corner & 2 ? high : low)[(axis + 2) % 3];
       }
-      face.normal = glm::normalize(transform.normal(unit)) * (side % 2 != 0 ? 1.0 : -1.0);
-      face.distance = glm::dot(face.normal, corner_of_face);
+      Face face = face_of(corners, unit * (side % 2 != 0 ? 1.0 : -1.0), transform);
       face.material = material;
       // Those that look away are seen through something, or in mirrors: where many are, time is worth more.
-      if (is_opaque(face) && glm::dot(face.normal, scene_.camera.location) < face.distance) continue;
-      turn(face);
+      if (is_opaque(face) && !looks_at_camera(face)) continue;
       face.object = object;
-      face.box = number;
+      face.solid = number;
       face.side = side;
       face.path = path.empty() ? 0 : static_cast<std::uint32_t>(paths_.size());
       if (is_usable(face)) faces_.push_back(face);
     }
+  }
+  /// Of cylinders and cones the ends that are seen through them.
+  template <class Round>
+  void add(std::size_t object, std::size_t number, const Round& solid, const Transform& transform,
+           Index material, const CsgPath&) {
+    if (solid.open) return;
+    const Vec3 axis = solid.cap - solid.base;
+    int least = 0;
+    for (int i = 1; i < 3; ++i)
+      if (std::abs(axis[i]) < std::abs(axis[least])) least = i;
+    Vec3 unit(0);
+    unit[least] = 1;
+    const Vec3 across = glm::normalize(glm::cross(axis, unit)), up = glm::normalize(glm::cross(axis, across));
+    for (int side = 0; side < 2; ++side) {
+      const double radius = radius_at(solid, side);
+      const Vec3 middle = side != 0 ? solid.cap : solid.base;
+      Vec3 corners[4];
+      for (int corner = 0; corner < 4; ++corner)
+        corners[corner] =
+            middle + (across * (corner & 1 ? 1.0 : -1.0) + up * (corner & 2 ? 1.0 : -1.0)) * radius;
+      Face face = face_of(corners, side != 0 ? axis : -axis, transform);
+      face.material = material;
+      if (is_opaque(face) || looks_at_camera(face)) continue;
+      face.object = object;
+      face.solid = number;
+      face.side = side;
+      face.is_round = true;
+      if (is_usable(face)) faces_.push_back(face);
+    }
+  }
+  static double radius_at(const Cylinder& cylinder, int) { return cylinder.radius; }
+  static double radius_at(const Cone& cone, int side) {
+    return side != 0 ? cone.cap_radius : cone.base_radius;
+  }
+
+  /// A face as its solid has it, `outward` being normal to it.
+  static Face face_of(const Vec3 (&corners)[4], const Vec3& outward, const Transform& transform) {
+    Face face{};
+    face.normal = glm::normalize(transform.normal(outward));
+    for (const Vec3& corner : corners) {
+      const Vec3 place = transform.point(corner);
+      face.extent = &corner == corners ? Extent{place, place} : face.extent.joined({place, place});
+      face.distance = glm::dot(face.normal, place);
+    }
+    turn(face);
+    return face;
   }
 
   /// Not where a transformation is singular, or a box as wide as numbers reach: it is refused elsewhere.
@@ -281,11 +336,16 @@ private:
     return wide >= 2;
   }
 
+  /// Whether something can be seen to stand on it.
+  bool is_ground(const Face& face) const { return is_opaque(face) && looks_at_camera(face); }
   bool is_opaque(const Face& face) const {
     return (material_flags_[face.material] & kernel::object_flag::opaque) != 0;
   }
-  /// Whether it shows which one of the two rays hit. From inside of what is opaque nothing is seen.
+  /// Whether it shows which one of the two rays hit. From inside of what is opaque nothing is seen. Ends of
+  /// cylinders and cones are rounded otherwise than faces, by POV-Ray, too: it is settled only where
+  /// something transparent stands on what is opaque.
   bool can_differ(const Face& a, const Face& b) const {
+    if (a.is_round || b.is_round) return a.is_round != b.is_round && is_ground(a.is_round ? b : a);
     const bool are_opaque = is_opaque(a) && is_opaque(b);
     return !are_opaque || (a.looks_up == b.looks_up && a.material != b.material);
   }
@@ -316,6 +376,8 @@ private:
 
   /// Of faces of two objects: the one that POV-Ray shows is nearer.
   Order order_of_objects(Face& a, Face& b) {
+    if (a.is_round) return {&b, &a};
+    if (b.is_round) return {&a, &b};
     if (is_seen(a, b)) return {&a, &b};
     return {&b, &a};
   }
@@ -386,7 +448,7 @@ private:
   const std::vector<std::uint32_t>& material_flags_;
   std::vector<Face> faces_;
   std::vector<CsgPath> paths_; ///< of boxes in CSGs
-  std::size_t box_count_ = 0, pairs_ = 0, overlaps_ = 0;
+  std::size_t solid_count_ = 0, pairs_ = 0, overlaps_ = 0;
   std::optional<BoundingTree> tree_;
   bool any_moves_ = false;
 };

@@ -13,8 +13,9 @@ namespace celltrace {
 /// millionths of their distance from the camera, so that the one is in front that POV-Ray shows. There
 /// rounding is the same for all of them and the first one counts that is tested (BoundingTree); single
 /// precision would show now the one and now the other. Boxes may be parts of a CSG, but not cut out of it: of
-/// faces of one intersection that of the last part is seen.
-/// Scenes of very many objects stay as they are.
+/// faces of one intersection that of the last part is seen. Where a transparent cylinder or cone stands on
+/// such a face of something opaque, that is in front of its end. Scenes of very many objects stay as they
+/// are.
 class SceneWithFacesApart {
 public:
   /// `scene` stays as it is as long as this lives. `material_flags`: those of objects that consist of a

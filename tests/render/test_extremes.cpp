@@ -584,3 +584,41 @@ TEST_CASE("Planes are in front of faces of boxes in them, and copies of one obje
   CHECK(moved.corner[1].y < 1e-4);
   CHECK(moved.corner[0].y == -1);
 }
+
+TEST_CASE("Through transparent cylinders and cones is seen what they stand on") {
+  for (const double height : {0.0, 0.3, -1.0, 5.7}) {
+    for (const bool on_box : {false, true}) {
+      Scene scene;
+      scene.background = {1, 0, 0};
+      scene.camera = camera_at({0.7, height + 4, -3}, {0.1, height, 0});
+      Material ground = matte({0, 0, 1});
+      ground.finish.ambient = Vec3(1);
+      ground.finish.diffuse = 0;
+      Material clear = ground;
+      clear.pigment.transmit = 1;
+      const Index of_ground = scene.add(ground), of_clear = scene.add(clear),
+                  interior = scene.add(Interior{});
+      const auto add = [&](decltype(Object::shape) shape, Index material) {
+        Object object = shaped(std::move(shape));
+        object.material = material;
+        object.interior = interior;
+        scene.objects.push_back(object);
+      };
+      if (on_box)
+        add(Box{{{-90, height - 1, -90}, {90, height, 90}}}, of_ground);
+      else
+        add(Plane{{0, 1, 0}, height}, of_ground);
+      add(Cylinder{{0, height, 0}, {0, height + 0.05, 0}, 0.8}, of_clear);
+      add(Cone{{1, height + 0.7, 0.5}, {1, height, 0.5}, 0.2, 0.6}, of_clear);
+      for (const TestBackend& backend : backends()) {
+        const Image image = render(scene, backend.options(80, 60, 1)).image;
+        INFO(backend.spu() << ", at " << height << (on_box ? ", on a box" : ""));
+        int below = 0;
+        for (int y = 0; y < image.height; ++y)
+          for (int x = 0; x < image.width; ++x)
+            below += image.pixel(x, y)[0] != 0;
+        CHECK(below <= 1); // a ray that enters within 0.0001 of the ground misses it
+      }
+    }
+  }
+}
