@@ -152,6 +152,14 @@ template <class S> Interval interval_of(const typename S::F& values) {
   return all;
 }
 
+template <class S> [[gnu::always_inline]] inline typename S::I load_words(const WordLanes& words) {
+  return S::I::load(reinterpret_cast<const int32_t*>(words.lane));
+}
+template <class S>
+[[gnu::always_inline]] inline void store_words(WordLanes& words, const typename S::I& values) {
+  values.store(reinterpret_cast<int32_t*>(words.lane));
+}
+
 /// Calls `visit(lane)` for each bit that is set, the lowest first.
 template <class Visit> [[gnu::always_inline]] inline void for_each_lane(uint32_t lanes, const Visit& visit) {
   while (lanes != 0) {
@@ -166,7 +174,7 @@ template <class S, class Visit>
 [[gnu::always_inline]] inline void for_each_value(const WordLanes& words, uint32_t lanes,
                                                   const Visit& visit) {
   using I = typename S::I;
-  const I all = I::load(reinterpret_cast<const int32_t*>(words.lane));
+  const I all = load_words<S>(words);
   while (lanes != 0) {
     const uint32_t value = words.lane[__builtin_ctz(lanes)];
     const uint32_t same = (all == I::splat(static_cast<int32_t>(value))).bits() & lanes;

@@ -299,8 +299,9 @@ private:
     const std::uint64_t levels = std::uint64_t{frame_.max_trace_level} + kLevelsOfStraight;
     const std::uint64_t wanted = levels * std::max(image_.header().surface_nodes, 2u) - levels;
     const auto most = std::max<std::uint64_t>(levels, kMostBytesOfSpe / kRayNodeBytes);
-    // Where lights have areas or shadow rays go step by step, none of them stays in local store.
-    const bool has_resident = !has_areas(frame_) && !walks_shadows(frame_);
+    // Where lights have areas or shadow rays go step by step, none of them stays in local store; where memory
+    // is direct, none ever does.
+    const bool has_resident = !machine_->direct_memory() && !has_areas(frame_) && !walks_shadows(frame_);
     const std::uint32_t nodes =
         static_cast<std::uint32_t>(std::min(wanted, most)) + (has_resident ? 0 : kResidentNodes);
     if (nodes == frame_.ray_stack_nodes) return;

@@ -133,7 +133,7 @@ private:
       const Packet& packet = packets[number_[n]];
       const V3<S> start = packet.rays.origin.template load<S>();
       const auto same = (start.x == origin.x) & (start.y == origin.y) & (start.z == origin.z) &
-                        (words(packet.rays.start_object) == object);
+                        (load_words<S>(packet.rays.start_object) == object);
       const auto none = (F::load(packet.hits.u.lane) == F(0.0f)) & (F::load(packet.hits.v.lane) == F(0.0f));
       all.starts = all.starts || (packet.lanes & ~same.bits()) != 0;
       all.coordinates = all.coordinates || (packet.lanes & ~none.bits()) != 0;
@@ -142,7 +142,6 @@ private:
     object.store(reinterpret_cast<int32_t*>(all.start_object.lane));
     return all;
   }
-  static I words(const WordLanes& lanes) { return I::load(reinterpret_cast<const int32_t*>(lanes.lane)); }
 
   void move(const RayPacket& rays, const HitPacket& hits, uint32_t lanes, uint32_t number,
             const Differing& differing) {

@@ -8,11 +8,23 @@
 
 namespace celltrace::kernel {
 
-/// Whether a ray is inside of an interior.
-inline bool is_inside(const RayNode& ray, uint32_t lane, uint32_t interior) {
-  for (uint32_t d = 0; d < ray.interior_depth.lane[lane]; ++d)
-    if (ray.interiors[d].lane[lane] == interior) return true;
-  return false;
+/// Those of `lanes` in which a ray is inside of an interior.
+template <class Spu> uint32_t lanes_inside(const RayNode& ray, uint32_t lanes, uint32_t interior) {
+  using S = typename Spu::simd;
+  using I = typename S::I;
+  if constexpr (kHasRoomForCode<Spu>) {
+    const I depth = load_words<S>(ray.interior_depth), wanted = I::splat(static_cast<int32_t>(interior));
+    auto inside = S::M::none();
+    for (int32_t d = 0; d < static_cast<int32_t>(kMaxInteriorDepth); ++d)
+      inside = inside | ((load_words<S>(ray.interiors[d]) == wanted) & (I::splat(d) < depth));
+    return inside.bits() & lanes;
+  }
+  uint32_t inside = 0;
+  for_each_lane(lanes, [&](uint32_t lane) {
+    for (uint32_t d = 0; d < ray.interior_depth.lane[lane]; ++d)
+      if (ray.interiors[d].lane[lane] == interior) inside |= 1u << lane;
+  });
+  return inside;
 }
 
 /// What is left of the light of `lanes` that goes on from what it hits, after `distance` before. As in
@@ -30,9 +42,7 @@ template <class Spu>
     Kept<Spu, InteriorRecord> r = *scene.interior(offset);
     uint32_t inside = 0;
     if (r.inverse_fade_distance != 0.0f && !(is_shadow && r.fade_power == 0.0f))
-      for_each_lane(same, [&](uint32_t lane) {
-        inside |= static_cast<uint32_t>(is_inside(ray, lane, offset)) << lane;
-      });
+      inside = lanes_inside<Spu>(ray, same, offset);
     const float passed = is_shadow ? 1.0f : r.refraction();
     if (inside == 0 && passed == 1.0f) return;
     for_each_part<Spu>([&](uint32_t first) {

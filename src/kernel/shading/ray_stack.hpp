@@ -1,6 +1,7 @@
 // The ray tree without recursion: a stack of ray packets that are still to be traced. Kernel dialect.
 #pragma once
 
+#include "kernel/direct/door.hpp"
 #include "kernel/packet.hpp"
 #include "kernel/scalar_work.hpp"
 
@@ -46,25 +47,30 @@ constexpr uint32_t kResidentNodes = 3;
 
 /// A stack whose first nodes, at most `kResident`, are in local store; deeper ones are spilled to main
 /// memory, at most `spill_nodes` of them. Depth-first order makes a tree of level n need n + 1 nodes at most.
-template <class Spu, uint32_t kResident = kResidentNodes> class RayStack {
+/// Where memory is direct, it is another one (direct/node_stack.hpp).
+template <class Spu, uint32_t kResident = kResidentNodes, bool kInPlace = kReadsInPlace<Spu>> class RayStack {
 public:
-  /// `resident`: how many, where local store has no room for kResident nodes.
-  RayStack(Spu& spu, ea_t spill, uint32_t spill_nodes, uint32_t resident = kResident)
+  /// `resident`: how many, where local store has no room for kResident nodes. `next`: the place for the node
+  /// that is pushed next.
+  RayStack(Spu& spu, ea_t spill, uint32_t spill_nodes, uint32_t resident, RayNode& next)
       : spu_(spu), resident_nodes_(resident),
         resident_(resident != 0 ? spu.template allocate<RayNode>(resident) : nullptr), spill_(spill),
-        capacity_(resident_nodes_ + spill_nodes) {}
+        capacity_(resident_nodes_ + spill_nodes), next_(next) {}
 
   bool empty() const { return size_ == 0; }
   void clear() { size_ = 0; }
 
-  /// False if the stack is full.
-  bool push(const RayNode& node) {
+  /// Where the node is made that is pushed next.
+  RayNode& next() { return next_; }
+
+  /// Pushes next(), which stays as it is. False if the stack is full.
+  bool push() {
     if (size_ == capacity_) return false;
     if (size_ < resident_nodes_) {
       spu_.compute(scalar_work::kNodeCopy);
-      resident_[size_] = node;
+      resident_[size_] = next_;
     } else {
-      spu_.put(&node, place(size_), kRayNodeBytes, kTag);
+      spu_.put(&next_, place(size_), kRayNodeBytes, kTag);
       spu_.wait_all(1u << kTag);
       ++spilled_;
     }
@@ -98,8 +104,11 @@ private:
   RayNode* resident_;
   ea_t spill_;
   uint32_t capacity_;
+  RayNode& next_;
   uint32_t size_ = 0;
   uint32_t spilled_ = 0;
 };
 
 } // namespace celltrace::kernel
+
+#include "kernel/direct/node_stack.hpp"

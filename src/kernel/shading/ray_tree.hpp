@@ -83,8 +83,8 @@ public:
 protected:
   RayTree(Spu& spu, const FrameBlock& frame, SceneAccess<Spu>& scene, ea_t spill, uint32_t spill_nodes,
           RayNode& scratch)
-      : frame_(frame), scene_(scene), stack_(spu, spill, spill_nodes, resident_nodes(frame)),
-        node_(*spu.template allocate<RayNode>()), child_(scratch) {}
+      : frame_(frame), scene_(scene), stack_(spu, spill, spill_nodes, resident_nodes(frame), scratch),
+        node_(*spu.template allocate<RayNode>()) {}
 
   static uint32_t count(uint32_t lanes) { return static_cast<uint32_t>(__builtin_popcount(lanes)); }
 
@@ -155,11 +155,12 @@ private:
     counters_.primary += count(lanes);
   }
 
-  /// Lets child_ wait for its turn, in the stack or in a pool. False: there is no room.
+  /// Lets the child that has been made wait for its turn, in the stack or in a pool. False: there is no room.
   bool push() {
-    if ((child_.target | child_.gathers) == 0 && pooling_.takes(child_)) return true;
-    const bool room = stack_.push(child_);
-    if (!room) counters_.dropped += count(child_.lanes);
+    const RayNode& child = stack_.next();
+    if ((child.target | child.gathers) == 0 && pooling_.takes(child)) return true;
+    const bool room = stack_.push();
+    if (!room) counters_.dropped += count(child.lanes);
     return room;
   }
 
@@ -179,56 +180,56 @@ private:
     add(node_.lanes, raised);
   }
 
-  /// Fills child_ with rays from the surfaces whose weight and level allow them; false if there are none.
+  /// Fills the child with rays from the surfaces whose weight and level allow them; false if there are none.
   bool prepare_child(const Surfaces<S>& surfaces, const V3<S>& direction, const V3<S>& throughput,
                      const F& weight, uint32_t one_level_deeper, uint32_t lanes) {
+    RayNode& child = stack_.next();
     scene_.spu().compute(scalar_work::kChild);
-    uint32_t go = 0;
-    const M heavy = weight >= F(frame_.adc_bailout);
-    for_each_lane(lanes & heavy.bits(), [&](uint32_t lane) {
-      // A ray that goes straight on takes no level, but as in POV-Ray there has to be one left.
-      const uint32_t level = node_.level.lane[lane];
-      child_.level.lane[lane] = level + ((one_level_deeper >> lane) & 1);
-      go |= static_cast<uint32_t>(level + 1 < frame_.max_trace_level) << lane;
-    });
+    // A ray that goes straight on takes no level, but as in POV-Ray there has to be one left.
+    const I level = load_words<S>(node_.level);
+    const auto is_left = level < I::splat(static_cast<int32_t>(frame_.max_trace_level) - 1);
+    const uint32_t go = lanes & ((weight >= F(frame_.adc_bailout)) & is_left).bits();
+    store_words<S>(child.level, level + S::select(M::from_bits(one_level_deeper), I::splat(1), I::splat(0)));
     if (go == 0) return false;
-    child_.rays.origin.template store<S>(surfaces.point);
-    child_.rays.direction.template store<S>(direction);
-    child_.rays.start_object = *surfaces.objects;
-    child_.throughput.template store<S>(node_.throughput.template load<S>() * throughput);
-    weight.store(child_.weight.lane);
-    child_.lanes = go;
-    child_.reflected = node_.reflected;
-    child_.target = node_.target;
-    child_.gathers = 0;
+    child.rays.origin.template store<S>(surfaces.point);
+    child.rays.direction.template store<S>(direction);
+    child.rays.start_object = *surfaces.objects;
+    child.throughput.template store<S>(node_.throughput.template load<S>() * throughput);
+    weight.store(child.weight.lane);
+    child.lanes = go;
+    child.reflected = node_.reflected;
+    child.target = node_.target;
+    child.gathers = 0;
     return true;
   }
 
-  /// What is left of the light that `lanes` of child_ bring out of an interior, and how clear their way is.
-  /// POV-Ray takes the grey of what comes through each surface.
+  /// What is left of the light that `lanes` of the child bring out of an interior, and how clear their way
+  /// is. POV-Ray takes the grey of what comes through each surface.
   CELLTRACE_ONE_COPY void fade_child(const WordLanes& interior, const V3<S>& through, uint32_t lanes) {
+    RayNode& child = stack_.next();
     scene_.spu().run_in_module(modules::kFading);
     const bool fades = (frame_.light_ways & light_way::fading) != 0;
     if ((frame_.light_ways & light_way::alpha) != 0) {
-      const VectorLanes throughput = child_.throughput;
-      child_.throughput.template store<S>(through);
-      if (fades) fade(scene_, node_, interior, hits_.distance, lanes, child_.throughput, false);
-      const F clear = F::load(node_.power.lane) * grey<S>(child_.throughput.template load<S>());
-      clear.store(child_.power.lane);
-      child_.throughput = throughput;
+      const VectorLanes throughput = child.throughput;
+      child.throughput.template store<S>(through);
+      if (fades) fade(scene_, node_, interior, hits_.distance, lanes, child.throughput, false);
+      const F clear = F::load(node_.power.lane) * grey<S>(child.throughput.template load<S>());
+      clear.store(child.power.lane);
+      child.throughput = throughput;
     }
-    if (fades) fade(scene_, node_, interior, hits_.distance, lanes, child_.throughput, false);
+    if (fades) fade(scene_, node_, interior, hits_.distance, lanes, child.throughput, false);
   }
 
   void reflect(const Surfaces<S>& surfaces, const SecondaryRays<S>& onward, uint32_t lanes,
                const V3<S>& mirrored) {
     if (lanes == 0) return;
+    RayNode& child = stack_.next();
     inherit_interiors();
     if (!prepare_child(surfaces, mirrored, onward.mirror, F::load(node_.weight.lane) * onward.mirror_weight,
                        lanes, lanes))
       return;
-    child_.reflected = child_.lanes;
-    counters_.reflection += count(child_.lanes);
+    child.reflected = child.lanes;
+    counters_.reflection += count(child.lanes);
     if (onward.bends_reflection && accumulators_in_use_ < kAccumulators) {
       scene_.spu().enter_module(modules::kFading);
       redirect(onward.reflection_power);
@@ -237,22 +238,26 @@ private:
   }
 
   void inherit_interiors() {
-    child_.interior_depth = node_.interior_depth;
+    RayNode& child = stack_.next();
+    child.interior_depth = node_.interior_depth;
     for (uint32_t d = 0; d < kMaxInteriorDepth; ++d)
-      child_.interiors[d] = node_.interiors[d];
+      child.interiors[d] = node_.interiors[d];
   }
 
-  /// Sends the light of child_ to an accumulator of its own, from which a node pushed below it gathers it.
+  /// Sends the light of the child to an accumulator of its own, from which a node pushed below it gathers it.
   /// Not in the module of what calls it, which has no room.
   CELLTRACE_ONE_COPY void redirect(const F& power) {
     scene_.spu().run_in_module(modules::kFading);
-    child_.gathers = accumulators_in_use_;
-    power.store(child_.power.lane);
+    RayNode& gathering = stack_.next();
+    gathering.gathers = accumulators_in_use_;
+    power.store(gathering.power.lane);
     if (!push()) return;
-    child_.target = accumulators_in_use_++;
-    child_.gathers = 0;
-    child_.throughput.template store<S>({F(1.0f), F(1.0f), F(1.0f)});
-    clear(child_.target);
+    RayNode& child = stack_.next();
+    if constexpr (kReadsInPlace<Spu>) child = gathering;
+    child.target = accumulators_in_use_++;
+    child.gathers = 0;
+    child.throughput.template store<S>({F(1.0f), F(1.0f), F(1.0f)});
+    clear(child.target);
   }
 
   /// Pushes the transmitted rays; returns the lanes that were totally reflected.
@@ -260,8 +265,9 @@ private:
                     const F& cosine, const V3<S>& mirrored) {
     scene_.spu().compute(scalar_work::kTransmit);
     scene_.spu().run_in_module(modules::kSecondary);
+    RayNode& child = stack_.next();
     inherit_interiors();
-    const Refraction refraction = cross_surfaces(scene_, interior, onward.clear, child_, counters_.dropped);
+    const Refraction refraction = cross_surfaces(scene_, interior, onward.clear, child, counters_.dropped);
     const F ratio = F::load(refraction.ratio.lane);
     V3<S> bent;
     uint32_t beyond = 0;
@@ -279,9 +285,9 @@ private:
     direction = select<S>(total_mask, mirrored, direction);
     // A totally reflected ray stays inside. As in POV-Ray nothing changes it but a film.
     for_each_lane(total, [&](uint32_t lane) {
-      child_.interior_depth.lane[lane] = node_.interior_depth.lane[lane];
+      child.interior_depth.lane[lane] = node_.interior_depth.lane[lane];
       for (uint32_t d = 0; d < kMaxInteriorDepth; ++d)
-        child_.interiors[d].lane[lane] = node_.interiors[d].lane[lane];
+        child.interiors[d].lane[lane] = node_.interiors[d].lane[lane];
     });
     // POV-Ray's weight is that of a transmitted ray even where all light is reflected.
     if (prepare_child(surfaces, direction, select<S>(total_mask, onward.reflected_inside, onward.through),
@@ -291,8 +297,8 @@ private:
         scene_.spu().enter_module(modules::kFading);
         fade_child(interior, onward.through, onward.clear);
       }
-      child_.reflected |= total & child_.lanes;
-      counters_.refraction += count(child_.lanes);
+      child.reflected |= total & child.lanes;
+      counters_.refraction += count(child.lanes);
       push();
     }
     return total;
@@ -303,8 +309,7 @@ protected:
   SceneAccess<Spu>& scene_;
   RayStack<Spu, kResident> stack_;
   [[no_unique_address]] RayPooling<Spu> pooling_;
-  RayNode& node_;  ///< being traced
-  RayNode& child_; ///< being made
+  RayNode& node_; ///< being traced
   HitPacket hits_;
   /// Deeper nesting of bent reflections than this leaves the innermost ones unbent.
   static constexpr uint32_t kAccumulators = 8;

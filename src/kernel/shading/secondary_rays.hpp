@@ -33,12 +33,41 @@ SolidCrossing solid_crossing(SceneAccess<Spu>& scene, const RayNode& ray, uint32
   return {position, true, ior_of(interior), depth > 1 ? ior_of(at(depth - 2)) : 1.0f};
 }
 
+/// Rays go on as they came where indices of refraction differ by less, relative to one of them.
+constexpr float kLeastBend = 1e-6f;
+
 /// Relative index of refraction (from over to) at each lane's surface. `straight`: lanes whose ray goes on as
 /// it came.
 struct Refraction {
   FloatLanes ratio;
   uint32_t straight = 0;
 };
+
+/// As cross_surfaces(), all at once for the `lanes` that have nothing to do with any other interior. Returns
+/// the rest.
+template <class Spu>
+uint32_t cross_single_interiors(SceneAccess<Spu>& scene, const WordLanes& interior, uint32_t lanes,
+                                RayNode& ray, Refraction& result) {
+  using S = typename Spu::simd;
+  using F = typename S::F;
+  using I = typename S::I;
+  using M = typename S::M;
+  const I depth = load_words<S>(ray.interior_depth), own = load_words<S>(interior);
+  const I outermost = load_words<S>(ray.interiors[0]);
+  const M outside = (depth == I::splat(0)) & M::from_bits(lanes);
+  const M inside = (depth == I::splat(1)) & (outermost == own) & M::from_bits(lanes);
+  const uint32_t crossing = (outside | inside).bits();
+  F ratio(1.0f);
+  for_each_value<S>(interior, crossing, [&](uint32_t offset, uint32_t same) {
+    const float ior = scene.interior(offset)->ior;
+    ratio = S::select(M::from_bits(same), S::select(inside, F(ior), F(1.0f / ior)), ratio);
+  });
+  ratio.store(result.ratio.lane);
+  result.straight = ((ratio > F(1.0f - kLeastBend)) & (ratio < F(1.0f + kLeastBend))).bits() & crossing;
+  store_words<S>(ray.interiors[0], S::select(outside, own, outermost));
+  store_words<S>(ray.interior_depth, S::select(outside, I::splat(1), S::select(inside, I::splat(0), depth)));
+  return lanes & ~crossing;
+}
 
 /// Crosses the surface into or out of `interior` in each of `lanes`: updates the interiors that `ray` is
 /// inside of and says how it bends. Counts rays that are inside more interiors than a node holds; these lose
@@ -47,13 +76,15 @@ template <class Spu>
 Refraction cross_surfaces(SceneAccess<Spu>& scene, const WordLanes& interior, uint32_t lanes, RayNode& ray,
                           uint64_t& overflows) {
   Refraction result;
-  for (uint32_t lane = 0; lane < kSimdLanes; ++lane)
-    result.ratio.lane[lane] = 1.0f;
+  if constexpr (kHasRoomForCode<Spu>)
+    lanes = cross_single_interiors(scene, interior, lanes, ray, result);
+  else
+    typename Spu::simd::F(1.0f).store(result.ratio.lane);
   for_each_lane(lanes, [&](uint32_t lane) {
     const SolidCrossing change = solid_crossing(scene, ray, lane, interior.lane[lane]);
     const float ratio = change.from / change.to;
     result.ratio.lane[lane] = ratio;
-    if (ratio > 1.0f - 1e-6f && ratio < 1.0f + 1e-6f) result.straight |= 1u << lane;
+    if (ratio > 1.0f - kLeastBend && ratio < 1.0f + kLeastBend) result.straight |= 1u << lane;
 
     uint32_t& depth = ray.interior_depth.lane[lane];
     const auto at = [&](uint32_t d) -> uint32_t& { return ray.interiors[d].lane[lane]; };
