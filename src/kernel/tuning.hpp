@@ -42,7 +42,7 @@ constexpr uint32_t kMostObjectsOfMixedRays = 20000;
 /// In scenes of at most so many objects packets of one octant are traversed like that, too. Larger: nodes
 /// that a frustum misses are tested ray by ray; smaller: frusta are computed that have hardly a node to miss.
 /// 'trace time' of scenes with mirrors and glass.
-constexpr uint32_t kMostObjectsWithoutFrusta = 16;
+constexpr uint32_t kMostObjectsWithoutFrusta = 64;
 
 /// A packet with so many rays of one tree goes on by itself, and so do so many shadow rays from there; those
 /// of others are gathered into full packets. Larger: fewer lanes are empty; smaller: more packets have rays

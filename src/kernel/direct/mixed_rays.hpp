@@ -16,6 +16,11 @@ public:
   using F = typename S::F;
   using F4 = typename S::F4;
 
+  /// The children that a node has. Without an order of planes, an empty box is like any other.
+  static uint32_t children_of(const float (&bounds)[6][4]) {
+    return not_above_bits(F4::load(bounds[0]), F4::load(bounds[1]));
+  }
+
   explicit MixedRays(const RayPacket& rays) : origin_(rays.origin.template load<S>()) {
     const V3<S> direction = rays.direction.template load<S>();
     inverse_ = {inverse_of(direction.x), inverse_of(direction.y), inverse_of(direction.z)};
@@ -25,15 +30,11 @@ public:
   /// least distance to each child that is hit, -1 for the others.
   [[gnu::always_inline]] void intersect(const float (&bounds)[6][4], float tnear, const F& tfar,
                                         uint32_t lanes, uint32_t (&hit)[4], float (&enter)[4]) const {
-    // Without an order of planes, an empty box is like any other.
-    const uint32_t present = not_above_bits(F4::load(bounds[0]), F4::load(bounds[1]));
+    const uint32_t present = children_of(bounds);
     F distance[4];
     for (uint32_t i = 0; i < 4; ++i) {
-      F from(tnear), to = tfar;
-      clip(bounds[0][i], bounds[1][i], origin_.x, inverse_.x, from, to);
-      clip(bounds[2][i], bounds[3][i], origin_.y, inverse_.y, from, to);
-      clip(bounds[4][i], bounds[5][i], origin_.z, inverse_.z, from, to);
-      const auto hits = from <= to * F(detail::kRoundedUp);
+      F from(tnear);
+      const auto hits = cross(bounds, i, tfar, from);
       hit[i] = hits.bits() & lanes & (0u - (present >> i & 1));
       distance[i] = S::select(hits, from, F(kMaxHitDistance));
     }
@@ -47,7 +48,23 @@ public:
       enter[i] = hit[i] != 0 ? all[i] : -1.0f;
   }
 
+  /// The lanes that hit child `i` from `tnear` up to their own `tfar`; the node has such a child.
+  [[gnu::always_inline]] uint32_t hit_child(const float (&bounds)[6][4], uint32_t i, float tnear,
+                                            const F& tfar) const {
+    F from(tnear);
+    return cross(bounds, i, tfar, from).bits();
+  }
+
 private:
+  /// Where rays hit child `i`; `from` grows to the distance there.
+  [[gnu::always_inline]] typename S::M cross(const float (&bounds)[6][4], uint32_t i, const F& tfar,
+                                             F& from) const {
+    F to = tfar;
+    clip(bounds[0][i], bounds[1][i], origin_.x, inverse_.x, from, to);
+    clip(bounds[2][i], bounds[3][i], origin_.y, inverse_.y, from, to);
+    clip(bounds[4][i], bounds[5][i], origin_.z, inverse_.z, from, to);
+    return from <= to * F(detail::kRoundedUp);
+  }
   [[gnu::always_inline]] static void clip(float low, float high, const F& origin, const F& inverse, F& from,
                                           F& to) {
     const F a = (F(low) - origin) * inverse, b = (F(high) - origin) * inverse;
@@ -78,6 +95,7 @@ template <class Spu> struct MixedVisitor {
   [[gnu::always_inline]] bool expand(NodeRef& ref) {
     ++objects.counters().visits;
     const NodeRecord& node = *objects.scene().node(ref.child);
+    if (test_leaves(node)) return false;
     uint32_t hit[4];
     float enter[4];
     rays.intersect(node.bounds, PacketTraversal<Spu>::tnear(query), PacketTraversal<Spu>::tfar(query),
@@ -85,9 +103,27 @@ template <class Spu> struct MixedVisitor {
     stack.push_all(enter, hit, node.child, node.leaf);
     return false;
   }
+  /// Tests the leaves of a node that has nothing else, one after the other: they are too few for an order to
+  /// pay. False: it has inner nodes.
+  [[gnu::always_inline]] bool test_leaves(const NodeRecord& node) {
+    const uint32_t present = MixedRays<S>::children_of(node.bounds);
+    uint32_t inner = 0;
+    for (uint32_t i = 0; i < 4; ++i)
+      inner |= static_cast<uint32_t>(node.leaf[i] == 0) << i;
+    if ((present & inner) != 0) return false;
+    using Traversal = PacketTraversal<Spu>;
+    for (uint32_t left = present; left != 0; left &= left - 1) {
+      const auto i = static_cast<uint32_t>(__builtin_ctz(left));
+      const uint32_t hit = rays.hit_child(node.bounds, i, Traversal::tnear(query), Traversal::tfar(query));
+      if (const uint32_t group = hit & lanes & query.lanes; group != 0)
+        traversal.test_objects({node.child[i], node.leaf[i]}, group, query);
+    }
+    shorten();
+    return true;
+  }
   [[gnu::always_inline]] void test(const NodeRef& leaf) {
     traversal.test_objects(leaf, lanes, query);
-    if (query.hits != nullptr) tfar = PacketTraversal<Spu>::tfar_of(query, query.lanes);
+    shorten();
   }
   [[gnu::always_inline]] bool next(NodeRef& ref) {
     while (stack.size() != 0) {
@@ -100,6 +136,12 @@ template <class Spu> struct MixedVisitor {
     return false;
   }
   static constexpr bool pauses() { return false; }
+
+private:
+  /// After hits.
+  [[gnu::always_inline]] void shorten() {
+    if (query.hits != nullptr && stack.size() != 0) tfar = PacketTraversal<Spu>::tfar_of(query, query.lanes);
+  }
 };
 
 } // namespace celltrace::kernel
