@@ -325,6 +325,24 @@ TEST_CASE("Thin boxes and cylinders have the normals of their faces up to the ri
   }
 }
 
+TEST_CASE("Rays in the plane of a face are inside of it, and hit another one") {
+  // Pixels are 32/240 in size: the middles of rows 97 and 142 are at y = 3 and -3.
+  for (const Object& object :
+       {shaped(Box{{{-3, -3, -3}, {3, 3, 3}}}), shaped(Cylinder{{0, -3, 0}, {0, 3, 0}, 3, false}),
+        shaped(Box{{{-3, -1, -1}, {3, 1, 1}}},
+               Transform::scale({1, 3, 3}).then(Transform::rotate({90, 0, 0})))}) {
+    Scene scene = white_shapes({object});
+    scene.background = {0, 0, 0};
+    scene.lights = {{{0, 0, -1000}, {1, 1, 1}}};
+    scene.camera = orthographic_camera({0, 0, -100}, {0, 0, 0}, 32 * 4.0 / 3);
+    const Image image = render(scene, backends().front().options(320, 240, 2)).image;
+    for (int y = 90; y < 150; ++y) {
+      INFO("row " << y);
+      CHECK((image.pixel(160, y)[0] > 0.5f) == (y >= 97 && y <= 142));
+    }
+  }
+}
+
 TEST_CASE("Squares are whole on distant faces that lie where the squares end") {
   Scene scene = white_shapes({
       shaped(Box{{{-2, -2, 0}, {-1, 0, 1}}}),

@@ -63,6 +63,12 @@ struct BoxPrimitive : LocalPrimitive<BoxPrimitive> {
     return dot<S>(gradient, {off(p.x, way.x), off(p.y, way.y), off(p.z, way.z)});
   }
 
+  template <class S>
+  [[gnu::always_inline]] static V3<S> off_parallel_faces(const V3<S>& p, const V3<S>& way, float share) {
+    return {off_parallel_plane<S>(p.x, way.x, 0.0f, share), off_parallel_plane<S>(p.y, way.y, 0.0f, share),
+            off_parallel_plane<S>(p.z, way.z, 0.0f, share)};
+  }
+
   static LocalBounds local_bounds(float) { return {-1.0f, 1.0f, 1.0f, true}; }
 };
 

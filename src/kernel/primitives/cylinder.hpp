@@ -70,6 +70,11 @@ struct CylinderPrimitive : LocalPrimitive<CylinderPrimitive> {
     return gradient.z * (p.z - S::max(gradient.z, typename S::F(0.0f)));
   }
 
+  template <class S>
+  [[gnu::always_inline]] static V3<S> off_parallel_faces(const V3<S>& p, const V3<S>& way, float share) {
+    return {p.x, p.y, off_parallel_plane<S>(p.z, way.z, 0.5f, share)};
+  }
+
   static LocalBounds local_bounds(float) { return {0.0f, 1.0f, 1.0f, false}; }
 };
 

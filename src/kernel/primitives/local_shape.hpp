@@ -7,6 +7,7 @@
 //   inside_local(point, parameters)                   lanes inside
 //   gradient(point, parameters)                       outward normal, of any length, at a point of it
 //   off_face(point, gradient, way)                    how far off its flat face, times that length
+//   off_parallel_faces(point, way, share)             moved toward the middle between faces along `way`
 //   local_bounds(ratio)
 #pragma once
 
@@ -78,6 +79,16 @@ void drop_start(const LocalRays<S>& rays, const LocalParameters<S>& parameters, 
   if (rays.starts_here.bits() == 0) return;
   c.near_hit = c.near_hit & !rays.starts_here;
   c.far_hit = c.far_hit & !(rays.starts_here & !go_inward<Shape, S>(rays, parameters));
+}
+
+/// A coordinate `at` of a ray that goes `along` that axis, moved toward the `middle` by a share of the way
+/// there if the ray is parallel to the planes across the axis.
+template <class S>
+[[gnu::always_inline]] inline typename S::F
+off_parallel_plane(const typename S::F& at, const typename S::F& along, float middle, float share) {
+  using F = typename S::F;
+  constexpr float kLeastSlope = 1e-14f;
+  return S::select(S::abs(along) < F(kLeastSlope), at + (F(middle) - at) * F(share), at);
 }
 
 /// Where rays are between the planes z = low and z = high.
@@ -185,6 +196,11 @@ template <class Shape> struct LocalPrimitive {
   static constexpr bool kIsHeavy = false;
   static constexpr bool kHasHeavyPoints = false;
   static constexpr bool kHasFaces = false; ///< flat ones: then it has off_face()
+
+  template <class S>
+  [[gnu::always_inline]] static V3<S> off_parallel_faces(const V3<S>& point, const V3<S>&, float) {
+    return point;
+  }
 
   template <class S>
   static void intersect(const RayPacket& rays, const ObjectRecord& object, const ExtraRecord& extra,

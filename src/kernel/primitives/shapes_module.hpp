@@ -56,12 +56,13 @@ constexpr bool has_heavy_points(uint32_t kind) {
 }
 
 /// The unit normals of shapes in a space of their own, of those with heavy points or of the others, at points
-/// of their surfaces: the gradient there is transformed by the transposed map. `moved`, unless it is nullptr,
+/// of their surfaces: the gradient there is transformed by the transposed map. If it `kMoves` them, `moved`
 /// receives the points, of which those of flat faces are moved there; rays have come to them on the ways
 /// `way`.
-template <class S, bool kOfHeavy>
+template <class S, bool kOfHeavy, bool kMoves>
 [[gnu::always_inline]] inline V3<S> normal_in_own_space(const ObjectLanes<S>& o, const V3<S>& point,
-                                                        const V3<S>& way, V3<S>* moved) {
+                                                        [[maybe_unused]] const V3<S>& way,
+                                                        [[maybe_unused]] V3<S>* moved) {
   // Three rows of four.
   const V3<S>* const g = o.geometry;
   const V3<S> rows[3] = {{g[0].x, g[0].y, g[0].z}, {g[1].y, g[1].z, g[2].x}, {g[2].z, g[3].x, g[3].y}};
@@ -75,18 +76,22 @@ template <class S, bool kOfHeavy>
     if constexpr (Shape::kIsLocal && Shape::kHasHeavyPoints == kOfHeavy)
       if (o.of_kind[kind] != 0) {
         const auto mask = S::M::from_bits(o.of_kind[kind]);
-        const V3<S> of_kind = Shape::template gradient<S>(local, o.parameters);
+        V3<S> of_kind;
+        if constexpr (kMoves && Shape::kHasFaces) {
+          // A face that a ray is parallel to is not the one that it has hit.
+          const V3<S> local_way = {dot<S>(rows[0], way), dot<S>(rows[1], way), dot<S>(rows[2], way)};
+          const V3<S> off_others = Shape::template off_parallel_faces<S>(local, local_way, 1.0f);
+          of_kind = Shape::template gradient<S>(off_others, o.parameters);
+          off = S::select(mask, Shape::template off_face<S>(local, of_kind, local_way), off);
+        } else {
+          of_kind = Shape::template gradient<S>(local, o.parameters);
+        }
         gradient = select<S>(mask, of_kind, gradient);
-        if constexpr (Shape::kHasFaces)
-          if (moved != nullptr) {
-            const V3<S> local_way = {dot<S>(rows[0], way), dot<S>(rows[1], way), dot<S>(rows[2], way)};
-            off = S::select(mask, Shape::template off_face<S>(local, of_kind, local_way), off);
-          }
       }
     ++kind;
   });
   const V3<S> outward = rows[0] * gradient.x + rows[1] * gradient.y + rows[2] * gradient.z;
-  if (moved != nullptr)
+  if constexpr (kMoves)
     *moved = point - outward * (off / S::max(dot<S>(outward, outward), typename S::F(1e-30f)));
   return normalise<S>(outward);
 }
@@ -170,7 +175,7 @@ template <class Spu>
 CELLTRACE_ONE_COPY V3<typename Spu::rare_simd> normal(Spu& spu, const ObjectLanes<typename Spu::rare_simd>& o,
                                                       const V3<typename Spu::rare_simd>& point) {
   spu.run_in_module(modules::kHeavyPoints);
-  return normal_in_own_space<typename Spu::rare_simd, true>(o, point, point, nullptr);
+  return normal_in_own_space<typename Spu::rare_simd, true, false>(o, point, point, nullptr);
 }
 
 } // namespace module_heavy_points
@@ -199,8 +204,16 @@ CELLTRACE_ONE_COPY uint32_t intersect(Spu& spu, const RayPacket& rays, const Obj
   Primitives::dispatch(kind, [&](auto shape) {
     using Shape = decltype(shape);
     pairs = Shape::kCrossingPairs;
-    if constexpr (Shape::kIsLocal && !Shape::kIsHeavy)
-      Shape::template intersect_local<S>(local, parameters, crossings);
+    if constexpr (Shape::kIsLocal && !Shape::kIsHeavy) {
+      if constexpr (kHasRoomForCode<Spu> && Shape::kHasFaces) {
+        // As in POV-Ray, a ray in the plane of a face is inside of it; rounding moves it off.
+        LocalRays<S> inside = local;
+        inside.origin = Shape::template off_parallel_faces<S>(local.origin, local.direction, 1e-6f);
+        Shape::template intersect_local<S>(inside, parameters, crossings);
+      } else {
+        Shape::template intersect_local<S>(local, parameters, crossings);
+      }
+    }
   });
   return pairs;
 }
@@ -229,14 +242,14 @@ CELLTRACE_ONE_COPY uint32_t inside(Spu& spu, const SolidRecord& solid, const V3<
 
 /// The unit normals of shapes in a space of their own whose points are not heavy.
 template <class S> CELLTRACE_ONE_COPY V3<S> local_normal(const ObjectLanes<S>& o, const V3<S>& point) {
-  return normal_in_own_space<S, false>(o, point, point, nullptr);
+  return normal_in_own_space<S, false, false>(o, point, point, nullptr);
 }
 /// The same where there is room for the code. Points along a ray are as exact as its distance, points moved
 /// onto flat faces as themselves: a pattern may have a step there.
 template <class S>
 CELLTRACE_ONE_COPY V3<S> local_normal(const ObjectLanes<S>& o, const V3<S>& way, V3<S>& point) {
   const V3<S> along_ray = point;
-  return normal_in_own_space<S, false>(o, along_ray, way, &point);
+  return normal_in_own_space<S, false, true>(o, along_ray, way, &point);
 }
 
 } // namespace celltrace::kernel
