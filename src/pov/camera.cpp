@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "celltrace/error.hpp"
+#include "pov/actions.hpp"
 #include "pov/patterns.hpp"
 #include "pov/session.hpp"
 #include "pov/shapes.hpp"
@@ -216,6 +217,11 @@ std::shared_ptr<CameraDefinition> start_camera(Session& session, const CameraDef
   }
   camera->transform = Transform();
   return camera;
+}
+
+UnsupportedPtr CameraDefinition::first_unsupported() const {
+  if (unsupported || aperture == 0 || blur_samples == 0) return unsupported;
+  return make_unsupported("'aperture'", aperture_where);
 }
 
 Camera CameraDefinition::finish() const {

@@ -30,10 +30,13 @@ struct CameraDefinition {
   Location look_at_where;
   std::optional<double> angle;          ///< horizontal, in degrees
   std::optional<double> vertical_angle; ///< in degrees
+  double aperture = 0, blur_samples = 0; ///< there is focal blur if neither is 0
+  Location aperture_where;
   Transform transform;
   UnsupportedPtr unsupported;
   Location where;
 
+  UnsupportedPtr first_unsupported() const;
   /// Throws InputError, without a position, if the camera has no view: an angle of 180 degrees or more, no
   /// direction.
   Camera finish() const;

@@ -91,8 +91,8 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %left '+' '-'
 %left '*' '/'
 
-%token ACCURACY ADC_BAILOUT AMBIENT AMBIENT_LIGHT ANGLE APERTURE ARRAY ASSUMED_GAMMA BACKGROUND BOUNDED_BY
-%token BRILLIANCE BUMP_SIZE CAMERA CAUSTICS CHARSET CLIPPED_BY COLOUR COLOUR_MAP CONSERVE_ENERGY CRAND
+%token ACCURACY ADC_BAILOUT AMBIENT AMBIENT_LIGHT ANGLE APERTURE ARRAY ASSUMED_GAMMA BACKGROUND BLUR_SAMPLES
+%token BOUNDED_BY BRILLIANCE BUMP_SIZE CAMERA CAUSTICS CHARSET CLIPPED_BY COLOUR COLOUR_MAP CONSERVE_ENERGY CRAND
 %token CUTAWAY_TEXTURES
 %token DIFFUSE DIMENSIONS DIMENSION_SIZE DIRECTION DISPERSION EMISSION EXPONENT FACE_INDICES
 %token FADE_DISTANCE FADE_POWER FALLOFF FINISH FREQUENCY FRESNEL GLOBAL_SETTINGS HOLLOW IGNORED_FLAG IGNORED_NUMBER
@@ -967,7 +967,9 @@ camera_body
   | camera_body LOOK_AT quantity   { $$ = $1; set_look_at(session, *$$, session.vector($3, @3), @2); }
   | camera_body ANGLE number       { $$ = $1; set_angle(session, *$$, $3, @2); }
   | camera_body ANGLE number optional_comma number { $$ = $1; set_angles(session, *$$, $3, $5, @5); }
-  | camera_body APERTURE number    { $$ = $1; mark($$->unsupported, unless_zero("'aperture'", $3, @2)); }
+  | camera_body APERTURE number    { $$ = $1; $$->aperture = $3; $$->aperture_where = @2; }
+  | camera_body BLUR_SAMPLES number { $$ = $1; $$->blur_samples = $3; }
+  | camera_body BLUR_SAMPLES number optional_comma number { $$ = $1; $$->blur_samples = $5; }
   | camera_body IGNORED_NUMBER quantity { $$ = $1; }
   | camera_body transformation     { $$ = $1; transform(*$$, $2); }
   | camera_body NORMAL { $$ = $1; mark($$->unsupported, unsupported_feature(session, "'normal'", @2)); }

@@ -142,6 +142,10 @@ std::vector<SlopePoint> ascending(std::vector<SlopePoint> map) {
 }
 
 void set_map(Session& session, PigmentDefinition& pigment, const PigmentMap& map, const Location& where) {
+  if (!pigment.pattern.exists() && !pigment.pattern.unsupported && pigment.value == Pigment()) {
+    session.diagnostics.warn_once(where, "a map without a pattern in front of it leaves this pigment black");
+    return;
+  }
   pigment.map = map_for(session, pigment.pattern, map, where);
   if (!pigment.map) pigment.value = map.entries.front().value; // of a pattern that is left out
 }

@@ -46,6 +46,7 @@ const Word kWords[] = {
     {"assumed_gamma", tokens::T_ASSUMED_GAMMA},
     {"background", tokens::T_BACKGROUND},
     {"black_hole", tokens::T_BLACK_HOLE},
+    {"blur_samples", tokens::T_BLUR_SAMPLES},
     {"bounded_by", tokens::T_BOUNDED_BY},
     {"brilliance", tokens::T_BRILLIANCE},
     {"bump_size", tokens::T_BUMP_SIZE},
@@ -328,10 +329,9 @@ const char* const kUnsupportedBlocks[] = {
 };
 
 const char* const kUnsupportedFeatures[] = {
-    "absorption",    "all_intersections", "autostop",   "b_spline",     "blur_samples",
-    "cube",          "density_file",      "importance", "load_file",    "max_trace",
-    "no_bump_scale", "pattern",           "precision",  "quaternion",   "save_file",
-    "scattering",    "spacing",           "tiling",     "translucency",
+    "absorption", "all_intersections", "autostop",   "b_spline",      "cube",    "density_file",
+    "importance", "load_file",         "max_trace",  "no_bump_scale", "pattern", "precision",
+    "quaternion", "save_file",         "scattering", "spacing",       "tiling",  "translucency",
 };
 
 // What stands behind others of these words.
@@ -405,8 +405,8 @@ const char* const kWordsReadApart[] = {"append", "prod", "sum"};
 
 /// Words with rules of their own by which what they stand for is not supported.
 constexpr int kRefused[] = {
-    tokens::T_APERTURE,   tokens::T_AREA_ILLUMINATION, tokens::T_CUTAWAY_TEXTURES,
-    tokens::T_DISPERSION, tokens::T_PHOTONS,           tokens::T_RADIOSITY,
+    tokens::T_APERTURE,   tokens::T_BLUR_SAMPLES, tokens::T_AREA_ILLUMINATION, tokens::T_CUTAWAY_TEXTURES,
+    tokens::T_DISPERSION, tokens::T_PHOTONS,      tokens::T_RADIOSITY,
 };
 
 int token_of(PatternForm form) {

@@ -116,7 +116,7 @@ Scene SceneBuilder::finish(const std::string& name) {
   settle_gamma();
   scene_.noise_generator = noise_generator();
   const CameraDefinition& camera = camera_ ? *camera_ : default_camera;
-  diagnostics_.supports(camera.unsupported, camera.where);
+  diagnostics_.supports(camera.first_unsupported(), camera.where);
   if (has_photon_targets_ && photons_) diagnostics_.supports(photons_, photons_->where);
   try {
     scene_.camera = camera.finish();

@@ -100,6 +100,13 @@ TEST_CASE("cameras that cannot be") {
   CHECK(error_line("camera { direction 0 }") == "scene.pov:1:1: error: the camera has no direction");
   CHECK(error_line("camera { aperture 0.4 blur_samples 10 }") ==
         "scene.pov:1:10: error: 'aperture' is not supported yet");
+  CHECK_FALSE(error_line("camera { blur_samples 4, 10 aperture 0.4 }").empty());
+}
+
+TEST_CASE("focal blur takes an aperture and samples") {
+  for (const char* none : {"aperture 0.4", "blur_samples 10", "aperture 0 blur_samples 4, 10",
+                           "aperture 0.4 blur_samples 10 aperture 0"})
+    CHECK(error_line("camera { " + std::string(none) + " focal_point 0 }").empty());
 }
 
 TEST_CASE("an orthographic camera has the size of right and up before version 3.5") {

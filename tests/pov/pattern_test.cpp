@@ -340,6 +340,13 @@ TEST_CASE("colour maps") {
         "scene.pov:1:33: error: this pattern takes a list, not a map");
 }
 
+TEST_CASE("a pigment with a map alone is black") {
+  const std::string map = "color_map { [0 rgb x] [1 rgb z] } turbulence 1";
+  CHECK(material("pigment { " + map + " }").pigment == Pigment());
+  CHECK(material("pigment { " + map + " }", "#default { pigment { bozo } } ").pigment.map != nullptr);
+  CHECK_FALSE(error_line("#default { pigment { rgb 1 } } sphere { 0, 1 pigment { " + map + " } }").empty());
+}
+
 TEST_CASE("positions in a map ascend") {
   const auto map = pigment_map("gradient x color_map { [0.8 rgb <1, 0, 0>] [0.2 rgb 0] }");
   CHECK(map.entries[0].position == 0.2);
