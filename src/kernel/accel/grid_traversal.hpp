@@ -93,7 +93,7 @@ private:
   template <class Visit> void for_each_cell(const I& cells, uint32_t lanes, Visit visit) {
     if (lanes == 0) return;
     WordLanes each;
-    cells.store(reinterpret_cast<int32_t*>(each.lane));
+    store_words<S>(each, cells);
     while (lanes != 0) {
       scene_.spu().compute(scalar_work::kVoxelOfPacket);
       const uint32_t cell = each.lane[__builtin_ctz(lanes)];

@@ -315,9 +315,9 @@ private:
     const I none = I::splat(static_cast<int32_t>(kInstancedBit));
     S::select(M::from_bits(lanes), F::load(distance.lane) - F(kShadowEpsilon), F(-1.0f))
         .store(hits.distance.lane);
-    none.store(reinterpret_cast<int32_t*>(hits.object.lane));
+    store_words<S>(hits.object, none);
     test_instance(rays, record, kShadowEpsilon, true, hits);
-    return ~(I::load(reinterpret_cast<const int32_t*>(hits.object.lane)) == none).bits() & 0xFFFF;
+    return ~(load_words<S>(hits.object) == none).bits() & 0xFFFF;
   }
 
   /// The crossings of a packet with an object that is not simple.

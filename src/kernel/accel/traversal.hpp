@@ -227,7 +227,7 @@ private:
       const F farthest(kMaxHitDistance);
       (kHasRoomForCode<Spu> ? S::select(S::M::from_bits(queries[i].lanes), farthest, F(-1.0f)) : farthest)
           .store(hits->distance.lane);
-      S::I::splat(-1).store(reinterpret_cast<int32_t*>(hits->object.lane));
+      store_words<S>(hits->object, S::I::splat(-1));
     }
   }
   /// Tests the objects that no accelerator has, and all others if they are few.

@@ -139,7 +139,7 @@ private:
       all.coordinates = all.coordinates || (packet.lanes & ~none.bits()) != 0;
     }
     all.origin.template store<S>(origin);
-    object.store(reinterpret_cast<int32_t*>(all.start_object.lane));
+    store_words<S>(all.start_object, object);
     return all;
   }
 

@@ -95,7 +95,7 @@ template <class S> struct KeptCrossings : VectorLanes {
     next.lanes = found.bits();
     nearest.store(next.distance.lane);
     next.transmittance.template store<S>(transmittance);
-    interior.store(reinterpret_cast<int32_t*>(next.interior.lane));
+    store_words<S>(next.interior, interior);
     return next;
   }
 

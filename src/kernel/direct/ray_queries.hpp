@@ -36,7 +36,7 @@ public:
         single_(traversal_.objects(), frame_, bvh) {
     traversal_.objects().set_reflected(kSeesAll);
     for (RayPacket& rays : packets_)
-      S::I::splat(-1).store(reinterpret_cast<int32_t*>(rays.start_object.lane));
+      store_words<S>(rays.start_object, S::I::splat(-1));
   }
 
   void closest_hit(const Ray& ray, RayHit& hit) {
@@ -86,7 +86,7 @@ public:
     F(hit.distance).store(hits.distance.lane);
     F(hit.u).store(hits.u.lane);
     F(hit.v).store(hits.v.lane);
-    S::I::splat(static_cast<int32_t>(hit.record)).store(reinterpret_cast<int32_t*>(hits.object.lane));
+    store_words<S>(hits.object, S::I::splat(static_cast<int32_t>(hit.record)));
     HitPoints<S> points;
     find_hit_points(scene_, single.as_packet(), hits, 1u, points);
     put(points.point, surface.point);
@@ -126,7 +126,7 @@ private:
     using I = typename S::I;
     static_assert(offsetof(RayHit, object) == 12 && RayHit::kNone == kNoOffset);
     const I none = I::splat(-1);
-    const auto missed = I::load(reinterpret_cast<const int32_t*>(found.object.lane)) == none;
+    const auto missed = load_words<S>(found.object) == none;
     if (missed.bits() == 0xFFFF) return set_missed(hits, count);
     alignas(64) float owners[kSimdLanes];
     for (uint32_t lane = 0; lane < kSimdLanes; ++lane) {
@@ -191,7 +191,7 @@ private:
     to.direction.template store<S>({of_direction[0], of_direction[1], of_direction[2]});
     const F farthest(kMaxHitDistance), tfar = of_direction[3];
     S::select(tfar < farthest, tfar, farthest).store(hits.distance.lane);
-    S::I::splat(-1).store(reinterpret_cast<int32_t*>(hits.object.lane));
+    store_words<S>(hits.object, S::I::splat(-1));
     queries_[packet] = {&to, &hits, nullptr, nullptr, (2u << (count - 1)) - 1};
   }
   /// Four numbers from `offset` bytes on.

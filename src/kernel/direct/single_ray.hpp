@@ -29,7 +29,7 @@ template <class S> struct SingleRay {
     has_packet = true;
     packet.origin.template store<S>(splat3<S>(origin));
     packet.direction.template store<S>(splat3<S>(direction));
-    S::I::splat(-1).store(reinterpret_cast<int32_t*>(packet.start_object.lane));
+    store_words<S>(packet.start_object, S::I::splat(-1));
     return packet;
   }
 };
@@ -226,7 +226,7 @@ private:
     F(ray.distance).store(hits.distance.lane);
     F(ray.u).store(hits.u.lane);
     F(ray.v).store(hits.v.lane);
-    S::I::splat(static_cast<int32_t>(ray.object)).store(reinterpret_cast<int32_t*>(hits.object.lane));
+    store_words<S>(hits.object, S::I::splat(static_cast<int32_t>(ray.object)));
     objects_.test_closest(packet, self, hits);
     ray.distance = hits.distance.lane[0];
     ray.u = hits.u.lane[0];

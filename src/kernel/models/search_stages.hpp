@@ -102,13 +102,13 @@ private:
     search.returned = 0;
     if (static_cast<SearchKind>(search.kind) != SearchKind::closest) return;
     typename S::F(kMaxHitDistance).store(search.hits.distance.lane);
-    S::I::splat(-1).store(reinterpret_cast<int32_t*>(search.hits.object.lane));
+    store_words<S>(search.hits.object, S::I::splat(-1));
   }
 
   VoxelWalk<S> set_out(const SearchRecord& search, bool begins) {
     scene_.spu().compute(scalar_work::kVoxelWalk);
     if (begins) return {grid_, search.rays, search.pending};
-    return {grid_, search.rays, search.pending, I::load(reinterpret_cast<const int32_t*>(search.place.lane))};
+    return {grid_, search.rays, search.pending, load_words<S>(search.place)};
   }
   /// Keeps where those of `lanes` are.
   void hand_over(const VoxelWalk<S>& walk, const F& enter, uint32_t lanes, SearchRecord& search) {

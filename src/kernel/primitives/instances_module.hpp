@@ -129,8 +129,7 @@ CELLTRACE_ONE_COPY InstanceWork intersect(SceneAccess<Spu>& scene, const RayPack
         return false;
       });
       if (any) {
-        const auto ended = !(I::load(reinterpret_cast<const int32_t*>(hits.object.lane)) ==
-                             I::splat(static_cast<int32_t>(kInstancedBit)));
+        const auto ended = !(load_words<S>(hits.object) == I::splat(static_cast<int32_t>(kInstancedBit)));
         S::select(ended, F(-1.0f), F::load(hits.distance.lane)).store(hits.distance.lane);
       }
     } else {

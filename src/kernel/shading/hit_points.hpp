@@ -128,7 +128,7 @@ template <class Spu>
 /// Those of `lanes` that hit something.
 template <class S> uint32_t hit_lanes(const HitPacket& hits, uint32_t lanes) {
   using I = typename S::I;
-  const I objects = I::load(reinterpret_cast<const int32_t*>(hits.object.lane));
+  const I objects = load_words<S>(hits.object);
   return lanes & ~(objects == I::splat(static_cast<int32_t>(kNoOffset))).bits();
 }
 
@@ -232,13 +232,13 @@ template <class Spu>
                                                         HitPoints<typename Spu::simd>& points) {
   using S = typename Spu::simd;
   using I = typename S::I;
-  const I all = I::load(reinterpret_cast<const int32_t*>(offsets.lane));
+  const I all = load_words<S>(offsets);
   const I first = I::splat(static_cast<int32_t>(offsets.lane[__builtin_ctz(lanes)]));
   if ((lanes & ~(all == first).bits()) == 0) return false;
   const I in_all = S::select(S::M::from_bits(lanes), all, first);
   if ((in_all < I::splat(0)).bits() != 0) return false;
   WordLanes filled;
-  in_all.store(reinterpret_cast<int32_t*>(filled.lane));
+  store_words<S>(filled, in_all);
   ObjectWords<S> words;
   load_objects(scene, filled, o.objects, words);
   o.material = words.material;
@@ -276,8 +276,8 @@ CELLTRACE_ONE_COPY void find_hit_points(SceneAccess<Spu>& scene, const RayPacket
     is_done = detail::load_several_objects(scene, hits.object, lanes, o, points);
   if (!is_done) detail::gather_objects(scene, hits.object, lanes, o, points);
   scene.spu().compute(scalar_work::kHitSurfaces);
-  o.material.store(reinterpret_cast<int32_t*>(points.material.lane));
-  o.interior.store(reinterpret_cast<int32_t*>(points.interior.lane));
+  store_words<S>(points.material, o.material);
+  store_words<S>(points.interior, o.interior);
   o.objects.parameters.open = M::from_bits(o.open);
 
   const V3<S> direction = rays.direction.template load<S>();

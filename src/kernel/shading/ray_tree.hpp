@@ -89,7 +89,7 @@ protected:
   static uint32_t count(uint32_t lanes) { return static_cast<uint32_t>(__builtin_popcount(lanes)); }
 
   static void fill(WordLanes& lanes, uint32_t value) {
-    S::I::splat(static_cast<int32_t>(value)).store(reinterpret_cast<int32_t*>(lanes.lane));
+    store_words<S>(lanes, S::I::splat(static_cast<int32_t>(value)));
   }
 
   /// Makes light() zero, for what is added without rays that are traced.
