@@ -145,7 +145,9 @@ private:
     visitor.stack.shrink(0);
     visitor.lanes = query.lanes;
     NodeRef ref = root();
+    if constexpr (kGathersTorusPairs<Spu>) objects_.torus_pairs().begin_traversal(query);
     traverse_nodes(visitor, ref);
+    if constexpr (kGathersTorusPairs<Spu>) objects_.torus_pairs().end_traversal();
     return true;
   }
 

@@ -5,6 +5,7 @@
 #include "celltrace/spe/one_copy.hpp"
 #include "kernel/direct/kept_crossings.hpp"
 #include "kernel/direct/recent_occluders.hpp"
+#include "kernel/direct/torus_pairs.hpp"
 #include "kernel/primitives/csg.hpp"
 #include "kernel/primitives/instances_module.hpp"
 #include "kernel/primitives/list.hpp"
@@ -68,7 +69,7 @@ public:
   using I = typename S::I;
   using M = typename S::M;
 
-  explicit ObjectTests(SceneAccess<Spu>& scene) : scene_(scene) {}
+  explicit ObjectTests(SceneAccess<Spu>& scene) : scene_(scene), torus_pairs_(recent_) {}
 
   // Some are not inlined: the tests are most of the program's code, and one copy of each saves local store.
 
@@ -181,6 +182,9 @@ public:
     }
   }
 
+  /// Pairs of rays and tori that wait to be tested, where they are gathered.
+  TorusPairs<Spu>& torus_pairs() { return torus_pairs_; }
+
   /// Lanes whose near or far crossing lies between their origin and the light.
   struct ShadowHits {
     uint32_t near, far;
@@ -259,6 +263,8 @@ private:
     scene_.spu().run_in_module(modules::kObjects);
     const uint32_t flags = record.kind_and_flags;
     if (is_instance(flags)) return test_instance(rays, record, kMinHitDistance, false, hits);
+    if constexpr (kGathersTorusPairs<Spu>)
+      if (may_wait(flags) && torus_waits(rays, record, self, hits.distance)) return;
     const uint32_t blind = blind_lanes(flags, reflected_);
     Other other(*this, rays, record, self, {kMinHitDistance, &hits.distance});
     for (uint32_t pair = 0; pair < other.pairs; ++pair) {
@@ -286,6 +292,8 @@ private:
     if (is_instance(flags))
       return occluded_by_instance(rays, record, segment.enter != nullptr ? 0xFFFF : lanes, distance);
     const bool is_opaque = (flags & object_flag::opaque) != 0;
+    if constexpr (kGathersTorusPairs<Spu>)
+      if (is_opaque && may_wait(flags) && torus_waits(rays, record, self, distance)) return 0;
     Other other(*this, rays, record, self, {is_opaque ? kShadowEpsilon : kEveryCrossing, &distance});
     uint32_t dark = 0;
     for (uint32_t pair = 0; pair < other.pairs; ++pair) {
@@ -298,6 +306,21 @@ private:
       dark |= occluded_by(rays, c, flags, material, lanes & ~dark, distance, light, segment);
     }
     return dark;
+  }
+
+  /// Whether an object is a torus at which rays may wait.
+  bool may_wait(uint32_t flags) const {
+    constexpr uint32_t kAsked = object_flag::kind_mask | object_flag::csg | object_flag::selective;
+    return (flags & kAsked) == kPrimitiveKind<TorusPrimitive> && torus_pairs_.may_wait();
+  }
+  /// False: it has to be tested at once.
+  bool torus_waits(const RayPacket& rays, const ObjectRecord& torus, uint32_t self, const FloatLanes& limit) {
+    const AskedCrossings asked = {kEveryCrossing, &limit};
+    if (!torus_pairs_.add(local_rays<S>(rays, torus, self, 0, asked), scene_.extra(torus.extra)->value[0],
+                          self))
+      return false;
+    ++counters_.tests[kPrimitiveKind<TorusPrimitive>];
+    return true;
   }
 
   void test_instance(const RayPacket& rays, const ObjectRecord& record, float nearest, bool any,
@@ -425,6 +448,7 @@ private:
   Translucency translucency_ = Translucency::attenuates;
   uint32_t interior_ = kNoOffset; ///< of the object that shadow rays are tested against
   [[no_unique_address]] Present<RecentOccluders, kGathersOccluders<Spu>> recent_;
+  [[no_unique_address]] Present<TorusPairs<Spu>, kGathersTorusPairs<Spu>> torus_pairs_;
 };
 
 } // namespace celltrace::kernel

@@ -59,8 +59,10 @@ public:
     PacketVisitor<false> visitor = {
         *this, slot, order, *task.group, *task.query, begin(slot, task, floor), task.lanes, floor};
     NodeRef ref = task.ref;
+    if constexpr (kGathersTorusPairs<Spu>) objects_.torus_pairs().begin_traversal(*task.query);
     traverse_nodes(visitor, ref);
     visitor.end();
+    if constexpr (kGathersTorusPairs<Spu>) objects_.torus_pairs().end_traversal();
   }
 
   /// The same for several tasks, each of a different packet, interleaved: while the node that one traversal

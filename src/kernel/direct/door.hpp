@@ -43,6 +43,9 @@ template <class Spu> constexpr bool kPoolsRays = Spu::direct_memory;
 /// Rays of several octants traverse the BVH together (MixedRays).
 template <class Spu> constexpr bool kMixesOctants = Spu::direct_memory;
 
+/// Where few rays of packets come near tori, they wait for those of others (TorusPairs).
+template <class Spu> constexpr bool kGathersTorusPairs = Spu::direct_memory;
+
 /// The SPEs build the BVH (build_bvh.hpp). Otherwise the PPE's side has it built before it starts them.
 template <class Spu> constexpr bool kBuildsBvh = Spu::direct_memory;
 

@@ -38,7 +38,7 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
     f.direction = d;
     f.inner = one - parameters.ratio;
     f.outer = one + parameters.ratio;
-    f.is_thin = (parameters.ratio < F(kThin)).bits() != 0;
+    f.thin = parameters.ratio < F(kThin);
     f.p = two * g - four * (d.x * d.x + d.y * d.y);
     f.q = F(-8.0f) * (o.x * d.x + o.y * d.y);
     f.r = g * g - four * (o.x * o.x + o.y * o.y);
@@ -101,9 +101,6 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
     return {p.x - p.x * inverse, p.y - p.y * inverse, p.z};
   }
 
-  static LocalBounds local_bounds(float ratio) { return {-ratio, ratio, 1.0f + ratio, false}; }
-
-private:
   /// All rays that hit the torus before their limits, and few that do not. Most rays that come to a torus
   /// miss it, many of them through its hole: one division or two tell, where the quartic would take four
   /// roots and more divisions.
@@ -134,6 +131,9 @@ private:
     return in_time & (from_axis(S::min(S::max(nearest, slab.enter), slab.leave)) <= outer * outer);
   }
 
+  static LocalBounds local_bounds(float ratio) { return {-ratio, ratio, 1.0f + ratio, false}; }
+
+private:
   /// Ratios below this are those of thin tori.
   static constexpr float kThin = 0.1f;
   /// Newton's method ends where it moves less than this: the next step would be in the order of its square.
@@ -146,17 +146,24 @@ private:
     using F = typename S::F;
     V3<S> origin, direction;
     F inner, outer, p, q, r; ///< the first two are radii of the torus
-    bool is_thin;
+    typename S::M thin;      ///< tori
 
     /// Of a thin torus from the point: r is the difference of numbers of which the square of a thin tube is
     /// too small a part. The first factor is that of the tube on the axis's side of the point. Where rays are
     /// taken in parts, as there is no room for code, all tori are thin.
     F at(const F& t) const {
-      if constexpr (S::kLanes == kSimdLanes)
-        if (!is_thin) {
-          const F square = t * t;
-          return square * square + p * square + q * t + r;
-        }
+      if constexpr (S::kLanes == kSimdLanes) {
+        const uint32_t thin_lanes = thin.bits() & 0xFFFF;
+        if (thin_lanes == 0) return at_thick(t);
+        if (thin_lanes != 0xFFFF) return S::select(thin, at_thin(t), at_thick(t));
+      }
+      return at_thin(t);
+    }
+    F at_thick(const F& t) const {
+      const F square = t * t;
+      return square * square + p * square + q * t + r;
+    }
+    F at_thin(const F& t) const {
       const F x = origin.x + direction.x * t, y = origin.y + direction.y * t, z = origin.z + direction.z * t;
       const F around = S::sqrt(x * x + y * y), square = z * z;
       return ((around - outer) * (around - inner) + square) * ((around + outer) * (around + inner) + square);
