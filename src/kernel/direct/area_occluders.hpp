@@ -67,6 +67,20 @@ public:
     return (both.low > 0.0f && other.low > 0.0f) || (both.high < 0.0f && other.high < 0.0f);
   }
 
+  /// Whether a sphere contains all of it.
+  bool is_in_sphere(const float* centre, float square_of_radius) const {
+    const auto square_of_way = [&](const Interval (&box)[3]) {
+      float sum = 0.0f;
+      for (uint32_t axis = 0; axis < 3; ++axis) {
+        const float way =
+            larger(magnitude(box[axis].low - centre[axis]), magnitude(box[axis].high - centre[axis]));
+        sum += way * way;
+      }
+      return sum;
+    };
+    return larger(square_of_way(from_), square_of_way(to_)) < 0.999f * square_of_radius;
+  }
+
 private:
   /// Far more than rounding moves the planes of nodes and rays.
   static constexpr float kRelativeEpsilon = 1e-5f;
@@ -122,9 +136,13 @@ public:
   }
 
 private:
-  bool add(const ObjectRecord& object, uint32_t self) {
+  bool add(const ObjectRecord& object, uint32_t self, const Shaft<S>& shaft) {
     const uint32_t flags = object.kind_and_flags;
     if ((flags & object_flag::no_shadow) != 0) return true;
+    // Skies are spheres around everything.
+    if ((flags & object_flag::kind_mask) == static_cast<uint32_t>(ObjectKind::sphere) &&
+        shaft.is_in_sphere(object.geometry, object.geometry[3] * object.geometry[3]))
+      return true;
     if ((flags & object_flag::opaque) == 0 || count_ == tuning::kMostAreaOccluders) return false;
     objects_[count_++] = self;
     return true;
@@ -143,7 +161,7 @@ private:
         if ((lanes & ~lanes_that_start_on<S>(rays, self).bits()) == 0 || shaft.is_beside(object.geometry + 8))
           continue;
       }
-      if (!add(object, self)) return false;
+      if (!add(object, self, shaft)) return false;
     }
     return true;
   }
@@ -163,7 +181,7 @@ private:
           return;
         }
         scene.for_each_object(child, [&](uint32_t self) {
-          complete = complete && add(*scene.object(self), self);
+          complete = complete && add(*scene.object(self), self, shaft);
           return !complete;
         });
       });
