@@ -69,7 +69,7 @@ public:
 
   /// Whether a sphere contains all of it.
   bool is_in_sphere(const float* centre, float square_of_radius) const {
-    const auto square_of_way = [&](const Interval (&box)[3]) {
+    const auto square_of_way = [&](const Interval(&box)[3]) {
       float sum = 0.0f;
       for (uint32_t axis = 0; axis < 3; ++axis) {
         const float way =
@@ -124,7 +124,12 @@ public:
     count_ = 0;
     if (is_parallel(light)) return false;
     const Shaft<S> shaft(rays, lanes, light);
-    return gather_unbounded(tests, frame, rays, lanes, shaft) && gather_bounded(tests, frame, shaft);
+    const auto add_object = [&](uint32_t self) { return add(tests, rays, lanes, shaft, self); };
+    constexpr auto kBytes = static_cast<uint32_t>(sizeof(ObjectRecord));
+    uint32_t self = frame.object_offset - frame.unbounded_count * kBytes;
+    for (; self != frame.object_offset; self += kBytes)
+      if (!add_object(self)) return false;
+    return gather_bounded(tests, frame, shaft, add_object);
   }
   bool are_none() const { return count_ == 0; }
 
@@ -136,37 +141,33 @@ public:
   }
 
 private:
-  bool add(const ObjectRecord& object, uint32_t self, const Shaft<S>& shaft) {
+  /// Adds an object unless all rays of `lanes` to the light miss it for certain.
+  bool add(ObjectTests<Spu>& tests, const RayPacket& rays, uint32_t lanes, const Shaft<S>& shaft,
+           uint32_t self) {
+    const ObjectRecord& object = *tests.scene().object(self);
     const uint32_t flags = object.kind_and_flags;
     if ((flags & object_flag::no_shadow) != 0) return true;
-    // Skies are spheres around everything.
-    if ((flags & object_flag::kind_mask) == static_cast<uint32_t>(ObjectKind::sphere) &&
-        shaft.is_in_sphere(object.geometry, object.geometry[3] * object.geometry[3]))
-      return true;
+    switch (static_cast<ObjectKind>(flags & object_flag::kind_mask)) {
+    case ObjectKind::plane:
+      // A ray that starts on a plane does not cross it again.
+      if ((lanes & ~lanes_that_start_on<S>(rays, self).bits()) == 0 || shaft.is_beside(object.geometry + 8))
+        return true;
+      break;
+    case ObjectKind::sphere:
+      // Skies are spheres around everything.
+      if (shaft.is_in_sphere(object.geometry, object.geometry[3] * object.geometry[3])) return true;
+      break;
+    default:
+      break;
+    }
     if ((flags & object_flag::opaque) == 0 || count_ == tuning::kMostAreaOccluders) return false;
     objects_[count_++] = self;
     return true;
   }
 
-  /// Of planes, those that the points and the light are on both sides of.
-  bool gather_unbounded(ObjectTests<Spu>& tests, const FrameBlock& frame, const RayPacket& rays,
-                        uint32_t lanes, const Shaft<S>& shaft) {
-    constexpr auto kBytes = static_cast<uint32_t>(sizeof(ObjectRecord));
-    uint32_t self = frame.object_offset - frame.unbounded_count * kBytes;
-    for (uint32_t i = 0; i < frame.unbounded_count; ++i, self += kBytes) {
-      const ObjectRecord& object = *tests.scene().object(self);
-      const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
-      if (kind == static_cast<uint32_t>(ObjectKind::plane)) {
-        // A ray that starts on a plane does not cross it again.
-        if ((lanes & ~lanes_that_start_on<S>(rays, self).bits()) == 0 || shaft.is_beside(object.geometry + 8))
-          continue;
-      }
-      if (!add(object, self, shaft)) return false;
-    }
-    return true;
-  }
-
-  bool gather_bounded(ObjectTests<Spu>& tests, const FrameBlock& frame, const Shaft<S>& shaft) {
+  template <class Add>
+  bool gather_bounded(ObjectTests<Spu>& tests, const FrameBlock& frame, const Shaft<S>& shaft,
+                      const Add& add_object) {
     SceneAccess<Spu>& scene = tests.scene();
     uint32_t nodes[kMostNodes], size = 0;
     bool complete = true;
@@ -181,7 +182,7 @@ private:
           return;
         }
         scene.for_each_object(child, [&](uint32_t self) {
-          complete = complete && add(*scene.object(self), self, shaft);
+          complete = complete && add_object(self);
           return !complete;
         });
       });
