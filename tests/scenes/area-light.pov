@@ -2,7 +2,6 @@
 // light, a line, and behind coloured glass. None is jittered: POV-Ray's pictures are of chance then.
 #version 3.7;
 global_settings { assumed_gamma 1 max_trace_level 5 }
-background { rgb <0.02, 0.03, 0.06> }
 camera { location <0, 7, -13> look_at <0, 0.6, 0.5> angle 58 right x*4/3 }
 
 #default { finish { ambient 0.05 diffuse 0.8 } }
@@ -22,6 +21,15 @@ plane { z, 9 pigment { rgb <0.6, 0.65, 0.8> } }
 sphere { <1.3, 1.1, -4.2>, 0.9 pigment { rgbf <0.3, 0.95, 0.5, 0.8> } interior { ior 1.2 } }
 box { <-6.5, 0, 4>, <-5.5, 3, 5> pigment { rgb <0.4, 0.7, 0.5> } finish { reflection 0.3 } }
 cylinder { <4, 0, 5>, <4, 4, 5>, 0.2 open pigment { rgb 0.7 } }
+
+// A sky around everything, and planes that are parts of CSG: one occludes lights, the other is the top of a block.
+sphere { 0, 300 hollow pigment { rgb <0.02, 0.03, 0.06> } finish { ambient 1 diffuse 0 } }
+plane { x + 0.4*y, 4.4 clipped_by { sphere { <3.4, 2.4, -3>, 0.8 } } pigment { rgb <0.8, 0.7, 0.3> } }
+intersection {
+  plane { y, 1.2 }
+  box { <-4.2, 0, -5.6>, <-2.4, 3, -4.4> }
+  pigment { rgb <0.5, 0.6, 0.9> }
+}
 
 light_source { <-9, 12, -8> rgb <0.6, 0.5, 0.4> area_light 4*x, 4*z, 5, 4 }
 light_source {
