@@ -131,6 +131,9 @@ constexpr uint32_t kMostRaysThatWait = 8;
 /// traverse the accelerator. Larger: each ray is tested against objects that are nowhere near it; smaller:
 /// more rays traverse. 'trace time/area-light'.
 constexpr uint32_t kMostAreaOccluders = 16;
+/// Nodes that have leaves between these; with more, each ray traverses the BVH from its root. Larger: leaves
+/// are tested that are nowhere near a ray; smaller: more rays traverse. The same.
+constexpr uint32_t kMostAreaNodes = 64;
 
 // --- shadows of what is translucent ---
 

@@ -66,6 +66,22 @@ public:
     intersect(queries, count, bundle.packets);
   }
 
+  /// Answers a query for light whose rays come to these leaves of nodes alone.
+  template <class Node> void intersect_leaves(RayQuery& query, const Node* nodes, uint32_t count) {
+    using Traversal = PacketTraversal<Spu>;
+    objects_.hit_filter().begin_packet();
+    const MixedRays<S> rays(*query.rays);
+    const F tfar = Traversal::tfar(query);
+    for (uint32_t n = 0; n < count && query.lanes != 0; ++n) {
+      const NodeRecord& node = *objects_.scene().node(nodes[n].offset);
+      for (uint32_t left = nodes[n].leaves; left != 0; left &= left - 1) {
+        const auto i = static_cast<uint32_t>(__builtin_ctz(left));
+        const uint32_t hit = rays.hit_child(node.bounds, i, Traversal::tnear(query), tfar) & query.lanes;
+        if (hit != 0) packet_traversal_.test_objects({node.child[i], node.leaf[i]}, hit, query);
+      }
+    }
+  }
+
   /// Traverses the BVH with the frustum of a bundle only, for which its rays need not exist yet, until it
   /// hits a leaf or a few nodes have been expanded. False: it hits no leaf, and no ray hits anything.
   /// Otherwise intersect() continues from there. The bundle has some packets.

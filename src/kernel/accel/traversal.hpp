@@ -76,10 +76,22 @@ public:
     return query.lanes;
   }
 
-  /// Gathers what may be between a packet's surfaces and a light with an area. False: that is not known.
-  bool gather_occluders(const RayPacket& rays, uint32_t lanes, const LightRecord& light,
-                        AreaOccluders<Spu>& occluders) {
-    return uses_bvh() && occluders.gather(objects_, frame_, rays, lanes, light);
+  /// Gathers what may be between a packet's surfaces and a light with an area.
+  typename AreaOccluders<Spu>::Known gather_occluders(const RayPacket& rays, uint32_t lanes,
+                                                      const LightRecord& light,
+                                                      AreaOccluders<Spu>& occluders) {
+    using Known = typename AreaOccluders<Spu>::Known;
+    if (!uses_bvh()) return Known::nothing;
+    const Known known = occluders.gather(objects_, frame_, rays, lanes, light);
+    return known == Known::nodes && lists_all() ? Known::nothing : known;
+  }
+  /// As transmittance(), where it is known in which nodes rays may hit something.
+  void transmittance(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance, VectorLanes& light,
+                     const AreaOccluders<Spu>& occluders) {
+    RayQuery query = {&rays, nullptr, &distance, &light, lanes};
+    intersect_listed(&query, 1);
+    bvh_.intersect_leaves(query, occluders.nodes(), occluders.node_count());
+    clear_occluded(&query, 1);
   }
   /// Those of `lanes` that cross none of the occluders, all of which are opaque: `light` stays what it is.
   uint32_t unoccluded(const RayPacket& rays, uint32_t lanes, const FloatLanes& distance, VectorLanes& light,

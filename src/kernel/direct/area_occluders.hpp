@@ -113,25 +113,41 @@ private:
   Side sides_[6];
 };
 
+/// A node of the BVH, and those of its children that are leaves and are touched.
+struct TouchedNode {
+  uint32_t offset, leaves;
+};
+
 /// The objects that may be between a packet's surfaces and a light.
 template <class Spu> class AreaOccluders {
 public:
   using S = typename Spu::simd;
 
-  /// False: there are more than it remembers, or some that light passes through, or the light is parallel.
-  bool gather(ObjectTests<Spu>& tests, const FrameBlock& frame, const RayPacket& rays, uint32_t lanes,
-              const LightRecord& light) {
-    count_ = 0;
-    if (is_parallel(light)) return false;
+  /// What is known after gather(): the objects themselves, all of them opaque; or only the nodes of the BVH
+  /// that are touched and have leaves; or nothing, as they are too many or the light is parallel.
+  enum class Known { objects, nodes, nothing };
+
+  Known gather(ObjectTests<Spu>& tests, const FrameBlock& frame, const RayPacket& rays, uint32_t lanes,
+               const LightRecord& light) {
+    count_ = node_count_ = 0;
+    if (is_parallel(light)) return Known::nothing;
     const Shaft<S> shaft(rays, lanes, light);
-    const auto add_object = [&](uint32_t self) { return add(tests, rays, lanes, shaft, self); };
+    bool are_known = true; // the objects
+    const auto add_object = [&](uint32_t self) {
+      are_known = are_known && add(tests, rays, lanes, shaft, self);
+      return !are_known;
+    };
     constexpr auto kBytes = static_cast<uint32_t>(sizeof(ObjectRecord));
     uint32_t self = frame.object_offset - frame.unbounded_count * kBytes;
     for (; self != frame.object_offset; self += kBytes)
-      if (!add_object(self)) return false;
-    return gather_bounded(tests, frame, shaft, add_object);
+      add_object(self);
+    if (!gather_bounded(tests, frame, shaft, add_object)) return Known::nothing;
+    return are_known ? Known::objects : Known::nodes;
   }
   bool are_none() const { return count_ == 0; }
+
+  const TouchedNode* nodes() const { return nodes_; }
+  uint32_t node_count() const { return node_count_; }
 
   /// Removes occluded lanes from a query for the light of a place.
   void test(ObjectTests<Spu>& tests, RayQuery& query) const {
@@ -165,29 +181,32 @@ private:
     return true;
   }
 
+  /// False: there are too many nodes.
   template <class Add>
   bool gather_bounded(ObjectTests<Spu>& tests, const FrameBlock& frame, const Shaft<S>& shaft,
                       const Add& add_object) {
     SceneAccess<Spu>& scene = tests.scene();
     uint32_t nodes[kMostNodes], size = 0;
-    bool complete = true;
     nodes[size++] = frame.bvh.node_offset;
-    while (size != 0 && complete) {
-      const NodeRecord& node = *scene.node(nodes[--size]);
+    while (size != 0) {
+      const uint32_t offset = nodes[--size];
+      const NodeRecord& node = *scene.node(offset);
       ++tests.counters().visits;
+      uint32_t leaves = 0;
       for_each_lane(shaft.intersect(node.bounds), [&](uint32_t i) {
         const NodeRef child = {node.child[i], node.leaf[i]};
         if (!child.is_leaf()) {
           nodes[size++] = child.child;
           return;
         }
-        scene.for_each_object(child, [&](uint32_t self) {
-          complete = complete && add_object(self);
-          return !complete;
-        });
+        leaves |= 1u << i;
+        scene.for_each_object(child, add_object);
       });
+      if (leaves == 0) continue;
+      if (node_count_ == tuning::kMostAreaNodes) return false;
+      nodes_[node_count_++] = {offset, leaves};
     }
-    return complete;
+    return true;
   }
 
   /// The builder keeps a BVH within 48 levels, with four children a node.
@@ -195,6 +214,8 @@ private:
 
   uint32_t objects_[tuning::kMostAreaOccluders];
   uint32_t count_ = 0;
+  TouchedNode nodes_[tuning::kMostAreaNodes];
+  uint32_t node_count_ = 0;
 };
 
 } // namespace celltrace::kernel

@@ -235,9 +235,12 @@ private:
                                        VectorLanes& colour) {
     AreaShadow<S>& area = *area_;
     if constexpr (kGathersOccluders<Spu>) {
+      using Known = typename AreaOccluders<Spu>::Known;
       AreaOccluders<Spu> occluders;
-      if (!walks_all(light) && !is_projected(light) &&
-          traversal_.gather_occluders(area.to_place->rays, lanes, light, occluders)) {
+      Known known = Known::nothing;
+      if (!walks_all(light) && !is_projected(light))
+        known = traversal_.gather_occluders(area.to_place->rays, lanes, light, occluders);
+      if (known == Known::objects) {
         if (occluders.are_none())
           return colour.template store<S>(
               select<S>(S::M::from_bits(lanes), colour.template load<S>(), {F(0.0f), F(0.0f), F(0.0f)}));
@@ -246,7 +249,8 @@ private:
                                              area.light(), occluders));
         return take_area_light(colour);
       }
-      if (walk_ == nullptr && !is_projected(light)) return look_at_occluded_area(light, colour);
+      if (walk_ == nullptr && !is_projected(light))
+        return look_at_occluded_area(light, known == Known::nodes ? &occluders : nullptr, colour);
     }
     while (next_place(scene_.spu(), light, area)) {
       scene_.spu().compute(scalar_work::kBundleLight);
@@ -254,8 +258,10 @@ private:
     }
     take_area_light(colour);
   }
-  /// The same where what occludes one place may occlude the next one, too.
-  CELLTRACE_ONE_COPY void look_at_occluded_area(const LightRecord& light, VectorLanes& colour) {
+  /// The same where what occludes one place may occlude the next one, too. `occluders`: what is known of the
+  /// nodes that are in the way; null: nothing.
+  CELLTRACE_ONE_COPY void look_at_occluded_area(const LightRecord& light, const AreaOccluders<Spu>* occluders,
+                                                VectorLanes& colour) {
     AreaShadow<S>& area = *area_;
     traversal_.remember_occluders(true);
     while (next_place(scene_.spu(), light, area)) {
@@ -264,6 +270,8 @@ private:
       const uint32_t lanes = traversal_.unoccluded_by_recent(rays, area.lanes, distance, area.light());
       if (lanes == 0)
         answer(area, 0);
+      else if (occluders != nullptr)
+        traversal_.transmittance(rays, lanes, distance, area.light(), *occluders);
       else
         traversal_.transmittance(rays, lanes, distance, area.light());
     }
