@@ -127,12 +127,13 @@ constexpr uint32_t kMostRaysThatWait = 8;
 
 // --- lights with an area ---
 
-/// Objects that are remembered to be between a packet and such a light; with more, rays toward its places
-/// traverse the accelerator. Larger: each ray is tested against objects that are nowhere near it; smaller:
-/// more rays traverse. 'trace time/area-light'.
+/// Objects that are remembered to be between a packet and such a light; with more, rays toward its places are
+/// tested against leaves. Larger: each ray is tested against objects that are nowhere near it; smaller: more
+/// rays come to leaves. 'trace time/area-light'.
 constexpr uint32_t kMostAreaOccluders = 16;
 /// Nodes that have leaves between these; with more, each ray traverses the BVH from its root. Larger: leaves
-/// are tested that are nowhere near a ray; smaller: more rays traverse. The same.
+/// are tested that are nowhere near a ray; smaller: more rays traverse. The same, and scenes with more
+/// objects.
 constexpr uint32_t kMostAreaNodes = 64;
 
 // --- shadows of what is translucent ---

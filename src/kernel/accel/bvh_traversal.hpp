@@ -66,14 +66,14 @@ public:
     intersect(queries, count, bundle.packets);
   }
 
-  /// Answers a query for light whose rays come to these leaves of nodes alone.
-  template <class Node> void intersect_leaves(RayQuery& query, const Node* nodes, uint32_t count) {
+  /// Answers a query for light whose rays come to these leaves alone.
+  void intersect_leaves(RayQuery& query, const NodeLeaves* nodes, uint32_t count) {
     using Traversal = PacketTraversal<Spu>;
     objects_.hit_filter().begin_packet();
     const MixedRays<S> rays(*query.rays);
     const F tfar = Traversal::tfar(query);
     for (uint32_t n = 0; n < count && query.lanes != 0; ++n) {
-      const NodeRecord& node = *objects_.scene().node(nodes[n].offset);
+      const NodeRecord& node = *objects_.scene().node(nodes[n].node);
       for (uint32_t left = nodes[n].leaves; left != 0; left &= left - 1) {
         const auto i = static_cast<uint32_t>(__builtin_ctz(left));
         const uint32_t hit = rays.hit_child(node.bounds, i, Traversal::tnear(query), tfar) & query.lanes;

@@ -12,6 +12,11 @@ struct NodeRef {
   bool is_leaf() const { return leaf != 0; }
 };
 
+/// Some leaves of a node of the BVH: bit i of `leaves` is for child i.
+struct NodeLeaves {
+  uint32_t node, leaves; ///< the offset of the node first
+};
+
 /// At most `kMaxSplitPackets` packets of a bundle traverse a node separately; each has an entry of its own.
 /// `kLevels`: of nodes. The builder keeps a BVH within 48.
 template <uint32_t kMaxSplitPackets, uint32_t kLevels = 48> class TraversalStack {

@@ -113,11 +113,6 @@ private:
   Side sides_[6];
 };
 
-/// A node of the BVH, and those of its children that are leaves and are touched.
-struct TouchedNode {
-  uint32_t offset, leaves;
-};
-
 /// The objects that may be between a packet's surfaces and a light.
 template <class Spu> class AreaOccluders {
 public:
@@ -146,7 +141,7 @@ public:
   }
   bool are_none() const { return count_ == 0; }
 
-  const TouchedNode* nodes() const { return nodes_; }
+  const NodeLeaves* nodes() const { return nodes_; }
   uint32_t node_count() const { return node_count_; }
 
   /// Removes occluded lanes from a query for the light of a place.
@@ -214,7 +209,7 @@ private:
 
   uint32_t objects_[tuning::kMostAreaOccluders];
   uint32_t count_ = 0;
-  TouchedNode nodes_[tuning::kMostAreaNodes];
+  NodeLeaves nodes_[tuning::kMostAreaNodes];
   uint32_t node_count_ = 0;
 };
 

@@ -56,14 +56,7 @@ template <class S, class NumberOf>
   c.u.store(u.lane);
   c.v.store(v.lane);
   for_each_lane(hit, [&](uint32_t i) {
-    const float nearest = hits.distance.lane[lane];
-    const auto present = static_cast<int32_t>(hits.object.lane[lane]);
-    const auto candidate = static_cast<int32_t>(number_of(i));
-    if (!(near.lane[i] < nearest || (near.lane[i] == nearest && candidate < present))) return;
-    hits.distance.lane[lane] = near.lane[i];
-    hits.u.lane[lane] = u.lane[i];
-    hits.v.lane[lane] = v.lane[i];
-    hits.object.lane[lane] = number_of(i);
+    keep_closer({near.lane[i], u.lane[i], v.lane[i], number_of(i)}, lane, hits);
   });
 }
 

@@ -20,8 +20,8 @@ public:
   /// Tori that occlude rays are added to `recent` if that remembers any.
   explicit TorusPairs(RecentOccluders& recent) : recent_(recent) {}
 
-  /// Until end_traversal() the rays of `query` may wait, if that pays: of late most tests were of pairs
-  /// enough. From time to time it is tried.
+  /// Until end_traversal() the rays of `query` may wait for each other, if that pays: of late most tests were
+  /// of pairs enough. From time to time it is tried.
   void begin_traversal(RayQuery& query) { query_ = pause_ == 0 ? &query : nullptr; }
   bool may_wait() const { return query_ != nullptr; }
 
@@ -43,7 +43,7 @@ public:
       copy_lane(direction, lane, direction_, count_);
       ratio_.lane[count_] = ratio;
       start_here_ |= (start_here >> lane & 1) << count_;
-      pairs_[count_] = {query_, self, lane};
+      pairs_[count_] = {self, lane};
     }
     return true;
   }
@@ -54,13 +54,13 @@ public:
       --pause_;
       return;
     }
-    query_ = nullptr;
     score_ += count_ >= kFewest ? 1 : -1;
     if (score_ < 0) {
       pause_ = kPause;
       score_ = kTrials;
     }
     if (count_ != 0) test();
+    query_ = nullptr;
   }
 
 private:
@@ -70,7 +70,6 @@ private:
   static constexpr uint32_t kPause = 2048; ///< traversals in which none does
 
   struct Pair {
-    RayQuery* query;
     uint32_t torus, lane;
   };
 
@@ -79,18 +78,14 @@ private:
     const uint32_t all = (1u << count_) - 1;
     if (count_ >= kFewest && score_ < kMostScore) ++score_;
     count_ = 0;
-    const bool shadows = pairs_[0].query->hits == nullptr;
+    const bool shadows = query_->hits == nullptr;
+    const FloatLanes& limits = shadows ? *query_->distance : query_->hits->distance;
     FloatLanes limit;
     for (uint32_t i = 0; i < S::kLanes; ++i) {
-      const Pair& pair = pairs_[i];
-      if ((all >> i & 1) == 0) {
-        // No pair: it hits nothing.
-        limit.lane[i] = 0.0f;
-        ratio_.lane[i] = ratio_.lane[0];
-      } else {
-        limit.lane[i] =
-            shadows ? pair.query->distance->lane[pair.lane] : pair.query->hits->distance.lane[pair.lane];
-      }
+      // Lanes without a pair hit nothing.
+      const bool is_pair = (all >> i & 1) != 0;
+      limit.lane[i] = is_pair ? limits.lane[pairs_[i].lane] : 0.0f;
+      if (!is_pair) ratio_.lane[i] = ratio_.lane[0];
     }
     const float nearest = shadows ? kShadowEpsilon : kMinHitDistance;
     const AskedCrossings asked = {nearest, &limit};
@@ -113,24 +108,16 @@ private:
   }
   void occlude(uint32_t dark) {
     for_each_lane(dark, [&](uint32_t i) {
-      pairs_[i].query->lanes &= ~(1u << pairs_[i].lane);
+      query_->lanes &= ~(1u << pairs_[i].lane);
       if (recent_.remembers) recent_.add(pairs_[i].torus);
     });
   }
-  /// As keep_closest() of crossings.hpp; a ray may be in several pairs.
+  /// A ray may be in several pairs.
   void keep_closest(const F& distance, uint32_t hit) {
     FloatLanes at;
     distance.store(at.lane);
     for_each_lane(hit, [&](uint32_t i) {
-      const Pair& pair = pairs_[i];
-      HitPacket& hits = *pair.query->hits;
-      const float nearest = hits.distance.lane[pair.lane];
-      const auto present = static_cast<int32_t>(hits.object.lane[pair.lane]);
-      if (!(at.lane[i] < nearest || (at.lane[i] == nearest && static_cast<int32_t>(pair.torus) < present)))
-        return;
-      hits.distance.lane[pair.lane] = at.lane[i];
-      hits.u.lane[pair.lane] = hits.v.lane[pair.lane] = 0.0f;
-      hits.object.lane[pair.lane] = pair.torus;
+      keep_closer({at.lane[i], 0.0f, 0.0f, pairs_[i].torus}, pairs_[i].lane, *query_->hits);
     });
   }
 

@@ -66,4 +66,21 @@ template <class S> void keep_closest(const Crossings<S>& c, uint32_t self, HitPa
   S::select(closer, candidate, present).store(objects);
 }
 
+/// A crossing of one ray, and the offset of the object.
+struct SingleHit {
+  float distance, u, v;
+  uint32_t object;
+};
+/// As keep_closest(), of the ray in one lane.
+[[gnu::always_inline]] inline void keep_closer(const SingleHit& hit, uint32_t lane, HitPacket& hits) {
+  const float nearest = hits.distance.lane[lane];
+  const auto present = static_cast<int32_t>(hits.object.lane[lane]);
+  if (!(hit.distance < nearest || (hit.distance == nearest && static_cast<int32_t>(hit.object) < present)))
+    return;
+  hits.distance.lane[lane] = hit.distance;
+  hits.u.lane[lane] = hit.u;
+  hits.v.lane[lane] = hit.v;
+  hits.object.lane[lane] = hit.object;
+}
+
 } // namespace celltrace::kernel
