@@ -24,6 +24,13 @@
 //   to_int (truncates), to_float, floor (all of |x| < 2^31; floor may give a 0 any sign),
 //   bits_of / float_of (reinterpret), shift_left<n>, shift_right<n> (arithmetic)
 //
+// Where memory is direct it has also, to gather lanes of several packets:
+//
+//   store_unaligned() of F and I, to any number on,
+//   pick(a, I lanes): of F and I, in each lane that of the lane of `a` whose number is in `lanes`,
+//   lane_numbers(uint32 lanes) -> I, the numbers of those whose bits are set, in the first lanes; then 0,
+//   spread(uint32 bits, uint32 lanes): the first of `bits` at the first bit that is set in `lanes`, and so on
+//
 // `Spu::rare_simd` is the facade for code that runs rarely. It has kLanes lanes, 16 or where local store is
 // short the 4 of one quadword, and F, I and M with all of the above but load_words, extremes, join,
 // transpose_quads and the types of four: rare code works on the lanes of a packet part by part. One of 4

@@ -167,6 +167,10 @@ template <class Arch> struct HostSimd {
       for (uint32_t i = 0; i < kParts; ++i)
         part[i].store_aligned(lanes + i * kWidth);
     }
+    void store_unaligned(float* lanes) const {
+      for (uint32_t i = 0; i < kParts; ++i)
+        part[i].store_unaligned(lanes + i * kWidth);
+    }
     template <class Operation> static F zip(const F& a, const F& b, Operation operation) {
       F r;
       for (uint32_t i = 0; i < kParts; ++i)
@@ -243,6 +247,10 @@ template <class Arch> struct HostSimd {
     void store(int32_t* lanes) const {
       for (uint32_t i = 0; i < kParts; ++i)
         part[i].store_aligned(lanes + i * kWidth);
+    }
+    void store_unaligned(int32_t* lanes) const {
+      for (uint32_t i = 0; i < kParts; ++i)
+        part[i].store_unaligned(lanes + i * kWidth);
     }
     template <class Operation> static I zip(const I& a, const I& b, Operation operation) {
       I r;
@@ -353,6 +361,48 @@ template <class Arch> struct HostSimd {
     for (uint32_t i = 0; i < kParts; ++i)
       r.part[i] = a.part[i] >> bits;
     return r;
+  }
+
+  static F pick(const F& a, const I& lanes) {
+#if defined(__AVX512F__)
+    if constexpr (kParts == 1) {
+      F r;
+      r.part[0] = _mm512_permutexvar_ps(lanes.part[0], a.part[0]);
+      return r;
+    }
+#endif
+    alignas(64) float from[kSimdLanes], to[kSimdLanes];
+    alignas(64) int32_t numbers[kSimdLanes];
+    a.store(from);
+    lanes.store(numbers);
+    for (uint32_t i = 0; i < kSimdLanes; ++i)
+      to[i] = from[numbers[i]];
+    return F::load(to);
+  }
+  static I pick(const I& a, const I& lanes) { return bits_of(pick(float_of(a), lanes)); }
+  static I lane_numbers(uint32_t lanes) {
+#if defined(__AVX512F__)
+    if constexpr (kParts == 1) {
+      const __m512i all = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+      I r;
+      r.part[0] = _mm512_maskz_compress_epi32(static_cast<__mmask16>(lanes), all);
+      return r;
+    }
+#endif
+    alignas(64) int32_t numbers[kSimdLanes] = {};
+    for (uint32_t i = 0; lanes != 0; lanes &= lanes - 1)
+      numbers[i++] = __builtin_ctz(lanes);
+    return I::load(numbers);
+  }
+  static uint32_t spread(uint32_t bits, uint32_t lanes) {
+#if defined(__BMI2__)
+    return _pdep_u32(bits, lanes);
+#else
+    uint32_t result = 0;
+    for (; lanes != 0; lanes &= lanes - 1, bits >>= 1)
+      result |= (lanes & -lanes) & -(bits & 1);
+    return result;
+#endif
   }
 
   struct F4 {

@@ -28,6 +28,44 @@ struct LightPlace {
   uint32_t column, row;
 };
 
+/// A quad of the grid, and the lanes that look at it.
+struct LightQuad {
+  uint8_t left, top, right, bottom;
+  uint16_t lanes, level;
+  float weight; ///< of its mean
+
+  static LightQuad whole(const LightRecord& light, uint32_t lanes) {
+    return {0,
+            0,
+            static_cast<uint8_t>(light.columns - 1),
+            static_cast<uint8_t>(light.rows - 1),
+            static_cast<uint16_t>(lanes),
+            0,
+            1.0f};
+  }
+  bool has_places_between() const { return right > left + 1 || bottom > top + 1; }
+  LightPlace corner(uint32_t number) const {
+    return {(number & 1) == 0 ? left : right, (number & 2) == 0 ? top : bottom};
+  }
+  /// Calls `push(quarter)` for the quarters, which some lanes look at. They share the middle, or lie on both
+  /// sides of it; of a line two are the same.
+  template <class Push> void divide(uint32_t among, const Push& push) const {
+    const uint32_t x0 = (left + right) / 2u, x1 = (left + right + 1u) / 2u;
+    const uint32_t y0 = (top + bottom) / 2u, y1 = (top + bottom + 1u) / 2u;
+    const bool column = left == right, row = top == bottom;
+    const float share = weight * (column || row ? 0.5f : 0.25f);
+    const auto push_quarter = [&](uint32_t x, uint32_t y, uint32_t to_x, uint32_t to_y) {
+      push(LightQuad{static_cast<uint8_t>(x), static_cast<uint8_t>(y), static_cast<uint8_t>(to_x),
+                     static_cast<uint8_t>(to_y), static_cast<uint16_t>(among),
+                     static_cast<uint16_t>(level + 1), share});
+    };
+    push_quarter(left, top, x0, y0);
+    if (!column) push_quarter(x1, top, right, y0);
+    if (!row) push_quarter(left, y1, x0, bottom);
+    if (!column && !row) push_quarter(x1, y1, right, bottom);
+  }
+};
+
 namespace module_areas {
 
 /// A number from 0 up to 1 that follows from the place alone, so that pictures do not depend on who renders
@@ -38,27 +76,32 @@ inline float scattered(uint32_t place) {
   return static_cast<float>((bits ^ (bits >> 16)) >> 8) * (1.0f / 16777216.0f);
 }
 
-/// From -1/2 to 1/2, another number in each lane.
-template <class S> typename S::F jitter(uint32_t place, const float* lanes) {
+/// From -1/2 to 1/2: of the sum of a number for the lane and one for the place, from 0 to 1.
+template <class S> [[gnu::always_inline]] inline typename S::F jitter(const typename S::F& sum) {
   using F = typename S::F;
-  const F sum = F::load(lanes) + F(scattered(place));
   return S::select(sum >= F(1.0f), sum - F(1.5f), sum - F(0.5f));
 }
 
-/// From the middle of a light to a place on it, which is seen from where it is `to_middle` to the middle. Of
-/// a packet's part from lane `first` on.
+/// What jitters a place along both axes.
+struct PlaceJitter {
+  float x, y;
+
+  explicit PlaceJitter(const LightPlace& place) {
+    const uint32_t number = place.row * kMaxLightPlaces + place.column;
+    x = scattered(2 * number + 1);
+    y = scattered(2 * number + 2);
+  }
+};
+
+/// From the middle of a light to a column and row of it, which may lie between places, and is seen from where
+/// it is `to_middle` to the middle.
 template <class S>
-V3<S> offset_of(const LightRecord& light, const V3<S>& to_middle, const LightPlace& place, uint32_t first) {
+[[gnu::always_inline]] inline V3<S> offset_at(const LightRecord& light, const V3<S>& to_middle,
+                                              const typename S::F& column, const typename S::F& row) {
   using F = typename S::F;
   const uint32_t flags = light.kind_and_flags;
-  F u(static_cast<float>(place.column)), v(static_cast<float>(place.row));
-  if ((flags & light_flag::jitter) != 0) {
-    const uint32_t number = place.row * kMaxLightPlaces + place.column;
-    u = u + jitter<S>(2 * number + 1, detail::kJitterX + first);
-    v = v + jitter<S>(2 * number + 2, detail::kJitterY + first);
-  }
-  u = light.columns > 1 ? u * F(light.inverse_columns) - F(0.5f) : F(0.0f);
-  v = light.rows > 1 ? v * F(light.inverse_rows) - F(0.5f) : F(0.0f);
+  F u = light.columns > 1 ? column * F(light.inverse_columns) - F(0.5f) : F(0.0f);
+  F v = light.rows > 1 ? row * F(light.inverse_rows) - F(0.5f) : F(0.0f);
   if ((flags & light_flag::circular) != 0) {
     // The square around each circle goes to that circle. POV-Ray's are off the middle by this much.
     u = u + F(0.001f);
@@ -79,6 +122,19 @@ V3<S> offset_of(const LightRecord& light, const V3<S>& to_middle, const LightPla
     along = cross<S>(toward, sideways) * length;
   }
   return across * u + along * v;
+}
+
+/// The same for a place, jittered, of a packet's part from lane `first` on.
+template <class S>
+V3<S> offset_of(const LightRecord& light, const V3<S>& to_middle, const LightPlace& place, uint32_t first) {
+  using F = typename S::F;
+  F column(static_cast<float>(place.column)), row(static_cast<float>(place.row));
+  if ((light.kind_and_flags & light_flag::jitter) != 0) {
+    const PlaceJitter of_place(place);
+    column = column + jitter<S>(F::load(detail::kJitterX + first) + F(of_place.x));
+    row = row + jitter<S>(F::load(detail::kJitterY + first) + F(of_place.y));
+  }
+  return offset_at<S>(light, to_middle, column, row);
 }
 
 /// The ray from surfaces to a place on a light, and how far it goes. As in POV-Ray, parallel light from a
@@ -141,11 +197,6 @@ template <class S> struct AreaShadow {
   static constexpr uint32_t kPlaces = 256; ///< in the table
   static_assert((1u << (kDivisions - 1)) >= kMaxLightPlaces);
 
-  struct Quad {
-    uint8_t left, top, right, bottom;
-    uint16_t lanes, level;
-    float weight;
-  };
   /// Lanes in which all light comes from a place, or none.
   struct Known {
     uint16_t place, lit, dark;
@@ -162,32 +213,20 @@ template <class S> struct AreaShadow {
   VectorLanes colour[kCorners];
   uint32_t lit[kCorners], tinted[kCorners];
   Known known[kPlaces];
-  Quad quads[kMaxQuads];
+  LightQuad quads[kMaxQuads];
   uint32_t quad_count;
   uint32_t corner_count; ///< that are complete
-  Quad quad;             ///< the one that they are of
+  LightQuad quad;        ///< the one that they are of
 
   LightPlace place; ///< that is asked for
   uint32_t lanes;
   uint32_t rays_asked; ///< so far
 
-  LightPlace place_of(uint32_t number) const {
-    return {(number & 1) == 0 ? quad.left : quad.right, (number & 2) == 0 ? quad.top : quad.bottom};
-  }
   Known& known_at(const LightPlace& at) {
     const auto name = static_cast<uint16_t>(at.row * kMaxLightPlaces + at.column);
     Known& entry = known[(at.row * 17 + at.column) % kPlaces];
     if (entry.place != name) entry = {name, 0, 0};
     return entry;
-  }
-  void push(uint32_t left, uint32_t top, uint32_t right, uint32_t bottom, uint32_t of, float weight) {
-    quads[quad_count++] = {static_cast<uint8_t>(left),
-                           static_cast<uint8_t>(top),
-                           static_cast<uint8_t>(right),
-                           static_cast<uint8_t>(bottom),
-                           static_cast<uint16_t>(of),
-                           static_cast<uint16_t>(quad.level + 1),
-                           weight};
   }
 };
 
@@ -210,13 +249,7 @@ CELLTRACE_ONE_COPY void begin_area(const LightRecord& light, const Surfaces<S>& 
   a.quad_count = 0;
   a.lanes = 0;
   a.corner_count = 0;
-  a.quad = {0,
-            0,
-            static_cast<uint8_t>(light.columns - 1),
-            static_cast<uint8_t>(light.rows - 1),
-            static_cast<uint16_t>(incident.facing),
-            0,
-            1.0f};
+  a.quad = LightQuad::whole(light, incident.facing);
 }
 
 /// Of the place that was asked for, `lit` and `tinted` lanes.
@@ -290,10 +323,10 @@ CELLTRACE_ONE_COPY void add_tinted(AreaShadow<typename Spu::simd>& a, uint32_t l
 template <class Spu> void finish_quad(const LightRecord& light, AreaShadow<typename Spu::simd>& a) {
   using S = typename Spu::simd;
   using F = typename S::F;
-  const typename AreaShadow<S>::Quad q = a.quad;
+  const LightQuad q = a.quad;
   const uint32_t tinted = (a.tinted[0] | a.tinted[1] | a.tinted[2] | a.tinted[3]) & q.lanes;
   uint32_t divided = 0;
-  if (q.right > q.left + 1 || q.bottom > q.top + 1) {
+  if (q.has_places_between()) {
     if (q.level < light.adaptive) {
       divided = q.lanes;
     } else {
@@ -314,16 +347,7 @@ template <class Spu> void finish_quad(const LightRecord& light, AreaShadow<typen
     share.store(a.share.lane);
     if ((agreed & tinted) != 0) add_tinted<Spu>(a, agreed & tinted, weight);
   }
-  if (divided == 0) return;
-  // Quarters share the middle, or lie on both sides of it; of a line two are the same.
-  const uint32_t x0 = (q.left + q.right) / 2u, x1 = (q.left + q.right + 1u) / 2u;
-  const uint32_t y0 = (q.top + q.bottom) / 2u, y1 = (q.top + q.bottom + 1u) / 2u;
-  const bool column = q.left == q.right, row = q.top == q.bottom;
-  const float weight = q.weight * (column || row ? 0.5f : 0.25f);
-  a.push(q.left, q.top, x0, y0, divided, weight);
-  if (!column) a.push(x1, q.top, q.right, y0, divided, weight);
-  if (!row) a.push(q.left, y1, x0, q.bottom, divided, weight);
-  if (!column && !row) a.push(x1, y1, q.right, q.bottom, divided, weight);
+  if (divided != 0) q.divide(divided, [&](const LightQuad& quarter) { a.quads[a.quad_count++] = quarter; });
 }
 
 /// False: there is nothing more to look at.
@@ -335,7 +359,7 @@ CELLTRACE_ONE_COPY bool next_sample(Spu& spu, const LightRecord& light, AreaShad
   if (a.lanes != 0) take_colours<S>(a);
   for (;;) {
     for (; a.corner_count < AreaShadow<S>::kCorners; ++a.corner_count) {
-      const LightPlace place = a.place_of(a.corner_count);
+      const LightPlace place = a.quad.corner(a.corner_count);
       const typename AreaShadow<S>::Known& known = a.known_at(place);
       a.lit[a.corner_count] = known.lit;
       a.tinted[a.corner_count] = 0;

@@ -4,6 +4,7 @@
 
 #include "celltrace/spe/one_copy.hpp"
 #include "kernel/accel/traversal.hpp"
+#include "kernel/direct/area_pairs.hpp"
 #include "kernel/direct/shadow_marking.hpp"
 #include "kernel/lights/area_shadow.hpp"
 #include "kernel/shading/ray_tree.hpp"
@@ -244,9 +245,15 @@ private:
         if (occluders.are_none())
           return colour.template store<S>(
               select<S>(S::M::from_bits(lanes), colour.template load<S>(), {F(0.0f), F(0.0f), F(0.0f)}));
-        while (next_place(scene_.spu(), light, area))
-          answer(area, traversal_.unoccluded(area.to_place->rays, area.lanes, area.to_place->distance,
-                                             area.light(), occluders));
+        const auto unoccluded = [&](const RayPacket& rays, uint32_t some, const FloatLanes& distance) {
+          return traversal_.unoccluded(rays, some, distance, area.light(), occluders);
+        };
+        if (AreaPairs<Spu>::has_room_for(light)) {
+          AreaPairs<Spu>(light, area).sample(unoccluded);
+        } else {
+          while (next_place(scene_.spu(), light, area))
+            answer(area, unoccluded(area.to_place->rays, area.lanes, area.to_place->distance));
+        }
         return take_area_light(colour);
       }
       if (walk_ == nullptr && !is_projected(light))
@@ -264,19 +271,44 @@ private:
                                                 VectorLanes& colour) {
     AreaShadow<S>& area = *area_;
     traversal_.remember_occluders(true);
-    while (next_place(scene_.spu(), light, area)) {
-      const RayPacket& rays = area.to_place->rays;
-      const FloatLanes& distance = area.to_place->distance;
-      const uint32_t lanes = traversal_.unoccluded_by_recent(rays, area.lanes, distance, area.light());
-      if (lanes == 0)
-        answer(area, 0);
-      else if (occluders != nullptr)
-        traversal_.transmittance(rays, lanes, distance, area.light(), *occluders);
+    // False: the light is that of before, and none of it comes.
+    const auto trace = [&](const RayPacket& rays, uint32_t lanes, const FloatLanes& distance,
+                           VectorLanes& of_place) {
+      lanes = traversal_.unoccluded_by_recent(rays, lanes, distance, of_place);
+      if (lanes == 0) return false;
+      if (occluders != nullptr)
+        traversal_.transmittance(rays, lanes, distance, of_place, *occluders);
       else
-        traversal_.transmittance(rays, lanes, distance, area.light());
-    }
+        traversal_.transmittance(rays, lanes, distance, of_place);
+      return true;
+    };
+    if (!find_untinted_share(light, trace))
+      while (next_place(scene_.spu(), light, area))
+        if (!trace(area.to_place->rays, area.lanes, area.to_place->distance, area.light())) answer(area, 0);
     traversal_.remember_occluders(false);
     take_area_light(colour);
+  }
+  /// Finds the share of an area's light that comes to surfaces, unless some comes tinted.
+  template <class Trace> bool find_untinted_share(const LightRecord& light, const Trace& trace) {
+    AreaShadow<S>& area = *area_;
+    if (!AreaPairs<Spu>::has_room_for(light) || !tints_.are_unlikely()) return false;
+    const F one(1.0f), zero(0.0f);
+    uint32_t tinted = 0;
+    const auto unoccluded = [&](const RayPacket& rays, uint32_t lanes, const FloatLanes& distance) {
+      area.light().template store<S>({one, one, one});
+      if (!trace(rays, lanes, distance, area.light())) return 0u;
+      const V3<S> came = area.light().template load<S>();
+      const uint32_t lit = ((came.x == one) & (came.y == one) & (came.z == one)).bits();
+      const uint32_t dark = ((came.x == zero) & (came.y == zero) & (came.z == zero)).bits();
+      tinted |= lanes & ~(lit | dark);
+      return lanes & lit;
+    };
+    const uint32_t asked = area.rays_asked;
+    const bool found = AreaPairs<Spu>(light, area).sample(unoccluded, [&] { return tinted != 0; });
+    tints_.count(!found);
+    if (found) return true;
+    area.rays_asked = asked;
+    return false;
   }
   void take_area_light(VectorLanes& colour) {
     counters_.shadow += area_->rays_asked;
@@ -291,6 +323,7 @@ private:
   AreaShadow<S>* area_; ///< null if no light has an area
   ShadowWalk<S>* walk_; ///< null if shadow rays need none
   [[no_unique_address]] Present<ShadowMarking, kMarksTranslucent<Spu>> marking_;
+  [[no_unique_address]] Present<AreaTints, kGathersOccluders<Spu>> tints_;
   const RayInteriors* interiors_ = nullptr;
 };
 
