@@ -12,6 +12,10 @@ namespace celltrace::kernel {
 
 namespace detail {
 
+/// A highlight of less than 1e-9 is none, and that is so many natural units below 1. A cosine to a power
+/// falls at least as fast as an exponential function of what the cosine is below 1.
+constexpr float kLeastHighlight = 20.7f;
+
 template <class S>
 typename S::F phong_term(const Surfaces<S>& s, const MaterialLanes<S>& m, const IncidentLight<S>& light) {
   using F = typename S::F;
@@ -19,13 +23,27 @@ typename S::F phong_term(const Surfaces<S>& s, const MaterialLanes<S>& m, const 
   const F cosine = dot<S>(mirrored, light.direction);
   // POV-Ray cuts wide angles off where the exponent makes them invisible.
   const auto seen = (cosine > F(0.0f)) & ((m.phong_size < F(60.0f)) | (cosine > F(0.0008f)));
+  if constexpr (S::kLanes == kSimdLanes) { // where there is room for code
+    const auto shines =
+        seen & !(m.phong == F(0.0f)) & (m.phong_size * (F(1.0f) - cosine) < F(kLeastHighlight));
+    if ((shines.bits() & light.facing) == 0) return F(0.0f);
+  }
   return S::select(seen, m.phong * pow<S>(S::max(cosine, F(0.0f)), m.phong_size), F(0.0f));
 }
 
 template <class S>
 typename S::F specular_term(const Surfaces<S>& s, const MaterialLanes<S>& m, const IncidentLight<S>& light) {
   using F = typename S::F;
-  const V3<S> half = normalise<S>(light.direction - s.direction);
+  const V3<S> between = light.direction - s.direction;
+  if constexpr (S::kLanes == kSimdLanes) {
+    // Of the cosine's square, without a root.
+    const F along = dot<S>(between, s.normal), square = dot<S>(between, between);
+    const F least = F(1.0f) - F(kLeastHighlight) / m.inverse_roughness;
+    const auto shines = (along > F(0.0f)) & !(m.specular == F(0.0f)) &
+                        ((least < F(0.0f)) | (along * along > least * least * square));
+    if ((shines.bits() & light.facing) == 0) return F(0.0f);
+  }
+  const V3<S> half = normalise<S>(between);
   const F cosine = dot<S>(half, s.normal);
   return S::select(cosine > F(0.0f), m.specular * pow<S>(S::max(cosine, F(0.0f)), m.inverse_roughness),
                    F(0.0f));
@@ -150,6 +168,20 @@ CELLTRACE_ONE_COPY uint32_t lanes_above(const VectorLanes& light, uint32_t lanes
   return (most > typename S::F(least)).bits() & lanes;
 }
 
+/// Those of `lanes` whose surfaces may send on light of lights: not what is black, or diffuses nothing, and
+/// has no highlights.
+template <class Spu>
+uint32_t lit_lanes(const Surfaces<typename Spu::simd>& s, const MaterialLanes<typename Spu::simd>& m,
+                   uint32_t lanes) {
+  using S = typename Spu::simd;
+  using F = typename S::F;
+  const F zero(0.0f);
+  auto lit = !(((m.pigment.x == zero) & (m.pigment.y == zero) & (m.pigment.z == zero)) |
+               (m.diffuse * m.opacity == zero));
+  if (m.has(material_flag::highlights)) lit = lit | !((m.phong == zero) & (m.specular == zero));
+  return lanes & (lit.bits() | s.any_side | m.special);
+}
+
 /// Gathers what the surfaces of `lanes` send on of the lights of a round that are asked for, times `weight`.
 /// Returns the rest, without it: ambient light and that of other lights.
 template <class Spu>
@@ -161,6 +193,13 @@ V3<typename Spu::simd> local_light(SceneAccess<Spu>& scene, const FrameBlock& fr
   using F = typename S::F;
   const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
   V3<S> sum = round.is_first() ? m.pigment * m.ambient * m.opacity : dark;
+  if constexpr (kHasRoomForCode<Spu>) {
+    lanes = lit_lanes<Spu>(s, m, lanes);
+    if (lanes == 0) {
+      if (round.is_fresh) round.template clear<S>();
+      return sum;
+    }
+  }
   for_each_light(scene, frame, round.first, round.count, [&](uint32_t number, const LightRecord& light) {
     IncidentLight<S> incident(light.colour);
     illuminate(scene, light, s, lanes, incident);
