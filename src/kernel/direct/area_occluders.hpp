@@ -8,6 +8,7 @@
 
 #include "kernel/accel/frustum.hpp"
 #include "kernel/accel/object_tests.hpp"
+#include "kernel/direct/mixed_rays.hpp"
 #include "kernel/lights/list.hpp"
 
 namespace celltrace::kernel {
@@ -124,37 +125,62 @@ public:
 
   Known gather(ObjectTests<Spu>& tests, const FrameBlock& frame, const RayPacket& rays, uint32_t lanes,
                const LightRecord& light) {
-    count_ = node_count_ = 0;
+    light_count_ = node_count_ = 0;
+    first_heavy_ = kMost;
     if (is_parallel(light)) return Known::nothing;
     const Shaft<S> shaft(rays, lanes, light);
     bool are_known = true; // the objects
-    const auto add_object = [&](uint32_t self) {
-      are_known = are_known && add(tests, rays, lanes, shaft, self);
+    const auto add_object = [&](const Occluder& object) {
+      are_known = are_known && add(tests, rays, lanes, shaft, object);
       return !are_known;
     };
     constexpr auto kBytes = static_cast<uint32_t>(sizeof(ObjectRecord));
     uint32_t self = frame.object_offset - frame.unbounded_count * kBytes;
     for (; self != frame.object_offset; self += kBytes)
-      add_object(self);
+      add_object({self, kNoOffset, 0});
     if (!gather_bounded(tests, frame, shaft, add_object)) return Known::nothing;
     return are_known ? Known::objects : Known::nodes;
   }
-  bool are_none() const { return count_ == 0; }
+  bool are_none() const { return light_count_ == 0 && first_heavy_ == kMost; }
 
   const NodeLeaves* nodes() const { return nodes_; }
   uint32_t node_count() const { return node_count_; }
 
   /// Removes occluded lanes from a query for the light of a place.
   void test(ObjectTests<Spu>& tests, RayQuery& query) const {
+    using F = typename S::F;
     tests.hit_filter().begin_packet();
-    for (uint32_t i = 0; i < count_ && query.lanes != 0; ++i)
-      query.lanes &= ~tests.occluded(*query.rays, objects_[i], query.lanes, *query.distance, *query.light);
+    const auto test_object = [&](uint32_t self, const FloatLanes& distance) {
+      query.lanes &= ~tests.occluded(*query.rays, self, query.lanes, distance, *query.light);
+    };
+    for (uint32_t i = 0; i < light_count_ && query.lanes != 0; ++i)
+      test_object(objects_[i].self, *query.distance);
+    if (first_heavy_ == kMost || query.lanes == 0) return;
+    const MixedRays<S> rays(*query.rays);
+    const F farthest = F::load(query.distance->lane);
+    for (uint32_t i = first_heavy_; i < kMost && query.lanes != 0; ++i) {
+      // Of rays that have been occluded, or miss the leaf, nothing is computed.
+      const Occluder& object = objects_[i];
+      uint32_t lanes = query.lanes;
+      if (object.node != kNoOffset)
+        lanes &= rays.hit_child(tests.scene().node(object.node)->bounds, object.child, 0.0f, farthest);
+      if (lanes == 0) continue;
+      FloatLanes distance;
+      S::select(S::M::from_bits(lanes), farthest, F(-kMaxHitDistance)).store(distance.lane);
+      test_object(object.self, distance);
+    }
   }
 
 private:
+  /// An object of a leaf, which is this child of a node.
+  struct Occluder {
+    uint32_t self, node, child;
+  };
+
   /// Adds an object unless all rays of `lanes` to the light miss it for certain.
   bool add(ObjectTests<Spu>& tests, const RayPacket& rays, uint32_t lanes, const Shaft<S>& shaft,
-           uint32_t self) {
+           const Occluder& occluder) {
+    const uint32_t self = occluder.self;
     const ObjectRecord& object = *tests.scene().object(self);
     const uint32_t flags = object.kind_and_flags;
     if ((flags & object_flag::no_shadow) != 0) return true;
@@ -171,8 +197,8 @@ private:
     default:
       break;
     }
-    if ((flags & object_flag::opaque) == 0 || count_ == tuning::kMostAreaOccluders) return false;
-    objects_[count_++] = self;
+    if ((flags & object_flag::opaque) == 0 || light_count_ == first_heavy_) return false;
+    objects_[is_heavy(flags & object_flag::kind_mask) ? --first_heavy_ : light_count_++] = occluder;
     return true;
   }
 
@@ -195,7 +221,7 @@ private:
           return;
         }
         leaves |= 1u << i;
-        scene.for_each_object(child, add_object);
+        scene.for_each_object(child, [&](uint32_t self) { return add_object({self, offset, i}); });
       });
       if (leaves == 0) continue;
       if (node_count_ == tuning::kMostAreaNodes) return false;
@@ -207,8 +233,9 @@ private:
   /// The builder keeps a BVH within 48 levels, with four children a node.
   static constexpr uint32_t kMostNodes = 3 * 48 + 4;
 
-  uint32_t objects_[tuning::kMostAreaOccluders];
-  uint32_t count_ = 0;
+  static constexpr uint32_t kMost = tuning::kMostAreaOccluders;
+  Occluder objects_[kMost]; ///< at the end those of which tests take long
+  uint32_t light_count_ = 0, first_heavy_ = kMost;
   NodeLeaves nodes_[tuning::kMostAreaNodes];
   uint32_t node_count_ = 0;
 };
