@@ -20,7 +20,7 @@
 // longer value is meant. A number at the front of an entry of a pigment_map is its weight. A name that CSG begins
 // with is all it consists of, not its first part. A texture that is a name alone, or begins with one, needs no
 // rule for what comes before.
-%expect 115
+%expect 117
 
 %code requires {
 #include "pov/actions.hpp"
@@ -113,7 +113,7 @@ inline void Parser::stack<Parser::stack_symbol_type>::push(Parser::stack_symbol_
 %token BLACK_HOLE DIST_EXP EXTERIOR FLIP JULIA MAGNET MAJOR_RADIUS ORIENTATION REPEAT SLOPE_MAP STRENGTH TOROIDAL
 
 %nterm <Quantity> quantity choice operand vector vector_items comparison logic value_in_brackets
-%nterm <Quantity> colour colour_value colour_base
+%nterm <Quantity> colour named_colour repeated_colour colour_value colour_base
 %nterm <ColourModel> srgb_model
 %nterm <Signs> signs
 %nterm <std::string> text
@@ -386,14 +386,24 @@ text
 // ---- Colours ----
 
 colour // with a keyword: distinct from a mere number
-  : COLOUR choice                { $$ = $2.promoted(5); $$.is_colour = true; }
-  | COLOUR COLOUR_MODEL choice   { $$ = make_colour(ColourModel($2), $3); }
+  : named_colour
   | COLOUR_MODEL choice          { $$ = make_colour(ColourModel($1), $2); }
-  | COLOUR srgb_model choice     { $$ = decoded(session, make_colour($2, $3), @2); }
   | srgb_model choice            { $$ = decoded(session, make_colour($1, $2), @1); }
-  | COLOUR CHANNEL number        { $$ = with_channel(Quantity::colour({0, 0, 0}), Channel($2), $3); }
   | CHANNEL number               { $$ = with_channel(Quantity::colour({0, 0, 0}), Channel($1), $2); }
   | colour CHANNEL number        { $$ = with_channel($1, Channel($2), $3); }
+  ;
+
+named_colour
+  : COLOUR choice                { $$ = $2.promoted(5); $$.is_colour = true; }
+  | COLOUR COLOUR_MODEL choice   { $$ = make_colour(ColourModel($2), $3); }
+  | COLOUR srgb_model choice     { $$ = decoded(session, make_colour($2, $3), @2); }
+  | COLOUR CHANNEL number        { $$ = with_channel(Quantity::colour({0, 0, 0}), Channel($2), $3); }
+  ;
+
+repeated_colour // as POV-Ray takes one in a fog: with the keyword more than once
+  : COLOUR named_colour            { $$ = $2; }
+  | COLOUR repeated_colour         { $$ = $2; }
+  | repeated_colour CHANNEL number { $$ = with_channel($1, Channel($2), $3); }
   ;
 
 srgb_model
@@ -868,6 +878,7 @@ fog_body
   | fog_body FOG_TYPE number    { $$ = $1; $$->value.is_ground = is_ground_fog(session, $3, @3); }
   | fog_body DISTANCE number    { $$ = $1; $$->value.distance = $3; }
   | fog_body colour_value       { $$ = $1; set_colour_or_distance(session, $$->value, $2, @2); }
+  | fog_body repeated_colour    { $$ = $1; set_colour_or_distance(session, $$->value, $2, @2); }
   | fog_body FOG_OFFSET number  { $$ = $1; $$->value.offset = $3; }
   | fog_body FOG_ALT number     { $$ = $1; $$->value.altitude = $3; }
   | fog_body UP quantity        { $$ = $1; $$->value.up = direction(session, $3, @3); }
