@@ -136,6 +136,11 @@ constexpr uint32_t kMostAreaOccluders = 16;
 /// objects.
 constexpr uint32_t kMostAreaNodes = 64;
 
+/// So many surfaces of a packet are tested by themselves with a place that they ask for; fewer in pairs with
+/// others (AreaPairs). Larger: lanes of coherent rays are taken apart; smaller: more lanes are idle. 'trace
+/// time' of soft shadows.
+constexpr uint32_t kLeastSurfacesByThemselves = 11;
+
 // --- shadows of what is translucent ---
 
 /// Shadow rays of packets are walked at once where more than this share of them is found to cross something

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "kernel/lights/area_shadow.hpp"
+#include "kernel/tuning.hpp"
 
 namespace celltrace::kernel {
 
@@ -44,7 +45,7 @@ public:
       const LightQuad* const quads = quads_[level % 2];
       for (uint32_t i = 0; i < count; ++i)
         ask_corners(quads[i], unoccluded);
-      if (pairs_ != 0) test(unoccluded);
+      if (pairs_ != 0) test_pairs(unoccluded);
       if (is_tinted()) return false;
       LightQuad* const quarters = quads_[(level + 1) % 2];
       uint32_t quarter_count = 0;
@@ -59,7 +60,6 @@ public:
 private:
   static constexpr uint32_t kCorners = AreaShadow<S>::kCorners;
   static constexpr uint32_t kMostPlaces = 17 * 17;
-  static constexpr uint32_t kLeastByThemselves = 11;
 
   /// Lanes.
   struct Place {
@@ -92,8 +92,8 @@ private:
     place.asked |= static_cast<uint16_t>(lanes);
     const auto count = static_cast<uint32_t>(__builtin_popcount(lanes));
     area_.rays_asked += count;
-    if (count >= kLeastByThemselves) {
-      place.lit |= static_cast<uint16_t>(test(of, lanes, unoccluded));
+    if (count >= tuning::kLeastSurfacesByThemselves) {
+      place.lit |= static_cast<uint16_t>(test_place(of, lanes, unoccluded));
       return;
     }
     S::lane_numbers(lanes).store_unaligned(lane_ + pairs_);
@@ -106,12 +106,13 @@ private:
     }
     runs_[run_count_++] = {&place, lanes, pairs_};
     pairs_ += count;
-    if (pairs_ >= S::kLanes) test(unoccluded);
+    if (pairs_ >= S::kLanes) test_pairs(unoccluded);
   }
 
-  /// Tests many lanes with one place.
+  /// Returns those of many lanes to which light comes from one place.
   template <class Unoccluded>
-  [[gnu::noinline]] uint32_t test(const LightPlace& place, uint32_t lanes, const Unoccluded& unoccluded) {
+  [[gnu::noinline]] uint32_t test_place(const LightPlace& place, uint32_t lanes,
+                                        const Unoccluded& unoccluded) {
     ShadowRays& rays = *area_.to_place;
     const V3<S> to_middle = area_.to_middle.template load<S>();
     IncidentLight<S> from_place;
@@ -122,7 +123,7 @@ private:
   }
 
   /// Tests as many pairs as there are lanes, or all.
-  template <class Unoccluded> [[gnu::noinline]] void test(const Unoccluded& unoccluded) {
+  template <class Unoccluded> [[gnu::noinline]] void test_pairs(const Unoccluded& unoccluded) {
     const uint32_t tested = pairs_ < S::kLanes ? pairs_ : S::kLanes;
     const I lane = I::load(lane_);
     const RayPacket& points = area_.to_place->rays;
@@ -181,12 +182,12 @@ private:
   const uint32_t columns_;
   Place places_[kMostPlaces];
   LightQuad quads_[2][kMostPlaces]; ///< of a size each by turns; the corners at the left and top differ
-  // Pairs that are to be tested, and which they are.
+  // Pairs that are to be tested: of which places, and by pair its lane and where the place is.
   Run runs_[2 * S::kLanes];
   uint32_t run_count_ = 0, pairs_ = 0;
   alignas(64) int32_t lane_[2 * S::kLanes] = {};
-  alignas(64) float column_[2 * S::kLanes], row_[2 * S::kLanes];
-  alignas(64) float jitter_x_[2 * S::kLanes], jitter_y_[2 * S::kLanes];
+  alignas(64) float column_[2 * S::kLanes] = {}, row_[2 * S::kLanes] = {};
+  alignas(64) float jitter_x_[2 * S::kLanes] = {}, jitter_y_[2 * S::kLanes] = {};
   ShadowRays rays_;
 };
 

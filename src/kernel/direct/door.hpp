@@ -28,8 +28,9 @@ template <class Spu> constexpr bool kTestsWholeLeaves = Spu::direct_memory;
 /// which leaves are tested against all its packets (BundleLeafTests).
 template <class Spu> constexpr bool kHasBundleViews = Spu::direct_memory;
 
-/// Before the places of a light with an area are looked at one by one, the objects that may be in the way are
-/// gathered (AreaOccluders); if they are too many, those are remembered that are (RecentOccluders).
+/// Before the places of a light with an area are looked at, the objects that may be in the way are gathered
+/// (AreaOccluders); if they are too many, those are remembered that are (RecentOccluders). Rays from few
+/// surfaces to a place are tested with those to others (AreaPairs).
 template <class Spu> constexpr bool kGathersOccluders = Spu::direct_memory;
 
 /// Where shadow rays are walked, those are found first that cross something translucent: only these are
