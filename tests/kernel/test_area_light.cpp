@@ -1,6 +1,7 @@
 // The sampling of lights that have an area: which places are looked at, what comes of them, and where they
 // are.
 #include "kernel/direct/area_occluders.hpp"
+#include "kernel/direct/area_pairs.hpp"
 #include "kernel/lights/area_shadow.hpp"
 #include "kernel/lights/illumination.hpp"
 #include "lanes.hpp"
@@ -60,6 +61,24 @@ struct Sampling {
   }
   /// Calls look(shadow) for each place.
   template <class Look> VectorLanes run(std::uint32_t lanes, Look look) {
+    return sample(lanes, [&](const Surfaces<Simd>& surfaces, const IncidentLight<Simd>& incident,
+                             VectorLanes& sum) {
+      const std::uint32_t rays = sample_area(spu, record, surfaces, incident, to_place, *shadow, sum, look);
+      CHECK(rays == shadow->rays_asked);
+    });
+  }
+  /// The same of a light that is not tinted, in pairs.
+  template <class Unoccluded> VectorLanes run_in_pairs(std::uint32_t lanes, Unoccluded unoccluded) {
+    return sample(lanes,
+                  [&](const Surfaces<Simd>& surfaces, const IncidentLight<Simd>& incident, VectorLanes& sum) {
+                    begin_sampling(spu, record, surfaces, incident, to_place, *shadow);
+                    AreaPairs<DirectSpu>(record, *shadow).sample(unoccluded);
+                    module_areas::dim(spu, *shadow, sum);
+                  });
+  }
+
+private:
+  template <class Run> VectorLanes sample(std::uint32_t lanes, Run run) {
     const Surfaces<Simd> surfaces = {point.load<Simd>(), normal.load<Simd>(), {}, &objects};
     SceneAccess<DirectSpu> scene(spu, CacheConfig(), 0);
     IncidentLight<Simd> incident(record.colour);
@@ -67,8 +86,7 @@ struct Sampling {
     facing = incident.facing;
     VectorLanes sum; // of surfaces that send on all of it
     sum.store<Simd>(incident.colour);
-    const std::uint32_t rays = sample_area(spu, record, surfaces, incident, to_place, *shadow, sum, look);
-    CHECK(rays == shadow->rays_asked);
+    run(surfaces, incident, sum);
     return sum;
   }
 };
@@ -196,6 +214,58 @@ TEST_CASE("Jitter is the same each time, other in each lane, and stays near the 
   CHECK(glm::length(sum) / samples < 0.03);
   CHECK(squares.x / samples == Approx(1.0 / 12).margin(0.01));
   CHECK(squares.z / samples == Approx(1.0 / 12).margin(0.01));
+}
+
+TEST_CASE("Places in pairs with surfaces leave the share that they leave one by one") {
+  Random random(148);
+  int divided = 0;
+  for (int k = 0; k < times(400); ++k) {
+    Light light = area_light(random);
+    light.area->jitter = random.below(2) == 0;
+    Sampling sampling(light, random);
+    REQUIRE(AreaPairs<DirectSpu>::has_room_for(sampling.record));
+    for (unsigned l = 0; l < kSimdLanes; ++l)
+      sampling.objects.lane[l] = 64 * l;
+    // Stripes, which no two rays are in the same place of.
+    const Vec3 axis = random.point(5);
+    const auto lit_lanes = [&](const RayPacket& rays, std::uint32_t lanes, const FloatLanes& distance) {
+      std::uint32_t lit = 0;
+      for_each_lane(lanes, [&](unsigned l) {
+        REQUIRE(test::at(rays.origin, l) == test::at(sampling.point, rays.start_object.lane[l] / 64));
+        const double at = glm::dot(axis, test::at(rays.direction, l)) + distance.lane[l];
+        lit |= static_cast<std::uint32_t>(at - std::floor(at) < 0.6) << l;
+      });
+      return lit;
+    };
+    const std::uint32_t lanes = random.word() & 0xFFFF;
+    const VectorLanes expected = sampling.run(lanes, [&](AreaShadow<Simd>& shadow) {
+      answer(shadow, lit_lanes(shadow.to_place->rays, shadow.lanes, shadow.to_place->distance));
+    });
+    const std::uint32_t rays = sampling.shadow->rays_asked;
+    const VectorLanes found = sampling.run_in_pairs(lanes, lit_lanes);
+    CHECK(sampling.shadow->rays_asked == rays);
+    for_each_lane(sampling.facing, [&](unsigned l) { CHECK(test::at(found, l) == test::at(expected, l)); });
+    divided += rays > 4 * kSimdLanes;
+  }
+  CHECK(divided > 100);
+}
+
+TEST_CASE("Places are not tested in pairs where light comes tinted, or there are too many of them") {
+  Random random(149);
+  Light light = area_light(random);
+  light.area->columns = light.area->rows = 5;
+  Sampling sampling(light, random);
+  sampling.run(0xFFFF, [](AreaShadow<Simd>&) {});
+  bool is_tinted = false;
+  const auto some = [&](const RayPacket&, std::uint32_t lanes, const FloatLanes&) {
+    is_tinted = true;
+    return lanes;
+  };
+  sampling.shadow->quad = LightQuad::whole(sampling.record, 0xFFFF);
+  CHECK_FALSE(
+      AreaPairs<DirectSpu>(sampling.record, *sampling.shadow).sample(some, [&] { return is_tinted; }));
+  light.area->rows = 60;
+  CHECK_FALSE(AreaPairs<DirectSpu>::has_room_for(make_record(light)));
 }
 
 TEST_CASE("A shaft touches every node that is between surfaces and a place of the light") {

@@ -176,11 +176,44 @@ TEST_CASE("Phong's highlight is cut off where POV-Ray cuts it off") {
                                        nullptr};
       IncidentLight<Simd> arrival(LightRecord().colour);
       arrival.direction = light.load<Simd>();
+      arrival.facing = 0xFFFF;
       const double term = lanes_of(kernel::detail::phong_term<Simd>(surfaces, lanes, arrival)).lane[3];
       const bool cut = cosine <= 0 || (size >= 60 && cosine <= 0.0008);
       INFO("phong_size " << size << ", cosine " << cosine);
-      CHECK(term == Approx(cut ? 0 : std::pow(cosine, size)).epsilon(1e-4).margin(1e-37));
+      CHECK(term == Approx(cut ? 0 : std::pow(cosine, size)).epsilon(1e-4).margin(1e-9));
     }
+  }
+}
+
+TEST_CASE("No highlight is left out but those too faint to see") {
+  Random random(65);
+  for (int k = 0; k < 20000; ++k) {
+    // The surface leans in one lane, where the light comes to that is in the viewer's direction; in others it
+    // is nearly turned away, or light does not come to it.
+    const unsigned lane = random.below(kSimdLanes);
+    const double size = std::exp(random.uniform(0, 8)), cosine = std::exp(random.uniform(-1, 0) * 40 / size);
+    MaterialLanes<Simd> lanes{};
+    lanes.phong = lanes.specular = F(0.5f);
+    lanes.phong_size = lanes.inverse_roughness = F(static_cast<float>(size));
+    VectorLanes normal, direction, light;
+    for (unsigned l = 0; l < kSimdLanes; ++l) {
+      const double c = l == lane ? cosine : random.below(2) == 0 ? 0.01 : 1;
+      set(normal, l, {std::sqrt(1 - c * c), c, 0});
+      set(direction, l, {0, -1, 0});
+      set(light, l, {0, 1, 0});
+    }
+    const Surfaces<Simd> surfaces = {normal.load<Simd>(), normal.load<Simd>(), direction.load<Simd>(),
+                                     nullptr};
+    IncidentLight<Simd> arrival(LightRecord().colour);
+    arrival.direction = light.load<Simd>();
+    arrival.facing = 1u << lane;
+    INFO("exponent " << size << ", cosine " << cosine);
+    const double specular =
+        lanes_of(kernel::detail::specular_term<Simd>(surfaces, lanes, arrival)).lane[lane];
+    CHECK(specular == Approx(0.5 * std::pow(cosine, size)).epsilon(1e-3).margin(1e-9));
+    const double mirrored = 2 * cosine * cosine - 1; // the mirrored ray leans twice as far
+    const double phong = lanes_of(kernel::detail::phong_term<Simd>(surfaces, lanes, arrival)).lane[lane];
+    CHECK(phong == Approx(mirrored <= 0 ? 0 : 0.5 * std::pow(mirrored, size)).epsilon(1e-3).margin(1e-9));
   }
 }
 

@@ -45,7 +45,7 @@ TEST_CASE("fog") {
   CHECK(full.turbulence.omega == .4);
   CHECK(full.turbulence.lambda == 2.5);
   CHECK(full.turbulence_depth == .7);
-  for (const char* colour : {"color color rgb z", "colour color colour blue 1", "color color srgb z"})
+  for (const char* colour : {"color color rgb z", "colour color colour blue 1", "color color rgbf <0, 0, 1>"})
     CHECK(fog(colour).colour == Vec3(0, 0, 1));
   // Transformations turn it; it does not move.
   CHECK(fog("up 3*y translate 5 scale 2").up.y == Approx(1));

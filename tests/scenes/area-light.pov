@@ -37,7 +37,7 @@ light_source {
   area_light <3, 0, 0>, <0, 3, 0>, 17, 17 adaptive 1 circular orient
   translate <8, 9, -6>
 }
-light_source { <0, 6, 7> rgb 0.4 area_light 3*x, <0, 0, 1>, 6, 9 adaptive 0 circular fade_distance 8 fade_power 1 }
+light_source { <0, 6, 7> rgb 0.4 area_light 3*x, <0, 0, 1>, 18, 17 adaptive 0 circular fade_distance 8 fade_power 1 }
 light_source {
   <2, 10, -6> rgb <0.9, 0.7, 0.9>
   spotlight point_at <1, 0, -2> radius 12 falloff 20
