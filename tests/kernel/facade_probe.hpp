@@ -31,7 +31,11 @@ struct alignas(128) FacadeBlock {
   uint32_t int_equal, int_less;
   uint32_t mask_and, mask_or, mask_not, mask_none, mask_all, mask_same;
   float least_of_all, greatest_of_all;
-  uint32_t pad_end[7];
+  // where memory is direct
+  alignas(128) float picked[16];
+  float stored[32];
+  int32_t int_picked[16], int_stored[32], lane_numbers[16];
+  uint32_t spread;
 };
 static_assert(sizeof(FacadeBlock) % 128 == 0, "crosses DMA");
 
@@ -113,6 +117,20 @@ template <class S> void apply_facade(FacadeBlock& x) {
   x.u4_equal_self = equal_bits(p, p);
 }
 
+/// What there is where memory is direct.
+template <class S> void apply_direct_facade(FacadeBlock& x) {
+  using F = typename S::F;
+  using I = typename S::I;
+  const F a = F::load(x.a);
+  const I i = I::load(x.i), lanes = I::load(x.j) & I::splat(15);
+  S::pick(a, lanes).store(x.picked);
+  S::pick(i, lanes).store(x.int_picked);
+  S::lane_numbers(x.m).store(x.lane_numbers);
+  x.spread = S::spread(x.n, x.m);
+  a.store_unaligned(x.stored + 5);
+  i.store_unaligned(x.int_stored + 3);
+}
+
 /// Where the rows of each lane start in the 32 numbers a and b, or those of lane 0 for all.
 struct RowStarts {
   const int32_t* of_lane;
@@ -178,6 +196,7 @@ template <class Spu> void facade(Spu& spu, ea_t argument) {
     spu.wait_all(1);
     apply_facade<typename Spu::simd>(*block);
     apply_rare_facade<typename Spu::rare_simd>(*block);
+    if constexpr (Spu::direct_memory) apply_direct_facade<typename Spu::simd>(*block);
     spu.put(block, at, sizeof *block, 0);
     spu.wait_all(1);
   }

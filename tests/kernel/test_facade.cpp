@@ -184,6 +184,22 @@ void check_quadwords(const FacadeBlock& x) {
   CHECK(x.u4_equal_self == 0xF);
 }
 
+void check_direct(const FacadeBlock& x) {
+  std::vector<int> lanes;
+  for (int l = 0; l < 16; ++l)
+    if ((x.m >> l & 1) != 0) lanes.push_back(l);
+  const int count = static_cast<int>(lanes.size());
+  CHECK(same_floats(x.picked, [&](int l) { return x.a[x.j[l] & 15]; }));
+  CHECK(same_ints(x.int_picked, [&](int l) { return x.i[x.j[l] & 15]; }));
+  CHECK(same_ints(x.lane_numbers, [&](int l) { return l < count ? lanes[l] : 0; }));
+  std::uint32_t spread = 0;
+  for (int k = 0; k < count; ++k)
+    spread |= (x.n >> k & 1) << lanes[k];
+  CHECK(x.spread == spread);
+  CHECK(std::memcmp(x.stored + 5, x.a, sizeof x.a) == 0);
+  CHECK(std::memcmp(x.int_stored + 3, x.i, sizeof x.i) == 0);
+}
+
 } // namespace
 
 TEST_CASE("The SIMD facade computes on every SPU type what plain C++ does") {
@@ -198,6 +214,7 @@ TEST_CASE("The SIMD facade computes on every SPU type what plain C++ does") {
       check_row_sums(x);
       check_ints(x);
       check_masks(x);
+      if (machine->direct_memory()) check_direct(x);
       check_quadwords(x);
     }
   }
