@@ -250,6 +250,24 @@ TEST_CASE("Places in pairs with surfaces leave the share that they leave one by 
   CHECK(divided > 100);
 }
 
+TEST_CASE("There is room for all quads of a grid that is looked at in pairs") {
+  Random random(150);
+  for (const Place& size : {Place{17, 17}, {2, 144}, {3, 96}, {96, 3}, {1, 289 - 33}, {5, 57}, {16, 18}}) {
+    Light light = area_light(random);
+    light.area->columns = size.first;
+    light.area->rows = size.second;
+    light.area->adaptive = 100;
+    light.area->circular = false;
+    Sampling sampling(light, random);
+    REQUIRE(AreaPairs<DirectSpu>::has_room_for(sampling.record));
+    const VectorLanes sum = sampling.run_in_pairs(
+        0xFFFF, [](const RayPacket&, std::uint32_t lanes, const FloatLanes&) { return lanes; });
+    CHECK(sampling.shadow->rays_asked ==
+          std::uint32_t(size.first * size.second * __builtin_popcount(sampling.facing)));
+    for_each_lane(sampling.facing, [&](unsigned l) { CHECK(test::at(sum, l) == light.colour); });
+  }
+}
+
 TEST_CASE("Places are not tested in pairs where light comes tinted, or there are too many of them") {
   Random random(149);
   Light light = area_light(random);

@@ -181,7 +181,7 @@ private:
   AreaShadow<S>& area_;
   const uint32_t columns_;
   Place places_[kMostPlaces];
-  LightQuad quads_[2][kMostPlaces]; ///< of a size each by turns; the corners at the left and top differ
+  LightQuad quads_[2][kMostPlaces]; ///< of a size each by turns: never more than 256
   // Pairs that are to be tested: of which places, and by pair its lane and where the place is.
   Run runs_[2 * S::kLanes];
   uint32_t run_count_ = 0, pairs_ = 0;
