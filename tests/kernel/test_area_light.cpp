@@ -223,7 +223,7 @@ TEST_CASE("Places in pairs with surfaces leave the share that they leave one by 
     Light light = area_light(random);
     light.area->jitter = random.below(2) == 0;
     Sampling sampling(light, random);
-    REQUIRE(AreaPairs<DirectSpu>::has_room_for(sampling.record));
+    REQUIRE(AreaPairs<DirectSpu>::can_sample(sampling.record));
     for (unsigned l = 0; l < kSimdLanes; ++l)
       sampling.objects.lane[l] = 64 * l;
     // Stripes, which no two rays are in the same place of.
@@ -259,7 +259,7 @@ TEST_CASE("There is room for all quads of a grid that is looked at in pairs") {
     light.area->adaptive = 100;
     light.area->circular = false;
     Sampling sampling(light, random);
-    REQUIRE(AreaPairs<DirectSpu>::has_room_for(sampling.record));
+    REQUIRE(AreaPairs<DirectSpu>::can_sample(sampling.record));
     const VectorLanes sum = sampling.run_in_pairs(
         0xFFFF, [](const RayPacket&, std::uint32_t lanes, const FloatLanes&) { return lanes; });
     CHECK(sampling.shadow->rays_asked ==
@@ -283,7 +283,7 @@ TEST_CASE("Places are not tested in pairs where light comes tinted, or there are
   CHECK_FALSE(
       AreaPairs<DirectSpu>(sampling.record, *sampling.shadow).sample(some, [&] { return is_tinted; }));
   light.area->rows = 60;
-  CHECK_FALSE(AreaPairs<DirectSpu>::has_room_for(make_record(light)));
+  CHECK_FALSE(AreaPairs<DirectSpu>::can_sample(make_record(light)));
 }
 
 TEST_CASE("A shaft touches every node that is between surfaces and a place of the light") {

@@ -1,5 +1,5 @@
-// Soft shadows: grids that are adaptive or not, round ones, ones that turn to the surface, of a spotlight and of parallel
-// light, a line, and behind coloured glass. None is jittered: POV-Ray's pictures are of chance then.
+// Soft shadows: grids that are adaptive or not, a large one, round ones, ones that turn to the surface, of a spotlight
+// and of parallel light, a line, and behind coloured glass. None is jittered: POV-Ray's pictures are of chance then.
 #version 3.7;
 global_settings { assumed_gamma 1 max_trace_level 5 }
 camera { location <0, 7, -13> look_at <0, 0.6, 0.5> angle 58 right x*4/3 }

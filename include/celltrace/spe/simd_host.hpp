@@ -395,14 +395,10 @@ template <class Arch> struct HostSimd {
     return I::load(numbers);
   }
   static uint32_t spread(uint32_t bits, uint32_t lanes) {
-#if defined(__BMI2__)
-    return _pdep_u32(bits, lanes);
-#else
     uint32_t result = 0;
     for (; lanes != 0; lanes &= lanes - 1, bits >>= 1)
       result |= (lanes & -lanes) & -(bits & 1);
     return result;
-#endif
   }
 
   struct F4 {

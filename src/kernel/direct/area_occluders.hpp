@@ -125,7 +125,7 @@ public:
 
   Known gather(ObjectTests<Spu>& tests, const FrameBlock& frame, const RayPacket& rays, uint32_t lanes,
                const LightRecord& light) {
-    light_count_ = node_count_ = 0;
+    cheap_count_ = node_count_ = 0;
     first_heavy_ = kMost;
     if (is_parallel(light)) return Known::nothing;
     const Shaft<S> shaft(rays, lanes, light);
@@ -141,7 +141,7 @@ public:
     if (!gather_bounded(tests, frame, shaft, add_object)) return Known::nothing;
     return are_known ? Known::objects : Known::nodes;
   }
-  bool are_none() const { return light_count_ == 0 && first_heavy_ == kMost; }
+  bool are_none() const { return cheap_count_ == 0 && first_heavy_ == kMost; }
 
   const NodeLeaves* nodes() const { return nodes_; }
   uint32_t node_count() const { return node_count_; }
@@ -153,7 +153,7 @@ public:
     const auto test_object = [&](uint32_t self, const FloatLanes& distance) {
       query.lanes &= ~tests.occluded(*query.rays, self, query.lanes, distance, *query.light);
     };
-    for (uint32_t i = 0; i < light_count_ && query.lanes != 0; ++i)
+    for (uint32_t i = 0; i < cheap_count_ && query.lanes != 0; ++i)
       test_object(objects_[i].self, *query.distance);
     if (first_heavy_ == kMost || query.lanes == 0) return;
     const MixedRays<S> rays(*query.rays);
@@ -197,8 +197,8 @@ private:
     default:
       break;
     }
-    if ((flags & object_flag::opaque) == 0 || light_count_ == first_heavy_) return false;
-    objects_[is_heavy(flags & object_flag::kind_mask) ? --first_heavy_ : light_count_++] = occluder;
+    if ((flags & object_flag::opaque) == 0 || cheap_count_ == first_heavy_) return false;
+    objects_[is_heavy(flags & object_flag::kind_mask) ? --first_heavy_ : cheap_count_++] = occluder;
     return true;
   }
 
@@ -234,8 +234,8 @@ private:
   static constexpr uint32_t kMostNodes = 3 * 48 + 4;
 
   static constexpr uint32_t kMost = tuning::kMostAreaOccluders;
-  Occluder objects_[kMost]; ///< at the end those of which tests take long
-  uint32_t light_count_ = 0, first_heavy_ = kMost;
+  Occluder objects_[kMost]; ///< those whose tests take long are at the end
+  uint32_t cheap_count_ = 0, first_heavy_ = kMost;
   NodeLeaves nodes_[tuning::kMostAreaNodes];
   uint32_t node_count_ = 0;
 };

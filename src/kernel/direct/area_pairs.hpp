@@ -17,8 +17,8 @@ public:
   using F = typename S::F;
   using I = typename S::I;
 
-  /// Whether there is room for the places of a light, which is not parallel.
-  static bool has_room_for(const LightRecord& light) {
+  /// Whether it samples a light: not if that is parallel, or has more places than there is room for.
+  static bool can_sample(const LightRecord& light) {
     return light.columns * light.rows <= kMostPlaces && !is_parallel(light);
   }
 

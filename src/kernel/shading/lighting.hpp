@@ -12,8 +12,8 @@ namespace celltrace::kernel {
 
 namespace detail {
 
-/// A highlight of less than 1e-9 is none, and that is so many natural units below 1. A cosine to a power
-/// falls at least as fast as an exponential function of what the cosine is below 1.
+/// A cosine to the power n is at most exp(-n (1 - cosine)). Where n (1 - cosine) is more than this, it is
+/// less than 1e-9, and there is no highlight.
 constexpr float kLeastHighlight = 20.7f;
 
 template <class S>

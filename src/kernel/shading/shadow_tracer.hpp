@@ -248,7 +248,7 @@ private:
         const auto unoccluded = [&](const RayPacket& rays, uint32_t some, const FloatLanes& distance) {
           return traversal_.unoccluded(rays, some, distance, area.light(), occluders);
         };
-        if (AreaPairs<Spu>::has_room_for(light)) {
+        if (AreaPairs<Spu>::can_sample(light)) {
           AreaPairs<Spu>(light, area).sample(unoccluded);
         } else {
           while (next_place(scene_.spu(), light, area))
@@ -291,7 +291,7 @@ private:
   /// Finds the share of an area's light that comes to surfaces, unless some comes tinted.
   template <class Trace> bool find_untinted_share(const LightRecord& light, const Trace& trace) {
     AreaShadow<S>& area = *area_;
-    if (!AreaPairs<Spu>::has_room_for(light) || !tints_.are_unlikely()) return false;
+    if (!AreaPairs<Spu>::can_sample(light) || !tints_.are_unlikely()) return false;
     const F one(1.0f), zero(0.0f);
     uint32_t tinted = 0;
     const auto unoccluded = [&](const RayPacket& rays, uint32_t lanes, const FloatLanes& distance) {
