@@ -9,12 +9,12 @@
 
 namespace celltrace::kernel {
 
-/// Answers ray queries with the uniform grid or the BVH.
 /// Accelerators that a program can use: bits, so that what it never uses takes no local store.
 constexpr uint32_t kGridOnly = 1u << static_cast<uint32_t>(AcceleratorKind::grid);
 constexpr uint32_t kBvhOnly = 1u << static_cast<uint32_t>(AcceleratorKind::bvh);
 constexpr uint32_t kAnyAccelerator = kGridOnly | kBvhOnly;
 
+/// Answers ray queries with the uniform grid or the BVH.
 template <class Spu, uint32_t kAccelerators = kAnyAccelerator> class Traversal {
 public:
   using S = typename Spu::simd;
