@@ -141,13 +141,6 @@ constexpr uint32_t kMostAreaNodes = 64;
 /// time' of soft shadows.
 constexpr uint32_t kLeastSurfacesByThemselves = 11;
 
-// --- shadows of what is translucent ---
-
-/// Shadow rays of packets are walked at once where more than this share of them is found to cross something
-/// translucent. Larger: more is found out in vain; smaller: rays are walked that cross nothing. 'trace time'
-/// of scenes with glass.
-constexpr float kMostMarked = 0.25f;
-
 // --- patterns ---
 
 /// Up to so many lanes of a packet that are in one cell of crackle are compared with the points around that

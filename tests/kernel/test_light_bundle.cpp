@@ -11,6 +11,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <memory>
 
@@ -276,47 +277,68 @@ TEST_CASE("Light comes to a bundle as it comes to its packets") {
   CHECK(bright > times(8000));
 }
 
-TEST_CASE("Shadow rays that cross something translucent are marked, others are not") {
+TEST_CASE("What shadow rays cross of translucent objects is listed in the order in which they cross it") {
   Random random(123);
-  int marked = 0, dark = 0, clear = 0;
+  int listed = 0, dark = 0, clear = 0;
   for (const Scene& scene : {soup(41, {60, 60, 60}, 10, 1), soup(43, {0, 0, 200}, 10, 2)}) {
     PreparedScene prepared(scene);
     prepared.use_bvh(true, false);
     REQUIRE(prepared.prepare().built);
     FrameBlock& frame = prepared.frame();
     for (int k = 0; k < times(200); ++k)
-      with_two_bundles(random, frame,
-                       [&](ShadowTraversal& traversal, const LightRecord& light, ShadowBundle& bundle,
-                           ShadowBundle& alone) {
-                         std::uint32_t asked[kPackets];
-                         VectorLanes whole[kPackets];
-                         for (std::uint32_t i = 0; i < kPackets; ++i) {
-                           asked[i] = alone.queries[i].lanes;
-                           whole[i] = alone.light[i];
-                           traversal.transmittance(alone.rays[i], asked[i], alone.distance[i],
-                                                   alone.light[i]);
-                         }
-                         if (k % 2 == 0)
-                           traversal.mark_translucent(bundle.queries, kPackets, light);
-                         else
-                           for (RayQuery& query : bundle.queries)
-                             traversal.mark_translucent(query);
-                         for (const RayQuery& query : bundle.queries) {
-                           const auto i = static_cast<std::size_t>(query.light - bundle.light);
-                           for_each_lane(asked[i], [&](std::uint32_t lane) {
-                             const Vec3 before = at(whole[i], lane), comes = at(alone.light[i], lane);
-                             const bool is_left = (query.lanes >> lane & 1) != 0,
-                                        is_marked = at(*query.light, lane).x != 0;
-                             if (is_left) CHECK_FALSE(is_marked);
-                             if (is_left) CHECK(comes == before);
-                             if (!is_left && !is_marked) CHECK(comes == Vec3(0));
-                             if (is_marked) CHECK(comes != before);
-                             ++(is_marked ? marked : is_left ? clear : dark);
-                           });
-                         }
-                       });
+      with_two_bundles(
+          random, frame,
+          [&](ShadowTraversal& traversal, const LightRecord& light, ShadowBundle& bundle,
+              ShadowBundle& alone) {
+            auto pool = std::make_unique<CrossingPool>();
+            auto kept = std::make_unique<KeptCrossings<Simd>[]>(kPackets);
+            std::uint32_t asked[kPackets];
+            VectorLanes whole[kPackets];
+            for (std::uint32_t i = 0; i < kPackets; ++i) {
+              asked[i] = alone.queries[i].lanes;
+              whole[i] = alone.light[i];
+              traversal.transmittance(alone.rays[i], asked[i], alone.distance[i], alone.light[i]);
+              kept[i].begin(bundle.light[i], *pool);
+              bundle.queries[i].light = &kept[i];
+            }
+            if (k % 2 == 0)
+              traversal.keep_crossings(bundle.queries, kPackets, light, true);
+            else
+              for (RayQuery& query : bundle.queries)
+                traversal.keep_crossings(query, true);
+            for (const RayQuery& query : bundle.queries) {
+              auto& crossings = static_cast<KeptCrossings<Simd>&>(*query.light);
+              const auto i = static_cast<std::size_t>(&crossings - kept.get());
+              const std::uint32_t known = asked[i] & ~crossings.overflowed;
+              for_each_lane(known & ~query.lanes,
+                            [&](std::uint32_t lane) { CHECK(at(alone.light[i], lane) == Vec3(0)); });
+              dark += std::popcount(known & ~query.lanes);
+              HitPacket hits;
+              VectorLanes transmittance;
+              FloatLanes last = {};
+              std::uint32_t crossing = 0;
+              for (std::uint32_t lanes = known & query.lanes; lanes != 0;) {
+                lanes = crossings.take(lanes, hits, transmittance);
+                crossing |= lanes;
+                for_each_lane(lanes, [&](std::uint32_t lane) {
+                  CHECK(hits.distance.lane[lane] >= last.lane[lane]);
+                  CHECK(hits.distance.lane[lane] < alone.distance[i].lane[lane]);
+                  last.lane[lane] = hits.distance.lane[lane];
+                  CHECK((reinterpret_cast<const ObjectRecord*>(frame.image + hits.object.lane[lane])
+                             ->kind_and_flags &
+                         object_flag::opaque) == 0);
+                });
+              }
+              for_each_lane(known & query.lanes, [&](std::uint32_t lane) {
+                const bool comes_whole = at(alone.light[i], lane) == at(whole[i], lane);
+                CHECK(comes_whole == ((crossing >> lane & 1) == 0));
+              });
+              listed += std::popcount(crossing);
+              clear += std::popcount(known & query.lanes & ~crossing);
+            }
+          });
   }
-  CHECK(marked > times(2000));
+  CHECK(listed > times(2000));
   CHECK(dark > times(2000));
   CHECK(clear > times(2000));
 }

@@ -115,7 +115,7 @@ public:
     // Of instances, which take long, only the rays that are asked for: they may come back for others.
     const bool all_at_once = !is_instance(flags) || segment.enter != nullptr;
     if ((flags & object_flag::opaque) != 0 && all_at_once && !hit_filter_.first_test(self)) return 0;
-    if constexpr (kMarksTranslucent<Spu>) interior_ = object.interior;
+    if constexpr (kKeepsCrossings<Spu>) crossed_ = self;
     uint32_t dark;
     if (is_simple(flags)) {
       dark = occluded_by(rays, test(rays, object, self), flags, material, lanes, distance, light, segment);
@@ -204,12 +204,12 @@ public:
   /// What translucent objects do to shadow rays. Where memory is not direct they attenuate them.
   enum class Translucency {
     attenuates, ///< multiplies the light
-    marks,      ///< occludes it, and sets its first channel to 1
-    is_kept     ///< for later: the light is that of KeptCrossings
+    is_kept,    ///< for later: the light is that of KeptCrossings
+    is_listed   ///< the same, but what surfaces let through is still to be found
   };
   void set_translucency(Translucency translucency) { translucency_ = translucency; }
   Translucency translucency() const {
-    return kMarksTranslucent<Spu> ? translucency_ : Translucency::attenuates;
+    return kKeepsCrossings<Spu> ? translucency_ : Translucency::attenuates;
   }
 
   SceneAccess<Spu>& scene() { return scene_; }
@@ -238,10 +238,6 @@ private:
     if ((flags & object_flag::opaque) != 0) return shadow.near | shadow.far;
     const uint32_t near = lanes & shadow.near & segment.template contains<S>(c.near);
     const uint32_t far = lanes & shadow.far & segment.template contains<S>(c.far);
-    if (translucency() == Translucency::marks) {
-      S::select(M::from_bits(near | far), F(1.0f), F::load(light.x.lane)).store(light.x.lane);
-      return near | far;
-    }
     uint32_t dark = 0;
     if (near != 0) dark |= cross_translucent(rays, c.near, c, flags, material, near, light);
     if (far != 0) dark |= cross_translucent(rays, c.far, c, flags, material, far, light);
@@ -250,9 +246,12 @@ private:
   /// As attenuate(), unless what the surface lets through is kept.
   uint32_t cross_translucent(const RayPacket& rays, const F& at, const Crossings<S>& c, uint32_t flags,
                              uint32_t material, uint32_t lanes, VectorLanes& light) {
-    if (translucency() != Translucency::is_kept) return attenuate(rays, at, c, flags, material, lanes, light);
-    VectorLanes* const kept = static_cast<KeptCrossings<S>&>(light).add(at, lanes, interior_);
-    return kept == nullptr ? lanes : attenuate(rays, at, c, flags, material, lanes, *kept);
+    if (translucency() == Translucency::attenuates)
+      return attenuate(rays, at, c, flags, material, lanes, light);
+    VectorLanes* const kept = static_cast<KeptCrossings<S>&>(light).add(at, c, lanes, crossed_);
+    if (kept == nullptr) return lanes;
+    if (translucency() == Translucency::is_listed) return 0;
+    return attenuate(rays, at, c, flags, material, lanes, *kept);
   }
 
   // Objects that are not simple: their crossings are several pairs, and count where the CSG's condition
@@ -446,7 +445,7 @@ private:
   TraversalCounters counters_;
   uint32_t reflected_ = 0;
   Translucency translucency_ = Translucency::attenuates;
-  uint32_t interior_ = kNoOffset; ///< of the object that shadow rays are tested against
+  uint32_t crossed_ = kNoOffset; ///< the object that shadow rays are tested against
   [[no_unique_address]] Present<RecentOccluders, kGathersOccluders<Spu>> recent_;
   [[no_unique_address]] Present<TorusPairs<Spu>, kGathersTorusPairs<Spu>> torus_pairs_;
 };

@@ -41,24 +41,14 @@ public:
     intersect_packet(query);
   }
 
-  /// Leaves each query the lanes that cross nothing. Of the others, the first channel of its light becomes 1
-  /// in those that cross something translucent, and maybe something opaque too, and 0 in those that do not.
-  void mark_translucent(RayQuery& query) {
-    mark(&query, 1, [&] { intersect_packet(query); });
+  /// As transmittance(), for a query whose light is that of KeptCrossings, which keep what is crossed or, if
+  /// it `lists` that, only where. The light of lanes for which they had no room becomes 0.
+  void keep_crossings(RayQuery& query, bool lists) {
+    keep(lists, [&] { intersect_packet(query); });
   }
   /// The same for several queries toward one light. May change their order.
-  void mark_translucent(RayQuery* queries, uint32_t count, const LightRecord& light) {
-    mark(queries, count, [&] { intersect(queries, count, light); });
-  }
-
-  /// As transmittance(), for a query whose light is that of KeptCrossings, which keep what is crossed. The
-  /// light of lanes for which they had no room becomes 0.
-  void keep_crossings(RayQuery& query) {
-    with(Translucency::is_kept, [&] { intersect_packet(query); });
-  }
-  /// The same for several queries toward one light. May change their order.
-  void keep_crossings(RayQuery* queries, uint32_t count, const LightRecord& light) {
-    with(Translucency::is_kept, [&] { intersect(queries, count, light); });
+  void keep_crossings(RayQuery* queries, uint32_t count, const LightRecord& light, bool lists) {
+    keep(lists, [&] { intersect(queries, count, light); });
   }
 
   /// Lets shadow rays end where they first cross what a light is projected through. Returns the lanes that
@@ -197,14 +187,8 @@ private:
   static constexpr bool kHasGrid = (kAccelerators & kGridOnly) != 0,
                         kHasBvh = (kAccelerators & kBvhOnly) != 0;
 
-  template <class Run> void mark(const RayQuery* queries, uint32_t count, Run run) {
-    const F zero(0.0f);
-    for (uint32_t i = 0; i < count; ++i)
-      queries[i].light->template store<S>({zero, zero, zero});
-    with(Translucency::marks, run);
-  }
-  template <class Run> void with(Translucency translucency, Run run) {
-    objects_.set_translucency(translucency);
+  template <class Run> void keep(bool lists, Run run) {
+    objects_.set_translucency(lists ? Translucency::is_listed : Translucency::is_kept);
     run();
     objects_.set_translucency(Translucency::attenuates);
   }
@@ -253,10 +237,7 @@ private:
   }
 
   /// Sets the light of a query to 0 in lanes that are occluded or that were not asked for.
-  void clear_occluded(const RayQuery* queries, uint32_t count) const {
-    if (objects_.translucency() != Translucency::marks) clear_light(queries, count);
-  }
-  CELLTRACE_ONE_COPY static void clear_light(const RayQuery* queries, uint32_t count) {
+  CELLTRACE_ONE_COPY static void clear_occluded(const RayQuery* queries, uint32_t count) {
     const V3<S> dark = {F(0.0f), F(0.0f), F(0.0f)};
     for (uint32_t i = 0; i < count; ++i) {
       const RayQuery& query = queries[i];

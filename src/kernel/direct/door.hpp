@@ -33,9 +33,8 @@ template <class Spu> constexpr bool kHasBundleViews = Spu::direct_memory;
 /// surfaces to a place are tested with those to others (AreaPairs).
 template <class Spu> constexpr bool kGathersOccluders = Spu::direct_memory;
 
-/// Where shadow rays are walked, those are found first that cross something translucent: only these are
-/// walked (ShadowWalk). Or what they cross is kept, where its order is enough (KeptCrossings).
-template <class Spu> constexpr bool kMarksTranslucent = Spu::direct_memory;
+/// Where shadow rays would be walked (ShadowWalk), one traversal finds all that they cross (KeptCrossings).
+template <class Spu> constexpr bool kKeepsCrossings = Spu::direct_memory;
 
 /// Rays of a bundle's trees are gathered into full packets (RayPool), and shadow rays from what they hit, too
 /// (ShadowQueue).

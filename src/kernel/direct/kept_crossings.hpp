@@ -1,5 +1,6 @@
 // What shadow rays cross of translucent surfaces, where it matters in which order they do: some may be so
-// near each other that not all of them count, and interiors may fade. Kernel dialect.
+// near each other that not all of them count, interiors may fade, and what a surface lets through may depend
+// on where a ray comes from. Kernel dialect.
 #pragma once
 
 #include "kernel/math.hpp"
@@ -16,7 +17,8 @@ struct CrossingPool {
   uint32_t count = 0;
   FloatLanes distance[kMost]; ///< kNowhere in lanes that do not cross it
   VectorLanes transmittance[kMost];
-  uint32_t interior[kMost]; ///< of the objects
+  FloatLanes u[kMost], v[kMost]; ///< as Crossings'
+  uint32_t object[kMost];        ///< offsets
 };
 
 /// The light of a packet's shadow rays, without what they have crossed until finish().
@@ -31,9 +33,9 @@ template <class S> struct KeptCrossings : VectorLanes {
     pool_ = &pool;
     overflowed = count_ = 0;
   }
-  /// Of a surface that `lanes` cross at `distance`: where what it lets through is to be multiplied. Null if
-  /// there is no room.
-  VectorLanes* add(const F& distance, uint32_t lanes, uint32_t interior) {
+  /// Of object `self`, which `lanes` cross at `distance`: where what it lets through is to be multiplied.
+  /// Null if there is no room.
+  VectorLanes* add(const F& distance, const Crossings<S>& c, uint32_t lanes, uint32_t self) {
     if (count_ == kMost || pool_->count == CrossingPool::kMost) {
       overflowed |= lanes;
       return nullptr;
@@ -41,7 +43,9 @@ template <class S> struct KeptCrossings : VectorLanes {
     const uint32_t place = pool_->count++;
     place_[count_++] = static_cast<uint16_t>(place);
     S::select(M::from_bits(lanes), distance, F(CrossingPool::kNowhere)).store(pool_->distance[place].lane);
-    pool_->interior[place] = interior;
+    c.u.store(pool_->u[place].lane);
+    c.v.store(pool_->v[place].lane);
+    pool_->object[place] = self;
     const F one(1.0f);
     pool_->transmittance[place].template store<S>({one, one, one});
     return &pool_->transmittance[place];
@@ -64,39 +68,36 @@ template <class S> struct KeptCrossings : VectorLanes {
     this->template store<S>(light);
   }
 
-  /// The next surface that each ray crosses.
-  struct Next {
-    uint32_t lanes; ///< those that cross one
-    FloatLanes distance;
-    VectorLanes transmittance;
-    WordLanes interior;
-  };
-  /// Takes the nearest surfaces of `lanes` out; of two at one distance that which was found first.
-  Next take(uint32_t lanes) {
+  /// Takes the nearest surfaces of `lanes` out; of two at one distance that which was found first. Returns
+  /// the lanes that have one, and puts the hits there. What surfaces let through is in `transmittance`.
+  uint32_t take(uint32_t lanes, HitPacket& hits, VectorLanes& transmittance) {
     using I = typename S::I;
     const F one(1.0f), nowhere(kMaxHitDistance);
-    F nearest = nowhere;
-    V3<S> transmittance = {one, one, one};
-    I place = I::splat(-1), interior = I::splat(0);
+    F nearest = nowhere, u(0.0f), v(0.0f);
+    V3<S> passes = {one, one, one};
+    I place = I::splat(-1), object = I::splat(-1);
     for (uint32_t i = 0; i < count_; ++i) {
       const F distance = distance_of(i);
-      const M closer = (distance >= F(0.0f)) & (distance < nearest);
+      const M closer = M::from_bits(lanes) & (distance >= F(0.0f)) & (distance < nearest);
+      if (closer.bits() == 0) continue;
+      const uint32_t at = place_[i];
       nearest = S::select(closer, distance, nearest);
-      transmittance = select<S>(closer, pool_->transmittance[place_[i]].template load<S>(), transmittance);
-      interior = S::select(closer, I::splat(static_cast<int32_t>(pool_->interior[place_[i]])), interior);
+      u = S::select(closer, F::load(pool_->u[at].lane), u);
+      v = S::select(closer, F::load(pool_->v[at].lane), v);
+      passes = select<S>(closer, pool_->transmittance[at].template load<S>(), passes);
+      object = S::select(closer, I::splat(static_cast<int32_t>(pool_->object[at])), object);
       place = S::select(closer, I::splat(static_cast<int32_t>(i)), place);
     }
-    const M found = M::from_bits(lanes) & (nearest < nowhere);
     for (uint32_t i = 0; i < count_; ++i) {
-      const M taken = found & (place == I::splat(static_cast<int32_t>(i)));
+      const M taken = place == I::splat(static_cast<int32_t>(i));
       S::select(taken, F(CrossingPool::kNowhere), distance_of(i)).store(pool_->distance[place_[i]].lane);
     }
-    Next next;
-    next.lanes = found.bits();
-    nearest.store(next.distance.lane);
-    next.transmittance.template store<S>(transmittance);
-    store_words<S>(next.interior, interior);
-    return next;
+    store_words<S>(hits.object, object);
+    nearest.store(hits.distance.lane);
+    u.store(hits.u.lane);
+    v.store(hits.v.lane);
+    transmittance.template store<S>(passes);
+    return (nearest < nowhere).bits();
   }
 
 private:

@@ -133,7 +133,7 @@ private:
   /// What few frames need lies where nodes would.
   static uint32_t resident_nodes(const FrameBlock& frame) {
     static_assert(sizeof(SurfaceLanes) <= sizeof(RayNode));
-    if (has_areas(frame) || (kMarksTranslucent<Spu> ? walks_translucent(frame) : walks_shadows(frame)))
+    if (has_areas(frame) || (kKeepsCrossings<Spu> ? walks_translucent(frame) : walks_shadows(frame)))
       return 0;
     return has_surface_lanes(frame) ? kResident - 1 : kResident;
   }

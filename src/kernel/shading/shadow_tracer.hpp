@@ -5,7 +5,6 @@
 #include "celltrace/spe/one_copy.hpp"
 #include "kernel/accel/traversal.hpp"
 #include "kernel/direct/area_pairs.hpp"
-#include "kernel/direct/shadow_marking.hpp"
 #include "kernel/lights/area_shadow.hpp"
 #include "kernel/shading/ray_tree.hpp"
 #include "kernel/shading/shadow_walk.hpp"
@@ -61,10 +60,8 @@ public:
   /// Answers the queries of a bundle toward a light, of which asks_by_packet() is false. May change their
   /// order.
   void trace(const LightRecord& light, RayQuery* queries, uint32_t count) {
-    if constexpr (kMarksTranslucent<Spu>)
-      if (walk_ != nullptr)
-        return keeps_crossings() ? look_at_crossings(light, queries, count)
-                                 : walk_marked(light, queries, count);
+    if constexpr (kKeepsCrossings<Spu>)
+      if (walk_ != nullptr) return look_at_crossings(light, queries, count);
     traversal_.intersect(queries, count, light);
   }
 
@@ -101,49 +98,16 @@ private:
     }
     if (walk_ == nullptr) return traversal_.transmittance(rays, lanes, distance, colour);
     if (walks_all(light)) return walk_shadows(light, rays, lanes, distance, colour);
-    if constexpr (kMarksTranslucent<Spu>) {
-      if (keeps_crossings()) return look_at_crossings(light, rays, lanes, distance, colour);
-      walk_marked(light, rays, lanes, distance, colour);
-    }
+    if constexpr (kKeepsCrossings<Spu>) look_at_crossings(light, rays, lanes, distance, colour);
   }
-  /// Whether it is enough to know all that a ray crosses, and in which order.
-  bool keeps_crossings() const { return !walks_translucent(frame_) || walks_for_fading(frame_); }
   /// Whether all shadow rays toward a light are walked; otherwise those are that have to be, or none.
   bool walks_all(const LightRecord& light) const {
-    return walk_ != nullptr && (!kMarksTranslucent<Spu> || is_dimmed(light));
+    return walk_ != nullptr && (!kKeepsCrossings<Spu> || is_dimmed(light));
   }
-  /// Answers the queries of a bundle: those of their rays are walked that cross something translucent.
-  CELLTRACE_ONE_COPY void walk_marked(const LightRecord& light, RayQuery* queries, uint32_t count) {
-    VectorLanes marks[kPackets];
-    VectorLanes* colours[kPackets];
-    for (uint32_t i = 0; i < count; ++i) {
-      colours[i] = queries[i].light;
-      queries[i].light = &marks[i];
-    }
-    traversal_.mark_translucent(queries, count, light);
-    for (uint32_t i = 0; i < count; ++i) {
-      VectorLanes& colour = *colours[queries[i].light - marks];
-      walk_some(light, queries[i], colour, marked_lanes<S>(*queries[i].light), colour);
-    }
-  }
-  /// The same for one packet, of which some lanes may be walked without asking.
-  CELLTRACE_ONE_COPY void walk_marked(const LightRecord& light, const RayPacket& rays, uint32_t lanes,
-                                      const FloatLanes& distance, VectorLanes& colour) {
-    const uint32_t inside = lanes & lanes_inside(interiors_);
-    uint32_t walked = marking_.walked_at_once(lanes, inside);
-    VectorLanes marks;
-    RayQuery query = {&rays, nullptr, &distance, &marks, lanes & ~walked};
-    if (query.lanes != 0) {
-      const uint32_t asked = query.lanes;
-      traversal_.mark_translucent(query);
-      const uint32_t marked = marked_lanes<S>(marks);
-      marking_.count(asked, inside, marked);
-      walked |= marked;
-    }
-    walk_some(light, query, colour, walked, colour);
-  }
-  /// Answers the queries of a bundle where order matters: what they cross is kept. Only
-  /// rays are walked that cross more than there is room for.
+  /// Whether what surfaces let through depends on where rays come from: it is found surface by surface.
+  bool lists_crossings() const { return walks_translucent(frame_) && !walks_for_fading(frame_); }
+  /// Answers the queries of a bundle where order matters: what they cross is kept. Only rays are walked that
+  /// cross more than there is room for.
   CELLTRACE_ONE_COPY void look_at_crossings(const LightRecord& light, RayQuery* queries, uint32_t count) {
     CrossingPool pool;
     KeptCrossings<S> crossings[kPackets];
@@ -153,7 +117,7 @@ private:
       crossings[i].begin(*colours[i], pool);
       queries[i].light = &crossings[i];
     }
-    traversal_.keep_crossings(queries, count, light);
+    traversal_.keep_crossings(queries, count, light, lists_crossings());
     for (uint32_t i = 0; i < count; ++i) {
       auto& crossed = static_cast<KeptCrossings<S>&>(*queries[i].light);
       finish(light, queries[i], crossed, *colours[&crossed - crossings]);
@@ -166,39 +130,57 @@ private:
     KeptCrossings<S> crossings;
     crossings.begin(colour, pool);
     RayQuery query = {&rays, nullptr, &distance, &crossings, lanes};
-    traversal_.keep_crossings(query);
+    traversal_.keep_crossings(query, lists_crossings());
     finish(light, query, crossings, colour);
   }
   void finish(const LightRecord& light, const RayQuery& query, KeptCrossings<S>& crossings,
               VectorLanes& colour) {
-    if (walks_for_fading(frame_))
+    if (walks_translucent(frame_))
       pass_crossings(query, crossings);
     else
       crossings.finish();
     walk_some(light, query, crossings, crossings.overflowed, colour);
   }
-  /// Takes rays through the surfaces that they cross, one after the other, as step_shadow_walk() does.
+  /// Takes rays through the surfaces that they cross, one after the other.
   void pass_crossings(const RayQuery& query, KeptCrossings<S>& crossings) {
     if (query.lanes == 0 || crossings.empty()) return;
     ShadowWalk<S>& walk = *walk_;
-    VectorLanes light = crossings;
+    VectorLanes light = crossings, transmittance;
     begin_shadow_walk(scene_.spu(), frame_, interiors_, *query.rays, query.lanes, *query.distance, light,
                       walk);
     F last(0.0f);
-    for (;;) {
-      const auto next = crossings.take(query.lanes);
-      if (next.lanes == 0) break;
-      const F distance = F::load(next.distance.lane), way = distance - last;
-      const uint32_t counts = next.lanes & (way > F(kShadowEpsilon)).bits();
-      last = S::select(S::M::from_bits(next.lanes), distance, last);
-      way.store(walk.hits.distance.lane);
-      fade(scene_, *walk.ray, next.interior, walk.hits.distance, counts, light, true);
-      const V3<S> before = light.template load<S>();
-      light.template store<S>(
-          select<S>(S::M::from_bits(counts), before * next.transmittance.template load<S>(), before));
-      cross_surfaces(scene_, next.interior, counts, *walk.ray, counters_.dropped);
+    while (walk.ray->lanes != 0) {
+      const uint32_t hit = crossings.take(walk.ray->lanes, walk.hits, transmittance);
+      if (hit == 0) break;
+      const F distance = F::load(walk.hits.distance.lane);
+      (distance - last).store(walk.hits.distance.lane);
+      last = S::select(S::M::from_bits(hit), distance, last);
+      if (lists_crossings()) {
+        find_hit_points(scene_, walk.ray->rays, walk.hits, hit, walk.points);
+        step_shadow_walk(scene_, walk, counters_.dropped);
+      } else {
+        pass_surfaces(hit, transmittance, walk);
+      }
     }
     static_cast<VectorLanes&>(crossings) = light;
+  }
+  /// As step_shadow_walk(), where what surfaces let through is known.
+  void pass_surfaces(uint32_t hit, const VectorLanes& transmittance, ShadowWalk<S>& walk) {
+    using I = typename S::I;
+    I interiors = I::splat(0);
+    for_each_value<S>(walk.hits.object, hit, [&](uint32_t object, uint32_t same) {
+      const I of_object = I::splat(static_cast<int32_t>(scene_.object(object)->interior));
+      interiors = S::select(S::M::from_bits(same), of_object, interiors);
+    });
+    WordLanes interior;
+    store_words<S>(interior, interiors);
+    const uint32_t counts = hit & (F::load(walk.hits.distance.lane) > F(kShadowEpsilon)).bits();
+    fade(scene_, *walk.ray, interior, walk.hits.distance, counts, *walk.light, true);
+    const V3<S> before = walk.light->template load<S>();
+    walk.light->template store<S>(
+        select<S>(S::M::from_bits(counts), before * transmittance.template load<S>(), before));
+    cross_surfaces(scene_, interior, counts, *walk.ray, counters_.dropped);
+    walk.ray->lanes = hit;
   }
   /// The light of a query: `answered` in lanes that are left; `walked` lanes are still to be walked.
   void walk_some(const LightRecord& light, const RayQuery& query, const VectorLanes& answered,
@@ -322,7 +304,6 @@ private:
   RayCounters& counters_;
   AreaShadow<S>* area_; ///< null if no light has an area
   ShadowWalk<S>* walk_; ///< null if shadow rays need none
-  [[no_unique_address]] Present<ShadowMarking, kMarksTranslucent<Spu>> marking_;
   [[no_unique_address]] Present<AreaTints, kGathersOccluders<Spu>> tints_;
   const RayInteriors* interiors_ = nullptr;
 };
