@@ -292,6 +292,43 @@ TEST_CASE("Triangles seen from one point are crossed where a single triangle is,
   CHECK(crossed > times(20000));
 }
 
+TEST_CASE("Triangles occlude rays without a division where these cross them") {
+  Random random(16);
+  int crossed = 0, missed = 0;
+  for (int k = 0; k < times(8000); ++k) {
+    const double size = std::pow(10.0, random.uniform(-3, 2));
+    const Vec3 corner = random.point(size);
+    const Subject subject = triangle({corner, corner + random.point(size), corner + random.point(size)});
+    RayPacket rays{};
+    for (unsigned lane = 0; lane < kSimdLanes; ++lane) {
+      const Vec3 from = random.point(4 * size);
+      set(rays.origin, lane, from);
+      set(rays.direction, lane, glm::normalize(corner + random.point(size) - from));
+      rays.start_object.lane[lane] = lane == 3 ? 64 : kNoOffset;
+    }
+    const auto first = static_cast<float>(random.uniform(0, 2 * size)),
+               last = static_cast<float>(random.uniform(2 * size, 8 * size));
+    const Crossings<Simd> c = intersect(rays, subject.record, 64);
+    const SeenTriangle<Simd> seen(rays.origin.load<Simd>(), TriangleSides<Simd>::of(subject.record));
+    const std::uint32_t occluded =
+        seen.crossed_between(rays.direction.load<Simd>(), lanes_that_start_on<Simd>(rays, 64), F(first),
+                             F(last))
+            .bits();
+    const FloatLanes all_u = lanes_of(c.u), all_v = lanes_of(c.v), distance = lanes_of(c.near);
+    for (unsigned lane = 0; lane < kSimdLanes; ++lane) {
+      const double u = all_u.lane[lane], v = all_v.lane[lane], at = distance.lane[lane];
+      // Edges and ends are where rounding has them.
+      const double margin = std::min({std::abs(u), std::abs(v), std::abs(1 - u - v)});
+      if (margin < 2e-3 || std::abs(at - first) < 1e-3 * size || std::abs(at - last) < 1e-3 * size) continue;
+      const bool crosses = (c.near_hit.bits() >> lane & 1) != 0 && at > first && at < last;
+      REQUIRE((occluded >> lane & 1) == (crosses ? 1u : 0u));
+      ++(crosses ? crossed : missed);
+    }
+  }
+  CHECK(crossed > times(3000));
+  CHECK(missed > times(8000));
+}
+
 TEST_CASE("Degenerate rays and triangles hit nothing and make no nonsense") {
   const Subject line = triangle({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}});
   const Subject flat = triangle({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}});

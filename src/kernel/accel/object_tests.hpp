@@ -165,6 +165,30 @@ public:
     }
   }
 
+  /// Removes rays from a query for light that the objects of a leaf occlude, until none of `lanes` is left.
+  void test_occlusion_by_leaf(const NodeRef& leaf, uint32_t lanes, RayQuery& query) {
+    const RayPacket& rays = *query.rays;
+    const V3<S> origin = rays.origin.template load<S>(), direction = rays.direction.template load<S>();
+    const F first(kShadowEpsilon), last = F::load(query.distance->lane) - first;
+    uint32_t triangles = 0;
+    scene_.for_each_object(leaf, [&](uint32_t self) {
+      const ObjectRecord& object = *scene_.object(self);
+      if (kOpaqueTriangle.are_in(object.kind_and_flags)) {
+        ++triangles;
+        const SeenTriangle<S> triangle(origin, TriangleSides<S>::of(object));
+        const uint32_t dark =
+            triangle.crossed_between(direction, lanes_that_start_on<S>(rays, self), first, last).bits() &
+            query.lanes;
+        query.lanes &= ~dark;
+        if (recent_.remembers && dark != 0) recent_.add(self);
+      } else {
+        query.lanes &= ~occluded(rays, self, lanes, *query.distance, *query.light);
+      }
+      return (query.lanes & lanes) == 0;
+    });
+    counters_.tests[static_cast<uint32_t>(ObjectKind::triangle)] += triangles;
+  }
+
   /// Tests the objects that no accelerator has, and so many of the others. They lie before these: as in
   /// POV-Ray, where one is at the same distance as another object, it is what is seen.
   void test_unbounded(const FrameBlock& frame, RayQuery& query, uint32_t others = 0) {

@@ -121,6 +121,7 @@ public:
       if (leaf_word::count(leaf.leaf) >= tuning::kLeastTrianglesByLeaf &&
           __builtin_popcount(group) <= tuning::kMostRaysByLeaf)
         return LeafTests<Spu>(objects_).test(query, group, leaf);
+      if (query.hits == nullptr) return objects_.test_occlusion_by_leaf(leaf, group, query);
     }
     objects_.scene().for_each_object(leaf, [&](uint32_t self) {
       if (query.hits != nullptr) {
