@@ -152,14 +152,8 @@ private:
       const uint32_t octant = octant_of(rays, static_cast<uint32_t>(__builtin_ctz(query.lanes)));
       if ((query.lanes & ~lanes_in_octant<S>(rays, octant)) == 0) return false;
     }
-    MixedVisitor<Spu> visitor = {packet_traversal_,
-                                 objects_,
-                                 query,
-                                 MixedRays<S>(rays),
-                                 packet_traversal_.stack(),
-                                 PacketTraversal<Spu>::tfar_of(query, query.lanes)};
-    visitor.stack.shrink(0);
-    visitor.lanes = query.lanes;
+    MixedStack<S> stack;
+    MixedVisitor<Spu> visitor = {packet_traversal_, objects_, query, MixedRays<S>(rays), stack, query.lanes};
     NodeRef ref = root();
     if constexpr (kGathersTorusPairs<Spu>) objects_.torus_pairs().begin_traversal(query);
     traverse_nodes(visitor, ref);

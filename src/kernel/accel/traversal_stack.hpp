@@ -17,6 +17,19 @@ struct NodeLeaves {
   uint32_t node, leaves; ///< the offset of the node first
 };
 
+/// Where each of four children goes that are pushed by distance: behind those that are farther, and of those
+/// at the same distance behind the first.
+[[gnu::always_inline]] inline void rank_descending(const float (&key)[4], uint32_t (&place)[4]) {
+  for (uint32_t i = 0; i < 4; ++i)
+    place[i] = i;
+  for (uint32_t i = 0; i < 4; ++i)
+    for (uint32_t j = i + 1; j < 4; ++j) {
+      const uint32_t later_is_farther = key[j] > key[i] ? 1 : 0;
+      place[i] += later_is_farther;
+      place[j] -= later_is_farther;
+    }
+}
+
 /// At most `kMaxSplitPackets` packets of a bundle traverse a node separately; each has an entry of its own.
 /// `kLevels`: of nodes. The builder keeps a BVH within 48.
 template <uint32_t kMaxSplitPackets, uint32_t kLevels = 48> class TraversalStack {
@@ -47,14 +60,8 @@ public:
   /// is less than any.
   [[gnu::always_inline]] void push_all(const float (&key)[4], const uint32_t (&lanes)[4],
                                        const uint32_t (&child)[4], const uint32_t (&leaf)[4]) {
-    // Where it goes: behind those that are farther, and of those at the same distance behind the first.
-    uint32_t place[4] = {0, 1, 2, 3};
-    for (uint32_t i = 0; i < 4; ++i)
-      for (uint32_t j = i + 1; j < 4; ++j) {
-        const uint32_t later_is_farther = key[j] > key[i] ? 1 : 0;
-        place[i] += later_is_farther;
-        place[j] -= later_is_farther;
-      }
+    uint32_t place[4];
+    rank_descending(key, place);
     uint32_t count = 0;
     for (uint32_t i = 0; i < 4; ++i) {
       entries_[size_ + place[i]] = {{child[i], leaf[i]}, lanes[i], key[i], 0};

@@ -26,26 +26,14 @@ public:
     inverse_ = {inverse_of(direction.x), inverse_of(direction.y), inverse_of(direction.z)};
   }
 
-  /// The `lanes` that hit each child of a node from `tnear` up to their own `tfar`. `enter` receives the
-  /// least distance to each child that is hit, -1 for the others.
+  /// The rays that hit each child of a node from `tnear` up to their own `tfar`, and where; of children that
+  /// are not there, any.
   [[gnu::always_inline]] void intersect(const float (&bounds)[6][4], float tnear, const F& tfar,
-                                        uint32_t lanes, uint32_t (&hit)[4], float (&enter)[4]) const {
-    const uint32_t present = children_of(bounds);
-    F distance[4];
+                                        uint32_t (&hit)[4], F (&enter)[4]) const {
     for (uint32_t i = 0; i < 4; ++i) {
-      F from(tnear);
-      const auto hits = cross(bounds, i, tfar, from);
-      hit[i] = hits.bits() & lanes & (0u - (present >> i & 1));
-      distance[i] = S::select(hits, from, F(kMaxHitDistance));
+      enter[i] = F(tnear);
+      hit[i] = cross(bounds, i, tfar, enter[i]).bits();
     }
-    S::transpose_quads(distance[0], distance[1], distance[2], distance[3]);
-    FloatLanes least; // lane 4q + i is of child i
-    S::min(S::min(distance[0], distance[1]), S::min(distance[2], distance[3])).store(least.lane);
-    alignas(16) float all[4];
-    const auto quad = [&](uint32_t q) { return F4::load(least.lane + 4 * q); };
-    S::min(S::min(quad(0), quad(1)), S::min(quad(2), quad(3))).store(all);
-    for (uint32_t i = 0; i < 4; ++i)
-      enter[i] = hit[i] != 0 ? all[i] : -1.0f;
   }
 
   /// The lanes that hit child `i` from `tnear` up to their own `tfar`; the node has such a child.
@@ -79,28 +67,81 @@ private:
   V3<S> origin_, inverse_;
 };
 
+/// Nodes and leaves that such rays have still to traverse, the nearest on top, and where each ray enters
+/// them.
+template <class S> class MixedStack {
+public:
+  using F = typename S::F;
+
+  struct Entry {
+    NodeRef ref;
+    uint32_t lanes; ///< rays that hit it
+    uint32_t place; ///< where `enter_` has their distances
+  };
+
+  bool empty() const { return size_ == 0; }
+  const Entry& pop() {
+    const Entry& entry = entries_[--size_];
+    level_ = entry.place / 4 + 1;
+    return entry;
+  }
+  F enter(const Entry& entry) const { return F::load(enter_[entry.place].lane); }
+
+  /// Pushes the children of the node that was popped last which some rays hit, without a branch: in the order
+  /// in which `any` of the rays enters them.
+  [[gnu::always_inline]] void push(const NodeRecord& node, uint32_t any, const uint32_t (&hit)[4],
+                                   const F (&enter)[4]) {
+    // Its siblings' distances are on the level above.
+    const uint32_t first = 4 * level_;
+    for (uint32_t i = 0; i < 4; ++i)
+      enter[i].store(enter_[first + i].lane);
+    float key[4];
+    for (uint32_t i = 0; i < 4; ++i)
+      key[i] = hit[i] != 0 ? enter_[first + i].lane[any] : -1.0f;
+    uint32_t place[4];
+    rank_descending(key, place);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < 4; ++i) {
+      entries_[size_ + place[i]] = {{node.child[i], node.leaf[i]}, hit[i], first + i};
+      count += hit[i] != 0 ? 1 : 0;
+    }
+    size_ += count;
+  }
+
+private:
+  /// The builder keeps a BVH within so many.
+  static constexpr uint32_t kLevels = 48;
+
+  uint32_t size_ = 0, level_ = 0;
+  /// One of a node's entries is popped before its children are pushed, four at a time.
+  Entry entries_[3 * kLevels + 8];
+  FloatLanes enter_[4 * (kLevels + 1)];
+};
+
 /// The traversal, for traverse_nodes().
 template <class Spu> struct MixedVisitor {
   using S = typename Spu::simd;
-  using Stack = typename PacketTraversal<Spu>::Stack;
+  using Traversal = PacketTraversal<Spu>;
 
-  PacketTraversal<Spu>& traversal;
+  Traversal& traversal;
   ObjectTests<Spu>& objects;
   RayQuery& query;
   const MixedRays<S> rays;
-  Stack& stack;
-  float tfar;         ///< the greatest of all rays
-  uint32_t lanes = 0; ///< that hit the node or leaf
+  MixedStack<S>& stack;
+  uint32_t lanes; ///< that hit the node or leaf
 
   [[gnu::always_inline]] bool expand(NodeRef& ref) {
     ++objects.counters().visits;
     const NodeRecord& node = *objects.scene().node(ref.child);
     if (test_leaves(node)) return false;
     uint32_t hit[4];
-    float enter[4];
-    rays.intersect(node.bounds, PacketTraversal<Spu>::tnear(query), PacketTraversal<Spu>::tfar(query),
-                   lanes & query.lanes, hit, enter);
-    stack.push_all(enter, hit, node.child, node.leaf);
+    typename S::F enter[4];
+    rays.intersect(node.bounds, Traversal::tnear(query), Traversal::tfar(query), hit, enter);
+    const uint32_t present = MixedRays<S>::children_of(node.bounds);
+    lanes &= query.lanes;
+    for (uint32_t i = 0; i < 4; ++i)
+      hit[i] &= lanes & (0u - (present >> i & 1));
+    if (lanes != 0) stack.push(node, static_cast<uint32_t>(__builtin_ctz(lanes)), hit, enter);
     return false;
   }
   /// Tests the leaves of a node that has nothing else, one after the other: they are too few for an order to
@@ -111,37 +152,29 @@ template <class Spu> struct MixedVisitor {
     for (uint32_t i = 0; i < 4; ++i)
       inner |= static_cast<uint32_t>(node.leaf[i] == 0) << i;
     if ((present & inner) != 0) return false;
-    using Traversal = PacketTraversal<Spu>;
     for (uint32_t left = present; left != 0; left &= left - 1) {
       const auto i = static_cast<uint32_t>(__builtin_ctz(left));
       const uint32_t hit = rays.hit_child(node.bounds, i, Traversal::tnear(query), Traversal::tfar(query));
       if (const uint32_t group = hit & lanes & query.lanes; group != 0)
         traversal.test_objects({node.child[i], node.leaf[i]}, group, query);
     }
-    shorten();
     return true;
   }
-  [[gnu::always_inline]] void test(const NodeRef& leaf) {
-    traversal.test_objects(leaf, lanes, query);
-    shorten();
-  }
+  [[gnu::always_inline]] void test(const NodeRef& leaf) { traversal.test_objects(leaf, lanes, query); }
   [[gnu::always_inline]] bool next(NodeRef& ref) {
-    while (stack.size() != 0) {
-      const typename Stack::Entry& next = stack.pop();
+    while (!stack.empty()) {
+      const auto& next = stack.pop();
       lanes = next.lanes & query.lanes;
-      if (next.enter > tfar || lanes == 0) continue;
+      // Rays may have hit something in front of it since.
+      if (query.hits != nullptr)
+        lanes &= (stack.enter(next) <= Traversal::tfar(query) * typename S::F(Traversal::kTfarSlack)).bits();
+      if (lanes == 0) continue;
       ref = next.ref;
       return true;
     }
     return false;
   }
   static constexpr bool pauses() { return false; }
-
-private:
-  /// After hits.
-  [[gnu::always_inline]] void shorten() {
-    if (query.hits != nullptr && stack.size() != 0) tfar = PacketTraversal<Spu>::tfar_of(query, query.lanes);
-  }
 };
 
 } // namespace celltrace::kernel
