@@ -223,7 +223,7 @@ TEST_CASE("Of crossings of which some will do there are those") {
         set(rays.direction, lane, direction);
         rays.start_object.lane[lane] = kNoOffset;
       }
-      const auto cross = [&](float enough, float limit) {
+      const auto cross = [&](float enough, float limit, bool any = false) {
         std::vector<std::vector<double>> all(kSimdLanes);
         Crossings<Simd> crossings[kMaxCrossingPairs] = {};
         Primitives::dispatch(record.kind_and_flags & object_flag::kind_mask, [&](auto shape) {
@@ -231,8 +231,9 @@ TEST_CASE("Of crossings of which some will do there are those") {
           if constexpr (Shape::kIsLocal) {
             FloatLanes limits;
             Simd::F(limit).store(limits.lane);
-            Shape::template intersect_local<Simd>(local_rays<Simd>(rays, record, 640, 0, {enough, &limits}),
-                                                  local_parameters<Simd>(record, extra), crossings);
+            Shape::template intersect_local<Simd>(
+                local_rays<Simd>(rays, record, 640, 0, {enough, &limits, any}),
+                local_parameters<Simd>(record, extra), crossings);
             for (unsigned lane = 0; lane < kSimdLanes; ++lane)
               all[lane] = crossings_of(crossings, Shape::kCrossingPairs, lane);
           }
@@ -241,7 +242,7 @@ TEST_CASE("Of crossings of which some will do there are those") {
       };
       const auto limit = static_cast<float>(random.uniform(0, 4));
       const auto all = cross(kEveryCrossing, kEveryCrossing), some = cross(kMinHitDistance, kEveryCrossing),
-                 near = cross(kEveryCrossing, limit);
+                 near = cross(kEveryCrossing, limit), any = cross(kShadowEpsilon, limit, true);
       for (unsigned lane = 0; lane < kSimdLanes; ++lane) {
         const auto in_front = [](const std::vector<double>& crossings) {
           const auto first =
@@ -254,6 +255,14 @@ TEST_CASE("Of crossings of which some will do there are those") {
             const std::vector<double>& found = near[lane];
             REQUIRE(std::find(found.begin(), found.end(), crossing) != found.end());
           }
+        // Unless one is where what is asked for begins or ends.
+        const auto is_asked = [&](double t) { return t > kShadowEpsilon && t < limit - kShadowEpsilon; };
+        const auto is_at_an_end = [&](double t) {
+          return std::abs(t - kShadowEpsilon) < 1e-4 || std::abs(t - (limit - kShadowEpsilon)) < 1e-4;
+        };
+        if (std::none_of(all[lane].begin(), all[lane].end(), is_at_an_end))
+          REQUIRE(std::any_of(any[lane].begin(), any[lane].end(), is_asked) ==
+                  std::any_of(all[lane].begin(), all[lane].end(), is_asked));
       }
     }
   }

@@ -317,7 +317,8 @@ private:
     const bool is_opaque = (flags & object_flag::opaque) != 0;
     if constexpr (kGathersTorusPairs<Spu>)
       if (is_opaque && may_wait(flags) && torus_waits(rays, record, self, distance)) return 0;
-    Other other(*this, rays, record, self, {is_opaque ? kShadowEpsilon : kEveryCrossing, &distance});
+    Other other(*this, rays, record, self,
+                {is_opaque ? kShadowEpsilon : kEveryCrossing, &distance, is_opaque});
     uint32_t dark = 0;
     for (uint32_t pair = 0; pair < other.pairs; ++pair) {
       Crossings<S>& c = other.crossings[pair];
@@ -382,7 +383,7 @@ private:
       const ExtraRecord& extra =
           object.extra == kNoOffset ? room : *keep<Spu>(tests.scene_.extra(object.extra), room);
       if ((object.kind_and_flags & object_flag::csg) != 0) csg = extra.csg;
-      if (csg != kNoOffset) asked.enough = kEveryCrossing;
+      if (csg != kNoOffset) asked = {kEveryCrossing, asked.limit};
       ++tests.counters_.tests[kind];
       tests.scene_.spu().compute(scalar_work::kTestEllipsoid);
       Spu& spu = tests.scene_.spu();

@@ -88,7 +88,7 @@ private:
       if (!is_pair) ratio_.lane[i] = ratio_.lane[0];
     }
     const float nearest = shadows ? kShadowEpsilon : kMinHitDistance;
-    const AskedCrossings asked = {nearest, &limit};
+    const AskedCrossings asked = {nearest, &limit, shadows};
     Crossings<S> crossings[TorusPrimitive::kCrossingPairs];
     TorusPrimitive::intersect_local<S>(
         {origin_.template load<S>(), direction_.template load<S>(), M::from_bits(start_here_), &asked},

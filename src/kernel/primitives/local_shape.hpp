@@ -32,6 +32,9 @@ struct AskedCrossings {
   float enough = kEveryCrossing;
   /// By ray: crossings that are farther than this may be left out. nullptr: none.
   const FloatLanes* limit = nullptr;
+  /// One crossing is enough that is farther than `enough` and kShadowEpsilon nearer than `limit`, and where
+  /// it is does not matter.
+  bool any = false;
 };
 inline constexpr AskedCrossings kAllCrossings;
 

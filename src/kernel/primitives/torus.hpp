@@ -20,7 +20,7 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
   static void intersect_local(const LocalRays<S>& rays, const LocalParameters<S>& parameters,
                               Crossings<S>* crossings) {
     using F = typename S::F;
-    const F zero(0.0f), one(1.0f), two(2.0f), four(4.0f);
+    const F zero(0.0f), one(1.0f);
     const auto near_enough = may_hit<S>(rays, parameters.ratio);
     if (near_enough.bits() == 0) {
       for (uint32_t pair = 0; pair < kCrossingPairs; ++pair)
@@ -32,19 +32,20 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
     const F shift = -dot<S>(rays.origin, d);
     const V3<S> o = rays.origin + d * shift;
     const F square = dot<S>(o, o);
-    const F g = square + one - parameters.ratio * parameters.ratio;
-    Quartic<S> f;
-    f.origin = o;
-    f.direction = d;
-    f.inner = one - parameters.ratio;
-    f.outer = one + parameters.ratio;
-    f.thin = parameters.ratio < F(kThin);
-    f.p = two * g - four * (d.x * d.x + d.y * d.y);
-    f.q = F(-8.0f) * (o.x * d.x + o.y * d.y);
-    f.r = g * g - four * (o.x * o.x + o.y * o.y);
+    const Quartic<S> f(o, d, square, parameters.ratio);
     // A little farther, where the ray is outside for certain.
     const F end = S::sqrt(S::max(f.outer * f.outer - square, zero)) * F(1.001f) + F(1e-4f);
     F bounds[5] = {-end, zero, zero, zero, end};
+    if constexpr (S::kLanes == kSimdLanes)
+      if (rays.asked->any && (rays.starts_here & near_enough).bits() == 0) {
+        const F first = S::max(F(rays.asked->enough) * scale - shift, -end);
+        const F last = S::min((F::load(rays.asked->limit->lane) - F(kShadowEpsilon)) * scale - shift, end);
+        for (uint32_t pair = 0; pair < kCrossingPairs; ++pair)
+          crossings[pair].clear();
+        crossings[0].near_hit = near_enough & f.crosses(near_enough & (first < last), first, last);
+        crossings[0].near = F(rays.asked->enough) * F(1.001f);
+        return;
+      }
     f.stationary_points(near_enough, bounds[1], bounds[2], bounds[3]);
     for (int i = 1; i < 4; ++i)
       bounds[i] = S::min(S::max(bounds[i], -end), end);
@@ -147,6 +148,34 @@ private:
     V3<S> origin, direction;
     F inner, outer, p, q, r; ///< the first two are radii of the torus
     typename S::M thin;      ///< tori
+
+    /// Of rays whose nearest point to the centre is `o`, of which that is the `square` of the distance.
+    Quartic(const V3<S>& o, const V3<S>& d, const F& square, const F& ratio) : origin(o), direction(d) {
+      const F one(1.0f), two(2.0f), four(4.0f);
+      const F g = square + one - ratio * ratio;
+      inner = one - ratio;
+      outer = one + ratio;
+      thin = ratio < F(kThin);
+      p = two * g - four * (d.x * d.x + d.y * d.y);
+      q = F(-8.0f) * (o.x * d.x + o.y * d.y);
+      r = g * g - four * (o.x * o.x + o.y * o.y);
+    }
+
+    /// Which of the rays `wanted` have a zero between `first` and `last`: between the places where the slope
+    /// is 0 the sign changes, or it does not.
+    typename S::M crosses(const typename S::M& wanted, const F& first, const F& last) const {
+      const F zero(0.0f);
+      const uint32_t inside = (at(first) < zero).bits();
+      uint32_t changes = inside ^ (at(last) < zero).bits();
+      const auto unknown = wanted & S::M::from_bits(~changes & 0xFFFF);
+      if (unknown.bits() != 0) {
+        F place[3];
+        stationary_points(unknown, place[0], place[1], place[2]);
+        for (const F& t : place)
+          changes |= inside ^ (at(S::min(S::max(t, first), last)) < zero).bits();
+      }
+      return wanted & S::M::from_bits(changes & 0xFFFF);
+    }
 
     /// Of a thin torus from the point: r is the difference of numbers of which the square of a thin tube is
     /// too small a part. The first factor is that of the tube on the axis's side of the point. Where rays are
