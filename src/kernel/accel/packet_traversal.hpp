@@ -118,10 +118,11 @@ public:
   /// Tests the objects of a leaf, which the rays in `group` hit.
   void test_objects(const NodeRef& leaf, uint32_t group, RayQuery& query) {
     if constexpr (kTestsWholeLeaves<Spu>) {
-      if (leaf_word::count(leaf.leaf) >= tuning::kLeastTrianglesByLeaf &&
-          __builtin_popcount(group) <= tuning::kMostRaysByLeaf)
-        return LeafTests<Spu>(objects_).test(query, group, leaf);
-      if (query.hits == nullptr) return objects_.test_occlusion_by_leaf(leaf, group, query);
+      if (leaf_word::count(leaf.leaf) >= tuning::kLeastTrianglesByLeaf) {
+        if (__builtin_popcount(group) <= tuning::kMostRaysByLeaf)
+          return LeafTests<Spu>(objects_).test(query, group, leaf);
+        if (query.hits == nullptr) return objects_.test_occlusion_by_leaf(leaf, group, query);
+      }
     }
     objects_.scene().for_each_object(leaf, [&](uint32_t self) {
       if (query.hits != nullptr) {
