@@ -42,7 +42,7 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
         const F last = S::min((F::load(rays.asked->limit->lane) - F(kShadowEpsilon)) * scale - shift, end);
         for (uint32_t pair = 0; pair < kCrossingPairs; ++pair)
           crossings[pair].clear();
-        crossings[0].near_hit = near_enough & f.crosses(near_enough & (first < last), first, last);
+        crossings[0].near_hit = f.crosses(near_enough & (first < last), first, last);
         crossings[0].near = F(rays.asked->enough) * F(1.001f);
         return;
       }

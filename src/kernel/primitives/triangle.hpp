@@ -72,7 +72,7 @@ public:
   }
 
   /// Which rays of these directions cross it between the distances `first` and `last`. Everything is compared
-  /// times the determinant: a division takes longer than all the rest.
+  /// times the determinant, so that nothing has to be divided by it.
   [[gnu::always_inline]] typename S::M crossed_between(const V3<S>& direction,
                                                        const typename S::M& starts_here, const F& first,
                                                        const F& last) const {
