@@ -50,6 +50,7 @@ struct Sampling {
   WordLanes objects{};
   ShadowRays to_place;
   std::unique_ptr<AreaShadow<Simd>> shadow = std::make_unique<AreaShadow<Simd>>();
+  std::unique_ptr<LightGrid> grid = std::make_unique<LightGrid>();
   LightRecord record;
   std::uint32_t facing = 0;
 
@@ -72,7 +73,7 @@ struct Sampling {
     return sample(lanes,
                   [&](const Surfaces<Simd>& surfaces, const IncidentLight<Simd>& incident, VectorLanes& sum) {
                     begin_sampling(spu, record, surfaces, incident, to_place, *shadow);
-                    AreaPairs<DirectSpu>(record, *shadow).sample(unoccluded);
+                    AreaPairs<DirectSpu>(record, *grid, *shadow).sample(unoccluded);
                     module_areas::dim(spu, *shadow, sum);
                   });
   }
@@ -280,8 +281,9 @@ TEST_CASE("Places are not tested in pairs where light comes tinted, or there are
     return lanes;
   };
   sampling.shadow->quad = LightQuad::whole(sampling.record, 0xFFFF);
-  CHECK_FALSE(
-      AreaPairs<DirectSpu>(sampling.record, *sampling.shadow).sample(some, [&] { return is_tinted; }));
+  CHECK_FALSE(AreaPairs<DirectSpu>(sampling.record, *sampling.grid, *sampling.shadow).sample(some, [&] {
+    return is_tinted;
+  }));
   light.area->rows = 60;
   CHECK_FALSE(AreaPairs<DirectSpu>::can_sample(make_record(light)));
 }

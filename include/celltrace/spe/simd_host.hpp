@@ -395,6 +395,11 @@ template <class Arch> struct HostSimd {
     return I::load(numbers);
   }
   static uint32_t spread(uint32_t bits, uint32_t lanes) {
+#if defined(__AVX512DQ__)
+    if constexpr (kParts == 1)
+      return _mm512_movepi32_mask(_mm512_maskz_expand_epi32(static_cast<__mmask16>(lanes),
+                                                            _mm512_movm_epi32(static_cast<__mmask16>(bits))));
+#endif
     uint32_t result = 0;
     for (; lanes != 0; lanes &= lanes - 1, bits >>= 1)
       result |= (lanes & -lanes) & -(bits & 1);

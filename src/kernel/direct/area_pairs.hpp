@@ -11,6 +11,35 @@
 
 namespace celltrace::kernel {
 
+/// Where the places of a light are on its grid.
+class LightGrid {
+public:
+  struct Place {
+    float column, row, jitter_x, jitter_y;
+  };
+
+  static bool has_room_for(const LightRecord& light) { return light.columns * light.rows <= kMostPlaces; }
+  static constexpr uint32_t kMostPlaces = 17 * 17;
+
+  /// Those of a light, in rows. They stay until the next call.
+  const Place* places_of(const LightRecord& light) {
+    if (light.columns == columns_ && light.rows == rows_) return places_;
+    columns_ = light.columns;
+    rows_ = light.rows;
+    Place* place = places_;
+    for (uint32_t row = 0; row < rows_; ++row)
+      for (uint32_t column = 0; column < columns_; ++column) {
+        const module_areas::PlaceJitter jitter({column, row});
+        *place++ = {static_cast<float>(column), static_cast<float>(row), jitter.x, jitter.y};
+      }
+    return places_;
+  }
+
+private:
+  uint32_t columns_ = 0, rows_ = 0;
+  Place places_[kMostPlaces];
+};
+
 template <class Spu> class AreaPairs {
 public:
   using S = typename Spu::simd;
@@ -19,11 +48,11 @@ public:
 
   /// Whether it samples a light: not if that is parallel, or has more places than there is room for.
   static bool can_sample(const LightRecord& light) {
-    return light.columns * light.rows <= kMostPlaces && !is_parallel(light);
+    return LightGrid::has_room_for(light) && !is_parallel(light);
   }
 
-  AreaPairs(const LightRecord& light, AreaShadow<S>& area)
-      : light_(light), area_(area), columns_(light.columns) {
+  AreaPairs(const LightRecord& light, LightGrid& grid, AreaShadow<S>& area)
+      : light_(light), area_(area), grid_(grid.places_of(light)), columns_(light.columns) {
     const uint32_t places = light.columns * light.rows;
     for (uint32_t i = 0; i < places; ++i)
       places_[i] = {0, 0};
@@ -59,7 +88,7 @@ public:
 
 private:
   static constexpr uint32_t kCorners = AreaShadow<S>::kCorners;
-  static constexpr uint32_t kMostPlaces = 17 * 17;
+  static constexpr uint32_t kMostPlaces = LightGrid::kMostPlaces;
 
   /// Lanes.
   struct Place {
@@ -84,26 +113,23 @@ private:
     const Corners corners = corners_of(q);
     for (uint32_t i = 0; i < kCorners; ++i) {
       const uint32_t lanes = q.lanes & ~uint32_t(corners.place[i]->asked);
-      if (lanes != 0) ask(*corners.place[i], q.corner(i), lanes, unoccluded);
+      if (lanes != 0) ask(*corners.place[i], lanes, unoccluded);
     }
   }
-  template <class Unoccluded>
-  void ask(Place& place, const LightPlace& of, uint32_t lanes, const Unoccluded& unoccluded) {
+  template <class Unoccluded> void ask(Place& place, uint32_t lanes, const Unoccluded& unoccluded) {
     place.asked |= static_cast<uint16_t>(lanes);
     const auto count = static_cast<uint32_t>(__builtin_popcount(lanes));
     area_.rays_asked += count;
+    const LightGrid::Place& on_grid = grid_[&place - places_];
     if (count >= tuning::kLeastSurfacesByThemselves) {
-      place.lit |= static_cast<uint16_t>(test_place(of, lanes, unoccluded));
+      place.lit |= static_cast<uint16_t>(test_place(on_grid, lanes, unoccluded));
       return;
     }
     S::lane_numbers(lanes).store_unaligned(lane_ + pairs_);
-    F(static_cast<float>(of.column)).store_unaligned(column_ + pairs_);
-    F(static_cast<float>(of.row)).store_unaligned(row_ + pairs_);
-    if (is_jittered()) {
-      const module_areas::PlaceJitter jitter(of);
-      F(jitter.x).store_unaligned(jitter_x_ + pairs_);
-      F(jitter.y).store_unaligned(jitter_y_ + pairs_);
-    }
+    F(on_grid.column).store_unaligned(column_ + pairs_);
+    F(on_grid.row).store_unaligned(row_ + pairs_);
+    F(on_grid.jitter_x).store_unaligned(jitter_x_ + pairs_);
+    F(on_grid.jitter_y).store_unaligned(jitter_y_ + pairs_);
     runs_[run_count_++] = {&place, lanes, pairs_};
     pairs_ += count;
     if (pairs_ >= S::kLanes) test_pairs(unoccluded);
@@ -111,12 +137,18 @@ private:
 
   /// Returns those of many lanes to which light comes from one place.
   template <class Unoccluded>
-  [[gnu::noinline]] uint32_t test_place(const LightPlace& place, uint32_t lanes,
+  [[gnu::noinline]] uint32_t test_place(const LightGrid::Place& place, uint32_t lanes,
                                         const Unoccluded& unoccluded) {
     ShadowRays& rays = *area_.to_place;
     const V3<S> to_middle = area_.to_middle.template load<S>();
+    F column(place.column), row(place.row);
+    if (is_jittered()) {
+      using module_areas::jitter;
+      column = column + jitter<S>(F::load(detail::kJitterX) + F(place.jitter_x));
+      row = row + jitter<S>(F::load(detail::kJitterY) + F(place.jitter_y));
+    }
     IncidentLight<S> from_place;
-    from_place.set_ray(to_middle + module_areas::offset_of<S>(light_, to_middle, place, 0));
+    from_place.set_ray(to_middle + module_areas::offset_at<S>(light_, to_middle, column, row));
     rays.rays.direction.template store<S>(from_place.direction);
     from_place.distance.store(rays.distance.lane);
     return unoccluded(rays.rays, lanes, rays.distance);
@@ -179,6 +211,7 @@ private:
 
   const LightRecord& light_;
   AreaShadow<S>& area_;
+  const LightGrid::Place* const grid_;
   const uint32_t columns_;
   Place places_[kMostPlaces];
   LightQuad quads_[2][kMostPlaces]; ///< of a size each by turns: never more than 256

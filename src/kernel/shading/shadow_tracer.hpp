@@ -231,7 +231,7 @@ private:
           return traversal_.unoccluded(rays, some, distance, area.light(), occluders);
         };
         if (AreaPairs<Spu>::can_sample(light)) {
-          AreaPairs<Spu>(light, area).sample(unoccluded);
+          AreaPairs<Spu>(light, grid_, area).sample(unoccluded);
         } else {
           while (next_place(scene_.spu(), light, area))
             answer(area, unoccluded(area.to_place->rays, area.lanes, area.to_place->distance));
@@ -286,7 +286,7 @@ private:
       return lanes & lit;
     };
     const uint32_t asked = area.rays_asked;
-    const bool found = AreaPairs<Spu>(light, area).sample(unoccluded, [&] { return tinted != 0; });
+    const bool found = AreaPairs<Spu>(light, grid_, area).sample(unoccluded, [&] { return tinted != 0; });
     tints_.count(!found);
     if (found) return true;
     area.rays_asked = asked;
@@ -305,6 +305,7 @@ private:
   AreaShadow<S>* area_; ///< null if no light has an area
   ShadowWalk<S>* walk_; ///< null if shadow rays need none
   [[no_unique_address]] Present<AreaTints, kGathersOccluders<Spu>> tints_;
+  [[no_unique_address]] Present<LightGrid, kGathersOccluders<Spu>> grid_;
   const RayInteriors* interiors_ = nullptr;
 };
 
