@@ -1,8 +1,11 @@
 // Every shape against what its inside says, in double precision: a ray crosses the surface where it changes
 // from inside to outside. Shapes are placed at random, as a Scene places them.
 #include "kernel/accel/object_bounds.hpp"
+#include "kernel/accel/object_tests.hpp"
 #include "kernel/primitives/shapes_module.hpp"
 #include "lanes.hpp"
+#include "prepared_scene.hpp"
+#include "render/scenes.hpp"
 #include "scene/shapes.hpp"
 
 #include <catch2/catch.hpp>
@@ -10,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 
 using namespace celltrace;
 using namespace celltrace::kernel;
@@ -223,26 +227,34 @@ TEST_CASE("Of crossings of which some will do there are those") {
         set(rays.direction, lane, direction);
         rays.start_object.lane[lane] = kNoOffset;
       }
-      const auto cross = [&](float enough, float limit, bool any = false) {
+      std::uint32_t any = 0; // rays that cross it, without their crossings
+      const auto limit = static_cast<float>(random.uniform(0, 4));
+      const auto cross = [&](float enough, float farthest) {
         std::vector<std::vector<double>> all(kSimdLanes);
         Crossings<Simd> crossings[kMaxCrossingPairs] = {};
         Primitives::dispatch(record.kind_and_flags & object_flag::kind_mask, [&](auto shape) {
           using Shape = decltype(shape);
           if constexpr (Shape::kIsLocal) {
             FloatLanes limits;
-            Simd::F(limit).store(limits.lane);
-            Shape::template intersect_local<Simd>(
-                local_rays<Simd>(rays, record, 640, 0, {enough, &limits, any}),
-                local_parameters<Simd>(record, extra), crossings);
+            Simd::F(farthest).store(limits.lane);
+            Shape::template intersect_local<Simd>(local_rays<Simd>(rays, record, 640, 0, {enough, &limits}),
+                                                  local_parameters<Simd>(record, extra), crossings);
             for (unsigned lane = 0; lane < kSimdLanes; ++lane)
               all[lane] = crossings_of(crossings, Shape::kCrossingPairs, lane);
           }
         });
         return all;
       };
-      const auto limit = static_cast<float>(random.uniform(0, 4));
       const auto all = cross(kEveryCrossing, kEveryCrossing), some = cross(kMinHitDistance, kEveryCrossing),
-                 near = cross(kEveryCrossing, limit), any = cross(kShadowEpsilon, limit, true);
+                 near = cross(kEveryCrossing, limit);
+      const bool is_torus = subject_kind(subject) == kPrimitiveKind<TorusPrimitive>;
+      if (is_torus) {
+        FloatLanes limits;
+        Simd::F(limit).store(limits.lane);
+        any = TorusPrimitive::crossed<Simd>(local_rays<Simd>(rays, record, 640, 0, {kShadowEpsilon, &limits}),
+                                            Simd::F(extra.value[0]), nullptr)
+                  .bits();
+      }
       for (unsigned lane = 0; lane < kSimdLanes; ++lane) {
         const auto in_front = [](const std::vector<double>& crossings) {
           const auto first =
@@ -260,12 +272,86 @@ TEST_CASE("Of crossings of which some will do there are those") {
         const auto is_at_an_end = [&](double t) {
           return std::abs(t - kShadowEpsilon) < 1e-4 || std::abs(t - (limit - kShadowEpsilon)) < 1e-4;
         };
-        if (std::none_of(all[lane].begin(), all[lane].end(), is_at_an_end))
-          REQUIRE(std::any_of(any[lane].begin(), any[lane].end(), is_asked) ==
-                  std::any_of(all[lane].begin(), all[lane].end(), is_asked));
+        if (is_torus && std::none_of(all[lane].begin(), all[lane].end(), is_at_an_end))
+          REQUIRE((any >> lane & 1) == std::any_of(all[lane].begin(), all[lane].end(), is_asked));
       }
     }
   }
+}
+
+TEST_CASE("Tori that a box clips occlude rays where these cross them on the side that is kept") {
+  Random random(160);
+  int occluded = 0, clipped = 0, off = 0, compared = 0;
+  for (int round = 0; round < times(300); ++round) {
+    Object torus, box;
+    torus.shape = Torus{random.uniform(0.5, 1), random.uniform(0.02, 0.6)};
+    torus.transform = random_transform(random);
+    const Vec3 corner = random.point(1);
+    box.shape = Box{corner, corner + glm::abs(random.point(2)) + Vec3(0.1, 0.1, 0.1)};
+    box.transform = torus.transform;
+    Scene scene;
+    scene.add(matte({1, 1, 1}));
+    scene.add(Interior{});
+    const int kind = static_cast<int>(random.below(3));
+    if (kind == 2) {
+      torus.clipped_by = std::make_shared<const std::vector<Object>>(std::vector<Object>{box});
+      scene.objects = {torus};
+    } else {
+      Object csg;
+      csg.shape = std::make_shared<const Csg>(
+          Csg{kind == 0 ? Csg::Operation::difference : Csg::Operation::intersection, {torus, box}});
+      scene.objects = {csg};
+    }
+    const PreparedScene prepared(scene);
+    DirectSpu spu;
+    SceneAccess<DirectSpu> access(spu, CacheConfig::off(), prepared.frame().image);
+    const auto tests = std::make_unique<ObjectTests<DirectSpu>>(access);
+    RayPacket rays;
+    FloatLanes distance;
+    for (unsigned lane = 0; lane < kSimdLanes; ++lane) {
+      const Vec3 direction = random.direction();
+      set(rays.origin, lane, torus.transform.point(random.point(1.2)) - direction * random.uniform(0, 3));
+      set(rays.direction, lane, direction);
+      rays.start_object.lane[lane] = kNoOffset;
+      distance.lane[lane] = static_cast<float>(random.uniform(0.5, 6));
+    }
+    for (std::uint32_t i = 0; i < prepared.object_count(); ++i) {
+      const ObjectRecord& object = prepared.object(i);
+      if ((object.kind_and_flags & object_flag::kind_mask) != kPrimitiveKind<TorusPrimitive>) continue;
+      REQUIRE((object.kind_and_flags & object_flag::csg) != 0);
+      ClippedRays room;
+      REQUIRE(clip_rays(access, prepared.record<ExtraRecord>(object.extra).csg, rays, room));
+      HitPacket hits;
+      Simd::F(kMaxHitDistance).store(hits.distance.lane);
+      VectorLanes light;
+      tests->hit_filter().begin_packet();
+      tests->test_closest(rays, prepared.object_offset(i), hits);
+      tests->hit_filter().begin_packet();
+      const std::uint32_t dark = tests->occluded(rays, prepared.object_offset(i), 0xFFFF, distance, light);
+      tests->hit_filter().begin_packet();
+      Crossings<Simd> all[kMaxCrossingPairs];
+      TorusPrimitive::intersect_local<Simd>(
+          local_rays<Simd>(rays, object, kNoOffset - 64),
+          local_parameters<Simd>(object, prepared.record<ExtraRecord>(object.extra)), all);
+      for (unsigned lane = 0; lane < kSimdLanes; ++lane) {
+        // Unless it is where what is asked for begins or ends.
+        const double hit = hits.distance.lane[lane], last = distance.lane[lane] - kShadowEpsilon;
+        if (std::abs(hit - kShadowEpsilon) < 1e-3 || std::abs(hit - last) < 1e-3) continue;
+        const bool is_dark = (dark >> lane & 1) != 0;
+        off += is_dark != (hit > kShadowEpsilon && hit < last);
+        occluded += is_dark;
+        bool crosses = false;
+        for (const double at : crossings_of(all, TorusPrimitive::kCrossingPairs, lane))
+          crosses |= at > kShadowEpsilon && at < last;
+        clipped += crosses && !is_dark;
+        ++compared;
+      }
+    }
+  }
+  // Where a ray crosses the torus at a face of the box, rounding decides.
+  CHECK(off <= compared / 2000);
+  CHECK(occluded > times(300));
+  CHECK(clipped > times(100));
 }
 
 TEST_CASE("Rays that start on a shape do not cross it there") {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "celltrace/spe/one_copy.hpp"
+#include "kernel/direct/clipping.hpp"
 #include "kernel/direct/kept_crossings.hpp"
 #include "kernel/direct/recent_occluders.hpp"
 #include "kernel/direct/torus_pairs.hpp"
@@ -289,7 +290,7 @@ private:
     if constexpr (kGathersTorusPairs<Spu>)
       if (may_wait(flags) && torus_waits(rays, record, self, hits.distance)) return;
     const uint32_t blind = blind_lanes(flags, reflected_);
-    Other other(*this, rays, record, self, {kMinHitDistance, &hits.distance});
+    Other other(*this, rays, record, self, kMinHitDistance, hits.distance);
     for (uint32_t pair = 0; pair < other.pairs; ++pair) {
       Crossings<S>& c = other.crossings[pair];
       if ((c.near_hit | c.far_hit).bits() == 0) continue;
@@ -317,8 +318,13 @@ private:
     const bool is_opaque = (flags & object_flag::opaque) != 0;
     if constexpr (kGathersTorusPairs<Spu>)
       if (is_opaque && may_wait(flags) && torus_waits(rays, record, self, distance)) return 0;
-    Other other(*this, rays, record, self,
-                {is_opaque ? kShadowEpsilon : kEveryCrossing, &distance, is_opaque});
+    if constexpr (kHasRoomForCode<Spu>)
+      if (is_opaque && (flags & object_flag::kind_mask) == kPrimitiveKind<TorusPrimitive> &&
+          lanes_that_start_on<S>(rays, self).bits() == 0) {
+        uint32_t dark;
+        if (occluded_by_torus(rays, record, self, distance, dark)) return dark;
+      }
+    Other other(*this, rays, record, self, is_opaque ? kShadowEpsilon : kEveryCrossing, distance);
     uint32_t dark = 0;
     for (uint32_t pair = 0; pair < other.pairs; ++pair) {
       Crossings<S>& c = other.crossings[pair];
@@ -344,6 +350,24 @@ private:
                           self))
       return false;
     ++counters_.tests[kPrimitiveKind<TorusPrimitive>];
+    return true;
+  }
+
+  /// Finds the lanes that an opaque torus occludes, off which none of them starts. False: its CSG's condition
+  /// is none that is known before the crossings are.
+  [[gnu::noinline]] bool occluded_by_torus(const RayPacket& rays, const ObjectRecord& torus, uint32_t self,
+                                           const FloatLanes& distance, uint32_t& dark) {
+    const ExtraRecord& extra = *scene_.extra(torus.extra);
+    ClippedRays room;
+    const ClippedRays* clipped = nullptr;
+    if ((torus.kind_and_flags & object_flag::csg) != 0 && extra.csg != kNoOffset) {
+      if (!clip_rays(scene_, extra.csg, rays, room)) return false;
+      clipped = &room;
+    }
+    ++counters_.tests[kPrimitiveKind<TorusPrimitive>];
+    const AskedCrossings asked = {kShadowEpsilon, &distance};
+    dark = TorusPrimitive::crossed<S>(local_rays<S>(rays, torus, self, 0, asked), F(extra.value[0]), clipped)
+               .bits();
     return true;
   }
 
@@ -373,9 +397,9 @@ private:
     uint32_t pairs = 1;
     uint32_t csg = kNoOffset; ///< offset of its condition
 
-    /// Those that are asked for; of an object that is a part of a CSG one is not enough.
-    Other(ObjectTests& tests, const RayPacket& rays, const ObjectRecord& record, uint32_t self,
-          AskedCrossings asked) {
+    /// Those up to `limit`, of which one beyond `enough` may do; not of an object that is a part of a CSG.
+    Other(ObjectTests& tests, const RayPacket& rays, const ObjectRecord& record, uint32_t self, float enough,
+          const FloatLanes& limit) {
       Kept<Spu, ObjectRecord> object = record;
       const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
       ExtraRecord room;
@@ -383,7 +407,7 @@ private:
       const ExtraRecord& extra =
           object.extra == kNoOffset ? room : *keep<Spu>(tests.scene_.extra(object.extra), room);
       if ((object.kind_and_flags & object_flag::csg) != 0) csg = extra.csg;
-      if (csg != kNoOffset) asked = {kEveryCrossing, asked.limit};
+      const AskedCrossings asked = {csg != kNoOffset ? kEveryCrossing : enough, &limit};
       ++tests.counters_.tests[kind];
       tests.scene_.spu().compute(scalar_work::kTestEllipsoid);
       Spu& spu = tests.scene_.spu();

@@ -88,12 +88,16 @@ private:
       if (!is_pair) ratio_.lane[i] = ratio_.lane[0];
     }
     const float nearest = shadows ? kShadowEpsilon : kMinHitDistance;
-    const AskedCrossings asked = {nearest, &limit, shadows};
-    Crossings<S> crossings[TorusPrimitive::kCrossingPairs];
-    TorusPrimitive::intersect_local<S>(
-        {origin_.template load<S>(), direction_.template load<S>(), M::from_bits(start_here_), &asked},
-        {F::load(ratio_.lane), F(0.0f), M::none()}, crossings);
+    const AskedCrossings asked = {nearest, &limit};
+    const LocalRays<S> rays = {origin_.template load<S>(), direction_.template load<S>(),
+                               M::from_bits(start_here_), &asked};
+    const F ratio = F::load(ratio_.lane);
+    const bool start_elsewhere = start_here_ == 0;
     start_here_ = 0;
+    if (shadows && start_elsewhere)
+      return occlude(TorusPrimitive::crossed<S>(rays, ratio, nullptr).bits() & all);
+    Crossings<S> crossings[TorusPrimitive::kCrossingPairs];
+    TorusPrimitive::intersect_local<S>(rays, {ratio, F(0.0f), M::none()}, crossings);
     F at(kEveryCrossing);
     const auto take = [&](const M& hit, const F& distance) {
       at = S::min(at, S::select(hit & (distance > F(nearest)), distance, F(kEveryCrossing)));

@@ -11,18 +11,24 @@ struct BoxPrimitive : LocalPrimitive<BoxPrimitive> {
   static constexpr bool kHasParameters = false;
   static constexpr bool kHasFaces = true;
 
-  /// The slab test (Kay and Kajiya 1986).
+  /// The slab test (Kay and Kajiya 1986): where rays enter the box and where they leave it. Those that miss
+  /// it leave it before they enter it.
+  template <class S>
+  [[gnu::always_inline]] static SlabInterval<S> slabs_along(const V3<S>& o, const V3<S>& d) {
+    using F = typename S::F;
+    const F low(-1.0f), high(1.0f);
+    const SlabInterval<S> x(o.x, d.x, low, high), y(o.y, d.y, low, high), z(o.z, d.z, low, high);
+    return {S::max(S::max(x.enter, y.enter), z.enter), S::min(S::min(x.leave, y.leave), z.leave)};
+  }
+
   template <class S>
   static void intersect_local(const LocalRays<S>& rays, const LocalParameters<S>& parameters,
                               Crossings<S>* crossings) {
-    using F = typename S::F;
-    const F low(-1.0f), high(1.0f);
-    const V3<S>&o = rays.origin, &d = rays.direction;
-    const SlabInterval<S> x(o.x, d.x, low, high), y(o.y, d.y, low, high), z(o.z, d.z, low, high);
+    const SlabInterval<S> inside = slabs_along<S>(rays.origin, rays.direction);
     Crossings<S>& c = *crossings;
     c.clear();
-    c.near = S::max(S::max(x.enter, y.enter), z.enter);
-    c.far = S::min(S::min(x.leave, y.leave), z.leave);
+    c.near = inside.enter;
+    c.far = inside.leave;
     c.near_hit = c.far_hit = c.near <= c.far;
     drop_start<BoxPrimitive, S>(rays, parameters, c);
   }

@@ -26,15 +26,19 @@ template <class S> struct LocalParameters {
   typename S::M open;   ///< cylinders and cones without caps
 };
 
+/// By ray, where it enters a convex solid and where it leaves it: of crossings those are asked for that are
+/// inside, or that are not. Of rays that miss the solid `enter` is beyond `leave`.
+struct ClippedRays {
+  FloatLanes enter, leave;
+  bool keeps_inside;
+};
+
 /// Which of a ray's crossings are asked for.
 struct AskedCrossings {
   /// After the first crossing that is farther than this the others may be left out.
   float enough = kEveryCrossing;
   /// By ray: crossings that are farther than this may be left out. nullptr: none.
   const FloatLanes* limit = nullptr;
-  /// One crossing is enough that is farther than `enough` and kShadowEpsilon nearer than `limit`, and where
-  /// it is does not matter.
-  bool any = false;
 };
 inline constexpr AskedCrossings kAllCrossings;
 
@@ -98,6 +102,7 @@ off_parallel_plane(const typename S::F& at, const typename S::F& along, float mi
 template <class S> struct SlabInterval {
   typename S::F enter, leave;
 
+  SlabInterval(const typename S::F& enters, const typename S::F& leaves) : enter(enters), leave(leaves) {}
   SlabInterval(const typename S::F& origin, const typename S::F& direction, const typename S::F& low,
                const typename S::F& high) {
     const typename S::F inverse = finite_inverse<S>(direction);

@@ -27,29 +27,13 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
         crossings[pair].clear();
       return;
     }
-    const F scale = S::sqrt(S::max(dot<S>(rays.direction, rays.direction), F(1e-30f)));
-    const V3<S> d = rays.direction * (one / scale);
-    const F shift = -dot<S>(rays.origin, d);
-    const V3<S> o = rays.origin + d * shift;
-    const F square = dot<S>(o, o);
-    const Quartic<S> f(o, d, square, parameters.ratio);
-    // A little farther, where the ray is outside for certain.
-    const F end = S::sqrt(S::max(f.outer * f.outer - square, zero)) * F(1.001f) + F(1e-4f);
+    const FromCentre<S> from_centre(rays);
+    const Quartic<S> f(from_centre, parameters.ratio);
+    const F end = f.end();
     F bounds[5] = {-end, zero, zero, zero, end};
-    if constexpr (S::kLanes == kSimdLanes)
-      if (rays.asked->any && (rays.starts_here & near_enough).bits() == 0) {
-        const F first = S::max(F(rays.asked->enough) * scale - shift, -end);
-        const F last = S::min((F::load(rays.asked->limit->lane) - F(kShadowEpsilon)) * scale - shift, end);
-        for (uint32_t pair = 0; pair < kCrossingPairs; ++pair)
-          crossings[pair].clear();
-        crossings[0].near_hit = f.crosses(near_enough & (first < last), first, last);
-        crossings[0].near = F(rays.asked->enough) * F(1.001f);
-        return;
-      }
     f.stationary_points(near_enough, bounds[1], bounds[2], bounds[3]);
     for (int i = 1; i < 4; ++i)
       bounds[i] = S::min(S::max(bounds[i], -end), end);
-    const F inverse_scale = one / scale;
     // A ray that starts here goes inward, and leaves the torus next, or outward, and enters it next; another
     // crossing before that is the start itself.
     const auto inward =
@@ -70,8 +54,8 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
       const auto crosses = asks & (enters | leaves);
       distance[i] = zero;
       if (crosses.bits() != 0) {
-        distance[i] =
-            (f.root_between(bounds[i], bounds[i + 1], about, falls, crosses) + shift) * inverse_scale;
+        distance[i] = (f.root_between(bounds[i], bounds[i + 1], about, falls, crosses) + from_centre.shift) *
+                      from_centre.inverse_scale;
         const auto first = (distance[i] > zero) & ((inward & leaves) | (enters & !inward));
         hit[i] = crosses & !(starts & !first);
         starts = starts & !hit[i];
@@ -87,6 +71,27 @@ struct TorusPrimitive : LocalPrimitive<TorusPrimitive> {
       c.near_hit = hit[2 * pair];
       c.far_hit = hit[2 * pair + 1];
     }
+  }
+
+  /// The rays that cross a torus farther than `rays.asked->enough`, and nearer than its limit by
+  /// kShadowEpsilon, where `clipped` keeps crossings (nullptr: everywhere). None of them starts on it.
+  template <class S>
+  static typename S::M crossed(const LocalRays<S>& rays, const typename S::F& ratio,
+                               const ClippedRays* clipped) {
+    using F = typename S::F;
+    using Stretch = typename Quartic<S>::Stretch;
+    const auto wanted = may_hit<S>(rays, ratio);
+    if (wanted.bits() == 0) return wanted;
+    const FromCentre<S> from_centre(rays);
+    const Quartic<S> f(from_centre, ratio);
+    const auto there = [&](const F& distance) { return from_centre.place_at(distance); };
+    const F first = there(F(rays.asked->enough));
+    const F last = there(F::load(rays.asked->limit->lane) - F(kShadowEpsilon));
+    if (clipped == nullptr) return f.crosses(wanted, {Stretch{first, last}});
+    const F enter = there(F::load(clipped->enter.lane)), leave = there(F::load(clipped->leave.lane));
+    if (clipped->keeps_inside) return f.crosses(wanted, {Stretch{S::max(first, enter), S::min(last, leave)}});
+    // Of rays that miss the solid, both stretches overlap.
+    return f.crosses(wanted, {Stretch{first, S::min(last, enter)}, Stretch{S::max(first, leave), last}});
   }
 
   template <class S> static typename S::M inside_local(const V3<S>& p, const LocalParameters<S>& parameters) {
@@ -142,6 +147,23 @@ private:
   /// Likewise Halley's, whose next step would be in the order of its cube.
   static constexpr float kStationary = 1e-3f;
 
+  /// Rays measured from their nearest points to the centre, in the unit of the torus's space.
+  template <class S> struct FromCentre {
+    using F = typename S::F;
+    F scale, inverse_scale, shift;
+    V3<S> direction, origin;
+
+    explicit FromCentre(const LocalRays<S>& rays) {
+      scale = S::sqrt(S::max(dot<S>(rays.direction, rays.direction), F(1e-30f)));
+      inverse_scale = F(1.0f) / scale;
+      direction = rays.direction * inverse_scale;
+      shift = -dot<S>(rays.origin, direction);
+      origin = rays.origin + direction * shift;
+    }
+    /// Of a distance along the ray.
+    F place_at(const F& distance) const { return distance * scale - shift; }
+  };
+
   /// t^4 + p t^2 + q t + r along a ray, which is a torus's function at the ray's points.
   template <class S> struct Quartic {
     using F = typename S::F;
@@ -149,10 +171,10 @@ private:
     F inner, outer, p, q, r; ///< the first two are radii of the torus
     typename S::M thin;      ///< tori
 
-    /// Of rays whose nearest point to the centre is `o`, of which that is the `square` of the distance.
-    Quartic(const V3<S>& o, const V3<S>& d, const F& square, const F& ratio) : origin(o), direction(d) {
+    Quartic(const FromCentre<S>& rays, const F& ratio) : origin(rays.origin), direction(rays.direction) {
+      const V3<S>&o = origin, &d = direction;
       const F one(1.0f), two(2.0f), four(4.0f);
-      const F g = square + one - ratio * ratio;
+      const F g = dot<S>(o, o) + one - ratio * ratio;
       inner = one - ratio;
       outer = one + ratio;
       thin = ratio < F(kThin);
@@ -160,21 +182,38 @@ private:
       q = F(-8.0f) * (o.x * d.x + o.y * d.y);
       r = g * g - four * (o.x * o.x + o.y * o.y);
     }
+    /// A little farther along the ray than the torus: it is outside for certain.
+    F end() const {
+      return S::sqrt(S::max(outer * outer - dot<S>(origin, origin), F(0.0f))) * F(1.001f) + F(1e-4f);
+    }
 
-    /// Which of the rays `wanted` have a zero between `first` and `last`: between the places where the slope
-    /// is 0 the sign changes, or it does not.
-    typename S::M crosses(const typename S::M& wanted, const F& first, const F& last) const {
+    /// Where a zero is looked for.
+    struct Stretch {
+      F first, last;
+    };
+    /// Which of the rays `wanted` have a zero in one of some stretches: between the places where the slope is
+    /// 0 the sign changes, or it does not.
+    template <uint32_t kCount>
+    typename S::M crosses(const typename S::M& wanted, const Stretch (&stretches)[kCount]) const {
       const F zero(0.0f);
-      const uint32_t inside = (at(first) < zero).bits();
-      uint32_t changes = inside ^ (at(last) < zero).bits();
-      const auto unknown = wanted & S::M::from_bits(~changes & 0xFFFF);
+      uint32_t asked[kCount], inside[kCount], crossed = 0, all = 0;
+      for (uint32_t i = 0; i < kCount; ++i) {
+        asked[i] = (wanted & (stretches[i].first < stretches[i].last)).bits();
+        inside[i] = (at(stretches[i].first) < zero).bits();
+        crossed |= asked[i] & (inside[i] ^ (at(stretches[i].last) < zero).bits());
+        all |= asked[i];
+      }
+      const auto unknown = S::M::from_bits(all & ~crossed & 0xFFFF);
       if (unknown.bits() != 0) {
         F place[3];
         stationary_points(unknown, place[0], place[1], place[2]);
-        for (const F& t : place)
-          changes |= inside ^ (at(S::min(S::max(t, first), last)) < zero).bits();
+        for (uint32_t i = 0; i < kCount; ++i)
+          for (const F& t : place) {
+            const F in_stretch = S::min(S::max(t, stretches[i].first), stretches[i].last);
+            crossed |= asked[i] & (inside[i] ^ (at(in_stretch) < zero).bits());
+          }
       }
-      return wanted & S::M::from_bits(changes & 0xFFFF);
+      return S::M::from_bits(crossed & 0xFFFF);
     }
 
     /// Of a thin torus from the point: r is the difference of numbers of which the square of a thin tube is
