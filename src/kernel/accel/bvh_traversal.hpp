@@ -10,6 +10,7 @@
 #include "kernel/accel/packet_traversal.hpp"
 #include "kernel/cameras/primary_rays.hpp"
 #include "kernel/direct/bundle_leaf_tests.hpp"
+#include "kernel/direct/leaf_list.hpp"
 #include "kernel/direct/light_bundle.hpp"
 #include "kernel/direct/mixed_rays.hpp"
 #include "kernel/direct/origin_bundle.hpp"
@@ -27,6 +28,10 @@ public:
         rays_of_frame_(static_cast<float>(frame.width * frame.height)),
         mixes_octants_(frame.object_count <= tuning::kMostObjectsOfMixedRays),
         mixes_always_(frame.object_count <= tuning::kMostObjectsWithoutFrusta) {}
+
+  void begin_frame() {
+    if constexpr (kMixesOctants<Spu>) leaves_.begin_frame();
+  }
 
   /// Answers the queries, at most one for each packet of a bundle. Hits must have been reset. Occluded lanes
   /// are removed from queries for light.
@@ -152,11 +157,18 @@ private:
       const uint32_t octant = octant_of(rays, static_cast<uint32_t>(__builtin_ctz(query.lanes)));
       if ((query.lanes & ~lanes_in_octant<S>(rays, octant)) == 0) return false;
     }
-    MixedStack<S> stack;
-    MixedVisitor<Spu> visitor = {packet_traversal_, objects_, query, MixedRays<S>(rays), stack, query.lanes};
-    NodeRef ref = root();
     if constexpr (kGathersTorusPairs<Spu>) objects_.torus_pairs().begin_traversal(query);
-    traverse_nodes(visitor, ref);
+    if (mixes_always_ && leaves_.pays(objects_.scene(), root())) {
+      leaves_.intersect(packet_traversal_, query);
+    } else {
+      MixedStack<S> stack;
+      MixedVisitor<Spu> visitor = {packet_traversal_,  objects_, query,
+                                   MixedRays<S>(rays), stack,    query.lanes};
+      NodeRef ref = root();
+      const uint64_t visits = objects_.counters().visits;
+      traverse_nodes(visitor, ref);
+      leaves_.count_visits(objects_.counters().visits - visits);
+    }
     if constexpr (kGathersTorusPairs<Spu>) objects_.torus_pairs().end_traversal();
     return true;
   }
@@ -512,6 +524,7 @@ private:
   const float object_count_, rays_of_frame_;
   uint32_t max_split_packets_ = 1; ///< of the bundle
   const bool mixes_octants_, mixes_always_;
+  [[no_unique_address]] Present<LeafList<Spu>, kMixesOctants<Spu>> leaves_;
   RayGroup<S> ray_groups_[kBundlePackets<Spu>]; ///< by packet; intersect_packet() uses the first
   BundleFrusta<S, kBundlePackets<Spu>> frusta_;
   Frustum<S> bundle_frustum_;                  ///< contains all of frusta_

@@ -32,7 +32,7 @@ public:
                                         uint32_t (&hit)[4], F (&enter)[4]) const {
     for (uint32_t i = 0; i < 4; ++i) {
       enter[i] = F(tnear);
-      hit[i] = cross(bounds, i, tfar, enter[i]).bits();
+      hit[i] = cross<4>(&bounds[0][i], tfar, enter[i]).bits();
     }
   }
 
@@ -40,17 +40,23 @@ public:
   [[gnu::always_inline]] uint32_t hit_child(const float (&bounds)[6][4], uint32_t i, float tnear,
                                             const F& tfar) const {
     F from(tnear);
-    return cross(bounds, i, tfar, from).bits();
+    return cross<4>(&bounds[0][i], tfar, from).bits();
+  }
+
+  /// The lanes that hit a box from `from` up to their own `tfar`; `from` grows to where they do.
+  [[gnu::always_inline]] uint32_t hit_box(const float (&bounds)[6], const F& tfar, F& from) const {
+    return cross<1>(bounds, tfar, from).bits();
   }
 
 private:
-  /// Where rays hit child `i`; `from` grows to the distance there.
-  [[gnu::always_inline]] typename S::M cross(const float (&bounds)[6][4], uint32_t i, const F& tfar,
-                                             F& from) const {
+  /// Where rays hit a box, each of whose bounds is `kStep` after the last one; `from` grows to the distance
+  /// there.
+  template <uint32_t kStep>
+  [[gnu::always_inline]] typename S::M cross(const float* bounds, const F& tfar, F& from) const {
     F to = tfar;
-    clip(bounds[0][i], bounds[1][i], origin_.x, inverse_.x, from, to);
-    clip(bounds[2][i], bounds[3][i], origin_.y, inverse_.y, from, to);
-    clip(bounds[4][i], bounds[5][i], origin_.z, inverse_.z, from, to);
+    clip(bounds[0], bounds[kStep], origin_.x, inverse_.x, from, to);
+    clip(bounds[2 * kStep], bounds[3 * kStep], origin_.y, inverse_.y, from, to);
+    clip(bounds[4 * kStep], bounds[5 * kStep], origin_.z, inverse_.z, from, to);
     return from <= to * F(detail::kRoundedUp);
   }
   [[gnu::always_inline]] static void clip(float low, float high, const F& origin, const F& inverse, F& from,
