@@ -4,6 +4,7 @@
 #include "kernel/direct/hit_sorting.hpp"
 #include "kernel/direct/ray_pool.hpp"
 #include "kernel/direct/shadow_queue.hpp"
+#include "kernel/direct/sky_queue.hpp"
 #include "lanes.hpp"
 #include "prepared_scene.hpp"
 #include "soups.hpp"
@@ -153,6 +154,42 @@ TEST_CASE("A queue of shadow rays refuses packets with many, lights of high numb
             pixels, nullptr, none);
   queue.clear();
   queue.finish([](std::uint32_t, const QueuedPoints&, std::uint32_t) { FAIL("nothing is left"); });
+}
+
+TEST_CASE("A queue of rays to the sky gives each of them once, in full packets") {
+  DirectSpu spu;
+  SkyQueue<DirectSpu> queue(spu);
+  Random random(10);
+  CHECK(queue.takes(0x00FF));
+  CHECK_FALSE(queue.takes(0xFFFF));
+  std::set<std::uint32_t> inside;
+  const auto check = [&](const SkyRays& rays, std::uint32_t lanes) {
+    for_each_lane(lanes, [&](std::uint32_t lane) {
+      const std::uint32_t number = rays.pixels.lane[lane];
+      REQUIRE(inside.erase(number) == 1);
+      REQUIRE(rays.throughput.x.lane[lane] == static_cast<float>(number) + 1);
+      REQUIRE(rays.throughput.z.lane[lane] == static_cast<float>(number) + 3);
+      REQUIRE(glm::length(at(rays.direction, lane)) == Approx(1));
+    });
+  };
+  for (int step = 0; step < 400; ++step) {
+    WordLanes pixels = {};
+    const std::uint32_t lanes = random.below(0x10000);
+    const RayNode node = node_of(random, lanes, pixels);
+    for_each_lane(lanes, [&](std::uint32_t lane) { inside.insert(pixels.lane[lane]); });
+    queue.add(node, pixels, lanes, [&](const SkyRays& rays) { check(rays, 0xFFFF); });
+    REQUIRE(inside.size() < kSimdLanes);
+    if (step % 50 != 49) continue;
+    queue.clear();
+    inside.clear();
+  }
+  WordLanes pixels = {};
+  const RayNode node = node_of(random, 0x0413, pixels);
+  for_each_lane(0x0413, [&](std::uint32_t lane) { inside.insert(pixels.lane[lane]); });
+  queue.add(node, pixels, 0x0413, [](const SkyRays&) { FAIL("no packet is full"); });
+  queue.finish(check);
+  CHECK(inside.empty());
+  queue.finish([](const SkyRays&, std::uint32_t) { FAIL("nothing is left"); });
 }
 
 TEST_CASE("Full packets of a pool have rays of one octant and come first") {

@@ -1,13 +1,14 @@
 // The rays of a bundle that leave their packets, and the light that they bring to its pixels. Kernel dialect,
 // where memory is direct.
 //
-// Primary rays are sorted by what they hit if that pays; secondary rays, and shadow rays from what those hit,
-// are gathered into full packets.
+// Primary rays are sorted by what they hit if that pays; secondary rays, shadow rays from what those hit, and
+// those of them that hit nothing are gathered into full packets.
 #pragma once
 
 #include "kernel/direct/hit_sorting.hpp"
 #include "kernel/direct/ray_pool.hpp"
 #include "kernel/direct/shadow_queue.hpp"
+#include "kernel/direct/sky_queue.hpp"
 #include "kernel/program/pixel_sampler.hpp"
 #include "kernel/shading/lighting.hpp"
 
@@ -20,11 +21,12 @@ public:
 
   /// `samples`: becomes how clear the way is of each; null: that is not asked.
   BundlePool(Spu& spu, SampleBundle<Spu>* samples)
-      : rays(spu), shadows(spu), samples_(samples), sorter_(spu),
+      : rays(spu), shadows(spu), skies(spu), samples_(samples), sorter_(spu),
         light_(spu.template allocate<VectorLanes>(kPackets)) {}
 
   RayPool<Spu> rays;        ///< that are to be traced
   ShadowQueue<Spu> shadows; ///< of what such rays have hit
+  SkyQueue<Spu> skies;      ///< of those that have hit nothing
   FloatLanes clear;         ///< how clear the way of the rays is that are being traced
 
   /// Whether rays stay in the lanes of their pixels.
@@ -109,6 +111,7 @@ public:
   void drop() {
     rays.clear();
     shadows.clear();
+    skies.clear();
   }
 
 private:

@@ -310,7 +310,11 @@ private:
   /// Shades what the rays of the node have hit that is being traced. If it is a member's root, the light of
   /// the first round is left where it is gathered.
   CELLTRACE_ONE_COPY void shade_node(Member* root) {
-    const uint32_t hit = kHasRoomForCode<Spu> ? tracer_.take_hits() : take_hits();
+    uint32_t hit;
+    if constexpr (kPoolsRays<Spu>)
+      hit = tracer_.take_hits([&](uint32_t missed) { return queue_sky(missed); });
+    else
+      hit = take_hits();
     if (hit == 0) return;
     if (!kHasRoomForCode<Spu> || root == nullptr)
       find_hit_points(scene_, tracer_.node().rays, tracer_.hits(), hit, store_.points);
@@ -390,6 +394,7 @@ private:
       if (!trace_tree(stopped)) return false;
       pool_.add_tree(tracer_.pooling().pixels, lanes, tracer_.light());
     }
+    pool_.skies.finish([&](const SkyRays& rays, uint32_t lanes) { see_sky(rays, lanes); });
     pool_.shadows.finish([&](uint32_t number, QueuedPoints& points, uint32_t lanes) {
       for_each_light(scene_, frame_, number, 1,
                      [&](uint32_t, const LightRecord& light) { light_queued(light, points, lanes); });
@@ -397,11 +402,25 @@ private:
     return true;
   }
 
+  /// Whether light of the node that is being traced goes to pixels, whatever packet its rays are in.
+  bool may_wait() { return tracer_.pooling().pool != nullptr && tracer_.node().target == 0; }
+  /// Leaves what a few lanes of the node see that hit nothing to see_sky(). False: it has to come now.
+  bool queue_sky(uint32_t missed) {
+    if (frame_.sky == kNoOffset || !may_wait() || !pool_.skies.takes(missed)) return false;
+    pool_.skies.add(tracer_.node(), tracer_.pooling().pixels, missed,
+                    [&](const SkyRays& rays) { see_sky(rays, 0xFFFF); });
+    return true;
+  }
+  /// Takes to their pixels what rays see that have waited.
+  CELLTRACE_ONE_COPY void see_sky(const SkyRays& rays, uint32_t lanes) {
+    VectorLanes light;
+    light.template store<S>(tracer_.behind(rays.direction, lanes) * rays.throughput.template load<S>());
+    pool_.add(rays.pixels, lanes, light);
+  }
   /// Leaves light of a few lanes of the node that is being traced to light_queued(). False: it has to come
   /// now, as what it goes to is no pixel's or its rays have a packet of their own.
   bool queue_light(uint32_t number, const LightRecord& light, uint32_t lanes, const VectorLanes& colour) {
-    const bool may_wait = tracer_.pooling().pool != nullptr && tracer_.node().target == 0;
-    if (lanes == 0 || !may_wait || !pool_.shadows.takes(number, lanes)) return false;
+    if (lanes == 0 || !may_wait() || !pool_.shadows.takes(number, lanes)) return false;
     pool_.shadows.add(number, lanes, store_.points.point, tracer_.hits().object, colour,
                       tracer_.pooling().pixels, shadows_.asks_interiors() ? &tracer_.node() : nullptr,
                       [&](QueuedPoints& points) { light_queued(light, points, 0xFFFF); });

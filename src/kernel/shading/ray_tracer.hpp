@@ -46,7 +46,7 @@ public:
     if (hit != 0) seen = light_of_ends(rays, hits, points, hit, round);
     counters_.primary += count(lanes);
     if (const uint32_t missed = lanes & ~hit; missed != 0)
-      seen = select<S>(M::from_bits(hit), seen, behind(rays, missed));
+      seen = select<S>(M::from_bits(hit), seen, behind(rays.direction, missed));
     colours.template store<S>(seen);
     return true;
   }
@@ -54,7 +54,7 @@ public:
   /// The colours of primary rays that hit nothing.
   V3<S> background(const RayPacket& rays, uint32_t lanes) {
     counters_.primary += count(lanes);
-    return behind(rays, lanes);
+    return behind(rays.direction, lanes);
   }
   /// Likewise of so many rays where there is no sky.
   V3<S> background(uint32_t rays) {
@@ -64,6 +64,10 @@ public:
 
   /// The lanes of node() that hit something; the others see the background.
   uint32_t take_hits() {
+    return take_hits([](uint32_t) { return false; });
+  }
+  /// The same, but whoever asks adds what some lanes see that hit nothing: if `waits(lanes)`.
+  template <class Waits> [[gnu::always_inline]] uint32_t take_hits(const Waits& waits) {
     scene_.spu().compute(scalar_work::kNode);
     if (has_atmosphere(frame_)) {
       scene_.spu().enter_module(modules::kAtmosphere);
@@ -75,16 +79,16 @@ public:
     }
     const uint32_t hit = hit_lanes<S>(hits_, node_.lanes);
     const uint32_t missed = node_.lanes & ~hit;
-    if (missed != 0) add(missed, behind(node_.rays, missed));
+    if (missed != 0 && !waits(missed)) add(missed, behind(node_.rays.direction, missed));
     return hit;
   }
 
-private:
-  V3<S> behind(const RayPacket& rays, uint32_t lanes) {
+  /// What rays of `lanes` see that hit nothing.
+  V3<S> behind(const VectorLanes& direction, uint32_t lanes) {
     V3<S> colour = splat3<S>(frame_.background);
     if (frame_.sky != kNoOffset) {
       scene_.spu().enter_module(modules::kSky);
-      add_sky(scene_, frame_.sky, rays.direction.template load<S>(), lanes, colour);
+      add_sky(scene_, frame_.sky, direction.template load<S>(), lanes, colour);
     }
     return colour;
   }
