@@ -279,7 +279,7 @@ TEST_CASE("Of crossings of which some will do there are those") {
   }
 }
 
-TEST_CASE("Tori that a box clips occlude rays where these cross them on the side that is kept") {
+TEST_CASE("Tori that a box or a plane clips occlude rays where these cross them on the side that is kept") {
   Random random(160);
   int occluded = 0, clipped = 0, off = 0, compared = 0;
   for (int round = 0; round < times(300); ++round) {
@@ -289,6 +289,7 @@ TEST_CASE("Tori that a box clips occlude rays where these cross them on the side
     const Vec3 corner = random.point(1);
     box.shape = Box{corner, corner + glm::abs(random.point(2)) + Vec3(0.1, 0.1, 0.1)};
     box.transform = torus.transform;
+    if (round % 3 == 0) box.shape = Plane{random.direction(), random.uniform(-0.5, 0.5)};
     Scene scene;
     scene.add(matte({1, 1, 1}));
     scene.add(Interior{});
@@ -319,8 +320,10 @@ TEST_CASE("Tori that a box clips occlude rays where these cross them on the side
       const ObjectRecord& object = prepared.object(i);
       if ((object.kind_and_flags & object_flag::kind_mask) != kPrimitiveKind<TorusPrimitive>) continue;
       REQUIRE((object.kind_and_flags & object_flag::csg) != 0);
+      const std::uint32_t condition = prepared.record<ExtraRecord>(object.extra).csg;
+      REQUIRE(condition != kNoOffset);
       ClippedRays room;
-      REQUIRE(clip_rays(access, prepared.record<ExtraRecord>(object.extra).csg, rays, room));
+      REQUIRE(clip_rays(access, condition, rays, room));
       HitPacket hits;
       Simd::F(kMaxHitDistance).store(hits.distance.lane);
       VectorLanes light;
@@ -348,7 +351,7 @@ TEST_CASE("Tori that a box clips occlude rays where these cross them on the side
       }
     }
   }
-  // Where a ray crosses the torus at a face of the box, rounding decides.
+  // Where a ray crosses the torus at a face of what clips it, rounding decides.
   CHECK(off <= compared / 2000);
   CHECK(occluded > times(300));
   CHECK(clipped > times(100));

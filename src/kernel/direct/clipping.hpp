@@ -1,5 +1,5 @@
-// Parts of CSG that one other solid clips: a torus that a box cuts in half. Kernel dialect, where memory is
-// direct.
+// Parts of CSG that one other solid clips: a torus that a box or a plane cuts in half. Kernel dialect, where
+// memory is direct.
 //
 // A ray crosses the faces of a convex solid twice at most. What is asked of a part's crossings is so known
 // before they are found: they are between those two, or they are not.
@@ -28,6 +28,20 @@ struct ClippingSolid {
   }
 };
 
+/// Where rays are in a box, or in the half-space of a plane.
+template <class S> SlabInterval<S> interval_in_box(const RayPacket& rays, const ObjectRecord& box) {
+  return BoxPrimitive::slabs_along<S>(to_local<S>(box.geometry, rays.origin.template load<S>(), 1.0f),
+                                      to_local<S>(box.geometry, rays.direction.template load<S>(), 0.0f));
+}
+template <class S> SlabInterval<S> interval_in_half_space(const RayPacket& rays, const ObjectRecord& plane) {
+  using F = typename S::F;
+  const V3<S> normal = splat3<S>(plane.geometry + 8);
+  const F height = dot<S>(normal, rays.origin.template load<S>()) + F(plane.geometry[11]);
+  const F slope = dot<S>(normal, rays.direction.template load<S>()), at = -height * finite_inverse<S>(slope);
+  const auto goes_out = slope >= F(0.0f);
+  return {S::select(goes_out, F(-kEveryCrossing), at), S::select(goes_out, at, F(kEveryCrossing))};
+}
+
 /// Finds where rays are in a clipping solid. False: it is none of those for which this is fast.
 template <class Spu>
 bool clip_rays(SceneAccess<Spu>& scene, uint32_t condition, const RayPacket& rays, ClippedRays& clipped) {
@@ -36,10 +50,10 @@ bool clip_rays(SceneAccess<Spu>& scene, uint32_t condition, const RayPacket& ray
   if (clipping.solid == kNoOffset) return false;
   const ObjectRecord& object = scene.solid(clipping.solid)->object;
   const uint32_t kind = object.kind_and_flags & object_flag::kind_mask;
-  if (kind != kPrimitiveKind<BoxPrimitive>) return false;
+  const bool is_box = kind == kPrimitiveKind<BoxPrimitive>;
+  if (!is_box && kind != kPrimitiveKind<PlanePrimitive>) return false;
   const SlabInterval<S> inside =
-      BoxPrimitive::slabs_along<S>(to_local<S>(object.geometry, rays.origin.template load<S>(), 1.0f),
-                                   to_local<S>(object.geometry, rays.direction.template load<S>(), 0.0f));
+      is_box ? interval_in_box<S>(rays, object) : interval_in_half_space<S>(rays, object);
   clipped.keeps_inside = clipping.keeps_inside;
   inside.enter.store(clipped.enter.lane);
   inside.leave.store(clipped.leave.lane);
