@@ -210,6 +210,22 @@ TEST_CASE("Rays cross every shape where they change sides") {
   }
 }
 
+namespace {
+
+/// Rays from all sides through points within `reach` of the origin, transformed, or from there.
+RayPacket rays_to(const Transform& transform, double reach, Random& random) {
+  RayPacket rays;
+  for (unsigned lane = 0; lane < kSimdLanes; ++lane) {
+    const Vec3 direction = random.direction();
+    set(rays.origin, lane, transform.point(random.point(reach)) - direction * random.uniform(0, 4));
+    set(rays.direction, lane, direction);
+    rays.start_object.lane[lane] = kNoOffset;
+  }
+  return rays;
+}
+
+} // namespace
+
 TEST_CASE("Of crossings of which some will do there are those") {
   Random random(21);
   for (const Subject& subject : subjects()) {
@@ -220,14 +236,7 @@ TEST_CASE("Of crossings of which some will do there are those") {
       object.transform = random_transform(random);
       ExtraRecord extra;
       const ObjectRecord record = record_of(place_shape(object), extra);
-      RayPacket rays;
-      for (unsigned lane = 0; lane < kSimdLanes; ++lane) {
-        const Vec3 direction = random.direction();
-        set(rays.origin, lane, object.transform.point(random.point(0.9)) - direction * random.uniform(0, 4));
-        set(rays.direction, lane, direction);
-        rays.start_object.lane[lane] = kNoOffset;
-      }
-      std::uint32_t any = 0; // rays that cross it, without their crossings
+      const RayPacket rays = rays_to(object.transform, 0.9, random);
       const auto limit = static_cast<float>(random.uniform(0, 4));
       const auto cross = [&](float enough, float farthest) {
         std::vector<std::vector<double>> all(kSimdLanes);
@@ -248,6 +257,7 @@ TEST_CASE("Of crossings of which some will do there are those") {
       const auto all = cross(kEveryCrossing, kEveryCrossing), some = cross(kMinHitDistance, kEveryCrossing),
                  near = cross(kEveryCrossing, limit);
       const bool is_torus = subject_kind(subject) == kPrimitiveKind<TorusPrimitive>;
+      std::uint32_t any = 0; // rays that cross it, without their crossings
       if (is_torus) {
         FloatLanes limits;
         Simd::F(limit).store(limits.lane);
@@ -307,15 +317,10 @@ TEST_CASE("Tori that a box or a plane clips occlude rays where these cross them 
     DirectSpu spu;
     SceneAccess<DirectSpu> access(spu, CacheConfig::off(), prepared.frame().image);
     const auto tests = std::make_unique<ObjectTests<DirectSpu>>(access);
-    RayPacket rays;
+    const RayPacket rays = rays_to(torus.transform, 1.2, random);
     FloatLanes distance;
-    for (unsigned lane = 0; lane < kSimdLanes; ++lane) {
-      const Vec3 direction = random.direction();
-      set(rays.origin, lane, torus.transform.point(random.point(1.2)) - direction * random.uniform(0, 3));
-      set(rays.direction, lane, direction);
-      rays.start_object.lane[lane] = kNoOffset;
-      distance.lane[lane] = static_cast<float>(random.uniform(0.5, 6));
-    }
+    for (float& lane : distance.lane)
+      lane = static_cast<float>(random.uniform(0.5, 6));
     for (std::uint32_t i = 0; i < prepared.object_count(); ++i) {
       const ObjectRecord& object = prepared.object(i);
       if ((object.kind_and_flags & object_flag::kind_mask) != kPrimitiveKind<TorusPrimitive>) continue;
@@ -331,7 +336,6 @@ TEST_CASE("Tori that a box or a plane clips occlude rays where these cross them 
       tests->test_closest(rays, prepared.object_offset(i), hits);
       tests->hit_filter().begin_packet();
       const std::uint32_t dark = tests->occluded(rays, prepared.object_offset(i), 0xFFFF, distance, light);
-      tests->hit_filter().begin_packet();
       Crossings<Simd> all[kMaxCrossingPairs];
       TorusPrimitive::intersect_local<Simd>(
           local_rays<Simd>(rays, object, kNoOffset - 64),

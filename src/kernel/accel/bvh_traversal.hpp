@@ -29,6 +29,7 @@ public:
         mixes_octants_(frame.object_count <= tuning::kMostObjectsOfMixedRays),
         mixes_always_(frame.object_count <= tuning::kMostObjectsWithoutFrusta) {}
 
+  /// The nodes may be others from now on.
   void begin_frame() {
     if constexpr (kMixesOctants<Spu>) leaves_.begin_frame();
   }

@@ -11,7 +11,7 @@
 
 namespace celltrace::kernel {
 
-/// Where the places of a light are on its grid.
+/// Where the places of a light are on its grid, in rows. Each is found when it is first asked for.
 class LightGrid {
 public:
   struct Place {
@@ -21,22 +21,28 @@ public:
   static bool has_room_for(const LightRecord& light) { return light.columns * light.rows <= kMostPlaces; }
   static constexpr uint32_t kMostPlaces = 17 * 17;
 
-  /// Those of a light, in rows. They stay until the next call.
-  const Place* places_of(const LightRecord& light) {
-    if (light.columns == columns_ && light.rows == rows_) return places_;
+  /// The places are those of this light from now on.
+  void set(const LightRecord& light) {
+    if (light.columns == columns_) return; // a place's numbers do not depend on how many rows there are
     columns_ = light.columns;
-    rows_ = light.rows;
-    Place* place = places_;
-    for (uint32_t row = 0; row < rows_; ++row)
-      for (uint32_t column = 0; column < columns_; ++column) {
-        const module_areas::PlaceJitter jitter({column, row});
-        *place++ = {static_cast<float>(column), static_cast<float>(row), jitter.x, jitter.y};
-      }
-    return places_;
+    for (Place& place : places_)
+      place.column = kUnknown;
+  }
+  /// Stays where it is.
+  const Place& at(uint32_t number) {
+    Place& place = places_[number];
+    if (place.column == kUnknown) {
+      const LightPlace on_grid = {number % columns_, number / columns_};
+      const module_areas::PlaceJitter jitter(on_grid);
+      place = {static_cast<float>(on_grid.column), static_cast<float>(on_grid.row), jitter.x, jitter.y};
+    }
+    return place;
   }
 
 private:
-  uint32_t columns_ = 0, rows_ = 0;
+  static constexpr float kUnknown = -1.0f;
+
+  uint32_t columns_ = 0;
   Place places_[kMostPlaces];
 };
 
@@ -52,7 +58,8 @@ public:
   }
 
   AreaPairs(const LightRecord& light, LightGrid& grid, AreaShadow<S>& area)
-      : light_(light), area_(area), grid_(grid.places_of(light)), columns_(light.columns) {
+      : light_(light), area_(area), grid_(grid), columns_(light.columns) {
+    grid_.set(light);
     const uint32_t places = light.columns * light.rows;
     for (uint32_t i = 0; i < places; ++i)
       places_[i] = {0, 0};
@@ -120,7 +127,7 @@ private:
     place.asked |= static_cast<uint16_t>(lanes);
     const auto count = static_cast<uint32_t>(__builtin_popcount(lanes));
     area_.rays_asked += count;
-    const LightGrid::Place& on_grid = grid_[&place - places_];
+    const LightGrid::Place& on_grid = grid_.at(static_cast<uint32_t>(&place - places_));
     if (count >= tuning::kLeastSurfacesByThemselves) {
       place.lit |= static_cast<uint16_t>(test_place(on_grid, lanes, unoccluded));
       return;
@@ -135,20 +142,34 @@ private:
     if (pairs_ >= S::kLanes) test_pairs(unoccluded);
   }
 
+  /// LightGrid::Place, by lane.
+  struct Places {
+    F column, row, jitter_x, jitter_y;
+  };
+  /// The light that comes from places; of it the ray. `of_surface(by lane)` is that of the lanes of the
+  /// surfaces.
+  template <class OfSurface>
+  [[gnu::always_inline]] IncidentLight<S> aim(const V3<S>& to_middle, Places at,
+                                              const OfSurface& of_surface) const {
+    if (is_jittered()) {
+      using module_areas::jitter;
+      at.column = at.column + jitter<S>(of_surface(F::load(detail::kJitterX)) + at.jitter_x);
+      at.row = at.row + jitter<S>(of_surface(F::load(detail::kJitterY)) + at.jitter_y);
+    }
+    IncidentLight<S> from_place;
+    from_place.set_ray(to_middle + module_areas::offset_at<S>(light_, to_middle, at.column, at.row));
+    return from_place;
+  }
+
   /// Returns those of many lanes to which light comes from one place.
   template <class Unoccluded>
   [[gnu::noinline]] uint32_t test_place(const LightGrid::Place& place, uint32_t lanes,
                                         const Unoccluded& unoccluded) {
     ShadowRays& rays = *area_.to_place;
     const V3<S> to_middle = area_.to_middle.template load<S>();
-    F column(place.column), row(place.row);
-    if (is_jittered()) {
-      using module_areas::jitter;
-      column = column + jitter<S>(F::load(detail::kJitterX) + F(place.jitter_x));
-      row = row + jitter<S>(F::load(detail::kJitterY) + F(place.jitter_y));
-    }
-    IncidentLight<S> from_place;
-    from_place.set_ray(to_middle + module_areas::offset_at<S>(light_, to_middle, column, row));
+    const IncidentLight<S> from_place =
+        aim(to_middle, {F(place.column), F(place.row), F(place.jitter_x), F(place.jitter_y)},
+            [](const F& of_lane) { return of_lane; });
     rays.rays.direction.template store<S>(from_place.direction);
     from_place.distance.store(rays.distance.lane);
     return unoccluded(rays.rays, lanes, rays.distance);
@@ -161,14 +182,9 @@ private:
     const RayPacket& points = area_.to_place->rays;
     const V3<S> origin = points.origin.template load<S>(), middle = area_.to_middle.template load<S>();
     const V3<S> to_middle = {S::pick(middle.x, lane), S::pick(middle.y, lane), S::pick(middle.z, lane)};
-    F column = F::load(column_), row = F::load(row_);
-    if (is_jittered()) {
-      using module_areas::jitter;
-      column = column + jitter<S>(S::pick(F::load(detail::kJitterX), lane) + F::load(jitter_x_));
-      row = row + jitter<S>(S::pick(F::load(detail::kJitterY), lane) + F::load(jitter_y_));
-    }
-    IncidentLight<S> from_place;
-    from_place.set_ray(to_middle + module_areas::offset_at<S>(light_, to_middle, column, row));
+    const IncidentLight<S> from_place =
+        aim(to_middle, {F::load(column_), F::load(row_), F::load(jitter_x_), F::load(jitter_y_)},
+            [&](const F& of_lane) { return S::pick(of_lane, lane); });
     rays_.rays.origin.template store<S>(
         {S::pick(origin.x, lane), S::pick(origin.y, lane), S::pick(origin.z, lane)});
     rays_.rays.direction.template store<S>(from_place.direction);
@@ -211,7 +227,7 @@ private:
 
   const LightRecord& light_;
   AreaShadow<S>& area_;
-  const LightGrid::Place* const grid_;
+  LightGrid& grid_;
   const uint32_t columns_;
   Place places_[kMostPlaces];
   LightQuad quads_[2][kMostPlaces]; ///< of a size each by turns: never more than 256

@@ -36,11 +36,12 @@ template <class Spu> constexpr bool kGathersOccluders = Spu::direct_memory;
 /// Where shadow rays would be walked (ShadowWalk), one traversal finds all that they cross (KeptCrossings).
 template <class Spu> constexpr bool kKeepsCrossings = Spu::direct_memory;
 
-/// Rays of a bundle's trees are gathered into full packets (RayPool), and shadow rays from what they hit, too
-/// (ShadowQueue).
+/// Rays of a bundle's trees are gathered into full packets (RayPool), and so are shadow rays from what they
+/// hit (ShadowQueue), and those of them that hit nothing, before they see the sky (SkyQueue).
 template <class Spu> constexpr bool kPoolsRays = Spu::direct_memory;
 
-/// Rays of several octants traverse the BVH together (MixedRays).
+/// Rays of several octants traverse the BVH together (MixedRays), or are tested against all leaves of a small
+/// one (LeafList).
 template <class Spu> constexpr bool kMixesOctants = Spu::direct_memory;
 
 /// Where few rays of packets come near tori, they wait for those of others (TorusPairs).

@@ -63,9 +63,10 @@ public:
   }
 
 private:
-  static constexpr uint32_t kMost = 32;
+  static constexpr uint32_t kMost = 32; ///< leaves that there is room for
   /// Packets that are traversed to know how many nodes that takes; and those for which it is known then, with
-  /// these.
+  /// these. More trials: more packets wait for nodes; more packets: it is noticed later that rays have come
+  /// to other objects.
   static constexpr uint32_t kTrials = 16, kPackets = 2048;
 
   enum class State { unknown, gathered, too_long };
