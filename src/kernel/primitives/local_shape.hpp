@@ -37,7 +37,7 @@ struct ClippedRays {
 struct AskedCrossings {
   /// After the first crossing that is farther than this the others may be left out.
   float enough = kEveryCrossing;
-  /// By ray: crossings that are farther than this may be left out. nullptr: none.
+  /// By ray: crossings that are farther than this or behind the origin may be left out. nullptr: none.
   const FloatLanes* limit = nullptr;
 };
 inline constexpr AskedCrossings kAllCrossings;

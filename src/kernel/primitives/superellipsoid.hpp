@@ -11,6 +11,8 @@
 #include "celltrace/spe/one_copy.hpp"
 #include "kernel/primitives/local_shape.hpp"
 
+#include <type_traits>
+
 namespace celltrace::kernel {
 
 struct SuperellipsoidPrimitive : LocalPrimitive<SuperellipsoidPrimitive> {
@@ -27,7 +29,7 @@ struct SuperellipsoidPrimitive : LocalPrimitive<SuperellipsoidPrimitive> {
     using M = typename S::M;
     for (uint32_t pair = 0; pair < kCrossingPairs; ++pair)
       crossings[pair].clear();
-    const Line<S> line(rays, parameters);
+    Line<S> line(rays, parameters);
     if (line.in_box.bits() == 0) return;
     const F one(1.0f);
     // One shape for all rays.
@@ -38,11 +40,13 @@ struct SuperellipsoidPrimitive : LocalPrimitive<SuperellipsoidPrimitive> {
     if (!is_convex) return line.cross_thin(rays.starts_here, inward, crossings);
     Crossings<S>& c = crossings[0];
     F near = line.enter, far = line.leave;
+    if constexpr (Line<S>::kHasRoom) line.in_box = line.in_box & (inward | !rays.starts_here);
     const M crosses = line.cross_convex(near, far, line.in_box);
     c.near = line.distance_at(near);
     c.far = line.distance_at(far);
     c.near_hit = crosses & !rays.starts_here;
     c.far_hit = crosses & (inward | !rays.starts_here);
+    if constexpr (Line<S>::kHasRoom) c.far_hit = c.far_hit & !(c.near_hit & line.is_enough(c.near));
   }
 
   template <class S> static typename S::M inside_local(const V3<S>& p, const LocalParameters<S>& parameters) {
@@ -71,6 +75,47 @@ private:
       of[3] = q / p;
       of[4] = F(1.0f) / q;
     }
+    [[gnu::always_inline]] F raise(int number, const F& x) const { return pow<S>(x, of[number]); }
+  };
+
+  /// The same of one shape for all lanes, where there is room for more code: products and square roots take
+  /// less time than other powers.
+  template <class S> struct ExponentsOfOne : Exponents<S> {
+    using F = typename S::F;
+    int times[5]; ///< that a base is a factor; below 0, that its square root is taken; 0: it is another power
+
+    explicit ExponentsOfOne(const LocalParameters<S>& parameters) : Exponents<S>(parameters) {
+      for (int i = 0; i < 5; ++i) {
+        alignas(64) float exponents[S::kLanes];
+        this->of[i].store(exponents);
+        times[i] = times_of(exponents[0]);
+      }
+    }
+    [[gnu::always_inline]] F raise(int number, const F& x) const {
+      const int n = times[number];
+      return n > 0 ? product(x, n) : n < 0 ? root(x, -n) : Exponents<S>::raise(number, x);
+    }
+
+  private:
+    static int times_of(float exponent) {
+      const int whole = exponent <= 16.0f ? static_cast<int>(exponent) : 0;
+      if (static_cast<float>(whole) == exponent) return whole;
+      return exponent == 0.5f ? -1 : exponent == 0.25f ? -2 : exponent == 0.125f ? -3 : 0;
+    }
+    static F product(const F& x, int n) {
+      if (n == 1) return x;
+      // What is less counts for nothing in a sum of about 1, and its products may be denormal.
+      F factor = S::max(x, F(n < 4 ? 1e-12f : 0.0055f)), all(1.0f);
+      for (;; factor = factor * factor) {
+        if ((n & 1) != 0) all = all * factor;
+        if ((n >>= 1) == 0) return all;
+      }
+    }
+    static F root(F x, int n) {
+      for (int i = 0; i < n; ++i)
+        x = S::sqrt(x);
+      return x;
+    }
   };
 
   /// What the equation says at a point.
@@ -80,13 +125,13 @@ private:
     /// 1/q.
     F power[5];
 
-    [[gnu::always_inline]] Terms(const V3<S>& at, const Exponents<S>& exponents) {
+    template <class Powers> [[gnu::always_inline]] Terms(const V3<S>& at, const Powers& powers) {
       F base[5] = {S::abs(at.x), S::abs(at.y), S::abs(at.z)};
       // A loop, as local store has room for one copy of powers.
       for (int i = 0; i < 5; ++i) {
         if (i == 3) base[i] = power[0] + power[1];
         if (i == 4) base[i] = sum();
-        power[i] = pow<S>(base[i], exponents.of[i]);
+        power[i] = powers.raise(i, base[i]);
       }
     }
     [[gnu::always_inline]] F sum() const { return power[3] + power[2]; }
@@ -111,13 +156,18 @@ private:
   template <class S> struct Line {
     using F = typename S::F;
     using M = typename S::M;
-    Exponents<S> exponents;
+    std::conditional_t<S::kLanes == kSimdLanes, ExponentsOfOne<S>, Exponents<S>> exponents;
     F inverse_scale, shift; ///< of distances along rays
     V3<S> o, d;
     V3<S> planes; ///< where the line crosses the planes between octants
     /// Where it is in the box: a little more of it, so that it is outside at both ends for certain.
     F enter, leave;
     M in_box;
+    /// For code that leaves out what is not asked for.
+    static constexpr bool kHasRoom = S::kLanes == kSimdLanes;
+    /// Where there is: the rays, and from where on crossings are looked for.
+    const LocalRays<S>* asking;
+    F begin;
 
     Line(const LocalRays<S>& rays, const LocalParameters<S>& parameters) : exponents(parameters) {
       const F reach(1.001f);
@@ -131,9 +181,18 @@ private:
       enter = max_component<S>(planes - half);
       leave = S::min(planes.x + half.x, S::min(planes.y + half.y, planes.z + half.z));
       in_box = enter < leave;
+      if constexpr (kHasRoom) {
+        const FloatLanes* const limit = rays.asked->limit;
+        asking = &rays;
+        begin = limit != nullptr ? -shift : F(-kEveryCrossing);
+        if (limit != nullptr)
+          in_box = in_box & (leave > begin) & (distance_at(enter) <= F::load(limit->lane));
+      }
     }
 
     F distance_at(const F& t) const { return (t + shift) * inverse_scale; }
+    /// Whether those after a crossing need not be found.
+    M is_enough(const F& distance) const { return distance > F(asking->asked->enough); }
 
     /// Of the rays that start on the shape.
     M goes_inward(const M& start) const {
@@ -152,13 +211,18 @@ private:
     }
 
     /// Of the rays `wanted`, those that cross a convex shape: `near` and `far`, which are outside before and
-    /// behind it, move to the crossings. The result of a ray depends on no other ray.
+    /// behind it, move to the crossings. Where there is room for code, not `near` of rays that start on it,
+    /// nor `far` where `near` is enough. The result of a ray depends on no other ray.
     CELLTRACE_ONE_COPY M cross_convex(F& near, F& far, M wanted) const {
       const F zero(0.0f);
       for (int end = 0; end < 2; ++end) {
         const F ahead(end == 0 ? 1.0f : -1.0f), limit = end == 0 ? far : near;
         F t = end == 0 ? near : far;
         M moves = wanted;
+        if constexpr (kHasRoom) {
+          const M starts = asking->starts_here;
+          moves = moves & (end == 0 ? !starts : starts | !is_enough(distance_at(near)));
+        }
         for (int i = 0; i < 30 && moves.bits() != 0; ++i) {
           F above, along;
           at(t, above, along);
@@ -185,12 +249,19 @@ private:
                      S::max(high, planes.z), leave};
       for (int i = 1; i < 4; ++i)
         bounds[i] = S::min(S::max(bounds[i], enter), leave);
+      if constexpr (kHasRoom) {
+        for (int i = 1; i < 4; ++i)
+          bounds[0] = S::select(bounds[i] < begin, bounds[i], bounds[0]);
+        for (int i = 1; i < 4; ++i)
+          bounds[i] = S::max(bounds[i], bounds[0]);
+      }
+      M asks = in_box;
       F distance[4] = {zero, zero, zero, zero};
       M hit[4] = {M::none(), M::none(), M::none(), M::none()};
       F value, slope;
       at(bounds[0], value, slope);
       for (int i = 0; i < 4; ++i) {
-        const M outside = value > zero, wanted = in_box & (bounds[i] < bounds[i + 1]);
+        const M outside = value > zero, wanted = asks & (bounds[i] < bounds[i + 1]);
         if (wanted.bits() == 0) continue;
         at(bounds[i + 1], value, slope);
         const M crosses = wanted & ((outside & (value <= zero)) | ((value > zero) & !outside));
@@ -205,6 +276,7 @@ private:
           const M next = (t > zero) & ((inward & !enters) | (enters & !inward));
           M put = here & !(starts & !next);
           starts = starts & !put;
+          if constexpr (kHasRoom) asks = asks & !(put & is_enough(t));
           for (int place = 0; place < 4; ++place) {
             const M free = put & !hit[place];
             distance[place] = S::select(free, t, distance[place]);
