@@ -38,7 +38,7 @@ constexpr float kMaxPacketSpreadInLocalStore = kMaxDirectionSpread;
 /// octant have a frustum, and follow single rays by themselves. 'trace time' of scenes with mirrors and
 /// glass.
 constexpr int kLeastMixedRays = 4;
-constexpr uint32_t kMostObjectsOfMixedRays = 20000;
+constexpr uint32_t kMostObjectsOfMixedRays = 40000;
 /// In scenes of at most so many objects packets of one octant are traversed like that, too. Larger: nodes
 /// that a frustum misses are tested ray by ray; smaller: frusta are computed that have hardly a node to miss.
 /// 'trace time' of scenes with mirrors and glass.
