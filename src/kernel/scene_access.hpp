@@ -33,6 +33,8 @@ inline CacheConfig cache_config(const FrameBlock& frame) {
                          static_cast<CacheReplacement>(frame.cache_replacement));
 }
 
+template <class S, uint32_t kPackets> class FractalValues;
+
 /// Typed reads of the scene image by offset. A returned pointer is valid until the next read of any kind.
 template <class Spu> class SceneAccess {
 public:
@@ -130,6 +132,11 @@ public:
   NeighbourCache<typename Spu::rare_simd>* neighbours() const { return neighbours_; }
   void set_neighbours(NeighbourCache<typename Spu::rare_simd>* cache) { neighbours_ = cache; }
 
+  /// Knows what fractals are at points that are about to be asked for; null: nothing does.
+  using Fractals = FractalValues<typename Spu::rare_simd, kBundlePackets<Spu>>;
+  Fractals* fractals() const { return known_.fractals; }
+  void set_fractals(Fractals* fractals) { known_.fractals = fractals; }
+
   SoftwareCache<Spu, DataKind>& cache() { return cache_; }
   Spu& spu() { return cache_.spu(); }
 
@@ -183,6 +190,10 @@ private:
 
   SoftwareCache<Spu, DataKind> cache_;
   NeighbourCache<typename Spu::rare_simd>* neighbours_ = nullptr;
+  struct KnownFractals {
+    Fractals* fractals = nullptr;
+  };
+  [[no_unique_address]] Present<KnownFractals, kIteratesAhead<Spu>> known_;
 };
 
 } // namespace celltrace::kernel

@@ -54,6 +54,11 @@ constexpr uint32_t kLeavesPerVisit = 6;
 /// that are close to each other. 'trace time' of scenes with mirrors and glass, at 320x240.
 constexpr int kLeastRaysByThemselves = 12;
 
+/// Where the packets of a bundle have iterated fractals for so many rounds in all, those of the next one are
+/// iterated together. Larger: packets wait for their last lanes; smaller: what is hit is found out twice.
+/// 'trace time' of fractals.
+constexpr uint32_t kLeastRoundsOfFractals = 1000;
+
 /// Packets of a bundle of which two corners hit different materials: with so many the bundle's rays are
 /// sorted by materials, if that is found to pay. Smaller: materials are counted in vain; larger: packets with
 /// several materials stay. 'trace time' of scenes with many small objects; of others the cost.

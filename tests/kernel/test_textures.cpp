@@ -15,6 +15,8 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <memory>
+#include <set>
 
 using namespace celltrace;
 using namespace celltrace::kernel;
@@ -654,6 +656,76 @@ TEST_CASE("Trees of maps, lists and averages") {
     }
   }
   CHECK(clear > all - all / 20);
+}
+
+TEST_CASE("Fractals that are iterated together have the values of points by themselves") {
+  constexpr unsigned kPackets = 8;
+  using Fractals = FractalValues<Simd, kPackets>;
+  Random random(74);
+  const pattern::Fractal of_all[] = {
+      {false, {0, 0}, 3000}, {false, {0, 0}, 333}, {true, {-0.745, 0.11}, 1000}};
+  for (const pattern::Fractal& fractal : of_all) {
+    Pattern pattern;
+    pattern.kind = fractal;
+    Textures textures(pattern), others(pattern);
+    const PatternRecord &record = textures.pattern(), &other = others.pattern();
+    REQUIRE(Fractals::takes(record));
+    const auto fractals = std::make_unique<Fractals>();
+    CHECK_FALSE(fractals->begin());
+    Complex<Simd> at[kPackets];
+    std::uint32_t lanes[kPackets];
+    for (unsigned i = 0; i < kPackets; ++i) {
+      // Near the edge, where points stay for long, and all around it.
+      const Vec3 centre = i == 0 || fractal.is_julia ? Vec3(0) : Vec3(-0.745, 0.11, 0);
+      const double reach = i == 0 ? 2 : fractal.is_julia ? 0.3 : 0.01;
+      const VectorLanes points = points_of([&](unsigned) { return centre + random.point(reach); });
+      at[i] = {points.load<Simd>().x, points.load<Simd>().y};
+      lanes[i] = (random.word() & 0xFFFF) | 0xFF;
+      fractals->add(i, record, lanes[i], at[i]);
+      fractals->add(i, record, lanes[i], {at[i].b, at[i].a}); // each has its point
+      fractals->add(i, other, 0xFFFF, at[i]);                 // as they all have their pattern
+    }
+    fractals->run();
+    std::set<float> different;
+    for (unsigned i = 0; i < kPackets; ++i) {
+      const Simd::F expected =
+          FractalPattern::value<DirectSpu>(textures.access(), {at[i].a, at[i].b, at[i].b}, record);
+      fractals->show(i);
+      Simd::F value(-1.0f);
+      CHECK(fractals->find(other, at[i], value).bits() == 0);
+      CHECK(fractals->find(record, {at[i].a + Simd::F(1.0f), at[i].b}, value).bits() == 0);
+      CHECK(fractals->find(record, at[i], value).bits() == lanes[i]);
+      const FloatLanes found = lanes_of(value), alone = lanes_of(expected);
+      for (unsigned lane = 0; lane < kSimdLanes; ++lane) {
+        const bool is_known = (lanes[i] >> lane & 1) != 0;
+        REQUIRE(found.lane[lane] == (is_known ? alone.lane[lane] : -1.0f));
+        different.insert(found.lane[lane]);
+      }
+    }
+    CHECK(different.size() > 10);
+    CHECK(fractals->begin()); // the next ones will take long, too
+    CHECK_FALSE(fractals->begin());
+    fractals->run();
+  }
+}
+
+TEST_CASE("Fractals are iterated together if rounds are counted") {
+  const auto takes = [](const pattern::Fractal& fractal) {
+    Pattern pattern;
+    pattern.kind = fractal;
+    return FractalValues<Simd, 1>::takes(Textures(pattern).pattern());
+  };
+  pattern::Fractal fractal;
+  fractal.iterations = 100;
+  CHECK(takes(fractal));
+  fractal.interior = 1;
+  CHECK_FALSE(takes(fractal));
+  fractal.interior = 0;
+  fractal.exponent = 3;
+  CHECK_FALSE(takes(fractal));
+  fractal = {};
+  fractal.iterations = 10;
+  CHECK_FALSE(takes(fractal));
 }
 
 TEST_CASE("A walk through maps has lanes that were asked for, and weights that add up to 1") {

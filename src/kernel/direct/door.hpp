@@ -47,6 +47,9 @@ template <class Spu> constexpr bool kMixesOctants = Spu::direct_memory;
 /// Where few rays of packets come near tori, they wait for those of others (TorusPairs).
 template <class Spu> constexpr bool kGathersTorusPairs = Spu::direct_memory;
 
+/// Fractals that take many rounds are iterated at all hits of a bundle together (FractalValues).
+template <class Spu> constexpr bool kIteratesAhead = Spu::direct_memory;
+
 /// The SPEs build the BVH (build_bvh.hpp). Otherwise the PPE's side has it built before it starts them.
 template <class Spu> constexpr bool kBuildsBvh = Spu::direct_memory;
 

@@ -3,8 +3,10 @@
 #pragma once
 
 #include "kernel/direct/door.hpp"
+#include "kernel/direct/fractal_ahead.hpp"
 #include "kernel/math.hpp"
 #include "kernel/scene_access.hpp"
+#include "kernel/textures/iterated_squares.hpp"
 #include "kernel/textures/pattern_traits.hpp"
 
 namespace celltrace::kernel {
@@ -15,11 +17,15 @@ struct FractalPattern : RarePattern {
   static constexpr const char* kName = "fractal";
 
   template <class Spu>
-  [[gnu::always_inline]] static typename Spu::rare_simd::F
-  value(SceneAccess<Spu>&, const V3<typename Spu::rare_simd>& p, const PatternRecord& r) {
+  [[gnu::always_inline]] static typename Spu::rare_simd::F value([[maybe_unused]] SceneAccess<Spu>& scene,
+                                                                 const V3<typename Spu::rare_simd>& p,
+                                                                 const PatternRecord& r) {
     using S = typename Spu::rare_simd;
     using F = typename S::F;
     using M = typename S::M;
+    if constexpr (kHasRoomForCode<Spu>)
+      if (SquareIteration::describes(r))
+        return value_of_squares(scene, Complex<S>{p.x, p.y}, SquareIteration{r});
     const uint32_t magnet = r.table >> fractal_word::magnet_shift & fractal_word::magnet_mask;
     const bool is_julia = (r.table & fractal_word::julia) != 0;
     const Complex<S> c = is_julia ? Complex<S>{F(r.parameter[0]), F(r.parameter[1])} : Complex<S>{p.x, p.y};
@@ -32,11 +38,6 @@ struct FractalPattern : RarePattern {
     const uint32_t outside = r.table >> fractal_word::exterior_shift & fractal_word::type_mask;
     const uint32_t inside = r.table >> fractal_word::interior_shift & fractal_word::type_mask;
     const uint32_t most = static_cast<uint32_t>(r.parameter[2]);
-    if constexpr (kHasRoomForCode<Spu>)
-      if (magnet == 0 && (r.table & fractal_word::exponent_mask) == 2 && outside == 1 && inside <= 1)
-        return inside == 1
-                   ? counted_squares<S, true>(z, c, M::none(), most, r)
-                   : counted_squares<S, false>(z, c, is_julia ? M::none() : surely_stays<S>(c), most, r);
     M stays = M::all();
     // Numbers that have left are iterated on, wherever to: the next number does not wait for which they are.
     Complex<S> left = z;
@@ -64,56 +65,40 @@ struct FractalPattern : RarePattern {
   }
 
 private:
-  template <class S> struct Complex { typename S::F a, b; };
-
-  /// Numbers that are squared, and what is asked of them: how many stay and, inside, the least size.
-  template <class S, bool kWantsLeast> struct Squares {
+  template <class Spu>
+  [[gnu::always_inline]] static typename Spu::rare_simd::F
+  value_of_squares(SceneAccess<Spu>& scene, const Complex<typename Spu::rare_simd>& at,
+                   const SquareIteration& iteration) {
+    using S = typename Spu::rare_simd;
     using F = typename S::F;
-
-    Complex<S> z;
-    F aa, bb; ///< squares of its parts
-    F least, rounds;
-    typename S::M stays;
-
-    explicit Squares(const Complex<S>& first)
-        : z(first), aa(first.a * first.a), bb(first.b * first.b), least(aa + bb), rounds(0.0f),
-          stays(S::M::all()) {}
-
-    [[gnu::always_inline]] void go_on(const Complex<S>& c) {
-      const F ab = z.a * z.b;
-      z = {aa - bb + c.a, ab + ab + c.b};
-      aa = z.a * z.a;
-      bb = z.b * z.b;
-      const F size = aa + bb;
-      stays = stays & (size <= F(4.0f));
-      rounds = S::select(stays, rounds + F(1.0f), rounds);
-      if constexpr (kWantsLeast) least = S::select(stays, S::min(least, size), least);
-    }
-  };
-
-  /// Numbers in the greatest two parts of the Mandelbrot set, but for those near the edge.
-  template <class S> [[gnu::always_inline]] static typename S::M surely_stays(const Complex<S>& c) {
-    using F = typename S::F;
-    constexpr float kRounding = 5e-7f; // of all terms together: none of them is above 1
-    const F x = c.a - F(0.25f), y = c.b * c.b, q = x * x + y, from_disc = c.a + F(1.0f);
-    const auto in_cardioid = q * (q + x) + F(kRounding) < y * F(0.25f);
-    return in_cardioid | (from_disc * from_disc + y < F(0.0625f - kRounding));
+    using M = typename S::M;
+    const Complex<S> c = iteration.constant<S>(at);
+    uint32_t rounds = 0;
+    if (iteration.wants_least()) return counted_squares<S, true>(at, c, M::none(), iteration, rounds);
+    auto* const ahead = scene.fractals();
+    F value(iteration.inner());
+    M known = iteration.is_julia() ? M::none() : surely_stays<S>(c);
+    if (ahead != nullptr) known = known | ahead->find(iteration.record, at, value);
+    if (known.bits() == (1u << S::kLanes) - 1) return value;
+    value = S::select(known, value, counted_squares<S, false>(at, c, known, iteration, rounds));
+    if (ahead != nullptr) ahead->count(rounds);
+    return value;
   }
 
-  /// The value where no more is asked than that. `stay`: some that are known to, if the least size is not
-  /// asked. A number that comes back after some rounds would do so for ever, as those do that converge: it is
-  /// not followed further (Brent 1980). Whatever is still to come has been there, so that the least size is
-  /// known. It is looked for after several rounds at a time only. Not inlined: the loop has the registers for
-  /// itself.
+  /// Of numbers that are squared, but for those of `known`, of which any value comes. A number that comes
+  /// back after some rounds would do so for ever, as those do that converge: it is not followed further
+  /// (Brent 1980). Whatever is still to come has been there, so that the least size is known. It is looked
+  /// for after several rounds at a time only. Not inlined: the loop has the registers for itself.
   template <class S, bool kWantsLeast>
   [[gnu::noinline]] static typename S::F counted_squares(const Complex<S>& first, const Complex<S>& c,
-                                                         const typename S::M& stay, uint32_t most,
-                                                         const PatternRecord& r) {
+                                                         const typename S::M& known,
+                                                         const SquareIteration& iteration, uint32_t& rounds) {
     using F = typename S::F;
     using M = typename S::M;
     constexpr uint32_t kRoundsAtATime = 4;
-    Squares<S, kWantsLeast> squares(first);
-    M goes_on = !stay;
+    const uint32_t most = iteration.most();
+    IteratedSquares<S, kWantsLeast> squares(first);
+    M goes_on = !known;
     Complex<S> kept = first;
     uint32_t keeps_next = 4 * kRoundsAtATime;
     uint32_t i = 0;
@@ -124,14 +109,15 @@ private:
       }
       for (uint32_t round = 0; round < kRoundsAtATime; ++round)
         squares.go_on(c);
-      goes_on = goes_on & squares.stays & !((squares.z.a == kept.a) & (squares.z.b == kept.b));
+      goes_on = goes_on & squares.stays & !squares.is_at(kept);
     }
     if (goes_on.bits() != 0)
       for (; i < most; ++i)
         squares.go_on(c);
-    const F factor(r.parameter[4]);
-    return S::select(squares.stays, kWantsLeast ? S::sqrt(squares.least) * factor : factor,
-                     squares.rounds * F(1.0f / r.parameter[2]));
+    rounds = i;
+    const F inner(iteration.inner());
+    return S::select(squares.stays, kWantsLeast ? S::sqrt(squares.least) * inner : inner,
+                     iteration.outer<S>(squares.rounds));
   }
 
   template <class S> [[gnu::always_inline]] static typename S::F square(const Complex<S>& z) {

@@ -1,0 +1,201 @@
+// Values of a fractal at what the rays of a bundle hit, before they are asked for. Kernel dialect, where
+// memory is direct.
+//
+// Near the edge of the Mandelbrot set one point stays for ten rounds and the one beside it for ten thousand:
+// a packet goes on until its last lane has ended, and each round waits for the one before. Here those of all
+// packets go on in lanes that are filled again, two vectors at a time.
+#pragma once
+
+#include "celltrace/spe/simd.hpp"
+#include "kernel/math.hpp"
+#include "kernel/packet.hpp"
+#include "kernel/textures/iterated_squares.hpp"
+#include "kernel/tuning.hpp"
+
+namespace celltrace::kernel {
+
+/// Of one pattern, at points of `kPackets` packets.
+template <class S, uint32_t kPackets> class FractalValues {
+public:
+  using F = typename S::F;
+  using I = typename S::I;
+  using M = typename S::M;
+
+  /// A packet has been iterated by itself, for so many rounds.
+  void count(uint32_t rounds) { rounds_ += rounds; }
+  /// Forgets all values. Returns whether those of the next packets had better be found together, as those of
+  /// the last ones took long.
+  bool begin() {
+    const bool takes_long = rounds_ >= tuning::kLeastRoundsOfFractals;
+    rounds_ = 0;
+    pattern_ = nullptr;
+    return takes_long;
+  }
+
+  static bool takes(const PatternRecord& r) {
+    if (!SquareIteration::describes(r)) return false;
+    const SquareIteration iteration{r};
+    return !iteration.wants_least() && iteration.most() > kFirstRounds;
+  }
+  /// Points of some lanes of a packet, in the space of a pattern that it takes. Of the first pattern; others
+  /// have to be asked by themselves. Points that leave soon have their values at once.
+  void add(uint32_t packet, const PatternRecord& r, uint32_t lanes, const Complex<S>& at) {
+    if (pattern_ == nullptr) begin_pattern(r);
+    lanes &= ~known_[packet];
+    if (pattern_ != &r || lanes == 0) return;
+    const SquareIteration iteration{r};
+    const Complex<S> c = iteration.constant<S>(at);
+    const M inside = iteration.is_julia() ? M::none() : surely_stays<S>(c);
+    IteratedSquares<S, false> squares(at);
+    uint32_t waits = lanes & ~inside.bits();
+    for (uint32_t i = 0; i < kFirstRounds && waits != 0; i += kRounds) {
+      for (uint32_t round = 0; round < kRounds; ++round)
+        squares.go_on(c);
+      waits &= squares.stays.bits();
+    }
+    known_[packet] |= lanes;
+    Packet& to = packets_[packet];
+    const auto put = [&](FloatLanes& field, const F& value) {
+      S::select(M::from_bits(lanes), value, F::load(field.lane)).store(field.lane);
+    };
+    put(to.x, at.a);
+    put(to.y, at.b);
+    put(to.value, S::select(inside, F(iteration.inner()), iteration.outer<S>(squares.rounds)));
+    if (waits == 0) return;
+    FloatLanes a, b, c_a, c_b;
+    squares.z.a.store(a.lane);
+    squares.z.b.store(b.lane);
+    c.a.store(c_a.lane);
+    c.b.store(c_b.lane);
+    for_each_lane(waits, [&](uint32_t lane) {
+      points_[count_++] = {a.lane[lane], b.lane[lane], c_a.lane[lane], c_b.lane[lane],
+                           packet * kSimdLanes + lane};
+    });
+  }
+  /// Finds the values of the points that have been added.
+  [[gnu::noinline]] void run() {
+    if (pattern_ == nullptr) return;
+    if (count_ > kSimdLanes) rounds_ = tuning::kLeastRoundsOfFractals; // so are those of the next packets
+    const SquareIteration iteration{*pattern_};
+    const F most(static_cast<float>(iteration.most())), inner(iteration.inner());
+    Stream streams[kStreams];
+    uint32_t next = 0;
+    for (Stream& stream : streams)
+      for (uint32_t lane = 0; lane < kSimdLanes; ++lane)
+        fill(stream, lane, next);
+    while ((streams[0].busy | streams[1].busy) != 0) {
+      IteratedSquares<S, false> squares[kStreams] = {streams[0].squares(), streams[1].squares()};
+      const Complex<S> c[kStreams] = {load(streams[0].c), load(streams[1].c)};
+      Complex<S> kept[kStreams] = {load(streams[0].kept), load(streams[1].kept)};
+      uint32_t ended[kStreams];
+      do {
+        for (uint32_t round = 0; round < kRounds; ++round)
+          for (uint32_t k = 0; k < kStreams; ++k)
+            squares[k].go_on(c[k]);
+        for (uint32_t k = 0; k < kStreams; ++k) {
+          const F rounds = squares[k].rounds;
+          const M goes_on = squares[k].stays & (rounds < most) & !squares[k].is_at(kept[k]);
+          ended[k] = streams[k].busy & ~goes_on.bits();
+          // Of numbers that come back, each is looked for that is twice as late as the one before.
+          const I whole = S::to_int(rounds);
+          const M keeps = (whole & (whole - I::splat(1))) == I::splat(0);
+          kept[k] = {S::select(keeps, squares[k].z.a, kept[k].a),
+                     S::select(keeps, squares[k].z.b, kept[k].b)};
+        }
+      } while ((ended[0] | ended[1]) == 0);
+      for (uint32_t k = 0; k < kStreams; ++k) {
+        streams[k].keep(squares[k], kept[k]);
+        FloatLanes values;
+        S::select(squares[k].stays | (squares[k].rounds >= most), inner,
+                  iteration.outer<S>(squares[k].rounds))
+            .store(values.lane);
+        for_each_lane(ended[k], [&](uint32_t lane) {
+          const uint32_t place = streams[k].place[lane];
+          packets_[place / kSimdLanes].value.lane[place % kSimdLanes] = values.lane[lane];
+          fill(streams[k], lane, next);
+        });
+      }
+    }
+  }
+
+  /// The packet whose points are asked for from now on.
+  void show(uint32_t packet) { shown_ = packet; }
+  /// The lanes of points whose values are known: they become theirs.
+  M find(const PatternRecord& r, const Complex<S>& at, F& value) const {
+    if (pattern_ != &r) return M::none();
+    const Packet& packet = packets_[shown_];
+    const M found =
+        M::from_bits(known_[shown_]) & (at.a == F::load(packet.x.lane)) & (at.b == F::load(packet.y.lane));
+    value = S::select(found, F::load(packet.value.lane), value);
+    return found;
+  }
+
+private:
+  /// Rounds between two looks at what has ended; of a packet by itself, before lanes are filled again.
+  static constexpr uint32_t kRounds = 8, kFirstRounds = 4 * kRounds;
+  /// That go on at a time: a round of one takes half as long as its result.
+  static constexpr uint32_t kStreams = 2;
+
+  struct ComplexLanes {
+    FloatLanes a, b;
+  };
+  static Complex<S> load(const ComplexLanes& z) { return {F::load(z.a.lane), F::load(z.b.lane)}; }
+  /// Points that are being iterated.
+  struct Stream {
+    ComplexLanes z, c, kept;
+    FloatLanes rounds;
+    uint32_t place[kSimdLanes];
+    uint32_t busy = 0; ///< lanes that have one
+
+    IteratedSquares<S, false> squares() const {
+      IteratedSquares<S, false> all(load(z));
+      all.rounds = F::load(rounds.lane);
+      return all;
+    }
+    void keep(const IteratedSquares<S, false>& all, const Complex<S>& back) {
+      all.z.a.store(z.a.lane);
+      all.z.b.store(z.b.lane);
+      all.rounds.store(rounds.lane);
+      back.a.store(kept.a.lane);
+      back.b.store(kept.b.lane);
+    }
+  };
+  /// One that waits for that.
+  struct Point {
+    float a, b, c_a, c_b;
+    uint32_t place; ///< packet and lane
+  };
+  struct Packet {
+    FloatLanes x, y, value;
+  };
+
+  void begin_pattern(const PatternRecord& r) {
+    for (uint32_t& known : known_)
+      known = 0;
+    count_ = 0;
+    pattern_ = &r;
+  }
+  /// Gives a lane the next point, or nothing to do.
+  void fill(Stream& stream, uint32_t lane, uint32_t& next) {
+    const bool is_busy = next < count_;
+    const Point point = is_busy ? points_[next++] : Point{0, 0, 0, 0, 0};
+    stream.z.a.lane[lane] = point.a;
+    stream.z.b.lane[lane] = point.b;
+    stream.c.a.lane[lane] = point.c_a;
+    stream.c.b.lane[lane] = point.c_b;
+    stream.kept.a.lane[lane] = stream.kept.b.lane[lane] = 1e30f;
+    stream.rounds.lane[lane] = static_cast<float>(kFirstRounds);
+    stream.place[lane] = point.place;
+    stream.busy = (stream.busy & ~(1u << lane)) | (is_busy ? 1u << lane : 0);
+  }
+
+  uint32_t rounds_ = 0;
+  const PatternRecord* pattern_ = nullptr; ///< whose values are known; null: none are
+  uint32_t known_[kPackets];               ///< lanes
+  uint32_t shown_ = 0;
+  uint32_t count_ = 0;
+  Packet packets_[kPackets];
+  Point points_[kPackets * kSimdLanes];
+};
+
+} // namespace celltrace::kernel

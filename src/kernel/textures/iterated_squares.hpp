@@ -1,0 +1,80 @@
+// Complex numbers that are squared and moved by a constant, again and again: the Mandelbrot set and Julia
+// sets of the second order. Kernel dialect.
+#pragma once
+
+#include "celltrace/spe/simd.hpp"
+#include "kernel/records.hpp"
+
+namespace celltrace::kernel {
+
+template <class S> struct Complex { typename S::F a, b; };
+
+/// Numbers that are squared, and what is asked of them: how many stay and, inside, the least size.
+template <class S, bool kWantsLeast> struct IteratedSquares {
+  using F = typename S::F;
+
+  Complex<S> z;
+  F aa, bb; ///< squares of its parts
+  F least, rounds;
+  typename S::M stays;
+
+  explicit IteratedSquares(const Complex<S>& first)
+      : z(first), aa(first.a * first.a), bb(first.b * first.b), least(aa + bb), rounds(0.0f),
+        stays(S::M::all()) {}
+
+  [[gnu::always_inline]] void go_on(const Complex<S>& c) {
+    const F ab = z.a * z.b;
+    z = {aa - bb + c.a, ab + ab + c.b};
+    aa = z.a * z.a;
+    bb = z.b * z.b;
+    const F size = aa + bb;
+    stays = stays & (size <= F(4.0f));
+    rounds = S::select(stays, rounds + F(1.0f), rounds);
+    if constexpr (kWantsLeast) least = S::select(stays, S::min(least, size), least);
+  }
+  [[gnu::always_inline]] typename S::M is_at(const Complex<S>& place) const {
+    return (z.a == place.a) & (z.b == place.b);
+  }
+};
+
+/// Numbers in the greatest two parts of the Mandelbrot set, but for those near the edge.
+template <class S> [[gnu::always_inline]] inline typename S::M surely_stays(const Complex<S>& c) {
+  using F = typename S::F;
+  constexpr float kRounding = 5e-7f; // of all terms together: none of them is above 1
+  const F x = c.a - F(0.25f), y = c.b * c.b, q = x * x + y, from_disc = c.a + F(1.0f);
+  const auto in_cardioid = q * (q + x) + F(kRounding) < y * F(0.25f);
+  return in_cardioid | (from_disc * from_disc + y < F(0.0625f - kRounding));
+}
+
+/// How a fractal pattern iterates squares and counts rounds, if that is all that it does.
+struct SquareIteration {
+  const PatternRecord& record;
+
+  /// Whether it is: then the least size counts inside, or nothing does but a factor.
+  static bool describes(const PatternRecord& r) {
+    return part(r, fractal_word::magnet_shift, fractal_word::magnet_mask) == 0 &&
+           (r.table & fractal_word::exponent_mask) == 2 &&
+           part(r, fractal_word::exterior_shift, fractal_word::type_mask) == 1 &&
+           part(r, fractal_word::interior_shift, fractal_word::type_mask) <= 1;
+  }
+  bool wants_least() const {
+    return part(record, fractal_word::interior_shift, fractal_word::type_mask) == 1;
+  }
+  bool is_julia() const { return (record.table & fractal_word::julia) != 0; }
+  template <class S> Complex<S> constant(const Complex<S>& at) const {
+    using F = typename S::F;
+    return is_julia() ? Complex<S>{F(record.parameter[0]), F(record.parameter[1])} : at;
+  }
+  uint32_t most() const { return static_cast<uint32_t>(record.parameter[2]); }
+  float inner() const { return record.parameter[4]; }
+  template <class S> typename S::F outer(const typename S::F& rounds) const {
+    return rounds * typename S::F(1.0f / record.parameter[2]);
+  }
+
+private:
+  static uint32_t part(const PatternRecord& r, uint32_t shift, uint32_t mask) {
+    return r.table >> shift & mask;
+  }
+};
+
+} // namespace celltrace::kernel
