@@ -25,9 +25,7 @@ public:
       : frame_(frame), scene_(scene), samples_(samples), scratch_(*spu.template allocate<RayNode>()),
         tracer_(spu, frame, scene, spill, frame.ray_stack_nodes, scratch_),
         store_(*spu.template allocate<Store>()), shadows_(spu, frame, scene, scratch_, tracer_.counters()),
-        pool_(spu, samples) {
-    if constexpr (kIteratesAhead<Spu>) scene.set_fractals(&fractals_);
-  }
+        pool_(spu, samples) {}
 
   /// Calls `put(column, row, colours)` for each packet in the picture of the bundle at (column, row); that
   /// counts bundles, `put` packets. Or `fill(column, row, colour)` where all of the bundle has one colour and
@@ -224,7 +222,7 @@ private:
     const bool hints = kPrefetchesLines<Spu> && frame_.object_count > tuning::kObjectsInCoreCache;
     if constexpr (kPoolsRays<Spu>) begin_pooling();
     if constexpr (kIteratesAhead<Spu>)
-      if (fractals_.begin()) iterate_fractals();
+      if (auto* const fractals = scene_.fractals(); fractals->begin()) iterate_fractals(*fractals);
     for (uint32_t i = 0; i < kPackets; ++i) {
       Member& member = store_.members[i];
       if (hints && i + 1 < kPackets)
@@ -246,7 +244,7 @@ private:
   }
 
   /// Finds what fractals are where the primary rays have hit them.
-  [[gnu::noinline]] void iterate_fractals() {
+  template <class Fractals> [[gnu::noinline]] void iterate_fractals(Fractals& fractals) {
     for (uint32_t i = 0; i < kPackets; ++i) {
       Member& member = store_.members[i];
       if (member.hit == 0) continue;
@@ -257,14 +255,15 @@ private:
         const MaterialRecord& m = *scene_.material(material);
         if ((m.flags & material_flag::patterned) == 0) return;
         const PatternRecord& r = *scene_.pattern(m.pattern);
-        if ((r.kind_and_flags & pattern_flag::kind_mask) != kPatternKind<FractalPattern> ||
-            (r.kind_and_flags & pattern_flag::uv_mapping) != 0 || !fractals_.takes(r))
+        const uint32_t kind = r.kind_and_flags & pattern_flag::kind_mask;
+        if (kind != kPatternKind<FractalPattern> || (r.kind_and_flags & pattern_flag::uv_mapping) != 0)
           return;
+        if (!fractals.takes(r)) return;
         const V3<S> at = to_pattern_space<TextureStage::colours>(scene_, r, {points.point}, same).at;
-        fractals_.add(i, r, same, {at.x, at.y});
+        fractals.add(i, r, same, {at.x, at.y});
       });
     }
-    fractals_.run();
+    fractals.run();
   }
 
   bool wants_first_hits() const {
@@ -306,7 +305,8 @@ private:
   /// is asked for later. Otherwise the member's tree has begun.
   bool shade_root(Member& member) {
     if constexpr (kPoolsRays<Spu>) pool_.clear_lanes();
-    if constexpr (kIteratesAhead<Spu>) fractals_.show(static_cast<uint32_t>(&member - store_.members));
+    if constexpr (kIteratesAhead<Spu>)
+      scene_.fractals()->show(static_cast<uint32_t>(&member - store_.members));
     if constexpr (kHasRoomForCode<Spu>) {
       if (member.hit != 0) {
         find_hit_points(scene_, rays_of(member), member.hits, member.hit, store_.points);
@@ -484,7 +484,6 @@ private:
   Store& store_;
   ShadowTracer<Spu, kAccelerators> shadows_;
   [[no_unique_address]] Present<BundlePool<Spu>, kPoolsRays<Spu>> pool_;
-  [[no_unique_address]] Present<typename SceneAccess<Spu>::Fractals, kIteratesAhead<Spu>> fractals_;
 };
 
 } // namespace celltrace::kernel
