@@ -123,6 +123,24 @@ template <class Spu>
   }
 }
 
+/// Of surfaces that are seen from inside. Without a store by lane, where there is room for code: whoever loads
+/// them next would wait for all.
+template <class Spu>
+[[gnu::always_inline]] inline void take_inside_materials(SceneAccess<Spu>& scene, uint32_t lanes,
+                                                         WordLanes& materials) {
+  using S = typename Spu::simd;
+  using I = typename S::I;
+  [[maybe_unused]] I all = load_words<S>(materials);
+  for_each_value<S>(materials, lanes, [&](uint32_t outside, uint32_t same) {
+    const uint32_t inside = scene.material(outside)->inside;
+    if constexpr (kHasRoomForCode<Spu>)
+      all = S::select(S::M::from_bits(same), I::splat(static_cast<int32_t>(inside)), all);
+    else
+      for_each_lane(same, [&](uint32_t lane) { materials.lane[lane] = inside; });
+  });
+  if constexpr (kHasRoomForCode<Spu>) store_words<S>(materials, all);
+}
+
 } // namespace detail
 
 /// Those of `lanes` that hit something.
@@ -285,11 +303,8 @@ CELLTRACE_ONE_COPY void find_hit_points(SceneAccess<Spu>& scene, const RayPacket
   const V3<S> along_ray = rays.origin.template load<S>() + way;
   detail::surface_of(scene.spu(), o.objects, way, along_ray, hits, points.point, points.normal);
   const auto away = dot<S>(direction, points.normal) > F(0.0f);
-  for_each_value<S>(points.material, o.two_sided & (away.bits() ^ o.inverse) & ~points.blended,
-                    [&](uint32_t outside, uint32_t same) {
-                      const uint32_t inside = scene.material(outside)->inside;
-                      for_each_lane(same, [&](uint32_t lane) { points.material.lane[lane] = inside; });
-                    });
+  if (const uint32_t seen_inside = o.two_sided & (away.bits() ^ o.inverse) & ~points.blended; seen_inside != 0)
+    detail::take_inside_materials(scene, seen_inside, points.material);
   const V3<S> opposite = {-points.normal.x, -points.normal.y, -points.normal.z};
   points.normal = select<S>(away, opposite, points.normal);
 }
