@@ -123,8 +123,8 @@ template <class Spu>
   }
 }
 
-/// Of surfaces that are seen from inside. Without a store by lane, where there is room for code: whoever loads
-/// them next would wait for all.
+/// Of surfaces that are seen from inside. Without a store by lane, where there is room for code: whoever
+/// loads them next would wait for all.
 template <class Spu>
 [[gnu::always_inline]] inline void take_inside_materials(SceneAccess<Spu>& scene, uint32_t lanes,
                                                          WordLanes& materials) {
@@ -303,7 +303,8 @@ CELLTRACE_ONE_COPY void find_hit_points(SceneAccess<Spu>& scene, const RayPacket
   const V3<S> along_ray = rays.origin.template load<S>() + way;
   detail::surface_of(scene.spu(), o.objects, way, along_ray, hits, points.point, points.normal);
   const auto away = dot<S>(direction, points.normal) > F(0.0f);
-  if (const uint32_t seen_inside = o.two_sided & (away.bits() ^ o.inverse) & ~points.blended; seen_inside != 0)
+  if (const uint32_t seen_inside = o.two_sided & (away.bits() ^ o.inverse) & ~points.blended;
+      seen_inside != 0)
     detail::take_inside_materials(scene, seen_inside, points.material);
   const V3<S> opposite = {-points.normal.x, -points.normal.y, -points.normal.z};
   points.normal = select<S>(away, opposite, points.normal);
