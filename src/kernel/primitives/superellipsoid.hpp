@@ -29,7 +29,7 @@ struct SuperellipsoidPrimitive : LocalPrimitive<SuperellipsoidPrimitive> {
     using M = typename S::M;
     for (uint32_t pair = 0; pair < kCrossingPairs; ++pair)
       crossings[pair].clear();
-    Line<S> line(rays, parameters);
+    const Line<S> line(rays, parameters);
     if (line.in_box.bits() == 0) return;
     const F one(1.0f);
     // One shape for all rays.
@@ -40,8 +40,9 @@ struct SuperellipsoidPrimitive : LocalPrimitive<SuperellipsoidPrimitive> {
     if (!is_convex) return line.cross_thin(rays.starts_here, inward, crossings);
     Crossings<S>& c = crossings[0];
     F near = line.enter, far = line.leave;
-    if constexpr (Line<S>::kHasRoom) line.in_box = line.in_box & (inward | !rays.starts_here);
-    const M crosses = line.cross_convex(near, far, line.in_box);
+    M asks = line.in_box;
+    if constexpr (Line<S>::kHasRoom) asks = asks & (inward | !rays.starts_here);
+    const M crosses = line.cross_convex(near, far, asks);
     c.near = line.distance_at(near);
     c.far = line.distance_at(far);
     c.near_hit = crosses & !rays.starts_here;
@@ -82,7 +83,8 @@ private:
   /// less time than other powers.
   template <class S> struct ExponentsOfOne : Exponents<S> {
     using F = typename S::F;
-    int times[5]; ///< that a base is a factor; below 0, that its square root is taken; 0: it is another power
+    /// n > 0: the power is a product of n factors; n < 0: the square root is taken -n times; 0: neither.
+    int times[5];
 
     explicit ExponentsOfOne(const LocalParameters<S>& parameters) : Exponents<S>(parameters) {
       for (int i = 0; i < 5; ++i) {
@@ -156,16 +158,17 @@ private:
   template <class S> struct Line {
     using F = typename S::F;
     using M = typename S::M;
-    std::conditional_t<S::kLanes == kSimdLanes, ExponentsOfOne<S>, Exponents<S>> exponents;
+    /// For code that leaves out what is not asked for.
+    static constexpr bool kHasRoom = S::kLanes == kSimdLanes;
+
+    std::conditional_t<kHasRoom, ExponentsOfOne<S>, Exponents<S>> exponents;
     F inverse_scale, shift; ///< of distances along rays
     V3<S> o, d;
     V3<S> planes; ///< where the line crosses the planes between octants
     /// Where it is in the box: a little more of it, so that it is outside at both ends for certain.
     F enter, leave;
     M in_box;
-    /// For code that leaves out what is not asked for.
-    static constexpr bool kHasRoom = S::kLanes == kSimdLanes;
-    /// Where there is: the rays, and from where on crossings are looked for.
+    /// Where there is room: the rays, and from where on crossings are looked for.
     const LocalRays<S>* asking;
     F begin;
 
